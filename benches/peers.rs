@@ -1,0 +1,326 @@
+//! Both engines beside two published software rasterizers, in one run, with each one's errors.
+//!
+//! A time means little without what it buys, so wrong pixels (missing and extra, against the
+//! oracle, triangle by triangle) stand beside it. What is timed: filling every triangle of a class,
+//! one by one, with one opaque colour. What is prepared outside the timing: each one's natural input.
+//! - rasterproof: the corners on the lattice.
+//! - tiny-skia: a `Path` for each triangle and one `Paint`, without antialiasing; `fill_path` is
+//!   timed. An opaque solid colour takes its fastest road, a memset for each row.
+//! - euc: one list of vertices in clip coordinates; one `draw` of all of them is timed, with
+//!   culling, depth and varyings off.
+//!
+//! All get the same numbers: positions are multiples of 1/256 px, and so exact as `f32`. Rounds are
+//! interleaved (each does one pass, in turn) so that a machine that changes its clock or is shared
+//! treats all alike, and the median round counts.
+//!
+//! `cargo bench --bench peers` prints the table; `-- --quick` takes one short round.
+
+mod common;
+
+use std::hint::black_box;
+use std::time::Instant;
+
+use common::{COLOUR, SIDE_PX, Scene};
+use euc::buffer::Buffer2d;
+use euc::rasterizer::{BackfaceCullingDisabled, Triangles};
+use rasterproof::contract::Rasterize;
+use rasterproof::frame::Frame;
+use rasterproof::grid::PixelRect;
+use rasterproof::oracle::Oracle;
+use rasterproof::raster::edge_function::EdgeFunction;
+use rasterproof::raster::scanline::Scanline;
+use rasterproof::triangle::Corners;
+use tiny_skia::{FillRule, Paint, Path, PathBuilder, Pixmap, Transform};
+
+/// Odd, so that the median is a round that happened.
+const ROUNDS: usize = 9;
+/// A round repeats its pass until about this time is used, so that the clock's grain is nothing.
+const ROUND_NS: f64 = 12e6;
+
+fn main() {
+    let args: Vec<String> = std::env::args().skip(1).collect();
+    let has = |flag: &str| args.iter().any(|arg| arg == flag);
+    if has("--list") {
+        // A test runner asks for the names of tests: there are none.
+        return;
+    }
+    // `cargo bench` passes --bench; `cargo test` on benches does not, and wants to be done soon.
+    let quick = has("--quick") || has("--test") || !has("--bench");
+    let rounds = if quick { 1 } else { ROUNDS };
+    println!(
+        "{SIDE_PX} x {SIDE_PX} px, RGBA8, coverage only; median of {rounds} interleaved rounds"
+    );
+    println!();
+    println!(
+        "{:<8}{:>11}  {:<14}{:>12}{:>9}{:>13}{:>9}{:>8}",
+        "class",
+        "px/triangle",
+        "filled by",
+        "ns/triangle",
+        "ns/px",
+        "x tiny-skia",
+        "missing",
+        "extra"
+    );
+    for scene in common::scenes() {
+        report(&scene, rounds, if quick { 0.0 } else { ROUND_NS });
+    }
+    println!();
+    println!("x tiny-skia: how many times as fast as tiny-skia. Pixels: against the exact oracle.");
+}
+
+/// Measures one class and prints its rows.
+fn report(scene: &Scene, rounds: usize, round_ns: f64) {
+    let mut fillers: [(&str, Box<dyn Filler>); 4] = [
+        ("scanline", Box::new(Engine::new(Scanline, scene))),
+        ("edge-function", Box::new(Engine::new(EdgeFunction, scene))),
+        ("tiny-skia", Box::new(TinySkia::new(scene))),
+        ("euc", Box::new(Euc::new(scene))),
+    ];
+    let wrong = fillers.each_mut().map(|(_, filler)| wrong_pixels(filler.as_mut(), scene));
+    for ((name, _), wrong) in fillers.iter().zip(&wrong).take(2) {
+        assert_eq!(*wrong, Wrong::default(), "{name} on {}", scene.name);
+    }
+
+    // Warm up, and find out how many passes fill a round.
+    let passes = fillers.each_mut().map(|(_, filler)| {
+        let pass_ns = time_ns(filler.as_mut(), 1);
+        ((round_ns / pass_ns) as usize).max(1)
+    });
+    let mut times_ns = [const { Vec::new() }; 4];
+    for _ in 0..rounds {
+        for i in 0..4 {
+            times_ns[i].push(time_ns(fillers[i].1.as_mut(), passes[i]));
+        }
+    }
+    let medians_ns = times_ns.map(|mut times| {
+        times.sort_by(f64::total_cmp);
+        times[times.len() / 2]
+    });
+    let triangles = scene.triangles.len() as f64;
+    for (i, (name, _)) in fillers.iter().enumerate() {
+        let class = if i == 0 { scene.name } else { "" };
+        let size =
+            if i == 0 { format!("{:.1}", scene.pixels as f64 / triangles) } else { String::new() };
+        println!(
+            "{class:<8}{size:>11}  {name:<14}{:>12.1}{:>9.3}{:>13.2}{:>9}{:>8}",
+            medians_ns[i] / triangles,
+            medians_ns[i] / scene.pixels as f64,
+            medians_ns[2] / medians_ns[i],
+            wrong[i].missing,
+            wrong[i].extra,
+        );
+    }
+}
+
+/// Time of one pass over the class in ns, averaged over `passes`.
+fn time_ns(filler: &mut dyn Filler, passes: usize) -> f64 {
+    let start = Instant::now();
+    for _ in 0..passes {
+        filler.fill_all();
+    }
+    start.elapsed().as_nanos() as f64 / passes as f64
+}
+
+/// Someone who can fill the triangles of a scene on a target of their own.
+trait Filler {
+    /// Fills every triangle: this is timed.
+    fn fill_all(&mut self);
+    /// Fills one triangle.
+    fn fill_one(&mut self, index: usize);
+    /// Whether pixel (x, y) is drawn.
+    fn is_drawn(&self, x: usize, y: usize) -> bool;
+    /// Makes pixel (x, y) undrawn.
+    fn erase(&mut self, x: usize, y: usize);
+}
+
+#[derive(Debug, Default, PartialEq, Eq)]
+struct Wrong {
+    missing: u64,
+    extra: u64,
+}
+
+/// Compares each triangle by itself with the oracle, so that no error hides below another triangle.
+fn wrong_pixels(filler: &mut dyn Filler, scene: &Scene) -> Wrong {
+    let side = SIDE_PX as usize;
+    let mut wrong = Wrong::default();
+    for (index, corners) in scene.triangles.iter().enumerate() {
+        let near = neighbourhood(corners);
+        let mut truth = Frame::new(near, false);
+        Oracle.cover(*corners, near, |span| {
+            truth.span_mut(span.y_px, span.x0_px, span.x1_px).fill(true)
+        });
+        filler.fill_one(index);
+        for (y_px, row) in truth.rows() {
+            for (x_px, &covered) in (near.x0..near.x1).zip(row) {
+                let (x, y) = (x_px as usize, y_px as usize);
+                let drawn = filler.is_drawn(x, y);
+                wrong.missing += u64::from(covered && !drawn);
+                wrong.extra += u64::from(drawn && !covered);
+                if drawn {
+                    filler.erase(x, y);
+                }
+            }
+        }
+    }
+    // What was drawn beyond the neighbourhoods is still there.
+    wrong.extra += (0..side * side).filter(|i| filler.is_drawn(i % side, i / side)).count() as u64;
+    wrong
+}
+
+/// The pixels around a triangle where errors are expected, two pixels beyond its bounding box.
+fn neighbourhood(corners: &Corners) -> PixelRect {
+    let range = |subs: [i32; 3]| {
+        let [low, high] =
+            [subs.iter().min(), subs.iter().max()].map(|sub| sub.map_or(0, |sub| sub >> 8));
+        (low - 2, high + 3)
+    };
+    let (x0, x1) = range(corners.map(|corner| corner.x));
+    let (y0, y1) = range(corners.map(|corner| corner.y));
+    PixelRect { x0, y0, x1, y1 }.intersect(&common::window())
+}
+
+/// One of the engines of this crate.
+struct Engine<E> {
+    engine: E,
+    triangles: Vec<Corners>,
+    target: Frame<u32>,
+}
+
+impl<E: Rasterize> Engine<E> {
+    fn new(engine: E, scene: &Scene) -> Self {
+        Self { engine, triangles: scene.triangles.clone(), target: Frame::new(common::window(), 0) }
+    }
+}
+
+impl<E: Rasterize> Filler for Engine<E> {
+    fn fill_all(&mut self) {
+        for corners in black_box(&self.triangles) {
+            common::fill(&self.engine, *corners, &mut self.target);
+        }
+        black_box(self.target.row(0));
+    }
+    fn fill_one(&mut self, index: usize) {
+        common::fill(&self.engine, self.triangles[index], &mut self.target);
+    }
+    fn is_drawn(&self, x: usize, y: usize) -> bool {
+        self.target.row(y as i32)[x] != 0
+    }
+    fn erase(&mut self, x: usize, y: usize) {
+        self.target.row_mut(y as i32)[x] = 0;
+    }
+}
+
+struct TinySkia {
+    paths: Vec<Path>,
+    paint: Paint<'static>,
+    target: Pixmap,
+}
+
+impl TinySkia {
+    fn new(scene: &Scene) -> Self {
+        let path = |corners: &Corners| {
+            let [a, b, c] = corners.map(exact_f32);
+            let mut builder = PathBuilder::new();
+            builder.move_to(a[0], a[1]);
+            builder.line_to(b[0], b[1]);
+            builder.line_to(c[0], c[1]);
+            builder.close();
+            builder.finish().expect("three finite corners make a path")
+        };
+        let mut paint = Paint { anti_alias: false, ..Paint::default() };
+        let [r, g, b, a] = COLOUR.to_le_bytes();
+        paint.set_color_rgba8(r, g, b, a);
+        let target = Pixmap::new(SIDE_PX, SIDE_PX).expect("a side within tiny-skia's range");
+        Self { paths: scene.triangles.iter().map(path).collect(), paint, target }
+    }
+}
+
+impl Filler for TinySkia {
+    fn fill_all(&mut self) {
+        // The view of the target is made once, as a user would who draws many shapes.
+        let mut target = self.target.as_mut();
+        for path in black_box(&self.paths) {
+            target.fill_path(path, &self.paint, FillRule::Winding, Transform::identity(), None);
+        }
+        black_box(self.target.data());
+    }
+    fn fill_one(&mut self, index: usize) {
+        let path = &self.paths[index];
+        self.target.fill_path(path, &self.paint, FillRule::Winding, Transform::identity(), None);
+    }
+    fn is_drawn(&self, x: usize, y: usize) -> bool {
+        self.target.data()[4 * (y * SIDE_PX as usize + x) + 3] != 0
+    }
+    fn erase(&mut self, x: usize, y: usize) {
+        self.target.data_mut()[4 * (y * SIDE_PX as usize + x)..][..4].fill(0);
+    }
+}
+
+struct Euc {
+    vertices: Vec<[f32; 2]>,
+    target: Buffer2d<u32>,
+}
+
+/// euc's stages: positions are in clip coordinates already, and every fragment has one colour.
+struct Flat;
+
+impl euc::Pipeline for Flat {
+    type Vertex = [f32; 2];
+    type VsOut = ();
+    type Pixel = u32;
+
+    #[inline(always)]
+    fn vert(&self, [x, y]: &[f32; 2]) -> ([f32; 4], ()) {
+        ([*x, *y, 0.0, 1.0], ())
+    }
+    #[inline(always)]
+    fn frag(&self, (): &()) -> u32 {
+        COLOUR
+    }
+    #[inline(always)]
+    fn get_depth_strategy(&self) -> euc::DepthStrategy {
+        euc::DepthStrategy::None
+    }
+}
+
+impl Euc {
+    fn new(scene: &Scene) -> Self {
+        // The side is a power of two, so this is exact too: euc's errors are its own.
+        let half = SIDE_PX as f32 / 2.0;
+        let vertex = |corner| {
+            let [x, y] = exact_f32(corner);
+            [x / half - 1.0, 1.0 - y / half]
+        };
+        let vertices = scene.triangles.iter().flatten().map(|corner| vertex(*corner)).collect();
+        let side = SIDE_PX as usize;
+        Self { vertices, target: Buffer2d::new([side, side], 0) }
+    }
+
+    fn draw(vertices: &[[f32; 2]], target: &mut Buffer2d<u32>) {
+        use euc::Pipeline;
+        Flat.draw::<Triangles<Buffer2d<f32>, BackfaceCullingDisabled>, _>(vertices, target, None);
+    }
+}
+
+impl Filler for Euc {
+    fn fill_all(&mut self) {
+        Self::draw(black_box(&self.vertices), &mut self.target);
+        black_box(self.target.as_ref());
+    }
+    fn fill_one(&mut self, index: usize) {
+        Self::draw(&self.vertices[3 * index..][..3], &mut self.target);
+    }
+    fn is_drawn(&self, x: usize, y: usize) -> bool {
+        self.target.as_ref()[y * SIDE_PX as usize + x] != 0
+    }
+    fn erase(&mut self, x: usize, y: usize) {
+        self.target.as_mut()[y * SIDE_PX as usize + x] = 0;
+    }
+}
+
+/// A corner in pixels: at most 10 bits before the point and 8 behind it, exact in 24.
+fn exact_f32(corner: rasterproof::grid::SubpixelPoint) -> [f32; 2] {
+    let (x, y) = corner.to_px();
+    [x as f32, y as f32]
+}

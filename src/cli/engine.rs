@@ -1,0 +1,298 @@
+//! `rasterproof engine`: the line protocol, version 1, on standard input and output.
+//!
+//! A request is a line of words; an answer is a line, flushed before the next request is read. A
+//! request that cannot be read, or asks for what is outside the domain, is answered `E id reason`
+//! and the engine goes on. Positions are window pixels, y down, snapped to 1/256 px half to even.
+
+use std::fmt::Write as _;
+use std::io::{BufRead, Read as _, Write};
+
+use glam::DVec2;
+
+use super::{Failure, Streams, exit};
+use crate::contract::{DrawLine, Interpolate, Rasterize};
+use crate::grid::{MAX_SIDE_PX, PixelRect, Refusal, SUBPIXELS, SubpixelPoint};
+use crate::lineup::{self, Engine, Entry, LineEngine};
+use crate::triangle::{LineEnd, PixelPoint, ScreenLine, ScreenTriangle, ScreenVertex, check_value};
+
+pub const HELP: &str = "Requests and answers, one a line (numbers decimal or C99 hex floats):
+  HELLO 1                                    HELLO 1 <name> <capability>...
+  T id width height x0 y0 x1 y1 x2 y2        C id n  y x0 x1 ...      runs of covered pixels
+  L id width height x0 y0 x1 y1              P id n  x y ...          pixels in drawing order
+  I id width height (x y z w a b) x 3        F id n  x y z a b ...    fragments with values
+Anything else is answered E id reason. Example:
+  echo 'T 1 8 8 0.5 0.5 5.5 0.5 5.5 5.5' | rasterproof engine scanline";
+
+/// A longer line is refused without being kept.
+const MOST_BYTES: u64 = 1 << 16;
+/// Fragments that the oracle, in big integers, computes for one request.
+const MOST_EXACT_FRAGMENTS: u64 = 1 << 20;
+
+pub fn run(name: &str, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+    let entry = lineup::find(name).ok_or_else(|| {
+        super::usage(format!("no engine is called '{name}'; see: rasterproof list"))
+    })?;
+    let mut line = Vec::new();
+    while read_line(streams.input, &mut line)? {
+        let request = match std::str::from_utf8(&line) {
+            _ if line.len() as u64 > MOST_BYTES => {
+                Err(format!("- a request has at most {MOST_BYTES} bytes"))
+            }
+            Err(_) => Err("- the request is not UTF-8".to_owned()),
+            Ok(text) => Ok(text),
+        };
+        let answered = match request {
+            Ok(text) if text.trim().is_empty() => continue,
+            Ok(text) => answer(entry, text, streams.output),
+            Err(reason) => Err(Stop::Refused(reason)),
+        };
+        match answered {
+            Ok(()) => {}
+            Err(Stop::Refused(reason)) => writeln!(streams.output, "E {reason}")?,
+            Err(Stop::Io(error)) => return Err(error.into()),
+        }
+        streams.output.flush()?;
+    }
+    Ok(exit::AGREES)
+}
+
+/// Reads a line without its end; of an overlong one the rest is thrown away. False at the end.
+fn read_line(input: &mut dyn BufRead, line: &mut Vec<u8>) -> std::io::Result<bool> {
+    line.clear();
+    if (&mut *input).take(MOST_BYTES + 1).read_until(b'\n', line)? == 0 {
+        return Ok(false);
+    }
+    if line.last() == Some(&b'\n') {
+        line.pop();
+    } else if line.len() as u64 > MOST_BYTES {
+        loop {
+            let buffer = input.fill_buf()?;
+            let (used, ended) = match buffer.iter().position(|&byte| byte == b'\n') {
+                Some(at) => (at + 1, true),
+                None => (buffer.len(), buffer.is_empty()),
+            };
+            input.consume(used);
+            if ended {
+                break;
+            }
+        }
+    }
+    Ok(true)
+}
+
+enum Stop {
+    /// `id reason`.
+    Refused(String),
+    Io(std::io::Error),
+}
+
+impl From<std::io::Error> for Stop {
+    fn from(error: std::io::Error) -> Self {
+        Self::Io(error)
+    }
+}
+
+fn answer(entry: &Entry, text: &str, out: &mut dyn Write) -> Result<(), Stop> {
+    let words: Vec<&str> = text.split_whitespace().collect();
+    let (verb, rest) = words.split_first().map_or(("", &[][..]), |(verb, rest)| (*verb, rest));
+    if verb == "HELLO" {
+        return hello(entry, rest, out);
+    }
+    let id = rest.first().copied().unwrap_or("-");
+    let refused = |reason: String| Stop::Refused(format!("{id} {reason}"));
+    let count = match verb {
+        "T" | "S" => 6,
+        "L" => 4,
+        "I" => 18,
+        _ => {
+            return Err(refused(format!(
+                "unknown request '{}'; expected HELLO, T, L, I",
+                printable(verb)
+            )));
+        }
+    };
+    let engine = match (verb, entry.engine, entry.line_engine) {
+        ("T", Some(engine), _) => Speaker::Cover(engine),
+        ("I", Some(engine), _) => Speaker::Values(engine),
+        ("L", _, Some(engine)) => Speaker::Line(engine),
+        _ => return Err(refused("unsupported".to_owned())),
+    };
+    if rest.len() != count + 3 {
+        let expected = format!("{verb} takes an id, width, height and {count} numbers");
+        return Err(refused(format!("{expected}; {} words follow", rest.len())));
+    }
+    let window = window(rest[1], rest[2]).map_err(refused)?;
+    let numbers: Vec<f64> = rest[3..]
+        .iter()
+        .enumerate()
+        .map(|(i, word)| {
+            number(word)
+                .ok_or_else(|| format!("number {} '{}' cannot be read", i + 1, printable(word)))
+        })
+        .collect::<Result<_, _>>()
+        .map_err(refused)?;
+    let reply = match engine {
+        Speaker::Cover(engine) => cover(engine, window, &numbers),
+        Speaker::Line(engine) => line(engine, window, &numbers),
+        Speaker::Values(engine) => {
+            return match values(engine, window, &numbers) {
+                Ok((triangle, n)) => write_fragments(engine, &triangle, window, id, n, out),
+                Err(reason) => Err(refused(reason)),
+            };
+        }
+    };
+    let (letter, n, runs) = reply.map_err(refused)?;
+    Ok(writeln!(out, "{letter} {id} {n}{runs}")?)
+}
+
+#[derive(Clone, Copy)]
+enum Speaker {
+    Cover(Engine),
+    Values(Engine),
+    Line(LineEngine),
+}
+
+fn hello(entry: &Entry, rest: &[&str], out: &mut dyn Write) -> Result<(), Stop> {
+    if rest != ["1"] {
+        return Err(Stop::Refused("- this engine speaks version 1: say HELLO 1".to_owned()));
+    }
+    let mut capabilities = Vec::new();
+    if entry.engine.is_some() {
+        capabilities.extend(["coverage", "attributes"]);
+    }
+    if entry.line_engine.is_some() {
+        capabilities.push("line");
+    }
+    Ok(writeln!(out, "HELLO 1 {} {}", entry.name, capabilities.join(" "))?)
+}
+
+/// A word of the request, short and without control characters, to quote in an answer.
+fn printable(word: &str) -> String {
+    word.chars().filter(|c| !c.is_control()).take(40).collect()
+}
+
+fn window(width: &str, height: &str) -> Result<PixelRect, String> {
+    let side = |name: &str, word: &str| {
+        word.parse::<u32>().ok().filter(|side| (1..=MAX_SIDE_PX).contains(side)).ok_or_else(|| {
+            format!("{name} '{}' is not a whole number from 1 to {MAX_SIDE_PX}", printable(word))
+        })
+    };
+    Ok(PixelRect::window(side("width", width)?, side("height", height)?))
+}
+
+/// A decimal number or a C99 hex float. NaN and infinities are read, and refused later by name.
+fn number(word: &str) -> Option<f64> {
+    let (sign, digits) = match word.as_bytes().first()? {
+        b'-' => (-1.0, &word[1..]),
+        b'+' => (1.0, &word[1..]),
+        _ => (1.0, word),
+    };
+    if digits.starts_with("0x") || digits.starts_with("0X") {
+        // The parser wants an exponent; C99 prints one, scanf does not ask for it.
+        let lower = digits.to_ascii_lowercase();
+        let with_exponent = if lower.contains('p') { lower } else { lower + "p0" };
+        return hexf_parse::parse_hexf64(&with_exponent, false).ok().map(|value| sign * value);
+    }
+    // After a sign comes no second sign.
+    (!digits.starts_with(['-', '+']))
+        .then(|| digits.parse::<f64>().ok().map(|v| sign * v))
+        .flatten()
+}
+
+fn named(name: &str) -> impl FnOnce(Refusal) -> String {
+    move |refusal| format!("{name} {refusal}")
+}
+
+fn point(numbers: &[f64], i: usize) -> Result<SubpixelPoint, String> {
+    let snap =
+        |value: f64, axis: &str| crate::grid::snap(value).map_err(named(&format!("{axis}{i}")));
+    Ok(SubpixelPoint::new(snap(numbers[0], "x")?, snap(numbers[1], "y")?))
+}
+
+type Reply = Result<(char, usize, String), String>;
+
+fn cover(engine: Engine, window: PixelRect, numbers: &[f64]) -> Reply {
+    let corners = [point(&numbers[0..], 0)?, point(&numbers[2..], 1)?, point(&numbers[4..], 2)?];
+    let (mut runs, mut n) = (String::new(), 0);
+    engine.cover(corners, window, |span| {
+        n += 1;
+        // Writing to a string does not fail.
+        let _ = write!(runs, " {} {} {}", span.y_px, span.x0_px, span.x1_px);
+    });
+    Ok(('C', n, runs))
+}
+
+/// The pixel that holds a position, after snapping to the lattice: the floor.
+fn pixel(value: f64, name: &str) -> Result<i32, String> {
+    let scale = f64::from(SUBPIXELS);
+    let floor = ((value * scale).round_ties_even() / scale).floor();
+    if value.is_nan() {
+        Err(named(name)(Refusal::NotANumber))
+    } else if value.is_infinite() {
+        Err(named(name)(Refusal::Infinite))
+    } else if floor < f64::from(i32::MIN) || floor > f64::from(i32::MAX) {
+        Err(format!("{name} {value:e} is outside the domain of lines, [-2^31, 2^31) px"))
+    } else {
+        // A whole number within i32.
+        Ok(floor as i32)
+    }
+}
+
+fn line(engine: LineEngine, window: PixelRect, numbers: &[f64]) -> Reply {
+    let end = |i: usize| -> Result<_, String> {
+        let x = pixel(numbers[2 * i], &format!("x{i}"))?;
+        let y = pixel(numbers[2 * i + 1], &format!("y{i}"))?;
+        Ok(LineEnd { pixel: PixelPoint::new(x, y), depth: 0.0, varying: 0.0 })
+    };
+    let (mut pixels, mut n) = (String::new(), 0);
+    engine.draw(&ScreenLine { ends: [end(0)?, end(1)?] }, window, |fragment| {
+        n += 1;
+        let _ = write!(pixels, " {} {}", fragment.x_px, fragment.y_px);
+    });
+    Ok(('P', n, pixels))
+}
+
+type Values = (ScreenTriangle<DVec2>, u64);
+
+/// The triangle of an `I` request and how many fragments it has.
+fn values(engine: Engine, window: PixelRect, numbers: &[f64]) -> Result<Values, String> {
+    let vertex = |i: usize| -> Result<ScreenVertex<DVec2>, String> {
+        let [x, y, z, w, a, b] = [0, 1, 2, 3, 4, 5].map(|k| numbers[6 * i + k]);
+        for (name, value) in [("z", z), ("a", a), ("b", b)] {
+            check_value(value).map_err(named(&format!("{name}{i}")))?;
+        }
+        point(&[x, y], i)?;
+        ScreenVertex::new(x, y, z, w, DVec2::new(a, b)).map_err(named(&format!("w{i}")))
+    };
+    let triangle = ScreenTriangle { vertices: [vertex(0)?, vertex(1)?, vertex(2)?] };
+    let mut n = 0;
+    engine
+        .cover(triangle.corners(), window, |span| n += u64::from(span.x0_px.abs_diff(span.x1_px)));
+    if matches!(engine, Engine::Oracle) && n > MOST_EXACT_FRAGMENTS {
+        return Err(format!(
+            "{n} fragments; the oracle computes at most {MOST_EXACT_FRAGMENTS} for a request"
+        ));
+    }
+    Ok((triangle, n))
+}
+
+/// Streams the fragments, so that a large window takes no memory.
+fn write_fragments(
+    engine: Engine,
+    triangle: &ScreenTriangle<DVec2>,
+    window: PixelRect,
+    id: &str,
+    n: u64,
+    out: &mut dyn Write,
+) -> Result<(), Stop> {
+    write!(out, "F {id} {n}")?;
+    let mut result = Ok(());
+    engine.fragments(triangle, window, |f| {
+        if result.is_ok() {
+            let (a, b) = (f.varying.x, f.varying.y);
+            result = write!(out, " {} {} {} {a} {b}", f.x_px, f.y_px, f.depth);
+        }
+    });
+    result?;
+    Ok(writeln!(out)?)
+}

@@ -1,0 +1,407 @@
+//! `rasterproof inspect`: one case, every engine, pixel by pixel.
+
+use std::path::PathBuf;
+
+use image::RgbImage;
+
+use super::verify::with_tolerance;
+use super::{Failure, Streams, exit, usage, write_file};
+use crate::frame::Coverage;
+use crate::grid::{MAX_SIDE_PX, PixelRect, SUBPIXELS, SubpixelPoint};
+use crate::hazard::named::{self, Input};
+use crate::hazard::{self, Case, Line, Shape};
+use crate::lineup::{Engine, LineEngine};
+use crate::oracle::Oracle;
+use crate::oracle::coverage::samples_on_boundary;
+use crate::raster::edge_function::WordWidth;
+use crate::report::{ascii, picture};
+use crate::triangle::{Corners, PixelPoint};
+use crate::verify::tolerance::Tolerance;
+use crate::verify::{self, Tally, engine_coverage, line_coverage, oracle_coverage};
+
+/// Options of `inspect`.
+#[derive(clap::Args, Debug)]
+#[command(after_help = "Examples:
+  rasterproof inspect T2
+  rasterproof inspect 0.5,0.5 5.5,0.5 5.5,5.5 --window 8x8
+  rasterproof inspect --line -100,20 30,40 --window 64x48
+  rasterproof inspect sliver#123 --seed 7 -o sliver.png
+
+In the grids: # agrees with the oracle, - missing, + extra, 2 twice, * rightly more than once.
+In the picture: grey agrees, red missing, orange extra, violet twice; engines from left to right,
+the oracle last; blue edges, dark samples.")]
+pub struct Arguments {
+    /// A named case, FAMILY#NUMBER, or the corners as x,y in pixels
+    #[arg(value_name = "CASE or X,Y", required = true, num_args = 1..=3, allow_hyphen_values = true)]
+    what: Vec<String>,
+    /// The two points are the end pixels of a line
+    #[arg(long)]
+    line: bool,
+    /// The pixels to show, as WIDTHxHEIGHT or X,Y,WIDTHxHEIGHT [default: around the shape]
+    #[arg(long, value_name = "WxH", value_parser = parse_window, allow_hyphen_values = true)]
+    window: Option<PixelRect>,
+    /// Seed of FAMILY#NUMBER
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+    /// The picture [default: target/rasterproof/inspect.png]
+    #[arg(short, long, value_name = "FILE.png")]
+    output: Option<PathBuf>,
+}
+
+fn parse_window(text: &str) -> Result<PixelRect, String> {
+    let wrong = || {
+        format!(
+            "expected WIDTHxHEIGHT or X,Y,WIDTHxHEIGHT with sides from 1 to {MAX_SIDE_PX}, for example 64x48"
+        )
+    };
+    let (origin, size) = text.rsplit_once(',').map_or((None, text), |(o, s)| (Some(o), s));
+    let (width, height) = size.split_once('x').ok_or_else(wrong)?;
+    let side = |text: &str| text.parse::<u32>().ok().filter(|s| (1..=MAX_SIDE_PX).contains(s));
+    let (width, height) = (side(width).ok_or_else(wrong)?, side(height).ok_or_else(wrong)?);
+    let (x0, y0) = match origin {
+        None => (0, 0),
+        Some(origin) => {
+            let (x, y) = origin.split_once(',').ok_or_else(wrong)?;
+            (x.parse::<i32>().map_err(|_| wrong())?, y.parse::<i32>().map_err(|_| wrong())?)
+        }
+    };
+    let end = |start: i32, side: u32| start.checked_add(side as i32).ok_or_else(wrong);
+    Ok(PixelRect { x0, y0, x1: end(x0, width)?, y1: end(y0, height)? })
+}
+
+pub fn run(arguments: &Arguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+    let out = &mut *streams.output;
+    let (title, mut case, expected) = match find(arguments)? {
+        Found::Case { title, case, expected } => (title, case, expected),
+        Found::Refused { title, corners } => return refused(&title, &corners, out),
+    };
+    if let Some(window) = arguments.window {
+        case.window = window;
+    }
+    let w = case.window;
+    writeln!(out, "{title}")?;
+    writeln!(out, "window: columns {}..{}, rows {}..{}", w.x0, w.x1, w.y0, w.y1)?;
+    facts(&case, out)?;
+
+    // Judge and show.
+    let engines: Vec<_> = Engine::JUDGED.into_iter().map(with_tolerance).collect();
+    let shown = draw(&case, &engines, &LineEngine::JUDGED);
+    let findings = verify::judge_case(&engines, &LineEngine::JUDGED, &case);
+    writeln!(out)?;
+    writeln!(out, "{}", ascii::side_by_side(&shown.blocks(), 100))?;
+    let mut agrees = true;
+    for ([actual, target], finding) in &findings {
+        agrees &= !finding.is_wrong();
+        let values = if finding.values == 0 {
+            String::new()
+        } else {
+            format!(
+                "; {} values within {:.2} (attributes) and {:.2} (depth) of their bounds",
+                finding.values, finding.attribute, finding.depth
+            )
+        };
+        writeln!(out, "{actual} against {target}: {}{values}", finding.describe())?;
+    }
+    if let Some(expected) = expected.filter(|_| arguments.window.is_none()) {
+        let hits = pixels_each(&case);
+        let as_expected = expected.is_empty() || hits == expected;
+        agrees &= as_expected;
+        if !expected.is_empty() {
+            writeln!(
+                out,
+                "expected pixels {expected:?}, the oracle has {hits:?}{}",
+                if as_expected { "" } else { ": DIFFERS" }
+            )?;
+        }
+    }
+    let path = arguments.output.clone().unwrap_or_else(|| "target/rasterproof/inspect.png".into());
+    write_file(&path, &picture::png(&shown.picture(&case)))?;
+    writeln!(out, "drawn in {}", path.display())?;
+    Ok(if agrees { exit::AGREES } else { exit::DISAGREES })
+}
+
+enum Found {
+    Case { title: String, case: Case, expected: Option<Vec<u64>> },
+    Refused { title: String, corners: Vec<[[f64; 2]; 3]> },
+}
+
+fn find(arguments: &Arguments) -> Result<Found, Failure> {
+    let words = &arguments.what;
+    let generated = |title: String, case: Case| Found::Case { title, case, expected: None };
+    match (words.as_slice(), arguments.line) {
+        ([a, b], true) => {
+            let (a, b) = (parse_pixel(a)?, parse_pixel(b)?);
+            let line = named::plain_line(a, b);
+            Ok(generated(format!("line {},{} to {},{}", a.x, a.y, b.x, b.y), line_case(line)))
+        }
+        (_, true) => Err(usage("--line takes two points, for example: inspect --line 0,0 8,3")),
+        ([a, b, c], false) => {
+            let corners = [parse_point(a)?, parse_point(b)?, parse_point(c)?];
+            Ok(generated(format!("triangle {a} {b} {c}"), triangle_case(corners)))
+        }
+        ([word], false) => match word.split_once('#') {
+            Some((family, number)) => {
+                let found = hazard::families().find(|f| f.name == family);
+                let family = found
+                    .ok_or_else(|| unknown("family", family, hazard::families().map(|f| f.name)))?;
+                let index = number.parse::<u64>().map_err(|_| {
+                    usage(format!(
+                        "{word}: expected the number of a case after '#', for example {}#123",
+                        family.name
+                    ))
+                })?;
+                let title = format!("{word} of seed {}: {}", arguments.seed, family.about);
+                Ok(generated(title, family.case(arguments.seed, index)))
+            }
+            None => {
+                let names: Vec<_> = named::named().iter().map(|case| case.name).collect();
+                let named =
+                    named::find(word).ok_or_else(|| unknown("case", word, names.into_iter()))?;
+                let title = format!("{}: {}", named.name, named.about);
+                Ok(match named.input {
+                    Input::Drawn { case, pixels } => {
+                        Found::Case { title, case, expected: Some(pixels) }
+                    }
+                    Input::Refused(corners) => Found::Refused { title, corners },
+                })
+            }
+        },
+        _ => Err(usage(
+            "expected a named case, FAMILY#NUMBER, or three corners x,y; see inspect --help",
+        )),
+    }
+}
+
+/// An error for a name that is not there, with the nearest one that is.
+fn unknown(kind: &str, word: &str, names: impl Iterator<Item = &'static str>) -> Failure {
+    let distance = |a: &str, b: &str| {
+        // Levenshtein's edit distance, one row at a time.
+        let mut row: Vec<usize> = (0..=b.len()).collect();
+        for (i, x) in a.bytes().enumerate() {
+            let mut diagonal = row[0];
+            row[0] = i + 1;
+            for (j, y) in b.bytes().enumerate() {
+                let substitute = diagonal + usize::from(!x.eq_ignore_ascii_case(&y));
+                diagonal = row[j + 1];
+                row[j + 1] = substitute.min(row[j] + 1).min(diagonal + 1);
+            }
+        }
+        row[b.len()]
+    };
+    let nearest = names.map(|name| (distance(word, name), name)).min();
+    let hint = match nearest {
+        Some((steps, name)) if steps * 2 <= name.len().max(word.len()) => {
+            format!("; did you mean '{name}'?")
+        }
+        _ => String::new(),
+    };
+    usage(format!("no {kind} is called '{word}'{hint} See: rasterproof list"))
+}
+
+fn parse_point(text: &str) -> Result<SubpixelPoint, Failure> {
+    let numbers = text.split_once(',').and_then(|(x, y)| Some((x.parse().ok()?, y.parse().ok()?)));
+    let (x, y) = numbers.ok_or_else(|| {
+        usage(format!(
+            "'{text}' is not a point: expected X,Y in pixels, for example 0.5,3 (or a named case)"
+        ))
+    })?;
+    SubpixelPoint::from_px(x, y).map_err(|refusal| usage(format!("'{text}': {refusal}")))
+}
+
+fn parse_pixel(text: &str) -> Result<PixelPoint, Failure> {
+    let numbers = text.split_once(',').and_then(|(x, y)| Some((x.parse().ok()?, y.parse().ok()?)));
+    let (x, y) = numbers.ok_or_else(|| {
+        usage(format!("'{text}' is not a pixel: expected two whole numbers X,Y within 32 bits, for example 8,3"))
+    })?;
+    Ok(PixelPoint::new(x, y))
+}
+
+/// Around the triangle with a pixel to spare, at most 64 pixels wide and high.
+fn triangle_case(corners: Corners) -> Case {
+    let range = |subs: [i32; 3]| {
+        let low = subs.into_iter().min().unwrap_or(0).div_euclid(SUBPIXELS).saturating_sub(1);
+        let high = subs.into_iter().max().unwrap_or(0).div_euclid(SUBPIXELS).saturating_add(2);
+        (low, high.min(low.saturating_add(64)))
+    };
+    let ((x0, x1), (y0, y1)) = (range(corners.map(|c| c.x)), range(corners.map(|c| c.y)));
+    let list = vec![named::plain_triangle(corners)];
+    Case { window: PixelRect { x0, y0, x1, y1 }, shape: Shape::Triangles { list, disjoint: true } }
+}
+
+fn line_case(line: Line) -> Case {
+    let [a, b] = line.ends.map(|end| end.pixel);
+    let range = |a: i32, b: i32| {
+        let low = a.min(b).saturating_sub(1);
+        (low, a.max(b).saturating_add(2).min(low.saturating_add(64)))
+    };
+    let ((x0, x1), (y0, y1)) = (range(a.x, b.x), range(a.y, b.y));
+    Case { window: PixelRect { x0, y0, x1, y1 }, shape: Shape::Lines(vec![line]) }
+}
+
+fn refused(
+    title: &str,
+    corners: &[[[f64; 2]; 3]],
+    out: &mut dyn std::io::Write,
+) -> Result<u8, Failure> {
+    writeln!(out, "{title}")?;
+    let mut all = true;
+    for triangle in corners {
+        let refusals: Vec<String> = triangle
+            .iter()
+            .filter_map(|&[x, y]| {
+                Some(format!("({x:?}, {y:?}) {}", SubpixelPoint::from_px(x, y).err()?))
+            })
+            .collect();
+        all &= !refusals.is_empty();
+        writeln!(
+            out,
+            "refused: {}",
+            if refusals.is_empty() { "NO".to_owned() } else { refusals.join("; ") }
+        )?;
+    }
+    Ok(if all { exit::AGREES } else { exit::DISAGREES })
+}
+
+/// Positions, exact area and word of each shape.
+fn facts(case: &Case, out: &mut dyn std::io::Write) -> Result<(), Failure> {
+    match &case.shape {
+        Shape::Triangles { list, .. } => {
+            for triangle in list.iter().take(8) {
+                let corners = triangle.corners();
+                let [a, b, c] = corners;
+                let d = |p: SubpixelPoint| {
+                    (i128::from(p.x) - i128::from(a.x), i128::from(p.y) - i128::from(a.y))
+                };
+                let ((bx, by), (cx, cy)) = (d(b), d(c));
+                let area = bx * cy - by * cx;
+                let extent = |v: [i32; 3]| {
+                    v.iter().max().unwrap_or(&0).abs_diff(*v.iter().min().unwrap_or(&0))
+                };
+                let word =
+                    WordWidth::of(extent(corners.map(|p| p.x)), extent(corners.map(|p| p.y)));
+                let points = corners
+                    .map(|p| {
+                        let (x, y) = p.to_px();
+                        format!("({x}, {y})")
+                    })
+                    .join(" ");
+                let winding = match area.signum() {
+                    1 => "clockwise",
+                    -1 => "counter-clockwise",
+                    _ => "degenerate",
+                };
+                let ties = samples_on_boundary(&corners, case.window);
+                writeln!(
+                    out,
+                    "triangle {points}\n  {winding}, area {} px, edge functions in {word:?}, {ties} samples on its boundary",
+                    area as f64 / 131_072.0
+                )?;
+            }
+            if list.len() > 8 {
+                writeln!(out, "and {} more triangles", list.len() - 8)?;
+            }
+        }
+        Shape::Lines(lines) => {
+            for line in lines {
+                let [a, b] = line.ends.map(|end| end.pixel);
+                let (dx, dy) = (a.x.abs_diff(b.x), a.y.abs_diff(b.y));
+                writeln!(
+                    out,
+                    "line ({}, {}) to ({}, {}): {} steps along {}",
+                    a.x,
+                    a.y,
+                    b.x,
+                    b.y,
+                    dx.max(dy),
+                    if dx >= dy { "x" } else { "y" }
+                )?;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Pixels of each triangle or line by the oracle.
+pub fn pixels_each(case: &Case) -> Vec<u64> {
+    match &case.shape {
+        Shape::Triangles { list, .. } => list
+            .iter()
+            .map(|t| oracle_coverage(std::slice::from_ref(t), case.window).covered())
+            .collect(),
+        Shape::Lines(lines) => lines
+            .iter()
+            .map(|line| {
+                let mut count = 0;
+                Oracle.line_pixels(line, case.window, |_, _| count += 1);
+                count
+            })
+            .collect(),
+    }
+}
+
+/// A case as each engine draws it.
+pub struct Shown {
+    engines: Vec<(String, Result<Coverage, String>)>,
+    target: Coverage,
+}
+
+/// Draws a case with each engine that can.
+pub fn draw(case: &Case, engines: &[(Engine, Tolerance)], lines: &[LineEngine]) -> Shown {
+    match &case.shape {
+        Shape::Triangles { list, .. } => Shown {
+            engines: engines
+                .iter()
+                .map(|(e, _)| (e.name().to_owned(), engine_coverage(e, list, case.window)))
+                .collect(),
+            target: oracle_coverage(list, case.window),
+        },
+        Shape::Lines(list) => {
+            let mut target = Coverage::new(case.window, 0);
+            for line in list {
+                Oracle.line_pixels(line, case.window, |p, _| target.hit(p.y, p.x, p.x + 1));
+            }
+            Shown {
+                engines: lines
+                    .iter()
+                    .map(|e| (e.name().to_owned(), line_coverage(e, list, case.window)))
+                    .collect(),
+                target,
+            }
+        }
+    }
+}
+
+impl Shown {
+    /// A titled grid for each engine; one that panicked has its message instead.
+    pub fn blocks(&self) -> Vec<(String, Vec<String>)> {
+        let blocks = self.engines.iter().map(|(name, hits)| match hits {
+            Ok(hits) => {
+                let tally = Tally::between(hits, &self.target);
+                (
+                    format!("{name}: {} px, {} wrong", hits.covered(), tally.total()),
+                    ascii::grid(hits, &self.target),
+                )
+            }
+            Err(message) => (format!("{name}: panics"), vec![message.clone()]),
+        });
+        let oracle = (
+            format!("oracle: {} px", self.target.covered()),
+            ascii::grid(&self.target, &self.target),
+        );
+        blocks.chain([oracle]).collect()
+    }
+
+    /// The grid of one engine and the oracle's, where coverage differs or an engine panicked.
+    pub fn judged_blocks(&self, name: &str) -> Option<Vec<(String, Vec<String>)>> {
+        let at = self.engines.iter().position(|(n, _)| n == name)?;
+        let blocks = self.blocks();
+        Some(vec![blocks[at].clone(), blocks.last()?.clone()])
+    }
+
+    /// A panel for each engine that did not panic, then the oracle.
+    pub fn picture(&self, case: &Case) -> RgbImage {
+        let drawn: Vec<_> =
+            self.engines.iter().filter_map(|(_, hits)| hits.as_ref().ok()).cloned().collect();
+        picture::panels(case, &drawn, &self.target)
+    }
+}

@@ -1,0 +1,185 @@
+//! The command line: words to functions. Text goes to the writers it is given; only `main` exits.
+
+mod engine;
+mod inspect;
+mod verify;
+
+use std::fmt;
+use std::io::{self, BufRead, Write};
+use std::path::Path;
+
+use clap::{Parser, Subcommand};
+
+use crate::{hazard, lineup};
+
+/// Exit codes.
+pub mod exit {
+    /// Everything agrees.
+    pub const AGREES: u8 = 0;
+    /// Something disagrees.
+    pub const DISAGREES: u8 = 1;
+    /// The command or its input cannot be used.
+    pub const USAGE: u8 = 2;
+}
+
+const EXAMPLES: &str = "Examples:
+  rasterproof                                     judge both rasterizers and both line drawers
+  rasterproof --family sliver --cases 1000000     many cases of one family
+  rasterproof --seconds 60 --seed 7               a minute of other cases
+  rasterproof inspect T2                          explain a named case
+  rasterproof inspect 0.5,0.5 5.5,0.5 5.5,5.5     explain a triangle
+  rasterproof inspect --line 0,0 8,3              explain a line
+  rasterproof engine scanline < requests.txt      speak the line protocol
+  rasterproof list                                families, cases and engines
+
+Exit status: 0 all agree, 1 something disagrees, 2 usage or bad input.";
+
+/// Two rasterizers, two line drawers and an exact oracle, compared pixel for pixel.
+#[derive(Parser, Debug)]
+#[command(name = "rasterproof", version, after_help = EXAMPLES, args_conflicts_with_subcommands = true)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Option<Command>,
+    #[command(flatten)]
+    verify: verify::Arguments,
+}
+
+#[derive(Subcommand, Debug)]
+enum Command {
+    /// Judge every engine on every family of cases (the default)
+    Verify(verify::Arguments),
+    /// Explain one case: coordinates, a named case, or FAMILY#NUMBER
+    Inspect(inspect::Arguments),
+    /// Answer requests of the line protocol on standard input
+    #[command(after_help = engine::HELP)]
+    Engine {
+        /// The engine that answers
+        #[arg(value_parser = engine_names())]
+        name: String,
+    },
+    /// List families, named cases and engines
+    List,
+}
+
+fn engine_names() -> Vec<&'static str> {
+    lineup::ENTRIES.iter().map(|entry| entry.name).collect()
+}
+
+/// Something wrong with the input: what, and what to do about it.
+#[derive(Debug)]
+pub enum Failure {
+    /// A message for standard error; exit status 2.
+    Usage(String),
+    /// Reading or writing failed.
+    Io(io::Error),
+}
+
+impl From<io::Error> for Failure {
+    fn from(error: io::Error) -> Self {
+        Self::Io(error)
+    }
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Usage(message) => f.write_str(message),
+            Self::Io(error) => write!(f, "{error}"),
+        }
+    }
+}
+
+fn usage(message: impl Into<String>) -> Failure {
+    Failure::Usage(message.into())
+}
+
+/// Where a command reads and writes.
+pub struct Streams<'a> {
+    /// Standard input.
+    pub input: &'a mut dyn BufRead,
+    /// Standard output.
+    pub output: &'a mut dyn Write,
+    /// Standard error.
+    pub errors: &'a mut dyn Write,
+    /// Whether a progress bar may be drawn on the terminal.
+    pub progress: bool,
+}
+
+/// Runs a command line, the program's name first, and returns the exit status.
+pub fn run(words: impl IntoIterator<Item = String>, streams: &mut Streams<'_>) -> u8 {
+    let arguments = match Arguments::try_parse_from(words) {
+        Ok(arguments) => arguments,
+        Err(error) => {
+            let text = error.render().to_string();
+            let asked = !error.use_stderr();
+            let stream: &mut dyn Write = if asked { streams.output } else { streams.errors };
+            // Nobody is left to tell if this fails.
+            let _ = stream.write_all(text.as_bytes());
+            return if asked { exit::AGREES } else { exit::USAGE };
+        }
+    };
+    quiet_engines();
+    let result = match &arguments.command {
+        None => verify::run(&arguments.verify, streams),
+        Some(Command::Verify(arguments)) => verify::run(arguments, streams),
+        Some(Command::Inspect(arguments)) => inspect::run(arguments, streams),
+        Some(Command::Engine { name }) => engine::run(name, streams),
+        Some(Command::List) => list(streams),
+    };
+    let result = result.and_then(|status| Ok(streams.output.flush().map(|()| status)?));
+    match result {
+        Ok(status) => status,
+        // The reader has seen enough, as in `rasterproof list | head`.
+        Err(Failure::Io(error)) if error.kind() == io::ErrorKind::BrokenPipe => exit::AGREES,
+        Err(failure) => {
+            let _ = writeln!(streams.errors, "error: {failure}");
+            exit::USAGE
+        }
+    }
+}
+
+/// Keeps the panics of engines off the terminal: they are part of the verdict. Others still show.
+fn quiet_engines() {
+    static ONCE: std::sync::Once = std::sync::Once::new();
+    ONCE.call_once(|| {
+        let hook = std::panic::take_hook();
+        std::panic::set_hook(Box::new(move |info| {
+            if !crate::verify::is_judging() {
+                hook(info);
+            }
+        }));
+    });
+}
+
+fn list(streams: &mut Streams<'_>) -> Result<u8, Failure> {
+    let out = &mut streams.output;
+    writeln!(out, "Families (rasterproof --family NAME, rasterproof inspect NAME#NUMBER):")?;
+    for family in hazard::families() {
+        writeln!(out, "  {:<16} {}", family.name, family.about)?;
+    }
+    writeln!(out, "\nNamed cases (rasterproof inspect NAME):")?;
+    for case in hazard::named::named() {
+        writeln!(out, "  {:<5} {}", case.name, case.about)?;
+    }
+    writeln!(out, "\nEngines (rasterproof engine NAME):")?;
+    for entry in &lineup::ENTRIES {
+        writeln!(out, "  {:<14} {}", entry.name, entry.about)?;
+    }
+    Ok(exit::AGREES)
+}
+
+/// Writes a file whole or not at all: first beside its place, then renamed.
+fn write_file(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    let failed =
+        |what: &str, error: io::Error| usage(format!("{what} {}: {error}", path.display()));
+    if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
+        std::fs::create_dir_all(folder).map_err(|e| failed("cannot create the folder of", e))?;
+    }
+    let mut beside = path.as_os_str().to_owned();
+    beside.push(".part");
+    std::fs::write(&beside, bytes).map_err(|e| failed("cannot write", e))?;
+    std::fs::rename(&beside, path).map_err(|e| {
+        let _ = std::fs::remove_file(&beside);
+        failed("cannot write", e)
+    })
+}

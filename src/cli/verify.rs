@@ -1,0 +1,301 @@
+//! `rasterproof verify`: the differential table and the verdict.
+
+use std::path::Path;
+use std::time::Duration;
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+use super::{Failure, Streams, exit, usage, write_file};
+use crate::hazard;
+use crate::lineup::{Engine, LineEngine};
+use crate::mutant::{LineMutant, TriangleMutant};
+use crate::report::{ascii, json, picture, table};
+use crate::verify::tolerance::{self, Tolerance};
+use crate::verify::{self, Options, Verdict};
+
+/// Options of `verify`.
+#[derive(clap::Args, Debug)]
+pub struct Arguments {
+    /// Cases of each family [default: 20000]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    cases: Option<u64>,
+    /// Stop after about this many seconds, however many cases that is
+    #[arg(long, value_name = "S")]
+    seconds: Option<f64>,
+    /// Only this family; may be repeated
+    #[arg(long, value_name = "NAME", value_parser = family_names())]
+    family: Vec<String>,
+    /// Only this engine against the oracle; may be repeated
+    #[arg(long, value_name = "NAME", value_parser = ["scanline", "edge-function", "dda", "bresenham"])]
+    engine: Vec<String>,
+    /// Decides every generated case
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+    /// Only part I of N, I from 0: case number modulo N
+    #[arg(long, value_name = "I/N", value_parser = parse_shard, default_value = "0/1")]
+    shard: (u64, u64),
+    /// Only the case of this number, to repeat a failure
+    #[arg(long, value_name = "NUMBER")]
+    case: Option<u64>,
+    /// The verdict as JSON instead of a table
+    #[arg(long)]
+    json: bool,
+    /// Judge an engine with a planted fault, to see the harness fail
+    #[arg(long, value_name = "FAULT", hide = true, value_parser = mutant_names())]
+    plant: Option<String>,
+}
+
+fn family_names() -> Vec<&'static str> {
+    hazard::families().map(|family| family.name).collect()
+}
+
+fn mutant_names() -> Vec<&'static str> {
+    let triangles = TriangleMutant::ALL.iter().map(|mutant| mutant.name());
+    triangles.chain(LineMutant::ALL.iter().map(|mutant| mutant.name())).collect()
+}
+
+fn parse_shard(text: &str) -> Result<(u64, u64), String> {
+    let numbers = text.split_once('/').and_then(|(i, n)| Some((i.parse().ok()?, n.parse().ok()?)));
+    match numbers {
+        Some((part, parts)) if part < parts => Ok((part, parts)),
+        _ => Err("expected I/N with I from 0 to N - 1, for example 0/4".to_owned()),
+    }
+}
+
+impl Arguments {
+    fn options(&self) -> Result<Options, Failure> {
+        let limit = match self.seconds {
+            None => None,
+            Some(s) if s > 0.0 && s <= 1e6 => Some(Duration::from_secs_f64(s)),
+            Some(s) => {
+                return Err(usage(format!(
+                    "--seconds {s}: expected a number above 0, at most 1e6"
+                )));
+            }
+        };
+        let default = Options::default();
+        Ok(Options {
+            seed: self.seed,
+            // With a time limit alone, the time decides.
+            cases: self.cases.unwrap_or(if limit.is_some() { u64::MAX / 4 } else { default.cases }),
+            time_limit: limit,
+            families: self.family.clone(),
+            shard: self.shard,
+            only: self.case,
+        })
+    }
+
+    /// The engines to judge: both of each kind, a selection, or a planted fault alone.
+    fn contestants(&self) -> (Vec<(Engine, Tolerance)>, Vec<LineEngine>) {
+        if let Some(name) = &self.plant {
+            let engine = TriangleMutant::ALL.into_iter().find(|mutant| mutant.name() == name);
+            let line = LineMutant::ALL.into_iter().find(|mutant| mutant.name() == name);
+            return (
+                engine.map(|m| (Engine::Mutant(m), tolerance::SCANLINE)).into_iter().collect(),
+                line.map(LineEngine::Mutant).into_iter().collect(),
+            );
+        }
+        let wanted = |name: &str| self.engine.is_empty() || self.engine.iter().any(|n| n == name);
+        (
+            Engine::JUDGED.into_iter().filter(|e| wanted(e.name())).map(with_tolerance).collect(),
+            LineEngine::JUDGED.into_iter().filter(|e| wanted(e.name())).collect(),
+        )
+    }
+
+    /// The command that repeats one case.
+    fn repeat(&self, family: &str, index: u64) -> String {
+        let plant = self.plant.as_ref().map(|name| format!(" --plant {name}")).unwrap_or_default();
+        let engines: String = self.engine.iter().map(|name| format!(" --engine {name}")).collect();
+        format!(
+            "rasterproof verify --family {family} --case {index} --seed {}{engines}{plant}",
+            self.seed
+        )
+    }
+
+    /// The command that repeats the run.
+    fn repeat_all(&self, cases: u64) -> String {
+        let mut command = format!("rasterproof verify --seed {} --cases {cases}", self.seed);
+        for family in &self.family {
+            command += &format!(" --family {family}");
+        }
+        for engine in &self.engine {
+            command += &format!(" --engine {engine}");
+        }
+        if self.shard != (0, 1) {
+            command += &format!(" --shard {}/{}", self.shard.0, self.shard.1);
+        }
+        if let Some(case) = self.case {
+            command += &format!(" --case {case}");
+        }
+        if let Some(plant) = &self.plant {
+            command += &format!(" --plant {plant}");
+        }
+        command
+    }
+}
+
+/// The bound that belongs to an engine of the line-up.
+pub fn with_tolerance(engine: Engine) -> (Engine, Tolerance) {
+    let tolerance = match engine {
+        Engine::Scanline | Engine::Mutant(_) => tolerance::SCANLINE,
+        Engine::EdgeFunction => tolerance::EDGE_FUNCTION,
+        Engine::Oracle => tolerance::ORACLE,
+    };
+    (engine, tolerance)
+}
+
+/// Folder of everything this command writes.
+const FOLDER: &str = "target/rasterproof";
+
+pub fn run(arguments: &Arguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+    let mut options = arguments.options()?;
+    if let Some(case) = options.only {
+        options.cases =
+            case.checked_add(1).ok_or_else(|| usage("--case: the number is too large"))?;
+    }
+    let (engines, lines) = arguments.contestants();
+    let verdict = judge(&engines, &lines, &options, streams.progress);
+    if verdict.families.iter().all(|family| family.cases == 0) {
+        return Err(usage(
+            "no case was judged: this engine does not draw what this family contains, or the shard is empty",
+        ));
+    }
+    if arguments.json {
+        let text = json::verdict(&verdict, |family, index| arguments.repeat(family, index));
+        streams.output.write_all(text.as_bytes())?;
+    } else {
+        print(arguments, &verdict, &engines, &lines, streams)?;
+    }
+    Ok(if verdict.agrees() { exit::AGREES } else { exit::DISAGREES })
+}
+
+fn judge(
+    engines: &[(Engine, Tolerance)],
+    lines: &[LineEngine],
+    options: &Options,
+    progress: bool,
+) -> Verdict {
+    let families = hazard::families()
+        .filter(|f| options.families.is_empty() || options.families.iter().any(|n| n == f.name));
+    let bar = match (progress && options.only.is_none(), options.time_limit) {
+        (false, _) => ProgressBar::hidden(),
+        (true, Some(_)) => ProgressBar::new_spinner(),
+        (true, None) => ProgressBar::new(families.count() as u64 * options.cases / options.shard.1),
+    };
+    if progress {
+        bar.set_draw_target(ProgressDrawTarget::stderr_with_hz(8));
+        let style = "{elapsed_precise} {wide_bar} {pos}/{len} cases, {eta} left";
+        let spinner = "{elapsed_precise} {spinner} {pos} cases";
+        let template = if options.time_limit.is_some() { spinner } else { style };
+        if let Ok(style) = ProgressStyle::with_template(template) {
+            bar.set_style(style);
+        }
+    }
+    let verdict = verify::judge_lineup(engines, lines, options, &|cases| bar.inc(cases));
+    bar.finish_and_clear();
+    verdict
+}
+
+fn print(
+    arguments: &Arguments,
+    verdict: &Verdict,
+    engines: &[(Engine, Tolerance)],
+    lines: &[LineEngine],
+    streams: &mut Streams<'_>,
+) -> Result<(), Failure> {
+    let (part, parts) = verdict.options.shard;
+    let shard = if parts > 1 { format!(", shard {part}/{parts}") } else { String::new() };
+    let out = &mut *streams.output;
+    writeln!(out, "rasterproof {}, seed {}{shard}\n", env!("CARGO_PKG_VERSION"), arguments.seed)?;
+    write!(out, "{}{}", table::table(verdict), table::quota_line(verdict))?;
+    write!(out, "{}", table::disagreements(verdict))?;
+    if verdict.agrees() {
+        worst_cases(arguments, verdict, engines, lines, out)?;
+    } else {
+        failures(arguments, verdict, engines, lines, out)?;
+    }
+    let largest = verdict.families.iter().map(|f| f.cases).max().unwrap_or(0);
+    let cases = if arguments.seconds.is_some() { largest } else { verdict.options.cases };
+    writeln!(out, "repeat with: {}", arguments.repeat_all(cases))?;
+    let (triangles, segments) = (verdict.sum(false, |f| f.shapes), verdict.sum(true, |f| f.shapes));
+    let what = format!(
+        "{triangles} triangles and {segments} lines, {} wrong pixels",
+        verdict.mismatches()
+    );
+    writeln!(out, "{}: {what}", if verdict.agrees() { "AGREES" } else { "DISAGREES" })?;
+    Ok(())
+}
+
+/// Shows each shrunk failure as characters and all of them as one picture.
+fn failures(
+    arguments: &Arguments,
+    verdict: &Verdict,
+    engines: &[(Engine, Tolerance)],
+    lines: &[LineEngine],
+    out: &mut dyn std::io::Write,
+) -> Result<(), Failure> {
+    let mut pictures = Vec::new();
+    for failure in &verdict.failures {
+        writeln!(
+            out,
+            "\n{failure}\n  repeat with: {}",
+            arguments.repeat(&failure.family, failure.index)
+        )?;
+        let shown = super::inspect::draw(&failure.case, engines, lines);
+        if let Some(blocks) = shown.judged_blocks(&failure.pair[0]) {
+            writeln!(out, "{}", ascii::side_by_side(&blocks, 100))?;
+        }
+        pictures.push(shown.picture(&failure.case));
+    }
+    write_sheet("failures.png", &pictures, out)
+}
+
+/// Draws the cases whose values came closest to their bounds.
+fn worst_cases(
+    arguments: &Arguments,
+    verdict: &Verdict,
+    engines: &[(Engine, Tolerance)],
+    lines: &[LineEngine],
+    out: &mut dyn std::io::Write,
+) -> Result<(), Failure> {
+    let mut worst: Vec<_> = verdict
+        .families
+        .iter()
+        .flat_map(|f| f.pairs.iter().map(move |pair| (f, pair)))
+        .filter(|(_, pair)| pair.target == "oracle" && pair.values > 0 && pair.worst() > 0.0)
+        .collect();
+    worst.sort_by(|(_, a), (_, b)| b.worst().total_cmp(&a.worst()));
+    worst.dedup_by_key(|(f, pair)| (f.family.clone(), pair.worst_case));
+    let mut pictures = Vec::new();
+    for (family, pair) in worst.into_iter().take(3) {
+        let name = &family.family;
+        writeln!(
+            out,
+            "closest to a bound: {} at {:.2} of it in {name}#{}; see it with: rasterproof inspect {name}#{} --seed {}",
+            pair.actual,
+            pair.worst(),
+            pair.worst_case,
+            pair.worst_case,
+            arguments.seed
+        )?;
+        let found = hazard::families().find(|f| f.name == name);
+        if let Some(case) = found.map(|f| f.case(arguments.seed, pair.worst_case)) {
+            pictures.push(super::inspect::draw(&case, engines, lines).picture(&case));
+        }
+    }
+    write_sheet("worst.png", &pictures, out)
+}
+
+fn write_sheet(
+    name: &str,
+    pictures: &[image::RgbImage],
+    out: &mut dyn std::io::Write,
+) -> Result<(), Failure> {
+    if pictures.is_empty() {
+        return Ok(());
+    }
+    let path = Path::new(FOLDER).join(name);
+    write_file(&path, &picture::png(&picture::stack(pictures)))?;
+    writeln!(out, "drawn in {} (engines from left to right, the oracle last)", path.display())?;
+    Ok(())
+}

@@ -1,0 +1,47 @@
+//! **rasterproof**: two independent triangle rasterizers, two line drawers and an exact oracle,
+//! compared pixel for pixel.
+//!
+//! The path of a triangle, and the room of each step:
+//! [`hazard`] makes it, [`raster::scanline`] and [`raster::edge_function`] draw it (as
+//! [`contract::Rasterize`] promises), [`oracle`] knows the truth, [`verify`] compares, and
+//! [`report`] shows the verdict. Lines travel the same way through [`line::dda`] and
+//! [`line::bresenham`].
+//!
+//! Judge a rasterizer of your own in ten lines:
+//!
+//! ```
+//! use rasterproof::{contract::Rasterize, grid::PixelRect, triangle::{Corners, Span}, verify};
+//!
+//! /// Fills the bounding box: wrong for nearly every triangle.
+//! struct Box;
+//! impl Rasterize for Box {
+//!     fn cover(&self, corners: Corners, bounds: PixelRect, mut emit: impl FnMut(Span)) {
+//!         let px = |sub: i32| sub.div_euclid(256);
+//!         let (xs, ys) = (corners.map(|c| px(c.x)), corners.map(|c| px(c.y)));
+//!         let (x0, x1) = (xs.into_iter().min().unwrap().max(bounds.x0), xs.into_iter().max().unwrap().min(bounds.x1));
+//!         for y_px in ys.into_iter().min().unwrap().max(bounds.y0)..ys.into_iter().max().unwrap().min(bounds.y1) {
+//!             if x0 < x1 { emit(Span { y_px, x0_px: x0, x1_px: x1 }) }
+//!         }
+//!     }
+//! }
+//! let verdict = verify::judge_coverage(&Box, &verify::Options { cases: 20, ..verify::Options::default() });
+//! assert!(!verdict.agrees());
+//! let smallest = verdict.failures[0].clone();
+//! println!("{} wrong pixels; the smallest triangle: {smallest}", verdict.mismatches());
+//! ```
+#![forbid(unsafe_code)]
+#![warn(missing_docs)]
+
+pub mod cli;
+pub mod contract;
+pub mod frame;
+pub mod grid;
+pub mod hazard;
+pub mod line;
+pub mod lineup;
+pub mod mutant;
+pub mod oracle;
+pub mod raster;
+pub mod report;
+pub mod triangle;
+pub mod verify;

@@ -1,0 +1,17 @@
+//! The program: connects the command line to the terminal, and exits.
+
+use std::io::{self, BufWriter, IsTerminal};
+use std::process::ExitCode;
+
+use rasterproof::cli::{self, Streams};
+
+fn main() -> ExitCode {
+    let mut streams = Streams {
+        input: &mut io::stdin().lock(),
+        output: &mut BufWriter::new(io::stdout().lock()),
+        errors: &mut io::stderr(),
+        progress: io::stderr().is_terminal(),
+    };
+    let words = std::env::args_os().map(|word| word.to_string_lossy().into_owned());
+    ExitCode::from(cli::run(words, &mut streams))
+}

@@ -1,0 +1,6 @@
+//! Verdicts as text, JSON and pictures. Everything here is a value; only `main` prints.
+
+pub mod ascii;
+pub mod json;
+pub mod picture;
+pub mod table;

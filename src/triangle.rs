@@ -1,0 +1,152 @@
+//! What travels: vertices in the window, triangles, line segments, fragments.
+//!
+//! Values in, values out; nothing here computes coverage or interpolates.
+
+use std::ops::{Add, Mul, Sub};
+
+use crate::grid::{Refusal, SubpixelPoint};
+
+/// Something that can be interpolated: a number or a vector of numbers.
+///
+/// Weights are `f64` throughout: products of an edge function and a weight then keep 53 bits, the
+/// error bounds are about 1e-15 of the largest value, and a comparison between engines sees
+/// algorithms instead of rounding. `f64` and glam's `DVec2`, `DVec3`, `DVec4` qualify.
+pub trait Varying:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<f64, Output = Self>
+{
+}
+
+impl<T: Copy + Add<Output = T> + Sub<Output = T> + Mul<f64, Output = T>> Varying for T {}
+
+/// Smallest accepted w. With [`MAX_W`] it keeps every product of an edge function, a weight and an
+/// attribute within the normal range of `f64`.
+pub const MIN_W: f64 = f64::from_bits((1023 - 200) << 52);
+/// Largest accepted w.
+pub const MAX_W: f64 = f64::from_bits((1023 + 200) << 52);
+/// Largest accepted magnitude of a depth or an attribute.
+pub const MAX_VALUE: f64 = f64::from_bits((1023 + 500) << 52);
+
+/// A vertex in the window.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+pub struct ScreenVertex<V> {
+    /// Where it is, in subpixels.
+    pub position: SubpixelPoint,
+    /// Depth, linear in the window (z/w).
+    pub depth: f64,
+    /// 1/w, positive; linear in the window.
+    pub inv_w: f64,
+    /// What the fragment stage wants to know, linear in space.
+    pub varying: V,
+}
+
+impl<V> ScreenVertex<V> {
+    /// Snaps a position in pixels and checks depth and w.
+    ///
+    /// # Errors
+    /// [`Refusal`] where the position has no place on the lattice, |depth| exceeds [`MAX_VALUE`]
+    /// or w is not within [[`MIN_W`], [`MAX_W`]]. The varying is the caller's to check, with
+    /// [`check_value`].
+    pub fn new(x_px: f64, y_px: f64, depth: f64, w: f64, varying: V) -> Result<Self, Refusal> {
+        check_value(depth)?;
+        check_range(w, MIN_W, MAX_W)?;
+        Ok(Self { position: SubpixelPoint::from_px(x_px, y_px)?, depth, inv_w: 1.0 / w, varying })
+    }
+}
+
+/// Checks that a depth or an attribute is finite and at most [`MAX_VALUE`] in magnitude.
+///
+/// # Errors
+/// [`Refusal`] with the reason.
+pub fn check_value(value: f64) -> Result<(), Refusal> {
+    check_range(value, -MAX_VALUE, MAX_VALUE)
+}
+
+fn check_range(value: f64, min: f64, max: f64) -> Result<(), Refusal> {
+    if value.is_nan() {
+        Err(Refusal::NotANumber)
+    } else if value.is_infinite() {
+        Err(Refusal::Infinite)
+    } else if value < min || value > max {
+        Err(Refusal::OutOfRange { value, min, max })
+    } else {
+        Ok(())
+    }
+}
+
+/// The three corners of a triangle, positions only.
+pub type Corners = [SubpixelPoint; 3];
+
+/// A triangle in the window, either winding; a degenerate one covers nothing.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+pub struct ScreenTriangle<V> {
+    /// Its vertices.
+    pub vertices: [ScreenVertex<V>; 3],
+}
+
+impl<V: Copy> ScreenTriangle<V> {
+    /// Positions of the vertices, in subpixels.
+    #[must_use]
+    pub fn corners(&self) -> Corners {
+        self.vertices.map(|vertex| vertex.position)
+    }
+}
+
+/// A run of pixels in one row, x1 exclusive.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Span {
+    /// The row.
+    pub y_px: i32,
+    /// First column.
+    pub x0_px: i32,
+    /// One past the last column.
+    pub x1_px: i32,
+}
+
+/// A covered pixel with the values at its centre.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fragment<V> {
+    /// Column.
+    pub x_px: i32,
+    /// Row.
+    pub y_px: i32,
+    /// Depth, linear in the window.
+    pub depth: f64,
+    /// The varying, perspective-correct for triangles, linear for lines.
+    pub varying: V,
+}
+
+/// A whole pixel, by column and row. Every value is valid.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize)]
+pub struct PixelPoint {
+    /// Column.
+    pub x: i32,
+    /// Row, y down.
+    pub y: i32,
+}
+
+impl PixelPoint {
+    /// The pixel in column x and row y.
+    #[must_use]
+    pub const fn new(x: i32, y: i32) -> Self {
+        Self { x, y }
+    }
+}
+
+/// One end of a line segment.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+pub struct LineEnd<V> {
+    /// The pixel it starts or ends in.
+    pub pixel: PixelPoint,
+    /// Depth, linear in the window.
+    pub depth: f64,
+    /// Carried along the segment linearly. For a perspective-correct line carry (1/w, v/w) and
+    /// divide in the fragment stage.
+    pub varying: V,
+}
+
+/// A line segment between two pixel centres, both ends included.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+pub struct ScreenLine<V> {
+    /// First and last pixel.
+    pub ends: [LineEnd<V>; 2],
+}

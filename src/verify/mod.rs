@@ -1,0 +1,459 @@
+//! The comparison: families of cases, every engine against the oracle and against each other.
+//!
+//! Coverage is compared for every pixel of every case, by hit count, with tolerance zero. Values
+//! are compared with exact rationals at a few pixels of every case, and the difference is reported
+//! as a fraction of the bound derived in [`tolerance`]. A panic of an engine is a finding like any
+//! other. A result depends on the options alone, not on the number of threads.
+//!
+//! The same functions judge an engine of yours: [`judge_coverage`], [`judge_values`],
+//! [`judge_lines`].
+
+mod contest;
+pub mod shrink;
+pub mod tolerance;
+
+use std::cmp::Ordering;
+use std::fmt;
+use std::time::{Duration, Instant};
+
+use rayon::prelude::*;
+use serde::Serialize;
+
+use crate::contract::{DrawLine, Interpolate, Rasterize};
+use crate::hazard::{Case, Family, Shape};
+use crate::lineup::{Engine, LineEngine};
+use contest::{Contest, CoverageOnly, LineContest, TriangleContest};
+use tolerance::Tolerance;
+
+pub use contest::{Finding, Tally, engine_coverage, is_judging, line_coverage, oracle_coverage};
+
+/// What to judge.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// Decides every generated case.
+    pub seed: u64,
+    /// Cases of each family.
+    pub cases: u64,
+    /// Stop starting new cases after this long; the number of cases done is then what varies.
+    pub time_limit: Option<Duration>,
+    /// Names of families; empty means all.
+    pub families: Vec<String>,
+    /// This part out of how many: case i belongs to part i mod n.
+    pub shard: (u64, u64),
+    /// Only the case of this number.
+    pub only: Option<u64>,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            seed: 1,
+            cases: 20_000,
+            time_limit: None,
+            families: Vec::new(),
+            shard: (0, 1),
+            only: None,
+        }
+    }
+}
+
+impl Options {
+    fn wants(&self, family: &Family) -> bool {
+        self.families.is_empty() || self.families.iter().any(|name| name == family.name)
+    }
+}
+
+/// How two engines compare over a family.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct PairReport {
+    /// The one that is judged.
+    pub actual: String,
+    /// The one it is judged by.
+    pub target: String,
+    /// Wrong pixels.
+    pub tally: Tally,
+    /// Largest difference of an attribute, as a fraction of its bound.
+    pub worst_attribute: f64,
+    /// Largest difference of a depth, as a fraction of its bound.
+    pub worst_depth: f64,
+    /// Number of the first case with the larger of the two.
+    pub worst_case: u64,
+    /// Values compared.
+    pub values: u64,
+    /// Cases in which an engine panicked.
+    pub panics: u64,
+    /// Cases in which anything was wrong.
+    pub wrong_cases: u64,
+}
+
+impl PairReport {
+    /// Whether nothing was wrong.
+    #[must_use]
+    pub fn agrees(&self) -> bool {
+        self.wrong_cases == 0
+    }
+}
+
+/// How a family went.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct FamilyReport {
+    /// Its name.
+    pub family: String,
+    /// Cases judged.
+    pub cases: u64,
+    /// Triangles or lines judged.
+    pub shapes: u64,
+    /// Whether the shapes are lines.
+    pub lines: bool,
+    /// Covered pixels, by the oracle.
+    pub pixels: u64,
+    /// Cases in which a sample lies exactly on an edge, or a line passes halfway between pixels.
+    pub tie_cases: u64,
+    /// Cases with a triangle thinner than a pixel and eight times as long.
+    pub sliver_cases: u64,
+    /// Cases that light no pixel.
+    pub empty_cases: u64,
+    /// Pixels that the oracle itself hits twice where the shapes are disjoint by construction.
+    pub oracle_overlap: u64,
+    /// One for each pair of engines.
+    pub pairs: Vec<PairReport>,
+}
+
+/// A failing case, shrunk.
+#[derive(Clone, Debug)]
+pub struct Failure {
+    /// Family and number of the case it was found in.
+    pub family: String,
+    /// Number of the case.
+    pub index: u64,
+    /// Seed of the run.
+    pub seed: u64,
+    /// Engine and what it was judged by.
+    pub pair: [String; 2],
+    /// What is wrong with the shrunk case.
+    pub what: String,
+    /// The smallest case found that still fails.
+    pub case: Case,
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [actual, target] = &self.pair;
+        write!(f, "{actual} against {target}: {} on {}", self.what, shrink::describe(&self.case))?;
+        write!(f, " (from {} #{} of seed {})", self.family, self.index, self.seed)
+    }
+}
+
+/// The outcome of a run.
+#[derive(Clone, Debug)]
+pub struct Verdict {
+    /// The options it was run with.
+    pub options: Options,
+    /// One for each family, in the order of the catalogue.
+    pub families: Vec<FamilyReport>,
+    /// Failing cases, shrunk, at most a few for each pair.
+    pub failures: Vec<Failure>,
+}
+
+impl Verdict {
+    /// Whether nothing was wrong anywhere.
+    #[must_use]
+    pub fn agrees(&self) -> bool {
+        self.families
+            .iter()
+            .all(|f| f.oracle_overlap == 0 && f.pairs.iter().all(PairReport::agrees))
+    }
+
+    /// Wrong pixels over all families and pairs.
+    #[must_use]
+    pub fn mismatches(&self) -> u64 {
+        self.families.iter().flat_map(|f| &f.pairs).map(|pair| pair.tally.total()).sum()
+    }
+
+    /// Sum of a number over the families of triangles (false) or lines (true).
+    #[must_use]
+    pub fn sum(&self, lines: bool, number: impl Fn(&FamilyReport) -> u64) -> u64 {
+        self.families.iter().filter(|f| f.lines == lines).map(number).sum()
+    }
+}
+
+/// Judges the line-up: both rasterizers and both line drawers, or a selection of them.
+pub fn judge_lineup(
+    engines: &[(Engine, Tolerance)],
+    lines: &[LineEngine],
+    options: &Options,
+    progress: &(dyn Fn(u64) + Sync),
+) -> Verdict {
+    let engines: Vec<_> = engines.iter().map(|(e, t)| (e.name(), *e, Some(*t))).collect();
+    let lines: Vec<_> = lines.iter().map(|e| (e.name(), *e)).collect();
+    drive(&TriangleContest::new(&engines), &LineContest::new(&lines), options, progress)
+}
+
+/// Judges the coverage of any rasterizer against the oracle.
+pub fn judge_coverage<R: Rasterize + Sync>(engine: &R, options: &Options) -> Verdict {
+    let engines = [("candidate", CoverageOnly(engine), None)];
+    let none: [(&str, LineEngine); 0] = [];
+    drive(&TriangleContest::new(&engines), &LineContest::new(&none), options, &|_| ())
+}
+
+/// Judges coverage and values of any rasterizer against the oracle, values within `tolerance`.
+pub fn judge_values<R: Interpolate + Sync>(
+    engine: &R,
+    tolerance: Tolerance,
+    options: &Options,
+) -> Verdict {
+    let engines = [("candidate", engine, Some(tolerance))];
+    let none: [(&str, LineEngine); 0] = [];
+    drive(&TriangleContest::new(&engines), &LineContest::new(&none), options, &|_| ())
+}
+
+/// Judges pixels and values of any line drawer against the oracle.
+pub fn judge_lines<D: DrawLine + Sync>(engine: &D, options: &Options) -> Verdict {
+    let none: [(&str, Engine, Option<Tolerance>); 0] = [];
+    let engines = [("candidate", engine)];
+    drive(&TriangleContest::new(&none), &LineContest::new(&engines), options, &|_| ())
+}
+
+/// Cases that a thread judges in one go.
+const BLOCK: u64 = 64;
+/// Failing cases kept for each family and pair, and shown for each pair in all.
+const KEPT: usize = 2;
+
+/// What a block of cases of one family came to.
+struct Partial {
+    report: FamilyReport,
+    /// Pair and number of failing cases, lowest numbers first.
+    failing: Vec<(usize, u64)>,
+}
+
+fn drive(
+    triangles: &impl Contest,
+    lines: &impl Contest,
+    options: &Options,
+    progress: &(dyn Fn(u64) + Sync),
+) -> Verdict {
+    let start = Instant::now();
+    let expired = || options.time_limit.is_some_and(|limit| start.elapsed() >= limit);
+    let wanted = |pairs: Vec<[String; 2]>, family: &Family| {
+        (options.wants(family) && !pairs.is_empty()).then_some(pairs)
+    };
+    let chosen: Vec<(&Family, bool, Vec<[String; 2]>)> = crate::hazard::triangles::FAMILIES
+        .iter()
+        .filter_map(|f| Some((f, false, wanted(triangles.pairs(), f)?)))
+        .chain(
+            crate::hazard::lines::FAMILIES
+                .iter()
+                .filter_map(|f| Some((f, true, wanted(lines.pairs(), f)?))),
+        )
+        .collect();
+    let judge = |lines_family: bool, case: &Case| {
+        if lines_family { lines.judge(case) } else { triangles.judge(case) }
+    };
+
+    let mut partials: Vec<Option<Partial>> = chosen.iter().map(|_| None).collect();
+    // With a time limit, families advance together, a block at a time.
+    let rounds = if options.time_limit.is_some() { BLOCK * 8 } else { options.cases.max(1) };
+    let mut done = 0;
+    while done < options.cases && !(done > 0 && expired()) {
+        let end = options.cases.min(done + rounds);
+        for (slot, (family, is_line, pairs)) in partials.iter_mut().zip(&chosen) {
+            let blocks: Vec<u64> = (done..end).step_by(BLOCK as usize).collect();
+            let merged = blocks
+                .into_par_iter()
+                .map(|first| {
+                    let indices = first..end.min(first + BLOCK);
+                    let partial = judge_block(family, *is_line, pairs, indices, options, &judge);
+                    progress(partial.report.cases);
+                    partial
+                })
+                .reduce_with(Partial::merge);
+            *slot = match (slot.take(), merged) {
+                (Some(a), Some(b)) => Some(a.merge(b)),
+                (a, b) => a.or(b),
+            };
+        }
+        done = end;
+    }
+    let partials: Vec<Partial> = partials.into_iter().flatten().collect();
+    let failures = shrink_failures(&partials, &chosen, options, &judge);
+    Verdict {
+        options: options.clone(),
+        families: partials.into_iter().map(|partial| partial.report).collect(),
+        failures,
+    }
+}
+
+fn judge_block(
+    family: &Family,
+    lines: bool,
+    pairs: &[[String; 2]],
+    indices: std::ops::Range<u64>,
+    options: &Options,
+    judge: &impl Fn(bool, &Case) -> (contest::CaseFacts, Vec<Finding>),
+) -> Partial {
+    let mut report = FamilyReport::new(family, lines, pairs);
+    let mut failing = Vec::new();
+    let (part, parts) = options.shard;
+    for index in indices {
+        if index % parts != part || options.only.is_some_and(|only| only != index) {
+            continue;
+        }
+        let (facts, findings) = judge(lines, &family.case(options.seed, index));
+        report.count(&facts);
+        for (pair, finding) in findings.iter().enumerate() {
+            report.pairs[pair].count(index, finding);
+            if finding.is_wrong() && failing.iter().filter(|(p, _)| *p == pair).count() < KEPT {
+                failing.push((pair, index));
+            }
+        }
+    }
+    Partial { report, failing }
+}
+
+impl Partial {
+    /// Sums and maxima: the same for any order of merging.
+    fn merge(mut self, other: Self) -> Self {
+        let (a, b) = (&mut self.report, &other.report);
+        a.cases += b.cases;
+        a.shapes += b.shapes;
+        a.pixels += b.pixels;
+        a.tie_cases += b.tie_cases;
+        a.sliver_cases += b.sliver_cases;
+        a.empty_cases += b.empty_cases;
+        a.oracle_overlap += b.oracle_overlap;
+        for (a, b) in a.pairs.iter_mut().zip(&b.pairs) {
+            a.tally += b.tally;
+            a.worst_case = match a.worst().total_cmp(&b.worst()) {
+                Ordering::Less => b.worst_case,
+                Ordering::Equal => a.worst_case.min(b.worst_case),
+                Ordering::Greater => a.worst_case,
+            };
+            a.worst_attribute = a.worst_attribute.max(b.worst_attribute);
+            a.worst_depth = a.worst_depth.max(b.worst_depth);
+            a.values += b.values;
+            a.panics += b.panics;
+            a.wrong_cases += b.wrong_cases;
+        }
+        self.failing.extend(other.failing);
+        self.failing.sort_by_key(|&(pair, index)| (pair, index));
+        let pairs = self.report.pairs.len();
+        self.failing = (0..pairs)
+            .flat_map(|pair| self.failing.iter().filter(move |f| f.0 == pair).take(KEPT).copied())
+            .collect();
+        self
+    }
+}
+
+impl FamilyReport {
+    fn new(family: &Family, lines: bool, pairs: &[[String; 2]]) -> Self {
+        let pairs = pairs.iter().map(|[actual, target]| PairReport {
+            actual: actual.clone(),
+            target: target.clone(),
+            tally: Tally::default(),
+            worst_attribute: 0.0,
+            worst_depth: 0.0,
+            worst_case: u64::MAX,
+            values: 0,
+            panics: 0,
+            wrong_cases: 0,
+        });
+        Self {
+            family: family.name.to_owned(),
+            cases: 0,
+            shapes: 0,
+            lines,
+            pixels: 0,
+            tie_cases: 0,
+            sliver_cases: 0,
+            empty_cases: 0,
+            oracle_overlap: 0,
+            pairs: pairs.collect(),
+        }
+    }
+
+    fn count(&mut self, facts: &contest::CaseFacts) {
+        self.cases += 1;
+        self.shapes += facts.shapes;
+        self.pixels += facts.pixels;
+        self.tie_cases += u64::from(facts.ties > 0);
+        self.sliver_cases += u64::from(facts.sliver);
+        self.empty_cases += u64::from(facts.pixels == 0);
+        self.oracle_overlap += facts.overlap;
+    }
+}
+
+impl PairReport {
+    /// The larger of the two worst differences, each as a fraction of its bound.
+    #[must_use]
+    pub fn worst(&self) -> f64 {
+        self.worst_attribute.max(self.worst_depth)
+    }
+
+    fn count(&mut self, index: u64, finding: &Finding) {
+        self.tally += finding.tally;
+        if finding.attribute.max(finding.depth) > self.worst() {
+            self.worst_case = index;
+        }
+        self.worst_attribute = self.worst_attribute.max(finding.attribute);
+        self.worst_depth = self.worst_depth.max(finding.depth);
+        self.values += finding.values;
+        self.panics += u64::from(finding.panic.is_some());
+        self.wrong_cases += u64::from(finding.is_wrong());
+    }
+}
+
+/// Shrinks the first failing cases of each pair.
+fn shrink_failures(
+    partials: &[Partial],
+    chosen: &[(&Family, bool, Vec<[String; 2]>)],
+    options: &Options,
+    judge: &impl Fn(bool, &Case) -> (contest::CaseFacts, Vec<Finding>),
+) -> Vec<Failure> {
+    let mut shown: Vec<([String; 2], usize)> = Vec::new();
+    let mut failures = Vec::new();
+    for (partial, (family, lines, pairs)) in partials.iter().zip(chosen) {
+        for &(pair, index) in &partial.failing {
+            let name = &pairs[pair];
+            let entry = match shown.iter_mut().find(|(p, _)| p == name) {
+                Some(entry) => entry,
+                None => {
+                    shown.push((name.clone(), 0));
+                    shown.last_mut().expect("just pushed")
+                }
+            };
+            if entry.1 == KEPT {
+                continue;
+            }
+            entry.1 += 1;
+            let original = family.case(options.seed, index);
+            let case = shrink::shrink(original, |case| judge(*lines, case).1[pair].is_wrong());
+            let what = judge(*lines, &case).1[pair].describe();
+            failures.push(Failure {
+                family: family.name.to_owned(),
+                index,
+                seed: options.seed,
+                pair: name.clone(),
+                what,
+                case,
+            });
+        }
+    }
+    failures
+}
+
+/// Judges one case by the line-up; what [`judge_lineup`] does for each generated case.
+#[must_use]
+pub fn judge_case(
+    engines: &[(Engine, Tolerance)],
+    lines: &[LineEngine],
+    case: &Case,
+) -> Vec<([String; 2], Finding)> {
+    let engines: Vec<_> = engines.iter().map(|(e, t)| (e.name(), *e, Some(*t))).collect();
+    let lines: Vec<_> = lines.iter().map(|e| (e.name(), *e)).collect();
+    let (triangles, lines) = (TriangleContest::new(&engines), LineContest::new(&lines));
+    let (pairs, findings) = match case.shape {
+        Shape::Triangles { .. } => (triangles.pairs(), triangles.judge(case).1),
+        Shape::Lines(_) => (lines.pairs(), lines.judge(case).1),
+    };
+    pairs.into_iter().zip(findings).collect()
+}
