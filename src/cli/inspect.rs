@@ -30,15 +30,15 @@ use crate::verify::{self, Tally, engine_coverage, line_coverage, oracle_coverage
 In the grids: # agrees with the oracle, - missing, + extra, 2 twice, * rightly more than once.
 In the picture: grey agrees, red missing, orange extra, violet twice; engines from left to right,
 the oracle last; blue edges, dark samples.")]
-pub struct Arguments {
+pub struct InspectArguments {
     /// A named case, FAMILY#NUMBER, or the corners as x,y in pixels
-    #[arg(value_name = "CASE or X,Y", required = true, num_args = 1..=3, allow_hyphen_values = true)]
+    #[arg(value_name = "CASE or X,Y", required = true, num_args = 1..=3)]
     what: Vec<String>,
     /// The two points are the end pixels of a line
     #[arg(long)]
     line: bool,
     /// The pixels to show, as WIDTHxHEIGHT or X,Y,WIDTHxHEIGHT [default: around the shape]
-    #[arg(long, value_name = "WxH", value_parser = parse_window, allow_hyphen_values = true)]
+    #[arg(long, value_name = "WxH", value_parser = parse_window)]
     window: Option<PixelRect>,
     /// Seed of FAMILY#NUMBER
     #[arg(long, value_name = "N", default_value_t = 1)]
@@ -54,7 +54,7 @@ fn parse_window(text: &str) -> Result<PixelRect, String> {
             "expected WIDTHxHEIGHT or X,Y,WIDTHxHEIGHT with sides from 1 to {MAX_SIDE_PX}, for example 64x48"
         )
     };
-    let (origin, size) = text.rsplit_once(',').map_or((None, text), |(o, s)| (Some(o), s));
+    let (origin, size) = text.trim().rsplit_once(',').map_or((None, text), |(o, s)| (Some(o), s));
     let (width, height) = size.split_once('x').ok_or_else(wrong)?;
     let side = |text: &str| text.parse::<u32>().ok().filter(|s| (1..=MAX_SIDE_PX).contains(s));
     let (width, height) = (side(width).ok_or_else(wrong)?, side(height).ok_or_else(wrong)?);
@@ -69,7 +69,7 @@ fn parse_window(text: &str) -> Result<PixelRect, String> {
     Ok(PixelRect { x0, y0, x1: end(x0, width)?, y1: end(y0, height)? })
 }
 
-pub fn run(arguments: &Arguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+pub fn run(arguments: &InspectArguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
     let out = &mut *streams.output;
     let (title, mut case, expected) = match find(arguments)? {
         Found::Case { title, case, expected } => (title, case, expected),
@@ -125,7 +125,7 @@ enum Found {
     Refused { title: String, corners: Vec<[[f64; 2]; 3]> },
 }
 
-fn find(arguments: &Arguments) -> Result<Found, Failure> {
+fn find(arguments: &InspectArguments) -> Result<Found, Failure> {
     let words = &arguments.what;
     let generated = |title: String, case: Case| Found::Case { title, case, expected: None };
     match (words.as_slice(), arguments.line) {
@@ -199,7 +199,8 @@ fn unknown(kind: &str, word: &str, names: impl Iterator<Item = &'static str>) ->
 }
 
 fn parse_point(text: &str) -> Result<SubpixelPoint, Failure> {
-    let numbers = text.split_once(',').and_then(|(x, y)| Some((x.parse().ok()?, y.parse().ok()?)));
+    let numbers =
+        text.trim().split_once(',').and_then(|(x, y)| Some((x.parse().ok()?, y.parse().ok()?)));
     let (x, y) = numbers.ok_or_else(|| {
         usage(format!(
             "'{text}' is not a point: expected X,Y in pixels, for example 0.5,3 (or a named case)"
@@ -209,7 +210,8 @@ fn parse_point(text: &str) -> Result<SubpixelPoint, Failure> {
 }
 
 fn parse_pixel(text: &str) -> Result<PixelPoint, Failure> {
-    let numbers = text.split_once(',').and_then(|(x, y)| Some((x.parse().ok()?, y.parse().ok()?)));
+    let numbers =
+        text.trim().split_once(',').and_then(|(x, y)| Some((x.parse().ok()?, y.parse().ok()?)));
     let (x, y) = numbers.ok_or_else(|| {
         usage(format!("'{text}' is not a pixel: expected two whole numbers X,Y within 32 bits, for example 8,3"))
     })?;

@@ -15,7 +15,7 @@ use crate::verify::{self, Options, Verdict};
 
 /// Options of `verify`.
 #[derive(clap::Args, Debug)]
-pub struct Arguments {
+pub struct VerifyArguments {
     /// Cases of each family [default: 20000]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     cases: Option<u64>,
@@ -62,7 +62,7 @@ fn parse_shard(text: &str) -> Result<(u64, u64), String> {
     }
 }
 
-impl Arguments {
+impl VerifyArguments {
     fn options(&self) -> Result<Options, Failure> {
         let limit = match self.seconds {
             None => None,
@@ -147,7 +147,7 @@ pub fn with_tolerance(engine: Engine) -> (Engine, Tolerance) {
 /// Folder of everything this command writes.
 const FOLDER: &str = "target/rasterproof";
 
-pub fn run(arguments: &Arguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+pub fn run(arguments: &VerifyArguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
     let mut options = arguments.options()?;
     if let Some(case) = options.only {
         options.cases =
@@ -197,7 +197,7 @@ fn judge(
 }
 
 fn print(
-    arguments: &Arguments,
+    arguments: &VerifyArguments,
     verdict: &Verdict,
     engines: &[(Engine, Tolerance)],
     lines: &[LineEngine],
@@ -228,7 +228,7 @@ fn print(
 
 /// Shows each shrunk failure as characters and all of them as one picture.
 fn failures(
-    arguments: &Arguments,
+    arguments: &VerifyArguments,
     verdict: &Verdict,
     engines: &[(Engine, Tolerance)],
     lines: &[LineEngine],
@@ -252,7 +252,7 @@ fn failures(
 
 /// Draws the cases whose values came closest to their bounds.
 fn worst_cases(
-    arguments: &Arguments,
+    arguments: &VerifyArguments,
     verdict: &Verdict,
     engines: &[(Engine, Tolerance)],
     lines: &[LineEngine],

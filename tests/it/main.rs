@@ -1,1 +1,8 @@
+//! The tests other than the differential table, in one binary.
 
+mod commands;
+mod house;
+mod mutants;
+mod protocol;
+mod recorded;
+mod snapshots;
