@@ -7,7 +7,7 @@ use image::RgbImage;
 use super::verify::with_tolerance;
 use super::{Failure, Streams, exit, usage, write_file};
 use crate::frame::Coverage;
-use crate::grid::{MAX_SIDE_PX, PixelRect, SUBPIXELS, SubpixelPoint};
+use crate::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
 use crate::hazard::named::{self, Input};
 use crate::hazard::{self, Case, Line, Shape};
 use crate::lineup::{Engine, LineEngine};
@@ -48,15 +48,18 @@ pub struct InspectArguments {
     output: Option<PathBuf>,
 }
 
+/// Largest side of a window to look at: every engine gets a panel of the picture.
+const MOST_SIDE_PX: u32 = 2048;
+
 fn parse_window(text: &str) -> Result<PixelRect, String> {
     let wrong = || {
         format!(
-            "expected WIDTHxHEIGHT or X,Y,WIDTHxHEIGHT with sides from 1 to {MAX_SIDE_PX}, for example 64x48"
+            "expected WIDTHxHEIGHT or X,Y,WIDTHxHEIGHT with sides from 1 to {MOST_SIDE_PX}, for example 64x48"
         )
     };
     let (origin, size) = text.trim().rsplit_once(',').map_or((None, text), |(o, s)| (Some(o), s));
     let (width, height) = size.split_once('x').ok_or_else(wrong)?;
-    let side = |text: &str| text.parse::<u32>().ok().filter(|s| (1..=MAX_SIDE_PX).contains(s));
+    let side = |text: &str| text.parse::<u32>().ok().filter(|s| (1..=MOST_SIDE_PX).contains(s));
     let (width, height) = (side(width).ok_or_else(wrong)?, side(height).ok_or_else(wrong)?);
     let (x0, y0) = match origin {
         None => (0, 0),

@@ -109,7 +109,8 @@ pub struct Streams<'a> {
 pub fn run(words: impl IntoIterator<Item = String>, streams: &mut Streams<'_>) -> u8 {
     // A coordinate such as -1.5,3 is no option: a space in front tells the parser so.
     let is_coordinate = |word: &str| {
-        word.starts_with('-') && word[1..].starts_with(|c: char| c.is_ascii_digit() || c == '.')
+        let number = |c: char| c.is_ascii_digit() || c == '.';
+        word.contains(',') && word.strip_prefix('-').is_some_and(|rest| rest.starts_with(number))
     };
     let words = words.into_iter().map(|w| if is_coordinate(&w) { format!(" {w}") } else { w });
     let arguments = match Arguments::try_parse_from(words) {

@@ -148,11 +148,7 @@ pub fn with_tolerance(engine: Engine) -> (Engine, Tolerance) {
 const FOLDER: &str = "target/rasterproof";
 
 pub fn run(arguments: &VerifyArguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
-    let mut options = arguments.options()?;
-    if let Some(case) = options.only {
-        options.cases =
-            case.checked_add(1).ok_or_else(|| usage("--case: the number is too large"))?;
-    }
+    let options = arguments.options()?;
     let (engines, lines) = arguments.contestants();
     let verdict = judge(&engines, &lines, &options, streams.progress);
     if verdict.families.iter().all(|family| family.cases == 0) {
@@ -180,7 +176,9 @@ fn judge(
     let bar = match (progress && options.only.is_none(), options.time_limit) {
         (false, _) => ProgressBar::hidden(),
         (true, Some(_)) => ProgressBar::new_spinner(),
-        (true, None) => ProgressBar::new(families.count() as u64 * options.cases / options.shard.1),
+        (true, None) => ProgressBar::new(
+            (families.count() as u64).saturating_mul(options.cases) / options.shard.1,
+        ),
     };
     if progress {
         bar.set_draw_target(ProgressDrawTarget::stderr_with_hz(8));

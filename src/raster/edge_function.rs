@@ -212,6 +212,7 @@ fn pixel_box(corners: &Corners, bounds: PixelRect) -> PixelRect {
     };
     let (x0, x1) = range(corners.map(|corner| corner.x));
     let (y0, y1) = range(corners.map(|corner| corner.y));
+    // Written out: a call of `intersect` that is not inlined costs more than the four choices.
     PixelRect {
         x0: x0.max(bounds.x0),
         y0: y0.max(bounds.y0),

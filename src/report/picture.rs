@@ -51,7 +51,9 @@ pub fn panels(case: &Case, actual: &[Coverage], target: &Coverage) -> RgbImage {
 /// Picture pixels for each pixel of the window.
 fn zoom(window: PixelRect, count: u32) -> u32 {
     let widest = window.width().saturating_mul(count).max(window.height()).max(1);
-    (MOST_PX / widest).clamp(1, 16)
+    // A case of a few pixels is shown larger.
+    let largest = if window.width().max(window.height()) <= 8 { 40 } else { 16 };
+    (MOST_PX / widest).clamp(1, largest)
 }
 
 fn squares(image: &mut RgbImage, left: u32, zoom: u32, actual: &Coverage, target: &Coverage) {
@@ -67,7 +69,7 @@ fn squares(image: &mut RgbImage, left: u32, zoom: u32, actual: &Coverage, target
                 BORDER
             } else if on_grid {
                 GRID
-            } else if zoom >= 8 && x % zoom == zoom / 2 && y % zoom == zoom / 2 {
+            } else if zoom >= 8 && is_sample(x % zoom, zoom) && is_sample(y % zoom, zoom) {
                 SAMPLE
             } else {
                 colour(hits(actual), hits(target))
@@ -75,6 +77,11 @@ fn squares(image: &mut RgbImage, left: u32, zoom: u32, actual: &Coverage, target
             image.put_pixel(left + x, y, colour);
         }
     }
+}
+
+/// Whether a picture pixel lies on the dot in the middle of a square.
+fn is_sample(offset: u32, zoom: u32) -> bool {
+    offset.abs_diff(zoom / 2) <= zoom / 32
 }
 
 fn colour(actual: u8, target: u8) -> Rgb<u8> {
