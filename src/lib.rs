@@ -43,6 +43,7 @@ pub mod mutant;
 pub mod oracle;
 pub mod raster;
 pub mod report;
+pub mod specimen;
 pub mod triangle;
 pub mod verify;
 

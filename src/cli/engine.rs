@@ -2,14 +2,15 @@
 //!
 //! A request is a line of words; an answer is a line, flushed before the next request is read. A
 //! request that cannot be read, or asks for what is outside the domain, is answered `E id reason`
-//! and the engine goes on. Positions are window pixels, y down, snapped to 1/256 px half to even.
+//! and the engine goes on. Positions are window pixels, y down, snapped to 1/256 px half to even;
+//! specimens take them as they are.
 
 use std::fmt::Write as _;
 use std::io::{BufRead, Read as _, Write};
 
 use glam::DVec2;
 
-use super::{Failure, Streams, exit};
+use super::{Failure, Streams, exit, published};
 use crate::contract::{DrawLine, Interpolate, Rasterize};
 use crate::grid::{MAX_SIDE_PX, PixelRect, Refusal, SUBPIXELS, SubpixelPoint};
 use crate::lineup::{self, Engine, Entry, LineEngine};
@@ -92,7 +93,7 @@ impl From<std::io::Error> for Stop {
     }
 }
 
-fn answer(entry: &Entry, text: &str, out: &mut dyn Write) -> Result<(), Stop> {
+fn answer(entry: &'static Entry, text: &str, out: &mut dyn Write) -> Result<(), Stop> {
     let words: Vec<&str> = text.split_whitespace().collect();
     let (verb, rest) = words.split_first().map_or(("", &[][..]), |(verb, rest)| (*verb, rest));
     if verb == "HELLO" {
@@ -115,6 +116,7 @@ fn answer(entry: &Entry, text: &str, out: &mut dyn Write) -> Result<(), Stop> {
         ("T", Some(engine), _) => Speaker::Cover(engine),
         ("I", Some(engine), _) => Speaker::Values(engine),
         ("L", _, Some(engine)) => Speaker::Line(engine),
+        _ if published::speaks(entry, verb) => Speaker::Published(entry),
         _ => return Err(refused("unsupported".to_owned())),
     };
     if rest.len() != count + 3 {
@@ -134,6 +136,7 @@ fn answer(entry: &Entry, text: &str, out: &mut dyn Write) -> Result<(), Stop> {
     let reply = match engine {
         Speaker::Cover(engine) => cover(engine, window, &numbers),
         Speaker::Line(engine) => line(engine, window, &numbers),
+        Speaker::Published(entry) => published::answer(entry, verb, window, &numbers),
         Speaker::Values(engine) => {
             return match values(engine, window, &numbers) {
                 Ok((triangle, n)) => write_fragments(engine, &triangle, window, id, n, out),
@@ -150,6 +153,7 @@ enum Speaker {
     Cover(Engine),
     Values(Engine),
     Line(LineEngine),
+    Published(&'static Entry),
 }
 
 fn hello(entry: &Entry, rest: &[&str], out: &mut dyn Write) -> Result<(), Stop> {
@@ -163,6 +167,7 @@ fn hello(entry: &Entry, rest: &[&str], out: &mut dyn Write) -> Result<(), Stop> 
     if entry.line_engine.is_some() {
         capabilities.push("line");
     }
+    capabilities.extend(published::capabilities(entry));
     Ok(writeln!(out, "HELLO 1 {} {}", entry.name, capabilities.join(" "))?)
 }
 
@@ -199,7 +204,7 @@ fn number(word: &str) -> Option<f64> {
         .flatten()
 }
 
-fn named(name: &str) -> impl FnOnce(Refusal) -> String {
+pub(super) fn named(name: &str) -> impl FnOnce(Refusal) -> String {
     move |refusal| format!("{name} {refusal}")
 }
 
@@ -209,7 +214,7 @@ fn point(numbers: &[f64], i: usize) -> Result<SubpixelPoint, String> {
     Ok(SubpixelPoint::new(snap(numbers[0], "x")?, snap(numbers[1], "y")?))
 }
 
-type Reply = Result<(char, usize, String), String>;
+pub(super) type Reply = Result<(char, usize, String), String>;
 
 fn cover(engine: Engine, window: PixelRect, numbers: &[f64]) -> Reply {
     let corners = [point(&numbers[0..], 0)?, point(&numbers[2..], 1)?, point(&numbers[4..], 2)?];

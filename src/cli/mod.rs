@@ -2,6 +2,7 @@
 
 mod engine;
 mod inspect;
+mod published;
 mod verify;
 
 use std::fmt;
@@ -62,7 +63,7 @@ enum Command {
 }
 
 fn engine_names() -> Vec<&'static str> {
-    lineup::ENTRIES.iter().map(|entry| entry.name).collect()
+    lineup::ENTRIES.iter().chain(&lineup::SPECIMENS).map(|entry| entry.name).collect()
 }
 
 /// Something wrong with the input: what, and what to do about it.
@@ -168,8 +169,8 @@ fn list(streams: &mut Streams<'_>) -> Result<u8, Failure> {
         writeln!(out, "  {:<5} {}", case.name, case.about)?;
     }
     writeln!(out, "\nEngines (rasterproof engine NAME):")?;
-    for entry in &lineup::ENTRIES {
-        writeln!(out, "  {:<14} {}", entry.name, entry.about)?;
+    for entry in lineup::ENTRIES.iter().chain(&lineup::SPECIMENS) {
+        writeln!(out, "  {:<15} {}", entry.name, entry.about)?;
     }
     Ok(exit::AGREES)
 }

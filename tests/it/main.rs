@@ -1,5 +1,6 @@
 //! The tests other than the differential table, in one binary.
 
+mod book;
 mod commands;
 mod house;
 mod mutants;

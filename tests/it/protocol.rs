@@ -139,3 +139,35 @@ fn absurd_windows_are_bounded() {
         "E big 134209536 fragments; the oracle computes at most 1048576 for a request",
     );
 }
+
+/// Specimens take positions as they are, hit pixels twice and say why they do not draw.
+#[test]
+fn specimens_speak_too() {
+    check("book-ch2", "HELLO 1", "HELLO 1 book-ch2 coverage");
+    check("book-ch11-fixed", "HELLO 1", "HELLO 1 book-ch11-fixed coverage attributes");
+    check("book-dda", "HELLO 1", "HELLO 1 book-dda line");
+    // A triangle that holds no sample, drawn twice.
+    check("book-ch2", "T n 64 64 1.7 62.3 2.3 62.3 2 61.7", "C n 2 62 1 2 62 1 2");
+    // Figure 2-4: a flat edge leaves the triangle, which chapter 2 clamps and chapter 3 does not.
+    let flat = "T f 64 64 4.75 60.50001 4 60.49999 5.55 60.49999";
+    check("book-ch2", flat, "C f 3 61 4 5 60 3 6 60 5 6");
+    check("book-ch3", flat, "C f 3 61 4 5 60 0 64 60 3 6");
+    check("book-dda", "L e 64 64 0.5 62.5 3.5 59.5", "P e 3 0 62 1 61 2 60");
+    let overflow = "E o the published code converts 2.9999999995e9 to an int, which is undefined";
+    check("book-ch2", "T o 64 64 3e9 63.5 3000000008 63.5 3e9 55.5", overflow);
+    let far = "T h 64 64 -1e9 -1e9 1e9 1e9 3 2e9";
+    assert!(
+        ask("book-ch2", format!("{far}\n").as_bytes())[0].starts_with("E h the published loop")
+    );
+    check("book-ch2", "T x 8 8 0 nan 1 1 2 2", "E x y0 is not a number (NaN)");
+    check("book-ch2", "I v 8 8 0 0 0 1 0 0 1 1 0 1 0 0 2 2 0 1 0 0", "E v unsupported");
+    check(
+        "book-ch11",
+        "I w 8 8 0 0 0 0 0 0 1 1 0 1 0 0 2 2 0 1 0 0",
+        "E w w0 0e0 is outside the accepted range [6.223015277861142e-61, 1.6069380442589903e60]",
+    );
+    // The smallest division by zero: pixel (10, 4) of the book's screen.
+    let values =
+        ask("book-ch11", b"I z 64 64 10.25 59.5 0 1 0 0 10.75 59.5 0 2 1 0 10.5 55.5 0 1 0 1\n");
+    assert!(values[0].contains(" 10 59 0 inf "), "{}", values[0]);
+}

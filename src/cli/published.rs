@@ -1,0 +1,118 @@
+//! The answers of specimens in the line protocol: positions are taken as they are, not snapped.
+//!
+//! A pixel that the published code sets twice appears in two runs. What it does not define, or would
+//! not end, is answered `E id reason`.
+
+use std::fmt::Write as _;
+
+use glam::DVec2;
+
+use super::engine::{Reply, named};
+use crate::grid::{PixelRect, Refusal};
+use crate::lineup::{Entry, LineSpecimen, Specimen, TriangleSpecimen};
+use crate::specimen::{Published as _, PublishedLine as _, RealTriangle, RealVertex, bare};
+use crate::triangle::{MAX_W, MIN_W, check_value};
+
+/// Fragments that a specimen computes for one request: its answer is collected before it is sent.
+const MOST_FRAGMENTS: u64 = 1 << 20;
+
+/// Whether this entry is a specimen that answers the verb.
+pub fn speaks(entry: &Entry, verb: &str) -> bool {
+    match (entry.specimen, verb) {
+        (Some(Specimen::Triangle(_)), "T") | (Some(Specimen::Line(_)), "L") => true,
+        (Some(Specimen::Triangle(specimen)), "I") => specimen.has_values(),
+        _ => false,
+    }
+}
+
+/// What a specimen says of itself after HELLO; nothing for an engine.
+pub fn capabilities(entry: &Entry) -> impl Iterator<Item = &'static str> {
+    [("T", "coverage"), ("I", "attributes"), ("L", "line")]
+        .into_iter()
+        .filter_map(|(verb, capability)| speaks(entry, verb).then_some(capability))
+}
+
+/// Answers a request that [`speaks`] accepts.
+pub fn answer(entry: &Entry, verb: &str, window: PixelRect, numbers: &[f64]) -> Reply {
+    match (entry.specimen, verb) {
+        (Some(Specimen::Triangle(specimen)), "T") => cover(specimen, window, numbers),
+        (Some(Specimen::Triangle(specimen)), "I") => values(specimen, window, numbers),
+        (Some(Specimen::Line(specimen)), "L") => line(specimen, window, numbers),
+        _ => Err("unsupported".to_owned()),
+    }
+}
+
+/// A position, finite.
+fn point(numbers: &[f64], i: usize) -> Result<[f64; 2], String> {
+    for (value, axis) in numbers.iter().zip(["x", "y"]) {
+        let name = format!("{axis}{i}");
+        if value.is_nan() {
+            return Err(named(&name)(Refusal::NotANumber));
+        } else if value.is_infinite() {
+            return Err(named(&name)(Refusal::Infinite));
+        }
+    }
+    Ok([numbers[0], numbers[1]])
+}
+
+fn cover(specimen: TriangleSpecimen, window: PixelRect, numbers: &[f64]) -> Reply {
+    let corners = [point(numbers, 0)?, point(&numbers[2..], 1)?, point(&numbers[4..], 2)?];
+    let (mut runs, mut n) = (String::new(), 0);
+    specimen
+        .cover(&bare(corners), window, |span| {
+            n += 1;
+            // Writing to a string does not fail.
+            let _ = write!(runs, " {} {} {}", span.y_px, span.x0_px, span.x1_px);
+        })
+        .map_err(|refused| refused.to_string())?;
+    Ok(('C', n, runs))
+}
+
+fn line(specimen: LineSpecimen, window: PixelRect, numbers: &[f64]) -> Reply {
+    let ends = [point(numbers, 0)?, point(&numbers[2..], 1)?];
+    let (mut pixels, mut n) = (String::new(), 0);
+    specimen
+        .draw(ends, window, |x_px, y_px| {
+            n += 1;
+            let _ = write!(pixels, " {x_px} {y_px}");
+        })
+        .map_err(|refused| refused.to_string())?;
+    Ok(('P', n, pixels))
+}
+
+fn values(specimen: TriangleSpecimen, window: PixelRect, numbers: &[f64]) -> Reply {
+    let vertex = |i: usize| -> Result<RealVertex, String> {
+        let [_, _, depth, w, a, b] = [0, 1, 2, 3, 4, 5].map(|k| numbers[6 * i + k]);
+        for (name, value) in [("z", depth), ("a", a), ("b", b)] {
+            check_value(value).map_err(named(&format!("{name}{i}")))?;
+        }
+        if !(MIN_W..=MAX_W).contains(&w) {
+            return Err(named(&format!("w{i}"))(Refusal::OutOfRange {
+                value: w,
+                min: MIN_W,
+                max: MAX_W,
+            }));
+        }
+        let position_px = point(&numbers[6 * i..], i)?.into();
+        Ok(RealVertex { position_px, depth, w, varying: DVec2::new(a, b) })
+    };
+    let triangle: RealTriangle = [vertex(0)?, vertex(1)?, vertex(2)?];
+    let mut pixels = 0;
+    specimen
+        .cover(&triangle, window, |span| pixels += u64::from(span.x0_px.abs_diff(span.x1_px)))
+        .map_err(|refused| refused.to_string())?;
+    if pixels > MOST_FRAGMENTS {
+        return Err(format!(
+            "{pixels} fragments; a specimen computes at most {MOST_FRAGMENTS} for a request"
+        ));
+    }
+    let (mut fragments, mut n) = (String::new(), 0);
+    specimen
+        .fragments(&triangle, window, |f| {
+            n += 1;
+            let (a, b) = (f.varying.x, f.varying.y);
+            let _ = write!(fragments, " {} {} {} {a} {b}", f.x_px, f.y_px, f.depth);
+        })
+        .map_err(|refused| refused.to_string())?;
+    Ok(('F', n, fragments))
+}

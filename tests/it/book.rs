@@ -1,0 +1,394 @@
+//! What the book's own code drew (`tests/data/book-*`), against its specimens: hit counts must be
+//! equal, double hits included, and each recorded fault must show.
+
+use std::collections::HashMap;
+use std::io::{BufRead, BufReader};
+
+use flate2::read::GzDecoder;
+use glam::{DVec2, DVec4};
+use rasterproof::grid::PixelRect;
+use rasterproof::specimen::book_dda::BookDda;
+use rasterproof::specimen::book_final::{BookFinal, clip};
+use rasterproof::specimen::book_near_clip::clip_near;
+use rasterproof::specimen::book_triangle::{BookChapter2, cover_book};
+use rasterproof::specimen::{ClipVertex, Published, PublishedLine, RealTriangle, Refused, bare};
+use serde_json::Value;
+
+/// The book's screen has 64 rows and columns.
+const SIDE: u32 = 64;
+
+fn records(name: &str) -> Vec<Value> {
+    let path = format!("{}/tests/data/{name}.jsonl.gz", env!("CARGO_MANIFEST_DIR"));
+    let file = std::fs::File::open(&path).unwrap_or_else(|e| panic!("{path}: {e}"));
+    let lines = BufReader::new(GzDecoder::new(file)).lines();
+    // The first record tells how the others were made.
+    lines.skip(1).map(|line| serde_json::from_str(&line.unwrap()).unwrap()).collect()
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
+}
+
+fn items(value: &Value) -> &[Value] {
+    value.as_array().unwrap_or_else(|| panic!("{value} is no list"))
+}
+
+/// Positions in the book's coordinates (y up, samples at whole numbers) as window pixels.
+fn positions(points: &Value, side: u32) -> Vec<[f64; 2]> {
+    let point = |p: &Value| {
+        let (x, y) = (number(&p[0]), number(&p[1]));
+        [x + 0.5, f64::from(side) - y - 0.5]
+    };
+    items(points).iter().map(point).collect()
+}
+
+fn triangle(points: &[[f64; 2]]) -> RealTriangle {
+    bare([points[0], points[1], points[2]])
+}
+
+/// Hits by the book's row and column.
+type Hits = HashMap<(i64, i64), u64>;
+
+/// Recorded rows `[y, x0, count, ...]`, those within the window.
+fn recorded(rows: &Value, side: u32) -> Hits {
+    let mut hits = Hits::new();
+    for row in items(rows) {
+        let numbers: Vec<i64> = items(row).iter().map(|n| n.as_i64().unwrap()).collect();
+        for (i, &count) in numbers[2..].iter().enumerate() {
+            let (y, x) = (numbers[0], numbers[1] + i as i64);
+            if y < i64::from(side) && x < i64::from(side) {
+                assert!(hits.insert((y, x), count as u64).is_none(), "one count for each pixel");
+            }
+        }
+    }
+    hits
+}
+
+fn hits_of(specimen: &impl Published, triangle: &RealTriangle, side: u32) -> Hits {
+    let mut hits = Hits::new();
+    specimen
+        .cover(triangle, PixelRect::window(side, side), |span| {
+            for x in span.x0_px..span.x1_px {
+                *hits.entry((i64::from(side) - 1 - i64::from(span.y_px), x.into())).or_default() +=
+                    1;
+            }
+        })
+        .unwrap();
+    hits
+}
+
+#[test]
+fn book_triangles_as_recorded() {
+    let (mut twice, mut differ) = (0, 0);
+    for record in records("book-triangles") {
+        let id = &record["id"];
+        // The recorder ran chapter 11 on 65 x 65 pixels; a window of 64 is a part of that.
+        for side in [SIDE, SIDE + 1] {
+            let triangle = triangle(&positions(&record["v"], side));
+            let chapter_2_rows = recorded(&record["ch2"], SIDE);
+            if side == SIDE {
+                assert_eq!(chapter_2(&record["v"]), chapter_2_rows, "{id}: chapter 2");
+                assert_eq!(
+                    hits_of(&BookChapter2, &triangle, SIDE),
+                    chapter_2_rows,
+                    "{id}: chapter 2"
+                );
+                twice += chapter_2_rows.values().filter(|&&n| n > 1).count();
+            }
+            let rows = |name: &str, same: Hits| match record[name].as_str() {
+                Some(_) => same,
+                None => recorded(&record[name], side),
+            };
+            let chapter_11 = rows("ch11", chapter_2_rows.clone());
+            let fixed = rows("ch11_fixed", chapter_11.clone());
+            differ += usize::from(chapter_11 != chapter_2_rows);
+            let actual = |exercise| hits_of(&BookFinal { exercise }, &triangle, side);
+            assert_eq!(actual(false), chapter_11, "{id}: chapter 11, {side}");
+            assert_eq!(actual(true), fixed, "{id}: the exercise, {side}");
+        }
+    }
+    assert!(twice > 5000 && differ > 60, "{twice} pixels drawn twice, {differ} clipped or empty");
+}
+
+#[test]
+fn book_quads_as_recorded() {
+    for record in records("book-quads") {
+        let p = positions(&record["v"], SIDE);
+        for (name, split) in [("A", [p[0], p[1], p[2]]), ("B", [p[0], p[2], p[3]])] {
+            let expected = recorded(&record[name], SIDE);
+            assert_eq!(hits_of(&BookChapter2, &bare(split), SIDE), expected, "{}", record["id"]);
+            if record["ch11_same"] == true {
+                let chapter_11 = hits_of(&BookFinal { exercise: false }, &bare(split), SIDE);
+                assert_eq!(chapter_11, expected, "{}", record["id"]);
+            }
+        }
+    }
+}
+
+#[test]
+fn book_lines_as_recorded() {
+    for record in records("book-lines") {
+        let ends = positions(&record["v"], SIDE);
+        let mut hits = Hits::new();
+        BookDda
+            .draw([ends[0], ends[1]], PixelRect::window(SIDE, SIDE), |x, y| {
+                *hits.entry((i64::from(SIDE) - 1 - i64::from(y), x.into())).or_default() += 1;
+            })
+            .unwrap();
+        assert_eq!(hits, recorded(&record["rows"], SIDE), "{}", record["id"]);
+    }
+}
+
+/// Worst and mean distance of the varying from the pixel, pixels whose varying leaves the range of
+/// the corners, and by how much at worst, where the screen position itself is the varying.
+fn attribute_errors(points: &Value, exercise: bool) -> [f64; 4] {
+    let side = SIDE + 1;
+    let mut corners = triangle(&positions(points, side));
+    for (corner, v) in corners.iter_mut().zip(items(points)) {
+        corner.varying = DVec2::new(number(&v[0]), number(&v[1]));
+    }
+    let low = corners.map(|c| c.varying).into_iter().reduce(DVec2::min).unwrap();
+    let high = corners.map(|c| c.varying).into_iter().reduce(DVec2::max).unwrap();
+    let (mut worst, mut sum, mut pixels, mut outside, mut overshoot) = (0f64, 0.0, 0.0, 0.0, 0f64);
+    BookFinal { exercise }
+        .fragments(&corners, PixelRect::window(side, side), |f| {
+            let at = DVec2::new(f.x_px.into(), f64::from(side) - 1.0 - f64::from(f.y_px));
+            let error = (f.varying - at).abs().max_element();
+            let beyond = (low - f.varying).max(f.varying - high).max_element();
+            worst = worst.max(error);
+            sum += error;
+            pixels += 1.0;
+            outside += if beyond > 1e-9 { 1.0 } else { 0.0 };
+            overshoot = overshoot.max(beyond);
+        })
+        .unwrap();
+    [worst, sum / f64::max(pixels, 1.0), outside, overshoot]
+}
+
+#[test]
+fn book_attributes_as_recorded() {
+    let mut fixed = 0;
+    for record in records("book-triangles") {
+        for (exercise, name) in [(false, "attr"), (true, "attr_fixed")] {
+            let actual = attribute_errors(&record["v"], exercise);
+            for (i, (actual, target)) in actual.iter().zip(items(&record[name])).enumerate() {
+                // Recorded with six digits.
+                let target = number(target);
+                assert!(
+                    (actual - target).abs() <= 1e-5 * target.abs().max(1e-3),
+                    "{} {name}[{i}]: {actual}, recorded {target}",
+                    record["id"]
+                );
+            }
+        }
+        fixed += usize::from(record["attr"] != record["attr_fixed"]);
+    }
+    assert!(fixed > 100, "the exercise changes values of {fixed} triangles");
+}
+
+/// Fragments of the final triangle for corners `[x, y, z, w]`, by the book's row and column.
+fn final_values(corners: &Value, exercise: bool) -> HashMap<(i64, i64), (f64, DVec2)> {
+    let side = SIDE + 1;
+    let list = items(corners);
+    let mut triangle = triangle(&positions(corners, side));
+    for (i, corner) in triangle.iter_mut().enumerate() {
+        (corner.depth, corner.w) = (number(&list[i][2]), number(&list[i][3]));
+        corner.varying = DVec2::new(i as f64, number(&list[i][1]));
+    }
+    let mut values = HashMap::new();
+    BookFinal { exercise }
+        .fragments(&triangle, PixelRect::window(side, side), |f| {
+            let row = i64::from(side) - 1 - i64::from(f.y_px);
+            values.entry((row, f.x_px.into())).or_insert((f.depth, f.varying));
+        })
+        .unwrap();
+    values
+}
+
+/// Chapter 2 at exactly the recorded numbers: there and back again may round.
+fn chapter_2(points: &Value) -> Hits {
+    let corner = |i: usize| DVec2::new(number(&points[i][0]), number(&points[i][1]));
+    let mut hits = Hits::new();
+    cover_book([corner(0), corner(1), corner(2)], PixelRect::window(SIDE, SIDE), true, |span| {
+        for x in span.x0_px..span.x1_px {
+            *hits.entry((i64::from(SIDE) - 1 - i64::from(span.y_px), x.into())).or_default() += 1;
+        }
+    })
+    .unwrap();
+    hits
+}
+
+/// A quad's hits, split (0, 1, 2) and (0, 2, 3).
+fn quad(points: &Value) -> Hits {
+    let p = positions(points, SIDE);
+    let mut hits = hits_of(&BookChapter2, &bare([p[0], p[1], p[2]]), SIDE);
+    for (pixel, n) in hits_of(&BookChapter2, &bare([p[0], p[2], p[3]]), SIDE) {
+        *hits.entry(pixel).or_default() += n;
+    }
+    hits
+}
+
+/// The book's pixel `[x, y]`.
+fn at(pixel: &Value) -> (i64, i64) {
+    (pixel[1].as_i64().unwrap(), pixel[0].as_i64().unwrap())
+}
+
+fn count(hits: &Hits, pixel: &Value) -> u64 {
+    hits.get(&at(pixel)).copied().unwrap_or(0)
+}
+
+fn line(points: &Value) -> Vec<(i64, i64)> {
+    let ends = positions(points, SIDE);
+    let mut pixels = Vec::new();
+    BookDda
+        .draw([ends[0], ends[1]], PixelRect::window(SIDE, SIDE), |x, y| {
+            pixels.push((i64::from(SIDE) - 1 - i64::from(y), x.into()));
+        })
+        .unwrap();
+    pixels
+}
+
+/// Pixels that lie between two drawn ones of their row and are not drawn.
+fn cracks(hits: &Hits) -> usize {
+    let row = |y: i64| {
+        let xs: Vec<i64> = hits.keys().filter(|p| p.0 == y).map(|p| p.1).collect();
+        let (low, high) = (xs.iter().min(), xs.iter().max());
+        low.zip(high).map_or(0, |(low, high)| (high - low + 1) as usize - xs.len())
+    };
+    (0..i64::from(SIDE)).map(row).sum()
+}
+
+/// Every entry of `book-bugs.json` shows; `name` is its key.
+fn shows(name: &str, bug: &Value) {
+    match name {
+        "note" => {}
+        "double_row" => {
+            let hits = chapter_2(&bug["v"]);
+            assert!((2..=8).all(|x| hits[&(5, x)] == 2), "{hits:?}");
+        }
+        "no_sample" => {
+            assert_eq!(count(&chapter_2(&bug["v"]), &bug["px"][0]), bug["times"].as_u64().unwrap());
+        }
+        "floor_left" => {
+            let hits = chapter_2(&bug["v"]);
+            assert!(items(&bug["extra"]).iter().all(|pixel| count(&hits, pixel) == 1));
+        }
+        "y_phase" => {
+            let row = bug["extra_row"].as_i64().unwrap();
+            assert!(chapter_2(&bug["v"]).keys().any(|pixel| pixel.0 == row));
+        }
+        "fp_drift" => {
+            assert_eq!(count(&chapter_2(&bug["v"]), &bug["wrong"]), 1);
+            let other = chapter_2(&bug["other"]);
+            assert!(count(&other, &bug["other_extra"]) > 0);
+            assert_eq!(count(&other, &bug["other_missing"]), 0);
+        }
+        "shared_edge_double" => {
+            let twice = quad(&bug["quad"]).values().filter(|&&n| n > 1).count();
+            assert_eq!(twice, 19, "the diagonal, and what its truncation adds");
+        }
+        "shared_edge_crack" => {
+            assert_eq!(count(&quad(&bug["quad"]), &bug["never_drawn"]), 0);
+            assert_eq!(cracks(&quad(&bug["big"])) as u64, bug["big_cracks"].as_u64().unwrap());
+        }
+        "degenerate_drawn" => {
+            let hits = chapter_2(&bug["v"]);
+            assert_eq!(hits.values().sum::<u64>(), bug["px"].as_u64().unwrap());
+        }
+        "tiny_dropped" => assert_eq!(chapter_2(&bug["v"]), Hits::new()),
+        // Truncation towards zero leaves row 0 with the edge of height -0.75, one pixel too wide.
+        "negative_trunc" => assert!(chapter_2(&bug["v"]).contains_key(&(0, 3))),
+        // Their calls outside the screen are counted next to the loops, in `book_triangle`.
+        "oob" | "ch3_unclamped" => {}
+        "int_overflow_runaway" => {
+            let triangle = triangle(&positions(&bug["v"], SIDE));
+            let window = PixelRect::window(SIDE, SIDE);
+            let refused = BookChapter2.cover(&triangle, window, |_| ()).unwrap_err();
+            assert!(matches!(refused, Refused::IntOverflow(x) if x >= 3e9 - 1.0), "{refused}");
+        }
+        "depth_poison" => {
+            let z = final_values(&bug["xyzw"], false)[&(1, 10)].0;
+            assert!((z - number(&bug["z_at_10_1"])).abs() < 1e-6, "{z}");
+        }
+        "z_not_clamped_after_fix" => {
+            let z = final_values(&bug["xyzw"], true)[&(4, 9)].0;
+            assert!((z - number(&bug["z_at_9_4"])).abs() < 1e-6, "{z}");
+        }
+        "t_divzero" => {
+            let (_, varying) = final_values(&bug["xyzw"], false)[&at(&bug["px"])];
+            assert_eq!(varying.x.to_string(), bug["varying"].as_str().unwrap());
+        }
+        "clip7_on_plane" => near_clip_loses(bug),
+        "clip_stack_overflow" => assert_eq!(clip_overflows(bug), 6),
+        "line_drift" => {
+            let pixels = line(&bug["v"]);
+            assert!(pixels.contains(&(bug["at_x10"].as_i64().unwrap(), 10)), "{pixels:?}");
+            assert!(!pixels.contains(&(bug["exact"].as_i64().unwrap(), 10)), "{pixels:?}");
+        }
+        "line_no_end" => {
+            let pixels = line(&bug["v"]);
+            assert_eq!(pixels.len(), 3);
+            assert!(!pixels.contains(&at(&bug["missing"])));
+        }
+        _ => panic!("book-bugs.json has an entry '{name}' that no test shows"),
+    }
+}
+
+/// A triangle with an edge in the near plane is wholly inside, and nothing of it is drawn.
+fn near_clip_loses(bug: &Value) {
+    let corner = |i: usize| {
+        let [x, y] = [0, 1].map(|k| number(&bug["xy"][i][k]));
+        let w = number(&bug["w"][i]);
+        ClipVertex { position: DVec4::new(x * w, y * w, 0.0, w), varying: DVec2::ZERO }
+    };
+    let polygon = clip_near([corner(0), corner(1), corner(2)], number(&bug["boundary"]));
+    assert_eq!(polygon.len(), 4);
+    assert!(polygon[2].position.is_nan(), "{polygon:?}");
+    let on_screen = |v: &ClipVertex| {
+        let (x, y) = (v.position.x / v.position.w, v.position.y / v.position.w);
+        [x + 0.5, f64::from(SIDE) - y - 0.5]
+    };
+    let mut drawn = 0;
+    for i in [1, 2] {
+        let triangle = bare([&polygon[0], &polygon[i], &polygon[i + 1]].map(on_screen));
+        // A row that is not a number is refused here, and lights nothing there.
+        let _ = BookChapter2.cover(&triangle, PixelRect::window(SIDE, SIDE), |_| drawn += 1);
+    }
+    assert_eq!(drawn, 0);
+}
+
+/// Size of the array that the recorded clip overflows.
+fn clip_overflows(bug: &Value) -> usize {
+    let text = bug["clip_xyzw_hex"].as_str().unwrap();
+    let n: Vec<f64> = text.split(' ').map(hex).collect();
+    let vertex = |i: usize| ClipVertex {
+        position: DVec4::new(n[4 * i], n[4 * i + 1], n[4 * i + 2], n[4 * i + 3]),
+        varying: DVec2::ZERO,
+    };
+    match clip([vertex(0), vertex(1), vertex(2)]) {
+        Err(Refused::ArrayOverflow(size)) => size,
+        other => panic!("{other:?}"),
+    }
+}
+
+/// A C99 hex float.
+fn hex(word: &str) -> f64 {
+    let (sign, digits) = word.strip_prefix('-').map_or((1.0, word), |rest| (-1.0, rest));
+    let (mantissa, exponent) = digits.trim_start_matches("0x").split_once('p').unwrap();
+    let (whole, part) = mantissa.split_once('.').unwrap();
+    let bits = u64::from_str_radix(&format!("{whole}{part}"), 16).unwrap();
+    let exponent = exponent.parse::<i32>().unwrap() - 4 * part.len() as i32;
+    sign * bits as f64 * 2f64.powi(exponent)
+}
+
+#[test]
+fn book_bugs_show() {
+    let path = format!("{}/tests/data/book-bugs.json", env!("CARGO_MANIFEST_DIR"));
+    let bugs: Value = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
+    let bugs = bugs.as_object().unwrap();
+    assert_eq!(bugs.len(), 21);
+    for (name, bug) in bugs {
+        println!("{name}: {bug}");
+        shows(name, bug);
+    }
+}
