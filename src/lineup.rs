@@ -9,9 +9,16 @@ use crate::line::{bresenham::Bresenham, dda::Dda};
 use crate::mutant::{LineMutant, TriangleMutant};
 use crate::oracle::Oracle;
 use crate::raster::{edge_function::EdgeFunction, scanline::Scanline};
+use crate::specimen::book_affine::BookAffine;
 use crate::specimen::book_dda::BookDda;
+use crate::specimen::book_depth::BookDepth;
 use crate::specimen::book_final::BookFinal;
 use crate::specimen::book_triangle::{BookChapter2, BookChapter3};
+use crate::specimen::games101_strict::Games101Strict;
+use crate::specimen::sysu_bresenham::SysuBresenham;
+use crate::specimen::sysu_inclusive::SysuInclusive;
+use crate::specimen::sysu_truncated::SysuTruncated;
+use crate::specimen::sysu_weights::SysuWeights;
 use crate::specimen::{Published, PublishedLine, RealTriangle, Refused};
 use crate::triangle::{Corners, Fragment, ScreenLine, ScreenTriangle, Span, Varying};
 
@@ -132,18 +139,100 @@ pub enum TriangleSpecimen {
     BookChapter2,
     /// The same of chapter 3, without the clamp.
     BookChapter3,
+    /// The same on projected corners.
+    BookAffine,
+    /// The final triangle with the depth of chapter 6.
+    BookChapter6,
+    /// The final triangle with the depth of chapter 7.
+    BookChapter7,
     /// The book's final triangle.
     BookChapter11,
     /// The same after the last exercise.
     BookChapter11Fixed,
+    /// GAMES101 homework 2.
+    Games101Strict,
+    /// The same with samples through an int.
+    Games101Int,
+    /// SYSU assignment 2.
+    SysuInclusive,
+    /// The same with its weights in the wrong order.
+    SysuWeights,
+    /// The same with truncated positions.
+    SysuTruncated,
 }
 
 impl TriangleSpecimen {
     /// Whether it interpolates values.
     #[must_use]
     pub fn has_values(self) -> bool {
-        !matches!(self, Self::BookChapter2)
+        !matches!(self, Self::BookChapter2 | Self::SysuTruncated)
     }
+
+    /// The depth that it compares, for a corner with this z/w and w.
+    #[must_use]
+    pub fn depth_of(self, depth: f64, w: f64) -> f64 {
+        match self {
+            Self::BookChapter6 => BookDepth::Chapter6.of(depth, w),
+            Self::BookChapter7 => BookDepth::Chapter7.of(depth, w),
+            _ => depth,
+        }
+    }
+}
+
+/// Does the same with whichever specimen it is.
+macro_rules! with_specimen {
+    ($specimen:expr, $name:ident => $do:expr) => {
+        match $specimen {
+            TriangleSpecimen::BookChapter2 => {
+                let $name = BookChapter2;
+                $do
+            }
+            TriangleSpecimen::BookChapter3 => {
+                let $name = BookChapter3;
+                $do
+            }
+            TriangleSpecimen::BookAffine => {
+                let $name = BookAffine;
+                $do
+            }
+            TriangleSpecimen::BookChapter6 => {
+                let $name = BookDepth::Chapter6;
+                $do
+            }
+            TriangleSpecimen::BookChapter7 => {
+                let $name = BookDepth::Chapter7;
+                $do
+            }
+            TriangleSpecimen::BookChapter11 => {
+                let $name = BookFinal { exercise: false };
+                $do
+            }
+            TriangleSpecimen::BookChapter11Fixed => {
+                let $name = BookFinal { exercise: true };
+                $do
+            }
+            TriangleSpecimen::Games101Strict => {
+                let $name = Games101Strict { whole_samples: false };
+                $do
+            }
+            TriangleSpecimen::Games101Int => {
+                let $name = Games101Strict { whole_samples: true };
+                $do
+            }
+            TriangleSpecimen::SysuInclusive => {
+                let $name = SysuInclusive;
+                $do
+            }
+            TriangleSpecimen::SysuWeights => {
+                let $name = SysuWeights;
+                $do
+            }
+            TriangleSpecimen::SysuTruncated => {
+                let $name = SysuTruncated;
+                $do
+            }
+        }
+    };
 }
 
 impl Published for TriangleSpecimen {
@@ -153,12 +242,7 @@ impl Published for TriangleSpecimen {
         bounds: PixelRect,
         emit: impl FnMut(Span),
     ) -> Result<(), Refused> {
-        match self {
-            Self::BookChapter2 => BookChapter2.cover(triangle, bounds, emit),
-            Self::BookChapter3 => BookChapter3.cover(triangle, bounds, emit),
-            Self::BookChapter11 => BookFinal { exercise: false }.cover(triangle, bounds, emit),
-            Self::BookChapter11Fixed => BookFinal { exercise: true }.cover(triangle, bounds, emit),
-        }
+        with_specimen!(self, specimen => specimen.cover(triangle, bounds, emit))
     }
 
     fn fragments(
@@ -167,14 +251,7 @@ impl Published for TriangleSpecimen {
         bounds: PixelRect,
         emit: impl FnMut(Fragment<DVec2>),
     ) -> Result<(), Refused> {
-        match self {
-            Self::BookChapter2 => BookChapter2.fragments(triangle, bounds, emit),
-            Self::BookChapter3 => BookChapter3.fragments(triangle, bounds, emit),
-            Self::BookChapter11 => BookFinal { exercise: false }.fragments(triangle, bounds, emit),
-            Self::BookChapter11Fixed => {
-                BookFinal { exercise: true }.fragments(triangle, bounds, emit)
-            }
-        }
+        with_specimen!(self, specimen => specimen.fragments(triangle, bounds, emit))
     }
 }
 
@@ -183,6 +260,8 @@ impl Published for TriangleSpecimen {
 pub enum LineSpecimen {
     /// The book's DDA.
     BookDda,
+    /// The Bresenham of SYSU assignment 2.
+    SysuBresenham,
 }
 
 impl PublishedLine for LineSpecimen {
@@ -194,6 +273,7 @@ impl PublishedLine for LineSpecimen {
     ) -> Result<(), Refused> {
         match self {
             Self::BookDda => BookDda.draw(ends_px, bounds, emit),
+            Self::SysuBresenham => SysuBresenham.draw(ends_px, bounds, emit),
         }
     }
 }
@@ -252,36 +332,87 @@ pub const ENTRIES: [Entry; 5] = [
     },
 ];
 
-const fn specimen(name: &'static str, about: &'static str, specimen: Specimen) -> Entry {
-    Entry { name, about, engine: None, line_engine: None, specimen: Some(specimen) }
+const fn triangle_specimen(
+    name: &'static str,
+    about: &'static str,
+    specimen: TriangleSpecimen,
+) -> Entry {
+    let specimen = Some(Specimen::Triangle(specimen));
+    Entry { name, about, engine: None, line_engine: None, specimen }
+}
+
+const fn line_specimen(name: &'static str, about: &'static str, specimen: LineSpecimen) -> Entry {
+    let specimen = Some(Specimen::Line(specimen));
+    Entry { name, about, engine: None, line_engine: None, specimen }
 }
 
 /// Every specimen that speaks the line protocol; they take positions as they are given.
-pub const SPECIMENS: [Entry; 5] = [
-    specimen(
+pub const SPECIMENS: [Entry; 14] = [
+    triangle_specimen(
         "book-ch2",
         "specimen: the book's DrawTriangle2D, section 2.2",
-        Specimen::Triangle(TriangleSpecimen::BookChapter2),
+        TriangleSpecimen::BookChapter2,
     ),
-    specimen(
+    triangle_specimen(
         "book-ch3",
         "specimen: the same without its clamp, with values, section 3.2",
-        Specimen::Triangle(TriangleSpecimen::BookChapter3),
+        TriangleSpecimen::BookChapter3,
     ),
-    specimen(
+    triangle_specimen(
+        "book-affine",
+        "specimen: the same on projected corners, section 5.3",
+        TriangleSpecimen::BookAffine,
+    ),
+    triangle_specimen(
+        "book-ch6",
+        "specimen: the book's triangle with w as its depth, chapter 6",
+        TriangleSpecimen::BookChapter6,
+    ),
+    triangle_specimen(
+        "book-ch7",
+        "specimen: the same with -1/w as its depth, chapter 7",
+        TriangleSpecimen::BookChapter7,
+    ),
+    triangle_specimen(
         "book-ch11",
         "specimen: the book's final DrawTriangle, chapter 11",
-        Specimen::Triangle(TriangleSpecimen::BookChapter11),
+        TriangleSpecimen::BookChapter11,
     ),
-    specimen(
+    triangle_specimen(
         "book-ch11-fixed",
         "specimen: the same after the exercise of section 11.4",
-        Specimen::Triangle(TriangleSpecimen::BookChapter11Fixed),
+        TriangleSpecimen::BookChapter11Fixed,
     ),
-    specimen(
-        "book-dda",
-        "specimen: the book's DrawLine, section 2.1",
-        Specimen::Line(LineSpecimen::BookDda),
+    triangle_specimen(
+        "games101-strict",
+        "specimen: GAMES101 homework 2, strict inside test",
+        TriangleSpecimen::Games101Strict,
+    ),
+    triangle_specimen(
+        "games101-int",
+        "specimen: the same with sample positions through an int",
+        TriangleSpecimen::Games101Int,
+    ),
+    triangle_specimen(
+        "sysu-inclusive",
+        "specimen: SYSU assignment 2, inclusive integer edge functions",
+        TriangleSpecimen::SysuInclusive,
+    ),
+    triangle_specimen(
+        "sysu-weights",
+        "specimen: the same with weights in the wrong order",
+        TriangleSpecimen::SysuWeights,
+    ),
+    triangle_specimen(
+        "sysu-truncated",
+        "specimen: the same with positions truncated",
+        TriangleSpecimen::SysuTruncated,
+    ),
+    line_specimen("book-dda", "specimen: the book's DrawLine, section 2.1", LineSpecimen::BookDda),
+    line_specimen(
+        "sysu-bresenham",
+        "specimen: SYSU assignment 2, Bresenham",
+        LineSpecimen::SysuBresenham,
     ),
 ];
 

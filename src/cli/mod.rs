@@ -3,6 +3,7 @@
 mod engine;
 mod inspect;
 mod published;
+mod specimens;
 mod verify;
 
 use std::fmt;
@@ -31,6 +32,7 @@ const EXAMPLES: &str = "Examples:
   rasterproof inspect 0.5,0.5 5.5,0.5 5.5,5.5     explain a triangle
   rasterproof inspect --line 0,0 8,3              explain a line
   rasterproof engine scanline < requests.txt      speak the line protocol
+  rasterproof specimens                           the published algorithms and their faults
   rasterproof list                                families, cases and engines
 
 Exit status: 0 all agree, 1 something disagrees, 2 usage or bad input.";
@@ -58,6 +60,8 @@ enum Command {
         #[arg(value_parser = engine_names())]
         name: String,
     },
+    /// Show the published algorithms, how often they fail, and a picture of each fault
+    Specimens(specimens::SpecimensArguments),
     /// List families, named cases and engines
     List,
 }
@@ -131,6 +135,7 @@ pub fn run(words: impl IntoIterator<Item = String>, streams: &mut Streams<'_>) -
         Some(Command::Verify(arguments)) => verify::run(arguments, streams),
         Some(Command::Inspect(arguments)) => inspect::run(arguments, streams),
         Some(Command::Engine { name }) => engine::run(name, streams),
+        Some(Command::Specimens(arguments)) => specimens::run(arguments, streams),
         Some(Command::List) => list(streams),
     };
     let result = result.and_then(|status| Ok(streams.output.flush().map(|()| status)?));
@@ -170,7 +175,7 @@ fn list(streams: &mut Streams<'_>) -> Result<u8, Failure> {
     }
     writeln!(out, "\nEngines (rasterproof engine NAME):")?;
     for entry in lineup::ENTRIES.iter().chain(&lineup::SPECIMENS) {
-        writeln!(out, "  {:<15} {}", entry.name, entry.about)?;
+        writeln!(out, "  {:<16} {}", entry.name, entry.about)?;
     }
     Ok(exit::AGREES)
 }

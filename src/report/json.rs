@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use crate::verify::specimens::SpecimenReport;
 use crate::verify::{FamilyReport, Verdict, shrink};
 
 #[derive(Serialize)]
@@ -55,5 +56,14 @@ pub fn verdict(verdict: &Verdict, repeat: impl Fn(&str, u64) -> String) -> Strin
         failures: failures.collect(),
     };
     // Numbers and strings only: this cannot fail.
+    serde_json::to_string_pretty(&json).unwrap_or_default() + "\n"
+}
+
+/// The survey of the specimens as JSON; an infinite error is `null`.
+#[must_use]
+pub fn specimens(seed: u64, cases: u64, reports: &[SpecimenReport]) -> String {
+    let json = serde_json::json!({
+        "version": env!("CARGO_PKG_VERSION"), "seed": seed, "cases": cases, "specimens": reports,
+    });
     serde_json::to_string_pretty(&json).unwrap_or_default() + "\n"
 }

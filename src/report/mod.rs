@@ -3,4 +3,5 @@
 pub mod ascii;
 pub mod json;
 pub mod picture;
+pub mod specimens;
 pub mod table;

@@ -8,7 +8,7 @@ use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder as _, Rgb, RgbImage};
 
 use crate::contract::DrawLine;
-use crate::frame::Coverage;
+use crate::frame::{Coverage, Frame};
 use crate::grid::{PixelRect, SUBPIXELS};
 use crate::hazard::{Case, Shape};
 use crate::line::bresenham::Bresenham;
@@ -46,6 +46,48 @@ pub fn panels(case: &Case, actual: &[Coverage], target: &Coverage) -> RgbImage {
         outline(&mut image, left, zoom, case);
     }
     image
+}
+
+/// Three panels: `published` as it is (green where it draws twice), `repaired` as it is, and
+/// `published` judged by `repaired`.
+#[must_use]
+pub fn exhibit(case: &Case, published: &Coverage, repaired: &Coverage) -> RgbImage {
+    let zoom = zoom(case.window, 3);
+    let (panel_width, panel_height) =
+        (case.window.width() * zoom + 1, case.window.height() * zoom + 1);
+    let gap = zoom.max(4);
+    let width = panel_width * 3 + gap * 2;
+    let mut image = RgbImage::from_pixel(width, panel_height, Rgb([255, 255, 255]));
+    let panels = [(published, published), (repaired, repaired), (published, repaired)];
+    for (i, (actual, target)) in panels.into_iter().enumerate() {
+        let left = i as u32 * (panel_width + gap);
+        squares(&mut image, left, zoom, actual, target);
+        outline(&mut image, left, zoom, case);
+    }
+    image
+}
+
+/// Three panels: two pictures of one window, and red where they differ.
+#[must_use]
+pub fn images(published: &Frame<[u8; 3]>, repaired: &Frame<[u8; 3]>) -> RgbImage {
+    let bounds = published.bounds();
+    let zoom = zoom(bounds, 3).min(16);
+    let (width, gap) = (bounds.width() * zoom, zoom.max(4));
+    let size = (width * 3 + gap * 2, bounds.height() * zoom);
+    RgbImage::from_fn(size.0, size.1, |x, y| {
+        let (panel, x) = (x / (width + gap), x % (width + gap));
+        let (x_px, y_px) = (bounds.x0 + (x / zoom) as i32, bounds.y0 + (y / zoom) as i32);
+        if x >= width {
+            return Rgb([255, 255, 255]);
+        }
+        let of = |image: &Frame<[u8; 3]>| image.get(x_px, y_px).unwrap_or_default();
+        match panel {
+            0 => Rgb(of(published)),
+            1 => Rgb(of(repaired)),
+            _ if of(published) == of(repaired) => AGREES,
+            _ => MISSING,
+        }
+    })
 }
 
 /// Picture pixels for each pixel of the window.

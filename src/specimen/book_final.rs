@@ -13,8 +13,9 @@
 
 use glam::{DVec2, DVec4};
 
+use super::book_formulas as formulas;
 use super::book_triangle::{AREA_LIMIT, Row, sorted, split, twice_area, walk};
-use super::{BookScreen, ClipVertex, MOST_STEPS, Published, RealTriangle, Refused, int_loop};
+use super::{BookScreen, ClipVertex, Columns, Published, RealTriangle, Refused, int_loop};
 use crate::grid::PixelRect;
 use crate::triangle::{Fragment, Span};
 
@@ -75,16 +76,6 @@ struct Corner {
     varying: DVec2,
 }
 
-/// Formulas (8): a value at t' between two corners with w of `wa` and `wb`.
-fn perspective(wa: f64, wb: f64, va: DVec2, vb: DVec2, t: f64) -> DVec2 {
-    (wb * va + (wa * vb - wb * va) * t) / (wb + (wa - wb) * t)
-}
-
-/// Formula (9): w itself.
-fn perspective_w(wa: f64, wb: f64, t: f64) -> f64 {
-    (wa * wb) / (wb + (wa - wb) * t)
-}
-
 /// What a row needs: its ends, and the values there.
 struct ValuedRow {
     row: Row,
@@ -138,8 +129,8 @@ impl BookFinal {
         let split = Corner {
             at,
             z: low.z + (high.z - low.z) * share,
-            w: perspective_w(low.w, high.w, share),
-            varying: perspective(low.w, high.w, low.varying, high.varying, share),
+            w: formulas::w(low.w, high.w, share),
+            varying: formulas::value(low.w, high.w, low.varying, high.varying, share),
         };
         let (left, right) =
             if middle.at.x > split.at.x { (split, middle) } else { (middle, split) };
@@ -158,8 +149,8 @@ impl BookFinal {
             }
             let at = |side: usize| {
                 let (a, b) = &sides[side];
-                let w = perspective_w(a.w, b.w, t[side]);
-                (w, perspective(a.w, b.w, a.varying, b.varying, t[side]))
+                let w = formulas::w(a.w, b.w, t[side]);
+                (w, formulas::value(a.w, b.w, a.varying, b.varying, t[side]))
             };
             let ((left_w, left), (right_w, right)) = (at(0), at(1));
             visit(ValuedRow { row, z, w: [left_w, right_w], varying: [left, right] })?;
@@ -200,19 +191,18 @@ impl Published for BookFinal {
         mut emit: impl FnMut(Fragment<DVec2>),
     ) -> Result<(), Refused> {
         let screen = BookScreen { bounds };
+        let mut columns = Columns::default();
         self.rows(triangle, bounds, |ValuedRow { row, z, w, varying }| {
             let Some((first, last)) = int_loop(row.left, row.right)? else { return Ok(()) };
             let Some(span) = screen.span(row.y, first, last) else { return Ok(()) };
-            if (-first) as f64 > MOST_STEPS {
-                return Err(Refused::TooFar(-first as f64));
-            }
+            columns.add(first)?;
             let length = row.right - row.left;
             let (dt, dz) = (1.0 / length, (z[1] - z[0]) / length);
             let (mut t, mut depth) = (0.0, z[0]);
             for x in first..=last.min(screen.size().0 - 1) {
                 if x >= 0 {
                     let (x_px, _) = screen.pixel(x, row.y);
-                    let varying = perspective(w[0], w[1], varying[0], varying[1], t);
+                    let varying = formulas::value(w[0], w[1], varying[0], varying[1], t);
                     emit(Fragment { x_px, y_px: span.y_px, depth, varying });
                 }
                 t += dt;

@@ -14,7 +14,7 @@
 
 use glam::DVec2;
 
-use super::{BookScreen, MOST_STEPS, Published, RealTriangle, Refused, int_loop, to_int};
+use super::{BookScreen, Columns, MOST_STEPS, Published, RealTriangle, Refused, int_loop, to_int};
 use crate::grid::PixelRect;
 use crate::triangle::{Fragment, Span};
 
@@ -51,21 +51,21 @@ pub(super) fn sorted(corners: [DVec2; 3]) -> [usize; 3] {
 struct Side {
     start: DVec2,
     end: DVec2,
+    /// Infinite or NaN where the side is flat; its sign decides the clamp.
+    per_row: f64,
 }
 
 impl Side {
-    /// Infinite or NaN where the side is flat; its sign decides the clamp.
-    fn per_row(self) -> f64 {
-        (self.start.x - self.end.x) / (self.start.y - self.end.y)
+    fn new(start: DVec2, end: DVec2) -> Self {
+        Self { start, end, per_row: (start.x - end.x) / (start.y - end.y) }
     }
 
     /// Holds x at the end of the side, in the direction it moves.
     fn clamp(self, x: f64) -> f64 {
-        let per_row = self.per_row();
         // A NaN slope, and one of zero, does not clamp.
-        if per_row < 0.0 {
+        if self.per_row < 0.0 {
             if x > self.end.x { x } else { self.end.x }
-        } else if per_row > 0.0 {
+        } else if self.per_row > 0.0 {
             if x < self.end.x { x } else { self.end.x }
         } else {
             x
@@ -91,8 +91,8 @@ pub(super) fn walk(
     mut visit: impl FnMut(Row) -> Result<(), Refused>,
 ) -> Result<(), Refused> {
     let halves = [
-        (Side { start: low, end: left }, Side { start: low, end: right }),
-        (Side { start: left, end: high }, Side { start: right, end: high }),
+        (Side::new(low, left), Side::new(low, right)),
+        (Side::new(left, high), Side::new(right, high)),
     ];
     for (half, (left, right)) in halves.into_iter().enumerate() {
         let first = to_int(left.start.y)?;
@@ -106,8 +106,8 @@ pub(super) fn walk(
                 (left_x, right_x) = (left.clamp(left_x), right.clamp(right_x));
             }
             visit(Row { half, y, left: left_x, right: right_x })?;
-            left_x += left.per_row();
-            right_x += right.per_row();
+            left_x += left.per_row;
+            right_x += right.per_row;
             y += 1;
         }
     }
@@ -201,6 +201,7 @@ impl Published for BookChapter3 {
         let ends = [(left, right), (high, high)];
         let per_row = |from: Valued, to: Valued| (from.value - to.value) / (from.at.y - to.at.y);
         // Values at the ends of the row, and the half they belong to.
+        let mut columns = Columns::default();
         let mut state = (usize::MAX, low.value, low.value);
         walk([low.at, left.at, right.at, high.at], false, screen.size().1, |row| {
             if state.0 != row.half {
@@ -211,17 +212,17 @@ impl Published for BookChapter3 {
             let step = (to - from) / (row.right - row.left);
             if let Some((first, last)) = int_loop(row.left, row.right)? {
                 let in_window = screen.span(row.y, first, last);
-                if in_window.is_some() && (-first) as f64 > MOST_STEPS {
-                    return Err(Refused::TooFar(-first as f64));
-                }
-                let mut value = from;
-                for x in first..=last.min(screen.size().0 - 1) {
-                    if let (true, Some(span)) = (x >= 0, in_window) {
-                        let (x_px, _) = screen.pixel(x, row.y);
-                        let (depth, varying) = (value.z, value.truncate());
-                        emit(Fragment { x_px, y_px: span.y_px, depth, varying });
+                if let Some(Span { y_px, .. }) = in_window {
+                    columns.add(first)?;
+                    let mut value = from;
+                    for x in first..=last.min(screen.size().0 - 1) {
+                        if x >= 0 {
+                            let (x_px, _) = screen.pixel(x, row.y);
+                            let (depth, varying) = (value.z, value.truncate());
+                            emit(Fragment { x_px, y_px, depth, varying });
+                        }
+                        value += step;
                     }
-                    value += step;
                 }
             }
             let ((left, right), (left_end, right_end)) = (starts[row.half], ends[row.half]);

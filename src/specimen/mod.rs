@@ -9,10 +9,26 @@
 //!
 //! They refuse what would not end or is undefined in the published code, with a reason: [`Refused`].
 
+pub mod book_affine;
 pub mod book_dda;
+pub mod book_depth;
 pub mod book_final;
+pub mod book_formulas;
 pub mod book_near_clip;
+pub mod book_painter;
 pub mod book_triangle;
+pub mod book_viewport;
+pub mod catalogue;
+pub mod games101_depth;
+pub mod games101_strict;
+pub mod games101_supersample;
+pub mod scene;
+pub mod sysu_bresenham;
+pub mod sysu_inclusive;
+pub mod sysu_simple_clip;
+pub mod sysu_strict_t;
+pub mod sysu_truncated;
+pub mod sysu_weights;
 
 use std::cmp::Ordering;
 use std::fmt;
@@ -113,7 +129,7 @@ impl fmt::Display for Refused {
             Self::TooFar(steps) => {
                 write!(
                     f,
-                    "the published loop takes {steps:e} steps before the window; at most {MOST_STEPS:e} are taken"
+                    "the published loop takes {steps:e} steps before the window; too many to take"
                 )
             }
             Self::ArrayOverflow(size) => {
@@ -126,8 +142,26 @@ impl fmt::Display for Refused {
 
 impl std::error::Error for Refused {}
 
-/// Steps before the window that are walked to know the sums in it.
-pub const MOST_STEPS: f64 = (1u32 << 24) as f64;
+/// Steps before the window that are walked to know the sums in it: rows for a triangle, columns for
+/// each of its rows, pixels for a line.
+pub const MOST_STEPS: f64 = (1u32 << 20) as f64;
+/// Columns before the window that are walked for all rows of a triangle together.
+const MOST_COLUMNS: i64 = 1 << 23;
+
+/// Counts the columns that a triangle walks before the window.
+#[derive(Default)]
+struct Columns(i64);
+
+impl Columns {
+    /// Adds the columns from `first` up to the window's left border.
+    fn add(&mut self, first: i64) -> Result<(), Refused> {
+        self.0 += (-first).max(0);
+        if self.0 > MOST_COLUMNS || (-first) as f64 > MOST_STEPS {
+            return Err(Refused::TooFar(self.0 as f64));
+        }
+        Ok(())
+    }
+}
 
 /// A published rasterizer.
 pub trait Published {

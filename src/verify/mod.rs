@@ -10,6 +10,7 @@
 
 mod contest;
 pub mod shrink;
+pub mod specimens;
 pub mod tolerance;
 
 use std::cmp::Ordering;

@@ -1,0 +1,56 @@
+//! Specimen: the painter's algorithm (the book, part 2, chapter 6, section 6.1, which shows that it
+//! fails): whole triangles, the farthest first.
+//!
+//! Symptom: three triangles that overlap in a ring have no order; whichever is drawn last covers a
+//! neighbour that lies before it. Cure: a depth for each pixel. Exposed by the ring; harmless where
+//! the depths do not interleave.
+
+use glam::DVec2;
+
+use super::scene::{COLOURS, Image, SIDE, Setting, Version, empty, fill, fragments};
+use crate::frame::Frame;
+
+/// Three blades; each starts near and ends far, or lies flat at a depth of its own.
+fn blades(setting: Setting) -> [[(DVec2, f64); 3]; 3] {
+    let p = DVec2::new;
+    let corners = [
+        [p(3.0, 4.0), p(3.0, 11.0), p(30.0, 9.0)],
+        [p(28.0, 3.0), p(21.0, 3.0), p(21.0, 30.0)],
+        [p(29.5, 27.5), p(25.0, 29.5), p(4.0, 5.0)],
+    ];
+    [0, 1, 2].map(|i| {
+        let depths = match setting {
+            Setting::Exposing => [0.2, 0.2, 0.8],
+            Setting::Harmless => [0.2 + 0.3 * i as f64; 3],
+        };
+        [0, 1, 2].map(|k| (corners[i][k], depths[k]))
+    })
+}
+
+/// The blades by their mean depth, or by the depth of each pixel.
+#[must_use]
+pub fn draw(version: Version, setting: Setting) -> Image {
+    let blades = blades(setting);
+    let mut image = empty(SIDE);
+    if version == Version::Published {
+        let mean = |i: usize| blades[i].iter().map(|(_, depth)| depth).sum::<f64>();
+        let mut order = [0, 1, 2];
+        order.sort_by(|&a, &b| mean(b).total_cmp(&mean(a)));
+        for i in order {
+            fill(&mut image, &blades[i].map(|(corner, _)| corner), COLOURS[i]);
+        }
+        return image;
+    }
+    let mut nearest = Frame::new(image.bounds(), f64::INFINITY);
+    for (blade, colour) in blades.iter().zip(COLOURS) {
+        let corners = blade.map(|(corner, depth)| (corner, 1.0, DVec2::splat(depth)));
+        fragments(corners, image.bounds(), |f| {
+            let depth = &mut nearest.span_mut(f.y_px, f.x_px, f.x_px + 1)[0];
+            if f.depth < *depth {
+                *depth = f.depth;
+                image.span_mut(f.y_px, f.x_px, f.x_px + 1)[0] = colour;
+            }
+        });
+    }
+    image
+}

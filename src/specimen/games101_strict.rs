@@ -1,0 +1,109 @@
+//! Specimen: the triangle of GAMES101 homework 2 (rasterize_triangle and insideTriangle), in f32.
+//!
+//! Symptom: a sample belongs where three cross products are all above or all below zero, so a sample
+//! on an edge belongs to no triangle: meshes have holes along shared edges. Cross products in f32
+//! round far from the origin. The skeleton's insideTriangle takes `int x, int y`
+//! ([`Games101Strict::whole_samples`], 'pitfall 2'): every sample of a pixel is its lower left corner.
+//! Cure: the top-left rule on exact edge functions ([`crate::raster::edge_function`]). Exposed by a
+//! square on pixel centres; harmless while no sample lies on an edge.
+//!
+//! Depth: alpha z0/w0 + ... over alpha/w0 + ..., and the skeleton has set every w to 1, so it is
+//! linear; [`super::games101_depth`] has its published repair.
+
+use glam::{DVec2, Vec2};
+
+use super::{Published, RealTriangle, Refused, to_int};
+use crate::grid::PixelRect;
+use crate::triangle::{Fragment, Span};
+
+/// The rasterizer of homework 2.
+#[derive(Clone, Copy, Debug)]
+pub struct Games101Strict {
+    /// Whether sample positions pass through an `int`.
+    pub whole_samples: bool,
+}
+
+/// Positions in the frame buffer: y up, samples at + 0.5.
+fn corners(triangle: &RealTriangle, bounds: PixelRect) -> [Vec2; 3] {
+    triangle.map(|v| {
+        let x = v.position_px.x - f64::from(bounds.x0);
+        Vec2::new(x as f32, (f64::from(bounds.y1) - v.position_px.y) as f32)
+    })
+}
+
+fn inside(corners: [Vec2; 3], sample: Vec2) -> bool {
+    let side = |i: usize| {
+        let (a, b) = (corners[i], corners[(i + 1) % 3]);
+        (a - sample).perp_dot(a - b)
+    };
+    let sides = [side(0), side(1), side(2)];
+    sides.iter().all(|&s| s > 0.0) || sides.iter().all(|&s| s < 0.0)
+}
+
+impl Games101Strict {
+    fn pixels(
+        self,
+        corners: [Vec2; 3],
+        bounds: PixelRect,
+        mut emit: impl FnMut(i32, i32, Vec2),
+    ) -> Result<(), Refused> {
+        let low = corners.into_iter().fold(corners[0], Vec2::min);
+        let high = corners.into_iter().fold(corners[0], Vec2::max);
+        let range = |low: f32, high: f32, size: u32| -> Result<_, Refused> {
+            let (first, last) = (to_int(low.into())?, to_int(high.into())? + 1);
+            Ok(first.max(0)..(last + 1).min(size.into()))
+        };
+        let rows = range(low.y, high.y, bounds.height())?;
+        for x in range(low.x, high.x, bounds.width())? {
+            for y in rows.clone() {
+                let corner = Vec2::new(x as f32, y as f32);
+                let sample = if self.whole_samples { corner } else { corner + 0.5 };
+                if inside(corners, sample) {
+                    emit(bounds.x0 + x as i32, bounds.y1 - 1 - y as i32, corner + 0.5);
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// computeBarycentric2D: the weights of the first two corners and of the third.
+fn weights([a, b, c]: [Vec2; 3], p: Vec2) -> [f32; 3] {
+    let weight = |a: Vec2, b: Vec2, c: Vec2| {
+        let at = |q: Vec2| q.x * (b.y - c.y) + (c.x - b.x) * q.y + b.x * c.y - c.x * b.y;
+        at(p) / at(a)
+    };
+    [weight(a, b, c), weight(b, c, a), weight(c, a, b)]
+}
+
+impl Published for Games101Strict {
+    fn cover(
+        &self,
+        triangle: &RealTriangle,
+        bounds: PixelRect,
+        mut emit: impl FnMut(Span),
+    ) -> Result<(), Refused> {
+        self.pixels(corners(triangle, bounds), bounds, |x_px, y_px, _| {
+            emit(Span { y_px, x0_px: x_px, x1_px: x_px + 1 });
+        })
+    }
+
+    /// The depth as published, w being 1; the attributes with the same weights, as the homework
+    /// that follows does.
+    fn fragments(
+        &self,
+        triangle: &RealTriangle,
+        bounds: PixelRect,
+        mut emit: impl FnMut(Fragment<DVec2>),
+    ) -> Result<(), Refused> {
+        let corners = corners(triangle, bounds);
+        self.pixels(corners, bounds, |x_px, y_px, sample| {
+            let weights = weights(corners, sample).map(f64::from);
+            let sum = |value: fn(&super::RealVertex) -> f64| {
+                (0..3).map(|i| weights[i] * value(&triangle[i])).sum::<f64>()
+            };
+            let varying = DVec2::new(sum(|v| v.varying.x), sum(|v| v.varying.y));
+            emit(Fragment { x_px, y_px, depth: sum(|v| v.depth), varying });
+        })
+    }
+}

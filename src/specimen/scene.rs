@@ -1,0 +1,121 @@
+//! What the specimens that are no rasterizer draw: small pictures, published and repaired.
+//!
+//! Their fault lies before or after the coverage (clip, viewport, depth, averaging), so coverage is
+//! the edge-function engine's in both versions and the pictures differ by the fault alone.
+
+use glam::{DVec2, DVec4};
+
+use super::ClipVertex;
+use crate::contract::{Interpolate as _, Rasterize as _};
+use crate::frame::Frame;
+use crate::grid::{PixelRect, SubpixelPoint};
+use crate::raster::edge_function::EdgeFunction;
+use crate::triangle::{Fragment, ScreenTriangle, ScreenVertex};
+
+/// A colour, red, green, blue.
+pub type Colour = [u8; 3];
+/// A small picture.
+pub type Image = Frame<Colour>;
+
+/// Which of the two algorithms draws.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Version {
+    /// As published.
+    Published,
+    /// With the cure.
+    Repaired,
+}
+
+/// What is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Setting {
+    /// The case that shows the fault.
+    Exposing,
+    /// A case on which both versions agree.
+    Harmless,
+}
+
+/// Side of most pictures.
+pub const SIDE: u32 = 32;
+/// The background.
+pub const BLACK: Colour = [0, 0, 0];
+/// Colours of shapes.
+pub const COLOURS: [Colour; 3] = [[236, 178, 46], [70, 150, 200], [196, 88, 88]];
+
+/// An empty picture.
+#[must_use]
+pub fn empty(side: u32) -> Image {
+    Frame::new(PixelRect::window(side, side), BLACK)
+}
+
+fn at(position_px: DVec2) -> SubpixelPoint {
+    SubpixelPoint::from_px(position_px.x, position_px.y).expect("scenes stay in the domain")
+}
+
+/// Fills the fan around the first corner.
+pub fn fill(image: &mut Image, corners_px: &[DVec2], colour: Colour) {
+    for pair in corners_px.get(1..).unwrap_or_default().windows(2) {
+        EdgeFunction.cover([at(corners_px[0]), at(pair[0]), at(pair[1])], image.bounds(), |span| {
+            image.span_mut(span.y_px, span.x0_px, span.x1_px).fill(colour);
+        });
+    }
+}
+
+/// Emits the fragments of a triangle of (position, w, value); the depth is the first attribute,
+/// linear in the window.
+pub fn fragments(
+    corners: [(DVec2, f64, DVec2); 3],
+    bounds: PixelRect,
+    emit: impl FnMut(Fragment<DVec2>),
+) {
+    let vertices = corners.map(|(position_px, w, varying)| ScreenVertex {
+        position: at(position_px),
+        depth: varying.x,
+        inv_w: 1.0 / w,
+        varying,
+    });
+    EdgeFunction.fragments(&ScreenTriangle { vertices }, bounds, emit);
+}
+
+/// A corner in clip space with its distance w, x and y given after the division.
+#[must_use]
+pub fn clip_vertex(x_ndc: f64, y_ndc: f64, z_ndc: f64, w: f64) -> ClipVertex {
+    let position = DVec4::new(x_ndc * w, y_ndc * w, z_ndc * w, w);
+    ClipVertex { position, varying: DVec2::ZERO }
+}
+
+/// Fills a clipped polygon on a screen of `SIDE` pixels; a corner that is not a number draws nothing.
+pub fn fill_clipped(image: &mut Image, polygon: &[ClipVertex], colour: Colour) {
+    let side = f64::from(image.bounds().width());
+    let on_screen: Vec<_> = polygon
+        .iter()
+        .map(|v| {
+            let ndc = v.position.truncate().truncate() / v.position.w;
+            DVec2::new((ndc.x + 1.0) / 2.0 * side, (1.0 - ndc.y) / 2.0 * side)
+        })
+        .collect();
+    for pair in on_screen.get(1..).unwrap_or_default().windows(2) {
+        let triangle = [on_screen[0], pair[0], pair[1]];
+        if triangle.iter().all(|p| p.is_finite() && p.abs().max_element() < 8e6) {
+            fill(image, &triangle, colour);
+        }
+    }
+}
+
+/// Keeps what lies on the positive side of a function that is linear in clip space; a corner on the
+/// border is inside, and only an edge whose ends differ is cut. The cure of every clip here.
+#[must_use]
+pub fn clip_by_sign(polygon: &[ClipVertex], place: impl Fn(DVec4) -> f64) -> Vec<ClipVertex> {
+    let mut kept = Vec::new();
+    for (i, a) in polygon.iter().enumerate() {
+        let b = &polygon[(i + 1) % polygon.len()];
+        let (from, to) = (place(a.position), place(b.position));
+        if from >= 0.0 {
+            kept.push(*a);
+        }
+        if (from >= 0.0) != (to >= 0.0) {
+            kept.push(a.towards(b, from / (from - to)));
+        }
+    }
+    kept
+}

@@ -1,0 +1,37 @@
+//! Specimen: the 'simple clip' of SYSU assignment 2 (task 2): a triangle is kept whole iff at least
+//! one corner lies in [-w, w]^3 with w between near and far.
+//!
+//! Symptom: a triangle that covers the screen with every corner outside is dropped; one with a corner
+//! behind the eye is kept whole and divided by a w of the wrong sign. Cure: clip. Exposed by a
+//! triangle around the screen; harmless where all corners are inside.
+
+use super::ClipVertex;
+use super::scene::{COLOURS, Image, SIDE, Setting, Version, clip_vertex, empty, fill_clipped};
+
+/// Whether a corner lies inside, for near and far of 0.1 and 100.
+fn inside(v: &ClipVertex) -> bool {
+    let p = v.position;
+    (0.1..=100.0).contains(&p.w) && p.truncate().abs().max_element() <= p.w
+}
+
+/// The published choice: all or nothing.
+#[must_use]
+pub fn kept(triangle: [ClipVertex; 3]) -> Vec<ClipVertex> {
+    if triangle.iter().any(inside) { triangle.to_vec() } else { Vec::new() }
+}
+
+/// A triangle around the whole screen, or one within it.
+#[must_use]
+pub fn draw(version: Version, setting: Setting) -> Image {
+    let reach = if setting == Setting::Exposing { 2.5 } else { 0.8 };
+    let triangle =
+        [(-reach, -reach), (reach, -reach), (0.0, reach)].map(|(x, y)| clip_vertex(x, y, 0.0, 1.0));
+    let mut image = empty(SIDE);
+    let polygon = match version {
+        Version::Published => kept(triangle),
+        // Here the window crops what a clip would cut.
+        Version::Repaired => triangle.to_vec(),
+    };
+    fill_clipped(&mut image, &polygon, COLOURS[1]);
+    image
+}
