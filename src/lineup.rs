@@ -165,7 +165,10 @@ impl TriangleSpecimen {
     /// Whether it interpolates values.
     #[must_use]
     pub fn has_values(self) -> bool {
-        !matches!(self, Self::BookChapter2 | Self::SysuTruncated)
+        !matches!(
+            self,
+            Self::BookChapter2 | Self::Games101Strict | Self::Games101Int | Self::SysuTruncated
+        )
     }
 
     /// The depth that it compares, for a corner with this z/w and w.

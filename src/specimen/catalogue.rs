@@ -73,14 +73,17 @@ const fn case(
     TriangleCase { name, side_px: 14, corners_px, w, values }
 }
 
-/// Upright sides on a column of samples and between two, other corners between rows: no rule is
-/// needed, nothing is rounded, and one value everywhere.
+/// Harmless for the book: its left side is upright on samples, no other edge meets one, and it runs
+/// out of the window below, since the lowest row of a triangle is always drawn wrongly.
 const PLAIN: TriangleCase =
-    case("upright", &[[(2.5, 11.5), (9.25, 11.5), (2.5, 2.25)]], ONES, FLAT);
+    case("runs out below", &[[(2.5, 16.5), (9.75, 16.5), (2.5, 4.0)]], ONES, FLAT);
+/// Harmless for SYSU: its corners are rounded, and by luck no sample changes sides.
+const LUCKY: TriangleCase =
+    case("lucky", &[[(3.5, 5.5), (10.5, 12.75), (12.75, 5.25)]], ONES, FLAT);
 /// No sample on an edge.
 const OFF_CENTRE: TriangleCase =
     case("off centre", &[[(1.25, 2.75), (12.75, 4.25), (5.25, 11.75)]], ONES, FLAT);
-/// Corners on centres, no sample on an edge but the corners themselves.
+/// A square on pixel centres, split on its diagonal.
 const SQUARE: &[[(f64, f64); 3]] =
     &[[(2.5, 2.5), (10.5, 2.5), (10.5, 10.5)], [(2.5, 10.5), (2.5, 2.5), (10.5, 10.5)]];
 
@@ -97,7 +100,7 @@ pub const CARDS: &[Card] = &[
         cure: "keep the height as an exact fraction, round it, draw both ends",
         exhibit: Exhibit::Lines([
             LineCase { name: "line_drift", pixels: [(0, 9), (20, 7)] },
-            LineCase { name: "none but its end", pixels: [(2, 9), (9, 9)] },
+            LineCase { name: "ends outside", pixels: [(2, 9), (40, 9)] },
         ]),
     },
     Card {
@@ -198,7 +201,7 @@ pub const CARDS: &[Card] = &[
         cure: "a sample position is no whole number",
         exhibit: Exhibit::Triangles([
             case("square", SQUARE, ONES, FLAT),
-            case("two pixels", &[[(3.75, 6.75), (6.75, 6.75), (5.25, 3.75)]], ONES, FLAT),
+            case("lucky", &[[(3.0, 1.0), (12.75, 1.25), (2.5, 12.75)]], ONES, FLAT),
         ]),
     },
     Card {
@@ -237,10 +240,7 @@ pub const CARDS: &[Card] = &[
         source: "SYSU 2, task 4",
         fault: "whole corners, edges drawn twice, i32",
         cure: "a subpixel lattice, top-left bias, wide words",
-        exhibit: Exhibit::Triangles([
-            case("square", SQUARE, ONES, FLAT),
-            case("thin", &[[(2.5, 2.5), (3.5, 5.5), (4.5, 9.5)]], ONES, FLAT),
-        ]),
+        exhibit: Exhibit::Triangles([case("square", SQUARE, ONES, FLAT), LUCKY]),
     },
     Card {
         name: "sysu-weights",
@@ -249,7 +249,7 @@ pub const CARDS: &[Card] = &[
         cure: "an edge's function weighs the corner opposite",
         exhibit: Exhibit::Triangles([
             case("ramp", &[[(2.5, 11.5), (11.5, 9.5), (5.5, 2.5)]], ONES, RAMP),
-            case("thin", &[[(2.5, 2.5), (3.5, 5.5), (4.5, 9.5)]], ONES, FLAT),
+            LUCKY,
         ]),
     },
     Card {
@@ -259,7 +259,7 @@ pub const CARDS: &[Card] = &[
         cure: "a fragment's position is the pixel that was tested",
         exhibit: Exhibit::Triangles([
             case("ramp", &[[(2.5, 11.5), (11.5, 9.5), (5.5, 2.5)]], ONES, RAMP),
-            case("thin", &[[(2.5, 2.5), (3.5, 5.5), (4.5, 9.5)]], ONES, FLAT),
+            case("lucky too", &[[(9.75, 10.75), (4.5, 5.5), (12.75, 1.25)]], ONES, FLAT),
         ]),
     },
     Card {

@@ -31,15 +31,22 @@ pub fn clip_strict(polygon: &[Vec4]) -> Vec<Vec4> {
     kept
 }
 
-/// A floor that runs to the eye's own plane, far or near.
+/// A square that runs from far away to the eye's own plane, or a triangle that ends behind it.
 #[must_use]
 pub fn draw(version: Version, setting: Setting) -> Image {
-    let (far, behind) = if setting == Setting::Exposing { (336.0, 0.0) } else { (1.0, -1.0) };
-    let corners = [
-        Vec4::new(-0.8 * far, 0.8 * far, 0.0, far),
-        Vec4::new(0.8 * far, 0.8 * far, 0.0, far),
-        Vec4::new(0.1 * far, -0.9 * far, 0.0, behind),
-    ];
+    let corners = match setting {
+        // The corner at w = 0 is a direction: cut at the plane it becomes the square's lower side.
+        Setting::Exposing => [
+            Vec4::new(-0.8 * 336.0, 0.8 * 336.0, 0.0, 336.0),
+            Vec4::new(0.8 * 336.0, 0.8 * 336.0, 0.0, 336.0),
+            Vec4::new(0.0, -1.6 * PLANE, 0.0, 0.0),
+        ],
+        Setting::Harmless => [
+            Vec4::new(-0.8, 0.8, 0.0, 1.0),
+            Vec4::new(0.8, 0.8, 0.0, 1.0),
+            Vec4::new(0.1, -0.9, 0.0, -1.0),
+        ],
+    };
     let as_vertex = |p: &Vec4| ClipVertex { position: p.as_dvec4(), varying: glam::DVec2::ZERO };
     let mut polygon: Vec<_> = match version {
         Version::Published => clip_strict(&corners).iter().map(as_vertex).collect(),

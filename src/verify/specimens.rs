@@ -195,9 +195,7 @@ pub fn triangle_case(case: &TriangleCase) -> Case {
 #[must_use]
 pub fn line_case(case: &LineCase) -> Case {
     let [a, b] = case.pixels.map(|(x, y)| PixelPoint::new(x, y));
-    let width = a.x.max(b.x) as u32 + 3;
-    let window = PixelRect::window(width, a.y.max(b.y) as u32 + 3);
-    Case { window, shape: Shape::Lines(vec![plain_line(a, b)]) }
+    Case { window: PixelRect::window(24, 12), shape: Shape::Lines(vec![plain_line(a, b)]) }
 }
 
 /// Hits of a specimen over triangles; a pixel that it puts outside the window is a panic.
