@@ -158,7 +158,7 @@ pub const CARDS: &[Card] = &[
         cure: "t' from the distance of the centre never leaves [0, 1]",
         exhibit: Exhibit::Triangles([
             case(
-                "z_not_clamped_after_fix",
+                "z_not_clamped",
                 &[[(1.5, 13.0), (1.5, 9.25), (9.5, 9.25)]],
                 ONES,
                 [0.0, 0.0, 0.5],

@@ -7,3 +7,4 @@ mod mutants;
 mod protocol;
 mod recorded;
 mod snapshots;
+mod specimens;

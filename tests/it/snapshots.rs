@@ -244,7 +244,7 @@ fn pictures_are_compared_by_pixels() {
 }
 
 /// Keeps a picture of the docs as a snapshot.
-fn check_picture(name: &str, image: &RgbImage) {
+pub fn check_picture(name: &str, image: &RgbImage) {
     let png = picture::png(image);
     assert!(png.len() <= MOST_BYTES, "{name}: {} bytes", png.len());
     let mut settings = settings();

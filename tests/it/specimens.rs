@@ -1,0 +1,115 @@
+//! The published algorithms are caught: by the case that exposes each, by the families at the rate
+//! recorded, and not by their harmless case.
+
+use rasterproof::lineup::{self, Specimen};
+use rasterproof::report::specimens::{sheet, table};
+use rasterproof::specimen::book_formulas::{value_f32, value_f32_repaired};
+use rasterproof::specimen::catalogue::{CARDS, find};
+use rasterproof::specimen::games101_depth::published;
+use rasterproof::specimen::scene::Setting;
+use rasterproof::verify::specimens::{exposing_name, survey, wrong};
+
+use crate::snapshots::{check_picture, settings};
+
+/// Cases of each family: enough for the ties of every family that has them.
+const CASES: u64 = 60;
+
+#[test]
+fn specimens_are_caught_by_their_exposing_case() {
+    for card in CARDS {
+        let pixels = wrong(card, Setting::Exposing);
+        assert!(pixels > 0, "{} is not exposed by {}", card.name, exposing_name(card));
+    }
+}
+
+#[test]
+fn specimens_agree_on_their_harmless_case() {
+    for card in CARDS {
+        assert_eq!(wrong(card, Setting::Harmless), 0, "{}", card.name);
+    }
+}
+
+/// Every specimen of the line-up has a card, and every card that is no scene an engine's name.
+#[test]
+fn specimens_have_cards() {
+    for entry in &lineup::SPECIMENS {
+        assert!(find(entry.name).is_some(), "{} has no card", entry.name);
+    }
+    let spoken = CARDS.iter().filter(|card| lineup::find(card.name).is_some()).count();
+    assert_eq!((spoken, CARDS.len()), (lineup::SPECIMENS.len(), 21));
+}
+
+/// Deterministic counts for a seed: the table is a snapshot, at most 100 columns wide.
+#[test]
+fn specimens_are_caught_by_families_as_recorded() {
+    let reports = survey(1, CASES);
+    for report in reports.iter().filter(|report| report.all.shapes > 0) {
+        assert!(report.all.percent() > 10.0, "{}: {:?}", report.name, report.all);
+    }
+    let text = table(&reports);
+    let widest = text.lines().map(|line| line.chars().count()).max();
+    assert!(widest <= Some(100), "{widest:?} columns");
+    settings().bind(|| insta::assert_snapshot!("specimens-text", text));
+}
+
+/// GAMES101's rule never draws too much where f32 is exact, and misses only samples on edges.
+#[test]
+fn specimens_strict_rule_only_loses_ties() {
+    let reports = survey(1, CASES);
+    let strict = reports.iter().find(|report| report.name == "games101-strict").unwrap();
+    let of = |family: &str| strict.families.iter().find(|(name, _)| *name == family).unwrap().1;
+    assert_eq!(of("uniform").tally.total(), 0);
+    assert_eq!((of("rectangle").tally.extra, of("rectangle").tally.twice), (0, 0));
+    assert!(of("rectangle").tally.missing > 300);
+}
+
+/// Published, repaired and different, a picture for each.
+#[test]
+fn specimens_are_drawn() {
+    for card in CARDS {
+        check_picture(&format!("specimen-{}", card.name), &sheet(card));
+    }
+}
+
+/// Formula (8) in f32: w = 0.1 and 1e6, t' = 1 gives 0.8 where the value is 1.
+#[test]
+fn specimen_formula_8_cancels() {
+    let (published, repaired) =
+        (value_f32(0.1, 1e6, 0.0, 1.0, 1.0), value_f32_repaired(0.1, 1e6, 0.0, 1.0, 1.0));
+    assert!((published - 0.8).abs() < 1e-6, "{published}");
+    assert_eq!(repaired, 1.0);
+    assert_eq!(value_f32(2.0, 2.0, 0.0, 1.0, 0.25), 0.25, "harmless where the w are equal");
+}
+
+/// The published repair of the depth bends it by twice the bound of chapter 5, which is attained.
+#[test]
+fn specimen_depth_repair_is_wrong_by_twice_the_bound() {
+    for (r, expected) in [(2.0f64, 0.34), (100.0, 1.64)] {
+        let bound = 2.0 * (r.sqrt() - 1.0) / (r.sqrt() + 1.0);
+        let worst = (0..=10_000)
+            .map(|i| f64::from(i) / 10_000.0)
+            .map(|t| (published([-1.0, 1.0], [1.0, r], t) - (2.0 * t - 1.0)).abs())
+            .fold(0.0, f64::max);
+        assert!((worst - bound).abs() < 1e-6 && (worst - expected).abs() < 0.005, "{r}: {worst}");
+    }
+    assert_eq!(published([-1.0, 1.0], [4.0, 4.0], 0.25), -0.5, "harmless where the w are equal");
+}
+
+/// Of the 4,225 lines from (0, 0) to (x, y), 0 <= x, y <= 64, 1,428 change when reversed.
+#[test]
+fn specimen_bresenham_depends_on_the_direction() {
+    use rasterproof::grid::PixelRect;
+    use rasterproof::specimen::PublishedLine as _;
+    let Some(Specimen::Line(specimen)) = lineup::find("sysu-bresenham").unwrap().specimen else {
+        panic!("a line drawer")
+    };
+    let drawn = |from: [f64; 2], to: [f64; 2]| {
+        let mut pixels = Vec::new();
+        specimen.draw([from, to], PixelRect::window(65, 65), |x, y| pixels.push((x, y))).unwrap();
+        pixels.sort_unstable();
+        pixels
+    };
+    let ends = (0..65).flat_map(|x| (0..65).map(move |y| [f64::from(x) + 0.5, f64::from(y) + 0.5]));
+    let changed = ends.filter(|&end| drawn([0.5; 2], end) != drawn(end, [0.5; 2])).count();
+    assert_eq!(changed, 1428);
+}
