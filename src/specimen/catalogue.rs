@@ -215,7 +215,7 @@ pub const CARDS: &[Card] = &[
         name: "games101-average",
         source: "GAMES101 hw 2",
         fault: "averages inside the triangle loop",
-        cure: "a colour for each sample, one average after the last triangle",
+        cure: "a colour for each sample, one average at the end",
         exhibit: Exhibit::Scene("split square", games101_supersample::draw),
     },
     Card {
