@@ -31,7 +31,7 @@ pub fn table(reports: &[SpecimenReport]) -> String {
     );
     let _ = writeln!(
         out,
-        "{:<17}{:<15}{:>6} {:>7} {:>7} {:>7} {:>6} {:>6}  exposed by: wrong pixels",
+        "{:<17}{:<15}{:>6} {:>7} {:>7} {:>7} {:>6} {:>6}  shown by: pixels",
         "specimen", "from", "wrong", "extra", "missing", "twice", "value", "depth"
     );
     for r in reports {

@@ -195,7 +195,9 @@ pub fn triangle_case(case: &TriangleCase) -> Case {
 #[must_use]
 pub fn line_case(case: &LineCase) -> Case {
     let [a, b] = case.pixels.map(|(x, y)| PixelPoint::new(x, y));
-    Case { window: PixelRect::window(24, 12), shape: Shape::Lines(vec![plain_line(a, b)]) }
+    let side = |a: i32, b: i32, most: u32| (a.max(b) as u32 + 3).min(most);
+    let window = PixelRect::window(side(a.x, b.x, 24), side(a.y, b.y, 12));
+    Case { window, shape: Shape::Lines(vec![plain_line(a, b)]) }
 }
 
 /// Hits of a specimen over triangles; a pixel that it puts outside the window is a panic.
