@@ -168,8 +168,12 @@ impl Edge {
             return side_in_integers(self.from, self.to, p);
         }
         let coord = |[x, y]: Point| Coord { x, y };
-        // Expanded, orient2d(from, to, p) is E(p). It never returns NaN for numbers.
-        orient2d(coord(self.from), coord(self.to), coord(p)).total_cmp(&0.0)
+        // Expanded, orient2d(from, to, p) is E(p). Its zero has either sign.
+        match orient2d(coord(self.from), coord(self.to), coord(p)) {
+            e if e > 0.0 => Ordering::Greater,
+            e if e < 0.0 => Ordering::Less,
+            _ => Ordering::Equal,
+        }
     }
 }
 
