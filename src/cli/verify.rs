@@ -15,7 +15,10 @@ use crate::verify::tolerance::{self, Tolerance};
 use crate::verify::{self, Options, Verdict};
 
 /// Options of `verify`.
+// A group of its own name: this struct is flattened into another one called `Arguments`, and clap's
+// debug assertions refuse two groups of one name.
 #[derive(clap::Args, Debug)]
+#[group(id = "verify")]
 pub struct Arguments {
     /// Cases of each family [default: 20000]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]

@@ -148,10 +148,17 @@ fn random(rng: &mut Rng) -> OffGridCase {
     single(corners, rng)
 }
 
+/// The line through two corners goes past a sample, and so does the third corner's side.
 fn sliver(rng: &mut Rng) -> OffGridCase {
-    let (a, b) = (anywhere(rng), anywhere(rng));
+    let (a, s) = (anywhere(rng), sample(rng));
+    let b = [0, 1].map(|i| f32_of(2.0 * s[i] - a[i]));
     let t = rng.unit() * 1.5 - 0.25;
-    let c = [0, 1].map(|i| nudge_f32(f32_of(a[i] + (b[i] - a[i]) * t), rng.int(-2, 2)));
+    // Rounding alone moves it off the line; sometimes more than that.
+    let reach = 1 << rng.int(0, 16);
+    let c = [0, 1].map(|i| {
+        let on_line = a[i] + (b[i] - a[i]) * t;
+        f32_of(on_line + rng.int(-reach, reach) as f64 / (1 << 22) as f64)
+    });
     single([a, b, c], rng)
 }
 
@@ -237,13 +244,22 @@ fn fan(rng: &mut Rng) -> OffGridCase {
 /// A rectangle around the window, cut from its top to its bottom by an edge past a sample; both
 /// parts are split on a diagonal. Every pixel of the window belongs to exactly one of the four.
 fn cut(rng: &mut Rng) -> OffGridCase {
-    let border = Border::around_window(rng);
-    let [top_left, top_right, bottom_right, bottom_left] = [0, 1, 2, 3].map(|i| border.corner(i));
     let s = sample(rng);
-    let above = [s[0] + coordinate(rng, -1.0, 1.0), border.top];
-    let below = border.opposite(2, above, s).unwrap_or([s[0], border.bottom]);
+    let (border, above, below) = if rng.chance(2) {
+        // On whole pixels with a slope of n/64, the edge goes through the sample exactly.
+        let border = Border { left: -20.0, top: -1.0, right: 40.0, bottom: 18.0 };
+        let slope = rng.int(-64, 64) as f64 / 64.0;
+        let at = |y: f64| [s[0] + (y - s[1]) * slope, y];
+        let (above, below) = (at(border.top), at(border.bottom));
+        (border, above, below)
+    } else {
+        let border = Border::around_window(rng);
+        let above = [f32_of(s[0] + coordinate(rng, -1.0, 1.0)), border.top];
+        let below = border.opposite(2, above, s).unwrap_or([s[0], border.bottom]);
+        (border, above, below)
+    };
     let below = [nudge_f32(below[0], rng.int(-1, 1)), below[1]];
-    let above = [f32_of(above[0]), above[1]];
+    let [top_left, top_right, bottom_right, bottom_left] = [0, 1, 2, 3].map(|i| border.corner(i));
     let split = |rng: &mut Rng, [a, b, c, d]: [Point; 4]| {
         if rng.chance(2) { [[a, b, c], [a, c, d]] } else { [[b, c, d], [b, d, a]] }
     };
@@ -395,7 +411,7 @@ fn huge(rng: &mut Rng) -> OffGridCase {
     let s = sample(rng);
     let mut away = || f32_of(rng.signed() * (1i64 << rng.int(5, 22)) as f64);
     let (a, c) = ([away(), away()], [away(), away()]);
-    // The mirror image at a sample, rounded: the edge misses it by less than an ulp.
-    let b = [0, 1].map(|i| f32_of(2.0 * s[i] - a[i]));
+    // The mirror image at a sample, but for an ulp.
+    let b = [0, 1].map(|i| nudge_f32(f32_of(2.0 * s[i] - a[i]), rng.int(-1, 1)));
     single([a, b, c], rng)
 }

@@ -19,19 +19,19 @@ pub fn table(verdict: &ExactVerdict) -> String {
         .collect();
     let _ = writeln!(
         out,
-        "triangles off the grid: {}, O oracle-exact; wrong pixels; decisions (edge at a sample, \
-         edge at a row)\nand how many of them the filter left to the exact fallback",
+        "triangles off the grid: {}, O oracle-exact; wrong pixels;\ndecisions (an edge at a sample, \
+         an edge at a row) and those that took exact arithmetic",
         legend.join(", ")
     );
     let _ = write!(
         out,
-        "{:<15} {:>6} {:>9} {:>10} {:>5}",
+        "{:<12} {:>6} {:>9} {:>9} {:>5}",
         "family", "cases", "triangles", "pixels", "ties"
     );
     for (_, letter) in first.engines.iter().zip(letters) {
-        let _ = write!(out, " {:>7}", format!("{letter}:O"));
-        let _ =
-            write!(out, " {:>10} {:>9}", format!("decided {letter}"), format!("exact {letter}"));
+        let [wrong, decided, exact] =
+            [format!("{letter}:O"), format!("decided {letter}"), format!("exact {letter}")];
+        let _ = write!(out, " {wrong:>5} {decided:>10} {exact:>8}");
     }
     out.push('\n');
     verdict.families.iter().for_each(|family| row(&mut out, family));
@@ -49,14 +49,14 @@ fn row(out: &mut String, f: &ExactFamilyReport) {
     let ties = (100 * f.tie_cases + f.cases / 2).checked_div(f.cases).unwrap_or(0);
     let _ = write!(
         out,
-        "{:<15} {:>6} {:>9} {:>10} {ties:>4}%",
+        "{:<12} {:>6} {:>9} {:>9} {ties:>4}%",
         f.family, f.cases, f.triangles, f.pixels
     );
     for engine in &f.engines {
         let wrong =
             if engine.panics > 0 { "panic".to_owned() } else { engine.tally.total().to_string() };
         let Decisions { by_filter, by_fallback } = engine.decisions;
-        let _ = write!(out, " {wrong:>7} {:>10} {by_fallback:>9}", by_filter + by_fallback);
+        let _ = write!(out, " {wrong:>5} {:>10} {by_fallback:>8}", by_filter + by_fallback);
     }
     out.push('\n');
 }

@@ -1,1 +1,3 @@
+//! One program for the tests that need more than one room of the house.
 
+mod exact;
