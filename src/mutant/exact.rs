@@ -17,7 +17,7 @@ pub enum ExactMutant {
     PlainF64,
     /// The same in f32.
     PlainF32,
-    /// A filter a thousand times too small, then "equal" for what is in doubt.
+    /// A filter a thousand times too small before the exact sign.
     FilterTooSmall,
     /// Crossings as f64 computes them, without a fallback.
     PlainCrossing,
@@ -107,8 +107,8 @@ fn e_f32(a: Point, b: Point, p: Point) -> f64 {
 
 fn e_filtered(a: Point, b: Point, p: Point) -> f64 {
     let (left, right) = ((b[0] - a[0]) * (p[1] - a[1]), (b[1] - a[1]) * (p[0] - a[0]));
-    let bound = 5e-3 * f64::EPSILON / 2.0 * (left.abs() + right.abs());
-    if (left - right).abs() > bound { left - right } else { 0.0 }
+    let bound = 5e-3 * (f64::EPSILON / 2.0) * (left.abs() + right.abs());
+    if (left - right).abs() > bound { left - right } else { e_exact(a, b, p) }
 }
 
 fn e_exact(a: Point, b: Point, p: Point) -> f64 {
