@@ -5,7 +5,8 @@
 //! [`hazard`] makes it, [`raster::scanline`] and [`raster::edge_function`] draw it (as
 //! [`contract::Rasterize`] promises), [`oracle`] knows the truth, [`verify`] compares, and
 //! [`report`] shows the verdict. Lines travel the same way through [`line::dda`] and
-//! [`line::bresenham`].
+//! [`line::bresenham`]; corners that are not snapped through [`raster::scanline_exact`] and
+//! [`raster::edge_function_exact`].
 //!
 //! Judge a rasterizer of your own in ten lines:
 //!

@@ -24,7 +24,8 @@ pub const HELP: &str = "Requests and answers, one a line (numbers decimal or C99
   T id width height x0 y0 x1 y1 x2 y2        C id n  y x0 x1 ...      runs of covered pixels
   L id width height x0 y0 x1 y1              P id n  x y ...          pixels in drawing order
   I id width height (x y z w a b) x 3        F id n  x y z a b ...    fragments with values
-Anything else is answered E id reason. Example:
+Anything else is answered E id reason. Positions are snapped to 1/256 px, except by the engines whose
+names end in -exact; those answer T only. Example:
   echo 'T 1 8 8 0.5 0.5 5.5 0.5 5.5 5.5' | rasterproof engine scanline";
 
 /// A longer line is refused without being kept.

@@ -78,12 +78,17 @@ pub const FAMILIES: &[OffGridFamily] = &[
         about: "offsets of 2^11, 2^14 and 2^22 px from the origin",
         make: far,
     },
-    OffGridFamily { name: "f32-huge", about: "ends far off, an edge past a sample", make: huge },
+    OffGridFamily {
+        name: "f32-huge",
+        about: "ends far off, an edge past a sample",
+        make: huge_f32,
+    },
     OffGridFamily {
         name: "f64-near-tie",
         about: "as f32-near-tie, by an ulp of f64",
         make: near_tie_f64,
     },
+    OffGridFamily { name: "f64-huge", about: "as f32-huge, by an ulp of f64", make: huge_f64 },
     OffGridFamily {
         name: "f64-denormal",
         about: "a tie missed by 2^-300 down to 2^-1074",
@@ -407,11 +412,19 @@ fn far(rng: &mut Rng) -> OffGridCase {
     case(&triangles, window, false)
 }
 
-fn huge(rng: &mut Rng) -> OffGridCase {
+fn huge_f32(rng: &mut Rng) -> OffGridCase {
+    huge(rng, f32_of, nudge_f32)
+}
+
+fn huge_f64(rng: &mut Rng) -> OffGridCase {
+    huge(rng, |v| v, nudge_f64)
+}
+
+fn huge(rng: &mut Rng, round: fn(f64) -> f64, nudge: fn(f64, i64) -> f64) -> OffGridCase {
     let s = sample(rng);
-    let mut away = || f32_of(rng.signed() * (1i64 << rng.int(5, 22)) as f64);
+    let mut away = || round(rng.signed() * (1i64 << rng.int(5, 22)) as f64);
     let (a, c) = ([away(), away()], [away(), away()]);
     // The mirror image at a sample, but for an ulp.
-    let b = [0, 1].map(|i| nudge_f32(f32_of(2.0 * s[i] - a[i]), rng.int(-1, 1)));
+    let b = [0, 1].map(|i| nudge(round(2.0 * s[i] - a[i]), rng.int(-1, 1)));
     single([a, b, c], rng)
 }
