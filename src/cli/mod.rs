@@ -163,13 +163,17 @@ fn list(streams: &mut Streams<'_>) -> Result<u8, Failure> {
     for family in hazard::families() {
         writeln!(out, "  {:<16} {}", family.name, family.about)?;
     }
+    writeln!(out, "\nFamilies off the grid, for the engines that do not snap:")?;
+    for family in hazard::offgrid::FAMILIES {
+        writeln!(out, "  {:<16} {}", family.name, family.about)?;
+    }
     writeln!(out, "\nNamed cases (rasterproof inspect NAME):")?;
     for case in hazard::named::named() {
         writeln!(out, "  {:<5} {}", case.name, case.about)?;
     }
     writeln!(out, "\nEngines (rasterproof engine NAME):")?;
     for entry in &lineup::ENTRIES {
-        writeln!(out, "  {:<14} {}", entry.name, entry.about)?;
+        writeln!(out, "  {:<19} {}", entry.name, entry.about)?;
     }
     Ok(exit::AGREES)
 }

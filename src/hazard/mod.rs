@@ -7,6 +7,7 @@
 
 pub mod lines;
 pub mod named;
+pub mod offgrid;
 pub mod triangles;
 
 use glam::DVec2;

@@ -5,6 +5,8 @@
 //! engine's fragments and spoil them the way real code goes wrong. Reached by the hidden option
 //! `--plant NAME` and by the tests.
 
+pub mod exact;
+
 use crate::contract::{DrawLine, Interpolate, Rasterize};
 use crate::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
 use crate::line::bresenham::Bresenham;

@@ -160,7 +160,7 @@ pub fn is_judging() -> bool {
 }
 
 /// Runs an engine; its panic becomes an error with the message.
-fn caught<T>(run: impl FnOnce() -> T) -> Result<T, String> {
+pub(super) fn caught<T>(run: impl FnOnce() -> T) -> Result<T, String> {
     let outer = JUDGING.replace(true);
     let result = catch_unwind(AssertUnwindSafe(run));
     JUDGING.set(outer);

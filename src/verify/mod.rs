@@ -6,9 +6,10 @@
 //! other. A result depends on the options alone, not on the number of threads.
 //!
 //! The same functions judge an engine of yours: [`judge_coverage`], [`judge_values`],
-//! [`judge_lines`].
+//! [`judge_lines`]; off the lattice, [`exact::judge_exact`].
 
 mod contest;
+pub mod exact;
 pub mod shrink;
 pub mod tolerance;
 

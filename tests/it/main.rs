@@ -1,6 +1,7 @@
 //! The tests other than the differential table, in one binary.
 
 mod commands;
+mod exact;
 mod house;
 mod mutants;
 mod protocol;
