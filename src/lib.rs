@@ -46,3 +46,18 @@ pub mod raster;
 pub mod report;
 pub mod triangle;
 pub mod verify;
+
+/// The samples in the pages under `docs/` are tests.
+#[cfg(doctest)]
+mod docs {
+    #[doc = include_str!("../docs/ch01.md")]
+    struct Chapter1;
+    #[doc = include_str!("../docs/ch02.md")]
+    struct Chapter2;
+    #[doc = include_str!("../docs/ch03.md")]
+    struct Chapter3;
+    #[doc = include_str!("../docs/ch04-05.md")]
+    struct Chapters4And5;
+    #[doc = include_str!("../docs/judge.md")]
+    struct Judge;
+}

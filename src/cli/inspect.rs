@@ -7,7 +7,7 @@ use image::RgbImage;
 use super::verify::with_tolerance;
 use super::{Failure, Streams, exit, usage, write_file};
 use crate::frame::Coverage;
-use crate::grid::{MAX_SIDE_PX, PixelRect, SUBPIXELS, SubpixelPoint};
+use crate::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
 use crate::hazard::named::{self, Input};
 use crate::hazard::offgrid::{self, OffGridCase};
 use crate::hazard::{self, Case, Line, Shape};
@@ -32,15 +32,15 @@ use crate::verify::{self, Tally, engine_coverage, line_coverage, oracle_coverage
 In the grids: # agrees with the oracle, - missing, + extra, 2 twice, * rightly more than once.
 In the picture: grey agrees, red missing, orange extra, violet twice; engines from left to right,
 the oracle last; blue edges, dark samples.")]
-pub struct Arguments {
+pub struct InspectArguments {
     /// A named case, FAMILY#NUMBER, or the corners as x,y in pixels
-    #[arg(value_name = "CASE or X,Y", required = true, num_args = 1..=3, allow_hyphen_values = true)]
+    #[arg(value_name = "CASE or X,Y", required = true, num_args = 1..=3)]
     what: Vec<String>,
     /// The two points are the end pixels of a line
     #[arg(long)]
     line: bool,
     /// The pixels to show, as WIDTHxHEIGHT or X,Y,WIDTHxHEIGHT [default: around the shape]
-    #[arg(long, value_name = "WxH", value_parser = parse_window, allow_hyphen_values = true)]
+    #[arg(long, value_name = "WxH", value_parser = parse_window)]
     window: Option<PixelRect>,
     /// Seed of FAMILY#NUMBER
     #[arg(long, value_name = "N", default_value_t = 1)]
@@ -50,15 +50,18 @@ pub struct Arguments {
     output: Option<PathBuf>,
 }
 
+/// Largest side of a window to look at: every engine gets a panel of the picture.
+const MOST_SIDE_PX: u32 = 2048;
+
 fn parse_window(text: &str) -> Result<PixelRect, String> {
     let wrong = || {
         format!(
-            "expected WIDTHxHEIGHT or X,Y,WIDTHxHEIGHT with sides from 1 to {MAX_SIDE_PX}, for example 64x48"
+            "expected WIDTHxHEIGHT or X,Y,WIDTHxHEIGHT with sides from 1 to {MOST_SIDE_PX}, for example 64x48"
         )
     };
-    let (origin, size) = text.rsplit_once(',').map_or((None, text), |(o, s)| (Some(o), s));
+    let (origin, size) = text.trim().rsplit_once(',').map_or((None, text), |(o, s)| (Some(o), s));
     let (width, height) = size.split_once('x').ok_or_else(wrong)?;
-    let side = |text: &str| text.parse::<u32>().ok().filter(|s| (1..=MAX_SIDE_PX).contains(s));
+    let side = |text: &str| text.parse::<u32>().ok().filter(|s| (1..=MOST_SIDE_PX).contains(s));
     let (width, height) = (side(width).ok_or_else(wrong)?, side(height).ok_or_else(wrong)?);
     let (x0, y0) = match origin {
         None => (0, 0),
@@ -71,7 +74,7 @@ fn parse_window(text: &str) -> Result<PixelRect, String> {
     Ok(PixelRect { x0, y0, x1: end(x0, width)?, y1: end(y0, height)? })
 }
 
-pub fn run(arguments: &Arguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+pub fn run(arguments: &InspectArguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
     let out = &mut *streams.output;
     let (title, mut case, expected) = match find(arguments)? {
         Found::Case { title, case, expected } => (title, case, expected),
@@ -172,7 +175,7 @@ fn off_grid(case: &OffGridCase, out: &mut dyn std::io::Write) -> Result<bool, Fa
     Ok(agrees)
 }
 
-fn find(arguments: &Arguments) -> Result<Found, Failure> {
+fn find(arguments: &InspectArguments) -> Result<Found, Failure> {
     let words = &arguments.what;
     let generated = |title: String, case: Case| Found::Case { title, case, expected: None };
     match (words.as_slice(), arguments.line) {
@@ -252,7 +255,8 @@ fn unknown(kind: &str, word: &str, names: impl Iterator<Item = &'static str>) ->
 }
 
 fn parse_px(text: &str) -> Result<[f64; 2], Failure> {
-    let numbers = text.split_once(',').and_then(|(x, y)| Some([x.parse().ok()?, y.parse().ok()?]));
+    let numbers =
+        text.trim().split_once(',').and_then(|(x, y)| Some([x.parse().ok()?, y.parse().ok()?]));
     numbers.ok_or_else(|| {
         usage(format!(
             "'{text}' is not a point: expected X,Y in pixels, for example 0.5,3 (or a named case)"
@@ -266,7 +270,8 @@ fn parse_point(text: &str) -> Result<SubpixelPoint, Failure> {
 }
 
 fn parse_pixel(text: &str) -> Result<PixelPoint, Failure> {
-    let numbers = text.split_once(',').and_then(|(x, y)| Some((x.parse().ok()?, y.parse().ok()?)));
+    let numbers =
+        text.trim().split_once(',').and_then(|(x, y)| Some((x.parse().ok()?, y.parse().ok()?)));
     let (x, y) = numbers.ok_or_else(|| {
         usage(format!("'{text}' is not a pixel: expected two whole numbers X,Y within 32 bits, for example 8,3"))
     })?;

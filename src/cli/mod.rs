@@ -41,15 +41,15 @@ struct Arguments {
     #[command(subcommand)]
     command: Option<Command>,
     #[command(flatten)]
-    verify: verify::Arguments,
+    verify: verify::VerifyArguments,
 }
 
 #[derive(Subcommand, Debug)]
 enum Command {
     /// Judge every engine on every family of cases (the default)
-    Verify(verify::Arguments),
+    Verify(verify::VerifyArguments),
     /// Explain one case: coordinates, a named case, or FAMILY#NUMBER
-    Inspect(inspect::Arguments),
+    Inspect(inspect::InspectArguments),
     /// Answer requests of the line protocol on standard input
     #[command(after_help = engine::HELP)]
     Engine {
@@ -107,6 +107,12 @@ pub struct Streams<'a> {
 
 /// Runs a command line, the program's name first, and returns the exit status.
 pub fn run(words: impl IntoIterator<Item = String>, streams: &mut Streams<'_>) -> u8 {
+    // A coordinate such as -1.5,3 is no option: a space in front tells the parser so.
+    let is_coordinate = |word: &str| {
+        let number = |c: char| c.is_ascii_digit() || c == '.';
+        word.contains(',') && word.strip_prefix('-').is_some_and(|rest| rest.starts_with(number))
+    };
+    let words = words.into_iter().map(|w| if is_coordinate(&w) { format!(" {w}") } else { w });
     let arguments = match Arguments::try_parse_from(words) {
         Ok(arguments) => arguments,
         Err(error) => {

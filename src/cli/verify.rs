@@ -15,11 +15,8 @@ use crate::verify::tolerance::{self, Tolerance};
 use crate::verify::{self, Options, Verdict};
 
 /// Options of `verify`.
-// A group of its own name: this struct is flattened into another one called `Arguments`, and clap's
-// debug assertions refuse two groups of one name.
 #[derive(clap::Args, Debug)]
-#[group(id = "verify")]
-pub struct Arguments {
+pub struct VerifyArguments {
     /// Cases of each family [default: 20000]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     cases: Option<u64>,
@@ -74,7 +71,7 @@ fn parse_shard(text: &str) -> Result<(u64, u64), String> {
     }
 }
 
-impl Arguments {
+impl VerifyArguments {
     fn options(&self) -> Result<Options, Failure> {
         let limit = match self.seconds {
             None => None,
@@ -174,12 +171,8 @@ pub fn with_tolerance(engine: Engine) -> (Engine, Tolerance) {
 /// Folder of everything this command writes.
 const FOLDER: &str = "target/rasterproof";
 
-pub fn run(arguments: &Arguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
-    let mut options = arguments.options()?;
-    if let Some(case) = options.only {
-        options.cases =
-            case.checked_add(1).ok_or_else(|| usage("--case: the number is too large"))?;
-    }
+pub fn run(arguments: &VerifyArguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+    let options = arguments.options()?;
     let (engines, lines) = arguments.contestants();
     let exact_engines = arguments.exact_contestants();
     let (verdict, off_grid) = judge(&engines, &lines, &exact_engines, &options, streams.progress);
@@ -215,7 +208,8 @@ fn judge(
         (false, _) => ProgressBar::hidden(),
         (true, Some(_)) => ProgressBar::new_spinner(),
         (true, None) => ProgressBar::new(
-            (families.count() + off_grid_families) as u64 * options.cases / options.shard.1,
+            ((families.count() + off_grid_families) as u64).saturating_mul(options.cases)
+                / options.shard.1,
         ),
     };
     if progress {
@@ -240,7 +234,7 @@ fn judge(
 }
 
 fn print(
-    arguments: &Arguments,
+    arguments: &VerifyArguments,
     verdict: &Verdict,
     off_grid: &ExactVerdict,
     engines: &[(Engine, Tolerance)],
@@ -286,7 +280,7 @@ fn print(
 
 /// Shows each shrunk failure as characters and all of them as one picture.
 fn failures(
-    arguments: &Arguments,
+    arguments: &VerifyArguments,
     verdict: &Verdict,
     engines: &[(Engine, Tolerance)],
     lines: &[LineEngine],
@@ -310,7 +304,7 @@ fn failures(
 
 /// Draws the cases whose values came closest to their bounds.
 fn worst_cases(
-    arguments: &Arguments,
+    arguments: &VerifyArguments,
     verdict: &Verdict,
     engines: &[(Engine, Tolerance)],
     lines: &[LineEngine],

@@ -154,7 +154,7 @@ fn ties() -> Vec<NamedCase> {
             win(2, 2),
             &octants((0.5, 0.5)),
             true,
-            &[0, 0, 0, 0, 0, 0, 0, 0],
+            &[1, 0, 0, 0, 0, 0, 0, 0],
         ),
         drawn(
             ("T2", "a square with corners on centres, split: 15 + 10"),

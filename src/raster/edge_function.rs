@@ -212,7 +212,13 @@ fn pixel_box(corners: &Corners, bounds: PixelRect) -> PixelRect {
     };
     let (x0, x1) = range(corners.map(|corner| corner.x));
     let (y0, y1) = range(corners.map(|corner| corner.y));
-    PixelRect { x0, y0, x1, y1 }.intersect(&bounds)
+    // Written out: a call of `intersect` that is not inlined costs more than the four choices.
+    PixelRect {
+        x0: x0.max(bounds.x0),
+        y0: y0.max(bounds.y0),
+        x1: x1.min(bounds.x1),
+        y1: y1.min(bounds.y1),
+    }
 }
 
 /// Twice the signed area; positive for corners that go round clockwise on the screen (y down).

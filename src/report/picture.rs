@@ -4,7 +4,8 @@
 //! and rightly so. A dark dot is a sample; a blue line is an edge. Panels stand side by side, one
 //! for each engine judged by the target, the target itself last.
 
-use image::{Rgb, RgbImage};
+use image::codecs::png::{CompressionType, FilterType, PngEncoder};
+use image::{ExtendedColorType, ImageEncoder as _, Rgb, RgbImage};
 
 use crate::contract::DrawLine;
 use crate::frame::Coverage;
@@ -25,7 +26,7 @@ const EXTRA: Rgb<u8> = Rgb([240, 160, 40]);
 const TWICE: Rgb<u8> = Rgb([150, 70, 190]);
 
 /// Sides of pictures stay below this.
-const MOST_PX: u32 = 2400;
+const MOST_PX: u32 = 1600;
 
 /// Draws a panel for each coverage judged by `target`, then the target judged by itself.
 ///
@@ -50,7 +51,9 @@ pub fn panels(case: &Case, actual: &[Coverage], target: &Coverage) -> RgbImage {
 /// Picture pixels for each pixel of the window.
 fn zoom(window: PixelRect, count: u32) -> u32 {
     let widest = window.width().saturating_mul(count).max(window.height()).max(1);
-    (MOST_PX / widest).clamp(1, 16)
+    // A case of a few pixels is shown larger.
+    let largest = if window.width().max(window.height()) <= 8 { 40 } else { 16 };
+    (MOST_PX / widest).clamp(1, largest)
 }
 
 fn squares(image: &mut RgbImage, left: u32, zoom: u32, actual: &Coverage, target: &Coverage) {
@@ -66,7 +69,7 @@ fn squares(image: &mut RgbImage, left: u32, zoom: u32, actual: &Coverage, target
                 BORDER
             } else if on_grid {
                 GRID
-            } else if zoom >= 8 && x % zoom == zoom / 2 && y % zoom == zoom / 2 {
+            } else if zoom >= 8 && is_sample(x % zoom, zoom) && is_sample(y % zoom, zoom) {
                 SAMPLE
             } else {
                 colour(hits(actual), hits(target))
@@ -74,6 +77,11 @@ fn squares(image: &mut RgbImage, left: u32, zoom: u32, actual: &Coverage, target
             image.put_pixel(left + x, y, colour);
         }
     }
+}
+
+/// Whether a picture pixel lies on the dot in the middle of a square.
+fn is_sample(offset: u32, zoom: u32) -> bool {
+    offset.abs_diff(zoom / 2) <= zoom / 32
 }
 
 fn colour(actual: u8, target: u8) -> Rgb<u8> {
@@ -142,7 +150,10 @@ pub fn stack(pictures: &[RgbImage]) -> RgbImage {
 /// Never: writing to memory does not fail.
 #[must_use]
 pub fn png(image: &RgbImage) -> Vec<u8> {
-    let mut bytes = std::io::Cursor::new(Vec::new());
-    image.write_to(&mut bytes, image::ImageFormat::Png).expect("writing to memory does not fail");
-    bytes.into_inner()
+    let mut bytes = Vec::new();
+    // Flat colours on a grid: rows repeat, which the filter `Up` turns into zeros.
+    PngEncoder::new_with_quality(&mut bytes, CompressionType::Best, FilterType::Up)
+        .write_image(image.as_raw(), image.width(), image.height(), ExtendedColorType::Rgb8)
+        .expect("writing to memory does not fail");
+    bytes
 }

@@ -31,17 +31,17 @@ fn section(out: &mut String, families: &[&FamilyReport], first: &FamilyReport, l
         judged.iter().map(|p| format!("{} {}", letter(&p.actual), p.actual)).collect();
     let _ = writeln!(
         out,
-        "{shapes}: {}, O oracle; wrong pixels of each pair; worst value / bound",
+        "{shapes}: {}, O oracle\n(A:O wrong pixels of A against O; val, dep: worst value and depth as a fraction of its bound)",
         legend.join(", ")
     );
     let _ =
-        write!(out, "{:<15} {:>6} {:>9} {:>10} {:>5}", "family", "cases", shapes, "pixels", "ties");
+        write!(out, "{:<15} {:>6} {:>9} {:>9} {:>4}", "family", "cases", shapes, "pixels", "ties");
     for pair in &first.pairs {
-        let _ = write!(out, " {:>7}", format!("{}:{}", letter(&pair.actual), letter(&pair.target)));
+        let _ = write!(out, " {:>6}", format!("{}:{}", letter(&pair.actual), letter(&pair.target)));
     }
-    for what in ["attr", "depth"] {
+    for what in ["val", "dep"] {
         for pair in &judged {
-            let _ = write!(out, " {:>7}", format!("{what} {}", letter(&pair.actual)));
+            let _ = write!(out, " {:>6}", format!("{what} {}", letter(&pair.actual)));
         }
     }
     out.push('\n');
@@ -57,7 +57,7 @@ fn section(out: &mut String, families: &[&FamilyReport], first: &FamilyReport, l
 fn row(out: &mut String, f: &FamilyReport) {
     let _ = write!(
         out,
-        "{:<15} {:>6} {:>9} {:>10} {:>4}%",
+        "{:<15} {:>6} {:>9} {:>9} {:>3}%",
         f.family,
         f.cases,
         f.shapes,
@@ -67,7 +67,7 @@ fn row(out: &mut String, f: &FamilyReport) {
     for pair in &f.pairs {
         let cell =
             if pair.panics > 0 { "panic".to_owned() } else { pair.tally.total().to_string() };
-        let _ = write!(out, " {cell:>7}");
+        let _ = write!(out, " {cell:>6}");
     }
     let judged = || f.pairs.iter().filter(|p| p.target == "oracle");
     let ratio = |out: &mut String, values: u64, worst: f64| {
@@ -76,7 +76,7 @@ fn row(out: &mut String, f: &FamilyReport) {
             (_, w) if w < 100.0 => format!("{w:.2}"),
             (_, w) => format!("{w:.0e}"),
         };
-        let _ = write!(out, " {cell:>7}");
+        let _ = write!(out, " {cell:>6}");
     };
     judged().for_each(|p| ratio(out, p.values, p.worst_attribute));
     judged().for_each(|p| ratio(out, p.values, p.worst_depth));

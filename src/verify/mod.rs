@@ -217,6 +217,8 @@ pub fn judge_lines<D: DrawLine + Sync>(engine: &D, options: &Options) -> Verdict
 
 /// Cases that a thread judges in one go.
 const BLOCK: u64 = 64;
+/// Cases of a family judged before the next family's turn: bounds the list of blocks.
+const MOST_PER_ROUND: u64 = 1 << 20;
 /// Failing cases kept for each family and pair, and shown for each pair in all.
 const KEPT: usize = 2;
 
@@ -252,11 +254,15 @@ fn drive(
     };
 
     let mut partials: Vec<Option<Partial>> = chosen.iter().map(|_| None).collect();
-    // With a time limit, families advance together, a block at a time.
-    let rounds = if options.time_limit.is_some() { BLOCK * 8 } else { options.cases.max(1) };
-    let mut done = 0;
-    while done < options.cases && !(done > 0 && expired()) {
-        let end = options.cases.min(done + rounds);
+    // With a time limit, families advance together, a few blocks at a time.
+    let round = if options.time_limit.is_some() { BLOCK * 8 } else { MOST_PER_ROUND };
+    let all = match options.only {
+        Some(index) => index..index.saturating_add(1),
+        None => 0..options.cases,
+    };
+    let mut done = all.start;
+    while done < all.end && !(done > all.start && expired()) {
+        let end = all.end.min(done.saturating_add(round));
         for (slot, (family, is_line, pairs)) in partials.iter_mut().zip(&chosen) {
             let blocks: Vec<u64> = (done..end).step_by(BLOCK as usize).collect();
             let merged = blocks
@@ -296,7 +302,7 @@ fn judge_block(
     let mut failing = Vec::new();
     let (part, parts) = options.shard;
     for index in indices {
-        if index % parts != part || options.only.is_some_and(|only| only != index) {
+        if index % parts != part {
             continue;
         }
         let (facts, findings) = judge(lines, &family.case(options.seed, index));

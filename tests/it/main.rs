@@ -1,3 +1,9 @@
-//! One program for the tests that need more than one room of the house.
+//! The tests other than the differential table, in one binary.
 
+mod commands;
 mod exact;
+mod house;
+mod mutants;
+mod protocol;
+mod recorded;
+mod snapshots;

@@ -1,0 +1,153 @@
+//! The command line, through the program itself: exit codes, messages, determinism.
+
+use std::process::{Command, Output};
+
+fn run(words: &[&str]) -> Output {
+    let folder = std::env::temp_dir().join(format!("rasterproof-commands-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    // Pictures go to the working folder's target/.
+    Command::new(env!("CARGO_BIN_EXE_rasterproof"))
+        .args(words)
+        .current_dir(folder)
+        .output()
+        .unwrap()
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).unwrap()
+}
+
+fn check(words: &[&str], status: i32) -> (String, String) {
+    let output = run(words);
+    let (out, errors) = (text(&output.stdout), text(&output.stderr));
+    assert_eq!(output.status.code(), Some(status), "{words:?}\n{out}\n{errors}");
+    (out, errors)
+}
+
+#[test]
+fn verify_agrees_and_says_how_to_repeat() {
+    let (out, errors) = check(&["--cases", "40", "--seed", "5"], 0);
+    assert!(out.contains("repeat with: rasterproof verify --seed 5 --cases 40"), "{out}");
+    assert!(
+        out.trim_end().ends_with(", 0 wrong pixels") && out.contains("\nAGREES: "),
+        "{out}"
+    );
+    assert!(
+        out.lines().all(|line| line.chars().count() <= 100 || line.contains("see it with")),
+        "{out}"
+    );
+    assert_eq!(errors, "", "no progress bar in a pipe");
+}
+
+#[test]
+fn verify_reports_a_planted_fault() {
+    let (out, _) = check(&["--cases", "40", "--plant", "exclusive-edges"], 1);
+    assert!(out.contains("\nDISAGREES: "), "{out}");
+    assert!(out.contains("exclusive-edges against oracle: 1 missing on "), "{out}");
+    let repeat =
+        out.lines().find(|l| l.contains("repeat with: ") && l.contains("--case ")).unwrap();
+    let words: Vec<&str> =
+        repeat.trim().trim_start_matches("repeat with: rasterproof ").split(' ').collect();
+    check(&words, 1);
+}
+
+#[test]
+fn verify_reports_a_panicking_engine() {
+    let (out, errors) = check(&["--cases", "40", "--plant", "panics-on-flat-bottom"], 1);
+    assert!(out.contains("panics (planted: slope of a flat edge)"), "{out}");
+    assert_eq!(errors, "");
+}
+
+#[test]
+fn verify_does_not_depend_on_the_number_of_threads() {
+    let json = |threads: &str| {
+        let output = Command::new(env!("CARGO_BIN_EXE_rasterproof"))
+            .args(["--cases", "300", "--json", "--family", "sliver", "--family", "line-far"])
+            .env("RAYON_NUM_THREADS", threads)
+            .output()
+            .unwrap();
+        assert_eq!(output.status.code(), Some(0));
+        text(&output.stdout)
+    };
+    assert!(json("1").contains("\"agrees\": true"));
+    assert_eq!(json("1"), json("3"));
+}
+
+#[test]
+fn verify_shards_add_up_to_the_whole() {
+    let pixels = |shard: &str| {
+        let (out, _) =
+            check(&["--cases", "300", "--family", "uniform", "--json", "--shard", shard], 0);
+        let json: serde_json::Value = serde_json::from_str(&out).unwrap();
+        json["families"][0]["pixels"].as_u64().unwrap()
+    };
+    assert_eq!(pixels("0/3") + pixels("1/3") + pixels("2/3"), pixels("0/1"));
+}
+
+#[test]
+fn misspelt_names_get_a_suggestion() {
+    let (_, errors) = check(&["--family", "slivr"], 2);
+    assert!(errors.contains("a similar value exists: 'sliver'"), "{errors}");
+    let (_, errors) = check(&["engine", "scanlin"], 2);
+    assert!(errors.contains("'scanline'"), "{errors}");
+    let (_, errors) = check(&["inspect", "slivr#3"], 2);
+    assert!(errors.contains("did you mean 'sliver'?"), "{errors}");
+    let (_, errors) = check(&["inspect", "T99"], 2);
+    assert!(errors.contains("no case is called 'T99'"), "{errors}");
+}
+
+#[test]
+fn bad_input_is_refused_with_a_reason() {
+    for (words, reason) in [
+        (&["--cases", "0"][..], "0 is not in 1.."),
+        (&["--cases", "many"], "invalid digit"),
+        (&["--seconds", "nan"], "--seconds NaN"),
+        (&["--shard", "3/3"], "I from 0 to N - 1"),
+        (&["--engine", "dda", "--family", "uniform"], "no case was judged"),
+        (&["inspect", "1,2", "3,4"], "three corners"),
+        (&["inspect", "nan,2", "3,4", "5,6"], "not a number"),
+        (&["inspect", "1e22,2", "3,4", "5,6"], "outside the domain"),
+        (&["inspect", "T2", "--window", "0x5"], "sides from 1 to 2048"),
+        (&["inspect", "T2", "--window", "1000000000x1"], "sides from 1 to 2048"),
+        (&["inspect", "T2", "--window", "2147483647,0,9x9"], "sides from 1 to 2048"),
+        (&["inspect", "--line", "0,0"], "two points"),
+        (&["inspect", "--line", "0,0", "1e9,3"], "whole numbers"),
+        (&["inspect", "sliver#x"], "number of a case"),
+        (&["inspect", "T2", "-o", "/proc/none/x.png"], "/proc/none/x.png"),
+    ] {
+        let (_, errors) = check(words, 2);
+        assert!(errors.contains(reason), "{words:?}: {errors}");
+    }
+}
+
+#[test]
+fn inspect_explains_named_cases() {
+    for named in rasterproof::hazard::named::named() {
+        let (out, _) = check(&["inspect", named.name], 0);
+        assert!(out.starts_with(&format!("{}: ", named.name)), "{out}");
+    }
+}
+
+#[test]
+fn inspect_takes_coordinates_and_writes_a_picture() {
+    let path = std::env::temp_dir().join(format!("rasterproof-{}.png", std::process::id()));
+    let name = path.to_str().unwrap();
+    let (out, _) =
+        check(&["inspect", "-1.5,-1.5", "4,0", "0,4", "--window", "-2,-2,8x8", "-o", name], 0);
+    assert!(out.contains("columns -2..6"), "{out}");
+    let picture = image::open(&path).unwrap();
+    assert_eq!(picture.height(), 8 * 40 + 1);
+    std::fs::remove_file(path).unwrap();
+    check(&["inspect", "--line", "-5,3", "9,-2"], 0);
+    check(&["inspect", "sliver#7", "--seed", "3"], 0);
+}
+
+#[test]
+fn help_shows_examples_and_exit_codes() {
+    let (out, _) = check(&["--help"], 0);
+    assert!(out.contains("Examples:") && out.contains("Exit status: 0"), "{out}");
+    let (out, _) = check(&["engine", "--help"], 0);
+    assert!(out.contains("T id width height"), "{out}");
+    let (out, _) = check(&["list"], 0);
+    assert!(out.contains("near-tie") && out.contains("S11") && out.contains("bresenham"), "{out}");
+}

@@ -1,0 +1,141 @@
+//! The line protocol, through the program itself: answers, refusals, robustness.
+
+use std::io::Write;
+use std::process::{Command, Stdio};
+
+/// What the program answers to these bytes; it must end with status 0.
+fn ask(engine: &str, requests: &[u8]) -> Vec<String> {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_rasterproof"))
+        .args(["engine", engine])
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
+    child.stdin.take().unwrap().write_all(requests).unwrap();
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(0));
+    String::from_utf8(output.stdout).unwrap().lines().map(str::to_owned).collect()
+}
+
+fn check(engine: &str, request: &str, answer: &str) {
+    assert_eq!(ask(engine, format!("{request}\n").as_bytes()), [answer], "{engine}: {request}");
+}
+
+#[test]
+fn hello_names_the_capabilities() {
+    check("scanline", "HELLO 1", "HELLO 1 scanline coverage attributes");
+    check("bresenham", "HELLO 1", "HELLO 1 bresenham line");
+    check("oracle", "HELLO 1", "HELLO 1 oracle coverage attributes line");
+    check("oracle", "HELLO 2", "E - this engine speaks version 1: say HELLO 1");
+}
+
+#[test]
+fn coverage_of_a_triangle_on_centres() {
+    for engine in ["scanline", "edge-function", "oracle"] {
+        check(engine, "T a 8 8 0.5 0.5 5.5 0.5 5.5 5.5", "C a 5 0 0 5 1 1 5 2 2 5 3 3 5 4 4 5");
+        check(
+            engine,
+            "T h 8 8 0x1p-1 0x.8p0 0x1.6p2 +0.5 5.5e0 0X1.6P+2",
+            "C h 5 0 0 5 1 1 5 2 2 5 3 3 5 4 4 5",
+        );
+        check(engine, "T e 8 8 1 1 1 1 5 5", "C e 0");
+    }
+}
+
+#[test]
+fn lines_in_drawing_order() {
+    for engine in ["dda", "bresenham", "oracle"] {
+        check(engine, "L 1 64 64 8 3 0 0", "P 1 9 8 3 7 3 6 2 5 2 4 2 3 1 2 1 1 0 0 0");
+        check(engine, "L 2 64 64 0.5 0.5 8.5 3.5", "P 2 9 0 0 1 0 2 1 3 1 4 2 5 2 6 2 7 3 8 3");
+        check(
+            engine,
+            "L 3 64 64 -1e9 -1e9 1e9 1e9",
+            &format!("P 3 64{}", (0..64).map(|i| format!(" {i} {i}")).collect::<String>()),
+        );
+    }
+}
+
+#[test]
+fn values_are_perspective_correct() {
+    // Worked out by hand in `oracle::values`: v = 8/23 and depth 25/4 at pixel (1, 0).
+    for engine in ["scanline", "edge-function", "oracle"] {
+        let answers = ask(engine, b"I 7 4 4 0 0 0 1 0 5 4 0 10 2 1 5 0 4 20 4 2 5\n");
+        let words: Vec<&str> = answers[0].split(' ').collect();
+        assert_eq!(words[..3], ["F", "7", "6"], "{engine}");
+        let at = words[3..].chunks(5).find(|f| f[0] == "1" && f[1] == "0").expect("pixel (1, 0)");
+        let number = |i: usize| at[i].parse::<f64>().unwrap();
+        assert!((number(2) - 6.25).abs() < 1e-13, "{engine}: {at:?}");
+        assert!((number(3) - 8.0 / 23.0).abs() < 1e-15, "{engine}: {at:?}");
+        assert!((number(4) - 5.0).abs() < 1e-14, "{engine}: {at:?}");
+    }
+}
+
+#[test]
+fn bad_requests_are_answered_and_survived() {
+    let cases: [(&str, &str); 16] = [
+        ("T b 8 8 nan 0 1 1 2 2", "E b x0 is not a number (NaN)"),
+        ("T b 8 8 0 -inf 1 1 2 2", "E b y0 is infinite"),
+        ("T b 8 8 0 0 1e300 1 2 2", "E b x1 1e300 px is outside the domain [-8388608, 8388608) px"),
+        ("T b 8 8 0 0 1 1 2", "E b T takes an id, width, height and 6 numbers; 8 words follow"),
+        (
+            "T b 8 8 0 0 1 1 2 2 3",
+            "E b T takes an id, width, height and 6 numbers; 10 words follow",
+        ),
+        ("T b 0 8 0 0 1 1 2 2", "E b width '0' is not a whole number from 1 to 16384"),
+        (
+            "T b 8 1000000000 0 0 1 1 2 2",
+            "E b height '1000000000' is not a whole number from 1 to 16384",
+        ),
+        ("T b 8 1e9 0 0 1 1 2 2", "E b height '1e9' is not a whole number from 1 to 16384"),
+        ("T b -8 8 0 0 1 1 2 2", "E b width '-8' is not a whole number from 1 to 16384"),
+        ("T b 8 8 0 0 one 1 2 2", "E b number 3 'one' cannot be read"),
+        ("T b 8 8 0 0 0x 1 2 2", "E b number 3 '0x' cannot be read"),
+        ("T b 8 8 0 0 -+1 1 2 2", "E b number 3 '-+1' cannot be read"),
+        ("X b 8 8", "E b unknown request 'X'; expected HELLO, T, L, I"),
+        ("T", "E - T takes an id, width, height and 6 numbers; 0 words follow"),
+        ("S b 8 8 0 0 1 1 2 2", "E b unsupported"),
+        (
+            "I b 8 8 0 0 0 0 0 0 1 1 0 1 0 0 2 2 0 1 0 0",
+            "E b w0 0e0 is outside the accepted range [6.223015277861142e-61, 1.6069380442589903e60]",
+        ),
+    ];
+    let mut requests: Vec<u8> = Vec::new();
+    for (request, _) in cases {
+        requests.extend_from_slice(request.as_bytes());
+        requests.push(b'\n');
+    }
+    requests.extend_from_slice(b"\xff\xfe T\n\n   \n");
+    requests.extend(std::iter::repeat_n(b'7', 200_000));
+    // The last line has no end.
+    requests.extend_from_slice(b"\nT last 2 2 0 0 2 0 2 2");
+    let answers = ask("edge-function", &requests);
+    let mut expected: Vec<String> = cases.iter().map(|(_, answer)| (*answer).to_owned()).collect();
+    expected.extend(
+        [
+            "E - the request is not UTF-8",
+            "E - a request has at most 65536 bytes",
+            "C last 2 0 0 2 1 1 2",
+        ]
+        .map(str::to_owned),
+    );
+    assert_eq!(answers, expected);
+    check("dda", "T b 8 8 0 0 1 1 2 2", "E b unsupported");
+    check("scanline", "L b 8 8 0 0 1 1", "E b unsupported");
+    check(
+        "dda",
+        "L b 8 8 0 0 1e300 1",
+        "E b x1 1e300 is outside the domain of lines, [-2^31, 2^31) px",
+    );
+    check("dda", "L b 8 8 0 nan 1 1", "E b y0 is not a number (NaN)");
+}
+
+/// The oracle says no to what would take hours, the engines stream it.
+#[test]
+fn absurd_windows_are_bounded() {
+    let request = "I big 16384 16384 0 0 0 1 0 0 16384 0 0 1 0 0 0 16384 0 1 0 0";
+    check(
+        "oracle",
+        request,
+        "E big 134209536 fragments; the oracle computes at most 1048576 for a request",
+    );
+}

@@ -1,0 +1,361 @@
+//! Every named case: its pixels as the catalogue says, by every engine; a snapshot as text, and for
+//! the small ones one as a picture.
+//!
+//! A picture is compared by its decoded pixels. Where it differs, a sheet old | new | difference is
+//! written to `target/rasterproof/review/`.
+
+use glam::{DVec2, DVec3};
+use image::{Rgb, RgbImage};
+use insta::internals::SnapshotContents;
+use insta::{Comparator, Settings, Snapshot};
+use rasterproof::contract::Interpolate;
+use rasterproof::frame::{Coverage, Frame};
+use rasterproof::grid::{PixelRect, SubpixelPoint};
+use rasterproof::hazard::named::{Input, NamedCase, find, named};
+use rasterproof::hazard::{Case, Shape};
+use rasterproof::lineup::{Engine, LineEngine};
+use rasterproof::mutant::TriangleMutant;
+use rasterproof::raster::edge_function::EdgeFunction;
+use rasterproof::raster::scanline::Scanline;
+use rasterproof::report::{ascii, picture};
+use rasterproof::triangle::{ScreenTriangle, ScreenVertex};
+use rasterproof::verify::{
+    Tally, engine_coverage, judge_case, line_coverage, oracle_coverage, tolerance,
+};
+
+/// Largest picture that is kept.
+const MOST_BYTES: usize = 20 * 1024;
+
+/// Snapshots live at the top level, named after their case alone.
+pub fn settings() -> Settings {
+    let mut settings = Settings::clone_current();
+    settings.set_snapshot_path(concat!(env!("CARGO_MANIFEST_DIR"), "/snapshots"));
+    settings.set_prepend_module_to_snapshot(false);
+    settings.set_omit_expression(true);
+    settings
+}
+
+#[derive(Clone)]
+struct ByPixels(String);
+
+impl Comparator for ByPixels {
+    fn matches(&self, reference: &Snapshot, test: &Snapshot) -> bool {
+        let decode = |snapshot: &Snapshot| match snapshot.contents() {
+            SnapshotContents::Binary(Some(bytes)) => {
+                image::load_from_memory(bytes).ok().map(|i| i.to_rgb8())
+            }
+            _ => None,
+        };
+        match (decode(reference), decode(test)) {
+            (Some(old), Some(new)) if old == new => true,
+            (Some(old), Some(new)) => {
+                review(&self.0, &old, &new);
+                false
+            }
+            _ => false,
+        }
+    }
+
+    fn dyn_clone(&self) -> Box<dyn Comparator> {
+        Box::new(self.clone())
+    }
+}
+
+/// The sheet old | new | difference.
+fn sheet(old: &RgbImage, new: &RgbImage) -> RgbImage {
+    let (width, height) = (old.width().max(new.width()), old.height().max(new.height()));
+    let mut sheet = RgbImage::from_pixel(3 * width + 16, height, Rgb([255, 255, 255]));
+    image::imageops::replace(&mut sheet, old, 0, 0);
+    image::imageops::replace(&mut sheet, new, i64::from(width) + 8, 0);
+    for y in 0..height {
+        for x in 0..width {
+            let (a, b) = (old.get_pixel_checked(x, y), new.get_pixel_checked(x, y));
+            let colour = if a == b { Rgb([235, 235, 235]) } else { Rgb([220, 30, 30]) };
+            sheet.put_pixel(2 * width + 16 + x, y, colour);
+        }
+    }
+    sheet
+}
+
+fn review(name: &str, old: &RgbImage, new: &RgbImage) {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/target/rasterproof/review");
+    let path = format!("{folder}/{name}.png");
+    std::fs::create_dir_all(folder).unwrap();
+    std::fs::write(&path, picture::png(&sheet(old, new))).unwrap();
+    eprintln!("{name} looks different: see {path} (old | new | difference)");
+}
+
+fn judged(case: &Case) -> (Vec<(&'static str, Coverage)>, Coverage) {
+    match &case.shape {
+        Shape::Triangles { list, .. } => {
+            let hits = |e: &Engine| (e.name(), engine_coverage(e, list, case.window).unwrap());
+            (Engine::JUDGED.iter().map(hits).collect(), oracle_coverage(list, case.window))
+        }
+        Shape::Lines(lines) => {
+            let hits = |e: &LineEngine| (e.name(), line_coverage(e, lines, case.window).unwrap());
+            let oracle = line_coverage(&LineEngine::Oracle, lines, case.window).unwrap();
+            (LineEngine::JUDGED.iter().map(hits).collect(), oracle)
+        }
+    }
+}
+
+/// Pixels of each triangle or line alone, by the oracle.
+fn pixels_each(case: &Case) -> Vec<u64> {
+    match &case.shape {
+        Shape::Triangles { list, .. } => {
+            list.iter().map(|t| oracle_coverage(&[*t], case.window).covered()).collect()
+        }
+        Shape::Lines(lines) => lines
+            .iter()
+            .map(|l| line_coverage(&LineEngine::Oracle, &[*l], case.window).unwrap().covered())
+            .collect(),
+    }
+}
+
+fn text(named: &NamedCase, case: &Case) -> String {
+    let (engines, target) = judged(case);
+    let mut out = format!("{}: {}\n\n", named.name, named.about);
+    let blocks: Vec<_> = engines
+        .iter()
+        .map(|(name, hits)| (format!("{name}: {} px", hits.covered()), ascii::grid(hits, &target)))
+        .chain([(format!("oracle: {} px", target.covered()), ascii::grid(&target, &target))])
+        .collect();
+    out.push_str(&ascii::side_by_side(&blocks, 100));
+    out
+}
+
+#[test]
+fn snapshots_of_named_cases() {
+    let mut glob = Vec::new();
+    for named in named() {
+        match &named.input {
+            Input::Drawn { case, .. } => {
+                settings().bind(|| {
+                    insta::assert_snapshot!(format!("{}-text", named.name), text(&named, case))
+                });
+                let (engines, target) = judged(case);
+                let hits: Vec<_> = engines.into_iter().map(|(_, hits)| hits).collect();
+                let png = picture::png(&picture::panels(case, &hits, &target));
+                if case.window.width() <= 64 && case.window.height() <= 80 {
+                    assert!(png.len() <= MOST_BYTES, "{}: {} bytes", named.name, png.len());
+                    let mut settings = settings();
+                    settings.set_comparator(Box::new(ByPixels(named.name.to_owned())));
+                    settings.bind(|| {
+                        insta::assert_binary_snapshot!(&format!("{}.png", named.name), png)
+                    });
+                    glob.push(named.name);
+                }
+            }
+            Input::Refused(corners) => {
+                let lines: Vec<String> = corners
+                    .iter()
+                    .flatten()
+                    .filter_map(|&[x, y]| {
+                        Some(format!("({x:?}, {y:?}) {}", SubpixelPoint::from_px(x, y).err()?))
+                    })
+                    .collect();
+                let text = format!("{}: {}\n\n{}\n", named.name, named.about, lines.join("\n"));
+                settings().bind(|| insta::assert_snapshot!(format!("{}-text", named.name), text));
+            }
+        }
+    }
+    assert!(glob.len() > 20, "{glob:?}");
+}
+
+#[test]
+fn named_cases_are_as_catalogued() {
+    let engines =
+        [(Engine::Scanline, tolerance::SCANLINE), (Engine::EdgeFunction, tolerance::EDGE_FUNCTION)];
+    for named in named() {
+        match &named.input {
+            Input::Drawn { case, pixels } => {
+                for ([actual, target], finding) in judge_case(&engines, &LineEngine::JUDGED, case) {
+                    assert!(
+                        !finding.is_wrong(),
+                        "{}: {actual} against {target}: {}",
+                        named.name,
+                        finding.describe()
+                    );
+                }
+                if !pixels.is_empty() {
+                    assert_eq!(&pixels_each(case), pixels, "{}", named.name);
+                }
+            }
+            Input::Refused(corners) => {
+                for triangle in corners {
+                    let refused =
+                        triangle.iter().any(|&[x, y]| SubpixelPoint::from_px(x, y).is_err());
+                    assert!(refused, "{}: {triangle:?} is accepted", named.name);
+                }
+            }
+        }
+    }
+}
+
+/// Hits over a whole named case: total, and the largest count of any pixel.
+fn total(name: &str) -> (u64, u8) {
+    let Input::Drawn { case, .. } = find(name).unwrap().input else {
+        panic!("{name} draws nothing")
+    };
+    let (_, hits) = judged(&case);
+    let all: Vec<u8> = hits.rows().flat_map(|(_, row)| row.to_vec()).collect();
+    (all.iter().map(|&h| u64::from(h)).sum(), all.into_iter().max().unwrap_or(0))
+}
+
+/// Totals that the catalogue states for whole meshes: each pixel once.
+#[test]
+fn named_meshes_hit_each_pixel_once() {
+    for (name, pixels) in [
+        ("T1", 1),
+        ("T2", 25),
+        ("T3", 36),
+        ("T4", 1300),
+        ("T6", 110),
+        ("T7", 8),
+        ("T8", 32),
+        ("S1", 512),
+        ("S6", 16),
+        ("L9", 24),
+    ] {
+        assert_eq!(total(name), (pixels, 1), "{name}");
+    }
+    for name in ["T5", "O4", "O5", "S9"] {
+        assert_eq!(total(name).1, 1, "{name}");
+    }
+}
+
+/// T4: row 30 has 40 pixels.
+#[test]
+fn t4_row_30_has_40_pixels() {
+    let Input::Drawn { case, .. } = find("T4").unwrap().input else { panic!("T4 is drawn") };
+    let (_, hits) = judged(&case);
+    assert_eq!(hits.row(30).iter().filter(|&&h| h == 1).count(), 40);
+}
+
+/// The comparison of pictures sees one changed pixel, and not a different encoding.
+#[test]
+fn pictures_are_compared_by_pixels() {
+    let old = RgbImage::from_pixel(4, 3, Rgb([1, 2, 3]));
+    let mut new = old.clone();
+    new.put_pixel(2, 1, Rgb([9, 9, 9]));
+    let sheet = sheet(&old, &new);
+    let red = sheet.pixels().filter(|p| **p == Rgb([220, 30, 30])).count();
+    assert_eq!((red, sheet.width()), (1, 28));
+}
+
+/// Keeps a picture of the docs as a snapshot.
+fn check_picture(name: &str, image: &RgbImage) {
+    let png = picture::png(image);
+    assert!(png.len() <= MOST_BYTES, "{name}: {} bytes", png.len());
+    let mut settings = settings();
+    settings.set_comparator(Box::new(ByPixels(name.to_owned())));
+    settings.bind(|| insta::assert_binary_snapshot!(&format!("{name}.png"), png));
+}
+
+fn vertex<V>(x_px: f64, y_px: f64, w: f64, varying: V) -> ScreenVertex<V> {
+    ScreenVertex::new(x_px, y_px, 0.0, w, varying).unwrap()
+}
+
+/// A square of the picture for each pixel.
+fn zoomed(width: u32, height: u32, zoom: u32) -> RgbImage {
+    RgbImage::from_pixel(width * zoom, height * zoom, Rgb([250, 250, 247]))
+}
+
+fn square(image: &mut RgbImage, x_px: u32, y_px: u32, zoom: u32, colour: Rgb<u8>) {
+    let side = if zoom > 4 { zoom - 1 } else { zoom };
+    for y in 0..side {
+        for x in 0..side {
+            image.put_pixel(x_px * zoom + x, y_px * zoom + y, colour);
+        }
+    }
+}
+
+/// For chapter 3: red, green and blue corners, every pixel in its interpolated colour.
+#[test]
+fn picture_of_barycentric_interpolation() {
+    let vertices = [
+        vertex(2.0, 1.0, 1.0, DVec3::X),
+        vertex(28.5, 6.0, 1.0, DVec3::Y),
+        vertex(8.0, 30.0, 1.0, DVec3::Z),
+    ];
+    let mut image = zoomed(30, 31, 8);
+    Scanline.fragments(&ScreenTriangle { vertices }, PixelRect::window(30, 31), |f| {
+        let colour = Rgb((f.varying * 255.0).round().to_array().map(|c| c as u8));
+        square(&mut image, f.x_px as u32, f.y_px as u32, 8, colour);
+    });
+    check_picture("barycentric", &image);
+}
+
+/// For chapter 5: a receding square, perspective-correct, affine, and the size of the difference
+/// (white is the bound of 1/3, attained at w = 1 to 4).
+#[test]
+fn picture_of_the_affine_error() {
+    let corners = [
+        (8.0, 88.0, 1.0, 0.0, 0.0),
+        (88.0, 88.0, 1.0, 1.0, 0.0),
+        (58.0, 8.0, 4.0, 1.0, 1.0),
+        (38.0, 8.0, 4.0, 0.0, 1.0),
+    ];
+    let uv = |affine: bool| {
+        let mut frame = Frame::new(PixelRect::window(96, 96), None);
+        for split in [[0, 1, 2], [0, 2, 3]] {
+            let vertices = split.map(|i| {
+                let (x, y, w, u, v) = corners[i];
+                vertex(x, y, if affine { 1.0 } else { w }, DVec2::new(u, v))
+            });
+            EdgeFunction.fragments(&ScreenTriangle { vertices }, frame.bounds(), |f| {
+                frame.span_mut(f.y_px, f.x_px, f.x_px + 1)[0] = Some(f.varying);
+            });
+        }
+        frame
+    };
+    let (right, wrong) = (uv(false), uv(true));
+    let mut image = zoomed(96 * 3 + 8, 96, 3);
+    let mut worst: f64 = 0.0;
+    for y in 0..96 {
+        for x in 0..96 {
+            let (Some(a), Some(b)) = (right.get(x, y).flatten(), wrong.get(x, y).flatten()) else {
+                continue;
+            };
+            let chequer = |uv: DVec2| {
+                let cell = (uv * 8.0).floor();
+                if (cell.x + cell.y) % 2.0 == 0.0 {
+                    Rgb([60, 90, 140])
+                } else {
+                    Rgb([230, 225, 210])
+                }
+            };
+            let error = (a - b).abs().max_element();
+            worst = worst.max(error);
+            let heat = (error * 3.0 * 255.0).round().min(255.0) as u8;
+            let (x, y) = (x as u32, y as u32);
+            square(&mut image, x, y, 3, chequer(a));
+            square(&mut image, x + 100, y, 3, chequer(b));
+            square(&mut image, x + 200, y, 3, Rgb([heat, heat / 2, 40]));
+        }
+    }
+    // (sqrt 4 - 1) / (sqrt 4 + 1) = 1/3 bounds the error, and the edges come close to it.
+    assert!(worst <= 1.0 / 3.0 && worst > 0.32, "{worst}");
+    check_picture("affine-error", &image);
+}
+
+/// For the README: a closed fan by the strict rule (holes), by the inclusive one (twice), by both
+/// engines and by the oracle.
+#[test]
+fn picture_of_a_verdict() {
+    let Input::Drawn { case, .. } = find("T6").unwrap().input else { panic!("T6 is drawn") };
+    let Shape::Triangles { list, .. } = &case.shape else { panic!("T6 is a fan") };
+    let engines = [
+        Engine::Mutant(TriangleMutant::ExclusiveEdges),
+        Engine::Mutant(TriangleMutant::InclusiveEdges),
+        Engine::Scanline,
+        Engine::EdgeFunction,
+    ];
+    let target = oracle_coverage(list, case.window);
+    let hits = engines.map(|engine| engine_coverage(&engine, list, case.window).unwrap());
+    let wrong = [0, 1, 2, 3].map(|i| Tally::between(&hits[i], &target));
+    assert!(wrong[0].missing > 0 && wrong[0].extra + wrong[0].twice == 0, "{wrong:?}");
+    assert!(wrong[1].twice > 0 && wrong[1].missing == 0, "{wrong:?}");
+    assert_eq!((wrong[2].total(), wrong[3].total()), (0, 0));
+    check_picture("verdict", &picture::panels(&case, &hits, &target));
+}
