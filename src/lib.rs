@@ -60,4 +60,6 @@ mod docs {
     struct Chapters4And5;
     #[doc = include_str!("../docs/judge.md")]
     struct Judge;
+    #[doc = include_str!("../docs/offgrid.md")]
+    struct OffGrid;
 }

@@ -19,8 +19,8 @@ pub fn table(verdict: &ExactVerdict) -> String {
         .collect();
     let _ = writeln!(
         out,
-        "triangles off the grid: {}, O oracle-exact; wrong pixels;\ndecisions (scanline: edge at a \
-         row; edge function: edge at a sample), and how many took exact arithmetic",
+        "triangles off the grid: {}, O oracle-exact; wrong pixels;\ndecisions (scanline: edge and \
+         row; edge function: edge and sample) and those in exact arithmetic",
         legend.join(", ")
     );
     let _ = write!(

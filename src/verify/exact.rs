@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use super::contest::caught;
-use super::{BLOCK, KEPT, Options, Tally};
+use super::{BLOCK, KEPT, MOST_PER_ROUND, Options, Tally};
 use crate::contract::{Decisions, RasterizeExact};
 use crate::frame::Coverage;
 use crate::hazard::offgrid::{FAMILIES, OffGridCase, OffGridFamily};
@@ -210,10 +210,14 @@ pub fn judge_exact<R: RasterizeExact + Sync>(
     let mut partials: Vec<Partial> =
         chosen.iter().map(|family| Partial::new(family, engines)).collect();
     // With a time limit, families advance together, a few blocks at a time.
-    let rounds = if options.time_limit.is_some() { BLOCK * 8 } else { options.cases.max(1) };
-    let mut done = 0;
-    while done < options.cases && !(done > 0 && expired()) {
-        let end = options.cases.min(done + rounds);
+    let round = if options.time_limit.is_some() { BLOCK * 8 } else { MOST_PER_ROUND };
+    let all = match options.only {
+        Some(index) => index..index.saturating_add(1),
+        None => 0..options.cases,
+    };
+    let mut done = all.start;
+    while done < all.end && !(done > all.start && expired()) {
+        let end = all.end.min(done.saturating_add(round));
         for (slot, family) in partials.iter_mut().zip(&chosen) {
             let blocks: Vec<u64> = (done..end).step_by(BLOCK as usize).collect();
             let merged = blocks
@@ -304,7 +308,7 @@ fn judge_block<R: RasterizeExact>(
     let report = &mut partial.report;
     let (part, parts) = options.shard;
     for index in indices {
-        if index % parts != part || options.only.is_some_and(|only| only != index) {
+        if index % parts != part {
             continue;
         }
         let case = family.case(options.seed, index);

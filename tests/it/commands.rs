@@ -28,10 +28,7 @@ fn check(words: &[&str], status: i32) -> (String, String) {
 fn verify_agrees_and_says_how_to_repeat() {
     let (out, errors) = check(&["--cases", "40", "--seed", "5"], 0);
     assert!(out.contains("repeat with: rasterproof verify --seed 5 --cases 40"), "{out}");
-    assert!(
-        out.trim_end().ends_with(", 0 wrong pixels") && out.contains("\nAGREES: "),
-        "{out}"
-    );
+    assert!(out.trim_end().ends_with(", 0 wrong pixels") && out.contains("\nAGREES: "), "{out}");
     assert!(
         out.lines().all(|line| line.chars().count() <= 100 || line.contains("see it with")),
         "{out}"

@@ -353,6 +353,11 @@ fn command_line() {
     assert_eq!((status, &json["agrees"]), (1, &serde_json::Value::Bool(false)));
     assert_eq!(json["off_grid_families"][0]["family"], "f32-far");
     assert_eq!(json["failures"][0]["pair"][1], "oracle-exact");
+    // A number beyond the default count of cases is judged, too.
+    let (status, output, _) = run("rasterproof verify --family f32-tie --case 123456789012", "");
+    assert_eq!(status, 0, "{output}");
+    assert!(output.contains(", 1 triangles off the grid, 0 wrong pixels"), "{output}");
+    assert!(output.lines().all(|line| line.chars().count() <= 100), "{output}");
     let (status, output, _) = run("rasterproof inspect f64-denormal#5", "");
     assert_eq!(status, 0, "{output}");
     assert!(output.contains("edge-function-exact against oracle-exact: agrees"), "{output}");
