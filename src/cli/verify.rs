@@ -5,16 +5,17 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use super::{Failure, Streams, exit, usage, write_file};
+use super::{Failure, Streams, exit, invariant, usage, write_file};
 use crate::hazard;
 use crate::lineup::{Engine, LineEngine};
-use crate::mutant::{LineMutant, TriangleMutant};
+use crate::mutant::{LineMutant, Mutant, TriangleMutant};
 use crate::report::{ascii, json, picture, table};
 use crate::verify::tolerance::{self, Tolerance};
 use crate::verify::{self, Options, Verdict};
 
 /// Options of `verify`.
 #[derive(clap::Args, Debug)]
+#[group(id = "verify-options")]
 pub struct Arguments {
     /// Cases of each family [default: 20000]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
@@ -28,6 +29,10 @@ pub struct Arguments {
     /// Only this engine against the oracle; may be repeated
     #[arg(long, value_name = "NAME", value_parser = ["scanline", "edge-function", "dda", "bresenham"])]
     engine: Vec<String>,
+    /// Check this invariant instead, or all of them; may be repeated
+    #[arg(long, value_name = "NAME", value_parser = invariant::names(), hide_possible_values = true,
+        conflicts_with_all = ["family", "engine", "shard", "case", "json", "seconds"])]
+    invariant: Vec<String>,
     /// Decides every generated case
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
@@ -50,8 +55,7 @@ fn family_names() -> Vec<&'static str> {
 }
 
 fn mutant_names() -> Vec<&'static str> {
-    let triangles = TriangleMutant::ALL.iter().map(|mutant| mutant.name());
-    triangles.chain(LineMutant::ALL.iter().map(|mutant| mutant.name())).collect()
+    Mutant::all().iter().map(Mutant::name).collect()
 }
 
 fn parse_shard(text: &str) -> Result<(u64, u64), String> {
@@ -148,12 +152,19 @@ pub fn with_tolerance(engine: Engine) -> (Engine, Tolerance) {
 const FOLDER: &str = "target/rasterproof";
 
 pub fn run(arguments: &Arguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+    if !arguments.invariant.is_empty() {
+        let Arguments { invariant: names, plant, seed, cases, .. } = arguments;
+        return invariant::run(names, plant.as_deref(), *seed, *cases, streams);
+    }
     let mut options = arguments.options()?;
     if let Some(case) = options.only {
         options.cases =
             case.checked_add(1).ok_or_else(|| usage("--case: the number is too large"))?;
     }
     let (engines, lines) = arguments.contestants();
+    if engines.is_empty() && lines.is_empty() {
+        return Err(usage("this fault is in no engine and no line drawer: add --invariant NAME"));
+    }
     let verdict = judge(&engines, &lines, &options, streams.progress);
     if verdict.families.iter().all(|family| family.cases == 0) {
         return Err(usage(
