@@ -66,7 +66,8 @@ fn fold(case: &Case) -> u64 {
 
 /// Families whose first cases of seed 1 are pinned, so that debug, release and every machine must
 /// agree on them. Whoever changes one of these families on purpose writes the new number here.
-const PINNED: [(&str, u64); 3] = [("uniform", 0), ("w-1e6", 0), ("line-far", 0)];
+const PINNED: [(&str, u64); 3] =
+    [("uniform", 0x1873_6895_9080_eecd), ("w-1e6", 0), ("line-far", 0)];
 
 /// 44: the same case for the same seed and number, whenever and on whichever thread it is made, and
 /// the same verdict on one thread and on three.

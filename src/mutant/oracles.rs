@@ -10,22 +10,22 @@ use crate::triangle::{Corners, Fragment, ScreenTriangle, Span, Varying};
 pub enum OracleMutant {
     /// A crossing exactly at a sample is not left of it: right edges own.
     TiesGoLeft,
-    /// Crossings are computed in f32.
-    CrossesInF32,
+    /// Sides are the signs of A x + B y - C in f32.
+    PlanesInF32,
     /// Values ignore w.
     AffineValues,
 }
 
 impl OracleMutant {
     /// Every mutant.
-    pub const ALL: [Self; 3] = [Self::TiesGoLeft, Self::CrossesInF32, Self::AffineValues];
+    pub const ALL: [Self; 3] = [Self::TiesGoLeft, Self::PlanesInF32, Self::AffineValues];
 
     /// Its name for `--plant`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::TiesGoLeft => "oracle-ties-go-left",
-            Self::CrossesInF32 => "oracle-crosses-in-f32",
+            Self::PlanesInF32 => "oracle-planes-in-f32",
             Self::AffineValues => "oracle-affine-values",
         }
     }
@@ -34,9 +34,11 @@ impl OracleMutant {
     fn is_left(self, upper: SubpixelPoint, lower: SubpixelPoint, sample: SubpixelPoint) -> bool {
         let [ux, uy, lx, ly, sx, sy] =
             [upper.x, upper.y, lower.x, lower.y, sample.x, sample.y].map(i128::from);
-        if self == Self::CrossesInF32 {
-            let slope = (lx - ux) as f32 / (ly - uy) as f32;
-            return ux as f32 + (sy - uy) as f32 * slope <= sx as f32;
+        if self == Self::PlanesInF32 {
+            // dy x - dx y - c >= 0, each number rounded to 24 bits.
+            let (a, b) = ((ly - uy) as f32, (ux - lx) as f32);
+            let c = a * ux as f32 + b * uy as f32;
+            return a * sx as f32 + b * sy as f32 >= c;
         }
         (sy - uy) * (lx - ux) < (sx - ux) * (ly - uy)
     }
