@@ -38,6 +38,7 @@ pub mod contract;
 pub mod frame;
 pub mod grid;
 pub mod hazard;
+pub mod invariant;
 pub mod line;
 pub mod lineup;
 pub mod mutant;

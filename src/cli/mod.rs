@@ -2,6 +2,7 @@
 
 mod engine;
 mod inspect;
+mod invariant;
 mod verify;
 
 use std::fmt;
@@ -30,7 +31,9 @@ const EXAMPLES: &str = "Examples:
   rasterproof inspect 0.5,0.5 5.5,0.5 5.5,5.5     explain a triangle
   rasterproof inspect --line 0,0 8,3              explain a line
   rasterproof engine scanline < requests.txt      speak the line protocol
-  rasterproof list                                families, cases and engines
+  rasterproof verify --invariant vertex-order     check one invariant; all checks every one
+  rasterproof mutants                             which invariant kills which planted fault
+  rasterproof list                                families, cases, engines and invariants
 
 Exit status: 0 all agree, 1 something disagrees, 2 usage or bad input.";
 
@@ -57,7 +60,9 @@ enum Command {
         #[arg(value_parser = engine_names())]
         name: String,
     },
-    /// List families, named cases and engines
+    /// Show which invariant kills which planted fault
+    Mutants,
+    /// List families, named cases, engines and invariants
     List,
 }
 
@@ -130,6 +135,7 @@ pub fn run(words: impl IntoIterator<Item = String>, streams: &mut Streams<'_>) -
         Some(Command::Verify(arguments)) => verify::run(arguments, streams),
         Some(Command::Inspect(arguments)) => inspect::run(arguments, streams),
         Some(Command::Engine { name }) => engine::run(name, streams),
+        Some(Command::Mutants) => invariant::mutants(streams),
         Some(Command::List) => list(streams),
     };
     let result = result.and_then(|status| Ok(streams.output.flush().map(|()| status)?));
@@ -175,6 +181,7 @@ fn list(streams: &mut Streams<'_>) -> Result<u8, Failure> {
     for entry in &lineup::ENTRIES {
         writeln!(out, "  {:<19} {}", entry.name, entry.about)?;
     }
+    invariant::list(streams)?;
     Ok(exit::AGREES)
 }
 

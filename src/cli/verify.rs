@@ -5,10 +5,10 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use super::{Failure, Streams, exit, usage, write_file};
+use super::{Failure, Streams, exit, invariant, usage, write_file};
 use crate::hazard;
 use crate::lineup::{Engine, ExactEngine, LineEngine};
-use crate::mutant::{LineMutant, TriangleMutant, exact::ExactMutant};
+use crate::mutant::{LineMutant, Mutant, TriangleMutant, exact::ExactMutant};
 use crate::report::{self, ascii, json, picture, table};
 use crate::verify::exact::{self, ExactVerdict};
 use crate::verify::tolerance::{self, Tolerance};
@@ -29,6 +29,10 @@ pub struct VerifyArguments {
     /// Only this engine against the oracle; may be repeated
     #[arg(long, value_name = "NAME", value_parser = judged_names())]
     engine: Vec<String>,
+    /// Check this invariant instead, or all of them; may be repeated
+    #[arg(long, value_name = "NAME", value_parser = invariant::names(), hide_possible_values = true,
+        conflicts_with_all = ["family", "engine", "shard", "case", "json", "seconds"])]
+    invariant: Vec<String>,
     /// Decides every generated case
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
@@ -58,9 +62,8 @@ fn judged_names() -> Vec<&'static str> {
 }
 
 fn mutant_names() -> Vec<&'static str> {
-    let triangles = TriangleMutant::ALL.iter().map(|mutant| mutant.name());
-    let lines = LineMutant::ALL.iter().map(|mutant| mutant.name());
-    triangles.chain(lines).chain(ExactMutant::ALL.iter().map(|mutant| mutant.name())).collect()
+    let exact = ExactMutant::ALL.iter().map(|mutant| mutant.name());
+    Mutant::all().iter().map(Mutant::name).chain(exact).collect()
 }
 
 fn parse_shard(text: &str) -> Result<(u64, u64), String> {
@@ -172,9 +175,16 @@ pub fn with_tolerance(engine: Engine) -> (Engine, Tolerance) {
 const FOLDER: &str = "target/rasterproof";
 
 pub fn run(arguments: &VerifyArguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+    if !arguments.invariant.is_empty() {
+        let VerifyArguments { invariant: names, plant, seed, cases, .. } = arguments;
+        return invariant::run(names, plant.as_deref(), *seed, *cases, streams);
+    }
     let options = arguments.options()?;
     let (engines, lines) = arguments.contestants();
     let exact_engines = arguments.exact_contestants();
+    if engines.is_empty() && lines.is_empty() && exact_engines.is_empty() {
+        return Err(usage("this fault is in no engine and no line drawer: add --invariant NAME"));
+    }
     let (verdict, off_grid) = judge(&engines, &lines, &exact_engines, &options, streams.progress);
     if verdict.families.iter().all(|family| family.cases == 0)
         && off_grid.families.iter().all(|family| family.cases == 0)

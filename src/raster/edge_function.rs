@@ -221,6 +221,13 @@ fn pixel_box(corners: &Corners, bounds: PixelRect) -> PixelRect {
     }
 }
 
+/// The three edge functions at the centre of a pixel, exactly, in subpixels squared: each belongs to
+/// the edge opposite the corner of the same index, and they add up to twice the signed area.
+#[must_use]
+pub fn edge_values(corners: &Corners, x_px: i32, y_px: i32) -> [i128; 3] {
+    edges(corners).map(|edge| edge.at(centre(x_px), centre(y_px)))
+}
+
 /// Twice the signed area; positive for corners that go round clockwise on the screen (y down).
 #[inline]
 fn twice_area<T: Exact>([a, b, c]: &Corners) -> T {

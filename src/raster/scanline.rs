@@ -49,7 +49,8 @@ impl Interpolate for Scanline {
             let mut x0_px = span.x0_px;
             while x0_px < span.x1_px {
                 let x1_px = span.x1_px.min(x0_px.saturating_add(chunk));
-                fill_span(&left, &right, Span { x0_px, x1_px, ..span }, &mut emit);
+                let origin_px = if chunk == 1 { x0_px } else { sides.first_px };
+                fill_span(&left, &right, Span { x0_px, x1_px, ..span }, origin_px, &mut emit);
                 x0_px = x1_px;
             }
         });
@@ -82,6 +83,8 @@ fn sort_by_height<T: Copy>(items: &mut [T; 3], position: impl Fn(&T) -> Subpixel
 struct Sides {
     left: [usize; 2],
     right: [usize; 2],
+    /// The first column of the whole row, whatever the window shows of it.
+    first_px: i32,
 }
 
 /// Walks the rows of a triangle whose corners are sorted by [`sort_by_height`].
@@ -110,18 +113,20 @@ fn walk(corners: &Corners, bounds: PixelRect, mut emit: impl FnMut(Span, Sides))
         }
         // Both columns are the first centre right of an edge, so the smaller one begins the span
         // and the larger one ends it: no test of orientation is needed.
-        let x0 = long.column.min(short.column).max(x_low);
+        let first = long.column.min(short.column);
+        let x0 = first.max(x_low);
         let x1 = long.column.max(short.column).min(x_high);
         if x0 < x1 {
             let long_ends = [0, 2];
             let short_ends = if y_px < split { [0, 1] } else { [1, 2] };
-            let sides = if long.column <= short.column {
-                Sides { left: long_ends, right: short_ends }
+            let (left, right) = if long.column <= short.column {
+                (long_ends, short_ends)
             } else {
-                Sides { left: short_ends, right: long_ends }
+                (short_ends, long_ends)
             };
-            // Within `bounds`, so both fit i32.
-            emit(Span { y_px, x0_px: x0 as i32, x1_px: x1 as i32 }, sides);
+            // Columns of the triangle lie in the domain, so all three fit i32.
+            let span = Span { y_px, x0_px: x0 as i32, x1_px: x1 as i32 };
+            emit(span, Sides { left, right, first_px: first as i32 });
         }
         long.step();
         short.step();
@@ -295,10 +300,14 @@ impl<V: Varying> RowEnd<V> {
 /// (r vL qL + l vR qR) / (l + r) and 1/w the same without v; so v = vL + (vR - vL) s with
 /// s = l qR / (r qL + l qR), and the depth takes s = l / (l + r). All summands are positive: no
 /// cancellation, and the error stays a few units in the last place of the largest value.
+///
+/// The width of the row is the same number at every column but for its rounding, so it is taken at
+/// `origin_px`, which does not depend on the window: a tile shows the very bits of the whole.
 fn fill_span<V: Varying>(
     left: &RowEnd<V>,
     right: &RowEnd<V>,
     span: Span,
+    origin_px: i32,
     emit: &mut impl FnMut(Fragment<V>),
 ) {
     // Whole numbers, see `distances_are_exact`; a span of one pixel takes no step.
@@ -309,7 +318,8 @@ fn fill_span<V: Varying>(
     // Both distances over the same denominator.
     let (left_height, right_height) = (left.dy as f64, right.dy as f64);
     let (left_q, right_q) = (left_height * left.q, right_height * right.q);
-    let inv_width = 1.0 / (from_left * right_height + from_right * left_height);
+    let width = left.distance(origin_px) * right_height - right.distance(origin_px) * left_height;
+    let inv_width = 1.0 / width;
     let depth_slope = (right.depth - left.depth, right_height * inv_width);
     let varying_slope = right.varying - left.varying;
     for x_px in span.x0_px..span.x1_px {

@@ -26,7 +26,9 @@ use crate::lineup::{Engine, LineEngine};
 use contest::{Contest, CoverageOnly, LineContest, TriangleContest};
 use tolerance::Tolerance;
 
-pub use contest::{Finding, Tally, engine_coverage, is_judging, line_coverage, oracle_coverage};
+pub use contest::{
+    Finding, Tally, caught, engine_coverage, is_judging, is_sliver, line_coverage, oracle_coverage,
+};
 
 /// What to judge.
 #[derive(Clone, Debug)]
