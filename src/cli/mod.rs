@@ -1,6 +1,7 @@
 //! The command line: words to functions. Text goes to the writers it is given; only `main` exits.
 
 mod engine;
+mod exhaust;
 mod inspect;
 mod verify;
 
@@ -30,6 +31,7 @@ const EXAMPLES: &str = "Examples:
   rasterproof inspect 0.5,0.5 5.5,0.5 5.5,5.5     explain a triangle
   rasterproof inspect --line 0,0 8,3              explain a line
   rasterproof engine scanline < requests.txt      speak the line protocol
+  rasterproof exhaust triangles --subpixel-bits 2  every triangle of a small window, and a certificate
   rasterproof list                                families, cases and engines
 
 Exit status: 0 all agree, 1 something disagrees, 2 usage or bad input.";
@@ -57,6 +59,11 @@ enum Command {
         #[arg(value_parser = engine_names())]
         name: String,
     },
+    /// Judge every case of a finite set, and certify it
+    #[command(after_help = exhaust::HELP)]
+    Exhaust(exhaust::Arguments),
+    /// Join the certificates of the shards of `exhaust`
+    Merge(exhaust::MergeArguments),
     /// List families, named cases and engines
     List,
 }
@@ -130,6 +137,8 @@ pub fn run(words: impl IntoIterator<Item = String>, streams: &mut Streams<'_>) -
         Some(Command::Verify(arguments)) => verify::run(arguments, streams),
         Some(Command::Inspect(arguments)) => inspect::run(arguments, streams),
         Some(Command::Engine { name }) => engine::run(name, streams),
+        Some(Command::Exhaust(arguments)) => exhaust::run(arguments, streams),
+        Some(Command::Merge(arguments)) => exhaust::merge(arguments, streams),
         Some(Command::List) => list(streams),
     };
     let result = result.and_then(|status| Ok(streams.output.flush().map(|()| status)?));
