@@ -199,6 +199,33 @@ impl Edge {
         let top_left = self.dy < 0 || (self.dy == 0 && self.dx > 0);
         i64::from(!top_left)
     }
+
+    /// E' = floor((E - bias) / S) at the centre of a pixel: its sign is the decision.
+    #[inline]
+    fn enter<T: Exact, W: Word>(&self, x_px: i32, y_px: i32) -> W {
+        W::narrow(self.at::<T>(centre(x_px), centre(y_px)).biased_floor(self.bias()))
+    }
+
+    /// What E' grows by from column to column.
+    #[inline]
+    fn right<W: Word>(&self) -> W {
+        W::narrow(i128::from(-self.dy))
+    }
+
+    /// What E' grows by from row to row.
+    #[inline]
+    fn down<W: Word>(&self) -> W {
+        W::narrow(i128::from(self.dx))
+    }
+}
+
+/// E' of the edge from `from` to `to` at pixel (x, y), and its steps to the right and down, as
+/// [`EdgeFunction`] has them for triangles of [`WordWidth::I32`]: a window on its arithmetic for
+/// `exhaust::edges`.
+#[inline]
+pub(crate) fn edge_steps(from: SubpixelPoint, to: SubpixelPoint, x_px: i32, y_px: i32) -> [i32; 3] {
+    let edge = Edge::new(from, to);
+    [edge.enter::<i64, i32>(x_px, y_px), edge.right(), edge.down()]
 }
 
 /// The pixels of `bounds` whose centres lie in the bounding box of the corners.
@@ -256,12 +283,10 @@ fn cover_in<T: Exact, W: Word>(corners: Corners, bounds: PixelRect, emit: impl F
 /// from column to column and by dx from row to row.
 #[inline]
 fn walk<T: Exact, W: Word>(edges: &[Edge; 3], rect: PixelRect, mut emit: impl FnMut(Span)) {
-    let start = |edge: &Edge| {
-        W::narrow(edge.at::<T>(centre(rect.x0), centre(rect.y0)).biased_floor(edge.bias()))
-    };
+    let start = |edge: &Edge| edge.enter::<T, W>(rect.x0, rect.y0);
     let mut row = [start(&edges[0]), start(&edges[1]), start(&edges[2])];
-    let right = [0, 1, 2].map(|i| W::narrow(i128::from(-edges[i].dy)));
-    let down = [0, 1, 2].map(|i| W::narrow(i128::from(edges[i].dx)));
+    let right = [0, 1, 2].map(|i| edges[i].right::<W>());
+    let down = [0, 1, 2].map(|i| edges[i].down::<W>());
     for y_px in rect.y0..rect.y1 {
         let [mut e0, mut e1, mut e2] = row;
         let mut x_px = rect.x0;

@@ -12,6 +12,7 @@
 //! It does not clip, cull, depth-test or shade.
 
 use std::hint::select_unpredictable;
+use std::ops::Range;
 
 use crate::contract::{Interpolate, Rasterize};
 use crate::grid::{HALF_PIXEL, PixelRect, SUBPIXEL_BITS, SUBPIXELS, SubpixelPoint};
@@ -130,7 +131,7 @@ fn walk(corners: &Corners, bounds: PixelRect, mut emit: impl FnMut(Span, Sides))
 
 /// The first pixel whose centre is at or after `sub`: ceil((sub - S/2) / S).
 #[inline]
-fn first_centre(sub: i32) -> i32 {
+pub(crate) fn first_centre(sub: i32) -> i32 {
     // The result is within 2^23, and the sum needs 33 bits.
     ((i64::from(sub) + i64::from(HALF_PIXEL - 1)) >> SUBPIXEL_BITS) as i32
 }
@@ -208,6 +209,22 @@ impl EdgeWalk {
         self.column += self.step_whole - carry;
         self.remainder = remainder + (self.dy & carry);
     }
+}
+
+/// The columns of the edge from `a` down to `b` in `rows`, as [`Scanline`] walks them: a window on
+/// its arithmetic for `exhaust::edges`. Centres of `rows` lie in [a.y, b.y).
+#[inline]
+pub(crate) fn edge_columns(
+    a: SubpixelPoint,
+    b: SubpixelPoint,
+    rows: Range<i32>,
+) -> impl Iterator<Item = i64> {
+    let mut walk = EdgeWalk::new(a, b, rows.start);
+    rows.map(move |_| {
+        let column = walk.column;
+        walk.step();
+        column
+    })
 }
 
 /// 1/w of each vertex over the largest: in (0, 1], and exactly 1 for all where they are equal.
