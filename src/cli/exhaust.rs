@@ -108,7 +108,8 @@ pub struct MergeArguments {
 struct Offset([i32; 2]);
 
 fn parse_offset(text: &str) -> Result<Offset, String> {
-    let numbers = text.split_once(',').and_then(|(x, y)| Some([x.parse().ok()?, y.parse().ok()?]));
+    let numbers =
+        text.trim().split_once(',').and_then(|(x, y)| Some([x.parse().ok()?, y.parse().ok()?]));
     numbers.map(Offset).ok_or_else(|| "expected X,Y in whole pixels, for example 2048,0".to_owned())
 }
 

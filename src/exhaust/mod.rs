@@ -170,7 +170,7 @@ fn check_window(window_px: u32, bits: u32, max_bits: u32, offset: [i32; 2]) -> R
 fn check_offset(offset: [i32; 2]) -> Result<(), String> {
     // Room for the window, or for the longest line, on the near side of the domain's border.
     let limit = DOMAIN_PX / 2;
-    if offset.iter().any(|px| px.abs() > limit) {
+    if offset.iter().any(|px| px.unsigned_abs() > limit.unsigned_abs()) {
         return Err(format!("the offset is within -{limit} to {limit} px"));
     }
     Ok(())
