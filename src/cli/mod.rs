@@ -31,7 +31,7 @@ const EXAMPLES: &str = "Examples:
   rasterproof inspect 0.5,0.5 5.5,0.5 5.5,5.5     explain a triangle
   rasterproof inspect --line 0,0 8,3              explain a line
   rasterproof engine scanline < requests.txt      speak the line protocol
-  rasterproof exhaust triangles --subpixel-bits 2  every triangle of a small window, and a certificate
+  rasterproof exhaust triangles                   every triangle of a small window, certified
   rasterproof list                                families, cases and engines
 
 Exit status: 0 all agree, 1 something disagrees, 2 usage or bad input.";

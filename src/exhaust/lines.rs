@@ -91,7 +91,6 @@ impl Enumeration for Lines {
     fn sources(&self) -> Vec<(&'static str, &'static str)> {
         vec![
             ("src/grid.rs", include_str!("../grid.rs")),
-            ("src/triangle.rs", include_str!("../triangle.rs")),
             ("src/line/dda.rs", include_str!("../line/dda.rs")),
             ("src/line/bresenham.rs", include_str!("../line/bresenham.rs")),
             ("src/oracle/pixels.rs", include_str!("../oracle/pixels.rs")),

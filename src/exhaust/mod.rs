@@ -41,7 +41,8 @@ pub trait Enumeration: Sync {
     fn judge(&self) -> Box<dyn Fn(u64) -> Tally + Sync + Send + '_>;
     /// The words after `rasterproof exhaust` that ask for this enumeration.
     fn words(&self) -> String;
-    /// The files whose code the result depends on, as path and text.
+    /// The files whose code the result depends on, as path and text. Not those that only declare
+    /// types (`triangle`, `contract`), nor what counts chunks: the counts of cases check that.
     fn sources(&self) -> Vec<(&'static str, &'static str)>;
 }
 

@@ -108,7 +108,6 @@ impl Enumeration for Triangles {
     fn sources(&self) -> Vec<(&'static str, &'static str)> {
         vec![
             ("src/grid.rs", include_str!("../grid.rs")),
-            ("src/triangle.rs", include_str!("../triangle.rs")),
             ("src/raster/scanline.rs", include_str!("../raster/scanline.rs")),
             ("src/raster/edge_function.rs", include_str!("../raster/edge_function.rs")),
             ("src/oracle/coverage.rs", include_str!("../oracle/coverage.rs")),
