@@ -35,6 +35,7 @@
 
 pub mod cli;
 pub mod contract;
+pub mod exhaust;
 pub mod frame;
 pub mod grid;
 pub mod hazard;

@@ -1,6 +1,7 @@
 //! The command line: words to functions. Text goes to the writers it is given; only `main` exits.
 
 mod engine;
+mod exhaust;
 mod inspect;
 mod invariant;
 mod verify;
@@ -33,6 +34,7 @@ const EXAMPLES: &str = "Examples:
   rasterproof engine scanline < requests.txt      speak the line protocol
   rasterproof verify --invariant vertex-order     check one invariant; all checks every one
   rasterproof mutants                             which invariant kills which planted fault
+  rasterproof exhaust triangles                   every triangle of a small window, certified
   rasterproof list                                families, cases, engines and invariants
 
 Exit status: 0 all agree, 1 something disagrees, 2 usage or bad input.";
@@ -62,6 +64,11 @@ enum Command {
     },
     /// Show which invariant kills which planted fault
     Mutants,
+    /// Judge every case of a finite set, and certify it
+    #[command(after_help = exhaust::HELP)]
+    Exhaust(exhaust::ExhaustArguments),
+    /// Join the certificates of the shards of `exhaust`
+    Merge(exhaust::MergeArguments),
     /// List families, named cases, engines and invariants
     List,
 }
@@ -136,6 +143,8 @@ pub fn run(words: impl IntoIterator<Item = String>, streams: &mut Streams<'_>) -
         Some(Command::Inspect(arguments)) => inspect::run(arguments, streams),
         Some(Command::Engine { name }) => engine::run(name, streams),
         Some(Command::Mutants) => invariant::mutants(streams),
+        Some(Command::Exhaust(arguments)) => exhaust::run(arguments, streams),
+        Some(Command::Merge(arguments)) => exhaust::merge(arguments, streams),
         Some(Command::List) => list(streams),
     };
     let result = result.and_then(|status| Ok(streams.output.flush().map(|()| status)?));

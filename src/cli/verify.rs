@@ -66,7 +66,7 @@ fn mutant_names() -> Vec<&'static str> {
     Mutant::all().iter().map(Mutant::name).chain(exact).collect()
 }
 
-fn parse_shard(text: &str) -> Result<(u64, u64), String> {
+pub(super) fn parse_shard(text: &str) -> Result<(u64, u64), String> {
     let numbers = text.split_once('/').and_then(|(i, n)| Some((i.parse().ok()?, n.parse().ok()?)));
     match numbers {
         Some((part, parts)) if part < parts => Ok((part, parts)),

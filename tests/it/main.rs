@@ -2,6 +2,7 @@
 
 mod commands;
 mod exact;
+mod exhaust;
 mod house;
 mod mutants;
 mod protocol;
