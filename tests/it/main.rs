@@ -1,1 +1,4 @@
+//! One binary for all integration tests but the differential table.
 
+mod matrix;
+mod properties;
