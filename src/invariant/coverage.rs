@@ -686,7 +686,7 @@ pub(super) fn area(subject: &Subject, input: &TriangleInput) -> Outcome {
 /// large. N is 2 or 4: the samples lie at odd multiples of S / 2N, on the lattice.
 pub(super) fn supersampling(subject: &Subject, input: &TriangleInput) -> Outcome {
     let (corners, window) = (input.triangle.corners(), input.window);
-    let n: i32 = if input.salt % 2 == 0 { 2 } else { 4 };
+    let n: i32 = if input.salt.is_multiple_of(2) { 2 } else { 4 };
     let small = |v: i32| v.unsigned_abs() < 1 << 27;
     if !corners.iter().all(|p| small(p.x) && small(p.y)) || !small(window.x0 * SUBPIXELS) {
         return Ok(0);
