@@ -1,6 +1,6 @@
 //! `rasterproof verify --invariant NAME` and `rasterproof mutants`.
 
-use super::{Failure, Streams, exit};
+use super::{Failure, Streams, exit, usage};
 use crate::invariant::matrix::{self, Matrix};
 use crate::invariant::subject::Subject;
 use crate::invariant::{CATALOGUE, Check, Invariant};
@@ -45,6 +45,9 @@ pub fn run(
             Some(false) => wrong += 1,
             None => idle += 1,
         }
+    }
+    if idle == wanted.len() {
+        return Err(usage("nothing was checked: what this invariant is about does not exist yet"));
     }
     if wanted.len() > 1 {
         let held = wanted.len() - wrong - idle;

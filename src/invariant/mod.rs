@@ -1,7 +1,7 @@
 //! Invariants: what must hold of every implementation, each under a number and a name.
 //!
 //! Floor: above [`crate::verify`] and [`crate::lineup`], below the command line. It may ask every
-//! room from `verify` downwards, and takes the quotas it checks from [`crate::report::table`].
+//! room from `verify` downwards.
 //!
 //! A check is a function of a [`Subject`] (the implementations under test) and an [`Input`]. Inputs
 //! come from (seed, number) here and from a property test's small numbers in `tests/it`; mutants

@@ -7,7 +7,7 @@ use crate::contract::{Interpolate, Rasterize};
 use crate::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
 use crate::raster::edge_function::{self, EdgeFunction};
 use crate::raster::scanline::Scanline;
-use crate::triangle::{Corners, Fragment, ScreenTriangle, Span, Varying};
+use crate::triangle::{Corners, Fragment, ScreenTriangle, ScreenVertex, Span, Varying};
 
 /// A rasterizer with a planted fault.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -253,24 +253,7 @@ impl Interpolate for TriangleMutant {
                 });
                 return;
             }
-            Self::PerspectiveDepth => {
-                // The depth is carried along as a varying of its own.
-                let depths = ScreenTriangle {
-                    vertices: triangle.vertices.map(|v| crate::triangle::ScreenVertex {
-                        position: v.position,
-                        depth: v.depth,
-                        inv_w: v.inv_w,
-                        varying: v.depth,
-                    }),
-                };
-                let mut wrong = Vec::new();
-                EdgeFunction.fragments(&depths, bounds, |f| wrong.push(f.varying));
-                let mut wrong = wrong.into_iter();
-                EdgeFunction.fragments(triangle, bounds, |f| {
-                    emit(Fragment { depth: wrong.next().unwrap_or(f.depth), ..f });
-                });
-                return;
-            }
+            Self::PerspectiveDepth => return perspective_depth(triangle, bounds, emit),
             Self::ValuesThroughF32 => {
                 EdgeFunction.fragments(triangle, bounds, |f| {
                     let scale = 1.0 + f64::from(f32::EPSILON) / 4.0;
@@ -450,6 +433,28 @@ fn steps_in_f32(mut corners: Corners, bounds: PixelRect, mut emit: impl FnMut(Sp
             (long, short) = (long + long_step, short + short_step);
         }
     }
+}
+
+/// The depth is carried along as a varying of its own.
+fn perspective_depth<V: Varying>(
+    triangle: &ScreenTriangle<V>,
+    bounds: PixelRect,
+    mut emit: impl FnMut(Fragment<V>),
+) {
+    let depths = ScreenTriangle {
+        vertices: triangle.vertices.map(|v| ScreenVertex {
+            position: v.position,
+            depth: v.depth,
+            inv_w: v.inv_w,
+            varying: v.depth,
+        }),
+    };
+    let mut wrong = Vec::new();
+    EdgeFunction.fragments(&depths, bounds, |f| wrong.push(f.varying));
+    let mut wrong = wrong.into_iter();
+    EdgeFunction.fragments(triangle, bounds, |f| {
+        emit(Fragment { depth: wrong.next().unwrap_or(f.depth), ..f });
+    });
 }
 
 /// v0 l0 + v1 l1 + v2 l2 with l = E / w over their sum and a small number; no canonical order, no

@@ -180,6 +180,25 @@ impl Verdict {
     }
 }
 
+/// Quotas for ties, slivers and empty cases, in percent of the cases of triangles: what the families
+/// must offer for a verdict to mean something.
+pub const QUOTAS: [(&str, u64); 3] = [("ties", 25), ("slivers", 10), ("empty", 5)];
+
+impl Verdict {
+    /// What the quotas are about, how much of it there was in percent, and how much is wanted.
+    #[must_use]
+    pub fn quotas(&self) -> [(&'static str, u64, u64); 3] {
+        let cases = self.sum(false, |f| f.cases);
+        let counts = [
+            self.sum(false, |f| f.tie_cases),
+            self.sum(false, |f| f.sliver_cases),
+            self.sum(false, |f| f.empty_cases),
+        ];
+        let percent = |part: u64| (100 * part + cases / 2).checked_div(cases).unwrap_or(0);
+        [0, 1, 2].map(|i| (QUOTAS[i].0, percent(counts[i]), QUOTAS[i].1))
+    }
+}
+
 /// Judges the line-up: both rasterizers and both line drawers, or a selection of them.
 pub fn judge_lineup(
     engines: &[(Engine, Tolerance)],
