@@ -154,7 +154,6 @@ impl PixelRect {
     /// # Panics
     /// If a side exceeds `i32::MAX`; callers hold sides to [`MAX_SIDE_PX`].
     #[must_use]
-    #[inline]
     pub const fn window(width: u32, height: u32) -> Self {
         assert!(width <= i32::MAX as u32 && height <= i32::MAX as u32);
         Self { x0: 0, y0: 0, x1: width as i32, y1: height as i32 }
@@ -162,35 +161,30 @@ impl PixelRect {
 
     /// Columns, 0 where the rectangle is empty.
     #[must_use]
-    #[inline]
     pub fn width(&self) -> u32 {
         (i64::from(self.x1) - i64::from(self.x0)).max(0) as u32
     }
 
     /// Rows, 0 where the rectangle is empty.
     #[must_use]
-    #[inline]
     pub fn height(&self) -> u32 {
         (i64::from(self.y1) - i64::from(self.y0)).max(0) as u32
     }
 
     /// Whether no pixel lies inside.
     #[must_use]
-    #[inline]
     pub fn is_empty(&self) -> bool {
         self.x0 >= self.x1 || self.y0 >= self.y1
     }
 
     /// Whether pixel (x, y) lies inside.
     #[must_use]
-    #[inline]
     pub fn contains(&self, x_px: i32, y_px: i32) -> bool {
         (self.x0..self.x1).contains(&x_px) && (self.y0..self.y1).contains(&y_px)
     }
 
     /// The pixels that lie in both.
     #[must_use]
-    #[inline]
     pub fn intersect(&self, other: &Self) -> Self {
         Self {
             x0: self.x0.max(other.x0),
