@@ -16,6 +16,7 @@ use criterion::{
 use glam::DVec2;
 use rasterproof::contract::{DrawLine, Interpolate, Rasterize};
 use rasterproof::frame::Frame;
+use rasterproof::grid::PixelRect;
 use rasterproof::line::bresenham::Bresenham;
 use rasterproof::line::dda::Dda;
 use rasterproof::oracle::Oracle;
@@ -110,6 +111,38 @@ fn lines(criterion: &mut Criterion) {
     bench_lines(criterion, &lines, pixels, "bresenham", &Bresenham);
 }
 
+/// A line of two billion pixels of which a 64 x 64 window sees 64: what is outside costs nothing.
+fn far_line(criterion: &mut Criterion) {
+    let end = |pixel| LineEnd { pixel, depth: 0.5, varying: DVec2::ZERO };
+    let (a, b) = (PixelPoint::new(-1_000_000_000, 5), PixelPoint::new(1_000_000_000, 60));
+    let line = ScreenLine { ends: [end(a), end(b)] };
+    bench_far(criterion, &line, "dda", &Dda);
+    bench_far(criterion, &line, "bresenham", &Bresenham);
+}
+
+fn bench_far(
+    criterion: &mut Criterion,
+    line: &ScreenLine<DVec2>,
+    name: &str,
+    drawer: &impl DrawLine,
+) {
+    let window = PixelRect::window(64, 64);
+    let mut target = Vec::new();
+    Oracle.line_pixels(line, window, |pixel, _| target.push((pixel.x, pixel.y)));
+    assert_eq!(target.len(), 64);
+    let mut actual = Vec::new();
+    drawer.draw(line, window, |f| actual.push((f.x_px, f.y_px)));
+    assert_eq!(actual, target, "{name}");
+    let mut group = criterion.benchmark_group("line of two billion pixels");
+    group.bench_function(BenchmarkId::from_parameter(name), |bencher| {
+        bencher.iter(|| {
+            let mut sum = 0;
+            drawer.draw(black_box(line), window, |f| sum += f.x_px);
+            sum
+        });
+    });
+}
+
 /// Lines in all directions; half of them begin or end outside the window.
 fn random_lines() -> Vec<ScreenLine<DVec2>> {
     let mut random = SplitMix64(0x006c_696e_6573);
@@ -158,6 +191,6 @@ fn short() -> Criterion {
 criterion_group! {
     name = benches;
     config = short();
-    targets = cover, fragments, lines
+    targets = cover, fragments, lines, far_line
 }
 criterion_main!(benches);

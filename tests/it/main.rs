@@ -9,4 +9,5 @@ mod mutants;
 mod properties;
 mod protocol;
 mod recorded;
+mod robustness;
 mod snapshots;
