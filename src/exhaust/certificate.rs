@@ -233,7 +233,7 @@ pub fn code_of(source: &Source) -> Result<String, &'static str> {
         let start = lines.iter().position(|line| begins(line, item)).ok_or(*item)?;
         // Not indented: nothing inside an item ends here.
         let is_last = |line: &&str| !line.starts_with(' ') && line.ends_with(['}', ';']);
-        let length = lines[start..].iter().position(|line| is_last(line)).ok_or(*item)? + 1;
+        let length = lines[start..].iter().position(is_last).ok_or(*item)? + 1;
         for line in &lines[start..start + length] {
             code.push_str(line);
             code.push('\n');
