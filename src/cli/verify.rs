@@ -333,10 +333,9 @@ fn worst_cases(
         let name = &family.family;
         writeln!(
             out,
-            "closest to a bound: {} at {:.2} of it in {name}#{}; see it with: rasterproof inspect {name}#{} --seed {}",
+            "closest to a bound: {} at {:.2}: rasterproof inspect {name}#{} --seed {}",
             pair.actual,
             pair.worst(),
-            pair.worst_case,
             pair.worst_case,
             arguments.seed
         )?;

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::run::{Progress, Shard};
-use super::{Plan, Tally};
+use super::{Plan, Source, Tally};
 
 /// The layout of the file.
 pub const FORMAT: &str = "rasterproof-certificate/1";
@@ -22,7 +22,7 @@ pub struct Identity {
     pub plan: Plan,
     /// Version of this crate.
     pub version: String,
-    /// SHA-256 of the code of each file the result depends on, see [`code_only`].
+    /// SHA-256 of each piece of code the result depends on, see [`code_of`].
     pub sources: BTreeMap<String, String>,
 }
 
@@ -212,11 +212,61 @@ fn difference(a: &Certificate, b: &Certificate) -> Option<&'static str> {
 
 /// A source file without lines that are only comment and without its tests, which cannot change a
 /// result: `sed '/^#\[cfg(test)\]/,$d; /^ *\/\//d' FILE | sha256sum` gives the same hash.
-#[must_use]
-pub fn code_only(text: &str) -> String {
+fn code_only(text: &str) -> impl Iterator<Item = &str> {
     text.lines()
         .take_while(|line| !line.starts_with("#[cfg(test)]"))
         .filter(|line| !line.trim_start_matches(' ').starts_with("//"))
-        .flat_map(|line| [line, "\n"])
-        .collect()
+}
+
+/// The code of a source: of the whole file, or of its items in the order of their list, each from
+/// the line that begins with it, without attributes, to the brace or semicolon that ends it.
+///
+/// # Errors
+/// The name of an item that the file does not have.
+pub fn code_of(source: &Source) -> Result<String, &'static str> {
+    let lines: Vec<_> = code_only(source.text).collect();
+    if source.items.is_empty() {
+        return Ok(lines.iter().flat_map(|line| [line, "\n"]).collect());
+    }
+    let mut code = String::new();
+    for item in source.items {
+        let start = lines.iter().position(|line| begins(line, item)).ok_or(*item)?;
+        // Not indented: nothing inside an item ends here.
+        let is_last = |line: &&str| !line.starts_with(' ') && line.ends_with(['}', ';']);
+        let length = lines[start..].iter().position(is_last).ok_or(*item)? + 1;
+        for line in &lines[start..start + length] {
+            code.push_str(line);
+            code.push('\n');
+        }
+    }
+    Ok(code)
+}
+
+/// Whether a line begins an item: its name is not the beginning of a longer one.
+fn begins(line: &str, item: &str) -> bool {
+    let line = line.strip_prefix("pub(crate) ").unwrap_or(line);
+    let Some(rest) = line.strip_prefix("pub ").unwrap_or(line).strip_prefix(item) else {
+        return false;
+    };
+    let in_word = |c: char| c.is_alphanumeric() || c == '_';
+    !(item.ends_with(in_word) && rest.starts_with(in_word))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn items_by_hand() {
+        let text = "//! File.\nuse x;\nconst AB: u8 = 2;\nconst A: u8 = 1;\n/// Doc.\n#[inline]\npub(crate) fn f(\n    a: u8,\n) -> u8 {\n    // Why.\n    a;\n    a\n}\n\npub fn g() {}\n\n#[cfg(test)]\nmod tests {\n}\n";
+        let code = |items| code_of(&Source { path: "x.rs", text, items });
+        let f = "pub(crate) fn f(\n    a: u8,\n) -> u8 {\n    a;\n    a\n}\n";
+        assert_eq!(code(&["const A"]).unwrap(), "const A: u8 = 1;\n");
+        assert_eq!(code(&["fn f", "const AB"]).unwrap(), format!("{f}const AB: u8 = 2;\n"));
+        assert_eq!(code(&["fn g"]).unwrap(), "pub fn g() {}\n");
+        assert_eq!(code(&["fn f", "fn fg"]), Err("fn fg"));
+        assert_eq!(code(&["mod tests"]), Err("mod tests"));
+        let whole = code(&[]).unwrap();
+        assert!(whole.starts_with("use x;\n") && whole.ends_with("fn g() {}\n\n"), "{whole}");
+    }
 }

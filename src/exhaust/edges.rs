@@ -36,7 +36,7 @@ use std::ops::Range;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Enumeration, Tally, common_words};
+use super::{Enumeration, Source, Tally, common_words};
 use crate::grid::{HALF_PIXEL, SUBPIXEL_BITS, SUBPIXELS, SubpixelPoint};
 use crate::raster::edge_function::edge_steps;
 use crate::raster::scanline::{edge_columns, first_centre};
@@ -120,12 +120,41 @@ impl Enumeration for Edges {
         )
     }
 
-    fn sources(&self) -> Vec<(&'static str, &'static str)> {
+    fn sources(&self) -> Vec<Source> {
         vec![
-            ("src/grid.rs", include_str!("../grid.rs")),
-            ("src/raster/scanline.rs", include_str!("../raster/scanline.rs")),
-            ("src/raster/edge_function.rs", include_str!("../raster/edge_function.rs")),
-            ("src/exhaust/edges.rs", include_str!("edges.rs")),
+            Source::file("src/grid.rs", include_str!("../grid.rs")),
+            Source {
+                path: "src/raster/scanline.rs",
+                text: include_str!("../raster/scanline.rs"),
+                items: &[
+                    "fn first_centre",
+                    "fn centre",
+                    "fn floor_div",
+                    "struct EdgeWalk",
+                    "impl EdgeWalk",
+                    "fn edge_columns",
+                ],
+            },
+            Source {
+                path: "src/raster/edge_function.rs",
+                text: include_str!("../raster/edge_function.rs"),
+                items: &[
+                    "trait Exact",
+                    "impl Exact for i64",
+                    "trait Word",
+                    "macro_rules! word",
+                    "word!(",
+                    "fn centre",
+                    "struct Edge",
+                    "impl Edge",
+                    "fn edge_steps",
+                ],
+            },
+            Source {
+                path: "src/exhaust/edges.rs",
+                text: include_str!("edges.rs"),
+                items: &["const BLOCKS", "const COLUMNS", "struct Slab", "impl Edges", "impl Slab"],
+            },
         ]
     }
 }

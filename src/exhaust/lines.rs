@@ -14,7 +14,7 @@ use std::ops::{Add, Mul, Sub};
 
 use serde::{Deserialize, Serialize};
 
-use super::{Enumeration, Tally, common_words};
+use super::{Enumeration, Source, Tally, common_words};
 use crate::contract::DrawLine;
 use crate::grid::PixelRect;
 use crate::line::{bresenham::Bresenham, dda::Dda};
@@ -88,13 +88,13 @@ impl Enumeration for Lines {
         format!("lines --reach {}{octant}{common}", self.reach)
     }
 
-    fn sources(&self) -> Vec<(&'static str, &'static str)> {
+    fn sources(&self) -> Vec<Source> {
         vec![
-            ("src/grid.rs", include_str!("../grid.rs")),
-            ("src/line/dda.rs", include_str!("../line/dda.rs")),
-            ("src/line/bresenham.rs", include_str!("../line/bresenham.rs")),
-            ("src/oracle/pixels.rs", include_str!("../oracle/pixels.rs")),
-            ("src/exhaust/lines.rs", include_str!("lines.rs")),
+            Source::file("src/grid.rs", include_str!("../grid.rs")),
+            Source::file("src/line/dda.rs", include_str!("../line/dda.rs")),
+            Source::file("src/line/bresenham.rs", include_str!("../line/bresenham.rs")),
+            Source::file("src/oracle/pixels.rs", include_str!("../oracle/pixels.rs")),
+            Source::file("src/exhaust/lines.rs", include_str!("lines.rs")),
         ]
     }
 }

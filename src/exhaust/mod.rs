@@ -41,9 +41,20 @@ pub trait Enumeration: Sync {
     fn judge(&self) -> Box<dyn Fn(u64) -> Tally + Sync + Send + '_>;
     /// The words after `rasterproof exhaust` that ask for this enumeration.
     fn words(&self) -> String;
-    /// The files whose code the result depends on, as path and text. Not those that only declare
-    /// types (`triangle`, `contract`), nor what counts chunks: the counts of cases check that.
-    fn sources(&self) -> Vec<(&'static str, &'static str)>;
+    /// The code that the result depends on. Not what only declares types (`triangle`, `contract`),
+    /// nor what counts chunks: the counts of cases check that.
+    fn sources(&self) -> Vec<Source>;
+}
+
+/// A file, or some items of it.
+#[derive(Clone, Copy, Debug)]
+pub struct Source {
+    /// Its path in the repository.
+    pub path: &'static str,
+    /// Its text.
+    pub text: &'static str,
+    /// What the lines begin with that begin the items, without visibility; none means the file.
+    pub items: &'static [&'static str],
 }
 
 /// What was found.
@@ -145,12 +156,30 @@ impl Plan {
         }
     }
 
-    /// Hashes of the sources that the result depends on, by path; see [`certificate::code_only`].
+    /// Hashes of the code that the result depends on; see [`certificate::code_of`].
     #[must_use]
     pub fn source_hashes(&self) -> BTreeMap<String, String> {
-        let hash = |text: &str| format!("{:x}", Sha256::digest(certificate::code_only(text)));
-        let sources = self.enumeration().sources();
-        sources.into_iter().map(|(path, text)| (path.to_owned(), hash(text))).collect()
+        let entry = |source: Source| match certificate::code_of(&source) {
+            Ok(code) => (source.name(), format!("{:x}", Sha256::digest(code))),
+            Err(item) => (source.name(), format!("has no {item}")),
+        };
+        self.enumeration().sources().into_iter().map(entry).collect()
+    }
+}
+
+impl Source {
+    /// A whole file.
+    const fn file(path: &'static str, text: &'static str) -> Self {
+        Self { path, text, items: &[] }
+    }
+
+    /// What it is called in a certificate.
+    fn name(&self) -> String {
+        if self.items.is_empty() {
+            self.path.to_owned()
+        } else {
+            format!("{}: {}", self.path, self.items.join(", "))
+        }
     }
 }
 

@@ -14,7 +14,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Enumeration, Tally, common_words};
+use super::{Enumeration, Source, Tally, common_words};
 use crate::contract::Rasterize;
 use crate::grid::{HALF_PIXEL, PixelRect, SUBPIXEL_BITS, SUBPIXELS, SubpixelPoint};
 use crate::mutant::TriangleMutant;
@@ -105,13 +105,13 @@ impl Enumeration for Triangles {
         )
     }
 
-    fn sources(&self) -> Vec<(&'static str, &'static str)> {
+    fn sources(&self) -> Vec<Source> {
         vec![
-            ("src/grid.rs", include_str!("../grid.rs")),
-            ("src/raster/scanline.rs", include_str!("../raster/scanline.rs")),
-            ("src/raster/edge_function.rs", include_str!("../raster/edge_function.rs")),
-            ("src/oracle/coverage.rs", include_str!("../oracle/coverage.rs")),
-            ("src/exhaust/triangles.rs", include_str!("triangles.rs")),
+            Source::file("src/grid.rs", include_str!("../grid.rs")),
+            Source::file("src/raster/scanline.rs", include_str!("../raster/scanline.rs")),
+            Source::file("src/raster/edge_function.rs", include_str!("../raster/edge_function.rs")),
+            Source::file("src/oracle/coverage.rs", include_str!("../oracle/coverage.rs")),
+            Source::file("src/exhaust/triangles.rs", include_str!("triangles.rs")),
         ]
     }
 }
