@@ -1,8 +1,8 @@
 //! Arbitrary input: any bytes to the protocol, any bits as coordinates to every engine. No panic, no
 //! hang, no pixel outside the window or hit twice; outside the domain a refusal with a reason.
 //!
-//! Overflow checks and debug assertions are on. `cargo test --release --test it -- --ignored
-//! ten_million` takes ten million triangles instead of the few hundred thousand of every run.
+//! Overflow checks and debug assertions are on. `cargo test --test it -- --ignored ten_million` takes
+//! ten million triangles instead of the few hundred thousand of every run.
 
 use std::io::Cursor;
 
