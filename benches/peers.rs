@@ -2,25 +2,30 @@
 //!
 //! A time means little without what it buys, so wrong pixels (missing and extra, against the
 //! oracle, triangle by triangle) stand beside it. What is timed: filling every triangle of a class,
-//! one by one, with one opaque colour. What is prepared outside the timing: each one's natural input.
-//! - rasterproof: the corners on the lattice.
+//! one by one, with one opaque colour. What is prepared before: each one's natural input.
+//! - rasterproof: the corners on the lattice; the rows are written by `common::fill_run`.
 //! - tiny-skia: a `Path` for each triangle and one `Paint`, without antialiasing; `fill_path` is
-//!   timed. An opaque solid colour takes its fastest road, a memset for each row.
+//!   timed. An opaque solid colour takes its fastest road, a plain fill of each row. Its lattice is
+//!   1/64 px, so some of its wrong pixels are a choice and not a mistake.
 //! - euc: one list of vertices in clip coordinates; one `draw` of all of them is timed, with
-//!   culling, depth and varyings off.
+//!   culling, depth and varyings off. Edges are inclusive on both sides.
 //!
-//! All get the same numbers: positions are multiples of 1/256 px, and so exact as `f32`. Rounds are
-//! interleaved (each does one pass, in turn) so that a machine that changes its clock or is shared
-//! treats all alike, and the median round counts.
+//! All get the same numbers: positions are multiples of 1/256 px, and so exact as `f32`. Everyone
+//! fills the same few triangles in turn, then the next few, so that a machine that changes its
+//! clock or is shared treats all alike. A turn fills its triangles twice and times the second time,
+//! with warm caches; of each turn the median over all rounds counts. Cold, the writes to memory
+//! cost everyone alike and the ratios are smaller.
 //!
-//! `cargo bench --bench peers` prints the table; `-- --quick` takes one short round.
+//! `cargo bench --bench peers` prints the table; `-- --quick` takes one short round, and
+//! `-- tiny small` only the classes named.
 
 mod common;
 
-use std::hint::black_box;
+use std::ops::Range;
 use std::time::Instant;
 
 use common::{COLOUR, SIDE_PX, Scene};
+use euc::Pipeline;
 use euc::buffer::Buffer2d;
 use euc::rasterizer::{BackfaceCullingDisabled, Triangles};
 use rasterproof::contract::Rasterize;
@@ -33,9 +38,10 @@ use rasterproof::triangle::Corners;
 use tiny_skia::{FillRule, Paint, Path, PathBuilder, Pixmap, Transform};
 
 /// Odd, so that the median is a round that happened.
-const ROUNDS: usize = 9;
-/// A round repeats its pass until about this time is used, so that the clock's grain is nothing.
-const ROUND_NS: f64 = 12e6;
+const ROUNDS: usize = 31;
+/// Turns of everyone in a round, each with a part of the triangles. Turns of about a millisecond
+/// and less mostly run undisturbed on a busy machine, whoever's they are.
+const TURNS: usize = 8;
 
 fn main() {
     let args: Vec<String> = std::env::args().skip(1).collect();
@@ -48,7 +54,7 @@ fn main() {
     let quick = has("--quick") || has("--test") || !has("--bench");
     let rounds = if quick { 1 } else { ROUNDS };
     println!(
-        "{SIDE_PX} x {SIDE_PX} px, RGBA8, coverage only; median of {rounds} interleaved rounds"
+        "{SIDE_PX} x {SIDE_PX} px, RGBA8, coverage only; medians of {rounds} interleaved rounds"
     );
     println!();
     println!(
@@ -62,15 +68,19 @@ fn main() {
         "missing",
         "extra"
     );
+    let named: Vec<&String> = args.iter().filter(|arg| !arg.starts_with('-')).collect();
     for scene in common::scenes() {
-        report(&scene, rounds, if quick { 0.0 } else { ROUND_NS });
+        if !named.is_empty() && !named.iter().any(|name| scene.name.contains(name.as_str())) {
+            continue;
+        }
+        report(&scene, rounds);
     }
     println!();
     println!("x tiny-skia: how many times as fast as tiny-skia. Pixels: against the exact oracle.");
 }
 
 /// Measures one class and prints its rows.
-fn report(scene: &Scene, rounds: usize, round_ns: f64) {
+fn report(scene: &Scene, rounds: usize) {
     let mut fillers: [(&str, Box<dyn Filler>); 4] = [
         ("scanline", Box::new(Engine::new(Scanline, scene))),
         ("edge-function", Box::new(Engine::new(EdgeFunction, scene))),
@@ -82,21 +92,7 @@ fn report(scene: &Scene, rounds: usize, round_ns: f64) {
         assert_eq!(*wrong, Wrong::default(), "{name} on {}", scene.name);
     }
 
-    // Warm up, and find out how many passes fill a round.
-    let passes = fillers.each_mut().map(|(_, filler)| {
-        let pass_ns = time_ns(filler.as_mut(), 1);
-        ((round_ns / pass_ns) as usize).max(1)
-    });
-    let mut times_ns = [const { Vec::new() }; 4];
-    for _ in 0..rounds {
-        for i in 0..4 {
-            times_ns[i].push(time_ns(fillers[i].1.as_mut(), passes[i]));
-        }
-    }
-    let medians_ns = times_ns.map(|mut times| {
-        times.sort_by(f64::total_cmp);
-        times[times.len() / 2]
-    });
+    let medians_ns = times_ns(&mut fillers, scene.triangles.len(), rounds);
     let triangles = scene.triangles.len() as f64;
     for (i, (name, _)) in fillers.iter().enumerate() {
         let class = if i == 0 { scene.name } else { "" };
@@ -113,21 +109,39 @@ fn report(scene: &Scene, rounds: usize, round_ns: f64) {
     }
 }
 
-/// Time of one pass over the class in ns, averaged over `passes`.
-fn time_ns(filler: &mut dyn Filler, passes: usize) -> f64 {
-    let start = Instant::now();
-    for _ in 0..passes {
-        filler.fill_all();
+/// Everyone's time for all triangles: the sum of the medians of their turns.
+fn times_ns(
+    fillers: &mut [(&str, Box<dyn Filler>); 4],
+    triangles: usize,
+    rounds: usize,
+) -> [f64; 4] {
+    let mut turns_ns = vec![[const { Vec::new() }; 4]; TURNS];
+    for _ in 0..rounds {
+        for (turn, turn_ns) in turns_ns.iter_mut().enumerate() {
+            let part = triangles * turn / TURNS..triangles * (turn + 1) / TURNS;
+            for ((_, filler), times) in fillers.iter_mut().zip(turn_ns) {
+                // What the others left in the caches is not timed.
+                filler.fill(part.clone());
+                let start = Instant::now();
+                filler.fill(part.clone());
+                times.push(start.elapsed().as_nanos() as f64);
+            }
+        }
     }
-    start.elapsed().as_nanos() as f64 / passes as f64
+    let mut sums_ns = [0.0; 4];
+    for turn_ns in turns_ns {
+        for (sum, mut times) in sums_ns.iter_mut().zip(turn_ns) {
+            times.sort_by(f64::total_cmp);
+            *sum += times[times.len() / 2];
+        }
+    }
+    sums_ns
 }
 
 /// Someone who can fill the triangles of a scene on a target of their own.
 trait Filler {
-    /// Fills every triangle: this is timed.
-    fn fill_all(&mut self);
-    /// Fills one triangle.
-    fn fill_one(&mut self, index: usize);
+    /// Fills a part of the triangles: this is timed.
+    fn fill(&mut self, part: Range<usize>);
     /// Whether pixel (x, y) is drawn.
     fn is_drawn(&self, x: usize, y: usize) -> bool;
     /// Makes pixel (x, y) undrawn.
@@ -150,7 +164,7 @@ fn wrong_pixels(filler: &mut dyn Filler, scene: &Scene) -> Wrong {
         Oracle.cover(*corners, near, |span| {
             truth.span_mut(span.y_px, span.x0_px, span.x1_px).fill(true)
         });
-        filler.fill_one(index);
+        filler.fill(index..index + 1);
         for (y_px, row) in truth.rows() {
             for (x_px, &covered) in (near.x0..near.x1).zip(row) {
                 let (x, y) = (x_px as usize, y_px as usize);
@@ -194,14 +208,10 @@ impl<E: Rasterize> Engine<E> {
 }
 
 impl<E: Rasterize> Filler for Engine<E> {
-    fn fill_all(&mut self) {
-        for corners in black_box(&self.triangles) {
+    fn fill(&mut self, part: Range<usize>) {
+        for corners in &self.triangles[part] {
             common::fill(&self.engine, *corners, &mut self.target);
         }
-        black_box(self.target.row(0));
-    }
-    fn fill_one(&mut self, index: usize) {
-        common::fill(&self.engine, self.triangles[index], &mut self.target);
     }
     fn is_drawn(&self, x: usize, y: usize) -> bool {
         self.target.row(y as i32)[x] != 0
@@ -237,17 +247,12 @@ impl TinySkia {
 }
 
 impl Filler for TinySkia {
-    fn fill_all(&mut self) {
+    fn fill(&mut self, part: Range<usize>) {
         // The view of the target is made once, as a user would who draws many shapes.
         let mut target = self.target.as_mut();
-        for path in black_box(&self.paths) {
+        for path in &self.paths[part] {
             target.fill_path(path, &self.paint, FillRule::Winding, Transform::identity(), None);
         }
-        black_box(self.target.data());
-    }
-    fn fill_one(&mut self, index: usize) {
-        let path = &self.paths[index];
-        self.target.fill_path(path, &self.paint, FillRule::Winding, Transform::identity(), None);
     }
     fn is_drawn(&self, x: usize, y: usize) -> bool {
         self.target.data()[4 * (y * SIDE_PX as usize + x) + 3] != 0
@@ -265,7 +270,7 @@ struct Euc {
 /// euc's stages: positions are in clip coordinates already, and every fragment has one colour.
 struct Flat;
 
-impl euc::Pipeline for Flat {
+impl Pipeline for Flat {
     type Vertex = [f32; 2];
     type VsOut = ();
     type Pixel = u32;
@@ -296,20 +301,16 @@ impl Euc {
         let side = SIDE_PX as usize;
         Self { vertices, target: Buffer2d::new([side, side], 0) }
     }
-
-    fn draw(vertices: &[[f32; 2]], target: &mut Buffer2d<u32>) {
-        use euc::Pipeline;
-        Flat.draw::<Triangles<Buffer2d<f32>, BackfaceCullingDisabled>, _>(vertices, target, None);
-    }
 }
 
 impl Filler for Euc {
-    fn fill_all(&mut self) {
-        Self::draw(black_box(&self.vertices), &mut self.target);
-        black_box(self.target.as_ref());
-    }
-    fn fill_one(&mut self, index: usize) {
-        Self::draw(&self.vertices[3 * index..][..3], &mut self.target);
+    fn fill(&mut self, part: Range<usize>) {
+        let vertices = &self.vertices[3 * part.start..3 * part.end];
+        Flat.draw::<Triangles<Buffer2d<f32>, BackfaceCullingDisabled>, _>(
+            vertices,
+            &mut self.target,
+            None,
+        );
     }
     fn is_drawn(&self, x: usize, y: usize) -> bool {
         self.target.as_ref()[y * SIDE_PX as usize + x] != 0

@@ -7,8 +7,10 @@
 //! The unit of coverage is the span, a run of pixels in one row, so that a plain fill is one
 //! `slice::fill` for each row and fragments are the same walk with values attached.
 
+use std::ops::AddAssign;
+
 use crate::grid::PixelRect;
-use crate::triangle::{Corners, Fragment, ScreenLine, ScreenTriangle, Span, Varying};
+use crate::triangle::{Corners, Fragment, FreeCorners, ScreenLine, ScreenTriangle, Span, Varying};
 
 /// Decides which pixels of a window a triangle covers.
 pub trait Rasterize {
@@ -18,6 +20,40 @@ pub trait Rasterize {
     /// Covered means: strictly inside, or on a top or left edge. Winding does not matter, and a
     /// triangle of zero area covers nothing. Total for all inputs.
     fn cover(&self, corners: Corners, bounds: PixelRect, emit: impl FnMut(Span));
+}
+
+/// Decides which pixels of a window a triangle covers whose corners are not snapped to the lattice.
+pub trait RasterizeExact {
+    /// Emits every pixel of `bounds` whose centre the triangle covers exactly once, in spans that
+    /// are not empty, in any order.
+    ///
+    /// Covered means what it means for [`Rasterize`], of the triangle as it was given: nothing is
+    /// snapped or rounded. Exact for all corners that [`FreeCorners`] holds, so for every finite
+    /// f32 and f64 in the domain. Returns how the decisions were made; no globals count them.
+    fn cover_exact(
+        &self,
+        corners: &FreeCorners,
+        bounds: PixelRect,
+        emit: impl FnMut(Span),
+    ) -> Decisions;
+}
+
+/// How an adaptive engine decided. What one decision is depends on the engine: for the edge
+/// function the side of one edge that one sample lies on, for the scanline the column where one
+/// edge crosses one row.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
+pub struct Decisions {
+    /// Decided in plain floats, with an error bound that left no doubt.
+    pub by_filter: u64,
+    /// In doubt, so decided by exact arithmetic.
+    pub by_fallback: u64,
+}
+
+impl AddAssign for Decisions {
+    fn add_assign(&mut self, other: Self) {
+        self.by_filter += other.by_filter;
+        self.by_fallback += other.by_fallback;
+    }
 }
 
 /// Computes the values of a triangle at the pixels it covers.

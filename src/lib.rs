@@ -5,7 +5,8 @@
 //! [`hazard`] makes it, [`raster::scanline`] and [`raster::edge_function`] draw it (as
 //! [`contract::Rasterize`] promises), [`oracle`] knows the truth, [`verify`] compares, and
 //! [`report`] shows the verdict. Lines travel the same way through [`line::dda`] and
-//! [`line::bresenham`].
+//! [`line::bresenham`]; corners that are not snapped through [`raster::scanline_exact`] and
+//! [`raster::edge_function_exact`].
 //!
 //! Judge a rasterizer of your own in ten lines:
 //!
@@ -34,9 +35,11 @@
 
 pub mod cli;
 pub mod contract;
+pub mod exhaust;
 pub mod frame;
 pub mod grid;
 pub mod hazard;
+pub mod invariant;
 pub mod line;
 pub mod lineup;
 pub mod mutant;
@@ -60,4 +63,6 @@ mod docs {
     struct Chapters4And5;
     #[doc = include_str!("../docs/judge.md")]
     struct Judge;
+    #[doc = include_str!("../docs/offgrid.md")]
+    struct OffGrid;
 }

@@ -3,12 +3,15 @@
 
 use glam::DVec2;
 
-use crate::contract::{DrawLine, Interpolate, Rasterize};
+use crate::contract::{Decisions, DrawLine, Interpolate, Rasterize, RasterizeExact};
 use crate::grid::PixelRect;
 use crate::line::{bresenham::Bresenham, dda::Dda};
-use crate::mutant::{LineMutant, TriangleMutant};
+use crate::mutant::{LineMutant, TriangleMutant, exact::ExactMutant};
 use crate::oracle::Oracle;
-use crate::raster::{edge_function::EdgeFunction, scanline::Scanline};
+use crate::raster::{
+    edge_function::EdgeFunction, edge_function_exact::EdgeFunctionExact, scanline::Scanline,
+    scanline_exact::ScanlineExact,
+};
 use crate::specimen::book_affine::BookAffine;
 use crate::specimen::book_dda::BookDda;
 use crate::specimen::book_depth::BookDepth;
@@ -20,7 +23,7 @@ use crate::specimen::sysu_inclusive::SysuInclusive;
 use crate::specimen::sysu_truncated::SysuTruncated;
 use crate::specimen::sysu_weights::SysuWeights;
 use crate::specimen::{Published, PublishedLine, RealTriangle, Refused};
-use crate::triangle::{Corners, Fragment, ScreenLine, ScreenTriangle, Span, Varying};
+use crate::triangle::{Corners, Fragment, FreeCorners, ScreenLine, ScreenTriangle, Span, Varying};
 
 /// A rasterizer of the line-up.
 #[derive(Clone, Copy, Debug)]
@@ -119,6 +122,51 @@ impl DrawLine for LineEngine {
             Self::Bresenham => Bresenham.draw(line, bounds, emit),
             Self::Oracle => Oracle.draw(line, bounds, emit),
             Self::Mutant(mutant) => mutant.draw(line, bounds, emit),
+        }
+    }
+}
+
+/// A rasterizer of the line-up for corners that are not snapped.
+#[derive(Clone, Copy, Debug)]
+pub enum ExactEngine {
+    /// The book's fill with filtered crossings.
+    Scanline,
+    /// The bounding-box fill with filtered edge functions.
+    EdgeFunction,
+    /// The exact oracle, as an engine.
+    Oracle,
+    /// A planted fault.
+    Mutant(ExactMutant),
+}
+
+impl ExactEngine {
+    /// The rasterizers that are judged.
+    pub const JUDGED: [Self; 2] = [Self::Scanline, Self::EdgeFunction];
+
+    /// Its name on the command line.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Scanline => "scanline-exact",
+            Self::EdgeFunction => "edge-function-exact",
+            Self::Oracle => "oracle-exact",
+            Self::Mutant(mutant) => mutant.name(),
+        }
+    }
+}
+
+impl RasterizeExact for ExactEngine {
+    fn cover_exact(
+        &self,
+        corners: &FreeCorners,
+        bounds: PixelRect,
+        emit: impl FnMut(Span),
+    ) -> Decisions {
+        match self {
+            Self::Scanline => ScanlineExact.cover_exact(corners, bounds, emit),
+            Self::EdgeFunction => EdgeFunctionExact.cover_exact(corners, bounds, emit),
+            Self::Oracle => Oracle.cover_exact(corners, bounds, emit),
+            Self::Mutant(mutant) => mutant.cover_exact(corners, bounds, emit),
         }
     }
 }
@@ -292,17 +340,20 @@ pub struct Entry {
     pub engine: Option<Engine>,
     /// The line drawer of this name.
     pub line_engine: Option<LineEngine>,
+    /// The rasterizer of this name for corners that are not snapped.
+    pub exact_engine: Option<ExactEngine>,
     /// The published algorithm of this name.
     pub specimen: Option<Specimen>,
 }
 
 /// Every engine that has a name of its own.
-pub const ENTRIES: [Entry; 5] = [
+pub const ENTRIES: [Entry; 8] = [
     Entry {
         name: "scanline",
         about: "the book's split-triangle fill, repaired: exact integer DDA down the edges",
         engine: Some(Engine::Scanline),
         line_engine: None,
+        exact_engine: None,
         specimen: None,
     },
     Entry {
@@ -310,6 +361,7 @@ pub const ENTRIES: [Entry; 5] = [
         about: "bounding box and three integer edge functions with a top-left bias",
         engine: Some(Engine::EdgeFunction),
         line_engine: None,
+        exact_engine: None,
         specimen: None,
     },
     Entry {
@@ -317,6 +369,7 @@ pub const ENTRIES: [Entry; 5] = [
         about: "the book's line drawer, repaired: exact slope, rounded height",
         engine: None,
         line_engine: Some(LineEngine::Dda),
+        exact_engine: None,
         specimen: None,
     },
     Entry {
@@ -324,6 +377,7 @@ pub const ENTRIES: [Entry; 5] = [
         about: "Bresenham's line drawer in all octants",
         engine: None,
         line_engine: Some(LineEngine::Bresenham),
+        exact_engine: None,
         specimen: None,
     },
     Entry {
@@ -331,9 +385,37 @@ pub const ENTRIES: [Entry; 5] = [
         about: "the truth: parity of crossings, nearest pixels, planes in big integers",
         engine: Some(Engine::Oracle),
         line_engine: Some(LineEngine::Oracle),
+        exact_engine: None,
         specimen: None,
     },
+    exact(
+        "scanline-exact",
+        ExactEngine::Scanline,
+        "corners not snapped: filtered crossings, big integers in doubt",
+    ),
+    exact(
+        "edge-function-exact",
+        ExactEngine::EdgeFunction,
+        "corners not snapped: filtered edge functions, orient2d in doubt",
+    ),
+    exact(
+        "oracle-exact",
+        ExactEngine::Oracle,
+        "corners not snapped: the truth, parity of crossings in whole numbers",
+    ),
 ];
+
+/// The entry of a rasterizer for corners that are not snapped, which does nothing else.
+const fn exact(name: &'static str, engine: ExactEngine, about: &'static str) -> Entry {
+    Entry {
+        name,
+        about,
+        engine: None,
+        line_engine: None,
+        exact_engine: Some(engine),
+        specimen: None,
+    }
+}
 
 const fn triangle_specimen(
     name: &'static str,
@@ -341,12 +423,12 @@ const fn triangle_specimen(
     specimen: TriangleSpecimen,
 ) -> Entry {
     let specimen = Some(Specimen::Triangle(specimen));
-    Entry { name, about, engine: None, line_engine: None, specimen }
+    Entry { name, about, engine: None, line_engine: None, exact_engine: None, specimen }
 }
 
 const fn line_specimen(name: &'static str, about: &'static str, specimen: LineSpecimen) -> Entry {
     let specimen = Some(Specimen::Line(specimen));
-    Entry { name, about, engine: None, line_engine: None, specimen }
+    Entry { name, about, engine: None, line_engine: None, exact_engine: None, specimen }
 }
 
 /// Every specimen that speaks the line protocol; they take positions as they are given.

@@ -4,7 +4,7 @@
 
 use std::ops::{Add, Mul, Sub};
 
-use crate::grid::{Refusal, SubpixelPoint};
+use crate::grid::{DOMAIN_PX, Refusal, SubpixelPoint};
 
 /// Something that can be interpolated: a number or a vector of numbers.
 ///
@@ -75,6 +75,58 @@ fn check_range(value: f64, min: f64, max: f64) -> Result<(), Refusal> {
 
 /// The three corners of a triangle, positions only.
 pub type Corners = [SubpixelPoint; 3];
+
+/// Three corners in window pixels as they were given, not snapped to the lattice: every coordinate
+/// is a finite f64 in [-[`DOMAIN_PX`], [`DOMAIN_PX`]), subnormal ones included.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+pub struct FreeCorners([[f64; 2]; 3]);
+
+impl FreeCorners {
+    /// Accepts `[x, y]` of each corner in pixels.
+    ///
+    /// ```
+    /// use rasterproof::triangle::FreeCorners;
+    /// assert!(FreeCorners::new([[0.1, 1e-300], [5.0, 0.3], [-8_388_608.0, 7.0]]).is_ok());
+    /// assert!(FreeCorners::new([[0.1, 0.0], [8_388_608.0, 0.3], [2.0, 7.0]]).is_err());
+    /// ```
+    ///
+    /// # Errors
+    /// As [`check_position`], for the first coordinate that is refused.
+    pub fn new(corners_px: [[f64; 2]; 3]) -> Result<Self, Refusal> {
+        corners_px.as_flattened().iter().try_for_each(|&px| check_position(px))?;
+        Ok(Self(corners_px))
+    }
+
+    /// `[x, y]` of each corner in pixels.
+    #[must_use]
+    pub fn px(&self) -> [[f64; 2]; 3] {
+        self.0
+    }
+}
+
+impl From<Corners> for FreeCorners {
+    /// The same positions in pixels, exactly; the lattice lies in the domain.
+    fn from(corners: Corners) -> Self {
+        Self(corners.map(|corner| corner.to_px().into()))
+    }
+}
+
+/// Checks that a coordinate in pixels is finite and within [-[`DOMAIN_PX`], [`DOMAIN_PX`]).
+///
+/// # Errors
+/// [`Refusal`] with the reason.
+pub fn check_position(px: f64) -> Result<(), Refusal> {
+    let domain = f64::from(DOMAIN_PX);
+    if px.is_nan() {
+        Err(Refusal::NotANumber)
+    } else if px.is_infinite() {
+        Err(Refusal::Infinite)
+    } else if px < -domain || px >= domain {
+        Err(Refusal::OutOfDomain(px))
+    } else {
+        Ok(())
+    }
+}
 
 /// A triangle in the window, either winding; a degenerate one covers nothing.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]

@@ -3,7 +3,7 @@
 //! A request is a line of words; an answer is a line, flushed before the next request is read. A
 //! request that cannot be read, or asks for what is outside the domain, is answered `E id reason`
 //! and the engine goes on. Positions are window pixels, y down, snapped to 1/256 px half to even;
-//! specimens take them as they are.
+//! the engines whose names end in `-exact`, and the specimens, take them as they are.
 
 use std::fmt::Write as _;
 use std::io::{BufRead, Read as _, Write};
@@ -11,17 +11,21 @@ use std::io::{BufRead, Read as _, Write};
 use glam::DVec2;
 
 use super::{Failure, Streams, exit, published};
-use crate::contract::{DrawLine, Interpolate, Rasterize};
+use crate::contract::{DrawLine, Interpolate, Rasterize, RasterizeExact};
 use crate::grid::{MAX_SIDE_PX, PixelRect, Refusal, SUBPIXELS, SubpixelPoint};
-use crate::lineup::{self, Engine, Entry, LineEngine};
-use crate::triangle::{LineEnd, PixelPoint, ScreenLine, ScreenTriangle, ScreenVertex, check_value};
+use crate::lineup::{self, Engine, Entry, ExactEngine, LineEngine};
+use crate::triangle::{
+    FreeCorners, LineEnd, PixelPoint, ScreenLine, ScreenTriangle, ScreenVertex, check_position,
+    check_value,
+};
 
 pub const HELP: &str = "Requests and answers, one a line (numbers decimal or C99 hex floats):
   HELLO 1                                    HELLO 1 <name> <capability>...
   T id width height x0 y0 x1 y1 x2 y2        C id n  y x0 x1 ...      runs of covered pixels
   L id width height x0 y0 x1 y1              P id n  x y ...          pixels in drawing order
   I id width height (x y z w a b) x 3        F id n  x y z a b ...    fragments with values
-Anything else is answered E id reason. Example:
+Anything else is answered E id reason. Positions are snapped to 1/256 px, except by the engines whose
+names end in -exact; those answer T only. Example:
   echo 'T 1 8 8 0.5 0.5 5.5 0.5 5.5 5.5' | rasterproof engine scanline";
 
 /// A longer line is refused without being kept.
@@ -112,10 +116,11 @@ fn answer(entry: &'static Entry, text: &str, out: &mut dyn Write) -> Result<(), 
             )));
         }
     };
-    let engine = match (verb, entry.engine, entry.line_engine) {
-        ("T", Some(engine), _) => Speaker::Cover(engine),
-        ("I", Some(engine), _) => Speaker::Values(engine),
-        ("L", _, Some(engine)) => Speaker::Line(engine),
+    let engine = match (verb, entry.engine, entry.line_engine, entry.exact_engine) {
+        ("T", Some(engine), _, _) => Speaker::Cover(engine),
+        ("T", _, _, Some(engine)) => Speaker::CoverExact(engine),
+        ("I", Some(engine), _, _) => Speaker::Values(engine),
+        ("L", _, Some(engine), _) => Speaker::Line(engine),
         _ if published::speaks(entry, verb) => Speaker::Published(entry),
         _ => return Err(refused("unsupported".to_owned())),
     };
@@ -135,6 +140,7 @@ fn answer(entry: &'static Entry, text: &str, out: &mut dyn Write) -> Result<(), 
         .map_err(refused)?;
     let reply = match engine {
         Speaker::Cover(engine) => cover(engine, window, &numbers),
+        Speaker::CoverExact(engine) => cover_exact(engine, window, &numbers),
         Speaker::Line(engine) => line(engine, window, &numbers),
         Speaker::Published(entry) => published::answer(entry, verb, window, &numbers),
         Speaker::Values(engine) => {
@@ -151,6 +157,7 @@ fn answer(entry: &'static Entry, text: &str, out: &mut dyn Write) -> Result<(), 
 #[derive(Clone, Copy)]
 enum Speaker {
     Cover(Engine),
+    CoverExact(ExactEngine),
     Values(Engine),
     Line(LineEngine),
     Published(&'static Entry),
@@ -163,6 +170,9 @@ fn hello(entry: &Entry, rest: &[&str], out: &mut dyn Write) -> Result<(), Stop> 
     let mut capabilities = Vec::new();
     if entry.engine.is_some() {
         capabilities.extend(["coverage", "attributes"]);
+    }
+    if entry.exact_engine.is_some() {
+        capabilities.push("coverage");
     }
     if entry.line_engine.is_some() {
         capabilities.push("line");
@@ -222,6 +232,21 @@ fn cover(engine: Engine, window: PixelRect, numbers: &[f64]) -> Reply {
     engine.cover(corners, window, |span| {
         n += 1;
         // Writing to a string does not fail.
+        let _ = write!(runs, " {} {} {}", span.y_px, span.x0_px, span.x1_px);
+    });
+    Ok(('C', n, runs))
+}
+
+fn cover_exact(engine: ExactEngine, window: PixelRect, numbers: &[f64]) -> Reply {
+    for (i, &px) in numbers.iter().enumerate() {
+        let axis = if i % 2 == 0 { 'x' } else { 'y' };
+        check_position(px).map_err(named(&format!("{axis}{}", i / 2)))?;
+    }
+    let corner = |i: usize| [numbers[2 * i], numbers[2 * i + 1]];
+    let corners = FreeCorners::new([corner(0), corner(1), corner(2)]).map_err(|r| r.to_string())?;
+    let (mut runs, mut n) = (String::new(), 0);
+    engine.cover_exact(&corners, window, |span| {
+        n += 1;
         let _ = write!(runs, " {} {} {}", span.y_px, span.x0_px, span.x1_px);
     });
     Ok(('C', n, runs))

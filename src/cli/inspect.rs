@@ -9,13 +9,15 @@ use super::{Failure, Streams, exit, usage, write_file};
 use crate::frame::Coverage;
 use crate::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
 use crate::hazard::named::{self, Input};
+use crate::hazard::offgrid::{self, OffGridCase};
 use crate::hazard::{self, Case, Line, Shape};
-use crate::lineup::{Engine, LineEngine};
+use crate::lineup::{Engine, ExactEngine, LineEngine};
 use crate::oracle::Oracle;
 use crate::oracle::coverage::samples_on_boundary;
 use crate::raster::edge_function::WordWidth;
 use crate::report::{ascii, picture};
-use crate::triangle::{Corners, PixelPoint};
+use crate::triangle::{Corners, FreeCorners, PixelPoint};
+use crate::verify::exact::{describe, exact_coverage, judge_exact_case};
 use crate::verify::tolerance::Tolerance;
 use crate::verify::{self, Tally, engine_coverage, line_coverage, oracle_coverage};
 
@@ -77,6 +79,15 @@ pub fn run(arguments: &InspectArguments, streams: &mut Streams<'_>) -> Result<u8
     let (title, mut case, expected) = match find(arguments)? {
         Found::Case { title, case, expected } => (title, case, expected),
         Found::Refused { title, corners } => return refused(&title, &corners, out),
+        Found::OffGrid { title, mut case } => {
+            case.window = arguments.window.unwrap_or(case.window);
+            let w = case.window;
+            writeln!(out, "{title}")?;
+            writeln!(out, "window: columns {}..{}, rows {}..{}", w.x0, w.x1, w.y0, w.y1)?;
+            writeln!(out, "triangles {}\n", describe(&case.triangles))?;
+            let agrees = off_grid(&case, out)?;
+            return Ok(if agrees { exit::AGREES } else { exit::DISAGREES });
+        }
     };
     if let Some(window) = arguments.window {
         case.window = window;
@@ -117,6 +128,16 @@ pub fn run(arguments: &InspectArguments, streams: &mut Streams<'_>) -> Result<u8
             )?;
         }
     }
+    // Corners that were typed in are shown as they were typed, too.
+    if let ([a, b, c], false) = (arguments.what.as_slice(), arguments.line) {
+        let px = [parse_px(a)?, parse_px(b)?, parse_px(c)?];
+        if let Ok(corners) = FreeCorners::new(px) {
+            writeln!(out, "\nnot snapped:")?;
+            let typed =
+                OffGridCase { window: case.window, triangles: vec![corners], is_tiling: false };
+            agrees &= off_grid(&typed, out)?;
+        }
+    }
     let path = arguments.output.clone().unwrap_or_else(|| "target/rasterproof/inspect.png".into());
     write_file(&path, &picture::png(&shown.picture(&case)))?;
     writeln!(out, "drawn in {}", path.display())?;
@@ -126,6 +147,32 @@ pub fn run(arguments: &InspectArguments, streams: &mut Streams<'_>) -> Result<u8
 enum Found {
     Case { title: String, case: Case, expected: Option<Vec<u64>> },
     Refused { title: String, corners: Vec<[[f64; 2]; 3]> },
+    OffGrid { title: String, case: OffGridCase },
+}
+
+/// Pixels of the engines that do not snap, and how they decided; whether they agree.
+fn off_grid(case: &OffGridCase, out: &mut dyn std::io::Write) -> Result<bool, Failure> {
+    let target = exact_coverage(&ExactEngine::Oracle, case).map_err(usage)?.0;
+    let mut agrees = true;
+    let mut blocks = Vec::new();
+    for engine in ExactEngine::JUDGED {
+        let (name, finding) = (engine.name(), judge_exact_case(&engine, case));
+        agrees &= !finding.is_wrong();
+        let (what, decisions) = (finding.describe(), finding.decisions);
+        let all = decisions.by_filter + decisions.by_fallback;
+        writeln!(
+            out,
+            "{name} against oracle-exact: {what}; {} of {all} decisions took exact arithmetic",
+            decisions.by_fallback
+        )?;
+        if let Ok((hits, _)) = exact_coverage(&engine, case) {
+            blocks.push((format!("{name}: {} px", hits.covered()), ascii::grid(&hits, &target)));
+        }
+    }
+    let oracle = format!("oracle-exact: {} px", target.covered());
+    blocks.push((oracle, ascii::grid(&target, &target)));
+    writeln!(out, "\n{}", ascii::side_by_side(&blocks, 100))?;
+    Ok(agrees)
 }
 
 fn find(arguments: &InspectArguments) -> Result<Found, Failure> {
@@ -144,15 +191,21 @@ fn find(arguments: &InspectArguments) -> Result<Found, Failure> {
         }
         ([word], false) => match word.split_once('#') {
             Some((family, number)) => {
-                let found = hazard::families().find(|f| f.name == family);
-                let family = found
-                    .ok_or_else(|| unknown("family", family, hazard::families().map(|f| f.name)))?;
                 let index = number.parse::<u64>().map_err(|_| {
                     usage(format!(
-                        "{word}: expected the number of a case after '#', for example {}#123",
-                        family.name
+                        "{word}: expected the number of a case after '#', for example {family}#123"
                     ))
-                })?;
+                });
+                if let Some(family) = offgrid::FAMILIES.iter().find(|f| f.name == family) {
+                    let title = format!("{word} of seed {}: {}", arguments.seed, family.about);
+                    let case = family.case(arguments.seed, index?);
+                    return Ok(Found::OffGrid { title, case });
+                }
+                let found = hazard::families().find(|f| f.name == family);
+                let names = hazard::families().map(|f| f.name);
+                let names = names.chain(offgrid::FAMILIES.iter().map(|f| f.name));
+                let family = found.ok_or_else(|| unknown("family", family, names))?;
+                let index = index?;
                 let title = format!("{word} of seed {}: {}", arguments.seed, family.about);
                 Ok(generated(title, family.case(arguments.seed, index)))
             }
@@ -201,14 +254,18 @@ fn unknown(kind: &str, word: &str, names: impl Iterator<Item = &'static str>) ->
     usage(format!("no {kind} is called '{word}'{hint} See: rasterproof list"))
 }
 
-fn parse_point(text: &str) -> Result<SubpixelPoint, Failure> {
+fn parse_px(text: &str) -> Result<[f64; 2], Failure> {
     let numbers =
-        text.trim().split_once(',').and_then(|(x, y)| Some((x.parse().ok()?, y.parse().ok()?)));
-    let (x, y) = numbers.ok_or_else(|| {
+        text.trim().split_once(',').and_then(|(x, y)| Some([x.parse().ok()?, y.parse().ok()?]));
+    numbers.ok_or_else(|| {
         usage(format!(
             "'{text}' is not a point: expected X,Y in pixels, for example 0.5,3 (or a named case)"
         ))
-    })?;
+    })
+}
+
+fn parse_point(text: &str) -> Result<SubpixelPoint, Failure> {
+    let [x, y] = parse_px(text)?;
     SubpixelPoint::from_px(x, y).map_err(|refusal| usage(format!("'{text}': {refusal}")))
 }
 

@@ -1,7 +1,9 @@
 //! The command line: words to functions. Text goes to the writers it is given; only `main` exits.
 
 mod engine;
+mod exhaust;
 mod inspect;
+mod invariant;
 mod published;
 mod specimens;
 mod verify;
@@ -33,7 +35,10 @@ const EXAMPLES: &str = "Examples:
   rasterproof inspect --line 0,0 8,3              explain a line
   rasterproof engine scanline < requests.txt      speak the line protocol
   rasterproof specimens                           the published algorithms and their faults
-  rasterproof list                                families, cases and engines
+  rasterproof verify --invariant vertex-order     check one invariant; all checks every one
+  rasterproof mutants                             which invariant kills which planted fault
+  rasterproof exhaust triangles                   every triangle of a small window, certified
+  rasterproof list                                families, cases, engines and invariants
 
 Exit status: 0 all agree, 1 something disagrees, 2 usage or bad input.";
 
@@ -62,7 +67,14 @@ enum Command {
     },
     /// Show the published algorithms, how often they fail, and a picture of each fault
     Specimens(specimens::SpecimensArguments),
-    /// List families, named cases and engines
+    /// Show which invariant kills which planted fault
+    Mutants,
+    /// Judge every case of a finite set, and certify it
+    #[command(after_help = exhaust::HELP)]
+    Exhaust(exhaust::ExhaustArguments),
+    /// Join the certificates of the shards of `exhaust`
+    Merge(exhaust::MergeArguments),
+    /// List families, named cases, engines and invariants
     List,
 }
 
@@ -136,6 +148,9 @@ pub fn run(words: impl IntoIterator<Item = String>, streams: &mut Streams<'_>) -
         Some(Command::Inspect(arguments)) => inspect::run(arguments, streams),
         Some(Command::Engine { name }) => engine::run(name, streams),
         Some(Command::Specimens(arguments)) => specimens::run(arguments, streams),
+        Some(Command::Mutants) => invariant::mutants(streams),
+        Some(Command::Exhaust(arguments)) => exhaust::run(arguments, streams),
+        Some(Command::Merge(arguments)) => exhaust::merge(arguments, streams),
         Some(Command::List) => list(streams),
     };
     let result = result.and_then(|status| Ok(streams.output.flush().map(|()| status)?));
@@ -169,14 +184,19 @@ fn list(streams: &mut Streams<'_>) -> Result<u8, Failure> {
     for family in hazard::families() {
         writeln!(out, "  {:<16} {}", family.name, family.about)?;
     }
+    writeln!(out, "\nFamilies off the grid, for the engines that do not snap:")?;
+    for family in hazard::offgrid::FAMILIES {
+        writeln!(out, "  {:<16} {}", family.name, family.about)?;
+    }
     writeln!(out, "\nNamed cases (rasterproof inspect NAME):")?;
     for case in hazard::named::named() {
         writeln!(out, "  {:<5} {}", case.name, case.about)?;
     }
     writeln!(out, "\nEngines (rasterproof engine NAME):")?;
     for entry in lineup::ENTRIES.iter().chain(&lineup::SPECIMENS) {
-        writeln!(out, "  {:<16} {}", entry.name, entry.about)?;
+        writeln!(out, "  {:<19} {}", entry.name, entry.about)?;
     }
+    invariant::list(streams)?;
     Ok(exit::AGREES)
 }
 

@@ -5,11 +5,12 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use super::{Failure, Streams, exit, usage, write_file};
+use super::{Failure, Streams, exit, invariant, usage, write_file};
 use crate::hazard;
-use crate::lineup::{Engine, LineEngine};
-use crate::mutant::{LineMutant, TriangleMutant};
-use crate::report::{ascii, json, picture, table};
+use crate::lineup::{Engine, ExactEngine, LineEngine};
+use crate::mutant::{LineMutant, Mutant, TriangleMutant, exact::ExactMutant};
+use crate::report::{self, ascii, json, picture, table};
+use crate::verify::exact::{self, ExactVerdict};
 use crate::verify::tolerance::{self, Tolerance};
 use crate::verify::{self, Options, Verdict};
 
@@ -26,8 +27,12 @@ pub struct VerifyArguments {
     #[arg(long, value_name = "NAME", value_parser = family_names())]
     family: Vec<String>,
     /// Only this engine against the oracle; may be repeated
-    #[arg(long, value_name = "NAME", value_parser = ["scanline", "edge-function", "dda", "bresenham"])]
+    #[arg(long, value_name = "NAME", value_parser = judged_names())]
     engine: Vec<String>,
+    /// Check this invariant instead, or all of them; may be repeated
+    #[arg(long, value_name = "NAME", value_parser = invariant::names(), hide_possible_values = true,
+        conflicts_with_all = ["family", "engine", "shard", "case", "json", "seconds"])]
+    invariant: Vec<String>,
     /// Decides every generated case
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
@@ -46,15 +51,22 @@ pub struct VerifyArguments {
 }
 
 fn family_names() -> Vec<&'static str> {
-    hazard::families().map(|family| family.name).collect()
+    let off_grid = hazard::offgrid::FAMILIES.iter().map(|family| family.name);
+    hazard::families().map(|family| family.name).chain(off_grid).collect()
+}
+
+fn judged_names() -> Vec<&'static str> {
+    let lines = LineEngine::JUDGED.iter().map(LineEngine::name);
+    let exact = ExactEngine::JUDGED.iter().map(ExactEngine::name);
+    Engine::JUDGED.iter().map(Engine::name).chain(lines).chain(exact).collect()
 }
 
 fn mutant_names() -> Vec<&'static str> {
-    let triangles = TriangleMutant::ALL.iter().map(|mutant| mutant.name());
-    triangles.chain(LineMutant::ALL.iter().map(|mutant| mutant.name())).collect()
+    let exact = ExactMutant::ALL.iter().map(|mutant| mutant.name());
+    Mutant::all().iter().map(Mutant::name).chain(exact).collect()
 }
 
-fn parse_shard(text: &str) -> Result<(u64, u64), String> {
+pub(super) fn parse_shard(text: &str) -> Result<(u64, u64), String> {
     let numbers = text.split_once('/').and_then(|(i, n)| Some((i.parse().ok()?, n.parse().ok()?)));
     match numbers {
         Some((part, parts)) if part < parts => Ok((part, parts)),
@@ -100,6 +112,21 @@ impl VerifyArguments {
             Engine::JUDGED.into_iter().filter(|e| wanted(e.name())).map(with_tolerance).collect(),
             LineEngine::JUDGED.into_iter().filter(|e| wanted(e.name())).collect(),
         )
+    }
+
+    /// The engines to judge off the lattice: both, a selection, or a planted fault alone.
+    fn exact_contestants(&self) -> Vec<(&'static str, ExactEngine)> {
+        let engines: Vec<_> = match &self.plant {
+            Some(name) => {
+                let mutant = ExactMutant::ALL.into_iter().find(|mutant| mutant.name() == name);
+                mutant.map(ExactEngine::Mutant).into_iter().collect()
+            }
+            None => ExactEngine::JUDGED
+                .into_iter()
+                .filter(|e| self.engine.is_empty() || self.engine.iter().any(|n| n == e.name()))
+                .collect(),
+        };
+        engines.into_iter().map(|engine| (engine.name(), engine)).collect()
     }
 
     /// The command that repeats one case.
@@ -148,36 +175,51 @@ pub fn with_tolerance(engine: Engine) -> (Engine, Tolerance) {
 const FOLDER: &str = "target/rasterproof";
 
 pub fn run(arguments: &VerifyArguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+    if !arguments.invariant.is_empty() {
+        let VerifyArguments { invariant: names, plant, seed, cases, .. } = arguments;
+        return invariant::run(names, plant.as_deref(), *seed, *cases, streams);
+    }
     let options = arguments.options()?;
     let (engines, lines) = arguments.contestants();
-    let verdict = judge(&engines, &lines, &options, streams.progress);
-    if verdict.families.iter().all(|family| family.cases == 0) {
+    let exact_engines = arguments.exact_contestants();
+    if engines.is_empty() && lines.is_empty() && exact_engines.is_empty() {
+        return Err(usage("this fault is in no engine and no line drawer: add --invariant NAME"));
+    }
+    let (verdict, off_grid) = judge(&engines, &lines, &exact_engines, &options, streams.progress);
+    if verdict.families.iter().all(|family| family.cases == 0)
+        && off_grid.families.iter().all(|family| family.cases == 0)
+    {
         return Err(usage(
             "no case was judged: this engine does not draw what this family contains, or the shard is empty",
         ));
     }
     if arguments.json {
-        let text = json::verdict(&verdict, |family, index| arguments.repeat(family, index));
+        let text =
+            json::verdict(&verdict, &off_grid, |family, index| arguments.repeat(family, index));
         streams.output.write_all(text.as_bytes())?;
     } else {
-        print(arguments, &verdict, &engines, &lines, streams)?;
+        print(arguments, &verdict, &off_grid, &engines, &lines, streams)?;
     }
-    Ok(if verdict.agrees() { exit::AGREES } else { exit::DISAGREES })
+    Ok(if verdict.agrees() && off_grid.agrees() { exit::AGREES } else { exit::DISAGREES })
 }
 
 fn judge(
     engines: &[(Engine, Tolerance)],
     lines: &[LineEngine],
+    exact_engines: &[(&str, ExactEngine)],
     options: &Options,
     progress: bool,
-) -> Verdict {
+) -> (Verdict, ExactVerdict) {
     let families = hazard::families()
         .filter(|f| options.families.is_empty() || options.families.iter().any(|n| n == f.name));
+    let off_grid_families =
+        if exact_engines.is_empty() { 0 } else { exact::exact_families(options).count() };
     let bar = match (progress && options.only.is_none(), options.time_limit) {
         (false, _) => ProgressBar::hidden(),
         (true, Some(_)) => ProgressBar::new_spinner(),
         (true, None) => ProgressBar::new(
-            (families.count() as u64).saturating_mul(options.cases) / options.shard.1,
+            ((families.count() + off_grid_families) as u64).saturating_mul(options.cases)
+                / options.shard.1,
         ),
     };
     if progress {
@@ -189,14 +231,22 @@ fn judge(
             bar.set_style(style);
         }
     }
-    let verdict = verify::judge_lineup(engines, lines, options, &|cases| bar.inc(cases));
+    // Where both share a limited time, the families off the lattice get a fifth of it.
+    let is_shared = off_grid_families > 0 && engines.len() + lines.len() > 0;
+    let share = |fifths: u32| Options {
+        time_limit: options.time_limit.map(|t| if is_shared { t * fifths / 5 } else { t }),
+        ..options.clone()
+    };
+    let verdict = verify::judge_lineup(engines, lines, &share(4), &|cases| bar.inc(cases));
+    let off_grid = exact::judge_exact(exact_engines, &share(1), &|cases| bar.inc(cases));
     bar.finish_and_clear();
-    verdict
+    (verdict, off_grid)
 }
 
 fn print(
     arguments: &VerifyArguments,
     verdict: &Verdict,
+    off_grid: &ExactVerdict,
     engines: &[(Engine, Tolerance)],
     lines: &[LineEngine],
     streams: &mut Streams<'_>,
@@ -207,6 +257,15 @@ fn print(
     writeln!(out, "rasterproof {}, seed {}{shard}\n", env!("CARGO_PKG_VERSION"), arguments.seed)?;
     write!(out, "{}{}", table::table(verdict), table::quota_line(verdict))?;
     write!(out, "{}", table::disagreements(verdict))?;
+    let separate = if verdict.families.is_empty() { "" } else { "\n" };
+    if !off_grid.families.is_empty() {
+        write!(out, "{separate}{}", report::exact::table(off_grid))?;
+    }
+    write!(out, "{}", report::exact::disagreements(off_grid))?;
+    for failure in &off_grid.failures {
+        let repeat = arguments.repeat(&failure.family, failure.index);
+        writeln!(out, "\n{failure}\n  repeat with: {repeat}")?;
+    }
     if verdict.agrees() {
         worst_cases(arguments, verdict, engines, lines, out)?;
     } else {
@@ -216,11 +275,16 @@ fn print(
     let cases = if arguments.seconds.is_some() { largest } else { verdict.options.cases };
     writeln!(out, "repeat with: {}", arguments.repeat_all(cases))?;
     let (triangles, segments) = (verdict.sum(false, |f| f.shapes), verdict.sum(true, |f| f.shapes));
+    let beside = match off_grid.triangles() {
+        0 => String::new(),
+        n => format!(", {n} triangles off the grid"),
+    };
     let what = format!(
-        "{triangles} triangles and {segments} lines, {} wrong pixels",
-        verdict.mismatches()
+        "{triangles} triangles and {segments} lines{beside}, {} wrong pixels",
+        verdict.mismatches() + off_grid.mismatches()
     );
-    writeln!(out, "{}: {what}", if verdict.agrees() { "AGREES" } else { "DISAGREES" })?;
+    let agrees = verdict.agrees() && off_grid.agrees();
+    writeln!(out, "{}: {what}", if agrees { "AGREES" } else { "DISAGREES" })?;
     Ok(())
 }
 
@@ -269,10 +333,9 @@ fn worst_cases(
         let name = &family.family;
         writeln!(
             out,
-            "closest to a bound: {} at {:.2} of it in {name}#{}; see it with: rasterproof inspect {name}#{} --seed {}",
+            "closest to a bound: {} at {:.2}: rasterproof inspect {name}#{} --seed {}",
             pair.actual,
             pair.worst(),
-            pair.worst_case,
             pair.worst_case,
             arguments.seed
         )?;

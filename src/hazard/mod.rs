@@ -7,6 +7,7 @@
 
 pub mod lines;
 pub mod named;
+pub mod offgrid;
 pub mod triangles;
 
 use glam::DVec2;
@@ -71,7 +72,7 @@ pub struct Rng(u64);
 
 impl Rng {
     /// The stream of one case.
-    fn new(family: &str, seed: u64, index: u64) -> Self {
+    pub(crate) fn new(family: &str, seed: u64, index: u64) -> Self {
         let mut rng = Self(seed);
         for byte in family.bytes() {
             rng.0 = rng.next() ^ u64::from(byte);
@@ -80,7 +81,7 @@ impl Rng {
         rng
     }
 
-    fn next(&mut self) -> u64 {
+    pub(crate) fn next(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
@@ -88,7 +89,7 @@ impl Rng {
     }
 
     /// A whole number in low..=high.
-    fn int(&mut self, low: i64, high: i64) -> i64 {
+    pub(crate) fn int(&mut self, low: i64, high: i64) -> i64 {
         let count = high.abs_diff(low) + 1;
         // The high half of a 128-bit product: uniform to within 2^-32 for the small ranges here.
         low + ((u128::from(self.next()) * u128::from(count)) >> 64) as i64
@@ -98,7 +99,7 @@ impl Rng {
         self.int(low, high) as i32
     }
 
-    fn chance(&mut self, one_in: i64) -> bool {
+    pub(crate) fn chance(&mut self, one_in: i64) -> bool {
         self.int(1, one_in) == 1
     }
 

@@ -55,6 +55,11 @@ pub const FAMILIES: &[Family] = &[
     Family { name: "w-100", about: "w ratio up to 100", make: w_100 },
     Family { name: "w-1e4", about: "w ratio up to 10,000", make: w_1e4 },
     Family { name: "w-1e6", about: "w ratio up to 1,000,000", make: w_1e6 },
+    Family {
+        name: "w-extreme",
+        about: "w anywhere in its domain, ratio up to 2^400",
+        make: w_extreme,
+    },
 ];
 
 /// Side of the usual window, in pixels and in subpixels.
@@ -307,6 +312,14 @@ fn w_1e4(rng: &mut Rng) -> Case {
 
 fn w_1e6(rng: &mut Rng) -> Case {
     perspective(rng, |rng| spread(rng, 1e6))
+}
+
+fn w_extreme(rng: &mut Rng) -> Case {
+    // 1 to 2 times a power of two: exact, and the same on every machine.
+    perspective(rng, |rng| {
+        let exponent = rng.int(-200, 199) + 1023;
+        (1.0 + rng.unit()) * f64::from_bits((exponent as u64) << 52)
+    })
 }
 
 /// A w in [1, ratio]: often one of the ends, since the whole ratio is the danger.

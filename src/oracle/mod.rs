@@ -2,6 +2,7 @@
 //! uses.
 //!
 //! - [`coverage`] asks for each sample alone how many edges lie to its left (parity of crossings).
+//! - [`rational`] asks the same of corners that are not on the lattice.
 //! - [`pixels`] asks for each pixel of the window alone whether it is nearest to the line.
 //! - [`values`] puts planes through the vertices by Cramer's rule, in big integers.
 //!
@@ -9,6 +10,7 @@
 
 pub mod coverage;
 pub mod pixels;
+pub mod rational;
 pub mod values;
 
 use crate::contract::{DrawLine, Interpolate, Rasterize};

@@ -22,15 +22,8 @@ struct Dyadic {
 impl Dyadic {
     /// Takes a finite number apart.
     fn new(value: f64) -> Self {
-        assert!(value.is_finite(), "{value} has no exact value");
-        let bits = value.to_bits();
-        let field = ((bits >> 52) & 0x7ff) as i32;
-        let fraction = (bits & ((1 << 52) - 1)) as i64;
-        let (magnitude, exponent) =
-            if field == 0 { (fraction, -1074) } else { (fraction | 1 << 52, field - 1075) };
-        let zeros = if magnitude == 0 { 0 } else { magnitude.trailing_zeros() };
-        let mantissa = (magnitude >> zeros) * if value.is_sign_negative() { -1 } else { 1 };
-        Self { mantissa: mantissa.into(), exponent: exponent + zeros as i32 }
+        let (mantissa, exponent) = take_apart(value);
+        Self { mantissa: mantissa.into(), exponent }
     }
 
     fn times(&self, other: &Self) -> Self {
@@ -39,6 +32,19 @@ impl Dyadic {
             exponent: self.exponent + other.exponent,
         }
     }
+}
+
+/// A finite number as a mantissa, odd or zero, and an exponent of two.
+pub(super) fn take_apart(value: f64) -> (i64, i32) {
+    assert!(value.is_finite(), "{value} has no exact value");
+    let bits = value.to_bits();
+    let field = ((bits >> 52) & 0x7ff) as i32;
+    let fraction = (bits & ((1 << 52) - 1)) as i64;
+    let (magnitude, exponent) =
+        if field == 0 { (fraction, -1074) } else { (fraction | 1 << 52, field - 1075) };
+    let zeros = if magnitude == 0 { 0 } else { magnitude.trailing_zeros() };
+    let mantissa = (magnitude >> zeros) * if value.is_sign_negative() { -1 } else { 1 };
+    (mantissa, exponent + zeros as i32)
 }
 
 /// num(x, y) / den with x, y in subpixels: the plane through three values at three points.

@@ -9,12 +9,14 @@
 //! It visits the whole box by design: that is the price of its simplicity on slivers. It does not
 //! clip, cull, depth-test or shade.
 
+mod values;
+
 use std::hint::select_unpredictable;
 use std::ops::{Add, BitOr};
 
-use crate::contract::{Interpolate, Rasterize};
+use crate::contract::Rasterize;
 use crate::grid::{HALF_PIXEL, PixelRect, SUBPIXEL_BITS, SUBPIXELS, SubpixelPoint};
-use crate::triangle::{Corners, Fragment, ScreenTriangle, Span, Varying};
+use crate::triangle::{Corners, Span};
 
 /// The edge-function engine; see the module's description.
 #[derive(Clone, Copy, Debug, Default)]
@@ -28,22 +30,6 @@ impl Rasterize for EdgeFunction {
             WordWidth::I32 => cover_in::<i64, i32>(corners, bounds, emit),
             WordWidth::I64 => cover_in::<i64, i64>(corners, bounds, emit),
             WordWidth::I128 => cover_in::<i128, i128>(corners, bounds, emit),
-        }
-    }
-}
-
-impl Interpolate for EdgeFunction {
-    fn fragments<V: Varying>(
-        &self,
-        triangle: &ScreenTriangle<V>,
-        bounds: PixelRect,
-        emit: impl FnMut(Fragment<V>),
-    ) {
-        let (extent_x, extent_y) = extents(&triangle.corners());
-        match WordWidth::of(extent_x, extent_y) {
-            WordWidth::I32 => fragments_in::<V, i64, i32>(triangle, bounds, emit),
-            WordWidth::I64 => fragments_in::<V, i64, i64>(triangle, bounds, emit),
-            WordWidth::I128 => fragments_in::<V, i128, i128>(triangle, bounds, emit),
         }
     }
 }
@@ -199,6 +185,33 @@ impl Edge {
         let top_left = self.dy < 0 || (self.dy == 0 && self.dx > 0);
         i64::from(!top_left)
     }
+
+    /// E' = floor((E - bias) / S) at the centre of a pixel: its sign is the decision.
+    #[inline]
+    fn enter<T: Exact, W: Word>(&self, x_px: i32, y_px: i32) -> W {
+        W::narrow(self.at::<T>(centre(x_px), centre(y_px)).biased_floor(self.bias()))
+    }
+
+    /// What E' grows by from column to column.
+    #[inline]
+    fn right<W: Word>(&self) -> W {
+        W::narrow(i128::from(-self.dy))
+    }
+
+    /// What E' grows by from row to row.
+    #[inline]
+    fn down<W: Word>(&self) -> W {
+        W::narrow(i128::from(self.dx))
+    }
+}
+
+/// E' of the edge from `from` to `to` at pixel (x, y), and its steps to the right and down, as
+/// [`EdgeFunction`] has them for triangles of [`WordWidth::I32`]: a window on its arithmetic for
+/// `exhaust::edges`.
+#[inline]
+pub(crate) fn edge_steps(from: SubpixelPoint, to: SubpixelPoint, x_px: i32, y_px: i32) -> [i32; 3] {
+    let edge = Edge::new(from, to);
+    [edge.enter::<i64, i32>(x_px, y_px), edge.right(), edge.down()]
 }
 
 /// The pixels of `bounds` whose centres lie in the bounding box of the corners.
@@ -219,6 +232,13 @@ fn pixel_box(corners: &Corners, bounds: PixelRect) -> PixelRect {
         x1: x1.min(bounds.x1),
         y1: y1.min(bounds.y1),
     }
+}
+
+/// The three edge functions at the centre of a pixel, exactly, in subpixels squared: each belongs to
+/// the edge opposite the corner of the same index, and they add up to twice the signed area.
+#[must_use]
+pub fn edge_values(corners: &Corners, x_px: i32, y_px: i32) -> [i128; 3] {
+    edges(corners).map(|edge| edge.at(centre(x_px), centre(y_px)))
 }
 
 /// Twice the signed area; positive for corners that go round clockwise on the screen (y down).
@@ -256,12 +276,10 @@ fn cover_in<T: Exact, W: Word>(corners: Corners, bounds: PixelRect, emit: impl F
 /// from column to column and by dx from row to row.
 #[inline]
 fn walk<T: Exact, W: Word>(edges: &[Edge; 3], rect: PixelRect, mut emit: impl FnMut(Span)) {
-    let start = |edge: &Edge| {
-        W::narrow(edge.at::<T>(centre(rect.x0), centre(rect.y0)).biased_floor(edge.bias()))
-    };
+    let start = |edge: &Edge| edge.enter::<T, W>(rect.x0, rect.y0);
     let mut row = [start(&edges[0]), start(&edges[1]), start(&edges[2])];
-    let right = [0, 1, 2].map(|i| W::narrow(i128::from(-edges[i].dy)));
-    let down = [0, 1, 2].map(|i| W::narrow(i128::from(edges[i].dx)));
+    let right = [0, 1, 2].map(|i| edges[i].right::<W>());
+    let down = [0, 1, 2].map(|i| edges[i].down::<W>());
     for y_px in rect.y0..rect.y1 {
         let [mut e0, mut e1, mut e2] = row;
         let mut x_px = rect.x0;
@@ -282,71 +300,6 @@ fn walk<T: Exact, W: Word>(edges: &[Edge; 3], rect: PixelRect, mut emit: impl Fn
             row = [row[0] + down[0], row[1] + down[1], row[2] + down[2]];
         }
     }
-}
-
-/// Barycentric interpolation in the offset form: with q = (1/w) / max(1/w), a = E q and
-/// d = (a0 + a1) + a2, the value is v0 + (a1 (v1 - v0) + a2 (v2 - v0)) / d. Equal w make every q
-/// exactly 1 and d exactly twice the area, so the result is that of affine interpolation bit for
-/// bit; a constant is returned exactly. Vertex 0 is the topmost (then leftmost) one and the winding
-/// is made clockwise, so the order the vertices came in leaves no trace in the last bit.
-fn fragments_in<V: Varying, T: Exact, W: Word>(
-    triangle: &ScreenTriangle<V>,
-    bounds: PixelRect,
-    mut emit: impl FnMut(Fragment<V>),
-) {
-    let rect = pixel_box(&triangle.corners(), bounds);
-    if rect.is_empty() {
-        return;
-    }
-    // Bring the vertices into the canonical order.
-    let mut vertices = triangle.vertices;
-    let height = |i: usize| (vertices[i].position.y, vertices[i].position.x);
-    let top = if height(1) < height(0) { 1 } else { 0 };
-    let top = if height(2) < height(top) { 2 } else { top };
-    vertices.rotate_left(top);
-    let area = match twice_area::<T>(&vertices.map(|vertex| vertex.position)) {
-        area if area.sign() == 0 => return,
-        area if area.sign() > 0 => area.to_f64(),
-        area => {
-            vertices.swap(1, 2);
-            -area.to_f64()
-        }
-    };
-    let [v0, v1, v2] = &vertices;
-    let corners = vertices.map(|vertex| vertex.position);
-    let edges = edges(&corners);
-
-    // Prepare what is constant over the triangle.
-    let largest = v0.inv_w.max(v1.inv_w).max(v2.inv_w);
-    let q = [v0.inv_w / largest, v1.inv_w / largest, v2.inv_w / largest];
-    let (d1, d2) = (v1.varying - v0.varying, v2.varying - v0.varying);
-    let (z1, z2) = (v1.depth - v0.depth, v2.depth - v0.depth);
-    let inv_area = 1.0 / area;
-    let steps = [0, 1, 2].map(|i| (-edges[i].dy * i64::from(SUBPIXELS)) as f64);
-    // f64 steps E exactly while it is a whole number below 2^53; else each pixel starts anew.
-    let (extent_x, extent_y) = extents(&corners);
-    let padded = |extent: u32| u128::from(extent) + SUBPIXELS as u128;
-    let exact = padded(extent_x) * padded(extent_y) <= 1 << f64::MANTISSA_DIGITS;
-
-    walk::<T, W>(&edges, rect, |span| {
-        let at = |i: usize, x_px: i32| edges[i].at::<T>(centre(x_px), centre(span.y_px)).to_f64();
-        let mut e = [0, 1, 2].map(|i| at(i, span.x0_px));
-        for x_px in span.x0_px..span.x1_px {
-            let a = [e[0] * q[0], e[1] * q[1], e[2] * q[2]];
-            let inv_sum = 1.0 / ((a[0] + a[1]) + a[2]);
-            emit(Fragment {
-                x_px,
-                y_px: span.y_px,
-                depth: v0.depth + (z1 * e[1] + z2 * e[2]) * inv_area,
-                varying: v0.varying + (d1 * a[1] + d2 * a[2]) * inv_sum,
-            });
-            e = if exact || x_px + 1 == span.x1_px {
-                [e[0] + steps[0], e[1] + steps[1], e[2] + steps[2]]
-            } else {
-                [0, 1, 2].map(|i| at(i, x_px + 1))
-            };
-        }
-    });
 }
 
 #[cfg(test)]

@@ -6,16 +6,19 @@
 //! - Edges are walked by an exact integer DDA. `sx += dx` in floats drifts.
 //! - Row and column ranges are half-open and start at the first *centre* inside,
 //!   ceil(x - 1/2): shared edges are drawn once, and the result is the top-left rule.
-//! - Attributes are taken at the pixel centre, from the exact distance of the centre to the edges,
+//! - Attributes (`values`) are taken at the pixel centre, from the exact distance of the centre to the edges,
 //!   so no parameter ever leaves [0, 1] and the book's clamps have nothing to do.
 //!
 //! It does not clip, cull, depth-test or shade.
 
-use std::hint::select_unpredictable;
+mod values;
 
-use crate::contract::{Interpolate, Rasterize};
+use std::hint::select_unpredictable;
+use std::ops::Range;
+
+use crate::contract::Rasterize;
 use crate::grid::{HALF_PIXEL, PixelRect, SUBPIXEL_BITS, SUBPIXELS, SubpixelPoint};
-use crate::triangle::{Corners, Fragment, ScreenTriangle, ScreenVertex, Span, Varying};
+use crate::triangle::{Corners, Span};
 
 /// The scanline engine; see the module's description.
 #[derive(Clone, Copy, Debug, Default)]
@@ -26,33 +29,6 @@ impl Rasterize for Scanline {
     fn cover(&self, mut corners: Corners, bounds: PixelRect, mut emit: impl FnMut(Span)) {
         sort_by_height(&mut corners, |corner| *corner);
         walk(&corners, bounds, |span, _| emit(span));
-    }
-}
-
-impl Interpolate for Scanline {
-    fn fragments<V: Varying>(
-        &self,
-        triangle: &ScreenTriangle<V>,
-        bounds: PixelRect,
-        mut emit: impl FnMut(Fragment<V>),
-    ) {
-        let mut vertices = triangle.vertices;
-        sort_by_height(&mut vertices, |vertex| vertex.position);
-        let weights = relative_inv_w(&vertices);
-        let ends: [EdgeEnd<V>; 3] =
-            std::array::from_fn(|i| EdgeEnd { vertex: vertices[i], q: weights[i] });
-        let corners = vertices.map(|vertex| vertex.position);
-        let chunk = if distances_are_exact(&corners) { i32::MAX } else { 1 };
-        walk(&corners, bounds, |span, sides| {
-            let side = |[from, to]: [usize; 2]| RowEnd::new(&ends[from], &ends[to], span.y_px);
-            let (left, right) = (side(sides.left), side(sides.right));
-            let mut x0_px = span.x0_px;
-            while x0_px < span.x1_px {
-                let x1_px = span.x1_px.min(x0_px.saturating_add(chunk));
-                fill_span(&left, &right, Span { x0_px, x1_px, ..span }, &mut emit);
-                x0_px = x1_px;
-            }
-        });
     }
 }
 
@@ -82,6 +58,8 @@ fn sort_by_height<T: Copy>(items: &mut [T; 3], position: impl Fn(&T) -> Subpixel
 struct Sides {
     left: [usize; 2],
     right: [usize; 2],
+    /// The first column of the whole row, whatever the window shows of it.
+    first_px: i32,
 }
 
 /// Walks the rows of a triangle whose corners are sorted by [`sort_by_height`].
@@ -110,18 +88,20 @@ fn walk(corners: &Corners, bounds: PixelRect, mut emit: impl FnMut(Span, Sides))
         }
         // Both columns are the first centre right of an edge, so the smaller one begins the span
         // and the larger one ends it: no test of orientation is needed.
-        let x0 = long.column.min(short.column).max(x_low);
+        let first = long.column.min(short.column);
+        let x0 = first.max(x_low);
         let x1 = long.column.max(short.column).min(x_high);
         if x0 < x1 {
             let long_ends = [0, 2];
             let short_ends = if y_px < split { [0, 1] } else { [1, 2] };
-            let sides = if long.column <= short.column {
-                Sides { left: long_ends, right: short_ends }
+            let (left, right) = if long.column <= short.column {
+                (long_ends, short_ends)
             } else {
-                Sides { left: short_ends, right: long_ends }
+                (short_ends, long_ends)
             };
-            // Within `bounds`, so both fit i32.
-            emit(Span { y_px, x0_px: x0 as i32, x1_px: x1 as i32 }, sides);
+            // Columns of the triangle lie in the domain, so all three fit i32.
+            let span = Span { y_px, x0_px: x0 as i32, x1_px: x1 as i32 };
+            emit(span, Sides { left, right, first_px: first as i32 });
         }
         long.step();
         short.step();
@@ -130,7 +110,7 @@ fn walk(corners: &Corners, bounds: PixelRect, mut emit: impl FnMut(Span, Sides))
 
 /// The first pixel whose centre is at or after `sub`: ceil((sub - S/2) / S).
 #[inline]
-fn first_centre(sub: i32) -> i32 {
+pub(crate) fn first_centre(sub: i32) -> i32 {
     // The result is within 2^23, and the sum needs 33 bits.
     ((i64::from(sub) + i64::from(HALF_PIXEL - 1)) >> SUBPIXEL_BITS) as i32
 }
@@ -210,121 +190,20 @@ impl EdgeWalk {
     }
 }
 
-/// 1/w of each vertex over the largest: in (0, 1], and exactly 1 for all where they are equal.
-fn relative_inv_w<V>(vertices: &[ScreenVertex<V>; 3]) -> [f64; 3] {
-    let largest = vertices.iter().fold(0.0, |largest: f64, vertex| largest.max(vertex.inv_w));
-    [0, 1, 2].map(|i| vertices[i].inv_w / largest)
-}
-
-/// Whether every distance of [`RowEnd::distance`] inside the triangle is a whole number that f64
-/// holds exactly: it is at most extent times extent, and one step more.
-fn distances_are_exact(corners: &Corners) -> bool {
-    let extent = |coordinate: fn(&SubpixelPoint) -> i32| {
-        let (min, max) = corners
-            .iter()
-            .map(coordinate)
-            .fold((i32::MAX, i32::MIN), |(min, max), c| (min.min(c), max.max(c)));
-        i128::from(max) - i128::from(min) + i128::from(SUBPIXELS)
-    };
-    extent(|corner| corner.x) * extent(|corner| corner.y) <= 1 << f64::MANTISSA_DIGITS
-}
-
-/// One end of an edge, with the values it carries.
-#[derive(Clone, Copy)]
-struct EdgeEnd<V> {
-    vertex: ScreenVertex<V>,
-    /// 1/w over the largest 1/w of the triangle.
-    q: f64,
-}
-
-/// Where an edge crosses a row of centres, with the values there.
-#[derive(Clone, Copy)]
-struct RowEnd<V> {
+/// The columns of the edge from `a` down to `b` in `rows`, as [`Scanline`] walks them: a window on
+/// its arithmetic for `exhaust::edges`. Centres of `rows` lie in [a.y, b.y).
+#[inline]
+pub(crate) fn edge_columns(
     a: SubpixelPoint,
-    dx: i64,
-    dy: i64,
-    down: i64,
-    depth: f64,
-    q: f64,
-    varying: V,
-}
-
-impl<V: Varying> RowEnd<V> {
-    /// The book's formula (8) of section 5.4 at the height of the row's centres: v/w and 1/w are
-    /// linear down the edge, their quotient is the value. Written with the difference of the ends,
-    /// so that equal ends give their value exactly.
-    fn new(from: &EdgeEnd<V>, to: &EdgeEnd<V>, y_px: i32) -> Self {
-        let (a, b) = (from.vertex.position, to.vertex.position);
-        let dx = i64::from(b.x) - i64::from(a.x);
-        let dy = i64::from(b.y) - i64::from(a.y);
-        let down = centre(y_px) - i64::from(a.y);
-        debug_assert!((0..dy).contains(&down), "t = {down}/{dy} leaves [0, 1): a clamp would act");
-        // Whole numbers below 2^33: exact in f64.
-        let (below, above, height) = (down as f64, (dy - down) as f64, dy as f64);
-        let q_sum = above * from.q + below * to.q;
-        let t_depth = below / height;
-        let t = below * to.q / q_sum;
-        let (from, to) = (&from.vertex, &to.vertex);
-        Self {
-            a,
-            dx,
-            dy,
-            down,
-            depth: from.depth + (to.depth - from.depth) * t_depth,
-            q: q_sum / height,
-            varying: from.varying + (to.varying - from.varying) * t,
-        }
-    }
-
-    /// How far the centre of column `x_px` lies right of the edge, in subpixels, times dy; exact
-    /// but for the rounding to f64.
-    fn distance(&self, x_px: i32) -> f64 {
-        let right = centre(x_px) - i64::from(self.a.x);
-        if right.abs().max(self.dx.abs()).max(self.dy) < 1 << 30 {
-            (right * self.dy - self.down * self.dx) as f64
-        } else {
-            let product = |a: i64, b: i64| i128::from(a) * i128::from(b);
-            (product(right, self.dy) - product(self.down, self.dx)) as f64
-        }
-    }
-}
-
-/// Emits the fragments of a span between the values at its two edges.
-///
-/// With l and r the distances of a centre to the left and right edge, v/w at the centre is
-/// (r vL qL + l vR qR) / (l + r) and 1/w the same without v; so v = vL + (vR - vL) s with
-/// s = l qR / (r qL + l qR), and the depth takes s = l / (l + r). All summands are positive: no
-/// cancellation, and the error stays a few units in the last place of the largest value.
-fn fill_span<V: Varying>(
-    left: &RowEnd<V>,
-    right: &RowEnd<V>,
-    span: Span,
-    emit: &mut impl FnMut(Fragment<V>),
-) {
-    // Whole numbers, see `distances_are_exact`; a span of one pixel takes no step.
-    let mut from_left = left.distance(span.x0_px);
-    let mut from_right = -right.distance(span.x0_px);
-    let (left_step, right_step) =
-        ((left.dy << SUBPIXEL_BITS) as f64, (right.dy << SUBPIXEL_BITS) as f64);
-    // Both distances over the same denominator.
-    let (left_height, right_height) = (left.dy as f64, right.dy as f64);
-    let (left_q, right_q) = (left_height * left.q, right_height * right.q);
-    let inv_width = 1.0 / (from_left * right_height + from_right * left_height);
-    let depth_slope = (right.depth - left.depth, right_height * inv_width);
-    let varying_slope = right.varying - left.varying;
-    for x_px in span.x0_px..span.x1_px {
-        debug_assert!(from_left >= 0.0 && from_right > 0.0, "s leaves [0, 1): a clamp would act");
-        let l = from_left * right_q;
-        let r = from_right * left_q;
-        emit(Fragment {
-            x_px,
-            y_px: span.y_px,
-            depth: left.depth + depth_slope.0 * (from_left * depth_slope.1),
-            varying: left.varying + varying_slope * (l / (r + l)),
-        });
-        from_left += left_step;
-        from_right -= right_step;
-    }
+    b: SubpixelPoint,
+    rows: Range<i32>,
+) -> impl Iterator<Item = i64> {
+    let mut walk = EdgeWalk::new(a, b, rows.start);
+    rows.map(move |_| {
+        let column = walk.column;
+        walk.step();
+        column
+    })
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use crate::verify::exact::{self, ExactFamilyReport, ExactVerdict};
 use crate::verify::specimens::SpecimenReport;
 use crate::verify::{FamilyReport, Verdict, shrink};
 
@@ -17,6 +18,8 @@ struct Json<'a> {
     lines: u64,
     families: &'a [FamilyReport],
     failures: Vec<FailureJson>,
+    off_grid_triangles: u64,
+    off_grid_families: &'a [ExactFamilyReport],
 }
 
 #[derive(Serialize)]
@@ -30,9 +33,14 @@ struct FailureJson {
     repeat: String,
 }
 
-/// The verdict as JSON; `repeat` gives the command that repeats a failing case.
+/// The verdicts on and off the lattice as JSON; `repeat` gives the command that repeats a failing
+/// case.
 #[must_use]
-pub fn verdict(verdict: &Verdict, repeat: impl Fn(&str, u64) -> String) -> String {
+pub fn verdict(
+    verdict: &Verdict,
+    off_grid: &ExactVerdict,
+    repeat: impl Fn(&str, u64) -> String,
+) -> String {
     let failures = verdict.failures.iter().map(|f| FailureJson {
         family: f.family.clone(),
         index: f.index,
@@ -42,18 +50,29 @@ pub fn verdict(verdict: &Verdict, repeat: impl Fn(&str, u64) -> String) -> Strin
         window: f.case.window,
         repeat: repeat(&f.family, f.index),
     });
+    let off_grid_failures = off_grid.failures.iter().map(|f| FailureJson {
+        family: f.family.clone(),
+        index: f.index,
+        pair: [f.engine.clone(), "oracle-exact".to_owned()],
+        what: f.what.clone(),
+        shrunk: exact::describe(&f.case.triangles),
+        window: f.case.window,
+        repeat: repeat(&f.family, f.index),
+    });
     let (part, parts) = verdict.options.shard;
     let json = Json {
         version: env!("CARGO_PKG_VERSION"),
         seed: verdict.options.seed,
         cases: verdict.options.cases,
         shard: format!("{part}/{parts}"),
-        agrees: verdict.agrees(),
-        mismatches: verdict.mismatches(),
+        agrees: verdict.agrees() && off_grid.agrees(),
+        mismatches: verdict.mismatches() + off_grid.mismatches(),
         triangles: verdict.sum(false, |f| f.shapes),
         lines: verdict.sum(true, |f| f.shapes),
         families: &verdict.families,
-        failures: failures.collect(),
+        failures: failures.chain(off_grid_failures).collect(),
+        off_grid_triangles: off_grid.triangles(),
+        off_grid_families: &off_grid.families,
     };
     // Numbers and strings only: this cannot fail.
     serde_json::to_string_pretty(&json).unwrap_or_default() + "\n"

@@ -1,6 +1,7 @@
 //! Verdicts as text, JSON and pictures. Everything here is a value; only `main` prints.
 
 pub mod ascii;
+pub mod exact;
 pub mod json;
 pub mod picture;
 pub mod specimens;

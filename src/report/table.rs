@@ -4,9 +4,6 @@ use std::fmt::Write as _;
 
 use crate::verify::{FamilyReport, PairReport, Verdict};
 
-/// Quotas for ties, slivers and empty cases, in percent of the cases of triangles.
-pub const QUOTAS: [(&str, u64); 3] = [("ties", 25), ("slivers", 10), ("empty", 5)];
-
 /// The whole table with its legend and its sums; at most 100 columns wide for two engines.
 #[must_use]
 pub fn table(verdict: &Verdict) -> String {
@@ -106,25 +103,14 @@ fn percent(part: u64, whole: u64) -> u64 {
     (100 * part + whole / 2).checked_div(whole).unwrap_or(0)
 }
 
-/// Ties, slivers and empty cases of the triangles in percent, with their quotas.
-#[must_use]
-pub fn quotas(verdict: &Verdict) -> [(&'static str, u64, u64); 3] {
-    let cases = verdict.sum(false, |f| f.cases);
-    let counts = [
-        verdict.sum(false, |f| f.tie_cases),
-        verdict.sum(false, |f| f.sliver_cases),
-        verdict.sum(false, |f| f.empty_cases),
-    ];
-    [0, 1, 2].map(|i| (QUOTAS[i].0, percent(counts[i], cases), QUOTAS[i].1))
-}
-
 /// The quotas in a sentence; empty where no triangles were judged.
 #[must_use]
 pub fn quota_line(verdict: &Verdict) -> String {
     if verdict.sum(false, |f| f.cases) == 0 {
         return String::new();
     }
-    let parts = quotas(verdict).map(|(what, is, wanted)| format!("{what} {is}% (quota {wanted}%)"));
+    let parts =
+        verdict.quotas().map(|(what, is, wanted)| format!("{what} {is}% (quota {wanted}%)"));
     format!("of the triangle cases: {}\n", parts.join(", "))
 }
 

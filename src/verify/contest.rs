@@ -160,7 +160,10 @@ pub fn is_judging() -> bool {
 }
 
 /// Runs an engine; its panic becomes an error with the message.
-pub(super) fn caught<T>(run: impl FnOnce() -> T) -> Result<T, String> {
+///
+/// # Errors
+/// What the engine said when it panicked.
+pub fn caught<T>(run: impl FnOnce() -> T) -> Result<T, String> {
     let outer = JUDGING.replace(true);
     let result = catch_unwind(AssertUnwindSafe(run));
     JUDGING.set(outer);
@@ -446,7 +449,8 @@ fn twice_hit(coverage: &Coverage) -> u64 {
 
 /// Thinner than a pixel and at least eight times as long as thick, in exact integers: with twice
 /// the area A and the longest side L, the thickness is A / L.
-fn is_sliver(corners: &Corners) -> bool {
+#[must_use]
+pub fn is_sliver(corners: &Corners) -> bool {
     let side = |i: usize, j: usize| {
         let d = |a: i32, b: i32| i128::from(a) - i128::from(b);
         (d(corners[i].x, corners[j].x), d(corners[i].y, corners[j].y))

@@ -6,9 +6,10 @@
 //! other. A result depends on the options alone, not on the number of threads.
 //!
 //! The same functions judge an engine of yours: [`judge_coverage`], [`judge_values`],
-//! [`judge_lines`].
+//! [`judge_lines`]; off the lattice, [`exact::judge_exact`].
 
 mod contest;
+pub mod exact;
 pub mod shrink;
 pub mod specimens;
 pub mod tolerance;
@@ -26,7 +27,9 @@ use crate::lineup::{Engine, LineEngine};
 use contest::{Contest, CoverageOnly, LineContest, TriangleContest};
 use tolerance::Tolerance;
 
-pub use contest::{Finding, Tally, engine_coverage, is_judging, line_coverage, oracle_coverage};
+pub use contest::{
+    Finding, Tally, caught, engine_coverage, is_judging, is_sliver, line_coverage, oracle_coverage,
+};
 
 /// What to judge.
 #[derive(Clone, Debug)]
@@ -175,6 +178,25 @@ impl Verdict {
     #[must_use]
     pub fn sum(&self, lines: bool, number: impl Fn(&FamilyReport) -> u64) -> u64 {
         self.families.iter().filter(|f| f.lines == lines).map(number).sum()
+    }
+}
+
+/// Quotas for ties, slivers and empty cases, in percent of the cases of triangles: what the families
+/// must offer for a verdict to mean something.
+pub const QUOTAS: [(&str, u64); 3] = [("ties", 25), ("slivers", 10), ("empty", 5)];
+
+impl Verdict {
+    /// What the quotas are about, how much of it there was in percent, and how much is wanted.
+    #[must_use]
+    pub fn quotas(&self) -> [(&'static str, u64, u64); 3] {
+        let cases = self.sum(false, |f| f.cases);
+        let counts = [
+            self.sum(false, |f| f.tie_cases),
+            self.sum(false, |f| f.sliver_cases),
+            self.sum(false, |f| f.empty_cases),
+        ];
+        let percent = |part: u64| (100 * part + cases / 2).checked_div(cases).unwrap_or(0);
+        [0, 1, 2].map(|i| (QUOTAS[i].0, percent(counts[i]), QUOTAS[i].1))
     }
 }
 

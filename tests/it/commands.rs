@@ -28,10 +28,7 @@ fn check(words: &[&str], status: i32) -> (String, String) {
 fn verify_agrees_and_says_how_to_repeat() {
     let (out, errors) = check(&["--cases", "40", "--seed", "5"], 0);
     assert!(out.contains("repeat with: rasterproof verify --seed 5 --cases 40"), "{out}");
-    assert!(
-        out.trim_end().ends_with("lines, 0 wrong pixels") && out.contains("\nAGREES: "),
-        "{out}"
-    );
+    assert!(out.trim_end().ends_with(", 0 wrong pixels") && out.contains("\nAGREES: "), "{out}");
     assert!(
         out.lines().all(|line| line.chars().count() <= 100 || line.contains("see it with")),
         "{out}"
@@ -136,7 +133,7 @@ fn inspect_takes_coordinates_and_writes_a_picture() {
         check(&["inspect", "-1.5,-1.5", "4,0", "0,4", "--window", "-2,-2,8x8", "-o", name], 0);
     assert!(out.contains("columns -2..6"), "{out}");
     let picture = image::open(&path).unwrap();
-    assert_eq!(picture.height(), 8 * 16 + 1);
+    assert_eq!(picture.height(), 8 * 40 + 1);
     std::fs::remove_file(path).unwrap();
     check(&["inspect", "--line", "-5,3", "9,-2"], 0);
     check(&["inspect", "sliver#7", "--seed", "3"], 0);

@@ -2,9 +2,14 @@
 
 mod book;
 mod commands;
+mod exact;
+mod exhaust;
 mod house;
+mod matrix;
 mod mutants;
+mod properties;
 mod protocol;
 mod recorded;
+mod robustness;
 mod snapshots;
 mod specimens;

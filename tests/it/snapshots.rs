@@ -359,3 +359,50 @@ fn picture_of_a_verdict() {
     assert_eq!((wrong[2].total(), wrong[3].total()), (0, 0));
     check_picture("verdict", &picture::panels(&case, &hits, &target));
 }
+
+/// For docs/stability.md: in each family the first case that the naive version gets visibly wrong,
+/// naive on the left, the oracle on the right.
+#[test]
+fn pictures_of_naive_versions() {
+    use rasterproof::mutant::LineMutant as L;
+    use rasterproof::mutant::TriangleMutant as T;
+    for (family, mutant) in [
+        ("half-integer", T::ExclusiveEdges),
+        ("rectangle", T::InclusiveEdges),
+        ("sliver", T::RejectsThin),
+        ("far", T::TruncatesTowardsZero),
+        ("huge", T::WrapsInI32),
+        ("flat", T::LastEdgeInclusive),
+        ("near-vertical", T::SplitsAtRoundedPoint),
+    ] {
+        naive(family, Engine::Mutant(mutant).name(), |case| {
+            let Shape::Triangles { list, .. } = &case.shape else {
+                panic!("{family} has triangles")
+            };
+            let hits = engine_coverage(&mutant, list, case.window).unwrap();
+            (hits, oracle_coverage(list, case.window))
+        });
+    }
+    for (family, mutant) in [("line-ties", L::DirectedTies), ("line-octants", L::DriftsInF32)] {
+        naive(family, LineEngine::Mutant(mutant).name(), |case| {
+            let Shape::Lines(lines) = &case.shape else { panic!("{family} has lines") };
+            let hits = line_coverage(&mutant, lines, case.window).unwrap();
+            (hits, line_coverage(&LineEngine::Oracle, lines, case.window).unwrap())
+        });
+    }
+}
+
+fn naive(family: &str, mutant: &str, draw: impl Fn(&Case) -> (Coverage, Coverage)) {
+    let family = rasterproof::hazard::families().find(|f| f.name == family).unwrap();
+    // The case with the most wrong pixels among the first few hundred.
+    let worst = (0..400)
+        .map(|index| family.case(1, index))
+        .max_by_key(|case| {
+            let (hits, target) = draw(case);
+            Tally::between(&hits, &target).total()
+        })
+        .unwrap();
+    let (hits, target) = draw(&worst);
+    assert!(Tally::between(&hits, &target).total() > 0, "{mutant} is right about {}", family.name);
+    check_picture(&format!("naive-{}", family.name), &picture::panels(&worst, &[hits], &target));
+}

@@ -1,0 +1,161 @@
+//! The scenes both benches draw: five classes of triangles, the same on every machine.
+//!
+//! Each class isolates one cost. Large triangles are bound by memory; medium ones by the rows;
+//! small and tiny ones by the setup; slivers by what an engine does about pixels it does not cover.
+//! Shapes are made without trigonometry (square roots are exact in IEEE 754, sines are not), so
+//! that every machine times the same triangles.
+
+use rasterproof::contract::Rasterize;
+use rasterproof::frame::Frame;
+use rasterproof::grid::{PixelRect, SubpixelPoint};
+use rasterproof::oracle::Oracle;
+use rasterproof::triangle::Corners;
+
+/// Side of the square target in pixels.
+pub const SIDE_PX: u32 = 1024;
+/// The colour that is filled in: opaque, and no two bytes alike.
+pub const COLOUR: u32 = 0xff_30_60_90;
+
+/// The triangles of one class.
+pub struct Scene {
+    /// Name of the class.
+    pub name: &'static str,
+    /// Corners within the target, of either winding, at random phases within the pixel.
+    pub triangles: Vec<Corners>,
+    /// Pixels they cover, added up triangle by triangle, by the oracle.
+    pub pixels: u64,
+}
+
+/// All classes, from large to sliver.
+#[must_use]
+pub fn scenes() -> Vec<Scene> {
+    let mut random = SplitMix64(0x7261_7374_6572);
+    let mut compact = |name, count, area_px: f64| {
+        let triangles = (0..count).map(|_| place(compact_shape(&mut random, area_px), &mut random));
+        Scene::new(name, triangles.collect())
+    };
+    let mut scenes = vec![
+        compact("large", 16, 100_000.0),
+        compact("medium", 1_000, 1_000.0),
+        compact("small", 8_000, 25.0),
+        compact("tiny", 16_000, 3.0),
+    ];
+    let slivers = (0..200).map(|_| place(sliver_shape(&mut random, 600.0), &mut random));
+    scenes.push(Scene::new("sliver", slivers.collect()));
+    scenes
+}
+
+impl Scene {
+    fn new(name: &'static str, triangles: Vec<Corners>) -> Self {
+        let pixels = covered(&Oracle, &triangles);
+        Self { name, triangles, pixels }
+    }
+}
+
+/// The target all benches draw to.
+#[must_use]
+pub fn window() -> PixelRect {
+    PixelRect::window(SIDE_PX, SIDE_PX)
+}
+
+/// Pixels of the target that the triangles cover, added up triangle by triangle.
+#[must_use]
+pub fn covered(engine: &impl Rasterize, triangles: &[Corners]) -> u64 {
+    let mut pixels = 0;
+    for corners in triangles {
+        engine.cover(*corners, window(), |span| pixels += span.x0_px.abs_diff(span.x1_px) as u64);
+    }
+    pixels
+}
+
+/// Fills one triangle: what is timed as coverage only.
+#[inline]
+pub fn fill(engine: &impl Rasterize, corners: Corners, target: &mut Frame<u32>) {
+    engine.cover(corners, target.bounds(), |span| {
+        fill_run(target.span_mut(span.y_px, span.x0_px, span.x1_px), COLOUR);
+    });
+}
+
+/// As `run.fill(value)`, with fewer branches that nothing predicts.
+///
+/// `fill` becomes a loop over blocks and one over what is left, and for runs whose lengths follow
+/// no pattern each loop ends in a misprediction. Here the last block overlaps the one before it.
+/// Filling large, medium and small triangles took 0.87, 0.72 and 0.84 of the time with `fill`.
+#[inline]
+pub fn fill_run(run: &mut [u32], value: u32) {
+    let pixels = run.len();
+    if let Some(last) = run.last_chunk_mut::<8>() {
+        *last = [value; 8];
+        for block in run.as_chunks_mut::<8>().0 {
+            *block = [value; 8];
+        }
+    } else if let Some(last) = run.last_chunk_mut::<4>() {
+        *last = [value; 4];
+        run[..4].fill(value);
+    } else if pixels > 0 {
+        // One, two or three pixels.
+        (run[0], run[pixels / 2], run[pixels - 1]) = (value, value, value);
+    }
+}
+
+type Shape = [(f64, f64); 3];
+
+/// A triangle of the given area that is not thin: three points of a square, scaled.
+fn compact_shape(random: &mut SplitMix64, area_px: f64) -> Shape {
+    loop {
+        let [a, b, c] = [0; 3].map(|_| (random.unit(), random.unit()));
+        let area = ((b.0 - a.0) * (c.1 - a.1) - (b.1 - a.1) * (c.0 - a.0)).abs() / 2.0;
+        // The largest triangle in the unit square has area 1/2.
+        if area > 0.25 {
+            let scale = (area_px / area).sqrt();
+            return [a, b, c].map(|(x, y)| (x * scale, y * scale));
+        }
+    }
+}
+
+/// A triangle of the given length in a random direction whose short side is 1 to 2 px.
+fn sliver_shape(random: &mut SplitMix64, length_px: f64) -> Shape {
+    let (x, y, norm) = loop {
+        let (x, y) = (2.0 * random.unit() - 1.0, 2.0 * random.unit() - 1.0);
+        let norm = (x * x + y * y).sqrt();
+        // Within the unit circle, so that no direction is preferred.
+        if norm > 0.1 && norm < 1.0 {
+            break (x / norm, y / norm, 1.0 + random.unit());
+        }
+    };
+    let half = norm / 2.0;
+    [(x * length_px, y * length_px), (-y * half, x * half), (y * half, -x * half)]
+}
+
+/// Puts a shape somewhere in the target, a pixel away from its border at least, and snaps it.
+fn place(shape: Shape, random: &mut SplitMix64) -> Corners {
+    let mut offset = |coordinates: [f64; 3]| {
+        let (min, max) = coordinates
+            .iter()
+            .fold((f64::MAX, f64::MIN), |(min, max), &c| (c.min(min), c.max(max)));
+        let room = f64::from(SIDE_PX) - 2.0 - (max - min);
+        assert!(room > 0.0, "a triangle of {} px has no room in the target", max - min);
+        1.0 - min + random.unit() * room
+    };
+    let (dx, dy) = (offset(shape.map(|(x, _)| x)), offset(shape.map(|(_, y)| y)));
+    shape.map(|(x, y)| SubpixelPoint::from_px(x + dx, y + dy).expect("within the target"))
+}
+
+/// Steele, Lea and Flood 2014, "Fast splittable pseudorandom number generators".
+pub struct SplitMix64(pub u64);
+
+impl SplitMix64 {
+    /// The next 64 bits.
+    pub fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    /// The next number in [0, 1).
+    pub fn unit(&mut self) -> f64 {
+        (self.next() >> 11) as f64 / (1u64 << 53) as f64
+    }
+}

@@ -1,0 +1,258 @@
+//! `rasterproof exhaust` and `rasterproof merge`: proofs by exhaustion and their certificates.
+
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use clap::Subcommand;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+use super::{Failure, Streams, exit, usage, write_file};
+use crate::exhaust::certificate::{self, Certificate};
+use crate::exhaust::run::{self, Progress, Shard};
+use crate::exhaust::{Plan, edges::Edges, lines::Lines, triangles::Triangles};
+
+/// Time between two checkpoints.
+const SAVE_EVERY: Duration = Duration::from_secs(3);
+
+pub const HELP: &str =
+    "Every case is judged; nothing is sampled. A run may be killed at any time: the same command
+resumes it. Parts run anywhere and in any order, and merge into one certificate:
+  rasterproof exhaust triangles --subpixel-bits 2 --shard 0/2 -o 0.json
+  rasterproof exhaust triangles --subpixel-bits 2 --shard 1/2 -o 1.json
+  rasterproof merge 0.json 1.json -o whole.json
+
+Exit status: 0 all agree, 1 something disagrees, 2 usage or bad input.";
+
+/// Options of `exhaust`.
+#[derive(clap::Args, Debug)]
+pub struct ExhaustArguments {
+    #[command(subcommand)]
+    what: What,
+    #[command(flatten)]
+    common: Common,
+}
+
+#[derive(clap::Args, Debug)]
+struct Common {
+    /// Move everything by this many pixels, for example --offset-px=-2048,2048
+    #[arg(long, global = true, value_name = "X,Y", value_parser = parse_offset, default_value = "0,0",
+          allow_hyphen_values = true)]
+    offset_px: Offset,
+    /// Only part I of N, I from 0
+    #[arg(long, global = true, value_name = "I/N", value_parser = super::verify::parse_shard, default_value = "0/1")]
+    shard: (u64, u64),
+    /// Write the certificate here instead of to standard output
+    #[arg(short, long, global = true, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Where the state is kept while it runs [default: a file in target/rasterproof]
+    #[arg(long, global = true, value_name = "FILE")]
+    checkpoint: Option<PathBuf>,
+    /// Begin anew, whatever the checkpoint says
+    #[arg(long, global = true)]
+    restart: bool,
+    /// Plant a fault in an engine, to see the proof fail
+    #[arg(long, global = true, value_name = "FAULT", hide = true)]
+    plant: Option<String>,
+}
+
+#[derive(Subcommand, Debug)]
+enum What {
+    /// All triangles on the lattice of a window: both rasterizers and the oracle
+    Triangles {
+        /// Side of the window in pixels
+        #[arg(long, value_name = "PX", default_value_t = 4)]
+        window: u32,
+        /// Bits of a coordinate below the pixel, at most 4
+        #[arg(long, value_name = "BITS", default_value_t = 2)]
+        subpixel_bits: u32,
+        /// Present each triangle in all six orders of its corners instead of one
+        #[arg(long)]
+        all_orders: bool,
+    },
+    /// All lines up to a reach: both line drawers and the oracle
+    Lines {
+        /// Largest |dx| and |dy| in pixels
+        #[arg(long, value_name = "PX", default_value_t = 256)]
+        reach: u32,
+        /// Only 0 <= dy <= dx
+        #[arg(long)]
+        first_octant: bool,
+    },
+    /// All edges on the lattice of a window: both rasterizers, row by row
+    Edges {
+        /// Side of the window in pixels
+        #[arg(long, value_name = "PX", default_value_t = 4)]
+        window: u32,
+        /// Bits of a coordinate below the pixel, at most 8
+        #[arg(long, value_name = "BITS", default_value_t = 5)]
+        subpixel_bits: u32,
+        /// Every position in the window, not only one of those that whole pixels apart
+        #[arg(long)]
+        every_position: bool,
+    },
+}
+
+/// Options of `merge`.
+#[derive(clap::Args, Debug)]
+pub struct MergeArguments {
+    /// The certificates of all shards of one run
+    #[arg(value_name = "FILES", required = true)]
+    files: Vec<PathBuf>,
+    /// Write the certificate here instead of to standard output
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Offset([i32; 2]);
+
+fn parse_offset(text: &str) -> Result<Offset, String> {
+    let numbers =
+        text.trim().split_once(',').and_then(|(x, y)| Some([x.parse().ok()?, y.parse().ok()?]));
+    numbers.map(Offset).ok_or_else(|| "expected X,Y in whole pixels, for example 2048,0".to_owned())
+}
+
+impl ExhaustArguments {
+    fn plan(&self) -> Plan {
+        let (offset_px, plant) = (self.common.offset_px.0, self.common.plant.clone());
+        match self.what {
+            What::Triangles { window: window_px, subpixel_bits, all_orders } => {
+                Plan::Triangles(Triangles {
+                    window_px,
+                    subpixel_bits,
+                    offset_px,
+                    all_orders,
+                    plant,
+                })
+            }
+            What::Lines { reach, first_octant } => {
+                Plan::Lines(Lines { reach, offset_px, first_octant, plant })
+            }
+            What::Edges { window: window_px, subpixel_bits, every_position } => {
+                Plan::Edges(Edges { window_px, subpixel_bits, offset_px, every_position, plant })
+            }
+        }
+    }
+
+    fn checkpoint(&self, plan: &Plan) -> PathBuf {
+        let words = plan.enumeration().words().replace([' ', '-', '=', ','], "_");
+        let (part, parts) = self.common.shard;
+        self.common.checkpoint.clone().unwrap_or_else(|| {
+            Path::new("target/rasterproof").join(format!("exhaust_{words}_{part}_of_{parts}.json"))
+        })
+    }
+}
+
+pub fn run(arguments: &ExhaustArguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+    let plan = arguments.plan();
+    plan.check().map_err(usage)?;
+    let shard = Shard { part: arguments.common.shard.0, parts: arguments.common.shard.1 };
+    let path = arguments.checkpoint(&plan);
+    let start = if arguments.common.restart { None } else { resume(&path, &plan, shard)? };
+    let start = start.unwrap_or_else(|| Progress::new(&plan, shard));
+
+    let bar = progress_bar(&plan, shard, &start, streams.progress);
+    let save = |progress: &Progress| {
+        let text = serde_json::to_string(progress).unwrap_or_default();
+        // A full disk must not end a proof; the next save may succeed.
+        if let Err(failure) = write_file(&path, text.as_bytes()) {
+            bar.suspend(|| eprintln!("warning: {failure}"));
+        }
+    };
+    // Find out at once, not after hours, whether it can be written.
+    let text = serde_json::to_string(&start).unwrap_or_default();
+    write_file(&path, text.as_bytes())?;
+    let finished = run::run(start, SAVE_EVERY, &save, &|cases| bar.inc(cases));
+    bar.finish_and_clear();
+    // Until the certificate is written, the checkpoint is all there is.
+    save(&finished);
+    let certificate = Certificate::new(finished, rayon::current_num_threads());
+    let status = issue(&certificate, arguments.common.output.as_deref(), streams)?;
+    let _ = std::fs::remove_file(&path);
+    Ok(status)
+}
+
+/// The state in the checkpoint file, if there is one.
+fn resume(path: &Path, plan: &Plan, shard: Shard) -> Result<Option<Progress>, Failure> {
+    let name = path.display();
+    let text = match std::fs::read_to_string(path) {
+        Ok(text) => text,
+        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
+        Err(error) => return Err(usage(format!("cannot read the checkpoint {name}: {error}"))),
+    };
+    let progress: Progress = serde_json::from_str(&text).map_err(|error| {
+        usage(format!("{name} is not a checkpoint ({error}); --restart ignores it"))
+    })?;
+    if !progress.belongs_to(plan, shard) {
+        let what = "was made by other options or other code; --restart ignores it";
+        return Err(usage(format!("the checkpoint {name} {what}")));
+    }
+    let chunks = plan.enumeration().chunks();
+    if progress.done.iter().any(|[from, to]| from > to || *to > chunks) {
+        return Err(usage(format!("the checkpoint {name} is damaged; --restart ignores it")));
+    }
+    Ok(Some(progress))
+}
+
+fn progress_bar(plan: &Plan, shard: Shard, start: &Progress, visible: bool) -> ProgressBar {
+    if !visible {
+        return ProgressBar::hidden();
+    }
+    let bar = ProgressBar::new(plan.enumeration().expected_cases() / shard.parts);
+    bar.set_draw_target(ProgressDrawTarget::stderr_with_hz(4));
+    let template = "{elapsed_precise} {wide_bar} {human_pos}/{human_len} cases, {eta} left";
+    if let Ok(style) = ProgressStyle::with_template(template) {
+        bar.set_style(style);
+    }
+    bar.set_position(start.tally.cases);
+    // The estimate is about this sitting.
+    bar.reset_eta();
+    bar
+}
+
+/// Writes the certificate, says what it says, and returns the exit status.
+fn issue(
+    certificate: &Certificate,
+    file: Option<&Path>,
+    streams: &mut Streams<'_>,
+) -> Result<u8, Failure> {
+    match file {
+        Some(path) => write_file(path, certificate.to_json().as_bytes())?,
+        None => streams.output.write_all(certificate.to_json().as_bytes())?,
+    }
+    let done = &certificate.done;
+    for example in &done.examples {
+        writeln!(streams.errors, "wrong: {}", example.what)?;
+    }
+    let Shard { part, parts } = certificate.shard;
+    let whole = parts == 1;
+    let agrees = certificate.agrees() && (!whole || certificate.is_complete());
+    writeln!(
+        streams.errors,
+        "{}: {} of {} cases{}, {} comparisons, {} wrong, {:.1} s on {} threads",
+        if agrees { "AGREES" } else { "DISAGREES" },
+        done.cases,
+        certificate.expected.cases,
+        if whole { String::new() } else { format!(" (shard {part} of {parts})") },
+        done.comparisons,
+        done.mismatches,
+        certificate.timing.seconds,
+        certificate.timing.threads,
+    )?;
+    Ok(if agrees { exit::AGREES } else { exit::DISAGREES })
+}
+
+pub fn merge(arguments: &MergeArguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+    let mut shards = Vec::new();
+    for path in &arguments.files {
+        let name = path.display().to_string();
+        let text =
+            std::fs::read_to_string(path).map_err(|e| usage(format!("cannot read {name}: {e}")))?;
+        let certificate =
+            Certificate::from_json(&text).map_err(|what| usage(format!("{name} {what}")))?;
+        shards.push((name, certificate));
+    }
+    let merged = certificate::merge(&shards).map_err(usage)?;
+    issue(&merged, arguments.output.as_deref(), streams)
+}

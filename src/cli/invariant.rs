@@ -1,0 +1,133 @@
+//! `rasterproof verify --invariant NAME` and `rasterproof mutants`.
+
+use super::{Failure, Streams, exit, usage};
+use crate::invariant::matrix::{self, Matrix};
+use crate::invariant::subject::Subject;
+use crate::invariant::{CATALOGUE, Check, Invariant};
+use crate::mutant::Mutant;
+
+/// Inputs of each invariant where the command line does not say.
+const CASES: u64 = 2_000;
+/// The word for all of them.
+const ALL: &str = "all";
+
+/// Names for the command line.
+pub fn names() -> Vec<&'static str> {
+    CATALOGUE.iter().map(|i| i.name).chain([ALL]).collect()
+}
+
+/// Checks the invariants of these names; `plant` is the name of a mutant to ask instead.
+pub fn run(
+    names: &[String],
+    plant: Option<&str>,
+    seed: u64,
+    cases: Option<u64>,
+    streams: &mut Streams<'_>,
+) -> Result<u8, Failure> {
+    let cases = cases.unwrap_or(CASES);
+    let subject = match plant.and_then(Mutant::find) {
+        Some(mutant) => Subject::with(mutant),
+        None => Subject::real(),
+    };
+    let all = names.iter().any(|name| name == ALL);
+    let wanted: Vec<&Invariant> =
+        CATALOGUE.iter().filter(|i| all || names.iter().any(|name| name == i.name)).collect();
+    let mut wrong = 0;
+    let mut idle = 0;
+    for invariant in &wanted {
+        let planted = plant.map(|name| format!(" --plant {name}")).unwrap_or_default();
+        let repeat = format!(
+            "rasterproof verify --invariant {} --seed {seed} --cases {cases}{planted}",
+            invariant.name
+        );
+        match judge(invariant, &subject, (seed, cases), &repeat, streams)? {
+            Some(true) => {}
+            Some(false) => wrong += 1,
+            None => idle += 1,
+        }
+    }
+    if idle == wanted.len() {
+        return Err(usage("nothing was checked: what this invariant is about does not exist yet"));
+    }
+    if wanted.len() > 1 {
+        let held = wanted.len() - wrong - idle;
+        writeln!(
+            streams.output,
+            "{}: {held} of {} invariants hold, {wrong} do not, {idle} do not apply yet",
+            if wrong == 0 { "AGREES" } else { "DISAGREES" },
+            wanted.len()
+        )?;
+    }
+    Ok(if wrong == 0 { exit::AGREES } else { exit::DISAGREES })
+}
+
+/// Prints what came of one invariant: held, failed, or nothing to ask.
+fn judge(
+    invariant: &Invariant,
+    subject: &Subject,
+    (seed, cases): (u64, u64),
+    repeat: &str,
+    streams: &mut Streams<'_>,
+) -> Result<Option<bool>, Failure> {
+    let out = &mut streams.output;
+    writeln!(out, "{} {}: {}", invariant.number, invariant.name, invariant.statement)?;
+    if let Check::NotYet(reason) = invariant.check {
+        writeln!(out, "  not checked: {reason}\n")?;
+        return Ok(None);
+    }
+    let report = invariant.run(subject, seed, cases);
+    writeln!(out, "  tolerance: {}", invariant.tolerance)?;
+    let skipped = match report.skipped {
+        0 => String::new(),
+        n => format!(", {n} left out that do not fit it"),
+    };
+    writeln!(
+        out,
+        "  seed {seed}, {} cases{skipped}, {} comparisons",
+        report.cases, report.compared
+    )?;
+    match &report.failure {
+        // Nothing compared is not agreement.
+        None if report.compared == 0 => writeln!(out, "  FAILS: no case fits it")?,
+        None => writeln!(out, "  holds")?,
+        Some(failure) => {
+            writeln!(out, "  FAILS in case {}: {}", failure.index, failure.message)?;
+            writeln!(out, "  smallest found: {}", failure.input)?;
+            writeln!(out, "  repeat with: {repeat}")?;
+        }
+    }
+    writeln!(out)?;
+    Ok(Some(report.failure.is_none() && report.compared > 0))
+}
+
+/// Prints the matrix of invariants and mutants.
+pub fn mutants(streams: &mut Streams<'_>) -> Result<u8, Failure> {
+    let matrix = Matrix::compute(matrix::SEED, matrix::CASES);
+    let out = &mut streams.output;
+    writeln!(out, "{}", matrix.text())?;
+    let problems = matrix.problems();
+    for problem in &problems {
+        writeln!(out, "{problem}")?;
+    }
+    let (rows, columns) = (matrix.rows.len(), matrix.columns.len());
+    if problems.is_empty() {
+        writeln!(out, "each of {columns} invariants kills a mutant, each of {rows} mutants dies")?;
+        Ok(exit::AGREES)
+    } else {
+        Ok(exit::DISAGREES)
+    }
+}
+
+/// Lists them for `rasterproof list`.
+pub fn list(streams: &mut Streams<'_>) -> Result<(), Failure> {
+    let out = &mut streams.output;
+    writeln!(out, "\nInvariants (rasterproof verify --invariant NAME, or all):")?;
+    for i in CATALOGUE {
+        let note = match i.check {
+            Check::NotYet(reason) => format!(" (not checked: {reason})"),
+            _ => String::new(),
+        };
+        writeln!(out, "  {:>2} {:<20} {}{note}", i.number, i.name, i.statement)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,246 @@
+//! What the invariants are asked of: a set of implementations, the real ones or one with a fault.
+//!
+//! The contracts of this crate are generic in the type of the values and so cannot be stored side
+//! by side. [`Fill`] and [`Stroke`] are the same contracts for the two types that the checks need,
+//! and every implementation of the contracts is one of these too.
+
+use glam::{DVec2, DVec3};
+
+use crate::contract::{DrawLine, Interpolate, Rasterize};
+use crate::frame::Coverage;
+use crate::grid::{self, PixelRect, Refusal};
+use crate::hazard::{Case, Family, Line, Triangle};
+use crate::line::{bresenham::Bresenham, dda::Dda};
+use crate::mutant::Mutant;
+use crate::oracle::Oracle;
+use crate::raster::edge_function::{self, EdgeFunction, WordWidth};
+use crate::raster::scanline::Scanline;
+use crate::triangle::{Corners, Fragment, ScreenTriangle, Span};
+use crate::verify::tolerance::{self, Tolerance};
+
+/// A rasterizer with values, as the checks call it.
+pub trait Fill: Sync {
+    /// As [`Rasterize::cover`].
+    fn spans(&self, corners: Corners, bounds: PixelRect, emit: &mut dyn FnMut(Span));
+    /// As [`Interpolate::fragments`].
+    fn values(&self, triangle: &Triangle, bounds: PixelRect, emit: &mut dyn FnMut(Fragment<DVec2>));
+    /// As [`Interpolate::fragments`], for three numbers a vertex.
+    fn weights(
+        &self,
+        triangle: &ScreenTriangle<DVec3>,
+        bounds: PixelRect,
+        emit: &mut dyn FnMut(Fragment<DVec3>),
+    );
+}
+
+impl<R: Interpolate + Sync> Fill for R {
+    fn spans(&self, corners: Corners, bounds: PixelRect, emit: &mut dyn FnMut(Span)) {
+        Rasterize::cover(self, corners, bounds, emit);
+    }
+
+    fn values(
+        &self,
+        triangle: &Triangle,
+        bounds: PixelRect,
+        emit: &mut dyn FnMut(Fragment<DVec2>),
+    ) {
+        Interpolate::fragments(self, triangle, bounds, emit);
+    }
+
+    fn weights(
+        &self,
+        triangle: &ScreenTriangle<DVec3>,
+        bounds: PixelRect,
+        emit: &mut dyn FnMut(Fragment<DVec3>),
+    ) {
+        Interpolate::fragments(self, triangle, bounds, emit);
+    }
+}
+
+/// A line drawer, as the checks call it.
+pub trait Stroke: Sync {
+    /// As [`DrawLine::draw`].
+    fn stroke(&self, line: &Line, bounds: PixelRect, emit: &mut dyn FnMut(Fragment<DVec2>));
+}
+
+impl<D: DrawLine + Sync> Stroke for D {
+    fn stroke(&self, line: &Line, bounds: PixelRect, emit: &mut dyn FnMut(Fragment<DVec2>)) {
+        DrawLine::draw(self, line, bounds, emit);
+    }
+}
+
+/// An engine with its name and the bounds of its values.
+pub struct Engine {
+    /// What messages call it.
+    pub name: &'static str,
+    /// The engine.
+    pub fill: Box<dyn Fill>,
+    /// How far its values may lie from the exact ones.
+    pub tolerance: Tolerance,
+}
+
+impl Engine {
+    /// Hit counts of one triangle.
+    ///
+    /// # Panics
+    /// Where the engine does, or leaves the window.
+    #[must_use]
+    pub fn hits(&self, corners: Corners, window: PixelRect) -> Coverage {
+        hits(&*self.fill, [corners], window)
+    }
+
+    /// The fragments of a triangle, as emitted.
+    #[must_use]
+    pub fn fragments(&self, triangle: &Triangle, window: PixelRect) -> Vec<Fragment<DVec2>> {
+        let mut fragments = Vec::new();
+        self.fill.values(triangle, window, &mut |fragment| fragments.push(fragment));
+        fragments
+    }
+}
+
+/// Hit counts of several triangles together.
+///
+/// # Panics
+/// Where the engine does, or leaves the window.
+#[must_use]
+pub fn hits(
+    fill: &dyn Fill,
+    triangles: impl IntoIterator<Item = Corners>,
+    window: PixelRect,
+) -> Coverage {
+    let mut hits = Coverage::new(window, 0);
+    for corners in triangles {
+        fill.spans(corners, window, &mut |span| hits.hit(span.y_px, span.x0_px, span.x1_px));
+    }
+    hits
+}
+
+/// A line drawer with its name.
+pub struct Drawer {
+    /// What messages call it.
+    pub name: &'static str,
+    /// The drawer.
+    pub stroke: Box<dyn Stroke>,
+}
+
+impl Drawer {
+    /// The fragments of a line, as emitted.
+    #[must_use]
+    pub fn fragments(&self, line: &Line, window: PixelRect) -> Vec<Fragment<DVec2>> {
+        let mut fragments = Vec::new();
+        self.stroke.stroke(line, window, &mut |fragment| fragments.push(fragment));
+        fragments
+    }
+}
+
+/// Makes the case of a family, a seed and a number.
+pub type MakeCase = fn(&Family, u64, u64) -> Case;
+
+/// The implementations under test.
+pub struct Subject {
+    /// Rasterizers: scanline and edge function, or a faulty one.
+    pub engines: Vec<Engine>,
+    /// What the engines are judged by.
+    pub oracle: Box<dyn Fill>,
+    /// Line drawers: DDA and Bresenham, or a faulty one.
+    pub drawers: Vec<Drawer>,
+    /// Pixels to subpixels.
+    pub snap: fn(f64) -> Result<i32, Refusal>,
+    /// The three edge functions at a pixel's centre.
+    pub edge_values: fn(&Corners, i32, i32) -> [i128; 3],
+    /// The word that edge functions are stepped in, from the extents of the triangle.
+    pub word_width: fn(u32, u32) -> WordWidth,
+    /// The source of generated cases.
+    pub make_case: MakeCase,
+}
+
+/// A part of a [`Subject`]: what a check looks at, and where a fault sits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// The rasterizers.
+    Engine,
+    /// The oracle.
+    Oracle,
+    /// The line drawers.
+    Drawer,
+    /// Snapping.
+    Snap,
+    /// The edge functions' values.
+    EdgeValues,
+    /// The choice of the word.
+    WordWidth,
+    /// The source of cases.
+    Source,
+    /// The matrix of invariants and mutants itself.
+    Matrix,
+}
+
+impl Subject {
+    /// The real implementations.
+    #[must_use]
+    pub fn real() -> Self {
+        Self {
+            engines: vec![
+                Engine {
+                    name: "scanline",
+                    fill: Box::new(Scanline),
+                    tolerance: tolerance::SCANLINE,
+                },
+                Engine {
+                    name: "edge-function",
+                    fill: Box::new(EdgeFunction),
+                    tolerance: tolerance::EDGE_FUNCTION,
+                },
+            ],
+            oracle: Box::new(Oracle),
+            drawers: vec![
+                Drawer { name: "dda", stroke: Box::new(Dda) },
+                Drawer { name: "bresenham", stroke: Box::new(Bresenham) },
+            ],
+            snap: grid::snap,
+            edge_values: edge_function::edge_values,
+            word_width: WordWidth::of,
+            make_case: Family::case,
+        }
+    }
+
+    /// The real implementations but for one, in whose place stands the mutant.
+    #[must_use]
+    pub fn with(mutant: Mutant) -> Self {
+        let mut subject = Self::real();
+        match mutant {
+            Mutant::Triangle(fault) => {
+                // The wider of the two tolerances, so that no mutant dies of a bound that was not
+                // derived for it.
+                let tolerance = tolerance::SCANLINE;
+                subject.engines =
+                    vec![Engine { name: fault.name(), fill: Box::new(fault), tolerance }];
+            }
+            Mutant::Line(fault) => {
+                subject.drawers = vec![Drawer { name: fault.name(), stroke: Box::new(fault) }];
+            }
+            Mutant::Oracle(fault) => subject.oracle = Box::new(fault),
+            Mutant::Snap(fault) => subject.snap = fault.function(),
+            Mutant::EdgeValues(fault) => subject.edge_values = fault.function(),
+            Mutant::WordWidth(fault) => subject.word_width = fault.function(),
+            Mutant::Source(fault) => subject.make_case = fault.function(),
+        }
+        subject
+    }
+}
+
+impl Mutant {
+    /// The part of a subject that it replaces.
+    #[must_use]
+    pub fn part(&self) -> Part {
+        match self {
+            Self::Triangle(_) => Part::Engine,
+            Self::Line(_) => Part::Drawer,
+            Self::Oracle(_) => Part::Oracle,
+            Self::Snap(_) => Part::Snap,
+            Self::EdgeValues(_) => Part::EdgeValues,
+            Self::WordWidth(_) => Part::WordWidth,
+            Self::Source(_) => Part::Source,
+        }
+    }
+}

@@ -1,0 +1,484 @@
+//! Rasterizers with a planted fault each: in their coverage, or in their values.
+//!
+//! Those of coverage test samples one by one with a rule that is wrong in one way, or spoil the
+//! spans of an engine the way real code goes wrong; those of values do so with its fragments.
+
+use crate::contract::{Interpolate, Rasterize};
+use crate::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
+use crate::raster::edge_function::{self, EdgeFunction};
+use crate::raster::scanline::Scanline;
+use crate::triangle::{Corners, Fragment, ScreenTriangle, ScreenVertex, Span, Varying};
+
+/// A rasterizer with a planted fault.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TriangleMutant {
+    /// Samples on any edge belong (SYSU assignment 2: `<= 0`).
+    InclusiveEdges,
+    /// Samples on no edge belong (GAMES101 homework 2: `> 0`).
+    ExclusiveEdges,
+    /// Bottom and right edges belong instead of top and left ones.
+    BottomRightRule,
+    /// Left edges belong, top edges do not.
+    LeftOnlyRule,
+    /// Samples lie half a subpixel-step off: at the pixel's corner plus 127/256.
+    SampleOffByOneSubpixel,
+    /// The first row of every triangle is lost.
+    DropsFirstRow,
+    /// The last pixel of long spans is drawn twice.
+    DoublesSpanEnd,
+    /// Counter-clockwise triangles are lost, as if culled.
+    CullsOneWinding,
+    /// Edge functions wrap around in 32 bits.
+    WrapsInI32,
+    /// The last two weights are swapped.
+    SwappedWeights,
+    /// Attributes are interpolated affinely, w ignored.
+    AffineAttributes,
+    /// The depth is interpolated perspective-correctly, as if it were an attribute.
+    PerspectiveDepth,
+    /// Values are taken at the pixel's corner instead of its centre.
+    ValuesAtCorner,
+    /// Values are rounded to f32 on the way.
+    ValuesThroughF32,
+    /// Panics on a flat bottom.
+    PanicsOnFlatBottom,
+    /// Draws one pixel outside the window.
+    LeavesWindow,
+    /// Samples on the edge that comes last belong, those on the others do not.
+    /// The rule follows the order of the vertices.
+    LastEdgeInclusive,
+    /// Columns are truncated towards zero instead of rounded down (`(int)` of a negative).
+    TruncatesTowardsZero,
+    /// A pixel in the middle of long spans is lost (the remainder of a vector loop).
+    HoleInLongRows,
+    /// The first column of every window but the leftmost is lost.
+    SeamBetweenTiles,
+    /// A triangle of zero area covers the samples it passes through.
+    FillsZeroArea,
+    /// Areas below half a pixel count as degenerate (the book's `abs(2A) < eps`).
+    RejectsThin,
+    /// The book's split vertex is computed, and rounded to the lattice.
+    SplitsAtRoundedPoint,
+    /// The book's `sx += dx` in f32.
+    StepsInF32,
+    /// Values are v0 l0 + v1 l1 + v2 l2 in the order the vertices came in.
+    NaiveBarycentric,
+    /// A small number keeps the division by w from failing.
+    EpsilonInDenominator,
+    /// 1/w is clamped to 1, as if nothing were nearer than the near plane.
+    ClampsInvW,
+}
+
+impl TriangleMutant {
+    /// Every mutant.
+    pub const ALL: [Self; 27] = [
+        Self::InclusiveEdges,
+        Self::ExclusiveEdges,
+        Self::BottomRightRule,
+        Self::LeftOnlyRule,
+        Self::SampleOffByOneSubpixel,
+        Self::DropsFirstRow,
+        Self::DoublesSpanEnd,
+        Self::CullsOneWinding,
+        Self::WrapsInI32,
+        Self::SwappedWeights,
+        Self::AffineAttributes,
+        Self::PerspectiveDepth,
+        Self::ValuesAtCorner,
+        Self::ValuesThroughF32,
+        Self::PanicsOnFlatBottom,
+        Self::LeavesWindow,
+        Self::LastEdgeInclusive,
+        Self::TruncatesTowardsZero,
+        Self::HoleInLongRows,
+        Self::SeamBetweenTiles,
+        Self::FillsZeroArea,
+        Self::RejectsThin,
+        Self::SplitsAtRoundedPoint,
+        Self::StepsInF32,
+        Self::NaiveBarycentric,
+        Self::EpsilonInDenominator,
+        Self::ClampsInvW,
+    ];
+
+    /// Its name for `--plant`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::InclusiveEdges => "inclusive-edges",
+            Self::ExclusiveEdges => "exclusive-edges",
+            Self::BottomRightRule => "bottom-right-rule",
+            Self::LeftOnlyRule => "left-only-rule",
+            Self::SampleOffByOneSubpixel => "sample-off-by-one-subpixel",
+            Self::DropsFirstRow => "drops-first-row",
+            Self::DoublesSpanEnd => "doubles-span-end",
+            Self::CullsOneWinding => "culls-one-winding",
+            Self::WrapsInI32 => "wraps-in-i32",
+            Self::SwappedWeights => "swapped-weights",
+            Self::AffineAttributes => "affine-attributes",
+            Self::PerspectiveDepth => "perspective-depth",
+            Self::ValuesAtCorner => "values-at-corner",
+            Self::ValuesThroughF32 => "values-through-f32",
+            Self::PanicsOnFlatBottom => "panics-on-flat-bottom",
+            Self::LeavesWindow => "leaves-window",
+            Self::LastEdgeInclusive => "last-edge-inclusive",
+            Self::TruncatesTowardsZero => "truncates-towards-zero",
+            Self::HoleInLongRows => "hole-in-long-rows",
+            Self::SeamBetweenTiles => "seam-between-tiles",
+            Self::FillsZeroArea => "fills-zero-area",
+            Self::RejectsThin => "rejects-thin",
+            Self::SplitsAtRoundedPoint => "splits-at-rounded-point",
+            Self::StepsInF32 => "steps-in-f32",
+            Self::NaiveBarycentric => "naive-barycentric",
+            Self::EpsilonInDenominator => "epsilon-in-denominator",
+            Self::ClampsInvW => "clamps-inv-w",
+        }
+    }
+}
+
+impl Rasterize for TriangleMutant {
+    fn cover(&self, corners: Corners, bounds: PixelRect, mut emit: impl FnMut(Span)) {
+        match self {
+            Self::InclusiveEdges => by_rule(corners, bounds, 0, |_, _| true, emit),
+            Self::ExclusiveEdges => by_rule(corners, bounds, 0, |_, _| false, emit),
+            Self::BottomRightRule => {
+                by_rule(corners, bounds, 0, |dx, dy| dy > 0 || (dy == 0 && dx < 0), emit);
+            }
+            Self::LeftOnlyRule => by_rule(corners, bounds, 0, |_, dy| dy < 0, emit),
+            Self::SampleOffByOneSubpixel => {
+                by_rule(corners, bounds, -1, |dx, dy| dy < 0 || (dy == 0 && dx > 0), emit);
+            }
+            Self::DropsFirstRow => {
+                let mut first = None;
+                Scanline.cover(corners, bounds, |span| {
+                    if span.y_px != *first.get_or_insert(span.y_px) {
+                        emit(span);
+                    }
+                });
+            }
+            Self::DoublesSpanEnd => Scanline.cover(corners, bounds, |span| {
+                emit(span);
+                if span.x1_px - span.x0_px > 8 {
+                    emit(Span { x0_px: span.x1_px - 1, ..span });
+                }
+            }),
+            Self::CullsOneWinding => {
+                if cross(corners) > 0 {
+                    Scanline.cover(corners, bounds, emit);
+                }
+            }
+            Self::WrapsInI32 => wrapping(corners, bounds, emit),
+            Self::PanicsOnFlatBottom => {
+                let lowest = corners.map(|corner| corner.y).into_iter().max();
+                let on_it = corners.iter().filter(|corner| Some(corner.y) == lowest).count();
+                assert!(on_it != 2, "planted: slope of a flat edge");
+                Scanline.cover(corners, bounds, emit);
+            }
+            Self::LeavesWindow => Scanline.cover(corners, bounds, |span| {
+                emit(Span { x1_px: span.x1_px + i32::from(span.x1_px == bounds.x1), ..span });
+            }),
+            _ => self.cover_more(corners, bounds, emit),
+        }
+    }
+}
+
+impl TriangleMutant {
+    /// The second half of the faults of coverage; what is left errs in its values only.
+    fn cover_more(self, corners: Corners, bounds: PixelRect, mut emit: impl FnMut(Span)) {
+        match self {
+            Self::LastEdgeInclusive => last_edge_inclusive(corners, bounds, emit),
+            Self::TruncatesTowardsZero => Scanline.cover(corners, bounds, |span| {
+                // ceil(x - 1/2) by way of an (int) that rounds up below zero.
+                let up = |px: i32| (px + i32::from(px < 0)).min(bounds.x1);
+                let (x0_px, x1_px) = (up(span.x0_px), up(span.x1_px));
+                if x0_px < x1_px {
+                    emit(Span { x0_px, x1_px, ..span });
+                }
+            }),
+            Self::HoleInLongRows => Scanline.cover(corners, bounds, |span| {
+                let end = span.x1_px - span.x1_px.rem_euclid(8);
+                if end - 8 > span.x0_px && end < span.x1_px {
+                    emit(Span { x1_px: end, ..span });
+                    if end + 1 < span.x1_px {
+                        emit(Span { x0_px: end + 1, ..span });
+                    }
+                } else {
+                    emit(span);
+                }
+            }),
+            Self::SeamBetweenTiles => Scanline.cover(corners, bounds, |span| {
+                let lost = span.x0_px == bounds.x0 && bounds.x0 > 0;
+                let x0_px = span.x0_px + i32::from(lost);
+                if x0_px < span.x1_px {
+                    emit(Span { x0_px, ..span });
+                }
+            }),
+            Self::FillsZeroArea if cross(corners) == 0 => fills_zero_area(corners, bounds, emit),
+            Self::RejectsThin if cross(corners).abs() < i128::from(SUBPIXELS * SUBPIXELS) => {}
+            Self::SplitsAtRoundedPoint => splits_at_rounded_point(corners, bounds, emit),
+            Self::StepsInF32 => steps_in_f32(corners, bounds, emit),
+            _ => EdgeFunction.cover(corners, bounds, emit),
+        }
+    }
+}
+
+impl Interpolate for TriangleMutant {
+    fn fragments<V: Varying>(
+        &self,
+        triangle: &ScreenTriangle<V>,
+        bounds: PixelRect,
+        mut emit: impl FnMut(Fragment<V>),
+    ) {
+        let mut spoilt = *triangle;
+        match self {
+            Self::SwappedWeights => {
+                let [_, b, c] = &triangle.vertices;
+                (spoilt.vertices[1].varying, spoilt.vertices[2].varying) = (c.varying, b.varying);
+            }
+            Self::AffineAttributes => {
+                spoilt.vertices.iter_mut().for_each(|vertex| vertex.inv_w = 1.0);
+            }
+            Self::ValuesAtCorner => {
+                // A triangle moved by half a pixel shows at each centre what was at the corner;
+                // its outermost pixels are not covered and keep their values.
+                spoilt.vertices.iter_mut().for_each(|vertex| {
+                    vertex.position.x = vertex.position.x.saturating_add(HALF_PIXEL);
+                });
+                let mut moved = std::collections::HashMap::new();
+                Scanline.fragments(&spoilt, bounds, |f| {
+                    moved.insert((f.x_px, f.y_px), f);
+                });
+                EdgeFunction.fragments(triangle, bounds, |f| {
+                    emit(moved.get(&(f.x_px, f.y_px)).copied().unwrap_or(f));
+                });
+                return;
+            }
+            Self::PerspectiveDepth => return perspective_depth(triangle, bounds, emit),
+            Self::ValuesThroughF32 => {
+                EdgeFunction.fragments(triangle, bounds, |f| {
+                    let scale = 1.0 + f64::from(f32::EPSILON) / 4.0;
+                    let depth = f64::from(f.depth as f32);
+                    emit(Fragment { depth, varying: f.varying * scale, ..f });
+                });
+                return;
+            }
+            Self::ClampsInvW => {
+                spoilt.vertices.iter_mut().for_each(|vertex| vertex.inv_w = vertex.inv_w.min(1.0));
+            }
+            Self::NaiveBarycentric => return barycentric(triangle, bounds, 0.0, emit),
+            Self::EpsilonInDenominator => return barycentric(triangle, bounds, 1e-9, emit),
+            _ => {}
+        }
+        if matches!(self, Self::SwappedWeights | Self::AffineAttributes | Self::ClampsInvW) {
+            return EdgeFunction.fragments(&spoilt, bounds, emit);
+        }
+        // Faults of coverage: right values at the wrong pixels.
+        self.cover(triangle.corners(), bounds, |span| {
+            let row =
+                PixelRect { x0: span.x0_px, y0: span.y_px, x1: span.x1_px, y1: span.y_px + 1 };
+            EdgeFunction.fragments(triangle, row, &mut emit);
+        });
+    }
+}
+
+/// Twice the signed area.
+fn cross([a, b, c]: Corners) -> i128 {
+    let [ax, ay, bx, by, cx, cy] = [a.x, a.y, b.x, b.y, c.x, c.y].map(i128::from);
+    (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
+}
+
+/// The pixels of `bounds` that can hold anything of the triangle, with one to spare.
+fn near(corners: &Corners, bounds: PixelRect) -> PixelRect {
+    let px = |sub: i32| sub.div_euclid(SUBPIXELS);
+    let (xs, ys) = (corners.map(|p| px(p.x)), corners.map(|p| px(p.y)));
+    let low = |v: [i32; 3]| v.into_iter().min().unwrap_or(0) - 1;
+    let high = |v: [i32; 3]| v.into_iter().max().unwrap_or(0) + 2;
+    PixelRect { x0: low(xs), y0: low(ys), x1: high(xs), y1: high(ys) }.intersect(&bounds)
+}
+
+/// Tests each sample against three edges; `owns` says for an edge (dx, dy), inside to its right,
+/// whether samples on it belong.
+fn by_rule(
+    mut corners: Corners,
+    bounds: PixelRect,
+    sample_shift: i32,
+    owns: impl Fn(i128, i128) -> bool,
+    mut emit: impl FnMut(Span),
+) {
+    match cross(corners).signum() {
+        0 => return,
+        -1 => corners.swap(1, 2),
+        _ => {}
+    }
+    let bounds = near(&corners, bounds);
+    let centre = |px: i32| px.saturating_mul(SUBPIXELS).saturating_add(HALF_PIXEL + sample_shift);
+    for y_px in bounds.y0..bounds.y1 {
+        for x_px in bounds.x0..bounds.x1 {
+            let sample = SubpixelPoint::new(centre(x_px), centre(y_px));
+            let inside = [(0, 1), (1, 2), (2, 0)].into_iter().all(|(i, j)| {
+                let (a, b) = (corners[i], corners[j]);
+                let (dx, dy) =
+                    (i128::from(b.x) - i128::from(a.x), i128::from(b.y) - i128::from(a.y));
+                let edge = cross([a, b, sample]);
+                edge > 0 || (edge == 0 && owns(dx, dy))
+            });
+            if inside {
+                emit(Span { y_px, x0_px: x_px, x1_px: x_px + 1 });
+            }
+        }
+    }
+}
+
+/// Edge functions in wrapping 32-bit arithmetic.
+fn wrapping(mut corners: Corners, bounds: PixelRect, mut emit: impl FnMut(Span)) {
+    match cross(corners).signum() {
+        0 => return,
+        -1 => corners.swap(1, 2),
+        _ => {}
+    }
+    let centre = |px: i32| px.wrapping_mul(SUBPIXELS).wrapping_add(HALF_PIXEL);
+    for y_px in bounds.y0..bounds.y1 {
+        for x_px in bounds.x0..bounds.x1 {
+            let inside = [(0, 1), (1, 2), (2, 0)].into_iter().all(|(i, j)| {
+                let (a, b) = (corners[i], corners[j]);
+                let (dx, dy) = (b.x.wrapping_sub(a.x), b.y.wrapping_sub(a.y));
+                let edge = dx
+                    .wrapping_mul(centre(y_px).wrapping_sub(a.y))
+                    .wrapping_sub(dy.wrapping_mul(centre(x_px).wrapping_sub(a.x)));
+                edge > 0 || (edge == 0 && (dy < 0 || (dy == 0 && dx > 0)))
+            });
+            if inside {
+                emit(Span { y_px, x0_px: x_px, x1_px: x_px + 1 });
+            }
+        }
+    }
+}
+
+/// The top-left rule is forgotten; of the three edges as they come the last one is inclusive.
+fn last_edge_inclusive(corners: Corners, bounds: PixelRect, mut emit: impl FnMut(Span)) {
+    let sign = cross(corners).signum();
+    let rect = near(&corners, bounds);
+    let [a, b, c] = corners;
+    for y_px in rect.y0..rect.y1 {
+        for x_px in rect.x0..rect.x1 {
+            let sample = centre_of(x_px, y_px);
+            let edges = [cross([a, b, sample]), cross([b, c, sample]), cross([c, a, sample])];
+            let [first, second, last] = edges.map(|edge| edge * sign);
+            if sign != 0 && first > 0 && second > 0 && last >= 0 {
+                emit(Span { y_px, x0_px: x_px, x1_px: x_px + 1 });
+            }
+        }
+    }
+}
+
+fn centre_of(x_px: i32, y_px: i32) -> SubpixelPoint {
+    let centre = |px: i32| px.saturating_mul(SUBPIXELS).saturating_add(HALF_PIXEL);
+    SubpixelPoint::new(centre(x_px), centre(y_px))
+}
+
+fn fills_zero_area(corners: Corners, bounds: PixelRect, mut emit: impl FnMut(Span)) {
+    let rect = near(&corners, bounds);
+    let [a, b, c] = corners;
+    let within =
+        |p: i32, v: [i32; 3]| v.into_iter().min() <= Some(p) && v.into_iter().max() >= Some(p);
+    for y_px in rect.y0..rect.y1 {
+        for x_px in rect.x0..rect.x1 {
+            let p = centre_of(x_px, y_px);
+            let on_line = cross([a, b, p]) == 0 && cross([b, c, p]) == 0 && cross([c, a, p]) == 0;
+            if on_line && within(p.x, [a.x, b.x, c.x]) && within(p.y, [a.y, b.y, c.y]) {
+                emit(Span { y_px, x0_px: x_px, x1_px: x_px + 1 });
+            }
+        }
+    }
+}
+
+/// The book's section 2.2: the long edge is cut at the height of the middle vertex, and two flat
+/// triangles are drawn. The cut has to be somewhere on the lattice, so it bends the edge.
+fn splits_at_rounded_point(mut corners: Corners, bounds: PixelRect, mut emit: impl FnMut(Span)) {
+    corners.sort_by_key(|p| (p.y, p.x));
+    let [top, middle, bottom] = corners;
+    let height = i128::from(bottom.y) - i128::from(top.y);
+    if height == 0 || cross(corners) == 0 {
+        return;
+    }
+    let down = i128::from(middle.y) - i128::from(top.y);
+    let across = (i128::from(bottom.x) - i128::from(top.x)) * down / height;
+    // Between the two ends, so it fits.
+    let split = SubpixelPoint::new((i128::from(top.x) + across) as i32, middle.y);
+    Scanline.cover([top, middle, split], bounds, &mut emit);
+    Scanline.cover([middle, split, bottom], bounds, emit);
+}
+
+/// The book's scanline fill with half-open ranges, stepped down the edges in f32 pixels.
+fn steps_in_f32(mut corners: Corners, bounds: PixelRect, mut emit: impl FnMut(Span)) {
+    corners.sort_by_key(|p| (p.y, p.x));
+    let px = |p: SubpixelPoint| (p.x as f32 / SUBPIXELS as f32, p.y as f32 / SUBPIXELS as f32);
+    let [top, middle, bottom] = corners.map(px);
+    let row = |y: f32| (y - 0.5).ceil() as i32;
+    let rows = [row(top.1).max(bounds.y0), row(middle.1), row(bottom.1).min(bounds.y1)];
+    for (first, end, from, to) in [
+        (rows[0], rows[1].min(bounds.y1), top, middle),
+        (rows[1].max(bounds.y0), rows[2], middle, bottom),
+    ] {
+        let slope = |a: (f32, f32), b: (f32, f32)| (b.0 - a.0) / (b.1 - a.1);
+        let (long_step, short_step) = (slope(top, bottom), slope(from, to));
+        let start = |a: (f32, f32), step: f32| a.0 + (first as f32 + 0.5 - a.1) * step;
+        let (mut long, mut short) = (start(top, long_step), start(from, short_step));
+        for y_px in first..end {
+            let column = |x: f32| ((x - 0.5).ceil() as i32).clamp(bounds.x0, bounds.x1);
+            let (x0_px, x1_px) = (column(long.min(short)), column(long.max(short)));
+            if x0_px < x1_px {
+                emit(Span { y_px, x0_px, x1_px });
+            }
+            (long, short) = (long + long_step, short + short_step);
+        }
+    }
+}
+
+/// The depth is carried along as a varying of its own.
+fn perspective_depth<V: Varying>(
+    triangle: &ScreenTriangle<V>,
+    bounds: PixelRect,
+    mut emit: impl FnMut(Fragment<V>),
+) {
+    let depths = ScreenTriangle {
+        vertices: triangle.vertices.map(|v| ScreenVertex {
+            position: v.position,
+            depth: v.depth,
+            inv_w: v.inv_w,
+            varying: v.depth,
+        }),
+    };
+    let mut wrong = Vec::new();
+    EdgeFunction.fragments(&depths, bounds, |f| wrong.push(f.varying));
+    let mut wrong = wrong.into_iter();
+    EdgeFunction.fragments(triangle, bounds, |f| {
+        emit(Fragment { depth: wrong.next().unwrap_or(f.depth), ..f });
+    });
+}
+
+/// v0 l0 + v1 l1 + v2 l2 with l = E / w over their sum and a small number; no canonical order, no
+/// differences, so neither a constant nor the order of the vertices comes through exactly.
+fn barycentric<V: Varying>(
+    triangle: &ScreenTriangle<V>,
+    bounds: PixelRect,
+    epsilon: f64,
+    mut emit: impl FnMut(Fragment<V>),
+) {
+    let [v0, v1, v2] = &triangle.vertices;
+    let corners = triangle.corners();
+    let area = cross(corners) as f64;
+    EdgeFunction.cover(corners, bounds, |span| {
+        for x_px in span.x0_px..span.x1_px {
+            let e = edge_function::edge_values(&corners, x_px, span.y_px).map(|e| e as f64 / area);
+            let l = [e[0] * v0.inv_w, e[1] * v1.inv_w, e[2] * v2.inv_w];
+            let scale = 1.0 / (l[0] + l[1] + l[2] + epsilon);
+            emit(Fragment {
+                x_px,
+                y_px: span.y_px,
+                depth: v0.depth * e[0] + v1.depth * e[1] + v2.depth * e[2],
+                varying: (v0.varying * l[0] + v1.varying * l[1] + v2.varying * l[2]) * scale,
+            });
+        }
+    });
+}

@@ -1,0 +1,204 @@
+//! Exact coverage of corners that are not on the lattice, by the parity of crossings.
+//!
+//! The mathematics is that of [`coverage`](super::coverage): a sample nudged right by eps and down
+//! by eps^2 lies on no edge, and it is inside iff an odd number of edges crosses its height at or
+//! left of it. Only the numbers differ. A finite f64 is a whole number times a power of two, so all
+//! corners and centres are whole numbers of one small unit; those are compared, in 128 bits where
+//! they are certain to fit and in big integers otherwise. No float is ever added or multiplied.
+
+use std::ops::{Mul, Sub};
+
+use num_bigint::BigInt;
+
+use super::Oracle;
+use super::values::take_apart;
+use crate::contract::{Decisions, RasterizeExact};
+use crate::grid::PixelRect;
+use crate::triangle::{FreeCorners, Span};
+
+impl RasterizeExact for Oracle {
+    /// Takes no short cut, so it has no decisions to count.
+    fn cover_exact(
+        &self,
+        corners: &FreeCorners,
+        bounds: PixelRect,
+        emit: impl FnMut(Span),
+    ) -> Decisions {
+        cover_and_count_ties(corners, bounds, emit);
+        Decisions::default()
+    }
+}
+
+/// Emits what the triangle covers and returns how many of the samples lie exactly on an edge, once
+/// for each edge: the ties, where a wrong rule shows.
+pub fn cover_and_count_ties(
+    corners: &FreeCorners,
+    bounds: PixelRect,
+    emit: impl FnMut(Span),
+) -> u64 {
+    let corners = corners.px();
+    let rect = around(&corners).intersect(&bounds);
+    if rect.is_empty() {
+        return 0;
+    }
+    let parts = corners.map(|corner| corner.map(take_apart));
+    // Centres are odd multiples of 2^-1.
+    let last_bits = parts.iter().flatten().filter(|(mantissa, _)| *mantissa != 0);
+    let unit = last_bits.map(|&(_, exponent)| exponent).fold(-1, i32::min);
+    // Corners and the samples around them are below 2^24 pixels, so below 2^61 units from 2^-37 on;
+    // differences are below 2^62, products below 2^124, and their sums fit 128 bits.
+    if unit >= -37 {
+        let whole = |(mantissa, exponent): (i64, i32)| {
+            i128::from(mantissa) << shift(mantissa, exponent, unit)
+        };
+        scan(&parts.map(|corner| corner.map(whole)), |px| centre_in(px, unit), rect, emit)
+    } else {
+        let whole = |(mantissa, exponent): (i64, i32)| {
+            BigInt::from(mantissa) << shift(mantissa, exponent, unit)
+        };
+        let centre = |px: i32| BigInt::from(2 * i64::from(px) + 1) << (-1 - unit);
+        scan(&parts.map(|corner| corner.map(whole)), centre, rect, emit)
+    }
+}
+
+/// How far a mantissa moves to count in units of 2^`unit`; zero stays where it is.
+fn shift(mantissa: i64, exponent: i32, unit: i32) -> i32 {
+    if mantissa == 0 { 0 } else { exponent - unit }
+}
+
+/// The centre of column or row `px` in units of 2^`unit`.
+fn centre_in(px: i32, unit: i32) -> i128 {
+    i128::from(2 * i64::from(px) + 1) << (-1 - unit)
+}
+
+/// All pixels whose squares touch the bounding box of the corners. Floors of floats are exact.
+fn around(corners: &[[f64; 2]; 3]) -> PixelRect {
+    let ends = |axis: usize| {
+        let [a, b, c] = corners.map(|corner| corner[axis].floor());
+        // Within the domain, so both fit i32.
+        (a.min(b).min(c) as i32, a.max(b).max(c) as i32 + 1)
+    };
+    let ((x0, x1), (y0, y1)) = (ends(0), ends(1));
+    PixelRect { x0, y0, x1, y1 }
+}
+
+/// A whole number of any size.
+trait Whole: Clone + Ord + Sub<Output = Self> + Mul<Output = Self> {}
+
+impl<T: Clone + Ord + Sub<Output = T> + Mul<Output = T>> Whole for T {}
+
+/// Tests the samples of `rect` one by one and counts those on an edge.
+fn scan<T: Whole>(
+    corners: &[[T; 2]; 3],
+    centre: impl Fn(i32) -> T,
+    rect: PixelRect,
+    mut emit: impl FnMut(Span),
+) -> u64 {
+    let columns: Vec<T> = (rect.x0..rect.x1).map(&centre).collect();
+    let mut ties = 0;
+    for y_px in rect.y0..rect.y1 {
+        let y = centre(y_px);
+        let pairs = [(0, 1), (1, 2), (2, 0)].map(|(i, j)| (&corners[i], &corners[j]));
+        // Keep the edges that cross the height of the nudged samples, upper end first.
+        let crossing = pairs.map(|(a, b)| match (a[1] <= y, b[1] <= y) {
+            (true, false) => Some(Crossing::new(a, b, &y)),
+            (false, true) => Some(Crossing::new(b, a, &y)),
+            _ => None,
+        });
+        for (a, b) in pairs.into_iter().filter(|(a, b)| a[1] == y && b[1] == y) {
+            let (low, high) = if a[0] < b[0] { (&a[0], &b[0]) } else { (&b[0], &a[0]) };
+            ties += columns.iter().filter(|&x| low <= x && x <= high).count() as u64;
+        }
+        let mut start = None;
+        for (x_px, x) in (rect.x0..rect.x1).zip(&columns) {
+            let mut is_inside = false;
+            for edge in crossing.iter().flatten() {
+                let reached = x.clone() * edge.dy.clone();
+                is_inside ^= edge.x_dy <= reached;
+                ties += u64::from(edge.x_dy == reached);
+            }
+            match (is_inside, start) {
+                (true, None) => start = Some(x_px),
+                (false, Some(x0_px)) => {
+                    emit(Span { y_px, x0_px, x1_px: x_px });
+                    start = None;
+                }
+                _ => {}
+            }
+        }
+        if let Some(x0_px) = start {
+            emit(Span { y_px, x0_px, x1_px: rect.x1 });
+        }
+    }
+    ties
+}
+
+/// Where an edge crosses the current height: at or left of x iff `x_dy` <= x `dy`.
+struct Crossing<T> {
+    /// The crossing times dy: upper.x dy + down dx.
+    x_dy: T,
+    /// Height of the edge, positive.
+    dy: T,
+}
+
+impl<T: Whole> Crossing<T> {
+    fn new(upper: &[T; 2], lower: &[T; 2], y: &T) -> Self {
+        let difference = |a: &T, b: &T| a.clone() - b.clone();
+        let dy = difference(&lower[1], &upper[1]);
+        // down (upper.x - lower.x) is minus down dx, and subtracting it needs no sum.
+        let minus = difference(y, &upper[1]) * difference(&upper[0], &lower[0]);
+        Self { x_dy: upper[0].clone() * dy.clone() - minus, dy }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::grid::SubpixelPoint;
+
+    fn spans(corners: [[f64; 2]; 3]) -> (Vec<(i32, i32, i32)>, u64) {
+        let mut spans = Vec::new();
+        let corners = FreeCorners::new(corners).unwrap();
+        let ties = cover_and_count_ties(&corners, PixelRect::window(8, 8), |s| {
+            spans.push((s.y_px, s.x0_px, s.x1_px));
+        });
+        (spans, ties)
+    }
+
+    /// The square with corners on centres 0.5 and 4.5, split on its diagonal, as in
+    /// [`coverage`](crate::oracle::coverage): the top row and the left column belong.
+    #[test]
+    fn top_left_by_hand() {
+        let [a, b, c, d] = [[0.5, 0.5], [4.5, 0.5], [4.5, 4.5], [0.5, 4.5]];
+        assert_eq!(spans([a, b, c]).0, [(0, 0, 4), (1, 1, 4), (2, 2, 4), (3, 3, 4)]);
+        assert_eq!(spans([a, c, d]).0, [(1, 0, 1), (2, 0, 2), (3, 0, 3)]);
+        // Five samples on the top edge, four on each of the two that cross rows 0 to 3.
+        assert_eq!(spans([a, b, c]).1, 13);
+    }
+
+    /// The diagonal moved by the smallest f64, in big integers: the samples change sides.
+    #[test]
+    fn the_smallest_offset_by_hand() {
+        let tiny = f64::from_bits(1);
+        let (right, below) = ([4.0, 0.0], [4.0, 4.0]);
+        assert_eq!(
+            spans([[0.0, 0.0], right, below]).0,
+            [(0, 0, 4), (1, 1, 4), (2, 2, 4), (3, 3, 4)]
+        );
+        assert_eq!(spans([[tiny, 0.0], right, below]).0, [(0, 1, 4), (1, 2, 4), (2, 3, 4)]);
+        assert_eq!(spans([[tiny, 0.0], right, below]).1, 0);
+        assert_eq!(spans([[-tiny, 0.0], right, below]), spans([[0.0, tiny], right, below]));
+    }
+
+    /// On the lattice it is the other oracle.
+    #[test]
+    fn on_the_lattice_by_hand() {
+        let corners = [(128, 128), (1000, 77), (300, 1900)].map(|(x, y)| SubpixelPoint::new(x, y));
+        let (mut ours, mut theirs) = (Vec::new(), Vec::new());
+        let window = PixelRect::window(8, 8);
+        Oracle.cover_exact(&corners.into(), window, |span| ours.push(span));
+        crate::contract::Rasterize::cover(&Oracle, corners, window, |span| theirs.push(span));
+        assert!(!ours.is_empty());
+        assert_eq!(ours, theirs);
+    }
+}

@@ -1,0 +1,157 @@
+//! Values of the scanline engine: between the two edges of a row, from the exact distances of each
+//! centre to both (the book's chapters 3 and 5, pre-stepped).
+
+use super::{Scanline, centre, sort_by_height, walk};
+use crate::contract::Interpolate;
+use crate::grid::{PixelRect, SUBPIXEL_BITS, SUBPIXELS, SubpixelPoint};
+use crate::triangle::{Corners, Fragment, ScreenTriangle, ScreenVertex, Span, Varying};
+
+impl Interpolate for Scanline {
+    fn fragments<V: Varying>(
+        &self,
+        triangle: &ScreenTriangle<V>,
+        bounds: PixelRect,
+        mut emit: impl FnMut(Fragment<V>),
+    ) {
+        let mut vertices = triangle.vertices;
+        sort_by_height(&mut vertices, |vertex| vertex.position);
+        let weights = relative_inv_w(&vertices);
+        let ends: [EdgeEnd<V>; 3] =
+            std::array::from_fn(|i| EdgeEnd { vertex: vertices[i], q: weights[i] });
+        let corners = vertices.map(|vertex| vertex.position);
+        let chunk = if distances_are_exact(&corners) { i32::MAX } else { 1 };
+        walk(&corners, bounds, |span, sides| {
+            let side = |[from, to]: [usize; 2]| RowEnd::new(&ends[from], &ends[to], span.y_px);
+            let (left, right) = (side(sides.left), side(sides.right));
+            let mut x0_px = span.x0_px;
+            while x0_px < span.x1_px {
+                let x1_px = span.x1_px.min(x0_px.saturating_add(chunk));
+                let origin_px = if chunk == 1 { x0_px } else { sides.first_px };
+                fill_span(&left, &right, Span { x0_px, x1_px, ..span }, origin_px, &mut emit);
+                x0_px = x1_px;
+            }
+        });
+    }
+}
+
+/// 1/w of each vertex over the largest: in (0, 1], and exactly 1 for all where they are equal.
+fn relative_inv_w<V>(vertices: &[ScreenVertex<V>; 3]) -> [f64; 3] {
+    let largest = vertices.iter().fold(0.0, |largest: f64, vertex| largest.max(vertex.inv_w));
+    [0, 1, 2].map(|i| vertices[i].inv_w / largest)
+}
+
+/// Whether every distance of [`RowEnd::distance`] inside the triangle is a whole number that f64
+/// holds exactly: it is at most extent times extent, and one step more.
+fn distances_are_exact(corners: &Corners) -> bool {
+    let extent = |coordinate: fn(&SubpixelPoint) -> i32| {
+        let (min, max) = corners
+            .iter()
+            .map(coordinate)
+            .fold((i32::MAX, i32::MIN), |(min, max), c| (min.min(c), max.max(c)));
+        i128::from(max) - i128::from(min) + i128::from(SUBPIXELS)
+    };
+    extent(|corner| corner.x) * extent(|corner| corner.y) <= 1 << f64::MANTISSA_DIGITS
+}
+
+/// One end of an edge, with the values it carries.
+#[derive(Clone, Copy)]
+struct EdgeEnd<V> {
+    vertex: ScreenVertex<V>,
+    /// 1/w over the largest 1/w of the triangle.
+    q: f64,
+}
+
+/// Where an edge crosses a row of centres, with the values there.
+#[derive(Clone, Copy)]
+struct RowEnd<V> {
+    a: SubpixelPoint,
+    dx: i64,
+    dy: i64,
+    down: i64,
+    depth: f64,
+    q: f64,
+    varying: V,
+}
+
+impl<V: Varying> RowEnd<V> {
+    /// The book's formula (8) of section 5.4 at the height of the row's centres: v/w and 1/w are
+    /// linear down the edge, their quotient is the value. Written with the difference of the ends,
+    /// so that equal ends give their value exactly.
+    fn new(from: &EdgeEnd<V>, to: &EdgeEnd<V>, y_px: i32) -> Self {
+        let (a, b) = (from.vertex.position, to.vertex.position);
+        let dx = i64::from(b.x) - i64::from(a.x);
+        let dy = i64::from(b.y) - i64::from(a.y);
+        let down = centre(y_px) - i64::from(a.y);
+        debug_assert!((0..dy).contains(&down), "t = {down}/{dy} leaves [0, 1): a clamp would act");
+        // Whole numbers below 2^33: exact in f64.
+        let (below, above, height) = (down as f64, (dy - down) as f64, dy as f64);
+        let q_sum = above * from.q + below * to.q;
+        let t_depth = below / height;
+        let t = below * to.q / q_sum;
+        let (from, to) = (&from.vertex, &to.vertex);
+        Self {
+            a,
+            dx,
+            dy,
+            down,
+            depth: from.depth + (to.depth - from.depth) * t_depth,
+            q: q_sum / height,
+            varying: from.varying + (to.varying - from.varying) * t,
+        }
+    }
+
+    /// How far the centre of column `x_px` lies right of the edge, in subpixels, times dy; exact
+    /// but for the rounding to f64.
+    fn distance(&self, x_px: i32) -> f64 {
+        let right = centre(x_px) - i64::from(self.a.x);
+        if right.abs().max(self.dx.abs()).max(self.dy) < 1 << 30 {
+            (right * self.dy - self.down * self.dx) as f64
+        } else {
+            let product = |a: i64, b: i64| i128::from(a) * i128::from(b);
+            (product(right, self.dy) - product(self.down, self.dx)) as f64
+        }
+    }
+}
+
+/// Emits the fragments of a span between the values at its two edges.
+///
+/// With l and r the distances of a centre to the left and right edge, v/w at the centre is
+/// (r vL qL + l vR qR) / (l + r) and 1/w the same without v; so v = vL + (vR - vL) s with
+/// s = l qR / (r qL + l qR), and the depth takes s = l / (l + r). All summands are positive: no
+/// cancellation, and the error stays a few units in the last place of the largest value.
+///
+/// The width of the row is the same number at every column but for its rounding, so it is taken at
+/// `origin_px`, which does not depend on the window: a tile shows the very bits of the whole.
+fn fill_span<V: Varying>(
+    left: &RowEnd<V>,
+    right: &RowEnd<V>,
+    span: Span,
+    origin_px: i32,
+    emit: &mut impl FnMut(Fragment<V>),
+) {
+    // Whole numbers, see `distances_are_exact`; a span of one pixel takes no step.
+    let mut from_left = left.distance(span.x0_px);
+    let mut from_right = -right.distance(span.x0_px);
+    let (left_step, right_step) =
+        ((left.dy << SUBPIXEL_BITS) as f64, (right.dy << SUBPIXEL_BITS) as f64);
+    // Both distances over the same denominator.
+    let (left_height, right_height) = (left.dy as f64, right.dy as f64);
+    let (left_q, right_q) = (left_height * left.q, right_height * right.q);
+    let width = left.distance(origin_px) * right_height - right.distance(origin_px) * left_height;
+    let inv_width = 1.0 / width;
+    let depth_slope = (right.depth - left.depth, right_height * inv_width);
+    let varying_slope = right.varying - left.varying;
+    for x_px in span.x0_px..span.x1_px {
+        debug_assert!(from_left >= 0.0 && from_right > 0.0, "s leaves [0, 1): a clamp would act");
+        let l = from_left * right_q;
+        let r = from_right * left_q;
+        emit(Fragment {
+            x_px,
+            y_px: span.y_px,
+            depth: left.depth + depth_slope.0 * (from_left * depth_slope.1),
+            varying: left.varying + varying_slope * (l / (r + l)),
+        });
+        from_left += left_step;
+        from_right -= right_step;
+    }
+}

@@ -1,0 +1,433 @@
+//! The comparison off the lattice: engines for corners that are not snapped, against the oracle.
+//!
+//! As on the lattice, every pixel of every case is compared by hit count with tolerance zero, and a
+//! panic is a finding. Besides, each engine's decisions are counted, so that a filter that never
+//! lets anything through, or a fallback that is never needed, shows in the table.
+
+use std::fmt;
+use std::time::Instant;
+
+use rayon::prelude::*;
+use serde::Serialize;
+
+use super::contest::caught;
+use super::{BLOCK, KEPT, MOST_PER_ROUND, Options, Tally};
+use crate::contract::{Decisions, RasterizeExact};
+use crate::frame::Coverage;
+use crate::hazard::offgrid::{FAMILIES, OffGridCase, OffGridFamily};
+use crate::oracle::rational::cover_and_count_ties;
+use crate::triangle::{FreeCorners, Span};
+
+/// How an engine did on a family.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct ExactEngineReport {
+    /// Its name.
+    pub engine: String,
+    /// Wrong pixels, judged by the oracle.
+    pub tally: Tally,
+    /// How it decided.
+    pub decisions: Decisions,
+    /// Cases in which it panicked.
+    pub panics: u64,
+    /// Cases in which anything was wrong.
+    pub wrong_cases: u64,
+}
+
+/// How a family went.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct ExactFamilyReport {
+    /// Its name.
+    pub family: String,
+    /// Cases judged.
+    pub cases: u64,
+    /// Triangles judged.
+    pub triangles: u64,
+    /// Covered pixels, by the oracle.
+    pub pixels: u64,
+    /// Cases in which a sample lies exactly on an edge.
+    pub tie_cases: u64,
+    /// Cases that cover no pixel.
+    pub empty_cases: u64,
+    /// Pixels that the oracle itself does not hit exactly once where triangles tile the window.
+    pub oracle_faults: u64,
+    /// One for each engine.
+    pub engines: Vec<ExactEngineReport>,
+}
+
+/// A failing case, shrunk.
+#[derive(Clone, Debug)]
+pub struct ExactFailure {
+    /// Family of the case it was found in.
+    pub family: String,
+    /// Number of the case.
+    pub index: u64,
+    /// Seed of the run.
+    pub seed: u64,
+    /// The engine that is wrong.
+    pub engine: String,
+    /// What is wrong with the shrunk case.
+    pub what: String,
+    /// The smallest case found that still fails.
+    pub case: OffGridCase,
+}
+
+impl fmt::Display for ExactFailure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let triangles = describe(&self.case.triangles);
+        write!(f, "{} against oracle-exact: {} on {triangles}", self.engine, self.what)?;
+        write!(f, " (from {} #{} of seed {})", self.family, self.index, self.seed)
+    }
+}
+
+/// The positions of triangles in pixels, as the command line takes them, with all digits.
+#[must_use]
+pub fn describe(triangles: &[FreeCorners]) -> String {
+    let one = |t: &FreeCorners| t.px().map(|[x, y]| format!("{x:?},{y:?}")).join(" ");
+    triangles.iter().map(one).collect::<Vec<_>>().join("; ")
+}
+
+/// The outcome of a run off the lattice.
+#[derive(Clone, Debug, Default)]
+pub struct ExactVerdict {
+    /// One for each family, in the order of the catalogue; none where no engine was judged.
+    pub families: Vec<ExactFamilyReport>,
+    /// Failing cases, shrunk, at most a few for each engine.
+    pub failures: Vec<ExactFailure>,
+}
+
+impl ExactVerdict {
+    /// Whether nothing was wrong anywhere.
+    #[must_use]
+    pub fn agrees(&self) -> bool {
+        self.families
+            .iter()
+            .all(|f| f.oracle_faults == 0 && f.engines.iter().all(|e| e.wrong_cases == 0))
+    }
+
+    /// Wrong pixels over all families and engines.
+    #[must_use]
+    pub fn mismatches(&self) -> u64 {
+        self.families.iter().flat_map(|f| &f.engines).map(|e| e.tally.total()).sum()
+    }
+
+    /// Triangles judged.
+    #[must_use]
+    pub fn triangles(&self) -> u64 {
+        self.families.iter().map(|f| f.triangles).sum()
+    }
+}
+
+/// What an engine made of a case.
+#[derive(Clone, Debug, Default)]
+pub struct ExactFinding {
+    /// Wrong pixels.
+    pub tally: Tally,
+    /// How it decided.
+    pub decisions: Decisions,
+    /// What it said when it panicked.
+    pub panic: Option<String>,
+}
+
+impl ExactFinding {
+    /// Whether it does not agree with the oracle.
+    #[must_use]
+    pub fn is_wrong(&self) -> bool {
+        self.panic.is_some() || self.tally.total() > 0
+    }
+
+    /// The disagreement in words.
+    #[must_use]
+    pub fn describe(&self) -> String {
+        let Tally { missing, extra, twice, .. } = self.tally;
+        match &self.panic {
+            Some(message) => format!("panics ({message})"),
+            None if !self.is_wrong() => "agrees".to_owned(),
+            None => format!("{missing} missing, {extra} extra, {twice} twice"),
+        }
+    }
+}
+
+/// Hits of an engine over all triangles of a case, and how it decided.
+///
+/// # Errors
+/// The message of the engine's panic, a pixel outside the window among them.
+pub fn exact_coverage(
+    engine: &impl RasterizeExact,
+    case: &OffGridCase,
+) -> Result<(Coverage, Decisions), String> {
+    caught(|| {
+        let mut hits = Coverage::new(case.window, 0);
+        let mut decisions = Decisions::default();
+        for corners in &case.triangles {
+            let hit = |span: Span| hits.hit(span.y_px, span.x0_px, span.x1_px);
+            decisions += engine.cover_exact(corners, case.window, hit);
+        }
+        (hits, decisions)
+    })
+}
+
+/// Hits of the oracle over all triangles of a case, and its samples on edges.
+fn truth(case: &OffGridCase) -> (Coverage, u64) {
+    let mut hits = Coverage::new(case.window, 0);
+    let mut ties = 0;
+    for corners in &case.triangles {
+        let hit = |span: Span| hits.hit(span.y_px, span.x0_px, span.x1_px);
+        ties += cover_and_count_ties(corners, case.window, hit);
+    }
+    (hits, ties)
+}
+
+/// Judges one case by one engine; what [`judge_exact`] does for each generated case.
+#[must_use]
+pub fn judge_exact_case(engine: &impl RasterizeExact, case: &OffGridCase) -> ExactFinding {
+    against(engine, case, &truth(case).0)
+}
+
+fn against(engine: &impl RasterizeExact, case: &OffGridCase, target: &Coverage) -> ExactFinding {
+    match exact_coverage(engine, case) {
+        Ok((hits, decisions)) => {
+            ExactFinding { tally: Tally::between(&hits, target), decisions, panic: None }
+        }
+        Err(message) => ExactFinding { panic: Some(message), ..ExactFinding::default() },
+    }
+}
+
+/// Judges engines for corners off the lattice, each with its name, against the oracle.
+///
+/// Families, seed, shard and limits are those of `options`; names of families on the lattice are
+/// passed over.
+pub fn judge_exact<R: RasterizeExact + Sync>(
+    engines: &[(&str, R)],
+    options: &Options,
+    progress: &(dyn Fn(u64) + Sync),
+) -> ExactVerdict {
+    if engines.is_empty() {
+        return ExactVerdict::default();
+    }
+    let start = Instant::now();
+    let expired = || options.time_limit.is_some_and(|limit| start.elapsed() >= limit);
+    let chosen: Vec<_> = exact_families(options).collect();
+    let mut partials: Vec<Partial> =
+        chosen.iter().map(|family| Partial::new(family, engines)).collect();
+    // With a time limit, families advance together, a few blocks at a time.
+    let round = if options.time_limit.is_some() { BLOCK * 8 } else { MOST_PER_ROUND };
+    let all = match options.only {
+        Some(index) => index..index.saturating_add(1),
+        None => 0..options.cases,
+    };
+    let mut done = all.start;
+    while done < all.end && !(done > all.start && expired()) {
+        let end = all.end.min(done.saturating_add(round));
+        for (slot, family) in partials.iter_mut().zip(&chosen) {
+            let blocks: Vec<u64> = (done..end).step_by(BLOCK as usize).collect();
+            let merged = blocks
+                .into_par_iter()
+                .map(|first| {
+                    let indices = first..end.min(first + BLOCK);
+                    let partial = judge_block(family, engines, indices, options);
+                    progress(partial.report.cases);
+                    partial
+                })
+                .reduce(|| Partial::new(family, engines), Partial::merge);
+            let earlier = std::mem::replace(slot, Partial::new(family, engines));
+            *slot = earlier.merge(merged);
+        }
+        done = end;
+    }
+    let failures = shrink_failures(&partials, &chosen, engines, options);
+    ExactVerdict { families: partials.into_iter().map(|p| p.report).collect(), failures }
+}
+
+/// The families off the lattice that `options` ask for.
+pub fn exact_families(options: &Options) -> impl Iterator<Item = &'static OffGridFamily> {
+    FAMILIES.iter().filter(|f| {
+        options.families.is_empty() || options.families.iter().any(|name| name == f.name)
+    })
+}
+
+/// What a block of cases of one family came to.
+struct Partial {
+    report: ExactFamilyReport,
+    /// Engine and number of failing cases, lowest numbers first.
+    failing: Vec<(usize, u64)>,
+}
+
+impl Partial {
+    fn new<R>(family: &OffGridFamily, engines: &[(&str, R)]) -> Self {
+        let engines = engines.iter().map(|(name, _)| ExactEngineReport {
+            engine: (*name).to_owned(),
+            ..ExactEngineReport::default()
+        });
+        let report = ExactFamilyReport {
+            family: family.name.to_owned(),
+            engines: engines.collect(),
+            ..ExactFamilyReport::default()
+        };
+        Self { report, failing: Vec::new() }
+    }
+
+    /// Sums: the same for any order of merging.
+    fn merge(mut self, other: Self) -> Self {
+        self.report.add(&other.report);
+        self.failing.extend(other.failing);
+        self.failing.sort_unstable();
+        let mut kept = Vec::new();
+        for engine in 0..self.report.engines.len() {
+            kept.extend(self.failing.iter().filter(|f| f.0 == engine).take(KEPT));
+        }
+        self.failing = kept;
+        self
+    }
+}
+
+impl ExactFamilyReport {
+    /// Adds the numbers of the same engines on other cases.
+    pub fn add(&mut self, other: &Self) {
+        self.cases += other.cases;
+        self.triangles += other.triangles;
+        self.pixels += other.pixels;
+        self.tie_cases += other.tie_cases;
+        self.empty_cases += other.empty_cases;
+        self.oracle_faults += other.oracle_faults;
+        for (a, b) in self.engines.iter_mut().zip(&other.engines) {
+            a.tally += b.tally;
+            a.decisions += b.decisions;
+            a.panics += b.panics;
+            a.wrong_cases += b.wrong_cases;
+        }
+    }
+}
+
+fn judge_block<R: RasterizeExact>(
+    family: &OffGridFamily,
+    engines: &[(&str, R)],
+    indices: std::ops::Range<u64>,
+    options: &Options,
+) -> Partial {
+    let mut partial = Partial::new(family, engines);
+    let report = &mut partial.report;
+    let (part, parts) = options.shard;
+    for index in indices {
+        if index % parts != part {
+            continue;
+        }
+        let case = family.case(options.seed, index);
+        let (target, ties) = truth(&case);
+        let hits = || target.rows().flat_map(|(_, row)| row);
+        let pixels: u64 = hits().map(|&hits| u64::from(hits)).sum();
+        report.cases += 1;
+        report.triangles += case.triangles.len() as u64;
+        report.pixels += pixels;
+        report.tie_cases += u64::from(ties > 0);
+        report.empty_cases += u64::from(pixels == 0);
+        if case.is_tiling {
+            report.oracle_faults += hits().filter(|&&hits| hits != 1).count() as u64;
+        }
+        for (at, (_, engine)) in engines.iter().enumerate() {
+            let finding = against(engine, &case, &target);
+            let counts = &mut report.engines[at];
+            counts.tally += finding.tally;
+            counts.decisions += finding.decisions;
+            counts.panics += u64::from(finding.panic.is_some());
+            counts.wrong_cases += u64::from(finding.is_wrong());
+            if finding.is_wrong() && counts.wrong_cases <= KEPT as u64 {
+                partial.failing.push((at, index));
+            }
+        }
+    }
+    partial
+}
+
+/// Shrinks the first failing cases of each engine.
+fn shrink_failures<R: RasterizeExact>(
+    partials: &[Partial],
+    chosen: &[&OffGridFamily],
+    engines: &[(&str, R)],
+    options: &Options,
+) -> Vec<ExactFailure> {
+    let mut shown = vec![0; engines.len()];
+    let mut failures = Vec::new();
+    for (partial, family) in partials.iter().zip(chosen) {
+        for &(at, index) in &partial.failing {
+            if shown[at] == KEPT {
+                continue;
+            }
+            shown[at] += 1;
+            let (name, engine) = &engines[at];
+            let fails = |case: &OffGridCase| judge_exact_case(engine, case).is_wrong();
+            let case = shrink(family.case(options.seed, index), fails);
+            failures.push(ExactFailure {
+                family: family.name.to_owned(),
+                index,
+                seed: options.seed,
+                engine: (*name).to_owned(),
+                what: judge_exact_case(engine, &case).describe(),
+                case,
+            });
+        }
+    }
+    failures
+}
+
+const MOST_TRIALS: u32 = 3000;
+
+/// The smallest case reached from `case` that still fails: fewer triangles, then fewer bits in all
+/// coordinates, then nearer to the origin. Greedy, with a bounded number of trials.
+fn shrink(case: OffGridCase, fails: impl Fn(&OffGridCase) -> bool) -> OffGridCase {
+    let mut smallest = case;
+    let mut trials = 0;
+    loop {
+        let size = size(&smallest);
+        let better = candidates(&smallest).into_iter().find(|candidate| {
+            trials += 1;
+            trials <= MOST_TRIALS && self::size(candidate) < size && fails(candidate)
+        });
+        match better {
+            Some(better) => smallest = better,
+            None => return smallest,
+        }
+    }
+}
+
+/// Triangles, bits that are set in mantissas, then distance from the origin.
+fn size(case: &OffGridCase) -> (usize, u32, u64) {
+    let values = || case.triangles.iter().flat_map(|t| t.px()).flatten();
+    let bits = |v: f64| {
+        let (mantissa, ..) = num_traits::Float::integer_decode(v);
+        if mantissa == 0 { 0 } else { 64 - mantissa.leading_zeros() - mantissa.trailing_zeros() }
+    };
+    (case.triangles.len(), values().map(bits).sum(), values().map(|v| v.abs() as u64).sum())
+}
+
+fn candidates(case: &OffGridCase) -> Vec<OffGridCase> {
+    let with = |triangles: Vec<FreeCorners>| OffGridCase {
+        window: case.window,
+        triangles,
+        is_tiling: false,
+    };
+    if case.triangles.len() > 1 {
+        return case.triangles.iter().map(|t| with(vec![*t])).collect();
+    }
+    let Some(triangle) = case.triangles.first() else { return Vec::new() };
+    let mut found = Vec::new();
+    for corner in 0..3 {
+        for axis in 0..2 {
+            let value = triangle.px()[corner][axis];
+            for simpler in simpler_coordinates(value) {
+                let mut px = triangle.px();
+                px[corner][axis] = simpler;
+                found.extend(FreeCorners::new(px).ok().map(|t| with(vec![t])));
+            }
+        }
+    }
+    found
+}
+
+/// Zero, whole and half numbers nearby, and fewer bits.
+fn simpler_coordinates(value: f64) -> Vec<f64> {
+    let cut = |bits: u64| f64::from_bits(value.to_bits() & !((1 << bits) - 1));
+    let mut simpler = vec![0.0, value.round(), value.floor() + 0.5];
+    simpler.extend([52, 48, 44, 40, 36, 32, 29, 24, 20, 16, 12, 8, 4, 2, 1].map(cut));
+    simpler.retain(|&v| v != value);
+    simpler
+}

@@ -1,0 +1,411 @@
+//! Corners off the grid: the two exact engines against the rational oracle, planted faults, named
+//! cases that snapping would hide, and the protocol.
+
+use std::collections::BTreeSet;
+
+use proptest::prelude::*;
+use rasterproof::cli::{self, Streams};
+use rasterproof::contract::{Rasterize, RasterizeExact};
+use rasterproof::frame::Coverage;
+use rasterproof::grid::{PixelRect, Refusal, SubpixelPoint};
+use rasterproof::hazard::offgrid::{FAMILIES, OffGridCase};
+use rasterproof::lineup::ExactEngine;
+use rasterproof::mutant::exact::ExactMutant;
+use rasterproof::raster::{edge_function::EdgeFunction, scanline::Scanline};
+use rasterproof::triangle::FreeCorners;
+use rasterproof::verify::Options;
+use rasterproof::verify::exact::{exact_coverage, judge_exact, judge_exact_case};
+
+const ALL: [ExactEngine; 3] =
+    [ExactEngine::Scanline, ExactEngine::EdgeFunction, ExactEngine::Oracle];
+
+fn judged() -> Vec<(&'static str, ExactEngine)> {
+    ExactEngine::JUDGED.map(|engine| (engine.name(), engine)).to_vec()
+}
+
+fn options(seed: u64, cases: u64) -> Options {
+    Options { seed, cases, ..Options::default() }
+}
+
+fn free(corners: [[f64; 2]; 3]) -> FreeCorners {
+    FreeCorners::new(corners).unwrap_or_else(|refusal| panic!("{corners:?} {refusal}"))
+}
+
+fn case(window: PixelRect, triangles: &[[[f64; 2]; 3]]) -> OffGridCase {
+    let triangles = triangles.iter().map(|corners| free(*corners)).collect();
+    OffGridCase { window, triangles, is_tiling: false }
+}
+
+/// Hits of one engine, which must be those of the oracle.
+fn hits(engine: ExactEngine, case: &OffGridCase) -> Coverage {
+    let finding = judge_exact_case(&engine, case);
+    assert!(!finding.is_wrong(), "{}: {} on {case:?}", engine.name(), finding.describe());
+    exact_coverage(&engine, case).expect("it did not panic a line above").0
+}
+
+/// Pixels of each triangle alone, and the most hits of any pixel by all of them.
+fn pixels_and_most(engine: ExactEngine, whole: &OffGridCase) -> (Vec<u64>, u8) {
+    let alone = |t: &FreeCorners| OffGridCase { triangles: vec![*t], ..whole.clone() };
+    let pixels = whole.triangles.iter().map(|t| hits(engine, &alone(t)).covered()).collect();
+    let all = hits(engine, whole);
+    let most = all.rows().flat_map(|(_, row)| row.iter().copied().max()).max();
+    (pixels, most.unwrap_or(0))
+}
+
+#[test]
+fn families_agree_and_reach_both_paths() {
+    for seed in [1, 2] {
+        let verdict = judge_exact(&judged(), &options(seed, 400), &|_| ());
+        assert_eq!(verdict.families.len(), FAMILIES.len());
+        for f in &verdict.families {
+            assert_eq!((f.cases, f.oracle_faults), (400, 0), "{}", f.family);
+            for e in &f.engines {
+                assert_eq!((e.tally.total(), e.panics), (0, 0), "{} {}", f.family, e.engine);
+                assert!(e.decisions.by_filter > 0, "{} {}: nothing filtered", f.family, e.engine);
+                let in_doubt =
+                    ["f32-near-tie", "f32-tie", "f32-fan", "f32-denormal", "f64-near-tie"];
+                let must_fall_back = in_doubt.contains(&f.family.as_str());
+                assert!(
+                    !must_fall_back || e.decisions.by_fallback > 0,
+                    "{} {}: the exact path was never taken",
+                    f.family,
+                    e.engine
+                );
+            }
+        }
+        assert!(verdict.agrees() && verdict.failures.is_empty());
+        let sum = |count: fn(&rasterproof::verify::exact::ExactFamilyReport) -> u64| {
+            verdict.families.iter().map(count).sum::<u64>()
+        };
+        assert!(4 * sum(|f| f.tie_cases) >= sum(|f| f.cases), "a quarter of the cases has a tie");
+        assert!(20 * sum(|f| f.empty_cases) >= sum(|f| f.cases), "one in twenty is empty");
+    }
+}
+
+#[test]
+fn families_f32_hold_f32_only_and_f64_more() {
+    for family in FAMILIES {
+        let px: Vec<f64> = (0..200)
+            .flat_map(|index| family.case(3, index).triangles)
+            .flat_map(|t| t.px())
+            .flatten()
+            .collect();
+        let all_f32 = px.iter().all(|&v| f64::from(v as f32) == v);
+        assert_eq!(all_f32, family.name.starts_with("f32-"), "{}", family.name);
+        assert_eq!(family.case(3, 7), family.case(3, 7));
+        assert_ne!(family.case(3, 7), family.case(4, 7), "{}", family.name);
+    }
+    let tiling = |name: &str| {
+        let family = FAMILIES.iter().find(|f| f.name == name).expect("a family");
+        (0..100).filter(|&index| family.case(3, index).is_tiling).count()
+    };
+    assert_eq!(tiling("f32-fan"), 100);
+    assert!(tiling("f32-cut") > 90);
+}
+
+#[test]
+fn vertex_order_leaves_no_trace() {
+    for family in FAMILIES {
+        for index in 0..60 {
+            let original = family.case(11, index);
+            let target = hits(ExactEngine::Oracle, &original);
+            for order in [[1, 2, 0], [2, 0, 1], [0, 2, 1], [1, 0, 2], [2, 1, 0]] {
+                let mut turned = original.clone();
+                for triangle in &mut turned.triangles {
+                    *triangle = free(order.map(|i| triangle.px()[i]));
+                }
+                for engine in ALL {
+                    let actual = exact_coverage(&engine, &turned).expect("no panic").0;
+                    assert!(
+                        actual == target,
+                        "{} {}#{index} {order:?}",
+                        engine.name(),
+                        family.name
+                    );
+                }
+            }
+        }
+    }
+}
+
+/// Every planted fault is caught, by the families it is about, and the failure repeats.
+#[test]
+fn mutants_die() {
+    let about = |mutant| match mutant {
+        // Plain f64 is right for f32 corners of similar size: the differences are exact, the
+        // products have 48 bits. Only f64 corners and mixed exponents show the fault.
+        ExactMutant::PlainF64 | ExactMutant::PlainCrossing => "f64-near-tie",
+        ExactMutant::FilterTooSmall => "f64-near-tie",
+        ExactMutant::PlainF32 | ExactMutant::SnapsInside => "f32-near-tie",
+        ExactMutant::FlushesToZero => "f32-denormal",
+        ExactMutant::InclusiveTies | ExactMutant::BottomRightTies => "f32-tie",
+    };
+    for mutant in ExactMutant::ALL {
+        let engine = ExactEngine::Mutant(mutant);
+        let verdict = judge_exact(&[(engine.name(), engine)], &options(1, 400), &|_| ());
+        let killers: BTreeSet<_> = verdict
+            .families
+            .iter()
+            .filter(|f| f.engines[0].wrong_cases > 0)
+            .map(|f| f.family.as_str())
+            .collect();
+        println!("{:<26} caught by {killers:?}", engine.name());
+        assert!(!verdict.agrees() && verdict.mismatches() > 0, "{} lives", engine.name());
+        assert!(killers.contains(about(mutant)), "{} by {killers:?}", engine.name());
+        let failure = verdict.failures.first().expect("a failure is kept");
+        let family = FAMILIES.iter().find(|f| f.name == failure.family).expect("its family");
+        let found = family.case(failure.seed, failure.index);
+        assert!(judge_exact_case(&engine, &found).is_wrong(), "{failure}");
+        assert!(judge_exact_case(&engine, &failure.case).is_wrong(), "{failure}");
+        assert_eq!(failure.case.triangles.len(), 1, "shrunk: {failure}");
+    }
+}
+
+/// DRTK#9 as it was reported, moved by half a pixel; the corners are not multiples of 1/256.
+#[test]
+fn t3_not_snapped() {
+    let (x, y) = (7.000_061_035_156_25, 0.999_938_964_843_75);
+    let quad = [[[1.0, y], [1.0, 7.0], [x, y]], [[x, y], [1.0, 7.0], [x, 7.0]]];
+    for engine in ALL {
+        let whole = case(PixelRect::window(8, 8), &quad);
+        assert_eq!(pixels_and_most(engine, &whole), (vec![15, 21], 1), "{}", engine.name());
+        // The other diagonal tiles the same 36 pixels.
+        let other = case(
+            PixelRect::window(8, 8),
+            &[[[1.0, y], [1.0, 7.0], [x, 7.0]], [[1.0, y], [x, 7.0], [x, y]]],
+        );
+        assert!(hits(engine, &other) == hits(engine, &whole), "{}", engine.name());
+    }
+}
+
+/// euc#17, at its own size and times 64: three triangles around a common corner, none overlapping.
+#[test]
+fn t5_not_snapped() {
+    let [p, q, r, o] = [
+        [0.073_184_55_f32, 0.338_219_34],
+        [0.227_762_1, 0.690_997_2],
+        [0.658_247_05, 0.837_475_54],
+        [0.023_455_322, 0.977_184_65],
+    ];
+    for scale in [1.0_f32, 64.0] {
+        let at = |p: [f32; 2]| p.map(|v| f64::from(v * scale));
+        let [p, q, r, o] = [at(p), at(q), at(r), at(o)];
+        let whole = case(PixelRect::window(64, 64), &[[p, q, r], [p, q, o], [q, r, o]]);
+        let target = pixels_and_most(ExactEngine::Oracle, &whole);
+        assert!(target.1 <= 1, "{target:?}");
+        assert!(scale == 1.0 || target.0.iter().all(|&pixels| pixels > 100), "{target:?}");
+        for engine in ExactEngine::JUDGED {
+            assert_eq!(pixels_and_most(engine, &whole), target, "{}", engine.name());
+        }
+    }
+}
+
+/// A rectangle split on the diagonal from `a` to `b`, which misses a sample by less than f32 shows:
+/// each sample inside is hit exactly once, and f32 arithmetic gets the sample `pixel` wrong.
+fn check_split(a: [f32; 2], b: [f32; 2], pixel: (i32, i32)) {
+    let [a, b] = [a, b].map(|p| p.map(f64::from));
+    let (c, d) = ([b[0], a[1]], [a[0], b[1]]);
+    let whole = case(PixelRect::window(64, 64), &[[a, b, c], [a, b, d]]);
+    let inside = |v: f64, i: usize| a[i].min(b[i]) <= v && v < a[i].max(b[i]);
+    for engine in ALL {
+        let hits = hits(engine, &whole);
+        for (y_px, row) in hits.rows() {
+            for (x_px, &count) in row.iter().enumerate() {
+                let (x, y) = (x_px as f64 + 0.5, f64::from(y_px) + 0.5);
+                let target = u8::from(inside(x, 0) && inside(y, 1));
+                assert_eq!(count, target, "{} ({x}, {y})", engine.name());
+            }
+        }
+    }
+    // Whether f32 fails depends on which end of the edge it measures from.
+    let wrong = [[[a, b, c], [b, a, d]], [[b, a, c], [a, b, d]], [[a, b, c], [a, b, d]]]
+        .iter()
+        .any(|two| {
+            let two = case(PixelRect::window(64, 64), two);
+            let hits = exact_coverage(&ExactEngine::Mutant(ExactMutant::PlainF32), &two);
+            hits.expect("no panic").0.get(pixel.0, pixel.1) != Some(1)
+        });
+    assert!(wrong, "f32 is right at {pixel:?}, so the case shows nothing");
+}
+
+#[test]
+fn o4_o5_not_snapped() {
+    check_split([25.630945, 61.71053], [5.298825, 26.17589], (17, 47));
+    check_split([6.329233, 35.83448], [51.395065, 2.1198945], (29, 18));
+}
+
+/// Corners at the borders of the domain, and windows there.
+#[test]
+fn the_edge_of_the_domain() {
+    let (low, high) = (-8_388_608.0, 8_388_608.0_f64.next_down());
+    let far = [[low, low], [high, low], [low, high]];
+    let corner = |x0: i32, y0: i32| PixelRect { x0, y0, x1: x0 + 16, y1: y0 + 16 };
+    let edge = 1 << 23;
+    let mut covered = 0;
+    for window in [
+        corner(-edge - 8, -edge - 8),
+        corner(edge - 8, -edge - 8),
+        corner(-edge - 8, edge - 8),
+        corner(edge - 8, edge - 8),
+        corner(-8, -8),
+    ] {
+        for triangle in
+            [far, [[low, low], [high, high], [low, high]], [[high, low], [high, high], [low, 0.5]]]
+        {
+            for engine in ALL {
+                covered += hits(engine, &case(window, &[triangle])).covered();
+            }
+        }
+    }
+    assert!(covered > 0);
+}
+
+#[test]
+fn refusals() {
+    let with = |v: f64| FreeCorners::new([[0.0, 0.0], [1.0, v], [2.0, 5.0]]).err();
+    assert_eq!(with(f64::NAN), Some(Refusal::NotANumber));
+    assert_eq!(with(f64::INFINITY), Some(Refusal::Infinite));
+    for v in [8_388_608.0, (-8_388_608.0_f64).next_down(), 1e22, -f64::MAX] {
+        assert_eq!(with(v), Some(Refusal::OutOfDomain(v)));
+    }
+    for v in [-8_388_608.0, 8_388_608.0_f64.next_down(), -0.0, f64::from_bits(1), -1e-310] {
+        assert_eq!(with(v), None, "{v:e}");
+    }
+}
+
+/// The scanline and the oracle stand on their own: only the edge function uses `robust`.
+#[test]
+fn independence_of_orient2d() {
+    let uses = |source: &str| {
+        source.lines().any(|l| !l.trim_start().starts_with("//") && l.contains("orient2d"))
+    };
+    assert!(uses(include_str!("../../src/raster/edge_function_exact.rs")));
+    assert!(!uses(include_str!("../../src/raster/scanline_exact.rs")));
+    assert!(!uses(include_str!("../../src/oracle/rational.rs")));
+}
+
+fn run(command: &str, input: &str) -> (u8, String, String) {
+    let (mut output, mut errors) = (Vec::new(), Vec::new());
+    let mut streams = Streams {
+        input: &mut input.as_bytes(),
+        output: &mut output,
+        errors: &mut errors,
+        progress: false,
+    };
+    let words = command.split_whitespace().map(str::to_owned);
+    let status = cli::run(words, &mut streams);
+    let text = |bytes| String::from_utf8(bytes).expect("text");
+    (status, text(output), text(errors))
+}
+
+#[test]
+fn protocol() {
+    // A hundredth of a subpixel beside the centres of the diagonal: snapping would make it a tie.
+    let requests = "HELLO 1
+T a 4 4 0.00004 0 4 0 4.00004 4
+T b 4 4 -0x1p-149 0 4 0 4 4
+T c 4 4 0 0 nan 0 4 4
+T d 4 4 0 0 4 0 4 -inf
+T e 4 4 8388608 0 4 0 4 4
+T f 4 4 0 0 4 0 4
+L g 4 4 0 0 4 4
+I h 4 4 0 0 0 1 0 0 4 0 0 1 0 0 4 4 0 1 0 0
+";
+    for engine in ALL {
+        let (status, output, errors) =
+            run(&format!("rasterproof engine {}", engine.name()), requests);
+        let expected = format!(
+            "HELLO 1 {} coverage
+C a 3 0 1 4 1 2 4 2 3 4
+C b 4 0 0 4 1 1 4 2 2 4 3 3 4
+E c x1 is not a number (NaN)
+E d y2 is infinite
+E e x0 8.388608e6 px is outside the domain [-8388608, 8388608) px
+E f T takes an id, width, height and 6 numbers; 8 words follow
+E g unsupported
+E h unsupported
+",
+            engine.name()
+        );
+        assert_eq!((status, output.as_str(), errors.as_str()), (0, expected.as_str(), ""));
+    }
+    let (_, snapped, _) = run("rasterproof engine scanline", requests);
+    assert!(snapped.contains("C a 4 0 0 4 1 1 4 2 2 4 3 3 4\n"), "{snapped}");
+}
+
+#[test]
+fn command_line() {
+    let (status, output, _) = run("rasterproof list", "");
+    assert_eq!(status, 0);
+    for name in ALL.iter().map(ExactEngine::name).chain(FAMILIES.iter().map(|f| f.name)) {
+        assert!(output.lines().any(|l| l.split_whitespace().next() == Some(name)), "{name}");
+    }
+    let (status, output, _) = run("rasterproof verify --family f32-tie --cases 50", "");
+    assert_eq!(status, 0, "{output}");
+    assert!(output.contains("50 triangles off the grid, 0 wrong pixels"), "{output}");
+    let (status, output, _) =
+        run("rasterproof verify --plant exact-inclusive-ties --family f32-tie --cases 50", "");
+    assert_eq!(status, 1, "{output}");
+    assert!(output.contains("repeat with: rasterproof verify --family f32-tie --case"), "{output}");
+    let (status, output, _) =
+        run("rasterproof verify --plant exact-plain-f32 --family f32-far --cases 50 --json", "");
+    let json: serde_json::Value = serde_json::from_str(&output).expect("JSON");
+    assert_eq!((status, &json["agrees"]), (1, &serde_json::Value::Bool(false)));
+    assert_eq!(json["off_grid_families"][0]["family"], "f32-far");
+    assert_eq!(json["failures"][0]["pair"][1], "oracle-exact");
+    // A number beyond the default count of cases is judged, too.
+    let (status, output, _) = run("rasterproof verify --family f32-tie --case 123456789012", "");
+    assert_eq!(status, 0, "{output}");
+    assert!(output.contains(", 1 triangles off the grid, 0 wrong pixels"), "{output}");
+    assert!(output.lines().all(|line| line.chars().count() <= 100), "{output}");
+    let (status, output, _) = run("rasterproof inspect f64-denormal#5", "");
+    assert_eq!(status, 0, "{output}");
+    assert!(output.contains("edge-function-exact against oracle-exact: agrees"), "{output}");
+}
+
+fn lattice() -> impl Strategy<Value = [SubpixelPoint; 3]> {
+    // Small ones with many ties, and any at all.
+    let halves = (-4..20i32, -4..20i32).prop_map(|(x, y)| SubpixelPoint::new(x * 128, y * 128));
+    let near = (-1000..5000i32, -1000..5000i32).prop_map(|(x, y)| SubpixelPoint::new(x, y));
+    let any = (any::<i32>(), any::<i32>()).prop_map(|(x, y)| SubpixelPoint::new(x, y));
+    let point = prop_oneof![4 => halves, 4 => near, 1 => any];
+    prop::array::uniform3(point)
+}
+
+proptest! {
+    /// On the lattice nothing is snapped, so all five engines draw the same.
+    #[test]
+    fn on_the_lattice_they_are_the_lattice_engines(corners in lattice()) {
+        let window = PixelRect { x0: -2, y0: -2, x1: 16, y1: 16 };
+        let mut targets = [Coverage::new(window, 0), Coverage::new(window, 0)];
+        Scanline.cover(corners, window, |s| targets[0].hit(s.y_px, s.x0_px, s.x1_px));
+        EdgeFunction.cover(corners, window, |s| targets[1].hit(s.y_px, s.x0_px, s.x1_px));
+        for engine in ALL {
+            let mut actual = Coverage::new(window, 0);
+            let hit = |s: rasterproof::triangle::Span| actual.hit(s.y_px, s.x0_px, s.x1_px);
+            engine.cover_exact(&corners.into(), window, hit);
+            for target in &targets {
+                prop_assert!(&actual == target, "{} on {corners:?}", engine.name());
+            }
+        }
+    }
+
+    /// Any finite bit pattern in the domain: no panic, and the oracle's pixels.
+    #[test]
+    fn any_bits_in_the_domain(bits in prop::array::uniform6(any::<u64>()), near in 0..4usize) {
+        let value = |i: usize| {
+            let v = f64::from_bits(bits[i]);
+            // Fold what is too large or not a number into the neighbourhood of the window.
+            if v.abs() < 8_388_608.0 { v } else { (bits[i] % 4096) as f64 / 128.0 - 8.0 }
+        };
+        let mut px = [[value(0), value(1)], [value(2), value(3)], [value(4), value(5)]];
+        if near < 3 {
+            px[near] = [7.5, 3.5];
+        }
+        let whole = case(PixelRect { x0: -8, y0: -8, x1: 24, y1: 24 }, &[px]);
+        for engine in ExactEngine::JUDGED {
+            let finding = judge_exact_case(&engine, &whole);
+            prop_assert!(!finding.is_wrong(), "{}: {} on {px:?}", engine.name(), finding.describe());
+        }
+    }
+}

@@ -1,0 +1,449 @@
+//! Proofs by exhaustion: the small ones in full, and that stopping, sharding and merging change
+//! nothing, that planted faults are found, and that the certificates in the docs are of this code.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use std::sync::Mutex;
+use std::time::Duration;
+
+use rasterproof::exhaust::certificate::{Certificate, Timing, merge};
+use rasterproof::exhaust::run::{Progress, Shard, run};
+use rasterproof::exhaust::{Plan, edges, lines, triangles};
+
+fn triangles(subpixel_bits: u32) -> triangles::Triangles {
+    triangles::Triangles {
+        window_px: 4,
+        subpixel_bits,
+        offset_px: [0, 0],
+        all_orders: false,
+        plant: None,
+    }
+}
+
+fn lines(reach: u32) -> lines::Lines {
+    lines::Lines { reach, offset_px: [0, 0], first_octant: false, plant: None }
+}
+
+fn edges(subpixel_bits: u32) -> edges::Edges {
+    edges::Edges {
+        window_px: 4,
+        subpixel_bits,
+        offset_px: [0, 0],
+        every_position: false,
+        plant: None,
+    }
+}
+
+fn certify_part(plan: &Plan, shard: Shard) -> Certificate {
+    plan.check().unwrap();
+    let finished = run(Progress::new(plan, shard), Duration::from_secs(3600), &|_| {}, &|_| {});
+    let mut certificate = Certificate::new(finished, 1);
+    // What is left is the same in every run.
+    certificate.timing = Timing::default();
+    certificate
+}
+
+fn certify(plan: &Plan) -> Certificate {
+    certify_part(plan, Shard::WHOLE)
+}
+
+/// All cases agree, and there are as many as the arithmetic of the caller says.
+fn check(plan: &Plan, cases: u64) -> Certificate {
+    let certificate = certify(plan);
+    assert!(certificate.proved, "{}", certificate.to_json());
+    assert_eq!((certificate.done.cases, certificate.expected.cases), (cases, cases));
+    certificate
+}
+
+#[test]
+fn exhaust_triangles_agree_at_one_and_two_bits() {
+    // 9^2 choose 3 and 17^2 choose 3; the oracle's own code judges every one.
+    let certificate = check(&Plan::Triangles(triangles(1)), 85_320);
+    assert_eq!(certificate.done.oracle_checks, 85_320);
+    assert_eq!(certificate.done.comparisons, 2 * 85_320);
+    let certificate = check(&Plan::Triangles(triangles(2)), 3_981_264);
+    assert_eq!(certificate.done.oracle_checks, 3_981_264);
+}
+
+#[test]
+fn exhaust_triangles_agree_in_all_orders_and_elsewhere() {
+    let all_orders = triangles::Triangles { all_orders: true, ..triangles(1) };
+    let certificate = check(&Plan::Triangles(all_orders), 85_320);
+    assert_eq!(certificate.done.comparisons, 12 * 85_320);
+    for offset_px in [[2048, -2048], [-16_384, 16_384], [1 << 22, -(1 << 22)]] {
+        check(&Plan::Triangles(triangles::Triangles { offset_px, ..triangles(1) }), 85_320);
+    }
+    // 2 px at 3 bits is the lattice of 4 px at 2 bits, twice as fine: 17^2 choose 3 again. Of it,
+    // 9^2 choose 3 lie on the sublattice that the oracle's code judges too.
+    let small = triangles::Triangles { window_px: 2, ..triangles(3) };
+    let certificate = check(&Plan::Triangles(small), 3_981_264);
+    assert_eq!(certificate.done.oracle_checks, 85_320);
+}
+
+#[test]
+fn exhaust_lines_agree() {
+    let certificate = check(&Plan::Lines(lines(128)), 257 * 257);
+    assert_eq!(certificate.done.oracle_checks, 129 * 129);
+    assert_eq!(certificate.done.comparisons, 13 * 257 * 257);
+    let octant = lines::Lines { first_octant: true, ..lines(256) };
+    check(&Plan::Lines(octant), 257 * 258 / 2);
+    check(&Plan::Lines(lines::Lines { offset_px: [-16_384, 2048], ..lines(16) }), 33 * 33);
+    check(&Plan::Lines(lines(1)), 9);
+}
+
+#[test]
+fn exhaust_edges_agree() {
+    // Counted by brute force: pairs of different points, by their undirected edge, up to shifts.
+    for bits in [0, 1, 2] {
+        let side = 1i32 << bits;
+        let points: Vec<_> =
+            (0..=4 * side).flat_map(|y| (0..=4 * side).map(move |x| (x, y))).collect();
+        let mut seen = std::collections::HashSet::new();
+        let mut all = 0;
+        for (i, a) in points.iter().enumerate() {
+            for b in &points[i + 1..] {
+                let shift = (a.0.min(b.0).div_euclid(side), a.1.min(b.1).div_euclid(side));
+                let moved = |p: &(i32, i32)| (p.0 - shift.0 * side, p.1 - shift.1 * side);
+                seen.insert((moved(a), moved(b)));
+                all += 1;
+            }
+        }
+        check(&Plan::Edges(edges(bits)), seen.len() as u64);
+        check(&Plan::Edges(edges::Edges { every_position: true, ..edges(bits) }), all);
+    }
+    assert!(certify(&Plan::Edges(edges(4))).proved);
+    let far = edges::Edges { offset_px: [16_384, -2048], every_position: true, ..edges(3) };
+    assert!(certify(&Plan::Edges(far)).proved);
+}
+
+/// At 8 bits the enumeration has the size that the lemma is about.
+#[test]
+fn exhaust_edges_expect_the_full_count() {
+    // min and max of x: 256 * 1024 - 255 * 256 / 2 pairs; left to right, right to left, or equal.
+    let pairs = 229_504;
+    let expected = pairs * (2 * pairs + 256) + 256 * pairs;
+    assert_eq!(Plan::Edges(edges(8)).enumeration().expected_cases(), expected);
+    assert_eq!(expected, 105_461_678_080);
+}
+
+#[test]
+fn exhaust_finds_planted_faults() {
+    let found = |plan: Plan| {
+        let certificate = certify(&plan);
+        assert!(!certificate.proved && !certificate.agrees(), "{}", certificate.claim);
+        assert!(!certificate.done.examples.is_empty());
+    };
+    for name in [
+        "inclusive-edges",
+        "exclusive-edges",
+        "bottom-right-rule",
+        "left-only-rule",
+        "sample-off-by-one-subpixel",
+        "drops-first-row",
+        "culls-one-winding",
+        "panics-on-flat-bottom",
+        "leaves-window",
+    ] {
+        let plant = Some(name.to_owned());
+        found(Plan::Triangles(triangles::Triangles { plant, ..triangles(1) }));
+    }
+    for name in ["line-directed-ties", "line-misses-end", "line-truncates", "line-draws-backwards"]
+    {
+        found(Plan::Lines(lines::Lines { plant: Some(name.to_owned()), ..lines(16) }));
+    }
+    let plant = Some(edges::PLANT.to_owned());
+    found(Plan::Edges(edges::Edges { plant, ..edges(1) }));
+}
+
+/// Two hits are not one, and a pixel outside the window is not nothing.
+#[test]
+fn exhaust_wraps_in_i32_only_far_away() {
+    let plant = Some("wraps-in-i32".to_owned());
+    let near = triangles::Triangles { plant, ..triangles(1) };
+    // The fault of 32-bit products does not show in so small a window: the proof is about what it
+    // enumerates, and the families of `verify` are there for the rest.
+    check(&Plan::Triangles(near), 85_320);
+}
+
+#[test]
+fn exhaust_refuses_what_it_cannot_do() {
+    for plan in [
+        Plan::Triangles(triangles(5)),
+        Plan::Triangles(triangles::Triangles { window_px: 5, ..triangles(1) }),
+        Plan::Triangles(triangles::Triangles { window_px: 0, ..triangles(1) }),
+        Plan::Triangles(triangles::Triangles { offset_px: [i32::MIN, 0], ..triangles(1) }),
+        Plan::Triangles(triangles::Triangles { plant: Some("x".to_owned()), ..triangles(1) }),
+        Plan::Edges(edges(9)),
+        Plan::Lines(lines(0)),
+        Plan::Lines(lines(1 << 14)),
+    ] {
+        assert!(plan.check().is_err(), "{plan:?}");
+    }
+}
+
+fn samples() -> [Plan; 4] {
+    let plant = Some("inclusive-edges".to_owned());
+    [
+        Plan::Triangles(triangles(1)),
+        Plan::Triangles(triangles::Triangles { plant, ..triangles(1) }),
+        Plan::Lines(lines(24)),
+        Plan::Edges(edges(3)),
+    ]
+}
+
+#[test]
+fn exhaust_resumes_to_the_same_certificate() {
+    for plan in samples() {
+        let whole = certify(&plan);
+        // Keep the states of a run that saves after each chunk.
+        let states = Mutex::new(Vec::new());
+        let keep = |progress: &Progress| states.lock().unwrap().push(progress.clone());
+        run(Progress::new(&plan, Shard::WHOLE), Duration::ZERO, &keep, &|_| {});
+        let states = states.into_inner().unwrap();
+        assert!(states.len() > 16, "{} states", states.len());
+        for state in states.into_iter().step_by(7) {
+            let text = serde_json::to_string(&state).unwrap();
+            let resumed: Progress = serde_json::from_str(&text).unwrap();
+            assert!(resumed.belongs_to(&plan, Shard::WHOLE));
+            let left = Mutex::new(0);
+            let step = |cases| *left.lock().unwrap() += cases;
+            let before = resumed.tally.cases;
+            let finished = run(resumed, Duration::from_secs(3600), &|_| {}, &step);
+            let mut certificate = Certificate::new(finished, 1);
+            certificate.timing = Timing::default();
+            assert_eq!(certificate, whole);
+            // It continued instead of beginning anew.
+            assert_eq!(before + left.into_inner().unwrap(), whole.done.cases);
+        }
+    }
+}
+
+#[test]
+fn exhaust_does_not_depend_on_the_number_of_threads() {
+    for plan in samples() {
+        let with = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| certify(&plan).to_json())
+        };
+        assert_eq!(with(1), with(3));
+    }
+}
+
+fn shards(plan: &Plan, parts: u64) -> Vec<(String, Certificate)> {
+    (0..parts)
+        .map(|part| (format!("{part}.json"), certify_part(plan, Shard { part, parts })))
+        .collect()
+}
+
+#[test]
+fn exhaust_shards_merge_into_the_whole() {
+    for plan in samples() {
+        let whole = certify(&plan);
+        for parts in [1, 2, 5] {
+            let mut shards = shards(&plan, parts);
+            assert!(parts == 1 || shards.iter().all(|(_, shard)| !shard.proved));
+            shards.reverse();
+            assert_eq!(merge(&shards).unwrap(), whole, "{parts} parts");
+        }
+    }
+}
+
+#[test]
+fn exhaust_merge_refuses_what_does_not_fit() {
+    let refused = |shards: &[(String, Certificate)], why: &str| {
+        let message = merge(shards).unwrap_err();
+        assert!(message.contains(why), "{message}");
+    };
+    let good = shards(&Plan::Triangles(triangles(1)), 3);
+    refused(&[], "no certificates");
+    refused(&good[..2], "missing: 2");
+    refused(&[&good[..], &good[1..2]].concat(), "1.json and 1.json are both shard 1 of 3");
+    let with = |change: &dyn Fn(&mut Certificate)| {
+        let mut bad = good.clone();
+        change(&mut bad[2].1);
+        bad
+    };
+    let other = shards(&Plan::Triangles(triangles(0)), 3);
+    refused(&with(&|c| *c = other[2].1.clone()), "what they enumerate");
+    refused(&with(&|c| c.identity.version = "0.0.0".to_owned()), "the version");
+    refused(
+        &with(&|c| {
+            c.identity.sources.insert("src/grid.rs".to_owned(), String::new());
+        }),
+        "the code that was run",
+    );
+    refused(&with(&|c| c.shard.parts = 4), "the number of shards");
+    refused(&with(&|c| c.done.cases -= 1), "85319 cases together, expected 85320");
+    assert!(merge(&good).unwrap().proved);
+}
+
+/// A folder of its own for each test, under the build's temporary folder.
+fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("exhaust-{name}"));
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+fn command(folder: &Path, words: &str) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_rasterproof"))
+        .args(words.split(' '))
+        .current_dir(folder)
+        .output()
+        .unwrap()
+}
+
+fn status(folder: &Path, words: &str) -> (Option<i32>, String) {
+    let output = command(folder, words);
+    (output.status.code(), String::from_utf8(output.stderr).unwrap())
+}
+
+#[test]
+fn exhaust_command_certifies_shards_and_merges() {
+    let folder = folder("merge");
+    let bits = "exhaust triangles --subpixel-bits 1";
+    assert_eq!(status(&folder, &format!("{bits} -o whole.json")).0, Some(0));
+    for part in 0..3 {
+        let words = format!("{bits} --shard {part}/3 -o {part}.json");
+        assert_eq!(status(&folder, &words).0, Some(0));
+    }
+    assert_eq!(status(&folder, "merge 2.json 0.json 1.json -o merged.json").0, Some(0));
+    let read = |name: &str| {
+        let text = std::fs::read_to_string(folder.join(name)).unwrap();
+        let mut certificate = Certificate::from_json(&text).unwrap();
+        certificate.timing = Timing::default();
+        certificate
+    };
+    assert_eq!(read("merged.json"), read("whole.json"));
+    assert!(read("whole.json").proved);
+    let (code, errors) = status(&folder, "merge 0.json 2.json");
+    assert_eq!(code, Some(2), "{errors}");
+    assert!(errors.contains("missing: 1"), "{errors}");
+    assert_eq!(status(&folder, "merge 0.json nothing.json").0, Some(2));
+    std::fs::write(folder.join("broken.json"), "{}").unwrap();
+    assert_eq!(status(&folder, "merge broken.json").0, Some(2));
+    // No checkpoint is left behind by runs that have ended.
+    assert_eq!(std::fs::read_dir(folder.join("target/rasterproof")).unwrap().count(), 0);
+}
+
+#[test]
+fn exhaust_command_exits_by_what_it_finds() {
+    let folder = folder("exit");
+    let fails = [
+        "exhaust triangles --subpixel-bits 1 --plant inclusive-edges -o t.json",
+        "exhaust lines --reach 16 --plant line-directed-ties -o l.json",
+        "exhaust edges --subpixel-bits 1 --plant sample-off-by-one-subpixel -o e.json",
+    ];
+    for words in fails {
+        let (code, errors) = status(&folder, words);
+        assert_eq!(code, Some(1), "{words}: {errors}");
+        assert!(errors.contains("wrong: ") && errors.contains("DISAGREES: "), "{errors}");
+    }
+    let bad = [
+        "exhaust triangles --subpixel-bits 9",
+        "exhaust lines --reach 0",
+        "exhaust lines --shard 3/3",
+        "exhaust lines --plant inclusive-edges",
+        "exhaust edges --offset-px 7",
+        "exhaust",
+    ];
+    for words in bad {
+        assert_eq!(status(&folder, words).0, Some(2), "{words}");
+    }
+    let moved = "exhaust edges --subpixel-bits 1 --offset-px -2048,16384";
+    assert_eq!(status(&folder, moved).0, Some(0));
+}
+
+#[test]
+fn exhaust_command_resumes_its_own_checkpoint_alone() {
+    let folder = folder("resume");
+    let plan = Plan::Triangles(triangles(1));
+    // A state in which half of the chunks are done and something was wrong, which no honest run
+    // finds: if the end says so, the state was taken over.
+    let mut half = Progress::new(&plan, Shard::WHOLE);
+    run(half.clone(), Duration::ZERO, &|_| {}, &|_| {});
+    half.tally.mismatches = 7;
+    half.done = vec![[0, 81]];
+    half.tally.cases = 85_320;
+    std::fs::write(folder.join("c.json"), serde_json::to_string(&half).unwrap()).unwrap();
+    let words = "exhaust triangles --subpixel-bits 1 --checkpoint c.json -o o.json";
+    let (code, errors) = status(&folder, words);
+    assert_eq!(code, Some(1), "{errors}");
+    assert!(errors.contains("7 wrong"), "{errors}");
+    assert!(!folder.join("c.json").exists(), "removed at the end");
+
+    // Of another run, of other code, damaged or not a checkpoint at all: refused unless --restart.
+    let mut other_code = half.clone();
+    other_code.identity.sources.clear();
+    let mut damaged = half.clone();
+    damaged.done = vec![[0, 82]];
+    let other_plan = Progress::new(&Plan::Lines(lines(4)), Shard::WHOLE);
+    let other_part = Progress::new(&plan, Shard { part: 0, parts: 2 });
+    let states = [other_code, damaged, other_plan, other_part];
+    let texts = states.map(|state| serde_json::to_string(&state).unwrap());
+    for text in texts.iter().map(String::as_str).chain([""]) {
+        std::fs::write(folder.join("c.json"), text).unwrap();
+        let (code, errors) = status(&folder, words);
+        assert_eq!(code, Some(2), "{errors}");
+        assert!(errors.contains("--restart"), "{errors}");
+        assert_eq!(status(&folder, &format!("{words} --restart")).0, Some(0));
+    }
+}
+
+/// A killed run goes on where it was.
+#[test]
+fn exhaust_command_survives_a_kill() {
+    let folder = folder("kill");
+    let words = "exhaust triangles --subpixel-bits 3 --shard 0/8 --checkpoint c.json -o o.json";
+    let mut child = Command::new(env!("CARGO_BIN_EXE_rasterproof"))
+        .args(words.split(' '))
+        .current_dir(&folder)
+        .spawn()
+        .unwrap();
+    // The first state is written at the start, the next after some seconds.
+    let is_under_way = || {
+        let text = std::fs::read_to_string(folder.join("c.json")).unwrap_or_default();
+        let state: Option<Progress> = serde_json::from_str(&text).ok();
+        state.is_some_and(|state| !state.done.is_empty())
+    };
+    let mut finished = false;
+    while !is_under_way() && !finished {
+        std::thread::sleep(Duration::from_millis(20));
+        finished = child.try_wait().unwrap().is_some();
+    }
+    let _ = child.kill();
+    let _ = child.wait();
+    assert_eq!(status(&folder, words).0, Some(0));
+    let text = std::fs::read_to_string(folder.join("o.json")).unwrap();
+    let certificate = Certificate::from_json(&text).unwrap();
+    assert!(certificate.agrees());
+    let chunks = (0..1089u64).step_by(8).map(|i| 1088 - i);
+    let cases: u64 = chunks.map(|left| left * left.saturating_sub(1) / 2).sum();
+    assert_eq!(certificate.done.cases, cases);
+}
+
+/// The certificates in the docs are proofs about this code, and say what the program would say.
+#[test]
+fn exhaust_certificates_in_the_docs_are_of_this_code() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/certificates");
+    let mut count = 0;
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        let text = std::fs::read_to_string(&path).unwrap();
+        let certificate = Certificate::from_json(&text).unwrap();
+        let name = path.display();
+        assert!(certificate.proved && certificate.agrees() && certificate.is_complete(), "{name}");
+        let plan = &certificate.identity.plan;
+        let finished =
+            Progress { tally: certificate.done.clone(), ..Progress::new(plan, Shard::WHOLE) };
+        let mut expected = Certificate::new(finished, 0);
+        expected.timing = certificate.timing.clone();
+        assert_eq!(
+            certificate, expected,
+            "{name} is about other code; renew it: {} -o {name}",
+            certificate.repeat
+        );
+        count += 1;
+    }
+    assert!(count > 0, "no certificates");
+}

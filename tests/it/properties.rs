@@ -1,0 +1,168 @@
+//! Every invariant as a property: small whole numbers are mapped to geometry, so that a failure
+//! shrinks to a triangle that can be read.
+//!
+//! Under `CI` the seed is fixed; elsewhere each run looks at other inputs. `PROPTEST_CASES` decides
+//! how many.
+
+use glam::DVec2;
+use proptest::prelude::*;
+use proptest::test_runner::{Config, RngAlgorithm, TestError, TestRng, TestRunner};
+use rasterproof::grid::{PixelRect, SubpixelPoint};
+use rasterproof::hazard::Triangle;
+use rasterproof::invariant::source::{Fan, Input, LineInput, Position, Quad, TriangleInput};
+use rasterproof::invariant::subject::Subject;
+use rasterproof::invariant::{self, CATALOGUE, Check, Invariant};
+use rasterproof::triangle::{LineEnd, PixelPoint, ScreenLine, ScreenTriangle, ScreenVertex};
+
+/// Side of the window of triangles, in pixels.
+const SIDE_PX: u32 = 16;
+
+/// A coordinate: a pixel, and in it mostly the centre or the border, else any subpixel.
+fn coordinate() -> impl Strategy<Value = i32> {
+    let part = prop_oneof![3 => Just(128), 1 => Just(0), 2 => 0..256];
+    (-4..20i32, part).prop_map(|(px, part)| px * 256 + part)
+}
+
+fn point() -> impl Strategy<Value = SubpixelPoint> {
+    (coordinate(), coordinate()).prop_map(|(x, y)| SubpixelPoint::new(x, y))
+}
+
+/// Depths and values in eighths, w from 1 to 64: numbers with few digits.
+fn vertex() -> impl Strategy<Value = ScreenVertex<DVec2>> {
+    (point(), 0..=8i32, 1..=64i32, -40..=40i32, -40..=40i32).prop_map(
+        |(position, depth, w, a, b)| {
+            let eighth = |n: i32| f64::from(n) / 8.0;
+            ScreenVertex {
+                position,
+                depth: eighth(depth),
+                inv_w: 1.0 / f64::from(w),
+                varying: DVec2::new(eighth(a), eighth(b)),
+            }
+        },
+    )
+}
+
+fn triangle() -> impl Strategy<Value = Triangle> {
+    (vertex(), vertex(), vertex()).prop_map(|(a, b, c)| ScreenTriangle { vertices: [a, b, c] })
+}
+
+fn line() -> impl Strategy<Value = Input> {
+    let pixel = || (-12..40i32, -12..40i32).prop_map(|(x, y)| PixelPoint::new(x, y));
+    (pixel(), pixel()).prop_map(|(a, b)| {
+        let end = |pixel, value: f64| LineEnd { pixel, depth: value, varying: DVec2::splat(value) };
+        let line = ScreenLine { ends: [end(a, 0.0), end(b, 1.0)] };
+        Input::Line(LineInput { line, window: PixelRect::window(24, 24) })
+    })
+}
+
+/// The inputs of a check, or nothing where it takes no generated input.
+fn inputs(check: &Check) -> Option<BoxedStrategy<Input>> {
+    let window = PixelRect::window(SIDE_PX, SIDE_PX);
+    Some(match check {
+        Check::Triangle(_) => (triangle(), any::<u32>())
+            .prop_map(move |(triangle, salt)| {
+                Input::Triangle(TriangleInput { triangle, window, salt })
+            })
+            .boxed(),
+        Check::Quad(_) => {
+            let size = || prop_oneof![(0..11u16).prop_map(|px| px * 256 + 128), 0..2800u16];
+            let part = || prop_oneof![Just(0), Just(255), any::<u8>()];
+            ([size(), size(), size(), size()], [part(), part(), part(), part()])
+                .prop_map(|(sides, along)| Input::Quad(Quad::inscribed(sides, along)))
+                .boxed()
+        }
+        Check::Fan(_) => {
+            let reach = prop_oneof![(1..6u16).prop_map(|half| half * 128), 1..800u16];
+            (point(), proptest::array::uniform16(reach), 1..3usize, point())
+                .prop_map(|(centre, reach, every, apex)| {
+                    Input::Fan(Fan::new(centre, reach, every, apex))
+                })
+                .boxed()
+        }
+        Check::Line(_) => line().boxed(),
+        Check::Position(_) => {
+            let part = prop_oneof![Just(2048), 0..4096u16];
+            (-100_000..100_000i32, part, -800..800i32)
+                .prop_map(|(sub, part, shift)| Input::Position(Position::new(sub, part, shift)))
+                .boxed()
+        }
+        Check::Run(..) | Check::Matrix | Check::NotYet(_) => return None,
+    })
+}
+
+fn runner() -> TestRunner {
+    // Failures become named cases, not files beside the tests.
+    let config = Config { failure_persistence: None, ..Config::default() };
+    if std::env::var_os("CI").is_some() {
+        TestRunner::new_with_rng(config, TestRng::from_seed(RngAlgorithm::ChaCha, &[7; 32]))
+    } else {
+        TestRunner::new(config)
+    }
+}
+
+fn check(invariant: &Invariant) {
+    let subject = Subject::real();
+    let Some(strategy) = inputs(&invariant.check) else {
+        // The harness itself: few cases, as generated.
+        let report = invariant.run(&subject, 1, 1);
+        assert!(report.failure.is_none(), "{}: {:?}", invariant.name, report.failure);
+        return;
+    };
+    let result = runner().run(&strategy, |input| {
+        let outcome = invariant.judge(&subject, &input);
+        outcome.map(|_| ()).map_err(TestCaseError::fail)
+    });
+    match result {
+        Ok(()) => {}
+        Err(TestError::Fail(why, input)) => {
+            panic!("{}: {why}\nsmallest found: {input}", invariant.name)
+        }
+        Err(TestError::Abort(why)) => panic!("{}: gave up: {why}", invariant.name),
+    }
+}
+
+/// A test for each invariant that applies, under its name.
+macro_rules! properties {
+    ($($test:ident)*) => {
+        $(#[test]
+        fn $test() {
+            let name = stringify!($test).replace('_', "-");
+            check(invariant::find(&name).expect("a name of the catalogue"));
+        })*
+
+        #[test]
+        fn every_invariant_has_a_test() {
+            let tests = [$(stringify!($test)),*].map(|test| test.replace('_', "-"));
+            // 42 is the matrix, which has a test and a snapshot of its own.
+            let wanted = CATALOGUE.iter().filter(|i| i.applies() && i.number != 42);
+            assert_eq!(wanted.map(|i| i.name).collect::<Vec<_>>(), tests);
+        }
+    };
+}
+
+properties! {
+    engines_agree oracle_sign vertex_order translation conjugate_rules quad_split closed_fan
+    signed_hit_count contiguous_rows inside_the_box nesting zero_area windings crop
+    identifies_the_rule edge_lemma edge_bound snapping area supersampling
+    edges_sum weights_sum perspective_values hull constant_attribute equal_w scaled_w
+    rotated_vertices shared_edge flat_depth finite
+    nearest_pixel one_per_step reversal octants clipped_line listed_differences
+    quotas replay
+}
+
+/// The same strategies find a planted fault, and the failure shrinks to small numbers.
+#[test]
+fn a_planted_fault_shrinks() {
+    let mutant = rasterproof::mutant::Mutant::find("exclusive-edges").expect("a mutant");
+    let subject = Subject::with(mutant);
+    let invariant = invariant::find("engines-agree").expect("an invariant");
+    let strategy = inputs(&invariant.check).expect("triangles");
+    let result = runner().run(&strategy, |input| {
+        invariant.judge(&subject, &input).map(|_| ()).map_err(TestCaseError::fail)
+    });
+    let Err(TestError::Fail(_, Input::Triangle(input))) = result else {
+        panic!("the fault was not found: {result:?}");
+    };
+    let digits = |v: i32| v % 128 == 0;
+    assert!(input.triangle.corners().iter().filter(|p| digits(p.x) && digits(p.y)).count() >= 2);
+}
