@@ -155,3 +155,51 @@ fn fill_span<V: Varying>(
         from_right -= right_step;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn vertex(x: i32, y: i32, inv_w: f64) -> ScreenVertex<f64> {
+        let position = SubpixelPoint::new(x, y);
+        ScreenVertex { position, depth: f64::from(x), inv_w, varying: f64::from(y) }
+    }
+
+    /// Every triangle with corners on a 7 x 7 lattice of 96 subpixels, ties and slivers among them,
+    /// and a w ratio of 1000: the assertions in `RowEnd::new` and `fill_span`, which say that a clamp
+    /// of the book would act, stay silent, and no value leaves the hull by more than rounding.
+    #[test]
+    fn the_books_clamps_never_act() {
+        assert!(cfg!(debug_assertions), "the test shows nothing without the assertions");
+        let points: Vec<_> = (0..49).map(|i| (i % 7 * 96 - 160, i / 7 * 96 - 160)).collect();
+        // u (14 D + 2 M), derived in `verify::tolerance`, with D = 576 and M = 416.
+        let rounding = f64::EPSILON / 2.0 * (14.0 * 576.0 + 2.0 * 416.0);
+        let mut fragments = 0;
+        for (i, a) in points.iter().enumerate() {
+            for (j, b) in points.iter().enumerate().skip(i + 1) {
+                for c in &points[j + 1..] {
+                    let vertices =
+                        [vertex(a.0, a.1, 1.0), vertex(b.0, b.1, 1e-3), vertex(c.0, c.1, 0.5)];
+                    let window = PixelRect { x0: -2, y0: -2, x1: 3, y1: 3 };
+                    Scanline.fragments(&ScreenTriangle { vertices }, window, |f| {
+                        fragments += 1;
+                        let hull = -160.0 - rounding..=416.0 + rounding;
+                        assert!(
+                            hull.contains(&f.varying) && hull.contains(&f.depth),
+                            "{vertices:?}"
+                        );
+                    });
+                }
+            }
+        }
+        assert!(fragments > 10_000, "{fragments}");
+    }
+
+    /// The assertion can fail: a row above the edge would need t < 0, as the book's t does.
+    #[test]
+    #[should_panic(expected = "a clamp would act")]
+    fn a_row_outside_the_edge_is_noticed() {
+        let end = |y| EdgeEnd { vertex: vertex(0, y, 1.0), q: 1.0 };
+        RowEnd::new(&end(512), &end(1024), 1);
+    }
+}
