@@ -230,20 +230,8 @@ fn find(arguments: &InspectArguments) -> Result<Found, Failure> {
 
 /// An error for a name that is not there, with the nearest one that is.
 fn unknown(kind: &str, word: &str, names: impl Iterator<Item = &'static str>) -> Failure {
-    let distance = |a: &str, b: &str| {
-        // Levenshtein's edit distance, one row at a time.
-        let mut row: Vec<usize> = (0..=b.len()).collect();
-        for (i, x) in a.bytes().enumerate() {
-            let mut diagonal = row[0];
-            row[0] = i + 1;
-            for (j, y) in b.bytes().enumerate() {
-                let substitute = diagonal + usize::from(!x.eq_ignore_ascii_case(&y));
-                diagonal = row[j + 1];
-                row[j + 1] = substitute.min(row[j] + 1).min(diagonal + 1);
-            }
-        }
-        row[b.len()]
-    };
+    let distance =
+        |a: &str, b: &str| strsim::levenshtein(&a.to_ascii_lowercase(), &b.to_ascii_lowercase());
     let nearest = names.map(|name| (distance(word, name), name)).min();
     let hint = match nearest {
         Some((steps, name)) if steps * 2 <= name.len().max(word.len()) => {

@@ -369,24 +369,10 @@ fn shrink_failures<R: RasterizeExact>(
     failures
 }
 
-const MOST_TRIALS: u32 = 3000;
-
 /// The smallest case reached from `case` that still fails: fewer triangles, then fewer bits in all
-/// coordinates, then nearer to the origin. Greedy, with a bounded number of trials.
+/// coordinates, then nearer to the origin.
 fn shrink(case: OffGridCase, fails: impl Fn(&OffGridCase) -> bool) -> OffGridCase {
-    let mut smallest = case;
-    let mut trials = 0;
-    loop {
-        let size = size(&smallest);
-        let better = candidates(&smallest).into_iter().find(|candidate| {
-            trials += 1;
-            trials <= MOST_TRIALS && self::size(candidate) < size && fails(candidate)
-        });
-        match better {
-            Some(better) => smallest = better,
-            None => return smallest,
-        }
-    }
+    super::shrink::greedy(case, size, candidates, fails)
 }
 
 /// Triangles, bits that are set in mantissas, then distance from the origin.

@@ -9,21 +9,32 @@ use crate::triangle::PixelPoint;
 
 const MOST_TRIALS: u32 = 3000;
 
-/// The smallest case reached from `case` for which `fails` holds; `case` itself fails.
-pub fn shrink(case: Case, fails: impl Fn(&Case) -> bool) -> Case {
+/// The smallest case reached from `case`, which fails, through `candidates` that are smaller and
+/// fail too; at most [`MOST_TRIALS`] are looked at.
+pub(super) fn greedy<C, S: PartialOrd>(
+    case: C,
+    size: impl Fn(&C) -> S,
+    candidates: impl Fn(&C) -> Vec<C>,
+    fails: impl Fn(&C) -> bool,
+) -> C {
     let mut smallest = case;
     let mut trials = 0;
     loop {
-        let size = size(&smallest);
+        let current = size(&smallest);
         let better = candidates(&smallest).into_iter().find(|candidate| {
             trials += 1;
-            trials <= MOST_TRIALS && self::size(candidate) < size && fails(candidate)
+            trials <= MOST_TRIALS && size(candidate) < current && fails(candidate)
         });
         match better {
             Some(better) => smallest = better,
-            None => break,
+            None => return smallest,
         }
     }
+}
+
+/// The smallest case reached from `case` for which `fails` holds; `case` itself fails.
+pub fn shrink(case: Case, fails: impl Fn(&Case) -> bool) -> Case {
+    let smallest = greedy(case, size, candidates, &fails);
     // Show all of it, where it fails in the larger window too.
     match around(&smallest).filter(|whole| fails(whole)) {
         Some(whole) => whole,
