@@ -10,7 +10,9 @@
 use std::ops::AddAssign;
 
 use crate::grid::PixelRect;
-use crate::triangle::{Corners, Fragment, FreeCorners, ScreenLine, ScreenTriangle, Span, Varying};
+use crate::triangle::{
+    Corners, Fragment, FreeCorners, ScreenLine, ScreenTriangle, ScreenVertex, Span, Varying,
+};
 
 /// Decides which pixels of a window a triangle covers.
 pub trait Rasterize {
@@ -66,6 +68,20 @@ pub trait Interpolate: Rasterize {
         bounds: PixelRect,
         emit: impl FnMut(Fragment<V>),
     );
+
+    /// As [`Interpolate::fragments`] of the same triangle with three equal w, bit for bit: values
+    /// linear in the window. The w of the vertices are not looked at.
+    ///
+    /// An engine may leave out the division by 1/w here, where that changes no bit.
+    fn affine_fragments<V: Varying>(
+        &self,
+        triangle: &ScreenTriangle<V>,
+        bounds: PixelRect,
+        emit: impl FnMut(Fragment<V>),
+    ) {
+        let vertices = triangle.vertices.map(|vertex| ScreenVertex { inv_w: 1.0, ..vertex });
+        self.fragments(&ScreenTriangle { vertices }, bounds, emit);
+    }
 }
 
 /// Decides which pixels of a window a line segment lights, and its values there.

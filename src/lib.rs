@@ -35,6 +35,7 @@
 
 pub mod cli;
 pub mod contract;
+pub mod effects;
 pub mod exhaust;
 pub mod frame;
 pub mod grid;
@@ -44,8 +45,10 @@ pub mod line;
 pub mod lineup;
 pub mod mutant;
 pub mod oracle;
+pub mod pipeline;
 pub mod raster;
 pub mod report;
+pub mod scene;
 pub mod specimen;
 pub mod triangle;
 pub mod verify;

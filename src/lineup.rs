@@ -4,14 +4,19 @@
 use glam::DVec2;
 
 use crate::contract::{Decisions, DrawLine, Interpolate, Rasterize, RasterizeExact};
+use crate::effects::Effects;
+use crate::effects::render::{self, BadScene, Rendered};
+use crate::frame::Frame;
 use crate::grid::PixelRect;
 use crate::line::{bresenham::Bresenham, dda::Dda};
 use crate::mutant::{LineMutant, TriangleMutant, exact::ExactMutant};
 use crate::oracle::Oracle;
+use crate::pipeline::target::Target;
 use crate::raster::{
     edge_function::EdgeFunction, edge_function_exact::EdgeFunctionExact, scanline::Scanline,
     scanline_exact::ScanlineExact,
 };
+use crate::scene::Scene;
 use crate::specimen::book_affine::BookAffine;
 use crate::specimen::book_dda::BookDda;
 use crate::specimen::book_depth::BookDepth;
@@ -79,6 +84,20 @@ impl Interpolate for Engine {
             Self::Mutant(mutant) => mutant.fragments(triangle, bounds, emit),
         }
     }
+
+    fn affine_fragments<V: Varying>(
+        &self,
+        triangle: &ScreenTriangle<V>,
+        bounds: PixelRect,
+        emit: impl FnMut(Fragment<V>),
+    ) {
+        match self {
+            Self::Scanline => Scanline.affine_fragments(triangle, bounds, emit),
+            Self::EdgeFunction => EdgeFunction.affine_fragments(triangle, bounds, emit),
+            Self::Oracle => Oracle.affine_fragments(triangle, bounds, emit),
+            Self::Mutant(mutant) => mutant.affine_fragments(triangle, bounds, emit),
+        }
+    }
 }
 
 /// A line drawer of the line-up.
@@ -122,6 +141,88 @@ impl DrawLine for LineEngine {
             Self::Bresenham => Bresenham.draw(line, bounds, emit),
             Self::Oracle => Oracle.draw(line, bounds, emit),
             Self::Mutant(mutant) => mutant.draw(line, bounds, emit),
+        }
+    }
+}
+
+/// What draws scenes: one of the judged rasterizers, with a line drawer for edges.
+///
+/// Each of the two is a call of its own, so that kernels are compiled for these two and not for
+/// every planted fault.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Drawer {
+    /// The scanline engine and the DDA.
+    Scanline,
+    /// The edge-function engine and Bresenham's algorithm.
+    EdgeFunction,
+}
+
+impl Drawer {
+    /// Both.
+    pub const ALL: [Self; 2] = [Self::Scanline, Self::EdgeFunction];
+
+    /// The rasterizer's name.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Scanline => Engine::Scanline.name(),
+            Self::EdgeFunction => Engine::EdgeFunction.name(),
+        }
+    }
+
+    /// The line drawer's name.
+    #[must_use]
+    pub fn line_name(self) -> &'static str {
+        match self {
+            Self::Scanline => LineEngine::Dda.name(),
+            Self::EdgeFunction => LineEngine::Bresenham.name(),
+        }
+    }
+
+    /// As [`crate::effects::render::render`].
+    ///
+    /// # Errors
+    /// As there.
+    pub fn render(
+        self,
+        scene: &Scene,
+        effects: &Effects,
+        target: &mut Target,
+    ) -> Result<Rendered, BadScene> {
+        match self {
+            Self::Scanline => render::render(scene, &Scanline, effects, target),
+            Self::EdgeFunction => render::render(scene, &EdgeFunction, effects, target),
+        }
+    }
+
+    /// As [`crate::effects::render::render_mapped`].
+    ///
+    /// # Errors
+    /// As there.
+    pub fn render_mapped(
+        self,
+        scene: &Scene,
+        effects: &Effects,
+        target: &mut Target,
+    ) -> Result<(Rendered, Frame<u16>), BadScene> {
+        match self {
+            Self::Scanline => render::render_mapped(scene, &Scanline, effects, target),
+            Self::EdgeFunction => render::render_mapped(scene, &EdgeFunction, effects, target),
+        }
+    }
+
+    /// As [`crate::effects::render::render_wireframe`].
+    ///
+    /// # Errors
+    /// As there.
+    pub fn render_wireframe(
+        self,
+        scene: &Scene,
+        target: &mut Target,
+    ) -> Result<Rendered, BadScene> {
+        match self {
+            Self::Scanline => render::render_wireframe(scene, &Dda, target),
+            Self::EdgeFunction => render::render_wireframe(scene, &Bresenham, target),
         }
     }
 }

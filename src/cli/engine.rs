@@ -14,6 +14,7 @@ use super::{Failure, Streams, exit, published};
 use crate::contract::{DrawLine, Interpolate, Rasterize, RasterizeExact};
 use crate::grid::{MAX_SIDE_PX, PixelRect, Refusal, SUBPIXELS, SubpixelPoint};
 use crate::lineup::{self, Engine, Entry, ExactEngine, LineEngine};
+use crate::pipeline::multisample;
 use crate::triangle::{
     FreeCorners, LineEnd, PixelPoint, ScreenLine, ScreenTriangle, ScreenVertex, check_position,
     check_value,
@@ -24,6 +25,7 @@ pub const HELP: &str = "Requests and answers, one a line (numbers decimal or C99
   T id width height x0 y0 x1 y1 x2 y2        C id n  y x0 x1 ...      runs of covered pixels
   L id width height x0 y0 x1 y1              P id n  x y ...          pixels in drawing order
   I id width height (x y z w a b) x 3        F id n  x y z a b ...    fragments with values
+  S id width height x0 y0 x1 y1 x2 y2        M id n  y x0 x1 mask ... samples covered, of four
 Anything else is answered E id reason. Positions are snapped to 1/256 px, except by the engines whose
 names end in -exact; those answer T only. Example:
   echo 'T 1 8 8 0.5 0.5 5.5 0.5 5.5 5.5' | rasterproof engine scanline";
@@ -111,7 +113,7 @@ fn answer(entry: &'static Entry, text: &str, out: &mut dyn Write) -> Result<(), 
         "I" => 18,
         _ => {
             return Err(refused(format!(
-                "unknown request '{}'; expected HELLO, T, L, I",
+                "unknown request '{}'; expected HELLO, T, L, I, S",
                 printable(verb)
             )));
         }
@@ -120,6 +122,7 @@ fn answer(entry: &'static Entry, text: &str, out: &mut dyn Write) -> Result<(), 
         ("T", Some(engine), _, _) => Speaker::Cover(engine),
         ("T", _, _, Some(engine)) => Speaker::CoverExact(engine),
         ("I", Some(engine), _, _) => Speaker::Values(engine),
+        ("S", Some(engine), _, _) => Speaker::Samples(engine),
         ("L", _, Some(engine), _) => Speaker::Line(engine),
         _ if published::speaks(entry, verb) => Speaker::Published(entry),
         _ => return Err(refused("unsupported".to_owned())),
@@ -141,6 +144,7 @@ fn answer(entry: &'static Entry, text: &str, out: &mut dyn Write) -> Result<(), 
     let reply = match engine {
         Speaker::Cover(engine) => cover(engine, window, &numbers),
         Speaker::CoverExact(engine) => cover_exact(engine, window, &numbers),
+        Speaker::Samples(engine) => samples(engine, window, &numbers),
         Speaker::Line(engine) => line(engine, window, &numbers),
         Speaker::Published(entry) => published::answer(entry, verb, window, &numbers),
         Speaker::Values(engine) => {
@@ -159,6 +163,7 @@ enum Speaker {
     Cover(Engine),
     CoverExact(ExactEngine),
     Values(Engine),
+    Samples(Engine),
     Line(LineEngine),
     Published(&'static Entry),
 }
@@ -169,7 +174,7 @@ fn hello(entry: &Entry, rest: &[&str], out: &mut dyn Write) -> Result<(), Stop> 
     }
     let mut capabilities = Vec::new();
     if entry.engine.is_some() {
-        capabilities.extend(["coverage", "attributes"]);
+        capabilities.extend(["coverage", "attributes", "samples4"]);
     }
     if entry.exact_engine.is_some() {
         capabilities.push("coverage");
@@ -235,6 +240,27 @@ fn cover(engine: Engine, window: PixelRect, numbers: &[f64]) -> Reply {
         let _ = write!(runs, " {} {} {}", span.y_px, span.x0_px, span.x1_px);
     });
     Ok(('C', n, runs))
+}
+
+/// Runs of pixels with the same samples covered.
+fn samples(engine: Engine, window: PixelRect, numbers: &[f64]) -> Reply {
+    let corners = [point(&numbers[0..], 0)?, point(&numbers[2..], 1)?, point(&numbers[4..], 2)?];
+    let masks = multisample::masks(&engine, corners, window).ok_or(
+        "a corner lies within half a pixel of the domain's end, where samples have no place",
+    )?;
+    let (mut runs, mut n) = (String::new(), 0);
+    for (y_px, row) in masks.rows() {
+        let mut x_px = window.x0;
+        for run in row.chunk_by(|a, b| a == b) {
+            let x1_px = x_px + run.len() as i32;
+            if run[0] != 0 {
+                n += 1;
+                let _ = write!(runs, " {y_px} {x_px} {x1_px} {}", run[0]);
+            }
+            x_px = x1_px;
+        }
+    }
+    Ok(('M', n, runs))
 }
 
 fn cover_exact(engine: ExactEngine, window: PixelRect, numbers: &[f64]) -> Reply {

@@ -5,6 +5,7 @@ mod exhaust;
 mod inspect;
 mod invariant;
 mod published;
+mod render;
 mod specimens;
 mod verify;
 
@@ -34,6 +35,7 @@ const EXAMPLES: &str = "Examples:
   rasterproof inspect 0.5,0.5 5.5,0.5 5.5,5.5     explain a triangle
   rasterproof inspect --line 0,0 8,3              explain a line
   rasterproof engine scanline < requests.txt      speak the line protocol
+  rasterproof render --scene cube                 a scene through the whole pipeline, by both
   rasterproof specimens                           the published algorithms and their faults
   rasterproof verify --invariant vertex-order     check one invariant; all checks every one
   rasterproof mutants                             which invariant kills which planted fault
@@ -67,6 +69,8 @@ enum Command {
     },
     /// Show the published algorithms, how often they fail, and a picture of each fault
     Specimens(specimens::SpecimensArguments),
+    /// Draw a scene of the book, or a model, by either rasterizer or by both
+    Render(Box<render::RenderArguments>),
     /// Show which invariant kills which planted fault
     Mutants,
     /// Judge every case of a finite set, and certify it
@@ -148,6 +152,7 @@ pub fn run(words: impl IntoIterator<Item = String>, streams: &mut Streams<'_>) -
         Some(Command::Inspect(arguments)) => inspect::run(arguments, streams),
         Some(Command::Engine { name }) => engine::run(name, streams),
         Some(Command::Specimens(arguments)) => specimens::run(arguments, streams),
+        Some(Command::Render(arguments)) => render::run(arguments, streams),
         Some(Command::Mutants) => invariant::mutants(streams),
         Some(Command::Exhaust(arguments)) => exhaust::run(arguments, streams),
         Some(Command::Merge(arguments)) => exhaust::merge(arguments, streams),
@@ -197,6 +202,11 @@ fn list(streams: &mut Streams<'_>) -> Result<u8, Failure> {
         writeln!(out, "  {:<19} {}", entry.name, entry.about)?;
     }
     invariant::list(streams)?;
+    let out = &mut streams.output;
+    writeln!(out, "\nScenes (rasterproof render --scene NAME):")?;
+    for entry in crate::scene::chapters::SCENES {
+        writeln!(out, "  {:<19} {}", entry.name, entry.about)?;
+    }
     Ok(exit::AGREES)
 }
 

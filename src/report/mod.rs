@@ -2,6 +2,7 @@
 
 pub mod ascii;
 pub mod exact;
+pub mod frames;
 pub mod json;
 pub mod picture;
 pub mod specimens;

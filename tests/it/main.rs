@@ -11,5 +11,6 @@ mod properties;
 mod protocol;
 mod recorded;
 mod robustness;
+mod scenes;
 mod snapshots;
 mod specimens;

@@ -6,7 +6,7 @@ use super::{
 };
 use crate::contract::Interpolate;
 use crate::grid::{PixelRect, SUBPIXELS};
-use crate::triangle::{Fragment, ScreenTriangle, Varying};
+use crate::triangle::{Fragment, ScreenTriangle, ScreenVertex, Varying};
 
 impl Interpolate for EdgeFunction {
     fn fragments<V: Varying>(
@@ -17,11 +17,37 @@ impl Interpolate for EdgeFunction {
     ) {
         let (extent_x, extent_y) = extents(&triangle.corners());
         match WordWidth::of(extent_x, extent_y) {
-            WordWidth::I32 => fragments_in::<V, i64, i32>(triangle, bounds, emit),
-            WordWidth::I64 => fragments_in::<V, i64, i64>(triangle, bounds, emit),
-            WordWidth::I128 => fragments_in::<V, i128, i128>(triangle, bounds, emit),
+            WordWidth::I32 => fragments_in::<V, i64, i32, false>(triangle, bounds, emit),
+            WordWidth::I64 => fragments_in::<V, i64, i64, false>(triangle, bounds, emit),
+            WordWidth::I128 => fragments_in::<V, i128, i128, false>(triangle, bounds, emit),
         }
     }
+
+    fn affine_fragments<V: Varying>(
+        &self,
+        triangle: &ScreenTriangle<V>,
+        bounds: PixelRect,
+        emit: impl FnMut(Fragment<V>),
+    ) {
+        let (extent_x, extent_y) = extents(&triangle.corners());
+        match WordWidth::of(extent_x, extent_y) {
+            WordWidth::I32 => fragments_in::<V, i64, i32, true>(triangle, bounds, emit),
+            WordWidth::I64 if is_exact(extent_x, extent_y) => {
+                fragments_in::<V, i64, i64, true>(triangle, bounds, emit);
+            }
+            // The sum of the weights is rounded anew at each pixel.
+            _ => {
+                let vertices = triangle.vertices.map(|v| ScreenVertex { inv_w: 1.0, ..v });
+                self.fragments(&ScreenTriangle { vertices }, bounds, emit);
+            }
+        }
+    }
+}
+
+/// Whether f64 steps E exactly: it is a whole number of at most 2^53.
+fn is_exact(extent_x: u32, extent_y: u32) -> bool {
+    let padded = |extent: u32| u128::from(extent) + SUBPIXELS as u128;
+    padded(extent_x) * padded(extent_y) <= 1 << f64::MANTISSA_DIGITS
 }
 
 /// Barycentric interpolation in the offset form: with q = (1/w) / max(1/w), a = E q and
@@ -29,7 +55,10 @@ impl Interpolate for EdgeFunction {
 /// exactly 1 and d exactly twice the area, so the result is that of affine interpolation bit for
 /// bit; a constant is returned exactly. Vertex 0 is the topmost (then leftmost) one and the winding
 /// is made clockwise, so the order the vertices came in leaves no trace in the last bit.
-fn fragments_in<V: Varying, T: Exact, W: Word>(
+///
+/// `AFFINE` takes every q for 1 and d for twice the area, which they are where E is exact and the
+/// three w are equal: then the reciprocal is the same at every pixel.
+fn fragments_in<V: Varying, T: Exact, W: Word, const AFFINE: bool>(
     triangle: &ScreenTriangle<V>,
     bounds: PixelRect,
     mut emit: impl FnMut(Fragment<V>),
@@ -63,17 +92,21 @@ fn fragments_in<V: Varying, T: Exact, W: Word>(
     let (z1, z2) = (v1.depth - v0.depth, v2.depth - v0.depth);
     let inv_area = 1.0 / area;
     let steps = [0, 1, 2].map(|i| (-edges[i].dy * i64::from(SUBPIXELS)) as f64);
-    // f64 steps E exactly while it is a whole number below 2^53; else each pixel starts anew.
+    // Where f64 does not step E exactly, each pixel starts anew.
     let (extent_x, extent_y) = extents(&corners);
-    let padded = |extent: u32| u128::from(extent) + SUBPIXELS as u128;
-    let exact = padded(extent_x) * padded(extent_y) <= 1 << f64::MANTISSA_DIGITS;
+    let exact = is_exact(extent_x, extent_y);
+    debug_assert!(exact || !AFFINE);
 
     walk::<T, W>(&edges, rect, |span| {
         let at = |i: usize, x_px: i32| edges[i].at::<T>(centre(x_px), centre(span.y_px)).to_f64();
         let mut e = [0, 1, 2].map(|i| at(i, span.x0_px));
         for x_px in span.x0_px..span.x1_px {
-            let a = [e[0] * q[0], e[1] * q[1], e[2] * q[2]];
-            let inv_sum = 1.0 / ((a[0] + a[1]) + a[2]);
+            let (a, inv_sum) = if AFFINE {
+                (e, inv_area)
+            } else {
+                let a = [e[0] * q[0], e[1] * q[1], e[2] * q[2]];
+                (a, 1.0 / ((a[0] + a[1]) + a[2]))
+            };
             emit(Fragment {
                 x_px,
                 y_px: span.y_px,

@@ -11,27 +11,53 @@ impl Interpolate for Scanline {
         &self,
         triangle: &ScreenTriangle<V>,
         bounds: PixelRect,
-        mut emit: impl FnMut(Fragment<V>),
+        emit: impl FnMut(Fragment<V>),
     ) {
-        let mut vertices = triangle.vertices;
-        sort_by_height(&mut vertices, |vertex| vertex.position);
-        let weights = relative_inv_w(&vertices);
-        let ends: [EdgeEnd<V>; 3] =
-            std::array::from_fn(|i| EdgeEnd { vertex: vertices[i], q: weights[i] });
-        let corners = vertices.map(|vertex| vertex.position);
-        let chunk = if distances_are_exact(&corners) { i32::MAX } else { 1 };
-        walk(&corners, bounds, |span, sides| {
-            let side = |[from, to]: [usize; 2]| RowEnd::new(&ends[from], &ends[to], span.y_px);
-            let (left, right) = (side(sides.left), side(sides.right));
-            let mut x0_px = span.x0_px;
-            while x0_px < span.x1_px {
-                let x1_px = span.x1_px.min(x0_px.saturating_add(chunk));
-                let origin_px = if chunk == 1 { x0_px } else { sides.first_px };
-                fill_span(&left, &right, Span { x0_px, x1_px, ..span }, origin_px, &mut emit);
-                x0_px = x1_px;
-            }
-        });
+        fragments_in::<V, false>(triangle, bounds, emit);
     }
+
+    fn affine_fragments<V: Varying>(
+        &self,
+        triangle: &ScreenTriangle<V>,
+        bounds: PixelRect,
+        emit: impl FnMut(Fragment<V>),
+    ) {
+        let vertices = triangle.vertices.map(|vertex| ScreenVertex { inv_w: 1.0, ..vertex });
+        let triangle = ScreenTriangle { vertices };
+        if widths_are_exact(&triangle.corners()) {
+            fragments_in::<V, true>(&triangle, bounds, emit);
+        } else {
+            fragments_in::<V, false>(&triangle, bounds, emit);
+        }
+    }
+}
+
+/// `AFFINE` takes every row's width for a whole number, which it is where the three w are equal and
+/// [`widths_are_exact`]: then its reciprocal is the same at every pixel.
+fn fragments_in<V: Varying, const AFFINE: bool>(
+    triangle: &ScreenTriangle<V>,
+    bounds: PixelRect,
+    mut emit: impl FnMut(Fragment<V>),
+) {
+    let mut vertices = triangle.vertices;
+    sort_by_height(&mut vertices, |vertex| vertex.position);
+    let weights = relative_inv_w(&vertices);
+    let ends: [EdgeEnd<V>; 3] =
+        std::array::from_fn(|i| EdgeEnd { vertex: vertices[i], q: weights[i] });
+    let corners = vertices.map(|vertex| vertex.position);
+    let chunk = if distances_are_exact(&corners) { i32::MAX } else { 1 };
+    walk(&corners, bounds, |span, sides| {
+        let side = |[from, to]: [usize; 2]| RowEnd::new(&ends[from], &ends[to], span.y_px);
+        let (left, right) = (side(sides.left), side(sides.right));
+        let mut x0_px = span.x0_px;
+        while x0_px < span.x1_px {
+            let x1_px = span.x1_px.min(x0_px.saturating_add(chunk));
+            let origin_px = if chunk == 1 { x0_px } else { sides.first_px };
+            let part = Span { x0_px, x1_px, ..span };
+            fill_span::<V, AFFINE>(&left, &right, part, origin_px, &mut emit);
+            x0_px = x1_px;
+        }
+    });
 }
 
 /// 1/w of each vertex over the largest: in (0, 1], and exactly 1 for all where they are equal.
@@ -43,6 +69,20 @@ fn relative_inv_w<V>(vertices: &[ScreenVertex<V>; 3]) -> [f64; 3] {
 /// Whether every distance of [`RowEnd::distance`] inside the triangle is a whole number that f64
 /// holds exactly: it is at most extent times extent, and one step more.
 fn distances_are_exact(corners: &Corners) -> bool {
+    let [extent_x, extent_y] = extents(corners);
+    extent_x * extent_y <= 1 << f64::MANTISSA_DIGITS
+}
+
+/// The same of a distance times the height of an edge, and of the width of a row, which is the sum
+/// of two such products and at most extent times extent times height.
+fn widths_are_exact(corners: &Corners) -> bool {
+    let [extent_x, extent_y] = extents(corners);
+    // 2^33 to the third power fits i128.
+    extent_x * extent_y * extent_y <= 1 << f64::MANTISSA_DIGITS
+}
+
+/// Width and height of the bounding box in subpixels, and one pixel more.
+fn extents(corners: &Corners) -> [i128; 2] {
     let extent = |coordinate: fn(&SubpixelPoint) -> i32| {
         let (min, max) = corners
             .iter()
@@ -50,7 +90,7 @@ fn distances_are_exact(corners: &Corners) -> bool {
             .fold((i32::MAX, i32::MIN), |(min, max), c| (min.min(c), max.max(c)));
         i128::from(max) - i128::from(min) + i128::from(SUBPIXELS)
     };
-    extent(|corner| corner.x) * extent(|corner| corner.y) <= 1 << f64::MANTISSA_DIGITS
+    [extent(|corner| corner.x), extent(|corner| corner.y)]
 }
 
 /// One end of an edge, with the values it carries.
@@ -117,12 +157,12 @@ impl<V: Varying> RowEnd<V> {
 ///
 /// With l and r the distances of a centre to the left and right edge, v/w at the centre is
 /// (r vL qL + l vR qR) / (l + r) and 1/w the same without v; so v = vL + (vR - vL) s with
-/// s = l qR / (r qL + l qR), and the depth takes s = l / (l + r). All summands are positive: no
+/// s = l qR (1 / (r qL + l qR)), and the depth takes s = l / (l + r). All summands are positive: no
 /// cancellation, and the error stays a few units in the last place of the largest value.
 ///
 /// The width of the row is the same number at every column but for its rounding, so it is taken at
 /// `origin_px`, which does not depend on the window: a tile shows the very bits of the whole.
-fn fill_span<V: Varying>(
+fn fill_span<V: Varying, const AFFINE: bool>(
     left: &RowEnd<V>,
     right: &RowEnd<V>,
     span: Span,
@@ -145,11 +185,12 @@ fn fill_span<V: Varying>(
         debug_assert!(from_left >= 0.0 && from_right > 0.0, "s leaves [0, 1): a clamp would act");
         let l = from_left * right_q;
         let r = from_right * left_q;
+        let inv_sum = if AFFINE { inv_width } else { 1.0 / (r + l) };
         emit(Fragment {
             x_px,
             y_px: span.y_px,
             depth: left.depth + depth_slope.0 * (from_left * depth_slope.1),
-            varying: left.varying + varying_slope * (l / (r + l)),
+            varying: left.varying + varying_slope * (l * inv_sum),
         });
         from_left += left_step;
         from_right -= right_step;
@@ -172,8 +213,8 @@ mod tests {
     #[test]
     fn the_books_clamps_never_act() {
         let points: Vec<_> = (0..49).map(|i| (i % 7 * 96 - 160, i / 7 * 96 - 160)).collect();
-        // u (14 D + 2 M), derived in `verify::tolerance`, with D = 576 and M = 416.
-        let rounding = f64::EPSILON / 2.0 * (14.0 * 576.0 + 2.0 * 416.0);
+        // u (15 D + 2 M), derived in `verify::tolerance`, with D = 576 and M = 416.
+        let rounding = f64::EPSILON / 2.0 * (15.0 * 576.0 + 2.0 * 416.0);
         let mut fragments = 0;
         for (i, a) in points.iter().enumerate() {
             for (j, b) in points.iter().enumerate().skip(i + 1) {

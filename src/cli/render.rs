@@ -1,0 +1,494 @@
+//! `rasterproof render`: a scene or a model to a picture, by either rasterizer or by both.
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use glam::{DMat4, DVec3};
+use image::codecs::gif::{GifEncoder, Repeat};
+use indicatif::{ProgressBar, ProgressDrawTarget};
+
+use super::{Failure, Streams, exit, usage, write_file};
+use crate::effects::Effects;
+use crate::effects::render::Rendered;
+use crate::effects::{Effect, Mode};
+use crate::frame::Frame;
+use crate::lineup::Drawer;
+use crate::pipeline::assemble::Cull;
+use crate::pipeline::depth::DepthFormat;
+use crate::pipeline::shade::Light;
+use crate::pipeline::target::{Antialias, Colour, Target, check_size};
+use crate::pipeline::transform::{about, look_at, perspective};
+use crate::report::frames::{self, Comparison};
+use crate::scene::chapters::{self, SCENES};
+use crate::scene::{Scene, Shading, obj};
+
+pub const HELP: &str = "Examples:
+  rasterproof render --scene cube                        a scene of the book, by both rasterizers
+  rasterproof render model.obj --size 1024x1024 -o a.png a model, framed automatically
+  rasterproof render model.obj --yaw 30 --pitch 20 --cull cw --shading flat
+  rasterproof render --scene sphere --aa ssaa4           16 samples a pixel, where it needs them
+  rasterproof render --scene spinning --spin 48          an animated GIF
+  rasterproof render --scene cube --wireframe            edges, by DDA and by Bresenham
+
+With both rasterizers every colour and depth is compared, and a difference is drawn.
+Exit status: 0 they agree (or there is one), 1 they differ, 2 usage or bad input.";
+
+/// Arguments of `render`.
+#[derive(clap::Args, Debug)]
+#[command(after_help = HELP)]
+pub struct RenderArguments {
+    #[command(flatten)]
+    what: SceneArguments,
+    /// The rasterizer, or both to compare them
+    #[arg(long, value_enum, default_value_t = Drawn::Both)]
+    engine: Drawn,
+    /// Draw edges only, by DDA and by Bresenham, whichever goes with the rasterizer
+    #[arg(long)]
+    wireframe: bool,
+    /// What is paid for: planned, all, or +EFFECT and -EFFECT, separated by commas
+    #[arg(long, value_name = "EFFECTS", allow_hyphen_values = true)]
+    effects: Option<Effects>,
+    /// Colour each pixel by the effects it paid for instead
+    #[arg(long, conflicts_with_all = ["wireframe", "spin"])]
+    map: bool,
+    /// A full turn in this many frames, as an animated GIF
+    #[arg(long, value_name = "FRAMES", value_parser = clap::value_parser!(u32).range(2..=1000))]
+    spin: Option<u32>,
+    /// The picture [default: target/rasterproof/NAME.png or .gif]
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Counters as JSON on standard output
+    #[arg(long)]
+    json: bool,
+}
+
+/// What is drawn, and from where.
+#[derive(clap::Args, Debug)]
+pub struct SceneArguments {
+    /// A model in OBJ, with its MTL and textures beside it
+    #[arg(value_name = "MODEL", required_unless_present = "scene", conflicts_with = "scene")]
+    model: Option<PathBuf>,
+    /// A scene of the book by name; see: rasterproof list
+    #[arg(long, value_name = "NAME", value_parser = scene_names())]
+    scene: Option<String>,
+    /// Size of the picture in pixels
+    #[arg(long, value_name = "WxH", default_value = "640x480", value_parser = parse_size)]
+    size: (u32, u32),
+    /// Antialiasing
+    #[arg(long, value_enum, default_value_t = Smoothing::None)]
+    aa: Smoothing,
+    /// Leave out triangles by their winding as the eye sees them
+    #[arg(long, value_enum)]
+    cull: Option<Winding>,
+    /// How light is laid on a model
+    #[arg(long, value_enum, default_value_t = Lighting::Phong)]
+    shading: Lighting,
+    /// How depths are stored
+    #[arg(long, value_enum, default_value_t = Depths::Unorm32)]
+    depth: Depths,
+    /// Turn the model by this many degrees, to the right
+    #[arg(long, default_value_t = 30.0, allow_negative_numbers = true)]
+    yaw: f64,
+    /// Look down on the model by this many degrees
+    #[arg(long, default_value_t = 20.0, allow_negative_numbers = true)]
+    pitch: f64,
+    /// Come nearer by this factor; large ones end inside the model
+    #[arg(long, default_value_t = 1.0)]
+    zoom: f64,
+    /// Vertical angle of view in degrees
+    #[arg(long, default_value_t = 40.0)]
+    fov: f64,
+}
+
+#[derive(clap::ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
+enum Drawn {
+    Scanline,
+    EdgeFunction,
+    Both,
+}
+
+#[derive(clap::ValueEnum, Clone, Copy, Debug)]
+enum Smoothing {
+    None,
+    Msaa4,
+    Ssaa2,
+    Ssaa4,
+    Ssaa8,
+}
+
+#[derive(clap::ValueEnum, Clone, Copy, Debug)]
+enum Winding {
+    None,
+    Cw,
+    Ccw,
+}
+
+#[derive(clap::ValueEnum, Clone, Copy, Debug)]
+enum Lighting {
+    Unlit,
+    Flat,
+    Gouraud,
+    Phong,
+}
+
+#[derive(clap::ValueEnum, Clone, Copy, Debug)]
+enum Depths {
+    Unorm32,
+    Unorm24,
+    F32,
+    F32Reversed,
+    F64,
+}
+
+fn scene_names() -> Vec<&'static str> {
+    SCENES.iter().map(|entry| entry.name).collect()
+}
+
+fn parse_size(text: &str) -> Result<(u32, u32), String> {
+    let sides = text.split_once(['x', 'X']);
+    let parsed = sides.and_then(|(w, h)| Some((w.parse().ok()?, h.parse().ok()?)));
+    parsed.ok_or_else(|| "expected WIDTHxHEIGHT, for example 1024x768".to_owned())
+}
+
+impl SceneArguments {
+    pub(super) fn antialias(&self) -> Antialias {
+        match self.aa {
+            Smoothing::None => Antialias::None,
+            Smoothing::Msaa4 => Antialias::Multisample4,
+            Smoothing::Ssaa2 => Antialias::Supersample(2),
+            Smoothing::Ssaa4 => Antialias::Supersample(4),
+            Smoothing::Ssaa8 => Antialias::Supersample(8),
+        }
+    }
+
+    fn format(&self) -> DepthFormat {
+        match self.depth {
+            Depths::Unorm32 => DepthFormat::Unorm32,
+            Depths::Unorm24 => DepthFormat::Unorm24,
+            Depths::F32 => DepthFormat::F32,
+            Depths::F32Reversed => DepthFormat::F32Reversed,
+            Depths::F64 => DepthFormat::F64,
+        }
+    }
+
+    /// An empty target of the size and kind asked for.
+    pub(super) fn target(&self) -> Result<Target, Failure> {
+        let (width, height) = self.size;
+        Target::new(width, height, self.antialias(), self.format()).map_err(usage)
+    }
+
+    /// The name of the scene or model.
+    pub(super) fn name(&self) -> String {
+        let stem = self.model.as_deref().and_then(Path::file_stem);
+        stem.map_or_else(|| self.scene.clone().unwrap_or_default(), |s| s.to_string_lossy().into())
+    }
+
+    /// The scene, turned by a share of a full turn, as a function that makes it.
+    pub(super) fn maker(&self, errors: &mut dyn std::io::Write) -> Result<Maker, Failure> {
+        let (width, height) = self.size;
+        check_size(width, height, self.antialias()).map_err(usage)?;
+        let aspect = f64::from(width) / f64::from(height);
+        let cull = self.cull.map(|winding| match winding {
+            Winding::None => Cull::None,
+            Winding::Cw => Cull::Clockwise,
+            Winding::Ccw => Cull::CounterClockwise,
+        });
+        let base = match (&self.model, &self.scene) {
+            (Some(path), _) => Base::Model(Box::new(self.frame_model(path, aspect, errors)?)),
+            (_, name) => Base::Chapter(name.clone().unwrap_or_default()),
+        };
+        Ok(Maker { base, aspect, cull })
+    }
+
+    /// A model, in the middle, seen whole.
+    fn frame_model(
+        &self,
+        path: &Path,
+        aspect: f64,
+        errors: &mut dyn std::io::Write,
+    ) -> Result<Framed, Failure> {
+        let shading = match self.shading {
+            Lighting::Unlit => Shading::Unlit,
+            Lighting::Flat => Shading::Flat,
+            Lighting::Gouraud => Shading::Gouraud,
+            Lighting::Phong => Shading::Phong,
+        };
+        let numbers = [("--yaw", self.yaw), ("--pitch", self.pitch), ("--zoom", self.zoom)];
+        if let Some((name, value)) = numbers.iter().find(|(_, value)| !value.is_finite()) {
+            return Err(usage(format!("{name} {value} is not a finite number")));
+        }
+        if self.zoom <= 0.0 {
+            return Err(usage(format!("--zoom {} is not positive", self.zoom)));
+        }
+        let model = obj::load(path, shading).map_err(|error| usage(error.to_string()))?;
+        for warning in model.warnings {
+            writeln!(errors, "warning: {warning}")?;
+        }
+        let bounds = model.items.iter().filter_map(|item| item.mesh.bounds());
+        let (min, max) = bounds
+            .reduce(|(a, b), (c, d)| (a.min(c), b.max(d)))
+            .unwrap_or((DVec3::ZERO, DVec3::ONE));
+        let centre = (min + max) / 2.0;
+        // A point or a plane has a size too.
+        let radius = ((max - min).length() / 2.0).max(f64::MIN_POSITIVE.sqrt());
+        let half = self.fov.to_radians() / 2.0;
+        let narrow = half.min((half.tan() * aspect).atan());
+        let distance = radius / narrow.sin() / self.zoom;
+        let (pitch, yaw) = (self.pitch.to_radians(), self.yaw.to_radians());
+        let turn = DMat4::from_rotation_y(yaw);
+        let away = DVec3::new(0.0, pitch.sin(), -pitch.cos());
+        let up = DVec3::new(0.0, pitch.cos(), pitch.sin());
+        let refused = |error: crate::pipeline::transform::NoProjection| usage(error.to_string());
+        let view = look_at(centre + away * distance, centre, up).map_err(refused)?;
+        let near = (distance - radius).max(distance * 1e-3).max(radius * 1e-3);
+        let projection = perspective(self.fov.to_radians(), aspect, near, distance + radius * 1.01)
+            .map_err(refused)?;
+        let mut scene = Scene::new(&self.name(), "a model", projection);
+        scene.view = view;
+        scene.items = model.items;
+        scene.light = Light {
+            towards: DVec3::new(-0.4, 0.7, -0.6).normalize(),
+            ambient: 0.25,
+            diffuse: 0.75,
+        };
+        for item in &mut scene.items {
+            item.model = about(centre, turn);
+        }
+        Ok(Framed { scene, centre })
+    }
+}
+
+/// A model in front of an eye.
+struct Framed {
+    scene: Scene,
+    centre: DVec3,
+}
+
+enum Base {
+    Chapter(String),
+    Model(Box<Framed>),
+}
+
+/// Makes the scene of each frame.
+pub(super) struct Maker {
+    base: Base,
+    aspect: f64,
+    cull: Option<Cull>,
+}
+
+impl Maker {
+    /// The scene, turned by a share of a full turn.
+    pub(super) fn scene(&self, turn: f64) -> Scene {
+        let mut scene = match &self.base {
+            Base::Chapter(name) => chapters::scene(name, self.aspect, turn)
+                .unwrap_or_else(|| Scene::new(name, "", DMat4::IDENTITY)),
+            Base::Model(framed) => {
+                let mut scene = framed.scene.clone();
+                let turn = DMat4::from_rotation_y(turn * std::f64::consts::TAU);
+                for item in &mut scene.items {
+                    item.model = about(framed.centre, turn) * item.model;
+                }
+                scene
+            }
+        };
+        if let Some(cull) = self.cull {
+            for item in &mut scene.items {
+                item.cull = cull;
+            }
+        }
+        scene
+    }
+}
+
+/// One rasterizer's frame.
+struct Drawing {
+    name: &'static str,
+    rendered: Rendered,
+    target: Target,
+}
+
+pub fn run(arguments: &RenderArguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+    let what = &arguments.what;
+    let maker = what.maker(streams.errors)?;
+    let extension = if arguments.spin.is_some() { "gif" } else { "png" };
+    let default = || Path::new("target/rasterproof").join(format!("{}.{extension}", what.name()));
+    let output = arguments.output.clone().unwrap_or_else(default);
+    if let Some(frames) = arguments.spin {
+        return spin(arguments, &maker, frames, &output, streams);
+    }
+    let scene = maker.scene(0.0);
+    if arguments.map {
+        return map(arguments, &scene, &output, streams);
+    }
+    let drawings = draw(arguments, &scene)?;
+    write_file(&output, &frames::png(&drawings[0].rendered.picture)?)?;
+    let comparison = compare(&drawings);
+    let difference = output.with_extension("difference.png");
+    if let Some(comparison) = comparison.as_ref().filter(|comparison| !comparison.agrees()) {
+        write_file(&difference, &frames::png(&comparison.picture)?)?;
+    }
+    if arguments.json {
+        let json = frames::json(&scene.name, &names(&drawings), &drawings[0].rendered, &comparison);
+        writeln!(streams.output, "{json}")?;
+    } else {
+        let text = describe(&scene, &drawings, comparison.as_ref(), &output, &difference);
+        streams.output.write_all(text.as_bytes())?;
+    }
+    Ok(comparison.map_or(exit::AGREES, |c| if c.agrees() { exit::AGREES } else { exit::DISAGREES }))
+}
+
+fn names(drawings: &[Drawing]) -> Vec<&'static str> {
+    drawings.iter().map(|drawing| drawing.name).collect()
+}
+
+fn compare(drawings: &[Drawing]) -> Option<Comparison> {
+    let [a, b] = drawings else { return None };
+    Some(frames::compare((&a.rendered.picture, &a.target), (&b.rendered.picture, &b.target)))
+}
+
+/// Draws one frame by each rasterizer asked for.
+fn draw(arguments: &RenderArguments, scene: &Scene) -> Result<Vec<Drawing>, Failure> {
+    let both = arguments.engine == Drawn::Both;
+    // To compare every depth, every depth must be there.
+    let complete =
+        Effects::PLANNED.with(Effect::Depth, Mode::Always).with(Effect::Samples, Mode::Always);
+    let planned = if both { complete } else { Effects::PLANNED };
+    let effects = arguments.effects.unwrap_or(planned);
+    let engines: &[Drawer] = match arguments.engine {
+        Drawn::Scanline => &[Drawer::Scanline],
+        Drawn::EdgeFunction => &[Drawer::EdgeFunction],
+        Drawn::Both => &[Drawer::Scanline, Drawer::EdgeFunction],
+    };
+    let drawing = |drawer: &Drawer| {
+        let mut target = arguments.what.target()?;
+        let rendered = if arguments.wireframe {
+            drawer.render_wireframe(scene, &mut target)
+        } else {
+            drawer.render(scene, &effects, &mut target)
+        };
+        let name = if arguments.wireframe { drawer.line_name() } else { drawer.name() };
+        let rendered = rendered.map_err(|error| usage(error.to_string()))?;
+        Ok(Drawing { name, rendered, target })
+    };
+    engines.iter().map(drawing).collect()
+}
+
+fn describe(
+    scene: &Scene,
+    drawings: &[Drawing],
+    comparison: Option<&Comparison>,
+    output: &Path,
+    difference: &Path,
+) -> String {
+    let mut text = String::new();
+    let c = &drawings[0].rendered.counters;
+    let _ = writeln!(text, "{}: {}", scene.name, scene.about);
+    let _ = writeln!(
+        text,
+        "  vertices {}, triangles {} (rejected {}, clipped {}), in the window {}, culled {}",
+        c.vertices, c.triangles, c.rejected, c.clipped, c.pieces, c.culled
+    );
+    let _ = writeln!(
+        text,
+        "  fragments {}, depth tests {} (failed {}), shaded {}",
+        c.fragments, c.depth_tests, c.depth_failed, c.shaded
+    );
+    let _ = writeln!(text, "  drawn in {}", output.display());
+    match comparison {
+        None => {}
+        Some(comparison) if comparison.agrees() => {
+            let names = names(drawings).join(" and ");
+            let _ = writeln!(
+                text,
+                "AGREES: {names}, {} pixels and {} depths, 0 differ",
+                comparison.pixels, comparison.depths
+            );
+        }
+        Some(comparison) => {
+            let names = names(drawings).join(" and ");
+            let _ = writeln!(
+                text,
+                "DISAGREES: {names}: {} of {} pixels and {} of {} depths differ, drawn in {}",
+                comparison.wrong_pixels,
+                comparison.pixels,
+                comparison.wrong_depths,
+                comparison.depths,
+                difference.display()
+            );
+        }
+    }
+    text
+}
+
+/// The picture of what each pixel paid for.
+fn map(
+    arguments: &RenderArguments,
+    scene: &Scene,
+    output: &Path,
+    streams: &mut Streams<'_>,
+) -> Result<u8, Failure> {
+    let mut target = arguments.what.target()?;
+    let edges = arguments.engine == Drawn::EdgeFunction;
+    let drawer = if edges { Drawer::EdgeFunction } else { Drawer::Scanline };
+    let effects = arguments.effects.unwrap_or(Effects::PLANNED);
+    let (_, map) = drawer
+        .render_mapped(scene, &effects, &mut target)
+        .map_err(|error| usage(error.to_string()))?;
+    write_file(output, &frames::png(&frames::map_picture(&map))?)?;
+    writeln!(streams.output, "{}: effects paid for, drawn in {}", scene.name, output.display())?;
+    for (effect, [r, g, b]) in frames::MAP_COLOURS {
+        writeln!(streams.output, "  #{r:02x}{g:02x}{b:02x} {}", effect.name())?;
+    }
+    Ok(exit::AGREES)
+}
+
+/// Frames of a full turn, into one GIF. Each is drawn into the back buffer and shown when finished.
+fn spin(
+    arguments: &RenderArguments,
+    maker: &Maker,
+    frames: u32,
+    output: &Path,
+    streams: &mut Streams<'_>,
+) -> Result<u8, Failure> {
+    let bar = ProgressBar::with_draw_target(
+        Some(frames.into()),
+        if streams.progress { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() },
+    );
+    let mut bytes = Vec::new();
+    let mut wrong = 0;
+    {
+        let mut encoder = GifEncoder::new_with_speed(&mut bytes, 10);
+        let failed = |error: image::ImageError| usage(format!("the GIF: {error}"));
+        encoder.set_repeat(Repeat::Infinite).map_err(failed)?;
+        for frame in 0..frames {
+            let scene = maker.scene(f64::from(frame) / f64::from(frames));
+            let drawings = draw(arguments, &scene)?;
+            wrong += compare(&drawings).map_or(0, |c| c.wrong_pixels + c.wrong_depths);
+            let picture = rgba(&drawings[0].rendered.picture);
+            let delay = image::Delay::from_saturating_duration(Duration::from_millis(40));
+            let frame = image::Frame::from_parts(picture, 0, 0, delay);
+            encoder.encode_frame(frame).map_err(failed)?;
+            bar.inc(1);
+        }
+    }
+    bar.finish_and_clear();
+    write_file(output, &bytes)?;
+    writeln!(streams.output, "{frames} frames, drawn in {}", output.display())?;
+    match (arguments.engine, wrong) {
+        (Drawn::Both, 0) => writeln!(streams.output, "AGREES: 0 pixels and depths differ")?,
+        (Drawn::Both, wrong) => {
+            writeln!(streams.output, "DISAGREES: {wrong} pixels and depths differ")?;
+            return Ok(exit::DISAGREES);
+        }
+        _ => {}
+    }
+    Ok(exit::AGREES)
+}
+
+fn rgba(picture: &Frame<Colour>) -> image::RgbaImage {
+    let bounds = picture.bounds();
+    image::RgbaImage::from_fn(bounds.width(), bounds.height(), |x, y| {
+        image::Rgba(picture.row(y as i32)[x as usize])
+    })
+}

@@ -1,0 +1,194 @@
+//! Effects on demand: what a scene calls for is paid, the rest is switched off, and the picture stays
+//! the same to the bit.
+//!
+//! For each [`Effect`] there is a condition that is sufficient to leave it out, known per frame, per
+//! item or per triangle ([`plan`] derives them), and kernels without it ([`render`]). A condition
+//! that is merely likely does not count: planned and everything-on pictures are compared bit for
+//! bit in the tests, and for every condition a scene that violates it by the least amount changes
+//! a pixel when the effect is left out nevertheless.
+//!
+//! Leaving out the back faces of a closed mesh is *not* inferred: where front and back meet at the
+//! silhouette their depths may tie, so it can change a pixel. Culling stays something to ask for.
+
+pub mod plan;
+pub mod render;
+mod supersample;
+
+use std::fmt;
+use std::str::FromStr;
+
+/// Something that costs time and that not every scene needs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Effect {
+    /// Cutting triangles by the seven planes.
+    Clip,
+    /// Asking for the winding.
+    Cull,
+    /// The division by 1/w in each fragment.
+    Perspective,
+    /// Comparing with the depth buffer and writing to it.
+    Depth,
+    /// The colours of corners.
+    Colour,
+    /// Light, and the normals it needs.
+    Light,
+    /// Texture lookup, and the coordinates it needs.
+    Texture,
+    /// Interpolating an attribute, and computing what depends on it, in each fragment.
+    Interpolation,
+    /// Telling the samples of a supersampled pixel apart.
+    Samples,
+    /// Clearing colour and depth before the frame.
+    Clear,
+    /// A front buffer that never shows an unfinished frame.
+    SecondBuffer,
+}
+
+impl Effect {
+    /// All effects, in the order of the pipeline.
+    pub const ALL: [Self; 11] = [
+        Self::Clip,
+        Self::Cull,
+        Self::Perspective,
+        Self::Depth,
+        Self::Colour,
+        Self::Light,
+        Self::Texture,
+        Self::Interpolation,
+        Self::Samples,
+        Self::Clear,
+        Self::SecondBuffer,
+    ];
+
+    /// Its name on the command line.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Clip => "clip",
+            Self::Cull => "cull",
+            Self::Perspective => "perspective",
+            Self::Depth => "depth",
+            Self::Colour => "colour",
+            Self::Light => "light",
+            Self::Texture => "texture",
+            Self::Interpolation => "interpolation",
+            Self::Samples => "samples",
+            Self::Clear => "clear",
+            Self::SecondBuffer => "second-buffer",
+        }
+    }
+}
+
+/// When an effect is paid for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Mode {
+    /// Wherever it is called for.
+    #[default]
+    Planned,
+    /// Everywhere, called for or not.
+    Always,
+    /// Nowhere. Changes the picture wherever it is called for.
+    Never,
+}
+
+/// A mode for each effect.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
+pub struct Effects {
+    modes: [Mode; Effect::ALL.len()],
+}
+
+impl Effects {
+    /// Everything where it is called for.
+    pub const PLANNED: Self = Self { modes: [Mode::Planned; Effect::ALL.len()] };
+    /// Everything everywhere.
+    pub const ALWAYS: Self = Self { modes: [Mode::Always; Effect::ALL.len()] };
+
+    /// The mode of an effect.
+    #[must_use]
+    pub fn mode(&self, effect: Effect) -> Mode {
+        self.modes[effect as usize]
+    }
+
+    /// The same with another mode for one effect.
+    #[must_use]
+    pub fn with(mut self, effect: Effect, mode: Mode) -> Self {
+        self.modes[effect as usize] = mode;
+        self
+    }
+
+    /// Whether an effect is paid for where `called_for` says so.
+    #[must_use]
+    pub fn pays(&self, effect: Effect, called_for: bool) -> bool {
+        match self.mode(effect) {
+            Mode::Planned => called_for,
+            Mode::Always => true,
+            Mode::Never => false,
+        }
+    }
+}
+
+/// A word of [`Effects::from_str`] that is none.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct NoEffect(String);
+
+impl fmt::Display for NoEffect {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let names = Effect::ALL.map(Effect::name).join(", ");
+        write!(
+            f,
+            "'{}' is none of: planned, all, +EFFECT (always), -EFFECT (never); effects: {names}",
+            self.0
+        )
+    }
+}
+
+impl std::error::Error for NoEffect {}
+
+impl FromStr for Effects {
+    type Err = NoEffect;
+
+    /// `planned`, `all`, and `+depth` or `-clip` for single effects, separated by commas; later
+    /// words win.
+    fn from_str(text: &str) -> Result<Self, NoEffect> {
+        text.split(',').map(str::trim).try_fold(Self::PLANNED, |effects, word| {
+            let named = |name: &str| Effect::ALL.into_iter().find(|effect| effect.name() == name);
+            match (
+                word,
+                word.strip_prefix('+').and_then(named),
+                word.strip_prefix('-').and_then(named),
+            ) {
+                ("planned", ..) => Ok(Self::PLANNED),
+                ("all", ..) => Ok(Self::ALWAYS),
+                (_, Some(effect), _) => Ok(effects.with(effect, Mode::Always)),
+                (_, _, Some(effect)) => Ok(effects.with(effect, Mode::Never)),
+                _ => Err(NoEffect(word.to_owned())),
+            }
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn effects_from_words() {
+        assert_eq!("planned".parse(), Ok(Effects::PLANNED));
+        assert_eq!("all".parse(), Ok(Effects::ALWAYS));
+        let mixed: Effects = "all,-clip,+depth".parse().unwrap();
+        assert_eq!(mixed, Effects::ALWAYS.with(Effect::Clip, Mode::Never));
+        let mixed: Effects = "+depth".parse().unwrap();
+        assert_eq!(mixed, Effects::PLANNED.with(Effect::Depth, Mode::Always));
+        assert!("depht".parse::<Effects>().unwrap_err().to_string().contains("depth"));
+        assert!("".parse::<Effects>().is_err());
+    }
+
+    #[test]
+    fn names_are_the_indices() {
+        for (i, effect) in Effect::ALL.into_iter().enumerate() {
+            assert_eq!(effect as usize, i);
+        }
+    }
+}

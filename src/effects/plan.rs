@@ -1,0 +1,322 @@
+//! What a scene calls for: the conditions under which an effect may be left out, and the report of
+//! what was decided and why.
+//!
+//! - **Clip plane**: no corner of the triangle lies outside of it (outcodes). The clipper would
+//!   return the triangle as it is.
+//! - **Perspective**: the three 1/w are bit-equal. Then the weights are exactly those of affine
+//!   interpolation, see [`crate::contract::Interpolate::affine_fragments`].
+//! - **Depth test**: no other piece has a bounding box that meets this one's (two pieces on either
+//!   side of an edge they share meet nowhere, by the fill rule). Then nothing is in front of it,
+//!   and it is in front of nothing. The clear value is farther than every depth.
+//! - **Colour, light, texture**: the material does not use it; the factor left out is exactly 1.
+//! - **Interpolation**: the attribute has the same bits at the three corners. The rasterizers
+//!   return a constant exactly, so what is computed from it once is what every fragment would get.
+//! - **Samples**: the pixel lies inside the triangle with all its samples, the triangle has one
+//!   colour, and its depths there and those of what is there do not overlap ([`super::render`]).
+//! - **Clear**: colours, where the first piece covers all four corner pixels of a tile: what a
+//!   triangle covers is convex, so it covers the tile. Depths, where no piece is tested.
+//! - **Second buffer**: the picture is looked at when it is finished.
+
+use super::render::{Piece, PiecePlan, Prepared, bit, is_lit};
+use super::{Effect, Effects, Mode};
+use crate::contract::Rasterize;
+use crate::grid::{PixelRect, SUBPIXEL_BITS, SubpixelPoint};
+use crate::pipeline::Counters;
+use crate::pipeline::assemble::Cull;
+use crate::pipeline::target::{Antialias, Target};
+use crate::scene::{Hidden, Scene, Shading};
+use crate::triangle::Corners;
+
+/// Which pieces may hide or be hidden.
+pub(super) struct Depths {
+    overlaps: Vec<bool>,
+}
+
+/// Pieces whose boxes are compared as one: a piece, or two on either side of a shared edge.
+struct Unit {
+    pieces: std::ops::Range<usize>,
+    rect: PixelRect,
+}
+
+impl Depths {
+    /// Scenes with more triangles are taken to overlap: to look would cost more than it saves.
+    pub(super) const MOST_TRIANGLES: usize = 2048;
+
+    /// Compares the bounding boxes of all pieces.
+    pub(super) fn of(pieces: &[(usize, Piece)], antialias: Antialias) -> Self {
+        // Samples lie up to 6/16 px off the centre.
+        let margin_px = i32::from(antialias == Antialias::Multisample4);
+        let mut units = units(pieces, margin_px);
+        units.sort_by_key(|unit| unit.rect.x0);
+        let mut overlaps = vec![false; pieces.len()];
+        for (i, unit) in units.iter().enumerate() {
+            for other in &units[i + 1..] {
+                if other.rect.x0 >= unit.rect.x1 {
+                    break;
+                }
+                if other.rect.y0 < unit.rect.y1 && unit.rect.y0 < other.rect.y1 {
+                    overlaps[unit.pieces.clone()].fill(true);
+                    overlaps[other.pieces.clone()].fill(true);
+                }
+            }
+        }
+        Self { overlaps }
+    }
+
+    pub(super) fn overlaps(&self, piece: usize) -> bool {
+        self.overlaps[piece]
+    }
+
+    pub(super) fn any(&self) -> bool {
+        self.overlaps.contains(&true)
+    }
+}
+
+fn units(pieces: &[(usize, Piece)], margin_px: i32) -> Vec<Unit> {
+    let mut units: Vec<Unit> = Vec::with_capacity(pieces.len());
+    let mut i = 0;
+    while i < pieces.len() {
+        let corners = pieces[i].1.corners();
+        let mut rect = pixel_box(&corners, margin_px);
+        let mut end = i + 1;
+        if let Some(next) = pieces.get(end).map(|(_, piece)| piece.corners())
+            && share_an_edge(&corners, &next)
+        {
+            let other = pixel_box(&next, margin_px);
+            rect = PixelRect {
+                x0: rect.x0.min(other.x0),
+                y0: rect.y0.min(other.y0),
+                x1: rect.x1.max(other.x1),
+                y1: rect.y1.max(other.y1),
+            };
+            end += 1;
+        }
+        units.push(Unit { pieces: i..end, rect });
+        i = end;
+    }
+    units
+}
+
+/// Pixels that a triangle may touch.
+fn pixel_box(corners: &Corners, margin_px: i32) -> PixelRect {
+    let range = |coordinate: fn(&SubpixelPoint) -> i32| {
+        let (min, max) = corners
+            .iter()
+            .map(coordinate)
+            .fold((i32::MAX, i32::MIN), |(min, max), c| (min.min(c), max.max(c)));
+        // Pieces lie in the window, far from the ends of i32.
+        ((min >> SUBPIXEL_BITS) - margin_px, (max >> SUBPIXEL_BITS) + 1 + margin_px)
+    };
+    let ((x0, x1), (y0, y1)) = (range(|corner| corner.x), range(|corner| corner.y));
+    PixelRect { x0, y0, x1, y1 }
+}
+
+/// Whether two triangles have two corners in common and the third ones on either side.
+fn share_an_edge(a: &Corners, b: &Corners) -> bool {
+    let [third_a, third_b] = [(a, b), (b, a)].map(|(own, other)| {
+        let mut alone = own.iter().filter(|corner| !other.contains(corner));
+        alone.next().filter(|_| alone.next().is_none())
+    });
+    let (Some(third_a), Some(third_b)) = (third_a, third_b) else { return false };
+    let mut shared = a.iter().filter(|corner| *corner != third_a);
+    let (Some(p), Some(q)) = (shared.next(), shared.next()) else { return false };
+    let side = |r: &SubpixelPoint| {
+        let [px, py, qx, qy, rx, ry] = [p.x, p.y, q.x, q.y, r.x, r.y].map(i128::from);
+        ((qx - px) * (ry - py) - (qy - py) * (rx - px)).signum()
+    };
+    side(third_a) * side(third_b) < 0
+}
+
+/// Side of the tiles whose clearing is decided together.
+const TILE_PX: i32 = 32;
+
+/// The tiles that the first piece does not cover; nothing where that is not known.
+pub(super) fn tiles_to_clear(
+    engine: &impl Rasterize,
+    pieces: &[(usize, Piece)],
+    target: &Target,
+) -> Option<Vec<PixelRect>> {
+    let corners = pieces.first()?.1.corners();
+    let second = pieces.get(1).map(|(_, piece)| piece.corners());
+    let bounds = target.bounds();
+    // A small first piece covers no tile; samples off the centre are not asked for.
+    let touched = pixel_box(&corners, 0);
+    let large = touched.width() as i32 >= TILE_PX && touched.height() as i32 >= TILE_PX;
+    if !large || target.antialias() == Antialias::Multisample4 {
+        return None;
+    }
+    let covers = |corners: Corners, x_px: i32, y_px: i32| {
+        let pixel = PixelRect { x0: x_px, y0: y_px, x1: x_px + 1, y1: y_px + 1 };
+        let mut covered = false;
+        engine.cover(corners, pixel, |_| covered = true);
+        covered
+    };
+    let is_covered = |tile: PixelRect| {
+        let (x1, y1) = (tile.x1 - 1, tile.y1 - 1);
+        let ends = [(tile.x0, tile.y0), (x1, tile.y0), (tile.x0, y1), (x1, y1)];
+        // The second piece is drawn over what the first leaves only if it shares an edge with it.
+        let second = second.filter(|second| share_an_edge(&corners, second));
+        [Some(corners), second]
+            .into_iter()
+            .flatten()
+            .any(|corners| ends.iter().all(|&(x, y)| covers(corners, x, y)))
+    };
+    let mut tiles = Vec::new();
+    for y0 in (bounds.y0..bounds.y1).step_by(TILE_PX as usize) {
+        for x0 in (bounds.x0..bounds.x1).step_by(TILE_PX as usize) {
+            let (x1, y1) = ((x0 + TILE_PX).min(bounds.x1), (y0 + TILE_PX).min(bounds.y1));
+            let tile = PixelRect { x0, y0, x1, y1 };
+            if !is_covered(tile) {
+                tiles.push(tile);
+            }
+        }
+    }
+    Some(tiles)
+}
+
+/// What was decided for the pieces of one item.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Tally {
+    pieces: u64,
+    one_w: u64,
+    affine: u64,
+    depth: u64,
+    /// Pieces in which the attribute is carried and varies: colour, normal, texture coordinates.
+    varies: [u64; 3],
+}
+
+impl Tally {
+    pub(super) fn count(&mut self, piece: &Piece, reads: u8, plan: PiecePlan) {
+        let [a, b, c] = piece.vertices.map(|vertex| vertex.inv_w);
+        self.pieces += 1;
+        self.one_w += u64::from(a == b && b == c);
+        self.affine += u64::from(plan.affine || reads == 0);
+        self.depth += u64::from(plan.depth);
+        for (count, bit) in self.varies.iter_mut().zip([bit::COLOUR, bit::NORMAL, bit::UV]) {
+            *count += u64::from(plan.varies & bit != 0);
+        }
+    }
+}
+
+/// One line of a plan.
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
+pub struct Decision {
+    /// The effect.
+    pub effect: Effect,
+    /// The item it is about; of the whole frame where there is none.
+    pub item: Option<usize>,
+    /// Pieces (pixels, for samples and clear) that pay for it.
+    pub on: u64,
+    /// Pieces that do without.
+    pub off: u64,
+    /// Why, to read.
+    pub reason: String,
+}
+
+/// What a frame paid for, and why.
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
+pub struct Plan {
+    /// Of each item and of the frame.
+    pub decisions: Vec<Decision>,
+}
+
+impl Plan {
+    pub(super) fn new(
+        scene: &Scene,
+        items: &[Prepared<'_>],
+        tallies: &[Tally],
+        effects: &Effects,
+        counters: &Counters,
+    ) -> Self {
+        let mut decisions = Vec::new();
+        for (index, (item, tally)) in items.iter().zip(tallies).enumerate() {
+            decisions.extend(item_decisions(scene, item, tally).map(|mut decision| {
+                decision.item = Some(index);
+                decision
+            }));
+        }
+        decisions.extend(frame_decisions(scene, counters));
+        for decision in &mut decisions {
+            match effects.mode(decision.effect) {
+                Mode::Planned => {}
+                Mode::Always => decision.reason = "asked for everywhere".to_owned(),
+                Mode::Never => decision.reason = "switched off everywhere".to_owned(),
+            }
+        }
+        Self { decisions }
+    }
+}
+
+fn decision(effect: Effect, on: u64, off: u64, reason: impl Into<String>) -> Decision {
+    Decision { effect, item: None, on, off, reason: reason.into() }
+}
+
+fn item_decisions(
+    scene: &Scene,
+    prepared: &Prepared<'_>,
+    tally: &Tally,
+) -> impl Iterator<Item = Decision> {
+    let Tally { pieces, one_w, affine, depth, varies: [colours, normals, uvs] } = *tally;
+    let item = prepared.item;
+    let material = &item.material;
+    let attribute = |effect, bit: u8, varies: u64, used: bool, what: &str| {
+        let read = prepared.reads & bit != 0;
+        let reason = match (used, varies) {
+            (false, _) => format!("the material has no {what}"),
+            (true, 0) => format!("{what}: one for each triangle"),
+            (true, _) => format!("{what}: differs between corners in {varies} of {pieces} pieces"),
+        };
+        decision(effect, if read { pieces } else { 0 }, if read { 0 } else { pieces }, reason)
+    };
+    let perspective = match (prepared.reads, one_w == pieces, scene.affine) {
+        (_, _, true) => "the scene asks for affine interpolation".to_owned(),
+        (0, ..) => "nothing is interpolated but depth, which is linear in the window".to_owned(),
+        (_, true, _) => "w is the same at the three corners of every piece".to_owned(),
+        _ => format!("w differs between corners in {} of {pieces} pieces", pieces - one_w),
+    };
+    let depth_reason = match (scene.hidden, depth) {
+        (Hidden::Painter, _) => "the scene is drawn from back to front".to_owned(),
+        (_, 0) => "no bounding box of another piece meets this item's".to_owned(),
+        _ => format!("{depth} of {pieces} pieces may overlap others"),
+    };
+    let cull = match item.cull {
+        Cull::None => "not asked for",
+        Cull::Clockwise => "asked for: clockwise pieces are left out",
+        Cull::CounterClockwise => "asked for: counter-clockwise pieces are left out",
+    };
+    let culls = if item.cull == Cull::None { 0 } else { pieces };
+    let has_colour = material.vertex_colours || material.shading == Shading::Gouraud;
+    let varying = colours.max(normals).max(uvs);
+    let constant =
+        format!("{varying} of {pieces} pieces have an attribute that differs between corners");
+    [
+        decision(Effect::Cull, culls, pieces - culls, cull),
+        decision(Effect::Perspective, pieces - affine, affine, perspective),
+        decision(Effect::Depth, depth, pieces - depth, depth_reason),
+        attribute(Effect::Colour, bit::COLOUR, colours, has_colour, "colour of the corners"),
+        attribute(Effect::Light, bit::NORMAL, normals, is_lit(scene, item), "light and normal"),
+        attribute(Effect::Texture, bit::UV, uvs, material.texture.is_some(), "texture"),
+        decision(Effect::Interpolation, varying, pieces - varying, constant),
+    ]
+    .into_iter()
+}
+
+fn frame_decisions(scene: &Scene, counters: &Counters) -> impl Iterator<Item = Decision> {
+    let Counters { triangles, clipped, rejected, expanded, cleared, presented, .. } = *counters;
+    let clip = match (clipped, rejected) {
+        (0, 0) => "no corner lies outside the view volume".to_owned(),
+        (0, _) => format!("{rejected} triangles lie outside one plane altogether; none is cut"),
+        _ => format!("{clipped} of {triangles} triangles cross a plane, {rejected} lie outside"),
+    };
+    let tests = counters.plane_tests;
+    [
+        decision(Effect::Clip, if tests > 0 { clipped.max(1) } else { 0 }, triangles - clipped, clip),
+        decision(Effect::Samples, expanded, 0, format!("{expanded} pixels were told apart into samples")),
+        decision(Effect::Clear, cleared, 0, format!(
+            "{cleared} samples of colour and depth were cleared of what {} items do not cover or test",
+            scene.items.len()
+        )),
+        decision(Effect::SecondBuffer, presented, 0, "the picture is looked at when it is finished"),
+    ]
+    .into_iter()
+}

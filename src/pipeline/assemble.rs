@@ -1,0 +1,223 @@
+//! From vertices in clip space to triangles in the window: clip, divide, viewport, snap, cull (the
+//! book's sections 8.2, 8.3 and 9.3, SYSU assignment 2, tasks 2, 3 and 7).
+//!
+//! Whether a triangle faces away is asked of its *snapped* corners, with whole numbers: the sign of
+//! a float area may contradict what is drawn. The viewport is multiplied by the size, not by
+//! size - 1 as in the book, so that a quad over the whole screen covers every pixel.
+
+use std::fmt;
+
+use glam::{DVec2, DVec4};
+
+use super::clip::{self, Outcode, Plane, Polygon};
+use super::{ClipVertex, Counters};
+use crate::grid::{PixelRect, Refusal};
+use crate::triangle::{Corners, MAX_W, ScreenTriangle, ScreenVertex, Varying};
+
+/// Which triangles are left out, by their winding as the eye sees them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
+pub enum Cull {
+    /// None.
+    #[default]
+    None,
+    /// Those whose corners run clockwise.
+    Clockwise,
+    /// Those whose corners run counter-clockwise.
+    CounterClockwise,
+}
+
+impl Cull {
+    /// Whether a triangle in the window is left out. One without area never is: it draws nothing.
+    ///
+    /// ```
+    /// use rasterproof::grid::SubpixelPoint as P;
+    /// use rasterproof::pipeline::assemble::Cull;
+    /// let clockwise = [P::new(0, 0), P::new(256, 0), P::new(0, 256)];
+    /// assert!(Cull::Clockwise.removes(clockwise));
+    /// assert!(!Cull::CounterClockwise.removes(clockwise));
+    /// ```
+    #[must_use]
+    pub fn removes(self, corners: Corners) -> bool {
+        match self {
+            Self::None => false,
+            Self::Clockwise => twice_area(corners) > 0,
+            Self::CounterClockwise => twice_area(corners) < 0,
+        }
+    }
+}
+
+/// Twice the area in square subpixels; y points down, so clockwise as seen is positive.
+fn twice_area([a, b, c]: Corners) -> i128 {
+    let product = |x: i32, x0: i32, y: i32, y0: i32| {
+        (i128::from(x) - i128::from(x0)) * (i128::from(y) - i128::from(y0))
+    };
+    product(b.x, a.x, c.y, a.y) - product(b.y, a.y, c.x, a.x)
+}
+
+/// Where clip space lands in the window.
+#[derive(Clone, Copy, Debug)]
+pub struct Viewport {
+    size_px: DVec2,
+}
+
+impl Viewport {
+    /// The window `bounds`, whole; its upper left pixel must be (0, 0).
+    #[must_use]
+    pub fn new(bounds: PixelRect) -> Self {
+        Self { size_px: DVec2::new(f64::from(bounds.width()), f64::from(bounds.height())) }
+    }
+
+    /// Divides by w, stretches to the window, snaps. Window depth is (z/w + 1) / 2.
+    ///
+    /// # Errors
+    /// [`Refusal`] for a vertex outside the view volume that has no place on the lattice.
+    pub fn place<V: Copy>(&self, vertex: &ClipVertex<V>) -> Result<ScreenVertex<V>, Refusal> {
+        let DVec4 { x, y, z, w } = vertex.position;
+        let (x, y) = (x / w, y / w);
+        ScreenVertex::new(
+            (x + 1.0) / 2.0 * self.size_px.x,
+            (1.0 - y) / 2.0 * self.size_px.y,
+            (z / w + 1.0) / 2.0,
+            w,
+            vertex.varying,
+        )
+    }
+}
+
+/// A vertex that the vertex stage must not return.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BadVertex {
+    /// Its index.
+    pub index: usize,
+    /// What is wrong with it.
+    pub refusal: Refusal,
+}
+
+impl fmt::Display for BadVertex {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "vertex {}: a clip coordinate {}", self.index, self.refusal)
+    }
+}
+
+impl std::error::Error for BadVertex {}
+
+/// Checks that the coordinates are finite and at most [`MAX_W`] in magnitude.
+///
+/// # Errors
+/// [`BadVertex`] with `index` and the reason.
+pub fn check_vertex<V>(index: usize, vertex: &ClipVertex<V>) -> Result<(), BadVertex> {
+    let refusal = vertex.position.to_array().into_iter().find_map(|value| {
+        if value.is_nan() {
+            Some(Refusal::NotANumber)
+        } else if value.is_infinite() {
+            Some(Refusal::Infinite)
+        } else if value.abs() > MAX_W {
+            Some(Refusal::OutOfRange { value, min: -MAX_W, max: MAX_W })
+        } else {
+            None
+        }
+    });
+    refusal.map_or(Ok(()), |refusal| Err(BadVertex { index, refusal }))
+}
+
+/// How triangles become pieces in the window.
+#[derive(Clone, Copy, Debug)]
+pub struct Assembler {
+    viewport: Viewport,
+    cull: Cull,
+    /// Planes that every triangle is cut by, asked for or not; the rest only where a vertex is out.
+    always: Outcode,
+    /// Planes that are never asked about: a claim that no triangle crosses them.
+    never: Outcode,
+    /// Ask for the winding even where nothing is left out.
+    asks: bool,
+}
+
+impl Assembler {
+    /// Clips by exactly the planes that a triangle crosses.
+    #[must_use]
+    pub fn new(bounds: PixelRect, cull: Cull) -> Self {
+        Self { viewport: Viewport::new(bounds), cull, always: 0, never: 0, asks: false }
+    }
+
+    /// Runs every triangle through all the planes: what clipping costs without outcodes.
+    #[must_use]
+    pub fn with_every_plane(self) -> Self {
+        Self { always: Outcode::MAX, ..self }
+    }
+
+    /// Forgets planes, whatever crosses them. Wrong wherever something does.
+    #[must_use]
+    pub fn without_planes(self, never: Outcode) -> Self {
+        Self { never, ..self }
+    }
+
+    /// Asks for every winding, whether anything is left out or not.
+    #[must_use]
+    pub fn asking_for_winding(self) -> Self {
+        Self { asks: true, ..self }
+    }
+
+    /// Leaves nothing out.
+    #[must_use]
+    pub fn without_culling(self) -> Self {
+        Self { cull: Cull::None, ..self }
+    }
+
+    /// Emits the pieces of one triangle that are in the window and not culled. Its vertices have
+    /// passed [`check_vertex`].
+    pub fn assemble<V: Varying>(
+        &self,
+        triangle: &[ClipVertex<V>; 3],
+        counters: &mut Counters,
+        mut emit: impl FnMut(&ScreenTriangle<V>),
+    ) {
+        counters.triangles += 1;
+        let codes = [0, 1, 2].map(|i| clip::outcode(&triangle[i]) & !self.never);
+        if codes[0] & codes[1] & codes[2] != 0 {
+            counters.rejected += 1;
+            return;
+        }
+        let crossed = codes[0] | codes[1] | codes[2];
+        let planes = (crossed | self.always) & !self.never;
+        if planes == 0 {
+            self.emit_fan(triangle.iter(), counters, &mut emit);
+            return;
+        }
+        counters.clipped += u64::from(crossed != 0);
+        let (polygon, tests): (Polygon<V>, u64) = clip::clip(triangle, planes);
+        counters.plane_tests += tests;
+        self.emit_fan(polygon.vertices(), counters, &mut emit);
+    }
+
+    /// Places the vertices of a convex polygon and emits the fan around the first.
+    fn emit_fan<'a, V: Varying + 'a>(
+        &self,
+        vertices: impl Iterator<Item = &'a ClipVertex<V>>,
+        counters: &mut Counters,
+        emit: &mut impl FnMut(&ScreenTriangle<V>),
+    ) {
+        // What a forgotten plane leaves outside the domain cannot be drawn; it is left out.
+        let mut placed = vertices.filter_map(|vertex| self.viewport.place(vertex).ok());
+        let (Some(first), Some(mut previous)) = (placed.next(), placed.next()) else { return };
+        for next in placed {
+            let piece = ScreenTriangle { vertices: [first, previous, next] };
+            previous = next;
+            counters.pieces += 1;
+            if self.asks || self.cull != Cull::None {
+                counters.cull_tests += 1;
+                if self.cull.removes(piece.corners()) {
+                    counters.culled += 1;
+                    continue;
+                }
+            }
+            emit(&piece);
+        }
+    }
+}
+
+/// Whether a triangle in the view volume crosses this plane or lies outside of it.
+#[must_use]
+pub fn crosses<V>(triangle: &[ClipVertex<V>; 3], plane: Plane) -> bool {
+    triangle.iter().any(|vertex| plane.distance(vertex) < 0.0)
+}

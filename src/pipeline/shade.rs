@@ -1,0 +1,115 @@
+//! The fragment stage of the scenes: vertex colours, texture, diffuse and ambient light (the book's
+//! sections 3.3 and 11.1).
+//!
+//! colour = base x vertex colour x texel x (ambient + diffuse max(0, n . l)), in this order, with
+//! the interpolated normal brought back to length 1: between two normals at a right angle it has
+//! shrunk to 0.707, and the light would be 29% too dark.
+
+use std::ops::{Add, Mul, Sub};
+
+use glam::{DVec2, DVec3};
+
+/// `N` numbers that are interpolated together.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Attributes<const N: usize>(pub [f64; N]);
+
+impl<const N: usize> Add for Attributes<N> {
+    type Output = Self;
+    #[inline]
+    fn add(self, other: Self) -> Self {
+        Self(std::array::from_fn(|i| self.0[i] + other.0[i]))
+    }
+}
+
+impl<const N: usize> Sub for Attributes<N> {
+    type Output = Self;
+    #[inline]
+    fn sub(self, other: Self) -> Self {
+        Self(std::array::from_fn(|i| self.0[i] - other.0[i]))
+    }
+}
+
+impl<const N: usize> Mul<f64> for Attributes<N> {
+    type Output = Self;
+    #[inline]
+    fn mul(self, factor: f64) -> Self {
+        Self(self.0.map(|value| value * factor))
+    }
+}
+
+/// What a vertex of a scene carries.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Surface {
+    /// Colour, or light already multiplied in (Gouraud); 1 where neither is used.
+    pub colour: DVec3,
+    /// Normal in world space, of any length; 0 where there is no light.
+    pub normal: DVec3,
+    /// Texture coordinates.
+    pub uv: DVec2,
+}
+
+/// All attributes of a [`Surface`].
+pub const ALL: usize = 8;
+
+impl From<Surface> for Attributes<ALL> {
+    fn from(s: Surface) -> Self {
+        let ([r, g, b], [x, y, z]) = (s.colour.to_array(), s.normal.to_array());
+        Self([r, g, b, x, y, z, s.uv.x, s.uv.y])
+    }
+}
+
+impl From<Attributes<ALL>> for Surface {
+    #[inline]
+    fn from(Attributes([r, g, b, x, y, z, u, v]): Attributes<ALL>) -> Self {
+        let (colour, normal) = (DVec3::new(r, g, b), DVec3::new(x, y, z));
+        Self { colour, normal, uv: DVec2::new(u, v) }
+    }
+}
+
+/// Parallel light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Light {
+    /// Towards the light, length 1.
+    pub towards: DVec3,
+    /// What every surface gets.
+    pub ambient: f64,
+    /// What a surface that faces the light gets on top.
+    pub diffuse: f64,
+}
+
+impl Light {
+    /// Leaves every colour as it is.
+    pub const NONE: Self = Self { towards: DVec3::Z, ambient: 1.0, diffuse: 0.0 };
+
+    /// ambient + diffuse max(0, n . l) for a normal of any length; of length 0, ambient alone.
+    #[must_use]
+    #[inline]
+    pub fn intensity(&self, normal: DVec3) -> f64 {
+        let length = normal.length();
+        let cosine = if length > 0.0 { normal.dot(self.towards) / length } else { 0.0 };
+        self.ambient + self.diffuse * cosine.max(0.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn normals_are_brought_back_to_length_1() {
+        let light = Light { towards: DVec3::Z, ambient: 0.25, diffuse: 0.75 };
+        let between = (DVec3::new(1.0, 0.0, 1.0) + DVec3::new(-1.0, 0.0, 1.0)) * 0.5;
+        assert_eq!(light.intensity(between * 0.5), 1.0);
+        assert_eq!(light.intensity(-between), 0.25);
+        assert_eq!(light.intensity(DVec3::ZERO), 0.25);
+        assert_eq!(Light::NONE.intensity(DVec3::new(3.0, -2.0, 1.0)), 1.0);
+        assert_eq!(Light::NONE.intensity(DVec3::ZERO), 1.0);
+    }
+
+    #[test]
+    fn a_surface_survives_packing() {
+        let (colour, normal, uv) = (DVec3::X, DVec3::new(1.0, 2.0, 3.0), DVec2::new(4.0, 5.0));
+        let surface = Surface { colour, normal, uv };
+        assert_eq!(Surface::from(Attributes::from(surface)), surface);
+    }
+}

@@ -1,0 +1,331 @@
+//! What is drawn into: colours and depths of every sample, cleared, tested and resolved (the book's
+//! sections 6.2 and 9.4, GAMES101 homework 2).
+//!
+//! Supersampling is a window of N times the size; multisampling is four planes of the same size.
+//! Samples are averaged once, when everything has been drawn. To average inside the loop over
+//! triangles, as the course's pitfall does, leaves black seams: what a triangle leaves of a pixel
+//! to its neighbour is not background.
+
+use super::Counters;
+use super::depth::{CLEAR, DepthFormat, OFF_FRACTION};
+use crate::frame::Frame;
+use crate::grid::{MAX_SIDE_PX, PixelRect};
+use glam::DVec3;
+
+/// Red, green, blue and opacity, 8 bits each.
+pub type Colour = [u8; 4];
+
+/// The nearest [`Colour`] of red, green, blue in [0, 1]; beyond, the nearer end. The thresholds lie
+/// off simple fractions, see [`super::depth`].
+#[must_use]
+#[inline]
+pub fn to_colour(rgb: DVec3) -> Colour {
+    // `as` takes what is below 0, and NaN, to 0 and what is above 255 to 255.
+    let [r, g, b] = rgb.to_array().map(|c| (c * 255.0 + (0.5 + OFF_FRACTION)) as u8);
+    [r, g, b, u8::MAX]
+}
+
+/// How many samples a pixel has and where.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
+pub enum Antialias {
+    /// One, at the centre.
+    #[default]
+    None,
+    /// Four at [`super::multisample::SAMPLES`], shaded once for each triangle.
+    Multisample4,
+    /// A regular grid of N x N, each shaded.
+    Supersample(u32),
+}
+
+impl Antialias {
+    /// Samples along a side of the pixel's grid: the factor of the window.
+    #[must_use]
+    pub fn scale(self) -> u32 {
+        match self {
+            Self::None | Self::Multisample4 => 1,
+            Self::Supersample(n) => n,
+        }
+    }
+
+    /// Planes of samples.
+    #[must_use]
+    pub fn planes(self) -> usize {
+        if self == Self::Multisample4 { super::multisample::SAMPLES.len() } else { 1 }
+    }
+
+    /// Samples of a pixel.
+    #[must_use]
+    pub fn samples(self) -> u64 {
+        u64::from(self.scale()).pow(2) * self.planes() as u64
+    }
+}
+
+/// The most samples of a picture: 2^26, which with colour, depth and a spare are about 1 GiB.
+pub const MAX_SAMPLES: u64 = 1 << 26;
+
+/// Checks a picture's size.
+///
+/// # Errors
+/// In words, for a side of 0 or more than [`MAX_SIDE_PX`], or more than [`MAX_SAMPLES`] samples.
+pub fn check_size(width: u32, height: u32, antialias: Antialias) -> Result<(), String> {
+    let scale = antialias.scale();
+    let sides = [width, height].map(|side| u64::from(side) * u64::from(scale));
+    if width == 0 || height == 0 || scale == 0 {
+        return Err(format!("a picture of {width} x {height} px has no pixels"));
+    }
+    if sides.iter().any(|&side| side > MAX_SIDE_PX.into()) {
+        return Err(format!(
+            "a picture of {width} x {height} px, {scale} samples a side, is too large; \
+             a side has at most {MAX_SIDE_PX} samples"
+        ));
+    }
+    let samples = u64::from(width) * u64::from(height) * antialias.samples();
+    if samples > MAX_SAMPLES {
+        return Err(format!("{samples} samples are too many; a picture has at most {MAX_SAMPLES}"));
+    }
+    Ok(())
+}
+
+/// Colour and depth of one sample of every pixel.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Plane {
+    /// Colours.
+    pub colour: Frame<Colour>,
+    /// Keys of [`DepthFormat`], [`CLEAR`] where nothing was drawn.
+    pub depth: Frame<u64>,
+}
+
+impl Plane {
+    /// Writes a fragment over what is there.
+    #[inline]
+    pub fn write(&mut self, x_px: i32, y_px: i32, colour: Colour) {
+        self.colour.span_mut(y_px, x_px, x_px + 1)[0] = colour;
+    }
+
+    /// Writes a fragment if it is nearer than what is there; says whether it was. The colour is
+    /// asked for only then.
+    #[inline]
+    pub fn test_and_write(
+        &mut self,
+        x_px: i32,
+        y_px: i32,
+        key: u64,
+        colour: impl FnOnce() -> Colour,
+    ) -> bool {
+        let stored = &mut self.depth.span_mut(y_px, x_px, x_px + 1)[0];
+        let nearer = key < *stored;
+        if nearer {
+            *stored = key;
+            self.colour.span_mut(y_px, x_px, x_px + 1)[0] = colour();
+        }
+        nearer
+    }
+}
+
+/// What one triangle's shading gave in each pixel, for its four samples.
+#[derive(Clone, Debug)]
+pub(super) struct Shading {
+    serial: u64,
+    /// The colour, and which triangle it is of; empty where nothing is multisampled.
+    colours: Frame<(u64, Colour)>,
+}
+
+impl Shading {
+    /// The colour that this triangle has in a pixel already.
+    #[inline]
+    pub(super) fn get(&self, x_px: i32, y_px: i32) -> Option<Colour> {
+        let (serial, colour) = self.colours.get(x_px, y_px)?;
+        (serial == self.serial).then_some(colour)
+    }
+
+    #[inline]
+    pub(super) fn put(&mut self, x_px: i32, y_px: i32, colour: Colour) {
+        self.colours.span_mut(y_px, x_px, x_px + 1)[0] = (self.serial, colour);
+    }
+}
+
+/// The samples of a picture.
+#[derive(Clone, Debug)]
+pub struct Target {
+    antialias: Antialias,
+    size: PixelRect,
+    shading: Shading,
+    /// How depths are stored.
+    pub format: DepthFormat,
+    /// One plane, or four of [`Antialias::Multisample4`].
+    pub planes: Vec<Plane>,
+}
+
+impl Target {
+    /// A target for `width` x `height` pixels, cleared to black.
+    ///
+    /// # Errors
+    /// As [`check_size`].
+    pub fn new(
+        width: u32,
+        height: u32,
+        antialias: Antialias,
+        format: DepthFormat,
+    ) -> Result<Self, String> {
+        check_size(width, height, antialias)?;
+        let scale = antialias.scale();
+        let bounds = PixelRect::window(width * scale, height * scale);
+        let plane = Plane {
+            colour: Frame::new(bounds, [0, 0, 0, u8::MAX]),
+            depth: Frame::new(bounds, CLEAR),
+        };
+        let size = PixelRect::window(width, height);
+        let shaded =
+            if antialias == Antialias::Multisample4 { size } else { PixelRect::window(0, 0) };
+        let shading = Shading { serial: 0, colours: Frame::new(shaded, (0, [0; 4])) };
+        Ok(Self { antialias, size, shading, format, planes: vec![plane; antialias.planes()] })
+    }
+
+    /// The picture's pixels.
+    #[must_use]
+    pub fn size(&self) -> PixelRect {
+        self.size
+    }
+
+    /// The window that triangles are drawn into: N times the size where supersampled.
+    #[must_use]
+    pub fn bounds(&self) -> PixelRect {
+        self.planes[0].colour.bounds()
+    }
+
+    /// How many samples a pixel has and where.
+    #[must_use]
+    pub fn antialias(&self) -> Antialias {
+        self.antialias
+    }
+
+    /// The planes, and room for the colours of one more triangle.
+    pub(super) fn with_shading(&mut self) -> (&mut [Plane], &mut Shading) {
+        self.shading.serial += 1;
+        (&mut self.planes, &mut self.shading)
+    }
+
+    /// Forgets the last frame's colours (section 9.4.1).
+    pub fn clear_colour(&mut self, colour: Colour, counters: &mut Counters) {
+        for plane in &mut self.planes {
+            plane.colour.fill(colour);
+        }
+        counters.cleared += self.sample_count();
+    }
+
+    /// Forgets the last frame's depths.
+    pub fn clear_depth(&mut self, counters: &mut Counters) {
+        for plane in &mut self.planes {
+            plane.depth.fill(CLEAR);
+        }
+        counters.cleared += self.sample_count();
+    }
+
+    /// Forgets the last frame's colours in some tiles of [`Target::bounds`].
+    pub fn clear_tiles(&mut self, tiles: &[PixelRect], colour: Colour, counters: &mut Counters) {
+        for plane in &mut self.planes {
+            for tile in tiles {
+                counters.cleared += u64::from(tile.width()) * u64::from(tile.height());
+                for y_px in tile.y0..tile.y1 {
+                    plane.colour.span_mut(y_px, tile.x0, tile.x1).fill(colour);
+                }
+            }
+        }
+    }
+
+    fn sample_count(&self) -> u64 {
+        let bounds = self.bounds();
+        u64::from(bounds.width()) * u64::from(bounds.height()) * self.planes.len() as u64
+    }
+
+    /// The picture: each pixel the mean of its samples, a half rounded up. Whole numbers, so a
+    /// pixel of one colour keeps it.
+    #[must_use]
+    pub fn resolve(&self) -> Frame<Colour> {
+        if self.antialias.samples() == 1 {
+            return self.planes[0].colour.clone();
+        }
+        let mut picture = Frame::new(self.size, [0; 4]);
+        for y_px in self.size.y0..self.size.y1 {
+            for x_px in self.size.x0..self.size.x1 {
+                picture.span_mut(y_px, x_px, x_px + 1)[0] = self.pixel(x_px, y_px);
+            }
+        }
+        picture
+    }
+
+    /// The picture without telling samples apart: the one at or after the middle of each pixel.
+    #[must_use]
+    pub fn resolve_one(&self) -> Frame<Colour> {
+        let scale = self.antialias.scale() as i32;
+        let mut picture = Frame::new(self.size, [0; 4]);
+        for y_px in self.size.y0..self.size.y1 {
+            let row = self.planes[0].colour.row(y_px * scale + scale / 2);
+            for (x_px, pixel) in picture.row_mut(y_px).iter_mut().enumerate() {
+                *pixel = row[x_px * scale as usize + scale as usize / 2];
+            }
+        }
+        picture
+    }
+
+    /// The mean of a pixel's samples.
+    #[must_use]
+    pub fn pixel(&self, x_px: i32, y_px: i32) -> Colour {
+        let scale = self.antialias.scale() as i32;
+        let mut sum = [0u32; 4];
+        for plane in &self.planes {
+            for y in y_px * scale..(y_px + 1) * scale {
+                let row = plane.colour.row(y);
+                for colour in &row[(x_px * scale) as usize..((x_px + 1) * scale) as usize] {
+                    sum = [0, 1, 2, 3].map(|i| sum[i] + u32::from(colour[i]));
+                }
+            }
+        }
+        // A mean of bytes is a byte.
+        let samples = self.antialias.samples() as u32;
+        sum.map(|channel| ((channel + samples / 2) / samples) as u8)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_quarter_and_three_quarters_leave_no_seam() {
+        let mut target = Target::new(1, 1, Antialias::Supersample(2), DepthFormat::F64).unwrap();
+        let mut set = |x, y, colour| target.planes[0].test_and_write(x, y, 7, || colour);
+        let (green, blue) = ([0, 255, 0, 255], [0, 0, 255, 255]);
+        assert!(set(0, 0, green) && set(1, 0, blue) && set(0, 1, blue) && set(1, 1, blue));
+        assert!(!set(1, 1, green), "an equal depth keeps what was first");
+        // 255 / 4 = 63.75 and 3 * 255 / 4 = 191.25.
+        assert_eq!(target.resolve().get(0, 0), Some([0, 64, 191, 255]));
+    }
+
+    #[test]
+    fn one_colour_stays_one_colour() {
+        for antialias in [Antialias::None, Antialias::Multisample4, Antialias::Supersample(3)] {
+            let mut target = Target::new(5, 4, antialias, DepthFormat::Unorm32).unwrap();
+            target.clear_colour([1, 77, 254, 255], &mut Counters::default());
+            let picture = target.resolve();
+            assert!(picture.rows().all(|(_, row)| row.iter().all(|c| *c == [1, 77, 254, 255])));
+        }
+    }
+
+    #[test]
+    fn sizes() {
+        assert!(check_size(100_000, 100_000, Antialias::None).unwrap_err().contains("too large"));
+        assert!(check_size(0, 4, Antialias::None).is_err());
+        assert!(check_size(16384, 16384, Antialias::None).unwrap_err().contains("samples"));
+        assert!(check_size(16384, 2, Antialias::Supersample(2)).is_err());
+        assert!(check_size(u32::MAX, 2, Antialias::Supersample(u32::MAX)).is_err());
+        assert!(check_size(1024, 1024, Antialias::Supersample(4)).is_ok());
+    }
+
+    #[test]
+    fn colours_round_to_the_nearest() {
+        assert_eq!(to_colour(DVec3::new(0.0, 1.0, 0.5)), [0, 255, 128, 255]);
+        assert_eq!(to_colour(DVec3::new(-1.0, 2.0, f64::NAN)), [0, 255, 0, 255]);
+        assert_eq!(to_colour(DVec3::splat(0.5f64.next_down())), [128, 128, 128, 255]);
+    }
+}

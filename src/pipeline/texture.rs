@@ -1,0 +1,180 @@
+//! Textures: nearest and bilinear lookup, repeat and clamp (the book's sections 3.3 and 11.2).
+//!
+//! A coordinate is rounded to 1/256 texel before a texel is chosen, as GPUs do, so that two engines
+//! that differ in the last bit of a coordinate read the same texel. The thresholds of that rounding
+//! lie off simple fractions for the same reason, see [`super::depth`].
+//!
+//! It refuses to be empty or larger than [`MAX_SIDE_PX`] a side.
+
+use glam::{DVec2, DVec3};
+
+use super::depth::OFF_FRACTION;
+use crate::grid::MAX_SIDE_PX;
+
+/// What lies beyond [0, 1].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
+pub enum Wrap {
+    /// The texture again.
+    #[default]
+    Repeat,
+    /// Its border.
+    Clamp,
+}
+
+/// How a value is read between texels.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
+pub enum Filter {
+    /// The texel that holds the point.
+    #[default]
+    Nearest,
+    /// The four around it, weighed by 1/256.
+    Bilinear,
+}
+
+/// An opaque picture that is looked up by (u, v): u right, v **up**, [0, 1] each over the picture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Texture {
+    width: u32,
+    height: u32,
+    /// Row by row from the top, each channel in [0, 1].
+    texels: Vec<DVec3>,
+    /// Beyond the border.
+    pub wrap: Wrap,
+    /// Between texels.
+    pub filter: Filter,
+}
+
+/// Subtexels in a texel.
+const SUBTEXELS: i64 = 256;
+
+impl Texture {
+    /// A texture from rows of 8-bit red, green, blue, the top row first. Nothing if a side is 0 or
+    /// exceeds [`MAX_SIDE_PX`], or the number of texels is not width times height.
+    #[must_use]
+    pub fn new(width: u32, height: u32, rgb: &[[u8; 3]]) -> Option<Self> {
+        let sides = 1..=MAX_SIDE_PX;
+        let fits = sides.contains(&width) && sides.contains(&height);
+        if !fits || rgb.len() != width as usize * height as usize {
+            return None;
+        }
+        let texels = rgb.iter().map(|c| DVec3::from(c.map(f64::from)) / 255.0).collect();
+        Some(Self { width, height, texels, wrap: Wrap::Repeat, filter: Filter::Nearest })
+    }
+
+    /// One white texel.
+    #[must_use]
+    pub fn white() -> Self {
+        let (wrap, filter) = (Wrap::Repeat, Filter::Nearest);
+        Self { width: 1, height: 1, texels: vec![DVec3::ONE], wrap, filter }
+    }
+
+    /// The same, read differently.
+    #[must_use]
+    pub fn with(self, filter: Filter, wrap: Wrap) -> Self {
+        Self { wrap, filter, ..self }
+    }
+
+    /// Width and height in texels.
+    #[must_use]
+    pub fn size(&self) -> (u32, u32) {
+        (self.width, self.height)
+    }
+
+    /// The colour at (u, v), each channel in [0, 1]. NaN reads as 0, infinities as the border.
+    #[must_use]
+    #[inline]
+    pub fn at(&self, uv: DVec2) -> DVec3 {
+        let x = self.subtexel(uv.x, self.width);
+        let y = self.subtexel(1.0 - uv.y, self.height);
+        match self.filter {
+            Filter::Nearest => self.texel(x.div_euclid(SUBTEXELS), y.div_euclid(SUBTEXELS)),
+            Filter::Bilinear => {
+                // Texel centres carry the values, so half a texel lies before the first.
+                let (x, y) = (x - SUBTEXELS / 2, y - SUBTEXELS / 2);
+                let (column, row) = (x.div_euclid(SUBTEXELS), y.div_euclid(SUBTEXELS));
+                let part = |sub: i64| sub.rem_euclid(SUBTEXELS) as f64 / SUBTEXELS as f64;
+                let (right, down) = (part(x), part(y));
+                let line = |row| {
+                    let (a, b) = (self.texel(column, row), self.texel(column + 1, row));
+                    a + (b - a) * right
+                };
+                let (a, b) = (line(row), line(row + 1));
+                a + (b - a) * down
+            }
+        }
+    }
+
+    /// A coordinate in 1/256 texel.
+    fn subtexel(&self, coordinate: f64, side: u32) -> i64 {
+        let texels = coordinate * f64::from(side) * SUBTEXELS as f64;
+        // `as` saturates, and takes NaN to 0; the quarter keeps sums in range.
+        let limit = (i64::MAX / 4) as f64;
+        (texels + (0.5 + OFF_FRACTION)).floor().clamp(-limit, limit) as i64
+    }
+
+    fn texel(&self, column: i64, row: i64) -> DVec3 {
+        let wrap = |at: i64, side: u32| match self.wrap {
+            Wrap::Repeat => at.rem_euclid(i64::from(side)) as usize,
+            Wrap::Clamp => at.clamp(0, i64::from(side) - 1) as usize,
+        };
+        self.texels[wrap(row, self.height) * self.width as usize + wrap(column, self.width)]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn two_by_two() -> Texture {
+        let (r, g, b, w) = ([255, 0, 0], [0, 255, 0], [0, 0, 255], [255; 3]);
+        Texture::new(2, 2, &[r, g, b, w]).unwrap()
+    }
+
+    #[test]
+    fn v_points_up() {
+        let texture = two_by_two();
+        assert_eq!(texture.at(DVec2::new(0.1, 0.9)), DVec3::X);
+        assert_eq!(texture.at(DVec2::new(0.9, 0.9)), DVec3::Y);
+        assert_eq!(texture.at(DVec2::new(0.1, 0.1)), DVec3::Z);
+        assert_eq!(texture.at(DVec2::new(0.9, 0.1)), DVec3::ONE);
+    }
+
+    #[test]
+    fn beyond_the_border() {
+        let texture = two_by_two();
+        assert_eq!(texture.at(DVec2::new(1.1, -0.9)), DVec3::Z);
+        let texture = texture.with(Filter::Nearest, Wrap::Clamp);
+        assert_eq!(texture.at(DVec2::new(1.1, -0.9)), DVec3::ONE);
+        for odd in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e300] {
+            for wrap in [Wrap::Clamp, Wrap::Repeat] {
+                let texture = two_by_two().with(Filter::Bilinear, wrap);
+                assert!(texture.at(DVec2::new(odd, odd)).is_finite());
+            }
+        }
+    }
+
+    #[test]
+    fn bilinear_is_exact_at_centres_and_halfway() {
+        let texture = two_by_two().with(Filter::Bilinear, Wrap::Clamp);
+        assert_eq!(texture.at(DVec2::new(0.25, 0.75)), DVec3::X);
+        assert_eq!(texture.at(DVec2::new(0.5, 0.75)), DVec3::new(0.5, 0.5, 0.0));
+        assert_eq!(texture.at(DVec2::new(0.5, 0.5)), DVec3::splat(0.5));
+    }
+
+    /// A last bit of the coordinate does not change the texel where borders and centres lie.
+    #[test]
+    fn simple_fractions_are_no_thresholds() {
+        let texture = two_by_two().with(Filter::Bilinear, Wrap::Repeat);
+        for i in 1..1024 {
+            let u = f64::from(i) / 1024.0;
+            let read = |u: f64| texture.at(DVec2::new(u, 0.3));
+            assert_eq!(read(u.next_up()), read(u.next_down()), "{u}");
+        }
+    }
+
+    #[test]
+    fn no_empty_or_wrong_size() {
+        assert!(Texture::new(0, 1, &[]).is_none());
+        assert!(Texture::new(2, 2, &[[0; 3]; 3]).is_none());
+    }
+}

@@ -1,0 +1,148 @@
+//! Rendered frames: as PNG, and two of them compared pixel for pixel and depth for depth.
+
+use std::io::{self, Cursor};
+
+use image::{ImageFormat, RgbImage};
+
+use crate::effects::Effect;
+use crate::effects::render::Rendered;
+use crate::frame::Frame;
+use crate::grid::PixelRect;
+use crate::pipeline::depth::CLEAR;
+use crate::pipeline::target::{Colour, Target};
+use crate::verify::tolerance;
+
+/// A frame as a PNG.
+///
+/// # Errors
+/// Where the encoder fails.
+pub fn png(picture: &Frame<Colour>) -> io::Result<Vec<u8>> {
+    let bounds = picture.bounds();
+    let rgb = RgbImage::from_fn(bounds.width(), bounds.height(), |x, y| {
+        let [r, g, b, _] = picture.row(bounds.y0 + y as i32)[x as usize];
+        image::Rgb([r, g, b])
+    });
+    let mut bytes = Vec::new();
+    rgb.write_to(&mut Cursor::new(&mut bytes), ImageFormat::Png).map_err(io::Error::other)?;
+    Ok(bytes)
+}
+
+/// Two frames, compared.
+#[derive(Clone, Debug, serde::Serialize)]
+pub struct Comparison {
+    /// Pixels compared.
+    pub pixels: u64,
+    /// Pixels whose colours differ by a bit.
+    pub wrong_pixels: u64,
+    /// Depths compared, of every sample.
+    pub depths: u64,
+    /// Depths that differ by more than two rasterizers may.
+    pub wrong_depths: u64,
+    /// The first frame, dimmed, with what differs in red.
+    #[serde(skip)]
+    pub picture: Frame<Colour>,
+}
+
+impl Comparison {
+    /// Whether nothing differs.
+    #[must_use]
+    pub fn agrees(&self) -> bool {
+        self.wrong_pixels == 0 && self.wrong_depths == 0
+    }
+}
+
+/// Compares two frames of the same size: colours to the bit; depths within the sum of the bounds
+/// that [`tolerance`] derives for the two rasterizers, with depths from 0 to 1, and one step of the
+/// format.
+#[must_use]
+pub fn compare(a: (&Frame<Colour>, &Target), b: (&Frame<Colour>, &Target)) -> Comparison {
+    let bounds = a.0.bounds();
+    let mut picture = Frame::new(bounds, [0; 4]);
+    let mut wrong_pixels = 0;
+    let red = [255, 40, 40, 255];
+    for y_px in bounds.y0..bounds.y1 {
+        let rows = a.0.row(y_px).iter().zip(b.0.row(y_px));
+        for (pixel, (a, b)) in picture.row_mut(y_px).iter_mut().zip(rows) {
+            wrong_pixels += u64::from(a != b);
+            *pixel = if a == b { a.map(|channel| channel / 3) } else { red };
+        }
+    }
+    let (depths, wrong) = compare_depths(a.1, b.1);
+    let scale = a.1.antialias().scale() as i32;
+    for (x_px, y_px) in &wrong {
+        picture.span_mut(y_px / scale, x_px / scale, x_px / scale + 1)[0] = red;
+    }
+    let pixels = u64::from(bounds.width()) * u64::from(bounds.height());
+    Comparison { pixels, wrong_pixels, depths, wrong_depths: wrong.len() as u64, picture }
+}
+
+/// How many depths were compared, and the samples where they differ.
+fn compare_depths(a: &Target, b: &Target) -> (u64, Vec<(i32, i32)>) {
+    let error =
+        tolerance::SCANLINE.depth.at([0.0, 1.0]) + tolerance::EDGE_FUNCTION.depth.at([0.0, 1.0]);
+    let tolerance = a.format.tolerance(error);
+    let mut wrong = Vec::new();
+    let mut count = 0;
+    for (plane_a, plane_b) in a.planes.iter().zip(&b.planes) {
+        let PixelRect { x0, y0, y1, .. } = plane_a.depth.bounds();
+        for y_px in y0..y1 {
+            let rows = plane_a.depth.row(y_px).iter().zip(plane_b.depth.row(y_px));
+            for (x_px, (&key_a, &key_b)) in (x0..).zip(rows) {
+                count += 1;
+                let near = key_a != CLEAR
+                    && key_b != CLEAR
+                    && (a.format.depth(key_a) - b.format.depth(key_b)).abs() <= tolerance;
+                if key_a != key_b && !near {
+                    wrong.push((x_px, y_px));
+                }
+            }
+        }
+    }
+    (count, wrong)
+}
+
+/// What the colours of a map of effects mean; a pixel that pays for several shows their sum.
+pub const MAP_COLOURS: [(Effect, [u8; 3]); 5] = [
+    (Effect::Perspective, [70, 0, 0]),
+    (Effect::Depth, [0, 0, 110]),
+    (Effect::Colour, [90, 90, 0]),
+    (Effect::Light, [0, 140, 0]),
+    (Effect::Texture, [95, 0, 100]),
+];
+
+/// A map of effects as a picture.
+#[must_use]
+pub fn map_picture(map: &Frame<u16>) -> Frame<Colour> {
+    let bounds = map.bounds();
+    let mut picture = Frame::new(bounds, [0; 4]);
+    for y_px in bounds.y0..bounds.y1 {
+        for (pixel, &paid) in picture.row_mut(y_px).iter_mut().zip(map.row(y_px)) {
+            let mut sum = [25u8, 25, 25];
+            for (effect, colour) in MAP_COLOURS {
+                if paid & (1 << effect as u16) != 0 {
+                    sum = [0, 1, 2].map(|i| sum[i].saturating_add(colour[i]));
+                }
+            }
+            *pixel = [sum[0], sum[1], sum[2], 255];
+        }
+    }
+    picture
+}
+
+/// A frame for machines.
+#[must_use]
+pub fn json(
+    scene: &str,
+    engines: &[&str],
+    rendered: &Rendered,
+    comparison: &Option<Comparison>,
+) -> String {
+    serde_json::json!({
+        "scene": scene,
+        "engines": engines,
+        "counters": rendered.counters,
+        "plan": rendered.plan,
+        "comparison": comparison,
+    })
+    .to_string()
+}

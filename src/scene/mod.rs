@@ -1,0 +1,190 @@
+//! Scenes: meshes, materials, a light, an eye; what is drawn, without a word about how.
+//!
+//! [`chapters`] rebuilds the book's scenes, [`obj`] reads models, [`shapes`] and [`textures`] make
+//! what the scenes are made of. Nothing here draws.
+
+pub mod chapters;
+pub mod obj;
+pub mod shapes;
+pub mod textures;
+
+use std::sync::Arc;
+
+use glam::{DMat4, DVec2, DVec3};
+
+use crate::pipeline::assemble::Cull;
+use crate::pipeline::shade::Light;
+use crate::pipeline::target::Colour;
+use crate::pipeline::texture::Texture;
+
+/// One corner of a triangle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Corner {
+    /// Index of its position.
+    pub position: u32,
+    /// Its colour, each channel in [0, 1].
+    pub colour: DVec3,
+    /// Its normal, of any length; 0 where there is none.
+    pub normal: DVec3,
+    /// Its texture coordinates, v up.
+    pub uv: DVec2,
+}
+
+/// Triangles that share positions.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Mesh {
+    /// Positions in object space.
+    pub positions: Vec<DVec3>,
+    /// Triangles; every index names a position.
+    pub triangles: Vec<[Corner; 3]>,
+}
+
+impl Mesh {
+    /// The normal of a triangle that is counter-clockwise from the outside, by its corners:
+    /// of length twice its area. Left-handed, so it is the cross product with the sign turned.
+    #[must_use]
+    pub fn face_normal(&self, triangle: &[Corner; 3]) -> DVec3 {
+        let [a, b, c] = triangle.map(|corner| self.positions[corner.position as usize]);
+        (c - a).cross(b - a)
+    }
+
+    /// Smallest and largest coordinates of the positions that triangles use; nothing without any.
+    #[must_use]
+    pub fn bounds(&self) -> Option<(DVec3, DVec3)> {
+        let corners = self.triangles.iter().flatten();
+        corners.map(|corner| self.positions[corner.position as usize]).fold(None, |bounds, p| {
+            let (min, max) = bounds.unwrap_or((p, p));
+            Some((min.min(p), max.max(p)))
+        })
+    }
+}
+
+/// How light is laid on.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
+pub enum Shading {
+    /// Not at all: colours and texture as they are.
+    #[default]
+    Unlit,
+    /// Once for each triangle, by its face normal.
+    Flat,
+    /// At the corners; the light is interpolated.
+    Gouraud,
+    /// At each fragment; the normal is interpolated and brought back to length 1.
+    Phong,
+}
+
+impl Shading {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Unlit, Self::Flat, Self::Gouraud, Self::Phong];
+
+    /// Its name on the command line.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Unlit => "unlit",
+            Self::Flat => "flat",
+            Self::Gouraud => "gouraud",
+            Self::Phong => "phong",
+        }
+    }
+}
+
+/// What a surface is made of.
+#[derive(Clone, Debug)]
+pub struct Material {
+    /// Everything is multiplied by this, each channel in [0, 1].
+    pub colour: DVec3,
+    /// Whether the colours of the corners are multiplied in.
+    pub vertex_colours: bool,
+    /// A texture, multiplied in.
+    pub texture: Option<Arc<Texture>>,
+    /// How light is laid on.
+    pub shading: Shading,
+}
+
+impl Default for Material {
+    fn default() -> Self {
+        let shading = Shading::Unlit;
+        Self { colour: DVec3::ONE, vertex_colours: false, texture: None, shading }
+    }
+}
+
+/// One mesh in the world.
+#[derive(Clone, Debug)]
+pub struct Item {
+    /// Its shape.
+    pub mesh: Arc<Mesh>,
+    /// From object to world space.
+    pub model: DMat4,
+    /// What it is made of.
+    pub material: Material,
+    /// Which windings are left out, as the eye sees them.
+    pub cull: Cull,
+}
+
+impl Item {
+    /// A mesh where it is, of a material, both sides visible.
+    #[must_use]
+    pub fn new(mesh: Mesh, material: Material) -> Self {
+        Self { mesh: Arc::new(mesh), model: DMat4::IDENTITY, material, cull: Cull::None }
+    }
+}
+
+/// How what is hidden is found out.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
+pub enum Hidden {
+    /// By a depth buffer (section 6.2).
+    #[default]
+    DepthBuffer,
+    /// By drawing triangles from the farthest to the nearest, by the mean depth of their corners
+    /// (the painter's algorithm, section 6.1).
+    Painter,
+}
+
+/// What is to be drawn.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// Its name on the command line.
+    pub name: String,
+    /// What it shows, one line.
+    pub about: String,
+    /// What is in it, in drawing order.
+    pub items: Vec<Item>,
+    /// From world to camera space.
+    pub view: DMat4,
+    /// From camera to clip space.
+    pub projection: DMat4,
+    /// The light, in world space.
+    pub light: Light,
+    /// Where nothing is.
+    pub background: Colour,
+    /// How what is hidden is found out.
+    pub hidden: Hidden,
+    /// Whether attributes are interpolated linearly in the window, whatever w is: the fault of the
+    /// book's section 5.3.
+    pub affine: bool,
+}
+
+impl Scene {
+    /// An empty scene, seen from the origin.
+    #[must_use]
+    pub fn new(name: &str, about: &str, projection: DMat4) -> Self {
+        Self {
+            name: name.to_owned(),
+            about: about.to_owned(),
+            items: Vec::new(),
+            view: DMat4::IDENTITY,
+            projection,
+            light: Light::NONE,
+            background: [18, 18, 24, u8::MAX],
+            hidden: Hidden::DepthBuffer,
+            affine: false,
+        }
+    }
+
+    /// Triangles in all items.
+    #[must_use]
+    pub fn triangles(&self) -> usize {
+        self.items.iter().map(|item| item.mesh.triangles.len()).sum()
+    }
+}
