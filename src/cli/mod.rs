@@ -4,6 +4,7 @@ mod engine;
 mod exhaust;
 mod inspect;
 mod invariant;
+mod plan;
 mod published;
 mod render;
 mod specimens;
@@ -36,6 +37,7 @@ const EXAMPLES: &str = "Examples:
   rasterproof inspect --line 0,0 8,3              explain a line
   rasterproof engine scanline < requests.txt      speak the line protocol
   rasterproof render --scene cube                 a scene through the whole pipeline, by both
+  rasterproof plan --scene panels                 the effects it calls for, and what the rest costs
   rasterproof specimens                           the published algorithms and their faults
   rasterproof verify --invariant vertex-order     check one invariant; all checks every one
   rasterproof mutants                             which invariant kills which planted fault
@@ -71,6 +73,8 @@ enum Command {
     Specimens(specimens::SpecimensArguments),
     /// Draw a scene of the book, or a model, by either rasterizer or by both
     Render(Box<render::RenderArguments>),
+    /// Show which effects a scene calls for, why, and what leaving out the rest saves
+    Plan(Box<plan::PlanArguments>),
     /// Show which invariant kills which planted fault
     Mutants,
     /// Judge every case of a finite set, and certify it
@@ -153,6 +157,7 @@ pub fn run(words: impl IntoIterator<Item = String>, streams: &mut Streams<'_>) -
         Some(Command::Engine { name }) => engine::run(name, streams),
         Some(Command::Specimens(arguments)) => specimens::run(arguments, streams),
         Some(Command::Render(arguments)) => render::run(arguments, streams),
+        Some(Command::Plan(arguments)) => plan::run(arguments, streams),
         Some(Command::Mutants) => invariant::mutants(streams),
         Some(Command::Exhaust(arguments)) => exhaust::run(arguments, streams),
         Some(Command::Merge(arguments)) => exhaust::merge(arguments, streams),

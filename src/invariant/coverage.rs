@@ -9,6 +9,7 @@ use super::source::{Fan, Position, Quad, TriangleInput};
 use super::subject::{Engine, Subject, hits};
 use crate::frame::Coverage;
 use crate::grid::{DOMAIN_PX, HALF_PIXEL, PixelRect, Refusal, SUBPIXELS, SubpixelPoint};
+use crate::pipeline::assemble::Cull;
 use crate::raster::edge_function::WordWidth;
 use crate::triangle::Corners;
 
@@ -376,6 +377,15 @@ pub(super) fn zero_area(subject: &Subject, input: &TriangleInput) -> Outcome {
 /// 13: a triangle and the same one seen from behind.
 pub(super) fn windings(subject: &Subject, input: &TriangleInput) -> Outcome {
     let ([a, b, c], window) = (input.triangle.corners(), input.window);
+    let sign = exact::twice_area(&[a, b, c]).signum();
+    for (corners, sign) in [([a, b, c], sign), ([c, b, a], -sign)] {
+        let removed = [Cull::None, Cull::Clockwise, Cull::CounterClockwise]
+            .map(|cull| (subject.culls)(cull, corners));
+        let expected = [false, sign > 0, sign < 0];
+        if removed != expected {
+            return Err(format!("culling none, clockwise, counter-clockwise: {removed:?}"));
+        }
+    }
     each(subject, |engine| {
         let front = engine.hits([a, b, c], window);
         same(engine.name, &engine.hits([c, b, a], window), &front, "with the other winding")

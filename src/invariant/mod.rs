@@ -8,10 +8,12 @@
 //! are put in the place of the real thing to show that each check can fail ([`matrix`]).
 //!
 //! - Coverage is 1 to 20, values 21 to 31, lines 36 to 41, the harness itself 42 to 44.
-//! - 32 to 35 (clipping) and 45 and 46 are listed with the reason why there is nothing to ask yet.
-//!   They never count as passing.
+//! - Clipping is 32 to 35, effects 46. 45 is listed with the reason why there is nothing to ask yet;
+//!   it never counts as passing.
 
+mod clip;
 mod coverage;
+mod effects;
 mod exact;
 mod lines;
 pub mod matrix;
@@ -23,7 +25,7 @@ mod values;
 use rayon::prelude::*;
 
 use crate::verify::caught;
-use source::{Fan, Input, LineInput, Position, Quad, TriangleInput};
+use source::{ClipInput, Fan, Input, LineInput, Position, Quad, TriangleInput};
 use subject::{Part, Subject};
 
 /// What a check compared (0 where the input does not fit it), or the first thing that is wrong.
@@ -42,6 +44,8 @@ pub enum Check {
     Line(fn(&Subject, &LineInput) -> Outcome),
     /// Of a coordinate.
     Position(fn(&Subject, &Position) -> Outcome),
+    /// Of a triangle in clip space.
+    Clip(fn(&Subject, &ClipInput) -> Outcome),
     /// Of a whole run: its seed, its cases of each family, at most the number given.
     Run(fn(&Subject, u64, u64) -> Outcome, u64),
     /// Of the matrix of mutants and invariants.
@@ -107,6 +111,7 @@ impl Invariant {
             Check::Fan(_) => source::fan(seed, index),
             Check::Line(_) => source::line(subject.make_case, seed, index),
             Check::Position(_) => source::position(seed, index),
+            Check::Clip(_) => source::clip(seed, index),
             Check::Run(_, cases) => Input::Run { seed, cases },
             Check::Matrix | Check::NotYet(_) => Input::Run { seed, cases: matrix::CASES },
         }
@@ -123,6 +128,7 @@ impl Invariant {
             (Check::Fan(check), Input::Fan(input)) => check(subject, input),
             (Check::Line(check), Input::Line(input)) => check(subject, input),
             (Check::Position(check), Input::Position(input)) => check(subject, input),
+            (Check::Clip(check), Input::Clip(input)) => check(subject, input),
             (Check::Run(check, _), &Input::Run { seed, cases }) => check(subject, seed, cases),
             (Check::Matrix, &Input::Run { seed, cases }) => {
                 let matrix = matrix::Matrix::compute(seed, cases);
@@ -198,6 +204,7 @@ pub fn find(name: &str) -> Option<&'static Invariant> {
 const ENGINE: &[Part] = &[Part::Engine];
 const JUDGED: &[Part] = &[Part::Engine, Part::Oracle];
 const DRAWER: &[Part] = &[Part::Drawer];
+const CLIP: &[Part] = &[Part::Clip];
 
 const fn invariant(
     number: u32,
@@ -250,8 +257,8 @@ pub const CATALOGUE: &[Invariant] = &[
         "A triangle of zero snapped area covers nothing and emits no fragment.",
         "0", ENGINE, Check::Triangle(coverage::zero_area)),
     invariant(13, "windings",
-        "Both windings cover the same pixels (culling by the snapped area's sign: no cull stage yet).",
-        "0", ENGINE, Check::Triangle(coverage::windings)),
+        "Both windings cover the same pixels, and culling tells them apart by the snapped area's sign.",
+        "0", &[Part::Engine, Part::Cull], Check::Triangle(coverage::windings)),
     invariant(14, "crop",
         "Bounds, tiles and threads only crop: pixels and values of a tile are those of the window.",
         "0, bit for bit", ENGINE, Check::Triangle(coverage::crop)),
@@ -307,13 +314,13 @@ pub const CATALOGUE: &[Invariant] = &[
         "No NaN and no infinity for any w, depth and value of the accepted domain.",
         "0", ENGINE, Check::Triangle(values::finite)),
     invariant(32, "clip-inside", "What is entirely inside is the same with and without clipping.",
-        "0", &[], Check::NotYet("there is no clip stage")),
-    invariant(33, "clip-reversed", "Clipping A to B and B to A gives the same vertex.",
-        "0, bit for bit", &[], Check::NotYet("there is no clip stage")),
-    invariant(34, "clip-coverage", "The clipped fan covers what the oracle says of the clipped polygon.",
-        "0", &[], Check::NotYet("there is no clip stage")),
-    invariant(35, "clip-plane", "Every clipped vertex satisfies its plane exactly.",
-        "0", &[], Check::NotYet("there is no clip stage")),
+        "0, bit for bit", CLIP, Check::Clip(clip::inside)),
+    invariant(33, "clip-reversed", "Clipping A to B and B to A gives the same vertices, so neighbours across an edge meet.",
+        "0, bit for bit", CLIP, Check::Clip(clip::reversed)),
+    invariant(34, "clip-coverage", "The clipped fan covers what lies in the triangle and in front of the eye, exactly.",
+        "0 beyond 1/256 px of the border, where snapping decides", CLIP, Check::Clip(clip::coverage)),
+    invariant(35, "clip-plane", "Every clipped vertex satisfies its plane exactly, and no vertex lies outside any.",
+        "0", CLIP, Check::Clip(clip::planes)),
     invariant(36, "nearest-pixel",
         "Every pixel of a line is the nearest one, |2 (dx y - x dy)| <= dx, ties as the contract says.",
         "0", DRAWER, Check::Line(lines::nearest_pixel)),
@@ -344,7 +351,7 @@ pub const CATALOGUE: &[Invariant] = &[
     invariant(45, "metrics-report-only", "Image metrics report and never decide about coverage.",
         "0", &[], Check::NotYet("there are no image metrics")),
     invariant(46, "disabled-effect", "A disabled effect makes no call at all.",
-        "0", &[], Check::NotYet("there are no effects")),
+        "0", &[Part::Render], Check::Run(effects::disabled, 24)),
 ];
 
 #[cfg(test)]

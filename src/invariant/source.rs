@@ -131,6 +131,14 @@ impl Position {
     }
 }
 
+/// A triangle in clip space, in small whole numbers so that the truth about it can be computed
+/// exactly.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ClipInput {
+    /// x, y, z, w of each vertex; the varying is their number.
+    pub vertices: [[i32; 4]; 3],
+}
+
 /// The input of a check.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Input {
@@ -144,6 +152,8 @@ pub enum Input {
     Line(LineInput),
     /// A coordinate.
     Position(Position),
+    /// A triangle in clip space.
+    Clip(ClipInput),
     /// A run of the harness: its seed and the cases of each family.
     Run {
         /// Decides every case.
@@ -230,6 +240,25 @@ pub(super) fn position(seed: u64, index: u64) -> Input {
     Input::Position(Position::new(sub, part, shift_px))
 }
 
+/// Triangles in clip space: many with vertices on planes, behind the eye, or all inside.
+pub(super) fn clip(seed: u64, index: u64) -> Input {
+    let mut rng = Rng::new("clip", seed, index);
+    let inside = rng.chance(4);
+    let behind = rng.chance(2);
+    let vertices = [(); 3].map(|()| {
+        let w = rng.int(if behind && !inside { -12 } else { 1 }, 24);
+        let reach = if inside { w } else { 30 };
+        // A third of the coordinates lie on a plane.
+        let mut coordinate = || match rng.int(0, 5) {
+            0 => w,
+            1 => -w,
+            _ => rng.int(-reach, reach),
+        };
+        [coordinate(), coordinate(), coordinate(), w].map(|v| v as i32)
+    });
+    Input::Clip(ClipInput { vertices })
+}
+
 /// The smallest input reached from a failing one for which `fails` still holds.
 pub(super) fn smallest(input: Input, fails: impl Fn(&Input) -> bool) -> Input {
     match input {
@@ -248,6 +277,7 @@ pub(super) fn smallest(input: Input, fails: impl Fn(&Input) -> bool) -> Input {
         Input::Quad(quad) => greedy(Input::Quad(quad), &fails),
         Input::Fan(fan) => greedy(Input::Fan(fan), &fails),
         Input::Position(position) => greedy(Input::Position(position), &fails),
+        Input::Clip(clip) => greedy(Input::Clip(clip), &fails),
         run @ Input::Run { .. } => run,
     }
 }
@@ -332,6 +362,17 @@ fn neighbours(input: &Input) -> Vec<Input> {
             found.push(Position { px: p.px - (whole / 2.0).trunc(), ..*p });
             found.into_iter().map(Input::Position).collect()
         }
+        Input::Clip(clip) => (0..12)
+            .flat_map(|i| {
+                let moved = |to: fn(i32) -> i32| {
+                    let mut vertices = clip.vertices;
+                    let number = &mut vertices[i / 4][i % 4];
+                    *number = to(*number);
+                    Input::Clip(ClipInput { vertices })
+                };
+                [moved(|_| 0), moved(|v| v / 2), moved(|v| v - v.signum())]
+            })
+            .collect(),
         _ => Vec::new(),
     }
 }
@@ -369,6 +410,9 @@ impl fmt::Display for Input {
                 write!(f, "line {},{} to {},{} in {}", a.x, a.y, b.x, b.y, rect(window))
             }
             Self::Position(p) => write!(f, "coordinate {:?} px, moved by {} px", p.px, p.shift_px),
+            Self::Clip(ClipInput { vertices }) => {
+                write!(f, "clip coordinates (x, y, z, w) {vertices:?}")
+            }
             Self::Run { seed, cases } => {
                 write!(f, "a run of seed {seed}, {cases} cases of each family")
             }

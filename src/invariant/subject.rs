@@ -7,14 +7,21 @@
 use glam::{DVec2, DVec3};
 
 use crate::contract::{DrawLine, Interpolate, Rasterize};
+use crate::effects::Effects;
 use crate::frame::Coverage;
 use crate::grid::{self, PixelRect, Refusal};
 use crate::hazard::{Case, Family, Line, Triangle};
 use crate::line::{bresenham::Bresenham, dda::Dda};
-use crate::mutant::Mutant;
+use crate::lineup;
+use crate::mutant::{Mutant, StageMutant};
 use crate::oracle::Oracle;
+use crate::pipeline::assemble::Cull;
+use crate::pipeline::clip::{Outcode, clip};
+use crate::pipeline::target::Target;
+use crate::pipeline::{ClipVertex, Counters};
 use crate::raster::edge_function::{self, EdgeFunction, WordWidth};
 use crate::raster::scanline::Scanline;
+use crate::scene::Scene;
 use crate::triangle::{Corners, Fragment, ScreenTriangle, Span};
 use crate::verify::tolerance::{self, Tolerance};
 
@@ -136,6 +143,12 @@ impl Drawer {
 /// Makes the case of a family, a seed and a number.
 pub type MakeCase = fn(&Family, u64, u64) -> Case;
 
+/// Clips a triangle by a set of planes.
+pub type ClipStage = fn(&[ClipVertex<DVec2>; 3], Outcode) -> Vec<ClipVertex<DVec2>>;
+
+/// Draws a scene with some effects into a target of a kind, and says what it cost.
+pub type RenderStage = fn(&Scene, &Effects, &mut Target) -> Counters;
+
 /// The implementations under test.
 pub struct Subject {
     /// Rasterizers: scanline and edge function, or a faulty one.
@@ -152,6 +165,12 @@ pub struct Subject {
     pub word_width: fn(u32, u32) -> WordWidth,
     /// The source of generated cases.
     pub make_case: MakeCase,
+    /// The clipper.
+    pub clip: ClipStage,
+    /// Whether culling removes a triangle.
+    pub culls: fn(Cull, Corners) -> bool,
+    /// Draws a scene and counts.
+    pub render: RenderStage,
 }
 
 /// A part of a [`Subject`]: what a check looks at, and where a fault sits.
@@ -171,6 +190,12 @@ pub enum Part {
     WordWidth,
     /// The source of cases.
     Source,
+    /// The clipper.
+    Clip,
+    /// Culling.
+    Cull,
+    /// Rendering with effects.
+    Render,
     /// The matrix of invariants and mutants itself.
     Matrix,
 }
@@ -201,6 +226,13 @@ impl Subject {
             edge_values: edge_function::edge_values,
             word_width: WordWidth::of,
             make_case: Family::case,
+            clip: |triangle, planes| clip(triangle, planes).0.vertices().copied().collect(),
+            culls: Cull::removes,
+            render: |scene, effects, target| {
+                lineup::Drawer::Scanline
+                    .render(scene, effects, target)
+                    .map_or(Counters::default(), |rendered| rendered.counters)
+            },
         }
     }
 
@@ -224,6 +256,9 @@ impl Subject {
             Mutant::EdgeValues(fault) => subject.edge_values = fault.function(),
             Mutant::WordWidth(fault) => subject.word_width = fault.function(),
             Mutant::Source(fault) => subject.make_case = fault.function(),
+            Mutant::Stage(fault) => {
+                fault.replace(&mut subject.clip, &mut subject.culls, &mut subject.render)
+            }
         }
         subject
     }
@@ -241,6 +276,11 @@ impl Mutant {
             Self::EdgeValues(_) => Part::EdgeValues,
             Self::WordWidth(_) => Part::WordWidth,
             Self::Source(_) => Part::Source,
+            Self::Stage(fault) => match fault {
+                StageMutant::CullSwapped | StageMutant::CullByFloatArea => Part::Cull,
+                StageMutant::EffectsIgnored | StageMutant::ClearsAlways => Part::Render,
+                _ => Part::Clip,
+            },
         }
     }
 }

@@ -8,11 +8,13 @@ pub mod exact;
 mod lines;
 mod oracles;
 mod parts;
+mod stages;
 mod triangles;
 
 pub use lines::LineMutant;
 pub use oracles::OracleMutant;
 pub use parts::{EdgeValuesMutant, SnapMutant, SourceMutant, WordWidthMutant};
+pub use stages::StageMutant;
 pub use triangles::TriangleMutant;
 
 /// A mutant of any kind.
@@ -32,6 +34,8 @@ pub enum Mutant {
     WordWidth(WordWidthMutant),
     /// A source of cases.
     Source(SourceMutant),
+    /// A stage of the pipeline.
+    Stage(StageMutant),
 }
 
 impl Mutant {
@@ -45,6 +49,7 @@ impl Mutant {
         all.extend(WordWidthMutant::ALL.map(Self::WordWidth));
         all.extend(LineMutant::ALL.map(Self::Line));
         all.extend(SourceMutant::ALL.map(Self::Source));
+        all.extend(StageMutant::ALL.map(Self::Stage));
         all
     }
 
@@ -65,6 +70,7 @@ impl Mutant {
             Self::EdgeValues(mutant) => mutant.name(),
             Self::WordWidth(mutant) => mutant.name(),
             Self::Source(mutant) => mutant.name(),
+            Self::Stage(mutant) => mutant.name(),
         }
     }
 }

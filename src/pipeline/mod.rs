@@ -13,6 +13,7 @@ pub mod depth;
 pub mod draw;
 pub mod fill;
 pub mod multisample;
+pub mod present;
 pub mod shade;
 pub mod target;
 pub mod texture;

@@ -12,18 +12,25 @@ use crate::pipeline::depth::CLEAR;
 use crate::pipeline::target::{Colour, Target};
 use crate::verify::tolerance;
 
+/// A frame as an image, without its opacity.
+#[must_use]
+pub fn rgb(picture: &Frame<Colour>) -> RgbImage {
+    let bounds = picture.bounds();
+    RgbImage::from_fn(bounds.width(), bounds.height(), |x, y| {
+        let [r, g, b, _] = picture.row(bounds.y0 + y as i32)[x as usize];
+        image::Rgb([r, g, b])
+    })
+}
+
 /// A frame as a PNG.
 ///
 /// # Errors
 /// Where the encoder fails.
 pub fn png(picture: &Frame<Colour>) -> io::Result<Vec<u8>> {
-    let bounds = picture.bounds();
-    let rgb = RgbImage::from_fn(bounds.width(), bounds.height(), |x, y| {
-        let [r, g, b, _] = picture.row(bounds.y0 + y as i32)[x as usize];
-        image::Rgb([r, g, b])
-    });
     let mut bytes = Vec::new();
-    rgb.write_to(&mut Cursor::new(&mut bytes), ImageFormat::Png).map_err(io::Error::other)?;
+    rgb(picture)
+        .write_to(&mut Cursor::new(&mut bytes), ImageFormat::Png)
+        .map_err(io::Error::other)?;
     Ok(bytes)
 }
 

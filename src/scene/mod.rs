@@ -5,6 +5,7 @@
 
 pub mod chapters;
 pub mod obj;
+pub mod random;
 pub mod shapes;
 pub mod textures;
 

@@ -6,6 +6,7 @@ mod exact;
 mod exhaust;
 mod house;
 mod matrix;
+mod models;
 mod mutants;
 mod properties;
 mod protocol;

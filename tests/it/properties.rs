@@ -9,7 +9,9 @@ use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestError, TestRng, TestRunner};
 use rasterproof::grid::{PixelRect, SubpixelPoint};
 use rasterproof::hazard::Triangle;
-use rasterproof::invariant::source::{Fan, Input, LineInput, Position, Quad, TriangleInput};
+use rasterproof::invariant::source::{
+    ClipInput, Fan, Input, LineInput, Position, Quad, TriangleInput,
+};
 use rasterproof::invariant::subject::Subject;
 use rasterproof::invariant::{self, CATALOGUE, Check, Invariant};
 use rasterproof::triangle::{LineEnd, PixelPoint, ScreenLine, ScreenTriangle, ScreenVertex};
@@ -86,6 +88,22 @@ fn inputs(check: &Check) -> Option<BoxedStrategy<Input>> {
                 .prop_map(|(sub, part, shift)| Input::Position(Position::new(sub, part, shift)))
                 .boxed()
         }
+        Check::Clip(_) => {
+            let vertex = || {
+                (proptest::array::uniform3(-12..=12i32), -6..=12i32).prop_map(|([x, y, z], w)| {
+                    // On a plane as often as not.
+                    let on = |v: i32| match v.rem_euclid(4) {
+                        0 => w,
+                        1 => -w,
+                        _ => v,
+                    };
+                    [on(x), on(y), on(z), w]
+                })
+            };
+            [vertex(), vertex(), vertex()]
+                .prop_map(|vertices| Input::Clip(ClipInput { vertices }))
+                .boxed()
+        }
         Check::Run(..) | Check::Matrix | Check::NotYet(_) => return None,
     })
 }
@@ -146,8 +164,9 @@ properties! {
     identifies_the_rule edge_lemma edge_bound snapping area supersampling
     edges_sum weights_sum perspective_values hull constant_attribute equal_w scaled_w
     rotated_vertices shared_edge flat_depth finite
+    clip_inside clip_reversed clip_coverage clip_plane
     nearest_pixel one_per_step reversal octants clipped_line listed_differences
-    quotas replay
+    quotas replay disabled_effect
 }
 
 /// The same strategies find a planted fault, and the failure shrinks to small numbers.

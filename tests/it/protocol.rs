@@ -23,9 +23,9 @@ fn check(engine: &str, request: &str, answer: &str) {
 
 #[test]
 fn hello_names_the_capabilities() {
-    check("scanline", "HELLO 1", "HELLO 1 scanline coverage attributes");
+    check("scanline", "HELLO 1", "HELLO 1 scanline coverage attributes samples4");
     check("bresenham", "HELLO 1", "HELLO 1 bresenham line");
-    check("oracle", "HELLO 1", "HELLO 1 oracle coverage attributes line");
+    check("oracle", "HELLO 1", "HELLO 1 oracle coverage attributes samples4 line");
     check("oracle", "HELLO 2", "E - this engine speaks version 1: say HELLO 1");
 }
 
@@ -39,6 +39,16 @@ fn coverage_of_a_triangle_on_centres() {
             "C h 5 0 0 5 1 1 5 2 2 5 3 3 5 4 4 5",
         );
         check(engine, "T e 8 8 1 1 1 1 5 5", "C e 0");
+    }
+}
+
+/// The upper left half of a pixel: its diagonal from (1, 0) to (0, 1) passes between the samples
+/// (6, 2) and (2, 10) on one side and (14, 6) and (10, 14) on the other.
+#[test]
+fn samples_of_half_a_pixel() {
+    for engine in ["scanline", "edge-function", "oracle"] {
+        check(engine, "S a 2 2 0 0 1 0 0 1", "M a 1 0 0 1 5");
+        check(engine, "S b 2 1 0 0 2 0 0 2", "M b 2 0 0 1 15 0 1 2 5");
     }
 }
 
@@ -91,9 +101,12 @@ fn bad_requests_are_answered_and_survived() {
         ("T b 8 8 0 0 one 1 2 2", "E b number 3 'one' cannot be read"),
         ("T b 8 8 0 0 0x 1 2 2", "E b number 3 '0x' cannot be read"),
         ("T b 8 8 0 0 -+1 1 2 2", "E b number 3 '-+1' cannot be read"),
-        ("X b 8 8", "E b unknown request 'X'; expected HELLO, T, L, I"),
+        ("X b 8 8", "E b unknown request 'X'; expected HELLO, T, L, I, S"),
         ("T", "E - T takes an id, width, height and 6 numbers; 0 words follow"),
-        ("S b 8 8 0 0 1 1 2 2", "E b unsupported"),
+        (
+            "S b 8 8 0 0 1 1 8388607 2",
+            "E b a corner lies within half a pixel of the domain's end, where samples have no place",
+        ),
         (
             "I b 8 8 0 0 0 0 0 0 1 1 0 1 0 0 2 2 0 1 0 0",
             "E b w0 0e0 is outside the accepted range [6.223015277861142e-61, 1.6069380442589903e60]",
@@ -120,6 +133,7 @@ fn bad_requests_are_answered_and_survived() {
     );
     assert_eq!(answers, expected);
     check("dda", "T b 8 8 0 0 1 1 2 2", "E b unsupported");
+    check("scanline-exact", "S b 8 8 0 0 1 1 2 2", "E b unsupported");
     check("scanline", "L b 8 8 0 0 1 1", "E b unsupported");
     check(
         "dda",

@@ -5,11 +5,12 @@ use std::io::{BufRead, BufReader};
 use flate2::read::GzDecoder;
 use glam::DVec2;
 use rasterproof::contract::{Interpolate, Rasterize};
-use rasterproof::frame::Coverage;
+use rasterproof::frame::{Coverage, Frame};
 use rasterproof::grid::{PixelRect, SubpixelPoint, snap};
 use rasterproof::hazard::Triangle;
 use rasterproof::lineup::Engine;
 use rasterproof::oracle::values::ExactTriangle;
+use rasterproof::pipeline::multisample::masks;
 use rasterproof::triangle::{ScreenTriangle, ScreenVertex};
 use rasterproof::verify::tolerance;
 use serde_json::Value;
@@ -230,4 +231,35 @@ fn interpolation_agrees_with_lavapipe() {
 #[test]
 fn interpolation_agrees_with_swiftshader() {
     check_interpolation("swiftshader", 1);
+}
+
+/// Four samples a pixel: the masks of each triangle, by every engine.
+fn check_masks(driver: &str, step: i32) -> usize {
+    let window = PixelRect::window(64, 64);
+    let mut checked = 0;
+    for record in records(&format!("vulkan-msaa.{driver}")) {
+        let mut target = Frame::new(window, 0u8);
+        for run in items(&record["mask_runs"]) {
+            let [mask, y, x0, x1] = [0, 1, 2, 3].map(|i| int(&run[i]) as i32);
+            target.span_mut(y, x0, x1).fill(mask as u8);
+        }
+        let corners = points(&record, step);
+        for engine in ENGINES {
+            let corners = [corners[0], corners[1], corners[2]];
+            let actual = masks(&engine, corners, window).unwrap();
+            assert!(actual == target, "{} differs from {driver} on {record}", engine.name());
+        }
+        checked += 1;
+    }
+    checked
+}
+
+#[test]
+fn masks_of_lavapipe() {
+    assert!(check_masks("lavapipe", 1) > 100);
+}
+
+#[test]
+fn masks_of_swiftshader() {
+    assert!(check_masks("swiftshader", SWIFTSHADER_STEP) > 100);
 }

@@ -1,14 +1,23 @@
 //! The scenes, through the whole pipeline: both rasterizers draw the same pictures, a plan of effects
 //! changes no bit, and what is left out where it is called for shows.
 
+use std::sync::Arc;
+
+use glam::{DMat4, DVec3, DVec4};
 use rasterproof::effects::render::Rendered;
 use rasterproof::effects::{Effect, Effects, Mode};
 use rasterproof::lineup::Drawer;
+use rasterproof::pipeline::assemble::Cull;
 use rasterproof::pipeline::depth::DepthFormat;
+use rasterproof::pipeline::shade::Light;
 use rasterproof::pipeline::target::{Antialias, Target};
+use rasterproof::pipeline::transform::{look_at, perspective};
 use rasterproof::report::frames;
-use rasterproof::scene::Scene;
 use rasterproof::scene::chapters::{SCENES, scene};
+use rasterproof::scene::{Item, Material, Mesh, Scene, Shading, random, shapes, textures};
+use rayon::prelude::*;
+
+use crate::snapshots::{check_picture, settings};
 
 const SMOOTHINGS: [Antialias; 4] = [
     Antialias::None,
@@ -56,6 +65,16 @@ fn scenes_are_the_same_by_both_rasterizers() {
 }
 
 #[test]
+fn scenes_look_as_kept() {
+    for entry in SCENES {
+        let scene = scene(entry.name, 4.0 / 3.0, 0.0).unwrap();
+        let mut target = Target::new(160, 120, Antialias::None, DepthFormat::Unorm32).unwrap();
+        let rendered = Drawer::Scanline.render(&scene, &Effects::PLANNED, &mut target).unwrap();
+        check_picture(&format!("scene-{}", entry.name), &frames::rgb(&rendered.picture));
+    }
+}
+
+#[test]
 fn plans_change_no_bit() {
     for scene in scenes() {
         for drawer in Drawer::ALL {
@@ -75,6 +94,229 @@ fn plans_change_no_bit() {
                     }
                 }
             }
+        }
+    }
+}
+
+/// Random scenes, as many as `RASTERPROOF_SCENES` says, through both rasterizers: planned and
+/// everything-on pictures have the same bits, and so have the two rasterizers'.
+#[test]
+fn random_scenes_planned_change_no_bit() {
+    let count = std::env::var("RASTERPROOF_SCENES").ok().and_then(|n| n.parse().ok());
+    let differs = |index: &u64| {
+        let scene = random::scene(1, *index);
+        let antialias = SMOOTHINGS[*index as usize % 4];
+        let effect = Effect::ALL[*index as usize / 4 % Effect::ALL.len()];
+        let draw = |drawer: Drawer, effects: Effects| {
+            let mut target = Target::new(28, 21, antialias, DepthFormat::Unorm32).unwrap();
+            target.clear_colour(LAST_FRAME, &mut Default::default());
+            drawer.render(&scene, &effects, &mut target).unwrap().picture
+        };
+        let whole = draw(Drawer::Scanline, Effects::ALWAYS);
+        let same = draw(Drawer::Scanline, Effects::PLANNED) == whole
+            && draw(Drawer::EdgeFunction, Effects::PLANNED) == whole
+            && draw(Drawer::EdgeFunction, Effects::ALWAYS.with(effect, Mode::Planned)) == whole;
+        !same
+    };
+    let wrong: Vec<u64> = (0..count.unwrap_or(2500)).into_par_iter().filter(differs).collect();
+    assert!(wrong.is_empty(), "{} random scenes differ, first {:?}", wrong.len(), &wrong[..1]);
+}
+
+/// A scene that violates the condition of one effect by `by`, and not at all for 0. Clip space is
+/// the scene's own space where `w` is not asked for.
+struct Counterexample {
+    effect: Effect,
+    scene: fn(by: f64) -> Scene,
+    antialias: Antialias,
+}
+
+fn plain(items: Vec<Item>) -> Scene {
+    let mut scene = Scene::new("counterexample", "", DMat4::IDENTITY);
+    scene.items = items;
+    scene
+}
+
+/// The whole screen up to `right`, at depths z of the left and the right side.
+fn screen(right: f64, z: [f64; 2]) -> Mesh {
+    shapes::quad([
+        DVec3::new(-1.0, -1.0, z[0]),
+        DVec3::new(right, -1.0, z[1]),
+        DVec3::new(right, 1.0, z[1]),
+        DVec3::new(-1.0, 1.0, z[0]),
+    ])
+}
+
+fn grey(value: f64) -> Material {
+    Material { colour: DVec3::splat(value), ..Material::default() }
+}
+
+fn counterexamples() -> Vec<Counterexample> {
+    let none = Antialias::None;
+    let over = Antialias::Supersample(4);
+    let make = |effect, antialias, scene| Counterexample { effect, scene, antialias };
+    vec![
+        make(Effect::Clip, none, |by| {
+            // The left side moves in front of the near plane.
+            plain(vec![Item::new(screen(1.0, [-1.0 - by, 0.5]), grey(0.5))])
+        }),
+        make(Effect::Cull, none, |by| {
+            let cull = if by > 0.0 { Cull::CounterClockwise } else { Cull::None };
+            plain(vec![Item { cull, ..Item::new(screen(1.0, [0.0; 2]), grey(0.5)) }])
+        }),
+        make(Effect::Perspective, none, |by| {
+            // w = z: the right side moves away from the eye.
+            let projection =
+                DMat4::from_cols(DVec4::X, DVec4::Y, DVec4::new(0., 0., 0.5, 1.), DVec4::ZERO);
+            let mut mesh = screen(1.0, [1.0, 1.0 + by]);
+            for corner in mesh.triangles.as_flattened_mut() {
+                corner.colour = DVec3::splat(corner.uv.x);
+            }
+            let material = Material { vertex_colours: true, ..grey(1.0) };
+            Scene { projection, ..plain(vec![Item::new(mesh, material)]) }
+        }),
+        make(Effect::Depth, none, |by| {
+            // The near one first; the far one moves over it.
+            let far = shapes::quad([
+                DVec3::new(0.25 - by, -1.0, 0.5),
+                DVec3::new(1.0, -1.0, 0.5),
+                DVec3::new(1.0, 1.0, 0.5),
+                DVec3::new(0.25 - by, 1.0, 0.5),
+            ]);
+            // A border on a row of centres.
+            let near = screen(0.2, [-0.5; 2]);
+            plain(vec![Item::new(near, grey(0.9)), Item::new(far, grey(0.3))])
+        }),
+        make(Effect::Colour, none, |by| {
+            let mut mesh = screen(1.0, [0.0; 2]);
+            for corner in mesh.triangles.as_flattened_mut() {
+                corner.colour = DVec3::splat(1.0 - by);
+            }
+            plain(vec![Item::new(mesh, Material { vertex_colours: by > 0.0, ..grey(1.0) })])
+        }),
+        make(Effect::Light, none, |by| {
+            let light = Light { ambient: 1.0 - by, ..Light::NONE };
+            let material = Material { shading: Shading::Phong, ..grey(1.0) };
+            Scene { light, ..plain(vec![Item::new(screen(1.0, [0.0; 2]), material)]) }
+        }),
+        make(Effect::Texture, none, |by| {
+            let texel = textures::generate(1, |_, _| DVec3::splat(1.0 - by));
+            let texture = (by > 0.0).then(|| Arc::new(texel));
+            plain(vec![Item::new(screen(1.0, [0.0; 2]), Material { texture, ..grey(1.0) })])
+        }),
+        make(Effect::Interpolation, none, |by| {
+            let mut mesh = screen(1.0, [0.0; 2]);
+            mesh.triangles[0][1].colour -= by;
+            plain(vec![Item::new(mesh, Material { vertex_colours: true, ..grey(1.0) })])
+        }),
+        make(Effect::Samples, over, |by| {
+            plain(vec![Item::new(screen(1.0 - by, [0.0; 2]), grey(0.5))])
+        }),
+        make(Effect::Clear, none, |by| {
+            plain(vec![Item::new(screen(1.0 - by, [0.0; 2]), grey(0.5))])
+        }),
+    ]
+}
+
+/// For each condition: at 0 it holds, and leaving the effect out changes nothing; then it is
+/// violated by less and less, and for every violation that shows, the plan pays for the effect.
+#[test]
+fn every_condition_has_its_counterexample() {
+    let mut lines = Vec::new();
+    for Counterexample { effect, scene, antialias } in counterexamples() {
+        let name = effect.name();
+        let picture = |by: f64, mode: Mode| {
+            // Depths need clearing wherever they are tested, so without that.
+            let rest = if effect == Effect::Clear { Effects::PLANNED } else { Effects::ALWAYS };
+            draw(&scene(by), Drawer::Scanline, rest.with(effect, mode), antialias).picture
+        };
+        let differs = |by: f64| picture(by, Mode::Never) != picture(by, Mode::Always);
+        assert!(!differs(0.0), "{name}: left out where it is not called for");
+        let powers: Vec<i32> = (0..60).filter(|k| differs(0.5f64.powi(*k))).collect();
+        let smallest = powers.iter().max();
+        let Some(k) = smallest else { panic!("{name}: no violation changes a pixel") };
+        lines.push(format!("{name}: a violation by 2^-{k} changes a pixel"));
+        for k in powers {
+            let by = 0.5f64.powi(k);
+            assert!(picture(by, Mode::Planned) == picture(by, Mode::Always), "{name} 2^-{k}");
+        }
+    }
+    // A front buffer shows while the frame is drawn, see `pipeline/present.rs`.
+    let text = lines.join("\n");
+    settings().bind(|| insta::assert_snapshot!("counterexamples", text));
+}
+
+/// A closed mesh seen from inside leaves no background, wherever the eye is and however near the
+/// planes are; both rasterizers agree.
+#[test]
+fn closed_meshes_from_inside_leave_no_hole() {
+    let background = [255, 0, 255, 255];
+    let planes = [(1e-6, 1e6), (1e-3, 100.0), (0.5, 50.0)];
+    for (i, mesh) in [
+        shapes::sphere(DVec3::ZERO, 3.0, 24, 12),
+        shapes::cuboid(-DVec3::splat(2.0), DVec3::splat(2.0)),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        for (near, far) in planes {
+            for k in 0..12 {
+                // Up to a hair from the wall, but never with the near plane through it.
+                let along = f64::from(k) / 12.0 * (1.9 - 2.0 * near);
+                let eye = DVec3::new(along, -along / 3.0, along / 7.0) * 0.9;
+                let angle = f64::from(k) * 0.7;
+                let towards = eye + DVec3::new(angle.cos(), 0.3 * angle.sin(), angle.sin());
+                let mut scene =
+                    Scene::new("inside", "", perspective(1.2, 4.0 / 3.0, near, far).unwrap());
+                scene.view = look_at(eye, towards, DVec3::Y).unwrap();
+                scene.background = background;
+                scene.items = vec![Item::new(mesh.clone(), grey(0.5))];
+                let [a, b] = Drawer::ALL
+                    .map(|drawer| draw(&scene, drawer, Effects::PLANNED, Antialias::None).picture);
+                assert!(a == b, "mesh {i}, eye {k}, near {near}");
+                let holes = a.rows().flat_map(|(_, row)| row).filter(|c| **c == background).count();
+                assert_eq!(holes, 0, "mesh {i}, eye {k}, near {near}");
+            }
+        }
+    }
+}
+
+/// The near plane through a mesh, w from 1e-6 to 1e6, the mesh far outside or huge: no panic, and
+/// the same picture by both.
+#[test]
+fn torture_is_the_same_by_both() {
+    let mesh = shapes::sphere(DVec3::ZERO, 1.0, 24, 12);
+    let shading = Material {
+        shading: Shading::Phong,
+        texture: Some(Arc::new(textures::checkerboard())),
+        ..grey(1.0)
+    };
+    for (k, (centre, size, near, far)) in [
+        (DVec3::new(0.0, 0.0, 1.0), 1.0, 1.0, 10.0),
+        (DVec3::new(0.3, 0.2, 1e-6), 1e6, 1e-6, 1e6),
+        (DVec3::new(0.0, 0.0, 5e5), 5e5, 1e-6, 1e6),
+        (DVec3::new(1e6, 0.0, 10.0), 1.0, 1e-6, 1e6),
+        (DVec3::new(0.0, 0.0, -10.0), 1.0, 1e-3, 1e3),
+        (DVec3::new(0.0, 0.0, 1e6), 1e12, 1e-6, 1e7),
+        (DVec3::new(1e-7, 0.0, 2e-6), 1e-6, 1e-6, 1.0),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        let mut scene = Scene::new("torture", "", perspective(1.0, 4.0 / 3.0, near, far).unwrap());
+        let model = DMat4::from_scale_rotation_translation(
+            DVec3::splat(size),
+            glam::DQuat::from_rotation_y(0.3),
+            centre,
+        );
+        scene.light = Light { towards: -DVec3::Z, ambient: 0.2, diffuse: 0.8 };
+        scene.items = vec![Item { model, ..Item::new(mesh.clone(), shading.clone()) }];
+        for antialias in SMOOTHINGS {
+            let mut targets = [target(antialias), target(antialias)];
+            let [a, b] = &mut targets;
+            let first = Drawer::Scanline.render(&scene, &Effects::ALWAYS, a).unwrap();
+            let second = Drawer::EdgeFunction.render(&scene, &Effects::ALWAYS, b).unwrap();
+            let comparison = frames::compare((&first.picture, a), (&second.picture, b));
+            assert!(comparison.agrees(), "{k} {antialias:?}: {comparison:?}");
         }
     }
 }

@@ -1,0 +1,226 @@
+//! `rasterproof plan`: what a scene calls for, why, and what leaving out the rest saves.
+
+use std::fmt::Write as _;
+use std::time::{Duration, Instant};
+
+use indicatif::{ProgressBar, ProgressDrawTarget};
+
+use super::render::SceneArguments;
+use super::{Failure, Streams, exit, usage};
+use crate::effects::plan::Decision;
+use crate::effects::render::Rendered;
+use crate::effects::{Effect, Effects, Mode};
+use crate::lineup::Drawer;
+use crate::pipeline::Counters;
+use crate::scene::Scene;
+
+const HELP: &str = "Examples:
+  rasterproof plan --scene panels          a user interface: hardly anything
+  rasterproof plan --scene facets --aa ssaa4
+  rasterproof plan model.obj --rounds 31 --json
+
+Every effect is measured alone against a frame that pays for everything; planning time is in the
+times. The pictures have the same bits, or the exit status is 1.";
+
+/// Arguments of `plan`.
+#[derive(clap::Args, Debug)]
+#[command(after_help = HELP)]
+pub struct PlanArguments {
+    #[command(flatten)]
+    what: SceneArguments,
+    /// Rounds of measuring, each with every mixture of effects in turn
+    #[arg(long, default_value_t = 9, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    rounds: u32,
+    /// For machines
+    #[arg(long)]
+    json: bool,
+}
+
+/// One mixture of effects, measured.
+#[derive(serde::Serialize)]
+struct Measured {
+    /// What is planned; everything else is always paid for.
+    planned: &'static str,
+    /// Median of the rounds.
+    time_us: f64,
+    /// Smallest and largest.
+    range_us: [f64; 2],
+    /// Whether the picture has the bits of the one that pays for everything.
+    same: bool,
+}
+
+/// What is planned in each mixture, the first pays for everything.
+fn mixtures() -> Vec<(&'static str, Effects)> {
+    let alone = Effect::ALL
+        .into_iter()
+        .map(|effect| (effect.name(), Effects::ALWAYS.with(effect, Mode::Planned)));
+    let mut all = vec![("nothing", Effects::ALWAYS)];
+    all.extend(alone);
+    all.push(("everything", Effects::PLANNED));
+    all
+}
+
+pub fn run(arguments: &PlanArguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+    let maker = arguments.what.maker(streams.errors)?;
+    let scene = maker.scene(0.0);
+    let (measured, everything, planned) = measure(arguments, &scene, streams.progress)?;
+    let same = measured.iter().all(|mixture| mixture.same);
+    if arguments.json {
+        let json = serde_json::json!({
+            "scene": scene.name,
+            "decisions": planned.plan.decisions,
+            "everything": everything.counters,
+            "planned": planned.counters,
+            "measured": measured,
+            "same": same,
+        });
+        writeln!(streams.output, "{json}")?;
+    } else {
+        let text = describe(&scene, &planned, &everything.counters, &measured);
+        streams.output.write_all(text.as_bytes())?;
+        let verdict = if same {
+            "AGREES: planned and everything-on pictures have the same bits"
+        } else {
+            "DISAGREES: a plan changed the picture"
+        };
+        writeln!(streams.output, "{verdict}")?;
+    }
+    Ok(if same { exit::AGREES } else { exit::DISAGREES })
+}
+
+/// Interleaved rounds of every mixture, by the scanline engine.
+fn measure(
+    arguments: &PlanArguments,
+    scene: &Scene,
+    progress: bool,
+) -> Result<(Vec<Measured>, Rendered, Rendered), Failure> {
+    let mixtures = mixtures();
+    let bar = ProgressBar::with_draw_target(
+        Some(u64::from(arguments.rounds)),
+        if progress { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() },
+    );
+    let mut target = arguments.what.target()?;
+    let mut times: Vec<Vec<Duration>> = vec![Vec::new(); mixtures.len()];
+    let mut frames: Vec<Rendered> = Vec::new();
+    // The first round warms up and keeps the pictures.
+    for round in 0..=arguments.rounds {
+        for k in 0..mixtures.len() {
+            // Another one begins each round, so that none always follows the same.
+            let i = if round == 0 { k } else { (k + round as usize) % mixtures.len() };
+            let effects = &mixtures[i].1;
+            let start = Instant::now();
+            let rendered = Drawer::Scanline
+                .render(scene, effects, &mut target)
+                .map_err(|error| usage(error.to_string()))?;
+            let time = start.elapsed();
+            if round == 0 {
+                frames.push(rendered);
+            } else {
+                times[i].push(time);
+            }
+        }
+        bar.inc(1);
+    }
+    bar.finish_and_clear();
+    let measured =
+        mixtures.iter().zip(&mut times).zip(&frames).map(|(((name, _), times), frame)| {
+            times.sort_unstable();
+            let us = |time: Duration| time.as_secs_f64() * 1e6;
+            Measured {
+                planned: name,
+                time_us: us(times[times.len() / 2]),
+                range_us: [us(times[0]), us(times[times.len() - 1])],
+                same: frame.picture == frames[0].picture,
+            }
+        });
+    let measured = measured.collect();
+    let planned = frames.pop().ok_or_else(|| usage("nothing was drawn"))?;
+    Ok((measured, frames.swap_remove(0), planned))
+}
+
+fn describe(
+    scene: &Scene,
+    planned: &Rendered,
+    everything: &Counters,
+    measured: &[Measured],
+) -> String {
+    let mut text = format!("{}: {}\n\n", scene.name, scene.about);
+    let _ = writeln!(text, "{:<6} {:<14} {:>8} {:>8}  why", "item", "effect", "on", "off");
+    for line in grouped(&planned.plan.decisions) {
+        let _ = writeln!(text, "{line}");
+    }
+    text += "\ncounts               everything     planned\n";
+    let names = |c: &Counters| {
+        [
+            ("plane tests", c.plane_tests),
+            ("winding tests", c.cull_tests),
+            ("fragments", c.fragments),
+            ("divisions by 1/w", c.divisions),
+            ("components", c.components),
+            ("depth tests", c.depth_tests),
+            ("texels", c.texels),
+            ("lights", c.lights),
+            ("fragment stages", c.shaded),
+            ("pixels expanded", c.expanded),
+            ("samples cleared", c.cleared),
+            ("pixels presented", c.presented),
+        ]
+    };
+    for ((name, all), (_, planned)) in names(everything).into_iter().zip(names(&planned.counters)) {
+        let _ = writeln!(text, "{name:<18} {all:>12} {planned:>11}");
+    }
+    text += "\nplanned alone        median us     saving  (smallest to largest)\n";
+    let whole = measured.first().map_or(0.0, |mixture| mixture.time_us);
+    for m in measured {
+        let saving = 100.0 * (1.0 - m.time_us / whole);
+        let [low, high] = m.range_us;
+        let mark = if m.same { "" } else { "  DIFFERENT PICTURE" };
+        let _ = writeln!(
+            text,
+            "{:<18} {:>11.0} {saving:>9.0}%  ({low:.0} to {high:.0}){mark}",
+            m.planned, m.time_us
+        );
+    }
+    if let Some(all) = measured.last() {
+        let _ = writeln!(text, "planned as a whole: {:.2} times as fast", whole / all.time_us);
+    }
+    text
+}
+
+/// Decisions that several items share become one line.
+fn grouped(decisions: &[Decision]) -> Vec<String> {
+    struct Line<'a> {
+        effect: Effect,
+        reason: &'a str,
+        on: u64,
+        off: u64,
+        items: Vec<usize>,
+    }
+    let mut lines: Vec<Line<'_>> = Vec::new();
+    for d in decisions {
+        let same = |line: &&mut Line<'_>| {
+            line.effect == d.effect && line.reason == d.reason && d.item.is_some()
+        };
+        if let Some(line) = lines.iter_mut().find(same) {
+            line.on += d.on;
+            line.off += d.off;
+            line.items.extend(d.item);
+        } else {
+            let items = d.item.into_iter().collect();
+            lines.push(Line { effect: d.effect, reason: &d.reason, on: d.on, off: d.off, items });
+        }
+    }
+    lines.sort_by_key(|line| line.effect);
+    lines
+        .into_iter()
+        .map(|Line { effect, reason, on, off, items }| {
+            let items = match items[..] {
+                [] => "frame".to_owned(),
+                [one] => one.to_string(),
+                [first, .., last] if last - first + 1 == items.len() => format!("{first}-{last}"),
+                [first, ..] => format!("{first}.."),
+            };
+            format!("{items:<6} {:<14} {on:>8} {off:>8}  {reason}", effect.name())
+        })
+        .collect()
+}
