@@ -3,6 +3,7 @@
 pub mod ascii;
 pub mod exact;
 pub mod json;
+pub mod lettering;
 pub mod picture;
 pub mod specimens;
 pub mod table;
