@@ -16,6 +16,7 @@ use crate::oracle::Oracle;
 use crate::raster::edge_function::{self, EdgeFunction, WordWidth};
 use crate::raster::scanline::Scanline;
 use crate::triangle::{Corners, Fragment, ScreenTriangle, Span};
+use crate::verify::Tally;
 use crate::verify::tolerance::{self, Tolerance};
 
 /// A rasterizer with values, as the checks call it.
@@ -152,6 +153,8 @@ pub struct Subject {
     pub word_width: fn(u32, u32) -> WordWidth,
     /// The source of generated cases.
     pub make_case: MakeCase,
+    /// Whether a coverage agrees with another one.
+    pub coverage_agrees: fn(&Coverage, &Coverage) -> bool,
 }
 
 /// A part of a [`Subject`]: what a check looks at, and where a fault sits.
@@ -171,6 +174,8 @@ pub enum Part {
     WordWidth,
     /// The source of cases.
     Source,
+    /// The judge of two coverages.
+    Judge,
     /// The matrix of invariants and mutants itself.
     Matrix,
 }
@@ -201,6 +206,7 @@ impl Subject {
             edge_values: edge_function::edge_values,
             word_width: WordWidth::of,
             make_case: Family::case,
+            coverage_agrees: |actual, target| Tally::between(actual, target).total() == 0,
         }
     }
 
@@ -224,6 +230,7 @@ impl Subject {
             Mutant::EdgeValues(fault) => subject.edge_values = fault.function(),
             Mutant::WordWidth(fault) => subject.word_width = fault.function(),
             Mutant::Source(fault) => subject.make_case = fault.function(),
+            Mutant::Judge(fault) => subject.coverage_agrees = fault.function(),
         }
         subject
     }
@@ -241,6 +248,7 @@ impl Mutant {
             Self::EdgeValues(_) => Part::EdgeValues,
             Self::WordWidth(_) => Part::WordWidth,
             Self::Source(_) => Part::Source,
+            Self::Judge(_) => Part::Judge,
         }
     }
 }

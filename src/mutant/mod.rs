@@ -12,7 +12,7 @@ mod triangles;
 
 pub use lines::LineMutant;
 pub use oracles::OracleMutant;
-pub use parts::{EdgeValuesMutant, SnapMutant, SourceMutant, WordWidthMutant};
+pub use parts::{EdgeValuesMutant, JudgeMutant, SnapMutant, SourceMutant, WordWidthMutant};
 pub use triangles::TriangleMutant;
 
 /// A mutant of any kind.
@@ -32,6 +32,8 @@ pub enum Mutant {
     WordWidth(WordWidthMutant),
     /// A source of cases.
     Source(SourceMutant),
+    /// A judge of coverage.
+    Judge(JudgeMutant),
 }
 
 impl Mutant {
@@ -45,6 +47,7 @@ impl Mutant {
         all.extend(WordWidthMutant::ALL.map(Self::WordWidth));
         all.extend(LineMutant::ALL.map(Self::Line));
         all.extend(SourceMutant::ALL.map(Self::Source));
+        all.extend(JudgeMutant::ALL.map(Self::Judge));
         all
     }
 
@@ -65,6 +68,7 @@ impl Mutant {
             Self::EdgeValues(mutant) => mutant.name(),
             Self::WordWidth(mutant) => mutant.name(),
             Self::Source(mutant) => mutant.name(),
+            Self::Judge(mutant) => mutant.name(),
         }
     }
 }

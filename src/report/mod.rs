@@ -5,5 +5,6 @@ pub mod exact;
 pub mod json;
 pub mod lettering;
 pub mod picture;
+pub mod sheet;
 pub mod specimens;
 pub mod table;

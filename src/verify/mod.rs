@@ -219,6 +219,13 @@ pub fn judge_coverage<R: Rasterize + Sync>(engine: &R, options: &Options) -> Ver
     drive(&TriangleContest::new(&engines), &LineContest::new(&none), options, &|_| ())
 }
 
+/// Judges the coverage of one case by any rasterizer against the oracle.
+#[must_use]
+pub fn judge_coverage_of<R: Rasterize + Sync>(engine: &R, case: &Case) -> Finding {
+    let engines = [("candidate", CoverageOnly(engine), None)];
+    TriangleContest::new(&engines).judge(case).1.swap_remove(0)
+}
+
 /// Judges coverage and values of any rasterizer against the oracle, values within `tolerance`.
 pub fn judge_values<R: Interpolate + Sync>(
     engine: &R,

@@ -147,7 +147,7 @@ properties! {
     edges_sum weights_sum perspective_values hull constant_attribute equal_w scaled_w
     rotated_vertices shared_edge flat_depth finite
     nearest_pixel one_per_step reversal octants clipped_line listed_differences
-    quotas replay
+    quotas replay metrics_report_only
 }
 
 /// The same strategies find a planted fault, and the failure shrinks to small numbers.
