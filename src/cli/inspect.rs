@@ -23,7 +23,9 @@ use crate::triangle::{Corners, FreeCorners, PixelPoint};
 use crate::verify::exact::{describe, exact_coverage, judge_exact_case};
 use crate::verify::specimens::{specimen_coverage, specimen_line_coverage};
 use crate::verify::tolerance::Tolerance;
-use crate::verify::{self, Tally, engine_coverage, line_coverage, oracle_coverage};
+use crate::verify::{
+    self, Tally, engine_coverage, line_coverage, oracle_coverage, oracle_pixels_each,
+};
 
 /// Options of `inspect`.
 #[derive(clap::Args, Debug)]
@@ -88,20 +90,7 @@ pub fn run(arguments: &InspectArguments, streams: &mut Streams<'_>) -> Result<u8
     let (title, mut case, expected) = match find(arguments)? {
         Found::Case { title, case, expected } => (title, case, expected),
         Found::Refused { title, corners } => return refused(&title, &corners, out),
-        Found::OffGrid { title, mut case } => {
-            case.window = arguments.window.unwrap_or(case.window);
-            let w = case.window;
-            writeln!(out, "{title}")?;
-            writeln!(out, "window: columns {}..{}, rows {}..{}", w.x0, w.x1, w.y0, w.y1)?;
-            writeln!(out, "triangles {}\n", describe(&case.triangles))?;
-            let recorded = recorded(&arguments.what);
-            let screen = recorded.map(|_| PixelRect::window(RECORDED_SIDE_PX, RECORDED_SIDE_PX));
-            let specimen =
-                specimen(arguments, recorded).map(|s| (s, screen.unwrap_or(case.window)));
-            let (agrees, drawn) = off_grid(&case, specimen, out)?;
-            write_picture(arguments, &drawn, out)?;
-            return Ok(if agrees { exit::AGREES } else { exit::DISAGREES });
-        }
+        Found::OffGrid { title, case } => return off_grid_alone(arguments, &title, case, out),
     };
     if let Some(window) = arguments.window {
         case.window = window;
@@ -134,7 +123,7 @@ pub fn run(arguments: &InspectArguments, streams: &mut Streams<'_>) -> Result<u8
         writeln!(out, "{actual} against {target}: {}{values}", finding.describe())?;
     }
     if let Some(expected) = expected.filter(|_| arguments.window.is_none()) {
-        let hits = pixels_each(&case);
+        let hits = oracle_pixels_each(&case);
         let as_expected = expected.is_empty() || hits == expected;
         agrees &= as_expected;
         if !expected.is_empty() {
@@ -157,6 +146,26 @@ pub fn run(arguments: &InspectArguments, streams: &mut Streams<'_>) -> Result<u8
         }
     }
     write_picture(arguments, &shown.picture(&case), out)?;
+    Ok(if agrees { exit::AGREES } else { exit::DISAGREES })
+}
+
+/// Shows a case off the lattice, which the engines for such corners alone can draw.
+fn off_grid_alone(
+    arguments: &InspectArguments,
+    title: &str,
+    mut case: OffGridCase,
+    out: &mut dyn std::io::Write,
+) -> Result<u8, Failure> {
+    case.window = arguments.window.unwrap_or(case.window);
+    let w = case.window;
+    writeln!(out, "{title}")?;
+    writeln!(out, "window: columns {}..{}, rows {}..{}", w.x0, w.x1, w.y0, w.y1)?;
+    writeln!(out, "triangles {}\n", describe(&case.triangles))?;
+    let recorded = recorded(&arguments.what);
+    let screen = recorded.map(|_| PixelRect::window(RECORDED_SIDE_PX, RECORDED_SIDE_PX));
+    let specimen = specimen(arguments, recorded).map(|s| (s, screen.unwrap_or(case.window)));
+    let (agrees, drawn) = off_grid(&case, specimen, out)?;
+    write_picture(arguments, &drawn, out)?;
     Ok(if agrees { exit::AGREES } else { exit::DISAGREES })
 }
 
@@ -473,24 +482,6 @@ pub fn picture_off_grid(case: &OffGridCase, engines: &[(&str, ExactEngine)]) -> 
     let (target, _) = exact_coverage(&ExactEngine::Oracle, case).ok()?;
     let hits = engines.iter().filter_map(|(_, engine)| Some(exact_coverage(engine, case).ok()?.0));
     Some(picture::panels_off_grid(case, &hits.collect::<Vec<_>>(), &target))
-}
-
-/// Pixels of each triangle or line by the oracle.
-pub fn pixels_each(case: &Case) -> Vec<u64> {
-    match &case.shape {
-        Shape::Triangles { list, .. } => list
-            .iter()
-            .map(|t| oracle_coverage(std::slice::from_ref(t), case.window).covered())
-            .collect(),
-        Shape::Lines(lines) => lines
-            .iter()
-            .map(|line| {
-                let mut count = 0;
-                Oracle.line_pixels(line, case.window, |_, _| count += 1);
-                count
-            })
-            .collect(),
-    }
 }
 
 /// The hits in a window; none where the other one has no pixels.

@@ -29,6 +29,7 @@ use tolerance::Tolerance;
 
 pub use contest::{
     Finding, Tally, caught, engine_coverage, is_judging, is_sliver, line_coverage, oracle_coverage,
+    oracle_pixels_each,
 };
 
 /// What to judge.
