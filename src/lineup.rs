@@ -302,6 +302,8 @@ pub enum TriangleSpecimen {
     Games101Strict,
     /// The same with samples through an int.
     Games101Int,
+    /// The same with the true w put back.
+    Games101Depth,
     /// SYSU assignment 2.
     SysuInclusive,
     /// The same with its weights in the wrong order.
@@ -314,10 +316,7 @@ impl TriangleSpecimen {
     /// Whether it interpolates values.
     #[must_use]
     pub fn has_values(self) -> bool {
-        !matches!(
-            self,
-            Self::BookChapter2 | Self::Games101Strict | Self::Games101Int | Self::SysuTruncated
-        )
+        !matches!(self, Self::BookChapter2 | Self::SysuTruncated)
     }
 
     /// The depth that it compares, for a corner with this z/w and w.
@@ -364,11 +363,15 @@ macro_rules! with_specimen {
                 $do
             }
             TriangleSpecimen::Games101Strict => {
-                let $name = Games101Strict { whole_samples: false };
+                let $name = Games101Strict { whole_samples: false, true_w: false };
                 $do
             }
             TriangleSpecimen::Games101Int => {
-                let $name = Games101Strict { whole_samples: true };
+                let $name = Games101Strict { whole_samples: true, true_w: false };
+                $do
+            }
+            TriangleSpecimen::Games101Depth => {
+                let $name = Games101Strict { whole_samples: false, true_w: true };
                 $do
             }
             TriangleSpecimen::SysuInclusive => {
@@ -533,7 +536,7 @@ const fn line_specimen(name: &'static str, about: &'static str, specimen: LineSp
 }
 
 /// Every specimen that speaks the line protocol; they take positions as they are given.
-pub const SPECIMENS: [Entry; 14] = [
+pub const SPECIMENS: [Entry; 15] = [
     triangle_specimen(
         "book-ch2",
         "specimen: the book's DrawTriangle2D, section 2.2",
@@ -578,6 +581,11 @@ pub const SPECIMENS: [Entry; 14] = [
         "games101-int",
         "specimen: the same with sample positions through an int",
         TriangleSpecimen::Games101Int,
+    ),
+    triangle_specimen(
+        "games101-depth",
+        "specimen: the same with the true w put back, depth included",
+        TriangleSpecimen::Games101Depth,
     ),
     triangle_specimen(
         "sysu-inclusive",

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use clap::builder::PossibleValuesParser;
 use image::RgbImage;
 
 use super::verify::with_tolerance;
@@ -11,15 +12,20 @@ use crate::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
 use crate::hazard::named::{self, Input};
 use crate::hazard::offgrid::{self, OffGridCase};
 use crate::hazard::{self, Case, Line, Shape};
-use crate::lineup::{Engine, ExactEngine, LineEngine};
+use crate::lineup::{Engine, Entry, ExactEngine, LineEngine, SPECIMENS, Specimen};
 use crate::oracle::Oracle;
 use crate::oracle::coverage::samples_on_boundary;
 use crate::raster::edge_function::WordWidth;
 use crate::report::{ascii, picture};
+use crate::specimen::catalogue::{RECORDED, RECORDED_SIDE_PX, RecordedCase};
+use crate::specimen::{bare, from_screen};
 use crate::triangle::{Corners, FreeCorners, PixelPoint};
 use crate::verify::exact::{describe, exact_coverage, judge_exact_case};
+use crate::verify::specimens::{specimen_coverage, specimen_line_coverage};
 use crate::verify::tolerance::Tolerance;
-use crate::verify::{self, Tally, engine_coverage, line_coverage, oracle_coverage};
+use crate::verify::{
+    self, Tally, engine_coverage, line_coverage, oracle_coverage, oracle_pixels_each,
+};
 
 /// Options of `inspect`.
 #[derive(clap::Args, Debug)]
@@ -28,6 +34,8 @@ use crate::verify::{self, Tally, engine_coverage, line_coverage, oracle_coverage
   rasterproof inspect 0.5,0.5 5.5,0.5 5.5,5.5 --window 8x8
   rasterproof inspect --line -100,20 30,40 --window 64x48
   rasterproof inspect sliver#123 --seed 7 -o sliver.png
+  rasterproof inspect T3 --specimen book-ch2
+  rasterproof inspect double_row             a recorded input of the book's code, and its specimen
 
 In the grids: # agrees with the oracle, - missing, + extra, 2 twice, * rightly more than once.
 In the picture: grey agrees, red missing, orange extra, violet twice; engines from left to right,
@@ -45,6 +53,9 @@ pub struct InspectArguments {
     /// Seed of FAMILY#NUMBER
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
+    /// Show what this published algorithm draws as well; it is not judged
+    #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(SPECIMENS.iter().map(|e| e.name)))]
+    specimen: Option<String>,
     /// The picture [default: target/rasterproof/inspect.png]
     #[arg(short, long, value_name = "FILE.png")]
     output: Option<PathBuf>,
@@ -79,15 +90,7 @@ pub fn run(arguments: &InspectArguments, streams: &mut Streams<'_>) -> Result<u8
     let (title, mut case, expected) = match find(arguments)? {
         Found::Case { title, case, expected } => (title, case, expected),
         Found::Refused { title, corners } => return refused(&title, &corners, out),
-        Found::OffGrid { title, mut case } => {
-            case.window = arguments.window.unwrap_or(case.window);
-            let w = case.window;
-            writeln!(out, "{title}")?;
-            writeln!(out, "window: columns {}..{}, rows {}..{}", w.x0, w.x1, w.y0, w.y1)?;
-            writeln!(out, "triangles {}\n", describe(&case.triangles))?;
-            let agrees = off_grid(&case, out)?;
-            return Ok(if agrees { exit::AGREES } else { exit::DISAGREES });
-        }
+        Found::OffGrid { title, case } => return off_grid_alone(arguments, &title, case, out),
     };
     if let Some(window) = arguments.window {
         case.window = window;
@@ -99,7 +102,10 @@ pub fn run(arguments: &InspectArguments, streams: &mut Streams<'_>) -> Result<u8
 
     // Judge and show.
     let engines: Vec<_> = Engine::JUDGED.into_iter().map(with_tolerance).collect();
-    let shown = draw(&case, &engines, &LineEngine::JUDGED);
+    let mut shown = draw(&case, &engines, &LineEngine::JUDGED);
+    if let Some(specimen) = specimen(arguments, None) {
+        shown.add(specimen, &case)?;
+    }
     let findings = verify::judge_case(&engines, &LineEngine::JUDGED, &case);
     writeln!(out)?;
     writeln!(out, "{}", ascii::side_by_side(&shown.blocks(), 100))?;
@@ -117,7 +123,7 @@ pub fn run(arguments: &InspectArguments, streams: &mut Streams<'_>) -> Result<u8
         writeln!(out, "{actual} against {target}: {}{values}", finding.describe())?;
     }
     if let Some(expected) = expected.filter(|_| arguments.window.is_none()) {
-        let hits = pixels_each(&case);
+        let hits = oracle_pixels_each(&case);
         let as_expected = expected.is_empty() || hits == expected;
         agrees &= as_expected;
         if !expected.is_empty() {
@@ -133,15 +139,59 @@ pub fn run(arguments: &InspectArguments, streams: &mut Streams<'_>) -> Result<u8
         let px = [parse_px(a)?, parse_px(b)?, parse_px(c)?];
         if let Ok(corners) = FreeCorners::new(px) {
             writeln!(out, "\nnot snapped:")?;
+            let shown_too = specimen(arguments, None).map(|specimen| (specimen, case.window));
             let typed =
                 OffGridCase { window: case.window, triangles: vec![corners], is_tiling: false };
-            agrees &= off_grid(&typed, out)?;
+            agrees &= off_grid(&typed, shown_too, out)?.0;
         }
     }
-    let path = arguments.output.clone().unwrap_or_else(|| "target/rasterproof/inspect.png".into());
-    write_file(&path, &picture::png(&shown.picture(&case)))?;
-    writeln!(out, "drawn in {}", path.display())?;
+    write_picture(arguments, &shown.picture(&case), out)?;
     Ok(if agrees { exit::AGREES } else { exit::DISAGREES })
+}
+
+/// Shows a case off the lattice, which the engines for such corners alone can draw.
+fn off_grid_alone(
+    arguments: &InspectArguments,
+    title: &str,
+    mut case: OffGridCase,
+    out: &mut dyn std::io::Write,
+) -> Result<u8, Failure> {
+    case.window = arguments.window.unwrap_or(case.window);
+    let w = case.window;
+    writeln!(out, "{title}")?;
+    writeln!(out, "window: columns {}..{}, rows {}..{}", w.x0, w.x1, w.y0, w.y1)?;
+    writeln!(out, "triangles {}\n", describe(&case.triangles))?;
+    let recorded = recorded(&arguments.what);
+    let screen = recorded.map(|_| PixelRect::window(RECORDED_SIDE_PX, RECORDED_SIDE_PX));
+    let specimen = specimen(arguments, recorded).map(|s| (s, screen.unwrap_or(case.window)));
+    let (agrees, drawn) = off_grid(&case, specimen, out)?;
+    write_picture(arguments, &drawn, out)?;
+    Ok(if agrees { exit::AGREES } else { exit::DISAGREES })
+}
+
+fn write_picture(
+    arguments: &InspectArguments,
+    drawn: &RgbImage,
+    out: &mut dyn std::io::Write,
+) -> Result<(), Failure> {
+    let path = arguments.output.clone().unwrap_or_else(|| "target/rasterproof/inspect.png".into());
+    write_file(&path, &picture::png(drawn))?;
+    writeln!(out, "drawn in {}", path.display())?;
+    Ok(())
+}
+
+/// The recorded input that the words name.
+fn recorded(words: &[String]) -> Option<&'static RecordedCase> {
+    RECORDED.iter().find(|case| [case.name] == *words)
+}
+
+/// The specimen to show: the one asked for, or the one of a recorded input.
+fn specimen(
+    arguments: &InspectArguments,
+    recorded: Option<&RecordedCase>,
+) -> Option<&'static Entry> {
+    let name = arguments.specimen.as_deref().or(recorded.map(|case| case.specimen))?;
+    SPECIMENS.iter().find(|entry| entry.name == name)
 }
 
 enum Found {
@@ -150,11 +200,36 @@ enum Found {
     OffGrid { title: String, case: OffGridCase },
 }
 
-/// Pixels of the engines that do not snap, and how they decided; whether they agree.
-fn off_grid(case: &OffGridCase, out: &mut dyn std::io::Write) -> Result<bool, Failure> {
+/// Pixels of the engines that do not snap, and how they decided; whether they agree, and a picture.
+/// A specimen is shown beside them, as it draws on a screen of its own.
+fn off_grid(
+    case: &OffGridCase,
+    specimen: Option<(&Entry, PixelRect)>,
+    out: &mut dyn std::io::Write,
+) -> Result<(bool, RgbImage), Failure> {
     let target = exact_coverage(&ExactEngine::Oracle, case).map_err(usage)?.0;
     let mut agrees = true;
+    let mut drawn = Vec::new();
     let mut blocks = Vec::new();
+    if let Some((Entry { name, specimen: Some(Specimen::Triangle(specimen)), .. }, screen)) =
+        specimen
+    {
+        let triangles: Vec<_> = case.triangles.iter().map(|t| bare(t.px())).collect();
+        match specimen_coverage(*specimen, &triangles, screen) {
+            Ok(hits) => {
+                let hits = crop(&hits, case.window);
+                let Tally { missing, extra, twice, .. } = Tally::between(&hits, &target);
+                writeln!(
+                    out,
+                    "{name}, published: {missing} missing, {extra} extra, {twice} twice"
+                )?;
+                blocks
+                    .push((format!("{name}: {} px", hits.covered()), ascii::grid(&hits, &target)));
+                drawn.push(hits);
+            }
+            Err(reason) => writeln!(out, "{name}, published: {reason}")?,
+        }
+    }
     for engine in ExactEngine::JUDGED {
         let (name, finding) = (engine.name(), judge_exact_case(&engine, case));
         agrees &= !finding.is_wrong();
@@ -167,12 +242,13 @@ fn off_grid(case: &OffGridCase, out: &mut dyn std::io::Write) -> Result<bool, Fa
         )?;
         if let Ok((hits, _)) = exact_coverage(&engine, case) {
             blocks.push((format!("{name}: {} px", hits.covered()), ascii::grid(&hits, &target)));
+            drawn.push(hits);
         }
     }
     let oracle = format!("oracle-exact: {} px", target.covered());
     blocks.push((oracle, ascii::grid(&target, &target)));
     writeln!(out, "\n{}", ascii::side_by_side(&blocks, 100))?;
-    Ok(agrees)
+    Ok((agrees, picture::panels_off_grid(case, &drawn, &target)))
 }
 
 fn find(arguments: &InspectArguments) -> Result<Found, Failure> {
@@ -210,7 +286,11 @@ fn find(arguments: &InspectArguments) -> Result<Found, Failure> {
                 Ok(generated(title, family.case(arguments.seed, index)))
             }
             None => {
-                let names: Vec<_> = named::named().iter().map(|case| case.name).collect();
+                if let Some(case) = recorded(words) {
+                    return Ok(recorded_case(case));
+                }
+                let names = named::named().into_iter().map(|case| case.name);
+                let names: Vec<_> = names.chain(RECORDED.iter().map(|case| case.name)).collect();
                 let named =
                     named::find(word).ok_or_else(|| unknown("case", word, names.into_iter()))?;
                 let title = format!("{}: {}", named.name, named.about);
@@ -225,6 +305,32 @@ fn find(arguments: &InspectArguments) -> Result<Found, Failure> {
         _ => Err(usage(
             "expected a named case, FAMILY#NUMBER, or three corners x,y; see inspect --help",
         )),
+    }
+}
+
+/// A recorded input off the lattice, in the part of its screen that it or its specimen touches.
+fn recorded_case(case: &RecordedCase) -> Found {
+    let title =
+        format!("{}: recorded of the book's own code, shown by {}", case.name, case.specimen);
+    let corners = case.corners_px();
+    let all = corners.iter().flatten();
+    let side = f64::from(RECORDED_SIDE_PX);
+    let range = |axis: usize| {
+        let (low, high) = all
+            .clone()
+            .fold((side, 0.0), |(low, high): (f64, f64), p| (low.min(p[axis]), high.max(p[axis])));
+        // Two pixels to spare, within the screen.
+        let within = |px: f64| px.clamp(0.0, side) as i32;
+        (within(low.floor() - 2.0), within(high.ceil() + 2.0))
+    };
+    let ((x0, x1), (y0, y1)) = (range(0), range(1));
+    let triangles: Result<_, _> = corners.iter().map(|&t| FreeCorners::new(t)).collect();
+    let window = PixelRect { x0, y0, x1, y1 };
+    match triangles {
+        Ok(triangles) => {
+            Found::OffGrid { title, case: OffGridCase { window, triangles, is_tiling: false } }
+        }
+        Err(_) => Found::Refused { title, corners },
     }
 }
 
@@ -371,22 +477,33 @@ fn facts(case: &Case, out: &mut dyn std::io::Write) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Pixels of each triangle or line by the oracle.
-pub fn pixels_each(case: &Case) -> Vec<u64> {
-    match &case.shape {
-        Shape::Triangles { list, .. } => list
-            .iter()
-            .map(|t| oracle_coverage(std::slice::from_ref(t), case.window).covered())
-            .collect(),
-        Shape::Lines(lines) => lines
-            .iter()
-            .map(|line| {
-                let mut count = 0;
-                Oracle.line_pixels(line, case.window, |_, _| count += 1);
-                count
-            })
-            .collect(),
+/// A case off the lattice as every engine for such corners draws it.
+pub fn picture_off_grid(case: &OffGridCase, engines: &[(&str, ExactEngine)]) -> Option<RgbImage> {
+    let (target, _) = exact_coverage(&ExactEngine::Oracle, case).ok()?;
+    let hits = engines.iter().filter_map(|(_, engine)| Some(exact_coverage(engine, case).ok()?.0));
+    Some(picture::panels_off_grid(case, &hits.collect::<Vec<_>>(), &target))
+}
+
+/// The hits in a window; none where the other one has no pixels.
+fn crop(hits: &Coverage, window: PixelRect) -> Coverage {
+    let mut cropped = Coverage::new(window, 0);
+    for y in window.y0..window.y1 {
+        for (x, cell) in (window.x0..).zip(cropped.row_mut(y)) {
+            *cell = hits.get(x, y).unwrap_or(0);
+        }
     }
+    cropped
+}
+
+/// Hits of both.
+fn sum(a: &Coverage, b: &Coverage) -> Coverage {
+    let mut all = a.clone();
+    for (y, row) in b.rows() {
+        for (sum, hits) in all.row_mut(y).iter_mut().zip(row) {
+            *sum = sum.saturating_add(*hits);
+        }
+    }
+    all
 }
 
 /// A case as each engine draws it.
@@ -422,6 +539,28 @@ pub fn draw(case: &Case, engines: &[(Engine, Tolerance)], lines: &[LineEngine]) 
 }
 
 impl Shown {
+    /// Puts a specimen before the engines.
+    fn add(&mut self, entry: &Entry, case: &Case) -> Result<(), Failure> {
+        let window = case.window;
+        let hits = match (&case.shape, entry.specimen) {
+            (Shape::Triangles { list, .. }, Some(Specimen::Triangle(specimen))) => {
+                let list: Vec<_> = list.iter().map(from_screen).collect();
+                specimen_coverage(specimen, &list, window)
+            }
+            (Shape::Lines(lines), Some(Specimen::Line(specimen))) => {
+                let mut hits = Ok(Coverage::new(window, 0));
+                for line in lines {
+                    let more = specimen_line_coverage(specimen, line, window);
+                    hits = hits.and_then(|hits| Ok(sum(&hits, &more?)));
+                }
+                hits
+            }
+            _ => return Err(usage(format!("{} does not draw what this case holds", entry.name))),
+        };
+        self.engines.insert(0, (entry.name.to_owned(), hits));
+        Ok(())
+    }
+
     /// A titled grid for each engine; one that panicked has its message instead.
     pub fn blocks(&self) -> Vec<(String, Vec<String>)> {
         let blocks = self.engines.iter().map(|(name, hits)| match hits {

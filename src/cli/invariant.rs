@@ -33,27 +33,19 @@ pub fn run(
     let wanted: Vec<&Invariant> =
         CATALOGUE.iter().filter(|i| all || names.iter().any(|name| name == i.name)).collect();
     let mut wrong = 0;
-    let mut idle = 0;
     for invariant in &wanted {
         let planted = plant.map(|name| format!(" --plant {name}")).unwrap_or_default();
         let repeat = format!(
             "rasterproof verify --invariant {} --seed {seed} --cases {cases}{planted}",
             invariant.name
         );
-        match judge(invariant, &subject, (seed, cases), &repeat, streams)? {
-            Some(true) => {}
-            Some(false) => wrong += 1,
-            None => idle += 1,
-        }
-    }
-    if idle == wanted.len() {
-        return Err(usage("nothing was checked: what this invariant is about does not exist yet"));
+        wrong += usize::from(!judge(invariant, &subject, (seed, cases), &repeat, streams)?);
     }
     if wanted.len() > 1 {
-        let held = wanted.len() - wrong - idle;
+        let held = wanted.len() - wrong;
         writeln!(
             streams.output,
-            "{}: {held} of {} invariants hold, {wrong} do not, {idle} do not apply yet",
+            "{}: {held} of {} invariants hold, {wrong} do not",
             if wrong == 0 { "AGREES" } else { "DISAGREES" },
             wanted.len()
         )?;
@@ -61,20 +53,16 @@ pub fn run(
     Ok(if wrong == 0 { exit::AGREES } else { exit::DISAGREES })
 }
 
-/// Prints what came of one invariant: held, failed, or nothing to ask.
+/// Prints what came of one invariant; says whether it held.
 fn judge(
     invariant: &Invariant,
     subject: &Subject,
     (seed, cases): (u64, u64),
     repeat: &str,
     streams: &mut Streams<'_>,
-) -> Result<Option<bool>, Failure> {
+) -> Result<bool, Failure> {
     let out = &mut streams.output;
     writeln!(out, "{} {}: {}", invariant.number, invariant.name, invariant.statement)?;
-    if let Check::NotYet(reason) = invariant.check {
-        writeln!(out, "  not checked: {reason}\n")?;
-        return Ok(None);
-    }
     let report = invariant.run(subject, seed, cases);
     writeln!(out, "  tolerance: {}", invariant.tolerance)?;
     let skipped = match report.skipped {
@@ -97,7 +85,7 @@ fn judge(
         }
     }
     writeln!(out)?;
-    Ok(Some(report.failure.is_none() && report.compared > 0))
+    Ok(report.failure.is_none() && report.compared > 0)
 }
 
 /// Prints the matrix of invariants and mutants.
@@ -123,11 +111,7 @@ pub fn list(streams: &mut Streams<'_>) -> Result<(), Failure> {
     let out = &mut streams.output;
     writeln!(out, "\nInvariants (rasterproof verify --invariant NAME, or all):")?;
     for i in CATALOGUE {
-        let note = match i.check {
-            Check::NotYet(reason) => format!(" (not checked: {reason})"),
-            _ => String::new(),
-        };
-        writeln!(out, "  {:>2} {:<20} {}{note}", i.number, i.name, i.statement)?;
+        writeln!(out, "  {:>2} {:<20} {}", i.number, i.name, i.statement)?;
     }
     Ok(())
 }

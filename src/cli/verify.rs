@@ -198,7 +198,7 @@ pub fn run(arguments: &VerifyArguments, streams: &mut Streams<'_>) -> Result<u8,
             json::verdict(&verdict, &off_grid, |family, index| arguments.repeat(family, index));
         streams.output.write_all(text.as_bytes())?;
     } else {
-        print(arguments, &verdict, &off_grid, &engines, &lines, streams)?;
+        print(arguments, (&verdict, &engines, &lines), (&off_grid, &exact_engines), streams)?;
     }
     Ok(if verdict.agrees() && off_grid.agrees() { exit::AGREES } else { exit::DISAGREES })
 }
@@ -245,10 +245,8 @@ fn judge(
 
 fn print(
     arguments: &VerifyArguments,
-    verdict: &Verdict,
-    off_grid: &ExactVerdict,
-    engines: &[(Engine, Tolerance)],
-    lines: &[LineEngine],
+    (verdict, engines, lines): (&Verdict, &[(Engine, Tolerance)], &[LineEngine]),
+    (off_grid, exact_engines): (&ExactVerdict, &[(&str, ExactEngine)]),
     streams: &mut Streams<'_>,
 ) -> Result<(), Failure> {
     let (part, parts) = verdict.options.shard;
@@ -266,6 +264,11 @@ fn print(
         let repeat = arguments.repeat(&failure.family, failure.index);
         writeln!(out, "\n{failure}\n  repeat with: {repeat}")?;
     }
+    let drawn = off_grid.failures.iter();
+    let drawn: Vec<_> = drawn
+        .filter_map(|failure| super::inspect::picture_off_grid(&failure.case, exact_engines))
+        .collect();
+    write_sheet("failures-off-grid.png", &drawn, out)?;
     if verdict.agrees() {
         worst_cases(arguments, verdict, engines, lines, out)?;
     } else {

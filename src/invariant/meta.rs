@@ -1,13 +1,19 @@
-//! Invariants 43 and 44: the cases themselves, and that a run can be repeated. (42 is
-//! [`super::matrix`].)
+//! Invariants 43 to 45: the cases themselves, that a run can be repeated, and that one wrong pixel is
+//! never forgiven. (42 is [`super::matrix`].)
 
 use rayon::prelude::*;
 
 use super::Outcome;
 use super::subject::Subject;
-use crate::hazard::{self, Case, Family, Shape};
+use crate::contract::Rasterize;
+use crate::frame::Coverage;
+use crate::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
+use crate::hazard::named::plain_triangle;
+use crate::hazard::{self, Case, Family, Rng, Shape};
 use crate::lineup::{Engine, LineEngine};
+use crate::oracle::Oracle;
 use crate::oracle::coverage::samples_on_boundary;
+use crate::triangle::{Corners, Span};
 use crate::verify::tolerance;
 use crate::verify::{self, Options, QUOTAS, is_sliver, oracle_coverage};
 
@@ -121,4 +127,68 @@ pub(super) fn replay(subject: &Subject, seed: u64, cases: u64) -> Outcome {
         return Err(format!("seed {seed}: one thread and three give different verdicts"));
     }
     Ok(jobs.len() as u64)
+}
+
+/// The oracle, but for one pixel.
+struct OneWrong {
+    /// Column and row.
+    at: (i32, i32),
+    /// How often that pixel is hit too often; -1 where it is not hit at all.
+    by: i32,
+}
+
+impl Rasterize for OneWrong {
+    fn cover(&self, corners: Corners, bounds: PixelRect, mut emit: impl FnMut(Span)) {
+        let (x, y) = self.at;
+        let here = Span { y_px: y, x0_px: x, x1_px: x + 1 };
+        Oracle.cover(corners, bounds, |span| {
+            if self.by < 0 && span.y_px == y && (span.x0_px..span.x1_px).contains(&x) {
+                let parts = [Span { x1_px: x, ..span }, Span { x0_px: x + 1, ..span }];
+                parts.into_iter().filter(|part| part.x0_px < part.x1_px).for_each(&mut emit);
+            } else {
+                emit(span);
+            }
+        });
+        (0..self.by).for_each(|_| emit(here));
+    }
+}
+
+/// 45: one pixel of a frame of 128 to 1024 pixels a side is missing, extra or hit twice. Over N
+/// pixels the peak signal-to-noise ratio is 10 log10 N, 42 to 60 dB: every metric that averages
+/// would let it pass. The coverages are not allowed to agree, and a run is not either.
+pub(super) fn metrics_report_only(subject: &Subject, seed: u64, cases: u64) -> Outcome {
+    let mut compared = 0;
+    for index in 0..cases {
+        let side = 128 << (index % 4);
+        let mut rng = Rng::new("one-wrong-pixel", seed, index);
+        // The upper left half of the frame.
+        let far = side * SUBPIXELS;
+        let corner = |x, y| SubpixelPoint::new(x, y);
+        let triangle = plain_triangle([corner(0, 0), corner(far, 0), corner(0, far)]);
+        let window = PixelRect::window(side as u32, side as u32);
+        let any = &mut || rng.int(0, i64::from(side) - 1) as i32;
+        let at = (any(), any());
+        let is_covered = at.0 + at.1 < side - 1;
+        let by = if is_covered && index % 8 < 4 { -1 } else { 1 };
+        let what = format!("pixel {at:?} of {side} x {side}, hits off by {by}");
+
+        let target = oracle_coverage(&[triangle], window);
+        let mut actual = Coverage::new(window, 0);
+        let planted = OneWrong { at, by };
+        planted.cover(triangle.corners(), window, |s| actual.hit(s.y_px, s.x0_px, s.x1_px));
+        if (subject.coverage_agrees)(&actual, &target) {
+            return Err(format!("the judge forgives {what}"));
+        }
+        if !(subject.coverage_agrees)(&target, &target) {
+            return Err("the judge finds a coverage unlike itself".to_owned());
+        }
+        let case =
+            Case { window, shape: Shape::Triangles { list: vec![triangle], disjoint: true } };
+        let finding = verify::judge_coverage_of(&planted, &case);
+        if !finding.is_wrong() || finding.tally.total() != 1 {
+            return Err(format!("a case with a wrong {what} {}", finding.describe()));
+        }
+        compared += 3 * u64::from(window.width()) * u64::from(window.height());
+    }
+    Ok(compared)
 }

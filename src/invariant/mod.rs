@@ -7,9 +7,8 @@
 //! come from (seed, number) here and from a property test's small numbers in `tests/it`; mutants
 //! are put in the place of the real thing to show that each check can fail ([`matrix`]).
 //!
-//! - Coverage is 1 to 20, values 21 to 31, lines 36 to 41, the harness itself 42 to 44.
-//! - Clipping is 32 to 35, effects 46. 45 is listed with the reason why there is nothing to ask yet;
-//!   it never counts as passing.
+//! - Coverage is 1 to 20, values 21 to 31, clipping 32 to 35, lines 36 to 41, the harness itself 42
+//!   to 45, effects 46.
 
 mod clip;
 mod coverage;
@@ -50,8 +49,6 @@ pub enum Check {
     Run(fn(&Subject, u64, u64) -> Outcome, u64),
     /// Of the matrix of mutants and invariants.
     Matrix,
-    /// Of something that does not exist yet; with the reason.
-    NotYet(&'static str),
 }
 
 /// A property with its number, its name and its tolerance.
@@ -96,12 +93,6 @@ pub struct Failure {
 }
 
 impl Invariant {
-    /// Whether there is something to check.
-    #[must_use]
-    pub fn applies(&self) -> bool {
-        !matches!(self.check, Check::NotYet(_))
-    }
-
     /// The input of a number: a pure function of the three, as far as the subject's source is.
     #[must_use]
     pub fn input(&self, subject: &Subject, seed: u64, index: u64) -> Input {
@@ -113,7 +104,7 @@ impl Invariant {
             Check::Position(_) => source::position(seed, index),
             Check::Clip(_) => source::clip(seed, index),
             Check::Run(_, cases) => Input::Run { seed, cases },
-            Check::Matrix | Check::NotYet(_) => Input::Run { seed, cases: matrix::CASES },
+            Check::Matrix => Input::Run { seed, cases: matrix::CASES },
         }
     }
 
@@ -152,7 +143,6 @@ impl Invariant {
     fn count(&self, cases: u64) -> u64 {
         match self.check {
             Check::Run(..) | Check::Matrix => 1,
-            Check::NotYet(_) => 0,
             _ => cases,
         }
     }
@@ -348,8 +338,9 @@ pub const CATALOGUE: &[Invariant] = &[
     invariant(44, "replay",
         "A seed gives the same cases and the same verdict, in debug and release, on any thread.",
         "0, bit for bit", &[Part::Source], Check::Run(meta::replay, 40)),
-    invariant(45, "metrics-report-only", "Image metrics report and never decide about coverage.",
-        "0", &[], Check::NotYet("there are no image metrics")),
+    invariant(45, "metrics-report-only",
+        "One wrong pixel of a large frame is a disagreement, whatever an image metric makes of it.",
+        "0", &[Part::Judge], Check::Run(meta::metrics_report_only, 12)),
     invariant(46, "disabled-effect", "A disabled effect makes no call at all.",
         "0", &[Part::Render], Check::Run(effects::disabled, 24)),
 ];

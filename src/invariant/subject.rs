@@ -23,6 +23,7 @@ use crate::raster::edge_function::{self, EdgeFunction, WordWidth};
 use crate::raster::scanline::Scanline;
 use crate::scene::Scene;
 use crate::triangle::{Corners, Fragment, ScreenTriangle, Span};
+use crate::verify::Tally;
 use crate::verify::tolerance::{self, Tolerance};
 
 /// A rasterizer with values, as the checks call it.
@@ -171,6 +172,8 @@ pub struct Subject {
     pub culls: fn(Cull, Corners) -> bool,
     /// Draws a scene and counts.
     pub render: RenderStage,
+    /// Whether a coverage agrees with another one.
+    pub coverage_agrees: fn(&Coverage, &Coverage) -> bool,
 }
 
 /// A part of a [`Subject`]: what a check looks at, and where a fault sits.
@@ -196,6 +199,8 @@ pub enum Part {
     Cull,
     /// Rendering with effects.
     Render,
+    /// The judge of two coverages.
+    Judge,
     /// The matrix of invariants and mutants itself.
     Matrix,
 }
@@ -233,6 +238,7 @@ impl Subject {
                     .render(scene, effects, target)
                     .map_or(Counters::default(), |rendered| rendered.counters)
             },
+            coverage_agrees: |actual, target| Tally::between(actual, target).total() == 0,
         }
     }
 
@@ -259,6 +265,7 @@ impl Subject {
             Mutant::Stage(fault) => {
                 fault.replace(&mut subject.clip, &mut subject.culls, &mut subject.render)
             }
+            Mutant::Judge(fault) => subject.coverage_agrees = fault.function(),
         }
         subject
     }
@@ -281,6 +288,7 @@ impl Mutant {
                 StageMutant::EffectsIgnored | StageMutant::ClearsAlways => Part::Render,
                 _ => Part::Clip,
             },
+            Self::Judge(_) => Part::Judge,
         }
     }
 }

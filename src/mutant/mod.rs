@@ -13,7 +13,7 @@ mod triangles;
 
 pub use lines::LineMutant;
 pub use oracles::OracleMutant;
-pub use parts::{EdgeValuesMutant, SnapMutant, SourceMutant, WordWidthMutant};
+pub use parts::{EdgeValuesMutant, JudgeMutant, SnapMutant, SourceMutant, WordWidthMutant};
 pub use stages::StageMutant;
 pub use triangles::TriangleMutant;
 
@@ -36,6 +36,8 @@ pub enum Mutant {
     Source(SourceMutant),
     /// A stage of the pipeline.
     Stage(StageMutant),
+    /// A judge of coverage.
+    Judge(JudgeMutant),
 }
 
 impl Mutant {
@@ -50,6 +52,7 @@ impl Mutant {
         all.extend(LineMutant::ALL.map(Self::Line));
         all.extend(SourceMutant::ALL.map(Self::Source));
         all.extend(StageMutant::ALL.map(Self::Stage));
+        all.extend(JudgeMutant::ALL.map(Self::Judge));
         all
     }
 
@@ -71,6 +74,7 @@ impl Mutant {
             Self::WordWidth(mutant) => mutant.name(),
             Self::Source(mutant) => mutant.name(),
             Self::Stage(mutant) => mutant.name(),
+            Self::Judge(mutant) => mutant.name(),
         }
     }
 }

@@ -1,7 +1,9 @@
-//! Faults in the parts that are plain functions: snapping, edge values, words, the source of cases.
+//! Faults in the parts that are plain functions: snapping, edge values, words, the source of cases,
+//! the judge of two coverages.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
+use crate::frame::Coverage;
 use crate::grid::{DOMAIN_PX, Refusal, SUBPIXELS, snap};
 use crate::hazard::{Case, Family, Shape, families};
 use crate::raster::edge_function::{WordWidth, edge_values};
@@ -173,4 +175,49 @@ impl SourceMutant {
             },
         }
     }
+}
+
+/// A judge of coverage with a planted fault.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum JudgeMutant {
+    /// Agrees where less than one pixel in ten thousand is wrong.
+    ForgivesAFew,
+    /// Agrees where the peak signal-to-noise ratio of the two pictures is 40 dB or more.
+    GatesOnPsnr,
+}
+
+impl JudgeMutant {
+    /// Every mutant.
+    pub const ALL: [Self; 2] = [Self::ForgivesAFew, Self::GatesOnPsnr];
+
+    /// Its name for `--plant`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::ForgivesAFew => "judge-forgives-a-few",
+            Self::GatesOnPsnr => "judge-gates-on-psnr",
+        }
+    }
+
+    /// The faulty function: whether the first coverage agrees with the second.
+    #[must_use]
+    pub fn function(self) -> fn(&Coverage, &Coverage) -> bool {
+        match self {
+            Self::ForgivesAFew => |actual, target| {
+                let [wrong, all] = wrong_pixels(actual, target);
+                wrong == 0 || wrong * 10_000 < all
+            },
+            // Of black and white pictures the mean square error is the share of wrong pixels.
+            Self::GatesOnPsnr => |actual, target| {
+                let [wrong, all] = wrong_pixels(actual, target);
+                wrong == 0 || 10.0 * (all as f64 / wrong as f64).log10() >= 40.0
+            },
+        }
+    }
+}
+
+/// Pixels that differ, and all.
+fn wrong_pixels(actual: &Coverage, target: &Coverage) -> [u64; 2] {
+    let pixels = actual.rows().zip(target.rows()).flat_map(|((_, a), (_, b))| a.iter().zip(b));
+    pixels.fold([0, 0], |[wrong, all], (a, b)| [wrong + u64::from(a != b), all + 1])
 }

@@ -4,6 +4,8 @@ pub mod ascii;
 pub mod exact;
 pub mod frames;
 pub mod json;
+pub mod lettering;
 pub mod picture;
+pub mod sheet;
 pub mod specimens;
 pub mod table;

@@ -4,26 +4,29 @@
 //! and rightly so. A dark dot is a sample; a blue line is an edge. Panels stand side by side, one
 //! for each engine judged by the target, the target itself last.
 
-use image::codecs::png::{CompressionType, FilterType, PngEncoder};
-use image::{ExtendedColorType, ImageEncoder as _, Rgb, RgbImage};
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
+
+use image::{Rgb, RgbImage};
 
 use crate::contract::DrawLine;
-use crate::frame::{Coverage, Frame};
+use crate::frame::Coverage;
 use crate::grid::{PixelRect, SUBPIXELS};
+use crate::hazard::offgrid::OffGridCase;
 use crate::hazard::{Case, Shape};
 use crate::line::bresenham::Bresenham;
 use crate::triangle::{LineEnd, PixelPoint, ScreenLine};
 
-const BACKGROUND: Rgb<u8> = Rgb([250, 250, 247]);
-const GRID: Rgb<u8> = Rgb([222, 222, 216]);
-const BORDER: Rgb<u8> = Rgb([90, 90, 90]);
-const EDGE: Rgb<u8> = Rgb([36, 90, 190]);
-const SAMPLE: Rgb<u8> = Rgb([60, 60, 60]);
-const AGREES: Rgb<u8> = Rgb([170, 178, 184]);
+pub(super) const BACKGROUND: Rgb<u8> = Rgb([250, 250, 247]);
+pub(super) const GRID: Rgb<u8> = Rgb([222, 222, 216]);
+pub(super) const BORDER: Rgb<u8> = Rgb([90, 90, 90]);
+pub(super) const EDGE: Rgb<u8> = Rgb([36, 90, 190]);
+pub(super) const SAMPLE: Rgb<u8> = Rgb([60, 60, 60]);
+pub(super) const AGREES: Rgb<u8> = Rgb([170, 178, 184]);
 const OVERLAP: Rgb<u8> = Rgb([110, 170, 110]);
-const MISSING: Rgb<u8> = Rgb([214, 60, 60]);
-const EXTRA: Rgb<u8> = Rgb([240, 160, 40]);
-const TWICE: Rgb<u8> = Rgb([150, 70, 190]);
+pub(super) const MISSING: Rgb<u8> = Rgb([214, 60, 60]);
+pub(super) const EXTRA: Rgb<u8> = Rgb([240, 160, 40]);
+pub(super) const TWICE: Rgb<u8> = Rgb([150, 70, 190]);
 
 /// Sides of pictures stay below this.
 const MOST_PX: u32 = 1600;
@@ -33,61 +36,43 @@ const MOST_PX: u32 = 1600;
 /// All coverages show the case's window.
 #[must_use]
 pub fn panels(case: &Case, actual: &[Coverage], target: &Coverage) -> RgbImage {
-    let window = case.window;
+    draw_panels(case.window, actual, target, |zoom| segments(case, zoom))
+}
+
+/// The same of a case off the lattice.
+#[must_use]
+pub fn panels_off_grid(case: &OffGridCase, actual: &[Coverage], target: &Coverage) -> RgbImage {
+    draw_panels(case.window, actual, target, |zoom| free_segments(case, zoom))
+}
+
+/// Segments are asked for in picture pixels of a panel, once the zoom is known.
+fn draw_panels(
+    window: PixelRect,
+    actual: &[Coverage],
+    target: &Coverage,
+    segments: impl Fn(u32) -> Vec<[PixelPoint; 2]>,
+) -> RgbImage {
     let count = actual.len() as u32 + 1;
     let zoom = zoom(window, count);
     let (panel_width, panel_height) = (window.width() * zoom + 1, window.height() * zoom + 1);
     let gap = zoom.max(4);
     let width = panel_width * count + gap * (count - 1);
     let mut image = RgbImage::from_pixel(width, panel_height, Rgb([255, 255, 255]));
+    let panel = PixelRect::window(panel_width, panel_height);
     for (i, coverage) in actual.iter().chain([target]).enumerate() {
         let left = i as u32 * (panel_width + gap);
         squares(&mut image, left, zoom, coverage, target);
-        outline(&mut image, left, zoom, case);
+        for segment in segments(zoom) {
+            line(segment, panel, |x, y| image.put_pixel(left + x, y, EDGE));
+        }
     }
     image
 }
 
-/// Three panels: `published` as it is (green where it draws twice), `repaired` as it is, and
-/// `published` judged by `repaired`.
-#[must_use]
-pub fn exhibit(case: &Case, published: &Coverage, repaired: &Coverage) -> RgbImage {
-    let zoom = zoom(case.window, 3);
-    let (panel_width, panel_height) =
-        (case.window.width() * zoom + 1, case.window.height() * zoom + 1);
-    let gap = zoom.max(4);
-    let width = panel_width * 3 + gap * 2;
-    let mut image = RgbImage::from_pixel(width, panel_height, Rgb([255, 255, 255]));
-    let panels = [(published, published), (repaired, repaired), (published, repaired)];
-    for (i, (actual, target)) in panels.into_iter().enumerate() {
-        let left = i as u32 * (panel_width + gap);
-        squares(&mut image, left, zoom, actual, target);
-        outline(&mut image, left, zoom, case);
-    }
-    image
-}
-
-/// Three panels: two pictures of one window, and red where they differ.
-#[must_use]
-pub fn images(published: &Frame<[u8; 3]>, repaired: &Frame<[u8; 3]>) -> RgbImage {
-    let bounds = published.bounds();
-    let zoom = zoom(bounds, 3).min(16);
-    let (width, gap) = (bounds.width() * zoom, zoom.max(4));
-    let size = (width * 3 + gap * 2, bounds.height() * zoom);
-    RgbImage::from_fn(size.0, size.1, |x, y| {
-        let (panel, x) = (x / (width + gap), x % (width + gap));
-        let (x_px, y_px) = (bounds.x0 + (x / zoom) as i32, bounds.y0 + (y / zoom) as i32);
-        if x >= width {
-            return Rgb([255, 255, 255]);
-        }
-        let of = |image: &Frame<[u8; 3]>| image.get(x_px, y_px).unwrap_or_default();
-        match panel {
-            0 => Rgb(of(published)),
-            1 => Rgb(of(repaired)),
-            _ if of(published) == of(repaired) => AGREES,
-            _ => MISSING,
-        }
-    })
+/// The picture pixels of a segment that lie in a panel.
+pub(super) fn line(ends: [PixelPoint; 2], panel: PixelRect, mut put: impl FnMut(u32, u32)) {
+    let ends = ends.map(|pixel| LineEnd { pixel, depth: 0.0, varying: 0.0 });
+    Bresenham.draw(&ScreenLine { ends }, panel, |f| put(f.x_px as u32, f.y_px as u32));
 }
 
 /// Picture pixels for each pixel of the window.
@@ -138,7 +123,7 @@ fn colour(actual: u8, target: u8) -> Rgb<u8> {
 }
 
 /// Edges of triangles through their corners, lines through the centres of their end pixels.
-fn outline(image: &mut RgbImage, left: u32, zoom: u32, case: &Case) {
+fn segments(case: &Case, zoom: u32) -> Vec<[PixelPoint; 2]> {
     let window = case.window;
     let to_picture = |x_sub: i64, y_sub: i64| {
         let at = |sub: i64, origin: i32| {
@@ -148,27 +133,29 @@ fn outline(image: &mut RgbImage, left: u32, zoom: u32, case: &Case) {
         let limit = |v: i64| v.clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32;
         PixelPoint::new(limit(at(x_sub, window.x0)), limit(at(y_sub, window.y0)))
     };
-    let segments: Vec<(PixelPoint, PixelPoint)> = match &case.shape {
+    match &case.shape {
         Shape::Triangles { list, .. } => list
             .iter()
-            .flat_map(|triangle| {
-                let points = triangle.corners().map(|p| to_picture(p.x.into(), p.y.into()));
-                [(points[0], points[1]), (points[1], points[2]), (points[2], points[0])]
-            })
+            .flat_map(|t| edges(t.corners().map(|p| to_picture(p.x.into(), p.y.into()))))
             .collect(),
         Shape::Lines(lines) => {
             let centre = |px: i32| i64::from(px) * i64::from(SUBPIXELS) + i64::from(SUBPIXELS / 2);
             let end = |e: PixelPoint| to_picture(centre(e.x), centre(e.y));
-            lines.iter().map(|l| (end(l.ends[0].pixel), end(l.ends[1].pixel))).collect()
+            lines.iter().map(|l| [end(l.ends[0].pixel), end(l.ends[1].pixel)]).collect()
         }
-    };
-    let panel = PixelRect::window(window.width() * zoom + 1, window.height() * zoom + 1);
-    for (a, b) in segments {
-        let ends = [a, b].map(|pixel| LineEnd { pixel, depth: 0.0, varying: 0.0 });
-        Bresenham.draw(&ScreenLine { ends }, panel, |f| {
-            image.put_pixel(left + f.x_px as u32, f.y_px as u32, EDGE);
-        });
     }
+}
+
+/// Edges of triangles whose corners are not on the lattice.
+fn free_segments(case: &OffGridCase, zoom: u32) -> Vec<[PixelPoint; 2]> {
+    let window = case.window;
+    let at = |px: f64, origin: i32| ((px - f64::from(origin)) * f64::from(zoom)).floor() as i32;
+    let to_picture = |[x, y]: [f64; 2]| PixelPoint::new(at(x, window.x0), at(y, window.y0));
+    case.triangles.iter().flat_map(|t| edges(t.px().map(to_picture))).collect()
+}
+
+fn edges([a, b, c]: [PixelPoint; 3]) -> [[PixelPoint; 2]; 3] {
+    [[a, b], [b, c], [c, a]]
 }
 
 /// Stacks pictures under each other on white, with a gap between.
@@ -186,16 +173,48 @@ pub fn stack(pictures: &[RgbImage]) -> RgbImage {
     sheet
 }
 
-/// The picture as a PNG file's bytes.
+/// The picture as a PNG file's bytes, with a palette where it has at most 256 colours.
 ///
 /// # Panics
 /// Never: writing to memory does not fail.
 #[must_use]
 pub fn png(image: &RgbImage) -> Vec<u8> {
     let mut bytes = Vec::new();
-    // Flat colours on a grid: rows repeat, which the filter `Up` turns into zeros.
-    PngEncoder::new_with_quality(&mut bytes, CompressionType::Best, FilterType::Up)
-        .write_image(image.as_raw(), image.width(), image.height(), ExtendedColorType::Rgb8)
+    let mut encoder = png::Encoder::new(&mut bytes, image.width(), image.height());
+    encoder.set_compression(png::Compression::High);
+    let data = match indexed(image) {
+        Some((palette, indices)) => {
+            encoder.set_color(png::ColorType::Indexed);
+            encoder.set_palette(palette);
+            encoder.set_filter(png::Filter::NoFilter);
+            indices
+        }
+        None => {
+            encoder.set_color(png::ColorType::Rgb);
+            image.as_raw().clone()
+        }
+    };
+    encoder
+        .write_header()
+        .and_then(|mut writer| writer.write_image_data(&data))
         .expect("writing to memory does not fail");
     bytes
+}
+
+/// The colours in the order of their first pixels, and the number of each pixel's; none beyond 256.
+fn indexed(image: &RgbImage) -> Option<(Vec<u8>, Vec<u8>)> {
+    let mut numbers: HashMap<[u8; 3], u8> = HashMap::new();
+    let (mut palette, mut indices) = (Vec::new(), Vec::new());
+    for pixel in image.pixels() {
+        let next = numbers.len();
+        let number = match numbers.entry(pixel.0) {
+            Entry::Occupied(known) => *known.get(),
+            Entry::Vacant(new) => {
+                palette.extend(pixel.0);
+                *new.insert(u8::try_from(next).ok()?)
+            }
+        };
+        indices.push(number);
+    }
+    Some((palette, indices))
 }

@@ -1,69 +1,30 @@
-//! The survey of the specimens as text, and its contact sheet as pictures.
+//! The survey of the specimens as text: a summary of all, or all families of one.
 
 use std::fmt::Write as _;
 
-use glam::DVec2;
-use image::RgbImage;
+use crate::verify::specimens::{Counts, SpecimenReport};
 
-use super::picture;
-use crate::contract::{DrawLine as _, Interpolate as _};
-use crate::frame::{Coverage, Frame};
-use crate::hazard::{Case, Shape, Triangle};
-use crate::lineup::{self, Specimen, TriangleSpecimen};
-use crate::oracle::Oracle;
-use crate::raster::edge_function::EdgeFunction;
-use crate::specimen::catalogue::{Card, Exhibit};
-use crate::specimen::scene::{Colour, Image, Setting, Version};
-use crate::specimen::{Published as _, from_screen};
-use crate::triangle::Fragment;
-use crate::verify::oracle_coverage;
-use crate::verify::specimens::{
-    SpecimenReport, line_case, specimen_coverage, specimen_line_coverage, triangle_case,
-};
+const UNITS: &str = "\
+differ: percent of the triangles or lines with a wrong pixel or value; extra, missing, twice: wrong
+pixels per million covered; value, depth: worst error as a fraction of the corner values' spread
+";
 
-/// The survey: a line of numbers for each specimen, then the percentages by family; at most 100
-/// columns.
+/// The survey: a block for each specimen with its sums and its worst family, then coverage by family
+/// in percent; at most 100 columns.
 #[must_use]
 pub fn table(reports: &[SpecimenReport]) -> String {
-    let mut out = String::from(
-        "wrong: percent of the triangles or lines; extra, missing, twice: per million covered pixels;\n\
-         value, depth: worst error as a fraction of the spread of the corner values\n",
-    );
-    let _ = writeln!(
-        out,
-        "{:<17}{:<15}{:>6} {:>7} {:>7} {:>7} {:>6} {:>6}  shown by: pixels",
-        "specimen", "from", "wrong", "extra", "missing", "twice", "value", "depth"
-    );
+    let mut out = String::from(UNITS);
+    let _ = writeln!(out, "{:<17}{} worst family", "specimen", heads());
     for r in reports {
-        let (all, drawn) = (&r.all, r.all.shapes > 0);
-        let rate = |n: u64| match (drawn, 1e6 * n as f64 / all.pixels.max(1) as f64) {
-            (false, _) => "-".to_owned(),
-            (true, rate) if rate < 1e7 => format!("{rate:.0}"),
-            (true, rate) => format!("{rate:.0e}"),
-        };
-        let error = |e: f64| match e {
-            _ if !drawn => "-".to_owned(),
-            0.0 => "0".to_owned(),
-            e if e.is_infinite() => "inf".to_owned(),
-            e if (0.01..100.0).contains(&e) => format!("{e:.2}"),
-            e => format!("{e:.0e}"),
-        };
-        let percent = if drawn { format!("{:.1}%", all.percent()) } else { "-".to_owned() };
-        let _ = writeln!(
-            out,
-            "{:<17}{:<15}{:>6} {:>7} {:>7} {:>7} {:>6} {:>6}  {}: {}",
-            r.name,
-            r.source,
-            percent,
-            rate(all.tally.extra),
-            rate(all.tally.missing),
-            rate(all.tally.twice),
-            error(all.worst_attribute),
-            error(all.worst_depth),
-            r.case,
-            r.case_wrong
-        );
-        let _ = writeln!(out, "  {} -> {}", r.fault, r.cure);
+        let worst = r.families.iter().max_by(|(_, a), (_, b)| {
+            let rank = |c: &Counts| (c.percent(), c.per_million(c.tally.total()));
+            rank(a).partial_cmp(&rank(b)).unwrap_or(std::cmp::Ordering::Equal)
+        });
+        let worst = worst.map_or(String::new(), |(name, c)| format!("{name} {:.0}%", c.percent()));
+        let _ = writeln!(out, "{}", format!("{:<17}{} {worst}", r.name, cells(&r.all)).trim_end());
+        let _ = writeln!(out, "  {}: {}", r.source, r.fault);
+        let _ = writeln!(out, "  cure: {}", r.cure);
+        let _ = writeln!(out, "  shown by: {}: {} pixels", r.case, r.case_wrong);
     }
     for lines in [false, true] {
         let columns: Vec<_> = reports
@@ -77,13 +38,91 @@ pub fn table(reports: &[SpecimenReport]) -> String {
     out
 }
 
-/// Percent of wrong shapes, a row for each family, a letter for each specimen.
+/// One specimen: its card, every family, every recorded input.
+#[must_use]
+pub fn detail(report: &SpecimenReport) -> String {
+    let r = report;
+    let mut out = format!("{}: {}\n{}\ncure: {}\n", r.name, r.source, r.fault, r.cure);
+    let _ = writeln!(
+        out,
+        "shown by: {}: {} pixels; harmless case: {} pixels\n",
+        r.case, r.case_wrong, r.harmless_wrong
+    );
+    out.push_str(UNITS);
+    if r.families.is_empty() {
+        out.push_str("no rasterizer and no line drawer: its fault shows in its case alone\n");
+        return out;
+    }
+    let head = |what: &str| format!("{what:<24}{} {:>6} {:>6}", heads(), "pixels", "values");
+    let row = |name: &str, c: &Counts| {
+        let [pixels, values] = [c.wrong_pixels, c.wrong_values].map(|n| c.percent_of(n));
+        format!("{name:<24}{} {pixels:>5.1}% {values:>5.1}%", cells(c))
+    };
+    let _ = writeln!(out, "pixels, values: percent with a wrong pixel, with a wrong value");
+    let _ = writeln!(out, "{}", head("family"));
+    for (name, counts) in &r.families {
+        let _ = writeln!(out, "{}", row(name, counts));
+    }
+    let _ = writeln!(out, "{}", row("all", &r.all));
+    if !r.recorded.is_empty() {
+        let _ = writeln!(out, "\nrecorded inputs of the book's code, wrong pixels:");
+    }
+    for (name, c) in &r.recorded {
+        let tally = &c.tally;
+        let what = match c.refused {
+            0 => format!(
+                "{} covered, {} extra, {} missing, {} twice",
+                c.pixels, tally.extra, tally.missing, tally.twice
+            ),
+            _ => "refused: undefined in the published code, or without end".to_owned(),
+        };
+        let _ = writeln!(out, "{name:<24} {what}");
+    }
+    out
+}
+
+/// Heads of [`cells`].
+fn heads() -> String {
+    format!(
+        "{:>7} {:>7} {:>7} {:>7} {:>7} {:>7}",
+        "differ", "extra", "missing", "twice", "value", "depth"
+    )
+}
+
+/// Percent, pixels per million, worst errors; dashes where nothing was drawn.
+fn cells(counts: &Counts) -> String {
+    let drawn = counts.shapes > 0;
+    let rate = |n: u64| match (drawn, counts.per_million(n)) {
+        (false, _) => "-".to_owned(),
+        (true, rate) if rate < 1e7 => format!("{rate:.0}"),
+        (true, rate) => format!("{rate:.0e}"),
+    };
+    let error = |e: f64| match e {
+        _ if !drawn => "-".to_owned(),
+        0.0 => "0".to_owned(),
+        e if e.is_infinite() => "inf".to_owned(),
+        e if (0.01..100.0).contains(&e) => format!("{e:.2}"),
+        e => format!("{e:.0e}"),
+    };
+    let percent = if drawn { format!("{:.1}%", counts.percent()) } else { "-".to_owned() };
+    let tally = &counts.tally;
+    format!(
+        "{percent:>7} {:>7} {:>7} {:>7} {:>7} {:>7}",
+        rate(tally.extra),
+        rate(tally.missing),
+        rate(tally.twice),
+        error(counts.worst_attribute),
+        error(counts.worst_depth)
+    )
+}
+
+/// Percent of shapes with a wrong pixel, a row for each family, a letter for each specimen.
 fn by_family(out: &mut String, columns: &[&SpecimenReport], shapes: &str) {
     let Some(first) = columns.first() else { return };
     let letter = |i: usize| char::from(b'A' + i as u8);
     let legend: Vec<_> =
         columns.iter().enumerate().map(|(i, r)| format!("{} {}", letter(i), r.name)).collect();
-    let _ = writeln!(out, "\nwrong {shapes} in percent, by family:");
+    let _ = writeln!(out, "\n{shapes} with a wrong pixel in percent, by family:");
     for names in legend.chunks(5) {
         let _ = writeln!(out, "  {}", names.join(", "));
     }
@@ -96,111 +135,8 @@ fn by_family(out: &mut String, columns: &[&SpecimenReport], shapes: &str) {
         let _ = write!(out, "{family:<16}");
         for report in columns {
             let counts = &report.families[row].1;
-            let _ = write!(out, " {:>5.1}", counts.percent());
+            let _ = write!(out, " {:>5.1}", counts.percent_of(counts.wrong_pixels));
         }
         out.push('\n');
     }
-}
-
-/// The exposing case of a specimen: published, repaired, difference.
-#[must_use]
-pub fn sheet(card: &Card) -> RgbImage {
-    let specimen = lineup::find(card.name).and_then(|entry| entry.specimen);
-    match (&card.exhibit, specimen) {
-        (Exhibit::Scene(_, draw), _) => picture::images(
-            &draw(Version::Published, Setting::Exposing),
-            &draw(Version::Repaired, Setting::Exposing),
-        ),
-        (Exhibit::Triangles([case, _]), Some(Specimen::Triangle(specimen))) => {
-            let shows_values = case.values[0] != case.values[1] || case.values[1] != case.values[2];
-            let case = triangle_case(case);
-            if shows_values && specimen.has_values() {
-                value_sheet(specimen, &case)
-            } else {
-                hit_sheet(specimen, &case)
-            }
-        }
-        (Exhibit::Lines([case, _]), Some(Specimen::Line(specimen))) => {
-            let case = line_case(case);
-            let Shape::Lines(lines) = &case.shape else { return RgbImage::new(1, 1) };
-            let mut truth = Coverage::new(case.window, 0);
-            Oracle.draw(&lines[0], case.window, |f| truth.hit(f.y_px, f.x_px, f.x_px + 1));
-            let hits = specimen_line_coverage(specimen, &lines[0], case.window);
-            picture::exhibit(&case, &hits.unwrap_or_else(|_| Coverage::new(case.window, 0)), &truth)
-        }
-        _ => RgbImage::new(1, 1),
-    }
-}
-
-fn triangles(case: &Case) -> &[Triangle] {
-    match &case.shape {
-        Shape::Triangles { list, .. } => list,
-        Shape::Lines(_) => &[],
-    }
-}
-
-fn hit_sheet(specimen: TriangleSpecimen, case: &Case) -> RgbImage {
-    let list = triangles(case);
-    let hits = specimen_coverage(specimen, list, case.window);
-    let truth = oracle_coverage(list, case.window);
-    picture::exhibit(case, &hits.unwrap_or_else(|_| Coverage::new(case.window, 0)), &truth)
-}
-
-/// Values in colour: blue at 0, through white, to red at 1; violet beyond either; black for what is
-/// no number.
-fn colour(value: f64) -> Colour {
-    let part = |v: f64| (v * 255.0).round().clamp(0.0, 255.0) as u8;
-    match value {
-        v if !v.is_finite() => [0, 0, 0],
-        v if !(-0.02..=1.02).contains(&v) => [130, 0, 150],
-        v if v < 0.5 => [part(0.2 + 1.6 * v), part(0.2 + 1.6 * v), 255],
-        v => [255, part(1.8 - 1.6 * v), part(1.8 - 1.6 * v)],
-    }
-}
-
-fn value_sheet(specimen: TriangleSpecimen, case: &Case) -> RgbImage {
-    let list = triangles(case);
-    let by_depth = matches!(
-        specimen,
-        TriangleSpecimen::BookChapter6
-            | TriangleSpecimen::BookChapter7
-            | TriangleSpecimen::BookChapter11Fixed
-    );
-    // Depths are stretched so that the corners' range is 0 to 1.
-    let depths: Vec<f64> = list
-        .iter()
-        .flat_map(|t| t.vertices.map(|v| specimen.depth_of(v.depth, 1.0 / v.inv_w)))
-        .collect();
-    let low = depths.iter().copied().fold(f64::INFINITY, f64::min);
-    let high = depths.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let shown = |f: &Fragment<DVec2>| {
-        colour(if by_depth { (f.depth - low) / (high - low) } else { f.varying.x })
-    };
-    let paper: Colour = [250, 250, 247];
-    let [mut published, mut repaired] =
-        [(); 2].map(|()| -> Image { Frame::new(case.window, paper) });
-    let put = |image: &mut Image, f: &Fragment<DVec2>| {
-        image.span_mut(f.y_px, f.x_px, f.x_px + 1)[0] = shown(f);
-    };
-    for triangle in list {
-        // What is refused stays paper.
-        let _ =
-            specimen.fragments(&from_screen(triangle), case.window, |f| put(&mut published, &f));
-        let mut of_depth = *triangle;
-        for v in &mut of_depth.vertices {
-            let depth = specimen.depth_of(v.depth, 1.0 / v.inv_w);
-            // Chapter 6 compares w, which is an attribute and not linear on the screen.
-            if specimen == TriangleSpecimen::BookChapter6 {
-                v.varying = DVec2::splat(depth);
-            }
-            v.depth = depth;
-        }
-        EdgeFunction.fragments(&of_depth, case.window, |mut f| {
-            if specimen == TriangleSpecimen::BookChapter6 {
-                f.depth = f.varying.x;
-            }
-            put(&mut repaired, &f);
-        });
-    }
-    picture::images(&published, &repaired)
 }

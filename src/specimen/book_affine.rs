@@ -3,12 +3,13 @@
 //!
 //! Symptom: w is not used at all; a tilted square's stripes break at its diagonal, by up to
 //! (sqrt R - 1)/(sqrt R + 1) of the spread of the values, R being the ratio of the w.
-//! Cure: v/w over 1/w ([`crate::raster`]). Exposed by w = 1, 4; harmless where the w are equal, but for the
-//! steps of chapter 3.
+//! Cure: v/w over 1/w ([`crate::raster`]). Exposed by a receding floor; harmless where the w are
+//! equal, but for the steps of chapter 3.
 
 use glam::DVec2;
 
 use super::book_triangle::BookChapter3;
+use super::scene::{Image, Setting, Version, chequered, floor, runs_out_below};
 use super::{Published, RealTriangle, Refused};
 use crate::grid::PixelRect;
 use crate::triangle::{Fragment, Span};
@@ -34,5 +35,14 @@ impl Published for BookAffine {
         emit: impl FnMut(Fragment<DVec2>),
     ) -> Result<(), Refused> {
         BookChapter3.fragments(triangle, bounds, emit)
+    }
+}
+
+/// A chequered floor that recedes, or a triangle of one value.
+#[must_use]
+pub fn draw(version: Version, setting: Setting) -> Image {
+    match setting {
+        Setting::Exposing => floor(&BookAffine, version, 4.0),
+        Setting::Harmless => chequered(&BookAffine, version, &[runs_out_below()]),
     }
 }

@@ -15,6 +15,9 @@ use glam::{DVec2, DVec4};
 
 use super::book_formulas as formulas;
 use super::book_triangle::{AREA_LIMIT, Row, sorted, split, twice_area, walk};
+use super::scene::{
+    COLOURS, Image, SIDE, Setting, Version, clip_by_sign, clip_vertex, empty, fill_clipped,
+};
 use super::{BookScreen, ClipVertex, Columns, Published, RealTriangle, Refused, int_loop};
 use crate::grid::PixelRect;
 use crate::triangle::{Fragment, Span};
@@ -211,4 +214,31 @@ impl Published for BookFinal {
             Ok(())
         })
     }
+}
+
+/// A triangle that holds nearly the whole screen and touches its corners but for the last bit, or
+/// one that is cut at three borders.
+#[must_use]
+pub fn draw_clip(version: Version, setting: Setting) -> Image {
+    let triangle = match setting {
+        Setting::Exposing => [
+            [1.750189983469843, -1.750189983469843, 1.3190638062753726, 1.750189983469843],
+            [-1.905683186406554, -1.0000000000000002, 0.41618974220568494, 1.0],
+            [1.8917334344143573, 5.448163312758888, -0.8406224546287921, 1.8917334344143568],
+        ]
+        .map(|p| ClipVertex { position: p.into(), varying: DVec2::ZERO }),
+        Setting::Harmless => {
+            [(-1.5, -0.7), (1.5, -0.8), (0.2, 1.5)].map(|(x, y)| clip_vertex(x, y, 0.0, 1.0))
+        }
+    };
+    let polygon = match version {
+        // Memory is overwritten; nothing that could be drawn is defined.
+        Version::Published => clip(triangle).unwrap_or_default(),
+        Version::Repaired => {
+            BORDERS.iter().fold(triangle.to_vec(), |polygon, place| clip_by_sign(&polygon, place))
+        }
+    };
+    let mut image = empty(SIDE);
+    fill_clipped(&mut image, &polygon, COLOURS[0]);
+    image
 }

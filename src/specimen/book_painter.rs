@@ -10,20 +10,20 @@ use glam::DVec2;
 use super::scene::{COLOURS, Image, SIDE, Setting, Version, empty, fill, fragments};
 use crate::frame::Frame;
 
-/// Three blades; each starts near and ends far, or lies flat at a depth of its own.
+/// Three blades, each turned by a third of a circle; each starts near, broad, and ends far under
+/// the next one, or lies flat at a depth of its own.
 fn blades(setting: Setting) -> [[(DVec2, f64); 3]; 3] {
-    let p = DVec2::new;
-    let corners = [
-        [p(1.0, 5.0), p(1.0, 13.0), p(31.0, 11.0)],
-        [p(29.0, 1.0), p(19.0, 1.0), p(22.0, 31.0)],
-        [p(30.0, 30.0), p(22.0, 31.0), p(3.0, 2.0)],
-    ];
+    let third = DVec2::new(-0.5, 0.866_025_403_784_438_6);
+    let blade = [DVec2::new(-15.0, 2.0), DVec2::new(-7.0, 14.0), DVec2::new(14.0, -1.0)];
+    let turned = blade.map(|p| third.rotate(p));
+    let blades = [blade, turned, turned.map(|p| third.rotate(p))];
     [0, 1, 2].map(|i| {
         let depths = match setting {
             Setting::Exposing => [0.2, 0.2, 0.8],
             Setting::Harmless => [0.2 + 0.3 * i as f64; 3],
         };
-        [0, 1, 2].map(|k| (corners[i][k], depths[k]))
+        let middle = DVec2::splat(f64::from(SIDE) / 2.0);
+        [0, 1, 2].map(|k| (blades[i][k] + middle, depths[k]))
     })
 }
 

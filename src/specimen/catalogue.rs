@@ -1,13 +1,15 @@
 //! The catalogue: for each specimen its source, its fault, its cure in one sentence, the case that
 //! exposes it and a harmless one on which it agrees with the truth.
 //!
-//! Cases lie on the lattice, so that the oracle knows their truth; where the recorded input does not,
-//! it is moved by less than 1/256 px. Positions are window pixels, y down.
+//! Positions are window pixels, y down, as they were recorded: they need not lie on the lattice, and
+//! coverage is judged by the oracle for free corners. Values have an exact truth on the lattice only,
+//! so a case that shows values is moved there by less than 1/256 px.
 
 use super::scene::{Image, Setting, Version};
 use super::{
-    book_near_clip, book_painter, book_viewport, games101_depth, games101_supersample,
-    sysu_simple_clip, sysu_strict_t,
+    book_affine, book_final, book_formulas, book_near_clip, book_painter, book_viewport,
+    games101_depth, games101_strict, games101_supersample, sysu_simple_clip, sysu_strict_t,
+    sysu_weights,
 };
 
 /// A specimen's card.
@@ -60,6 +62,37 @@ pub struct LineCase {
     pub pixels: [(i32, i32); 2],
 }
 
+/// A recorded input of the book's code, by triangles.
+#[derive(Clone, Copy, Debug)]
+pub struct RecordedCase {
+    /// Its name.
+    pub name: &'static str,
+    /// The specimen that shows it.
+    pub specimen: &'static str,
+    /// Corners in the book's coordinates: y up, samples at whole numbers.
+    pub corners: &'static [[(f64, f64); 3]],
+}
+
+/// Side of the recorded screens in pixels.
+pub const RECORDED_SIDE_PX: u32 = 64;
+
+impl RecordedCase {
+    /// Corners in window pixels.
+    #[must_use]
+    pub fn corners_px(&self) -> Vec<[[f64; 2]; 3]> {
+        let to_window = |(x, y): (f64, f64)| [x + 0.5, f64::from(RECORDED_SIDE_PX) - y - 0.5];
+        self.corners.iter().map(|corners| corners.map(to_window)).collect()
+    }
+}
+
+const fn recorded(
+    name: &'static str,
+    specimen: &'static str,
+    corners: &'static [[(f64, f64); 3]],
+) -> RecordedCase {
+    RecordedCase { name, specimen, corners }
+}
+
 const RAMP: [f64; 3] = [0.0, 0.5, 1.0];
 const FLAT: [f64; 3] = [0.5; 3];
 const ONES: [f64; 3] = [1.0; 3];
@@ -87,17 +120,16 @@ const OFF_CENTRE: TriangleCase =
 const SQUARE: &[[(f64, f64); 3]] =
     &[[(2.5, 2.5), (10.5, 2.5), (10.5, 10.5)], [(2.5, 10.5), (2.5, 2.5), (10.5, 10.5)]];
 
-const FIGURE_2_4: &[[(f64, f64); 3]] =
-    &[[(7.25, 7.50390625), (6.5, 7.49609375), (8.0625, 7.49609375)]];
-const NEAR_FLOOR: &[[(f64, f64); 3]] = &[[(1.25, 12.75), (13.25, 9.75), (4.25, 1.25)]];
+/// The recorded input, moved to the middle of a row of the window.
+const FIGURE_2_4: &[[(f64, f64); 3]] = &[[(7.25, 7.500_01), (6.5, 7.499_99), (8.05, 7.499_99)]];
 
 /// Every card, the book first.
 pub const CARDS: &[Card] = &[
     Card {
         name: "book-dda",
         source: "book 2.1",
-        fault: "no last pixel, truncates, drifts",
-        cure: "keep the height as an exact fraction, round it, draw both ends",
+        fault: "no last pixel, rounds down, slope drifts",
+        cure: "exact slope, rounded height, both ends",
         exhibit: Exhibit::Lines([
             LineCase { name: "line_drift", pixels: [(0, 9), (20, 7)] },
             LineCase { name: "ends outside", pixels: [(2, 9), (40, 9)] },
@@ -106,7 +138,7 @@ pub const CARDS: &[Card] = &[
     Card {
         name: "book-ch2",
         source: "book 2.2",
-        fault: "inclusive truncated spans, no pre-step",
+        fault: "rows drawn twice, edges too wide by a pixel",
         cure: "half-open spans of the centres between exact crossings",
         exhibit: Exhibit::Triangles([
             case("double_row", &[[(2.5, 11.5), (10.5, 8.0), (2.5, 4.5)]], ONES, FLAT),
@@ -116,46 +148,50 @@ pub const CARDS: &[Card] = &[
     Card {
         name: "book-ch3",
         source: "book 3.2.4",
-        fault: "no clamp, values by equal steps",
+        fault: "a flat edge runs out of the triangle",
         cure: "take crossings and values at the centre, step nothing",
-        exhibit: Exhibit::Triangles([case("ch3_unclamped", FIGURE_2_4, ONES, RAMP), PLAIN]),
+        exhibit: Exhibit::Triangles([case("ch3_unclamped", FIGURE_2_4, ONES, FLAT), PLAIN]),
     },
     Card {
         name: "book-affine",
         source: "book 5.3",
-        fault: "w ignored",
+        fault: "values interpolated without perspective",
         cure: "interpolate v/w and 1/w, divide at the pixel",
-        exhibit: Exhibit::Triangles([
-            case("receding", NEAR_FLOOR, [1.0, 1.0, 4.0], [0.0, 0.0, 1.0]),
-            PLAIN,
-        ]),
+        exhibit: Exhibit::Scene("floor, w = 1 to 4", book_affine::draw),
+    },
+    Card {
+        name: "book-formulas",
+        source: "book 5.4, (8) and (9)",
+        fault: "differences cancel: wrong at the far corner",
+        cure: "sums of positive terms: w_b (1 - t') v_a + w_a t' v_b",
+        exhibit: Exhibit::Scene("w_b / w_a from 9e13 to 2e17", book_formulas::draw),
     },
     Card {
         name: "book-ch6",
         source: "book 6.2",
-        fault: "depth w from the crossing, not the centre",
+        fault: "depth (w) far out of range on thin triangles",
         cure: "evaluate the depth at the centre",
         exhibit: Exhibit::Triangles([case("depth_poison", POISON, [1.0, 1.0, 2.0], RAMP), PLAIN]),
     },
     Card {
         name: "book-ch7",
         source: "book 7.2",
-        fault: "depth -1/w from the crossing",
+        fault: "depth (-1/w) far out of range on thin triangles",
         cure: "evaluate the depth at the centre",
         exhibit: Exhibit::Triangles([case("depth_poison", POISON, [1.0, 1.0, 2.0], RAMP), PLAIN]),
     },
     Card {
         name: "book-ch11",
         source: "book 5.4, 11",
-        fault: "t' from the crossing, divides by 0",
+        fault: "values run out of range, or divide by zero",
         cure: "t' from the distance of the centre",
         exhibit: Exhibit::Triangles([case("t_divzero", DIVZERO, [1.0, 2.0, 1.0], RAMP), PLAIN]),
     },
     Card {
         name: "book-ch11-fixed",
         source: "book 11.4",
-        fault: "t' held at 1 down edges only",
-        cure: "t' from the distance of the centre never leaves [0, 1]",
+        fault: "the exercise mends values, not the depth",
+        cure: "t' from the centre never leaves [0, 1]",
         exhibit: Exhibit::Triangles([
             case(
                 "z_not_clamped",
@@ -169,35 +205,42 @@ pub const CARDS: &[Card] = &[
     Card {
         name: "book-painter",
         source: "book 6.1",
-        fault: "sorts triangles, not pixels",
+        fault: "a ring of overlaps has no order to paint in",
         cure: "compare the depth of each pixel",
         exhibit: Exhibit::Scene("cyclic overlap", book_painter::draw),
     },
     Card {
         name: "book-near-clip",
         source: "book 7.4",
-        fault: "edge in the plane: 0/0",
-        cure: "a corner in the plane is inside, cut only edges whose ends differ",
+        fault: "an edge in the near plane: 0/0, all is lost",
+        cure: "corners in the plane are inside, cut where ends differ",
         exhibit: Exhibit::Scene("clip7_on_plane", book_near_clip::draw),
+    },
+    Card {
+        name: "book-clip",
+        source: "book 8.3",
+        fault: "rounding overflows the array: memory overwritten",
+        cure: "a polygon that grows, borders decided by signs",
+        exhibit: Exhibit::Scene("clip_stack_overflow", book_final::draw_clip),
     },
     Card {
         name: "book-viewport",
         source: "book 8.2",
-        fault: "times (size - 1)",
+        fault: "times (size - 1): last row and column empty",
         cure: "times size, with samples at centres",
         exhibit: Exhibit::Scene("full screen", book_viewport::draw),
     },
     Card {
         name: "games101-strict",
         source: "GAMES101 hw 2",
-        fault: "samples on edges belong to none",
+        fault: "samples on edges belong to no triangle: holes",
         cure: "top-left rule on exact edge functions",
         exhibit: Exhibit::Triangles([case("square", SQUARE, ONES, FLAT), OFF_CENTRE]),
     },
     Card {
         name: "games101-int",
         source: "GAMES101 hw 2",
-        fault: "sample position through an int",
+        fault: "sample position cast to int: shifted",
         cure: "a sample position is no whole number",
         exhibit: Exhibit::Triangles([
             case("square", SQUARE, ONES, FLAT),
@@ -205,23 +248,30 @@ pub const CARDS: &[Card] = &[
         ]),
     },
     Card {
+        name: "games101-w",
+        source: "GAMES101 hw 2",
+        fault: "w set to 1: attributes without perspective",
+        cure: "keep the w of the corner; divide attributes, not z/w",
+        exhibit: Exhibit::Scene("floor, w = 1 to 4", games101_strict::draw),
+    },
+    Card {
         name: "games101-depth",
         source: "GAMES101 hw 2",
-        fault: "repairs z/w, which was right",
+        fault: "the repair bends z/w by up to 0.8 of its range",
         cure: "z/w is linear on the screen: leave it",
-        exhibit: Exhibit::Scene("R = 100", games101_depth::draw),
+        exhibit: Exhibit::Scene("floor, w = 1 to 100", games101_depth::draw),
     },
     Card {
         name: "games101-average",
         source: "GAMES101 hw 2",
-        fault: "averages inside the triangle loop",
+        fault: "averaged inside the triangle loop: dark seam",
         cure: "a colour for each sample, one average at the end",
         exhibit: Exhibit::Scene("split square", games101_supersample::draw),
     },
     Card {
         name: "sysu-bresenham",
         source: "SYSU 2, task 1",
-        fault: "ties go with the direction",
+        fault: "backwards takes other pixels (ties)",
         cure: "fix the side of ties on the sorted ends",
         exhibit: Exhibit::Lines([
             LineCase { name: "(2,1) to (0,0)", pixels: [(2, 1), (0, 0)] },
@@ -231,41 +281,38 @@ pub const CARDS: &[Card] = &[
     Card {
         name: "sysu-simple-clip",
         source: "SYSU 2, task 2",
-        fault: "needs a corner inside",
+        fault: "dropped, for no corner lies inside",
         cure: "clip",
         exhibit: Exhibit::Scene("around the screen", sysu_simple_clip::draw),
     },
     Card {
         name: "sysu-inclusive",
         source: "SYSU 2, task 4",
-        fault: "whole corners, edges drawn twice, i32",
+        fault: "samples on shared edges are drawn twice",
         cure: "a subpixel lattice, top-left bias, wide words",
         exhibit: Exhibit::Triangles([case("square", SQUARE, ONES, FLAT), LUCKY]),
     },
     Card {
         name: "sysu-weights",
         source: "SYSU 2, task 6",
-        fault: "weights in the wrong order",
+        fault: "weights in the wrong order: colours swapped",
         cure: "an edge's function weighs the corner opposite",
-        exhibit: Exhibit::Triangles([
-            case("ramp", &[[(2.5, 11.5), (11.5, 9.5), (5.5, 2.5)]], ONES, RAMP),
-            LUCKY,
-        ]),
+        exhibit: Exhibit::Scene("red, green, blue", sysu_weights::draw),
     },
     Card {
         name: "sysu-truncated",
         source: "SYSU 2, task 6",
-        fault: "truncates interpolated positions",
+        fault: "positions cut to int: holes and doubles",
         cure: "a fragment's position is the pixel that was tested",
         exhibit: Exhibit::Triangles([
-            case("ramp", &[[(2.5, 11.5), (11.5, 9.5), (5.5, 2.5)]], ONES, RAMP),
+            case("sieve", &[[(1.5, 12.5), (12.5, 9.5), (5.5, 1.5)]], ONES, FLAT),
             case("lucky too", &[[(9.75, 10.75), (4.5, 5.5), (12.75, 1.25)]], ONES, FLAT),
         ]),
     },
     Card {
         name: "sysu-strict-t",
         source: "SYSU 2, task 7",
-        fault: "decides by a rounded t",
+        fault: "decides by a rounded t: half is missing",
         cure: "decide by the signs, assign the plane's value",
         exhibit: Exhibit::Scene("w = 336, 336, 0", sysu_strict_t::draw),
     },
@@ -275,6 +322,47 @@ pub const CARDS: &[Card] = &[
 const POISON: &[[(f64, f64); 3]] = &[[(6.5, 13.5), (6.4921875, 1.5), (6.5078125, 1.5)]];
 /// The recorded input, moved down and to the left.
 const DIVZERO: &[[(f64, f64); 3]] = &[[(6.25, 9.5), (6.75, 9.5), (6.5, 5.5)]];
+
+/// What the book's own code was recorded to do wrong, one for each entry of
+/// `tests/data/book-bugs.json`, under its name; the scenes and lines are on the cards.
+pub const RECORDED: &[RecordedCase] = &[
+    recorded("double_row", "book-ch2", &[[(2.0, 2.0), (10.0, 5.5), (2.0, 9.0)]]),
+    recorded("no_sample", "book-ch2", &[[(1.2, 1.2), (1.8, 1.2), (1.5, 1.8)]]),
+    recorded("floor_left", "book-ch2", &[[(1.9, 0.0), (3.9, 0.0), (1.9, 2.0)]]),
+    recorded("y_phase", "book-ch2", &[[(5.5, 0.9), (1.0, 4.9), (10.0, 4.9)]]),
+    recorded("fp_drift", "book-ch2", &[[(38.0, 26.0), (60.0, 30.0), (6.0, 20.0)]]),
+    recorded(
+        "shared_edge_double",
+        "book-ch2",
+        &[[(10.0, 10.0), (20.0, 10.0), (20.0, 20.0)], [(10.0, 10.0), (20.0, 20.0), (10.0, 20.0)]],
+    ),
+    recorded(
+        "shared_edge_crack",
+        "book-ch2",
+        &[
+            [(1.75, 10.0), (48.75, 10.75), (60.25, 19.75)],
+            [(1.75, 10.0), (60.25, 19.75), (24.0, 35.0)],
+        ],
+    ),
+    // A pixel to the right of the recorded one: there, turning y over rounds its area to 0.
+    recorded("degenerate_drawn", "book-ch2", &[[(1.4, 5.7), (1.4, 8.7), (1.4, 10.7)]]),
+    recorded(
+        "tiny_dropped",
+        "book-ch2",
+        &[[(0.999_999_99, 0.999_999_99), (1.000_000_01, 0.999_999_99), (1.0, 1.000_000_01)]],
+    ),
+    recorded("negative_trunc", "book-ch2", &[[(-0.75, -0.75), (3.0, -0.75), (-0.75, 3.0)]]),
+    recorded("oob", "book-ch2", &[[(-5.0, -5.0), (5.0, -5.0), (-5.0, 5.0)]]),
+    recorded("int_overflow_runaway", "book-ch2", &[[(3e9, 0.0), (3e9 + 8.0, 0.0), (3e9, 8.0)]]),
+    recorded("ch3_unclamped", "book-ch3", &[[(4.25, 2.99999), (3.5, 3.00001), (5.05, 3.00001)]]),
+    recorded("depth_poison", "book-ch11", &[[(10.0, 0.0), (9.99, 20.0), (10.01, 20.0)]]),
+    recorded(
+        "z_not_clamped_after_fix",
+        "book-ch11-fixed",
+        &[[(1.0, 0.5), (1.0, 4.25), (9.0, 4.25)]],
+    ),
+    recorded("t_divzero", "book-ch11", &[[(9.75, 4.0), (10.25, 4.0), (10.0, 8.0)]]),
+];
 
 /// The card called `name`.
 #[must_use]

@@ -7,9 +7,8 @@
 //! share an edge then hide each other wrongly. Cure: leave it linear; the degenerate formula was
 //! right. Exposed by w = 1 and 100; harmless where the w are equal.
 
-use glam::DVec2;
-
-use super::scene::{Image, SIDE, Setting, Version, empty, fragments};
+use super::games101_strict::Games101Strict;
+use super::scene::{COLOURS, Image, SIDE, Setting, Version, WHITE, either, empty, floor_triangles};
 
 /// Depth at the share t of the way on the screen between two corners, with the weights of 1/w.
 #[must_use]
@@ -18,25 +17,17 @@ pub fn published(depths: [f64; 2], w: [f64; 2], t: f64) -> f64 {
     (depths[0] * from + depths[1] * to) / (from + to)
 }
 
-/// The depth of a receding floor in bands: black and white change every sixteenth of the range.
+/// The depth of a receding floor in eight bands, or that of an upright wall.
 #[must_use]
 pub fn draw(version: Version, setting: Setting) -> Image {
     let mut image = empty(SIDE);
     let far = if setting == Setting::Exposing { 100.0 } else { 1.0 };
-    let p = |x: f64, y: f64, w: f64, depth: f64| (DVec2::new(x, y), w, DVec2::splat(depth));
-    let quad = [
-        p(1.0, 31.0, 1.0, -1.0),
-        p(31.0, 31.0, 1.0, -1.0),
-        p(31.0, 1.0, far, 1.0),
-        p(1.0, 1.0, far, 1.0),
-    ];
-    for corners in [[quad[0], quad[1], quad[2]], [quad[0], quad[2], quad[3]]] {
-        let bounds = image.bounds();
-        fragments(corners, bounds, |f| {
-            // The published weights are those of a perspective-correct attribute.
-            let depth = if version == Version::Published { f.varying.x } else { f.depth };
-            let grey = ((depth + 1.0) / 2.0 * 255.0).clamp(0.0, 255.0) as u8;
-            image.span_mut(f.y_px, f.x_px, f.x_px + 1)[0] = [grey, grey / 2 + 64, 255 - grey];
+    let specimen = Games101Strict { whole_samples: false, true_w: true };
+    for triangle in floor_triangles(far) {
+        either(&specimen, version, &triangle, image.bounds(), |f| {
+            let is_even = (f.depth * 4.0).floor().rem_euclid(2.0) == 0.0;
+            let colour = if is_even { COLOURS[0] } else { WHITE };
+            image.span_mut(f.y_px, f.x_px, f.x_px + 1)[0] = colour;
         });
     }
     image

@@ -7,12 +7,15 @@
 //! Cure: the top-left rule on exact edge functions ([`crate::raster::edge_function`]). Exposed by a
 //! square on pixel centres; harmless while no sample lies on an edge.
 //!
-//! Depth: alpha z0/w0 + ... over alpha/w0 + ..., and the skeleton has set every w to 1, so it is
-//! linear; [`super::games101_depth`] has its published repair.
+//! Values: alpha v0/w0 + ... over alpha/w0 + ..., and the skeleton has set every w to 1. So all are
+//! linear on the screen: right for z/w, by luck, and wrong for every attribute, by up to
+//! (sqrt R - 1)/(sqrt R + 1) of its spread. One solution puts the true w back
+//! ([`Games101Strict::true_w`], [`super::games101_depth`]): right for attributes, wrong for z/w.
 
 use glam::{DVec2, Vec2};
 
-use super::{Published, RealTriangle, Refused, to_int};
+use super::scene::{Image, Setting, Version, chequered, floor};
+use super::{Published, RealTriangle, RealVertex, Refused, bare, to_int};
 use crate::grid::PixelRect;
 use crate::triangle::{Fragment, Span};
 
@@ -21,6 +24,8 @@ use crate::triangle::{Fragment, Span};
 pub struct Games101Strict {
     /// Whether sample positions pass through an `int`.
     pub whole_samples: bool,
+    /// Whether the true w is put back where the skeleton has set 1.
+    pub true_w: bool,
 }
 
 /// Positions in the frame buffer: y up, samples at + 0.5.
@@ -88,8 +93,8 @@ impl Published for Games101Strict {
         })
     }
 
-    /// The depth as published, w being 1; the attributes with the same weights, as the homework
-    /// that follows does.
+    /// The depth as published; the attributes by the same formula, as the homework that follows
+    /// does.
     fn fragments(
         &self,
         triangle: &RealTriangle,
@@ -99,11 +104,26 @@ impl Published for Games101Strict {
         let corners = corners(triangle, bounds);
         self.pixels(corners, bounds, |x_px, y_px, sample| {
             let weights = weights(corners, sample).map(f64::from);
-            let sum = |value: fn(&super::RealVertex) -> f64| {
-                (0..3).map(|i| weights[i] * value(&triangle[i])).sum::<f64>()
+            let over_w = |i: usize| weights[i] / if self.true_w { triangle[i].w } else { 1.0 };
+            let inverse: f64 = (0..3).map(over_w).sum();
+            let sum = |value: fn(&RealVertex) -> f64| {
+                (0..3).map(|i| over_w(i) * value(&triangle[i])).sum::<f64>() / inverse
             };
             let varying = DVec2::new(sum(|v| v.varying.x), sum(|v| v.varying.y));
             emit(Fragment { x_px, y_px, depth: sum(|v| v.depth), varying });
         })
+    }
+}
+
+/// The chequered floor with every w set to 1, or a triangle that has no other.
+#[must_use]
+pub fn draw(version: Version, setting: Setting) -> Image {
+    let specimen = Games101Strict { whole_samples: false, true_w: false };
+    match setting {
+        Setting::Exposing => floor(&specimen, version, 4.0),
+        Setting::Harmless => {
+            let triangle = bare([[1.25, 2.75], [12.75, 4.25], [5.25, 11.75]]);
+            chequered(&specimen, version, &[triangle])
+        }
     }
 }

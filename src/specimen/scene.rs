@@ -5,7 +5,7 @@
 
 use glam::{DVec2, DVec4};
 
-use super::ClipVertex;
+use super::{ClipVertex, Published, RealTriangle, RealVertex, bare};
 use crate::contract::{Interpolate as _, Rasterize as _};
 use crate::frame::Frame;
 use crate::grid::{PixelRect, SubpixelPoint};
@@ -39,6 +39,8 @@ pub enum Setting {
 pub const SIDE: u32 = 32;
 /// The background.
 pub const BLACK: Colour = [0, 0, 0];
+/// White.
+pub const WHITE: Colour = [240, 240, 240];
 /// Colours of shapes.
 pub const COLOURS: [Colour; 3] = [[236, 178, 46], [70, 150, 200], [196, 88, 88]];
 
@@ -59,6 +61,77 @@ pub fn fill(image: &mut Image, corners_px: &[DVec2], colour: Colour) {
             image.span_mut(span.y_px, span.x0_px, span.x1_px).fill(colour);
         });
     }
+}
+
+/// A triangle's fragments by a published rasterizer, or by the edge-function engine.
+pub fn either(
+    specimen: &impl Published,
+    version: Version,
+    triangle: &RealTriangle,
+    bounds: PixelRect,
+    emit: impl FnMut(Fragment<DVec2>),
+) {
+    match version {
+        // What is refused stays empty.
+        Version::Published => drop(specimen.fragments(triangle, bounds, emit)),
+        Version::Repaired => {
+            let vertices = triangle.map(|v| ScreenVertex {
+                position: at(v.position_px),
+                depth: v.depth,
+                inv_w: 1.0 / v.w,
+                varying: v.varying,
+            });
+            EdgeFunction.fragments(&ScreenTriangle { vertices }, bounds, emit);
+        }
+    }
+}
+
+/// Triangles with a chessboard of 6 x 6 over their varying.
+#[must_use]
+pub fn chequered(specimen: &impl Published, version: Version, triangles: &[RealTriangle]) -> Image {
+    let mut image = empty(SIDE);
+    for triangle in triangles {
+        either(specimen, version, triangle, image.bounds(), |f| {
+            let square = (f.varying * 6.0).floor();
+            let is_dark = (square.x + square.y).rem_euclid(2.0) == 0.0;
+            let colour = if is_dark { COLOURS[1] } else { WHITE };
+            image.span_mut(f.y_px, f.x_px, f.x_px + 1)[0] = colour;
+        });
+    }
+    image
+}
+
+/// A floor from w = 1 at the lower border to `far` at the upper, no sample on any edge: the corners
+/// with (x, y) as their varying and y from -1 to 1 as their depth.
+#[must_use]
+pub fn floor_triangles(far: f64) -> [RealTriangle; 2] {
+    let corner = |x_px: f64, y_px: f64, x: f64, y: f64| RealVertex {
+        position_px: DVec2::new(x_px, y_px),
+        depth: 2.0 * y - 1.0,
+        w: 1.0 + y * (far - 1.0),
+        varying: DVec2::new(x, y),
+    };
+    let quad = [
+        corner(0.75, 31.25, 0.0, 0.0),
+        corner(31.25, 31.25, 1.0, 0.0),
+        corner(28.25, 0.75, 1.0, 1.0),
+        corner(3.75, 0.75, 0.0, 1.0),
+    ];
+    [[quad[0], quad[1], quad[2]], [quad[0], quad[2], quad[3]]]
+}
+
+/// The floor as a chessboard.
+#[must_use]
+pub fn floor(specimen: &impl Published, version: Version, far: f64) -> Image {
+    chequered(specimen, version, &floor_triangles(far))
+}
+
+/// A triangle of one value with an upright left side on samples, no other edge on one, that leaves
+/// the screen below: what the book's fill gets right.
+#[must_use]
+pub fn runs_out_below() -> RealTriangle {
+    let below = f64::from(SIDE) + 2.5;
+    bare([[2.5, below], [9.75, below], [2.5, below - 12.5]])
 }
 
 /// Emits the fragments of a triangle of (position, w, value); the depth is the first attribute,

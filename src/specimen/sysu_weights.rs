@@ -8,8 +8,9 @@
 
 use glam::DVec2;
 
+use super::scene::{Colour, Image, SIDE, Setting, Version, either, empty};
 use super::sysu_inclusive::{SysuInclusive, front, lerp, samples};
-use super::{Published, RealTriangle, Refused};
+use super::{Published, RealTriangle, Refused, bare};
 use crate::grid::PixelRect;
 use crate::triangle::{Fragment, Span};
 
@@ -39,4 +40,32 @@ impl Published for SysuWeights {
             emit(Fragment { x_px: s.x_px, y_px: s.y_px, depth, varying });
         })
     }
+}
+
+/// A triangle with a red, a green and a blue corner, or one of a single colour.
+#[must_use]
+pub fn draw(version: Version, setting: Setting) -> Image {
+    let mut image = empty(SIDE);
+    let (corners, colours) = match setting {
+        Setting::Exposing => {
+            let colours = [[1.0, 0.1, 0.1], [0.1, 1.0, 0.1], [0.2, 0.3, 1.0]];
+            ([[2.5, 28.5], [29.5, 24.5], [13.5, 2.5]], colours)
+        }
+        Setting::Harmless => ([[3.5, 5.5], [10.5, 12.75], [12.75, 5.25]], [[0.5; 3]; 3]),
+    };
+    let mut triangle = bare(corners);
+    // Two channels at a time.
+    for channels in [[0, 1], [2, 2]] {
+        for (v, colour) in triangle.iter_mut().zip(colours) {
+            v.varying = channels.map(|k| colour[k]).into();
+        }
+        either(&SysuWeights, version, &triangle, image.bounds(), |f| {
+            let pixel: &mut Colour = &mut image.span_mut(f.y_px, f.x_px, f.x_px + 1)[0];
+            for (k, value) in channels.into_iter().zip(f.varying.to_array()) {
+                // 16 shades: what f32 rounds is no difference to see.
+                pixel[k] = ((value * 15.0).round() * 17.0).clamp(0.0, 255.0) as u8;
+            }
+        });
+    }
+    image
 }

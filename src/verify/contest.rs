@@ -205,6 +205,24 @@ pub fn oracle_coverage(triangles: &[Triangle], window: PixelRect) -> Coverage {
     hits
 }
 
+/// Pixels of each triangle or line of a case alone, by the oracle.
+#[must_use]
+pub fn oracle_pixels_each(case: &Case) -> Vec<u64> {
+    match &case.shape {
+        Shape::Triangles { list, .. } => {
+            list.iter().map(|t| oracle_coverage(&[*t], case.window).covered()).collect()
+        }
+        Shape::Lines(lines) => {
+            let count = |line| {
+                let mut count = 0;
+                Oracle.line_pixels(line, case.window, |_, _| count += 1);
+                count
+            };
+            lines.iter().map(count).collect()
+        }
+    }
+}
+
 /// Hits of a line drawer over all lines of a case.
 ///
 /// # Errors

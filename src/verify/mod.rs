@@ -29,6 +29,7 @@ use tolerance::Tolerance;
 
 pub use contest::{
     Finding, Tally, caught, engine_coverage, is_judging, is_sliver, line_coverage, oracle_coverage,
+    oracle_pixels_each,
 };
 
 /// What to judge.
@@ -217,6 +218,13 @@ pub fn judge_coverage<R: Rasterize + Sync>(engine: &R, options: &Options) -> Ver
     let engines = [("candidate", CoverageOnly(engine), None)];
     let none: [(&str, LineEngine); 0] = [];
     drive(&TriangleContest::new(&engines), &LineContest::new(&none), options, &|_| ())
+}
+
+/// Judges the coverage of one case by any rasterizer against the oracle.
+#[must_use]
+pub fn judge_coverage_of<R: Rasterize + Sync>(engine: &R, case: &Case) -> Finding {
+    let engines = [("candidate", CoverageOnly(engine), None)];
+    TriangleContest::new(&engines).judge(case).1.swap_remove(0)
 }
 
 /// Judges coverage and values of any rasterizer against the oracle, values within `tolerance`.

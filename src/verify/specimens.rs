@@ -1,9 +1,10 @@
 //! The survey of the specimens: how often each published fault shows, by family, and whether the
 //! exposing case shows it while the harmless one does not.
 //!
-//! Truth is the oracle at the same positions; specimens that sample at whole numbers receive the
-//! triangle moved by half a pixel, so a count here is a fault and no convention. Triangles are judged
-//! one by one.
+//! Truth is the oracle at the same positions: of generated triangles the one on the lattice, of
+//! catalogued ones, which need not lie there, the one for free corners. Specimens that sample at
+//! whole numbers receive the triangle moved by half a pixel, so a count here is a fault and no
+//! convention. Triangles are judged one by one.
 
 use glam::DVec2;
 use rayon::prelude::*;
@@ -11,7 +12,7 @@ use serde::Serialize;
 
 use super::Tally;
 use super::contest::caught;
-use crate::contract::{DrawLine as _, Rasterize as _};
+use crate::contract::{DrawLine as _, Rasterize as _, RasterizeExact as _};
 use crate::frame::Coverage;
 use crate::grid::{PixelRect, SubpixelPoint};
 use crate::hazard::named::plain_line;
@@ -19,10 +20,14 @@ use crate::hazard::{self, Case, Family, Line, Shape, Triangle};
 use crate::lineup::{self, LineSpecimen, Specimen, TriangleSpecimen};
 use crate::oracle::Oracle;
 use crate::oracle::values::ExactTriangle;
-use crate::specimen::catalogue::{CARDS, Card, Exhibit, LineCase, TriangleCase};
+use crate::specimen::catalogue::{
+    Card, Exhibit, LineCase, RECORDED, RECORDED_SIDE_PX, RecordedCase, TriangleCase,
+};
 use crate::specimen::scene::{Image, Setting, Version};
-use crate::specimen::{Published as _, PublishedLine as _, from_screen};
-use crate::triangle::{Fragment, PixelPoint, ScreenTriangle, ScreenVertex};
+use crate::specimen::{
+    Published as _, PublishedLine as _, RealTriangle, RealVertex, bare, from_screen,
+};
+use crate::triangle::{Fragment, FreeCorners, PixelPoint, ScreenTriangle, ScreenVertex};
 
 /// What came of some triangles or lines.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
@@ -31,6 +36,10 @@ pub struct Counts {
     pub shapes: u64,
     /// Those with a wrong pixel or a wrong value.
     pub wrong: u64,
+    /// Those with a wrong pixel.
+    pub wrong_pixels: u64,
+    /// Those with a wrong value at a pixel that they cover.
+    pub wrong_values: u64,
     /// Those that the specimen refuses, since the published code is undefined there.
     pub refused: u64,
     /// Covered pixels by the oracle.
@@ -48,6 +57,8 @@ impl Counts {
     fn merge(mut self, other: Self) -> Self {
         self.shapes += other.shapes;
         self.wrong += other.wrong;
+        self.wrong_pixels += other.wrong_pixels;
+        self.wrong_values += other.wrong_values;
         self.refused += other.refused;
         self.pixels += other.pixels;
         self.tally += other.tally;
@@ -59,7 +70,19 @@ impl Counts {
     /// Wrong triangles in percent.
     #[must_use]
     pub fn percent(&self) -> f64 {
-        100.0 * self.wrong as f64 / self.shapes.max(1) as f64
+        self.percent_of(self.wrong)
+    }
+
+    /// A number of triangles in percent of all.
+    #[must_use]
+    pub fn percent_of(&self, triangles: u64) -> f64 {
+        100.0 * triangles as f64 / self.shapes.max(1) as f64
+    }
+
+    /// A number of pixels per million that the oracle covers.
+    #[must_use]
+    pub fn per_million(&self, pixels: u64) -> f64 {
+        1e6 * pixels as f64 / self.pixels.max(1) as f64
     }
 }
 
@@ -80,6 +103,8 @@ pub struct SpecimenReport {
     pub case_wrong: u64,
     /// Pixels that are wrong in the harmless case.
     pub harmless_wrong: u64,
+    /// Recorded inputs by name, and what is wrong with each.
+    pub recorded: Vec<(&'static str, Counts)>,
     /// Family and counts; empty for scenes.
     pub families: Vec<(&'static str, Counts)>,
     /// All of them.
@@ -92,13 +117,9 @@ const VALUE_DIFFERS: f64 = 1e-4;
 /// Fragments of a triangle that are compared with exact values.
 const COMPARED: usize = 16;
 
-/// Surveys every specimen: `cases` cases of each family.
+/// Surveys a specimen: its cases, its recorded inputs, and `cases` cases of each family.
 #[must_use]
-pub fn survey(seed: u64, cases: u64) -> Vec<SpecimenReport> {
-    CARDS.iter().map(|card| report(card, seed, cases)).collect()
-}
-
-fn report(card: &Card, seed: u64, cases: u64) -> SpecimenReport {
+pub fn survey(card: &Card, seed: u64, cases: u64) -> SpecimenReport {
     let specimen = lineup::find(card.name).and_then(|entry| entry.specimen);
     let families: Vec<_> = match specimen {
         Some(Specimen::Triangle(specimen)) => {
@@ -120,6 +141,11 @@ fn report(card: &Card, seed: u64, cases: u64) -> SpecimenReport {
         case: exposing_name(card),
         case_wrong,
         harmless_wrong,
+        recorded: RECORDED
+            .iter()
+            .filter(|case| case.specimen == card.name)
+            .map(|case| (case.name, judge_recorded(case)))
+            .collect(),
         families,
         all,
     }
@@ -156,8 +182,8 @@ pub fn wrong(card: &Card, setting: Setting) -> u64 {
     let specimen = lineup::find(card.name).and_then(|entry| entry.specimen);
     match (&card.exhibit, specimen) {
         (Exhibit::Triangles(cases), Some(Specimen::Triangle(specimen))) => {
-            let counts = triangles(specimen, &triangle_case(&cases[which]));
-            counts.tally.total() + counts.wrong + counts.refused
+            let counts = judge_case(specimen, &cases[which]);
+            counts.tally.total() + counts.wrong_values + counts.refused
         }
         (Exhibit::Lines(cases), Some(Specimen::Line(specimen))) => {
             lines(specimen, &line_case(&cases[which])).tally.total()
@@ -175,20 +201,69 @@ fn different(a: &Image, b: &Image) -> u64 {
     pixels.filter(|(a, b)| a != b).count() as u64
 }
 
-/// A card's triangles as a case of the harness.
+/// A card's triangles with their values.
 #[must_use]
-pub fn triangle_case(case: &TriangleCase) -> Case {
-    let vertex = |corners: &[(f64, f64); 3], i: usize| ScreenVertex {
-        position: SubpixelPoint::from_px(corners[i].0, corners[i].1)
-            .expect("a catalogued position lies in the domain"),
+pub fn real_triangles(case: &TriangleCase) -> Vec<RealTriangle> {
+    let vertex = |corners: &[(f64, f64); 3], i: usize| RealVertex {
+        position_px: DVec2::new(corners[i].0, corners[i].1),
         depth: case.values[i],
-        inv_w: 1.0 / case.w[i],
+        w: case.w[i],
         varying: DVec2::splat(case.values[i]),
     };
-    let triangle = |corners| ScreenTriangle { vertices: [0, 1, 2].map(|i| vertex(corners, i)) };
-    let list = case.corners_px.iter().map(triangle).collect();
+    case.corners_px.iter().map(|corners| [0, 1, 2].map(|i| vertex(corners, i))).collect()
+}
+
+/// The same triangle on the lattice; none where a corner does not lie there.
+#[must_use]
+pub fn on_lattice(triangle: &RealTriangle) -> Option<Triangle> {
+    let vertex = |v: &RealVertex| {
+        let position = SubpixelPoint::from_px(v.position_px.x, v.position_px.y).ok()?;
+        let is_exact = DVec2::from(position.to_px()) == v.position_px;
+        let vertex =
+            ScreenVertex { position, depth: v.depth, inv_w: 1.0 / v.w, varying: v.varying };
+        is_exact.then_some(vertex)
+    };
+    let [a, b, c] = triangle;
+    Some(ScreenTriangle { vertices: [vertex(a)?, vertex(b)?, vertex(c)?] })
+}
+
+/// Hits of the oracle for free corners; none for a triangle outside the domain.
+#[must_use]
+pub fn free_truth(triangles: &[RealTriangle], window: PixelRect) -> Coverage {
+    let mut hits = Coverage::new(window, 0);
+    for triangle in triangles {
+        if let Ok(corners) = FreeCorners::new(triangle.map(|v| v.position_px.to_array())) {
+            Oracle.cover_exact(&corners, window, |s| hits.hit(s.y_px, s.x0_px, s.x1_px));
+        }
+    }
+    hits
+}
+
+/// Judges a card's triangles one by one.
+fn judge_case(specimen: TriangleSpecimen, case: &TriangleCase) -> Counts {
     let window = PixelRect::window(case.side_px, case.side_px);
-    Case { window, shape: Shape::Triangles { list, disjoint: true } }
+    judge_free(specimen, &real_triangles(case), window)
+}
+
+/// Judges a recorded input; nothing where its specimen is no rasterizer.
+#[must_use]
+pub fn judge_recorded(case: &RecordedCase) -> Counts {
+    match lineup::find(case.specimen).and_then(|entry| entry.specimen) {
+        Some(Specimen::Triangle(specimen)) => {
+            let triangles: Vec<_> = case.corners_px().into_iter().map(bare).collect();
+            let window = PixelRect::window(RECORDED_SIDE_PX, RECORDED_SIDE_PX);
+            judge_free(specimen, &triangles, window)
+        }
+        _ => Counts::default(),
+    }
+}
+
+fn judge_free(specimen: TriangleSpecimen, triangles: &[RealTriangle], window: PixelRect) -> Counts {
+    let one = |triangle: &RealTriangle| {
+        let truth = free_truth(std::slice::from_ref(triangle), window);
+        judge(specimen, triangle, on_lattice(triangle).as_ref(), window, &truth)
+    };
+    triangles.iter().map(one).fold(Counts::default(), Counts::merge)
 }
 
 /// A card's line as a case of the harness.
@@ -206,14 +281,14 @@ pub fn line_case(case: &LineCase) -> Case {
 /// What it refuses, or the message of its panic.
 pub fn specimen_coverage(
     specimen: TriangleSpecimen,
-    list: &[Triangle],
+    list: &[RealTriangle],
     window: PixelRect,
 ) -> Result<Coverage, String> {
     caught(|| {
         let mut hits = Coverage::new(window, 0);
         for triangle in list {
             specimen
-                .cover(&from_screen(triangle), window, |s| hits.hit(s.y_px, s.x0_px, s.x1_px))
+                .cover(triangle, window, |s| hits.hit(s.y_px, s.x0_px, s.x1_px))
                 .map_err(|refused| refused.to_string())?;
         }
         Ok(hits)
@@ -245,21 +320,33 @@ fn triangles(specimen: TriangleSpecimen, case: &Case) -> Counts {
     let one = |triangle: &Triangle| {
         let mut truth = Coverage::new(case.window, 0);
         Oracle.cover(triangle.corners(), case.window, |s| truth.hit(s.y_px, s.x0_px, s.x1_px));
-        let mut counts = Counts { shapes: 1, pixels: truth.covered(), ..Counts::default() };
-        let Ok(hits) = specimen_coverage(specimen, &[*triangle], case.window) else {
-            counts.refused = 1;
-            return counts;
-        };
-        counts.tally = Tally::between(&hits, &truth);
-        if specimen.has_values() {
-            (counts.worst_attribute, counts.worst_depth) =
-                values(specimen, triangle, case.window, &truth);
-        }
-        let off = counts.worst_attribute.max(counts.worst_depth) > VALUE_DIFFERS;
-        counts.wrong = u64::from(counts.tally.total() > 0 || off);
-        counts
+        judge(specimen, &from_screen(triangle), Some(triangle), case.window, &truth)
     };
     list.iter().map(one).fold(Counts::default(), Counts::merge)
+}
+
+/// Compares hits with the truth, and values where the triangle lies on the lattice.
+fn judge(
+    specimen: TriangleSpecimen,
+    triangle: &RealTriangle,
+    on_lattice: Option<&Triangle>,
+    window: PixelRect,
+    truth: &Coverage,
+) -> Counts {
+    let mut counts = Counts { shapes: 1, pixels: truth.covered(), ..Counts::default() };
+    let Ok(hits) = specimen_coverage(specimen, &[*triangle], window) else {
+        counts.refused = 1;
+        return counts;
+    };
+    counts.tally = Tally::between(&hits, truth);
+    if let Some(triangle) = on_lattice.filter(|_| specimen.has_values()) {
+        (counts.worst_attribute, counts.worst_depth) = values(specimen, triangle, window, truth);
+    }
+    let off = counts.worst_attribute.max(counts.worst_depth) > VALUE_DIFFERS;
+    counts.wrong_pixels = u64::from(counts.tally.total() > 0);
+    counts.wrong_values = u64::from(off);
+    counts.wrong = counts.wrong_pixels | counts.wrong_values;
+    counts
 }
 
 /// Worst errors of attribute and depth at pixels that the triangle really covers, as fractions of
@@ -320,6 +407,7 @@ fn lines(specimen: LineSpecimen, case: &Case) -> Counts {
             Err(_) => counts.refused = 1,
         }
         counts.wrong = u64::from(counts.tally.total() > 0);
+        counts.wrong_pixels = counts.wrong;
         counts
     };
     list.iter().map(one).fold(Counts::default(), Counts::merge)

@@ -14,6 +14,8 @@ use rasterproof::specimen::book_triangle::{BookChapter2, cover_book};
 use rasterproof::specimen::{ClipVertex, Published, PublishedLine, RealTriangle, Refused, bare};
 use serde_json::Value;
 
+use crate::protocol::ask;
+
 /// The book's screen has 64 rows and columns.
 const SIDE: u32 = 64;
 
@@ -399,5 +401,124 @@ fn book_bugs_show() {
     for (name, bug) in bugs {
         println!("{name}: {bug}");
         shows(name, bug);
+    }
+}
+
+/// A request for each of these positions, window pixels on the screen.
+fn requests(verb: &str, side: u32, all: &[Vec<[f64; 2]>]) -> Vec<u8> {
+    let mut text = String::from("HELLO 1\n");
+    for (id, points) in all.iter().enumerate() {
+        let numbers: Vec<_> = points.iter().flatten().map(|v| format!("{v:?}")).collect();
+        text += &format!("{verb} {id} {side} {side} {}\n", numbers.join(" "));
+    }
+    text.into_bytes()
+}
+
+/// The hits of each answer, by the book's row and column; none where it is an error.
+fn answers(engine: &str, side: u32, requests: &[u8]) -> Vec<Option<Hits>> {
+    let lines = ask(engine, requests);
+    assert!(lines[0].starts_with(&format!("HELLO 1 {engine} ")), "{}", lines[0]);
+    let hits = |(id, line): (usize, &String)| {
+        let words: Vec<&str> = line.split(' ').collect();
+        assert_eq!(words[1], id.to_string(), "{engine}: {line}");
+        if words[0] == "E" {
+            return None;
+        }
+        let numbers: Vec<i64> = words[2..].iter().map(|n| n.parse().unwrap()).collect();
+        let mut hits = Hits::new();
+        let mut hit = |x: i64, y: i64| {
+            *hits.entry((i64::from(side) - 1 - y, x)).or_default() += 1;
+        };
+        match words[0] {
+            "C" => numbers[1..].chunks(3).for_each(|r| (r[1]..r[2]).for_each(|x| hit(x, r[0]))),
+            "P" => numbers[1..].chunks(2).for_each(|p| hit(p[0], p[1])),
+            other => panic!("{other}: {line}"),
+        }
+        Some(hits)
+    };
+    lines[1..].iter().enumerate().map(hits).collect()
+}
+
+/// One batch for each engine and screen: the program gives every recorded hit count, double hits
+/// and shapes that leave the screen among them.
+#[test]
+fn book_triangles_as_recorded_through_the_protocol() {
+    let all = records("book-triangles");
+    for (engine, side) in [
+        ("book-ch2", SIDE),
+        ("book-ch11", SIDE),
+        ("book-ch11-fixed", SIDE),
+        ("book-ch11", SIDE + 1),
+        ("book-ch11-fixed", SIDE + 1),
+    ] {
+        let corners: Vec<_> = all.iter().map(|record| positions(&record["v"], side)).collect();
+        let answers = answers(engine, side, &requests("T", side, &corners));
+        assert_eq!(answers.len(), all.len());
+        for (record, actual) in all.iter().zip(answers) {
+            // A text says that a version draws what the one before it draws.
+            let name = ["ch11_fixed", "ch11", "ch2"];
+            let from =
+                name.iter().position(|n| engine.replace("book-", "").replace('-', "_") == *n);
+            let rows = name[from.unwrap()..].iter().map(|n| &record[*n]);
+            let rows = rows.into_iter().find(|rows| rows.is_array()).unwrap();
+            // Chapter 2 was recorded on 64 pixels, and lies there wherever the later ones refer to it.
+            assert_eq!(actual.unwrap(), recorded(rows, side), "{engine} {side}: {}", record["id"]);
+        }
+    }
+}
+
+#[test]
+fn book_quads_and_lines_as_recorded_through_the_protocol() {
+    let all = records("book-quads");
+    for (half, split) in [("A", [0, 1, 2]), ("B", [0, 2, 3])] {
+        let corner = |record: &Value| {
+            let p = positions(&record["v"], SIDE);
+            split.map(|i| p[i]).to_vec()
+        };
+        let corners: Vec<_> = all.iter().map(corner).collect();
+        for engine in ["book-ch2", "book-ch11"] {
+            let answers = answers(engine, SIDE, &requests("T", SIDE, &corners));
+            for (record, actual) in all.iter().zip(answers) {
+                if engine == "book-ch2" || record["ch11_same"] == true {
+                    let expected = recorded(&record[half], SIDE);
+                    assert_eq!(actual.unwrap(), expected, "{engine} {}", record["id"]);
+                }
+            }
+        }
+    }
+    let all = records("book-lines");
+    let ends: Vec<_> = all.iter().map(|record| positions(&record["v"], SIDE)).collect();
+    let answers = answers("book-dda", SIDE, &requests("L", SIDE, &ends));
+    for (record, actual) in all.iter().zip(answers) {
+        assert_eq!(actual.unwrap(), recorded(&record["rows"], SIDE), "{}", record["id"]);
+    }
+}
+
+/// Beyond the screen nothing is answered, whatever the published code writes there; what it leaves
+/// undefined is an error, and the next request is answered.
+#[test]
+fn book_beyond_the_screen_through_the_protocol() {
+    let bugs = std::fs::read_to_string(format!(
+        "{}/tests/data/book-bugs.json",
+        env!("CARGO_MANIFEST_DIR")
+    ));
+    let bugs: Value = serde_json::from_str(&bugs.unwrap()).unwrap();
+    let names = ["oob", "ch3_unclamped", "int_overflow_runaway", "negative_trunc"];
+    let corners: Vec<_> = names.map(|name| positions(&bugs[name]["v"], SIDE)).to_vec();
+    let requests = requests("T", SIDE, &corners);
+    let on_screen = |hits: &Hits| {
+        let side = 0..i64::from(SIDE);
+        hits.keys().all(|(y, x)| side.contains(y) && side.contains(x))
+    };
+    for engine in ["book-ch2", "book-ch3"] {
+        let answers = answers(engine, SIDE, &requests);
+        for (name, hits) in names.iter().zip(&answers) {
+            assert_eq!(hits.is_none(), *name == "int_overflow_runaway", "{engine} {name}");
+            assert!(hits.as_ref().is_none_or(on_screen), "{engine} {name}");
+        }
+        // Without the clamp the flat edge fills whole rows; with it, it does not.
+        let drawn = answers[1].as_ref().unwrap().len();
+        assert_eq!(drawn > 60, engine == "book-ch3", "{engine}: {drawn}");
+        assert!(answers[3].as_ref().unwrap().contains_key(&(0, 3)), "{engine}");
     }
 }

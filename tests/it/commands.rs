@@ -2,6 +2,8 @@
 
 use std::process::{Command, Output};
 
+use rasterproof::mutant::exact::ExactMutant;
+
 fn run(words: &[&str]) -> Output {
     let folder = std::env::temp_dir().join(format!("rasterproof-commands-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
@@ -147,4 +149,38 @@ fn help_shows_examples_and_exit_codes() {
     assert!(out.contains("T id width height"), "{out}");
     let (out, _) = check(&["list"], 0);
     assert!(out.contains("near-tie") && out.contains("S11") && out.contains("bresenham"), "{out}");
+}
+
+/// A recorded input of the book's code: the engines agree, its specimen is shown beside them.
+#[test]
+fn inspect_shows_recorded_inputs_and_specimens() {
+    let (out, _) = check(&["inspect", "double_row", "-o", "double.png"], 0);
+    assert!(out.contains("book-ch2, published: "), "{out}");
+    assert!(out.contains("scanline-exact against oracle-exact: agrees"), "{out}");
+    assert!(out.contains("drawn in double.png"), "{out}");
+    let (out, _) = check(&["inspect", "degenerate_drawn"], 0);
+    assert!(out.contains("book-ch2, published: 0 missing, 6 extra, 1 twice"), "{out}");
+    let (out, _) = check(&["inspect", "int_overflow_runaway"], 0);
+    assert!(out.contains("refused: "), "{out}");
+    let (out, _) = check(&["inspect", "T3", "--specimen", "sysu-inclusive"], 0);
+    assert!(out.contains("sysu-inclusive: ") && out.contains(" wrong"), "{out}");
+    let (out, _) = check(&["inspect", "--line", "0,0", "9,3", "--specimen", "book-dda"], 0);
+    assert!(out.contains("book-dda: "), "{out}");
+    let (_, errors) = check(&["inspect", "T3", "--specimen", "book-dda"], 2);
+    assert!(errors.contains("book-dda does not draw what this case holds"), "{errors}");
+    let (_, errors) = check(&["inspect", "doubel_row"], 2);
+    assert!(errors.contains("did you mean 'double_row'?"), "{errors}");
+}
+
+/// Cases off the lattice are drawn too; failures of the engines for them make a picture.
+#[test]
+fn off_grid_cases_are_drawn() {
+    let (out, _) = check(&["inspect", "f32-random#3", "-o", "free.png"], 0);
+    assert!(out.contains("drawn in free.png"), "{out}");
+    let mutant = ExactMutant::ALL[0].name();
+    let (out, _) = check(&["verify", "--plant", mutant, "--cases", "40"], 1);
+    assert!(out.contains("drawn in target/rasterproof/failures-off-grid.png"), "{out}");
+    // A run without failures says nothing of it.
+    let (out, _) = check(&["verify", "--family", "f32-random", "--cases", "40"], 0);
+    assert!(!out.contains("drawn in"), "{out}");
 }

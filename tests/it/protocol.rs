@@ -4,15 +4,19 @@ use std::io::Write;
 use std::process::{Command, Stdio};
 
 /// What the program answers to these bytes; it must end with status 0.
-fn ask(engine: &str, requests: &[u8]) -> Vec<String> {
+pub fn ask(engine: &str, requests: &[u8]) -> Vec<String> {
     let mut child = Command::new(env!("CARGO_BIN_EXE_rasterproof"))
         .args(["engine", engine])
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())
         .spawn()
         .unwrap();
-    child.stdin.take().unwrap().write_all(requests).unwrap();
-    let output = child.wait_with_output().unwrap();
+    // Both at once: a pipe that is full in one direction must not stop the other.
+    let mut stdin = child.stdin.take().unwrap();
+    let output = std::thread::scope(|scope| {
+        scope.spawn(move || stdin.write_all(requests).unwrap());
+        child.wait_with_output().unwrap()
+    });
     assert_eq!(output.status.code(), Some(0));
     String::from_utf8(output.stdout).unwrap().lines().map(str::to_owned).collect()
 }

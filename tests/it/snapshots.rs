@@ -20,7 +20,8 @@ use rasterproof::raster::scanline::Scanline;
 use rasterproof::report::{ascii, picture};
 use rasterproof::triangle::{ScreenTriangle, ScreenVertex};
 use rasterproof::verify::{
-    Tally, engine_coverage, judge_case, line_coverage, oracle_coverage, tolerance,
+    Tally, engine_coverage, judge_case, line_coverage, oracle_coverage, oracle_pixels_each,
+    tolerance,
 };
 
 /// Largest picture that is kept.
@@ -99,19 +100,6 @@ fn judged(case: &Case) -> (Vec<(&'static str, Coverage)>, Coverage) {
     }
 }
 
-/// Pixels of each triangle or line alone, by the oracle.
-fn pixels_each(case: &Case) -> Vec<u64> {
-    match &case.shape {
-        Shape::Triangles { list, .. } => {
-            list.iter().map(|t| oracle_coverage(&[*t], case.window).covered()).collect()
-        }
-        Shape::Lines(lines) => lines
-            .iter()
-            .map(|l| line_coverage(&LineEngine::Oracle, &[*l], case.window).unwrap().covered())
-            .collect(),
-    }
-}
-
 fn text(named: &NamedCase, case: &Case) -> String {
     let (engines, target) = judged(case);
     let mut out = format!("{}: {}\n\n", named.name, named.about);
@@ -178,7 +166,7 @@ fn named_cases_are_as_catalogued() {
                     );
                 }
                 if !pixels.is_empty() {
-                    assert_eq!(&pixels_each(case), pixels, "{}", named.name);
+                    assert_eq!(&oracle_pixels_each(case), pixels, "{}", named.name);
                 }
             }
             Input::Refused(corners) => {

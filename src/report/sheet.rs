@@ -1,0 +1,353 @@
+//! The contact sheet of the specimens: for each a strip of three panels, published, repaired,
+//! difference, with its name, its fault and its cure; sheets by source, with a legend.
+//!
+//! Panels show the exposing case alone, each pixel a square. A strip refuses nothing: what the
+//! published code leaves undefined stays empty.
+
+use glam::DVec2;
+use image::{Rgb, RgbImage, imageops};
+
+use super::lettering::{self, write};
+use super::picture::{AGREES, BACKGROUND, BORDER, EDGE, EXTRA, GRID, MISSING, SAMPLE, TWICE, line};
+use crate::contract::{DrawLine as _, Interpolate as _};
+use crate::frame::{Coverage, Frame};
+use crate::grid::PixelRect;
+use crate::hazard::{Case, Shape};
+use crate::lineup::{self, LineSpecimen, Specimen, TriangleSpecimen};
+use crate::oracle::Oracle;
+use crate::raster::edge_function::EdgeFunction;
+use crate::specimen::catalogue::{CARDS, Card, Exhibit, TriangleCase};
+use crate::specimen::scene::{BLACK, Colour, Image, Setting, Version};
+use crate::specimen::{Published as _, RealTriangle};
+use crate::triangle::{Fragment, LineEnd, PixelPoint};
+use crate::verify::specimens::{
+    free_truth, line_case, on_lattice, real_triangles, specimen_coverage, specimen_line_coverage,
+};
+
+const WHITE: Rgb<u8> = Rgb([255, 255, 255]);
+const INK: Rgb<u8> = Rgb([30, 30, 30]);
+const FAINT: Rgb<u8> = Rgb([110, 110, 110]);
+/// Drawn by both, but not alike.
+const WRONG: Rgb<u8> = Rgb([60, 120, 220]);
+/// A value beyond the range of its corners.
+const BEYOND: Colour = [40, 170, 60];
+
+/// Largest side of a panel, and the space between panels and around them.
+const PANEL: u32 = 161;
+const GAP: u32 = 8;
+/// Width of a strip.
+const STRIP: u32 = 3 * PANEL + 4 * GAP;
+
+/// A sheet: the cards of one source, or of some of its chapters.
+pub struct Sheet {
+    /// Its name in file names.
+    pub name: &'static str,
+    title: &'static str,
+    /// What the source of its cards begins with.
+    sources: &'static [&'static str],
+}
+
+/// The sheets in their order; each card is on one.
+pub const SHEETS: [Sheet; 4] = [
+    Sheet {
+        name: "book-1",
+        title: "The book, chapters 2 to 5: lines, triangles, values",
+        sources: &["book 2", "book 3", "book 5"],
+    },
+    Sheet {
+        name: "book-2",
+        title: "The book, chapters 6 to 11: depth, clipping, viewport",
+        sources: &["book 6", "book 7", "book 8", "book 11"],
+    },
+    Sheet {
+        name: "games101",
+        title: "GAMES101, homework 2: triangles and the depth buffer",
+        sources: &["GAMES101"],
+    },
+    Sheet {
+        name: "sysu",
+        title: "SYSU, assignment 2: lines, clipping, triangles",
+        sources: &["SYSU"],
+    },
+];
+
+impl Sheet {
+    /// Its cards, in the order of the catalogue.
+    pub fn cards(&self) -> impl Iterator<Item = &'static Card> {
+        let is_here = |card: &&Card| self.sources.iter().any(|s| card.source.starts_with(s));
+        CARDS.iter().filter(is_here)
+    }
+}
+
+/// What a strip shows.
+struct Panels {
+    published: Image,
+    repaired: Image,
+    background: Colour,
+    /// Segments in window pixels.
+    outline: Vec<[DVec2; 2]>,
+    has_samples: bool,
+}
+
+/// All cards of a sheet, two strips to a row, under a title and over a legend.
+#[must_use]
+pub fn sheet(sheet: &Sheet) -> RgbImage {
+    let strips: Vec<RgbImage> = sheet.cards().map(strip).collect();
+    let rows: Vec<RgbImage> = strips.chunks(2).map(beside).collect();
+    let mut top = RgbImage::from_pixel(2 * STRIP, 40, WHITE);
+    write(&mut top, (i64::from(GAP), 12), sheet.title, 2, INK);
+    let all: Vec<RgbImage> = [top].into_iter().chain(rows).chain([legend()]).collect();
+    super::picture::stack(&all)
+}
+
+/// All sheets, one under the other.
+#[must_use]
+pub fn contact_sheet() -> RgbImage {
+    super::picture::stack(&SHEETS.each_ref().map(sheet))
+}
+
+fn beside(strips: &[RgbImage]) -> RgbImage {
+    let height = strips.iter().map(RgbImage::height).max().unwrap_or(1);
+    let mut row = RgbImage::from_pixel(2 * STRIP, height, WHITE);
+    for (i, strip) in (0..).zip(strips) {
+        imageops::replace(&mut row, strip, i * i64::from(STRIP), 0);
+    }
+    row
+}
+
+/// What the colours of the panels mean.
+fn legend() -> RgbImage {
+    let mut image = RgbImage::from_pixel(2 * STRIP, 44, WHITE);
+    let hits = [
+        (AGREES, "right"),
+        (MISSING, "missing"),
+        (EXTRA, "extra"),
+        (TWICE, "drawn twice"),
+        (WRONG, "drawn, but not alike"),
+    ];
+    let shades = [0.0, 0.25, 0.5, 0.75, 1.0].map(|v| (Rgb(shade(v)), ""));
+    let values = [(Rgb(BEYOND), "beyond the corners' values"), (Rgb(BLACK), "not a number")];
+    let mut put = |entries: &[(Rgb<u8>, &str)], mut left: u32, top: u32| {
+        for &(colour, text) in entries {
+            for (x, y) in (0..12).flat_map(|x| (0..12).map(move |y| (x, y))) {
+                let is_border = x % 11 == 0 || y % 11 == 0;
+                image.put_pixel(left + x, top + y, if is_border { BORDER } else { colour });
+            }
+            left += 16;
+            let at = (i64::from(left), i64::from(top) + 2);
+            left += write(&mut image, at, text, 1, INK);
+            left += if text.is_empty() { 0 } else { 24 };
+        }
+        left
+    };
+    put(&hits, GAP, 4);
+    let left = put(&shades, GAP, 24);
+    put(&values, left + 24 + lettering::width("values from 0 to 1", 1), 24);
+    let at = (i64::from(left), 26);
+    write(&mut image, at, "values from 0 to 1", 1, INK);
+    image
+}
+
+/// The strip of a card.
+#[must_use]
+pub fn strip(card: &Card) -> RgbImage {
+    let Some(panels) = panels(card) else { return RgbImage::new(1, 1) };
+    const HEAD: u32 = 60;
+    let bounds = panels.published.bounds();
+    let zoom = ((PANEL - 1) / bounds.width().max(bounds.height())).max(1);
+    let height = bounds.height() * zoom + 1;
+    let mut image = RgbImage::from_pixel(STRIP, HEAD + height + 2 * GAP, WHITE);
+    let left = i64::from(GAP);
+    let name = write(&mut image, (left, 4), card.name, 2, INK);
+    write(&mut image, (left + i64::from(name + GAP), 10), card.source, 1, FAINT);
+    write(&mut image, (left, 24), card.fault, 1, INK);
+    write(&mut image, (left, 35), &format!("cure: {}", card.cure), 1, FAINT);
+    let difference = difference(&panels);
+    let all = [
+        ("published", &panels.published),
+        ("repaired", &panels.repaired),
+        ("difference", &difference),
+    ];
+    for (i, (head, picture)) in (0u32..).zip(all) {
+        let left = GAP + i * (PANEL + GAP);
+        write(&mut image, (i64::from(left), i64::from(HEAD) - 10), head, 1, FAINT);
+        let panel = enlarged(picture, zoom, &panels);
+        imageops::replace(&mut image, &panel, left.into(), HEAD.into());
+    }
+    image
+}
+
+/// Each pixel a square, the outline and the samples over it.
+fn enlarged(picture: &Image, zoom: u32, panels: &Panels) -> RgbImage {
+    let bounds = picture.bounds();
+    let (width, height) = (bounds.width() * zoom + 1, bounds.height() * zoom + 1);
+    let middle = |offset: u32| zoom >= 8 && offset == zoom / 2;
+    let mut image = RgbImage::from_fn(width, height, |x, y| {
+        let (x_px, y_px) = (bounds.x0 + (x / zoom) as i32, bounds.y0 + (y / zoom) as i32);
+        if x == 0 || y == 0 || x + 1 == width || y + 1 == height {
+            BORDER
+        } else if zoom >= 6 && (x % zoom == 0 || y % zoom == 0) {
+            GRID
+        } else if panels.has_samples && middle(x % zoom) && middle(y % zoom) {
+            SAMPLE
+        } else {
+            Rgb(picture.get(x_px, y_px).unwrap_or_default())
+        }
+    });
+    let origin = DVec2::new(bounds.x0.into(), bounds.y0.into());
+    for segment in &panels.outline {
+        // Saturating: a corner far outside stays far outside.
+        let ends = segment.map(|p| ((p - origin) * f64::from(zoom)).floor());
+        let ends = ends.map(|p| PixelPoint::new(p.x as i32, p.y as i32));
+        line(ends, PixelRect::window(width, height), |x, y| image.put_pixel(x, y, EDGE));
+    }
+    image
+}
+
+/// Red missing, orange extra, violet twice, blue drawn by both but not alike, grey the same.
+fn difference(panels: &Panels) -> Image {
+    let bounds = panels.published.bounds();
+    let mut image = Frame::new(bounds, BACKGROUND.0);
+    for y in bounds.y0..bounds.y1 {
+        for x in bounds.x0..bounds.x1 {
+            let [published, repaired] = [&panels.published, &panels.repaired]
+                .map(|image| image.get(x, y).unwrap_or_default());
+            let colour = match (published, repaired) {
+                (p, r) if p == r && r == panels.background => BACKGROUND,
+                (p, r) if p == r => AGREES,
+                (p, _) if p == panels.background => MISSING,
+                (p, _) if p == TWICE.0 => TWICE,
+                (_, r) if r == panels.background => EXTRA,
+                _ => WRONG,
+            };
+            image.span_mut(y, x, x + 1)[0] = colour.0;
+        }
+    }
+    image
+}
+
+fn panels(card: &Card) -> Option<Panels> {
+    let specimen = lineup::find(card.name).and_then(|entry| entry.specimen);
+    Some(match (&card.exhibit, specimen) {
+        (Exhibit::Scene(_, draw), _) => Panels {
+            published: draw(Version::Published, Setting::Exposing),
+            repaired: draw(Version::Repaired, Setting::Exposing),
+            background: BLACK,
+            outline: Vec::new(),
+            has_samples: false,
+        },
+        (Exhibit::Triangles([case, _]), Some(Specimen::Triangle(specimen))) => {
+            triangle_panels(specimen, case)
+        }
+        (Exhibit::Lines([case, _]), Some(Specimen::Line(specimen))) => {
+            line_panels(specimen, &line_case(case))?
+        }
+        _ => return None,
+    })
+}
+
+/// Hits as colours.
+fn hits_image(hits: &Coverage) -> Image {
+    let bounds = hits.bounds();
+    let mut image = Frame::new(bounds, BACKGROUND.0);
+    for (y, row) in hits.rows() {
+        for (x, &hits) in (bounds.x0..).zip(row) {
+            image.span_mut(y, x, x + 1)[0] = match hits {
+                0 => BACKGROUND.0,
+                1 => AGREES.0,
+                _ => TWICE.0,
+            };
+        }
+    }
+    image
+}
+
+fn line_panels(specimen: LineSpecimen, case: &Case) -> Option<Panels> {
+    let Shape::Lines(lines) = &case.shape else { return None };
+    let mut truth = Coverage::new(case.window, 0);
+    Oracle.draw(&lines[0], case.window, |f| truth.hit(f.y_px, f.x_px, f.x_px + 1));
+    let hits = specimen_line_coverage(specimen, &lines[0], case.window);
+    let centre = |end: &LineEnd<DVec2>| DVec2::new(end.pixel.x.into(), end.pixel.y.into()) + 0.5;
+    Some(Panels {
+        published: hits_image(&hits.unwrap_or_else(|_| Coverage::new(case.window, 0))),
+        repaired: hits_image(&truth),
+        background: BACKGROUND.0,
+        outline: vec![[centre(&lines[0].ends[0]), centre(&lines[0].ends[1])]],
+        has_samples: false,
+    })
+}
+
+fn triangle_panels(specimen: TriangleSpecimen, case: &TriangleCase) -> Panels {
+    let window = PixelRect::window(case.side_px, case.side_px);
+    let triangles = real_triangles(case);
+    let shows_values = case.values[0] != case.values[1] || case.values[1] != case.values[2];
+    let (published, repaired) = if shows_values && specimen.has_values() {
+        value_images(specimen, &triangles, window)
+    } else {
+        let hits = specimen_coverage(specimen, &triangles, window);
+        let hits = hits.unwrap_or_else(|_| Coverage::new(window, 0));
+        (hits_image(&hits), hits_image(&free_truth(&triangles, window)))
+    };
+    let outline = triangles
+        .iter()
+        .flat_map(|t| [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]].map(|s| s.map(|v| v.position_px)))
+        .collect();
+    Panels { published, repaired, background: BACKGROUND.0, outline, has_samples: true }
+}
+
+/// Values as colours: blue at 0, through white, to red at 1; green beyond either; black for what is
+/// no number.
+fn shade(value: f64) -> Colour {
+    let part = |v: f64| (v * 255.0).round().clamp(0.0, 255.0) as u8;
+    match value {
+        v if !v.is_finite() => BLACK,
+        v if !(-0.02..=1.02).contains(&v) => BEYOND,
+        v if v < 0.5 => [part(0.2 + 1.6 * v), part(0.2 + 1.6 * v), 255],
+        v => [255, part(1.8 - 1.6 * v), part(1.8 - 1.6 * v)],
+    }
+}
+
+/// The attribute, or the depth stretched so that the corners' range is 0 to 1, in colours.
+fn value_images(
+    specimen: TriangleSpecimen,
+    triangles: &[RealTriangle],
+    window: PixelRect,
+) -> (Image, Image) {
+    let by_depth = matches!(
+        specimen,
+        TriangleSpecimen::BookChapter6
+            | TriangleSpecimen::BookChapter7
+            | TriangleSpecimen::BookChapter11Fixed
+    );
+    let depths = triangles.iter().flatten().map(|v| specimen.depth_of(v.depth, v.w));
+    let low = depths.clone().fold(f64::INFINITY, f64::min);
+    let high = depths.fold(f64::NEG_INFINITY, f64::max);
+    let shown = |f: &Fragment<DVec2>| {
+        shade(if by_depth { (f.depth - low) / (high - low) } else { f.varying.x })
+    };
+    let [mut published, mut repaired] =
+        [(); 2].map(|()| -> Image { Frame::new(window, BACKGROUND.0) });
+    let put = |image: &mut Image, f: &Fragment<DVec2>| {
+        image.span_mut(f.y_px, f.x_px, f.x_px + 1)[0] = shown(f);
+    };
+    for triangle in triangles {
+        // What is refused stays empty.
+        let _ = specimen.fragments(triangle, window, |f| put(&mut published, &f));
+        let Some(mut of_depth) = on_lattice(triangle) else { continue };
+        for v in &mut of_depth.vertices {
+            let depth = specimen.depth_of(v.depth, 1.0 / v.inv_w);
+            // Chapter 6 compares w, which is an attribute and not linear on the screen.
+            if specimen == TriangleSpecimen::BookChapter6 {
+                v.varying = DVec2::splat(depth);
+            }
+            v.depth = depth;
+        }
+        EdgeFunction.fragments(&of_depth, window, |mut f| {
+            if specimen == TriangleSpecimen::BookChapter6 {
+                f.depth = f.varying.x;
+            }
+            put(&mut repaired, &f);
+        });
+    }
+    (published, repaired)
+}
