@@ -14,6 +14,7 @@ use std::path::Path;
 
 use clap::{Parser, Subcommand};
 
+use crate::report::html::{self, Report};
 use crate::{hazard, lineup};
 
 /// Exit codes.
@@ -214,4 +215,15 @@ fn write_file(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
         let _ = std::fs::remove_file(&beside);
         failed("cannot write", e)
     })
+}
+
+/// Where the report page goes.
+const PAGE: &str = "target/rasterproof/index.html";
+
+/// Writes the report page and says where on standard error, so that standard output stays as it is
+/// without it.
+fn write_page(report: &Report, errors: &mut dyn Write) -> Result<(), Failure> {
+    write_file(Path::new(PAGE), html::page(report).as_bytes())?;
+    writeln!(errors, "report: {PAGE}")?;
+    Ok(())
 }

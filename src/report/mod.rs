@@ -1,7 +1,10 @@
-//! Verdicts as text, JSON and pictures. Everything here is a value; only `main` prints.
+//! Verdicts as text, JSON, pictures and a page. Everything here is a value; only `main` prints.
 
 pub mod ascii;
+pub mod cases;
+pub mod counts;
 pub mod exact;
+pub mod html;
 pub mod json;
 pub mod picture;
 pub mod specimens;

@@ -7,6 +7,7 @@ mod exhaust;
 mod house;
 mod matrix;
 mod mutants;
+mod page;
 mod properties;
 mod protocol;
 mod recorded;
