@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use super::{Failure, Streams, exit, invariant, usage, write_file, write_page};
+use super::{Failure, PAGE, Streams, exit, invariant, usage, write_file, write_page};
 use crate::hazard;
 use crate::lineup::{Engine, ExactEngine, LineEngine};
 use crate::mutant::{LineMutant, Mutant, TriangleMutant, exact::ExactMutant};
@@ -199,7 +199,7 @@ pub fn run(arguments: &VerifyArguments, streams: &mut Streams<'_>) -> Result<u8,
     }
     if arguments.report {
         let page = report_page(arguments, &verdict, &off_grid, &engines, &lines, &exact_engines);
-        write_page(&page, streams.errors)?;
+        write_page(Path::new(PAGE), &page, streams.errors)?;
     }
     if arguments.json {
         let text =

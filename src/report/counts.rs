@@ -52,7 +52,7 @@ fn on_grid(families: &[&FamilyReport], lines: bool) -> Table {
         columns.push(Column::numbers(&label, "wrong pixels of the first, judged by the second"));
     }
     columns.push(Column::numbers(
-        "closest",
+        "closest to bound",
         "the largest difference of a value from the exact one, as a fraction of its bound",
     ));
     let mut sorted = families.to_vec();
@@ -60,7 +60,10 @@ fn on_grid(families: &[&FamilyReport], lines: bool) -> Table {
         let judged = f.pairs.iter().filter(|p| p.target == "oracle" && p.values > 0);
         judged.map(|p| p.worst()).fold(0.0, f64::max)
     };
-    let wrong = |f: &FamilyReport| f.pairs.iter().map(|p| p.wrong_cases).sum::<u64>();
+    let wrong = |f: &FamilyReport| {
+        let counts = f.pairs.iter().map(|p| (p.tally.total() + p.panics, p.wrong_cases));
+        counts.fold((0, 0), |sum, (pixels, cases)| (sum.0 + pixels, sum.1 + cases))
+    };
     sorted.sort_by(|a, b| wrong(b).cmp(&wrong(a)).then(closest(b).total_cmp(&closest(a))));
     let row = |f: &FamilyReport, mark: Mark| {
         let mut cells = vec![f.family.clone()];
@@ -76,7 +79,7 @@ fn on_grid(families: &[&FamilyReport], lines: bool) -> Table {
     };
     let sum = table::sum(families);
     let rows = sorted.iter().map(|f| {
-        row(f, if wrong(f) > 0 || f.oracle_overlap > 0 { Mark::Wrong } else { Mark::Plain })
+        row(f, if wrong(f).1 > 0 || f.oracle_overlap > 0 { Mark::Wrong } else { Mark::Plain })
     });
     let caption = format!("Wrong pixels: {shapes}, by family and pair, worst first");
     Table { caption, columns, rows: [row(&sum, Mark::Sum)].into_iter().chain(rows).collect() }
@@ -97,7 +100,10 @@ fn off_lattice(verdict: &ExactVerdict) -> Table {
         let about = "decisions that took exact arithmetic, of all decisions";
         columns.push(Column::numbers(&format!("{} in doubt", engine.engine), about));
     }
-    let wrong = |f: &ExactFamilyReport| f.engines.iter().map(|e| e.wrong_cases).sum::<u64>();
+    let wrong = |f: &ExactFamilyReport| {
+        let counts = f.engines.iter().map(|e| (e.tally.total() + e.panics, e.wrong_cases));
+        counts.fold((0, 0), |sum, (pixels, cases)| (sum.0 + pixels, sum.1 + cases))
+    };
     let doubts =
         |f: &ExactFamilyReport| f.engines.iter().map(|e| e.decisions.by_fallback).sum::<u64>();
     let mut sorted: Vec<_> = verdict.families.iter().collect();
@@ -123,7 +129,7 @@ fn off_lattice(verdict: &ExactVerdict) -> Table {
         rows.push(row(&sum, Mark::Sum));
     }
     rows.extend(sorted.into_iter().map(|f| {
-        row(f, if wrong(f) > 0 || f.oracle_faults > 0 { Mark::Wrong } else { Mark::Plain })
+        row(f, if wrong(f).1 > 0 || f.oracle_faults > 0 { Mark::Wrong } else { Mark::Plain })
     }));
     let caption = "Wrong pixels: triangles off the grid, by family and engine, worst first";
     Table { caption: caption.to_owned(), columns, rows }

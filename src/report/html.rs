@@ -265,13 +265,16 @@ pub fn page(report: &Report) -> String {
     let notes = notes(&report.notes, &left_out);
     let sections = [
         ("Plan", plan),
-        ("Counts", tables),
+        ("Summary", tables),
         ("Plots", figures.concat()),
         ("Texts", diffs.concat()),
     ];
     let has_cases = !cases.is_empty() || !frames.is_empty();
     let titles = sections.iter().filter(|(_, inside)| !inside.is_empty()).map(|(title, _)| *title);
-    let jump = jump(&titles.chain(has_cases.then_some("Cases")).collect::<Vec<_>>());
+    let cases_title = if cases.is_empty() { "Pictures" } else { "Cases" };
+    let mut links: Vec<_> = titles.map(|title| (title.to_ascii_lowercase(), title)).collect();
+    links.extend(has_cases.then(|| ("cases".to_owned(), cases_title)));
+    let jump = jump(&links);
     fill(|part| match part {
         "title" => escape(&report.title),
         "style" => STYLE.to_owned(),
@@ -279,6 +282,7 @@ pub fn page(report: &Report) -> String {
         "head" => head.clone(),
         "notes" => notes.clone(),
         "jump" => jump.clone(),
+        "cases-title" => cases_title.to_owned(),
         "sections" => sections.iter().map(|(title, inside)| section(title, inside)).collect(),
         "data" => data.clone(),
         _ => String::new(),
@@ -303,15 +307,14 @@ fn json(value: &impl Serialize) -> String {
     serde_json::to_string(value).unwrap_or_default().replace('<', "\\u003c")
 }
 
-/// Links to the sections, where there is more than one.
-fn jump(titles: &[&str]) -> String {
-    if titles.len() < 2 {
+/// Links to the sections, as address and title, where there is more than one.
+fn jump(sections: &[(String, &str)]) -> String {
+    if sections.len() < 2 {
         return String::new();
     }
-    let links = titles
-        .iter()
-        .map(|title| format!("<a href=\"#{}\">{title}</a>", title.to_ascii_lowercase()));
-    format!("<nav class=\"jump\" aria-label=\"on this page\">{}</nav>\n", links.collect::<String>())
+    let links = sections.iter().map(|(id, title)| format!("<a href=\"#{id}\">{title}</a>"));
+    let links = links.collect::<Vec<_>>().join(" ");
+    format!("<nav class=\"jump\" aria-label=\"on this page\">{links}</nav>\n")
 }
 
 fn section(title: &str, inside: &str) -> String {
@@ -365,8 +368,8 @@ fn notes(notes: &[String], left_out: &[String]) -> String {
 
 fn table(table: &Table) -> String {
     let mut out = format!(
-        "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{0}\"><table class=\"counts\">\
-         <caption>{0}</caption>\n<thead><tr>",
+        "<h3 class=\"caption\">{0}</h3><div class=\"scroll\" tabindex=\"0\" role=\"region\" \
+         aria-label=\"{0}\"><table class=\"counts\" aria-label=\"{0}\">\n<thead><tr>",
         escape(&table.caption)
     );
     for column in &table.columns {

@@ -90,6 +90,15 @@ pub fn images(published: &Frame<[u8; 3]>, repaired: &Frame<[u8; 3]>) -> RgbImage
     })
 }
 
+/// The pixels of a frame as a picture of the same size.
+#[must_use]
+pub fn of_frame(frame: &Frame<[u8; 3]>) -> RgbImage {
+    let bounds = frame.bounds();
+    RgbImage::from_fn(bounds.width(), bounds.height(), |x, y| {
+        Rgb(frame.get(bounds.x0 + x as i32, bounds.y0 + y as i32).unwrap_or_default())
+    })
+}
+
 /// Picture pixels for each pixel of the window.
 fn zoom(window: PixelRect, count: u32) -> u32 {
     let widest = window.width().saturating_mul(count).max(window.height()).max(1);

@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use glam::DVec2;
 use image::RgbImage;
 
+use super::html::{PictureLayer, PictureView};
 use super::picture;
 use crate::contract::{DrawLine as _, Interpolate as _};
 use crate::frame::{Coverage, Frame};
@@ -12,7 +13,7 @@ use crate::hazard::{Case, Shape, Triangle};
 use crate::lineup::{self, Specimen, TriangleSpecimen};
 use crate::oracle::Oracle;
 use crate::raster::edge_function::EdgeFunction;
-use crate::specimen::catalogue::{Card, Exhibit};
+use crate::specimen::catalogue::{CARDS, Card, Exhibit, TriangleCase};
 use crate::specimen::scene::{Colour, Image, Setting, Version};
 use crate::specimen::{Published as _, from_screen};
 use crate::triangle::Fragment;
@@ -112,10 +113,11 @@ pub fn sheet(card: &Card) -> RgbImage {
             &draw(Version::Repaired, Setting::Exposing),
         ),
         (Exhibit::Triangles([case, _]), Some(Specimen::Triangle(specimen))) => {
-            let shows_values = case.values[0] != case.values[1] || case.values[1] != case.values[2];
+            let shows_values = shows_values(case, specimen);
             let case = triangle_case(case);
-            if shows_values && specimen.has_values() {
-                value_sheet(specimen, &case)
+            if shows_values {
+                let [published, repaired] = value_images(specimen, &case);
+                picture::images(&published, &repaired)
             } else {
                 hit_sheet(specimen, &case)
             }
@@ -130,6 +132,42 @@ pub fn sheet(card: &Card) -> RgbImage {
         }
         _ => RgbImage::new(1, 1),
     }
+}
+
+/// Whether a case's corner values differ and the specimen draws them.
+fn shows_values(case: &TriangleCase, specimen: TriangleSpecimen) -> bool {
+    (case.values[0] != case.values[1] || case.values[1] != case.values[2]) && specimen.has_values()
+}
+
+/// Published and repaired pictures of the specimens that hit counts alone do not show: scenes, and
+/// values in colour.
+#[must_use]
+pub fn views() -> Vec<PictureView> {
+    let pair = |card: &Card, what: &str, [published, repaired]: [Image; 2]| PictureView {
+        name: format!("{} {what}", card.name),
+        about: format!("{}: {}; cure: {}", card.source, card.fault, card.cure),
+        command: "rasterproof specimens --report".to_owned(),
+        layers: vec![
+            PictureLayer::new("published", &picture::of_frame(&published)),
+            PictureLayer::new("repaired", &picture::of_frame(&repaired)),
+        ],
+    };
+    let views = CARDS.iter().filter_map(|card| {
+        let specimen = lineup::find(card.name).and_then(|entry| entry.specimen);
+        match (&card.exhibit, specimen) {
+            (Exhibit::Scene(name, draw), _) => {
+                let both = [Version::Published, Version::Repaired];
+                Some(pair(card, name, both.map(|version| draw(version, Setting::Exposing))))
+            }
+            (Exhibit::Triangles([case, _]), Some(Specimen::Triangle(specimen)))
+                if shows_values(case, specimen) =>
+            {
+                Some(pair(card, "values", value_images(specimen, &triangle_case(case))))
+            }
+            _ => None,
+        }
+    });
+    views.collect()
 }
 
 fn triangles(case: &Case) -> &[Triangle] {
@@ -158,7 +196,8 @@ fn colour(value: f64) -> Colour {
     }
 }
 
-fn value_sheet(specimen: TriangleSpecimen, case: &Case) -> RgbImage {
+/// The values of a case in colour, published and repaired.
+fn value_images(specimen: TriangleSpecimen, case: &Case) -> [Image; 2] {
     let list = triangles(case);
     let by_depth = matches!(
         specimen,
@@ -202,5 +241,5 @@ fn value_sheet(specimen: TriangleSpecimen, case: &Case) -> RgbImage {
             put(&mut repaired, &f);
         });
     }
-    picture::images(&published, &repaired)
+    [published, repaired]
 }

@@ -10,7 +10,14 @@ use std::process::{Child, ChildStdin, Command, Stdio};
 use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
 
+use image::{Rgb, RgbImage};
+use rasterproof::report::html::{
+    Column, Figure, MOST_BYTES, Outcome, PictureLayer, PictureView, PlanRow, Report, Row, Table,
+    TextDiff, page,
+};
 use serde_json::{Value, json};
+
+use crate::snapshots::ELSEWHERE;
 
 /// An answer that takes longer never comes.
 const PATIENCE: Duration = Duration::from_secs(30);
@@ -180,7 +187,7 @@ impl Browser {
         let spot = self.eval(&format!(
             "(() => {{ const c = document.querySelector('#stage canvas'); c.scrollIntoView();
                 const b = c.getBoundingClientRect();
-                const cell = parseInt(document.querySelector('#zoom-is').textContent, 10);
+                const cell = Number(document.querySelector('#stage').dataset.cell);
                 return [b.left + ({x} + 0.5) * cell, b.top + ({y} + 0.5) * cell]; }})()"
         ));
         let event = json!({ "type": "mouseMoved", "x": spot[0], "y": spot[1] });
@@ -289,11 +296,23 @@ fn page_shows_a_verdict_and_its_cases() {
     counts_equal_the_json(&mut browser, &json);
     // The page evaluates the rule by itself, in exact arithmetic, for every pixel of every case.
     assert_eq!(browser.eval("window.rasterproof.audit()"), json!([]));
+    audit_sees_a_moved_corner(&mut browser, &text);
     blink_and_modes(&mut browser, &page);
     pixels_explain_themselves(&mut browser, &page);
     search_and_filters(&mut browser);
     narrow_and_still(&mut browser, &page);
     assert_eq!(browser.complaints, Vec::<String>::new());
+}
+
+/// A corner of T2 moved by a subpixel to the right: samples on its right edge are inside now.
+fn audit_sees_a_moved_corner(browser: &mut Browser, page: &str) {
+    let (corner, moved) = ("[1408,128],[1408,1408]]", "[1409,128],[1408,1408]]");
+    assert_eq!(page.matches(corner).count(), 1);
+    let path = folder("page-moved").join("index.html");
+    std::fs::write(&path, page.replace(corner, moved)).unwrap();
+    browser.open(&path, "#case-T2");
+    assert_eq!(browser.eval("window.rasterproof.audit()"), json!(["T2"]));
+    assert!(browser.text("#by-rule").contains("says something else than the oracle"));
 }
 
 fn blink_and_modes(browser: &mut Browser, page: &Path) {
@@ -404,13 +423,19 @@ fn search_by_table(browser: &mut Browser) {
     );
 }
 
+/// No scrolling sideways of the page as a whole.
+fn fits_the_width(browser: &mut Browser) {
+    let root = "document.documentElement";
+    let sizes = browser.eval(&format!("[{root}.scrollWidth, {root}.clientWidth, location.hash]"));
+    assert!(sizes[0].as_u64() <= sizes[1].as_u64(), "{sizes}");
+}
+
 fn narrow_and_still(browser: &mut Browser, page: &Path) {
     for width in [1280, 400] {
         browser.resize(width, 800);
         for case in ["#case-O1&mode=side", "#case-S1", "#case-L7&mode=blink&px=5,5"] {
             browser.open(page, case);
-            let wide = browser.eval("document.documentElement.scrollWidth").as_u64().unwrap();
-            assert!(wide <= u64::from(width), "{case} is {wide} px wide at {width}");
+            fits_the_width(browser);
         }
     }
     browser.resize(1280, 900);
@@ -455,4 +480,251 @@ fn page_shows_a_planted_fault_first() {
     // A wrong rasterizer does not fool the rule as the page computes it.
     assert_eq!(browser.eval("window.rasterproof.audit()"), json!([]));
     assert_eq!(browser.complaints, Vec::<String>::new());
+}
+
+#[test]
+fn page_of_the_specimens_shows_each_fault() {
+    let (status, _, page) = run("page-specimens", &["specimens", "--cases", "5", "--report"]);
+    assert_eq!(status, 0);
+    let Some(mut browser) = Browser::start("specimens") else { return };
+    browser.open(&page, "");
+    assert!(browser.text("#verdict").contains("CAUGHT"));
+    let names = browser.names_listed();
+    for name in &names {
+        let fragment = format!("#case-{}", name.replace(' ', "%20"));
+        browser.eval(&format!("location.hash = {fragment:?}"));
+        browser.wait_for(&format!("document.body.dataset.ready === {name:?}"));
+        let text = browser.text("#agreement");
+        // Those whose fault is in the values alone hit the right pixels.
+        let values =
+            ["book-affine", "book-ch6", "book-ch7", "book-ch11", "book-ch11-fixed", "sysu-weights"];
+        assert!(text.contains("differ in") || values.contains(&name.as_str()), "{name}: {text}");
+    }
+    // Every card is there, as a case or as pictures.
+    for card in rasterproof::specimen::catalogue::CARDS {
+        let is_shown = |name: &&String| name.split(' ').next() == Some(card.name);
+        assert!(names.iter().any(|name| is_shown(&name)), "{} in {names:?}", card.name);
+    }
+    assert_eq!(browser.complaints, Vec::<String>::new());
+}
+
+/// What a name must not be able to do.
+const HOSTILE: &str = "</script><img src=x onerror=\"document.title='broken into'\">&{{data}}'";
+
+/// Two pictures that differ in one pixel.
+fn two_pictures() -> Vec<PictureLayer> {
+    let old = RgbImage::from_pixel(7, 5, Rgb([10, 20, 30]));
+    let mut new = old.clone();
+    new.put_pixel(4, 2, Rgb([200, 20, 30]));
+    vec![PictureLayer::new("scanline", &old), PictureLayer::new(HOSTILE, &new)]
+}
+
+fn every_section() -> Report {
+    let hostile = || HOSTILE.to_owned();
+    Report {
+        title: hostile(),
+        outcome: Some(Outcome { good: true, word: hostile(), sentence: hostile() }),
+        command: hostile(),
+        notes: vec![hostile()],
+        tables: vec![Table {
+            caption: hostile(),
+            columns: vec![Column::words(HOSTILE), Column::numbers("n", HOSTILE)],
+            rows: vec![Row {
+                cells: vec![hostile(), hostile()],
+                search: Some(hostile()),
+                ..Row::default()
+            }],
+        }],
+        frames: vec![PictureView {
+            name: hostile(),
+            about: hostile(),
+            command: hostile(),
+            layers: two_pictures(),
+        }],
+        figures: vec![Figure {
+            caption: hostile(),
+            svg: "<svg xmlns='http://www.w3.org/2000/svg' width='60' height='20'/>".to_owned(),
+        }],
+        plan: vec![PlanRow {
+            effect: hostile(),
+            is_on: true,
+            reason: hostile(),
+            counters: vec![(hostile(), "3".to_owned())],
+        }],
+        diffs: vec![TextDiff {
+            name: hostile(),
+            about: hostile(),
+            command: hostile(),
+            old: Some("same\nold\n".to_owned()),
+            new: format!("same\n{HOSTILE}\n"),
+        }],
+        ..Report::default()
+    }
+}
+
+#[test]
+fn page_takes_every_section_and_any_text() {
+    let path = folder("page-sections").join("index.html");
+    std::fs::write(&path, page(&every_section())).unwrap();
+    let Some(mut browser) = Browser::start("sections") else { return };
+    browser.open(&path, "");
+    for selector in [
+        "h1",
+        "#verdict strong",
+        "header .command code",
+        ".counts tbody th",
+        "#case-title",
+        ".diff h3",
+    ] {
+        assert_eq!(browser.text(selector), HOSTILE, "{selector}");
+    }
+    assert_eq!(browser.eval("document.title"), json!(HOSTILE));
+    assert_eq!(browser.text("#plan tbody td"), "on");
+    assert_eq!(browser.eval("document.querySelector('#plots img').naturalWidth"), json!(60));
+    assert_eq!(browser.text(".diff .added pre"), HOSTILE);
+    assert_eq!(browser.text(".diff .removed pre"), "old");
+    browser.resize(400, 800);
+    fits_the_width(&mut browser);
+    browser.resize(1280, 900);
+    // Pictures are in the same viewer, with a difference.
+    assert_eq!(browser.text("#agreement"), "A and B differ in 1 pixel of 35.");
+    browser.hover(4, 2);
+    assert!(browser.text("#about-pixel").contains("A #0a141e, B #c8141e: different"));
+    browser.press("3");
+    assert_eq!(browser.eval("document.querySelectorAll('#stage canvas').length"), json!(3));
+    assert_eq!(browser.complaints, Vec::<String>::new());
+}
+
+#[test]
+fn page_leaves_out_what_does_not_fit_and_says_so() {
+    // Noise does not compress: 600 x 600 px are more than a megabyte.
+    let mut state: u32 = 1;
+    let noise = RgbImage::from_fn(600, 600, |_, _| {
+        Rgb([0, 1, 2].map(|_| {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (state >> 24) as u8
+        }))
+    });
+    let view = |name: &str| PictureView {
+        name: name.to_owned(),
+        layers: vec![PictureLayer::new("noise", &noise)],
+        ..PictureView::default()
+    };
+    let frames = vec![
+        view("first"),
+        view("second"),
+        PictureView { name: "small".to_owned(), layers: two_pictures(), ..PictureView::default() },
+    ];
+    let text = page(&Report { frames, ..Report::default() });
+    assert!(text.len() < MOST_BYTES, "{} bytes", text.len());
+    assert!(text.contains("bytes: second (") && !text.contains("\"name\":\"second\""));
+    assert!(text.contains("\"name\":\"first\"") && text.contains("\"name\":\"small\""));
+}
+
+/// A folder whose `snapshots` hold one picture of the project with one pixel changed.
+fn spoilt_snapshots(name: &str) -> PathBuf {
+    let folder = folder(name);
+    let (from, to) =
+        (Path::new(env!("CARGO_MANIFEST_DIR")).join("snapshots"), folder.join("snapshots"));
+    std::fs::create_dir_all(&to).unwrap();
+    std::fs::copy(from.join("verdict.snap"), to.join("verdict.snap")).unwrap();
+    let mut picture = image::open(from.join("verdict.snap.png")).unwrap().to_rgb8();
+    let Rgb([red, ..]) = picture.get_pixel_mut(40, 50);
+    *red ^= 0x80;
+    picture.save(to.join("verdict.snap.png")).unwrap();
+    folder
+}
+
+/// Runs the test of that picture on the spoilt snapshots; whether it passes, and what it says.
+fn run_its_test(folder: &Path, update: &str) -> (bool, String) {
+    let output = Command::new(std::env::current_exe().unwrap())
+        .args(["--exact", "snapshots::picture_of_a_verdict"])
+        .env(ELSEWHERE, folder.join("snapshots"))
+        .env("INSTA_UPDATE", update)
+        .env_remove("INSTA_FORCE_PASS")
+        .env_remove("INSTA_PENDING_DIR")
+        .output()
+        .unwrap();
+    let text = [output.stdout, output.stderr].concat();
+    (output.status.success(), String::from_utf8_lossy(&text).into_owned())
+}
+
+fn review(folder: &Path, words: &[&str]) -> (i32, String) {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_rasterproof"));
+    let output = command.arg("review").args(words).current_dir(folder).output().unwrap();
+    let text = [output.stdout, output.stderr].concat();
+    (output.status.code().unwrap(), String::from_utf8(text).unwrap())
+}
+
+/// From a changed picture to the page that shows it, and to its acceptance.
+#[test]
+fn page_reviews_a_changed_snapshot() {
+    let folder = spoilt_snapshots("page-review");
+    assert_eq!(review(&folder, &[]).0, 0);
+    let (passes, said) = run_its_test(&folder, "new");
+    assert!(!passes && said.contains("cargo run -- review"), "{said}");
+    let (status, said) = review(&folder, &[]);
+    assert_eq!(status, 1, "{said}");
+    for line in [
+        "snapshots/verdict.snap: 1 of ",
+        "  accept: cargo insta accept --snapshot 'snapshots/verdict.snap'",
+        "INSTA_UPDATE=always cargo test --test it snapshots::",
+        "1 changed snapshot waits for review in snapshots.",
+    ] {
+        assert!(said.contains(line), "{line}: {said}");
+    }
+    if let Some(mut browser) = Browser::start("review") {
+        browser.open(&folder.join("target/rasterproof/review.html"), "");
+        assert!(browser.text("#verdict").contains("PENDING"));
+        assert_eq!(browser.text("#case-title"), "snapshots/verdict.snap");
+        assert!(browser.text("#agreement").starts_with("A and B differ in 1 pixel of "));
+        browser.press("3");
+        assert_eq!(browser.eval("document.querySelectorAll('#stage canvas').length"), json!(3));
+        assert_eq!(browser.complaints, Vec::<String>::new());
+    }
+    // The test writes its picture as accepted, and nothing waits any more.
+    let (passes, said) = run_its_test(&folder, "always");
+    assert!(passes, "{said}");
+    let (status, said) = review(&folder, &[]);
+    assert_eq!(status, 0, "{said}");
+}
+
+/// Whatever lies in the folder, a review says what it is.
+#[test]
+fn page_reviews_broken_files_too() {
+    let folder = folder("page-broken");
+    let snapshots = folder.join("snapshots/deeper");
+    std::fs::create_dir_all(&snapshots).unwrap();
+    let write = |name: &str, bytes: &[u8]| std::fs::write(snapshots.join(name), bytes).unwrap();
+    let binary = b"---\nsource: tests/a.rs\nextension: png\nsnapshot_kind: binary\n---\n";
+    write("gone.snap.new", binary);
+    write("broken.snap.new", binary);
+    write("broken.snap.new.png", b"\x89PNG\r\n\x1a\nnothing");
+    write("<b>.snap", b"---\nsource: tests/a/b.rs\n---\nwas\n\xff\n");
+    write("<b>.snap.new", b"---\r\nsource: tests/a/b.rs\r\n---\r\nis\r\n");
+    write("bare.snap.new", b"no head at all");
+    write("empty.snap.new", b"");
+    write("long.snap.new", "x\n".repeat(200_000).as_bytes());
+    let (status, said) = review(&folder, &[]);
+    assert_eq!(status, 1, "{said}");
+    for part in [
+        "deeper/gone.snap: the new file X.snap.new.png is missing",
+        "deeper/broken.snap: no readable PNG: ",
+        "deeper/<b>.snap: a changed text",
+        "deeper/bare.snap: a new text",
+        "deeper/empty.snap: a new text",
+        "deeper/long.snap: a text of 400000 bytes, too long to show",
+        "cargo test --test a b::\n",
+        "cargo test --test a\n",
+        "6 changed snapshots wait for review",
+    ] {
+        assert!(said.contains(part), "{part}: {said}");
+    }
+    let text = std::fs::read_to_string(folder.join("target/rasterproof/review.html")).unwrap();
+    assert!(text.contains("<pre>was</pre>") && text.contains("<pre>is</pre>"));
+    assert!(text.contains("deeper/&lt;b&gt;.snap") && !text.contains("deeper/<b>"));
+    let (status, said) = review(&folder, &["nowhere"]);
+    assert!(status == 2 && said.contains("cannot read nowhere"), "{said}");
+    let (status, said) = review(&folder.join("target"), &[]);
+    assert!(status == 2 && said.contains("name the folder"), "{said}");
 }

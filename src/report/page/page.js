@@ -224,7 +224,7 @@
   // ---- State ----
 
   const MODES = [['blink', 'blink'], ['slider', 'slider'], ['side', 'side by side'], ['onion', 'onion skin']];
-  const ZOOMS = [1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256, 512, 1024, 2048];
+  const ZOOMS = [0.125, 0.25, 0.5, 1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256, 512, 1024, 2048];
   const BLINK_MS = 700;
   const stillness = matchMedia('(prefers-reduced-motion: reduce)');
   const state = {
@@ -299,7 +299,7 @@
   };
 
   const paintPicture = (g, { cell, left, top }, layer) => {
-    g.imageSmoothingEnabled = false;
+    g.imageSmoothingEnabled = cell < 1;
     g.drawImage(layer.canvas, -left, -top, layer.canvas.width * cell, layer.canvas.height * cell);
   };
 
@@ -541,14 +541,20 @@
     const columns = mode === 'side' ? getComputedStyle($('#stage')).gridTemplateColumns.split(' ').length : 1;
     const gap = 13 * (columns - 1);
     const room = $('#viewer').clientWidth;
-    const beside = mode !== 'side' && room > 700 && item.width < 2.2 * item.height;
-    $('#look').dataset.layout = beside ? 'beside' : 'below';
-    const wide = Math.floor((room - gap) / columns) - 2 - (beside ? 380 : 0);
     const high = Math.max(220, Math.round(window.innerHeight * (mode === 'side' ? 0.42 : 0.62)));
-    const fit = Math.floor(Math.min(wide / item.width, high / item.height));
-    state.cell = state.zoom ?? Math.min(64, Math.max(1, fit));
-    for (const { port, space } of panels) {
-      const [width, height] = [item.width * state.cell + 1, item.height * state.cell + 1];
+    const fit = (wide) => Math.min(64, (wide - 1) / item.width, (high - 1) / item.height);
+    // The words about a pixel stand beside the picture unless that makes it much smaller.
+    const beside = mode !== 'side' && room > 700 && fit(room - 380) > 0.7 * fit(room);
+    $('#look').dataset.layout = beside ? 'beside' : 'below';
+    const wide = Math.floor((room - gap) / columns) - 3 - (beside ? 380 : 0);
+    const fits = fit(wide);
+    state.cell = state.zoom ?? (fits >= 1 ? Math.floor(fits) : ZOOMS.findLast((z) => z <= fits) ?? ZOOMS[0]);
+    $('#stage').dataset.cell = String(state.cell);
+    for (const { port, space, canvas } of panels) {
+      const [width, height] = [Math.ceil(item.width * state.cell) + 1, Math.ceil(item.height * state.cell) + 1];
+      // A canvas that is too large for a moment would bring scroll bars.
+      Object.assign(canvas.style, { width: '0', height: '0' });
+      port.style.overflow = width <= wide && height <= high ? 'hidden' : 'auto';
       space.style.width = `${width}px`;
       space.style.height = `${height}px`;
       // Room for a scroll bar where one is needed.
@@ -556,7 +562,7 @@
       port.style.width = `${Math.min(width, wide) + 2}px`;
       port.style.height = `${Math.min(height, high) + 2 + bar}px`;
     }
-    $('#zoom-is').textContent = `${state.cell} times`;
+    $('#zoom-is').textContent = `zoom ${state.cell}`;
     paint();
   };
 
@@ -730,7 +736,9 @@
         `${layer.pixels.width} x ${layer.pixels.height}`,
         cursor ? hex(colourOf(layer, cursor.x, cursor.y)) : ''];
       const chosen = [i === state.a && 'is-a', i === state.b && 'is-b'].filter(Boolean).join(' ');
-      return el('tr', { className: chosen }, el('th', { scope: 'row' }, layer.everybody),
+      const name = el('th', { scope: 'row' }, layer.everybody);
+      if (layer.refused) return el('tr', { className: chosen }, name, el('td', {}, ROLES[layer.role]), el('td', { colSpan: 6 }, layer.refused));
+      return el('tr', { className: chosen }, name,
         ...cells.map((cell, at) => el('td', { className: numbers.includes(at + 1) ? 'number' : '' }, cell)));
     });
     const head = headings.map((text, at) =>
@@ -741,7 +749,6 @@
 
   const caseCells = (item, layer, cursor) => {
     const { missing, extra, twice } = layer.tally;
-    if (layer.refused) return [ROLES[layer.role], layer.refused, '', '', '', '', ''];
     const here = cursor ? String(hitsOf(item, layer, cursor.x, cursor.y)) : '';
     const span = cursor ? spanOf(item, layer, cursor.x, cursor.y) : '';
     return [ROLES[layer.role], ...[layer.covered, missing, extra, twice].map(String), here, span];
@@ -907,8 +914,8 @@
     try { return decodeURIComponent(text); } catch { return text; }
   };
 
-  const parseAddress = () => {
-    const [first, ...rest] = location.hash.slice(1).split('&');
+  const parseAddress = (url) => {
+    const [first, ...rest] = new URL(url).hash.slice(1).split('&');
     if (!first.startsWith('case-')) return null;
     const item = items.find((i) => i.name === decodeWord(first.slice(5)));
     const settings = Object.fromEntries(rest.map((part) => part.split('=').map(decodeWord)));
@@ -916,7 +923,10 @@
   };
 
   const open = async (item, settings = {}) => {
+    state.opening = item;
     await load(item);
+    // Somebody chose another one in the meantime.
+    if (state.opening !== item) return;
     const place = (name, otherwise) => {
       const at = item.layers.findIndex((layer) => layer.names.includes(name));
       return at >= 0 ? at : otherwise;
@@ -945,9 +955,10 @@
     document.body.dataset.ready = item.name;
   };
 
-  const follow = async () => {
-    const found = parseAddress();
+  const follow = async (url) => {
+    const found = parseAddress(url);
     if (!found) return;
+    clearTimeout(remembering);
     await open(found.item, found.settings);
     $('#viewer').scrollIntoView({ block: 'start' });
   };
@@ -1042,7 +1053,7 @@
     $('#rows').addEventListener('toggle', rowTable);
     $('#stage').addEventListener('keydown', keyInStage);
     document.addEventListener('keydown', keyAnywhere);
-    window.addEventListener('hashchange', follow);
+    window.addEventListener('hashchange', (event) => follow(event.newURL));
     window.addEventListener('resize', resize);
     matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => { readPalette(); legend(); paint(); });
     stillness.addEventListener('change', () => { if (stillness.matches) setPaused(true); });
@@ -1065,8 +1076,7 @@
     setPaused(state.paused);
     fillFilters();
     listen();
-    const found = parseAddress();
-    if (found) await follow();
+    if (parseAddress(location.href)) await follow(location.href);
     else {
       await open(items[0]);
       // What nobody chose is not in the address.
