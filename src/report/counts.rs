@@ -21,7 +21,12 @@ pub fn outcome(verdict: &Verdict, off_grid: &ExactVerdict) -> Outcome {
     let wrong = verdict.mismatches() + off_grid.mismatches();
     let sentence = match (good, wrong) {
         (true, _) => format!("Every engine drew what the oracle drew: {judged}, 0 wrong pixels."),
-        (false, 0) => format!("No pixel is wrong, but a value or a panic is: {judged}."),
+        (false, 0) => {
+            let pairs = verdict.families.iter().flat_map(|f| &f.pairs).map(|p| p.wrong_cases);
+            let engines = off_grid.families.iter().flat_map(|f| &f.engines).map(|e| e.wrong_cases);
+            let cases: u64 = pairs.chain(engines).sum();
+            format!("No wrong pixels, but {cases} cases panic or leave a value's bound: {judged}.")
+        }
         (false, _) => format!("{wrong} wrong pixels in {judged}."),
     };
     let word = if good { "AGREES" } else { "DISAGREES" };

@@ -876,11 +876,15 @@
     $('#list').replaceChildren(...shown.map((item) => {
       const link = el('a', { href: `#case-${encodeURIComponent(item.name)}` },
         el('span', { className: 'name' }, item.name),
-        el('span', { className: `kind ${item.kind}` }, item.kind),
+        el('span', { className: `kind ${item.kind}` }, KINDS[item.kind]),
         el('span', { className: 'what' }, item.found || item.about));
       if (item === state.item) link.setAttribute('aria-current', 'true');
       return el('li', {}, link);
     }));
+    // The chosen one is in sight, without moving the page.
+    const [list, chosen] = [$('#list'), $('#list a[aria-current]')];
+    const top = chosen ? chosen.getBoundingClientRect().top - list.getBoundingClientRect().top : 0;
+    if (top < 0 || top > list.clientHeight - 60) list.scrollTop += top - list.clientHeight / 3;
   };
 
   const fillFilters = () => {
