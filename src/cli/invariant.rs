@@ -1,9 +1,9 @@
 //! `rasterproof verify --invariant NAME` and `rasterproof mutants`.
 
-use super::{Failure, Streams, exit, usage};
+use super::{Failure, Streams, exit};
 use crate::invariant::matrix::{self, Matrix};
 use crate::invariant::subject::Subject;
-use crate::invariant::{CATALOGUE, Check, Invariant};
+use crate::invariant::{CATALOGUE, Invariant};
 use crate::mutant::Mutant;
 
 /// Inputs of each invariant where the command line does not say.

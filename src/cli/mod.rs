@@ -7,6 +7,7 @@ mod invariant;
 mod plan;
 mod published;
 mod render;
+mod review;
 mod specimens;
 mod verify;
 
@@ -16,6 +17,7 @@ use std::path::Path;
 
 use clap::{Parser, Subcommand};
 
+use crate::report::html::{self, Report};
 use crate::{hazard, lineup};
 
 /// Exit codes.
@@ -42,6 +44,7 @@ const EXAMPLES: &str = "Examples:
   rasterproof verify --invariant vertex-order     check one invariant; all checks every one
   rasterproof mutants                             which invariant kills which planted fault
   rasterproof exhaust triangles                   every triangle of a small window, certified
+  rasterproof review                              changed snapshots, old beside new
   rasterproof list                                families, cases, engines and invariants
 
 Exit status: 0 all agree, 1 something disagrees, 2 usage or bad input.";
@@ -82,6 +85,8 @@ enum Command {
     Exhaust(exhaust::ExhaustArguments),
     /// Join the certificates of the shards of `exhaust`
     Merge(exhaust::MergeArguments),
+    /// Show snapshots that changed, and how to accept them
+    Review(review::ReviewArguments),
     /// List families, named cases, engines and invariants
     List,
 }
@@ -161,6 +166,7 @@ pub fn run(words: impl IntoIterator<Item = String>, streams: &mut Streams<'_>) -
         Some(Command::Mutants) => invariant::mutants(streams),
         Some(Command::Exhaust(arguments)) => exhaust::run(arguments, streams),
         Some(Command::Merge(arguments)) => exhaust::merge(arguments, streams),
+        Some(Command::Review(arguments)) => review::run(arguments, streams),
         Some(Command::List) => list(streams),
     };
     let result = result.and_then(|status| Ok(streams.output.flush().map(|()| status)?));
@@ -229,4 +235,14 @@ fn write_file(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
         let _ = std::fs::remove_file(&beside);
         failed("cannot write", e)
     })
+}
+
+/// Where the report page of a command goes.
+const PAGE: &str = "target/rasterproof/index.html";
+
+/// Writes a report page and says where; commands that print a result say it on standard error.
+fn write_page(path: &Path, report: &Report, stream: &mut dyn Write) -> Result<(), Failure> {
+    write_file(path, html::page(report).as_bytes())?;
+    writeln!(stream, "report: {}", path.display())?;
+    Ok(())
 }

@@ -1,13 +1,14 @@
 //! `rasterproof specimens`: how often each published fault shows, and a contact sheet of them.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use indicatif::ProgressBar;
 
-use super::{Failure, Streams, exit, write_file};
-use crate::report::{json, picture, sheet, specimens};
+use super::{Failure, PAGE, Streams, exit, write_file, write_page};
+use crate::report::html::{Outcome, Report};
+use crate::report::{cases, counts, json, picture, sheet, specimens};
 use crate::specimen::catalogue::{CARDS, Card};
-use crate::verify::specimens::survey;
+use crate::verify::specimens::{SpecimenReport, survey};
 
 /// Options of `specimens`.
 #[derive(clap::Args, Debug)]
@@ -24,6 +25,9 @@ pub struct SpecimensArguments {
     /// Print JSON instead of tables
     #[arg(long)]
     json: bool,
+    /// Write a page to look into the faults: target/rasterproof/index.html
+    #[arg(long)]
+    report: bool,
     /// Where the contact sheet goes: published, repaired, difference for each specimen
     #[arg(short, long, value_name = "FILE", default_value = "target/rasterproof/specimens.png")]
     output: PathBuf,
@@ -51,11 +55,42 @@ pub fn run(arguments: &SpecimensArguments, streams: &mut Streams<'_>) -> Result<
         _ => (sheet::contact_sheet(), specimens::table(&reports)),
     };
     write_file(&arguments.output, &picture::png(&drawn))?;
+    if arguments.report {
+        write_page(Path::new(PAGE), &report_page(arguments, &reports), streams.errors)?;
+    }
     if arguments.json {
         write!(out, "{}", json::specimens(arguments.seed, arguments.cases, &reports))?;
     } else {
         writeln!(out, "{text}\ndrawn in {}", arguments.output.display())?;
     }
-    let all_caught = reports.iter().all(|r| r.case_wrong > 0 && r.harmless_wrong == 0);
-    Ok(if all_caught { exit::AGREES } else { exit::DISAGREES })
+    Ok(if are_caught(&reports) { exit::AGREES } else { exit::DISAGREES })
+}
+
+/// Each is wrong on the case that exposes it, and right on its harmless one.
+fn are_caught(reports: &[SpecimenReport]) -> bool {
+    reports.iter().all(|r| r.case_wrong > 0 && r.harmless_wrong == 0)
+}
+
+/// The survey as a page: how often each is wrong, the exposing cases, the pictures.
+fn report_page(arguments: &SpecimensArguments, reports: &[SpecimenReport]) -> Report {
+    let good = are_caught(reports);
+    let sentence = if good {
+        format!("Each of {} published faults is exposed by its case.", reports.len())
+    } else {
+        "A published fault is not exposed by its case, or shows in its harmless one.".to_owned()
+    };
+    let word = if good { "CAUGHT" } else { "NOT CAUGHT" };
+    Report {
+        title: "Published algorithms and their faults".to_owned(),
+        outcome: Some(Outcome { good, word: word.to_owned(), sentence }),
+        command: format!(
+            "rasterproof specimens --seed {} --cases {} --report",
+            arguments.seed, arguments.cases
+        ),
+        seed: Some(arguments.seed),
+        tables: vec![counts::of_specimens(reports)],
+        cases: cases::of_specimens(),
+        frames: sheet::views(),
+        ..Report::default()
+    }
 }

@@ -5,11 +5,12 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use super::{Failure, Streams, exit, invariant, usage, write_file};
+use super::{Failure, PAGE, Streams, exit, invariant, usage, write_file, write_page};
 use crate::hazard;
 use crate::lineup::{Engine, ExactEngine, LineEngine};
 use crate::mutant::{LineMutant, Mutant, TriangleMutant, exact::ExactMutant};
-use crate::report::{self, ascii, json, picture, table};
+use crate::report::html::Report;
+use crate::report::{self, ascii, cases, counts, json, picture, table};
 use crate::verify::exact::{self, ExactVerdict};
 use crate::verify::tolerance::{self, Tolerance};
 use crate::verify::{self, Options, Verdict};
@@ -31,7 +32,7 @@ pub struct VerifyArguments {
     engine: Vec<String>,
     /// Check this invariant instead, or all of them; may be repeated
     #[arg(long, value_name = "NAME", value_parser = invariant::names(), hide_possible_values = true,
-        conflicts_with_all = ["family", "engine", "shard", "case", "json", "seconds"])]
+        conflicts_with_all = ["family", "engine", "shard", "case", "json", "seconds", "report"])]
     invariant: Vec<String>,
     /// Decides every generated case
     #[arg(long, value_name = "N", default_value_t = 1)]
@@ -45,6 +46,9 @@ pub struct VerifyArguments {
     /// The verdict as JSON instead of a table
     #[arg(long)]
     json: bool,
+    /// Write a page to look into the cases: target/rasterproof/index.html
+    #[arg(long)]
+    report: bool,
     /// Judge an engine with a planted fault, to see the harness fail
     #[arg(long, value_name = "FAULT", hide = true, value_parser = mutant_names())]
     plant: Option<String>,
@@ -193,6 +197,10 @@ pub fn run(arguments: &VerifyArguments, streams: &mut Streams<'_>) -> Result<u8,
             "no case was judged: this engine does not draw what this family contains, or the shard is empty",
         ));
     }
+    if arguments.report {
+        let page = report_page(arguments, &verdict, &off_grid, &engines, &lines, &exact_engines);
+        write_page(Path::new(PAGE), &page, streams.errors)?;
+    }
     if arguments.json {
         let text =
             json::verdict(&verdict, &off_grid, |family, index| arguments.repeat(family, index));
@@ -201,6 +209,39 @@ pub fn run(arguments: &VerifyArguments, streams: &mut Streams<'_>) -> Result<u8,
         print(arguments, (&verdict, &engines, &lines), (&off_grid, &exact_engines), streams)?;
     }
     Ok(if verdict.agrees() && off_grid.agrees() { exit::AGREES } else { exit::DISAGREES })
+}
+
+/// The run as a page: counts, failing cases, those closest to a bound, the named cases.
+fn report_page(
+    arguments: &VerifyArguments,
+    verdict: &Verdict,
+    off_grid: &ExactVerdict,
+    engines: &[(Engine, Tolerance)],
+    lines: &[LineEngine],
+    exact_engines: &[(&str, ExactEngine)],
+) -> Report {
+    let engines: Vec<_> = engines.iter().map(|(engine, _)| *engine).collect();
+    let exact: Vec<_> = exact_engines.iter().map(|(_, engine)| *engine).collect();
+    let judged = cases::Judged { engines: &engines, lines, exact: &exact };
+    let mut tables = counts::of_verdict(verdict, off_grid);
+    tables.push(counts::refused());
+    let quotas = table::quota_line(verdict).trim_end().to_owned();
+    Report {
+        title: "Verdict of rasterproof".to_owned(),
+        outcome: Some(counts::outcome(verdict, off_grid)),
+        command: format!("{} --report", arguments.repeat_all(judged_cases(arguments, verdict))),
+        seed: Some(arguments.seed),
+        notes: Some(quotas).filter(|line| !line.is_empty()).into_iter().collect(),
+        tables,
+        cases: cases::of_verdict(verdict, off_grid, judged, |f, i| arguments.repeat(f, i)),
+        ..Report::default()
+    }
+}
+
+/// Cases of each family: as asked, or as many as the time allowed.
+fn judged_cases(arguments: &VerifyArguments, verdict: &Verdict) -> u64 {
+    let largest = verdict.families.iter().map(|f| f.cases).max().unwrap_or(0);
+    if arguments.seconds.is_some() { largest } else { verdict.options.cases }
 }
 
 fn judge(
@@ -274,9 +315,7 @@ fn print(
     } else {
         failures(arguments, verdict, engines, lines, out)?;
     }
-    let largest = verdict.families.iter().map(|f| f.cases).max().unwrap_or(0);
-    let cases = if arguments.seconds.is_some() { largest } else { verdict.options.cases };
-    writeln!(out, "repeat with: {}", arguments.repeat_all(cases))?;
+    writeln!(out, "repeat with: {}", arguments.repeat_all(judged_cases(arguments, verdict)))?;
     let (triangles, segments) = (verdict.sum(false, |f| f.shapes), verdict.sum(true, |f| f.shapes));
     let beside = match off_grid.triangles() {
         0 => String::new(),

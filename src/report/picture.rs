@@ -10,7 +10,7 @@ use std::collections::hash_map::Entry;
 use image::{Rgb, RgbImage};
 
 use crate::contract::DrawLine;
-use crate::frame::Coverage;
+use crate::frame::{Coverage, Frame};
 use crate::grid::{PixelRect, SUBPIXELS};
 use crate::hazard::offgrid::OffGridCase;
 use crate::hazard::{Case, Shape};
@@ -73,6 +73,15 @@ fn draw_panels(
 pub(super) fn line(ends: [PixelPoint; 2], panel: PixelRect, mut put: impl FnMut(u32, u32)) {
     let ends = ends.map(|pixel| LineEnd { pixel, depth: 0.0, varying: 0.0 });
     Bresenham.draw(&ScreenLine { ends }, panel, |f| put(f.x_px as u32, f.y_px as u32));
+}
+
+/// The pixels of a frame as a picture of the same size.
+#[must_use]
+pub fn of_frame(frame: &Frame<[u8; 3]>) -> RgbImage {
+    let bounds = frame.bounds();
+    RgbImage::from_fn(bounds.width(), bounds.height(), |x, y| {
+        Rgb(frame.get(bounds.x0 + x as i32, bounds.y0 + y as i32).unwrap_or_default())
+    })
 }
 
 /// Picture pixels for each pixel of the window.

@@ -7,7 +7,9 @@
 use glam::DVec2;
 use image::{Rgb, RgbImage, imageops};
 
+use super::html::{PictureLayer, PictureView};
 use super::lettering::{self, write};
+use super::picture;
 use super::picture::{AGREES, BACKGROUND, BORDER, EDGE, EXTRA, GRID, MISSING, SAMPLE, TWICE, line};
 use crate::contract::{DrawLine as _, Interpolate as _};
 use crate::frame::{Coverage, Frame};
@@ -104,6 +106,24 @@ pub fn sheet(sheet: &Sheet) -> RgbImage {
 #[must_use]
 pub fn contact_sheet() -> RgbImage {
     super::picture::stack(&SHEETS.each_ref().map(sheet))
+}
+
+/// The exposing pictures of every card, for the page.
+#[must_use]
+pub fn views() -> Vec<PictureView> {
+    let view = |card: &Card| {
+        let Panels { published, repaired, .. } = panels(card)?;
+        Some(PictureView {
+            name: card.name.to_owned(),
+            about: format!("{}: {}; cure: {}", card.source, card.fault, card.cure),
+            command: format!("rasterproof specimens --specimen {}", card.name),
+            layers: vec![
+                PictureLayer::new("published", &picture::of_frame(&published)),
+                PictureLayer::new("repaired", &picture::of_frame(&repaired)),
+            ],
+        })
+    };
+    CARDS.iter().filter_map(view).collect()
 }
 
 fn beside(strips: &[RgbImage]) -> RgbImage {

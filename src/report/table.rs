@@ -80,7 +80,8 @@ fn row(out: &mut String, f: &FamilyReport) {
     out.push('\n');
 }
 
-fn sum(families: &[&FamilyReport]) -> FamilyReport {
+/// The numbers of all families together, called "all".
+pub(super) fn sum(families: &[&FamilyReport]) -> FamilyReport {
     let mut total = families[0].clone();
     total.family = "all".to_owned();
     for f in &families[1..] {

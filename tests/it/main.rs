@@ -8,6 +8,7 @@ mod house;
 mod matrix;
 mod models;
 mod mutants;
+mod page;
 mod properties;
 mod protocol;
 mod recorded;

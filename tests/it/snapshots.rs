@@ -2,7 +2,7 @@
 //! the small ones one as a picture.
 //!
 //! A picture is compared by its decoded pixels. Where it differs, a sheet old | new | difference is
-//! written to `target/rasterproof/review/`.
+//! written to `target/rasterproof/review/`, and `cargo run -- review` shows old and new pixel by pixel.
 
 use glam::{DVec2, DVec3};
 use image::{Rgb, RgbImage};
@@ -27,10 +27,14 @@ use rasterproof::verify::{
 /// Largest picture that is kept.
 const MOST_BYTES: usize = 20 * 1024;
 
+/// Names another folder for the snapshots: the test of the review has one that it spoils.
+pub const ELSEWHERE: &str = "RASTERPROOF_SNAPSHOTS";
+
 /// Snapshots live at the top level, named after their case alone.
 pub fn settings() -> Settings {
     let mut settings = Settings::clone_current();
-    settings.set_snapshot_path(concat!(env!("CARGO_MANIFEST_DIR"), "/snapshots"));
+    let usual = concat!(env!("CARGO_MANIFEST_DIR"), "/snapshots").into();
+    settings.set_snapshot_path(std::env::var_os(ELSEWHERE).unwrap_or(usual));
     settings.set_prepend_module_to_snapshot(false);
     settings.set_omit_expression(true);
     settings
@@ -83,7 +87,8 @@ fn review(name: &str, old: &RgbImage, new: &RgbImage) {
     let path = format!("{folder}/{name}.png");
     std::fs::create_dir_all(folder).unwrap();
     std::fs::write(&path, picture::png(&sheet(old, new))).unwrap();
-    eprintln!("{name} looks different: see {path} (old | new | difference)");
+    eprintln!("{name} looks different: see {path} (old | new | difference),");
+    eprintln!("or look into it and read how to accept it: cargo run -- review");
 }
 
 fn judged(case: &Case) -> (Vec<(&'static str, Coverage)>, Coverage) {

@@ -1,0 +1,730 @@
+//! The report page in a browser: what it shows equals the JSON, and what it offers works.
+//!
+//! Headless Chromium is driven through the DevTools protocol over two pipes, which needs nothing
+//! but JSON. Without Chromium these tests say so and pass, unless `RASTERPROOF_NEEDS_CHROMIUM` is set,
+//! as `.ci/run` does.
+
+use std::io::{BufRead, BufReader, Write};
+use std::path::{Path, PathBuf};
+use std::process::{Child, ChildStdin, Command, Stdio};
+use std::sync::mpsc::{Receiver, channel};
+use std::time::{Duration, Instant};
+
+use image::{Rgb, RgbImage};
+use rasterproof::report::html::{
+    Column, Figure, MOST_BYTES, Outcome, PictureLayer, PictureView, PlanRow, Report, Row, Table,
+    TextDiff, page,
+};
+use serde_json::{Value, json};
+
+use crate::snapshots::ELSEWHERE;
+
+/// An answer that takes longer never comes.
+const PATIENCE: Duration = Duration::from_secs(30);
+
+/// A browser with one tab; ends with the value.
+struct Browser {
+    child: Child,
+    requests: ChildStdin,
+    answers: Receiver<Value>,
+    session: Value,
+    last: u64,
+    complaints: Vec<String>,
+    folder: PathBuf,
+}
+
+impl Browser {
+    /// Starts Chromium, or nothing where there is none and none is demanded.
+    fn start(name: &str) -> Option<Self> {
+        let names = ["chromium", "chromium-browser", "google-chrome"];
+        let is_there = |name: &&str| {
+            let version = Command::new(name).arg("--version").stderr(Stdio::null()).output();
+            version.is_ok_and(|output| output.status.success())
+        };
+        let Some(program) = names.into_iter().find(is_there) else {
+            let demanded = std::env::var_os("RASTERPROOF_NEEDS_CHROMIUM").is_some();
+            assert!(!demanded, "no Chromium: install Debian's package chromium");
+            eprintln!("SKIPPED: no Chromium; install Debian's package chromium");
+            return None;
+        };
+        let folder = folder(&format!("browser-{name}"));
+        // The browser reads requests from file 3 and writes answers to file 4. As root it has no
+        // sandbox, and what it opens here is our own page.
+        let mut child = Command::new("sh")
+            .args(["-c", "exec \"$@\" 3<&0 4>&1 </dev/null >/dev/null", "sh", program])
+            .args(["--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage"])
+            .args(["--no-first-run", "--remote-debugging-pipe"])
+            .arg(format!("--user-data-dir={}", folder.display()))
+            .arg("about:blank")
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        let requests = child.stdin.take().unwrap();
+        let output = BufReader::new(child.stdout.take().unwrap());
+        let (sender, answers) = channel();
+        std::thread::spawn(move || {
+            for message in output.split(0).map_while(Result::ok) {
+                if sender.send(serde_json::from_slice(&message).unwrap()).is_err() {
+                    break;
+                }
+            }
+        });
+        let (session, complaints) = (Value::Null, Vec::new());
+        let mut browser = Self { child, requests, answers, session, last: 0, complaints, folder };
+        let tab = browser.call("Target.createTarget", json!({ "url": "about:blank" }));
+        let attach = json!({ "targetId": tab["targetId"], "flatten": true });
+        browser.session = browser.call("Target.attachToTarget", attach)["sessionId"].clone();
+        for domain in ["Page", "Runtime", "Log"] {
+            browser.call(&format!("{domain}.enable"), json!({}));
+        }
+        browser.resize(1280, 900);
+        Some(browser)
+    }
+
+    fn call(&mut self, method: &str, parameters: Value) -> Value {
+        self.last += 1;
+        let mut request = json!({ "id": self.last, "method": method, "params": parameters });
+        if !self.session.is_null() {
+            request["sessionId"] = self.session.clone();
+        }
+        self.requests.write_all(format!("{request}\0").as_bytes()).unwrap();
+        loop {
+            let message = self.answers.recv_timeout(PATIENCE).expect("the browser answers");
+            if message["id"] == self.last {
+                assert!(message["error"].is_null(), "{method}: {}", message["error"]);
+                return message["result"].clone();
+            }
+            self.note(&message);
+        }
+    }
+
+    /// Keeps what the page complains about.
+    fn note(&mut self, message: &Value) {
+        let parameters = &message["params"];
+        let is_bad = match message["method"].as_str() {
+            Some("Runtime.exceptionThrown") => true,
+            Some("Runtime.consoleAPICalled") => {
+                ["error", "warning", "assert"].iter().any(|kind| parameters["type"] == *kind)
+            }
+            Some("Log.entryAdded") => parameters["entry"]["level"] == "error",
+            _ => false,
+        };
+        if is_bad {
+            self.complaints.push(parameters.to_string());
+        }
+    }
+
+    /// The value of an expression; a promise is waited for.
+    fn eval(&mut self, expression: &str) -> Value {
+        let parameters =
+            json!({ "expression": expression, "awaitPromise": true, "returnByValue": true });
+        let answer = self.call("Runtime.evaluate", parameters);
+        assert!(answer["exceptionDetails"].is_null(), "{expression}: {answer}");
+        answer["result"]["value"].clone()
+    }
+
+    fn wait_for(&mut self, expression: &str) {
+        let start = Instant::now();
+        while self.eval(expression) != json!(true) {
+            assert!(start.elapsed() < PATIENCE, "never true: {expression}");
+            std::thread::sleep(Duration::from_millis(30));
+        }
+    }
+
+    /// Opens a file, with a fragment such as `#case-T2`, and waits until its case is drawn.
+    fn open(&mut self, page: &Path, fragment: &str) {
+        self.call("Page.navigate", json!({ "url": "about:blank" }));
+        let url = format!("file://{}{fragment}", page.display());
+        self.call("Page.navigate", json!({ "url": url }));
+        self.wait_for(
+            "document.readyState === 'complete' && (document.body.dataset.ready !== undefined \
+             || document.querySelector('#cases')?.hidden === true)",
+        );
+    }
+
+    fn resize(&mut self, width: u32, height: u32) {
+        let screen =
+            json!({ "width": width, "height": height, "deviceScaleFactor": 1, "mobile": false });
+        self.call("Emulation.setDeviceMetricsOverride", screen);
+    }
+
+    fn prefer(&mut self, feature: &str, value: &str) {
+        let features = json!({ "features": [{ "name": feature, "value": value }] });
+        self.call("Emulation.setEmulatedMedia", features);
+    }
+
+    /// Presses a key, as the keyboard would.
+    fn press(&mut self, key: &str) {
+        let text = if key.len() == 1 { key } else { "" };
+        for kind in ["keyDown", "keyUp"] {
+            let event = json!({ "type": kind, "key": key, "text": text });
+            self.call("Input.dispatchKeyEvent", event);
+        }
+    }
+
+    /// The text of the element that a selector finds.
+    fn text(&mut self, selector: &str) -> String {
+        let found = self.eval(&format!("document.querySelector({selector:?}).textContent"));
+        found.as_str().unwrap().to_owned()
+    }
+
+    fn names_listed(&mut self) -> Vec<String> {
+        let names =
+            self.eval("[...document.querySelectorAll('#list .name')].map(n => n.textContent)");
+        serde_json::from_value(names).unwrap()
+    }
+
+    /// What the first panel shows.
+    fn picture(&mut self) -> String {
+        let url = self.eval("document.querySelector('#stage canvas').toDataURL()");
+        url.as_str().unwrap().to_owned()
+    }
+
+    /// Moves the mouse over the middle of a pixel of the first panel, counted from the window's corner.
+    fn hover(&mut self, x: u32, y: u32) {
+        let spot = self.eval(&format!(
+            "(() => {{ const c = document.querySelector('#stage canvas'); c.scrollIntoView();
+                const b = c.getBoundingClientRect();
+                const cell = Number(document.querySelector('#stage').dataset.cell);
+                return [b.left + ({x} + 0.5) * cell, b.top + ({y} + 0.5) * cell]; }})()"
+        ));
+        let event = json!({ "type": "mouseMoved", "x": spot[0], "y": spot[1] });
+        self.call("Input.dispatchMouseEvent", event);
+    }
+}
+
+impl Drop for Browser {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+        let _ = std::fs::remove_dir_all(&self.folder);
+    }
+}
+
+/// A folder of this test's own.
+fn folder(name: &str) -> PathBuf {
+    let folder = std::env::temp_dir().join(format!("rasterproof-{name}-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+/// Runs the program in a folder of its own; the status, what it printed, and the page.
+fn run(name: &str, words: &[&str]) -> (i32, String, PathBuf) {
+    let folder = folder(name);
+    let output = Command::new(env!("CARGO_BIN_EXE_rasterproof"))
+        .args(words)
+        .current_dir(&folder)
+        .output()
+        .unwrap();
+    let printed = String::from_utf8(output.stdout).unwrap();
+    let page = folder.join("target/rasterproof/index.html");
+    (output.status.code().unwrap(), printed, page)
+}
+
+/// Rows of a table of the page: head of the row, head of the column, text.
+fn cells(browser: &mut Browser) -> Vec<(String, String, String)> {
+    let cells = browser.eval(
+        "[...document.querySelectorAll('table.counts')].flatMap(table => {
+            const heads = [...table.querySelectorAll('thead th')].map(h => h.textContent);
+            return [...table.querySelectorAll('tbody tr')].flatMap(row => {
+                const texts = [...row.children].map(c => c.textContent);
+                return texts.slice(1).map((text, i) => [texts[0], heads[i + 1], text]);
+            });
+        })",
+    );
+    serde_json::from_value(cells).unwrap()
+}
+
+/// Every count of the JSON stands in the table.
+fn counts_equal_the_json(browser: &mut Browser, json: &Value) {
+    let cells = cells(browser);
+    let has = |row: &str, column: &str, text: &Value| {
+        let text = text.to_string();
+        let found = cells
+            .iter()
+            .any(|(r, c, t)| r == row && c == column && t.split(',').next() == Some(text.as_str()));
+        assert!(found, "{row}, {column}: {text} is not on the page");
+    };
+    let mut checked = 0;
+    for family in json["families"].as_array().unwrap() {
+        let name = family["family"].as_str().unwrap();
+        let shapes = if family["lines"] == true { "lines" } else { "triangles" };
+        has(name, "cases", &family["cases"]);
+        has(name, shapes, &family["shapes"]);
+        has(name, "pixels", &family["pixels"]);
+        has(name, "ties", &family["tie_cases"]);
+        for pair in family["pairs"].as_array().unwrap() {
+            let column = format!("{} : {}", pair["actual"], pair["target"]).replace('"', "");
+            let kinds = ["missing", "extra", "twice", "order"];
+            let total: u64 = kinds.iter().map(|k| pair["tally"][k].as_u64().unwrap()).sum();
+            has(name, &column, &json!(total));
+            checked += 1;
+        }
+    }
+    for family in json["off_grid_families"].as_array().unwrap() {
+        let name = family["family"].as_str().unwrap();
+        has(name, "triangles", &family["triangles"]);
+        has(name, "pixels", &family["pixels"]);
+        for engine in family["engines"].as_array().unwrap() {
+            let column = format!("{} : oracle-exact", engine["engine"].as_str().unwrap());
+            let kinds = ["missing", "extra", "twice", "order"];
+            let total: u64 = kinds.iter().map(|k| engine["tally"][k].as_u64().unwrap()).sum();
+            has(name, &column, &json!(total));
+            checked += 1;
+        }
+    }
+    assert!(checked > 20, "{checked}");
+}
+
+#[test]
+fn page_shows_a_verdict_and_its_cases() {
+    let words = ["--cases", "60", "--seed", "3", "--report", "--json"];
+    let (status, printed, page) = run("page", &words);
+    assert_eq!(status, 0);
+    let text = std::fs::read_to_string(&page).unwrap();
+    assert!(text.len() < 2_000_000 && text.len() > 100_000, "{} bytes", text.len());
+    let (_, _, again) = run("page-again", &words);
+    assert!(text == std::fs::read_to_string(again).unwrap(), "a seed makes one page");
+    let Some(mut browser) = Browser::start("page") else { return };
+    browser.open(&page, "");
+    let json: Value = serde_json::from_str(&printed).unwrap();
+    let verdict = browser.text("#verdict");
+    assert!(verdict.contains("AGREES") && verdict.contains(", 0 wrong pixels"), "{verdict}");
+    assert!(verdict.contains(&format!("{} triangles and ", json["triangles"])), "{verdict}");
+    counts_equal_the_json(&mut browser, &json);
+    // The page evaluates the rule by itself, in exact arithmetic, for every pixel of every case.
+    assert_eq!(browser.eval("window.rasterproof.audit()"), json!([]));
+    audit_sees_a_moved_corner(&mut browser, &text);
+    blink_and_modes(&mut browser, &page);
+    pixels_explain_themselves(&mut browser, &page);
+    search_and_filters(&mut browser);
+    narrow_and_still(&mut browser, &page);
+    assert_eq!(browser.complaints, Vec::<String>::new());
+}
+
+/// A corner of T2 moved by a subpixel to the right: samples on its right edge are inside now.
+fn audit_sees_a_moved_corner(browser: &mut Browser, page: &str) {
+    let (corner, moved) = ("[1408,128],[1408,1408]]", "[1409,128],[1408,1408]]");
+    assert_eq!(page.matches(corner).count(), 1);
+    let path = folder("page-moved").join("index.html");
+    std::fs::write(&path, page.replace(corner, moved)).unwrap();
+    browser.open(&path, "#case-T2");
+    assert_eq!(browser.eval("window.rasterproof.audit()"), json!(["T2"]));
+    assert!(browser.text("#by-rule").contains("says something else than the oracle"));
+}
+
+fn blink_and_modes(browser: &mut Browser, page: &Path) {
+    browser.open(page, "#case-T2&a=games101-strict&b=oracle");
+    assert_eq!(browser.text("#case-title"), "T2");
+    assert_eq!(browser.text("#case-command code"), "rasterproof inspect T2");
+    // It blinks by itself, slower than three times a second.
+    browser.wait_for("document.querySelector('#stage').dataset.phase === 'A'");
+    let a = browser.picture();
+    browser.wait_for("document.querySelector('#stage').dataset.phase === 'B'");
+    let b = browser.picture();
+    assert_ne!(a, b);
+    browser.press("b");
+    let phase = browser.eval("document.querySelector('#stage').dataset.phase");
+    std::thread::sleep(Duration::from_millis(900));
+    assert_eq!(browser.eval("document.querySelector('#stage').dataset.phase"), phase, "paused");
+    browser.eval("document.querySelector('#other').click()");
+    assert_ne!(browser.eval("document.querySelector('#stage').dataset.phase"), phase);
+    for (key, mode, panels) in
+        [("2", "slider", 1), ("3", "side", 4), ("4", "onion", 1), ("1", "blink", 1)]
+    {
+        browser.press(key);
+        let is = browser.eval(
+            "[document.querySelector('#stage').dataset.mode, document.querySelectorAll('canvas').length,
+              document.querySelector('#modes :checked').value]",
+        );
+        assert_eq!(is, json!([mode, panels, mode]));
+        browser.wait_for(&format!("location.hash.includes('mode={mode}')"));
+        assert!(![a.as_str(), b.as_str()].contains(&browser.picture().as_str()) || panels == 1);
+    }
+    browser.press("2");
+    let half = browser.picture();
+    assert!(half != a && half != b, "a slider shows a part of both");
+    browser.press("b");
+    assert_eq!(browser.eval("document.querySelector('#stage').dataset.mode"), json!("blink"));
+}
+
+fn pixels_explain_themselves(browser: &mut Browser, page: &Path) {
+    // The sample of (3, 3) lies on the diagonal that both triangles of T2 share.
+    browser.open(page, "#case-T2&mode=slider&a=games101-strict&b=sysu-inclusive");
+    browser.hover(3, 3);
+    assert_eq!(browser.text("#about-pixel h4"), "Pixel 3, 3");
+    let hits = browser.text("#pixel-hits");
+    assert!(hits.starts_with("A games101-strict 0 hits; B sysu-inclusive"), "{hits}");
+    assert!(hits.contains(" 2 hits; oracle 1 hit; a tie"), "{hits}");
+    let span = browser.text("#pixel-span");
+    assert!(span.contains("row 3") && span.contains("A none; B columns 0 to 5 (6 px)"), "{span}");
+    // By hand: 256 subpixels a pixel, legs of five pixels, (3, 3) two pixels from the right leg
+    // and three from the upper one.
+    let edges = browser.text("#about-pixel .edges tbody");
+    for value in [5 * 256 * 3 * 256, 5 * 256 * 2 * 256, 0] {
+        assert!(edges.contains(&value.to_string()), "{value}: {edges}");
+    }
+    let rows = browser.eval(
+        "[...document.querySelectorAll('#about-pixel .edges')].map(t => [...t.querySelectorAll('tbody tr')]
+            .map(r => [r.children[2].textContent, r.children[3].textContent, r.children[4].textContent]))",
+    );
+    let upper =
+        json!([["inside", "top", "yes"], ["inside", "right", "no"], ["on it", "left", "yes"]]);
+    assert_eq!(rows[0], upper);
+    // The keyboard moves on, and the live region follows.
+    browser.eval("document.querySelector('#stage').focus()");
+    browser.press("ArrowRight");
+    assert_eq!(browser.text("#about-pixel h4"), "Pixel 4, 3");
+    browser.wait_for("document.querySelector('#announce').textContent.startsWith('pixel 4, 3: ')");
+    browser.wait_for("location.hash.endsWith('px=4,3')");
+    // A line: (5, 0) of L4 is halfway.
+    browser.open(page, "#case-L4&px=5,0");
+    let text = browser.text("#about-pixel");
+    assert!(text.contains("1/2 px off the line in y, a tie"), "{text}");
+    // Rows as a table, for who does not see the canvas.
+    browser.eval("document.querySelector('#rows').open = true");
+    browser.wait_for("document.querySelectorAll('#rows tbody tr').length === 3");
+}
+
+fn search_and_filters(browser: &mut Browser) {
+    let all = browser.names_listed();
+    assert!(all.iter().any(|n| n == "T2") && all.iter().any(|n| n.starts_with("sliver#")));
+    let mut search = |text: &str| {
+        browser.eval(&format!(
+            "(() => {{ const s = document.querySelector('#search'); s.value = {text:?};
+                s.dispatchEvent(new Event('input', {{ bubbles: true }})); }})()"
+        ));
+        browser.names_listed()
+    };
+    assert_eq!(search("euc#17"), ["T5"]);
+    assert!(search("bresenham octants").iter().all(|n| n.starts_with("line-octants#")));
+    assert_eq!(search("nothing is called this"), Vec::<String>::new());
+    assert_eq!(search(""), all);
+    // Keys are letters while something is typed.
+    browser.eval("document.querySelector('#search').focus()");
+    browser.press("3");
+    assert_ne!(browser.eval("document.querySelector('#stage').dataset.mode"), json!("side"));
+    search_by_table(browser);
+    browser.eval("document.querySelector('#filters [data-kind=named]').click()");
+    let named = browser.names_listed();
+    assert!(named.len() > 30 && named.len() < all.len(), "{named:?}");
+}
+
+fn search_by_table(browser: &mut Browser) {
+    browser.eval("document.querySelector('.find[data-search=sliver]').click()");
+    let found = browser.names_listed();
+    assert!(found.iter().any(|name| name.starts_with("sliver#")), "{found:?}");
+    browser.wait_for("document.querySelector('#case-title').textContent.includes('sliver#')");
+    browser.eval(
+        "(() => { const s = document.querySelector('#search'); s.value = '';
+            s.dispatchEvent(new Event('input', { bubbles: true })); })()",
+    );
+}
+
+/// No scrolling sideways of the page as a whole.
+fn fits_the_width(browser: &mut Browser) {
+    let root = "document.documentElement";
+    let sizes = browser.eval(&format!("[{root}.scrollWidth, {root}.clientWidth, location.hash]"));
+    assert!(sizes[0].as_u64() <= sizes[1].as_u64(), "{sizes}");
+}
+
+fn narrow_and_still(browser: &mut Browser, page: &Path) {
+    for width in [1280, 400] {
+        browser.resize(width, 800);
+        for case in ["#case-O1&mode=side", "#case-S1", "#case-L7&mode=blink&px=5,5"] {
+            browser.open(page, case);
+            fits_the_width(browser);
+        }
+    }
+    browser.resize(1280, 900);
+    browser.prefer("prefers-reduced-motion", "reduce");
+    browser.open(page, "#case-T2");
+    assert_eq!(browser.eval("document.querySelector('#stage').dataset.paused"), json!("true"));
+    let light = browser.picture();
+    browser.prefer("prefers-color-scheme", "dark");
+    browser.open(page, "#case-T2&mode=blink");
+    assert_ne!(browser.picture(), light, "a dark page has darker pixels");
+}
+
+#[test]
+fn page_shows_a_planted_fault_first() {
+    let words = ["--cases", "60", "--plant", "inclusive-edges", "--report", "--json"];
+    let (status, printed, page) = run("page-planted", &words);
+    assert_eq!(status, 1);
+    let Some(mut browser) = Browser::start("planted") else { return };
+    browser.open(&page, "");
+    let json: Value = serde_json::from_str(&printed).unwrap();
+    let verdict = browser.text("#verdict");
+    let wrong = format!("{} wrong pixels in ", json["mismatches"]);
+    assert!(verdict.contains("DISAGREES") && verdict.contains(&wrong), "{verdict}");
+    counts_equal_the_json(&mut browser, &json);
+    // The worst row first after the sum, and the failing case is open.
+    let marks = browser.eval(
+        "[...document.querySelectorAll('table.counts tbody tr')].slice(0, 2).map(r => r.className)",
+    );
+    assert_eq!(marks, json!(["sum", "wrong"]));
+    let first = &json["failures"][0];
+    let name = format!("{}#{}", first["family"].as_str().unwrap(), first["index"]);
+    assert_eq!(browser.text("#case-title"), name);
+    assert_eq!(browser.text("#case-command code"), first["repeat"].as_str().unwrap());
+    let found = browser.text("#case-found");
+    assert!(found.starts_with("inclusive-edges against oracle: "), "{found}");
+    let pickers = browser.eval(
+        "['a', 'b'].map(p => document.querySelector(`#pick-${p}`).selectedOptions[0].textContent)",
+    );
+    assert!(pickers[0].as_str().unwrap().starts_with("inclusive-edges ("), "{pickers}");
+    assert_eq!(pickers[1], "oracle");
+    assert!(!browser.text("#agreement").contains("agree in every pixel"));
+    // A wrong rasterizer does not fool the rule as the page computes it.
+    assert_eq!(browser.eval("window.rasterproof.audit()"), json!([]));
+    assert_eq!(browser.complaints, Vec::<String>::new());
+}
+
+#[test]
+fn page_of_the_specimens_shows_each_fault() {
+    let (status, _, page) = run("page-specimens", &["specimens", "--cases", "5", "--report"]);
+    assert_eq!(status, 0);
+    let Some(mut browser) = Browser::start("specimens") else { return };
+    browser.open(&page, "");
+    assert!(browser.text("#verdict").contains("CAUGHT"));
+    let names = browser.names_listed();
+    for name in &names {
+        let fragment = format!("#case-{}", name.replace(' ', "%20"));
+        browser.eval(&format!("location.hash = {fragment:?}"));
+        browser.wait_for(&format!("document.body.dataset.ready === {name:?}"));
+        let text = browser.text("#agreement");
+        // Those whose fault is in the values alone hit the right pixels.
+        let values =
+            ["book-affine", "book-ch6", "book-ch7", "book-ch11", "book-ch11-fixed", "sysu-weights"];
+        assert!(text.contains("differ in") || values.contains(&name.as_str()), "{name}: {text}");
+    }
+    // Every card is there, as a case or as pictures.
+    for card in rasterproof::specimen::catalogue::CARDS {
+        let is_shown = |name: &&String| name.split(' ').next() == Some(card.name);
+        assert!(names.iter().any(|name| is_shown(&name)), "{} in {names:?}", card.name);
+    }
+    assert_eq!(browser.complaints, Vec::<String>::new());
+}
+
+/// What a name must not be able to do.
+const HOSTILE: &str = "</script><img src=x onerror=\"document.title='broken into'\">&{{data}}'";
+
+/// Two pictures that differ in one pixel.
+fn two_pictures() -> Vec<PictureLayer> {
+    let old = RgbImage::from_pixel(7, 5, Rgb([10, 20, 30]));
+    let mut new = old.clone();
+    new.put_pixel(4, 2, Rgb([200, 20, 30]));
+    vec![PictureLayer::new("scanline", &old), PictureLayer::new(HOSTILE, &new)]
+}
+
+fn every_section() -> Report {
+    let hostile = || HOSTILE.to_owned();
+    Report {
+        title: hostile(),
+        outcome: Some(Outcome { good: true, word: hostile(), sentence: hostile() }),
+        command: hostile(),
+        notes: vec![hostile()],
+        tables: vec![Table {
+            caption: hostile(),
+            columns: vec![Column::words(HOSTILE), Column::numbers("n", HOSTILE)],
+            rows: vec![Row {
+                cells: vec![hostile(), hostile()],
+                search: Some(hostile()),
+                ..Row::default()
+            }],
+        }],
+        frames: vec![PictureView {
+            name: hostile(),
+            about: hostile(),
+            command: hostile(),
+            layers: two_pictures(),
+        }],
+        figures: vec![Figure {
+            caption: hostile(),
+            svg: "<svg xmlns='http://www.w3.org/2000/svg' width='60' height='20'/>".to_owned(),
+        }],
+        plan: vec![PlanRow {
+            effect: hostile(),
+            is_on: true,
+            reason: hostile(),
+            counters: vec![(hostile(), "3".to_owned())],
+        }],
+        diffs: vec![TextDiff {
+            name: hostile(),
+            about: hostile(),
+            command: hostile(),
+            old: Some("same\nold\n".to_owned()),
+            new: format!("same\n{HOSTILE}\n"),
+        }],
+        ..Report::default()
+    }
+}
+
+#[test]
+fn page_takes_every_section_and_any_text() {
+    let path = folder("page-sections").join("index.html");
+    std::fs::write(&path, page(&every_section())).unwrap();
+    let Some(mut browser) = Browser::start("sections") else { return };
+    browser.open(&path, "");
+    for selector in [
+        "h1",
+        "#verdict strong",
+        "header .command code",
+        ".counts tbody th",
+        "#case-title",
+        ".diff h3",
+    ] {
+        assert_eq!(browser.text(selector), HOSTILE, "{selector}");
+    }
+    assert_eq!(browser.eval("document.title"), json!(HOSTILE));
+    assert_eq!(browser.text("#plan tbody td"), "on");
+    assert_eq!(browser.eval("document.querySelector('#plots img').naturalWidth"), json!(60));
+    assert_eq!(browser.text(".diff .added pre"), HOSTILE);
+    assert_eq!(browser.text(".diff .removed pre"), "old");
+    browser.resize(400, 800);
+    fits_the_width(&mut browser);
+    browser.resize(1280, 900);
+    // Pictures are in the same viewer, with a difference.
+    assert_eq!(browser.text("#agreement"), "A and B differ in 1 pixel of 35.");
+    browser.hover(4, 2);
+    assert!(browser.text("#about-pixel").contains("A #0a141e, B #c8141e: different"));
+    browser.press("3");
+    assert_eq!(browser.eval("document.querySelectorAll('#stage canvas').length"), json!(3));
+    assert_eq!(browser.complaints, Vec::<String>::new());
+}
+
+#[test]
+fn page_leaves_out_what_does_not_fit_and_says_so() {
+    // Noise does not compress: 600 x 600 px are more than a megabyte.
+    let mut state: u32 = 1;
+    let noise = RgbImage::from_fn(600, 600, |_, _| {
+        Rgb([0, 1, 2].map(|_| {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (state >> 24) as u8
+        }))
+    });
+    let view = |name: &str| PictureView {
+        name: name.to_owned(),
+        layers: vec![PictureLayer::new("noise", &noise)],
+        ..PictureView::default()
+    };
+    let frames = vec![
+        view("first"),
+        view("second"),
+        PictureView { name: "small".to_owned(), layers: two_pictures(), ..PictureView::default() },
+    ];
+    let text = page(&Report { frames, ..Report::default() });
+    assert!(text.len() < MOST_BYTES, "{} bytes", text.len());
+    assert!(text.contains("bytes: second (") && !text.contains("\"name\":\"second\""));
+    assert!(text.contains("\"name\":\"first\"") && text.contains("\"name\":\"small\""));
+}
+
+/// A folder whose `snapshots` hold one picture of the project with one pixel changed.
+fn spoilt_snapshots(name: &str) -> PathBuf {
+    let folder = folder(name);
+    let (from, to) =
+        (Path::new(env!("CARGO_MANIFEST_DIR")).join("snapshots"), folder.join("snapshots"));
+    std::fs::create_dir_all(&to).unwrap();
+    std::fs::copy(from.join("verdict.snap"), to.join("verdict.snap")).unwrap();
+    let mut picture = image::open(from.join("verdict.snap.png")).unwrap().to_rgb8();
+    let Rgb([red, ..]) = picture.get_pixel_mut(40, 50);
+    *red ^= 0x80;
+    picture.save(to.join("verdict.snap.png")).unwrap();
+    folder
+}
+
+/// Runs the test of that picture on the spoilt snapshots; whether it passes, and what it says.
+fn run_its_test(folder: &Path, update: &str) -> (bool, String) {
+    let output = Command::new(std::env::current_exe().unwrap())
+        .args(["--exact", "snapshots::picture_of_a_verdict"])
+        .env(ELSEWHERE, folder.join("snapshots"))
+        .env("INSTA_UPDATE", update)
+        .env_remove("INSTA_FORCE_PASS")
+        .env_remove("INSTA_PENDING_DIR")
+        .output()
+        .unwrap();
+    let text = [output.stdout, output.stderr].concat();
+    (output.status.success(), String::from_utf8_lossy(&text).into_owned())
+}
+
+fn review(folder: &Path, words: &[&str]) -> (i32, String) {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_rasterproof"));
+    let output = command.arg("review").args(words).current_dir(folder).output().unwrap();
+    let text = [output.stdout, output.stderr].concat();
+    (output.status.code().unwrap(), String::from_utf8(text).unwrap())
+}
+
+/// From a changed picture to the page that shows it, and to its acceptance.
+#[test]
+fn page_reviews_a_changed_snapshot() {
+    let folder = spoilt_snapshots("page-review");
+    assert_eq!(review(&folder, &[]).0, 0);
+    let (passes, said) = run_its_test(&folder, "new");
+    assert!(!passes && said.contains("cargo run -- review"), "{said}");
+    let (status, said) = review(&folder, &[]);
+    assert_eq!(status, 1, "{said}");
+    for line in [
+        "snapshots/verdict.snap: 1 of ",
+        "  accept: cargo insta accept --snapshot 'snapshots/verdict.snap'",
+        "INSTA_UPDATE=always cargo test --test it snapshots::",
+        "1 changed snapshot waits for review in snapshots.",
+    ] {
+        assert!(said.contains(line), "{line}: {said}");
+    }
+    if let Some(mut browser) = Browser::start("review") {
+        browser.open(&folder.join("target/rasterproof/review.html"), "");
+        assert!(browser.text("#verdict").contains("PENDING"));
+        assert_eq!(browser.text("#case-title"), "snapshots/verdict.snap");
+        assert!(browser.text("#agreement").starts_with("A and B differ in 1 pixel of "));
+        browser.press("3");
+        assert_eq!(browser.eval("document.querySelectorAll('#stage canvas').length"), json!(3));
+        assert_eq!(browser.complaints, Vec::<String>::new());
+    }
+    // The test writes its picture as accepted, and nothing waits any more.
+    let (passes, said) = run_its_test(&folder, "always");
+    assert!(passes, "{said}");
+    let (status, said) = review(&folder, &[]);
+    assert_eq!(status, 0, "{said}");
+}
+
+/// Whatever lies in the folder, a review says what it is.
+#[test]
+fn page_reviews_broken_files_too() {
+    let folder = folder("page-broken");
+    let snapshots = folder.join("snapshots/deeper");
+    std::fs::create_dir_all(&snapshots).unwrap();
+    let write = |name: &str, bytes: &[u8]| std::fs::write(snapshots.join(name), bytes).unwrap();
+    let binary = b"---\nsource: tests/a.rs\nextension: png\nsnapshot_kind: binary\n---\n";
+    write("gone.snap.new", binary);
+    write("broken.snap.new", binary);
+    write("broken.snap.new.png", b"\x89PNG\r\n\x1a\nnothing");
+    write("<b>.snap", b"---\nsource: tests/a/b.rs\n---\nwas\n\xff\n");
+    write("<b>.snap.new", b"---\r\nsource: tests/a/b.rs\r\n---\r\nis\r\n");
+    write("bare.snap.new", b"no head at all");
+    write("empty.snap.new", b"");
+    write("long.snap.new", "x\n".repeat(200_000).as_bytes());
+    let (status, said) = review(&folder, &[]);
+    assert_eq!(status, 1, "{said}");
+    for part in [
+        "deeper/gone.snap: the new file X.snap.new.png is missing",
+        "deeper/broken.snap: no readable PNG: ",
+        "deeper/<b>.snap: a changed text",
+        "deeper/bare.snap: a new text",
+        "deeper/empty.snap: a new text",
+        "deeper/long.snap: a text of 400000 bytes, too long to show",
+        "cargo test --test a b::\n",
+        "cargo test --test a\n",
+        "6 changed snapshots wait for review",
+    ] {
+        assert!(said.contains(part), "{part}: {said}");
+    }
+    let text = std::fs::read_to_string(folder.join("target/rasterproof/review.html")).unwrap();
+    assert!(text.contains("<pre>was</pre>") && text.contains("<pre>is</pre>"));
+    assert!(text.contains("deeper/&lt;b&gt;.snap") && !text.contains("deeper/<b>"));
+    let (status, said) = review(&folder, &["nowhere"]);
+    assert!(status == 2 && said.contains("cannot read nowhere"), "{said}");
+    let (status, said) = review(&folder.join("target"), &[]);
+    assert!(status == 2 && said.contains("name the folder"), "{said}");
+}
