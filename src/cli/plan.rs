@@ -72,7 +72,7 @@ pub fn run(arguments: &PlanArguments, streams: &mut Streams<'_>) -> Result<u8, F
     let (measured, everything, planned) = measure(arguments, &scene, streams.progress)?;
     let same = measured.iter().all(|mixture| mixture.same);
     if arguments.report {
-        let report = report_page(&arguments.what, &scene, &planned, &measured, same);
+        let report = report_page(&arguments.what, &scene, [&everything, &planned], &measured, same);
         write_page(Path::new(PAGE), &report, streams.errors)?;
     }
     if arguments.json {
@@ -201,7 +201,7 @@ fn describe(
 fn report_page(
     what: &SceneArguments,
     scene: &Scene,
-    planned: &Rendered,
+    frames: [&Rendered; 2],
     measured: &[Measured],
     same: bool,
 ) -> Report {
@@ -244,9 +244,13 @@ fn report_page(
             name: scene.name.clone(),
             about: scene.about.clone(),
             command,
-            layers: vec![PictureLayer::new("planned", &frames::rgb(&planned.picture))],
+            layers: ["everything", "planned"]
+                .into_iter()
+                .zip(frames)
+                .map(|(name, frame)| PictureLayer::new(name, &frames::rgb(&frame.picture)))
+                .collect(),
         }],
-        plan: plan_rows(planned),
+        plan: plan_rows(frames[1]),
         ..Report::default()
     }
 }

@@ -190,10 +190,14 @@ impl SceneArguments {
 
     /// The words that ask for the same scene or model.
     pub(super) fn words(&self) -> String {
-        match (&self.model, &self.scene) {
+        let what = match (&self.model, &self.scene) {
             (Some(path), _) => path.display().to_string(),
             (_, name) => format!("--scene {}", name.as_deref().unwrap_or_default()),
-        }
+        };
+        let (width, height) = self.size;
+        let aa = clap::ValueEnum::to_possible_value(&self.aa);
+        let aa = aa.as_ref().map_or("none", |value| value.get_name());
+        format!("{what} --size {width}x{height} --aa {aa}")
     }
 
     /// The scene, turned by a share of a full turn, as a function that makes it.
