@@ -35,11 +35,13 @@
 
 pub mod cli;
 pub mod contract;
+pub mod cost;
 pub mod exhaust;
 pub mod frame;
 pub mod grid;
 pub mod hazard;
 pub mod invariant;
+pub mod ladder;
 pub mod line;
 pub mod lineup;
 pub mod mutant;
@@ -63,6 +65,8 @@ mod docs {
     struct Chapters4And5;
     #[doc = include_str!("../docs/judge.md")]
     struct Judge;
+    #[doc = include_str!("../docs/cost.md")]
+    struct Cost;
     #[doc = include_str!("../docs/offgrid.md")]
     struct OffGrid;
 }

@@ -104,12 +104,12 @@ impl Rng {
     }
 
     /// A number in [0, 1) with 53 bits.
-    fn unit(&mut self) -> f64 {
+    pub(crate) fn unit(&mut self) -> f64 {
         (self.next() >> 11) as f64 / (1u64 << 53) as f64
     }
 
     /// A number in [-1, 1).
-    fn signed(&mut self) -> f64 {
+    pub(crate) fn signed(&mut self) -> f64 {
         self.unit() * 2.0 - 1.0
     }
 }
