@@ -172,8 +172,9 @@ fn clipped(scene: Scene, turn: f64) -> Scene {
 }
 
 fn frustum_scene(scene: Scene, turn: f64) -> Scene {
+    // Each plane leaves a side, and so do the three edges: a nonagon.
     let positions =
-        [DVec3::new(-14.0, -1.5, 9.0), DVec3::new(9.0, -12.0, 30.0), DVec3::new(3.0, 5.0, 0.2)];
+        [DVec3::new(-11.4, -7.0, 2.6), DVec3::new(12.8, 8.6, -1.0), DVec3::new(10.2, -11.2, 57.9)];
     with(scene, [turned(coloured(positions), AHEAD, DMat4::from_rotation_z(turn * TAU))])
 }
 
