@@ -35,12 +35,14 @@
 
 pub mod cli;
 pub mod contract;
+pub mod cost;
 pub mod effects;
 pub mod exhaust;
 pub mod frame;
 pub mod grid;
 pub mod hazard;
 pub mod invariant;
+pub mod ladder;
 pub mod line;
 pub mod lineup;
 pub mod mutant;
@@ -80,6 +82,8 @@ mod docs {
     struct Chapter11;
     #[doc = include_str!("../docs/judge.md")]
     struct Judge;
+    #[doc = include_str!("../docs/cost.md")]
+    struct Cost;
     #[doc = include_str!("../docs/offgrid.md")]
     struct OffGrid;
 }

@@ -11,6 +11,8 @@ fn main() -> ExitCode {
         output: &mut BufWriter::new(io::stdout().lock()),
         errors: &mut io::stderr(),
         progress: io::stderr().is_terminal(),
+        // See no-color.org.
+        colour: io::stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none(),
     };
     let words = std::env::args_os().map(|word| word.to_string_lossy().into_owned());
     ExitCode::from(cli::run(words, &mut streams))

@@ -1,5 +1,6 @@
 //! The command line: words to functions. Text goes to the writers it is given; only `main` exits.
 
+mod cost;
 mod engine;
 mod exhaust;
 mod inspect;
@@ -45,6 +46,7 @@ const EXAMPLES: &str = "Examples:
   rasterproof mutants                             which invariant kills which planted fault
   rasterproof exhaust triangles                   every triangle of a small window, certified
   rasterproof review                              changed snapshots, old beside new
+  rasterproof cost --quick                        what each step of accuracy costs in time
   rasterproof list                                families, cases, engines and invariants
 
 Exit status: 0 all agree, 1 something disagrees, 2 usage or bad input.";
@@ -87,6 +89,8 @@ enum Command {
     Merge(exhaust::MergeArguments),
     /// Show snapshots that changed, and how to accept them
     Review(review::ReviewArguments),
+    /// Show what accuracy costs in time: every rung of every ladder, verified, then timed
+    Cost(cost::CostArguments),
     /// List families, named cases, engines and invariants
     List,
 }
@@ -133,6 +137,8 @@ pub struct Streams<'a> {
     pub errors: &'a mut dyn Write,
     /// Whether a progress bar may be drawn on the terminal.
     pub progress: bool,
+    /// Whether text may be coloured: standard output is a terminal and nobody objects.
+    pub colour: bool,
 }
 
 /// Runs a command line, the program's name first, and returns the exit status.
@@ -167,6 +173,7 @@ pub fn run(words: impl IntoIterator<Item = String>, streams: &mut Streams<'_>) -
         Some(Command::Exhaust(arguments)) => exhaust::run(arguments, streams),
         Some(Command::Merge(arguments)) => exhaust::merge(arguments, streams),
         Some(Command::Review(arguments)) => review::run(arguments, streams),
+        Some(Command::Cost(arguments)) => cost::run(arguments, streams),
         Some(Command::List) => list(streams),
     };
     let result = result.and_then(|status| Ok(streams.output.flush().map(|()| status)?));

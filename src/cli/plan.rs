@@ -1,17 +1,20 @@
 //! `rasterproof plan`: what a scene calls for, why, and what leaving out the rest saves.
 
 use std::fmt::Write as _;
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget};
 
-use super::render::SceneArguments;
-use super::{Failure, Streams, exit, usage};
+use super::render::{SceneArguments, plan_rows};
+use super::{Failure, PAGE, Streams, exit, usage, write_page};
 use crate::effects::plan::Decision;
 use crate::effects::render::Rendered;
 use crate::effects::{Effect, Effects, Mode};
 use crate::lineup::Drawer;
 use crate::pipeline::Counters;
+use crate::report::frames;
+use crate::report::html::{Column, Outcome, PictureLayer, PictureView, Report, Row, Table};
 use crate::scene::Scene;
 
 const HELP: &str = "Examples:
@@ -31,6 +34,9 @@ pub struct PlanArguments {
     /// Rounds of measuring, each with every mixture of effects in turn
     #[arg(long, default_value_t = 9, value_parser = clap::value_parser!(u32).range(1..=1000))]
     rounds: u32,
+    /// Also write the plan and the savings as a page: target/rasterproof/index.html
+    #[arg(long)]
+    report: bool,
     /// For machines
     #[arg(long)]
     json: bool,
@@ -65,6 +71,10 @@ pub fn run(arguments: &PlanArguments, streams: &mut Streams<'_>) -> Result<u8, F
     let scene = maker.scene(0.0);
     let (measured, everything, planned) = measure(arguments, &scene, streams.progress)?;
     let same = measured.iter().all(|mixture| mixture.same);
+    if arguments.report {
+        let report = report_page(&arguments.what, &scene, [&everything, &planned], &measured, same);
+        write_page(Path::new(PAGE), &report, streams.errors)?;
+    }
     if arguments.json {
         let json = serde_json::json!({
             "scene": scene.name,
@@ -185,6 +195,64 @@ fn describe(
         let _ = writeln!(text, "planned as a whole: {:.2} times as fast", whole / all.time_us);
     }
     text
+}
+
+/// The plan, what it saves and the picture.
+fn report_page(
+    what: &SceneArguments,
+    scene: &Scene,
+    frames: [&Rendered; 2],
+    measured: &[Measured],
+    same: bool,
+) -> Report {
+    let command = format!("rasterproof plan {} --report", what.words());
+    let whole = measured.first().map_or(0.0, |mixture| mixture.time_us);
+    let column =
+        |label: &str, is_number| Column { label: label.to_owned(), is_number, ..Column::default() };
+    let row = |m: &Measured| Row {
+        cells: vec![
+            m.planned.to_owned(),
+            format!("{:.0}", m.time_us),
+            format!("{:.0}%", 100.0 * (1.0 - m.time_us / whole)),
+        ],
+        ..Row::default()
+    };
+    let word = if same { "AGREES" } else { "DISAGREES" };
+    let factor = measured.last().map_or(1.0, |all| whole / all.time_us);
+    Report {
+        title: format!("What the scene {} calls for", scene.name),
+        outcome: Some(Outcome {
+            good: same,
+            word: word.to_owned(),
+            sentence: if same {
+                format!("Planned, it was drawn {factor:.1} times as fast, with the same bits.")
+            } else {
+                "A plan changed the picture.".to_owned()
+            },
+        }),
+        command: command.clone(),
+        tables: vec![Table {
+            caption: "One effect planned, the rest always paid for".to_owned(),
+            columns: vec![
+                column("planned", false),
+                column("median us", true),
+                column("saving", true),
+            ],
+            rows: measured.iter().map(row).collect(),
+        }],
+        frames: vec![PictureView {
+            name: scene.name.clone(),
+            about: scene.about.clone(),
+            command,
+            layers: ["everything", "planned"]
+                .into_iter()
+                .zip(frames)
+                .map(|(name, frame)| PictureLayer::new(name, &frames::rgb(&frame.picture)))
+                .collect(),
+        }],
+        plan: plan_rows(frames[1]),
+        ..Report::default()
+    }
 }
 
 /// Decisions that several items share become one line.

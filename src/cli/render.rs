@@ -8,7 +8,7 @@ use glam::{DMat4, DVec3};
 use image::codecs::gif::{GifEncoder, Repeat};
 use indicatif::{ProgressBar, ProgressDrawTarget};
 
-use super::{Failure, Streams, exit, usage, write_file};
+use super::{Failure, PAGE, Streams, exit, usage, write_file, write_page};
 use crate::effects::Effects;
 use crate::effects::render::Rendered;
 use crate::effects::{Effect, Mode};
@@ -20,6 +20,7 @@ use crate::pipeline::shade::Light;
 use crate::pipeline::target::{Antialias, Colour, Target, check_size};
 use crate::pipeline::transform::{about, look_at, perspective};
 use crate::report::frames::{self, Comparison};
+use crate::report::html::{Outcome, PictureLayer, PictureView, PlanRow, Report};
 use crate::scene::chapters::{self, SCENES};
 use crate::scene::{Scene, Shading, obj};
 
@@ -58,6 +59,9 @@ pub struct RenderArguments {
     /// The picture [default: target/rasterproof/NAME.png or .gif]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
+    /// Also write a page that shows the frames and what differs: target/rasterproof/index.html
+    #[arg(long, conflicts_with_all = ["spin", "map"])]
+    report: bool,
     /// Counters as JSON on standard output
     #[arg(long)]
     json: bool,
@@ -182,6 +186,18 @@ impl SceneArguments {
     pub(super) fn name(&self) -> String {
         let stem = self.model.as_deref().and_then(Path::file_stem);
         stem.map_or_else(|| self.scene.clone().unwrap_or_default(), |s| s.to_string_lossy().into())
+    }
+
+    /// The words that ask for the same scene or model.
+    pub(super) fn words(&self) -> String {
+        let what = match (&self.model, &self.scene) {
+            (Some(path), _) => path.display().to_string(),
+            (_, name) => format!("--scene {}", name.as_deref().unwrap_or_default()),
+        };
+        let (width, height) = self.size;
+        let aa = clap::ValueEnum::to_possible_value(&self.aa);
+        let aa = aa.as_ref().map_or("none", |value| value.get_name());
+        format!("{what} --size {width}x{height} --aa {aa}")
     }
 
     /// The scene, turned by a share of a full turn, as a function that makes it.
@@ -328,6 +344,10 @@ pub fn run(arguments: &RenderArguments, streams: &mut Streams<'_>) -> Result<u8,
     if let Some(comparison) = comparison.as_ref().filter(|comparison| !comparison.agrees()) {
         write_file(&difference, &frames::png(&comparison.picture)?)?;
     }
+    if arguments.report {
+        let report = report_page(&arguments.what, &scene, &drawings, comparison.as_ref());
+        write_page(Path::new(PAGE), &report, streams.errors)?;
+    }
     if arguments.json {
         let json = frames::json(&scene.name, &names(&drawings), &drawings[0].rendered, &comparison);
         writeln!(streams.output, "{json}")?;
@@ -345,6 +365,57 @@ fn names(drawings: &[Drawing]) -> Vec<&'static str> {
 fn compare(drawings: &[Drawing]) -> Option<Comparison> {
     let [a, b] = drawings else { return None };
     Some(frames::compare((&a.rendered.picture, &a.target), (&b.rendered.picture, &b.target)))
+}
+
+/// The frames side by side, with the plan that was followed.
+fn report_page(
+    what: &SceneArguments,
+    scene: &Scene,
+    drawings: &[Drawing],
+    comparison: Option<&Comparison>,
+) -> Report {
+    let command = format!("rasterproof render {} --report", what.words());
+    let outcome = comparison.map(|c| Outcome {
+        good: c.agrees(),
+        word: if c.agrees() { "AGREES" } else { "DISAGREES" }.to_owned(),
+        sentence: format!(
+            "{}: {} of {} pixels and {} of {} depths differ.",
+            names(drawings).join(" and "),
+            c.wrong_pixels,
+            c.pixels,
+            c.wrong_depths,
+            c.depths
+        ),
+    });
+    let layer = |d: &Drawing| PictureLayer::new(d.name, &frames::rgb(&d.rendered.picture));
+    let view = PictureView {
+        name: scene.name.clone(),
+        about: scene.about.clone(),
+        command: command.clone(),
+        layers: drawings.iter().map(layer).collect(),
+    };
+    Report {
+        title: format!("The scene {}", scene.name),
+        outcome,
+        command,
+        frames: vec![view],
+        plan: drawings.first().map_or(Vec::new(), |d| plan_rows(&d.rendered)),
+        ..Report::default()
+    }
+}
+
+/// A plan as rows of the page.
+pub(super) fn plan_rows(rendered: &Rendered) -> Vec<PlanRow> {
+    let row = |d: &crate::effects::plan::Decision| PlanRow {
+        effect: d.effect.name().to_owned(),
+        is_on: d.on > 0,
+        reason: match d.item {
+            Some(item) => format!("item {item}: {}", d.reason),
+            None => d.reason.clone(),
+        },
+        counters: vec![("on".to_owned(), d.on.to_string()), ("off".to_owned(), d.off.to_string())],
+    };
+    rendered.plan.decisions.iter().map(row).collect()
 }
 
 /// Draws one frame by each rasterizer asked for.

@@ -268,9 +268,12 @@ fn item_decisions(
         };
         decision(effect, if read { pieces } else { 0 }, if read { 0 } else { pieces }, reason)
     };
-    let perspective = match (prepared.reads, one_w == pieces, scene.affine) {
+    let varying = colours.max(normals).max(uvs);
+    let perspective = match (varying, one_w == pieces, scene.affine) {
         (_, _, true) => "the scene asks for affine interpolation".to_owned(),
-        (0, ..) => "nothing is interpolated but depth, which is linear in the window".to_owned(),
+        (0, ..) => {
+            "nothing varies within a piece but depth, which is linear in the window".to_owned()
+        }
         (_, true, _) => "w is the same at the three corners of every piece".to_owned(),
         _ => format!("w differs between corners in {} of {pieces} pieces", pieces - one_w),
     };
@@ -286,7 +289,6 @@ fn item_decisions(
     };
     let culls = if item.cull == Cull::None { 0 } else { pieces };
     let has_colour = material.vertex_colours || material.shading == Shading::Gouraud;
-    let varying = colours.max(normals).max(uvs);
     let constant =
         format!("{varying} of {pieces} pieces have an attribute that differs between corners");
     [

@@ -50,9 +50,10 @@ impl DepthFormat {
     /// The key of a depth; smaller is nearer. Depths beyond [0, 1] count as its ends.
     #[must_use]
     #[inline]
+    #[expect(clippy::manual_clamp, reason = "the maximum turns NaN into 0, a clamp keeps it")]
     pub fn key(self, depth: f64) -> u64 {
-        // Positive floats compare as their bits do. The maximum turns -0 and NaN into 0.
-        let depth = depth.max(0.0).min(1.0);
+        // Positive floats compare as their bits do; -0 + 0 is 0.
+        let depth = depth.max(0.0).min(1.0) + 0.0;
         let steps = |count: f64| (depth * count + (0.5 + OFF_FRACTION)) as u64;
         match self {
             Self::Unorm32 => steps(u32::MAX.into()),

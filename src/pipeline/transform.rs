@@ -26,9 +26,9 @@ impl std::error::Error for NoProjection {}
 /// ```
 /// use glam::{DVec3, DVec4};
 /// use rasterproof::pipeline::transform::frustum;
-/// let projection = frustum(-2.0, 2.0, -1.5, 1.5, 1.0, 4.0)?;
+/// let projection = frustum(-2.0, 2.0, -1.5, 1.5, 1.0, 3.0)?;
 /// assert_eq!(projection * DVec3::new(2.0, 1.5, 1.0).extend(1.0), DVec4::new(1.0, 1.0, -1.0, 1.0));
-/// assert_eq!(projection * DVec3::new(0.0, 0.0, 4.0).extend(1.0), DVec4::new(0.0, 0.0, 4.0, 4.0));
+/// assert_eq!(projection * DVec3::new(0.0, 0.0, 3.0).extend(1.0), DVec4::new(0.0, 0.0, 3.0, 3.0));
 /// # Ok::<(), rasterproof::pipeline::transform::NoProjection>(())
 /// ```
 ///

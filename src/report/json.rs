@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use crate::cost::{Board, prices};
 use crate::verify::exact::{self, ExactFamilyReport, ExactVerdict};
 use crate::verify::specimens::SpecimenReport;
 use crate::verify::{FamilyReport, Verdict, shrink};
@@ -83,6 +84,40 @@ pub fn verdict(
 pub fn specimens(seed: u64, cases: u64, reports: &[SpecimenReport]) -> String {
     let json = serde_json::json!({
         "version": env!("CARGO_PKG_VERSION"), "seed": seed, "cases": cases, "specimens": reports,
+    });
+    serde_json::to_string_pretty(&json).unwrap_or_default() + "\n"
+}
+
+/// The boards of `cost` as JSON, with what exact coverage costs and the rungs that nobody needs.
+#[must_use]
+pub fn cost(repeat: &str, boards: &[Board]) -> String {
+    let verdicts: Vec<_> = boards
+        .iter()
+        .flat_map(|board| board.ranking().map(move |measure| (board, measure)))
+        .map(|(board, measure)| {
+            let named = |rung: usize| board.rungs[rung].name;
+            let best = |column: usize| {
+                let best = board.best(column, measure)?;
+                let name = |rung: Option<usize>| rung.map(named);
+                Some(serde_json::json!({
+                    "column": board.columns[column].name, "fastest": named(best.fastest),
+                    "cheapest_good": name(best.good), "cheapest_certain": name(best.certain),
+                }))
+            };
+            let dominated = board.dominated(measure).into_iter().map(|d| {
+                let by: Vec<_> = d.by.into_iter().map(named).collect();
+                serde_json::json!({ "rung": named(d.rung), "by": by })
+            });
+            serde_json::json!({
+                "ladder": board.ladder, "measure": board.measures[measure].title,
+                "best": board.columns_run().filter_map(best).collect::<Vec<_>>(),
+                "dominated": dominated.collect::<Vec<_>>(),
+            })
+        })
+        .collect();
+    let json = serde_json::json!({
+        "version": env!("CARGO_PKG_VERSION"), "repeat": repeat, "boards": boards,
+        "verdicts": verdicts, "price_of_exact_coverage": prices(boards),
     });
     serde_json::to_string_pretty(&json).unwrap_or_default() + "\n"
 }

@@ -1,7 +1,9 @@
 //! Verdicts as text, JSON, pictures and a page. Everything here is a value; only `main` prints.
 
 pub mod ascii;
+pub mod board;
 pub mod cases;
+pub mod chart;
 pub mod counts;
 pub mod exact;
 pub mod frames;
@@ -9,6 +11,7 @@ pub mod html;
 pub mod json;
 pub mod lettering;
 pub mod picture;
+pub mod plot;
 pub mod sheet;
 pub mod specimens;
 pub mod table;

@@ -291,6 +291,7 @@ fn run(command: &str, input: &str) -> (u8, String, String) {
         output: &mut output,
         errors: &mut errors,
         progress: false,
+        colour: false,
     };
     let words = command.split_whitespace().map(str::to_owned);
     let status = cli::run(words, &mut streams);

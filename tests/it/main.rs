@@ -2,6 +2,7 @@
 
 mod book;
 mod commands;
+mod cost;
 mod exact;
 mod exhaust;
 mod house;

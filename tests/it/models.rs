@@ -200,3 +200,21 @@ fn render_refuses_what_it_cannot_draw() {
     assert_eq!(status, Some(2));
     assert!(text.contains("cube"), "{text}");
 }
+
+/// The page shows the frames and the plan; it is written below the folder the program runs in.
+#[test]
+fn render_and_plan_write_a_page() {
+    let folder = folder("page");
+    let run = |arguments: &[&str]| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_rasterproof"));
+        let output = command.args(arguments).current_dir(&folder).output().unwrap();
+        assert_eq!(output.status.code(), Some(0), "{output:?}");
+        fs::read_to_string(folder.join("target/rasterproof/index.html")).unwrap()
+    };
+    let page = run(&["render", "--scene", "cube", "--size", "64x48", "--report"]);
+    assert!(page.contains("AGREES") && page.contains("edge-function"));
+    assert!(page.contains("rasterproof render --scene cube --size 64x48 --aa none --report"));
+    let words = ["plan", "--scene", "panels", "--size", "64x48", "--rounds", "1", "--report"];
+    let page = run(&words);
+    assert!(page.contains("the material has no texture") && page.contains("second-buffer"));
+}

@@ -108,7 +108,7 @@ fn bad_requests_are_answered_and_survived() {
         ("X b 8 8", "E b unknown request 'X'; expected HELLO, T, L, I, S"),
         ("T", "E - T takes an id, width, height and 6 numbers; 0 words follow"),
         (
-            "S b 8 8 0 0 1 1 8388607 2",
+            "S b 8 8 0 0 1 1 8388607.9 2",
             "E b a corner lies within half a pixel of the domain's end, where samples have no place",
         ),
         (

@@ -205,6 +205,7 @@ fn answers(name: &str, requests: &[u8]) -> Vec<String> {
         output: &mut output,
         errors: &mut errors,
         progress: false,
+        colour: false,
     };
     let words = ["rasterproof", "engine", name].map(str::to_owned);
     assert_eq!(

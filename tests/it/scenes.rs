@@ -98,7 +98,7 @@ fn plans_change_no_bit() {
     }
 }
 
-/// Random scenes, as many as `RASTERPROOF_SCENES` says, through both rasterizers: planned and
+/// Random scenes, 10,000 or as many as `RASTERPROOF_SCENES` says, through both rasterizers: planned and
 /// everything-on pictures have the same bits, and so have the two rasterizers'.
 #[test]
 fn random_scenes_planned_change_no_bit() {
@@ -118,7 +118,7 @@ fn random_scenes_planned_change_no_bit() {
             && draw(Drawer::EdgeFunction, Effects::ALWAYS.with(effect, Mode::Planned)) == whole;
         !same
     };
-    let wrong: Vec<u64> = (0..count.unwrap_or(2500)).into_par_iter().filter(differs).collect();
+    let wrong: Vec<u64> = (0..count.unwrap_or(10_000)).into_par_iter().filter(differs).collect();
     assert!(wrong.is_empty(), "{} random scenes differ, first {:?}", wrong.len(), &wrong[..1]);
 }
 

@@ -1,0 +1,142 @@
+//! `rasterproof cost`: what each step of accuracy costs, as boards, plots and JSON.
+
+use std::path::PathBuf;
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+use super::{Failure, Streams, exit, write_file};
+use crate::cost::{Board, Ladder, Options, measure};
+use crate::report::chart::{self, Drawing};
+use crate::report::{board, json, picture, plot};
+
+/// What is measured together under one word.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum Which {
+    /// Coverage by scanline and by edge function
+    Coverage,
+    /// Attributes at covered pixels
+    Interpolation,
+    /// Formats of the depth buffer
+    Depth,
+    /// Samples for each pixel
+    Antialiasing,
+    /// Line drawers
+    Lines,
+}
+
+impl Which {
+    fn ladders(self) -> &'static [Ladder] {
+        match self {
+            Self::Coverage => &[Ladder::Scanline, Ladder::EdgeFunction],
+            Self::Interpolation => &[Ladder::Interpolation],
+            Self::Depth => &[Ladder::Depth],
+            Self::Antialiasing => &[Ladder::Antialiasing],
+            Self::Lines => &[Ladder::Lines],
+        }
+    }
+}
+
+/// Options of `cost`.
+#[derive(clap::Args, Debug)]
+pub struct CostArguments {
+    /// The ladder; all of them without a word
+    which: Option<Which>,
+    /// Smaller scenes and fewer rounds: under ten seconds for all ladders
+    #[arg(long)]
+    quick: bool,
+    /// Decides every scene
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+    /// Print JSON instead of boards
+    #[arg(long)]
+    json: bool,
+    /// Where the plots go, as SVG and PNG
+    #[arg(short, long, value_name = "FOLDER", default_value = "target/rasterproof")]
+    output: PathBuf,
+}
+
+impl CostArguments {
+    /// The command that repeats the run.
+    fn repeat(&self) -> String {
+        use clap::ValueEnum as _;
+        let mut command = "rasterproof cost".to_owned();
+        if let Some(value) = self.which.and_then(|which| which.to_possible_value()) {
+            command += &format!(" {}", value.get_name());
+        }
+        if self.quick {
+            command += " --quick";
+        }
+        command + &format!(" --seed {}", self.seed)
+    }
+}
+
+/// Measures, prints and draws. Nothing here disagrees with anything: errors are the result.
+pub fn run(arguments: &CostArguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+    let ladders = arguments.which.map_or(&Ladder::ALL[..], Which::ladders);
+    let boards = measure_all(ladders, arguments, streams.progress);
+    let out = &mut *streams.output;
+    let written = draw(&boards, arguments)?;
+    if arguments.json {
+        out.write_all(json::cost(&arguments.repeat(), &boards).as_bytes())?;
+        return Ok(exit::AGREES);
+    }
+    let (quick, seed) = (if arguments.quick { ", quick" } else { "" }, arguments.seed);
+    writeln!(out, "rasterproof {} cost, seed {seed}{quick}\n", env!("CARGO_PKG_VERSION"))?;
+    for board in &boards {
+        writeln!(out, "{}", board::text(board, streams.colour))?;
+    }
+    let price = board::price_text(&boards);
+    if !price.is_empty() {
+        writeln!(out, "{price}")?;
+    }
+    let drawn =
+        format!("in {}, as SVG and PNG: {}", arguments.output.display(), written.join(", "));
+    writeln!(out, "drawn {}", board::wrap(&drawn).trim_start())?;
+    writeln!(out, "repeat with: {}", arguments.repeat())?;
+    Ok(exit::AGREES)
+}
+
+/// Writes the plots and returns where they are, without their endings.
+fn draw(boards: &[Board], arguments: &CostArguments) -> Result<Vec<String>, Failure> {
+    let mut plots: Vec<(String, Drawing)> = boards
+        .iter()
+        .map(|board| (format!("cost-{}", board.ladder.name()), plot::pareto(board)))
+        .collect();
+    if boards.iter().any(|board| board.ladder == Ladder::Scanline) {
+        plots.push(("cost-price".to_owned(), plot::price(boards)));
+    }
+    let mut written = Vec::new();
+    for (name, drawing) in plots {
+        let path = arguments.output.join(&name);
+        write_file(&path.with_extension("svg"), chart::svg(&drawing).as_bytes())?;
+        write_file(&path.with_extension("png"), &picture::png(&chart::picture(&drawing)))?;
+        written.push(name);
+    }
+    Ok(written)
+}
+
+fn measure_all(ladders: &[Ladder], arguments: &CostArguments, progress: bool) -> Vec<Board> {
+    let bar = if progress { ProgressBar::new(1000) } else { ProgressBar::hidden() };
+    if progress {
+        bar.set_draw_target(ProgressDrawTarget::stderr_with_hz(8));
+        if let Ok(style) = ProgressStyle::with_template(
+            "{elapsed_precise} {wide_bar} {percent}% {msg}, {eta} left",
+        ) {
+            bar.set_style(style);
+        }
+    }
+    let options = Options { seed: arguments.seed, quick: arguments.quick, timed: true };
+    let boards = ladders
+        .iter()
+        .enumerate()
+        .map(|(done, &ladder)| {
+            measure(ladder, &options, &|share, what| {
+                let all = (done as f64 + share) / ladders.len() as f64;
+                bar.set_position((all * 1000.0) as u64);
+                bar.set_message(what.to_owned());
+            })
+        })
+        .collect();
+    bar.finish_and_clear();
+    boards
+}

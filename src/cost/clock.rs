@@ -1,0 +1,131 @@
+//! Interleaved timing: each round runs every pass for a slice of time, and the figure of a pass is
+//! the median over the rounds with its quartiles.
+//!
+//! All rungs of one scene run one after the other within a round, so a change of the clock rate or a
+//! busy neighbour meets them alike; the order turns by one from round to round. Figures of different
+//! runs are not comparable, their ratios nearly are.
+
+use std::time::{Duration, Instant};
+
+use serde::Serialize;
+
+/// Something to time.
+pub(super) struct Pass<'a> {
+    /// Passes of one column stay together.
+    pub column: usize,
+    /// Does the work once.
+    pub run: Box<dyn FnMut() + 'a>,
+}
+
+/// Quartiles of one quantity over the rounds.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Spread {
+    /// A quarter of the rounds were at most this.
+    pub low: f64,
+    /// Half of the rounds.
+    pub median: f64,
+    /// Three quarters.
+    pub high: f64,
+}
+
+impl Spread {
+    fn of(mut values: Vec<f64>) -> Self {
+        values.sort_by(f64::total_cmp);
+        let at = |quarters: usize| values[(values.len() - 1) * quarters / 4];
+        Self { low: at(1), median: at(2), high: at(3) }
+    }
+
+    fn over(self, count: u64) -> Self {
+        let count = count.max(1) as f64;
+        Self { low: self.low / count, median: self.median / count, high: self.high / count }
+    }
+}
+
+/// The time of a rung on a scene.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Time {
+    /// Nanoseconds for each covered pixel.
+    pub pixel_ns: Spread,
+    /// Nanoseconds for each triangle or line.
+    pub item_ns: Spread,
+}
+
+impl Time {
+    pub(super) fn new(pass_ns: Spread, pixels: u64, items: u64) -> Self {
+        Self { pixel_ns: pass_ns.over(pixels), item_ns: pass_ns.over(items) }
+    }
+}
+
+/// Rounds of a run.
+pub(super) fn rounds(quick: bool) -> usize {
+    if quick { 7 } else { 41 }
+}
+
+/// Nanoseconds of each pass.
+pub(super) fn time(
+    passes: &mut [Pass<'_>],
+    rounds: usize,
+    quick: bool,
+    progress: &dyn Fn(f64),
+) -> Vec<Spread> {
+    // Shorter than what a scheduler grants at once, so that a busy machine disturbs few slices much
+    // and not all of them a little: the median then hardly moves.
+    let slice = Duration::from_micros(if quick { 300 } else { 1000 });
+    // By column, so that the rungs of one scene follow each other.
+    let mut order: Vec<usize> = (0..passes.len()).collect();
+    order.sort_by_key(|&i| passes[i].column);
+    let mut repeats = vec![1; passes.len()];
+    for &i in &order {
+        // The first run warms caches and says how many fit into a slice.
+        let start = Instant::now();
+        (passes[i].run)();
+        let once = start.elapsed().max(Duration::from_nanos(50));
+        repeats[i] = (slice.as_nanos() / once.as_nanos()).clamp(1, 100_000) as u32;
+    }
+    let mut figures = vec![Vec::with_capacity(rounds); passes.len()];
+    for round in 0..rounds {
+        for place in 0..order.len() {
+            let i = order[(place + round) % order.len()];
+            let start = Instant::now();
+            for _ in 0..repeats[i] {
+                (passes[i].run)();
+            }
+            figures[i].push(start.elapsed().as_nanos() as f64 / f64::from(repeats[i]));
+        }
+        progress((round + 1) as f64 / rounds as f64);
+    }
+    figures.into_iter().map(Spread::of).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quartiles_by_hand() {
+        let spread = Spread::of(vec![5.0, 1.0, 4.0, 2.0, 3.0]);
+        assert_eq!(spread, Spread { low: 2.0, median: 3.0, high: 4.0 });
+        assert_eq!(spread.over(2).median, 1.5);
+        assert_eq!(Spread::of(vec![7.0]), Spread { low: 7.0, median: 7.0, high: 7.0 });
+    }
+
+    /// Every pass runs in every round, whatever it takes.
+    #[test]
+    fn passes_are_interleaved() {
+        let counts = [const { std::cell::Cell::new(0) }; 3];
+        let mut passes: Vec<_> = counts
+            .iter()
+            .enumerate()
+            .map(|(column, count)| Pass {
+                column,
+                run: Box::new(move || {
+                    count.set(count.get() + 1);
+                    std::thread::sleep(Duration::from_millis(1));
+                }),
+            })
+            .collect();
+        assert_eq!(time(&mut passes, 4, true, &|_| ()).len(), 3);
+        drop(passes);
+        assert!(counts.iter().all(|count| count.get() == 5), "{counts:?}");
+    }
+}

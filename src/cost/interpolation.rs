@@ -1,0 +1,547 @@
+//! The ladder of interpolation: how far values are from the exact ones, and what they take.
+//!
+//! Spans come from the exact scanline and are not timed. Errors are taken at a sample of the pixels,
+//! against quotients of big integers; each rung with a derived bound is also held to that.
+
+use std::cell::RefCell;
+
+use super::scene::{Scene, Size, scenes};
+use super::{Board, Column, Ladder, Measure, Options, Prepared, Rung, finish};
+use crate::contract::Rasterize;
+use crate::frame::Frame;
+use crate::ladder::interpolation::{
+    Accumulated, Affine, BookFormula, Direct, EverySixteen, Offset, Plane, Valued, Values,
+};
+use crate::ladder::{Real, snap};
+use crate::oracle::values::{Exact, ExactTriangle};
+use crate::raster::scanline::Scanline;
+use crate::triangle::Span;
+
+/// Half a step of 8 bits over [0, M]: nobody sees less.
+const HALF_STEP: f64 = 1.0 / 512.0;
+
+fn measures() -> Vec<Measure> {
+    let measure = |title, short, goal| Measure { title, short, goal };
+    vec![
+        measure("worst error over M, the largest value of a vertex", "error / M", Some(HALF_STEP)),
+        measure("worst error in units of u M, u of the float used", "u M", None),
+        measure("worst error over its derived bound", "of bound", None),
+    ]
+}
+
+/// Which derived bound a rung keeps; see [`crate::ladder::interpolation`] and [`Bound::at`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Bound {
+    /// The model's error, and rounding.
+    Affine,
+    /// The same for pieces of 16 pixels.
+    EverySixteen,
+    /// The book's formula, accumulated.
+    BookFormula,
+    /// 1/w and v/w accumulated along the row.
+    Accumulated,
+    /// 1/w and v/w evaluated at each pixel.
+    Direct,
+    /// Planes over the screen.
+    Plane,
+    /// The offset form.
+    Offset,
+    /// One rounding of the exact value.
+    Rounded,
+}
+
+/// What is known of a triangle and one of its pixels when a bound is computed, in f64.
+pub struct Place<'a> {
+    /// The triangle.
+    pub triangle: &'a Valued,
+    /// The span that holds the pixel.
+    pub span: Span,
+    /// The pixel's column.
+    pub x_px: i32,
+    /// Rows since the first one of the triangle.
+    pub rows: i32,
+}
+
+/// A linear function over the screen in f64, and how much its slopes cancel.
+struct Linear {
+    f0: f64,
+    /// Slopes, and the same with every term positive.
+    slope: [f64; 2],
+    terms: [f64; 2],
+}
+
+impl Place<'_> {
+    fn at(&self, i: usize) -> [f64; 2] {
+        let (x, y) = self.triangle.corners[i].to_px();
+        [x, y]
+    }
+
+    /// Twice the area, and how much it cancels: the sum of its terms' magnitudes over it.
+    fn area(&self) -> (f64, f64) {
+        let [a, b, c] = [0, 1, 2].map(|i| self.at(i));
+        let (p, q) = ((b[0] - a[0]) * (c[1] - a[1]), (c[0] - a[0]) * (b[1] - a[1]));
+        (p - q, (p.abs() + q.abs()) / (p - q).abs())
+    }
+
+    fn linear(&self, f: [f64; 3]) -> Linear {
+        let [a, b, c] = [0, 1, 2].map(|i| self.at(i));
+        let area = self.area().0;
+        let (d1, d2) = (f[1] - f[0], f[2] - f[0]);
+        let [bx, by, cx, cy] = [b[0] - a[0], b[1] - a[1], c[0] - a[0], c[1] - a[1]];
+        let pairs = [[d1 * cy, d2 * by], [d2 * bx, d1 * cx]];
+        Linear {
+            f0: f[0],
+            slope: pairs.map(|[p, q]| (p - q) / area),
+            terms: pairs.map(|[p, q]| (p.abs() + q.abs()) / area.abs()),
+        }
+    }
+
+    /// Distance of the centre of column `x_px` from the first vertex.
+    fn offset(&self, x_px: i32) -> [f64; 2] {
+        let [x, y] = self.at(0);
+        [f64::from(x_px) + 0.5 - x, f64::from(self.span.y_px) + 0.5 - y]
+    }
+
+    fn value(&self, f: &Linear, x_px: i32) -> f64 {
+        let [dx, dy] = self.offset(x_px);
+        f.f0 + f.slope[0] * dx + f.slope[1] * dy
+    }
+
+    /// 1/w, v/w and v at a column of the row.
+    fn perspective(&self, x_px: i32) -> [f64; 3] {
+        let inv_w = self.value(&self.linear(self.triangle.inv_w), x_px);
+        let over_w = self.value(&self.linear(self.over_w()), x_px);
+        [inv_w, over_w, over_w / inv_w]
+    }
+
+    fn over_w(&self) -> [f64; 3] {
+        [0, 1, 2].map(|i| self.triangle.inv_w[i] * self.triangle.value[i])
+    }
+
+    /// The slope of the value along the row.
+    fn slope_x(&self) -> f64 {
+        let [inv_w, _, v] = self.perspective(self.x_px);
+        let (n, d) = (self.linear(self.over_w()), self.linear(self.triangle.inv_w));
+        ((n.slope[0] - v * d.slope[0]) / inv_w).abs()
+    }
+
+    /// Rounding of a linear function evaluated as f0 + per_x dx + per_y dy, in units of u.
+    ///
+    /// With k >= 1 the cancellation of the area, G = the terms of a slope: the area is off by 2k
+    /// (two products, one difference), 1/2A by 3k. A slope has 1 for the difference of values, 1 for
+    /// the product, 1 for their difference: 3 G; times 1/2A: (3k + 1) more. The product with a
+    /// distance, which is exact, 1; the two sums at most 2 |f0| + 2 of the parts. Together
+    /// 2 |f0| + (7 + 3k) (Gx |dx| + Gy |dy|).
+    fn rounding(&self, f: &Linear, x_px: i32) -> f64 {
+        let [dx, dy] = self.offset(x_px);
+        let k = self.area().1;
+        2.0 * f.f0.abs() + (7.0 + 3.0 * k) * (f.terms[0] * dx.abs() + f.terms[1] * dy.abs())
+    }
+
+    /// The bound of [`Plane`] in units of u at a column: the quotient of two such functions. v/w has
+    /// one rounding at each vertex besides. `None` where 1/w has hardly a digit left.
+    fn planes(&self, x_px: i32, u: f64) -> Option<f64> {
+        let [inv_w, _, v] = self.perspective(x_px);
+        let of_inv_w = self.rounding(&self.linear(self.triangle.inv_w), x_px);
+        let of_over_w = self.rounding(&self.linear(self.over_w()), x_px) + largest(self.over_w());
+        if u * of_inv_w > inv_w / 16.0 {
+            return None;
+        }
+        // 1 / (1 - 1/16) for the second order.
+        Some(((of_over_w + v.abs() * of_inv_w) / inv_w + v.abs()) * 16.0 / 15.0)
+    }
+}
+
+fn largest(values: [f64; 3]) -> f64 {
+    values.into_iter().map(f64::abs).fold(0.0, f64::max)
+}
+
+fn spread(values: [f64; 3]) -> f64 {
+    let [a, b, c] = values;
+    a.max(b).max(c) - a.min(b).min(c)
+}
+
+/// The largest error of the straight line instead of the hyperbola: dv (sqrt R - 1) / (sqrt R + 1).
+fn model(dv: f64, ratio: f64) -> f64 {
+    let root = ratio.sqrt();
+    dv * (root - 1.0) / (root + 1.0)
+}
+
+impl Bound {
+    /// The bound in absolute terms for unit roundoff `u`; `None` where it says nothing: where it
+    /// exceeds a tenth of M, or the accumulated book form has lost the ends of the row.
+    #[must_use]
+    pub fn at(self, place: &Place<'_>, u: f64) -> Option<f64> {
+        let Valued { corners, inv_w, value } = place.triangle;
+        let m = largest(*value);
+        let (wide, narrow) = (largest(*inv_w), inv_w.iter().copied().fold(f64::MAX, f64::min));
+        let a = wide / place.perspective(place.x_px)[0];
+        let x = corners.iter().map(|p| p.to_px().0.abs()).fold(0.0, f64::max);
+        let n_x = f64::from(place.x_px - place.span.x0_px);
+        let n_y = f64::from(place.rows);
+        let along = || x * place.slope_x();
+        let limit = match self {
+            // The model's error is no rounding, and may be large.
+            Self::Affine => {
+                let linear = place.linear(*value);
+                let rounding = place.rounding(&linear, place.x_px) + n_x * 2.0 * m;
+                return Some(model(spread(*value), wide / narrow) + u * rounding);
+            }
+            Self::EverySixteen => return sixteen(place, u, m),
+            Self::BookFormula => {
+                let [left, right] = row(place);
+                if u * x * (4.0 + 2.0 * n_y) > (right - left) / 8.0 {
+                    return None;
+                }
+                (8.0 + 3.0 * (n_x + n_y)) * m * a + (4.0 + 2.0 * n_y) * along()
+            }
+            Self::Accumulated => (8.0 + 2.0 * n_x) * m * a + 4.0 * along(),
+            Self::Direct => 8.0 * m * a + 4.0 * along(),
+            Self::Plane => place.planes(place.x_px, u)?,
+            Self::Offset => 13.0 * spread(*value) + m,
+            Self::Rounded => m,
+        };
+        (u * limit <= 0.1 * m).then_some(u * limit)
+    }
+}
+
+/// The bound of a piece of [`EverySixteen`]: the model between its ends, the rounding of the ends and
+/// of 16 steps.
+fn sixteen(place: &Place<'_>, u: f64, m: f64) -> Option<f64> {
+    let start = place.span.x0_px + (place.x_px - place.span.x0_px) / 16 * 16;
+    let end = (start + 16).min(place.span.x1_px - 1);
+    let ([inv_a, _, va], [inv_b, _, vb]) = (place.perspective(start), place.perspective(end));
+    let rounding = place.planes(start, u)?.max(place.planes(end, u)?) + 20.0 * m;
+    Some(model((va - vb).abs(), inv_a.max(inv_b) / inv_a.min(inv_b)) + u * rounding)
+}
+
+/// Where the row's height crosses the triangle, in f64.
+fn row(place: &Place<'_>) -> [f64; 2] {
+    let yc = f64::from(place.span.y_px) + 0.5;
+    let crossings = [(0, 1), (1, 2), (2, 0)].into_iter().filter_map(|(i, j)| {
+        let (a, b) = (place.at(i), place.at(j));
+        let crosses = (a[1] <= yc) != (b[1] <= yc);
+        crosses.then(|| a[0] + (b[0] - a[0]) * (yc - a[1]) / (b[1] - a[1]))
+    });
+    crossings.fold([f64::MAX, f64::MIN], |[low, high], x| [low.min(x), high.max(x)])
+}
+
+/// What the measurements need of a rung, without its type.
+trait AnyValues {
+    fn each(&self, triangle: &Valued, spans: &[Span], emit: &mut dyn FnMut(i32, i32, f64));
+    fn paint(&self, drawn: &[Drawn], target: &mut Frame<f32>);
+}
+
+impl<R: Values> AnyValues for R {
+    fn each(&self, triangle: &Valued, spans: &[Span], emit: &mut dyn FnMut(i32, i32, f64)) {
+        self.values(triangle, spans, emit);
+    }
+
+    fn paint(&self, drawn: &[Drawn], target: &mut Frame<f32>) {
+        let x0 = target.bounds().x0;
+        for Drawn { triangle, spans } in drawn {
+            self.values(triangle, spans, |x_px, y_px, value| {
+                target.row_mut(y_px)[(x_px - x0) as usize] = value as f32;
+            });
+        }
+    }
+}
+
+/// The oracle as a rung: the exact quotient at every pixel, rounded once.
+#[derive(Clone, Copy, Debug)]
+struct Rational;
+
+impl Values for Rational {
+    fn values(&self, triangle: &Valued, spans: &[Span], mut emit: impl FnMut(i32, i32, f64)) {
+        let Some(exact) = exact(triangle) else { return };
+        for span in spans {
+            for x_px in span.x0_px..span.x1_px {
+                let (_, [value]) = exact.at(x_px, span.y_px);
+                emit(x_px, span.y_px, value.to_f64());
+            }
+        }
+    }
+}
+
+fn exact(triangle: &Valued) -> Option<ExactTriangle<1>> {
+    let Valued { corners, inv_w, value } = triangle;
+    ExactTriangle::new(corners, [0.0; 3], *inv_w, value.map(|v| [v]))
+}
+
+/// A triangle and the rows it covers.
+struct Drawn {
+    triangle: Valued,
+    spans: Vec<Span>,
+}
+
+struct Contender {
+    rung: Rung,
+    bound: Bound,
+    unit: f64,
+    body: Box<dyn AnyValues>,
+}
+
+fn contender<T: Real>(
+    name: &'static str,
+    about: &'static str,
+    bound: Bound,
+    body: impl Values + 'static,
+) -> Contender {
+    // 13 D + M is at most 27 M, far below the goal with either float.
+    let promises =
+        if matches!(bound, Bound::Offset | Bound::Rounded) { vec![0] } else { Vec::new() };
+    Contender { rung: Rung { name, about, promises }, bound, unit: T::UNIT, body: Box::new(body) }
+}
+
+fn contenders() -> Vec<Contender> {
+    vec![
+        contender::<f32>("affine", "f32, w ignored", Bound::Affine, Affine::<f32>::default()),
+        contender::<f32>(
+            "every 16 px",
+            "f32, one division for 16 pixels, as Quake did",
+            Bound::EverySixteen,
+            EverySixteen::<f32>::default(),
+        ),
+        contender::<f32>(
+            "book (8)",
+            "f32, the book's formula with t accumulated",
+            Bound::BookFormula,
+            BookFormula::<f32>::default(),
+        ),
+        contender::<f32>(
+            "1/w added up",
+            "f32, 1/w and v/w accumulated along the row",
+            Bound::Accumulated,
+            Accumulated::<f32>::default(),
+        ),
+        contender::<f32>(
+            "1/w direct",
+            "f32, 1/w and v/w at each pixel",
+            Bound::Direct,
+            Direct::<f32>::default(),
+        ),
+        contender::<f32>(
+            "plane",
+            "f32, 1/w and v/w as planes",
+            Bound::Plane,
+            Plane::<f32>::default(),
+        ),
+        contender::<f32>(
+            "offset f32",
+            "exact edge functions as weights",
+            Bound::Offset,
+            Offset::<f32>::default(),
+        ),
+        contender::<f64>(
+            "offset f64",
+            "exact edge functions as weights",
+            Bound::Offset,
+            Offset::<f64>::default(),
+        ),
+        contender::<f64>("rational", "the oracle, rounded once", Bound::Rounded, Rational),
+    ]
+}
+
+/// The triangles of a scene on the lattice, with w and a value at each corner.
+fn dress(scene: &Scene) -> Vec<Drawn> {
+    let dressed = scene.triangles.iter().zip(&scene.w).filter_map(|(corners, w)| {
+        let corners = snap(corners)?;
+        let mut spans = Vec::new();
+        Scanline.cover(corners, scene.bounds, |span| spans.push(span));
+        // From the positions, so that the values need no generator: within [-1, 1], exactly f32.
+        let value =
+            [0, 1, 2].map(|i| f64::from(corners[i].x % 509 - 254 + (w[i] as i32) % 2) / 256.0);
+        let inv_w = w.map(|w| f64::from((1.0 / w) as f32));
+        Some(Drawn { triangle: Valued { corners, inv_w, value }, spans })
+    });
+    dressed.collect()
+}
+
+/// The exact value at one pixel, by its number in drawing order.
+struct Sample {
+    triangle: usize,
+    /// Number of the pixel within its triangle.
+    number: usize,
+    exact: Exact,
+}
+
+/// About `count` samples of all pixels, evenly spread in drawing order.
+fn samples(drawn: &[Drawn], count: usize) -> Vec<Sample> {
+    let width = |span: &Span| span.x0_px.abs_diff(span.x1_px) as usize;
+    let pixels: usize = drawn.iter().flat_map(|d| &d.spans).map(width).sum();
+    // Odd, so that a stride does not keep step with rows of even length.
+    let stride = (pixels / count).max(1) | 1;
+    let mut samples = Vec::new();
+    let mut before = 0;
+    for (triangle, Drawn { triangle: valued, spans }) in drawn.iter().enumerate() {
+        let columns = spans.iter().flat_map(|s| (s.x0_px..s.x1_px).map(|x_px| (x_px, s.y_px)));
+        let Some(plane) = exact(valued) else { continue };
+        let mut number = 0;
+        for (x_px, y_px) in columns {
+            if (before + number) % stride == 0 {
+                let (_, [exact]) = plane.at(x_px, y_px);
+                samples.push(Sample { triangle, number, exact });
+            }
+            number += 1;
+        }
+        before += number;
+    }
+    samples
+}
+
+/// Errors of a rung at the samples: over M, in u M, over the bound.
+fn errors(contender: &Contender, drawn: &[Drawn], samples: &[Sample]) -> Vec<Option<f64>> {
+    let (mut worst, mut worst_bound) = (0f64, None::<f64>);
+    let mut samples = samples.iter().peekable();
+    for (i, Drawn { triangle, spans }) in drawn.iter().enumerate() {
+        if samples.peek().is_none_or(|sample| sample.triangle != i) {
+            continue;
+        }
+        let m = largest(triangle.value);
+        let mut number = 0;
+        contender.body.each(triangle, spans, &mut |x_px, y_px, value| {
+            if let Some(sample) = samples.next_if(|s| s.triangle == i && s.number == number) {
+                let error = sample.exact.distance(value);
+                worst = worst.max(if m > 0.0 { error / m } else { error });
+                let row = spans[0].y_px;
+                let span = spans[(y_px - row).clamp(0, spans.len() as i32 - 1) as usize];
+                let span = if span.y_px == y_px { span } else { find(spans, y_px) };
+                let place = Place { triangle, span, x_px, rows: y_px - row };
+                if let Some(bound) = contender.bound.at(&place, contender.unit) {
+                    let share = if error == 0.0 { 0.0 } else { error / bound };
+                    worst_bound = Some(worst_bound.unwrap_or(0.0).max(share));
+                }
+            }
+            number += 1;
+        });
+    }
+    vec![Some(worst), Some(worst / contender.unit), worst_bound]
+}
+
+/// The span of a row that some rows before it lack.
+fn find(spans: &[Span], y_px: i32) -> Span {
+    *spans.iter().find(|span| span.y_px == y_px).expect("values come from the rows given")
+}
+
+/// Measures the ladder.
+pub(super) fn measure(options: &Options, progress: &dyn Fn(f64, &str)) -> Board {
+    let ladder = Ladder::Interpolation;
+    let (pixels, count) = if options.quick { (8_000, 500) } else { (60_000, 4000) };
+    let scenes = scenes(options.seed, Size { side_px: 512, pixels });
+    let contenders = contenders();
+    let drawn: Vec<_> = scenes.iter().map(dress).collect();
+    let targets: Vec<_> =
+        scenes.iter().map(|scene| RefCell::new(Frame::new(scene.bounds, 0f32))).collect();
+    let mut columns = Vec::new();
+    let mut prepared: Vec<Vec<Prepared<'_>>> = contenders.iter().map(|_| Vec::new()).collect();
+    for (i, scene) in scenes.iter().enumerate() {
+        progress(0.3 * i as f64 / scenes.len() as f64, ladder.title());
+        let (drawn, target) = (&drawn[i], &targets[i]);
+        let samples = samples(drawn, count);
+        for (contender, row) in contenders.iter().zip(&mut prepared) {
+            row.push(Prepared::Ready {
+                errors: errors(contender, drawn, &samples),
+                work: None,
+                pass: Box::new(|| {
+                    contender.body.paint(std::hint::black_box(drawn), &mut target.borrow_mut());
+                }),
+            });
+        }
+        let width = |span: &Span| u64::from(span.x0_px.abs_diff(span.x1_px));
+        let pixels = drawn.iter().flat_map(|d| &d.spans).map(width).sum();
+        let about = scene.about.to_owned();
+        columns.push(Column { name: scene.name, about, items: drawn.len() as u64, pixels });
+    }
+    let rungs = contenders.iter().map(|contender| contender.rung.clone()).collect();
+    finish((ladder, measures()), (rungs, columns), prepared, options, progress)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The worst share of its bound that a rung reaches on every class of scenes, all pixels asked.
+    fn worst(contender: &Contender, seed: u64) -> f64 {
+        scenes(seed, Size { side_px: 64, pixels: 1500 })
+            .iter()
+            .map(|scene| {
+                let drawn = dress(scene);
+                let samples = samples(&drawn, usize::MAX);
+                assert!(samples.len() > 100, "{}", scene.name);
+                errors(contender, &drawn, &samples)[2].unwrap_or(0.0)
+            })
+            .fold(0.0, f64::max)
+    }
+
+    fn in_both<T: Real>() -> Vec<Contender> {
+        vec![
+            contender::<T>("affine", "", Bound::Affine, Affine::<T>::default()),
+            contender::<T>("sixteen", "", Bound::EverySixteen, EverySixteen::<T>::default()),
+            contender::<T>("book", "", Bound::BookFormula, BookFormula::<T>::default()),
+            contender::<T>("accumulated", "", Bound::Accumulated, Accumulated::<T>::default()),
+            contender::<T>("direct", "", Bound::Direct, Direct::<T>::default()),
+            contender::<T>("plane", "", Bound::Plane, Plane::<T>::default()),
+            contender::<T>("offset", "", Bound::Offset, Offset::<T>::default()),
+        ]
+    }
+
+    /// Every rung keeps its derived bound, in either float; and none of the bounds is idle.
+    #[test]
+    fn bounds_are_kept() {
+        let rungs = in_both::<f32>().into_iter().chain(in_both::<f64>());
+        for contender in rungs.chain(contenders()) {
+            let shares: Vec<f64> = (1..=3).map(|seed| worst(&contender, seed)).collect();
+            let name = (contender.rung.name, contender.unit);
+            assert!(shares.iter().all(|&share| share <= 1.0), "{name:?} {shares:?}");
+            assert!(shares.iter().any(|&share| share > 0.05), "{name:?} {shares:?}");
+        }
+    }
+
+    /// Each bound is exceeded by the rung with a fault planted: values of the next pixel, off by less
+    /// than anybody sees in most scenes.
+    struct Late<R>(R);
+
+    impl<R: Values> Values for Late<R> {
+        fn values(&self, triangle: &Valued, spans: &[Span], mut emit: impl FnMut(i32, i32, f64)) {
+            let mut held = 0.0;
+            self.0.values(triangle, spans, |x_px, y_px, value| {
+                // The first pixel of a row is right.
+                let is_first = spans.iter().any(|s| s.y_px == y_px && s.x0_px == x_px);
+                emit(x_px, y_px, if is_first { value } else { held });
+                held = value;
+            });
+        }
+    }
+
+    #[test]
+    fn bounds_find_planted_faults() {
+        let late = [
+            contender::<f32>("affine", "", Bound::Affine, Late(Affine::<f32>::default())),
+            contender::<f32>(
+                "sixteen",
+                "",
+                Bound::EverySixteen,
+                Late(EverySixteen::<f32>::default()),
+            ),
+            contender::<f32>("book", "", Bound::BookFormula, Late(BookFormula::<f32>::default())),
+            contender::<f32>(
+                "accumulated",
+                "",
+                Bound::Accumulated,
+                Late(Accumulated::<f32>::default()),
+            ),
+            contender::<f32>("direct", "", Bound::Direct, Late(Direct::<f32>::default())),
+            contender::<f32>("plane", "", Bound::Plane, Late(Plane::<f32>::default())),
+            contender::<f32>("offset", "", Bound::Offset, Late(Offset::<f32>::default())),
+            contender::<f32>("rational", "", Bound::Rounded, Late(Rational)),
+            // The float that the bound is not for, and the model that it is not for.
+            contender::<f64>("offset", "", Bound::Offset, Offset::<f32>::default()),
+            contender::<f32>("direct", "", Bound::Direct, EverySixteen::<f32>::default()),
+            contender::<f32>("sixteen", "", Bound::EverySixteen, Affine::<f32>::default()),
+        ];
+        for contender in late {
+            let share = worst(&contender, 1);
+            assert!(share > 1.0, "{} {:?} {share}", contender.rung.name, contender.bound);
+        }
+    }
+}

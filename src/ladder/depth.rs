@@ -1,0 +1,97 @@
+//! Rungs of depth: formats of a depth buffer for a perspective with the planes n and f.
+//!
+//! With the usual mapping depth is f (z - n) / (z (f - n)), 0 at the near plane and 1 at the far one
+//! ([`Fixed24`]), or twice that less 1, as the book and OpenGL have it ([`Forward`]): nearly all of its
+//! values lie close to 1, where floats are coarse. Reversed, it is n (f - z) / (z (f - n)), 1 at the
+//! near plane and 0 at the far one, and the fine values of a float near 0 meet the coarse depths far
+//! away. Depth is linear in the window; it is interpolated as a
+//! plane, in the float of the format, as a rasterizer would.
+
+use std::marker::PhantomData;
+
+use super::Real;
+
+/// The near plane of the measurements.
+pub const NEAR: f64 = 0.1;
+/// The far plane.
+pub const FAR: f64 = 1000.0;
+
+/// A format of depth.
+pub trait Format {
+    /// What the buffer holds; smaller passes where [`Format::REVERSED`] is not set.
+    type Stored: Copy + PartialOrd;
+    /// Whether larger values are nearer.
+    const REVERSED: bool;
+    /// The float in which depth is interpolated.
+    type Float: Real;
+    /// What is stored for an interpolated depth.
+    fn store(depth: Self::Float) -> Self::Stored;
+
+    /// The depth of a distance from the eye, before it is rounded to the format.
+    fn depth(z: f64) -> f64;
+
+    /// Whether a surface stored as `a` hides one stored as `b`.
+    #[inline]
+    #[must_use]
+    fn hides(a: Self::Stored, b: Self::Stored) -> bool {
+        if Self::REVERSED { a > b } else { a < b }
+    }
+}
+
+/// Whole numbers of 24 bits; depth is interpolated in f64, so that the format alone is seen.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Fixed24;
+
+/// A float, -1 at the near plane and 1 at the far one.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Forward<T>(PhantomData<T>);
+
+/// A float, 1 at the near plane.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Reversed<T>(PhantomData<T>);
+
+impl Format for Fixed24 {
+    type Stored = u32;
+    type Float = f64;
+    const REVERSED: bool = false;
+    fn depth(z: f64) -> f64 {
+        FAR * (z - NEAR) / (z * (FAR - NEAR))
+    }
+    #[inline]
+    fn store(depth: f64) -> u32 {
+        // Not negative within the planes; beyond them it saturates.
+        (depth * f64::from((1 << 24) - 1) + 0.5) as u32
+    }
+}
+
+impl<T: Real> Format for Forward<T> {
+    type Stored = T;
+    type Float = T;
+    const REVERSED: bool = false;
+    fn depth(z: f64) -> f64 {
+        (FAR + NEAR) / (FAR - NEAR) - 2.0 * FAR * NEAR / ((FAR - NEAR) * z)
+    }
+    #[inline]
+    fn store(depth: T) -> T {
+        depth
+    }
+}
+
+impl<T: Real> Format for Reversed<T> {
+    type Stored = T;
+    type Float = T;
+    const REVERSED: bool = true;
+    fn depth(z: f64) -> f64 {
+        NEAR * (FAR - z) / (z * (FAR - NEAR))
+    }
+    #[inline]
+    fn store(depth: T) -> T {
+        depth
+    }
+}
+
+/// What a buffer holds for a distance: the exact mapping, rounded once to the format.
+#[must_use]
+pub fn stored<F: Format>(z: f64) -> F::Stored {
+    F::store(F::Float::of(F::depth(z)))
+}

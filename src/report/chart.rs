@@ -1,0 +1,264 @@
+//! Simple drawings as values: lines, discs, rings, boxes and text, written as SVG and as PNG.
+//!
+//! Own code instead of a plotting library: those that write PNG want a font from a file or from the
+//! machine, so pictures would differ from machine to machine, and none places labels so that they do
+//! not overlap, which is most of the work here. A drawing is 800 units wide. Text is monospaced with
+//! 8 units to the character, in both forms, so that one layout serves both.
+
+use std::fmt::Write as _;
+
+use image::{Rgb, RgbImage};
+
+use super::lettering;
+
+/// Units of a character.
+pub const LETTER: f64 = 8.0;
+/// Picture pixels of a unit.
+const ZOOM: u32 = 2;
+
+/// A colour.
+pub type Ink = [u8; 3];
+
+/// Something drawn, y down.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Shape {
+    /// A straight line.
+    Line {
+        /// From here.
+        from: [f64; 2],
+        /// To here.
+        to: [f64; 2],
+        /// Width.
+        width: f64,
+        /// Colour.
+        ink: Ink,
+    },
+    /// A filled box.
+    Box {
+        /// Left and top.
+        at: [f64; 2],
+        /// Width and height.
+        size: [f64; 2],
+        /// Colour.
+        ink: Ink,
+    },
+    /// A filled circle.
+    Disc {
+        /// Centre.
+        at: [f64; 2],
+        /// Radius.
+        radius: f64,
+        /// Colour.
+        ink: Ink,
+    },
+    /// A circle 2 units wide.
+    Ring {
+        /// Centre.
+        at: [f64; 2],
+        /// Radius of the middle of the line.
+        radius: f64,
+        /// Colour.
+        ink: Ink,
+    },
+    /// A line of text, its middle height at y.
+    Text {
+        /// Left end, middle height.
+        at: [f64; 2],
+        /// What it says.
+        text: String,
+        /// Colour.
+        ink: Ink,
+    },
+}
+
+/// A drawing on white.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Drawing {
+    /// What it shows, for those who cannot see it.
+    pub title: String,
+    /// Width and height.
+    pub size: [f64; 2],
+    /// From back to front.
+    pub shapes: Vec<Shape>,
+}
+
+impl Drawing {
+    /// Adds a line of width 1.
+    pub fn line(&mut self, from: [f64; 2], to: [f64; 2], ink: Ink) {
+        self.shapes.push(Shape::Line { from, to, width: 1.0, ink });
+    }
+
+    /// Adds text that begins at `at`.
+    pub fn text(&mut self, at: [f64; 2], text: &str, ink: Ink) {
+        self.shapes.push(Shape::Text { at, text: text.to_owned(), ink });
+    }
+
+    /// Adds text that ends at `at`.
+    pub fn text_before(&mut self, at: [f64; 2], text: &str, ink: Ink) {
+        self.text([at[0] - width(text), at[1]], text, ink);
+    }
+}
+
+/// Width of a line of text.
+#[must_use]
+pub fn width(text: &str) -> f64 {
+    text.chars().count() as f64 * LETTER
+}
+
+/// The drawing as an SVG file.
+#[must_use]
+pub fn svg(drawing: &Drawing) -> String {
+    let [width, height] = drawing.size;
+    let mut out = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" width=\"{width}\" \
+         height=\"{height}\" font-family=\"monospace\" font-size=\"13\">\n<title>{}</title>\n\
+         <rect width=\"{width}\" height=\"{height}\" fill=\"#fff\"/>\n",
+        escaped(&drawing.title)
+    );
+    for shape in &drawing.shapes {
+        // Writing to a string does not fail.
+        let _ = match shape {
+            Shape::Line { from: [x1, y1], to: [x2, y2], width, ink } => writeln!(
+                out,
+                "<path d=\"M{x1:.1} {y1:.1}L{x2:.1} {y2:.1}\" stroke=\"{}\" stroke-width=\"{width}\"/>",
+                hex(*ink)
+            ),
+            Shape::Box { at: [x, y], size: [w, h], ink } => writeln!(
+                out,
+                "<rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"{w:.1}\" height=\"{h:.1}\" fill=\"{}\"/>",
+                hex(*ink)
+            ),
+            Shape::Disc { at: [x, y], radius, ink } => writeln!(
+                out,
+                "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{radius}\" fill=\"{}\"/>",
+                hex(*ink)
+            ),
+            Shape::Ring { at: [x, y], radius, ink } => writeln!(
+                out,
+                "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{radius}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\"/>",
+                hex(*ink)
+            ),
+            // The length is stated, so that another font cannot make labels overlap.
+            Shape::Text { at: [x, y], text, ink } => writeln!(
+                out,
+                "<text x=\"{x:.1}\" y=\"{:.1}\" textLength=\"{}\" fill=\"{}\">{}</text>",
+                y + 4.5,
+                self::width(text),
+                hex(*ink),
+                escaped(text)
+            ),
+        };
+    }
+    out + "</svg>\n"
+}
+
+fn hex([r, g, b]: Ink) -> String {
+    format!("#{r:02x}{g:02x}{b:02x}")
+}
+
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+}
+
+/// The drawing as a picture, twice as many pixels wide as units.
+#[must_use]
+pub fn picture(drawing: &Drawing) -> RgbImage {
+    let zoom = f64::from(ZOOM);
+    let [width, height] = drawing.size.map(|v| (v * zoom).clamp(1.0, 16384.0) as u32);
+    let mut image = RgbImage::from_pixel(width, height, Rgb([255, 255, 255]));
+    let scale = |p: [f64; 2]| p.map(|v| v * zoom);
+    for shape in &drawing.shapes {
+        match shape {
+            Shape::Line { from, to, width, ink } => {
+                let (a, b, reach) = (scale(*from), scale(*to), width * zoom / 2.0);
+                blend(&mut image, [a, b], reach, *ink, |p| reach - distance(p, a, b));
+            }
+            Shape::Box { at, size, ink } => {
+                let ([x, y], [w, h]) = (scale(*at), scale(*size));
+                let inside = |p: [f64; 2]| {
+                    let sides = [p[0] - x, x + w - p[0], p[1] - y, y + h - p[1]];
+                    sides.into_iter().fold(f64::MAX, f64::min)
+                };
+                blend(&mut image, [[x, y], [x + w, y + h]], 0.0, *ink, inside);
+            }
+            Shape::Disc { at, radius, ink } => {
+                let (c, r) = (scale(*at), radius * zoom);
+                blend(&mut image, [c, c], r, *ink, |p| r - distance(p, c, c));
+            }
+            Shape::Ring { at, radius, ink } => {
+                let (c, r) = (scale(*at), radius * zoom);
+                blend(&mut image, [c, c], r + zoom, *ink, |p| zoom - (r - distance(p, c, c)).abs());
+            }
+            Shape::Text { at, text, ink } => {
+                let [x, y] = scale(*at);
+                let top = y - f64::from(lettering::CELL * ZOOM) / 2.0;
+                lettering::write(&mut image, (x as i64, top as i64), text, ZOOM, Rgb(*ink));
+            }
+        }
+    }
+    image
+}
+
+/// Distance from `p` to the segment from `a` to `b`.
+fn distance(p: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
+    let (d, q) = ([b[0] - a[0], b[1] - a[1]], [p[0] - a[0], p[1] - a[1]]);
+    let length = d[0] * d[0] + d[1] * d[1];
+    let t = if length > 0.0 { ((q[0] * d[0] + q[1] * d[1]) / length).clamp(0.0, 1.0) } else { 0.0 };
+    (q[0] - d[0] * t).hypot(q[1] - d[1] * t)
+}
+
+/// Paints the pixels around `corners`, as opaque as `depth` (how far inside a point lies) says.
+fn blend(
+    image: &mut RgbImage,
+    corners: [[f64; 2]; 2],
+    reach: f64,
+    ink: Ink,
+    depth: impl Fn([f64; 2]) -> f64,
+) {
+    let range = |axis: usize, size: u32| {
+        let (a, b) = (corners[0][axis], corners[1][axis]);
+        let limit = |v: f64| v.clamp(0.0, f64::from(size)) as u32;
+        limit(a.min(b) - reach - 1.0)..limit(a.max(b) + reach + 2.0)
+    };
+    for y in range(1, image.height()) {
+        for x in range(0, image.width()) {
+            let share = (depth([f64::from(x) + 0.5, f64::from(y) + 0.5]) + 0.5).clamp(0.0, 1.0);
+            let pixel = image.get_pixel_mut(x, y);
+            for (held, ink) in pixel.0.iter_mut().zip(ink) {
+                *held = (f64::from(*held) + (f64::from(ink) - f64::from(*held)) * share) as u8;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sample() -> Drawing {
+        let mut drawing =
+            Drawing { title: "a < b".to_owned(), size: [40.0, 20.0], shapes: Vec::new() };
+        drawing.line([0.0, 10.0], [40.0, 10.0], [255, 0, 0]);
+        drawing.shapes.push(Shape::Disc { at: [10.0, 10.0], radius: 4.0, ink: [0, 0, 255] });
+        drawing.shapes.push(Shape::Ring { at: [30.0, 10.0], radius: 5.0, ink: [0, 128, 0] });
+        drawing.text([1.0, 15.0], "<&", [0, 0, 0]);
+        drawing
+    }
+
+    #[test]
+    fn svg_is_escaped() {
+        let svg = svg(&sample());
+        assert!(svg.contains("<title>a &lt; b</title>") && svg.contains(">&lt;&amp;</text>"));
+        assert_eq!(svg.matches("<circle").count(), 2);
+    }
+
+    #[test]
+    fn picture_has_what_was_drawn() {
+        let image = picture(&sample());
+        assert_eq!(image.dimensions(), (80, 40));
+        assert_eq!(image.get_pixel(20, 20).0, [0, 0, 255], "the disc is over the line");
+        assert_eq!(image.get_pixel(40, 20).0, [255, 0, 0]);
+        assert_eq!(image.get_pixel(60, 10).0, [0, 128, 0]);
+        assert_eq!(image.get_pixel(78, 2).0, [255, 255, 255]);
+    }
+}
