@@ -75,7 +75,7 @@ fn scaled(corners: [Clip; 3], scale: f64) -> [Clip; 3] {
 fn perspective() -> Vec<NamedCase> {
     let eps = 0.5f64.powi(30);
     let hex = f64::from_bits;
-    // From (4, 4) to (12, 12) px: 8 x 8 px, split into 28 and 36 by the top-left rule.
+    // Corners of the square from (4, 4) to (12, 12) px, from the upper left clockwise.
     let [a, b, c, d] = [(-0.5, 0.5), (0.5, 0.5), (0.5, -0.5), (-0.5, -0.5)];
     let with = |(x, y): Px, z: f64, w: f64| (x * w, y * w, z * w, w);
     let plain = [with(a, 0.0, 1.0), with(b, 0.0, 1.0), with(c, 0.0, 1.0)];
@@ -119,7 +119,7 @@ fn perspective() -> Vec<NamedCase> {
             ("P2", "w = 1, 2^-30, -1: cut before w = 0, nothing from behind the eye"),
             &[[with(d, 0.0, 1.0), with((0.0, 0.5), 0.0, eps), with(c, 0.0, -1.0)]],
             true,
-            &[],
+            &[16, 38, 22],
         ),
         clipped(
             (
@@ -137,7 +137,7 @@ fn perspective() -> Vec<NamedCase> {
                 [shared_from, shared_to, with(d, -3.0, 1.0)],
             ],
             true,
-            &[],
+            &[36, 7, 6],
         ),
         clipped(
             ("P5", "a corner on the near plane, exactly: inside, nothing is cut"),
@@ -146,16 +146,16 @@ fn perspective() -> Vec<NamedCase> {
             &[36],
         ),
         clipped(
-            ("P5S", "a triangle that all six planes cut"),
-            &[[(-14.0, -1.5, 8.0, 9.0), (9.0, -12.0, 31.0, 30.0), (3.0, 5.0, -2.0, 0.2)]],
+            ("P5S", "all six planes and the three edges leave a side: nine corners"),
+            &[[(9.25, 20.0, 24.97, 24.5), (12.875, -18.83, 2.54, 4.2), (-3.625, 3.5, -1.77, 0.3)]],
             true,
-            &[],
+            &[10, 60, 36, 32, 46, 16, 0],
         ),
         clipped(
             ("P5U", "book-bugs clip_stack_overflow: corners within ulps of planes"),
             &[overflow],
             true,
-            &[],
+            &[0],
         ),
         drawn(
             ("P6", "a triangle .061 px wide, 2^14 px from the origin: one pixel"),
@@ -182,7 +182,7 @@ fn perspective() -> Vec<NamedCase> {
             ("P9", "xemu#665: the last two corners fall on one point, w = 1 and w = -0.1"),
             &[[with(a, 0.0, 1.0), with(c, 0.0, 1.0), with(c, 0.0, -0.1)]],
             true,
-            &[],
+            &[0, 0, 0],
         ),
     ]
 }
@@ -224,13 +224,13 @@ fn samples() -> Vec<NamedCase> {
             ("M1", "an edge through each of the four sample positions: each sample is hit once"),
             PixelRect::window(13, 4),
             through,
-            &[],
+            &[3, 1, 3, 1, 3, 1, 3, 1],
         ),
         drawn(
             ("M2", "seams at grazing angles: no sample is lost or drawn twice"),
             PixelRect::window(64, 4),
             plain(strip),
-            &[],
+            &[85, 43, 68, 60],
         ),
         drawn(
             (
