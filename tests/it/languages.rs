@@ -32,7 +32,9 @@ fn target(folder: &str, link: &str) -> String {
     for part in link.split('#').next().unwrap_or("").split('/') {
         match part {
             "." => {}
-            ".." => drop(parts.pop()),
+            ".." => {
+                parts.pop();
+            }
             name => parts.push(name),
         }
     }
@@ -40,7 +42,6 @@ fn target(folder: &str, link: &str) -> String {
 }
 
 /// What must be the same in every language, as far as it can be read off the text.
-#[derive(Debug, PartialEq)]
 struct Skeleton {
     /// In the order of the page: headings as their level, code blocks in full, table rows by their
     /// number of cells and their figures.
