@@ -80,10 +80,18 @@ mod docs {
     struct Chapter10;
     #[doc = include_str!("../docs/ch11.md")]
     struct Chapter11;
+    #[doc = include_str!("../docs/effects.md")]
+    struct Effects;
+    #[doc = include_str!("../docs/games101.md")]
+    struct Games101;
     #[doc = include_str!("../docs/judge.md")]
     struct Judge;
     #[doc = include_str!("../docs/cost.md")]
     struct Cost;
     #[doc = include_str!("../docs/offgrid.md")]
     struct OffGrid;
+    #[doc = include_str!("../docs/protocol.md")]
+    struct Protocol;
+    #[doc = include_str!("../docs/sysu.md")]
+    struct Sysu;
 }

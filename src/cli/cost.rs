@@ -1,12 +1,13 @@
 //! `rasterproof cost`: what each step of accuracy costs, as boards, plots and JSON.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use super::{Failure, Streams, exit, write_file};
+use super::{Failure, PAGE, Streams, exit, write_file, write_page};
 use crate::cost::{Board, Ladder, Options, measure};
 use crate::report::chart::{self, Drawing};
+use crate::report::html::{Figure, Report};
 use crate::report::{board, json, picture, plot};
 
 /// What is measured together under one word.
@@ -50,6 +51,9 @@ pub struct CostArguments {
     /// Print JSON instead of boards
     #[arg(long)]
     json: bool,
+    /// Also write the plots as a page: target/rasterproof/index.html
+    #[arg(long)]
+    report: bool,
     /// Where the plots go, as SVG and PNG
     #[arg(short, long, value_name = "FOLDER", default_value = "target/rasterproof")]
     output: PathBuf,
@@ -75,7 +79,11 @@ pub fn run(arguments: &CostArguments, streams: &mut Streams<'_>) -> Result<u8, F
     let ladders = arguments.which.map_or(&Ladder::ALL[..], Which::ladders);
     let boards = measure_all(ladders, arguments, streams.progress);
     let out = &mut *streams.output;
-    let written = draw(&boards, arguments)?;
+    let plots = plots(&boards);
+    let written = write_plots(&plots, arguments)?;
+    if arguments.report {
+        write_page(Path::new(PAGE), &report_page(&plots, arguments), streams.errors)?;
+    }
     if arguments.json {
         out.write_all(json::cost(&arguments.repeat(), &boards).as_bytes())?;
         return Ok(exit::AGREES);
@@ -96,8 +104,8 @@ pub fn run(arguments: &CostArguments, streams: &mut Streams<'_>) -> Result<u8, F
     Ok(exit::AGREES)
 }
 
-/// Writes the plots and returns where they are, without their endings.
-fn draw(boards: &[Board], arguments: &CostArguments) -> Result<Vec<String>, Failure> {
+/// The plots with their names; the one picture that answers the question comes last.
+fn plots(boards: &[Board]) -> Vec<(String, Drawing)> {
     let mut plots: Vec<(String, Drawing)> = boards
         .iter()
         .map(|board| (format!("cost-{}", board.ladder.name()), plot::pareto(board)))
@@ -105,12 +113,38 @@ fn draw(boards: &[Board], arguments: &CostArguments) -> Result<Vec<String>, Fail
     if boards.iter().any(|board| board.ladder == Ladder::Scanline) {
         plots.push(("cost-price".to_owned(), plot::price(boards)));
     }
+    plots
+}
+
+/// The plots as a page, the answer first.
+fn report_page(plots: &[(String, Drawing)], arguments: &CostArguments) -> Report {
+    let figure = |(name, drawing): &(String, Drawing)| Figure {
+        caption: match name.as_str() {
+            "cost-price" => "What exact coverage costs over the cheapest rung".to_owned(),
+            name => format!("Time against error: {}", name.trim_start_matches("cost-")),
+        },
+        svg: chart::svg(drawing),
+    };
+    Report {
+        title: "What accuracy costs in time".to_owned(),
+        command: arguments.repeat(),
+        seed: Some(arguments.seed),
+        figures: plots.iter().rev().map(figure).collect(),
+        ..Report::default()
+    }
+}
+
+/// Writes the plots and returns their names.
+fn write_plots(
+    plots: &[(String, Drawing)],
+    arguments: &CostArguments,
+) -> Result<Vec<String>, Failure> {
     let mut written = Vec::new();
     for (name, drawing) in plots {
-        let path = arguments.output.join(&name);
-        write_file(&path.with_extension("svg"), chart::svg(&drawing).as_bytes())?;
-        write_file(&path.with_extension("png"), &picture::png(&chart::picture(&drawing)))?;
-        written.push(name);
+        let path = arguments.output.join(name);
+        write_file(&path.with_extension("svg"), chart::svg(drawing).as_bytes())?;
+        write_file(&path.with_extension("png"), &picture::png(&chart::picture(drawing)))?;
+        written.push(name.clone());
     }
     Ok(written)
 }
