@@ -290,7 +290,8 @@ impl Known {
 fn house_docs_name_what_exists() {
     let known = Known::new();
     let name = |page: &Path| page.strip_prefix(root()).unwrap().display().to_string();
-    let missing = pages().iter().flat_map(|(page, text)| known.missing(&name(page), text));
+    let pages = pages();
+    let missing = pages.iter().flat_map(|(page, text)| known.missing(&name(page), text));
     let missing: Vec<_> = missing.collect();
     assert!(missing.is_empty(), "{}", missing.join("\n"));
 }
