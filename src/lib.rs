@@ -64,12 +64,34 @@ mod docs {
     struct Chapter2;
     #[doc = include_str!("../docs/ch03.md")]
     struct Chapter3;
-    #[doc = include_str!("../docs/ch04-05.md")]
-    struct Chapters4And5;
+    #[doc = include_str!("../docs/ch04.md")]
+    struct Chapter4;
+    #[doc = include_str!("../docs/ch05.md")]
+    struct Chapter5;
+    #[doc = include_str!("../docs/ch06.md")]
+    struct Chapter6;
+    #[doc = include_str!("../docs/ch07.md")]
+    struct Chapter7;
+    #[doc = include_str!("../docs/ch08.md")]
+    struct Chapter8;
+    #[doc = include_str!("../docs/ch09.md")]
+    struct Chapter9;
+    #[doc = include_str!("../docs/ch10.md")]
+    struct Chapter10;
+    #[doc = include_str!("../docs/ch11.md")]
+    struct Chapter11;
+    #[doc = include_str!("../docs/effects.md")]
+    struct Effects;
+    #[doc = include_str!("../docs/games101.md")]
+    struct Games101;
     #[doc = include_str!("../docs/judge.md")]
     struct Judge;
     #[doc = include_str!("../docs/cost.md")]
     struct Cost;
     #[doc = include_str!("../docs/offgrid.md")]
     struct OffGrid;
+    #[doc = include_str!("../docs/protocol.md")]
+    struct Protocol;
+    #[doc = include_str!("../docs/sysu.md")]
+    struct Sysu;
 }

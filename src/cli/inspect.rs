@@ -9,7 +9,7 @@ use super::verify::with_tolerance;
 use super::{Failure, Streams, exit, usage, write_file};
 use crate::frame::Coverage;
 use crate::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
-use crate::hazard::named::{self, Input};
+use crate::hazard::named::{Input, plain_line, plain_triangle};
 use crate::hazard::offgrid::{self, OffGridCase};
 use crate::hazard::{self, Case, Line, Shape};
 use crate::lineup::{Engine, Entry, ExactEngine, LineEngine, SPECIMENS, Specimen};
@@ -17,6 +17,7 @@ use crate::oracle::Oracle;
 use crate::oracle::coverage::samples_on_boundary;
 use crate::raster::edge_function::WordWidth;
 use crate::report::{ascii, picture};
+use crate::scene::named;
 use crate::specimen::catalogue::{RECORDED, RECORDED_SIDE_PX, RecordedCase};
 use crate::specimen::{bare, from_screen};
 use crate::triangle::{Corners, FreeCorners, PixelPoint};
@@ -257,7 +258,7 @@ fn find(arguments: &InspectArguments) -> Result<Found, Failure> {
     match (words.as_slice(), arguments.line) {
         ([a, b], true) => {
             let (a, b) = (parse_pixel(a)?, parse_pixel(b)?);
-            let line = named::plain_line(a, b);
+            let line = plain_line(a, b);
             Ok(generated(format!("line {},{} to {},{}", a.x, a.y, b.x, b.y), line_case(line)))
         }
         (_, true) => Err(usage("--line takes two points, for example: inspect --line 0,0 8,3")),
@@ -380,7 +381,7 @@ fn triangle_case(corners: Corners) -> Case {
         (low, high.min(low.saturating_add(64)))
     };
     let ((x0, x1), (y0, y1)) = (range(corners.map(|c| c.x)), range(corners.map(|c| c.y)));
-    let list = vec![named::plain_triangle(corners)];
+    let list = vec![plain_triangle(corners)];
     Case { window: PixelRect { x0, y0, x1, y1 }, shape: Shape::Triangles { list, disjoint: true } }
 }
 

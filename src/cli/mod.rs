@@ -212,7 +212,7 @@ fn list(streams: &mut Streams<'_>) -> Result<u8, Failure> {
         writeln!(out, "  {:<16} {}", family.name, family.about)?;
     }
     writeln!(out, "\nNamed cases (rasterproof inspect NAME):")?;
-    for case in hazard::named::named() {
+    for case in crate::scene::named::named() {
         writeln!(out, "  {:<5} {}", case.name, case.about)?;
     }
     writeln!(out, "\nEngines (rasterproof engine NAME):")?;

@@ -89,7 +89,7 @@ pub fn render_mapped(
     effects: &Effects,
     target: &mut Target,
 ) -> Result<(Rendered, Frame<u16>), BadScene> {
-    let mut map = Frame::new(target.bounds(), 0);
+    let mut map = Frame::new(target.size(), 0);
     let rendered = draw(scene, engine, effects, target, Some(&mut map))?;
     Ok((rendered, map))
 }
@@ -399,8 +399,10 @@ impl<E: Interpolate> Stage<'_, E> {
         self.tallies[index].count(piece, item.reads, plan);
         if let Some(map) = &mut self.map {
             let paid = plan.paid();
-            self.engine.cover(piece.corners(), map.bounds(), |span| {
-                for pixel in map.span_mut(span.y_px, span.x0_px, span.x1_px) {
+            let scale = self.target.antialias().scale() as i32;
+            self.engine.cover(piece.corners(), self.target.bounds(), |span| {
+                let (x0_px, x1_px) = (span.x0_px / scale, (span.x1_px - 1) / scale + 1);
+                for pixel in map.span_mut(span.y_px / scale, x0_px, x1_px) {
                     *pixel |= paid;
                 }
             });
@@ -436,6 +438,9 @@ impl<E: Interpolate> Stage<'_, E> {
 
     fn finish(self, items: &[Prepared<'_>]) -> Rendered {
         let mut counters = self.counters;
+        if let Some(map) = self.map {
+            mark_samples(map, self.on_demand.as_ref(), self.target);
+        }
         let picture = match self.on_demand {
             Some(on_demand) => on_demand.resolve(self.target),
             None if self.effects.mode(Effect::Samples) == Mode::Never => self.target.resolve_one(),
@@ -457,6 +462,21 @@ impl<E: Interpolate> Stage<'_, E> {
         };
         let plan = Plan::new(self.scene, items, &self.tallies, self.effects, &counters);
         Rendered { picture, counters, plan }
+    }
+}
+
+/// Marks the pixels whose samples were told apart.
+fn mark_samples(map: &mut Frame<u16>, on_demand: Option<&OnDemand>, target: &Target) {
+    if target.antialias().samples() == 1 {
+        return;
+    }
+    let bounds = map.bounds();
+    for y_px in bounds.y0..bounds.y1 {
+        for (x_px, pixel) in (bounds.x0..).zip(map.row_mut(y_px)) {
+            if on_demand.is_none_or(|on_demand| on_demand.is_apart(x_px, y_px)) {
+                *pixel |= 1 << Effect::Samples as u16;
+            }
+        }
     }
 }
 

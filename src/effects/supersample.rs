@@ -235,6 +235,11 @@ impl OnDemand {
         counters.expanded += 1;
     }
 
+    /// Whether a pixel's samples were told apart.
+    pub(super) fn is_apart(&self, x_px: i32, y_px: i32) -> bool {
+        self.pixels.get(x_px, y_px).is_some_and(|pixel| pixel.state == State::Apart)
+    }
+
     /// The picture: whole pixels as they are, the others as the mean of their samples.
     pub(super) fn resolve(&self, target: &Target) -> Frame<Colour> {
         let mut picture = Frame::new(target.size(), [0; 4]);

@@ -221,3 +221,51 @@ impl Assembler {
 pub fn crosses<V>(triangle: &[ClipVertex<V>; 3], plane: Plane) -> bool {
     triangle.iter().any(|vertex| plane.distance(vertex) < 0.0)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contract::Rasterize as _;
+    use crate::frame::Coverage;
+    use crate::oracle::Oracle;
+
+    fn vertex(x: f64, y: f64, z: f64, w: f64) -> ClipVertex<glam::DVec2> {
+        ClipVertex { position: DVec4::new(x, y, z, w), varying: glam::DVec2::ZERO }
+    }
+
+    /// The book multiplies by size - 1 and leaves the last row and column empty.
+    #[test]
+    fn a_quad_over_the_screen_covers_every_pixel() {
+        for (width, height) in [(1, 1), (7, 5), (64, 48), (1919, 3)] {
+            let bounds = PixelRect::window(width, height);
+            let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+            let [a, b, c, d] = corners.map(|(x, y)| vertex(x * 3.0, y * 3.0, 0.0, 3.0));
+            let mut hits = Coverage::new(bounds, 0);
+            let assembler = Assembler::new(bounds, Cull::Clockwise);
+            for triangle in [[a, b, c], [a, c, d]] {
+                assembler.assemble(&triangle, &mut Counters::default(), |piece| {
+                    Oracle.cover(piece.corners(), bounds, |s| hits.hit(s.y_px, s.x0_px, s.x1_px));
+                });
+            }
+            assert!(hits.rows().all(|(_, row)| row.iter().all(|&hit| hit == 1)));
+        }
+    }
+
+    #[test]
+    fn counters_say_what_became_of_a_triangle() {
+        let bounds = PixelRect::window(8, 8);
+        let count = |corners: [(f64, f64, f64, f64); 3], cull| {
+            let mut counters = Counters::default();
+            let triangle = corners.map(|(x, y, z, w)| vertex(x, y, z, w));
+            Assembler::new(bounds, cull).assemble(&triangle, &mut counters, |_| {});
+            [counters.rejected, counters.clipped, counters.pieces, counters.culled]
+        };
+        let inside = [(0.0, 0.0, 0.0, 1.0), (0.5, 0.0, 0.0, 1.0), (0.0, 0.5, 0.0, 1.0)];
+        assert_eq!(count(inside, Cull::None), [0, 0, 1, 0]);
+        assert_eq!(count(inside, Cull::CounterClockwise), [0, 0, 1, 1]);
+        let behind = inside.map(|(x, y, z, _)| (x, y, z, -1.0));
+        assert_eq!(count(behind, Cull::None), [1, 0, 0, 0]);
+        let crossing = [inside[0], inside[1], (0.0, 0.0, -3.0, 1.0)];
+        assert_eq!(count(crossing, Cull::None), [0, 1, 2, 0]);
+    }
+}

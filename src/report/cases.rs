@@ -7,10 +7,11 @@ use serde::Serialize;
 
 use crate::frame::Coverage;
 use crate::grid::PixelRect;
-use crate::hazard::named::{self, Input};
+use crate::hazard::named::Input;
 use crate::hazard::offgrid::{self, OffGridCase};
 use crate::hazard::{self, Case, Shape};
 use crate::lineup::{self, Engine, ExactEngine, LineEngine, Specimen};
+use crate::scene::named;
 use crate::specimen::catalogue::{CARDS, Exhibit, TriangleCase};
 use crate::specimen::{RealTriangle, RealVertex, from_screen};
 use crate::triangle::{ScreenTriangle, ScreenVertex};

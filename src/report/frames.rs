@@ -109,7 +109,8 @@ fn compare_depths(a: &Target, b: &Target) -> (u64, Vec<(i32, i32)>) {
 }
 
 /// What the colours of a map of effects mean; a pixel that pays for several shows their sum.
-pub const MAP_COLOURS: [(Effect, [u8; 3]); 5] = [
+pub const MAP_COLOURS: [(Effect, [u8; 3]); 6] = [
+    (Effect::Samples, [120, 60, 0]),
     (Effect::Perspective, [70, 0, 0]),
     (Effect::Depth, [0, 0, 110]),
     (Effect::Colour, [90, 90, 0]),

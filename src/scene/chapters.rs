@@ -172,8 +172,9 @@ fn clipped(scene: Scene, turn: f64) -> Scene {
 }
 
 fn frustum_scene(scene: Scene, turn: f64) -> Scene {
+    // Each plane leaves a side, and so do the three edges: a nonagon.
     let positions =
-        [DVec3::new(-14.0, -1.5, 9.0), DVec3::new(9.0, -12.0, 30.0), DVec3::new(3.0, 5.0, 0.2)];
+        [DVec3::new(7.4, 12.0, 24.5), DVec3::new(10.3, -11.3, 4.2), DVec3::new(-2.9, 2.1, 0.3)];
     with(scene, [turned(coloured(positions), AHEAD, DMat4::from_rotation_z(turn * TAU))])
 }
 

@@ -121,7 +121,7 @@ fn bad_input_is_refused_with_a_reason() {
 
 #[test]
 fn inspect_explains_named_cases() {
-    for named in rasterproof::hazard::named::named() {
+    for named in rasterproof::scene::named::named() {
         let (out, _) = check(&["inspect", named.name], 0);
         assert!(out.starts_with(&format!("{}: ", named.name)), "{out}");
     }

@@ -7,6 +7,13 @@ use std::collections::HashMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use rasterproof::hazard;
+use rasterproof::invariant::CATALOGUE;
+use rasterproof::scene::chapters::SCENES;
+use rasterproof::specimen::catalogue::CARDS;
+
+use crate::protocol::ask;
+
 fn root() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
 }
@@ -147,46 +154,228 @@ fn house_breaches_are_found() {
     assert!(breaches("raster/scanline.rs", "//! ok\nuse crate::grid::snap;", &floors).is_empty());
 }
 
+/// The README and the pages under `docs/`, with their text.
+fn pages() -> Vec<(PathBuf, String)> {
+    let mut pages = files(&root().join("docs"), "md");
+    pages.push(root().join("README.md"));
+    pages.into_iter().map(|page| (page.clone(), fs::read_to_string(page).unwrap())).collect()
+}
+
+/// The anchors that GitHub gives the headings of a page.
+fn anchors(text: &str) -> Vec<String> {
+    let heading = |line: &str| {
+        let words = line.strip_prefix('#')?.trim_start_matches('#').trim().to_lowercase();
+        let kept = words.chars().filter(|c| c.is_alphanumeric() || " -_".contains(*c));
+        Some(kept.map(|c| if c == ' ' { '-' } else { c }).collect())
+    };
+    text.lines().filter_map(heading).collect()
+}
+
+/// Links that lead nowhere: to a missing file, or a missing heading of a page.
+fn broken_links(page: &Path, text: &str) -> Vec<String> {
+    let mut broken = Vec::new();
+    for (at, _) in text.match_indices("](") {
+        let link = text[at + 2..].split([')', ' ']).next().unwrap_or("");
+        if link.contains("://") {
+            continue;
+        }
+        let (file, anchor) = link.split_once('#').unwrap_or((link, ""));
+        let target =
+            if file.is_empty() { page.to_owned() } else { page.parent().unwrap().join(file) };
+        let exists = target.exists();
+        let found = || anchors(&fs::read_to_string(&target).unwrap()).iter().any(|a| a == anchor);
+        if !exists || !anchor.is_empty() && !found() {
+            broken.push(format!("{}: {link}", page.display()));
+        }
+    }
+    broken
+}
+
 /// Links in the docs and the README lead somewhere.
 #[test]
 fn house_links_lead_somewhere() {
-    let mut pages = files(&root().join("docs"), "md");
-    pages.push(root().join("README.md"));
-    let mut broken = Vec::new();
-    for page in pages {
-        let text = fs::read_to_string(&page).unwrap();
-        for (at, _) in text.match_indices("](") {
-            let link = text[at + 2..].split([')', ' ', '#']).next().unwrap_or("");
-            if link.is_empty() || link.contains("://") {
-                continue;
-            }
-            if !page.parent().unwrap().join(link).exists() {
-                broken.push(format!("{}: {link}", page.display()));
-            }
-        }
-    }
+    let broken: Vec<_> = pages().iter().flat_map(|(page, text)| broken_links(page, text)).collect();
     assert!(broken.is_empty(), "{}", broken.join("\n"));
+    let page = root().join("docs/index.md");
+    let text = "[a](ch01.md#the-formula) [b](ch99.md) [c](ch01.md#nowhere)";
+    assert_eq!(broken_links(&page, text).len(), 2);
 }
 
-/// Tests, commands and cases that the docs name in backticks exist.
-#[test]
-fn house_docs_name_what_exists() {
-    let mut pages = files(&root().join("docs"), "md");
-    pages.push(root().join("README.md"));
-    let families: Vec<_> = rasterproof::hazard::families().map(|f| f.name).collect();
-    for page in pages {
-        let text = fs::read_to_string(&page).unwrap();
-        for (at, _) in text.match_indices("--family ") {
-            let name = text[at + 9..].split([' ', '`', '\n', ')']).next().unwrap_or("");
-            assert!(
-                name == "NAME" || families.contains(&name),
-                "{}: family {name}",
-                page.display()
-            );
-        }
-        for (at, _) in text.match_indices("`tests/") {
-            let file = text[at + 1..].split(['`', ' ']).next().unwrap_or("");
-            assert!(root().join(file).exists(), "{}: {file}", page.display());
+/// What stands in backticks.
+fn quoted(text: &str) -> impl Iterator<Item = &str> {
+    text.lines().flat_map(|line| line.split('`').skip(1).step_by(2))
+}
+
+/// The text from a heading to the next one of its level.
+fn section<'a>(text: &'a str, heading: &str) -> &'a str {
+    let Some(at) = text.find(&format!("## {heading}\n")) else { return "" };
+    let rest = &text[at + 3..];
+    &rest[..rest.find("\n## ").unwrap_or(rest.len())]
+}
+
+/// Cells of the rows of the tables of a text.
+fn rows(text: &str) -> impl Iterator<Item = Vec<&str>> {
+    let rows = text.lines().filter(|line| line.starts_with("| "));
+    rows.map(|line| line.split(" | ").map(|cell| cell.trim_matches(['|', ' '])).collect())
+}
+
+fn is_snake(word: &str) -> bool {
+    word.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_')
+        && word.starts_with(|c: char| c.is_ascii_lowercase())
+}
+
+/// Words that a page's commands give after an option.
+fn options<'a>(text: &'a str, option: &'a str) -> impl Iterator<Item = &'a str> {
+    let ends = [' ', '`', '\n', ')', '|'];
+    text.match_indices(option)
+        .map(move |(at, _)| text[at + option.len()..].split(ends).next().unwrap_or(""))
+}
+
+/// What a page may name.
+struct Known {
+    /// Everything under `src/`, `tests/` and `benches/`, in one text.
+    code: String,
+    invariants: Vec<&'static str>,
+    /// Options of commands, with the names they take.
+    options: [(&'static str, Vec<&'static str>); 4],
+}
+
+impl Known {
+    fn new() -> Self {
+        let folders = ["src", "tests", "benches"];
+        let sources = folders.iter().flat_map(|folder| files(&root().join(folder), "rs"));
+        let invariants: Vec<_> = CATALOGUE.iter().map(|invariant| invariant.name).collect();
+        Self {
+            code: sources.map(|path| fs::read_to_string(path).unwrap()).collect(),
+            options: [
+                ("--family ", hazard::families().map(|family| family.name).collect()),
+                ("--scene ", SCENES.iter().map(|scene| scene.name).collect()),
+                ("--specimen ", CARDS.iter().map(|card| card.name).collect()),
+                ("--invariant ", [invariants.clone(), vec!["all"]].concat()),
+            ],
+            invariants,
         }
     }
+
+    /// Tests are functions, or invariants with underscores.
+    fn is_test(&self, word: &str) -> bool {
+        self.code.contains(&format!("fn {word}("))
+            || self.invariants.contains(&word.replace('_', "-").as_str())
+    }
+
+    /// What a page names and is not there.
+    fn missing(&self, name: &str, text: &str) -> Vec<String> {
+        let mut missing = Vec::new();
+        for (option, names) in &self.options {
+            let words = options(text, option).filter(|w| *w != "NAME" && !names.contains(w));
+            missing.extend(words.map(|word| format!("{name}: {option}{word}")));
+        }
+        let folders = ["src/", "tests/", "docs/", "snapshots/", "benches/"];
+        let is_path =
+            |w: &&str| folders.iter().any(|f| w.starts_with(f)) && !w.contains([' ', '*']);
+        let paths = quoted(text).filter(is_path).filter(|word| !root().join(word).exists());
+        missing.extend(paths.map(|word| format!("{name}: {word}")));
+        let index = rows(text).filter(|row| row.len() == 6).map(|row| row[3].to_owned());
+        let index: String = index.filter(|_| name == "docs/index.md").collect();
+        for part in [section(text, "The test that proves it"), &index] {
+            let words = quoted(part).filter(|word| is_snake(word) && !self.is_test(word));
+            missing.extend(words.map(|word| format!("{name}: test {word}")));
+        }
+        missing
+    }
+}
+
+/// Tests, commands, cases and paths that the docs name exist.
+#[test]
+fn house_docs_name_what_exists() {
+    let known = Known::new();
+    let name = |page: &Path| page.strip_prefix(root()).unwrap().display().to_string();
+    let pages = pages();
+    let missing = pages.iter().flat_map(|(page, text)| known.missing(&name(page), text));
+    let missing: Vec<_> = missing.collect();
+    assert!(missing.is_empty(), "{}", missing.join("\n"));
+}
+
+/// Each kind of name that leads nowhere is found.
+#[test]
+fn house_missing_names_are_found() {
+    let known = Known::new();
+    let page = "`src/nowhere.rs` `src/grid.rs` --scene moon --scene cube\n\
+        ## The test that proves it\n- `proves_nothing`, `crop`, `snap_by_hand`\n";
+    let missing = known.missing("docs/a.md", page);
+    let names = ["--scene moon", "src/nowhere.rs", "test proves_nothing"];
+    assert_eq!(missing, names.map(|name| format!("docs/a.md: {name}")));
+    let table = "| [1.1](ch01.md) | pixel | code | `proves_nothing` |  |  |\n";
+    assert_eq!(known.missing("docs/index.md", table), ["docs/index.md: test proves_nothing"]);
+}
+
+/// The sections of the book, by its table of contents.
+const SECTIONS: &str = "1.1 1.2 1.3 1.4 1.5 1.5.1 1.5.2 1.6 2.1 2.2 3.1 3.2 3.2.1 3.2.2 3.2.3 3.2.4 \
+    3.2.5 3.3 4.1 4.2 4.2.1 4.2.2 4.2.3 5.1 5.2 5.3 5.4 5.5 5.5.1 5.5.2 5.5.3 5.5.4 6.1 6.2 7.1 7.2 \
+    7.3 7.4 7.5 7.5.1 8.1 8.2 8.3 8.4 9.1 9.2 9.3 9.4 9.4.1 9.4.2 10.1 10.2 10.3 10.4 10.5 10.6 11.1 \
+    11.2 11.3 11.4";
+
+/// Every section of the book has a row in the index, which leads to the page of its chapter; that
+/// page names the section. Code, snapshots and specimens of the rows exist.
+#[test]
+fn house_index_has_every_section() {
+    let text = fs::read_to_string(root().join("docs/index.md")).unwrap();
+    let table = section(&text, "From the book to the code");
+    let specimens: Vec<_> = CARDS.iter().map(|card| card.name).collect();
+    let mut listed = Vec::new();
+    for row in rows(table).filter(|row| row[0] != "section") {
+        assert_eq!(row.len(), 6, "{row:?}");
+        let numbers = row[0].split(", ").filter_map(|cell| cell.strip_prefix('['));
+        listed.extend(numbers.filter_map(|cell| cell.split_once("](")));
+        for name in quoted(row[5]) {
+            assert!(specimens.contains(&name), "{name} is no specimen");
+        }
+        assert!(row[4].is_empty() || row[4].contains("../snapshots/"), "{row:?}");
+    }
+    for section in SECTIONS.split_whitespace() {
+        let chapter = section.split('.').next().unwrap().parse::<u32>().unwrap();
+        let page = format!("ch{chapter:02}.md");
+        let link = format!("{page})");
+        assert!(listed.contains(&(section, link.as_str())), "{section} is not in the index");
+        let text = fs::read_to_string(root().join("docs").join(&page)).unwrap();
+        let mut words = text.split(|c: char| !(c.is_ascii_digit() || c == '.'));
+        assert!(words.any(|word| word.trim_matches('.') == section), "{page} lacks {section}");
+    }
+    for (section, _) in &listed {
+        assert!(SECTIONS.split_whitespace().any(|s| s == *section), "{section} is not in the book");
+    }
+    let used: Vec<_> = rows(table).flat_map(|row| quoted(row[5]).collect::<Vec<_>>()).collect();
+    for name in specimens {
+        assert!(used.contains(&name), "no section leads to the specimen {name}");
+    }
+}
+
+/// The table of invariants says what the catalogue says.
+#[test]
+fn house_stability_lists_the_invariants() {
+    let text = fs::read_to_string(root().join("docs/stability.md")).unwrap();
+    let text = text.replace("\\|", "/");
+    let table: Vec<_> = rows(section(&text, "The invariants")).collect();
+    for invariant in CATALOGUE {
+        let wanted = [
+            invariant.number.to_string(),
+            format!("`{}`", invariant.name),
+            invariant.statement.replace('|', "/"),
+            invariant.tolerance.replace('|', "/"),
+        ];
+        assert!(table.iter().any(|row| row[..4] == wanted), "docs/stability.md lacks {wanted:?}");
+    }
+}
+
+/// The conversation on the page of the protocol is what an engine says.
+#[test]
+fn house_protocol_is_spoken() {
+    let text = fs::read_to_string(root().join("docs/protocol.md")).unwrap();
+    let lines = |sign: &str| -> Vec<String> {
+        let spoken = section(&text, "A conversation").lines();
+        spoken.filter_map(|line| line.strip_prefix(sign).map(str::to_owned)).collect()
+    };
+    let (requests, answers) = (lines("> "), lines("< "));
+    assert!(requests.len() >= 5);
+    assert_eq!(ask("scanline", (requests.join("\n") + "\n").as_bytes()), answers);
 }

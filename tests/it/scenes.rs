@@ -4,6 +4,8 @@
 use std::sync::Arc;
 
 use glam::{DMat4, DVec3, DVec4};
+use proptest::prelude::*;
+use proptest::test_runner::Config;
 use rasterproof::effects::render::Rendered;
 use rasterproof::effects::{Effect, Effects, Mode};
 use rasterproof::lineup::Drawer;
@@ -319,4 +321,45 @@ fn torture_is_the_same_by_both() {
             assert!(comparison.agrees(), "{k} {antialias:?}: {comparison:?}");
         }
     }
+}
+
+proptest! {
+    #![proptest_config(Config { failure_persistence: None, ..Config::default() })]
+
+    /// The same over other random scenes; a failure shrinks to fewer items.
+    #[test]
+    fn any_scene_planned_changes_no_bit(index in any::<u32>(), items in 1..6usize, kind in 0..4usize) {
+        let mut scene = random::scene(2, index.into());
+        scene.items.truncate(items);
+        for drawer in Drawer::ALL {
+            let whole = draw(&scene, drawer, Effects::ALWAYS, SMOOTHINGS[kind]).picture;
+            let planned = draw(&scene, drawer, Effects::PLANNED, SMOOTHINGS[kind]).picture;
+            prop_assert!(planned == whole, "{} of random scene {index}", drawer.name());
+        }
+    }
+}
+
+#[test]
+fn map_shows_what_pixels_pay_for() {
+    let check = |name: &str, antialias: Antialias, effect: Effect, expected: u64| {
+        let scene = scene(name, 4.0 / 3.0, 0.0).unwrap();
+        let (rendered, map) = Drawer::Scanline
+            .render_mapped(&scene, &Effects::PLANNED, &mut target(antialias))
+            .unwrap();
+        let paying = map.rows().flat_map(|(_, row)| row).filter(|p| **p & 1 << effect as u16 != 0);
+        assert_eq!(paying.count() as u64, expected, "{name} {}", effect.name());
+        rendered
+    };
+    let over = Antialias::Supersample(4);
+    let facets = scene("facets", 4.0 / 3.0, 0.0).unwrap();
+    let apart = draw(&facets, Drawer::Scanline, Effects::PLANNED, over).counters.expanded;
+    assert!(apart > 100 && apart < 2000, "{apart}");
+    check("facets", over, Effect::Samples, apart);
+    check("facets", over, Effect::Texture, 0);
+    check("panels", Antialias::None, Effect::Depth, 0);
+    // The floor and two spheres: all that is not background.
+    let rendered = check("everything", Antialias::None, Effect::Cull, 0);
+    let background = rendered.picture.get(0, 0).unwrap();
+    let drawn = rendered.picture.rows().flat_map(|(_, row)| row).filter(|c| **c != background);
+    check("everything", Antialias::None, Effect::Texture, drawn.count() as u64);
 }

@@ -11,13 +11,14 @@ use insta::{Comparator, Settings, Snapshot};
 use rasterproof::contract::Interpolate;
 use rasterproof::frame::{Coverage, Frame};
 use rasterproof::grid::{PixelRect, SubpixelPoint};
-use rasterproof::hazard::named::{Input, NamedCase, find, named};
+use rasterproof::hazard::named::{Input, NamedCase};
 use rasterproof::hazard::{Case, Shape};
 use rasterproof::lineup::{Engine, LineEngine};
 use rasterproof::mutant::TriangleMutant;
 use rasterproof::raster::edge_function::EdgeFunction;
 use rasterproof::raster::scanline::Scanline;
 use rasterproof::report::{ascii, picture};
+use rasterproof::scene::named::{find, named};
 use rasterproof::triangle::{ScreenTriangle, ScreenVertex};
 use rasterproof::verify::{
     Tally, engine_coverage, judge_case, line_coverage, oracle_coverage, oracle_pixels_each,
