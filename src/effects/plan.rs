@@ -20,7 +20,7 @@
 use super::render::{Piece, PiecePlan, Prepared, bit, is_lit};
 use super::{Effect, Effects, Mode};
 use crate::contract::Rasterize;
-use crate::grid::{PixelRect, SUBPIXEL_BITS, SubpixelPoint};
+use crate::grid::{HALF_PIXEL, PixelRect, SUBPIXEL_BITS, SubpixelPoint};
 use crate::pipeline::Counters;
 use crate::pipeline::assemble::Cull;
 use crate::pipeline::target::{Antialias, Target};
@@ -97,7 +97,7 @@ fn units(pieces: &[(usize, Piece)], margin_px: i32) -> Vec<Unit> {
     units
 }
 
-/// Pixels that a triangle may touch.
+/// Pixels that a triangle may touch: those whose centres lie in [min, max), by the fill rule.
 fn pixel_box(corners: &Corners, margin_px: i32) -> PixelRect {
     let range = |coordinate: fn(&SubpixelPoint) -> i32| {
         let (min, max) = corners
@@ -105,7 +105,8 @@ fn pixel_box(corners: &Corners, margin_px: i32) -> PixelRect {
             .map(coordinate)
             .fold((i32::MAX, i32::MIN), |(min, max), c| (min.min(c), max.max(c)));
         // Pieces lie in the window, far from the ends of i32.
-        ((min >> SUBPIXEL_BITS) - margin_px, (max >> SUBPIXEL_BITS) + 1 + margin_px)
+        let first = |sub: i32| (sub + HALF_PIXEL - 1) >> SUBPIXEL_BITS;
+        (first(min) - margin_px, first(max) + margin_px)
     };
     let ((x0, x1), (y0, y1)) = (range(|corner| corner.x), range(|corner| corner.y));
     PixelRect { x0, y0, x1, y1 }
