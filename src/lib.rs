@@ -8,6 +8,10 @@
 //! [`line::bresenham`]; corners that are not snapped through [`raster::scanline_exact`] and
 //! [`raster::edge_function_exact`].
 //!
+//! Scenes travel through [`pipeline`] and [`effects`] by either rasterizer, and the pictures are
+//! compared; [`cost`] measures what each step of accuracy takes. The pages under `docs/` follow the
+//! chapters of a textbook; `docs/index.md` is where to begin.
+//!
 //! Judge a rasterizer of your own in ten lines:
 //!
 //! ```

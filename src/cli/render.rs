@@ -14,8 +14,10 @@ use crate::effects::render::Rendered;
 use crate::effects::{Effect, Mode};
 use crate::frame::Frame;
 use crate::lineup::Drawer;
+use crate::pipeline::Counters;
 use crate::pipeline::assemble::Cull;
 use crate::pipeline::depth::DepthFormat;
+use crate::pipeline::present::DoubleBuffer;
 use crate::pipeline::shade::Light;
 use crate::pipeline::target::{Antialias, Colour, Target, check_size};
 use crate::pipeline::transform::{about, look_at, perspective};
@@ -514,7 +516,7 @@ fn map(
     Ok(exit::AGREES)
 }
 
-/// Frames of a full turn, into one GIF. Each is drawn into the back buffer and shown when finished.
+/// Frames of a full turn, into one GIF, which sees the front buffer alone: finished frames.
 fn spin(
     arguments: &RenderArguments,
     maker: &Maker,
@@ -528,6 +530,8 @@ fn spin(
     );
     let mut bytes = Vec::new();
     let mut wrong = 0;
+    let mut screen = DoubleBuffer::new(arguments.what.target()?);
+    let mut counters = Counters::default();
     {
         let mut encoder = GifEncoder::new_with_speed(&mut bytes, 10);
         let failed = |error: image::ImageError| usage(format!("the GIF: {error}"));
@@ -536,7 +540,11 @@ fn spin(
             let scene = maker.scene(f64::from(frame) / f64::from(frames));
             let drawings = draw(arguments, &scene)?;
             wrong += compare(&drawings).map_or(0, |c| c.wrong_pixels + c.wrong_depths);
-            let picture = rgba(&drawings[0].rendered.picture);
+            if let Some(first) = drawings.into_iter().next() {
+                screen.back = first.target;
+                screen.present(first.rendered.picture, &mut counters);
+            }
+            let picture = rgba(screen.front());
             let delay = image::Delay::from_saturating_duration(Duration::from_millis(40));
             let frame = image::Frame::from_parts(picture, 0, 0, delay);
             encoder.encode_frame(frame).map_err(failed)?;

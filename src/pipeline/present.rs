@@ -25,9 +25,9 @@ impl DoubleBuffer {
         &self.front
     }
 
-    /// Shows the finished frame.
-    pub fn present(&mut self, counters: &mut Counters) {
-        self.front = self.back.resolve();
+    /// Shows a finished frame: what was drawn into the back buffer, resolved.
+    pub fn present(&mut self, finished: Frame<Colour>, counters: &mut Counters) {
+        self.front = finished;
         let size = self.front.bounds();
         counters.presented += u64::from(size.width()) * u64::from(size.height());
     }
@@ -50,7 +50,7 @@ mod tests {
         assert!(buffers.back.resolve() != before);
         assert!(*buffers.front() == before);
         buffers.back.planes[0].write(1, 0, [8, 8, 8, 255]);
-        buffers.present(&mut counters);
+        buffers.present(buffers.back.resolve(), &mut counters);
         assert!(*buffers.front() == buffers.back.resolve());
         assert_eq!(counters.presented, 2);
     }
