@@ -265,16 +265,14 @@ fn item_decisions(
         let reason = match (used, varies) {
             (false, _) => format!("the material has no {what}"),
             (true, 0) => format!("{what}: one for each triangle"),
-            (true, _) => format!("{what}: differs between corners in {varies} of {pieces} pieces"),
+            (true, _) => format!("{what}: varies in {varies} of {pieces} pieces"),
         };
         decision(effect, if read { pieces } else { 0 }, if read { 0 } else { pieces }, reason)
     };
     let varying = colours.max(normals).max(uvs);
     let perspective = match (varying, one_w == pieces, scene.affine) {
         (_, _, true) => "the scene asks for affine interpolation".to_owned(),
-        (0, ..) => {
-            "nothing varies within a piece but depth, which is linear in the window".to_owned()
-        }
+        (0, ..) => "only depth varies, which is linear in the window".to_owned(),
         (_, true, _) => "w is the same at the three corners of every piece".to_owned(),
         _ => format!("w differs between corners in {} of {pieces} pieces", pieces - one_w),
     };
@@ -290,8 +288,7 @@ fn item_decisions(
     };
     let culls = if item.cull == Cull::None { 0 } else { pieces };
     let has_colour = material.vertex_colours || material.shading == Shading::Gouraud;
-    let constant =
-        format!("{varying} of {pieces} pieces have an attribute that differs between corners");
+    let constant = format!("{varying} of {pieces} pieces have an attribute that varies");
     [
         decision(Effect::Cull, culls, pieces - culls, cull),
         decision(Effect::Perspective, pieces - affine, affine, perspective),
@@ -313,13 +310,30 @@ fn frame_decisions(scene: &Scene, counters: &Counters) -> impl Iterator<Item = D
     };
     let tests = counters.plane_tests;
     [
-        decision(Effect::Clip, if tests > 0 { clipped.max(1) } else { 0 }, triangles - clipped, clip),
-        decision(Effect::Samples, expanded, 0, format!("{expanded} pixels were told apart into samples")),
-        decision(Effect::Clear, cleared, 0, format!(
-            "{cleared} samples of colour and depth were cleared of what {} items do not cover or test",
-            scene.items.len()
-        )),
-        decision(Effect::SecondBuffer, presented, 0, "the picture is looked at when it is finished"),
+        decision(
+            Effect::Clip,
+            if tests > 0 { clipped.max(1) } else { 0 },
+            triangles - clipped,
+            clip,
+        ),
+        decision(
+            Effect::Samples,
+            expanded,
+            0,
+            format!("{expanded} pixels were told apart into samples"),
+        ),
+        decision(
+            Effect::Clear,
+            cleared,
+            0,
+            format!("{cleared} samples of colours and depths, for {} items", scene.items.len()),
+        ),
+        decision(
+            Effect::SecondBuffer,
+            presented,
+            0,
+            "the picture is looked at when it is finished",
+        ),
     ]
     .into_iter()
 }
