@@ -10,9 +10,7 @@
 use std::ops::AddAssign;
 
 use crate::grid::PixelRect;
-use crate::triangle::{
-    Corners, Fragment, FreeCorners, ScreenLine, ScreenTriangle, ScreenVertex, Span, Varying,
-};
+use crate::triangle::{Corners, Fragment, FreeCorners, ScreenLine, ScreenTriangle, Span, Varying};
 
 /// Decides which pixels of a window a triangle covers.
 pub trait Rasterize {
@@ -22,6 +20,11 @@ pub trait Rasterize {
     /// Covered means: strictly inside, or on a top or left edge. Winding does not matter, and a
     /// triangle of zero area covers nothing. Total for all inputs.
     fn cover(&self, corners: Corners, bounds: PixelRect, emit: impl FnMut(Span));
+
+    /// Bits of the integers that decide this triangle, where the engine has several to choose from.
+    fn word_bits(&self, _corners: &Corners) -> Option<u32> {
+        None
+    }
 }
 
 /// Decides which pixels of a window a triangle covers whose corners are not snapped to the lattice.
@@ -79,8 +82,7 @@ pub trait Interpolate: Rasterize {
         bounds: PixelRect,
         emit: impl FnMut(Fragment<V>),
     ) {
-        let vertices = triangle.vertices.map(|vertex| ScreenVertex { inv_w: 1.0, ..vertex });
-        self.fragments(&ScreenTriangle { vertices }, bounds, emit);
+        self.fragments(&triangle.with_equal_w(), bounds, emit);
     }
 }
 

@@ -4,16 +4,22 @@
 use glam::DVec2;
 
 use crate::contract::{Decisions, DrawLine, Interpolate, Rasterize, RasterizeExact};
-use crate::effects::Effects;
 use crate::effects::render::{self, BadScene, Rendered};
+use crate::effects::{Effect, Effects, Mode};
 use crate::frame::Frame;
 use crate::grid::PixelRect;
 use crate::line::{bresenham::Bresenham, dda::Dda};
 use crate::mutant::{LineMutant, TriangleMutant, exact::ExactMutant};
 use crate::oracle::Oracle;
-use crate::pipeline::target::Target;
+use crate::pipeline::present::DoubleBuffer;
+use crate::pipeline::target::{Colour, Target};
 use crate::raster::{
-    edge_function::EdgeFunction, edge_function_exact::EdgeFunctionExact, scanline::Scanline,
+    edge_function::{
+        EdgeFunction,
+        words::{EdgeFunctionIn, Words},
+    },
+    edge_function_exact::EdgeFunctionExact,
+    scanline::Scanline,
     scanline_exact::ScanlineExact,
 };
 use crate::scene::Scene;
@@ -191,7 +197,7 @@ impl Drawer {
     ) -> Result<Rendered, BadScene> {
         match self {
             Self::Scanline => render::render(scene, &Scanline, effects, target),
-            Self::EdgeFunction => render::render(scene, &EdgeFunction, effects, target),
+            Self::EdgeFunction => render::render(scene, &in_words(effects), effects, target),
         }
     }
 
@@ -207,7 +213,26 @@ impl Drawer {
     ) -> Result<(Rendered, Frame<u16>), BadScene> {
         match self {
             Self::Scanline => render::render_mapped(scene, &Scanline, effects, target),
-            Self::EdgeFunction => render::render_mapped(scene, &EdgeFunction, effects, target),
+            Self::EdgeFunction => render::render_mapped(scene, &in_words(effects), effects, target),
+        }
+    }
+
+    /// As [`crate::effects::render::render_watched`].
+    ///
+    /// # Errors
+    /// As there.
+    pub fn render_watched(
+        self,
+        scene: &Scene,
+        effects: &Effects,
+        screen: &mut DoubleBuffer,
+        look: &mut dyn FnMut(&Frame<Colour>),
+    ) -> Result<Rendered, BadScene> {
+        match self {
+            Self::Scanline => render::render_watched(scene, &Scanline, effects, screen, look),
+            Self::EdgeFunction => {
+                render::render_watched(scene, &in_words(effects), effects, screen, look)
+            }
         }
     }
 
@@ -225,6 +250,15 @@ impl Drawer {
             Self::EdgeFunction => render::render_wireframe(scene, &Bresenham, target),
         }
     }
+}
+
+/// The edge-function engine in the words that the effects ask for.
+fn in_words(effects: &Effects) -> EdgeFunctionIn {
+    EdgeFunctionIn(match effects.mode(Effect::WideWords) {
+        Mode::Planned => Words::Narrowest,
+        Mode::Always => Words::Widest,
+        Mode::Never => Words::Narrow,
+    })
 }
 
 /// A rasterizer of the line-up for corners that are not snapped.

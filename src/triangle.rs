@@ -141,6 +141,12 @@ impl<V: Copy> ScreenTriangle<V> {
     pub fn corners(&self) -> Corners {
         self.vertices.map(|vertex| vertex.position)
     }
+
+    /// The same at w = 1, where interpolation in the window is that in space.
+    #[must_use]
+    pub fn with_equal_w(&self) -> Self {
+        Self { vertices: self.vertices.map(|vertex| ScreenVertex { inv_w: 1.0, ..vertex }) }
+    }
 }
 
 /// A run of pixels in one row, x1 exclusive.

@@ -12,7 +12,7 @@
 
 pub mod plan;
 pub mod render;
-mod supersample;
+mod samples;
 
 use std::fmt;
 use std::str::FromStr;
@@ -25,10 +25,14 @@ pub enum Effect {
     Clip,
     /// Asking for the winding.
     Cull,
+    /// Deciding coverage in integers of more than 32 bits.
+    WideWords,
     /// The division by 1/w in each fragment.
     Perspective,
     /// Comparing with the depth buffer and writing to it.
     Depth,
+    /// Having a depth buffer at all: clearing it before the frame.
+    DepthBuffer,
     /// The colours of corners.
     Colour,
     /// Light, and the normals it needs.
@@ -37,9 +41,9 @@ pub enum Effect {
     Texture,
     /// Interpolating an attribute, and computing what depends on it, in each fragment.
     Interpolation,
-    /// Telling the samples of a supersampled pixel apart.
+    /// Telling the samples of a supersampled or multisampled pixel apart.
     Samples,
-    /// Clearing colour and depth before the frame.
+    /// Clearing the colours before the frame.
     Clear,
     /// A front buffer that never shows an unfinished frame.
     SecondBuffer,
@@ -47,11 +51,13 @@ pub enum Effect {
 
 impl Effect {
     /// All effects, in the order of the pipeline.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 13] = [
         Self::Clip,
         Self::Cull,
+        Self::WideWords,
         Self::Perspective,
         Self::Depth,
+        Self::DepthBuffer,
         Self::Colour,
         Self::Light,
         Self::Texture,
@@ -67,8 +73,10 @@ impl Effect {
         match self {
             Self::Clip => "clip",
             Self::Cull => "cull",
+            Self::WideWords => "wide-words",
             Self::Perspective => "perspective",
             Self::Depth => "depth",
+            Self::DepthBuffer => "depth-buffer",
             Self::Colour => "colour",
             Self::Light => "light",
             Self::Texture => "texture",

@@ -5,16 +5,19 @@
 //!   return the triangle as it is.
 //! - **Perspective**: the three 1/w are bit-equal. Then the weights are exactly those of affine
 //!   interpolation, see [`crate::contract::Interpolate::affine_fragments`].
+//! - **Wide words**: 32 bits hold the edge functions of the triangle, which its bounding box says
+//!   ([`crate::raster::edge_function::WordWidth`]).
 //! - **Depth test**: no other piece has a bounding box that meets this one's (two pieces on either
 //!   side of an edge they share meet nowhere, by the fill rule). Then nothing is in front of it,
 //!   and it is in front of nothing. The clear value is farther than every depth.
 //! - **Colour, light, texture**: the material does not use it; the factor left out is exactly 1.
 //! - **Interpolation**: the attribute has the same bits at the three corners. The rasterizers
 //!   return a constant exactly, so what is computed from it once is what every fragment would get.
-//! - **Samples**: the pixel lies inside the triangle with all its samples, the triangle has one
-//!   colour, and its depths there and those of what is there do not overlap ([`super::render`]).
-//! - **Clear**: colours, where the first piece covers all four corner pixels of a tile: what a
-//!   triangle covers is convex, so it covers the tile. Depths, where no piece is tested.
+//! - **Depth buffer**: no piece is tested.
+//! - **Samples**: the pixel lies inside the triangle with all its samples, which gives it one colour,
+//!   and its depths there and those of what is there do not overlap (`samples`).
+//! - **Clear**: the first piece covers all four corner pixels of a tile: what a triangle covers is
+//!   convex, so it covers the tile.
 //! - **Second buffer**: the picture is looked at when it is finished.
 
 use super::render::{Piece, PiecePlan, Prepared, bit, is_lit};
@@ -22,7 +25,7 @@ use super::{Effect, Effects, Mode};
 use crate::contract::Rasterize;
 use crate::grid::{HALF_PIXEL, PixelRect, SUBPIXEL_BITS, SubpixelPoint};
 use crate::pipeline::Counters;
-use crate::pipeline::assemble::Cull;
+use crate::pipeline::assemble::{Cull, twice_area};
 use crate::pipeline::target::{Antialias, Target};
 use crate::scene::{Hidden, Scene, Shading};
 use crate::triangle::Corners;
@@ -104,9 +107,8 @@ fn pixel_box(corners: &Corners, margin_px: i32) -> PixelRect {
             .iter()
             .map(coordinate)
             .fold((i32::MAX, i32::MIN), |(min, max), c| (min.min(c), max.max(c)));
-        // Pieces lie in the window, far from the ends of i32.
-        let first = |sub: i32| (sub + HALF_PIXEL - 1) >> SUBPIXEL_BITS;
-        (first(min) - margin_px, first(max) + margin_px)
+        let first = |sub: i32| (i64::from(sub) + i64::from(HALF_PIXEL - 1)) >> SUBPIXEL_BITS;
+        (first(min) as i32 - margin_px, first(max) as i32 + margin_px)
     };
     let ((x0, x1), (y0, y1)) = (range(|corner| corner.x), range(|corner| corner.y));
     PixelRect { x0, y0, x1, y1 }
@@ -121,10 +123,7 @@ fn share_an_edge(a: &Corners, b: &Corners) -> bool {
     let (Some(third_a), Some(third_b)) = (third_a, third_b) else { return false };
     let mut shared = a.iter().filter(|corner| *corner != third_a);
     let (Some(p), Some(q)) = (shared.next(), shared.next()) else { return false };
-    let side = |r: &SubpixelPoint| {
-        let [px, py, qx, qy, rx, ry] = [p.x, p.y, q.x, q.y, r.x, r.y].map(i128::from);
-        ((qx - px) * (ry - py) - (qy - py) * (rx - px)).signum()
-    };
+    let side = |r: &SubpixelPoint| twice_area([*p, *q, *r]).signum();
     side(third_a) * side(third_b) < 0
 }
 
@@ -182,17 +181,28 @@ pub(super) struct Tally {
     one_w: u64,
     affine: u64,
     depth: u64,
+    /// Whether the engine has words of several widths, and the pieces in more than 32 bits.
+    has_widths: bool,
+    wide: u64,
     /// Pieces in which the attribute is carried and varies: colour, normal, texture coordinates.
     varies: [u64; 3],
 }
 
 impl Tally {
-    pub(super) fn count(&mut self, piece: &Piece, reads: u8, plan: PiecePlan) {
+    pub(super) fn count(
+        &mut self,
+        piece: &Piece,
+        reads: u8,
+        plan: PiecePlan,
+        word_bits: Option<u32>,
+    ) {
         let [a, b, c] = piece.vertices.map(|vertex| vertex.inv_w);
         self.pieces += 1;
         self.one_w += u64::from(a == b && b == c);
         self.affine += u64::from(plan.affine || reads == 0);
         self.depth += u64::from(plan.depth);
+        self.has_widths = word_bits.is_some();
+        self.wide += u64::from(word_bits > Some(i32::BITS));
         for (count, bit) in self.varies.iter_mut().zip([bit::COLOUR, bit::NORMAL, bit::UV]) {
             *count += u64::from(plan.varies & bit != 0);
         }
@@ -206,9 +216,10 @@ pub struct Decision {
     pub effect: Effect,
     /// The item it is about; of the whole frame where there is none.
     pub item: Option<usize>,
-    /// Pieces (pixels, for samples and clear) that pay for it.
+    /// Pieces that pay for it; triangles for clip, pixels for samples and the second buffer, samples
+    /// for clear and the depth buffer.
     pub on: u64,
-    /// Pieces that do without.
+    /// Those that do without.
     pub off: u64,
     /// Why, to read.
     pub reason: String,
@@ -227,6 +238,7 @@ impl Plan {
         items: &[Prepared<'_>],
         tallies: &[Tally],
         effects: &Effects,
+        target: &Target,
         counters: &Counters,
     ) -> Self {
         let mut decisions = Vec::new();
@@ -236,7 +248,7 @@ impl Plan {
                 decision
             }));
         }
-        decisions.extend(frame_decisions(scene, counters));
+        decisions.extend(frame_decisions(scene, effects, target, counters));
         for decision in &mut decisions {
             match effects.mode(decision.effect) {
                 Mode::Planned => {}
@@ -257,7 +269,8 @@ fn item_decisions(
     prepared: &Prepared<'_>,
     tally: &Tally,
 ) -> impl Iterator<Item = Decision> {
-    let Tally { pieces, one_w, affine, depth, varies: [colours, normals, uvs] } = *tally;
+    let Tally { pieces, one_w, affine, depth, has_widths, wide, varies } = *tally;
+    let [colours, normals, uvs] = varies;
     let item = prepared.item;
     let material = &item.material;
     let attribute = |effect, bit: u8, varies: u64, used: bool, what: &str| {
@@ -287,10 +300,16 @@ fn item_decisions(
         Cull::CounterClockwise => "asked for: counter-clockwise pieces are left out",
     };
     let culls = if item.cull == Cull::None { 0 } else { pieces };
+    let words = match (has_widths, wide) {
+        (false, _) => "the engine's integers have one width".to_owned(),
+        (_, 0) => "32 bits hold the edge functions of every piece".to_owned(),
+        _ => format!("{wide} of {pieces} pieces are too large for 32 bits"),
+    };
     let has_colour = material.vertex_colours || material.shading == Shading::Gouraud;
     let constant = format!("{varying} of {pieces} pieces have an attribute that varies");
     [
         decision(Effect::Cull, culls, pieces - culls, cull),
+        decision(Effect::WideWords, wide, pieces - wide, words),
         decision(Effect::Perspective, pieces - affine, affine, perspective),
         decision(Effect::Depth, depth, pieces - depth, depth_reason),
         attribute(Effect::Colour, bit::COLOUR, colours, has_colour, "colour of the corners"),
@@ -301,39 +320,51 @@ fn item_decisions(
     .into_iter()
 }
 
-fn frame_decisions(scene: &Scene, counters: &Counters) -> impl Iterator<Item = Decision> {
-    let Counters { triangles, clipped, rejected, expanded, cleared, presented, .. } = *counters;
+fn frame_decisions(
+    scene: &Scene,
+    effects: &Effects,
+    target: &Target,
+    counters: &Counters,
+) -> impl Iterator<Item = Decision> {
+    let Counters { triangles, clipped, rejected, expanded, cleared, .. } = *counters;
     let clip = match (clipped, rejected) {
         (0, 0) => "no corner lies outside the view volume".to_owned(),
         (0, _) => format!("{rejected} triangles lie outside one plane altogether; none is cut"),
         _ => format!("{clipped} of {triangles} triangles cross a plane, {rejected} lie outside"),
     };
-    let tests = counters.plane_tests;
+    let clips = match effects.mode(Effect::Clip) {
+        Mode::Planned => clipped,
+        Mode::Always => triangles - rejected,
+        Mode::Never => 0,
+    };
+    let pixels = u64::from(target.size().width()) * u64::from(target.size().height());
+    let samples = match target.antialias() {
+        Antialias::None => "a pixel has one sample".to_owned(),
+        _ if expanded == 0 => "no pixel holds more than one colour".to_owned(),
+        _ => format!("{expanded} of {pixels} pixels may hold more than one colour"),
+    };
+    let clear = match cleared {
+        0 => "every tile is covered by what is drawn first",
+        _ if cleared < target.sample_count() => "the rest is covered, or cleared pixel by pixel",
+        _ => "nothing that is drawn first covers a tile",
+    };
+    let depths = match (scene.hidden, counters.depth_tests) {
+        (Hidden::Painter, _) => "the scene is drawn from back to front",
+        (_, 0) => "no depth is tested",
+        _ => "depths are tested",
+    };
+    let buffer = match counters.presented {
+        0 => "the picture is looked at when it is finished",
+        _ => "somebody looks while it is drawn",
+    };
+    let of_samples = |count: u64| (count, target.sample_count().saturating_sub(count));
+    let frame = |effect, (on, off), reason: &str| decision(effect, on, off, reason);
     [
-        decision(
-            Effect::Clip,
-            if tests > 0 { clipped.max(1) } else { 0 },
-            triangles - clipped,
-            clip,
-        ),
-        decision(
-            Effect::Samples,
-            expanded,
-            0,
-            format!("{expanded} pixels were told apart into samples"),
-        ),
-        decision(
-            Effect::Clear,
-            cleared,
-            0,
-            format!("{cleared} samples of colours and depths, for {} items", scene.items.len()),
-        ),
-        decision(
-            Effect::SecondBuffer,
-            presented,
-            0,
-            "the picture is looked at when it is finished",
-        ),
+        frame(Effect::Clip, (clips, triangles - clips), &clip),
+        frame(Effect::DepthBuffer, of_samples(counters.depths_cleared), depths),
+        frame(Effect::Samples, (expanded, pixels - expanded), &samples),
+        frame(Effect::Clear, of_samples(cleared), clear),
+        frame(Effect::SecondBuffer, (counters.presented, pixels - counters.presented), buffer),
     ]
     .into_iter()
 }

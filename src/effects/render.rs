@@ -5,17 +5,19 @@
 //! same place of the same product, so the bits are the same.
 
 use std::fmt;
+use std::sync::LazyLock;
 
 use glam::{DMat3, DVec3, DVec4};
 
 use super::plan::{Depths, Plan, Tally, tiles_to_clear};
-use super::supersample::OnDemand;
+use super::samples::OnDemand;
 use super::{Effect, Effects, Mode};
 use crate::contract::{DrawLine, Interpolate};
 use crate::frame::Frame;
 use crate::grid::PixelRect;
 use crate::pipeline::assemble::{Assembler, BadVertex, check_vertex};
 use crate::pipeline::fill::{Way, fill, fill_flat};
+use crate::pipeline::present::DoubleBuffer;
 use crate::pipeline::shade::{ALL, Attributes, Light, Surface};
 use crate::pipeline::target::{Antialias, Colour, Target, to_colour};
 use crate::pipeline::texture::Texture;
@@ -75,7 +77,25 @@ pub fn render(
     effects: &Effects,
     target: &mut Target,
 ) -> Result<Rendered, BadScene> {
-    draw(scene, engine, effects, target, None)
+    draw(scene, engine, effects, target, &mut Onlooker::None)
+}
+
+/// As [`render`], while somebody looks: `look` is shown what is on the screen after the clearing,
+/// after each item, and at the end. With [`Effect::SecondBuffer`] that is the front buffer, which
+/// changes when the frame is finished; without, the frame as it is drawn.
+///
+/// # Errors
+/// As [`render`].
+pub fn render_watched(
+    scene: &Scene,
+    engine: &impl Interpolate,
+    effects: &Effects,
+    screen: &mut DoubleBuffer,
+    look: &mut dyn FnMut(&Frame<Colour>),
+) -> Result<Rendered, BadScene> {
+    let (front, back) = screen.split();
+    let mut onlooker = Onlooker::Viewer { front, look };
+    draw(scene, engine, effects, back, &mut onlooker)
 }
 
 /// As [`render`], and for each pixel the effects that its fragments paid for, as bits of
@@ -90,7 +110,7 @@ pub fn render_mapped(
     target: &mut Target,
 ) -> Result<(Rendered, Frame<u16>), BadScene> {
     let mut map = Frame::new(target.size(), 0);
-    let rendered = draw(scene, engine, effects, target, Some(&mut map))?;
+    let rendered = draw(scene, engine, effects, target, &mut Onlooker::Map(&mut map))?;
     Ok((rendered, map))
 }
 
@@ -123,8 +143,20 @@ pub fn render_wireframe(
         });
     }
     let tallies = vec![Tally::default(); items.len()];
-    let plan = Plan::new(scene, &items, &tallies, &effects, &counters);
+    let plan = Plan::new(scene, &items, &tallies, &effects, target, &counters);
     Ok(Rendered { picture: target.resolve(), counters, plan })
+}
+
+/// Who wants to know more than the finished picture.
+enum Onlooker<'a> {
+    None,
+    /// Notes for each pixel what it paid for.
+    Map(&'a mut Frame<u16>),
+    /// Looks at the screen meanwhile.
+    Viewer {
+        front: &'a mut Frame<Colour>,
+        look: &'a mut dyn FnMut(&Frame<Colour>),
+    },
 }
 
 fn draw(
@@ -132,12 +164,16 @@ fn draw(
     engine: &impl Interpolate,
     effects: &Effects,
     target: &mut Target,
-    map: Option<&mut Frame<u16>>,
+    onlooker: &mut Onlooker<'_>,
 ) -> Result<Rendered, BadScene> {
+    if effects.mode(Effect::Samples) == Mode::Never && target.antialias().samples() > 1 {
+        // One sample, in the middle of the pixel.
+        return draw(scene, engine, effects, &mut target.single(), onlooker);
+    }
     let mut counters = Counters::default();
     let items = prepare(scene, effects, target.bounds(), &mut counters)?;
     let mut frame = Stage {
-        map,
+        onlooker,
         scene,
         engine,
         effects,
@@ -171,10 +207,8 @@ pub(super) struct Prepared<'a> {
     light: Light,
 }
 
-thread_local! {
-    /// What is looked up where texture is paid for and there is none.
-    static WHITE: &'static Texture = Box::leak(Box::new(Texture::white()));
-}
+/// What is looked up where texture is paid for and there is none.
+static WHITE: LazyLock<Texture> = LazyLock::new(Texture::white);
 
 fn prepare<'a>(
     scene: &'a Scene,
@@ -200,7 +234,7 @@ fn prepare<'a>(
         reads |= if pays(Effect::Colour, colour) { bit::COLOUR } else { 0 };
         reads |= if pays(Effect::Light, light) { bit::NORMAL } else { 0 };
         reads |= if pays(Effect::Texture, material.texture.is_some()) { bit::UV } else { 0 };
-        let texture = material.texture.as_deref().unwrap_or_else(|| WHITE.with(|white| *white));
+        let texture = material.texture.as_deref().unwrap_or(&WHITE);
         let mut assembler = Assembler::new(bounds, item.cull);
         match effects.mode(Effect::Clip) {
             Mode::Planned => {}
@@ -259,16 +293,16 @@ impl Prepared<'_> {
         counters: &mut Counters,
         mut emit: impl FnMut(&Piece, &mut Counters),
     ) {
+        let mut fills = Counters::default();
         for triangle in &self.item.mesh.triangles {
             let face = match self.item.material.shading {
                 Shading::Flat => self.item.mesh.face_normal(triangle),
                 _ => DVec3::ZERO,
             };
             let corners = [0, 1, 2].map(|i| self.corner(scene, &triangle[i], face));
-            let mut fills = Counters::default();
             self.assembler.assemble(&corners, counters, |piece| emit(piece, &mut fills));
-            *counters += fills;
         }
+        *counters += fills;
     }
 }
 
@@ -300,7 +334,7 @@ impl PiecePlan {
 }
 
 /// A frame being drawn.
-struct Stage<'a, E> {
+struct Stage<'a, 'b, E> {
     scene: &'a Scene,
     engine: &'a E,
     effects: &'a Effects,
@@ -308,20 +342,21 @@ struct Stage<'a, E> {
     counters: Counters,
     tallies: Vec<Tally>,
     on_demand: Option<OnDemand>,
-    map: Option<&'a mut Frame<u16>>,
+    onlooker: &'a mut Onlooker<'b>,
     depth_is_called_for: bool,
 }
 
-impl<E: Interpolate> Stage<'_, E> {
+impl<E: Interpolate> Stage<'_, '_, E> {
     /// Draws each piece as it comes; every one may overlap another.
     fn draw_streaming(&mut self, items: &[Prepared<'_>]) {
-        self.begin(items, None);
+        self.begin(None);
         for (index, item) in items.iter().enumerate() {
             let mut counters = std::mem::take(&mut self.counters);
             item.assemble(self.scene, &mut counters, |piece, fills| {
                 self.draw(index, item, piece, true, fills);
             });
             self.counters += counters;
+            self.look();
         }
     }
 
@@ -340,49 +375,56 @@ impl<E: Interpolate> Stage<'_, E> {
         }
         let depths = Depths::of(&pieces, self.target.antialias());
         self.depth_is_called_for = depths.any();
-        self.begin(items, Some(&pieces));
+        self.begin(Some(&pieces));
         let mut fills = Counters::default();
         for (i, (index, piece)) in pieces.iter().enumerate() {
             self.draw(*index, &items[*index], piece, depths.overlaps(i), &mut fills);
+            if pieces.get(i + 1).is_none_or(|(next, _)| next != index) {
+                self.look();
+            }
         }
         self.counters += fills;
     }
 
     /// Clears what is called for, and sets up samples on demand.
-    fn begin(&mut self, items: &[Prepared<'_>], pieces: Option<&[(usize, Piece)]>) {
-        let uses_depth = self.scene.hidden == Hidden::DepthBuffer
-            && self.effects.pays(Effect::Depth, self.depth_is_called_for);
-        let flat = |item: &Prepared<'_>| {
-            item.reads & !bit::NORMAL == 0 && item.item.material.shading != Shading::Phong
-        };
-        if let Antialias::Supersample(n) = self.target.antialias()
-            && n > 1
-            && self.effects.mode(Effect::Samples) == Mode::Planned
-            && self.effects.mode(Effect::Interpolation) != Mode::Always
-            && items.iter().any(flat)
+    fn begin(&mut self, pieces: Option<&[(usize, Piece)]>) {
+        let Self { effects, target, counters, scene, .. } = self;
+        let uses_depth = effects.pays(Effect::Depth, self.depth_is_called_for)
+            && scene.hidden == Hidden::DepthBuffer;
+        let [colours, depths] = [Effect::Clear, Effect::DepthBuffer].map(|e| effects.mode(e));
+        if target.antialias().samples() > 1
+            && effects.mode(Effect::Samples) == Mode::Planned
+            && colours != Mode::Never
+            && depths != Mode::Never
         {
-            self.on_demand = Some(OnDemand::new(self.target, n, self.scene.background));
-            self.counters.cleared +=
-                self.target.size().width() as u64 * u64::from(self.target.size().height());
-            return;
+            let pixels = u64::from(target.size().width()) * u64::from(target.size().height());
+            counters.cleared += pixels;
+            counters.depths_cleared += if uses_depth { pixels } else { 0 };
+            self.on_demand = Some(OnDemand::new(target, scene.background));
         }
-        match self.effects.mode(Effect::Clear) {
-            Mode::Never => {}
-            Mode::Always => {
-                self.target.clear_colour(self.scene.background, &mut self.counters);
-                self.target.clear_depth(&mut self.counters);
+        let is_clear = self.on_demand.is_some();
+        if colours == Mode::Always || colours == Mode::Planned && !is_clear {
+            let tiles = pieces
+                .filter(|_| colours == Mode::Planned)
+                .and_then(|pieces| tiles_to_clear(self.engine, pieces, target));
+            match tiles {
+                Some(tiles) => target.clear_tiles(&tiles, scene.background, counters),
+                None => target.clear_colour(scene.background, counters),
             }
-            Mode::Planned => {
-                match pieces.map(|pieces| tiles_to_clear(self.engine, pieces, self.target)) {
-                    Some(Some(tiles)) => {
-                        self.target.clear_tiles(&tiles, self.scene.background, &mut self.counters);
-                    }
-                    _ => self.target.clear_colour(self.scene.background, &mut self.counters),
-                }
-                if uses_depth {
-                    self.target.clear_depth(&mut self.counters);
-                }
-            }
+        }
+        if depths == Mode::Always || depths == Mode::Planned && uses_depth && !is_clear {
+            target.clear_depth(counters);
+        }
+        self.look();
+    }
+
+    /// Shows a viewer what is on the screen meanwhile.
+    fn look(&mut self) {
+        let Onlooker::Viewer { front, look } = &mut *self.onlooker else { return };
+        if self.effects.pays(Effect::SecondBuffer, true) {
+            look(front);
+        } else {
+            look(&resolve(self.on_demand.as_ref(), self.target));
         }
     }
 
@@ -396,8 +438,10 @@ impl<E: Interpolate> Stage<'_, E> {
         counters: &mut Counters,
     ) {
         let plan = self.plan_piece(item, piece, overlaps);
-        self.tallies[index].count(piece, item.reads, plan);
-        if let Some(map) = &mut self.map {
+        let word_bits = self.engine.word_bits(&piece.corners());
+        counters.wide += u64::from(word_bits > Some(i32::BITS));
+        self.tallies[index].count(piece, item.reads, plan, word_bits);
+        if let Onlooker::Map(map) = &mut *self.onlooker {
             let paid = plan.paid();
             let scale = self.target.antialias().scale() as i32;
             self.engine.cover(piece.corners(), self.target.bounds(), |span| {
@@ -408,15 +452,7 @@ impl<E: Interpolate> Stage<'_, E> {
             });
         }
         let kernel = Kernel::new(item, piece, plan, counters);
-        if let Some(on_demand) = &mut self.on_demand {
-            if plan.varies == 0 {
-                let colour = to_colour(kernel.shade::<0, 0>(&Attributes([])));
-                on_demand.draw_flat(self.engine, piece, plan.depth, colour, self.target, counters);
-                return;
-            }
-            on_demand.expand_under(self.engine, piece, self.target, counters);
-        }
-        kernel.draw(self.engine, piece, self.target, counters);
+        kernel.draw(self.engine, piece, self.target, self.on_demand.as_mut(), counters);
     }
 
     fn plan_piece(&self, item: &Prepared<'_>, piece: &Piece, overlaps: bool) -> PiecePlan {
@@ -437,43 +473,44 @@ impl<E: Interpolate> Stage<'_, E> {
     }
 
     fn finish(self, items: &[Prepared<'_>]) -> Rendered {
-        let mut counters = self.counters;
-        if let Some(map) = self.map {
-            mark_samples(map, self.on_demand.as_ref(), self.target);
-        }
-        let picture = match self.on_demand {
-            Some(on_demand) => on_demand.resolve(self.target),
-            None if self.effects.mode(Effect::Samples) == Mode::Never => self.target.resolve_one(),
-            None => {
-                if self.target.antialias().samples() > 1 {
-                    let size = self.target.size();
-                    counters.expanded += u64::from(size.width()) * u64::from(size.height());
+        let Self { mut counters, effects, .. } = self;
+        let pixels = u64::from(self.target.size().width()) * u64::from(self.target.size().height());
+        let has_samples = self.target.antialias().samples() > 1;
+        counters.expanded += if has_samples && self.on_demand.is_none() { pixels } else { 0 };
+        let picture = resolve(self.on_demand.as_ref(), self.target);
+        let is_watched = matches!(self.onlooker, Onlooker::Viewer { .. });
+        let presents = effects.pays(Effect::SecondBuffer, is_watched);
+        counters.presented += if presents { pixels } else { 0 };
+        // What is presented is a copy: the back buffer goes on to the next frame.
+        let picture = if presents { picture.clone() } else { picture };
+        match self.onlooker {
+            Onlooker::None => {}
+            Onlooker::Map(map) => {
+                if has_samples {
+                    mark_samples(map, self.on_demand.as_ref());
                 }
-                self.target.resolve()
             }
-        };
-        // An offline picture is looked at when it is finished, so it needs no front buffer.
-        let picture = if self.effects.pays(Effect::SecondBuffer, false) {
-            let size = picture.bounds();
-            counters.presented += u64::from(size.width()) * u64::from(size.height());
-            picture.clone()
-        } else {
-            picture
-        };
-        let plan = Plan::new(self.scene, items, &self.tallies, self.effects, &counters);
+            Onlooker::Viewer { front, look } => {
+                front.clone_from(&picture);
+                look(front);
+            }
+        }
+        let plan = Plan::new(self.scene, items, &self.tallies, effects, self.target, &counters);
         Rendered { picture, counters, plan }
     }
 }
 
+/// The picture so far.
+fn resolve(on_demand: Option<&OnDemand>, target: &Target) -> Frame<Colour> {
+    on_demand.map_or_else(|| target.resolve(), |on_demand| on_demand.resolve(target))
+}
+
 /// Marks the pixels whose samples were told apart.
-fn mark_samples(map: &mut Frame<u16>, on_demand: Option<&OnDemand>, target: &Target) {
-    if target.antialias().samples() == 1 {
-        return;
-    }
+fn mark_samples(map: &mut Frame<u16>, on_demand: Option<&OnDemand>) {
     let bounds = map.bounds();
     for y_px in bounds.y0..bounds.y1 {
         for (x_px, pixel) in (bounds.x0..).zip(map.row_mut(y_px)) {
-            if on_demand.is_none_or(|on_demand| on_demand.is_apart(x_px, y_px)) {
+            if on_demand.is_none_or(|on_demand| on_demand.was_apart(x_px, y_px)) {
                 *pixel |= 1 << Effect::Samples as u16;
             }
         }
@@ -538,17 +575,39 @@ impl<'a> Kernel<'a> {
         engine: &impl Interpolate,
         piece: &Piece,
         target: &mut Target,
+        samples: Option<&mut OnDemand>,
         counters: &mut Counters,
     ) {
         match self.plan.varies {
-            0 => self.draw_as::<0, 0>(engine, piece, target, counters),
-            1 => self.draw_as::<3, 1>(engine, piece, target, counters),
-            2 => self.draw_as::<3, 2>(engine, piece, target, counters),
-            3 => self.draw_as::<6, 3>(engine, piece, target, counters),
-            4 => self.draw_as::<2, 4>(engine, piece, target, counters),
-            5 => self.draw_as::<5, 5>(engine, piece, target, counters),
-            6 => self.draw_as::<5, 6>(engine, piece, target, counters),
-            _ => self.draw_as::<ALL, 7>(engine, piece, target, counters),
+            0 => self.draw_flat(engine, piece, target, samples, counters),
+            1 => self.draw_as::<3, 1>(engine, piece, target, samples, counters),
+            2 => self.draw_as::<3, 2>(engine, piece, target, samples, counters),
+            3 => self.draw_as::<6, 3>(engine, piece, target, samples, counters),
+            4 => self.draw_as::<2, 4>(engine, piece, target, samples, counters),
+            5 => self.draw_as::<5, 5>(engine, piece, target, samples, counters),
+            6 => self.draw_as::<5, 6>(engine, piece, target, samples, counters),
+            _ => self.draw_as::<ALL, 7>(engine, piece, target, samples, counters),
+        }
+    }
+
+    /// One colour.
+    fn draw_flat(
+        &self,
+        engine: &impl Interpolate,
+        piece: &Piece,
+        target: &mut Target,
+        samples: Option<&mut OnDemand>,
+        counters: &mut Counters,
+    ) {
+        let colour = to_colour(self.shade::<0, 0>(&Attributes([])));
+        if let Some(on_demand) = samples {
+            on_demand.draw_flat(engine, piece, self.plan.depth, colour, target, counters);
+        } else if !self.plan.depth && target.antialias() != Antialias::Multisample4 {
+            fill_flat(engine, piece.corners(), target, colour, counters);
+        } else {
+            let way = Way { affine: true, depth_test: self.plan.depth };
+            let bounds = target.bounds();
+            fill(engine, &pack::<0, 0>(piece), target, bounds, way, |_| colour, counters);
         }
     }
 
@@ -558,23 +617,18 @@ impl<'a> Kernel<'a> {
         engine: &impl Interpolate,
         piece: &Piece,
         target: &mut Target,
+        samples: Option<&mut OnDemand>,
         counters: &mut Counters,
     ) {
-        if MASK == 0 {
-            let colour = to_colour(self.shade::<0, 0>(&Attributes([])));
-            if !self.plan.depth && target.antialias() != Antialias::Multisample4 {
-                fill_flat(engine, piece.corners(), target, colour, counters);
-                return;
-            }
-            let way = Way { affine: true, depth_test: self.plan.depth };
-            fill(engine, &pack::<0, 0>(piece), target, way, |_| colour, counters);
-            return;
-        }
         let packed = pack::<N, MASK>(piece);
         let way = Way { affine: self.plan.affine, depth_test: self.plan.depth };
         let before = *counters;
         let stage = |varying: &Attributes<N>| to_colour(self.shade::<N, MASK>(varying));
-        fill(engine, &packed, target, way, stage, counters);
+        if let Some(on_demand) = samples {
+            on_demand.draw_varying(engine, piece, &packed, target, way, &stage, counters);
+        } else {
+            fill(engine, &packed, target, target.bounds(), way, &stage, counters);
+        }
         let (fragments, shaded) =
             (counters.fragments - before.fragments, counters.shaded - before.shaded);
         counters.components += fragments * N as u64;
@@ -617,7 +671,7 @@ impl<'a> Kernel<'a> {
 }
 
 /// The piece with the attributes of `MASK` alone.
-fn pack<const N: usize, const MASK: u8>(piece: &Piece) -> ScreenTriangle<Attributes<N>> {
+pub(super) fn pack<const N: usize, const MASK: u8>(piece: &Piece) -> ScreenTriangle<Attributes<N>> {
     let vertices = piece.vertices.map(|vertex| {
         let all = &vertex.varying.0;
         let mut packed = [0.0; N];

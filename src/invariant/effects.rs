@@ -13,8 +13,10 @@ fn calls(effect: Effect, counters: &Counters) -> u64 {
     match effect {
         Effect::Clip => counters.plane_tests,
         Effect::Cull => counters.cull_tests,
+        Effect::WideWords => counters.wide,
         Effect::Perspective => counters.divisions,
         Effect::Depth => counters.depth_tests,
+        Effect::DepthBuffer => counters.depths_cleared,
         // The colours of corners and every attribute together are components.
         Effect::Colour | Effect::Interpolation => counters.components,
         Effect::Light => counters.lights,

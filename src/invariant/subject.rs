@@ -234,7 +234,7 @@ impl Subject {
             clip: |triangle, planes| clip(triangle, planes).0.vertices().copied().collect(),
             culls: Cull::removes,
             render: |scene, effects, target| {
-                lineup::Drawer::Scanline
+                lineup::Drawer::EdgeFunction
                     .render(scene, effects, target)
                     .map_or(Counters::default(), |rendered| rendered.counters)
             },

@@ -9,7 +9,7 @@ use std::fmt;
 
 use glam::{DVec2, DVec4};
 
-use super::clip::{self, Outcode, Plane, Polygon};
+use super::clip::{self, Outcode, Polygon};
 use super::{ClipVertex, Counters};
 use crate::grid::{PixelRect, Refusal};
 use crate::triangle::{Corners, MAX_W, ScreenTriangle, ScreenVertex, Varying};
@@ -47,7 +47,7 @@ impl Cull {
 }
 
 /// Twice the area in square subpixels; y points down, so clockwise as seen is positive.
-fn twice_area([a, b, c]: Corners) -> i128 {
+pub(crate) fn twice_area([a, b, c]: Corners) -> i128 {
     let product = |x: i32, x0: i32, y: i32, y0: i32| {
         (i128::from(x) - i128::from(x0)) * (i128::from(y) - i128::from(y0))
     };
@@ -214,12 +214,6 @@ impl Assembler {
             emit(&piece);
         }
     }
-}
-
-/// Whether a triangle in the view volume crosses this plane or lies outside of it.
-#[must_use]
-pub fn crosses<V>(triangle: &[ClipVertex<V>; 3], plane: Plane) -> bool {
-    triangle.iter().any(|vertex| plane.distance(vertex) < 0.0)
 }
 
 #[cfg(test)]

@@ -106,12 +106,12 @@ impl<E: Interpolate> Renderer<E> {
         fragment_stage: impl Fn(&V) -> Colour,
     ) -> Result<(), DrawError> {
         let Self { engine, target, depth_test, .. } = self;
-        let depth_test = *depth_test;
+        let (depth_test, bounds) = (*depth_test, target.bounds());
         let mut fills = Counters::default();
-        let assembler = Assembler::new(target.bounds(), self.cull);
+        let assembler = Assembler::new(bounds, self.cull);
         assemble_all(&assembler, vertices, triangles, vertex_stage, &mut self.counters, |piece| {
             let way = Way { affine: false, depth_test };
-            fill(engine, piece, target, way, &fragment_stage, &mut fills);
+            fill(engine, piece, target, bounds, way, &fragment_stage, &mut fills);
         })?;
         self.counters += fills;
         Ok(())

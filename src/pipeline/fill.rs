@@ -1,7 +1,7 @@
 //! From a triangle in the window to samples in the target: rasterize, depth-test, shade.
 
 use super::Counters;
-use super::multisample::{SAMPLES, onto_centre};
+use super::multisample::{SAMPLES, moved};
 use super::target::{Antialias, Colour, Target};
 use crate::contract::Interpolate;
 use crate::grid::PixelRect;
@@ -16,21 +16,23 @@ pub struct Way {
     pub depth_test: bool,
 }
 
-/// Draws one triangle. The fragment stage is asked for the colour of what is visible.
+/// Draws one triangle, as far as it lies in `bounds`. The fragment stage is asked for the colour of
+/// what is visible.
 pub fn fill<V: Varying>(
     engine: &impl Interpolate,
     piece: &ScreenTriangle<V>,
     target: &mut Target,
+    bounds: PixelRect,
     way: Way,
     fragment_stage: impl Fn(&V) -> Colour,
     counters: &mut Counters,
 ) {
     if target.antialias() == Antialias::Multisample4 {
-        fill_multisampled(engine, piece, target, way, fragment_stage, counters);
+        fill_multisampled(engine, piece, target, bounds, way, fragment_stage, counters);
     } else if way.depth_test {
-        fill_nearest(engine, piece, target, way.affine, fragment_stage, counters);
+        fill_nearest(engine, piece, target, bounds, way.affine, fragment_stage, counters);
     } else {
-        fill_over(engine, piece, target, way.affine, fragment_stage, counters);
+        fill_over(engine, piece, target, bounds, way.affine, fragment_stage, counters);
     }
 }
 
@@ -48,7 +50,7 @@ fn fragments_of_pass<V: Varying>(
 
 /// The fragments of a triangle, with the division by 1/w or without.
 #[inline]
-fn fragments<V: Varying>(
+pub(crate) fn fragments<V: Varying>(
     engine: &impl Interpolate,
     piece: &ScreenTriangle<V>,
     bounds: PixelRect,
@@ -67,11 +69,12 @@ fn fill_nearest<V: Varying>(
     engine: &impl Interpolate,
     piece: &ScreenTriangle<V>,
     target: &mut Target,
+    bounds: PixelRect,
     affine: bool,
     fragment_stage: impl Fn(&V) -> Colour,
     counters: &mut Counters,
 ) {
-    let (bounds, format) = (target.bounds(), target.format);
+    let format = target.format;
     let plane = &mut target.planes[0];
     let (mut emitted, mut shaded) = (0, 0);
     fragments(engine, piece, bounds, affine, |f| {
@@ -90,11 +93,11 @@ fn fill_over<V: Varying>(
     engine: &impl Interpolate,
     piece: &ScreenTriangle<V>,
     target: &mut Target,
+    bounds: PixelRect,
     affine: bool,
     fragment_stage: impl Fn(&V) -> Colour,
     counters: &mut Counters,
 ) {
-    let bounds = target.bounds();
     let plane = &mut target.planes[0];
     let mut emitted = 0;
     fragments(engine, piece, bounds, affine, |f| {
@@ -129,11 +132,12 @@ fn fill_multisampled<V: Varying>(
     engine: &impl Interpolate,
     piece: &ScreenTriangle<V>,
     target: &mut Target,
+    bounds: PixelRect,
     way: Way,
     fragment_stage: impl Fn(&V) -> Colour,
     counters: &mut Counters,
 ) {
-    let (bounds, format) = (target.bounds(), target.format);
+    let format = target.format;
     let (planes, shading) = target.with_shading();
     let mut shaded = 0;
     fragments_of_pass(engine, piece, bounds, way.affine, &mut |f| {
@@ -143,12 +147,8 @@ fn fill_multisampled<V: Varying>(
     let mut emitted = 0;
     let mut failed = 0;
     for (plane, sample) in planes.iter_mut().zip(SAMPLES) {
-        let mut moved = *piece;
-        for vertex in &mut moved.vertices {
-            // Pieces lie in the window, far from the domain's end.
-            let Some(position) = onto_centre(vertex.position, sample) else { return };
-            vertex.position = position;
-        }
+        // Clipped pieces lie in the window, far from the domain's end.
+        let Some(moved) = moved(piece, sample) else { continue };
         fragments_of_pass(engine, &moved, bounds, way.affine, &mut |f| {
             emitted += 1;
             let mut colour = || {

@@ -50,6 +50,8 @@ pub struct Counters {
     pub cull_tests: u64,
     /// Pieces that culling removed.
     pub culled: u64,
+    /// Pieces decided in integers of more than 32 bits, by an engine that has several widths.
+    pub wide: u64,
     /// Fragments (samples, where supersampled) that the rasterizer emitted.
     pub fragments: u64,
     /// Fragments whose attributes needed a division by 1/w.
@@ -66,8 +68,10 @@ pub struct Counters {
     pub lights: u64,
     /// Evaluations of the whole fragment stage.
     pub shaded: u64,
-    /// Pixels cleared, of the colour and of the depth buffer, each sample counted.
+    /// Samples whose colours were cleared.
     pub cleared: u64,
+    /// Samples whose depths were cleared.
+    pub depths_cleared: u64,
     /// Pixels copied from the back to the front buffer.
     pub presented: u64,
     /// Pixels whose samples were told apart by antialiasing.
@@ -84,6 +88,7 @@ impl std::ops::AddAssign for Counters {
         self.pieces += other.pieces;
         self.cull_tests += other.cull_tests;
         self.culled += other.culled;
+        self.wide += other.wide;
         self.fragments += other.fragments;
         self.divisions += other.divisions;
         self.components += other.components;
@@ -93,6 +98,7 @@ impl std::ops::AddAssign for Counters {
         self.lights += other.lights;
         self.shaded += other.shaded;
         self.cleared += other.cleared;
+        self.depths_cleared += other.depths_cleared;
         self.presented += other.presented;
         self.expanded += other.expanded;
     }

@@ -7,7 +7,7 @@
 use crate::contract::Rasterize;
 use crate::frame::Frame;
 use crate::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
-use crate::triangle::Corners;
+use crate::triangle::{Corners, ScreenTriangle, Varying};
 
 /// Where the samples of pixel (0, 0) lie, in 1/16 px; bit s of a mask is sample s.
 pub const SAMPLES: [(i32, i32); 4] = [(6, 2), (14, 6), (2, 10), (10, 14)];
@@ -21,6 +21,20 @@ pub fn onto_centre(point: SubpixelPoint, (x_16th, y_16th): (i32, i32)) -> Option
         point.x.checked_add(move_by(x_16th))?,
         point.y.checked_add(move_by(y_16th))?,
     ))
+}
+
+/// The piece moved so that a sample falls on the centre. Nothing where that leaves the lattice.
+#[must_use]
+#[inline]
+pub fn moved<V: Varying>(
+    piece: &ScreenTriangle<V>,
+    sample: (i32, i32),
+) -> Option<ScreenTriangle<V>> {
+    let mut moved = *piece;
+    for vertex in &mut moved.vertices {
+        vertex.position = onto_centre(vertex.position, sample)?;
+    }
+    Some(moved)
 }
 
 /// For each pixel of `bounds` the samples that a triangle covers, bit s for sample s. Nothing where

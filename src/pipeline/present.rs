@@ -25,6 +25,11 @@ impl DoubleBuffer {
         &self.front
     }
 
+    /// The front, and where the next frame is drawn.
+    pub(crate) fn split(&mut self) -> (&mut Frame<Colour>, &mut Target) {
+        (&mut self.front, &mut self.back)
+    }
+
     /// Shows a finished frame: what was drawn into the back buffer, resolved.
     pub fn present(&mut self, finished: Frame<Colour>, counters: &mut Counters) {
         self.front = finished;

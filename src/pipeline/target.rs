@@ -168,6 +168,15 @@ impl Target {
         format: DepthFormat,
     ) -> Result<Self, String> {
         check_size(width, height, antialias)?;
+        Ok(Self::unchecked(width, height, antialias, format))
+    }
+
+    /// An empty target for the same picture with one sample a pixel.
+    pub(crate) fn single(&self) -> Self {
+        Self::unchecked(self.size.width(), self.size.height(), Antialias::None, self.format)
+    }
+
+    fn unchecked(width: u32, height: u32, antialias: Antialias, format: DepthFormat) -> Self {
         let scale = antialias.scale();
         let bounds = PixelRect::window(width * scale, height * scale);
         let plane = Plane {
@@ -178,7 +187,7 @@ impl Target {
         let shaded =
             if antialias == Antialias::Multisample4 { size } else { PixelRect::window(0, 0) };
         let shading = Shading { serial: 0, colours: Frame::new(shaded, (0, [0; 4])) };
-        Ok(Self { antialias, size, shading, format, planes: vec![plane; antialias.planes()] })
+        Self { antialias, size, shading, format, planes: vec![plane; antialias.planes()] }
     }
 
     /// The picture's pixels.
@@ -218,7 +227,7 @@ impl Target {
         for plane in &mut self.planes {
             plane.depth.fill(CLEAR);
         }
-        counters.cleared += self.sample_count();
+        counters.depths_cleared += self.sample_count();
     }
 
     /// Forgets the last frame's colours in some tiles of [`Target::bounds`].
@@ -233,7 +242,8 @@ impl Target {
         }
     }
 
-    fn sample_count(&self) -> u64 {
+    /// Samples of the whole picture.
+    pub(crate) fn sample_count(&self) -> u64 {
         let bounds = self.bounds();
         u64::from(bounds.width()) * u64::from(bounds.height()) * self.planes.len() as u64
     }
@@ -249,20 +259,6 @@ impl Target {
         for y_px in self.size.y0..self.size.y1 {
             for x_px in self.size.x0..self.size.x1 {
                 picture.span_mut(y_px, x_px, x_px + 1)[0] = self.pixel(x_px, y_px);
-            }
-        }
-        picture
-    }
-
-    /// The picture without telling samples apart: the one at or after the middle of each pixel.
-    #[must_use]
-    pub fn resolve_one(&self) -> Frame<Colour> {
-        let scale = self.antialias.scale() as i32;
-        let mut picture = Frame::new(self.size, [0; 4]);
-        for y_px in self.size.y0..self.size.y1 {
-            let row = self.planes[0].colour.row(y_px * scale + scale / 2);
-            for (x_px, pixel) in picture.row_mut(y_px).iter_mut().enumerate() {
-                *pixel = row[x_px * scale as usize + scale as usize / 2];
             }
         }
         picture

@@ -6,7 +6,7 @@ use super::{
 };
 use crate::contract::Interpolate;
 use crate::grid::{PixelRect, SUBPIXELS};
-use crate::triangle::{Fragment, ScreenTriangle, ScreenVertex, Varying};
+use crate::triangle::{Fragment, ScreenTriangle, Varying};
 
 impl Interpolate for EdgeFunction {
     fn fragments<V: Varying>(
@@ -36,10 +36,7 @@ impl Interpolate for EdgeFunction {
                 fragments_in::<V, i64, i64, true>(triangle, bounds, emit);
             }
             // The sum of the weights is rounded anew at each pixel.
-            _ => {
-                let vertices = triangle.vertices.map(|v| ScreenVertex { inv_w: 1.0, ..v });
-                self.fragments(&ScreenTriangle { vertices }, bounds, emit);
-            }
+            _ => self.fragments(&triangle.with_equal_w(), bounds, emit),
         }
     }
 }
@@ -58,7 +55,7 @@ fn is_exact(extent_x: u32, extent_y: u32) -> bool {
 ///
 /// `AFFINE` takes every q for 1 and d for twice the area, which they are where E is exact and the
 /// three w are equal: then the reciprocal is the same at every pixel.
-fn fragments_in<V: Varying, T: Exact, W: Word, const AFFINE: bool>(
+pub(super) fn fragments_in<V: Varying, T: Exact, W: Word, const AFFINE: bool>(
     triangle: &ScreenTriangle<V>,
     bounds: PixelRect,
     mut emit: impl FnMut(Fragment<V>),

@@ -22,8 +22,7 @@ impl Interpolate for Scanline {
         bounds: PixelRect,
         emit: impl FnMut(Fragment<V>),
     ) {
-        let vertices = triangle.vertices.map(|vertex| ScreenVertex { inv_w: 1.0, ..vertex });
-        let triangle = ScreenTriangle { vertices };
+        let triangle = triangle.with_equal_w();
         if widths_are_exact(&triangle.corners()) {
             fragments_in::<V, true>(&triangle, bounds, emit);
         } else {

@@ -1,0 +1,562 @@
+//! Samples on demand: a pixel has one colour until something needs its samples apart.
+//!
+//! A triangle that gives one colour to a pixel whose samples it covers all changes the pixel as a
+//! whole if it is nearer than everything in it, or not at all if it is behind everything in it.
+//! Which of the two, or neither, is asked of intervals that contain every depth the rasterizer may
+//! compute there. The pixels at its border, and those where intervals overlap, are told apart:
+//! their samples are drawn as they would have been all along, first what was there, then the
+//! triangle. Rasterizers only crop to their bounds, so redrawing a block gives the bits of the
+//! whole.
+//!
+//! Supersampled pixels have one colour where the triangle has. Multisampled ones are shaded once for
+//! each triangle anyway, so there every triangle gives one colour to the pixels in its inside.
+
+use std::ops::Range;
+
+use super::render::{Piece, pack};
+use crate::contract::Interpolate;
+use crate::frame::Frame;
+use crate::grid::{PixelRect, SUBPIXELS};
+use crate::pipeline::Counters;
+use crate::pipeline::assemble::twice_area;
+use crate::pipeline::depth::{CLEAR, DepthFormat};
+use crate::pipeline::fill::{Way, fill, fragments};
+use crate::pipeline::multisample::{SAMPLES, moved};
+use crate::pipeline::shade::Attributes;
+use crate::pipeline::target::{Antialias, Colour, Target};
+use crate::triangle::{ScreenTriangle, Varying};
+
+/// A piece as far as depth goes.
+type DepthPiece = ScreenTriangle<Attributes<0>>;
+
+/// What a pixel holds.
+#[derive(Clone, Copy)]
+struct Pixel {
+    colour: Colour,
+    state: State,
+    /// Whether its samples were apart at any time.
+    was_apart: bool,
+    /// Keys that no sample's depth is nearer or farther than.
+    nearest: u64,
+    farthest: u64,
+}
+
+/// Where a pixel's samples come from.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum State {
+    /// Nothing was drawn.
+    Background,
+    /// All samples are of this piece.
+    Whole(u32),
+    /// The samples are in the target.
+    Apart,
+}
+
+/// What becomes of a pixel that a piece touches.
+enum Meeting {
+    /// Nothing: everything there is nearer.
+    Hidden,
+    /// It is of the piece as a whole.
+    Whole,
+    /// Its samples decide one by one.
+    Apart,
+}
+
+/// Adjacent pixels of one row.
+#[derive(Clone, Copy)]
+struct Run {
+    y_px: i32,
+    x0_px: i32,
+    x1_px: i32,
+}
+
+/// The pixels of a frame, each whole or told apart.
+pub(super) struct OnDemand {
+    pattern: Pattern,
+    pixels: Frame<Pixel>,
+    /// Pieces that a pixel may be whole of.
+    pieces: Vec<DepthPiece>,
+    /// Covered columns of the piece at hand, for each row of samples in each plane.
+    rows: Vec<(i32, i32)>,
+    /// Pixels whose samples the piece at hand needs apart.
+    runs: Vec<Run>,
+}
+
+impl OnDemand {
+    /// Pieces that vary and whose pixels lie in fewer columns are drawn in one go, since to find
+    /// out which pixels are whole would cost more than it saves.
+    const WIDE_PX: i32 = 64;
+
+    pub(super) fn new(target: &Target, background: Colour) -> Self {
+        let pattern = Pattern::of(target.antialias());
+        let pixel = Pixel {
+            colour: background,
+            state: State::Background,
+            was_apart: false,
+            nearest: CLEAR,
+            farthest: CLEAR,
+        };
+        Self {
+            pattern,
+            pixels: Frame::new(target.size(), pixel),
+            pieces: Vec::new(),
+            rows: vec![(0, 0); target.bounds().height() as usize * pattern.planes],
+            runs: Vec::new(),
+        }
+    }
+
+    /// Draws a piece of one colour.
+    pub(super) fn draw_flat(
+        &mut self,
+        engine: &impl Interpolate,
+        piece: &Piece,
+        depth: bool,
+        colour: Colour,
+        target: &mut Target,
+        counters: &mut Counters,
+    ) {
+        let met = self.meet(engine, piece, depth, Some(colour), true, target);
+        if met.is_none() {
+            return;
+        }
+        let runs = std::mem::take(&mut self.runs);
+        for &run in &runs {
+            self.tell_apart(engine, run, target, counters);
+            if depth {
+                self.test_samples(engine, &pack::<0, 0>(piece), run, colour, target, counters);
+            } else {
+                self.fill_samples(run, colour, target, counters);
+            }
+        }
+        self.runs = runs;
+    }
+
+    /// Draws a piece whose attributes vary; `packed` is the same with those it reads.
+    #[expect(clippy::too_many_arguments, reason = "those of `fill`, and the piece")]
+    pub(super) fn draw_varying<V: Varying, F: Fn(&V) -> Colour>(
+        &mut self,
+        engine: &impl Interpolate,
+        piece: &Piece,
+        packed: &ScreenTriangle<V>,
+        target: &mut Target,
+        way: Way,
+        fragment_stage: &F,
+        counters: &mut Counters,
+    ) {
+        let shaded_once = self.pattern.planes > 1 && width_px(piece) >= Self::WIDE_PX;
+        let met = self.meet(engine, piece, way.depth_test, None, shaded_once, target);
+        let Some(Met { rows, whole_of }) = met else { return };
+        let runs = std::mem::take(&mut self.runs);
+        if shaded_once {
+            for &run in &runs {
+                self.tell_apart(engine, run, target, counters);
+                fill(engine, packed, target, run.block(1), way, fragment_stage, counters);
+            }
+        } else if let Some(rect) = around(&runs) {
+            // Everything in the rectangle is drawn, so all of it is told apart.
+            for y_px in rect.y0.max(rows.start)..rect.y1.min(rows.end) {
+                let Some(PixelRow { touched: (x0, x1), .. }) = self.pixel_row(y_px) else {
+                    continue;
+                };
+                let run = Run { y_px, x0_px: x0.max(rect.x0), x1_px: x1.min(rect.x1) };
+                self.tell_apart(engine, run, target, counters);
+            }
+            let block = scaled(rect, self.pattern.scale);
+            fill(engine, packed, target, block, way, fragment_stage, counters);
+        }
+        self.runs = runs;
+        let Some(state) = whole_of else { return };
+        let (pixels, mut shaded) = (&mut self.pixels, 0);
+        fragments(engine, packed, target.bounds(), way.affine, |f| {
+            let pixel = &mut pixels.span_mut(f.y_px, f.x_px, f.x_px + 1)[0];
+            if pixel.state == state {
+                shaded += 1;
+                pixel.colour = fragment_stage(&f.varying);
+            }
+        });
+        counters.fragments += shaded;
+        counters.shaded += shaded;
+    }
+
+    /// Decides what becomes of each pixel that the piece touches: those that are of the piece as a
+    /// whole are marked, and take the colour if there is one; those that it needs apart are in
+    /// `runs`. Nothing where it lies outside of the window.
+    fn meet(
+        &mut self,
+        engine: &impl Interpolate,
+        piece: &Piece,
+        depth: bool,
+        colour: Option<Colour>,
+        may_be_whole: bool,
+        target: &Target,
+    ) -> Option<Met> {
+        self.runs.clear();
+        let rows = self.covered_rows(engine, piece, target.bounds())?;
+        let (plane, format) = (Plane::new(piece, self.pattern), target.format);
+        let state = State::Whole(self.pieces.len() as u32);
+        let mut any_whole = false;
+        for y_px in rows.clone() {
+            let Some(PixelRow { touched, inner }) = self.pixel_row(y_px) else { continue };
+            let mut first_apart = None;
+            let pixels = self.pixels.span_mut(y_px, touched.0, touched.1);
+            for (x_px, pixel) in (touched.0..).zip(pixels) {
+                let keys = depth.then(|| plane.keys(x_px, y_px, format));
+                let covered = (inner.0..inner.1).contains(&x_px);
+                match pixel.meet(covered, may_be_whole, keys) {
+                    Meeting::Apart => {
+                        first_apart.get_or_insert(x_px);
+                        continue;
+                    }
+                    Meeting::Whole => {
+                        any_whole = true;
+                        pixel.state = state;
+                        pixel.colour = colour.unwrap_or(pixel.colour);
+                    }
+                    Meeting::Hidden => {}
+                }
+                if let Some(x0_px) = first_apart.take() {
+                    self.runs.push(Run { y_px, x0_px, x1_px: x_px });
+                }
+            }
+            if let Some(x0_px) = first_apart {
+                self.runs.push(Run { y_px, x0_px, x1_px: touched.1 });
+            }
+        }
+        if any_whole {
+            self.pieces.push(pack::<0, 0>(piece));
+        }
+        Some(Met { rows, whole_of: any_whole.then_some(state) })
+    }
+
+    /// Tests and writes the samples of a run of pixels that are apart.
+    fn test_samples(
+        &self,
+        engine: &impl Interpolate,
+        piece: &DepthPiece,
+        run: Run,
+        colour: Colour,
+        target: &mut Target,
+        counters: &mut Counters,
+    ) {
+        let (block, format) = (run.block(self.pattern.scale), target.format);
+        let (mut emitted, mut visible) = (0, 0);
+        for (i, plane) in target.planes.iter_mut().enumerate() {
+            let Some(moved) = self.pattern.moved(piece, i) else { continue };
+            engine.affine_fragments(&moved, block, |f| {
+                emitted += 1;
+                let key = format.key(f.depth);
+                visible += u64::from(plane.test_and_write(f.x_px, f.y_px, key, || colour));
+            });
+        }
+        counters.fragments += emitted;
+        counters.depth_tests += emitted;
+        counters.depth_failed += emitted - visible;
+    }
+
+    /// Writes the covered samples of a run of pixels that are apart.
+    fn fill_samples(&self, run: Run, colour: Colour, target: &mut Target, counters: &mut Counters) {
+        let (block, planes) = (run.block(self.pattern.scale), self.pattern.planes);
+        for y in block.y0..block.y1 {
+            let rows = &self.rows[y as usize * planes..];
+            for (plane, &(x0, x1)) in target.planes.iter_mut().zip(rows) {
+                let (x0, x1) = (x0.max(block.x0), x1.min(block.x1));
+                if x0 < x1 {
+                    plane.colour.span_mut(y, x0, x1).fill(colour);
+                    counters.fragments += u64::from(x0.abs_diff(x1));
+                }
+            }
+        }
+    }
+
+    /// Notes the columns that the piece covers in each row of samples; the rows of pixels touched.
+    fn covered_rows(
+        &mut self,
+        engine: &impl Interpolate,
+        piece: &Piece,
+        bounds: PixelRect,
+    ) -> Option<Range<i32>> {
+        let Pattern { scale, planes } = self.pattern;
+        let ys = piece.vertices.map(|vertex| vertex.position.y.div_euclid(SUBPIXELS));
+        let (min, max) = (ys.into_iter().min()?, ys.into_iter().max()?);
+        // Whole rows of pixels, so that no row of an earlier piece is left in one; a moved piece
+        // lies up to half a pixel off.
+        let margin = i32::from(planes > 1);
+        let first = (min - margin).max(bounds.y0) / scale;
+        let end = ((max + margin).min(bounds.y1 - 1) / scale + 1).min(bounds.y1 / scale);
+        if first >= end {
+            return None;
+        }
+        let per_row = scale as usize * planes;
+        self.rows[first as usize * per_row..end as usize * per_row].fill((0, 0));
+        for i in 0..planes {
+            let Some(moved) = self.pattern.moved(piece, i) else { continue };
+            let rows = &mut self.rows;
+            engine.cover(moved.corners(), bounds, |span| {
+                rows[span.y_px as usize * planes + i] = (span.x0_px, span.x1_px);
+            });
+        }
+        Some(first..end)
+    }
+
+    /// The columns of one row of pixels. A row of samples is one run, since triangles are convex.
+    fn pixel_row(&self, y_px: i32) -> Option<PixelRow> {
+        let Pattern { scale, planes } = self.pattern;
+        let per_row = scale as usize * planes;
+        let mut touched = (i32::MAX, i32::MIN);
+        let mut inner = (i32::MIN, i32::MAX);
+        for &(x0, x1) in &self.rows[y_px as usize * per_row..][..per_row] {
+            if x0 < x1 {
+                touched = (touched.0.min(x0), touched.1.max(x1));
+            }
+            inner = (inner.0.max(x0), inner.1.min(x1));
+        }
+        if touched.0 >= touched.1 {
+            return None;
+        }
+        let up = |x: i32| (x + scale - 1).div_euclid(scale);
+        let touched = (touched.0.div_euclid(scale), up(touched.1));
+        let inner = (up(inner.0), inner.1.div_euclid(scale));
+        Some(PixelRow { touched, inner })
+    }
+
+    /// Writes the samples of whole pixels into the target, as drawing them would have.
+    fn tell_apart(
+        &mut self,
+        engine: &impl Interpolate,
+        run: Run,
+        target: &mut Target,
+        counters: &mut Counters,
+    ) {
+        let Self { pattern, pixels, pieces, .. } = self;
+        let format = target.format;
+        let mut x0_px = run.x0_px;
+        while x0_px < run.x1_px {
+            let rest = pixels.span_mut(run.y_px, x0_px, run.x1_px);
+            let Pixel { state, colour, .. } = rest[0];
+            let alike = rest.iter().take_while(|pixel| pixel.state == state).count();
+            let run = Run { y_px: run.y_px, x0_px, x1_px: x0_px + alike as i32 };
+            x0_px = run.x1_px;
+            if state == State::Apart {
+                continue;
+            }
+            let block = run.block(pattern.scale);
+            for (i, plane) in target.planes.iter_mut().enumerate() {
+                if state == State::Background {
+                    for y in block.y0..block.y1 {
+                        plane.depth.span_mut(y, block.x0, block.x1).fill(CLEAR);
+                        plane.colour.span_mut(y, block.x0, block.x1).fill(colour);
+                    }
+                } else if let State::Whole(serial) = state
+                    && let Some(moved) = pattern.moved(&pieces[serial as usize], i)
+                {
+                    let row = pixels.row(run.y_px);
+                    engine.affine_fragments(&moved, block, |f| {
+                        plane.depth.span_mut(f.y_px, f.x_px, f.x_px + 1)[0] = format.key(f.depth);
+                        plane.write(f.x_px, f.y_px, row[(f.x_px / pattern.scale) as usize].colour);
+                    });
+                }
+            }
+            for pixel in pixels.span_mut(run.y_px, run.x0_px, run.x1_px) {
+                pixel.state = State::Apart;
+                counters.expanded += u64::from(!pixel.was_apart);
+                pixel.was_apart = true;
+            }
+        }
+    }
+
+    /// Whether a pixel's samples were told apart at any time.
+    pub(super) fn was_apart(&self, x_px: i32, y_px: i32) -> bool {
+        self.pixels.get(x_px, y_px).is_some_and(|pixel| pixel.was_apart)
+    }
+
+    /// The picture: whole pixels as they are, the others as the mean of their samples.
+    pub(super) fn resolve(&self, target: &Target) -> Frame<Colour> {
+        let mut picture = Frame::new(target.size(), [0; 4]);
+        for (y_px, row) in self.pixels.rows() {
+            for (x_px, (pixel, held)) in (0..).zip(picture.row_mut(y_px).iter_mut().zip(row)) {
+                *pixel = match held.state {
+                    State::Apart => target.pixel(x_px, y_px),
+                    _ => held.colour,
+                };
+            }
+        }
+        picture
+    }
+}
+
+/// What [`OnDemand::meet`] found.
+struct Met {
+    /// Rows of pixels that the piece may touch.
+    rows: Range<i32>,
+    /// The state of the pixels that are of the piece as a whole, if any are.
+    whole_of: Option<State>,
+}
+
+/// Columns of pixels: some samples covered, and all samples covered.
+#[derive(Clone, Copy)]
+struct PixelRow {
+    touched: (i32, i32),
+    inner: (i32, i32),
+}
+
+impl Run {
+    /// Its samples, `scale` along a side of each pixel.
+    fn block(self, scale: i32) -> PixelRect {
+        let Self { y_px, x0_px, x1_px } = self;
+        scaled(PixelRect { x0: x0_px, y0: y_px, x1: x1_px, y1: y_px + 1 }, scale)
+    }
+}
+
+fn scaled(rect: PixelRect, scale: i32) -> PixelRect {
+    let PixelRect { x0, y0, x1, y1 } = rect;
+    PixelRect { x0: x0 * scale, y0: y0 * scale, x1: x1 * scale, y1: y1 * scale }
+}
+
+/// The smallest rectangle around runs of increasing rows.
+fn around(runs: &[Run]) -> Option<PixelRect> {
+    let (first, last) = (runs.first()?, runs.last()?);
+    let x0 = runs.iter().map(|run| run.x0_px).min()?;
+    let x1 = runs.iter().map(|run| run.x1_px).max()?;
+    Some(PixelRect { x0, y0: first.y_px, x1, y1: last.y_px + 1 })
+}
+
+/// Columns between the outermost corners.
+fn width_px(piece: &Piece) -> i32 {
+    let [a, b, c] = piece.vertices.map(|vertex| vertex.position.x);
+    (a.max(b).max(c).saturating_sub(a.min(b).min(c))) / SUBPIXELS
+}
+
+impl Pixel {
+    /// What becomes of it under a piece that covers all its samples or some of them, at depths
+    /// between two keys, or drawn over whatever is there.
+    #[inline]
+    fn meet(&mut self, covered: bool, may_be_whole: bool, keys: Option<(u64, u64)>) -> Meeting {
+        let Some((nearest, farthest)) = keys else {
+            if covered && may_be_whole {
+                (self.nearest, self.farthest) = (0, 0);
+                return Meeting::Whole;
+            }
+            return Meeting::Apart;
+        };
+        if nearest >= self.farthest {
+            return Meeting::Hidden;
+        }
+        if covered && may_be_whole && farthest < self.nearest {
+            (self.nearest, self.farthest) = (nearest, farthest);
+            return Meeting::Whole;
+        }
+        // Nothing that is drawn moves a sample away from the eye, and where all samples are covered
+        // none is left behind the piece.
+        self.nearest = self.nearest.min(nearest);
+        if covered {
+            self.farthest = self.farthest.min(farthest);
+        }
+        Meeting::Apart
+    }
+}
+
+/// Where the samples of a pixel lie: on a grid in one larger window, or in planes of one each, for
+/// which the piece is moved.
+#[derive(Clone, Copy)]
+struct Pattern {
+    /// Samples along a side of the grid.
+    scale: i32,
+    planes: usize,
+}
+
+impl Pattern {
+    fn of(antialias: Antialias) -> Self {
+        Self { scale: antialias.scale() as i32, planes: antialias.planes() }
+    }
+
+    /// The piece as one of the planes sees it.
+    #[inline]
+    fn moved<V: Varying>(
+        self,
+        piece: &ScreenTriangle<V>,
+        plane: usize,
+    ) -> Option<ScreenTriangle<V>> {
+        if self.planes == 1 { Some(*piece) } else { moved(piece, SAMPLES[plane]) }
+    }
+
+    /// How far a sample lies from the middle of its pixel along either axis, in pixels.
+    fn reach_px(self) -> f64 {
+        if self.planes == 1 {
+            f64::from(self.scale - 1) / f64::from(2 * self.scale)
+        } else {
+            // 2/16 and 14/16 are the outermost of SAMPLES.
+            6.0 / 16.0
+        }
+    }
+}
+
+/// The plane of a piece's depth over pixels.
+struct Plane {
+    /// Depth at the first vertex.
+    depth: f64,
+    /// Edge functions over twice the area, in the middle of pixel (0, 0), and what a pixel adds.
+    weights: [Weight; 2],
+    /// Half the range of depths within a pixel.
+    half_range: f64,
+}
+
+struct Weight {
+    /// Difference of the depth of this vertex to the first one's, over twice the area.
+    slope: f64,
+    origin: f64,
+    per_x: f64,
+    per_y: f64,
+}
+
+impl Plane {
+    /// z = z0 + (z1 - z0) E1 / 2A + (z2 - z0) E2 / 2A = z0 + t1 + t2.
+    ///
+    /// Error: in a window of at most 2^14 samples a side, 2^22 subpixels, the E are whole or half
+    /// numbers below 2^46, so exact. Each t has a difference, a quotient and a product; the sums
+    /// round twice. With u = 2^-53 that is below 3 u (|t1| + |t2|) + 2 u (|z0| + |t1| + |t2|), and a
+    /// rasterizer's depth at a covered sample is within u (12 D + 2 M) of the exact plane
+    /// ([`crate::verify::tolerance`] derives 12 D + 2 M and 7 D + M), where D, M <= 1. Together less
+    /// than 64 u (1 + |t1| + |t2|); outside of the triangle the t may be large.
+    const ERROR: f64 = 64.0 * (f64::EPSILON / 2.0);
+
+    fn new(piece: &Piece, pattern: Pattern) -> Self {
+        let [a, b, c] = piece
+            .vertices
+            .map(|vertex| (i128::from(vertex.position.x), i128::from(vertex.position.y)));
+        let area = twice_area(piece.corners());
+        let pixel = i128::from(pattern.scale * SUBPIXELS);
+        let [first, second, third] = piece.vertices.map(|vertex| vertex.depth);
+        let weight = |from: (i128, i128), to: (i128, i128), depth: f64| {
+            let (dx, dy) = (to.0 - from.0, to.1 - from.1);
+            // In half subpixels, so that the middle is whole.
+            let origin2 = dx * (pixel - 2 * from.1) - dy * (pixel - 2 * from.0);
+            Weight {
+                slope: if area == 0 { 0.0 } else { (depth - first) / area as f64 },
+                origin: origin2 as f64 / 2.0,
+                per_x: (-dy * pixel) as f64,
+                per_y: (dx * pixel) as f64,
+            }
+        };
+        // E1 belongs to the edge opposite the second vertex, E2 to the one opposite the third.
+        let weights = [weight(c, a, second), weight(a, b, third)];
+        let range: f64 = weights
+            .iter()
+            .map(|w| w.slope.abs() * (w.per_x.abs() + w.per_y.abs()) * pattern.reach_px())
+            .sum();
+        // The range itself is rounded five times, upwards by more than that.
+        Self { depth: first, weights, half_range: range * (1.0 + 16.0 * f64::EPSILON) }
+    }
+
+    /// Keys of the nearest and farthest depth that a rasterizer may compute at the samples of a
+    /// pixel that it covers.
+    #[inline]
+    fn keys(&self, x_px: i32, y_px: i32, format: DepthFormat) -> (u64, u64) {
+        let (x, y) = (f64::from(x_px), f64::from(y_px));
+        let [t1, t2] = [0, 1]
+            .map(|i| &self.weights[i])
+            .map(|w| w.slope * (w.origin + w.per_x * x + w.per_y * y));
+        let middle = self.depth + (t1 + t2);
+        let half = self.half_range + Self::ERROR * (1.0 + t1.abs() + t2.abs());
+        (format.key(middle - half), format.key(middle + half))
+    }
+}

@@ -1,0 +1,132 @@
+//! The edge-function engine with integers of a width that was asked for: what the choice of
+//! [`WordWidth::of`] saves, and what it would cost to get it wrong.
+
+use std::ops::{Add, BitOr};
+
+use super::values::fragments_in;
+use super::{EdgeFunction, Word, WordWidth, cover_in, extents};
+use crate::contract::{Interpolate, Rasterize};
+use crate::grid::PixelRect;
+use crate::triangle::{Corners, Fragment, ScreenTriangle, Span, Varying};
+
+/// Which integers the edge functions of a triangle are stepped in.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Words {
+    /// The narrowest that hold them, as [`EdgeFunction`].
+    #[default]
+    Narrowest,
+    /// 128 bits, which hold those of every triangle.
+    Widest,
+    /// 32 bits, without looking. Wraps around, and so draws wrongly, where they are too few.
+    Narrow,
+}
+
+/// [`EdgeFunction`] in words of one's choice. The widths that hold the numbers give the same
+/// coverage and values, bit for bit.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct EdgeFunctionIn(pub Words);
+
+impl Rasterize for EdgeFunctionIn {
+    #[inline]
+    fn cover(&self, corners: Corners, bounds: PixelRect, emit: impl FnMut(Span)) {
+        match self.0 {
+            Words::Narrowest => EdgeFunction.cover(corners, bounds, emit),
+            Words::Widest => cover_in::<i128, i128>(corners, bounds, emit),
+            Words::Narrow => cover_in::<i128, Wrapping>(corners, bounds, emit),
+        }
+    }
+
+    fn word_bits(&self, corners: &Corners) -> Option<u32> {
+        let (extent_x, extent_y) = extents(corners);
+        Some(match (self.0, WordWidth::of(extent_x, extent_y)) {
+            (Words::Widest, _) | (Words::Narrowest, WordWidth::I128) => i128::BITS,
+            (Words::Narrowest, WordWidth::I64) => i64::BITS,
+            (Words::Narrow, _) | (Words::Narrowest, WordWidth::I32) => i32::BITS,
+        })
+    }
+}
+
+impl Interpolate for EdgeFunctionIn {
+    fn fragments<V: Varying>(
+        &self,
+        triangle: &ScreenTriangle<V>,
+        bounds: PixelRect,
+        emit: impl FnMut(Fragment<V>),
+    ) {
+        match self.0 {
+            Words::Narrowest => EdgeFunction.fragments(triangle, bounds, emit),
+            Words::Widest => fragments_in::<V, i128, i128, false>(triangle, bounds, emit),
+            Words::Narrow => fragments_in::<V, i128, Wrapping, false>(triangle, bounds, emit),
+        }
+    }
+
+    fn affine_fragments<V: Varying>(
+        &self,
+        triangle: &ScreenTriangle<V>,
+        bounds: PixelRect,
+        emit: impl FnMut(Fragment<V>),
+    ) {
+        match self.0 {
+            Words::Narrowest => EdgeFunction.affine_fragments(triangle, bounds, emit),
+            _ => self.fragments(&triangle.with_equal_w(), bounds, emit),
+        }
+    }
+}
+
+/// 32 bits that wrap around.
+#[derive(Clone, Copy)]
+struct Wrapping(i32);
+
+impl Add for Wrapping {
+    type Output = Self;
+    #[inline]
+    fn add(self, other: Self) -> Self {
+        Self(self.0.wrapping_add(other.0))
+    }
+}
+
+impl BitOr for Wrapping {
+    type Output = Self;
+    #[inline]
+    fn bitor(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+}
+
+impl Word for Wrapping {
+    #[inline]
+    fn narrow(value: i128) -> Self {
+        Self(value as i32)
+    }
+    #[inline]
+    fn is_negative(self) -> bool {
+        self.0 < 0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::grid::SubpixelPoint;
+
+    /// A wide triangle of two rows: right in 64 and 128 bits, and wrong in 32.
+    #[test]
+    fn narrow_words_wrap_where_the_numbers_do_not_fit() {
+        let side = 1 << 21;
+        let corner = |x, y| SubpixelPoint::new(x, y);
+        let corners = [corner(0, 0), corner(side, 0), corner(0, side)];
+        let bounds = PixelRect { x0: 0, y0: 0, x1: 1 << 13, y1: 2 };
+        let cover = |words: Words| {
+            let mut spans = Vec::new();
+            EdgeFunctionIn(words)
+                .cover(corners, bounds, |s| spans.push((s.y_px, s.x0_px, s.x1_px)));
+            spans
+        };
+        assert_eq!(cover(Words::Narrowest), [(0, 0, 8191), (1, 0, 8190)]);
+        assert_eq!(cover(Words::Widest), cover(Words::Narrowest));
+        assert!(cover(Words::Narrow) != cover(Words::Narrowest));
+        let bits = |words: Words| EdgeFunctionIn(words).word_bits(&corners);
+        assert_eq!(bits(Words::Narrowest), Some(64));
+        assert_eq!((bits(Words::Widest), bits(Words::Narrow)), (Some(128), Some(32)));
+    }
+}
