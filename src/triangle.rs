@@ -145,7 +145,12 @@ impl<V: Copy> ScreenTriangle<V> {
     /// The same at w = 1, where interpolation in the window is that in space.
     #[must_use]
     pub fn with_equal_w(&self) -> Self {
-        Self { vertices: self.vertices.map(|vertex| ScreenVertex { inv_w: 1.0, ..vertex }) }
+        // A loop: `map` is not inlined here, and that showed.
+        let mut equal = *self;
+        for vertex in &mut equal.vertices {
+            vertex.inv_w = 1.0;
+        }
+        equal
     }
 }
 

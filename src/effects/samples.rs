@@ -83,8 +83,10 @@ pub(super) struct OnDemand {
 }
 
 impl OnDemand {
-    /// Pieces that vary and whose pixels lie in fewer columns are drawn in one go, since to find
-    /// out which pixels are whole would cost more than it saves.
+    /// Pieces of one colour whose bounding box has no more pixels, and pieces that vary whose box
+    /// has fewer columns, are drawn in one go: to find out which of their pixels are whole takes
+    /// longer than it saves, as measured.
+    const SMALL_PX: u64 = 64;
     const WIDE_PX: i32 = 64;
 
     pub(super) fn new(target: &Target, background: Colour) -> Self {
@@ -115,8 +117,16 @@ impl OnDemand {
         target: &mut Target,
         counters: &mut Counters,
     ) {
-        let met = self.meet(engine, piece, depth, Some(colour), true, target);
-        if met.is_none() {
+        let rect = self.pattern.pixel_box(piece);
+        if depth && u64::from(rect.width()) * u64::from(rect.height()) <= Self::SMALL_PX {
+            if self.tell_box_apart(engine, piece, depth, target, counters) {
+                let (bounds, way) = (target.bounds(), Way { affine: true, depth_test: true });
+                fill(engine, &pack::<0, 0>(piece), target, bounds, way, |_| colour, counters);
+            }
+            return;
+        }
+        let plane = depth.then(|| Plane::new(piece, self.pattern));
+        if self.meet(engine, piece, plane.as_ref(), Some(colour), target).is_none() {
             return;
         }
         let runs = std::mem::take(&mut self.runs);
@@ -143,29 +153,20 @@ impl OnDemand {
         fragment_stage: &F,
         counters: &mut Counters,
     ) {
-        let shaded_once = self.pattern.planes > 1 && width_px(piece) >= Self::WIDE_PX;
-        let met = self.meet(engine, piece, way.depth_test, None, shaded_once, target);
-        let Some(Met { rows, whole_of }) = met else { return };
+        if self.pattern.planes == 1 || width_px(piece) < Self::WIDE_PX {
+            if self.tell_box_apart(engine, piece, way.depth_test, target, counters) {
+                fill(engine, packed, target, target.bounds(), way, fragment_stage, counters);
+            }
+            return;
+        }
+        let plane = way.depth_test.then(|| Plane::new(piece, self.pattern));
+        let Some(state) = self.meet(engine, piece, plane.as_ref(), None, target) else { return };
         let runs = std::mem::take(&mut self.runs);
-        if shaded_once {
-            for &run in &runs {
-                self.tell_apart(engine, run, target, counters);
-                fill(engine, packed, target, run.block(1), way, fragment_stage, counters);
-            }
-        } else if let Some(rect) = around(&runs) {
-            // Everything in the rectangle is drawn, so all of it is told apart.
-            for y_px in rect.y0.max(rows.start)..rect.y1.min(rows.end) {
-                let Some(PixelRow { touched: (x0, x1), .. }) = self.pixel_row(y_px) else {
-                    continue;
-                };
-                let run = Run { y_px, x0_px: x0.max(rect.x0), x1_px: x1.min(rect.x1) };
-                self.tell_apart(engine, run, target, counters);
-            }
-            let block = scaled(rect, self.pattern.scale);
-            fill(engine, packed, target, block, way, fragment_stage, counters);
+        for &run in &runs {
+            self.tell_apart(engine, run, target, counters);
+            fill(engine, packed, target, run.rect(), way, fragment_stage, counters);
         }
         self.runs = runs;
-        let Some(state) = whole_of else { return };
         let (pixels, mut shaded) = (&mut self.pixels, 0);
         fragments(engine, packed, target.bounds(), way.affine, |f| {
             let pixel = &mut pixels.span_mut(f.y_px, f.x_px, f.x_px + 1)[0];
@@ -178,31 +179,60 @@ impl OnDemand {
         counters.shaded += shaded;
     }
 
-    /// Decides what becomes of each pixel that the piece touches: those that are of the piece as a
-    /// whole are marked, and take the colour if there is one; those that it needs apart are in
-    /// `runs`. Nothing where it lies outside of the window.
-    fn meet(
+    /// Tells all pixels of a piece's bounding box apart, before it is drawn sample by sample; false
+    /// where all of it is hidden.
+    fn tell_box_apart(
         &mut self,
         engine: &impl Interpolate,
         piece: &Piece,
         depth: bool,
+        target: &mut Target,
+        counters: &mut Counters,
+    ) -> bool {
+        let rect = self.pattern.pixel_box(piece).intersect(&target.size());
+        let nearest = piece.vertices.iter().fold(1.0, |min: f64, vertex| min.min(vertex.depth));
+        let nearest = if depth { target.format.key(nearest - Plane::ERROR) } else { 0 };
+        let is_visible = |pixel: &Pixel| !depth || nearest < pixel.farthest;
+        let mut rows = rect.y0..rect.y1;
+        if rect.is_empty()
+            || !rows.any(|y| self.pixels.span_mut(y, rect.x0, rect.x1).iter().any(is_visible))
+        {
+            return false;
+        }
+        for y_px in rect.y0..rect.y1 {
+            self.tell_apart(engine, Run { y_px, x0_px: rect.x0, x1_px: rect.x1 }, target, counters);
+            for pixel in self.pixels.span_mut(y_px, rect.x0, rect.x1) {
+                pixel.nearest = pixel.nearest.min(nearest);
+            }
+        }
+        true
+    }
+
+    /// Decides what becomes of each pixel that the piece touches, drawn at the depths of a plane or
+    /// over what is there: those that are of the piece as a whole get the state that is returned,
+    /// and the colour if there is one; those that it needs apart are in `runs`. Nothing where it
+    /// lies outside of the window.
+    fn meet(
+        &mut self,
+        engine: &impl Interpolate,
+        piece: &Piece,
+        plane: Option<&Plane>,
         colour: Option<Colour>,
-        may_be_whole: bool,
         target: &Target,
-    ) -> Option<Met> {
+    ) -> Option<State> {
         self.runs.clear();
         let rows = self.covered_rows(engine, piece, target.bounds())?;
-        let (plane, format) = (Plane::new(piece, self.pattern), target.format);
+        let format = target.format;
         let state = State::Whole(self.pieces.len() as u32);
         let mut any_whole = false;
-        for y_px in rows.clone() {
+        for y_px in rows {
             let Some(PixelRow { touched, inner }) = self.pixel_row(y_px) else { continue };
             let mut first_apart = None;
             let pixels = self.pixels.span_mut(y_px, touched.0, touched.1);
             for (x_px, pixel) in (touched.0..).zip(pixels) {
-                let keys = depth.then(|| plane.keys(x_px, y_px, format));
+                let keys = plane.map(|plane| plane.keys(x_px, y_px, format));
                 let covered = (inner.0..inner.1).contains(&x_px);
-                match pixel.meet(covered, may_be_whole, keys) {
+                match pixel.meet(covered, keys) {
                     Meeting::Apart => {
                         first_apart.get_or_insert(x_px);
                         continue;
@@ -225,7 +255,7 @@ impl OnDemand {
         if any_whole {
             self.pieces.push(pack::<0, 0>(piece));
         }
-        Some(Met { rows, whole_of: any_whole.then_some(state) })
+        Some(state)
     }
 
     /// Tests and writes the samples of a run of pixels that are apart.
@@ -238,7 +268,7 @@ impl OnDemand {
         target: &mut Target,
         counters: &mut Counters,
     ) {
-        let (block, format) = (run.block(self.pattern.scale), target.format);
+        let (block, format) = (scaled(run.rect(), self.pattern.scale), target.format);
         let (mut emitted, mut visible) = (0, 0);
         for (i, plane) in target.planes.iter_mut().enumerate() {
             let Some(moved) = self.pattern.moved(piece, i) else { continue };
@@ -255,7 +285,7 @@ impl OnDemand {
 
     /// Writes the covered samples of a run of pixels that are apart.
     fn fill_samples(&self, run: Run, colour: Colour, target: &mut Target, counters: &mut Counters) {
-        let (block, planes) = (run.block(self.pattern.scale), self.pattern.planes);
+        let (block, planes) = (scaled(run.rect(), self.pattern.scale), self.pattern.planes);
         for y in block.y0..block.y1 {
             let rows = &self.rows[y as usize * planes..];
             for (plane, &(x0, x1)) in target.planes.iter_mut().zip(rows) {
@@ -276,14 +306,10 @@ impl OnDemand {
         bounds: PixelRect,
     ) -> Option<Range<i32>> {
         let Pattern { scale, planes } = self.pattern;
-        let ys = piece.vertices.map(|vertex| vertex.position.y.div_euclid(SUBPIXELS));
-        let (min, max) = (ys.into_iter().min()?, ys.into_iter().max()?);
-        // Whole rows of pixels, so that no row of an earlier piece is left in one; a moved piece
-        // lies up to half a pixel off.
-        let margin = i32::from(planes > 1);
-        let first = (min - margin).max(bounds.y0) / scale;
-        let end = ((max + margin).min(bounds.y1 - 1) / scale + 1).min(bounds.y1 / scale);
-        if first >= end {
+        // Whole rows of pixels, so that no row of an earlier piece is left in one.
+        let rect = self.pattern.pixel_box(piece).intersect(&self.pixels.bounds());
+        let (first, end) = (rect.y0, rect.y1);
+        if rect.is_empty() {
             return None;
         }
         let per_row = scale as usize * planes;
@@ -339,7 +365,7 @@ impl OnDemand {
             if state == State::Apart {
                 continue;
             }
-            let block = run.block(pattern.scale);
+            let block = scaled(run.rect(), pattern.scale);
             for (i, plane) in target.planes.iter_mut().enumerate() {
                 if state == State::Background {
                     for y in block.y0..block.y1 {
@@ -384,14 +410,6 @@ impl OnDemand {
     }
 }
 
-/// What [`OnDemand::meet`] found.
-struct Met {
-    /// Rows of pixels that the piece may touch.
-    rows: Range<i32>,
-    /// The state of the pixels that are of the piece as a whole, if any are.
-    whole_of: Option<State>,
-}
-
 /// Columns of pixels: some samples covered, and all samples covered.
 #[derive(Clone, Copy)]
 struct PixelRow {
@@ -400,24 +418,16 @@ struct PixelRow {
 }
 
 impl Run {
-    /// Its samples, `scale` along a side of each pixel.
-    fn block(self, scale: i32) -> PixelRect {
+    fn rect(self) -> PixelRect {
         let Self { y_px, x0_px, x1_px } = self;
-        scaled(PixelRect { x0: x0_px, y0: y_px, x1: x1_px, y1: y_px + 1 }, scale)
+        PixelRect { x0: x0_px, y0: y_px, x1: x1_px, y1: y_px + 1 }
     }
 }
 
+/// The samples of a rectangle of pixels, `scale` along a side of each.
 fn scaled(rect: PixelRect, scale: i32) -> PixelRect {
     let PixelRect { x0, y0, x1, y1 } = rect;
     PixelRect { x0: x0 * scale, y0: y0 * scale, x1: x1 * scale, y1: y1 * scale }
-}
-
-/// The smallest rectangle around runs of increasing rows.
-fn around(runs: &[Run]) -> Option<PixelRect> {
-    let (first, last) = (runs.first()?, runs.last()?);
-    let x0 = runs.iter().map(|run| run.x0_px).min()?;
-    let x1 = runs.iter().map(|run| run.x1_px).max()?;
-    Some(PixelRect { x0, y0: first.y_px, x1, y1: last.y_px + 1 })
 }
 
 /// Columns between the outermost corners.
@@ -430,9 +440,9 @@ impl Pixel {
     /// What becomes of it under a piece that covers all its samples or some of them, at depths
     /// between two keys, or drawn over whatever is there.
     #[inline]
-    fn meet(&mut self, covered: bool, may_be_whole: bool, keys: Option<(u64, u64)>) -> Meeting {
+    fn meet(&mut self, covered: bool, keys: Option<(u64, u64)>) -> Meeting {
         let Some((nearest, farthest)) = keys else {
-            if covered && may_be_whole {
+            if covered {
                 (self.nearest, self.farthest) = (0, 0);
                 return Meeting::Whole;
             }
@@ -441,7 +451,7 @@ impl Pixel {
         if nearest >= self.farthest {
             return Meeting::Hidden;
         }
-        if covered && may_be_whole && farthest < self.nearest {
+        if covered && farthest < self.nearest {
             (self.nearest, self.farthest) = (nearest, farthest);
             return Meeting::Whole;
         }
@@ -477,6 +487,21 @@ impl Pattern {
         plane: usize,
     ) -> Option<ScreenTriangle<V>> {
         if self.planes == 1 { Some(*piece) } else { moved(piece, SAMPLES[plane]) }
+    }
+
+    /// Pixels whose samples a piece may touch.
+    fn pixel_box<V: Copy>(self, piece: &ScreenTriangle<V>) -> PixelRect {
+        let side = self.scale * SUBPIXELS;
+        // A moved piece lies up to half a pixel off.
+        let margin = i32::from(self.planes > 1);
+        let range = |[a, b, c]: [i32; 3]| {
+            let (min, max) = (a.min(b).min(c), a.max(b).max(c));
+            (min.div_euclid(side) - margin, max.div_euclid(side) + 1 + margin)
+        };
+        let corners = piece.corners();
+        let (x0, x1) = range(corners.map(|corner| corner.x));
+        let (y0, y1) = range(corners.map(|corner| corner.y));
+        PixelRect { x0, y0, x1, y1 }
     }
 
     /// How far a sample lies from the middle of its pixel along either axis, in pixels.

@@ -54,7 +54,7 @@ impl DepthFormat {
     pub fn key(self, depth: f64) -> u64 {
         // Positive floats compare as their bits do; -0 + 0 is 0.
         let depth = depth.max(0.0).min(1.0) + 0.0;
-        let steps = |count: f64| (depth * count + (0.5 + OFF_FRACTION)) as u64;
+        let steps = |count: f64| u64::from((depth * count + (0.5 + OFF_FRACTION)) as u32);
         match self {
             Self::Unorm32 => steps(u32::MAX.into()),
             Self::Unorm24 => steps(((1u32 << 24) - 1).into()),
