@@ -20,10 +20,12 @@ use crate::scene::Scene;
 const HELP: &str = "Examples:
   rasterproof plan --scene panels          a user interface: hardly anything
   rasterproof plan --scene facets --aa ssaa4
+  rasterproof plan --scene panels --engine edge-function
   rasterproof plan model.obj --rounds 31 --json
 
-Every effect is measured alone against a frame that pays for everything; planning time is in the
-times. The pictures have the same bits, or the exit status is 1.";
+Every effect is measured twice: planned alone, against a frame that pays for everything; and as
+the last one to be planned, against a frame that plans all others. Planning time is in the times.
+The pictures have the same bits, or the exit status is 1.";
 
 /// Arguments of `plan`.
 #[derive(clap::Args, Debug)]
@@ -31,6 +33,9 @@ times. The pictures have the same bits, or the exit status is 1.";
 pub struct PlanArguments {
     #[command(flatten)]
     what: SceneArguments,
+    /// The rasterizer
+    #[arg(long, value_enum, default_value_t = By::Scanline)]
+    engine: By,
     /// Rounds of measuring, each with every mixture of effects in turn
     #[arg(long, default_value_t = 9, value_parser = clap::value_parser!(u32).range(1..=1000))]
     rounds: u32,
@@ -42,11 +47,17 @@ pub struct PlanArguments {
     json: bool,
 }
 
+#[derive(clap::ValueEnum, Clone, Copy, Debug)]
+enum By {
+    Scanline,
+    EdgeFunction,
+}
+
 /// One mixture of effects, measured.
 #[derive(serde::Serialize)]
 struct Measured {
-    /// What is planned; everything else is always paid for.
-    planned: &'static str,
+    /// The mixture, in the words of `--effects`.
+    effects: String,
     /// Median of the rounds.
     time_us: f64,
     /// Smallest and largest.
@@ -55,22 +66,72 @@ struct Measured {
     same: bool,
 }
 
-/// What is planned in each mixture, the first pays for everything.
-fn mixtures() -> Vec<(&'static str, Effects)> {
-    let alone = Effect::ALL
-        .into_iter()
-        .map(|effect| (effect.name(), Effects::ALWAYS.with(effect, Mode::Planned)));
-    let mut all = vec![("nothing", Effects::ALWAYS)];
-    all.extend(alone);
-    all.push(("everything", Effects::PLANNED));
-    all
+/// What planning one effect saves.
+#[derive(serde::Serialize)]
+struct Saving {
+    effect: Effect,
+    /// Time of the frame in which it is planned and everything else paid for, and what share that
+    /// is less than to pay for everything.
+    alone_us: f64,
+    saves_alone: f64,
+    /// Time of the frame in which it is paid for and everything else planned, and what share of
+    /// that planning it too saves.
+    all_but_us: f64,
+    saves_last: f64,
+}
+
+/// Everything measured.
+#[derive(serde::Serialize)]
+struct Savings {
+    everything: Measured,
+    planned: Measured,
+    effects: Vec<Saving>,
+    mixtures: Vec<Measured>,
+}
+
+/// Everything on, everything planned, then for each effect that one planned and all but that one.
+fn mixtures() -> Vec<(String, Effects)> {
+    let mut mixtures =
+        vec![("all".to_owned(), Effects::ALWAYS), ("planned".to_owned(), Effects::PLANNED)];
+    for effect in Effect::ALL {
+        let name = effect.name();
+        mixtures
+            .push((format!("all, {name} planned"), Effects::ALWAYS.with(effect, Mode::Planned)));
+        mixtures.push((format!("planned,+{name}"), Effects::PLANNED.with(effect, Mode::Always)));
+    }
+    mixtures
+}
+
+impl Savings {
+    fn of(mut mixtures: Vec<Measured>) -> Option<Self> {
+        let effects = mixtures.split_off(mixtures.len().min(2));
+        let (planned, everything) = (mixtures.pop()?, mixtures.pop()?);
+        let saving = |(effect, pair): (Effect, &[Measured])| Saving {
+            effect,
+            alone_us: pair[0].time_us,
+            saves_alone: 1.0 - pair[0].time_us / everything.time_us,
+            all_but_us: pair[1].time_us,
+            saves_last: 1.0 - planned.time_us / pair[1].time_us,
+        };
+        let savings = Effect::ALL.into_iter().zip(effects.chunks_exact(2)).map(saving).collect();
+        Some(Self { everything, planned, effects: savings, mixtures: effects })
+    }
+
+    fn all(&self) -> impl Iterator<Item = &Measured> {
+        [&self.everything, &self.planned].into_iter().chain(&self.mixtures)
+    }
+
+    /// How many times as fast the plan is.
+    fn factor(&self) -> f64 {
+        self.everything.time_us / self.planned.time_us
+    }
 }
 
 pub fn run(arguments: &PlanArguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
     let maker = arguments.what.maker(streams.errors)?;
     let scene = maker.scene(0.0);
     let (measured, everything, planned) = measure(arguments, &scene, streams.progress)?;
-    let same = measured.iter().all(|mixture| mixture.same);
+    let same = measured.all().all(|mixture| mixture.same);
     if arguments.report {
         let report = report_page(&arguments.what, &scene, [&everything, &planned], &measured, same);
         write_page(Path::new(PAGE), &report, streams.errors)?;
@@ -98,13 +159,17 @@ pub fn run(arguments: &PlanArguments, streams: &mut Streams<'_>) -> Result<u8, F
     Ok(if same { exit::AGREES } else { exit::DISAGREES })
 }
 
-/// Interleaved rounds of every mixture, by the scanline engine.
+/// Interleaved rounds of every mixture: the times, the frame that pays for everything, the planned.
 fn measure(
     arguments: &PlanArguments,
     scene: &Scene,
     progress: bool,
-) -> Result<(Vec<Measured>, Rendered, Rendered), Failure> {
+) -> Result<(Savings, Rendered, Rendered), Failure> {
     let mixtures = mixtures();
+    let drawer = match arguments.engine {
+        By::Scanline => Drawer::Scanline,
+        By::EdgeFunction => Drawer::EdgeFunction,
+    };
     let bar = ProgressBar::with_draw_target(
         Some(u64::from(arguments.rounds)),
         if progress { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() },
@@ -119,7 +184,7 @@ fn measure(
             let i = if round == 0 { k } else { (k + round as usize) % mixtures.len() };
             let effects = &mixtures[i].1;
             let start = Instant::now();
-            let rendered = Drawer::Scanline
+            let rendered = drawer
                 .render(scene, effects, &mut target)
                 .map_err(|error| usage(error.to_string()))?;
             let time = start.elapsed();
@@ -133,27 +198,24 @@ fn measure(
     }
     bar.finish_and_clear();
     let measured =
-        mixtures.iter().zip(&mut times).zip(&frames).map(|(((name, _), times), frame)| {
+        mixtures.into_iter().zip(&mut times).zip(&frames).map(|(((effects, _), times), frame)| {
             times.sort_unstable();
             let us = |time: Duration| time.as_secs_f64() * 1e6;
             Measured {
-                planned: name,
+                effects,
                 time_us: us(times[times.len() / 2]),
                 range_us: [us(times[0]), us(times[times.len() - 1])],
                 same: frame.picture == frames[0].picture,
             }
         });
-    let measured = measured.collect();
-    let planned = frames.pop().ok_or_else(|| usage("nothing was drawn"))?;
-    Ok((measured, frames.swap_remove(0), planned))
+    let nothing = || usage("nothing was drawn");
+    let savings = Savings::of(measured.collect()).ok_or_else(nothing)?;
+    let mut frames = frames.into_iter();
+    let (everything, planned) = frames.next().zip(frames.next()).ok_or_else(nothing)?;
+    Ok((savings, everything, planned))
 }
 
-fn describe(
-    scene: &Scene,
-    planned: &Rendered,
-    everything: &Counters,
-    measured: &[Measured],
-) -> String {
+fn describe(scene: &Scene, planned: &Rendered, everything: &Counters, savings: &Savings) -> String {
     let mut text = format!("{}: {}\n\n", scene.name, scene.about);
     let _ = writeln!(text, "{:<6} {:<14} {:>8} {:>8}  why", "item", "effect", "on", "off");
     for line in grouped(&planned.plan.decisions) {
@@ -164,6 +226,7 @@ fn describe(
         [
             ("plane tests", c.plane_tests),
             ("winding tests", c.cull_tests),
+            ("wide words", c.wide),
             ("fragments", c.fragments),
             ("divisions by 1/w", c.divisions),
             ("components", c.components),
@@ -173,27 +236,34 @@ fn describe(
             ("fragment stages", c.shaded),
             ("pixels expanded", c.expanded),
             ("samples cleared", c.cleared),
+            ("depths cleared", c.depths_cleared),
             ("pixels presented", c.presented),
         ]
     };
     for ((name, all), (_, planned)) in names(everything).into_iter().zip(names(&planned.counters)) {
         let _ = writeln!(text, "{name:<18} {all:>12} {planned:>11}");
     }
-    text += "\nplanned alone        median us     saving  (smallest to largest)\n";
-    let whole = measured.first().map_or(0.0, |mixture| mixture.time_us);
-    for m in measured {
-        let saving = 100.0 * (1.0 - m.time_us / whole);
-        let [low, high] = m.range_us;
-        let mark = if m.same { "" } else { "  DIFFERENT PICTURE" };
+    text += "\nplanned          alone us     saves    last us     saves\n";
+    for Saving { effect, alone_us, saves_alone, all_but_us, saves_last } in &savings.effects {
         let _ = writeln!(
             text,
-            "{:<18} {:>11.0} {saving:>9.0}%  ({low:.0} to {high:.0}){mark}",
-            m.planned, m.time_us
+            "{:<14} {alone_us:>10.0} {:>8.0}% {all_but_us:>10.0} {:>8.0}%",
+            effect.name(),
+            100.0 * saves_alone,
+            100.0 * saves_last
         );
     }
-    if let Some(all) = measured.last() {
-        let _ = writeln!(text, "planned as a whole: {:.2} times as fast", whole / all.time_us);
+    text += "alone: the rest paid for; last: paid for, the rest planned\n\n";
+    for m in savings.all() {
+        if !m.same {
+            let _ = writeln!(text, "DIFFERENT PICTURE with the effects {}", m.effects);
+        }
     }
+    for (name, m) in [("everything", &savings.everything), ("planned", &savings.planned)] {
+        let [low, high] = m.range_us;
+        let _ = writeln!(text, "{name:<14} {:>10.0} us  ({low:.0} to {high:.0})", m.time_us);
+    }
+    let _ = writeln!(text, "planned as a whole: {:.2} times as fast", savings.factor());
     text
 }
 
@@ -202,23 +272,24 @@ fn report_page(
     what: &SceneArguments,
     scene: &Scene,
     frames: [&Rendered; 2],
-    measured: &[Measured],
+    savings: &Savings,
     same: bool,
 ) -> Report {
     let command = format!("rasterproof plan {} --report", what.words());
-    let whole = measured.first().map_or(0.0, |mixture| mixture.time_us);
     let column =
         |label: &str, is_number| Column { label: label.to_owned(), is_number, ..Column::default() };
-    let row = |m: &Measured| Row {
+    let row = |s: &Saving| Row {
         cells: vec![
-            m.planned.to_owned(),
-            format!("{:.0}", m.time_us),
-            format!("{:.0}%", 100.0 * (1.0 - m.time_us / whole)),
+            s.effect.name().to_owned(),
+            format!("{:.0}", s.alone_us),
+            format!("{:.0}%", 100.0 * s.saves_alone),
+            format!("{:.0}", s.all_but_us),
+            format!("{:.0}%", 100.0 * s.saves_last),
         ],
         ..Row::default()
     };
     let word = if same { "AGREES" } else { "DISAGREES" };
-    let factor = measured.last().map_or(1.0, |all| whole / all.time_us);
+    let factor = savings.factor();
     Report {
         title: format!("What the scene {} calls for", scene.name),
         outcome: Some(Outcome {
@@ -232,13 +303,18 @@ fn report_page(
         }),
         command: command.clone(),
         tables: vec![Table {
-            caption: "One effect planned, the rest always paid for".to_owned(),
+            caption:
+                "What planning one effect saves: alone, the rest always paid for; as the last, \
+                      the rest planned"
+                    .to_owned(),
             columns: vec![
-                column("planned", false),
-                column("median us", true),
-                column("saving", true),
+                column("effect", false),
+                column("alone us", true),
+                column("saves", true),
+                column("all but it us", true),
+                column("saves", true),
             ],
-            rows: measured.iter().map(row).collect(),
+            rows: savings.effects.iter().map(row).collect(),
         }],
         frames: vec![PictureView {
             name: scene.name.clone(),
