@@ -12,7 +12,7 @@
 //! compared; [`cost`] measures what each step of accuracy takes. The pages under `docs/` follow the
 //! chapters of a textbook; `docs/index.md` is where to begin.
 //!
-//! Judge a rasterizer of your own in ten lines:
+//! To judge a rasterizer of your own, implement one method:
 //!
 //! ```
 //! use rasterproof::{contract::Rasterize, grid::PixelRect, triangle::{Corners, Span}, verify};

@@ -1,6 +1,6 @@
 //! `rasterproof verify --invariant NAME` and `rasterproof mutants`.
 
-use super::{Failure, Streams, exit};
+use super::{Failure, Streams, exit, write_entry};
 use crate::invariant::matrix::{self, Matrix};
 use crate::invariant::subject::Subject;
 use crate::invariant::{CATALOGUE, Invariant};
@@ -111,7 +111,7 @@ pub fn list(streams: &mut Streams<'_>) -> Result<(), Failure> {
     let out = &mut streams.output;
     writeln!(out, "\nInvariants (rasterproof verify --invariant NAME, or all):")?;
     for i in CATALOGUE {
-        writeln!(out, "  {:>2} {:<20} {}", i.number, i.name, i.statement)?;
+        write_entry(out, &format!("{:>2} {:<20}", i.number, i.name), i.statement)?;
     }
     Ok(())
 }

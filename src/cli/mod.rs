@@ -205,27 +205,42 @@ fn list(streams: &mut Streams<'_>) -> Result<u8, Failure> {
     let out = &mut streams.output;
     writeln!(out, "Families (rasterproof --family NAME, rasterproof inspect NAME#NUMBER):")?;
     for family in hazard::families() {
-        writeln!(out, "  {:<16} {}", family.name, family.about)?;
+        write_entry(out, &format!("{:<16}", family.name), family.about)?;
     }
     writeln!(out, "\nFamilies off the grid, for the engines that do not snap:")?;
     for family in hazard::offgrid::FAMILIES {
-        writeln!(out, "  {:<16} {}", family.name, family.about)?;
+        write_entry(out, &format!("{:<16}", family.name), family.about)?;
     }
     writeln!(out, "\nNamed cases (rasterproof inspect NAME):")?;
     for case in crate::scene::named::named() {
-        writeln!(out, "  {:<5} {}", case.name, case.about)?;
+        write_entry(out, &format!("{:<5}", case.name), case.about)?;
     }
     writeln!(out, "\nEngines (rasterproof engine NAME):")?;
     for entry in lineup::ENTRIES.iter().chain(&lineup::SPECIMENS) {
-        writeln!(out, "  {:<19} {}", entry.name, entry.about)?;
+        write_entry(out, &format!("{:<19}", entry.name), entry.about)?;
     }
     invariant::list(streams)?;
     let out = &mut streams.output;
     writeln!(out, "\nScenes (rasterproof render --scene NAME):")?;
     for entry in crate::scene::chapters::SCENES {
-        writeln!(out, "  {:<19} {}", entry.name, entry.about)?;
+        write_entry(out, &format!("{:<19}", entry.name), entry.about)?;
     }
     Ok(exit::AGREES)
+}
+
+/// Writes an entry of a list, what it is about beside its name, in lines of at most 100 columns.
+fn write_entry(out: &mut dyn Write, name: &str, about: &str) -> io::Result<()> {
+    let mut line = format!("  {name}");
+    let indent = " ".repeat(line.chars().count());
+    for word in about.split(' ') {
+        if line.chars().count() + 1 + word.chars().count() > 100 {
+            writeln!(out, "{line}")?;
+            line.clone_from(&indent);
+        }
+        line.push(' ');
+        line += word;
+    }
+    writeln!(out, "{line}")
 }
 
 /// Writes a file whole or not at all: first beside its place, then renamed.

@@ -44,18 +44,13 @@ fn measures() -> Vec<Measure> {
 struct AsPublished(BookChapter2);
 
 impl Cover for AsPublished {
-    fn accepts(&self, corners: &FreeCorners, bounds: PixelRect) -> Result<(), String> {
-        self.0.cover(&bare(corners.px()), bounds, |_| ()).map_err(|refused| refused.to_string())
+    fn accepts(&self, free: &FreeCorners, bounds: PixelRect) -> Result<(), String> {
+        self.0.cover(&bare(free.px()), bounds, |_| ()).map_err(|refused| refused.to_string())
     }
 
-    fn cover(
-        &self,
-        corners: &FreeCorners,
-        bounds: PixelRect,
-        emit: impl FnMut(Span),
-    ) -> Option<Work> {
+    fn cover(&self, free: &FreeCorners, bounds: PixelRect, emit: impl FnMut(Span)) -> Option<Work> {
         // What it refuses was refused before; see `accepts`.
-        let _ = self.0.cover(&bare(corners.px()), bounds, emit);
+        let _ = self.0.cover(&bare(free.px()), bounds, emit);
         None
     }
 }
@@ -410,11 +405,11 @@ mod tests {
     impl Cover for Planted {
         fn cover(
             &self,
-            corners: &FreeCorners,
+            free: &FreeCorners,
             bounds: PixelRect,
             mut emit: impl FnMut(Span),
         ) -> Option<Work> {
-            let mut px = corners.px();
+            let mut px = free.px();
             (self.0)(&mut px, &mut span(0, 0, 0));
             let corners = FreeCorners::new(px).unwrap();
             Oracle.cover_exact(&corners, bounds, |mut span| {

@@ -194,51 +194,31 @@ fn cover_by<T: Real>(
 
 impl<T: Real> Cover for Direct<T> {
     #[inline]
-    fn cover(
-        &self,
-        corners: &FreeCorners,
-        bounds: PixelRect,
-        emit: impl FnMut(Span),
-    ) -> Option<Work> {
-        cover_by(corners, bounds, side::<T>, emit)
+    fn cover(&self, free: &FreeCorners, bounds: PixelRect, emit: impl FnMut(Span)) -> Option<Work> {
+        cover_by(free, bounds, side::<T>, emit)
     }
 }
 
 impl<T: Real> Cover for Ordered<T> {
     #[inline]
-    fn cover(
-        &self,
-        corners: &FreeCorners,
-        bounds: PixelRect,
-        emit: impl FnMut(Span),
-    ) -> Option<Work> {
-        cover_by(corners, bounds, ordered_side::<T>, emit)
+    fn cover(&self, free: &FreeCorners, bounds: PixelRect, emit: impl FnMut(Span)) -> Option<Work> {
+        cover_by(free, bounds, ordered_side::<T>, emit)
     }
 }
 
 impl Cover for Robust {
     #[inline]
-    fn cover(
-        &self,
-        corners: &FreeCorners,
-        bounds: PixelRect,
-        emit: impl FnMut(Span),
-    ) -> Option<Work> {
+    fn cover(&self, free: &FreeCorners, bounds: PixelRect, emit: impl FnMut(Span)) -> Option<Work> {
         let coord = |p: &Point<f64>| Coord { x: p[0], y: p[1] };
         // Expanded, orient2d(a, b, p) is E(p).
-        cover_by(corners, bounds, |a, b, p| orient2d(coord(a), coord(b), coord(p)), emit)
+        cover_by(free, bounds, |a, b, p| orient2d(coord(a), coord(b), coord(p)), emit)
     }
 }
 
 impl<T: Real> Cover for Stepped<T> {
     #[inline]
-    fn cover(
-        &self,
-        corners: &FreeCorners,
-        bounds: PixelRect,
-        emit: impl FnMut(Span),
-    ) -> Option<Work> {
-        let Some(corners) = clockwise(corners, side::<T>) else { return Some(Work::default()) };
+    fn cover(&self, free: &FreeCorners, bounds: PixelRect, emit: impl FnMut(Span)) -> Option<Work> {
+        let Some(corners) = clockwise(free, side::<T>) else { return Some(Work::default()) };
         let rect = pixel_box(&corners, bounds);
         let edges = edges(corners);
         let start = centre(rect.x0, rect.y0);
@@ -316,8 +296,8 @@ where
     W: PrimInt + Signed + 'static,
     i64: AsPrimitive<T> + AsPrimitive<W>,
 {
-    fn accepts(&self, corners: &FreeCorners, _bounds: PixelRect) -> Result<(), String> {
-        if Self::fits(&snappable(corners)?) {
+    fn accepts(&self, free: &FreeCorners, _bounds: PixelRect) -> Result<(), String> {
+        if Self::fits(&snappable(free)?) {
             return Ok(());
         }
         let bits = 8 * size_of::<W>();
@@ -325,12 +305,7 @@ where
     }
 
     #[inline]
-    fn cover(
-        &self,
-        corners: &FreeCorners,
-        bounds: PixelRect,
-        emit: impl FnMut(Span),
-    ) -> Option<Work> {
-        Some(snap(corners).map_or(Work::default(), |c| Self::cover_lattice(&c, bounds, emit)))
+    fn cover(&self, free: &FreeCorners, bounds: PixelRect, emit: impl FnMut(Span)) -> Option<Work> {
+        Some(snap(free).map_or(Work::default(), |c| Self::cover_lattice(&c, bounds, emit)))
     }
 }

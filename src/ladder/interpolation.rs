@@ -90,11 +90,6 @@ impl<T: Real> Floats<T> {
             value: triangle.value.map(T::of),
         }
     }
-
-    #[inline]
-    fn over_w(&self) -> [T; 3] {
-        [0, 1, 2].map(|i| self.value[i] * self.inv_w[i])
-    }
 }
 
 /// A function that is linear over the screen: f0 at the first vertex, and its slopes.
@@ -128,6 +123,19 @@ fn inv_area<T: Real>(at: &[[T; 2]; 3]) -> T {
     T::one() / ((b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]))
 }
 
+/// The quotient of v/w and 1/w, both as planes over the screen, at the centre of a pixel (x, y).
+#[inline]
+fn quotient<T: Real>(triangle: &Valued) -> impl Fn(i32, i32) -> T {
+    let t = Floats::<T>::new(triangle);
+    let inv_area = inv_area(&t.at);
+    let over_w = Slopes::new(&t.at, [0, 1, 2].map(|i| t.value[i] * t.inv_w[i]), inv_area);
+    let inv_w = Slopes::new(&t.at, t.inv_w, inv_area);
+    move |x_px, y_px| {
+        let (dx, dy) = (centre::<T>(x_px) - t.at[0][0], centre::<T>(y_px) - t.at[0][1]);
+        over_w.at(dx, dy) / inv_w.at(dx, dy)
+    }
+}
+
 impl<T: Real> Values for Affine<T> {
     #[inline]
     fn values(&self, triangle: &Valued, spans: &[Span], mut emit: impl FnMut(i32, i32, f64)) {
@@ -148,21 +156,13 @@ impl<T: Real> Values for Affine<T> {
 impl<T: Real> Values for EverySixteen<T> {
     #[inline]
     fn values(&self, triangle: &Valued, spans: &[Span], mut emit: impl FnMut(i32, i32, f64)) {
-        let t = Floats::<T>::new(triangle);
-        let inv_area = inv_area(&t.at);
-        let inv_w = Slopes::new(&t.at, t.inv_w, inv_area);
-        let over_w = Slopes::new(&t.at, t.over_w(), inv_area);
+        let at = quotient::<T>(triangle);
         for span in spans {
-            let dy = centre::<T>(span.y_px) - t.at[0][1];
-            let at = |x_px: i32| {
-                let dx = centre::<T>(x_px) - t.at[0][0];
-                over_w.at(dx, dy) / inv_w.at(dx, dy)
-            };
             let last = span.x1_px - 1;
-            let (mut start, mut value) = (span.x0_px, at(span.x0_px));
+            let (mut start, mut value) = (span.x0_px, at(span.x0_px, span.y_px));
             while start < last {
                 let end = (start + 16).min(last);
-                let next = at(end);
+                let next = at(end, span.y_px);
                 let step = (next - value) / T::of(f64::from(end - start));
                 for x_px in start..end {
                     emit(x_px, span.y_px, value.as_());
@@ -178,15 +178,10 @@ impl<T: Real> Values for EverySixteen<T> {
 impl<T: Real> Values for Plane<T> {
     #[inline]
     fn values(&self, triangle: &Valued, spans: &[Span], mut emit: impl FnMut(i32, i32, f64)) {
-        let t = Floats::<T>::new(triangle);
-        let inv_area = inv_area(&t.at);
-        let inv_w = Slopes::new(&t.at, t.inv_w, inv_area);
-        let over_w = Slopes::new(&t.at, t.over_w(), inv_area);
+        let at = quotient::<T>(triangle);
         for span in spans {
-            let dy = centre::<T>(span.y_px) - t.at[0][1];
             for x_px in span.x0_px..span.x1_px {
-                let dx = centre::<T>(x_px) - t.at[0][0];
-                emit(x_px, span.y_px, (over_w.at(dx, dy) / inv_w.at(dx, dy)).as_());
+                emit(x_px, span.y_px, at(x_px, span.y_px).as_());
             }
         }
     }
@@ -228,6 +223,13 @@ fn whole<T: Real>(value: i64) -> T {
     T::from(value).unwrap_or_else(T::zero)
 }
 
+/// An end of a row: where, and what arrives there.
+#[derive(Clone, Copy)]
+struct End<T> {
+    x: T,
+    carried: [T; 2],
+}
+
 /// The triangle sorted from the top down, with what travels along its edges.
 struct Sorted<T> {
     at: [[T; 2]; 3],
@@ -249,16 +251,7 @@ impl<T: Real> Sorted<T> {
     fn edges(&self, yc: T) -> [[usize; 2]; 2] {
         [[0, 2], if yc < self.at[1][1] { [0, 1] } else { [1, 2] }]
     }
-}
 
-/// An end of a row: where, and what arrives there.
-#[derive(Clone, Copy)]
-struct End<T> {
-    x: T,
-    carried: [T; 2],
-}
-
-impl<T: Real> Sorted<T> {
     /// Both ends of the row at height `yc`, from the left, each computed directly.
     #[inline]
     fn ends(&self, yc: T) -> [End<T>; 2] {

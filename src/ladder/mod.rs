@@ -78,19 +78,14 @@ pub trait Cover {
     ///
     /// # Errors
     /// The reason, for a reader.
-    fn accepts(&self, _corners: &FreeCorners, _bounds: PixelRect) -> Result<(), String> {
+    fn accepts(&self, _free: &FreeCorners, _bounds: PixelRect) -> Result<(), String> {
         Ok(())
     }
 
-    /// Emits the pixels of `bounds` that the rung takes for covered, in spans that are not empty.
-    /// The rule is that of [`Rasterize::cover`]; how well it is kept is what is measured. Returns
-    /// the work as far as the rung can count it, in all fields or in none.
-    fn cover(
-        &self,
-        corners: &FreeCorners,
-        bounds: PixelRect,
-        emit: impl FnMut(Span),
-    ) -> Option<Work>;
+    /// Emits the pixels of `bounds` that the rung takes for covered by the corners as given, in spans
+    /// that are not empty. The rule is that of [`Rasterize::cover`]; how well it is kept is what is
+    /// measured. Returns the work as far as the rung can count it, in all fields or in none.
+    fn cover(&self, free: &FreeCorners, bounds: PixelRect, emit: impl FnMut(Span)) -> Option<Work>;
 }
 
 /// Rounds the corners to the lattice; `None` where one lies at the very end of the domain.
@@ -112,18 +107,13 @@ fn snappable(corners: &FreeCorners) -> Result<Corners, String> {
 pub struct Snapped<E>(pub E);
 
 impl<E: Rasterize> Cover for Snapped<E> {
-    fn accepts(&self, corners: &FreeCorners, _bounds: PixelRect) -> Result<(), String> {
-        snappable(corners).map(drop)
+    fn accepts(&self, free: &FreeCorners, _bounds: PixelRect) -> Result<(), String> {
+        snappable(free).map(drop)
     }
 
     #[inline]
-    fn cover(
-        &self,
-        corners: &FreeCorners,
-        bounds: PixelRect,
-        emit: impl FnMut(Span),
-    ) -> Option<Work> {
-        if let Some(corners) = snap(corners) {
+    fn cover(&self, free: &FreeCorners, bounds: PixelRect, emit: impl FnMut(Span)) -> Option<Work> {
+        if let Some(corners) = snap(free) {
             self.0.cover(corners, bounds, emit);
         }
         None
@@ -136,13 +126,8 @@ pub struct Unsnapped<E>(pub E);
 
 impl<E: RasterizeExact> Cover for Unsnapped<E> {
     #[inline]
-    fn cover(
-        &self,
-        corners: &FreeCorners,
-        bounds: PixelRect,
-        emit: impl FnMut(Span),
-    ) -> Option<Work> {
-        let decisions = self.0.cover_exact(corners, bounds, emit);
+    fn cover(&self, free: &FreeCorners, bounds: PixelRect, emit: impl FnMut(Span)) -> Option<Work> {
+        let decisions = self.0.cover_exact(free, bounds, emit);
         Some(Work {
             divisions: 0,
             evaluations: decisions.by_filter + decisions.by_fallback,

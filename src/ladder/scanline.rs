@@ -163,25 +163,15 @@ impl<T: Real> Side for DirectSide<T> {
 
 impl<T: Real> Cover for Accumulated<T> {
     #[inline]
-    fn cover(
-        &self,
-        corners: &FreeCorners,
-        bounds: PixelRect,
-        emit: impl FnMut(Span),
-    ) -> Option<Work> {
-        walk::<AccumulatedSide<T>>(&sorted(corners), bounds, emit)
+    fn cover(&self, free: &FreeCorners, bounds: PixelRect, emit: impl FnMut(Span)) -> Option<Work> {
+        walk::<AccumulatedSide<T>>(&sorted(free), bounds, emit)
     }
 }
 
 impl<T: Real> Cover for Direct<T> {
     #[inline]
-    fn cover(
-        &self,
-        corners: &FreeCorners,
-        bounds: PixelRect,
-        emit: impl FnMut(Span),
-    ) -> Option<Work> {
-        walk::<DirectSide<T>>(&sorted(corners), bounds, emit)
+    fn cover(&self, free: &FreeCorners, bounds: PixelRect, emit: impl FnMut(Span)) -> Option<Work> {
+        walk::<DirectSide<T>>(&sorted(free), bounds, emit)
     }
 }
 
@@ -229,13 +219,8 @@ impl Side for BigSide {
 }
 
 impl Cover for BigIntegers {
-    fn cover(
-        &self,
-        corners: &FreeCorners,
-        bounds: PixelRect,
-        emit: impl FnMut(Span),
-    ) -> Option<Work> {
-        let mut corners = corners.px();
+    fn cover(&self, free: &FreeCorners, bounds: PixelRect, emit: impl FnMut(Span)) -> Option<Work> {
+        let mut corners = free.px();
         corners.sort_by(|a, b| a[1].total_cmp(&b[1]));
         // The smallest unit of which every coordinate and every centre is a whole number.
         let bits = corners.as_flattened().iter().map(|&v| bits_after_point(v)).fold(1, u32::max);

@@ -5,6 +5,7 @@
 
 use std::cmp::Ordering;
 
+use super::each_sample;
 use crate::contract::{Decisions, Rasterize, RasterizeExact};
 use crate::grid::{PixelRect, SubpixelPoint};
 use crate::raster::{edge_function_exact::EdgeFunctionExact, scanline::Scanline};
@@ -126,25 +127,22 @@ fn by_sign(
     bounds: PixelRect,
     e: impl Fn(Point, Point, Point) -> f64,
     owns: impl Fn(Point, Point) -> bool,
-    mut emit: impl FnMut(Span),
+    emit: impl FnMut(Span),
 ) {
     match e(a, b, c).partial_cmp(&0.0) {
         Some(Ordering::Greater) => {}
         Some(Ordering::Less) => (b, c) = (c, b),
         _ => return,
     }
-    for y_px in bounds.y0..bounds.y1 {
-        for x_px in bounds.x0..bounds.x1 {
-            let p = [f64::from(x_px) + 0.5, f64::from(y_px) + 0.5];
-            let is_inside = [(a, b), (b, c), (c, a)].into_iter().all(|(from, to)| {
-                let side = e(from, to, p);
-                side > 0.0 || (side == 0.0 && owns(from, to))
-            });
-            if is_inside {
-                emit(Span { y_px, x0_px: x_px, x1_px: x_px + 1 });
-            }
-        }
-    }
+    let edges = [(a, b), (b, c), (c, a)];
+    let inside = |x_px, y_px| {
+        let p = [f64::from(x_px) + 0.5, f64::from(y_px) + 0.5];
+        edges.iter().all(|&(from, to)| {
+            let side = e(from, to, p);
+            side > 0.0 || (side == 0.0 && owns(from, to))
+        })
+    };
+    each_sample(bounds, inside, emit);
 }
 
 /// Tests each sample by the parity of crossings that floats compute.

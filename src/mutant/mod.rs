@@ -17,6 +17,9 @@ pub use parts::{EdgeValuesMutant, JudgeMutant, SnapMutant, SourceMutant, WordWid
 pub use stages::StageMutant;
 pub use triangles::TriangleMutant;
 
+use crate::grid::PixelRect;
+use crate::triangle::Span;
+
 /// A mutant of any kind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mutant {
@@ -75,6 +78,17 @@ impl Mutant {
             Self::Source(mutant) => mutant.name(),
             Self::Stage(mutant) => mutant.name(),
             Self::Judge(mutant) => mutant.name(),
+        }
+    }
+}
+
+/// Emits each pixel of `rect`, as a span of its own, of which `inside(x, y)` is true.
+fn each_sample(rect: PixelRect, inside: impl Fn(i32, i32) -> bool, mut emit: impl FnMut(Span)) {
+    for y_px in rect.y0..rect.y1 {
+        for x_px in rect.x0..rect.x1 {
+            if inside(x_px, y_px) {
+                emit(Span { y_px, x0_px: x_px, x1_px: x_px + 1 });
+            }
         }
     }
 }

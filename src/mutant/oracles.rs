@@ -1,5 +1,6 @@
 //! Oracles with a planted fault each: what the engines are judged by can be wrong too.
 
+use super::each_sample;
 use crate::contract::{Interpolate, Rasterize};
 use crate::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
 use crate::oracle::Oracle;
@@ -45,27 +46,24 @@ impl OracleMutant {
 }
 
 impl Rasterize for OracleMutant {
-    fn cover(&self, corners: Corners, bounds: PixelRect, mut emit: impl FnMut(Span)) {
+    fn cover(&self, corners: Corners, bounds: PixelRect, emit: impl FnMut(Span)) {
         if *self == Self::AffineValues {
             return Oracle.cover(corners, bounds, emit);
         }
         let centre = |px: i32| px.saturating_mul(SUBPIXELS).saturating_add(HALF_PIXEL);
-        for y_px in bounds.y0..bounds.y1 {
-            for x_px in bounds.x0..bounds.x1 {
-                let sample = SubpixelPoint::new(centre(x_px), centre(y_px));
-                let crossings = [(0, 1), (1, 2), (2, 0)].into_iter().filter(|&(i, j)| {
-                    let (a, b) = (corners[i], corners[j]);
-                    match (a.y <= sample.y, b.y <= sample.y) {
-                        (true, false) => self.is_left(a, b, sample),
-                        (false, true) => self.is_left(b, a, sample),
-                        _ => false,
-                    }
-                });
-                if crossings.count() % 2 == 1 {
-                    emit(Span { y_px, x0_px: x_px, x1_px: x_px + 1 });
+        let inside = |x_px, y_px| {
+            let sample = SubpixelPoint::new(centre(x_px), centre(y_px));
+            let crossings = [(0, 1), (1, 2), (2, 0)].into_iter().filter(|&(i, j)| {
+                let (a, b) = (corners[i], corners[j]);
+                match (a.y <= sample.y, b.y <= sample.y) {
+                    (true, false) => self.is_left(a, b, sample),
+                    (false, true) => self.is_left(b, a, sample),
+                    _ => false,
                 }
-            }
-        }
+            });
+            crossings.count() % 2 == 1
+        };
+        each_sample(bounds, inside, emit);
     }
 }
 

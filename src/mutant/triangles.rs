@@ -3,6 +3,7 @@
 //! Those of coverage test samples one by one with a rule that is wrong in one way, or spoil the
 //! spans of an engine the way real code goes wrong; those of values do so with its fragments.
 
+use super::each_sample;
 use crate::contract::{Interpolate, Rasterize};
 use crate::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
 use crate::raster::edge_function::{self, EdgeFunction};
@@ -296,79 +297,66 @@ fn near(corners: &Corners, bounds: PixelRect) -> PixelRect {
     PixelRect { x0: low(xs), y0: low(ys), x1: high(xs), y1: high(ys) }.intersect(&bounds)
 }
 
-/// Tests each sample against three edges; `owns` says for an edge (dx, dy), inside to its right,
-/// whether samples on it belong.
-fn by_rule(
+/// Tests each sample of `rect` against three edges: `keeps` says for an edge from a to b, inside to
+/// its right, and a pixel whether it keeps the sample.
+fn by_edges(
     mut corners: Corners,
-    bounds: PixelRect,
-    sample_shift: i32,
-    owns: impl Fn(i128, i128) -> bool,
-    mut emit: impl FnMut(Span),
+    rect: PixelRect,
+    keeps: impl Fn([SubpixelPoint; 2], i32, i32) -> bool,
+    emit: impl FnMut(Span),
 ) {
     match cross(corners).signum() {
         0 => return,
         -1 => corners.swap(1, 2),
         _ => {}
     }
-    let bounds = near(&corners, bounds);
-    let centre = |px: i32| px.saturating_mul(SUBPIXELS).saturating_add(HALF_PIXEL + sample_shift);
-    for y_px in bounds.y0..bounds.y1 {
-        for x_px in bounds.x0..bounds.x1 {
-            let sample = SubpixelPoint::new(centre(x_px), centre(y_px));
-            let inside = [(0, 1), (1, 2), (2, 0)].into_iter().all(|(i, j)| {
-                let (a, b) = (corners[i], corners[j]);
-                let (dx, dy) =
-                    (i128::from(b.x) - i128::from(a.x), i128::from(b.y) - i128::from(a.y));
-                let edge = cross([a, b, sample]);
-                edge > 0 || (edge == 0 && owns(dx, dy))
-            });
-            if inside {
-                emit(Span { y_px, x0_px: x_px, x1_px: x_px + 1 });
-            }
-        }
-    }
+    let [a, b, c] = corners;
+    let edges = [[a, b], [b, c], [c, a]];
+    let inside = |x_px, y_px| edges.iter().all(|&edge| keeps(edge, x_px, y_px));
+    each_sample(rect, inside, emit);
 }
 
-/// Edge functions in wrapping 32-bit arithmetic.
-fn wrapping(mut corners: Corners, bounds: PixelRect, mut emit: impl FnMut(Span)) {
-    match cross(corners).signum() {
-        0 => return,
-        -1 => corners.swap(1, 2),
-        _ => {}
-    }
+/// By edges in exact integers; `owns` says for an edge (dx, dy) whether samples on it belong.
+fn by_rule(
+    corners: Corners,
+    bounds: PixelRect,
+    sample_shift: i32,
+    owns: impl Fn(i128, i128) -> bool,
+    emit: impl FnMut(Span),
+) {
+    let centre = |px: i32| px.saturating_mul(SUBPIXELS).saturating_add(HALF_PIXEL + sample_shift);
+    let keeps = |[a, b]: [SubpixelPoint; 2], x_px, y_px| {
+        let (dx, dy) = (i128::from(b.x) - i128::from(a.x), i128::from(b.y) - i128::from(a.y));
+        let edge = cross([a, b, SubpixelPoint::new(centre(x_px), centre(y_px))]);
+        edge > 0 || (edge == 0 && owns(dx, dy))
+    };
+    by_edges(corners, near(&corners, bounds), keeps, emit);
+}
+
+/// By edges in wrapping 32-bit arithmetic.
+fn wrapping(corners: Corners, bounds: PixelRect, emit: impl FnMut(Span)) {
     let centre = |px: i32| px.wrapping_mul(SUBPIXELS).wrapping_add(HALF_PIXEL);
-    for y_px in bounds.y0..bounds.y1 {
-        for x_px in bounds.x0..bounds.x1 {
-            let inside = [(0, 1), (1, 2), (2, 0)].into_iter().all(|(i, j)| {
-                let (a, b) = (corners[i], corners[j]);
-                let (dx, dy) = (b.x.wrapping_sub(a.x), b.y.wrapping_sub(a.y));
-                let edge = dx
-                    .wrapping_mul(centre(y_px).wrapping_sub(a.y))
-                    .wrapping_sub(dy.wrapping_mul(centre(x_px).wrapping_sub(a.x)));
-                edge > 0 || (edge == 0 && (dy < 0 || (dy == 0 && dx > 0)))
-            });
-            if inside {
-                emit(Span { y_px, x0_px: x_px, x1_px: x_px + 1 });
-            }
-        }
-    }
+    let keeps = |[a, b]: [SubpixelPoint; 2], x_px, y_px| {
+        let (dx, dy) = (b.x.wrapping_sub(a.x), b.y.wrapping_sub(a.y));
+        let edge = dx
+            .wrapping_mul(centre(y_px).wrapping_sub(a.y))
+            .wrapping_sub(dy.wrapping_mul(centre(x_px).wrapping_sub(a.x)));
+        edge > 0 || (edge == 0 && (dy < 0 || (dy == 0 && dx > 0)))
+    };
+    by_edges(corners, bounds, keeps, emit);
 }
 
 /// The top-left rule is forgotten; of the three edges as they come the last one is inclusive.
-fn last_edge_inclusive(corners: Corners, bounds: PixelRect, mut emit: impl FnMut(Span)) {
+fn last_edge_inclusive(corners: Corners, bounds: PixelRect, emit: impl FnMut(Span)) {
     let sign = cross(corners).signum();
-    let rect = near(&corners, bounds);
     let [a, b, c] = corners;
-    for y_px in rect.y0..rect.y1 {
-        for x_px in rect.x0..rect.x1 {
-            let sample = centre_of(x_px, y_px);
-            let edges = [cross([a, b, sample]), cross([b, c, sample]), cross([c, a, sample])];
-            let [first, second, last] = edges.map(|edge| edge * sign);
-            if sign != 0 && first > 0 && second > 0 && last >= 0 {
-                emit(Span { y_px, x0_px: x_px, x1_px: x_px + 1 });
-            }
-        }
-    }
+    let inside = |x_px, y_px| {
+        let sample = centre_of(x_px, y_px);
+        let edges = [cross([a, b, sample]), cross([b, c, sample]), cross([c, a, sample])];
+        let [first, second, last] = edges.map(|edge| edge * sign);
+        sign != 0 && first > 0 && second > 0 && last >= 0
+    };
+    each_sample(near(&corners, bounds), inside, emit);
 }
 
 fn centre_of(x_px: i32, y_px: i32) -> SubpixelPoint {
@@ -376,20 +364,16 @@ fn centre_of(x_px: i32, y_px: i32) -> SubpixelPoint {
     SubpixelPoint::new(centre(x_px), centre(y_px))
 }
 
-fn fills_zero_area(corners: Corners, bounds: PixelRect, mut emit: impl FnMut(Span)) {
-    let rect = near(&corners, bounds);
+fn fills_zero_area(corners: Corners, bounds: PixelRect, emit: impl FnMut(Span)) {
     let [a, b, c] = corners;
     let within =
         |p: i32, v: [i32; 3]| v.into_iter().min() <= Some(p) && v.into_iter().max() >= Some(p);
-    for y_px in rect.y0..rect.y1 {
-        for x_px in rect.x0..rect.x1 {
-            let p = centre_of(x_px, y_px);
-            let on_line = cross([a, b, p]) == 0 && cross([b, c, p]) == 0 && cross([c, a, p]) == 0;
-            if on_line && within(p.x, [a.x, b.x, c.x]) && within(p.y, [a.y, b.y, c.y]) {
-                emit(Span { y_px, x0_px: x_px, x1_px: x_px + 1 });
-            }
-        }
-    }
+    let inside = |x_px, y_px| {
+        let p = centre_of(x_px, y_px);
+        let on_line = cross([a, b, p]) == 0 && cross([b, c, p]) == 0 && cross([c, a, p]) == 0;
+        on_line && within(p.x, [a.x, b.x, c.x]) && within(p.y, [a.y, b.y, c.y])
+    };
+    each_sample(near(&corners, bounds), inside, emit);
 }
 
 /// The book's section 2.2: the long edge is cut at the height of the middle vertex, and two flat

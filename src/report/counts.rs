@@ -131,7 +131,7 @@ fn off_lattice(verdict: &ExactVerdict) -> Table {
     let mut rows = Vec::new();
     if let Some((first, others)) = verdict.families.split_first() {
         let mut sum = ExactFamilyReport { family: "all".to_owned(), ..first.clone() };
-        others.iter().for_each(|f| sum.add(f));
+        others.iter().for_each(|f| sum += f.clone());
         rows.push(row(&sum, Mark::Sum));
     }
     rows.extend(sorted.into_iter().map(|f| {

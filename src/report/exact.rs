@@ -38,7 +38,7 @@ pub fn table(verdict: &ExactVerdict) -> String {
     if verdict.families.len() > 1 {
         let mut all = first.clone();
         all.family = "all".to_owned();
-        verdict.families[1..].iter().for_each(|family| all.add(family));
+        verdict.families[1..].iter().for_each(|family| all += family.clone());
         row(&mut out, &all);
     }
     out.push('\n');

@@ -5,13 +5,12 @@
 //! lets anything through, or a fallback that is never needed, shows in the table.
 
 use std::fmt;
-use std::time::Instant;
+use std::ops::AddAssign;
 
-use rayon::prelude::*;
 use serde::Serialize;
 
 use super::contest::caught;
-use super::{BLOCK, KEPT, MOST_PER_ROUND, Options, Tally};
+use super::{KEPT, Options, Partial, Tally, in_blocks};
 use crate::contract::{Decisions, RasterizeExact};
 use crate::frame::Coverage;
 use crate::hazard::offgrid::{FAMILIES, OffGridCase, OffGridFamily};
@@ -204,85 +203,32 @@ pub fn judge_exact<R: RasterizeExact + Sync>(
     if engines.is_empty() {
         return ExactVerdict::default();
     }
-    let start = Instant::now();
-    let expired = || options.time_limit.is_some_and(|limit| start.elapsed() >= limit);
     let chosen: Vec<_> = exact_families(options).collect();
-    let mut partials: Vec<Partial> =
-        chosen.iter().map(|family| Partial::new(family, engines)).collect();
-    // With a time limit, families advance together, a few blocks at a time.
-    let round = if options.time_limit.is_some() { BLOCK * 8 } else { MOST_PER_ROUND };
-    let all = match options.only {
-        Some(index) => index..index.saturating_add(1),
-        None => 0..options.cases,
-    };
-    let mut done = all.start;
-    while done < all.end && !(done > all.start && expired()) {
-        let end = all.end.min(done.saturating_add(round));
-        for (slot, family) in partials.iter_mut().zip(&chosen) {
-            let blocks: Vec<u64> = (done..end).step_by(BLOCK as usize).collect();
-            let merged = blocks
-                .into_par_iter()
-                .map(|first| {
-                    let indices = first..end.min(first + BLOCK);
-                    let partial = judge_block(family, engines, indices, options);
-                    progress(partial.report.cases);
-                    partial
-                })
-                .reduce(|| Partial::new(family, engines), Partial::merge);
-            let earlier = std::mem::replace(slot, Partial::new(family, engines));
-            *slot = earlier.merge(merged);
-        }
-        done = end;
-    }
+    let partials = in_blocks(&chosen, options, progress, |family, indices| {
+        judge_block(family, engines, indices, options)
+    });
     let failures = shrink_failures(&partials, &chosen, engines, options);
     ExactVerdict { families: partials.into_iter().map(|p| p.report).collect(), failures }
 }
 
 /// The families off the lattice that `options` ask for.
 pub fn exact_families(options: &Options) -> impl Iterator<Item = &'static OffGridFamily> {
-    FAMILIES.iter().filter(|f| {
-        options.families.is_empty() || options.families.iter().any(|name| name == f.name)
-    })
+    FAMILIES.iter().filter(|f| options.wants(f.name))
 }
 
-/// What a block of cases of one family came to.
-struct Partial {
-    report: ExactFamilyReport,
-    /// Engine and number of failing cases, lowest numbers first.
-    failing: Vec<(usize, u64)>,
-}
-
-impl Partial {
+impl ExactFamilyReport {
     fn new<R>(family: &OffGridFamily, engines: &[(&str, R)]) -> Self {
         let engines = engines.iter().map(|(name, _)| ExactEngineReport {
             engine: (*name).to_owned(),
             ..ExactEngineReport::default()
         });
-        let report = ExactFamilyReport {
-            family: family.name.to_owned(),
-            engines: engines.collect(),
-            ..ExactFamilyReport::default()
-        };
-        Self { report, failing: Vec::new() }
-    }
-
-    /// Sums: the same for any order of merging.
-    fn merge(mut self, other: Self) -> Self {
-        self.report.add(&other.report);
-        self.failing.extend(other.failing);
-        self.failing.sort_unstable();
-        let mut kept = Vec::new();
-        for engine in 0..self.report.engines.len() {
-            kept.extend(self.failing.iter().filter(|f| f.0 == engine).take(KEPT));
-        }
-        self.failing = kept;
-        self
+        Self { family: family.name.to_owned(), engines: engines.collect(), ..Self::default() }
     }
 }
 
-impl ExactFamilyReport {
-    /// Adds the numbers of the same engines on other cases.
-    pub fn add(&mut self, other: &Self) {
+impl AddAssign for ExactFamilyReport {
+    /// Sums over the same engines on other cases.
+    fn add_assign(&mut self, other: Self) {
         self.cases += other.cases;
         self.triangles += other.triangles;
         self.pixels += other.pixels;
@@ -301,16 +247,12 @@ impl ExactFamilyReport {
 fn judge_block<R: RasterizeExact>(
     family: &OffGridFamily,
     engines: &[(&str, R)],
-    indices: std::ops::Range<u64>,
+    indices: &[u64],
     options: &Options,
-) -> Partial {
-    let mut partial = Partial::new(family, engines);
-    let report = &mut partial.report;
-    let (part, parts) = options.shard;
-    for index in indices {
-        if index % parts != part {
-            continue;
-        }
+) -> Partial<ExactFamilyReport> {
+    let mut report = ExactFamilyReport::new(family, engines);
+    let mut failing = Vec::new();
+    for &index in indices {
         let case = family.case(options.seed, index);
         let (target, ties) = truth(&case);
         let hits = || target.rows().flat_map(|(_, row)| row);
@@ -331,16 +273,16 @@ fn judge_block<R: RasterizeExact>(
             counts.panics += u64::from(finding.panic.is_some());
             counts.wrong_cases += u64::from(finding.is_wrong());
             if finding.is_wrong() && counts.wrong_cases <= KEPT as u64 {
-                partial.failing.push((at, index));
+                failing.push((at, index));
             }
         }
     }
-    partial
+    Partial { report, failing }
 }
 
 /// Shrinks the first failing cases of each engine.
 fn shrink_failures<R: RasterizeExact>(
-    partials: &[Partial],
+    partials: &[Partial<ExactFamilyReport>],
     chosen: &[&OffGridFamily],
     engines: &[(&str, R)],
     options: &Options,

@@ -16,6 +16,7 @@ pub mod tolerance;
 
 use std::cmp::Ordering;
 use std::fmt;
+use std::ops::AddAssign;
 use std::time::{Duration, Instant};
 
 use rayon::prelude::*;
@@ -63,8 +64,8 @@ impl Default for Options {
 }
 
 impl Options {
-    fn wants(&self, family: &Family) -> bool {
-        self.families.is_empty() || self.families.iter().any(|name| name == family.name)
+    fn wants(&self, family: &str) -> bool {
+        self.families.is_empty() || self.families.iter().any(|name| name == family)
     }
 }
 
@@ -252,11 +253,65 @@ const MOST_PER_ROUND: u64 = 1 << 20;
 /// Failing cases kept for each family and pair, and shown for each pair in all.
 const KEPT: usize = 2;
 
-/// What a block of cases of one family came to.
-struct Partial {
-    report: FamilyReport,
+/// What some cases of one family came to; `R` is a report whose sum is the same in any order.
+struct Partial<R> {
+    report: R,
     /// Pair and number of failing cases, lowest numbers first.
     failing: Vec<(usize, u64)>,
+}
+
+impl<R: AddAssign> Partial<R> {
+    fn merge(mut self, other: Self) -> Self {
+        self.report += other.report;
+        self.failing.extend(other.failing);
+        self.failing.sort_unstable();
+        let pairs = self.failing.chunk_by(|a, b| a.0 == b.0);
+        self.failing = pairs.flat_map(|pair| pair.iter().take(KEPT)).copied().collect();
+        self
+    }
+}
+
+/// What `judge` makes of the cases of each family, by number, within the limits and the shard of
+/// `options`; in blocks, on all threads. `progress` hears how many were judged.
+fn in_blocks<F: Sync, R: AddAssign + Send>(
+    families: &[F],
+    options: &Options,
+    progress: &(dyn Fn(u64) + Sync),
+    judge: impl Fn(&F, &[u64]) -> Partial<R> + Sync,
+) -> Vec<Partial<R>> {
+    let start = Instant::now();
+    let expired = || options.time_limit.is_some_and(|limit| start.elapsed() >= limit);
+    let mut partials: Vec<Option<Partial<R>>> = families.iter().map(|_| None).collect();
+    // With a time limit, families advance together, a few blocks at a time.
+    let round = if options.time_limit.is_some() { BLOCK * 8 } else { MOST_PER_ROUND };
+    let all = match options.only {
+        Some(index) => index..index.saturating_add(1),
+        None => 0..options.cases,
+    };
+    let (part, parts) = options.shard;
+    let mut done = all.start;
+    while done < all.end && !(done > all.start && expired()) {
+        let end = all.end.min(done.saturating_add(round));
+        for (slot, family) in partials.iter_mut().zip(families) {
+            let blocks: Vec<u64> = (done..end).step_by(BLOCK as usize).collect();
+            let merged = blocks
+                .into_par_iter()
+                .map(|first| {
+                    let block = first..end.min(first + BLOCK);
+                    let indices: Vec<u64> = block.filter(|index| index % parts == part).collect();
+                    let partial = judge(family, &indices);
+                    progress(indices.len() as u64);
+                    partial
+                })
+                .reduce_with(Partial::merge);
+            *slot = match (slot.take(), merged) {
+                (Some(a), Some(b)) => Some(a.merge(b)),
+                (a, b) => a.or(b),
+            };
+        }
+        done = end;
+    }
+    partials.into_iter().flatten().collect()
 }
 
 fn drive(
@@ -265,10 +320,8 @@ fn drive(
     options: &Options,
     progress: &(dyn Fn(u64) + Sync),
 ) -> Verdict {
-    let start = Instant::now();
-    let expired = || options.time_limit.is_some_and(|limit| start.elapsed() >= limit);
     let wanted = |pairs: Vec<[String; 2]>, family: &Family| {
-        (options.wants(family) && !pairs.is_empty()).then_some(pairs)
+        (options.wants(family.name) && !pairs.is_empty()).then_some(pairs)
     };
     let chosen: Vec<(&Family, bool, Vec<[String; 2]>)> = crate::hazard::triangles::FAMILIES
         .iter()
@@ -282,36 +335,9 @@ fn drive(
     let judge = |lines_family: bool, case: &Case| {
         if lines_family { lines.judge(case) } else { triangles.judge(case) }
     };
-
-    let mut partials: Vec<Option<Partial>> = chosen.iter().map(|_| None).collect();
-    // With a time limit, families advance together, a few blocks at a time.
-    let round = if options.time_limit.is_some() { BLOCK * 8 } else { MOST_PER_ROUND };
-    let all = match options.only {
-        Some(index) => index..index.saturating_add(1),
-        None => 0..options.cases,
-    };
-    let mut done = all.start;
-    while done < all.end && !(done > all.start && expired()) {
-        let end = all.end.min(done.saturating_add(round));
-        for (slot, (family, is_line, pairs)) in partials.iter_mut().zip(&chosen) {
-            let blocks: Vec<u64> = (done..end).step_by(BLOCK as usize).collect();
-            let merged = blocks
-                .into_par_iter()
-                .map(|first| {
-                    let indices = first..end.min(first + BLOCK);
-                    let partial = judge_block(family, *is_line, pairs, indices, options, &judge);
-                    progress(partial.report.cases);
-                    partial
-                })
-                .reduce_with(Partial::merge);
-            *slot = match (slot.take(), merged) {
-                (Some(a), Some(b)) => Some(a.merge(b)),
-                (a, b) => a.or(b),
-            };
-        }
-        done = end;
-    }
-    let partials: Vec<Partial> = partials.into_iter().flatten().collect();
+    let partials = in_blocks(&chosen, options, progress, |(family, lines, pairs), indices| {
+        judge_block(family, *lines, pairs, indices, options, &judge)
+    });
     let failures = shrink_failures(&partials, &chosen, options, &judge);
     Verdict {
         options: options.clone(),
@@ -324,17 +350,13 @@ fn judge_block(
     family: &Family,
     lines: bool,
     pairs: &[[String; 2]],
-    indices: std::ops::Range<u64>,
+    indices: &[u64],
     options: &Options,
     judge: &impl Fn(bool, &Case) -> (contest::CaseFacts, Vec<Finding>),
-) -> Partial {
+) -> Partial<FamilyReport> {
     let mut report = FamilyReport::new(family, lines, pairs);
     let mut failing = Vec::new();
-    let (part, parts) = options.shard;
-    for index in indices {
-        if index % parts != part {
-            continue;
-        }
+    for &index in indices {
         let (facts, findings) = judge(lines, &family.case(options.seed, index));
         report.count(&facts);
         for (pair, finding) in findings.iter().enumerate() {
@@ -347,18 +369,17 @@ fn judge_block(
     Partial { report, failing }
 }
 
-impl Partial {
-    /// Sums and maxima: the same for any order of merging.
-    fn merge(mut self, other: Self) -> Self {
-        let (a, b) = (&mut self.report, &other.report);
-        a.cases += b.cases;
-        a.shapes += b.shapes;
-        a.pixels += b.pixels;
-        a.tie_cases += b.tie_cases;
-        a.sliver_cases += b.sliver_cases;
-        a.empty_cases += b.empty_cases;
-        a.oracle_overlap += b.oracle_overlap;
-        for (a, b) in a.pairs.iter_mut().zip(&b.pairs) {
+impl AddAssign for FamilyReport {
+    /// Sums and maxima over the same pairs on other cases.
+    fn add_assign(&mut self, other: Self) {
+        self.cases += other.cases;
+        self.shapes += other.shapes;
+        self.pixels += other.pixels;
+        self.tie_cases += other.tie_cases;
+        self.sliver_cases += other.sliver_cases;
+        self.empty_cases += other.empty_cases;
+        self.oracle_overlap += other.oracle_overlap;
+        for (a, b) in self.pairs.iter_mut().zip(&other.pairs) {
             a.tally += b.tally;
             a.worst_case = match a.worst().total_cmp(&b.worst()) {
                 Ordering::Less => b.worst_case,
@@ -371,13 +392,6 @@ impl Partial {
             a.panics += b.panics;
             a.wrong_cases += b.wrong_cases;
         }
-        self.failing.extend(other.failing);
-        self.failing.sort_by_key(|&(pair, index)| (pair, index));
-        let pairs = self.report.pairs.len();
-        self.failing = (0..pairs)
-            .flat_map(|pair| self.failing.iter().filter(move |f| f.0 == pair).take(KEPT).copied())
-            .collect();
-        self
     }
 }
 
@@ -441,7 +455,7 @@ impl PairReport {
 
 /// Shrinks the first failing cases of each pair.
 fn shrink_failures(
-    partials: &[Partial],
+    partials: &[Partial<FamilyReport>],
     chosen: &[(&Family, bool, Vec<[String; 2]>)],
     options: &Options,
     judge: &impl Fn(bool, &Case) -> (contest::CaseFacts, Vec<Finding>),

@@ -149,6 +149,7 @@ fn help_shows_examples_and_exit_codes() {
     assert!(out.contains("T id width height"), "{out}");
     let (out, _) = check(&["list"], 0);
     assert!(out.contains("near-tie") && out.contains("S11") && out.contains("bresenham"), "{out}");
+    assert!(out.lines().all(|line| line.chars().count() <= 100), "{out}");
 }
 
 /// A recorded input of the book's code: the engines agree, its specimen is shown beside them.
