@@ -323,7 +323,10 @@ impl Maker {
 struct Drawing {
     name: &'static str,
     rendered: Rendered,
+    /// Holds every depth, where two rasterizers are compared.
     target: Target,
+    /// Pixels that are others where every depth and sample is there.
+    unplanned: u64,
 }
 
 pub fn run(arguments: &RenderArguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
@@ -366,7 +369,10 @@ fn names(drawings: &[Drawing]) -> Vec<&'static str> {
 
 fn compare(drawings: &[Drawing]) -> Option<Comparison> {
     let [a, b] = drawings else { return None };
-    Some(frames::compare((&a.rendered.picture, &a.target), (&b.rendered.picture, &b.target)))
+    let mut comparison =
+        frames::compare((&a.rendered.picture, &a.target), (&b.rendered.picture, &b.target));
+    comparison.wrong_pixels += a.unplanned + b.unplanned;
+    Some(comparison)
 }
 
 /// The frames side by side, with the plan that was followed.
@@ -422,12 +428,11 @@ pub(super) fn plan_rows(rendered: &Rendered) -> Vec<PlanRow> {
 
 /// Draws one frame by each rasterizer asked for.
 fn draw(arguments: &RenderArguments, scene: &Scene) -> Result<Vec<Drawing>, Failure> {
-    let both = arguments.engine == Drawn::Both;
-    // To compare every depth, every depth must be there.
-    let complete =
-        Effects::PLANNED.with(Effect::Depth, Mode::Always).with(Effect::Samples, Mode::Always);
-    let planned = if both { complete } else { Effects::PLANNED };
-    let effects = arguments.effects.unwrap_or(planned);
+    let effects = arguments.effects.unwrap_or(Effects::PLANNED);
+    // To compare every depth, every depth must be there, of every sample.
+    let complete = (arguments.engine == Drawn::Both && arguments.effects.is_none()).then(|| {
+        Effects::PLANNED.with(Effect::Depth, Mode::Always).with(Effect::Samples, Mode::Always)
+    });
     let engines: &[Drawer] = match arguments.engine {
         Drawn::Scanline => &[Drawer::Scanline],
         Drawn::EdgeFunction => &[Drawer::EdgeFunction],
@@ -435,14 +440,18 @@ fn draw(arguments: &RenderArguments, scene: &Scene) -> Result<Vec<Drawing>, Fail
     };
     let drawing = |drawer: &Drawer| {
         let mut target = arguments.what.target()?;
-        let rendered = if arguments.wireframe {
-            drawer.render_wireframe(scene, &mut target)
-        } else {
-            drawer.render(scene, &effects, &mut target)
-        };
-        let name = if arguments.wireframe { drawer.line_name() } else { drawer.name() };
-        let rendered = rendered.map_err(|error| usage(error.to_string()))?;
-        Ok(Drawing { name, rendered, target })
+        let refused = |error: crate::effects::render::BadScene| usage(error.to_string());
+        if arguments.wireframe {
+            let rendered = drawer.render_wireframe(scene, &mut target).map_err(refused)?;
+            return Ok(Drawing { name: drawer.line_name(), rendered, target, unplanned: 0 });
+        }
+        let rendered = drawer.render(scene, &effects, &mut target).map_err(refused)?;
+        let mut unplanned = 0;
+        if let Some(complete) = &complete {
+            let whole = drawer.render(scene, complete, &mut target).map_err(refused)?;
+            unplanned = frames::differing(&rendered.picture, &whole.picture);
+        }
+        Ok(Drawing { name: drawer.name(), rendered, target, unplanned })
     };
     engines.iter().map(drawing).collect()
 }

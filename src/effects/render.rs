@@ -625,9 +625,9 @@ impl<'a> Kernel<'a> {
         let before = *counters;
         let stage = |varying: &Attributes<N>| to_colour(self.shade::<N, MASK>(varying));
         if let Some(on_demand) = samples {
-            on_demand.draw_varying(engine, piece, &packed, target, way, &stage, counters);
+            on_demand.draw_varying(engine, piece, &packed, target, way, stage, counters);
         } else {
-            fill(engine, &packed, target, target.bounds(), way, &stage, counters);
+            fill(engine, &packed, target, target.bounds(), way, stage, counters);
         }
         let (fragments, shaded) =
             (counters.fragments - before.fragments, counters.shaded - before.shaded);

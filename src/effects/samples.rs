@@ -143,14 +143,14 @@ impl OnDemand {
 
     /// Draws a piece whose attributes vary; `packed` is the same with those it reads.
     #[expect(clippy::too_many_arguments, reason = "those of `fill`, and the piece")]
-    pub(super) fn draw_varying<V: Varying, F: Fn(&V) -> Colour>(
+    pub(super) fn draw_varying<V: Varying, F: Fn(&V) -> Colour + Copy>(
         &mut self,
         engine: &impl Interpolate,
         piece: &Piece,
         packed: &ScreenTriangle<V>,
         target: &mut Target,
         way: Way,
-        fragment_stage: &F,
+        fragment_stage: F,
         counters: &mut Counters,
     ) {
         if self.pattern.planes == 1 || width_px(piece) < Self::WIDE_PX {

@@ -83,6 +83,16 @@ pub fn compare(a: (&Frame<Colour>, &Target), b: (&Frame<Colour>, &Target)) -> Co
     Comparison { pixels, wrong_pixels, depths, wrong_depths: wrong.len() as u64, picture }
 }
 
+/// How many pixels of two frames of the same size differ.
+#[must_use]
+pub fn differing(a: &Frame<Colour>, b: &Frame<Colour>) -> u64 {
+    a.rows()
+        .zip(b.rows())
+        .flat_map(|((_, a), (_, b))| a.iter().zip(b))
+        .filter(|(a, b)| a != b)
+        .count() as u64
+}
+
 /// How many depths were compared, and the samples where they differ.
 fn compare_depths(a: &Target, b: &Target) -> (u64, Vec<(i32, i32)>) {
     let error =

@@ -120,7 +120,9 @@ fn random_scenes_planned_change_no_bit() {
         let antialias = SMOOTHINGS[*index as usize % 4];
         let effect = Effect::ALL[*index as usize / 4 % Effect::ALL.len()];
         let draw = |drawer: Drawer, effects: Effects| {
-            let mut target = Target::new(28, 21, antialias, DepthFormat::Unorm32).unwrap();
+            // Wide enough for pieces that are whole in pixels of four planes.
+            let width = if antialias == Antialias::Multisample4 { 112 } else { 28 };
+            let mut target = Target::new(width, 21, antialias, DepthFormat::Unorm32).unwrap();
             target.clear_colour(LAST_FRAME, &mut Default::default());
             drawer.render(&scene, &effects, &mut target).unwrap().picture
         };
