@@ -18,9 +18,9 @@ use crate::report::html::{Column, Outcome, PictureLayer, PictureView, Report, Ro
 use crate::scene::Scene;
 
 const HELP: &str = "Examples:
-  rasterproof plan --scene panels          a user interface: hardly anything
-  rasterproof plan --scene facets --aa ssaa4
-  rasterproof plan --scene panels --engine edge-function
+  rasterproof plan panels                  a user interface: hardly anything
+  rasterproof plan facets --aa ssaa4
+  rasterproof plan panels --engine edge-function
   rasterproof plan model.obj --rounds 31 --json
 
 Every effect is measured twice: planned alone, against a frame that pays for everything; and as

@@ -27,12 +27,12 @@ use crate::scene::chapters::{self, SCENES};
 use crate::scene::{Scene, Shading, obj};
 
 pub const HELP: &str = "Examples:
-  rasterproof render --scene cube                        a scene of the book, by both rasterizers
+  rasterproof render cube                                a scene of the book, by both rasterizers
   rasterproof render model.obj --size 1024x1024 -o a.png a model, framed automatically
   rasterproof render model.obj --yaw 30 --pitch 20 --cull cw --shading flat
-  rasterproof render --scene sphere --aa ssaa4           16 samples a pixel, where it needs them
-  rasterproof render --scene spinning --spin 48          an animated GIF
-  rasterproof render --scene cube --wireframe            edges, by DDA and by Bresenham
+  rasterproof render sphere --aa ssaa4                   16 samples a pixel, where it needs them
+  rasterproof render spinning --spin 48                  an animated GIF
+  rasterproof render cube --wireframe                    edges, by DDA and by Bresenham
 
 With both rasterizers every colour and depth is compared, and a difference is drawn.
 Exit status: 0 they agree (or there is one), 1 they differ, 2 usage or bad input.";
@@ -72,10 +72,10 @@ pub struct RenderArguments {
 /// What is drawn, and from where.
 #[derive(clap::Args, Debug)]
 pub struct SceneArguments {
-    /// A model in OBJ, with its MTL and textures beside it
-    #[arg(value_name = "MODEL", required_unless_present = "scene", conflicts_with = "scene")]
-    model: Option<PathBuf>,
-    /// A scene of the book by name; see: rasterproof list
+    /// A scene of the book by name, or a model in OBJ, with its MTL and textures beside it
+    #[arg(value_name = "SCENE|MODEL", required_unless_present = "scene", conflicts_with = "scene")]
+    what: Option<PathBuf>,
+    /// The scene of this name, whatever files there are; see: rasterproof list
     #[arg(long, value_name = "NAME", value_parser = scene_names())]
     scene: Option<String>,
     /// Size of the picture in pixels
@@ -184,17 +184,28 @@ impl SceneArguments {
         Target::new(width, height, self.antialias(), self.format()).map_err(usage)
     }
 
+    /// The name of the scene, or the path of the model.
+    fn source(&self) -> Result<&str, &Path> {
+        if let Some(name) = &self.scene {
+            return Ok(name);
+        }
+        let path = self.what.as_deref().unwrap_or(Path::new(""));
+        let scene = SCENES.iter().find(|entry| path == Path::new(entry.name));
+        // What is there as a file is meant as a file.
+        scene.filter(|_| !path.is_file()).map_or(Err(path), |entry| Ok(entry.name))
+    }
+
     /// The name of the scene or model.
     pub(super) fn name(&self) -> String {
-        let stem = self.model.as_deref().and_then(Path::file_stem);
-        stem.map_or_else(|| self.scene.clone().unwrap_or_default(), |s| s.to_string_lossy().into())
+        let stem = |path: &Path| path.file_stem().unwrap_or_default().to_string_lossy().into();
+        self.source().map_or_else(stem, str::to_owned)
     }
 
     /// The words that ask for the same scene or model.
     pub(super) fn words(&self) -> String {
-        let what = match (&self.model, &self.scene) {
-            (Some(path), _) => path.display().to_string(),
-            (_, name) => format!("--scene {}", name.as_deref().unwrap_or_default()),
+        let what = match self.source() {
+            Ok(name) => format!("--scene {name}"),
+            Err(path) => path.display().to_string(),
         };
         let (width, height) = self.size;
         let aa = clap::ValueEnum::to_possible_value(&self.aa);
@@ -212,9 +223,16 @@ impl SceneArguments {
             Winding::Cw => Cull::Clockwise,
             Winding::Ccw => Cull::CounterClockwise,
         });
-        let base = match (&self.model, &self.scene) {
-            (Some(path), _) => Base::Model(Box::new(self.frame_model(path, aspect, errors)?)),
-            (_, name) => Base::Chapter(name.clone().unwrap_or_default()),
+        let base = match self.source() {
+            Ok(name) => Base::Chapter(name.to_owned()),
+            Err(path) if path.extension().is_none() && !path.exists() => {
+                let names = scene_names().join(", ");
+                return Err(usage(format!(
+                    "{} is neither a file nor a scene; scenes: {names}",
+                    path.display()
+                )));
+            }
+            Err(path) => Base::Model(Box::new(self.frame_model(path, aspect, errors)?)),
         };
         Ok(Maker { base, aspect, cull })
     }

@@ -600,6 +600,7 @@ impl<'a> Kernel<'a> {
         counters: &mut Counters,
     ) {
         let colour = to_colour(self.shade::<0, 0>(&Attributes([])));
+        let shaded = counters.shaded;
         if let Some(on_demand) = samples {
             on_demand.draw_flat(engine, piece, self.plan.depth, colour, target, counters);
         } else if !self.plan.depth && target.antialias() != Antialias::Multisample4 {
@@ -609,6 +610,8 @@ impl<'a> Kernel<'a> {
             let bounds = target.bounds();
             fill(engine, &pack::<0, 0>(piece), target, bounds, way, |_| colour, counters);
         }
+        // A constant is no run of the fragment stage.
+        counters.shaded = shaded;
     }
 
     /// The kernel for the `N` components of the attributes in `MASK`.

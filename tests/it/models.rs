@@ -196,6 +196,12 @@ fn render_refuses_what_it_cannot_draw() {
     let (status, text) = program(&["render", "nowhere.obj"]);
     assert_eq!(status, Some(2));
     assert!(text.contains("nowhere.obj"), "{text}");
+    let (status, text) = program(&["render", "cub"]);
+    assert_eq!(status, Some(2));
+    assert!(text.contains("cub is neither a file nor a scene") && text.contains("cube"), "{text}");
+    let (status, text) = program(&["plan", "panels", "--size", "64x48", "--rounds", "1"]);
+    assert_eq!(status, Some(0), "{text}");
+    assert!(text.contains("no bounding box of another piece meets"), "{text}");
     let (status, text) = program(&["render", "--scene", "cub"]);
     assert_eq!(status, Some(2));
     assert!(text.contains("cube"), "{text}");
