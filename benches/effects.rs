@@ -18,6 +18,7 @@ fn effects(c: &mut Criterion) {
         ("tilted", Antialias::None),
         ("sphere", Antialias::None),
         ("facets", Antialias::Supersample(4)),
+        ("panels", Antialias::Multisample4),
         ("everything", Antialias::None),
     ];
     for (name, antialias) in cases {

@@ -67,7 +67,8 @@ pub struct Rendered {
 /// Draws a scene into a target; what the target held before is last frame's.
 ///
 /// Clears, draws, resolves. The depths are in the target afterwards, except where the depth buffer
-/// was not called for, or samples were not told apart.
+/// was not called for, or samples were not told apart; with [`Effect::Samples`] off, a picture with
+/// several samples a pixel leaves the target as it was.
 ///
 /// # Errors
 /// [`BadScene`] before anything is drawn.

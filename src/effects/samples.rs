@@ -53,6 +53,7 @@ enum State {
 }
 
 /// What becomes of a pixel that a piece touches.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Meeting {
     /// Nothing: everything there is nearer.
     Hidden,
@@ -564,12 +565,16 @@ impl Plane {
         };
         // E1 belongs to the edge opposite the second vertex, E2 to the one opposite the third.
         let weights = [weight(c, a, second), weight(a, b, third)];
-        let range: f64 = weights
-            .iter()
-            .map(|w| w.slope.abs() * (w.per_x.abs() + w.per_y.abs()) * pattern.reach_px())
-            .sum();
-        // The range itself is rounded five times, upwards by more than that.
-        Self { depth: first, weights, half_range: range * (1.0 + 16.0 * f64::EPSILON) }
+        // What a pixel adds to the depth along an axis, and that without regard to signs.
+        let sum = |per: fn(&Weight) -> f64| -> [f64; 2] {
+            let [one, two] = [0, 1].map(|i| weights[i].slope * per(&weights[i]));
+            [(one + two).abs(), one.abs() + two.abs()]
+        };
+        let ([x, all_x], [y, all_y]) = (sum(|weight| weight.per_x), sum(|weight| weight.per_y));
+        // Each product is rounded three times, the sums and the range four times.
+        let rounding = 8.0 * f64::EPSILON * (all_x + all_y);
+        let half_range = (x + y + rounding) * pattern.reach_px();
+        Self { depth: first, weights, half_range }
     }
 
     /// Keys of the nearest and farthest depth that a rasterizer may compute at the samples of a
@@ -583,5 +588,113 @@ impl Plane {
         let middle = self.depth + (t1 + t2);
         let half = self.half_range + Self::ERROR * (1.0 + t1.abs() + t2.abs());
         (format.key(middle - half), format.key(middle + half))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::grid::SubpixelPoint;
+    use crate::hazard::Rng;
+    use crate::pipeline::shade::ALL;
+    use crate::raster::edge_function::EdgeFunction;
+    use crate::raster::scanline::Scanline;
+    use crate::triangle::ScreenVertex;
+
+    const SIZE_PX: u32 = 12;
+
+    /// A triangle about the picture, some with two corners close together, some whose depth grows
+    /// along a row.
+    fn piece(rng: &mut Rng, pattern: Pattern) -> Piece {
+        let side = f64::from(pattern.scale * SUBPIXELS) * f64::from(SIZE_PX);
+        let (thin, along_x) = (rng.chance(4), rng.chance(3));
+        let mut corner = |near: Option<SubpixelPoint>| {
+            let mut along = |from: Option<i32>| match from {
+                Some(from) => from + rng.int(-300, 300) as i32,
+                None => (rng.unit() * side) as i32,
+            };
+            let position = SubpixelPoint::new(along(near.map(|p| p.x)), along(near.map(|p| p.y)));
+            let depth = if along_x { f64::from(position.x) / side } else { rng.unit() };
+            ScreenVertex { position, depth, inv_w: 1.0, varying: Attributes([0.0; ALL]) }
+        };
+        let first = corner(None);
+        let second = corner(thin.then_some(first.position));
+        ScreenTriangle { vertices: [first, second, corner(None)] }
+    }
+
+    /// Depths of both engines at samples, and those among them that `within` does not hold.
+    fn outside(pattern: Pattern, within: impl Fn(&Plane, i32, i32, f64) -> bool) -> (u64, u64) {
+        let (mut count, mut wrong) = (0, 0);
+        let window = PixelRect::window(SIZE_PX, SIZE_PX);
+        let bounds = scaled(window, pattern.scale);
+        for index in 0..400 {
+            let piece = piece(&mut Rng::new("plane", 1, index), pattern);
+            let plane = Plane::new(&piece, pattern);
+            for i in 0..pattern.planes {
+                let moved = pattern.moved(&pack::<0, 0>(&piece), i).unwrap();
+                let mut see = |x: i32, y: i32, depth: f64| {
+                    count += 1;
+                    let scale = pattern.scale;
+                    wrong += u64::from(!within(&plane, x / scale, y / scale, depth));
+                };
+                Scanline.affine_fragments(&moved, bounds, |f| see(f.x_px, f.y_px, f.depth));
+                EdgeFunction.affine_fragments(&moved, bounds, |f| see(f.x_px, f.y_px, f.depth));
+            }
+        }
+        (count, wrong)
+    }
+
+    #[test]
+    fn keys_contain_every_depth_that_an_engine_computes() {
+        for antialias in
+            [Antialias::Multisample4, Antialias::Supersample(2), Antialias::Supersample(5)]
+        {
+            let pattern = Pattern::of(antialias);
+            for format in DepthFormat::ALL {
+                let (count, wrong) = outside(pattern, |plane, x, y, depth| {
+                    let (nearest, farthest) = plane.keys(x, y, format);
+                    (nearest..=farthest).contains(&format.key(depth))
+                });
+                assert!(count > 20_000 && wrong == 0, "{antialias:?} {format:?}: {wrong}");
+            }
+            // A range that is too small by an eighth is noticed, and so is none for the rounding.
+            let narrow = |share: f64, error: f64| {
+                outside(pattern, |plane, x, y, depth| {
+                    let (x, y) = (f64::from(x), f64::from(y));
+                    let term = |w: &Weight| w.slope * (w.origin + w.per_x * x + w.per_y * y);
+                    let middle = plane.depth + (term(&plane.weights[0]) + term(&plane.weights[1]));
+                    (depth - middle).abs() <= plane.half_range * share + error
+                })
+            };
+            assert!(narrow(0.875, Plane::ERROR).1 > 0, "{antialias:?}");
+            assert!(narrow(1.0, 0.0).1 > 0, "{antialias:?}");
+        }
+    }
+
+    #[test]
+    fn a_pixel_is_hidden_whole_or_apart() {
+        let clear = Pixel {
+            colour: [0; 4],
+            state: State::Background,
+            was_apart: false,
+            nearest: CLEAR,
+            farthest: CLEAR,
+        };
+        let met = |covered: bool, keys: &[Option<(u64, u64)>]| {
+            let mut pixel = clear;
+            let mut last = Meeting::Hidden;
+            for &keys in keys {
+                last = pixel.meet(covered, keys);
+            }
+            (last, pixel.nearest, pixel.farthest)
+        };
+        assert_eq!(met(true, &[Some((5, 9))]), (Meeting::Whole, 5, 9));
+        assert_eq!(met(false, &[Some((5, 9))]), (Meeting::Apart, 5, CLEAR));
+        assert_eq!(met(true, &[Some((5, 9)), Some((9, 12))]), (Meeting::Hidden, 5, 9));
+        assert_eq!(met(true, &[Some((5, 9)), Some((8, 12))]), (Meeting::Apart, 5, 9));
+        assert_eq!(met(true, &[Some((5, 9)), Some((2, 5))]), (Meeting::Apart, 2, 5));
+        assert_eq!(met(true, &[Some((5, 9)), Some((2, 4))]), (Meeting::Whole, 2, 4));
+        assert_eq!(met(true, &[Some((5, 9)), None]).0, Meeting::Whole);
+        assert_eq!(met(false, &[None]).0, Meeting::Apart);
     }
 }
