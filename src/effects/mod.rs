@@ -10,6 +10,7 @@
 //! Leaving out the back faces of a closed mesh is *not* inferred: where front and back meet at the
 //! silhouette their depths may tie, so it can change a pixel. Culling stays something to ask for.
 
+mod parts;
 pub mod plan;
 pub mod render;
 mod samples;

@@ -13,6 +13,7 @@
 
 use std::ops::Range;
 
+use super::parts::{Part, Parts};
 use super::render::{Piece, pack};
 use crate::contract::Interpolate;
 use crate::frame::Frame;
@@ -48,6 +49,8 @@ enum State {
     Background,
     /// All samples are of this piece.
     Whole(u32),
+    /// The samples are of several pieces, here in the pool of parts.
+    Parts(u32),
     /// The samples are in the target.
     Apart,
 }
@@ -75,8 +78,12 @@ struct Run {
 pub(super) struct OnDemand {
     pattern: Pattern,
     pixels: Frame<Pixel>,
-    /// Pieces that a pixel may be whole of.
+    background: Colour,
+    /// Pieces that pixels are of, whole or in part.
     pieces: Vec<DepthPiece>,
+    /// Parts of pixels, and which of them are of none any more.
+    pool: Vec<Parts>,
+    spare: Vec<u32>,
     /// Covered columns of the piece at hand, for each row of samples in each plane.
     rows: Vec<(i32, i32)>,
     /// Pixels whose samples the piece at hand needs apart.
@@ -102,7 +109,10 @@ impl OnDemand {
         Self {
             pattern,
             pixels: Frame::new(target.size(), pixel),
+            background,
             pieces: Vec::new(),
+            pool: Vec::new(),
+            spare: Vec::new(),
             rows: vec![(0, 0); target.bounds().height() as usize * pattern.planes],
             runs: Vec::new(),
         }
@@ -127,7 +137,8 @@ impl OnDemand {
             return;
         }
         let plane = depth.then(|| Plane::new(piece, self.pattern));
-        if self.meet(engine, piece, plane.as_ref(), Some(colour), target).is_none() {
+        let met = self.meet(engine, piece, plane.as_ref(), Some(colour), target, counters);
+        if met.is_none() {
             return;
         }
         let runs = std::mem::take(&mut self.runs);
@@ -161,7 +172,8 @@ impl OnDemand {
             return;
         }
         let plane = way.depth_test.then(|| Plane::new(piece, self.pattern));
-        let Some(state) = self.meet(engine, piece, plane.as_ref(), None, target) else { return };
+        let met = self.meet(engine, piece, plane.as_ref(), None, target, counters);
+        let Some(state) = met else { return };
         let runs = std::mem::take(&mut self.runs);
         for &run in &runs {
             self.tell_apart(engine, run, target, counters);
@@ -220,40 +232,65 @@ impl OnDemand {
         plane: Option<&Plane>,
         colour: Option<Colour>,
         target: &Target,
+        counters: &mut Counters,
     ) -> Option<State> {
         self.runs.clear();
         let rows = self.covered_rows(engine, piece, target.bounds())?;
         let format = target.format;
-        let state = State::Whole(self.pieces.len() as u32);
-        let mut any_whole = false;
+        let serial = self.pieces.len() as u32;
+        let state = State::Whole(serial);
+        let mut is_used = false;
+        let Self { pattern, pixels, background, pool, spare, runs, .. } = self;
         for y_px in rows {
-            let Some(PixelRow { touched, inner }) = self.pixel_row(y_px) else { continue };
+            let samples = pattern.rows_of(&self.rows, y_px);
+            let Some(PixelRow { touched, inner }) = pattern.pixel_row(samples) else { continue };
             let mut first_apart = None;
-            let pixels = self.pixels.span_mut(y_px, touched.0, touched.1);
+            let pixels = pixels.span_mut(y_px, touched.0, touched.1);
             for (x_px, pixel) in (touched.0..).zip(pixels) {
                 let keys = plane.map(|plane| plane.keys(x_px, y_px, format));
                 let covered = (inner.0..inner.1).contains(&x_px);
+                let before = *pixel;
                 match pixel.meet(covered, keys) {
-                    Meeting::Apart => {
-                        first_apart.get_or_insert(x_px);
-                        continue;
-                    }
+                    Meeting::Hidden => {}
                     Meeting::Whole => {
-                        any_whole = true;
+                        is_used = true;
+                        if let State::Parts(index) = pixel.state {
+                            spare.push(index);
+                        }
                         pixel.state = state;
                         pixel.colour = colour.unwrap_or(pixel.colour);
                     }
-                    Meeting::Hidden => {}
+                    Meeting::Apart => {
+                        let part = colour.filter(|_| pattern.has_masks()).map(|colour| {
+                            let (nearest, farthest) = keys.unwrap_or_default();
+                            let samples = pattern.mask(samples, x_px);
+                            Part { serial: Some(serial), samples, colour, nearest, farthest }
+                        });
+                        let drawn = part.and_then(|part| {
+                            let mut parts = before.parts(pool, *background, *pattern)?;
+                            parts.draw(part, keys.is_some()).then_some(parts)
+                        });
+                        let Some(parts) = drawn else {
+                            first_apart.get_or_insert(x_px);
+                            continue;
+                        };
+                        if parts.is_divided() {
+                            is_used = true;
+                            pixel.hold(parts, pool, spare);
+                            counters.expanded += u64::from(!pixel.was_apart);
+                            pixel.was_apart = true;
+                        }
+                    }
                 }
                 if let Some(x0_px) = first_apart.take() {
-                    self.runs.push(Run { y_px, x0_px, x1_px: x_px });
+                    runs.push(Run { y_px, x0_px, x1_px: x_px });
                 }
             }
             if let Some(x0_px) = first_apart {
-                self.runs.push(Run { y_px, x0_px, x1_px: touched.1 });
+                runs.push(Run { y_px, x0_px, x1_px: touched.1 });
             }
         }
-        if any_whole {
+        if is_used {
             self.pieces.push(pack::<0, 0>(piece));
         }
         Some(state)
@@ -325,28 +362,7 @@ impl OnDemand {
         Some(first..end)
     }
 
-    /// The columns of one row of pixels. A row of samples is one run, since triangles are convex.
-    fn pixel_row(&self, y_px: i32) -> Option<PixelRow> {
-        let Pattern { scale, planes } = self.pattern;
-        let per_row = scale as usize * planes;
-        let mut touched = (i32::MAX, i32::MIN);
-        let mut inner = (i32::MIN, i32::MAX);
-        for &(x0, x1) in &self.rows[y_px as usize * per_row..][..per_row] {
-            if x0 < x1 {
-                touched = (touched.0.min(x0), touched.1.max(x1));
-            }
-            inner = (inner.0.max(x0), inner.1.min(x1));
-        }
-        if touched.0 >= touched.1 {
-            return None;
-        }
-        let up = |x: i32| (x + scale - 1).div_euclid(scale);
-        let touched = (touched.0.div_euclid(scale), up(touched.1));
-        let inner = (up(inner.0), inner.1.div_euclid(scale));
-        Some(PixelRow { touched, inner })
-    }
-
-    /// Writes the samples of whole pixels into the target, as drawing them would have.
+    /// Writes the samples of pixels that are not apart into the target, as drawing them would have.
     fn tell_apart(
         &mut self,
         engine: &impl Interpolate,
@@ -354,7 +370,7 @@ impl OnDemand {
         target: &mut Target,
         counters: &mut Counters,
     ) {
-        let Self { pattern, pixels, pieces, .. } = self;
+        let Self { pattern, pixels, pieces, pool, spare, .. } = self;
         let format = target.format;
         let mut x0_px = run.x0_px;
         while x0_px < run.x1_px {
@@ -368,20 +384,51 @@ impl OnDemand {
             }
             let block = scaled(run.rect(), pattern.scale);
             for (i, plane) in target.planes.iter_mut().enumerate() {
-                if state == State::Background {
-                    for y in block.y0..block.y1 {
-                        plane.depth.span_mut(y, block.x0, block.x1).fill(CLEAR);
-                        plane.colour.span_mut(y, block.x0, block.x1).fill(colour);
+                match state {
+                    State::Apart => {}
+                    State::Background => {
+                        for y in block.y0..block.y1 {
+                            plane.depth.span_mut(y, block.x0, block.x1).fill(CLEAR);
+                            plane.colour.span_mut(y, block.x0, block.x1).fill(colour);
+                        }
                     }
-                } else if let State::Whole(serial) = state
-                    && let Some(moved) = pattern.moved(&pieces[serial as usize], i)
-                {
-                    let row = pixels.row(run.y_px);
-                    engine.affine_fragments(&moved, block, |f| {
-                        plane.depth.span_mut(f.y_px, f.x_px, f.x_px + 1)[0] = format.key(f.depth);
-                        plane.write(f.x_px, f.y_px, row[(f.x_px / pattern.scale) as usize].colour);
-                    });
+                    State::Whole(serial) => {
+                        let row = pixels.row(run.y_px);
+                        let Some(moved) = pattern.moved(&pieces[serial as usize], i) else {
+                            continue;
+                        };
+                        engine.affine_fragments(&moved, block, |f| {
+                            let colour = row[(f.x_px / pattern.scale) as usize].colour;
+                            plane.put(f.x_px, f.y_px, format.key(f.depth), colour);
+                        });
+                    }
+                    State::Parts(index) => {
+                        for part in pool[index as usize].iter() {
+                            let has = |x: i32, y: i32| {
+                                part.samples & pattern.bit(x - block.x0, y - block.y0, i) != 0
+                            };
+                            let Some(serial) = part.serial else {
+                                for y in block.y0..block.y1 {
+                                    for x in (block.x0..block.x1).filter(|&x| has(x, y)) {
+                                        plane.put(x, y, CLEAR, part.colour);
+                                    }
+                                }
+                                continue;
+                            };
+                            let Some(moved) = pattern.moved(&pieces[serial as usize], i) else {
+                                continue;
+                            };
+                            engine.affine_fragments(&moved, block, |f| {
+                                if has(f.x_px, f.y_px) {
+                                    plane.put(f.x_px, f.y_px, format.key(f.depth), part.colour);
+                                }
+                            });
+                        }
+                    }
                 }
+            }
+            if let State::Parts(index) = state {
+                spare.push(index);
             }
             for pixel in pixels.span_mut(run.y_px, run.x0_px, run.x1_px) {
                 pixel.state = State::Apart;
@@ -403,7 +450,8 @@ impl OnDemand {
             for (x_px, (pixel, held)) in (0..).zip(picture.row_mut(y_px).iter_mut().zip(row)) {
                 *pixel = match held.state {
                     State::Apart => target.pixel(x_px, y_px),
-                    _ => held.colour,
+                    State::Parts(index) => self.pool[index as usize].mean(),
+                    State::Background | State::Whole(_) => held.colour,
                 };
             }
         }
@@ -438,6 +486,38 @@ fn width_px(piece: &Piece) -> i32 {
 }
 
 impl Pixel {
+    /// Its samples in parts; none where they are apart.
+    fn parts(&self, pool: &[Parts], background: Colour, pattern: Pattern) -> Option<Parts> {
+        let samples = pattern.all();
+        let Self { nearest, farthest, .. } = *self;
+        match self.state {
+            State::Apart => None,
+            State::Parts(index) => Some(pool[index as usize]),
+            State::Whole(serial) => {
+                let (serial, colour) = (Some(serial), self.colour);
+                Some(Parts::of(Part { serial, samples, colour, nearest, farthest }))
+            }
+            State::Background => {
+                let (serial, colour) = (None, background);
+                Some(Parts::of(Part { serial, samples, colour, nearest, farthest }))
+            }
+        }
+    }
+
+    /// Takes parts in the place of what it held.
+    fn hold(&mut self, parts: Parts, pool: &mut Vec<Parts>, spare: &mut Vec<u32>) {
+        (self.nearest, self.farthest) = parts.range();
+        if let State::Parts(index) = self.state {
+            pool[index as usize] = parts;
+        } else if let Some(index) = spare.pop() {
+            pool[index as usize] = parts;
+            self.state = State::Parts(index);
+        } else {
+            self.state = State::Parts(pool.len() as u32);
+            pool.push(parts);
+        }
+    }
+
     /// What becomes of it under a piece that covers all its samples or some of them, at depths
     /// between two keys, or drawn over whatever is there.
     #[inline]
@@ -488,6 +568,63 @@ impl Pattern {
         plane: usize,
     ) -> Option<ScreenTriangle<V>> {
         if self.planes == 1 { Some(*piece) } else { moved(piece, SAMPLES[plane]) }
+    }
+
+    /// Whether a bit for each sample fits a mask.
+    fn has_masks(self) -> bool {
+        self.scale * self.scale * self.planes as i32 <= u64::BITS as i32
+    }
+
+    /// The bit of a sample, `x` columns and `y` rows into the pixel, in a plane.
+    #[inline]
+    fn bit(self, x: i32, y: i32, plane: usize) -> u64 {
+        1 << ((y * self.planes as i32 + plane as i32) * self.scale + x)
+    }
+
+    /// All bits.
+    fn all(self) -> u64 {
+        u64::MAX >> (u64::BITS as i32 - self.scale * self.scale * self.planes as i32)
+    }
+
+    /// The bits of the samples of a pixel that are covered; `samples` are those of its row.
+    #[inline]
+    fn mask(self, samples: &[(i32, i32)], x_px: i32) -> u64 {
+        let left = x_px * self.scale;
+        let mut mask = 0;
+        for (j, &(x0, x1)) in samples.iter().enumerate() {
+            let (x0, x1) = ((x0 - left).max(0), (x1 - left).min(self.scale));
+            if x0 < x1 {
+                let bits = (u64::MAX >> (u64::BITS as i32 - (x1 - x0))) << x0;
+                mask |= bits << (j as i32 * self.scale);
+            }
+        }
+        mask
+    }
+
+    /// The columns that are covered in a row of pixels, for each row of samples in each plane.
+    fn rows_of(self, rows: &[(i32, i32)], y_px: i32) -> &[(i32, i32)] {
+        let per_row = self.scale as usize * self.planes;
+        &rows[y_px as usize * per_row..][..per_row]
+    }
+
+    /// The columns of one row of pixels. A row of samples is one run, since triangles are convex.
+    fn pixel_row(self, samples: &[(i32, i32)]) -> Option<PixelRow> {
+        let scale = self.scale;
+        let mut touched = (i32::MAX, i32::MIN);
+        let mut inner = (i32::MIN, i32::MAX);
+        for &(x0, x1) in samples {
+            if x0 < x1 {
+                touched = (touched.0.min(x0), touched.1.max(x1));
+            }
+            inner = (inner.0.max(x0), inner.1.min(x1));
+        }
+        if touched.0 >= touched.1 {
+            return None;
+        }
+        let up = |x: i32| (x + scale - 1).div_euclid(scale);
+        let touched = (touched.0.div_euclid(scale), up(touched.1));
+        let inner = (up(inner.0), inner.1.div_euclid(scale));
+        Some(PixelRow { touched, inner })
     }
 
     /// Pixels whose samples a piece may touch.

@@ -102,6 +102,13 @@ impl Plane {
         self.colour.span_mut(y_px, x_px, x_px + 1)[0] = colour;
     }
 
+    /// Writes a colour and a key, whatever is there.
+    #[inline]
+    pub(crate) fn put(&mut self, x_px: i32, y_px: i32, key: u64, colour: Colour) {
+        self.depth.span_mut(y_px, x_px, x_px + 1)[0] = key;
+        self.write(x_px, y_px, colour);
+    }
+
     /// Writes a fragment if it is nearer than what is there; says whether it was. The colour is
     /// asked for only then.
     #[inline]

@@ -1,0 +1,149 @@
+//! A pixel whose samples are of several pieces: which piece each sample is of, as masks.
+//!
+//! Neighbours in a mesh have no sample in common, and what lies behind is behind by more than a
+//! pixel's range of depths. So most pixels at borders are settled by masks and intervals alone, and
+//! no depth of a sample is ever computed.
+
+use crate::pipeline::target::Colour;
+
+/// The samples of a pixel that are of one piece.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Part {
+    /// The piece; none for the background.
+    pub serial: Option<u32>,
+    /// A bit for each sample.
+    pub samples: u64,
+    pub colour: Colour,
+    /// Keys that no depth of these samples is nearer or farther than.
+    pub nearest: u64,
+    pub farthest: u64,
+}
+
+/// All samples of a pixel, in parts.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Parts {
+    parts: [Part; Self::MOST],
+    len: usize,
+}
+
+impl Parts {
+    /// Pixels with more parts are drawn sample by sample.
+    const MOST: usize = 4;
+
+    pub(super) fn of(whole: Part) -> Self {
+        Self { parts: [whole; Self::MOST], len: 1 }
+    }
+
+    /// Whether there is more than one.
+    pub(super) fn is_divided(&self) -> bool {
+        self.len > 1
+    }
+
+    pub(super) fn iter(&self) -> impl Iterator<Item = &Part> {
+        self.parts[..self.len].iter()
+    }
+
+    /// Draws a piece, over what is there or where it is nearer. False, with nothing drawn, where the
+    /// samples decide one by one, or where there would be too many parts.
+    pub(super) fn draw(&mut self, mut new: Part, depth: bool) -> bool {
+        let mut drawn = *self;
+        drawn.len = 0;
+        for part in self.iter() {
+            let mut part = *part;
+            let common = part.samples & new.samples;
+            if common != 0 {
+                if !depth || new.farthest < part.nearest {
+                    part.samples &= !common;
+                } else if new.nearest >= part.farthest {
+                    new.samples &= !common;
+                } else {
+                    return false;
+                }
+            }
+            drawn.push(part);
+        }
+        if drawn.len == Self::MOST && new.samples != 0 {
+            return false;
+        }
+        drawn.push(new);
+        *self = drawn;
+        true
+    }
+
+    fn push(&mut self, part: Part) {
+        if part.samples != 0 {
+            self.parts[self.len] = part;
+            self.len += 1;
+        }
+    }
+
+    /// Keys that no depth is nearer or farther than.
+    pub(super) fn range(&self) -> (u64, u64) {
+        self.iter().fold((u64::MAX, 0), |(nearest, farthest), part| {
+            (nearest.min(part.nearest), farthest.max(part.farthest))
+        })
+    }
+
+    /// The mean of the samples, as [`crate::pipeline::target::Target::pixel`] has it.
+    pub(super) fn mean(&self) -> Colour {
+        let mut sum = [0u32; 4];
+        let mut samples = 0;
+        for part in self.iter() {
+            let count = part.samples.count_ones();
+            samples += count;
+            sum = [0, 1, 2, 3].map(|i| sum[i] + count * u32::from(part.colour[i]));
+        }
+        // A mean of bytes is a byte.
+        sum.map(|channel| ((channel + samples / 2) / samples) as u8)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn part(serial: u32, samples: u64, nearest: u64, farthest: u64) -> Part {
+        let colour = [serial as u8 * 10, 0, 0, 255];
+        Part { serial: Some(serial), samples, colour, nearest, farthest }
+    }
+
+    #[test]
+    fn parts_by_hand() {
+        let background = Part { serial: None, ..part(0, 0b1111, u64::MAX, u64::MAX) };
+        let mut pixel = Parts::of(background);
+        let serials = |pixel: &Parts| -> Vec<_> {
+            pixel.iter().map(|part| (part.serial, part.samples)).collect()
+        };
+        assert!(pixel.draw(part(1, 0b0011, 50, 60), true));
+        assert!(pixel.draw(part(2, 0b0100, 50, 60), true), "beside the first");
+        assert_eq!(serials(&pixel), [(None, 0b1000), (Some(1), 0b0011), (Some(2), 0b0100)]);
+        assert_eq!(pixel.range(), (50, u64::MAX));
+        // (1 x 0 + 2 x 10 + 1 x 20) / 4.
+        assert_eq!(pixel.mean(), [10, 0, 0, 255]);
+        assert!(pixel.draw(part(3, 0b0110, 60, 70), true), "behind: an equal key is behind");
+        assert_eq!(serials(&pixel), [(None, 0b1000), (Some(1), 0b0011), (Some(2), 0b0100)]);
+        let before = serials(&pixel);
+        assert!(!pixel.draw(part(4, 0b0110, 59, 70), true), "may be either");
+        assert!(!pixel.draw(part(4, 0b0110, 10, 50), true), "may be equal");
+        assert_eq!(serials(&pixel), before);
+        assert!(pixel.draw(part(5, 0b1110, 10, 49), true), "nearer");
+        assert_eq!(serials(&pixel), [(Some(1), 0b0001), (Some(5), 0b1110)]);
+        assert!(pixel.draw(part(6, 0b0010, 90, 99), false), "over it");
+        assert!(pixel.draw(part(7, 0b0100, 90, 99), false));
+        assert_eq!(pixel.len, 4);
+        assert_eq!(pixel.iter().map(|part| part.samples).fold(0, |a, b| a ^ b), 0b1111);
+    }
+
+    #[test]
+    fn a_fifth_part_is_refused() {
+        let mut pixel = Parts::of(part(0, 0xff, 90, 99));
+        assert!(!pixel.is_divided());
+        for serial in 1..4 {
+            assert!(pixel.draw(part(serial, 1 << serial, 10, 20), true));
+        }
+        assert!(pixel.is_divided());
+        assert!(!pixel.draw(part(4, 1 << 4, 10, 20), true));
+        assert!(pixel.draw(part(4, 0b1110, 1, 2), true), "in the place of three");
+        assert_eq!(pixel.len, 2);
+    }
+}
