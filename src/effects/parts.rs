@@ -34,39 +34,33 @@ impl Parts {
         Self { parts: [whole; Self::MOST], len: 1 }
     }
 
-    /// Whether there is more than one.
-    pub(super) fn is_divided(&self) -> bool {
-        self.len > 1
-    }
-
     pub(super) fn iter(&self) -> impl Iterator<Item = &Part> {
         self.parts[..self.len].iter()
     }
 
     /// Draws a piece, over what is there or where it is nearer. False, with nothing drawn, where the
     /// samples decide one by one, or where there would be too many parts.
-    pub(super) fn draw(&mut self, mut new: Part, depth: bool) -> bool {
-        let mut drawn = *self;
-        drawn.len = 0;
-        for part in self.iter() {
-            let mut part = *part;
-            let common = part.samples & new.samples;
-            if common != 0 {
-                if !depth || new.farthest < part.nearest {
-                    part.samples &= !common;
-                } else if new.nearest >= part.farthest {
-                    new.samples &= !common;
-                } else {
-                    return false;
-                }
-            }
-            drawn.push(part);
-        }
-        if drawn.len == Self::MOST && new.samples != 0 {
+    pub(super) fn draw(&mut self, new: Part, depth: bool) -> bool {
+        let count = self.len;
+        let parts = &self.parts[..count];
+        let is_over = |part: &Part| !depth || new.farthest < part.nearest;
+        let meets = |part: &&Part| part.samples & new.samples != 0;
+        if parts.iter().filter(meets).any(|part| !is_over(part) && new.nearest < part.farthest) {
             return false;
         }
-        drawn.push(new);
-        *self = drawn;
+        let hidden = |part: &&Part| meets(part) && !is_over(part);
+        let behind = parts.iter().filter(hidden).fold(0, |all, part| all | part.samples);
+        let samples = new.samples & !behind;
+        let left = parts.iter().filter(|part| part.samples & !samples != 0).count();
+        if left == Self::MOST && samples != 0 {
+            return false;
+        }
+        self.len = 0;
+        for i in 0..count {
+            let part = self.parts[i];
+            self.push(Part { samples: part.samples & !samples, ..part });
+        }
+        self.push(Part { samples, ..new });
         true
     }
 
@@ -137,11 +131,10 @@ mod tests {
     #[test]
     fn a_fifth_part_is_refused() {
         let mut pixel = Parts::of(part(0, 0xff, 90, 99));
-        assert!(!pixel.is_divided());
         for serial in 1..4 {
             assert!(pixel.draw(part(serial, 1 << serial, 10, 20), true));
         }
-        assert!(pixel.is_divided());
+        assert_eq!(pixel.len, 4);
         assert!(!pixel.draw(part(4, 1 << 4, 10, 20), true));
         assert!(pixel.draw(part(4, 0b1110, 1, 2), true), "in the place of three");
         assert_eq!(pixel.len, 2);

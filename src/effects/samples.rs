@@ -78,12 +78,9 @@ struct Run {
 pub(super) struct OnDemand {
     pattern: Pattern,
     pixels: Frame<Pixel>,
-    background: Colour,
     /// Pieces that pixels are of, whole or in part.
     pieces: Vec<DepthPiece>,
-    /// Parts of pixels, and which of them are of none any more.
-    pool: Vec<Parts>,
-    spare: Vec<u32>,
+    pool: Pool,
     /// Covered columns of the piece at hand, for each row of samples in each plane.
     rows: Vec<(i32, i32)>,
     /// Pixels whose samples the piece at hand needs apart.
@@ -94,7 +91,7 @@ impl OnDemand {
     /// Pieces of one colour whose bounding box has no more pixels, and pieces that vary whose box
     /// has fewer columns, are drawn in one go: to find out which of their pixels are whole takes
     /// longer than it saves, as measured.
-    const SMALL_PX: u64 = 64;
+    const SMALL_PX: u64 = 32;
     const WIDE_PX: i32 = 64;
 
     pub(super) fn new(target: &Target, background: Colour) -> Self {
@@ -109,10 +106,8 @@ impl OnDemand {
         Self {
             pattern,
             pixels: Frame::new(target.size(), pixel),
-            background,
             pieces: Vec::new(),
-            pool: Vec::new(),
-            spare: Vec::new(),
+            pool: Pool::default(),
             rows: vec![(0, 0); target.bounds().height() as usize * pattern.planes],
             runs: Vec::new(),
         }
@@ -240,7 +235,7 @@ impl OnDemand {
         let serial = self.pieces.len() as u32;
         let state = State::Whole(serial);
         let mut is_used = false;
-        let Self { pattern, pixels, background, pool, spare, runs, .. } = self;
+        let Self { pattern, pixels, pool, runs, .. } = self;
         for y_px in rows {
             let samples = pattern.rows_of(&self.rows, y_px);
             let Some(PixelRow { touched, inner }) = pattern.pixel_row(samples) else { continue };
@@ -255,7 +250,7 @@ impl OnDemand {
                     Meeting::Whole => {
                         is_used = true;
                         if let State::Parts(index) = pixel.state {
-                            spare.push(index);
+                            pool.spare.push(index);
                         }
                         pixel.state = state;
                         pixel.colour = colour.unwrap_or(pixel.colour);
@@ -266,20 +261,17 @@ impl OnDemand {
                             let samples = pattern.mask(samples, x_px);
                             Part { serial: Some(serial), samples, colour, nearest, farthest }
                         });
-                        let drawn = part.and_then(|part| {
-                            let mut parts = before.parts(pool, *background, *pattern)?;
-                            parts.draw(part, keys.is_some()).then_some(parts)
-                        });
-                        let Some(parts) = drawn else {
+                        let index =
+                            part.and_then(|part| before.draw(part, plane.is_some(), pool, pattern));
+                        let Some(index) = index else {
                             first_apart.get_or_insert(x_px);
                             continue;
                         };
-                        if parts.is_divided() {
-                            is_used = true;
-                            pixel.hold(parts, pool, spare);
-                            counters.expanded += u64::from(!pixel.was_apart);
-                            pixel.was_apart = true;
-                        }
+                        is_used = true;
+                        pixel.state = State::Parts(index);
+                        (pixel.nearest, pixel.farthest) = pool.parts[index as usize].range();
+                        counters.expanded += u64::from(!pixel.was_apart);
+                        pixel.was_apart = true;
                     }
                 }
                 if let Some(x0_px) = first_apart.take() {
@@ -370,7 +362,7 @@ impl OnDemand {
         target: &mut Target,
         counters: &mut Counters,
     ) {
-        let Self { pattern, pixels, pieces, pool, spare, .. } = self;
+        let Self { pattern, pixels, pieces, pool, .. } = self;
         let format = target.format;
         let mut x0_px = run.x0_px;
         while x0_px < run.x1_px {
@@ -403,7 +395,7 @@ impl OnDemand {
                         });
                     }
                     State::Parts(index) => {
-                        for part in pool[index as usize].iter() {
+                        for part in pool.parts[index as usize].iter() {
                             let has = |x: i32, y: i32| {
                                 part.samples & pattern.bit(x - block.x0, y - block.y0, i) != 0
                             };
@@ -428,7 +420,7 @@ impl OnDemand {
                 }
             }
             if let State::Parts(index) = state {
-                spare.push(index);
+                pool.spare.push(index);
             }
             for pixel in pixels.span_mut(run.y_px, run.x0_px, run.x1_px) {
                 pixel.state = State::Apart;
@@ -450,12 +442,32 @@ impl OnDemand {
             for (x_px, (pixel, held)) in (0..).zip(picture.row_mut(y_px).iter_mut().zip(row)) {
                 *pixel = match held.state {
                     State::Apart => target.pixel(x_px, y_px),
-                    State::Parts(index) => self.pool[index as usize].mean(),
+                    State::Parts(index) => self.pool.parts[index as usize].mean(),
                     State::Background | State::Whole(_) => held.colour,
                 };
             }
         }
         picture
+    }
+}
+
+/// The parts of all pixels that have several.
+#[derive(Default)]
+struct Pool {
+    parts: Vec<Parts>,
+    /// Places that are of no pixel any more.
+    spare: Vec<u32>,
+}
+
+impl Pool {
+    /// The place of new parts.
+    fn add(&mut self, parts: Parts) -> u32 {
+        if let Some(index) = self.spare.pop() {
+            self.parts[index as usize] = parts;
+            return index;
+        }
+        self.parts.push(parts);
+        self.parts.len() as u32 - 1
     }
 }
 
@@ -486,36 +498,21 @@ fn width_px(piece: &Piece) -> i32 {
 }
 
 impl Pixel {
-    /// Its samples in parts; none where they are apart.
-    fn parts(&self, pool: &[Parts], background: Colour, pattern: Pattern) -> Option<Parts> {
-        let samples = pattern.all();
-        let Self { nearest, farthest, .. } = *self;
-        match self.state {
-            State::Apart => None,
-            State::Parts(index) => Some(pool[index as usize]),
-            State::Whole(serial) => {
-                let (serial, colour) = (Some(serial), self.colour);
-                Some(Parts::of(Part { serial, samples, colour, nearest, farthest }))
+    /// Draws a piece on some of its samples; its place in the pool afterwards. None, with nothing
+    /// drawn, where they are apart or must be.
+    fn draw(&self, part: Part, depth: bool, pool: &mut Pool, pattern: &Pattern) -> Option<u32> {
+        let Self { colour, nearest, farthest, .. } = *self;
+        let serial = match self.state {
+            State::Apart => return None,
+            State::Parts(index) => {
+                return pool.parts[index as usize].draw(part, depth).then_some(index);
             }
-            State::Background => {
-                let (serial, colour) = (None, background);
-                Some(Parts::of(Part { serial, samples, colour, nearest, farthest }))
-            }
-        }
-    }
-
-    /// Takes parts in the place of what it held.
-    fn hold(&mut self, parts: Parts, pool: &mut Vec<Parts>, spare: &mut Vec<u32>) {
-        (self.nearest, self.farthest) = parts.range();
-        if let State::Parts(index) = self.state {
-            pool[index as usize] = parts;
-        } else if let Some(index) = spare.pop() {
-            pool[index as usize] = parts;
-            self.state = State::Parts(index);
-        } else {
-            self.state = State::Parts(pool.len() as u32);
-            pool.push(parts);
-        }
+            State::Whole(serial) => Some(serial),
+            State::Background => None,
+        };
+        let whole = Part { serial, samples: pattern.all(), colour, nearest, farthest };
+        let mut parts = Parts::of(whole);
+        parts.draw(part, depth).then(|| pool.add(parts))
     }
 
     /// What becomes of it under a piece that covers all its samples or some of them, at depths
