@@ -132,10 +132,7 @@ impl OnDemand {
             return;
         }
         let plane = depth.then(|| Plane::new(piece, self.pattern));
-        let met = self.meet(engine, piece, plane.as_ref(), Some(colour), target, counters);
-        if met.is_none() {
-            return;
-        }
+        self.meet(engine, piece, plane.as_ref(), Some(colour), target, counters);
         let runs = std::mem::take(&mut self.runs);
         for &run in &runs {
             self.tell_apart(engine, run, target, counters);
@@ -168,13 +165,13 @@ impl OnDemand {
         }
         let plane = way.depth_test.then(|| Plane::new(piece, self.pattern));
         let met = self.meet(engine, piece, plane.as_ref(), None, target, counters);
-        let Some(state) = met else { return };
         let runs = std::mem::take(&mut self.runs);
         for &run in &runs {
             self.tell_apart(engine, run, target, counters);
             fill(engine, packed, target, run.rect(), way, fragment_stage, counters);
         }
         self.runs = runs;
+        let Some(state) = met else { return };
         let (pixels, mut shaded) = (&mut self.pixels, 0);
         fragments(engine, packed, target.bounds(), way.affine, |f| {
             let pixel = &mut pixels.span_mut(f.y_px, f.x_px, f.x_px + 1)[0];
@@ -217,9 +214,9 @@ impl OnDemand {
     }
 
     /// Decides what becomes of each pixel that the piece touches, drawn at the depths of a plane or
-    /// over what is there: those that are of the piece as a whole get the state that is returned,
-    /// and the colour if there is one; those that it needs apart are in `runs`. Nothing where it
-    /// lies outside of the window.
+    /// over what is there. Those that are of the piece as a whole, or in parts where it has one
+    /// colour, are drawn; those that it needs apart are in `runs`. Returns the state of the pixels
+    /// that are whole; nothing where there are none.
     fn meet(
         &mut self,
         engine: &impl Interpolate,
@@ -234,7 +231,7 @@ impl OnDemand {
         let format = target.format;
         let serial = self.pieces.len() as u32;
         let state = State::Whole(serial);
-        let mut is_used = false;
+        let (mut is_whole, mut is_part) = (false, false);
         let Self { pattern, pixels, pool, runs, .. } = self;
         for y_px in rows {
             let samples = pattern.rows_of(&self.rows, y_px);
@@ -248,7 +245,7 @@ impl OnDemand {
                 match pixel.meet(covered, keys) {
                     Meeting::Hidden => {}
                     Meeting::Whole => {
-                        is_used = true;
+                        is_whole = true;
                         if let State::Parts(index) = pixel.state {
                             pool.spare.push(index);
                         }
@@ -267,7 +264,7 @@ impl OnDemand {
                             first_apart.get_or_insert(x_px);
                             continue;
                         };
-                        is_used = true;
+                        is_part = true;
                         pixel.state = State::Parts(index);
                         (pixel.nearest, pixel.farthest) = pool.parts[index as usize].range();
                         counters.expanded += u64::from(!pixel.was_apart);
@@ -282,10 +279,10 @@ impl OnDemand {
                 runs.push(Run { y_px, x0_px, x1_px: touched.1 });
             }
         }
-        if is_used {
+        if is_whole || is_part {
             self.pieces.push(pack::<0, 0>(piece));
         }
-        Some(state)
+        is_whole.then_some(state)
     }
 
     /// Tests and writes the samples of a run of pixels that are apart.

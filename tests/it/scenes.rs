@@ -403,6 +403,33 @@ proptest! {
             prop_assert!(planned == whole, "{} of random scene {index}", drawer.name());
         }
     }
+
+    /// Any mixture of effects, each planned or always paid for, changes no bit; any at all, with
+    /// some left out, draws something and does not panic.
+    #[test]
+    fn any_mixture_of_effects_draws(
+        index in any::<u32>(),
+        kind in 0..4usize,
+        modes in proptest::array::uniform13(0..3u8),
+        some_never in any::<bool>(),
+    ) {
+        let scene = random::scene(3, index.into());
+        let mut effects = Effects::ALWAYS;
+        for (effect, mode) in Effect::ALL.into_iter().zip(modes) {
+            effects = effects.with(effect, match mode {
+                0 => Mode::Planned,
+                1 if some_never => Mode::Never,
+                _ => Mode::Always,
+            });
+        }
+        for drawer in Drawer::ALL {
+            let mixed = draw(&scene, drawer, effects, SMOOTHINGS[kind]).picture;
+            if !some_never {
+                let whole = draw(&scene, drawer, Effects::ALWAYS, SMOOTHINGS[kind]).picture;
+                prop_assert!(mixed == whole, "{} of random scene {index}", drawer.name());
+            }
+        }
+    }
 }
 
 #[test]
