@@ -133,7 +133,7 @@ pub fn run(arguments: &PlanArguments, streams: &mut Streams<'_>) -> Result<u8, F
     let (measured, everything, planned) = measure(arguments, &scene, streams.progress)?;
     let same = measured.all().all(|mixture| mixture.same);
     if arguments.report {
-        let report = report_page(&arguments.what, &scene, [&everything, &planned], &measured, same);
+        let report = report_page(arguments, &scene, [&everything, &planned], &measured, same);
         write_page(Path::new(PAGE), &report, streams.errors)?;
     }
     if arguments.json {
@@ -269,13 +269,17 @@ fn describe(scene: &Scene, planned: &Rendered, everything: &Counters, savings: &
 
 /// The plan, what it saves and the picture.
 fn report_page(
-    what: &SceneArguments,
+    arguments: &PlanArguments,
     scene: &Scene,
     frames: [&Rendered; 2],
     savings: &Savings,
     same: bool,
 ) -> Report {
-    let command = format!("rasterproof plan {} --report", what.words());
+    let engine = match arguments.engine {
+        By::Scanline => "",
+        By::EdgeFunction => " --engine edge-function",
+    };
+    let command = format!("rasterproof plan {}{engine} --report", arguments.what.words());
     let column =
         |label: &str, is_number| Column { label: label.to_owned(), is_number, ..Column::default() };
     let row = |s: &Saving| Row {
