@@ -155,7 +155,7 @@ impl DrawLine for LineEngine {
 ///
 /// Each of the two is a call of its own, so that kernels are compiled for these two and not for
 /// every planted fault.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub enum Drawer {
     /// The scanline engine and the DDA.
     Scanline,

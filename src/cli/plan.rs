@@ -34,8 +34,8 @@ pub struct PlanArguments {
     #[command(flatten)]
     what: SceneArguments,
     /// The rasterizer
-    #[arg(long, value_enum, default_value_t = By::Scanline)]
-    engine: By,
+    #[arg(long, value_enum, default_value_t = Drawer::Scanline)]
+    engine: Drawer,
     /// Rounds of measuring, each with every mixture of effects in turn
     #[arg(long, default_value_t = 9, value_parser = clap::value_parser!(u32).range(1..=1000))]
     rounds: u32,
@@ -47,16 +47,10 @@ pub struct PlanArguments {
     json: bool,
 }
 
-#[derive(clap::ValueEnum, Clone, Copy, Debug)]
-enum By {
-    Scanline,
-    EdgeFunction,
-}
-
 /// One mixture of effects, measured.
 #[derive(serde::Serialize)]
 struct Measured {
-    /// The mixture, in the words of `--effects`.
+    /// The mixture, for people.
     effects: String,
     /// Median of the rounds.
     time_us: f64,
@@ -166,10 +160,6 @@ fn measure(
     progress: bool,
 ) -> Result<(Savings, Rendered, Rendered), Failure> {
     let mixtures = mixtures();
-    let drawer = match arguments.engine {
-        By::Scanline => Drawer::Scanline,
-        By::EdgeFunction => Drawer::EdgeFunction,
-    };
     let bar = ProgressBar::with_draw_target(
         Some(u64::from(arguments.rounds)),
         if progress { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() },
@@ -184,7 +174,8 @@ fn measure(
             let i = if round == 0 { k } else { (k + round as usize) % mixtures.len() };
             let effects = &mixtures[i].1;
             let start = Instant::now();
-            let rendered = drawer
+            let rendered = arguments
+                .engine
                 .render(scene, effects, &mut target)
                 .map_err(|error| usage(error.to_string()))?;
             let time = start.elapsed();
@@ -275,11 +266,8 @@ fn report_page(
     savings: &Savings,
     same: bool,
 ) -> Report {
-    let engine = match arguments.engine {
-        By::Scanline => "",
-        By::EdgeFunction => " --engine edge-function",
-    };
-    let command = format!("rasterproof plan {}{engine} --report", arguments.what.words());
+    let (words, engine) = (arguments.what.words(), arguments.engine.name());
+    let command = format!("rasterproof plan {words} --engine {engine} --report");
     let column =
         |label: &str, is_number| Column { label: label.to_owned(), is_number, ..Column::default() };
     let row = |s: &Saving| Row {

@@ -9,9 +9,8 @@ use image::codecs::gif::{GifEncoder, Repeat};
 use indicatif::{ProgressBar, ProgressDrawTarget};
 
 use super::{Failure, PAGE, Streams, exit, usage, write_file, write_page};
-use crate::effects::Effects;
-use crate::effects::render::Rendered;
-use crate::effects::{Effect, Mode};
+use crate::effects::render::{BadScene, Rendered};
+use crate::effects::{Effect, Effects, Mode};
 use crate::frame::Frame;
 use crate::lineup::Drawer;
 use crate::pipeline::Counters;
@@ -454,11 +453,11 @@ fn draw(arguments: &RenderArguments, scene: &Scene) -> Result<Vec<Drawing>, Fail
     let engines: &[Drawer] = match arguments.engine {
         Drawn::Scanline => &[Drawer::Scanline],
         Drawn::EdgeFunction => &[Drawer::EdgeFunction],
-        Drawn::Both => &[Drawer::Scanline, Drawer::EdgeFunction],
+        Drawn::Both => &Drawer::ALL,
     };
     let drawing = |drawer: &Drawer| {
         let mut target = arguments.what.target()?;
-        let refused = |error: crate::effects::render::BadScene| usage(error.to_string());
+        let refused = |error: BadScene| usage(error.to_string());
         if arguments.wireframe {
             let rendered = drawer.render_wireframe(scene, &mut target).map_err(refused)?;
             return Ok(Drawing { name: drawer.line_name(), rendered, target, unplanned: 0 });

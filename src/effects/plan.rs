@@ -117,7 +117,7 @@ fn units(pieces: &[(usize, Piece)], margin_px: i32) -> Vec<Unit> {
 }
 
 /// Pixels that a triangle may touch: those whose centres lie in [min, max), by the fill rule.
-fn pixel_box(corners: &Corners, margin_px: i32) -> PixelRect {
+pub(super) fn pixel_box(corners: &Corners, margin_px: i32) -> PixelRect {
     let range = |coordinate: fn(&SubpixelPoint) -> i32| {
         let (min, max) = corners
             .iter()
@@ -353,7 +353,7 @@ fn frame_decisions(
         Mode::Always => triangles - rejected,
         Mode::Never => 0,
     };
-    let pixels = u64::from(target.size().width()) * u64::from(target.size().height());
+    let pixels = target.pixel_count();
     let samples = match target.antialias() {
         Antialias::None => "a pixel has one sample".to_owned(),
         _ if expanded == 0 => "no pixel holds more than one colour".to_owned(),

@@ -398,7 +398,7 @@ impl<E: Interpolate> Stage<'_, '_, E> {
             && colours != Mode::Never
             && depths != Mode::Never
         {
-            let pixels = u64::from(target.size().width()) * u64::from(target.size().height());
+            let pixels = target.pixel_count();
             counters.cleared += pixels;
             counters.depths_cleared += if uses_depth { pixels } else { 0 };
             self.on_demand = Some(OnDemand::new(target, scene.background));
@@ -475,7 +475,7 @@ impl<E: Interpolate> Stage<'_, '_, E> {
 
     fn finish(self, items: &[Prepared<'_>]) -> Rendered {
         let Self { mut counters, effects, .. } = self;
-        let pixels = u64::from(self.target.size().width()) * u64::from(self.target.size().height());
+        let pixels = self.target.pixel_count();
         let has_samples = self.target.antialias().samples() > 1;
         counters.expanded += if has_samples && self.on_demand.is_none() { pixels } else { 0 };
         let picture = resolve(self.on_demand.as_ref(), self.target);

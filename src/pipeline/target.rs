@@ -249,10 +249,14 @@ impl Target {
         }
     }
 
+    /// Pixels of the whole picture.
+    pub(crate) fn pixel_count(&self) -> u64 {
+        u64::from(self.size.width()) * u64::from(self.size.height())
+    }
+
     /// Samples of the whole picture.
     pub(crate) fn sample_count(&self) -> u64 {
-        let bounds = self.bounds();
-        u64::from(bounds.width()) * u64::from(bounds.height()) * self.planes.len() as u64
+        self.pixel_count() * self.antialias.samples()
     }
 
     /// The picture: each pixel the mean of its samples, a half rounded up. Whole numbers, so a
