@@ -14,6 +14,7 @@
 use std::ops::Range;
 
 use super::parts::{Part, Parts};
+use super::plan::pixel_box;
 use super::render::{Piece, pack};
 use crate::contract::Interpolate;
 use crate::frame::Frame;
@@ -92,7 +93,7 @@ impl OnDemand {
     /// has fewer columns, are drawn in one go: to find out which of their pixels are whole takes
     /// longer than it saves, as measured.
     const SMALL_PX: u64 = 32;
-    const WIDE_PX: i32 = 64;
+    const WIDE_PX: u32 = 64;
 
     pub(super) fn new(target: &Target, background: Colour) -> Self {
         let pattern = Pattern::of(target.antialias());
@@ -157,7 +158,7 @@ impl OnDemand {
         fragment_stage: F,
         counters: &mut Counters,
     ) {
-        if self.pattern.planes == 1 || width_px(piece) < Self::WIDE_PX {
+        if self.pattern.planes == 1 || self.pattern.pixel_box(piece).width() < Self::WIDE_PX {
             if self.tell_box_apart(engine, piece, way.depth_test, target, counters) {
                 fill(engine, packed, target, target.bounds(), way, fragment_stage, counters);
             }
@@ -265,10 +266,8 @@ impl OnDemand {
                             continue;
                         };
                         is_part = true;
-                        pixel.state = State::Parts(index);
                         (pixel.nearest, pixel.farthest) = pool.parts[index as usize].range();
-                        counters.expanded += u64::from(!pixel.was_apart);
-                        pixel.was_apart = true;
+                        pixel.divide(State::Parts(index), counters);
                     }
                 }
                 if let Some(x0_px) = first_apart.take() {
@@ -368,61 +367,38 @@ impl OnDemand {
             let alike = rest.iter().take_while(|pixel| pixel.state == state).count();
             let run = Run { y_px: run.y_px, x0_px, x1_px: x0_px + alike as i32 };
             x0_px = run.x1_px;
-            if state == State::Apart {
-                continue;
-            }
             let block = scaled(run.rect(), pattern.scale);
-            for (i, plane) in target.planes.iter_mut().enumerate() {
-                match state {
-                    State::Apart => {}
-                    State::Background => {
+            match state {
+                State::Apart => continue,
+                State::Background => {
+                    for plane in &mut target.planes {
                         for y in block.y0..block.y1 {
                             plane.depth.span_mut(y, block.x0, block.x1).fill(CLEAR);
                             plane.colour.span_mut(y, block.x0, block.x1).fill(colour);
                         }
                     }
-                    State::Whole(serial) => {
-                        let row = pixels.row(run.y_px);
-                        let Some(moved) = pattern.moved(&pieces[serial as usize], i) else {
-                            continue;
-                        };
+                }
+                State::Whole(serial) => {
+                    let row = pixels.row(run.y_px);
+                    for (i, plane) in target.planes.iter_mut().enumerate() {
+                        let moved = pattern.moved(&pieces[serial as usize], i);
+                        let Some(moved) = moved else { continue };
                         engine.affine_fragments(&moved, block, |f| {
                             let colour = row[(f.x_px / pattern.scale) as usize].colour;
                             plane.put(f.x_px, f.y_px, format.key(f.depth), colour);
                         });
                     }
-                    State::Parts(index) => {
-                        for part in pool.parts[index as usize].iter() {
-                            let has = |x: i32, y: i32| {
-                                part.samples & pattern.bit(x - block.x0, y - block.y0, i) != 0
-                            };
-                            let Some(serial) = part.serial else {
-                                for y in block.y0..block.y1 {
-                                    for x in (block.x0..block.x1).filter(|&x| has(x, y)) {
-                                        plane.put(x, y, CLEAR, part.colour);
-                                    }
-                                }
-                                continue;
-                            };
-                            let Some(moved) = pattern.moved(&pieces[serial as usize], i) else {
-                                continue;
-                            };
-                            engine.affine_fragments(&moved, block, |f| {
-                                if has(f.x_px, f.y_px) {
-                                    plane.put(f.x_px, f.y_px, format.key(f.depth), part.colour);
-                                }
-                            });
-                        }
+                }
+                State::Parts(index) => {
+                    for part in pool.parts[index as usize].iter() {
+                        let piece = part.serial.map(|serial| &pieces[serial as usize]);
+                        pattern.write_part(engine, part, piece, block, target);
                     }
+                    pool.spare.push(index);
                 }
             }
-            if let State::Parts(index) = state {
-                pool.spare.push(index);
-            }
             for pixel in pixels.span_mut(run.y_px, run.x0_px, run.x1_px) {
-                pixel.state = State::Apart;
-                counters.expanded += u64::from(!pixel.was_apart);
-                pixel.was_apart = true;
+                pixel.divide(State::Apart, counters);
             }
         }
     }
@@ -488,12 +464,6 @@ fn scaled(rect: PixelRect, scale: i32) -> PixelRect {
     PixelRect { x0: x0 * scale, y0: y0 * scale, x1: x1 * scale, y1: y1 * scale }
 }
 
-/// Columns between the outermost corners.
-fn width_px(piece: &Piece) -> i32 {
-    let [a, b, c] = piece.vertices.map(|vertex| vertex.position.x);
-    (a.max(b).max(c).saturating_sub(a.min(b).min(c))) / SUBPIXELS
-}
-
 impl Pixel {
     /// Draws a piece on some of its samples; its place in the pool afterwards. None, with nothing
     /// drawn, where they are apart or must be.
@@ -510,6 +480,13 @@ impl Pixel {
         let whole = Part { serial, samples: pattern.all(), colour, nearest, farthest };
         let mut parts = Parts::of(whole);
         parts.draw(part, depth).then(|| pool.add(parts))
+    }
+
+    /// Gives it a state in which its samples differ, and counts it the first time.
+    fn divide(&mut self, state: State, counters: &mut Counters) {
+        self.state = state;
+        counters.expanded += u64::from(!self.was_apart);
+        self.was_apart = true;
     }
 
     /// What becomes of it under a piece that covers all its samples or some of them, at depths
@@ -621,19 +598,46 @@ impl Pattern {
         Some(PixelRow { touched, inner })
     }
 
+    /// Writes the samples of one part of a pixel, which are those in `block`, into the target.
+    fn write_part(
+        self,
+        engine: &impl Interpolate,
+        part: &Part,
+        piece: Option<&DepthPiece>,
+        block: PixelRect,
+        target: &mut Target,
+    ) {
+        let format = target.format;
+        for (i, plane) in target.planes.iter_mut().enumerate() {
+            let mut put = |x: i32, y: i32, key: u64| {
+                if part.samples & self.bit(x - block.x0, y - block.y0, i) != 0 {
+                    plane.put(x, y, key, part.colour);
+                }
+            };
+            if let Some(piece) = piece {
+                let Some(moved) = self.moved(piece, i) else { continue };
+                engine
+                    .affine_fragments(&moved, block, |f| put(f.x_px, f.y_px, format.key(f.depth)));
+            } else {
+                for y in block.y0..block.y1 {
+                    (block.x0..block.x1).for_each(|x| put(x, y, CLEAR));
+                }
+            }
+        }
+    }
+
     /// Pixels whose samples a piece may touch.
     fn pixel_box<V: Copy>(self, piece: &ScreenTriangle<V>) -> PixelRect {
-        let side = self.scale * SUBPIXELS;
         // A moved piece lies up to half a pixel off.
-        let margin = i32::from(self.planes > 1);
-        let range = |[a, b, c]: [i32; 3]| {
-            let (min, max) = (a.min(b).min(c), a.max(b).max(c));
-            (min.div_euclid(side) - margin, max.div_euclid(side) + 1 + margin)
-        };
-        let corners = piece.corners();
-        let (x0, x1) = range(corners.map(|corner| corner.x));
-        let (y0, y1) = range(corners.map(|corner| corner.y));
-        PixelRect { x0, y0, x1, y1 }
+        let samples = pixel_box(&piece.corners(), i32::from(self.planes > 1));
+        let down = |x: i32| x.div_euclid(self.scale);
+        let up = |x: i32| (x + self.scale - 1).div_euclid(self.scale);
+        PixelRect {
+            x0: down(samples.x0),
+            y0: down(samples.y0),
+            x1: up(samples.x1),
+            y1: up(samples.y1),
+        }
     }
 
     /// How far a sample lies from the middle of its pixel along either axis, in pixels.
