@@ -66,42 +66,47 @@ impl Engine {
 }
 
 impl Rasterize for Engine {
-    fn cover(&self, corners: Corners, bounds: PixelRect, emit: impl FnMut(Span)) {
-        match self {
-            Self::Scanline => Scanline.cover(corners, bounds, emit),
-            Self::EdgeFunction => EdgeFunction.cover(corners, bounds, emit),
-            Self::Oracle => Oracle.cover(corners, bounds, emit),
-            Self::Mutant(mutant) => mutant.cover(corners, bounds, emit),
-        }
+    #[inline]
+    fn cover(&self, corners: Corners, bounds: PixelRect, mut emit: impl FnMut(Span)) {
+        self.spans(corners, bounds, &mut emit);
     }
 }
 
 impl Interpolate for Engine {
+    #[inline]
     fn fragments<V: Varying>(
         &self,
         triangle: &ScreenTriangle<V>,
         bounds: PixelRect,
-        emit: impl FnMut(Fragment<V>),
+        mut emit: impl FnMut(Fragment<V>),
+    ) {
+        self.values(triangle, bounds, &mut emit);
+    }
+}
+
+// A word of the command line is no hot loop: engines are called through `dyn` here, so that they are
+// compiled once and not for every caller.
+impl Engine {
+    fn spans(&self, corners: Corners, bounds: PixelRect, emit: &mut dyn FnMut(Span)) {
+        match self {
+            Self::Scanline => Scanline.cover(corners, bounds, emit),
+            Self::EdgeFunction => EdgeFunction.cover(corners, bounds, emit),
+            Self::Oracle => Oracle.cover(corners, bounds, emit),
+            Self::Mutant(mutant) => mutant.spans(corners, bounds, emit),
+        }
+    }
+
+    fn values<V: Varying>(
+        &self,
+        triangle: &ScreenTriangle<V>,
+        bounds: PixelRect,
+        emit: &mut dyn FnMut(Fragment<V>),
     ) {
         match self {
             Self::Scanline => Scanline.fragments(triangle, bounds, emit),
             Self::EdgeFunction => EdgeFunction.fragments(triangle, bounds, emit),
             Self::Oracle => Oracle.fragments(triangle, bounds, emit),
-            Self::Mutant(mutant) => mutant.fragments(triangle, bounds, emit),
-        }
-    }
-
-    fn affine_fragments<V: Varying>(
-        &self,
-        triangle: &ScreenTriangle<V>,
-        bounds: PixelRect,
-        emit: impl FnMut(Fragment<V>),
-    ) {
-        match self {
-            Self::Scanline => Scanline.affine_fragments(triangle, bounds, emit),
-            Self::EdgeFunction => EdgeFunction.affine_fragments(triangle, bounds, emit),
-            Self::Oracle => Oracle.affine_fragments(triangle, bounds, emit),
-            Self::Mutant(mutant) => mutant.affine_fragments(triangle, bounds, emit),
+            Self::Mutant(mutant) => mutant.values(triangle, bounds, emit),
         }
     }
 }
@@ -136,17 +141,29 @@ impl LineEngine {
 }
 
 impl DrawLine for LineEngine {
+    #[inline]
     fn draw<V: Varying>(
         &self,
         line: &ScreenLine<V>,
         bounds: PixelRect,
-        emit: impl FnMut(Fragment<V>),
+        mut emit: impl FnMut(Fragment<V>),
+    ) {
+        self.stroke(line, bounds, &mut emit);
+    }
+}
+
+impl LineEngine {
+    fn stroke<V: Varying>(
+        &self,
+        line: &ScreenLine<V>,
+        bounds: PixelRect,
+        emit: &mut dyn FnMut(Fragment<V>),
     ) {
         match self {
             Self::Dda => Dda.draw(line, bounds, emit),
             Self::Bresenham => Bresenham.draw(line, bounds, emit),
             Self::Oracle => Oracle.draw(line, bounds, emit),
-            Self::Mutant(mutant) => mutant.draw(line, bounds, emit),
+            Self::Mutant(mutant) => mutant.stroke(line, bounds, emit),
         }
     }
 }
@@ -295,13 +312,24 @@ impl RasterizeExact for ExactEngine {
         &self,
         corners: &FreeCorners,
         bounds: PixelRect,
-        emit: impl FnMut(Span),
+        mut emit: impl FnMut(Span),
+    ) -> Decisions {
+        self.spans(corners, bounds, &mut emit)
+    }
+}
+
+impl ExactEngine {
+    fn spans(
+        &self,
+        corners: &FreeCorners,
+        bounds: PixelRect,
+        emit: &mut dyn FnMut(Span),
     ) -> Decisions {
         match self {
             Self::Scanline => ScanlineExact.cover_exact(corners, bounds, emit),
             Self::EdgeFunction => EdgeFunctionExact.cover_exact(corners, bounds, emit),
             Self::Oracle => Oracle.cover_exact(corners, bounds, emit),
-            Self::Mutant(mutant) => mutant.cover_exact(corners, bounds, emit),
+            Self::Mutant(mutant) => mutant.spans(corners, bounds, emit),
         }
     }
 }
@@ -429,7 +457,7 @@ impl Published for TriangleSpecimen {
         &self,
         triangle: &RealTriangle,
         bounds: PixelRect,
-        emit: impl FnMut(Span),
+        emit: &mut dyn FnMut(Span),
     ) -> Result<(), Refused> {
         with_specimen!(self, specimen => specimen.cover(triangle, bounds, emit))
     }
@@ -438,7 +466,7 @@ impl Published for TriangleSpecimen {
         &self,
         triangle: &RealTriangle,
         bounds: PixelRect,
-        emit: impl FnMut(Fragment<DVec2>),
+        emit: &mut dyn FnMut(Fragment<DVec2>),
     ) -> Result<(), Refused> {
         with_specimen!(self, specimen => specimen.fragments(triangle, bounds, emit))
     }
@@ -458,7 +486,7 @@ impl PublishedLine for LineSpecimen {
         &self,
         ends_px: [[f64; 2]; 2],
         bounds: PixelRect,
-        emit: impl FnMut(i32, i32),
+        emit: &mut dyn FnMut(i32, i32),
     ) -> Result<(), Refused> {
         match self {
             Self::BookDda => BookDda.draw(ends_px, bounds, emit),

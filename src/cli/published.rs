@@ -59,7 +59,7 @@ fn cover(specimen: TriangleSpecimen, window: PixelRect, numbers: &[f64]) -> Repl
     let corners = [point(numbers, 0)?, point(&numbers[2..], 1)?, point(&numbers[4..], 2)?];
     let (mut runs, mut n) = (String::new(), 0);
     specimen
-        .cover(&bare(corners), window, |span| {
+        .cover(&bare(corners), window, &mut |span| {
             n += 1;
             // Writing to a string does not fail.
             let _ = write!(runs, " {} {} {}", span.y_px, span.x0_px, span.x1_px);
@@ -72,7 +72,7 @@ fn line(specimen: LineSpecimen, window: PixelRect, numbers: &[f64]) -> Reply {
     let ends = [point(numbers, 0)?, point(&numbers[2..], 1)?];
     let (mut pixels, mut n) = (String::new(), 0);
     specimen
-        .draw(ends, window, |x_px, y_px| {
+        .draw(ends, window, &mut |x_px, y_px| {
             n += 1;
             let _ = write!(pixels, " {x_px} {y_px}");
         })
@@ -99,7 +99,7 @@ fn values(specimen: TriangleSpecimen, window: PixelRect, numbers: &[f64]) -> Rep
     let triangle: RealTriangle = [vertex(0)?, vertex(1)?, vertex(2)?];
     let mut pixels = 0;
     specimen
-        .cover(&triangle, window, |span| pixels += u64::from(span.x0_px.abs_diff(span.x1_px)))
+        .cover(&triangle, window, &mut |span| pixels += u64::from(span.x0_px.abs_diff(span.x1_px)))
         .map_err(|refused| refused.to_string())?;
     if pixels > MOST_FRAGMENTS {
         return Err(format!(
@@ -108,7 +108,7 @@ fn values(specimen: TriangleSpecimen, window: PixelRect, numbers: &[f64]) -> Rep
     }
     let (mut fragments, mut n) = (String::new(), 0);
     specimen
-        .fragments(&triangle, window, |f| {
+        .fragments(&triangle, window, &mut |f| {
             n += 1;
             let (a, b) = (f.varying.x, f.varying.y);
             let _ = write!(fragments, " {} {} {} {a} {b}", f.x_px, f.y_px, f.depth);

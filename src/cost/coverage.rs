@@ -45,12 +45,12 @@ struct AsPublished(BookChapter2);
 
 impl Cover for AsPublished {
     fn accepts(&self, free: &FreeCorners, bounds: PixelRect) -> Result<(), String> {
-        self.0.cover(&bare(free.px()), bounds, |_| ()).map_err(|refused| refused.to_string())
+        self.0.cover(&bare(free.px()), bounds, &mut |_| ()).map_err(|refused| refused.to_string())
     }
 
     fn cover(&self, free: &FreeCorners, bounds: PixelRect, emit: impl FnMut(Span)) -> Option<Work> {
         // What it refuses was refused before; see `accepts`.
-        let _ = self.0.cover(&bare(free.px()), bounds, emit);
+        let _ = self.0.cover_inlined(&bare(free.px()), bounds, emit);
         None
     }
 }

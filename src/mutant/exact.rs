@@ -66,7 +66,19 @@ impl RasterizeExact for ExactMutant {
         &self,
         corners: &FreeCorners,
         bounds: PixelRect,
-        emit: impl FnMut(Span),
+        mut emit: impl FnMut(Span),
+    ) -> Decisions {
+        self.spans(corners, bounds, &mut emit)
+    }
+}
+
+impl ExactMutant {
+    /// As [`RasterizeExact::cover_exact`].
+    pub(crate) fn spans(
+        &self,
+        corners: &FreeCorners,
+        bounds: PixelRect,
+        emit: &mut dyn FnMut(Span),
     ) -> Decisions {
         let px = corners.px();
         match self {
@@ -125,9 +137,9 @@ fn top_left(a: Point, b: Point) -> bool {
 fn by_sign(
     [a, mut b, mut c]: [Point; 3],
     bounds: PixelRect,
-    e: impl Fn(Point, Point, Point) -> f64,
-    owns: impl Fn(Point, Point) -> bool,
-    emit: impl FnMut(Span),
+    e: fn(Point, Point, Point) -> f64,
+    owns: fn(Point, Point) -> bool,
+    emit: &mut dyn FnMut(Span),
 ) {
     match e(a, b, c).partial_cmp(&0.0) {
         Some(Ordering::Greater) => {}
@@ -142,11 +154,11 @@ fn by_sign(
             side > 0.0 || (side == 0.0 && owns(from, to))
         })
     };
-    each_sample(bounds, inside, emit);
+    each_sample(bounds, &inside, emit);
 }
 
 /// Tests each sample by the parity of crossings that floats compute.
-fn by_crossing(corners: [Point; 3], bounds: PixelRect, mut emit: impl FnMut(Span)) {
+fn by_crossing(corners: [Point; 3], bounds: PixelRect, emit: &mut dyn FnMut(Span)) {
     for y_px in bounds.y0..bounds.y1 {
         let y = f64::from(y_px) + 0.5;
         let crossings: Vec<f64> = [(0, 1), (1, 2), (2, 0)]

@@ -66,21 +66,42 @@ impl DrawLine for LineMutant {
         bounds: PixelRect,
         mut emit: impl FnMut(Fragment<V>),
     ) {
+        self.stroke(line, bounds, &mut emit);
+    }
+}
+
+/// The line that most mutants spoil.
+fn bresenham<V: Varying>(
+    line: &ScreenLine<V>,
+    bounds: PixelRect,
+    emit: &mut dyn FnMut(Fragment<V>),
+) {
+    Bresenham.draw(line, bounds, emit);
+}
+
+impl LineMutant {
+    /// As [`DrawLine::draw`].
+    pub(crate) fn stroke<V: Varying>(
+        &self,
+        line: &ScreenLine<V>,
+        bounds: PixelRect,
+        emit: &mut dyn FnMut(Fragment<V>),
+    ) {
         let [a, b] = &line.ends;
         match self {
-            Self::MissesEnd => Bresenham.draw(line, bounds, |f| {
+            Self::MissesEnd => bresenham(line, bounds, &mut |f| {
                 if (f.x_px, f.y_px) != (b.pixel.x, b.pixel.y) {
                     emit(f);
                 }
             }),
             Self::DrawsBackwards => {
                 let mut fragments = Vec::new();
-                Bresenham.draw(line, bounds, |f| fragments.push(f));
+                bresenham(line, bounds, &mut |f| fragments.push(f));
                 fragments.into_iter().rev().for_each(emit);
             }
             Self::WeightsFromClip => {
                 let mut fragments = Vec::new();
-                Bresenham.draw(line, bounds, |f| fragments.push(f));
+                bresenham(line, bounds, &mut |f| fragments.push(f));
                 let last = fragments.len().saturating_sub(1).max(1) as f64;
                 for (i, f) in fragments.into_iter().enumerate() {
                     let t = i as f64 / last;
@@ -90,7 +111,7 @@ impl DrawLine for LineMutant {
             }
             Self::FourConnected => {
                 let mut last: Option<Fragment<V>> = None;
-                Bresenham.draw(line, bounds, |f| {
+                bresenham(line, bounds, &mut |f| {
                     if let Some(last) = last.replace(f)
                         && last.x_px != f.x_px
                         && last.y_px != f.y_px
@@ -102,30 +123,28 @@ impl DrawLine for LineMutant {
             }
             Self::RestartsAtBorder => {
                 let mut inside = Vec::new();
-                Bresenham.draw(line, bounds, |f| inside.push(f));
+                bresenham(line, bounds, &mut |f| inside.push(f));
                 let mut visible = *line;
                 if let [first, .., last] = &inside[..] {
                     for (end, f) in visible.ends.iter_mut().zip([first, last]) {
                         end.pixel = PixelPoint::new(f.x_px, f.y_px);
                     }
                 }
-                Bresenham.draw(&visible, bounds, emit);
+                bresenham(&visible, bounds, emit);
             }
             Self::DirectedTies | Self::DriftsInF32 | Self::Truncates | Self::SteepTiesFlipped => {
                 self.walk_all(line, bounds, emit);
             }
         }
     }
-}
 
-impl LineMutant {
     /// Walks every step of a line of at most 2^16 pixels; longer ones are left to Bresenham, so
     /// that a mutant takes no longer than an engine.
     fn walk_all<V: Varying>(
         self,
         line: &ScreenLine<V>,
         bounds: PixelRect,
-        mut emit: impl FnMut(Fragment<V>),
+        emit: &mut dyn FnMut(Fragment<V>),
     ) {
         let [a, b] = &line.ends;
         let (dx, dy) = (
@@ -134,7 +153,7 @@ impl LineMutant {
         );
         let steps = dx.abs().max(dy.abs());
         if steps == 0 || steps > 1 << 16 {
-            return Bresenham.draw(line, bounds, emit);
+            return bresenham(line, bounds, emit);
         }
         let (slope_x, slope_y) = (dx as f32 / steps as f32, dy as f32 / steps as f32);
         let (mut x, mut y) = (a.pixel.x as f32, a.pixel.y as f32);

@@ -83,7 +83,7 @@ impl Mutant {
 }
 
 /// Emits each pixel of `rect`, as a span of its own, of which `inside(x, y)` is true.
-fn each_sample(rect: PixelRect, inside: impl Fn(i32, i32) -> bool, mut emit: impl FnMut(Span)) {
+fn each_sample(rect: PixelRect, inside: &dyn Fn(i32, i32) -> bool, emit: &mut dyn FnMut(Span)) {
     for y_px in rect.y0..rect.y1 {
         for x_px in rect.x0..rect.x1 {
             if inside(x_px, y_px) {

@@ -46,7 +46,7 @@ impl OracleMutant {
 }
 
 impl Rasterize for OracleMutant {
-    fn cover(&self, corners: Corners, bounds: PixelRect, emit: impl FnMut(Span)) {
+    fn cover(&self, corners: Corners, bounds: PixelRect, mut emit: impl FnMut(Span)) {
         if *self == Self::AffineValues {
             return Oracle.cover(corners, bounds, emit);
         }
@@ -63,7 +63,7 @@ impl Rasterize for OracleMutant {
             });
             crossings.count() % 2 == 1
         };
-        each_sample(bounds, inside, emit);
+        each_sample(bounds, &inside, &mut emit);
     }
 }
 

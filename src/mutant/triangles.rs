@@ -138,7 +138,28 @@ impl TriangleMutant {
 }
 
 impl Rasterize for TriangleMutant {
+    #[inline]
     fn cover(&self, corners: Corners, bounds: PixelRect, mut emit: impl FnMut(Span)) {
+        self.spans(corners, bounds, &mut emit);
+    }
+}
+
+impl Interpolate for TriangleMutant {
+    #[inline]
+    fn fragments<V: Varying>(
+        &self,
+        triangle: &ScreenTriangle<V>,
+        bounds: PixelRect,
+        mut emit: impl FnMut(Fragment<V>),
+    ) {
+        self.values(triangle, bounds, &mut emit);
+    }
+}
+
+// No mutant is called from a hot loop: through `dyn`, its engines are compiled once.
+impl TriangleMutant {
+    /// As [`Rasterize::cover`].
+    pub(crate) fn spans(&self, corners: Corners, bounds: PixelRect, emit: &mut dyn FnMut(Span)) {
         match self {
             Self::InclusiveEdges => by_rule(corners, bounds, 0, |_, _| true, emit),
             Self::ExclusiveEdges => by_rule(corners, bounds, 0, |_, _| false, emit),
@@ -151,13 +172,13 @@ impl Rasterize for TriangleMutant {
             }
             Self::DropsFirstRow => {
                 let mut first = None;
-                Scanline.cover(corners, bounds, |span| {
+                scanline_spans(corners, bounds, &mut |span| {
                     if span.y_px != *first.get_or_insert(span.y_px) {
                         emit(span);
                     }
                 });
             }
-            Self::DoublesSpanEnd => Scanline.cover(corners, bounds, |span| {
+            Self::DoublesSpanEnd => scanline_spans(corners, bounds, &mut |span| {
                 emit(span);
                 if span.x1_px - span.x0_px > 8 {
                     emit(Span { x0_px: span.x1_px - 1, ..span });
@@ -175,20 +196,18 @@ impl Rasterize for TriangleMutant {
                 assert!(on_it != 2, "planted: slope of a flat edge");
                 Scanline.cover(corners, bounds, emit);
             }
-            Self::LeavesWindow => Scanline.cover(corners, bounds, |span| {
+            Self::LeavesWindow => scanline_spans(corners, bounds, &mut |span| {
                 emit(Span { x1_px: span.x1_px + i32::from(span.x1_px == bounds.x1), ..span });
             }),
             _ => self.cover_more(corners, bounds, emit),
         }
     }
-}
 
-impl TriangleMutant {
     /// The second half of the faults of coverage; what is left errs in its values only.
-    fn cover_more(self, corners: Corners, bounds: PixelRect, mut emit: impl FnMut(Span)) {
+    fn cover_more(self, corners: Corners, bounds: PixelRect, emit: &mut dyn FnMut(Span)) {
         match self {
             Self::LastEdgeInclusive => last_edge_inclusive(corners, bounds, emit),
-            Self::TruncatesTowardsZero => Scanline.cover(corners, bounds, |span| {
+            Self::TruncatesTowardsZero => scanline_spans(corners, bounds, &mut |span| {
                 // ceil(x - 1/2) by way of an (int) that rounds up below zero.
                 let up = |px: i32| (px + i32::from(px < 0)).min(bounds.x1);
                 let (x0_px, x1_px) = (up(span.x0_px), up(span.x1_px));
@@ -196,7 +215,7 @@ impl TriangleMutant {
                     emit(Span { x0_px, x1_px, ..span });
                 }
             }),
-            Self::HoleInLongRows => Scanline.cover(corners, bounds, |span| {
+            Self::HoleInLongRows => scanline_spans(corners, bounds, &mut |span| {
                 let end = span.x1_px - span.x1_px.rem_euclid(8);
                 if end - 8 > span.x0_px && end < span.x1_px {
                     emit(Span { x1_px: end, ..span });
@@ -207,7 +226,7 @@ impl TriangleMutant {
                     emit(span);
                 }
             }),
-            Self::SeamBetweenTiles => Scanline.cover(corners, bounds, |span| {
+            Self::SeamBetweenTiles => scanline_spans(corners, bounds, &mut |span| {
                 let lost = span.x0_px == bounds.x0 && bounds.x0 > 0;
                 let x0_px = span.x0_px + i32::from(lost);
                 if x0_px < span.x1_px {
@@ -221,14 +240,13 @@ impl TriangleMutant {
             _ => EdgeFunction.cover(corners, bounds, emit),
         }
     }
-}
 
-impl Interpolate for TriangleMutant {
-    fn fragments<V: Varying>(
+    /// As [`Interpolate::fragments`].
+    pub(crate) fn values<V: Varying>(
         &self,
         triangle: &ScreenTriangle<V>,
         bounds: PixelRect,
-        mut emit: impl FnMut(Fragment<V>),
+        emit: &mut dyn FnMut(Fragment<V>),
     ) {
         let mut spoilt = *triangle;
         match self {
@@ -246,17 +264,18 @@ impl Interpolate for TriangleMutant {
                     vertex.position.x = vertex.position.x.saturating_add(HALF_PIXEL);
                 });
                 let mut moved = std::collections::HashMap::new();
-                Scanline.fragments(&spoilt, bounds, |f| {
+                let mut keep = |f: Fragment<V>| {
                     moved.insert((f.x_px, f.y_px), f);
-                });
-                EdgeFunction.fragments(triangle, bounds, |f| {
+                };
+                Scanline.fragments(&spoilt, bounds, &mut keep as &mut dyn FnMut(_));
+                edge_values(triangle, bounds, &mut |f| {
                     emit(moved.get(&(f.x_px, f.y_px)).copied().unwrap_or(f));
                 });
                 return;
             }
             Self::PerspectiveDepth => return perspective_depth(triangle, bounds, emit),
             Self::ValuesThroughF32 => {
-                EdgeFunction.fragments(triangle, bounds, |f| {
+                edge_values(triangle, bounds, &mut |f| {
                     let scale = 1.0 + f64::from(f32::EPSILON) / 4.0;
                     let depth = f64::from(f.depth as f32);
                     emit(Fragment { depth, varying: f.varying * scale, ..f });
@@ -271,15 +290,29 @@ impl Interpolate for TriangleMutant {
             _ => {}
         }
         if matches!(self, Self::SwappedWeights | Self::AffineAttributes | Self::ClampsInvW) {
-            return EdgeFunction.fragments(&spoilt, bounds, emit);
+            return edge_values(&spoilt, bounds, emit);
         }
         // Faults of coverage: right values at the wrong pixels.
-        self.cover(triangle.corners(), bounds, |span| {
+        self.spans(triangle.corners(), bounds, &mut |span| {
             let row =
                 PixelRect { x0: span.x0_px, y0: span.y_px, x1: span.x1_px, y1: span.y_px + 1 };
-            EdgeFunction.fragments(triangle, row, &mut emit);
+            edge_values(triangle, row, emit);
         });
     }
+}
+
+/// The values of the edge-function engine, which most mutants spoil.
+fn edge_values<V: Varying>(
+    triangle: &ScreenTriangle<V>,
+    bounds: PixelRect,
+    emit: &mut dyn FnMut(Fragment<V>),
+) {
+    EdgeFunction.fragments(triangle, bounds, emit);
+}
+
+/// The spans of the scanline engine, which many mutants spoil.
+fn scanline_spans(corners: Corners, bounds: PixelRect, emit: &mut dyn FnMut(Span)) {
+    Scanline.cover(corners, bounds, emit);
 }
 
 /// Twice the signed area.
@@ -302,8 +335,8 @@ fn near(corners: &Corners, bounds: PixelRect) -> PixelRect {
 fn by_edges(
     mut corners: Corners,
     rect: PixelRect,
-    keeps: impl Fn([SubpixelPoint; 2], i32, i32) -> bool,
-    emit: impl FnMut(Span),
+    keeps: &dyn Fn([SubpixelPoint; 2], i32, i32) -> bool,
+    emit: &mut dyn FnMut(Span),
 ) {
     match cross(corners).signum() {
         0 => return,
@@ -313,7 +346,7 @@ fn by_edges(
     let [a, b, c] = corners;
     let edges = [[a, b], [b, c], [c, a]];
     let inside = |x_px, y_px| edges.iter().all(|&edge| keeps(edge, x_px, y_px));
-    each_sample(rect, inside, emit);
+    each_sample(rect, &inside, emit);
 }
 
 /// By edges in exact integers; `owns` says for an edge (dx, dy) whether samples on it belong.
@@ -321,8 +354,8 @@ fn by_rule(
     corners: Corners,
     bounds: PixelRect,
     sample_shift: i32,
-    owns: impl Fn(i128, i128) -> bool,
-    emit: impl FnMut(Span),
+    owns: fn(i128, i128) -> bool,
+    emit: &mut dyn FnMut(Span),
 ) {
     let centre = |px: i32| px.saturating_mul(SUBPIXELS).saturating_add(HALF_PIXEL + sample_shift);
     let keeps = |[a, b]: [SubpixelPoint; 2], x_px, y_px| {
@@ -330,11 +363,11 @@ fn by_rule(
         let edge = cross([a, b, SubpixelPoint::new(centre(x_px), centre(y_px))]);
         edge > 0 || (edge == 0 && owns(dx, dy))
     };
-    by_edges(corners, near(&corners, bounds), keeps, emit);
+    by_edges(corners, near(&corners, bounds), &keeps, emit);
 }
 
 /// By edges in wrapping 32-bit arithmetic.
-fn wrapping(corners: Corners, bounds: PixelRect, emit: impl FnMut(Span)) {
+fn wrapping(corners: Corners, bounds: PixelRect, emit: &mut dyn FnMut(Span)) {
     let centre = |px: i32| px.wrapping_mul(SUBPIXELS).wrapping_add(HALF_PIXEL);
     let keeps = |[a, b]: [SubpixelPoint; 2], x_px, y_px| {
         let (dx, dy) = (b.x.wrapping_sub(a.x), b.y.wrapping_sub(a.y));
@@ -343,11 +376,11 @@ fn wrapping(corners: Corners, bounds: PixelRect, emit: impl FnMut(Span)) {
             .wrapping_sub(dy.wrapping_mul(centre(x_px).wrapping_sub(a.x)));
         edge > 0 || (edge == 0 && (dy < 0 || (dy == 0 && dx > 0)))
     };
-    by_edges(corners, bounds, keeps, emit);
+    by_edges(corners, bounds, &keeps, emit);
 }
 
 /// The top-left rule is forgotten; of the three edges as they come the last one is inclusive.
-fn last_edge_inclusive(corners: Corners, bounds: PixelRect, emit: impl FnMut(Span)) {
+fn last_edge_inclusive(corners: Corners, bounds: PixelRect, emit: &mut dyn FnMut(Span)) {
     let sign = cross(corners).signum();
     let [a, b, c] = corners;
     let inside = |x_px, y_px| {
@@ -356,7 +389,7 @@ fn last_edge_inclusive(corners: Corners, bounds: PixelRect, emit: impl FnMut(Spa
         let [first, second, last] = edges.map(|edge| edge * sign);
         sign != 0 && first > 0 && second > 0 && last >= 0
     };
-    each_sample(near(&corners, bounds), inside, emit);
+    each_sample(near(&corners, bounds), &inside, emit);
 }
 
 fn centre_of(x_px: i32, y_px: i32) -> SubpixelPoint {
@@ -364,7 +397,7 @@ fn centre_of(x_px: i32, y_px: i32) -> SubpixelPoint {
     SubpixelPoint::new(centre(x_px), centre(y_px))
 }
 
-fn fills_zero_area(corners: Corners, bounds: PixelRect, emit: impl FnMut(Span)) {
+fn fills_zero_area(corners: Corners, bounds: PixelRect, emit: &mut dyn FnMut(Span)) {
     let [a, b, c] = corners;
     let within =
         |p: i32, v: [i32; 3]| v.into_iter().min() <= Some(p) && v.into_iter().max() >= Some(p);
@@ -373,12 +406,12 @@ fn fills_zero_area(corners: Corners, bounds: PixelRect, emit: impl FnMut(Span)) 
         let on_line = cross([a, b, p]) == 0 && cross([b, c, p]) == 0 && cross([c, a, p]) == 0;
         on_line && within(p.x, [a.x, b.x, c.x]) && within(p.y, [a.y, b.y, c.y])
     };
-    each_sample(near(&corners, bounds), inside, emit);
+    each_sample(near(&corners, bounds), &inside, emit);
 }
 
 /// The book's section 2.2: the long edge is cut at the height of the middle vertex, and two flat
 /// triangles are drawn. The cut has to be somewhere on the lattice, so it bends the edge.
-fn splits_at_rounded_point(mut corners: Corners, bounds: PixelRect, mut emit: impl FnMut(Span)) {
+fn splits_at_rounded_point(mut corners: Corners, bounds: PixelRect, emit: &mut dyn FnMut(Span)) {
     corners.sort_by_key(|p| (p.y, p.x));
     let [top, middle, bottom] = corners;
     let height = i128::from(bottom.y) - i128::from(top.y);
@@ -389,12 +422,12 @@ fn splits_at_rounded_point(mut corners: Corners, bounds: PixelRect, mut emit: im
     let across = (i128::from(bottom.x) - i128::from(top.x)) * down / height;
     // Between the two ends, so it fits.
     let split = SubpixelPoint::new((i128::from(top.x) + across) as i32, middle.y);
-    Scanline.cover([top, middle, split], bounds, &mut emit);
-    Scanline.cover([middle, split, bottom], bounds, emit);
+    scanline_spans([top, middle, split], bounds, emit);
+    scanline_spans([middle, split, bottom], bounds, emit);
 }
 
 /// The book's scanline fill with half-open ranges, stepped down the edges in f32 pixels.
-fn steps_in_f32(mut corners: Corners, bounds: PixelRect, mut emit: impl FnMut(Span)) {
+fn steps_in_f32(mut corners: Corners, bounds: PixelRect, emit: &mut dyn FnMut(Span)) {
     corners.sort_by_key(|p| (p.y, p.x));
     let px = |p: SubpixelPoint| (p.x as f32 / SUBPIXELS as f32, p.y as f32 / SUBPIXELS as f32);
     let [top, middle, bottom] = corners.map(px);
@@ -423,7 +456,7 @@ fn steps_in_f32(mut corners: Corners, bounds: PixelRect, mut emit: impl FnMut(Sp
 fn perspective_depth<V: Varying>(
     triangle: &ScreenTriangle<V>,
     bounds: PixelRect,
-    mut emit: impl FnMut(Fragment<V>),
+    emit: &mut dyn FnMut(Fragment<V>),
 ) {
     let depths = ScreenTriangle {
         vertices: triangle.vertices.map(|v| ScreenVertex {
@@ -434,9 +467,9 @@ fn perspective_depth<V: Varying>(
         }),
     };
     let mut wrong = Vec::new();
-    EdgeFunction.fragments(&depths, bounds, |f| wrong.push(f.varying));
+    edge_values(&depths, bounds, &mut |f| wrong.push(f.varying));
     let mut wrong = wrong.into_iter();
-    EdgeFunction.fragments(triangle, bounds, |f| {
+    edge_values(triangle, bounds, &mut |f| {
         emit(Fragment { depth: wrong.next().unwrap_or(f.depth), ..f });
     });
 }
@@ -447,12 +480,12 @@ fn barycentric<V: Varying>(
     triangle: &ScreenTriangle<V>,
     bounds: PixelRect,
     epsilon: f64,
-    mut emit: impl FnMut(Fragment<V>),
+    emit: &mut dyn FnMut(Fragment<V>),
 ) {
     let [v0, v1, v2] = &triangle.vertices;
     let corners = triangle.corners();
     let area = cross(corners) as f64;
-    EdgeFunction.cover(corners, bounds, |span| {
+    let mut row = |span: Span| {
         for x_px in span.x0_px..span.x1_px {
             let e = edge_function::edge_values(&corners, x_px, span.y_px).map(|e| e as f64 / area);
             let l = [e[0] * v0.inv_w, e[1] * v1.inv_w, e[2] * v2.inv_w];
@@ -464,5 +497,6 @@ fn barycentric<V: Varying>(
                 varying: (v0.varying * l[0] + v1.varying * l[1] + v2.varying * l[2]) * scale,
             });
         }
-    });
+    };
+    EdgeFunction.cover(corners, bounds, &mut row as &mut dyn FnMut(Span));
 }

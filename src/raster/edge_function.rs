@@ -70,11 +70,9 @@ impl WordWidth {
 /// Width and height of the bounding box in subpixels; the widest one is 2^32 - 1.
 #[inline]
 fn extents(corners: &Corners) -> (u32, u32) {
-    let extent = |coordinate: [i32; 3]| {
-        let [a, b, c] = coordinate;
-        a.max(b).max(c).abs_diff(a.min(b).min(c))
-    };
-    (extent(corners.map(|corner| corner.x)), extent(corners.map(|corner| corner.y)))
+    let extent = |a: i32, b: i32, c: i32| a.max(b).max(c).abs_diff(a.min(b).min(c));
+    let [a, b, c] = corners;
+    (extent(a.x, b.x, c.x), extent(a.y, b.y, c.y))
 }
 
 /// The exact integers an edge function is set up in: i64 while Wx Wy < 2^63, else i128.
@@ -218,14 +216,14 @@ pub(crate) fn edge_steps(from: SubpixelPoint, to: SubpixelPoint, x_px: i32, y_px
 /// The pixels of `bounds` whose centres lie in the bounding box of the corners.
 #[inline]
 fn pixel_box(corners: &Corners, bounds: PixelRect) -> PixelRect {
-    let range = |[a, b, c]: [i32; 3]| {
+    let range = |a: i32, b: i32, c: i32| {
         // First centre at or after the minimum; one past the last centre at or before the maximum.
         let first = (i64::from(a.min(b).min(c)) + i64::from(HALF_PIXEL - 1)) >> SUBPIXEL_BITS;
         let end = (i64::from(a.max(b).max(c)) + i64::from(HALF_PIXEL)) >> SUBPIXEL_BITS;
         (first as i32, end as i32)
     };
-    let (x0, x1) = range(corners.map(|corner| corner.x));
-    let (y0, y1) = range(corners.map(|corner| corner.y));
+    let [a, b, c] = corners;
+    let ((x0, x1), (y0, y1)) = (range(a.x, b.x, c.x), range(a.y, b.y, c.y));
     // Written out: a call of `intersect` that is not inlined costs more than the four choices.
     PixelRect {
         x0: x0.max(bounds.x0),
@@ -279,8 +277,8 @@ fn cover_in<T: Exact, W: Word>(corners: Corners, bounds: PixelRect, emit: impl F
 fn walk<T: Exact, W: Word>(edges: &[Edge; 3], rect: PixelRect, mut emit: impl FnMut(Span)) {
     let start = |edge: &Edge| edge.enter::<T, W>(rect.x0, rect.y0);
     let mut row = [start(&edges[0]), start(&edges[1]), start(&edges[2])];
-    let right = [0, 1, 2].map(|i| edges[i].right::<W>());
-    let down = [0, 1, 2].map(|i| edges[i].down::<W>());
+    let right: [W; 3] = [edges[0].right(), edges[1].right(), edges[2].right()];
+    let down: [W; 3] = [edges[0].down(), edges[1].down(), edges[2].down()];
     for y_px in rect.y0..rect.y1 {
         let [mut e0, mut e1, mut e2] = row;
         let mut x_px = rect.x0;
@@ -301,6 +299,28 @@ fn walk<T: Exact, W: Word>(edges: &[Edge; 3], rect: PixelRect, mut emit: impl Fn
             row = [row[0] + down[0], row[1] + down[1], row[2] + down[2]];
         }
     }
+}
+
+/// [`walk`] in words of some width, with its spans handed on in batches: what needs more than spans
+/// calls it through a pointer, so that each walk is compiled once and not for every kind of value.
+type BatchedWalk = fn(&[Edge; 3], PixelRect, &mut dyn FnMut(&[Span]));
+
+fn walk_in_batches<T: Exact, W: Word>(
+    edges: &[Edge; 3],
+    rect: PixelRect,
+    take: &mut dyn FnMut(&[Span]),
+) {
+    let mut batch = [Span { y_px: 0, x0_px: 0, x1_px: 0 }; 16];
+    let mut len = 0;
+    walk::<T, W>(edges, rect, |span| {
+        batch[len] = span;
+        len += 1;
+        if len == batch.len() {
+            take(&batch);
+            len = 0;
+        }
+    });
+    take(&batch[..len]);
 }
 
 #[cfg(test)]

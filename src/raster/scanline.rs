@@ -56,8 +56,8 @@ fn sort_by_height<T: Copy>(items: &mut [T; 3], position: impl Fn(&T) -> Subpixel
 /// Which edge, as indices of sorted vertices from top to bottom, bounds a span on either side.
 #[derive(Clone, Copy)]
 struct Sides {
-    left: [usize; 2],
-    right: [usize; 2],
+    left: [u8; 2],
+    right: [u8; 2],
     /// The first column of the whole row, whatever the window shows of it.
     first_px: i32,
 }
@@ -67,7 +67,8 @@ struct Sides {
 fn walk(corners: &Corners, bounds: PixelRect, mut emit: impl FnMut(Span, Sides)) {
     let [top, middle, bottom] = *corners;
     // The first row whose centre is not above a corner: rows are half-open [top, bottom).
-    let [first, split, end] = [top, middle, bottom].map(|corner| first_centre(corner.y));
+    let [first, split, end] =
+        [first_centre(top.y), first_centre(middle.y), first_centre(bottom.y)];
     let (y0, y1) = (first.max(bounds.y0), end.min(bounds.y1));
     if y0 >= y1 || bounds.x0 >= bounds.x1 {
         return;
@@ -106,6 +107,26 @@ fn walk(corners: &Corners, bounds: PixelRect, mut emit: impl FnMut(Span, Sides))
         long.step();
         short.step();
     }
+}
+
+/// [`walk`] with its spans handed on in batches: compiled once, whatever the values are.
+fn walk_in_batches(
+    corners: &Corners,
+    bounds: PixelRect,
+    take: &mut dyn FnMut(&[(Span, Sides)]),
+) {
+    let none = Sides { left: [0, 0], right: [0, 0], first_px: 0 };
+    let mut batch = [(Span { y_px: 0, x0_px: 0, x1_px: 0 }, none); 16];
+    let mut len = 0;
+    walk(corners, bounds, |span, sides| {
+        batch[len] = (span, sides);
+        len += 1;
+        if len == batch.len() {
+            take(&batch);
+            len = 0;
+        }
+    });
+    take(&batch[..len]);
 }
 
 /// The first pixel whose centre is at or after `sub`: ceil((sub - S/2) / S).

@@ -352,7 +352,7 @@ fn value_images(
     };
     for triangle in triangles {
         // What is refused stays empty.
-        let _ = specimen.fragments(triangle, window, |f| put(&mut published, &f));
+        let _ = specimen.fragments(triangle, window, &mut |f| put(&mut published, &f));
         let Some(mut of_depth) = on_lattice(triangle) else { continue };
         for v in &mut of_depth.vertices {
             let depth = specimen.depth_of(v.depth, 1.0 / v.inv_w);

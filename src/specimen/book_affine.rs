@@ -23,7 +23,7 @@ impl Published for BookAffine {
         &self,
         triangle: &RealTriangle,
         bounds: PixelRect,
-        emit: impl FnMut(Span),
+        emit: &mut dyn FnMut(Span),
     ) -> Result<(), Refused> {
         BookChapter3.cover(triangle, bounds, emit)
     }
@@ -32,7 +32,7 @@ impl Published for BookAffine {
         &self,
         triangle: &RealTriangle,
         bounds: PixelRect,
-        emit: impl FnMut(Fragment<DVec2>),
+        emit: &mut dyn FnMut(Fragment<DVec2>),
     ) -> Result<(), Refused> {
         BookChapter3.fragments(triangle, bounds, emit)
     }

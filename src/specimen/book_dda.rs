@@ -19,7 +19,7 @@ impl PublishedLine for BookDda {
         &self,
         ends_px: [[f64; 2]; 2],
         bounds: PixelRect,
-        mut emit: impl FnMut(i32, i32),
+        emit: &mut dyn FnMut(i32, i32),
     ) -> Result<(), Refused> {
         let screen = BookScreen { bounds };
         let [p, q] = ends_px.map(|end| screen.position(end.into()));
@@ -29,11 +29,11 @@ impl PublishedLine for BookDda {
         if slope.abs() < 1.0 {
             // Of two ends in one column, which cannot be here, the second would start.
             let (from, to) = if p.x < q.x { (p, q) } else { (q, p) };
-            steps(from.x, to.x, from.y, slope, width, |x, y| put(screen, x, y, &mut emit))
+            steps(from.x, to.x, from.y, slope, width, &mut |x, y| put(screen, x, y, emit))
         } else {
             let (from, to) = if p.y < q.y { (p, q) } else { (q, p) };
             let per_row = 1.0 / slope;
-            steps(from.y, to.y, from.x, per_row, height, |y, x| put(screen, x, y, &mut emit))
+            steps(from.y, to.y, from.x, per_row, height, &mut |y, x| put(screen, x, y, emit))
         }
     }
 }
@@ -46,7 +46,7 @@ fn steps(
     minor: f64,
     slope: f64,
     limit: i64,
-    mut visit: impl FnMut(i64, i64),
+    visit: &mut dyn FnMut(i64, i64),
 ) -> Result<(), Refused> {
     let (first, end) = (to_int(start)?, to_int(end)?);
     if (-first) as f64 > MOST_STEPS {
@@ -62,7 +62,7 @@ fn steps(
     Ok(())
 }
 
-fn put(screen: BookScreen, x: i64, y: i64, emit: &mut impl FnMut(i32, i32)) {
+fn put(screen: BookScreen, x: i64, y: i64, emit: &mut dyn FnMut(i32, i32)) {
     let (width, height) = screen.size();
     if (0..width).contains(&x) && (0..height).contains(&y) {
         let (x_px, y_px) = screen.pixel(x, y);

@@ -43,7 +43,7 @@ impl Published for BookDepth {
         &self,
         triangle: &RealTriangle,
         bounds: PixelRect,
-        emit: impl FnMut(Span),
+        emit: &mut dyn FnMut(Span),
     ) -> Result<(), Refused> {
         BookFinal { exercise: false }.cover(triangle, bounds, emit)
     }
@@ -53,7 +53,7 @@ impl Published for BookDepth {
         &self,
         triangle: &RealTriangle,
         bounds: PixelRect,
-        mut emit: impl FnMut(Fragment<DVec2>),
+        emit: &mut dyn FnMut(Fragment<DVec2>),
     ) -> Result<(), Refused> {
         // z within [-1, 1] passes the clip and steps as z/w does; w travels as an attribute.
         let scale = triangle.iter().fold(1.0, |most: f64, v| most.max(self.of(v.depth, v.w).abs()));
@@ -66,7 +66,7 @@ impl Published for BookDepth {
                 _ => super::RealVertex { depth: depth / scale, ..v },
             }
         });
-        BookFinal { exercise: false }.fragments(&triangle, bounds, |f| {
+        BookFinal { exercise: false }.fragments(&triangle, bounds, &mut |f| {
             let depth = if *self == Self::Chapter6 { f.varying.x } else { f.depth * scale };
             emit(Fragment { depth, ..f });
         })

@@ -93,7 +93,7 @@ impl BookFinal {
         self,
         triangle: &RealTriangle,
         bounds: PixelRect,
-        mut visit: impl FnMut(ValuedRow) -> Result<(), Refused>,
+        visit: &mut dyn FnMut(ValuedRow) -> Result<(), Refused>,
     ) -> Result<(), Refused> {
         let screen = BookScreen { bounds };
         let steps = device_steps(bounds);
@@ -115,7 +115,7 @@ impl BookFinal {
                 w: fan[i].position.w,
                 varying: fan[i].varying,
             });
-            self.triangle(on_screen, screen.size().1, &mut visit)?;
+            self.triangle(on_screen, screen.size().1, visit)?;
         }
         Ok(())
     }
@@ -124,7 +124,7 @@ impl BookFinal {
         self,
         corners: [Corner; 3],
         rows: i64,
-        visit: &mut impl FnMut(ValuedRow) -> Result<(), Refused>,
+        visit: &mut dyn FnMut(ValuedRow) -> Result<(), Refused>,
     ) -> Result<(), Refused> {
         // Split the long edge, with perspective for w and the varying and without for z.
         let [low, middle, high] = sorted(corners.map(|c| c.at)).map(|i| corners[i]);
@@ -175,12 +175,12 @@ impl Published for BookFinal {
         &self,
         triangle: &RealTriangle,
         bounds: PixelRect,
-        mut emit: impl FnMut(Span),
+        emit: &mut dyn FnMut(Span),
     ) -> Result<(), Refused> {
         let screen = BookScreen { bounds };
-        self.rows(triangle, bounds, |ValuedRow { row, .. }| {
+        self.rows(triangle, bounds, &mut |ValuedRow { row, .. }| {
             if let Some((first, last)) = int_loop(row.left, row.right)? {
-                screen.span(row.y, first, last).into_iter().for_each(&mut emit);
+                screen.span(row.y, first, last).into_iter().for_each(&mut *emit);
             }
             Ok(())
         })
@@ -191,11 +191,11 @@ impl Published for BookFinal {
         &self,
         triangle: &RealTriangle,
         bounds: PixelRect,
-        mut emit: impl FnMut(Fragment<DVec2>),
+        emit: &mut dyn FnMut(Fragment<DVec2>),
     ) -> Result<(), Refused> {
         let screen = BookScreen { bounds };
         let mut columns = Columns::default();
-        self.rows(triangle, bounds, |ValuedRow { row, z, w, varying }| {
+        self.rows(triangle, bounds, &mut |ValuedRow { row, z, w, varying }| {
             let Some((first, last)) = int_loop(row.left, row.right)? else { return Ok(()) };
             let Some(span) = screen.span(row.y, first, last) else { return Ok(()) };
             columns.add(first)?;

@@ -44,7 +44,7 @@ pub fn draw(version: Version, setting: Setting) -> Image {
     let mut nearest = Frame::new(image.bounds(), f64::INFINITY);
     for (blade, colour) in blades.iter().zip(COLOURS) {
         let corners = blade.map(|(corner, depth)| (corner, 1.0, DVec2::splat(depth)));
-        fragments(corners, image.bounds(), |f| {
+        fragments(corners, image.bounds(), &mut |f| {
             let depth = &mut nearest.span_mut(f.y_px, f.x_px, f.x_px + 1)[0];
             if f.depth < *depth {
                 *depth = f.depth;

@@ -156,12 +156,27 @@ fn cover(
     cover_book(triangle.map(|v| screen.position(v.position_px)), bounds, clamped, emit)
 }
 
+impl BookChapter2 {
+    /// As [`Published::cover`], compiled for its caller: `cost` times it beside rungs that are.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn cover_inlined(
+        &self,
+        triangle: &RealTriangle,
+        bounds: PixelRect,
+        emit: impl FnMut(Span),
+    ) -> Result<(), Refused> {
+        cover(triangle, bounds, true, emit)
+    }
+}
+
 impl Published for BookChapter2 {
     fn cover(
         &self,
         triangle: &RealTriangle,
         bounds: PixelRect,
-        emit: impl FnMut(Span),
+        emit: &mut dyn FnMut(Span),
     ) -> Result<(), Refused> {
         cover(triangle, bounds, true, emit)
     }
@@ -172,7 +187,7 @@ impl Published for BookChapter3 {
         &self,
         triangle: &RealTriangle,
         bounds: PixelRect,
-        emit: impl FnMut(Span),
+        emit: &mut dyn FnMut(Span),
     ) -> Result<(), Refused> {
         cover(triangle, bounds, false, emit)
     }
@@ -181,7 +196,7 @@ impl Published for BookChapter3 {
         &self,
         triangle: &RealTriangle,
         bounds: PixelRect,
-        mut emit: impl FnMut(Fragment<DVec2>),
+        emit: &mut dyn FnMut(Fragment<DVec2>),
     ) -> Result<(), Refused> {
         let screen = BookScreen { bounds };
         let corners = triangle.map(|v| Valued {

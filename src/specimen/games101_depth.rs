@@ -24,7 +24,7 @@ pub fn draw(version: Version, setting: Setting) -> Image {
     let far = if setting == Setting::Exposing { 100.0 } else { 1.0 };
     let specimen = Games101Strict { whole_samples: false, true_w: true };
     for triangle in floor_triangles(far) {
-        either(&specimen, version, &triangle, image.bounds(), |f| {
+        either(&specimen, version, &triangle, image.bounds(), &mut |f| {
             let is_even = (f.depth * 4.0).floor().rem_euclid(2.0) == 0.0;
             let colour = if is_even { COLOURS[0] } else { WHITE };
             image.span_mut(f.y_px, f.x_px, f.x_px + 1)[0] = colour;

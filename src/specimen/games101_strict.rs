@@ -50,7 +50,7 @@ impl Games101Strict {
         self,
         corners: [Vec2; 3],
         bounds: PixelRect,
-        mut emit: impl FnMut(i32, i32, Vec2),
+        emit: &mut dyn FnMut(i32, i32, Vec2),
     ) -> Result<(), Refused> {
         let low = corners.into_iter().fold(corners[0], Vec2::min);
         let high = corners.into_iter().fold(corners[0], Vec2::max);
@@ -86,9 +86,9 @@ impl Published for Games101Strict {
         &self,
         triangle: &RealTriangle,
         bounds: PixelRect,
-        mut emit: impl FnMut(Span),
+        emit: &mut dyn FnMut(Span),
     ) -> Result<(), Refused> {
-        self.pixels(corners(triangle, bounds), bounds, |x_px, y_px, _| {
+        self.pixels(corners(triangle, bounds), bounds, &mut |x_px, y_px, _| {
             emit(Span { y_px, x0_px: x_px, x1_px: x_px + 1 });
         })
     }
@@ -99,10 +99,10 @@ impl Published for Games101Strict {
         &self,
         triangle: &RealTriangle,
         bounds: PixelRect,
-        mut emit: impl FnMut(Fragment<DVec2>),
+        emit: &mut dyn FnMut(Fragment<DVec2>),
     ) -> Result<(), Refused> {
         let corners = corners(triangle, bounds);
-        self.pixels(corners, bounds, |x_px, y_px, sample| {
+        self.pixels(corners, bounds, &mut |x_px, y_px, sample| {
             let weights = weights(corners, sample).map(f64::from);
             let over_w = |i: usize| weights[i] / if self.true_w { triangle[i].w } else { 1.0 };
             let inverse: f64 = (0..3).map(over_w).sum();

@@ -174,7 +174,7 @@ pub trait Published {
         &self,
         triangle: &RealTriangle,
         bounds: PixelRect,
-        emit: impl FnMut(Span),
+        emit: &mut dyn FnMut(Span),
     ) -> Result<(), Refused>;
 
     /// Emits a fragment for each pixel that [`Published::cover`] emits, in the published order.
@@ -185,7 +185,7 @@ pub trait Published {
         &self,
         _triangle: &RealTriangle,
         _bounds: PixelRect,
-        _emit: impl FnMut(Fragment<DVec2>),
+        _emit: &mut dyn FnMut(Fragment<DVec2>),
     ) -> Result<(), Refused> {
         Err(Refused::NoValues)
     }
@@ -201,7 +201,7 @@ pub trait PublishedLine {
         &self,
         ends_px: [[f64; 2]; 2],
         bounds: PixelRect,
-        emit: impl FnMut(i32, i32),
+        emit: &mut dyn FnMut(i32, i32),
     ) -> Result<(), Refused>;
 }
 

@@ -69,7 +69,7 @@ pub fn either(
     version: Version,
     triangle: &RealTriangle,
     bounds: PixelRect,
-    emit: impl FnMut(Fragment<DVec2>),
+    emit: &mut dyn FnMut(Fragment<DVec2>),
 ) {
     match version {
         // What is refused stays empty.
@@ -91,7 +91,7 @@ pub fn either(
 pub fn chequered(specimen: &impl Published, version: Version, triangles: &[RealTriangle]) -> Image {
     let mut image = empty(SIDE);
     for triangle in triangles {
-        either(specimen, version, triangle, image.bounds(), |f| {
+        either(specimen, version, triangle, image.bounds(), &mut |f| {
             let square = (f.varying * 6.0).floor();
             let is_dark = (square.x + square.y).rem_euclid(2.0) == 0.0;
             let colour = if is_dark { COLOURS[1] } else { WHITE };
@@ -139,7 +139,7 @@ pub fn runs_out_below() -> RealTriangle {
 pub fn fragments(
     corners: [(DVec2, f64, DVec2); 3],
     bounds: PixelRect,
-    emit: impl FnMut(Fragment<DVec2>),
+    emit: &mut dyn FnMut(Fragment<DVec2>),
 ) {
     let vertices = corners.map(|(position_px, w, varying)| ScreenVertex {
         position: at(position_px),

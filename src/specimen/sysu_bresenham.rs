@@ -19,7 +19,7 @@ impl PublishedLine for SysuBresenham {
         &self,
         ends_px: [[f64; 2]; 2],
         bounds: PixelRect,
-        mut emit: impl FnMut(i32, i32),
+        emit: &mut dyn FnMut(i32, i32),
     ) -> Result<(), Refused> {
         // `ivec2(position + 0.5)` of the pixel's centre: towards zero.
         let [[x0, y0], [x1, y1]] = ends_px;

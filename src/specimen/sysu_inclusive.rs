@@ -53,7 +53,7 @@ pub(super) fn front(triangle: &RealTriangle) -> Result<RealTriangle, Refused> {
 pub(super) fn samples(
     triangle: &RealTriangle,
     bounds: PixelRect,
-    mut emit: impl FnMut(Sample),
+    emit: &mut dyn FnMut(Sample),
 ) -> Result<(), Refused> {
     let [a, b, c] = whole(triangle)?;
     let columns =
@@ -104,9 +104,9 @@ impl Published for SysuInclusive {
         &self,
         triangle: &RealTriangle,
         bounds: PixelRect,
-        mut emit: impl FnMut(Span),
+        emit: &mut dyn FnMut(Span),
     ) -> Result<(), Refused> {
-        samples(&front(triangle)?, bounds, |s| {
+        samples(&front(triangle)?, bounds, &mut |s| {
             emit(Span { y_px: s.y_px, x0_px: s.x_px, x1_px: s.x_px + 1 });
         })
     }
@@ -115,10 +115,10 @@ impl Published for SysuInclusive {
         &self,
         triangle: &RealTriangle,
         bounds: PixelRect,
-        mut emit: impl FnMut(Fragment<DVec2>),
+        emit: &mut dyn FnMut(Fragment<DVec2>),
     ) -> Result<(), Refused> {
         let triangle = front(triangle)?;
-        samples(&triangle, bounds, |s| {
+        samples(&triangle, bounds, &mut |s| {
             let [ab, bc, ca] = s.edges.map(|f| f as f32 * s.inverse);
             let (depth, varying) = lerp(&triangle, [bc, ca, ab]);
             emit(Fragment { x_px: s.x_px, y_px: s.y_px, depth, varying });

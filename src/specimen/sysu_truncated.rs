@@ -21,13 +21,13 @@ impl Published for SysuTruncated {
         &self,
         triangle: &RealTriangle,
         bounds: PixelRect,
-        mut emit: impl FnMut(Span),
+        emit: &mut dyn FnMut(Span),
     ) -> Result<(), Refused> {
         let triangle = front(triangle)?;
         // The corners' positions in whole pixels, as f32.
         let position = |i: usize, axis: usize| triangle[i].position_px[axis].trunc() as f32;
         let mut result = Ok(());
-        samples(&triangle, bounds, |s| {
+        samples(&triangle, bounds, &mut |s| {
             let [ab, bc, ca] = s.edges.map(|f| f as f32 * s.inverse);
             let at = |axis: usize| {
                 let sum = bc * position(0, axis) + ca * position(1, axis) + ab * position(2, axis);

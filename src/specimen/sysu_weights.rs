@@ -23,7 +23,7 @@ impl Published for SysuWeights {
         &self,
         triangle: &RealTriangle,
         bounds: PixelRect,
-        emit: impl FnMut(Span),
+        emit: &mut dyn FnMut(Span),
     ) -> Result<(), Refused> {
         SysuInclusive.cover(triangle, bounds, emit)
     }
@@ -32,10 +32,10 @@ impl Published for SysuWeights {
         &self,
         triangle: &RealTriangle,
         bounds: PixelRect,
-        mut emit: impl FnMut(Fragment<DVec2>),
+        emit: &mut dyn FnMut(Fragment<DVec2>),
     ) -> Result<(), Refused> {
         let triangle = front(triangle)?;
-        samples(&triangle, bounds, |s| {
+        samples(&triangle, bounds, &mut |s| {
             let (depth, varying) = lerp(&triangle, s.edges.map(|f| f as f32 * s.inverse));
             emit(Fragment { x_px: s.x_px, y_px: s.y_px, depth, varying });
         })
@@ -59,7 +59,7 @@ pub fn draw(version: Version, setting: Setting) -> Image {
         for (v, colour) in triangle.iter_mut().zip(colours) {
             v.varying = channels.map(|k| colour[k]).into();
         }
-        either(&SysuWeights, version, &triangle, image.bounds(), |f| {
+        either(&SysuWeights, version, &triangle, image.bounds(), &mut |f| {
             let pixel: &mut Colour = &mut image.span_mut(f.y_px, f.x_px, f.x_px + 1)[0];
             for (k, value) in channels.into_iter().zip(f.varying.to_array()) {
                 // 16 shades: what f32 rounds is no difference to see.

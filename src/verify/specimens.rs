@@ -288,7 +288,7 @@ pub fn specimen_coverage(
         let mut hits = Coverage::new(window, 0);
         for triangle in list {
             specimen
-                .cover(triangle, window, |s| hits.hit(s.y_px, s.x0_px, s.x1_px))
+                .cover(triangle, window, &mut |s| hits.hit(s.y_px, s.x0_px, s.x1_px))
                 .map_err(|refused| refused.to_string())?;
         }
         Ok(hits)
@@ -309,7 +309,7 @@ pub fn specimen_line_coverage(
     caught(|| {
         let mut hits = Coverage::new(window, 0);
         specimen
-            .draw(ends, window, |x, y| hits.hit(y, x, x + 1))
+            .draw(ends, window, &mut |x, y| hits.hit(y, x, x + 1))
             .map_err(|refused| refused.to_string())?;
         Ok(hits)
     })?
@@ -366,7 +366,7 @@ fn values(
     let exact_w = ExactTriangle::new(&triangle.corners(), depths, inv_w, depth_attributes);
     let (Some(exact), Some(exact_w)) = (exact, exact_w) else { return (0.0, 0.0) };
     let mut drawn: Vec<Fragment<DVec2>> = Vec::new();
-    let _ = specimen.fragments(&from_screen(triangle), window, |f| {
+    let _ = specimen.fragments(&from_screen(triangle), window, &mut |f| {
         if truth.get(f.x_px, f.y_px).is_some_and(|hits| hits > 0) {
             drawn.push(f);
         }

@@ -2,11 +2,12 @@
 //! and 5 say what they are, GAMES101 homework 2 and SYSU assignment 2 use them).
 
 use super::{
-    EdgeFunction, Exact, Word, WordWidth, centre, edges, extents, pixel_box, twice_area, walk,
+    BatchedWalk, Edge, EdgeFunction, Exact, WordWidth, centre, edges, extents, pixel_box,
+    twice_area, walk_in_batches,
 };
 use crate::contract::Interpolate;
 use crate::grid::{PixelRect, SUBPIXELS};
-use crate::triangle::{Fragment, ScreenTriangle, Varying};
+use crate::triangle::{Corners, Fragment, ScreenTriangle, Span, Varying};
 
 impl Interpolate for EdgeFunction {
     fn fragments<V: Varying>(
@@ -16,11 +17,8 @@ impl Interpolate for EdgeFunction {
         emit: impl FnMut(Fragment<V>),
     ) {
         let (extent_x, extent_y) = extents(&triangle.corners());
-        match WordWidth::of(extent_x, extent_y) {
-            WordWidth::I32 => fragments_in::<V, i64, i32, false>(triangle, bounds, emit),
-            WordWidth::I64 => fragments_in::<V, i64, i64, false>(triangle, bounds, emit),
-            WordWidth::I128 => fragments_in::<V, i128, i128, false>(triangle, bounds, emit),
-        }
+        let (walk, wide) = walk_of(WordWidth::of(extent_x, extent_y));
+        fragments_in::<V, false>(triangle, bounds, walk, wide, emit);
     }
 
     fn affine_fragments<V: Varying>(
@@ -30,14 +28,22 @@ impl Interpolate for EdgeFunction {
         emit: impl FnMut(Fragment<V>),
     ) {
         let (extent_x, extent_y) = extents(&triangle.corners());
-        match WordWidth::of(extent_x, extent_y) {
-            WordWidth::I32 => fragments_in::<V, i64, i32, true>(triangle, bounds, emit),
-            WordWidth::I64 if is_exact(extent_x, extent_y) => {
-                fragments_in::<V, i64, i64, true>(triangle, bounds, emit);
-            }
+        let (walk, wide) = walk_of(WordWidth::of(extent_x, extent_y));
+        if is_exact(extent_x, extent_y) {
+            fragments_in::<V, true>(triangle, bounds, walk, wide, emit);
+        } else {
             // The sum of the weights is rounded anew at each pixel.
-            _ => self.fragments(&triangle.with_equal_w(), bounds, emit),
+            fragments_in::<V, false>(&triangle.with_equal_w(), bounds, walk, wide, emit);
         }
+    }
+}
+
+/// The walk in words of a width, and whether E itself needs more than 64 bits.
+fn walk_of(width: WordWidth) -> (BatchedWalk, bool) {
+    match width {
+        WordWidth::I32 => (walk_in_batches::<i64, i32>, false),
+        WordWidth::I64 => (walk_in_batches::<i64, i64>, false),
+        WordWidth::I128 => (walk_in_batches::<i128, i128>, true),
     }
 }
 
@@ -55,48 +61,30 @@ fn is_exact(extent_x: u32, extent_y: u32) -> bool {
 ///
 /// `AFFINE` takes every q for 1 and d for twice the area, which they are where E is exact and the
 /// three w are equal: then the reciprocal is the same at every pixel.
-pub(super) fn fragments_in<V: Varying, T: Exact, W: Word, const AFFINE: bool>(
+///
+/// `walk` finds the spans, and `wide` says that E needs 128 bits; neither changes a value.
+pub(super) fn fragments_in<V: Varying, const AFFINE: bool>(
     triangle: &ScreenTriangle<V>,
     bounds: PixelRect,
+    walk: BatchedWalk,
+    wide: bool,
     mut emit: impl FnMut(Fragment<V>),
 ) {
-    let rect = pixel_box(&triangle.corners(), bounds);
-    if rect.is_empty() {
-        return;
-    }
-    // Bring the vertices into the canonical order.
-    let mut vertices = triangle.vertices;
-    let height = |i: usize| (vertices[i].position.y, vertices[i].position.x);
-    let top = if height(1) < height(0) { 1 } else { 0 };
-    let top = if height(2) < height(top) { 2 } else { top };
-    vertices.rotate_left(top);
-    let area = match twice_area::<T>(&vertices.map(|vertex| vertex.position)) {
-        area if area.sign() == 0 => return,
-        area if area.sign() > 0 => area.to_f64(),
-        area => {
-            vertices.swap(1, 2);
-            -area.to_f64()
-        }
-    };
-    let [v0, v1, v2] = &vertices;
-    let corners = vertices.map(|vertex| vertex.position);
-    let edges = edges(&corners);
+    let Some(setup) = Setup::new(triangle.corners(), bounds, wide) else { return };
+    let [i0, i1, i2] = setup.order;
+    let [v0, v1, v2] = [&triangle.vertices[i0], &triangle.vertices[i1], &triangle.vertices[i2]];
 
     // Prepare what is constant over the triangle.
     let largest = v0.inv_w.max(v1.inv_w).max(v2.inv_w);
     let q = [v0.inv_w / largest, v1.inv_w / largest, v2.inv_w / largest];
     let (d1, d2) = (v1.varying - v0.varying, v2.varying - v0.varying);
     let (z1, z2) = (v1.depth - v0.depth, v2.depth - v0.depth);
-    let inv_area = 1.0 / area;
-    let steps = [0, 1, 2].map(|i| (-edges[i].dy * i64::from(SUBPIXELS)) as f64);
-    // Where f64 does not step E exactly, each pixel starts anew.
-    let (extent_x, extent_y) = extents(&corners);
-    let exact = is_exact(extent_x, extent_y);
+    let inv_area = 1.0 / setup.area;
+    let (steps, exact) = (setup.steps, setup.exact);
     debug_assert!(exact || !AFFINE);
 
-    walk::<T, W>(&edges, rect, |span| {
-        let at = |i: usize, x_px: i32| edges[i].at::<T>(centre(x_px), centre(span.y_px)).to_f64();
-        let mut e = [0, 1, 2].map(|i| at(i, span.x0_px));
+    let mut row = |span: &Span| {
+        let mut e = setup.at(span.x0_px, span.y_px);
         for x_px in span.x0_px..span.x1_px {
             let (a, inv_sum) = if AFFINE {
                 (e, inv_area)
@@ -113,8 +101,75 @@ pub(super) fn fragments_in<V: Varying, T: Exact, W: Word, const AFFINE: bool>(
             e = if exact || x_px + 1 == span.x1_px {
                 [e[0] + steps[0], e[1] + steps[1], e[2] + steps[2]]
             } else {
-                [0, 1, 2].map(|i| at(i, x_px + 1))
+                setup.at(x_px + 1, span.y_px)
             };
         }
-    });
+    };
+    walk(&setup.edges, setup.rect, &mut |spans| spans.iter().for_each(&mut row));
+}
+
+/// What the values of a triangle need of its corners.
+struct Setup {
+    /// The vertices in canonical order: the topmost, then leftmost first, then clockwise.
+    order: [usize; 3],
+    edges: [Edge; 3],
+    rect: PixelRect,
+    /// Twice the area.
+    area: f64,
+    /// What E grows by from column to column.
+    steps: [f64; 3],
+    /// Whether f64 steps E exactly; else each pixel starts anew.
+    exact: bool,
+    wide: bool,
+}
+
+impl Setup {
+    /// Nothing where no sample is covered.
+    fn new(corners: Corners, bounds: PixelRect, wide: bool) -> Option<Self> {
+        let rect = pixel_box(&corners, bounds);
+        if rect.is_empty() {
+            return None;
+        }
+        let height = |i: usize| (corners[i].y, corners[i].x);
+        let top = if height(1) < height(0) { 1 } else { 0 };
+        let top = if height(2) < height(top) { 2 } else { top };
+        let mut order = [[0, 1, 2], [1, 2, 0], [2, 0, 1]][top];
+        let mut area = twice_area_f64(&corners, wide);
+        if area == 0.0 {
+            return None;
+        }
+        if area < 0.0 {
+            order.swap(1, 2);
+            area = -area;
+        }
+        let edges = edges(&[corners[order[0]], corners[order[1]], corners[order[2]]]);
+        let step = |edge: &Edge| (-edge.dy * i64::from(SUBPIXELS)) as f64;
+        let (extent_x, extent_y) = extents(&corners);
+        Some(Self {
+            order,
+            edges,
+            rect,
+            area,
+            steps: [step(&edges[0]), step(&edges[1]), step(&edges[2])],
+            exact: is_exact(extent_x, extent_y),
+            wide,
+        })
+    }
+
+    /// The three E at the centre of a pixel, rounded once.
+    #[inline]
+    fn at(&self, x_px: i32, y_px: i32) -> [f64; 3] {
+        let (x, y) = (centre(x_px), centre(y_px));
+        let [a, b, c] = &self.edges;
+        if self.wide {
+            [a.at::<i128>(x, y).to_f64(), b.at::<i128>(x, y).to_f64(), c.at::<i128>(x, y).to_f64()]
+        } else {
+            [a.at::<i64>(x, y).to_f64(), b.at::<i64>(x, y).to_f64(), c.at::<i64>(x, y).to_f64()]
+        }
+    }
+}
+
+/// Twice the signed area, rounded once: the sign is exact, and 0 stays 0.
+fn twice_area_f64(corners: &Corners, wide: bool) -> f64 {
+    if wide { twice_area::<i128>(corners).to_f64() } else { twice_area::<i64>(corners).to_f64() }
 }

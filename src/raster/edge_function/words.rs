@@ -4,7 +4,7 @@
 use std::ops::{Add, BitOr};
 
 use super::values::fragments_in;
-use super::{EdgeFunction, Word, WordWidth, cover_in, extents};
+use super::{EdgeFunction, Word, WordWidth, cover_in, extents, walk_in_batches};
 use crate::contract::{Interpolate, Rasterize};
 use crate::grid::PixelRect;
 use crate::triangle::{Corners, Fragment, ScreenTriangle, Span, Varying};
@@ -55,8 +55,14 @@ impl Interpolate for EdgeFunctionIn {
     ) {
         match self.0 {
             Words::Narrowest => EdgeFunction.fragments(triangle, bounds, emit),
-            Words::Widest => fragments_in::<V, i128, i128, false>(triangle, bounds, emit),
-            Words::Narrow => fragments_in::<V, i128, Wrapping, false>(triangle, bounds, emit),
+            Words::Widest => {
+                let walk = walk_in_batches::<i128, i128>;
+                fragments_in::<V, false>(triangle, bounds, walk, true, emit);
+            }
+            Words::Narrow => {
+                let walk = walk_in_batches::<i128, Wrapping>;
+                fragments_in::<V, false>(triangle, bounds, walk, true, emit);
+            }
         }
     }
 

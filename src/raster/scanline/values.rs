@@ -1,7 +1,7 @@
 //! Values of the scanline engine: between the two edges of a row, from the exact distances of each
 //! centre to both (the book's chapters 3 and 5, pre-stepped).
 
-use super::{Scanline, centre, sort_by_height, walk};
+use super::{Scanline, Sides, centre, sort_by_height, walk_in_batches};
 use crate::contract::Interpolate;
 use crate::grid::{PixelRect, SUBPIXEL_BITS, SUBPIXELS, SubpixelPoint};
 use crate::triangle::{Corners, Fragment, ScreenTriangle, ScreenVertex, Span, Varying};
@@ -38,31 +38,48 @@ fn fragments_in<V: Varying, const AFFINE: bool>(
     bounds: PixelRect,
     mut emit: impl FnMut(Fragment<V>),
 ) {
-    let mut vertices = triangle.vertices;
-    sort_by_height(&mut vertices, |vertex| vertex.position);
-    let weights = relative_inv_w(&vertices);
-    let ends: [EdgeEnd<V>; 3] =
-        std::array::from_fn(|i| EdgeEnd { vertex: vertices[i], q: weights[i] });
-    let corners = vertices.map(|vertex| vertex.position);
+    let order = by_height(&triangle.corners());
+    let [v0, v1, v2] =
+        [triangle.vertices[order[0]], triangle.vertices[order[1]], triangle.vertices[order[2]]];
+    let [q0, q1, q2] = relative_inv_w([v0.inv_w, v1.inv_w, v2.inv_w]);
+    let ends = [
+        EdgeEnd { vertex: v0, q: q0 },
+        EdgeEnd { vertex: v1, q: q1 },
+        EdgeEnd { vertex: v2, q: q2 },
+    ];
+    let corners = [v0.position, v1.position, v2.position];
     let chunk = if distances_are_exact(&corners) { i32::MAX } else { 1 };
-    walk(&corners, bounds, |span, sides| {
-        let side = |[from, to]: [usize; 2]| RowEnd::new(&ends[from], &ends[to], span.y_px);
+    let mut row = |span: &Span, sides: &Sides| {
+        let side =
+            |[a, b]: [u8; 2]| RowEnd::new(&ends[usize::from(a)], &ends[usize::from(b)], span.y_px);
         let (left, right) = (side(sides.left), side(sides.right));
         let mut x0_px = span.x0_px;
         while x0_px < span.x1_px {
             let x1_px = span.x1_px.min(x0_px.saturating_add(chunk));
             let origin_px = if chunk == 1 { x0_px } else { sides.first_px };
-            let part = Span { x0_px, x1_px, ..span };
+            let part = Span { x0_px, x1_px, ..*span };
             fill_span::<V, AFFINE>(&left, &right, part, origin_px, &mut emit);
             x0_px = x1_px;
+        }
+    };
+    walk_in_batches(&corners, bounds, &mut |rows| {
+        for (span, sides) in rows {
+            row(span, sides);
         }
     });
 }
 
+/// The numbers of the vertices from the top down; see [`sort_by_height`].
+fn by_height(corners: &Corners) -> [usize; 3] {
+    let mut items = [(corners[0], 0), (corners[1], 1), (corners[2], 2)];
+    sort_by_height(&mut items, |(corner, _)| *corner);
+    [items[0].1, items[1].1, items[2].1]
+}
+
 /// 1/w of each vertex over the largest: in (0, 1], and exactly 1 for all where they are equal.
-fn relative_inv_w<V>(vertices: &[ScreenVertex<V>; 3]) -> [f64; 3] {
-    let largest = vertices.iter().fold(0.0, |largest: f64, vertex| largest.max(vertex.inv_w));
-    [0, 1, 2].map(|i| vertices[i].inv_w / largest)
+fn relative_inv_w([a, b, c]: [f64; 3]) -> [f64; 3] {
+    let largest = a.max(b).max(c);
+    [a / largest, b / largest, c / largest]
 }
 
 /// Whether every distance of [`RowEnd::distance`] inside the triangle is a whole number that f64
@@ -81,15 +98,11 @@ fn widths_are_exact(corners: &Corners) -> bool {
 }
 
 /// Width and height of the bounding box in subpixels, and one pixel more.
-fn extents(corners: &Corners) -> [i128; 2] {
-    let extent = |coordinate: fn(&SubpixelPoint) -> i32| {
-        let (min, max) = corners
-            .iter()
-            .map(coordinate)
-            .fold((i32::MAX, i32::MIN), |(min, max), c| (min.min(c), max.max(c)));
-        i128::from(max) - i128::from(min) + i128::from(SUBPIXELS)
+fn extents([a, b, c]: &Corners) -> [i128; 2] {
+    let extent = |a: i32, b: i32, c: i32| {
+        i128::from(a.max(b).max(c)) - i128::from(a.min(b).min(c)) + i128::from(SUBPIXELS)
     };
-    [extent(|corner| corner.x), extent(|corner| corner.y)]
+    [extent(a.x, b.x, c.x), extent(a.y, b.y, c.y)]
 }
 
 /// One end of an edge, with the values it carries.
