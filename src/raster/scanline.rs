@@ -67,8 +67,7 @@ struct Sides {
 fn walk(corners: &Corners, bounds: PixelRect, mut emit: impl FnMut(Span, Sides)) {
     let [top, middle, bottom] = *corners;
     // The first row whose centre is not above a corner: rows are half-open [top, bottom).
-    let [first, split, end] =
-        [first_centre(top.y), first_centre(middle.y), first_centre(bottom.y)];
+    let [first, split, end] = [first_centre(top.y), first_centre(middle.y), first_centre(bottom.y)];
     let (y0, y1) = (first.max(bounds.y0), end.min(bounds.y1));
     if y0 >= y1 || bounds.x0 >= bounds.x1 {
         return;
@@ -110,11 +109,7 @@ fn walk(corners: &Corners, bounds: PixelRect, mut emit: impl FnMut(Span, Sides))
 }
 
 /// [`walk`] with its spans handed on in batches: compiled once, whatever the values are.
-fn walk_in_batches(
-    corners: &Corners,
-    bounds: PixelRect,
-    take: &mut dyn FnMut(&[(Span, Sides)]),
-) {
+fn walk_in_batches(corners: &Corners, bounds: PixelRect, take: &mut dyn FnMut(&[(Span, Sides)])) {
     let none = Sides { left: [0, 0], right: [0, 0], first_px: 0 };
     let mut batch = [(Span { y_px: 0, x0_px: 0, x1_px: 0 }, none); 16];
     let mut len = 0;

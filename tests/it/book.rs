@@ -69,7 +69,7 @@ fn recorded(rows: &Value, side: u32) -> Hits {
 fn hits_of(specimen: &impl Published, triangle: &RealTriangle, side: u32) -> Hits {
     let mut hits = Hits::new();
     specimen
-        .cover(triangle, PixelRect::window(side, side), |span| {
+        .cover(triangle, PixelRect::window(side, side), &mut |span| {
             for x in span.x0_px..span.x1_px {
                 *hits.entry((i64::from(side) - 1 - i64::from(span.y_px), x.into())).or_default() +=
                     1;
@@ -133,7 +133,7 @@ fn book_lines_as_recorded() {
         let ends = positions(&record["v"], SIDE);
         let mut hits = Hits::new();
         BookDda
-            .draw([ends[0], ends[1]], PixelRect::window(SIDE, SIDE), |x, y| {
+            .draw([ends[0], ends[1]], PixelRect::window(SIDE, SIDE), &mut |x, y| {
                 *hits.entry((i64::from(SIDE) - 1 - i64::from(y), x.into())).or_default() += 1;
             })
             .unwrap();
@@ -153,7 +153,7 @@ fn attribute_errors(points: &Value, exercise: bool) -> [f64; 4] {
     let high = corners.map(|c| c.varying).into_iter().reduce(DVec2::max).unwrap();
     let (mut worst, mut sum, mut pixels, mut outside, mut overshoot) = (0f64, 0.0, 0.0, 0.0, 0f64);
     BookFinal { exercise }
-        .fragments(&corners, PixelRect::window(side, side), |f| {
+        .fragments(&corners, PixelRect::window(side, side), &mut |f| {
             let at = DVec2::new(f.x_px.into(), f64::from(side) - 1.0 - f64::from(f.y_px));
             let error = (f.varying - at).abs().max_element();
             let beyond = (low - f.varying).max(f.varying - high).max_element();
@@ -199,7 +199,7 @@ fn final_values(corners: &Value, exercise: bool) -> HashMap<(i64, i64), (f64, DV
     }
     let mut values = HashMap::new();
     BookFinal { exercise }
-        .fragments(&triangle, PixelRect::window(side, side), |f| {
+        .fragments(&triangle, PixelRect::window(side, side), &mut |f| {
             let row = i64::from(side) - 1 - i64::from(f.y_px);
             values.entry((row, f.x_px.into())).or_insert((f.depth, f.varying));
         })
@@ -243,7 +243,7 @@ fn line(points: &Value) -> Vec<(i64, i64)> {
     let ends = positions(points, SIDE);
     let mut pixels = Vec::new();
     BookDda
-        .draw([ends[0], ends[1]], PixelRect::window(SIDE, SIDE), |x, y| {
+        .draw([ends[0], ends[1]], PixelRect::window(SIDE, SIDE), &mut |x, y| {
             pixels.push((i64::from(SIDE) - 1 - i64::from(y), x.into()));
         })
         .unwrap();
@@ -314,7 +314,7 @@ fn shows(name: &str, bug: &Value) {
         "int_overflow_runaway" => {
             let triangle = triangle(&positions(&bug["v"], SIDE));
             let window = PixelRect::window(SIDE, SIDE);
-            let refused = BookChapter2.cover(&triangle, window, |_| ()).unwrap_err();
+            let refused = BookChapter2.cover(&triangle, window, &mut |_| ()).unwrap_err();
             assert!(matches!(refused, Refused::IntOverflow(x) if x >= 3e9 - 1.0), "{refused}");
         }
         "depth_poison" => {
@@ -363,7 +363,7 @@ fn near_clip_loses(bug: &Value) {
     for i in [1, 2] {
         let triangle = bare([&polygon[0], &polygon[i], &polygon[i + 1]].map(on_screen));
         // A row that is not a number is refused here, and lights nothing there.
-        let _ = BookChapter2.cover(&triangle, PixelRect::window(SIDE, SIDE), |_| drawn += 1);
+        let _ = BookChapter2.cover(&triangle, PixelRect::window(SIDE, SIDE), &mut |_| drawn += 1);
     }
     assert_eq!(drawn, 0);
 }

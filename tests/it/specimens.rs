@@ -150,7 +150,9 @@ fn specimen_bresenham_depends_on_the_direction() {
     };
     let drawn = |from: [f64; 2], to: [f64; 2]| {
         let mut pixels = Vec::new();
-        specimen.draw([from, to], PixelRect::window(65, 65), |x, y| pixels.push((x, y))).unwrap();
+        specimen
+            .draw([from, to], PixelRect::window(65, 65), &mut |x, y| pixels.push((x, y)))
+            .unwrap();
         pixels.sort_unstable();
         pixels
     };
