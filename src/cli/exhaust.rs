@@ -9,7 +9,8 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::{Failure, Streams, exit, usage, write_file};
 use crate::exhaust::certificate::{self, Certificate};
-use crate::exhaust::run::{self, Progress, Shard};
+use crate::exhaust::identity::Shard;
+use crate::exhaust::run::{self, Progress};
 use crate::exhaust::{Plan, edges::Edges, lines::Lines, triangles::Triangles};
 
 /// Time between two checkpoints.

@@ -5,7 +5,6 @@ use std::path::PathBuf;
 use clap::builder::PossibleValuesParser;
 use image::RgbImage;
 
-use super::verify::with_tolerance;
 use super::{Failure, Streams, exit, usage, write_file};
 use crate::frame::Coverage;
 use crate::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
@@ -102,7 +101,8 @@ pub fn run(arguments: &InspectArguments, streams: &mut Streams<'_>) -> Result<u8
     facts(&case, out)?;
 
     // Judge and show.
-    let engines: Vec<_> = Engine::JUDGED.into_iter().map(with_tolerance).collect();
+    let engines: Vec<_> =
+        Engine::JUDGED.into_iter().map(|e| (e, verify::tolerance::of(e))).collect();
     let mut shown = draw(&case, &engines, &LineEngine::JUDGED);
     if let Some(specimen) = specimen(arguments, None) {
         shown.add(specimen, &case)?;

@@ -113,7 +113,11 @@ impl VerifyArguments {
         }
         let wanted = |name: &str| self.engine.is_empty() || self.engine.iter().any(|n| n == name);
         (
-            Engine::JUDGED.into_iter().filter(|e| wanted(e.name())).map(with_tolerance).collect(),
+            Engine::JUDGED
+                .into_iter()
+                .filter(|e| wanted(e.name()))
+                .map(|e| (e, tolerance::of(e)))
+                .collect(),
             LineEngine::JUDGED.into_iter().filter(|e| wanted(e.name())).collect(),
         )
     }
@@ -163,16 +167,6 @@ impl VerifyArguments {
         }
         command
     }
-}
-
-/// The bound that belongs to an engine of the line-up.
-pub fn with_tolerance(engine: Engine) -> (Engine, Tolerance) {
-    let tolerance = match engine {
-        Engine::Scanline | Engine::Mutant(_) => tolerance::SCANLINE,
-        Engine::EdgeFunction => tolerance::EDGE_FUNCTION,
-        Engine::Oracle => tolerance::ORACLE,
-    };
-    (engine, tolerance)
 }
 
 /// Folder of everything this command writes.

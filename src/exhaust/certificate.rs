@@ -8,32 +8,12 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::run::{Progress, Shard};
-use super::{Plan, Source, Tally};
+use super::identity::{Identity, Shard};
+use super::run::Progress;
+use super::{Source, Tally};
 
 /// The layout of the file.
 pub const FORMAT: &str = "rasterproof-certificate/1";
-
-/// What was run, by which code.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Identity {
-    /// The enumeration with its parameters.
-    pub plan: Plan,
-    /// Version of this crate.
-    pub version: String,
-    /// SHA-256 of each piece of code the result depends on, see [`code_of`].
-    pub sources: BTreeMap<String, String>,
-}
-
-impl Identity {
-    /// This plan, run by the code of this program.
-    #[must_use]
-    pub fn of(plan: &Plan) -> Self {
-        let version = env!("CARGO_PKG_VERSION").to_owned();
-        Self { plan: plan.clone(), version, sources: plan.source_hashes() }
-    }
-}
 
 /// How many cases there are; none of it is counted by enumerating.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]

@@ -10,6 +10,7 @@
 
 pub mod certificate;
 pub mod edges;
+pub mod identity;
 pub mod lines;
 pub mod run;
 pub mod triangles;

@@ -12,23 +12,8 @@ use std::time::{Duration, Instant};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::certificate::Identity;
+use super::identity::{Identity, Shard};
 use super::{Plan, Tally};
-
-/// Part `part` of `parts`: the chunks whose number modulo `parts` is `part`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Shard {
-    /// Which part, from 0.
-    pub part: u64,
-    /// How many there are.
-    pub parts: u64,
-}
-
-impl Shard {
-    /// All of it.
-    pub const WHOLE: Self = Self { part: 0, parts: 1 };
-}
 
 /// How far a run has come: the content of a checkpoint file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -7,7 +7,8 @@ use std::sync::Mutex;
 use std::time::Duration;
 
 use rasterproof::exhaust::certificate::{Certificate, Timing, merge};
-use rasterproof::exhaust::run::{Progress, Shard, run};
+use rasterproof::exhaust::identity::Shard;
+use rasterproof::exhaust::run::{Progress, run};
 use rasterproof::exhaust::{Plan, edges, lines, triangles};
 
 fn triangles(subpixel_bits: u32) -> triangles::Triangles {

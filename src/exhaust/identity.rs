@@ -1,0 +1,43 @@
+//! What is run, by which code, and which part of it: what a checkpoint and a certificate agree on.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+use super::Plan;
+
+/// Part `part` of `parts`: the chunks whose number modulo `parts` is `part`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Shard {
+    /// Which part, from 0.
+    pub part: u64,
+    /// How many there are.
+    pub parts: u64,
+}
+
+impl Shard {
+    /// All of it.
+    pub const WHOLE: Self = Self { part: 0, parts: 1 };
+}
+
+/// What was run, by which code.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Identity {
+    /// The enumeration with its parameters.
+    pub plan: Plan,
+    /// Version of this crate.
+    pub version: String,
+    /// SHA-256 of each piece of code the result depends on, see [`code_of`].
+    pub sources: BTreeMap<String, String>,
+}
+
+impl Identity {
+    /// This plan, run by the code of this program.
+    #[must_use]
+    pub fn of(plan: &Plan) -> Self {
+        let version = env!("CARGO_PKG_VERSION").to_owned();
+        Self { plan: plan.clone(), version, sources: plan.source_hashes() }
+    }
+}
