@@ -53,11 +53,17 @@ fn sort_by_height<T: Copy>(items: &mut [T; 3], position: impl Fn(&T) -> Subpixel
     *items = [a, b, c];
 }
 
-/// Which edge, as indices of sorted vertices from top to bottom, bounds a span on either side.
+/// The edges by number, as the numbers of sorted vertices from top to bottom.
+const EDGES: [[usize; 2]; 3] = [[0, 2], [0, 1], [1, 2]];
+const LONG: u8 = 0;
+const UPPER: u8 = 1;
+const LOWER: u8 = 2;
+
+/// Which of [`EDGES`] bounds a span on either side.
 #[derive(Clone, Copy)]
 struct Sides {
-    left: [u8; 2],
-    right: [u8; 2],
+    left: u8,
+    right: u8,
     /// The first column of the whole row, whatever the window shows of it.
     first_px: i32,
 }
@@ -92,13 +98,9 @@ fn walk(corners: &Corners, bounds: PixelRect, mut emit: impl FnMut(Span, Sides))
         let x0 = first.max(x_low);
         let x1 = long.column.max(short.column).min(x_high);
         if x0 < x1 {
-            let long_ends = [0, 2];
-            let short_ends = if y_px < split { [0, 1] } else { [1, 2] };
-            let (left, right) = if long.column <= short.column {
-                (long_ends, short_ends)
-            } else {
-                (short_ends, long_ends)
-            };
+            let short_edge = if y_px < split { UPPER } else { LOWER };
+            let (left, right) =
+                if long.column <= short.column { (LONG, short_edge) } else { (short_edge, LONG) };
             // Columns of the triangle lie in the domain, so all three fit i32.
             let span = Span { y_px, x0_px: x0 as i32, x1_px: x1 as i32 };
             emit(span, Sides { left, right, first_px: first as i32 });
@@ -110,7 +112,7 @@ fn walk(corners: &Corners, bounds: PixelRect, mut emit: impl FnMut(Span, Sides))
 
 /// [`walk`] with its spans handed on in batches: compiled once, whatever the values are.
 fn walk_in_batches(corners: &Corners, bounds: PixelRect, take: &mut dyn FnMut(&[(Span, Sides)])) {
-    let none = Sides { left: [0, 0], right: [0, 0], first_px: 0 };
+    let none = Sides { left: LONG, right: LONG, first_px: 0 };
     let mut batch = [(Span { y_px: 0, x0_px: 0, x1_px: 0 }, none); 16];
     let mut len = 0;
     walk(corners, bounds, |span, sides| {

@@ -76,15 +76,53 @@ pub(super) fn fragments_in<V: Varying, const AFFINE: bool>(
 
     // Prepare what is constant over the triangle.
     let largest = v0.inv_w.max(v1.inv_w).max(v2.inv_w);
-    let q = [v0.inv_w / largest, v1.inv_w / largest, v2.inv_w / largest];
-    let (d1, d2) = (v1.varying - v0.varying, v2.varying - v0.varying);
-    let (z1, z2) = (v1.depth - v0.depth, v2.depth - v0.depth);
-    let inv_area = 1.0 / setup.area;
-    let (steps, exact) = (setup.steps, setup.exact);
-    debug_assert!(exact || !AFFINE);
+    let values = Values {
+        first: (v0.depth, v0.varying),
+        depth: [v1.depth - v0.depth, v2.depth - v0.depth],
+        varying: [v1.varying - v0.varying, v2.varying - v0.varying],
+        q: [v0.inv_w / largest, v1.inv_w / largest, v2.inv_w / largest],
+        inv_area: 1.0 / setup.area,
+        steps: setup.steps,
+    };
+    debug_assert!(setup.exact || !AFFINE);
+    // Where f64 does not step E exactly, each pixel starts anew.
+    let chunk = if setup.exact { i32::MAX } else { 1 };
 
-    let mut row = |span: &Span| {
-        let mut e = setup.at(span.x0_px, span.y_px);
+    walk(&setup.edges, setup.rect, &mut |spans| {
+        for span in spans {
+            let mut x0_px = span.x0_px;
+            while x0_px < span.x1_px {
+                let x1_px = span.x1_px.min(x0_px.saturating_add(chunk));
+                let e = setup.at(x0_px, span.y_px);
+                values.fill::<AFFINE>(e, Span { x0_px, x1_px, ..*span }, &mut emit);
+                x0_px = x1_px;
+            }
+        }
+    });
+}
+
+/// What is constant over the triangle; differences are to the first vertex in canonical order.
+#[derive(Clone, Copy)]
+struct Values<V> {
+    first: (f64, V),
+    depth: [f64; 2],
+    varying: [V; 2],
+    q: [f64; 3],
+    inv_area: f64,
+    steps: [f64; 3],
+}
+
+impl<V: Varying> Values<V> {
+    /// Emits the fragments of a span, at whose first pixel the three E are `e`. By value, so that the
+    /// loop need not look again at numbers that `emit` might have written to.
+    #[inline]
+    fn fill<const AFFINE: bool>(
+        self,
+        mut e: [f64; 3],
+        span: Span,
+        emit: &mut impl FnMut(Fragment<V>),
+    ) {
+        let Self { first: (z0, v0), depth: [z1, z2], varying: [d1, d2], q, inv_area, steps } = self;
         for x_px in span.x0_px..span.x1_px {
             let (a, inv_sum) = if AFFINE {
                 (e, inv_area)
@@ -95,17 +133,12 @@ pub(super) fn fragments_in<V: Varying, const AFFINE: bool>(
             emit(Fragment {
                 x_px,
                 y_px: span.y_px,
-                depth: v0.depth + (z1 * e[1] + z2 * e[2]) * inv_area,
-                varying: v0.varying + (d1 * a[1] + d2 * a[2]) * inv_sum,
+                depth: z0 + (z1 * e[1] + z2 * e[2]) * inv_area,
+                varying: v0 + (d1 * a[1] + d2 * a[2]) * inv_sum,
             });
-            e = if exact || x_px + 1 == span.x1_px {
-                [e[0] + steps[0], e[1] + steps[1], e[2] + steps[2]]
-            } else {
-                setup.at(x_px + 1, span.y_px)
-            };
+            e = [e[0] + steps[0], e[1] + steps[1], e[2] + steps[2]];
         }
-    };
-    walk(&setup.edges, setup.rect, &mut |spans| spans.iter().for_each(&mut row));
+    }
 }
 
 /// What the values of a triangle need of its corners.
@@ -118,7 +151,7 @@ struct Setup {
     area: f64,
     /// What E grows by from column to column.
     steps: [f64; 3],
-    /// Whether f64 steps E exactly; else each pixel starts anew.
+    /// Whether f64 steps E exactly.
     exact: bool,
     wide: bool,
 }

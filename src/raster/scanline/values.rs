@@ -1,7 +1,7 @@
 //! Values of the scanline engine: between the two edges of a row, from the exact distances of each
 //! centre to both (the book's chapters 3 and 5, pre-stepped).
 
-use super::{Scanline, Sides, centre, sort_by_height, walk_in_batches};
+use super::{EDGES, Scanline, Sides, centre, sort_by_height, walk_in_batches};
 use crate::contract::Interpolate;
 use crate::grid::{PixelRect, SUBPIXEL_BITS, SUBPIXELS, SubpixelPoint};
 use crate::triangle::{Corners, Fragment, ScreenTriangle, ScreenVertex, Span, Varying};
@@ -42,16 +42,13 @@ fn fragments_in<V: Varying, const AFFINE: bool>(
     let [v0, v1, v2] =
         [triangle.vertices[order[0]], triangle.vertices[order[1]], triangle.vertices[order[2]]];
     let [q0, q1, q2] = relative_inv_w([v0.inv_w, v1.inv_w, v2.inv_w]);
-    let ends = [
-        EdgeEnd { vertex: v0, q: q0 },
-        EdgeEnd { vertex: v1, q: q1 },
-        EdgeEnd { vertex: v2, q: q2 },
-    ];
+    let ends = [(v0, q0), (v1, q1), (v2, q2)];
+    let edge = |[from, to]: [usize; 2]| Edge::new(&ends[from], &ends[to]);
+    let edges = [edge(EDGES[0]), edge(EDGES[1]), edge(EDGES[2])];
     let corners = [v0.position, v1.position, v2.position];
     let chunk = if distances_are_exact(&corners) { i32::MAX } else { 1 };
     let mut row = |span: &Span, sides: &Sides| {
-        let side =
-            |[a, b]: [u8; 2]| RowEnd::new(&ends[usize::from(a)], &ends[usize::from(b)], span.y_px);
+        let side = |number: u8| edges[usize::from(number)].at(span.y_px);
         let (left, right) = (side(sides.left), side(sides.right));
         let mut x0_px = span.x0_px;
         while x0_px < span.x1_px {
@@ -105,12 +102,54 @@ fn extents([a, b, c]: &Corners) -> [i128; 2] {
     [extent(a.x, b.x, c.x), extent(a.y, b.y, c.y)]
 }
 
-/// One end of an edge, with the values it carries.
+/// An edge on its way down, with the values at its upper end and what they differ by at its lower.
 #[derive(Clone, Copy)]
-struct EdgeEnd<V> {
-    vertex: ScreenVertex<V>,
-    /// 1/w over the largest 1/w of the triangle.
-    q: f64,
+struct Edge<V> {
+    a: SubpixelPoint,
+    dx: i64,
+    dy: i64,
+    depth: [f64; 2],
+    /// 1/w at both ends over the largest 1/w of the triangle.
+    q: [f64; 2],
+    varying: [V; 2],
+}
+
+impl<V: Varying> Edge<V> {
+    /// From a vertex with its relative 1/w down to another.
+    fn new((from, from_q): &(ScreenVertex<V>, f64), (to, to_q): &(ScreenVertex<V>, f64)) -> Self {
+        let (a, b) = (from.position, to.position);
+        Self {
+            a,
+            dx: i64::from(b.x) - i64::from(a.x),
+            dy: i64::from(b.y) - i64::from(a.y),
+            depth: [from.depth, to.depth - from.depth],
+            q: [*from_q, *to_q],
+            varying: [from.varying, to.varying - from.varying],
+        }
+    }
+
+    /// The book's formula (8) of section 5.4 at the height of the row's centres: v/w and 1/w are
+    /// linear down the edge, their quotient is the value. Written with the difference of the ends,
+    /// so that equal ends give their value exactly.
+    fn at(&self, y_px: i32) -> RowEnd<V> {
+        let Self { a, dx, dy, .. } = *self;
+        let down = centre(y_px) - i64::from(a.y);
+        debug_assert!((0..dy).contains(&down), "t = {down}/{dy} leaves [0, 1): a clamp would act");
+        // Whole numbers below 2^33: exact in f64.
+        let (below, above, height) = (down as f64, (dy - down) as f64, dy as f64);
+        let q_sum = above * self.q[0] + below * self.q[1];
+        let t_depth = below / height;
+        let t = below * self.q[1] / q_sum;
+        RowEnd {
+            a,
+            dx,
+            dy,
+            down,
+            depth: self.depth[0] + self.depth[1] * t_depth,
+            q: q_sum / height,
+            varying: self.varying[0] + self.varying[1] * t,
+        }
+    }
 }
 
 /// Where an edge crosses a row of centres, with the values there.
@@ -126,32 +165,6 @@ struct RowEnd<V> {
 }
 
 impl<V: Varying> RowEnd<V> {
-    /// The book's formula (8) of section 5.4 at the height of the row's centres: v/w and 1/w are
-    /// linear down the edge, their quotient is the value. Written with the difference of the ends,
-    /// so that equal ends give their value exactly.
-    fn new(from: &EdgeEnd<V>, to: &EdgeEnd<V>, y_px: i32) -> Self {
-        let (a, b) = (from.vertex.position, to.vertex.position);
-        let dx = i64::from(b.x) - i64::from(a.x);
-        let dy = i64::from(b.y) - i64::from(a.y);
-        let down = centre(y_px) - i64::from(a.y);
-        debug_assert!((0..dy).contains(&down), "t = {down}/{dy} leaves [0, 1): a clamp would act");
-        // Whole numbers below 2^33: exact in f64.
-        let (below, above, height) = (down as f64, (dy - down) as f64, dy as f64);
-        let q_sum = above * from.q + below * to.q;
-        let t_depth = below / height;
-        let t = below * to.q / q_sum;
-        let (from, to) = (&from.vertex, &to.vertex);
-        Self {
-            a,
-            dx,
-            dy,
-            down,
-            depth: from.depth + (to.depth - from.depth) * t_depth,
-            q: q_sum / height,
-            varying: from.varying + (to.varying - from.varying) * t,
-        }
-    }
-
     /// How far the centre of column `x_px` lies right of the edge, in subpixels, times dy; exact
     /// but for the rounding to f64.
     fn distance(&self, x_px: i32) -> f64 {
@@ -220,7 +233,7 @@ mod tests {
     }
 
     /// Every triangle with corners on a 7 x 7 lattice of 96 subpixels, ties and slivers among them,
-    /// and a w ratio of 1000: the assertions in `RowEnd::new` and `fill_span`, which say that a clamp
+    /// and a w ratio of 1000: the assertions in `Edge::at` and `fill_span`, which say that a clamp
     /// of the book would act, stay silent, and no value leaves the hull by more than rounding.
     #[test]
     fn the_books_clamps_never_act() {
@@ -252,7 +265,7 @@ mod tests {
     #[test]
     #[should_panic(expected = "a clamp would act")]
     fn a_row_outside_the_edge_is_noticed() {
-        let end = |y| EdgeEnd { vertex: vertex(0, y, 1.0), q: 1.0 };
-        RowEnd::new(&end(512), &end(1024), 1);
+        let end = |y| (vertex(0, y, 1.0), 1.0);
+        Edge::new(&end(512), &end(1024)).at(1);
     }
 }
