@@ -13,8 +13,14 @@ const HAS_LINES: bool = true;
 
 /// Corners in pixels, y down; set_pixel(x, y) for every pixel drawn. As it stands it draws every sample on an
 /// edge, so two neighbours both draw the edge they share.
-fn triangle(corners: [(f64, f64); 3], width: i32, height: i32, set_pixel: &mut dyn FnMut(i32, i32)) {
-    let side = |a: (f64, f64), b: (f64, f64), x, y| (b.0 - a.0) * (y - a.1) - (b.1 - a.1) * (x - a.0);
+fn triangle(
+    corners: [(f64, f64); 3],
+    width: i32,
+    height: i32,
+    set_pixel: &mut dyn FnMut(i32, i32),
+) {
+    let side =
+        |a: (f64, f64), b: (f64, f64), x, y| (b.0 - a.0) * (y - a.1) - (b.1 - a.1) * (x - a.0);
     let [a, b, c] = corners;
     let left = a.0.min(b.0).min(c.0).floor().max(0.0) as i32;
     let right = a.0.max(b.0).max(c.0).ceil().min(width.into()) as i32;
@@ -32,7 +38,13 @@ fn triangle(corners: [(f64, f64); 3], width: i32, height: i32, set_pixel: &mut d
 }
 
 /// From one pixel to another, both drawn, in drawing order. As it stands, a plain DDA.
-fn line(from: (i32, i32), to: (i32, i32), width: i32, height: i32, set_pixel: &mut dyn FnMut(i32, i32)) {
+fn line(
+    from: (i32, i32),
+    to: (i32, i32),
+    width: i32,
+    height: i32,
+    set_pixel: &mut dyn FnMut(i32, i32),
+) {
     let (x0, y0) = (f64::from(from.0), f64::from(from.1));
     let (dx, dy) = (f64::from(to.0) - x0, f64::from(to.1) - y0);
     let steps = dx.abs().max(dy.abs());
@@ -42,7 +54,8 @@ fn line(from: (i32, i32), to: (i32, i32), width: i32, height: i32, set_pixel: &m
     let first = if step >= 0.0 { -start } else { start - size + 1.0 }.max(0.0) as i64;
     let last = if step >= 0.0 { size - 1.0 - start } else { start }.min(steps) as i64;
     for i in first..=last {
-        let at = |start: f64, step: f64| (start + step * i as f64 / steps.max(1.0) + 0.5).floor() as i32;
+        let at =
+            |start: f64, step: f64| (start + step * i as f64 / steps.max(1.0) + 0.5).floor() as i32;
         set_pixel(at(x0, dx), at(y0, dy));
     }
 }
@@ -135,7 +148,9 @@ fn answer(words: &[&str]) -> String {
     let id = words.get(1).unwrap_or(&"-");
     match words {
         ["HELLO", "1"] => format!("HELLO 1 {NAME} {known}"),
-        ["HELLO", "2"] => format!("HELLO 2 {NAME} {known} window={MOST_SIDE}x{MOST_SIDE} {DECLARES}"),
+        ["HELLO", "2"] => {
+            format!("HELLO 2 {NAME} {known} window={MOST_SIDE}x{MOST_SIDE} {DECLARES}")
+        }
         ["HELLO", ..] => "E - say HELLO 1 or HELLO 2".into(),
         ["T", ..] => draw(words).unwrap_or_else(|reason| format!("E {id} {reason}")),
         ["L", ..] if HAS_LINES => draw(words).unwrap_or_else(|reason| format!("E {id} {reason}")),
