@@ -1,9 +1,9 @@
-// Headless Chromium: `canvas` draws with CanvasRenderingContext2D.fill() and stroke(), `webgl` (the default)
-// with WebGL 2's drawArrays(TRIANGLES) and (LINES) without antialiasing. Needs no package: it speaks to the
+// Headless Chromium: `canvas` draws with CanvasRenderingContext2D.fill(), `webgl` (the default) with WebGL 2's
+// drawArrays(TRIANGLES) and (LINES) without antialiasing. Needs no package: it speaks to the
 // browser over --remote-debugging-pipe. CHROMIUM names the browser if it is in none of the usual places.
 //
-// A canvas is always antialiased: here a pixel counts as drawn from alpha 128 on. WebGL's y axis points up, and
-// it promises 1 / 2^SUBPIXEL_BITS px: both are declared.
+// A canvas is always antialiased, so it has no line of pixels, and a pixel counts as drawn from alpha 128 on.
+// WebGL's y axis points up, and it promises 1 / 2^SUBPIXEL_BITS px: both are declared.
 const { spawn } = require('child_process');
 const fs = require('fs'), os = require('os'), path = require('path');
 
@@ -50,8 +50,7 @@ function page(MODE) {
       context.clearRect(0, 0, width, height);
       context.beginPath();
       for (let i = 0; i < v.length; i += 2) context.lineTo(v[i], v[i + 1]);
-      if (v.length === 4) context.stroke();
-      else context.fill();
+      context.fill();
       const rgba = context.getImageData(0, 0, width, height).data;
       return (x, y) => rgba[(y * width + x) * 4 + 3] > 127;
     };
@@ -112,7 +111,7 @@ function start() {
 // The request as the page takes it, or the refusal as text.
 function read(words, grid) {
   const [verb, id = '-'] = words, count = verb === 'T' ? 6 : 4;
-  if (verb !== 'T' && verb !== 'L') return `E ${id} unsupported`;
+  if (verb !== 'T' && (verb !== 'L' || MODE === 'canvas')) return `E ${id} unsupported`;
   if (words.length !== count + 4) return `E ${id} ${verb} takes id width height and ${count} numbers`;
   const [width, height, ...v] = words.slice(2).map(Number);
   if (![width, height].every((n) => Number.isInteger(n) && n >= 1 && n <= MOST_SIDE)) {
@@ -135,10 +134,10 @@ async function main() {
   };
   const grid = 2 ** Math.min(8, await evaluate(`(${page})('${MODE}')`));
   const version = (await ask('Browser.getVersion')).product.replace(/^.*\//, '');
-  const known = `chromium-${version}-${MODE} coverage line`;
+  const known = `chromium-${version}-${MODE} coverage${MODE === 'webgl' ? ' line' : ''}`;
   const hello = {
     1: `HELLO 1 ${known}`,
-    2: `HELLO 2 ${known} window=${MOST_SIDE}x${MOST_SIDE} grid=${grid}${MODE === 'webgl' ? ' yup' : ''} mask line-set batch=${BATCH}`,
+    2: `HELLO 2 ${known} window=${MOST_SIDE}x${MOST_SIDE} grid=${grid} ${MODE === 'webgl' ? 'yup mask line-set' : 'mask'} batch=${BATCH}`,
   };
   const take = async (lines) => {
     const replies = lines.map((words) => words[0] === 'HELLO'
