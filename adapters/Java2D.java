@@ -10,7 +10,7 @@ import java.io.*;
 import java.nio.charset.StandardCharsets;
 
 public class Java2D {
-    static final int MOST_SIDE = 1024;
+    static final int MOST_SIDE = 1024, MOST_BYTES = 65536;
     static boolean whole;
     static BufferedImage image;
     static Graphics2D graphics;
@@ -113,18 +113,28 @@ public class Java2D {
         return n + text.toString();
     }
 
+    /** A line without its end, or null at the end of the input; of a longer one only that it is too long. */
+    static String read(InputStream in) throws IOException {
+        ByteArrayOutputStream line = new ByteArrayOutputStream();
+        int c, length = 0;
+        while ((c = in.read()) >= 0 && c != '\n') {
+            if (++length <= MOST_BYTES + 1) line.write(c);
+        }
+        return c < 0 && length == 0 ? null : line.toString(StandardCharsets.ISO_8859_1);
+    }
+
     public static void main(String[] args) throws IOException {
         whole = args.length > 0 && args[0].equals("polygon");
         System.setProperty("java.awt.headless", "true");
         PrintStream protocol = new PrintStream(new FileOutputStream(FileDescriptor.out), false, StandardCharsets.ISO_8859_1);
         System.setOut(System.err);
-        BufferedReader in = new BufferedReader(new InputStreamReader(System.in, StandardCharsets.ISO_8859_1));
-        for (String line; (line = in.readLine()) != null;) {
-            String[] words = line.trim().split("[ \t\r\u000b\f]+");
+        InputStream in = new BufferedInputStream(System.in);
+        for (String line; (line = read(in)) != null;) {
+            String[] words = line.replaceAll("^[ \t\r\u000b\f]+", "").split("[ \t\r\u000b\f]+");
             if (words[0].isEmpty()) continue;
             String reply;
             try {
-                reply = answer(words);
+                reply = line.length() > MOST_BYTES ? "E - a request has at most " + MOST_BYTES + " bytes" : answer(words);
             } catch (RuntimeException error) {
                 error.printStackTrace();
                 reply = "E " + (words.length > 1 ? words[1] : "-") + " raised " + error.getClass().getSimpleName();

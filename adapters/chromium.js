@@ -5,10 +5,10 @@
 // A canvas is always antialiased, so it has no line of pixels, and a pixel counts as drawn from alpha 128 on.
 // WebGL's y axis points up, and it promises 1 / 2^SUBPIXEL_BITS px: both are declared.
 const { spawn } = require('child_process');
-const fs = require('fs'), os = require('os'), path = require('path');
+const fs = require('fs'), path = require('path');
 
 const MODE = process.argv[2] === 'canvas' ? 'canvas' : 'webgl';
-const MOST_SIDE = 1024, BATCH = 64;
+const MOST_SIDE = 1024, MOST_BYTES = 65536, BATCH = 64;
 const PLACES = ['/usr/lib/chromium/chromium-headless-shell', '/usr/bin/chromium', '/usr/bin/chromium-browser',
   '/usr/bin/google-chrome', '/Applications/Google Chrome.app/Contents/MacOS/Google Chrome'];
 
@@ -79,7 +79,10 @@ function page(MODE) {
 function start() {
   const browser = process.env.CHROMIUM || PLACES.find((place) => fs.existsSync(place));
   if (!browser) throw new Error('no Chromium found; set CHROMIUM to its program');
-  const profile = fs.mkdtempSync(path.join(os.tmpdir(), 'rasterproof-'));
+  // Below target/, so that a program that is killed leaves nothing elsewhere.
+  const scratch = path.join(__dirname, '..', 'target', 'adapters');
+  fs.mkdirSync(scratch, { recursive: true });
+  const profile = fs.mkdtempSync(path.join(scratch, 'chromium-'));
   const args = ['--headless', '--remote-debugging-pipe', `--user-data-dir=${profile}`, '--use-angle=swiftshader',
     '--enable-unsafe-swiftshader', '--force-device-scale-factor=1', ...(process.getuid() === 0 ? ['--no-sandbox'] : [])];
   const child = spawn(browser, args, { stdio: ['ignore', 'ignore', 'ignore', 'pipe', 'pipe'] });
@@ -100,6 +103,7 @@ function start() {
     child.kill('SIGKILL');
     fs.rmSync(profile, { recursive: true, force: true, maxRetries: 5 });
   });
+  for (const signal of ['SIGINT', 'SIGTERM']) process.on(signal, () => process.exit(1));
   return (method, params, sessionId) => new Promise((done, failed) => {
     waiting.set(++count, [done, failed]);
     child.stdio[3].write(JSON.stringify({ id: count, method, params, sessionId }) + '\0');
@@ -139,22 +143,26 @@ async function main() {
     1: `HELLO 1 ${known}`,
     2: `HELLO 2 ${known} window=${MOST_SIDE}x${MOST_SIDE} grid=${grid} ${MODE === 'webgl' ? 'yup mask line-set' : 'mask'} batch=${BATCH}`,
   };
+  const reply = (line) => {
+    if (line.length > MOST_BYTES) return `E - a request has at most ${MOST_BYTES} bytes`;
+    const words = line.trim().split(/[ \t\r\v\f]+/);
+    if (words[0] !== 'HELLO') return read(words, grid);
+    return (words.length === 2 && hello[words[1]]) || 'E - say HELLO 1 or HELLO 2';
+  };
   const take = async (lines) => {
-    const replies = lines.map((words) => words[0] === 'HELLO'
-      ? (words.length === 2 && hello[words[1]]) || 'E - say HELLO 1 or HELLO 2'
-      : read(words, grid));
-    const requests = replies.filter(Array.isArray);
+    const replies = lines.map(reply), requests = replies.filter(Array.isArray);
     const drawn = requests.length ? await evaluate(`answers(${JSON.stringify(requests)})`) : [];
-    return replies.map((reply) => (Array.isArray(reply) ? drawn.shift() : reply) + '\n').join('');
+    process.stdout.write(replies.map((text) => (Array.isArray(text) ? drawn.shift() : text) + '\n').join(''), 'latin1');
   };
   let rest = '';
   for await (const chunk of process.stdin.setEncoding('latin1')) {
-    const lines = (rest + chunk).split('\n').map((line) => line.trim().split(/[ \t\r\v\f]+/));
-    rest = lines.pop().join(' ');
-    const spoken = lines.filter((words) => words[0]);
-    for (let i = 0; i < spoken.length; i += BATCH) process.stdout.write(await take(spoken.slice(i, i + BATCH)), 'latin1');
+    const lines = (rest + chunk).split('\n');
+    // Of a line that is too long no more is kept than tells that it is.
+    rest = lines.pop().slice(0, MOST_BYTES + 1);
+    const spoken = lines.filter((line) => line.trim());
+    for (let i = 0; i < spoken.length; i += BATCH) await take(spoken.slice(i, i + BATCH));
   }
-  if (rest) process.stdout.write(await take([rest.split(' ')]), 'latin1');
+  if (rest.trim()) await take([rest]);
   process.exit(0);
 }
 
