@@ -44,10 +44,12 @@ public class Java2D {
     static String answer(String[] words) {
         String id = words.length > 1 ? words[1] : "-";
         if (words[0].equals("HELLO")) {
-            String known = " java2d-" + System.getProperty("java.version") + (whole ? "-polygon" : "-path") + " coverage line";
+            String version = System.getProperty("java.version");
+            String known = " java2d-" + version + (whole ? "-polygon" : "-path") + " coverage line";
             if (words.length == 2 && id.equals("1")) return "HELLO 1" + known;
             if (words.length != 2 || !id.equals("2")) return "E - say HELLO 1 or HELLO 2";
-            return "HELLO 2" + known + " window=" + MOST_SIDE + "x" + MOST_SIDE + (whole ? " grid=1" : "") + " mask line-set batch=64";
+            String declared = (whole ? " grid=1" : "") + " mask line-set batch=64";
+            return "HELLO 2" + known + " window=" + MOST_SIDE + "x" + MOST_SIDE + declared;
         }
         boolean isLine = words[0].equals("L");
         int n = isLine ? 4 : 6;
@@ -67,12 +69,15 @@ public class Java2D {
         }
         v = java.util.Arrays.copyOfRange(v, 2, v.length);
         for (double value : v) {
-            if (!(value >= -0x1p31 && value < 0x1p31)) return "E " + id + " a coordinate is not a number within 2^31 px";
+            if (!(value >= -0x1p31 && value < 0x1p31)) {
+                return "E " + id + " a coordinate is not a number within 2^31 px";
+            }
             if (whole && value != Math.floor(value)) return "E " + id + " unsupported: off the declared grid";
         }
         begin(width, height);
         if (isLine) {
-            graphics.drawLine((int) Math.floor(v[0]), (int) Math.floor(v[1]), (int) Math.floor(v[2]), (int) Math.floor(v[3]));
+            int[] p = java.util.Arrays.stream(v).mapToInt(value -> (int) Math.floor(value)).toArray();
+            graphics.drawLine(p[0], p[1], p[2], p[3]);
         } else {
             triangle(v);
         }
@@ -80,7 +85,8 @@ public class Java2D {
     }
 
     static boolean isDrawn(int x, int y) {
-        return (((DataBufferInt) image.getRaster().getDataBuffer()).getData()[y * image.getWidth() + x] & 0xffffff) != 0;
+        int[] pixels = ((DataBufferInt) image.getRaster().getDataBuffer()).getData();
+        return (pixels[y * image.getWidth() + x] & 0xffffff) != 0;
     }
 
     static String runs() {
@@ -126,7 +132,8 @@ public class Java2D {
     public static void main(String[] args) throws IOException {
         whole = args.length > 0 && args[0].equals("polygon");
         System.setProperty("java.awt.headless", "true");
-        PrintStream protocol = new PrintStream(new FileOutputStream(FileDescriptor.out), false, StandardCharsets.ISO_8859_1);
+        FileOutputStream output = new FileOutputStream(FileDescriptor.out);
+        PrintStream protocol = new PrintStream(new BufferedOutputStream(output), false, StandardCharsets.ISO_8859_1);
         System.setOut(System.err);
         InputStream in = new BufferedInputStream(System.in);
         for (String line; (line = read(in)) != null;) {
@@ -134,7 +141,8 @@ public class Java2D {
             if (words[0].isEmpty()) continue;
             String reply;
             try {
-                reply = line.length() > MOST_BYTES ? "E - a request has at most " + MOST_BYTES + " bytes" : answer(words);
+                boolean tooLong = line.length() > MOST_BYTES;
+                reply = tooLong ? "E - a request has at most " + MOST_BYTES + " bytes" : answer(words);
             } catch (RuntimeException error) {
                 error.printStackTrace();
                 reply = "E " + (words.length > 1 ? words[1] : "-") + " raised " + error.getClass().getSimpleName();

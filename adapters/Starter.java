@@ -156,7 +156,7 @@ public class Starter {
         }
     }
 
-    /** A line without its end, "" if it is too long, null at the end of the input. */
+    /** A line without its end, or null at the end of the input; of a longer one only that it is too long. */
     static String read(InputStream in) throws IOException {
         ByteArrayOutputStream line = new ByteArrayOutputStream();
         int c, length = 0;
@@ -167,14 +167,15 @@ public class Starter {
     }
 
     public static void main(String[] args) throws IOException {
-        PrintStream protocol = new PrintStream(new BufferedOutputStream(new FileOutputStream(FileDescriptor.out)), false,
-                                               StandardCharsets.ISO_8859_1);
+        FileOutputStream output = new FileOutputStream(FileDescriptor.out);
+        PrintStream protocol = new PrintStream(new BufferedOutputStream(output), false, StandardCharsets.ISO_8859_1);
         System.setOut(System.err); // what your code prints
         InputStream in = new BufferedInputStream(System.in);
         for (String line; (line = read(in)) != null;) {
             String[] words = line.replaceAll("^[ \t\r\u000b\f]+", "").split("[ \t\r\u000b\f]+");
-            if (line.length() <= MOST_BYTES && words[0].isEmpty()) continue;
-            String reply = line.length() > MOST_BYTES ? "E - a request has at most " + MOST_BYTES + " bytes" : answer(words);
+            boolean tooLong = line.length() > MOST_BYTES;
+            if (!tooLong && words[0].isEmpty()) continue;
+            String reply = tooLong ? "E - a request has at most " + MOST_BYTES + " bytes" : answer(words);
             protocol.print(reply + "\n");
             protocol.flush();
         }

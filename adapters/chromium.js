@@ -25,7 +25,8 @@ function page(MODE) {
   function webgl() {
     const gl = canvas.getContext('webgl2', { antialias: false });
     const program = gl.createProgram();
-    gl.attachShader(program, shader(gl, gl.VERTEX_SHADER, 'attribute vec2 a; void main() { gl_Position = vec4(a, 0, 1); }'));
+    const place = 'attribute vec2 a; void main() { gl_Position = vec4(a, 0, 1); }';
+    gl.attachShader(program, shader(gl, gl.VERTEX_SHADER, place));
     gl.attachShader(program, shader(gl, gl.FRAGMENT_SHADER, 'void main() { gl_FragColor = vec4(1); }'));
     gl.linkProgram(program);
     gl.useProgram(program);
@@ -84,7 +85,8 @@ function start() {
   fs.mkdirSync(scratch, { recursive: true });
   const profile = fs.mkdtempSync(path.join(scratch, 'chromium-'));
   const args = ['--headless', '--remote-debugging-pipe', `--user-data-dir=${profile}`, '--use-angle=swiftshader',
-    '--enable-unsafe-swiftshader', '--force-device-scale-factor=1', ...(process.getuid() === 0 ? ['--no-sandbox'] : [])];
+    '--enable-unsafe-swiftshader', '--force-device-scale-factor=1'];
+  if (process.getuid() === 0) args.push('--no-sandbox');
   const child = spawn(browser, args, { stdio: ['ignore', 'ignore', 'ignore', 'pipe', 'pipe'] });
   const waiting = new Map();
   let text = '', count = 0;
@@ -139,10 +141,8 @@ async function main() {
   const grid = 2 ** Math.min(8, await evaluate(`(${page})('${MODE}')`));
   const version = (await ask('Browser.getVersion')).product.replace(/^.*\//, '');
   const known = `chromium-${version}-${MODE} coverage${MODE === 'webgl' ? ' line' : ''}`;
-  const hello = {
-    1: `HELLO 1 ${known}`,
-    2: `HELLO 2 ${known} window=${MOST_SIDE}x${MOST_SIDE} grid=${grid} ${MODE === 'webgl' ? 'yup mask line-set' : 'mask'} batch=${BATCH}`,
-  };
+  const declared = `grid=${grid} ${MODE === 'webgl' ? 'yup mask line-set' : 'mask'} batch=${BATCH}`;
+  const hello = { 1: `HELLO 1 ${known}`, 2: `HELLO 2 ${known} window=${MOST_SIDE}x${MOST_SIDE} ${declared}` };
   const reply = (line) => {
     if (line.length > MOST_BYTES) return `E - a request has at most ${MOST_BYTES} bytes`;
     const words = line.trim().split(/[ \t\r\v\f]+/);

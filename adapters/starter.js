@@ -32,7 +32,8 @@ function line(x0, y0, x1, y1, width, height, setPixel) {
   const first = Math.max(0, step >= 0 ? -start : start - size + 1);
   const last = Math.min(steps, step >= 0 ? size - 1 - start : start);
   for (let i = first; i <= last; i++) {
-    setPixel(Math.floor(x0 + (dx * i) / Math.max(steps, 1) + 0.5), Math.floor(y0 + (dy * i) / Math.max(steps, 1) + 0.5));
+    const share = (d) => (d * i) / Math.max(steps, 1);
+    setPixel(Math.floor(x0 + share(dx) + 0.5), Math.floor(y0 + share(dy) + 0.5));
   }
 }
 
@@ -79,7 +80,8 @@ function answer(words) {
   if (verb === 'HELLO') {
     const known = 'coverage' + (line ? ' line' : '');
     if (words.length === 2 && id === '1') return `HELLO 1 ${NAME} ${known}`;
-    if (words.length === 2 && id === '2') return `HELLO 2 ${NAME} ${known} window=${MOST_SIDE}x${MOST_SIDE} ${DECLARES}`;
+    const declared = `window=${MOST_SIDE}x${MOST_SIDE} ${DECLARES}`;
+    if (words.length === 2 && id === '2') return `HELLO 2 ${NAME} ${known} ${declared}`;
     return 'E - say HELLO 1 or HELLO 2';
   }
   const [draw, count] = verb === 'T' ? [triangle, 6] : verb === 'L' ? [line, 4] : [null, 0];

@@ -37,7 +37,8 @@ void rst::rasterizer::draw(pos_buf_id positions, ind_buf_id indices, col_buf_id 
         t.colour = loaded_vectors[size_t(colors.number)][size_t(three[0])];
         for (int i = 0; i < 3; i++) {
             const Eigen::Vector4f p = all * loaded_vectors[size_t(positions.number)][size_t(three[i])].homogeneous();
-            t.setVertex(i, {(p.x() / p.w() + 1) * float(width) / 2, (p.y() / p.w() + 1) * float(height) / 2, p.z() / p.w()});
+            const float x = (p.x() / p.w() + 1) * float(width) / 2, y = (p.y() / p.w() + 1) * float(height) / 2;
+            t.setVertex(i, {x, y, p.z() / p.w()});
         }
         rasterize_triangle(t);
     }
@@ -57,5 +58,6 @@ static bool insideTriangle(float x, float y, const Eigen::Vector3f *corners) {
 void rst::rasterizer::rasterize_triangle(const Triangle &t) {
     for (int y = 0; y < height; y++)
         for (int x = 0; x < width; x++)
-            if (insideTriangle(float(x) + 0.5f, float(y) + 0.5f, t.v)) set_pixel(Eigen::Vector3f(float(x), float(y), 0), t.getColor());
+            if (insideTriangle(float(x) + 0.5f, float(y) + 0.5f, t.v))
+                set_pixel(Eigen::Vector3f(float(x), float(y), 0), t.getColor());
 }

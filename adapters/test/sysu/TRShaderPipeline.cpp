@@ -18,12 +18,15 @@ static long long turn(glm::ivec2 a, glm::ivec2 b, int x, int y) {
 }
 
 void TRShaderPipeline::rasterize_fill_edge_function(const Vertex &v0, const Vertex &v1, const Vertex &v2,
-                                                    const unsigned &wide, const unsigned &high, std::vector<Vertex> &found) {
-    const glm::ivec2 low = glm::min(v0.spos, glm::min(v1.spos, v2.spos)), top = glm::max(v0.spos, glm::max(v1.spos, v2.spos));
+                                                    const unsigned &wide, const unsigned &high,
+                                                    std::vector<Vertex> &found) {
+    const glm::ivec2 a = v0.spos, b = v1.spos, c = v2.spos;
+    const glm::ivec2 low = glm::min(a, glm::min(b, c)), top = glm::max(a, glm::max(b, c));
     for (int y = glm::max(low.y, 0); y <= glm::min(top.y, int(high) - 1); y++)
         for (int x = glm::max(low.x, 0); x <= glm::min(top.x, int(wide) - 1); x++) {
-            const long long a = turn(v0.spos, v1.spos, x, y), b = turn(v1.spos, v2.spos, x, y), c = turn(v2.spos, v0.spos, x, y);
-            if ((a >= 0 && b >= 0 && c >= 0) || (a <= 0 && b <= 0 && c <= 0)) keep(x, y, wide, high, found);
+            const long long e[3] = {turn(a, b, x, y), turn(b, c, x, y), turn(c, a, x, y)};
+            const bool clockwise = e[0] >= 0 && e[1] >= 0 && e[2] >= 0, other = e[0] <= 0 && e[1] <= 0 && e[2] <= 0;
+            if (clockwise || other) keep(x, y, wide, high, found);
         }
 }
 

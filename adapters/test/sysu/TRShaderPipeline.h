@@ -18,7 +18,8 @@ public:
     virtual void vertexShader(VertexData &vertex) = 0;
     virtual void fragmentShader(const VertexData &data, glm::vec4 &color) = 0;
     static void rasterize_fill_edge_function(const VertexData &v0, const VertexData &v1, const VertexData &v2,
-                                             const unsigned &wide, const unsigned &high, std::vector<VertexData> &found);
+                                             const unsigned &wide, const unsigned &high,
+                                             std::vector<VertexData> &found);
 
 protected:
     static void rasterize_wire_aux(const VertexData &from, const VertexData &to, const unsigned &wide,
