@@ -9,7 +9,7 @@ import sys
 import rasterio
 from rasterio.features import rasterize
 from rasterio.transform import Affine
-from rasterproof import serve
+from rasterproof import serve, walkable
 
 ALL_TOUCHED = sys.argv[1:] == ["all_touched"]
 
@@ -23,7 +23,7 @@ def triangle(points, width, height):
 
 
 def line(points, width, height):
-    centres = [(x + 0.5, y + 0.5) for x, y in points]
+    centres = [(x + 0.5, y + 0.5) for x, y in walkable(points)]
     return drawn({"type": "LineString", "coordinates": centres}, width, height)
 
 

@@ -6,7 +6,7 @@ The handbook puts the centre of pixel (0, 0) at (0.5, 0.5) and promises nothing 
 import numpy
 import PIL
 from PIL import Image, ImageDraw
-from rasterproof import serve
+from rasterproof import serve, walkable
 
 
 def drawn(call, points, width, height):
@@ -19,5 +19,5 @@ serve(
     f"pillow-{PIL.__version__}",
     "mask line-set batch=64",
     lambda *request: drawn("polygon", *request),
-    lambda *request: drawn("line", *request),
+    lambda points, *window: drawn("line", walkable(points), *window),
 )

@@ -14,7 +14,7 @@ import traceback
 
 import numpy
 
-MOST_BYTES, MOST_SIDE = 65536, 1024
+MOST_BYTES, MOST_SIDE, MOST_STEPS = 65536, 1024, 1 << 20
 
 
 class Refused(Exception):
@@ -36,6 +36,14 @@ def pixels(drawn, width, height):
         rows, columns = numpy.nonzero(drawn)
         return numpy.stack([columns, rows], axis=1).tolist()
     return [(x, y) for x, y in drawn if 0 <= x < width and 0 <= y < height]
+
+
+def walkable(points):
+    """The ends of a line, for a library that walks it outside the window, too: refused if that takes seconds."""
+    (x0, y0), (x1, y1) = points
+    if max(abs(x1 - x0), abs(y1 - y0)) > MOST_STEPS:
+        raise Refused(f"unsupported: the library walks the whole line, here at most {MOST_STEPS} px of it")
+    return points
 
 
 def declared(declares, word):

@@ -20,6 +20,7 @@ pub const LIBRARY: Library = Library {
     range: 4096.0,
     triangle,
     line: Some(line),
+    longest_line: i64::MAX,
 };
 
 struct Window<'a> {

@@ -13,6 +13,7 @@ pub const LIBRARY: Library = Library {
     range: f64::INFINITY,
     triangle,
     line: Some(line),
+    longest_line: 1 << 20,
 };
 
 struct White;

@@ -25,6 +25,8 @@ pub struct Library {
     pub range: f64,
     pub triangle: Triangle,
     pub line: Option<Line>,
+    /// Longer lines, in pixels, are refused: for a library that walks them outside the window, too.
+    pub longest_line: i64,
 }
 
 /// Answers requests until the input ends.
@@ -77,6 +79,14 @@ fn draw(library: &Library, words: &[&str]) -> Result<String, String> {
         return Err(format!("the window must be from 1x1 to {MOST_SIDE}x{MOST_SIDE}"));
     };
     let v = words[4..].iter().map(|word| number(library, word)).collect::<Result<Vec<_>, _>>()?;
+    let pixel = |i: usize| (v[i].floor() as i32, v[i + 1].floor() as i32);
+    let reach = |i: usize| (v[i].floor() - v[i + 2].floor()).abs() as i64;
+    if verb == "L" && reach(0).max(reach(1)) > library.longest_line {
+        return Err(format!(
+            "unsupported: the library walks the whole line, here at most {} px of it",
+            library.longest_line
+        ));
+    }
     // Row and column; one more than may be kept tells that there were too many.
     let mut hits: Vec<(i32, i32)> = Vec::new();
     let mut set_pixel = |x, y| {
@@ -86,7 +96,6 @@ fn draw(library: &Library, words: &[&str]) -> Result<String, String> {
     };
     catch_unwind(AssertUnwindSafe(|| match library.line {
         Some(line) if verb == "L" => {
-            let pixel = |i: usize| (v[i].floor() as i32, v[i + 1].floor() as i32);
             line([pixel(0), pixel(2)], width, height, &mut set_pixel);
         }
         _ => (library.triangle)(

@@ -11,6 +11,7 @@ pub const LIBRARY: Library = Library {
     range: f64::INFINITY,
     triangle,
     line: None,
+    longest_line: i64::MAX,
 };
 
 fn triangle(corners: [(f64, f64); 3], width: i32, height: i32, set_pixel: SetPixel<'_>) {

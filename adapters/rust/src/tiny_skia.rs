@@ -11,6 +11,7 @@ pub const LIBRARY: Library = Library {
     range: f64::INFINITY,
     triangle,
     line: Some(line),
+    longest_line: i64::MAX,
 };
 
 fn path(points: &[(f64, f64)]) -> Option<Path> {
