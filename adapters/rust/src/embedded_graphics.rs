@@ -14,10 +14,10 @@ use crate::protocol::{Library, SetPixel};
 
 pub const LIBRARY: Library = Library {
     name: "embedded-graphics-0.8.2",
-    declares: "grid=1 range=4096 batch=64",
+    declares: "grid=1 range=1024 batch=64",
     grid: 1.0,
-    // It visits pixels outside the window too: those of much larger triangles take seconds.
-    range: 4096.0,
+    // It visits pixels outside the window, too: larger triangles would take it long.
+    range: 1024.0,
     triangle,
     line: Some(line),
     longest_line: i64::MAX,
