@@ -39,6 +39,7 @@
 
 pub mod cli;
 pub mod contract;
+pub mod convention;
 pub mod cost;
 pub mod effects;
 pub mod exhaust;
