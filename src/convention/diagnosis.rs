@@ -3,8 +3,10 @@
 use serde::Serialize;
 
 use super::bench::{Answer, Bench, Question};
-use super::fit::{Candidate, Fit};
+use super::candidate::Candidate;
+use super::fit::Fit;
 use super::rule::{Convention, Ties, Windings};
+use super::search::Seen;
 use super::ties::{Compass, Count};
 use super::words;
 use super::{Ask, Known};
@@ -107,8 +109,8 @@ pub fn diagnose(ask: &mut dyn Ask, known: &Known, seed: u64) -> Diagnosis {
     }
     let flips = bench.flips(draws);
     let fitted = bench.generals(FITTED, draws);
-    let scored = Fit { answers: &fitted, window: bench.window, flips, grain: bench.grain, draws }
-        .hypotheses();
+    let seen = Seen { answers: &fitted, window: bench.window, draws };
+    let scored = Fit { seen, flips, grain: bench.grain }.hypotheses();
     let candidates = bench.separate(&scored, draws);
     let Some(&candidate) = candidates.first() else { return silent };
     let found = bench.conclude(&candidate, &candidates[1..], &fitted);

@@ -11,6 +11,7 @@
 //! some forty rasterizers drew (`docs/conventions.md`).
 
 mod bench;
+mod candidate;
 mod diagnosis;
 mod fit;
 mod general;
@@ -19,6 +20,8 @@ mod mask;
 mod outline;
 mod quantum;
 mod rule;
+mod search;
+mod separate;
 mod shape;
 mod share;
 mod stepped;

@@ -4,7 +4,7 @@
 use serde::Serialize;
 
 use super::bench::{Answer, Bench};
-use super::fit::Candidate;
+use super::candidate::Candidate;
 use super::general::{area, drawable};
 use super::rule::{CornerRule, Ties, Windings};
 use super::shape::{Place, Shape};
