@@ -79,7 +79,9 @@ impl<'a> Bench<'a> {
     pub(super) fn new(ask: &'a mut dyn Ask, known: &'a Known, seed: u64) -> Option<Self> {
         let (width, height) = known.window_px;
         let side = SIDE_PX.min(known.range_px).min(width.min(height).min(1 << 20) as i32);
-        let grain = 256 / known.grid.clamp(1, 256);
+        // A grid that does not divide 1/256 px is asked in whole pixels.
+        let grid = known.grid.clamp(1, 256);
+        let grain = if 256 % grid == 0 { 256 / grid } else { 256 };
         let window = PixelRect::window(side.max(0) as u32, side.max(0) as u32);
         (side >= LEAST_SIDE_PX).then(|| Self {
             ask,

@@ -202,31 +202,9 @@ impl Synthetic {
 
 /// The eighth of the compass that a direction, y down, lies in: 0 is north.
 fn compass_point([x, y]: Point) -> usize {
-    let sectors = [[0, 1, 2], [0, 9, 4], [8, 7, 6]];
-    match (x == 0.0, y == 0.0) {
-        (true, _) => sectors[0][0] + if y > 0.0 { 4 } else { 0 },
-        (_, true) => {
-            if x > 0.0 {
-                2
-            } else {
-                6
-            }
-        }
-        _ if y < 0.0 => {
-            if x > 0.0 {
-                1
-            } else {
-                7
-            }
-        }
-        _ => {
-            if x > 0.0 {
-                3
-            } else {
-                5
-            }
-        }
-    }
+    let sign = |v: f64| if v == 0.0 { 0 } else { v.signum() as i32 };
+    let points = [(0, -1), (1, -1), (1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1)];
+    points.iter().position(|&point| point == (sign(x), sign(y))).unwrap()
 }
 
 /// Crossings in fixed point, as an edge list in 26.6 and 16.16 numbers steps them.
