@@ -39,6 +39,7 @@
 
 pub mod cli;
 pub mod contract;
+pub mod convention;
 pub mod cost;
 pub mod effects;
 pub mod exhaust;
@@ -84,6 +85,8 @@ mod docs {
     struct Chapter10;
     #[doc = include_str!("../docs/ch11.md")]
     struct Chapter11;
+    #[doc = include_str!("../docs/conventions.md")]
+    struct Conventions;
     #[doc = include_str!("../docs/effects.md")]
     struct Effects;
     #[doc = include_str!("../docs/games101.md")]

@@ -2,6 +2,7 @@
 
 mod book;
 mod commands;
+mod convention;
 mod cost;
 mod exact;
 mod exhaust;
