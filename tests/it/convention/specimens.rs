@@ -18,10 +18,10 @@ impl Ask for InProcess {
         let draw = |question: &Question| {
             let mut picture = Coverage::new(question.window, 0);
             let triangle = from_lattice(question.corners);
-            let hit = |span: rasterproof::triangle::Span| {
+            let mut hit = |span: rasterproof::triangle::Span| {
                 picture.hit(span.y_px, span.x0_px, span.x1_px);
             };
-            self.0.cover(&triangle, question.window, hit).ok().map(|()| picture)
+            self.0.cover(&triangle, question.window, &mut hit).ok().map(|()| picture)
         };
         questions.iter().map(draw).collect()
     }
