@@ -1,0 +1,503 @@
+//! The figures that the pages state, each with the words around it in both languages and what
+//! computes it: by drawing, by counting, by a formula, or from a table of another page.
+
+use glam::{DVec4, Vec4};
+use rasterproof::contract::Rasterize as _;
+use rasterproof::frame::{Coverage, Frame};
+use rasterproof::grid::PixelRect;
+use rasterproof::hazard::Shape;
+use rasterproof::hazard::named::{Input, find};
+use rasterproof::invariant::CATALOGUE;
+use rasterproof::lineup::TriangleSpecimen;
+use rasterproof::oracle::Oracle;
+use rasterproof::pipeline::clip::MOST_VERTICES;
+use rasterproof::raster::edge_function::WordWidth;
+use rasterproof::specimen::PublishedLine as _;
+use rasterproof::specimen::bare;
+use rasterproof::specimen::book_dda::BookDda;
+use rasterproof::specimen::catalogue::{RECORDED, RECORDED_SIDE_PX};
+use rasterproof::specimen::sysu_strict_t::clip_strict;
+use rasterproof::verify::specimens::{free_truth, specimen_coverage};
+use serde_json::Value;
+
+use crate::illustrations::ball;
+use crate::pages::page;
+
+/// Figures of a page, by the words around them.
+pub struct Figure {
+    /// The page's name.
+    pub page: &'static str,
+    /// English words, `{}` for each figure.
+    pub english: &'static str,
+    /// The same in Chinese.
+    pub chinese: &'static str,
+    /// What the figures are.
+    pub values: fn() -> Vec<f64>,
+}
+
+const fn figure(
+    page: &'static str,
+    english: &'static str,
+    chinese: &'static str,
+    values: fn() -> Vec<f64>,
+) -> Figure {
+    Figure { page, english, chinese, values }
+}
+
+/// By chapter.
+pub const ALL: &[&[Figure]] = &[PIXELS, LINES, TRIANGLES, VALUES, CLIPPING, COST, PROOF];
+
+const PIXELS: &[Figure] = &[
+    figure(
+        "ch01",
+        "The lower triangle covers {} pixels, the upper one {}; row 30 has {} of them",
+        "下面的三角形覆盖 {} 个像素，上面的 {} 个；第 30 行有 {} 个",
+        || {
+            let hits = named("T4");
+            let row = |hits: &Coverage| hits.row(30).iter().filter(|&&n| n > 0).count() as f64;
+            vec![hits[0].covered() as f64, hits[1].covered() as f64, row(&hits[0]) + row(&hits[1])]
+        },
+    ),
+    figure(
+        "ch01",
+        "(1024 pixels of 4 bytes: {} apart)",
+        "（1024 个 4 字节的像素：行距 {}）",
+        || vec![Frame::new(PixelRect::window(1024, 4), 0u32).pitch() as f64],
+    ),
+    figure(
+        "ch01",
+        "{} calls of the pixel function outside the screen",
+        "像素函数在屏幕外被调用 {} 次",
+        || vec![bug("oob")["oob_calls"].as_f64().unwrap()],
+    ),
+];
+
+const LINES: &[Figure] = &[
+    figure(
+        "ch02",
+        "of the 4,225 lines from (0,0) to (x, y), 0 ≤ x, y ≤ 64, {} drift",
+        "的 4,225 条直线里，有 {} 条连它想要的截断高度都偏离了",
+        drifting_lines,
+    ),
+    figure(
+        "ch02",
+        "Bresenham takes {} ns a pixel and a sum of f64 slopes {}, which is wrong in {} pixels of a million; the exact fraction takes {}.",
+        "Bresenham 每像素 {} ns；累加 f64 斜率 {}，每百万像素里错 {} 个；精确分数 {}。",
+        || {
+            let ns = |rung| cell("Lines", "ns", rung, 0);
+            vec![
+                ns("Bresenham"),
+                ns("f64 DDA"),
+                cell("Lines", "wrong", "f64 DDA", 0),
+                ns("exact DDA"),
+            ]
+        },
+    ),
+];
+
+const TRIANGLES: &[Figure] = &[
+    figure(
+        "ch02",
+        "fan of twelve triangles round the point (8.5, 8.5); {} pixels, each hit once",
+        "十二个三角形组成的扇形；{} 个像素，每个命中一次",
+        || vec![named("T6").iter().map(Coverage::covered).sum::<u64>() as f64],
+    ),
+    figure(
+        "ch02",
+        "difference: {} pixels are missing along the upper edge, {} are too many at the right tip and {} below, and the row of the middle corner, {} pixels, is drawn twice",
+        "差异：沿上边缺 {} 个像素，右端的尖角多 {} 个，下方多 {} 个，中间顶点所在的那一行有 {} 个像素画了两遍",
+        double_row,
+    ),
+    figure("ch02", "a row runs from {} to {}", "一行会从 {} 画到 {}", || {
+        let ends = &bug("ch3_unclamped")["bbox"];
+        vec![ends[0].as_f64().unwrap(), ends[1].as_f64().unwrap()]
+    }),
+    figure("ch02", "< 2^{31}`$ | {} px square", "< 2^{31}`$ | {} 像素见方", || {
+        let holds = |px: &u32| WordWidth::of(px * 256, px * 256) == WordWidth::I32;
+        vec![f64::from((1..4000).take_while(holds).last().unwrap())]
+    }),
+    figure(
+        "ch02",
+        "scanline as in the book {}, f64 at each row anew {}, **integer DDA {}**, snapping included; edge functions in f32, stepped or direct, {}, in f64 {} or {}, **i32 on E' {}**, i64 {}, i128 {}.",
+        "扫描线，照书的写法 {}，每行重新用 f64 计算 {}，**整数 DDA {}**，吸附已算在内；边函数，f32 步进或直接计算 {}，f64 是 {} 或 {}，**E' 上的 i32 {}**，i64 {}，i128 {}。",
+        || {
+            let rows = |rung| cell("Coverage by scanline", "ns", rung, 0);
+            let edges = |rung| cell("Coverage by edge function", "ns", rung, 0);
+            let mut values = ["book", "f64 direct", "24.8 DDA"].map(rows).to_vec();
+            values.extend(
+                ["f32 stepped", "f64 stepped", "f64 direct", "i32", "i64", "i128"].map(edges),
+            );
+            values
+        },
+    ),
+    figure(
+        "ch02",
+        "The book's scanline has {} wrong pixels in a million there",
+        "书的扫描线在那里每百万像素错 {} 个",
+        || vec![cell("Coverage by scanline", "wrong", "book", 0)],
+    ),
+    figure(
+        "ch02",
+        "stepped f64 edge functions leave {} holes and double hits in that mesh, and {} wrong pixels in a million",
+        "f64 步进的边函数在那张网格里留下 {} 个空洞和重复命中，每百万像素错 {} 个",
+        || {
+            let cracks = |i| cell("Coverage by edge function", "holes", "f64 stepped", i);
+            vec![
+                cracks(0) + cracks(1),
+                cell("Coverage by edge function", "wrong", "f64 stepped", MESH),
+            ]
+        },
+    ),
+];
+
+const VALUES: &[Figure] = &[
+    figure(
+        "ch03",
+        "the worst error of an attribute is {} of its bound and of a depth {}, both with the edge function",
+        "属性最坏的误差是其界的 {}，深度是 {}，都出自边函数",
+        || {
+            let text = page("docs", "verdict");
+            let all = text.lines().find(|line| line.starts_with("all  ")).unwrap();
+            let cells: Vec<f64> =
+                all.split_whitespace().skip(8).map(|c| c.parse().unwrap()).collect();
+            assert!(cells[1] > cells[0] && cells[3] > cells[2], "B is the edge function");
+            vec![cells[1], cells[3]]
+        },
+    ),
+    figure(
+        "ch03",
+        "As planes in f32 it takes {} ns a pixel where adding up takes {}; in the offset form with its bound of u (13 D + M), {} in f32 and {} in f64.",
+        "写成 f32 的平面，每像素 {} ns，累加则是 {}；用误差界为 u (13 D + M) 的偏移形式，f32 是 {}，f64 是 {}。",
+        || {
+            ["plane", "affine", "offset f32", "offset f64"]
+                .map(|rung| interpolation(rung, W1))
+                .to_vec()
+        },
+    ),
+    figure(
+        "ch05",
+        "attained: {} of the spread at R = 2, 1/3 at R = 4, 1/2 at R = 9, {} at R = 100",
+        "R = 2 时是跨度的 {}，R = 4 时 1/3，R = 9 时 1/2，R = 100 时 {}。",
+        || [2.0, 100.0].map(affine_error).to_vec(),
+    ),
+    figure(
+        "ch05",
+        "| R = 2; R = 100 | error {}; {}, of a range of 2",
+        "| R = 2；R = 100 | 误差 {}；{}，而范围只有 2",
+        || [2.0, 100.0].map(|r| 2.0 * affine_error(r)).to_vec(),
+    ),
+    figure(
+        "games101",
+        "| R = 2; R = 100 | error {}; {}, of a range of 2",
+        "| R = 2；R = 100 | 误差 {}；{}，而取值范围是 2",
+        || [2.0, 100.0].map(|r| 2.0 * affine_error(r)).to_vec(),
+    ),
+    figure(
+        "ch05",
+        "Formula (8) takes {} ns a pixel, v/w over 1/w at each pixel {}, as planes {}, and values without w, added up, {}.",
+        "公式 (8) 每像素 {} ns，逐像素算 v/w 除以 1/w 是 {}，写成平面是 {}，而不带 w、一路累加的值是 {}。",
+        || {
+            ["book (8)", "1/w direct", "plane", "affine"]
+                .map(|rung| interpolation(rung, W1))
+                .to_vec()
+        },
+    ),
+    figure(
+        "ch06",
+        "({} ns with f64, {} with f32, {} with 24 bits)",
+        "（每像素 f64 是 {} ns，f32 是 {}，24 位是 {}）",
+        || ["f64", "f32", "24-bit"].map(|rung| cell("Depth", "ns", rung, 0)).to_vec(),
+    ),
+    figure(
+        "ch11",
+        "for a right angle {}, and without the division the light there is {}% too dark",
+        "直角时是 {}，若不除以长度，那里的光照就暗了 {}%",
+        || vec![0.5f64.sqrt(), 100.0 * (1.0 - 0.5f64.sqrt())],
+    ),
+    figure(
+        "ch11",
+        "Of {} such fragments the exercise leaves {}",
+        "这样的片元原有 {} 个，做完练习还剩 {} 个",
+        || [false, true].map(|exercise| f64::from(ball(exercise).1)).to_vec(),
+    ),
+];
+
+const CLIPPING: &[Figure] = &[
+    figure(
+        "ch07",
+        "Of 10,000 random edges across w + z = 0, computed from either end in f64, {} crossings differ in a bit.",
+        "随机取 10,000 条跨过 w + z = 0 的边，用 f64 从两端各算一次，有 {} 个交点至少差一位。",
+        crossings_that_differ,
+    ),
+    figure(
+        "ch07",
+        "of 10,000 random pairs with w in (0, 1000) and (-1000, 0), {} get w ≤ 0",
+        "w 在 (0, 1000) 和 (-1000, 0) 里的 10,000 对随机的点，有 {} 对得到 w ≤ 0",
+        cuts_behind_the_eye,
+    ),
+    figure(
+        "ch07",
+        "more each time, 3 + {} in the end",
+        "每次多一个，最后是 3 + {}。",
+        || vec![MOST_VERTICES as f64 - 3.0],
+    ),
+];
+
+const COST: &[Figure] = &[
+    figure(
+        "cost",
+        "the cheapest float takes {} to {} times as long",
+        "最便宜的浮点阶所用的时间是它的 {} 到 {} 倍",
+        || range(8, |i| cheapest("Coverage by scanline", &FLOATS, i) / scanline("24.8 DDA", i)),
+    ),
+    figure(
+        "cost",
+        "**Exact for the vertices as given** costs {} to {} times the cheapest rung, and {} times where corners lie on samples",
+        "**对原始顶点精确**的代价是最便宜那一阶的 {} 到 {} 倍；若顶点正好落在采样点上，过滤器常常拿不定主意，则要 {} 倍",
+        || {
+            let price = |i| {
+                let edges = cell("Coverage by edge function", "ns", "adaptive", i);
+                scanline("adaptive", i).min(edges) / scanline("24.8 DDA", i)
+            };
+            let mut prices: Vec<f64> = (0..8).filter(|&i| i != HALF).map(price).collect();
+            prices.sort_by(f64::total_cmp);
+            vec![prices[0], prices[6], price(HALF)]
+        },
+    ),
+    figure(
+        "cost",
+        "beats every float rung of the scanline in every class, by {} to {} times; the book's own takes {} to nearly 4 times as long",
+        "快 {} 到 {} 倍；书中自己的做法要用 {} 到将近 4 倍的时间",
+        || {
+            let mut values = range(8, |i| {
+                cheapest("Coverage by scanline", &FLOATS, i) / scanline("24.8 DDA", i)
+            });
+            let book = range(8, |i| scanline("book", i) / scanline("24.8 DDA", i));
+            assert!((3.5..4.0).contains(&book[1]), "nearly 4: {book:?}");
+            values.push(book[0]);
+            values
+        },
+    ),
+    figure(
+        "cost",
+        "take {} ns a pixel on large triangles where f32 ones take {}:",
+        "在大三角形上每个像素 {} ns，f32 的却要 {}：",
+        || {
+            ["i32", "f32 stepped"]
+                .map(|rung| cell("Coverage by edge function", "ns", rung, 0))
+                .to_vec()
+        },
+    ),
+    figure(
+        "cost",
+        "and {} in a million where corners lie on samples",
+        "在顶点落在采样点上的那一类里，每百万个中错 {} 个",
+        || vec![cell("Coverage by scanline", "wrong", "f64 accumulated", HALF)],
+    ),
+    figure(
+        "cost",
+        "{} pixels in a million on large triangles, {} at 25 px, {} below 8 px, {} on slivers",
+        "每百万个像素中，大三角形 {} 个，25 px 的 {} 个，8 px 以下的 {} 个，细长三角形 {} 个",
+        || (0..4).map(|i| cell("Coverage by scanline", "wrong", "24.8 DDA", i)).collect(),
+    ),
+    figure(
+        "cost",
+        "The exact area takes {} to {} times the time of 64 samples",
+        "精确面积所用的时间是 64 个采样点的 {} 到 {} 倍",
+        || {
+            let times = |i| antialiasing("exact area", i) / antialiasing("8x8 supersample", i);
+            range(7, |i| times(if i < SLIVER { i } else { i + 1 }))
+        },
+    ),
+    figure(
+        "games101",
+        "a colour for each sample, at 2 x 2, takes {} to {} times the time of one",
+        "在 2 x 2 时所用时间是单个采样点的 {} 到 {} 倍",
+        || range(8, |i| antialiasing("2x2 supersample", i) / antialiasing("1x", i)),
+    ),
+    figure(
+        "specimens",
+        "by Bresenham, and {} times as much by the exact DDA",
+        "用精确的 DDA 则是 {} 倍",
+        || {
+            let times = |i| cell("Lines", "ns", "exact DDA", i) / cell("Lines", "ns", "f64 DDA", i);
+            vec![(0..6).map(times).sum::<f64>() / 6.0]
+        },
+    ),
+    figure(
+        "offgrid",
+        "a factor of about four, and where ties are many {} to {}; the edge function {} to {} either way",
+        "平局多时则是 {} 到 {} 倍；边函数无论哪种情形都是 {} 到 {} 倍",
+        || {
+            let times =
+                |column: usize| off_grid(column).map(move |row| row[column + 1] / row[column]);
+            let rows: Vec<f64> = times(0).collect();
+            assert!(rows[..2].iter().all(|t| (3.5..4.6).contains(t)), "about four: {rows:?}");
+            [sorted_ends(rows[2..].to_vec()), sorted_ends(times(2).collect())].concat()
+        },
+    ),
+];
+
+const PROOF: &[Figure] =
+    &[figure("stability", "| {} | `disabled-effect` |", "| {} | `disabled-effect` |", || {
+        vec![CATALOGUE.len() as f64]
+    })];
+
+/// Columns of the tables of coverage.
+const SLIVER: usize = 3;
+const HALF: usize = 4;
+const MESH: usize = 7;
+/// The first column of the tables of interpolation with a ratio of w: all equal.
+const W1: usize = 8;
+const FLOATS: [&str; 4] = ["f32 accumulated", "f32 direct", "f64 accumulated", "f64 direct"];
+
+/// A cell of a table of `docs/cost.md`: under a heading, of the board whose title begins so.
+fn cell(heading: &str, title: &str, rung: &str, column: usize) -> f64 {
+    let text = page("docs", "cost");
+    let (_, section) = text.split_once(&format!("\n## {heading}\n")).expect("a heading");
+    let board = section.lines().skip_while(|line| !line.starts_with(title));
+    let mut rows = board.take_while(|line| !line.is_empty() && !line.starts_with("```"));
+    let row = rows.find_map(|line| line.strip_prefix(rung).filter(|rest| rest.starts_with("  ")));
+    let row = row.unwrap_or_else(|| panic!("{heading}, {title}: no row {rung}"));
+    let cells: Vec<_> = row.split_whitespace().collect();
+    cells[column].trim_end_matches(['<', '*', '+']).parse().expect("a number")
+}
+
+fn scanline(rung: &str, column: usize) -> f64 {
+    cell("Coverage by scanline", "ns", rung, column)
+}
+
+fn interpolation(rung: &str, column: usize) -> f64 {
+    cell("Interpolation", "ns", rung, column)
+}
+
+fn antialiasing(rung: &str, column: usize) -> f64 {
+    cell("Antialiasing", "ns", rung, column)
+}
+
+fn cheapest(heading: &str, rungs: &[&str], column: usize) -> f64 {
+    rungs.iter().map(|rung| cell(heading, "ns", rung, column)).fold(f64::INFINITY, f64::min)
+}
+
+fn sorted_ends(mut values: Vec<f64>) -> Vec<f64> {
+    values.sort_by(f64::total_cmp);
+    vec![values[0], values[values.len() - 1]]
+}
+
+/// Smallest and largest value over columns.
+fn range(columns: usize, value: impl Fn(usize) -> f64) -> Vec<f64> {
+    sorted_ends((0..columns).map(value).collect())
+}
+
+/// Rows of the table of times of `docs/offgrid.md`, those that have a time in `column` and the next.
+fn off_grid(column: usize) -> impl Iterator<Item = Vec<f64>> {
+    let text = page("docs", "offgrid");
+    let (_, section) = text.split_once("\n## Cost, measured\n").unwrap();
+    let lines = section.lines().filter(|line| line.contains("ns/"));
+    let number = |cell: &str| cell.trim().replace(',', "").parse::<f64>().ok();
+    let rows = lines.map(|line| line.split('|').filter_map(number).collect::<Vec<_>>());
+    rows.filter(|row| row.len() > column + 1).collect::<Vec<_>>().into_iter()
+}
+
+fn affine_error(ratio: f64) -> f64 {
+    (ratio.sqrt() - 1.0) / (ratio.sqrt() + 1.0)
+}
+
+fn bug(name: &str) -> Value {
+    let text = include_str!("../data/book-bugs.json");
+    serde_json::from_str::<Value>(text).unwrap()[name].clone()
+}
+
+/// The coverage of each triangle of a named case.
+fn named(name: &str) -> Vec<Coverage> {
+    let Input::Drawn { case, .. } = find(name).unwrap().input else { panic!("{name} is drawn") };
+    let Shape::Triangles { list, .. } = &case.shape else { panic!("{name} has triangles") };
+    let each = list.iter().map(|triangle| {
+        let mut hits = Coverage::new(case.window, 0);
+        Oracle.cover(triangle.corners(), case.window, |s| hits.hit(s.y_px, s.x0_px, s.x1_px));
+        hits
+    });
+    each.collect()
+}
+
+/// What is wrong with the recorded triangle of chapter 2: missing, extra within its rows, extra below
+/// them, and hit twice.
+fn double_row() -> Vec<f64> {
+    let case = RECORDED.iter().find(|case| case.name == "double_row").unwrap();
+    let triangles: Vec<_> = case.corners_px().into_iter().map(bare).collect();
+    let window = PixelRect::window(RECORDED_SIDE_PX, RECORDED_SIDE_PX);
+    let truth = free_truth(&triangles, window);
+    let hits = specimen_coverage(TriangleSpecimen::BookChapter2, &triangles, window).unwrap();
+    let last = truth.rows().filter(|(_, row)| row.iter().any(|&n| n > 0)).map(|(y, _)| y).max();
+    let mut counts = [0.0; 4];
+    for (y_px, row) in hits.rows() {
+        for (&drawn, &wanted) in row.iter().zip(truth.row(y_px)) {
+            let kind = match (wanted, drawn) {
+                (1, 0) => 0,
+                (0, 1..) if Some(y_px) <= last => 1,
+                (0, 1..) => 2,
+                (1, 2..) => 3,
+                _ => continue,
+            };
+            counts[kind] += 1.0;
+        }
+    }
+    counts.to_vec()
+}
+
+/// Lines of the book from (0, 0) that leave the height they mean, which is the exact one truncated.
+fn drifting_lines() -> Vec<f64> {
+    let window = PixelRect::window(65, 65);
+    let drifts = |(x, y): (i32, i32)| {
+        let (major, minor) = (x.max(y), x.min(y));
+        let mut is_off = false;
+        // The book's y points up: row 64 is its row 0.
+        let ends = [[0.5, 64.5], [f64::from(x) + 0.5, 64.5 - f64::from(y)]];
+        let mut visit = |px: i32, row: i32| {
+            let (u, v) = if x > y { (px, 64 - row) } else { (64 - row, px) };
+            is_off |= v != u * minor / major;
+        };
+        BookDda.draw(ends, window, &mut visit).unwrap();
+        is_off
+    };
+    let all = (0..65).flat_map(|x| (0..65).map(move |y| (x, y)));
+    vec![all.filter(|&end| drifts(end)).count() as f64]
+}
+
+/// Numbers in [0, 1), the same on every machine (SplitMix64).
+fn random() -> impl FnMut() -> f64 {
+    let mut state = 7u64;
+    move || {
+        state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let z = (state ^ (state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+    }
+}
+
+fn crossings_that_differ() -> Vec<f64> {
+    let mut unit = random();
+    let place = |p: DVec4| p.w + p.z;
+    let mut corner = |low: f64, high: f64| {
+        let w = 0.1 + 10.0 * unit();
+        let (x, y) = (2.0 * unit() - 1.0, 2.0 * unit() - 1.0);
+        DVec4::new(x, y, low + (high - low) * unit(), 1.0) * w
+    };
+    let differing = (0..10_000).filter(|_| {
+        let (a, b) = (corner(-1.0, 1.0), corner(-3.0, -1.0));
+        let cut = |a: DVec4, b: DVec4| a + (b - a) * (place(a) / (place(a) - place(b)));
+        let (there, back) = (cut(a, b), cut(b, a));
+        // z is assigned, so it does not count.
+        (there.x, there.y, there.w) != (back.x, back.y, back.w)
+    });
+    vec![differing.count() as f64]
+}
+
+fn cuts_behind_the_eye() -> Vec<f64> {
+    let mut unit = random();
+    let behind = (0..10_000).filter(|_| {
+        let ends = [1000.0, -1000.0].map(|w| Vec4::new(0.0, 0.0, 0.0, (w * unit()) as f32));
+        clip_strict(&ends)[0].w <= 0.0
+    });
+    vec![behind.count() as f64]
+}
