@@ -175,3 +175,30 @@ fn pages_tables_add_up() {
         }
     }
 }
+
+/// What the errata say that needs no rasterizer.
+#[test]
+fn pages_errata_by_arithmetic() {
+    // 2.2: the sum of the book, added in turn, is no smaller than its limit.
+    let sum = 452.625 + 186.3749999999997 + 239.625 - 452.625 - 186.3749999999997 - 239.625;
+    assert!(f64::abs(sum) > 1e-15 && is_rounded("2.84e-14", f64::abs(sum)), "{sum:e}");
+    // 3.2.1: the values 1 and 10 with weights .3 and .7, and halfway.
+    let mean = |t: f64| (1.0 - t) * 1.0 + t * 10.0;
+    assert!((mean(0.7) - 7.3).abs() < 1e-12 && (mean(0.5) - 5.5).abs() < 1e-12);
+    // 9.3: an area that the limit takes for none.
+    let twice_area = 2e-8 * 2e-8;
+    assert!(twice_area > 0.0 && twice_area < 1e-15);
+    // GAMES101 and SYSU: casts cut towards zero.
+    assert_eq!((-0.9f32 as i32, (-1.2f32 + 0.5) as i32), (0, 0));
+    // SYSU, the report: with signs the line from (0, 0) to (-3, 1) rises at every step.
+    let (dx, dy) = (-3, 1);
+    let mut p = 2 * dy - dx;
+    assert_eq!(p, 5);
+    for _ in 0..3 {
+        assert!(p > 0);
+        p += 2 * dy - 2 * dx;
+    }
+    // The same: with y up (0, 1) lies left of the edge from (0, 0) to (1, 0), and its product is 1.
+    let ([edge_x, edge_y], [x, y]) = ([1, 0], [0, 1]);
+    assert_eq!(edge_x * y - edge_y * x, 1);
+}
