@@ -45,7 +45,7 @@ const fn figure(
 }
 
 /// By chapter.
-pub const ALL: &[&[Figure]] = &[PIXELS, LINES, TRIANGLES, VALUES, CLIPPING, COST, PROOF];
+pub const ALL: &[&[Figure]] = &[PIXELS, LINES, TRIANGLES, VALUES, STEPS, CLIPPING, COST, PROOF];
 
 const PIXELS: &[Figure] = &[
     figure(
@@ -219,6 +219,47 @@ const VALUES: &[Figure] = &[
         "Of {} such fragments the exercise leaves {}",
         "这样的片元原有 {} 个，做完练习还剩 {} 个",
         || [false, true].map(|exercise| f64::from(ball(exercise).1)).to_vec(),
+    ),
+];
+
+/// What the book's steps in t give, by its formulas.
+const STEPS: &[Figure] = &[
+    figure(
+        "ch05",
+        "| from 3.99 to 4, values 0 and 1 | t = {}, value {} |",
+        "| 从 3.99 到 4，值 0 和 1 | t = {}，值为 {} |",
+        || {
+            let t = 1.0 / (4.0 - 3.99);
+            vec![t, value(10.0, t)]
+        },
+    ),
+    figure(
+        "ch05",
+        "| row 1 gets t' = {}; at its sample y = 1 it is {}, at a centre y = 1.5 it is {} |",
+        "| 第 1 行得到 t' = {}；在它的采样点 y = 1 应是 {}，在像素中心 y = 1.5 应是 {} |",
+        || vec![1.0 / 1.2, (1.0 - 0.9) / 1.2, (1.5 - 0.9) / 1.2],
+    ),
+    figure(
+        "ch05",
+        "| row 2 gets 1 instead of {} ({} is right)",
+        "| 第 2 行得到 1 而不是 {}（正确的是 {}）",
+        || vec![2.0 / 1.2, (2.0 - 0.9) / 1.2],
+    ),
+    figure("ch06", "at (10,1) the depth is {}:", "在 (10,1) 处深度是 {}：", || {
+        vec![bug("depth_poison")["z_at_10_1"].as_f64().unwrap()]
+    }),
+    figure("ch02", "`$ | about {} million px square |", "`$ | 约 {} 百万像素见方 |", || {
+        // (W + S)^2 < 2^63 with W and S in subpixels.
+        vec![(2f64.powf(31.5) - 256.0) / 256.0 / 1e6]
+    }),
+    figure(
+        "sysu",
+        "| products in 32 bits | {} x {} px",
+        "| 用 32 位做乘积 | {} x {} px",
+        || {
+            let first = (1i32..).find(|n| n.checked_mul(*n).is_none()).unwrap();
+            vec![f64::from(first); 2]
+        },
     ),
 ];
 
@@ -401,6 +442,11 @@ fn off_grid(column: usize) -> impl Iterator<Item = Vec<f64>> {
 
 fn affine_error(ratio: f64) -> f64 {
     (ratio.sqrt() - 1.0) / (ratio.sqrt() + 1.0)
+}
+
+/// Formula (8) with the values 0 and 1 and w from 1 to `far`.
+fn value(far: f64, t: f64) -> f64 {
+    t / (far + (1.0 - far) * t)
 }
 
 fn bug(name: &str) -> Value {
