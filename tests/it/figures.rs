@@ -5,11 +5,12 @@ use glam::{DVec4, Vec4};
 use rasterproof::contract::Rasterize as _;
 use rasterproof::frame::{Coverage, Frame};
 use rasterproof::grid::PixelRect;
-use rasterproof::hazard::Shape;
 use rasterproof::hazard::named::{Input, find};
+use rasterproof::hazard::{Case, Shape, families};
 use rasterproof::invariant::CATALOGUE;
 use rasterproof::lineup::TriangleSpecimen;
 use rasterproof::oracle::Oracle;
+use rasterproof::oracle::coverage::samples_on_boundary;
 use rasterproof::pipeline::clip::MOST_VERTICES;
 use rasterproof::raster::edge_function::WordWidth;
 use rasterproof::specimen::PublishedLine as _;
@@ -129,6 +130,12 @@ const TRIANGLES: &[Figure] = &[
             );
             values
         },
+    ),
+    figure(
+        "ch02",
+        "Random triangles hardly ever have a tie ({} of 100,000 of the family `uniform`)",
+        "随机的三角形几乎从不出现平局（用例族 `uniform` 的 100,000 个里有 {} 个）",
+        ties_of_random_triangles,
     ),
     figure(
         "ch02",
@@ -397,10 +404,41 @@ const COST: &[Figure] = &[
     ),
 ];
 
-const PROOF: &[Figure] =
-    &[figure("stability", "| {} | `disabled-effect` |", "| {} | `disabled-effect` |", || {
+const PROOF: &[Figure] = &[
+    figure(
+        "gpus",
+        "The edge function takes {} to {} times as long: it asks samples that are not covered",
+        "边函数要用 {} 到 {} 倍的时间：它也问没有被覆盖的采样点",
+        || range(8, |i| edges("engine", i) / scanline("24.8 DDA", i)),
+    ),
+    figure(
+        "gpus",
+        "| edge function | {} | {} | {} | {} | {} | {} | {} | {} |",
+        "| 边函数 | {} | {} | {} | {} | {} | {} | {} | {} |",
+        || (0..8).map(|i| edges("engine", i)).collect(),
+    ),
+    figure(
+        "gpus",
+        "| scanline | {} | {} | {} | {} | {} | {} | {} | {} |",
+        "| 扫描线 | {} | {} | {} | {} | {} | {} | {} | {} |",
+        || (0..8).map(|i| scanline("24.8 DDA", i)).collect(),
+    ),
+    figure(
+        "gpus",
+        "two engines are within a factor of {}.",
+        "阶梯里的两个引擎相差不到 {} 倍。",
+        || vec![edges("engine", 2) / scanline("24.8 DDA", 2)],
+    ),
+    figure(
+        "stability",
+        "px only {} of 100,000 random triangles have a sample exactly on an edge",
+        "100,000 个随机三角形里，只有 {} 个有采样点恰好落在边上",
+        ties_of_random_triangles,
+    ),
+    figure("stability", "| {} | `disabled-effect` |", "| {} | `disabled-effect` |", || {
         vec![CATALOGUE.len() as f64]
-    })];
+    }),
+];
 
 /// Columns of the tables of coverage.
 const SLIVER: usize = 3;
@@ -420,6 +458,10 @@ fn cell(heading: &str, title: &str, rung: &str, column: usize) -> f64 {
     let row = row.unwrap_or_else(|| panic!("{heading}, {title}: no row {rung}"));
     let cells: Vec<_> = row.split_whitespace().collect();
     cells[column].trim_end_matches(['<', '*', '+']).parse().expect("a number")
+}
+
+fn edges(rung: &str, column: usize) -> f64 {
+    cell("Coverage by edge function", "ns", rung, column)
 }
 
 fn scanline(rung: &str, column: usize) -> f64 {
@@ -488,6 +530,16 @@ fn named(name: &str) -> Vec<Coverage> {
         hits
     });
     each.collect()
+}
+
+/// Random triangles with a sample on an edge, of 100,000.
+fn ties_of_random_triangles() -> Vec<f64> {
+    let uniform = families().find(|family| family.name == "uniform").unwrap();
+    let has_tie = |case: &Case| {
+        let Shape::Triangles { list, .. } = &case.shape else { return false };
+        list.iter().any(|t| samples_on_boundary(&t.corners(), case.window) > 0)
+    };
+    vec![(0..100_000).map(|index| uniform.case(1, index)).filter(has_tie).count() as f64]
 }
 
 /// What is wrong with the recorded triangle of chapter 2: missing, extra within its rows, extra below
