@@ -3,6 +3,7 @@
 mod book;
 mod commands;
 mod cost;
+mod cost_tables;
 mod exact;
 mod exhaust;
 mod figures;
