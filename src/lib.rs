@@ -89,6 +89,8 @@ mod docs {
     struct Conventions;
     #[doc = include_str!("../docs/effects.md")]
     struct Effects;
+    #[doc = include_str!("../docs/gpus.md")]
+    struct Gpus;
     #[doc = include_str!("../docs/games101.md")]
     struct Games101;
     #[doc = include_str!("../docs/judge.md")]
