@@ -69,7 +69,11 @@ impl fmt::Display for Misfit {
                 write!(f, "the plan has {planned} items, and the scene {there}")
             }
             Self::Pieces { item, planned, there } => {
-                write!(f, "the plan lists {planned} pieces of item {item}, which has {there}")
+                write!(
+                    f,
+                    "the plan lists {planned} pieces of item {item}, which has {there}; a rule, \
+                     \"as-they-come\", fits any number"
+                )
             }
             Self::Tile(tile) => write!(
                 f,

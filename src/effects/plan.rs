@@ -264,8 +264,8 @@ pub struct Decision {
     pub effect: Effect,
     /// The item it is about; of the whole frame where there is none.
     pub item: Option<usize>,
-    /// Pieces that pay for it, or triangles where pieces come as they are drawn; triangles for
-    /// clip, pixels for samples and the second buffer, samples for clear and the depth buffer.
+    /// Pieces that pay for it, or triangles where pieces come as they are drawn; triangles for clip
+    /// and cull, pixels for samples and the second buffer, samples for clear and the depth buffer.
     pub on: u64,
     /// Those that do without.
     pub off: u64,

@@ -20,5 +20,5 @@ pub fn explain(survey: &Survey<'_>) -> Decision {
         Mode::Always => true,
         Mode::Never => false,
     };
-    survey.decide(Effect::Cull, if asks { survey.pieces } else { 0 }, reason)
+    survey.decide_triangles(Effect::Cull, asks, reason)
 }

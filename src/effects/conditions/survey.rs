@@ -72,6 +72,13 @@ impl<'a> Survey<'a> {
         self.decision(effect, [on, self.pieces - on, 0], reason.into())
     }
 
+    /// A decision about all triangles of the item, those included that leave no piece.
+    pub fn decide_triangles(&self, effect: Effect, pays: bool, reason: &str) -> Decision {
+        let triangles = self.item.mesh.triangles.len() as u64;
+        let counts = if pays { [triangles, 0, 0] } else { [0, triangles, 0] };
+        self.decision(effect, counts, reason.to_owned())
+    }
+
     /// A decision that is left to a policy, except where a mode settles it.
     pub fn leave_open(&self, effect: Effect, reason: impl Into<String>) -> Decision {
         let counts = match self.effects.mode(effect) {
