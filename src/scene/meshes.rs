@@ -41,7 +41,9 @@ pub fn scene(name: &str) -> Option<Scene> {
         _ => 2.0,
     };
     let rows = (triangles / (2.0 * along)).sqrt().round();
-    let (rows, columns) = (rows as u32, (triangles / (2.0 * rows)).round() as u32);
+    // The rows at the poles of a sphere have half as many.
+    let full = if shape == "bumps" { rows - 1.0 } else { rows };
+    let (rows, columns) = (rows as u32, (triangles / (2.0 * full)).round() as u32);
     let mesh = match shape {
         "bumps" => bumps(columns, rows),
         "knot" => tube(columns, rows, 0.22, knot),
