@@ -1,6 +1,7 @@
 //! The command line: words to functions. Text goes to the writers it is given; only `main` exits.
 
 mod cost;
+mod decisions;
 mod engine;
 mod exhaust;
 mod inspect;
