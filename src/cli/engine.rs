@@ -6,11 +6,12 @@
 //! the engines whose names end in `-exact`, and the specimens, take them as they are.
 
 use std::fmt::Write as _;
-use std::io::{BufRead, BufReader, Read as _, Write};
+use std::io::{self, BufRead, BufReader, Read as _, Write};
 
 use clap::builder::PossibleValue;
 use glam::DVec2;
 
+use super::misbehave::{self, Fault};
 use super::{Failure, Streams, exit, published};
 use crate::contract::{DrawLine, Interpolate, Rasterize, RasterizeExact};
 use crate::grid::{MAX_SIDE_PX, PixelRect, Refusal, SUBPIXELS, SubpixelPoint};
@@ -42,11 +43,14 @@ const READ_BYTES: usize = 1 << 16;
 /// Fragments that the oracle, in big integers, computes for one request.
 const MOST_EXACT_FRAGMENTS: u64 = 1 << 20;
 
-pub fn run(name: &str, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+pub fn run(name: &str, plant: Option<Fault>, streams: &mut Streams<'_>) -> Result<u8, Failure> {
     let entry = lineup::find(name).copied().or_else(|| lineup::find_planted(name));
     let entry = entry.ok_or_else(|| {
         super::usage(format!("no engine is called '{name}'; see: rasterproof list"))
     })?;
+    if let Some(fault) = plant {
+        return misbehave::run(&entry, fault, streams);
+    }
     let mut input = BufReader::with_capacity(READ_BYTES, &mut *streams.input);
     let mut line = Vec::new();
     loop {
@@ -64,16 +68,20 @@ pub fn run(name: &str, streams: &mut Streams<'_>) -> Result<u8, Failure> {
             Err(_) => Err("- the request is not UTF-8".to_owned()),
             Ok(text) => Ok(text),
         };
-        let answered = match request {
-            Ok(text) if text.trim().is_empty() => continue,
-            Ok(text) => answer(&entry, text, streams.output),
-            Err(reason) => Err(Stop::Refused(reason)),
-        };
-        match answered {
-            Ok(()) => {}
-            Err(Stop::Refused(reason)) => writeln!(streams.output, "E {reason}")?,
-            Err(Stop::Io(error)) => return Err(error.into()),
+        match request {
+            Ok(text) if text.trim().is_empty() => {}
+            Ok(text) => respond(&entry, text, streams.output)?,
+            Err(reason) => writeln!(streams.output, "E {reason}")?,
         }
+    }
+}
+
+/// Writes the answer of a request, or why there is none.
+pub(super) fn respond(entry: &Entry, text: &str, out: &mut dyn Write) -> io::Result<()> {
+    match answer(entry, text, out) {
+        Ok(()) => Ok(()),
+        Err(Stop::Refused(reason)) => writeln!(out, "E {reason}"),
+        Err(Stop::Io(error)) => Err(error),
     }
 }
 

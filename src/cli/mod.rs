@@ -6,6 +6,7 @@ mod exhaust;
 mod inspect;
 mod invariant;
 mod judge;
+mod misbehave;
 mod plan;
 mod published;
 mod render;
@@ -75,6 +76,9 @@ enum Command {
         /// The engine that answers
         #[arg(value_parser = engine::names())]
         name: String,
+        /// Break the protocol, to see the judge notice
+        #[arg(long, value_name = "FAULT", hide = true)]
+        plant: Option<misbehave::Fault>,
     },
     /// Judge any program that speaks the line protocol: rasterproof judge -- CMD
     #[command(after_help = judge::HELP)]
@@ -171,7 +175,7 @@ pub fn run(words: impl IntoIterator<Item = String>, streams: &mut Streams<'_>) -
         None => verify::run(&arguments.verify, streams),
         Some(Command::Verify(arguments)) => verify::run(arguments, streams),
         Some(Command::Inspect(arguments)) => inspect::run(arguments, streams),
-        Some(Command::Engine { name }) => engine::run(name, streams),
+        Some(Command::Engine { name, plant }) => engine::run(name, *plant, streams),
         Some(Command::Judge(arguments)) => judge::run(arguments, streams),
         Some(Command::Specimens(arguments)) => specimens::run(arguments, streams),
         Some(Command::Render(arguments)) => render::run(arguments, streams),

@@ -43,24 +43,23 @@ pub fn text(verdict: &Verdict, repeat_all: &str, repeat: &dyn Fn(&str, u64) -> S
     out
 }
 
-/// Breaks a line at spaces.
+/// Breaks a line at spaces; the lines after the first begin with `indent`.
 fn wrapped(text: &str, indent: &str) -> String {
-    let (mut out, mut width) = (String::new(), 0);
-    for word in text.split(' ') {
-        let length = word.chars().count();
-        if width > 0 && width + 1 + length > 100 {
-            out.push('\n');
-            out += indent;
-            width = indent.len();
-        } else if width > 0 {
-            out.push(' ');
-            width += 1;
+    let start = text.len() - text.trim_start().len();
+    let mut lines = vec![text[..start].to_owned()];
+    let mut is_first = true;
+    for word in text[start..].split(' ') {
+        let line = lines.last_mut().expect("there is a first line");
+        if !is_first && line.chars().count() + 1 + word.chars().count() > 100 {
+            lines.push(format!("{indent}{word}"));
+        } else {
+            *line += if is_first { "" } else { " " };
+            *line += word;
         }
-        out += word;
-        width += length;
+        is_first = false;
     }
-    out.push('\n');
-    out
+    let lines: Vec<_> = lines.iter().map(|line| line.trim_end()).collect();
+    lines.join("\n") + "\n"
 }
 
 /// Draws, winding, convention, both scores.
