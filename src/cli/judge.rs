@@ -97,6 +97,7 @@ impl JudgeArguments {
             families: self.family.clone(),
             only: self.case,
             remember: self.baseline.is_some(),
+            ..Options::default()
         }
     }
 

@@ -7,8 +7,8 @@
 use glam::DVec2;
 
 use super::ask::{Answer, Asked, Misbehaviour, Question};
-use super::declared::Declared;
-use super::expected::{Declaration, Expect, Picture};
+use super::declared::{Declared, Winding};
+use super::expected::{Declaration, Expect, Picture, area2};
 use super::mesh;
 use crate::frame::{Coverage, Frame};
 use crate::grid::PixelRect;
@@ -46,8 +46,8 @@ pub struct Truth {
     pub expect: Box<dyn Expect>,
     /// What it was recognised to draw, if that is something else.
     pub recognised: Option<Box<dyn Expect>>,
-    /// Whether clockwise and counter-clockwise triangles alike are drawn.
-    pub both_windings: bool,
+    /// The windings that it was seen to draw, or declares.
+    pub drawn: Winding,
 }
 
 impl Truth {
@@ -57,7 +57,7 @@ impl Truth {
         Self {
             expect: Box::new(Declaration::from(declared)),
             recognised: None,
-            both_windings: declared.winding == super::declared::Winding::Both,
+            drawn: declared.seen_winding(),
             declared: declared.clone(),
         }
     }
@@ -206,9 +206,9 @@ impl Check {
         match (&case.shape, self) {
             (Shape::Triangles { list, .. }, Self::Order) => {
                 // With one winding drawn, only turning leaves the picture as it is.
-                let orders: [[usize; 3]; 3] = match truth.both_windings {
-                    true => [[0, 1, 2], [1, 2, 0], [0, 2, 1]],
-                    false => [[0, 1, 2], [1, 2, 0], [2, 0, 1]],
+                let orders: [[usize; 3]; 3] = match truth.drawn {
+                    Winding::Both => [[0, 1, 2], [1, 2, 0], [0, 2, 1]],
+                    _ => [[0, 1, 2], [1, 2, 0], [2, 0, 1]],
                 };
                 let ordered = list.iter().flat_map(|t| {
                     let corners = t.corners();
@@ -220,6 +220,8 @@ impl Check {
                 ask(match check {
                     Self::Values => Asked::Values(*t),
                     Self::Samples => Asked::Samples(t.corners()),
+                    // A mesh is wound as the program draws.
+                    Self::Watertight => Asked::Coverage(wound(t.corners(), truth.drawn)),
                     _ => Asked::Coverage(t.corners()),
                 })
             })),
@@ -281,6 +283,16 @@ impl Check {
         }
         finding
     }
+}
+
+/// The triangle turned over where this winding alone is drawn and it has the other.
+fn wound([a, b, c]: Corners, drawn: Winding) -> Corners {
+    let is_other = match drawn {
+        Winding::Clockwise => area2(&[a, b, c]) < 0,
+        Winding::CounterClockwise => area2(&[a, b, c]) > 0,
+        Winding::Both => false,
+    };
+    if is_other { [a, c, b] } else { [a, b, c] }
 }
 
 fn one_triangle(
@@ -470,7 +482,7 @@ fn samples(
     window: PixelRect,
     truth: &Truth,
 ) {
-    let drawn = Declaration::from(&truth.declared).draws(super::expected::area2(corners));
+    let drawn = Declaration::from(&truth.declared).draws(area2(corners));
     let Some(expected) = multisample::masks(&Oracle, *corners, window).filter(|_| drawn) else {
         return;
     };

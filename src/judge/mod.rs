@@ -44,6 +44,8 @@ pub struct Options {
     pub families: Vec<String>,
     /// Only the case of this number.
     pub only: Option<u64>,
+    /// How long the smallest failing case of a property is looked for.
+    pub patience: Duration,
     /// Every case and every failure is remembered, for a baseline.
     pub remember: bool,
 }
@@ -56,6 +58,7 @@ impl Default for Options {
             time_limit: None,
             families: Vec::new(),
             only: None,
+            patience: Duration::from_secs(5),
             remember: false,
         }
     }
@@ -90,7 +93,7 @@ pub fn judge(
     let declared = first.declared().clone();
     let mut truth = Truth::of(&declared);
     let windings = stages::windings(&mut **first, options.seed);
-    truth.both_windings = windings.both();
+    truth.drawn = windings.seen().unwrap_or(truth.drawn);
     let mut recognised = (None, String::new());
     if let Some(Recognised { sentence, words, expect }) = recognise(&mut **first, &windings) {
         recognised = (Some(sentence), words);

@@ -1,7 +1,7 @@
 //! Failing cases made small while the program is asked, and what was said about them.
 
 use std::cell::RefCell;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use super::Options;
 use super::ask::{Answer, Ask, Misbehaviour, show};
@@ -46,8 +46,6 @@ pub struct Exchange {
 
 /// Properties whose first failing case is shown.
 const MOST_SHOWN: usize = 6;
-/// How long one case is shrunk, and all together.
-const PATIENCE: Duration = Duration::from_secs(5);
 
 /// The first failing case of each property, those of the most often wrong first, shrunk.
 pub fn failures(
@@ -60,12 +58,12 @@ pub fn failures(
     rows.sort_by(|a, b| super::verdict::share(b).total_cmp(&super::verdict::share(a)));
     let of = |name: &str| found.failing.iter().find(|f| f.property == name);
     let firsts = rows.into_iter().filter_map(|row| of(row.name)).take(MOST_SHOWN);
-    firsts.filter_map(|failing| failure(program, failing, options.seed, truth)).collect()
+    firsts.filter_map(|failing| failure(program, failing, options, truth)).collect()
 }
 
 fn failure(program: &mut dyn Ask, failing: &Failing, seed: u64, truth: &Truth) -> Option<Failure> {
     let family = hazard::families().find(|f| f.name == failing.family)?;
-    let case = place::put(family.case(seed, failing.index), &truth.declared);
+    let case = place::put(family.case(options.seed, failing.index), &truth.declared);
     let check = Check::of(family.name, &case, failing.index, &truth.declared)
         .into_iter()
         .find(|check| check.name(family.name) == failing.property)?;
@@ -88,7 +86,7 @@ fn failure(program: &mut dyn Ask, failing: &Failing, seed: u64, truth: &Truth) -
         shrink::shrink(case, |smaller| {
             let is_asked = place::holds(smaller, &truth.declared)
                 && (leaves || !place::leaves_window(smaller))
-                && start.elapsed() < PATIENCE;
+                && start.elapsed() < options.patience;
             // A mesh that falls apart is no mesh.
             let smaller = place::put(smaller.clone(), &truth.declared);
             is_asked && still_a_mesh(check, &smaller) && judged(&smaller).is_wrong()

@@ -28,12 +28,6 @@ impl Windings {
         2 * drawn > answered
     }
 
-    /// Whether most of both are drawn.
-    #[must_use]
-    pub fn both(&self) -> bool {
-        Self::drawn(self.clockwise) && Self::drawn(self.counter_clockwise)
-    }
-
     /// Whether most of either are drawn.
     #[must_use]
     pub fn any(&self) -> bool {

@@ -6,6 +6,7 @@ mod cost;
 mod exact;
 mod exhaust;
 mod house;
+mod judge;
 mod languages;
 mod matrix;
 mod models;
