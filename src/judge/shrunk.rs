@@ -61,7 +61,12 @@ pub fn failures(
     firsts.filter_map(|failing| failure(program, failing, options, truth)).collect()
 }
 
-fn failure(program: &mut dyn Ask, failing: &Failing, seed: u64, truth: &Truth) -> Option<Failure> {
+fn failure(
+    program: &mut dyn Ask,
+    failing: &Failing,
+    options: &Options,
+    truth: &Truth,
+) -> Option<Failure> {
     let family = hazard::families().find(|f| f.name == failing.family)?;
     let case = place::put(family.case(options.seed, failing.index), &truth.declared);
     let check = Check::of(family.name, &case, failing.index, &truth.declared)
