@@ -240,9 +240,9 @@ impl Declared {
     pub fn capabilities(&self) -> Vec<&'static str> {
         let all = [
             ("coverage", self.coverage),
-            ("line", self.line),
             ("attributes", self.attributes),
             ("samples4", self.samples4),
+            ("line", self.line),
         ];
         all.iter().filter(|(_, has)| *has).map(|(word, _)| *word).collect()
     }

@@ -60,9 +60,10 @@ fn judge_agrees_with_the_engines() {
 }
 
 /// Faults that no request can show: the protocol's windows begin at the origin, and its lines have
-/// no values.
-const INVISIBLE: [&str; 3] =
-    ["truncates-towards-zero", "seam-between-tiles", "line-weights-from-clip"];
+/// no values; and one whose errors lie within 32 u M, the one tolerance that our engines declare for
+/// all values, and outside the bound u (15 D + 2 M) of `verify` where all corners have one value.
+const INVISIBLE: [&str; 4] =
+    ["truncates-towards-zero", "seam-between-tiles", "line-weights-from-clip", "naive-barycentric"];
 
 /// What `verify` finds (`tests/it/mutants.rs`), the judge finds too.
 #[test]
