@@ -183,7 +183,7 @@ impl Check {
                 }
                 if declared.coverage && !is_perspective {
                     checks.push(Self::Coverage);
-                    if index % 4 == 0 && list.len() == 1 {
+                    if index.is_multiple_of(4) && list.len() == 1 {
                         checks.push(Self::Order);
                     }
                     if *disjoint {

@@ -313,11 +313,11 @@ impl Live {
                 format!("{said} ({why})")
             })
         };
-        let letter = match words.next() {
+        let letter = match words.word() {
             Some([letter @ (b'C' | b'F' | b'M' | b'P' | b'E')]) => *letter,
             _ => return Err(nonsense("no answer begins like this")),
         };
-        let named = words.next().unwrap_or(b"");
+        let named = words.word().unwrap_or(b"");
         let named_id = std::str::from_utf8(named).ok().and_then(|word| word.parse::<u64>().ok());
         if named_id != Some(id) {
             let text = |id: u64, q: &Question| printable(q.text(id).as_bytes(), 80);

@@ -50,7 +50,7 @@ pub struct Words<'a>(pub &'a [u8]);
 
 impl<'a> Words<'a> {
     /// The next word, or nothing at the end.
-    pub fn next(&mut self) -> Option<&'a [u8]> {
+    pub fn word(&mut self) -> Option<&'a [u8]> {
         let start = self.0.iter().position(|b| !b.is_ascii_whitespace())?;
         let rest = &self.0[start..];
         let end = rest.iter().position(u8::is_ascii_whitespace).unwrap_or(rest.len());
@@ -84,7 +84,7 @@ impl<'a> Words<'a> {
 
     /// The next word as a number.
     pub fn float(&mut self) -> Option<f64> {
-        number(std::str::from_utf8(self.next()?).ok()?)
+        number(std::str::from_utf8(self.word()?).ok()?)
     }
 
     /// Whether nothing is left.
