@@ -47,6 +47,7 @@ pub mod frame;
 pub mod grid;
 pub mod hazard;
 pub mod invariant;
+pub mod judge;
 pub mod ladder;
 pub mod line;
 pub mod lineup;

@@ -721,3 +721,20 @@ pub const SPECIMENS: [Entry; 15] = [
 pub fn find(name: &str) -> Option<&'static Entry> {
     ENTRIES.iter().chain(&SPECIMENS).find(|entry| entry.name == name)
 }
+
+/// The rasterizer or line drawer with the planted fault of this name.
+#[must_use]
+pub fn find_planted(name: &str) -> Option<Entry> {
+    let engine = TriangleMutant::ALL.into_iter().find(|mutant| mutant.name() == name);
+    let line = LineMutant::ALL.into_iter().find(|mutant| mutant.name() == name);
+    let exact = ExactMutant::ALL.into_iter().find(|mutant| mutant.name() == name);
+    let named = engine.map(TriangleMutant::name).or(line.map(LineMutant::name));
+    Some(Entry {
+        name: named.or(exact.map(|mutant| mutant.name()))?,
+        about: "a planted fault",
+        engine: engine.map(Engine::Mutant),
+        line_engine: line.map(LineEngine::Mutant),
+        exact_engine: exact.map(ExactEngine::Mutant),
+        specimen: None,
+    })
+}

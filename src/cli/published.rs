@@ -25,13 +25,6 @@ pub fn speaks(entry: &Entry, verb: &str) -> bool {
     }
 }
 
-/// What a specimen says of itself after HELLO; nothing for an engine.
-pub fn capabilities(entry: &Entry) -> impl Iterator<Item = &'static str> {
-    [("T", "coverage"), ("I", "attributes"), ("L", "line")]
-        .into_iter()
-        .filter_map(|(verb, capability)| speaks(entry, verb).then_some(capability))
-}
-
 /// Answers a request that [`speaks`] accepts.
 pub fn answer(entry: &Entry, verb: &str, window: PixelRect, numbers: &[f64]) -> Reply {
     match (entry.specimen, verb) {

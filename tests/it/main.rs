@@ -10,6 +10,7 @@ mod exhaust;
 mod figures;
 mod house;
 mod illustrations;
+mod judge;
 mod languages;
 mod matrix;
 mod models;
