@@ -12,6 +12,7 @@ use clap::builder::PossibleValue;
 use glam::DVec2;
 
 use super::misbehave::{self, Fault};
+use super::reply::{Reply, named};
 use super::{Failure, Streams, exit, published};
 use crate::contract::{DrawLine, Interpolate, Rasterize, RasterizeExact};
 use crate::grid::{MAX_SIDE_PX, PixelRect, Refusal, SUBPIXELS, SubpixelPoint};
@@ -227,17 +228,11 @@ fn window(width: &str, height: &str) -> Result<PixelRect, String> {
     Ok(PixelRect::window(side("width", width)?, side("height", height)?))
 }
 
-pub(super) fn named(name: &str) -> impl FnOnce(Refusal) -> String {
-    move |refusal| format!("{name} {refusal}")
-}
-
 fn point(numbers: &[f64], i: usize) -> Result<SubpixelPoint, String> {
     let snap =
         |value: f64, axis: &str| crate::grid::snap(value).map_err(named(&format!("{axis}{i}")));
     Ok(SubpixelPoint::new(snap(numbers[0], "x")?, snap(numbers[1], "y")?))
 }
-
-pub(super) type Reply = Result<(char, usize, String), String>;
 
 fn cover(engine: Engine, window: PixelRect, numbers: &[f64]) -> Reply {
     let corners = [point(&numbers[0..], 0)?, point(&numbers[2..], 1)?, point(&numbers[4..], 2)?];

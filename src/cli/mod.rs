@@ -11,6 +11,7 @@ mod misbehave;
 mod plan;
 mod published;
 mod render;
+mod reply;
 mod review;
 mod specimens;
 mod verify;

@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 
 use glam::DVec2;
 
-use super::engine::{Reply, named};
+use super::reply::{Reply, named};
 use crate::grid::{PixelRect, Refusal};
 use crate::lineup::{Entry, LineSpecimen, Specimen, TriangleSpecimen};
 use crate::specimen::{Published as _, PublishedLine as _, RealTriangle, RealVertex, bare};

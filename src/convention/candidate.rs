@@ -4,9 +4,10 @@ use super::bench::Answer;
 use super::general::area;
 use super::mask::Mask;
 use super::outline::LineTie;
+use super::place::{Place, turn};
 use super::quantum::Quantum;
 use super::rule::Windings;
-use super::shape::{Place, Shape, turn};
+use super::shape::Shape;
 use crate::grid::PixelRect;
 use crate::triangle::Corners;
 

@@ -8,7 +8,6 @@ use super::fit::Fit;
 use super::rule::{Convention, Ties, Windings};
 use super::search::Seen;
 use super::ties::{Compass, Count};
-use super::words;
 use super::{Ask, Known};
 use crate::frame::Coverage;
 
@@ -215,11 +214,5 @@ impl Diagnosis {
         (self.confidence != Confidence::Unexplained)
             .then(|| self.convention.cover(&question.corners, question.window))
             .flatten()
-    }
-
-    /// The convention in plain words.
-    #[must_use]
-    pub fn sentence(&self) -> String {
-        words::diagnosis(self)
     }
 }

@@ -2,8 +2,8 @@
 //! a pixel flips, orders of the corners, triangles without area.
 
 use super::bench::{Answer, Bench};
+use super::place::turn;
 use super::rule::Windings;
-use super::shape::turn;
 use super::{Count, Quantum};
 use crate::grid::SubpixelPoint;
 use crate::triangle::Corners;

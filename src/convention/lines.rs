@@ -6,7 +6,6 @@ use serde::Serialize;
 use super::diagnosis::Confidence;
 use super::outline::{End, Line, LineTie};
 use super::ties::Count;
-use super::words;
 use crate::grid::PixelRect;
 use crate::hazard::Rng;
 
@@ -400,11 +399,5 @@ impl LineDiagnosis {
         (self.confidence != Confidence::Unexplained)
             .then(|| self.convention.pixels(question))
             .flatten()
-    }
-
-    /// The convention in plain words.
-    #[must_use]
-    pub fn sentence(&self) -> String {
-        words::lines(self)
     }
 }

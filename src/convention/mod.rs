@@ -15,9 +15,11 @@ mod candidate;
 mod diagnosis;
 mod fit;
 mod general;
+mod half_planes;
 mod lines;
 mod mask;
 mod outline;
+mod place;
 mod quantum;
 mod rule;
 mod search;
@@ -34,7 +36,8 @@ pub use lines::{
     AskLine, Ends, LineConvention, LineDiagnosis, LineQuestion, LineRounding, Steps, diagnose_lines,
 };
 pub use outline::{End, LineTie};
+pub use place::FACINGS;
 pub use quantum::{Quantum, Rounding};
 pub use rule::{Convention, CornerRule, Ties, Windings};
-pub use shape::{FACINGS, Shape};
+pub use shape::Shape;
 pub use ties::{Compass, Count};

@@ -2,7 +2,8 @@
 
 use serde::Serialize;
 
-use super::shape::{Place, Points, Shape};
+use super::half_planes;
+use super::place::{Place, Points};
 use crate::grid::PixelRect;
 
 /// Where a line goes that passes exactly between two pixels. 'Go' means on, in its minor direction,
@@ -194,7 +195,7 @@ impl Line {
 /// Sides of more pixels than this are not walked.
 const MOST_STEPS: i64 = 1 << 13;
 
-/// As [`Shape::trace`]: the pixels whose corner lies in the closed triangle, and the three sides.
+/// As [`super::shape::Shape::trace`]: the pixels whose corner lies in the closed triangle, and the three sides.
 /// Corners are multiples of a pixel.
 pub(super) fn trace(
     points: &Points,
@@ -207,7 +208,7 @@ pub(super) fn trace(
     if lines.iter().any(|line| line.steps() > MOST_STEPS) {
         return false;
     }
-    Shape::Point { x: 0, y: 0 }.trace(points, window, &mut |x, y, _| emit(x, y, Place::In));
+    half_planes::at(0, 0).trace(points, window, &mut |x, y, _| emit(x, y, Place::In));
     for line in lines {
         for step in 0..=line.steps() {
             let [x, y] = line.pixel(step, line.nearest(step, tie)).map(|v| v as i32);

@@ -4,8 +4,9 @@
 use serde::Serialize;
 
 use super::mask::{Mask, SIDE_PX};
+use super::place::{FACINGS, Place, turn};
 use super::quantum::Quantum;
-use super::shape::{FACINGS, Place, Shape, turn};
+use super::shape::Shape;
 use crate::frame::Coverage;
 use crate::grid::PixelRect;
 use crate::triangle::Corners;

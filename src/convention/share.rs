@@ -4,7 +4,7 @@
 //! upward takes away, the area between the box's left border and the edge (its x held to the box).
 //! Each term is a fraction over twice the edge's height and width, so the sum is one fraction.
 
-use super::shape::{Place, Points, around, turn};
+use super::place::{Place, Points, around, turn};
 use crate::grid::PixelRect;
 
 /// Corners within this many subpixels of each other keep every product within i128.

@@ -4,7 +4,7 @@
 //! grid of the corners, the slope to 1/65536 px a row; then the slope is added row by row. Both
 //! roundings move an edge by up to a step of the grid, so two triangles at one edge still agree.
 
-use super::shape::{Place, Points, around};
+use super::place::{Place, Points, around};
 use crate::grid::PixelRect;
 
 /// Corners on 1/64 px: the grid of the first crossing.

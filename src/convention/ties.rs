@@ -6,8 +6,9 @@ use serde::Serialize;
 use super::bench::{Answer, Bench};
 use super::candidate::Candidate;
 use super::general::{area, drawable};
+use super::place::Place;
 use super::rule::{CornerRule, Ties, Windings};
-use super::shape::{Place, Shape};
+use super::shape::Shape;
 use crate::grid::SubpixelPoint;
 use crate::triangle::Corners;
 

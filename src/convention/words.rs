@@ -4,9 +4,10 @@ use super::bench::LEAST_SIDE_PX;
 use super::diagnosis::{Confidence, Diagnosis};
 use super::lines::{Ends, LineConvention, LineDiagnosis, LineRounding, Steps};
 use super::outline::End;
+use super::place::FACINGS;
 use super::quantum::{Quantum, Rounding};
 use super::rule::{Convention, Windings};
-use super::shape::{FACINGS, Shape};
+use super::shape::Shape;
 use super::ties::{Compass, Count};
 
 /// Subpixels as a decimal number of pixels.
@@ -128,8 +129,15 @@ fn convention(of: &Convention, compass: &Compass) -> String {
     format!("{winding}{}{}{}", quantum(of.quantum), shape(of.shape), ties(of, compass))
 }
 
-/// See [`Diagnosis::sentence`].
-pub(super) fn diagnosis(found: &Diagnosis) -> String {
+impl Diagnosis {
+    /// The convention in plain words.
+    #[must_use]
+    pub fn sentence(&self) -> String {
+        diagnosis(self)
+    }
+}
+
+fn diagnosis(found: &Diagnosis) -> String {
     match (found.asked, found.asked == found.refused) {
         (0, _) => return format!("Not asked: a window or range of {LEAST_SIDE_PX} px is needed."),
         (asked, true) => return format!("Unexplained: it answered none of {asked} questions."),
@@ -194,8 +202,15 @@ fn line_convention(of: &LineConvention) -> String {
     format!("{pixel}; {ends}{steps}")
 }
 
-/// See [`LineDiagnosis::sentence`].
-pub(super) fn lines(found: &LineDiagnosis) -> String {
+impl LineDiagnosis {
+    /// The convention in plain words.
+    #[must_use]
+    pub fn sentence(&self) -> String {
+        lines(self)
+    }
+}
+
+fn lines(found: &LineDiagnosis) -> String {
     let words = line_convention(&found.convention);
     let share = found.as_found.percent().map_or("none".to_owned(), |p| format!("{p:.1} %"));
     let mut text = match found.confidence {

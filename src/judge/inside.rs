@@ -118,7 +118,9 @@ fn published_line(
     let Asked::Line { ends, .. } = &question.of else { return Ok(()) };
     let centre = ends.map(|p| [f64::from(p.x) + 0.5, f64::from(p.y) + 0.5]);
     let window = PixelRect::window(question.width, question.height);
-    specimen.draw(centre, window, &mut |x, y| pixels.push((x, y))).map_err(|refused| refused.to_string())
+    specimen
+        .draw(centre, window, &mut |x, y| pixels.push((x, y)))
+        .map_err(|refused| refused.to_string())
 }
 
 /// Runs of pixels of a row with the same samples covered.
