@@ -51,6 +51,7 @@ impl<T: Copy> Frame<T> {
 
     /// The pixels this frame holds.
     #[must_use]
+    #[inline]
     pub fn bounds(&self) -> PixelRect {
         self.bounds
     }
@@ -102,6 +103,7 @@ impl<T: Copy> Frame<T> {
 
     /// The value of pixel (x, y), or nothing outside the frame.
     #[must_use]
+    #[inline]
     pub fn get(&self, x_px: i32, y_px: i32) -> Option<T> {
         self.bounds.contains(x_px, y_px).then(|| self.row(y_px)[(x_px - self.bounds.x0) as usize])
     }

@@ -138,12 +138,15 @@ pub struct ScreenTriangle<V> {
 impl<V: Copy> ScreenTriangle<V> {
     /// Positions of the vertices, in subpixels.
     #[must_use]
+    #[inline]
     pub fn corners(&self) -> Corners {
-        self.vertices.map(|vertex| vertex.position)
+        let [a, b, c] = &self.vertices;
+        [a.position, b.position, c.position]
     }
 
     /// The same at w = 1, where interpolation in the window is that in space.
     #[must_use]
+    #[inline]
     pub fn with_equal_w(&self) -> Self {
         // A loop: `map` is not inlined here, and that showed.
         let mut equal = *self;

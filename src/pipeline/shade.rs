@@ -16,24 +16,35 @@ pub struct Attributes<const N: usize>(pub [f64; N]);
 impl<const N: usize> Add for Attributes<N> {
     type Output = Self;
     #[inline]
-    fn add(self, other: Self) -> Self {
-        Self(std::array::from_fn(|i| self.0[i] + other.0[i]))
+    fn add(mut self, other: Self) -> Self {
+        #[expect(clippy::needless_range_loop, reason = "adapters cost a build their copies")]
+        for i in 0..N {
+            self.0[i] += other.0[i];
+        }
+        self
     }
 }
 
 impl<const N: usize> Sub for Attributes<N> {
     type Output = Self;
     #[inline]
-    fn sub(self, other: Self) -> Self {
-        Self(std::array::from_fn(|i| self.0[i] - other.0[i]))
+    fn sub(mut self, other: Self) -> Self {
+        #[expect(clippy::needless_range_loop, reason = "adapters cost a build their copies")]
+        for i in 0..N {
+            self.0[i] -= other.0[i];
+        }
+        self
     }
 }
 
 impl<const N: usize> Mul<f64> for Attributes<N> {
     type Output = Self;
     #[inline]
-    fn mul(self, factor: f64) -> Self {
-        Self(self.0.map(|value| value * factor))
+    fn mul(mut self, factor: f64) -> Self {
+        for value in &mut self.0 {
+            *value *= factor;
+        }
+        self
     }
 }
 

@@ -21,8 +21,8 @@ pub type Colour = [u8; 4];
 #[inline]
 pub fn to_colour(rgb: DVec3) -> Colour {
     // `as` takes what is below 0, and NaN, to 0 and what is above 255 to 255.
-    let [r, g, b] = rgb.to_array().map(|c| (c * 255.0 + (0.5 + OFF_FRACTION)) as u8);
-    [r, g, b, u8::MAX]
+    let byte = |c: f64| (c * 255.0 + (0.5 + OFF_FRACTION)) as u8;
+    [byte(rgb.x), byte(rgb.y), byte(rgb.z), u8::MAX]
 }
 
 /// How many samples a pixel has and where.

@@ -105,6 +105,7 @@ impl Texture {
     }
 
     /// A coordinate in 1/256 texel.
+    #[inline]
     fn subtexel(&self, coordinate: f64, side: u32) -> i64 {
         let texels = coordinate * f64::from(side) * SUBTEXELS as f64;
         // `as` saturates, and takes NaN to 0; the quarter keeps sums in range.
@@ -112,6 +113,7 @@ impl Texture {
         (texels + (0.5 + OFF_FRACTION)).floor().clamp(-limit, limit) as i64
     }
 
+    #[inline]
     fn texel(&self, column: i64, row: i64) -> DVec3 {
         let wrap = |at: i64, side: u32| match self.wrap {
             Wrap::Repeat => at.rem_euclid(i64::from(side)) as usize,

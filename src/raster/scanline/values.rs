@@ -116,6 +116,7 @@ struct Edge<V> {
 
 impl<V: Varying> Edge<V> {
     /// From a vertex with its relative 1/w down to another.
+    #[inline]
     fn new((from, from_q): &(ScreenVertex<V>, f64), (to, to_q): &(ScreenVertex<V>, f64)) -> Self {
         let (a, b) = (from.position, to.position);
         Self {
@@ -131,6 +132,7 @@ impl<V: Varying> Edge<V> {
     /// The book's formula (8) of section 5.4 at the height of the row's centres: v/w and 1/w are
     /// linear down the edge, their quotient is the value. Written with the difference of the ends,
     /// so that equal ends give their value exactly.
+    #[inline]
     fn at(&self, y_px: i32) -> RowEnd<V> {
         let Self { a, dx, dy, .. } = *self;
         let down = centre(y_px) - i64::from(a.y);
@@ -167,6 +169,7 @@ struct RowEnd<V> {
 impl<V: Varying> RowEnd<V> {
     /// How far the centre of column `x_px` lies right of the edge, in subpixels, times dy; exact
     /// but for the rounding to f64.
+    #[inline]
     fn distance(&self, x_px: i32) -> f64 {
         let right = centre(x_px) - i64::from(self.a.x);
         if right.abs().max(self.dx.abs()).max(self.dy) < 1 << 30 {
