@@ -277,3 +277,39 @@ Proof.
     + apply tests_are_parity; assumption.
     + rewrite tests_are_parity by (rewrite area2_flip; lia). apply inside_flip.
 Qed.
+
+(** ** A covered sample lies in the bounding box of the corners *)
+
+Definition min3 a b c := Z.min a (Z.min b c).
+Definition max3 a b c := Z.max a (Z.max b c).
+
+Lemma range_swap p q r x : min3 p r q <= x <= max3 p r q -> min3 p q r <= x <= max3 p q r.
+Proof. unfold min3, max3. rewrite (Z.min_comm r q), (Z.max_comm r q). auto. Qed.
+
+Lemma tests_in_box a b c x y : 0 < area2 a b c -> tests a b c x y = true ->
+  min3 (X a) (X b) (X c) <= x <= max3 (X a) (X b) (X c) /\
+  min3 (Y a) (Y b) (Y c) <= y <= max3 (Y a) (Y b) (Y c).
+Proof.
+  intros HA T. apply tests_and in T as (T1 & T2 & T3). apply test_E in T1, T2, T3.
+  pose proof (E_sum a b c x y). pose proof (E_balance a b c x y). pose proof (E_balance_x a b c x y).
+  assert (P : forall p q r, E b c x y * p + E c a x y * q + E a b x y * r = 0 ->
+              0 < p -> 0 < q -> 0 < r -> False).
+  { intros p q r H3 Hp Hq Hr.
+    pose proof (balance_pos (E b c x y) (E c a x y) (E a b x y) p q r). lia. }
+  unfold min3, max3. repeat split; apply Z.nlt_ge; intros L.
+  - apply (P (X a - x) (X b - x) (X c - x)); lia.
+  - apply (P (x - X a) (x - X b) (x - X c)); lia.
+  - apply (P (Y a - y) (Y b - y) (Y c - y)); lia.
+  - apply (P (y - Y a) (y - Y b) (y - Y c)); lia.
+Qed.
+
+Theorem inside_in_box a b c x y : inside a b c x y = true ->
+  min3 (X a) (X b) (X c) <= x <= max3 (X a) (X b) (X c) /\
+  min3 (Y a) (Y b) (Y c) <= y <= max3 (Y a) (Y b) (Y c).
+Proof.
+  rewrite <- edge_cover_is_parity. unfold edge_cover.
+  destruct (Z.eqb_spec (area2 a b c) 0); [discriminate |].
+  destruct (Z.ltb_spec 0 (area2 a b c)); intros C; apply tests_in_box in C;
+    try assumption; [| rewrite area2_flip; lia].
+  destruct C. split; eapply range_swap; eassumption.
+Qed.

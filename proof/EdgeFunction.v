@@ -69,9 +69,6 @@ Fixpoint walk (rights downs : triple) (width : nat) (n : nat) (x y : Z) (row : t
       end
   end.
 
-Definition min3 a b c := Z.min a (Z.min b c).
-Definition max3 a b c := Z.max a (Z.max b c).
-
 (** The pixels of the window whose centres lie in the bounding box of the corners. *)
 Definition pixel_box (h : Z) (a b c : point) (r : rect) : rect :=
   Rect (Z.max (first_centre h (min3 (X a) (X b) (X c))) (x0 r))
@@ -168,23 +165,6 @@ Proof.
 Qed.
 
 (** ** What it covers *)
-
-Lemma tests_in_box a b c x y : 0 < area2 a b c -> tests a b c x y = true ->
-  min3 (X a) (X b) (X c) <= x <= max3 (X a) (X b) (X c) /\
-  min3 (Y a) (Y b) (Y c) <= y <= max3 (Y a) (Y b) (Y c).
-Proof.
-  intros HA T. apply tests_and in T as (T1 & T2 & T3). apply test_E in T1, T2, T3.
-  pose proof (E_sum a b c x y). pose proof (E_balance a b c x y). pose proof (E_balance_x a b c x y).
-  assert (P : forall p q r, E b c x y * p + E c a x y * q + E a b x y * r = 0 ->
-              0 < p -> 0 < q -> 0 < r -> False).
-  { intros p q r H3 Hp Hq Hr.
-    pose proof (balance_pos (E b c x y) (E c a x y) (E a b x y) p q r). lia. }
-  unfold min3, max3. repeat split; apply Z.nlt_ge; intros L.
-  - apply (P (X a - x) (X b - x) (X c - x)); lia.
-  - apply (P (x - X a) (x - X b) (x - X c)); lia.
-  - apply (P (Y a - y) (Y b - y) (Y c - y)); lia.
-  - apply (P (y - Y a) (y - Y b) (y - Y c)); lia.
-Qed.
 
 (** A half-plane that holds at both ends of a run holds in between. *)
 Lemma test_convex h a b i j k y : 0 < h -> i <= j <= k ->
@@ -339,15 +319,9 @@ Proof.
     cbn [r pixel_box x0 x1 y0 y1] in *. lia. }
   assert (Box : in_rect bounds px py && inside a b c (centre h px) (centre h py) =
     in_rect r px py && inside a b c (centre h px) (centre h py)).
-  { rewrite <- edge_cover_is_parity.
-    destruct (edge_cover a b c (centre h px) (centre h py)) eqn:C;
+  { destruct (inside a b c (centre h px) (centre h py)) eqn:C;
       [rewrite !andb_true_r | rewrite !andb_false_r; reflexivity].
-    assert (min3 (X a) (X b) (X c) <= centre h px <= max3 (X a) (X b) (X c) /\
-            min3 (Y a) (Y b) (Y c) <= centre h py <= max3 (Y a) (Y b) (Y c)) as [Bx By].
-    { unfold edge_cover in C. destruct (Z.eqb_spec (area2 a b c) 0); [discriminate |].
-      destruct (Z.ltb_spec 0 (area2 a b c)); apply tests_in_box in C; try assumption;
-        [| rewrite area2_flip; lia].
-      unfold min3, max3 in *; lia. }
+    apply inside_in_box in C as [Bx By].
     rewrite <- !first_centre_le, <- !end_centre_lt in Bx, By by assumption.
     apply eq_true_iff_eq. unfold in_rect. rewrite !andb_true_iff, !Z.leb_le, !Z.ltb_lt.
     cbn [r pixel_box x0 x1 y0 y1]. lia. }

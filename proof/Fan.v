@@ -135,3 +135,28 @@ Proof.
       - intros ->. unfold area2, E in K. lia. }
     specialize (IH (fun e He => Cl e (or_intror He))). lia.
 Qed.
+
+(** ** Exactly once inside the rim *)
+
+(** The oracle's question, asked of the whole rim: an odd number of crossings to the left. *)
+Definition inside_rim (rim : list (point * point)) x y : bool :=
+  fold_right (fun e odd => xorb (crosses (fst e) (snd e) x y) odd) false rim.
+
+Lemma winding_is_odd rim x y : Z.odd (winding rim x y) = inside_rim rim x y.
+Proof.
+  unfold winding, inside_rim. induction rim as [| [a b] rim IH]; [reflexivity |].
+  cbn [sum fold_right fst snd]. rewrite Z.odd_add, IH. f_equal.
+  unfold turn, crosses. destruct (above a y), (above b y); try reflexivity;
+    match goal with |- context [left_of ?p ?q x y] => destruct (left_of p q x y) end; reflexivity.
+Qed.
+
+(** Every sample inside the rim is covered exactly once, and none outside: no holes, no double hits. *)
+Theorem fan_once_inside o rim x y : closed rim -> Forall clockwise (fan o rim) ->
+  winding rim (X o) (Y o) = 1 ->
+  times_covered (fan o rim) x y = Z.b2z (inside_rim rim x y).
+Proof.
+  intros C H W. pose proof (fan_never_twice o rim x y C H W) as R.
+  rewrite <- winding_is_odd, <- (fan_is_winding o rim x y C H).
+  assert (times_covered (fan o rim) x y = 0 \/ times_covered (fan o rim) x y = 1) as [-> | ->] by lia;
+    reflexivity.
+Qed.

@@ -184,3 +184,19 @@ Proof.
     rewrite !A, !L. reflexivity. }
   unfold inside. rewrite !T. reflexivity.
 Qed.
+
+(** ** Quads: whichever diagonal cuts it, the same samples, none twice *)
+
+Theorem quad_either_diagonal a b c d x y :
+  0 < area2 a b c -> 0 < area2 a c d -> 0 < area2 a b d -> 0 < area2 b c d ->
+  times_covered [(a, b, c); (a, c, d)] x y = times_covered [(a, b, d); (b, c, d)] x y /\
+  0 <= times_covered [(a, b, c); (a, c, d)] x y <= 1.
+Proof.
+  intros H1 H2 H3 H4. unfold times_covered; cbn [sum covers]. split.
+  - rewrite !inside_is_winding by assumption.
+    pose proof (turn_flip (c, a) x y). pose proof (turn_flip (d, b) x y).
+    unfold flip in *; cbn [fst snd] in *. lia.
+  - pose proof (shared_edge_never_twice c a b d x y) as N.
+    rewrite (area2_cycle b c a), (area2_cycle a b c), (inside_cycle b c a), (inside_cycle a b c) in N.
+    specialize (N H1 H2). destruct (inside a b c x y), (inside a c d x y); cbn in *; try discriminate; lia.
+Qed.
