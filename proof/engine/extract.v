@@ -1,4 +1,5 @@
-(* What proof-engine runs. Without ExtrOcamlZBigInt it is the pure build: no mapping to trust. *)
+(* What proof-engine runs: the models in machine words, and the oracle. Without ExtrOcamlZBigInt it
+   is the pure build, which has no mapping to trust. *)
 From Coq Require Import Extraction ExtrOcamlBasic ExtrOcamlZBigInt.
-From Rasterproof Require Import Coverage Grid Scanline EdgeFunction WordWidth Lines.
-Extraction "model.ml" scanline edge_function inside centre dda bresenham.
+From Rasterproof Require Import Coverage Grid Oracle ScanlineWords EdgeFunctionWords LineWords.
+Extraction "model.ml" scanline_words edge_function_words oracle dda_words bresenham_words.

@@ -37,11 +37,15 @@ let window w h =
   let z = Num.of_int in
   { Model.x0 = z 0; y0 = z 0; x1 = z (side w); y1 = z (side h) }
 
+(* No word of the models overflows: that is proved, so this answer is never given. *)
+let held = function Some answer -> answer | None -> raise (Refused "a word overflows")
+
 let spans engine a b c window =
   let spans =
     match engine with
-    | "scanline" -> Model.scanline (Num.of_int 128) a b c window
-    | "edge-function" -> Model.edge_function a b c window
+    | "scanline" -> held (Model.scanline_words a b c window)
+    | "edge-function" -> held (Model.edge_function_words a b c window)
+    | "oracle" -> Model.oracle (Num.of_int 128) a b c window
     | _ -> raise (Refused "unsupported")
   in
   List.map (fun ((y, x0), x1) -> [ Num.to_int y; Num.to_int x0; Num.to_int x1 ]) spans
@@ -49,11 +53,11 @@ let spans engine a b c window =
 let pixels engine a b window =
   let draw =
     match engine with
-    | "dda" -> Model.dda
-    | "bresenham" -> Model.bresenham
+    | "dda" -> Model.dda_words
+    | "bresenham" -> Model.bresenham_words
     | _ -> raise (Refused "unsupported")
   in
-  List.map (fun p -> [ Num.to_int p.Model.x; Num.to_int p.Model.y ]) (draw a b window)
+  List.map (fun p -> [ Num.to_int p.Model.x; Num.to_int p.Model.y ]) (held (draw a b window))
 
 let line verb id items =
   let words = List.concat items |> List.map string_of_int in
@@ -76,8 +80,8 @@ let answer engine words =
 
 let () =
   let engine = if Array.length Sys.argv = 2 then Sys.argv.(1) else "" in
-  if not (List.mem engine [ "scanline"; "edge-function"; "dda"; "bresenham" ]) then (
-    prerr_endline "usage: proof-engine scanline|edge-function|dda|bresenham";
+  if not (List.mem engine [ "scanline"; "edge-function"; "oracle"; "dda"; "bresenham" ]) then (
+    prerr_endline "usage: proof-engine scanline|edge-function|oracle|dda|bresenham";
     exit 2);
   try
     while true do
