@@ -1,4 +1,5 @@
-(** What it means for a sample to belong to a triangle, in two ways, and that they are one. *)
+(** What it means for a sample to belong to a triangle, as src/oracle/coverage.rs says and as
+    src/raster/edge_function.rs says, and that the two are one. *)
 From Coq Require Import ZArith Lia Bool.
 Open Scope Z_scope.
 

@@ -1,4 +1,5 @@
-(** Pixels and their centres, for any even number of subpixels S = 2 h; spans and their hits. *)
+(** Pixels, their centres and windows (src/grid.rs), for any even number of subpixels S = 2 h; spans
+    and how often they hit a pixel. *)
 From Coq Require Import ZArith Lia Bool List.
 Import ListNotations.
 Open Scope Z_scope.

@@ -1,5 +1,5 @@
-(** The DDA and Bresenham's drawer (src/line), loop by loop: one list of pixels, all octants,
-    all windows, both directions. *)
+(** The DDA and Bresenham's drawer (src/line/dda.rs, src/line/bresenham.rs), loop by loop: one list of
+    pixels, all octants, all windows, both directions. *)
 From Coq Require Import ZArith Lia Bool List.
 From Rasterproof Require Import Coverage Grid.
 Import ListNotations.

@@ -11,6 +11,7 @@ mod matrix;
 mod models;
 mod mutants;
 mod page;
+mod proof;
 mod properties;
 mod protocol;
 mod recorded;
