@@ -231,7 +231,7 @@ Qed.
 Lemma tests_cycle a b c x y : tests b c a x y = tests a b c x y.
 Proof. unfold tests. destruct (test a b x y), (test b c x y), (test c a x y); reflexivity. Qed.
 
-(** *** T1, the heart: three half-planes with a top-left bias = parity of crossings. *)
+(** *** The heart: three half-planes with a top-left bias = parity of crossings. *)
 Theorem tests_are_parity a b c x y : 0 < area2 a b c -> tests a b c x y = inside a b c x y.
 Proof.
   intros HA. pose proof (area2_cycle a b c). pose proof (area2_cycle c a b).

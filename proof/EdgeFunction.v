@@ -12,7 +12,7 @@ Definition enter (h : Z) (a b : point) (px py : Z) : Z :=
 Definition right (a b : point) : Z := - (Y b - Y a).
 Definition down (a b : point) : Z := X b - X a.
 
-(** T2. E' grows by exactly -dy to the right and by dx down, and its sign is the decision. *)
+(** E' grows by exactly -dy to the right and by dx down, and its sign is the decision. *)
 Theorem enter_right h a b px py : 0 < h ->
   enter h a b (px + 1) py = enter h a b px py + right a b.
 Proof.
@@ -105,7 +105,7 @@ Proof.
   - replace bits with (1 + (bits - 1)) at 2 by lia. rewrite Z.pow_add_r by lia. reflexivity.
 Qed.
 
-(** T7, geometry: with an edge of the box a point of the box spans at most the area of the box.
+(** Geometry: with an edge of the box a point of the box spans at most the area of the box.
     E is a sum of x times differences of y that cancel. *)
 Lemma E_in_box p q x y lx hx ly hy :
   lx <= X p <= hx -> lx <= X q <= hx -> lx <= x <= hx ->
@@ -127,7 +127,7 @@ Proof.
   subst m M. lia.
 Qed.
 
-(** T7. With (Wx + S) (Wy + S) < S 2^(bits - 1), E' fits the word at every centre of the box and one
+(** With (Wx + S) (Wy + S) < S 2^(bits - 1), E' fits the word at every centre of the box and one
     step past its right border, and so do its steps. *)
 Definition word_is_wide_enough (h bits : Z) (a b c : point) : Prop :=
   0 < bits /\

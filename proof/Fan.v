@@ -1,4 +1,4 @@
-(** T4 for fans: a closed fan that goes round its hub once hits each sample at most once, and
+(** Fans: a closed fan that goes round its hub once hits each sample at most once, and
     exactly where its outline winds around it. *)
 From Coq Require Import ZArith Lia Bool List Permutation.
 From Rasterproof Require Import Coverage Mesh.

@@ -205,7 +205,7 @@ Proof.
     repeat split; try lia; destruct (_ <? 0); auto.
 Qed.
 
-(** T6, the DDA: adding the slope is multiplying by the step. *)
+(** The DDA: adding the slope is multiplying by the step. *)
 Theorem next_is_height s i : 0 <= rise s <= length s ->
   next s (height_at s i) = height_at s (i + 1).
 Proof.
@@ -232,7 +232,7 @@ Proof.
       destruct (Z.ltb_spec 0 L); try lia; rewrite andb_true_r; decide_all; nia.
 Qed.
 
-(** T6, Bresenham: the decision is what the specification says of the next step. *)
+(** Bresenham: the decision is what the specification says of the next step. *)
 Lemma enter_spec du dv t i : 0 < du -> 0 <= dv -> 0 <= t <= 1 -> 0 <= i ->
   enter du dv t i = (rise_at du dv t i, 2 * (i + 1) * dv - du - t - 2 * du * rise_at du dv t i).
 Proof.
@@ -351,7 +351,7 @@ Qed.
 Lemma tie_sgn n : tie (if n <? 0 then -1 else 1) = if n <? 0 then 1 else 0.
 Proof. destruct (n <? 0); reflexivity. Qed.
 
-(** T6. Both drawers draw the line's pixels in the window, in order, and nothing else. *)
+(** Both drawers draw the line's pixels in the window, in order, and nothing else. *)
 Theorem dda_draws a b r : dda a b r = filter (in_window r) (line a b).
 Proof.
   unfold dda. destruct (slope_of_ok a b) as (Hs & Hf & Hu). set (s := slope_of a b) in *.
@@ -498,7 +498,7 @@ Proof.
   - rewrite IH. do 3 f_equal. lia.
 Qed.
 
-(** T6, AB = BA: drawn from the other end, the line is the same list of pixels, reversed. *)
+(** AB = BA: drawn from the other end, the line is the same list of pixels, reversed. *)
 Theorem line_reverse a b : line b a = rev (line a b).
 Proof.
   assert (L : line_length b a = line_length a b) by (unfold line_length; lia).

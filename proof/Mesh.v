@@ -33,7 +33,7 @@ Proof.
         assert (m + Z.abs dx <= dy * (m + Z.abs dx)) by nia. lia.
 Qed.
 
-(** ** T4. Watertight *)
+(** ** Watertight *)
 
 (** Seen from its other side an edge decides the other way. *)
 Theorem test_flip a b x y : a <> b -> test b a x y = negb (test a b x y).
@@ -164,7 +164,7 @@ Proof.
   - rewrite (Pos a b), (Pos b c), (Pos c a) by lia. rewrite !andb_false_r. reflexivity.
 Qed.
 
-(** ** T5. Order of the corners, and translation by whole pixels *)
+(** ** Order of the corners, and translation by whole pixels *)
 
 Theorem vertex_order a b c x y :
   inside b c a x y = inside a b c x y /\ inside a c b x y = inside a b c x y.

@@ -52,7 +52,7 @@ Lemma EdgeWalk_new_spec h a b y : Y a < Y b -> EdgeWalk_new h a b y =
   Walk (X a / (2 * h) - (- M) / dy) ((- M) mod dy) (dx / dy) (dx mod dy) dy.
 Proof. intros. unfold EdgeWalk_new. rewrite !floor_div_spec by lia. reflexivity. Qed.
 
-(** T3. One step of the walk is the walk started one row further down, in all its numbers. *)
+(** One step of the walk is the walk started one row further down, in all its numbers. *)
 Theorem step_is_new h a b y : 0 < h -> Y a < Y b ->
   step (EdgeWalk_new h a b y) = EdgeWalk_new h a b (y + 1).
 Proof.

@@ -1,7 +1,7 @@
 (** The theorems that join the files: both rasterizers, every triangle, every window. *)
 From Coq Require Import ZArith Lia Bool List.
 From Rasterproof Require Import Coverage Grid Scanline EdgeFunction WordWidth Oracle Lines
-  Words ScanlineWords EdgeFunctionWords LineWords.
+  Words ScanlineWords EdgeFunctionWords OracleWords LineWords.
 Open Scope Z_scope.
 
 (** Every even number of subpixels, and every word that is wide enough. *)
@@ -28,12 +28,13 @@ Qed.
     cast changes a number, and the pixels are the same. *)
 Theorem engines_agree_in_words a b c bounds :
   in_i32 a -> in_i32 b -> in_i32 c -> rect_in_i32 bounds ->
-  exists s e, scanline_words a b c bounds = Some s /\ edge_function_words a b c bounds = Some e /\
-    forall px py, hits s px py = hits e px py.
+  exists s e o, scanline_words a b c bounds = Some s /\ edge_function_words a b c bounds = Some e /\
+    oracle_words a b c bounds = Some o /\
+    forall px py, hits s px py = hits o px py /\ hits e px py = hits o px py.
 Proof.
-  intros. exists (scanline 128 a b c bounds), (edge_function a b c bounds).
-  rewrite scanline_fits, edge_function_fits by assumption. repeat split.
-  intros. apply engines_agree; assumption.
+  intros. exists (scanline 128 a b c bounds), (edge_function a b c bounds), (oracle 128 a b c bounds).
+  rewrite scanline_fits, edge_function_fits, oracle_fits by assumption. repeat split;
+    apply engines_equal_oracle; assumption.
 Qed.
 
 (** And of the line drawers: one list of pixels, in one order. *)

@@ -1,5 +1,5 @@
-(* What proof-engine runs: the models in machine words, and the oracle. Without ExtrOcamlZBigInt it
-   is the pure build, which has no mapping to trust. *)
+(* What proof-engine runs: the models in machine words. Without ExtrOcamlZBigInt it is the pure
+   build, which has no mapping to trust. *)
 From Coq Require Import Extraction ExtrOcamlBasic ExtrOcamlZBigInt.
-From Rasterproof Require Import Coverage Grid Oracle ScanlineWords EdgeFunctionWords LineWords.
-Extraction "model.ml" scanline_words edge_function_words oracle dda_words bresenham_words.
+From Rasterproof Require Import Coverage Grid ScanlineWords EdgeFunctionWords OracleWords LineWords.
+Extraction "model.ml" scanline_words edge_function_words oracle_words dda_words bresenham_words.

@@ -45,7 +45,7 @@ let spans engine a b c window =
     match engine with
     | "scanline" -> held (Model.scanline_words a b c window)
     | "edge-function" -> held (Model.edge_function_words a b c window)
-    | "oracle" -> Model.oracle (Num.of_int 128) a b c window
+    | "oracle" -> held (Model.oracle_words a b c window)
     | _ -> raise (Refused "unsupported")
   in
   List.map (fun ((y, x0), x1) -> [ Num.to_int y; Num.to_int x0; Num.to_int x1 ]) spans
