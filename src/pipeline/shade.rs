@@ -16,8 +16,8 @@ pub struct Attributes<const N: usize>(pub [f64; N]);
 impl<const N: usize> Add for Attributes<N> {
     type Output = Self;
     #[inline]
+    // By index here: adapters cost a build their copies.
     fn add(mut self, other: Self) -> Self {
-        #[expect(clippy::needless_range_loop, reason = "adapters cost a build their copies")]
         for i in 0..N {
             self.0[i] += other.0[i];
         }
@@ -29,7 +29,6 @@ impl<const N: usize> Sub for Attributes<N> {
     type Output = Self;
     #[inline]
     fn sub(mut self, other: Self) -> Self {
-        #[expect(clippy::needless_range_loop, reason = "adapters cost a build their copies")]
         for i in 0..N {
             self.0[i] -= other.0[i];
         }

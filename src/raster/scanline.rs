@@ -110,8 +110,11 @@ fn walk(corners: &Corners, bounds: PixelRect, mut emit: impl FnMut(Span, Sides))
     }
 }
 
+/// A span and its sides.
+type Row = (Span, Sides);
+
 /// [`walk`] with its spans handed on in batches: compiled once, whatever the values are.
-fn walk_in_batches(corners: &Corners, bounds: PixelRect, take: &mut dyn FnMut(&[(Span, Sides)])) {
+fn walk_in_batches(corners: &Corners, bounds: PixelRect, take: &mut dyn FnMut(&[Row])) {
     let none = Sides { left: LONG, right: LONG, first_px: 0 };
     let mut batch = [(Span { y_px: 0, x0_px: 0, x1_px: 0 }, none); 16];
     let mut len = 0;

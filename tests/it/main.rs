@@ -17,6 +17,7 @@ mod models;
 mod mutants;
 mod page;
 mod pages;
+mod proof;
 mod properties;
 mod protocol;
 mod recorded;
