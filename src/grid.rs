@@ -48,7 +48,6 @@ pub struct SubpixelPoint {
 impl SubpixelPoint {
     /// The point at (x, y) subpixels.
     #[must_use]
-    #[inline]
     pub const fn new(x: i32, y: i32) -> Self {
         Self { x, y }
     }
@@ -63,7 +62,6 @@ impl SubpixelPoint {
 
     /// The same position in pixels, exactly.
     #[must_use]
-    #[inline]
     pub fn to_px(self) -> (f64, f64) {
         let scale = f64::from(SUBPIXELS);
         (f64::from(self.x) / scale, f64::from(self.y) / scale)
@@ -122,7 +120,6 @@ impl std::error::Error for Refusal {}
 ///
 /// # Errors
 /// [`Refusal`] for NaN, infinities and what rounds to a point outside the domain.
-#[inline]
 pub fn snap(px: f64) -> Result<i32, Refusal> {
     if px.is_nan() {
         return Err(Refusal::NotANumber);
@@ -139,7 +136,7 @@ pub fn snap(px: f64) -> Result<i32, Refusal> {
 }
 
 /// A half-open rectangle of pixels: columns x0..x1, rows y0..y1, y down.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize)]
 pub struct PixelRect {
     /// First column.
     pub x0: i32,
@@ -157,7 +154,6 @@ impl PixelRect {
     /// # Panics
     /// If a side exceeds `i32::MAX`; callers hold sides to [`MAX_SIDE_PX`].
     #[must_use]
-    #[inline]
     pub const fn window(width: u32, height: u32) -> Self {
         assert!(width <= i32::MAX as u32 && height <= i32::MAX as u32);
         Self { x0: 0, y0: 0, x1: width as i32, y1: height as i32 }
@@ -165,35 +161,30 @@ impl PixelRect {
 
     /// Columns, 0 where the rectangle is empty.
     #[must_use]
-    #[inline]
     pub fn width(&self) -> u32 {
         (i64::from(self.x1) - i64::from(self.x0)).max(0) as u32
     }
 
     /// Rows, 0 where the rectangle is empty.
     #[must_use]
-    #[inline]
     pub fn height(&self) -> u32 {
         (i64::from(self.y1) - i64::from(self.y0)).max(0) as u32
     }
 
     /// Whether no pixel lies inside.
     #[must_use]
-    #[inline]
     pub fn is_empty(&self) -> bool {
         self.x0 >= self.x1 || self.y0 >= self.y1
     }
 
     /// Whether pixel (x, y) lies inside.
     #[must_use]
-    #[inline]
     pub fn contains(&self, x_px: i32, y_px: i32) -> bool {
         (self.x0..self.x1).contains(&x_px) && (self.y0..self.y1).contains(&y_px)
     }
 
     /// The pixels that lie in both.
     #[must_use]
-    #[inline]
     pub fn intersect(&self, other: &Self) -> Self {
         Self {
             x0: self.x0.max(other.x0),

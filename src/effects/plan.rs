@@ -201,7 +201,22 @@ pub enum Clear {
     /// All.
     Everything,
     /// Those of the rectangles of the window.
+    #[serde(deserialize_with = "tiles")]
     Tiles(Vec<PixelRect>),
+}
+
+/// Reads rectangles. Not in `grid`, whose text stands in certificates of other matters.
+fn tiles<'de, D: serde::Deserializer<'de>>(from: D) -> Result<Vec<PixelRect>, D::Error> {
+    #[derive(Deserialize)]
+    #[serde(deny_unknown_fields)]
+    struct Sides {
+        x0: i32,
+        y0: i32,
+        x1: i32,
+        y1: i32,
+    }
+    let all = Vec::<Sides>::deserialize(from)?;
+    Ok(all.into_iter().map(|Sides { x0, y0, x1, y1 }| PixelRect { x0, y0, x1, y1 }).collect())
 }
 
 /// How the samples of a pixel are treated.
