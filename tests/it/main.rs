@@ -18,3 +18,4 @@ mod robustness;
 mod scenes;
 mod snapshots;
 mod specimens;
+mod surface;
