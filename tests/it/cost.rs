@@ -220,8 +220,12 @@ fn cost_plots_name_every_rung() {
 #[test]
 fn cost_json_is_read_back() {
     let options = Options { seed: 5, quick: true, timed: true };
-    let mut boards: Vec<_> = Ladder::ALL.map(|ladder| untimed(ladder, 5)).into();
-    boards[5] = measure(Ladder::Lines, &options, &|_, _| ());
+    // Counted work, goals that rank nothing, and times.
+    let boards = vec![
+        untimed(Ladder::Scanline, 5),
+        untimed(Ladder::Depth, 5),
+        measure(Ladder::Lines, &options, &|_, _| ()),
+    ];
     let recorded = Recorded {
         version: "0.0.1".to_owned(),
         repeat: "rasterproof cost --quick --seed 5".to_owned(),

@@ -77,22 +77,23 @@ fn surface_is_what_is_stated() {
     assert_eq!(listed, rooms, "src/lib.rs");
 }
 
-/// What is shown names nothing that is hidden: no type of another room stands in a promise.
+/// What is shown knows nothing that is hidden: no type of another room can stand in a promise.
 #[test]
 fn surface_shows_no_hidden_room() {
+    let documented = documented();
     let hidden: Vec<_> = read("src/lib.rs")
         .lines()
         .filter_map(|line| line.strip_prefix("pub mod ")?.strip_suffix(';').map(str::to_owned))
-        .filter(|room| !documented().contains(room))
+        .filter(|room| !documented.contains(room))
         .collect();
     assert!(hidden.len() > 5, "{hidden:?}");
     let mut wrong = Vec::new();
-    for module in documented() {
-        let text = read(file(&module));
+    for module in &documented {
+        let text = read(file(module));
         for room in &hidden {
             // The judges know the line-up, in functions that are hidden.
             let allowed = room == "lineup" && module.starts_with("verify");
-            if text.contains(&format!("use crate::{room}")) && !allowed {
+            if text.contains(&format!("crate::{room}")) && !allowed {
                 wrong.push(format!("{module} imports {room}"));
             }
         }
