@@ -136,7 +136,7 @@ pub fn snap(px: f64) -> Result<i32, Refusal> {
 }
 
 /// A half-open rectangle of pixels: columns x0..x1, rows y0..y1, y down.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
 pub struct PixelRect {
     /// First column.
     pub x0: i32,

@@ -62,6 +62,8 @@ pub mod verify;
 #[doc(hidden)]
 pub mod cli;
 #[doc(hidden)]
+pub mod convention;
+#[doc(hidden)]
 pub mod cost;
 #[doc(hidden)]
 pub mod effects;
@@ -69,6 +71,8 @@ pub mod effects;
 pub mod exhaust;
 #[doc(hidden)]
 pub mod invariant;
+#[doc(hidden)]
+pub mod judge;
 #[doc(hidden)]
 pub mod ladder;
 #[doc(hidden)]
@@ -109,8 +113,12 @@ mod docs {
     struct Chapter10;
     #[doc = include_str!("../docs/ch11.md")]
     struct Chapter11;
+    #[doc = include_str!("../docs/conventions.md")]
+    struct Conventions;
     #[doc = include_str!("../docs/effects.md")]
     struct Effects;
+    #[doc = include_str!("../docs/gpus.md")]
+    struct Gpus;
     #[doc = include_str!("../docs/games101.md")]
     struct Games101;
     #[doc = include_str!("../docs/judge.md")]

@@ -4,7 +4,8 @@
 use glam::DVec2;
 
 use crate::contract::{Decisions, DrawLine, Interpolate, Rasterize, RasterizeExact};
-use crate::effects::render::{self, BadScene, Rendered};
+use crate::effects::plan::{Canvas, Plan};
+use crate::effects::render::{self, BadScene, Misfit, Rendered};
 use crate::effects::{Effect, Effects, Mode};
 use crate::frame::Frame;
 use crate::grid::PixelRect;
@@ -202,6 +203,38 @@ impl Drawer {
         }
     }
 
+    /// As [`crate::effects::render::plan`].
+    ///
+    /// # Errors
+    /// As there.
+    pub fn plan(self, scene: &Scene, effects: &Effects, canvas: &Canvas) -> Result<Plan, BadScene> {
+        match self {
+            Self::Scanline => render::plan(scene, &Scanline, effects, canvas),
+            Self::EdgeFunction => {
+                let words = effects.mode(Effect::WideWords);
+                render::plan(scene, &in_words(words), effects, canvas)
+            }
+        }
+    }
+
+    /// As [`crate::effects::render::execute`].
+    ///
+    /// # Errors
+    /// As there.
+    pub fn execute(
+        self,
+        plan: &Plan,
+        scene: &Scene,
+        target: &mut Target,
+    ) -> Result<Rendered, Misfit> {
+        match self {
+            Self::Scanline => render::execute(plan, scene, &Scanline, target),
+            Self::EdgeFunction => {
+                render::execute(plan, scene, &in_words(plan.frame.wide_words), target)
+            }
+        }
+    }
+
     /// As [`crate::effects::render::render`].
     ///
     /// # Errors
@@ -214,7 +247,9 @@ impl Drawer {
     ) -> Result<Rendered, BadScene> {
         match self {
             Self::Scanline => render::render(scene, &Scanline, effects, target),
-            Self::EdgeFunction => render::render(scene, &in_words(effects), effects, target),
+            Self::EdgeFunction => {
+                render::render(scene, &in_words(effects.mode(Effect::WideWords)), effects, target)
+            }
         }
     }
 
@@ -230,7 +265,12 @@ impl Drawer {
     ) -> Result<(Rendered, Frame<u16>), BadScene> {
         match self {
             Self::Scanline => render::render_mapped(scene, &Scanline, effects, target),
-            Self::EdgeFunction => render::render_mapped(scene, &in_words(effects), effects, target),
+            Self::EdgeFunction => render::render_mapped(
+                scene,
+                &in_words(effects.mode(Effect::WideWords)),
+                effects,
+                target,
+            ),
         }
     }
 
@@ -247,9 +287,13 @@ impl Drawer {
     ) -> Result<Rendered, BadScene> {
         match self {
             Self::Scanline => render::render_watched(scene, &Scanline, effects, screen, look),
-            Self::EdgeFunction => {
-                render::render_watched(scene, &in_words(effects), effects, screen, look)
-            }
+            Self::EdgeFunction => render::render_watched(
+                scene,
+                &in_words(effects.mode(Effect::WideWords)),
+                effects,
+                screen,
+                look,
+            ),
         }
     }
 
@@ -269,10 +313,10 @@ impl Drawer {
     }
 }
 
-/// The edge-function engine in the words that the effects ask for.
-fn in_words(effects: &Effects) -> EdgeFunctionIn {
-    EdgeFunctionIn(match effects.mode(Effect::WideWords) {
-        Mode::Planned => Words::Narrowest,
+/// The edge-function engine in the words that a plan asks for.
+fn in_words(mode: Mode) -> EdgeFunctionIn {
+    EdgeFunctionIn(match mode {
+        Mode::Planned | Mode::Material => Words::Narrowest,
         Mode::Always => Words::Widest,
         Mode::Never => Words::Narrow,
     })
@@ -676,4 +720,21 @@ pub const SPECIMENS: [Entry; 15] = [
 #[must_use]
 pub fn find(name: &str) -> Option<&'static Entry> {
     ENTRIES.iter().chain(&SPECIMENS).find(|entry| entry.name == name)
+}
+
+/// The rasterizer or line drawer with the planted fault of this name.
+#[must_use]
+pub fn find_planted(name: &str) -> Option<Entry> {
+    let engine = TriangleMutant::ALL.into_iter().find(|mutant| mutant.name() == name);
+    let line = LineMutant::ALL.into_iter().find(|mutant| mutant.name() == name);
+    let exact = ExactMutant::ALL.into_iter().find(|mutant| mutant.name() == name);
+    let named = engine.map(TriangleMutant::name).or(line.map(LineMutant::name));
+    Some(Entry {
+        name: named.or(exact.map(|mutant| mutant.name()))?,
+        about: "a planted fault",
+        engine: engine.map(Engine::Mutant),
+        line_engine: line.map(LineEngine::Mutant),
+        exact_engine: exact.map(ExactEngine::Mutant),
+        specimen: None,
+    })
 }

@@ -1,19 +1,25 @@
-//! `rasterproof engine`: the line protocol, version 1, on standard input and output.
+//! `rasterproof engine`: the line protocol, versions 1 and 2, on standard input and output.
 //!
-//! A request is a line of words; an answer is a line, flushed before the next request is read. A
+//! A request is a line of words; an answer is a line, flushed before another request is waited for. A
 //! request that cannot be read, or asks for what is outside the domain, is answered `E id reason`
 //! and the engine goes on. Positions are window pixels, y down, snapped to 1/256 px half to even;
 //! the engines whose names end in `-exact`, and the specimens, take them as they are.
 
 use std::fmt::Write as _;
-use std::io::{BufRead, Read as _, Write};
+use std::io::{self, BufRead, BufReader, Read as _, Write};
 
+use clap::builder::PossibleValue;
 use glam::DVec2;
 
+use super::misbehave::{self, Fault};
+use super::reply::{Reply, named};
 use super::{Failure, Streams, exit, published};
 use crate::contract::{DrawLine, Interpolate, Rasterize, RasterizeExact};
 use crate::grid::{MAX_SIDE_PX, PixelRect, Refusal, SUBPIXELS, SubpixelPoint};
+use crate::judge::declared::Declared;
+use crate::judge::text::number;
 use crate::lineup::{self, Engine, Entry, ExactEngine, LineEngine};
+use crate::mutant::{Mutant, exact::ExactMutant};
 use crate::pipeline::multisample;
 use crate::triangle::{
     FreeCorners, LineEnd, PixelPoint, ScreenLine, ScreenTriangle, ScreenVertex, check_position,
@@ -22,6 +28,7 @@ use crate::triangle::{
 
 pub const HELP: &str = "Requests and answers, one a line (numbers decimal or C99 hex floats):
   HELLO 1                                    HELLO 1 <name> <capability>...
+  HELLO 2                                    HELLO 2 <name> <capability or declaration>...
   T id width height x0 y0 x1 y1 x2 y2        C id n  y x0 x1 ...      runs of covered pixels
   L id width height x0 y0 x1 y1              P id n  x y ...          pixels in drawing order
   I id width height (x y z w a b) x 3        F id n  x y z a b ...    fragments with values
@@ -32,15 +39,29 @@ names end in -exact; those answer T only. Example:
 
 /// A longer line is refused without being kept.
 const MOST_BYTES: u64 = 1 << 16;
+/// Requests that are read in one go.
+const READ_BYTES: usize = 1 << 16;
 /// Fragments that the oracle, in big integers, computes for one request.
 const MOST_EXACT_FRAGMENTS: u64 = 1 << 20;
 
-pub fn run(name: &str, streams: &mut Streams<'_>) -> Result<u8, Failure> {
-    let entry = lineup::find(name).ok_or_else(|| {
+pub fn run(name: &str, plant: Option<Fault>, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+    let entry = lineup::find(name).copied().or_else(|| lineup::find_planted(name));
+    let entry = entry.ok_or_else(|| {
         super::usage(format!("no engine is called '{name}'; see: rasterproof list"))
     })?;
+    if let Some(fault) = plant {
+        return misbehave::run(&entry, fault, streams);
+    }
+    let mut input = BufReader::with_capacity(READ_BYTES, &mut *streams.input);
     let mut line = Vec::new();
-    while read_line(streams.input, &mut line)? {
+    loop {
+        // While another request is there already, answers may wait for company.
+        if !input.buffer().contains(&b'\n') {
+            streams.output.flush()?;
+        }
+        if !read_line(&mut input, &mut line)? {
+            return Ok(exit::AGREES);
+        }
         let request = match std::str::from_utf8(&line) {
             _ if line.len() as u64 > MOST_BYTES => {
                 Err(format!("- a request has at most {MOST_BYTES} bytes"))
@@ -48,19 +69,21 @@ pub fn run(name: &str, streams: &mut Streams<'_>) -> Result<u8, Failure> {
             Err(_) => Err("- the request is not UTF-8".to_owned()),
             Ok(text) => Ok(text),
         };
-        let answered = match request {
-            Ok(text) if text.trim().is_empty() => continue,
-            Ok(text) => answer(entry, text, streams.output),
-            Err(reason) => Err(Stop::Refused(reason)),
-        };
-        match answered {
-            Ok(()) => {}
-            Err(Stop::Refused(reason)) => writeln!(streams.output, "E {reason}")?,
-            Err(Stop::Io(error)) => return Err(error.into()),
+        match request {
+            Ok(text) if text.trim().is_empty() => {}
+            Ok(text) => respond(&entry, text, streams.output)?,
+            Err(reason) => writeln!(streams.output, "E {reason}")?,
         }
-        streams.output.flush()?;
     }
-    Ok(exit::AGREES)
+}
+
+/// Writes the answer of a request, or why there is none.
+pub(super) fn respond(entry: &Entry, text: &str, out: &mut dyn Write) -> io::Result<()> {
+    match answer(entry, text, out) {
+        Ok(()) => Ok(()),
+        Err(Stop::Refused(reason)) => writeln!(out, "E {reason}"),
+        Err(Stop::Io(error)) => Err(error),
+    }
 }
 
 /// Reads a line without its end; of an overlong one the rest is thrown away. False at the end.
@@ -99,7 +122,7 @@ impl From<std::io::Error> for Stop {
     }
 }
 
-fn answer(entry: &'static Entry, text: &str, out: &mut dyn Write) -> Result<(), Stop> {
+fn answer(entry: &Entry, text: &str, out: &mut dyn Write) -> Result<(), Stop> {
     let words: Vec<&str> = text.split_whitespace().collect();
     let (verb, rest) = words.split_first().map_or(("", &[][..]), |(verb, rest)| (*verb, rest));
     if verb == "HELLO" {
@@ -159,31 +182,36 @@ fn answer(entry: &'static Entry, text: &str, out: &mut dyn Write) -> Result<(), 
 }
 
 #[derive(Clone, Copy)]
-enum Speaker {
+enum Speaker<'a> {
     Cover(Engine),
     CoverExact(ExactEngine),
     Values(Engine),
     Samples(Engine),
     Line(LineEngine),
-    Published(&'static Entry),
+    Published(&'a Entry),
 }
 
 fn hello(entry: &Entry, rest: &[&str], out: &mut dyn Write) -> Result<(), Stop> {
-    if rest != ["1"] {
-        return Err(Stop::Refused("- this engine speaks version 1: say HELLO 1".to_owned()));
+    let declared = Declared::from(entry);
+    match rest {
+        ["1"] => writeln!(out, "HELLO 1 {} {}", entry.name, declared.capabilities().join(" "))?,
+        ["2"] => writeln!(out, "HELLO 2 {} {declared}", entry.name)?,
+        _ => {
+            let reason = "- this engine speaks versions 1 and 2: say HELLO 1 or HELLO 2";
+            return Err(Stop::Refused(reason.to_owned()));
+        }
     }
-    let mut capabilities = Vec::new();
-    if entry.engine.is_some() {
-        capabilities.extend(["coverage", "attributes", "samples4"]);
-    }
-    if entry.exact_engine.is_some() {
-        capabilities.push("coverage");
-    }
-    if entry.line_engine.is_some() {
-        capabilities.push("line");
-    }
-    capabilities.extend(published::capabilities(entry));
-    Ok(writeln!(out, "HELLO 1 {} {}", entry.name, capabilities.join(" "))?)
+    Ok(())
+}
+
+/// The names that `engine` takes; planted faults are not shown.
+pub fn names() -> Vec<PossibleValue> {
+    let shown = lineup::ENTRIES.iter().chain(&lineup::SPECIMENS).map(|entry| entry.name);
+    let exact = ExactMutant::ALL.map(|mutant| mutant.name());
+    let planted = Mutant::all().into_iter().map(|mutant| mutant.name()).chain(exact);
+    let planted = planted.filter(|name| lineup::find_planted(name).is_some());
+    let hidden = planted.map(|name| PossibleValue::new(name).hide(true));
+    shown.map(PossibleValue::new).chain(hidden).collect()
 }
 
 /// A word of the request, short and without control characters, to quote in an answer.
@@ -200,36 +228,11 @@ fn window(width: &str, height: &str) -> Result<PixelRect, String> {
     Ok(PixelRect::window(side("width", width)?, side("height", height)?))
 }
 
-/// A decimal number or a C99 hex float. NaN and infinities are read, and refused later by name.
-fn number(word: &str) -> Option<f64> {
-    let (sign, digits) = match word.as_bytes().first()? {
-        b'-' => (-1.0, &word[1..]),
-        b'+' => (1.0, &word[1..]),
-        _ => (1.0, word),
-    };
-    if digits.starts_with("0x") || digits.starts_with("0X") {
-        // The parser wants an exponent; C99 prints one, scanf does not ask for it.
-        let lower = digits.to_ascii_lowercase();
-        let with_exponent = if lower.contains('p') { lower } else { lower + "p0" };
-        return hexf_parse::parse_hexf64(&with_exponent, false).ok().map(|value| sign * value);
-    }
-    // After a sign comes no second sign.
-    (!digits.starts_with(['-', '+']))
-        .then(|| digits.parse::<f64>().ok().map(|v| sign * v))
-        .flatten()
-}
-
-pub(super) fn named(name: &str) -> impl FnOnce(Refusal) -> String {
-    move |refusal| format!("{name} {refusal}")
-}
-
 fn point(numbers: &[f64], i: usize) -> Result<SubpixelPoint, String> {
     let snap =
         |value: f64, axis: &str| crate::grid::snap(value).map_err(named(&format!("{axis}{i}")));
     Ok(SubpixelPoint::new(snap(numbers[0], "x")?, snap(numbers[1], "y")?))
 }
-
-pub(super) type Reply = Result<(char, usize, String), String>;
 
 fn cover(engine: Engine, window: PixelRect, numbers: &[f64]) -> Reply {
     let corners = [point(&numbers[0..], 0)?, point(&numbers[2..], 1)?, point(&numbers[4..], 2)?];

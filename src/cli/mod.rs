@@ -1,13 +1,17 @@
 //! The command line: words to functions. Text goes to the writers it is given; only `main` exits.
 
 mod cost;
+mod decisions;
 mod engine;
 mod exhaust;
 mod inspect;
 mod invariant;
+mod judge;
+mod misbehave;
 mod plan;
 mod published;
 mod render;
+mod reply;
 mod review;
 mod specimens;
 mod verify;
@@ -39,6 +43,7 @@ const EXAMPLES: &str = "Examples:
   rasterproof inspect 0.5,0.5 5.5,0.5 5.5,5.5     explain a triangle
   rasterproof inspect --line 0,0 8,3              explain a line
   rasterproof engine scanline < requests.txt      speak the line protocol
+  rasterproof judge -- ./mine                     judge a program of yours, in any language
   rasterproof render --scene cube                 a scene through the whole pipeline, by both
   rasterproof plan --scene panels                 the effects it calls for, and what the rest costs
   rasterproof specimens                           the published algorithms and their faults
@@ -71,9 +76,15 @@ enum Command {
     #[command(after_help = engine::HELP)]
     Engine {
         /// The engine that answers
-        #[arg(value_parser = engine_names())]
+        #[arg(value_parser = engine::names())]
         name: String,
+        /// Break the protocol, to see the judge notice
+        #[arg(long, value_name = "FAULT", hide = true)]
+        plant: Option<misbehave::Fault>,
     },
+    /// Judge any program that speaks the line protocol: rasterproof judge -- CMD
+    #[command(after_help = judge::HELP)]
+    Judge(Box<judge::JudgeArguments>),
     /// Show the published algorithms, how often they fail, and a picture of each fault
     Specimens(specimens::SpecimensArguments),
     /// Draw a scene of the book, or a model, by either rasterizer or by both
@@ -93,10 +104,6 @@ enum Command {
     Cost(cost::CostArguments),
     /// List families, named cases, engines and invariants
     List,
-}
-
-fn engine_names() -> Vec<&'static str> {
-    lineup::ENTRIES.iter().chain(&lineup::SPECIMENS).map(|entry| entry.name).collect()
 }
 
 /// Something wrong with the input: what, and what to do about it.
@@ -148,7 +155,12 @@ pub fn run(words: impl IntoIterator<Item = String>, streams: &mut Streams<'_>) -
         let number = |c: char| c.is_ascii_digit() || c == '.';
         word.contains(',') && word.strip_prefix('-').is_some_and(|rest| rest.starts_with(number))
     };
-    let words = words.into_iter().map(|w| if is_coordinate(&w) { format!(" {w}") } else { w });
+    // After -- come the words of somebody else, which stay as they are.
+    let mut ours = true;
+    let words = words.into_iter().map(|w| {
+        ours &= w != "--";
+        if ours && is_coordinate(&w) { format!(" {w}") } else { w }
+    });
     let arguments = match Arguments::try_parse_from(words) {
         Ok(arguments) => arguments,
         Err(error) => {
@@ -165,7 +177,8 @@ pub fn run(words: impl IntoIterator<Item = String>, streams: &mut Streams<'_>) -
         None => verify::run(&arguments.verify, streams),
         Some(Command::Verify(arguments)) => verify::run(arguments, streams),
         Some(Command::Inspect(arguments)) => inspect::run(arguments, streams),
-        Some(Command::Engine { name }) => engine::run(name, streams),
+        Some(Command::Engine { name, plant }) => engine::run(name, *plant, streams),
+        Some(Command::Judge(arguments)) => judge::run(arguments, streams),
         Some(Command::Specimens(arguments)) => specimens::run(arguments, streams),
         Some(Command::Render(arguments)) => render::run(arguments, streams),
         Some(Command::Plan(arguments)) => plan::run(arguments, streams),

@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 
 use glam::DVec2;
 
-use super::engine::{Reply, named};
+use super::reply::{Reply, named};
 use crate::grid::{PixelRect, Refusal};
 use crate::lineup::{Entry, LineSpecimen, Specimen, TriangleSpecimen};
 use crate::specimen::{Published as _, PublishedLine as _, RealTriangle, RealVertex, bare};
@@ -23,13 +23,6 @@ pub fn speaks(entry: &Entry, verb: &str) -> bool {
         (Some(Specimen::Triangle(specimen)), "I") => specimen.has_values(),
         _ => false,
     }
-}
-
-/// What a specimen says of itself after HELLO; nothing for an engine.
-pub fn capabilities(entry: &Entry) -> impl Iterator<Item = &'static str> {
-    [("T", "coverage"), ("I", "attributes"), ("L", "line")]
-        .into_iter()
-        .filter_map(|(verb, capability)| speaks(entry, verb).then_some(capability))
 }
 
 /// Answers a request that [`speaks`] accepts.

@@ -8,7 +8,9 @@ use glam::{DMat4, DVec3};
 use image::codecs::gif::{GifEncoder, Repeat};
 use indicatif::{ProgressBar, ProgressDrawTarget};
 
+use super::decisions::plan_rows;
 use super::{Failure, PAGE, Streams, exit, usage, write_file, write_page};
+use crate::effects::plan::Plan;
 use crate::effects::render::{BadScene, Rendered};
 use crate::effects::{Effect, Effects, Mode};
 use crate::frame::Frame;
@@ -21,7 +23,7 @@ use crate::pipeline::shade::Light;
 use crate::pipeline::target::{Antialias, Colour, Target, check_size};
 use crate::pipeline::transform::{about, look_at, perspective};
 use crate::report::frames::{self, Comparison};
-use crate::report::html::{Outcome, PictureLayer, PictureView, PlanRow, Report};
+use crate::report::html::{Outcome, PictureLayer, PictureView, Report};
 use crate::scene::chapters::{self, SCENES};
 use crate::scene::{Scene, Shading, obj};
 
@@ -48,9 +50,12 @@ pub struct RenderArguments {
     /// Draw edges only, by DDA and by Bresenham, whichever goes with the rasterizer
     #[arg(long)]
     wireframe: bool,
-    /// What is paid for: planned, all, or +EFFECT and -EFFECT, separated by commas
+    /// What is paid for: planned, usual, all, or +EFFECT and -EFFECT, separated by commas
     #[arg(long, value_name = "EFFECTS", allow_hyphen_values = true)]
     effects: Option<Effects>,
+    /// Draw by the plan in this file, from plan --json, edited or not
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["effects", "wireframe", "map", "spin"])]
+    plan: Option<PathBuf>,
     /// Colour each pixel by the effects it paid for instead
     #[arg(long, conflicts_with_all = ["wireframe", "spin"])]
     map: bool,
@@ -424,30 +429,36 @@ fn report_page(
         outcome,
         command,
         frames: vec![view],
-        plan: drawings.first().map_or(Vec::new(), |d| plan_rows(&d.rendered)),
+        plan: drawings.first().map_or(Vec::new(), |d| plan_rows(&d.rendered.plan.decisions)),
         ..Report::default()
     }
 }
 
-/// A plan as rows of the page.
-pub(super) fn plan_rows(rendered: &Rendered) -> Vec<PlanRow> {
-    let row = |d: &crate::effects::plan::Decision| PlanRow {
-        effect: d.effect.name().to_owned(),
-        is_on: d.on > 0,
-        reason: match d.item {
-            Some(item) => format!("item {item}: {}", d.reason),
-            None => d.reason.clone(),
-        },
-        counters: vec![("on".to_owned(), d.on.to_string()), ("off".to_owned(), d.off.to_string())],
+/// A plan from a file: the plan alone, or all that `plan --json` writes.
+fn read_plan(path: &Path) -> Result<Plan, Failure> {
+    let refused = |error: &dyn std::fmt::Display| usage(format!("{}: {error}", path.display()));
+    let text = std::fs::read_to_string(path).map_err(|error| refused(&error))?;
+    #[derive(serde::Deserialize)]
+    struct Written {
+        plan: Plan,
+    }
+    // Which of the two it is meant to be says which error is the reader's.
+    let whole = serde_json::from_str::<serde_json::Value>(&text).map_err(|e| refused(&e))?;
+    let plan = if whole.get("plan").is_some() {
+        serde_json::from_str::<Written>(&text).map(|written| written.plan)
+    } else {
+        serde_json::from_str(&text)
     };
-    rendered.plan.decisions.iter().map(row).collect()
+    plan.map_err(|error| refused(&error))
 }
 
 /// Draws one frame by each rasterizer asked for.
 fn draw(arguments: &RenderArguments, scene: &Scene) -> Result<Vec<Drawing>, Failure> {
     let effects = arguments.effects.unwrap_or(Effects::PLANNED);
     // To compare every depth, every depth must be there, of every sample.
-    let complete = (arguments.engine == Drawn::Both && arguments.effects.is_none()).then(|| {
+    let plan = arguments.plan.as_deref().map(read_plan).transpose()?;
+    let is_free = arguments.effects.is_none() && plan.is_none();
+    let complete = (arguments.engine == Drawn::Both && is_free).then(|| {
         Effects::PLANNED.with(Effect::Depth, Mode::Always).with(Effect::Samples, Mode::Always)
     });
     let engines: &[Drawer] = match arguments.engine {
@@ -461,6 +472,11 @@ fn draw(arguments: &RenderArguments, scene: &Scene) -> Result<Vec<Drawing>, Fail
         if arguments.wireframe {
             let rendered = drawer.render_wireframe(scene, &mut target).map_err(refused)?;
             return Ok(Drawing { name: drawer.line_name(), rendered, target, unplanned: 0 });
+        }
+        if let (Some(plan), Some(path)) = (&plan, &arguments.plan) {
+            let misfit = |error| usage(format!("{}: {error}", path.display()));
+            let rendered = drawer.execute(plan, scene, &mut target).map_err(misfit)?;
+            return Ok(Drawing { name: drawer.name(), rendered, target, unplanned: 0 });
         }
         let rendered = drawer.render(scene, &effects, &mut target).map_err(refused)?;
         let mut unplanned = 0;

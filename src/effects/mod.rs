@@ -2,16 +2,22 @@
 //! the same to the bit.
 //!
 //! For each [`Effect`] there is a condition that is sufficient to leave it out, known per frame, per
-//! item or per triangle ([`plan`] derives them), and kernels without it ([`render`]). A condition
-//! that is merely likely does not count: planned and everything-on pictures are compared bit for
+//! item or per triangle (`conditions` has one file for each). [`render::plan`] asks them and returns
+//! a [`plan::Plan`], which is data; [`render::execute`] draws by it, with kernels without what is
+//! left out. A condition that is merely likely does not count: planned and everything-on pictures are compared bit for
 //! bit in the tests, and for every condition a scene that violates it by the least amount changes
 //! a pixel when the effect is left out nevertheless.
 //!
 //! Leaving out the back faces of a closed mesh is *not* inferred: where front and back meet at the
 //! silhouette their depths may tie, so it can change a pixel. Culling stays something to ask for.
 
-mod parts;
+mod assembled;
+mod conditions;
+mod execute;
+mod kernel;
+mod piece;
 pub mod plan;
+mod planner;
 pub mod render;
 mod samples;
 
@@ -19,7 +25,9 @@ use std::fmt;
 use std::str::FromStr;
 
 /// Something that costs time and that not every scene needs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize)]
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize, serde::Deserialize,
+)]
 #[serde(rename_all = "kebab-case")]
 pub enum Effect {
     /// Cutting triangles by the seven planes.
@@ -90,12 +98,15 @@ impl Effect {
 }
 
 /// When an effect is paid for.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Mode {
     /// Wherever it is called for.
     #[default]
     Planned,
+    /// Wherever the material calls for it, whatever the triangles are like. Only interpolation
+    /// knows the difference: a flat material needs no normal in the fragment.
+    Material,
     /// Everywhere, called for or not.
     Always,
     /// Nowhere. Changes the picture wherever it is called for.
@@ -113,6 +124,18 @@ impl Effects {
     pub const PLANNED: Self = Self { modes: [Mode::Planned; Effect::ALL.len()] };
     /// Everything everywhere.
     pub const ALWAYS: Self = Self { modes: [Mode::Always; Effect::ALL.len()] };
+    /// What any sensible renderer does without a planner: triangles off the screen are left out, cut
+    /// by the planes they cross, culled where asked; a shader for each material; and every fragment
+    /// is tested once, before it is shaded.
+    pub const USUAL: Self = Self::ALWAYS
+        .with(Effect::Clip, Mode::Planned)
+        .with(Effect::Cull, Mode::Planned)
+        .with(Effect::WideWords, Mode::Planned)
+        .with(Effect::Colour, Mode::Planned)
+        .with(Effect::Light, Mode::Planned)
+        .with(Effect::Texture, Mode::Planned)
+        .with(Effect::Interpolation, Mode::Material)
+        .with(Effect::SecondBuffer, Mode::Planned);
 
     /// The mode of an effect.
     #[must_use]
@@ -122,7 +145,7 @@ impl Effects {
 
     /// The same with another mode for one effect.
     #[must_use]
-    pub fn with(mut self, effect: Effect, mode: Mode) -> Self {
+    pub const fn with(mut self, effect: Effect, mode: Mode) -> Self {
         self.modes[effect as usize] = mode;
         self
     }
@@ -131,7 +154,7 @@ impl Effects {
     #[must_use]
     pub fn pays(&self, effect: Effect, called_for: bool) -> bool {
         match self.mode(effect) {
-            Mode::Planned => called_for,
+            Mode::Planned | Mode::Material => called_for,
             Mode::Always => true,
             Mode::Never => false,
         }
@@ -147,7 +170,7 @@ impl fmt::Display for NoEffect {
         let names = Effect::ALL.map(Effect::name).join(", ");
         write!(
             f,
-            "'{}' is none of: planned, all, +EFFECT (always), -EFFECT (never); effects: {names}",
+            "'{}' is none of: planned, usual, all, +EFFECT (always), -EFFECT (never); effects: {names}",
             self.0
         )
     }
@@ -158,7 +181,7 @@ impl std::error::Error for NoEffect {}
 impl FromStr for Effects {
     type Err = NoEffect;
 
-    /// `planned`, `all`, and `+depth` or `-clip` for single effects, separated by commas; later
+    /// `planned`, `usual`, `all`, and `+depth` or `-clip` for single effects, separated by commas; later
     /// words win.
     fn from_str(text: &str) -> Result<Self, NoEffect> {
         text.split(',').map(str::trim).try_fold(Self::PLANNED, |effects, word| {
@@ -169,6 +192,7 @@ impl FromStr for Effects {
                 word.strip_prefix('-').and_then(named),
             ) {
                 ("planned", ..) => Ok(Self::PLANNED),
+                ("usual", ..) => Ok(Self::USUAL),
                 ("all", ..) => Ok(Self::ALWAYS),
                 (_, Some(effect), _) => Ok(effects.with(effect, Mode::Always)),
                 (_, _, Some(effect)) => Ok(effects.with(effect, Mode::Never)),
@@ -185,6 +209,7 @@ mod tests {
     #[test]
     fn effects_from_words() {
         assert_eq!("planned".parse(), Ok(Effects::PLANNED));
+        assert_eq!("usual".parse(), Ok(Effects::USUAL));
         assert_eq!("all".parse(), Ok(Effects::ALWAYS));
         let mixed: Effects = "all,-clip,+depth".parse().unwrap();
         assert_eq!(mixed, Effects::ALWAYS.with(Effect::Clip, Mode::Never));

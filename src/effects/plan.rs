@@ -1,386 +1,336 @@
-//! What a scene calls for: the conditions under which an effect may be left out, and the report of
-//! what was decided and why.
+//! A plan: what a frame will pay for, as data, before anything is drawn.
 //!
-//! - **Clip plane**: no corner of the triangle lies outside of it (outcodes). The clipper would
-//!   return the triangle as it is.
-//! - **Perspective**: the three 1/w are bit-equal. Then the weights are exactly those of affine
-//!   interpolation, see [`crate::contract::Interpolate::affine_fragments`].
-//! - **Wide words**: 32 bits hold the edge functions of the triangle, which its bounding box says
-//!   ([`crate::raster::edge_function::WordWidth`]).
-//! - **Depth test**: no other piece has a bounding box that meets this one's (two pieces on either
-//!   side of an edge they share meet nowhere, by the fill rule). Then nothing is in front of it,
-//!   and it is in front of nothing. The clear value is farther than every depth.
-//! - **Colour, light, texture**: the material does not use it; the factor left out is exactly 1.
-//! - **Interpolation**: the attribute has the same bits at the three corners. The rasterizers
-//!   return a constant exactly, so what is computed from it once is what every fragment would get.
-//! - **Depth buffer**: no piece is tested.
-//! - **Samples**: the pixel lies inside the triangle with all its samples, which gives it one colour,
-//!   and its depths there and those of what is there do not overlap (`samples`).
-//! - **Clear**: the first piece covers all four corner pixels of a tile: what a triangle covers is
-//!   convex, so it covers the tile.
-//! - **Second buffer**: the picture is looked at when it is finished.
+//! What is known of a piece beforehand is a fact of the plan. What shows only while it is drawn is a
+//! *policy*, a rule with its numbers in it that decides then: [`Pieces::AsTheyCome`] of scenes too
+//! large to be looked at first, [`Samples::OnDemand`] of pixels, and [`Mode::Planned`] of the planes
+//! that cut a triangle and of the width of words. Whoever edits a plan gets what it says, right or
+//! wrong.
 
-use super::render::{Piece, PiecePlan, Prepared, bit, is_lit};
-use super::{Effect, Effects, Mode};
-use crate::contract::Rasterize;
-use crate::grid::{HALF_PIXEL, PixelRect, SUBPIXEL_BITS, SubpixelPoint};
-use crate::pipeline::Counters;
-use crate::pipeline::assemble::{Cull, twice_area};
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+use super::{Effect, Mode};
+use crate::grid::PixelRect;
+use crate::pipeline::depth::DepthFormat;
 use crate::pipeline::target::{Antialias, Target};
-use crate::scene::{Hidden, Scene, Shading};
-use crate::triangle::Corners;
 
-/// Which pieces may hide or be hidden.
-pub(super) struct Depths {
-    overlaps: Vec<bool>,
+/// What is drawn into, as far as a plan depends on it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Canvas {
+    /// Columns of pixels.
+    pub width: u32,
+    /// Rows of pixels.
+    pub height: u32,
+    /// How many samples a pixel has and where.
+    pub antialias: Antialias,
+    /// How depths are stored.
+    pub depth: DepthFormat,
+    /// Whether somebody looks while the frame is drawn.
+    pub watched: bool,
 }
 
-/// Pieces whose boxes are compared as one: a piece, or two on either side of a shared edge.
-struct Unit {
-    pieces: std::ops::Range<usize>,
-    rect: PixelRect,
+impl Canvas {
+    /// A target, at which nobody looks before the frame is finished.
+    #[must_use]
+    pub fn of(target: &Target) -> Self {
+        let size = target.size();
+        let (width, height) = (size.width(), size.height());
+        let (antialias, depth) = (target.antialias(), target.format);
+        Self { width, height, antialias, depth, watched: false }
+    }
+
+    /// The picture's pixels.
+    #[must_use]
+    pub fn size(&self) -> PixelRect {
+        PixelRect::window(self.width, self.height)
+    }
+
+    /// The window that triangles are drawn into: N times the size where supersampled.
+    #[must_use]
+    pub fn window(&self) -> PixelRect {
+        let scale = self.antialias.scale();
+        PixelRect::window(self.width * scale, self.height * scale)
+    }
+
+    /// Pixels.
+    #[must_use]
+    pub fn pixels(&self) -> u64 {
+        u64::from(self.width) * u64::from(self.height)
+    }
+
+    /// Samples of all pixels.
+    #[must_use]
+    pub fn samples(&self) -> u64 {
+        self.pixels() * self.antialias.samples()
+    }
 }
 
-impl Depths {
-    /// Scenes with more triangles are taken to overlap: to look would cost more than it saves.
-    pub(super) const MOST_TRIANGLES: usize = 2048;
+impl fmt::Display for Canvas {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { width, height, antialias, depth, .. } = self;
+        let (samples, depth) = (antialias.samples(), depth.name());
+        write!(f, "{width} x {height} px, {samples} samples each, depths as {depth}")
+    }
+}
 
-    /// Comparisons for each box, on average, after which all are taken to overlap.
-    const MOST_COMPARISONS: usize = 64;
+/// An attribute that a triangle carries from its corners to its fragments.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Attribute {
+    /// Colour.
+    Colour,
+    /// Normal.
+    Normal,
+    /// Texture coordinates.
+    Uv,
+}
 
-    /// Compares the bounding boxes of all pieces, by a sweep along the axis where they are shorter.
-    pub(super) fn of(pieces: &[(usize, Piece)], antialias: Antialias) -> Self {
-        // Samples lie up to 6/16 px off the centre.
-        let margin_px = i32::from(antialias == Antialias::Multisample4);
-        let mut units = units(pieces, margin_px);
-        let sum = |side: fn(&PixelRect) -> u32| -> u64 {
-            units.iter().map(|unit| u64::from(side(&unit.rect))).sum()
-        };
-        if sum(PixelRect::height) < sum(PixelRect::width) {
-            for Unit { rect: PixelRect { x0, y0, x1, y1 }, .. } in &mut units {
-                std::mem::swap(x0, y0);
-                std::mem::swap(x1, y1);
-            }
+/// A set of attributes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(from = "Vec<Attribute>", into = "Vec<Attribute>")]
+pub struct Attributes(pub(super) u8);
+
+impl Attributes {
+    /// Bits of the attributes.
+    pub(super) const COLOUR: u8 = 1;
+    pub(super) const NORMAL: u8 = 2;
+    pub(super) const UV: u8 = 4;
+    const BITS: [(Attribute, u8); 3] = [
+        (Attribute::Colour, Self::COLOUR),
+        (Attribute::Normal, Self::NORMAL),
+        (Attribute::Uv, Self::UV),
+    ];
+
+    /// No attribute.
+    pub const NONE: Self = Self(0);
+
+    pub(super) fn has(self, bit: u8) -> bool {
+        self.0 & bit != 0
+    }
+
+    pub(super) fn is_empty(self) -> bool {
+        self.0 == 0
+    }
+
+    pub(super) fn both(self, other: Self) -> Self {
+        Self(self.0 & other.0)
+    }
+}
+
+impl From<Vec<Attribute>> for Attributes {
+    fn from(list: Vec<Attribute>) -> Self {
+        let bit = |attribute: &Attribute| Self::BITS.iter().find(|(a, _)| a == attribute);
+        Self(list.iter().filter_map(bit).fold(0, |bits, (_, bit)| bits | bit))
+    }
+}
+
+impl From<Attributes> for Vec<Attribute> {
+    fn from(set: Attributes) -> Self {
+        Attributes::BITS.iter().filter(|(_, bit)| set.has(*bit)).map(|(a, _)| *a).collect()
+    }
+}
+
+/// What each fragment of a piece pays for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PiecePlan {
+    /// Attributes that are interpolated; the others have the first corner's value.
+    pub interpolates: Attributes,
+    /// Whether they are divided by 1/w.
+    pub perspective: bool,
+    /// Whether depths are compared and written.
+    pub depth: bool,
+}
+
+/// How a [`PiecePlan`] is made of a piece when it is there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Rule {
+    /// Attributes that may be interpolated.
+    pub interpolates: Attributes,
+    /// Those alone that differ between the corners.
+    pub where_it_varies: bool,
+    /// Planned: where something is interpolated and w differs between the corners.
+    pub perspective: Mode,
+    /// Whether depths are compared and written.
+    pub depth: bool,
+}
+
+/// What the pieces of an item pay for.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Pieces {
+    /// Known: how many in turn, in the order of submission, have which plan.
+    Listed(Vec<(u64, PiecePlan)>),
+    /// A policy, asked of each piece when it is drawn.
+    AsTheyCome(Rule),
+}
+
+/// What an item pays for.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ItemPlan {
+    /// Which planes cut a triangle. Planned: those that it crosses.
+    pub clip: Mode,
+    /// Whether the winding is asked for. Planned: where the item is culled.
+    pub cull: Mode,
+    /// Attributes that travel from the corners to the pieces.
+    pub carries: Attributes,
+    /// Of each piece.
+    pub pieces: Pieces,
+}
+
+/// In which order pieces are drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Order {
+    /// As they are submitted.
+    Submission,
+    /// From the farthest to the nearest mean depth of the corners.
+    FarthestFirst,
+}
+
+/// Which samples forget last frame's colours.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Clear {
+    /// None.
+    Nothing,
+    /// All.
+    Everything,
+    /// Those of the rectangles of the window.
+    Tiles(Vec<PixelRect>),
+}
+
+/// How the samples of a pixel are treated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Samples {
+    /// Each for itself.
+    Each,
+    /// One in the middle of the pixel, whatever the target has.
+    Middle,
+    /// A policy: a pixel is one until something needs its samples told apart. That costs more than
+    /// it saves in small pieces, whose box is told apart at once.
+    #[serde(rename_all = "kebab-case")]
+    OnDemand {
+        /// Pieces of one colour whose box has no more pixels are small.
+        flat_px: u64,
+        /// Pieces with attributes that vary whose box has fewer columns are small. Supersampled,
+        /// all of them are: each sample has a colour of its own.
+        varying_columns: u32,
+    },
+}
+
+impl Samples {
+    /// Whether the policy tells all pixels of a piece apart at once; `touched` are those it may touch.
+    #[inline]
+    pub(super) fn tells_apart(self, touched: PixelRect, plan: PiecePlan, planes: usize) -> bool {
+        let Self::OnDemand { flat_px, varying_columns } = self else { return false };
+        if plan.interpolates.is_empty() {
+            let area = u64::from(touched.width()) * u64::from(touched.height());
+            plan.depth && area <= flat_px
+        } else {
+            planes == 1 || touched.width() < varying_columns
         }
-        units.sort_unstable_by_key(|unit| unit.rect.x0);
-        let mut overlaps = vec![false; pieces.len()];
-        let mut comparisons = 0;
-        for (i, unit) in units.iter().enumerate() {
-            let meets = units[i + 1..].iter().take_while(|other| other.rect.x0 < unit.rect.x1);
-            for other in meets {
-                comparisons += 1;
-                if other.rect.y0 < unit.rect.y1 && unit.rect.y0 < other.rect.y1 {
-                    overlaps[unit.pieces.clone()].fill(true);
-                    overlaps[other.pieces.clone()].fill(true);
-                }
-            }
-            if comparisons > Self::MOST_COMPARISONS * units.len() {
-                overlaps.fill(true);
-                break;
-            }
-        }
-        Self { overlaps }
-    }
-
-    pub(super) fn overlaps(&self, piece: usize) -> bool {
-        self.overlaps[piece]
-    }
-
-    pub(super) fn any(&self) -> bool {
-        self.overlaps.contains(&true)
     }
 }
 
-fn units(pieces: &[(usize, Piece)], margin_px: i32) -> Vec<Unit> {
-    let mut units: Vec<Unit> = Vec::with_capacity(pieces.len());
-    let mut i = 0;
-    while i < pieces.len() {
-        let corners = pieces[i].1.corners();
-        let mut rect = pixel_box(&corners, margin_px);
-        let mut end = i + 1;
-        if let Some(next) = pieces.get(end).map(|(_, piece)| piece.corners())
-            && share_an_edge(&corners, &next)
-        {
-            let other = pixel_box(&next, margin_px);
-            rect = PixelRect {
-                x0: rect.x0.min(other.x0),
-                y0: rect.y0.min(other.y0),
-                x1: rect.x1.max(other.x1),
-                y1: rect.y1.max(other.y1),
-            };
-            end += 1;
-        }
-        units.push(Unit { pieces: i..end, rect });
-        i = end;
-    }
-    units
+/// What the frame pays for.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FramePlan {
+    /// In which order pieces are drawn.
+    pub order: Order,
+    /// Planned: the narrowest integers that hold a piece. Always: the widest. Never: 32 bits.
+    pub wide_words: Mode,
+    /// How the samples of a pixel are treated.
+    pub samples: Samples,
+    /// Which colours are cleared. Samples on demand start with the background, uncleared.
+    pub clear: Clear,
+    /// Whether depths are cleared. Samples on demand start farthest away, uncleared.
+    pub clear_depths: bool,
+    /// Whether a viewer sees a copy of the finished frame alone.
+    pub second_buffer: bool,
 }
 
-/// Pixels that a triangle may touch: those whose centres lie in [min, max), by the fill rule.
-pub(super) fn pixel_box(corners: &Corners, margin_px: i32) -> PixelRect {
-    let range = |coordinate: fn(&SubpixelPoint) -> i32| {
-        let (min, max) = corners
-            .iter()
-            .map(coordinate)
-            .fold((i32::MAX, i32::MIN), |(min, max), c| (min.min(c), max.max(c)));
-        let first = |sub: i32| (i64::from(sub) + i64::from(HALF_PIXEL - 1)) >> SUBPIXEL_BITS;
-        (first(min) as i32 - margin_px, first(max) as i32 + margin_px)
-    };
-    let ((x0, x1), (y0, y1)) = (range(|corner| corner.x), range(|corner| corner.y));
-    PixelRect { x0, y0, x1, y1 }
-}
-
-/// Whether two triangles have two corners in common and the third ones on either side.
-fn share_an_edge(a: &Corners, b: &Corners) -> bool {
-    let [third_a, third_b] = [(a, b), (b, a)].map(|(own, other)| {
-        let mut alone = own.iter().filter(|corner| !other.contains(corner));
-        alone.next().filter(|_| alone.next().is_none())
-    });
-    let (Some(third_a), Some(third_b)) = (third_a, third_b) else { return false };
-    let mut shared = a.iter().filter(|corner| *corner != third_a);
-    let (Some(p), Some(q)) = (shared.next(), shared.next()) else { return false };
-    let side = |r: &SubpixelPoint| twice_area([*p, *q, *r]).signum();
-    side(third_a) * side(third_b) < 0
-}
-
-/// Side of the tiles whose clearing is decided together.
-const TILE_PX: i32 = 32;
-
-/// The tiles that the first piece does not cover; nothing where that is not known.
-pub(super) fn tiles_to_clear(
-    engine: &impl Rasterize,
-    pieces: &[(usize, Piece)],
-    target: &Target,
-) -> Option<Vec<PixelRect>> {
-    let corners = pieces.first()?.1.corners();
-    let second = pieces.get(1).map(|(_, piece)| piece.corners());
-    let bounds = target.bounds();
-    // A small first piece covers no tile; samples off the centre are not asked for.
-    let touched = pixel_box(&corners, 0);
-    let large = touched.width() as i32 >= TILE_PX && touched.height() as i32 >= TILE_PX;
-    if !large || target.antialias() == Antialias::Multisample4 {
-        return None;
-    }
-    let covers = |corners: Corners, x_px: i32, y_px: i32| {
-        let pixel = PixelRect { x0: x_px, y0: y_px, x1: x_px + 1, y1: y_px + 1 };
-        let mut covered = false;
-        engine.cover(corners, pixel, |_| covered = true);
-        covered
-    };
-    let is_covered = |tile: PixelRect| {
-        let (x1, y1) = (tile.x1 - 1, tile.y1 - 1);
-        let ends = [(tile.x0, tile.y0), (x1, tile.y0), (tile.x0, y1), (x1, y1)];
-        // The second piece is drawn over what the first leaves only if it shares an edge with it.
-        let second = second.filter(|second| share_an_edge(&corners, second));
-        [Some(corners), second]
-            .into_iter()
-            .flatten()
-            .any(|corners| ends.iter().all(|&(x, y)| covers(corners, x, y)))
-    };
-    let mut tiles = Vec::new();
-    for y0 in (bounds.y0..bounds.y1).step_by(TILE_PX as usize) {
-        for x0 in (bounds.x0..bounds.x1).step_by(TILE_PX as usize) {
-            let (x1, y1) = ((x0 + TILE_PX).min(bounds.x1), (y0 + TILE_PX).min(bounds.y1));
-            let tile = PixelRect { x0, y0, x1, y1 };
-            if !is_covered(tile) {
-                tiles.push(tile);
-            }
-        }
-    }
-    Some(tiles)
-}
-
-/// What was decided for the pieces of one item.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Tally {
-    pieces: u64,
-    one_w: u64,
-    affine: u64,
-    depth: u64,
-    /// Whether the engine has words of several widths, and the pieces in more than 32 bits.
-    has_widths: bool,
-    wide: u64,
-    /// Pieces in which the attribute is carried and varies: colour, normal, texture coordinates.
-    varies: [u64; 3],
-}
-
-impl Tally {
-    pub(super) fn count(
-        &mut self,
-        piece: &Piece,
-        reads: u8,
-        plan: PiecePlan,
-        word_bits: Option<u32>,
-    ) {
-        let [a, b, c] = piece.vertices.map(|vertex| vertex.inv_w);
-        self.pieces += 1;
-        self.one_w += u64::from(a == b && b == c);
-        self.affine += u64::from(plan.affine || reads == 0);
-        self.depth += u64::from(plan.depth);
-        self.has_widths = word_bits.is_some();
-        self.wide += u64::from(word_bits > Some(i32::BITS));
-        for (count, bit) in self.varies.iter_mut().zip([bit::COLOUR, bit::NORMAL, bit::UV]) {
-            *count += u64::from(plan.varies & bit != 0);
-        }
-    }
-}
-
-/// One line of a plan.
-#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
+/// One line of a plan's account.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Decision {
     /// The effect.
     pub effect: Effect,
     /// The item it is about; of the whole frame where there is none.
     pub item: Option<usize>,
-    /// Pieces that pay for it; triangles for clip, pixels for samples and the second buffer, samples
-    /// for clear and the depth buffer.
+    /// Pieces that pay for it, or triangles where pieces come as they are drawn; triangles for clip
+    /// and cull, pixels for samples and the second buffer, samples for clear and the depth buffer.
     pub on: u64,
     /// Those that do without.
     pub off: u64,
+    /// Those that a policy decides about while the frame is drawn.
+    pub open: u64,
     /// Why, to read.
     pub reason: String,
 }
 
-/// What a frame paid for, and why.
-#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
+/// What a frame will pay for, and why.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Plan {
-    /// Of each item and of the frame.
+    /// What is drawn into.
+    pub canvas: Canvas,
+    /// Of the frame.
+    pub frame: FramePlan,
+    /// Of each item.
+    pub items: Vec<ItemPlan>,
+    /// The account for people, which is not followed.
     pub decisions: Vec<Decision>,
 }
 
 impl Plan {
-    pub(super) fn new(
-        scene: &Scene,
-        items: &[Prepared<'_>],
-        tallies: &[Tally],
-        effects: &Effects,
-        target: &Target,
-        counters: &Counters,
-    ) -> Self {
-        let mut decisions = Vec::new();
-        for (index, (item, tally)) in items.iter().zip(tallies).enumerate() {
-            decisions.extend(item_decisions(scene, item, tally).map(|mut decision| {
-                decision.item = Some(index);
-                decision
-            }));
+    /// Whether any piece compares depths.
+    #[must_use]
+    pub fn tests_depths(&self) -> bool {
+        self.items.iter().any(|item| match &item.pieces {
+            Pieces::Listed(runs) => runs.iter().any(|(_, plan)| plan.depth),
+            Pieces::AsTheyCome(rule) => rule.depth,
+        })
+    }
+
+    /// What pieces are drawn into: one sample a pixel where only the middle is asked for.
+    #[must_use]
+    pub fn drawn(&self) -> Canvas {
+        match self.frame.samples {
+            Samples::Middle => Canvas { antialias: Antialias::None, ..self.canvas },
+            Samples::Each | Samples::OnDemand { .. } => self.canvas,
         }
-        decisions.extend(frame_decisions(scene, effects, target, counters));
-        for decision in &mut decisions {
-            match effects.mode(decision.effect) {
-                Mode::Planned => {}
-                Mode::Always => decision.reason = "asked for everywhere".to_owned(),
-                Mode::Never => decision.reason = "switched off everywhere".to_owned(),
-            }
-        }
-        Self { decisions }
     }
 }
 
-fn decision(effect: Effect, on: u64, off: u64, reason: impl Into<String>) -> Decision {
-    Decision { effect, item: None, on, off, reason: reason.into() }
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-fn item_decisions(
-    scene: &Scene,
-    prepared: &Prepared<'_>,
-    tally: &Tally,
-) -> impl Iterator<Item = Decision> {
-    let Tally { pieces, one_w, affine, depth, has_widths, wide, varies } = *tally;
-    let [colours, normals, uvs] = varies;
-    let item = prepared.item;
-    let material = &item.material;
-    let attribute = |effect, bit: u8, varies: u64, used: bool, what: &str| {
-        let read = prepared.reads & bit != 0;
-        let reason = match (used, varies) {
-            (false, _) => format!("the material has no {what}"),
-            (true, 0) => format!("{what}: one for each triangle"),
-            (true, _) => format!("{what}: varies in {varies} of {pieces} pieces"),
-        };
-        decision(effect, if read { pieces } else { 0 }, if read { 0 } else { pieces }, reason)
-    };
-    let varying = colours.max(normals).max(uvs);
-    let perspective = match (varying, one_w == pieces, scene.affine) {
-        (_, _, true) => "the scene asks for affine interpolation".to_owned(),
-        (0, ..) => "only depth varies, which is linear in the window".to_owned(),
-        (_, true, _) => "w is the same at the three corners of every piece".to_owned(),
-        _ => format!("w differs between corners in {} of {pieces} pieces", pieces - one_w),
-    };
-    let depth_reason = match (scene.hidden, depth) {
-        (Hidden::Painter, _) => "the scene is drawn from back to front".to_owned(),
-        (_, 0) => "no bounding box of another piece meets this item's".to_owned(),
-        _ => format!("{depth} of {pieces} pieces may overlap others"),
-    };
-    let cull = match item.cull {
-        Cull::None => "not asked for",
-        Cull::Clockwise => "asked for: clockwise pieces are left out",
-        Cull::CounterClockwise => "asked for: counter-clockwise pieces are left out",
-    };
-    let culls = if item.cull == Cull::None { 0 } else { pieces };
-    let words = match (has_widths, wide) {
-        (false, _) => "the engine's integers have one width".to_owned(),
-        (_, 0) => "32 bits hold the edge functions of every piece".to_owned(),
-        _ => format!("{wide} of {pieces} pieces are too large for 32 bits"),
-    };
-    let has_colour = material.vertex_colours || material.shading == Shading::Gouraud;
-    let constant = format!("{varying} of {pieces} pieces have an attribute that varies");
-    [
-        decision(Effect::Cull, culls, pieces - culls, cull),
-        decision(Effect::WideWords, wide, pieces - wide, words),
-        decision(Effect::Perspective, pieces - affine, affine, perspective),
-        decision(Effect::Depth, depth, pieces - depth, depth_reason),
-        attribute(Effect::Colour, bit::COLOUR, colours, has_colour, "colour of the corners"),
-        attribute(Effect::Light, bit::NORMAL, normals, is_lit(scene, item), "light and normal"),
-        attribute(Effect::Texture, bit::UV, uvs, material.texture.is_some(), "texture"),
-        decision(Effect::Interpolation, varying, pieces - varying, constant),
-    ]
-    .into_iter()
-}
+    #[test]
+    fn sets_of_attributes_are_lists_of_names() {
+        for bits in 0..8 {
+            let set = Attributes(bits);
+            let text = serde_json::to_string(&set).unwrap();
+            assert_eq!(serde_json::from_str::<Attributes>(&text).unwrap(), set);
+            assert_eq!(text.matches('"').count() as u32, 2 * bits.count_ones());
+        }
+        assert_eq!(serde_json::to_string(&Attributes(5)).unwrap(), r#"["colour","uv"]"#);
+        assert!(serde_json::from_str::<Attributes>(r#"["hue"]"#).is_err());
+    }
 
-fn frame_decisions(
-    scene: &Scene,
-    effects: &Effects,
-    target: &Target,
-    counters: &Counters,
-) -> impl Iterator<Item = Decision> {
-    let Counters { triangles, clipped, rejected, expanded, cleared, .. } = *counters;
-    let clip = match (clipped, rejected) {
-        (0, 0) => "no corner lies outside the view volume".to_owned(),
-        (0, _) => format!("{rejected} triangles lie outside one plane altogether; none is cut"),
-        _ => format!("{clipped} of {triangles} triangles cross a plane, {rejected} lie outside"),
-    };
-    let clips = match effects.mode(Effect::Clip) {
-        Mode::Planned => clipped,
-        Mode::Always => triangles - rejected,
-        Mode::Never => 0,
-    };
-    let pixels = target.pixel_count();
-    let samples = match target.antialias() {
-        Antialias::None => "a pixel has one sample".to_owned(),
-        _ if expanded == 0 => "no pixel holds more than one colour".to_owned(),
-        _ => format!("{expanded} of {pixels} pixels may hold more than one colour"),
-    };
-    let clear = match cleared {
-        0 => "every tile is covered by what is drawn first",
-        _ if cleared < target.sample_count() => "the rest is covered, or cleared pixel by pixel",
-        _ => "nothing that is drawn first covers a tile",
-    };
-    let depths = match (scene.hidden, counters.depth_tests) {
-        (Hidden::Painter, _) => "the scene is drawn from back to front",
-        (_, 0) => "no depth is tested",
-        _ => "depths are tested",
-    };
-    let buffer = match counters.presented {
-        0 => "the picture is looked at when it is finished",
-        _ => "somebody looks while it is drawn",
-    };
-    let of_samples = |count: u64| (count, target.sample_count().saturating_sub(count));
-    let frame = |effect, (on, off), reason: &str| decision(effect, on, off, reason);
-    [
-        frame(Effect::Clip, (clips, triangles - clips), &clip),
-        frame(Effect::DepthBuffer, of_samples(counters.depths_cleared), depths),
-        frame(Effect::Samples, (expanded, pixels - expanded), &samples),
-        frame(Effect::Clear, of_samples(cleared), clear),
-        frame(Effect::SecondBuffer, (counters.presented, pixels - counters.presented), buffer),
-    ]
-    .into_iter()
+    #[test]
+    fn a_misspelt_word_of_a_plan_is_refused() {
+        let plan = PiecePlan { interpolates: Attributes(5), perspective: true, depth: false };
+        let text = serde_json::to_string(&plan).unwrap();
+        assert_eq!(serde_json::from_str::<PiecePlan>(&text).unwrap(), plan);
+        let error = serde_json::from_str::<PiecePlan>(&text.replace("depth", "depht")).unwrap_err();
+        assert!(error.to_string().contains("depht"), "{error}");
+    }
 }

@@ -1,9 +1,9 @@
 //! Hazards: what breaks rasterizers, as generated families and as named cases.
 //!
-//! Uniformly random triangles prove little: on the 1/256-px lattice a sample lies exactly on an edge
-//! about twice in ten thousand pixels, so random draws hardly ever refute a wrong tie rule. Each
-//! family here aims at one danger. A case is a pure function of (family, seed, index), on every
-//! machine: whole-number arithmetic, no trigonometry.
+//! Uniformly random triangles prove little: on the 1/256-px lattice two or three in ten thousand have
+//! a sample exactly on an edge, so random draws hardly ever refute a wrong tie rule. Each family here
+//! aims at one danger. A case is a pure function of (family, seed, index), on every machine:
+//! whole-number arithmetic, no trigonometry.
 
 pub mod lines;
 pub mod named;

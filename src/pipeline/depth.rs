@@ -9,7 +9,7 @@
 //! plain rounding would then decide differently for the two.
 
 /// How a depth in [0, 1] is stored.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum DepthFormat {
     /// 2^32 equal steps.
     #[default]

@@ -36,9 +36,9 @@ pub fn fill<V: Varying>(
     }
 }
 
-/// The fragments of a triangle for the four samples' many passes: one copy of the rasterizer's code
+/// The fragments of a triangle for passes of which there are many: one copy of the rasterizer's code
 /// for all of them.
-fn fragments_of_pass<V: Varying>(
+pub(crate) fn fragments_of_pass<V: Varying>(
     engine: &impl Interpolate,
     piece: &ScreenTriangle<V>,
     bounds: PixelRect,
@@ -50,7 +50,7 @@ fn fragments_of_pass<V: Varying>(
 
 /// The fragments of a triangle, with the division by 1/w or without.
 #[inline]
-pub(crate) fn fragments<V: Varying>(
+fn fragments<V: Varying>(
     engine: &impl Interpolate,
     piece: &ScreenTriangle<V>,
     bounds: PixelRect,

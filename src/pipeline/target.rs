@@ -26,7 +26,7 @@ pub fn to_colour(rgb: DVec3) -> Colour {
 }
 
 /// How many samples a pixel has and where.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum Antialias {
     /// One, at the centre.
     #[default]

@@ -241,6 +241,28 @@ fn request(engine: &str, case: &Case) -> String {
     format!("printf '%s\\n' {} | rasterproof engine {engine}", quoted.join(" "))
 }
 
+/// A failing case of a program that was judged, beside what the engines and the specimens draw.
+#[must_use]
+pub fn of_program(
+    name: String,
+    about: String,
+    case: &Case,
+    program: &str,
+    drawn: Option<Coverage>,
+) -> CaseView {
+    let mut view = on_grid(name, about, Kind::Failing, case, Judged::default());
+    if let Some(drawn) = drawn {
+        let truth = match &case.shape {
+            Shape::Triangles { list, .. } => Some(oracle_coverage(list, case.window)),
+            Shape::Lines(lines) => line_coverage(&LineEngine::Oracle, lines, case.window).ok(),
+        };
+        let truth = truth.unwrap_or_else(|| Coverage::new(case.window, 0));
+        view.layers.insert(0, layer(program.to_owned(), Role::Engine, Ok(drawn), &truth));
+        view.start = [0, view.place("oracle", 1)];
+    }
+    view
+}
+
 /// Names that occur again get a number.
 fn unique(views: &mut [CaseView]) {
     let mut seen = std::collections::HashMap::new();

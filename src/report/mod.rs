@@ -9,6 +9,7 @@ pub mod exact;
 pub mod frames;
 pub mod html;
 pub mod json;
+pub mod judged;
 pub mod lettering;
 pub mod picture;
 pub mod plot;

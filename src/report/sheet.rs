@@ -58,8 +58,8 @@ pub const SHEETS: [Sheet; 4] = [
     },
     Sheet {
         name: "book-2",
-        title: "The book, chapters 6 to 11: depth, clipping, viewport",
-        sources: &["book 6", "book 7", "book 8", "book 11"],
+        title: "The book, chapters 6 to 11: depth, clipping, viewport, turns",
+        sources: &["book 6", "book 7", "book 8", "book 10", "book 11"],
     },
     Sheet {
         name: "games101",

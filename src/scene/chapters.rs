@@ -77,6 +77,11 @@ pub const SCENES: &[Entry] = &[
         build: inside,
     },
     Entry {
+        name: "homework",
+        about: "GAMES101 homework 2: its two triangles, one before the other",
+        build: homework,
+    },
+    Entry {
         name: "panels",
         about: "a user interface: flat panels that do not overlap, parallel to the screen",
         build: panels,
@@ -232,6 +237,26 @@ fn inside(scene: Scene, turn: f64) -> Scene {
     let material = textured(textures::checkerboard(), Shading::Unlit);
     let item = turned(Item::new(mesh, material), DVec3::ZERO, DMat4::from_rotation_y(turn * TAU));
     with(scene, [item])
+}
+
+/// The triangles, colours and camera of the homework: its eye stands 5 before the origin, and an
+/// angle of 45 degrees is narrower than that of the other scenes.
+fn homework(scene: Scene, turn: f64) -> Scene {
+    let flat = |positions: [[f64; 2]; 3], distance: f64, colour: [u8; 3]| {
+        let mesh =
+            shapes::triangle(positions.map(|[x, y]| DVec3::new(x, y, distance)), [DVec3::ONE; 3]);
+        let colour = DVec3::from(colour.map(f64::from)) / 255.0;
+        let item = Item::new(mesh, Material { colour, ..Material::default() });
+        turned(item, DVec3::new(0.0, 0.0, 8.5), DMat4::from_rotation_z(turn * TAU))
+    };
+    let items = [
+        flat([[2.0, 0.0], [0.0, 2.0], [-2.0, 0.0]], 7.0, [217, 238, 185]),
+        flat([[3.5, -1.0], [2.5, 1.5], [-1.0, 0.5]], 10.0, [185, 217, 238]),
+    ];
+    let narrower = 0.6 / (TAU / 16.0).tan();
+    let zoom = DMat4::from_scale(DVec3::new(narrower, narrower, 1.0));
+    let projection = zoom * scene.projection;
+    Scene { projection, background: [0, 0, 0, 255], ..with(scene, items) }
 }
 
 /// Corners of a rectangle in the window's own units, -1 to 1, at one distance.

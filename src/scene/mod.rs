@@ -4,6 +4,7 @@
 //! what the scenes are made of. Nothing here draws.
 
 pub mod chapters;
+pub mod meshes;
 pub mod named;
 pub mod obj;
 pub mod random;

@@ -1,6 +1,9 @@
 //! Specimens: the three depths of the book: w itself, with perspective (part 2, chapter 6), -1/w,
 //! linear (chapter 7), z/w, linear (from chapter 8).
 //!
+//! Source: the book (yangzhenzhuozz/Renderer on GitHub) and its companion code; see
+//! `docs/sources.md`.
+//!
 //! Symptoms, of all three: the depth starts at the crossing and steps without regard to the samples,
 //! so a nearly flat span throws it far out of the range of its corners, and what is drawn later
 //! vanishes behind nothing; ties pass the test, and so does NaN. Chapter 6 besides needs the buffer

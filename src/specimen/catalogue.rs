@@ -7,9 +7,9 @@
 
 use super::scene::{Image, Setting, Version};
 use super::{
-    book_affine, book_final, book_formulas, book_near_clip, book_painter, book_viewport,
-    games101_depth, games101_strict, games101_supersample, sysu_simple_clip, sysu_strict_t,
-    sysu_weights,
+    book_affine, book_final, book_formulas, book_near_clip, book_painter, book_rotate,
+    book_viewport, games101_box, games101_depth, games101_strict, games101_supersample,
+    sysu_simple_clip, sysu_strict_t, sysu_weights,
 };
 
 /// A specimen's card.
@@ -231,6 +231,13 @@ pub const CARDS: &[Card] = &[
         exhibit: Exhibit::Scene("full screen", book_viewport::draw),
     },
     Card {
+        name: "book-rotate",
+        source: "book 10.4",
+        fault: "two of three turns go the other way round",
+        cure: "one cycle: x towards y, y towards z, z towards x",
+        exhibit: Exhibit::Scene("30 degrees about x, y, z", book_rotate::draw),
+    },
+    Card {
         name: "games101-strict",
         source: "GAMES101 hw 2",
         fault: "samples on edges belong to no triangle: holes",
@@ -260,6 +267,13 @@ pub const CARDS: &[Card] = &[
         fault: "the repair bends z/w by up to 0.8 of its range",
         cure: "z/w is linear on the screen: leave it",
         exhibit: Exhibit::Scene("floor, w = 1 to 100", games101_depth::draw),
+    },
+    Card {
+        name: "games101-box",
+        source: "GAMES101 hw 2",
+        fault: "box not cut to the window: wraps, and leaves the buffer",
+        cure: "cut the box to the window before walking it",
+        exhibit: Exhibit::Scene("out at the right and below", games101_box::draw),
     },
     Card {
         name: "games101-average",

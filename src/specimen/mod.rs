@@ -1,8 +1,9 @@
 //! The published algorithms, faults included: specimens to look at, never to build on.
 //!
 //! Two sources publish code that is kept here: a Chinese text on writing a software renderer ("the
-//! book", eleven chapters) and two sets of course work, GAMES101 homework 2 and SYSU assignment 2. A
-//! file holds one algorithm in our own words, with its source, its symptom and its cure. A specimen
+//! book", eleven chapters) and two sets of course work, GAMES101 homework 2 and SYSU assignment 2;
+//! `docs/sources.md` says where they are to be found. A file holds one algorithm in our own words, with
+//! its source, its symptom and its cure. A specimen
 //! takes positions as real numbers, since its faults begin with what it does to them, and draws a
 //! pixel as often as the published loops do. None is ever repaired: the tests require each to be
 //! caught.
@@ -16,9 +17,11 @@ pub mod book_final;
 pub mod book_formulas;
 pub mod book_near_clip;
 pub mod book_painter;
+pub mod book_rotate;
 pub mod book_triangle;
 pub mod book_viewport;
 pub mod catalogue;
+pub mod games101_box;
 pub mod games101_depth;
 pub mod games101_strict;
 pub mod games101_supersample;

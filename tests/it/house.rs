@@ -288,7 +288,15 @@ fn anchors(text: &str) -> Vec<String> {
         let kept = words.chars().filter(|c| c.is_alphanumeric() || " -_".contains(*c));
         Some(kept.map(|c| if c == ' ' { '-' } else { c }).collect())
     };
-    text.lines().filter_map(heading).collect()
+    let mut anchors: Vec<String> = Vec::new();
+    for anchor in text.lines().filter_map(heading) {
+        let anchor: String = anchor;
+        // A heading that stands twice is told apart by a number.
+        let before = anchors.iter().filter(|a| **a == anchor).count();
+        let numbered = (1..).map(|n| format!("{anchor}-{n}")).find(|a| !anchors.contains(a));
+        anchors.push(if before == 0 { anchor } else { numbered.unwrap_or_default() });
+    }
+    anchors
 }
 
 /// Links that lead nowhere: to a missing file, or a missing heading of a page.
@@ -427,6 +435,39 @@ fn house_missing_names_are_found() {
     assert_eq!(missing, names.map(|name| format!("docs/a.md: {name}")));
     let table = "| [1.1](ch01.md) | pixel | code | `proves_nothing` |  |  |\n";
     assert_eq!(known.missing("docs/index.md", table), ["docs/index.md: test proves_nothing"]);
+}
+
+/// Every specimen credits its source.
+#[test]
+fn house_specimens_credit_their_source() {
+    let of_all = ["mod.rs", "catalogue.rs", "scene.rs"];
+    for path in files(&root().join("src/specimen"), "rs") {
+        let name = path.file_name().unwrap().to_str().unwrap();
+        let text = fs::read_to_string(&path).unwrap();
+        assert!(of_all.contains(&name) || text.contains("\n//! Source: "), "{name}");
+    }
+}
+
+/// Lines of a page's code that call the program by its bare name, which only an installed one has.
+fn bare_commands(text: &str) -> usize {
+    let calls = |line: &&str| line.trim_start().starts_with("rasterproof ");
+    text.split("```")
+        .skip(1)
+        .step_by(2)
+        .filter(|code| code.starts_with("sh\n"))
+        .flat_map(str::lines)
+        .filter(calls)
+        .count()
+}
+
+/// Commands are written in one way: through cargo, or installed where the page says how.
+#[test]
+fn house_commands_are_written_in_one_way() {
+    for (page, text) in pages() {
+        let is_said = text.contains("`cargo install --path .`");
+        assert!(is_said || bare_commands(&text) == 0, "{}", page.display());
+    }
+    assert_eq!(bare_commands("```sh\nrasterproof cost\ncargo run\n```\nrasterproof x\n"), 1);
 }
 
 /// The sections of the book, by its table of contents.

@@ -43,8 +43,8 @@ fn target(folder: &str, link: &str) -> String {
 
 /// What must be the same in every language, as far as it can be read off the text.
 struct Skeleton {
-    /// In the order of the page: headings as their level, code blocks in full, table rows by their
-    /// number of cells and their figures.
+    /// In the order of the page: headings as their level, code blocks without the words in them, table
+    /// rows by their number of cells and their figures.
     marks: Vec<String>,
     /// Links and pictures in the prose, as paths from the root of the repository.
     targets: BTreeSet<String>,
@@ -56,7 +56,10 @@ fn skeleton(folder: &str, page: &str) -> Skeleton {
         let fence = line.trim_start().starts_with("```");
         match block.take() {
             Some(code) if fence => marks.push(code),
-            Some(code) => block = Some(code + "\n" + line),
+            Some(code) => {
+                let kind = code.lines().next().unwrap_or("").trim_start().to_owned();
+                block = Some(code + "\n" + &without_words(&kind, line));
+            }
             None if fence => block = Some(line.to_owned()),
             None => {
                 marks.extend(mark(line));
@@ -73,6 +76,32 @@ fn skeleton(folder: &str, page: &str) -> Skeleton {
         .map(|link| target(folder, link))
         .collect();
     Skeleton { marks, targets }
+}
+
+/// A line of a code block without what is written for people: comments, and words in formulas. That
+/// there are some is left to be seen.
+fn without_words(kind: &str, line: &str) -> String {
+    let comment = match kind {
+        "```rust" => line.find("//"),
+        "```sh" | "```console" if line.starts_with("# ") => Some(0),
+        "```sh" | "```console" => line.find(" # ").map(|at| at + 1),
+        "```math" => return without_text(line),
+        _ => None,
+    };
+    comment.map_or(line.to_owned(), |at| line[..at].trim_end().to_owned() + " #")
+}
+
+fn without_text(formula: &str) -> String {
+    let mut kept = formula.to_owned();
+    for command in ["\\text{", "\\mathit{"] {
+        let mut parts = kept.split(command);
+        let first = parts.next().unwrap_or("").to_owned();
+        kept = parts.fold(first, |kept, part| {
+            let (_, rest) = part.split_once('}').expect("words in a formula end on their line");
+            kept + command + "}" + rest
+        });
+    }
+    kept
 }
 
 /// A heading's level or a table row's cells and figures; nothing for any other line.
@@ -132,15 +161,18 @@ fn languages_keep_step() {
 #[test]
 fn languages_drift_is_found() {
     let english = "# A\n\n[中文](zh/a.md) [B](b.md#x) ![P](../snapshots/p.png)\n\n## C\n\n\
-                   | n | 1,024 |\n\n```sh\nrun # [no](link)\n```\n";
+                   | n | 1,024 |\n\n```sh\nrun # [no](link)\n```\n\n```math\nx_\\text{affine} = 1\n```\n";
     let chinese = "# 甲\n\n[English](../a.md)。[乙](b.md) ![图](../../snapshots/p.png)\n\n## 丙\n\n\
-                   | 数 | 1,024 |\n\n```sh\nrun # [no](link)\n```\n";
+                   | 数 | 1,024 |\n\n```sh\nrun   # 不同的话\n```\n\n```math\nx_\\text{仿射} = 1\n```\n";
     assert_eq!(out_of_step("a.md", english, chinese), [""; 0]);
     let drifts = [
         ("## 丙", "### 丙", "where"),
         ("## 丙\n", "", "where"),
         ("```sh", "```text", "where"),
-        ("run #", "run  #", "where"),
+        ("run  ", "walk  ", "where"),
+        ("  # 不同的话", "", "where"),
+        ("} = 1", "} = 2", "where"),
+        ("_\\text{仿射}", "", "where"),
         ("1,024", "1,025", "where"),
         ("| 数 |", "| 数 | 量 |", "where"),
         ("[English](../a.md)。", "", "does not link"),

@@ -2,15 +2,21 @@
 
 mod book;
 mod commands;
+mod convention;
 mod cost;
+mod cost_tables;
 mod exact;
 mod exhaust;
+mod figures;
 mod house;
+mod illustrations;
+mod judge;
 mod languages;
 mod matrix;
 mod models;
 mod mutants;
 mod page;
+mod pages;
 mod properties;
 mod protocol;
 mod recorded;

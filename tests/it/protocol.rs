@@ -30,7 +30,10 @@ fn hello_names_the_capabilities() {
     check("scanline", "HELLO 1", "HELLO 1 scanline coverage attributes samples4");
     check("bresenham", "HELLO 1", "HELLO 1 bresenham line");
     check("oracle", "HELLO 1", "HELLO 1 oracle coverage attributes samples4 line");
-    check("oracle", "HELLO 2", "E - this engine speaks version 1: say HELLO 1");
+    let refusal = "E - this engine speaks versions 1 and 2: say HELLO 1 or HELLO 2";
+    check("oracle", "HELLO 3", refusal);
+    let line = "HELLO 2 dda line grid=256 origin=0.5,0.5 rule=top-left winding=both batch=1024";
+    check("dda", "HELLO 2", line);
 }
 
 #[test]

@@ -6,9 +6,11 @@ use std::sync::Arc;
 use glam::{DMat4, DVec3, DVec4};
 use proptest::prelude::*;
 use proptest::test_runner::Config;
+use rasterproof::effects::plan::{Canvas, Clear, Order, Pieces, Plan, Samples};
 use rasterproof::effects::render::Rendered;
 use rasterproof::effects::{Effect, Effects, Mode};
 use rasterproof::frame::Frame;
+use rasterproof::grid::PixelRect;
 use rasterproof::lineup::Drawer;
 use rasterproof::pipeline::Counters;
 use rasterproof::pipeline::assemble::Cull;
@@ -19,7 +21,9 @@ use rasterproof::pipeline::target::{Antialias, Colour, Target};
 use rasterproof::pipeline::transform::{look_at, perspective};
 use rasterproof::report::frames;
 use rasterproof::scene::chapters::{SCENES, scene};
-use rasterproof::scene::{Item, Material, Mesh, Scene, Shading, random, shapes, textures};
+use rasterproof::scene::{
+    Hidden, Item, Material, Mesh, Scene, Shading, meshes, random, shapes, textures,
+};
 use rayon::prelude::*;
 
 use crate::snapshots::{check_picture, settings};
@@ -98,6 +102,7 @@ fn plans_change_no_bit() {
                     assert!(planned == whole, "{} {name} {antialias:?} {what}", scene.name);
                 };
                 check(Effects::PLANNED, "planned");
+                check(Effects::USUAL, "usual");
                 for effect in Effect::ALL {
                     let name = effect.name();
                     check(Effects::ALWAYS.with(effect, Mode::Planned), name);
@@ -106,6 +111,202 @@ fn plans_change_no_bit() {
             }
         }
     });
+}
+
+/// What was counted is what the plan says, where it leaves nothing open.
+fn check_account(plan: &Plan, counters: &Counters, name: &str) {
+    let sums = |effect: Effect| {
+        let own = plan.decisions.iter().filter(move |d| d.effect == effect);
+        own.fold([0; 2], |[on, open], d| [on + d.on, open + d.open])
+    };
+    let c = counters;
+    for (effect, counted) in [
+        (Effect::Clip, c.clipped),
+        (Effect::WideWords, c.wide),
+        (Effect::DepthBuffer, c.depths_cleared),
+        (Effect::Samples, c.expanded),
+        (Effect::Clear, c.cleared),
+        (Effect::SecondBuffer, c.presented),
+    ] {
+        let [on, open] = sums(effect);
+        assert!(open > 0 || on == counted, "{name} {}: {on}, {counted}", effect.name());
+    }
+    for (effect, counted) in [
+        (Effect::Cull, c.cull_tests),
+        (Effect::Perspective, c.divisions),
+        (Effect::Depth, c.depth_tests),
+        (Effect::Light, c.lights),
+        (Effect::Texture, c.texels),
+        (Effect::Interpolation, c.components),
+    ] {
+        assert!(sums(effect) != [0; 2] || counted == 0, "{name} {}: {counted}", effect.name());
+    }
+}
+
+/// A plan made before drawing is the one that the frame reports; written down and read again it
+/// draws the same frame at the same cost, which is what it says.
+fn check_plan(scene: &Scene, drawer: Drawer, effects: Effects, antialias: Antialias) {
+    let name = format!("{} {} {antialias:?}", scene.name, drawer.name());
+    let rendered = draw(scene, drawer, effects, antialias);
+    let mut target = target(antialias);
+    let plan = drawer.plan(scene, &effects, &Canvas::of(&target)).unwrap();
+    assert!(plan == rendered.plan, "{name}: {plan:?} {:?}", rendered.plan);
+    let read: Plan = serde_json::from_str(&serde_json::to_string(&plan).unwrap()).unwrap();
+    assert!(read == plan, "{name}: {read:?}");
+    let executed = drawer.execute(&read, scene, &mut target).unwrap();
+    assert!(executed.picture == rendered.picture, "{name}");
+    assert_eq!(executed.counters, rendered.counters, "{name}");
+    if effects == Effects::PLANNED {
+        check_account(&plan, &rendered.counters, &name);
+    }
+}
+
+#[test]
+fn plans_are_known_before_drawing() {
+    scenes().par_bridge().for_each(|scene| {
+        for (drawer, antialias) in
+            Drawer::ALL.into_iter().flat_map(|d| SMOOTHINGS.map(|antialias| (d, antialias)))
+        {
+            for effects in [Effects::PLANNED, Effects::USUAL, Effects::ALWAYS] {
+                check_plan(&scene, drawer, effects, antialias);
+            }
+        }
+    });
+    (0..200u64).into_par_iter().for_each(|index| {
+        let (drawer, antialias) =
+            (Drawer::ALL[index as usize % 2], SMOOTHINGS[index as usize / 2 % 4]);
+        check_plan(&random::scene(4, index), drawer, Effects::PLANNED, antialias);
+    });
+}
+
+/// Every word of a plan that is turned is followed.
+#[test]
+fn an_edited_plan_is_followed() {
+    let edit = |name: &str, drawer: Drawer, antialias: Antialias, words: &[(&str, &str)]| {
+        let scene = scene(name, 4.0 / 3.0, 0.0).unwrap();
+        let mut target = target(antialias);
+        let plan = drawer.plan(&scene, &Effects::PLANNED, &Canvas::of(&target)).unwrap();
+        let mut text = serde_json::to_string(&plan).unwrap();
+        for (from, to) in words {
+            assert!(text.contains(from), "{name}: no {from} in {text}");
+            text = text.replace(from, to);
+        }
+        let mut json: serde_json::Value = serde_json::from_str(&text).unwrap();
+        if words.iter().any(|(_, to)| to.contains("never")) {
+            // Other pieces than were listed.
+            json["items"][0]["pieces"] = serde_json::json!({"as-they-come": {
+                "interpolates": ["colour", "normal", "uv"],
+                "where_it_varies": true,
+                "perspective": "planned",
+                "depth": true,
+            }});
+        }
+        let plan: Plan = serde_json::from_value(json).unwrap();
+        let rendered = drawer.execute(&plan, &scene, &mut target).unwrap();
+        assert!(rendered.plan == plan);
+        (rendered, draw(&scene, drawer, Effects::PLANNED, antialias))
+    };
+    let (none, scan) = (Antialias::None, Drawer::Scanline);
+    let (depth, perspective) =
+        (r#""depth":true"#, (r#""perspective":true"#, r#""perspective":false"#));
+    // As if the effect had been switched off.
+    let never = |name: &str, effect| {
+        let scene = scene(name, 4.0 / 3.0, 0.0).unwrap();
+        draw(&scene, scan, Effects::PLANNED.with(effect, Mode::Never), none).picture
+    };
+    let (edited, planned) = edit("cycle", scan, none, &[(depth, r#""depth":false"#)]);
+    assert!(edited.picture == never("cycle", Effect::Depth) && edited.picture != planned.picture);
+    assert_eq!(edited.counters.depth_tests, 0);
+    let (edited, planned) = edit("tilted", scan, none, &[perspective]);
+    assert!(edited.picture == never("tilted", Effect::Perspective));
+    assert!(edited.picture != planned.picture);
+    let colour = r#""interpolates":["colour"]"#;
+    let (edited, planned) = edit("spinning", scan, none, &[(colour, r#""interpolates":[]"#)]);
+    assert!(edited.picture == never("spinning", Effect::Interpolation));
+    assert!(edited.picture != planned.picture);
+    let clip = (r#""clip":"planned""#, r#""clip":"never""#);
+    assert!(edit("frustum", scan, none, &[clip]).0.picture == never("frustum", Effect::Clip));
+    let cull = (r#""cull":"planned""#, r#""cull":"never""#);
+    assert_eq!(edit("culled", scan, none, &[cull]).0.counters.culled, 0);
+    let clear = (r#""clear":"everything""#, r#""clear":"nothing""#);
+    let (edited, _) = edit("cycle", scan, none, &[clear]);
+    assert_eq!((edited.picture.get(0, 0), edited.counters.cleared), (Some(LAST_FRAME), 0));
+    let depths = (r#""clear_depths":true"#, r#""clear_depths":false"#);
+    let (edited, _) = edit("cycle", scan, none, &[depths]);
+    assert_eq!(edited.counters.depth_failed, edited.counters.depth_tests, "last frame is nearer");
+    let second = (r#""second_buffer":false"#, r#""second_buffer":true"#);
+    assert_eq!(edit("cycle", scan, none, &[second]).0.counters.presented, 4800);
+    let words = (r#""wide_words":"planned""#, r#""wide_words":"always""#);
+    assert!(edit("cycle", Drawer::EdgeFunction, none, &[words]).0.counters.wide >= 3);
+    // What the painter draws last is drawn first.
+    let scene = Scene { hidden: Hidden::Painter, ..near_and_far(0.5) };
+    let mut target = target(none);
+    let mut plan = scan.plan(&scene, &Effects::PLANNED, &Canvas::of(&target)).unwrap();
+    let painted = scan.execute(&plan, &scene, &mut target).unwrap().picture;
+    plan.frame.order = Order::Submission;
+    assert!(scan.execute(&plan, &scene, &mut target).unwrap().picture != painted);
+    // Samples: the same picture at other costs.
+    let over = Antialias::Supersample(4);
+    let policy = r#"{"on-demand":{"flat-px":32,"varying-columns":64}}"#;
+    let small = r#"{"on-demand":{"flat-px":4800,"varying-columns":64}}"#;
+    let (edited, planned) = edit("facets", scan, over, &[(policy, small)]);
+    assert!(edited.picture == planned.picture);
+    assert!(edited.counters.expanded > planned.counters.expanded);
+    let each = [
+        (policy, r#""each""#),
+        (r#""clear":"nothing""#, r#""clear":"everything""#),
+        (r#""clear_depths":false"#, r#""clear_depths":true"#),
+    ];
+    let (edited, planned) = edit("facets", scan, over, &each);
+    assert!(edited.picture == planned.picture && edited.counters.expanded == 4800);
+}
+
+/// A plan of another scene or target is refused, before anything is drawn.
+#[test]
+fn a_plan_of_something_else_is_refused() {
+    let [cube, panels] = ["cube", "panels"].map(|name| scene(name, 4.0 / 3.0, 0.0).unwrap());
+    let mut other = target(Antialias::None);
+    let before = other.resolve();
+    let plan = Drawer::Scanline.plan(&cube, &Effects::PLANNED, &Canvas::of(&other)).unwrap();
+    let refused = |plan: &Plan, scene: &Scene, target: &mut Target| {
+        Drawer::Scanline.execute(plan, scene, target).unwrap_err().to_string()
+    };
+    assert!(refused(&plan, &panels, &mut other).contains("the plan has 1 items, and the scene 24"));
+    let mut large = target_of(81, 60, Antialias::None);
+    let words = refused(&plan, &cube, &mut large);
+    assert!(words.contains("80 x 60") && words.contains("81 x 60"), "{words}");
+    let mut short = plan.clone();
+    let Pieces::Listed(runs) = &mut short.items[0].pieces else { panic!("{plan:?}") };
+    runs[0].0 = u64::MAX;
+    assert!(refused(&short, &cube, &mut other).contains("pieces of item 0, which has"));
+    let mut outside = plan.clone();
+    outside.frame.clear = Clear::Tiles(vec![PixelRect { x0: 60, y0: 0, x1: 92, y1: 32 }]);
+    assert!(refused(&outside, &cube, &mut other).contains("(60, 0) to (92, 32)"));
+    let mut scene = cube.clone();
+    scene.items[0].model = DMat4::from_scale(DVec3::splat(f64::NAN));
+    assert!(refused(&plan, &scene, &mut other).contains("item 0: vertex 0"));
+    assert!(other.resolve() == before);
+}
+
+/// Samples on demand step aside where nothing would stay whole.
+#[test]
+fn samples_on_demand_step_aside() {
+    let samples = |scene: &Scene, antialias| {
+        let canvas = Canvas::of(&target_of(160, 120, antialias));
+        let plan = Drawer::Scanline.plan(scene, &Effects::PLANNED, &canvas).unwrap();
+        matches!(plan.frame.samples, Samples::OnDemand { .. })
+    };
+    let over = Antialias::Supersample(2);
+    let named = |name| scene(name, 4.0 / 3.0, 0.0).unwrap();
+    assert!(samples(&named("facets"), over) && samples(&named("cycle"), over));
+    assert!(!samples(&named("inside"), over), "not a pixel of background, all in one texture");
+    for antialias in [over, Antialias::Multisample4] {
+        let near = meshes::scene("bumps-4000").unwrap();
+        let mut far = near.clone();
+        far.items[0].model = DMat4::from_scale(DVec3::splat(0.1)) * far.items[0].model;
+        far.items[0].model.w_axis = DVec4::new(0.0, 0.0, 8.0, 1.0);
+        assert!(!samples(&near, antialias) && samples(&far, antialias), "{antialias:?}");
+    }
 }
 
 /// Random scenes, 10,000 or as many as `RASTERPROOF_SCENES` says, through both rasterizers: planned and

@@ -8,7 +8,7 @@ use crate::pipeline::target::Colour;
 
 /// The samples of a pixel that are of one piece.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Part {
+pub struct Part {
     /// The piece; none for the background.
     pub serial: Option<u32>,
     /// A bit for each sample.
@@ -21,7 +21,7 @@ pub(super) struct Part {
 
 /// All samples of a pixel, in parts.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Parts {
+pub struct Parts {
     parts: [Part; Self::MOST],
     len: usize,
 }
@@ -30,17 +30,17 @@ impl Parts {
     /// Pixels with more parts are drawn sample by sample.
     const MOST: usize = 4;
 
-    pub(super) fn of(whole: Part) -> Self {
+    pub fn of(whole: Part) -> Self {
         Self { parts: [whole; Self::MOST], len: 1 }
     }
 
-    pub(super) fn iter(&self) -> impl Iterator<Item = &Part> {
+    pub fn iter(&self) -> impl Iterator<Item = &Part> {
         self.parts[..self.len].iter()
     }
 
     /// Draws a piece, over what is there or where it is nearer. False, with nothing drawn, where the
     /// samples decide one by one, or where there would be too many parts.
-    pub(super) fn draw(&mut self, new: Part, depth: bool) -> bool {
+    pub fn draw(&mut self, new: Part, depth: bool) -> bool {
         let count = self.len;
         let parts = &self.parts[..count];
         let is_over = |part: &Part| !depth || new.farthest < part.nearest;
@@ -72,14 +72,14 @@ impl Parts {
     }
 
     /// Keys that no depth is nearer or farther than.
-    pub(super) fn range(&self) -> (u64, u64) {
+    pub fn range(&self) -> (u64, u64) {
         self.iter().fold((u64::MAX, 0), |(nearest, farthest), part| {
             (nearest.min(part.nearest), farthest.max(part.farthest))
         })
     }
 
     /// The mean of the samples, as [`crate::pipeline::target::Target::pixel`] has it.
-    pub(super) fn mean(&self) -> Colour {
+    pub fn mean(&self) -> Colour {
         let mut sum = [0u32; 4];
         let mut samples = 0;
         for part in self.iter() {

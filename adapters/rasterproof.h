@@ -1,0 +1,176 @@
+/* The line protocol (docs/protocol.md) for programs in C and C++: include this, write two functions, and
+
+       int main(void) { return rasterproof_serve("mine", "batch=64", triangle, line); }
+
+   A function that is NULL is one you have not got. The second word list says what your code promises,
+   such as "grid=1 rule=none mask"; requests off a declared grid or range are refused, and so are windows
+   larger than the declared one (1024x1024 if none is). Needs C99 or C++11 and POSIX. */
+#ifndef RASTERPROOF_H
+#define RASTERPROOF_H
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* Draws one pixel; outside the window it does nothing. */
+typedef void (*rasterproof_set_pixel)(int x, int y);
+/* Corners in pixels, y down. */
+typedef void (*rasterproof_triangle)(double x0, double y0, double x1, double y1, double x2, double y2,
+                                     int width, int height, rasterproof_set_pixel set_pixel);
+/* From one pixel to another, in drawing order. */
+typedef void (*rasterproof_line)(int x0, int y0, int x1, int y1, int width, int height,
+                                 rasterproof_set_pixel set_pixel);
+
+enum { RASTERPROOF_MOST_BYTES = 65536, RASTERPROOF_MOST_HITS = 1 << 22, RASTERPROOF_MOST_WORDS = 11 };
+
+struct rasterproof_hit { int y, x; };
+
+/* What set_pixel has drawn for the request in hand. */
+static struct {
+    struct rasterproof_hit *hits;
+    int count, room, width, height, overflow;
+} rasterproof_plane;
+
+static void rasterproof_hit_pixel(int x, int y) {
+    if (x < 0 || y < 0 || x >= rasterproof_plane.width || y >= rasterproof_plane.height) return;
+    if (rasterproof_plane.count == RASTERPROOF_MOST_HITS) { rasterproof_plane.overflow = 1; return; }
+    if (rasterproof_plane.count == rasterproof_plane.room) {
+        rasterproof_plane.room = rasterproof_plane.room ? 2 * rasterproof_plane.room : 4096;
+        rasterproof_plane.hits = (struct rasterproof_hit *)realloc(
+            rasterproof_plane.hits, (size_t)rasterproof_plane.room * sizeof *rasterproof_plane.hits);
+        if (!rasterproof_plane.hits) { fputs("out of memory\n", stderr); exit(1); }
+    }
+    rasterproof_plane.hits[rasterproof_plane.count].y = y;
+    rasterproof_plane.hits[rasterproof_plane.count++].x = x;
+}
+
+static int rasterproof_by_row(const void *left, const void *right) {
+    const struct rasterproof_hit *a = (const struct rasterproof_hit *)left;
+    const struct rasterproof_hit *b = (const struct rasterproof_hit *)right;
+    return a->y != b->y ? (a->y > b->y) - (a->y < b->y) : (a->x > b->x) - (a->x < b->x);
+}
+
+/* One past the run that starts at hit i: neighbours in a row. A pixel hit twice is in two runs. */
+static int rasterproof_run_end(int i) {
+    const struct rasterproof_hit *hit = rasterproof_plane.hits;
+    int end = i + 1;
+    while (end < rasterproof_plane.count && hit[end].y == hit[i].y && hit[end].x == hit[end - 1].x + 1) end++;
+    return end;
+}
+
+static void rasterproof_write_runs(FILE *out, const char *id) {
+    const struct rasterproof_hit *hit = rasterproof_plane.hits;
+    int i, runs = 0, sorted = 1, count = rasterproof_plane.count;
+    for (i = 1; i < count && sorted; i++) sorted = rasterproof_by_row(&hit[i - 1], &hit[i]) <= 0;
+    if (!sorted) qsort(rasterproof_plane.hits, (size_t)count, sizeof *hit, rasterproof_by_row);
+    for (i = 0; i < count; i = rasterproof_run_end(i)) runs++;
+    fprintf(out, "C %s %d", id, runs);
+    for (i = 0; i < count; i = rasterproof_run_end(i))
+        fprintf(out, " %d %d %d", hit[i].y, hit[i].x, hit[rasterproof_run_end(i) - 1].x + 1);
+}
+
+static void rasterproof_write_line(FILE *out, const char *id) {
+    int i;
+    fprintf(out, "P %s %d", id, rasterproof_plane.count);
+    for (i = 0; i < rasterproof_plane.count; i++)
+        fprintf(out, " %d %d", rasterproof_plane.hits[i].x, rasterproof_plane.hits[i].y);
+}
+
+/* The number that a declaration such as "grid=16" gives, or the fallback. */
+static double rasterproof_declared(const char *declares, const char *word, double fallback) {
+    const char *at = strstr(declares, word);
+    return at ? strtod(at + strlen(word), NULL) : fallback;
+}
+
+/* Reads a line without its end; of a longer one the rest is thrown away. Its length, or -1 at the end. */
+static int rasterproof_read(char *line) {
+    int c, count = 0;
+    while ((c = getc(stdin)) != EOF && c != '\n')
+        if (count <= RASTERPROOF_MOST_BYTES) line[count++] = (char)(c ? c : '?');
+    line[count] = '\0';
+    return c == EOF && count == 0 ? -1 : count;
+}
+
+/* Reads what follows the id and draws. What is wrong with the request, or NULL. */
+static const char *rasterproof_draw(char **words, int count, const char *declares, rasterproof_triangle triangle,
+                                    rasterproof_line line) {
+    static char reason[100];
+    double grid = rasterproof_declared(declares, "grid=", 0), range = rasterproof_declared(declares, "range=", 0);
+    double most_wide = rasterproof_declared(declares, "window=", 1024), most_high = most_wide, v[8];
+    const char *high = strstr(declares, "window=");
+    int i, numbers = triangle ? 6 : 4;
+    if (high && (high = strchr(high, 'x')) != NULL) most_high = strtod(high + 1, NULL);
+    if (count != numbers + 4) {
+        snprintf(reason, sizeof reason, "%s takes id width height and %d numbers", words[0], numbers);
+        return reason;
+    }
+    for (i = 0; i < numbers + 2; i++) {
+        char *end;
+        v[i] = strtod(words[i + 2], &end);
+        if (*end) v[i] = NAN;
+    }
+    if (!(v[0] >= 1 && v[0] <= most_wide && v[0] == floor(v[0]) && v[1] >= 1 && v[1] <= most_high &&
+          v[1] == floor(v[1]))) {
+        snprintf(reason, sizeof reason, "the window must be from 1x1 to %gx%g", most_wide, most_high);
+        return reason;
+    }
+    for (i = 2; i < numbers + 2; i++) {
+        if (!(v[i] >= -2147483648.0 && v[i] < 2147483648.0)) return "a coordinate is not a number within 2^31 px";
+        if (range && fabs(v[i]) > range) return "unsupported: out of the declared range";
+        if (grid && v[i] * grid != floor(v[i] * grid)) return "unsupported: off the declared grid";
+    }
+    rasterproof_plane.count = rasterproof_plane.overflow = 0;
+    rasterproof_plane.width = (int)v[0];
+    rasterproof_plane.height = (int)v[1];
+    if (triangle)
+        triangle(v[2], v[3], v[4], v[5], v[6], v[7], (int)v[0], (int)v[1], rasterproof_hit_pixel);
+    else
+        line((int)floor(v[2]), (int)floor(v[3]), (int)floor(v[4]), (int)floor(v[5]), (int)v[0], (int)v[1],
+             rasterproof_hit_pixel);
+    return rasterproof_plane.overflow ? "more than 4194304 pixels set" : NULL;
+}
+
+static void rasterproof_answer(char **words, int count, FILE *out, const char *name, const char *declares,
+                               rasterproof_triangle triangle, rasterproof_line line) {
+    const char *verb = words[0], *id = count > 1 ? words[1] : "-", *wrong = "unsupported";
+    const char *known = triangle ? line ? "coverage line" : "coverage" : "line";
+    int is_triangle = triangle && strcmp(verb, "T") == 0, is_line = line && strcmp(verb, "L") == 0;
+    if (strcmp(verb, "HELLO") == 0) {
+        if (count == 2 && strcmp(id, "1") == 0) fprintf(out, "HELLO 1 %s %s", name, known);
+        else if (count == 2 && strcmp(id, "2") == 0)
+            fprintf(out, "HELLO 2 %s %s%s%s%s", name, known, strstr(declares, "window=") ? "" : " window=1024x1024",
+                    *declares ? " " : "", declares);
+        else fputs("E - say HELLO 1 or HELLO 2", out);
+        return;
+    }
+    if (is_triangle || is_line)
+        wrong = rasterproof_draw(words, count, declares, is_triangle ? triangle : NULL, is_line ? line : NULL);
+    if (wrong) fprintf(out, "E %s %s", id, wrong);
+    else if (is_triangle) rasterproof_write_runs(out, id);
+    else rasterproof_write_line(out, id);
+}
+
+/* Answers requests until the input ends. What the program itself prints goes to the error output. */
+static int rasterproof_serve(const char *name, const char *declares, rasterproof_triangle triangle,
+                             rasterproof_line line) {
+    static char request[RASTERPROOF_MOST_BYTES + 2];
+    FILE *out = fdopen(dup(1), "w");
+    int length;
+    if (!out || dup2(2, 1) < 0) { perror("rasterproof"); return 1; }
+    while ((length = rasterproof_read(request)) >= 0) {
+        char *words[RASTERPROOF_MOST_WORDS + 1], *word = strtok(request, " \t\r\v\f");
+        int count = 0;
+        for (; word; word = strtok(NULL, " \t\r\v\f"))
+            words[count < RASTERPROOF_MOST_WORDS ? count++ : count] = word;
+        if (count == 0) continue;
+        if (length > RASTERPROOF_MOST_BYTES) fputs("E - a request has at most 65536 bytes", out);
+        else rasterproof_answer(words, count, out, name, declares, triangle, line);
+        putc('\n', out);
+        if (fflush(out)) return 1;
+    }
+    return 0;
+}
+
+#endif

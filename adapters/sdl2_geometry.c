@@ -1,0 +1,53 @@
+/* SDL 2: SDL_RenderGeometry and SDL_RenderDrawLine with the software renderer on a surface.
+   cc -O2 sdl2_geometry.c -o sdl2_geometry $(sdl2-config --cflags --libs) -lm */
+#include <SDL.h>
+#include "rasterproof.h"
+
+static SDL_Surface *surface;
+static SDL_Renderer *renderer;
+
+static void begin(int width, int height) {
+    if (!surface || surface->w != width || surface->h != height) {
+        if (renderer) SDL_DestroyRenderer(renderer);
+        SDL_FreeSurface(surface);
+        surface = SDL_CreateRGBSurfaceWithFormat(0, width, height, 32, SDL_PIXELFORMAT_ARGB8888);
+        renderer = surface ? SDL_CreateSoftwareRenderer(surface) : NULL;
+        if (!renderer) { fprintf(stderr, "SDL: %s\n", SDL_GetError()); exit(1); }
+    }
+    SDL_SetRenderDrawColor(renderer, 0, 0, 0, 255);
+    SDL_RenderClear(renderer);
+    SDL_SetRenderDrawColor(renderer, 255, 255, 255, 255);
+}
+
+static void end(rasterproof_set_pixel set_pixel) {
+    SDL_RenderFlush(renderer);
+    for (int y = 0; y < surface->h; y++) {
+        const Uint32 *row = (const Uint32 *)((const char *)surface->pixels + y * surface->pitch);
+        for (int x = 0; x < surface->w; x++) if (row[x] & 0xffffff) set_pixel(x, y);
+    }
+}
+
+static void triangle(double x0, double y0, double x1, double y1, double x2, double y2, int width, int height,
+                     rasterproof_set_pixel set_pixel) {
+    const SDL_Color white = {255, 255, 255, 255};
+    const SDL_Vertex corners[3] = {{{(float)x0, (float)y0}, white, {0, 0}},
+                                   {{(float)x1, (float)y1}, white, {0, 0}},
+                                   {{(float)x2, (float)y2}, white, {0, 0}}};
+    begin(width, height);
+    SDL_RenderGeometry(renderer, NULL, corners, 3, NULL, 0);
+    end(set_pixel);
+}
+
+static void line(int x0, int y0, int x1, int y1, int width, int height, rasterproof_set_pixel set_pixel) {
+    begin(width, height);
+    SDL_RenderDrawLine(renderer, x0, y0, x1, y1);
+    end(set_pixel);
+}
+
+int main(void) {
+    char name[64];
+    SDL_version version;
+    SDL_GetVersion(&version);
+    snprintf(name, sizeof name, "sdl-%d.%d.%d-software", version.major, version.minor, version.patch);
+    return rasterproof_serve(name, "mask line-set batch=64", triangle, line);
+}

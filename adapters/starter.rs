@@ -1,0 +1,187 @@
+// 1. Put your code into triangle() and line() below; set HAS_LINES to false if you draw no lines.
+// 2. Say in DECLARES what your code promises, for example "origin=0,0 rule=none" (docs/protocol.md).
+// 3. Judge it: rustc -O --edition 2024 starter.rs && rasterproof judge -- ./starter
+use std::fmt::Write as _;
+use std::io::{BufRead, Read, Write};
+use std::os::fd::AsFd;
+
+const NAME: &str = "mine";
+const DECLARES: &str = "batch=64";
+const HAS_LINES: bool = true;
+
+// ---- YOUR PLACE: replace the bodies of these two functions ----
+
+/// Corners in pixels, y down; set_pixel(x, y) for every pixel drawn. As it stands it draws every sample on an
+/// edge, so two neighbours both draw the edge they share.
+fn triangle(
+    corners: [(f64, f64); 3],
+    width: i32,
+    height: i32,
+    set_pixel: &mut dyn FnMut(i32, i32),
+) {
+    let side =
+        |a: (f64, f64), b: (f64, f64), x, y| (b.0 - a.0) * (y - a.1) - (b.1 - a.1) * (x - a.0);
+    let [a, b, c] = corners;
+    let left = a.0.min(b.0).min(c.0).floor().max(0.0) as i32;
+    let right = a.0.max(b.0).max(c.0).ceil().min(width.into()) as i32;
+    let top = a.1.min(b.1).min(c.1).floor().max(0.0) as i32;
+    let bottom = a.1.max(b.1).max(c.1).ceil().min(height.into()) as i32;
+    for y in top..bottom {
+        for x in left..right {
+            let (cx, cy) = (f64::from(x) + 0.5, f64::from(y) + 0.5);
+            let e = [side(a, b, cx, cy), side(b, c, cx, cy), side(c, a, cx, cy)];
+            if e.iter().all(|e| *e >= 0.0) || e.iter().all(|e| *e <= 0.0) {
+                set_pixel(x, y);
+            }
+        }
+    }
+}
+
+/// From one pixel to another, both drawn, in drawing order. As it stands, a plain DDA.
+fn line(
+    from: (i32, i32),
+    to: (i32, i32),
+    width: i32,
+    height: i32,
+    set_pixel: &mut dyn FnMut(i32, i32),
+) {
+    let (x0, y0) = (f64::from(from.0), f64::from(from.1));
+    let (dx, dy) = (f64::from(to.0) - x0, f64::from(to.1) - y0);
+    let steps = dx.abs().max(dy.abs());
+    // Of the longer direction, only the steps inside the window.
+    let (start, step, size) =
+        if dx.abs() >= dy.abs() { (x0, dx, f64::from(width)) } else { (y0, dy, f64::from(height)) };
+    let first = if step >= 0.0 { -start } else { start - size + 1.0 }.max(0.0) as i64;
+    let last = if step >= 0.0 { size - 1.0 - start } else { start }.min(steps) as i64;
+    for i in first..=last {
+        let at =
+            |start: f64, step: f64| (start + step * i as f64 / steps.max(1.0) + 0.5).floor() as i32;
+        set_pixel(at(x0, dx), at(y0, dy));
+    }
+}
+
+// ---- the line protocol: nothing to change from here on ----
+
+const MOST_BYTES: usize = 65536;
+const MOST_SIDE: i32 = 1024;
+const MOST_HITS: usize = 1 << 22;
+
+/// The pixels (y, x) that `draw` sets.
+fn drawn(
+    width: i32,
+    height: i32,
+    draw: impl FnOnce(&mut dyn FnMut(i32, i32)) + std::panic::UnwindSafe,
+) -> Result<Vec<(i32, i32)>, String> {
+    let hits = std::panic::catch_unwind(|| {
+        let mut hits = Vec::new();
+        draw(&mut |x, y| {
+            if (0..width).contains(&x) && (0..height).contains(&y) && hits.len() <= MOST_HITS {
+                hits.push((y, x));
+            }
+        });
+        hits
+    })
+    .map_err(|_| "raised a panic")?;
+    if hits.len() > MOST_HITS { Err(format!("more than {MOST_HITS} pixels set")) } else { Ok(hits) }
+}
+
+/// Row, first column, one past the last; a pixel hit twice is in two runs.
+fn runs(mut hits: Vec<(i32, i32)>) -> Vec<[i32; 3]> {
+    hits.sort();
+    let mut found: Vec<[i32; 3]> = Vec::new();
+    for (y, x) in hits {
+        match found.last_mut() {
+            Some(run) if run[0] == y && run[2] == x => run[2] += 1,
+            _ => found.push([y, x, x + 1]),
+        }
+    }
+    found
+}
+
+/// A decimal number or a C99 hex float.
+fn number(word: &str) -> Result<f64, String> {
+    let read = || {
+        let lower = word.to_ascii_lowercase();
+        let digits = lower.trim_start_matches(['+', '-']);
+        let Some(hex) = digits.strip_prefix("0x") else { return word.parse().ok() };
+        let (mantissa, exponent) = hex.split_once('p').unwrap_or((hex, "0"));
+        let (whole, part) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+        let bits = u64::from_str_radix(&format!("{whole}{part}"), 16).ok()? as f64;
+        let power = exponent.parse::<i32>().ok()? - 4 * part.len() as i32;
+        Some(if lower.starts_with('-') { -bits } else { bits } * 2f64.powi(power))
+    };
+    match read() {
+        Some(value) if (-2147483648.0..2147483648.0).contains(&value) => Ok(value),
+        _ => Err("a coordinate is not a number within 2^31 px".into()),
+    }
+}
+
+fn draw(words: &[&str]) -> Result<String, String> {
+    let (verb, count) = (words[0], if words[0] == "T" { 6 } else { 4 });
+    if words.len() != count + 4 {
+        return Err(format!("{verb} takes id width height and {count} numbers"));
+    }
+    let side = |word: &str| word.parse().ok().filter(|side| (1..=MOST_SIDE).contains(side));
+    let (Some(width), Some(height)) = (side(words[2]), side(words[3])) else {
+        return Err(format!("the window must be from 1x1 to {MOST_SIDE}x{MOST_SIDE}"));
+    };
+    let v = words[4..].iter().map(|word| number(word)).collect::<Result<Vec<_>, _>>()?;
+    let (letter, groups): (_, Vec<Vec<i32>>) = if verb == "T" {
+        let corners = [(v[0], v[1]), (v[2], v[3]), (v[4], v[5])];
+        let hits = drawn(width, height, |set| triangle(corners, width, height, set))?;
+        ("C", runs(hits).into_iter().map(Vec::from).collect())
+    } else {
+        let pixel = |i: usize| (v[i].floor() as i32, v[i + 1].floor() as i32);
+        let (from, to) = (pixel(0), pixel(2));
+        let hits = drawn(width, height, |set| line(from, to, width, height, set))?;
+        ("P", hits.into_iter().map(|(y, x)| vec![x, y]).collect())
+    };
+    let mut reply = format!("{letter} {} {}", words[1], groups.len());
+    for n in groups.iter().flatten() {
+        let _ = write!(reply, " {n}");
+    }
+    Ok(reply)
+}
+
+fn answer(words: &[&str]) -> String {
+    let known = if HAS_LINES { "coverage line" } else { "coverage" };
+    let id = words.get(1).unwrap_or(&"-");
+    match words {
+        ["HELLO", "1"] => format!("HELLO 1 {NAME} {known}"),
+        ["HELLO", "2"] => {
+            format!("HELLO 2 {NAME} {known} window={MOST_SIDE}x{MOST_SIDE} {DECLARES}")
+        }
+        ["HELLO", ..] => "E - say HELLO 1 or HELLO 2".into(),
+        ["T", ..] => draw(words).unwrap_or_else(|reason| format!("E {id} {reason}")),
+        ["L", ..] if HAS_LINES => draw(words).unwrap_or_else(|reason| format!("E {id} {reason}")),
+        _ => format!("E {id} unsupported"),
+    }
+}
+
+unsafe extern "C" {
+    safe fn dup2(from: i32, to: i32) -> i32;
+}
+
+fn main() -> std::io::Result<()> {
+    let mut protocol = std::fs::File::from(std::io::stdout().as_fd().try_clone_to_owned()?);
+    dup2(2, 1); // what your code prints goes to the error output
+    let mut input = std::io::stdin().lock();
+    let mut line = Vec::new();
+    let mut read = |line: &mut Vec<u8>| {
+        line.clear();
+        input.by_ref().take(MOST_BYTES as u64 + 1).read_until(b'\n', line)
+    };
+    while read(&mut line)? > 0 {
+        let too_long = line.len() > MOST_BYTES && !line.ends_with(b"\n");
+        let text = String::from_utf8_lossy(&line).into_owned();
+        let words: Vec<&str> = text.split_ascii_whitespace().collect();
+        while line.len() > MOST_BYTES && !line.ends_with(b"\n") && read(&mut line)? > 0 {}
+        let reply = match words[..] {
+            _ if too_long => format!("E - a request has at most {MOST_BYTES} bytes"),
+            [] => continue,
+            _ => answer(&words),
+        };
+        protocol.write_all(format!("{reply}\n").as_bytes())?;
+    }
+    Ok(())
+}

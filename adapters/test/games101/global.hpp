@@ -1,0 +1,2 @@
+#pragma once
+// Stand-in: the homework's header of constants.

@@ -1,0 +1,227 @@
+//! `rasterproof judge -- CMD`: any program that speaks the line protocol, on the stand.
+
+use std::path::Path;
+use std::time::Duration;
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+use super::{Failure, PAGE, Streams, exit, usage, write_file, write_page};
+use crate::hazard;
+use crate::judge::ask::{Ask, Misbehaviour};
+use crate::judge::baseline::Baseline;
+use crate::judge::formats::{self, Format};
+use crate::judge::process::{Limits, Program};
+use crate::judge::{self, Options, group, stages};
+use crate::report::judged;
+
+pub const HELP: &str = "The program reads requests on its standard input and answers on its standard output, a line each; see
+docs/protocol.md. It is run as given, without a shell, in the current folder.
+Examples:
+  rasterproof judge -- ./mine                           judge a program
+  rasterproof judge -- python3 mine.py --fast           with its own options
+  rasterproof judge --declare winding=cw -- ./mine      by what it does not say itself
+  rasterproof judge --family fan --case 17 -- ./mine    repeat one case
+  rasterproof judge --format junit -- ./mine            for a build server
+
+Exit status: 0 agrees, 1 disagrees, 2 the program or the command cannot be used.";
+
+/// Options of `judge`.
+#[derive(clap::Args, Debug)]
+pub struct JudgeArguments {
+    /// Cases of each family
+    #[arg(long, visible_alias = "limit", value_name = "N", default_value_t = 1000,
+        value_parser = clap::value_parser!(u64).range(1..))]
+    cases: u64,
+    /// Begin no new case after this many seconds
+    #[arg(long, value_name = "S", value_parser = seconds)]
+    seconds: Option<Duration>,
+    /// Only this family; may be repeated
+    #[arg(long, value_name = "NAME", value_parser = families(), hide_possible_values = true)]
+    family: Vec<String>,
+    /// Decides every generated case
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+    /// Only the case of this number, to repeat a failure
+    #[arg(long, value_name = "NUMBER")]
+    case: Option<u64>,
+    /// Seconds allowed for each answer
+    #[arg(long, value_name = "S", default_value = "5", value_parser = seconds)]
+    timeout: Duration,
+    /// Seconds allowed from the start to the answer of HELLO
+    #[arg(long, value_name = "S", default_value = "30", value_parser = seconds)]
+    start_timeout: Duration,
+    /// Copies of the program that are run at once
+    #[arg(long, value_name = "N", default_value_t = 1,
+        value_parser = clap::value_parser!(u64).range(1..=64))]
+    jobs: u64,
+    /// Words that the program does not say of itself, such as rule=strict; may be repeated
+    #[arg(long, value_name = "WORDS")]
+    declare: Vec<String>,
+    /// What to print
+    #[arg(long, value_name = "FORMAT", value_enum, default_value_t = Format::Text)]
+    format: Format,
+    /// The same as --format json
+    #[arg(long, conflicts_with = "format")]
+    json: bool,
+    /// Write a page to look into the failing cases: target/rasterproof/index.html
+    #[arg(long)]
+    report: bool,
+    /// Known failures: only what this file does not know counts
+    #[arg(long, value_name = "FILE")]
+    baseline: Option<String>,
+    /// Write what fails now into the file of --baseline
+    #[arg(long, requires = "baseline")]
+    update_baseline: bool,
+    /// The program and its arguments, after --
+    #[arg(last = true, required = true, value_name = "CMD")]
+    command: Vec<String>,
+}
+
+fn families() -> Vec<&'static str> {
+    hazard::families().map(|family| family.name).filter(|name| *name != "far").collect()
+}
+
+fn seconds(text: &str) -> Result<Duration, String> {
+    match text.parse::<f64>() {
+        Ok(s) if s > 0.0 && s <= 1e6 => Ok(Duration::from_secs_f64(s)),
+        _ => Err("expected a number of seconds above 0, at most 1e6".to_owned()),
+    }
+}
+
+impl JudgeArguments {
+    fn options(&self) -> Options {
+        Options {
+            seed: self.seed,
+            cases: self.cases,
+            time_limit: self.seconds,
+            families: self.family.clone(),
+            only: self.case,
+            remember: self.baseline.is_some(),
+            ..Options::default()
+        }
+    }
+
+    fn words(&self) -> Vec<String> {
+        self.declare.iter().flat_map(|words| words.split_whitespace()).map(str::to_owned).collect()
+    }
+
+    /// A command that judges the same program, with these options first.
+    fn repeat(&self, options: &str) -> String {
+        let mut out = format!("rasterproof judge {options} --seed {}", self.seed);
+        for words in &self.declare {
+            out += &format!(" --declare {}", quoted(words));
+        }
+        let command: Vec<_> = self.command.iter().map(|word| quoted(word)).collect();
+        format!("{out} -- {}", command.join(" "))
+    }
+
+    fn repeat_all(&self) -> String {
+        let families: String = self.family.iter().map(|f| format!("--family {f} ")).collect();
+        let case = self.case.map(|case| format!(" --case {case}")).unwrap_or_default();
+        self.repeat(&format!("{families}--cases {}{case}", self.cases))
+    }
+}
+
+/// A word as a shell takes it.
+fn quoted(word: &str) -> String {
+    let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_./=:,+@%".contains(c);
+    if !word.is_empty() && word.chars().all(is_plain) {
+        return word.to_owned();
+    }
+    // Control characters would reach the terminal: $'...' spells them.
+    if word.chars().any(char::is_control) {
+        let escaped: String = word
+            .chars()
+            .map(|c| match c {
+                '\'' | '\\' => format!("\\{c}"),
+                c if c.is_control() => format!("\\x{:02x}", u32::from(c)),
+                c => c.to_string(),
+            })
+            .collect();
+        return format!("$'{escaped}'");
+    }
+    format!("'{}'", word.replace('\'', "'\\''"))
+}
+
+pub fn run(arguments: &JudgeArguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+    let mut baseline = match &arguments.baseline {
+        Some(path) => Some(Baseline::read(Path::new(path), arguments.seed).map_err(usage)?),
+        None => None,
+    };
+    group::end_all_on_ctrl_c();
+    let mut askers = Vec::new();
+    let limits = Limits { answer: arguments.timeout, start: arguments.start_timeout };
+    for _ in 0..arguments.jobs {
+        let program = Program::start(&arguments.command, &arguments.words(), limits);
+        let program = program.map_err(|m| usage(unusable(&m)))?;
+        askers.push(Box::new(program) as Box<dyn Ask>);
+    }
+    let declared = askers[0].declared();
+    if declared.capabilities().is_empty() {
+        return Err(usage(format!(
+            "{} names no capability after HELLO; expected coverage, line, attributes or samples4",
+            declared.name
+        )));
+    }
+    let bar = progress_bar(arguments, streams.progress);
+    let recognise = &stages::recognise_winding;
+    let mut verdict =
+        judge::judge(&mut askers, &arguments.options(), recognise, &|cases| bar.inc(cases));
+    bar.finish_and_clear();
+    drop(askers);
+    if verdict.found.rows.is_empty() {
+        return Err(usage(
+            "no case was judged: the program does not draw what these families hold",
+        ));
+    }
+    if let Some(baseline) = &mut baseline {
+        baseline.apply(&mut verdict);
+        if arguments.update_baseline {
+            let text = baseline.updated(&verdict).map_err(usage)?;
+            let path = arguments.baseline.as_deref().unwrap_or_default();
+            write_file(Path::new(path), text.as_bytes())?;
+            writeln!(streams.errors, "baseline: {path}")?;
+        }
+    }
+    let repeat_case =
+        |family: &str, index: u64| arguments.repeat(&format!("--family {family} --case {index}"));
+    if arguments.report {
+        let page = judged::page(&verdict, &arguments.repeat_all(), &repeat_case);
+        write_page(Path::new(PAGE), &page, streams.errors)?;
+    }
+    let format = if arguments.json { Format::Json } else { arguments.format };
+    let text = match format {
+        Format::Text => judged::text(&verdict, &arguments.repeat_all(), &repeat_case),
+        other => formats::write(&verdict, other, &arguments.repeat_all(), &repeat_case),
+    };
+    streams.output.write_all(text.as_bytes())?;
+    // A baseline that was just written knows everything.
+    let agrees = verdict.agrees() || arguments.update_baseline;
+    Ok(if agrees { exit::AGREES } else { exit::DISAGREES })
+}
+
+/// Why there is nothing to judge, and what to do about it.
+fn unusable(misbehaviour: &Misbehaviour) -> String {
+    let remedy = match misbehaviour {
+        Misbehaviour::CannotStart(_) => "name a program and its arguments after --",
+        _ => {
+            "a program answers the line 'HELLO 2' with 'HELLO 2 name coverage' and flushes it; \
+             see docs/protocol.md"
+        }
+    };
+    format!("the program {misbehaviour}\n  {remedy}")
+}
+
+fn progress_bar(arguments: &JudgeArguments, is_shown: bool) -> ProgressBar {
+    if !is_shown || arguments.case.is_some() {
+        return ProgressBar::hidden();
+    }
+    let families = judge::place::families(&arguments.family).len() as u64;
+    let bar = ProgressBar::new(families.saturating_mul(arguments.cases));
+    bar.set_draw_target(ProgressDrawTarget::stderr_with_hz(8));
+    let template = "{elapsed_precise} {wide_bar} {pos}/{len} cases";
+    if let Ok(style) = ProgressStyle::with_template(template) {
+        bar.set_style(style);
+    }
+    bar
+}

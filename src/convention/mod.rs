@@ -1,0 +1,43 @@
+//! Recognises the convention of an outside rasterizer or line drawer from its answers alone.
+//!
+//! Most programs differ by convention, not by fault. A hypothesis is a pure function from corners to
+//! pixels ([`Convention`]); hypotheses are tried from the general to the particular: which windings
+//! draw, where in a pixel the sample lies, on which grid the corners, which shape, and then who owns
+//! a sample exactly on an edge. Questions are chosen by what is in doubt: an edge is moved until a
+//! pixel flips, triangles are looked for on which two hypotheses differ, ties are constructed for
+//! the point and grid that were found. What no hypothesis explains is called unexplained.
+//!
+//! Nothing here starts a process: whoever answers implements [`Ask`]. Source of the hypotheses: what
+//! some forty rasterizers drew (`docs/conventions.md`).
+
+mod bench;
+mod candidate;
+mod diagnosis;
+mod fit;
+mod general;
+mod half_planes;
+mod lines;
+mod mask;
+mod outline;
+mod place;
+mod quantum;
+mod rule;
+mod search;
+mod separate;
+mod shape;
+mod share;
+mod stepped;
+mod ties;
+mod words;
+
+pub use bench::{Ask, Known, Question};
+pub use diagnosis::{Agreement, Confidence, Diagnosis, Share, diagnose};
+pub use lines::{
+    AskLine, Ends, LineConvention, LineDiagnosis, LineQuestion, LineRounding, Steps, diagnose_lines,
+};
+pub use outline::{End, LineTie};
+pub use place::FACINGS;
+pub use quantum::{Quantum, Rounding};
+pub use rule::{Convention, CornerRule, Ties, Windings};
+pub use shape::Shape;
+pub use ties::{Compass, Count};

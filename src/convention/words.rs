@@ -1,0 +1,237 @@
+//! A diagnosis in plain words.
+
+use super::bench::LEAST_SIDE_PX;
+use super::diagnosis::{Confidence, Diagnosis};
+use super::lines::{Ends, LineConvention, LineDiagnosis, LineRounding, Steps};
+use super::outline::End;
+use super::place::FACINGS;
+use super::quantum::{Quantum, Rounding};
+use super::rule::{Convention, Windings};
+use super::shape::Shape;
+use super::ties::{Compass, Count};
+
+/// Subpixels as a decimal number of pixels.
+fn px(sub: i32) -> String {
+    format!("{}", f64::from(sub) / 256.0)
+}
+
+fn position(x: i32, y: i32) -> String {
+    match (x, y) {
+        (128, 128) => "at the pixel's centre".to_owned(),
+        (0, 0) => "at the pixel's upper left corner".to_owned(),
+        (256, 0) => "at the pixel's upper right corner".to_owned(),
+        (0, 256) => "at the pixel's lower left corner".to_owned(),
+        (256, 256) => "at the pixel's lower right corner".to_owned(),
+        _ => format!("at ({}, {}) of the pixel", px(x), px(y)),
+    }
+}
+
+/// What happens to a corner, or nothing.
+fn quantum(quantum: Quantum) -> String {
+    let grid = match quantum.step {
+        1 => return String::new(),
+        256 => "whole pixels".to_owned(),
+        step => format!("1/{} px", 256 / step),
+    };
+    let how = match quantum.rounding {
+        Rounding::Near => "the nearest, halves up",
+        Rounding::HalfEven => "the nearest, halves to the even one",
+        Rounding::Down => "down",
+        Rounding::TowardZero => "toward zero",
+    };
+    format!("moves corners to {grid} ({how}), ")
+}
+
+fn shape(shape: Shape) -> String {
+    match shape {
+        Shape::Point { x, y } => format!("samples {}", position(x, y)),
+        Shape::Rows { left, right, y } => format!(
+            "fills row by row at height {}, from the first column whose {} lies right of the left \
+             crossing to the last whose {} lies left of the right one",
+            px(y),
+            px(left),
+            px(right)
+        ),
+        Shape::Stepped { x, y } => format!(
+            "fills row by row, samples {}, and moves the crossings in fixed-point steps (the first \
+             cut to 1/64 px)",
+            position(x, y)
+        ),
+        Shape::Reach { x: 128, y: 128, reach: 128, square: true } => {
+            "draws every pixel that the triangle touches".to_owned()
+        }
+        Shape::Reach { x, y, reach, square } => format!(
+            "samples {} and draws what lies within {} px of the triangle{}",
+            position(x, y),
+            px(reach),
+            if square { ", in both axes at once" } else { "" }
+        ),
+        Shape::Share { x, y, percent } => {
+            let area = if (x, y) == (128, 128) {
+                String::new()
+            } else {
+                format!(" (of an area centred {})", position(x, y))
+            };
+            format!("draws a pixel if at least {percent} % of its area{area} is covered")
+        }
+        Shape::Outline(tie) => format!(
+            "fills between whole pixels, and draws the three sides as lines; a line halfway \
+             between two pixels goes {}",
+            tie.name()
+        ),
+    }
+}
+
+/// Who owns what lies on an edge.
+fn ties(convention: &Convention, compass: &Compass) -> String {
+    let seen = compass.seen();
+    if matches!(convention.shape, Shape::Stepped { .. } | Shape::Outline(_)) {
+        return String::new();
+    }
+    if let Shape::Share { .. } = convention.shape {
+        return match compass.level {
+            Count { of: 0, .. } => String::new(),
+            count if !count.is_decided() => ", exactly that share in no fixed way".to_owned(),
+            _ if convention.ties.level => ", exactly that share included".to_owned(),
+            _ => ", exactly that share excluded".to_owned(),
+        };
+    }
+    if !seen.contains(&true) {
+        return String::new();
+    }
+    if !compass.is_decided() {
+        let list: Vec<_> = (0..8)
+            .filter_map(|i| Some(format!("{} {:.0} %", FACINGS[i], compass.edges[i].percent()?)))
+            .collect();
+        return format!("; what lies on an edge is drawn in no fixed way ({})", list.join(", "));
+    }
+    match convention.ties.name(seen) {
+        Some("inclusive") => {
+            " and draws everything on an edge: neighbours are drawn twice".to_owned()
+        }
+        Some("strict") => " and draws nothing on an edge: neighbours leave holes".to_owned(),
+        Some(name) => format!(" and follows the {name} rule"),
+        None => {
+            let list: Vec<_> =
+                (0..8).filter(|&i| convention.ties.edges[i]).map(|i| FACINGS[i]).collect();
+            format!(" and draws what lies on an edge that faces {}", list.join(", "))
+        }
+    }
+}
+
+fn convention(of: &Convention, compass: &Compass) -> String {
+    let winding = match of.draws {
+        Windings::Both => "",
+        Windings::Clockwise => "draws clockwise triangles alone, ",
+        Windings::CounterClockwise => "draws counterclockwise triangles alone, ",
+        Windings::Neither => "draws nothing, ",
+    };
+    format!("{winding}{}{}{}", quantum(of.quantum), shape(of.shape), ties(of, compass))
+}
+
+impl Diagnosis {
+    /// The convention in plain words.
+    #[must_use]
+    pub fn sentence(&self) -> String {
+        diagnosis(self)
+    }
+}
+
+fn diagnosis(found: &Diagnosis) -> String {
+    match (found.asked, found.asked == found.refused) {
+        (0, _) => return format!("Not asked: a window or range of {LEAST_SIDE_PX} px is needed."),
+        (asked, true) => return format!("Unexplained: it answered none of {asked} questions."),
+        _ if found.convention.draws == Windings::Neither => return "It draws nothing.".to_owned(),
+        _ => {}
+    }
+    let words = convention(&found.convention, &found.compass);
+    let exact = found.as_found.general.triangles;
+    let share = exact.percent().map_or("none".to_owned(), |p| format!("{p:.1} %"));
+    let mut text = match found.confidence {
+        Confidence::Certain => format!("It {words}."),
+        Confidence::Likely => format!("It {words}; that explains {share} of its triangles."),
+        Confidence::Unexplained => {
+            return format!(
+                "Unexplained. The nearest hypothesis explains {share} of its triangles: it {words}."
+            );
+        }
+    };
+    if found.rotated.drawn + found.reversed.drawn > 0 {
+        text += " The order of the corners changes the answer.";
+    }
+    if found.flat.drawn > 0 {
+        text += " Triangles without area leave pixels.";
+    }
+    if found.twice.drawn > 0 {
+        text += " It hits pixels of one triangle twice.";
+    }
+    if let Some(other) = found.alternatives.first() {
+        text += &format!(" It may as well be that it {}.", convention(other, &found.compass));
+    }
+    text
+}
+
+fn line_convention(of: &LineConvention) -> String {
+    let pixel = match of.rounding {
+        LineRounding::Nearest(tie) => {
+            format!("draws the nearest pixel of each step, a tie goes {}", tie.name())
+        }
+        LineRounding::Down => "cuts the minor coordinate down".to_owned(),
+        LineRounding::Up => "cuts the minor coordinate up".to_owned(),
+        LineRounding::Toward(end) => format!("cuts the minor coordinate toward {}", end.name()),
+        LineRounding::Away(end) => {
+            format!("rounds the minor coordinate away from {}", end.name())
+        }
+    };
+    let ends = match of.ends {
+        Ends::Both => "both ends are drawn",
+        Ends::WithoutLast => "the last pixel is not drawn",
+        Ends::WithoutFirst => "the first pixel is not drawn",
+        Ends::WithoutRight => "the right end (of upright lines the lower) is not drawn",
+        Ends::Neither => "neither end is drawn",
+    };
+    let between = |axis: &str, end: End| {
+        let end = end.name();
+        format!("; diagonal steps go along the {axis} axis first, seen from {end}: 4-connected")
+    };
+    let steps = match of.steps {
+        Steps::Corners => String::new(),
+        Steps::MajorFirst(end) => between("major", end),
+        Steps::MinorFirst(end) => between("minor", end),
+    };
+    format!("{pixel}; {ends}{steps}")
+}
+
+impl LineDiagnosis {
+    /// The convention in plain words.
+    #[must_use]
+    pub fn sentence(&self) -> String {
+        lines(self)
+    }
+}
+
+fn lines(found: &LineDiagnosis) -> String {
+    let words = line_convention(&found.convention);
+    let share = found.as_found.percent().map_or("none".to_owned(), |p| format!("{p:.1} %"));
+    let mut text = match found.confidence {
+        Confidence::Certain => format!("It {words}."),
+        Confidence::Likely => format!("It {words}; that explains {share} of its lines."),
+        Confidence::Unexplained => format!(
+            "Unexplained. The nearest hypothesis explains {share} of its lines: it {words}."
+        ),
+    };
+    if found.both_ways.drawn < found.both_ways.of {
+        let percent = found.both_ways.percent().unwrap_or(0.0);
+        text += &format!(" {percent:.0} % of its lines are the same from either end.");
+    }
+    if found.twice.drawn > 0 {
+        text += " It draws pixels of one line twice.";
+    }
+    if found.in_order.drawn < found.in_order.of {
+        text += " Its pixels do not come in order from the first end.";
+    }
+    if let Some(other) = found.alternatives.first() {
+        text += &format!(" It may as well be that it {}.", line_convention(other));
+    }
+    text
+}

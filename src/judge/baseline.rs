@@ -1,0 +1,137 @@
+//! Known failures: what already failed, by case and by what was wrong with it.
+//!
+//! A file of lines `property family#number fingerprint`, sorted, after a header; one to read and to
+//! keep beside the program. A property whose failures are all known, each with its fingerprint, is an
+//! expected failure. A failure that is not known, or is wrong in another way, is a new one; a known
+//! one that was judged and holds is stale, an unexpected pass.
+
+use std::collections::{BTreeMap, HashSet};
+use std::fmt::Write as _;
+use std::path::Path;
+
+use super::verdict::{Outcome, Verdict};
+
+const HEADER: &str = "# rasterproof baseline 1, seed ";
+/// A longer file is no baseline that anybody reads.
+const MOST_BYTES: u64 = 1 << 26;
+
+/// Known failures: a fingerprint for each `property family#number`.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Baseline {
+    seed: u64,
+    known: BTreeMap<String, u64>,
+}
+
+impl Baseline {
+    /// Reads a file; none at all is an empty baseline.
+    ///
+    /// # Errors
+    /// It cannot be read, is none, or is of another seed: with its name, line and remedy.
+    pub fn read(path: &Path, seed: u64) -> Result<Self, String> {
+        let name = path.display();
+        match std::fs::metadata(path) {
+            Err(e) if e.kind() == std::io::ErrorKind::NotFound => {
+                return Ok(Self { seed, known: BTreeMap::new() });
+            }
+            Ok(file) if file.len() > MOST_BYTES => {
+                return Err(format!("{name}: a baseline has at most {MOST_BYTES} bytes"));
+            }
+            _ => {}
+        }
+        let text = std::fs::read_to_string(path).map_err(|e| format!("cannot read {name}: {e}"))?;
+        Self::parse(&text, seed).map_err(|what| format!("{name}: {what}"))
+    }
+
+    /// Reads the text of a file.
+    ///
+    /// # Errors
+    /// The line that cannot be read, or another seed.
+    pub fn parse(text: &str, seed: u64) -> Result<Self, String> {
+        let mut lines = text.lines().zip(1..);
+        let of = lines.next().and_then(|(line, _)| line.strip_prefix(HEADER)?.parse::<u64>().ok());
+        match of {
+            None => {
+                return Err(format!(
+                    "line 1: expected '{HEADER}N'; write it anew with --update-baseline"
+                ));
+            }
+            Some(of) if of != seed => {
+                return Err(format!("it was written for seed {of}: add --seed {of}, or delete it"));
+            }
+            Some(_) => {}
+        }
+        let mut known = BTreeMap::new();
+        for (line, number) in lines.filter(|(line, _)| !line.is_empty()) {
+            let entry = line.rsplit_once(' ').and_then(|(case, print)| {
+                let is_case = case.split_once(' ')?.1.contains('#');
+                let print = u64::from_str_radix(print, 16).ok()?;
+                is_case.then(|| (case.to_owned(), print))
+            });
+            let (case, print) = entry
+                .ok_or_else(|| format!("line {number}: expected 'property family#number hex'"))?;
+            known.insert(case, print);
+        }
+        Ok(Self { seed, known })
+    }
+
+    /// Sorts the outcomes of a verdict into known and new.
+    pub fn apply(&self, verdict: &mut Verdict) {
+        let failing = failing(verdict);
+        let judged: HashSet<String> =
+            verdict.found.judged.iter().map(|(p, f, i)| format!("{p} {f}#{i}")).collect();
+        for property in &mut verdict.properties {
+            let of_it = |case: &&String| case.split(' ').next() == Some(property.name);
+            let all: Vec<&String> = failing.keys().filter(of_it).collect();
+            let new = all.iter().filter(|c| self.known.get(**c) != failing.get(**c)).count();
+            let stale = self.known.keys().filter(of_it);
+            let stale = stale.filter(|c| judged.contains(*c) && !failing.contains_key(*c)).count();
+            property.outcome = match (new, stale, property.outcome) {
+                (1.., _, _) => Outcome::Fail,
+                (0, 1.., _) => Outcome::UnexpectedPass,
+                (0, 0, Outcome::Fail) if !all.is_empty() => Outcome::ExpectedFailure,
+                (_, _, outcome) => outcome,
+            };
+            let known = all.len() - new;
+            if known + new + stale > 0 {
+                let counts = format!("; of the baseline: {known} known, {new} new, {stale} stale");
+                property.detail += &counts;
+            }
+        }
+    }
+
+    /// The text of a new file: what fails now, and what was known of cases that were not judged.
+    ///
+    /// # Errors
+    /// More fails than is worth remembering.
+    pub fn updated(&self, verdict: &Verdict) -> Result<String, String> {
+        if verdict.found.forgot {
+            let most = super::run::MOST_REMEMBERED;
+            return Err(format!("more than {most} cases fail: ask fewer with --cases"));
+        }
+        let judged: HashSet<String> =
+            verdict.found.judged.iter().map(|(p, f, i)| format!("{p} {f}#{i}")).collect();
+        let mut all: BTreeMap<_, _> =
+            self.known.iter().filter(|(case, _)| !judged.contains(*case)).collect();
+        let failing = failing(verdict);
+        all.extend(&failing);
+        let mut out = format!("{HEADER}{}\n", self.seed);
+        for (case, print) in all {
+            // Writing to a string does not fail.
+            let _ = writeln!(out, "{case} {print:016x}");
+        }
+        Ok(out)
+    }
+}
+
+/// What fails, as in the file. What the whole run shows has one case.
+fn failing(verdict: &Verdict) -> BTreeMap<String, u64> {
+    let cases = verdict.found.failing.iter();
+    let mut all: BTreeMap<_, _> = cases
+        .map(|f| (format!("{} {}#{}", f.property, f.family, f.index), f.fingerprint))
+        .collect();
+    // That the program draws, in which winding, and by the protocol.
+    let whole = verdict.properties.iter().filter(|p| p.outcome == Outcome::Fail);
+    let rows: HashSet<&str> = verdict.found.rows.iter().map(|row| row.name).collect();
+    all.extend(whole.filter(|p| !rows.contains(p.name)).map(|p| (format!("{} run#0", p.name), 0)));
+    all
+}

@@ -1,0 +1,118 @@
+//! Processes that are ended with everything they started.
+//!
+//! On Unix a program is the leader of a process group of its own, and it is the group that is
+//! killed: when its [`Group`] is dropped, and on Ctrl-C. The leader is reaped after the kill, so its
+//! number still names this group. What leaves the group by `setsid` is out of reach. Elsewhere the
+//! program alone is killed.
+
+use std::io;
+use std::process::{Child, Command, ExitStatus};
+use std::sync::Mutex;
+use std::time::{Duration, Instant};
+
+/// Groups to be killed on Ctrl-C; nothing once that has happened, and then nothing starts any more.
+static LIVE: Mutex<Option<Vec<u32>>> = Mutex::new(Some(Vec::new()));
+
+/// A program with everything it starts.
+pub struct Group {
+    child: Child,
+    /// What it ended with, once known.
+    ended: Option<ExitStatus>,
+}
+
+impl Group {
+    /// Starts a command as it is given, without a shell.
+    ///
+    /// # Errors
+    /// What the system says, or that the judge is being stopped.
+    pub fn start(command: &mut Command) -> io::Result<Self> {
+        #[cfg(unix)]
+        std::os::unix::process::CommandExt::process_group(command, 0);
+        // Held while it starts, so that Ctrl-C finds it or it does not start.
+        let mut live = LIVE.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        let live = live.as_mut().ok_or_else(|| io::Error::other("the judge is being stopped"))?;
+        let child = command.spawn()?;
+        live.push(child.id());
+        Ok(Self { child, ended: None })
+    }
+
+    /// The started process, for its pipes.
+    pub fn child(&mut self) -> &mut Child {
+        &mut self.child
+    }
+
+    /// Whether the program itself has ended; others of its group may live on.
+    pub fn has_ended(&mut self) -> bool {
+        has_ended(&mut self.child)
+    }
+
+    /// Gives the program `patience` to end by itself, then ends it and its group. What it ended
+    /// with, or nothing where it had to be ended.
+    pub fn end(&mut self, patience: Duration) -> Option<ExitStatus> {
+        let start = Instant::now();
+        let mut by_itself = self.has_ended();
+        while !by_itself && start.elapsed() < patience {
+            std::thread::sleep(Duration::from_millis(1));
+            by_itself = self.has_ended();
+        }
+        self.kill();
+        self.ended.filter(|_| by_itself)
+    }
+
+    fn kill(&mut self) {
+        if self.ended.is_some() {
+            return;
+        }
+        kill(self.child.id());
+        let _ = self.child.kill();
+        let mut live = LIVE.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        if let Some(live) = live.as_mut() {
+            live.retain(|id| *id != self.child.id());
+        }
+        self.ended = self.child.wait().ok();
+    }
+}
+
+impl Drop for Group {
+    fn drop(&mut self) {
+        self.kill();
+    }
+}
+
+/// Ends every group and exits with status 130 on Ctrl-C, and on a request to terminate.
+pub fn end_all_on_ctrl_c() {
+    static ONCE: std::sync::Once = std::sync::Once::new();
+    // Without a handler the groups would live on; judging still works.
+    ONCE.call_once(|| {
+        let _ = ctrlc::set_handler(|| {
+            let mut live = LIVE.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+            live.take().into_iter().flatten().for_each(kill);
+            std::process::exit(130);
+        });
+    });
+}
+
+#[cfg(unix)]
+fn kill(leader: u32) {
+    use rustix::process::{Pid, Signal, kill_process_group};
+    if let Some(group) = i32::try_from(leader).ok().and_then(Pid::from_raw) {
+        // It fails where nothing is left to kill.
+        let _ = kill_process_group(group, Signal::KILL);
+    }
+}
+
+#[cfg(not(unix))]
+fn kill(_: u32) {}
+
+/// Looks without reaping: the number of a process that is not reaped is not given to another.
+#[cfg(unix)]
+fn has_ended(child: &mut Child) -> bool {
+    use rustix::process::{Pid, WaitId, WaitIdOptions, waitid};
+    let options = WaitIdOptions::EXITED | WaitIdOptions::NOHANG | WaitIdOptions::NOWAIT;
+    matches!(waitid(WaitId::Pid(Pid::from_child(child)), options), Ok(Some(_)) | Err(_))
+}
+
+#[cfg(not(unix))]
+fn has_ended(child: &mut Child) -> bool {
+    !matches!(child.try_wait(), Ok(None))
+}

@@ -1,0 +1,176 @@
+//! Failing cases made small while the program is asked, and what was said about them.
+
+use std::cell::RefCell;
+use std::time::Instant;
+
+use super::Options;
+use super::ask::{Answer, Ask, Misbehaviour, show};
+use super::check::{Check, Finding, Truth, expected_answer, picture_of};
+use super::place;
+use super::run::{Failing, Found, MOST_DEATHS};
+use crate::frame::Coverage;
+use crate::hazard::{self, Case};
+use crate::verify::shrink;
+
+/// A failing case, shrunk.
+#[derive(Clone, Debug)]
+pub struct Failure {
+    /// The property that fails.
+    pub property: &'static str,
+    /// The check that shows it.
+    pub check: Check,
+    /// Family and number of the case it was found in.
+    pub family: &'static str,
+    /// Number of the case.
+    pub index: u64,
+    /// What is wrong with the shrunk case.
+    pub what: String,
+    /// The smallest case found that still fails.
+    pub case: Case,
+    /// What was said.
+    pub exchanges: Vec<Exchange>,
+    /// All its answers as one picture, and the one expected, where there are both.
+    pub pictures: Option<[Coverage; 2]>,
+}
+
+/// A request, its answer, and the answer that was expected; as lines of the protocol.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Exchange {
+    /// The request.
+    pub request: String,
+    /// The answer.
+    pub answer: String,
+    /// What was expected instead, or nothing.
+    pub expected: String,
+}
+
+/// Properties whose first failing case is shown.
+const MOST_SHOWN: usize = 6;
+
+/// The first failing case of each property, those of the most often wrong first, shrunk.
+pub fn failures(
+    program: &mut dyn Ask,
+    found: &Found,
+    options: &Options,
+    truth: &Truth,
+) -> Vec<Failure> {
+    let mut rows: Vec<_> = found.rows.iter().filter(|row| row.wrong_cases > 0).collect();
+    rows.sort_by(|a, b| super::verdict::share(b).total_cmp(&super::verdict::share(a)));
+    let of = |name: &str| found.failing.iter().find(|f| f.property == name);
+    let firsts = rows.into_iter().filter_map(|row| of(row.name)).take(MOST_SHOWN);
+    firsts.filter_map(|failing| failure(program, failing, options, truth)).collect()
+}
+
+fn failure(
+    program: &mut dyn Ask,
+    failing: &Failing,
+    options: &Options,
+    truth: &Truth,
+) -> Option<Failure> {
+    let family = hazard::families().find(|f| f.name == failing.family)?;
+    let case = place::put(family.case(options.seed, failing.index), &truth.declared);
+    let check = Check::of(family.name, &case, failing.index, &truth.declared)
+        .into_iter()
+        .find(|check| check.name(family.name) == failing.property)?;
+    let program = RefCell::new(program);
+    let answers_to = |case: &Case| {
+        let mut questions = Vec::new();
+        check.questions(case, truth, &mut questions);
+        let answers = program.borrow_mut().ask(&questions, MOST_DEATHS);
+        (questions, answers)
+    };
+    let judged = |case: &Case| judge(check, case, &answers_to(case).1, truth);
+    let first = judged(&case);
+    let start = Instant::now();
+    let leaves = place::leaves_window(&case);
+    // What takes long to go wrong is shown as it is.
+    let is_slow = |m: &Misbehaviour| matches!(m, Misbehaviour::Hangs(_) | Misbehaviour::Late(..));
+    let case = if !first.is_wrong() || first.died.iter().any(|(_, m)| is_slow(m)) {
+        case
+    } else {
+        shrink::shrink(case, |smaller| {
+            let is_asked = place::holds(smaller, &truth.declared)
+                && (leaves || !place::leaves_window(smaller))
+                && start.elapsed() < options.patience;
+            // A mesh that falls apart is no mesh.
+            let smaller = place::put(smaller.clone(), &truth.declared);
+            is_asked && still_a_mesh(check, &smaller) && judged(&smaller).is_wrong()
+        })
+    };
+    let (questions, answers) = answers_to(&case);
+    let finding = judge(check, &case, &answers, truth);
+    let what = match (first.is_wrong(), finding.is_wrong()) {
+        // Asked again, it was right: the program does not repeat itself.
+        (false, _) | (_, false) => "wrong at first, right when asked again".to_owned(),
+        _ => finding.describe(check),
+    };
+    let exchanges = questions.iter().zip(&answers).map(|(question, answer)| Exchange {
+        request: question.text(1),
+        answer: show(answer, 1),
+        expected: match check {
+            Check::Coverage | Check::Line | Check::Values => {
+                expected_answer(question, truth).map_or_else(String::new, |e| show(&e, 1))
+            }
+            _ => String::new(),
+        },
+    });
+    Some(Failure {
+        property: failing.property,
+        check,
+        family: family.name,
+        index: failing.index,
+        what,
+        exchanges: exchanges.collect(),
+        pictures: pictures(check, &case, &answers, truth),
+        case,
+    })
+}
+
+fn judge(check: Check, case: &Case, answers: &[Answer], truth: &Truth) -> Finding {
+    let mut questions = Vec::new();
+    check.questions(case, truth, &mut questions);
+    if answers.len() < questions.len() {
+        Check::judge_deaths(answers)
+    } else {
+        check.judge(case, answers, truth)
+    }
+}
+
+fn still_a_mesh(check: Check, case: &Case) -> bool {
+    let is_mesh = match &case.shape {
+        hazard::Shape::Triangles { disjoint, .. } => *disjoint,
+        hazard::Shape::Lines(_) => false,
+    };
+    check != Check::Watertight || is_mesh
+}
+
+/// The answers as one picture, and beside it what was expected; for checks that compare answers with
+/// each other the first and the one that differs.
+fn pictures(check: Check, case: &Case, answers: &[Answer], truth: &Truth) -> Option<[Coverage; 2]> {
+    let drawn: Vec<Coverage> = answers.iter().filter_map(|a| picture_of(a, case.window)).collect();
+    match check {
+        Check::Order | Check::Direction => {
+            let (first, others) = drawn.split_first()?;
+            let other = others.iter().find(|other| *other != first)?;
+            Some([other.clone(), first.clone()])
+        }
+        Check::Samples => None,
+        _ => {
+            let mut questions = Vec::new();
+            check.questions(case, truth, &mut questions);
+            let expected = questions.iter().filter_map(|q| expected_answer(q, truth));
+            let expected: Vec<_> = expected.filter_map(|e| picture_of(&e, case.window)).collect();
+            Some([sum(&drawn, case)?, sum(&expected, case)?])
+        }
+    }
+}
+
+fn sum(pictures: &[Coverage], case: &Case) -> Option<Coverage> {
+    let mut whole = Coverage::new(case.window, 0);
+    for (y, row) in pictures.iter().flat_map(Coverage::rows) {
+        for (sum, hits) in whole.row_mut(y).iter_mut().zip(row) {
+            *sum = sum.saturating_add(*hits);
+        }
+    }
+    (!pictures.is_empty()).then_some(whole)
+}

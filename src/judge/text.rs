@@ -1,0 +1,166 @@
+//! Words of the line protocol: numbers in, requests and answers out, and text of others made safe
+//! to show.
+
+use std::fmt::Write as _;
+
+/// A decimal number or a C99 hex float. NaN and infinities are read; who asks refuses them by name.
+#[must_use]
+pub fn number(word: &str) -> Option<f64> {
+    let (sign, digits) = match word.as_bytes().first()? {
+        b'-' => (-1.0, &word[1..]),
+        b'+' => (1.0, &word[1..]),
+        _ => (1.0, word),
+    };
+    if digits.starts_with("0x") || digits.starts_with("0X") {
+        // The parser wants an exponent; C99 prints one, scanf does not ask for it.
+        let lower = digits.to_ascii_lowercase();
+        let with_exponent = if lower.contains('p') { lower } else { lower + "p0" };
+        return hexf_parse::parse_hexf64(&with_exponent, false).ok().map(|value| sign * value);
+    }
+    // After a sign comes no second sign.
+    (!digits.starts_with(['-', '+']))
+        .then(|| digits.parse::<f64>().ok().map(|v| sign * v))
+        .flatten()
+}
+
+/// At most `most` characters of what a program wrote; what a terminal would obey is escaped.
+#[must_use]
+pub fn printable(bytes: &[u8], most: usize) -> String {
+    // A character has at most four bytes: no more than these are looked at.
+    let few = &bytes[..bytes.len().min(4 * most + 4)];
+    let text = String::from_utf8_lossy(few);
+    let mut out = String::new();
+    for c in text.chars().take(most) {
+        match c {
+            '\'' | '"' | '\\' => out.push(c),
+            _ => {
+                // Writing to a string does not fail.
+                let _ = write!(out, "{}", c.escape_debug());
+            }
+        }
+    }
+    if text.chars().count() > most || few.len() < bytes.len() {
+        out.push_str("...");
+    }
+    out
+}
+
+/// Reads the words of a line without keeping anything.
+pub struct Words<'a>(pub &'a [u8]);
+
+impl<'a> Words<'a> {
+    /// The next word, or nothing at the end.
+    pub fn word(&mut self) -> Option<&'a [u8]> {
+        let start = self.0.iter().position(|b| !b.is_ascii_whitespace())?;
+        let rest = &self.0[start..];
+        let end = rest.iter().position(u8::is_ascii_whitespace).unwrap_or(rest.len());
+        self.0 = &rest[end..];
+        Some(&rest[..end])
+    }
+
+    /// The next word as a whole number; nothing where it is none or does not fit.
+    pub fn int(&mut self) -> Option<i32> {
+        let mut at = 0;
+        while self.0.get(at).is_some_and(u8::is_ascii_whitespace) {
+            at += 1;
+        }
+        let negative = self.0.get(at) == Some(&b'-');
+        at += usize::from(negative);
+        let first = at;
+        let mut value: i64 = 0;
+        while let Some(digit) = self.0.get(at).filter(|b| b.is_ascii_digit()) {
+            // Ten digits always fit; more are refused below.
+            value = value.wrapping_mul(10) + i64::from(digit - b'0');
+            at += 1;
+        }
+        if !(1..=10).contains(&(at - first))
+            || self.0.get(at).is_some_and(|b| !b.is_ascii_whitespace())
+        {
+            return None;
+        }
+        self.0 = &self.0[at..];
+        i32::try_from(if negative { -value } else { value }).ok()
+    }
+
+    /// The next word as a number.
+    pub fn float(&mut self) -> Option<f64> {
+        number(std::str::from_utf8(self.word()?).ok()?)
+    }
+
+    /// Whether nothing is left.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.0.iter().all(u8::is_ascii_whitespace)
+    }
+}
+
+/// Appends a whole number.
+pub fn write_int(out: &mut Vec<u8>, value: i64) {
+    if value < 0 {
+        out.push(b'-');
+    }
+    let mut digits = [0u8; 20];
+    let (mut at, mut rest) = (digits.len(), value.unsigned_abs());
+    loop {
+        at -= 1;
+        digits[at] = b'0' + (rest % 10) as u8;
+        rest /= 10;
+        if rest == 0 {
+            break;
+        }
+    }
+    out.extend_from_slice(&digits[at..]);
+}
+
+/// Appends a coordinate in subpixels as pixels, exactly: 1/256 has eight decimals.
+pub fn write_px(out: &mut Vec<u8>, sub: i32) {
+    let magnitude = sub.unsigned_abs();
+    if sub < 0 {
+        out.push(b'-');
+    }
+    write_int(out, i64::from(magnitude / 256));
+    let mut fraction = u64::from(magnitude % 256) * 100_000_000 / 256;
+    if fraction > 0 {
+        out.push(b'.');
+        let mut scale = 10_000_000;
+        while fraction > 0 {
+            out.push(b'0' + (fraction / scale) as u8);
+            fraction %= scale;
+            scale /= 10;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pixels_are_written_exactly() {
+        for sub in [0, 1, -1, 128, -129, 255, 256, 4097, i32::MAX, i32::MIN] {
+            let mut out = Vec::new();
+            write_px(&mut out, sub);
+            let text = String::from_utf8(out).unwrap();
+            assert_eq!(text.parse::<f64>().unwrap() * 256.0, f64::from(sub), "{text}");
+        }
+    }
+
+    #[test]
+    fn whole_numbers_are_read_or_refused() {
+        let mut words = Words(b" 12 -7 2147483647 -2147483648 ");
+        let read: Vec<_> = (0..4).map(|_| words.int()).collect();
+        assert_eq!(read, [Some(12), Some(-7), Some(i32::MAX), Some(i32::MIN)]);
+        assert!(words.is_empty());
+        for bad in ["", "x", "1.5", "2147483648", "-", "99999999999", "1e3", "--1"] {
+            assert_eq!(Words(bad.as_bytes()).int(), None, "{bad}");
+        }
+    }
+
+    #[test]
+    fn text_of_others_is_harmless() {
+        let shown = printable("a\u{1b}[31m\u{202e}\n\u{7f}é".as_bytes(), 40);
+        assert_eq!(shown, "a\\u{1b}[31m\\u{202e}\\n\\u{7f}é");
+        assert_eq!(printable(b"abcdef", 3), "abc...");
+        assert!(printable(&[0xff; 1 << 20], 10).len() < 100);
+    }
+}

@@ -1,0 +1,146 @@
+//! Line conventions are recognised: made-up drawers for every hypothesis, and noise.
+
+use rasterproof::convention::{
+    AskLine, Confidence, End, Ends, LineConvention, LineQuestion, LineRounding, Steps,
+    diagnose_lines,
+};
+
+use rayon::prelude::*;
+
+use super::synthetic::{hash, on_line};
+
+/// A made-up drawer, in floats that are exact for such small numbers.
+struct Drawer {
+    convention: LineConvention,
+    /// Of 1,000 pixels so many move by one.
+    noise: u64,
+}
+
+impl AskLine for Drawer {
+    fn ask_lines(&mut self, questions: &[LineQuestion]) -> Vec<Option<Vec<[i32; 2]>>> {
+        questions.iter().map(|question| Some(self.draw(question.ends))).collect()
+    }
+}
+
+/// Whether that end of the line from a to b is a; u is its major axis.
+fn starts_at(end: End, a: [f64; 2], b: [f64; 2], u: usize) -> bool {
+    match end {
+        End::First => true,
+        End::Small => a[u] < b[u],
+        End::Left => (a[0], a[1]) < (b[0], b[1]),
+        End::Top => a[1] < b[1],
+    }
+}
+
+impl Drawer {
+    /// The minor coordinate in column (or row) `at` of the line from a to b.
+    fn minor(&self, a: [f64; 2], b: [f64; 2], u: usize, at: f64) -> f64 {
+        let v = 1 - u;
+        let slope = if a[u] == b[u] { 0.0 } else { (b[v] - a[v]) / (b[u] - a[u]) };
+        // Divided last, so that whole and half results are exact.
+        let ideal =
+            if slope == 0.0 { a[v] } else { a[v] + (b[v] - a[v]) * (at - a[u]) / (b[u] - a[u]) };
+        let toward = |end: f64| if end <= ideal { ideal.floor() } else { ideal.ceil() };
+        match self.convention.rounding {
+            LineRounding::Down => ideal.floor(),
+            LineRounding::Up => ideal.ceil(),
+            LineRounding::Toward(end) => toward(if starts_at(end, a, b, u) { a[v] } else { b[v] }),
+            LineRounding::Away(end) => toward(if starts_at(end, a, b, u) { b[v] } else { a[v] }),
+            LineRounding::Nearest(tie) => {
+                let mut pixel = [at, at];
+                [ideal.floor(), ideal.ceil()]
+                    .into_iter()
+                    .find(|&candidate| {
+                        pixel[v] = candidate;
+                        on_line(a, b, pixel, tie)
+                    })
+                    .unwrap()
+            }
+        }
+    }
+
+    fn draw(&self, ends: [[i32; 2]; 2]) -> Vec<[i32; 2]> {
+        let [a, b] = ends.map(|end| end.map(f64::from));
+        let u = usize::from((b[1] - a[1]).abs() > (b[0] - a[0]).abs());
+        let count = (b[u] - a[u]).abs() as i32;
+        let at = |v: f64, along: f64| if u == 0 { [along, v] } else { [v, along] };
+        let mut pixels: Vec<[f64; 2]> = (0..=count)
+            .map(|i| a[u] + f64::from(i) * (b[u] - a[u]).signum())
+            .map(|along| at(self.minor(a, b, u, along), along))
+            .collect();
+        let major_first = match self.convention.steps {
+            Steps::Corners => None,
+            Steps::MajorFirst(end) => Some(starts_at(end, a, b, u)),
+            Steps::MinorFirst(end) => Some(!starts_at(end, a, b, u)),
+        };
+        if let Some(major_first) = major_first {
+            let mut all = vec![pixels[0]];
+            for pair in pixels.windows(2) {
+                let (p, q) = (pair[0], pair[1]);
+                if p[0] != q[0] && p[1] != q[1] {
+                    all.push(if major_first == (u == 0) { [q[0], p[1]] } else { [p[0], q[1]] });
+                }
+                all.push(q);
+            }
+            pixels = all;
+        }
+        let right = if (b[0], b[1]) > (a[0], a[1]) { b } else { a };
+        let mut pixels: Vec<_> = pixels
+            .into_iter()
+            .filter(|&p| match self.convention.ends {
+                Ends::Both => true,
+                Ends::WithoutLast => p != b,
+                Ends::WithoutFirst => p != a,
+                Ends::WithoutRight => p != right,
+                Ends::Neither => p != a && p != b,
+            })
+            .map(|p| p.map(|v| v as i32))
+            .collect();
+        for p in &mut pixels {
+            let key =
+                ends.as_flattened().iter().chain(p.iter()).fold(3, |h, &v| hash(h ^ v as u64));
+            p[0] += i32::from(key % 1000 < self.noise);
+        }
+        pixels
+    }
+}
+
+#[test]
+fn conventions_of_lines_made_up_are_named() {
+    let all: Vec<_> = LineRounding::all()
+        .flat_map(|rounding| Ends::ALL.map(|ends| (rounding, ends)))
+        .flat_map(|(rounding, ends)| Steps::all().map(move |steps| (rounding, ends, steps)))
+        .map(|(rounding, ends, steps)| LineConvention { rounding, ends, steps })
+        .collect();
+    // A prime stride reaches every rounding, ending and step.
+    let found: Vec<_> = (0..160usize)
+        .into_par_iter()
+        .map(|number| {
+            let convention = all[number * 59 % all.len()];
+            let found = diagnose_lines(&mut Drawer { convention, noise: 0 }, 32, true, 5);
+            let named = found.convention == convention;
+            (found.confidence, named, format!("{convention:?}: {}", found.sentence()))
+        })
+        .collect();
+    let wrong: Vec<_> = found.iter().filter(|(_, named, _)| !named).collect();
+    let certain =
+        |(confidence, ..): &&&(Confidence, bool, String)| *confidence == Confidence::Certain;
+    println!("{} of {} named", found.len() - wrong.len(), found.len());
+    assert_eq!(wrong.iter().filter(certain).count(), 0, "{wrong:#?}");
+    assert!(wrong.len() * 20 <= found.len(), "{wrong:#?}");
+}
+
+#[test]
+fn conventions_of_noisy_lines_are_unexplained() {
+    for noise in [30, 100, 500] {
+        let convention = LineConvention::default();
+        let found = diagnose_lines(&mut Drawer { convention, noise }, 40, true, 5);
+        assert_eq!(found.confidence, Confidence::Unexplained, "{noise}: {}", found.sentence());
+        assert!(found.sentence().starts_with("Unexplained"));
+        let question = LineQuestion {
+            ends: [[1, 1], [5, 3]],
+            window: rasterproof::grid::PixelRect::window(8, 8),
+        };
+        assert_eq!(found.expected(&question), None);
+    }
+}

@@ -1,0 +1,343 @@
+//! Conventions are recognised from answers alone: made-up rasterizers, specimens, recordings.
+
+mod lines;
+mod recorded;
+mod specimens;
+mod synthetic;
+
+use rasterproof::convention::{
+    Ask, Confidence, Diagnosis, End, Ends, Known, LineConvention, LineRounding, LineTie, Quantum,
+    Question, Rounding, Shape, Steps, Ties, Windings, diagnose, diagnose_lines,
+};
+use rasterproof::frame::Coverage;
+use rasterproof::grid::{PixelRect, SubpixelPoint};
+use rayon::prelude::*;
+
+use recorded::{Recorder, Recording};
+use synthetic::{Owner, Synthetic, hash};
+
+/// Numbers from a seed.
+struct Dice(u64);
+
+impl Dice {
+    fn roll(&mut self, of: u64) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9);
+        hash(self.0) % of
+    }
+
+    fn pick<T: Copy>(&mut self, list: &[T]) -> T {
+        list[self.roll(list.len() as u64) as usize]
+    }
+
+    /// A sample position: often a simple one, else any multiple of 1/64 px in the pixel.
+    fn position(&mut self) -> i32 {
+        match self.roll(3) {
+            0 => self.pick(&[0, 128]),
+            _ => self.roll(65) as i32 * 4,
+        }
+    }
+
+    fn owner(&mut self) -> Owner {
+        let named = ["top-left", "top-right", "bottom-left", "bottom-right", "inclusive", "strict"];
+        if self.roll(4) == 0 {
+            return Owner::Facing([0; 8].map(|_| self.roll(2) == 1));
+        }
+        Owner::Facing(Ties::named(self.pick(&named)).unwrap().edges)
+    }
+}
+
+fn shape(dice: &mut Dice, kind: u64) -> Shape {
+    let (x, y) = (dice.position(), dice.position());
+    match kind {
+        0 => Shape::Point { x, y },
+        1 => {
+            let right = x - 4 * (1 + dice.roll(64) as i32);
+            Shape::Rows { left: x, right, y }
+        }
+        2 => Shape::Stepped { x, y },
+        3 => Shape::Outline(dice.pick(&LineTie::ALL)),
+        4 => {
+            let reach = dice.pick(&[32, 64, 96, 128, 192]);
+            Shape::Reach { x, y, reach, square: dice.roll(2) == 0 }
+        }
+        _ => Shape::Share { x, y, percent: dice.pick(&[10, 25, 50, 75, 90]) },
+    }
+}
+
+fn made_up(number: u64) -> Synthetic {
+    let mut dice = Dice(number << 20);
+    let kind = number % 6;
+    let shape = shape(&mut dice, kind);
+    let step = match kind {
+        2 => 4,
+        3 => 256,
+        _ => dice.pick(&[1, 1, 4, 16, 64, 256]),
+    };
+    let rounding =
+        dice.pick(&[Rounding::Near, Rounding::HalfEven, Rounding::Down, Rounding::TowardZero]);
+    let draws = dice.pick(&[
+        Windings::Both,
+        Windings::Both,
+        Windings::Clockwise,
+        Windings::CounterClockwise,
+    ]);
+    Synthetic { draws, step, rounding, shape, owner: dice.owner(), noise: 0 }
+}
+
+/// What is not named as it was made.
+fn differences(made: &Synthetic, found: &Diagnosis) -> Vec<String> {
+    let mut wrong = Vec::new();
+    let c = &found.convention;
+    if c.draws != made.draws {
+        wrong.push(format!("draws {:?}", c.draws));
+    }
+    let quantum = if made.step == 1 {
+        Quantum::NONE
+    } else {
+        Quantum { step: made.step, rounding: made.rounding }
+    };
+    if c.quantum != quantum {
+        wrong.push(format!("quantum {:?}", c.quantum));
+    }
+    if c.shape != made.shape {
+        wrong.push(format!("shape {:?}", c.shape));
+    }
+    if let (Owner::Facing(edges), false) = (
+        made.owner,
+        matches!(made.shape, Shape::Stepped { .. } | Shape::Outline(_) | Shape::Share { .. }),
+    ) {
+        let seen = found.compass.seen();
+        let off: Vec<_> = (0..8).filter(|&i| seen[i] && c.ties.edges[i] != edges[i]).collect();
+        if !off.is_empty() || !found.compass.is_decided() {
+            wrong.push(format!("compass {:?} not {edges:?}", found.compass.edges));
+        }
+    }
+    wrong
+}
+
+#[test]
+fn conventions_made_up_are_named() {
+    const COUNT: u64 = 120;
+    let found: Vec<_> = (0..COUNT)
+        .into_par_iter()
+        .map(|number| {
+            let mut made = made_up(number);
+            let found = diagnose(&mut made, &Known::default(), 1);
+            let wrong = differences(&made, &found);
+            (found.confidence, wrong.is_empty(), format!("#{number} {made:?}: {wrong:?} {found:?}"))
+        })
+        .collect();
+    let count = |named: bool, confidence: Confidence| {
+        found.iter().filter(|(c, n, _)| (*c, *n) == (confidence, named)).count()
+    };
+    let named = count(true, Confidence::Certain) + count(true, Confidence::Likely);
+    println!("{named} of {COUNT} named");
+    let wrong: Vec<_> = found.iter().filter(|(_, named, _)| !named).map(|(.., t)| t).collect();
+    assert_eq!(count(false, Confidence::Certain), 0, "{wrong:#?}");
+    assert!(named * 100 >= 95 * found.len(), "{named} of {COUNT}: {wrong:#?}");
+}
+
+/// The comparison above can fail: what is named is compared with another rasterizer.
+#[test]
+fn conventions_of_another_are_not_confused() {
+    for number in 0..12 {
+        let found = diagnose(&mut made_up(number), &Known::default(), 1);
+        assert!(!differences(&made_up(number + 6), &found).is_empty(), "{number}");
+    }
+}
+
+/// What no hypothesis explains is said to be unexplained, and nothing is expected of it.
+#[test]
+fn conventions_of_noise_are_unexplained() {
+    let question = Question {
+        corners: [(256, 256), (2560, 300), (700, 2560)].map(|(x, y)| SubpixelPoint::new(x, y)),
+        window: PixelRect::window(16, 16),
+    };
+    (0..12u64).into_par_iter().for_each(|number| {
+        let made = Synthetic { noise: 20 + 60 * number, ..made_up(number) };
+        let found = diagnose(&mut { made }, &Known::default(), 1);
+        assert_eq!(found.confidence, Confidence::Unexplained, "{made:?}: {}", found.sentence());
+        assert!(found.sentence().starts_with("Unexplained"));
+        assert!(found.expected(&question).is_none());
+    });
+}
+
+/// A rasterizer that is none: its hits are a function of its corners' box, or of nothing.
+struct Other(fn(&Question, i32, i32) -> bool);
+
+impl Ask for Other {
+    fn ask(&mut self, questions: &[Question]) -> Vec<Option<Coverage>> {
+        let draw = |question: &Question| {
+            let mut picture = Coverage::new(question.window, 0);
+            for y in 0..question.window.y1 {
+                for x in 0..question.window.x1 {
+                    if self.0(question, x, y) {
+                        picture.hit(y, x, x + 1);
+                    }
+                }
+            }
+            Some(picture)
+        };
+        questions.iter().map(draw).collect()
+    }
+}
+
+#[test]
+fn conventions_of_other_shapes_are_unexplained() {
+    let boxes = |q: &Question, x: i32, y: i32| {
+        let holds = |v: [i32; 3], px: i32| {
+            let at = px * 256 + 128;
+            v.iter().any(|&c| c <= at) && v.iter().any(|&c| c > at)
+        };
+        holds(q.corners.map(|c| c.x), x) && holds(q.corners.map(|c| c.y), y)
+    };
+    let discs = |q: &Question, x: i32, y: i32| {
+        let at = |v: [i32; 3], px: i32| f64::from(v.iter().sum::<i32>()) / 768.0 - f64::from(px);
+        at(q.corners.map(|c| c.x), x).hypot(at(q.corners.map(|c| c.y), y)) < 4.0
+    };
+    let everything = |_: &Question, _: i32, _: i32| true;
+    for (name, mut other) in
+        [("boxes", Other(boxes)), ("discs", Other(discs)), ("everything", Other(everything))]
+    {
+        let found = diagnose(&mut other, &Known::default(), 1);
+        assert_eq!(found.confidence, Confidence::Unexplained, "{name}: {}", found.sentence());
+    }
+    let found = diagnose(&mut Other(|_, _, _| false), &Known::default(), 1);
+    assert_eq!(found.convention.draws, Windings::Neither);
+    assert_eq!(found.sentence(), "It draws nothing.");
+}
+
+/// Who refuses everything is not said to draw nothing.
+#[test]
+fn conventions_of_the_silent_are_unknown() {
+    struct Silent;
+    impl Ask for Silent {
+        fn ask(&mut self, _: &[Question]) -> Vec<Option<Coverage>> {
+            Vec::new()
+        }
+    }
+    let found = diagnose(&mut Silent, &Known::default(), 1);
+    assert_eq!((found.confidence, found.asked), (Confidence::Unexplained, found.refused));
+    assert_eq!(found.sentence(), "Unexplained: it answered none of 20 questions.");
+    let known = Known { window_px: (8, 8), ..Known::default() };
+    let found = diagnose(&mut Silent, &known, 1);
+    assert_eq!(found.sentence(), "Not asked: a window or range of 16 px is needed.");
+}
+
+/// Ties by the order of the corners: no direction is decided, and the order is named.
+#[test]
+fn conventions_by_corner_order_are_said_to_be_so() {
+    let shape = Shape::Point { x: 128, y: 128 };
+    let made = Synthetic { shape, owner: Owner::FirstEdge, draws: Windings::Both, ..made_up(0) };
+    let mut made = Synthetic { step: 1, ..made };
+    let found = diagnose(&mut made, &Known::default(), 1);
+    assert_eq!((found.convention.shape, found.confidence), (shape, Confidence::Certain));
+    assert!(!found.compass.is_decided() && found.rotated.drawn > 10, "{found:?}");
+    let text = found.sentence();
+    assert!(
+        text.contains("in no fixed way (N ") && text.contains("order of the corners"),
+        "{text}"
+    );
+}
+
+/// Where coordinates are whole pixels or 1/16 px, what is found predicts all answers on that grid.
+#[test]
+fn conventions_on_coarse_grids_predict() {
+    let mut dice = Dice(77);
+    for (number, grid) in (0..12).flat_map(|n| [(n, 1), (n, 16)]) {
+        let mut made = Synthetic { step: 1, ..made_up(number) };
+        if matches!(made.shape, Shape::Outline(_) | Shape::Stepped { .. }) {
+            continue;
+        }
+        let known = Known { grid, window_px: (24, 20), ..Known::default() };
+        let found = diagnose(&mut made, &known, 1);
+        let window = PixelRect::window(20, 20);
+        let mut wrong = 0;
+        for _ in 0..100 {
+            let mut place = || dice.roll(20 * grid as u64) as i32 * (256 / grid);
+            let corners = [0; 3].map(|_| SubpixelPoint::new(place(), place()));
+            let question = Question { corners, window };
+            if let Some(expected) = found.expected(&question) {
+                wrong += u64::from(Some(expected) != made.ask(&[question])[0]);
+            }
+        }
+        assert!(found.confidence != Confidence::Unexplained, "{made:?}: {}", found.sentence());
+        assert!(wrong <= 5, "{wrong} of 100 wrong: {made:?}: {}", found.sentence());
+    }
+}
+
+/// What libraries answered. The third word is what their sentence must say.
+#[test]
+fn conventions_of_libraries_are_named() {
+    use Rounding::{Down, Near, TowardZero};
+    let point = |x, y| Shape::Point { x, y };
+    let centre = point(128, 128);
+    let outline = Shape::Outline(LineTie::LeftStay);
+    for (name, step, rounding, shape, rule) in [
+        ("gdal", 1, Near, centre, "top-right"),
+        ("mupdf", 256, Down, point(0, 0), "top-left"),
+        ("sdl2", 256, TowardZero, centre, "top-left"),
+        ("skimage", 1, Near, point(0, 0), "everything on an edge"),
+        ("opencv-fillpoly", 256, Near, outline, "not yet, seen from the left end"),
+        ("osmesa-llvmpipe", 1, Near, centre, "bottom-left"),
+        ("skia", 4, TowardZero, Shape::Stepped { x: 128, y: 128 }, "fixed-point steps"),
+    ] {
+        let found = diagnose(&mut Recording::read(name), &Known::default(), 1);
+        let (c, text) = (found.convention, found.sentence());
+        assert_eq!(c.quantum, Quantum { step, rounding }, "{name}: {text}");
+        assert_eq!((c.shape, c.draws), (shape, Windings::Both), "{name}: {text}");
+        assert_eq!(found.confidence, Confidence::Certain, "{name}: {text}");
+        assert!(text.contains(rule), "{name}: {text}");
+        let exact = found.as_found.general.triangles;
+        assert_eq!(exact.drawn, exact.of, "{name}: {text}");
+    }
+    for name in ["pillow", "opencv-convex"] {
+        let found = diagnose(&mut Recording::read(name), &Known::default(), 1);
+        assert_eq!(found.confidence, Confidence::Unexplained, "{name}: {}", found.sentence());
+    }
+}
+
+/// What libraries answered to lines.
+#[test]
+fn conventions_of_library_lines_are_named() {
+    let first = LineRounding::Nearest(LineTie::FirstGo);
+    let left = LineRounding::Nearest(LineTie::LeftStay);
+    let (corners, sides) = (Steps::Corners, Steps::MajorFirst(End::Left));
+    for (name, rounding, steps, both_ways) in [
+        ("gdal", first, corners, false),
+        ("skimage", first, corners, false),
+        ("sdl2", first, corners, false),
+        ("pillow", first, corners, false),
+        ("opencv-convex", left, corners, true),
+        ("opencv-fillpoly", LineRounding::Away(End::Left), sides, true),
+    ] {
+        let found = diagnose_lines(&mut Recording::read(name), 40, false, 1);
+        let text = found.sentence();
+        let named = LineConvention { rounding, ends: Ends::Both, steps };
+        assert_eq!((found.convention, found.confidence), (named, Confidence::Certain), "{name}");
+        assert_eq!(found.both_ways.drawn == found.both_ways.of, both_ways, "{name}: {text}");
+        assert_eq!(text.contains("the same from either end"), !both_ways, "{name}: {text}");
+    }
+    for name in ["mupdf", "skia", "osmesa-llvmpipe"] {
+        let found = diagnose_lines(&mut Recording::read(name), 40, false, 1);
+        assert_eq!(found.confidence, Confidence::Unexplained, "{name}: {}", found.sentence());
+    }
+}
+
+/// Records what a program answers, for `tests/data/wild`: `RECORD='NAME CMD ARGS' cargo test --test
+/// it conventions_record -- --ignored`. It writes `target/wild/NAME.txt.gz`.
+#[test]
+#[ignore = "a tool"]
+fn conventions_record() {
+    let order = std::env::var("RECORD").expect("RECORD='NAME CMD ARGS'");
+    let (name, command) = order.split_once(' ').expect("a name and a command");
+    let mut recorder = Recorder::start(command);
+    let found = diagnose(&mut recorder, &Known::default(), 1);
+    println!("{:?}: {:?}\n{}", recorder.words, found.confidence, found.sentence());
+    if recorder.words.iter().any(|word| word == "line") {
+        let found = diagnose_lines(&mut recorder, 40, false, 1);
+        println!("{:?}\n{} {found:?}", found.confidence, found.sentence());
+    }
+    let path = format!("{}/target/wild/{name}.txt.gz", env!("CARGO_MANIFEST_DIR"));
+    recorder.write(std::path::Path::new(&path));
+}

@@ -1,0 +1,149 @@
+//! Pictures that only the pages need: what one picture of a scene or a case alone does not show.
+
+use glam::{DVec2, DVec3};
+use image::{Rgb, RgbImage, imageops};
+use rasterproof::contract::DrawLine as _;
+use rasterproof::effects::{Effect, Effects, Mode};
+use rasterproof::frame::Frame;
+use rasterproof::grid::PixelRect;
+use rasterproof::line::dda::Dda;
+use rasterproof::lineup::Drawer;
+use rasterproof::pipeline::depth::DepthFormat;
+use rasterproof::pipeline::target::{Antialias, Target};
+use rasterproof::pipeline::transform::frustum;
+use rasterproof::report::frames;
+use rasterproof::scene::chapters::scene;
+use rasterproof::scene::{shapes, textures};
+use rasterproof::specimen::book_final::BookFinal;
+use rasterproof::specimen::{Published as _, RealVertex};
+use rasterproof::triangle::{Fragment, LineEnd, PixelPoint, ScreenLine};
+
+use crate::snapshots::check_picture;
+
+const PAPER: Rgb<u8> = Rgb([250, 250, 247]);
+
+/// Pictures of one size side by side, with a strip of paper between them.
+fn beside(pictures: &[RgbImage]) -> RgbImage {
+    let (width, height) = pictures[0].dimensions();
+    let gap = 8;
+    let all = (width + gap) * pictures.len() as u32 - gap;
+    let mut sheet = RgbImage::from_pixel(all, height, PAPER);
+    for (i, picture) in (0..).zip(pictures) {
+        imageops::replace(&mut sheet, picture, i * i64::from(width + gap), 0);
+    }
+    sheet
+}
+
+fn larger(picture: &RgbImage, zoom: u32) -> RgbImage {
+    let (width, height) = picture.dimensions();
+    imageops::resize(picture, width * zoom, height * zoom, imageops::FilterType::Nearest)
+}
+
+fn rendered(name: &str, effects: Effects, antialias: Antialias) -> RgbImage {
+    let scene = scene(name, 4.0 / 3.0, 0.0).unwrap();
+    let mut target = Target::new(160, 120, antialias, DepthFormat::Unorm32).unwrap();
+    frames::rgb(&Drawer::Scanline.render(&scene, &effects, &mut target).unwrap().picture)
+}
+
+/// A part of the homework's scene, where both triangles have an edge: one sample a pixel, four.
+#[test]
+fn picture_of_the_homework_smoothed() {
+    let part = |antialias| {
+        let whole = rendered("homework", Effects::PLANNED, antialias);
+        larger(&imageops::crop_imm(&whole, 78, 28, 56, 42).to_image(), 4)
+    };
+    let [before, after] = [Antialias::None, Antialias::Supersample(2)].map(part);
+    assert_ne!(before, after);
+    check_picture("homework-smoothed", &beside(&[before, after]));
+}
+
+/// A box by the order of its triangles alone, without its back faces, and with a depth test.
+#[test]
+fn picture_before_the_depth_test() {
+    let no_depth = Effects::PLANNED.with(Effect::Depth, Mode::Never);
+    let panels = [no_depth.with(Effect::Cull, Mode::Never), no_depth, Effects::PLANNED];
+    let [order, culled, tested] = panels.map(|effects| rendered("cube", effects, Antialias::None));
+    assert_ne!(order, culled, "back faces over front faces");
+    assert_eq!(culled, tested, "of a convex body nothing else is hidden");
+    check_picture("before-depth", &beside(&[order, culled, tested]));
+    let no_order = rendered("everything", no_depth, Antialias::None);
+    let whole = rendered("everything", Effects::PLANNED, Antialias::None);
+    assert_ne!(no_order, whole);
+    check_picture("before-depth-everything", &beside(&[no_order, whole]));
+}
+
+/// From (0, 0) to (3, 9): a pixel for each column leaves gaps, a pixel for each row does not.
+#[test]
+fn picture_of_the_broken_line() {
+    let end = |x, y| LineEnd { pixel: PixelPoint::new(x, y), depth: 0.0, varying: 0.0 };
+    let window = PixelRect::window(6, 12);
+    let mut whole = Vec::new();
+    let line = ScreenLine { ends: [end(1, 1), end(4, 10)] };
+    Dda.draw(&line, window, |f| whole.push((f.x_px, f.y_px)));
+    let broken: Vec<_> = (0..=3).map(|step| (1 + step, 1 + 3 * step)).collect();
+    assert_eq!((broken.len(), whole.len()), (4, 10));
+    let touch = |pixels: &[(i32, i32)]| {
+        pixels.windows(2).all(|p| (p[1].0 - p[0].0).abs().max((p[1].1 - p[0].1).abs()) == 1)
+    };
+    assert!(touch(&whole) && !touch(&broken));
+    let panel = |pixels: &[(i32, i32)]| {
+        RgbImage::from_fn(6 * 16, 12 * 16, |x, y| {
+            let pixel = ((x / 16) as i32, (y / 16) as i32);
+            match (x % 16 == 15 || y % 16 == 15, pixels.contains(&pixel)) {
+                (true, _) => Rgb([225, 225, 220]),
+                (_, true) => Rgb([60, 90, 140]),
+                _ => PAPER,
+            }
+        })
+    };
+    check_picture("broken-line", &beside(&[panel(&broken), panel(&whole)]));
+}
+
+/// A textured ball by the book's final triangle, front faces only. In a texture made for a model each
+/// face is an island, and what lies beside it is not meant to be seen; here that is bright. Returns how
+/// many fragments have coordinates beyond those of their corners.
+pub fn ball(exercise: bool) -> (RgbImage, u32) {
+    const SIDE: u32 = 96;
+    let mesh = shapes::sphere(DVec3::new(0.0, 0.0, 4.0), 1.5, 14, 9);
+    let projection = frustum(-0.6, 0.6, -0.6, 0.6, 1.0, 20.0).unwrap();
+    let texture = textures::checkerboard();
+    let mut picture = Frame::new(PixelRect::window(SIDE, SIDE), [18, 18, 24]);
+    let mut beyond = 0;
+    for corners in &mesh.triangles {
+        let triangle = corners.map(|corner| {
+            let p = projection * mesh.positions[corner.position as usize].extend(1.0);
+            let (x, y) = (p.x / p.w + 1.0, 1.0 - p.y / p.w);
+            let position_px = DVec2::new(x, y) / 2.0 * f64::from(SIDE);
+            RealVertex { position_px, depth: p.z / p.w, w: p.w, varying: corner.uv }
+        });
+        let [a, b, c] = triangle.map(|v| v.position_px);
+        // With rows that run down, what faces the eye turns with a negative area.
+        if (b - a).perp_dot(c - a) >= 0.0 {
+            continue;
+        }
+        let uvs = triangle.map(|v| v.varying);
+        let low = uvs[0].min(uvs[1]).min(uvs[2]) - 1e-9;
+        let high = uvs[0].max(uvs[1]).max(uvs[2]) + 1e-9;
+        BookFinal { exercise }
+            .fragments(&triangle, picture.bounds(), &mut |f: Fragment<DVec2>| {
+                let is_in = f.varying.cmpge(low).all() && f.varying.cmple(high).all();
+                beyond += u32::from(!is_in);
+                let beside = DVec3::new(1.0, 0.4, 0.2);
+                let colour = if is_in { texture.at(f.varying) } else { beside };
+                let bytes = (colour * 255.0).round().to_array().map(|c| c as u8);
+                picture.span_mut(f.y_px, f.x_px, f.x_px + 1)[0] = bytes;
+            })
+            .unwrap();
+    }
+    let at = |x: u32, y: u32| Rgb(picture.row(y as i32)[x as usize]);
+    (larger(&RgbImage::from_fn(SIDE, SIDE, at), 2), beyond)
+}
+
+/// The hairs of figure 11-3, before and after the exercise of section 11.4, which takes most away.
+#[test]
+fn picture_of_the_hairs() {
+    let [(before, hairs), (after, left)] = [false, true].map(ball);
+    assert!(hairs > left && left > 0, "{hairs} fragments beyond their corners, {left} after");
+    println!("{hairs} fragments beyond their corners, {left} after the exercise");
+    check_picture("hairs", &beside(&[before, after]));
+}

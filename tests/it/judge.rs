@@ -1,0 +1,455 @@
+//! The judge of programs: engines through pipes and without, faults of drawing and of conversation,
+//! conventions that are declared, what it prints for people and for machines.
+
+use std::path::PathBuf;
+use std::process::{Command, Output};
+use std::time::Duration;
+
+use rasterproof::grid::PixelRect;
+use rasterproof::judge::ask::{Answer, Ask, Asked, Misbehaviour, Question};
+use rasterproof::judge::declared::Declared;
+use rasterproof::judge::expected::{Declaration, Expect as _};
+use rasterproof::judge::inside::Inside;
+use rasterproof::judge::process::{Limits, Program};
+use rasterproof::judge::stages::recognise_winding;
+use rasterproof::judge::verdict::{Outcome, Verdict};
+use rasterproof::judge::{Options, judge};
+use rasterproof::lineup::{self, SPECIMENS};
+use rasterproof::mutant::{LineMutant, TriangleMutant};
+
+const PROGRAM: &str = env!("CARGO_BIN_EXE_rasterproof");
+
+fn options(cases: u64, families: &[&str]) -> Options {
+    let families = families.iter().map(|name| (*name).to_owned()).collect();
+    // How small a failing case gets is not looked at here.
+    Options { cases, families, patience: Duration::from_millis(20), ..Options::default() }
+}
+
+fn judged(asker: Box<dyn Ask>, options: &Options) -> Verdict {
+    judge(&mut [asker], options, &recognise_winding, &|_| ())
+}
+
+fn inside(name: &str) -> Box<dyn Ask> {
+    let entry = lineup::find(name).copied().or_else(|| lineup::find_planted(name));
+    Box::new(Inside::new(&entry.unwrap_or_else(|| panic!("{name}"))))
+}
+
+fn limits(answer_ms: u64) -> Limits {
+    Limits { answer: Duration::from_millis(answer_ms), start: Duration::from_secs(20) }
+}
+
+fn process(words: &[&str], answer_ms: u64) -> Result<Program, Misbehaviour> {
+    let command: Vec<String> =
+        [PROGRAM, "engine"].iter().chain(words).map(|word| (*word).to_owned()).collect();
+    Program::start(&command, &[], limits(answer_ms))
+}
+
+fn property(verdict: &Verdict, name: &str) -> Outcome {
+    let found = verdict.properties.iter().find(|p| p.name == name);
+    found.unwrap_or_else(|| panic!("{name} was not judged")).outcome
+}
+
+#[test]
+fn judge_agrees_with_the_engines() {
+    for name in ["scanline", "edge-function", "oracle", "dda", "bresenham", "scanline-exact"] {
+        let verdict = judged(inside(name), &options(40, &[]));
+        let failures: Vec<_> = verdict.failures.iter().map(|f| (&f.property, &f.what)).collect();
+        assert!(verdict.agrees(), "{name}: {failures:?}");
+        assert!(verdict.shapes(false) + verdict.shapes(true) > 200, "{name}");
+    }
+}
+
+/// Faults that no request can show: the protocol's windows begin at the origin, and its lines have
+/// no values; and one whose errors lie within 32 u M, the one tolerance that our engines declare for
+/// all values, and outside the bound u (15 D + 2 M) of `verify` where all corners have one value.
+const INVISIBLE: [&str; 4] =
+    ["truncates-towards-zero", "seam-between-tiles", "line-weights-from-clip", "naive-barycentric"];
+
+/// What `verify` finds (`tests/it/mutants.rs`), the judge finds too.
+#[test]
+fn judge_catches_every_planted_fault() {
+    let names = TriangleMutant::ALL.iter().map(|mutant| mutant.name());
+    let names = names.chain(LineMutant::ALL.iter().map(|mutant| mutant.name()));
+    let surprising = names.filter(|name| {
+        let verdict = judged(inside(name), &options(48, &[]));
+        verdict.agrees() != INVISIBLE.contains(name)
+    });
+    let surprising: Vec<_> = surprising.collect();
+    assert!(surprising.is_empty(), "{surprising:?}");
+}
+
+#[test]
+fn judge_catches_every_specimen() {
+    for entry in &SPECIMENS {
+        let verdict = judged(inside(entry.name), &options(40, &[]));
+        assert!(!verdict.agrees(), "{}", entry.name);
+        assert!(!verdict.failures.is_empty(), "{}", entry.name);
+    }
+}
+
+/// Through a pipe comes out what comes out without one: row for row, failure for failure.
+#[test]
+fn judge_finds_the_same_through_a_pipe() {
+    for name in [
+        "scanline",
+        "oracle",
+        "edge-function-exact",
+        "exclusive-edges",
+        "panics-on-flat-bottom",
+        "doubles-span-end",
+        "affine-attributes",
+        "line-misses-end",
+        "book-ch2",
+        "games101-strict",
+        "sysu-inclusive",
+        "book-dda",
+    ] {
+        let options = options(20, &[]);
+        let without = judged(inside(name), &options);
+        let through = judged(Box::new(process(&[name], 20_000).unwrap()), &options);
+        assert_eq!(through.found.rows, without.found.rows, "{name}");
+        assert_eq!(through.found.failing, without.found.failing, "{name}");
+        assert_eq!(through.agrees(), without.agrees(), "{name}");
+        assert_eq!(through.windings, without.windings, "{name}");
+    }
+}
+
+/// Each way to break the protocol gets its word, and the rest is judged all the same.
+#[test]
+fn judge_names_misbehaviour() {
+    for (fault, word) in [
+        ("stalls", "hangs"),
+        ("late", "answers late"),
+        ("crashes", "crashes"),
+        ("exits", "exits early"),
+        ("nonsense", "prints nonsense"),
+        ("lies", "prints nonsense"),
+        ("twice", "answers twice"),
+        ("out-of-order", "answers out of order"),
+        ("other-id", "answers for another id"),
+        ("floods", "floods its output"),
+        ("floods-lines", "answers twice"),
+        ("forks", "exits early"),
+        ("moody", "crashes"),
+    ] {
+        let program = process(&["scanline", "--plant", fault], 400).unwrap();
+        let verdict = judged(Box::new(program), &options(64, &["half-integer", "uniform"]));
+        let incidents = verdict.found.incidents.iter().map(|i| &i.what);
+        let words: Vec<_> = incidents.chain(&verdict.found.strays).map(|m| m.word()).collect();
+        assert!(words.contains(&word), "{fault}: {words:?}");
+        assert_eq!(property(&verdict, "protocol"), Outcome::Fail, "{fault}");
+        assert_eq!(property(&verdict, "uniform"), Outcome::Pass, "{fault}");
+        let requests = verdict.found.incidents.iter().map(|i| &i.request);
+        // The second answer is noticed at the next request, which is not the one it names.
+        let is_late_notice = word == "answers twice";
+        assert!(is_late_notice || requests.clone().all(|r| r.starts_with("T 1 16 16 ")), "{fault}");
+        let uniform = verdict.found.rows.iter().find(|row| row.name == "uniform").unwrap();
+        assert_eq!((uniform.cases, uniform.wrong_cases), (64, 0), "{fault}");
+        if requests.count() > 0 {
+            let stopped = verdict.found.rows.iter().find(|row| row.name == "half-integer");
+            assert!(stopped.unwrap().stopped, "{fault}: a family stops at the third death");
+        }
+        #[cfg(target_os = "linux")]
+        if fault == "forks" {
+            let pids = verdict.complaints.iter().filter_map(|line| line.strip_prefix("child "));
+            let pids: Vec<_> = pids.collect();
+            assert!(!pids.is_empty(), "{:?}", verdict.complaints);
+            assert!(pids.iter().all(|pid| is_gone(pid)), "{pids:?} live on");
+        }
+    }
+}
+
+/// Whether a process has ended, reaped or not.
+#[cfg(target_os = "linux")]
+fn is_gone(pid: &str) -> bool {
+    (0..100).any(|_| {
+        std::thread::sleep(Duration::from_millis(10));
+        let stat = std::fs::read_to_string(format!("/proc/{pid}/stat")).unwrap_or_default();
+        stat.is_empty() || stat.contains(") Z ")
+    })
+}
+
+#[test]
+fn judge_refuses_who_never_says_hello() {
+    for (fault, said) in [
+        ("silent", "it says nothing"),
+        ("rude", "E - say something else"),
+        ("dead", "it exits: with status 7"),
+        ("babbles", "it says still loading"),
+    ] {
+        let command = [PROGRAM, "engine", "scanline", "--plant", fault].map(str::to_owned);
+        let limits = Limits { start: Duration::from_millis(700), ..limits(200) };
+        let Err(misbehaviour) = Program::start(&command, &[], limits) else {
+            panic!("{fault} says no HELLO")
+        };
+        assert_eq!(misbehaviour.word(), "never says HELLO", "{fault}");
+        assert!(misbehaviour.to_string().contains(said), "{fault}: {misbehaviour}");
+    }
+    let (_, errors) = check(&["judge", "--", "./there-is-no-such-program"], 2);
+    assert!(errors.contains("cannot be started: ./there-is-no-such-program"), "{errors}");
+    check(&["judge", "--"], 2);
+}
+
+/// What is no fault: version 1, a banner before HELLO, a loud standard error.
+#[test]
+fn judge_bears_with_old_and_loud_programs() {
+    for plant in ["old", "chatty", "noisy"] {
+        let program = process(&["scanline", "--plant", plant], 20_000).unwrap();
+        assert_eq!(program.declared().version, if plant == "old" { 1 } else { 2 });
+        let verdict = judged(Box::new(program), &options(64, &["half-integer"]));
+        assert!(verdict.agrees(), "{plant}");
+        let said = verdict.complaints.join("");
+        assert_eq!(said.contains("\\u{1b}[31mred"), plant == "noisy", "{said}");
+        assert!(!said.contains('\u{1b}'));
+    }
+}
+
+/// A program that draws by any declared convention, exactly.
+struct ByRule(Declared);
+
+impl Ask for ByRule {
+    fn declared(&self) -> &Declared {
+        &self.0
+    }
+
+    fn ask(&mut self, questions: &[Question], _: u64) -> Vec<Answer> {
+        let one = |q: &Question| {
+            let Asked::Coverage(corners) = &q.of else { panic!("it covers only") };
+            let corners_are_on_grid =
+                corners.iter().all(|p| (p.x | p.y).rem_euclid(256 / self.0.grid) == 0);
+            assert!(corners_are_on_grid, "{q:?}");
+            let picture =
+                Declaration::from(&self.0).picture(corners, PixelRect::window(q.width, q.height));
+            Answer::Coverage(picture.map(|picture| picture.must).unwrap_or_default())
+        };
+        questions.iter().map(one).collect()
+    }
+}
+
+/// Under its declared rule each agrees, and what needs no convention tells the rules apart: strict
+/// leaves holes, inclusive draws twice, the half-open ones do neither.
+#[test]
+fn judge_goes_by_what_is_declared() {
+    for words in [
+        "rule=top-left grid=1 origin=0,0",
+        "rule=top-right",
+        "rule=bottom-left grid=16 origin=0.25,0.75",
+        "rule=bottom-right range=200",
+        "rule=top-left yup",
+        "rule=strict",
+        "rule=inclusive grid=1 origin=0,0",
+        "rule=none grid=64",
+    ] {
+        let declared = Declared::parse(&format!("HELLO 2 x coverage {words}")).unwrap();
+        let verdict = judged(Box::new(ByRule(declared)), &options(60, &[]));
+        let failing: Vec<_> =
+            verdict.properties.iter().filter(|p| !p.outcome.is_good()).map(|p| p.name).collect();
+        let is_closed = ["strict", "inclusive", "none"].iter().any(|rule| words.contains(rule));
+        let expected: &[&str] = if is_closed { &["watertight"] } else { &[] };
+        assert_eq!(failing, expected, "{words}");
+        let row = verdict.found.rows.iter().find(|row| row.name == "watertight").unwrap();
+        assert_eq!(row.tally.missing > 0, words.contains("strict") || words.contains("none"));
+        assert_eq!(row.tally.twice > 0, words.contains("inclusive"), "{words}");
+    }
+    // Declared wrongly, it does not agree.
+    let mut declared = Declared::parse("HELLO 2 x coverage rule=top-right").unwrap();
+    let drawn = ByRule(declared.clone());
+    declared.hear("rule=top-left");
+    struct Liar(ByRule, Declared);
+    impl Ask for Liar {
+        fn declared(&self) -> &Declared {
+            &self.1
+        }
+        fn ask(&mut self, questions: &[Question], most: u64) -> Vec<Answer> {
+            self.0.ask(questions, most)
+        }
+    }
+    let verdict = judged(Box::new(Liar(drawn, declared)), &options(60, &["half-integer"]));
+    assert_eq!(property(&verdict, "half-integer"), Outcome::Fail);
+}
+
+#[test]
+fn judge_recognises_a_winding() {
+    let verdict = judged(inside("culls-one-winding"), &options(60, &["uniform"]));
+    assert_eq!(property(&verdict, "draws"), Outcome::Pass);
+    assert_eq!(property(&verdict, "winding"), Outcome::Fail);
+    assert_eq!(verdict.words, "winding=cw");
+    let (declared, recognised, _) = verdict.scores();
+    assert!(declared > 1000 && recognised == Some(0), "{declared} {recognised:?}");
+    let words = ["judge", "--cases", "60", "--declare", "winding=cw", "--", PROGRAM, "engine"];
+    let (out, _) = check(&[&words[..], &["culls-one-winding"]].concat(), 0);
+    assert!(out.contains("winding=cw") && out.contains("\nAGREES: "), "{out}");
+}
+
+fn folder() -> PathBuf {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("judge");
+    std::fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+fn run(words: &[&str]) -> Output {
+    Command::new(PROGRAM).args(words).current_dir(folder()).output().unwrap()
+}
+
+fn check(words: &[&str], status: i32) -> (String, String) {
+    let output = run(words);
+    let (out, errors) =
+        (String::from_utf8(output.stdout).unwrap(), String::from_utf8(output.stderr).unwrap());
+    assert_eq!(output.status.code(), Some(status), "{words:?}\n{out}\n{errors}");
+    (out, errors)
+}
+
+/// The command that judges an engine of our own, with these options.
+fn of<'a>(options: &[&'a str], engine: &[&'a str]) -> Vec<&'a str> {
+    [&["judge", "--cases", "40"], options, &["--", PROGRAM, "engine"], engine].concat()
+}
+
+/// The text is what a student reads: stages, both scores, the smallest case with its picture, and a
+/// command that repeats it.
+#[test]
+fn judge_prints_a_verdict() {
+    let (out, errors) = check(&of(&["--jobs", "2"], &["scanline"]), 0);
+    assert!(out.contains("scanline speaks version 2: coverage attributes samples4 grid=256"));
+    assert!(out.contains("\nAGREES: ") && out.contains("as declared:         0 wrong"), "{out}");
+    assert_eq!(errors, "");
+    let (out, _) = check(&of(&["--family", "half-integer"], &["exclusive-edges"]), 1);
+    for part in ["request:  T 1 ", "answer:   C 1 ", "expected: C 1 ", "judged   expected"] {
+        assert!(out.contains(part), "{part}: {out}");
+    }
+    let is_narrow = |line: &str| line.chars().count() <= 100 || line.contains("repeat with: ");
+    assert!(out.lines().all(is_narrow), "{out}");
+    let repeat =
+        out.lines().find(|l| l.contains("repeat with: ") && l.contains("--case ")).unwrap();
+    let words = repeat.trim().trim_start_matches("repeat with: rasterproof ");
+    let (again, _) = check(&words.split(' ').collect::<Vec<_>>(), 1);
+    assert!(again.contains("half-integer: 1 missing"), "{again}");
+    // What a program says cannot command the terminal.
+    let plant = ["scanline", "--plant", "nonsense"];
+    let (out, _) = check(&of(&["--family", "half-integer"], &plant), 1);
+    assert!(out.contains("debug: \\u{1b}[31mx = 3\\u{7}"), "{out}");
+    assert!(out.chars().all(|c| c == '\n' || !c.is_control()));
+    let words = of(&["--declare", "grid=3 dance"], &["scanline"]);
+    let (out, _) = check(&words, 0);
+    assert!(out.contains("not understood, left aside: grid=3 dance"), "{out}");
+}
+
+#[test]
+fn judge_writes_formats() {
+    let of_it = |format| check(&of(&["--format", format], &["exclusive-edges"]), 1).0;
+    let json: serde_json::Value = serde_json::from_str(&of_it("json")).unwrap();
+    assert_eq!(json["agrees"], false);
+    let properties = json["properties"].as_array().unwrap();
+    let failing = properties.iter().filter(|p| p["outcome"] == "fail").count();
+    assert!(failing > 3 && failing < properties.len(), "{failing}");
+    assert!(json["failures"][0]["exchanges"][0]["request"].as_str().unwrap().starts_with("T 1 "));
+
+    let text = of_it("junit");
+    let xml = roxmltree::Document::parse(&text).unwrap();
+    let count = |name: &str| xml.descendants().filter(|n| n.has_tag_name(name)).count();
+    assert_eq!((count("testcase"), count("failure")), (properties.len(), failing));
+    let suite = xml.descendants().find(|n| n.has_tag_name("testsuite")).unwrap();
+    assert_eq!(suite.attribute("tests"), Some(properties.len().to_string().as_str()));
+    assert_eq!(suite.attribute("failures"), Some(failing.to_string().as_str()));
+
+    let tap = of_it("tap");
+    let mut lines = tap.lines();
+    assert_eq!(lines.next(), Some("TAP version 14"));
+    assert_eq!(lines.next(), Some(format!("1..{}", properties.len()).as_str()));
+    let numbered =
+        |word: &str| tap.lines().filter(|l| l.starts_with(word) && l.contains(" - ")).count();
+    assert_eq!((numbered("ok "), numbered("not ok ")), (properties.len() - failing, failing));
+
+    let scores: serde_json::Value = serde_json::from_str(&of_it("gradescope")).unwrap();
+    let tests = scores["tests"].as_array().unwrap();
+    assert_eq!(tests.len(), properties.len());
+    for test in tests {
+        let passed = test["status"] == "passed";
+        assert!(passed || test["status"] == "failed");
+        assert_eq!(test["score"], i32::from(passed), "never a fraction");
+        assert_eq!((&test["max_score"], test["output"].is_string()), (&1.into(), true));
+    }
+    assert_eq!(scores["score"], properties.len() - failing);
+
+    let result: serde_json::Value = serde_json::from_str(&of_it("github-classroom")).unwrap();
+    assert_eq!((&result["version"], &result["status"]), (&1.into(), &"fail".into()));
+    assert_eq!(result["max_score"], properties.len());
+    for test in result["tests"].as_array().unwrap() {
+        assert!(test["status"] == "pass" || test["status"] == "fail");
+        for field in ["name", "message", "test_code", "filename", "execution_time"] {
+            assert!(test[field].is_string(), "{field}");
+        }
+    }
+}
+
+/// Pass, expected failure, new failure, unexpected pass.
+#[test]
+fn judge_knows_a_baseline() {
+    let path = folder().join("known.txt");
+    let _ = std::fs::remove_file(&path);
+    let name = path.to_str().unwrap();
+    let with = |engine| {
+        of(&["--baseline", name, "--family", "half-integer", "--family", "tiny"], &[engine])
+    };
+    check(&with("scanline"), 0);
+    check(&with("exclusive-edges"), 1);
+    let update = [&["judge", "--update-baseline"], &with("exclusive-edges")[1..]].concat();
+    check(&update, 0);
+    let (out, _) = check(&with("exclusive-edges"), 0);
+    assert!(out.contains("fail as the baseline says"), "{out}");
+    let (out, _) = check(&with("inclusive-edges"), 1);
+    assert!(out.contains("half-integer"), "{out}");
+    let junit = [&["judge", "--format", "junit"], &with("scanline")[1..]].concat();
+    let (out, _) = check(&junit, 1);
+    assert!(out.contains("type=\"unexpected pass\"") && out.contains(" stale"), "{out}");
+    // Other families are untouched, and stay in the file.
+    check(&of(&["--baseline", name, "--family", "flat"], &["scanline"]), 0);
+    let before = std::fs::read_to_string(&path).unwrap();
+    check(&of(&["--update-baseline", "--baseline", name, "--family", "flat"], &["scanline"]), 0);
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), before);
+    // One fingerprint changed: wrong in another way is a new failure.
+    let at = before.trim_end().len() - 1;
+    let digit = if before.as_bytes()[at] == b'0' { "1" } else { "0" };
+    std::fs::write(&path, format!("{}{digit}\n", &before[..at])).unwrap();
+    let (out, _) = check(&with("exclusive-edges"), 1);
+    assert!(out.contains("DISAGREES"), "{out}");
+    for (text, reason) in [
+        ("what\n", "line 1: expected"),
+        ("# rasterproof baseline 1, seed 7\n", "seed 7"),
+        ("# rasterproof baseline 1, seed 1\n\nhalf-integer 5\n", "line 3: expected"),
+    ] {
+        std::fs::write(&path, text).unwrap();
+        let (_, errors) = check(&with("scanline"), 2);
+        assert!(errors.contains("known.txt") && errors.contains(reason), "{errors}");
+    }
+}
+
+#[test]
+fn judge_writes_a_page() {
+    check(&of(&["--report", "--family", "half-integer"], &["exclusive-edges"]), 1);
+    let page = std::fs::read_to_string(folder().join("target/rasterproof/index.html")).unwrap();
+    assert!(page.contains("Verdict on exclusive-edges") && page.contains("half-integer#"));
+}
+
+/// Ctrl-C ends the program that is being judged, too.
+#[cfg(target_os = "linux")]
+#[test]
+fn judge_leaves_nothing_running() {
+    use rustix::process::{Pid, Signal, kill_process};
+    let words = of(&["--timeout", "600"], &["scanline", "--plant", "stalls"]);
+    let mut child = Command::new(PROGRAM)
+        .args(words)
+        .current_dir(folder())
+        .stdout(std::process::Stdio::null())
+        .spawn()
+        .unwrap();
+    let of_it = format!("/proc/{0}/task/{0}/children", child.id());
+    let judged = (0..1000).find_map(|_| {
+        std::thread::sleep(Duration::from_millis(10));
+        let pids = std::fs::read_to_string(&of_it).unwrap_or_default();
+        pids.split_whitespace().next().map(str::to_owned)
+    });
+    let judged = judged.expect("a program is started");
+    kill_process(Pid::from_child(&child), Signal::INT).unwrap();
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    assert!(is_gone(&judged), "{judged} lives on");
+}
