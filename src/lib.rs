@@ -1,25 +1,36 @@
 //! **rasterproof**: two independent triangle rasterizers, two line drawers and an exact oracle,
 //! compared pixel for pixel.
 //!
-//! The path of a triangle, and the room of each step:
-//! [`hazard`] makes it, [`raster::scanline`] and [`raster::edge_function`] draw it (as
-//! [`contract::Rasterize`] promises), [`oracle`] knows the truth, [`verify`] compares, and
-//! [`report`] shows the verdict. Lines travel the same way through [`line::dda`] and
-//! [`line::bresenham`]; corners that are not snapped through [`raster::scanline_exact`] and
-//! [`raster::edge_function_exact`].
+//! # What you may rely on
 //!
-//! Scenes travel through [`pipeline`] and [`effects`] by either rasterizer, and the pictures are
-//! compared; [`cost`] measures what each step of accuracy takes. The pages under `docs/` follow the
-//! chapters of a textbook; `docs/index.md` is where to begin.
+//! These rooms, in the order in which a triangle travels; everything in them that these pages show
+//! keeps its meaning within a minor version:
 //!
-//! To judge a rasterizer of your own, implement one method:
+//! - [`grid`]: the 1/256-px lattice and windows of pixels; every coordinate is on it
+//! - [`triangle`]: triangles, lines, spans and fragments
+//! - [`frame`]: pixels in rows; coverage as hit counts
+//! - [`contract`]: the traits that a rasterizer or a line drawer implements
+//! - [`raster`]: [`raster::scanline`] and [`raster::edge_function`], and their exact forms
+//! - [`line`]: [`line::dda`] and [`line::bresenham`]
+//! - [`oracle`]: the truth, by mathematics that no engine uses
+//! - [`hazard`]: families of hard cases, and cases with names
+//! - [`verify`]: judges an engine and finds the smallest case that fails
+//!
+//! The rest is public for the program, its tests and the samples under `docs/`, is not shown here,
+//! and may change at any time: the pipeline, scenes, effects, the published algorithms, mutants,
+//! invariants, ladders, reports and the command line. The pages under `docs/` follow the chapters
+//! of a textbook; `docs/index.md` is where to begin, `docs/ARCHITECTURE.md` shows the whole house.
+//!
+//! # To judge a rasterizer of your own
+//!
+//! Implement one method:
 //!
 //! ```
 //! use rasterproof::{contract::Rasterize, grid::PixelRect, triangle::{Corners, Span}, verify};
 //!
 //! /// Fills the bounding box: wrong for nearly every triangle.
-//! struct Box;
-//! impl Rasterize for Box {
+//! struct FillsItsBox;
+//! impl Rasterize for FillsItsBox {
 //!     fn cover(&self, corners: Corners, bounds: PixelRect, mut emit: impl FnMut(Span)) {
 //!         let px = |sub: i32| sub.div_euclid(256);
 //!         let (xs, ys) = (corners.map(|c| px(c.x)), corners.map(|c| px(c.y)));
@@ -29,7 +40,7 @@
 //!         }
 //!     }
 //! }
-//! let verdict = verify::judge_coverage(&Box, &verify::Options { cases: 20, ..verify::Options::default() });
+//! let verdict = verify::judge_coverage(&FillsItsBox, &verify::Options { cases: 20, ..verify::Options::default() });
 //! assert!(!verdict.agrees());
 //! let smallest = verdict.failures[0].clone();
 //! println!("{} wrong pixels; the smallest triangle: {smallest}", verdict.mismatches());
@@ -37,29 +48,45 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
-pub mod cli;
 pub mod contract;
-pub mod convention;
-pub mod cost;
-pub mod effects;
-pub mod exhaust;
 pub mod frame;
 pub mod grid;
 pub mod hazard;
-pub mod invariant;
-pub mod judge;
-pub mod ladder;
 pub mod line;
-pub mod lineup;
-pub mod mutant;
 pub mod oracle;
-pub mod pipeline;
 pub mod raster;
-pub mod report;
-pub mod scene;
-pub mod specimen;
 pub mod triangle;
 pub mod verify;
+
+// Not promised: for the program, its tests and the samples under docs/.
+#[doc(hidden)]
+pub mod cli;
+#[doc(hidden)]
+pub mod convention;
+#[doc(hidden)]
+pub mod cost;
+#[doc(hidden)]
+pub mod effects;
+#[doc(hidden)]
+pub mod exhaust;
+#[doc(hidden)]
+pub mod invariant;
+#[doc(hidden)]
+pub mod judge;
+#[doc(hidden)]
+pub mod ladder;
+#[doc(hidden)]
+pub mod lineup;
+#[doc(hidden)]
+pub mod mutant;
+#[doc(hidden)]
+pub mod pipeline;
+#[doc(hidden)]
+pub mod report;
+#[doc(hidden)]
+pub mod scene;
+#[doc(hidden)]
+pub mod specimen;
 
 /// The samples in the pages under `docs/` are tests.
 #[cfg(doctest)]

@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use super::{Failure, PAGE, Streams, exit, write_file, write_page};
-use crate::cost::{Board, Ladder, Options, measure};
+use super::{Failure, PAGE, Streams, exit, usage, write_file, write_page};
+use crate::cost::{Board, Ladder, Options, Recorded, measure};
 use crate::report::chart::{self, Drawing};
 use crate::report::html::{Figure, Report};
 use crate::report::{board, json, picture, plot};
@@ -48,6 +48,9 @@ pub struct CostArguments {
     /// Decides every scene
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
+    /// Measure nothing: show and draw again what --json printed into FILE
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["quick", "seed"])]
+    from: Option<PathBuf>,
     /// Print JSON instead of boards
     #[arg(long)]
     json: bool,
@@ -74,34 +77,59 @@ impl CostArguments {
     }
 }
 
-/// Measures, prints and draws. Nothing here disagrees with anything: errors are the result.
+/// Measures or reads, prints and draws. Nothing here disagrees with anything: errors are the result.
 pub fn run(arguments: &CostArguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
     let ladders = arguments.which.map_or(&Ladder::ALL[..], Which::ladders);
-    let boards = measure_all(ladders, arguments, streams.progress);
-    let out = &mut *streams.output;
-    let plots = plots(&boards);
+    let recorded = match &arguments.from {
+        Some(path) => read(path, ladders)?,
+        None => Recorded {
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            repeat: arguments.repeat(),
+            seed: arguments.seed,
+            quick: arguments.quick,
+            boards: measure_all(ladders, arguments, streams.progress),
+        },
+    };
+    let (boards, out) = (&recorded.boards, &mut *streams.output);
+    let plots = plots(boards);
     let written = write_plots(&plots, arguments)?;
     if arguments.report {
-        write_page(Path::new(PAGE), &report_page(&plots, arguments), streams.errors)?;
+        write_page(Path::new(PAGE), &report_page(&plots, &recorded), streams.errors)?;
     }
     if arguments.json {
-        out.write_all(json::cost(&arguments.repeat(), &boards).as_bytes())?;
+        out.write_all(json::cost(&recorded).as_bytes())?;
         return Ok(exit::AGREES);
     }
-    let (quick, seed) = (if arguments.quick { ", quick" } else { "" }, arguments.seed);
-    writeln!(out, "rasterproof {} cost, seed {seed}{quick}\n", env!("CARGO_PKG_VERSION"))?;
-    for board in &boards {
+    let Recorded { version, seed, .. } = &recorded;
+    let quick = if recorded.quick { ", quick" } else { "" };
+    writeln!(out, "rasterproof {version} cost, seed {seed}{quick}\n")?;
+    for board in boards {
         writeln!(out, "{}", board::text(board, streams.colour))?;
     }
-    let price = board::price_text(&boards);
+    let price = board::price_text(boards);
     if !price.is_empty() {
         writeln!(out, "{price}")?;
     }
     let drawn =
         format!("in {}, as SVG and PNG: {}", arguments.output.display(), written.join(", "));
     writeln!(out, "drawn {}", board::wrap(&drawn).trim_start())?;
-    writeln!(out, "repeat with: {}", arguments.repeat())?;
+    writeln!(out, "repeat with: {}", recorded.repeat)?;
     Ok(exit::AGREES)
+}
+
+/// What an earlier run printed, as far as it is asked for.
+fn read(path: &Path, ladders: &[Ladder]) -> Result<Recorded, Failure> {
+    let named = |what: String| usage(format!("{}: {what}", path.display()));
+    let text = std::fs::read_to_string(path).map_err(|error| named(error.to_string()))?;
+    let mut recorded = Recorded::read(&text).map_err(|why| {
+        named(format!("{why}; write such a file with `rasterproof cost --json > FILE`"))
+    })?;
+    recorded.boards.retain(|board| ladders.contains(&board.ladder));
+    if recorded.boards.is_empty() {
+        let names: Vec<_> = ladders.iter().map(|ladder| ladder.name()).collect();
+        return Err(named(format!("it holds no board of {}", names.join(" or "))));
+    }
+    Ok(recorded)
 }
 
 /// The plots with their names; the one picture that answers the question comes last.
@@ -117,7 +145,7 @@ fn plots(boards: &[Board]) -> Vec<(String, Drawing)> {
 }
 
 /// The plots as a page, the answer first.
-fn report_page(plots: &[(String, Drawing)], arguments: &CostArguments) -> Report {
+fn report_page(plots: &[(String, Drawing)], recorded: &Recorded) -> Report {
     let figure = |(name, drawing): &(String, Drawing)| Figure {
         caption: match name.as_str() {
             "cost-price" => "What exact coverage costs over the cheapest rung".to_owned(),
@@ -127,8 +155,8 @@ fn report_page(plots: &[(String, Drawing)], arguments: &CostArguments) -> Report
     };
     Report {
         title: "What accuracy costs in time".to_owned(),
-        command: arguments.repeat(),
-        seed: Some(arguments.seed),
+        command: recorded.repeat.clone(),
+        seed: Some(recorded.seed),
         figures: plots.iter().rev().map(figure).collect(),
         ..Report::default()
     }

@@ -15,7 +15,7 @@ use crate::triangle::Corners;
 
 fn measures() -> Vec<Measure> {
     let title = "root mean square distance from the exact share, over the pixels on an edge";
-    vec![Measure { title, short: "rms", goal: Some(0.0) }]
+    vec![Measure::new(title, "rms", Some(0.0))]
 }
 
 struct Contender {
@@ -25,7 +25,7 @@ struct Contender {
 
 fn contenders() -> Vec<Contender> {
     let new = |name, about, exact: bool, make| Contender {
-        rung: Rung { name, about, promises: if exact { vec![0] } else { Vec::new() } },
+        rung: Rung::new(name, about, if exact { &[0] } else { &[] }),
         make,
     };
     vec![
@@ -100,7 +100,7 @@ pub(super) fn measure(options: &Options, progress: &dyn Fn(f64, &str)) -> Board 
         if scene.name.starts_with(W_PREFIX) {
             let why = "coverage does not depend on w";
             prepared.iter_mut().for_each(|row| row.push(Prepared::NotRun(why.to_owned())));
-            columns.push(Column { name: scene.name, about, items, pixels: 0 });
+            columns.push(Column::new(scene.name, about, items, 0));
             continue;
         }
         let truth = truth(&triangles[i], scene);
@@ -117,7 +117,7 @@ pub(super) fn measure(options: &Options, progress: &dyn Fn(f64, &str)) -> Board 
                 }),
             });
         }
-        columns.push(Column { name: scene.name, about, items, pixels: truth.pixels });
+        columns.push(Column::new(scene.name, about, items, truth.pixels));
     }
     let rungs = contenders.iter().map(|contender| contender.rung.clone()).collect();
     finish((ladder, measures()), (rungs, columns), prepared, options, progress)

@@ -7,7 +7,7 @@
 
 use std::time::{Duration, Instant};
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Something to time.
 pub(super) struct Pass<'a> {
@@ -18,7 +18,8 @@ pub(super) struct Pass<'a> {
 }
 
 /// Quartiles of one quantity over the rounds.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Quartiles")]
 pub struct Spread {
     /// A quarter of the rounds were at most this.
     pub low: f64,
@@ -26,6 +27,26 @@ pub struct Spread {
     pub median: f64,
     /// Three quarters.
     pub high: f64,
+}
+
+/// Three numbers from a file, which may be anything.
+#[derive(Deserialize)]
+struct Quartiles {
+    low: f64,
+    median: f64,
+    high: f64,
+}
+
+impl TryFrom<Quartiles> for Spread {
+    type Error = String;
+
+    fn try_from(Quartiles { low, median, high }: Quartiles) -> Result<Self, String> {
+        if 0.0 <= low && low <= median && 0.0 < median && median <= high {
+            Ok(Self { low, median, high })
+        } else {
+            Err(format!("{low}, {median}, {high} are not the quartiles of times"))
+        }
+    }
 }
 
 impl Spread {
@@ -41,8 +62,9 @@ impl Spread {
     }
 }
 
-/// The time of a rung on a scene.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+/// The time of a rung on a scene, in nanoseconds, for each pixel and for each item drawn: the same
+/// rounds, divided by other counts.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Time {
     /// Nanoseconds for each covered pixel.
     pub pixel_ns: Spread,

@@ -30,12 +30,19 @@ const HOLES: usize = 2;
 const TWICE: usize = 3;
 
 fn measures() -> Vec<Measure> {
-    let measure = |title, short, goal| Measure { title, short, goal };
     vec![
-        measure("wrong pixels per million, against the vertices as given", "wrong/M", Some(0.0)),
-        measure("wrong pixels per million, against the snapped vertices", "snapped", Some(0.0)),
-        measure("pixels inside the mesh that no triangle hits", "holes", None),
-        measure("pixels inside the mesh that two triangles hit", "twice", None),
+        Measure::new(
+            "wrong pixels per million, against the vertices as given",
+            "wrong/M",
+            Some(0.0),
+        ),
+        Measure::new(
+            "wrong pixels per million, against the snapped vertices",
+            "snapped",
+            Some(0.0),
+        ),
+        Measure::new("pixels inside the mesh that no triangle hits", "holes", None),
+        Measure::new("pixels inside the mesh that two triangles hit", "twice", None),
     ]
 }
 
@@ -90,7 +97,8 @@ impl<R: Cover + Sync> AnyRung for R {
     }
 }
 
-/// A rung of coverage.
+/// A rung of coverage, ready to run: it lists the pixels of a triangle, to be judged, or paints them,
+/// to be timed.
 pub struct Contender {
     /// What it is.
     pub rung: Rung,
@@ -103,7 +111,7 @@ fn contender(
     promises: &[usize],
     body: impl Cover + Sync + 'static,
 ) -> Contender {
-    Contender { rung: Rung { name, about, promises: promises.to_vec() }, body: Box::new(body) }
+    Contender { rung: Rung::new(name, about, promises), body: Box::new(body) }
 }
 
 impl Contender {
@@ -338,14 +346,14 @@ pub(super) fn measure(ladder: Ladder, options: &Options, progress: &dyn Fn(f64, 
             let why = "coverage does not depend on w";
             let rows = prepared.iter_mut();
             rows.for_each(|row| row.push(Prepared::NotRun(why.to_owned())));
-            columns.push(Column { name: scene.name, about, items, pixels: 0 });
+            columns.push(Column::new(scene.name, about, items, 0));
             continue;
         }
         let truth = Truth::of(scene);
         for (contender, row) in contenders.iter().zip(&mut prepared) {
             row.push(prepare(contender, scene, &truth, target));
         }
-        columns.push(Column { name: scene.name, about, items, pixels: truth.pixels[GIVEN] });
+        columns.push(Column::new(scene.name, about, items, truth.pixels[GIVEN]));
     }
     let rungs = contenders.iter().map(|contender| contender.rung.clone()).collect();
     finish((ladder, measures()), (rungs, columns), prepared, options, progress)

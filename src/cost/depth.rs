@@ -17,15 +17,18 @@ const APART: f64 = 1e-4;
 const SIDE_PX: usize = 64;
 
 fn measures() -> Vec<Measure> {
-    let measure = |title, short, goal| Measure { title, short, goal };
     vec![
-        measure(
+        Measure::new(
             "pixels per million showing the wrong one of two layers z / 10,000 apart",
             "wrong/M",
             Some(0.0),
         ),
-        measure("gap: the least distance behind z that is stored as another depth", "gap", None),
-        measure("step: the largest such gap over a thousand distances around z", "step", None),
+        Measure::new(
+            "gap: the least distance behind z that is stored as another depth",
+            "gap",
+            None,
+        ),
+        Measure::new("step: the largest such gap over a thousand distances around z", "step", None),
     ]
 }
 
@@ -145,7 +148,7 @@ impl<F: Format + 'static> AnyFormat for F {
 }
 
 fn contenders() -> Vec<(Rung, Box<dyn AnyFormat>)> {
-    let rung = |name, about| Rung { name, about, promises: Vec::new() };
+    let rung = |name, about| Rung::new(name, about, &[]);
     vec![
         (rung("24-bit", "whole numbers, 0 at the near plane"), Box::new(Fixed24)),
         (rung("f32", "-1 at the near plane"), Box::new(Forward::<f32>::default())),
@@ -170,22 +173,14 @@ pub(super) fn measure(options: &Options, progress: &dyn Fn(f64, &str)) -> Board 
             let (errors, pass) = (format.errors(z, &made[i]), format.pass(&made[i]));
             row.push(Prepared::Ready { errors, work: None, pass });
         }
-        columns.push(Column {
-            name,
-            about: format!("{z} from the eye, planes at {NEAR} and {FAR}"),
-            items: 2 * tiles as u64,
-            pixels: (2 * tiles * SIDE_PX * SIDE_PX) as u64,
-        });
+        let about = format!("{z} from the eye, planes at {NEAR} and {FAR}");
+        let pixels = (2 * tiles * SIDE_PX * SIDE_PX) as u64;
+        columns.push(Column::new(name, about, 2 * tiles as u64, pixels));
     }
     for class in scenes(options.seed, Size { side_px: 64, pixels: 0 }) {
         let why = "depth depends on the distance from the eye, not on the shape";
         prepared.iter_mut().for_each(|row| row.push(Prepared::NotRun(why.to_owned())));
-        columns.push(Column {
-            name: class.name,
-            about: class.about.to_owned(),
-            items: 0,
-            pixels: 0,
-        });
+        columns.push(Column::new(class.name, class.about.to_owned(), 0, 0));
     }
     let rungs = contenders.iter().map(|(rung, _)| rung.clone()).collect();
     finish((ladder, measures()), (rungs, columns), prepared, options, progress)

@@ -21,11 +21,14 @@ use crate::triangle::Span;
 const HALF_STEP: f64 = 1.0 / 512.0;
 
 fn measures() -> Vec<Measure> {
-    let measure = |title, short, goal| Measure { title, short, goal };
     vec![
-        measure("worst error over M, the largest value of a vertex", "error / M", Some(HALF_STEP)),
-        measure("worst error in units of u M, u of the float used", "u M", None),
-        measure("worst error over its derived bound", "of bound", None),
+        Measure::new(
+            "worst error over M, the largest value of a vertex",
+            "error / M",
+            Some(HALF_STEP),
+        ),
+        Measure::new("worst error in units of u M, u of the float used", "u M", None),
+        Measure::new("worst error over its derived bound", "of bound", None),
     ]
 }
 
@@ -290,7 +293,12 @@ fn contender<T: Real>(
     // 13 D + M is at most 27 M, far below the goal with either float.
     let promises =
         if matches!(bound, Bound::Offset | Bound::Rounded) { vec![0] } else { Vec::new() };
-    Contender { rung: Rung { name, about, promises }, bound, unit: T::UNIT, body: Box::new(body) }
+    Contender {
+        rung: Rung::new(name, about, &promises),
+        bound,
+        unit: T::UNIT,
+        body: Box::new(body),
+    }
 }
 
 fn contenders() -> Vec<Contender> {
@@ -450,7 +458,7 @@ pub(super) fn measure(options: &Options, progress: &dyn Fn(f64, &str)) -> Board 
         let width = |span: &Span| u64::from(span.x0_px.abs_diff(span.x1_px));
         let pixels = drawn.iter().flat_map(|d| &d.spans).map(width).sum();
         let about = scene.about.to_owned();
-        columns.push(Column { name: scene.name, about, items: drawn.len() as u64, pixels });
+        columns.push(Column::new(scene.name, about, drawn.len() as u64, pixels));
     }
     let rungs = contenders.iter().map(|contender| contender.rung.clone()).collect();
     finish((ladder, measures()), (rungs, columns), prepared, options, progress)

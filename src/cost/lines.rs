@@ -16,7 +16,7 @@ type Ends = [PixelPoint; 2];
 
 fn measures() -> Vec<Measure> {
     let title = "wrong pixels per million, against the exact line";
-    vec![Measure { title, short: "wrong/M", goal: Some(0.0) }]
+    vec![Measure::new(title, "wrong/M", Some(0.0))]
 }
 
 trait AnyDraw {
@@ -56,7 +56,7 @@ struct Contender {
 
 fn contenders() -> Vec<Contender> {
     let new = |name, about, exact: bool, body| Contender {
-        rung: Rung { name, about, promises: if exact { vec![0] } else { Vec::new() } },
+        rung: Rung::new(name, about, if exact { &[0] } else { &[] }),
         body,
     };
     vec![
@@ -160,7 +160,7 @@ pub(super) fn measure(options: &Options, progress: &dyn Fn(f64, &str)) -> Board 
             Err(why) => {
                 prepared.iter_mut().for_each(|row| row.push(Prepared::NotRun(why.clone())));
                 let about = class.about.to_owned();
-                columns.push(Column { name: class.name, about, items: 0, pixels: 0 });
+                columns.push(Column::new(class.name, about, 0, 0));
                 continue;
             }
         };
@@ -185,7 +185,7 @@ pub(super) fn measure(options: &Options, progress: &dyn Fn(f64, &str)) -> Board 
             });
         }
         let (about, items) = ((*about).to_owned(), lines.len() as u64);
-        columns.push(Column { name: class.name, about, items, pixels });
+        columns.push(Column::new(class.name, about, items, pixels));
     }
     let rungs = contenders.iter().map(|contender| contender.rung.clone()).collect();
     finish((ladder, measures()), (rungs, columns), prepared, options, progress)

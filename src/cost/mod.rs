@@ -11,19 +11,23 @@ mod coverage;
 mod depth;
 mod interpolation;
 mod lines;
+mod recorded;
 pub mod scene;
 mod verdict;
 
-use serde::Serialize;
+use std::borrow::Cow;
+
+use serde::{Deserialize, Serialize};
 
 use crate::ladder::Work;
 pub use clock::{Spread, Time};
 pub use coverage::{Contender, contenders};
 pub use interpolation::Bound;
+pub use recorded::Recorded;
 pub use verdict::{Best, Dominated, Price, Priced, prices};
 
 /// A ladder of rungs that do the same job.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Ladder {
     /// Coverage by walking down the edges.
@@ -78,6 +82,9 @@ impl Ladder {
     }
 }
 
+/// Words of a board: of the program where it was measured, of the file where it was read.
+pub type Name = Cow<'static, str>;
+
 /// How much is measured.
 #[derive(Clone, Copy, Debug)]
 pub struct Options {
@@ -90,21 +97,27 @@ pub struct Options {
 }
 
 /// A kind of error.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Measure {
     /// What is measured, with its unit.
-    pub title: &'static str,
+    pub title: Name,
     /// Short name for a column or an axis.
-    pub short: &'static str,
+    pub short: Name,
     /// Errors up to this one are as good as none; `None` for a measure that ranks nothing.
     pub goal: Option<f64>,
 }
 
+impl Measure {
+    fn new(title: &'static str, short: &'static str, goal: Option<f64>) -> Self {
+        Self { title: title.into(), short: short.into(), goal }
+    }
+}
+
 /// A class of scenes, the columns of a board.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Column {
     /// Its name.
-    pub name: &'static str,
+    pub name: Name,
     /// What is drawn.
     pub about: String,
     /// Triangles or lines.
@@ -113,19 +126,31 @@ pub struct Column {
     pub pixels: u64,
 }
 
+impl Column {
+    fn new(name: &'static str, about: String, items: u64, pixels: u64) -> Self {
+        Self { name: name.into(), about, items, pixels }
+    }
+}
+
 /// A rung, the rows of a board.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rung {
     /// Its name.
-    pub name: &'static str,
+    pub name: Name,
     /// How it works, in a few words.
-    pub about: &'static str,
+    pub about: Name,
     /// Of which measures, by number, it promises to meet the goal, whatever the scene.
     pub promises: Vec<usize>,
 }
 
+impl Rung {
+    fn new(name: &'static str, about: &'static str, promises: &[usize]) -> Self {
+        Self { name: name.into(), about: about.into(), promises: promises.to_vec() }
+    }
+}
+
 /// What became of a rung on a class of scenes.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Cell {
     /// It was not run, and why.
@@ -146,7 +171,7 @@ impl Cell {
 }
 
 /// What was measured of a rung on a class of scenes.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Run {
     /// For each measure of the board its error, where the measure applies.
     pub errors: Vec<Option<f64>>,
@@ -157,7 +182,7 @@ pub struct Run {
 }
 
 /// The measurements of one ladder.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Board {
     /// Which ladder.
     pub ladder: Ladder,

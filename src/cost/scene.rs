@@ -26,7 +26,7 @@ pub struct Scene {
     pub interior: Option<PixelRect>,
 }
 
-/// How large a scene is.
+/// How large a scene is: its window in pixels and about how much of it is covered.
 #[derive(Clone, Copy, Debug)]
 pub struct Size {
     /// Side of the window in pixels.

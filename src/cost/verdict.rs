@@ -160,7 +160,7 @@ pub fn prices(boards: &[Board]) -> Vec<Price> {
             cheapest(&|board, rung| board.rungs[rung].promises.contains(&measure)).map(priced)
         };
         Some(Price {
-            column: first.columns[column].name.to_owned(),
+            column: first.columns[column].name.to_string(),
             cheapest: priced((name, least)),
             unpromised: cheapest(&|board, rung| board.rungs[rung].promises.is_empty()).map(priced),
             snapped: certain(super::coverage::SNAPPED),

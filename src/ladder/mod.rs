@@ -54,7 +54,7 @@ impl Real for f64 {
 }
 
 /// What a rung did, where that explains its time.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct Work {
     /// Divisions.
     pub divisions: u64,

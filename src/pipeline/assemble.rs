@@ -120,7 +120,8 @@ pub fn check_vertex<V>(index: usize, vertex: &ClipVertex<V>) -> Result<(), BadVe
     refusal.map_or(Ok(()), |refusal| Err(BadVertex { index, refusal }))
 }
 
-/// How triangles become pieces in the window.
+/// Takes triangles from clip space to the window: clips, divides, snaps and culls them, into pieces
+/// that a rasterizer draws.
 #[derive(Clone, Copy, Debug)]
 pub struct Assembler {
     viewport: Viewport,

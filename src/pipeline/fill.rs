@@ -7,7 +7,7 @@ use crate::contract::Interpolate;
 use crate::grid::PixelRect;
 use crate::triangle::{Fragment, ScreenTriangle, Varying};
 
-/// What is done for each fragment, beyond the fragment stage.
+/// How the fragments of a triangle are made and kept: what the fragment stage does not see.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Way {
     /// Interpolate linearly in the window: right where the three w are equal.

@@ -10,6 +10,7 @@
 //! clip, cull, depth-test or shade.
 
 mod values;
+#[doc(hidden)]
 pub mod words;
 
 use std::hint::select_unpredictable;

@@ -50,7 +50,7 @@ fn title(measure: &Measure) -> String {
         Some(goal) => {
             format!("{} (up to {goal:.4} is +, * the cheapest such)", measure.title)
         }
-        None => measure.title.to_owned(),
+        None => measure.title.to_string(),
     }
 }
 
@@ -187,7 +187,7 @@ fn not_run(out: &mut String, board: &Board) {
                 if ran {
                     add(why, format!("{} on {}", board.rungs[rung].name, info.name));
                 } else if rung == 0 {
-                    add(why, info.name.to_owned());
+                    add(why, info.name.to_string());
                 }
             }
         }
@@ -204,7 +204,7 @@ fn verdicts(out: &mut String, board: &Board) {
             .dominated(measure)
             .into_iter()
             .map(|d| {
-                let by: Vec<_> = d.by.iter().map(|&r| board.rungs[r].name).collect();
+                let by: Vec<_> = d.by.iter().map(|&r| &*board.rungs[r].name).collect();
                 format!("{} (by {})", board.rungs[d.rung].name, by.join(", "))
             })
             .collect();

@@ -147,7 +147,7 @@ pub struct Figure {
     pub svg: String,
 }
 
-/// An effect of a plan.
+/// A row of the table of a plan: an effect, whether it is on, why, and what was counted.
 #[derive(Clone, Debug, Default)]
 pub struct PlanRow {
     /// Its name.

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::cost::{Board, prices};
+use crate::cost::{Recorded, prices};
 use crate::verify::exact::{self, ExactFamilyReport, ExactVerdict};
 use crate::verify::specimens::SpecimenReport;
 use crate::verify::{FamilyReport, Verdict, shrink};
@@ -89,13 +89,15 @@ pub fn specimens(seed: u64, cases: u64, reports: &[SpecimenReport]) -> String {
 }
 
 /// The boards of `cost` as JSON, with what exact coverage costs and the rungs that nobody needs.
+/// [`Recorded::read`] takes it back.
 #[must_use]
-pub fn cost(repeat: &str, boards: &[Board]) -> String {
+pub fn cost(recorded: &Recorded) -> String {
+    let boards = &recorded.boards;
     let verdicts: Vec<_> = boards
         .iter()
         .flat_map(|board| board.ranking().map(move |measure| (board, measure)))
         .map(|(board, measure)| {
-            let named = |rung: usize| board.rungs[rung].name;
+            let named = |rung: usize| &*board.rungs[rung].name;
             let best = |column: usize| {
                 let best = board.best(column, measure)?;
                 let name = |rung: Option<usize>| rung.map(named);
@@ -116,7 +118,8 @@ pub fn cost(repeat: &str, boards: &[Board]) -> String {
         })
         .collect();
     let json = serde_json::json!({
-        "version": env!("CARGO_PKG_VERSION"), "repeat": repeat, "boards": boards,
+        "version": recorded.version, "repeat": recorded.repeat, "seed": recorded.seed,
+        "quick": recorded.quick, "boards": boards,
         "verdicts": verdicts, "price_of_exact_coverage": prices(boards),
     });
     serde_json::to_string_pretty(&json).unwrap_or_default() + "\n"

@@ -91,7 +91,7 @@ fn dots(board: &Board, column: usize) -> Vec<Dot> {
         };
         let cracked = cracks > 0.0;
         let label =
-            if cracked { format!("{} ({cracks})", info.name) } else { info.name.to_owned() };
+            if cracked { format!("{} ({cracks})", info.name) } else { info.name.to_string() };
         let good = board.meets(rung, column, 0) == Some(true);
         let snapped = info.promises.contains(&1) && !good;
         let above = (first > 0.0).then_some(first);

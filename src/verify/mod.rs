@@ -11,6 +11,7 @@
 mod contest;
 pub mod exact;
 pub mod shrink;
+#[doc(hidden)]
 pub mod specimens;
 pub mod tolerance;
 
@@ -28,8 +29,10 @@ use crate::lineup::{Engine, LineEngine};
 use contest::{Contest, CoverageOnly, LineContest, TriangleContest};
 use tolerance::Tolerance;
 
+pub use contest::{Finding, Tally};
+#[doc(hidden)]
 pub use contest::{
-    Finding, Tally, caught, engine_coverage, is_judging, is_sliver, line_coverage, oracle_coverage,
+    caught, engine_coverage, is_judging, is_sliver, line_coverage, oracle_coverage,
     oracle_pixels_each,
 };
 
@@ -203,6 +206,7 @@ impl Verdict {
 }
 
 /// Judges the line-up: both rasterizers and both line drawers, or a selection of them.
+#[doc(hidden)]
 pub fn judge_lineup(
     engines: &[(Engine, Tolerance)],
     lines: &[LineEngine],
@@ -494,6 +498,7 @@ fn shrink_failures(
 
 /// Judges one case by the line-up; what [`judge_lineup`] does for each generated case.
 #[must_use]
+#[doc(hidden)]
 pub fn judge_case(
     engines: &[(Engine, Tolerance)],
     lines: &[LineEngine],

@@ -73,6 +73,7 @@ const UNDERFLOW: f64 = f64::from_bits((1023 - 660) << 52);
 
 /// The bound that belongs to an engine of the line-up; a planted fault gets the wider one.
 #[must_use]
+#[doc(hidden)]
 pub fn of(engine: Engine) -> Tolerance {
     match engine {
         Engine::Scanline | Engine::Mutant(_) => SCANLINE,

@@ -2,8 +2,8 @@
 
 use std::process::Command;
 
-use rasterproof::cost::{Board, Cell, Ladder, Options, measure};
-use rasterproof::report::{board, chart, plot};
+use rasterproof::cost::{Board, Cell, Ladder, Options, Recorded, Run, measure};
+use rasterproof::report::{board, chart, json, plot};
 
 use crate::snapshots::settings;
 
@@ -43,7 +43,7 @@ fn cost_promises_are_kept() {
                 for c in board.columns_run() {
                     let Some(error) = board.error(number, c, measure) else { continue };
                     let goal = board.measures[measure].goal.unwrap();
-                    let place = (board.ladder, info.name, board.columns[c].name);
+                    let place = (board.ladder, &info.name, &board.columns[c].name);
                     assert!(error <= goal, "{place:?}: {error}");
                     kept += 1;
                 }
@@ -108,7 +108,7 @@ fn cost_not_run_has_a_reason() {
             board.columns.iter().filter(|c| c.items > 0 || c.pixels == 0).count(),
             board.columns.len()
         );
-        let names: Vec<_> = board.columns.iter().map(|c| c.name).collect();
+        let names: Vec<_> = board.columns.iter().map(|c| &*c.name).collect();
         for class in [
             "large", "25 px", "<8 px", "sliver", "half", "tie", "far", "mesh", "w 1", "w 4",
             "w 100", "w 1e4",
@@ -180,6 +180,21 @@ fn cost_from_the_command_line() {
     }
     assert!(json["verdicts"][0]["best"][0]["fastest"].is_string());
     assert_eq!(run(&["cost", "nothing"]).0, Some(2));
+
+    // What was printed is drawn again, to the byte.
+    let plot = |plots: &str| std::fs::read(folder.join(plots).join("cost-lines.svg")).unwrap();
+    let measured = plot("target/rasterproof");
+    std::fs::write(folder.join("cost.json"), &text).unwrap();
+    let (status, again) = run(&["cost", "--from", "cost.json", "--json", "-o", "again"]);
+    assert_eq!((status, &again), (Some(0), &text));
+    assert_eq!(plot("again"), measured);
+    let (status, boards) = run(&["cost", "lines", "--from", "cost.json", "-o", "again"]);
+    assert_eq!(status, Some(0), "{boards}");
+    assert!(boards.contains("cost, seed 3, quick\n"), "{boards}");
+    assert!(boards.contains("repeat with: rasterproof cost lines --quick --seed 3"), "{boards}");
+    assert_eq!(run(&["cost", "depth", "--from", "cost.json"]).0, Some(2), "no such board");
+    assert_eq!(run(&["cost", "--from", "nowhere.json"]).0, Some(2));
+    assert_eq!(run(&["cost", "--from", "cost.json", "--quick"]).0, Some(2));
     std::fs::remove_dir_all(folder).unwrap();
 }
 
@@ -199,4 +214,91 @@ fn cost_plots_name_every_rung() {
             assert!(at[0] >= 0.0 && at[0] + chart::width(text) <= drawing.size[0], "{text}");
         }
     }
+}
+
+/// A file that `cost --json` wrote gives the same boards, plots and file again.
+#[test]
+fn cost_json_is_read_back() {
+    let options = Options { seed: 5, quick: true, timed: true };
+    // Counted work, goals that rank nothing, and times.
+    let boards = vec![
+        untimed(Ladder::Scanline, 5),
+        untimed(Ladder::Depth, 5),
+        measure(Ladder::Lines, &options, &|_, _| ()),
+    ];
+    let recorded = Recorded {
+        version: "0.0.1".to_owned(),
+        repeat: "rasterproof cost --quick --seed 5".to_owned(),
+        seed: 5,
+        quick: true,
+        boards,
+    };
+    let text = json::cost(&recorded);
+    let back = Recorded::read(&text).unwrap();
+    assert_eq!(back, recorded);
+    assert_eq!(json::cost(&back), text);
+    for (a, b) in recorded.boards.iter().zip(&back.boards) {
+        assert_eq!(board::text(a, true), board::text(b, true));
+        assert_eq!(chart::svg(&plot::pareto(a)), chart::svg(&plot::pareto(b)));
+    }
+}
+
+/// Each kind of broken file is refused with its line; none of them panics.
+#[test]
+fn cost_broken_files_are_refused() {
+    let board = measure(Ladder::Lines, &Options { seed: 5, quick: true, timed: true }, &|_, _| ());
+    let recorded = Recorded {
+        version: "0.0.1".to_owned(),
+        repeat: String::new(),
+        seed: 5,
+        quick: true,
+        boards: vec![board],
+    };
+    let good = json::cost(&recorded);
+    // The first line with `from` becomes `to`: what is wrong, in that line or the next one but one.
+    let refused = |from: &str, to: &str, what: &str| {
+        let line = good.lines().position(|line| line.contains(from)).expect(from) + 1;
+        let told = Recorded::read(&good.replacen(from, to, 1)).expect_err(from);
+        let (at, said) = told.strip_prefix("line ").unwrap().split_once(": ").expect(&told);
+        let at: usize = at.parse().unwrap();
+        assert!((line..=line + 2).contains(&at) && said.contains(what), "{from}, {line}: {told}");
+    };
+    refused("\"low\": ", "\"low\": -", "quartiles of times");
+    refused("\"median\": ", "\"median\": -", "quartiles of times");
+    refused("\"high\": ", "\"high\": \"?\"", "expected");
+    refused("\"ladder\": \"lines\"", "\"ladder\": \"stairs\"", "unknown variant `stairs`");
+    refused("\"quick\": true", "\"quick\": 1", "invalid type");
+    // What concerns a whole board names the place instead.
+    let misfits: [(fn(&mut Board), &str); 6] = [
+        (|b| drop(b.cells.pop()), "rows of cells for"),
+        (|b| drop(b.cells[1].pop()), "cells of rung"),
+        (|b| b.rungs[0].promises.push(7), "promises measure 7 of 1"),
+        (|b| b.measures.clear(), "0 measures, and at least 1"),
+        (|b| first(b).errors.clear(), "has 0 errors for 1 measures"),
+        (|b| first(b).errors[0] = Some(-1.0), "has an error of -1"),
+    ];
+    for (spoil, what) in misfits {
+        // The verdicts of a spoilt board cannot be written, so only the boards are.
+        let mut board = recorded.boards[0].clone();
+        spoil(&mut board);
+        let file = |boards: &[Board]| {
+            serde_json::json!({
+                "version": "", "repeat": "", "seed": 5, "quick": true, "boards": boards
+            })
+        };
+        let told = Recorded::read(&file(&[board]).to_string()).unwrap_err();
+        assert!(told.starts_with("line 1: board lines: ") && told.contains(what), "{told}");
+        let twice = file(&[recorded.boards[0].clone(), recorded.boards[0].clone()]);
+        assert_eq!(Recorded::read(&twice.to_string()).unwrap_err(), "line 1: two boards of lines");
+    }
+    assert!(Recorded::read("").unwrap_err().starts_with("line 1: EOF"));
+    assert!(Recorded::read(&good[..good.len() / 2]).is_err());
+}
+
+fn first(board: &mut Board) -> &mut Run {
+    let cell = board.cells.iter_mut().flatten().find_map(|cell| match cell {
+        Cell::Run(run) => Some(run),
+        Cell::NotRun(_) => None,
+    });
+    cell.unwrap()
 }

@@ -274,10 +274,10 @@ fn house_breaches_are_found() {
     assert!(breaches("raster/scanline.rs", "//! ok\nuse crate::grid::snap;", &floors).is_empty());
 }
 
-/// The README and the pages under `docs/`, with their text.
+/// The pages under `docs/` and those beside the README, with their text.
 fn pages() -> Vec<(PathBuf, String)> {
     let mut pages = files(&root().join("docs"), "md");
-    pages.push(root().join("README.md"));
+    pages.extend(["README.md", "CHANGELOG.md", "CONTRIBUTING.md"].map(|name| root().join(name)));
     pages.into_iter().map(|page| (page.clone(), fs::read_to_string(page).unwrap())).collect()
 }
 

@@ -25,3 +25,4 @@ mod robustness;
 mod scenes;
 mod snapshots;
 mod specimens;
+mod surface;

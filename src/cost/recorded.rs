@@ -1,0 +1,109 @@
+//! What `cost --json` printed, read back: the same boards, or what is wrong and in which line.
+
+use serde::{Deserialize, Deserializer, de};
+
+use super::{Board, Cell, Ladder};
+
+/// A run of `cost`: what was measured, and the command that repeats it.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+pub struct Recorded {
+    /// Version of the program that measured.
+    pub version: String,
+    /// The command.
+    pub repeat: String,
+    /// What decided the scenes.
+    pub seed: u64,
+    /// Smaller scenes and fewer rounds.
+    pub quick: bool,
+    /// The boards, each ladder once.
+    #[serde(deserialize_with = "checked")]
+    pub boards: Vec<Board>,
+}
+
+impl Recorded {
+    /// Reads what `cost --json` printed. What follows from the boards, as which rung is the
+    /// cheapest, is not read but found again.
+    ///
+    /// # Errors
+    /// A sentence that begins with the line at which the reader stopped: no JSON, a field that is
+    /// missing or of another kind, or boards whose parts do not fit each other.
+    pub fn read(text: &str) -> Result<Self, String> {
+        serde_json::from_str(text).map_err(|error| {
+            let (line, told) = (error.line(), error.to_string());
+            // The library ends its sentence with the place.
+            let what = told.split(" at line ").next().unwrap_or("");
+            format!("line {line}: {what}")
+        })
+    }
+}
+
+/// A board whose parts fit each other.
+struct Fitting(Board);
+
+impl<'de> Deserialize<'de> for Fitting {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        let board = Board::deserialize(from)?;
+        match misfit(&board) {
+            None => Ok(Self(board)),
+            Some(what) => Err(de::Error::custom(format!("board {}: {what}", board.ladder.name()))),
+        }
+    }
+}
+
+fn is_coverage(board: &Board) -> bool {
+    matches!(board.ladder, Ladder::Scanline | Ladder::EdgeFunction)
+}
+
+/// Boards that fit each other: each ladder once, and both ladders of coverage on the same scenes.
+fn checked<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<Board>, D::Error> {
+    let boards: Vec<Board> =
+        Vec::<Fitting>::deserialize(from)?.into_iter().map(|fitting| fitting.0).collect();
+    let mut seen = Vec::new();
+    for board in &boards {
+        if seen.contains(&board.ladder) {
+            return Err(de::Error::custom(format!("two boards of {}", board.ladder.name())));
+        }
+        seen.push(board.ladder);
+    }
+    let mut coverage = boards.iter().filter(|board| is_coverage(board));
+    if let (Some(a), Some(b)) = (coverage.next(), coverage.next())
+        && a.columns != b.columns
+    {
+        return Err(de::Error::custom("scanline and edge-function are of different scenes"));
+    }
+    Ok(boards)
+}
+
+/// What does not fit in a board. Everything that shows boards relies on these.
+fn misfit(board: &Board) -> Option<String> {
+    let (rungs, columns, measures) = (board.rungs.len(), board.columns.len(), board.measures.len());
+    // The first measure is the error of the plots; of coverage all four are asked for by number.
+    let least = if is_coverage(board) { 4 } else { 1 };
+    if measures < least {
+        return Some(format!("{measures} measures, and at least {least} are needed"));
+    }
+    if board.cells.len() != rungs {
+        return Some(format!("{} rows of cells for {rungs} rungs", board.cells.len()));
+    }
+    for (rung, row) in board.rungs.iter().zip(&board.cells) {
+        let name = &rung.name;
+        if row.len() != columns {
+            return Some(format!("{} cells of rung {name} for {columns} columns", row.len()));
+        }
+        if let Some(promise) = rung.promises.iter().find(|&&measure| measure >= measures) {
+            return Some(format!("rung {name} promises measure {promise} of {measures}"));
+        }
+        for (column, run) in board.columns.iter().zip(row.iter().map(Cell::run)) {
+            let Some(run) = run else { continue };
+            let place = format!("{name} on {}", column.name);
+            if run.errors.len() != measures {
+                let errors = run.errors.len();
+                return Some(format!("{place} has {errors} errors for {measures} measures"));
+            }
+            if let Some(error) = run.errors.iter().flatten().find(|error| **error < 0.0) {
+                return Some(format!("{place} has an error of {error}"));
+            }
+        }
+    }
+    None
+}

@@ -1,0 +1,112 @@
+//! What a user of the crate may rely on: the modules that the API documentation shows are those that
+//! are stated, in `src/lib.rs` and in the table of `docs/ARCHITECTURE.md`, in both languages.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+fn read(path: impl AsRef<Path>) -> String {
+    let path = root().join(path);
+    fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+/// The modules that a file declares for everyone, those left out that documentation does not show.
+fn shown(text: &str) -> Vec<String> {
+    let mut hidden = false;
+    let mut found = Vec::new();
+    for line in text.lines() {
+        if let Some(name) = line.strip_prefix("pub mod ").and_then(|rest| rest.strip_suffix(';'))
+            && !hidden
+        {
+            found.push(name.to_owned());
+        }
+        // An attribute speaks of what follows the attributes and comments below it.
+        let goes_on = line.starts_with("#[") || line.starts_with("//");
+        hidden = line.starts_with("#[doc(hidden)]") || hidden && goes_on;
+    }
+    found
+}
+
+/// The file of a module, `a/mod.rs` or `a.rs`.
+fn file(module: &str) -> PathBuf {
+    let path = Path::new("src").join(module.replace("::", "/"));
+    let folder = path.join("mod.rs");
+    if root().join(&folder).exists() { folder } else { path.with_extension("rs") }
+}
+
+/// Every module that documentation shows, parts of hidden ones left out, as paths from the crate.
+fn documented() -> BTreeSet<String> {
+    let mut open = shown(&read("src/lib.rs"));
+    let mut found = BTreeSet::new();
+    while let Some(module) = open.pop() {
+        let parts = shown(&read(file(&module)));
+        open.extend(parts.into_iter().map(|part| format!("{module}::{part}")));
+        found.insert(module);
+    }
+    found
+}
+
+/// The rooms in the first cells of the table below a heading.
+fn stated(page: &str, heading: &str) -> BTreeSet<String> {
+    let at = page.find(heading).unwrap_or_else(|| panic!("no heading {heading}"));
+    let section = page[at..].split("\n## ").next().unwrap_or("");
+    let cells = section.lines().filter_map(|line| line.strip_prefix("| `")?.split(" | ").next());
+    let rooms = cells.flat_map(|cell| cell.split(", "));
+    rooms.map(|room| room.trim_matches('`').to_owned()).collect()
+}
+
+#[test]
+fn surface_is_what_is_stated() {
+    let documented = documented();
+    let page = stated(&read("docs/ARCHITECTURE.md"), "## What a user may rely on\n");
+    assert_eq!(documented, page, "docs/ARCHITECTURE.md");
+    let zh = stated(&read("docs/zh/ARCHITECTURE.md"), "## 使用者可以依靠什么\n");
+    assert_eq!(documented, zh, "docs/zh/ARCHITECTURE.md");
+    // The front page lists the rooms, not their parts.
+    let front = read("src/lib.rs");
+    let listed: BTreeSet<_> = front
+        .lines()
+        .filter_map(|line| line.strip_prefix("//! - [`")?.split("`]").next())
+        .map(str::to_owned)
+        .collect();
+    let rooms = documented.into_iter().filter(|module| !module.contains("::")).collect();
+    assert_eq!(listed, rooms, "src/lib.rs");
+}
+
+/// What is shown knows nothing that is hidden: no type of another room can stand in a promise.
+#[test]
+fn surface_shows_no_hidden_room() {
+    let documented = documented();
+    let hidden: Vec<_> = read("src/lib.rs")
+        .lines()
+        .filter_map(|line| line.strip_prefix("pub mod ")?.strip_suffix(';').map(str::to_owned))
+        .filter(|room| !documented.contains(room))
+        .collect();
+    assert!(hidden.len() > 5, "{hidden:?}");
+    let mut wrong = Vec::new();
+    for module in &documented {
+        let text = read(file(module));
+        for room in &hidden {
+            // The judges know the line-up, in functions that are hidden.
+            let allowed = room == "lineup" && module.starts_with("verify");
+            if text.contains(&format!("crate::{room}")) && !allowed {
+                wrong.push(format!("{module} imports {room}"));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// A module is hidden by its attribute alone, wherever that stands among others.
+#[test]
+fn surface_reads_attributes() {
+    let text = "pub mod a;\n#[doc(hidden)]\npub mod b;\npub mod c;\nmod d;\n#[doc(hidden)]\n\
+        #[cfg(test)]\n// why\npub mod e;\npub(crate) mod f;\n#[cfg(test)]\npub mod g;\n";
+    assert_eq!(shown(text), ["a", "c", "g"]);
+    let page = "## Rely\n\n| room | x |\n|---|---|\n| `a`, `a::b` | y |\n\n## Next\n| `c` | z |\n";
+    assert_eq!(stated(page, "## Rely\n"), ["a", "a::b"].map(str::to_owned).into());
+}
