@@ -269,7 +269,8 @@ fn cost_broken_files_are_refused() {
     refused("\"ladder\": \"lines\"", "\"ladder\": \"stairs\"", "unknown variant `stairs`");
     refused("\"quick\": true", "\"quick\": 1", "invalid type");
     // What concerns a whole board names the place instead.
-    let misfits: [(fn(&mut Board), &str); 6] = [
+    type Spoil = fn(&mut Board);
+    let misfits: [(Spoil, &str); 6] = [
         (|b| drop(b.cells.pop()), "rows of cells for"),
         (|b| drop(b.cells[1].pop()), "cells of rung"),
         (|b| b.rungs[0].promises.push(7), "promises measure 7 of 1"),
