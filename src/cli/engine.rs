@@ -11,7 +11,6 @@ use std::io::{self, BufRead, BufReader, Read as _, Write};
 use clap::builder::PossibleValue;
 use glam::DVec2;
 
-use super::misbehave::{self, Fault};
 use super::reply::{Reply, named};
 use super::{Failure, Streams, exit, published};
 use crate::contract::{DrawLine, Interpolate, Rasterize, RasterizeExact};
@@ -44,14 +43,15 @@ const READ_BYTES: usize = 1 << 16;
 /// Fragments that the oracle, in big integers, computes for one request.
 const MOST_EXACT_FRAGMENTS: u64 = 1 << 20;
 
-pub fn run(name: &str, plant: Option<Fault>, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+/// The engine of this name, planted faults among them.
+pub(super) fn find(name: &str) -> Result<Entry, Failure> {
     let entry = lineup::find(name).copied().or_else(|| lineup::find_planted(name));
-    let entry = entry.ok_or_else(|| {
-        super::usage(format!("no engine is called '{name}'; see: rasterproof list"))
-    })?;
-    if let Some(fault) = plant {
-        return misbehave::run(&entry, fault, streams);
-    }
+    entry
+        .ok_or_else(|| super::usage(format!("no engine is called '{name}'; see: rasterproof list")))
+}
+
+pub fn run(name: &str, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+    let entry = find(name)?;
     let mut input = BufReader::with_capacity(READ_BYTES, &mut *streams.input);
     let mut line = Vec::new();
     loop {

@@ -8,7 +8,6 @@ use std::process::{Command, Stdio};
 use std::time::Duration;
 
 use super::{Failure, Streams, engine, exit};
-use crate::lineup::Entry;
 
 /// A way to break the protocol.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -56,7 +55,8 @@ pub enum Fault {
 }
 
 /// Answers as the engine does, but for its fault.
-pub fn run(entry: &Entry, fault: Fault, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+pub fn run(name: &str, fault: Fault, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+    let entry = &engine::find(name)?;
     match fault {
         Fault::Chatty => writeln!(streams.output, "INFO: a banner\n> HELLO? 2 lines\n")?,
         Fault::Silent => sleep_for_ever(),

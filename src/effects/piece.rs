@@ -19,6 +19,12 @@ use crate::triangle::{Corners, ScreenTriangle, ScreenVertex};
 /// A triangle in the window with all attributes.
 pub(super) type Piece = ScreenTriangle<Packed<ALL>>;
 
+/// Whether the three 1/w are equal to the bit.
+pub(super) fn has_one_w(piece: &Piece) -> bool {
+    let [a, b, c] = &piece.vertices;
+    a.inv_w == b.inv_w && b.inv_w == c.inv_w
+}
+
 /// A vertex of an item that has no place in clip space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BadScene {

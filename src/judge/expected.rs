@@ -201,7 +201,7 @@ mod tests {
         let expected: [(Rule, &[(i32, i32)]); 6] = [
             (Rule::TopLeft, &[(0, 0), (1, 0), (0, 1)]),
             (Rule::TopRight, &[(1, 0), (2, 0), (1, 1)]),
-            (Rule::BottomLeft, &[(0, 1), (1, 1), (0, 2)]),
+            (Rule::BottomLeft, &[(0, 1)]),
             (Rule::BottomRight, &[(1, 1)]),
             (Rule::Strict, &[]),
             (Rule::Inclusive, &[(0, 0), (1, 0), (2, 0), (0, 1), (1, 1), (0, 2)]),

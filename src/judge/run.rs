@@ -58,6 +58,12 @@ pub struct Row {
 }
 
 impl Row {
+    /// How bad it is: the share of its cases that are wrong.
+    #[must_use]
+    pub fn share(&self) -> f64 {
+        self.wrong_cases as f64 / self.cases.max(1) as f64
+    }
+
     fn new(name: &'static str) -> Self {
         Self {
             name,

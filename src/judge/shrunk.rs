@@ -55,7 +55,7 @@ pub fn failures(
     truth: &Truth,
 ) -> Vec<Failure> {
     let mut rows: Vec<_> = found.rows.iter().filter(|row| row.wrong_cases > 0).collect();
-    rows.sort_by(|a, b| super::verdict::share(b).total_cmp(&super::verdict::share(a)));
+    rows.sort_by(|a, b| b.share().total_cmp(&a.share()));
     let of = |name: &str| found.failing.iter().find(|f| f.property == name);
     let firsts = rows.into_iter().filter_map(|row| of(row.name)).take(MOST_SHOWN);
     firsts.filter_map(|failing| failure(program, failing, options, truth)).collect()

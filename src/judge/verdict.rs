@@ -74,12 +74,6 @@ pub fn per_million(wrong: u64, pixels: u64) -> f64 {
     1e6 * wrong as f64 / pixels.max(1) as f64
 }
 
-/// How bad a row is: the share of its cases that are wrong.
-#[must_use]
-pub fn share(row: &Row) -> f64 {
-    row.wrong_cases as f64 / row.cases.max(1) as f64
-}
-
 /// What the checks over all families say.
 const CHECKS: [(&str, &str); 5] = [
     ("watertight", "meshes have no holes and no pixels drawn by two triangles"),

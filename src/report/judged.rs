@@ -6,7 +6,7 @@ use super::html::{Column, Mark, Outcome, Report, Row, Table};
 use super::{ascii, cases};
 use crate::judge::run::{self, MOST_DEATHS};
 use crate::judge::shrunk::Failure;
-use crate::judge::verdict::{self, Verdict, per_million, share};
+use crate::judge::verdict::{self, Verdict, per_million};
 
 /// Requests of a failing case that are shown.
 const MOST_EXCHANGES: usize = 3;
@@ -104,7 +104,7 @@ fn table(out: &mut String, verdict: &Verdict) {
     });
     let _ = writeln!(out, " {:>7}", "wrong");
     let mut rows: Vec<_> = verdict.found.rows.iter().collect();
-    rows.sort_by(|a, b| share(b).total_cmp(&share(a)));
+    rows.sort_by(|a, b| b.share().total_cmp(&a.share()));
     for row in rows {
         let t = &row.tally;
         let numbers =
@@ -113,7 +113,7 @@ fn table(out: &mut String, verdict: &Verdict) {
         numbers.iter().for_each(|n| {
             let _ = write!(out, " {n:>8}");
         });
-        let _ = writeln!(out, " {:>6.2}%", 100.0 * share(row));
+        let _ = writeln!(out, " {:>6.2}%", 100.0 * row.share());
     }
     *out += "(wrong: share of the cases with anything wrong; of meshes, missing are holes)\n";
     for row in verdict.found.rows.iter().filter(|row| row.values > 0) {

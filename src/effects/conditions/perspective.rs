@@ -5,7 +5,7 @@
 //! [`crate::contract::Interpolate::affine_fragments`].
 
 use super::survey::Survey;
-use crate::effects::piece::Piece;
+use crate::effects::piece::{Piece, has_one_w};
 use crate::effects::plan::{Attributes, Decision};
 use crate::effects::{Effect, Effects, Mode};
 use crate::scene::Scene;
@@ -13,11 +13,6 @@ use crate::scene::Scene;
 /// What the scene and its effects ask for.
 pub fn mode(scene: &Scene, effects: &Effects) -> Mode {
     if scene.affine { Mode::Never } else { effects.mode(Effect::Perspective) }
-}
-
-pub fn has_one_w(piece: &Piece) -> bool {
-    let [a, b, c] = &piece.vertices;
-    a.inv_w == b.inv_w && b.inv_w == c.inv_w
 }
 
 /// Whether a piece pays, with these attributes that are interpolated.

@@ -1,6 +1,6 @@
 //! What was found out about the pieces of an item before drawing, and how it becomes a decision.
 
-use crate::effects::piece::Piece;
+use crate::effects::piece::{Piece, has_one_w};
 use crate::effects::plan::{Attributes, Decision, PiecePlan};
 use crate::effects::{Effect, Effects, Mode};
 use crate::scene::{Item, Scene};
@@ -56,7 +56,7 @@ impl<'a> Survey<'a> {
 
     pub fn count(&mut self, piece: &Piece, plan: PiecePlan, word_bits: Option<u32>) {
         self.pieces += 1;
-        self.one_w += u64::from(super::perspective::has_one_w(piece));
+        self.one_w += u64::from(has_one_w(piece));
         self.perspective += u64::from(plan.perspective && !plan.interpolates.is_empty());
         self.depth += u64::from(plan.depth);
         self.wide += u64::from(word_bits > Some(i32::BITS));
