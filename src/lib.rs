@@ -53,6 +53,7 @@ pub mod lineup;
 pub mod mutant;
 pub mod oracle;
 pub mod pipeline;
+pub mod quiz;
 pub mod raster;
 pub mod report;
 pub mod scene;
