@@ -66,24 +66,22 @@ const HALFWAY: Exercise = Exercise {
     ],
 };
 
-/// A square from 0 to 4 in two halves, and one with its corners on centres.
-const HALVES: [Px; 2] =
-    [[[0.0, 0.0], [4.0, 0.0], [4.0, 4.0]], [[0.0, 0.0], [4.0, 4.0], [0.0, 4.0]]];
+/// A square of two halves with its corners on centres.
 const CENTRED: [Px; 2] =
     [[[0.5, 0.5], [4.5, 0.5], [4.5, 4.5]], [[0.5, 0.5], [4.5, 4.5], [0.5, 4.5]]];
 
 const TWICE: Exercise = Exercise {
     question: [
-        "The square (0, 0) to (4, 4) is split along the diagonal from (0, 0), and both halves take every sample with \
+        "The square (0.5, 0.5) to (4.5, 4.5) is split along the diagonal from (0.5, 0.5), and both halves take every sample with \
          all edge functions >= 0. Which of these pixels is hit twice?",
-        "正方形 (0, 0) 到 (4, 4) 沿过 (0, 0) 的对角线分成两半，两半都取所有边函数 >= 0 的采样点。\
+        "正方形 (0.5, 0.5) 到 (4.5, 4.5) 沿过 (0.5, 0.5) 的对角线分成两半，两半都取所有边函数 >= 0 的采样点。\
          下面哪个像素被命中两次？",
     ],
     choices: &[["(0, 3)"; 2], ["(1, 2)"; 2], ["(2, 2)"; 2], ["(3, 0)"; 2]],
     solve: |choices| {
-        let window = PixelRect::window(5, 5);
-        let inclusive = published(&SysuInclusive, &HALVES, window);
-        let right = truth(&HALVES, window);
+        let window = PixelRect::window(6, 6);
+        let inclusive = published(&SysuInclusive, &CENTRED, window);
+        let right = truth(&CENTRED, window);
         let twice = |text: &super::Text| pixel(text[0]).is_some_and(|p| hits(&inclusive, p) == 2);
         let all: Vec<_> = choices.iter().map(twice).collect();
         let doubles = inclusive.rows().flat_map(|(_, row)| row).filter(|&&n| n == 2).count();
@@ -93,9 +91,9 @@ const TWICE: Exercise = Exercise {
             .grid("oracle", ascii::grid(&right, &right))
     },
     why: [
-        "The diagonal passes through the centres of (0, 0), (1, 1), (2, 2) and (3, 3), where both halves say yes: {} \
+        "The diagonal passes through the centres of the pixels (0, 0) to (4, 4), where both halves say yes: {} \
          pixels are drawn twice (`2`).",
-        "对角线穿过 (0, 0)、(1, 1)、(2, 2) 和 (3, 3) 的中心，两半在那里都说“是”：{} 个像素画了两次（`2`）。",
+        "对角线穿过像素 (0, 0) 到 (4, 4) 的中心，两半在那里都说“是”：{} 个像素画了两次（`2`）。",
     ],
 };
 

@@ -43,7 +43,7 @@ pub fn split() -> String {
         let [x, y] = at(corners[corner]);
         sheet.text("middle", [x + shift[0], y + shift[1]], name);
     }
-    sheet.text("start", [30.0, 366.0], "● xₗ ≤ x < xᵣ     ○ x = xᵣ");
+    sheet.text("start", [30.0, 366.0], "● xₗ ≤ x < xᵣ · ○ x = xᵣ");
     sheet.svg()
 }
 
@@ -51,7 +51,7 @@ pub fn split() -> String {
 pub fn edge_sign() -> String {
     let (a, b, side) = ([1.5, 6.5], [7.5, 0.5], 44.0);
     let at = |[x, y]: Point| [20.0 + x * side, 20.0 + y * side];
-    let mut sheet = Sheet::new(440.0, 352.0);
+    let mut sheet = Sheet::new(440.0, 364.0);
     for (y, x) in (0..7).flat_map(|y| (0..9).map(move |x| (y, x))) {
         let p = [f64::from(x) + 0.5, f64::from(y) + 0.5];
         let sign = twice_area(snapped([a, b, p])).signum();
@@ -68,8 +68,7 @@ pub fn edge_sign() -> String {
     let ([ax, ay], [bx, by]) = (at(a), at(b));
     sheet.text("end", [ax - 10.0, ay - 8.0], "a");
     sheet.text("end", [bx - 10.0, by - 4.0], "b");
-    sheet.text("middle", at([2.0, 1.5]), "E < 0");
-    sheet.text("middle", at([7.0, 5.0]), "E > 0");
+    sheet.text("start", [20.0, 350.0], "+ : E > 0 · − : E < 0 · 0 : E = 0");
     sheet.svg()
 }
 
@@ -87,7 +86,7 @@ fn dda(a: SubpixelPoint, b: SubpixelPoint, rows: std::ops::Range<i32>) -> Vec<[i
     rows.map(line).collect()
 }
 
-const DDA_CORNERS: [Point; 3] = [[1.25, 0.25], [6.0, 5.0], [9.0, 0.25]];
+const DDA_CORNERS: [Point; 3] = [[1.25, 0.25], [6.5, 4.75], [9.0, 0.25]];
 
 /// One edge, row by row, in whole numbers.
 pub fn dda_row() -> String {
@@ -117,13 +116,13 @@ pub fn dda_row() -> String {
         }
     }
     let (dx, dy) = (b.x - a.x, b.y - a.y);
-    sheet.text("start", [20.0, 20.0], &format!("dx = {dx}   dy = {dy}"));
+    sheet.text("start", [20.0, 20.0], &format!("dx = {dx} · dy = {dy}"));
     sheet.svg()
 }
 
 /// Barycentric coordinates as areas.
 pub fn areas() -> String {
-    let (corners, pixel) = ([[0.0, 0.0], [8.0, 0.0], [0.0, 8.0]], [1, 2]);
+    let (corners, pixel) = ([[0.0, 0.0], [8.0, 0.0], [0.0, 8.0]], [2, 2]);
     let at = |[x, y]: Point| [40.0 + x * 36.0, 30.0 + y * 36.0];
     let p = [f64::from(pixel[0]) + 0.5, f64::from(pixel[1]) + 0.5];
     let units = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
@@ -143,7 +142,7 @@ pub fn areas() -> String {
         let [x, y] = at(corners[i]);
         sheet.text("middle", [x + shift[0], y + shift[1]], &i.to_string());
     }
-    sheet.text("start", [200.0, 300.0], "λᵢ = Eᵢ / 2A     Σ λᵢ = 1");
+    sheet.text("start", [200.0, 300.0], "λᵢ = Eᵢ / 2A · Σ λᵢ = 1");
     sheet.svg()
 }
 

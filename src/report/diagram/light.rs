@@ -52,6 +52,6 @@ pub fn samples() -> String {
     let [x, y] = at([0.5, 0.5]);
     sheet.line("ink", [x - 5.0, y - 5.0], [x + 5.0, y + 5.0]);
     sheet.line("ink", [x - 5.0, y + 5.0], [x + 5.0, y - 5.0]);
-    sheet.text("middle", [180.0, 300.0], &format!("● {inside} / {}     × 1/2, 1/2", SAMPLES.len()));
+    sheet.text("middle", [180.0, 300.0], &format!("● {inside} / {} · × 1/2, 1/2", SAMPLES.len()));
     sheet.svg()
 }

@@ -121,7 +121,7 @@ pub fn handedness() -> String {
         let [x, y] = end(z);
         sheet.text("middle", [x + z[0].signum() * 14.0, y + 5.0], sign);
     }
-    sheet.text("middle", [110.0, 188.0], "L: x × y = z away");
-    sheet.text("middle", [350.0, 188.0], "R: x × y = z near");
+    sheet.text("middle", [110.0, 188.0], "L");
+    sheet.text("middle", [350.0, 188.0], "R");
     sheet.svg()
 }
