@@ -82,6 +82,8 @@ pub mod mutant;
 #[doc(hidden)]
 pub mod pipeline;
 #[doc(hidden)]
+pub mod quiz;
+#[doc(hidden)]
 pub mod report;
 #[doc(hidden)]
 pub mod scene;

@@ -10,6 +10,7 @@ mod judge;
 mod misbehave;
 mod plan;
 mod published;
+mod quiz;
 mod render;
 mod reply;
 mod review;
@@ -52,6 +53,7 @@ const EXAMPLES: &str = "Examples:
   rasterproof exhaust triangles                   every triangle of a small window, certified
   rasterproof review                              changed snapshots, old beside new
   rasterproof cost --quick                        what each step of accuracy costs in time
+  rasterproof quiz 2                              exercises of a chapter, answered and explained
   rasterproof list                                families, cases, engines and invariants
 
 Exit status: 0 all agree, 1 something disagrees, 2 usage or bad input.";
@@ -102,6 +104,8 @@ enum Command {
     Review(review::ReviewArguments),
     /// Show what accuracy costs in time: every rung of every ladder, verified, then timed
     Cost(cost::CostArguments),
+    /// Ask the exercises of the pages, and explain each answer with its pixel grid
+    Quiz(quiz::QuizArguments),
     /// List families, named cases, engines and invariants
     List,
 }
@@ -188,6 +192,7 @@ pub fn run(words: impl IntoIterator<Item = String>, streams: &mut Streams<'_>) -
         Some(Command::Merge(arguments)) => exhaust::merge(arguments, streams),
         Some(Command::Review(arguments)) => review::run(arguments, streams),
         Some(Command::Cost(arguments)) => cost::run(arguments, streams),
+        Some(Command::Quiz(arguments)) => quiz::run(arguments, streams),
         Some(Command::List) => list(streams),
     };
     let result = result.and_then(|status| Ok(streams.output.flush().map(|()| status)?));

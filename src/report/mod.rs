@@ -5,6 +5,7 @@ pub mod board;
 pub mod cases;
 pub mod chart;
 pub mod counts;
+pub mod diagram;
 pub mod exact;
 pub mod frames;
 pub mod html;

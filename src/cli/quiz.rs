@@ -1,0 +1,225 @@
+//! `rasterproof quiz`: the exercises of the pages, one at a time, each explained with its pixel grid.
+
+use std::fs::File;
+use std::io::{BufRead, BufReader, Write};
+use std::path::PathBuf;
+
+use clap::ValueEnum;
+
+use super::{Failure, Streams, exit, usage};
+use crate::quiz::page::{TERMINAL_COLUMNS, choices, grids, wrap};
+use crate::quiz::{CHAPTERS, Chapter, Exercise, Language, chapter, order};
+
+/// Options of `quiz`.
+#[derive(clap::Args, Debug)]
+#[command(
+    after_help = "Answers: a letter or number of a choice, a pixel such as 3,3, or a number such as 0.25 or 1/4.
+An empty line passes, and shows the answer.
+
+Exit status: 0 every answer was right, 1 otherwise, 2 usage or bad input."
+)]
+pub struct QuizArguments {
+    /// The chapter: 2, or the name of its page, ch02 [default: all of them]
+    chapter: Option<String>,
+    /// Ask in another order, which this number decides
+    #[arg(long, value_name = "N")]
+    seed: Option<u64>,
+    /// List the chapters and their exercises instead of asking
+    #[arg(long)]
+    list: bool,
+    /// Read the answers, one a line, from this file; - is standard input
+    #[arg(long, value_name = "FILE", default_value = "-")]
+    answers: PathBuf,
+    /// The language of the questions
+    #[arg(long, value_name = "LANGUAGE", default_value = "en")]
+    language: Words,
+}
+
+/// The languages by their codes.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Words {
+    /// English
+    En,
+    /// Chinese
+    Zh,
+}
+
+/// How many exercises were asked, answered, and answered rightly.
+#[derive(Default)]
+struct Score {
+    answered: usize,
+    right: usize,
+}
+
+/// Runs the command.
+pub fn run(arguments: &QuizArguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+    let language = match arguments.language {
+        Words::En => Language::English,
+        Words::Zh => Language::Chinese,
+    };
+    let wanted: Vec<&Chapter> = match &arguments.chapter {
+        None => CHAPTERS.iter().collect(),
+        Some(word) => vec![chapter(word).ok_or_else(|| unknown(word))?],
+    };
+    if arguments.list {
+        return list(&wanted, language, streams);
+    }
+    let exercises: Vec<_> =
+        wanted.iter().flat_map(|c| c.exercises.iter().map(|exercise| (*c, exercise))).collect();
+    let order = match arguments.seed {
+        None => (0..exercises.len()).collect(),
+        Some(seed) => order(exercises.len(), seed),
+    };
+    let asked: Vec<_> = order.into_iter().map(|i| exercises[i]).collect();
+    if arguments.answers.as_os_str() == "-" {
+        let mut quiz = Quiz {
+            input: &mut *streams.input,
+            output: &mut *streams.output,
+            name: "standard input".to_owned(),
+            line: 0,
+            is_watched: streams.progress,
+            language,
+        };
+        return quiz.ask_all(&asked);
+    }
+    let name = arguments.answers.display().to_string();
+    let file = File::open(&arguments.answers).map_err(|e| {
+        usage(format!(
+            "cannot read the answers from {name}: {e}; give a file with an answer a line"
+        ))
+    })?;
+    let mut quiz = Quiz {
+        input: &mut BufReader::new(file),
+        output: &mut *streams.output,
+        name,
+        line: 0,
+        is_watched: false,
+        language,
+    };
+    quiz.ask_all(&asked)
+}
+
+fn unknown(word: &str) -> Failure {
+    let words: Vec<_> = CHAPTERS.iter().map(Chapter::word).collect();
+    usage(format!("there is no chapter '{word}' with exercises; give one of {}", words.join(", ")))
+}
+
+fn list(
+    chapters: &[&Chapter],
+    language: Language,
+    streams: &mut Streams<'_>,
+) -> Result<u8, Failure> {
+    for chapter in chapters {
+        let head = format!("{:>3}  {}", chapter.word(), language.of(chapter.title));
+        writeln!(streams.output, "{head} ({})", chapter.exercises.len())?;
+        for (number, exercise) in (1..).zip(chapter.exercises) {
+            for (i, line) in wrap(language.of(exercise.question), 88).into_iter().enumerate() {
+                let number = if i == 0 { format!("{number}.") } else { String::new() };
+                writeln!(streams.output, "     {number:<3}{line}")?;
+            }
+        }
+    }
+    Ok(exit::AGREES)
+}
+
+/// Where questions go and answers come from.
+struct Quiz<'a> {
+    input: &'a mut dyn BufRead,
+    output: &'a mut dyn Write,
+    /// The name of the input, for errors.
+    name: String,
+    line: usize,
+    /// Somebody sits at a terminal: there is a prompt, and one may try again.
+    is_watched: bool,
+    language: Language,
+}
+
+/// The words of the dialogue.
+struct Phrases {
+    right: &'static str,
+    wrong: &'static str,
+    passed: &'static str,
+    chapter: &'static str,
+}
+
+const PHRASES: [Phrases; 2] = [
+    Phrases { right: "Right", wrong: "No", passed: "Passed", chapter: "chapter" },
+    Phrases { right: "对", wrong: "不对", passed: "跳过", chapter: "章" },
+];
+
+impl Quiz<'_> {
+    fn ask_all(&mut self, asked: &[(&Chapter, &Exercise)]) -> Result<u8, Failure> {
+        let mut score = Score::default();
+        for (i, &(chapter, exercise)) in asked.iter().enumerate() {
+            let chapter = format!("{} {}", PHRASES[self.language as usize].chapter, chapter.word());
+            writeln!(self.output, "{} / {}  {chapter}", i + 1, asked.len())?;
+            match self.ask(exercise)? {
+                None => break,
+                Some(is_right) => {
+                    score.answered += 1;
+                    score.right += usize::from(is_right);
+                }
+            }
+        }
+        let (right, all, left) = (score.right, asked.len(), asked.len() - score.answered);
+        match self.language {
+            Language::English => {
+                let rest = if left > 0 { format!(", {left} not answered") } else { String::new() };
+                writeln!(self.output, "{right} of {all} right{rest}")?;
+            }
+            Language::Chinese => {
+                let rest = if left > 0 { format!("，{left} 题未答") } else { String::new() };
+                writeln!(self.output, "{all} 题答对 {right} 题{rest}")?;
+            }
+        }
+        Ok(if right == all { exit::AGREES } else { exit::DISAGREES })
+    }
+
+    /// Asks one exercise; whether it was answered rightly, or nothing at the end of input.
+    fn ask(&mut self, exercise: &Exercise) -> Result<Option<bool>, Failure> {
+        for line in wrap(self.language.of(exercise.question), TERMINAL_COLUMNS) {
+            writeln!(self.output, "{line}")?;
+        }
+        for choice in choices(exercise, self.language) {
+            writeln!(self.output, "  {choice}")?;
+        }
+        let solution = exercise.solution();
+        let given = loop {
+            if self.is_watched {
+                write!(self.output, "> ")?;
+                self.output.flush()?;
+            }
+            let mut line = String::new();
+            if self.input.read_line(&mut line)? == 0 {
+                writeln!(self.output)?;
+                return Ok(None);
+            }
+            self.line += 1;
+            if line.trim().is_empty() {
+                break None;
+            }
+            match solution.answer.read(&line, exercise.choices) {
+                Ok(given) => break Some(given),
+                // Who is there may try again; a file is wrong in that line.
+                Err(remedy) if self.is_watched => writeln!(self.output, "{remedy}")?,
+                Err(remedy) => {
+                    return Err(usage(format!("{}, line {}: {remedy}", self.name, self.line)));
+                }
+            }
+        };
+        let phrases = &PHRASES[self.language as usize];
+        let is_right = given.is_some_and(|given| solution.answer.accepts(given));
+        let verdict = match given {
+            None => phrases.passed,
+            Some(_) if is_right => phrases.right,
+            Some(_) => phrases.wrong,
+        };
+        let why = exercise.explanation(self.language, &solution);
+        let text = format!("{verdict}: {}. {why}", solution.answer.text());
+        for line in wrap(&text, TERMINAL_COLUMNS) {
+            writeln!(self.output, "{line}")?;
+        }
+        writeln!(self.output, "{}", grids(&solution))?;
+        Ok(Some(is_right))
+    }
+}

@@ -1,0 +1,164 @@
+//! Answers: how they are printed, how one is read, and whether it is right.
+
+use super::Text;
+
+/// What is right.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Answer {
+    /// One of the choices, counted from 0.
+    Choice(usize),
+    /// A pixel, column and row.
+    Pixel([i32; 2]),
+    /// A number, asked to so many decimals.
+    Number {
+        /// The computed value.
+        value: f64,
+        /// Digits after the point.
+        decimals: usize,
+    },
+}
+
+/// What was answered.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Given {
+    /// One of the choices, counted from 0.
+    Choice(usize),
+    /// A pixel, column and row.
+    Pixel([i32; 2]),
+    /// A number.
+    Number(f64),
+}
+
+impl Answer {
+    /// The one choice that holds.
+    ///
+    /// # Panics
+    /// Unless exactly one does: then the question is none.
+    pub(super) fn only(holds: &[bool]) -> Self {
+        let right: Vec<_> = (0..holds.len()).filter(|&i| holds[i]).collect();
+        assert_eq!(right.len(), 1, "of {holds:?} exactly one choice is right");
+        Self::Choice(right[0])
+    }
+
+    /// A whole number.
+    pub(super) fn count(value: u64) -> Self {
+        Self::Number { value: value as f64, decimals: 0 }
+    }
+
+    /// As it is printed: a letter, a pixel or a number.
+    #[must_use]
+    pub fn text(&self) -> String {
+        match *self {
+            Self::Choice(i) => letter(i).to_string(),
+            Self::Pixel([x, y]) => format!("({x}, {y})"),
+            Self::Number { value, decimals } => format!("{value:.decimals$}"),
+        }
+    }
+
+    /// Whether what was given is right: for a number, to the digits that were asked for.
+    #[must_use]
+    pub fn accepts(&self, given: Given) -> bool {
+        match (*self, given) {
+            (Self::Choice(right), Given::Choice(i)) => i == right,
+            (Self::Pixel(right), Given::Pixel(pixel)) => pixel == right,
+            (Self::Number { value, decimals }, Given::Number(number)) => {
+                let unit = 0.1f64.powi(decimals as i32);
+                (number - value).abs() <= if decimals == 0 { 0.0 } else { unit * 0.5000001 }
+            }
+            _ => false,
+        }
+    }
+
+    /// Reads an answer of this kind: for choices a letter, a number counted from 1, or the pixel that
+    /// a choice names; a pixel as `3,3`; a number, also as a fraction.
+    ///
+    /// # Errors
+    /// What would have been an answer.
+    pub fn read(&self, word: &str, choices: &[Text]) -> Result<Given, String> {
+        let word = word.trim();
+        let remedy = match self {
+            Self::Choice(_) => {
+                let last = letter(choices.len().saturating_sub(1));
+                let by_letter = (0..choices.len()).find(|&i| {
+                    word.eq_ignore_ascii_case(&letter(i).to_string()) || word == (i + 1).to_string()
+                });
+                let by_pixel = || {
+                    let wanted = pixel(word)?;
+                    choices.iter().position(|text| pixel(text[0]) == Some(wanted))
+                };
+                if let Some(i) = by_letter.or_else(by_pixel) {
+                    return Ok(Given::Choice(i));
+                }
+                format!("one of a to {last}, or 1 to {}", choices.len())
+            }
+            Self::Pixel(_) => match pixel(word) {
+                Some(pixel) => return Ok(Given::Pixel(pixel)),
+                None => "a pixel, column and row, such as 3,3".to_owned(),
+            },
+            Self::Number { .. } => match number(word) {
+                Some(number) => return Ok(Given::Number(number)),
+                None => "a number, such as 12, 0.25 or 1/4".to_owned(),
+            },
+        };
+        Err(format!("'{word}' is no answer here; give {remedy}"))
+    }
+}
+
+/// a, b, c.
+#[must_use]
+pub fn letter(choice: usize) -> char {
+    (b'a' + choice as u8) as char
+}
+
+/// `3,3` or `(3, 3)`.
+pub(super) fn pixel(word: &str) -> Option<[i32; 2]> {
+    let word = word.trim();
+    let word = word.strip_prefix('(').and_then(|w| w.strip_suffix(')')).unwrap_or(word);
+    let (x, y) = word.split_once(',')?;
+    Some([x.trim().parse().ok()?, y.trim().parse().ok()?])
+}
+
+fn number(word: &str) -> Option<f64> {
+    let value = match word.split_once('/') {
+        Some((over, under)) => {
+            over.trim().parse::<f64>().ok()? / under.trim().parse::<f64>().ok()?
+        }
+        None => word.parse().ok()?,
+    };
+    value.is_finite().then_some(value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn answers_are_read_and_judged() {
+        let pixels: &[Text] = &[["(0, 3)"; 2], ["(2, 2)"; 2]];
+        let choice = Answer::only(&[false, true]);
+        for word in ["b", "B", "2", "2,2", " (2, 2) "] {
+            assert!(choice.accepts(choice.read(word, pixels).unwrap()), "{word}");
+        }
+        assert!(!choice.accepts(choice.read("0,3", pixels).unwrap()));
+        for word in ["c", "0", "3", "1,1", "", "bb"] {
+            assert!(choice.read(word, pixels).unwrap_err().contains("a to b"), "{word}");
+        }
+        let third = Answer::Number { value: 1.0 / 3.0, decimals: 2 };
+        let right = ["1/3", "0.33", "0.333", ".334"];
+        let given = |word: &str| third.read(word, &[]).unwrap();
+        assert!(right.iter().all(|word| third.accepts(given(word))));
+        assert!(!["0.32", "0.34", "-1/3", "33"].iter().any(|word| third.accepts(given(word))));
+        assert!(["1/0", "nan", "inf", "x", "3,3"].iter().all(|w| third.read(w, &[]).is_err()));
+        let whole = Answer::count(4);
+        assert!(whole.accepts(Given::Number(4.0)) && !whole.accepts(Given::Number(4.4)));
+        let pixel = Answer::Pixel([4, -2]);
+        assert!(pixel.accepts(pixel.read("4,-2", &[]).unwrap()));
+        assert!(!pixel.accepts(pixel.read("-2,4", &[]).unwrap()) && pixel.read("4", &[]).is_err());
+    }
+
+    #[test]
+    #[should_panic(expected = "exactly one")]
+    fn two_right_choices_are_no_question() {
+        let _ = Answer::only(&[true, true]);
+    }
+}

@@ -1,0 +1,58 @@
+//! What exercises ask: coverage of the oracle and of the published algorithms, values of an engine.
+
+use crate::contract::{Interpolate as _, Rasterize as _};
+use crate::frame::Coverage;
+use crate::grid::{PixelRect, SubpixelPoint};
+use crate::oracle::Oracle;
+use crate::raster::edge_function::EdgeFunction;
+use crate::specimen::{Published, bare};
+use crate::triangle::{Corners, Fragment, ScreenTriangle, ScreenVertex};
+
+/// Three corners in pixels.
+pub type Px = [[f64; 2]; 3];
+
+/// Snapped corners.
+pub fn corners(triangle: Px) -> Corners {
+    triangle.map(|[x, y]| SubpixelPoint::from_px(x, y).expect("exercises stay in the domain"))
+}
+
+/// What the triangles cover, by the oracle.
+pub fn truth(triangles: &[Px], window: PixelRect) -> Coverage {
+    let mut hits = Coverage::new(window, 0);
+    for &triangle in triangles {
+        Oracle.cover(corners(triangle), window, |span| hits.hit(span.y_px, span.x0_px, span.x1_px));
+    }
+    hits
+}
+
+/// What a published algorithm covers; what it refuses stays empty.
+pub fn published(specimen: &dyn Published, triangles: &[Px], window: PixelRect) -> Coverage {
+    let mut hits = Coverage::new(window, 0);
+    for &triangle in triangles {
+        let mut hit = |span: crate::triangle::Span| hits.hit(span.y_px, span.x0_px, span.x1_px);
+        // A refusal leaves the window empty.
+        let _ = specimen.cover(&bare(triangle), window, &mut hit);
+    }
+    hits
+}
+
+/// The hits of a pixel of the window.
+pub fn hits(coverage: &Coverage, [x, y]: [i32; 2]) -> u8 {
+    coverage.get(x, y).expect("exercises ask of pixels of their window")
+}
+
+/// The fragments of a triangle of (x, y, w, value); depth is the value, linear in the window.
+pub fn fragments(triangle: [[f64; 4]; 3], window: PixelRect) -> Vec<Fragment<f64>> {
+    let vertices = triangle.map(|[x, y, w, value]| {
+        ScreenVertex::new(x, y, value, w, value).expect("exercises stay in the domain")
+    });
+    let mut list = Vec::new();
+    EdgeFunction.fragments(&ScreenTriangle { vertices }, window, |f| list.push(f));
+    list
+}
+
+/// The fragment of one pixel.
+pub fn fragment(triangle: [[f64; 4]; 3], window: PixelRect, pixel: [i32; 2]) -> Fragment<f64> {
+    let all = fragments(triangle, window);
+    all.into_iter().find(|f| [f.x_px, f.y_px] == pixel).expect("exercises ask of covered pixels")
+}

@@ -1,0 +1,171 @@
+//! The exercises: what the pages say is what the code computes, and the command asks the same.
+
+use std::fs;
+use std::io::Write as _;
+use std::path::PathBuf;
+use std::process::{Command, Output, Stdio};
+
+use rasterproof::quiz::page::{HEADINGS, section};
+use rasterproof::quiz::{Answer, CHAPTERS, Chapter, Language};
+
+const RENEW: &str = "RASTERPROOF_RENEW";
+
+fn path(chapter: &Chapter, language: Language) -> PathBuf {
+    let folder = ["docs", "docs/zh"][language as usize];
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("{folder}/{}.md", chapter.page))
+}
+
+/// What a page says about its exercises: everything from the heading on.
+fn exercises(page: &str, language: Language) -> &str {
+    page.find(HEADINGS[language as usize]).map_or("", |at| &page[at..])
+}
+
+/// Pages end with their exercises as the code computes them. `RASTERPROOF_RENEW=1 cargo test --test it
+/// quiz_pages` writes them anew.
+#[test]
+fn quiz_pages_say_what_is_computed() {
+    let mut stale = Vec::new();
+    for chapter in CHAPTERS {
+        for language in [Language::English, Language::Chinese] {
+            let path = path(chapter, language);
+            let page = fs::read_to_string(&path).unwrap();
+            let (now, computed) = (exercises(&page, language), section(chapter, language));
+            if now == computed {
+                continue;
+            }
+            if std::env::var_os(RENEW).is_some() {
+                let kept = page[..page.len() - now.len()].trim_end();
+                fs::write(&path, format!("{kept}\n\n{computed}")).unwrap();
+            }
+            stale.push(path.display().to_string());
+        }
+    }
+    assert!(
+        stale.is_empty(),
+        "stale, renew with `{RENEW}=1 cargo test --test it quiz_pages`:\n{}",
+        stale.join("\n")
+    );
+}
+
+/// The rule can fail: each answer of a page, changed by hand, is found.
+#[test]
+fn quiz_changed_keys_are_found() {
+    for chapter in CHAPTERS {
+        let page = section(chapter, Language::English);
+        for exercise in chapter.exercises {
+            let answer = exercise.solution().answer;
+            let other = match answer {
+                Answer::Choice(i) => Answer::Choice(if i == 0 { 1 } else { 0 }),
+                Answer::Pixel([x, y]) => Answer::Pixel([y, x]),
+                Answer::Number { value, decimals } => {
+                    Answer::Number { value: value + 1.0, decimals }
+                }
+            };
+            let key = |answer: &Answer| format!("Answer</summary>\n\n**{}**", answer.text());
+            assert!(page.contains(&key(&answer)), "{}", exercise.question[0]);
+            let forged = page.replacen(&key(&answer), &key(&other), 1);
+            assert_ne!(forged, section(chapter, Language::English));
+        }
+    }
+}
+
+fn quiz(words: &[&str], answers: &str) -> Output {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_rasterproof"))
+        .arg("quiz")
+        .args(words)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    // A command that refuses does not read.
+    let _ = child.stdin.take().unwrap().write_all(answers.as_bytes());
+    child.wait_with_output().unwrap()
+}
+
+fn check(words: &[&str], answers: &str, status: i32) -> (String, String) {
+    let output = quiz(words, answers);
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    let (out, errors) = (text(output.stdout), text(output.stderr));
+    assert_eq!(output.status.code(), Some(status), "{words:?}\n{out}\n{errors}");
+    (out, errors)
+}
+
+/// The right answers of a chapter, one a line.
+fn key(chapter: &Chapter) -> String {
+    chapter.exercises.iter().map(|exercise| exercise.solution().answer.text() + "\n").collect()
+}
+
+#[test]
+fn quiz_counts_right_answers() {
+    for chapter in CHAPTERS {
+        let count = chapter.exercises.len();
+        let (out, errors) = check(&[chapter.word()], &key(chapter), 0);
+        assert!(out.ends_with(&format!("{count} of {count} right\n")), "{out}");
+        assert_eq!(errors, "");
+        assert!(!out.lines().any(|line| line.starts_with("> ")), "no prompt in a pipe: {out}");
+        assert!(out.lines().all(|line| line.chars().count() <= 100), "{out}");
+    }
+    let all: String = CHAPTERS.iter().map(key).collect();
+    let count = all.lines().count();
+    assert!(check(&[], &all, 0).0.ends_with(&format!("{count} of {count} right\n")));
+}
+
+#[test]
+fn quiz_says_what_is_wrong_and_why() {
+    // Chapter 2 by a student: a wrong count, the pixel, the choice by its pixel, a pass, the number.
+    let (out, _) = check(&["ch02"], "4\n4,2\n2,2\n\n10\n", 1);
+    assert!(out.contains("No: 10. ") && out.contains("Passed: a. "), "{out}");
+    assert!(out.contains("Right: (4, 2). ") && out.contains("Right: c. "), "{out}");
+    assert!(out.contains("\n2###+") && out.ends_with("\n3 of 5 right\n"), "{out}");
+}
+
+#[test]
+fn quiz_ends_with_its_input() {
+    let (out, errors) = check(&["2"], "10\n", 1);
+    assert!(out.ends_with("1 of 5 right, 4 not answered\n"), "{out}");
+    assert_eq!(errors, "");
+    assert!(check(&[], "", 1).0.contains("0 of "));
+}
+
+#[test]
+fn quiz_refuses_what_is_no_answer() {
+    let (_, errors) = check(&["2"], "10\n4;2\n", 2);
+    assert!(
+        errors.contains("standard input, line 2: '4;2' is no answer here; give a pixel"),
+        "{errors}"
+    );
+    let (_, errors) = check(&["12"], "", 2);
+    assert!(errors.contains("no chapter '12'") && errors.contains("2, 3"), "{errors}");
+    let (_, errors) = check(&["2", "--answers", "no/such/file"], "", 2);
+    assert!(errors.contains("no/such/file"), "{errors}");
+    check(&["2", "--language", "la"], "", 2);
+    check(&["2", "--seed", "x"], "", 2);
+}
+
+#[test]
+fn quiz_reads_a_file_and_asks_in_an_order() {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("quiz");
+    fs::create_dir_all(&folder).unwrap();
+    let file = folder.join("answers.txt");
+    fs::write(&file, key(&CHAPTERS[1])).unwrap();
+    let file = file.to_str().unwrap();
+    assert!(check(&["2", "--answers", file], "", 0).0.contains("5 of 5 right"));
+    let first = |out: &str| out.lines().nth(1).unwrap().to_owned();
+    let seeds = ["1", "2", "3", "4"].map(|seed| first(&check(&["--seed", seed], "", 1).0));
+    assert_eq!(seeds[0], first(&check(&["--seed", "1"], "", 1).0));
+    assert!(seeds.iter().any(|question| *question != seeds[0]), "{seeds:?}");
+}
+
+#[test]
+fn quiz_speaks_chinese_and_lists() {
+    let (out, _) = check(&["2", "--language", "zh"], &key(&CHAPTERS[1]), 0);
+    assert!(out.ends_with("5 题答对 5 题\n"), "{out}");
+    let (out, _) = check(&["--list"], "", 0);
+    for chapter in CHAPTERS {
+        assert!(
+            out.contains(&format!("  {} ({})", chapter.title[0], chapter.exercises.len())),
+            "{out}"
+        );
+    }
+}
