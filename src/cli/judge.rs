@@ -5,13 +5,14 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use super::{Failure, PAGE, Streams, exit, usage, write_file, write_page};
+use super::{Failure, PAGE, Streams, exit, league, usage, write_file, write_page};
 use crate::hazard;
 use crate::judge::ask::{Ask, Misbehaviour};
 use crate::judge::baseline::Baseline;
 use crate::judge::formats::{self, Format};
 use crate::judge::process::{Limits, Program};
-use crate::judge::{self, Options, group, stages};
+use crate::judge::recognise::{Scope, recognise};
+use crate::judge::{self, Options, group, place};
 use crate::report::judged;
 
 pub const HELP: &str = "The program reads requests on its standard input and answers on its standard output, a line each; see
@@ -72,8 +73,11 @@ pub struct JudgeArguments {
     /// Write what fails now into the file of --baseline
     #[arg(long, requires = "baseline")]
     update_baseline: bool,
+    /// Judge libraries instead, by their installed adapters, all or these: target/rasterproof/league.json
+    #[arg(long, value_name = "NAME", num_args = 0.., conflicts_with_all = ["command", "baseline"])]
+    league: Option<Vec<String>>,
     /// The program and its arguments, after --
-    #[arg(last = true, required = true, value_name = "CMD")]
+    #[arg(last = true, required_unless_present = "league", value_name = "CMD")]
     command: Vec<String>,
 }
 
@@ -99,6 +103,14 @@ impl JudgeArguments {
             remember: self.baseline.is_some(),
             ..Options::default()
         }
+    }
+
+    /// The convention of what is judged is recognised, of more than one case.
+    fn scope(&self) -> Scope {
+        let families = place::families(&self.family);
+        let any =
+            |lines| self.case.is_none() && families.iter().any(|f| place::is_lines(f) == lines);
+        Scope { triangles: any(false), lines: any(true), always: false }
     }
 
     fn words(&self) -> Vec<String> {
@@ -144,13 +156,16 @@ fn quoted(word: &str) -> String {
 }
 
 pub fn run(arguments: &JudgeArguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+    let limits = Limits { answer: arguments.timeout, start: arguments.start_timeout };
+    if let Some(names) = &arguments.league {
+        return league::run(names, &arguments.options(), limits, streams);
+    }
     let mut baseline = match &arguments.baseline {
         Some(path) => Some(Baseline::read(Path::new(path), arguments.seed).map_err(usage)?),
         None => None,
     };
     group::end_all_on_ctrl_c();
     let mut askers = Vec::new();
-    let limits = Limits { answer: arguments.timeout, start: arguments.start_timeout };
     for _ in 0..arguments.jobs {
         let program = Program::start(&arguments.command, &arguments.words(), limits);
         let program = program.map_err(|m| usage(unusable(&m)))?;
@@ -164,9 +179,10 @@ pub fn run(arguments: &JudgeArguments, streams: &mut Streams<'_>) -> Result<u8, 
         )));
     }
     let bar = progress_bar(arguments, streams.progress);
-    let recognise = &stages::recognise_winding;
+    let scope = arguments.scope();
+    let recognise = |program: &mut dyn Ask| recognise(program, scope);
     let mut verdict =
-        judge::judge(&mut askers, &arguments.options(), recognise, &|cases| bar.inc(cases));
+        judge::judge(&mut askers, &arguments.options(), &recognise, &|cases| bar.inc(cases));
     bar.finish_and_clear();
     drop(askers);
     if verdict.found.rows.is_empty() {
@@ -216,7 +232,7 @@ fn progress_bar(arguments: &JudgeArguments, is_shown: bool) -> ProgressBar {
     if !is_shown || arguments.case.is_some() {
         return ProgressBar::hidden();
     }
-    let families = judge::place::families(&arguments.family).len() as u64;
+    let families = place::families(&arguments.family).len() as u64;
     let bar = ProgressBar::new(families.saturating_mul(arguments.cases));
     bar.set_draw_target(ProgressDrawTarget::stderr_with_hz(8));
     let template = "{elapsed_precise} {wide_bar} {pos}/{len} cases";

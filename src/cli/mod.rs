@@ -7,6 +7,7 @@ mod exhaust;
 mod inspect;
 mod invariant;
 mod judge;
+mod league;
 mod misbehave;
 mod plan;
 mod published;

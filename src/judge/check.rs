@@ -74,6 +74,10 @@ pub struct Finding {
     pub tally: Tally,
     /// Wrong pixels by what was recognised.
     pub other: Tally,
+    /// Pixels expected by what was recognised.
+    pub other_pixels: u64,
+    /// Triangles or lines of which the recognised convention says nothing.
+    pub unscored: u64,
     /// Requests that were refused though they were declared possible.
     pub refused: u64,
     /// Reason of the first refusal.
@@ -306,12 +310,15 @@ fn one_triangle(
     let Some(picture) = truth.expect.picture(&corners, window) else { return };
     finding.shapes += 1;
     finding.pixels += length(&picture.must);
-    let by_convention = truth.recognised.as_ref().and_then(|r| r.picture(&corners, window));
     let compare_both = |runs: &[Span], finding: &mut Finding| {
-        let Finding { tally, mark, other, .. } = finding;
-        compare(tally, mark, runs, &picture, window);
-        if let Some(picture) = &by_convention {
-            compare(other, &mut 0, runs, picture, window);
+        compare(&mut finding.tally, &mut finding.mark, runs, &picture, window);
+        let Some(recognised) = &truth.recognised else { return };
+        match recognised.picture(&corners, window) {
+            Some(picture) => {
+                finding.other_pixels += length(&picture.must);
+                compare(&mut finding.other, &mut 0, runs, &picture, window);
+            }
+            None => finding.unscored += 1,
         }
     };
     match answer {
@@ -514,9 +521,14 @@ fn one_line(finding: &mut Finding, line: &Line, answer: &Answer, window: PixelRe
     finding.pixels += expected.len() as u64;
     let in_order = !truth.declared.line_set;
     sequence(&mut finding.tally, &mut finding.mark, pixels, &expected, window, in_order);
-    let by_convention = truth.recognised.as_ref().and_then(|r| r.line(&ends, window));
-    if let Some(expected) = by_convention {
-        sequence(&mut finding.other, &mut 0, pixels, &expected, window, in_order);
+    let Some(recognised) = &truth.recognised else { return };
+    match recognised.line(&ends, window) {
+        Some(expected) => {
+            finding.other_pixels += expected.len() as u64;
+            let in_order = in_order && recognised.keeps_order();
+            sequence(&mut finding.other, &mut 0, pixels, &expected, window, in_order);
+        }
+        None => finding.unscored += 1,
     }
 }
 

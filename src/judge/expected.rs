@@ -29,6 +29,11 @@ pub trait Expect: Send + Sync {
 
     /// The pixels of a line in drawing order; nothing where nothing is promised.
     fn line(&self, ends: &[PixelPoint; 2], window: PixelRect) -> Option<Vec<(i32, i32)>>;
+
+    /// Whether the pixels of a line are expected in that order.
+    fn keeps_order(&self) -> bool {
+        true
+    }
 }
 
 /// The expectation of a declaration.

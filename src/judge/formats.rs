@@ -79,7 +79,6 @@ fn message(verdict: &Verdict, property: &Property, repeat: &dyn Fn(&str, u64) ->
 
 fn everything(verdict: &Verdict, repeat_all: &str, repeat: &dyn Fn(&str, u64) -> String) -> Value {
     let d = &verdict.declared;
-    let (declared, recognised, pixels) = verdict.scores();
     let failures: Vec<Value> = verdict
         .failures
         .iter()
@@ -106,9 +105,8 @@ fn everything(verdict: &Verdict, repeat_all: &str, repeat: &dyn Fn(&str, u64) ->
         "version": env!("CARGO_PKG_VERSION"), "program": d.name, "protocol": d.version,
         "declared": d.to_string(), "not_understood": d.unknown, "seed": verdict.seed,
         "cases": verdict.cases, "agrees": verdict.agrees(), "windings": verdict.windings,
-        "recognised": verdict.recognised, "declare": verdict.words,
-        "wrong_pixels_as_declared": declared, "wrong_pixels_as_recognised": recognised,
-        "pixels": pixels, "answers": verdict.found.answered,
+        "recognised": verdict.recognised, "score_as_declared": verdict.as_declared(),
+        "score_by_convention": verdict.by_convention(), "answers": verdict.found.answered,
         "properties": verdict.properties, "rows": verdict.found.rows, "failures": failures,
         "incidents": incidents.collect::<Vec<_>>(),
         "strays": verdict.found.strays.iter().map(ToString::to_string).collect::<Vec<_>>(),

@@ -4,7 +4,7 @@
 //! [`ask`] is what is asked and answered, [`process`] asks a program through pipes and [`inside`] an
 //! engine of the line-up without one. [`declared`] is what a program says of itself, [`place`] puts
 //! the cases where it says it draws, [`expected`] knows the exact picture, [`check`] finds what is
-//! wrong with a case, [`run`] asks them all, and [`verdict`] says what came of it, property by
+//! wrong with a case, [`run`] asks them all, [`recognise`] finds the convention that is followed, and [`verdict`] says what came of it, property by
 //! property; [`baseline`] knows failures that are known, [`formats`] writes for build servers.
 
 pub mod ask;
@@ -15,9 +15,11 @@ pub mod expected;
 pub mod formats;
 pub mod group;
 pub mod inside;
+pub mod league;
 pub mod mesh;
 pub mod place;
 pub mod process;
+pub mod recognise;
 pub mod run;
 pub mod shrunk;
 pub mod stages;
@@ -28,7 +30,7 @@ use std::time::Duration;
 
 use ask::Ask;
 use check::Truth;
-use expected::Expect;
+use recognise::Recognised;
 use verdict::Verdict;
 
 /// What to judge.
@@ -64,19 +66,8 @@ impl Default for Options {
     }
 }
 
-/// A convention that was recognised from answers.
-pub struct Recognised {
-    /// What the program does, as a sentence.
-    pub sentence: String,
-    /// The words that declare it, where the protocol has words for it.
-    pub words: String,
-    /// What it is expected to draw under this convention.
-    pub expect: Box<dyn Expect>,
-}
-
-/// Recognises the convention of a program by asking it; nothing where what it declares explains it,
-/// or nothing does.
-pub type Recognise<'a> = &'a dyn Fn(&mut dyn Ask, &stages::Windings) -> Option<Recognised>;
+/// Recognises the convention of a program by asking it; nothing where it draws as it declares.
+pub type Recognise<'a> = &'a dyn Fn(&mut dyn Ask) -> Option<Recognised>;
 
 /// Judges whoever answers; several are the same program and share the work.
 ///
@@ -94,11 +85,10 @@ pub fn judge(
     let mut truth = Truth::of(&declared);
     let windings = stages::windings(&mut **first, options.seed);
     truth.drawn = windings.seen().unwrap_or(truth.drawn);
-    let mut recognised = (None, String::new());
-    if let Some(Recognised { sentence, words, expect }) = recognise(&mut **first, &windings) {
-        recognised = (Some(sentence), words);
-        truth.recognised = Some(expect);
-    }
+    let recognised = recognise(&mut **first).map(|found| {
+        truth.recognised = found.expect;
+        found.said
+    });
     let mut found = run::run(askers, options, &truth, progress);
     let first = &mut *askers[0];
     let failures = shrunk::failures(first, &found, options, &truth);

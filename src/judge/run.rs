@@ -45,6 +45,10 @@ pub struct Row {
     pub tally: Tally,
     /// Wrong pixels by the convention that was recognised.
     pub recognised: Tally,
+    /// Pixels expected by it.
+    pub recognised_pixels: u64,
+    /// Triangles or lines of which it says nothing.
+    pub unscored: u64,
     /// Requests refused.
     pub refused: u64,
     /// Values compared.
@@ -73,6 +77,8 @@ impl Row {
             wrong_cases: 0,
             tally: Tally::default(),
             recognised: Tally::default(),
+            recognised_pixels: 0,
+            unscored: 0,
             refused: 0,
             values: 0,
             worst: 0.0,
@@ -88,6 +94,8 @@ impl Row {
         self.wrong_cases += u64::from(finding.is_wrong());
         self.tally += finding.tally;
         self.recognised += finding.other;
+        self.recognised_pixels += finding.other_pixels;
+        self.unscored += finding.unscored;
         self.refused += finding.refused;
         self.values += finding.values;
         self.worst = self.worst.max(finding.worst);
@@ -103,6 +111,8 @@ impl AddAssign<&Row> for Row {
         self.wrong_cases += other.wrong_cases;
         self.tally += other.tally;
         self.recognised += other.recognised;
+        self.recognised_pixels += other.recognised_pixels;
+        self.unscored += other.unscored;
         self.refused += other.refused;
         self.values += other.values;
         self.worst = self.worst.max(other.worst);

@@ -4,7 +4,7 @@ use super::ask::{Answer, Ask, Asked, Question};
 use super::check::picture_of;
 use super::declared::{Declared, Winding};
 use super::expected::{Declaration, Expect as _, area2};
-use super::{Recognised, place};
+use super::place;
 use crate::grid::PixelRect;
 use crate::hazard::Shape;
 use crate::triangle::Corners;
@@ -102,27 +102,4 @@ fn count(windings: &mut Windings, corners: &Corners, window: PixelRect, answer: 
         if area2(corners) > 0 { &mut windings.clockwise } else { &mut windings.counter_clockwise };
     of[0] += u64::from(drawn.covered() > 0);
     of[1] += 1;
-}
-
-/// Recognises no more than a winding that is not drawn.
-#[must_use]
-pub fn recognise_winding(program: &mut dyn Ask, windings: &Windings) -> Option<Recognised> {
-    let declared = program.declared();
-    let seen = windings.seen().filter(|seen| *seen != declared.seen_winding())?;
-    let words = match (declared.yup, seen) {
-        (_, Winding::Both) => Winding::Both,
-        (false, one) => one,
-        (true, Winding::Clockwise) => Winding::CounterClockwise,
-        (true, Winding::CounterClockwise) => Winding::Clockwise,
-    };
-    let drawn = match seen {
-        Winding::Clockwise => "it draws clockwise triangles only",
-        Winding::CounterClockwise => "it draws counter-clockwise triangles only",
-        Winding::Both => "it draws both windings",
-    };
-    Some(Recognised {
-        sentence: format!("{drawn}, seen with y down"),
-        words: format!("winding={}", words.word()),
-        expect: Box::new(Declaration { winding: seen, ..Declaration::from(declared) }),
-    })
 }

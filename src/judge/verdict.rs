@@ -4,6 +4,7 @@ use super::Options;
 use super::ask::Misbehaviour;
 use super::declared::Declared;
 use super::place;
+use super::recognise::Said;
 use super::run::{Found, Row};
 use super::shrunk::Failure;
 use super::stages::Windings;
@@ -54,10 +55,8 @@ pub struct Verdict {
     pub cases: u64,
     /// Which windings it draws.
     pub windings: Windings,
-    /// The convention that was recognised, as a sentence, if it is not the declared one.
-    pub recognised: Option<String>,
-    /// The words that declare it.
-    pub words: String,
+    /// What was recognised, if it does not draw as it declares.
+    pub recognised: Option<Said>,
     /// Everything that was found; rows in the order of the catalogue.
     pub found: Found,
     /// Failing cases, shrunk.
@@ -66,6 +65,17 @@ pub struct Verdict {
     pub complaints: Vec<String>,
     /// Every property that was judged.
     pub properties: Vec<Property>,
+}
+
+/// How far a program agrees.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+pub struct Score {
+    /// Wrong pixels.
+    pub wrong: u64,
+    /// Pixels expected.
+    pub pixels: u64,
+    /// Triangles and lines of which the convention says nothing.
+    pub unscored: u64,
 }
 
 /// Wrong pixels per million expected; cases where nothing is expected count as one pixel.
@@ -84,13 +94,13 @@ const CHECKS: [(&str, &str); 5] = [
 ];
 
 impl Verdict {
-    /// Sorts out what was found; `recognised` is a sentence and the words that declare it.
+    /// Sorts out what was found.
     #[must_use]
     pub fn new(
         declared: Declared,
         options: &Options,
         windings: Windings,
-        recognised: (Option<String>, String),
+        recognised: Option<Said>,
         mut found: Found,
         failures: Vec<Failure>,
         complaints: Vec<String>,
@@ -108,8 +118,7 @@ impl Verdict {
             seed: options.seed,
             cases: options.cases,
             windings,
-            recognised: recognised.0,
-            words: recognised.1,
+            recognised,
             found,
             failures,
             complaints,
@@ -190,16 +199,31 @@ impl Verdict {
         self.found.rows.iter().filter(move |row| !compares(row.name))
     }
 
-    /// Wrong pixels and pixels expected, as declared and by the convention that was recognised.
+    /// The score as declared.
     #[must_use]
-    pub fn scores(&self) -> (u64, Option<u64>, u64) {
-        let rows = || self.pictures().filter(|row| row.name != "samples4");
-        let recognised = rows().map(|row| row.recognised.total()).sum();
-        (
-            rows().map(|row| row.tally.total()).sum(),
-            self.recognised.as_ref().map(|_| recognised),
-            rows().map(|row| row.pixels).sum(),
-        )
+    pub fn as_declared(&self) -> Score {
+        self.score(None, |row| (row.tally.total(), row.pixels, 0))
+    }
+
+    /// The score by the convention that was recognised; nothing where nothing was, or is explained.
+    #[must_use]
+    pub fn by_convention(&self) -> Option<Score> {
+        let score = || {
+            self.score(None, |row| (row.recognised.total(), row.recognised_pixels, row.unscored))
+        };
+        self.recognised.as_ref().filter(|said| said.is_explained).map(|_| score())
+    }
+
+    /// Sums over the rows, those of lines or of triangles alone where that is asked.
+    #[must_use]
+    pub fn score(&self, lines: Option<bool>, of: impl Fn(&Row) -> (u64, u64, u64)) -> Score {
+        let is_asked = |row: &&Row| lines.is_none_or(|l| row.name.starts_with("line-") == l);
+        let rows = self.pictures().filter(|row| row.name != "samples4").filter(is_asked);
+        rows.map(of).fold(Score::default(), |sum, (wrong, pixels, unscored)| Score {
+            wrong: sum.wrong + wrong,
+            pixels: sum.pixels + pixels,
+            unscored: sum.unscored + unscored,
+        })
     }
 }
 

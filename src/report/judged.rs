@@ -6,7 +6,7 @@ use super::html::{Column, Mark, Outcome, Report, Row, Table};
 use super::{ascii, cases};
 use crate::judge::run::{self, MOST_DEATHS};
 use crate::judge::shrunk::Failure;
-use crate::judge::verdict::{self, Verdict, per_million};
+use crate::judge::verdict::{self, Score, Verdict, per_million};
 
 /// Requests of a failing case that are shown.
 const MOST_EXCHANGES: usize = 3;
@@ -62,6 +62,15 @@ fn wrapped(text: &str, indent: &str) -> String {
     lines.join("\n") + "\n"
 }
 
+fn score(of: Score) -> String {
+    let share = per_million(of.wrong, of.pixels);
+    let unscored = match of.unscored {
+        0 => String::new(),
+        n => format!("; {n} triangles or lines of which it says nothing are left out"),
+    };
+    format!("{} wrong pixels, {share:.0} in a million{unscored}", of.wrong)
+}
+
 /// Draws, winding, convention, both scores.
 fn stages(out: &mut String, verdict: &Verdict) {
     for property in verdict
@@ -72,26 +81,23 @@ fn stages(out: &mut String, verdict: &Verdict) {
         let mark = if property.outcome.is_good() { "yes" } else { "NO" };
         *out += &wrapped(&format!("{:<4} {}: {}", mark, property.about, property.detail), "     ");
     }
-    let (declared, recognised, pixels) = verdict.scores();
-    let score = |wrong: u64| {
-        format!("{wrong} wrong pixels, {:.0} in a million", per_million(wrong, pixels))
+    let said = score(verdict.as_declared());
+    let _ = writeln!(out, "as declared:         {said}");
+    let indent = " ".repeat(21);
+    let line = |out: &mut String, first: &str, text: &str| {
+        *out += &wrapped(&format!("{first:<21}{text}"), &indent);
     };
-    let _ = writeln!(out, "as declared:         {}", score(declared));
-    match (&verdict.recognised, recognised) {
-        (Some(sentence), Some(wrong)) => {
-            let _ = writeln!(out, "by its convention:   {}", score(wrong));
-            let declare = match verdict.words.as_str() {
-                "" => String::new(),
-                words => format!("; to be judged by it: --declare {words}"),
-            };
-            *out += &wrapped(
-                &format!("                     {sentence}{declare}"),
-                "                     ",
-            );
-        }
-        _ => {
-            let _ = writeln!(out, "by its convention:   the same: no other one was recognised");
-        }
+    let Some(recognised) = &verdict.recognised else {
+        let _ = writeln!(out, "by its convention:   the same: no other one was recognised\n");
+        return;
+    };
+    match verdict.by_convention() {
+        Some(found) => line(out, "by its convention:", &score(found)),
+        None => line(out, "by its convention:", "unexplained, so there is no score"),
+    }
+    recognised.sentences.iter().chain(&recognised.compass).for_each(|text| line(out, "", text));
+    if !recognised.declare.is_empty() {
+        line(out, "", &format!("to be judged by it: --declare '{}'", recognised.declare));
     }
     out.push('\n');
 }
@@ -194,7 +200,7 @@ fn one_failure(out: &mut String, failure: &Failure, command: &str) {
 
 /// The verdict in a sentence.
 fn closing(verdict: &Verdict) -> String {
-    let (wrong, _, _) = verdict.scores();
+    let wrong = verdict.as_declared().wrong;
     let failing: Vec<_> =
         verdict.properties.iter().filter(|p| !p.outcome.is_good()).map(|p| p.name).collect();
     let what = format!(
@@ -235,7 +241,9 @@ pub fn page(verdict: &Verdict, repeat_all: &str, repeat: &dyn Fn(&str, u64) -> S
     });
     let d = &verdict.declared;
     let mut notes = vec![format!("{} speaks version {}: {d}", d.name, d.version)];
-    notes.extend(verdict.recognised.clone());
+    if let Some(said) = &verdict.recognised {
+        notes.extend(said.sentences.iter().chain(&said.compass).cloned());
+    }
     Report {
         title: format!("Verdict on {}", d.name),
         outcome: Some(Outcome { good, word: word.to_owned(), sentence: closing(verdict) }),

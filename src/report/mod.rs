@@ -11,6 +11,7 @@ pub mod frames;
 pub mod html;
 pub mod json;
 pub mod judged;
+pub mod league;
 pub mod lettering;
 pub mod picture;
 pub mod plot;

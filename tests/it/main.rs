@@ -13,6 +13,7 @@ mod house;
 mod illustrations;
 mod judge;
 mod languages;
+mod league;
 mod matrix;
 mod models;
 mod mutants;

@@ -1,0 +1,76 @@
+//! `rasterproof judge --league`: the installed adapters of libraries, one after the other.
+
+use std::path::Path;
+use std::time::{SystemTime, UNIX_EPOCH};
+
+use super::{Failure, Streams, exit, usage, write_file};
+use crate::judge::ask::Ask;
+use crate::judge::league::{Adapter, League, Standing, date};
+use crate::judge::process::{Limits, Program};
+use crate::judge::recognise::{Scope, recognise};
+use crate::judge::{self, Options, group};
+use crate::report::league::tables;
+
+const ADAPTERS: &str = "adapters/league.json";
+/// Where it is written, as data and as a page.
+const JSON: &str = "target/rasterproof/league.json";
+const PAGES: [(&str, bool); 2] =
+    [("target/rasterproof/wild.md", false), ("target/rasterproof/wild.zh.md", true)];
+
+pub fn run(
+    names: &[String],
+    options: &Options,
+    limits: Limits,
+    streams: &mut Streams<'_>,
+) -> Result<u8, Failure> {
+    let text = std::fs::read_to_string(ADAPTERS)
+        .map_err(|e| usage(format!("{ADAPTERS}: {e}\n  run it in the folder of the project")))?;
+    let adapters: Vec<Adapter> =
+        serde_json::from_str(&text).map_err(|e| usage(format!("{ADAPTERS}: {e}")))?;
+    if let Some(name) = names.iter().find(|name| adapters.iter().all(|a| a.name != **name)) {
+        return Err(usage(format!(
+            "{name:?} is no adapter\n  adapters/install --list shows the names"
+        )));
+    }
+    group::end_all_on_ctrl_c();
+    let mut rows = Vec::new();
+    for adapter in adapters.iter().filter(|a| names.is_empty() || names.contains(&a.name)) {
+        let program = match Program::start(&adapter.command, &[], limits) {
+            Ok(program) => program,
+            Err(why) => {
+                writeln!(streams.output, "{:<22} skipped: {why}", adapter.name)?;
+                continue;
+            }
+        };
+        let everything = Scope { triangles: true, lines: true, always: true };
+        let convention = |program: &mut dyn Ask| recognise(program, everything);
+        let mut askers: Vec<Box<dyn Ask>> = vec![Box::new(program)];
+        let verdict = judge::judge(&mut askers, options, &convention, &|_| ());
+        let (declared, found) = (verdict.as_declared(), verdict.by_convention());
+        let found = found.map_or("unexplained".to_owned(), |score| score.wrong.to_string());
+        writeln!(
+            streams.output,
+            "{:<22} {} wrong pixels of {}, by its convention: {found}",
+            adapter.name, declared.wrong, declared.pixels
+        )?;
+        rows.push(Standing::new(adapter, &verdict));
+    }
+    if rows.is_empty() {
+        return Err(usage("no adapter is installed\n  adapters/install prepares them"));
+    }
+    let days = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |t| t.as_secs() / 86_400);
+    let league = League {
+        date: date(days),
+        rasterproof: env!("CARGO_PKG_VERSION").to_owned(),
+        seed: options.seed,
+        cases: options.cases,
+        rows,
+    };
+    let json = serde_json::to_string_pretty(&league).unwrap_or_default() + "\n";
+    write_file(Path::new(JSON), json.as_bytes())?;
+    for (path, chinese) in PAGES {
+        write_file(Path::new(path), tables(&league, chinese).as_bytes())?;
+    }
+    writeln!(streams.errors, "league: {JSON}, {}, {}", PAGES[0].0, PAGES[1].0)?;
+    Ok(exit::AGREES)
+}

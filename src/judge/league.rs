@@ -1,0 +1,129 @@
+//! The league: what libraries in wide use draw, a row for each adapter.
+
+use serde::{Deserialize, Serialize};
+
+use super::verdict::{Score, Verdict};
+
+/// An adapter, as `adapters/league.json` names it.
+#[derive(Clone, Debug, Deserialize)]
+pub struct Adapter {
+    /// Its name.
+    pub name: String,
+    /// The library it speaks for.
+    pub library: String,
+    /// The exact call that draws.
+    pub call: String,
+    /// The program and its arguments.
+    pub command: Vec<String>,
+}
+
+/// How a kind of shapes came out: triangles, or lines.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Kind {
+    /// What the library does, as a sentence; empty where it draws as it declares.
+    pub sentence: String,
+    /// By what it declares.
+    pub as_declared: Score,
+    /// By the convention that was found; nothing where it is unexplained.
+    pub by_convention: Option<Score>,
+}
+
+/// A row of the league.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Standing {
+    /// Name of the adapter.
+    pub name: String,
+    /// The library.
+    pub library: String,
+    /// What it calls itself at HELLO, with its version.
+    pub version: String,
+    /// The exact call.
+    pub call: String,
+    /// What it declares.
+    pub declares: String,
+    /// Triangles, where it draws them.
+    pub triangles: Option<Kind>,
+    /// Lines, where it draws them.
+    pub lines: Option<Kind>,
+    /// Meshes, pixels of them that nobody drew, and pixels that two triangles drew.
+    pub meshes: [u64; 3],
+    /// Triangles drawn in several orders of their vertices, and those that changed.
+    pub orders: [u64; 2],
+    /// Lines drawn from both ends, and those that changed.
+    pub directions: [u64; 2],
+    /// Requests refused, and requests that were not answered.
+    pub unanswered: [u64; 2],
+}
+
+/// All rows, and what they were made by.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct League {
+    /// The day, year-month-day.
+    pub date: String,
+    /// Version of this project.
+    pub rasterproof: String,
+    /// Decides the cases.
+    pub seed: u64,
+    /// Cases of each family.
+    pub cases: u64,
+    /// The rows, in the order of the adapters.
+    pub rows: Vec<Standing>,
+}
+
+impl Standing {
+    /// The row of an adapter, from its verdict.
+    #[must_use]
+    pub fn new(adapter: &Adapter, verdict: &Verdict) -> Self {
+        let row = |name: &str| verdict.found.rows.iter().find(|row| row.name == name);
+        let kind = |lines: bool, about: &str| {
+            let as_declared = verdict.score(Some(lines), |r| (r.tally.total(), r.pixels, 0));
+            let found = verdict
+                .score(Some(lines), |r| (r.recognised.total(), r.recognised_pixels, r.unscored));
+            let said = verdict.recognised.as_ref();
+            let sentence =
+                said.and_then(|said| said.sentences.iter().find_map(|s| s.strip_prefix(about)));
+            let sentence = sentence.unwrap_or_default().to_owned();
+            let is_explained = !sentence.is_empty() && !sentence.starts_with("unexplained");
+            let by_convention = is_explained.then_some(found);
+            (as_declared.pixels > 0).then_some(Kind { sentence, as_declared, by_convention })
+        };
+        let changed = |name| row(name).map_or([0; 2], |r| [r.cases, r.wrong_cases]);
+        let sum = |of: fn(&super::run::Row) -> u64| verdict.found.rows.iter().map(of).sum();
+        Self {
+            name: adapter.name.clone(),
+            library: adapter.library.clone(),
+            version: verdict.declared.name.clone(),
+            call: adapter.call.clone(),
+            declares: verdict.declared.to_string(),
+            triangles: kind(false, "Triangles: "),
+            lines: kind(true, "Lines: "),
+            meshes: row("watertight").map_or([0; 3], |r| [r.cases, r.tally.missing, r.tally.twice]),
+            orders: changed("vertex-order"),
+            directions: changed("line-direction"),
+            unanswered: [sum(|r| r.refused), sum(|r| r.deaths)],
+        }
+    }
+}
+
+/// A day as year-month-day, from the days since 1970-01-01 (the civil calendar, counted from March).
+#[must_use]
+pub fn date(days: u64) -> String {
+    let days = days + 719_468;
+    let (era, of_era) = (days / 146_097, days % 146_097);
+    let year = (of_era - of_era / 1460 + of_era / 36_524 - of_era / 146_096) / 365;
+    let of_year = of_era - (365 * year + year / 4 - year / 100);
+    let month = (5 * of_year + 2) / 153;
+    let day = of_year - (153 * month + 2) / 5 + 1;
+    let (month, next) = if month < 10 { (month + 3, 0) } else { (month - 9, 1) };
+    format!("{:04}-{month:02}-{day:02}", year + era * 400 + next)
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn days_by_hand() {
+        for (days, date) in [(0, "1970-01-01"), (59, "1970-03-01"), (11_016, "2000-02-29")] {
+            assert_eq!(super::date(days), date);
+        }
+    }
+}
