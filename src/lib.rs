@@ -41,6 +41,7 @@ pub mod cli;
 pub mod contract;
 pub mod convention;
 pub mod cost;
+pub mod course;
 pub mod effects;
 pub mod exhaust;
 pub mod frame;
