@@ -237,3 +237,9 @@ fn sum(pictures: &[Coverage], case: &Case) -> Option<Coverage> {
     }
     (!pictures.is_empty()).then_some(whole)
 }
+
+/// The last line of a program's standard error, if it wrote any.
+#[must_use]
+pub fn complaint(program: &dyn Ask) -> Option<String> {
+    program.complaints().pop()
+}

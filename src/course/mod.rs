@@ -2,11 +2,13 @@
 //!
 //! [`STEPS`] is all there is to a step: what is asked, which page tells why, three hints. [`examine`]
 //! asks a program, [`progress`] is the file beside the student's code, [`starters`] what they begin
-//! with.
+//! with, [`sandbox`] how their programs are run, [`verdict`] what they read.
 
 pub mod examine;
 pub mod progress;
+pub mod sandbox;
 pub mod starters;
+pub mod verdict;
 
 use glam::DVec2;
 
@@ -29,6 +31,13 @@ pub struct Step {
     pub exercises: &'static [Exercise],
     /// From a nudge to nearly the answer.
     pub hints: [&'static str; 3],
+}
+
+impl PartialEq for Step {
+    /// A step is its name.
+    fn eq(&self, other: &Self) -> bool {
+        self.name == other.name
+    }
 }
 
 /// One kind of question about some families.
@@ -389,7 +398,8 @@ mod tests {
             for name in exercise.families {
                 let families = place::families(&[(*name).to_owned()]);
                 assert_eq!(families.len(), 1, "{name}");
-                let cases = (0..60).filter_map(|index| (exercise.prepare)(families[0].case(1, index)));
+                let cases =
+                    (0..60).filter_map(|index| (exercise.prepare)(families[0].case(1, index)));
                 let cases: Vec<_> = cases.collect();
                 assert!(cases.len() >= 10, "{name}: {}", cases.len());
                 for case in cases {
