@@ -81,8 +81,7 @@ pub fn examine(program: &mut dyn Ask, step: &Step, amount: &Amount) -> Outcome {
             if outcome.out_of_time || deaths == 0 {
                 break;
             }
-            let mut asking = Asking { program, exercise, amount, deaths: &mut deaths };
-            let first = asking.family(family, &mut outcome);
+            let first = ask_family(program, exercise, family, amount, &mut deaths, &mut outcome);
             failing = failing.or(first);
         }
     }
@@ -90,46 +89,44 @@ pub fn examine(program: &mut dyn Ask, step: &Step, amount: &Amount) -> Outcome {
     outcome
 }
 
-struct Asking<'a, 'p> {
-    program: &'a mut (dyn Ask + 'p),
+/// Asks the cases of a family; the first that fails.
+fn ask_family<'a>(
+    program: &mut dyn Ask,
     exercise: &'a Exercise,
-    amount: &'a Amount,
-    deaths: &'a mut u64,
-}
-
-impl<'a> Asking<'a, '_> {
-    /// Asks the cases of a family; the first that fails.
-    fn family(&mut self, name: &str, outcome: &mut Outcome) -> Option<Failing<'a>> {
-        let (exercise, check) = (self.exercise, self.exercise.check);
-        let truth = truth(exercise);
-        let family = place::families(&[name.to_owned()])[0];
-        let mut cases = Vec::new();
-        let mut questions = Vec::new();
-        for index in 0..self.amount.cases {
-            let case = place::put(family.case(self.amount.seed, index), &truth.declared);
-            let Some(case) = (exercise.prepare)(case).filter(|case| fits(check, case)) else {
-                continue;
-            };
-            let start = questions.len();
-            check.questions(&case, &truth, &mut questions);
-            cases.push((index, case, start..questions.len()));
-        }
-        let answers = self.program.ask(&questions, *self.deaths);
-        let died = answers.iter().filter(|a| a.is_death()).count() as u64;
-        *self.deaths = self.deaths.saturating_sub(died);
-        let mut first = None;
-        for (index, case, range) in cases {
-            // Where the program was given up, the rest of the answers is not there.
-            let Some(here) = answers.get(range.start..range.end.min(answers.len())) else { break };
-            let finding = judge(check, &case, here, range.len(), &truth);
-            outcome.cases += 1;
-            outcome.wrong += u64::from(finding.is_wrong());
-            if finding.is_wrong() && first.is_none() {
-                first = Some((format!("{name} #{index}"), case));
-            }
-        }
-        first.map(|(found, case)| Failing { exercise, found, case, truth })
+    name: &str,
+    amount: &Amount,
+    deaths: &mut u64,
+    outcome: &mut Outcome,
+) -> Option<Failing<'a>> {
+    let check = exercise.check;
+    let truth = truth(exercise);
+    let family = place::families(&[name.to_owned()])[0];
+    let mut cases = Vec::new();
+    let mut questions = Vec::new();
+    for index in 0..amount.cases {
+        let case = place::put(family.case(amount.seed, index), &truth.declared);
+        let Some(case) = (exercise.prepare)(case).filter(|case| fits(check, case)) else {
+            continue;
+        };
+        let start = questions.len();
+        check.questions(&case, &truth, &mut questions);
+        cases.push((index, case, start..questions.len()));
     }
+    let answers = program.ask(&questions, *deaths);
+    let died = answers.iter().filter(|a| a.is_death()).count() as u64;
+    *deaths = deaths.saturating_sub(died);
+    let mut first = None;
+    for (index, case, range) in cases {
+        // Where the program was given up, the rest of the answers is not there.
+        let Some(here) = answers.get(range.start..range.end.min(answers.len())) else { break };
+        let finding = judge(check, &case, here, range.len(), &truth);
+        outcome.cases += 1;
+        outcome.wrong += u64::from(finding.is_wrong());
+        if finding.is_wrong() && first.is_none() {
+            first = Some((format!("{name} #{index}"), case));
+        }
+    }
+    first.map(|(found, case)| Failing { exercise, found, case, truth })
 }
 
 /// What a program is judged by: the course's convention, and no limit that it declares.
