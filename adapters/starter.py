@@ -116,7 +116,7 @@ def answer(words):
         if verb == "T":
             found = runs(drawn(draw, numbers, *sides))
         elif verb == "I":
-            hits = drawn(draw, [numbers[0:6], numbers[6:12], numbers[12:18]], *sides)
+            hits = drawn(draw, [[numbers[0:6], numbers[6:12], numbers[12:18]]], *sides)
             found = [(x, y, float(z), float(a), float(b)) for y, x, z, a, b in hits]
         elif verb == "S":
             found = [(y, x, x + 1, operator.index(mask)) for y, x, mask in drawn(draw, numbers, *sides) if mask]
