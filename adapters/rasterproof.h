@@ -23,9 +23,28 @@ typedef void (*rasterproof_triangle)(double x0, double y0, double x1, double y1,
 typedef void (*rasterproof_line)(int x0, int y0, int x1, int y1, int width, int height,
                                  rasterproof_set_pixel set_pixel);
 
-enum { RASTERPROOF_MOST_BYTES = 65536, RASTERPROOF_MOST_HITS = 1 << 22, RASTERPROOF_MOST_WORDS = 11 };
+/* A corner for values: position in pixels, depth, w, two attributes. */
+struct rasterproof_corner { double x, y, z, w, a, b; };
+/* Draws one pixel with its depth and attributes; outside the window it does nothing. */
+typedef void (*rasterproof_set_values)(int x, int y, double z, double a, double b);
+typedef void (*rasterproof_values)(const struct rasterproof_corner corners[3], int width, int height,
+                                   rasterproof_set_values set_pixel);
+/* Draws the samples of one pixel: bit s of the mask is sample s. */
+typedef void (*rasterproof_set_samples)(int x, int y, int mask);
+typedef void (*rasterproof_samples)(double x0, double y0, double x1, double y1, double x2, double y2,
+                                    int width, int height, rasterproof_set_samples set_pixel);
 
-struct rasterproof_hit { int y, x; };
+/* What the program draws; what is NULL it has not got. */
+struct rasterproof_drawers {
+    rasterproof_triangle triangle;
+    rasterproof_line line;
+    rasterproof_values values;
+    rasterproof_samples samples;
+};
+
+enum { RASTERPROOF_MOST_BYTES = 65536, RASTERPROOF_MOST_HITS = 1 << 22, RASTERPROOF_MOST_WORDS = 23 };
+
+struct rasterproof_hit { int y, x, mask; double z, a, b; };
 
 /* What set_pixel has drawn for the request in hand. */
 static struct {
@@ -33,7 +52,8 @@ static struct {
     int count, room, width, height, overflow;
 } rasterproof_plane;
 
-static void rasterproof_hit_pixel(int x, int y) {
+static void rasterproof_hit_values(int x, int y, double z, double a, double b) {
+    struct rasterproof_hit *hit;
     if (x < 0 || y < 0 || x >= rasterproof_plane.width || y >= rasterproof_plane.height) return;
     if (rasterproof_plane.count == RASTERPROOF_MOST_HITS) { rasterproof_plane.overflow = 1; return; }
     if (rasterproof_plane.count == rasterproof_plane.room) {
@@ -42,8 +62,16 @@ static void rasterproof_hit_pixel(int x, int y) {
             rasterproof_plane.hits, (size_t)rasterproof_plane.room * sizeof *rasterproof_plane.hits);
         if (!rasterproof_plane.hits) { fputs("out of memory\n", stderr); exit(1); }
     }
-    rasterproof_plane.hits[rasterproof_plane.count].y = y;
-    rasterproof_plane.hits[rasterproof_plane.count++].x = x;
+    hit = &rasterproof_plane.hits[rasterproof_plane.count++];
+    hit->y = y, hit->x = x, hit->mask = 0, hit->z = z, hit->a = a, hit->b = b;
+}
+
+static void rasterproof_hit_pixel(int x, int y) { rasterproof_hit_values(x, y, 0, 0, 0); }
+
+static void rasterproof_hit_samples(int x, int y, int mask) {
+    int before = rasterproof_plane.count;
+    if (mask) rasterproof_hit_values(x, y, 0, 0, 0);
+    if (rasterproof_plane.count > before) rasterproof_plane.hits[before].mask = mask;
 }
 
 static int rasterproof_by_row(const void *left, const void *right) {
@@ -78,6 +106,24 @@ static void rasterproof_write_line(FILE *out, const char *id) {
         fprintf(out, " %d %d", rasterproof_plane.hits[i].x, rasterproof_plane.hits[i].y);
 }
 
+static void rasterproof_write_values(FILE *out, const char *id) {
+    int i;
+    fprintf(out, "F %s %d", id, rasterproof_plane.count);
+    for (i = 0; i < rasterproof_plane.count; i++) {
+        const struct rasterproof_hit *hit = &rasterproof_plane.hits[i];
+        fprintf(out, " %d %d %.17g %.17g %.17g", hit->x, hit->y, hit->z, hit->a, hit->b);
+    }
+}
+
+static void rasterproof_write_samples(FILE *out, const char *id) {
+    int i;
+    fprintf(out, "M %s %d", id, rasterproof_plane.count);
+    for (i = 0; i < rasterproof_plane.count; i++) {
+        const struct rasterproof_hit *hit = &rasterproof_plane.hits[i];
+        fprintf(out, " %d %d %d %d", hit->y, hit->x, hit->x + 1, hit->mask);
+    }
+}
+
 /* The number that a declaration such as "grid=16" gives, or the fallback. */
 static double rasterproof_declared(const char *declares, const char *word, double fallback) {
     const char *at = strstr(declares, word);
@@ -94,13 +140,14 @@ static int rasterproof_read(char *line) {
 }
 
 /* Reads what follows the id and draws. What is wrong with the request, or NULL. */
-static const char *rasterproof_draw(char **words, int count, const char *declares, rasterproof_triangle triangle,
-                                    rasterproof_line line) {
+static const char *rasterproof_draw(char **words, int count, const char *declares,
+                                    const struct rasterproof_drawers *drawers) {
     static char reason[100];
     double grid = rasterproof_declared(declares, "grid=", 0), range = rasterproof_declared(declares, "range=", 0);
-    double most_wide = rasterproof_declared(declares, "window=", 1024), most_high = most_wide, v[8];
+    double most_wide = rasterproof_declared(declares, "window=", 1024), most_high = most_wide, v[20];
     const char *high = strstr(declares, "window=");
-    int i, numbers = triangle ? 6 : 4;
+    const char verb = words[0][0];
+    int i, numbers = verb == 'I' ? 18 : verb == 'L' ? 4 : 6;
     if (high && (high = strchr(high, 'x')) != NULL) most_high = strtod(high + 1, NULL);
     if (count != numbers + 4) {
         snprintf(reason, sizeof reason, "%s takes id width height and %d numbers", words[0], numbers);
@@ -117,6 +164,10 @@ static const char *rasterproof_draw(char **words, int count, const char *declare
         return reason;
     }
     for (i = 2; i < numbers + 2; i++) {
+        if (verb == 'I' && (i - 2) % 6 > 1) {
+            if (!(fabs(v[i]) <= 1.7976931348623157e308)) return "a value is not a number";
+            continue;
+        }
         if (!(v[i] >= -2147483648.0 && v[i] < 2147483648.0)) return "a coordinate is not a number within 2^31 px";
         if (range && fabs(v[i]) > range) return "unsupported: out of the declared range";
         if (grid && v[i] * grid != floor(v[i] * grid)) return "unsupported: off the declared grid";
@@ -124,37 +175,52 @@ static const char *rasterproof_draw(char **words, int count, const char *declare
     rasterproof_plane.count = rasterproof_plane.overflow = 0;
     rasterproof_plane.width = (int)v[0];
     rasterproof_plane.height = (int)v[1];
-    if (triangle)
-        triangle(v[2], v[3], v[4], v[5], v[6], v[7], (int)v[0], (int)v[1], rasterproof_hit_pixel);
-    else
-        line((int)floor(v[2]), (int)floor(v[3]), (int)floor(v[4]), (int)floor(v[5]), (int)v[0], (int)v[1],
+    if (verb == 'T')
+        drawers->triangle(v[2], v[3], v[4], v[5], v[6], v[7], (int)v[0], (int)v[1], rasterproof_hit_pixel);
+    else if (verb == 'S')
+        drawers->samples(v[2], v[3], v[4], v[5], v[6], v[7], (int)v[0], (int)v[1], rasterproof_hit_samples);
+    else if (verb == 'I') {
+        struct rasterproof_corner corners[3];
+        for (i = 0; i < 3; i++) {
+            const double *at = v + 2 + 6 * i;
+            corners[i].x = at[0], corners[i].y = at[1], corners[i].z = at[2];
+            corners[i].w = at[3], corners[i].a = at[4], corners[i].b = at[5];
+        }
+        drawers->values(corners, (int)v[0], (int)v[1], rasterproof_hit_values);
+    } else
+        drawers->line((int)floor(v[2]), (int)floor(v[3]), (int)floor(v[4]), (int)floor(v[5]), (int)v[0], (int)v[1],
              rasterproof_hit_pixel);
     return rasterproof_plane.overflow ? "more than 4194304 pixels set" : NULL;
 }
 
 static void rasterproof_answer(char **words, int count, FILE *out, const char *name, const char *declares,
-                               rasterproof_triangle triangle, rasterproof_line line) {
+                               const struct rasterproof_drawers *drawers) {
     const char *verb = words[0], *id = count > 1 ? words[1] : "-", *wrong = "unsupported";
-    const char *known = triangle ? line ? "coverage line" : "coverage" : "line";
-    int is_triangle = triangle && strcmp(verb, "T") == 0, is_line = line && strcmp(verb, "L") == 0;
+    int is_known = !verb[1] && ((verb[0] == 'T' && drawers->triangle) || (verb[0] == 'L' && drawers->line) ||
+                                (verb[0] == 'I' && drawers->values) || (verb[0] == 'S' && drawers->samples));
     if (strcmp(verb, "HELLO") == 0) {
-        if (count == 2 && strcmp(id, "1") == 0) fprintf(out, "HELLO 1 %s %s", name, known);
+        char known[64] = "";
+        if (drawers->triangle) strcat(known, " coverage");
+        if (drawers->line) strcat(known, " line");
+        if (drawers->values) strcat(known, " attributes");
+        if (drawers->samples) strcat(known, " samples4");
+        if (count == 2 && strcmp(id, "1") == 0) fprintf(out, "HELLO 1 %s%s", name, known);
         else if (count == 2 && strcmp(id, "2") == 0)
-            fprintf(out, "HELLO 2 %s %s%s%s%s", name, known, strstr(declares, "window=") ? "" : " window=1024x1024",
+            fprintf(out, "HELLO 2 %s%s%s%s%s", name, known, strstr(declares, "window=") ? "" : " window=1024x1024",
                     *declares ? " " : "", declares);
         else fputs("E - say HELLO 1 or HELLO 2", out);
         return;
     }
-    if (is_triangle || is_line)
-        wrong = rasterproof_draw(words, count, declares, is_triangle ? triangle : NULL, is_line ? line : NULL);
+    if (is_known) wrong = rasterproof_draw(words, count, declares, drawers);
     if (wrong) fprintf(out, "E %s %s", id, wrong);
-    else if (is_triangle) rasterproof_write_runs(out, id);
+    else if (verb[0] == 'T') rasterproof_write_runs(out, id);
+    else if (verb[0] == 'I') rasterproof_write_values(out, id);
+    else if (verb[0] == 'S') rasterproof_write_samples(out, id);
     else rasterproof_write_line(out, id);
 }
 
 /* Answers requests until the input ends. What the program itself prints goes to the error output. */
-static int rasterproof_serve(const char *name, const char *declares, rasterproof_triangle triangle,
-                             rasterproof_line line) {
+static int rasterproof_serve_all(const char *name, const char *declares, struct rasterproof_drawers drawers) {
     static char request[RASTERPROOF_MOST_BYTES + 2];
     FILE *out = fdopen(dup(1), "w");
     int length;
@@ -166,11 +232,17 @@ static int rasterproof_serve(const char *name, const char *declares, rasterproof
             words[count < RASTERPROOF_MOST_WORDS ? count++ : count] = word;
         if (count == 0) continue;
         if (length > RASTERPROOF_MOST_BYTES) fputs("E - a request has at most 65536 bytes", out);
-        else rasterproof_answer(words, count, out, name, declares, triangle, line);
+        else rasterproof_answer(words, count, out, name, declares, &drawers);
         putc('\n', out);
         if (fflush(out)) return 1;
     }
     return 0;
+}
+
+/* The same for a program that draws triangles and lines alone. */
+static inline int rasterproof_serve(const char *name, const char *declares, rasterproof_triangle triangle, rasterproof_line line) {
+    struct rasterproof_drawers drawers = {triangle, line, NULL, NULL};
+    return rasterproof_serve_all(name, declares, drawers);
 }
 
 #endif

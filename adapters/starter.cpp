@@ -1,5 +1,5 @@
-// 1. Put your code into triangle() and line() below; give nullptr to rasterproof_serve for what you have not got.
-// 2. Say in its second argument what your code promises, for example "origin=0,0 rule=none" (docs/protocol.md).
+// 1. Put your code into triangle() and line() below; nullptr in main() is what you have not got.
+// 2. Say in main() what your code promises, for example "origin=0,0 rule=none" (docs/protocol.md).
 // 3. Judge it: c++ -O2 starter.cpp -o starter && rasterproof judge -- ./starter
 #include <algorithm>
 #include <cmath>
@@ -42,4 +42,10 @@ static void line(int x0, int y0, int x1, int y1, int width, int height, rasterpr
                   int(std::floor(y0 + dy * i / std::max(steps, 1.0) + 0.5)));
 }
 
-int main() { return rasterproof_serve("mine", "batch=64", triangle, line); }
+// Values and samples (verbs I and S): write functions in their stead, as `rasterproof course start` has them.
+static const rasterproof_values values = nullptr;
+static const rasterproof_samples samples = nullptr;
+
+// ---- the line protocol ----
+
+int main() { return rasterproof_serve_all("mine", "batch=64", {triangle, line, values, samples}); }

@@ -44,6 +44,10 @@ def line(x0, y0, x1, y1, width, height, set_pixel):
         set_pixel(math.floor(x0 + dx * i / max(steps, 1) + 0.5), math.floor(y0 + dy * i / max(steps, 1) + 0.5))
 
 
+# Values and samples (verbs I and S): write functions in their stead, as `rasterproof course start` has them.
+values = samples = None
+
+
 # ---- the line protocol: nothing to change from here on ----
 
 MOST_BYTES, MOST_SIDE, MOST_HITS = 65536, 1024, 1 << 22
@@ -56,12 +60,12 @@ class Refused(Exception):
 def drawn(draw, numbers, width, height):
     hits = []
 
-    def set_pixel(x, y):
+    def set_pixel(x, y, *more):
         x, y = operator.index(x), operator.index(y)
         if 0 <= x < width and 0 <= y < height:
             if len(hits) == MOST_HITS:
                 raise Refused(f"more than {MOST_HITS} pixels set")
-            hits.append((y, x))
+            hits.append((y, x, *more))
 
     draw(*numbers, width, height, set_pixel)
     return hits
@@ -78,12 +82,12 @@ def runs(hits):
     return found
 
 
-def number(word):
+def number(word, is_coordinate=True):
     try:
         value = float.fromhex(word) if "x" in word.lower() else float(word)
     except (ValueError, OverflowError):
         value = math.nan
-    if not -(2.0**31) <= value < 2.0**31:
+    if not (-(2.0**31) <= value < 2.0**31 if is_coordinate else math.isfinite(value)):
         raise Refused("a coordinate is not a number within 2^31 px")
     return value
 
@@ -92,12 +96,14 @@ def answer(words):
     verb, id = words[0], words[1] if len(words) > 1 else "-"
     if verb == "HELLO":
         known = "coverage" + " line" * (line is not None)
+        known += " attributes" * (values is not None) + " samples4" * (samples is not None)
         declared = f" window={MOST_SIDE}x{MOST_SIDE} {DECLARES}"
         return {
             ("1",): f"HELLO 1 {NAME} {known}",
             ("2",): f"HELLO 2 {NAME} {known}{declared}",
         }.get(tuple(words[1:]), "E - say HELLO 1 or HELLO 2")
-    draw, count = {"T": (triangle, 6), "L": (line, 4)}.get(verb, (None, 0))
+    verbs = {"T": (triangle, 6, "C"), "L": (line, 4, "P"), "I": (values, 18, "F"), "S": (samples, 6, "M")}
+    draw, count, letter = verbs.get(verb, (None, 0, ""))
     if draw is None:
         return f"E {id} unsupported"
     try:
@@ -106,9 +112,14 @@ def answer(words):
         sides = [int(word) if word.isdecimal() and len(word) < 9 else 0 for word in words[2:4]]
         if not all(1 <= side <= MOST_SIDE for side in sides):
             raise Refused(f"the window must be from 1x1 to {MOST_SIDE}x{MOST_SIDE}")
-        numbers = [number(word) for word in words[4:]]
+        numbers = [number(word, verb != "I" or i % 6 < 2) for i, word in enumerate(words[4:])]
         if verb == "T":
             found = runs(drawn(draw, numbers, *sides))
+        elif verb == "I":
+            hits = drawn(draw, [[numbers[0:6], numbers[6:12], numbers[12:18]]], *sides)
+            found = [(x, y, float(z), float(a), float(b)) for y, x, z, a, b in hits]
+        elif verb == "S":
+            found = [(y, x, x + 1, operator.index(mask)) for y, x, mask in drawn(draw, numbers, *sides) if mask]
         else:
             found = [(x, y) for y, x in drawn(draw, [math.floor(n) for n in numbers], *sides)]
     except Refused as refused:
@@ -116,7 +127,7 @@ def answer(words):
     except Exception as error:
         traceback.print_exc()
         return f"E {id} raised {type(error).__name__}"
-    return " ".join(["C" if verb == "T" else "P", id, str(len(found))] + [str(n) for group in found for n in group])
+    return " ".join([letter, id, str(len(found))] + [str(n) for group in found for n in group])
 
 
 def main():

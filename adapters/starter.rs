@@ -60,23 +60,32 @@ fn line(
     }
 }
 
+// Values and samples (verbs I and S): write functions in their stead, as `rasterproof course start` has them.
+const VALUES: Option<Values> = None;
+const SAMPLES: Option<Samples> = None;
+
 // ---- the line protocol: nothing to change from here on ----
+
+/// Corners x, y, z, w, a, b; set_pixel(x, y, [z, a, b]) for every pixel drawn.
+type Values = fn(corners: [[f64; 6]; 3], width: i32, height: i32, set_pixel: &mut dyn FnMut(i32, i32, [f64; 3]));
+/// Corners in pixels; set_pixel(x, y, mask), bit s of the mask is sample s.
+type Samples = fn(corners: [(f64, f64); 3], width: i32, height: i32, set_pixel: &mut dyn FnMut(i32, i32, u8));
 
 const MOST_BYTES: usize = 65536;
 const MOST_SIDE: i32 = 1024;
 const MOST_HITS: usize = 1 << 22;
 
-/// The pixels (y, x) that `draw` sets.
-fn drawn(
+/// The pixels (y, x) that `draw` sets, and what it sets them to.
+fn drawn<T>(
     width: i32,
     height: i32,
-    draw: impl FnOnce(&mut dyn FnMut(i32, i32)) + std::panic::UnwindSafe,
-) -> Result<Vec<(i32, i32)>, String> {
+    draw: impl FnOnce(&mut dyn FnMut(i32, i32, T)) + std::panic::UnwindSafe,
+) -> Result<Vec<(i32, i32, T)>, String> {
     let hits = std::panic::catch_unwind(|| {
         let mut hits = Vec::new();
-        draw(&mut |x, y| {
+        draw(&mut |x, y, set| {
             if (0..width).contains(&x) && (0..height).contains(&y) && hits.len() <= MOST_HITS {
-                hits.push((y, x));
+                hits.push((y, x, set));
             }
         });
         hits
@@ -86,10 +95,10 @@ fn drawn(
 }
 
 /// Row, first column, one past the last; a pixel hit twice is in two runs.
-fn runs(mut hits: Vec<(i32, i32)>) -> Vec<[i32; 3]> {
+fn runs(mut hits: Vec<(i32, i32, ())>) -> Vec<[i32; 3]> {
     hits.sort();
     let mut found: Vec<[i32; 3]> = Vec::new();
-    for (y, x) in hits {
+    for (y, x, ()) in hits {
         match found.last_mut() {
             Some(run) if run[0] == y && run[2] == x => run[2] += 1,
             _ => found.push([y, x, x + 1]),
@@ -98,8 +107,14 @@ fn runs(mut hits: Vec<(i32, i32)>) -> Vec<[i32; 3]> {
     found
 }
 
-/// A decimal number or a C99 hex float.
+/// A coordinate.
 fn number(word: &str) -> Result<f64, String> {
+    let is_near = |value: &f64| (-2147483648.0..2147483648.0).contains(value);
+    value(word).ok().filter(is_near).ok_or("a coordinate is not a number within 2^31 px".into())
+}
+
+/// A decimal number or a C99 hex float.
+fn value(word: &str) -> Result<f64, String> {
     let read = || {
         let lower = word.to_ascii_lowercase();
         let digits = lower.trim_start_matches(['+', '-']);
@@ -110,14 +125,12 @@ fn number(word: &str) -> Result<f64, String> {
         let power = exponent.parse::<i32>().ok()? - 4 * part.len() as i32;
         Some(if lower.starts_with('-') { -bits } else { bits } * 2f64.powi(power))
     };
-    match read() {
-        Some(value) if (-2147483648.0..2147483648.0).contains(&value) => Ok(value),
-        _ => Err("a coordinate is not a number within 2^31 px".into()),
-    }
+    read().filter(|value: &f64| value.is_finite()).ok_or("a value is not a number".into())
 }
 
 fn draw(words: &[&str]) -> Result<String, String> {
-    let (verb, count) = (words[0], if words[0] == "T" { 6 } else { 4 });
+    let verb = words[0];
+    let count = [("L", 4), ("I", 18)].iter().find(|(v, _)| *v == verb).map_or(6, |(_, count)| *count);
     if words.len() != count + 4 {
         return Err(format!("{verb} takes id width height and {count} numbers"));
     }
@@ -125,16 +138,34 @@ fn draw(words: &[&str]) -> Result<String, String> {
     let (Some(width), Some(height)) = (side(words[2]), side(words[3])) else {
         return Err(format!("the window must be from 1x1 to {MOST_SIDE}x{MOST_SIDE}"));
     };
-    let v = words[4..].iter().map(|word| number(word)).collect::<Result<Vec<_>, _>>()?;
-    let (letter, groups): (_, Vec<Vec<i32>>) = if verb == "T" {
-        let corners = [(v[0], v[1]), (v[2], v[3]), (v[4], v[5])];
-        let hits = drawn(width, height, |set| triangle(corners, width, height, set))?;
-        ("C", runs(hits).into_iter().map(Vec::from).collect())
+    let is_position = |i: usize| verb != "I" || i % 6 < 2;
+    let read = |(i, word): (usize, &&str)| if is_position(i) { number(word) } else { value(word) };
+    let v = words[4..].iter().enumerate().map(read).collect::<Result<Vec<_>, _>>()?;
+    // Of a line there are two.
+    let point = |i: usize| (v[2 * i % v.len()], v[(2 * i + 1) % v.len()]);
+    let corners = [point(0), point(1), point(2)];
+    let (letter, groups): (_, Vec<Vec<f64>>) = if verb == "T" {
+        let hits = drawn(width, height, |set| {
+            triangle(corners, width, height, &mut |x, y| set(x, y, ()));
+        })?;
+        ("C", runs(hits).into_iter().map(|run| run.map(f64::from).to_vec()).collect())
+    } else if let ("I", Some(values)) = (verb, VALUES) {
+        let corner = |i: usize| std::array::from_fn(|n| v[6 * i + n]);
+        let corners = [corner(0), corner(1), corner(2)];
+        let hits = drawn(width, height, |set| values(corners, width, height, set))?;
+        let group = |(y, x, [z, a, b]): (i32, i32, [f64; 3])| vec![x.into(), y.into(), z, a, b];
+        ("F", hits.into_iter().map(group).collect())
+    } else if let ("S", Some(samples)) = (verb, SAMPLES) {
+        let hits = drawn(width, height, |set| samples(corners, width, height, set))?;
+        let group = |(y, x, mask): (i32, i32, u8)| vec![y.into(), x.into(), (x + 1).into(), mask.into()];
+        ("M", hits.into_iter().filter(|(_, _, mask)| *mask > 0).map(group).collect())
     } else {
         let pixel = |i: usize| (v[i].floor() as i32, v[i + 1].floor() as i32);
         let (from, to) = (pixel(0), pixel(2));
-        let hits = drawn(width, height, |set| line(from, to, width, height, set))?;
-        ("P", hits.into_iter().map(|(y, x)| vec![x, y]).collect())
+        let hits = drawn(width, height, |set| {
+            line(from, to, width, height, &mut |x, y| set(x, y, ()));
+        })?;
+        ("P", hits.into_iter().map(|(y, x, ())| vec![x.into(), y.into()]).collect())
     };
     let mut reply = format!("{letter} {} {}", words[1], groups.len());
     for n in groups.iter().flatten() {
@@ -144,7 +175,9 @@ fn draw(words: &[&str]) -> Result<String, String> {
 }
 
 fn answer(words: &[&str]) -> String {
-    let known = if HAS_LINES { "coverage line" } else { "coverage" };
+    let has = [(HAS_LINES, " line"), (VALUES.is_some(), " attributes"), (SAMPLES.is_some(), " samples4")];
+    let more: String = has.iter().filter(|(has, _)| *has).map(|(_, word)| *word).collect();
+    let known = format!("coverage{more}");
     let id = words.get(1).unwrap_or(&"-");
     match words {
         ["HELLO", "1"] => format!("HELLO 1 {NAME} {known}"),
@@ -153,6 +186,9 @@ fn answer(words: &[&str]) -> String {
         }
         ["HELLO", ..] => "E - say HELLO 1 or HELLO 2".into(),
         ["T", ..] => draw(words).unwrap_or_else(|reason| format!("E {id} {reason}")),
+        ["I", ..] if VALUES.is_none() => format!("E {id} unsupported"),
+        ["S", ..] if SAMPLES.is_none() => format!("E {id} unsupported"),
+        ["I" | "S", ..] => draw(words).unwrap_or_else(|reason| format!("E {id} {reason}")),
         ["L", ..] if HAS_LINES => draw(words).unwrap_or_else(|reason| format!("E {id} {reason}")),
         _ => format!("E {id} unsupported"),
     }

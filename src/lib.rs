@@ -66,6 +66,8 @@ pub mod convention;
 #[doc(hidden)]
 pub mod cost;
 #[doc(hidden)]
+pub mod course;
+#[doc(hidden)]
 pub mod effects;
 #[doc(hidden)]
 pub mod exhaust;

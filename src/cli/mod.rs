@@ -1,6 +1,8 @@
 //! The command line: words to functions. Text goes to the writers it is given; only `main` exits.
 
 mod cost;
+mod course;
+mod course_grade;
 mod decisions;
 mod engine;
 mod exhaust;
@@ -46,6 +48,7 @@ const EXAMPLES: &str = "Examples:
   rasterproof inspect --line 0,0 8,3              explain a line
   rasterproof engine scanline < requests.txt      speak the line protocol
   rasterproof judge -- ./mine                     judge a program of yours, in any language
+  rasterproof course                              write a rasterizer of your own, in twelve steps
   rasterproof render --scene cube                 a scene through the whole pipeline, by both
   rasterproof plan --scene panels                 the effects it calls for, and what the rest costs
   rasterproof specimens                           the published algorithms and their faults
@@ -88,6 +91,9 @@ enum Command {
     /// Judge any program that speaks the line protocol: rasterproof judge -- CMD
     #[command(after_help = judge::HELP)]
     Judge(Box<judge::JudgeArguments>),
+    /// Twelve steps from a pixel to four samples, for students; points, for teachers
+    #[command(after_help = course::HELP)]
+    Course(course::CourseArguments),
     /// Show the published algorithms, how often they fail, and a picture of each fault
     Specimens(specimens::SpecimensArguments),
     /// Draw a scene of the book, or a model, by either rasterizer or by both
@@ -185,6 +191,7 @@ pub fn run(words: impl IntoIterator<Item = String>, streams: &mut Streams<'_>) -
         Some(Command::Engine { name, plant: None }) => engine::run(name, streams),
         Some(Command::Engine { name, plant: Some(fault) }) => misbehave::run(name, *fault, streams),
         Some(Command::Judge(arguments)) => judge::run(arguments, streams),
+        Some(Command::Course(arguments)) => course::run(arguments, streams),
         Some(Command::Specimens(arguments)) => specimens::run(arguments, streams),
         Some(Command::Render(arguments)) => render::run(arguments, streams),
         Some(Command::Plan(arguments)) => plan::run(arguments, streams),

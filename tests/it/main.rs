@@ -5,6 +5,7 @@ mod commands;
 mod convention;
 mod cost;
 mod cost_tables;
+mod course;
 mod diagrams;
 mod exact;
 mod exhaust;

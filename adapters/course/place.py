@@ -1,0 +1,21 @@
+# The course. Write the function of your step, then: rasterproof course check
+
+
+# ---- YOUR PLACE: four functions, empty as they stand ----
+
+
+def line(x0, y0, x1, y1, width, height, set_pixel):
+    """Whole pixels from one to another, both drawn, in drawing order (steps 1 to 3)."""
+
+
+def triangle(x0, y0, x1, y1, x2, y2, width, height, set_pixel):
+    """Corners in pixels, y down; set_pixel(x, y) for every pixel drawn (steps 4 to 7, and 11)."""
+
+
+def values(corners, width, height, set_pixel):
+    """Three corners (x, y, z, w, a, b); set_pixel(x, y, z, a, b) for every pixel drawn (steps 8 to 11)."""
+
+
+def samples(x0, y0, x1, y1, x2, y2, width, height, set_pixel):
+    """As triangle, with four samples: set_pixel(x, y, mask), bit s of the mask is sample s (step 12)."""
+

@@ -1,0 +1,43 @@
+// The course. Write the function of your step, then: rasterproof course check
+
+// ---- YOUR PLACE: four functions, empty as they stand ----
+const VALUES: Option<Values> = Some(values);
+const SAMPLES: Option<Samples> = Some(samples);
+
+/// Whole pixels from one to another, both drawn, in drawing order (steps 1 to 3).
+fn line(
+    from: (i32, i32),
+    to: (i32, i32),
+    width: i32,
+    height: i32,
+    set_pixel: &mut dyn FnMut(i32, i32),
+) {
+}
+
+/// Corners in pixels, y down; set_pixel(x, y) for every pixel drawn (steps 4 to 7, and 11).
+fn triangle(
+    corners: [(f64, f64); 3],
+    width: i32,
+    height: i32,
+    set_pixel: &mut dyn FnMut(i32, i32),
+) {
+}
+
+/// Corners are x, y, z, w, a, b; set_pixel(x, y, [z, a, b]) for every pixel drawn (steps 8 to 11).
+fn values(
+    corners: [[f64; 6]; 3],
+    width: i32,
+    height: i32,
+    set_pixel: &mut dyn FnMut(i32, i32, [f64; 3]),
+) {
+}
+
+/// As triangle, with four samples: set_pixel(x, y, mask), bit s of the mask is sample s (step 12).
+fn samples(
+    corners: [(f64, f64); 3],
+    width: i32,
+    height: i32,
+    set_pixel: &mut dyn FnMut(i32, i32, u8),
+) {
+}
+

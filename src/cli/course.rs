@@ -1,0 +1,201 @@
+//! `rasterproof course`: twelve steps for a student, points for a teacher.
+
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use super::course_grade::{self, GradeArguments};
+use super::{Failure, Streams, exit, usage, write_file};
+use crate::course::examine::{self, Amount};
+use crate::course::progress::{self, Progress};
+use crate::course::starters::{self, Language};
+use crate::course::verdict::{self, wrapped};
+use crate::course::{self, STEPS, sandbox};
+use crate::judge::group;
+use crate::judge::process::Limits;
+
+pub const HELP: &str = "Examples:
+  rasterproof course                                   the twelve steps
+  rasterproof course start --language python mine      a starter, and mine/course.toml
+  rasterproof course check                             judge the current step, in that folder
+  rasterproof course check dda --hint                  judge a step, one hint more
+  rasterproof course check -- ./mine --fast            by this command, which is remembered
+  rasterproof course grade -- ./mine                   points by step
+  rasterproof course grade --folder submissions        a table of many
+
+Programs are run with your rights: docs/course.md says what they may do.
+Exit status: 0 passed, 1 not passed, 2 the command, the program or course.toml cannot be used.";
+
+/// Options of `course`.
+#[derive(clap::Args, Debug)]
+pub struct CourseArguments {
+    #[command(subcommand)]
+    command: Option<CourseCommand>,
+}
+
+#[derive(clap::Subcommand, Debug)]
+enum CourseCommand {
+    /// Write a starter and the progress file; what exists is left alone
+    Start {
+        /// The language of the starter
+        #[arg(long, value_enum, default_value_t = Language::Python)]
+        language: Language,
+        /// Where to; created where it is not there
+        #[arg(value_name = "DIR", default_value = ".")]
+        folder: PathBuf,
+    },
+    /// Judge a step, and note how it came out
+    Check(CheckArguments),
+    /// Points by step: of a program, or of a folder of submissions
+    #[command(after_help = course_grade::HELP)]
+    Grade(Box<GradeArguments>),
+}
+
+#[derive(clap::Args, Debug)]
+struct CheckArguments {
+    /// The step, by name or number; the current one if none is named
+    #[arg(value_name = "STEP")]
+    step: Option<String>,
+    /// Where course.toml is
+    #[arg(long, value_name = "DIR", default_value = ".")]
+    dir: PathBuf,
+    /// Show one hint more
+    #[arg(long)]
+    hint: bool,
+    /// Cases of each family
+    #[arg(long, value_name = "N", default_value_t = 100,
+        value_parser = clap::value_parser!(u64).range(1..=100_000))]
+    cases: u64,
+    /// Decides every case
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+    /// The program and its arguments, after --; remembered in course.toml
+    #[arg(last = true, value_name = "CMD")]
+    command: Vec<String>,
+}
+
+pub fn run(arguments: &CourseArguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+    match &arguments.command {
+        None => list(streams),
+        Some(CourseCommand::Start { language, folder }) => start(*language, folder, streams),
+        Some(CourseCommand::Check(check)) => run_check(check, streams),
+        Some(CourseCommand::Grade(grade)) => course_grade::run(grade, streams),
+    }
+}
+
+/// The steps; those passed are marked where there is a progress file.
+fn list(streams: &mut Streams<'_>) -> Result<u8, Failure> {
+    let progress = Progress::read(Path::new(".")).map_err(usage)?;
+    let out = &mut *streams.output;
+    for step in &STEPS {
+        let mark = match &progress {
+            Some(progress) if progress.has_passed(step) => '+',
+            Some(progress) if progress.current() == step => '>',
+            _ => ' ',
+        };
+        let (number, name, title) = (course::number(step), step.name, step.title);
+        writeln!(out, "{mark} {number:>2} {name:<14} {title} ({})", step.page)?;
+        out.write_all(wrapped(step.judged, 5).as_bytes())?;
+        let mut families: Vec<_> =
+            step.exercises.iter().flat_map(|e| e.families).copied().collect();
+        families.sort_unstable();
+        families.dedup();
+        let families = format!("families: {}", families.join(", "));
+        out.write_all(wrapped(&families, 5).as_bytes())?;
+    }
+    match progress {
+        Some(_) => writeln!(out, "(+ passed, > current; next: rasterproof course check)")?,
+        None => writeln!(out, "begin with: rasterproof course start --language python mine")?,
+    }
+    Ok(exit::AGREES)
+}
+
+fn start(language: Language, folder: &Path, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+    let (build, run) = starters::commands(language);
+    let progress = Progress::new(build, run);
+    let files = starters::files(language);
+    let files = files.iter().map(|file| (file.name, file.text.clone()));
+    for (name, text) in files.chain([(progress::FILE, progress.text())]) {
+        let path = folder.join(name);
+        if path.symlink_metadata().is_ok() {
+            writeln!(streams.output, "kept:    {}", path.display())?;
+        } else {
+            write_file(&path, text.as_bytes())?;
+            writeln!(streams.output, "written: {}", path.display())?;
+        }
+    }
+    let step = &STEPS[0];
+    writeln!(streams.output, "step 1, {}: {}", step.title, step.judged)?;
+    let dir = if folder == Path::new(".") {
+        String::new()
+    } else {
+        format!(" --dir {}", folder.display())
+    };
+    writeln!(streams.output, "write it, then: rasterproof course check{dir}")?;
+    Ok(exit::AGREES)
+}
+
+fn run_check(arguments: &CheckArguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+    let found = Progress::read(&arguments.dir).map_err(usage)?;
+    let mut progress = match (found, arguments.command.is_empty()) {
+        (Some(found), _) => found,
+        (None, false) => Progress::new(Vec::new(), Vec::new()),
+        (None, true) => {
+            let path = progress::path(&arguments.dir);
+            return Err(usage(format!(
+                "{} is not there\n  write one with: rasterproof course start {}\n  \
+                 or name a program: rasterproof course check -- CMD",
+                path.display(),
+                arguments.dir.display()
+            )));
+        }
+    };
+    if !arguments.command.is_empty() {
+        progress.run.clone_from(&arguments.command);
+        progress.build.clear();
+    }
+    let step = match &arguments.step {
+        None => progress.current(),
+        Some(word) => course::find(word).ok_or_else(|| {
+            let names: Vec<_> = STEPS.iter().map(|step| step.name).collect();
+            usage(format!("no step is called '{word}'; there are {}", names.join(", ")))
+        })?,
+    };
+    group::end_all_on_ctrl_c();
+    let limits = sandbox::Bounds::default();
+    sandbox::build(&arguments.dir, &progress.build, &limits).map_err(usage)?;
+    let program = sandbox::start(&arguments.dir, &progress.run, &limits, Limits::default());
+    let mut program = program.map_err(usage)?;
+    let amount = Amount {
+        cases: arguments.cases,
+        seed: arguments.seed,
+        end: Instant::now() + Duration::from_secs(60),
+        patience: Duration::from_secs(3),
+    };
+    let outcome = examine::examine(&mut program, step, &amount);
+    let before = progress.failures.min(3) * usize::from(progress.step == step.name);
+    progress.note(step, outcome.passes());
+    write_file(&progress::path(&arguments.dir), progress.text().as_bytes())?;
+    let text = verdict::text(step, &outcome);
+    streams.output.write_all(text.as_bytes())?;
+    if outcome.passes() {
+        let next = match STEPS.iter().all(|step| progress.has_passed(step)) {
+            true => "all twelve steps are passed; next: rasterproof judge -- CMD\n".to_owned(),
+            false => {
+                let next = progress.current();
+                let (number, title) = (course::number(next), next.title);
+                format!("next: step {number}, {title} ({}): {}", next.page, next.judged)
+            }
+        };
+        streams.output.write_all(wrapped(&next, 0).as_bytes())?;
+        return Ok(exit::AGREES);
+    }
+    if let Some(last) = examine::complaint(&program) {
+        writeln!(streams.output, "its standard error ends: {last}")?;
+    }
+    let hints = (before + 1 + usize::from(arguments.hint)).min(3);
+    for (hint, number) in step.hints.iter().take(hints).zip(1..) {
+        streams.output.write_all(wrapped(&format!("hint {number}: {hint}"), 0).as_bytes())?;
+    }
+    writeln!(streams.output, "page: {}", step.page)?;
+    Ok(exit::DISAGREES)
+}

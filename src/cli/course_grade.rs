@@ -1,0 +1,290 @@
+//! `rasterproof course grade`: points by step, of one program or of a folder of submissions.
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use serde_json::{Value, json};
+
+use super::{Failure, Streams, exit, usage};
+use crate::course::examine::{self, Amount};
+use crate::course::progress::{self, Progress};
+use crate::course::sandbox::{self, Bounds};
+use crate::course::{self, STEPS, verdict};
+use crate::judge::group;
+use crate::judge::process::{Limits, Program};
+use crate::judge::text::printable;
+
+pub const HELP: &str = "Examples:
+  rasterproof course grade -- ./mine                                 points of a program
+  rasterproof course grade --format gradescope -- ./mine             Gradescope's results.json
+  rasterproof course grade --folder submissions                      each by its own course.toml
+  rasterproof course grade --folder submissions --run 'python3 -B {}/starter.py'
+
+Each program has --seconds in all, --timeout for each answer and --memory MiB of addresses, and runs
+with your rights: judge only what you would run, or in a container.
+Exit status: 0 every step passed, 1 not, 2 nothing could be judged.";
+
+/// What to print.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum Format {
+    /// For people.
+    Text,
+    /// Everything that was found.
+    Json,
+    /// Gradescope's results.json, of one program.
+    Gradescope,
+}
+
+/// Options of `course grade`.
+#[derive(clap::Args, Debug)]
+pub struct GradeArguments {
+    /// Grade every folder in this one
+    #[arg(long, value_name = "DIR", conflicts_with = "command")]
+    folder: Option<PathBuf>,
+    /// What runs a submission, {} being its folder; without it, its course.toml says so
+    #[arg(long, value_name = "WORDS", requires = "folder")]
+    run: Option<String>,
+    /// What to print
+    #[arg(long, value_name = "FORMAT", value_enum, default_value_t = Format::Text)]
+    format: Format,
+    /// Cases of each family
+    #[arg(long, value_name = "N", default_value_t = 100,
+        value_parser = clap::value_parser!(u64).range(1..=100_000))]
+    cases: u64,
+    /// Decides every case
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+    /// Seconds for a submission in all; what is not asked by then is not passed
+    #[arg(long, value_name = "S", default_value_t = 120,
+        value_parser = clap::value_parser!(u64).range(1..=100_000))]
+    seconds: u64,
+    /// Seconds for each answer
+    #[arg(long, value_name = "S", default_value_t = 2,
+        value_parser = clap::value_parser!(u64).range(1..=1000))]
+    timeout: u64,
+    /// MiB of addresses that a process may map; 0 sets no bound
+    #[arg(long, value_name = "MIB", default_value_t = 2048)]
+    memory: u64,
+    /// The program and its arguments, after --
+    #[arg(last = true, value_name = "CMD", required_unless_present = "folder")]
+    command: Vec<String>,
+}
+
+/// How a program is made and run.
+struct Submission {
+    name: String,
+    folder: PathBuf,
+    build: Vec<String>,
+    run: Vec<String>,
+}
+
+/// What a submission got.
+struct Grade {
+    name: String,
+    /// For each step whether it is passed, and what came of it as text.
+    steps: Vec<(bool, String)>,
+    /// Why it could not be judged.
+    error: Option<String>,
+    seconds: f64,
+}
+
+impl Grade {
+    fn points(&self) -> usize {
+        self.steps.iter().filter(|(passed, _)| *passed).count()
+    }
+
+    fn has_passed(&self, at: usize) -> bool {
+        self.steps.get(at).is_some_and(|(passed, _)| *passed)
+    }
+}
+
+pub fn run(arguments: &GradeArguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+    if arguments.folder.is_some() && arguments.format == Format::Gradescope {
+        return Err(usage(
+            "results.json is of one submission\n  name a program: course grade --format gradescope -- CMD",
+        ));
+    }
+    let submissions = match &arguments.folder {
+        Some(folder) => submissions(folder, arguments.run.as_deref())?,
+        None => {
+            let (folder, run) = (PathBuf::from("."), arguments.command.clone());
+            vec![Ok(Submission { name: run.join(" "), folder, build: Vec::new(), run })]
+        }
+    };
+    group::end_all_on_ctrl_c();
+    let mut grades = Vec::new();
+    for submission in submissions {
+        let grade = match submission {
+            Ok(submission) => grade(&submission, arguments),
+            Err((name, error)) => {
+                Grade { name, steps: Vec::new(), error: Some(error), seconds: 0.0 }
+            }
+        };
+        grades.push(grade);
+    }
+    let text = match arguments.format {
+        Format::Text => text(&grades, arguments.folder.is_some()),
+        Format::Json => pretty(&everything(&grades, arguments)),
+        Format::Gradescope => pretty(&gradescope(&grades[0])),
+    };
+    streams.output.write_all(text.as_bytes())?;
+    if grades.iter().all(|grade| grade.error.is_some()) {
+        return Ok(exit::USAGE);
+    }
+    let all = grades.iter().all(|grade| grade.points() == STEPS.len());
+    Ok(if all { exit::AGREES } else { exit::DISAGREES })
+}
+
+type Found = Result<Submission, (String, String)>;
+
+/// The folders of a folder, by name; each with its commands, or why it has none.
+fn submissions(folder: &Path, template: Option<&str>) -> Result<Vec<Found>, Failure> {
+    let failed = |e: std::io::Error| usage(format!("cannot read {}: {e}", folder.display()));
+    let mut paths = Vec::new();
+    for entry in std::fs::read_dir(folder).map_err(failed)? {
+        let path = entry.map_err(failed)?.path();
+        if path.is_dir() {
+            paths.push(path);
+        }
+    }
+    paths.sort();
+    if paths.is_empty() {
+        return Err(usage(format!(
+            "{} holds no folder\n  expected one for each submission",
+            folder.display()
+        )));
+    }
+    let one = |path: PathBuf| {
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let name = printable(name.as_bytes(), 40);
+        if let Some(template) = template {
+            let own = path.to_string_lossy();
+            let run = template.split_whitespace().map(|word| word.replace("{}", &own)).collect();
+            return Ok(Submission { name, folder: PathBuf::from("."), build: Vec::new(), run });
+        }
+        match Progress::read(&path) {
+            Ok(Some(Progress { build, run, .. })) => {
+                Ok(Submission { name, folder: path, build, run })
+            }
+            Ok(None) => Err((name, format!("it has no {}, and there is no --run", progress::FILE))),
+            Err(error) => Err((name, error)),
+        }
+    };
+    Ok(paths.into_iter().map(one).collect())
+}
+
+fn grade(submission: &Submission, arguments: &GradeArguments) -> Grade {
+    let start = Instant::now();
+    let seconds = Duration::from_secs(arguments.seconds);
+    let bounds = Bounds {
+        memory_mib: Some(arguments.memory).filter(|mib| *mib > 0),
+        processor_s: Some(arguments.seconds),
+        build: seconds,
+    };
+    let mut grade =
+        Grade { name: submission.name.clone(), steps: Vec::new(), error: None, seconds: 0.0 };
+    match started(submission, &bounds, arguments.timeout) {
+        Err(error) => grade.error = Some(error),
+        Ok(mut program) => {
+            for step in &STEPS {
+                let amount = Amount {
+                    cases: arguments.cases,
+                    seed: arguments.seed,
+                    end: start + seconds,
+                    patience: Duration::from_secs(1).min(seconds / 24),
+                };
+                let outcome = examine::examine(&mut program, step, &amount);
+                grade.steps.push((outcome.passes(), verdict::text(step, &outcome)));
+            }
+        }
+    }
+    grade.seconds = start.elapsed().as_secs_f64();
+    grade
+}
+
+fn started(submission: &Submission, bounds: &Bounds, timeout: u64) -> Result<Program, String> {
+    let Submission { folder, build, run, .. } = submission;
+    sandbox::build(folder, build, bounds)?;
+    let limits = Limits {
+        answer: Duration::from_secs(timeout),
+        start: bounds.build.min(Duration::from_secs(80)) / 4,
+    };
+    sandbox::start(folder, run, bounds, limits)
+}
+
+/// A table of submissions by steps; of one program also what came of each step.
+fn text(grades: &[Grade], is_folder: bool) -> String {
+    let mut out = String::new();
+    if is_folder {
+        let wide = grades.iter().map(|g| g.name.chars().count()).max().unwrap_or(0).clamp(10, 40);
+        let numbers: String = (1..=STEPS.len()).map(|n| format!("{n:>4}")).collect();
+        let _ = writeln!(out, "{:<wide$}{numbers}  points", "submission");
+        for grade in grades {
+            let marks: String = (0..STEPS.len())
+                .map(|at| if grade.has_passed(at) { "   +" } else { "   -" })
+                .collect();
+            let _ = writeln!(out, "{:<wide$}{marks}  {:>6}", grade.name, grade.points());
+        }
+        let passed = |at| grades.iter().filter(|grade: &&Grade| grade.has_passed(at)).count();
+        let counts: String = (0..STEPS.len()).map(|at| format!("{:>4}", passed(at))).collect();
+        let _ = writeln!(out, "{:<wide$}{counts}", "passed by");
+    }
+    for grade in grades {
+        if let Some(error) = &grade.error {
+            let _ = writeln!(out, "{}: cannot be judged: {error}", grade.name);
+        }
+        for (_, text) in grade.steps.iter().filter(|_| !is_folder) {
+            out += text;
+        }
+        if !is_folder {
+            let _ = writeln!(out, "{} of {} points", grade.points(), STEPS.len());
+        }
+    }
+    out
+}
+
+fn everything(grades: &[Grade], arguments: &GradeArguments) -> Value {
+    let one = |grade: &Grade| {
+        let steps = STEPS.iter().zip(&grade.steps).map(
+            |(step, (passed, text))| json!({"step": step.name, "passed": passed, "output": text}),
+        );
+        json!({
+            "name": grade.name, "points": grade.points(), "of": STEPS.len(), "error": grade.error,
+            "seconds": grade.seconds, "steps": steps.collect::<Vec<_>>(),
+        })
+    };
+    json!({
+        "version": env!("CARGO_PKG_VERSION"), "seed": arguments.seed, "cases": arguments.cases,
+        "submissions": grades.iter().map(one).collect::<Vec<_>>(),
+    })
+}
+
+/// One test for each step, of one point.
+fn gradescope(grade: &Grade) -> Value {
+    let tests = STEPS.iter().enumerate().map(|(at, step)| {
+        let passed = grade.has_passed(at);
+        let output = match (grade.steps.get(at), &grade.error) {
+            (Some((_, text)), _) => text.clone(),
+            (None, Some(error)) => error.clone(),
+            (None, None) => String::new(),
+        };
+        json!({
+            "name": step.title, "number": course::number(step).to_string(),
+            "score": i32::from(passed), "max_score": 1,
+            "status": if passed { "passed" } else { "failed" }, "output": output,
+            "output_format": "text", "visibility": "visible",
+        })
+    });
+    json!({
+        "score": grade.points(), "visibility": "visible", "stdout_visibility": "visible",
+        "execution_time": grade.seconds.ceil() as u64,
+        "output": format!("{} of {} steps are passed", grade.points(), STEPS.len()),
+        "tests": tests.collect::<Vec<_>>(),
+    })
+}
+
+fn pretty(value: &Value) -> String {
+    // Numbers and strings only: this cannot fail.
+    serde_json::to_string_pretty(value).unwrap_or_default() + "\n"
+}

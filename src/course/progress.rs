@@ -1,0 +1,152 @@
+//! The progress file: one, beside the student's code, to be read and edited by people.
+
+use std::path::{Path, PathBuf};
+
+use super::{STEPS, Step};
+
+/// Its name.
+pub const FILE: &str = "course.toml";
+
+const HEADER: &str = "\
+# Progress of `rasterproof course`. Yours to edit; `course check` writes it anew, without your comments.
+# build (may be empty) and run: commands as lists of words, run in this folder.
+# step: the current one. failures: how often it has failed; each shows one hint more.
+";
+
+/// What the file holds.
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Progress {
+    /// What makes the program from its source; may be empty.
+    #[serde(default)]
+    pub build: Vec<String>,
+    /// What runs the program.
+    pub run: Vec<String>,
+    /// The current step.
+    pub step: String,
+    /// Steps that were passed.
+    #[serde(default)]
+    pub passed: Vec<String>,
+    /// How often the current step failed.
+    #[serde(default)]
+    pub failures: usize,
+}
+
+/// The progress file of a folder.
+#[must_use]
+pub fn path(folder: &Path) -> PathBuf {
+    folder.join(FILE)
+}
+
+impl Progress {
+    /// Nothing passed yet.
+    #[must_use]
+    pub fn new(build: Vec<String>, run: Vec<String>) -> Self {
+        let step = STEPS[0].name.to_owned();
+        Self { build, run, step, passed: Vec::new(), failures: 0 }
+    }
+
+    /// Reads the progress of a folder; nothing where there is no file.
+    ///
+    /// # Errors
+    /// What is wrong with the file, where, and what to do about it.
+    pub fn read(folder: &Path) -> Result<Option<Self>, String> {
+        let path = path(folder);
+        let text = match std::fs::read_to_string(&path) {
+            Ok(text) => text,
+            Err(e) if e.kind() == std::io::ErrorKind::NotFound => return Ok(None),
+            Err(e) => return Err(format!("cannot read {}: {e}", path.display())),
+        };
+        Self::parse(&text).map(Some).map_err(|what| {
+            let remedy = "mend it, or delete it and say: rasterproof course start";
+            format!("{}: {what}\n  {remedy}", path.display())
+        })
+    }
+
+    /// Reads the text of a file.
+    ///
+    /// # Errors
+    /// What is wrong with it, with its line.
+    pub fn parse(text: &str) -> Result<Self, String> {
+        let progress: Self = toml::from_str(text).map_err(|e| e.to_string().trim().to_owned())?;
+        let unknown = |name: &&String| super::find(name).is_none();
+        let mut named = std::iter::once(&progress.step).chain(&progress.passed);
+        if let Some(name) = named.find(unknown) {
+            let names: Vec<_> = STEPS.iter().map(|step| step.name).collect();
+            return Err(format!("no step is called {name:?}; there are {}", names.join(", ")));
+        }
+        Ok(progress)
+    }
+
+    /// The text of the file.
+    #[must_use]
+    pub fn text(&self) -> String {
+        // Strings, lists of them and a number: this cannot fail.
+        format!("{HEADER}{}", toml::to_string(self).unwrap_or_default())
+    }
+
+    /// The current step.
+    #[must_use]
+    pub fn current(&self) -> &'static Step {
+        super::find(&self.step).unwrap_or(&STEPS[0])
+    }
+
+    /// Notes how a step came out. A step that passes makes the next one current that did not.
+    pub fn note(&mut self, step: &Step, passes: bool) {
+        if self.step != step.name {
+            step.name.clone_into(&mut self.step);
+            self.failures = 0;
+        }
+        if !passes {
+            self.failures += 1;
+            self.passed.retain(|name| name != step.name);
+            return;
+        }
+        if !self.has_passed(step) {
+            self.passed.push(step.name.to_owned());
+        }
+        self.failures = 0;
+        if let Some(next) = STEPS.iter().find(|step| !self.has_passed(step)) {
+            next.name.clone_into(&mut self.step);
+        }
+    }
+
+    /// Whether a step was passed.
+    #[must_use]
+    pub fn has_passed(&self, step: &Step) -> bool {
+        self.passed.iter().any(|name| name == step.name)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn progress_is_written_and_read() {
+        let words = |list: &[&str]| list.iter().map(|w| (*w).to_owned()).collect::<Vec<_>>();
+        let mut progress = Progress::new(words(&["cc", "a \"b\".c"]), words(&["./it's", "-x"]));
+        progress.note(&STEPS[0], true);
+        progress.note(&STEPS[1], false);
+        progress.note(&STEPS[1], false);
+        assert_eq!((progress.step.as_str(), progress.failures), ("dda", 2));
+        assert_eq!(Progress::parse(&progress.text()), Ok(progress.clone()));
+        progress.note(&STEPS[5], true);
+        assert_eq!(progress.passed, ["pixel", "top-left"]);
+        assert_eq!((progress.step.as_str(), progress.failures), ("dda", 0));
+    }
+
+    #[test]
+    fn broken_progress_is_named() {
+        for (text, part) in [
+            ("run = [\"x\"]\nstep = \"dda", "line 2"),
+            ("step = \"dda\"", "run"),
+            ("run = []\nstep = \"nowhere\"", "no step is called \"nowhere\""),
+            ("run = []\nstep = \"dda\"\npased = []", "pased"),
+            ("run = \"./x\"\nstep = \"dda\"", "line 1"),
+        ] {
+            let error = Progress::parse(text).unwrap_err();
+            assert!(error.contains(part), "{text}: {error}");
+        }
+    }
+}

@@ -1,0 +1,101 @@
+//! What a student begins with: the adapters' starters, their two examples replaced by empty places.
+
+/// A language there is a starter for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum Language {
+    /// rustc alone, no package.
+    Rust,
+    /// C++11 and a header.
+    Cpp,
+    /// Python 3.8, no package.
+    Python,
+}
+
+/// A file to be written.
+#[derive(Debug)]
+pub struct File {
+    /// Its name beside the progress file.
+    pub name: &'static str,
+    /// What it holds.
+    pub text: String,
+}
+
+/// The lines of a starter between which its example stands.
+const PLACE: &str = "---- YOUR PLACE";
+const PROTOCOL: &str = "---- the line protocol";
+
+/// The starter with another text in its place; the first lines say what to do.
+fn put(starter: &str, place: &str) -> Option<String> {
+    let line_start = |at: usize| starter[..at].rfind('\n').map_or(0, |end| end + 1);
+    let first = line_start(starter.find(PLACE)?);
+    let after = line_start(starter.find(PROTOCOL)?);
+    // What says what to do in three points is said by the course in other words.
+    let is_point = |line: &str| {
+        let words = line.trim_start_matches(['/', '#', ' ']);
+        ["1. ", "2. ", "3. "].iter().any(|point| words.starts_with(point))
+    };
+    let head: String =
+        starter[..first].split_inclusive('\n').filter(|line| !is_point(line)).collect();
+    Some(format!("{head}{place}\n{}", &starter[after..]))
+}
+
+/// The files of a language.
+#[must_use]
+pub fn files(language: Language) -> Vec<File> {
+    let file = |name, starter: &str, place: &str| File {
+        name,
+        text: put(starter, place).unwrap_or_else(|| starter.to_owned()),
+    };
+    match language {
+        Language::Rust => vec![file(
+            "starter.rs",
+            include_str!("../../adapters/starter.rs"),
+            include_str!("../../adapters/course/place.rs"),
+        )],
+        Language::Cpp => vec![
+            file(
+                "starter.cpp",
+                include_str!("../../adapters/starter.cpp"),
+                include_str!("../../adapters/course/place.cpp"),
+            ),
+            File {
+                name: "rasterproof.h",
+                text: include_str!("../../adapters/rasterproof.h").to_owned(),
+            },
+        ],
+        Language::Python => vec![file(
+            "starter.py",
+            include_str!("../../adapters/starter.py"),
+            include_str!("../../adapters/course/place.py"),
+        )],
+    }
+}
+
+/// What builds the program, if anything does, and what runs it.
+#[must_use]
+pub fn commands(language: Language) -> (Vec<String>, Vec<String>) {
+    let words = |text: &str| text.split_whitespace().map(str::to_owned).collect();
+    let (build, run) = match language {
+        Language::Rust => ("rustc -O --edition 2024 starter.rs", "./starter"),
+        Language::Cpp => ("c++ -std=c++11 -O2 starter.cpp -o starter", "./starter"),
+        Language::Python => ("", "python3 -B starter.py"),
+    };
+    (words(build), words(run))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The starters have the two lines that are looked for, and the example is gone.
+    #[test]
+    fn starters_have_a_place() {
+        for language in [Language::Rust, Language::Cpp, Language::Python] {
+            let files = files(language);
+            let text = &files[0].text;
+            assert!(text.contains(PROTOCOL), "{language:?}");
+            assert!(!text.contains("As it stands") && text.contains("step 1"), "{language:?}");
+            assert!(text.contains("samples") && text.contains("values"), "{language:?}");
+        }
+    }
+}

@@ -1,0 +1,59 @@
+//! How a step came out, for people.
+
+use super::examine::Outcome;
+use super::{Step, number};
+use crate::report::ascii;
+
+/// How a step came out, with its smallest failing case.
+#[must_use]
+pub fn text(step: &Step, outcome: &Outcome) -> String {
+    let (number, title) = (number(step), step.title);
+    let Outcome { cases, wrong, .. } = outcome;
+    if outcome.passes() {
+        return format!("step {number}, {title}: PASSED, {cases} cases\n");
+    }
+    let late = if outcome.out_of_time { ", and the time was up" } else { "" };
+    let mut out =
+        format!("step {number}, {title}: NOT YET, wrong in {wrong} of {cases} cases{late}\n");
+    let Some(failure) = &outcome.failure else { return out };
+    out +=
+        &wrapped(&format!("smallest found: {} (from {}, shrunk)", failure.what, failure.found), 2);
+    for [request, answer, expected] in failure.lines.iter().take(2) {
+        for (what, line) in [("request:", request), ("answer:", answer), ("expected:", expected)] {
+            if !line.is_empty() {
+                out += &wrapped(&format!("{what:<9} {line}"), 2);
+            }
+        }
+    }
+    if let Some([actual, target]) = &failure.pictures {
+        let blocks = [
+            ("yours".to_owned(), ascii::grid(actual, target)),
+            ("expected".to_owned(), ascii::grid(target, target)),
+        ];
+        for line in ascii::side_by_side(&blocks, 98).lines() {
+            out += format!("  {line}").trim_end();
+            out.push('\n');
+        }
+        out += "  (# agrees, - missing, + extra, 2 twice, . neither)\n";
+    }
+    out
+}
+
+/// Lines of at most 100 columns, indented.
+#[must_use]
+pub fn wrapped(text: &str, indent: usize) -> String {
+    let margin = " ".repeat(indent);
+    let mut lines = vec![String::new()];
+    for word in text.split_whitespace() {
+        let line = lines.last_mut().expect("there is a line");
+        if line.is_empty() {
+            *line = format!("{margin}{word}");
+        } else if line.chars().count() + 1 + word.chars().count() > 100 {
+            lines.push(format!("{margin}  {word}"));
+        } else {
+            line.push(' ');
+            *line += word;
+        }
+    }
+    lines.join("\n") + "\n"
+}

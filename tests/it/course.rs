@@ -1,0 +1,332 @@
+//! The course through the command line: every step passes for what is right and fails for a planted
+//! fault, progress is kept, starters start, points are given.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use rasterproof::course::STEPS;
+use rasterproof::course::progress::Progress;
+use serde_json::Value;
+
+const PROGRAM: &str = env!("CARGO_BIN_EXE_rasterproof");
+
+/// An empty folder of this test.
+fn folder(name: &str) -> PathBuf {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("course").join(name);
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+fn run(folder: &Path, words: &[&str], status: i32) -> (String, String) {
+    let output =
+        Command::new(PROGRAM).arg("course").args(words).current_dir(folder).output().unwrap();
+    let (out, errors) =
+        (String::from_utf8(output.stdout).unwrap(), String::from_utf8(output.stderr).unwrap());
+    assert_eq!(output.status.code(), Some(status), "{words:?}\n{out}\n{errors}");
+    assert!(out.lines().all(|line| line.chars().count() <= 100), "{out}");
+    (out, errors)
+}
+
+/// Each step, what is right and what has a planted fault.
+const JUDGED: [(&str, &str, &str); 12] = [
+    ("pixel", "dda", "line-misses-end"),
+    ("dda", "dda", "line-four-connected"),
+    ("bresenham", "bresenham", "line-directed-ties"),
+    ("scanline", "scanline", "drops-first-row"),
+    ("edge-function", "edge-function", "rejects-thin"),
+    ("top-left", "edge-function", "bottom-right-rule"),
+    ("fans", "scanline", "exclusive-edges"),
+    ("values", "scanline", "swapped-weights"),
+    ("perspective", "edge-function", "affine-attributes"),
+    ("depth", "scanline", "perspective-depth"),
+    ("clipping", "edge-function", "wraps-in-i32"),
+    ("samples", "scanline", "bottom-right-rule"),
+];
+
+#[test]
+fn course_judges_every_step() {
+    let folder = folder("steps");
+    let mut progress = None;
+    for ((name, right, planted), step) in JUDGED.iter().zip(&STEPS) {
+        assert_eq!(*name, step.name);
+        let words = ["check", name, "--cases", "64", "--", PROGRAM, "engine"];
+        let (out, _) = run(&folder, &[&words[..], &[planted]].concat(), 1);
+        assert!(out.contains("NOT YET, wrong in ") && out.contains("smallest found: "), "{out}");
+        assert!(out.contains("hint 1: ") && !out.contains("hint 2: "), "{out}");
+        assert!(out.contains("request: ") && out.contains(step.page), "{out}");
+        let has_picture = out.contains("yours") && out.contains("expected");
+        assert!(has_picture || *name == "samples", "{out}");
+        let (out, errors) = run(&folder, &[&words[..], &[right]].concat(), 0);
+        assert!(out.contains(": PASSED, ") && errors.is_empty(), "{out}{errors}");
+        progress = Progress::read(&folder).unwrap();
+    }
+    let progress = progress.unwrap();
+    assert_eq!(progress.passed.len(), STEPS.len());
+    assert_eq!(progress.run, [PROGRAM, "engine", "scanline"]);
+    // What was passed is passed no longer when it fails.
+    let words = ["check", "1", "--", PROGRAM, "engine", "line-misses-end"];
+    run(&folder, &words, 1);
+    assert_eq!(Progress::read(&folder).unwrap().unwrap().passed.len(), STEPS.len() - 1);
+}
+
+/// Earlier steps forgive what later ones are about, and nothing else.
+#[test]
+fn course_steps_forgive_what_comes_later() {
+    let folder = folder("forgives");
+    for (step, engine, status) in [
+        ("dda", "line-directed-ties", 0),
+        ("bresenham", "line-directed-ties", 1),
+        ("scanline", "inclusive-edges", 0),
+        ("scanline", "exclusive-edges", 0),
+        ("edge-function", "inclusive-edges", 0),
+        ("edge-function", "culls-one-winding", 1),
+        ("top-left", "inclusive-edges", 1),
+        ("fans", "bottom-right-rule", 0),
+        ("values", "affine-attributes", 0),
+        ("perspective", "perspective-depth", 0),
+        ("depth", "affine-attributes", 0),
+        // What a step is about that a program has not got is no pass.
+        ("pixel", "scanline", 1),
+        ("samples", "dda", 1),
+    ] {
+        run(&folder, &["check", step, "--", PROGRAM, "engine", engine], status);
+    }
+}
+
+/// Each failure shows one hint more; the command is remembered, and comments may be edited in.
+#[test]
+fn course_keeps_progress() {
+    let folder = folder("progress");
+    let words = ["check", "--", PROGRAM, "engine", "line-misses-end"];
+    assert!(!run(&folder, &words, 1).0.contains("hint 2"));
+    let (out, _) = run(&folder, &["check"], 1);
+    assert!(out.contains("hint 2") && !out.contains("hint 3"), "{out}");
+    assert!(run(&folder, &["check"], 1).0.contains("hint 3"));
+    let path = folder.join("course.toml");
+    let text = fs::read_to_string(&path).unwrap();
+    assert!(text.starts_with("# Progress of ") && text.contains("failures = 3"), "{text}");
+    fs::write(&path, text.replace("line-misses-end", "dda") + "# mine\n").unwrap();
+    let (out, _) = run(&folder, &["check"], 0);
+    assert!(out.contains("next: step 2, DDA (docs/ch02.md)"), "{out}");
+    let progress = Progress::read(&folder).unwrap().unwrap();
+    assert_eq!((progress.step.as_str(), progress.failures), ("dda", 0));
+    let (out, _) = run(&folder, &[], 0);
+    assert!(out.contains("+  1 pixel") && out.contains(">  2 dda"), "{out}");
+    let (out, _) =
+        run(&folder, &["check", "pixel", "--hint", "--", PROGRAM, "engine", "oracle"], 1);
+    assert!(out.contains("hint 2") && !out.contains("hint 3"), "{out}");
+}
+
+#[test]
+fn course_refuses_what_it_cannot_use() {
+    let folder = folder("refuses");
+    let (_, errors) = run(&folder, &["check"], 2);
+    assert!(errors.contains("course.toml is not there") && errors.contains("course start"));
+    let (_, errors) = run(&folder, &["check", "--", "no-such-interpreter", "x.py"], 2);
+    assert!(errors.contains("no-such-interpreter is not installed"), "{errors}");
+    let (_, errors) = run(&folder, &["check", "--", "./starter"], 2);
+    assert!(errors.contains("./starter is not in "), "{errors}");
+    let (_, errors) = run(&folder, &["check", "thirteen", "--", PROGRAM], 2);
+    assert!(errors.contains("no step is called 'thirteen'"), "{errors}");
+    let (_, errors) = run(&folder, &["check", "--", PROGRAM, "list"], 2);
+    assert!(errors.contains("never says HELLO"), "{errors}");
+    assert!(!folder.join("course.toml").exists(), "what could not be judged is not noted");
+    fs::write(folder.join("course.toml"), "run = [\"x\"]\nstep = dda\n").unwrap();
+    let (_, errors) = run(&folder, &["check"], 2);
+    assert!(errors.contains("course.toml: ") && errors.contains("line 2"), "{errors}");
+    assert!(errors.contains("mend it"), "{errors}");
+    let broken = "build = [\"sh\", \"-c\", \"echo starter:3: oh no >&2; exit 1\"]\nrun = [\"x\"]\nstep = \"dda\"\n";
+    fs::write(folder.join("course.toml"), broken).unwrap();
+    let (_, errors) = run(&folder, &["check"], 2);
+    assert!(
+        errors.contains("the build fails") && errors.contains("| starter:3: oh no"),
+        "{errors}"
+    );
+    run(&folder, &["grade"], 2);
+    run(&folder, &["grade", "--folder", "."], 2);
+    run(&folder, &["grade", "--folder", ".", "--format", "gradescope"], 2);
+}
+
+fn has(program: &str) -> bool {
+    Command::new(program).arg("--version").output().is_ok()
+}
+
+/// What a student is given says HELLO, draws nothing, and is not written over.
+#[test]
+fn course_starters_start() {
+    for (language, tool, source) in [
+        ("python", "python3", "starter.py"),
+        ("rust", "rustc", "starter.rs"),
+        ("cpp", "c++", "starter.cpp"),
+    ] {
+        if !has(tool) {
+            continue;
+        }
+        let folder = folder(language);
+        run(&folder, &["start", "--language", language, "mine"], 0);
+        let (out, _) = run(&folder, &["check", "--dir", "mine"], 1);
+        assert!(out.contains("1 missing"), "{language}: {out}");
+        for step in &STEPS {
+            // Nothing is refused: every verb is there, and empty.
+            let (out, _) = run(&folder, &["check", step.name, "--dir", "mine", "--cases", "20"], 1);
+            assert!(out.contains("missing") || out.contains("holes"), "{language}: {out}");
+            assert!(!out.contains("refused"), "{language}: {out}");
+        }
+        fs::write(folder.join("mine").join(source), "my work").unwrap();
+        let (out, _) = run(&folder, &["start", "--language", language, "mine"], 0);
+        assert!(out.contains("kept:    mine/course.toml"), "{out}");
+        assert_eq!(fs::read_to_string(folder.join("mine").join(source)).unwrap(), "my work");
+    }
+}
+
+/// A student's own answer to the steps 1, 8 to 10, in Python, is right.
+#[test]
+fn course_passes_a_students_code() {
+    if !has("python3") {
+        return;
+    }
+    let folder = folder("student");
+    run(&folder, &["start", "--language", "python"], 0);
+    let path = folder.join("starter.py");
+    let code = r#"
+def edge(a, b, x, y):
+    return (b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0])
+
+
+def inside(a, b, e):
+    return e > 0 or e == 0 and (b[1] < a[1] or b[1] == a[1] and b[0] > a[0])
+
+
+def weights(p, x, y):
+    """Of each corner; nothing where the point is not drawn."""
+    area = edge(p[0], p[1], p[2][0], p[2][1])
+    p = p if area > 0 else [p[0], p[2], p[1]]
+    e = [edge(p[i - 2], p[i - 1], x, y) for i in range(3)]
+    if area == 0 or not all(inside(p[i - 2], p[i - 1], e[i]) for i in range(3)):
+        return None
+    l = [value / abs(area) for value in e]
+    return l if area > 0 else [l[0], l[2], l[1]]
+
+
+def box(p, width, height):
+    for y in range(max(0, math.floor(min(c[1] for c in p))), min(height, math.ceil(max(c[1] for c in p)))):
+        for x in range(max(0, math.floor(min(c[0] for c in p))), min(width, math.ceil(max(c[0] for c in p)))):
+            yield x, y
+
+
+def line(x0, y0, x1, y1, width, height, set_pixel):
+    n = max(abs(x1 - x0), abs(y1 - y0))
+    for i in range(n + 1 if n < 10000 else 0):
+        set_pixel((2 * n * x0 + 2 * (x1 - x0) * i + n) // max(2 * n, 1) if n else x0,
+                  (2 * n * y0 + 2 * (y1 - y0) * i + n) // max(2 * n, 1) if n else y0)
+
+
+def triangle(x0, y0, x1, y1, x2, y2, width, height, set_pixel):
+    p = [(x0, y0), (x1, y1), (x2, y2)]
+    for x, y in box(p, width, height):
+        if weights(p, x + 0.5, y + 0.5):
+            set_pixel(x, y)
+
+
+def values(corners, width, height, set_pixel):
+    for x, y in box(corners, width, height):
+        l = weights(corners, x + 0.5, y + 0.5)
+        if l:
+            q = [l[i] / corners[i][3] for i in range(3)]
+            mean = lambda w, n: sum(w[i] * corners[i][n] for i in range(3)) / sum(w)
+            set_pixel(x, y, mean(l, 2), mean(q, 4), mean(q, 5))
+
+
+def samples(x0, y0, x1, y1, x2, y2, width, height, set_pixel):
+    p = [(x0, y0), (x1, y1), (x2, y2)]
+    for x, y in box(p, width, height):
+        at = [(6, 2), (14, 6), (2, 10), (10, 14)]
+        mask = sum(1 << s for s, (u, v) in enumerate(at) if weights(p, x + u / 16, y + v / 16))
+        set_pixel(x, y, mask)
+
+
+# ---- the line protocol"#;
+    let starter = fs::read_to_string(&path).unwrap();
+    fs::write(&path, starter.replace("# ---- the line protocol", code)).unwrap();
+    for step in &STEPS {
+        // Ties of lines that go the other way round, and lines as long as the world, it has not got.
+        // Corners at the end of the domain need more digits than a double has.
+        let knows = !["bresenham", "clipping"].contains(&step.name);
+        let (out, _) = run(&folder, &["check", step.name, "--cases", "40"], i32::from(!knows));
+        assert!(knows || out.contains("hint 1"), "{out}");
+    }
+    let (out, _) =
+        run(&folder, &["grade", "--cases", "20", "--", "python3", "-B", "starter.py"], 1);
+    assert!(out.ends_with("10 of 12 points\n") || out.ends_with("11 of 12 points\n"), "{out}");
+}
+
+/// Points as Gradescope reads them, and a table of a folder; a submission that is broken, hangs or is
+/// hungry gets no point and stops nobody.
+#[test]
+fn course_grades() {
+    let folder = folder("grades");
+    let words =
+        ["grade", "--format", "gradescope", "--cases", "32", "--", PROGRAM, "engine", "scanline"];
+    let results: Value = serde_json::from_str(&run(&folder, &words, 1).0).unwrap();
+    let tests = results["tests"].as_array().unwrap();
+    assert_eq!((tests.len(), &results["score"]), (12, &Value::from(9)));
+    let scores: i64 = tests.iter().map(|test| test["score"].as_i64().unwrap()).sum();
+    assert_eq!(scores, 9, "all but the three steps of lines");
+    assert!(tests.iter().all(|test| (test["status"] == "passed") == (test["score"] == 1)));
+    assert!(tests[0]["output"].as_str().unwrap().contains("refused (unsupported)"));
+
+    let submit = |name: &str, run: &[&str]| {
+        fs::create_dir_all(folder.join("all").join(name)).unwrap();
+        let run = run.iter().map(|word| (*word).to_owned()).collect();
+        let path = folder.join("all").join(name).join("course.toml");
+        fs::write(path, Progress::new(Vec::new(), run).text()).unwrap();
+    };
+    submit("ada", &[PROGRAM, "engine", "bresenham"]);
+    submit("bob", &[PROGRAM, "engine", "inclusive-edges"]);
+    submit("eve", &["sh", "-c", "sleep 600"]);
+    submit("gus", &["no-such-interpreter"]);
+    fs::create_dir_all(folder.join("all/zoe")).unwrap();
+    let words = ["grade", "--folder", "all", "--cases", "32", "--seconds", "30"];
+    let grade = |more: &[&str]| run(&folder, &[&words[..], more].concat(), 1).0;
+    let json: Value = serde_json::from_str(&grade(&["--format", "json"])).unwrap();
+    let of = |name: &str| {
+        let all = json["submissions"].as_array().unwrap();
+        all.iter().find(|s| s["name"] == name).unwrap().clone()
+    };
+    assert_eq!(of("ada")["points"], 3);
+    assert!(of("bob")["points"].as_i64().unwrap() >= 4);
+    for (name, why) in
+        [("eve", "never says HELLO"), ("gus", "not installed"), ("zoe", "it has no course.toml")]
+    {
+        assert_eq!(of(name)["points"], 0);
+        assert!(of(name)["error"].as_str().unwrap().contains(why), "{:?}", of(name));
+    }
+    let template = format!("{PROGRAM} engine dda");
+    let (out, _) = run(&folder, &["grade", "--folder", "all", "--run", &template], 1);
+    assert_eq!(out.lines().filter(|line| line.ends_with("  3")).count(), 5, "{out}");
+    assert!(out.contains("passed by "), "{out}");
+}
+
+/// Bounds of memory and time are real: without them these programs answer, with them they do not.
+#[cfg(target_os = "linux")]
+#[test]
+fn course_bounds_what_it_grades() {
+    let folder = folder("bounds");
+    if !has("python3") {
+        return;
+    }
+    let hungry =
+        "hold = bytearray(512 << 20)\nimport os, sys\nos.execvp(sys.argv[1], sys.argv[1:])\n";
+    fs::write(folder.join("hungry.py"), hungry).unwrap();
+    let command = ["--", "python3", "hungry.py", PROGRAM, "engine", "dda"];
+    let words = ["grade", "--cases", "8", "--memory"];
+    let (out, _) = run(&folder, &[&words[..], &["0"], &command].concat(), 1);
+    assert!(out.ends_with("3 of 12 points\n"), "{out}");
+    let (out, _) = run(&folder, &[&words[..], &["256"], &command].concat(), 2);
+    assert!(out.contains("cannot be judged: "), "{out}");
+    // One that never ends is ended with its time.
+    let busy = ["grade", "--seconds", "1", "--", "python3", "-c", "while True: pass"];
+    run(&folder, &busy, 2);
+}
