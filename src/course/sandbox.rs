@@ -100,8 +100,8 @@ pub fn start(
     check_command(folder, run)?;
     Program::start(&command(folder, run, bounds), &[], limits).map_err(|misbehaviour| {
         format!(
-            "the program {} {misbehaviour}\n  a program answers the line 'HELLO 2' with \
-             'HELLO 2 name coverage' and flushes it; see docs/protocol.md",
+            "the program {} {misbehaviour}\n  a program answers 'HELLO 2' with \
+             'HELLO 2 name coverage' and flushes it: docs/protocol.md",
             printable(run.join(" ").as_bytes(), 80)
         )
     })

@@ -25,7 +25,11 @@ fn run(folder: &Path, words: &[&str], status: i32) -> (String, String) {
     let (out, errors) =
         (String::from_utf8(output.stdout).unwrap(), String::from_utf8(output.stderr).unwrap());
     assert_eq!(output.status.code(), Some(status), "{words:?}\n{out}\n{errors}");
-    assert!(out.lines().all(|line| line.chars().count() <= 100), "{out}");
+    // Results for machines have long lines, and the program's own path is as long as it is.
+    let shown =
+        if out.starts_with('{') { String::new() } else { out.replace(PROGRAM, "rasterproof") };
+    let mut lines = shown.lines().filter(|line| !line.contains("cannot be judged"));
+    assert!(lines.all(|line| line.chars().count() <= 100), "{out}");
     (out, errors)
 }
 
@@ -115,7 +119,7 @@ fn course_keeps_progress() {
     let (out, _) = run(&folder, &[], 0);
     assert!(out.contains("+  1 pixel") && out.contains(">  2 dda"), "{out}");
     let (out, _) =
-        run(&folder, &["check", "pixel", "--hint", "--", PROGRAM, "engine", "oracle"], 1);
+        run(&folder, &["check", "pixel", "--hint", "--", PROGRAM, "engine", "line-misses-end"], 1);
     assert!(out.contains("hint 2") && !out.contains("hint 3"), "{out}");
 }
 
@@ -252,14 +256,13 @@ def samples(x0, y0, x1, y1, x2, y2, width, height, set_pixel):
     fs::write(&path, starter.replace("# ---- the line protocol", code)).unwrap();
     for step in &STEPS {
         // Ties of lines that go the other way round, and lines as long as the world, it has not got.
-        // Corners at the end of the domain need more digits than a double has.
-        let knows = !["bresenham", "clipping"].contains(&step.name);
+        let knows = step.name != "bresenham";
         let (out, _) = run(&folder, &["check", step.name, "--cases", "40"], i32::from(!knows));
         assert!(knows || out.contains("hint 1"), "{out}");
     }
     let (out, _) =
         run(&folder, &["grade", "--cases", "20", "--", "python3", "-B", "starter.py"], 1);
-    assert!(out.ends_with("10 of 12 points\n") || out.ends_with("11 of 12 points\n"), "{out}");
+    assert!(out.ends_with("11 of 12 points\n"), "{out}");
 }
 
 /// Points as Gradescope reads them, and a table of a folder; a submission that is broken, hangs or is
@@ -296,7 +299,9 @@ fn course_grades() {
         all.iter().find(|s| s["name"] == name).unwrap().clone()
     };
     assert_eq!(of("ada")["points"], 3);
-    assert!(of("bob")["points"].as_i64().unwrap() >= 4);
+    // Two steps leave samples on an edge free.
+    let bob = of("bob")["points"].as_i64().unwrap();
+    assert!((2..9).contains(&bob), "{bob}");
     for (name, why) in
         [("eve", "never says HELLO"), ("gus", "not installed"), ("zoe", "it has no course.toml")]
     {
