@@ -11,7 +11,7 @@
 //! - [`frame`]: pixels in rows; coverage as hit counts
 //! - [`contract`]: the traits that a rasterizer or a line drawer implements
 //! - [`raster`]: [`raster::scanline`] and [`raster::edge_function`], and their exact forms
-//! - [`line`]: [`line::dda`] and [`line::bresenham`]
+//! - [`line`](mod@line): [`line::dda`] and [`line::bresenham`]
 //! - [`oracle`]: the truth, by mathematics that no engine uses
 //! - [`hazard`]: families of hard cases, and cases with names
 //! - [`verify`]: judges an engine and finds the smallest case that fails

@@ -29,7 +29,7 @@ pub struct Identity {
     pub plan: Plan,
     /// Version of this crate.
     pub version: String,
-    /// SHA-256 of each piece of code the result depends on, see [`code_of`].
+    /// SHA-256 of each piece of code the result depends on, see [`super::certificate::code_of`].
     pub sources: BTreeMap<String, String>,
 }
 

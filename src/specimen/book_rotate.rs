@@ -5,7 +5,7 @@
 //!
 //! Symptom: R_z turns x towards y, yet R_x turns z towards y and R_y x towards z, so the three belong
 //! to no one convention, whichever hand the axes have. The companion code's RotateX writes the cosine
-//! and then the sine into [1][1] and leaves [1][2] at 0: a turn by nothing flattens what it turns.
+//! and then the sine into `[1][1]` and leaves `[1][2]` at 0: a turn by nothing flattens what it turns.
 //! Cure: one cycle, x towards y, y towards z, z towards x. Exposed by squares turned by 30 degrees
 //! about x and y; harmless about z.
 
