@@ -48,49 +48,26 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
-pub mod contract;
-pub mod frame;
-pub mod grid;
-pub mod hazard;
-pub mod line;
-pub mod oracle;
-pub mod raster;
-pub mod triangle;
-pub mod verify;
+#[doc(inline)]
+pub use rasterproof_engines::{contract, frame, grid, hazard, line, oracle, raster, triangle};
+#[doc(inline)]
+pub use rasterproof_judges::verify;
 
 // Not promised: for the program, its tests and the samples under docs/.
 #[doc(hidden)]
 pub mod cli;
 #[doc(hidden)]
-pub mod convention;
-#[doc(hidden)]
-pub mod cost;
-#[doc(hidden)]
 pub mod course;
-#[doc(hidden)]
-pub mod effects;
-#[doc(hidden)]
-pub mod exhaust;
-#[doc(hidden)]
-pub mod invariant;
-#[doc(hidden)]
-pub mod judge;
-#[doc(hidden)]
-pub mod ladder;
-#[doc(hidden)]
-pub mod lineup;
-#[doc(hidden)]
-pub mod mutant;
-#[doc(hidden)]
-pub mod pipeline;
 #[doc(hidden)]
 pub mod quiz;
 #[doc(hidden)]
 pub mod report;
 #[doc(hidden)]
-pub mod scene;
+pub use rasterproof_engines::{
+    effects, exhaust, ladder, lineup, mutant, pipeline, scene, specimen,
+};
 #[doc(hidden)]
-pub mod specimen;
+pub use rasterproof_judges::{convention, cost, invariant, judge};
 
 /// The samples in the pages under `docs/` are tests.
 #[cfg(doctest)]

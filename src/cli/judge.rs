@@ -9,10 +9,10 @@ use super::{Failure, PAGE, Streams, exit, league, usage, write_file, write_page}
 use crate::hazard;
 use crate::judge::ask::{Ask, Misbehaviour};
 use crate::judge::baseline::Baseline;
-use crate::judge::formats::{self, Format};
 use crate::judge::process::{Limits, Program};
 use crate::judge::recognise::{Scope, recognise};
 use crate::judge::{self, Options, group, place};
+use crate::report::formats::{self, Format};
 use crate::report::judged;
 
 pub const HELP: &str = "The program reads requests on its standard input and answers on its standard output, a line each; see

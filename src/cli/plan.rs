@@ -29,14 +29,29 @@ The pictures have the same bits, or the exit status is 1. --json holds the plan 
 can be edited and drawn: rasterproof render SCENE --plan FILE.";
 
 /// Arguments of `plan`.
+#[derive(clap::ValueEnum, Clone, Copy, Debug)]
+enum Rasterizer {
+    Scanline,
+    EdgeFunction,
+}
+
+impl From<Rasterizer> for Drawer {
+    fn from(rasterizer: Rasterizer) -> Self {
+        match rasterizer {
+            Rasterizer::Scanline => Self::Scanline,
+            Rasterizer::EdgeFunction => Self::EdgeFunction,
+        }
+    }
+}
+
 #[derive(clap::Args, Debug)]
 #[command(after_help = HELP)]
 pub struct PlanArguments {
     #[command(flatten)]
     what: SceneArguments,
     /// The rasterizer
-    #[arg(long, value_enum, default_value_t = Drawer::Scanline)]
-    engine: Drawer,
+    #[arg(long, value_enum, default_value_t = Rasterizer::Scanline)]
+    engine: Rasterizer,
     /// Rounds of measuring, each with every mixture of effects in turn
     #[arg(long, default_value_t = 9, value_parser = clap::value_parser!(u32).range(1..=1000))]
     rounds: u32,
@@ -181,8 +196,7 @@ fn measure(
             let i = if round == 0 { k } else { (k + round as usize) % mixtures.len() };
             let effects = &mixtures[i].1;
             let start = Instant::now();
-            let rendered = arguments
-                .engine
+            let rendered = Drawer::from(arguments.engine)
                 .render(scene, effects, &mut target)
                 .map_err(|error| usage(error.to_string()))?;
             let time = start.elapsed();
@@ -291,7 +305,7 @@ fn report_page(
     savings: &Savings,
     same: bool,
 ) -> Report {
-    let (words, engine) = (arguments.what.words(), arguments.engine.name());
+    let (words, engine) = (arguments.what.words(), Drawer::from(arguments.engine).name());
     let command = format!("rasterproof plan {words} --engine {engine} --report");
     let column =
         |label: &str, is_number| Column { label: label.to_owned(), is_number, ..Column::default() };

@@ -7,6 +7,7 @@ pub mod chart;
 pub mod counts;
 pub mod diagram;
 pub mod exact;
+pub mod formats;
 pub mod frames;
 pub mod html;
 pub mod json;

@@ -103,3 +103,40 @@ pub trait DrawLine {
         emit: impl FnMut(Fragment<V>),
     );
 }
+
+impl<R: Rasterize> Rasterize for &R {
+    fn cover(&self, corners: Corners, bounds: PixelRect, emit: impl FnMut(Span)) {
+        (**self).cover(corners, bounds, emit);
+    }
+}
+
+impl<R: Interpolate> Interpolate for &R {
+    fn fragments<V: Varying>(
+        &self,
+        triangle: &ScreenTriangle<V>,
+        bounds: PixelRect,
+        emit: impl FnMut(Fragment<V>),
+    ) {
+        (**self).fragments(triangle, bounds, emit);
+    }
+
+    fn affine_fragments<V: Varying>(
+        &self,
+        triangle: &ScreenTriangle<V>,
+        bounds: PixelRect,
+        emit: impl FnMut(Fragment<V>),
+    ) {
+        (**self).affine_fragments(triangle, bounds, emit);
+    }
+}
+
+impl<D: DrawLine> DrawLine for &D {
+    fn draw<V: Varying>(
+        &self,
+        line: &ScreenLine<V>,
+        bounds: PixelRect,
+        emit: impl FnMut(Fragment<V>),
+    ) {
+        (**self).draw(line, bounds, emit);
+    }
+}

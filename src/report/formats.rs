@@ -8,7 +8,7 @@ use std::fmt::Write as _;
 
 use serde_json::{Value, json};
 
-use super::verdict::{Outcome, Property, Verdict};
+use crate::judge::verdict::{Outcome, Property, Verdict};
 use crate::verify::shrink;
 
 /// What to print.

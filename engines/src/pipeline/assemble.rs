@@ -47,7 +47,7 @@ impl Cull {
 }
 
 /// Twice the area in square subpixels; y points down, so clockwise as seen is positive.
-pub(crate) fn twice_area([a, b, c]: Corners) -> i128 {
+pub fn twice_area([a, b, c]: Corners) -> i128 {
     let product = |x: i32, x0: i32, y: i32, y0: i32| {
         (i128::from(x) - i128::from(x0)) * (i128::from(y) - i128::from(y0))
     };

@@ -271,24 +271,22 @@ impl Subject {
     }
 }
 
-impl Mutant {
-    /// The part of a subject that it replaces.
-    #[must_use]
-    pub fn part(&self) -> Part {
-        match self {
-            Self::Triangle(_) => Part::Engine,
-            Self::Line(_) => Part::Drawer,
-            Self::Oracle(_) => Part::Oracle,
-            Self::Snap(_) => Part::Snap,
-            Self::EdgeValues(_) => Part::EdgeValues,
-            Self::WordWidth(_) => Part::WordWidth,
-            Self::Source(_) => Part::Source,
-            Self::Stage(fault) => match fault {
-                StageMutant::CullSwapped | StageMutant::CullByFloatArea => Part::Cull,
-                StageMutant::EffectsIgnored | StageMutant::ClearsAlways => Part::Render,
-                _ => Part::Clip,
-            },
-            Self::Judge(_) => Part::Judge,
-        }
+/// The part of a subject that a mutant replaces.
+#[must_use]
+pub fn part_of(mutant: &Mutant) -> Part {
+    match mutant {
+        Mutant::Triangle(_) => Part::Engine,
+        Mutant::Line(_) => Part::Drawer,
+        Mutant::Oracle(_) => Part::Oracle,
+        Mutant::Snap(_) => Part::Snap,
+        Mutant::EdgeValues(_) => Part::EdgeValues,
+        Mutant::WordWidth(_) => Part::WordWidth,
+        Mutant::Source(_) => Part::Source,
+        Mutant::Stage(fault) => match fault {
+            StageMutant::CullSwapped | StageMutant::CullByFloatArea => Part::Cull,
+            StageMutant::EffectsIgnored | StageMutant::ClearsAlways => Part::Render,
+            _ => Part::Clip,
+        },
+        Mutant::Judge(_) => Part::Judge,
     }
 }

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 
 use rayon::prelude::*;
 
-use super::subject::Subject;
+use super::subject::{Subject, part_of};
 use super::{CATALOGUE, Check, Invariant};
 use crate::mutant::Mutant;
 
@@ -37,7 +37,7 @@ impl Matrix {
             .par_iter()
             .map(|&mutant| {
                 let kills = |invariant: &Invariant| {
-                    invariant.parts.contains(&mutant.part())
+                    invariant.parts.contains(&part_of(&mutant))
                         && !matches!(invariant.check, Check::Matrix)
                         && invariant.kills(&Subject::with(mutant), seed, cases)
                 };

@@ -261,34 +261,6 @@ impl<R: Rasterize> Interpolate for CoverageOnly<'_, R> {
     }
 }
 
-impl<R: Rasterize> Rasterize for &R {
-    fn cover(&self, corners: Corners, bounds: PixelRect, emit: impl FnMut(Span)) {
-        (**self).cover(corners, bounds, emit);
-    }
-}
-
-impl<R: Interpolate> Interpolate for &R {
-    fn fragments<V: Varying>(
-        &self,
-        triangle: &ScreenTriangle<V>,
-        bounds: PixelRect,
-        emit: impl FnMut(Fragment<V>),
-    ) {
-        (**self).fragments(triangle, bounds, emit);
-    }
-}
-
-impl<D: DrawLine> DrawLine for &D {
-    fn draw<V: Varying>(
-        &self,
-        line: &crate::triangle::ScreenLine<V>,
-        bounds: PixelRect,
-        emit: impl FnMut(Fragment<V>),
-    ) {
-        (**self).draw(line, bounds, emit);
-    }
-}
-
 /// Rasterizers, with the bounds of their values where they have any.
 pub struct TriangleContest<'a, R> {
     engines: &'a [(&'a str, R, Option<Tolerance>)],

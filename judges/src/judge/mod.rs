@@ -5,14 +5,13 @@
 //! engine of the line-up without one. [`declared`] is what a program says of itself, [`place`] puts
 //! the cases where it says it draws, [`expected`] knows the exact picture, [`check`] finds what is
 //! wrong with a case, [`run`] asks them all, [`recognise`] finds the convention that is followed, and [`verdict`] says what came of it, property by
-//! property; [`baseline`] knows failures that are known, [`formats`] writes for build servers.
+//! property; [`baseline`] knows failures that are known.
 
 pub mod ask;
 pub mod baseline;
 pub mod check;
 pub mod declared;
 pub mod expected;
-pub mod formats;
 pub mod group;
 pub mod inside;
 pub mod league;

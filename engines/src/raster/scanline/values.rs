@@ -272,3 +272,4 @@ mod tests {
         Edge::new(&end(512), &end(1024)).at(1);
     }
 }
+// x

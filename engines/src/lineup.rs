@@ -173,7 +173,7 @@ impl LineEngine {
 ///
 /// Each of the two is a call of its own, so that kernels are compiled for these two and not for
 /// every planted fault.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Drawer {
     /// The scanline engine and the DDA.
     Scanline,

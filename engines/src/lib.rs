@@ -1,0 +1,23 @@
+//! The engines of [rasterproof](https://docs.rs/rasterproof), the oracle they are held to, and what
+//! is drawn with them: the floors 0 to 8 of the house, see `docs/ARCHITECTURE.md`.
+//!
+//! Users take them from the crate `rasterproof`, which shows these rooms under its own name.
+#![forbid(unsafe_code)]
+#![warn(missing_docs)]
+
+pub mod contract;
+pub mod effects;
+pub mod exhaust;
+pub mod frame;
+pub mod grid;
+pub mod hazard;
+pub mod ladder;
+pub mod line;
+pub mod lineup;
+pub mod mutant;
+pub mod oracle;
+pub mod pipeline;
+pub mod raster;
+pub mod scene;
+pub mod specimen;
+pub mod triangle;

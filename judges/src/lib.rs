@@ -1,0 +1,17 @@
+//! Those who judge the engines of rasterproof, and anybody else's: see `docs/ARCHITECTURE.md`.
+//!
+//! Users take them from the crate `rasterproof`, which shows these rooms under its own name.
+#![forbid(unsafe_code)]
+#![warn(missing_docs)]
+
+pub mod convention;
+pub mod cost;
+pub mod invariant;
+pub mod judge;
+pub mod verify;
+
+// The floors below, under the paths that every room calls them by.
+use rasterproof_engines::{
+    contract, effects, frame, grid, hazard, ladder, line, lineup, mutant, oracle, pipeline, raster,
+    scene, specimen, triangle,
+};
