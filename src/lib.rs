@@ -51,7 +51,7 @@
 #[doc(inline)]
 pub use rasterproof_engines::{contract, frame, grid, hazard, line, oracle, raster, triangle};
 #[doc(inline)]
-pub use rasterproof_judges::verify;
+pub use rasterproof_measures::verify;
 
 // Not promised: for the program, its tests and the samples under docs/.
 #[doc(hidden)]
@@ -61,13 +61,13 @@ pub mod course;
 #[doc(hidden)]
 pub mod quiz;
 #[doc(hidden)]
-pub mod report;
-#[doc(hidden)]
 pub use rasterproof_engines::{
     effects, exhaust, ladder, lineup, mutant, pipeline, scene, specimen,
 };
 #[doc(hidden)]
-pub use rasterproof_judges::{convention, cost, invariant, judge};
+pub use rasterproof_judges::{convention, invariant, judge, report};
+#[doc(hidden)]
+pub use rasterproof_measures::cost;
 
 /// The samples in the pages under `docs/` are tests.
 #[cfg(doctest)]

@@ -5,13 +5,13 @@
 #![warn(missing_docs)]
 
 pub mod convention;
-pub mod cost;
 pub mod invariant;
 pub mod judge;
-pub mod verify;
+pub mod report;
 
 // The floors below, under the paths that every room calls them by.
 use rasterproof_engines::{
-    contract, effects, frame, grid, hazard, ladder, line, lineup, mutant, oracle, pipeline, raster,
-    scene, specimen, triangle,
+    contract, effects, frame, grid, hazard, line, lineup, mutant, oracle, pipeline, raster, scene,
+    specimen, triangle,
 };
+use rasterproof_measures::{cost, verify};

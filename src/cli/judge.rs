@@ -3,6 +3,7 @@
 use std::path::Path;
 use std::time::Duration;
 
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::{Failure, PAGE, Streams, exit, league, usage, write_file, write_page};
@@ -59,7 +60,7 @@ pub struct JudgeArguments {
     #[arg(long, value_name = "WORDS")]
     declare: Vec<String>,
     /// What to print
-    #[arg(long, value_name = "FORMAT", value_enum, default_value_t = Format::Text)]
+    #[arg(long, value_parser = format_words(), default_value = "text")]
     format: Format,
     /// The same as --format json
     #[arg(long, conflicts_with = "format")]
@@ -79,6 +80,14 @@ pub struct JudgeArguments {
     /// The program and its arguments, after --
     #[arg(last = true, required_unless_present = "league", value_name = "CMD")]
     command: Vec<String>,
+}
+
+/// The formats by their names.
+fn format_words() -> impl TypedValueParser<Value = Format> {
+    let words = Format::ALL.map(|(word, _, help)| PossibleValue::new(word).help(help));
+    PossibleValuesParser::new(words).map(|chosen| {
+        Format::ALL.iter().find(|(word, ..)| *word == chosen).map_or(Format::Text, |named| named.1)
+    })
 }
 
 fn families() -> Vec<&'static str> {

@@ -12,7 +12,7 @@ use crate::judge::verdict::{Outcome, Property, Verdict};
 use crate::verify::shrink;
 
 /// What to print.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
     /// For people.
     Text,
@@ -26,6 +26,22 @@ pub enum Format {
     Gradescope,
     /// The result of an autograding step of GitHub Classroom.
     GithubClassroom,
+}
+
+impl Format {
+    /// All, with the words of the command line and what they are for.
+    pub const ALL: [(&'static str, Self, &'static str); 6] = [
+        ("text", Self::Text, "For people"),
+        ("json", Self::Json, "Everything that was found"),
+        ("junit", Self::Junit, "JUnit XML, for build servers"),
+        ("tap", Self::Tap, "Test Anything Protocol, version 14"),
+        ("gradescope", Self::Gradescope, "Gradescope's results.json"),
+        (
+            "github-classroom",
+            Self::GithubClassroom,
+            "The result of an autograding step of GitHub Classroom",
+        ),
+    ];
 }
 
 /// The verdict in a format other than text; `repeat` gives the command that repeats a case.

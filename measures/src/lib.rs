@@ -1,0 +1,13 @@
+//! What the engines of rasterproof get wrong and what they cost: see `docs/ARCHITECTURE.md`.
+//!
+//! Users take them from the crate `rasterproof`, which shows these rooms under its own name.
+#![forbid(unsafe_code)]
+#![warn(missing_docs)]
+
+pub mod cost;
+pub mod verify;
+
+// The floors below, under the paths that every room calls them by.
+use rasterproof_engines::{
+    contract, frame, grid, hazard, ladder, line, lineup, oracle, raster, specimen, triangle,
+};
