@@ -1,12 +1,12 @@
-(** What it means for a sample to belong to a triangle, as src/oracle/coverage.rs says and as
-    src/raster/edge_function.rs says, and that the two are one. *)
+(** What it means for a sample to belong to a triangle, as engines/src/oracle/coverage.rs says and as
+    engines/src/raster/edge_function.rs says, and that the two are one. *)
 From Coq Require Import ZArith Lia Bool.
 Open Scope Z_scope.
 
 (** A position in subpixels, y down. *)
 Record point := Pt { X : Z; Y : Z }.
 
-(** ** The specification: parity of crossings to the left of the nudged sample (src/oracle). *)
+(** ** The specification: parity of crossings to the left of the nudged sample (engines/src/oracle). *)
 
 (** An end point lies above the nudged sample (x + eps, y + eps^2). *)
 Definition above (p : point) (y : Z) : bool := Y p <=? y.
@@ -25,7 +25,7 @@ Definition crosses (a b : point) (x y : Z) : bool :=
 Definition inside (a b c : point) (x y : Z) : bool :=
   xorb (crosses a b x y) (xorb (crosses b c x y) (crosses c a x y)).
 
-(** ** The edge function with its top-left bias (src/raster/edge_function.rs). *)
+(** ** The edge function with its top-left bias (engines/src/raster/edge_function.rs). *)
 
 Definition E (a b : point) (x y : Z) : Z :=
   (X b - X a) * (y - Y a) - (Y b - Y a) * (x - X a).

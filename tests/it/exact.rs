@@ -279,9 +279,9 @@ fn independence_of_orient2d() {
     let uses = |source: &str| {
         source.lines().any(|l| !l.trim_start().starts_with("//") && l.contains("orient2d"))
     };
-    assert!(uses(include_str!("../../src/raster/edge_function_exact.rs")));
-    assert!(!uses(include_str!("../../src/raster/scanline_exact.rs")));
-    assert!(!uses(include_str!("../../src/oracle/rational.rs")));
+    assert!(uses(include_str!("../../engines/src/raster/edge_function_exact.rs")));
+    assert!(!uses(include_str!("../../engines/src/raster/scanline_exact.rs")));
+    assert!(!uses(include_str!("../../engines/src/oracle/rational.rs")));
 }
 
 fn run(command: &str, input: &str) -> (u8, String, String) {

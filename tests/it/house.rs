@@ -198,15 +198,21 @@ fn without_tests(text: &str) -> String {
     text.split("#[cfg(test)]\nmod tests").next().unwrap_or("").to_owned()
 }
 
-/// Every file under `src/` but `lib.rs`, by its path there, with its text.
+/// The sources of the four crates, which are one house: a border of a crate is a floor.
+const CRATES: [&str; 4] = ["engines/src", "measures/src", "judges/src", "src"];
+
+/// Every file of the crates but `lib.rs`, by its path there, with its text.
 fn sources() -> Vec<(String, String)> {
-    let src = root().join("src");
-    let named =
-        |path: &PathBuf| path.strip_prefix(&src).unwrap().to_str().unwrap().replace('\\', "/");
-    let all = files(&src, "rs")
-        .into_iter()
-        .map(|path| (named(&path), fs::read_to_string(&path).unwrap()));
-    all.filter(|(name, _)| name != "lib.rs").collect()
+    let mut sources = Vec::new();
+    for src in CRATES.map(|folder| root().join(folder)) {
+        for path in files(&src, "rs") {
+            let name = path.strip_prefix(&src).unwrap().to_str().unwrap().replace('\\', "/");
+            if name != "lib.rs" {
+                sources.push((name, fs::read_to_string(&path).unwrap()));
+            }
+        }
+    }
+    sources
 }
 
 /// No circles, inside rooms either; says what the house looks like, past the capture of the tests.
@@ -247,14 +253,16 @@ fn house_circles_are_found() {
 #[test]
 fn house_floors_are_kept() {
     let floors = floors(&fs::read_to_string(root().join("docs/ARCHITECTURE.md")).unwrap());
-    let src = root().join("src");
     let mut wrong = Vec::new();
     for (name, text) in sources() {
         wrong.extend(breaches(&name, &text, &floors));
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
     for room in floors.keys() {
-        let exists = src.join(room).is_dir() || src.join(format!("{room}.rs")).is_file();
+        let exists = CRATES
+            .map(|folder| root().join(folder))
+            .iter()
+            .any(|src| src.join(room).is_dir() || src.join(format!("{room}.rs")).is_file());
         assert!(exists, "docs/ARCHITECTURE.md lists {room}, which does not exist");
     }
 }
@@ -361,7 +369,7 @@ fn options<'a>(text: &'a str, option: &'a str) -> impl Iterator<Item = &'a str> 
 
 /// What a page may name.
 struct Known {
-    /// Everything under `src/`, `tests/` and `benches/`, in one text.
+    /// The crates, `tests/` and `benches/`, in one text.
     code: String,
     invariants: Vec<&'static str>,
     /// Options of commands, with the names they take.
@@ -370,8 +378,8 @@ struct Known {
 
 impl Known {
     fn new() -> Self {
-        let folders = ["src", "tests", "benches"];
-        let sources = folders.iter().flat_map(|folder| files(&root().join(folder), "rs"));
+        let folders = CRATES.iter().chain(&["tests", "benches"]);
+        let sources = folders.flat_map(|folder| files(&root().join(folder), "rs"));
         let invariants: Vec<_> = CATALOGUE.iter().map(|invariant| invariant.name).collect();
         Self {
             code: sources.map(|path| fs::read_to_string(path).unwrap()).collect(),
@@ -398,9 +406,10 @@ impl Known {
             let words = options(text, option).filter(|w| *w != "NAME" && !names.contains(w));
             missing.extend(words.map(|word| format!("{name}: {option}{word}")));
         }
-        let folders = ["src/", "tests/", "docs/", "snapshots/", "benches/"];
+        let beside = ["tests/", "docs/", "snapshots/", "benches/", "adapters/"];
+        let folders: Vec<_> = CRATES.iter().chain(&beside).collect();
         let is_path =
-            |w: &&str| folders.iter().any(|f| w.starts_with(f)) && !w.contains([' ', '*']);
+            |w: &&str| folders.iter().any(|f| w.starts_with(**f)) && !w.contains([' ', '*']);
         let paths = quoted(text).filter(is_path).filter(|word| !root().join(word).exists());
         missing.extend(paths.map(|word| format!("{name}: {word}")));
         let index = rows(text).filter(|row| row.len() == 6).map(|row| row[3].to_owned());
@@ -428,7 +437,7 @@ fn house_docs_name_what_exists() {
 #[test]
 fn house_missing_names_are_found() {
     let known = Known::new();
-    let page = "`src/nowhere.rs` `src/grid.rs` --scene moon --scene cube\n\
+    let page = "`src/nowhere.rs` `engines/src/grid.rs` --scene moon --scene cube\n\
         ## The test that proves it\n- `proves_nothing`, `crop`, `snap_by_hand`\n";
     let missing = known.missing("docs/a.md", page);
     let names = ["--scene moon", "src/nowhere.rs", "test proves_nothing"];
@@ -441,7 +450,7 @@ fn house_missing_names_are_found() {
 #[test]
 fn house_specimens_credit_their_source() {
     let of_all = ["mod.rs", "catalogue.rs", "scene.rs"];
-    for path in files(&root().join("src/specimen"), "rs") {
+    for path in files(&root().join("engines/src/specimen"), "rs") {
         let name = path.file_name().unwrap().to_str().unwrap();
         let text = fs::read_to_string(&path).unwrap();
         assert!(of_all.contains(&name) || text.contains("\n//! Source: "), "{name}");

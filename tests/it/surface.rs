@@ -18,11 +18,12 @@ fn read(path: impl AsRef<Path>) -> String {
 fn shown(text: &str) -> Vec<String> {
     let mut hidden = false;
     let mut found = Vec::new();
-    for line in text.lines() {
-        if let Some(name) = line.strip_prefix("pub mod ").and_then(|rest| rest.strip_suffix(';'))
-            && !hidden
-        {
-            found.push(name.to_owned());
+    for line in on_one_line(text).lines() {
+        let modules = line.strip_prefix("pub mod ").and_then(|rest| rest.strip_suffix(';'));
+        let names = modules.or_else(|| reexported(line)).unwrap_or("");
+        if !hidden {
+            found.extend(names.split(',').map(|name| name.trim().to_owned()));
+            found.retain(|name| !name.is_empty());
         }
         // An attribute speaks of what follows the attributes and comments below it.
         let goes_on = line.starts_with("#[") || line.starts_with("//");
@@ -31,11 +32,31 @@ fn shown(text: &str) -> Vec<String> {
     found
 }
 
-/// The file of a module, `a/mod.rs` or `a.rs`.
+/// A text with what stands in braces on one line each.
+fn on_one_line(text: &str) -> String {
+    let mut is_open = false;
+    let close = |c: char| {
+        is_open = c == '{' || is_open && c != '}';
+        if is_open && c == '\n' { ' ' } else { c }
+    };
+    text.chars().map(close).collect()
+}
+
+/// The rooms of another crate that a line shows: `pub use rasterproof_engines::{a, b};`.
+fn reexported(line: &str) -> Option<&str> {
+    let (_, names) = line.strip_prefix("pub use rasterproof_")?.split_once("::")?;
+    Some(names.trim_end_matches(';').trim_start_matches('{').trim_end_matches('}').trim())
+}
+
+/// The file of a module, `a/mod.rs` or `a.rs`, in the crate that has it.
 fn file(module: &str) -> PathBuf {
-    let path = Path::new("src").join(module.replace("::", "/"));
-    let folder = path.join("mod.rs");
-    if root().join(&folder).exists() { folder } else { path.with_extension("rs") }
+    let at = |src: &str| {
+        let path = Path::new(src).join(module.replace("::", "/"));
+        [path.join("mod.rs"), path.with_extension("rs")]
+    };
+    let crates = ["engines/src", "measures/src", "judges/src", "src"];
+    let mut files = crates.iter().flat_map(|src| at(src));
+    files.find(|file| root().join(file).exists()).unwrap_or_else(|| panic!("no module {module}"))
 }
 
 /// Every module that documentation shows, parts of hidden ones left out, as paths from the crate.
@@ -81,11 +102,9 @@ fn surface_is_what_is_stated() {
 #[test]
 fn surface_shows_no_hidden_room() {
     let documented = documented();
-    let hidden: Vec<_> = read("src/lib.rs")
-        .lines()
-        .filter_map(|line| line.strip_prefix("pub mod ")?.strip_suffix(';').map(str::to_owned))
-        .filter(|room| !documented.contains(room))
-        .collect();
+    let front = read("src/lib.rs").replace("#[doc(hidden)]\n", "");
+    let hidden: Vec<_> =
+        shown(&front).into_iter().filter(|room| !documented.contains(room)).collect();
     assert!(hidden.len() > 5, "{hidden:?}");
     let mut wrong = Vec::new();
     for module in &documented {
@@ -105,8 +124,10 @@ fn surface_shows_no_hidden_room() {
 #[test]
 fn surface_reads_attributes() {
     let text = "pub mod a;\n#[doc(hidden)]\npub mod b;\npub mod c;\nmod d;\n#[doc(hidden)]\n\
-        #[cfg(test)]\n// why\npub mod e;\npub(crate) mod f;\n#[cfg(test)]\npub mod g;\n";
-    assert_eq!(shown(text), ["a", "c", "g"]);
+        #[cfg(test)]\n// why\npub mod e;\npub(crate) mod f;\n#[cfg(test)]\npub mod g;\n\
+        pub use rasterproof_x::{\n    h, i,\n};\n#[doc(hidden)]\npub use rasterproof_x::j;\n\
+        pub use rasterproof_x::k;\n";
+    assert_eq!(shown(text), ["a", "c", "g", "h", "i", "k"]);
     let page = "## Rely\n\n| room | x |\n|---|---|\n| `a`, `a::b` | y |\n\n## Next\n| `c` | z |\n";
     assert_eq!(stated(page, "## Rely\n"), ["a", "a::b"].map(str::to_owned).into());
 }
