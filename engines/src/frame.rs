@@ -120,6 +120,19 @@ impl<T: Copy> Frame<T> {
     }
 }
 
+/// Holds columns `x0_px..x1_px` of row `y_px` to a window.
+///
+/// # Panics
+/// If they lie outside.
+#[doc(hidden)]
+#[inline]
+pub fn assert_inside(window: PixelRect, y_px: i32, x0_px: i32, x1_px: i32) {
+    assert!(
+        (window.y0..window.y1).contains(&y_px) && x0_px >= window.x0 && x1_px <= window.x1,
+        "pixels {x0_px}..{x1_px} of row {y_px} lie outside the window"
+    );
+}
+
 impl Coverage {
     /// Counts one hit more for each of the columns `x0_px..x1_px` of row `y_px`.
     ///
@@ -127,12 +140,7 @@ impl Coverage {
     /// If they lie outside the frame: an engine that leaves its bounds is caught here.
     #[inline]
     pub fn hit(&mut self, y_px: i32, x0_px: i32, x1_px: i32) {
-        assert!(
-            (self.bounds.y0..self.bounds.y1).contains(&y_px)
-                && x0_px >= self.bounds.x0
-                && x1_px <= self.bounds.x1,
-            "pixels {x0_px}..{x1_px} of row {y_px} lie outside the window"
-        );
+        assert_inside(self.bounds, y_px, x0_px, x1_px);
         for hits in self.span_mut(y_px, x0_px, x1_px) {
             *hits = hits.saturating_add(1);
         }

@@ -53,6 +53,16 @@ impl<V> ScreenVertex<V> {
     }
 }
 
+impl ScreenVertex<()> {
+    /// The same with something that travels with it.
+    #[must_use]
+    #[inline]
+    pub fn with_varying<V>(self, varying: V) -> ScreenVertex<V> {
+        let Self { position, depth, inv_w, varying: () } = self;
+        ScreenVertex { position, depth, inv_w, varying }
+    }
+}
+
 /// Checks that a depth or an attribute is finite and at most [`MAX_VALUE`] in magnitude.
 ///
 /// # Errors
@@ -166,6 +176,14 @@ pub struct Span {
     pub x0_px: i32,
     /// One past the last column.
     pub x1_px: i32,
+}
+
+impl Span {
+    /// Its number of pixels.
+    #[must_use]
+    pub fn pixels(&self) -> usize {
+        (i64::from(self.x1_px) - i64::from(self.x0_px)).max(0) as usize
+    }
 }
 
 /// A covered pixel with the values at its centre.

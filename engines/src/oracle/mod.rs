@@ -5,10 +5,13 @@
 //! - [`rational`] asks the same of corners that are not on the lattice.
 //! - [`pixels`] asks for each pixel of the window alone whether it is nearest to the line.
 //! - [`values`] puts planes through the vertices by Cramer's rule, in big integers.
+//! - [`near`] says without big integers what a difference from such a value does not exceed.
 //!
 //! It is slow on purpose where that keeps it obvious, and imports nothing from the engines.
 
 pub mod coverage;
+#[doc(hidden)]
+pub mod near;
 pub mod pixels;
 pub mod rational;
 pub mod values;

@@ -3,10 +3,8 @@
 //! The mathematics is that of [`coverage`](super::coverage): a sample nudged right by eps and down
 //! by eps^2 lies on no edge, and it is inside iff an odd number of edges crosses its height at or
 //! left of it. Only the numbers differ. A finite f64 is a whole number times a power of two, so all
-//! corners and centres are whole numbers of one small unit; those are compared, in 128 bits where
-//! they are certain to fit and in big integers otherwise. No float is ever added or multiplied.
-
-use std::ops::{Mul, Sub};
+//! corners and centres are whole numbers of one small unit; those are compared, in 64 or 128 bits
+//! where they are certain to fit and in big integers otherwise. No float is ever added or multiplied.
 
 use num_bigint::BigInt;
 
@@ -45,19 +43,26 @@ pub fn cover_and_count_ties(
     // Centres are odd multiples of 2^-1.
     let last_bits = parts.iter().flatten().filter(|(mantissa, _)| *mantissa != 0);
     let unit = last_bits.map(|&(_, exponent)| exponent).fold(-1, i32::min);
-    // Corners and the samples around them are below 2^24 pixels, so below 2^61 units from 2^-37 on;
-    // differences are below 2^62, products below 2^124, and their sums fit 128 bits.
-    if unit >= -37 {
-        let whole = |(mantissa, exponent): (i64, i32)| {
-            i128::from(mantissa) << shift(mantissa, exponent, unit)
-        };
-        scan(&parts.map(|corner| corner.map(whole)), |px| centre_in(px, unit), rect, emit)
-    } else {
+    // Where corners and the samples around them are below 2^n units, differences are below 2^(n+1),
+    // products of those below 2^(2n+2), and a sum of one and a smaller one below 2^(2n+3): 63 bits
+    // hold them for n = 30, and 125 for n = 61. In pixels they are below 2^24.
+    if unit < -37 {
         let whole = |(mantissa, exponent): (i64, i32)| {
             BigInt::from(mantissa) << shift(mantissa, exponent, unit)
         };
         let centre = |px: i32| BigInt::from(2 * i64::from(px) + 1) << (-1 - unit);
-        scan(&parts.map(|corner| corner.map(whole)), centre, rect, emit)
+        return scan(&parts.map(|corner| corner.map(whole)), centre, rect, emit);
+    }
+    let whole =
+        |(mantissa, exponent): (i64, i32)| i128::from(mantissa) << shift(mantissa, exponent, unit);
+    let wide = parts.map(|corner| corner.map(whole));
+    // The samples of the first and the last row and column reach as far as any.
+    let ends = [rect.x0, rect.x1, rect.y0, rect.y1].map(|px| centre_in(px, unit));
+    if wide.as_flattened().iter().chain(&ends).all(|value| value.abs() < 1 << 30) {
+        let narrow = wide.map(|corner| corner.map(|value| value as i64));
+        scan(&narrow, |px| centre_in(px, unit) as i64, rect, emit)
+    } else {
+        scan(&wide, |px| centre_in(px, unit), rect, emit)
     }
 }
 
@@ -83,9 +88,40 @@ fn around(corners: &[[f64; 2]; 3]) -> PixelRect {
 }
 
 /// A whole number of any size.
-trait Whole: Clone + Ord + Sub<Output = Self> + Mul<Output = Self> {}
+trait Whole: Clone + Ord {
+    fn minus(&self, other: &Self) -> Self;
+    fn times(&self, other: &Self) -> Self;
+}
 
-impl<T: Clone + Ord + Sub<Output = T> + Mul<Output = T>> Whole for T {}
+impl Whole for i64 {
+    fn minus(&self, other: &Self) -> Self {
+        self - other
+    }
+
+    fn times(&self, other: &Self) -> Self {
+        self * other
+    }
+}
+
+impl Whole for i128 {
+    fn minus(&self, other: &Self) -> Self {
+        self - other
+    }
+
+    fn times(&self, other: &Self) -> Self {
+        self * other
+    }
+}
+
+impl Whole for BigInt {
+    fn minus(&self, other: &Self) -> Self {
+        self - other
+    }
+
+    fn times(&self, other: &Self) -> Self {
+        self * other
+    }
+}
 
 /// Tests the samples of `rect` one by one and counts those on an edge.
 fn scan<T: Whole>(
@@ -113,7 +149,7 @@ fn scan<T: Whole>(
         for (x_px, x) in (rect.x0..rect.x1).zip(&columns) {
             let mut is_inside = false;
             for edge in crossing.iter().flatten() {
-                let reached = x.clone() * edge.dy.clone();
+                let reached = x.times(&edge.dy);
                 is_inside ^= edge.x_dy <= reached;
                 ties += u64::from(edge.x_dy == reached);
             }
@@ -143,11 +179,10 @@ struct Crossing<T> {
 
 impl<T: Whole> Crossing<T> {
     fn new(upper: &[T; 2], lower: &[T; 2], y: &T) -> Self {
-        let difference = |a: &T, b: &T| a.clone() - b.clone();
-        let dy = difference(&lower[1], &upper[1]);
+        let dy = lower[1].minus(&upper[1]);
         // down (upper.x - lower.x) is minus down dx, and subtracting it needs no sum.
-        let minus = difference(y, &upper[1]) * difference(&upper[0], &lower[0]);
-        Self { x_dy: upper[0].clone() * dy.clone() - minus, dy }
+        let minus = y.minus(&upper[1]).times(&upper[0].minus(&lower[0]));
+        Self { x_dy: upper[0].times(&dy).minus(&minus), dy }
     }
 }
 

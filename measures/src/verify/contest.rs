@@ -1,128 +1,19 @@
 //! One case, several engines: who draws what the oracle draws?
 
-use std::cell::Cell;
-use std::ops::AddAssign;
-use std::panic::{AssertUnwindSafe, catch_unwind};
-
 use glam::DVec2;
-use serde::Serialize;
 
+use super::covered::{Covered, fragments_against};
+use super::finding::{Finding, Tally, caught};
 use super::tolerance::{self, Bound, Tolerance};
+use super::truth::{Bounds, Truth};
 use crate::contract::{DrawLine, Interpolate, Rasterize};
 use crate::frame::Coverage;
 use crate::grid::{PixelRect, SUBPIXELS};
 use crate::hazard::{Case, Line, Shape, Triangle};
 use crate::oracle::Oracle;
 use crate::oracle::coverage::samples_on_boundary;
-use crate::oracle::values::{ExactTriangle, along_line};
+use crate::oracle::values::along_line;
 use crate::triangle::{Corners, Fragment, ScreenTriangle, Span, Varying};
-
-/// Wrong pixels, by kind.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
-pub struct Tally {
-    /// Hits that the target has and the actual one lacks.
-    pub missing: u64,
-    /// Pixels hit that the target does not hit.
-    pub extra: u64,
-    /// Hits beyond the target's on pixels that are hit before.
-    pub twice: u64,
-    /// Pixels of a line that come out in another order.
-    pub order: u64,
-}
-
-impl Tally {
-    /// All wrong pixels.
-    #[must_use]
-    pub fn total(&self) -> u64 {
-        self.missing + self.extra + self.twice + self.order
-    }
-
-    /// Compares hit counts pixel by pixel; both frames show the same window.
-    #[must_use]
-    pub fn between(actual: &Coverage, target: &Coverage) -> Self {
-        let mut tally = Self::default();
-        if actual == target {
-            return tally;
-        }
-        for ((_, actual), (_, target)) in actual.rows().zip(target.rows()) {
-            for (&actual, &target) in actual.iter().zip(target) {
-                tally.missing += u64::from(target.saturating_sub(actual));
-                let more = u64::from(actual.saturating_sub(target));
-                if target == 0 {
-                    tally.extra += more.min(1);
-                    tally.twice += more.saturating_sub(1);
-                } else {
-                    tally.twice += more;
-                }
-            }
-        }
-        tally
-    }
-}
-
-impl AddAssign for Tally {
-    fn add_assign(&mut self, other: Self) {
-        self.missing += other.missing;
-        self.extra += other.extra;
-        self.twice += other.twice;
-        self.order += other.order;
-    }
-}
-
-/// What was found about a pair of engines in one case.
-#[derive(Clone, Debug, Default)]
-pub struct Finding {
-    /// Wrong pixels.
-    pub tally: Tally,
-    /// Largest difference of an attribute over its bound.
-    pub attribute: f64,
-    /// Largest difference of a depth over its bound.
-    pub depth: f64,
-    /// Values compared.
-    pub values: u64,
-    /// What an engine said when it panicked.
-    pub panic: Option<String>,
-}
-
-impl Finding {
-    /// Whether the two do not agree.
-    #[must_use]
-    pub fn is_wrong(&self) -> bool {
-        self.tally.total() > 0 || self.panic.is_some() || self.attribute > 1.0 || self.depth > 1.0
-    }
-
-    /// The disagreement in words.
-    #[must_use]
-    pub fn describe(&self) -> String {
-        if let Some(message) = &self.panic {
-            return format!("panics ({message})");
-        }
-        let Tally { missing, extra, twice, order } = self.tally;
-        let counts =
-            [(missing, "missing"), (extra, "extra"), (twice, "twice"), (order, "out of order")];
-        let mut parts: Vec<_> =
-            counts.iter().filter(|(n, _)| *n > 0).map(|(n, what)| format!("{n} {what}")).collect();
-        if self.attribute > 1.0 {
-            parts.push(format!("an attribute off by {:.3e} times its bound", self.attribute));
-        }
-        if self.depth > 1.0 {
-            parts.push(format!("a depth off by {:.3e} times its bound", self.depth));
-        }
-        if parts.is_empty() { "agrees".to_owned() } else { parts.join(", ") }
-    }
-
-    fn panicked(message: String) -> Self {
-        Self { panic: Some(message), ..Self::default() }
-    }
-
-    fn compare(&mut self, attribute: f64, depth: f64) {
-        // A NaN ratio is a failure, and `f64::max` would drop it.
-        let worse = |old: f64, new: f64| if new.is_nan() { f64::INFINITY } else { old.max(new) };
-        self.attribute = worse(self.attribute, attribute);
-        self.depth = worse(self.depth, depth);
-        self.values += 1;
-    }
-}
 
 /// What the oracle says of a case.
 #[derive(Clone, Debug, Default)]
@@ -137,7 +28,14 @@ pub struct CaseFacts {
 /// Judges cases; a finding for each pair, in the order of [`Contest::pairs`].
 pub trait Contest: Sync {
     fn pairs(&self) -> Vec<[String; 2]>;
-    fn judge(&self, case: &Case) -> (CaseFacts, Vec<Finding>);
+
+    /// Adds what is found about each pair to what is known about it.
+    fn judge(&self, case: &Case, known: Vec<Finding>) -> (CaseFacts, Vec<Finding>);
+
+    /// The findings of one case, where nothing is known before.
+    fn findings(&self, case: &Case) -> Vec<Finding> {
+        self.judge(case, vec![Finding::default(); self.pairs().len()]).1
+    }
 }
 
 /// Each engine against the oracle, then each against the next.
@@ -146,99 +44,6 @@ fn pairs_of<'a>(names: impl Iterator<Item = &'a str>) -> Vec<[String; 2]> {
     let oracle = names.iter().map(|name| [name.clone(), "oracle".to_owned()]);
     let each_other = names.windows(2).map(|two| [two[0].clone(), two[1].clone()]);
     oracle.chain(each_other).collect()
-}
-
-thread_local! {
-    static JUDGING: Cell<bool> = const { Cell::new(false) };
-}
-
-/// Whether this thread is inside an engine whose panic will become a verdict. A panic hook that asks
-/// can keep such a panic off the terminal.
-#[must_use]
-pub fn is_judging() -> bool {
-    JUDGING.get()
-}
-
-/// Runs an engine; its panic becomes an error with the message.
-///
-/// # Errors
-/// What the engine said when it panicked.
-pub fn caught<T>(run: impl FnOnce() -> T) -> Result<T, String> {
-    let outer = JUDGING.replace(true);
-    let result = catch_unwind(AssertUnwindSafe(run));
-    JUDGING.set(outer);
-    result.map_err(|payload| {
-        let text = payload.downcast_ref::<&str>().map(|s| (*s).to_owned());
-        text.or_else(|| payload.downcast_ref::<String>().cloned())
-            .unwrap_or_else(|| "panic".to_owned())
-    })
-}
-
-/// Hits of an engine over all triangles of a case.
-///
-/// # Errors
-/// The message of the engine's panic, a pixel outside the window among them.
-pub fn engine_coverage(
-    engine: &impl Rasterize,
-    triangles: &[Triangle],
-    window: PixelRect,
-) -> Result<Coverage, String> {
-    caught(|| {
-        let mut hits = Coverage::new(window, 0);
-        for triangle in triangles {
-            engine.cover(triangle.corners(), window, |span| {
-                hits.hit(span.y_px, span.x0_px, span.x1_px)
-            });
-        }
-        hits
-    })
-}
-
-/// Hits of the oracle over all triangles of a case.
-#[must_use]
-pub fn oracle_coverage(triangles: &[Triangle], window: PixelRect) -> Coverage {
-    let mut hits = Coverage::new(window, 0);
-    for triangle in triangles {
-        Oracle
-            .cover(triangle.corners(), window, |span| hits.hit(span.y_px, span.x0_px, span.x1_px));
-    }
-    hits
-}
-
-/// Pixels of each triangle or line of a case alone, by the oracle.
-#[must_use]
-pub fn oracle_pixels_each(case: &Case) -> Vec<u64> {
-    match &case.shape {
-        Shape::Triangles { list, .. } => {
-            list.iter().map(|t| oracle_coverage(&[*t], case.window).covered()).collect()
-        }
-        Shape::Lines(lines) => {
-            let count = |line| {
-                let mut count = 0;
-                Oracle.line_pixels(line, case.window, |_, _| count += 1);
-                count
-            };
-            lines.iter().map(count).collect()
-        }
-    }
-}
-
-/// Hits of a line drawer over all lines of a case.
-///
-/// # Errors
-/// As [`engine_coverage`].
-pub fn line_coverage(
-    engine: &impl DrawLine,
-    lines: &[Line],
-    window: PixelRect,
-) -> Result<Coverage, String> {
-    caught(|| {
-        let mut hits = Coverage::new(window, 0);
-        for line in lines {
-            engine.draw(line, window, |f| hits.hit(f.y_px, f.x_px, f.x_px + 1));
-        }
-        hits
-    })
 }
 
 /// An engine that is judged by its coverage alone.
@@ -277,129 +82,110 @@ impl<R: Interpolate + Sync> Contest for TriangleContest<'_, R> {
         pairs_of(self.engines.iter().map(|(name, ..)| *name))
     }
 
-    fn judge(&self, case: &Case) -> (CaseFacts, Vec<Finding>) {
+    fn judge(&self, case: &Case, mut findings: Vec<Finding>) -> (CaseFacts, Vec<Finding>) {
         let Shape::Triangles { list, disjoint } = &case.shape else {
-            return (
-                CaseFacts::default(),
-                self.pairs().iter().map(|_| Finding::default()).collect(),
-            );
+            return (CaseFacts::default(), findings);
         };
-        // What is true.
-        let truth = oracle_coverage(list, case.window);
+        // What is true. The oracle does not panic, and stays inside the window.
+        let truth = Covered::by(&Oracle, list, case.window);
         let facts = CaseFacts {
             shapes: list.len() as u64,
-            pixels: truth.rows().flat_map(|(_, row)| row).map(|&hits| u64::from(hits)).sum(),
+            pixels: truth.as_ref().map_or(0, Covered::pixels),
             ties: list.iter().map(|t| samples_on_boundary(&t.corners(), case.window)).sum(),
             sliver: list.iter().any(|t| is_sliver(&t.corners())),
-            overlap: if *disjoint { twice_hit(&truth) } else { 0 },
+            overlap: truth.as_ref().map_or(0, |truth| if *disjoint { truth.twice() } else { 0 }),
         };
 
         // Compare each engine with the truth, then with the next one.
-        let hits: Vec<_> = self
+        let covered: Vec<_> = self
             .engines
             .iter()
-            .map(|(_, engine, _)| engine_coverage(engine, list, case.window))
+            .map(|(_, engine, _)| Covered::by(engine, list, case.window))
             .collect();
-        let mut findings: Vec<Finding> =
-            hits.iter().map(|hits| against(hits, &Ok(truth.clone()))).collect();
-        findings.extend(hits.windows(2).map(|two| against(&two[0], &two[1])));
         let count = self.engines.len();
-        for triangle in list {
-            let (alone, each_other) = findings.split_at_mut(count);
-            self.judge_values(triangle, case.window, alone, each_other);
+        let (alone, each_other) = findings.split_at_mut(count);
+        for (finding, covered) in alone.iter_mut().zip(&covered) {
+            finding.cover(against(covered, &truth));
+        }
+        for (finding, two) in each_other.iter_mut().zip(covered.windows(2)) {
+            finding.cover(against(&two[0], &two[1]));
+        }
+        for (at, triangle) in list.iter().enumerate() {
+            let spans: Vec<_> = covered.iter().map(|c| c.as_ref().ok().map(|c| c.of(at))).collect();
+            self.judge_values(triangle, case.window, &spans, alone, each_other);
         }
         (facts, findings)
     }
 }
 
+fn against(
+    actual: &Result<Covered, String>,
+    target: &Result<Covered, String>,
+) -> Result<Tally, String> {
+    match (actual, target) {
+        (Ok(actual), Ok(target)) => Ok(actual.against(target)),
+        (Err(message), _) | (_, Err(message)) => Err(message.clone()),
+    }
+}
+
 impl<R: Interpolate + Sync> TriangleContest<'_, R> {
-    /// Compares fragments: their pixels with the same engine's coverage, their values at a few
-    /// pixels with the exact ones and with those of the next engine.
+    /// Compares fragments: their pixels with the same engine's spans, their values at a few pixels
+    /// with the exact ones and with those of the next engine.
     fn judge_values(
         &self,
         triangle: &Triangle,
         window: PixelRect,
+        spans: &[Option<&[Span]>],
         alone: &mut [Finding],
         each_other: &mut [Finding],
     ) {
-        let v = &triangle.vertices;
-        let depths = v.map(|v| v.depth);
-        let attributes = v.map(|v| v.varying.to_array());
-        let exact = ExactTriangle::new(&triangle.corners(), depths, v.map(|v| v.inv_w), attributes);
-        let bound = |bound: Bound, k: usize| bound.at(attributes.map(|a| a[k]));
-        let mut previous: Option<Vec<Fragment<DVec2>>> = None;
+        let mut truth = Truth::new(triangle);
+        let mut previous: Option<(Vec<Fragment<DVec2>>, Bounds)> = None;
         for (i, (_, engine, tolerance)) in self.engines.iter().enumerate() {
+            // Nothing to compare the next engine with, unless this one has values.
+            let before = previous.take();
             let Some(tolerance) = tolerance else { continue };
-            if alone[i].panic.is_some() {
-                previous = None;
-                continue;
-            }
-            let fragments = match caught(|| collect_fragments(engine, triangle, window)) {
+            let (None, Some(spans)) = (&alone[i].panic, spans[i]) else { continue };
+            let fragments = match caught(|| collect_fragments(engine, triangle, spans, window)) {
                 Ok(fragments) => fragments,
                 Err(message) => {
                     alone[i].panic = Some(message);
-                    previous = None;
                     continue;
                 }
             };
-            alone[i].tally += fragment_coverage(engine, triangle, window, &fragments);
-            if let Some(exact) = &exact {
-                for f in few(&fragments) {
-                    let (depth, values) = exact.at(f.x_px, f.y_px);
-                    let ratio = |k: usize, value: f64| {
-                        values[k].distance(value) / bound(tolerance.attribute, k)
+            alone[i].tally += fragments_against(&fragments, spans, window);
+            let bounds = Bounds::new(*tolerance, triangle);
+            if let Some(truth) = &mut truth {
+                few(&fragments).for_each(|f| truth.compare(f, &bounds, &mut alone[i]));
+            }
+            if let Some((other, other_bounds)) = &before {
+                for (a, b) in pairs_at_same_pixel(other, &fragments) {
+                    let ratio = |k: usize| {
+                        (a.varying[k] - b.varying[k]).abs()
+                            / (other_bounds.attributes[k] + bounds.attributes[k])
                     };
-                    alone[i].compare(
-                        ratio(0, f.varying.x).max(ratio(1, f.varying.y)),
-                        depth.distance(f.depth) / tolerance.depth.at(depths),
-                    );
-                }
-            }
-            if let (Some(previous), true) = (&previous, i > 0) {
-                let Some(other) = &self.engines[i - 1].2 else { continue };
-                for (a, b) in pairs_at_same_pixel(previous, &fragments) {
-                    let sum = |k: usize| bound(other.attribute, k) + bound(tolerance.attribute, k);
-                    let difference = (a.varying - b.varying).abs();
                     each_other[i - 1].compare(
-                        (difference.x / sum(0)).max(difference.y / sum(1)),
-                        (a.depth - b.depth).abs()
-                            / (other.depth.at(depths) + tolerance.depth.at(depths)),
+                        ratio(0).max(ratio(1)),
+                        (a.depth - b.depth).abs() / (other_bounds.depth + bounds.depth),
                     );
                 }
             }
-            previous = Some(fragments);
+            previous = Some((fragments, bounds));
         }
     }
 }
 
+/// The fragments of a triangle that covers `spans`, which say how many there will be.
 fn collect_fragments(
     engine: &impl Interpolate,
     triangle: &Triangle,
+    spans: &[Span],
     window: PixelRect,
 ) -> Vec<Fragment<DVec2>> {
-    let mut fragments = Vec::new();
+    let pixels = spans.iter().map(Span::pixels).sum();
+    let mut fragments = Vec::with_capacity(pixels);
     engine.fragments(triangle, window, |fragment| fragments.push(fragment));
     fragments
-}
-
-/// The pixels of the fragments against the engine's own coverage of the same triangle.
-fn fragment_coverage(
-    engine: &impl Interpolate,
-    triangle: &Triangle,
-    window: PixelRect,
-    fragments: &[Fragment<DVec2>],
-) -> Tally {
-    let target = engine_coverage(engine, std::slice::from_ref(triangle), window);
-    let actual = caught(|| {
-        let mut hits = Coverage::new(window, 0);
-        fragments.iter().for_each(|f| hits.hit(f.y_px, f.x_px, f.x_px + 1));
-        hits
-    });
-    match (actual, target) {
-        (Ok(actual), Ok(target)) => Tally::between(&actual, &target),
-        // A fragment outside the window; the coverage's own panic is reported elsewhere.
-        _ => Tally { extra: 1, ..Tally::default() },
-    }
 }
 
 /// The first, the last and two fragments between: corners and middle of most triangles.
@@ -422,19 +208,6 @@ fn pairs_at_same_pixel<'a>(
         let found = found.or_else(|| b.iter().position(|g| (g.y_px, g.x_px) == key));
         found.map(|i| (f, &b[i]))
     })
-}
-
-fn against(actual: &Result<Coverage, String>, target: &Result<Coverage, String>) -> Finding {
-    match (actual, target) {
-        (Ok(actual), Ok(target)) => {
-            Finding { tally: Tally::between(actual, target), ..Finding::default() }
-        }
-        (Err(message), _) | (_, Err(message)) => Finding::panicked(message.clone()),
-    }
-}
-
-fn twice_hit(coverage: &Coverage) -> u64 {
-    coverage.rows().flat_map(|(_, row)| row).filter(|&&hits| hits > 1).count() as u64
 }
 
 /// Thinner than a pixel and at least eight times as long as thick, in exact integers: with twice
@@ -470,8 +243,7 @@ impl<D: DrawLine + Sync> Contest for LineContest<'_, D> {
         pairs_of(self.engines.iter().map(|(name, _)| *name))
     }
 
-    fn judge(&self, case: &Case) -> (CaseFacts, Vec<Finding>) {
-        let mut findings: Vec<Finding> = self.pairs().iter().map(|_| Finding::default()).collect();
+    fn judge(&self, case: &Case, mut findings: Vec<Finding>) -> (CaseFacts, Vec<Finding>) {
         let mut facts = CaseFacts::default();
         let Shape::Lines(lines) = &case.shape else {
             return (facts, findings);

@@ -9,7 +9,7 @@ use std::ops::AddAssign;
 
 use serde::Serialize;
 
-use super::contest::caught;
+use super::finding::caught;
 use super::{KEPT, Options, Partial, Tally, in_blocks};
 use crate::contract::{Decisions, RasterizeExact};
 use crate::frame::Coverage;

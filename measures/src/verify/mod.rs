@@ -9,11 +9,14 @@
 //! [`judge_lines`]; off the lattice, [`exact::judge_exact`].
 
 mod contest;
+mod covered;
 pub mod exact;
+mod finding;
 pub mod shrink;
 #[doc(hidden)]
 pub mod specimens;
 pub mod tolerance;
+mod truth;
 
 use std::cmp::Ordering;
 use std::fmt;
@@ -29,11 +32,12 @@ use crate::lineup::{Engine, LineEngine};
 use contest::{Contest, CoverageOnly, LineContest, TriangleContest};
 use tolerance::Tolerance;
 
-pub use contest::{Finding, Tally};
+pub use finding::{Finding, Tally};
 #[doc(hidden)]
-pub use contest::{
-    caught, engine_coverage, is_judging, is_sliver, line_coverage, oracle_coverage,
-    oracle_pixels_each,
+pub use {
+    contest::is_sliver,
+    covered::{engine_coverage, line_coverage, oracle_coverage, oracle_pixels_each},
+    finding::{caught, is_judging},
 };
 
 /// What to judge.
@@ -229,7 +233,7 @@ pub fn judge_coverage<R: Rasterize + Sync>(engine: &R, options: &Options) -> Ver
 #[must_use]
 pub fn judge_coverage_of<R: Rasterize + Sync>(engine: &R, case: &Case) -> Finding {
     let engines = [("candidate", CoverageOnly(engine), None)];
-    TriangleContest::new(&engines).judge(case).1.swap_remove(0)
+    TriangleContest::new(&engines).findings(case).swap_remove(0)
 }
 
 /// Judges coverage and values of any rasterizer against the oracle, values within `tolerance`.
@@ -336,13 +340,18 @@ fn drive(
                 .filter_map(|f| Some((f, true, wanted(lines.pairs(), f)?))),
         )
         .collect();
-    let judge = |lines_family: bool, case: &Case| {
-        if lines_family { lines.judge(case) } else { triangles.judge(case) }
-    };
-    let partials = in_blocks(&chosen, options, progress, |(family, lines, pairs), indices| {
-        judge_block(family, *lines, pairs, indices, options, &judge)
+    let partials = in_blocks(&chosen, options, progress, |(family, is_lines, pairs), indices| {
+        let report = FamilyReport::new(family, *is_lines, pairs);
+        if *is_lines {
+            judge_block(family, report, indices, options, lines)
+        } else {
+            judge_block(family, report, indices, options, triangles)
+        }
     });
-    let failures = shrink_failures(&partials, &chosen, options, &judge);
+    let findings = |is_lines: bool, case: &Case| {
+        if is_lines { lines.findings(case) } else { triangles.findings(case) }
+    };
+    let failures = shrink_failures(&partials, &chosen, options, &findings);
     Verdict {
         options: options.clone(),
         families: partials.into_iter().map(|partial| partial.report).collect(),
@@ -352,16 +361,17 @@ fn drive(
 
 fn judge_block(
     family: &Family,
-    lines: bool,
-    pairs: &[[String; 2]],
+    mut report: FamilyReport,
     indices: &[u64],
     options: &Options,
-    judge: &impl Fn(bool, &Case) -> (contest::CaseFacts, Vec<Finding>),
+    contest: &impl Contest,
 ) -> Partial<FamilyReport> {
-    let mut report = FamilyReport::new(family, lines, pairs);
     let mut failing = Vec::new();
     for &index in indices {
-        let (facts, findings) = judge(lines, &family.case(options.seed, index));
+        // What an earlier case reached need not be looked into again.
+        let known = |pair: &PairReport| Finding::known(pair.worst_attribute, pair.worst_depth);
+        let known = report.pairs.iter().map(known).collect();
+        let (facts, findings) = contest.judge(&family.case(options.seed, index), known);
         report.count(&facts);
         for (pair, finding) in findings.iter().enumerate() {
             report.pairs[pair].count(index, finding);
@@ -462,7 +472,7 @@ fn shrink_failures(
     partials: &[Partial<FamilyReport>],
     chosen: &[(&Family, bool, Vec<[String; 2]>)],
     options: &Options,
-    judge: &impl Fn(bool, &Case) -> (contest::CaseFacts, Vec<Finding>),
+    findings: &impl Fn(bool, &Case) -> Vec<Finding>,
 ) -> Vec<Failure> {
     let mut shown: Vec<([String; 2], usize)> = Vec::new();
     let mut failures = Vec::new();
@@ -481,8 +491,8 @@ fn shrink_failures(
             }
             entry.1 += 1;
             let original = family.case(options.seed, index);
-            let case = shrink::shrink(original, |case| judge(*lines, case).1[pair].is_wrong());
-            let what = judge(*lines, &case).1[pair].describe();
+            let case = shrink::shrink(original, |case| findings(*lines, case)[pair].is_wrong());
+            let what = findings(*lines, &case)[pair].describe();
             failures.push(Failure {
                 family: family.name.to_owned(),
                 index,
@@ -508,8 +518,8 @@ pub fn judge_case(
     let lines: Vec<_> = lines.iter().map(|e| (e.name(), *e)).collect();
     let (triangles, lines) = (TriangleContest::new(&engines), LineContest::new(&lines));
     let (pairs, findings) = match case.shape {
-        Shape::Triangles { .. } => (triangles.pairs(), triangles.judge(case).1),
-        Shape::Lines(_) => (lines.pairs(), lines.judge(case).1),
+        Shape::Triangles { .. } => (triangles.pairs(), triangles.findings(case)),
+        Shape::Lines(_) => (lines.pairs(), lines.findings(case)),
     };
     pairs.into_iter().zip(findings).collect()
 }

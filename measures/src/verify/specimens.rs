@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use super::Tally;
-use super::contest::caught;
+use super::finding::caught;
 use crate::contract::{DrawLine as _, Rasterize as _, RasterizeExact as _};
 use crate::frame::Coverage;
 use crate::grid::{PixelRect, SubpixelPoint};
