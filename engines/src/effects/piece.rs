@@ -3,12 +3,12 @@
 use std::fmt;
 use std::sync::LazyLock;
 
-use glam::{DMat3, DVec2, DVec3, DVec4};
+use glam::{DMat3, DVec2, DVec3};
 
 use super::Mode;
 use super::plan::{Attributes, ItemPlan};
 use crate::grid::{HALF_PIXEL, PixelRect, SUBPIXEL_BITS, SubpixelPoint};
-use crate::pipeline::assemble::{Assembler, BadVertex, check_vertex};
+use crate::pipeline::assemble::{Assembler, BadVertex, Point, check_vertex};
 use crate::pipeline::shade::{ALL, Attributes as Packed, Light, Surface};
 use crate::pipeline::target::Antialias;
 use crate::pipeline::texture::Texture;
@@ -42,10 +42,10 @@ impl fmt::Display for BadScene {
 
 impl std::error::Error for BadScene {}
 
-/// One item, its positions in clip space.
+/// One item, its positions in clip space and in the window.
 pub(super) struct Prepared<'a> {
     pub item: &'a Item,
-    pub positions: Vec<DVec4>,
+    pub points: Vec<Point>,
     pub carries: Attributes,
     pub texture: Option<&'a Texture>,
     pub light: Light,
@@ -73,27 +73,29 @@ impl<'a> Prepared<'a> {
     ) -> Result<Self, BadScene> {
         let item = &scene.items[index];
         let matrix = scene.projection * scene.view * item.model;
-        let positions: Vec<DVec4> =
-            item.mesh.positions.iter().map(|p| matrix * p.extend(1.0)).collect();
-        counters.vertices += positions.len() as u64;
-        for (i, &position) in positions.iter().enumerate() {
+        let assembler = assembler(item, plan, window);
+        let mut points = Vec::with_capacity(item.mesh.positions.len());
+        for (i, p) in item.mesh.positions.iter().enumerate() {
+            let position = matrix * p.extend(1.0);
             check_vertex(i, &ClipVertex { position, varying: () })
                 .map_err(|vertex| BadScene { item: index, vertex })?;
+            points.push(assembler.point(position));
         }
+        counters.vertices += points.len() as u64;
         let texture = item.material.texture.as_deref().unwrap_or(&WHITE);
         Ok(Self {
             item,
-            positions,
+            points,
             carries: plan.carries,
             texture: plan.carries.has(Attributes::UV).then_some(texture),
             light: if is_lit(scene, item) { scene.light } else { Light::NONE },
-            assembler: assembler(item, plan, window),
+            assembler,
             normals: DMat3::from_mat4(item.model).inverse().transpose(),
         })
     }
 
-    /// The vertex stage of one corner.
-    fn corner(&self, scene: &Scene, corner: &Corner, face: DVec3) -> ClipVertex<Packed<ALL>> {
+    /// The vertex stage of one corner: all but its position.
+    fn varying(&self, scene: &Scene, corner: &Corner, face: DVec3) -> Packed<ALL> {
         let material = &self.item.material;
         let mut colour = if material.vertex_colours { corner.colour } else { DVec3::ONE };
         if material.shading == Shading::Gouraud {
@@ -106,10 +108,7 @@ impl<'a> Prepared<'a> {
             Shading::Unlit | Shading::Gouraud => DVec3::ZERO,
         };
         let uv = if material.texture.is_some() { corner.uv } else { DVec2::ZERO };
-        ClipVertex {
-            position: self.positions[corner.position as usize],
-            varying: Surface { colour, normal, uv }.into(),
-        }
+        Surface { colour, normal, uv }.into()
     }
 
     /// Emits the pieces of every triangle.
@@ -121,12 +120,16 @@ impl<'a> Prepared<'a> {
     ) {
         let mut fills = Counters::default();
         for triangle in &self.item.mesh.triangles {
-            let face = match self.item.material.shading {
-                Shading::Flat => self.item.mesh.face_normal(triangle),
-                _ => DVec3::ZERO,
+            let point = |i: usize| &self.points[triangle[i].position as usize];
+            let varying = |i: usize| {
+                let face = match self.item.material.shading {
+                    Shading::Flat => self.item.mesh.face_normal(triangle),
+                    _ => DVec3::ZERO,
+                };
+                self.varying(scene, &triangle[i], face)
             };
-            let corners = [0, 1, 2].map(|i| self.corner(scene, &triangle[i], face));
-            self.assembler.assemble(&corners, counters, |piece| emit(piece, &mut fills));
+            let points = [point(0), point(1), point(2)];
+            self.assembler.assemble(points, varying, counters, |piece| emit(piece, &mut fills));
         }
         *counters += fills;
     }

@@ -11,7 +11,7 @@ use glam::{DVec2, DVec4};
 
 use super::clip::{self, Outcode, Polygon};
 use super::{ClipVertex, Counters};
-use crate::grid::{PixelRect, Refusal};
+use crate::grid::{PixelRect, Refusal, SubpixelPoint};
 use crate::triangle::{Corners, MAX_W, ScreenTriangle, ScreenVertex, Varying};
 
 /// Which triangles are left out, by their winding as the eye sees them.
@@ -120,6 +120,24 @@ pub fn check_vertex<V>(index: usize, vertex: &ClipVertex<V>) -> Result<(), BadVe
     refusal.map_or(Ok(()), |refusal| Err(BadVertex { index, refusal }))
 }
 
+/// A position in clip space, its side of the planes, and its place in the window.
+#[derive(Clone, Copy, Debug)]
+pub struct Point {
+    /// Where it is in clip space.
+    pub position: DVec4,
+    code: Outcode,
+    /// Nothing where a plane cuts, or outside the domain.
+    place: Option<ScreenVertex<()>>,
+}
+
+impl Point {
+    /// Where it lies in the window, if that was asked already.
+    #[must_use]
+    pub fn place(&self) -> Option<SubpixelPoint> {
+        self.place.map(|vertex| vertex.position)
+    }
+}
+
 /// Takes triangles from clip space to the window: clips, divides, snaps and culls them, into pieces
 /// that a rasterizer draws.
 #[derive(Clone, Copy, Debug)]
@@ -165,55 +183,83 @@ impl Assembler {
         Self { cull: Cull::None, ..self }
     }
 
-    /// Emits the pieces of one triangle that are in the window and not culled. Its vertices have
-    /// passed [`check_vertex`].
+    /// What a position needs once, whichever triangles it is a corner of. It has passed
+    /// [`check_vertex`].
+    #[must_use]
+    pub fn point(&self, position: DVec4) -> Point {
+        let vertex = ClipVertex { position, varying: () };
+        let code = clip::outcode(&vertex) & !self.never;
+        let is_placed = code == 0 && self.always & !self.never == 0;
+        let place = if is_placed { self.viewport.place(&vertex).ok() } else { None };
+        Point { position, code, place }
+    }
+
+    /// Emits the pieces of one triangle that are in the window and not culled. The varyings of its
+    /// corners, by number, are asked for where one is.
     pub fn assemble<V: Varying>(
         &self,
-        triangle: &[ClipVertex<V>; 3],
+        triangle: [&Point; 3],
+        varying: impl Fn(usize) -> V,
         counters: &mut Counters,
         mut emit: impl FnMut(&ScreenTriangle<V>),
     ) {
         counters.triangles += 1;
-        let codes = [0, 1, 2].map(|i| clip::outcode(&triangle[i]) & !self.never);
-        if codes[0] & codes[1] & codes[2] != 0 {
+        let [a, b, c] = triangle;
+        if a.code & b.code & c.code != 0 {
             counters.rejected += 1;
             return;
         }
-        let crossed = codes[0] | codes[1] | codes[2];
+        let crossed = a.code | b.code | c.code;
         let planes = (crossed | self.always) & !self.never;
         if planes == 0 {
-            self.emit_fan(triangle.iter(), counters, &mut emit);
+            // What a forgotten plane leaves outside the domain cannot be drawn; it is left out.
+            let (Some(a), Some(b), Some(c)) = (a.place, b.place, c.place) else { return };
+            if self.keeps([a.position, b.position, c.position], counters) {
+                let vertices = [
+                    a.with_varying(varying(0)),
+                    b.with_varying(varying(1)),
+                    c.with_varying(varying(2)),
+                ];
+                emit(&ScreenTriangle { vertices });
+            }
             return;
         }
         counters.clipped += u64::from(crossed != 0);
-        let (polygon, tests): (Polygon<V>, u64) = clip::clip(triangle, planes);
+        let vertex = |i: usize| ClipVertex { position: triangle[i].position, varying: varying(i) };
+        let (polygon, tests): (Polygon<V>, u64) =
+            clip::clip(&[vertex(0), vertex(1), vertex(2)], planes);
         counters.plane_tests += tests;
-        self.emit_fan(polygon.vertices(), counters, &mut emit);
+        self.emit_fan(&polygon, counters, &mut emit);
     }
 
     /// Places the vertices of a convex polygon and emits the fan around the first.
-    fn emit_fan<'a, V: Varying + 'a>(
+    fn emit_fan<V: Varying>(
         &self,
-        vertices: impl Iterator<Item = &'a ClipVertex<V>>,
+        polygon: &Polygon<V>,
         counters: &mut Counters,
         emit: &mut impl FnMut(&ScreenTriangle<V>),
     ) {
-        // What a forgotten plane leaves outside the domain cannot be drawn; it is left out.
-        let mut placed = vertices.filter_map(|vertex| self.viewport.place(vertex).ok());
+        let mut placed = polygon.vertices().filter_map(|vertex| self.viewport.place(vertex).ok());
         let (Some(first), Some(mut previous)) = (placed.next(), placed.next()) else { return };
         for next in placed {
             let piece = ScreenTriangle { vertices: [first, previous, next] };
             previous = next;
-            counters.pieces += 1;
-            if self.asks || self.cull != Cull::None {
-                counters.cull_tests += 1;
-                if self.cull.removes(piece.corners()) {
-                    counters.culled += 1;
-                    continue;
-                }
+            if self.keeps(piece.corners(), counters) {
+                emit(&piece);
             }
-            emit(&piece);
         }
+    }
+
+    /// Counts a piece, and says whether culling leaves it.
+    fn keeps(&self, corners: Corners, counters: &mut Counters) -> bool {
+        counters.pieces += 1;
+        if !self.asks && self.cull == Cull::None {
+            return true;
+        }
+        counters.cull_tests += 1;
+        let is_culled = self.cull.removes(corners);
+        counters.culled += u64::from(is_culled);
+        !is_culled
     }
 }
 
@@ -238,7 +284,9 @@ mod tests {
             let mut hits = Coverage::new(bounds, 0);
             let assembler = Assembler::new(bounds, Cull::Clockwise);
             for triangle in [[a, b, c], [a, c, d]] {
-                assembler.assemble(&triangle, &mut Counters::default(), |piece| {
+                let points = triangle.map(|vertex| assembler.point(vertex.position));
+                let varying = |i: usize| triangle[i].varying;
+                assembler.assemble(points.each_ref(), varying, &mut Counters::default(), |piece| {
                     Oracle.cover(piece.corners(), bounds, |s| hits.hit(s.y_px, s.x0_px, s.x1_px));
                 });
             }
@@ -251,8 +299,10 @@ mod tests {
         let bounds = PixelRect::window(8, 8);
         let count = |corners: [(f64, f64, f64, f64); 3], cull| {
             let mut counters = Counters::default();
-            let triangle = corners.map(|(x, y, z, w)| vertex(x, y, z, w));
-            Assembler::new(bounds, cull).assemble(&triangle, &mut counters, |_| {});
+            let assembler = Assembler::new(bounds, cull);
+            let points = corners.map(|(x, y, z, w)| assembler.point(DVec4::new(x, y, z, w)));
+            let varying = |_| glam::DVec2::ZERO;
+            assembler.assemble(points.each_ref(), varying, &mut counters, |_| {});
             [counters.rejected, counters.clipped, counters.pieces, counters.culled]
         };
         let inside = [(0.0, 0.0, 0.0, 1.0), (0.5, 0.0, 0.0, 1.0), (0.0, 0.5, 0.0, 1.0)];

@@ -183,9 +183,11 @@ fn assemble_all<I, V: Varying>(
     if let Some(error) = triangles.iter().enumerate().find_map(missing) {
         return Err(error);
     }
-    for indices in triangles {
-        let corners = indices.map(|index| vertices[index as usize]);
-        assembler.assemble(&corners, counters, &mut emit);
+    let points: Vec<_> = vertices.iter().map(|vertex| assembler.point(vertex.position)).collect();
+    for &[a, b, c] in triangles {
+        let indices = [a as usize, b as usize, c as usize];
+        let varying = |i: usize| vertices[indices[i]].varying;
+        assembler.assemble(indices.map(|i| &points[i]), varying, counters, &mut emit);
     }
     Ok(())
 }

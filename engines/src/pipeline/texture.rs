@@ -44,8 +44,9 @@ pub struct Texture {
     pub filter: Filter,
 }
 
-/// Subtexels in a texel.
-const SUBTEXELS: i64 = 256;
+/// Subtexels in a texel, as a power of two: shifts and masks are floors and remainders.
+const SUBTEXEL_BITS: u32 = 8;
+const SUBTEXELS: i64 = 1 << SUBTEXEL_BITS;
 
 impl Texture {
     /// A texture from rows of 8-bit red, green, blue, the top row first. Nothing if a side is 0 or
@@ -87,15 +88,20 @@ impl Texture {
         let x = self.subtexel(uv.x, self.width);
         let y = self.subtexel(1.0 - uv.y, self.height);
         match self.filter {
-            Filter::Nearest => self.texel(x.div_euclid(SUBTEXELS), y.div_euclid(SUBTEXELS)),
+            Filter::Nearest => {
+                let column = self.column(x >> SUBTEXEL_BITS);
+                self.texels[self.row_start(y >> SUBTEXEL_BITS) + column]
+            }
             Filter::Bilinear => {
                 // Texel centres carry the values, so half a texel lies before the first.
                 let (x, y) = (x - SUBTEXELS / 2, y - SUBTEXELS / 2);
-                let (column, row) = (x.div_euclid(SUBTEXELS), y.div_euclid(SUBTEXELS));
-                let part = |sub: i64| sub.rem_euclid(SUBTEXELS) as f64 / SUBTEXELS as f64;
+                let (column, row) = (x >> SUBTEXEL_BITS, y >> SUBTEXEL_BITS);
+                let part = |sub: i64| (sub & (SUBTEXELS - 1)) as f64 / SUBTEXELS as f64;
                 let (right, down) = (part(x), part(y));
+                let columns = (self.column(column), self.column(column + 1));
                 let line = |row| {
-                    let (a, b) = (self.texel(column, row), self.texel(column + 1, row));
+                    let start = self.row_start(row);
+                    let (a, b) = (self.texels[start + columns.0], self.texels[start + columns.1]);
                     a + (b - a) * right
                 };
                 let (a, b) = (line(row), line(row + 1));
@@ -108,18 +114,34 @@ impl Texture {
     #[inline]
     fn subtexel(&self, coordinate: f64, side: u32) -> i64 {
         let texels = coordinate * f64::from(side) * SUBTEXELS as f64;
-        // `as` saturates, and takes NaN to 0; the quarter keeps sums in range.
+        // The quarter keeps sums in range. `as` takes NaN to 0, and the rest towards 0: down from
+        // there is the floor, without a call on machines that have no such instruction.
         let limit = (i64::MAX / 4) as f64;
-        (texels + (0.5 + OFF_FRACTION)).floor().clamp(-limit, limit) as i64
+        let moved = (texels + (0.5 + OFF_FRACTION)).clamp(-limit, limit);
+        let whole = moved as i64;
+        whole - i64::from(whole as f64 > moved)
     }
 
     #[inline]
-    fn texel(&self, column: i64, row: i64) -> DVec3 {
-        let wrap = |at: i64, side: u32| match self.wrap {
-            Wrap::Repeat => at.rem_euclid(i64::from(side)) as usize,
-            Wrap::Clamp => at.clamp(0, i64::from(side) - 1) as usize,
-        };
-        self.texels[wrap(row, self.height) * self.width as usize + wrap(column, self.width)]
+    fn column(&self, column: i64) -> usize {
+        wrapped(self.wrap, column, self.width.into()) as usize
+    }
+
+    /// Where the texels of a row start.
+    #[inline]
+    fn row_start(&self, row: i64) -> usize {
+        wrapped(self.wrap, row, self.height.into()) as usize * self.width as usize
+    }
+}
+
+/// The column or row that is read in place of `at`. Sides are mostly powers of two, and then the
+/// remainder is a mask: a division by a number that is not known before takes longer than the rest.
+#[inline]
+fn wrapped(wrap: Wrap, at: i64, side: i64) -> i64 {
+    match wrap {
+        Wrap::Repeat if side & (side - 1) == 0 => at & (side - 1),
+        Wrap::Repeat => at.rem_euclid(side),
+        Wrap::Clamp => at.clamp(0, side - 1),
     }
 }
 
@@ -171,6 +193,28 @@ mod tests {
             let u = f64::from(i) / 1024.0;
             let read = |u: f64| texture.at(DVec2::new(u, 0.3));
             assert_eq!(read(u.next_up()), read(u.next_down()), "{u}");
+        }
+    }
+
+    /// The remainder by a mask and by a division, and the floor without a call, are what they were.
+    #[test]
+    fn shortcuts_are_what_they_stand_for() {
+        for side in 1..=70_i64 {
+            for at in -300..300_i64 {
+                assert_eq!(wrapped(Wrap::Repeat, at, side), at.rem_euclid(side), "{at} of {side}");
+            }
+        }
+        let mut texture = two_by_two();
+        for width in [1, 2, 3, 255, 16384] {
+            texture.width = width;
+            let moderate = (-4000..4000).map(|i| f64::from(i) * 0.37 / f64::from(width));
+            let odd = [-0.0, 1e300, -1e300, f64::NAN, f64::INFINITY, 5e-324, 1e15, -1e15];
+            for coordinate in moderate.chain(odd) {
+                let texels = coordinate * f64::from(width) * 256.0;
+                let limit = (i64::MAX / 4) as f64;
+                let floor = (texels + (0.5 + OFF_FRACTION)).floor().clamp(-limit, limit) as i64;
+                assert_eq!(texture.subtexel(coordinate, width), floor, "{coordinate}");
+            }
         }
     }
 

@@ -8,9 +8,9 @@ use glam::{DVec2, DVec4};
 use crate::grid::{PixelRect, SubpixelPoint};
 use crate::hazard::named::{Input, NamedCase, plain_triangle};
 use crate::hazard::{self, Case, Shape, Triangle};
+use crate::pipeline::Counters;
 use crate::pipeline::assemble::{Assembler, Cull};
 use crate::pipeline::multisample::{SAMPLES, onto_centre};
-use crate::pipeline::{ClipVertex, Counters};
 
 /// Every named case.
 #[must_use]
@@ -40,13 +40,11 @@ fn clipped(
     let mut list: Vec<Triangle> = Vec::new();
     for corners in triangles {
         let values = [DVec2::ZERO, DVec2::X, DVec2::Y];
-        let vertex = |i: usize| {
-            let (x, y, z, w) = corners[i];
-            ClipVertex { position: DVec4::new(x, y, z, w), varying: values[i] }
-        };
-        let triangle = [vertex(0), vertex(1), vertex(2)];
-        Assembler::new(WINDOW, Cull::None)
-            .assemble(&triangle, &mut Counters::default(), |piece| list.push(*piece));
+        let assembler = Assembler::new(WINDOW, Cull::None);
+        let points = corners.map(|(x, y, z, w)| assembler.point(DVec4::new(x, y, z, w)));
+        let varying = |i: usize| values[i];
+        let mut counters = Counters::default();
+        assembler.assemble(points.each_ref(), varying, &mut counters, |p| list.push(*p));
     }
     let case = Case { window: WINDOW, shape: Shape::Triangles { list, disjoint } };
     NamedCase { name, about, input: Input::Drawn { case, pixels: pixels.to_vec() } }

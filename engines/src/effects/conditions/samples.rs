@@ -5,15 +5,13 @@
 //! drawn (`samples`). To ask costs something, so the plan first estimates how many pixels may stay
 //! whole, and steps aside where they are too few.
 
-use glam::DVec4;
-
 use super::survey::of_frame;
 use crate::effects::piece::{Prepared, touched};
 use crate::effects::plan::{Canvas, Decision, PiecePlan, Samples};
 use crate::effects::{Effect, Effects, Mode};
 use crate::grid::{PixelRect, SubpixelPoint};
 use crate::pipeline::ClipVertex;
-use crate::pipeline::assemble::Viewport;
+use crate::pipeline::assemble::{Point, Viewport};
 use crate::triangle::Corners;
 
 /// Pieces that are drawn in one go, see [`Samples::OnDemand`]: to find out which of their pixels are
@@ -66,11 +64,11 @@ impl Estimate {
     /// of their corners, uncut.
     pub fn see_roughly(&mut self, item: &Prepared<'_>, plan: PiecePlan) {
         let viewport = Viewport::new(self.canvas.window());
-        let place = |&position: &DVec4| {
-            let vertex = ClipVertex { position, varying: () };
-            viewport.place(&vertex).ok().map(|vertex| vertex.position)
+        let place = |point: &Point| {
+            let vertex = ClipVertex { position: point.position, varying: () };
+            point.place().or_else(|| Some(viewport.place(&vertex).ok()?.position))
         };
-        let corners: Vec<Option<SubpixelPoint>> = item.positions.iter().map(place).collect();
+        let corners: Vec<Option<SubpixelPoint>> = item.points.iter().map(place).collect();
         for [a, b, c] in &item.item.mesh.triangles {
             let [a, b, c] = [a, b, c].map(|corner| corners[corner.position as usize]);
             match (a, b, c) {
