@@ -13,6 +13,8 @@ pub mod exact;
 pub mod shrink;
 #[doc(hidden)]
 pub mod specimens;
+#[doc(hidden)]
+pub mod ties;
 pub mod tolerance;
 
 use std::cmp::Ordering;
