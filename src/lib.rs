@@ -62,7 +62,7 @@ pub mod course;
 pub mod quiz;
 #[doc(hidden)]
 pub use rasterproof_engines::{
-    effects, exhaust, ladder, lineup, mutant, pipeline, scene, specimen,
+    angle, digest, effects, exhaust, ladder, lineup, mutant, pipeline, scene, specimen,
 };
 #[doc(hidden)]
 pub use rasterproof_judges::{convention, invariant, judge, report};

@@ -5,7 +5,9 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
+pub mod angle;
 pub mod contract;
+pub mod digest;
 pub mod effects;
 pub mod exhaust;
 pub mod frame;

@@ -4,6 +4,7 @@ mod cost;
 mod course;
 mod course_grade;
 mod decisions;
+mod digest;
 mod engine;
 mod exhaust;
 mod inspect;
@@ -111,6 +112,9 @@ enum Command {
     Review(review::ReviewArguments),
     /// Show what accuracy costs in time: every rung of every ladder, verified, then timed
     Cost(cost::CostArguments),
+    /// Hash everything the engines compute for a seed, to compare machines
+    #[command(after_help = digest::HELP)]
+    Digest(digest::DigestArguments),
     /// Ask the exercises of the pages, and explain each answer with its pixel grid
     Quiz(quiz::QuizArguments),
     /// List families, named cases, engines and invariants
@@ -200,6 +204,7 @@ pub fn run(words: impl IntoIterator<Item = String>, streams: &mut Streams<'_>) -
         Some(Command::Merge(arguments)) => exhaust::merge(arguments, streams),
         Some(Command::Review(arguments)) => review::run(arguments, streams),
         Some(Command::Cost(arguments)) => cost::run(arguments, streams),
+        Some(Command::Digest(arguments)) => digest::run(arguments, streams),
         Some(Command::Quiz(arguments)) => quiz::run(arguments, streams),
         Some(Command::List) => list(streams),
     };

@@ -10,11 +10,12 @@ use indicatif::{ProgressBar, ProgressDrawTarget};
 
 use super::decisions::plan_rows;
 use super::{Failure, PAGE, Streams, exit, usage, write_file, write_page};
+use crate::angle::{atan, cos, sin, tan, turn_y};
 use crate::effects::plan::Plan;
 use crate::effects::render::{BadScene, Rendered};
 use crate::effects::{Effect, Effects, Mode};
 use crate::frame::Frame;
-use crate::lineup::Drawer;
+use crate::lineup::{Drawer, Engine};
 use crate::pipeline::Counters;
 use crate::pipeline::assemble::Cull;
 use crate::pipeline::depth::DepthFormat;
@@ -26,6 +27,7 @@ use crate::report::frames::{self, Comparison};
 use crate::report::html::{Outcome, PictureLayer, PictureView, Report};
 use crate::scene::chapters::{self, SCENES};
 use crate::scene::{Scene, Shading, obj};
+use crate::verify::ties::{self, Drawn as DrawnBy};
 
 pub const HELP: &str = "Examples:
   rasterproof render cube                                a scene of the book, by both rasterizers
@@ -35,7 +37,8 @@ pub const HELP: &str = "Examples:
   rasterproof render spinning --spin 48                  an animated GIF
   rasterproof render cube --wireframe                    edges, by DDA and by Bresenham
 
-With both rasterizers every colour and depth is compared, and a difference is drawn.
+With both rasterizers every colour and depth is compared, and a difference is drawn. Where two
+surfaces lie in one plane, a pixel may be undecided by either: counted and drawn, no difference.
 Exit status: 0 they agree (or there is one), 1 they differ, 2 usage or bad input.";
 
 /// Arguments of `render`.
@@ -273,12 +276,12 @@ impl SceneArguments {
         // A point or a plane has a size too.
         let radius = ((max - min).length() / 2.0).max(f64::MIN_POSITIVE.sqrt());
         let half = self.fov.to_radians() / 2.0;
-        let narrow = half.min((half.tan() * aspect).atan());
-        let distance = radius / narrow.sin() / self.zoom;
+        let narrow = half.min(atan(tan(half) * aspect));
+        let distance = radius / sin(narrow) / self.zoom;
         let (pitch, yaw) = (self.pitch.to_radians(), self.yaw.to_radians());
-        let turn = DMat4::from_rotation_y(yaw);
-        let away = DVec3::new(0.0, pitch.sin(), -pitch.cos());
-        let up = DVec3::new(0.0, pitch.cos(), pitch.sin());
+        let turn = turn_y(yaw);
+        let away = DVec3::new(0.0, sin(pitch), -cos(pitch));
+        let up = DVec3::new(0.0, cos(pitch), sin(pitch));
         let refused = |error: crate::pipeline::transform::NoProjection| usage(error.to_string());
         let view = look_at(centre + away * distance, centre, up).map_err(refused)?;
         let near = (distance - radius).max(distance * 1e-3).max(radius * 1e-3);
@@ -325,7 +328,7 @@ impl Maker {
                 .unwrap_or_else(|| Scene::new(name, "", DMat4::IDENTITY)),
             Base::Model(framed) => {
                 let mut scene = framed.scene.clone();
-                let turn = DMat4::from_rotation_y(turn * std::f64::consts::TAU);
+                let turn = turn_y(turn * std::f64::consts::TAU);
                 for item in &mut scene.items {
                     item.model = about(framed.centre, turn) * item.model;
                 }
@@ -349,6 +352,8 @@ struct Drawing {
     target: Target,
     /// Pixels that are others where every depth and sample is there.
     unplanned: u64,
+    /// Whether the target holds every depth of every sample.
+    is_complete: bool,
 }
 
 pub fn run(arguments: &RenderArguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
@@ -366,9 +371,10 @@ pub fn run(arguments: &RenderArguments, streams: &mut Streams<'_>) -> Result<u8,
     }
     let drawings = draw(arguments, &scene)?;
     write_file(&output, &frames::png(&drawings[0].rendered.picture)?)?;
-    let comparison = compare(&drawings);
+    let comparison = compare(&scene, &drawings)?;
     let difference = output.with_extension("difference.png");
-    if let Some(comparison) = comparison.as_ref().filter(|comparison| !comparison.agrees()) {
+    let is_drawn = |c: &&Comparison| !c.agrees() || c.undecided > 0;
+    if let Some(comparison) = comparison.as_ref().filter(is_drawn) {
         write_file(&difference, &frames::png(&comparison.picture)?)?;
     }
     if arguments.report {
@@ -389,12 +395,20 @@ fn names(drawings: &[Drawing]) -> Vec<&'static str> {
     drawings.iter().map(|drawing| drawing.name).collect()
 }
 
-fn compare(drawings: &[Drawing]) -> Option<Comparison> {
-    let [a, b] = drawings else { return None };
-    let mut comparison =
-        frames::compare((&a.rendered.picture, &a.target), (&b.rendered.picture, &b.target));
+/// Compares two drawings; ties are looked for where there are depths to look at.
+fn compare(scene: &Scene, drawings: &[Drawing]) -> Result<Option<Comparison>, Failure> {
+    let [a, b] = drawings else { return Ok(None) };
+    let ties = if a.is_complete && b.is_complete {
+        let engines = [Engine::Scanline, Engine::EdgeFunction];
+        let drawn = [0, 1].map(|i| DrawnBy { engine: engines[i], target: &drawings[i].target });
+        Some(ties::find(scene, drawn).map_err(|error| usage(error.to_string()))?)
+    } else {
+        None
+    };
+    let (first, second) = ((&a.rendered.picture, &a.target), (&b.rendered.picture, &b.target));
+    let mut comparison = frames::compare(first, second, ties.as_ref());
     comparison.wrong_pixels += a.unplanned + b.unplanned;
-    Some(comparison)
+    Ok(Some(comparison))
 }
 
 /// The frames side by side, with the plan that was followed.
@@ -409,20 +423,23 @@ fn report_page(
         good: c.agrees(),
         word: if c.agrees() { "AGREES" } else { "DISAGREES" }.to_owned(),
         sentence: format!(
-            "{}: {} of {} pixels and {} of {} depths differ.",
+            "{}: {} of {} pixels and {} of {} depths differ.{}",
             names(drawings).join(" and "),
             c.wrong_pixels,
             c.pixels,
             c.wrong_depths,
-            c.depths
+            c.depths,
+            undecided(c).map_or(String::new(), |words| format!(" {words}."))
         ),
     });
     let layer = |d: &Drawing| PictureLayer::new(d.name, &frames::rgb(&d.rendered.picture));
+    let marked = comparison.filter(|c| !c.agrees() || c.undecided > 0);
+    let marked = marked.map(|c| PictureLayer::new("what differs", &frames::rgb(&c.picture)));
     let view = PictureView {
         name: scene.name.clone(),
         about: scene.about.clone(),
         command: command.clone(),
-        layers: drawings.iter().map(layer).collect(),
+        layers: drawings.iter().map(layer).chain(marked).collect(),
     };
     Report {
         title: format!("The scene {}", scene.name),
@@ -458,6 +475,8 @@ fn draw(arguments: &RenderArguments, scene: &Scene) -> Result<Vec<Drawing>, Fail
     // To compare every depth, every depth must be there, of every sample.
     let plan = arguments.plan.as_deref().map(read_plan).transpose()?;
     let is_free = arguments.effects.is_none() && plan.is_none();
+    let always = |effect| effects.mode(effect) == Mode::Always;
+    let is_complete = plan.is_none() && always(Effect::Depth) && always(Effect::Samples);
     let complete = (arguments.engine == Drawn::Both && is_free).then(|| {
         Effects::PLANNED.with(Effect::Depth, Mode::Always).with(Effect::Samples, Mode::Always)
     });
@@ -471,12 +490,14 @@ fn draw(arguments: &RenderArguments, scene: &Scene) -> Result<Vec<Drawing>, Fail
         let refused = |error: BadScene| usage(error.to_string());
         if arguments.wireframe {
             let rendered = drawer.render_wireframe(scene, &mut target).map_err(refused)?;
-            return Ok(Drawing { name: drawer.line_name(), rendered, target, unplanned: 0 });
+            let name = drawer.line_name();
+            return Ok(Drawing { name, rendered, target, unplanned: 0, is_complete: false });
         }
         if let (Some(plan), Some(path)) = (&plan, &arguments.plan) {
             let misfit = |error| usage(format!("{}: {error}", path.display()));
             let rendered = drawer.execute(plan, scene, &mut target).map_err(misfit)?;
-            return Ok(Drawing { name: drawer.name(), rendered, target, unplanned: 0 });
+            let name = drawer.name();
+            return Ok(Drawing { name, rendered, target, unplanned: 0, is_complete: false });
         }
         let rendered = drawer.render(scene, &effects, &mut target).map_err(refused)?;
         let mut unplanned = 0;
@@ -484,9 +505,18 @@ fn draw(arguments: &RenderArguments, scene: &Scene) -> Result<Vec<Drawing>, Fail
             let whole = drawer.render(scene, complete, &mut target).map_err(refused)?;
             unplanned = frames::differing(&rendered.picture, &whole.picture);
         }
-        Ok(Drawing { name: drawer.name(), rendered, target, unplanned })
+        let is_complete = is_complete || complete.is_some();
+        Ok(Drawing { name: drawer.name(), rendered, target, unplanned, is_complete })
     };
     engines.iter().map(drawing).collect()
+}
+
+/// What is undecided by either, in words; nothing where nothing is.
+fn undecided(c: &Comparison) -> Option<String> {
+    let Comparison { undecided, undecided_differ, .. } = c;
+    (*undecided > 0).then(|| {
+        format!("{undecided} pixels are undecided by either, {undecided_differ} of them differ")
+    })
 }
 
 fn describe(
@@ -533,6 +563,10 @@ fn describe(
             );
         }
     }
+    if let Some(words) = comparison.and_then(undecided) {
+        let _ = writeln!(text, "UNDECIDED: {words}: surfaces that tie, drawn in");
+        let _ = writeln!(text, "  {} (see docs/ties.md)", difference.display());
+    }
     text
 }
 
@@ -571,7 +605,7 @@ fn spin(
         if streams.progress { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() },
     );
     let mut bytes = Vec::new();
-    let mut wrong = 0;
+    let (mut wrong, mut undecided) = (0, 0);
     let mut screen = DoubleBuffer::new(arguments.what.target()?);
     let mut counters = Counters::default();
     {
@@ -581,7 +615,10 @@ fn spin(
         for frame in 0..frames {
             let scene = maker.scene(f64::from(frame) / f64::from(frames));
             let drawings = draw(arguments, &scene)?;
-            wrong += compare(&drawings).map_or(0, |c| c.wrong_pixels + c.wrong_depths);
+            if let Some(c) = compare(&scene, &drawings)? {
+                wrong += c.wrong_pixels + c.wrong_depths;
+                undecided += c.undecided;
+            }
             if let Some(first) = drawings.into_iter().next() {
                 screen.back = first.target;
                 screen.present(first.rendered.picture, &mut counters);
@@ -596,6 +633,9 @@ fn spin(
     bar.finish_and_clear();
     write_file(output, &bytes)?;
     writeln!(streams.output, "{frames} frames, drawn in {}", output.display())?;
+    if undecided > 0 {
+        writeln!(streams.output, "UNDECIDED: {undecided} pixels, where surfaces tie")?;
+    }
     match (arguments.engine, wrong) {
         (Drawn::Both, 0) => writeln!(streams.output, "AGREES: 0 pixels and depths differ")?,
         (Drawn::Both, wrong) => {

@@ -69,7 +69,7 @@ fn scenes_are_the_same_by_both_rasterizers() {
             let [a, b] = &mut targets;
             let first = Drawer::Scanline.render(&scene, &Effects::ALWAYS, a).unwrap();
             let second = Drawer::EdgeFunction.render(&scene, &Effects::ALWAYS, b).unwrap();
-            let comparison = frames::compare((&first.picture, a), (&second.picture, b));
+            let comparison = frames::compare((&first.picture, a), (&second.picture, b), None);
             assert!(comparison.agrees(), "{} {antialias:?}: {comparison:?}", scene.name);
             assert!(comparison.depths >= 4800);
             // One of the two has words of several widths.
@@ -584,7 +584,7 @@ fn torture_is_the_same_by_both() {
             let [a, b] = &mut targets;
             let first = Drawer::Scanline.render(&scene, &Effects::ALWAYS, a).unwrap();
             let second = Drawer::EdgeFunction.render(&scene, &Effects::ALWAYS, b).unwrap();
-            let comparison = frames::compare((&first.picture, a), (&second.picture, b));
+            let comparison = frames::compare((&first.picture, a), (&second.picture, b), None);
             assert!(comparison.agrees(), "{k} {antialias:?}: {comparison:?}");
         }
     }

@@ -19,6 +19,7 @@ mod piece;
 pub mod plan;
 mod planner;
 pub mod render;
+pub mod rivals;
 mod samples;
 
 use std::fmt;

@@ -6,6 +6,8 @@ use std::fmt;
 
 use glam::{DMat4, DVec3, DVec4};
 
+use crate::angle::tan;
+
 /// Why there is no such projection.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NoProjection(&'static str);
@@ -73,7 +75,7 @@ pub fn perspective(
     if !(angle_rad > 0.0 && angle_rad < std::f64::consts::PI) {
         return Err(NoProjection("the angle of view lies strictly between 0 and 180 degrees"));
     }
-    let top = near * (angle_rad / 2.0).tan();
+    let top = near * tan(angle_rad / 2.0);
     frustum(-top * aspect, top * aspect, -top, top, near, far)
 }
 
@@ -81,10 +83,11 @@ pub fn perspective(
 /// again (section 10.5).
 ///
 /// ```
-/// use glam::{DMat4, DVec3};
+/// use glam::DVec3;
+/// use rasterproof::angle::turn_y;
 /// use rasterproof::pipeline::transform::about;
 /// let centre = DVec3::new(0.0, 0.0, 4.0);
-/// let turned = about(centre, DMat4::from_rotation_y(1.0));
+/// let turned = about(centre, turn_y(1.0));
 /// assert_eq!(turned.transform_point3(centre), centre);
 /// ```
 #[must_use]

@@ -9,6 +9,7 @@ use std::sync::Arc;
 use glam::{DMat4, DVec3};
 
 use super::{Hidden, Item, Material, Mesh, Scene, Shading, shapes, textures};
+use crate::angle::{sin, tan, turn_x, turn_y, turn_z};
 use crate::pipeline::assemble::Cull;
 use crate::pipeline::shade::Light;
 use crate::pipeline::texture::{Filter, Texture, Wrap};
@@ -126,13 +127,13 @@ fn ahead(texture: Texture) -> Item {
 }
 
 fn square(scene: Scene, turn: f64) -> Scene {
-    let item = turned(ahead(textures::four()), AHEAD, DMat4::from_rotation_z(turn * TAU));
+    let item = turned(ahead(textures::four()), AHEAD, turn_z(turn * TAU));
     with(scene, [item])
 }
 
 fn tilted(scene: Scene, turn: f64) -> Scene {
     // The book tilts by 30 degrees; 60 make the bend of the affine version plain.
-    let tilt = DMat4::from_rotation_x(60f64.to_radians()) * DMat4::from_rotation_z(turn * TAU);
+    let tilt = turn_x(60f64.to_radians()) * turn_z(turn * TAU);
     with(scene, [turned(ahead(textures::checkerboard()), AHEAD, tilt)])
 }
 
@@ -153,7 +154,7 @@ fn cycle(scene: Scene, turn: f64) -> Scene {
         let mesh = shapes::triangle(blade, [colour; 3]);
         let material = Material { vertex_colours: true, ..Material::default() };
         let angle = (i as f64 / 3.0 + turn) * TAU;
-        turned(Item::new(mesh, material), AHEAD, DMat4::from_rotation_z(angle))
+        turned(Item::new(mesh, material), AHEAD, turn_z(angle))
     });
     with(scene, items)
 }
@@ -173,20 +174,20 @@ fn coloured(positions: [DVec3; 3]) -> Item {
 fn clipped(scene: Scene, turn: f64) -> Scene {
     let positions =
         [DVec3::new(-1.4, 1.2, 4.0), DVec3::new(1.6, 1.0, 4.0), DVec3::new(0.4, -0.9, -1.0)];
-    with(scene, [turned(coloured(positions), AHEAD, DMat4::from_rotation_z(turn * TAU))])
+    with(scene, [turned(coloured(positions), AHEAD, turn_z(turn * TAU))])
 }
 
 fn frustum_scene(scene: Scene, turn: f64) -> Scene {
     // Each plane leaves a side, and so do the three edges: a nonagon.
     let positions =
         [DVec3::new(7.4, 12.0, 24.5), DVec3::new(10.3, -11.3, 4.2), DVec3::new(-2.9, 2.1, 0.3)];
-    with(scene, [turned(coloured(positions), AHEAD, DMat4::from_rotation_z(turn * TAU))])
+    with(scene, [turned(coloured(positions), AHEAD, turn_z(turn * TAU))])
 }
 
 fn culled(scene: Scene, turn: f64) -> Scene {
     let mesh = shapes::cuboid(AHEAD - DVec3::ONE, AHEAD + DVec3::ONE);
     let material = textured(textures::checkerboard(), Shading::Flat);
-    let turn = DMat4::from_rotation_x(-0.5) * DMat4::from_rotation_y(0.6 + turn * TAU);
+    let turn = turn_x(-0.5) * turn_y(0.6 + turn * TAU);
     let item = turned(Item::new(mesh, material), AHEAD, turn);
     Scene { light: daylight(), ..with(scene, [Item { cull: Cull::CounterClockwise, ..item }]) }
 }
@@ -197,7 +198,7 @@ fn spinning(scene: Scene, turn: f64) -> Scene {
         AHEAD + DVec3::new(1.4, -1.0, 0.0),
         AHEAD + DVec3::new(0.0, 1.3, 0.0),
     ];
-    with(scene, [turned(coloured(positions), AHEAD, DMat4::from_rotation_y(0.6 + turn * TAU))])
+    with(scene, [turned(coloured(positions), AHEAD, turn_y(0.6 + turn * TAU))])
 }
 
 /// From behind the eye, above and to the left.
@@ -208,7 +209,7 @@ fn daylight() -> Light {
 fn cube(scene: Scene, turn: f64) -> Scene {
     let mesh = shapes::cuboid(AHEAD - DVec3::ONE, AHEAD + DVec3::ONE);
     let texture = textures::boards().with(Filter::Bilinear, Wrap::Clamp);
-    let turn = DMat4::from_rotation_x(-0.5) * DMat4::from_rotation_y(0.6 + turn * TAU);
+    let turn = turn_x(-0.5) * turn_y(0.6 + turn * TAU);
     let item = turned(Item::new(mesh, textured(texture, Shading::Phong)), AHEAD, turn);
     Scene { light: daylight(), ..with(scene, [Item { cull: Cull::Clockwise, ..item }]) }
 }
@@ -216,7 +217,7 @@ fn cube(scene: Scene, turn: f64) -> Scene {
 fn sphere(scene: Scene, turn: f64) -> Scene {
     let mesh = shapes::sphere(AHEAD, 1.5, 48, 24);
     let material = textured(textures::checkerboard(), Shading::Phong);
-    let item = turned(Item::new(mesh, material), AHEAD, DMat4::from_rotation_y(turn * TAU));
+    let item = turned(Item::new(mesh, material), AHEAD, turn_y(turn * TAU));
     Scene { light: daylight(), ..with(scene, [Item { cull: Cull::Clockwise, ..item }]) }
 }
 
@@ -227,7 +228,7 @@ fn facets(scene: Scene, turn: f64) -> Scene {
         shading: Shading::Flat,
         ..Material::default()
     };
-    let item = turned(Item::new(mesh, material), AHEAD, DMat4::from_rotation_y(turn * TAU));
+    let item = turned(Item::new(mesh, material), AHEAD, turn_y(turn * TAU));
     Scene { light: daylight(), ..with(scene, [Item { cull: Cull::Clockwise, ..item }]) }
 }
 
@@ -235,7 +236,7 @@ fn inside(scene: Scene, turn: f64) -> Scene {
     // The eye is in the middle, and the near plane, at distance 1, within the sphere too.
     let mesh = shapes::sphere(DVec3::ZERO, 6.0, 32, 16);
     let material = textured(textures::checkerboard(), Shading::Unlit);
-    let item = turned(Item::new(mesh, material), DVec3::ZERO, DMat4::from_rotation_y(turn * TAU));
+    let item = turned(Item::new(mesh, material), DVec3::ZERO, turn_y(turn * TAU));
     with(scene, [item])
 }
 
@@ -247,13 +248,13 @@ fn homework(scene: Scene, turn: f64) -> Scene {
             shapes::triangle(positions.map(|[x, y]| DVec3::new(x, y, distance)), [DVec3::ONE; 3]);
         let colour = DVec3::from(colour.map(f64::from)) / 255.0;
         let item = Item::new(mesh, Material { colour, ..Material::default() });
-        turned(item, DVec3::new(0.0, 0.0, 8.5), DMat4::from_rotation_z(turn * TAU))
+        turned(item, DVec3::new(0.0, 0.0, 8.5), turn_z(turn * TAU))
     };
     let items = [
         flat([[2.0, 0.0], [0.0, 2.0], [-2.0, 0.0]], 7.0, [217, 238, 185]),
         flat([[3.5, -1.0], [2.5, 1.5], [-1.0, 0.5]], 10.0, [185, 217, 238]),
     ];
-    let narrower = 0.6 / (TAU / 16.0).tan();
+    let narrower = 0.6 / tan(TAU / 16.0);
     let zoom = DMat4::from_scale(DVec3::new(narrower, narrower, 1.0));
     let projection = zoom * scene.projection;
     Scene { projection, background: [0, 0, 0, 255], ..with(scene, items) }
@@ -311,7 +312,7 @@ fn everything(scene: Scene, turn: f64) -> Scene {
     let tint = |mut mesh: Mesh| {
         for corner in mesh.triangles.as_flattened_mut() {
             let p = mesh.positions[corner.position as usize];
-            let wave = |v: f64| 0.8 + 0.2 * (v * 1.7).sin();
+            let wave = |v: f64| 0.8 + 0.2 * sin(v * 1.7);
             corner.colour = DVec3::new(wave(p.x), wave(p.y + 1.0), wave(p.z + 2.0));
             corner.uv *= 3.0;
             // The floor's light changes along it too.
@@ -321,7 +322,7 @@ fn everything(scene: Scene, turn: f64) -> Scene {
     };
     let items = meshes.into_iter().map(|mesh| {
         let item = Item::new(tint(mesh), material.clone());
-        turned(item, AHEAD, DMat4::from_rotation_y(turn * TAU))
+        turned(item, AHEAD, turn_y(turn * TAU))
     });
     Scene { light: daylight(), ..with(scene, items) }
 }

@@ -10,6 +10,7 @@ use std::sync::Arc;
 use glam::{DMat4, DVec2, DVec3};
 
 use super::{Corner, Item, Material, Mesh, Scene, Shading, shapes, textures};
+use crate::angle::{cos, sin, sin_cos, turn_x};
 use crate::pipeline::shade::Light;
 use crate::pipeline::transform::perspective;
 
@@ -47,14 +48,14 @@ pub fn scene(name: &str) -> Option<Scene> {
     let mesh = match shape {
         "bumps" => bumps(columns, rows),
         "knot" => tube(columns, rows, 0.22, knot),
-        _ => tube(columns, rows, 0.4, |t| DVec3::new(t.cos(), 0.0, t.sin())),
+        _ => tube(columns, rows, 0.4, |t| DVec3::new(cos(t), 0.0, sin(t))),
     };
     let projection = perspective(0.7, 1.0, 1.0, 10.0).ok()?;
     let mut scene = Scene::new(name, "a mesh of many triangles, textured and lit", projection);
     let texture = Arc::new(textures::checkerboard());
     let shading = Shading::Phong;
     let material = Material { texture: Some(texture), shading, ..Material::default() };
-    let model = DMat4::from_translation(DVec3::Z * 4.5) * DMat4::from_rotation_x(-0.6);
+    let model = DMat4::from_translation(DVec3::Z * 4.5) * turn_x(-0.6);
     scene.items = vec![Item { model, ..Item::new(mesh, material) }];
     let towards = DVec3::new(-0.4, 0.7, -0.6).normalize();
     scene.light = Light { towards, ambient: 0.25, diffuse: 0.75 };
@@ -65,7 +66,7 @@ pub fn scene(name: &str) -> Option<Scene> {
 fn bumps(slices: u32, stacks: u32) -> Mesh {
     let mut mesh = shapes::sphere(DVec3::ZERO, 1.0, slices, stacks);
     for p in &mut mesh.positions {
-        let wave = (5.0 * p.x).sin() * (4.0 * p.y + 1.0).sin() * (6.0 * p.z).cos();
+        let wave = sin(5.0 * p.x) * sin(4.0 * p.y + 1.0) * cos(6.0 * p.z);
         *p *= 1.2 + 0.2 * wave;
     }
     smooth(mesh)
@@ -73,9 +74,9 @@ fn bumps(slices: u32, stacks: u32) -> Mesh {
 
 /// The trefoil.
 fn knot(t: f64) -> DVec3 {
-    let (sin, cos) = ((2.0 * t).sin(), (2.0 * t).cos());
-    let radius = 0.9 + 0.4 * (3.0 * t).cos();
-    DVec3::new(radius * cos, 0.4 * (3.0 * t).sin(), radius * sin)
+    let ((north, east), (sin, cos)) = (sin_cos(2.0 * t), sin_cos(3.0 * t));
+    let radius = 0.9 + 0.4 * cos;
+    DVec3::new(radius * east, 0.4 * sin, radius * north)
 }
 
 /// A closed tube around a closed curve over [0, 2 pi].
@@ -90,7 +91,7 @@ fn tube(columns: u32, rows: u32, radius: f64, curve: fn(f64) -> DVec3) -> Mesh {
         let right = along.cross(DVec3::Y).normalize();
         let up = right.cross(along);
         for row in 0..rows {
-            let (sin, cos) = angle(row, rows).sin_cos();
+            let (sin, cos) = sin_cos(angle(row, rows));
             mesh.positions.push(centre + (right * cos + up * sin) * radius);
         }
     }

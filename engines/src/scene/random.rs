@@ -4,9 +4,10 @@
 
 use std::sync::Arc;
 
-use glam::{DMat4, DVec3};
+use glam::DVec3;
 
 use super::{Hidden, Item, Material, Mesh, Scene, Shading, shapes, textures};
+use crate::angle::{turn_x, turn_y};
 use crate::hazard::Rng;
 use crate::pipeline::assemble::Cull;
 use crate::pipeline::shade::Light;
@@ -57,8 +58,7 @@ fn item(rng: &mut Rng) -> Item {
     let material = material(rng);
     let mut item = Item::new(mesh, material);
     if rng.chance(2) {
-        let turn =
-            DMat4::from_rotation_y(rng.signed() * 3.0) * DMat4::from_rotation_x(rng.signed());
+        let turn = turn_y(rng.signed() * 3.0) * turn_x(rng.signed());
         item.model = about(centre, turn);
     }
     item.cull =

@@ -6,6 +6,7 @@ use std::f64::consts::{PI, TAU};
 use glam::{DVec2, DVec3};
 
 use super::{Corner, Mesh};
+use crate::angle::sin_cos;
 
 /// A triangle from its positions and corner colours.
 #[must_use]
@@ -61,8 +62,8 @@ pub fn sphere(centre: DVec3, radius: f64, slices: u32, stacks: u32) -> Mesh {
         let polar = PI * f64::from(ring) / f64::from(stacks);
         for slice in 0..slices {
             let around = TAU * f64::from(slice) / f64::from(slices);
-            let (sin, cos) = (polar.sin(), polar.cos());
-            let unit = DVec3::new(around.cos() * sin, cos, around.sin() * sin);
+            let ((sin, cos), (east, north)) = (sin_cos(polar), sin_cos(around));
+            let unit = DVec3::new(north * sin, cos, east * sin);
             mesh.positions.push(centre + unit * radius);
         }
     }

@@ -14,6 +14,7 @@ use std::f64::consts::FRAC_PI_6;
 use glam::{DVec2, DVec3};
 
 use super::scene::{COLOURS, Image, SIDE, Setting, Version, WHITE, empty, fill};
+use crate::angle::sin_cos;
 
 /// One of the published matrices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,7 +32,7 @@ pub enum Turn {
 /// Where the published matrix sends a point.
 #[must_use]
 pub fn published(turn: Turn, angle_rad: f64, p: DVec3) -> DVec3 {
-    let (s, c) = angle_rad.sin_cos();
+    let (s, c) = sin_cos(angle_rad);
     match turn {
         Turn::X => DVec3::new(p.x, c * p.y + s * p.z, -s * p.y + c * p.z),
         Turn::Y => DVec3::new(c * p.x - s * p.z, p.y, s * p.x + c * p.z),

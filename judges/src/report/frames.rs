@@ -10,6 +10,7 @@ use crate::frame::Frame;
 use crate::grid::PixelRect;
 use crate::pipeline::depth::CLEAR;
 use crate::pipeline::target::{Colour, Target};
+use crate::verify::ties::Ties;
 use crate::verify::tolerance;
 
 /// A frame as an image, without its opacity.
@@ -45,7 +46,12 @@ pub struct Comparison {
     pub depths: u64,
     /// Depths that differ by more than two rasterizers may.
     pub wrong_depths: u64,
-    /// The first frame, dimmed, with what differs in red.
+    /// Pixels that are undecided by either: where two surfaces tie, see [`crate::verify::ties`].
+    pub undecided: u64,
+    /// Those of them that the two frames show in different colours, which is no fault.
+    pub undecided_differ: u64,
+    /// The first frame, dimmed, with what differs in red, what is undecided in brown, and in yellow
+    /// where the frames show it differently.
     #[serde(skip)]
     pub picture: Frame<Colour>,
 }
@@ -58,29 +64,68 @@ impl Comparison {
     }
 }
 
+const RED: Colour = [255, 40, 40, 255];
+const BROWN: Colour = [120, 84, 0, 255];
+const YELLOW: Colour = [255, 200, 0, 255];
+
 /// Compares two frames of the same size: colours to the bit; depths within the sum of the bounds
 /// that [`tolerance`] derives for the two rasterizers, with depths from 0 to 1, and one step of the
-/// format.
+/// format. Where ties are known, what they excuse is no difference; the targets then hold every
+/// sample of the frames.
 #[must_use]
-pub fn compare(a: (&Frame<Colour>, &Target), b: (&Frame<Colour>, &Target)) -> Comparison {
+pub fn compare(
+    a: (&Frame<Colour>, &Target),
+    b: (&Frame<Colour>, &Target),
+    ties: Option<&Ties>,
+) -> Comparison {
     let bounds = a.0.bounds();
+    let pixels = u64::from(bounds.width()) * u64::from(bounds.height());
     let mut picture = Frame::new(bounds, [0; 4]);
-    let mut wrong_pixels = 0;
-    let red = [255, 40, 40, 255];
+    let (mut wrong_pixels, mut undecided_differ) = (0, 0);
     for y_px in bounds.y0..bounds.y1 {
         let rows = a.0.row(y_px).iter().zip(b.0.row(y_px));
-        for (pixel, (a, b)) in picture.row_mut(y_px).iter_mut().zip(rows) {
-            wrong_pixels += u64::from(a != b);
-            *pixel = if a == b { a.map(|channel| channel / 3) } else { red };
+        for (x_px, (pixel, (first, second))) in
+            (bounds.x0..).zip(picture.row_mut(y_px).iter_mut().zip(rows))
+        {
+            let ties = ties.filter(|ties| ties.is_undecided(x_px, y_px));
+            let differs = first != second;
+            let is_excused = differs && ties.is_some_and(|t| only_ties(t, [a.1, b.1], x_px, y_px));
+            wrong_pixels += u64::from(differs && !is_excused);
+            undecided_differ += u64::from(is_excused);
+            *pixel = match (differs, is_excused, ties) {
+                (true, true, _) => YELLOW,
+                (true, false, _) => RED,
+                (false, _, Some(_)) => BROWN,
+                (false, _, None) => first.map(|channel| channel / 3),
+            };
         }
     }
-    let (depths, wrong) = compare_depths(a.1, b.1);
+    let (depths, wrong) = compare_depths(a.1, b.1, ties);
     let scale = a.1.antialias().scale() as i32;
     for (x_px, y_px) in &wrong {
-        picture.span_mut(y_px / scale, x_px / scale, x_px / scale + 1)[0] = red;
+        picture.span_mut(y_px / scale, x_px / scale, x_px / scale + 1)[0] = RED;
     }
-    let pixels = u64::from(bounds.width()) * u64::from(bounds.height());
-    Comparison { pixels, wrong_pixels, depths, wrong_depths: wrong.len() as u64, picture }
+    let (wrong_depths, undecided) = (wrong.len() as u64, ties.map_or(0, Ties::count));
+    Comparison { pixels, wrong_pixels, depths, wrong_depths, undecided, undecided_differ, picture }
+}
+
+/// Whether the samples of a pixel differ in colour only where ties excuse it, and somewhere do.
+fn only_ties(ties: &Ties, [a, b]: [&Target; 2], x_px: i32, y_px: i32) -> bool {
+    let scale = a.antialias().scale() as i32;
+    let mut excused = 0;
+    for (plane, (first, second)) in a.planes.iter().zip(&b.planes).enumerate() {
+        for y in y_px * scale..(y_px + 1) * scale {
+            for x in x_px * scale..(x_px + 1) * scale {
+                if first.colour.get(x, y) != second.colour.get(x, y) {
+                    if !ties.is_excused(plane, x, y) {
+                        return false;
+                    }
+                    excused += 1;
+                }
+            }
+        }
+    }
+    excused > 0
 }
 
 /// How many pixels of two frames of the same size differ.
@@ -94,13 +139,13 @@ pub fn differing(a: &Frame<Colour>, b: &Frame<Colour>) -> u64 {
 }
 
 /// How many depths were compared, and the samples where they differ.
-fn compare_depths(a: &Target, b: &Target) -> (u64, Vec<(i32, i32)>) {
+fn compare_depths(a: &Target, b: &Target, ties: Option<&Ties>) -> (u64, Vec<(i32, i32)>) {
     let error =
         tolerance::SCANLINE.depth.at([0.0, 1.0]) + tolerance::EDGE_FUNCTION.depth.at([0.0, 1.0]);
     let tolerance = a.format.tolerance(error);
     let mut wrong = Vec::new();
     let mut count = 0;
-    for (plane_a, plane_b) in a.planes.iter().zip(&b.planes) {
+    for (plane, (plane_a, plane_b)) in a.planes.iter().zip(&b.planes).enumerate() {
         let PixelRect { x0, y0, y1, .. } = plane_a.depth.bounds();
         for y_px in y0..y1 {
             let rows = plane_a.depth.row(y_px).iter().zip(plane_b.depth.row(y_px));
@@ -109,7 +154,8 @@ fn compare_depths(a: &Target, b: &Target) -> (u64, Vec<(i32, i32)>) {
                 let near = key_a != CLEAR
                     && key_b != CLEAR
                     && (a.format.depth(key_a) - b.format.depth(key_b)).abs() <= tolerance;
-                if key_a != key_b && !near {
+                let is_excused = || ties.is_some_and(|ties| ties.is_excused(plane, x_px, y_px));
+                if key_a != key_b && !near && !is_excused() {
                     wrong.push((x_px, y_px));
                 }
             }

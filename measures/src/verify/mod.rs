@@ -15,6 +15,8 @@ mod finding;
 pub mod shrink;
 #[doc(hidden)]
 pub mod specimens;
+#[doc(hidden)]
+pub mod ties;
 pub mod tolerance;
 mod truth;
 

@@ -12,9 +12,9 @@
 //! each triangle anyway, so there every triangle gives one colour to the pixels in its inside.
 
 mod apart;
-mod depths;
+pub(super) mod depths;
 mod parts;
-mod pattern;
+pub(super) mod pattern;
 mod pixel;
 
 use std::ops::Range;

@@ -1,0 +1,56 @@
+//! `rasterproof digest`: everything the engines compute for a seed, hashed, to compare machines.
+
+use indicatif::{ProgressBar, ProgressDrawTarget};
+
+use super::{Failure, Streams, exit};
+use crate::digest::{self, Options};
+
+pub const HELP: &str = "Examples:
+  rasterproof digest                          hash what every engine computes
+  rasterproof digest --seed 7 --cases 100     other cases, more of them
+  rasterproof digest --engine dda --json      one engine, for machines
+
+Run it on two machines: the same lines mean the same bits (docs/machines.md).";
+
+/// Options of `digest`.
+#[derive(clap::Args, Debug)]
+pub struct DigestArguments {
+    /// Decides every generated case
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+    /// Cases of each family, and random scenes
+    #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
+    cases: u64,
+    /// One engine only
+    #[arg(long, value_name = "NAME", value_parser = clap::builder::PossibleValuesParser::new(digest::engines()))]
+    engine: Option<String>,
+    /// Print JSON instead of a table
+    #[arg(long)]
+    json: bool,
+}
+
+/// Hashes and prints; there is nothing to disagree with.
+pub fn run(arguments: &DigestArguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+    let DigestArguments { seed, cases, engine, json } = arguments;
+    let (options, engine) = (Options { seed: *seed, cases: *cases }, engine.as_deref());
+    let bar = ProgressBar::with_draw_target(
+        Some(digest::case_count(options, engine)),
+        if streams.progress { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() },
+    );
+    let parts = digest::digest(options, engine, &|more| bar.inc(more));
+    bar.finish_and_clear();
+    let total = digest::total(&parts);
+    if *json {
+        let json = serde_json::json!({
+            "seed": seed, "cases": cases, "parts": parts, "sha256": total,
+        });
+        writeln!(streams.output, "{json}")?;
+        return Ok(exit::AGREES);
+    }
+    for part in &parts {
+        writeln!(streams.output, "{:<19} {:<8} {}", part.engine, part.what, part.sha256)?;
+    }
+    let what = format!("seed {seed}, {cases} cases");
+    writeln!(streams.output, "{what:<28} {total}")?;
+    Ok(exit::AGREES)
+}

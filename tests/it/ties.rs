@@ -1,0 +1,215 @@
+//! Depth ties: two surfaces in one plane are undecided by either rasterizer, in every depth format and
+//! with every kind of samples; a fault in the same scene is still found.
+
+use std::process::Command;
+
+use glam::{DMat4, DVec2, DVec3};
+use rasterproof::effects::{Effect, Effects, Mode, render};
+use rasterproof::frame::Frame;
+use rasterproof::lineup::{Drawer, Engine};
+use rasterproof::mutant::TriangleMutant;
+use rasterproof::pipeline::depth::DepthFormat;
+use rasterproof::pipeline::target::{Antialias, Colour, Target};
+use rasterproof::pipeline::transform::perspective;
+use rasterproof::report::frames::{self, Comparison};
+use rasterproof::scene::{Corner, Item, Material, Mesh, Scene, chapters};
+use rasterproof::verify::ties::{self, Drawn};
+use rayon::prelude::*;
+
+const WHOLE: Effects =
+    Effects::PLANNED.with(Effect::Depth, Mode::Always).with(Effect::Samples, Mode::Always);
+
+/// A square, split along one diagonal or the other.
+fn square(diagonal: usize, colour: DVec3, model: DMat4) -> Item {
+    let positions = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+    let corner = |position: u32| Corner {
+        position,
+        colour: DVec3::ONE,
+        normal: DVec3::ZERO,
+        uv: DVec2::ZERO,
+    };
+    let triangles = [[[0, 1, 2], [0, 2, 3]], [[0, 1, 3], [1, 2, 3]]][diagonal];
+    let mesh = Mesh {
+        positions: positions.map(|(x, y)| DVec3::new(x, y, 0.0)).to_vec(),
+        triangles: triangles.map(|indices| indices.map(corner)).to_vec(),
+    };
+    Item { model, ..Item::new(mesh, Material { colour, ..Material::default() }) }
+}
+
+/// A red square and a blue one, turned alike, `behind` apart.
+fn squares(pitch_degrees: f64, behind: f64) -> Scene {
+    let turn = rasterproof::angle::turn_x(pitch_degrees.to_radians());
+    let model = |z: f64| DMat4::from_translation(DVec3::Z * (4.0 + z)) * turn;
+    let projection = perspective(0.7, 4.0 / 3.0, 1.0, 10.0).unwrap();
+    let mut scene = Scene::new("squares", "a square twice", projection);
+    scene.items = vec![
+        square(0, DVec3::new(0.9, 0.2, 0.1), model(0.0)),
+        square(1, DVec3::new(0.1, 0.3, 0.9), model(behind)),
+    ];
+    scene
+}
+
+fn draw(scene: &Scene, engine: Engine, mut target: Target) -> (Frame<Colour>, Target) {
+    let rendered = render::render(scene, &engine, &WHOLE, &mut target).unwrap();
+    (rendered.picture, target)
+}
+
+/// Compares the frames of two engines, ties excused.
+fn compare(
+    scene: &Scene,
+    engines: [Engine; 2],
+    antialias: Antialias,
+    format: DepthFormat,
+) -> Comparison {
+    let target = Target::new(80, 60, antialias, format).unwrap();
+    let drawn = engines.map(|engine| draw(scene, engine, target.clone()));
+    judge(scene, engines, &drawn)
+}
+
+fn judge(scene: &Scene, engines: [Engine; 2], drawn: &[(Frame<Colour>, Target); 2]) -> Comparison {
+    let frames = [0, 1].map(|i| Drawn { engine: engines[i], target: &drawn[i].1 });
+    let ties = ties::find(scene, frames).unwrap();
+    let [(a, a_target), (b, b_target)] = drawn;
+    frames::compare((a, a_target), (b, b_target), Some(&ties))
+}
+
+const SMOOTHINGS: [Antialias; 3] =
+    [Antialias::None, Antialias::Multisample4, Antialias::Supersample(2)];
+
+#[test]
+fn one_plane_is_undecided_by_either() {
+    let pitches: Vec<f64> = (0..12).map(|i| f64::from(3 + 7 * i)).collect();
+    for format in DepthFormat::ALL {
+        for antialias in SMOOTHINGS {
+            let comparisons: Vec<Comparison> = pitches
+                .par_iter()
+                .map(|&pitch| compare(&squares(pitch, 0.0), Engine::JUDGED, antialias, format))
+                .collect();
+            let name = format!("{} {antialias:?}", format.name());
+            for (c, pitch) in comparisons.iter().zip(&pitches) {
+                assert!(c.agrees(), "{name}, {pitch} degrees: {c:?}");
+                assert!(c.undecided >= c.undecided_differ);
+            }
+            let sum = |of: fn(&Comparison) -> u64| comparisons.iter().map(of).sum::<u64>();
+            let (undecided, differ) = (sum(|c| c.undecided), sum(|c| c.undecided_differ));
+            if format == DepthFormat::F64 {
+                assert!(undecided > 1000 && differ > 100, "{name}: {undecided}, {differ}");
+            } else {
+                // One step holds both depths nearly everywhere, and what was first stays.
+                assert!(undecided < 100, "{name}: {undecided}");
+            }
+        }
+    }
+}
+
+/// Behind by more than the bounds, nothing is undecided, though by less than a step of 24 bits.
+#[test]
+fn apart_is_decided() {
+    for behind in [1e-9, -1e-9, 0.5, -0.5] {
+        for antialias in SMOOTHINGS {
+            let scene = squares(40.0, behind);
+            let c = compare(&scene, Engine::JUDGED, antialias, DepthFormat::F64);
+            assert!(c.agrees() && c.undecided == 0, "{behind} {antialias:?}: {c:?}");
+        }
+    }
+    for name in ["square", "cycle", "cube", "sphere", "panels"] {
+        let scene = chapters::scene(name, 4.0 / 3.0, 0.37).unwrap();
+        let c = compare(&scene, Engine::JUDGED, Antialias::None, DepthFormat::F64);
+        assert!(c.agrees() && c.undecided == 0, "{name}: {c:?}");
+    }
+}
+
+/// An engine with a wrong depth shows a surface that may not be the nearest, or a depth that is none.
+#[test]
+fn a_planted_fault_is_still_found() {
+    let planted = Engine::Mutant(TriangleMutant::PerspectiveDepth);
+    for format in DepthFormat::ALL {
+        for antialias in SMOOTHINGS {
+            let scene = squares(40.0, 0.0);
+            let c = compare(&scene, [Engine::Scanline, planted], antialias, format);
+            assert!(!c.agrees(), "{} {antialias:?}: {c:?}", format.name());
+        }
+    }
+}
+
+/// Of an undecided pixel, both the colour and the depth must be those of a rival.
+#[test]
+fn an_undecided_pixel_is_no_excuse_for_anything_else() {
+    let (scene, engines) = (squares(40.0, 0.0), Engine::JUDGED);
+    let target = Target::new(80, 60, Antialias::None, DepthFormat::F64).unwrap();
+    let drawn = engines.map(|engine| draw(&scene, engine, target.clone()));
+    let whole = judge(&scene, engines, &drawn);
+    assert!(whole.agrees() && whole.undecided > 0);
+    let (x, y) = (40, 30);
+    let shown = drawn[1].0.get(x, y).unwrap();
+    // 0.9, 0.2, 0.1 and 0.1, 0.3, 0.9 times 255, to the nearest.
+    let colours = [[230, 51, 26, 255], [26, 77, 230, 255]];
+    let [other] = colours.into_iter().filter(|c| *c != shown).collect::<Vec<_>>()[..] else {
+        panic!("neither square is shown: {shown:?}");
+    };
+    let edited = |colour: Option<Colour>, depth: u64| {
+        let mut drawn = drawn.clone();
+        let (picture, target) = &mut drawn[1];
+        let plane = &mut target.planes[0];
+        if let Some(colour) = colour {
+            picture.span_mut(y, x, x + 1)[0] = colour;
+            plane.colour.span_mut(y, x, x + 1)[0] = colour;
+        }
+        plane.depth.span_mut(y, x, x + 1)[0] += depth;
+        judge(&scene, engines, &drawn)
+    };
+    assert!(edited(None, 0).agrees());
+    // The other square is as right; green is neither.
+    assert!(edited(Some(other), 0).agrees());
+    let green = edited(Some([0, 200, 0, 255]), 0);
+    assert_eq!((green.wrong_pixels, green.wrong_depths), (1, 0));
+    // 2^12 steps beyond 1/2 are 2^-41, a thousand times the bound.
+    let deep = edited(None, 1 << 12);
+    assert_eq!((deep.wrong_pixels, deep.wrong_depths), (0, 1));
+}
+
+#[test]
+fn the_planned_frames_of_the_drawers_tie_alike() {
+    let scene = squares(40.0, 0.0);
+    let target = Target::new(80, 60, Antialias::None, DepthFormat::F64).unwrap();
+    for (drawer, engine) in Drawer::ALL.into_iter().zip(Engine::JUDGED) {
+        let mut own = target.clone();
+        let planned = drawer.render(&scene, &WHOLE, &mut own).unwrap();
+        let (picture, other) = draw(&scene, engine, target.clone());
+        assert!(planned.picture == picture && own.planes == other.planes, "{}", drawer.name());
+    }
+}
+
+/// Renders the model of `tests/data`; the status, what was printed, and the picture of differences.
+fn render_model(words: &[&str]) -> (Option<i32>, String, Option<image::RgbImage>) {
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+    let picture = root.join(format!("target/ties-{}.png", words.join("").replace(['-', '.'], "")));
+    let difference = picture.with_extension("difference.png");
+    let _ = std::fs::remove_file(&difference);
+    let output = Command::new(env!("CARGO_BIN_EXE_rasterproof"))
+        .args(["render", "tests/data/ties.obj", "--size", "160x120", "--yaw", "0", "-o"])
+        .arg(&picture)
+        .args(words)
+        .current_dir(root)
+        .output()
+        .unwrap();
+    let image = image::open(difference).ok().map(|image| image.to_rgb8());
+    (output.status.code(), String::from_utf8(output.stdout).unwrap(), image)
+}
+
+#[test]
+fn the_command_names_ties() {
+    let (status, text, picture) = render_model(&["--depth", "f64"]);
+    assert_eq!(status, Some(0), "{text}");
+    assert!(text.contains("\nAGREES: ") && text.contains("\nUNDECIDED: "), "{text}");
+    assert!(text.lines().all(|line| line.chars().count() <= 100 || line.contains("/")), "{text}");
+    let yellow = image::Rgb([255, 200, 0]);
+    assert!(picture.unwrap().pixels().any(|pixel| *pixel == yellow));
+    let (status, json, _) = render_model(&["--depth", "f64", "--json"]);
+    let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+    let of = |key: &str| json["comparison"][key].as_u64().unwrap();
+    assert_eq!((status, of("wrong_pixels"), of("wrong_depths")), (Some(0), 0, 0));
+    assert!(of("undecided") >= of("undecided_differ") && of("undecided_differ") > 0, "{json}");
+    let (status, text, _) = render_model(&["--depth", "unorm24"]);
+    assert!(status == Some(0) && text.contains("\nAGREES: "), "{text}");
+}
