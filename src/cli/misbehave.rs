@@ -49,6 +49,8 @@ pub enum Fault {
     Floods,
     /// Writes lines without end.
     FloodsLines,
+    /// Answers with as many runs as fit on a line.
+    Bloats,
     /// Starts another process that keeps its output open, and exits.
     Forks,
     /// Dies, but not when the request comes alone.
@@ -130,6 +132,10 @@ fn misbehave(
         Fault::FloodsLines => loop {
             writeln!(out, "C {id} 0")?;
         },
+        Fault::Bloats => {
+            let runs = 170_000;
+            writeln!(out, "C {id} {runs}{}", " 0 0 1".repeat(runs))?;
+        }
         Fault::Forks => {
             // It waits for input that never ends, and holds the output that it was born with.
             let program = std::env::current_exe()?;

@@ -16,6 +16,7 @@ pub mod expected;
 pub mod group;
 pub mod inside;
 pub mod league;
+mod leaving;
 pub mod mesh;
 pub mod place;
 pub mod process;
