@@ -789,7 +789,7 @@
 
   const legend = () => {
     const entries = state.item.isCase
-      ? [['agrees', '', item.layers[item.oracle].role === 'oracle' ? 'as the oracle' : 'as expected'], ['missing', '\u2212', 'missing'], ['extra', '+', 'extra'],
+      ? [['agrees', '', state.item.layers[state.item.oracle].role === 'oracle' ? 'as the oracle' : 'as expected'], ['missing', '\u2212', 'missing'], ['extra', '+', 'extra'],
         ['twice', '2', 'too often'], ['overlap', '*', 'rightly more than once']]
       : [];
     $('#legend').replaceChildren(...entries.map(([fill, glyph, text]) => {
