@@ -19,8 +19,8 @@ pub const HELP: &str = "Examples:
   rasterproof course check                             judge the current step, in that folder
   rasterproof course check dda --hint                  judge a step, one hint more
   rasterproof course check -- ./mine --fast            by this command, which is remembered
-  rasterproof course grade -- ./mine                   points by step
-  rasterproof course grade --folder submissions        a table of many
+  rasterproof course --grade ./mine                    points by step
+  rasterproof course --grade --folder submissions      a table of many
 
 Programs are run with your rights: docs/course.md says what they may do.
 Exit status: 0 passed, 1 not passed, 2 the command, the program or course.toml cannot be used.";
@@ -46,7 +46,7 @@ enum CourseCommand {
     /// Judge a step, and note how it came out
     Check(CheckArguments),
     /// Points by step: of a program, or of a folder of submissions
-    #[command(after_help = course_grade::HELP)]
+    #[command(long_flag = "grade", after_help = course_grade::HELP)]
     Grade(Box<GradeArguments>),
 }
 

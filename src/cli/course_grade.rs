@@ -1,4 +1,4 @@
-//! `rasterproof course grade`: points by step, of one program or of a folder of submissions.
+//! `rasterproof course --grade`: points by step, of one program or of a folder of submissions.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -16,10 +16,10 @@ use crate::judge::process::{Limits, Program};
 use crate::judge::text::printable;
 
 pub const HELP: &str = "Examples:
-  rasterproof course grade -- ./mine                                 points of a program
-  rasterproof course grade --format gradescope -- ./mine             Gradescope's results.json
-  rasterproof course grade --folder submissions                      each by its own course.toml
-  rasterproof course grade --folder submissions --run 'python3 -B {}/starter.py'
+  rasterproof course --grade ./mine                                  points of a program
+  rasterproof course --grade --format gradescope ./mine              Gradescope's results.json
+  rasterproof course --grade --folder submissions                    each by its own course.toml
+  rasterproof course --grade --folder submissions --run 'python3 -B {}/starter.py'
 
 Each program has --seconds in all, --timeout for each answer and --memory MiB of addresses, and runs
 with your rights: judge only what you would run, or in a container.
@@ -36,7 +36,7 @@ enum Format {
     Gradescope,
 }
 
-/// Options of `course grade`.
+/// Options of `course --grade`.
 #[derive(clap::Args, Debug)]
 pub struct GradeArguments {
     /// Grade every folder in this one
@@ -66,8 +66,13 @@ pub struct GradeArguments {
     /// MiB of addresses that a process may map; 0 sets no bound
     #[arg(long, value_name = "MIB", default_value_t = 2048)]
     memory: u64,
-    /// The program and its arguments, after --
-    #[arg(last = true, value_name = "CMD", required_unless_present = "folder")]
+    /// The program and its arguments, last
+    #[arg(
+        trailing_var_arg = true,
+        allow_hyphen_values = true,
+        value_name = "CMD",
+        required_unless_present = "folder"
+    )]
     command: Vec<String>,
 }
 
@@ -102,7 +107,7 @@ impl Grade {
 pub fn run(arguments: &GradeArguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
     if arguments.folder.is_some() && arguments.format == Format::Gradescope {
         return Err(usage(
-            "results.json is of one submission\n  name a program: course grade --format gradescope -- CMD",
+            "results.json is of one submission\n  name a program: course --grade --format gradescope CMD",
         ));
     }
     let submissions = match &arguments.folder {

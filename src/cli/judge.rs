@@ -8,7 +8,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::{Failure, PAGE, Streams, exit, league, usage, write_file, write_page};
 use crate::hazard;
-use crate::judge::ask::{Ask, Misbehaviour};
+use crate::judge::ask::Ask;
 use crate::judge::baseline::Baseline;
 use crate::judge::process::{Limits, Program};
 use crate::judge::recognise::{Scope, recognise};
@@ -177,7 +177,7 @@ pub fn run(arguments: &JudgeArguments, streams: &mut Streams<'_>) -> Result<u8, 
     let mut askers = Vec::new();
     for _ in 0..arguments.jobs {
         let program = Program::start(&arguments.command, &arguments.words(), limits);
-        let program = program.map_err(|m| usage(unusable(&m)))?;
+        let program = program.map_err(|m| usage(format!("the program {m}\n  {}", m.remedy())))?;
         askers.push(Box::new(program) as Box<dyn Ask>);
     }
     let declared = askers[0].declared();
@@ -223,18 +223,6 @@ pub fn run(arguments: &JudgeArguments, streams: &mut Streams<'_>) -> Result<u8, 
     // A baseline that was just written knows everything.
     let agrees = verdict.agrees() || arguments.update_baseline;
     Ok(if agrees { exit::AGREES } else { exit::DISAGREES })
-}
-
-/// Why there is nothing to judge, and what to do about it.
-fn unusable(misbehaviour: &Misbehaviour) -> String {
-    let remedy = match misbehaviour {
-        Misbehaviour::CannotStart(_) => "name a program and its arguments after --",
-        _ => {
-            "a program answers the line 'HELLO 2' with 'HELLO 2 name coverage' and flushes it; \
-             see docs/protocol.md"
-        }
-    };
-    format!("the program {misbehaviour}\n  {remedy}")
 }
 
 fn progress_bar(arguments: &JudgeArguments, is_shown: bool) -> ProgressBar {

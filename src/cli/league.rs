@@ -46,14 +46,17 @@ pub fn run(
         let convention = |program: &mut dyn Ask| recognise(program, everything);
         let mut askers: Vec<Box<dyn Ask>> = vec![Box::new(program)];
         let verdict = judge::judge(&mut askers, options, &convention, &|_| ());
-        let (declared, found) = (verdict.as_declared(), verdict.by_convention());
-        let found = found.map_or("unexplained".to_owned(), |score| score.wrong.to_string());
-        writeln!(
-            streams.output,
-            "{:<22} {} wrong pixels of {}, by its convention: {found}",
-            adapter.name, declared.wrong, declared.pixels
-        )?;
-        rows.push(Standing::new(adapter, &verdict));
+        let standing = Standing::new(adapter, &verdict);
+        write!(streams.output, "{:<22}", adapter.name)?;
+        for (kind, what) in [(&standing.triangles, "triangles"), (&standing.lines, "lines")] {
+            let Some(kind) = kind else { continue };
+            let found = kind.by_convention.map(|score| score.wrong.to_string());
+            let found = found.unwrap_or_else(|| "unexplained".to_owned());
+            write!(streams.output, " {what} {} wrong, by theirs {found};", kind.as_declared.wrong)?;
+        }
+        writeln!(streams.output)?;
+        streams.output.flush()?;
+        rows.push(standing);
     }
     if rows.is_empty() {
         return Err(usage("no adapter is installed\n  adapters/install prepares them"));

@@ -8,6 +8,7 @@ use std::process::{Command, Stdio};
 use std::time::Duration;
 
 use super::{Failure, Streams, engine, exit};
+use crate::judge::serve;
 
 /// A way to break the protocol.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -48,6 +49,8 @@ pub enum Fault {
     Floods,
     /// Writes lines without end.
     FloodsLines,
+    /// Answers with as many runs as fit on a line.
+    Bloats,
     /// Starts another process that keeps its output open, and exits.
     Forks,
     /// Dies, but not when the request comes alone.
@@ -78,7 +81,7 @@ pub fn run(name: &str, fault: Fault, streams: &mut Streams<'_>) -> Result<u8, Fa
             return Ok(exit::AGREES);
         }
         let mut answer = Vec::new();
-        engine::respond(entry, line.trim_end(), &mut answer)?;
+        serve::respond(entry, line.trim_end(), &mut answer)?;
         let words: Vec<&str> = line.split_whitespace().collect();
         if words.first() == Some(&"HELLO") {
             let refused = fault == Fault::Rude || (fault == Fault::Old && words[1] == "2");
@@ -129,6 +132,10 @@ fn misbehave(
         Fault::FloodsLines => loop {
             writeln!(out, "C {id} 0")?;
         },
+        Fault::Bloats => {
+            let runs = 170_000;
+            writeln!(out, "C {id} {runs}{}", " 0 0 1".repeat(runs))?;
+        }
         Fault::Forks => {
             // It waits for input that never ends, and holds the output that it was born with.
             let program = std::env::current_exe()?;

@@ -99,11 +99,8 @@ pub fn start(
 ) -> Result<Program, String> {
     check_command(folder, run)?;
     Program::start(&command(folder, run, bounds), &[], limits).map_err(|misbehaviour| {
-        format!(
-            "the program {} {misbehaviour}\n  a program answers 'HELLO 2' with \
-             'HELLO 2 name coverage' and flushes it: docs/protocol.md",
-            printable(run.join(" ").as_bytes(), 80)
-        )
+        let shown = printable(run.join(" ").as_bytes(), 80);
+        format!("the program {shown} {misbehaviour}\n  {}", misbehaviour.remedy())
     })
 }
 

@@ -271,7 +271,7 @@ def samples(x0, y0, x1, y1, x2, y2, width, height, set_pixel):
 fn course_grades() {
     let folder = folder("grades");
     let words =
-        ["grade", "--format", "gradescope", "--cases", "32", "--", PROGRAM, "engine", "scanline"];
+        ["--grade", "--format", "gradescope", "--cases", "32", PROGRAM, "engine", "scanline"];
     let results: Value = serde_json::from_str(&run(&folder, &words, 1).0).unwrap();
     let tests = results["tests"].as_array().unwrap();
     assert_eq!((tests.len(), &results["score"]), (12, &Value::from(9)));

@@ -15,7 +15,10 @@ use rasterproof::judge::recognise::{Scope, recognise};
 use rasterproof::judge::verdict::{Outcome, Verdict};
 use rasterproof::judge::{Options, judge};
 use rasterproof::lineup::{self, SPECIMENS};
+use rasterproof::mutant::exact::ExactMutant;
 use rasterproof::mutant::{LineMutant, TriangleMutant};
+use rasterproof::triangle::PixelPoint;
+use rayon::prelude::*;
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_rasterproof");
 
@@ -87,31 +90,27 @@ fn judge_catches_every_specimen() {
     }
 }
 
-/// Through a pipe comes out what comes out without one: row for row, failure for failure.
+/// Through a pipe comes out what comes out without one, row for row, failure for failure: every engine,
+/// every specimen, every planted fault.
 #[test]
 fn judge_finds_the_same_through_a_pipe() {
-    for name in [
-        "scanline",
-        "oracle",
-        "edge-function-exact",
-        "exclusive-edges",
-        "panics-on-flat-bottom",
-        "doubles-span-end",
-        "affine-attributes",
-        "line-misses-end",
-        "book-ch2",
-        "games101-strict",
-        "sysu-inclusive",
-        "book-dda",
-    ] {
-        let options = options(20, &[]);
+    let engines = lineup::ENTRIES.iter().chain(&SPECIMENS).map(|entry| entry.name);
+    let triangles = TriangleMutant::ALL.iter().map(|mutant| mutant.name());
+    let lines = LineMutant::ALL.iter().map(|mutant| mutant.name());
+    let exact = ExactMutant::ALL.iter().map(|mutant| mutant.name());
+    let planted = triangles.chain(lines).chain(exact);
+    let names: Vec<_> =
+        engines.chain(planted.filter(|name| lineup::find_planted(name).is_some())).collect();
+    assert!(names.len() > 70, "{}", names.len());
+    names.par_iter().for_each(|name| {
+        let options = options(8, &[]);
         let without = judged(inside(name), &options);
         let through = judged(Box::new(process(&[name], 20_000).unwrap()), &options);
         assert_eq!(through.found.rows, without.found.rows, "{name}");
         assert_eq!(through.found.failing, without.found.failing, "{name}");
         assert_eq!(through.agrees(), without.agrees(), "{name}");
         assert_eq!(through.windings, without.windings, "{name}");
-    }
+    });
 }
 
 /// Each way to break the protocol gets its word, and the rest is judged all the same.
@@ -129,6 +128,7 @@ fn judge_names_misbehaviour() {
         ("other-id", "answers for another id"),
         ("floods", "floods its output"),
         ("floods-lines", "answers twice"),
+        ("bloats", "floods its output"),
         ("forks", "exits early"),
         ("moody", "crashes"),
     ] {
@@ -536,6 +536,71 @@ fn judge_writes_a_page() {
     check(&of(&["--report", "--family", "half-integer"], &["exclusive-edges"]), 1);
     let page = std::fs::read_to_string(folder().join("target/rasterproof/index.html")).unwrap();
     assert!(page.contains("Verdict on exclusive-edges") && page.contains("half-integer#"));
+}
+
+/// The judge needs no more memory for a program that answers as much as it may: with this bound of
+/// addresses it would abort.
+#[cfg(target_os = "linux")]
+#[test]
+fn judge_is_bounded_itself() {
+    let words = of(&["--family", "half-integer"], &["scanline", "--plant", "bloats"]);
+    let line = "ulimit -v 700000 && exec \"$@\"";
+    let mut command = Command::new("sh");
+    command.args(["-c", line, "sh", PROGRAM]).args(words).current_dir(folder());
+    // Threads reserve addresses by the core.
+    let output = command.env("RAYON_NUM_THREADS", "2").env("MALLOC_ARENA_MAX", "2").output();
+    let output = output.unwrap();
+    let (out, errors) =
+        (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+    assert_eq!(output.status.code(), Some(1), "{out}{errors}");
+    assert!(out.contains("floods its output: "), "{out}");
+}
+
+/// An engine behind a library that cuts what leaves the window first: to whole pixels.
+struct CutsFirst(Inside);
+
+impl Ask for CutsFirst {
+    fn declared(&self) -> &Declared {
+        self.0.declared()
+    }
+
+    fn ask(&mut self, questions: &[Question], most_deaths: u64) -> Vec<Answer> {
+        let cut: Vec<_> = questions
+            .iter()
+            .map(|q| {
+                let (right, bottom) = (q.width as i32, q.height as i32);
+                let of = match q.of {
+                    Asked::Line { ends, whole } => {
+                        let end = |p: PixelPoint| {
+                            PixelPoint::new(p.x.clamp(0, right - 1), p.y.clamp(0, bottom - 1))
+                        };
+                        Asked::Line { ends: ends.map(end), whole }
+                    }
+                    other => other,
+                };
+                Question { of, ..*q }
+            })
+            .collect();
+        self.0.ask(&cut, most_deaths)
+    }
+}
+
+/// What leaves the window and comes out otherwise is counted, said and left out of the second score;
+/// of who draws it as the rest, nothing is said.
+#[test]
+fn judge_tells_what_leaves_the_window() {
+    let options = options(30, &["line-octants", "line-clipped"]);
+    let entry = lineup::find("bresenham").unwrap();
+    let verdict = recognised(Box::new(CutsFirst(Inside::new(entry))), &options);
+    let text = verdict.recognised.as_ref().unwrap().sentences.concat();
+    assert!(text.contains("Lines that leave the window come out otherwise ("), "{text}");
+    let score = verdict.by_convention().unwrap();
+    assert!(verdict.as_declared().wrong > 50 && score.wrong == 0, "{score:?}");
+    assert!(score.unscored > 0, "{score:?}");
+    let verdict = recognised(inside("line-directed-ties"), &options);
+    let text = verdict.recognised.as_ref().unwrap().sentences.concat();
+    assert!(!text.contains("leave the window") && !text.is_empty(), "{text}");
+    assert_eq!(verdict.by_convention().unwrap().unscored, 0);
 }
 
 /// Ctrl-C ends the program that is being judged, too.

@@ -1,4 +1,7 @@
 //! raqote: `DrawTarget::fill` with `AntialiasMode::None`. It has no line of pixels.
+//!
+//! Crossings are 16.16 fixed-point numbers: with corners within 8191 px 2 pixels in 1000 of huge
+//! triangles were not those of its rule, within 32767 px more than half. So a range is declared.
 
 use raqote::{AntialiasMode, DrawOptions, DrawTarget, PathBuilder, SolidSource, Source};
 
@@ -6,9 +9,9 @@ use crate::protocol::{Library, SetPixel};
 
 pub const LIBRARY: Library = Library {
     name: "raqote-0.8.5",
-    declares: "mask batch=64",
+    declares: "range=8191 mask batch=64",
     grid: 256.0,
-    range: f64::INFINITY,
+    range: 8191.0,
     triangle,
     line: None,
     longest_line: i64::MAX,

@@ -1,6 +1,7 @@
 //! The bench a program is questioned on: how questions are put, and what is kept of the answers.
 
 use super::mask::{Mask, SIDE_PX};
+use super::mirror::Mirror;
 use super::rule::Convention;
 use crate::frame::Coverage;
 use crate::grid::PixelRect;
@@ -66,6 +67,8 @@ pub(super) struct Bench<'a> {
     pub(super) window: PixelRect,
     /// Subpixels between neighbouring coordinates that may be asked.
     pub(super) grain: i32,
+    /// How pictures come out turned over; answers are taken back.
+    pub(super) mirror: Mirror,
     pub(super) rng: Rng,
     pub(super) asked: u64,
     pub(super) refused: u64,
@@ -88,6 +91,7 @@ impl<'a> Bench<'a> {
             known,
             window,
             grain,
+            mirror: Mirror::None,
             rng: Rng::new("convention", seed, 0),
             asked: 0,
             refused: 0,
@@ -120,8 +124,8 @@ impl<'a> Bench<'a> {
             .map(|(&corners, answer)| {
                 answer.filter(|a| a.bounds() == window).map(|coverage| Answer {
                     corners,
-                    drawn: Mask::of(&coverage, 1),
-                    twice: Mask::of(&coverage, 2),
+                    drawn: Mask::of(&coverage, 1).mirrored(self.mirror, window),
+                    twice: Mask::of(&coverage, 2).mirrored(self.mirror, window),
                 })
             })
             .collect();

@@ -80,6 +80,10 @@ impl Candidate {
                     near(x, ox) && near(y, oy)
                 }
                 (
+                    Shape::Samples { x, y, pattern, least },
+                    Shape::Samples { x: ox, y: oy, pattern: other, least: others },
+                ) => near(x, ox) && near(y, oy) && (pattern, least) == (other, others),
+                (
                     Shape::Rows { left, right, y },
                     Shape::Rows { left: other_left, right: other_right, y: oy },
                 ) => near(left, other_left) && near(right, other_right) && near(y, oy),
@@ -97,9 +101,12 @@ impl Candidate {
             Shape::Outline(tie) => {
                 (3, LineTie::ALL.iter().position(|&t| t == tie).unwrap_or(0) as u32)
             }
-            Shape::Reach { x, y, reach, .. } => (4, digits(x) + digits(y) + digits(reach)),
+            Shape::Samples { x, y, pattern, least } => {
+                (4, digits(x) + digits(y) + pattern as u32 + u32::from(least))
+            }
+            Shape::Reach { x, y, reach, .. } => (5, digits(x) + digits(y) + digits(reach)),
             Shape::Share { x, y, percent } => {
-                (5, digits(x) + digits(y) + u32::from(percent % 25 != 0))
+                (6, digits(x) + digits(y) + u32::from(percent % 25 != 0))
             }
         };
         let grid = if self.quantum.step == 1 { 0 } else { 1 + self.quantum.rounding as u32 };

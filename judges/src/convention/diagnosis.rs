@@ -5,6 +5,7 @@ use serde::Serialize;
 use super::bench::{Answer, Bench, Question};
 use super::candidate::Candidate;
 use super::fit::Fit;
+use super::mirror::Mirror;
 use super::rule::{Convention, Ties, Windings};
 use super::search::Seen;
 use super::ties::{Compass, Count};
@@ -100,7 +101,8 @@ const FRESH: usize = 150;
 pub fn diagnose(ask: &mut dyn Ask, known: &Known, seed: u64) -> Diagnosis {
     let mut silent = Diagnosis::nothing(known);
     let Some(mut bench) = Bench::new(ask, known, seed) else { return silent };
-    let draws = bench.windings();
+    let (draws, pictures) = bench.windings();
+    bench.mirror = Mirror::of(&pictures, bench.window);
     if draws == Windings::Neither {
         silent.convention.draws = draws;
         (silent.asked, silent.refused) = (bench.asked, bench.refused);
@@ -112,7 +114,9 @@ pub fn diagnose(ask: &mut dyn Ask, known: &Known, seed: u64) -> Diagnosis {
     let scored = Fit { seen, flips, grain: bench.grain }.hypotheses();
     let candidates = bench.separate(&scored, draws);
     let Some(&candidate) = candidates.first() else { return silent };
-    let found = bench.conclude(&candidate, &candidates[1..], &fitted);
+    let mut found = bench.conclude(&candidate, &candidates[1..], &fitted);
+    found.convention.mirror = bench.mirror;
+    found.alternatives.iter_mut().for_each(|other| other.mirror = bench.mirror);
     Diagnosis { asked: bench.asked, refused: bench.refused, ..found }
 }
 
@@ -138,6 +142,7 @@ impl Bench<'_> {
             quantum: candidate.quantum,
             shape: candidate.shape,
             ties,
+            mirror: Mirror::None,
             flat: flat.drawn > 0,
         };
         let found = convention(candidate, compass.ties());
@@ -147,7 +152,8 @@ impl Bench<'_> {
             ties: Agreement::of(convention, &tried, bench),
         };
         let as_found = share(&found, self);
-        let as_declared = share(&self.known.declared, self);
+        // Answers are taken back from their mirror, so what is declared is put into it.
+        let as_declared = share(&Convention { mirror: self.mirror, ..self.known.declared }, self);
         let mut twice = Count::default();
         if !self.known.mask {
             fresh.iter().chain(&tried).for_each(|answer| twice.add(!answer.twice.is_empty()));

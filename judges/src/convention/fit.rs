@@ -6,7 +6,7 @@ use super::general::Flip;
 use super::outline::LineTie;
 use super::quantum::{Quantum, Rounding};
 use super::search::{Range, Scored, Search, Seen};
-use super::shape::Shape;
+use super::shape::{Pattern, Shape};
 
 /// Grids whose search goes on after the first look.
 const GRIDS: usize = 6;
@@ -23,8 +23,8 @@ impl<'a> Fit<'a> {
     /// Hypotheses with their wrong pixels, the best first: of the kinds up to the simplest that
     /// explains all, or of all kinds.
     pub(super) fn hypotheses(&self) -> Vec<Scored> {
-        let kinds: [fn(&Self, Quantum) -> Vec<Search<'a>>; 4] =
-            [Self::points, Self::rows, Self::reaches, Self::shares];
+        let kinds: [fn(&Self, Quantum) -> Vec<Search<'a>>; 5] =
+            [Self::points, Self::rows, Self::samples, Self::reaches, Self::shares];
         let mut found = Vec::new();
         for (number, kind) in kinds.iter().enumerate() {
             let searches = self.quanta().into_iter().flat_map(|quantum| kind(self, quantum));
@@ -106,6 +106,15 @@ impl<'a> Fit<'a> {
         ]
     }
 
+    /// Four samples about a middle, of which at least one to four are covered.
+    fn samples(&self, quantum: Quantum) -> Vec<Search<'a>> {
+        let [[x, _], [y, _]] = [0, 1].map(|axis| self.middle(quantum, axis));
+        let makes: [fn(&[i32]) -> Shape; 2] =
+            [|v| four(v, Pattern::Square), |v| four(v, Pattern::Rotated)];
+        let least = Range { low: 1, high: 4, finest: 1 };
+        makes.into_iter().flat_map(|make| self.search(quantum, &[x, y, least], make)).collect()
+    }
+
     fn reaches(&self, quantum: Quantum) -> Vec<Search<'a>> {
         let [[x, reach], [y, down]] = [0, 1].map(|axis| self.middle(quantum, axis));
         let Some(reach) = reach.meet(down).and_then(|r| r.meet(Range::of(1, 512))) else {
@@ -130,4 +139,8 @@ impl<'a> Fit<'a> {
         let make = |v: &[i32]| Shape::Share { x: v[0], y: v[1], percent: v[2] };
         self.search(quantum, &[x, y, Range { low, high, finest: 1 }], make)
     }
+}
+
+fn four(v: &[i32], pattern: Pattern) -> Shape {
+    Shape::Samples { x: v[0], y: v[1], pattern, least: v[2] as u8 }
 }

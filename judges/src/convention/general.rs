@@ -63,9 +63,9 @@ impl Bench<'_> {
         self.draw(&questions)
     }
 
-    /// Which windings leave pixels.
-    pub(super) fn windings(&mut self) -> Windings {
-        let mut drawn = [0, 0];
+    /// Which windings leave pixels, and what they leave.
+    pub(super) fn windings(&mut self) -> (Windings, Vec<Answer>) {
+        let (mut drawn, mut all) = ([0, 0], Vec::new());
         let fat: Vec<_> = (0..10)
             .map(|_| {
                 loop {
@@ -78,14 +78,17 @@ impl Bench<'_> {
             .collect();
         for (way, drawn) in drawn.iter_mut().enumerate() {
             let list: Vec<_> = fat.iter().map(|&c| if way == 0 { c } else { turned(c) }).collect();
-            *drawn = self.draw(&list).iter().filter(|answer| !answer.drawn.is_empty()).count();
+            let answers = self.draw(&list);
+            *drawn = answers.iter().filter(|answer| !answer.drawn.is_empty()).count();
+            all.extend(answers);
         }
-        match drawn.map(|count| count > fat.len() / 4) {
+        let draws = match drawn.map(|count| count > fat.len() / 4) {
             [true, true] => Windings::Both,
             [true, false] => Windings::Clockwise,
             [false, true] => Windings::CounterClockwise,
             [false, false] => Windings::Neither,
-        }
+        };
+        (draws, all)
     }
 
     /// How often triangles without area leave pixels: points, segments, and corners on one line.

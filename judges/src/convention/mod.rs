@@ -18,10 +18,12 @@ mod general;
 mod half_planes;
 mod lines;
 mod mask;
+mod mirror;
 mod outline;
 mod place;
 mod quantum;
 mod rule;
+mod samples;
 mod search;
 mod separate;
 mod shape;
@@ -35,9 +37,10 @@ pub use diagnosis::{Agreement, Confidence, Diagnosis, Share, diagnose};
 pub use lines::{
     AskLine, Ends, LineConvention, LineDiagnosis, LineQuestion, LineRounding, Steps, diagnose_lines,
 };
+pub use mirror::Mirror;
 pub use outline::{End, LineTie};
 pub use place::FACINGS;
 pub use quantum::{Quantum, Rounding};
 pub use rule::{Convention, CornerRule, Ties, Windings};
-pub use shape::Shape;
+pub use shape::{Pattern, Shape};
 pub use ties::{Compass, Count};

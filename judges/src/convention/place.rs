@@ -16,6 +16,14 @@ pub(super) enum Place {
     Corner(u8),
     /// Exactly as much as is asked for.
     Level,
+    /// Several samples of the pixel on different edges: so many of them are needed; of each, one bit
+    /// for each facing of its edges, and 0 where there is no further one.
+    Several {
+        /// 1 to 4.
+        needed: u8,
+        /// Facings as bits.
+        ties: [u8; 4],
+    },
 }
 
 /// Corners on the grid, in subpixels.

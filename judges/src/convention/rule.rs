@@ -4,6 +4,7 @@
 use serde::Serialize;
 
 use super::mask::{Mask, SIDE_PX};
+use super::mirror::Mirror;
 use super::place::{FACINGS, Place, turn};
 use super::quantum::Quantum;
 use super::shape::Shape;
@@ -89,18 +90,28 @@ impl Ties {
         NAMED.iter().find(|(_, bits)| fits(bits)).map(|(name, _)| *name)
     }
 
+    fn includes_corner(&self, bits: u8) -> bool {
+        match self.corners {
+            CornerRule::Always => true,
+            CornerRule::Never => false,
+            CornerRule::AsEdges => (0..FACINGS.len()).all(|i| bits >> i & 1 == 0 || self.edges[i]),
+        }
+    }
+
     fn includes(&self, place: Place) -> bool {
         match place {
             Place::In => true,
             Place::Edge(facing) => self.edges[facing],
             Place::Level => self.level,
-            Place::Corner(bits) => match self.corners {
-                CornerRule::Always => true,
-                CornerRule::Never => false,
-                CornerRule::AsEdges => {
-                    (0..FACINGS.len()).all(|i| bits >> i & 1 == 0 || self.edges[i])
-                }
-            },
+            Place::Corner(bits) => self.includes_corner(bits),
+            Place::Several { needed, ties } => {
+                let owned = |bits: &&u8| match bits.count_ones() {
+                    0 => false,
+                    1 => self.edges[bits.trailing_zeros() as usize],
+                    _ => self.includes_corner(**bits),
+                };
+                ties.iter().filter(owned).count() >= usize::from(needed)
+            }
         }
     }
 }
@@ -116,6 +127,8 @@ pub struct Convention {
     pub shape: Shape,
     /// Who owns the ties.
     pub ties: Ties,
+    /// How the whole picture is turned over.
+    pub mirror: Mirror,
     /// Whether a triangle without area may leave pixels, by no rule that is known. An outline draws
     /// its sides in any case.
     pub flat: bool,
@@ -129,6 +142,7 @@ impl Default for Convention {
             quantum: Quantum::NONE,
             shape: Shape::Point { x: 128, y: 128 },
             ties: Ties::named("top-left").unwrap_or_else(|| unreachable!("it is in the list")),
+            mirror: Mirror::None,
             flat: false,
         }
     }
@@ -162,8 +176,9 @@ impl Convention {
             return false;
         }
         (turn != 0 && !self.draws.draws(turn > 0))
-            || self.shape.trace(&points, window, &mut |x, y, place| {
+            || self.shape.trace(&points, self.mirror.window(window), &mut |x, y, place| {
                 if self.ties.includes(place) {
+                    let [x, y] = self.mirror.at(x, y, window);
                     draw(x, y);
                 }
             })

@@ -6,6 +6,7 @@ use serde::Serialize;
 use super::half_planes::{self, HalfPlanes};
 use super::outline::{self, LineTie};
 use super::place::{Place, Points, turn};
+use super::samples;
 use super::share;
 use super::stepped;
 use crate::grid::PixelRect;
@@ -60,9 +61,29 @@ pub enum Shape {
         /// 1 to 100.
         percent: i32,
     },
+    /// At least so many of four samples lie in the triangle.
+    Samples {
+        /// The middle of the four.
+        x: i32,
+        /// The middle of the four.
+        y: i32,
+        /// How they lie about it.
+        pattern: Pattern,
+        /// 1 to 4.
+        least: u8,
+    },
     /// Corners are whole pixels: every pixel whose corner lies in the triangle, and the three sides
     /// as lines.
     Outline(LineTie),
+}
+
+/// How four samples lie about their middle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+pub enum Pattern {
+    /// Two by two, a quarter of a pixel each way.
+    Square,
+    /// The four of Vulkan and Direct3D, each in a row and a column of its own.
+    Rotated,
 }
 
 impl Shape {
@@ -80,6 +101,9 @@ impl Shape {
         match self {
             Self::Share { x, y, percent } => share::trace(points, [x, y], percent, window, emit),
             Self::Outline(tie) => outline::trace(points, tie, window, emit),
+            Self::Samples { x, y, pattern, least } => {
+                samples::trace(points, [x, y], (pattern, least), window, emit)
+            }
             Self::Stepped { x, y } => stepped::trace(points, [x, y], window, emit),
             Self::Point { x, y } => half_planes::at(x, y).trace(points, window, emit),
             Self::Rows { left, right, y } => {

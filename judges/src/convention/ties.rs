@@ -92,7 +92,7 @@ impl Compass {
             Place::Edge(facing) => compass.edges[facing].add(drawn),
             Place::Corner(_) => compass.corners.add(drawn),
             Place::Level => compass.level.add(drawn),
-            Place::In => {}
+            Place::In | Place::Several { .. } => {}
         });
         // Once the edges are known.
         let edges = self.ties().edges;
@@ -147,7 +147,7 @@ impl Bench<'_> {
             let mut here = [0; 10];
             let points = candidate.quantum.corners(&corners);
             candidate.shape.trace(&points, self.window, &mut |_, _, place| match place {
-                Place::In => {}
+                Place::In | Place::Several { .. } => {}
                 Place::Edge(facing) => here[facing] += 1,
                 Place::Corner(_) => here[8] += 1,
                 Place::Level => here[9] += 1,
@@ -177,6 +177,10 @@ impl Bench<'_> {
                 }
             }
             Shape::Rows { left, right, y } => [if self.rng.chance(2) { left } else { right }, y],
+            Shape::Samples { x, y, pattern, .. } => {
+                let [dx, dy] = pattern.offsets()[self.rng.int(0, 3) as usize];
+                [x + dx, y + dy]
+            }
             Shape::Outline(_) => [0, 0],
         }
     }

@@ -3,11 +3,12 @@
 use super::bench::LEAST_SIDE_PX;
 use super::diagnosis::{Confidence, Diagnosis};
 use super::lines::{Ends, LineConvention, LineDiagnosis, LineRounding, Steps};
+use super::mirror::Mirror;
 use super::outline::End;
 use super::place::FACINGS;
 use super::quantum::{Quantum, Rounding};
 use super::rule::{Convention, Windings};
-use super::shape::Shape;
+use super::shape::{Pattern, Shape};
 use super::ties::{Compass, Count};
 
 /// Subpixels as a decimal number of pixels.
@@ -74,6 +75,24 @@ fn shape(shape: Shape) -> String {
             };
             format!("draws a pixel if at least {percent} % of its area{area} is covered")
         }
+        Shape::Samples { x, y, pattern, least } => {
+            let how = match pattern {
+                Pattern::Square => "two by two",
+                Pattern::Rotated => "each in a row and column of its own",
+            };
+            let middle = if (x, y) == (128, 128) {
+                String::new()
+            } else {
+                format!(", about a middle {}", position(x, y))
+            };
+            let many = match least {
+                1 => "any",
+                2 => "two",
+                3 => "three",
+                _ => "all",
+            };
+            format!("draws a pixel if {many} of its four samples ({how}{middle}) are covered")
+        }
         Shape::Outline(tie) => format!(
             "fills between whole pixels, and draws the three sides as lines; a line halfway \
              between two pixels goes {}",
@@ -126,7 +145,15 @@ fn convention(of: &Convention, compass: &Compass) -> String {
         Windings::CounterClockwise => "draws counterclockwise triangles alone, ",
         Windings::Neither => "draws nothing, ",
     };
-    format!("{winding}{}{}{}", quantum(of.quantum), shape(of.shape), ties(of, compass))
+    let mirror = match of.mirror {
+        Mirror::None => "",
+        Mirror::UpsideDown => "draws its picture upside down, ",
+        Mirror::LeftToRight => "draws its picture with left and right exchanged, ",
+        Mirror::HalfTurn => "draws its picture turned by half a turn, ",
+        Mirror::Exchanged => "draws its picture with x and y exchanged, ",
+    };
+    let (quantum, ties) = (quantum(of.quantum), ties(of, compass));
+    format!("{mirror}{winding}{quantum}{}{ties}", shape(of.shape))
 }
 
 impl Diagnosis {

@@ -89,8 +89,8 @@ pub enum Misbehaviour {
     OutOfOrder(String),
     /// An answer for a request that was never made.
     Unasked(String),
-    /// A line longer than any answer: bytes that were read.
-    Floods(usize),
+    /// More output than any answers have: how much.
+    Floods(String),
 }
 
 impl Misbehaviour {
@@ -111,6 +111,18 @@ impl Misbehaviour {
             Self::Floods(_) => "floods its output",
         }
     }
+
+    /// What to do about a program that cannot be judged at all.
+    #[must_use]
+    pub fn remedy(&self) -> &'static str {
+        match self {
+            Self::CannotStart(_) => "name a program and its arguments after --",
+            _ => {
+                "a program answers the line 'HELLO 2' with 'HELLO 2 name coverage' and flushes it; \
+                 see docs/protocol.md"
+            }
+        }
+    }
 }
 
 impl fmt::Display for Misbehaviour {
@@ -124,12 +136,12 @@ impl fmt::Display for Misbehaviour {
             | Self::Nonsense(what)
             | Self::Twice(what)
             | Self::OutOfOrder(what)
-            | Self::Unasked(what) => write!(f, "{word}: {what}"),
+            | Self::Unasked(what)
+            | Self::Floods(what) => write!(f, "{word}: {what}"),
             Self::Hangs(limit) => write!(f, "{word}: no answer within {limit} s"),
             Self::Late(took, limit) => {
                 write!(f, "{word}: after {took:.1} s, allowed are {limit} s")
             }
-            Self::Floods(bytes) => write!(f, "{word}: {bytes} bytes without the end of a line"),
         }
     }
 }

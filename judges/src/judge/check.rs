@@ -343,7 +343,7 @@ fn length(runs: &[Span]) -> u64 {
 }
 
 /// Hits of the runs within the window, and how many pixels lie outside.
-fn hits(runs: &[Span], window: PixelRect) -> (Coverage, u64) {
+pub(super) fn hits(runs: &[Span], window: PixelRect) -> (Coverage, u64) {
     let (mut hits, mut outside) = (Coverage::new(window, 0), 0);
     for run in runs {
         let (x0, x1) = (run.x0_px.max(window.x0), run.x1_px.min(window.x1));

@@ -61,8 +61,10 @@ pub fn area2(&[a, b, c]: &Corners) -> i128 {
 }
 
 fn edge(a: SubpixelPoint, b: SubpixelPoint, p: SubpixelPoint) -> i128 {
-    let [ax, ay, bx, by, px, py] = [a.x, a.y, b.x, b.y, p.x, p.y].map(i128::from);
-    (bx - ax) * (py - ay) - (by - ay) * (px - ax)
+    // Written out, not mapped: this is asked of every triangle, in a crate that inlines little.
+    let (dx, dy) = (i64::from(b.x) - i64::from(a.x), i64::from(b.y) - i64::from(a.y));
+    let (px, py) = (i64::from(p.x) - i64::from(a.x), i64::from(p.y) - i64::from(a.y));
+    i128::from(dx) * i128::from(py) - i128::from(dy) * i128::from(px)
 }
 
 impl Declaration {

@@ -4,8 +4,9 @@
 //! [`ask`] is what is asked and answered, [`process`] asks a program through pipes and [`inside`] an
 //! engine of the line-up without one. [`declared`] is what a program says of itself, [`place`] puts
 //! the cases where it says it draws, [`expected`] knows the exact picture, [`check`] finds what is
-//! wrong with a case, [`run`] asks them all, [`recognise`] finds the convention that is followed, and [`verdict`] says what came of it, property by
-//! property; [`baseline`] knows failures that are known.
+//! wrong with a case, [`run`] asks them all, [`recognise`] finds the
+//! convention that is followed, and [`verdict`] says what came of it, property by property;
+//! [`baseline`] knows failures that are known. [`serve`] is the other side: it answers as an engine.
 
 pub mod ask;
 pub mod baseline;
@@ -15,11 +16,14 @@ pub mod expected;
 pub mod group;
 pub mod inside;
 pub mod league;
+mod leaving;
 pub mod mesh;
 pub mod place;
 pub mod process;
+mod published;
 pub mod recognise;
 pub mod run;
+pub mod serve;
 pub mod shrunk;
 pub mod stages;
 pub mod text;

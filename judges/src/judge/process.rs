@@ -36,6 +36,9 @@ impl Default for Limits {
 
 /// A longer line is no answer: windows of cases are small.
 const MOST_LINE_BYTES: usize = 1 << 20;
+/// The answers of the questions that are asked at once are kept together: so many bytes at most. The
+/// cases of a block need less than a tenth.
+const MOST_BLOCK_BYTES: usize = 32 << 20;
 /// What is said before HELLO is answered is skipped up to this.
 const MOST_CHATTER_BYTES: usize = 1 << 18;
 /// Bytes read in one go, and how many such pieces wait to be looked at.
@@ -55,6 +58,8 @@ pub struct Program {
     extra: Vec<String>,
     live: Option<Live>,
     next_id: u64,
+    /// Bytes of the answers to what was asked last.
+    kept: usize,
     complaints: Arc<Mutex<VecDeque<u8>>>,
     strays: Vec<Misbehaviour>,
 }
@@ -69,6 +74,8 @@ struct Live {
     used: usize,
     /// The last request that was answered, to name it when it is answered again.
     answered: Option<(u64, Question)>,
+    /// Bytes of the last answer.
+    heard: usize,
 }
 
 /// Why no line could be read.
@@ -96,6 +103,7 @@ impl Program {
             extra: extra.to_vec(),
             live: None,
             next_id: 1,
+            kept: 0,
             complaints: Arc::default(),
             strays: Vec::new(),
         };
@@ -143,6 +151,11 @@ impl Program {
             let answer = live
                 .answer(&questions[answered], id, first_id..self.next_id, self.limits)
                 .map_err(|m| (m, sent - answered))?;
+            self.kept += live.heard;
+            if self.kept > MOST_BLOCK_BYTES {
+                let said = format!("{} bytes of answers to a block of requests", self.kept);
+                return Err((Misbehaviour::Floods(said), sent - answered));
+            }
             answers.push(answer);
             live.answered = Some((id, questions[answered]));
             answered += 1;
@@ -158,6 +171,7 @@ impl Ask for Program {
 
     fn ask(&mut self, questions: &[Question], most_deaths: u64) -> Vec<Answer> {
         let (mut answers, mut deaths) = (Vec::with_capacity(questions.len()), 0);
+        self.kept = 0;
         while answers.len() < questions.len() && deaths < most_deaths {
             let rest = &questions[answers.len()..];
             let Err((misbehaviour, in_flight)) =
@@ -239,7 +253,7 @@ impl Live {
             }
         });
         keep_complaints(stderr, Arc::clone(complaints));
-        Ok(Self { group, requests, pieces, pending: Vec::new(), used: 0, answered: None })
+        Ok(Self { group, requests, pieces, pending: Vec::new(), used: 0, answered: None, heard: 0 })
     }
 
     /// Says HELLO 2, and HELLO 1 to a program that refuses it; what comes before is skipped.
@@ -280,7 +294,7 @@ impl Live {
                     let said = quote(&last);
                     return Err(Misbehaviour::NoHello(format!("{said}, for {limit} s")));
                 }
-                Err(NoLine::TooLong(bytes)) => return Err(Misbehaviour::Floods(bytes)),
+                Err(NoLine::TooLong(bytes)) => return Err(Misbehaviour::Floods(unended(bytes))),
             }
         }
     }
@@ -303,6 +317,7 @@ impl Live {
             },
             other => other.map_err(|why| self.why(why, limit)),
         }?;
+        self.heard = line.len();
         let line = self.pending[line].trim_ascii_end();
         let mut words = Words(line);
         let nonsense = |why: &str| {
@@ -337,7 +352,7 @@ impl Live {
         match no_line {
             NoLine::Ended => ending(self.group.end(LOOK * 50)),
             NoLine::TimeOut => Misbehaviour::Hangs(limit),
-            NoLine::TooLong(bytes) => Misbehaviour::Floods(bytes),
+            NoLine::TooLong(bytes) => Misbehaviour::Floods(unended(bytes)),
         }
     }
 
@@ -388,6 +403,10 @@ impl Drop for Live {
         self.requests = mpsc::channel().0;
         self.group.end(LOOK);
     }
+}
+
+fn unended(bytes: usize) -> String {
+    format!("{bytes} bytes without the end of a line")
 }
 
 /// What an ending says; nothing is known of one that closed its output and had to be ended.

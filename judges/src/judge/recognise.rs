@@ -10,11 +10,12 @@ use super::ask::{Answer, Ask, Asked, Question};
 use super::check::{Check, Truth, picture_of};
 use super::declared::{Declared, Rule, Winding};
 use super::expected::{Declaration, Expect, Picture};
+use super::leaving;
 use super::place;
 use super::run::MOST_DEATHS;
 use crate::convention::{
     self, Confidence, Convention, CornerRule, Diagnosis, FACINGS, Known, LineDiagnosis,
-    LineQuestion, Shape, Ties, Windings,
+    LineQuestion, Mirror, Quantum, Shape, Ties, Windings,
 };
 use crate::frame::Coverage;
 use crate::grid::{PixelRect, SUBPIXELS};
@@ -86,13 +87,16 @@ pub fn recognise(program: &mut dyn Ask, scope: Scope) -> Option<Recognised> {
     let mut sentences = Vec::new();
     sentences.extend(triangles.as_ref().map(|t| clause("Triangles", &t.sentence())));
     sentences.extend(lines.as_ref().map(|l| clause("Lines", &l.sentence())));
-    let said = Said {
-        sentences,
-        compass: triangles.as_ref().and_then(compass),
-        declare: triangles.as_ref().map(|t| words(&declared, t)).unwrap_or_default(),
-        is_explained,
+    let compass = triangles.as_ref().and_then(compass);
+    let declare = triangles.as_ref().map(|t| words(&declared, t)).unwrap_or_default();
+    let mut found = Found {
+        declaration: Declaration::from(&declared),
+        triangles,
+        lines,
+        otherwise: [false; 2],
     };
-    let found = Found { declaration: Declaration::from(&declared), triangles, lines };
+    found.look_at_leaving(&mut bench, &declared, &mut sentences);
+    let said = Said { sentences, compass, declare, is_explained };
     Some(Recognised { said, expect: is_explained.then(|| Box::new(found) as Box<dyn Expect>) })
 }
 
@@ -108,16 +112,56 @@ struct Found {
     declaration: Declaration,
     triangles: Option<Diagnosis>,
     lines: Option<LineDiagnosis>,
+    /// Whether triangles, and lines, that leave the window come out otherwise.
+    otherwise: [bool; 2],
+}
+
+impl Found {
+    /// Where everything within the window is explained, looks at what leaves it.
+    fn look_at_leaving(
+        &mut self,
+        bench: &mut Bench<'_>,
+        declared: &Declared,
+        sentences: &mut [String],
+    ) {
+        let certain = Some(Confidence::Certain);
+        let is_certain = [
+            self.triangles.as_ref().map(|t| t.confidence) == certain,
+            self.lines.as_ref().map(|l| l.confidence) == certain,
+        ];
+        for (lines, what) in [(false, "Triangles"), (true, "Lines")] {
+            if !is_certain[usize::from(lines)] {
+                continue;
+            }
+            let mut ask = |questions: &[Question]| bench.answers(questions);
+            let count = leaving::otherwise(&mut ask, declared, self, lines, self.quantum());
+            let Some(said) = leaving::sentence(what, count) else { continue };
+            self.otherwise[usize::from(lines)] = true;
+            let about = |sentence: &&mut String| sentence.starts_with(what);
+            sentences.iter_mut().filter(about).for_each(|sentence| *sentence += &said);
+        }
+    }
+
+    /// The grid that corners were found to be on.
+    fn quantum(&self) -> Quantum {
+        self.triangles.as_ref().map_or(Quantum::NONE, |found| found.convention.quantum)
+    }
 }
 
 impl Expect for Found {
     fn picture(&self, corners: &Corners, window: PixelRect) -> Option<Picture> {
+        if self.otherwise[0] && leaving::triangle_leaves(corners, self.quantum(), window) {
+            return None;
+        }
         let Some(found) = &self.triangles else { return self.declaration.picture(corners, window) };
         let coverage = found.expected(&convention::Question { corners: *corners, window })?;
         Some(Picture { must: runs(&coverage), may: None })
     }
 
     fn line(&self, ends: &[PixelPoint; 2], window: PixelRect) -> Option<Vec<(i32, i32)>> {
+        if self.otherwise[1] && leaving::line_leaves(ends, window) {
+            return None;
+        }
         let Some(found) = &self.lines else { return self.declaration.line(ends, window) };
         let question = LineQuestion { ends: ends.map(|p| [p.x, p.y]), window };
         Some(found.expected(&question)?.into_iter().map(|[x, y]| (x, y)).collect())
@@ -255,7 +299,7 @@ fn rule(found: &Diagnosis) -> Rule {
 fn words(declared: &Declared, found: &Diagnosis) -> String {
     let c = &found.convention;
     let Shape::Point { x, y } = c.shape else { return String::new() };
-    if found.confidence == Confidence::Unexplained {
+    if found.confidence == Confidence::Unexplained || c.mirror != Mirror::None {
         return String::new();
     }
     // Corners on a grid that holds the found one are left where they are.

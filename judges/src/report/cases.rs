@@ -86,6 +86,8 @@ enum Role {
     Engine,
     Planted,
     Oracle,
+    /// Of a program that declares another convention than this project's.
+    Expected,
     Specimen,
 }
 
@@ -241,23 +243,32 @@ fn request(engine: &str, case: &Case) -> String {
     format!("printf '%s\\n' {} | rasterproof engine {engine}", quoted.join(" "))
 }
 
-/// A failing case of a program that was judged, beside what the engines and the specimens draw.
+/// A failing case of a program that was judged, beside what the engines and the specimens draw. Where
+/// something else is expected of it than of them, by its declaration, beside that alone. `pictures` are
+/// what it drew and what was expected.
 #[must_use]
 pub fn of_program(
     name: String,
     about: String,
     case: &Case,
     program: &str,
-    drawn: Option<Coverage>,
+    pictures: Option<&[Coverage; 2]>,
 ) -> CaseView {
     let mut view = on_grid(name, about, Kind::Failing, case, Judged::default());
-    if let Some(drawn) = drawn {
+    if let Some([drawn, expected]) = pictures {
         let truth = match &case.shape {
             Shape::Triangles { list, .. } => Some(oracle_coverage(list, case.window)),
             Shape::Lines(lines) => line_coverage(&LineEngine::Oracle, lines, case.window).ok(),
         };
         let truth = truth.unwrap_or_else(|| Coverage::new(case.window, 0));
-        view.layers.insert(0, layer(program.to_owned(), Role::Engine, Ok(drawn), &truth));
+        if *expected != truth {
+            let drawn = layer(program.to_owned(), Role::Engine, Ok(drawn.clone()), expected);
+            let target =
+                layer("expected".to_owned(), Role::Expected, Ok(expected.clone()), expected);
+            (view.layers, view.start) = (vec![drawn, target], [0, 1]);
+            return view;
+        }
+        view.layers.insert(0, layer(program.to_owned(), Role::Engine, Ok(drawn.clone()), &truth));
         view.start = [0, view.place("oracle", 1)];
     }
     view

@@ -233,8 +233,8 @@ pub fn page(verdict: &Verdict, repeat_all: &str, repeat: &dyn Fn(&str, u64) -> S
     let views = verdict.failures.iter().map(|f| {
         let name = format!("{}#{}", f.family, f.index);
         let about = format!("{}: found in {} #{}, shrunk", f.property, f.family, f.index);
-        let drawn = f.pictures.as_ref().map(|[actual, _]| actual.clone());
-        let mut view = cases::of_program(name, about, &f.case, &verdict.declared.name, drawn);
+        let mut view =
+            cases::of_program(name, about, &f.case, &verdict.declared.name, f.pictures.as_ref());
         view.found.clone_from(&f.what);
         view.command = repeat(f.family, f.index);
         view

@@ -77,15 +77,16 @@ fn one(out: &mut String, row: &Standing, words: &Words) {
     let _ = writeln!(out, "- **{name}**: {version}; {call}; `{declares}`.");
     let kinds = [("Triangles", &row.triangles), ("Lines", &row.lines)];
     for (about, kind) in kinds.iter().filter_map(|(about, k)| Some((about, k.as_ref()?))) {
+        let left_out = match kind.by_convention {
+            Some(Score { unscored: n @ 1.., .. }) => format!(" {}: {n}.", words.unscored),
+            _ => String::new(),
+        };
         if !kind.sentence.is_empty() {
-            let _ = writeln!(out, "  {about}: {}", kind.sentence);
-        }
-        if let Some(Score { unscored: n @ 1.., .. }) = kind.by_convention {
-            let _ = writeln!(out, "  {}: {n}.", words.unscored);
+            let _ = writeln!(out, "  - {about}: {}{left_out}", kind.sentence);
         }
     }
     if refused + died > 0 {
-        let _ = writeln!(out, "  {}: {refused}, {died}.", words.unanswered);
+        let _ = writeln!(out, "  - {}: {refused}, {died}.", words.unanswered);
     }
 }
 

@@ -6,15 +6,15 @@ mod specimens;
 mod synthetic;
 
 use rasterproof::convention::{
-    Ask, Confidence, Diagnosis, End, Ends, Known, LineConvention, LineRounding, LineTie, Quantum,
-    Question, Rounding, Shape, Steps, Ties, Windings, diagnose, diagnose_lines,
+    Ask, Confidence, Diagnosis, End, Ends, Known, LineConvention, LineRounding, LineTie, Mirror,
+    Pattern, Quantum, Question, Rounding, Shape, Steps, Ties, Windings, diagnose, diagnose_lines,
 };
 use rasterproof::frame::Coverage;
 use rasterproof::grid::{PixelRect, SubpixelPoint};
 use rayon::prelude::*;
 
 use recorded::{Recorder, Recording};
-use synthetic::{Owner, Synthetic, hash};
+use synthetic::{Mirrored, Owner, Synthetic, hash};
 
 /// Numbers from a seed.
 struct Dice(u64);
@@ -135,6 +135,63 @@ fn conventions_made_up_are_named() {
     let wrong: Vec<_> = found.iter().filter(|(_, named, _)| !named).map(|(.., t)| t).collect();
     assert_eq!(count(false, Confidence::Certain), 0, "{wrong:#?}");
     assert!(named * 100 >= 95 * found.len(), "{named} of {COUNT}: {wrong:#?}");
+}
+
+/// Four samples a pixel, of which one to four are asked for; and pictures that are turned over.
+#[test]
+fn conventions_of_samples_and_mirrors_are_named() {
+    let mut list = Vec::new();
+    for number in 0..40 {
+        let mut dice = Dice(number << 24);
+        let made = made_up(6 * number);
+        let pattern = dice.pick(&[Pattern::Square, Pattern::Rotated]);
+        let (x, y) = dice.pick(&[(128, 128), (128, 128), (0, 0), (100, 132)]);
+        let shape = Shape::Samples { x, y, pattern, least: 1 + (number % 4) as u8 };
+        list.push((Synthetic { shape, ..made }, Mirror::None));
+    }
+    for number in 0..40 {
+        let mirror = Mirror::ALL[1 + number as usize % 4];
+        list.push((made_up(number), mirror));
+    }
+    let found: Vec<_> = list
+        .into_par_iter()
+        .map(|(made, mirror)| {
+            let found = diagnose(&mut Mirrored(made, mirror), &Known::default(), 1);
+            let mut wrong = differences(&made, &found);
+            if found.convention.mirror != mirror {
+                wrong.push(format!("{:?} not {mirror:?}", found.convention.mirror));
+            }
+            (
+                found.confidence,
+                wrong.is_empty(),
+                format!("{made:?}: {wrong:?} {}", found.sentence()),
+            )
+        })
+        .collect();
+    let wrong: Vec<_> = found.iter().filter(|(_, named, _)| !named).map(|(.., t)| t).collect();
+    let sure = |(confidence, named, _): &&(Confidence, bool, String)| {
+        !named && *confidence == Confidence::Certain
+    };
+    assert_eq!(found.iter().filter(sure).count(), 0, "{wrong:#?}");
+    assert!(wrong.len() * 20 <= found.len(), "{wrong:#?}");
+}
+
+/// What is expected of a mirrored program is mirrored too, in windows that are no squares.
+#[test]
+fn conventions_of_mirrors_predict() {
+    for mirror in Mirror::ALL {
+        let shape = Shape::Point { x: 128, y: 128 };
+        let mut program =
+            Mirrored(Synthetic { step: 1, shape, draws: Windings::Both, ..made_up(0) }, mirror);
+        let found = diagnose(&mut program, &Known::default(), 1);
+        let side = if mirror == Mirror::Exchanged { 20 } else { 24 };
+        let window = PixelRect::window(side, 20);
+        let corners = [(256, 300), (4000, 700), (900, 4700)].map(|(x, y)| SubpixelPoint::new(x, y));
+        let question = Question { corners, window };
+        assert_eq!(found.expected(&question), program.ask(&[question])[0], "{mirror:?}");
+        let said = found.sentence().contains("draws its picture ");
+        assert_eq!(said, mirror != Mirror::None, "{}", found.sentence());
+    }
 }
 
 /// The comparison above can fail: what is named is compared with another rasterizer.

@@ -1,7 +1,7 @@
 //! Rasterizers made up for the tests, one for every hypothesis: written from the meaning of each
 //! convention, in floats that are exact for such small numbers, and without the crate's own code.
 
-use rasterproof::convention::{Ask, LineTie, Question, Rounding, Shape, Windings};
+use rasterproof::convention::{Ask, LineTie, Mirror, Pattern, Question, Rounding, Shape, Windings};
 use rasterproof::frame::Coverage;
 
 /// What a made-up rasterizer does on an edge.
@@ -30,6 +30,33 @@ type Point = [f64; 2];
 impl Ask for Synthetic {
     fn ask(&mut self, questions: &[Question]) -> Vec<Option<Coverage>> {
         questions.iter().map(|question| Some(self.draw(question))).collect()
+    }
+}
+
+/// Turns the whole picture over.
+pub struct Mirrored(pub Synthetic, pub Mirror);
+
+impl Ask for Mirrored {
+    fn ask(&mut self, questions: &[Question]) -> Vec<Option<Coverage>> {
+        let draw = |question: &Question| {
+            let (drawn, window) = (self.0.draw(question), question.window);
+            let (right, bottom) = (window.x1 - 1, window.y1 - 1);
+            let mut picture = Coverage::new(window, 0);
+            for (y, row) in drawn.rows() {
+                for (x, _) in (0..).zip(row).filter(|(_, hits)| **hits > 0) {
+                    let (x, y) = match self.1 {
+                        Mirror::None => (x, y),
+                        Mirror::UpsideDown => (x, bottom - y),
+                        Mirror::LeftToRight => (right - x, y),
+                        Mirror::HalfTurn => (right - x, bottom - y),
+                        Mirror::Exchanged => (y, x),
+                    };
+                    picture.hit(y, x, x + 1);
+                }
+            }
+            Some(picture)
+        };
+        questions.iter().map(draw).collect()
     }
 }
 
@@ -106,6 +133,17 @@ impl Synthetic {
                 let share = clipped_area(p, at(x - 128, y - 128)) / 65536.0 * 100.0;
                 let level = matches!(self.owner, Owner::Facing([true, ..]));
                 share > f64::from(percent) + 1e-9 || (level && share > f64::from(percent) - 1e-9)
+            }
+            Shape::Samples { x, y, pattern, least } => {
+                // In sixteenths of a pixel from its upper left corner, if the middle is its centre.
+                let places = match pattern {
+                    Pattern::Square => [[4, 4], [12, 4], [4, 12], [12, 12]],
+                    Pattern::Rotated => [[6, 2], [14, 6], [2, 10], [10, 14]],
+                };
+                let covered = places
+                    .iter()
+                    .filter(|[u, v]| self.holds(p, at(x + 16 * u - 128, y + 16 * v - 128)));
+                covered.count() >= usize::from(least)
             }
             Shape::Outline(tie) => {
                 let q = p.map(|c| [c[0] / 256.0, c[1] / 256.0]);

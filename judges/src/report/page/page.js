@@ -133,7 +133,7 @@
       hits: layer.refused ? null : unpack(layer.runs, width * height),
       wrong: layer.tally.missing + layer.tally.extra + layer.tally.twice,
     }));
-    const oracle = layers.findIndex((layer) => layer.role === 'oracle');
+    const oracle = layers.findIndex((layer) => ['oracle', 'expected'].includes(layer.role));
     const exact = view.shape.kind === 'lines' ? null : fixedPoint(view.shape);
     return { ...view, isCase: true, x0, y0, width, height, layers, oracle, exact };
   };
@@ -723,7 +723,10 @@
 
   // ---- Tables ----
 
-  const ROLES = { engine: 'engine', planted: 'planted fault', oracle: 'oracle', specimen: 'published' };
+  const ROLES = { engine: 'engine', planted: 'planted fault', oracle: 'oracle', expected: 'target', specimen: 'published' };
+
+  /** What the layers of a case are compared with. */
+  const target = (item) => (item.layers[item.oracle].role === 'oracle' ? 'the oracle' : 'what is expected of its declaration');
 
   const layerTable = () => {
     const { item, cursor } = state;
@@ -743,7 +746,7 @@
     });
     const head = headings.map((text, at) =>
       el('th', { scope: 'col', className: numbers.includes(at) ? 'number' : '' }, text));
-    $('#layers').replaceChildren(el('caption', {}, item.isCase ? 'Who draws what, judged by the oracle' : 'Pictures'),
+    $('#layers').replaceChildren(el('caption', {}, item.isCase ? `Who draws what, judged by ${target(item)}` : 'Pictures'),
       el('thead', {}, el('tr', {}, ...head)), el('tbody', {}, ...rows));
   };
 
@@ -786,7 +789,7 @@
 
   const legend = () => {
     const entries = state.item.isCase
-      ? [['agrees', '', 'as the oracle'], ['missing', '\u2212', 'missing'], ['extra', '+', 'extra'],
+      ? [['agrees', '', state.item.layers[state.item.oracle].role === 'oracle' ? 'as the oracle' : 'as expected'], ['missing', '\u2212', 'missing'], ['extra', '+', 'extra'],
         ['twice', '2', 'too often'], ['overlap', '*', 'rightly more than once']]
       : [];
     $('#legend').replaceChildren(...entries.map(([fill, glyph, text]) => {
@@ -812,7 +815,8 @@
     $('#agreement').textContent = text;
     const r = rule(item);
     const agrees = r && item.layers[item.oracle].hits.every((hits, i) => hits === r.hits[i]);
-    const words = `The rule, computed by this page at every pixel, says ${agrees ? 'what' : 'something else than'} the oracle says.`;
+    const other = 'Expected is the exact picture of what the program declares, not of the top-left rule at the centre.';
+    const words = item.isCase && item.layers[item.oracle].role === 'expected' ? other : `The rule, computed by this page at every pixel, says ${agrees ? 'what' : 'something else than'} the oracle says.`;
     $('#by-rule').textContent = r ? words : '';
   };
 
@@ -832,7 +836,7 @@
     const label = (layer) => {
       if (!item.isCase) return layer.label;
       if (layer.refused) return `${layer.label} (draws nothing)`;
-      return layer.role === 'oracle' ? layer.label : `${layer.label} (${layer.wrong} wrong)`;
+      return ['oracle', 'expected'].includes(layer.role) ? layer.label : `${layer.label} (${layer.wrong} wrong)`;
     };
     for (const picker of [$('#pick-a'), $('#pick-b')]) {
       const options = item.layers.map((layer, i) => el('option', { value: String(i) }, label(layer)));

@@ -3,11 +3,11 @@
 //! A pixel that the published code sets twice appears in two runs. What it does not define, or would
 //! not end, is answered `E id reason`.
 
-use std::fmt::Write as _;
+use std::io::Write as _;
 
 use glam::DVec2;
 
-use super::reply::{Reply, named};
+use super::serve::{Reply, named, write_run, write_words};
 use crate::grid::{PixelRect, Refusal};
 use crate::lineup::{Entry, LineSpecimen, Specimen, TriangleSpecimen};
 use crate::specimen::{Published as _, PublishedLine as _, RealTriangle, RealVertex, bare};
@@ -17,7 +17,7 @@ use crate::triangle::{MAX_W, MIN_W, check_value};
 const MOST_FRAGMENTS: u64 = 1 << 20;
 
 /// Whether this entry is a specimen that answers the verb.
-pub fn speaks(entry: &Entry, verb: &str) -> bool {
+pub(super) fn speaks(entry: &Entry, verb: &str) -> bool {
     match (entry.specimen, verb) {
         (Some(Specimen::Triangle(_)), "T") | (Some(Specimen::Line(_)), "L") => true,
         (Some(Specimen::Triangle(specimen)), "I") => specimen.has_values(),
@@ -26,7 +26,7 @@ pub fn speaks(entry: &Entry, verb: &str) -> bool {
 }
 
 /// Answers a request that [`speaks`] accepts.
-pub fn answer(entry: &Entry, verb: &str, window: PixelRect, numbers: &[f64]) -> Reply {
+pub(super) fn answer(entry: &Entry, verb: &str, window: PixelRect, numbers: &[f64]) -> Reply {
     match (entry.specimen, verb) {
         (Some(Specimen::Triangle(specimen)), "T") => cover(specimen, window, numbers),
         (Some(Specimen::Triangle(specimen)), "I") => values(specimen, window, numbers),
@@ -50,12 +50,11 @@ fn point(numbers: &[f64], i: usize) -> Result<[f64; 2], String> {
 
 fn cover(specimen: TriangleSpecimen, window: PixelRect, numbers: &[f64]) -> Reply {
     let corners = [point(numbers, 0)?, point(&numbers[2..], 1)?, point(&numbers[4..], 2)?];
-    let (mut runs, mut n) = (String::new(), 0);
+    let (mut runs, mut n) = (Vec::new(), 0);
     specimen
         .cover(&bare(corners), window, &mut |span| {
             n += 1;
-            // Writing to a string does not fail.
-            let _ = write!(runs, " {} {} {}", span.y_px, span.x0_px, span.x1_px);
+            write_run(&mut runs, span);
         })
         .map_err(|refused| refused.to_string())?;
     Ok(('C', n, runs))
@@ -63,11 +62,11 @@ fn cover(specimen: TriangleSpecimen, window: PixelRect, numbers: &[f64]) -> Repl
 
 fn line(specimen: LineSpecimen, window: PixelRect, numbers: &[f64]) -> Reply {
     let ends = [point(numbers, 0)?, point(&numbers[2..], 1)?];
-    let (mut pixels, mut n) = (String::new(), 0);
+    let (mut pixels, mut n) = (Vec::new(), 0);
     specimen
         .draw(ends, window, &mut |x_px, y_px| {
             n += 1;
-            let _ = write!(pixels, " {x_px} {y_px}");
+            write_words(&mut pixels, [x_px, y_px]);
         })
         .map_err(|refused| refused.to_string())?;
     Ok(('P', n, pixels))
@@ -99,11 +98,12 @@ fn values(specimen: TriangleSpecimen, window: PixelRect, numbers: &[f64]) -> Rep
             "{pixels} fragments; a specimen computes at most {MOST_FRAGMENTS} for a request"
         ));
     }
-    let (mut fragments, mut n) = (String::new(), 0);
+    let (mut fragments, mut n) = (Vec::new(), 0);
     specimen
         .fragments(&triangle, window, &mut |f| {
             n += 1;
             let (a, b) = (f.varying.x, f.varying.y);
+            // Writing to a vector does not fail.
             let _ = write!(fragments, " {} {} {} {a} {b}", f.x_px, f.y_px, f.depth);
         })
         .map_err(|refused| refused.to_string())?;
