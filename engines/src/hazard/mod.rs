@@ -8,6 +8,8 @@
 pub mod lines;
 pub mod named;
 pub mod offgrid;
+#[doc(hidden)]
+pub mod shrink;
 pub mod triangles;
 
 use glam::DVec2;

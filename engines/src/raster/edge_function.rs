@@ -9,6 +9,8 @@
 //! It visits the whole box by design: that is the price of its simplicity on slivers. It does not
 //! clip, cull, depth-test or shade.
 
+#[doc(hidden)]
+pub mod probe;
 mod values;
 #[doc(hidden)]
 pub mod words;

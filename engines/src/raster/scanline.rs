@@ -11,6 +11,8 @@
 //!
 //! It does not clip, cull, depth-test or shade.
 
+#[doc(hidden)]
+pub mod steps;
 mod values;
 
 use std::hint::select_unpredictable;

@@ -6,6 +6,7 @@
 pub mod chapters;
 pub mod meshes;
 pub mod named;
+#[cfg(feature = "host")]
 pub mod obj;
 pub mod random;
 pub mod shapes;

@@ -1,0 +1,64 @@
+//! One pixel: what the edge function computes there, and how the scanline came to its row.
+
+use serde::Deserialize;
+use serde_json::{Value, json};
+
+use super::picture::Picture;
+use super::pixels::row_of;
+use crate::contract::Interpolate as _;
+use crate::grid::PixelRect;
+use crate::hazard::Triangle;
+use crate::lineup::Engine;
+use crate::raster::edge_function::probe::edges_at;
+use crate::raster::scanline::steps::walked_rows;
+
+/// Asks about a pixel of a picture on the lattice.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Look {
+    picture: Picture,
+    px: [i32; 2],
+}
+
+impl Look {
+    pub fn answer(&self) -> Result<Value, String> {
+        let window = self.picture.window()?;
+        let [x_px, y_px] = self.px;
+        if !window.contains(x_px, y_px) {
+            return Err(format!("pixel {x_px}, {y_px} lies outside the window"));
+        }
+        let list = self.picture.on_lattice()?;
+        let triangles: Vec<_> =
+            list.iter().map(|triangle| look(triangle, window, x_px, y_px)).collect();
+        Ok(json!({ "px": self.px, "triangles": triangles }))
+    }
+}
+
+/// The three edges, the walks of all rows in the window, and the values where the pixel is covered.
+fn look(triangle: &Triangle, window: PixelRect, x_px: i32, y_px: i32) -> Value {
+    let corners = triangle.corners();
+    let edges = edges_at(&corners, x_px, y_px).map(|edges| {
+        let twice_area: i128 = edges.iter().map(|edge| edge.value).sum();
+        edges.map(|edge| {
+            json!({
+                "ends": edge.ends,
+                // Up to 65 bits, which a number of the page does not hold.
+                "value": edge.value.to_string(),
+                "sign": edge.value.signum(),
+                "topLeft": edge.is_top_left,
+                "weight": edge.value as f64 / twice_area as f64,
+            })
+        })
+    });
+    let pixel = PixelRect { x0: x_px, x1: x_px + 1, ..row_of(window, y_px) };
+    let values = [Engine::Scanline, Engine::EdgeFunction, Engine::Oracle].map(|engine| {
+        let mut values = None;
+        engine.fragments(triangle, pixel, |f| values = Some([f.depth, f.varying.x, f.varying.y]));
+        json!({ "by": engine.name(), "values": values })
+    });
+    let covered = edges.as_ref().is_some_and(|_| values.iter().any(|v| v["values"].is_array()));
+    json!({
+        "edges": edges, "covered": covered, "values": values,
+        "rows": walked_rows(corners, window),
+    })
+}

@@ -1,0 +1,14 @@
+//! The playground of rasterproof: what its page asks, the answers, and the page itself; see
+//! `docs/playground.md`.
+#![deny(unsafe_code)]
+#![warn(missing_docs)]
+
+pub mod answer;
+#[cfg(target_family = "wasm")]
+pub mod door;
+pub mod page;
+
+// The floors below, under the paths that every room calls them by.
+use rasterproof_engines::{
+    contract, frame, grid, hazard, line, lineup, oracle, pipeline, raster, specimen, triangle,
+};

@@ -1,0 +1,62 @@
+//! The page of the playground: one file with its style, its script and the compiled module inside.
+
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
+
+const TEMPLATE: &str = include_str!("../page/page.html");
+const STYLE: &str = include_str!("../page/page.css");
+const WORDS: &str = include_str!("../page/words.js");
+const SCENES: &str = include_str!("../page/scenes.js");
+const SCRIPT: &str = include_str!("../page/page.js");
+
+/// What a page may weigh, so that it can be sent and opened anywhere.
+pub const MOST_BYTES: usize = 3_000_000;
+
+/// The page around a compiled module, the bytes of a `.wasm` file.
+///
+/// # Errors
+/// A message where these bytes are no module, or the page would weigh more than [`MOST_BYTES`].
+pub fn page(module: &[u8]) -> Result<String, String> {
+    if !module.starts_with(b"\0asm") {
+        return Err("is no WebAssembly module: it does not begin with \\0asm".to_owned());
+    }
+    let parts = [
+        ("{{style}}", STYLE),
+        ("{{words}}", WORDS),
+        ("{{scenes}}", SCENES),
+        ("{{script}}", SCRIPT),
+        ("{{module}}", &STANDARD.encode(module)),
+    ];
+    let page = parts
+        .into_iter()
+        .fold(TEMPLATE.to_owned(), |page, (place, text)| page.replacen(place, text, 1));
+    if page.len() > MOST_BYTES {
+        return Err(format!(
+            "makes a page of {} bytes; at most {MOST_BYTES} are allowed",
+            page.len()
+        ));
+    }
+    Ok(page)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_page_holds_its_module() {
+        let page = page(b"\0asm\x01\0\0\0").unwrap();
+        assert!(page.contains("AGFzbQEAAAA=") && !page.contains("{{"), "every place is filled");
+        // The one address names the language of a drawing; nothing is fetched from it.
+        let page = page.replace("http://www.w3.org/2000/svg", "");
+        assert!(!page.contains("http://") && !page.contains("https://"), "loads nothing");
+    }
+
+    #[test]
+    fn what_is_no_module_is_refused() {
+        assert!(page(b"ELF").unwrap_err().contains("no WebAssembly module"));
+        let mut large = vec![0; MOST_BYTES];
+        large[..4].copy_from_slice(b"\0asm");
+        assert!(page(&large).unwrap_err().contains("at most"));
+    }
+}
