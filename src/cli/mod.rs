@@ -11,6 +11,7 @@ mod invariant;
 mod judge;
 mod league;
 mod misbehave;
+mod page;
 mod plan;
 mod published;
 mod quiz;
@@ -26,7 +27,6 @@ use std::path::Path;
 
 use clap::{Parser, Subcommand};
 
-use crate::report::html::{self, Report};
 use crate::{hazard, lineup};
 
 /// Exit codes.
@@ -284,14 +284,4 @@ fn write_file(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
         let _ = std::fs::remove_file(&beside);
         failed("cannot write", e)
     })
-}
-
-/// Where the report page of a command goes.
-const PAGE: &str = "target/rasterproof/index.html";
-
-/// Writes a report page and says where; commands that print a result say it on standard error.
-fn write_page(path: &Path, report: &Report, stream: &mut dyn Write) -> Result<(), Failure> {
-    write_file(path, html::page(report).as_bytes())?;
-    writeln!(stream, "report: {}", path.display())?;
-    Ok(())
 }
