@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use super::{Failure, PAGE, Streams, exit, usage, write_file, write_page};
+use super::page::{PageArguments, write_page};
+use super::{Failure, Streams, exit, usage, write_file};
 use crate::cost::{Board, Ladder, Options, Recorded, measure};
 use crate::report::chart::{self, Drawing};
 use crate::report::html::{Figure, Report};
@@ -54,15 +55,18 @@ pub struct CostArguments {
     /// Print JSON instead of boards
     #[arg(long)]
     json: bool,
-    /// Also write the plots as a page: target/rasterproof/index.html
-    #[arg(long)]
-    report: bool,
-    /// Where the plots go, as SVG and PNG
-    #[arg(short, long, value_name = "FOLDER", default_value = "target/rasterproof")]
-    output: PathBuf,
+    #[command(flatten)]
+    page: PageArguments,
+    /// Where the plots go, as SVG and PNG [default: the folder of --out]
+    #[arg(short, long, value_name = "FOLDER")]
+    output: Option<PathBuf>,
 }
 
 impl CostArguments {
+    fn folder(&self) -> &Path {
+        self.output.as_deref().unwrap_or(&self.page.place.out)
+    }
+
     /// The command that repeats the run.
     fn repeat(&self) -> String {
         use clap::ValueEnum as _;
@@ -93,8 +97,9 @@ pub fn run(arguments: &CostArguments, streams: &mut Streams<'_>) -> Result<u8, F
     let (boards, out) = (&recorded.boards, &mut *streams.output);
     let plots = plots(boards);
     let written = write_plots(&plots, arguments)?;
-    if arguments.report {
-        write_page(Path::new(PAGE), &report_page(&plots, &recorded), streams.errors)?;
+    if arguments.page.report {
+        let path = arguments.page.place.out.join("cost.html");
+        write_page(&path, report_page(&plots, &recorded), streams.errors)?;
     }
     if arguments.json {
         out.write_all(json::cost(&recorded).as_bytes())?;
@@ -111,7 +116,7 @@ pub fn run(arguments: &CostArguments, streams: &mut Streams<'_>) -> Result<u8, F
         writeln!(out, "{price}")?;
     }
     let drawn =
-        format!("in {}, as SVG and PNG: {}", arguments.output.display(), written.join(", "));
+        format!("in {}, as SVG and PNG: {}", arguments.folder().display(), written.join(", "));
     writeln!(out, "drawn {}", board::wrap(&drawn).trim_start())?;
     writeln!(out, "repeat with: {}", recorded.repeat)?;
     Ok(exit::AGREES)
@@ -132,12 +137,14 @@ fn read(path: &Path, ladders: &[Ladder]) -> Result<Recorded, Failure> {
     Ok(recorded)
 }
 
+fn plot_name(board: &Board) -> String {
+    format!("cost-{}", board.ladder.name())
+}
+
 /// The plots with their names; the one picture that answers the question comes last.
 fn plots(boards: &[Board]) -> Vec<(String, Drawing)> {
-    let mut plots: Vec<(String, Drawing)> = boards
-        .iter()
-        .map(|board| (format!("cost-{}", board.ladder.name()), plot::pareto(board)))
-        .collect();
+    let mut plots: Vec<(String, Drawing)> =
+        boards.iter().map(|board| (plot_name(board), plot::pareto(board))).collect();
     if boards.iter().any(|board| board.ladder == Ladder::Scanline) {
         plots.push(("cost-price".to_owned(), plot::price(boards)));
     }
@@ -146,12 +153,17 @@ fn plots(boards: &[Board]) -> Vec<(String, Drawing)> {
 
 /// The plots as a page, the answer first.
 fn report_page(plots: &[(String, Drawing)], recorded: &Recorded) -> Report {
+    let boards = &recorded.boards;
     let figure = |(name, drawing): &(String, Drawing)| Figure {
         caption: match name.as_str() {
             "cost-price" => "What exact coverage costs over the cheapest rung".to_owned(),
             name => format!("Time against error: {}", name.trim_start_matches("cost-")),
         },
         svg: chart::svg(drawing),
+        narrow: boards
+            .iter()
+            .find(|board| *name == plot_name(board))
+            .map(|board| chart::svg(&plot::pareto_narrow(board))),
     };
     Report {
         title: "What accuracy costs in time".to_owned(),
@@ -169,7 +181,7 @@ fn write_plots(
 ) -> Result<Vec<String>, Failure> {
     let mut written = Vec::new();
     for (name, drawing) in plots {
-        let path = arguments.output.join(name);
+        let path = arguments.folder().join(name);
         write_file(&path.with_extension("svg"), chart::svg(drawing).as_bytes())?;
         write_file(&path.with_extension("png"), &picture::png(&chart::picture(drawing)))?;
         written.push(name.clone());

@@ -15,7 +15,7 @@ use crate::lineup::{Engine, Entry, ExactEngine, LineEngine, SPECIMENS, Specimen}
 use crate::oracle::Oracle;
 use crate::oracle::coverage::samples_on_boundary;
 use crate::raster::edge_function::WordWidth;
-use crate::report::{ascii, picture};
+use crate::report::{ascii, panels, picture};
 use crate::scene::named;
 use crate::specimen::catalogue::{RECORDED, RECORDED_SIDE_PX, RecordedCase};
 use crate::specimen::{bare, from_screen};
@@ -38,8 +38,7 @@ use crate::verify::{
   rasterproof inspect double_row             a recorded input of the book's code, and its specimen
 
 In the grids: # agrees with the oracle, - missing, + extra, 2 twice, * rightly more than once.
-In the picture: grey agrees, red missing, orange extra, violet twice; engines from left to right,
-the oracle last; blue edges, dark samples.")]
+In the picture: grey agrees, red missing, orange extra, violet twice; blue edges, dark samples.")]
 pub struct InspectArguments {
     /// A named case, FAMILY#NUMBER, or the corners as x,y in pixels
     #[arg(value_name = "CASE or X,Y", required = true, num_args = 1..=3)]
@@ -143,10 +142,10 @@ pub fn run(arguments: &InspectArguments, streams: &mut Streams<'_>) -> Result<u8
             let shown_too = specimen(arguments, None).map(|specimen| (specimen, case.window));
             let typed =
                 OffGridCase { window: case.window, triangles: vec![corners], is_tiling: false };
-            agrees &= off_grid(&typed, shown_too, out)?.0;
+            agrees &= off_grid(&title, &typed, shown_too, out)?.0;
         }
     }
-    write_picture(arguments, &shown.picture(&case), out)?;
+    write_picture(arguments, &shown.picture(&title, &case), out)?;
     Ok(if agrees { exit::AGREES } else { exit::DISAGREES })
 }
 
@@ -165,7 +164,7 @@ fn off_grid_alone(
     let recorded = recorded(&arguments.what);
     let screen = recorded.map(|_| PixelRect::window(RECORDED_SIDE_PX, RECORDED_SIDE_PX));
     let specimen = specimen(arguments, recorded).map(|s| (s, screen.unwrap_or(case.window)));
-    let (agrees, drawn) = off_grid(&case, specimen, out)?;
+    let (agrees, drawn) = off_grid(title, &case, specimen, out)?;
     write_picture(arguments, &drawn, out)?;
     Ok(if agrees { exit::AGREES } else { exit::DISAGREES })
 }
@@ -204,6 +203,7 @@ enum Found {
 /// Pixels of the engines that do not snap, and how they decided; whether they agree, and a picture.
 /// A specimen is shown beside them, as it draws on a screen of its own.
 fn off_grid(
+    title: &str,
     case: &OffGridCase,
     specimen: Option<(&Entry, PixelRect)>,
     out: &mut dyn std::io::Write,
@@ -226,7 +226,7 @@ fn off_grid(
                 )?;
                 blocks
                     .push((format!("{name}: {} px", hits.covered()), ascii::grid(&hits, &target)));
-                drawn.push(hits);
+                drawn.push(((*name).to_owned(), hits));
             }
             Err(reason) => writeln!(out, "{name}, published: {reason}")?,
         }
@@ -243,13 +243,13 @@ fn off_grid(
         )?;
         if let Ok((hits, _)) = exact_coverage(&engine, case) {
             blocks.push((format!("{name}: {} px", hits.covered()), ascii::grid(&hits, &target)));
-            drawn.push(hits);
+            drawn.push((name.to_owned(), hits));
         }
     }
     let oracle = format!("oracle-exact: {} px", target.covered());
     blocks.push((oracle, ascii::grid(&target, &target)));
     writeln!(out, "\n{}", ascii::side_by_side(&blocks, 100))?;
-    Ok((agrees, picture::panels_off_grid(case, &drawn, &target)))
+    Ok((agrees, panels::of_off_grid(title, case, &drawn, &target).image))
 }
 
 fn find(arguments: &InspectArguments) -> Result<Found, Failure> {
@@ -479,10 +479,16 @@ fn facts(case: &Case, out: &mut dyn std::io::Write) -> Result<(), Failure> {
 }
 
 /// A case off the lattice as every engine for such corners draws it.
-pub fn picture_off_grid(case: &OffGridCase, engines: &[(&str, ExactEngine)]) -> Option<RgbImage> {
+pub fn picture_off_grid(
+    title: &str,
+    case: &OffGridCase,
+    engines: &[(&str, ExactEngine)],
+) -> Option<RgbImage> {
     let (target, _) = exact_coverage(&ExactEngine::Oracle, case).ok()?;
-    let hits = engines.iter().filter_map(|(_, engine)| Some(exact_coverage(engine, case).ok()?.0));
-    Some(picture::panels_off_grid(case, &hits.collect::<Vec<_>>(), &target))
+    let hits = engines.iter().filter_map(|(name, engine)| {
+        Some(((*name).to_owned(), exact_coverage(engine, case).ok()?.0))
+    });
+    Some(panels::of_off_grid(title, case, &hits.collect::<Vec<_>>(), &target).image)
 }
 
 /// The hits in a window; none where the other one has no pixels.
@@ -589,9 +595,9 @@ impl Shown {
     }
 
     /// A panel for each engine that did not panic, then the oracle.
-    pub fn picture(&self, case: &Case) -> RgbImage {
-        let drawn: Vec<_> =
-            self.engines.iter().filter_map(|(_, hits)| hits.as_ref().ok()).cloned().collect();
-        picture::panels(case, &drawn, &self.target)
+    pub fn picture(&self, title: &str, case: &Case) -> RgbImage {
+        let drawn = self.engines.iter();
+        let drawn = drawn.filter_map(|(name, hits)| Some((name.clone(), hits.clone().ok()?)));
+        panels::of_case(title, case, &drawn.collect::<Vec<_>>(), &self.target).image
     }
 }

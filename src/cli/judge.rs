@@ -6,7 +6,8 @@ use std::time::Duration;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use super::{Failure, PAGE, Streams, exit, league, usage, write_file, write_page};
+use super::page::{PageArguments, write_page};
+use super::{Failure, Streams, exit, league, usage, write_file};
 use crate::hazard;
 use crate::judge::ask::Ask;
 use crate::judge::baseline::Baseline;
@@ -65,9 +66,8 @@ pub struct JudgeArguments {
     /// The same as --format json
     #[arg(long, conflicts_with = "format")]
     json: bool,
-    /// Write a page to look into the failing cases: target/rasterproof/index.html
-    #[arg(long)]
-    report: bool,
+    #[command(flatten)]
+    page: PageArguments,
     /// Known failures: only what this file does not know counts
     #[arg(long, value_name = "FILE")]
     baseline: Option<String>,
@@ -210,9 +210,9 @@ pub fn run(arguments: &JudgeArguments, streams: &mut Streams<'_>) -> Result<u8, 
     }
     let repeat_case =
         |family: &str, index: u64| arguments.repeat(&format!("--family {family} --case {index}"));
-    if arguments.report {
+    if arguments.page.report {
         let page = judged::page(&verdict, &arguments.repeat_all(), &repeat_case);
-        write_page(Path::new(PAGE), &page, streams.errors)?;
+        write_page(&arguments.page.place.out.join("judge.html"), page, streams.errors)?;
     }
     let format = if arguments.json { Format::Json } else { arguments.format };
     let text = match format {

@@ -12,6 +12,7 @@ mod invariant;
 mod judge;
 mod league;
 mod misbehave;
+mod page;
 mod plan;
 mod quiz;
 mod render;
@@ -25,7 +26,6 @@ use std::path::Path;
 
 use clap::{Parser, Subcommand};
 
-use crate::report::html::{self, Report};
 use crate::{hazard, lineup};
 
 /// Exit codes.
@@ -287,14 +287,4 @@ fn write_file(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
         let _ = std::fs::remove_file(&beside);
         failed("cannot write", e)
     })
-}
-
-/// Where the report page of a command goes.
-const PAGE: &str = "target/rasterproof/index.html";
-
-/// Writes a report page and says where; commands that print a result say it on standard error.
-fn write_page(path: &Path, report: &Report, stream: &mut dyn Write) -> Result<(), Failure> {
-    write_file(path, html::page(report).as_bytes())?;
-    writeln!(stream, "report: {}", path.display())?;
-    Ok(())
 }

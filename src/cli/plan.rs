@@ -1,20 +1,22 @@
 //! `rasterproof plan`: what a scene calls for, why, and what leaving out the rest saves.
 
 use std::fmt::Write as _;
-use std::path::Path;
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget};
 
 use super::decisions::{grouped, plan_rows};
+use super::page::{PageArguments, write_page};
 use super::render::SceneArguments;
-use super::{Failure, PAGE, Streams, exit, usage, write_page};
+use super::{Failure, Streams, exit, usage};
 use crate::effects::render::Rendered;
 use crate::effects::{Effect, Effects, Mode};
 use crate::lineup::Drawer;
 use crate::pipeline::Counters;
 use crate::report::frames;
-use crate::report::html::{Column, Outcome, PictureLayer, PictureView, Report, Row, Table};
+use crate::report::html::{
+    Chapter, Column, Outcome, PictureLayer, PictureView, Report, Row, Table,
+};
 use crate::scene::Scene;
 
 const HELP: &str = "Examples:
@@ -55,9 +57,8 @@ pub struct PlanArguments {
     /// Rounds of measuring, each with every mixture of effects in turn
     #[arg(long, default_value_t = 9, value_parser = clap::value_parser!(u32).range(1..=1000))]
     rounds: u32,
-    /// Also write the plan and the savings as a page: target/rasterproof/index.html
-    #[arg(long)]
-    report: bool,
+    #[command(flatten)]
+    page: PageArguments,
     /// For machines
     #[arg(long)]
     json: bool,
@@ -148,9 +149,9 @@ pub fn run(arguments: &PlanArguments, streams: &mut Streams<'_>) -> Result<u8, F
     let scene = maker.scene(0.0);
     let (measured, everything, planned) = measure(arguments, &scene, streams.progress)?;
     let same = measured.all().all(|mixture| mixture.same);
-    if arguments.report {
+    if arguments.page.report {
         let report = report_page(arguments, &scene, [&everything, &planned], &measured, same);
-        write_page(Path::new(PAGE), &report, streams.errors)?;
+        write_page(&arguments.page.place.out.join("plan.html"), report, streams.errors)?;
     }
     if arguments.json {
         let json = serde_json::json!({
@@ -354,6 +355,7 @@ fn report_page(
             name: scene.name.clone(),
             about: scene.about.clone(),
             command,
+            chapter: Chapter { title: "effects", path: "effects.md" },
             layers: ["everything", "planned"]
                 .into_iter()
                 .zip(frames)

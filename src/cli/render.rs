@@ -9,7 +9,8 @@ use image::codecs::gif::{GifEncoder, Repeat};
 use indicatif::{ProgressBar, ProgressDrawTarget};
 
 use super::decisions::plan_rows;
-use super::{Failure, PAGE, Streams, exit, usage, write_file, write_page};
+use super::page::{PageArguments, write_page};
+use super::{Failure, Streams, exit, usage, write_file};
 use crate::angle::{atan, cos, sin, tan, turn_y};
 use crate::effects::plan::Plan;
 use crate::effects::render::{BadScene, Rendered};
@@ -24,7 +25,8 @@ use crate::pipeline::shade::Light;
 use crate::pipeline::target::{Antialias, Colour, Target, check_size};
 use crate::pipeline::transform::{about, look_at, perspective};
 use crate::report::frames::{self, Comparison};
-use crate::report::html::{Outcome, PictureLayer, PictureView, Report};
+use crate::report::html::{Chapter, Outcome, PictureLayer, PictureView, Report};
+use crate::report::picture;
 use crate::scene::chapters::{self, SCENES};
 use crate::scene::{Scene, Shading, obj};
 use crate::verify::ties::{self, Drawn as DrawnBy};
@@ -60,17 +62,16 @@ pub struct RenderArguments {
     #[arg(long, value_name = "FILE", conflicts_with_all = ["effects", "wireframe", "map", "spin"])]
     plan: Option<PathBuf>,
     /// Colour each pixel by the effects it paid for instead
-    #[arg(long, conflicts_with_all = ["wireframe", "spin"])]
+    #[arg(long, conflicts_with_all = ["wireframe", "spin", "report"])]
     map: bool,
     /// A full turn in this many frames, as an animated GIF
-    #[arg(long, value_name = "FRAMES", value_parser = clap::value_parser!(u32).range(2..=1000))]
+    #[arg(long, value_name = "FRAMES", conflicts_with = "report", value_parser = clap::value_parser!(u32).range(2..=1000))]
     spin: Option<u32>,
-    /// The picture [default: target/rasterproof/NAME.png or .gif]
+    /// The picture [default: NAME.png or .gif in the folder of --out]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Also write a page that shows the frames and what differs: target/rasterproof/index.html
-    #[arg(long, conflicts_with_all = ["spin", "map"])]
-    report: bool,
+    #[command(flatten)]
+    page: PageArguments,
     /// Counters as JSON on standard output
     #[arg(long)]
     json: bool,
@@ -360,7 +361,7 @@ pub fn run(arguments: &RenderArguments, streams: &mut Streams<'_>) -> Result<u8,
     let what = &arguments.what;
     let maker = what.maker(streams.errors)?;
     let extension = if arguments.spin.is_some() { "gif" } else { "png" };
-    let default = || Path::new("target/rasterproof").join(format!("{}.{extension}", what.name()));
+    let default = || arguments.page.place.out.join(format!("{}.{extension}", what.name()));
     let output = arguments.output.clone().unwrap_or_else(default);
     if let Some(frames) = arguments.spin {
         return spin(arguments, &maker, frames, &output, streams);
@@ -377,9 +378,9 @@ pub fn run(arguments: &RenderArguments, streams: &mut Streams<'_>) -> Result<u8,
     if let Some(comparison) = comparison.as_ref().filter(is_drawn) {
         write_file(&difference, &frames::png(&comparison.picture)?)?;
     }
-    if arguments.report {
+    if arguments.page.report {
         let report = report_page(&arguments.what, &scene, &drawings, comparison.as_ref());
-        write_page(Path::new(PAGE), &report, streams.errors)?;
+        write_page(&arguments.page.place.out.join("render.html"), report, streams.errors)?;
     }
     if arguments.json {
         let json = frames::json(&scene.name, &names(&drawings), &drawings[0].rendered, &comparison);
@@ -439,6 +440,7 @@ fn report_page(
         name: scene.name.clone(),
         about: scene.about.clone(),
         command: command.clone(),
+        chapter: Chapter { title: "chapter 9, the pipeline", path: "ch09.md" },
         layers: drawings.iter().map(layer).chain(marked).collect(),
     };
     Report {
@@ -581,13 +583,14 @@ fn map(
     let edges = arguments.engine == Drawn::EdgeFunction;
     let drawer = if edges { Drawer::EdgeFunction } else { Drawer::Scanline };
     let effects = arguments.effects.unwrap_or(Effects::PLANNED);
-    let (_, map) = drawer
+    let (rendered, map) = drawer
         .render_mapped(scene, &effects, &mut target)
         .map_err(|error| usage(error.to_string()))?;
-    write_file(output, &frames::png(&frames::map_picture(&map))?)?;
+    let title = format!("{}: what each pixel pays for", scene.name);
+    write_file(output, &picture::png(&frames::map_picture(&title, &rendered.picture, &map)))?;
     writeln!(streams.output, "{}: effects paid for, drawn in {}", scene.name, output.display())?;
-    for (effect, [r, g, b]) in frames::MAP_COLOURS {
-        writeln!(streams.output, "  #{r:02x}{g:02x}{b:02x} {}", effect.name())?;
+    for (effect, _) in frames::MAP_COLOURS {
+        writeln!(streams.output, "  {:<12} {} px", effect.name(), frames::paid(&map, effect))?;
     }
     Ok(exit::AGREES)
 }

@@ -11,10 +11,12 @@ use std::path::{Path, PathBuf};
 
 use image::{ImageFormat, ImageReader, RgbImage};
 
-use super::{Failure, Streams, exit, usage, write_page};
+use super::page::{Place, write_page};
+use super::{Failure, Streams, exit, usage};
 use crate::report::html::{
     Column, Outcome, PictureLayer, PictureView, Report, Row, Table, TextDiff,
 };
+use crate::report::panels::{self, Sheet};
 
 /// Options of `review`.
 #[derive(clap::Args, Debug)]
@@ -23,9 +25,11 @@ pub struct ReviewArguments {
     /// Where to look [default: snapshots and tests, where they exist]
     #[arg(value_name = "FOLDER")]
     folders: Vec<PathBuf>,
-    /// Where the page goes
-    #[arg(short, long, value_name = "FILE.html", default_value = "target/rasterproof/review.html")]
-    output: PathBuf,
+    /// Where the page goes [default: review.html in the folder of --out]
+    #[arg(short, long, value_name = "FILE.html")]
+    output: Option<PathBuf>,
+    #[command(flatten)]
+    place: Place,
 }
 
 /// Folders that are looked into where none is named.
@@ -73,13 +77,15 @@ pub fn run(arguments: &ReviewArguments, streams: &mut Streams<'_>) -> Result<u8,
     let looked = found.iter().map(|path| look(path)).collect::<Result<Vec<_>, _>>()?;
     let pending: Vec<_> = looked.into_iter().flatten().collect();
     let report = report(&pending, &folders);
-    write_page(&arguments.output, &report, streams.output)?;
+    let default = || arguments.place.out.join("review.html");
+    let output = arguments.output.clone().unwrap_or_else(default);
+    let sentence = report.outcome.clone().map(|outcome| outcome.sentence).unwrap_or_default();
+    write_page(&output, report, streams.output)?;
     for one in &pending {
         writeln!(streams.output, "\n{}: {}", one.path.display(), one.what)?;
         writeln!(streams.output, "  accept: {}", accept(one))?;
         writeln!(streams.output, "  or, without cargo-insta: {}", update(one))?;
     }
-    let sentence = report.outcome.map(|outcome| outcome.sentence).unwrap_or_default();
     let left_over = found.len() - pending.len();
     if left_over > 0 {
         writeln!(
@@ -184,6 +190,7 @@ fn decode(bytes: &[u8]) -> Result<RgbImage, String> {
     Ok(reader().decode().map_err(|e| e.to_string())?.to_rgb8())
 }
 
+/// What changed: for the sheets of cases who draws how many pixels of the case otherwise.
 fn pictures(old: Option<&[u8]>, new: &[u8]) -> (String, Shown) {
     let image = match decode(new) {
         Ok(image) => image,
@@ -197,9 +204,28 @@ fn pictures(old: Option<&[u8]>, new: &[u8]) -> (String, Shown) {
             Shown::Picture(vec![new_layer]),
         ),
         Some(Ok(before)) => {
-            let what = difference(&before, &image);
+            let sheets = old.and_then(Sheet::from_png).zip(Sheet::from_png(new));
+            let what =
+                sheets.map_or_else(|| difference(&before, &image), |(a, b)| who_changed(&a, &b));
             (what, Shown::Picture(vec![PictureLayer::new("old", &before), new_layer]))
         }
+    }
+}
+
+/// Panels of old and new sheet, compared by the pixels of the case.
+fn who_changed(old: &Sheet, new: &Sheet) -> String {
+    let changes = panels::changes(old, new);
+    let changed: Vec<_> = changes
+        .iter()
+        .filter(|(_, count)| *count > 0)
+        .map(|(name, count)| match count {
+            1 => format!("{name} changed in 1 pixel"),
+            n => format!("{name} changed in {n} pixels"),
+        })
+        .collect();
+    match changed.as_slice() {
+        [] => "no pixel of the case changed: the sheet itself did".to_owned(),
+        _ => changed.join(", "),
     }
 }
 
@@ -209,7 +235,10 @@ fn difference(old: &RgbImage, new: &RgbImage) -> String {
         return format!("a picture of {a} x {b} px became one of {c} x {d} px");
     }
     let count = old.pixels().zip(new.pixels()).filter(|(a, b)| a != b).count();
-    format!("{count} of {} pixels changed", u64::from(old.width()) * u64::from(old.height()))
+    format!(
+        "{count} of {} picture pixels changed",
+        u64::from(old.width()) * u64::from(old.height())
+    )
 }
 
 fn accept(one: &Pending) -> String {
@@ -252,9 +281,13 @@ fn report(pending: &[Pending], folders: &[PathBuf]) -> Report {
         rows.push(Row { cells, search, ..Row::default() });
         let (about, command) = (one.what.clone(), accept(one));
         match &one.shown {
-            Shown::Picture(layers) => {
-                report.frames.push(PictureView { name, about, command, layers: layers.clone() })
-            }
+            Shown::Picture(layers) => report.frames.push(PictureView {
+                name,
+                about,
+                command,
+                layers: layers.clone(),
+                ..PictureView::default()
+            }),
             Shown::Text { old, new } => report.diffs.push(TextDiff {
                 name,
                 about,

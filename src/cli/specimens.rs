@@ -1,10 +1,11 @@
 //! `rasterproof specimens`: how often each published fault shows, and a contact sheet of them.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use indicatif::ProgressBar;
 
-use super::{Failure, PAGE, Streams, exit, write_file, write_page};
+use super::page::{PageArguments, write_page};
+use super::{Failure, Streams, exit, write_file};
 use crate::report::html::{Outcome, Report};
 use crate::report::{cases, counts, json, picture, sheet, specimens};
 use crate::specimen::catalogue::{CARDS, Card};
@@ -25,12 +26,12 @@ pub struct SpecimensArguments {
     /// Print JSON instead of tables
     #[arg(long)]
     json: bool,
-    /// Write a page to look into the faults: target/rasterproof/index.html
-    #[arg(long)]
-    report: bool,
-    /// Where the contact sheet goes: published, repaired, difference for each specimen
-    #[arg(short, long, value_name = "FILE", default_value = "target/rasterproof/specimens.png")]
-    output: PathBuf,
+    #[command(flatten)]
+    page: PageArguments,
+    /// Where the contact sheet goes: published, repaired, difference for each specimen [default:
+    /// specimens.png in the folder of --out]
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
 }
 
 /// Surveys, prints and draws. A specimen that its case does not expose is a disagreement.
@@ -54,14 +55,17 @@ pub fn run(arguments: &SpecimensArguments, streams: &mut Streams<'_>) -> Result<
         ([card], [report]) => (sheet::strip(card), specimens::detail(report)),
         _ => (sheet::contact_sheet(), specimens::table(&reports)),
     };
-    write_file(&arguments.output, &picture::png(&drawn))?;
-    if arguments.report {
-        write_page(Path::new(PAGE), &report_page(arguments, &reports), streams.errors)?;
+    let default = || arguments.page.place.out.join("specimens.png");
+    let output = arguments.output.clone().unwrap_or_else(default);
+    write_file(&output, &picture::png(&drawn))?;
+    if arguments.page.report {
+        let path = arguments.page.place.out.join("specimens.html");
+        write_page(&path, report_page(arguments, &reports), streams.errors)?;
     }
     if arguments.json {
         write!(out, "{}", json::specimens(arguments.seed, arguments.cases, &reports))?;
     } else {
-        writeln!(out, "{text}\ndrawn in {}", arguments.output.display())?;
+        writeln!(out, "{text}\ndrawn in {}", output.display())?;
     }
     Ok(if are_caught(&reports) { exit::AGREES } else { exit::DISAGREES })
 }
@@ -80,6 +84,12 @@ fn report_page(arguments: &SpecimensArguments, reports: &[SpecimenReport]) -> Re
         "A published fault is not exposed by its case, or shows in its harmless one.".to_owned()
     };
     let word = if good { "CAUGHT" } else { "NOT CAUGHT" };
+    let is_asked = |name: &str| reports.iter().any(|r| r.name == name.trim_end_matches(" picture"));
+    let mut cases = cases::of_specimens();
+    cases.retain(|case| is_asked(&case.name));
+    let taken: Vec<_> = cases.iter().map(|case| case.name.clone()).collect();
+    let mut frames = sheet::views(&taken);
+    frames.retain(|view| is_asked(&view.name));
     Report {
         title: "Published algorithms and their faults".to_owned(),
         outcome: Some(Outcome { good, word: word.to_owned(), sentence }),
@@ -89,8 +99,8 @@ fn report_page(arguments: &SpecimensArguments, reports: &[SpecimenReport]) -> Re
         ),
         seed: Some(arguments.seed),
         tables: vec![counts::of_specimens(reports)],
-        cases: cases::of_specimens(),
-        frames: sheet::views(),
+        cases,
+        frames,
         ..Report::default()
     }
 }

@@ -5,7 +5,8 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use super::{Failure, PAGE, Streams, exit, invariant, usage, write_file, write_page};
+use super::page::{PageArguments, write_page};
+use super::{Failure, Streams, exit, invariant, usage, write_file};
 use crate::hazard;
 use crate::lineup::{Engine, ExactEngine, LineEngine};
 use crate::mutant::{LineMutant, Mutant, TriangleMutant, exact::ExactMutant};
@@ -46,9 +47,8 @@ pub struct VerifyArguments {
     /// The verdict as JSON instead of a table
     #[arg(long)]
     json: bool,
-    /// Write a page to look into the cases: target/rasterproof/index.html
-    #[arg(long)]
-    report: bool,
+    #[command(flatten)]
+    page: PageArguments,
     /// Judge an engine with a planted fault, to see the harness fail
     #[arg(long, value_name = "FAULT", hide = true, value_parser = mutant_names())]
     plant: Option<String>,
@@ -169,9 +169,6 @@ impl VerifyArguments {
     }
 }
 
-/// Folder of everything this command writes.
-const FOLDER: &str = "target/rasterproof";
-
 pub fn run(arguments: &VerifyArguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
     if !arguments.invariant.is_empty() {
         let VerifyArguments { invariant: names, plant, seed, cases, .. } = arguments;
@@ -191,9 +188,9 @@ pub fn run(arguments: &VerifyArguments, streams: &mut Streams<'_>) -> Result<u8,
             "no case was judged: this engine does not draw what this family contains, or the shard is empty",
         ));
     }
-    if arguments.report {
+    if arguments.page.report {
         let page = report_page(arguments, &verdict, &off_grid, &engines, &lines, &exact_engines);
-        write_page(Path::new(PAGE), &page, streams.errors)?;
+        write_page(&arguments.page.place.out.join("verify.html"), page, streams.errors)?;
     }
     if arguments.json {
         let text =
@@ -301,9 +298,9 @@ fn print(
     }
     let drawn = off_grid.failures.iter();
     let drawn: Vec<_> = drawn
-        .filter_map(|failure| super::inspect::picture_off_grid(&failure.case, exact_engines))
+        .filter_map(|f| super::inspect::picture_off_grid(&heading(f), &f.case, exact_engines))
         .collect();
-    write_sheet("failures-off-grid.png", &drawn, out)?;
+    write_sheet(&arguments.page.place.out.join("failures-off-grid.png"), &drawn, out)?;
     if verdict.agrees() {
         worst_cases(arguments, verdict, engines, lines, out)?;
     } else {
@@ -343,9 +340,9 @@ fn failures(
         if let Some(blocks) = shown.judged_blocks(&failure.pair[0]) {
             writeln!(out, "{}", ascii::side_by_side(&blocks, 100))?;
         }
-        pictures.push(shown.picture(&failure.case));
+        pictures.push(shown.picture(&heading(failure), &failure.case));
     }
-    write_sheet("failures.png", &pictures, out)
+    write_sheet(&arguments.page.place.out.join("failures.png"), &pictures, out)
 }
 
 /// Draws the cases whose values came closest to their bounds.
@@ -377,22 +374,32 @@ fn worst_cases(
         )?;
         let found = hazard::families().find(|f| f.name == name);
         if let Some(case) = found.map(|f| f.case(arguments.seed, pair.worst_case)) {
-            pictures.push(super::inspect::draw(&case, engines, lines).picture(&case));
+            let title = format!(
+                "{name}#{}: {} at {:.2} of a bound",
+                pair.worst_case,
+                pair.actual,
+                pair.worst()
+            );
+            pictures.push(super::inspect::draw(&case, engines, lines).picture(&title, &case));
         }
     }
-    write_sheet("worst.png", &pictures, out)
+    write_sheet(&arguments.page.place.out.join("worst.png"), &pictures, out)
+}
+
+/// The first line of what is said of a failure.
+fn heading(failure: &impl std::fmt::Display) -> String {
+    failure.to_string().lines().next().unwrap_or_default().to_owned()
 }
 
 fn write_sheet(
-    name: &str,
+    path: &Path,
     pictures: &[image::RgbImage],
     out: &mut dyn std::io::Write,
 ) -> Result<(), Failure> {
     if pictures.is_empty() {
         return Ok(());
     }
-    let path = Path::new(FOLDER).join(name);
-    write_file(&path, &picture::png(&picture::stack(pictures)))?;
-    writeln!(out, "drawn in {} (engines from left to right, the oracle last)", path.display())?;
+    write_file(path, &picture::png(&picture::stack(pictures)))?;
+    writeln!(out, "drawn in {}", path.display())?;
     Ok(())
 }

@@ -290,7 +290,7 @@ fn pages() -> Vec<(PathBuf, String)> {
 }
 
 /// The anchors that GitHub gives the headings of a page.
-fn anchors(text: &str) -> Vec<String> {
+pub fn anchors(text: &str) -> Vec<String> {
     let heading = |line: &str| {
         let words = line.strip_prefix('#')?.trim_start_matches('#').trim().to_lowercase();
         let kept = words.chars().filter(|c| c.is_alphanumeric() || " -_".contains(*c));

@@ -534,7 +534,7 @@ fn judge_knows_a_baseline() {
 #[test]
 fn judge_writes_a_page() {
     check(&of(&["--report", "--family", "half-integer"], &["exclusive-edges"]), 1);
-    let page = std::fs::read_to_string(folder().join("target/rasterproof/index.html")).unwrap();
+    let page = std::fs::read_to_string(folder().join("target/rasterproof/judge.html")).unwrap();
     assert!(page.contains("Verdict on exclusive-edges") && page.contains("half-integer#"));
 }
 

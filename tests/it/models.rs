@@ -215,7 +215,8 @@ fn render_and_plan_write_a_page() {
         let mut command = Command::new(env!("CARGO_BIN_EXE_rasterproof"));
         let output = command.args(arguments).current_dir(&folder).output().unwrap();
         assert_eq!(output.status.code(), Some(0), "{output:?}");
-        fs::read_to_string(folder.join("target/rasterproof/index.html")).unwrap()
+        let page = format!("target/rasterproof/{}.html", arguments[0]);
+        fs::read_to_string(folder.join(page)).unwrap()
     };
     let page = run(&["render", "--scene", "cube", "--size", "64x48", "--report"]);
     assert!(page.contains("AGREES") && page.contains("edge-function"));

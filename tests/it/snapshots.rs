@@ -17,6 +17,7 @@ use rasterproof::lineup::{Engine, LineEngine};
 use rasterproof::mutant::TriangleMutant;
 use rasterproof::raster::edge_function::EdgeFunction;
 use rasterproof::raster::scanline::Scanline;
+use rasterproof::report::panels::{self, Sheet};
 use rasterproof::report::{ascii, picture};
 use rasterproof::scene::named::{find, named};
 use rasterproof::triangle::{ScreenTriangle, ScreenVertex};
@@ -128,8 +129,10 @@ fn snapshots_of_named_cases() {
                     insta::assert_snapshot!(format!("{}-text", named.name), text(&named, case))
                 });
                 let (engines, target) = judged(case);
-                let hits: Vec<_> = engines.into_iter().map(|(_, hits)| hits).collect();
-                let png = picture::png(&picture::panels(case, &hits, &target));
+                let hits: Vec<_> =
+                    engines.into_iter().map(|(name, hits)| (name.to_owned(), hits)).collect();
+                let title = format!("{}: {}", named.name, named.about);
+                let png = panels::of_case(&title, case, &hits, &target).png();
                 if case.window.width() <= 64 && case.window.height() <= 80 {
                     assert!(png.len() <= MOST_BYTES, "{}: {} bytes", named.name, png.len());
                     let mut settings = settings();
@@ -239,7 +242,15 @@ fn pictures_are_compared_by_pixels() {
 
 /// Keeps a picture of the docs as a snapshot.
 pub fn check_picture(name: &str, image: &RgbImage) {
-    let png = picture::png(image);
+    check_png(name, picture::png(image));
+}
+
+/// Keeps the sheet of a case as a snapshot.
+fn check_sheet(name: &str, sheet: &Sheet) {
+    check_png(name, sheet.png());
+}
+
+fn check_png(name: &str, png: Vec<u8>) {
     assert!(png.len() <= MOST_BYTES, "{name}: {} bytes", png.len());
     let mut settings = settings();
     settings.set_comparator(Box::new(ByPixels(name.to_owned())));
@@ -340,18 +351,22 @@ fn picture_of_a_verdict() {
     let Input::Drawn { case, .. } = find("T6").unwrap().input else { panic!("T6 is drawn") };
     let Shape::Triangles { list, .. } = &case.shape else { panic!("T6 is a fan") };
     let engines = [
-        Engine::Mutant(TriangleMutant::ExclusiveEdges),
-        Engine::Mutant(TriangleMutant::InclusiveEdges),
-        Engine::Scanline,
-        Engine::EdgeFunction,
+        ("strict edges", Engine::Mutant(TriangleMutant::ExclusiveEdges)),
+        ("inclusive edges", Engine::Mutant(TriangleMutant::InclusiveEdges)),
+        ("scanline", Engine::Scanline),
+        ("edge function", Engine::EdgeFunction),
     ];
     let target = oracle_coverage(list, case.window);
-    let hits = engines.map(|engine| engine_coverage(&engine, list, case.window).unwrap());
-    let wrong = [0, 1, 2, 3].map(|i| Tally::between(&hits[i], &target));
+    let hits = engines.map(|(name, engine)| {
+        (name.to_owned(), engine_coverage(&engine, list, case.window).unwrap())
+    });
+    let wrong = hits.each_ref().map(|(_, hits)| Tally::between(hits, &target));
     assert!(wrong[0].missing > 0 && wrong[0].extra + wrong[0].twice == 0, "{wrong:?}");
     assert!(wrong[1].twice > 0 && wrong[1].missing == 0, "{wrong:?}");
     assert_eq!((wrong[2].total(), wrong[3].total()), (0, 0));
-    check_picture("verdict", &picture::panels(&case, &hits, &target));
+    let title =
+        "A closed fan of twelve triangles: strict edges leave holes, inclusive ones draw twice";
+    check_sheet("verdict", &panels::of_case(title, &case, &hits, &target));
 }
 
 /// For docs/stability.md: in each family the first case that the naive version gets visibly wrong,
@@ -398,5 +413,7 @@ fn naive(family: &str, mutant: &str, draw: impl Fn(&Case) -> (Coverage, Coverage
         .unwrap();
     let (hits, target) = draw(&worst);
     assert!(Tally::between(&hits, &target).total() > 0, "{mutant} is right about {}", family.name);
-    check_picture(&format!("naive-{}", family.name), &picture::panels(&worst, &[hits], &target));
+    let title = format!("{}: {}", family.name, family.about);
+    let sheet = panels::of_case(&title, &worst, &[(mutant.to_owned(), hits)], &target);
+    check_sheet(&format!("naive-{}", family.name), &sheet);
 }

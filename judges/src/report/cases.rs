@@ -5,6 +5,7 @@
 
 use serde::Serialize;
 
+use super::html::Chapter;
 use crate::frame::Coverage;
 use crate::grid::PixelRect;
 use crate::hazard::named::Input;
@@ -34,6 +35,8 @@ pub struct CaseView {
     pub found: String,
     /// The command that repeats it.
     pub command: String,
+    /// Where it is explained.
+    pub chapter: Chapter,
     window: PixelRect,
     shape: ShapeView,
     layers: Vec<Layer>,
@@ -155,6 +158,11 @@ fn closest(verdict: &Verdict, judged: Judged<'_>) -> Vec<CaseView> {
         let name = format!("{}#{}", family.name, pair.worst_case);
         let case = family.case(seed, pair.worst_case);
         let view = on_grid(name.clone(), family.about.to_owned(), Kind::Closest, &case, judged);
+        // Wrong pixels are the news of such a case, and stand among the failing ones.
+        let is_wrong = |l: &Layer| l.role != Role::Specimen && l.tally.total() > 0;
+        if view.layers.iter().any(is_wrong) {
+            return None;
+        }
         let found = format!("a value of {} at {:.2} of its bound", pair.actual, pair.worst());
         let command = format!("rasterproof inspect {name} --seed {seed}");
         Some(CaseView { found, command, ..view })
@@ -199,11 +207,17 @@ pub fn of_specimens() -> Vec<CaseView> {
             Exhibit::Lines([case, _]) => (line_case(case), case.name),
             Exhibit::Scene(..) => return None,
         };
-        let about = format!("{}: {}; {}", card.source, shown, card.fault);
+        let about = format!("{}: {shown}", card.source);
         let mut view = on_grid(card.name.to_owned(), about, Kind::Specimen, &case, judged);
-        view.start = [view.place(card.name, 0), view.place("oracle", 1)];
-        let found = format!("cure: {}", card.cure);
-        Some(CaseView { found, command: request(card.name, &case), ..view })
+        let place = view.place(card.name, 0);
+        // A fault of the values alone is for the pictures to show.
+        if view.layers[place].tally.total() == 0 && view.layers[place].refused.is_empty() {
+            return None;
+        }
+        view.start = [place, view.place("oracle", 1)];
+        let found = format!("{}; cure: {}", card.fault, card.cure);
+        let (command, chapter) = (request(card.name, &case), chapter_of_source(card.source));
+        Some(CaseView { found, command, chapter, ..view })
     });
     views.collect()
 }
@@ -418,7 +432,40 @@ fn view(
     }
     let start = start(&layers);
     let (found, command) = (String::new(), String::new());
-    CaseView { name, about, kind, found, command, window, shape, layers, start }
+    let chapter = chapter(kind, &shape);
+    CaseView { name, about, kind, found, command, chapter, window, shape, layers, start }
+}
+
+/// Where the docs derive what decides such a case.
+fn chapter(kind: Kind, shape: &ShapeView) -> Chapter {
+    let (title, path) = match (kind, shape) {
+        (_, ShapeView::Lines(_)) => ("chapter 2, lines", "ch02.md#lines-section-21-the-idea"),
+        (_, ShapeView::Free(_)) => ("off the grid", "offgrid.md"),
+        (Kind::Closest, _) => ("chapter 3, values at the pixels", "ch03.md"),
+        _ => ("chapter 2, the top-left rule", "ch02.md#the-formula-the-top-left-rule-derived"),
+    };
+    Chapter { title, path }
+}
+
+/// The page of the docs about the source of a published algorithm, such as `book 3.2`.
+#[must_use]
+pub fn chapter_of_source(source: &str) -> Chapter {
+    const PAGES: [(&str, &str, &str); 12] = [
+        ("book 2", "chapter 2", "ch02.md"),
+        ("book 3", "chapter 3", "ch03.md"),
+        ("book 4", "chapter 4", "ch04.md"),
+        ("book 5", "chapter 5", "ch05.md"),
+        ("book 6", "chapter 6", "ch06.md"),
+        ("book 7", "chapter 7", "ch07.md"),
+        ("book 8", "chapter 8", "ch08.md"),
+        ("book 9", "chapter 9", "ch09.md"),
+        ("book 10", "chapter 10", "ch10.md"),
+        ("book 11", "chapter 11", "ch11.md"),
+        ("GAMES101", "GAMES101 homework 2", "games101.md"),
+        ("SYSU", "SYSU assignment 2", "sysu.md"),
+    ];
+    let page = PAGES.iter().find(|(from, ..)| source.starts_with(from));
+    page.map_or(Chapter::default(), |&(_, title, path)| Chapter { title, path })
 }
 
 fn layer(name: String, role: Role, hits: Result<Coverage, String>, truth: &Coverage) -> Layer {

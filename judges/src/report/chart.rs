@@ -5,11 +5,12 @@
 //! not overlap, which is most of the work here. A drawing is 800 units wide. Text is monospaced with
 //! 8 units to the character, in both forms, so that one layout serves both.
 
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
 use image::{Rgb, RgbImage};
 
-use super::lettering;
+use super::lettering::{self, Size};
 
 /// Units of a character.
 pub const LETTER: f64 = 8.0;
@@ -112,39 +113,38 @@ pub fn svg(drawing: &Drawing) -> String {
     let mut out = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" width=\"{width}\" \
          height=\"{height}\" font-family=\"monospace\" font-size=\"13\">\n<title>{}</title>\n\
-         <rect width=\"{width}\" height=\"{height}\" fill=\"#fff\"/>\n",
-        escaped(&drawing.title)
+         {}<rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\" class=\"fffffff\"/>\n",
+        escaped(&drawing.title),
+        dark_style(drawing)
     );
     for shape in &drawing.shapes {
         // Writing to a string does not fail.
         let _ = match shape {
             Shape::Line { from: [x1, y1], to: [x2, y2], width, ink } => writeln!(
                 out,
-                "<path d=\"M{x1:.1} {y1:.1}L{x2:.1} {y2:.1}\" stroke=\"{}\" stroke-width=\"{width}\"/>",
-                hex(*ink)
+                "<path d=\"M{x1:.1} {y1:.1}L{x2:.1} {y2:.1}\" {} stroke-width=\"{width}\"/>",
+                stroke(*ink)
             ),
             Shape::Box { at: [x, y], size: [w, h], ink } => writeln!(
                 out,
-                "<rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"{w:.1}\" height=\"{h:.1}\" fill=\"{}\"/>",
-                hex(*ink)
+                "<rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"{w:.1}\" height=\"{h:.1}\" {}/>",
+                fill(*ink)
             ),
-            Shape::Disc { at: [x, y], radius, ink } => writeln!(
-                out,
-                "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{radius}\" fill=\"{}\"/>",
-                hex(*ink)
-            ),
+            Shape::Disc { at: [x, y], radius, ink } => {
+                writeln!(out, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{radius}\" {}/>", fill(*ink))
+            }
             Shape::Ring { at: [x, y], radius, ink } => writeln!(
                 out,
-                "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{radius}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\"/>",
-                hex(*ink)
+                "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{radius}\" fill=\"none\" {} stroke-width=\"2\"/>",
+                stroke(*ink)
             ),
             // The length is stated, so that another font cannot make labels overlap.
             Shape::Text { at: [x, y], text, ink } => writeln!(
                 out,
-                "<text x=\"{x:.1}\" y=\"{:.1}\" textLength=\"{}\" fill=\"{}\">{}</text>",
+                "<text x=\"{x:.1}\" y=\"{:.1}\" textLength=\"{}\" {}>{}</text>",
                 y + 4.5,
                 self::width(text),
-                hex(*ink),
+                fill(*ink),
                 escaped(text)
             ),
         };
@@ -153,7 +153,45 @@ pub fn svg(drawing: &Drawing) -> String {
 }
 
 fn hex([r, g, b]: Ink) -> String {
-    format!("#{r:02x}{g:02x}{b:02x}")
+    format!("{r:02x}{g:02x}{b:02x}")
+}
+
+/// A colour by day, and a class that names the one by night.
+fn fill(ink: Ink) -> String {
+    format!("fill=\"#{0}\" class=\"f{0}\"", hex(ink))
+}
+
+fn stroke(ink: Ink) -> String {
+    format!("stroke=\"#{0}\" class=\"s{0}\"", hex(ink))
+}
+
+/// What a colour is on a dark page: light ones become dark, dark ones light, of the same hue.
+fn dark([r, g, b]: Ink) -> Ink {
+    let (low, high) = (r.min(g).min(b), r.max(g).max(b));
+    let mirror = |v: u8| {
+        // The lightness is mirrored, and black text does not become pure white.
+        let mirrored = i32::from(v) + 255 - i32::from(low) - i32::from(high);
+        (28 + mirrored * 7 / 8).clamp(0, 255) as u8
+    };
+    [r, g, b].map(mirror)
+}
+
+/// The style that a dark page brings about.
+fn dark_style(drawing: &Drawing) -> String {
+    let ink = |shape: &Shape| match shape {
+        Shape::Line { ink, .. }
+        | Shape::Box { ink, .. }
+        | Shape::Disc { ink, .. }
+        | Shape::Ring { ink, .. }
+        | Shape::Text { ink, .. } => *ink,
+    };
+    let inks: BTreeSet<Ink> = drawing.shapes.iter().map(ink).chain([[255; 3]]).collect();
+    let rules = inks.iter().map(|ink| {
+        let (name, dark) = (hex(*ink), hex(dark(*ink)));
+        format!(".f{name}{{fill:#{dark}}}.s{name}{{stroke:#{dark}}}")
+    });
+    let rules: String = rules.collect();
+    format!("<style>@media (prefers-color-scheme: dark){{{rules}}}</style>\n")
 }
 
 fn escaped(text: &str) -> String {
@@ -191,8 +229,8 @@ pub fn picture(drawing: &Drawing) -> RgbImage {
             }
             Shape::Text { at, text, ink } => {
                 let [x, y] = scale(*at);
-                let top = y - f64::from(lettering::CELL * ZOOM) / 2.0;
-                lettering::write(&mut image, (x as i64, top as i64), text, ZOOM, Rgb(*ink));
+                let top = y - f64::from(Size::Plot.cell()[1]) / 2.0;
+                lettering::write(&mut image, (x as i64, top as i64), text, Size::Plot, Rgb(*ink));
             }
         }
     }
@@ -243,6 +281,20 @@ mod tests {
         drawing.shapes.push(Shape::Ring { at: [30.0, 10.0], radius: 5.0, ink: [0, 128, 0] });
         drawing.text([1.0, 15.0], "<&", [0, 0, 0]);
         drawing
+    }
+
+    #[test]
+    fn dark_pages_turn_paper_and_ink_over() {
+        let sum = |ink: Ink| ink.iter().map(|v| u32::from(*v)).sum::<u32>();
+        assert_eq!(dark([255, 255, 255]), [28; 3]);
+        assert!(sum(dark([0, 0, 0])) > 3 * 240 && sum(dark([34, 34, 34])) > 3 * 200);
+        let [r, g, b] = dark([20, 110, 50]);
+        assert!(g > b && b > r && r > 100, "green stays green: {r} {g} {b}");
+        let svg = svg(&sample());
+        assert!(
+            svg.contains(".fffffff{fill:#1c1c1c}") && svg.contains("class=\"sff0000\""),
+            "{svg}"
+        );
     }
 
     #[test]

@@ -4,6 +4,7 @@ use std::io::{self, Cursor};
 
 use image::{ImageFormat, RgbImage};
 
+use super::lettering::{Size, write};
 use crate::effects::Effect;
 use crate::effects::render::Rendered;
 use crate::frame::Frame;
@@ -164,33 +165,85 @@ fn compare_depths(a: &Target, b: &Target, ties: Option<&Ties>) -> (u64, Vec<(i32
     (count, wrong)
 }
 
-/// What the colours of a map of effects mean; a pixel that pays for several shows their sum.
+/// The effects of a map, in the order of its panels, each with its colour.
 pub const MAP_COLOURS: [(Effect, [u8; 3]); 6] = [
-    (Effect::Samples, [120, 60, 0]),
-    (Effect::Perspective, [70, 0, 0]),
-    (Effect::Depth, [0, 0, 110]),
-    (Effect::Colour, [90, 90, 0]),
-    (Effect::Light, [0, 140, 0]),
-    (Effect::Texture, [95, 0, 100]),
+    (Effect::Samples, [235, 140, 30]),
+    (Effect::Perspective, [225, 70, 70]),
+    (Effect::Depth, [80, 130, 240]),
+    (Effect::Colour, [215, 195, 40]),
+    (Effect::Light, [60, 180, 90]),
+    (Effect::Texture, [190, 90, 205]),
 ];
 
-/// A map of effects as a picture.
+/// Pixels of a map that paid for an effect.
 #[must_use]
-pub fn map_picture(map: &Frame<u16>) -> Frame<Colour> {
+pub fn paid(map: &Frame<u16>, effect: Effect) -> u64 {
+    let pays = |paid: &&u16| **paid & (1 << effect as u16) != 0;
+    map.rows().map(|(_, row)| row.iter().filter(pays).count() as u64).sum()
+}
+
+/// Panels in a row of a map, and the widest such row.
+const MAP_COLUMNS: u32 = 3;
+const MAP_WIDTH_PX: u32 = 1440;
+
+/// A map of effects as one small picture for each: the frame, dimmed, and in colour what paid for it.
+#[must_use]
+pub fn map_picture(title: &str, picture: &Frame<Colour>, map: &Frame<u16>) -> RgbImage {
+    const GAP: u32 = 12;
     let bounds = map.bounds();
-    let mut picture = Frame::new(bounds, [0; 4]);
-    for y_px in bounds.y0..bounds.y1 {
-        for (pixel, &paid) in picture.row_mut(y_px).iter_mut().zip(map.row(y_px)) {
-            let mut sum = [25u8, 25, 25];
-            for (effect, colour) in MAP_COLOURS {
-                if paid & (1 << effect as u16) != 0 {
-                    sum = [0, 1, 2].map(|i| sum[i].saturating_add(colour[i]));
-                }
-            }
-            *pixel = [sum[0], sum[1], sum[2], 255];
+    let shrunk = (bounds.width() * MAP_COLUMNS).div_ceil(MAP_WIDTH_PX).max(1);
+    let (width, height) = (bounds.width().div_ceil(shrunk), bounds.height().div_ceil(shrunk));
+    let cell = [width.max(210) + GAP, height + 42 + GAP];
+    let rows = (MAP_COLOURS.len() as u32).div_ceil(MAP_COLUMNS);
+    let size = [GAP + MAP_COLUMNS * cell[0], 40 + rows * cell[1] + 24];
+    let mut sheet = RgbImage::from_pixel(size[0], size[1], image::Rgb([255, 255, 255]));
+    let (ink, faint) = (image::Rgb([30, 30, 30]), image::Rgb([95, 95, 95]));
+    write(&mut sheet, (GAP.into(), 10), title, Size::Heading, ink);
+    let pixels = u64::from(bounds.width()) * u64::from(bounds.height());
+    for (i, (effect, colour)) in (0u32..).zip(MAP_COLOURS) {
+        let left = GAP + i % MAP_COLUMNS * cell[0];
+        let top = 40 + i / MAP_COLUMNS * cell[1];
+        let at = |down: i64| (i64::from(left), i64::from(top) + down);
+        let count = paid(map, effect);
+        write(&mut sheet, at(0), effect.name(), Size::Heading, image::Rgb(colour.map(|c| c / 2)));
+        let share = 100.0 * count as f64 / pixels.max(1) as f64;
+        write(&mut sheet, at(20), &format!("{count} px, {share:.1}%"), Size::Small, faint);
+        for (y, x) in (0..height).flat_map(|y| (0..width).map(move |x| (y, x))) {
+            let mean = block_mean(picture, map, (effect, colour), [x * shrunk, y * shrunk], shrunk);
+            sheet.put_pixel(left + x, top + 38 + y, mean);
         }
     }
-    picture
+    let words = "in colour: pixels that pay for the effect; behind it the frame, dimmed";
+    write(&mut sheet, (GAP.into(), i64::from(size[1]) - 24), words, Size::Small, faint);
+    sheet
+}
+
+/// The mean of a block of the frame, in the effect's colour where it is paid for, else dimmed.
+fn block_mean(
+    picture: &Frame<Colour>,
+    map: &Frame<u16>,
+    (effect, colour): (Effect, [u8; 3]),
+    [x, y]: [u32; 2],
+    side: u32,
+) -> image::Rgb<u8> {
+    let bounds = map.bounds();
+    let (mut sum, mut count) = ([0u32; 3], 0);
+    for (dx, dy) in (0..side).flat_map(|dy| (0..side).map(move |dx| (dx, dy))) {
+        let (x_px, y_px) = (bounds.x0 + (x + dx) as i32, bounds.y0 + (y + dy) as i32);
+        let (Some(paid), Some([r, g, b, _])) = (map.get(x_px, y_px), picture.get(x_px, y_px))
+        else {
+            continue;
+        };
+        let grey = (u32::from(r) * 2 + u32::from(g) * 5 + u32::from(b)) / 8;
+        let shown = match paid & (1 << effect as u16) {
+            0 => [40 + grey / 5; 3],
+            // The frame shows through.
+            _ => colour.map(|c| u32::from(c) * (160 + grey * 3 / 8) / 256),
+        };
+        (0..3).for_each(|i| sum[i] += shown[i]);
+        count += 1;
+    }
+    image::Rgb(sum.map(|sum| (sum / count.max(1)).min(255) as u8))
 }
 
 /// A frame for machines.

@@ -9,7 +9,7 @@
 //!     title: "cost of a fill".to_owned(),
 //!     outcome: Some(Outcome { good: true, word: "AGREES".to_owned(), sentence: "0 wrong pixels.".to_owned() }),
 //!     command: "rasterproof cost".to_owned(),
-//!     figures: vec![Figure { caption: "ns per pixel".to_owned(), svg: "<svg/>".to_owned() }],
+//!     figures: vec![Figure { caption: "ns per pixel".to_owned(), svg: "<svg/>".to_owned(), narrow: None }],
 //!     plan: vec![PlanRow { effect: "fog".to_owned(), is_on: true, ..PlanRow::default() }],
 //!     ..Report::default()
 //! };
@@ -65,6 +65,17 @@ pub struct Report {
     pub plan: Vec<PlanRow>,
     /// Texts that changed.
     pub diffs: Vec<TextDiff>,
+    /// Where the page finds the folder `docs`: an address that ends in `/`, or nothing.
+    pub docs: String,
+}
+
+/// Where the docs explain something.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Chapter {
+    /// In words; nothing where there is no such place.
+    pub title: &'static str,
+    /// A file below `docs`, with a fragment.
+    pub path: &'static str,
 }
 
 /// A verdict in a word and a sentence.
@@ -145,6 +156,8 @@ pub struct Figure {
     /// An SVG document with a size, shown as an image: scripts in it do not run. Colours for a dark
     /// page go into its own `prefers-color-scheme` style.
     pub svg: String,
+    /// The same for narrow pages, where it differs.
+    pub narrow: Option<String>,
 }
 
 /// A row of the table of a plan: an effect, whether it is on, why, and what was counted.
@@ -184,6 +197,8 @@ pub struct PictureView {
     pub about: String,
     /// The command that makes it, or nothing.
     pub command: String,
+    /// Where it is explained.
+    pub chapter: Chapter,
     /// The pictures; the first two are compared at first.
     pub layers: Vec<PictureLayer>,
 }
@@ -243,7 +258,7 @@ pub fn page(report: &Report) -> String {
     let head = head(report);
     let tables: String = report.tables.iter().map(table).collect();
     let plan = plan(&report.plan);
-    room = room.saturating_sub(head.len() + tables.len() + plan.len());
+    room = room.saturating_sub(head.len() + tables.len() + plan.len() + report.command.len());
     let mut kept = |name: &str, text: String| {
         if text.len() < room {
             room -= text.len() + 1;
@@ -261,26 +276,33 @@ pub fn page(report: &Report) -> String {
         report.cases.iter().filter_map(|case| kept(&case.name, json(case))).collect();
     let frames: Vec<_> =
         report.frames.iter().filter_map(|view| kept(&view.name, json(view))).collect();
-    let data = format!("{{\"cases\":[{}],\"frames\":[{}]}}", cases.join(","), frames.join(","));
-    let notes = notes(&report.notes, &left_out);
+    let data = format!(
+        "{{\"docs\":{},\"cases\":[{}],\"frames\":[{}]}}",
+        json(&report.docs),
+        cases.join(","),
+        frames.join(",")
+    );
+    let run = run(report, &left_out);
     let sections = [
         ("Plan", plan),
         ("Summary", tables),
         ("Plots", figures.concat()),
         ("Texts", diffs.concat()),
+        ("Run", run),
     ];
     let has_cases = !cases.is_empty() || !frames.is_empty();
     let titles = sections.iter().filter(|(_, inside)| !inside.is_empty()).map(|(title, _)| *title);
     let cases_title = if cases.is_empty() { "Pictures" } else { "Cases" };
-    let mut links: Vec<_> = titles.map(|title| (title.to_ascii_lowercase(), title)).collect();
-    links.extend(has_cases.then(|| ("cases".to_owned(), cases_title)));
+    let first = has_cases.then(|| ("cases".to_owned(), cases_title));
+    let others = titles.map(|title| (title.to_ascii_lowercase(), title));
+    let links: Vec<_> = first.into_iter().chain(others).collect();
     let jump = jump(&links);
     fill(|part| match part {
         "title" => escape(&report.title),
         "style" => STYLE.to_owned(),
         "script" => SCRIPT.to_owned(),
         "head" => head.clone(),
-        "notes" => notes.clone(),
+        "about" => about(report),
         "jump" => jump.clone(),
         "cases-title" => cases_title.to_owned(),
         "sections" => sections.iter().map(|(title, inside)| section(title, inside)).collect(),
@@ -337,11 +359,54 @@ fn head(report: &Report) -> String {
             "<p id=\"verdict\" class=\"verdict {class}\"><strong>{word}</strong> <span>{sentence}</span></p>"
         );
     }
-    out.push_str(&command(&report.command));
+    out
+}
+
+/// How the page was made, and what it left out.
+fn run(report: &Report, left_out: &[String]) -> String {
+    let mut out = command(&report.command);
     if let Some(seed) = report.seed {
         let _ = writeln!(out, "<p class=\"quiet\">seed {seed}</p>");
     }
-    out
+    out + &notes(&report.notes, left_out)
+}
+
+/// What an index says of a page stands in its head.
+const ABOUT: &str = "<meta name=\"rasterproof\" content=\"";
+
+fn about(report: &Report) -> String {
+    let outcome = report.outcome.as_ref();
+    let said = outcome.map_or(String::new(), |o| format!("{}: {}", o.word, o.sentence));
+    format!("{ABOUT}{}\">\n", escape(&said))
+}
+
+/// The index of the pages in a folder, each given by its file name and its text; nothing is said of
+/// what is no page of this program.
+#[must_use]
+pub fn index(pages: &[(String, String)]) -> String {
+    let rows: String = pages
+        .iter()
+        .filter_map(|(name, text)| {
+            let between = |from: &str, to: &str| {
+                let (_, rest) = text.split_once(from)?;
+                rest.split_once(to).map(|(inside, _)| inside).filter(|t| !t.contains('<'))
+            };
+            let (said, title) = (between(ABOUT, "\">")?, between("<title>", "</title>")?);
+            let name = escape(name);
+            Some(format!(
+                "<li><a href=\"{name}\">{title}</a> <span class=\"quiet\">{name}</span><p>{said}</p></li>\n"
+            ))
+        })
+        .collect();
+    format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+         <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; \
+         style-src 'unsafe-inline'; img-src data:\">\n<title>Pages of rasterproof</title>\n\
+         <link rel=\"icon\" href=\"data:,\">\n<style>\n{STYLE}</style>\n</head>\n<body>\n<header>\
+         <h1>Pages of rasterproof</h1></header>\n<main>\n<ul class=\"pages\">\n{rows}</ul>\n</main>\n\
+         </body>\n</html>\n"
+    )
 }
 
 fn command(text: &str) -> String {
@@ -424,9 +489,14 @@ fn plan(rows: &[PlanRow]) -> String {
 
 fn figure(figure: &Figure) -> String {
     let caption = escape(&figure.caption);
-    let source = data_address("image/svg+xml", figure.svg.as_bytes());
+    let address = |svg: &str| data_address("image/svg+xml", svg.as_bytes());
+    let narrow = figure.narrow.as_ref().map_or(String::new(), |svg| {
+        format!("<source media=\"(max-width: 40rem)\" srcset=\"{}\">", address(svg))
+    });
     format!(
-        "<figure><img src=\"{source}\" alt=\"{caption}\"><figcaption>{caption}</figcaption></figure>\n"
+        "<figure><picture>{narrow}<img src=\"{}\" alt=\"{caption}\"></picture>\
+         <figcaption>{caption}</figcaption></figure>\n",
+        address(&figure.svg)
     )
 }
 

@@ -1,64 +1,119 @@
-//! Letters on pictures, from a fixed bitmap of 8 x 8 for each character; ASCII and Latin-1. One line
-//! at a time: no wrapping, no kerning, no other scripts (a character without a bitmap is a box).
+//! Letters on pictures: Noto Sans Mono, rastered beforehand; ASCII and Latin-1. One line at a time: no
+//! wrapping, no kerning, no other scripts (a character without a bitmap is a box).
 
-use font8x8::{BASIC_FONTS, LATIN_FONTS, UnicodeFonts as _};
 use image::{Rgb, RgbImage};
+use noto_sans_mono_bitmap::{FontWeight, RasterHeight, RasterizedChar, get_raster};
 
-/// Side of a character's cell at scale 1, in picture pixels.
-pub const CELL: u32 = 8;
-/// What stands for a character that has no bitmap.
-const BOX: [u8; CELL as usize] = [0x7f, 0x41, 0x41, 0x41, 0x41, 0x41, 0x7f, 0];
+/// How large letters are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Size {
+    /// Words beside a picture, numbers of rows and columns.
+    Small,
+    /// Headings, bold.
+    Heading,
+    /// Words of a plot, at two picture pixels to the unit.
+    Plot,
+}
+
+/// Shades between paper and ink: few, so that a picture keeps a palette.
+const SHADES: u32 = 4;
+
+impl Size {
+    /// Width and height of the cell of a character, in picture pixels.
+    #[must_use]
+    pub fn cell(self) -> [u32; 2] {
+        match self {
+            Self::Small => [7, 16],
+            Self::Heading => [9, 20],
+            Self::Plot => [16, 32],
+        }
+    }
+
+    fn glyph(self, character: char) -> Option<RasterizedChar> {
+        // The bitmaps of control characters are empty: they would vanish.
+        let drawn = Some(character).filter(|c| !c.is_control())?;
+        match self {
+            Self::Small => get_raster(drawn, FontWeight::Regular, RasterHeight::Size16),
+            Self::Heading => get_raster(drawn, FontWeight::Bold, RasterHeight::Size20),
+            Self::Plot => get_raster(drawn, FontWeight::Regular, RasterHeight::Size32),
+        }
+    }
+
+    /// How much of a pixel of a character's cell is ink, from 0 to 255.
+    fn ink(self, glyph: Option<RasterizedChar>, x: u32, y: u32) -> u8 {
+        let [width, height] = self.cell();
+        match glyph {
+            Some(glyph) => {
+                // Cells of plots are wider than their letters.
+                let left = (width as usize).saturating_sub(glyph.width()) / 2;
+                let column = (x as usize).checked_sub(left);
+                column.and_then(|column| glyph.pixel(column, y as usize)).unwrap_or(0)
+            }
+            None => {
+                let (x_in, y_in) = (x < width - 1, (height / 4..height * 3 / 4).contains(&y));
+                let on_side = x == 0 || x == width - 2;
+                let on_end = y == height / 4 || y == height * 3 / 4 - 1;
+                if x_in && y_in && (on_side || on_end) { 255 } else { 0 }
+            }
+        }
+    }
+}
 
 /// Width of a line of text in picture pixels; the largest `u32` where it is wider.
 #[must_use]
-pub fn width(text: &str, scale: u32) -> u32 {
-    let count = u32::try_from(text.chars().count()).unwrap_or(u32::MAX);
-    count.saturating_mul(CELL).saturating_mul(scale)
+pub fn width(text: &str, size: Size) -> u32 {
+    u32::try_from(text.chars().count()).unwrap_or(u32::MAX).saturating_mul(size.cell()[0])
 }
 
-/// Writes a line of text with the left top corner of its first cell at `left_top`, each bitmap pixel
-/// a square of `scale` picture pixels. What lies beyond the picture is cut off. Returns [`width`].
+/// Writes a line of text with the left top corner of its first cell at `left_top`. What lies beyond
+/// the picture is cut off. Returns [`width`].
 pub fn write(
     image: &mut RgbImage,
     left_top: (i64, i64),
     text: &str,
-    scale: u32,
+    size: Size,
     ink: Rgb<u8>,
 ) -> u32 {
-    let scale_px = i64::from(scale);
+    let [cell_width, cell_height] = size.cell();
     let (mut left, top) = left_top;
     for character in text.chars() {
         if left >= i64::from(image.width()) {
             break;
         }
-        for (y, row) in (0..).zip(glyph(character)) {
-            for x in (0..i64::from(CELL)).filter(|x| row >> x & 1 == 1) {
-                let at = |start: i64, cell: i64| start.saturating_add(cell * scale_px);
-                square(image, (at(left, x), at(top, y)), scale_px, ink);
+        let glyph = size.glyph(character);
+        for (y, x) in (0..cell_height).flat_map(|y| (0..cell_width).map(move |x| (y, x))) {
+            let at = (left.saturating_add(x.into()), top.saturating_add(y.into()));
+            let inside = |v: i64, side: u32| u32::try_from(v).ok().filter(|v| *v < side);
+            let (Some(at_x), Some(at_y)) =
+                (inside(at.0, image.width()), inside(at.1, image.height()))
+            else {
+                continue;
+            };
+            let share = (u32::from(size.ink(glyph, x, y)) * SHADES + 127) / 255;
+            for (held, ink) in image.get_pixel_mut(at_x, at_y).0.iter_mut().zip(ink.0) {
+                let mixed = u32::from(*held) * (SHADES - share) + u32::from(ink) * share;
+                *held = (mixed / SHADES) as u8;
             }
         }
-        left = left.saturating_add(i64::from(CELL) * scale_px);
+        left = left.saturating_add(cell_width.into());
     }
-    width(text, scale)
+    width(text, size)
 }
 
-/// Rows from the top; the lowest bit is the leftmost pixel.
-fn glyph(character: char) -> [u8; CELL as usize] {
-    // The bitmaps of control characters are empty: they would vanish.
-    let drawn = Some(character).filter(|c| !c.is_control());
-    drawn.and_then(|c| BASIC_FONTS.get(c).or_else(|| LATIN_FONTS.get(c))).unwrap_or(BOX)
-}
-
-fn square(image: &mut RgbImage, left_top: (i64, i64), side: i64, ink: Rgb<u8>) {
-    let within = |start: i64, size: u32| {
-        let limit = |v: i64| v.clamp(0, size.into()) as u32;
-        limit(start)..limit(start.saturating_add(side))
-    };
-    for y in within(left_top.1, image.height()) {
-        for x in within(left_top.0, image.width()) {
-            image.put_pixel(x, y, ink);
+/// The text in lines of at most `room` picture pixels, broken at spaces; a longer word has its own.
+#[must_use]
+pub fn wrapped(text: &str, size: Size, room: u32) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        match lines.last_mut() {
+            Some(line) if width(line, size) + width(word, size) + size.cell()[0] <= room => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.to_owned()),
         }
     }
+    lines
 }
 
 #[cfg(test)]
@@ -67,43 +122,50 @@ mod tests {
 
     const PAPER: Rgb<u8> = Rgb([255, 255, 255]);
     const INK: Rgb<u8> = Rgb([1, 2, 3]);
+    const ALL: [Size; 3] = [Size::Small, Size::Heading, Size::Plot];
 
-    fn drawn(size: (u32, u32), left_top: (i64, i64), text: &str, scale: u32) -> RgbImage {
-        let mut image = RgbImage::from_pixel(size.0, size.1, PAPER);
-        assert_eq!(write(&mut image, left_top, text, scale, INK), width(text, scale));
+    fn drawn(sides: (u32, u32), left_top: (i64, i64), text: &str, size: Size) -> RgbImage {
+        let mut image = RgbImage::from_pixel(sides.0, sides.1, PAPER);
+        assert_eq!(write(&mut image, left_top, text, size, INK), width(text, size));
         image
     }
 
-    fn rows(image: &RgbImage) -> Vec<String> {
-        let mark = |p: &Rgb<u8>| if *p == INK { '#' } else { '.' };
-        image.rows().map(|row| row.map(mark).collect()).collect()
+    /// Dark picture pixels of each column.
+    fn columns(image: &RgbImage) -> Vec<usize> {
+        let dark = |x| (0..image.height()).filter(|&y| image.get_pixel(x, y).0[0] < 128).count();
+        (0..image.width()).map(dark).collect()
     }
 
     #[test]
     fn an_l_is_an_l_and_stands_upright() {
-        let expected = [
-            "####....", ".##.....", ".##.....", ".##.....", ".##...#.", ".##..##.", "#######.",
-            "........",
-        ];
-        assert_eq!(rows(&drawn((8, 8), (0, 0), "L", 1)), expected);
-    }
-
-    #[test]
-    fn a_scale_repeats_each_pixel() {
-        let (small, large) = (drawn((16, 8), (0, 0), "aé", 1), drawn((48, 24), (0, 0), "aé", 3));
-        for (x, y, pixel) in large.enumerate_pixels() {
-            assert_eq!(pixel, small.get_pixel(x / 3, y / 3), "({x}, {y})");
+        for size in ALL {
+            let [width, height] = size.cell();
+            let image = drawn((width, height), (0, 0), "L", size);
+            // A tall stem left of a low foot.
+            let columns = columns(&image);
+            let (stem, most) = (0..).zip(&columns).max_by_key(|(_, n)| **n).unwrap();
+            assert!(*most >= height as usize / 3 && stem < columns.len() / 2, "{columns:?}");
+            let foot = (height / 2..height).filter(|&y| image.get_pixel(width / 2, y).0[0] < 128);
+            assert!(foot.count() >= 1, "{size:?}");
+            assert!((0..height / 2).all(|y| image.get_pixel(width / 2 + 1, y) == &PAPER));
         }
     }
 
     #[test]
+    fn a_picture_with_letters_keeps_few_colours() {
+        let image = drawn((300, 32), (0, 0), "Quick brown fox, 0123456789", Size::Plot);
+        let colours: std::collections::HashSet<_> = image.pixels().map(|p| p.0).collect();
+        assert!((3..=SHADES as usize + 1).contains(&colours.len()), "{colours:?}");
+    }
+
+    #[test]
     fn beyond_the_border_is_cut_off() {
-        let whole = drawn((40, 16), (8, 4), "abc", 1);
+        let whole = drawn((40, 24), (8, 4), "abc", Size::Small);
         for (dx, dy) in [(12, 0), (0, 6), (-20, -9), (30, 0)] {
-            let part = drawn((40, 16), (8 + dx, 4 + dy), "abc", 1);
+            let part = drawn((40, 24), (8 + dx, 4 + dy), "abc", Size::Small);
             for (x, y, pixel) in part.enumerate_pixels() {
                 let (from_x, from_y) = (i64::from(x) - dx, i64::from(y) - dy);
-                let inside = (0..40).contains(&from_x) && (0..16).contains(&from_y);
+                let inside = (0..40).contains(&from_x) && (0..24).contains(&from_y);
                 let expected =
                     if inside { *whole.get_pixel(from_x as u32, from_y as u32) } else { PAPER };
                 assert_eq!(*pixel, expected, "({x}, {y}) moved by ({dx}, {dy})");
@@ -113,22 +175,22 @@ mod tests {
 
     #[test]
     fn what_has_no_bitmap_is_a_box_and_not_nothing() {
-        let boxed = drawn((8, 8), (0, 0), "\u{4e09}", 1);
-        assert_eq!(rows(&boxed)[..2], ["#######.", "#.....#."]);
-        assert_eq!(drawn((8, 8), (0, 0), "\n", 1), boxed);
-        assert_ne!(drawn((8, 8), (0, 0), "B", 1), boxed);
+        let boxed = drawn((7, 16), (0, 0), "\u{4e09}", Size::Small);
+        assert_eq!(columns(&boxed), [8, 2, 2, 2, 2, 8, 0]);
+        assert_eq!(drawn((7, 16), (0, 0), "\n", Size::Small), boxed);
+        assert_ne!(drawn((7, 16), (0, 0), "B", Size::Small), boxed);
     }
 
     #[test]
-    fn absurd_places_and_scales_do_no_harm() {
+    fn absurd_places_do_no_harm() {
         for at in [i64::MIN, -1, 0, i64::MAX] {
-            for scale in [0, 1, u32::MAX] {
-                drawn((8, 8), (at, at), "wide", scale);
-            }
+            ALL.map(|size| drawn((8, 8), (at, at), "wide", size));
         }
-        assert_eq!(width("ab", u32::MAX), u32::MAX);
-        assert_eq!(rows(&drawn((8, 8), (0, 0), "L", 0)).concat().find('#'), None);
-        // One pixel of the letter covers the whole picture.
-        assert_eq!(rows(&drawn((2, 2), (0, 0), "L", 99)), ["##", "##"]);
+    }
+
+    #[test]
+    fn long_texts_are_broken_at_spaces() {
+        let lines = wrapped("one two  three-and-more four", Size::Small, 7 * 9);
+        assert_eq!(lines, ["one two", "three-and-more", "four"]);
     }
 }

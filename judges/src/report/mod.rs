@@ -14,6 +14,7 @@ pub mod json;
 pub mod judged;
 pub mod league;
 pub mod lettering;
+pub mod panels;
 pub mod picture;
 pub mod plot;
 pub mod sheet;

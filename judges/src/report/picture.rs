@@ -1,8 +1,7 @@
-//! Coverage as a picture: each pixel a square, the outline of the shape and the samples over it.
+//! What pictures of cases are made of: colours, outlines, PNG files.
 //!
 //! Grey agrees, red is missing, orange is extra, violet is hit twice, green is hit more than once
-//! and rightly so. A dark dot is a sample; a blue line is an edge. Panels stand side by side, one
-//! for each engine judged by the target, the target itself last.
+//! and rightly so. A dark dot is a sample; a blue line is an edge.
 
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
@@ -10,7 +9,7 @@ use std::collections::hash_map::Entry;
 use image::{Rgb, RgbImage};
 
 use crate::contract::DrawLine;
-use crate::frame::{Coverage, Frame};
+use crate::frame::Frame;
 use crate::grid::{PixelRect, SUBPIXELS};
 use crate::hazard::offgrid::OffGridCase;
 use crate::hazard::{Case, Shape};
@@ -23,51 +22,10 @@ pub(super) const BORDER: Rgb<u8> = Rgb([90, 90, 90]);
 pub(super) const EDGE: Rgb<u8> = Rgb([36, 90, 190]);
 pub(super) const SAMPLE: Rgb<u8> = Rgb([60, 60, 60]);
 pub(super) const AGREES: Rgb<u8> = Rgb([170, 178, 184]);
-const OVERLAP: Rgb<u8> = Rgb([110, 170, 110]);
+pub(super) const OVERLAP: Rgb<u8> = Rgb([110, 170, 110]);
 pub(super) const MISSING: Rgb<u8> = Rgb([214, 60, 60]);
 pub(super) const EXTRA: Rgb<u8> = Rgb([240, 160, 40]);
 pub(super) const TWICE: Rgb<u8> = Rgb([150, 70, 190]);
-
-/// Sides of pictures stay below this.
-const MOST_PX: u32 = 1600;
-
-/// Draws a panel for each coverage judged by `target`, then the target judged by itself.
-///
-/// All coverages show the case's window.
-#[must_use]
-pub fn panels(case: &Case, actual: &[Coverage], target: &Coverage) -> RgbImage {
-    draw_panels(case.window, actual, target, |zoom| segments(case, zoom))
-}
-
-/// The same of a case off the lattice.
-#[must_use]
-pub fn panels_off_grid(case: &OffGridCase, actual: &[Coverage], target: &Coverage) -> RgbImage {
-    draw_panels(case.window, actual, target, |zoom| free_segments(case, zoom))
-}
-
-/// Segments are asked for in picture pixels of a panel, once the zoom is known.
-fn draw_panels(
-    window: PixelRect,
-    actual: &[Coverage],
-    target: &Coverage,
-    segments: impl Fn(u32) -> Vec<[PixelPoint; 2]>,
-) -> RgbImage {
-    let count = actual.len() as u32 + 1;
-    let zoom = zoom(window, count);
-    let (panel_width, panel_height) = (window.width() * zoom + 1, window.height() * zoom + 1);
-    let gap = zoom.max(4);
-    let width = panel_width * count + gap * (count - 1);
-    let mut image = RgbImage::from_pixel(width, panel_height, Rgb([255, 255, 255]));
-    let panel = PixelRect::window(panel_width, panel_height);
-    for (i, coverage) in actual.iter().chain([target]).enumerate() {
-        let left = i as u32 * (panel_width + gap);
-        squares(&mut image, left, zoom, coverage, target);
-        for segment in segments(zoom) {
-            line(segment, panel, |x, y| image.put_pixel(left + x, y, EDGE));
-        }
-    }
-    image
-}
 
 /// The picture pixels of a segment that lie in a panel.
 pub(super) fn line(ends: [PixelPoint; 2], panel: PixelRect, mut put: impl FnMut(u32, u32)) {
@@ -84,63 +42,17 @@ pub fn of_frame(frame: &Frame<[u8; 3]>) -> RgbImage {
     })
 }
 
-/// Picture pixels for each pixel of the window.
-fn zoom(window: PixelRect, count: u32) -> u32 {
-    let widest = window.width().saturating_mul(count).max(window.height()).max(1);
-    // A case of a few pixels is shown larger.
-    let largest = if window.width().max(window.height()) <= 8 { 40 } else { 16 };
-    (MOST_PX / widest).clamp(1, largest)
-}
-
-fn squares(image: &mut RgbImage, left: u32, zoom: u32, actual: &Coverage, target: &Coverage) {
-    let bounds = actual.bounds();
-    let (width, height) = (bounds.width() * zoom + 1, bounds.height() * zoom + 1);
-    for y in 0..height {
-        for x in 0..width {
-            let on_border = x == 0 || y == 0 || x + 1 == width || y + 1 == height;
-            let on_grid = zoom >= 4 && (x % zoom == 0 || y % zoom == 0);
-            let (x_px, y_px) = (bounds.x0 + (x / zoom) as i32, bounds.y0 + (y / zoom) as i32);
-            let hits = |c: &Coverage| c.get(x_px, y_px).unwrap_or(0);
-            let colour = if on_border {
-                BORDER
-            } else if on_grid {
-                GRID
-            } else if zoom >= 8 && is_sample(x % zoom, zoom) && is_sample(y % zoom, zoom) {
-                SAMPLE
-            } else {
-                colour(hits(actual), hits(target))
-            };
-            image.put_pixel(left + x, y, colour);
-        }
-    }
-}
-
-/// Whether a picture pixel lies on the dot in the middle of a square.
-fn is_sample(offset: u32, zoom: u32) -> bool {
-    offset.abs_diff(zoom / 2) <= zoom / 32
-}
-
-fn colour(actual: u8, target: u8) -> Rgb<u8> {
-    match (actual, target) {
-        (0, 0) => BACKGROUND,
-        (a, t) if a > t && a > 1 => TWICE,
-        (a, t) if a > t => EXTRA,
-        (a, t) if a < t => MISSING,
-        (1, _) => AGREES,
-        _ => OVERLAP,
-    }
-}
-
 /// Edges of triangles through their corners, lines through the centres of their end pixels.
-fn segments(case: &Case, zoom: u32) -> Vec<[PixelPoint; 2]> {
-    let window = case.window;
+///
+/// In picture pixels from the corner of the part that is shown.
+pub(super) fn segments(case: &Case, shown: PixelRect, zoom: u32) -> Vec<[PixelPoint; 2]> {
     let to_picture = |x_sub: i64, y_sub: i64| {
         let at = |sub: i64, origin: i32| {
             let from_origin = sub - i64::from(origin) * i64::from(SUBPIXELS);
             (from_origin * i64::from(zoom)).div_euclid(i64::from(SUBPIXELS))
         };
         let limit = |v: i64| v.clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32;
-        PixelPoint::new(limit(at(x_sub, window.x0)), limit(at(y_sub, window.y0)))
+        PixelPoint::new(limit(at(x_sub, shown.x0)), limit(at(y_sub, shown.y0)))
     };
     match &case.shape {
         Shape::Triangles { list, .. } => list
@@ -156,10 +68,13 @@ fn segments(case: &Case, zoom: u32) -> Vec<[PixelPoint; 2]> {
 }
 
 /// Edges of triangles whose corners are not on the lattice.
-fn free_segments(case: &OffGridCase, zoom: u32) -> Vec<[PixelPoint; 2]> {
-    let window = case.window;
+pub(super) fn free_segments(
+    case: &OffGridCase,
+    shown: PixelRect,
+    zoom: u32,
+) -> Vec<[PixelPoint; 2]> {
     let at = |px: f64, origin: i32| ((px - f64::from(origin)) * f64::from(zoom)).floor() as i32;
-    let to_picture = |[x, y]: [f64; 2]| PixelPoint::new(at(x, window.x0), at(y, window.y0));
+    let to_picture = |[x, y]: [f64; 2]| PixelPoint::new(at(x, shown.x0), at(y, shown.y0));
     case.triangles.iter().flat_map(|t| edges(t.px().map(to_picture))).collect()
 }
 
@@ -188,6 +103,11 @@ pub fn stack(pictures: &[RgbImage]) -> RgbImage {
 /// Never: writing to memory does not fail.
 #[must_use]
 pub fn png(image: &RgbImage) -> Vec<u8> {
+    encoded(image, None)
+}
+
+/// The same, with a text under a key.
+pub(super) fn encoded(image: &RgbImage, text: Option<(&str, &str)>) -> Vec<u8> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, image.width(), image.height());
     encoder.set_compression(png::Compression::High);
@@ -203,8 +123,10 @@ pub fn png(image: &RgbImage) -> Vec<u8> {
             image.as_raw().clone()
         }
     };
-    encoder
-        .write_header()
+    let noted =
+        text.map_or(Ok(()), |(key, text)| encoder.add_text_chunk(key.to_owned(), text.to_owned()));
+    noted
+        .and_then(|()| encoder.write_header())
         .and_then(|mut writer| writer.write_image_data(&data))
         .expect("writing to memory does not fail");
     bytes

@@ -20,15 +20,18 @@ const CRACKED: Ink = [205, 30, 30];
 const ROW: f64 = 13.0;
 /// Height of the part of a panel where errors are not zero.
 const SCATTER: f64 = 150.0;
-/// Room left of a panel for its axis, and below for the other one.
+/// Room left of a panel for its axis, over it for its name, and below for the other axis.
 const AXIS: f64 = 48.0;
-const FOOT: f64 = 34.0;
+const HEAD: f64 = 56.0;
+const FOOT: f64 = 46.0;
 const RADIUS: f64 = 3.5;
 
 /// A rung in a panel.
 struct Dot {
     label: String,
     time: f64,
+    /// First and last quartile of the time.
+    quartiles: [f64; 2],
     /// `None` on the shelf.
     error: Option<f64>,
     good: bool,
@@ -37,43 +40,74 @@ struct Dot {
     cracked: bool,
 }
 
-/// Error against time, a panel for each class of scenes; the first measure that ranks is the error.
+/// Error against time, a panel for each class of scenes, two in a row; the first measure that ranks
+/// is the error. The line through a dot spans the quartiles of its time.
 #[must_use]
 pub fn pareto(board: &Board) -> Drawing {
-    let columns: Vec<usize> = board.columns_run().collect();
-    let panels: Vec<Vec<Dot>> = columns.iter().map(|&column| dots(board, column)).collect();
+    pareto_in(board, 2)
+}
+
+/// The same with one panel in a row, for narrow pages.
+#[must_use]
+pub fn pareto_narrow(board: &Board) -> Drawing {
+    pareto_in(board, 1)
+}
+
+fn pareto_in(board: &Board, in_row: usize) -> Drawing {
+    let width = WIDTH / 2.0 * in_row as f64;
+    // A class that nothing ran on has nothing to show.
+    let panels: Vec<(usize, Vec<Dot>)> = board
+        .columns_run()
+        .map(|column| (column, dots(board, column)))
+        .filter(|(_, dots)| !dots.is_empty())
+        .collect();
     let on_shelf = |dots: &Vec<Dot>| dots.iter().filter(|d| d.error.is_none()).count();
-    let shelf = panels.iter().map(on_shelf).max().unwrap_or(0) as f64 * ROW;
+    let shelf = panels.iter().map(|(_, dots)| on_shelf(dots)).max().unwrap_or(0) as f64 * ROW;
     let shelf = if shelf > 0.0 { shelf + 8.0 } else { 0.0 };
-    let panel_height = 24.0 + SCATTER + shelf + FOOT;
-    let head = 80.0;
-    let rows = panels.len().div_ceil(2) as f64;
+    let panel_height = HEAD + SCATTER + shelf + FOOT;
     let title = format!("{}: error against time", board.ladder.title());
+    let legend: Vec<String> =
+        legend(board).lines().flat_map(|line| wrapped(line, width - 24.0)).collect();
+    let titles = wrapped(&title, width - 24.0);
+    let head = 10.0 + 16.0 * (titles.len() + legend.len()) as f64 + 12.0;
+    let rows = panels.len().div_ceil(in_row) as f64;
     let mut drawing =
-        Drawing { title: title.clone(), size: [WIDTH, head + rows * panel_height], shapes: vec![] };
-    let error = &board.measures[0];
-    drawing.text([12.0, 16.0], &title, INK);
-    drawing.text([12.0, 32.0], &format!("up: {}", error.title), SOFT);
-    for (line, text) in legend(board).lines().enumerate() {
-        drawing.text([12.0, 48.0 + 16.0 * line as f64], text, SOFT);
+        Drawing { title: title.clone(), size: [width, head + rows * panel_height], shapes: vec![] };
+    let lines = titles.iter().map(|text| (text, INK)).chain(legend.iter().map(|l| (l, SOFT)));
+    for (line, (text, ink)) in lines.enumerate() {
+        drawing.text([12.0, 16.0 + 16.0 * line as f64], text, ink);
     }
-    for (i, (dots, &column)) in panels.iter().zip(&columns).enumerate() {
-        let at = [(i % 2) as f64 * WIDTH / 2.0, head + (i / 2) as f64 * panel_height];
-        panel(&mut drawing, at, shelf, board, column, dots);
+    for (i, (column, dots)) in panels.iter().enumerate() {
+        let left = (i % in_row) as f64 * WIDTH / 2.0;
+        let at = [left, head + (i / in_row) as f64 * panel_height];
+        panel(&mut drawing, at, shelf, board, *column, dots);
     }
     drawing
+}
+
+/// The text in lines of at most `room` units, broken at spaces.
+fn wrapped(text: &str, room: f64) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split(' ') {
+        match lines.last_mut() {
+            Some(line) if chart::width(line) + chart::width(word) + LETTER <= room => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.to_owned()),
+        }
+    }
+    lines
 }
 
 fn legend(board: &Board) -> &'static str {
     match board.ladder {
         Ladder::Scanline | Ladder::EdgeFunction => {
-            "right: ns for each covered pixel; shelf: no error, green rings: none after snapping\n\
+            "shelf: no error, green rings: none after snapping\n\
              red rings: holes and double hits inside a mesh, with their number"
         }
-        Ladder::Interpolation => {
-            "right: ns for each pixel; green: within half a step of 8 bits (1/512)"
-        }
-        _ => "right: ns for each covered pixel; shelf: no error",
+        Ladder::Interpolation => "green: within half a step of 8 bits (1/512)",
+        _ => "shelf: no error",
     }
 }
 
@@ -81,7 +115,7 @@ fn dots(board: &Board, column: usize) -> Vec<Dot> {
     let mut dots = Vec::new();
     for (rung, info) in board.rungs.iter().enumerate() {
         let Some(time) = board.time(rung, column) else { continue };
-        let time = time.pixel_ns.median;
+        let (time, quartiles) = (time.pixel_ns.median, [time.pixel_ns.low, time.pixel_ns.high]);
         let error = |measure: usize| board.error(rung, column, measure);
         let Some(first) = error(0) else { continue };
         // Measures that rank nothing and count pixels of a mesh: cracks.
@@ -99,10 +133,18 @@ fn dots(board: &Board, column: usize) -> Vec<Dot> {
         // vertices as given is the error of snapping, a line of its own.
         if snapped {
             let label = format!("{} (snapped)", info.name);
-            dots.push(Dot { label, time, error: None, good: true, hollow: true, cracked });
+            dots.push(Dot {
+                label,
+                time,
+                quartiles,
+                error: None,
+                good: true,
+                hollow: true,
+                cracked,
+            });
             continue;
         }
-        dots.push(Dot { label, time, error: above, good, hollow: false, cracked });
+        dots.push(Dot { label, time, quartiles, error: above, good, hollow: false, cracked });
     }
     dots
 }
@@ -154,16 +196,20 @@ fn panel(
     dots: &[Dot],
 ) {
     let (x0, x1) = (left + AXIS + 6.0, left + WIDTH / 2.0 - 10.0);
-    let (y0, y1) = (top + 24.0, top + 24.0 + SCATTER);
+    let (y0, y1) = (top + HEAD, top + HEAD + SCATTER);
     let bottom = y1 + shelf;
     let info = &board.columns[column];
-    drawing.text(
-        [x0, top + 14.0],
-        &shortened(&format!("{}: {}", info.name, info.about), x1 - x0),
-        INK,
-    );
+    let head = format!("{}: {}", info.name, info.about);
+    for (line, text) in wrapped(&head, x1 - left - 14.0).iter().take(2).enumerate() {
+        drawing.text([left + 12.0, top + 14.0 + 14.0 * line as f64], text, INK);
+    }
+    let up = wrapped(&format!("up: {}", board.measures[0].title), x1 - left - 14.0);
+    drawing.text([left + 12.0, y0 - 12.0], &up[0], SOFT);
+    let right = "right: time in ns for each pixel";
+    drawing.text([x1 - chart::width(right), y1 + shelf + 24.0], right, SOFT);
     drawing.shapes.push(Shape::Box { at: [x0, y1], size: [x1 - x0, shelf], ink: SHELF });
-    let time = Axis::new(dots.iter().map(|d| d.time), 0.12, [x0, x1]);
+    let times = dots.iter().flat_map(|d| [d.quartiles[0], d.time, d.quartiles[1]]);
+    let time = Axis::new(times.filter(|t| *t > 0.0), 0.12, [x0, x1]);
     let snapping = snapping(board, column);
     let error = Axis::new(dots.iter().filter_map(|d| d.error).chain(snapping), 0.4, [y1, y0]);
     for value in time.ticks(5) {
@@ -203,13 +249,10 @@ fn snapping(board: &Board, column: usize) -> Option<f64> {
     board.error(rung, column, 0).filter(|&error| error > 0.0)
 }
 
-fn shortened(text: &str, room: f64) -> String {
-    let most = (room / LETTER) as usize;
-    if text.chars().count() <= most {
-        return text.to_owned();
-    }
-    let kept: String = text.chars().take(most.saturating_sub(2)).collect();
-    format!("{}..", kept.trim_end())
+/// A line from the first to the last quartile of a dot's time.
+fn spread(drawing: &mut Drawing, dot: &Dot, time: &Axis, y: f64) {
+    let [from, to] = dot.quartiles.map(|t| [time.place(t.max(f64::MIN_POSITIVE)), y]);
+    drawing.shapes.push(Shape::Line { from, to, width: 2.0, ink: SOFT });
 }
 
 fn mark(drawing: &mut Drawing, at: [f64; 2], dot: &Dot) -> Ink {
@@ -232,6 +275,7 @@ fn shelved(drawing: &mut Drawing, dots: &[Dot], time: &Axis, [x0, x1]: [f64; 2],
     shelved.sort_by(|a, b| a.time.total_cmp(&b.time));
     for (i, dot) in shelved.into_iter().enumerate() {
         let at = [time.place(dot.time), top + 10.0 + ROW * i as f64];
+        spread(drawing, dot, time, at[1]);
         let ink = mark(drawing, at, dot);
         let room = chart::width(&dot.label) + 10.0;
         if at[0] + room <= x1 || at[0] - room < x0 {
@@ -292,6 +336,7 @@ fn scattered(
                 |other: &Area| !(overlap(&area, other) || strict && crosses(leader(place), other));
             inside && taken.iter().filter(|other| **other != around(*at)).all(clear)
         };
+        spread(drawing, dot, time, at[1]);
         let ink = mark(drawing, *at, dot);
         // Better a line across something than no label.
         let found = [true, false]

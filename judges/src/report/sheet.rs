@@ -7,8 +7,9 @@
 use glam::DVec2;
 use image::{Rgb, RgbImage, imageops};
 
+use super::cases::chapter_of_source;
 use super::html::{PictureLayer, PictureView};
-use super::lettering::{self, write};
+use super::lettering::{self, Size, write};
 use super::picture;
 use super::picture::{AGREES, BACKGROUND, BORDER, EDGE, EXTRA, GRID, MISSING, SAMPLE, TWICE, line};
 use crate::contract::{DrawLine as _, Interpolate as _};
@@ -97,7 +98,7 @@ pub fn sheet(sheet: &Sheet) -> RgbImage {
     let strips: Vec<RgbImage> = sheet.cards().map(strip).collect();
     let rows: Vec<RgbImage> = strips.chunks(2).map(beside).collect();
     let mut top = RgbImage::from_pixel(2 * STRIP, 40, WHITE);
-    write(&mut top, (i64::from(GAP), 12), sheet.title, 2, INK);
+    write(&mut top, (i64::from(GAP), 12), sheet.title, Size::Heading, INK);
     let all: Vec<RgbImage> = [top].into_iter().chain(rows).chain([legend()]).collect();
     super::picture::stack(&all)
 }
@@ -108,13 +109,15 @@ pub fn contact_sheet() -> RgbImage {
     super::picture::stack(&SHEETS.each_ref().map(sheet))
 }
 
-/// The exposing pictures of every card, for the page.
+/// The exposing pictures of every card, for the page, named apart from the cases that are `taken`.
 #[must_use]
-pub fn views() -> Vec<PictureView> {
+pub fn views(taken: &[String]) -> Vec<PictureView> {
     let view = |card: &Card| {
         let Panels { published, repaired, .. } = panels(card)?;
+        let is_taken = taken.iter().any(|name| name == card.name);
         Some(PictureView {
-            name: card.name.to_owned(),
+            name: format!("{}{}", card.name, if is_taken { " picture" } else { "" }),
+            chapter: chapter_of_source(card.source),
             about: format!("{}: {}; cure: {}", card.source, card.fault, card.cure),
             command: format!("rasterproof specimens --specimen {}", card.name),
             layers: vec![
@@ -154,17 +157,17 @@ fn legend() -> RgbImage {
                 image.put_pixel(left + x, top + y, if is_border { BORDER } else { colour });
             }
             left += 16;
-            let at = (i64::from(left), i64::from(top) + 2);
-            left += write(&mut image, at, text, 1, INK);
+            let at = (i64::from(left), i64::from(top) - 2);
+            left += write(&mut image, at, text, Size::Small, INK);
             left += if text.is_empty() { 0 } else { 24 };
         }
         left
     };
     put(&hits, GAP, 4);
     let left = put(&shades, GAP, 24);
-    put(&values, left + 24 + lettering::width("values from 0 to 1", 1), 24);
-    let at = (i64::from(left), 26);
-    write(&mut image, at, "values from 0 to 1", 1, INK);
+    put(&values, left + 24 + lettering::width("values from 0 to 1", Size::Small), 24);
+    let at = (i64::from(left), 22);
+    write(&mut image, at, "values from 0 to 1", Size::Small, INK);
     image
 }
 
@@ -172,27 +175,34 @@ fn legend() -> RgbImage {
 #[must_use]
 pub fn strip(card: &Card) -> RgbImage {
     let Some(panels) = panels(card) else { return RgbImage::new(1, 1) };
-    const HEAD: u32 = 60;
     let bounds = panels.published.bounds();
     let zoom = ((PANEL - 1) / bounds.width().max(bounds.height())).max(1);
     let height = bounds.height() * zoom + 1;
-    let mut image = RgbImage::from_pixel(STRIP, HEAD + height + 2 * GAP, WHITE);
+    // The fault and its cure, as many lines as they need.
+    let room = STRIP - 2 * GAP;
+    let mut words: Vec<_> =
+        lettering::wrapped(card.fault, Size::Small, room).into_iter().map(|l| (l, INK)).collect();
+    let cure = format!("cure: {}", card.cure);
+    words.extend(lettering::wrapped(&cure, Size::Small, room).into_iter().map(|l| (l, FAINT)));
+    let head = 26 + 16 * (words.len() as u32 + 1) + 4;
+    let mut image = RgbImage::from_pixel(STRIP, head + height + 2 * GAP, WHITE);
     let left = i64::from(GAP);
-    let name = write(&mut image, (left, 4), card.name, 2, INK);
-    write(&mut image, (left + i64::from(name + GAP), 10), card.source, 1, FAINT);
-    write(&mut image, (left, 24), card.fault, 1, INK);
-    write(&mut image, (left, 35), &format!("cure: {}", card.cure), 1, FAINT);
+    let name = write(&mut image, (left, 4), card.name, Size::Heading, INK);
+    write(&mut image, (left + i64::from(name + GAP), 6), card.source, Size::Small, FAINT);
+    for ((text, ink), top) in words.iter().zip((26..).step_by(16)) {
+        write(&mut image, (left, top), text, Size::Small, *ink);
+    }
     let difference = difference(&panels);
     let all = [
         ("published", &panels.published),
         ("repaired", &panels.repaired),
         ("difference", &difference),
     ];
-    for (i, (head, picture)) in (0u32..).zip(all) {
+    for (i, (title, picture)) in (0u32..).zip(all) {
         let left = GAP + i * (PANEL + GAP);
-        write(&mut image, (i64::from(left), i64::from(HEAD) - 10), head, 1, FAINT);
+        write(&mut image, (i64::from(left), i64::from(head) - 17), title, Size::Small, FAINT);
         let panel = enlarged(picture, zoom, &panels);
-        imageops::replace(&mut image, &panel, left.into(), HEAD.into());
+        imageops::replace(&mut image, &panel, left.into(), head.into());
     }
     image
 }

@@ -229,7 +229,58 @@
   const stillness = matchMedia('(prefers-reduced-motion: reduce)');
   const state = {
     item: null, a: 0, b: 1, mode: 'blink', phase: 'A', paused: stillness.matches,
-    zoom: null, cell: 1, cursor: null, kind: 'all', panels: [],
+    zoom: null, whole: false, cell: 1, cursor: null, kind: 'all', panels: [],
+  };
+
+  // ---- What matters of a window ----
+
+  /** The smallest box around the pixels that a test picks, a margin of pixels around it, in the window. */
+  const boxAround = (item, picks, margin) => {
+    let [x0, y0, x1, y1] = [Infinity, Infinity, -1, -1];
+    for (let y = 0; y < item.height; y += 1) {
+      for (let x = 0; x < item.width; x += 1) {
+        if (picks(x, y)) {
+          [x0, x1] = [Math.min(x0, x), Math.max(x1, x + 1)];
+          [y0, y1] = [Math.min(y0, y), Math.max(y1, y + 1)];
+        }
+      }
+    }
+    return x1 < 0 ? null : cut(item, [x0 - margin, y0 - margin, x1 + margin, y1 + margin]);
+  };
+
+  /** The part of a box in the window. */
+  const cut = (item, [x0, y0, x1, y1]) => {
+    const inside = (v, end) => Math.min(end, Math.max(0, v));
+    const [left, top] = [inside(x0, item.width - 1), inside(y0, item.height - 1)];
+    return {
+      x: left, y: top,
+      width: Math.max(1, inside(x1, item.width) - left), height: Math.max(1, inside(y1, item.height) - top),
+    };
+  };
+
+  const differsHere = (item, layers) => (x, y) =>
+    layers.some((layer) => hitsOf(item, layer, x, y) !== hitsOf(item, layers[0], x, y));
+
+  /** Larger ones are cropped to the pixels in question. */
+  const MOST_CROPPED_PX = 48;
+
+  /** The part that is shown at first: around the shape and what is hit; of a large one, what differs. */
+  const cropOf = (item, a, b) => {
+    const everything = { x: 0, y: 0, width: item.width, height: item.height };
+    if (!item.isCase || state.whole) return everything;
+    const layers = [...new Set([a, b, item.oracle])].map((i) => item.layers[i]);
+    const hit = boxAround(item, (x, y) => layers.some((layer) => hitsOf(item, layer, x, y) > 0), 1);
+    const points = outlines(item).flat();
+    const [xs, ys] = [0, 1].map((axis) => points.map((p) => p[axis]));
+    const outline = cut(item, [
+      Math.floor(Math.min(...xs)) - 1, Math.floor(Math.min(...ys)) - 1,
+      Math.ceil(Math.max(...xs)) + 1, Math.ceil(Math.max(...ys)) + 1]);
+    const both = (p, q) => cut(item, [Math.min(p.x, q.x), Math.min(p.y, q.y),
+      Math.max(p.x + p.width, q.x + q.width), Math.max(p.y + p.height, q.y + q.height)]);
+    const isSmall = (box) => box.width <= MOST_CROPPED_PX && box.height <= MOST_CROPPED_PX;
+    const shape = hit ? both(outline, hit) : outline;
+    if (isSmall(shape)) return shape;
+    return boxAround(item, differsHere(item, layers), 4) ?? hit ?? shape;
   };
 
   // ---- Painting ----
@@ -392,6 +443,59 @@
     }
   };
 
+  /** A number of 256ths: in decimal where that is short, else as a fraction. */
+  const subpixels = (value) => {
+    if (value % 32 === 0) return String(value / 256);
+    const whole = Math.floor(value / 256);
+    const rest = `${value - 256 * whole}/256`;
+    return whole === 0 ? rest : `${whole}+${rest}`;
+  };
+
+  /** The corners with their names, each place once. */
+  const corners = (item) => {
+    const { kind, points } = item.shape;
+    const number = { triangles: subpixels, lines: String, free: (v) => String(Number(v.toPrecision(6))) }[kind];
+    const seen = new Map();
+    const places = outlines(item);
+    points.forEach((shape, i) => shape.forEach((point, k) => {
+      const key = point.join();
+      const name = points.length === 1 ? `${kind === 'lines' ? 'p' : 'v'}${k} ` : '';
+      if (!seen.has(key)) seen.set(key, { at: places[i][k], text: `${name}(${point.map(number).join(', ')})` });
+    }));
+    return [...seen.values()];
+  };
+
+  /** More corners would hide the picture. */
+  const MOST_CORNERS = 8;
+
+  const paintCorners = (g, { cell, left, top, width, height }) => {
+    const named = corners(state.item);
+    if (cell < 8 || named.length > MOST_CORNERS) return;
+    g.font = '600 13px system-ui, sans-serif';
+    g.textBaseline = 'middle';
+    g.textAlign = 'left';
+    const middle = [0, 1].map((axis) => named.reduce((sum, { at }) => sum + at[axis], 0) / named.length);
+    for (const { at, text } of named) {
+      const [x, y] = [at[0] * cell - left, at[1] * cell - top];
+      if (x < -8 || y < -8 || x > width + 8 || y > height + 8) continue;
+      g.fillStyle = palette.edge;
+      g.beginPath();
+      g.arc(x, y, 4, 0, 7);
+      g.fill();
+      const wide = g.measureText(text).width;
+      // Outside the shape, as seen from its middle, as far as there is room.
+      const isLeft = at[0] < middle[0];
+      const tx = Math.min(width - wide - 3, Math.max(3, isLeft ? x - 8 - wide : x + 8));
+      const ty = Math.min(height - 9, Math.max(9, y + (at[1] < middle[1] ? -12 : 12)));
+      g.lineWidth = 4;
+      g.lineJoin = 'round';
+      g.strokeStyle = palette.empty;
+      g.strokeText(text, tx, ty);
+      g.fillStyle = palette.sample;
+      g.fillText(text, tx, ty);
+    }
+  };
+
   const paintCursor = (g, { cell, left, top }) => {
     if (!state.cursor) return;
     const { x, y } = state.cursor;
@@ -431,14 +535,50 @@
     return g.fillRect(split - 1, 0, 2, view.height);
   };
 
-  const paintPanel = ({ port, canvas, what }) => {
-    const { item, cell } = state;
-    const [width, height] = [port.clientWidth, port.clientHeight];
+  /** The canvas at the size of the screen's own pixels, ready to be painted. */
+  const contextOf = (canvas, width, height) => {
     const ratio = window.devicePixelRatio || 1;
     const [w, h] = [Math.round(width * ratio), Math.round(height * ratio)];
     if (canvas.width !== w || canvas.height !== h) Object.assign(canvas, { width: w, height: h });
     canvas.style.width = `${width}px`;
     canvas.style.height = `${height}px`;
+    const g = canvas.getContext('2d');
+    g.setTransform(ratio, 0, 0, ratio, 0, 0);
+    return g;
+  };
+
+  /** Numbers of columns above the pixels, of rows at their left, as many as have room. */
+  const paintNumbers = (panel, { cell, left, top, columns, rows, width, height }) => {
+    const { item } = state;
+    const widest = Math.max(String(item.x0 + columns[0]).length, String(item.x0 + columns[1]).length);
+    const step = (room) => [1, 2, 5].flatMap((m) => [0, 1, 2, 3, 4].map((e) => m * 10 ** e))
+      .sort((p, q) => p - q).find((n) => n * cell >= room) ?? 1e5;
+    const places = [
+      [panel.above, columns, item.x0, width, AXIS_HIGH, step(widest * 7 + 8), left],
+      [panel.beside, rows, item.y0, height, AXIS_WIDE, step(13), top],
+    ];
+    places.forEach(([canvas, [first, last], origin, length, thick, every, scroll], axis) => {
+      const g = axis === 0 ? contextOf(canvas, length + 2, thick) : contextOf(canvas, thick, length + 2);
+      g.clearRect(0, 0, length + thick, length + thick);
+      g.font = '11px ui-monospace, monospace';
+      g.fillStyle = palette.sample;
+      g.textBaseline = 'middle';
+      g.textAlign = axis === 0 ? 'center' : 'right';
+      for (let i = first; i < last; i += 1) {
+        if (((origin + i) % every + every) % every !== 0) continue;
+        const at = (i + 0.5) * cell - scroll + 1;
+        if (at < 5 || at > length - 2) continue;
+        if (axis === 0) g.fillText(String(origin + i), at, thick - 7);
+        else g.fillText(String(origin + i), thick - 4, at);
+      }
+    });
+  };
+
+  const paintPanel = (panel) => {
+    const { port, canvas, what } = panel;
+    const { item, cell } = state;
+    const [width, height] = [port.clientWidth, port.clientHeight];
+    const g = contextOf(canvas, width, height);
     const [left, top] = [port.scrollLeft, port.scrollTop];
     const range = (start, length, end) => [
       Math.max(0, Math.floor(start / cell)), Math.min(end, Math.ceil((start + length) / cell))];
@@ -446,8 +586,6 @@
       cell, left, top, width, height,
       columns: range(left, width, item.width), rows: range(top, height, item.height),
     };
-    const g = canvas.getContext('2d');
-    g.setTransform(ratio, 0, 0, ratio, 0, 0);
     g.fillStyle = palette.empty;
     g.fillRect(0, 0, width, height);
     paintContent(g, view, what);
@@ -457,10 +595,15 @@
       paintSamples(g, view);
     }
     paintCursor(g, view);
+    if (item.isCase) paintCorners(g, view);
+    paintNumbers(panel, view);
   };
 
   const caption = (panel) => {
-    const name = (i) => state.item.layers[i].label;
+    const name = (i) => {
+      const { label, role } = state.item.layers[i];
+      return role === 'specimen' || role === 'planted' ? `${label} (${ROLES[role]})` : label;
+    };
     const sign = (letter) => el('b', { className: letter === 'B' ? 'of-b' : '' }, letter);
     const parts = {
       a: () => [sign('A'), name(state.a)],
@@ -488,6 +631,9 @@
 
   // ---- Panels ----
 
+  /** Room for the numbers of columns and rows. */
+  const [AXIS_HIGH, AXIS_WIDE] = [18, 38];
+
   /** Keeps the scroll positions of the panels together. */
   const scrolled = (port) => {
     for (const panel of state.panels) {
@@ -504,7 +650,9 @@
     const space = el('div', { className: 'space' }, canvas);
     const port = el('div', { className: 'port' }, space);
     const head = el('figcaption');
-    const figure = el('figure', { className: 'panel' }, head, port);
+    const above = el('canvas', { className: 'above', 'aria-hidden': 'true' });
+    const beside = el('canvas', { className: 'beside', 'aria-hidden': 'true' });
+    const figure = el('figure', { className: 'panel' }, head, port, above, beside);
     const at = (event) => {
       const box = canvas.getBoundingClientRect();
       const px = (offset, scroll) => Math.floor((offset + scroll) / state.cell);
@@ -516,7 +664,7 @@
     canvas.addEventListener('pointermove', (event) => moveCursor(at(event), false));
     canvas.addEventListener('pointerdown', (event) => moveCursor(at(event), false));
     port.addEventListener('scroll', () => scrolled(port));
-    return { role, what, canvas, space, port, caption: head, figure };
+    return { role, what, canvas, space, port, above, beside, caption: head, figure };
   };
 
   const layOut = () => {
@@ -525,7 +673,7 @@
     stage.dataset.mode = mode;
     state.panels = mode === 'side'
       ? [makePanel('a', state.a), makePanel('b', state.b),
-        ...(item.oracle >= 0 ? [makePanel('oracle', item.oracle)] : []),
+        ...([-1, state.a, state.b].includes(item.oracle) ? [] : [makePanel('oracle', item.oracle)]),
         makePanel('difference', 'difference')]
       : [makePanel('mix', 'mix')];
     stage.replaceChildren(...state.panels.map((panel) => panel.figure));
@@ -535,34 +683,52 @@
     resize();
   };
 
+  /** Picture pixels for each pixel so that a part fits; rendered frames as they are, unless small. */
+  const cellFor = (part, wide, high) => {
+    const fits = Math.min(112, (wide - 1) / part.width, (high - 1) / part.height);
+    const most = state.item.isCase || Math.max(part.width, part.height) < SMALL_FRAME_PX ? fits : Math.min(1, fits);
+    return most >= 1 ? Math.floor(most) : ZOOMS.findLast((z) => z <= most) ?? ZOOMS[0];
+  };
+  /** Smaller frames are enlarged. */
+  const SMALL_FRAME_PX = 200;
+
   const resize = () => {
     const { item, panels, mode } = state;
     if (!item || panels.length === 0) return;
     const columns = mode === 'side' ? getComputedStyle($('#stage')).gridTemplateColumns.split(' ').length : 1;
     const gap = 13 * (columns - 1);
     const room = $('#viewer').clientWidth;
-    const high = Math.max(220, Math.round(window.innerHeight * (mode === 'side' ? 0.42 : 0.62)));
-    const fit = (wide) => Math.min(64, (wide - 1) / item.width, (high - 1) / item.height);
+    const high = Math.max(220, Math.round(window.innerHeight * (mode === 'side' ? 0.42 : 0.56)));
+    const crop = cropOf(item, state.a, state.b);
+    const fit = (wide) => cellFor(crop, wide - AXIS_WIDE, high);
     // The words about a pixel stand beside the picture unless that makes it much smaller.
-    const beside = mode !== 'side' && room > 700 && fit(room - 380) > 0.7 * fit(room);
+    const beside = mode !== 'side' && room > 700 && fit(room - 380) > 0.6 * fit(room);
     $('#look').dataset.layout = beside ? 'beside' : 'below';
-    const wide = Math.floor((room - gap) / columns) - 3 - (beside ? 380 : 0);
-    const fits = fit(wide);
-    state.cell = state.zoom ?? (fits >= 1 ? Math.floor(fits) : ZOOMS.findLast((z) => z <= fits) ?? ZOOMS[0]);
-    $('#stage').dataset.cell = String(state.cell);
+    const wide = Math.floor((room - gap) / columns) - 3 - AXIS_WIDE - (beside ? 380 : 0);
+    const before = state.cell;
+    state.cell = state.zoom ?? cellFor(crop, wide, high);
+    const { cell } = state;
+    $('#stage').dataset.cell = String(cell);
     for (const { port, space, canvas } of panels) {
-      const [width, height] = [Math.ceil(item.width * state.cell) + 1, Math.ceil(item.height * state.cell) + 1];
+      const [width, height] = [Math.ceil(item.width * cell) + 1, Math.ceil(item.height * cell) + 1];
       // A canvas that is too large for a moment would bring scroll bars.
       Object.assign(canvas.style, { width: '0', height: '0' });
-      port.style.overflow = width <= wide && height <= high ? 'hidden' : 'auto';
+      // Cropped, it does not scroll: the wheel is the page's.
+      const shown = state.zoom ? [width, height] : [Math.ceil(crop.width * cell) + 1, Math.ceil(crop.height * cell) + 1];
+      port.style.overflow = shown[0] <= wide && shown[1] <= high ? 'hidden' : 'auto';
       space.style.width = `${width}px`;
       space.style.height = `${height}px`;
       // Room for a scroll bar where one is needed.
-      const bar = width > wide ? 16 : 0;
-      port.style.width = `${Math.min(width, wide) + 2}px`;
-      port.style.height = `${Math.min(height, high) + 2 + bar}px`;
+      const bar = shown[0] > wide ? 16 : 0;
+      port.style.width = `${Math.min(shown[0], wide) + 2}px`;
+      port.style.height = `${Math.min(shown[1], high) + 2 + bar}px`;
+      if (!state.zoom) Object.assign(port, { scrollLeft: crop.x * cell, scrollTop: crop.y * cell });
+      else if (before !== cell) Object.assign(port, { scrollLeft: 0, scrollTop: 0 });
     }
-    $('#zoom-is').textContent = `zoom ${state.cell}`;
+    $('#zoom-is').textContent = item.isCase ? `${cell} : 1` : `${100 * cell}%`;
+    const isCropped = crop.width < item.width || crop.height < item.height;
+    $('#whole').hidden = !(isCropped || state.whole);
+    $('#whole').textContent = state.whole ? 'crop' : 'whole window';
     paint();
   };
 
@@ -874,21 +1040,45 @@
 
   const KINDS = { failing: 'failing', closest: 'closest to a bound', offgrid: 'off the grid', named: 'named', specimen: 'specimen', picture: 'picture' };
 
-  const fillList = () => {
+  /** What a case stands under in the list: its family where it fails, else why it is shown. */
+  const groupOf = (item) => (item.kind === 'failing' ? item.name.split('#')[0] : KINDS[item.kind]);
+
+  /** The cases that are shown, group by group. */
+  const shownItems = () => {
     const shown = items.filter(matches);
+    const groups = [...new Set(shown.map(groupOf))];
+    return groups.flatMap((group) => shown.filter((item) => groupOf(item) === group));
+  };
+
+  const fillList = () => {
+    const shown = shownItems();
     $('#found').textContent = `${shown.length} of ${plural(items.length, 'case')}`;
-    $('#list').replaceChildren(...shown.map((item) => {
+    $('#list').replaceChildren(...shown.flatMap((item, i) => {
       const link = el('a', { href: `#case-${encodeURIComponent(item.name)}` },
         el('span', { className: 'name' }, item.name),
-        el('span', { className: `kind ${item.kind}` }, KINDS[item.kind]),
         el('span', { className: 'what' }, item.found || item.about));
       if (item === state.item) link.setAttribute('aria-current', 'true');
-      return el('li', {}, link);
+      const group = groupOf(item);
+      const isFirst = i === 0 || groupOf(shown[i - 1]) !== group;
+      const text = item.kind === 'failing' ? `${group}, failing` : group;
+      const head = el('li', { className: `group ${item.kind}` }, text);
+      return [...(isFirst ? [head] : []), el('li', {}, link)];
     }));
+    const at = shown.indexOf(state.item);
+    $('#place').textContent = at < 0 ? '' : `${at + 1} of ${shown.length}`;
+    $('#steps').hidden = shown.length < 2 && at >= 0;
     // The chosen one is in sight, without moving the page.
     const [list, chosen] = [$('#list'), $('#list a[aria-current]')];
     const top = chosen ? chosen.getBoundingClientRect().top - list.getBoundingClientRect().top : 0;
     if (top < 0 || top > list.clientHeight - 60) list.scrollTop += top - list.clientHeight / 3;
+  };
+
+  /** The case that stands before or after the one that is open. */
+  const step = (by) => {
+    const shown = shownItems();
+    const at = shown.indexOf(state.item);
+    const next = shown[(at + by + shown.length) % shown.length];
+    if (next) location.hash = `case-${encodeURIComponent(next.name)}`;
   };
 
   const fillFilters = () => {
@@ -927,7 +1117,26 @@
     if (!first.startsWith('case-')) return null;
     const item = items.find((i) => i.name === decodeWord(first.slice(5)));
     const settings = Object.fromEntries(rest.map((part) => part.split('=').map(decodeWord)));
-    return item ? { item, settings } : null;
+    return { item, settings, name: decodeWord(first.slice(5)) };
+  };
+
+  /** The first pixel in which A and B differ, in the middle row of those that do; nothing in pictures. */
+  const firstDifferent = (item) => {
+    if (!item.isCase) return null;
+    const differs = differsHere(item, [item.layers[state.a], item.layers[state.b]]);
+    const found = [];
+    for (let y = 0; y < item.height; y += 1) {
+      for (let x = 0; x < item.width; x += 1) if (differs(x, y)) found.push({ x, y });
+    }
+    return found[Math.floor((found.length - 1) / 2)] ?? null;
+  };
+
+  /** Where a case is explained: a link where the page knows the way to the docs. */
+  const chapterOf = (item) => {
+    const { title, path } = item.chapter ?? {};
+    if (!title) return [];
+    const link = data.docs ? el('a', { href: data.docs + path }, title) : title;
+    return ['Explained in ', link, data.docs ? '' : `, docs/${path}`, '.'];
   };
 
   const open = async (item, settings = {}) => {
@@ -943,13 +1152,17 @@
     state.item = item;
     state.a = place(settings.a, item.start[0]);
     state.b = place(settings.b, item.start[1]);
-    if (isNew) Object.assign(state, { zoom: null, cursor: null, phase: 'A' });
+    if (isNew) Object.assign(state, { zoom: null, whole: false, cursor: firstDifferent(item), phase: 'A' });
     const [x, y] = (settings.px ?? '').split(',').map(Number);
     if (Number.isInteger(x) && Number.isInteger(y)) {
       const inside = (v, end) => Math.min(end - 1, Math.max(0, v));
       state.cursor = { x: inside(x - item.x0, item.width), y: inside(y - item.y0, item.height) };
     }
+    $('#lost').hidden = true;
     $('#case-title').textContent = item.name;
+    $('#case-kind').textContent = KINDS[item.kind];
+    $('#case-kind').className = `kind ${item.kind}`;
+    $('#case-chapter').replaceChildren(...chapterOf(item));
     $('#case-about').textContent = item.about;
     $('#case-found').textContent = item.found;
     $('#case-command').hidden = !item.command;
@@ -963,12 +1176,70 @@
     document.body.dataset.ready = item.name;
   };
 
+  /** Opens what an address names, and says so where there is no such case. */
   const follow = async (url) => {
     const found = parseAddress(url);
     if (!found) return;
     clearTimeout(remembering);
-    await open(found.item, found.settings);
-    $('#viewer').scrollIntoView({ block: 'start' });
+    if (found.item) await open(found.item, found.settings);
+    else {
+      if (!state.item) await open(items[0]);
+      clearTimeout(remembering);
+      $('#lost').textContent = `This page has no case called ${found.name}; this is ${state.item.name}.`;
+      $('#lost').hidden = false;
+    }
+    const { top } = $('#viewer').getBoundingClientRect();
+    if (top < 0 || top > window.innerHeight / 2) $('#viewer').scrollIntoView({ block: 'start' });
+  };
+
+  // ---- The view as a picture ----
+
+  /** What is shown, with its name, captions, numbers and legend, as one canvas. */
+  const snapshot = () => {
+    const { item, panels } = state;
+    const [PAD, LINE] = [16, 22];
+    const legendTexts = all('#legend li').map((li) => [li.querySelector('span').style.background, li.textContent]);
+    const sizes = panels.map(({ port }) => [port.clientWidth + AXIS_WIDE, port.clientHeight + AXIS_HIGH + LINE]);
+    const wide = Math.max(420, sizes.reduce((sum, [w]) => sum + w + PAD, PAD));
+    const high = Math.max(...sizes.map(([, h]) => h)) + 4 * LINE + 3 * PAD;
+    const canvas = el('canvas', { width: 2 * wide, height: 2 * high });
+    const g = canvas.getContext('2d');
+    g.scale(2, 2);
+    const style = getComputedStyle(document.documentElement);
+    const [paper, ink] = ['--paper', '--ink'].map((name) => style.getPropertyValue(name).trim());
+    g.fillStyle = paper;
+    g.fillRect(0, 0, wide, high);
+    g.fillStyle = ink;
+    g.textBaseline = 'top';
+    const write = (text, x, y, font) => { g.font = `${font} system-ui, sans-serif`; g.fillText(text, x, y, wide - x); };
+    write(item.name, PAD, PAD, '600 17px');
+    write(item.found || item.about, PAD, PAD + LINE, '13px');
+    let x = PAD;
+    panels.forEach(({ caption: head, canvas: pixels, above, beside, port }, i) => {
+      const y = PAD + 2 * LINE + 6;
+      write(head.textContent, x + AXIS_WIDE, y, '600 13px');
+      const [w, h] = [port.clientWidth, port.clientHeight];
+      g.drawImage(above, x + AXIS_WIDE, y + LINE, above.clientWidth, AXIS_HIGH);
+      g.drawImage(beside, x, y + LINE + AXIS_HIGH, AXIS_WIDE, beside.clientHeight);
+      g.drawImage(pixels, x + AXIS_WIDE, y + LINE + AXIS_HIGH, w, h);
+      x += sizes[i][0] + PAD;
+    });
+    let at = PAD;
+    for (const [fill, text] of legendTexts) {
+      g.fillStyle = fill;
+      g.fillRect(at, high - PAD - 14, 14, 14);
+      g.fillStyle = ink;
+      write(text, at + 19, high - PAD - 14, '12px');
+      at += 34 + g.measureText(text).width;
+    }
+    return canvas;
+  };
+
+  const download = () => {
+    const link = el('a', { href: snapshot().toDataURL('image/png'), download: `${state.item.name.replace(/[^\w.-]+/g, '-')}.png` });
+    document.body.append(link);
+    link.click();
+    link.remove();
   };
 
   // ---- Wiring ----
@@ -1007,6 +1278,8 @@
     if (typing || event.ctrlKey || event.altKey || event.metaKey || !$('#keys-on').checked) return;
     const mode = MODES['1234'.indexOf(event.key)];
     if (event.key.length === 1 && mode) setMode(mode[0]);
+    else if (event.key === 'n') step(1);
+    else if (event.key === 'p') step(-1);
     else if (event.key === 'b') {
       if (state.mode === 'blink') setPaused(!state.paused);
       else { setMode('blink'); setPaused(false); }
@@ -1034,10 +1307,12 @@
     document.addEventListener('click', (event) => {
       const button = event.target.closest('button');
       if (button?.classList.contains('find')) {
-        $('#search').value = button.dataset.search;
+        const wanted = button.dataset.search;
+        const exact = items.find((item) => item.name === wanted);
+        $('#search').value = exact ? '' : wanted;
         fillList();
-        $('#list a')?.click();
-        $('#search').focus({ preventScroll: true });
+        const link = exact ? `#case-${encodeURIComponent(exact.name)}` : $('#list a')?.getAttribute('href');
+        if (link) location.hash = link;
         $('#cases').scrollIntoView();
       }
       if (button?.dataset.kind) {
@@ -1058,6 +1333,10 @@
     $('#zoom-in').addEventListener('click', () => zoomBy(1));
     $('#zoom-out').addEventListener('click', () => zoomBy(-1));
     $('#zoom-fit').addEventListener('click', () => { state.zoom = null; resize(); });
+    $('#whole').addEventListener('click', () => { state.whole = !state.whole; state.zoom = null; resize(); });
+    $('#download').addEventListener('click', download);
+    $('#previous').addEventListener('click', () => step(-1));
+    $('#next').addEventListener('click', () => step(1));
     $('#rows').addEventListener('toggle', rowTable);
     $('#stage').addEventListener('keydown', keyInStage);
     document.addEventListener('keydown', keyAnywhere);
@@ -1079,6 +1358,7 @@
     });
     if (items.length === 0) return;
     $('#cases').hidden = false;
+    $('#chooser').hidden = items.length === 1;
     $('#modes').append(...MODES.map(([value, text], i) => el('label', {},
       el('input', { type: 'radio', name: 'mode', value }), el('kbd', { 'aria-hidden': 'true' }, String(i + 1)), text)));
     setPaused(state.paused);
@@ -1092,8 +1372,9 @@
     }
   };
 
-  // For tests and the curious: the rule over every pixel of every case; cases that differ.
+  // For tests and the curious: the rule over every pixel of every case; cases that differ; the view.
   window.rasterproof = {
+    snapshot: () => snapshot().toDataURL('image/png'),
     audit: () => items.filter((item) => item.isCase).filter((item) => {
       const { hits } = byRule(item);
       return !item.layers[item.oracle].hits.every((n, i) => n === hits[i]);

@@ -1,0 +1,476 @@
+//! The sheet of a case: a panel for each engine with its name and its counts, rows and columns
+//! numbered, cropped to what matters, and a legend of what occurs.
+//!
+//! The PNG of a sheet remembers where its panels are, so that two sheets can be compared pixel for
+//! pixel of the cases instead of picture pixel for picture pixel.
+
+use std::collections::BTreeSet;
+
+use image::{Rgb, RgbImage, imageops};
+
+use super::lettering::{self, Size, write};
+use super::picture::{
+    AGREES, BACKGROUND, BORDER, EDGE, EXTRA, GRID, MISSING, OVERLAP, SAMPLE, TWICE, encoded,
+    free_segments, line, segments,
+};
+use crate::frame::Coverage;
+use crate::grid::PixelRect;
+use crate::hazard::Case;
+use crate::hazard::offgrid::OffGridCase;
+use crate::triangle::PixelPoint;
+use crate::verify::Tally;
+
+/// Sides of a sheet's panels together stay below this.
+const MOST_PX: [u32; 2] = [1400, 1000];
+/// Larger cases are cropped to the pixels that differ.
+const MOST_CROPPED_PX: u32 = 48;
+/// Room around everything and between panels.
+const GAP: u32 = 12;
+/// Room for the numbers of the rows, and of the columns.
+const AXIS: [u32; 2] = [34, 16];
+/// Lines of text over a panel.
+const HEAD: u32 = 38;
+const INK: Rgb<u8> = Rgb([30, 30, 30]);
+const FAINT: Rgb<u8> = Rgb([95, 95, 95]);
+const WHITE: Rgb<u8> = Rgb([255, 255, 255]);
+/// The key of what a PNG remembers.
+const KEY: &str = "rasterproof-panels";
+
+/// What an engine draws, under its name.
+pub type Drawn = (String, Coverage);
+
+/// Where a panel is on its sheet.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Panel {
+    /// Who draws there.
+    pub name: String,
+    /// Left and top in picture pixels.
+    pub at: [u32; 2],
+    /// Picture pixels of a pixel's side.
+    pub zoom: u32,
+    /// Pixels of the case that are shown.
+    pub shown: PixelRect,
+}
+
+/// A sheet with its panels.
+#[derive(Clone, Debug)]
+pub struct Sheet {
+    /// The picture.
+    pub image: RgbImage,
+    /// Its panels, from left to right and down.
+    pub panels: Vec<Panel>,
+}
+
+/// What each engine draws, judged by `target`; then the target, as `oracle`.
+///
+/// All coverages show the case's window.
+#[must_use]
+pub fn of_case(title: &str, case: &Case, actual: &[Drawn], target: &Coverage) -> Sheet {
+    sheet(title, case.window, actual, target, |window, zoom| segments(case, window, zoom))
+}
+
+/// The same of a case off the lattice.
+#[must_use]
+pub fn of_off_grid(title: &str, case: &OffGridCase, actual: &[Drawn], target: &Coverage) -> Sheet {
+    sheet(title, case.window, actual, target, |window, zoom| free_segments(case, window, zoom))
+}
+
+/// Segments are asked for in picture pixels of a panel, once the zoom is known.
+fn sheet(
+    title: &str,
+    window: PixelRect,
+    actual: &[Drawn],
+    target: &Coverage,
+    segments: impl Fn(PixelRect, u32) -> Vec<[PixelPoint; 2]>,
+) -> Sheet {
+    let oracle = [("oracle".to_owned(), target.clone())];
+    let all: Vec<&Drawn> = actual.iter().chain(&oracle).collect();
+    let shown = crop(window, &all, target, &segments(window, 1));
+    let (zoom, columns) = layout(shown, all.len() as u32);
+    let panels: Vec<RgbImage> = all
+        .iter()
+        .map(|(name, hits)| panel(name, hits, target, (shown, zoom), &segments(shown, zoom)))
+        .collect();
+    let wide = panels.iter().map(RgbImage::width).max().unwrap_or(1);
+    let high = panels.iter().map(RgbImage::height).max().unwrap_or(1);
+    let rows = (all.len() as u32).div_ceil(columns);
+    let width = (GAP + columns * (wide + GAP)).max(420);
+    let heading = lettering::wrapped(title, Size::Heading, width - 2 * GAP);
+    let top = GAP + heading.len() as u32 * Size::Heading.cell()[1] + GAP / 2;
+    let foot = foot(width, window, shown, &all, target);
+    let height = top + rows * (high + GAP) + foot.height();
+    let mut image = RgbImage::from_pixel(width, height, WHITE);
+    for (text, y) in heading.iter().zip((GAP..).step_by(Size::Heading.cell()[1] as usize)) {
+        write(&mut image, (GAP.into(), y.into()), text, Size::Heading, INK);
+    }
+    let mut places = Vec::new();
+    for (i, (picture, (name, _))) in (0u32..).zip(panels.iter().zip(&all)) {
+        let (left, top) = (GAP + i % columns * (wide + GAP), top + i / columns * (high + GAP));
+        imageops::replace(&mut image, picture, left.into(), top.into());
+        let at = [left + AXIS[0], top + HEAD + AXIS[1]];
+        places.push(Panel { name: name.clone(), at, zoom, shown });
+    }
+    imageops::replace(&mut image, &foot, 0, i64::from(height - foot.height()));
+    Sheet { image, panels: places }
+}
+
+/// The part of the window that is worth seeing: the shape and what is hit, a pixel to spare. Of a
+/// large one, the pixels that differ, or those that are hit.
+fn crop(
+    window: PixelRect,
+    all: &[&Drawn],
+    target: &Coverage,
+    outline: &[[PixelPoint; 2]],
+) -> PixelRect {
+    let hits = |c: &Coverage, x: i32, y: i32| c.get(x, y).unwrap_or(0);
+    let hit = around(window, |x, y| all.iter().any(|(_, c)| hits(c, x, y) > 0), 1);
+    let wrong =
+        around(window, |x, y| all.iter().any(|(_, c)| hits(c, x, y) != hits(target, x, y)), 4);
+    let mut shape = hit.unwrap_or(PixelRect { x1: window.x0, y1: window.y0, ..window });
+    let is_hit = hit.is_some();
+    for (i, p) in outline.iter().flatten().enumerate() {
+        let at = |v: i32, origin: i32, end: i32| v.saturating_add(origin).clamp(origin, end - 1);
+        let (x, y) = (at(p.x, window.x0, window.x1), at(p.y, window.y0, window.y1));
+        let spare = wider(PixelRect { x0: x, y0: y, x1: x + 1, y1: y + 1 }, 1, window);
+        shape = if i == 0 && !is_hit { spare } else { union(shape, spare) };
+    }
+    let is_small = |r: &PixelRect| r.width().max(r.height()) <= MOST_CROPPED_PX;
+    let shape = Some(shape).filter(|r| r.width() > 0 && r.height() > 0);
+    shape.filter(is_small).or(wrong).or(hit).or(shape).unwrap_or(window)
+}
+
+fn union(a: PixelRect, b: PixelRect) -> PixelRect {
+    PixelRect { x0: a.x0.min(b.x0), y0: a.y0.min(b.y0), x1: a.x1.max(b.x1), y1: a.y1.max(b.y1) }
+}
+
+/// The box around the pixels of a kind, some to spare, within the window.
+fn around(window: PixelRect, is_in: impl Fn(i32, i32) -> bool, spare: i32) -> Option<PixelRect> {
+    let pixels = (window.y0..window.y1).flat_map(|y| (window.x0..window.x1).map(move |x| (x, y)));
+    let boxes = pixels.filter(|&(x, y)| is_in(x, y)).map(|(x, y)| PixelRect {
+        x0: x,
+        y0: y,
+        x1: x + 1,
+        y1: y + 1,
+    });
+    let PixelRect { x0, y0, x1, y1 } = boxes.reduce(union)?;
+    Some(wider(PixelRect { x0, y0, x1, y1 }, spare, window))
+}
+
+/// A box with some to spare, within the window.
+fn wider(PixelRect { x0, y0, x1, y1 }: PixelRect, spare: i32, window: PixelRect) -> PixelRect {
+    let wide = PixelRect {
+        x0: x0.saturating_sub(spare),
+        y0: y0.saturating_sub(spare),
+        x1: x1.saturating_add(spare),
+        y1: y1.saturating_add(spare),
+    };
+    wide.intersect(&window)
+}
+
+/// The zoom, and how many panels stand in a row: as large as they get.
+fn layout(shown: PixelRect, count: u32) -> (u32, u32) {
+    // A case of a few pixels is shown larger.
+    let largest = if shown.width().max(shown.height()) <= 8 { 40 } else { 16 };
+    let zoom = |columns: u32| {
+        let fits = |room: u32, panels: u32, side: u32| room / panels.saturating_mul(side).max(1);
+        let across = fits(MOST_PX[0], columns, shown.width());
+        across.min(fits(MOST_PX[1], count.div_ceil(columns), shown.height())).clamp(1, largest)
+    };
+    // The most panels in a row of those that are equally large.
+    let best = (1..=count).max_by_key(|&columns| (zoom(columns), columns)).unwrap_or(1);
+    (zoom(best), best)
+}
+
+/// Name and counts, numbered rows and columns, squares and outline.
+fn panel(
+    name: &str,
+    hits: &Coverage,
+    target: &Coverage,
+    (shown, zoom): (PixelRect, u32),
+    segments: &[[PixelPoint; 2]],
+) -> RgbImage {
+    let (width, height) = (shown.width() * zoom + 1, shown.height() * zoom + 1);
+    let counts = counts(hits, target);
+    let text = lettering::width(name, Size::Heading).max(lettering::width(&counts, Size::Small));
+    let mut image = RgbImage::from_pixel(AXIS[0] + width.max(text), HEAD + AXIS[1] + height, WHITE);
+    let left = AXIS[0];
+    write(&mut image, (left.into(), 0), name, Size::Heading, INK);
+    write(&mut image, (left.into(), 20), &counts, Size::Small, FAINT);
+    numbers(&mut image, shown, zoom);
+    let at = [left, HEAD + AXIS[1]];
+    squares(&mut image, at, (shown, zoom), hits, target);
+    for segment in segments {
+        line(*segment, PixelRect::window(width, height), |x, y| {
+            image.put_pixel(at[0] + x, at[1] + y, EDGE);
+        });
+    }
+    image
+}
+
+/// What is wrong in words, or how many pixels are right.
+fn counts(hits: &Coverage, target: &Coverage) -> String {
+    let Tally { missing, extra, twice, .. } = Tally::between(hits, target);
+    let parts = [(missing, "missing"), (extra, "extra"), (twice, "twice")];
+    let wrong: Vec<_> =
+        parts.iter().filter(|(n, _)| *n > 0).map(|(n, word)| format!("{n} {word}")).collect();
+    let covered = format!("{} px", hits.covered());
+    if wrong.is_empty() { covered } else { format!("{covered}: {}", wrong.join(", ")) }
+}
+
+/// Numbers of columns over the squares, of rows left of them, as many as have room.
+fn numbers(image: &mut RgbImage, shown: PixelRect, zoom: u32) {
+    let widest = [shown.x0, shown.x1 - 1].map(|n| n.to_string().len() as u32);
+    let [cell_width, cell_height] = Size::Small.cell();
+    let rooms = [widest[0].max(widest[1]) * cell_width + 5, 13];
+    let step = |room: u32| {
+        let steps = (0..6).flat_map(|e| [1, 2, 5].map(|m| m * 10i32.pow(e)));
+        steps.into_iter().find(|s| *s as u32 * zoom >= room).unwrap_or(1_000_000)
+    };
+    for x in (shown.x0..shown.x1).filter(|x| x.rem_euclid(step(rooms[0])) == 0) {
+        let text = x.to_string();
+        let middle = AXIS[0] + (x - shown.x0) as u32 * zoom + zoom / 2;
+        let left = i64::from(middle) - i64::from(lettering::width(&text, Size::Small) / 2);
+        write(image, (left, HEAD.into()), &text, Size::Small, FAINT);
+    }
+    for y in (shown.y0..shown.y1).filter(|y| y.rem_euclid(step(rooms[1])) == 0) {
+        let text = y.to_string();
+        let middle = HEAD + AXIS[1] + (y - shown.y0) as u32 * zoom + zoom / 2;
+        let top = i64::from(middle) - i64::from(cell_height / 2);
+        let left = i64::from(AXIS[0]) - 4 - i64::from(lettering::width(&text, Size::Small));
+        write(image, (left, top), &text, Size::Small, FAINT);
+    }
+}
+
+fn squares(
+    image: &mut RgbImage,
+    [left, top]: [u32; 2],
+    (shown, zoom): (PixelRect, u32),
+    actual: &Coverage,
+    target: &Coverage,
+) {
+    let (width, height) = (shown.width() * zoom + 1, shown.height() * zoom + 1);
+    for y in 0..height {
+        for x in 0..width {
+            let on_border = x == 0 || y == 0 || x + 1 == width || y + 1 == height;
+            let on_grid = zoom >= 4 && (x % zoom == 0 || y % zoom == 0);
+            let (x_px, y_px) = (shown.x0 + (x / zoom) as i32, shown.y0 + (y / zoom) as i32);
+            let hits = |c: &Coverage| c.get(x_px, y_px).unwrap_or(0);
+            let colour = if on_border {
+                BORDER
+            } else if on_grid {
+                GRID
+            } else if zoom >= 8 && is_sample(x % zoom, zoom) && is_sample(y % zoom, zoom) {
+                SAMPLE
+            } else {
+                colour(hits(actual), hits(target))
+            };
+            image.put_pixel(left + x, top + y, colour);
+        }
+    }
+}
+
+/// Whether a picture pixel lies on the dot in the middle of a square.
+fn is_sample(offset: u32, zoom: u32) -> bool {
+    offset.abs_diff(zoom / 2) <= zoom / 32
+}
+
+fn colour(actual: u8, target: u8) -> Rgb<u8> {
+    match (actual, target) {
+        (0, 0) => BACKGROUND,
+        (a, t) if a > t && a > 1 => TWICE,
+        (a, t) if a > t => EXTRA,
+        (a, t) if a < t => MISSING,
+        (1, _) => AGREES,
+        _ => OVERLAP,
+    }
+}
+
+/// What the colours mean that occur, and what part of the window is shown.
+fn foot(
+    width: u32,
+    window: PixelRect,
+    shown: PixelRect,
+    all: &[&Drawn],
+    target: &Coverage,
+) -> RgbImage {
+    let of_panel = |(_, hits): &&Drawn| {
+        let pixels = (shown.y0..shown.y1).flat_map(|y| (shown.x0..shown.x1).map(move |x| (x, y)));
+        let both = |(x, y)| [hits, target].map(|c| c.get(x, y).unwrap_or(0));
+        pixels.map(|at| both(at)).map(|[a, t]| colour(a, t).0).collect::<Vec<_>>()
+    };
+    let occurring: BTreeSet<[u8; 3]> = all.iter().flat_map(of_panel).collect();
+    let words = [
+        (AGREES, "as the oracle"),
+        (MISSING, "missing"),
+        (EXTRA, "extra"),
+        (TWICE, "hit too often"),
+        (OVERLAP, "rightly more than once"),
+    ];
+    let mut entries: Vec<_> = words.into_iter().filter(|(c, _)| occurring.contains(&c.0)).collect();
+    entries.push((EDGE, "edges"));
+    let mut image = RgbImage::from_pixel(width, 3 * 18 + GAP / 2, WHITE);
+    let (mut left, mut top) = (GAP, 0);
+    for (colour, text) in entries {
+        let wide = 18 + lettering::width(text, Size::Small);
+        if left + wide > width - GAP && left > GAP {
+            (left, top) = (GAP, top + 18);
+        }
+        let high = if colour == EDGE { 6..8 } else { 1..13 };
+        for (x, y) in (0..12).flat_map(|x| high.clone().map(move |y| (x, y))) {
+            image.put_pixel(left + x, top + y, colour);
+        }
+        write(&mut image, (i64::from(left) + 18, i64::from(top) - 1), text, Size::Small, INK);
+        left += wide + 16;
+    }
+    top += 18;
+    if shown != window {
+        let text = format!(
+            "columns {} to {}, rows {} to {} of {} x {} px",
+            shown.x0,
+            shown.x1 - 1,
+            shown.y0,
+            shown.y1 - 1,
+            window.width(),
+            window.height()
+        );
+        write(&mut image, (GAP.into(), i64::from(top) - 1), &text, Size::Small, FAINT);
+        top += 18;
+    }
+    imageops::crop_imm(&image, 0, 0, width, (top + GAP / 2).min(image.height())).to_image()
+}
+
+impl Sheet {
+    /// The sheet as a PNG that remembers its panels.
+    #[must_use]
+    pub fn png(&self) -> Vec<u8> {
+        let row = |p: &Panel| {
+            let ([left, top], PixelRect { x0, y0, x1, y1 }) = (p.at, p.shown);
+            format!("{left} {top} {} {x0} {y0} {x1} {y1} {}", p.zoom, p.name)
+        };
+        let rows: Vec<_> = self.panels.iter().map(row).collect();
+        encoded(&self.image, Some((KEY, &rows.join("\n"))))
+    }
+
+    /// The sheet that a PNG remembers; nothing where it is no such PNG.
+    #[must_use]
+    pub fn from_png(bytes: &[u8]) -> Option<Self> {
+        let reader = png::Decoder::new(std::io::Cursor::new(bytes)).read_info().ok()?;
+        let texts = &reader.info().uncompressed_latin1_text;
+        let text = &texts.iter().find(|chunk| chunk.keyword == KEY)?.text;
+        let panels = text.lines().map(parsed).collect::<Option<Vec<_>>>()?;
+        Some(Self { image: image::load_from_memory(bytes).ok()?.to_rgb8(), panels })
+    }
+
+    /// The colour of a pixel of the case in a panel: the most frequent in its square.
+    fn colour(&self, panel: &Panel, x_px: i32, y_px: i32) -> [u8; 3] {
+        let PixelRect { x0, y0, x1, y1 } = panel.shown;
+        if !(x0..x1).contains(&x_px) || !(y0..y1).contains(&y_px) {
+            return BACKGROUND.0;
+        }
+        let offset = |v: i32, from: i32| v.abs_diff(from) * panel.zoom;
+        let (left, top) = (panel.at[0] + offset(x_px, x0), panel.at[1] + offset(y_px, y0));
+        let mut counts: Vec<([u8; 3], u32)> = Vec::new();
+        for (x, y) in (0..panel.zoom).flat_map(|y| (0..panel.zoom).map(move |x| (x, y))) {
+            let Some(pixel) = self.image.get_pixel_checked(left + x, top + y) else { continue };
+            match counts.iter_mut().find(|(colour, _)| *colour == pixel.0) {
+                Some((_, count)) => *count += 1,
+                None => counts.push((pixel.0, 1)),
+            }
+        }
+        counts.into_iter().max_by_key(|(_, count)| *count).map_or(BACKGROUND.0, |(c, _)| c)
+    }
+}
+
+/// A panel as a PNG remembers it; its pixels are few enough to be on a picture.
+fn parsed(row: &str) -> Option<Panel> {
+    let mut words = row.splitn(8, ' ');
+    let mut number = || words.next()?.parse::<i32>().ok();
+    let [left, top, zoom] = [number()?, number()?, number()?].map(u32::try_from);
+    let [x0, y0, x1, y1] = [number()?, number()?, number()?, number()?];
+    let sides = [x1.checked_sub(x0)?, y1.checked_sub(y0)?];
+    if !sides.iter().all(|side| (1..=4096).contains(side)) || !(1..=64).contains(&zoom.ok()?) {
+        return None;
+    }
+    Some(Panel {
+        name: words.next()?.to_owned(),
+        at: [left.ok()?.min(1 << 20), top.ok()?.min(1 << 20)],
+        zoom: zoom.ok()?,
+        shown: PixelRect { x0, y0, x1, y1 },
+    })
+}
+
+/// For each panel of both sheets its name, and in how many pixels of the case they differ.
+#[must_use]
+pub fn changes(old: &Sheet, new: &Sheet) -> Vec<(String, u64)> {
+    let pairs = new.panels.iter().filter_map(|panel| {
+        Some((old.panels.iter().find(|other| other.name == panel.name)?, panel))
+    });
+    let changed = |(before, after): (&Panel, &Panel)| {
+        let PixelRect { x0, y0, x1, y1 } = union(before.shown, after.shown);
+        let pixels = (y0..y1).flat_map(|y| (x0..x1).map(move |x| (x, y)));
+        let differ = pixels.filter(|&(x, y)| old.colour(before, x, y) != new.colour(after, x, y));
+        (after.name.clone(), differ.count() as u64)
+    };
+    pairs.map(changed).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::hazard::named::Input;
+    use crate::scene::named::find;
+
+    /// A named case, two engines of which the second lacks a pixel.
+    fn drawn(name: &str) -> (Case, Vec<Drawn>, Coverage) {
+        let Input::Drawn { case, .. } = find(name).unwrap().input else {
+            panic!("{name} is drawn")
+        };
+        let crate::hazard::Shape::Triangles { list, .. } = &case.shape else { panic!("{name}") };
+        let target = crate::verify::oracle_coverage(list, case.window);
+        let mut holed = target.clone();
+        let (y, row) = target.rows().find(|(_, row)| row.contains(&1)).unwrap();
+        let x = row.iter().position(|h| *h == 1).unwrap();
+        holed.row_mut(y)[x] = 0;
+        let engines = vec![("right".to_owned(), target.clone()), ("holed".to_owned(), holed)];
+        (case, engines, target)
+    }
+
+    #[test]
+    fn a_png_remembers_its_panels_and_tells_who_changed() {
+        let (case, engines, target) = drawn("T2");
+        let old =
+            of_case("T2", &case, &[engines[0].clone(), ("x".to_owned(), target.clone())], &target);
+        let new = of_case(
+            "T2",
+            &case,
+            &[engines[0].clone(), ("x".to_owned(), engines[1].1.clone())],
+            &target,
+        );
+        let again = Sheet::from_png(&new.png()).unwrap();
+        assert_eq!((&again.panels, again.image), (&new.panels, new.image.clone()));
+        let counts = |name: &str, n| (name.to_owned(), n);
+        let expected = [counts("right", 0), counts("x", 1), counts("oracle", 0)];
+        assert_eq!(changes(&old, &new), expected);
+        assert!(Sheet::from_png(&super::super::picture::png(&new.image)).is_none());
+    }
+
+    #[test]
+    fn a_large_window_is_cropped_to_what_differs() {
+        let (case, engines, target) = drawn("T4");
+        assert!(case.window.width() > MOST_CROPPED_PX, "{:?}", case.window);
+        let shown = of_case("T4", &case, &engines, &target).panels[0].shown;
+        assert!(shown.width() <= 9 && shown.height() <= 9, "{shown:?}");
+        let whole = of_case("T4", &case, &engines[..1], &target).panels[0].shown;
+        assert!(whole.width() > 9 && whole.width() <= case.window.width(), "{whole:?}");
+    }
+
+    #[test]
+    fn broken_memories_are_none() {
+        for row in
+            ["", "1 2 3", "1 2 99999 0 0 4 4 x", "1 2 8 0 0 -4 4 x", "1 2 8 0 0 2147483647 4 x"]
+        {
+            assert_eq!(parsed(row), None, "{row}");
+        }
+        assert_eq!(parsed("1 2 8 -1 0 4 4 a b").unwrap().name, "a b");
+    }
+}
