@@ -30,3 +30,4 @@ mod scenes;
 mod snapshots;
 mod specimens;
 mod surface;
+mod tiles;
