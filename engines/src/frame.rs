@@ -12,11 +12,42 @@ use crate::grid::{MAX_SIDE_PX, PixelRect};
 /// Rows lie `pitch` elements apart. A pitch that is a multiple of 4096 bytes would put a whole
 /// column of pixels into one set of a typical first-level cache (measured 9.5 against 0.55 ns for
 /// a store), so such a pitch is padded by 64 bytes: 1024 pixels of 4 bytes lie 1040 apart.
-#[derive(Clone, PartialEq, Eq)]
+///
+/// The first pixel lies at the beginning of a line of the cache, so that what is written sixteen
+/// pixels at a time, from a column that is a multiple of 16, does not lie across two.
 pub struct Frame<T> {
     bounds: PixelRect,
     pitch: usize,
+    /// Where the first pixel is.
+    first: usize,
     data: Vec<T>,
+}
+
+/// Bytes of a line of the cache.
+const LINE: usize = 64;
+
+impl<T: Copy> Clone for Frame<T> {
+    fn clone(&self) -> Self {
+        // Never empty: there is room for a line.
+        let mut copy = Self::new(self.bounds, self.data[0]);
+        let pixels = self.data.len() - room::<T>();
+        copy.data[copy.first..copy.first + pixels]
+            .copy_from_slice(&self.data[self.first..self.first + pixels]);
+        copy
+    }
+}
+
+impl<T: Copy + PartialEq> PartialEq for Frame<T> {
+    fn eq(&self, other: &Self) -> bool {
+        self.bounds == other.bounds && self.rows().eq(other.rows())
+    }
+}
+
+impl<T: Copy + Eq> Eq for Frame<T> {}
+
+/// Elements that a first pixel is moved by at most.
+const fn room<T>() -> usize {
+    if size_of::<T>() == 0 { 1 } else { LINE.div_ceil(size_of::<T>()) }
 }
 
 impl<T> fmt::Debug for Frame<T> {
@@ -46,7 +77,11 @@ impl<T: Copy> Frame<T> {
         if pitch > 0 && (pitch * size).is_multiple_of(4096) {
             pitch += (64 / size).max(1);
         }
-        Self { bounds, pitch, data: vec![value; pitch * height as usize] }
+        let data = vec![value; pitch * height as usize + room::<T>()];
+        // Sizes that do not divide a line have no such place.
+        let first = data.as_ptr().align_offset(LINE);
+        let first = if first <= room::<T>() { first } else { 0 };
+        Self { bounds, pitch, first, data }
     }
 
     /// The pixels this frame holds.
@@ -116,7 +151,7 @@ impl<T: Copy> Frame<T> {
     #[inline]
     fn row_start(&self, y_px: i32) -> usize {
         debug_assert!((self.bounds.y0..self.bounds.y1).contains(&y_px));
-        (y_px - self.bounds.y0) as usize * self.pitch
+        (y_px - self.bounds.y0) as usize * self.pitch + self.first
     }
 }
 

@@ -25,4 +25,5 @@ pub mod pipeline;
 pub mod raster;
 pub mod scene;
 pub mod specimen;
+pub mod tile;
 pub mod triangle;

@@ -35,6 +35,7 @@ use crate::specimen::sysu_inclusive::SysuInclusive;
 use crate::specimen::sysu_truncated::SysuTruncated;
 use crate::specimen::sysu_weights::SysuWeights;
 use crate::specimen::{Published, PublishedLine, RealTriangle, Refused};
+use crate::tile::Tiles;
 use crate::triangle::{Corners, Fragment, FreeCorners, ScreenLine, ScreenTriangle, Span, Varying};
 
 /// A rasterizer of the line-up.
@@ -44,6 +45,9 @@ pub enum Engine {
     Scanline,
     /// The bounding-box fill with edge functions.
     EdgeFunction,
+    /// Lists of triangles in tiles. It decides coverage only: values at its pixels are those of the
+    /// edge function.
+    Tile,
     /// The exact oracle, as an engine.
     Oracle,
     /// A planted fault.
@@ -53,6 +57,8 @@ pub enum Engine {
 impl Engine {
     /// The rasterizers that are judged.
     pub const JUDGED: [Self; 2] = [Self::Scanline, Self::EdgeFunction];
+    /// The rasterizers that are judged when they are asked for.
+    pub const CHOICES: [Self; 3] = [Self::Scanline, Self::EdgeFunction, Self::Tile];
 
     /// Its name on the command line.
     #[must_use]
@@ -60,6 +66,7 @@ impl Engine {
         match self {
             Self::Scanline => "scanline",
             Self::EdgeFunction => "edge-function",
+            Self::Tile => "tile",
             Self::Oracle => "oracle",
             Self::Mutant(mutant) => mutant.name(),
         }
@@ -92,6 +99,7 @@ impl Engine {
         match self {
             Self::Scanline => Scanline.cover(corners, bounds, emit),
             Self::EdgeFunction => EdgeFunction.cover(corners, bounds, emit),
+            Self::Tile => Tiles::default().cover(corners, bounds, emit),
             Self::Oracle => Oracle.cover(corners, bounds, emit),
             Self::Mutant(mutant) => mutant.spans(corners, bounds, emit),
         }
@@ -106,6 +114,11 @@ impl Engine {
         match self {
             Self::Scanline => Scanline.fragments(triangle, bounds, emit),
             Self::EdgeFunction => EdgeFunction.fragments(triangle, bounds, emit),
+            Self::Tile => Tiles::default().cover(triangle.corners(), bounds, |span| {
+                let Span { y_px, x0_px, x1_px } = span;
+                let run = PixelRect { x0: x0_px, y0: y_px, x1: x1_px, y1: y_px + 1 };
+                EdgeFunction.fragments(triangle, run, &mut *emit);
+            }),
             Self::Oracle => Oracle.fragments(triangle, bounds, emit),
             Self::Mutant(mutant) => mutant.values(triangle, bounds, emit),
         }
@@ -557,7 +570,7 @@ pub struct Entry {
 }
 
 /// Every engine that has a name of its own.
-pub const ENTRIES: [Entry; 8] = [
+pub const ENTRIES: [Entry; 9] = [
     Entry {
         name: "scanline",
         about: "the book's split-triangle fill, repaired: exact integer DDA down the edges",
@@ -570,6 +583,14 @@ pub const ENTRIES: [Entry; 8] = [
         name: "edge-function",
         about: "bounding box and three integer edge functions with a top-left bias",
         engine: Some(Engine::EdgeFunction),
+        line_engine: None,
+        exact_engine: None,
+        specimen: None,
+    },
+    Entry {
+        name: "tile",
+        about: "tiles of 16 x 16 px, sixteen pixels or triangles at a time",
+        engine: Some(Engine::Tile),
         line_engine: None,
         exact_engine: None,
         specimen: None,

@@ -12,6 +12,6 @@ pub mod report;
 // The floors below, under the paths that every room calls them by.
 use rasterproof_engines::{
     contract, effects, frame, grid, hazard, line, lineup, mutant, oracle, pipeline, raster, scene,
-    specimen, triangle,
+    specimen, tile, triangle,
 };
 use rasterproof_measures::{cost, verify};

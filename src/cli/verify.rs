@@ -62,7 +62,7 @@ fn family_names() -> Vec<&'static str> {
 fn judged_names() -> Vec<&'static str> {
     let lines = LineEngine::JUDGED.iter().map(LineEngine::name);
     let exact = ExactEngine::JUDGED.iter().map(ExactEngine::name);
-    Engine::JUDGED.iter().map(Engine::name).chain(lines).chain(exact).collect()
+    Engine::CHOICES.iter().map(Engine::name).chain(lines).chain(exact).collect()
 }
 
 fn mutant_names() -> Vec<&'static str> {
@@ -111,12 +111,15 @@ impl VerifyArguments {
                 line.map(LineEngine::Mutant).into_iter().collect(),
             );
         }
+        // Both unless others are asked for.
+        let rasterizers: &[Engine] =
+            if self.engine.is_empty() { &Engine::JUDGED } else { &Engine::CHOICES };
         let wanted = |name: &str| self.engine.is_empty() || self.engine.iter().any(|n| n == name);
         (
-            Engine::JUDGED
-                .into_iter()
+            rasterizers
+                .iter()
                 .filter(|e| wanted(e.name()))
-                .map(|e| (e, tolerance::of(e)))
+                .map(|&e| (e, tolerance::of(e)))
                 .collect(),
             LineEngine::JUDGED.into_iter().filter(|e| wanted(e.name())).collect(),
         )

@@ -324,9 +324,7 @@ const PROOF: &[Figure] = &[
         "100,000 个随机三角形里，只有 {} 个有采样点恰好落在边上",
         ties_of_random_triangles,
     ),
-    figure("stability", "| {} | `disabled-effect` |", "| {} | `disabled-effect` |", || {
-        vec![CATALOGUE.len() as f64]
-    }),
+    figure("stability", "| {} | `lists` |", "| {} | `lists` |", || vec![CATALOGUE.len() as f64]),
 ];
 
 fn affine_error(ratio: f64) -> f64 {

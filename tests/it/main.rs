@@ -31,3 +31,4 @@ mod snapshots;
 mod specimens;
 mod surface;
 mod ties;
+mod tiles;

@@ -9,12 +9,14 @@ mod lines;
 mod oracles;
 mod parts;
 mod stages;
+mod tiles;
 mod triangles;
 
 pub use lines::LineMutant;
 pub use oracles::OracleMutant;
 pub use parts::{EdgeValuesMutant, JudgeMutant, SnapMutant, SourceMutant, WordWidthMutant};
 pub use stages::StageMutant;
+pub use tiles::TileMutant;
 pub use triangles::TriangleMutant;
 
 use crate::grid::PixelRect;
@@ -41,6 +43,8 @@ pub enum Mutant {
     Stage(StageMutant),
     /// A judge of coverage.
     Judge(JudgeMutant),
+    /// A tile engine.
+    Tile(TileMutant),
 }
 
 impl Mutant {
@@ -56,6 +60,7 @@ impl Mutant {
         all.extend(SourceMutant::ALL.map(Self::Source));
         all.extend(StageMutant::ALL.map(Self::Stage));
         all.extend(JudgeMutant::ALL.map(Self::Judge));
+        all.extend(TileMutant::ALL.map(Self::Tile));
         all
     }
 
@@ -78,6 +83,7 @@ impl Mutant {
             Self::Source(mutant) => mutant.name(),
             Self::Stage(mutant) => mutant.name(),
             Self::Judge(mutant) => mutant.name(),
+            Self::Tile(mutant) => mutant.name(),
         }
     }
 }

@@ -8,13 +8,14 @@
 //! are put in the place of the real thing to show that each check can fail ([`matrix`]).
 //!
 //! - Coverage is 1 to 20, values 21 to 31, clipping 32 to 35, lines 36 to 41, the harness itself 42
-//!   to 45, effects 46.
+//!   to 45, effects 46, lists of triangles 47.
 
 mod clip;
 mod coverage;
 mod effects;
 mod exact;
 mod lines;
+mod lists;
 pub mod matrix;
 mod meta;
 pub mod source;
@@ -211,7 +212,7 @@ const fn invariant(
 #[rustfmt::skip]
 pub const CATALOGUE: &[Invariant] = &[
     invariant(1, "engines-agree",
-        "Scanline, edge functions and oracle hit every pixel the same number of times.",
+        "Scanline, edge functions, tiles and oracle hit every pixel the same number of times.",
         "0", JUDGED, Check::Triangle(coverage::engines_agree)),
     invariant(2, "oracle-sign",
         "The oracle covers a sample iff the three signs of robust::orient2d say so.",
@@ -343,6 +344,9 @@ pub const CATALOGUE: &[Invariant] = &[
         "0", &[Part::Judge], Check::Run(meta::metrics_report_only, 12)),
     invariant(46, "disabled-effect", "A disabled effect makes no call at all.",
         "0", &[Part::Render], Check::Run(effects::disabled, 24)),
+    invariant(47, "lists",
+        "A list covers what each of its triangles covers, in their order, in every instruction set.",
+        "0", &[Part::Lists], Check::Triangle(lists::one_by_one)),
 ];
 
 #[cfg(test)]
@@ -352,7 +356,7 @@ mod tests {
     #[test]
     fn catalogue_is_numbered_and_named() {
         let numbers: Vec<u32> = CATALOGUE.iter().map(|i| i.number).collect();
-        assert_eq!(numbers, (1..=46).collect::<Vec<_>>());
+        assert_eq!(numbers, (1..=47).collect::<Vec<_>>());
         let kebab = |name: &str| name.bytes().all(|b| b.is_ascii_lowercase() || b == b'-');
         assert!(CATALOGUE.iter().all(|i| kebab(i.name) && i.statement.ends_with('.')));
         for invariant in CATALOGUE {

@@ -22,6 +22,7 @@ use crate::pipeline::{ClipVertex, Counters};
 use crate::raster::edge_function::{self, EdgeFunction, WordWidth};
 use crate::raster::scanline::Scanline;
 use crate::scene::Scene;
+use crate::tile::{CoverList, Tiles};
 use crate::triangle::{Corners, Fragment, ScreenTriangle, Span};
 use crate::verify::Tally;
 use crate::verify::tolerance::{self, Tolerance};
@@ -152,8 +153,10 @@ pub type RenderStage = fn(&Scene, &Effects, &mut Target) -> Counters;
 
 /// The implementations under test.
 pub struct Subject {
-    /// Rasterizers: scanline and edge function, or a faulty one.
+    /// Rasterizers: scanline, edge function and tiles, or a faulty one.
     pub engines: Vec<Engine>,
+    /// Rasterizers of lists: the tile engine in every instruction set here, or a faulty one.
+    pub lists: Vec<(&'static str, Box<dyn CoverList + Sync>)>,
     /// What the engines are judged by.
     pub oracle: Box<dyn Fill>,
     /// Line drawers: DDA and Bresenham, or a faulty one.
@@ -201,6 +204,8 @@ pub enum Part {
     Render,
     /// The judge of two coverages.
     Judge,
+    /// The rasterizers of lists.
+    Lists,
     /// The matrix of invariants and mutants itself.
     Matrix,
 }
@@ -221,7 +226,16 @@ impl Subject {
                     fill: Box::new(EdgeFunction),
                     tolerance: tolerance::EDGE_FUNCTION,
                 },
+                Engine {
+                    name: "tile",
+                    fill: Box::new(lineup::Engine::Tile),
+                    tolerance: tolerance::of(lineup::Engine::Tile),
+                },
             ],
+            lists: Tiles::levels()
+                .into_iter()
+                .map(|tiles| (tiles.instructions(), Box::new(tiles) as Box<dyn CoverList + Sync>))
+                .collect(),
             oracle: Box::new(Oracle),
             drawers: vec![
                 Drawer { name: "dda", stroke: Box::new(Dda) },
@@ -266,6 +280,7 @@ impl Subject {
                 fault.replace(&mut subject.clip, &mut subject.culls, &mut subject.render)
             }
             Mutant::Judge(fault) => subject.coverage_agrees = fault.function(),
+            Mutant::Tile(fault) => subject.lists = vec![(fault.name(), Box::new(fault))],
         }
         subject
     }
@@ -288,5 +303,6 @@ pub fn part_of(mutant: &Mutant) -> Part {
             _ => Part::Clip,
         },
         Mutant::Judge(_) => Part::Judge,
+        Mutant::Tile(_) => Part::Lists,
     }
 }

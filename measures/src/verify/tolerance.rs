@@ -77,7 +77,7 @@ const UNDERFLOW: f64 = f64::from_bits((1023 - 660) << 52);
 pub fn of(engine: Engine) -> Tolerance {
     match engine {
         Engine::Scanline | Engine::Mutant(_) => SCANLINE,
-        Engine::EdgeFunction => EDGE_FUNCTION,
+        Engine::EdgeFunction | Engine::Tile => EDGE_FUNCTION,
         Engine::Oracle => ORACLE,
     }
 }
