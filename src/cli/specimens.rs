@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use indicatif::ProgressBar;
 
 use super::page::{PageArguments, write_page};
-use super::{Failure, Streams, exit, write_file};
+use super::{Failure, Streams, exit, png_name, write_file, write_unasked};
 use crate::report::html::{Outcome, Report};
 use crate::report::{cases, counts, json, picture, sheet, specimens};
 use crate::specimen::catalogue::{CARDS, Card};
@@ -15,7 +15,7 @@ use crate::verify::specimens::{SpecimenReport, survey};
 #[derive(clap::Args, Debug)]
 pub struct SpecimensArguments {
     /// Cases of each family
-    #[arg(long, value_name = "N", default_value_t = 200, value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, value_name = "N", default_value_t = 200, value_parser = super::parse_count, allow_hyphen_values = true)]
     cases: u64,
     /// Decides every generated case
     #[arg(long, value_name = "N", default_value_t = 1)]
@@ -30,7 +30,7 @@ pub struct SpecimensArguments {
     page: PageArguments,
     /// Where the contact sheet goes: published, repaired, difference for each specimen [default:
     /// specimens.png in the folder of --out]
-    #[arg(short, long, value_name = "FILE")]
+    #[arg(short, long, value_name = "FILE.png")]
     output: Option<PathBuf>,
 }
 
@@ -55,17 +55,22 @@ pub fn run(arguments: &SpecimensArguments, streams: &mut Streams<'_>) -> Result<
         ([card], [report]) => (sheet::strip(card), specimens::detail(report)),
         _ => (sheet::contact_sheet(), specimens::table(&reports)),
     };
-    let default = || arguments.page.place.out.join("specimens.png");
-    let output = arguments.output.clone().unwrap_or_else(default);
-    write_file(&output, &picture::png(&drawn))?;
-    if arguments.page.report {
-        let path = arguments.page.place.out.join("specimens.html");
-        write_page(&path, report_page(arguments, &reports), streams.errors)?;
+    if let Some(path) = &arguments.output {
+        png_name(path)?;
+        write_file(path, &picture::png(&drawn))?;
     }
-    if arguments.json {
-        write!(out, "{}", json::specimens(arguments.seed, arguments.cases, &reports))?;
-    } else {
-        writeln!(out, "{text}\ndrawn in {}", output.display())?;
+    let folder = &arguments.page.place.out;
+    match (arguments.json, &arguments.output) {
+        (true, _) => write!(out, "{}", json::specimens(arguments.seed, arguments.cases, &reports))?,
+        (false, Some(path)) => writeln!(out, "{text}\ndrawn in {}", path.display())?,
+        (false, None) => {
+            writeln!(out, "{text}")?;
+            write_unasked(&folder.join("specimens.png"), &picture::png(&drawn), streams)?;
+        }
+    }
+    if arguments.page.report {
+        let path = folder.join("specimens.html");
+        write_page(&path, report_page(arguments, &reports), streams.errors)?;
     }
     Ok(if are_caught(&reports) { exit::AGREES } else { exit::DISAGREES })
 }

@@ -8,7 +8,7 @@ use super::tolerance::{self, Bound, Tolerance};
 use super::truth::{Bounds, Truth};
 use crate::contract::{DrawLine, Interpolate, Rasterize};
 use crate::frame::Coverage;
-use crate::grid::{PixelRect, SUBPIXELS};
+use crate::grid::{HALF_PIXEL, PixelRect, SUBPIXELS};
 use crate::hazard::{Case, Line, Shape, Triangle};
 use crate::oracle::Oracle;
 use crate::oracle::coverage::samples_on_boundary;
@@ -153,10 +153,13 @@ impl<R: Interpolate + Sync> TriangleContest<'_, R> {
                     continue;
                 }
             };
-            alone[i].tally += fragments_against(&fragments, spans, window);
+            alone[i].fragments += fragments_against(&fragments, spans, window);
             let bounds = Bounds::new(*tolerance, triangle);
             if let Some(truth) = &mut truth {
-                few(&fragments).for_each(|f| truth.compare(f, &bounds, &mut alone[i]));
+                // Outside the triangle no value is right or wrong; the pixel is.
+                for f in few(&fragments).filter(|f| holds_centre(&triangle.corners(), f)) {
+                    truth.compare(f, &bounds, &mut alone[i]);
+                }
             }
             if let Some((other, other_bounds)) = &before {
                 for (a, b) in pairs_at_same_pixel(other, &fragments) {
@@ -194,6 +197,19 @@ fn few(fragments: &[Fragment<DVec2>]) -> impl Iterator<Item = &Fragment<DVec2>> 
     let mut picks = [0, n / 3, 2 * n / 3, n.saturating_sub(1)].to_vec();
     picks.dedup();
     picks.into_iter().filter_map(|i| fragments.get(i))
+}
+
+/// Whether the centre of the pixel lies in the triangle or on its outline.
+fn holds_centre(corners: &Corners, f: &Fragment<DVec2>) -> bool {
+    let centre = |px: i32| i128::from(px) * i128::from(SUBPIXELS) + i128::from(HALF_PIXEL);
+    let (x, y) = (centre(f.x_px), centre(f.y_px));
+    let side = |i: usize, j: usize| {
+        let [ax, ay, bx, by] = [corners[i].x, corners[i].y, corners[j].x, corners[j].y];
+        let [ax, ay, bx, by] = [ax, ay, bx, by].map(i128::from);
+        ((bx - ax) * (y - ay) - (by - ay) * (x - ax)).signum()
+    };
+    let sides = [side(0, 1), side(1, 2), side(2, 0)];
+    sides.iter().all(|&side| side >= 0) || sides.iter().all(|&side| side <= 0)
 }
 
 /// Fragments of two engines at the same pixels, which they may emit in different orders.

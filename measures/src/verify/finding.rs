@@ -51,6 +51,18 @@ impl Tally {
     }
 }
 
+impl Tally {
+    /// The kinds that occur, in words; empty where nothing is wrong.
+    #[must_use]
+    pub fn describe(&self) -> String {
+        let Self { missing, extra, twice, order } = *self;
+        let counts =
+            [(missing, "missing"), (extra, "extra"), (twice, "twice"), (order, "out of order")];
+        let parts = counts.iter().filter(|(n, _)| *n > 0).map(|(n, what)| format!("{n} {what}"));
+        parts.collect::<Vec<_>>().join(", ")
+    }
+}
+
 impl AddAssign for Tally {
     fn add_assign(&mut self, other: Self) {
         self.missing += other.missing;
@@ -63,8 +75,10 @@ impl AddAssign for Tally {
 /// What was found about a pair of engines in one case.
 #[derive(Clone, Debug, Default)]
 pub struct Finding {
-    /// Wrong pixels.
+    /// Wrong pixels: the coverage of the one against that of the other.
     pub tally: Tally,
+    /// The pixels of the engine's fragments against its own coverage; nobody else has a part in it.
+    pub fragments: Tally,
     /// Largest difference of an attribute over its bound, or that it was known to reach.
     pub attribute: f64,
     /// Largest difference of a depth over its bound, likewise.
@@ -79,7 +93,10 @@ impl Finding {
     /// Whether the two do not agree.
     #[must_use]
     pub fn is_wrong(&self) -> bool {
-        self.tally.total() > 0 || self.panic.is_some() || self.attribute > 1.0 || self.depth > 1.0
+        self.tally.total() + self.fragments.total() > 0
+            || self.panic.is_some()
+            || self.attribute > 1.0
+            || self.depth > 1.0
     }
 
     /// The disagreement in words.
@@ -88,11 +105,14 @@ impl Finding {
         if let Some(message) = &self.panic {
             return format!("panics ({message})");
         }
-        let Tally { missing, extra, twice, order } = self.tally;
-        let counts =
-            [(missing, "missing"), (extra, "extra"), (twice, "twice"), (order, "out of order")];
-        let mut parts: Vec<_> =
-            counts.iter().filter(|(n, _)| *n > 0).map(|(n, what)| format!("{n} {what}")).collect();
+        let mut parts = Vec::new();
+        if self.tally.total() > 0 {
+            parts.push(self.tally.describe());
+        }
+        if self.fragments.total() > 0 {
+            let what = self.fragments.describe();
+            parts.push(format!("its fragments against its own coverage: {what}"));
+        }
         if self.attribute > 1.0 {
             parts.push(format!("an attribute off by {:.3e} times its bound", self.attribute));
         }
