@@ -249,6 +249,23 @@ impl<const N: usize> NearPixel<N> {
     }
 }
 
+/// As [`NearPixel::depth_at_most`], of the value at a step along a line between two ends.
+#[must_use]
+pub fn along_line_at_most([a, b]: [f64; 2], step: u64, length: u64, value: f64) -> f64 {
+    if !is_usual(a) || !is_usual(b) || length > u64::from(u32::MAX) {
+        return f64::INFINITY;
+    }
+    // A point has the values of its first end.
+    let length = length.max(1);
+    let weighed = |end: f64, weight: u64| {
+        let number = Double::product(end, weight as f64);
+        Sized { number, size: number.hi.abs() }
+    };
+    let numerator = weighed(a, length - step).plus(weighed(b, step));
+    let length = length as f64;
+    at_most(value, numerator, Sized { number: Double::of(length), size: length })
+}
+
 /// |value - numerator / denominator| = |value denominator - numerator| / |denominator|, from above.
 fn at_most(value: f64, numerator: Sized, denominator: Sized) -> f64 {
     let least = denominator.number.hi.abs() - denominator.error();
@@ -315,6 +332,31 @@ mod tests {
         }
         assert!(open * 20 < count, "{open} of {count} are left open");
         assert!(close * 2 > count, "{close} of {count} are close");
+    }
+
+    #[test]
+    fn no_distance_along_a_line_exceeds_what_is_said() {
+        use crate::oracle::values::along_line;
+        let (mut count, mut close) = (0, 0);
+        let mut rng = crate::hazard::Rng::new("along", 1, 0);
+        for _ in 0..500 {
+            let ends = [rng.signed(), rng.signed() * 100.0];
+            let length = rng.int(0, 40).unsigned_abs();
+            for step in 0..=length {
+                let exact = along_line(ends, step, length);
+                for moved in [0.0, 1e-16, -3e-15, 0.5] {
+                    let value = exact.to_f64() * (1.0 + moved);
+                    let at_most = along_line_at_most(ends, step, length, value);
+                    let distance = exact.distance(value);
+                    assert!(distance <= at_most, "{ends:?} {step}/{length}: {distance} {at_most}");
+                    count += 1;
+                    close += u64::from(distance > 0.99 * at_most);
+                }
+            }
+        }
+        assert!(close * 2 > count, "{close} of {count} are close");
+        assert_eq!(along_line_at_most([0.0, f64::NAN], 1, 2, 0.0), f64::INFINITY);
+        assert_eq!(along_line_at_most([0.0, 1.0], 1, 2, f64::NAN), f64::INFINITY);
     }
 
     #[test]

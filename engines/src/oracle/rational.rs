@@ -56,7 +56,7 @@ pub fn cover_and_count_ties(
     let whole =
         |(mantissa, exponent): (i64, i32)| i128::from(mantissa) << shift(mantissa, exponent, unit);
     let wide = parts.map(|corner| corner.map(whole));
-    // The samples of the first and the last row and column reach as far as any.
+    // No sample, nor the column after the last, reaches farther than these.
     let ends = [rect.x0, rect.x1, rect.y0, rect.y1].map(|px| centre_in(px, unit));
     if wide.as_flattened().iter().chain(&ends).all(|value| value.abs() < 1 << 30) {
         let narrow = wide.map(|corner| corner.map(|value| value as i64));
@@ -89,39 +89,30 @@ fn around(corners: &[[f64; 2]; 3]) -> PixelRect {
 
 /// A whole number of any size.
 trait Whole: Clone + Ord {
+    fn plus(&mut self, other: &Self);
     fn minus(&self, other: &Self) -> Self;
     fn times(&self, other: &Self) -> Self;
 }
 
-impl Whole for i64 {
-    fn minus(&self, other: &Self) -> Self {
-        self - other
-    }
+macro_rules! whole {
+    ($($number:ty)*) => {$(
+        impl Whole for $number {
+            fn plus(&mut self, other: &Self) {
+                *self += other;
+            }
 
-    fn times(&self, other: &Self) -> Self {
-        self * other
-    }
+            fn minus(&self, other: &Self) -> Self {
+                self - other
+            }
+
+            fn times(&self, other: &Self) -> Self {
+                self * other
+            }
+        }
+    )*};
 }
 
-impl Whole for i128 {
-    fn minus(&self, other: &Self) -> Self {
-        self - other
-    }
-
-    fn times(&self, other: &Self) -> Self {
-        self * other
-    }
-}
-
-impl Whole for BigInt {
-    fn minus(&self, other: &Self) -> Self {
-        self - other
-    }
-
-    fn times(&self, other: &Self) -> Self {
-        self * other
-    }
-}
+whole!(i64 i128 BigInt);
 
 /// Tests the samples of `rect` one by one and counts those on an edge.
 fn scan<T: Whole>(
@@ -130,28 +121,30 @@ fn scan<T: Whole>(
     rect: PixelRect,
     mut emit: impl FnMut(Span),
 ) -> u64 {
-    let columns: Vec<T> = (rect.x0..rect.x1).map(&centre).collect();
+    let first = centre(rect.x0);
+    let pixel = centre(rect.x0 + 1).minus(&first);
     let mut ties = 0;
     for y_px in rect.y0..rect.y1 {
         let y = centre(y_px);
         let pairs = [(0, 1), (1, 2), (2, 0)].map(|(i, j)| (&corners[i], &corners[j]));
         // Keep the edges that cross the height of the nudged samples, upper end first.
-        let crossing = pairs.map(|(a, b)| match (a[1] <= y, b[1] <= y) {
-            (true, false) => Some(Crossing::new(a, b, &y)),
-            (false, true) => Some(Crossing::new(b, a, &y)),
+        let mut crossing = pairs.map(|(a, b)| match (a[1] <= y, b[1] <= y) {
+            (true, false) => Some(Crossing::new(a, b, &y, &first, &pixel)),
+            (false, true) => Some(Crossing::new(b, a, &y, &first, &pixel)),
             _ => None,
         });
         for (a, b) in pairs.into_iter().filter(|(a, b)| a[1] == y && b[1] == y) {
             let (low, high) = if a[0] < b[0] { (&a[0], &b[0]) } else { (&b[0], &a[0]) };
-            ties += columns.iter().filter(|&x| low <= x && x <= high).count() as u64;
+            let columns = (rect.x0..rect.x1).map(&centre);
+            ties += columns.filter(|x| low <= x && x <= high).count() as u64;
         }
         let mut start = None;
-        for (x_px, x) in (rect.x0..rect.x1).zip(&columns) {
+        for x_px in rect.x0..rect.x1 {
             let mut is_inside = false;
-            for edge in crossing.iter().flatten() {
-                let reached = x.times(&edge.dy);
-                is_inside ^= edge.x_dy <= reached;
-                ties += u64::from(edge.x_dy == reached);
+            for edge in crossing.iter_mut().flatten() {
+                is_inside ^= edge.x_dy <= edge.reached;
+                ties += u64::from(edge.x_dy == edge.reached);
+                edge.reached.plus(&edge.step);
             }
             match (is_inside, start) {
                 (true, None) => start = Some(x_px),
@@ -169,20 +162,25 @@ fn scan<T: Whole>(
     ties
 }
 
-/// Where an edge crosses the current height: at or left of x iff `x_dy` <= x `dy`.
+/// Where an edge crosses the current height: at or left of x iff `x_dy` <= x dy.
 struct Crossing<T> {
     /// The crossing times dy: upper.x dy + down dx.
     x_dy: T,
-    /// Height of the edge, positive.
-    dy: T,
+    /// x dy at the current column, and what the next one adds.
+    reached: T,
+    step: T,
 }
 
 impl<T: Whole> Crossing<T> {
-    fn new(upper: &[T; 2], lower: &[T; 2], y: &T) -> Self {
+    fn new(upper: &[T; 2], lower: &[T; 2], y: &T, first: &T, pixel: &T) -> Self {
         let dy = lower[1].minus(&upper[1]);
         // down (upper.x - lower.x) is minus down dx, and subtracting it needs no sum.
         let minus = y.minus(&upper[1]).times(&upper[0].minus(&lower[0]));
-        Self { x_dy: upper[0].times(&dy).minus(&minus), dy }
+        Self {
+            x_dy: upper[0].times(&dy).minus(&minus),
+            reached: first.times(&dy),
+            step: pixel.times(&dy),
+        }
     }
 }
 

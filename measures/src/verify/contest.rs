@@ -4,15 +4,14 @@ use glam::DVec2;
 
 use super::covered::{Covered, fragments_against};
 use super::finding::{Finding, Tally, caught};
-use super::tolerance::{self, Bound, Tolerance};
-use super::truth::{Bounds, Truth};
+use super::tolerance::Tolerance;
+use super::truth::{Bounds, Truth, compare_on_line};
 use crate::contract::{DrawLine, Interpolate, Rasterize};
 use crate::frame::Coverage;
 use crate::grid::{HALF_PIXEL, PixelRect, SUBPIXELS};
 use crate::hazard::{Case, Line, Shape, Triangle};
 use crate::oracle::Oracle;
 use crate::oracle::coverage::samples_on_boundary;
-use crate::oracle::values::along_line;
 use crate::triangle::{Corners, Fragment, ScreenTriangle, Span, Varying};
 
 /// What the oracle says of a case.
@@ -355,7 +354,6 @@ fn line_values(
 ) {
     let [a, b] = &line.ends;
     let length = a.pixel.x.abs_diff(b.pixel.x).max(a.pixel.y.abs_diff(b.pixel.y));
-    let bounds = tolerance::LINE;
     let mut picks = [0, truth.len() / 2, truth.len().saturating_sub(1)].to_vec();
     picks.dedup();
     for i in picks {
@@ -363,17 +361,6 @@ fn line_values(
         if (f.x_px, f.y_px) != (x, y) {
             continue;
         }
-        let ratio = |ends: [f64; 2], value: f64, bound: Bound| {
-            along_line(ends, step, u64::from(length)).distance(value) / bound.at(ends)
-        };
-        let [av, bv] = [a.varying, b.varying];
-        finding.compare(
-            ratio([av.x, bv.x], f.varying.x, bounds.attribute).max(ratio(
-                [av.y, bv.y],
-                f.varying.y,
-                bounds.attribute,
-            )),
-            ratio([a.depth, b.depth], f.depth, bounds.depth),
-        );
+        compare_on_line(line, [step, length.into()], f, finding);
     }
 }

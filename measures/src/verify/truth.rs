@@ -1,14 +1,14 @@
-//! The exact values of a triangle, asked of big integers only where nearly exact ones leave a doubt.
+//! The exact values of triangles and lines, asked of big integers only where nearly exact ones leave a doubt.
 
 use std::cell::OnceCell;
 
 use glam::DVec2;
 
 use super::finding::Finding;
-use super::tolerance::{Bound, Tolerance};
-use crate::hazard::Triangle;
-use crate::oracle::near::{NearPixel, NearTriangle};
-use crate::oracle::values::ExactTriangle;
+use super::tolerance::{Bound, LINE, Tolerance};
+use crate::hazard::{Line, Triangle};
+use crate::oracle::near::{self, NearPixel, NearTriangle};
+use crate::oracle::values::{ExactTriangle, along_line};
 use crate::triangle::Fragment;
 
 /// What fragments of a triangle are held to.
@@ -104,6 +104,26 @@ impl Truth {
     }
 }
 
+/// As [`Truth::compare`], for a fragment that is `step` of `length` steps along a line.
+pub fn compare_on_line(
+    line: &Line,
+    [step, length]: [u64; 2],
+    f: &Fragment<DVec2>,
+    finding: &mut Finding,
+) {
+    let ratio = |known: f64, ends: [f64; 2], value: f64, bound: Bound| {
+        let (known, bound) = (known.min(1.0), bound.at(ends));
+        if near::along_line_at_most(ends, step, length, value) / bound <= known {
+            return known;
+        }
+        along_line(ends, step, length).distance(value) / bound
+    };
+    let ([a, b], known) = (&line.ends, finding.attribute);
+    let of = |k: usize| ratio(known, [a.varying[k], b.varying[k]], f.varying[k], LINE.attribute);
+    let depth = ratio(finding.depth, [a.depth, b.depth], f.depth, LINE.depth);
+    finding.compare(of(0).max(of(1)), depth);
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -111,8 +131,9 @@ mod tests {
     use crate::hazard::triangles::FAMILIES;
     use crate::hazard::{Family, Shape};
     use crate::lineup::Engine;
-    use crate::mutant::TriangleMutant;
+    use crate::verify::finding::caught;
     use crate::verify::tolerance;
+    use rasterproof_engines::mutant::TriangleMutant;
 
     /// Every fragment that an engine makes of the cases of a family, with its triangle.
     fn see_all(
@@ -125,7 +146,13 @@ mod tests {
             let case = family.case(3, index);
             let Shape::Triangles { list, .. } = &case.shape else { continue };
             for triangle in list {
-                engine.fragments(triangle, case.window, |f| see(triangle, &f));
+                // Some planted faults panic, which is no value to compare.
+                let fragments = caught(|| {
+                    let mut fragments = Vec::new();
+                    engine.fragments(triangle, case.window, |f| fragments.push(f));
+                    fragments
+                });
+                fragments.iter().flatten().for_each(|f| see(triangle, f));
             }
         }
     }
@@ -138,7 +165,7 @@ mod tests {
         let (mut wrong, mut saved, mut values) = (0, 0, 0);
         for engine in Engine::JUDGED.into_iter().chain(mutants) {
             let tolerance = tolerance::of(engine);
-            let cases = if matches!(engine, Engine::Mutant(_)) { 3 } else { 30 };
+            let cases = if matches!(engine, Engine::Mutant(_)) { 1 } else { 6 };
             for family in FAMILIES {
                 let (mut quick, mut slow) = (Finding::default(), Finding::default());
                 see_all(engine, family, cases, &mut |triangle, f| {
@@ -162,10 +189,9 @@ mod tests {
                 assert_eq!(worst(&quick), worst(&slow), "{} {}", engine.name(), family.name);
             }
         }
-        // Both ways out were taken often enough for this to mean something.
-        assert!(
-            wrong > 1000 && saved * 10 > values * 9,
-            "{wrong} wrong, {saved} of {values} saved"
-        );
+        // Both ways were taken often enough for this to mean something. What is wrong has to be
+        // looked into, and of the rest all but a few need not be.
+        let counts = format!("{wrong} wrong, {saved} of {values} saved");
+        assert!(wrong > 1000 && saved * 10 > (values - wrong) * 9, "{counts}");
     }
 }
