@@ -21,4 +21,5 @@ pub mod raster;
 pub mod scene;
 pub mod specimen;
 pub mod tile;
+pub mod tiled;
 pub mod triangle;

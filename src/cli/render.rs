@@ -26,6 +26,7 @@ use crate::report::frames::{self, Comparison};
 use crate::report::html::{Outcome, PictureLayer, PictureView, Report};
 use crate::scene::chapters::{self, SCENES};
 use crate::scene::{Scene, Shading, obj};
+use crate::tiled;
 
 pub const HELP: &str = "Examples:
   rasterproof render cube                                a scene of the book, by both rasterizers
@@ -34,6 +35,7 @@ pub const HELP: &str = "Examples:
   rasterproof render sphere --aa ssaa4                   16 samples a pixel, where it needs them
   rasterproof render spinning --spin 48                  an animated GIF
   rasterproof render cube --wireframe                    edges, by DDA and by Bresenham
+  rasterproof render model.obj --engine tiles            fast: exact coverage, values in f32
 
 With both rasterizers every colour and depth is compared, and a difference is drawn.
 Exit status: 0 they agree (or there is one), 1 they differ, 2 usage or bad input.";
@@ -44,7 +46,7 @@ Exit status: 0 they agree (or there is one), 1 they differ, 2 usage or bad input
 pub struct RenderArguments {
     #[command(flatten)]
     what: SceneArguments,
-    /// The rasterizer, or both to compare them
+    /// The rasterizer, or both to compare them; tiles are fast, exact in coverage alone
     #[arg(long, value_enum, default_value_t = Drawn::Both)]
     engine: Drawn,
     /// Draw edges only, by DDA and by Bresenham, whichever goes with the rasterizer
@@ -115,6 +117,7 @@ pub struct SceneArguments {
 enum Drawn {
     Scanline,
     EdgeFunction,
+    Tiles,
     Both,
 }
 
@@ -357,6 +360,9 @@ pub fn run(arguments: &RenderArguments, streams: &mut Streams<'_>) -> Result<u8,
     let extension = if arguments.spin.is_some() { "gif" } else { "png" };
     let default = || Path::new("target/rasterproof").join(format!("{}.{extension}", what.name()));
     let output = arguments.output.clone().unwrap_or_else(default);
+    if arguments.engine == Drawn::Tiles {
+        return draw_in_tiles(arguments, &maker.scene(0.0), &output, streams);
+    }
     if let Some(frames) = arguments.spin {
         return spin(arguments, &maker, frames, &output, streams);
     }
@@ -465,6 +471,8 @@ fn draw(arguments: &RenderArguments, scene: &Scene) -> Result<Vec<Drawing>, Fail
         Drawn::Scanline => &[Drawer::Scanline],
         Drawn::EdgeFunction => &[Drawer::EdgeFunction],
         Drawn::Both => &Drawer::ALL,
+        // Drawn before this.
+        Drawn::Tiles => &[],
     };
     let drawing = |drawer: &Drawer| {
         let mut target = arguments.what.target()?;
@@ -534,6 +542,38 @@ fn describe(
         }
     }
     text
+}
+
+/// One frame in tiles: a picture and nothing else.
+fn draw_in_tiles(
+    arguments: &RenderArguments,
+    scene: &Scene,
+    output: &Path,
+    streams: &mut Streams<'_>,
+) -> Result<u8, Failure> {
+    let refused = [
+        ("--aa", !matches!(arguments.what.aa, Smoothing::None)),
+        ("--depth", !matches!(arguments.what.depth, Depths::Unorm32)),
+        ("--effects", arguments.effects.is_some()),
+        ("--json", arguments.json),
+        ("--map", arguments.map),
+        ("--plan", arguments.plan.is_some()),
+        ("--report", arguments.report),
+        ("--spin", arguments.spin.is_some()),
+        ("--wireframe", arguments.wireframe),
+    ];
+    if let Some((option, _)) = refused.iter().find(|(_, given)| *given) {
+        return Err(usage(format!("{option} is not for --engine tiles; name another engine")));
+    }
+    let target = arguments.what.target()?;
+    let size = target.size();
+    let picture = tiled::render(scene, size.width(), size.height())
+        .map_err(|error: BadScene| usage(error.to_string()))?;
+    write_file(output, &frames::png(&picture)?)?;
+    let out = &mut streams.output;
+    writeln!(out, "{}: {}", scene.name, scene.about)?;
+    writeln!(out, "  drawn in tiles of {0} x {0} px in {1}", tiled::SIDE_PX, output.display())?;
+    Ok(exit::AGREES)
 }
 
 /// The picture of what each pixel paid for.

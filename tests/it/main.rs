@@ -30,4 +30,5 @@ mod scenes;
 mod snapshots;
 mod specimens;
 mod surface;
+mod tiled;
 mod tiles;
