@@ -9,7 +9,7 @@ mod common;
 use std::hint::black_box;
 use std::time::Duration;
 
-use common::{SIDE_PX, Scene, SplitMix64, covered, fill, window};
+use common::{COLOUR, SIDE_PX, Scene, SplitMix64, covered, fill, window};
 use criterion::{
     BenchmarkId, Criterion, SamplingMode, Throughput, criterion_group, criterion_main,
 };
@@ -22,15 +22,40 @@ use rasterproof::line::dda::Dda;
 use rasterproof::oracle::Oracle;
 use rasterproof::raster::edge_function::EdgeFunction;
 use rasterproof::raster::scanline::Scanline;
+use rasterproof::tile::{CoverList, Tiles};
 use rasterproof::triangle::{
-    Fragment, LineEnd, PixelPoint, ScreenLine, ScreenTriangle, ScreenVertex,
+    Fragment, LineEnd, PixelPoint, ScreenLine, ScreenTriangle, ScreenVertex, Span,
 };
 
 fn cover(criterion: &mut Criterion) {
     for scene in common::scenes() {
         bench_cover(criterion, &scene, "scanline", &Scanline);
         bench_cover(criterion, &scene, "edge-function", &EdgeFunction);
+        for tiles in Tiles::levels() {
+            bench_lists(criterion, &scene, &tiles);
+        }
     }
+}
+
+/// Coverage only, of all triangles as one list, in an instruction set.
+fn bench_lists(criterion: &mut Criterion, scene: &Scene, tiles: &Tiles) {
+    let name = format!("tile {}", tiles.instructions());
+    let mut pixels = 0;
+    tiles.cover_list(&scene.triangles, window(), &mut |pieces| {
+        let mut count = |span: Span| pixels += u64::from(span.x0_px.abs_diff(span.x1_px));
+        pieces.iter().for_each(|piece| piece.spans(&mut count));
+    });
+    assert_eq!(pixels, scene.pixels, "{name} on {}", scene.name);
+    let mut target = Frame::new(window(), 0);
+    let mut group = criterion.benchmark_group(format!("cover/{}", scene.name));
+    group.throughput(Throughput::Elements(scene.pixels));
+    group.bench_function(BenchmarkId::from_parameter(name), |bencher| {
+        bencher.iter(|| {
+            tiles.cover_list(black_box(&scene.triangles), window(), &mut |pieces| {
+                tiles.fill(pieces, COLOUR, &mut target);
+            });
+        });
+    });
 }
 
 /// Coverage only: fills every triangle with one colour.

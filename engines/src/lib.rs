@@ -26,4 +26,5 @@ pub mod raster;
 pub mod scene;
 pub mod specimen;
 pub mod tile;
+pub mod tiled;
 pub mod triangle;

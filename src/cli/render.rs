@@ -29,6 +29,7 @@ use crate::report::html::{Chapter, Outcome, PictureLayer, PictureView, Report};
 use crate::report::picture;
 use crate::scene::chapters::{self, SCENES};
 use crate::scene::{Scene, Shading, obj};
+use crate::tiled;
 use crate::verify::ties::{self, Drawn as DrawnBy};
 
 pub const HELP: &str = "Examples:
@@ -38,6 +39,7 @@ pub const HELP: &str = "Examples:
   rasterproof render sphere --aa ssaa4                   16 samples a pixel, where it needs them
   rasterproof render spinning --spin 48                  an animated GIF
   rasterproof render cube --wireframe                    edges, by DDA and by Bresenham
+  rasterproof render model.obj --engine tiles            fast: exact coverage, values in f32
 
 With both rasterizers every colour and depth is compared, and a difference is drawn. Where two
 surfaces lie in one plane, a pixel may be undecided by either: counted and drawn, no difference.
@@ -49,7 +51,7 @@ Exit status: 0 they agree (or there is one), 1 they differ, 2 usage or bad input
 pub struct RenderArguments {
     #[command(flatten)]
     what: SceneArguments,
-    /// The rasterizer, or both to compare them
+    /// The rasterizer, or both to compare them; tiles are fast, exact in coverage alone
     #[arg(long, value_enum, default_value_t = Drawn::Both)]
     engine: Drawn,
     /// Draw edges only, by DDA and by Bresenham, whichever goes with the rasterizer
@@ -119,6 +121,7 @@ pub struct SceneArguments {
 enum Drawn {
     Scanline,
     EdgeFunction,
+    Tiles,
     Both,
 }
 
@@ -401,6 +404,9 @@ pub fn run(arguments: &RenderArguments, streams: &mut Streams<'_>) -> Result<u8,
             extension.to_ascii_uppercase()
         )));
     }
+    if arguments.engine == Drawn::Tiles {
+        return draw_in_tiles(arguments, &maker.scene(0.0), &output, streams);
+    }
     if let Some(frames) = arguments.spin {
         return spin(arguments, &maker, frames, &output, streams);
     }
@@ -524,6 +530,8 @@ fn draw(arguments: &RenderArguments, scene: &Scene) -> Result<Vec<Drawing>, Fail
         Drawn::Scanline => &[Drawer::Scanline],
         Drawn::EdgeFunction => &[Drawer::EdgeFunction],
         Drawn::Both => &Drawer::ALL,
+        // Drawn before this.
+        Drawn::Tiles => &[],
     };
     let drawing = |drawer: &Drawer| {
         let mut target = arguments.what.target()?;
@@ -618,6 +626,38 @@ fn is_empty(rendered: &Rendered) -> bool {
     let mut pixels = rendered.picture.rows().flat_map(|(_, row)| row);
     let first = pixels.next();
     pixels.all(|pixel| Some(pixel) == first)
+}
+
+/// One frame in tiles: a picture and nothing else.
+fn draw_in_tiles(
+    arguments: &RenderArguments,
+    scene: &Scene,
+    output: &Path,
+    streams: &mut Streams<'_>,
+) -> Result<u8, Failure> {
+    let refused = [
+        ("--aa", !matches!(arguments.what.aa, Smoothing::None)),
+        ("--depth", !matches!(arguments.what.depth, Depths::Unorm32)),
+        ("--effects", arguments.effects.is_some()),
+        ("--json", arguments.json),
+        ("--map", arguments.map),
+        ("--plan", arguments.plan.is_some()),
+        ("--report", arguments.page.report),
+        ("--spin", arguments.spin.is_some()),
+        ("--wireframe", arguments.wireframe),
+    ];
+    if let Some((option, _)) = refused.iter().find(|(_, given)| *given) {
+        return Err(usage(format!("{option} is not for --engine tiles; name another engine")));
+    }
+    let target = arguments.what.target()?;
+    let size = target.size();
+    let picture = tiled::render(scene, size.width(), size.height())
+        .map_err(|error: BadScene| usage(error.to_string()))?;
+    write_file(output, &frames::png(&picture)?)?;
+    let out = &mut streams.output;
+    writeln!(out, "{}: {}", scene.name, scene.about)?;
+    writeln!(out, "  drawn in tiles of {0} x {0} px in {1}", tiled::SIDE_PX, output.display())?;
+    Ok(exit::AGREES)
 }
 
 /// The picture of what each pixel paid for.

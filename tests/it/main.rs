@@ -31,4 +31,5 @@ mod snapshots;
 mod specimens;
 mod surface;
 mod ties;
+mod tiled;
 mod tiles;

@@ -15,12 +15,13 @@ mod assembled;
 mod conditions;
 mod execute;
 mod kernel;
-mod piece;
+pub(crate) mod piece;
 pub mod plan;
 mod planner;
 pub mod render;
 pub mod rivals;
 mod samples;
+pub(crate) mod whole;
 
 use std::fmt;
 use std::str::FromStr;

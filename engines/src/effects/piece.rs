@@ -17,7 +17,7 @@ use crate::scene::{Corner, Item, Scene, Shading};
 use crate::triangle::{Corners, ScreenTriangle, ScreenVertex};
 
 /// A triangle in the window with all attributes.
-pub(super) type Piece = ScreenTriangle<Packed<ALL>>;
+pub(crate) type Piece = ScreenTriangle<Packed<ALL>>;
 
 /// Whether the three 1/w are equal to the bit.
 pub(super) fn has_one_w(piece: &Piece) -> bool {

@@ -103,6 +103,11 @@ impl Tiles {
         known.into_iter().flatten().map(|level| Self { level }).collect()
     }
 
+    /// Its instruction set, for code that goes on where it ends.
+    pub(crate) fn level(&self) -> Level {
+        self.level
+    }
+
     /// The name of its instruction set.
     #[must_use]
     pub fn instructions(&self) -> &'static str {

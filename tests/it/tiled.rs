@@ -1,0 +1,126 @@
+//! Frames in tiles: their values against the oracle within the derived bound, their coverage against
+//! the other engines exactly, and no trace of tiles, threads or instruction sets.
+
+use glam::DVec2;
+use rasterproof::contract::Interpolate;
+use rasterproof::effects::Effects;
+use rasterproof::frame::Frame;
+use rasterproof::grid::PixelRect;
+use rasterproof::hazard::{Shape, Triangle, triangles::FAMILIES};
+use rasterproof::lineup::Drawer;
+use rasterproof::oracle::Oracle;
+use rasterproof::pipeline::target::{Antialias, Colour, Target};
+use rasterproof::scene::chapters::{self, SCENES};
+use rasterproof::scene::{Material, Scene, random};
+use rasterproof::tile::Tiles;
+use rasterproof::tiled::{self, planes::Planes};
+use rasterproof::verify::tolerance;
+
+/// The box of a triangle in a window, as far as it has pixels there.
+fn box_of(triangle: &Triangle, window: PixelRect) -> PixelRect {
+    let corners = triangle.corners();
+    let low = |v: [i32; 3]| v.into_iter().min().unwrap() >> 8;
+    let high = |v: [i32; 3]| (v.into_iter().max().unwrap() >> 8) + 1;
+    let (xs, ys) = (corners.map(|c| c.x), corners.map(|c| c.y));
+    PixelRect { x0: low(xs), y0: low(ys), x1: high(xs), y1: high(ys) }.intersect(&window)
+}
+
+/// Every value of every covered pixel lies within the bound of the exact one, and somewhere the
+/// bound is used: a bound that is thousands of times too wide would say nothing.
+#[test]
+fn values_lie_within_their_bound() {
+    for family in FAMILIES {
+        let mut largest: f64 = 0.0;
+        for index in 0..40 {
+            let case = family.case(0x66_33_32, index);
+            let Shape::Triangles { list, .. } = &case.shape else { unreachable!() };
+            for triangle in list {
+                let values = triangle.vertices.map(|v| v.varying.to_array());
+                let [a, b, c] = &values;
+                let bounds = box_of(triangle, case.window);
+                let planes = Planes::new(triangle, [a, b, c], bounds, false);
+                let rounded = |i: usize| {
+                    tolerance::ORACLE.attribute.at(triangle.vertices.map(|v| v.varying[i]))
+                };
+                Oracle.fragments(
+                    triangle,
+                    case.window,
+                    |f: rasterproof::triangle::Fragment<DVec2>| {
+                        for i in 0..2 {
+                            let (value, bound) = planes.value(i, f.x_px, f.y_px);
+                            let off = (f64::from(value) - f.varying[i]).abs();
+                            assert!(
+                                off <= bound + rounded(i) || bound == f64::INFINITY,
+                                "{} {index}: {value} for {}, bound {bound:e}",
+                                family.name,
+                                f.varying[i]
+                            );
+                            largest = largest.max(off / bound);
+                        }
+                        let (depth, bound) = planes.depth_at(f.x_px, f.y_px);
+                        let off = (f64::from(depth) - f.depth).abs();
+                        let exact = tolerance::ORACLE.depth.at(triangle.vertices.map(|v| v.depth));
+                        assert!(off <= bound + exact, "{} {index}: depth {depth}", family.name);
+                    },
+                );
+            }
+        }
+        println!("{}: up to {largest:.3} of the bound", family.name);
+        let drawn = !["degenerate", "off-screen", "w-extreme"].contains(&family.name);
+        assert!(largest > 0.01 || !drawn, "{}: the bound is empty, {largest}", family.name);
+    }
+}
+
+fn by_scanline(scene: &Scene, width: u32, height: u32) -> Frame<Colour> {
+    let mut target = Target::new(width, height, Antialias::None, Default::default()).unwrap();
+    Drawer::Scanline.render(scene, &Effects::PLANNED, &mut target).unwrap().picture
+}
+
+fn scenes() -> Vec<Scene> {
+    let named = SCENES.iter().map(|entry| chapters::scene(entry.name, 1.5, 0.1).unwrap());
+    named.chain((0..12).map(|index| random::scene(1, index))).collect()
+}
+
+/// With one colour for everything, a pixel shows whether anything covers it: bit for bit, whatever
+/// lies in front.
+#[test]
+fn coverage_is_that_of_the_engines() {
+    for mut scene in scenes() {
+        for item in &mut scene.items {
+            item.material = Material::default();
+        }
+        let (width, height) = (201, 134);
+        let tiles = tiled::render(&scene, width, height).unwrap();
+        assert!(tiles == by_scanline(&scene, width, height), "{}", scene.name);
+    }
+}
+
+/// The same bits from one thread and from many, and in every instruction set.
+#[test]
+fn neither_threads_nor_instructions_leave_a_trace() {
+    for scene in scenes() {
+        let draw = |threads: usize, tiles: Tiles| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| tiled::render_in(tiles, &scene, 201, 134).unwrap())
+        };
+        let one = draw(1, Tiles::default());
+        assert!(one == draw(2, Tiles::default()) && one == draw(5, Tiles::default()));
+        for tiles in Tiles::levels() {
+            assert!(one == draw(1, tiles), "{} in {}", scene.name, tiles.instructions());
+        }
+    }
+}
+
+/// A window is a part of a larger frame only if tiles do not matter: the same scene, seen through
+/// sizes that cut the tiles differently, has every pixel that the engines cover and no other.
+#[test]
+fn sizes_that_cut_tiles() {
+    let mut scene = random::scene(1, 3);
+    for item in &mut scene.items {
+        item.material = Material::default();
+    }
+    for (width, height) in [(1, 1), (15, 64), (64, 64), (65, 63), (128, 1), (130, 129)] {
+        let tiles = tiled::render(&scene, width, height).unwrap();
+        assert!(tiles == by_scanline(&scene, width, height), "{width} x {height}");
+    }
+}
