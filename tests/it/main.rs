@@ -7,6 +7,7 @@ mod cost;
 mod cost_tables;
 mod course;
 mod diagrams;
+mod digest;
 mod exact;
 mod exhaust;
 mod figures;

@@ -4,7 +4,7 @@
 use std::process::Command;
 
 use glam::{DMat4, DVec2, DVec3};
-use rasterproof::effects::{Effect, Effects, Mode, render};
+use rasterproof::effects::{Effects, render};
 use rasterproof::frame::Frame;
 use rasterproof::lineup::{Drawer, Engine};
 use rasterproof::mutant::TriangleMutant;
@@ -15,9 +15,6 @@ use rasterproof::report::frames::{self, Comparison};
 use rasterproof::scene::{Corner, Item, Material, Mesh, Scene, chapters};
 use rasterproof::verify::ties::{self, Drawn};
 use rayon::prelude::*;
-
-const WHOLE: Effects =
-    Effects::PLANNED.with(Effect::Depth, Mode::Always).with(Effect::Samples, Mode::Always);
 
 /// A square, split along one diagonal or the other.
 fn square(diagonal: usize, colour: DVec3, model: DMat4) -> Item {
@@ -50,7 +47,7 @@ fn squares(pitch_degrees: f64, behind: f64) -> Scene {
 }
 
 fn draw(scene: &Scene, engine: Engine, mut target: Target) -> (Frame<Colour>, Target) {
-    let rendered = render::render(scene, &engine, &WHOLE, &mut target).unwrap();
+    let rendered = render::render(scene, &engine, &Effects::ALWAYS, &mut target).unwrap();
     (rendered.picture, target)
 }
 
@@ -119,7 +116,7 @@ fn apart_is_decided() {
     }
 }
 
-/// An engine with a wrong depth shows a surface that may not be the nearest, or a depth that is none.
+/// A rasterizer with wrong depths shows a surface that cannot be the nearest, or a depth out of bounds.
 #[test]
 fn a_planted_fault_is_still_found() {
     let planted = Engine::Mutant(TriangleMutant::PerspectiveDepth);
@@ -174,7 +171,7 @@ fn the_planned_frames_of_the_drawers_tie_alike() {
     let target = Target::new(80, 60, Antialias::None, DepthFormat::F64).unwrap();
     for (drawer, engine) in Drawer::ALL.into_iter().zip(Engine::JUDGED) {
         let mut own = target.clone();
-        let planned = drawer.render(&scene, &WHOLE, &mut own).unwrap();
+        let planned = drawer.render(&scene, &Effects::ALWAYS, &mut own).unwrap();
         let (picture, other) = draw(&scene, engine, target.clone());
         assert!(planned.picture == picture && own.planes == other.planes, "{}", drawer.name());
     }
