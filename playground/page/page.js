@@ -47,6 +47,7 @@ function make(tag, properties = {}, ...children) {
 }
 
 function begin(scene, from = {}) {
+  clearInterval(state.playing);
   for (const key of Object.keys(state)) if (key !== 'lang') delete state[key];
   Object.assign(state, { scene, snap: true, four: false, numbers: false, chosen: 0, moves: 'corner', step: 0 });
   Object.assign(state, structuredClone(SCENES[scene].start), from);
@@ -111,6 +112,7 @@ function drawFrame() {
     last.answer = answer;
     const panels = scene().panels(answer);
     while (shown.length > panels.length) shown.pop().figure.remove();
+    $('panels').dataset.count = panels.length;
     panels.forEach((panel, i) => drawPanel(panel, i, answer));
   }
   last.look = null;
@@ -120,7 +122,9 @@ function drawFrame() {
       last.look = look.error ? null : look;
     }
   }
-  fill($('look'), scene().look ? scene().look(answer) : []);
+  fill($('look'), scene().look && !answer.error ? scene().look(answer) : []);
+  const said = [...$('look').querySelectorAll('h2, .say')].map((element) => element.textContent).join('. ');
+  if ($('announce').textContent !== said) $('announce').textContent = said;
   drawCorners();
   $('command').textContent = command();
   $('same').hidden = command() === '';
@@ -131,8 +135,11 @@ function trouble(text) {
   $('trouble').textContent = text ?? '';
 }
 
+/** New contents; what had the focus and is there again keeps it. */
 function fill(element, children) {
+  const focused = element.contains(document.activeElement) ? document.activeElement.id : '';
   element.replaceChildren(...children.filter(Boolean));
+  if (focused) $(focused)?.focus();
 }
 
 // --- Panels --------------------------------------------------------------------------------------
@@ -574,7 +581,10 @@ const FIELDS = ['x', 'y', 'w', 'depth', 'u', 'v'];
 function address() {
   const words = new URLSearchParams({ scene: state.scene });
   if (state.named) words.set('case', state.named);
-  else if (state.generated) words.set('case', `${state.generated.family}#${state.generated.index}`);
+  else if (state.generated) {
+    words.set('case', `${state.generated.family}#${state.generated.index}`);
+    words.set('seed', state.generated.seed);
+  }
   else if (state.lines) words.set('lines', state.lines.map((line) => line.flat().join(',')).join(';'));
   else if (state.triangles) {
     const corner = (c) => FIELDS.map((f) => c[f] ?? (f === 'w' ? 1 : 0)).join(',').replace(/(,0)+$/, '').replace(/^([^,]*)$/, '$1,0');
@@ -606,8 +616,9 @@ function restore(hash) {
   const wanted = words.get('case');
   if (wanted) {
     const [family, index] = wanted.split('#');
-    const found = index === undefined ? ask({ ask: 'named', name: wanted }) : ask({ ask: 'generated', family, seed: 1, index: Number(index) });
-    load(found, index === undefined ? { named: wanted } : { generated: { family, seed: 1, index: Number(index) } });
+    const seed = Number(words.get('seed') ?? 1);
+    const found = index === undefined ? ask({ ask: 'named', name: wanted }) : ask({ ask: 'generated', family, seed, index: Number(index) });
+    load(found, index === undefined ? { named: wanted } : { generated: { family, seed, index: Number(index) } });
   }
   const good = (list) => list.every((n) => Number.isFinite(n));
   const lines = words.get('lines')?.split(';').map(numbers);
@@ -687,6 +698,7 @@ function start() {
   $('reset').addEventListener('click', () => { begin(state.scene); drawAll(); });
   addEventListener('resize', redraw);
   addEventListener('hashchange', () => { restore(location.hash); drawAll(); });
+  document.body.dataset.ready = '';
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => { readColours(); redraw(); });
 }
 

@@ -12,6 +12,7 @@ mod judge;
 mod league;
 mod misbehave;
 mod plan;
+mod playground;
 mod published;
 mod quiz;
 mod render;
@@ -57,6 +58,7 @@ const EXAMPLES: &str = "Examples:
   rasterproof exhaust triangles                   every triangle of a small window, certified
   rasterproof review                              changed snapshots, old beside new
   rasterproof cost --quick                        what each step of accuracy costs in time
+  rasterproof playground                          drag a corner in the browser, watch every engine
   rasterproof quiz 2                              exercises of a chapter, answered and explained
   rasterproof list                                families, cases, engines and invariants
 
@@ -111,6 +113,9 @@ enum Command {
     Review(review::ReviewArguments),
     /// Show what accuracy costs in time: every rung of every ladder, verified, then timed
     Cost(cost::CostArguments),
+    /// Write the playground: a page to drag corners on, with these engines inside
+    #[command(after_help = playground::HELP)]
+    Playground(playground::PlaygroundArguments),
     /// Ask the exercises of the pages, and explain each answer with its pixel grid
     Quiz(quiz::QuizArguments),
     /// List families, named cases, engines and invariants
@@ -200,6 +205,7 @@ pub fn run(words: impl IntoIterator<Item = String>, streams: &mut Streams<'_>) -
         Some(Command::Merge(arguments)) => exhaust::merge(arguments, streams),
         Some(Command::Review(arguments)) => review::run(arguments, streams),
         Some(Command::Cost(arguments)) => cost::run(arguments, streams),
+        Some(Command::Playground(arguments)) => playground::run(arguments, streams),
         Some(Command::Quiz(arguments)) => quiz::run(arguments, streams),
         Some(Command::List) => list(streams),
     };

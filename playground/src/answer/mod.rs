@@ -121,7 +121,8 @@ mod tests {
         assert!(error(&draw("[0,0,9999,8]", "0", "scanline")).contains("window"));
         assert!(error(&draw("[0,0,8,8]", "1e9", "scanline")).contains("domain"));
         let panels: Value =
-            serde_json::from_str(&answer(&draw("[0,0,8,8]", "0", "panics-on-flat-bottom"))).unwrap();
+            serde_json::from_str(&answer(&draw("[0,0,8,8]", "0", "panics-on-flat-bottom")))
+                .unwrap();
         assert!(panels["panels"][0]["refused"].is_string(), "planted panics stay out: {panels}");
     }
 

@@ -67,8 +67,7 @@ impl Painter {
             }
             Self::Free(engine) => {
                 for corners in free(picture)? {
-                    engine
-                        .cover_exact(&corners, window, |s| hits.hit(s.y_px, s.x0_px, s.x1_px));
+                    engine.cover_exact(&corners, window, |s| hits.hit(s.y_px, s.x0_px, s.x1_px));
                 }
             }
             Self::Published(specimen) => {
@@ -102,8 +101,7 @@ pub(super) fn truth(picture: &Picture) -> Result<(Coverage, u64), String> {
     let mut hits = Coverage::new(window, 0);
     let mut ties = 0;
     for corners in picture.as_given()? {
-        ties +=
-            cover_and_count_ties(&corners, window, |s| hits.hit(s.y_px, s.x0_px, s.x1_px));
+        ties += cover_and_count_ties(&corners, window, |s| hits.hit(s.y_px, s.x0_px, s.x1_px));
     }
     Ok((hits, ties))
 }

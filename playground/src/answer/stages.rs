@@ -44,8 +44,8 @@ impl Near {
             .map(|corner| ClipVertex { position: position(corner), varying: DVec2::ZERO });
         let (kept, _) = clip(&triangle, Plane::MinW.bit() | Plane::Near.bit());
         let ours: Vec<DVec4> = kept.vertices().map(|vertex| vertex.position).collect();
-        let published = triangle
-            .map(|v| specimen::ClipVertex { position: v.position, varying: v.varying });
+        let published =
+            triangle.map(|v| specimen::ClipVertex { position: v.position, varying: v.varying });
         let book: Vec<DVec4> =
             clip_near(published, self.near).into_iter().map(|vertex| vertex.position).collect();
         let all: Vec<DVec4> = triangle.iter().map(|vertex| vertex.position).collect();
@@ -58,11 +58,8 @@ impl Near {
         let side = f64::from(self.side_px);
         let window = PixelRect::window(self.side_px.into(), self.side_px.into());
         let place = |p: &DVec4| {
-            SubpixelPoint::from_px(
-                (p.x / p.w + 1.0) / 2.0 * side,
-                (1.0 - p.y / p.w) / 2.0 * side,
-            )
-            .map_err(|refusal| refusal.to_string())
+            SubpixelPoint::from_px((p.x / p.w + 1.0) / 2.0 * side, (1.0 - p.y / p.w) / 2.0 * side)
+                .map_err(|refusal| refusal.to_string())
         };
         let placed: Result<Vec<_>, String> = polygon.iter().map(place).collect();
         let mut hits = Coverage::new(window, 0);
@@ -70,8 +67,7 @@ impl Near {
             Ok(points) => {
                 for i in 2..points.len() {
                     let fan: Corners = [points[0], points[i - 1], points[i]];
-                    Engine::Scanline
-                        .cover(fan, window, |s| hits.hit(s.y_px, s.x0_px, s.x1_px));
+                    Engine::Scanline.cover(fan, window, |s| hits.hit(s.y_px, s.x0_px, s.x1_px));
                 }
                 let outline: Vec<_> = points.iter().map(|p| p.to_px()).collect();
                 json!({
@@ -113,9 +109,8 @@ impl Samples {
             }
             // Sixteen samples are the centres of a window of four times the size.
             let by_four = |v: i32| v.checked_mul(4).ok_or_else(too_far);
-            let [a, b, c] = corners.map(|p| {
-                Ok::<_, String>(SubpixelPoint::new(by_four(p.x)?, by_four(p.y)?))
-            });
+            let [a, b, c] =
+                corners.map(|p| Ok::<_, String>(SubpixelPoint::new(by_four(p.x)?, by_four(p.y)?)));
             let PixelRect { x0, y0, x1, y1 } = window;
             let [x0, y0, x1, y1] = [x0, y0, x1, y1].map(by_four);
             let large = PixelRect { x0: x0?, y0: y0?, x1: x1?, y1: y1? };
@@ -129,8 +124,10 @@ impl Samples {
         }
         let panels = [("1x", &one, 1), ("4x", &four, 4), ("16x", &sixteen, 16)];
         let panels = panels.map(|(name, frame, of)| {
-            let counts: Vec<u32> =
-                frame.rows().flat_map(|(_, row)| row.iter().map(|bits| bits.count_ones())).collect();
+            let counts: Vec<u32> = frame
+                .rows()
+                .flat_map(|(_, row)| row.iter().map(|bits| bits.count_ones()))
+                .collect();
             let told_apart = counts.iter().filter(|&&count| count > 0 && count < of).count();
             json!({ "name": name, "of": of, "counts": counts, "toldApart": told_apart })
         });
@@ -162,8 +159,7 @@ impl Culling {
             let corners = triangle.corners();
             let removed = cull.removes(corners);
             if !removed {
-                Engine::Scanline
-                    .cover(corners, window, |s| hits.hit(s.y_px, s.x0_px, s.x1_px));
+                Engine::Scanline.cover(corners, window, |s| hits.hit(s.y_px, s.x0_px, s.x1_px));
             }
             let area = twice_area(corners);
             areas.push(json!({

@@ -53,8 +53,7 @@ mod tests {
                 let Shape::Triangles { list, .. } = &case.shape else { continue };
                 let corners = list[0].corners();
                 let mut hits = Coverage::new(case.window, 0);
-                EdgeFunction
-                    .cover(corners, case.window, |s| hits.hit(s.y_px, s.x0_px, s.x1_px));
+                EdgeFunction.cover(corners, case.window, |s| hits.hit(s.y_px, s.x0_px, s.x1_px));
                 for (y_px, row) in hits.rows() {
                     for (x_px, hit) in (case.window.x0..).zip(row) {
                         let inside = edges_at(&corners, x_px, y_px).is_some_and(|edges| {

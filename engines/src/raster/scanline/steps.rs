@@ -95,8 +95,7 @@ mod tests {
                         let (a, b) = (row.long.column, row.short.column);
                         let x0 = a.min(b).max(window.x0.into());
                         let x1 = a.max(b).min(window.x1.into());
-                        let span =
-                            Span { y_px: row.y_px, x0_px: x0 as i32, x1_px: x1 as i32 };
+                        let span = Span { y_px: row.y_px, x0_px: x0 as i32, x1_px: x1 as i32 };
                         (x0 < x1).then_some(span)
                     });
                     assert_eq!(ends.collect::<Vec<_>>(), drawn, "{}#{index}", family.name);
