@@ -113,8 +113,25 @@ function drawFrame() {
     const panels = scene().panels(answer);
     while (shown.length > panels.length) shown.pop().figure.remove();
     $('panels').dataset.count = panels.length;
+    panels.forEach((_, i) => { shown[i] ??= newPanel(i); });
+    // Read before anything is written, so that the page is laid out once.
+    for (const panel of shown) panel.width = panel.canvas.clientWidth;
     panels.forEach((panel, i) => drawPanel(panel, i, answer));
   }
+  explain(answer);
+  drawCorners();
+  $('command').textContent = command();
+  $('same').hidden = command() === '';
+}
+
+/** What is said beside the panels. Tables take longer than pixels, so they follow a drag ten times a second. */
+let explained = 0;
+let explaining = 0;
+function explain(answer) {
+  clearTimeout(explaining);
+  const wait = explained + 100 - performance.now();
+  if (wait > 0) { explaining = setTimeout(() => explain(last.answer), wait); return; }
+  explained = performance.now();
   last.look = null;
   if (state.px && state.triangles && !scene().handles) {
     if (state.snap) {
@@ -125,9 +142,6 @@ function drawFrame() {
   fill($('look'), scene().look && !answer.error ? scene().look(answer) : []);
   const said = [...$('look').querySelectorAll('h2, .say')].map((element) => element.textContent).join('. ');
   if ($('announce').textContent !== said) $('announce').textContent = said;
-  drawCorners();
-  $('command').textContent = command();
-  $('same').hidden = command() === '';
 }
 
 function trouble(text) {
@@ -163,7 +177,6 @@ function newPanel(i) {
 
 /** A panel is {title | select, says, bad, pixel(i, x, y), outlines, over}. */
 function drawPanel(panel, i, answer) {
-  shown[i] ??= newPanel(i);
   const { caption, canvas } = shown[i];
   const key = JSON.stringify([panel.title, panel.select, state.lang]);
   if (shown[i].said !== key) {
@@ -172,12 +185,15 @@ function drawPanel(panel, i, answer) {
     caption.replaceChildren(head, make('output'));
   }
   const output = caption.lastChild;
-  output.textContent = panel.says ?? '';
-  output.className = panel.bad === undefined ? '' : panel.bad ? 'bad' : 'good';
-  canvas.setAttribute('aria-label', `${panel.title ?? panel.select}: ${panel.says ?? ''}`);
+  const says = panel.says ?? '';
+  if (output.textContent !== says) {
+    output.textContent = says;
+    output.className = panel.bad === undefined ? '' : panel.bad ? 'bad' : 'good';
+    canvas.setAttribute('aria-label', `${panel.title ?? panel.select}: ${says}`);
+  }
   const [x0, y0, x1, y1] = state.window;
   const ratio = devicePixelRatio || 1;
-  const wide = Math.max(1, Math.round(canvas.clientWidth * ratio));
+  const wide = Math.max(1, Math.round(shown[i].width * ratio));
   const high = Math.round((wide * (y1 - y0)) / (x1 - x0));
   if (canvas.width !== wide || canvas.height !== high) Object.assign(canvas, { width: wide, height: high });
   const unit = wide / (x1 - x0);
@@ -201,32 +217,52 @@ function chooser(i, name) {
   return select;
 }
 
+/** A colour as the 32 bits of a picture, by the browser's own reading of it. */
+const bits = new Map();
+const reader = make('canvas', { width: 1, height: 1 }).getContext('2d', { willReadFrequently: true });
+function bitsOf(colour) {
+  let found = bits.get(colour);
+  if (found === undefined) {
+    if (bits.size > 50000) bits.clear();
+    reader.fillStyle = colour;
+    reader.fillRect(0, 0, 1, 1);
+    found = new Uint32Array(reader.getImageData(0, 0, 1, 1).data.buffer)[0];
+    bits.set(colour, found);
+  }
+  return found;
+}
+
+/** All pixels as one small picture, enlarged: a rectangle for each of them took most of a frame. */
+const small = make('canvas').getContext('2d');
 function drawPixels(g, view, panel) {
   const [x0, y0, x1, y1] = state.window;
-  const width = x1 - x0;
-  const glyph = Math.floor(view.unit * 0.6);
-  g.font = `600 ${glyph}px ui-monospace, Consolas, monospace`;
+  const [width, height] = [x1 - x0, y1 - y0];
+  const image = new ImageData(width, height);
+  const data = new Uint32Array(image.data.buffer);
+  const signs = [];
+  for (let i = 0; i < data.length; i += 1) {
+    const [x, y] = [x0 + (i % width), y0 + Math.floor(i / width)];
+    const pixel = panel.pixel?.(i, x, y);
+    if (!pixel) continue;
+    data[i] = bitsOf(pixel.colour);
+    if (pixel.ring || (pixel.glyph && view.unit > 7)) signs.push([x, y, pixel]);
+  }
+  Object.assign(small.canvas, { width, height });
+  small.putImageData(image, 0, 0);
+  g.imageSmoothingEnabled = false;
+  g.drawImage(small.canvas, 0, 0, width * view.unit, height * view.unit);
+  g.font = `600 ${Math.floor(view.unit * 0.6)}px ui-monospace, Consolas, monospace`;
   g.textAlign = 'center';
   g.textBaseline = 'middle';
-  for (let y = y0; y < y1; y += 1) {
-    for (let x = x0; x < x1; x += 1) {
-      const pixel = panel.pixel?.((y - y0) * width + (x - x0), x, y);
-      if (!pixel) continue;
-      const left = Math.floor(view.x(x));
-      const top = Math.floor(view.y(y));
-      g.fillStyle = pixel.colour;
-      g.fillRect(left, top, Math.floor(view.x(x + 1)) - left, Math.floor(view.y(y + 1)) - top);
-      if (pixel.glyph && view.unit > 7) {
-        g.fillStyle = colours.glyph;
-        g.fillText(pixel.glyph, view.x(x + 0.5), view.y(y + 0.5));
-      }
-      if (pixel.ring) {
-        g.strokeStyle = colours.cursor;
-        g.lineWidth = Math.max(1, view.ratio);
-        g.beginPath();
-        g.arc(view.x(x + 0.5), view.y(y + 0.5), view.unit * 0.36, 0, 7);
-        g.stroke();
-      }
+  g.strokeStyle = colours.cursor;
+  g.fillStyle = colours.glyph;
+  g.lineWidth = Math.max(1, view.ratio);
+  for (const [x, y, { glyph, ring }] of signs) {
+    if (glyph) g.fillText(glyph, view.x(x + 0.5), view.y(y + 0.5));
+    if (ring) {
+      g.beginPath();
+      g.arc(view.x(x + 0.5), view.y(y + 0.5), view.unit * 0.36, 0, 7);
+      g.stroke();
     }
   }
 }
@@ -508,6 +544,7 @@ function drawBreak() {
   const show = (found, index) => {
     load(found, { generated: { family: family.value, seed: 1, index } });
     if (!state.by.includes(by.value)) { state.by[state.by.length - 1] = by.value; redraw(); }
+    pointAtWrong(by.value);
   };
   fill(section, [
     make('h2', { id: 'break-title' }, word('breakIt')),
@@ -526,6 +563,17 @@ function drawBreak() {
       button(word('stop'), () => { hunt = null; }, { id: 'stop' })),
     says,
   ]);
+}
+
+/** Points at the first pixel that somebody gets wrong, so that the column beside explains it. */
+function pointAtWrong(by) {
+  if (!state.triangles) return;
+  const { panels, truth } = ask({ ask: 'draw', picture: picture(), by: [by] });
+  const wrong = [...(panels?.[0]?.hits ?? '')].findIndex((hits, i) => hits !== truth[i]);
+  if (wrong < 0) return;
+  const [x0, y0, x1] = state.window;
+  state.px = [x0 + (wrong % (x1 - x0)), y0 + Math.floor(wrong / (x1 - x0))];
+  redraw();
 }
 
 /** Looks at some cases a frame, so that the page stays alive. */
@@ -566,6 +614,7 @@ function shrink(by, says) {
   const next = () => {
     if (hunt !== mine) return;
     load({ picture: answer.steps[at] }, {});
+    pointAtWrong(by);
     says.textContent = word('shrunk')(at);
     at += 1;
     if (at < answer.steps.length) setTimeout(next, Math.min(250, 3000 / answer.steps.length));
@@ -678,6 +727,8 @@ function drawAll() {
   $('panels').replaceChildren();
   shown = [];
   cornersFor = '';
+  clearTimeout(explaining);
+  explained = 0;
   hunt = null;
   drawTools();
   drawBreak();

@@ -108,7 +108,7 @@ function walkOf(triangle) {
   const { rows } = triangle;
   const row = rows.findIndex((r) => r.y_px === state.px[1]);
   const first = Math.max(0, Math.min(row < 0 ? 0 : row - 3, rows.length - 5));
-  const cell = (step) => [String(step.column), `${step.remainder} / ${step.dy}`, step.carries ? '+1' : ''];
+  const cell = (step) => [String(step.column), String(step.remainder), step.carries ? '+1' : ''];
   const head = [word('row'), word('longEdge'), word('remainder'), word('carry'), word('shortEdge'), word('remainder'), word('carry')];
   const body = rows.slice(first, first + 6).map((r) => [`${r.y_px === state.px[1] ? '▸ ' : ''}${r.y_px}`, ...cell(r.long), ...cell(r.short)]);
   const here = rows[Math.max(row, 0)];
@@ -148,7 +148,7 @@ const SCENES = {
     })),
     tools: () => [check(word('snap'), 'snap', () => { if (state.snap) snapAll(); }), check(word('numbers'), 'numbers'), check(word('four'), 'four', setFour)],
     look: (answer) => [...aboutPixel(), make('p', { className: 'quiet' }, `${answer.ties ?? 0} ${word('ties')}`)],
-    breaks: () => ({ families: names.families, who: painters(), defaults: { by: 'games101-strict', family: 'half-integer' } }),
+    breaks: () => ({ families: [...names.families, ...names.offFamilies], who: painters(), defaults: { by: 'games101-strict', family: 'half-integer' } }),
   },
 
   line: {

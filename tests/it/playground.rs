@@ -8,7 +8,16 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use rasterproof::answer::answer;
+use rasterproof::contract::Rasterize as _;
+use rasterproof::frame::Coverage;
+use rasterproof::grid::PixelRect;
+use rasterproof::hazard::{Shape, triangles};
 use rasterproof::page;
+use rasterproof::raster::edge_function::EdgeFunction;
+use rasterproof::raster::edge_function::probe::edges_at;
+use rasterproof::raster::scanline::Scanline;
+use rasterproof::raster::scanline::steps::walked_rows;
+use rasterproof::triangle::{Corners, Span};
 use serde_json::{Value, json};
 
 use crate::page::{Browser, folder};
@@ -52,15 +61,19 @@ fn opened(name: &str) -> Option<(Browser, PathBuf)> {
     Some((Browser::start(&format!("playground-{name}"))?, page))
 }
 
-/// What the page's engines answer, and what those of this program do.
+/// What the page's engines answer, and what those of this program do, as the browser writes both down.
 fn both(browser: &mut Browser, question: &Value) -> (Value, Value) {
     let theirs = browser.eval(&format!("ask({question})"));
-    (theirs, serde_json::from_str(&answer(&question.to_string())).unwrap())
+    let ours = browser.eval(&format!("({})", answer(&question.to_string())));
+    (theirs, ours)
 }
 
-/// Two frames later everything that was asked for is drawn.
+/// Two frames later everything that was asked for is drawn, and soon after it is explained.
 fn settle(browser: &mut Browser) {
-    browser.eval("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))");
+    browser.eval(
+        "new Promise(done => requestAnimationFrame(() => requestAnimationFrame(
+            () => setTimeout(done, 150))))",
+    );
 }
 
 /// Where corner `i` lies on the first panel, in pixels of the tab.
@@ -85,6 +98,50 @@ fn press(browser: &mut Browser, key: &str, code: u32, modifiers: u32) {
         let event = json!({ "type": kind, "key": key, "code": key,
             "windowsVirtualKeyCode": code, "modifiers": modifiers });
         browser.call("Input.dispatchKeyEvent", event);
+    }
+}
+
+/// Triangles of every family, with their windows.
+fn hazards(cases: u64) -> impl Iterator<Item = (Corners, PixelRect)> {
+    triangles::FAMILIES.iter().flat_map(move |family| {
+        (0..cases).flat_map(|index| {
+            let case = family.case(7, index);
+            let Shape::Triangles { list, .. } = case.shape else { return Vec::new() };
+            list.iter().map(|triangle| (triangle.corners(), case.window)).collect()
+        })
+    })
+}
+
+/// What is shown is what draws: the columns of the two walks are the ends of the engine's spans.
+#[test]
+fn walked_rows_are_the_engines() {
+    for (corners, window) in hazards(40) {
+        let mut drawn = Vec::new();
+        Scanline.cover(corners, window, |span| drawn.push(span));
+        let spans = walked_rows(corners, window).into_iter().filter_map(|row| {
+            let (a, b) = (row.long.column, row.short.column);
+            let (x0, x1) = (a.min(b).max(window.x0.into()), a.max(b).min(window.x1.into()));
+            let span = Span { y_px: row.y_px, x0_px: x0 as i32, x1_px: x1 as i32 };
+            (x0 < x1).then_some(span)
+        });
+        assert_eq!(spans.collect::<Vec<_>>(), drawn, "{corners:?}");
+    }
+}
+
+/// The rule read off the three values is the engine's decision, at every pixel.
+#[test]
+fn edges_at_a_pixel_decide_as_the_engine() {
+    for (corners, window) in hazards(8) {
+        let mut hits = Coverage::new(window, 0);
+        EdgeFunction.cover(corners, window, |s| hits.hit(s.y_px, s.x0_px, s.x1_px));
+        for (y_px, row) in hits.rows() {
+            for (x_px, hit) in (window.x0..).zip(row) {
+                let inside = edges_at(&corners, x_px, y_px).is_some_and(|edges| {
+                    edges.iter().all(|e| e.value > 0 || e.value == 0 && e.is_top_left)
+                });
+                assert_eq!(inside, *hit == 1, "{corners:?} at {x_px}, {y_px}");
+            }
+        }
     }
 }
 
@@ -135,7 +192,7 @@ fn playground_follows_the_mouse() {
     assert!(sub.iter().all(|v| v.fract() == 0.0) && sub[0] < 10.5 * 256.0, "{sub:?}");
     let question = browser.eval("({ ask: 'draw', picture: picture(), by: state.by })");
     let drawn = browser.eval("last.answer");
-    assert_eq!(drawn, serde_json::from_str::<Value>(&answer(&question.to_string())).unwrap());
+    assert_eq!(both(&mut browser, &question), (drawn.clone(), drawn));
     // The strict rule leaves holes along the diagonal, and the page says why.
     browser.eval("(begin('triangle'), drawAll())");
     settle(&mut browser);
@@ -231,6 +288,8 @@ fn playground_needs_no_mouse() {
     assert_eq!(missed, json!([]), "not reached by Tab; reached {reached:?}");
     browser.eval("shown[0].canvas.focus()");
     let corner = "[handles()[state.chosen].x, handles()[state.chosen].y]";
+    // Tab went through the numbers of the corners, and chose the last one.
+    browser.press("]");
     assert_eq!(browser.eval(corner), json!([2.5, 2.5]));
     press(&mut browser, "ArrowRight", 39, 0);
     press(&mut browser, "ArrowDown", 40, 8);
