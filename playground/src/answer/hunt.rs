@@ -11,7 +11,7 @@ use super::pixels::{Painter, missing_and_extra, truth};
 use crate::grid::PixelRect;
 use crate::hazard::named::{self, Input};
 use crate::hazard::shrink::shrink;
-use crate::hazard::{self, Case, Shape, offgrid};
+use crate::hazard::{self, Case, offgrid};
 use crate::lineup::{ENTRIES, LineEngine, SPECIMENS, Specimen};
 use crate::specimen::catalogue::{RECORDED, RECORDED_SIDE_PX};
 
