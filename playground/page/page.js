@@ -535,7 +535,12 @@ function drawBreak() {
   const { families, who, defaults } = scene().breaks();
   const options = (list) => list.map((entry) => make('option', { value: entry.name, title: entry.about }, entry.name));
   const named = make('select', { id: 'named' }, make('option', { value: '' }, word('choose')), ...options([...names.named, ...names.recorded]));
-  named.addEventListener('change', () => named.value && load(ask({ ask: 'named', name: named.value }), { named: named.value }));
+  named.addEventListener('change', () => {
+    if (!named.value) return;
+    const found = ask({ ask: 'named', name: named.value });
+    load(found, { named: named.value });
+    $('hunt').textContent = found.about ?? '';
+  });
   const by = make('select', { id: 'who' }, ...who.map(([value, label]) => make('option', { value }, label)));
   by.value = defaults.by;
   const family = make('select', { id: 'family' }, ...options(families));
@@ -643,6 +648,7 @@ function address() {
   if (state.by) words.set('by', state.by.join(','));
   if (state.px) words.set('px', state.px.join(','));
   if (state.snap === false) words.set('snap', '0');
+  if (state.numbers) words.set('numbers', '1');
   for (const key of scene().keeps ?? []) words.set(key, typeof state[key] === 'object' ? JSON.stringify(state[key]) : state[key]);
   if (state.lang !== 'en') words.set('lang', state.lang);
   return `#${words.toString().replaceAll('%2C', ',').replaceAll('%3B', ';')}`;
@@ -683,6 +689,7 @@ function restore(hash) {
   const px = words.get('px') && numbers(words.get('px'));
   if (px?.length === 2 && good(px)) state.px = px;
   if (words.get('snap') === '0') state.snap = false;
+  state.numbers = words.get('numbers') === '1';
   for (const key of scene().keeps ?? []) {
     const text = words.get(key);
     if (text === null) continue;
