@@ -523,6 +523,7 @@ function load(found, from) {
   Object.assign(state, from, { chosen: 0, px: middle(drawn.window), step: 999 });
   const box = document.querySelector('[data-state="snap"]');
   if (box) box.checked = state.snap;
+  pointAtWrong(state.by?.at(-1));
   redraw();
 }
 
