@@ -68,6 +68,8 @@ pub use rasterproof_engines::{
 pub use rasterproof_judges::{convention, invariant, judge, report};
 #[doc(hidden)]
 pub use rasterproof_measures::cost;
+#[doc(hidden)]
+pub use rasterproof_playground::{answer, page};
 
 /// The samples in the pages under `docs/` are tests.
 #[cfg(doctest)]

@@ -47,6 +47,7 @@ function make(tag, properties = {}, ...children) {
 }
 
 function begin(scene, from = {}) {
+  clearInterval(state.playing);
   for (const key of Object.keys(state)) if (key !== 'lang') delete state[key];
   Object.assign(state, { scene, snap: true, four: false, numbers: false, chosen: 0, moves: 'corner', step: 0 });
   Object.assign(state, structuredClone(SCENES[scene].start), from);
@@ -111,8 +112,26 @@ function drawFrame() {
     last.answer = answer;
     const panels = scene().panels(answer);
     while (shown.length > panels.length) shown.pop().figure.remove();
+    $('panels').dataset.count = panels.length;
+    panels.forEach((_, i) => { shown[i] ??= newPanel(i); });
+    // Read before anything is written, so that the page is laid out once.
+    for (const panel of shown) panel.width = panel.canvas.clientWidth;
     panels.forEach((panel, i) => drawPanel(panel, i, answer));
   }
+  explain(answer);
+  drawCorners();
+  $('command').textContent = command();
+  $('same').hidden = command() === '';
+}
+
+/** What is said beside the panels. Tables take longer than pixels, so they follow a drag ten times a second. */
+let explained = 0;
+let explaining = 0;
+function explain(answer) {
+  clearTimeout(explaining);
+  const wait = explained + 100 - performance.now();
+  if (wait > 0) { explaining = setTimeout(() => explain(last.answer), wait); return; }
+  explained = performance.now();
   last.look = null;
   if (state.px && state.triangles && !scene().handles) {
     if (state.snap) {
@@ -120,10 +139,9 @@ function drawFrame() {
       last.look = look.error ? null : look;
     }
   }
-  fill($('look'), scene().look ? scene().look(answer) : []);
-  drawCorners();
-  $('command').textContent = command();
-  $('same').hidden = command() === '';
+  fill($('look'), scene().look && !answer.error ? scene().look(answer) : []);
+  const said = [...$('look').querySelectorAll('h2, .say')].map((element) => element.textContent).join('. ');
+  if ($('announce').textContent !== said) $('announce').textContent = said;
 }
 
 function trouble(text) {
@@ -131,8 +149,11 @@ function trouble(text) {
   $('trouble').textContent = text ?? '';
 }
 
+/** New contents; what had the focus and is there again keeps it. */
 function fill(element, children) {
+  const focused = element.contains(document.activeElement) ? document.activeElement.id : '';
   element.replaceChildren(...children.filter(Boolean));
+  if (focused) $(focused)?.focus();
 }
 
 // --- Panels --------------------------------------------------------------------------------------
@@ -156,7 +177,6 @@ function newPanel(i) {
 
 /** A panel is {title | select, says, bad, pixel(i, x, y), outlines, over}. */
 function drawPanel(panel, i, answer) {
-  shown[i] ??= newPanel(i);
   const { caption, canvas } = shown[i];
   const key = JSON.stringify([panel.title, panel.select, state.lang]);
   if (shown[i].said !== key) {
@@ -165,12 +185,15 @@ function drawPanel(panel, i, answer) {
     caption.replaceChildren(head, make('output'));
   }
   const output = caption.lastChild;
-  output.textContent = panel.says ?? '';
-  output.className = panel.bad === undefined ? '' : panel.bad ? 'bad' : 'good';
-  canvas.setAttribute('aria-label', `${panel.title ?? panel.select}: ${panel.says ?? ''}`);
+  const says = panel.says ?? '';
+  if (output.textContent !== says) {
+    output.textContent = says;
+    output.className = panel.bad === undefined ? '' : panel.bad ? 'bad' : 'good';
+    canvas.setAttribute('aria-label', `${panel.title ?? panel.select}: ${says}`);
+  }
   const [x0, y0, x1, y1] = state.window;
   const ratio = devicePixelRatio || 1;
-  const wide = Math.max(1, Math.round(canvas.clientWidth * ratio));
+  const wide = Math.max(1, Math.round(shown[i].width * ratio));
   const high = Math.round((wide * (y1 - y0)) / (x1 - x0));
   if (canvas.width !== wide || canvas.height !== high) Object.assign(canvas, { width: wide, height: high });
   const unit = wide / (x1 - x0);
@@ -194,32 +217,52 @@ function chooser(i, name) {
   return select;
 }
 
+/** A colour as the 32 bits of a picture, by the browser's own reading of it. */
+const bits = new Map();
+const reader = make('canvas', { width: 1, height: 1 }).getContext('2d', { willReadFrequently: true });
+function bitsOf(colour) {
+  let found = bits.get(colour);
+  if (found === undefined) {
+    if (bits.size > 50000) bits.clear();
+    reader.fillStyle = colour;
+    reader.fillRect(0, 0, 1, 1);
+    found = new Uint32Array(reader.getImageData(0, 0, 1, 1).data.buffer)[0];
+    bits.set(colour, found);
+  }
+  return found;
+}
+
+/** All pixels as one small picture, enlarged: a rectangle for each of them took most of a frame. */
+const small = make('canvas').getContext('2d');
 function drawPixels(g, view, panel) {
   const [x0, y0, x1, y1] = state.window;
-  const width = x1 - x0;
-  const glyph = Math.floor(view.unit * 0.6);
-  g.font = `600 ${glyph}px ui-monospace, Consolas, monospace`;
+  const [width, height] = [x1 - x0, y1 - y0];
+  const image = new ImageData(width, height);
+  const data = new Uint32Array(image.data.buffer);
+  const signs = [];
+  for (let i = 0; i < data.length; i += 1) {
+    const [x, y] = [x0 + (i % width), y0 + Math.floor(i / width)];
+    const pixel = panel.pixel?.(i, x, y);
+    if (!pixel) continue;
+    data[i] = bitsOf(pixel.colour);
+    if (pixel.ring || (pixel.glyph && view.unit > 7)) signs.push([x, y, pixel]);
+  }
+  Object.assign(small.canvas, { width, height });
+  small.putImageData(image, 0, 0);
+  g.imageSmoothingEnabled = false;
+  g.drawImage(small.canvas, 0, 0, width * view.unit, height * view.unit);
+  g.font = `600 ${Math.floor(view.unit * 0.6)}px ui-monospace, Consolas, monospace`;
   g.textAlign = 'center';
   g.textBaseline = 'middle';
-  for (let y = y0; y < y1; y += 1) {
-    for (let x = x0; x < x1; x += 1) {
-      const pixel = panel.pixel?.((y - y0) * width + (x - x0), x, y);
-      if (!pixel) continue;
-      const left = Math.floor(view.x(x));
-      const top = Math.floor(view.y(y));
-      g.fillStyle = pixel.colour;
-      g.fillRect(left, top, Math.floor(view.x(x + 1)) - left, Math.floor(view.y(y + 1)) - top);
-      if (pixel.glyph && view.unit > 7) {
-        g.fillStyle = colours.glyph;
-        g.fillText(pixel.glyph, view.x(x + 0.5), view.y(y + 0.5));
-      }
-      if (pixel.ring) {
-        g.strokeStyle = colours.cursor;
-        g.lineWidth = Math.max(1, view.ratio);
-        g.beginPath();
-        g.arc(view.x(x + 0.5), view.y(y + 0.5), view.unit * 0.36, 0, 7);
-        g.stroke();
-      }
+  g.strokeStyle = colours.cursor;
+  g.fillStyle = colours.glyph;
+  g.lineWidth = Math.max(1, view.ratio);
+  for (const [x, y, { glyph, ring }] of signs) {
+    if (glyph) g.fillText(glyph, view.x(x + 0.5), view.y(y + 0.5));
+    if (ring) {
+      g.beginPath();
+      g.arc(view.x(x + 0.5), view.y(y + 0.5), view.unit * 0.36, 0, 7);
+      g.stroke();
     }
   }
 }
@@ -480,6 +523,7 @@ function load(found, from) {
   Object.assign(state, from, { chosen: 0, px: middle(drawn.window), step: 999 });
   const box = document.querySelector('[data-state="snap"]');
   if (box) box.checked = state.snap;
+  pointAtWrong(state.by?.at(-1));
   redraw();
 }
 
@@ -492,7 +536,12 @@ function drawBreak() {
   const { families, who, defaults } = scene().breaks();
   const options = (list) => list.map((entry) => make('option', { value: entry.name, title: entry.about }, entry.name));
   const named = make('select', { id: 'named' }, make('option', { value: '' }, word('choose')), ...options([...names.named, ...names.recorded]));
-  named.addEventListener('change', () => named.value && load(ask({ ask: 'named', name: named.value }), { named: named.value }));
+  named.addEventListener('change', () => {
+    if (!named.value) return;
+    const found = ask({ ask: 'named', name: named.value });
+    load(found, { named: named.value });
+    $('hunt').textContent = found.about ?? '';
+  });
   const by = make('select', { id: 'who' }, ...who.map(([value, label]) => make('option', { value }, label)));
   by.value = defaults.by;
   const family = make('select', { id: 'family' }, ...options(families));
@@ -501,6 +550,7 @@ function drawBreak() {
   const show = (found, index) => {
     load(found, { generated: { family: family.value, seed: 1, index } });
     if (!state.by.includes(by.value)) { state.by[state.by.length - 1] = by.value; redraw(); }
+    pointAtWrong(by.value);
   };
   fill(section, [
     make('h2', { id: 'break-title' }, word('breakIt')),
@@ -519,6 +569,17 @@ function drawBreak() {
       button(word('stop'), () => { hunt = null; }, { id: 'stop' })),
     says,
   ]);
+}
+
+/** Points at the first pixel that somebody gets wrong, so that the column beside explains it. */
+function pointAtWrong(by) {
+  if (!state.triangles) return;
+  const { panels, truth } = ask({ ask: 'draw', picture: picture(), by: [by] });
+  const wrong = [...(panels?.[0]?.hits ?? '')].findIndex((hits, i) => hits !== truth[i]);
+  if (wrong < 0) return;
+  const [x0, y0, x1] = state.window;
+  state.px = [x0 + (wrong % (x1 - x0)), y0 + Math.floor(wrong / (x1 - x0))];
+  redraw();
 }
 
 /** Looks at some cases a frame, so that the page stays alive. */
@@ -559,6 +620,7 @@ function shrink(by, says) {
   const next = () => {
     if (hunt !== mine) return;
     load({ picture: answer.steps[at] }, {});
+    pointAtWrong(by);
     says.textContent = word('shrunk')(at);
     at += 1;
     if (at < answer.steps.length) setTimeout(next, Math.min(250, 3000 / answer.steps.length));
@@ -574,7 +636,10 @@ const FIELDS = ['x', 'y', 'w', 'depth', 'u', 'v'];
 function address() {
   const words = new URLSearchParams({ scene: state.scene });
   if (state.named) words.set('case', state.named);
-  else if (state.generated) words.set('case', `${state.generated.family}#${state.generated.index}`);
+  else if (state.generated) {
+    words.set('case', `${state.generated.family}#${state.generated.index}`);
+    words.set('seed', state.generated.seed);
+  }
   else if (state.lines) words.set('lines', state.lines.map((line) => line.flat().join(',')).join(';'));
   else if (state.triangles) {
     const corner = (c) => FIELDS.map((f) => c[f] ?? (f === 'w' ? 1 : 0)).join(',').replace(/(,0)+$/, '').replace(/^([^,]*)$/, '$1,0');
@@ -584,6 +649,7 @@ function address() {
   if (state.by) words.set('by', state.by.join(','));
   if (state.px) words.set('px', state.px.join(','));
   if (state.snap === false) words.set('snap', '0');
+  if (state.numbers) words.set('numbers', '1');
   for (const key of scene().keeps ?? []) words.set(key, typeof state[key] === 'object' ? JSON.stringify(state[key]) : state[key]);
   if (state.lang !== 'en') words.set('lang', state.lang);
   return `#${words.toString().replaceAll('%2C', ',').replaceAll('%3B', ';')}`;
@@ -606,8 +672,9 @@ function restore(hash) {
   const wanted = words.get('case');
   if (wanted) {
     const [family, index] = wanted.split('#');
-    const found = index === undefined ? ask({ ask: 'named', name: wanted }) : ask({ ask: 'generated', family, seed: 1, index: Number(index) });
-    load(found, index === undefined ? { named: wanted } : { generated: { family, seed: 1, index: Number(index) } });
+    const seed = Number(words.get('seed') ?? 1);
+    const found = index === undefined ? ask({ ask: 'named', name: wanted }) : ask({ ask: 'generated', family, seed, index: Number(index) });
+    load(found, index === undefined ? { named: wanted } : { generated: { family, seed, index: Number(index) } });
   }
   const good = (list) => list.every((n) => Number.isFinite(n));
   const lines = words.get('lines')?.split(';').map(numbers);
@@ -623,6 +690,7 @@ function restore(hash) {
   const px = words.get('px') && numbers(words.get('px'));
   if (px?.length === 2 && good(px)) state.px = px;
   if (words.get('snap') === '0') state.snap = false;
+  state.numbers = words.get('numbers') === '1';
   for (const key of scene().keeps ?? []) {
     const text = words.get(key);
     if (text === null) continue;
@@ -667,6 +735,8 @@ function drawAll() {
   $('panels').replaceChildren();
   shown = [];
   cornersFor = '';
+  clearTimeout(explaining);
+  explained = 0;
   hunt = null;
   drawTools();
   drawBreak();
@@ -687,6 +757,7 @@ function start() {
   $('reset').addEventListener('click', () => { begin(state.scene); drawAll(); });
   addEventListener('resize', redraw);
   addEventListener('hashchange', () => { restore(location.hash); drawAll(); });
+  document.body.dataset.ready = '';
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => { readColours(); redraw(); });
 }
 

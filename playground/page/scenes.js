@@ -88,7 +88,8 @@ function aboutPixel() {
   for (const triangle of listed.slice(0, 4)) {
     if (!triangle.edges) { parts.push(make('p', {}, `${word('ofTriangle')} ${triangle.i + 1}: ${word('degenerate')}`)); continue; }
     parts.push(make('p', {}, make('strong', {}, `${word('ofTriangle')} ${triangle.i + 1}`)),
-      table([word('edge'), word('value'), '', ''], edgesNamed(triangle)), table([word('rule'), word('belongs')], rulesOf(triangle)));
+      table([word('edge'), word('value'), '', word('ifOn')], edgesNamed(triangle)),
+      make('p', { className: 'quiet' }, `${word('belongs')}: ${rulesOf(triangle).map((rule) => rule.join(': ')).join('; ')}`));
   }
   const walked = listed.find((t) => t.rows.length);
   if (walked) parts.push(walkOf(walked));
@@ -107,12 +108,15 @@ function walkOf(triangle) {
   const { rows } = triangle;
   const row = rows.findIndex((r) => r.y_px === state.px[1]);
   const first = Math.max(0, Math.min(row < 0 ? 0 : row - 3, rows.length - 5));
-  const cell = (step) => [String(step.column), `${step.remainder} / ${step.dy}`, `${step.step_whole} + ${step.step_part}/${step.dy}`, step.carries ? '+1' : ''];
-  const head = [word('row'), word('longEdge'), word('remainder'), '+', word('carry'), word('shortEdge'), word('remainder'), '+', word('carry')];
+  const cell = (step) => [String(step.column), String(step.remainder), step.carries ? '+1' : ''];
+  const head = [word('row'), word('longEdge'), word('remainder'), word('carry'), word('shortEdge'), word('remainder'), word('carry')];
   const body = rows.slice(first, first + 6).map((r) => [`${r.y_px === state.px[1] ? '▸ ' : ''}${r.y_px}`, ...cell(r.long), ...cell(r.short)]);
+  const here = rows[Math.max(row, 0)];
+  const step = (name, walk) => `${word(name)}: + ${walk.step_whole}, − ${walk.step_part} / ${walk.dy}`;
+  const steps = `${word('eachRow')} ${step('longEdge', here.long)}; ${step('shortEdge', here.short)}`;
   return make('details', { open: state.walk !== false, ontoggle: (event) => { state.walk = event.target.open; } },
     make('summary', {}, word('walk')),
-    button(word(state.playing ? 'pause' : 'play'), playRows, { id: 'play' }), table(head, body), make('p', { className: 'quiet' }, word('walkNote')));
+    button(word(state.playing ? 'pause' : 'play'), playRows, { id: 'play' }), table(head, body), make('p', {}, steps), make('p', { className: 'quiet' }, word('walkNote')));
 }
 
 function playRows() {
@@ -144,7 +148,7 @@ const SCENES = {
     })),
     tools: () => [check(word('snap'), 'snap', () => { if (state.snap) snapAll(); }), check(word('numbers'), 'numbers'), check(word('four'), 'four', setFour)],
     look: (answer) => [...aboutPixel(), make('p', { className: 'quiet' }, `${answer.ties ?? 0} ${word('ties')}`)],
-    breaks: () => ({ families: names.families, who: painters(), defaults: { by: 'games101-strict', family: 'half-integer' } }),
+    breaks: () => ({ families: [...names.families, ...names.offFamilies], who: painters(), defaults: { by: 'games101-strict', family: 'half-integer' } }),
   },
 
   line: {
@@ -229,10 +233,11 @@ const SCENES = {
   perspective: {
     start: {
       window: [0, 0, 32, 32], by: ['edge-function', 'book-affine'],
-      triangles: [[at(3, 28, { w: 1 }), at(3, 4, { w: 4, v: 1 }), at(29, 4, { w: 4, u: 1, v: 1 })], [at(3, 28, { w: 1 }), at(29, 4, { w: 4, u: 1, v: 1 }), at(29, 28, { w: 1, u: 1 })]],
+      triangles: [[at(2, 29, { w: 1 }), at(12, 4, { w: 4, v: 1 }), at(20, 4, { w: 4, u: 1, v: 1 })], [at(2, 29, { w: 1 }), at(20, 4, { w: 4, u: 1, v: 1 }), at(30, 29, { w: 1, u: 1 })]],
     },
     choices: () => ['edge-function', 'scanline', 'oracle', 'book-affine', 'book-ch11', 'games101-strict', 'games101-depth'].map((name) => [name, name]),
     fields: [field('w', 0.25, 0.01)],
+    tools: () => sliders('w', [0.25, 8, 0.25]),
     ask: () => ask({ ask: 'values', picture: picture(), by: state.by }),
     panels: (answer) => answer.panels.map((panel) => ({
       select: panel.name,
@@ -241,39 +246,39 @@ const SCENES = {
       pixel: (i) => {
         const value = panel.values?.[i];
         if (!value) return null;
-        const dark = (Math.floor(value[1] * 8) + Math.floor(value[2] * 8)) % 2 !== 0;
+        const dark = (Math.floor(value[1] * 4) + Math.floor(value[2] * 4)) % 2 !== 0;
         return { colour: dark ? colours.agrees : colours.extra };
       },
     })),
     look: () => {
       const [a, b] = state.triangles[0];
       const answer = ask({ ask: 'along', w: [a.w, b.w], steps: 64 });
-      return [make('h2', {}, word('tPlot')), plot(answer.pairs ?? []), make('p', { className: 'quiet' }, `w = ${a.w}, ${b.w}`), ...sliders('w', [0.25, 8, 0.25])];
+      return [make('h2', {}, word('tPlot')), plot(answer.pairs ?? []), make('p', { className: 'quiet' }, `w = ${a.w}, ${b.w}`)];
     },
   },
 
   depth: {
     start: {
-      window: [0, 0, 28, 28],
+      window: [0, 0, 28, 28], px: [14, 12],
       triangles: [
-        [at(3, 5, { depth: 0.2 }), at(25, 8, { depth: 0.8 }), at(5, 14, { depth: 0.2 })],
-        [at(22, 3, { depth: 0.2 }), at(24, 25, { depth: 0.8 }), at(14, 4, { depth: 0.2 })],
-        [at(26, 22, { depth: 0.2 }), at(3, 24, { depth: 0.8 }), at(24, 14, { depth: 0.2 })],
+        [at(2, 4, { depth: 0.2 }), at(26, 10, { depth: 0.8 }), at(2, 20, { depth: 0.2 })],
+        [at(26, 5, { depth: 0.2 }), at(2, 14, { depth: 0.8 }), at(26, 23, { depth: 0.2 })],
       ],
     },
     fields: [field('depth', 0, 0.05)],
+    tools: () => sliders('depth', [0, 1, 0.05]),
     ask: () => ask({ ask: 'depth', picture: picture(), by: ['scanline'] }),
     panels: (answer) => ['nearest', 'last'].map((way) => {
       const [drawn] = answer.panels;
       const wrong = [...(drawn.nearest ?? '')].filter((letter, i) => letter !== drawn.last[i]).length;
       return {
-        title: word(way), says: way === 'last' ? `${wrong} ${word('extra')}` : '', bad: way === 'last' ? wrong > 0 : undefined,
+        title: word(way), says: way === 'last' ? `${wrong} ${word('wrong')}` : '', bad: way === 'last' ? wrong > 0 : undefined,
         pixel: (i) => (drawn[way]?.[i] === '.' ? null : { colour: colours[drawn[way]?.[i]] ?? colours.agrees }),
       };
     }),
     look: () => {
       const rows = (last.look?.triangles ?? []).map((t, i) => [String(i + 1), t.covered ? round(t.values[0].values[0], 6) : '–']);
-      return [make('h2', {}, `${word('pixel')} ${state.px?.join(', ') ?? ''}`), table([word('ofTriangle'), word('depth')], rows), ...sliders('depth', [0, 1, 0.05])];
+      return [make('h2', {}, `${word('pixel')} ${state.px?.join(', ') ?? ''}`), table([word('ofTriangle'), word('depth')], rows)];
     },
   },
 
@@ -292,7 +297,7 @@ const SCENES = {
       outlines: panel.outline ? [panel.outline] : [],
       pixel: (i) => (panel.hits?.[i] > 0 ? { colour: colours.agrees } : null),
     })),
-    look: () => [
+    tools: () => [
       slide(word('nearPlane'), state.near, [0.1, 4, 0.1], (value) => { state.near = value; }),
       ...state.points.map((p, i) => slide(`w ${corner(i)}`, p[2], [-2, 4, 0.1], (value) => { p[2] = value; })),
     ],
@@ -342,21 +347,9 @@ function setField(handle, key, value) {
   for (const member of handle.members) member[key] = value;
 }
 
-/** A slider for a value of each corner; found again at every frame, built anew only when needed. */
-function sliders(key, range) {
-  return handles().map((handle, i) => {
-    const same = $('look').querySelector(`[data-slider="${key}${i}"]`);
-    const value = handle.members[0][key];
-    if (same) {
-      same.querySelector('output').textContent = value;
-      if (document.activeElement !== same.querySelector('input')) same.querySelector('input').value = value;
-      return same;
-    }
-    const made = slide(`${key} ${corner(i)}`, value, range, (next) => setField(handles()[i], key, next));
-    made.dataset.slider = `${key}${i}`;
-    return made;
-  });
-}
+/** A slider for a value of each corner. */
+const sliders = (key, range) => handles().map((handle, i) => (
+  slide(`${key} ${corner(i)}`, handle.members[0][key], range, (next) => setField(handles()[i], key, next))));
 
 function snapAll() {
   for (const c of state.triangles.flat()) Object.assign(c, { x: Math.round(c.x * SUB) / SUB, y: Math.round(c.y * SUB) / SUB });

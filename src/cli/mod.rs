@@ -15,6 +15,7 @@ mod league;
 mod misbehave;
 mod page;
 mod plan;
+mod playground;
 mod progress;
 mod quiz;
 mod render;
@@ -60,6 +61,7 @@ const EXAMPLES: &str = "Examples:
   rasterproof exhaust triangles                   every triangle of a small window, certified
   rasterproof review                              changed snapshots, old beside new
   rasterproof cost --quick                        what each step of accuracy costs in time
+  rasterproof playground                          drag a corner in the browser, watch every engine
   rasterproof quiz 2                              exercises of a chapter, answered and explained
   rasterproof list                                families, cases, engines, faults, invariants
 
@@ -117,6 +119,9 @@ enum Command {
     /// Hash everything the engines compute for a seed, to compare machines
     #[command(after_help = digest::HELP)]
     Digest(digest::DigestArguments),
+    /// Write the playground: a page to drag corners on, with these engines inside
+    #[command(after_help = playground::HELP)]
+    Playground(playground::PlaygroundArguments),
     /// Ask the exercises of the pages, and explain each answer with its pixel grid
     Quiz(quiz::QuizArguments),
     /// List families, named cases, engines, planted faults and invariants
@@ -207,6 +212,7 @@ pub fn run(words: impl IntoIterator<Item = String>, streams: &mut Streams<'_>) -
         Some(Command::Review(arguments)) => review::run(arguments, streams),
         Some(Command::Cost(arguments)) => cost::run(arguments, streams),
         Some(Command::Digest(arguments)) => digest::run(arguments, streams),
+        Some(Command::Playground(arguments)) => playground::run(arguments, streams),
         Some(Command::Quiz(arguments)) => quiz::run(arguments, streams),
         Some(Command::List) => list(streams),
     };

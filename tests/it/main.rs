@@ -21,6 +21,7 @@ mod models;
 mod mutants;
 mod page;
 mod pages;
+mod playground;
 mod proof;
 mod properties;
 mod protocol;

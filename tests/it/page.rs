@@ -24,19 +24,20 @@ use crate::snapshots::ELSEWHERE;
 const PATIENCE: Duration = Duration::from_secs(30);
 
 /// A browser with one tab; ends with the value.
-struct Browser {
+pub struct Browser {
     child: Child,
     requests: ChildStdin,
     answers: Receiver<Value>,
     session: Value,
     last: u64,
-    complaints: Vec<String>,
+    /// What the pages complained about so far.
+    pub complaints: Vec<String>,
     folder: PathBuf,
 }
 
 impl Browser {
     /// Starts Chromium, or nothing where there is none and none is demanded.
-    fn start(name: &str) -> Option<Self> {
+    pub fn start(name: &str) -> Option<Self> {
         let names = ["chromium", "chromium-browser", "google-chrome"];
         let is_there = |name: &&str| {
             let version = Command::new(name).arg("--version").stderr(Stdio::null()).output();
@@ -84,7 +85,7 @@ impl Browser {
         Some(browser)
     }
 
-    fn call(&mut self, method: &str, parameters: Value) -> Value {
+    pub fn call(&mut self, method: &str, parameters: Value) -> Value {
         self.last += 1;
         let mut request = json!({ "id": self.last, "method": method, "params": parameters });
         if !self.session.is_null() {
@@ -118,7 +119,7 @@ impl Browser {
     }
 
     /// The value of an expression; a promise is waited for.
-    fn eval(&mut self, expression: &str) -> Value {
+    pub fn eval(&mut self, expression: &str) -> Value {
         let parameters =
             json!({ "expression": expression, "awaitPromise": true, "returnByValue": true });
         let answer = self.call("Runtime.evaluate", parameters);
@@ -126,7 +127,7 @@ impl Browser {
         answer["result"]["value"].clone()
     }
 
-    fn wait_for(&mut self, expression: &str) {
+    pub fn wait_for(&mut self, expression: &str) {
         let start = Instant::now();
         while self.eval(expression) != json!(true) {
             assert!(start.elapsed() < PATIENCE, "never true: {expression}");
@@ -135,7 +136,7 @@ impl Browser {
     }
 
     /// Opens a file, with a fragment such as `#case-T2`, and waits until its case is drawn.
-    fn open(&mut self, page: &Path, fragment: &str) {
+    pub fn open(&mut self, page: &Path, fragment: &str) {
         self.call("Page.navigate", json!({ "url": "about:blank" }));
         let url = format!("file://{}{fragment}", page.display());
         self.call("Page.navigate", json!({ "url": url }));
@@ -145,19 +146,19 @@ impl Browser {
         );
     }
 
-    fn resize(&mut self, width: u32, height: u32) {
+    pub fn resize(&mut self, width: u32, height: u32) {
         let screen =
             json!({ "width": width, "height": height, "deviceScaleFactor": 1, "mobile": false });
         self.call("Emulation.setDeviceMetricsOverride", screen);
     }
 
-    fn prefer(&mut self, feature: &str, value: &str) {
+    pub fn prefer(&mut self, feature: &str, value: &str) {
         let features = json!({ "features": [{ "name": feature, "value": value }] });
         self.call("Emulation.setEmulatedMedia", features);
     }
 
     /// Presses a key, as the keyboard would.
-    fn press(&mut self, key: &str) {
+    pub fn press(&mut self, key: &str) {
         let text = if key.len() == 1 { key } else { "" };
         for kind in ["keyDown", "keyUp"] {
             let event = json!({ "type": kind, "key": key, "text": text });
@@ -166,7 +167,7 @@ impl Browser {
     }
 
     /// The text of the element that a selector finds.
-    fn text(&mut self, selector: &str) -> String {
+    pub fn text(&mut self, selector: &str) -> String {
         let found = self.eval(&format!("document.querySelector({selector:?}).textContent"));
         found.as_str().unwrap().to_owned()
     }
@@ -206,7 +207,7 @@ impl Drop for Browser {
 }
 
 /// A folder of this test's own.
-fn folder(name: &str) -> PathBuf {
+pub fn folder(name: &str) -> PathBuf {
     let folder = std::env::temp_dir().join(format!("rasterproof-{name}-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
     folder

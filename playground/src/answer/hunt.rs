@@ -11,7 +11,7 @@ use super::pixels::{Painter, missing_and_extra, truth};
 use crate::grid::PixelRect;
 use crate::hazard::named::{self, Input};
 use crate::hazard::shrink::shrink;
-use crate::hazard::{self, Case, Shape, offgrid};
+use crate::hazard::{self, Case, offgrid};
 use crate::lineup::{ENTRIES, LineEngine, SPECIMENS, Specimen};
 use crate::specimen::catalogue::{RECORDED, RECORDED_SIDE_PX};
 
@@ -109,22 +109,31 @@ pub(super) struct Search {
 
 impl Search {
     pub fn answer(&self) -> Result<Value, String> {
-        let family = hazard::families().find(|family| family.name == self.family);
-        let family = family.ok_or_else(|| format!("no family is called '{}'", self.family))?;
-        let is_line = matches!(family.case(self.seed, 0).shape, Shape::Lines(_));
-        if is_line {
-            Pen::find(&self.by)?;
+        let picture = self.cases()?;
+        if picture(0).lines().is_empty() {
+            Painter::find(&self.by, picture(0).snap)?;
         } else {
-            Painter::find(&self.by, true)?;
+            Pen::find(&self.by)?;
         }
         let end = self.from.saturating_add(self.count.min(100_000));
         for index in self.from..end {
-            let picture = Picture::from(&family.case(self.seed, index));
+            let picture = picture(index);
             if is_caught(&self.by, &picture) {
                 return Ok(json!({ "found": index, "next": index + 1, "picture": picture }));
             }
         }
         Ok(json!({ "found": null, "next": end }))
+    }
+
+    /// The cases of the family by their numbers, on the lattice or off it.
+    fn cases(&self) -> Result<Box<dyn Fn(u64) -> Picture>, String> {
+        let seed = self.seed;
+        if let Some(family) = offgrid::FAMILIES.iter().find(|f| f.name == self.family) {
+            return Ok(Box::new(move |index| Picture::from(&family.case(seed, index))));
+        }
+        let family = hazard::families().find(|family| family.name == self.family);
+        let family = family.ok_or_else(|| format!("no family is called '{}'", self.family))?;
+        Ok(Box::new(move |index| Picture::from(&family.case(seed, index))))
     }
 }
 

@@ -16,7 +16,7 @@ use crate::triangle::{
 /// The longest side of a window in pixels: more cannot be seen, and takes longer than a frame.
 const MOST_SIDE_PX: i64 = 128;
 /// The most triangles or lines of one picture.
-const MOST_SHAPES: usize = 64;
+const MOST_SHAPES: usize = 4096;
 
 /// A corner: a position in pixels and what it carries.
 #[derive(Clone, Copy, Serialize, Deserialize)]

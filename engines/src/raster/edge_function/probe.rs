@@ -38,38 +38,12 @@ pub fn edges_at(corners: &Corners, x_px: i32, y_px: i32) -> Option<[EdgeAt; 3]> 
 
 #[cfg(test)]
 mod tests {
-    use super::super::EdgeFunction;
     use super::*;
-    use crate::contract::Rasterize;
-    use crate::frame::Coverage;
-    use crate::hazard::{Shape, triangles};
-
-    /// The rule read off the three values is the engine's decision, at every pixel.
-    #[test]
-    fn edges_at_a_pixel_decide_as_the_engine() {
-        for family in triangles::FAMILIES {
-            for index in 0..8 {
-                let case = family.case(11, index);
-                let Shape::Triangles { list, .. } = &case.shape else { continue };
-                let corners = list[0].corners();
-                let mut hits = Coverage::new(case.window, 0);
-                EdgeFunction.cover(corners, case.window, |s| hits.hit(s.y_px, s.x0_px, s.x1_px));
-                for (y_px, row) in hits.rows() {
-                    for (x_px, hit) in (case.window.x0..).zip(row) {
-                        let inside = edges_at(&corners, x_px, y_px).is_some_and(|edges| {
-                            edges.iter().all(|e| e.value > 0 || e.value == 0 && e.is_top_left)
-                        });
-                        assert_eq!(inside, *hit == 1, "{}#{index} {x_px},{y_px}", family.name);
-                    }
-                }
-            }
-        }
-    }
+    use crate::grid::SubpixelPoint;
 
     /// The edge opposite a corner runs between the two others, in either winding.
     #[test]
     fn edges_lie_opposite_their_corners() {
-        use crate::grid::SubpixelPoint;
         let p = |x, y| SubpixelPoint::new(x * 256, y * 256);
         for corners in [[p(0, 0), p(4, 0), p(0, 4)], [p(0, 0), p(0, 4), p(4, 0)]] {
             let edges = edges_at(&corners, 0, 0).unwrap();

@@ -74,40 +74,12 @@ pub fn walked_rows(mut corners: Corners, bounds: PixelRect) -> Vec<WalkedRow> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Scanline;
     use super::*;
-    use crate::contract::Rasterize;
-    use crate::hazard::{Shape, triangles};
-    use crate::triangle::Span;
-
-    /// What is shown is what draws: the columns of the two walks are the ends of the engine's spans.
-    #[test]
-    fn walked_rows_are_the_engines() {
-        for family in triangles::FAMILIES {
-            for index in 0..40 {
-                let case = family.case(7, index);
-                let Shape::Triangles { list, .. } = &case.shape else { continue };
-                for triangle in list {
-                    let (corners, window) = (triangle.corners(), case.window);
-                    let mut drawn = Vec::new();
-                    Scanline.cover(corners, window, |span| drawn.push(span));
-                    let ends = walked_rows(corners, window).into_iter().filter_map(|row| {
-                        let (a, b) = (row.long.column, row.short.column);
-                        let x0 = a.min(b).max(window.x0.into());
-                        let x1 = a.max(b).min(window.x1.into());
-                        let span = Span { y_px: row.y_px, x0_px: x0 as i32, x1_px: x1 as i32 };
-                        (x0 < x1).then_some(span)
-                    });
-                    assert_eq!(ends.collect::<Vec<_>>(), drawn, "{}#{index}", family.name);
-                }
-            }
-        }
-    }
+    use crate::grid::SubpixelPoint;
 
     /// A carry is announced in the row before the one that shows it.
     #[test]
     fn a_carry_by_hand() {
-        use crate::grid::SubpixelPoint;
         let corners = [(0, 0), (0, 1024), (512, 1024)].map(|(x, y)| SubpixelPoint::new(x, y));
         let rows = walked_rows(corners, PixelRect::window(8, 8));
         // The long edge goes half a column to the right in each row: x = 1/4, 3/4, 5/4, 7/4.

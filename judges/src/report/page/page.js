@@ -1167,6 +1167,13 @@
     $('#case-found').textContent = item.found;
     $('#case-command').hidden = !item.command;
     $('#case-command code').textContent = item.command;
+    // A case with a name or a number is one that the playground knows too.
+    const known = /^rasterproof inspect '?([\w.#-]+)'?(?: --seed (\d+))?$/.exec(item.command ?? '');
+    $('#case-playground').hidden = !known;
+    if (known) {
+      const words = new URLSearchParams({ case: known[1], ...(known[2] && { seed: known[2] }) });
+      $('#case-playground a').href = `playground.html#${words}`;
+    }
     if (MODES.some(([mode]) => mode === settings.mode)) state.mode = settings.mode;
     all('#modes input').forEach((input) => { input.checked = input.value === state.mode; });
     fillPickers();
