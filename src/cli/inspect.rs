@@ -226,7 +226,7 @@ fn off_grid(
                 )?;
                 blocks
                     .push((format!("{name}: {} px", hits.covered()), ascii::grid(&hits, &target)));
-                drawn.push(hits);
+                drawn.push((*name, hits));
             }
             Err(reason) => writeln!(out, "{name}, published: {reason}")?,
         }
@@ -243,13 +243,13 @@ fn off_grid(
         )?;
         if let Ok((hits, _)) = exact_coverage(&engine, case) {
             blocks.push((format!("{name}: {} px", hits.covered()), ascii::grid(&hits, &target)));
-            drawn.push(hits);
+            drawn.push((name, hits));
         }
     }
     let oracle = format!("oracle-exact: {} px", target.covered());
     blocks.push((oracle, ascii::grid(&target, &target)));
     writeln!(out, "\n{}", ascii::side_by_side(&blocks, 100))?;
-    Ok((agrees, picture::panels_off_grid(case, &drawn, &target)))
+    Ok((agrees, picture::panels_off_grid(case, &named(&drawn), ("oracle-exact", &target))))
 }
 
 fn find(arguments: &InspectArguments) -> Result<Found, Failure> {
@@ -481,8 +481,14 @@ fn facts(case: &Case, out: &mut dyn std::io::Write) -> Result<(), Failure> {
 /// A case off the lattice as every engine for such corners draws it.
 pub fn picture_off_grid(case: &OffGridCase, engines: &[(&str, ExactEngine)]) -> Option<RgbImage> {
     let (target, _) = exact_coverage(&ExactEngine::Oracle, case).ok()?;
-    let hits = engines.iter().filter_map(|(_, engine)| Some(exact_coverage(engine, case).ok()?.0));
-    Some(picture::panels_off_grid(case, &hits.collect::<Vec<_>>(), &target))
+    let hits =
+        |(name, engine): &(_, ExactEngine)| Some((*name, exact_coverage(engine, case).ok()?.0));
+    let drawn: Vec<_> = engines.iter().filter_map(hits).collect();
+    Some(picture::panels_off_grid(case, &named(&drawn), ("oracle-exact", &target)))
+}
+
+fn named<'a>(drawn: &'a [(&str, Coverage)]) -> Vec<picture::Named<'a>> {
+    drawn.iter().map(|(name, hits)| (*name, hits)).collect()
 }
 
 /// The hits in a window; none where the other one has no pixels.
@@ -590,8 +596,11 @@ impl Shown {
 
     /// A panel for each engine that did not panic, then the oracle.
     pub fn picture(&self, case: &Case) -> RgbImage {
-        let drawn: Vec<_> =
-            self.engines.iter().filter_map(|(_, hits)| hits.as_ref().ok()).cloned().collect();
-        picture::panels(case, &drawn, &self.target)
+        let drawn: Vec<_> = self
+            .engines
+            .iter()
+            .filter_map(|(name, hits)| Some((name.as_str(), hits.as_ref().ok()?)))
+            .collect();
+        picture::panels(case, &drawn, ("oracle", &self.target))
     }
 }

@@ -25,8 +25,9 @@ use rasterproof::verify::{
     tolerance,
 };
 
-/// Largest picture that is kept.
+/// Largest picture of a named case that is kept, and of anything else.
 const MOST_BYTES: usize = 20 * 1024;
+const MOST_BYTES_OF_SCENES: usize = 320 * 1024;
 
 /// Names another folder for the snapshots: the test of the review has one that it spoils.
 pub const ELSEWHERE: &str = "RASTERPROOF_SNAPSHOTS";
@@ -128,8 +129,8 @@ fn snapshots_of_named_cases() {
                     insta::assert_snapshot!(format!("{}-text", named.name), text(&named, case))
                 });
                 let (engines, target) = judged(case);
-                let hits: Vec<_> = engines.into_iter().map(|(_, hits)| hits).collect();
-                let png = picture::png(&picture::panels(case, &hits, &target));
+                let hits: Vec<_> = engines.iter().map(|(name, hits)| (*name, hits)).collect();
+                let png = picture::png(&picture::panels(case, &hits, ("oracle", &target)));
                 if case.window.width() <= 64 && case.window.height() <= 80 {
                     assert!(png.len() <= MOST_BYTES, "{}: {} bytes", named.name, png.len());
                     let mut settings = settings();
@@ -240,7 +241,7 @@ fn pictures_are_compared_by_pixels() {
 /// Keeps a picture of the docs as a snapshot.
 pub fn check_picture(name: &str, image: &RgbImage) {
     let png = picture::png(image);
-    assert!(png.len() <= MOST_BYTES, "{name}: {} bytes", png.len());
+    assert!(png.len() <= MOST_BYTES_OF_SCENES, "{name}: {} bytes", png.len());
     let mut settings = settings();
     settings.set_comparator(Box::new(ByPixels(name.to_owned())));
     settings.bind(|| insta::assert_binary_snapshot!(&format!("{name}.png"), png));
@@ -351,7 +352,8 @@ fn picture_of_a_verdict() {
     assert!(wrong[0].missing > 0 && wrong[0].extra + wrong[0].twice == 0, "{wrong:?}");
     assert!(wrong[1].twice > 0 && wrong[1].missing == 0, "{wrong:?}");
     assert_eq!((wrong[2].total(), wrong[3].total()), (0, 0));
-    check_picture("verdict", &picture::panels(&case, &hits, &target));
+    let named: Vec<_> = engines.iter().map(Engine::name).zip(&hits).collect();
+    check_picture("verdict", &picture::panels(&case, &named, ("oracle", &target)));
 }
 
 /// For docs/stability.md: in each family the first case that the naive version gets visibly wrong,
@@ -398,5 +400,6 @@ fn naive(family: &str, mutant: &str, draw: impl Fn(&Case) -> (Coverage, Coverage
         .unwrap();
     let (hits, target) = draw(&worst);
     assert!(Tally::between(&hits, &target).total() > 0, "{mutant} is right about {}", family.name);
-    check_picture(&format!("naive-{}", family.name), &picture::panels(&worst, &[hits], &target));
+    let picture = picture::panels(&worst, &[(mutant, &hits)], ("oracle", &target));
+    check_picture(&format!("naive-{}", family.name), &picture);
 }

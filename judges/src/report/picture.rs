@@ -2,13 +2,14 @@
 //!
 //! Grey agrees, red is missing, orange is extra, violet is hit twice, green is hit more than once
 //! and rightly so. A dark dot is a sample; a blue line is an edge. Panels stand side by side, one
-//! for each engine judged by the target, the target itself last.
+//! for each engine judged by the target, the target itself last; over each stands its name.
 
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 
 use image::{Rgb, RgbImage};
 
+use super::lettering;
 use crate::contract::DrawLine;
 use crate::frame::{Coverage, Frame};
 use crate::grid::{PixelRect, SUBPIXELS};
@@ -30,26 +31,31 @@ pub(super) const TWICE: Rgb<u8> = Rgb([150, 70, 190]);
 
 /// Sides of pictures stay below this.
 const MOST_PX: u32 = 1600;
+/// Height of the strip over the panels that holds their names.
+const HEAD: u32 = 2 * lettering::CELL;
+
+/// A coverage under the name that stands over its panel.
+pub type Named<'a> = (&'a str, &'a Coverage);
 
 /// Draws a panel for each coverage judged by `target`, then the target judged by itself.
 ///
 /// All coverages show the case's window.
 #[must_use]
-pub fn panels(case: &Case, actual: &[Coverage], target: &Coverage) -> RgbImage {
+pub fn panels(case: &Case, actual: &[Named<'_>], target: Named<'_>) -> RgbImage {
     draw_panels(case.window, actual, target, |zoom| segments(case, zoom))
 }
 
 /// The same of a case off the lattice.
 #[must_use]
-pub fn panels_off_grid(case: &OffGridCase, actual: &[Coverage], target: &Coverage) -> RgbImage {
+pub fn panels_off_grid(case: &OffGridCase, actual: &[Named<'_>], target: Named<'_>) -> RgbImage {
     draw_panels(case.window, actual, target, |zoom| free_segments(case, zoom))
 }
 
 /// Segments are asked for in picture pixels of a panel, once the zoom is known.
 fn draw_panels(
     window: PixelRect,
-    actual: &[Coverage],
-    target: &Coverage,
+    actual: &[Named<'_>],
+    target: Named<'_>,
     segments: impl Fn(u32) -> Vec<[PixelPoint; 2]>,
 ) -> RgbImage {
     let count = actual.len() as u32 + 1;
@@ -57,13 +63,18 @@ fn draw_panels(
     let (panel_width, panel_height) = (window.width() * zoom + 1, window.height() * zoom + 1);
     let gap = zoom.max(4);
     let width = panel_width * count + gap * (count - 1);
-    let mut image = RgbImage::from_pixel(width, panel_height, Rgb([255, 255, 255]));
+    let white = Rgb([255, 255, 255]);
+    let mut image = RgbImage::from_pixel(width, HEAD + panel_height, white);
     let panel = PixelRect::window(panel_width, panel_height);
-    for (i, coverage) in actual.iter().chain([target]).enumerate() {
+    for (i, (name, coverage)) in actual.iter().chain([&target]).enumerate() {
         let left = i as u32 * (panel_width + gap);
-        squares(&mut image, left, zoom, coverage, target);
+        // A name that is wider than its panel is cut off there.
+        let mut head = RgbImage::from_pixel(panel_width, HEAD, white);
+        lettering::write(&mut head, (0, i64::from(HEAD / 4)), name, 1, SAMPLE);
+        image::imageops::replace(&mut image, &head, left.into(), 0);
+        squares(&mut image, left, zoom, coverage, target.1);
         for segment in segments(zoom) {
-            line(segment, panel, |x, y| image.put_pixel(left + x, y, EDGE));
+            line(segment, panel, |x, y| image.put_pixel(left + x, HEAD + y, EDGE));
         }
     }
     image
@@ -110,7 +121,7 @@ fn squares(image: &mut RgbImage, left: u32, zoom: u32, actual: &Coverage, target
             } else {
                 colour(hits(actual), hits(target))
             };
-            image.put_pixel(left + x, y, colour);
+            image.put_pixel(left + x, HEAD + y, colour);
         }
     }
 }
