@@ -19,7 +19,7 @@ An empty line passes, and shows the answer.
 Exit status: 0 every answer was right, 1 otherwise, 2 usage or bad input."
 )]
 pub struct QuizArguments {
-    /// The chapter: 2, or the name of its page, ch02 [default: all of them]
+    /// The chapter: 2, or the name of its page, ch02 or effects [default: all of them]
     chapter: Option<String>,
     /// Ask in another order, which this number decides
     #[arg(long, value_name = "N")]
@@ -110,12 +110,12 @@ fn list(
     streams: &mut Streams<'_>,
 ) -> Result<u8, Failure> {
     for chapter in chapters {
-        let head = format!("{:>3}  {}", chapter.word(), language.of(chapter.title));
+        let head = format!("{:>9}  {}", chapter.word(), language.of(chapter.title));
         writeln!(streams.output, "{head} ({})", chapter.exercises.len())?;
         for (number, exercise) in (1..).zip(chapter.exercises) {
-            for (i, line) in wrap(language.of(exercise.question), 88).into_iter().enumerate() {
+            for (i, line) in wrap(language.of(exercise.question), 84).into_iter().enumerate() {
                 let number = if i == 0 { format!("{number}.") } else { String::new() };
-                writeln!(streams.output, "     {number:<3}{line}")?;
+                writeln!(streams.output, "           {number:<3}{line}")?;
             }
         }
     }
@@ -139,20 +139,19 @@ struct Phrases {
     right: &'static str,
     wrong: &'static str,
     passed: &'static str,
-    chapter: &'static str,
 }
 
 const PHRASES: [Phrases; 2] = [
-    Phrases { right: "Right", wrong: "No", passed: "Passed", chapter: "chapter" },
-    Phrases { right: "对", wrong: "不对", passed: "跳过", chapter: "章" },
+    Phrases { right: "Right", wrong: "No", passed: "Passed" },
+    Phrases { right: "对", wrong: "不对", passed: "跳过" },
 ];
 
 impl Quiz<'_> {
     fn ask_all(&mut self, asked: &[(&Chapter, &Exercise)]) -> Result<u8, Failure> {
         let mut score = Score::default();
         for (i, &(chapter, exercise)) in asked.iter().enumerate() {
-            let chapter = format!("{} {}", PHRASES[self.language as usize].chapter, chapter.word());
-            writeln!(self.output, "{} / {}  {chapter}", i + 1, asked.len())?;
+            let name = chapter.name(self.language);
+            writeln!(self.output, "{} / {}  {name}", i + 1, asked.len())?;
             match self.ask(exercise)? {
                 None => break,
                 Some(is_right) => {

@@ -1,15 +1,12 @@
 //! Chapter 9: stages, culling, frames.
 
-use glam::{DVec3, DVec4};
+use glam::DVec3;
 
-use super::tools::{Px, corners};
+use super::tools::{Px, corners, draw};
 use super::{Answer, Chapter, Exercise, Solution};
 use crate::grid::SUBPIXELS;
-use crate::pipeline::ClipVertex;
 use crate::pipeline::assemble::{Cull, twice_area};
-use crate::pipeline::draw::Renderer;
-use crate::pipeline::target::{Antialias, Target, to_colour};
-use crate::raster::edge_function::EdgeFunction;
+use crate::pipeline::target::Antialias;
 
 pub const CHAPTER: Chapter = Chapter {
     page: "ch09",
@@ -89,21 +86,13 @@ const SHARED: Exercise = Exercise {
     ],
     choices: &[],
     solve: |_| {
-        let target =
-            Target::new(4, 4, Antialias::None, Default::default()).expect("a small target");
-        let mut renderer = Renderer::new(EdgeFunction, target);
-        let cube: Vec<_> = (0..8).map(|i| [i & 1, i >> 1 & 1, i >> 2].map(f64::from)).collect();
+        let cube: Vec<_> =
+            (0..8).map(|i| DVec3::from([i & 1, i >> 1 & 1, i >> 2].map(f64::from)) / 2.0).collect();
         let faces =
             [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]];
         let triangles: Vec<[u32; 3]> =
             faces.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
-        let vertex = |&[x, y, z]: &[f64; 3]| ClipVertex {
-            position: DVec4::new(x / 2.0, y / 2.0, z / 2.0, 1.0),
-            varying: 0.0,
-        };
-        let drawn = renderer.draw(&cube, &triangles, vertex, |_: &f64| to_colour(DVec3::ONE));
-        assert_eq!(drawn, Ok(()));
-        let counters = renderer.counters;
+        let (counters, _) = draw(&cube, &triangles, 4, Antialias::None);
         Solution::new(Answer::count(counters.vertices)).figure(counters.triangles * 3)
     },
     why: [

@@ -15,7 +15,11 @@ mod ch08;
 mod ch09;
 mod ch10;
 mod ch11;
+mod effects;
+mod games101;
 pub mod page;
+mod stability;
+mod sysu;
 mod tools;
 
 pub use answer::{Answer, Given};
@@ -123,6 +127,10 @@ pub static CHAPTERS: &[Chapter] = &[
     ch09::CHAPTER,
     ch10::CHAPTER,
     ch11::CHAPTER,
+    games101::CHAPTER,
+    sysu::CHAPTER,
+    effects::CHAPTER,
+    stability::CHAPTER,
 ];
 
 impl Chapter {
@@ -130,6 +138,16 @@ impl Chapter {
     #[must_use]
     pub fn word(&self) -> &'static str {
         self.page.strip_prefix("ch").map_or(self.page, |number| number.trim_start_matches('0'))
+    }
+
+    /// What it is called in a sentence: `chapter 2`, or the name of its page.
+    #[must_use]
+    pub fn name(&self, language: Language) -> String {
+        match (self.page.starts_with("ch"), language) {
+            (true, Language::English) => format!("chapter {}", self.word()),
+            (true, Language::Chinese) => format!("第 {} 章", self.word()),
+            (false, _) => self.page.to_owned(),
+        }
     }
 }
 

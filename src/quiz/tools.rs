@@ -1,9 +1,16 @@
 //! What exercises ask: coverage of the oracle and of the published algorithms, values of an engine.
 
+use std::cell::RefCell;
+
+use glam::{DVec2, DVec3};
+
 use crate::contract::{Interpolate as _, Rasterize as _};
 use crate::frame::Coverage;
 use crate::grid::{PixelRect, SubpixelPoint};
 use crate::oracle::Oracle;
+use crate::pipeline::draw::Renderer;
+use crate::pipeline::target::{Antialias, Target, to_colour};
+use crate::pipeline::{ClipVertex, Counters};
 use crate::raster::edge_function::EdgeFunction;
 use crate::specimen::{Published, bare};
 use crate::triangle::{Corners, Fragment, ScreenTriangle, ScreenVertex};
@@ -55,4 +62,30 @@ pub fn fragments(triangle: [[f64; 4]; 3], window: PixelRect) -> Vec<Fragment<f64
 pub fn fragment(triangle: [[f64; 4]; 3], window: PixelRect, pixel: [i32; 2]) -> Fragment<f64> {
     let all = fragments(triangle, window);
     all.into_iter().find(|f| [f.x_px, f.y_px] == pixel).expect("exercises ask of covered pixels")
+}
+
+/// Draws triangles of positions in clip space, where w is 1, through the whole pipeline into a square
+/// window: what it cost, and where in pixels the fragment stage ran.
+pub fn draw(
+    positions: &[DVec3],
+    triangles: &[[u32; 3]],
+    side: u32,
+    antialias: Antialias,
+) -> (Counters, Vec<DVec2>) {
+    let target =
+        Target::new(side, side, antialias, Default::default()).expect("exercises are small");
+    let mut renderer = Renderer::new(EdgeFunction, target);
+    let half = f64::from(side) / 2.0;
+    let vertex = |p: &DVec3| ClipVertex {
+        position: p.extend(1.0),
+        varying: DVec2::new(1.0 + p.x, 1.0 - p.y) * half,
+    };
+    let places = RefCell::new(Vec::new());
+    let fragment = |place: &DVec2| {
+        places.borrow_mut().push(*place);
+        to_colour(DVec3::ONE)
+    };
+    let drawn = renderer.draw(positions, triangles, vertex, fragment);
+    assert_eq!(drawn, Ok(()), "exercises name vertices that are there");
+    (renderer.counters, places.into_inner())
 }

@@ -3,16 +3,20 @@
 
 use glam::{DVec4, Vec4};
 use rasterproof::contract::Rasterize as _;
+use rasterproof::effects::Effects;
 use rasterproof::frame::{Coverage, Frame};
 use rasterproof::grid::PixelRect;
 use rasterproof::hazard::named::{Input, find};
 use rasterproof::hazard::{Case, Shape, families};
 use rasterproof::invariant::CATALOGUE;
-use rasterproof::lineup::TriangleSpecimen;
+use rasterproof::lineup::{Drawer, TriangleSpecimen};
 use rasterproof::oracle::Oracle;
 use rasterproof::oracle::coverage::samples_on_boundary;
+use rasterproof::pipeline::Counters;
 use rasterproof::pipeline::clip::MOST_VERTICES;
+use rasterproof::pipeline::target::{Antialias, Target};
 use rasterproof::raster::edge_function::WordWidth;
+use rasterproof::scene::chapters::scene;
 use rasterproof::specimen::PublishedLine as _;
 use rasterproof::specimen::bare;
 use rasterproof::specimen::book_dda::BookDda;
@@ -48,7 +52,57 @@ pub const fn figure(
 }
 
 /// By chapter.
-pub const ALL: &[&[Figure]] = &[PIXELS, LINES, TRIANGLES, VALUES, STEPS, CLIPPING, COST, PROOF];
+pub const ALL: &[&[Figure]] =
+    &[PIXELS, LINES, TRIANGLES, VALUES, STEPS, CLIPPING, COST, PROOF, EFFECTS];
+
+/// What a scene costs as the page on effects measures it.
+fn counted(name: &str, antialias: Antialias, effects: Effects) -> Counters {
+    let scene = scene(name, 4.0 / 3.0, 0.0).unwrap();
+    let mut target = Target::new(640, 480, antialias, Default::default()).unwrap();
+    Drawer::Scanline.render(&scene, &effects, &mut target).unwrap().counters
+}
+
+/// Pixels whose samples a plan tells apart.
+fn apart(name: &str, antialias: Antialias) -> Vec<f64> {
+    vec![counted(name, antialias, Effects::PLANNED).expanded as f64]
+}
+
+const EFFECTS: &[Figure] = &[
+    figure(
+        "effects",
+        "{} of 307,200 pixels hold more than a colour",
+        "307,200 个像素中只有 {} 个不止一种颜色",
+        || apart("facets", Antialias::Supersample(4)),
+    ),
+    figure("effects", "| 43 (57) | {} of them", "| 43 (57) | 其中 {} 个", || {
+        apart("panels", Antialias::Supersample(4))
+    }),
+    figure("effects", "| 8.9 (12) | {} of them", "| 8.9 (12) | 其中 {} 个", || {
+        apart("panels", Antialias::Multisample4)
+    }),
+    figure("effects", "| 3.7 (4.3) | {} of them", "| 3.7 (4.3) | 其中 {} 个", || {
+        apart("tilted", Antialias::Multisample4)
+    }),
+    figure(
+        "effects",
+        "fragments {} against {}, lights {} against {}, samples cleared {} against {}",
+        "片元 {} 对 {}，光照 {} 对 {}，清除的采样点 {} 对 {}",
+        || {
+            let both = [Effects::ALWAYS, Effects::PLANNED];
+            let [all, planned] =
+                both.map(|effects| counted("facets", Antialias::Supersample(4), effects));
+            [
+                [all.fragments, planned.fragments],
+                [all.lights, planned.lights],
+                [all.cleared, planned.cleared],
+            ]
+            .as_flattened()
+            .iter()
+            .map(|&count| count as f64)
+            .collect()
+        },
+    ),
+];
 
 const PIXELS: &[Figure] = &[
     figure(

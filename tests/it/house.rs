@@ -418,11 +418,33 @@ impl Known {
             let words = quoted(part).filter(|word| is_snake(word) && !self.is_test(word));
             missing.extend(words.map(|word| format!("{name}: test {word}")));
         }
+        for row in rows(text).filter(|row| row.len() == 2) {
+            missing
+                .extend(unknown_names(row[0], row[1]).map(|word| format!("{name}: code {word}")));
+        }
         missing
     }
 }
 
-/// Tests, commands, cases and paths that the docs name exist.
+/// Names of code in a cell that the files do not hold to which the cell beside it links.
+fn unknown_names<'a>(names: &'a str, links: &str) -> impl Iterator<Item = &'a str> {
+    let links = links.split("](").skip(1).filter_map(|part| part.split(')').next());
+    let paths = links.filter(|link| link.ends_with(".rs"));
+    let path = |link: &str| root().join(link.trim_start_matches("../"));
+    let code: String = paths.filter_map(|link| fs::read_to_string(path(link)).ok()).collect();
+    let is_name = |word: &&str| {
+        let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == ':';
+        word.len() > 2 && word.chars().all(is_part) && !word.ends_with(':')
+    };
+    let is_there = {
+        let words: BTreeSet<String> =
+            code.split(|c: char| !(c.is_alphanumeric() || c == '_')).map(str::to_owned).collect();
+        move |name: &str| name.split("::").all(|part| words.contains(part))
+    };
+    quoted(names).filter(is_name).filter(move |name| !code.is_empty() && !is_there(name))
+}
+
+/// Tests, commands, cases, code and paths that the docs name exist.
 #[test]
 fn house_docs_name_what_exists() {
     let known = Known::new();
@@ -431,6 +453,19 @@ fn house_docs_name_what_exists() {
     let missing = pages.iter().flat_map(|(page, text)| known.missing(&name(page), text));
     let missing: Vec<_> = missing.collect();
     assert!(missing.is_empty(), "{}", missing.join("\n"));
+}
+
+/// The architecture page says of every file of tests what it is for.
+#[test]
+fn house_lists_its_tests() {
+    let page = fs::read_to_string(root().join("docs/ARCHITECTURE.md")).unwrap();
+    for path in files(&root().join("tests/it"), "rs") {
+        let name = path.strip_prefix(root()).unwrap().display().to_string();
+        let folder = name.rsplit_once('/').unwrap().0;
+        let is_listed =
+            [format!("`{name}`"), format!("`{folder}/`")].iter().any(|n| page.contains(n));
+        assert!(is_listed || name == "tests/it/main.rs", "{name} is not on the architecture page");
+    }
 }
 
 /// Each kind of name that leads nowhere is found.
@@ -442,6 +477,9 @@ fn house_missing_names_are_found() {
     let missing = known.missing("docs/a.md", page);
     let names = ["--scene moon", "src/nowhere.rs", "test proves_nothing"];
     assert_eq!(missing, names.map(|name| format!("docs/a.md: {name}")));
+    let table = "| what | where |\n|---|---|\n\
+        | ties: `snap`, `snap_down`, `PixelRect::window` | [grid](../engines/src/grid.rs) |\n";
+    assert_eq!(known.missing("docs/a.md", table), ["docs/a.md: code snap_down"]);
     let table = "| [1.1](ch01.md) | pixel | code | `proves_nothing` |  |  |\n";
     assert_eq!(known.missing("docs/index.md", table), ["docs/index.md: test proves_nothing"]);
 }

@@ -6,30 +6,50 @@ use rasterproof::contract::DrawLine as _;
 use rasterproof::effects::{Effect, Effects, Mode};
 use rasterproof::frame::Frame;
 use rasterproof::grid::PixelRect;
+use rasterproof::hazard::offgrid::{FAMILIES, OffGridCase};
 use rasterproof::line::dda::Dda;
-use rasterproof::lineup::Drawer;
+use rasterproof::lineup::{Drawer, ExactEngine};
+use rasterproof::mutant::exact::ExactMutant;
 use rasterproof::pipeline::depth::DepthFormat;
 use rasterproof::pipeline::target::{Antialias, Target};
 use rasterproof::pipeline::transform::frustum;
-use rasterproof::report::frames;
+use rasterproof::report::lettering::{self, Size};
+use rasterproof::report::{frames, panels, picture};
 use rasterproof::scene::chapters::scene;
 use rasterproof::scene::{shapes, textures};
 use rasterproof::specimen::book_final::BookFinal;
 use rasterproof::specimen::{Published as _, RealVertex};
 use rasterproof::triangle::{Fragment, LineEnd, PixelPoint, ScreenLine};
+use rasterproof::verify::Tally;
+use rasterproof::verify::exact::exact_coverage;
 
-use crate::snapshots::check_picture;
+use crate::snapshots::{check_picture, check_sheet};
 
 const PAPER: Rgb<u8> = Rgb([250, 250, 247]);
+/// Pixels of a scene's picture.
+const WIDTH: u32 = 480;
+const HEIGHT: u32 = 360;
 
-/// Pictures of one size side by side, with a strip of paper between them.
-fn beside(pictures: &[RgbImage]) -> RgbImage {
-    let (width, height) = pictures[0].dimensions();
+/// A picture under a line of text.
+pub fn headed(head: &str, picture: &RgbImage) -> RgbImage {
+    const STRIP: u32 = 16;
+    let (width, height) = picture.dimensions();
+    assert!(lettering::width(head, Size::Small) <= width, "{head}");
+    let mut sheet = RgbImage::from_pixel(width, height + STRIP, PAPER);
+    lettering::write(&mut sheet, (0, 1), head, Size::Small, Rgb([60, 60, 60]));
+    imageops::replace(&mut sheet, picture, 0, STRIP.into());
+    sheet
+}
+
+/// Pictures of one size side by side under their names, with a strip of paper between them.
+fn beside(pictures: &[(&str, &RgbImage)]) -> RgbImage {
+    let panels: Vec<_> = pictures.iter().map(|(head, picture)| headed(head, picture)).collect();
+    let (width, height) = panels[0].dimensions();
     let gap = 8;
-    let all = (width + gap) * pictures.len() as u32 - gap;
+    let all = (width + gap) * panels.len() as u32 - gap;
     let mut sheet = RgbImage::from_pixel(all, height, PAPER);
-    for (i, picture) in (0..).zip(pictures) {
-        imageops::replace(&mut sheet, picture, i * i64::from(width + gap), 0);
+    for (i, panel) in (0..).zip(&panels) {
+        imageops::replace(&mut sheet, panel, i * i64::from(width + gap), 0);
     }
     sheet
 }
@@ -41,7 +61,7 @@ fn larger(picture: &RgbImage, zoom: u32) -> RgbImage {
 
 fn rendered(name: &str, effects: Effects, antialias: Antialias) -> RgbImage {
     let scene = scene(name, 4.0 / 3.0, 0.0).unwrap();
-    let mut target = Target::new(160, 120, antialias, DepthFormat::Unorm32).unwrap();
+    let mut target = Target::new(WIDTH, HEIGHT, antialias, DepthFormat::Unorm32).unwrap();
     frames::rgb(&Drawer::Scanline.render(&scene, &effects, &mut target).unwrap().picture)
 }
 
@@ -50,11 +70,12 @@ fn rendered(name: &str, effects: Effects, antialias: Antialias) -> RgbImage {
 fn picture_of_the_homework_smoothed() {
     let part = |antialias| {
         let whole = rendered("homework", Effects::PLANNED, antialias);
-        larger(&imageops::crop_imm(&whole, 78, 28, 56, 42).to_image(), 4)
+        larger(&imageops::crop_imm(&whole, 290, 90, 60, 45).to_image(), 8)
     };
     let [before, after] = [Antialias::None, Antialias::Supersample(2)].map(part);
     assert_ne!(before, after);
-    check_picture("homework-smoothed", &beside(&[before, after]));
+    let panels = [("one sample a pixel", &before), ("2 x 2 samples a pixel", &after)];
+    check_picture("homework-smoothed", &beside(&panels));
 }
 
 /// A box by the order of its triangles alone, without its back faces, and with a depth test.
@@ -65,11 +86,64 @@ fn picture_before_the_depth_test() {
     let [order, culled, tested] = panels.map(|effects| rendered("cube", effects, Antialias::None));
     assert_ne!(order, culled, "back faces over front faces");
     assert_eq!(culled, tested, "of a convex body nothing else is hidden");
-    check_picture("before-depth", &beside(&[order, culled, tested]));
+    let panels = [
+        ("in the order of the triangles", &order),
+        ("front faces alone", &culled),
+        ("with a depth test", &tested),
+    ];
+    check_picture("before-depth", &beside(&panels));
     let no_order = rendered("everything", no_depth, Antialias::None);
     let whole = rendered("everything", Effects::PLANNED, Antialias::None);
     assert_ne!(no_order, whole);
-    check_picture("before-depth-everything", &beside(&[no_order, whole]));
+    let panels = [("in the order of the triangles", &no_order), ("with a depth test", &whole)];
+    check_picture("before-depth-everything", &beside(&panels));
+}
+
+/// Where samples are told apart, and what else each pixel pays for, an effect a picture.
+#[test]
+fn picture_of_what_is_paid_for() {
+    let sheets = [("facets", Antialias::Supersample(4)), ("everything", Antialias::None)].map(
+        |(name, antialias)| {
+            let scene = scene(name, 4.0 / 3.0, 0.0).unwrap();
+            let mut target = Target::new(WIDTH, HEIGHT, antialias, DepthFormat::Unorm32).unwrap();
+            let drawn = Drawer::Scanline.render_mapped(&scene, &Effects::PLANNED, &mut target);
+            let (rendered, map) = drawn.unwrap();
+            let head = match antialias.samples() {
+                1 => format!("{name}, one sample a pixel"),
+                many => format!("{name}, {many} samples a pixel"),
+            };
+            frames::map_picture(&head, &rendered.picture, &map)
+        },
+    );
+    check_picture("effects-map", &picture::stack(&sheets));
+}
+
+/// Corners off the lattice: what snapping first changes, and what floats without a filter get wrong.
+#[test]
+fn picture_off_the_lattice() {
+    let family = FAMILIES.iter().find(|family| family.name == "f64-near-tie").unwrap();
+    let faults = [ExactMutant::SnapsInside, ExactMutant::PlainF64].map(ExactEngine::Mutant);
+    let engines = [faults[0], faults[1], ExactEngine::Scanline];
+    let hits = |engine: ExactEngine, case: &OffGridCase| exact_coverage(&engine, case).unwrap().0;
+    let wrong = |engine: ExactEngine, case: &OffGridCase| {
+        Tally::between(&hits(engine, case), &hits(ExactEngine::Oracle, case)).total()
+    };
+    // The case with the most wrong pixels among those that both get wrong.
+    let worst = (0..1000)
+        .map(|index| family.case(1, index))
+        .max_by_key(|case| {
+            let both = [0, 1].map(|i| wrong(engines[i], case));
+            (both[0].min(both[1]), both[0] + both[1])
+        })
+        .unwrap();
+    assert!([0, 1].iter().all(|&i| wrong(engines[i], &worst) > 0));
+    assert_eq!(wrong(ExactEngine::Scanline, &worst), 0);
+    let drawn = engines.map(|engine| hits(engine, &worst));
+    let names = ["snapped first", "f64, no filter", "scanline-exact"];
+    let named: Vec<_> = names.map(str::to_owned).into_iter().zip(drawn).collect();
+    let target = hits(ExactEngine::Oracle, &worst);
+    let title = "Corners off the lattice, nearly on the centres of pixels";
+    check_sheet("off-the-lattice", &panels::of_off_grid(title, &worst, &named, &target));
 }
 
 /// From (0, 0) to (3, 9): a pixel for each column leaves gaps, a pixel for each row does not.
@@ -96,7 +170,8 @@ fn picture_of_the_broken_line() {
             }
         })
     };
-    check_picture("broken-line", &beside(&[panel(&broken), panel(&whole)]));
+    let panels = [("by columns", &panel(&broken)), ("by rows", &panel(&whole))];
+    check_picture("broken-line", &beside(&panels));
 }
 
 /// A textured ball by the book's final triangle, front faces only. In a texture made for a model each
@@ -136,7 +211,7 @@ pub fn ball(exercise: bool) -> (RgbImage, u32) {
             .unwrap();
     }
     let at = |x: u32, y: u32| Rgb(picture.row(y as i32)[x as usize]);
-    (larger(&RgbImage::from_fn(SIDE, SIDE, at), 2), beyond)
+    (larger(&RgbImage::from_fn(SIDE, SIDE, at), 4), beyond)
 }
 
 /// The hairs of figure 11-3, before and after the exercise of section 11.4, which takes most away.
@@ -145,5 +220,8 @@ fn picture_of_the_hairs() {
     let [(before, hairs), (after, left)] = [false, true].map(ball);
     assert!(hairs > left && left > 0, "{hairs} fragments beyond their corners, {left} after");
     println!("{hairs} fragments beyond their corners, {left} after the exercise");
-    check_picture("hairs", &beside(&[before, after]));
+    check_picture(
+        "hairs",
+        &beside(&[("as published", &before), ("with the exercise of 11.4", &after)]),
+    );
 }

@@ -78,17 +78,44 @@ fn skeleton(folder: &str, page: &str) -> Skeleton {
     Skeleton { marks, targets }
 }
 
-/// A line of a code block without what is written for people: comments, and words in formulas. That
-/// there are some is left to be seen.
-fn without_words(kind: &str, line: &str) -> String {
-    let comment = match kind {
+/// Where a comment begins in a line of a code block.
+fn comment(kind: &str, line: &str) -> Option<usize> {
+    match kind {
         "```rust" => line.find("//"),
         "```sh" | "```console" if line.starts_with("# ") => Some(0),
         "```sh" | "```console" => line.find(" # ").map(|at| at + 1),
-        "```math" => return without_text(line),
         _ => None,
-    };
+    }
+}
+
+/// A line of a code block without what is written for people: comments, and words in formulas. That
+/// there are some is left to be seen.
+fn without_words(kind: &str, line: &str) -> String {
+    if kind == "```math" {
+        return without_text(line);
+    }
+    let comment = comment(kind, line);
     comment.map_or(line.to_owned(), |at| line[..at].trim_end().to_owned() + " #")
+}
+
+fn is_chinese(text: &str) -> bool {
+    text.chars().any(|c| ('\u{4e00}'..='\u{9fff}').contains(&c))
+}
+
+/// Comments in the code blocks of a Chinese page that hold words, none of them Chinese.
+fn untranslated(page: &str) -> Vec<&str> {
+    let (mut kind, mut found) = (None, Vec::new());
+    for line in page.lines() {
+        if line.trim_start().starts_with("```") {
+            kind = if kind.is_some() { None } else { Some(line.trim_start()) };
+        } else if let Some(at) = kind.and_then(|kind| comment(kind, line)) {
+            let mut words = line[at..].split(|c: char| !c.is_alphabetic());
+            if !is_chinese(&line[at..]) && words.any(|word| word.len() > 2) {
+                found.push(&line[at..]);
+            }
+        }
+    }
+    found
 }
 
 fn without_text(formula: &str) -> String {
@@ -121,9 +148,11 @@ fn out_of_step(name: &str, english: &str, chinese: &str) -> Vec<String> {
     let (original, own) = (format!("{ENGLISH}/{name}"), format!("{CHINESE}/{name}"));
     let (mut en, mut zh) = (skeleton(ENGLISH, english), skeleton(CHINESE, chinese));
     let mut wrong = Vec::new();
-    if !chinese.chars().any(|c| ('\u{4e00}'..='\u{9fff}').contains(&c)) {
+    if !is_chinese(chinese) {
         wrong.push(format!("{own} holds no Chinese"));
     }
+    wrong
+        .extend(untranslated(chinese).iter().map(|text| format!("{own}: '{text}' is not Chinese")));
     if !zh.targets.remove(&original) {
         wrong.push(format!("{own} does not link to {original}"));
     }
@@ -171,6 +200,7 @@ fn languages_drift_is_found() {
         ("```sh", "```text", "where"),
         ("run  ", "walk  ", "where"),
         ("  # 不同的话", "", "where"),
+        ("# 不同的话", "# other words", "is not Chinese"),
         ("} = 1", "} = 2", "where"),
         ("_\\text{仿射}", "", "where"),
         ("1,024", "1,025", "where"),
@@ -184,6 +214,7 @@ fn languages_drift_is_found() {
         let wrong = out_of_step("a.md", english, &chinese.replace(old, new)).join("\n");
         assert!(wrong.contains(found), "{old} as {new}: {wrong:?}");
     }
+    // The page and its comment.
     let untranslated = english.replace("](zh/a.md)", "](../a.md)").replace("(../s", "(../../s");
-    assert_eq!(out_of_step("a.md", english, &untranslated.replace("中文", "English")).len(), 1);
+    assert_eq!(out_of_step("a.md", english, &untranslated.replace("中文", "English")).len(), 2);
 }

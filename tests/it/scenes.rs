@@ -26,6 +26,7 @@ use rasterproof::scene::{
 };
 use rayon::prelude::*;
 
+use crate::illustrations::headed;
 use crate::snapshots::{check_picture, each, settings};
 
 const SMOOTHINGS: [Antialias; 4] = [
@@ -84,9 +85,14 @@ fn scenes_are_the_same_by_both_rasterizers() {
 fn scenes_look_as_kept() {
     each(SCENES, |entry| {
         let scene = scene(entry.name, 4.0 / 3.0, 0.0).unwrap();
-        let mut target = Target::new(160, 120, Antialias::None, DepthFormat::Unorm32).unwrap();
-        let rendered = Drawer::Scanline.render(&scene, &Effects::PLANNED, &mut target).unwrap();
-        check_picture(&format!("scene-{}", entry.name), &frames::rgb(&rendered.picture));
+        let [scanline, edges] = [Drawer::Scanline, Drawer::EdgeFunction].map(|drawer| {
+            let mut target = target_of(480, 360, Antialias::None);
+            drawer.render(&scene, &Effects::PLANNED, &mut target).unwrap().picture
+        });
+        assert!(scanline == edges, "{}", entry.name);
+        let head = format!("{}, by scanline and by edge-function: the same", entry.name);
+        let picture = headed(&head, &frames::rgb(&scanline));
+        check_picture(&format!("scene-{}", entry.name), &picture);
     });
 }
 

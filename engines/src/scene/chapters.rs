@@ -189,7 +189,9 @@ fn culled(scene: Scene, turn: f64) -> Scene {
     let material = textured(textures::checkerboard(), Shading::Flat);
     let turn = turn_x(-0.5) * turn_y(0.6 + turn * TAU);
     let item = turned(Item::new(mesh, material), AHEAD, turn);
-    Scene { light: daylight(), ..with(scene, [Item { cull: Cull::CounterClockwise, ..item }]) }
+    // From beyond: what is seen of the walls turns its normals away from the eye.
+    let light = Light { towards: DVec3::new(0.4, -0.5, 0.8).normalize(), ..daylight() };
+    Scene { light, ..with(scene, [Item { cull: Cull::CounterClockwise, ..item }]) }
 }
 
 fn spinning(scene: Scene, turn: f64) -> Scene {
@@ -203,7 +205,7 @@ fn spinning(scene: Scene, turn: f64) -> Scene {
 
 /// From behind the eye, above and to the left.
 fn daylight() -> Light {
-    Light { towards: DVec3::new(-0.5, 0.7, -0.6).normalize(), ambient: 0.25, diffuse: 0.75 }
+    Light { towards: DVec3::new(-0.5, 0.7, -0.6).normalize(), ambient: 0.45, diffuse: 0.55 }
 }
 
 fn cube(scene: Scene, turn: f64) -> Scene {

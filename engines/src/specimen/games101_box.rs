@@ -20,6 +20,13 @@ const GUARD: i32 = 4;
 /// Memory that belongs to nobody.
 const FENCE: Colour = [60, 60, 76];
 
+/// The pixel that y times width plus x names: another one, if x lies beyond the row.
+#[must_use]
+pub fn lands(x_px: i32, y_px: i32, width: i32) -> (i32, i32) {
+    let address = y_px * width + x_px;
+    (address % width, address / width)
+}
+
 /// The memory, guard rows first: a triangle that leaves the window, or one within it.
 #[must_use]
 pub fn draw(version: Version, setting: Setting) -> Image {
@@ -38,8 +45,7 @@ pub fn draw(version: Version, setting: Setting) -> Image {
     let at = |(x, y)| SubpixelPoint::from_px(x, y).expect("the triangle lies in the domain");
     EdgeFunction.cover(corners.map(at), bounds, |span| {
         for x in span.x0_px..span.x1_px {
-            let address = (span.y_px + GUARD) * width + x;
-            let (row, column) = (address / width, address % width);
+            let (column, row) = lands(x, span.y_px + GUARD, width);
             if row < width {
                 memory.span_mut(row, column, column + 1)[0] = COLOURS[0];
             }

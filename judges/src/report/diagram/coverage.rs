@@ -1,7 +1,9 @@
-//! Diagrams of chapters 2, 3 and 9: which pixels, which side, which area.
+//! Diagrams of chapters 2, 3 and 9 and of the page on exhaustion: which pixels, which side, which area.
 
 use super::{Point, Sheet, between};
 use crate::contract::Rasterize as _;
+use crate::exhaust::Enumeration as _;
+use crate::exhaust::triangles::Triangles;
 use crate::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
 use crate::oracle::values::ExactTriangle;
 use crate::pipeline::assemble::twice_area;
@@ -168,6 +170,52 @@ pub fn winding() -> String {
         );
     }
     sheet.svg()
+}
+
+/// The lattices whose triangles are enumerated, with one of them each.
+pub fn lattices() -> String {
+    let (side, bits) = (50.0, [1, 2]);
+    let set = |subpixel_bits| Triangles {
+        window_px: 4,
+        subpixel_bits,
+        offset_px: [0; 2],
+        all_orders: false,
+        plant: None,
+    };
+    let examples = [[[0.5, 0.0], [4.0, 1.5], [1.0, 4.0]], [[3.75, 0.25], [3.5, 3.75], [0.0, 2.25]]];
+    let mut sheet = Sheet::new(490.0, 300.0);
+    for ((left, bits), corners) in [20.0, 260.0].into_iter().zip(bits).zip(examples) {
+        let at = |[x, y]: Point| [left + x * side, 20.0 + y * side];
+        sheet.grid(at([0.0; 2]), side, 4, 4);
+        sheet.polygon("fill1", &corners.map(at));
+        let steps = 4 << bits;
+        for (i, j) in (0..=steps).flat_map(|j| (0..=steps).map(move |i| (i, j))) {
+            let of_window = |step: i32| f64::from(step) * 4.0 / f64::from(steps);
+            sheet.dot("dot", at([of_window(i), of_window(j)]), 1.5);
+        }
+        for [y, x0, x1] in spans(corners, PixelRect::window(4, 4)) {
+            for x in x0..x1 {
+                sheet.dot("dot1", at([f64::from(x) + 0.5, f64::from(y) + 0.5]), 5.0);
+            }
+        }
+        let set = set(bits);
+        let label = format!("s = {bits}: {} · {}", set.chunks(), grouped(set.expected_cases()));
+        sheet.text("start", [left, 246.0], &label);
+    }
+    for (left, bits) in [(20.0, 3), (260.0, 4)] {
+        let set = set(bits);
+        let points = grouped(set.chunks());
+        let label = format!("s = {bits}: {points} · {}", grouped(set.expected_cases()));
+        sheet.text("start", [left, 276.0], &label);
+    }
+    sheet.svg()
+}
+
+/// 12345 as 12,345.
+fn grouped(number: u64) -> String {
+    let digits = number.to_string();
+    let parts: Vec<_> = digits.as_bytes().rchunks(3).rev().map(String::from_utf8_lossy).collect();
+    parts.join(",")
 }
 
 #[cfg(test)]

@@ -17,7 +17,7 @@ pub struct Diagram {
 }
 
 /// Every diagram, in the order of the chapters.
-pub const ALL: [Diagram; 11] = [
+pub const ALL: [Diagram; 12] = [
     Diagram { name: "split", draw: coverage::split },
     Diagram { name: "edge-sign", draw: coverage::edge_sign },
     Diagram { name: "dda-row", draw: coverage::dda_row },
@@ -29,6 +29,7 @@ pub const ALL: [Diagram; 11] = [
     Diagram { name: "handedness", draw: space::handedness },
     Diagram { name: "n-l", draw: light::cosine },
     Diagram { name: "samples", draw: light::samples },
+    Diagram { name: "lattices", draw: coverage::lattices },
 ];
 
 /// The paper brings its own colours, since a picture does not inherit those of its page.
