@@ -90,8 +90,8 @@ impl<'a> Rivals<'a> {
     #[must_use]
     pub fn within(&self, rect: PixelRect) -> Vec<Rival> {
         let samples = scaled(rect, self.pattern.scale);
-        let farthest = vec![Frame::new(samples, (u64::MAX, u32::MAX)); self.pattern.planes];
-        let mut farthest: Vec<Frame<(u64, u32)>> = farthest;
+        let beyond_all = (u64::MAX, u32::MAX);
+        let mut farthest = vec![Frame::new(samples, beyond_all); self.pattern.planes];
         self.each_sample(rect, &mut |rival, (_, far)| {
             let Sample { plane, y_px, x_px } = rival.sample;
             let least = &mut farthest[plane].span_mut(y_px, x_px, x_px + 1)[0];
