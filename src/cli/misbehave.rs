@@ -49,7 +49,7 @@ pub enum Fault {
     Floods,
     /// Writes lines without end.
     FloodsLines,
-    /// Answers with as many runs as fit on a line.
+    /// Answers every request with as many runs as fit on a line.
     Bloats,
     /// Starts another process that keeps its output open, and exits.
     Forks,
@@ -95,6 +95,10 @@ pub fn run(name: &str, fault: Fault, streams: &mut Streams<'_>) -> Result<u8, Fa
                 held = answer;
                 continue;
             }
+            (_, Fault::Bloats) => {
+                let runs = 170_000;
+                writeln!(streams.output, "C {} {runs}{}", words[1], " 0 0 1".repeat(runs))?;
+            }
             (true, Fault::Moody) if !is_alone => std::process::abort(),
             (true, _) => {
                 if let Some(status) = misbehave(fault, words[1], &answer, streams.output)? {
@@ -132,10 +136,6 @@ fn misbehave(
         Fault::FloodsLines => loop {
             writeln!(out, "C {id} 0")?;
         },
-        Fault::Bloats => {
-            let runs = 170_000;
-            writeln!(out, "C {id} {runs}{}", " 0 0 1".repeat(runs))?;
-        }
         Fault::Forks => {
             // It waits for input that never ends, and holds the output that it was born with.
             let program = std::env::current_exe()?;
