@@ -459,8 +459,9 @@
     const places = outlines(item);
     points.forEach((shape, i) => shape.forEach((point, k) => {
       const key = point.join();
-      const name = points.length === 1 ? `${kind === 'lines' ? 'p' : 'v'}${k} ` : '';
-      if (!seen.has(key)) seen.set(key, { at: places[i][k], text: `${name}(${point.map(number).join(', ')})` });
+      const name = points.length === 1 ? `${kind === 'lines' ? 'p' : 'v'}${k}` : '';
+      const text = `${name} (${point.map(number).join(', ')})`.trim();
+      if (!seen.has(key)) seen.set(key, { at: places[i][k], name, text });
     }));
     return [...seen.values()];
   };
@@ -475,25 +476,40 @@
     g.textBaseline = 'middle';
     g.textAlign = 'left';
     const middle = [0, 1].map((axis) => named.reduce((sum, { at }) => sum + at[axis], 0) / named.length);
-    for (const { at, text } of named) {
+    const taken = [];
+    for (const { at, name, text } of named) {
       const [x, y] = [at[0] * cell - left, at[1] * cell - top];
       if (x < -8 || y < -8 || x > width + 8 || y > height + 8) continue;
       g.fillStyle = palette.edge;
       g.beginPath();
       g.arc(x, y, 4, 0, 7);
       g.fill();
-      const wide = g.measureText(text).width;
-      // Outside the shape, as seen from its middle, as far as there is room.
-      const isLeft = at[0] < middle[0];
-      const tx = Math.min(width - wide - 3, Math.max(3, isLeft ? x - 8 - wide : x + 8));
-      const ty = Math.min(height - 9, Math.max(9, y + (at[1] < middle[1] ? -12 : 12)));
+      const place = freePlace(g, [x, y], [at[0] < middle[0], at[1] < middle[1]], [text, name], taken, [width, height]);
+      if (!place) continue;
+      taken.push(place.box);
       g.lineWidth = 4;
       g.lineJoin = 'round';
       g.strokeStyle = palette.empty;
-      g.strokeText(text, tx, ty);
+      g.strokeText(place.text, place.box[0], place.box[1] + 8);
       g.fillStyle = palette.sample;
-      g.fillText(text, tx, ty);
+      g.fillText(place.text, place.box[0], place.box[1] + 8);
     }
+  };
+
+  /** Where a corner's words stand: outside the shape first, in short where there is no room, or nowhere. */
+  const freePlace = (g, [x, y], [isLeft, isUp], texts, taken, [width, height]) => {
+    for (const text of texts.filter(Boolean)) {
+      const wide = g.measureText(text).width;
+      const sides = isLeft ? [x - 8 - wide, x + 8] : [x + 8, x - 8 - wide];
+      const heights = isUp ? [y - 20, y + 4] : [y + 4, y - 20];
+      for (const [tx, ty] of heights.flatMap((ty) => [...sides, x - wide / 2].map((tx) => [tx, ty]))) {
+        const box = [tx, ty, tx + wide, ty + 16];
+        const isIn = tx >= 2 && ty >= 0 && box[2] <= width - 2 && box[3] <= height;
+        const isFree = taken.every((t) => box[0] >= t[2] + 4 || box[2] + 4 <= t[0] || box[1] >= t[3] || box[3] <= t[1]);
+        if (isIn && isFree) return { text, box };
+      }
+    }
+    return null;
   };
 
   const paintCursor = (g, { cell, left, top }) => {
@@ -1132,7 +1148,7 @@
     const { title, path } = item.chapter ?? {};
     if (!title) return [];
     const link = data.docs ? el('a', { href: data.docs + path }, title) : title;
-    return ['Explained in ', link, data.docs ? '' : `, docs/${path}`, '.'];
+    return ['Explained in ', link, data.docs ? '' : `, docs/${path.split('#')[0]}`, '.'];
   };
 
   const open = async (item, settings = {}) => {
@@ -1159,6 +1175,9 @@
     $('#case-kind').textContent = KINDS[item.kind];
     $('#case-kind').className = `kind ${item.kind}`;
     $('#case-chapter').replaceChildren(...chapterOf(item));
+    const places = item.isCase ? corners(item) : [];
+    $('#case-corners').textContent = places.length > 0 && places.length <= MOST_CORNERS
+      ? `Corners, in pixels: ${places.map(({ text }) => text).join('  ')}` : '';
     $('#case-about').textContent = item.about;
     $('#case-found').textContent = item.found;
     $('#case-command').hidden = !item.command;
