@@ -571,7 +571,7 @@
       .sort((p, q) => p - q).find((n) => n * cell >= room) ?? 1e5;
     const places = [
       [panel.above, columns, item.x0, width, AXIS_HIGH, step(widest * 7 + 8), left],
-      [panel.beside, rows, item.y0, height, AXIS_WIDE, step(13), top],
+      [panel.beside, rows, item.y0, height, axisWide(item), step(13), top],
     ];
     places.forEach(([canvas, [first, last], origin, length, thick, every, scroll], axis) => {
       const g = axis === 0 ? contextOf(canvas, length + 2, thick) : contextOf(canvas, thick, length + 2);
@@ -648,7 +648,9 @@
   // ---- Panels ----
 
   /** Room for the numbers of columns and rows. */
-  const [AXIS_HIGH, AXIS_WIDE] = [18, 38];
+  const AXIS_HIGH = 18;
+  const axisWide = ({ y0, height }) =>
+    Math.max(38, 10 + 7 * Math.max(String(y0).length, String(y0 + height).length));
 
   /** Keeps the scroll positions of the panels together. */
   const scrolled = (port) => {
@@ -716,16 +718,18 @@
     const room = $('#viewer').clientWidth;
     const high = Math.max(220, Math.round(window.innerHeight * (mode === 'side' ? 0.42 : 0.56)));
     const crop = cropOf(item, state.a, state.b);
-    const fit = (wide) => cellFor(crop, wide - AXIS_WIDE, high);
+    const axis = axisWide(item);
+    const fit = (wide) => cellFor(crop, wide - axis, high);
     // The words about a pixel stand beside the picture unless that makes it much smaller.
     const beside = mode !== 'side' && room > 700 && fit(room - 380) > 0.6 * fit(room);
     $('#look').dataset.layout = beside ? 'beside' : 'below';
-    const wide = Math.floor((room - gap) / columns) - 3 - AXIS_WIDE - (beside ? 380 : 0);
+    const wide = Math.floor((room - gap) / columns) - 3 - axis - (beside ? 380 : 0);
     const before = state.cell;
     state.cell = state.zoom ?? cellFor(crop, wide, high);
     const { cell } = state;
     $('#stage').dataset.cell = String(cell);
-    for (const { port, space, canvas } of panels) {
+    for (const { figure, port, space, canvas } of panels) {
+      figure.style.gridTemplateColumns = `${axis}px auto`;
       const [width, height] = [Math.ceil(item.width * cell) + 1, Math.ceil(item.height * cell) + 1];
       // A canvas that is too large for a moment would bring scroll bars.
       Object.assign(canvas.style, { width: '0', height: '0' });
@@ -1213,8 +1217,9 @@
   const snapshot = () => {
     const { item, panels } = state;
     const [PAD, LINE] = [16, 22];
+    const axis = axisWide(item);
     const legendTexts = all('#legend li').map((li) => [li.querySelector('span').style.background, li.textContent]);
-    const sizes = panels.map(({ port }) => [port.clientWidth + AXIS_WIDE, port.clientHeight + AXIS_HIGH + LINE]);
+    const sizes = panels.map(({ port }) => [port.clientWidth + axis, port.clientHeight + AXIS_HIGH + LINE]);
     const wide = Math.max(420, sizes.reduce((sum, [w]) => sum + w + PAD, PAD));
     const high = Math.max(...sizes.map(([, h]) => h)) + 4 * LINE + 3 * PAD;
     const canvas = el('canvas', { width: 2 * wide, height: 2 * high });
@@ -1232,11 +1237,11 @@
     let x = PAD;
     panels.forEach(({ caption: head, canvas: pixels, above, beside, port }, i) => {
       const y = PAD + 2 * LINE + 6;
-      write(head.textContent, x + AXIS_WIDE, y, '600 13px');
+      write(head.textContent, x + axis, y, '600 13px');
       const [w, h] = [port.clientWidth, port.clientHeight];
-      g.drawImage(above, x + AXIS_WIDE, y + LINE, above.clientWidth, AXIS_HIGH);
-      g.drawImage(beside, x, y + LINE + AXIS_HIGH, AXIS_WIDE, beside.clientHeight);
-      g.drawImage(pixels, x + AXIS_WIDE, y + LINE + AXIS_HIGH, w, h);
+      g.drawImage(above, x + axis, y + LINE, above.clientWidth, AXIS_HIGH);
+      g.drawImage(beside, x, y + LINE + AXIS_HIGH, axis, beside.clientHeight);
+      g.drawImage(pixels, x + axis, y + LINE + AXIS_HIGH, w, h);
       x += sizes[i][0] + PAD;
     });
     let at = PAD;
