@@ -203,15 +203,19 @@ fn cost_from_the_command_line() {
 fn cost_plots_name_every_rung() {
     let options = Options { seed: 1, quick: true, timed: true };
     let board = measure(Ladder::Lines, &options, &|_, _| ());
-    let drawing = plot::pareto(&board);
-    let svg = chart::svg(&drawing);
-    for (number, rung) in board.rungs.iter().enumerate() {
-        let ran = board.columns_run().filter(|&c| board.run(number, c).is_some()).count();
-        assert_eq!(svg.matches(&format!(">{}</text>", rung.name)).count(), ran, "{}", rung.name);
-    }
-    for shape in &drawing.shapes {
-        if let chart::Shape::Text { at, text, .. } = shape {
-            assert!(at[0] >= 0.0 && at[0] + chart::width(text) <= drawing.size[0], "{text}");
+    let drawings = [plot::pareto(&board), plot::pareto_narrow(&board)];
+    assert!(drawings[1].size[0] <= 400.0, "{:?}", drawings[1].size);
+    for drawing in drawings {
+        let svg = chart::svg(&drawing);
+        for (number, rung) in board.rungs.iter().enumerate() {
+            let ran = board.columns_run().filter(|&c| board.run(number, c).is_some()).count();
+            let labels = svg.matches(&format!(">{}</text>", rung.name)).count();
+            assert_eq!(labels, ran, "{}", rung.name);
+        }
+        for shape in &drawing.shapes {
+            if let chart::Shape::Text { at, text, .. } = shape {
+                assert!(at[0] >= 0.0 && at[0] + chart::width(text) <= drawing.size[0], "{text}");
+            }
         }
     }
 }

@@ -222,8 +222,7 @@ fn run(name: &str, words: &[&str]) -> (i32, String, PathBuf) {
         .output()
         .unwrap();
     let printed = String::from_utf8(output.stdout).unwrap();
-    let command = words[0].trim_start_matches("--cases").trim_start_matches("--");
-    let command = if command.is_empty() { "verify" } else { command };
+    let command = if words[0].starts_with("--") { "verify" } else { words[0] };
     let page = folder.join(format!("target/rasterproof/{command}.html"));
     (output.status.code().unwrap(), printed, page)
 }
@@ -550,6 +549,13 @@ fn page_shows_a_planted_fault_first() {
     assert_eq!(pickers[1], "oracle");
     assert!(!browser.text("#agreement").contains("agree in every pixel"));
     first_screen_is_the_picture(&mut browser, &page);
+    // Nobody calls a case with wrong pixels close to a bound.
+    let wrong = browser.eval(
+        "JSON.parse(document.querySelector('#data').textContent).cases
+            .filter(c => c.kind === 'closest' && c.layers.some(l => l.role !== 'specimen'
+                && l.tally.missing + l.tally.extra + l.tally.twice > 0)).map(c => c.name)",
+    );
+    assert_eq!(wrong, json!([]));
     // A wrong rasterizer does not fool the rule as the page computes it.
     assert_eq!(browser.eval("window.rasterproof.audit()"), json!([]));
     assert_eq!(browser.complaints, Vec::<String>::new());

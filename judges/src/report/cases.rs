@@ -5,7 +5,7 @@
 
 use serde::Serialize;
 
-use super::html::Chapter;
+use super::chapter::{Chapter, chapter_of_source};
 use crate::frame::Coverage;
 use crate::grid::PixelRect;
 use crate::hazard::named::Input;
@@ -445,27 +445,6 @@ fn chapter(kind: Kind, shape: &ShapeView) -> Chapter {
         _ => ("chapter 2, the top-left rule", "ch02.md#the-formula-the-top-left-rule-derived"),
     };
     Chapter { title, path }
-}
-
-/// The page of the docs about the source of a published algorithm, such as `book 3.2`.
-#[must_use]
-pub fn chapter_of_source(source: &str) -> Chapter {
-    const PAGES: [(&str, &str, &str); 12] = [
-        ("book 2", "chapter 2", "ch02.md"),
-        ("book 3", "chapter 3", "ch03.md"),
-        ("book 4", "chapter 4", "ch04.md"),
-        ("book 5", "chapter 5", "ch05.md"),
-        ("book 6", "chapter 6", "ch06.md"),
-        ("book 7", "chapter 7", "ch07.md"),
-        ("book 8", "chapter 8", "ch08.md"),
-        ("book 9", "chapter 9", "ch09.md"),
-        ("book 10", "chapter 10", "ch10.md"),
-        ("book 11", "chapter 11", "ch11.md"),
-        ("GAMES101", "GAMES101 homework 2", "games101.md"),
-        ("SYSU", "SYSU assignment 2", "sysu.md"),
-    ];
-    let page = PAGES.iter().find(|(from, ..)| source.starts_with(from));
-    page.map_or(Chapter::default(), |&(_, title, path)| Chapter { title, path })
 }
 
 fn layer(name: String, role: Role, hits: Result<Coverage, String>, truth: &Coverage) -> Layer {

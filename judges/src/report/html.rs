@@ -29,6 +29,7 @@ use serde::Serialize;
 use similar::{ChangeTag, TextDiff as Lines};
 
 use super::cases::CaseView;
+pub use super::chapter::Chapter;
 use super::picture;
 
 /// The page stays below this.
@@ -67,15 +68,6 @@ pub struct Report {
     pub diffs: Vec<TextDiff>,
     /// Where the page finds the folder `docs`: an address that ends in `/`, or nothing.
     pub docs: String,
-}
-
-/// Where the docs explain something.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
-pub struct Chapter {
-    /// In words; nothing where there is no such place.
-    pub title: &'static str,
-    /// A file below `docs`, with a fragment.
-    pub path: &'static str,
 }
 
 /// A verdict in a word and a sentence.

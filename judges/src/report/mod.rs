@@ -3,6 +3,7 @@
 pub mod ascii;
 pub mod board;
 pub mod cases;
+pub mod chapter;
 pub mod chart;
 pub mod counts;
 pub mod diagram;

@@ -26,8 +26,9 @@ const MOST_PX: [u32; 2] = [1400, 1000];
 const MOST_CROPPED_PX: u32 = 48;
 /// Room around everything and between panels.
 const GAP: u32 = 12;
-/// Room for the numbers of the rows, and of the columns.
-const AXIS: [u32; 2] = [34, 16];
+/// Room for the numbers of the columns, and the least for those of the rows.
+const ABOVE: u32 = 16;
+const BESIDE: u32 = 34;
 /// Lines of text over a panel.
 const HEAD: u32 = 38;
 const INK: Rgb<u8> = Rgb([30, 30, 30]);
@@ -107,7 +108,7 @@ fn sheet(
     for (i, (picture, (name, _))) in (0u32..).zip(panels.iter().zip(&all)) {
         let (left, top) = (GAP + i % columns * (wide + GAP), top + i / columns * (high + GAP));
         imageops::replace(&mut image, picture, left.into(), top.into());
-        let at = [left + AXIS[0], top + HEAD + AXIS[1]];
+        let at = [left + beside(shown), top + HEAD + ABOVE];
         places.push(Panel { name: name.clone(), at, zoom, shown });
     }
     imageops::replace(&mut image, &foot, 0, i64::from(height - foot.height()));
@@ -181,6 +182,12 @@ fn layout(shown: PixelRect, count: u32) -> (u32, u32) {
     (zoom(best), best)
 }
 
+/// Room for the numbers of the rows.
+fn beside(shown: PixelRect) -> u32 {
+    let wide = |n: i32| lettering::width(&n.to_string(), Size::Small) + 6;
+    wide(shown.y0).max(wide(shown.y1 - 1)).max(BESIDE)
+}
+
 /// Name and counts, numbered rows and columns, squares and outline.
 fn panel(
     name: &str,
@@ -192,12 +199,13 @@ fn panel(
     let (width, height) = (shown.width() * zoom + 1, shown.height() * zoom + 1);
     let counts = counts(hits, target);
     let text = lettering::width(name, Size::Heading).max(lettering::width(&counts, Size::Small));
-    let mut image = RgbImage::from_pixel(AXIS[0] + width.max(text), HEAD + AXIS[1] + height, WHITE);
-    let left = AXIS[0];
+    let mut image =
+        RgbImage::from_pixel(beside(shown) + width.max(text), HEAD + ABOVE + height, WHITE);
+    let left = beside(shown);
     write(&mut image, (left.into(), 0), name, Size::Heading, INK);
     write(&mut image, (left.into(), 20), &counts, Size::Small, FAINT);
     numbers(&mut image, shown, zoom);
-    let at = [left, HEAD + AXIS[1]];
+    let at = [left, HEAD + ABOVE];
     squares(&mut image, at, (shown, zoom), hits, target);
     for segment in segments {
         line(*segment, PixelRect::window(width, height), |x, y| {
@@ -223,20 +231,24 @@ fn numbers(image: &mut RgbImage, shown: PixelRect, zoom: u32) {
     let [cell_width, cell_height] = Size::Small.cell();
     let rooms = [widest[0].max(widest[1]) * cell_width + 5, 13];
     let step = |room: u32| {
-        let steps = (0..6).flat_map(|e| [1, 2, 5].map(|m| m * 10i32.pow(e)));
-        steps.into_iter().find(|s| *s as u32 * zoom >= room).unwrap_or(1_000_000)
+        let mut steps = (0..6).flat_map(|e| [1, 2, 5].map(|m| m * 10i32.pow(e)));
+        steps.find(|s| *s as u32 * zoom >= room).unwrap_or(1_000_000)
     };
     for x in (shown.x0..shown.x1).filter(|x| x.rem_euclid(step(rooms[0])) == 0) {
         let text = x.to_string();
-        let middle = AXIS[0] + (x - shown.x0) as u32 * zoom + zoom / 2;
-        let left = i64::from(middle) - i64::from(lettering::width(&text, Size::Small) / 2);
+        let middle = beside(shown) + (x - shown.x0) as u32 * zoom + zoom / 2;
+        let half = lettering::width(&text, Size::Small) / 2;
+        if middle + half > image.width() {
+            continue;
+        }
+        let left = i64::from(middle) - i64::from(half);
         write(image, (left, HEAD.into()), &text, Size::Small, FAINT);
     }
     for y in (shown.y0..shown.y1).filter(|y| y.rem_euclid(step(rooms[1])) == 0) {
         let text = y.to_string();
-        let middle = HEAD + AXIS[1] + (y - shown.y0) as u32 * zoom + zoom / 2;
+        let middle = HEAD + ABOVE + (y - shown.y0) as u32 * zoom + zoom / 2;
         let top = i64::from(middle) - i64::from(cell_height / 2);
-        let left = i64::from(AXIS[0]) - 4 - i64::from(lettering::width(&text, Size::Small));
+        let left = i64::from(beside(shown)) - 4 - i64::from(lettering::width(&text, Size::Small));
         write(image, (left, top), &text, Size::Small, FAINT);
     }
 }

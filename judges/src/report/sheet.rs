@@ -7,7 +7,7 @@
 use glam::DVec2;
 use image::{Rgb, RgbImage, imageops};
 
-use super::cases::chapter_of_source;
+use super::chapter::chapter_of_source;
 use super::html::{PictureLayer, PictureView};
 use super::lettering::{self, Size, write};
 use super::picture;

@@ -459,8 +459,9 @@
     const places = outlines(item);
     points.forEach((shape, i) => shape.forEach((point, k) => {
       const key = point.join();
-      const name = points.length === 1 ? `${kind === 'lines' ? 'p' : 'v'}${k} ` : '';
-      if (!seen.has(key)) seen.set(key, { at: places[i][k], text: `${name}(${point.map(number).join(', ')})` });
+      const name = points.length === 1 ? `${kind === 'lines' ? 'p' : 'v'}${k}` : '';
+      const text = `${name} (${point.map(number).join(', ')})`.trim();
+      if (!seen.has(key)) seen.set(key, { at: places[i][k], name, text });
     }));
     return [...seen.values()];
   };
@@ -475,25 +476,40 @@
     g.textBaseline = 'middle';
     g.textAlign = 'left';
     const middle = [0, 1].map((axis) => named.reduce((sum, { at }) => sum + at[axis], 0) / named.length);
-    for (const { at, text } of named) {
+    const taken = [];
+    for (const { at, name, text } of named) {
       const [x, y] = [at[0] * cell - left, at[1] * cell - top];
       if (x < -8 || y < -8 || x > width + 8 || y > height + 8) continue;
       g.fillStyle = palette.edge;
       g.beginPath();
       g.arc(x, y, 4, 0, 7);
       g.fill();
-      const wide = g.measureText(text).width;
-      // Outside the shape, as seen from its middle, as far as there is room.
-      const isLeft = at[0] < middle[0];
-      const tx = Math.min(width - wide - 3, Math.max(3, isLeft ? x - 8 - wide : x + 8));
-      const ty = Math.min(height - 9, Math.max(9, y + (at[1] < middle[1] ? -12 : 12)));
+      const place = freePlace(g, [x, y], [at[0] < middle[0], at[1] < middle[1]], [text, name], taken, [width, height]);
+      if (!place) continue;
+      taken.push(place.box);
       g.lineWidth = 4;
       g.lineJoin = 'round';
       g.strokeStyle = palette.empty;
-      g.strokeText(text, tx, ty);
+      g.strokeText(place.text, place.box[0], place.box[1] + 8);
       g.fillStyle = palette.sample;
-      g.fillText(text, tx, ty);
+      g.fillText(place.text, place.box[0], place.box[1] + 8);
     }
+  };
+
+  /** Where a corner's words stand: outside the shape first, in short where there is no room, or nowhere. */
+  const freePlace = (g, [x, y], [isLeft, isUp], texts, taken, [width, height]) => {
+    for (const text of texts.filter(Boolean)) {
+      const wide = g.measureText(text).width;
+      const sides = isLeft ? [x - 8 - wide, x + 8] : [x + 8, x - 8 - wide];
+      const heights = isUp ? [y - 20, y + 4] : [y + 4, y - 20];
+      for (const [tx, ty] of heights.flatMap((ty) => [...sides, x - wide / 2].map((tx) => [tx, ty]))) {
+        const box = [tx, ty, tx + wide, ty + 16];
+        const isIn = tx >= 2 && ty >= 0 && box[2] <= width - 2 && box[3] <= height;
+        const isFree = taken.every((t) => box[0] >= t[2] + 4 || box[2] + 4 <= t[0] || box[1] >= t[3] || box[3] <= t[1]);
+        if (isIn && isFree) return { text, box };
+      }
+    }
+    return null;
   };
 
   const paintCursor = (g, { cell, left, top }) => {
@@ -555,7 +571,7 @@
       .sort((p, q) => p - q).find((n) => n * cell >= room) ?? 1e5;
     const places = [
       [panel.above, columns, item.x0, width, AXIS_HIGH, step(widest * 7 + 8), left],
-      [panel.beside, rows, item.y0, height, AXIS_WIDE, step(13), top],
+      [panel.beside, rows, item.y0, height, axisWide(item), step(13), top],
     ];
     places.forEach(([canvas, [first, last], origin, length, thick, every, scroll], axis) => {
       const g = axis === 0 ? contextOf(canvas, length + 2, thick) : contextOf(canvas, thick, length + 2);
@@ -632,7 +648,9 @@
   // ---- Panels ----
 
   /** Room for the numbers of columns and rows. */
-  const [AXIS_HIGH, AXIS_WIDE] = [18, 38];
+  const AXIS_HIGH = 18;
+  const axisWide = ({ y0, height }) =>
+    Math.max(38, 10 + 7 * Math.max(String(y0).length, String(y0 + height).length));
 
   /** Keeps the scroll positions of the panels together. */
   const scrolled = (port) => {
@@ -700,16 +718,18 @@
     const room = $('#viewer').clientWidth;
     const high = Math.max(220, Math.round(window.innerHeight * (mode === 'side' ? 0.42 : 0.56)));
     const crop = cropOf(item, state.a, state.b);
-    const fit = (wide) => cellFor(crop, wide - AXIS_WIDE, high);
+    const axis = axisWide(item);
+    const fit = (wide) => cellFor(crop, wide - axis, high);
     // The words about a pixel stand beside the picture unless that makes it much smaller.
     const beside = mode !== 'side' && room > 700 && fit(room - 380) > 0.6 * fit(room);
     $('#look').dataset.layout = beside ? 'beside' : 'below';
-    const wide = Math.floor((room - gap) / columns) - 3 - AXIS_WIDE - (beside ? 380 : 0);
+    const wide = Math.floor((room - gap) / columns) - 3 - axis - (beside ? 380 : 0);
     const before = state.cell;
     state.cell = state.zoom ?? cellFor(crop, wide, high);
     const { cell } = state;
     $('#stage').dataset.cell = String(cell);
-    for (const { port, space, canvas } of panels) {
+    for (const { figure, port, space, canvas } of panels) {
+      figure.style.gridTemplateColumns = `${axis}px auto`;
       const [width, height] = [Math.ceil(item.width * cell) + 1, Math.ceil(item.height * cell) + 1];
       // A canvas that is too large for a moment would bring scroll bars.
       Object.assign(canvas.style, { width: '0', height: '0' });
@@ -1136,7 +1156,7 @@
     const { title, path } = item.chapter ?? {};
     if (!title) return [];
     const link = data.docs ? el('a', { href: data.docs + path }, title) : title;
-    return ['Explained in ', link, data.docs ? '' : `, docs/${path}`, '.'];
+    return ['Explained in ', link, data.docs ? '' : `, docs/${path.split('#')[0]}`, '.'];
   };
 
   const open = async (item, settings = {}) => {
@@ -1163,6 +1183,9 @@
     $('#case-kind').textContent = KINDS[item.kind];
     $('#case-kind').className = `kind ${item.kind}`;
     $('#case-chapter').replaceChildren(...chapterOf(item));
+    const places = item.isCase ? corners(item) : [];
+    $('#case-corners').textContent = places.length > 0 && places.length <= MOST_CORNERS
+      ? `Corners, in pixels: ${places.map(({ text }) => text).join('  ')}` : '';
     $('#case-about').textContent = item.about;
     $('#case-found').textContent = item.found;
     $('#case-command').hidden = !item.command;
@@ -1205,8 +1228,9 @@
   const snapshot = () => {
     const { item, panels } = state;
     const [PAD, LINE] = [16, 22];
+    const axis = axisWide(item);
     const legendTexts = all('#legend li').map((li) => [li.querySelector('span').style.background, li.textContent]);
-    const sizes = panels.map(({ port }) => [port.clientWidth + AXIS_WIDE, port.clientHeight + AXIS_HIGH + LINE]);
+    const sizes = panels.map(({ port }) => [port.clientWidth + axis, port.clientHeight + AXIS_HIGH + LINE]);
     const wide = Math.max(420, sizes.reduce((sum, [w]) => sum + w + PAD, PAD));
     const high = Math.max(...sizes.map(([, h]) => h)) + 4 * LINE + 3 * PAD;
     const canvas = el('canvas', { width: 2 * wide, height: 2 * high });
@@ -1224,11 +1248,11 @@
     let x = PAD;
     panels.forEach(({ caption: head, canvas: pixels, above, beside, port }, i) => {
       const y = PAD + 2 * LINE + 6;
-      write(head.textContent, x + AXIS_WIDE, y, '600 13px');
+      write(head.textContent, x + axis, y, '600 13px');
       const [w, h] = [port.clientWidth, port.clientHeight];
-      g.drawImage(above, x + AXIS_WIDE, y + LINE, above.clientWidth, AXIS_HIGH);
-      g.drawImage(beside, x, y + LINE + AXIS_HIGH, AXIS_WIDE, beside.clientHeight);
-      g.drawImage(pixels, x + AXIS_WIDE, y + LINE + AXIS_HIGH, w, h);
+      g.drawImage(above, x + axis, y + LINE, above.clientWidth, AXIS_HIGH);
+      g.drawImage(beside, x, y + LINE + AXIS_HIGH, axis, beside.clientHeight);
+      g.drawImage(pixels, x + axis, y + LINE + AXIS_HIGH, w, h);
       x += sizes[i][0] + PAD;
     });
     let at = PAD;
