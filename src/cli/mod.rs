@@ -19,6 +19,7 @@ mod quiz;
 mod render;
 mod reply;
 mod review;
+mod shown;
 mod specimens;
 mod verify;
 
