@@ -6,30 +6,24 @@ use clap::builder::PossibleValuesParser;
 use image::RgbImage;
 
 use super::page::{PageArguments, write_page};
+use super::shown::{self, Contestants};
 use super::{Failure, Streams, exit, explain, png_name, program, usage, write_file, write_unasked};
-use crate::frame::Coverage;
 use crate::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
 use crate::hazard::named::{Input, plain_line, plain_triangle};
 use crate::hazard::offgrid::{self, OffGridCase};
 use crate::hazard::{self, Case, Line, Shape};
-use crate::lineup::{Engine, Entry, ExactEngine, LineEngine, SPECIMENS, Specimen};
-use crate::mutant::exact::ExactMutant;
-use crate::mutant::{LineMutant, TriangleMutant};
-use crate::oracle::Oracle;
+use crate::lineup::{Entry, ExactEngine, SPECIMENS, Specimen};
 use crate::oracle::coverage::samples_on_boundary;
 use crate::raster::edge_function::WordWidth;
 use crate::report::html::{Outcome, Report};
 use crate::report::{ascii, cases, panels, picture, summary};
 use crate::scene::named;
+use crate::specimen::bare;
 use crate::specimen::catalogue::{RECORDED, RECORDED_SIDE_PX, RecordedCase};
-use crate::specimen::{bare, from_screen};
 use crate::triangle::{Corners, FreeCorners, PixelPoint};
 use crate::verify::exact::{describe, exact_coverage, judge_exact_case};
-use crate::verify::specimens::{specimen_coverage, specimen_line_coverage};
-use crate::verify::tolerance::Tolerance;
-use crate::verify::{
-    self, Tally, engine_coverage, line_coverage, oracle_coverage, oracle_pixels_each,
-};
+use crate::verify::specimens::specimen_coverage;
+use crate::verify::{self, Finding, Tally, oracle_pixels_each};
 
 /// Options of `inspect`.
 #[derive(clap::Args, Debug)]
@@ -62,7 +56,7 @@ pub struct InspectArguments {
     #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(SPECIMENS.iter().map(|e| e.name)))]
     specimen: Option<String>,
     /// Judge this planted fault instead of the engines; `list` names them
-    #[arg(long, value_name = "FAULT", value_parser = super::verify::mutant_names(), hide_possible_values = true)]
+    #[arg(long, value_name = "FAULT", value_parser = crate::mutant::about::names(), hide_possible_values = true)]
     plant: Option<String>,
     /// Explain this pixel: edge values, ties, the rule, the span
     #[arg(long, value_name = "X,Y", value_parser = parse_pixel_option, allow_hyphen_values = true)]
@@ -102,35 +96,6 @@ fn parse_window(text: &str) -> Result<PixelRect, String> {
     Ok(PixelRect { x0, y0, x1: end(x0, width)?, y1: end(y0, height)? })
 }
 
-/// Who is judged: the engines of each kind, or a planted fault alone.
-struct Contestants {
-    engines: Vec<(Engine, Tolerance)>,
-    lines: Vec<LineEngine>,
-    exact: Vec<ExactEngine>,
-}
-
-impl Contestants {
-    fn new(plant: Option<&str>) -> Self {
-        let Some(name) = plant else {
-            let engines = Engine::JUDGED.into_iter().map(|e| (e, verify::tolerance::of(e)));
-            return Self {
-                engines: engines.collect(),
-                lines: LineEngine::JUDGED.to_vec(),
-                exact: ExactEngine::JUDGED.to_vec(),
-            };
-        };
-        let triangle = TriangleMutant::ALL.into_iter().find(|m| m.name() == name);
-        let line = LineMutant::ALL.into_iter().find(|m| m.name() == name);
-        let exact = ExactMutant::ALL.into_iter().find(|m| m.name() == name);
-        let with_bound = |m| (Engine::Mutant(m), verify::tolerance::SCANLINE);
-        Self {
-            engines: triangle.map(with_bound).into_iter().collect(),
-            lines: line.map(LineEngine::Mutant).into_iter().collect(),
-            exact: exact.map(ExactEngine::Mutant).into_iter().collect(),
-        }
-    }
-}
-
 /// A planted fault that has no part in a case cannot be shown by it.
 fn no_part(plant: Option<&String>) -> Failure {
     let name = plant.map_or("", String::as_str);
@@ -166,8 +131,8 @@ pub fn run(arguments: &InspectArguments, streams: &mut Streams<'_>) -> Result<u8
 
     // Judge and show.
     let Contestants { engines, lines, exact } = Contestants::new(arguments.plant.as_deref());
-    let mut shown = draw(&case, &engines, &lines);
-    if shown.engines.is_empty() {
+    let mut shown = shown::draw(&case, &engines, &lines);
+    if shown.is_empty() {
         return Err(no_part(arguments.plant.as_ref()));
     }
     if let Some(specimen) = specimen(arguments, None) {
@@ -179,18 +144,7 @@ pub fn run(arguments: &InspectArguments, streams: &mut Streams<'_>) -> Result<u8
         writeln!(out, "hits of ({}, {}): {}\n", at.x, at.y, shown.hits(at))?;
     }
     writeln!(out, "{}", ascii::side_by_side(&shown.blocks(), 100))?;
-    let mut agrees = true;
-    for ([actual, target], finding) in &findings {
-        agrees &= !finding.is_wrong();
-        let values = match finding.values {
-            0 => String::new(),
-            n => {
-                let worst = finding.attribute.max(finding.depth);
-                format!("; {n} values, {}", summary::of_bound(worst))
-            }
-        };
-        writeln!(out, "{actual} against {target}: {}{values}", finding.describe())?;
-    }
+    let mut agrees = say_findings(&findings, out)?;
     if let Some(expected) = expected.filter(|_| arguments.window.is_none()) {
         let hits = oracle_pixels_each(&case);
         let as_expected = expected.is_empty() || hits == expected;
@@ -223,6 +177,26 @@ pub fn run(arguments: &InspectArguments, streams: &mut Streams<'_>) -> Result<u8
         write_report(arguments, view, agrees, streams)?;
     }
     Ok(if agrees { exit::AGREES } else { exit::DISAGREES })
+}
+
+/// A line for each pair that was compared; says whether all agree.
+fn say_findings(
+    findings: &[([String; 2], Finding)],
+    out: &mut dyn std::io::Write,
+) -> Result<bool, Failure> {
+    let mut agrees = true;
+    for ([actual, target], finding) in findings {
+        agrees &= !finding.is_wrong();
+        let values = match finding.values {
+            0 => String::new(),
+            n => {
+                let worst = finding.attribute.max(finding.depth);
+                format!("; {n} values, {}", summary::of_bound(worst))
+            }
+        };
+        writeln!(out, "{actual} against {target}: {}{values}", finding.describe())?;
+    }
+    Ok(agrees)
 }
 
 /// The name of the case on its page.
@@ -397,7 +371,7 @@ fn off_grid(
         let triangles: Vec<_> = case.triangles.iter().map(|t| bare(t.px())).collect();
         match specimen_coverage(*specimen, &triangles, screen) {
             Ok(hits) => {
-                let hits = crop(&hits, case.window);
+                let hits = shown::crop(&hits, case.window);
                 let Tally { missing, extra, twice, .. } = Tally::between(&hits, &target);
                 writeln!(
                     out,
@@ -670,138 +644,4 @@ fn facts(case: &Case, out: &mut dyn std::io::Write) -> Result<(), Failure> {
         }
     }
     Ok(())
-}
-
-/// A case off the lattice as every engine for such corners draws it.
-pub fn picture_off_grid(
-    title: &str,
-    case: &OffGridCase,
-    engines: &[(&str, ExactEngine)],
-) -> Option<RgbImage> {
-    let (target, _) = exact_coverage(&ExactEngine::Oracle, case).ok()?;
-    let hits = engines.iter().filter_map(|(name, engine)| {
-        Some(((*name).to_owned(), exact_coverage(engine, case).ok()?.0))
-    });
-    Some(panels::of_off_grid(title, case, &hits.collect::<Vec<_>>(), &target).image)
-}
-
-/// The hits in a window; none where the other one has no pixels.
-fn crop(hits: &Coverage, window: PixelRect) -> Coverage {
-    let mut cropped = Coverage::new(window, 0);
-    for y in window.y0..window.y1 {
-        for (x, cell) in (window.x0..).zip(cropped.row_mut(y)) {
-            *cell = hits.get(x, y).unwrap_or(0);
-        }
-    }
-    cropped
-}
-
-/// Hits of both.
-fn sum(a: &Coverage, b: &Coverage) -> Coverage {
-    let mut all = a.clone();
-    for (y, row) in b.rows() {
-        for (sum, hits) in all.row_mut(y).iter_mut().zip(row) {
-            *sum = sum.saturating_add(*hits);
-        }
-    }
-    all
-}
-
-/// A case as each engine draws it.
-pub struct Shown {
-    engines: Vec<(String, Result<Coverage, String>)>,
-    target: Coverage,
-}
-
-/// Draws a case with each engine that can.
-pub fn draw(case: &Case, engines: &[(Engine, Tolerance)], lines: &[LineEngine]) -> Shown {
-    match &case.shape {
-        Shape::Triangles { list, .. } => Shown {
-            engines: engines
-                .iter()
-                .map(|(e, _)| (e.name().to_owned(), engine_coverage(e, list, case.window)))
-                .collect(),
-            target: oracle_coverage(list, case.window),
-        },
-        Shape::Lines(list) => {
-            let mut target = Coverage::new(case.window, 0);
-            for line in list {
-                Oracle.line_pixels(line, case.window, |p, _| target.hit(p.y, p.x, p.x + 1));
-            }
-            Shown {
-                engines: lines
-                    .iter()
-                    .map(|e| (e.name().to_owned(), line_coverage(e, list, case.window)))
-                    .collect(),
-                target,
-            }
-        }
-    }
-}
-
-impl Shown {
-    /// Puts a specimen before the engines.
-    fn add(&mut self, entry: &Entry, case: &Case) -> Result<(), Failure> {
-        let window = case.window;
-        let hits = match (&case.shape, entry.specimen) {
-            (Shape::Triangles { list, .. }, Some(Specimen::Triangle(specimen))) => {
-                let list: Vec<_> = list.iter().map(from_screen).collect();
-                specimen_coverage(specimen, &list, window)
-            }
-            (Shape::Lines(lines), Some(Specimen::Line(specimen))) => {
-                let mut hits = Ok(Coverage::new(window, 0));
-                for line in lines {
-                    let more = specimen_line_coverage(specimen, line, window);
-                    hits = hits.and_then(|hits| Ok(sum(&hits, &more?)));
-                }
-                hits
-            }
-            _ => return Err(usage(format!("{} does not draw what this case holds", entry.name))),
-        };
-        self.engines.insert(0, (entry.name.to_owned(), hits));
-        Ok(())
-    }
-
-    /// How often each hits a pixel, and the oracle.
-    fn hits(&self, at: PixelPoint) -> String {
-        let of = |hits: &Coverage| hits.get(at.x, at.y).unwrap_or(0);
-        let engines = self.engines.iter().map(|(name, hits)| match hits {
-            Ok(hits) => format!("{name} {}", of(hits)),
-            Err(_) => format!("{name} panics"),
-        });
-        engines.chain([format!("oracle {}", of(&self.target))]).collect::<Vec<_>>().join(", ")
-    }
-
-    /// A titled grid for each engine; one that panicked has its message instead.
-    pub fn blocks(&self) -> Vec<(String, Vec<String>)> {
-        let blocks = self.engines.iter().map(|(name, hits)| match hits {
-            Ok(hits) => {
-                let tally = Tally::between(hits, &self.target);
-                (
-                    format!("{name}: {} px, {} wrong", hits.covered(), tally.total()),
-                    ascii::grid(hits, &self.target),
-                )
-            }
-            Err(message) => (format!("{name}: panics"), vec![message.clone()]),
-        });
-        let oracle = (
-            format!("oracle: {} px", self.target.covered()),
-            ascii::grid(&self.target, &self.target),
-        );
-        blocks.chain([oracle]).collect()
-    }
-
-    /// The grid of one engine and the oracle's, where coverage differs or an engine panicked.
-    pub fn judged_blocks(&self, name: &str) -> Option<Vec<(String, Vec<String>)>> {
-        let at = self.engines.iter().position(|(n, _)| n == name)?;
-        let blocks = self.blocks();
-        Some(vec![blocks[at].clone(), blocks.last()?.clone()])
-    }
-
-    /// A panel for each engine that did not panic, then the oracle.
-    pub fn picture(&self, title: &str, case: &Case) -> RgbImage {
-        let drawn = self.engines.iter();
-        let drawn = drawn.filter_map(|(name, hits)| Some((name.clone(), hits.clone().ok()?)));
-        panels::of_case(title, case, &drawn.collect::<Vec<_>>(), &self.target).image
-    }
 }

@@ -20,6 +20,7 @@ mod progress;
 mod quiz;
 mod render;
 mod review;
+mod shown;
 mod specimens;
 mod verify;
 

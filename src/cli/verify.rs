@@ -7,14 +7,14 @@ use image::RgbImage;
 
 use super::page::{PageArguments, write_page};
 use super::progress::Progress;
+use super::shown::{self, Contestants};
 use super::{Failure, Streams, exit, invariant, program, usage, write_unasked};
 use crate::hazard::{self, Shape};
 use crate::lineup::{Engine, ExactEngine, LineEngine};
-use crate::mutant::{LineMutant, Mutant, TriangleMutant, exact::ExactMutant};
 use crate::report::html::Report;
 use crate::report::{self, ascii, cases, counts, json, picture, summary, table};
 use crate::verify::exact::{self, ExactVerdict};
-use crate::verify::tolerance::{self, Tolerance};
+use crate::verify::tolerance::Tolerance;
 use crate::verify::{self, Options, Verdict};
 
 /// Options of `verify`.
@@ -54,7 +54,7 @@ pub struct VerifyArguments {
     #[command(flatten)]
     page: PageArguments,
     /// Judge an engine with a planted fault instead, to see the harness fail; `list` names them
-    #[arg(long, value_name = "FAULT", value_parser = mutant_names(), hide_possible_values = true,
+    #[arg(long, value_name = "FAULT", value_parser = crate::mutant::about::names(), hide_possible_values = true,
         conflicts_with = "engine")]
     plant: Option<String>,
 }
@@ -68,11 +68,6 @@ fn judged_names() -> Vec<&'static str> {
     let lines = LineEngine::JUDGED.iter().map(LineEngine::name);
     let exact = ExactEngine::JUDGED.iter().map(ExactEngine::name);
     Engine::CHOICES.iter().map(Engine::name).chain(lines).chain(exact).collect()
-}
-
-pub(super) fn mutant_names() -> Vec<&'static str> {
-    let exact = ExactMutant::ALL.iter().map(|mutant| mutant.name());
-    Mutant::all().iter().map(Mutant::name).chain(exact).collect()
 }
 
 pub(super) fn parse_shard(text: &str) -> Result<(u64, u64), String> {
@@ -106,43 +101,19 @@ impl VerifyArguments {
         })
     }
 
-    /// The engines to judge: both of each kind, a selection, or a planted fault alone.
-    fn contestants(&self) -> (Vec<(Engine, Tolerance)>, Vec<LineEngine>) {
-        if let Some(name) = &self.plant {
-            let engine = TriangleMutant::ALL.into_iter().find(|mutant| mutant.name() == name);
-            let line = LineMutant::ALL.into_iter().find(|mutant| mutant.name() == name);
-            return (
-                engine.map(|m| (Engine::Mutant(m), tolerance::SCANLINE)).into_iter().collect(),
-                line.map(LineEngine::Mutant).into_iter().collect(),
-            );
+    /// Who is judged: everybody, a selection, or a planted fault alone.
+    fn contestants(&self) -> Contestants {
+        let mut all = Contestants::new(self.plant.as_deref());
+        if self.engine.is_empty() {
+            return all;
         }
-        // Both unless others are asked for.
-        let rasterizers: &[Engine] =
-            if self.engine.is_empty() { &Engine::JUDGED } else { &Engine::CHOICES };
-        let wanted = |name: &str| self.engine.is_empty() || self.engine.iter().any(|n| n == name);
-        (
-            rasterizers
-                .iter()
-                .filter(|e| wanted(e.name()))
-                .map(|&e| (e, tolerance::of(e)))
-                .collect(),
-            LineEngine::JUDGED.into_iter().filter(|e| wanted(e.name())).collect(),
-        )
-    }
-
-    /// The engines to judge off the lattice: both, a selection, or a planted fault alone.
-    fn exact_contestants(&self) -> Vec<(&'static str, ExactEngine)> {
-        let engines: Vec<_> = match &self.plant {
-            Some(name) => {
-                let mutant = ExactMutant::ALL.into_iter().find(|mutant| mutant.name() == name);
-                mutant.map(ExactEngine::Mutant).into_iter().collect()
-            }
-            None => ExactEngine::JUDGED
-                .into_iter()
-                .filter(|e| self.engine.is_empty() || self.engine.iter().any(|n| n == e.name()))
-                .collect(),
-        };
-        engines.into_iter().map(|engine| (engine.name(), engine)).collect()
+        // Some that are judged only when asked for.
+        all.engines = Engine::CHOICES.iter().map(|&e| (e, verify::tolerance::of(e))).collect();
+        let wanted = |name: &str| self.engine.iter().any(|n| n == name);
+        all.engines.retain(|(engine, _)| wanted(engine.name()));
+        all.lines.retain(|engine| wanted(engine.name()));
+        all.exact.retain(|engine| wanted(engine.name()));
+        all
     }
 
     /// The command that repeats one case.
@@ -184,8 +155,8 @@ pub fn run(arguments: &VerifyArguments, streams: &mut Streams<'_>) -> Result<u8,
         return invariant::run(names, plant.as_deref(), *seed, *cases, streams);
     }
     let options = arguments.options()?;
-    let (engines, lines) = arguments.contestants();
-    let exact_engines = arguments.exact_contestants();
+    let Contestants { engines, lines, exact } = arguments.contestants();
+    let exact_engines: Vec<_> = exact.into_iter().map(|engine| (engine.name(), engine)).collect();
     if engines.is_empty() && lines.is_empty() && exact_engines.is_empty() {
         return Err(usage("this fault is in no engine and no line drawer: add --invariant NAME"));
     }
@@ -349,7 +320,7 @@ fn failures(
     let out = &mut *streams.output;
     let mut drawn = Vec::new();
     for (rank, failure) in verdict.failures.iter().enumerate() {
-        let shown = super::inspect::draw(&failure.case, engines, lines);
+        let shown = shown::draw(&failure.case, engines, lines);
         if drawn.len() < MOST_DRAWN {
             drawn.push(shown.picture(&heading(failure), &failure.case));
         }
@@ -369,8 +340,7 @@ fn failures(
     }
     let mut exact = Vec::new();
     for (rank, failure) in off_grid.failures.iter().enumerate() {
-        let picture =
-            super::inspect::picture_off_grid(&heading(failure), &failure.case, exact_engines);
+        let picture = shown::picture_off_grid(&heading(failure), &failure.case, exact_engines);
         exact.extend(picture.filter(|_| rank < MOST_DRAWN));
         if rank == 0 {
             writeln!(out, "{failure}")?;
@@ -459,7 +429,7 @@ fn worst_cases(
                 pair.actual,
                 pair.worst()
             );
-            pictures.push(super::inspect::draw(&case, engines, lines).picture(&title, &case));
+            pictures.push(shown::draw(&case, engines, lines).picture(&title, &case));
         }
     }
     Ok(pictures)

@@ -114,7 +114,8 @@ fn review(name: &str, old: &RgbImage, new: &RgbImage) {
     let path = format!("{folder}/{name}.png");
     std::fs::create_dir_all(folder).unwrap();
     std::fs::write(&path, picture::png(&sheet(old, new))).unwrap();
-    eprintln!("{name} looks different: {path} (old | new | difference)");
+    eprintln!("{name} looks different: see {path} (old | new | difference),");
+    eprintln!("or look into it and read how to accept it: cargo run -- review");
 }
 
 fn judged(case: &Case) -> (Vec<(&'static str, Coverage)>, Coverage) {

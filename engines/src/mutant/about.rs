@@ -84,6 +84,12 @@ pub fn all() -> impl Iterator<Item = (&'static str, &'static str)> {
     ABOUT.iter().copied()
 }
 
+/// Names of all planted faults, for the command line.
+#[must_use]
+pub fn names() -> Vec<&'static str> {
+    all().map(|(name, _)| name).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

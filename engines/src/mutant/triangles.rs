@@ -315,8 +315,15 @@ fn on_outline<V: Varying>(
     row: PixelRect,
     emit: &mut dyn FnMut(Fragment<V>),
 ) {
-    let [v0, v1, v2] = &triangle.vertices;
-    let corners = triangle.corners();
+    // The topmost, then leftmost vertex first, and clockwise: the order they came in leaves no trace.
+    let mut vertices = triangle.vertices;
+    let top = (0..3).min_by_key(|&i| (vertices[i].position.y, vertices[i].position.x));
+    vertices.rotate_left(top.unwrap_or(0));
+    if cross(triangle.corners()) < 0 {
+        vertices.swap(1, 2);
+    }
+    let [v0, v1, v2] = &vertices;
+    let corners = [v0.position, v1.position, v2.position];
     let area = cross(corners);
     let largest = v0.inv_w.max(v1.inv_w).max(v2.inv_w);
     let q = [v0.inv_w, v1.inv_w, v2.inv_w].map(|inv_w| inv_w / largest);
@@ -324,7 +331,7 @@ fn on_outline<V: Varying>(
         let sample = centre_of(x_px, row.y0);
         let [a, b, c] = corners;
         let e = [cross([b, c, sample]), cross([c, a, sample]), cross([a, b, sample])];
-        if area == 0 || e.iter().any(|e| e * area.signum() < 0) {
+        if area == 0 || e.iter().any(|&e| e < 0) {
             continue;
         }
         let l = e.map(|e| e as f64 / area as f64);
