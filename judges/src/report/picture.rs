@@ -136,7 +136,15 @@ pub(super) fn encoded(image: &RgbImage, text: Option<(&str, &str)>) -> Vec<u8> {
 fn indexed(image: &RgbImage) -> Option<(Vec<u8>, Vec<u8>)> {
     let mut numbers: HashMap<[u8; 3], u8> = HashMap::new();
     let (mut palette, mut indices) = (Vec::new(), Vec::new());
+    let mut last = None;
     for pixel in image.pixels() {
+        // Most pixels have the colour of the one before.
+        if let Some((colour, number)) = last
+            && colour == pixel.0
+        {
+            indices.push(number);
+            continue;
+        }
         let next = numbers.len();
         let number = match numbers.entry(pixel.0) {
             Entry::Occupied(known) => *known.get(),
@@ -146,6 +154,7 @@ fn indexed(image: &RgbImage) -> Option<(Vec<u8>, Vec<u8>)> {
             }
         };
         indices.push(number);
+        last = Some((pixel.0, number));
     }
     Some((palette, indices))
 }
