@@ -28,7 +28,7 @@ const NOTICES: Exercise = Exercise {
         "有个光栅器取所有边函数 >= 0 的采样点，于是公共边两边都占有。下面哪个命题对它不成立？",
     ],
     choices: &[
-        ["a constant attribute comes out bit for bit", "常量属性逐位不变地出来"],
+        ["a constant attribute comes out bit for bit", "常数属性逐位原样得出"],
         [
             "what a triangle covers of a row is one run of pixels",
             "三角形在一行里覆盖的是连续的一段像素",
