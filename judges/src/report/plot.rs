@@ -22,7 +22,7 @@ const ROW: f64 = 13.0;
 const SCATTER: f64 = 150.0;
 /// Room left of a panel for its axis, over it for its name, and below for the other axis.
 const AXIS: f64 = 48.0;
-const HEAD: f64 = 56.0;
+const HEAD: f64 = 70.0;
 const FOOT: f64 = 46.0;
 const RADIUS: f64 = 3.5;
 
@@ -204,7 +204,9 @@ fn panel(
         drawing.text([left + 12.0, top + 14.0 + 14.0 * line as f64], text, INK);
     }
     let up = wrapped(&format!("up: {}", board.measures[0].title), x1 - left - 14.0);
-    drawing.text([left + 12.0, y0 - 12.0], &up[0], SOFT);
+    for (text, line) in up.iter().rev().take(2).zip([12.0, 26.0]) {
+        drawing.text([left + 12.0, y0 - line], text, SOFT);
+    }
     let right = "right: time in ns for each pixel";
     drawing.text([x1 - chart::width(right), y1 + shelf + 24.0], right, SOFT);
     drawing.shapes.push(Shape::Box { at: [x0, y1], size: [x1 - x0, shelf], ink: SHELF });
@@ -249,9 +251,14 @@ fn snapping(board: &Board, column: usize) -> Option<f64> {
     board.error(rung, column, 0).filter(|&error| error > 0.0)
 }
 
+/// Where the quartiles of a dot's time lie.
+fn ends(dot: &Dot, time: &Axis) -> [f64; 2] {
+    dot.quartiles.map(|t| if t > 0.0 { time.place(t) } else { time.place(dot.time) })
+}
+
 /// A line from the first to the last quartile of a dot's time.
 fn spread(drawing: &mut Drawing, dot: &Dot, time: &Axis, y: f64) {
-    let [from, to] = dot.quartiles.map(|t| [time.place(t.max(f64::MIN_POSITIVE)), y]);
+    let [from, to] = ends(dot, time).map(|x| [x, y]);
     drawing.shapes.push(Shape::Line { from, to, width: 2.0, ink: SOFT });
 }
 
@@ -278,10 +285,11 @@ fn shelved(drawing: &mut Drawing, dots: &[Dot], time: &Axis, [x0, x1]: [f64; 2],
         spread(drawing, dot, time, at[1]);
         let ink = mark(drawing, at, dot);
         let room = chart::width(&dot.label) + 10.0;
-        if at[0] + room <= x1 || at[0] - room < x0 {
-            drawing.text([at[0] + 9.0, at[1]], &dot.label, ink);
+        let [low, high] = ends(dot, time);
+        if high + room <= x1 || low - room < x0 {
+            drawing.text([high + 9.0, at[1]], &dot.label, ink);
         } else {
-            drawing.text_before([at[0] - 9.0, at[1]], &dot.label, ink);
+            drawing.text_before([low - 9.0, at[1]], &dot.label, ink);
         }
     }
 }
@@ -315,7 +323,9 @@ fn scattered(
             let down = f64::from((i + 1) / 2) * ROW / 2.0 * if i % 2 == 0 { 1.0 } else { -1.0 };
             // Where neither side has room, above or below.
             let over = (at[0] - room / 2.0).clamp(x0 + 2.0, (x1 - room - 2.0).max(x0 + 2.0));
-            [at[0] + 10.0, at[0] - 10.0 - room, over].map(|x| [x, at[1] + down])
+            // Clear of the quartiles where it stands beside the dot.
+            let [low, high] = if i == 0 { ends(dot, time) } else { [at[0]; 2] };
+            [high + 10.0, low - 10.0 - room, over].map(|x| [x, at[1] + down])
         });
         let area = |[x, y]: [f64; 2]| [x, y - 6.0, x + room, y + 6.0];
         let leader = |place: [f64; 2]| {
