@@ -128,7 +128,7 @@ impl Finding {
         if self.depth > 1.0 {
             parts.push(format!("a depth off by {:.3e} times its bound", self.depth));
         }
-        if parts.is_empty() { "agrees".to_owned() } else { parts.join(", ") }
+        if parts.is_empty() { "agrees".to_owned() } else { parts.join("; ") }
     }
 
     fn panicked(message: String) -> Self {
