@@ -119,7 +119,9 @@ fn line(out: &mut String, line: &Line, window: PixelRect, at: PixelPoint) {
     let exact = i128::from(a[minor]) * du + rise;
     let (whole, part) = (exact.div_euclid(du), exact.rem_euclid(du));
     let fraction = if part == 0 { String::new() } else { format!(" and {part}/{du}") };
-    let tie = if 2 * part == du { ", a tie: halfway between two pixels" } else { "" };
+    let is_tie = 2 * part == du;
+    let tie = if is_tie { ", a tie: halfway between two pixels" } else { "" };
+    let nearest = if is_tie { "of the two the one farther along" } else { "the nearest" };
     let _ = writeln!(
         out,
         "  at {major_name} = {u} the line passes {minor_name} = {whole}{fraction}{tie}"
@@ -132,8 +134,8 @@ fn line(out: &mut String, line: &Line, window: PixelRect, at: PixelPoint) {
         }
     });
     let _ = match lit {
-        Some(lit) if lit == v => writeln!(out, "  the nearest pixel is this one: lit"),
-        Some(lit) => writeln!(out, "  {minor_name} = {lit} is lit there: not this one"),
+        Some(lit) if lit == v => writeln!(out, "  {nearest} is lit: this one"),
+        Some(lit) => writeln!(out, "  {nearest} is lit: {minor_name} = {lit}, not this one"),
         None => writeln!(out, "  the pixel that is lit there lies outside the window"),
     };
 }

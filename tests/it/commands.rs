@@ -264,6 +264,7 @@ fn inspect_explains_a_pixel() {
     assert!(right.contains("by the top-left rule: not covered"), "{right}");
     let (line, _) = check(&["inspect", "--line", "0,0", "8,4", "--pixel", "3,2"], 0);
     assert!(line.contains("passes y = 1 and 4/8, a tie"), "{line}");
+    assert!(line.contains("of the two the one farther along is lit: this one"), "{line}");
     let (_, errors) = check(&["inspect", "T2", "--pixel", "99,3"], 2);
     assert!(errors.contains("lies outside the window"), "{errors}");
 }
@@ -314,4 +315,29 @@ fn planted_faults_are_listed() {
         assert!(out.lines().any(|line| line.contains(name) && line.contains(about)), "{name}");
     }
     assert!(check(&["--help"], 0).0.contains("--plant <FAULT>"));
+}
+
+/// A command that is printed works as printed: through cargo where cargo started the program.
+#[test]
+#[cfg(unix)]
+fn commands_are_printed_as_the_program_was_called() {
+    let folder = std::env::temp_dir().join(format!("rasterproof-called-{}", std::process::id()));
+    let place = folder.join("target/release");
+    std::fs::create_dir_all(&place).unwrap();
+    std::os::unix::fs::symlink(env!("CARGO_BIN_EXE_rasterproof"), place.join("rasterproof"))
+        .unwrap();
+    let printed = |cargo: Option<&str>| {
+        let mut shell = Command::new("sh");
+        shell.args(["-c", "exec target/release/rasterproof --cases 5 --family flat"]);
+        match cargo {
+            Some(path) => shell.env("CARGO", path),
+            None => shell.env_remove("CARGO"),
+        };
+        text(&shell.current_dir(&folder).output().unwrap().stdout)
+    };
+    let out = printed(Some("/usr/bin/cargo"));
+    assert!(out.contains("repeat with: cargo run --release -- verify --seed 1"), "{out}");
+    let out = printed(None);
+    assert!(out.contains("repeat with: target/release/rasterproof verify --seed 1"), "{out}");
+    std::fs::remove_dir_all(folder).unwrap();
 }

@@ -6,8 +6,8 @@ use crate::verify::specimens::{Counts, SpecimenReport};
 
 const UNITS: &str = "\
 differ: percent of the triangles or lines with a wrong pixel or value; extra, missing, twice: wrong
-pixels per million covered, each triangle for itself; shared: hits on edges of a mesh that a second
-triangle has too; value, depth: worst error as a fraction of the corner values' spread
+pixels per million covered, each triangle for itself; value, depth: worst error as a fraction of the
+corner values' spread; shared: as twice, but pixels that two triangles of a mesh draw
 ";
 
 /// The survey: a block for each specimen with its sums and its worst family, then coverage by family
@@ -86,7 +86,7 @@ pub fn detail(report: &SpecimenReport) -> String {
 fn heads() -> String {
     format!(
         "{:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7}",
-        "differ", "extra", "missing", "twice", "shared", "value", "depth"
+        "differ", "extra", "missing", "twice", "value", "depth", "shared"
     )
 }
 
@@ -112,9 +112,9 @@ fn cells(counts: &Counts) -> String {
         rate(tally.extra),
         rate(tally.missing),
         rate(tally.twice),
-        rate(counts.shared),
         error(counts.worst_attribute),
-        error(counts.worst_depth)
+        error(counts.worst_depth),
+        rate(counts.shared)
     )
 }
 

@@ -119,7 +119,7 @@ impl Finding {
         if self.depth > 1.0 {
             parts.push(format!("a depth off by {:.3e} times its bound", self.depth));
         }
-        if parts.is_empty() { "agrees".to_owned() } else { parts.join(", ") }
+        if parts.is_empty() { "agrees".to_owned() } else { parts.join("; ") }
     }
 
     /// Where a comparison starts from: differences up to these were seen before, and need not be
