@@ -255,7 +255,7 @@ fn house_floors_are_kept() {
     let floors = floors(&fs::read_to_string(root().join("docs/ARCHITECTURE.md")).unwrap());
     let mut wrong = Vec::new();
     for (name, text) in sources() {
-        wrong.extend(breaches(&name, &text, &floors));
+        wrong.extend(breaches(&name, &without_tests(&text), &floors));
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
     for room in floors.keys() {
@@ -310,6 +310,8 @@ pub fn anchors(text: &str) -> Vec<String> {
 /// Links that lead nowhere: to a missing file, or a missing heading of a page.
 fn broken_links(page: &Path, text: &str) -> Vec<String> {
     let mut broken = Vec::new();
+    // What stands between fences is code.
+    let text: String = text.split("```").step_by(2).collect();
     for (at, _) in text.match_indices("](") {
         let link = text[at + 2..].split([')', ' ']).next().unwrap_or("");
         if link.contains("://") {
