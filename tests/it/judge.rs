@@ -590,7 +590,10 @@ impl Ask for CutsFirst {
 fn judge_tells_what_leaves_the_window() {
     let options = options(30, &["line-octants", "line-clipped"]);
     let entry = lineup::find("bresenham").unwrap();
-    let verdict = recognised(Box::new(CutsFirst(Inside::new(entry))), &options);
+    // Within the window it draws as it declares, so that it is questioned only where that is asked.
+    let scope = Scope { triangles: false, lines: true, always: true };
+    let mut cuts: [Box<dyn Ask>; 1] = [Box::new(CutsFirst(Inside::new(entry)))];
+    let verdict = judge(&mut cuts, &options, &|program| recognise(program, scope), &|_| ());
     let text = verdict.recognised.as_ref().unwrap().sentences.concat();
     assert!(text.contains("Lines that leave the window come out otherwise ("), "{text}");
     let score = verdict.by_convention().unwrap();

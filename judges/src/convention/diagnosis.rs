@@ -9,6 +9,7 @@ use super::mirror::Mirror;
 use super::rule::{Convention, Ties, Windings};
 use super::search::Seen;
 use super::ties::{Compass, Count};
+use super::upright::mirror_of;
 use super::{Ask, Known};
 use crate::frame::Coverage;
 
@@ -102,7 +103,7 @@ pub fn diagnose(ask: &mut dyn Ask, known: &Known, seed: u64) -> Diagnosis {
     let mut silent = Diagnosis::nothing(known);
     let Some(mut bench) = Bench::new(ask, known, seed) else { return silent };
     let (draws, pictures) = bench.windings();
-    bench.mirror = Mirror::of(&pictures, bench.window);
+    bench.mirror = mirror_of(&pictures, bench.window);
     if draws == Windings::Neither {
         silent.convention.draws = draws;
         (silent.asked, silent.refused) = (bench.asked, bench.refused);

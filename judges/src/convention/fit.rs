@@ -5,8 +5,9 @@ use super::candidate::Candidate;
 use super::general::Flip;
 use super::outline::LineTie;
 use super::quantum::{Quantum, Rounding};
+use super::samples::Pattern;
 use super::search::{Range, Scored, Search, Seen};
-use super::shape::{Pattern, Shape};
+use super::shape::Shape;
 
 /// Grids whose search goes on after the first look.
 const GRIDS: usize = 6;

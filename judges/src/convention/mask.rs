@@ -1,7 +1,9 @@
 //! A window of at most 32 x 32 pixels as 32 words: what a question is asked in, so that a
 //! comparison of two pictures is 32 instructions.
 
+use super::mirror::Mirror;
 use crate::frame::Coverage;
+use crate::grid::PixelRect;
 
 /// Largest side of the window of a question, in pixels.
 pub(super) const SIDE_PX: i32 = 32;
@@ -44,5 +46,22 @@ impl Mask {
     /// Pixels of `self` that `other` lacks.
     pub(super) fn beyond(&self, other: &Self) -> u32 {
         self.0.iter().zip(&other.0).map(|(a, b)| (a & !b).count_ones()).sum()
+    }
+
+    /// The picture taken back from a mirror.
+    pub(super) fn mirrored(&self, mirror: Mirror, window: PixelRect) -> Self {
+        if mirror == Mirror::None {
+            return *self;
+        }
+        let mut back = Self::default();
+        for y in window.y0..window.y1 {
+            for x in window.x0..window.x1 {
+                let [from_x, from_y] = mirror.at(x, y, window);
+                if window.contains(from_x, from_y) && self.has(from_x, from_y) {
+                    back.set(x, y);
+                }
+            }
+        }
+        back
     }
 }

@@ -30,6 +30,7 @@ mod shape;
 mod share;
 mod stepped;
 mod ties;
+mod upright;
 mod words;
 
 pub use bench::{Ask, Known, Question};
@@ -42,5 +43,6 @@ pub use outline::{End, LineTie};
 pub use place::FACINGS;
 pub use quantum::{Quantum, Rounding};
 pub use rule::{Convention, CornerRule, Ties, Windings};
-pub use shape::{Pattern, Shape};
+pub use samples::Pattern;
+pub use shape::Shape;
 pub use ties::{Compass, Count};

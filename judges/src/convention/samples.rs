@@ -1,11 +1,21 @@
 //! Four samples a pixel, of which so many have to be covered: supersampling whose picture is cut to
 //! yes and no.
 
+use serde::Serialize;
+
 use super::half_planes;
 use super::place::{Place, Points, around};
-use super::shape::Pattern;
 use crate::frame::Frame;
 use crate::grid::PixelRect;
+
+/// How four samples lie about their middle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+pub enum Pattern {
+    /// Two by two, a quarter of a pixel each way.
+    Square,
+    /// The four of Vulkan and Direct3D, each in a row and a column of its own.
+    Rotated,
+}
 
 impl Pattern {
     /// Where the samples lie, in subpixels from the middle.

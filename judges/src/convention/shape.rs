@@ -6,7 +6,7 @@ use serde::Serialize;
 use super::half_planes::{self, HalfPlanes};
 use super::outline::{self, LineTie};
 use super::place::{Place, Points, turn};
-use super::samples;
+use super::samples::{self, Pattern};
 use super::share;
 use super::stepped;
 use crate::grid::PixelRect;
@@ -75,15 +75,6 @@ pub enum Shape {
     /// Corners are whole pixels: every pixel whose corner lies in the triangle, and the three sides
     /// as lines.
     Outline(LineTie),
-}
-
-/// How four samples lie about their middle.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
-pub enum Pattern {
-    /// Two by two, a quarter of a pixel each way.
-    Square,
-    /// The four of Vulkan and Direct3D, each in a row and a column of its own.
-    Rotated,
 }
 
 impl Shape {

@@ -8,7 +8,8 @@ use super::outline::End;
 use super::place::FACINGS;
 use super::quantum::{Quantum, Rounding};
 use super::rule::{Convention, Windings};
-use super::shape::{Pattern, Shape};
+use super::samples::Pattern;
+use super::shape::Shape;
 use super::ties::{Compass, Count};
 
 /// Subpixels as a decimal number of pixels.

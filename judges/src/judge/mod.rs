@@ -22,6 +22,7 @@ pub mod place;
 pub mod process;
 mod published;
 pub mod recognise;
+mod reply;
 pub mod run;
 pub mod serve;
 pub mod shrunk;

@@ -7,7 +7,7 @@ use std::io::Write as _;
 
 use glam::DVec2;
 
-use super::serve::{Reply, named, write_run, write_words};
+use super::reply::{Reply, named, write_run, write_words};
 use crate::grid::{PixelRect, Refusal};
 use crate::lineup::{Entry, LineSpecimen, Specimen, TriangleSpecimen};
 use crate::specimen::{Published as _, PublishedLine as _, RealTriangle, RealVertex, bare};

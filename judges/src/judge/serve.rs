@@ -13,14 +13,15 @@ use glam::DVec2;
 use super::declared::Declared;
 use super::inside::runs_of;
 use super::published;
-use super::text::{number, write_int};
+use super::reply::{Reply, named, write_run, write_words};
+use super::text::number;
 use crate::contract::{DrawLine, Interpolate, Rasterize, RasterizeExact};
 use crate::grid::{MAX_SIDE_PX, PixelRect, Refusal, SUBPIXELS, SubpixelPoint};
 use crate::lineup::{Engine, Entry, ExactEngine, LineEngine};
 use crate::pipeline::multisample;
 use crate::triangle::{
-    FreeCorners, LineEnd, PixelPoint, ScreenLine, ScreenTriangle, ScreenVertex, Span,
-    check_position, check_value,
+    FreeCorners, LineEnd, PixelPoint, ScreenLine, ScreenTriangle, ScreenVertex, check_position,
+    check_value,
 };
 
 /// A longer line is refused without being kept.
@@ -29,14 +30,6 @@ const MOST_BYTES: u64 = 1 << 16;
 const READ_BYTES: usize = 1 << 16;
 /// Fragments that the oracle, in big integers, computes for one request.
 const MOST_EXACT_FRAGMENTS: u64 = 1 << 20;
-
-/// The letter of an answer, its count and what is counted; or the reason why there is none.
-pub(super) type Reply = Result<(char, usize, Vec<u8>), String>;
-
-/// A refusal with the name of the number that is refused.
-pub(super) fn named(name: &str) -> impl FnOnce(Refusal) -> String {
-    move |refusal| format!("{name} {refusal}")
-}
 
 /// Answers requests until there are none.
 ///
@@ -203,19 +196,6 @@ fn hello(entry: &Entry, rest: &[&str], out: &mut dyn Write) -> Result<(), Stop> 
 /// A word of the request, short and without control characters, to quote in an answer.
 fn printable(word: &str) -> String {
     word.chars().filter(|c| !c.is_control()).take(40).collect()
-}
-
-/// Appends whole numbers, a space before each.
-pub(super) fn write_words<const N: usize>(out: &mut Vec<u8>, words: [i32; N]) {
-    for word in words {
-        out.push(b' ');
-        write_int(out, word.into());
-    }
-}
-
-/// Appends a run of pixels.
-pub(super) fn write_run(out: &mut Vec<u8>, span: Span) {
-    write_words(out, [span.y_px, span.x0_px, span.x1_px]);
 }
 
 fn window(width: &str, height: &str) -> Result<PixelRect, String> {
