@@ -53,7 +53,8 @@ fn compare(
 }
 
 /// Triangles around one: itself first, then moved by odd subpixels, of either winding and any order,
-/// of each five one 64 times as large and one as wide as coordinates go.
+/// every eighth 64 times as large, and every eighth as wide and high as the domain, so that extents
+/// wrap around in 32 bits.
 fn list_around([a, b, c]: Corners, len: u32) -> Vec<Corners> {
     let moved = |p: SubpixelPoint, i: i32| {
         SubpixelPoint::new(p.x.saturating_add(i * 37), p.y.saturating_sub(i * i * 3))
@@ -64,9 +65,13 @@ fn list_around([a, b, c]: Corners, len: u32) -> Vec<Corners> {
     };
     (0..len as i32)
         .map(|i| {
-            let [a, b, c] = match i % 5 {
-                3 => [a, SubpixelPoint::new(i32::MAX, b.y), SubpixelPoint::new(i32::MIN, c.y)],
+            let [a, b, c] = match i % 8 {
                 4 => [a, larger(b), larger(c)],
+                6 => [
+                    a,
+                    SubpixelPoint::new(i32::MAX, i32::MAX - i),
+                    SubpixelPoint::new(i32::MIN, i32::MIN),
+                ],
                 _ => [a, b, c],
             };
             let [a, b, c] = [moved(a, i), moved(b, i), moved(c, i)];
