@@ -63,7 +63,7 @@ pub struct RenderArguments {
     /// Draw by the plan in this file, from plan --json, edited or not
     #[arg(long, value_name = "FILE", conflicts_with_all = ["effects", "wireframe", "map", "spin"])]
     plan: Option<PathBuf>,
-    /// Colour each pixel by the effects it paid for instead
+    /// Draw a small picture for each effect instead: which pixels paid for it
     #[arg(long, conflicts_with_all = ["wireframe", "spin", "report"])]
     map: bool,
     /// A full turn in this many frames, as an animated GIF

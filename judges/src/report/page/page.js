@@ -224,7 +224,7 @@
   // ---- State ----
 
   const MODES = [['blink', 'blink'], ['slider', 'slider'], ['side', 'side by side'], ['onion', 'onion skin']];
-  const ZOOMS = [0.125, 0.25, 0.5, 1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256, 512, 1024, 2048];
+  const ZOOMS = [0.125, 0.16, 0.2, 0.25, 0.33, 0.5, 0.66, 0.75, 1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256, 512, 1024, 2048];
   const BLINK_MS = 700;
   const stillness = matchMedia('(prefers-reduced-motion: reduce)');
   const state = {
@@ -745,7 +745,7 @@
       if (!state.zoom) Object.assign(port, { scrollLeft: crop.x * cell, scrollTop: crop.y * cell });
       else if (before !== cell) Object.assign(port, { scrollLeft: 0, scrollTop: 0 });
     }
-    $('#zoom-is').textContent = item.isCase ? `${cell} : 1` : `${100 * cell}%`;
+    $('#zoom-is').textContent = item.isCase ? `${cell} : 1` : `${Math.round(100 * cell)}%`;
     const isCropped = crop.width < item.width || crop.height < item.height;
     $('#whole').hidden = !(isCropped || state.whole);
     $('#whole').textContent = state.whole ? 'crop' : 'whole window';
