@@ -384,8 +384,8 @@ fn off_grid(
             Err(reason) => writeln!(out, "{name}, published: {reason}")?,
         }
     }
-    for engine in engines.iter().copied() {
-        let (name, finding) = (engine.name(), judge_exact_case(&engine, case));
+    for engine in engines {
+        let (name, finding) = (engine.name(), judge_exact_case(engine, case));
         agrees &= !finding.is_wrong();
         let (what, decisions) = (finding.describe(), finding.decisions);
         let all = decisions.by_filter + decisions.by_fallback;
@@ -394,7 +394,7 @@ fn off_grid(
             "{name} against oracle-exact: {what}; {} of {all} decisions took exact arithmetic",
             decisions.by_fallback
         )?;
-        if let Ok((hits, _)) = exact_coverage(&engine, case) {
+        if let Ok((hits, _)) = exact_coverage(engine, case) {
             blocks.push((format!("{name}: {} px", hits.covered()), ascii::grid(&hits, &target)));
             drawn.push((name.to_owned(), hits));
         }

@@ -275,7 +275,7 @@ fn print(
     )?;
     writeln!(out, "{}", summary::lines(verdict, exact, streams.colour))?;
     if arguments.table || !agrees {
-        write!(out, "{}{}\n", table::table(verdict), table::quota_line(verdict))?;
+        writeln!(out, "{}{}", table::table(verdict), table::quota_line(verdict))?;
         write!(out, "{}{}", table::disagreements(verdict), report::exact::table(exact))?;
         write!(out, "{}", report::exact::disagreements(exact))?;
     }
