@@ -1,8 +1,15 @@
 //! Planted faults: the harness must report every one of them, or it proves nothing.
 
+use rasterproof::contract::{DrawLine, Interpolate, Rasterize};
+use rasterproof::grid::PixelRect;
+use rasterproof::hazard::triangles::FAMILIES;
+use rasterproof::hazard::{Shape, lines};
 use rasterproof::lineup::{Engine, LineEngine};
 use rasterproof::mutant::{LineMutant, TriangleMutant};
-use rasterproof::verify::{Options, judge_lineup, tolerance};
+use rasterproof::report::{counts, json, table};
+use rasterproof::triangle::{Corners, Fragment, ScreenTriangle, Span, Varying};
+use rasterproof::verify::exact::ExactVerdict;
+use rasterproof::verify::{Options, Tally, Verdict, caught, judge_lineup, judge_values, tolerance};
 
 /// As many cases as `tests/differential.rs` judges, or fewer.
 fn options() -> Options {
@@ -41,4 +48,173 @@ fn a_failure_is_shrunk() {
     };
     let xs = list[0].corners().map(|corner| corner.x);
     assert!(xs.iter().max().unwrap() - xs.iter().min().unwrap() <= 256, "{text}");
+}
+
+/// Hits of what was emitted, by pixel; nothing where an engine panics or leaves the window, which is
+/// a finding of its own.
+fn hits(window: PixelRect, draw: impl FnOnce(&mut dyn FnMut(i32, i32))) -> Option<Hits> {
+    let mut hits = Hits::new();
+    caught(|| draw(&mut |x, y| *hits.entry((x, y)).or_default() += 1)).ok()?;
+    hits.keys().all(|&(x, y)| window.contains(x, y)).then_some(hits)
+}
+
+type Hits = std::collections::BTreeMap<(i32, i32), u64>;
+
+/// Missing, extra and twice, counted pixel by pixel.
+fn recount(actual: &Hits, target: &Hits, sums: &mut [u64; 3]) {
+    let pixels: std::collections::BTreeSet<_> = actual.keys().chain(target.keys()).collect();
+    for pixel in pixels {
+        let [a, t] = [actual, target].map(|hits| hits.get(pixel).copied().unwrap_or(0));
+        sums[0] += t.saturating_sub(a);
+        sums[1] += u64::from(t == 0 && a > 0);
+        sums[2] += a.saturating_sub(t.max(1));
+    }
+}
+
+/// The verdict of every mutant says the same numbers everywhere, and they are those of a recount that
+/// shares nothing with the judge: against the oracle, and nothing added to it.
+fn same_everywhere(name: &str, verdict: &Verdict, sums: [u64; 3]) {
+    let Tally { missing, extra, twice, order } = verdict.comparisons().oracle;
+    assert_eq!([missing, extra, twice], sums, "{name}");
+    let off_grid = ExactVerdict::default();
+    let text = json::verdict(verdict, &off_grid, |_, _| String::new());
+    let json: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let mismatches = missing + extra + twice + order;
+    assert_eq!(json["mismatches"], mismatches, "{name}");
+    let kinds = ["missing", "extra", "twice"];
+    assert_eq!(kinds.map(|kind| json["comparisons"]["oracle"][kind].as_u64().unwrap()), sums);
+    let families = json["families"].as_array().unwrap().iter();
+    let by_family = |kind| {
+        let counts = families.clone().map(|f| f["pairs"][0]["tally"][kind].as_u64().unwrap());
+        counts.sum::<u64>()
+    };
+    assert_eq!(kinds.map(by_family), sums, "{name}");
+    if mismatches > 0 {
+        let sentence = counts::outcome(verdict, &off_grid).sentence;
+        assert!(sentence.starts_with(&format!("{mismatches} wrong pixels in ")), "{sentence}");
+    }
+    // The terminal's table: the fourth column of counts.
+    let mut printed = 0;
+    for line in table::table(verdict).lines().filter(|line| !line.starts_with("all ")) {
+        let cells: Vec<_> = line.split_whitespace().collect();
+        let is_row = cells.len() > 5 && cells[4].ends_with('%');
+        printed += if is_row { cells[5].parse().unwrap_or(0) } else { 0 };
+    }
+    let panics = verdict.families.iter().any(|f| f.pairs[0].panics > 0);
+    assert!(panics || printed == mismatches, "{name}: {printed} printed, {mismatches} counted");
+}
+
+#[test]
+fn counts_equal_a_recount() {
+    const CASES: u64 = 8;
+    let options = Options { cases: CASES, ..Options::default() };
+    for mutant in TriangleMutant::ALL {
+        let engines = [(Engine::Mutant(mutant), tolerance::SCANLINE)];
+        let verdict = judge_lineup(&engines, &[], &options, &|_| ());
+        let mut sums = [0; 3];
+        for case in FAMILIES.iter().flat_map(|f| (0..CASES).map(|index| f.case(1, index))) {
+            let Shape::Triangles { list, .. } = &case.shape else { unreachable!("triangles") };
+            let all = |engine: &Engine| {
+                hits(case.window, |hit| {
+                    for triangle in list {
+                        engine.cover(triangle.corners(), case.window, |s| {
+                            (s.x0_px..s.x1_px).for_each(|x| hit(x, s.y_px));
+                        });
+                    }
+                })
+            };
+            if let (Some(actual), Some(target)) =
+                (all(&Engine::Mutant(mutant)), all(&Engine::Oracle))
+            {
+                recount(&actual, &target, &mut sums);
+            }
+        }
+        same_everywhere(mutant.name(), &verdict, sums);
+    }
+    for mutant in LineMutant::ALL {
+        let verdict = judge_lineup(&[], &[LineEngine::Mutant(mutant)], &options, &|_| ());
+        let mut sums = [0; 3];
+        for case in lines::FAMILIES.iter().flat_map(|f| (0..CASES).map(|index| f.case(1, index))) {
+            let Shape::Lines(list) = &case.shape else { unreachable!("lines") };
+            for line in list {
+                let one = |engine: LineEngine| {
+                    hits(case.window, |hit| engine.draw(line, case.window, |f| hit(f.x_px, f.y_px)))
+                };
+                if let (Some(actual), Some(target)) =
+                    (one(LineEngine::Mutant(mutant)), one(LineEngine::Oracle))
+                {
+                    recount(&actual, &target, &mut sums);
+                }
+            }
+        }
+        same_everywhere(mutant.name(), &verdict, sums);
+    }
+}
+
+/// An engine whose edges all own their samples draws too much, and misses nothing; its fragments are
+/// those of its coverage.
+#[test]
+fn an_inclusive_engine_misses_nothing() {
+    let engines = [(Engine::Mutant(TriangleMutant::InclusiveEdges), tolerance::SCANLINE)];
+    let verdict = judge_lineup(&engines, &[], &options(), &|_| ());
+    let sums = verdict.comparisons();
+    assert!(sums.oracle.extra > 0 && sums.oracle.twice > 0, "{sums:?}");
+    assert_eq!((sums.oracle.missing, sums.fragments.total()), (0, 0), "{sums:?}");
+}
+
+/// Fragments that are not those of the coverage are a finding, and no wrong pixels.
+#[test]
+fn stray_fragments_are_counted_apart() {
+    struct Forgetful;
+    impl Rasterize for Forgetful {
+        fn cover(&self, corners: Corners, bounds: PixelRect, emit: impl FnMut(Span)) {
+            Engine::Scanline.cover(corners, bounds, emit);
+        }
+    }
+    impl Interpolate for Forgetful {
+        fn fragments<V: Varying>(
+            &self,
+            triangle: &ScreenTriangle<V>,
+            bounds: PixelRect,
+            mut emit: impl FnMut(Fragment<V>),
+        ) {
+            let mut count = 0;
+            Engine::Scanline.fragments(triangle, bounds, |f| {
+                count += 1;
+                if count > 1 {
+                    emit(f);
+                }
+            });
+        }
+    }
+    let options = Options { cases: 20, families: vec!["uniform".to_owned()], ..Options::default() };
+    let verdict = judge_values(&Forgetful, tolerance::SCANLINE, &options);
+    let sums = verdict.comparisons();
+    assert!(!verdict.agrees() && sums.oracle.total() == 0, "{sums:?}");
+    let drawn = verdict.families[0].cases - verdict.families[0].empty_cases;
+    assert_eq!((sums.fragments.missing, sums.fragments.total()), (drawn, drawn));
+    let what = &verdict.failures[0].what;
+    assert_eq!(what, "its fragments against its own coverage: 1 missing");
+}
+
+/// The smallest failure of every family that fails, smallest first, and the first of all on halves.
+#[test]
+fn each_family_has_its_smallest_failure() {
+    let engines = [(Engine::Mutant(TriangleMutant::InclusiveEdges), tolerance::SCANLINE)];
+    let verdict = judge_lineup(&engines, &[], &options(), &|_| ());
+    let wrong: Vec<_> = verdict.families.iter().filter(|f| !f.pairs[0].agrees()).collect();
+    let mut shown: Vec<_> = verdict.failures.iter().map(|f| f.family.as_str()).collect();
+    shown.sort_unstable();
+    shown.dedup();
+    assert_eq!((shown.len(), verdict.failures.len()), (wrong.len(), wrong.len()));
+    let mut odd = Vec::new();
+    for failure in &verdict.failures {
+        let Shape::Triangles { list, .. } = &failure.case.shape else { panic!("{failure}") };
+        assert_eq!(list.len(), 1, "{failure}");
+        let all = list[0].corners().into_iter().flat_map(|p| [p.x, p.y]);
+        odd.push(all.filter(|v| v % 128 != 0).count());
+    }
+    assert_eq!(odd[0], 0, "{}", verdict.failures[0]);
+    assert!(odd.is_sorted(), "{odd:?}");
+    assert_eq!(verdict.failures[0].what, "1 extra");
 }

@@ -4,6 +4,7 @@
 //! engine. Reached by the hidden option `--plant NAME`, by `rasterproof mutants`, which asks every
 //! invariant about every mutant, and by the tests.
 
+pub mod about;
 pub mod exact;
 mod lines;
 mod oracles;

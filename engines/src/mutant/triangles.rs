@@ -296,7 +296,52 @@ impl TriangleMutant {
         self.spans(triangle.corners(), bounds, &mut |span| {
             let row =
                 PixelRect { x0: span.x0_px, y0: span.y_px, x1: span.x1_px, y1: span.y_px + 1 };
-            edge_values(triangle, row, emit);
+            let mut next = row.x0;
+            edge_values(triangle, row, &mut |f| {
+                on_outline(triangle, PixelRect { x0: next, x1: f.x_px, ..row }, emit);
+                next = f.x_px + 1;
+                emit(f);
+            });
+            on_outline(triangle, PixelRect { x0: next, ..row }, emit);
+        });
+    }
+}
+
+/// Fragments of the pixels of a row whose centres lie on the outline: an engine whose rule gives it
+/// such a pixel has a value there like anywhere else. Weights count from the first vertex, so that
+/// the value is as exact as an engine's.
+fn on_outline<V: Varying>(
+    triangle: &ScreenTriangle<V>,
+    row: PixelRect,
+    emit: &mut dyn FnMut(Fragment<V>),
+) {
+    // The topmost, then leftmost vertex first, and clockwise: the order they came in leaves no trace.
+    let mut vertices = triangle.vertices;
+    let top = (0..3).min_by_key(|&i| (vertices[i].position.y, vertices[i].position.x));
+    vertices.rotate_left(top.unwrap_or(0));
+    if cross(triangle.corners()) < 0 {
+        vertices.swap(1, 2);
+    }
+    let [v0, v1, v2] = &vertices;
+    let corners = [v0.position, v1.position, v2.position];
+    let area = cross(corners);
+    let largest = v0.inv_w.max(v1.inv_w).max(v2.inv_w);
+    let q = [v0.inv_w, v1.inv_w, v2.inv_w].map(|inv_w| inv_w / largest);
+    for x_px in row.x0..row.x1 {
+        let sample = centre_of(x_px, row.y0);
+        let [a, b, c] = corners;
+        let e = [cross([b, c, sample]), cross([c, a, sample]), cross([a, b, sample])];
+        if area == 0 || e.iter().any(|&e| e < 0) {
+            continue;
+        }
+        let l = e.map(|e| e as f64 / area as f64);
+        let scale = 1.0 / ((l[0] * q[0] + l[1] * q[1]) + l[2] * q[2]);
+        let (d1, d2) = (v1.varying - v0.varying, v2.varying - v0.varying);
+        emit(Fragment {
+            x_px,
+            y_px: row.y0,
+            depth: v0.depth + ((v1.depth - v0.depth) * l[1] + (v2.depth - v0.depth) * l[2]),
+            varying: v0.varying + (d1 * (l[1] * q[1]) + d2 * (l[2] * q[2])) * scale,
         });
     }
 }

@@ -5,7 +5,7 @@ use serde::Serialize;
 use crate::cost::{Recorded, prices};
 use crate::verify::exact::{self, ExactFamilyReport, ExactVerdict};
 use crate::verify::specimens::SpecimenReport;
-use crate::verify::{FamilyReport, Verdict, shrink};
+use crate::verify::{Comparisons, FamilyReport, Verdict, shrink};
 
 #[derive(Serialize)]
 struct Json<'a> {
@@ -14,7 +14,9 @@ struct Json<'a> {
     cases: u64,
     shard: String,
     agrees: bool,
+    /// Wrong pixels against the oracle, on and off the lattice.
     mismatches: u64,
+    comparisons: Comparisons,
     triangles: u64,
     lines: u64,
     families: &'a [FamilyReport],
@@ -68,6 +70,7 @@ pub fn verdict(
         shard: format!("{part}/{parts}"),
         agrees: verdict.agrees() && off_grid.agrees(),
         mismatches: verdict.mismatches() + off_grid.mismatches(),
+        comparisons: verdict.comparisons(),
         triangles: verdict.sum(false, |f| f.shapes),
         lines: verdict.sum(true, |f| f.shapes),
         families: &verdict.families,

@@ -120,23 +120,16 @@ pub fn quota_line(verdict: &Verdict) -> String {
 pub fn disagreements(verdict: &Verdict) -> String {
     let mut out = String::new();
     for f in &verdict.families {
-        for PairReport {
-            actual,
-            target,
-            tally,
-            worst_attribute,
-            worst_depth,
-            panics,
-            wrong_cases,
-            ..
-        } in f.pairs.iter().filter(|pair| !pair.agrees())
-        {
+        for pair in f.pairs.iter().filter(|pair| !pair.agrees()) {
             let _ = writeln!(
                 out,
-                "{}: {actual} against {target}: wrong in {wrong_cases} of {} cases: {} missing, {} extra, \
-                 {} twice, {} out of order,\n    {panics} panics, worst attribute {worst_attribute:.3e} \
-                 and depth {worst_depth:.3e} of the bound",
-                f.family, f.cases, tally.missing, tally.extra, tally.twice, tally.order
+                "{}: {} against {}: wrong in {} of {} cases{}",
+                f.family,
+                pair.actual,
+                pair.target,
+                pair.wrong_cases,
+                f.cases,
+                kinds(pair)
             );
         }
         if f.oracle_overlap > 0 {
@@ -148,4 +141,25 @@ pub fn disagreements(verdict: &Verdict) -> String {
         }
     }
     out
+}
+
+/// What is wrong with a pair, each comparison named, after a colon.
+fn kinds(pair: &PairReport) -> String {
+    let mut parts = Vec::new();
+    if pair.tally.total() > 0 {
+        parts.push(format!(": {}", pair.tally.describe()));
+    }
+    if pair.panics > 0 {
+        parts.push(format!(": {} panics", pair.panics));
+    }
+    for (what, worst) in [("attribute", pair.worst_attribute), ("depth", pair.worst_depth)] {
+        if worst > 1.0 {
+            parts.push(format!("\n    worst {what} {worst:.3e} times its bound"));
+        }
+    }
+    if pair.fragments.total() > 0 {
+        let what = pair.fragments.describe();
+        parts.push(format!("\n    its fragments against its own coverage: {what}"));
+    }
+    parts.concat()
 }

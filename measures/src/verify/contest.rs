@@ -10,7 +10,7 @@ use serde::Serialize;
 use super::tolerance::{self, Bound, Tolerance};
 use crate::contract::{DrawLine, Interpolate, Rasterize};
 use crate::frame::Coverage;
-use crate::grid::{PixelRect, SUBPIXELS};
+use crate::grid::{HALF_PIXEL, PixelRect, SUBPIXELS};
 use crate::hazard::{Case, Line, Shape, Triangle};
 use crate::oracle::Oracle;
 use crate::oracle::coverage::samples_on_boundary;
@@ -69,11 +69,25 @@ impl AddAssign for Tally {
     }
 }
 
+impl Tally {
+    /// The kinds that occur, in words; empty where nothing is wrong.
+    #[must_use]
+    pub fn describe(&self) -> String {
+        let Self { missing, extra, twice, order } = *self;
+        let counts =
+            [(missing, "missing"), (extra, "extra"), (twice, "twice"), (order, "out of order")];
+        let parts = counts.iter().filter(|(n, _)| *n > 0).map(|(n, what)| format!("{n} {what}"));
+        parts.collect::<Vec<_>>().join(", ")
+    }
+}
+
 /// What was found about a pair of engines in one case.
 #[derive(Clone, Debug, Default)]
 pub struct Finding {
-    /// Wrong pixels.
+    /// Wrong pixels: the coverage of the one against that of the other.
     pub tally: Tally,
+    /// The pixels of the engine's fragments against its own coverage; nobody else has a part in it.
+    pub fragments: Tally,
     /// Largest difference of an attribute over its bound.
     pub attribute: f64,
     /// Largest difference of a depth over its bound.
@@ -88,7 +102,10 @@ impl Finding {
     /// Whether the two do not agree.
     #[must_use]
     pub fn is_wrong(&self) -> bool {
-        self.tally.total() > 0 || self.panic.is_some() || self.attribute > 1.0 || self.depth > 1.0
+        self.tally.total() + self.fragments.total() > 0
+            || self.panic.is_some()
+            || self.attribute > 1.0
+            || self.depth > 1.0
     }
 
     /// The disagreement in words.
@@ -97,18 +114,21 @@ impl Finding {
         if let Some(message) = &self.panic {
             return format!("panics ({message})");
         }
-        let Tally { missing, extra, twice, order } = self.tally;
-        let counts =
-            [(missing, "missing"), (extra, "extra"), (twice, "twice"), (order, "out of order")];
-        let mut parts: Vec<_> =
-            counts.iter().filter(|(n, _)| *n > 0).map(|(n, what)| format!("{n} {what}")).collect();
+        let mut parts = Vec::new();
+        if self.tally.total() > 0 {
+            parts.push(self.tally.describe());
+        }
+        if self.fragments.total() > 0 {
+            let what = self.fragments.describe();
+            parts.push(format!("its fragments against its own coverage: {what}"));
+        }
         if self.attribute > 1.0 {
             parts.push(format!("an attribute off by {:.3e} times its bound", self.attribute));
         }
         if self.depth > 1.0 {
             parts.push(format!("a depth off by {:.3e} times its bound", self.depth));
         }
-        if parts.is_empty() { "agrees".to_owned() } else { parts.join(", ") }
+        if parts.is_empty() { "agrees".to_owned() } else { parts.join("; ") }
     }
 
     fn panicked(message: String) -> Self {
@@ -342,9 +362,10 @@ impl<R: Interpolate + Sync> TriangleContest<'_, R> {
                     continue;
                 }
             };
-            alone[i].tally += fragment_coverage(engine, triangle, window, &fragments);
+            alone[i].fragments += fragment_coverage(engine, triangle, window, &fragments);
             if let Some(exact) = &exact {
-                for f in few(&fragments) {
+                // Outside the triangle no value is right or wrong; the pixel is.
+                for f in few(&fragments).filter(|f| holds_centre(&triangle.corners(), f)) {
                     let (depth, values) = exact.at(f.x_px, f.y_px);
                     let ratio = |k: usize, value: f64| {
                         values[k].distance(value) / bound(tolerance.attribute, k)
@@ -408,6 +429,19 @@ fn few(fragments: &[Fragment<DVec2>]) -> impl Iterator<Item = &Fragment<DVec2>> 
     let mut picks = [0, n / 3, 2 * n / 3, n.saturating_sub(1)].to_vec();
     picks.dedup();
     picks.into_iter().filter_map(|i| fragments.get(i))
+}
+
+/// Whether the centre of the pixel lies in the triangle or on its outline.
+fn holds_centre(corners: &Corners, f: &Fragment<DVec2>) -> bool {
+    let centre = |px: i32| i128::from(px) * i128::from(SUBPIXELS) + i128::from(HALF_PIXEL);
+    let (x, y) = (centre(f.x_px), centre(f.y_px));
+    let side = |i: usize, j: usize| {
+        let [ax, ay, bx, by] = [corners[i].x, corners[i].y, corners[j].x, corners[j].y];
+        let [ax, ay, bx, by] = [ax, ay, bx, by].map(i128::from);
+        ((bx - ax) * (y - ay) - (by - ay) * (x - ax)).signum()
+    };
+    let sides = [side(0, 1), side(1, 2), side(2, 0)];
+    sides.iter().all(|&side| side >= 0) || sides.iter().all(|&side| side <= 0)
 }
 
 /// Fragments of two engines at the same pixels, which they may emit in different orders.

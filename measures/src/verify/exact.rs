@@ -7,6 +7,7 @@
 use std::fmt;
 use std::ops::AddAssign;
 
+use rayon::prelude::*;
 use serde::Serialize;
 
 use super::contest::caught;
@@ -90,7 +91,7 @@ pub fn describe(triangles: &[FreeCorners]) -> String {
 pub struct ExactVerdict {
     /// One for each family, in the order of the catalogue; none where no engine was judged.
     pub families: Vec<ExactFamilyReport>,
-    /// Failing cases, shrunk, at most a few for each engine.
+    /// The smallest failing case found of each family and engine, shrunk, smallest first.
     pub failures: Vec<ExactFailure>,
 }
 
@@ -137,11 +138,10 @@ impl ExactFinding {
     /// The disagreement in words.
     #[must_use]
     pub fn describe(&self) -> String {
-        let Tally { missing, extra, twice, .. } = self.tally;
         match &self.panic {
             Some(message) => format!("panics ({message})"),
             None if !self.is_wrong() => "agrees".to_owned(),
-            None => format!("{missing} missing, {extra} extra, {twice} twice"),
+            None => self.tally.describe(),
         }
     }
 }
@@ -280,34 +280,38 @@ fn judge_block<R: RasterizeExact>(
     Partial { report, failing }
 }
 
-/// Shrinks the first failing cases of each engine.
-fn shrink_failures<R: RasterizeExact>(
+/// Shrinks the first failing cases of each family and engine, and keeps the smallest of each.
+fn shrink_failures<R: RasterizeExact + Sync>(
     partials: &[Partial<ExactFamilyReport>],
     chosen: &[&OffGridFamily],
     engines: &[(&str, R)],
     options: &Options,
 ) -> Vec<ExactFailure> {
-    let mut shown = vec![0; engines.len()];
-    let mut failures = Vec::new();
-    for (partial, family) in partials.iter().zip(chosen) {
-        for &(at, index) in &partial.failing {
-            if shown[at] == KEPT {
-                continue;
-            }
-            shown[at] += 1;
+    let failing = partials.iter().enumerate();
+    let failing: Vec<_> = failing
+        .flat_map(|(place, partial)| partial.failing.iter().map(move |&(at, i)| (place, at, i)))
+        .collect();
+    let mut shrunk: Vec<_> = failing
+        .into_par_iter()
+        .map(|(place, at, index)| {
             let (name, engine) = &engines[at];
             let fails = |case: &OffGridCase| judge_exact_case(engine, case).is_wrong();
-            let case = shrink(family.case(options.seed, index), fails);
-            failures.push(ExactFailure {
-                family: family.name.to_owned(),
+            let case = shrink(chosen[place].case(options.seed, index), fails);
+            let failure = ExactFailure {
+                family: chosen[place].name.to_owned(),
                 index,
                 seed: options.seed,
                 engine: (*name).to_owned(),
                 what: judge_exact_case(engine, &case).describe(),
                 case,
-            });
-        }
-    }
+            };
+            ((place, at), failure)
+        })
+        .collect();
+    shrunk.sort_by_cached_key(|(origin, failure)| (*origin, size(&failure.case)));
+    shrunk.dedup_by_key(|(origin, _)| *origin);
+    let mut failures: Vec<_> = shrunk.into_iter().map(|(_, failure)| failure).collect();
+    failures.sort_by_cached_key(|failure| size(&failure.case));
     failures
 }
 

@@ -79,8 +79,11 @@ pub struct PairReport {
     pub actual: String,
     /// The one it is judged by.
     pub target: String,
-    /// Wrong pixels.
+    /// Wrong pixels: the coverage of the one against that of the other.
     pub tally: Tally,
+    /// The pixels of the engine's fragments against its own coverage; counted where the target is
+    /// the oracle, and no part of `tally`.
+    pub fragments: Tally,
     /// Largest difference of an attribute, as a fraction of its bound.
     pub worst_attribute: f64,
     /// Largest difference of a depth, as a fraction of its bound.
@@ -160,7 +163,7 @@ pub struct Verdict {
     pub options: Options,
     /// One for each family, in the order of the catalogue.
     pub families: Vec<FamilyReport>,
-    /// Failing cases, shrunk, at most a few for each pair.
+    /// The smallest failing case found of each family and pair, shrunk, smallest first.
     pub failures: Vec<Failure>,
 }
 
@@ -173,10 +176,22 @@ impl Verdict {
             .all(|f| f.oracle_overlap == 0 && f.pairs.iter().all(PairReport::agrees))
     }
 
-    /// Wrong pixels over all families and pairs.
+    /// Wrong pixels of all engines against the oracle, over all families.
     #[must_use]
     pub fn mismatches(&self) -> u64 {
-        self.families.iter().flat_map(|f| &f.pairs).map(|pair| pair.tally.total()).sum()
+        self.comparisons().oracle.total()
+    }
+
+    /// Wrong pixels over all families, each comparison for itself.
+    #[must_use]
+    pub fn comparisons(&self) -> Comparisons {
+        let mut sums = Comparisons::default();
+        for pair in self.families.iter().flat_map(|f| &f.pairs) {
+            let sum = if pair.target == "oracle" { &mut sums.oracle } else { &mut sums.engines };
+            *sum += pair.tally;
+            sums.fragments += pair.fragments;
+        }
+        sums
     }
 
     /// Sum of a number over the families of triangles (false) or lines (true).
@@ -184,6 +199,18 @@ impl Verdict {
     pub fn sum(&self, lines: bool, number: impl Fn(&FamilyReport) -> u64) -> u64 {
         self.families.iter().filter(|f| f.lines == lines).map(number).sum()
     }
+}
+
+/// Wrong pixels by what was compared with what. The same pixel may be wrong in several ways, so the
+/// three are never added up.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Comparisons {
+    /// The coverage of each engine against the oracle's.
+    pub oracle: Tally,
+    /// The coverage of each engine against that of the next.
+    pub engines: Tally,
+    /// The pixels of each engine's fragments against its own coverage.
+    pub fragments: Tally,
 }
 
 /// Quotas for ties, slivers and empty cases, in percent of the cases of triangles: what the families
@@ -254,7 +281,7 @@ pub fn judge_lines<D: DrawLine + Sync>(engine: &D, options: &Options) -> Verdict
 const BLOCK: u64 = 64;
 /// Cases of a family judged before the next family's turn: bounds the list of blocks.
 const MOST_PER_ROUND: u64 = 1 << 20;
-/// Failing cases kept for each family and pair, and shown for each pair in all.
+/// Failing cases of each family and pair that are shrunk; the smaller result is kept.
 const KEPT: usize = 2;
 
 /// What some cases of one family came to; `R` is a report whose sum is the same in any order.
@@ -385,6 +412,7 @@ impl AddAssign for FamilyReport {
         self.oracle_overlap += other.oracle_overlap;
         for (a, b) in self.pairs.iter_mut().zip(&other.pairs) {
             a.tally += b.tally;
+            a.fragments += b.fragments;
             a.worst_case = match a.worst().total_cmp(&b.worst()) {
                 Ordering::Less => b.worst_case,
                 Ordering::Equal => a.worst_case.min(b.worst_case),
@@ -405,6 +433,7 @@ impl FamilyReport {
             actual: actual.clone(),
             target: target.clone(),
             tally: Tally::default(),
+            fragments: Tally::default(),
             worst_attribute: 0.0,
             worst_depth: 0.0,
             worst_case: u64::MAX,
@@ -446,6 +475,7 @@ impl PairReport {
 
     fn count(&mut self, index: u64, finding: &Finding) {
         self.tally += finding.tally;
+        self.fragments += finding.fragments;
         if finding.attribute.max(finding.depth) > self.worst() {
             self.worst_case = index;
         }
@@ -457,42 +487,47 @@ impl PairReport {
     }
 }
 
-/// Shrinks the first failing cases of each pair.
+/// Shrinks the first failing cases of each family and pair, and keeps the smallest of each. Two
+/// engines against each other are left out where the oracle says which of them is wrong.
 fn shrink_failures(
     partials: &[Partial<FamilyReport>],
     chosen: &[(&Family, bool, Vec<[String; 2]>)],
     options: &Options,
-    judge: &impl Fn(bool, &Case) -> (contest::CaseFacts, Vec<Finding>),
+    judge: &(impl Fn(bool, &Case) -> (contest::CaseFacts, Vec<Finding>) + Sync),
 ) -> Vec<Failure> {
-    let mut shown: Vec<([String; 2], usize)> = Vec::new();
-    let mut failures = Vec::new();
-    for (partial, (family, lines, pairs)) in partials.iter().zip(chosen) {
-        for &(pair, index) in &partial.failing {
-            let name = &pairs[pair];
-            let entry = match shown.iter_mut().find(|(p, _)| p == name) {
-                Some(entry) => entry,
-                None => {
-                    shown.push((name.clone(), 0));
-                    shown.last_mut().expect("just pushed")
-                }
+    let mut failing = Vec::new();
+    for (place, (partial, (.., pairs))) in partials.iter().zip(chosen).enumerate() {
+        let by_oracle = |pair: usize| pairs[pair][1] == "oracle";
+        let is_known = |pair: usize| {
+            let wrong = |name: &String| {
+                partial.failing.iter().any(|&(p, _)| by_oracle(p) && pairs[p][0] == *name)
             };
-            if entry.1 == KEPT {
-                continue;
-            }
-            entry.1 += 1;
+            !by_oracle(pair) && pairs[pair].iter().any(wrong)
+        };
+        let unknown = partial.failing.iter().filter(|(pair, _)| !is_known(*pair));
+        failing.extend(unknown.map(|&(pair, index)| (place, pair, index)));
+    }
+    let mut shrunk: Vec<_> = failing
+        .into_par_iter()
+        .map(|(place, pair, index)| {
+            let (family, lines, pairs) = &chosen[place];
             let original = family.case(options.seed, index);
             let case = shrink::shrink(original, |case| judge(*lines, case).1[pair].is_wrong());
-            let what = judge(*lines, &case).1[pair].describe();
-            failures.push(Failure {
+            let failure = Failure {
                 family: family.name.to_owned(),
                 index,
                 seed: options.seed,
-                pair: name.clone(),
-                what,
+                pair: pairs[pair].clone(),
+                what: judge(*lines, &case).1[pair].describe(),
                 case,
-            });
-        }
-    }
+            };
+            ((place, pair), failure)
+        })
+        .collect();
+    shrunk.sort_by_cached_key(|(origin, failure)| (*origin, shrink::size(&failure.case)));
+    shrunk.dedup_by_key(|(origin, _)| *origin);
+    let mut failures: Vec<_> = shrunk.into_iter().map(|(_, failure)| failure).collect();
+    failures.sort_by_cached_key(|failure| shrink::size(&failure.case));
     failures
 }
 

@@ -1,7 +1,7 @@
 //! Makes a failing case small enough to read, while it goes on failing.
 //!
 //! Greedy: of the steps below, take the first that makes the case smaller and still fails, and start
-//! again; stop when none does. The number of trials is bounded, so a slow engine costs little.
+//! again; stop when none does. Corners on multiples of half a pixel come before short ones. The number of trials is bounded, so a slow engine costs little.
 
 use crate::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
 use crate::hazard::{Case, Line, Shape, Triangle};
@@ -64,43 +64,33 @@ fn around(case: &Case) -> Option<Case> {
     Some(Case { window: PixelRect { x0, y0, x1, y1 }, shape: case.shape.clone() })
 }
 
-/// Shapes, then how far they reach in pixels, then how many subpixel bits they need, then how far
-/// from the origin they lie, then the window.
-fn size(case: &Case) -> (usize, u64, u32, u64, u64) {
+/// Shapes, then coordinates that are no multiple of half a pixel, then how far the shapes reach in
+/// pixels, then how many subpixel bits they need, then how far from the origin they lie, then the
+/// window.
+pub(super) fn size(case: &Case) -> (usize, usize, u64, u32, u64, u64) {
     let window = u64::from(case.window.width()) + u64::from(case.window.height());
     let reach = |values: &[i64]| {
         let (min, max) =
             values.iter().fold((i64::MAX, i64::MIN), |(a, b), &v| (a.min(v), b.max(v)));
-        max.abs_diff(min)
+        if values.is_empty() { 0 } else { max.abs_diff(min) }
     };
+    let far = |values: &[i64]| values.iter().map(|v| v.unsigned_abs()).sum::<u64>();
     match &case.shape {
         Shape::Triangles { list, .. } => {
             let points: Vec<_> = list.iter().flat_map(|t| t.corners()).collect();
             let xs: Vec<_> = points.iter().map(|p| i64::from(p.x)).collect();
             let ys: Vec<_> = points.iter().map(|p| i64::from(p.y)).collect();
-            let bits = |v: i32| {
-                if v & (HALF_PIXEL - 1) == 0 {
-                    ((v & HALF_PIXEL) != 0) as u32
-                } else {
-                    2 + (v & (SUBPIXELS - 1)).count_ones()
-                }
-            };
-            let fraction = points.iter().map(|p| bits(p.x) + bits(p.y)).sum();
-            let far = xs.iter().chain(&ys).map(|v| v.unsigned_abs()).sum();
-            (
-                list.len(),
-                (reach(&xs) + reach(&ys)).div_ceil(SUBPIXELS as u64),
-                fraction,
-                far,
-                window,
-            )
+            let all = || points.iter().flat_map(|p| [p.x, p.y]);
+            let odd = all().filter(|v| v & (HALF_PIXEL - 1) != 0).count();
+            let bits = all().map(|v| (v & (SUBPIXELS - 1)).count_ones()).sum();
+            let px = (reach(&xs) + reach(&ys)).div_ceil(SUBPIXELS as u64);
+            (list.len(), odd, px, bits, far(&xs) + far(&ys), window)
         }
         Shape::Lines(lines) => {
             let points: Vec<_> = lines.iter().flat_map(|l| l.ends.map(|end| end.pixel)).collect();
             let xs: Vec<_> = points.iter().map(|p| i64::from(p.x)).collect();
             let ys: Vec<_> = points.iter().map(|p| i64::from(p.y)).collect();
-            let far = xs.iter().chain(&ys).map(|v| v.unsigned_abs()).sum();
-            (lines.len(), reach(&xs) + reach(&ys), 0, far, window)
+            (lines.len(), 0, reach(&xs) + reach(&ys), 0, far(&xs) + far(&ys), window)
         }
     }
 }
@@ -162,6 +152,17 @@ fn triangle_candidates(case: &Case, list: &[Triangle]) -> Vec<Case> {
         let by = |v: i32, px: i32| v.saturating_sub(px * SUBPIXELS);
         found.push(with(w, vec![moved(&|_, p| SubpixelPoint::new(by(p.x, dx), by(p.y, dy)))]));
     }
+    // Everything to a multiple of half a pixel, then one corner: a tie that needs both of its
+    // coordinates survives no step along one axis.
+    for offset in [HALF_PIXEL / 2, 0, HALF_PIXEL - 1] {
+        found.push(with(w, vec![moved(&|_, p| halves(p, offset, offset))]));
+    }
+    for corner in 0..3 {
+        for (dx, dy) in NEARBY {
+            let by = |i: usize, p| if i == corner { halves(p, dx, dy) } else { p };
+            found.push(with(w, vec![moved(&by)]));
+        }
+    }
     // Everything closer to the first corner, then each coordinate alone.
     let first = triangle.vertices[0].position;
     let halfway = |a: i32, b: i32| ((i64::from(a) + i64::from(b)) / 2) as i32;
@@ -186,6 +187,22 @@ fn triangle_candidates(case: &Case, list: &[Triangle]) -> Vec<Case> {
         }
     }
     found
+}
+
+/// What is added before rounding down to multiples of half a pixel: nearest first, then the other
+/// three around a point.
+const NEARBY: [(i32, i32); 5] = [
+    (HALF_PIXEL / 2, HALF_PIXEL / 2),
+    (0, 0),
+    (HALF_PIXEL - 1, 0),
+    (0, HALF_PIXEL - 1),
+    (HALF_PIXEL - 1, HALF_PIXEL - 1),
+];
+
+/// The point on the grid of half pixels that rounding down finds from `dx`, `dy` further on.
+fn halves(p: SubpixelPoint, dx: i32, dy: i32) -> SubpixelPoint {
+    let down = |v: i32, d: i32| v.saturating_add(d) & !(HALF_PIXEL - 1);
+    SubpixelPoint::new(down(p.x, dx), down(p.y, dy))
 }
 
 /// Nearer to zero, on pixel borders, on centres.
