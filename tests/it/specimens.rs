@@ -13,7 +13,7 @@ use rasterproof::verify::specimens::{
     SpecimenReport, exposing_name, judge_recorded, survey, wrong,
 };
 
-use crate::snapshots::{check_picture, settings};
+use crate::snapshots::{check_picture, each, settings};
 
 /// Cases of each family: enough for the ties of every family that has them.
 const CASES: u64 = 60;
@@ -56,13 +56,29 @@ fn specimens_are_caught_by_families_as_recorded() {
         assert!(report.all.percent() > 10.0, "{}: {:?}", report.name, report.all);
     }
     let details: Vec<_> = reports.iter().map(detail).collect();
-    for (name, text) in
-        [("specimens-text", table(&reports)), ("specimens-detail", details.join("\n"))]
-    {
+    let texts = [("specimens-text", table(&reports)), ("specimens-detail", details.join("\n"))];
+    each(texts, |(name, text)| {
         let widest = text.lines().map(|line| line.chars().count()).max();
         assert!(widest <= Some(100), "{widest:?} columns");
         settings().bind(|| insta::assert_snapshot!(name, text));
+    });
+}
+
+/// What SYSU's inclusive test is about: edges that two triangles share are drawn twice.
+#[test]
+fn specimens_of_meshes_count_shared_edges() {
+    let inclusive = surveyed("sysu-inclusive");
+    let of = |report: &SpecimenReport, family: &str| {
+        report.families.iter().find(|(name, _)| *name == family).unwrap().1
+    };
+    for family in ["rectangle", "fan", "strip"] {
+        assert!(of(&inclusive, family).shared > 0, "{family}");
     }
+    assert_eq!(of(&inclusive, "uniform").shared, 0, "one triangle shares nothing");
+    let strict = surveyed("games101-strict");
+    assert_eq!(of(&strict, "rectangle").shared, 0, "a strict test leaves holes instead");
+    let empty = of(&inclusive, "degenerate");
+    assert_eq!((empty.pixels, empty.per_million(1)), (0, None), "no rate of nothing");
 }
 
 /// GAMES101's rule never draws too much where f32 is exact, and misses only samples on edges.
@@ -88,9 +104,7 @@ fn specimens_repair_of_the_depth_trades_one_error_for_the_other() {
 /// Published, repaired and different, a picture for each.
 #[test]
 fn specimens_are_drawn() {
-    for card in CARDS {
-        check_picture(&format!("specimen-{}", card.name), &strip(card));
-    }
+    each(CARDS, |card| check_picture(&format!("specimen-{}", card.name), &strip(card)));
 }
 
 /// Every card is on one sheet, and what is written on its strip fits.
@@ -102,9 +116,7 @@ fn specimens_sheets() {
         let fits = card.fault.len() <= 62 && card.cure.len() + "cure: ".len() <= 62;
         assert!(fits && 2 * card.name.len() + card.source.len() < 62, "{}", card.name);
     }
-    for of in &SHEETS {
-        check_picture(&format!("specimens-{}", of.name), &sheet(of));
-    }
+    each(&SHEETS, |of| check_picture(&format!("specimens-{}", of.name), &sheet(of)));
 }
 
 /// Every recorded input is wrong, or refused since it overflows.

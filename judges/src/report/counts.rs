@@ -26,7 +26,11 @@ pub fn outcome(verdict: &Verdict, off_grid: &ExactVerdict) -> Outcome {
             let pairs = verdict.families.iter().flat_map(|f| &f.pairs).map(|p| p.wrong_cases);
             let engines = off_grid.families.iter().flat_map(|f| &f.engines).map(|e| e.wrong_cases);
             let cases: u64 = pairs.chain(engines).sum();
-            format!("No wrong pixels, but {cases} cases panic or leave a value's bound: {judged}.")
+            let what = match verdict.comparisons().fragments.total() {
+                0 => "panic or leave a value's bound",
+                _ => "panic, leave a value's bound or have fragments unlike their coverage",
+            };
+            format!("No wrong pixels, but {cases} cases {what}: {judged}.")
         }
         (false, _) => format!("{wrong} wrong pixels in {judged}."),
     };
@@ -67,7 +71,10 @@ fn on_grid(families: &[&FamilyReport], lines: bool) -> Table {
         judged.map(|p| p.worst()).fold(0.0, f64::max)
     };
     let wrong = |f: &FamilyReport| {
-        let counts = f.pairs.iter().map(|p| (p.tally.total() + p.panics, p.wrong_cases));
+        let counts = f
+            .pairs
+            .iter()
+            .map(|p| (p.tally.total() + p.fragments.total() + p.panics, p.wrong_cases));
         counts.fold((0, 0), |sum, (pixels, cases)| (sum.0 + pixels, sum.1 + cases))
     };
     sorted.sort_by(|a, b| wrong(b).cmp(&wrong(a)).then(closest(b).total_cmp(&closest(a))));
@@ -180,6 +187,7 @@ pub fn of_specimens(reports: &[SpecimenReport]) -> Table {
             count(all.tally.missing),
             count(all.tally.extra),
             count(all.tally.twice),
+            count(all.shared),
             r.fault.to_owned(),
             r.cure.to_owned(),
         ];
@@ -193,7 +201,8 @@ pub fn of_specimens(reports: &[SpecimenReport]) -> Table {
             Column::numbers("wrong %", "percent of the triangles or lines that are wrong"),
             Column::numbers("missing", "missing pixels"),
             Column::numbers("extra", "pixels outside the shape"),
-            Column::numbers("twice", "hits beyond the first"),
+            Column::numbers("twice", "hits beyond the first, each triangle for itself"),
+            Column::numbers("shared", "hits on edges of a mesh that a second triangle has too"),
             Column::words("fault"),
             Column::words("cure"),
         ],

@@ -6,7 +6,8 @@ use crate::verify::specimens::{Counts, SpecimenReport};
 
 const UNITS: &str = "\
 differ: percent of the triangles or lines with a wrong pixel or value; extra, missing, twice: wrong
-pixels per million covered; value, depth: worst error as a fraction of the corner values' spread
+pixels per million covered, each triangle for itself; value, depth: worst error as a fraction of the
+corner values' spread; shared: as twice, but pixels that two triangles of a mesh draw
 ";
 
 /// The survey: a block for each specimen with its sums and its worst family, then coverage by family
@@ -84,8 +85,8 @@ pub fn detail(report: &SpecimenReport) -> String {
 /// Heads of [`cells`].
 fn heads() -> String {
     format!(
-        "{:>7} {:>7} {:>7} {:>7} {:>7} {:>7}",
-        "differ", "extra", "missing", "twice", "value", "depth"
+        "{:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7}",
+        "differ", "extra", "missing", "twice", "value", "depth", "shared"
     )
 }
 
@@ -93,9 +94,9 @@ fn heads() -> String {
 fn cells(counts: &Counts) -> String {
     let drawn = counts.shapes > 0;
     let rate = |n: u64| match (drawn, counts.per_million(n)) {
-        (false, _) => "-".to_owned(),
-        (true, rate) if rate < 1e7 => format!("{rate:.0}"),
-        (true, rate) => format!("{rate:.0e}"),
+        (false, _) | (_, None) => "-".to_owned(),
+        (true, Some(rate)) if rate < 1e7 => format!("{rate:.0}"),
+        (true, Some(rate)) => format!("{rate:.0e}"),
     };
     let error = |e: f64| match e {
         _ if !drawn => "-".to_owned(),
@@ -107,12 +108,13 @@ fn cells(counts: &Counts) -> String {
     let percent = if drawn { format!("{:.1}%", counts.percent()) } else { "-".to_owned() };
     let tally = &counts.tally;
     format!(
-        "{percent:>7} {:>7} {:>7} {:>7} {:>7} {:>7}",
+        "{percent:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7}",
         rate(tally.extra),
         rate(tally.missing),
         rate(tally.twice),
         error(counts.worst_attribute),
-        error(counts.worst_depth)
+        error(counts.worst_depth),
+        rate(counts.shared)
     )
 }
 

@@ -4,7 +4,8 @@
 //! Truth is the oracle at the same positions: of generated triangles the one on the lattice, of
 //! catalogued ones, which need not lie there, the one for free corners. Specimens that sample at
 //! whole numbers receive the triangle moved by half a pixel, so a count here is a fault and no
-//! convention. Triangles are judged one by one.
+//! convention. Triangles are judged one by one; of meshes
+//! it is counted besides what several of their triangles draw.
 
 use glam::DVec2;
 use rayon::prelude::*;
@@ -44,8 +45,11 @@ pub struct Counts {
     pub refused: u64,
     /// Covered pixels by the oracle.
     pub pixels: u64,
-    /// Wrong pixels.
+    /// Wrong pixels, each triangle for itself.
     pub tally: Tally,
+    /// Hits of pixels that another triangle of the same mesh has too, where their interiors are
+    /// disjoint: what a wrong rule for shared edges draws twice.
+    pub shared: u64,
     /// Largest error of an attribute, as a fraction of the spread of its corner values; infinite
     /// where a value is not a number.
     pub worst_attribute: f64,
@@ -62,6 +66,7 @@ impl Counts {
         self.refused += other.refused;
         self.pixels += other.pixels;
         self.tally += other.tally;
+        self.shared += other.shared;
         self.worst_attribute = self.worst_attribute.max(other.worst_attribute);
         self.worst_depth = self.worst_depth.max(other.worst_depth);
         self
@@ -79,10 +84,10 @@ impl Counts {
         100.0 * triangles as f64 / self.shapes.max(1) as f64
     }
 
-    /// A number of pixels per million that the oracle covers.
+    /// A number of pixels per million that the oracle covers; nothing where it covers none.
     #[must_use]
-    pub fn per_million(&self, pixels: u64) -> f64 {
-        1e6 * pixels as f64 / self.pixels.max(1) as f64
+    pub fn per_million(&self, pixels: u64) -> Option<f64> {
+        (self.pixels > 0).then(|| 1e6 * pixels as f64 / self.pixels as f64)
     }
 }
 
@@ -316,13 +321,26 @@ pub fn specimen_line_coverage(
 }
 
 fn triangles(specimen: TriangleSpecimen, case: &Case) -> Counts {
-    let Shape::Triangles { list, .. } = &case.shape else { return Counts::default() };
+    let Shape::Triangles { list, disjoint } = &case.shape else { return Counts::default() };
     let one = |triangle: &Triangle| {
         let mut truth = Coverage::new(case.window, 0);
         Oracle.cover(triangle.corners(), case.window, |s| truth.hit(s.y_px, s.x0_px, s.x1_px));
         judge(specimen, &from_screen(triangle), Some(triangle), case.window, &truth)
     };
-    list.iter().map(one).fold(Counts::default(), Counts::merge)
+    let mut counts = list.iter().map(one).fold(Counts::default(), Counts::merge);
+    if *disjoint && list.len() > 1 {
+        counts.shared = shared(specimen, list, case.window);
+    }
+    counts
+}
+
+/// Pixels of each triangle alone, less those of all together; none where one is refused.
+fn shared(specimen: TriangleSpecimen, list: &[Triangle], window: PixelRect) -> u64 {
+    let mesh: Vec<RealTriangle> = list.iter().map(from_screen).collect();
+    let Ok(together) = specimen_coverage(specimen, &mesh, window) else { return 0 };
+    let alone = |t: &RealTriangle| specimen_coverage(specimen, std::slice::from_ref(t), window);
+    let each = mesh.iter().filter_map(|t| Some(alone(t).ok()?.covered()));
+    each.sum::<u64>().saturating_sub(together.covered())
 }
 
 /// Compares hits with the truth, and values where the triangle lies on the lattice.
