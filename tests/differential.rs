@@ -1,5 +1,12 @@
 //! Every engine against the oracle and against each other, on every family: plain `cargo test`
 //! prints the table. One trial for each family, so filters and `--list` work as usual.
+//!
+//! Where it disagrees, `cargo test` ends here; so the named cases are then drawn too, every changed
+//! snapshot is stored with its picture, and the last lines say where to look.
+
+#[path = "it/snapshots.rs"]
+#[allow(dead_code, unused_imports, reason = "its tests run in the binary `it`")]
+mod snapshots;
 
 use std::process::ExitCode;
 use std::sync::{Arc, Mutex};
@@ -30,12 +37,35 @@ fn main() -> ExitCode {
     families.sort_by_key(place);
     let all = families.len() == hazard::families().count();
     let verdict = Verdict { options: options(""), families, failures: Vec::new() };
+    if conclusion.has_failed() {
+        show_snapshots();
+    }
     println!("{}{}", table::table(&verdict), table::quota_line(&verdict));
     let quotas_met = !all || verdict.quotas().iter().all(|(_, is, wanted)| is >= wanted);
     if !quotas_met {
         println!("FAILED: a quota is not met, so the families prove less than they claim");
     }
+    if conclusion.has_failed() {
+        print!("{}", table::disagreements(&verdict));
+        println!("\nWhat to do now:\n{}", snapshots::NEXT);
+        println!("the other tests and their pictures: cargo test --no-fail-fast");
+    }
     if conclusion.has_failed() || !quotas_met { ExitCode::FAILURE } else { ExitCode::SUCCESS }
+}
+
+/// Draws the named cases, so that those that look different are stored beside the old ones.
+fn show_snapshots() {
+    println!("the named cases, as drawn now:");
+    // What each of them says is gathered, and said once.
+    std::panic::set_hook(Box::new(|_| ()));
+    match std::panic::catch_unwind(snapshots::check_named_cases) {
+        Ok(()) => println!("  all look as before"),
+        Err(payload) => {
+            let message = payload.downcast_ref::<String>().map_or("", String::as_str);
+            println!("{}", message.trim_end_matches(snapshots::NEXT).trim_end());
+        }
+    }
+    println!();
 }
 
 fn options(family: &str) -> Options {

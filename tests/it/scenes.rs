@@ -26,7 +26,7 @@ use rasterproof::scene::{
 };
 use rayon::prelude::*;
 
-use crate::snapshots::{check_picture, settings};
+use crate::snapshots::{check_picture, each, settings};
 
 const SMOOTHINGS: [Antialias; 4] = [
     Antialias::None,
@@ -82,12 +82,12 @@ fn scenes_are_the_same_by_both_rasterizers() {
 
 #[test]
 fn scenes_look_as_kept() {
-    for entry in SCENES {
+    each(SCENES, |entry| {
         let scene = scene(entry.name, 4.0 / 3.0, 0.0).unwrap();
         let mut target = Target::new(160, 120, Antialias::None, DepthFormat::Unorm32).unwrap();
         let rendered = Drawer::Scanline.render(&scene, &Effects::PLANNED, &mut target).unwrap();
         check_picture(&format!("scene-{}", entry.name), &frames::rgb(&rendered.picture));
-    }
+    });
 }
 
 #[test]

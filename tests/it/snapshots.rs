@@ -1,8 +1,14 @@
 //! Every named case: its pixels as the catalogue says, by every engine; a snapshot as text, and for
 //! the small ones one as a picture.
 //!
+//! One pass stores every snapshot that changed. `tests/differential.rs` runs the named cases too when
+//! the table disagrees, so that plain `cargo test` shows what a wrong line does.
+//!
 //! A picture is compared by its decoded pixels. Where it differs, a sheet old | new | difference is
 //! written to `target/rasterproof/review/`, and `cargo run -- review` shows old and new pixel by pixel.
+
+use std::any::Any;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use glam::{DVec2, DVec3};
 use image::{Rgb, RgbImage};
@@ -39,6 +45,24 @@ pub fn settings() -> Settings {
     settings.set_prepend_module_to_snapshot(false);
     settings.set_omit_expression(true);
     settings
+}
+
+/// What to do about snapshots that changed.
+pub const NEXT: &str = "\
+old beside new, pixel by pixel, and how to accept what is right: cargo run -- review
+the smallest case that is wrong, with its chapter: cargo run -- verify
+what each named case is about: docs/index.md; the house: docs/ARCHITECTURE.md";
+
+/// Checks all of them, whatever comes of the first, and says what to do about those that changed.
+pub fn each<T>(items: impl IntoIterator<Item = T>, check: impl Fn(T)) {
+    let kept = |item| catch_unwind(AssertUnwindSafe(|| check(item))).err();
+    let failed: Vec<_> = items.into_iter().filter_map(kept).collect();
+    let said = |payload: &Box<dyn Any + Send>| {
+        let text = payload.downcast_ref::<&str>().map(|text| (*text).to_owned());
+        text.or_else(|| payload.downcast_ref::<String>().cloned()).unwrap_or_default()
+    };
+    let messages: Vec<_> = failed.iter().map(said).collect();
+    assert!(failed.is_empty(), "{}\n{} of them fail.\n{NEXT}", messages.join("\n"), failed.len());
 }
 
 #[derive(Clone)]
@@ -118,42 +142,50 @@ fn text(named: &NamedCase, case: &Case) -> String {
     out
 }
 
+/// The picture of a named case that is small enough for one.
+fn has_picture(case: &Case) -> bool {
+    case.window.width() <= 64 && case.window.height() <= 80
+}
+
+fn check_text(named: &NamedCase) {
+    let text = match &named.input {
+        Input::Drawn { case, .. } => text(named, case),
+        Input::Refused(corners) => {
+            let lines: Vec<String> = corners
+                .iter()
+                .flatten()
+                .filter_map(|&[x, y]| {
+                    Some(format!("({x:?}, {y:?}) {}", SubpixelPoint::from_px(x, y).err()?))
+                })
+                .collect();
+            format!("{}: {}\n\n{}\n", named.name, named.about, lines.join("\n"))
+        }
+    };
+    settings().bind(|| insta::assert_snapshot!(format!("{}-text", named.name), text));
+}
+
+/// Every named case as text and as a picture.
+pub fn check_named_cases() {
+    let cases = named();
+    let drawn =
+        |named: &&NamedCase| matches!(&named.input, Input::Drawn { case, .. } if has_picture(case));
+    let pictures: Vec<_> = cases.iter().filter(drawn).collect();
+    assert!(pictures.len() > 20, "{} pictures", pictures.len());
+    let both = cases.iter().map(|named| (named, false));
+    each(both.chain(pictures.into_iter().map(|named| (named, true))), |(named, is_picture)| {
+        let Input::Drawn { case, .. } = &named.input else { return check_text(named) };
+        if !is_picture {
+            return check_text(named);
+        }
+        let (engines, target) = judged(case);
+        let hits: Vec<_> = engines.into_iter().map(|(_, hits)| hits).collect();
+        check_picture(named.name, &picture::panels(case, &hits, &target));
+    });
+}
+
 #[test]
 fn snapshots_of_named_cases() {
-    let mut glob = Vec::new();
-    for named in named() {
-        match &named.input {
-            Input::Drawn { case, .. } => {
-                settings().bind(|| {
-                    insta::assert_snapshot!(format!("{}-text", named.name), text(&named, case))
-                });
-                let (engines, target) = judged(case);
-                let hits: Vec<_> = engines.into_iter().map(|(_, hits)| hits).collect();
-                let png = picture::png(&picture::panels(case, &hits, &target));
-                if case.window.width() <= 64 && case.window.height() <= 80 {
-                    assert!(png.len() <= MOST_BYTES, "{}: {} bytes", named.name, png.len());
-                    let mut settings = settings();
-                    settings.set_comparator(Box::new(ByPixels(named.name.to_owned())));
-                    settings.bind(|| {
-                        insta::assert_binary_snapshot!(&format!("{}.png", named.name), png)
-                    });
-                    glob.push(named.name);
-                }
-            }
-            Input::Refused(corners) => {
-                let lines: Vec<String> = corners
-                    .iter()
-                    .flatten()
-                    .filter_map(|&[x, y]| {
-                        Some(format!("({x:?}, {y:?}) {}", SubpixelPoint::from_px(x, y).err()?))
-                    })
-                    .collect();
-                let text = format!("{}: {}\n\n{}\n", named.name, named.about, lines.join("\n"));
-                settings().bind(|| insta::assert_snapshot!(format!("{}-text", named.name), text));
-            }
-        }
-    }
-    assert!(glob.len() > 20, "{glob:?}");
+    check_named_cases();
 }
 
 #[test]
@@ -360,7 +392,7 @@ fn picture_of_a_verdict() {
 fn pictures_of_naive_versions() {
     use rasterproof::mutant::LineMutant as L;
     use rasterproof::mutant::TriangleMutant as T;
-    for (family, mutant) in [
+    let triangles = [
         ("half-integer", T::ExclusiveEdges),
         ("rectangle", T::InclusiveEdges),
         ("sliver", T::RejectsThin),
@@ -368,7 +400,8 @@ fn pictures_of_naive_versions() {
         ("huge", T::WrapsInI32),
         ("flat", T::LastEdgeInclusive),
         ("near-vertical", T::SplitsAtRoundedPoint),
-    ] {
+    ];
+    each(triangles, |(family, mutant)| {
         naive(family, Engine::Mutant(mutant).name(), |case| {
             let Shape::Triangles { list, .. } = &case.shape else {
                 panic!("{family} has triangles")
@@ -376,14 +409,30 @@ fn pictures_of_naive_versions() {
             let hits = engine_coverage(&mutant, list, case.window).unwrap();
             (hits, oracle_coverage(list, case.window))
         });
-    }
-    for (family, mutant) in [("line-ties", L::DirectedTies), ("line-octants", L::DriftsInF32)] {
+    });
+    let lines = [("line-ties", L::DirectedTies), ("line-octants", L::DriftsInF32)];
+    each(lines, |(family, mutant)| {
         naive(family, LineEngine::Mutant(mutant).name(), |case| {
             let Shape::Lines(lines) = &case.shape else { panic!("{family} has lines") };
             let hits = line_coverage(&mutant, lines, case.window).unwrap();
             (hits, line_coverage(&LineEngine::Oracle, lines, case.window).unwrap())
         });
-    }
+    });
+}
+
+/// A check that fails does not keep the next one from running, and the message leads on.
+#[test]
+fn each_check_runs_and_the_message_leads_on() {
+    let run = std::cell::Cell::new(0);
+    let checked = catch_unwind(AssertUnwindSafe(|| {
+        each([1, 2, 3], |n| {
+            run.set(run.get() + 1);
+            assert_eq!(n, 2, "planted");
+        });
+    }));
+    let message = *checked.unwrap_err().downcast::<String>().unwrap();
+    assert_eq!(run.get(), 3);
+    assert!(message.contains("2 of them fail") && message.ends_with(NEXT), "{message}");
 }
 
 fn naive(family: &str, mutant: &str, draw: impl Fn(&Case) -> (Coverage, Coverage)) {
