@@ -81,13 +81,26 @@ struct Measured {
 struct Saving {
     effect: Effect,
     /// Time of the frame in which it is planned and everything else paid for, and what share that
-    /// is less than to pay for everything.
+    /// is less than to pay for everything, and whether the difference is within the noise.
     alone_us: f64,
     saves_alone: f64,
+    noise_alone: bool,
     /// Time of the frame in which it is paid for and everything else planned, and what share of
     /// that planning it too saves.
     all_but_us: f64,
     saves_last: f64,
+    noise_last: bool,
+}
+
+/// A saving in percent, unless it is within the noise.
+fn percent(saving: f64, is_noise: bool) -> String {
+    if is_noise { "noise".to_owned() } else { format!("{:.0}%", 100.0 * saving) }
+}
+
+/// Whether two medians differ by less than either lies above the fastest of its rounds.
+fn is_noise(a: &Measured, b: &Measured) -> bool {
+    let above = |m: &Measured| m.time_us - m.range_us[0];
+    (a.time_us - b.time_us).abs() <= above(a).max(above(b))
 }
 
 /// Everything measured.
@@ -126,8 +139,10 @@ impl Savings {
             effect,
             alone_us: pair[0].time_us,
             saves_alone: 1.0 - pair[0].time_us / everything.time_us,
+            noise_alone: is_noise(&pair[0], &everything),
             all_but_us: pair[1].time_us,
             saves_last: 1.0 - planned.time_us / pair[1].time_us,
+            noise_last: is_noise(&pair[1], &planned),
         };
         let savings = Effect::ALL.into_iter().zip(effects.chunks_exact(2)).map(saving).collect();
         Some(Self { everything, usual, planned, effects: savings, mixtures: effects })
@@ -265,16 +280,18 @@ fn describe(scene: &Scene, planned: &Rendered, everything: &Counters, savings: &
         let _ = writeln!(text, "{name:<18} {all:>12} {planned:>11}");
     }
     text += "\nplanned          alone us     saves    last us     saves\n";
-    for Saving { effect, alone_us, saves_alone, all_but_us, saves_last } in &savings.effects {
+    for s in &savings.effects {
         let _ = writeln!(
             text,
-            "{:<14} {alone_us:>10.0} {:>8.0}% {all_but_us:>10.0} {:>8.0}%",
-            effect.name(),
-            100.0 * saves_alone,
-            100.0 * saves_last
+            "{:<14} {:>10.0} {:>9} {:>10.0} {:>9}",
+            s.effect.name(),
+            s.alone_us,
+            percent(s.saves_alone, s.noise_alone),
+            s.all_but_us,
+            percent(s.saves_last, s.noise_last)
         );
     }
-    text += "alone: the rest paid for; last: paid for, the rest planned\n\n";
+    text += "alone: the rest paid for; last: paid for, the rest planned; noise: medians differ by less\nthan either lies above the fastest of its rounds\n\n";
     for m in savings.all() {
         if !m.same {
             let _ = writeln!(text, "DIFFERENT PICTURE with the effects {}", m.effects);
@@ -313,9 +330,9 @@ fn report_page(
         cells: vec![
             s.effect.name().to_owned(),
             format!("{:.0}", s.alone_us),
-            format!("{:.0}%", 100.0 * s.saves_alone),
+            percent(s.saves_alone, s.noise_alone),
             format!("{:.0}", s.all_but_us),
-            format!("{:.0}%", 100.0 * s.saves_last),
+            percent(s.saves_last, s.noise_last),
         ],
         ..Row::default()
     };

@@ -91,24 +91,24 @@ pub struct SceneArguments {
     /// Leave out triangles by their winding as the eye sees them
     #[arg(long, value_enum)]
     cull: Option<Winding>,
-    /// How light is laid on a model
-    #[arg(long, value_enum, default_value_t = Lighting::Phong)]
-    shading: Lighting,
+    /// How light is laid on a model [default: phong]
+    #[arg(long, value_enum, value_name = "SHADING")]
+    shading: Option<Lighting>,
     /// How depths are stored
     #[arg(long, value_enum, default_value_t = Depths::Unorm32)]
     depth: Depths,
-    /// Turn the model by this many degrees, to the right
-    #[arg(long, default_value_t = 30.0, allow_negative_numbers = true)]
-    yaw: f64,
-    /// Look down on the model by this many degrees
-    #[arg(long, default_value_t = 20.0, allow_negative_numbers = true)]
-    pitch: f64,
-    /// Come nearer by this factor; large ones end inside the model
-    #[arg(long, default_value_t = 1.0)]
-    zoom: f64,
-    /// Vertical angle of view in degrees
-    #[arg(long, default_value_t = 40.0)]
-    fov: f64,
+    /// Turn the model by this many degrees, to the right [default: 30]
+    #[arg(long, value_name = "DEGREES", allow_negative_numbers = true)]
+    yaw: Option<f64>,
+    /// Look down on the model by this many degrees [default: 20]
+    #[arg(long, value_name = "DEGREES", allow_negative_numbers = true)]
+    pitch: Option<f64>,
+    /// Come nearer to the model by this factor; large ones end inside it [default: 1]
+    #[arg(long, value_name = "FACTOR", allow_negative_numbers = true)]
+    zoom: Option<f64>,
+    /// Vertical angle of view in degrees, of a model [default: 40]
+    #[arg(long, value_name = "DEGREES", allow_negative_numbers = true)]
+    fov: Option<f64>,
 }
 
 #[derive(clap::ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
@@ -228,17 +228,44 @@ impl SceneArguments {
             Winding::Ccw => Cull::CounterClockwise,
         });
         let base = match self.source() {
-            Ok(name) => Base::Chapter(name.to_owned()),
+            Ok(name) => {
+                self.refuse_eye(name)?;
+                Base::Chapter(name.to_owned())
+            }
             Err(path) if path.extension().is_none() && !path.exists() => {
+                let word = path.to_string_lossy();
+                let near = scene_names().into_iter().filter(|name| {
+                    let steps = strsim::levenshtein(&word.to_ascii_lowercase(), name);
+                    steps * 2 <= name.len().max(word.len())
+                });
+                let nearest = near.min_by_key(|name| strsim::levenshtein(&word, name));
+                let hint =
+                    nearest.map_or(String::new(), |name| format!("; did you mean '{name}'?"));
                 let names = scene_names().join(", ");
                 return Err(usage(format!(
-                    "{} is neither a file nor a scene; scenes: {names}",
-                    path.display()
+                    "{word} is neither a file nor a scene{hint}; scenes: {names}"
                 )));
             }
             Err(path) => Base::Model(Box::new(self.frame_model(path, aspect, errors)?)),
         };
         Ok(Maker { base, aspect, cull })
+    }
+
+    /// A scene has an eye and a light of its own: what would move them is refused, not ignored.
+    fn refuse_eye(&self, scene: &str) -> Result<(), Failure> {
+        let given = [
+            ("--yaw", self.yaw.is_some()),
+            ("--pitch", self.pitch.is_some()),
+            ("--zoom", self.zoom.is_some()),
+            ("--fov", self.fov.is_some()),
+            ("--shading", self.shading.is_some()),
+        ];
+        match given.iter().find(|(_, is_given)| *is_given) {
+            Some((option, _)) => Err(usage(format!(
+                "{option} is for models; the scene '{scene}' has an eye and a light of its own"
+            ))),
+            None => Ok(()),
+        }
     }
 
     /// A model, in the middle, seen whole.
@@ -248,18 +275,20 @@ impl SceneArguments {
         aspect: f64,
         errors: &mut dyn std::io::Write,
     ) -> Result<Framed, Failure> {
-        let shading = match self.shading {
+        let shading = match self.shading.unwrap_or(Lighting::Phong) {
             Lighting::Unlit => Shading::Unlit,
             Lighting::Flat => Shading::Flat,
             Lighting::Gouraud => Shading::Gouraud,
             Lighting::Phong => Shading::Phong,
         };
-        let numbers = [("--yaw", self.yaw), ("--pitch", self.pitch), ("--zoom", self.zoom)];
+        let (yaw, pitch) = (self.yaw.unwrap_or(30.0), self.pitch.unwrap_or(20.0));
+        let (zoom, fov) = (self.zoom.unwrap_or(1.0), self.fov.unwrap_or(40.0));
+        let numbers = [("--yaw", yaw), ("--pitch", pitch), ("--zoom", zoom), ("--fov", fov)];
         if let Some((name, value)) = numbers.iter().find(|(_, value)| !value.is_finite()) {
             return Err(usage(format!("{name} {value} is not a finite number")));
         }
-        if self.zoom <= 0.0 {
-            return Err(usage(format!("--zoom {} is not positive", self.zoom)));
+        if zoom <= 0.0 {
+            return Err(usage(format!("--zoom {zoom} is not positive")));
         }
         let model = obj::load(path, shading).map_err(|error| usage(error.to_string()))?;
         for warning in model.warnings {
@@ -272,17 +301,17 @@ impl SceneArguments {
         let centre = (min + max) / 2.0;
         // A point or a plane has a size too.
         let radius = ((max - min).length() / 2.0).max(f64::MIN_POSITIVE.sqrt());
-        let half = self.fov.to_radians() / 2.0;
+        let half = fov.to_radians() / 2.0;
         let narrow = half.min((half.tan() * aspect).atan());
-        let distance = radius / narrow.sin() / self.zoom;
-        let (pitch, yaw) = (self.pitch.to_radians(), self.yaw.to_radians());
+        let distance = radius / narrow.sin() / zoom;
+        let (pitch, yaw) = (pitch.to_radians(), yaw.to_radians());
         let turn = DMat4::from_rotation_y(yaw);
         let away = DVec3::new(0.0, pitch.sin(), -pitch.cos());
         let up = DVec3::new(0.0, pitch.cos(), pitch.sin());
         let refused = |error: crate::pipeline::transform::NoProjection| usage(error.to_string());
         let view = look_at(centre + away * distance, centre, up).map_err(refused)?;
         let near = (distance - radius).max(distance * 1e-3).max(radius * 1e-3);
-        let projection = perspective(self.fov.to_radians(), aspect, near, distance + radius * 1.01)
+        let projection = perspective(fov.to_radians(), aspect, near, distance + radius * 1.01)
             .map_err(refused)?;
         let mut scene = Scene::new(&self.name(), "a model", projection);
         scene.view = view;
@@ -357,6 +386,15 @@ pub fn run(arguments: &RenderArguments, streams: &mut Streams<'_>) -> Result<u8,
     let extension = if arguments.spin.is_some() { "gif" } else { "png" };
     let default = || Path::new("target/rasterproof").join(format!("{}.{extension}", what.name()));
     let output = arguments.output.clone().unwrap_or_else(default);
+    let ending = output.extension().and_then(|ending| ending.to_str()).unwrap_or("");
+    if !ending.eq_ignore_ascii_case(extension) {
+        return Err(usage(format!(
+            "{}: {} is written as {}: end its name with .{extension}",
+            output.display(),
+            if extension == "gif" { "a full turn" } else { "the picture" },
+            extension.to_ascii_uppercase()
+        )));
+    }
     if let Some(frames) = arguments.spin {
         return spin(arguments, &maker, frames, &output, streams);
     }
@@ -510,6 +548,9 @@ fn describe(
         c.fragments, c.depth_tests, c.depth_failed, c.shaded
     );
     let _ = writeln!(text, "  drawn in {}", output.display());
+    if is_empty(&drawings[0].rendered) {
+        let _ = writeln!(text, "  EMPTY: nothing of it is seen; the picture is background alone");
+    }
     match comparison {
         None => {}
         Some(comparison) if comparison.agrees() => {
@@ -534,6 +575,13 @@ fn describe(
         }
     }
     text
+}
+
+/// Whether every pixel of the picture has the colour of the first.
+fn is_empty(rendered: &Rendered) -> bool {
+    let mut pixels = rendered.picture.rows().flat_map(|(_, row)| row);
+    let first = pixels.next();
+    pixels.all(|pixel| Some(pixel) == first)
 }
 
 /// The picture of what each pixel paid for.

@@ -224,3 +224,22 @@ fn render_and_plan_write_a_page() {
     let page = run(&words);
     assert!(page.contains("the material has no texture") && page.contains("second-buffer"));
 }
+
+/// A byte order mark is no part of a model, and a picture of nothing says so: of a triangle alone one
+/// of the two windings is culled.
+#[test]
+fn a_picture_of_nothing_says_so() {
+    let folder = folder("nothing");
+    let path = folder.join("marked.obj");
+    fs::write(&path, "\u{feff}v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").unwrap();
+    let out = folder.join("marked.png");
+    let empty = |cull: &str| {
+        let (path, out) = (path.to_str().unwrap(), out.to_str().unwrap());
+        let words = ["render", path, "--size", "40x30", "--cull", cull, "-o", out];
+        let (status, text) = program(&words);
+        assert_eq!(status, Some(0), "{text}");
+        text.contains("EMPTY: nothing of it is seen")
+    };
+    assert!(!empty("none"));
+    assert_eq!([empty("cw"), empty("ccw")].iter().filter(|is_empty| **is_empty).count(), 1);
+}

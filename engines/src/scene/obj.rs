@@ -65,6 +65,15 @@ fn read(path: &Path) -> Result<Vec<u8>, BadFile> {
     fs::read(path).map_err(failed)
 }
 
+/// The bytes of a text, without the byte order mark that some editors put before it.
+fn read_text(path: &Path) -> Result<Vec<u8>, BadFile> {
+    let mut bytes = read(path)?;
+    if bytes.starts_with(b"\xef\xbb\xbf") {
+        bytes.drain(..3);
+    }
+    Ok(bytes)
+}
+
 /// A model: one item for each material, and what was left out.
 #[derive(Clone, Debug)]
 pub struct Model {
@@ -81,7 +90,7 @@ pub struct Model {
 /// is out of range, a model without faces, a texture that cannot be decoded. A material file that
 /// is missing is a warning: the model is grey.
 pub fn load(path: &Path, shading: Shading) -> Result<Model, BadFile> {
-    let bytes = read(path)?;
+    let bytes = read_text(path)?;
     let text = String::from_utf8_lossy(&bytes);
     let text = checked(path, &text)?;
     let folder = path.parent().unwrap_or(Path::new("")).to_owned();
@@ -89,7 +98,7 @@ pub fn load(path: &Path, shading: Shading) -> Result<Model, BadFile> {
     let options = tobj::LoadOptions { triangulate: true, ..tobj::LoadOptions::default() };
     let loaded = tobj::load_obj_buf(&mut Cursor::new(text), &options, |name| {
         let file = folder.join(name);
-        match read(&file) {
+        match read_text(&file) {
             Ok(bytes) => tobj::load_mtl_buf(&mut Cursor::new(bytes)),
             Err(error) => {
                 warnings.borrow_mut().push(format!("{error}; the model is drawn grey"));
