@@ -1,31 +1,31 @@
 //! `rasterproof inspect`: one case, every engine, pixel by pixel.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::builder::PossibleValuesParser;
 use image::RgbImage;
 
-use super::{Failure, Streams, exit, usage, write_file};
-use crate::frame::Coverage;
+use super::shown::{self, Contestants};
+use super::{
+    Failure, PAGE, Streams, exit, explain, png_name, program, usage, write_file, write_page,
+    write_unasked,
+};
 use crate::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
 use crate::hazard::named::{Input, plain_line, plain_triangle};
 use crate::hazard::offgrid::{self, OffGridCase};
 use crate::hazard::{self, Case, Line, Shape};
-use crate::lineup::{Engine, Entry, ExactEngine, LineEngine, SPECIMENS, Specimen};
-use crate::oracle::Oracle;
+use crate::lineup::{Entry, ExactEngine, SPECIMENS, Specimen};
 use crate::oracle::coverage::samples_on_boundary;
 use crate::raster::edge_function::WordWidth;
-use crate::report::{ascii, picture};
+use crate::report::html::{Outcome, Report};
+use crate::report::{ascii, cases, picture, summary};
 use crate::scene::named;
+use crate::specimen::bare;
 use crate::specimen::catalogue::{RECORDED, RECORDED_SIDE_PX, RecordedCase};
-use crate::specimen::{bare, from_screen};
 use crate::triangle::{Corners, FreeCorners, PixelPoint};
 use crate::verify::exact::{describe, exact_coverage, judge_exact_case};
-use crate::verify::specimens::{specimen_coverage, specimen_line_coverage};
-use crate::verify::tolerance::Tolerance;
-use crate::verify::{
-    self, Tally, engine_coverage, line_coverage, oracle_coverage, oracle_pixels_each,
-};
+use crate::verify::specimens::specimen_coverage;
+use crate::verify::{self, Finding, Tally, oracle_pixels_each};
 
 /// Options of `inspect`.
 #[derive(clap::Args, Debug)]
@@ -36,6 +36,8 @@ use crate::verify::{
   rasterproof inspect sliver#123 --seed 7 -o sliver.png
   rasterproof inspect T3 --specimen book-ch2
   rasterproof inspect double_row             a recorded input of the book's code, and its specimen
+  rasterproof inspect T2 --pixel 3,3         why this pixel is covered
+  rasterproof inspect T2 --plant inclusive-edges
 
 In the grids: # agrees with the oracle, - missing, + extra, 2 twice, * rightly more than once.
 In the picture: grey agrees, red missing, orange extra, violet twice; engines from left to right,
@@ -56,6 +58,15 @@ pub struct InspectArguments {
     /// Show what this published algorithm draws as well; it is not judged
     #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(SPECIMENS.iter().map(|e| e.name)))]
     specimen: Option<String>,
+    /// Judge this planted fault instead of the engines; `list` names them
+    #[arg(long, value_name = "FAULT", value_parser = crate::mutant::about::names(), hide_possible_values = true)]
+    plant: Option<String>,
+    /// Explain this pixel: edge values, ties, the rule, the span
+    #[arg(long, value_name = "X,Y", value_parser = parse_pixel_option, allow_hyphen_values = true)]
+    pixel: Option<PixelPoint>,
+    /// Write a page to look into the case: target/rasterproof/index.html
+    #[arg(long)]
+    report: bool,
     /// The picture [default: target/rasterproof/inspect.png]
     #[arg(short, long, value_name = "FILE.png")]
     output: Option<PathBuf>,
@@ -63,6 +74,10 @@ pub struct InspectArguments {
 
 /// Largest side of a window to look at: every engine gets a panel of the picture.
 const MOST_SIDE_PX: u32 = 2048;
+
+fn parse_pixel_option(text: &str) -> Result<PixelPoint, String> {
+    parse_pixel(text).map_err(|failure| failure.to_string())
+}
 
 fn parse_window(text: &str) -> Result<PixelRect, String> {
     let wrong = || {
@@ -85,44 +100,55 @@ fn parse_window(text: &str) -> Result<PixelRect, String> {
     Ok(PixelRect { x0, y0, x1: end(x0, width)?, y1: end(y0, height)? })
 }
 
+/// A planted fault that has no part in a case cannot be shown by it.
+fn no_part(plant: Option<&String>) -> Failure {
+    let name = plant.map_or("", String::as_str);
+    usage(format!("{name} is in no engine that draws this case. See: {} list", program()))
+}
+
 pub fn run(arguments: &InspectArguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
-    let out = &mut *streams.output;
     let (title, mut case, expected) = match find(arguments)? {
         Found::Case { title, case, expected } => (title, case, expected),
-        Found::Refused { title, corners } => return refused(&title, &corners, out),
-        Found::OffGrid { title, case } => return off_grid_alone(arguments, &title, case, out),
+        Found::Refused { title, corners } => return refused(&title, &corners, streams.output),
+        Found::OffGrid { title, case } => {
+            return off_grid_alone(arguments, &title, case, streams);
+        }
     };
+    let out = &mut *streams.output;
     if let Some(window) = arguments.window {
         case.window = window;
     }
     let w = case.window;
     writeln!(out, "{title}")?;
     writeln!(out, "window: columns {}..{}, rows {}..{}", w.x0, w.x1, w.y0, w.y1)?;
+    write!(out, "{}", cropped(&case, arguments))?;
     facts(&case, out)?;
+    if let Some(at) = arguments.pixel {
+        if !w.contains(at.x, at.y) {
+            return Err(usage(format!(
+                "pixel {},{} lies outside the window: add --window X,Y,WIDTHxHEIGHT",
+                at.x, at.y
+            )));
+        }
+        write!(out, "\n{}", explain::pixel(&case, at))?;
+    }
 
     // Judge and show.
-    let engines: Vec<_> =
-        Engine::JUDGED.into_iter().map(|e| (e, verify::tolerance::of(e))).collect();
-    let mut shown = draw(&case, &engines, &LineEngine::JUDGED);
+    let Contestants { engines, lines, exact } = Contestants::new(arguments.plant.as_deref());
+    let mut shown = shown::draw(&case, &engines, &lines);
+    if shown.is_empty() {
+        return Err(no_part(arguments.plant.as_ref()));
+    }
     if let Some(specimen) = specimen(arguments, None) {
         shown.add(specimen, &case)?;
     }
-    let findings = verify::judge_case(&engines, &LineEngine::JUDGED, &case);
+    let findings = verify::judge_case(&engines, &lines, &case);
     writeln!(out)?;
-    writeln!(out, "{}", ascii::side_by_side(&shown.blocks(), 100))?;
-    let mut agrees = true;
-    for ([actual, target], finding) in &findings {
-        agrees &= !finding.is_wrong();
-        let values = if finding.values == 0 {
-            String::new()
-        } else {
-            format!(
-                "; {} values within {:.2} (attributes) and {:.2} (depth) of their bounds",
-                finding.values, finding.attribute, finding.depth
-            )
-        };
-        writeln!(out, "{actual} against {target}: {}{values}", finding.describe())?;
+    if let Some(at) = arguments.pixel {
+        writeln!(out, "hits of ({}, {}): {}\n", at.x, at.y, shown.hits(at))?;
     }
+    writeln!(out, "{}", ascii::side_by_side(&shown.blocks(), 100))?;
+    let mut agrees = say_findings(&findings, out)?;
     if let Some(expected) = expected.filter(|_| arguments.window.is_none()) {
         let hits = oracle_pixels_each(&case);
         let as_expected = expected.is_empty() || hits == expected;
@@ -136,18 +162,126 @@ pub fn run(arguments: &InspectArguments, streams: &mut Streams<'_>) -> Result<u8
         }
     }
     // Corners that were typed in are shown as they were typed, too.
-    if let ([a, b, c], false) = (arguments.what.as_slice(), arguments.line) {
+    let typed = words(arguments);
+    if let ([a, b, c], false, false) = (typed.as_slice(), arguments.line, exact.is_empty()) {
         let px = [parse_px(a)?, parse_px(b)?, parse_px(c)?];
         if let Ok(corners) = FreeCorners::new(px) {
             writeln!(out, "\nnot snapped:")?;
             let shown_too = specimen(arguments, None).map(|specimen| (specimen, case.window));
             let typed =
                 OffGridCase { window: case.window, triangles: vec![corners], is_tiling: false };
-            agrees &= off_grid(&typed, shown_too, out)?.0;
+            agrees &= off_grid(&typed, &exact, shown_too, out)?.0;
         }
     }
-    write_picture(arguments, &shown.picture(&case), out)?;
+    write_picture(arguments, &shown.picture(&case), streams)?;
+    if arguments.report {
+        let engines: Vec<_> = engines.iter().map(|(engine, _)| *engine).collect();
+        let judged = cases::Judged { engines: &engines, lines: &lines, exact: &exact };
+        let view = cases::on_grid(name(arguments), title, kind(agrees), &case, judged);
+        write_report(arguments, view, agrees, streams)?;
+    }
     Ok(if agrees { exit::AGREES } else { exit::DISAGREES })
+}
+
+/// A line for each pair that was compared; says whether all agree.
+fn say_findings(
+    findings: &[([String; 2], Finding)],
+    out: &mut dyn std::io::Write,
+) -> Result<bool, Failure> {
+    let mut agrees = true;
+    for ([actual, target], finding) in findings {
+        agrees &= !finding.is_wrong();
+        let values = match finding.values {
+            0 => String::new(),
+            n => {
+                let worst = finding.attribute.max(finding.depth);
+                format!("; {n} values, {}", summary::of_bound(worst))
+            }
+        };
+        writeln!(out, "{actual} against {target}: {}{values}", finding.describe())?;
+    }
+    Ok(agrees)
+}
+
+/// The name of the case on its page.
+fn name(arguments: &InspectArguments) -> String {
+    arguments.what.iter().map(|word| word.trim()).collect::<Vec<_>>().join(" ")
+}
+
+fn kind(agrees: bool) -> cases::Kind {
+    if agrees { cases::Kind::Named } else { cases::Kind::Failing }
+}
+
+fn write_report(
+    arguments: &InspectArguments,
+    mut view: cases::CaseView,
+    agrees: bool,
+    streams: &mut Streams<'_>,
+) -> Result<(), Failure> {
+    let plant = arguments.plant.as_ref().map(|name| format!(" --plant {name}")).unwrap_or_default();
+    let line = if arguments.line { " --line" } else { "" };
+    let seed = match arguments.what.as_slice() {
+        [word] if word.contains('#') => format!(" --seed {}", arguments.seed),
+        _ => String::new(),
+    };
+    let command = format!("rasterproof inspect{line} {}{seed}{plant}", name(arguments));
+    view.command.clone_from(&command);
+    let (word, sentence) = match agrees {
+        true => ("AGREES", "Every engine draws what the oracle draws."),
+        false => ("DISAGREES", "Not every engine draws what the oracle draws."),
+    };
+    let report = Report {
+        title: format!("One case: {}", view.name),
+        outcome: Some(Outcome {
+            good: agrees,
+            word: word.to_owned(),
+            sentence: sentence.to_owned(),
+        }),
+        command: format!("{command} --report"),
+        cases: vec![view],
+        ..Report::default()
+    };
+    write_page(Path::new(PAGE), &report, streams.output)
+}
+
+/// What is not shown, if anything, and how to see it.
+fn cropped(case: &Case, arguments: &InspectArguments) -> String {
+    let w = case.window;
+    let mut out = String::new();
+    if arguments.window.is_none() && words(arguments).len() > 1 {
+        let whole = match &case.shape {
+            Shape::Triangles { list, .. } => list.first().map(|t| {
+                let (xs, ys) = (t.corners().map(|p| p.x), t.corners().map(|p| p.y));
+                (reach(&xs) / SUBPIXELS, reach(&ys) / SUBPIXELS)
+            }),
+            Shape::Lines(list) => list.first().map(|l| {
+                let ends = l.ends.map(|end| end.pixel);
+                (reach(&ends.map(|p| p.x)), reach(&ends.map(|p| p.y)))
+            }),
+        };
+        let (width, height) = whole.unwrap_or((0, 0));
+        if width >= w.width() as i32 || height >= w.height() as i32 {
+            out += &format!(
+                "cropped: the shape is {width} x {height} px, the window {} x {}; see more with --window\n",
+                w.width(),
+                w.height()
+            );
+        }
+    }
+    if w.width() > ascii::MOST_COLUMNS || w.height() > ascii::MOST_ROWS {
+        out += &format!(
+            "cropped: the grids show {} x {} pixels from the first that differs or is drawn\n",
+            w.width().min(ascii::MOST_COLUMNS),
+            w.height().min(ascii::MOST_ROWS)
+        );
+    }
+    out
+}
+
+/// Largest minus smallest.
+fn reach(values: &[i32]) -> i32 {
+    let (low, high) = (values.iter().min().unwrap_or(&0), values.iter().max().unwrap_or(&0));
+    high.saturating_sub(*low)
 }
 
 /// Shows a case off the lattice, which the engines for such corners alone can draw.
@@ -155,8 +289,18 @@ fn off_grid_alone(
     arguments: &InspectArguments,
     title: &str,
     mut case: OffGridCase,
-    out: &mut dyn std::io::Write,
+    streams: &mut Streams<'_>,
 ) -> Result<u8, Failure> {
+    if arguments.pixel.is_some() {
+        return Err(usage(
+            "--pixel explains lines and triangles on the grid, and this case is not",
+        ));
+    }
+    let exact = Contestants::new(arguments.plant.as_deref()).exact;
+    if exact.is_empty() {
+        return Err(no_part(arguments.plant.as_ref()));
+    }
+    let out = &mut *streams.output;
     case.window = arguments.window.unwrap_or(case.window);
     let w = case.window;
     writeln!(out, "{title}")?;
@@ -165,19 +309,30 @@ fn off_grid_alone(
     let recorded = recorded(&arguments.what);
     let screen = recorded.map(|_| PixelRect::window(RECORDED_SIDE_PX, RECORDED_SIDE_PX));
     let specimen = specimen(arguments, recorded).map(|s| (s, screen.unwrap_or(case.window)));
-    let (agrees, drawn) = off_grid(&case, specimen, out)?;
-    write_picture(arguments, &drawn, out)?;
+    let (agrees, drawn) = off_grid(&case, &exact, specimen, out)?;
+    write_picture(arguments, &drawn, streams)?;
+    if arguments.report {
+        let judged = cases::Judged { engines: &[], lines: &[], exact: &exact };
+        let (name, title) = (name(arguments), title.to_owned());
+        let view = cases::off_lattice(name, title, kind(agrees), &case, judged);
+        write_report(arguments, view, agrees, streams)?;
+    }
     Ok(if agrees { exit::AGREES } else { exit::DISAGREES })
 }
 
+/// The picture: where it was asked to go, or where it does no harm if it cannot be written.
 fn write_picture(
     arguments: &InspectArguments,
     drawn: &RgbImage,
-    out: &mut dyn std::io::Write,
+    streams: &mut Streams<'_>,
 ) -> Result<(), Failure> {
-    let path = arguments.output.clone().unwrap_or_else(|| "target/rasterproof/inspect.png".into());
-    write_file(&path, &picture::png(drawn))?;
-    writeln!(out, "drawn in {}", path.display())?;
+    let bytes = picture::png(drawn);
+    let Some(path) = &arguments.output else {
+        return write_unasked(Path::new("target/rasterproof/inspect.png"), &bytes, streams);
+    };
+    png_name(path)?;
+    write_file(path, &bytes)?;
+    writeln!(streams.output, "drawn in {}", path.display())?;
     Ok(())
 }
 
@@ -205,6 +360,7 @@ enum Found {
 /// A specimen is shown beside them, as it draws on a screen of its own.
 fn off_grid(
     case: &OffGridCase,
+    engines: &[ExactEngine],
     specimen: Option<(&Entry, PixelRect)>,
     out: &mut dyn std::io::Write,
 ) -> Result<(bool, RgbImage), Failure> {
@@ -218,7 +374,7 @@ fn off_grid(
         let triangles: Vec<_> = case.triangles.iter().map(|t| bare(t.px())).collect();
         match specimen_coverage(*specimen, &triangles, screen) {
             Ok(hits) => {
-                let hits = crop(&hits, case.window);
+                let hits = shown::crop(&hits, case.window);
                 let Tally { missing, extra, twice, .. } = Tally::between(&hits, &target);
                 writeln!(
                     out,
@@ -231,8 +387,8 @@ fn off_grid(
             Err(reason) => writeln!(out, "{name}, published: {reason}")?,
         }
     }
-    for engine in ExactEngine::JUDGED {
-        let (name, finding) = (engine.name(), judge_exact_case(&engine, case));
+    for engine in engines {
+        let (name, finding) = (engine.name(), judge_exact_case(engine, case));
         agrees &= !finding.is_wrong();
         let (what, decisions) = (finding.describe(), finding.decisions);
         let all = decisions.by_filter + decisions.by_fallback;
@@ -241,7 +397,7 @@ fn off_grid(
             "{name} against oracle-exact: {what}; {} of {all} decisions took exact arithmetic",
             decisions.by_fallback
         )?;
-        if let Ok((hits, _)) = exact_coverage(&engine, case) {
+        if let Ok((hits, _)) = exact_coverage(engine, case) {
             blocks.push((format!("{name}: {} px", hits.covered()), ascii::grid(&hits, &target)));
             drawn.push(hits);
         }
@@ -253,7 +409,7 @@ fn off_grid(
 }
 
 fn find(arguments: &InspectArguments) -> Result<Found, Failure> {
-    let words = &arguments.what;
+    let words = &words(arguments);
     let generated = |title: String, case: Case| Found::Case { title, case, expected: None };
     match (words.as_slice(), arguments.line) {
         ([a, b], true) => {
@@ -335,6 +491,23 @@ fn recorded_case(case: &RecordedCase) -> Found {
     }
 }
 
+/// The words of the case; points that are typed as they are printed, (1, 2) (3, 4), come apart.
+fn words(arguments: &InspectArguments) -> Vec<String> {
+    let whole = arguments.what.join(" ");
+    if !whole.contains('(') {
+        return arguments.what.clone();
+    }
+    let points = whole.split_inclusive(')').map(str::trim).filter(|word| !word.is_empty());
+    points.map(str::to_owned).collect()
+}
+
+/// A point without the parentheses that it may be printed with.
+fn bare_point(text: &str) -> Option<(&str, &str)> {
+    let text = text.trim();
+    let text = text.strip_prefix('(').and_then(|t| t.strip_suffix(')')).unwrap_or(text);
+    text.split_once(',').map(|(x, y)| (x.trim(), y.trim()))
+}
+
 /// An error for a name that is not there, with the nearest one that is.
 fn unknown(kind: &str, word: &str, names: impl Iterator<Item = &'static str>) -> Failure {
     let distance =
@@ -344,14 +517,13 @@ fn unknown(kind: &str, word: &str, names: impl Iterator<Item = &'static str>) ->
         Some((steps, name)) if steps * 2 <= name.len().max(word.len()) => {
             format!("; did you mean '{name}'?")
         }
-        _ => String::new(),
+        _ => ".".to_owned(),
     };
-    usage(format!("no {kind} is called '{word}'{hint} See: rasterproof list"))
+    usage(format!("no {kind} is called '{word}'{hint} See: {} list", program()))
 }
 
 fn parse_px(text: &str) -> Result<[f64; 2], Failure> {
-    let numbers =
-        text.trim().split_once(',').and_then(|(x, y)| Some([x.parse().ok()?, y.parse().ok()?]));
+    let numbers = bare_point(text).and_then(|(x, y)| Some([x.parse().ok()?, y.parse().ok()?]));
     numbers.ok_or_else(|| {
         usage(format!(
             "'{text}' is not a point: expected X,Y in pixels, for example 0.5,3 (or a named case)"
@@ -365,8 +537,7 @@ fn parse_point(text: &str) -> Result<SubpixelPoint, Failure> {
 }
 
 fn parse_pixel(text: &str) -> Result<PixelPoint, Failure> {
-    let numbers =
-        text.trim().split_once(',').and_then(|(x, y)| Some((x.parse().ok()?, y.parse().ok()?)));
+    let numbers = bare_point(text).and_then(|(x, y)| Some((x.parse().ok()?, y.parse().ok()?)));
     let (x, y) = numbers.ok_or_else(|| {
         usage(format!("'{text}' is not a pixel: expected two whole numbers X,Y within 32 bits, for example 8,3"))
     })?;
@@ -476,122 +647,4 @@ fn facts(case: &Case, out: &mut dyn std::io::Write) -> Result<(), Failure> {
         }
     }
     Ok(())
-}
-
-/// A case off the lattice as every engine for such corners draws it.
-pub fn picture_off_grid(case: &OffGridCase, engines: &[(&str, ExactEngine)]) -> Option<RgbImage> {
-    let (target, _) = exact_coverage(&ExactEngine::Oracle, case).ok()?;
-    let hits = engines.iter().filter_map(|(_, engine)| Some(exact_coverage(engine, case).ok()?.0));
-    Some(picture::panels_off_grid(case, &hits.collect::<Vec<_>>(), &target))
-}
-
-/// The hits in a window; none where the other one has no pixels.
-fn crop(hits: &Coverage, window: PixelRect) -> Coverage {
-    let mut cropped = Coverage::new(window, 0);
-    for y in window.y0..window.y1 {
-        for (x, cell) in (window.x0..).zip(cropped.row_mut(y)) {
-            *cell = hits.get(x, y).unwrap_or(0);
-        }
-    }
-    cropped
-}
-
-/// Hits of both.
-fn sum(a: &Coverage, b: &Coverage) -> Coverage {
-    let mut all = a.clone();
-    for (y, row) in b.rows() {
-        for (sum, hits) in all.row_mut(y).iter_mut().zip(row) {
-            *sum = sum.saturating_add(*hits);
-        }
-    }
-    all
-}
-
-/// A case as each engine draws it.
-pub struct Shown {
-    engines: Vec<(String, Result<Coverage, String>)>,
-    target: Coverage,
-}
-
-/// Draws a case with each engine that can.
-pub fn draw(case: &Case, engines: &[(Engine, Tolerance)], lines: &[LineEngine]) -> Shown {
-    match &case.shape {
-        Shape::Triangles { list, .. } => Shown {
-            engines: engines
-                .iter()
-                .map(|(e, _)| (e.name().to_owned(), engine_coverage(e, list, case.window)))
-                .collect(),
-            target: oracle_coverage(list, case.window),
-        },
-        Shape::Lines(list) => {
-            let mut target = Coverage::new(case.window, 0);
-            for line in list {
-                Oracle.line_pixels(line, case.window, |p, _| target.hit(p.y, p.x, p.x + 1));
-            }
-            Shown {
-                engines: lines
-                    .iter()
-                    .map(|e| (e.name().to_owned(), line_coverage(e, list, case.window)))
-                    .collect(),
-                target,
-            }
-        }
-    }
-}
-
-impl Shown {
-    /// Puts a specimen before the engines.
-    fn add(&mut self, entry: &Entry, case: &Case) -> Result<(), Failure> {
-        let window = case.window;
-        let hits = match (&case.shape, entry.specimen) {
-            (Shape::Triangles { list, .. }, Some(Specimen::Triangle(specimen))) => {
-                let list: Vec<_> = list.iter().map(from_screen).collect();
-                specimen_coverage(specimen, &list, window)
-            }
-            (Shape::Lines(lines), Some(Specimen::Line(specimen))) => {
-                let mut hits = Ok(Coverage::new(window, 0));
-                for line in lines {
-                    let more = specimen_line_coverage(specimen, line, window);
-                    hits = hits.and_then(|hits| Ok(sum(&hits, &more?)));
-                }
-                hits
-            }
-            _ => return Err(usage(format!("{} does not draw what this case holds", entry.name))),
-        };
-        self.engines.insert(0, (entry.name.to_owned(), hits));
-        Ok(())
-    }
-
-    /// A titled grid for each engine; one that panicked has its message instead.
-    pub fn blocks(&self) -> Vec<(String, Vec<String>)> {
-        let blocks = self.engines.iter().map(|(name, hits)| match hits {
-            Ok(hits) => {
-                let tally = Tally::between(hits, &self.target);
-                (
-                    format!("{name}: {} px, {} wrong", hits.covered(), tally.total()),
-                    ascii::grid(hits, &self.target),
-                )
-            }
-            Err(message) => (format!("{name}: panics"), vec![message.clone()]),
-        });
-        let oracle = (
-            format!("oracle: {} px", self.target.covered()),
-            ascii::grid(&self.target, &self.target),
-        );
-        blocks.chain([oracle]).collect()
-    }
-
-    /// The grid of one engine and the oracle's, where coverage differs or an engine panicked.
-    pub fn judged_blocks(&self, name: &str) -> Option<Vec<(String, Vec<String>)>> {
-        let at = self.engines.iter().position(|(n, _)| n == name)?;
-        let blocks = self.blocks();
-        Some(vec![blocks[at].clone(), blocks.last()?.clone()])
-    }
-
-    /// A panel for each engine that did not panic, then the oracle.
-    pub fn picture(&self, case: &Case) -> RgbImage {
-        let drawn: Vec<_> =
-            self.engines.iter().filter_map(|(_, hits)| hits.as_ref().ok()).cloned().collect();
-        picture::panels(case, &drawn, &self.target)
-    }
 }

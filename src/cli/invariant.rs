@@ -4,7 +4,7 @@ use super::{Failure, Streams, exit, write_entry};
 use crate::invariant::matrix::{self, Matrix};
 use crate::invariant::subject::Subject;
 use crate::invariant::{CATALOGUE, Invariant};
-use crate::mutant::Mutant;
+use crate::mutant::{self, Mutant};
 
 /// Inputs of each invariant where the command line does not say.
 const CASES: u64 = 2_000;
@@ -93,6 +93,12 @@ pub fn mutants(streams: &mut Streams<'_>) -> Result<u8, Failure> {
     let matrix = Matrix::compute(matrix::SEED, matrix::CASES);
     let out = &mut streams.output;
     writeln!(out, "{}", matrix.text())?;
+    writeln!(out, "What each fault is (see one judged: rasterproof --plant NAME):")?;
+    for mutant in Mutant::all() {
+        let name = mutant.name();
+        write_entry(out, &format!("{name:<26}"), mutant::about::about(name).unwrap_or(""))?;
+    }
+    writeln!(out)?;
     let problems = matrix.problems();
     for problem in &problems {
         writeln!(out, "{problem}")?;

@@ -6,17 +6,20 @@ mod course_grade;
 mod decisions;
 mod engine;
 mod exhaust;
+mod explain;
 mod inspect;
 mod invariant;
 mod judge;
 mod league;
 mod misbehave;
 mod plan;
+mod progress;
 mod published;
 mod quiz;
 mod render;
 mod reply;
 mod review;
+mod shown;
 mod specimens;
 mod verify;
 
@@ -43,7 +46,9 @@ const EXAMPLES: &str = "Examples:
   rasterproof                                     judge both rasterizers and both line drawers
   rasterproof --family sliver --cases 1000000     many cases of one family
   rasterproof --seconds 60 --seed 7               a minute of other cases
+  rasterproof --plant inclusive-edges             judge a planted fault, to see a disagreement
   rasterproof inspect T2                          explain a named case
+  rasterproof inspect T2 --pixel 3,3              explain a pixel of it
   rasterproof inspect 0.5,0.5 5.5,0.5 5.5,5.5     explain a triangle
   rasterproof inspect --line 0,0 8,3              explain a line
   rasterproof engine scanline < requests.txt      speak the line protocol
@@ -58,7 +63,7 @@ const EXAMPLES: &str = "Examples:
   rasterproof review                              changed snapshots, old beside new
   rasterproof cost --quick                        what each step of accuracy costs in time
   rasterproof quiz 2                              exercises of a chapter, answered and explained
-  rasterproof list                                families, cases, engines and invariants
+  rasterproof list                                families, cases, engines, faults, invariants
 
 Exit status: 0 all agree, 1 something disagrees, 2 usage or bad input.";
 
@@ -113,7 +118,7 @@ enum Command {
     Cost(cost::CostArguments),
     /// Ask the exercises of the pages, and explain each answer with its pixel grid
     Quiz(quiz::QuizArguments),
-    /// List families, named cases, engines and invariants
+    /// List families, named cases, engines, planted faults and invariants
     List,
 }
 
@@ -246,6 +251,10 @@ fn list(streams: &mut Streams<'_>) -> Result<u8, Failure> {
     for entry in lineup::ENTRIES.iter().chain(&lineup::SPECIMENS) {
         write_entry(out, &format!("{:<19}", entry.name), entry.about)?;
     }
+    writeln!(out, "\nPlanted faults (rasterproof --plant NAME; rasterproof mutants):")?;
+    for (name, about) in crate::mutant::about::all() {
+        write_entry(out, &format!("{name:<26}"), about)?;
+    }
     invariant::list(streams)?;
     let out = &mut streams.output;
     writeln!(out, "\nScenes (rasterproof render --scene NAME):")?;
@@ -284,6 +293,52 @@ fn write_file(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
         let _ = std::fs::remove_file(&beside);
         failed("cannot write", e)
     })
+}
+
+/// A count of at least one.
+fn parse_count(text: &str) -> Result<u64, String> {
+    let remedy = "expected a whole number from 1, for example 1000000";
+    match text.parse::<u64>() {
+        Ok(0) => Err(format!("0 is not in 1..: {remedy}")),
+        Ok(count) => Ok(count),
+        Err(error) => Err(format!("{error}: {remedy}")),
+    }
+}
+
+/// Refuses a name that promises another format than the bytes have.
+fn png_name(path: &Path) -> Result<(), Failure> {
+    match path.extension().and_then(|ending| ending.to_str()) {
+        Some(ending) if ending.eq_ignore_ascii_case("png") => Ok(()),
+        _ => {
+            Err(usage(format!("{}: the picture is a PNG: end its name with .png", path.display())))
+        }
+    }
+}
+
+/// Writes a picture that nobody asked for, and says where: a folder that cannot be written costs a
+/// warning, and not the verdict.
+fn write_unasked(path: &Path, bytes: &[u8], streams: &mut Streams<'_>) -> Result<(), Failure> {
+    match write_file(path, bytes) {
+        Ok(()) => writeln!(streams.output, "drawn in {}", path.display())?,
+        Err(failure) => writeln!(streams.errors, "warning: no picture: {failure}")?,
+    }
+    Ok(())
+}
+
+/// How this program was called, for commands that can be copied: through cargo where cargo started
+/// it, else by the path that was typed, else by its name.
+fn program() -> String {
+    let word = std::env::args().next().unwrap_or_default();
+    let path = Path::new(&word);
+    // cargo calls it as target/PROFILE/rasterproof.
+    let profile = path.parent().and_then(Path::file_name).and_then(|name| name.to_str());
+    match profile.filter(|_| path.is_relative() && path.components().count() > 1) {
+        None => "rasterproof".to_owned(),
+        Some(_) if std::env::var_os("CARGO").is_none() => word,
+        Some("debug") => "cargo run --".to_owned(),
+        Some("release") => "cargo run --release --".to_owned(),
+        Some(profile) => format!("cargo run --profile {profile} --"),
+    }
 }
 
 /// Where the report page of a command goes.

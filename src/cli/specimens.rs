@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use indicatif::ProgressBar;
 
-use super::{Failure, PAGE, Streams, exit, write_file, write_page};
+use super::{Failure, PAGE, Streams, exit, png_name, write_file, write_page, write_unasked};
 use crate::report::html::{Outcome, Report};
 use crate::report::{cases, counts, json, picture, sheet, specimens};
 use crate::specimen::catalogue::{CARDS, Card};
@@ -14,7 +14,7 @@ use crate::verify::specimens::{SpecimenReport, survey};
 #[derive(clap::Args, Debug)]
 pub struct SpecimensArguments {
     /// Cases of each family
-    #[arg(long, value_name = "N", default_value_t = 200, value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, value_name = "N", default_value_t = 200, value_parser = super::parse_count, allow_hyphen_values = true)]
     cases: u64,
     /// Decides every generated case
     #[arg(long, value_name = "N", default_value_t = 1)]
@@ -29,8 +29,9 @@ pub struct SpecimensArguments {
     #[arg(long)]
     report: bool,
     /// Where the contact sheet goes: published, repaired, difference for each specimen
-    #[arg(short, long, value_name = "FILE", default_value = "target/rasterproof/specimens.png")]
-    output: PathBuf,
+    /// [default: target/rasterproof/specimens.png]
+    #[arg(short, long, value_name = "FILE.png")]
+    output: Option<PathBuf>,
 }
 
 /// Surveys, prints and draws. A specimen that its case does not expose is a disagreement.
@@ -54,14 +55,21 @@ pub fn run(arguments: &SpecimensArguments, streams: &mut Streams<'_>) -> Result<
         ([card], [report]) => (sheet::strip(card), specimens::detail(report)),
         _ => (sheet::contact_sheet(), specimens::table(&reports)),
     };
-    write_file(&arguments.output, &picture::png(&drawn))?;
+    if let Some(path) = &arguments.output {
+        png_name(path)?;
+        write_file(path, &picture::png(&drawn))?;
+    }
+    match (arguments.json, &arguments.output) {
+        (true, _) => write!(out, "{}", json::specimens(arguments.seed, arguments.cases, &reports))?,
+        (false, Some(path)) => writeln!(out, "{text}\ndrawn in {}", path.display())?,
+        (false, None) => {
+            writeln!(out, "{text}")?;
+            let path = Path::new("target/rasterproof/specimens.png");
+            write_unasked(path, &picture::png(&drawn), streams)?;
+        }
+    }
     if arguments.report {
         write_page(Path::new(PAGE), &report_page(arguments, &reports), streams.errors)?;
-    }
-    if arguments.json {
-        write!(out, "{}", json::specimens(arguments.seed, arguments.cases, &reports))?;
-    } else {
-        writeln!(out, "{text}\ndrawn in {}", arguments.output.display())?;
     }
     Ok(if are_caught(&reports) { exit::AGREES } else { exit::DISAGREES })
 }

@@ -3,23 +3,24 @@
 use std::path::Path;
 use std::time::Duration;
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use image::RgbImage;
 
-use super::{Failure, PAGE, Streams, exit, invariant, usage, write_file, write_page};
-use crate::hazard;
+use super::progress::Progress;
+use super::shown::{self, Contestants};
+use super::{Failure, PAGE, Streams, exit, invariant, program, usage, write_page, write_unasked};
+use crate::hazard::{self, Shape};
 use crate::lineup::{Engine, ExactEngine, LineEngine};
-use crate::mutant::{LineMutant, Mutant, TriangleMutant, exact::ExactMutant};
 use crate::report::html::Report;
-use crate::report::{self, ascii, cases, counts, json, picture, table};
+use crate::report::{self, ascii, cases, counts, json, picture, summary, table};
 use crate::verify::exact::{self, ExactVerdict};
-use crate::verify::tolerance::{self, Tolerance};
+use crate::verify::tolerance::Tolerance;
 use crate::verify::{self, Options, Verdict};
 
 /// Options of `verify`.
 #[derive(clap::Args, Debug)]
 pub struct VerifyArguments {
     /// Cases of each family [default: 20000]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, value_name = "N", value_parser = super::parse_count, allow_hyphen_values = true)]
     cases: Option<u64>,
     /// Stop after about this many seconds, however many cases that is
     #[arg(long, value_name = "S")]
@@ -32,7 +33,7 @@ pub struct VerifyArguments {
     engine: Vec<String>,
     /// Check this invariant instead, or all of them; may be repeated
     #[arg(long, value_name = "NAME", value_parser = invariant::names(), hide_possible_values = true,
-        conflicts_with_all = ["family", "engine", "shard", "case", "json", "seconds", "report"])]
+        conflicts_with_all = ["family", "engine", "shard", "case", "json", "table", "seconds", "report"])]
     invariant: Vec<String>,
     /// Decides every generated case
     #[arg(long, value_name = "N", default_value_t = 1)]
@@ -43,14 +44,18 @@ pub struct VerifyArguments {
     /// Only the case of this number, to repeat a failure
     #[arg(long, value_name = "NUMBER")]
     case: Option<u64>,
-    /// The verdict as JSON instead of a table
+    /// The table of all families, too; it is always there where something is wrong
+    #[arg(long, conflicts_with = "json")]
+    table: bool,
+    /// The verdict as JSON instead of text
     #[arg(long)]
     json: bool,
     /// Write a page to look into the cases: target/rasterproof/index.html
     #[arg(long)]
     report: bool,
-    /// Judge an engine with a planted fault, to see the harness fail
-    #[arg(long, value_name = "FAULT", hide = true, value_parser = mutant_names())]
+    /// Judge an engine with a planted fault instead, to see the harness fail; `list` names them
+    #[arg(long, value_name = "FAULT", value_parser = crate::mutant::about::names(), hide_possible_values = true,
+        conflicts_with = "engine")]
     plant: Option<String>,
 }
 
@@ -63,11 +68,6 @@ fn judged_names() -> Vec<&'static str> {
     let lines = LineEngine::JUDGED.iter().map(LineEngine::name);
     let exact = ExactEngine::JUDGED.iter().map(ExactEngine::name);
     Engine::JUDGED.iter().map(Engine::name).chain(lines).chain(exact).collect()
-}
-
-fn mutant_names() -> Vec<&'static str> {
-    let exact = ExactMutant::ALL.iter().map(|mutant| mutant.name());
-    Mutant::all().iter().map(Mutant::name).chain(exact).collect()
 }
 
 pub(super) fn parse_shard(text: &str) -> Result<(u64, u64), String> {
@@ -101,40 +101,14 @@ impl VerifyArguments {
         })
     }
 
-    /// The engines to judge: both of each kind, a selection, or a planted fault alone.
-    fn contestants(&self) -> (Vec<(Engine, Tolerance)>, Vec<LineEngine>) {
-        if let Some(name) = &self.plant {
-            let engine = TriangleMutant::ALL.into_iter().find(|mutant| mutant.name() == name);
-            let line = LineMutant::ALL.into_iter().find(|mutant| mutant.name() == name);
-            return (
-                engine.map(|m| (Engine::Mutant(m), tolerance::SCANLINE)).into_iter().collect(),
-                line.map(LineEngine::Mutant).into_iter().collect(),
-            );
-        }
+    /// Who is judged: everybody, a selection, or a planted fault alone.
+    fn contestants(&self) -> Contestants {
         let wanted = |name: &str| self.engine.is_empty() || self.engine.iter().any(|n| n == name);
-        (
-            Engine::JUDGED
-                .into_iter()
-                .filter(|e| wanted(e.name()))
-                .map(|e| (e, tolerance::of(e)))
-                .collect(),
-            LineEngine::JUDGED.into_iter().filter(|e| wanted(e.name())).collect(),
-        )
-    }
-
-    /// The engines to judge off the lattice: both, a selection, or a planted fault alone.
-    fn exact_contestants(&self) -> Vec<(&'static str, ExactEngine)> {
-        let engines: Vec<_> = match &self.plant {
-            Some(name) => {
-                let mutant = ExactMutant::ALL.into_iter().find(|mutant| mutant.name() == name);
-                mutant.map(ExactEngine::Mutant).into_iter().collect()
-            }
-            None => ExactEngine::JUDGED
-                .into_iter()
-                .filter(|e| self.engine.is_empty() || self.engine.iter().any(|n| n == e.name()))
-                .collect(),
-        };
-        engines.into_iter().map(|engine| (engine.name(), engine)).collect()
+        let mut all = Contestants::new(self.plant.as_deref());
+        all.engines.retain(|(engine, _)| wanted(engine.name()));
+        all.lines.retain(|engine| wanted(engine.name()));
+        all.exact.retain(|engine| wanted(engine.name()));
+        all
     }
 
     /// The command that repeats one case.
@@ -142,14 +116,15 @@ impl VerifyArguments {
         let plant = self.plant.as_ref().map(|name| format!(" --plant {name}")).unwrap_or_default();
         let engines: String = self.engine.iter().map(|name| format!(" --engine {name}")).collect();
         format!(
-            "rasterproof verify --family {family} --case {index} --seed {}{engines}{plant}",
+            "{} verify --family {family} --case {index} --seed {}{engines}{plant}",
+            program(),
             self.seed
         )
     }
 
     /// The command that repeats the run.
     fn repeat_all(&self, cases: u64) -> String {
-        let mut command = format!("rasterproof verify --seed {} --cases {cases}", self.seed);
+        let mut command = format!("{} verify --seed {} --cases {cases}", program(), self.seed);
         for family in &self.family {
             command += &format!(" --family {family}");
         }
@@ -178,8 +153,8 @@ pub fn run(arguments: &VerifyArguments, streams: &mut Streams<'_>) -> Result<u8,
         return invariant::run(names, plant.as_deref(), *seed, *cases, streams);
     }
     let options = arguments.options()?;
-    let (engines, lines) = arguments.contestants();
-    let exact_engines = arguments.exact_contestants();
+    let Contestants { engines, lines, exact } = arguments.contestants();
+    let exact_engines: Vec<_> = exact.into_iter().map(|engine| (engine.name(), engine)).collect();
     if engines.is_empty() && lines.is_empty() && exact_engines.is_empty() {
         return Err(usage("this fault is in no engine and no line drawer: add --invariant NAME"));
     }
@@ -191,16 +166,18 @@ pub fn run(arguments: &VerifyArguments, streams: &mut Streams<'_>) -> Result<u8,
             "no case was judged: this engine does not draw what this family contains, or the shard is empty",
         ));
     }
-    if arguments.report {
-        let page = report_page(arguments, &verdict, &off_grid, &engines, &lines, &exact_engines);
-        write_page(Path::new(PAGE), &page, streams.errors)?;
-    }
     if arguments.json {
         let text =
             json::verdict(&verdict, &off_grid, |family, index| arguments.repeat(family, index));
         streams.output.write_all(text.as_bytes())?;
     } else {
         print(arguments, (&verdict, &engines, &lines), (&off_grid, &exact_engines), streams)?;
+    }
+    // What was asked for may fail, but not before the verdict is said.
+    streams.output.flush()?;
+    if arguments.report {
+        let page = report_page(arguments, &verdict, &off_grid, &engines, &lines, &exact_engines);
+        write_page(Path::new(PAGE), &page, streams.errors)?;
     }
     Ok(if verdict.agrees() && off_grid.agrees() { exit::AGREES } else { exit::DISAGREES })
 }
@@ -243,119 +220,184 @@ fn judge(
     lines: &[LineEngine],
     exact_engines: &[(&str, ExactEngine)],
     options: &Options,
-    progress: bool,
+    shown: bool,
 ) -> (Verdict, ExactVerdict) {
     let families = hazard::families()
         .filter(|f| options.families.is_empty() || options.families.iter().any(|n| n == f.name));
     let off_grid_families =
         if exact_engines.is_empty() { 0 } else { exact::exact_families(options).count() };
-    let bar = match (progress && options.only.is_none(), options.time_limit) {
-        (false, _) => ProgressBar::hidden(),
-        (true, Some(_)) => ProgressBar::new_spinner(),
-        (true, None) => ProgressBar::new(
-            ((families.count() + off_grid_families) as u64).saturating_mul(options.cases)
-                / options.shard.1,
-        ),
-    };
-    if progress {
-        bar.set_draw_target(ProgressDrawTarget::stderr_with_hz(8));
-        let style = "{elapsed_precise} {wide_bar} {pos}/{len} cases, {eta} left";
-        let spinner = "{elapsed_precise} {spinner} {pos} cases";
-        let template = if options.time_limit.is_some() { spinner } else { style };
-        if let Ok(style) = ProgressStyle::with_template(template) {
-            bar.set_style(style);
-        }
-    }
+    let total = options.time_limit.is_none().then(|| {
+        ((families.count() + off_grid_families) as u64).saturating_mul(options.cases)
+            / options.shard.1
+    });
+    let bar = Progress::new(shown, total);
     // Where both share a limited time, the families off the lattice get a fifth of it.
     let is_shared = off_grid_families > 0 && engines.len() + lines.len() > 0;
     let share = |fifths: u32| Options {
         time_limit: options.time_limit.map(|t| if is_shared { t * fifths / 5 } else { t }),
         ..options.clone()
     };
-    let verdict = verify::judge_lineup(engines, lines, &share(4), &|cases| bar.inc(cases));
-    let off_grid = exact::judge_exact(exact_engines, &share(1), &|cases| bar.inc(cases));
-    bar.finish_and_clear();
+    let verdict = verify::judge_lineup(engines, lines, &share(4), &|cases| bar.done(cases));
+    let off_grid = exact::judge_exact(exact_engines, &share(1), &|cases| bar.done(cases));
+    bar.finish();
     (verdict, off_grid)
 }
 
+/// The answer and what it rests on. Where something is wrong, the smallest case that shows it comes
+/// first; the last line is the verdict in a word.
 fn print(
+    arguments: &VerifyArguments,
+    on_grid: (&Verdict, &[(Engine, Tolerance)], &[LineEngine]),
+    off_grid: (&ExactVerdict, &[(&str, ExactEngine)]),
+    streams: &mut Streams<'_>,
+) -> Result<(), Failure> {
+    let ((verdict, ..), (exact, _)) = (on_grid, off_grid);
+    let agrees = verdict.agrees() && exact.agrees();
+    let mut pictures = Vec::new();
+    if !agrees {
+        pictures = failures(arguments, on_grid, off_grid, streams)?;
+    }
+    let (part, parts) = verdict.options.shard;
+    let shard = if parts > 1 { format!(", shard {part}/{parts}") } else { String::new() };
+    let out = &mut *streams.output;
+    let answer = match agrees {
+        true => "every engine is right",
+        false => "not every engine is right",
+    };
+    writeln!(
+        out,
+        "{} rasterproof {}, seed {}{shard}: {answer}\n",
+        summary::mark(agrees, streams.colour),
+        env!("CARGO_PKG_VERSION"),
+        arguments.seed
+    )?;
+    writeln!(out, "{}", summary::lines(verdict, exact, streams.colour))?;
+    if arguments.table || !agrees {
+        writeln!(out, "{}{}", table::table(verdict), table::quota_line(verdict))?;
+        write!(out, "{}{}", table::disagreements(verdict), report::exact::table(exact))?;
+        write!(out, "{}", report::exact::disagreements(exact))?;
+    }
+    if verdict.agrees() {
+        pictures.push(("worst.png", worst_cases(arguments, on_grid, out)?));
+    }
+    for (name, drawn) in pictures {
+        write_sheet(name, &drawn, streams)?;
+    }
+    let out = &mut *streams.output;
+    if !arguments.table && agrees {
+        writeln!(out, "every family as a table: add --table")?;
+    }
+    writeln!(out, "repeat with: {}", arguments.repeat_all(judged_cases(arguments, verdict)))?;
+    let (triangles, segments) = (verdict.sum(false, |f| f.shapes), verdict.sum(true, |f| f.shapes));
+    let beside = match exact.triangles() {
+        0 => String::new(),
+        n => format!(", {n} triangles off the grid"),
+    };
+    let fragments = match verdict.comparisons().fragments.total() {
+        0 => String::new(),
+        n => format!("{n} pixels where fragments and coverage of one engine differ, "),
+    };
+    writeln!(
+        out,
+        "{}: {triangles} triangles and {segments} lines{beside}, {fragments}{} wrong pixels",
+        if agrees { "AGREES" } else { "DISAGREES" },
+        verdict.mismatches() + exact.mismatches()
+    )?;
+    Ok(())
+}
+
+type Sheet = (&'static str, Vec<RgbImage>);
+
+/// The smallest failure with its pixels, then a line for each other family; all of them as pictures.
+fn failures(
     arguments: &VerifyArguments,
     (verdict, engines, lines): (&Verdict, &[(Engine, Tolerance)], &[LineEngine]),
     (off_grid, exact_engines): (&ExactVerdict, &[(&str, ExactEngine)]),
     streams: &mut Streams<'_>,
-) -> Result<(), Failure> {
-    let (part, parts) = verdict.options.shard;
-    let shard = if parts > 1 { format!(", shard {part}/{parts}") } else { String::new() };
+) -> Result<Vec<Sheet>, Failure> {
     let out = &mut *streams.output;
-    writeln!(out, "rasterproof {}, seed {}{shard}\n", env!("CARGO_PKG_VERSION"), arguments.seed)?;
-    write!(out, "{}{}", table::table(verdict), table::quota_line(verdict))?;
-    write!(out, "{}", table::disagreements(verdict))?;
-    let separate = if verdict.families.is_empty() { "" } else { "\n" };
-    if !off_grid.families.is_empty() {
-        write!(out, "{separate}{}", report::exact::table(off_grid))?;
+    let mut drawn = Vec::new();
+    for (rank, failure) in verdict.failures.iter().enumerate() {
+        let shown = shown::draw(&failure.case, engines, lines);
+        if drawn.len() < MOST_DRAWN {
+            drawn.push(shown.picture(&failure.case));
+        }
+        if rank > 0 {
+            continue;
+        }
+        writeln!(out, "{failure}")?;
+        if let Some(blocks) = shown.judged_blocks(&failure.pair[0]) {
+            writeln!(out, "\n{}", ascii::side_by_side(&blocks, 60))?;
+            writeln!(out, "{}\n", ascii::LEGEND)?;
+        }
+        writeln!(out, "  repeat with: {}", arguments.repeat(&failure.family, failure.index))?;
+        if let Some(command) = explain(arguments, failure) {
+            writeln!(out, "  explain it:  {command}")?;
+        }
+        writeln!(out, "  read on in:  {}\n", summary::chapter(failure))?;
     }
-    write!(out, "{}", report::exact::disagreements(off_grid))?;
-    for failure in &off_grid.failures {
-        let repeat = arguments.repeat(&failure.family, failure.index);
-        writeln!(out, "\n{failure}\n  repeat with: {repeat}")?;
+    let mut exact = Vec::new();
+    for (rank, failure) in off_grid.failures.iter().enumerate() {
+        let picture = shown::picture_off_grid(&failure.case, exact_engines);
+        exact.extend(picture.filter(|_| rank < MOST_DRAWN));
+        if rank == 0 {
+            writeln!(out, "{failure}")?;
+            writeln!(out, "  repeat with: {}", arguments.repeat(&failure.family, failure.index))?;
+            writeln!(out, "  read on in:  docs/offgrid.md\n")?;
+        }
     }
-    let drawn = off_grid.failures.iter();
-    let drawn: Vec<_> = drawn
-        .filter_map(|failure| super::inspect::picture_off_grid(&failure.case, exact_engines))
-        .collect();
-    write_sheet("failures-off-grid.png", &drawn, out)?;
-    if verdict.agrees() {
-        worst_cases(arguments, verdict, engines, lines, out)?;
-    } else {
-        failures(arguments, verdict, engines, lines, out)?;
+    others(verdict, off_grid, out)?;
+    Ok(vec![("failures.png", drawn), ("failures-off-grid.png", exact)])
+}
+
+/// A line for each failure but the first on the lattice and the first off it.
+fn others(
+    verdict: &Verdict,
+    off_grid: &ExactVerdict,
+    out: &mut dyn std::io::Write,
+) -> Result<(), Failure> {
+    let on_grid = verdict
+        .failures
+        .iter()
+        .skip(1)
+        .map(|f| (&f.family, f.index, &f.pair[0], &f.what, verify::shrink::describe(&f.case)));
+    let free = off_grid
+        .failures
+        .iter()
+        .skip(1)
+        .map(|f| (&f.family, f.index, &f.engine, &f.what, exact::describe(&f.case.triangles)));
+    let others: Vec<_> = on_grid.chain(free).collect();
+    if others.is_empty() {
+        return Ok(());
     }
-    writeln!(out, "repeat with: {}", arguments.repeat_all(judged_cases(arguments, verdict)))?;
-    let (triangles, segments) = (verdict.sum(false, |f| f.shapes), verdict.sum(true, |f| f.shapes));
-    let beside = match off_grid.triangles() {
-        0 => String::new(),
-        n => format!(", {n} triangles off the grid"),
-    };
-    let what = format!(
-        "{triangles} triangles and {segments} lines{beside}, {} wrong pixels",
-        verdict.mismatches() + off_grid.mismatches()
-    );
-    let agrees = verdict.agrees() && off_grid.agrees();
-    writeln!(out, "{}: {what}", if agrees { "AGREES" } else { "DISAGREES" })?;
+    writeln!(out, "the smallest case of each other family:")?;
+    for (family, index, engine, what, points) in others {
+        writeln!(out, "  {:<21} {engine}: {what} on\n      {points}", format!("{family}#{index}"))?;
+    }
+    writeln!(out)?;
     Ok(())
 }
 
-/// Shows each shrunk failure as characters and all of them as one picture.
-fn failures(
-    arguments: &VerifyArguments,
-    verdict: &Verdict,
-    engines: &[(Engine, Tolerance)],
-    lines: &[LineEngine],
-    out: &mut dyn std::io::Write,
-) -> Result<(), Failure> {
-    let mut pictures = Vec::new();
-    for failure in &verdict.failures {
-        writeln!(
-            out,
-            "\n{failure}\n  repeat with: {}",
-            arguments.repeat(&failure.family, failure.index)
-        )?;
-        let shown = super::inspect::draw(&failure.case, engines, lines);
-        if let Some(blocks) = shown.judged_blocks(&failure.pair[0]) {
-            writeln!(out, "{}", ascii::side_by_side(&blocks, 100))?;
-        }
-        pictures.push(shown.picture(&failure.case));
-    }
-    write_sheet("failures.png", &pictures, out)
+/// Cases that a sheet holds.
+const MOST_DRAWN: usize = 6;
+
+/// The command that shows the shrunk case, where the command line can say it.
+fn explain(arguments: &VerifyArguments, failure: &verify::Failure) -> Option<String> {
+    let (list, words) = match &failure.case.shape {
+        Shape::Triangles { list, .. } => (list.len(), String::new()),
+        Shape::Lines(list) => (list.len(), "--line ".to_owned()),
+    };
+    let points = verify::shrink::describe(&failure.case);
+    let plant = arguments.plant.as_ref().map(|name| format!(" --plant {name}")).unwrap_or_default();
+    (list == 1).then(|| format!("{} inspect {words}{points}{plant}", program()))
 }
 
-/// Draws the cases whose values came closest to their bounds.
+/// Names and draws the cases whose values came closest to their bounds.
 fn worst_cases(
     arguments: &VerifyArguments,
-    verdict: &Verdict,
-    engines: &[(Engine, Tolerance)],
-    lines: &[LineEngine],
+    (verdict, engines, lines): (&Verdict, &[(Engine, Tolerance)], &[LineEngine]),
     out: &mut dyn std::io::Write,
-) -> Result<(), Failure> {
+) -> Result<Vec<RgbImage>, Failure> {
     let mut worst: Vec<_> = verdict
         .families
         .iter()
@@ -365,34 +407,31 @@ fn worst_cases(
     worst.sort_by(|(_, a), (_, b)| b.worst().total_cmp(&a.worst()));
     worst.dedup_by_key(|(f, pair)| (f.family.clone(), pair.worst_case));
     let mut pictures = Vec::new();
-    for (family, pair) in worst.into_iter().take(3) {
+    for (rank, (family, pair)) in worst.into_iter().take(3).enumerate() {
         let name = &family.family;
-        writeln!(
-            out,
-            "closest to a bound: {} at {:.2}: rasterproof inspect {name}#{} --seed {}",
-            pair.actual,
-            pair.worst(),
-            pair.worst_case,
-            arguments.seed
-        )?;
+        if rank == 0 {
+            writeln!(
+                out,
+                "the value closest to its bound is of {}; see it with\n  {} inspect {name}#{} --seed {}",
+                pair.actual,
+                program(),
+                pair.worst_case,
+                arguments.seed
+            )?;
+        }
         let found = hazard::families().find(|f| f.name == name);
         if let Some(case) = found.map(|f| f.case(arguments.seed, pair.worst_case)) {
-            pictures.push(super::inspect::draw(&case, engines, lines).picture(&case));
+            pictures.push(shown::draw(&case, engines, lines).picture(&case));
         }
     }
-    write_sheet("worst.png", &pictures, out)
+    Ok(pictures)
 }
 
-fn write_sheet(
-    name: &str,
-    pictures: &[image::RgbImage],
-    out: &mut dyn std::io::Write,
-) -> Result<(), Failure> {
-    if pictures.is_empty() {
+/// Draws what nobody asked for: where that fails, the verdict stands.
+fn write_sheet(name: &str, drawn: &[RgbImage], streams: &mut Streams<'_>) -> Result<(), Failure> {
+    if drawn.is_empty() {
         return Ok(());
     }
     let path = Path::new(FOLDER).join(name);
-    write_file(&path, &picture::png(&picture::stack(pictures)))?;
-    writeln!(out, "drawn in {} (engines from left to right, the oracle last)", path.display())?;
-    Ok(())
+    write_unasked(&path, &picture::png(&picture::stack(drawn)), streams)
 }

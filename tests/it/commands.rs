@@ -185,3 +185,158 @@ fn off_grid_cases_are_drawn() {
     let (out, _) = check(&["verify", "--family", "f32-random", "--cases", "40"], 0);
     assert!(!out.contains("drawn in"), "{out}");
 }
+
+/// The first thing that is printed is the smallest case: corners on halves, one pixel too many.
+#[test]
+fn a_planted_fault_is_told_first_and_smallest_first() {
+    let (out, _) = check(&["--plant", "inclusive-edges", "--cases", "40"], 1);
+    let first = out.lines().next().unwrap();
+    let rest = first.strip_prefix("inclusive-edges against oracle: 1 extra on ").expect(first);
+    let corners = rest.split(" (from ").next().unwrap();
+    let numbers: Vec<f64> = corners.split([' ', ',']).map(|n| n.parse().unwrap()).collect();
+    assert!(numbers.len() == 6 && numbers.iter().all(|n| (2.0 * n).fract() == 0.0), "{first}");
+    let told = |line: &&str| line.contains(" missing") && !line.starts_with("# agrees");
+    assert_eq!(out.lines().find(told), None, "{out}");
+    assert!(out.contains("read on in:  docs/ch02.md"), "{out}");
+    // The command that explains it says so, too.
+    let command =
+        out.lines().find_map(|l| l.trim().strip_prefix("explain it:  rasterproof ")).unwrap();
+    let words: Vec<&str> = command.split(' ').collect();
+    let (explained, _) = check(&words, 1);
+    assert!(explained.contains("inclusive-edges against oracle: 1 extra"), "{explained}");
+    assert!(out.lines().all(|line| line.chars().count() <= 110), "{out}");
+}
+
+/// What was not asked for may fail; the verdict is said.
+#[test]
+fn a_folder_that_cannot_be_written_costs_a_warning() {
+    let folder = std::env::temp_dir().join(format!("rasterproof-blocked-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    // A file stands where the folder of pictures would be.
+    std::fs::write(folder.join("target"), "").unwrap();
+    let run = |words: &[&str]| {
+        let program = env!("CARGO_BIN_EXE_rasterproof");
+        let output = Command::new(program).args(words).current_dir(&folder).output().unwrap();
+        (output.status.code(), text(&output.stdout), text(&output.stderr))
+    };
+    let words = ["--cases", "20", "--family", "half-integer"];
+    let (status, out, errors) = run(&words);
+    assert!(status == Some(0) && out.contains("\nAGREES: "), "{out}{errors}");
+    assert!(errors.contains("warning: no picture: "), "{errors}");
+    let (status, out, _) = run(&[&words[..], &["--plant", "exclusive-edges"]].concat());
+    assert!(status == Some(1) && out.contains("\nDISAGREES: "), "{out}");
+    let (status, out, _) = run(&["inspect", "T2"]);
+    assert!(status == Some(0) && out.contains("agrees"), "{out}");
+    // A page that was asked for is an error, after the verdict.
+    let (status, out, errors) = run(&[&words[..], &["--report"]].concat());
+    assert!(status == Some(2) && out.contains("\nAGREES: ") && errors.contains("error: "), "{out}");
+    std::fs::remove_dir_all(folder).unwrap();
+}
+
+/// The answer in a few narrow lines; the table where it is asked for.
+#[test]
+fn a_right_verdict_is_short_and_narrow() {
+    let words = ["--cases", "20", "--seed", "4"];
+    let (out, _) = check(&words, 0);
+    assert!(out.lines().next().unwrap().ends_with(": every engine is right"), "{out}");
+    let groups: Vec<_> = out.lines().filter(|line| line.starts_with("  \u{2713} ")).collect();
+    assert_eq!(groups.len(), 9, "{out}");
+    assert!(groups.iter().all(|line| line.chars().count() <= 60), "{out}");
+    assert!(out.contains("ties on edges             60 cases, all right"), "{out}");
+    assert!(out.contains("% of the bound") && !out.contains("half-integer "), "{out}");
+    let (out, _) = check(&[&words[..], &["--table"]].concat(), 0);
+    assert!(out.contains("\nhalf-integer "), "{out}");
+}
+
+/// A pixel is explained by its edges: T2's corners lie on centres.
+#[test]
+fn inspect_explains_a_pixel() {
+    let square = ["inspect", "0.5,0.5", "5.5,0.5", "5.5,5.5", "--pixel"];
+    let explained = |pixel: &str| check(&[&square[..], &[pixel]].concat(), 0).0;
+    let top = explained("3,0");
+    assert!(top.contains("a tie: the sample lies on a top edge, which owns it: inside"), "{top}");
+    assert!(top.contains("by the top-left rule: covered"), "{top}");
+    assert!(top.contains("the scanline's span of row 0 is columns 0..5"), "{top}");
+    assert!(top.contains("hits of (3, 0): scanline 1, edge-function 1, oracle 1"), "{top}");
+    let right = explained("5,3");
+    assert!(right.contains("on a right edge, which does not own it: outside"), "{right}");
+    assert!(right.contains("by the top-left rule: not covered"), "{right}");
+    let (line, _) = check(&["inspect", "--line", "0,0", "8,4", "--pixel", "3,2"], 0);
+    assert!(line.contains("passes y = 1 and 4/8, a tie"), "{line}");
+    assert!(line.contains("of the two the one farther along is lit: this one"), "{line}");
+    let (_, errors) = check(&["inspect", "T2", "--pixel", "99,3"], 2);
+    assert!(errors.contains("lies outside the window"), "{errors}");
+}
+
+/// Points as they are printed are read; faults and pages belong to `inspect`, too.
+#[test]
+fn inspect_takes_what_the_tool_prints() {
+    let (printed, _) = check(&["inspect", "(0.5, 0.5) (5.5, 0.5) (5.5, 5.5)"], 0);
+    assert!(printed.contains("triangle (0.5, 0.5) (5.5, 0.5) (5.5, 5.5)"), "{printed}");
+    check(&["inspect", "(0.5, 0.5)", "(5.5, 0.5)", "(5.5, 5.5)"], 0);
+    let (out, _) = check(&["inspect", "T2", "--plant", "inclusive-edges"], 1);
+    assert!(out.contains("inclusive-edges against oracle: "), "{out}");
+    let (_, errors) = check(&["inspect", "T2", "--plant", "line-truncates"], 2);
+    assert!(errors.contains("in no engine that draws this case"), "{errors}");
+    let (out, _) = check(&["inspect", "T2", "--report"], 0);
+    assert!(out.contains("report: target/rasterproof/"), "{out}");
+    let (out, _) = check(&["inspect", "0,0", "900,0", "0,900"], 0);
+    assert!(out.contains("cropped: the shape is 900 x 900 px, the window 64 x 64"), "{out}");
+}
+
+/// What would be ignored is refused, and a name's ending is a promise.
+#[test]
+fn options_without_an_effect_are_refused() {
+    for (words, reason) in [
+        (&["render", "cube", "--zoom", "0"][..], "--zoom is for models"),
+        (&["render", "cube", "--fov", "nan"], "--fov is for models"),
+        (&["render", "cube", "--yaw", "10"], "--yaw is for models"),
+        (&["render", "cube", "--shading", "flat"], "--shading is for models"),
+        (&["render", "cbue"], "did you mean 'cube'?"),
+        (&["render", "cube", "-o", "x.jpg"], "end its name with .png"),
+        (&["render", "cube", "--spin", "2", "-o", "x.png"], "end its name with .gif"),
+        (&["inspect", "T2", "-o", "x.jpg"], "end its name with .png"),
+        (&["--cases", "-1"], "expected a whole number from 1"),
+        (&["--cases", "1e6"], "expected a whole number from 1"),
+        (&["--plant", "inclusive-edges", "--engine", "scanline"], "cannot be used with"),
+        (&["inspect", "T99"], ". See: rasterproof list"),
+    ] {
+        let (_, errors) = check(words, 2);
+        assert!(errors.contains(reason), "{words:?}: {errors}");
+    }
+}
+
+/// The planted faults are named and explained where one would look for them.
+#[test]
+fn planted_faults_are_listed() {
+    let (out, _) = check(&["list"], 0);
+    for (name, about) in rasterproof::mutant::about::all() {
+        assert!(out.lines().any(|line| line.contains(name) && line.contains(about)), "{name}");
+    }
+    assert!(check(&["--help"], 0).0.contains("--plant <FAULT>"));
+}
+
+/// A command that is printed works as printed: through cargo where cargo started the program.
+#[test]
+#[cfg(unix)]
+fn commands_are_printed_as_the_program_was_called() {
+    let folder = std::env::temp_dir().join(format!("rasterproof-called-{}", std::process::id()));
+    let place = folder.join("target/release");
+    std::fs::create_dir_all(&place).unwrap();
+    std::os::unix::fs::symlink(env!("CARGO_BIN_EXE_rasterproof"), place.join("rasterproof"))
+        .unwrap();
+    let printed = |cargo: Option<&str>| {
+        let mut shell = Command::new("sh");
+        shell.args(["-c", "exec target/release/rasterproof --cases 5 --family flat"]);
+        match cargo {
+            Some(path) => shell.env("CARGO", path),
+            None => shell.env_remove("CARGO"),
+        };
+        text(&shell.current_dir(&folder).output().unwrap().stdout)
+    };
+    let out = printed(Some("/usr/bin/cargo"));
+    assert!(out.contains("repeat with: cargo run --release -- verify --seed 1"), "{out}");
+    let out = printed(None);
+    assert!(out.contains("repeat with: target/release/rasterproof verify --seed 1"), "{out}");
+    std::fs::remove_dir_all(folder).unwrap();
+}

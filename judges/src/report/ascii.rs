@@ -2,6 +2,9 @@
 
 use crate::frame::Coverage;
 
+/// What the characters mean.
+pub const LEGEND: &str = "# agrees, - missing, + extra, 2 twice, * rightly more than once";
+
 /// Largest grid that is printed whole; a larger window is cropped around what is drawn.
 pub const MOST_COLUMNS: u32 = 96;
 /// Rows of the largest grid.

@@ -18,4 +18,5 @@ pub mod picture;
 pub mod plot;
 pub mod sheet;
 pub mod specimens;
+pub mod summary;
 pub mod table;

@@ -1,0 +1,186 @@
+//! A case as each engine draws it: hit counts, grids of characters, a picture.
+
+use image::RgbImage;
+
+use super::{Failure, usage};
+use crate::frame::Coverage;
+use crate::grid::PixelRect;
+use crate::hazard::offgrid::OffGridCase;
+use crate::hazard::{Case, Shape};
+use crate::lineup::{Engine, Entry, ExactEngine, LineEngine, Specimen};
+use crate::mutant::exact::ExactMutant;
+use crate::mutant::{LineMutant, TriangleMutant};
+use crate::oracle::Oracle;
+use crate::report::{ascii, picture};
+use crate::specimen::from_screen;
+use crate::triangle::PixelPoint;
+use crate::verify::exact::exact_coverage;
+use crate::verify::specimens::{specimen_coverage, specimen_line_coverage};
+use crate::verify::tolerance::{self, Tolerance};
+use crate::verify::{Tally, engine_coverage, line_coverage, oracle_coverage};
+
+/// Who is judged: the engines of each kind, or a planted fault alone.
+pub struct Contestants {
+    /// Rasterizers, with the bounds of their values.
+    pub engines: Vec<(Engine, Tolerance)>,
+    /// Line drawers.
+    pub lines: Vec<LineEngine>,
+    /// Rasterizers of corners that are not snapped.
+    pub exact: Vec<ExactEngine>,
+}
+
+impl Contestants {
+    /// Everybody, or the fault of this name.
+    pub fn new(plant: Option<&str>) -> Self {
+        let Some(name) = plant else {
+            let engines = Engine::JUDGED.into_iter().map(|e| (e, tolerance::of(e)));
+            return Self {
+                engines: engines.collect(),
+                lines: LineEngine::JUDGED.to_vec(),
+                exact: ExactEngine::JUDGED.to_vec(),
+            };
+        };
+        let triangle = TriangleMutant::ALL.into_iter().find(|m| m.name() == name);
+        let line = LineMutant::ALL.into_iter().find(|m| m.name() == name);
+        let exact = ExactMutant::ALL.into_iter().find(|m| m.name() == name);
+        let with_bound = |m| (Engine::Mutant(m), tolerance::SCANLINE);
+        Self {
+            engines: triangle.map(with_bound).into_iter().collect(),
+            lines: line.map(LineEngine::Mutant).into_iter().collect(),
+            exact: exact.map(ExactEngine::Mutant).into_iter().collect(),
+        }
+    }
+}
+
+/// A case off the lattice as every engine for such corners draws it.
+pub fn picture_off_grid(case: &OffGridCase, engines: &[(&str, ExactEngine)]) -> Option<RgbImage> {
+    let (target, _) = exact_coverage(&ExactEngine::Oracle, case).ok()?;
+    let hits = engines.iter().filter_map(|(_, engine)| Some(exact_coverage(engine, case).ok()?.0));
+    Some(picture::panels_off_grid(case, &hits.collect::<Vec<_>>(), &target))
+}
+
+/// The hits in a window; none where the other one has no pixels.
+pub fn crop(hits: &Coverage, window: PixelRect) -> Coverage {
+    let mut cropped = Coverage::new(window, 0);
+    for y in window.y0..window.y1 {
+        for (x, cell) in (window.x0..).zip(cropped.row_mut(y)) {
+            *cell = hits.get(x, y).unwrap_or(0);
+        }
+    }
+    cropped
+}
+
+/// Hits of both.
+fn sum(a: &Coverage, b: &Coverage) -> Coverage {
+    let mut all = a.clone();
+    for (y, row) in b.rows() {
+        for (sum, hits) in all.row_mut(y).iter_mut().zip(row) {
+            *sum = sum.saturating_add(*hits);
+        }
+    }
+    all
+}
+
+/// A case as each engine draws it.
+pub struct Shown {
+    engines: Vec<(String, Result<Coverage, String>)>,
+    target: Coverage,
+}
+
+/// Draws a case with each engine that can.
+pub fn draw(case: &Case, engines: &[(Engine, Tolerance)], lines: &[LineEngine]) -> Shown {
+    match &case.shape {
+        Shape::Triangles { list, .. } => Shown {
+            engines: engines
+                .iter()
+                .map(|(e, _)| (e.name().to_owned(), engine_coverage(e, list, case.window)))
+                .collect(),
+            target: oracle_coverage(list, case.window),
+        },
+        Shape::Lines(list) => {
+            let mut target = Coverage::new(case.window, 0);
+            for line in list {
+                Oracle.line_pixels(line, case.window, |p, _| target.hit(p.y, p.x, p.x + 1));
+            }
+            Shown {
+                engines: lines
+                    .iter()
+                    .map(|e| (e.name().to_owned(), line_coverage(e, list, case.window)))
+                    .collect(),
+                target,
+            }
+        }
+    }
+}
+
+impl Shown {
+    /// Puts a specimen before the engines.
+    pub fn add(&mut self, entry: &Entry, case: &Case) -> Result<(), Failure> {
+        let window = case.window;
+        let hits = match (&case.shape, entry.specimen) {
+            (Shape::Triangles { list, .. }, Some(Specimen::Triangle(specimen))) => {
+                let list: Vec<_> = list.iter().map(from_screen).collect();
+                specimen_coverage(specimen, &list, window)
+            }
+            (Shape::Lines(lines), Some(Specimen::Line(specimen))) => {
+                let mut hits = Ok(Coverage::new(window, 0));
+                for line in lines {
+                    let more = specimen_line_coverage(specimen, line, window);
+                    hits = hits.and_then(|hits| Ok(sum(&hits, &more?)));
+                }
+                hits
+            }
+            _ => return Err(usage(format!("{} does not draw what this case holds", entry.name))),
+        };
+        self.engines.insert(0, (entry.name.to_owned(), hits));
+        Ok(())
+    }
+
+    /// Whether nobody draws the case.
+    pub fn is_empty(&self) -> bool {
+        self.engines.is_empty()
+    }
+
+    /// How often each hits a pixel, and the oracle.
+    pub fn hits(&self, at: PixelPoint) -> String {
+        let of = |hits: &Coverage| hits.get(at.x, at.y).unwrap_or(0);
+        let engines = self.engines.iter().map(|(name, hits)| match hits {
+            Ok(hits) => format!("{name} {}", of(hits)),
+            Err(_) => format!("{name} panics"),
+        });
+        engines.chain([format!("oracle {}", of(&self.target))]).collect::<Vec<_>>().join(", ")
+    }
+
+    /// A titled grid for each engine; one that panicked has its message instead.
+    pub fn blocks(&self) -> Vec<(String, Vec<String>)> {
+        let blocks = self.engines.iter().map(|(name, hits)| match hits {
+            Ok(hits) => {
+                let tally = Tally::between(hits, &self.target);
+                (
+                    format!("{name}: {} px, {} wrong", hits.covered(), tally.total()),
+                    ascii::grid(hits, &self.target),
+                )
+            }
+            Err(message) => (format!("{name}: panics"), vec![message.clone()]),
+        });
+        let oracle = (
+            format!("oracle: {} px", self.target.covered()),
+            ascii::grid(&self.target, &self.target),
+        );
+        blocks.chain([oracle]).collect()
+    }
+
+    /// The grid of one engine and the oracle's, where coverage differs or an engine panicked.
+    pub fn judged_blocks(&self, name: &str) -> Option<Vec<(String, Vec<String>)>> {
+        let at = self.engines.iter().position(|(n, _)| n == name)?;
+        let blocks = self.blocks();
+        Some(vec![blocks[at].clone(), blocks.last()?.clone()])
+    }
+
+    /// A panel for each engine that did not panic, then the oracle.
+    pub fn picture(&self, case: &Case) -> RgbImage {
+        let drawn: Vec<_> =
+            self.engines.iter().filter_map(|(_, hits)| hits.as_ref().ok()).cloned().collect();
+        picture::panels(case, &drawn, &self.target)
+    }
+}
