@@ -222,7 +222,10 @@ fn judge(
     options: &Options,
     shown: bool,
 ) -> (Verdict, ExactVerdict) {
-    let families = hazard::families()
+    let triangles = hazard::triangles::FAMILIES.iter().filter(|_| !engines.is_empty());
+    let segments = hazard::lines::FAMILIES.iter().filter(|_| !lines.is_empty());
+    let families = triangles
+        .chain(segments)
         .filter(|f| options.families.is_empty() || options.families.iter().any(|n| n == f.name));
     let off_grid_families =
         if exact_engines.is_empty() { 0 } else { exact::exact_families(options).count() };
