@@ -308,7 +308,7 @@ fn foot(
     let of_panel = |(_, hits): &&Drawn| {
         let pixels = (shown.y0..shown.y1).flat_map(|y| (shown.x0..shown.x1).map(move |x| (x, y)));
         let both = |(x, y)| [hits, target].map(|c| c.get(x, y).unwrap_or(0));
-        pixels.map(|at| both(at)).map(|[a, t]| colour(a, t).0).collect::<Vec<_>>()
+        pixels.map(both).map(|[a, t]| colour(a, t).0).collect::<Vec<_>>()
     };
     let occurring: BTreeSet<[u8; 3]> = all.iter().flat_map(of_panel).collect();
     let words = [
