@@ -20,8 +20,8 @@ use crate::grid::{MAX_SIDE_PX, PixelRect, Refusal, SUBPIXELS, SubpixelPoint};
 use crate::lineup::{Engine, Entry, ExactEngine, LineEngine};
 use crate::pipeline::multisample;
 use crate::triangle::{
-    FreeCorners, LineEnd, PixelPoint, ScreenLine, ScreenTriangle, ScreenVertex, check_position,
-    check_value,
+    FreeCorners, LineEnd, PixelPoint, ScreenLine, ScreenTriangle, ScreenVertex, Span,
+    check_position, check_value,
 };
 
 /// A longer line is refused without being kept.
@@ -299,8 +299,13 @@ fn values(engine: Engine, window: PixelRect, numbers: &[f64]) -> Result<Values, 
     };
     let triangle = ScreenTriangle { vertices: [vertex(0)?, vertex(1)?, vertex(2)?] };
     let mut n = 0;
-    engine
-        .cover(triangle.corners(), window, |span| n += u64::from(span.x0_px.abs_diff(span.x1_px)));
+    if matches!(engine, Engine::Mutant(_)) {
+        // A fault of coverage may cover pixels that have no fragment.
+        engine.fragments(&triangle, window, |_| n += 1);
+    } else {
+        let mut count = |span: Span| n += u64::from(span.x0_px.abs_diff(span.x1_px));
+        engine.cover(triangle.corners(), window, &mut count);
+    }
     if matches!(engine, Engine::Oracle) && n > MOST_EXACT_FRAGMENTS {
         return Err(format!(
             "{n} fragments; the oracle computes at most {MOST_EXACT_FRAGMENTS} for a request"
