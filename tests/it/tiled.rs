@@ -32,7 +32,7 @@ fn values_lie_within_their_bound() {
     for family in FAMILIES {
         let mut largest: f64 = 0.0;
         for index in 0..40 {
-            let case = family.case(0x66_33_32, index);
+            let case = family.case(0x0066_3332, index);
             let Shape::Triangles { list, .. } = &case.shape else { unreachable!() };
             for triangle in list {
                 let values = triangle.vertices.map(|v| v.varying.to_array());

@@ -303,9 +303,9 @@ mod tests {
             for moved in [0.0, 1e-16, -3e-15, 1e-9, 0.5] {
                 let value = depth.to_f64() * (1.0 + moved);
                 see(depth.distance(value), pixel.depth_at_most(value));
-                for k in 0..2 {
-                    let value = values[k].to_f64() * (1.0 + moved);
-                    see(values[k].distance(value), pixel.attribute_at_most(k, value));
+                for (k, exact) in values.iter().enumerate() {
+                    let value = exact.to_f64() * (1.0 + moved);
+                    see(exact.distance(value), pixel.attribute_at_most(k, value));
                 }
             }
         }

@@ -21,7 +21,7 @@ pub(super) const LANES: usize = 16;
 /// may be larger and wrap around; their difference is right all the same, modulo 2^32.
 pub const NARROW_EXTENT: i32 = 180 * SUBPIXELS;
 const _: () = assert!(
-    NARROW_EXTENT as i64 * NARROW_EXTENT as i64 + 1 <= i32::MAX as i64,
+    (NARROW_EXTENT as i64 * NARROW_EXTENT as i64) < i32::MAX as i64,
     "E and E - bias fit i32"
 );
 

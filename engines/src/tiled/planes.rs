@@ -140,7 +140,7 @@ impl<const N: usize> Planes<N> {
     /// Attribute `i` at a pixel, as a tile computes it, and the bound of its error.
     #[must_use]
     pub fn value(&self, i: usize, x_px: i32, y_px: i32) -> (f32, f64) {
-        let (x, y) = self.from_first(x_px, y_px);
+        let (x, y) = self.beside_first(x_px, y_px);
         let (over, under) = (self.over_w[i], self.inv_w);
         let (n, q) = (over.at(x, y), under.at(x, y));
         let value = n * (1.0 / q);
@@ -155,11 +155,11 @@ impl<const N: usize> Planes<N> {
     /// The depth at a pixel, and the bound of its error.
     #[must_use]
     pub fn depth_at(&self, x_px: i32, y_px: i32) -> (f32, f64) {
-        let (x, y) = self.from_first(x_px, y_px);
+        let (x, y) = self.beside_first(x_px, y_px);
         (self.depth.at(x, y), self.depth.error(x, y))
     }
 
-    fn from_first(&self, x_px: i32, y_px: i32) -> (f32, f32) {
+    fn beside_first(&self, x_px: i32, y_px: i32) -> (f32, f32) {
         ((x_px - self.first_px[0]) as f32, (y_px - self.first_px[1]) as f32)
     }
 }
