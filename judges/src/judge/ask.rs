@@ -118,7 +118,7 @@ impl Misbehaviour {
         match self {
             Self::CannotStart(_) => "name a program and its arguments after --",
             _ => {
-                "a program answers the line 'HELLO 2' with 'HELLO 2 name coverage' and flushes it; \
+                "a program answers 'HELLO 2' with 'HELLO 2 name coverage' and flushes it; \
                  see docs/protocol.md"
             }
         }

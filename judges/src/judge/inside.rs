@@ -80,8 +80,13 @@ impl Inside {
                     engine.fragments(&said, window, |f| fragments.push(f));
                 } else {
                     let specimen = triangle.ok_or("unsupported")?;
+                    let said = from_screen(triangle_asked);
+                    // As through the protocol, which counts the pixels first: some refuse those.
                     specimen
-                        .fragments(&from_screen(triangle_asked), window, &mut |f| fragments.push(f))
+                        .cover(&said, window, &mut |_| ())
+                        .and_then(|()| {
+                            specimen.fragments(&said, window, &mut |f| fragments.push(f))
+                        })
                         .map_err(|refused| refused.to_string())?;
                 }
                 Ok(Answer::Values(fragments))
