@@ -9,6 +9,7 @@
 
 pub mod angle;
 pub mod contract;
+#[cfg(feature = "host")]
 pub mod digest;
 pub mod effects;
 #[cfg(feature = "host")]
@@ -26,5 +27,6 @@ pub mod raster;
 pub mod scene;
 pub mod specimen;
 pub mod tile;
+#[cfg(feature = "host")]
 pub mod tiled;
 pub mod triangle;
