@@ -13,7 +13,7 @@
 //! vertices' values to a numerator of a plane there are at most six in a row: differences between
 //! vertices, times a side, difference, times an offset, two sums; to the residue that is compared,
 //! eight. No intermediate exceeds the sum of the magnitudes that enter it, the `size` beside each
-//! number, so the error stays below 8 2^-103 = 2^-100 of the size, and [`ERROR`] is twice that: a
+//! number, so the error stays below 8 2^-103 = 2^-100 of the size, and `ERROR` is twice that: a
 //! size is summed in plain floats, which are off by far less than a factor of two. Values whose
 //! products could overflow or underflow are refused.
 

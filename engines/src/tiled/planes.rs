@@ -15,7 +15,7 @@
 //! roundings more. With X and Y the largest distances in the box and T = M + Gx X + Gy Y that is
 //! 10 u' T, so |error| <= 4 u S + 10 u' T.
 //! A quotient n / q of numbers off by en and eq is off by (en + |n / q| eq) / (q - eq), and by two
-//! roundings of its own, 2 u |n / q|. [`SECOND_ORDER`] is for products of errors.
+//! roundings of its own, 2 u |n / q|. `SECOND_ORDER` is for products of errors.
 
 use crate::grid::{HALF_PIXEL, PixelRect, SUBPIXELS};
 use crate::triangle::ScreenTriangle;
