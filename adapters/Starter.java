@@ -126,7 +126,7 @@ public class Starter {
         if (words.length != n + 4) throw new Refused(verb + " takes id width height and " + n + " numbers");
         int width = windowSide(words[2]), height = windowSide(words[3]);
         double[] v = new double[n];
-        for (int i = 0; i < n; i++) v[i] = number(words[4 + i]);
+        for (int i = 0; i < v.length; i++) v[i] = number(words[4 + i]);
         SetPixel setPixel = into(width, height);
         if (verb.equals("T")) {
             triangle(v[0], v[1], v[2], v[3], v[4], v[5], width, height, setPixel);

@@ -41,9 +41,9 @@ static void triangle(double x0, double y0, double x1, double y1, double x2, doub
 
     // Row 0 of the frame is its top, as in the picture that the homework shows.
     const auto &pixels = frame.frame_buffer();
-    for (int y = 0; y < height; y++)
-        for (int x = 0; x < width; x++)
-            if (pixels[size_t(y) * size_t(frame_width) + size_t(x)].x() >= 127.5f) set_pixel(x, y);
+    for (int row = 0; row < height; row++)
+        for (int column = 0; column < width; column++)
+            if (pixels[size_t(row) * size_t(frame_width) + size_t(column)].x() >= 127.5f) set_pixel(column, row);
 }
 
 int main() {

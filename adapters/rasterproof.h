@@ -34,15 +34,32 @@ typedef void (*rasterproof_set_samples)(int x, int y, int mask);
 typedef void (*rasterproof_samples)(double x0, double y0, double x1, double y1, double x2, double y2,
                                     int width, int height, rasterproof_set_samples set_pixel);
 
+/* A corner for depth order: position in pixels, depth. */
+struct rasterproof_point { double x, y, z; };
+/* Shows triangle t, counted from 0, at one pixel; outside the window it does nothing. */
+typedef void (*rasterproof_set_seen)(int x, int y, int t);
+/* Three corners for each triangle; set_pixel once for each pixel, of the nearest one. */
+typedef void (*rasterproof_depth)(const struct rasterproof_point (*triangles)[3], int count, int width, int height,
+                                  rasterproof_set_seen set_pixel);
+/* A corner in clip space. */
+struct rasterproof_clip_corner { double x, y, z, w; };
+/* Appends a corner to the polygon. */
+typedef void (*rasterproof_add_corner)(double x, double y, double z, double w);
+/* Adds the corners of what z >= -w leaves of a triangle. */
+typedef void (*rasterproof_clip)(const struct rasterproof_clip_corner corners[3], rasterproof_add_corner add_corner);
+
 /* What the program draws; what is NULL it has not got. */
 struct rasterproof_drawers {
     rasterproof_triangle triangle;
     rasterproof_line line;
     rasterproof_values values;
     rasterproof_samples samples;
+    rasterproof_depth depth;
+    rasterproof_clip clip;
 };
 
-enum { RASTERPROOF_MOST_BYTES = 65536, RASTERPROOF_MOST_HITS = 1 << 22, RASTERPROOF_MOST_WORDS = 23 };
+enum { RASTERPROOF_MOST_BYTES = 65536, RASTERPROOF_MOST_HITS = 1 << 22,
+       RASTERPROOF_MOST_TRIANGLES = 64, RASTERPROOF_MOST_WORDS = 5 + 9 * RASTERPROOF_MOST_TRIANGLES };
 
 struct rasterproof_hit { int y, x, mask; double z, a, b; };
 
@@ -72,6 +89,21 @@ static void rasterproof_hit_samples(int x, int y, int mask) {
     int before = rasterproof_plane.count;
     if (mask) rasterproof_hit_values(x, y, 0, 0, 0);
     if (rasterproof_plane.count > before) rasterproof_plane.hits[before].mask = mask;
+}
+
+static void rasterproof_hit_seen(int x, int y, int t) {
+    int before = rasterproof_plane.count;
+    rasterproof_hit_values(x, y, 0, 0, 0);
+    if (rasterproof_plane.count > before) rasterproof_plane.hits[before].mask = t;
+}
+
+/* The corners that add_corner has added; those beyond the last place are counted alone. */
+static struct { struct rasterproof_clip_corner corners[64]; int count; } rasterproof_polygon;
+
+static void rasterproof_add(double x, double y, double z, double w) {
+    const struct rasterproof_clip_corner corner = {x, y, z, w};
+    if (rasterproof_polygon.count < 64) rasterproof_polygon.corners[rasterproof_polygon.count] = corner;
+    if (rasterproof_polygon.count <= 64) rasterproof_polygon.count++;
 }
 
 static int rasterproof_by_row(const void *left, const void *right) {
@@ -115,12 +147,22 @@ static void rasterproof_write_values(FILE *out, const char *id) {
     }
 }
 
-static void rasterproof_write_samples(FILE *out, const char *id) {
+/* Pixels with their masks, or with the triangles they show. */
+static void rasterproof_write_marked(FILE *out, char letter, const char *id) {
     int i;
-    fprintf(out, "M %s %d", id, rasterproof_plane.count);
+    fprintf(out, "%c %s %d", letter, id, rasterproof_plane.count);
     for (i = 0; i < rasterproof_plane.count; i++) {
         const struct rasterproof_hit *hit = &rasterproof_plane.hits[i];
         fprintf(out, " %d %d %d %d", hit->y, hit->x, hit->x + 1, hit->mask);
+    }
+}
+
+static void rasterproof_write_polygon(FILE *out, const char *id) {
+    int i;
+    fprintf(out, "G %s %d", id, rasterproof_polygon.count);
+    for (i = 0; i < rasterproof_polygon.count; i++) {
+        const struct rasterproof_clip_corner *corner = &rasterproof_polygon.corners[i];
+        fprintf(out, " %.17g %.17g %.17g %.17g", corner->x, corner->y, corner->z, corner->w);
     }
 }
 
@@ -144,10 +186,14 @@ static const char *rasterproof_draw(char **words, int count, const char *declare
                                     const struct rasterproof_drawers *drawers) {
     static char reason[100];
     double grid = rasterproof_declared(declares, "grid=", 0), range = rasterproof_declared(declares, "range=", 0);
-    double most_wide = rasterproof_declared(declares, "window=", 1024), most_high = most_wide, v[20];
+    double most_wide = rasterproof_declared(declares, "window=", 1024), most_high = most_wide;
+    double v[RASTERPROOF_MOST_WORDS];
     const char *high = strstr(declares, "window=");
     const char verb = words[0][0];
+    /* Of each corner the first two numbers are positions. */
+    const int size = verb == 'I' ? 6 : verb == 'D' ? 3 : 2;
     int i, numbers = verb == 'I' ? 18 : verb == 'L' ? 4 : 6;
+    if (verb == 'D') numbers = count < 13 ? 9 : (count - 4) / 9 * 9;
     if (high && (high = strchr(high, 'x')) != NULL) most_high = strtod(high + 1, NULL);
     if (count != numbers + 4) {
         snprintf(reason, sizeof reason, "%s takes id width height and %d numbers", words[0], numbers);
@@ -164,7 +210,7 @@ static const char *rasterproof_draw(char **words, int count, const char *declare
         return reason;
     }
     for (i = 2; i < numbers + 2; i++) {
-        if (verb == 'I' && (i - 2) % 6 > 1) {
+        if ((i - 2) % size > 1) {
             if (!(fabs(v[i]) <= 1.7976931348623157e308)) return "a value is not a number";
             continue;
         }
@@ -179,7 +225,14 @@ static const char *rasterproof_draw(char **words, int count, const char *declare
         drawers->triangle(v[2], v[3], v[4], v[5], v[6], v[7], (int)v[0], (int)v[1], rasterproof_hit_pixel);
     else if (verb == 'S')
         drawers->samples(v[2], v[3], v[4], v[5], v[6], v[7], (int)v[0], (int)v[1], rasterproof_hit_samples);
-    else if (verb == 'I') {
+    else if (verb == 'D') {
+        struct rasterproof_point triangles[RASTERPROOF_MOST_TRIANGLES][3];
+        for (i = 0; i < numbers / 3; i++) {
+            struct rasterproof_point *point = &triangles[i / 3][i % 3];
+            point->x = v[2 + 3 * i], point->y = v[3 + 3 * i], point->z = v[4 + 3 * i];
+        }
+        drawers->depth((const struct rasterproof_point (*)[3])triangles, numbers / 9, (int)v[0], (int)v[1], rasterproof_hit_seen);
+    } else if (verb == 'I') {
         struct rasterproof_corner corners[3];
         for (i = 0; i < 3; i++) {
             const double *at = v + 2 + 6 * i;
@@ -193,17 +246,40 @@ static const char *rasterproof_draw(char **words, int count, const char *declare
     return rasterproof_plane.overflow ? "more than 4194304 pixels set" : NULL;
 }
 
+/* Reads what follows the id and clips: the near plane has no window. What is wrong with the request, or NULL. */
+static const char *rasterproof_cut(char **words, int count, const struct rasterproof_drawers *drawers) {
+    struct rasterproof_clip_corner corners[3];
+    double v[12];
+    int i;
+    if (count != 14) return "N takes id and 12 numbers";
+    for (i = 0; i < 12; i++) {
+        char *end;
+        v[i] = strtod(words[i + 2], &end);
+        if (*end || !(fabs(v[i]) <= 1.7976931348623157e308)) return "a value is not a number";
+    }
+    for (i = 0; i < 3; i++) {
+        corners[i].x = v[4 * i], corners[i].y = v[4 * i + 1];
+        corners[i].z = v[4 * i + 2], corners[i].w = v[4 * i + 3];
+    }
+    rasterproof_polygon.count = 0;
+    drawers->clip(corners, rasterproof_add);
+    return rasterproof_polygon.count > 64 ? "more than 64 corners" : NULL;
+}
+
 static void rasterproof_answer(char **words, int count, FILE *out, const char *name, const char *declares,
                                const struct rasterproof_drawers *drawers) {
     const char *verb = words[0], *id = count > 1 ? words[1] : "-", *wrong = "unsupported";
     int is_known = !verb[1] && ((verb[0] == 'T' && drawers->triangle) || (verb[0] == 'L' && drawers->line) ||
-                                (verb[0] == 'I' && drawers->values) || (verb[0] == 'S' && drawers->samples));
+                                (verb[0] == 'I' && drawers->values) || (verb[0] == 'S' && drawers->samples) ||
+                                (verb[0] == 'D' && drawers->depth) || (verb[0] == 'N' && drawers->clip));
     if (strcmp(verb, "HELLO") == 0) {
         char known[64] = "";
         if (drawers->triangle) strcat(known, " coverage");
         if (drawers->line) strcat(known, " line");
         if (drawers->values) strcat(known, " attributes");
         if (drawers->samples) strcat(known, " samples4");
+        if (drawers->depth) strcat(known, " depth");
+        if (drawers->clip) strcat(known, " clip");
         if (count == 2 && strcmp(id, "1") == 0) fprintf(out, "HELLO 1 %s%s", name, known);
         else if (count == 2 && strcmp(id, "2") == 0)
             fprintf(out, "HELLO 2 %s%s%s%s%s", name, known, strstr(declares, "window=") ? "" : " window=1024x1024",
@@ -211,11 +287,14 @@ static void rasterproof_answer(char **words, int count, FILE *out, const char *n
         else fputs("E - say HELLO 1 or HELLO 2", out);
         return;
     }
-    if (is_known) wrong = rasterproof_draw(words, count, declares, drawers);
+    if (is_known && verb[0] == 'N') wrong = rasterproof_cut(words, count, drawers);
+    else if (is_known) wrong = rasterproof_draw(words, count, declares, drawers);
     if (wrong) fprintf(out, "E %s %s", id, wrong);
     else if (verb[0] == 'T') rasterproof_write_runs(out, id);
     else if (verb[0] == 'I') rasterproof_write_values(out, id);
-    else if (verb[0] == 'S') rasterproof_write_samples(out, id);
+    else if (verb[0] == 'S') rasterproof_write_marked(out, 'M', id);
+    else if (verb[0] == 'D') rasterproof_write_marked(out, 'V', id);
+    else if (verb[0] == 'N') rasterproof_write_polygon(out, id);
     else rasterproof_write_line(out, id);
 }
 
@@ -241,7 +320,7 @@ static int rasterproof_serve_all(const char *name, const char *declares, struct 
 
 /* The same for a program that draws triangles and lines alone. */
 static inline int rasterproof_serve(const char *name, const char *declares, rasterproof_triangle triangle, rasterproof_line line) {
-    struct rasterproof_drawers drawers = {triangle, line, NULL, NULL};
+    struct rasterproof_drawers drawers = {triangle, line, NULL, NULL, NULL, NULL};
     return rasterproof_serve_all(name, declares, drawers);
 }
 

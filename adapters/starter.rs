@@ -60,9 +60,11 @@ fn line(
     }
 }
 
-// Values and samples (verbs I and S): write functions in their stead, as `rasterproof course start` has them.
+// What else there is (verbs I, S, D and N): write functions in their stead, as `rasterproof course start` has them.
 const VALUES: Option<Values> = None;
 const SAMPLES: Option<Samples> = None;
+const DEPTH: Option<Depth> = None;
+const CLIP: Option<Clip> = None;
 
 // ---- the line protocol: nothing to change from here on ----
 
@@ -70,6 +72,10 @@ const SAMPLES: Option<Samples> = None;
 type Values = fn(corners: [[f64; 6]; 3], width: i32, height: i32, set_pixel: &mut dyn FnMut(i32, i32, [f64; 3]));
 /// Corners in pixels; set_pixel(x, y, mask), bit s of the mask is sample s.
 type Samples = fn(corners: [(f64, f64); 3], width: i32, height: i32, set_pixel: &mut dyn FnMut(i32, i32, u8));
+/// Triangles of three corners x, y, z; set_pixel(x, y, t) once where triangle t is nearest.
+type Depth = fn(triangles: &[[[f64; 3]; 3]], width: i32, height: i32, set_pixel: &mut dyn FnMut(i32, i32, usize));
+/// Three corners x, y, z, w of clip space; the corners of what z >= -w leaves of them.
+type Clip = fn(corners: [[f64; 4]; 3]) -> Vec<[f64; 4]>;
 
 const MOST_BYTES: usize = 65536;
 const MOST_SIDE: i32 = 1024;
@@ -130,7 +136,15 @@ fn value(word: &str) -> Result<f64, String> {
 
 fn draw(words: &[&str]) -> Result<String, String> {
     let verb = words[0];
-    let count = [("L", 4), ("I", 18)].iter().find(|(v, _)| *v == verb).map_or(6, |(_, count)| *count);
+    if let ("N", Some(clip)) = (verb, CLIP) {
+        return clipped(words, clip);
+    }
+    let count = match verb {
+        "L" => 4,
+        "I" => 18,
+        "D" => (words.len().saturating_sub(4) / 9).max(1) * 9,
+        _ => 6,
+    };
     if words.len() != count + 4 {
         return Err(format!("{verb} takes id width height and {count} numbers"));
     }
@@ -138,7 +152,7 @@ fn draw(words: &[&str]) -> Result<String, String> {
     let (Some(width), Some(height)) = (side(words[2]), side(words[3])) else {
         return Err(format!("the window must be from 1x1 to {MOST_SIDE}x{MOST_SIDE}"));
     };
-    let is_position = |i: usize| verb != "I" || i % 6 < 2;
+    let is_position = |i: usize| i % match verb { "I" => 6, "D" => 3, _ => 2 } < 2;
     let read = |(i, word): (usize, &&str)| if is_position(i) { number(word) } else { value(word) };
     let v = words[4..].iter().enumerate().map(read).collect::<Result<Vec<_>, _>>()?;
     // Of a line there are two.
@@ -155,6 +169,12 @@ fn draw(words: &[&str]) -> Result<String, String> {
         let hits = drawn(width, height, |set| values(corners, width, height, set))?;
         let group = |(y, x, [z, a, b]): (i32, i32, [f64; 3])| vec![x.into(), y.into(), z, a, b];
         ("F", hits.into_iter().map(group).collect())
+    } else if let ("D", Some(depth)) = (verb, DEPTH) {
+        let corners: Vec<[f64; 3]> = v.chunks_exact(3).map(|c| [c[0], c[1], c[2]]).collect();
+        let triangles: Vec<_> = corners.chunks_exact(3).map(|t| [t[0], t[1], t[2]]).collect();
+        let hits = drawn(width, height, |set| depth(&triangles, width, height, set))?;
+        let group = |(y, x, t): (i32, i32, usize)| vec![y.into(), x.into(), (x + 1).into(), t as f64];
+        ("V", hits.into_iter().map(group).collect())
     } else if let ("S", Some(samples)) = (verb, SAMPLES) {
         let hits = drawn(width, height, |set| samples(corners, width, height, set))?;
         let group = |(y, x, mask): (i32, i32, u8)| vec![y.into(), x.into(), (x + 1).into(), mask.into()];
@@ -167,15 +187,40 @@ fn draw(words: &[&str]) -> Result<String, String> {
         })?;
         ("P", hits.into_iter().map(|(y, x, ())| vec![x.into(), y.into()]).collect())
     };
-    let mut reply = format!("{letter} {} {}", words[1], groups.len());
+    Ok(reply(letter, words[1], &groups))
+}
+
+/// What the near plane leaves: no window has a part in it.
+fn clipped(words: &[&str], clip: Clip) -> Result<String, String> {
+    if words.len() != 14 {
+        return Err("N takes id and 12 numbers".into());
+    }
+    let v = words[2..].iter().map(|word| value(word)).collect::<Result<Vec<_>, _>>()?;
+    let corner = |i: usize| std::array::from_fn(|n| v[4 * i + n]);
+    let corners = [corner(0), corner(1), corner(2)];
+    let polygon = std::panic::catch_unwind(|| clip(corners)).map_err(|_| "raised a panic")?;
+    let groups: Vec<_> = polygon.into_iter().map(|corner| corner.to_vec()).collect();
+    Ok(reply("G", words[1], &groups))
+}
+
+fn reply(letter: &str, id: &str, groups: &[Vec<f64>]) -> String {
+    let mut reply = format!("{letter} {id} {}", groups.len());
     for n in groups.iter().flatten() {
         let _ = write!(reply, " {n}");
     }
-    Ok(reply)
+    reply
 }
 
 fn answer(words: &[&str]) -> String {
-    let has = [(HAS_LINES, " line"), (VALUES.is_some(), " attributes"), (SAMPLES.is_some(), " samples4")];
+    let more = [VALUES.is_some(), SAMPLES.is_some(), DEPTH.is_some(), CLIP.is_some()];
+    let [values, samples, depth, clip] = more;
+    let has = [
+        (HAS_LINES, " line"),
+        (values, " attributes"),
+        (samples, " samples4"),
+        (depth, " depth"),
+        (clip, " clip"),
+    ];
     let more: String = has.iter().filter(|(has, _)| *has).map(|(_, word)| *word).collect();
     let known = format!("coverage{more}");
     let id = words.get(1).unwrap_or(&"-");
@@ -186,10 +231,12 @@ fn answer(words: &[&str]) -> String {
         }
         ["HELLO", ..] => "E - say HELLO 1 or HELLO 2".into(),
         ["T", ..] => draw(words).unwrap_or_else(|reason| format!("E {id} {reason}")),
-        ["I", ..] if VALUES.is_none() => format!("E {id} unsupported"),
-        ["S", ..] if SAMPLES.is_none() => format!("E {id} unsupported"),
-        ["I" | "S", ..] => draw(words).unwrap_or_else(|reason| format!("E {id} {reason}")),
-        ["L", ..] if HAS_LINES => draw(words).unwrap_or_else(|reason| format!("E {id} {reason}")),
+        [verb, ..]
+            if [("L", HAS_LINES), ("I", values), ("S", samples), ("D", depth), ("N", clip)]
+                .contains(&(*verb, true)) =>
+        {
+            draw(words).unwrap_or_else(|reason| format!("E {id} {reason}"))
+        }
         _ => format!("E {id} unsupported"),
     }
 }

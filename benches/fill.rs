@@ -20,6 +20,7 @@ use rasterproof::grid::PixelRect;
 use rasterproof::line::bresenham::Bresenham;
 use rasterproof::line::dda::Dda;
 use rasterproof::oracle::Oracle;
+use rasterproof::paint;
 use rasterproof::raster::edge_function::EdgeFunction;
 use rasterproof::raster::scanline::Scanline;
 use rasterproof::tile::{CoverList, Tiles};
@@ -37,9 +38,9 @@ fn cover(criterion: &mut Criterion) {
     }
 }
 
-/// Coverage only, of all triangles as one list, in an instruction set.
+/// Fills all triangles as one list, each by the engine that is faster, in an instruction set.
 fn bench_lists(criterion: &mut Criterion, scene: &Scene, tiles: &Tiles) {
-    let name = format!("tile {}", tiles.instructions());
+    let name = format!("list {}", tiles.instructions());
     let mut pixels = 0;
     tiles.cover_list(&scene.triangles, window(), &mut |pieces| {
         let mut count = |span: Span| pixels += u64::from(span.x0_px.abs_diff(span.x1_px));
@@ -51,9 +52,7 @@ fn bench_lists(criterion: &mut Criterion, scene: &Scene, tiles: &Tiles) {
     group.throughput(Throughput::Elements(scene.pixels));
     group.bench_function(BenchmarkId::from_parameter(name), |bencher| {
         bencher.iter(|| {
-            tiles.cover_list(black_box(&scene.triangles), window(), &mut |pieces| {
-                tiles.fill(pieces, COLOUR, &mut target);
-            });
+            paint::fill(tiles, black_box(&scene.triangles), COLOUR, &mut target);
         });
     });
 }

@@ -10,6 +10,10 @@
 //! - euc: one list of vertices in clip coordinates; one `draw` of all of them is timed, with
 //!   culling, depth and varyings off. Edges are inclusive on both sides.
 //!
+//! - With `--features vulkan`, each Vulkan device: one vertex buffer and one draw of all triangles,
+//!   recorded before, into a target that is cleared first; submitting and waiting are timed. On a
+//!   driver that runs on the processor, `LP_NUM_THREADS=0` keeps lavapipe to one core.
+//!
 //! All get the same numbers: positions are multiples of 1/256 px, and so exact as `f32`. Everyone
 //! fills the same few triangles in turn, then the next few, so that a machine that changes its
 //! clock or is shared treats all alike. A turn fills its triangles twice and times the second time,
@@ -81,13 +85,15 @@ fn main() {
 
 /// Measures one class and prints its rows.
 fn report(scene: &Scene, rounds: usize) {
-    let mut fillers: [(&str, Box<dyn Filler>); 4] = [
-        ("scanline", Box::new(Engine::new(Scanline, scene))),
-        ("edge-function", Box::new(Engine::new(EdgeFunction, scene))),
-        ("tiny-skia", Box::new(TinySkia::new(scene))),
-        ("euc", Box::new(Euc::new(scene))),
+    let mut fillers: Vec<(String, Box<dyn Filler>)> = vec![
+        ("scanline".to_owned(), Box::new(Engine::new(Scanline, scene))),
+        ("edge-function".to_owned(), Box::new(Engine::new(EdgeFunction, scene))),
+        ("tiny-skia".to_owned(), Box::new(TinySkia::new(scene))),
+        ("euc".to_owned(), Box::new(Euc::new(scene))),
     ];
-    let wrong = fillers.each_mut().map(|(_, filler)| wrong_pixels(filler.as_mut(), scene));
+    #[cfg(feature = "vulkan")]
+    fillers.extend(vulkan::all(scene));
+    let wrong: Vec<_> = fillers.iter_mut().map(|(_, filler)| filler.wrong(scene)).collect();
     for ((name, _), wrong) in fillers.iter().zip(&wrong).take(2) {
         assert_eq!(*wrong, Wrong::default(), "{name} on {}", scene.name);
     }
@@ -111,11 +117,11 @@ fn report(scene: &Scene, rounds: usize) {
 
 /// Everyone's time for all triangles: the sum of the medians of their turns.
 fn times_ns(
-    fillers: &mut [(&str, Box<dyn Filler>); 4],
+    fillers: &mut [(String, Box<dyn Filler>)],
     triangles: usize,
     rounds: usize,
-) -> [f64; 4] {
-    let mut turns_ns = vec![[const { Vec::new() }; 4]; TURNS];
+) -> Vec<f64> {
+    let mut turns_ns = vec![vec![Vec::new(); fillers.len()]; TURNS];
     for _ in 0..rounds {
         for (turn, turn_ns) in turns_ns.iter_mut().enumerate() {
             let part = triangles * turn / TURNS..triangles * (turn + 1) / TURNS;
@@ -128,7 +134,7 @@ fn times_ns(
             }
         }
     }
-    let mut sums_ns = [0.0; 4];
+    let mut sums_ns = vec![0.0; fillers.len()];
     for turn_ns in turns_ns {
         for (sum, mut times) in sums_ns.iter_mut().zip(turn_ns) {
             times.sort_by(f64::total_cmp);
@@ -142,6 +148,12 @@ fn times_ns(
 trait Filler {
     /// Fills a part of the triangles: this is timed.
     fn fill(&mut self, part: Range<usize>);
+    /// Pixels that are wrong, triangle by triangle.
+    fn wrong(&mut self, scene: &Scene) -> Wrong;
+}
+
+/// A target that can be looked at.
+trait Canvas {
     /// Whether pixel (x, y) is drawn.
     fn is_drawn(&self, x: usize, y: usize) -> bool;
     /// Makes pixel (x, y) undrawn.
@@ -155,7 +167,7 @@ struct Wrong {
 }
 
 /// Compares each triangle by itself with the oracle, so that no error hides below another triangle.
-fn wrong_pixels(filler: &mut dyn Filler, scene: &Scene) -> Wrong {
+fn wrong_pixels(filler: &mut (impl Filler + Canvas), scene: &Scene) -> Wrong {
     let side = SIDE_PX as usize;
     let mut wrong = Wrong::default();
     for (index, corners) in scene.triangles.iter().enumerate() {
@@ -213,6 +225,12 @@ impl<E: Rasterize> Filler for Engine<E> {
             common::fill(&self.engine, *corners, &mut self.target);
         }
     }
+    fn wrong(&mut self, scene: &Scene) -> Wrong {
+        wrong_pixels(self, scene)
+    }
+}
+
+impl<E: Rasterize> Canvas for Engine<E> {
     fn is_drawn(&self, x: usize, y: usize) -> bool {
         self.target.row(y as i32)[x] != 0
     }
@@ -254,6 +272,12 @@ impl Filler for TinySkia {
             target.fill_path(path, &self.paint, FillRule::Winding, Transform::identity(), None);
         }
     }
+    fn wrong(&mut self, scene: &Scene) -> Wrong {
+        wrong_pixels(self, scene)
+    }
+}
+
+impl Canvas for TinySkia {
     fn is_drawn(&self, x: usize, y: usize) -> bool {
         self.target.data()[4 * (y * SIDE_PX as usize + x) + 3] != 0
     }
@@ -312,6 +336,12 @@ impl Filler for Euc {
             None,
         );
     }
+    fn wrong(&mut self, scene: &Scene) -> Wrong {
+        wrong_pixels(self, scene)
+    }
+}
+
+impl Canvas for Euc {
     fn is_drawn(&self, x: usize, y: usize) -> bool {
         self.target.as_ref()[y * SIDE_PX as usize + x] != 0
     }
@@ -324,4 +354,95 @@ impl Filler for Euc {
 fn exact_f32(corner: rasterproof::grid::SubpixelPoint) -> [f32; 2] {
     let (x, y) = corner.to_px();
     [x as f32, y as f32]
+}
+
+/// Vulkan devices.
+#[cfg(feature = "vulkan")]
+mod vulkan {
+    use std::collections::HashMap;
+    use std::ops::Range;
+
+    use rasterproof::contract::Rasterize as _;
+    use rasterproof::frame::Coverage;
+    use rasterproof::oracle::Oracle;
+    use rasterproof::triangle::Corners;
+    use rasterproof::verify::Tally;
+    use rasterproof_vulkan::device::draw::{Draw, Painter, Prepared};
+    use rasterproof_vulkan::device::find;
+    use rasterproof_vulkan::device::open::Opened;
+    use rasterproof_vulkan::device::stage::Kind;
+    use rasterproof_vulkan::gpu::engine::{Gpu, plain};
+    use rasterproof_vulkan::gpu::look;
+
+    use super::{Filler, SIDE_PX, Scene, Wrong, neighbourhood};
+
+    /// A device with what was recorded for each part.
+    struct Device {
+        name: String,
+        // Before the painter, as it was made from it.
+        parts: HashMap<Range<usize>, Prepared>,
+        painter: Painter,
+        draws: Vec<Draw>,
+    }
+
+    /// Every device that is there.
+    pub fn all(scene: &Scene) -> Vec<(String, Box<dyn Filler>)> {
+        let devices = find::list().unwrap_or_else(|error| {
+            eprintln!("{error}");
+            Vec::new()
+        });
+        let device = |listed: &find::Listed| {
+            let opened = Opened::new(listed).expect("a device that opens");
+            let painter = Painter::new(&opened, None).expect("a device that draws");
+            let short =
+                if listed.about.device.contains("llvmpipe") { "llvmpipe" } else { "SwiftShader" };
+            let name = format!("vulkan:{}", listed.number);
+            let label =
+                if listed.about.words().contains(&short.to_lowercase()) { short } else { &name };
+            let half = SIDE_PX as f32 / 2.0;
+            let draw = |corners: &Corners| {
+                let mut vertices = plain(corners, half);
+                vertices.iter_mut().for_each(|v| v.clip[0] -= 1.0);
+                vertices.iter_mut().for_each(|v| v.clip[1] -= 1.0);
+                let side = SIDE_PX as f32;
+                Draw { cell: 0, vertices, viewport: [0.0, 0.0, side, side], window: [SIDE_PX; 2] }
+            };
+            let draws = scene.triangles.iter().map(draw).collect();
+            let filler = Device { name: name.clone(), parts: HashMap::new(), painter, draws };
+            (label.to_owned(), Box::new(filler) as Box<dyn Filler>)
+        };
+        devices.iter().map(device).collect()
+    }
+
+    impl Filler for Device {
+        fn fill(&mut self, part: Range<usize>) {
+            if !self.parts.contains_key(&part) {
+                let draws = &self.draws[part.clone()];
+                let prepared = self.painter.prepare(Kind::Flat, draws).expect("room for a list");
+                self.parts.insert(part.clone(), prepared);
+            }
+            self.painter.run_prepared(&self.parts[&part]).expect("a device that draws");
+        }
+
+        fn wrong(&mut self, scene: &Scene) -> Wrong {
+            let mut gpu = Gpu::named(&self.name).expect("a device that opens");
+            let mut wrong = Wrong::default();
+            for some in scene.triangles.chunks(1024) {
+                let jobs: Vec<_> = some
+                    .iter()
+                    .map(|corners| (std::slice::from_ref(corners), neighbourhood(corners)))
+                    .collect();
+                let drawn = look::coverages(&mut gpu, &jobs).expect("a device that draws");
+                for ((corners, near), drawn) in jobs.iter().zip(&drawn) {
+                    let mut truth = Coverage::new(*near, 0);
+                    let hit = |s: rasterproof::triangle::Span| truth.hit(s.y_px, s.x0_px, s.x1_px);
+                    Oracle.cover(corners[0], *near, hit);
+                    let tally = Tally::between(drawn, &truth);
+                    wrong.missing += tally.missing;
+                    wrong.extra += tally.extra + tally.twice;
+                }
+            }
+            wrong
+        }
+    }
 }

@@ -19,7 +19,7 @@ Lemma mix_in_hull v w t low high : 0 <= t < 1 -> low <= v <= high -> low <= w <=
   low <= mix v w t <= high.
 Proof. unfold mix. intros. split; nra. Qed.
 
-(** ** Down an edge: RowEnd::new *)
+(** ** Down an edge: RowEnd::depth and RowEnd::values *)
 
 Section RowEnd.
 Variables (a b : point) (y : Z).
@@ -58,7 +58,7 @@ Proof.
 Qed.
 End RowEnd.
 
-(** ** Along a row: fill_span *)
+(** ** Along a row: Across *)
 
 (** How far a centre lies right of an edge, in subpixels, times dy. *)
 Definition distance (h : Z) (a b : point) (x_px y_px : Z) : Z :=

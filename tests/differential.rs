@@ -1,19 +1,20 @@
 //! Every engine against the oracle and against each other, on every family: plain `cargo test`
 //! prints the table. One trial for each family, so filters and `--list` work as usual.
 //!
-//! Where it disagrees, `cargo test` ends here; so the named cases are then drawn too, every changed
-//! snapshot is stored with its picture, and the last lines say where to look.
+//! Where it disagrees, `cargo test` ends here; so all that is kept as a snapshot is then drawn too, each
+//! changed one is stored with its picture, and the last lines say where to look.
 
-#[path = "it/snapshots.rs"]
-#[allow(dead_code, unused_imports, reason = "its tests run in the binary `it`")]
-mod snapshots;
+#[path = "it/next.rs"]
+mod next;
 
-use std::process::ExitCode;
+use std::path::Path;
+use std::process::{Command, ExitCode};
 use std::sync::{Arc, Mutex};
 
 use libtest_mimic::{Arguments, Failed, Trial};
 use rasterproof::hazard;
 use rasterproof::lineup::{Engine, LineEngine};
+use rasterproof::report::summary::chapter;
 use rasterproof::report::table;
 use rasterproof::verify::{FamilyReport, Options, Verdict, judge_lineup, tolerance};
 
@@ -37,9 +38,6 @@ fn main() -> ExitCode {
     families.sort_by_key(place);
     let all = families.len() == hazard::families().count();
     let verdict = Verdict { options: options(""), families, failures: Vec::new() };
-    if conclusion.has_failed() {
-        show_snapshots();
-    }
     println!("{}{}", table::table(&verdict), table::quota_line(&verdict));
     let quotas_met = !all || verdict.quotas().iter().all(|(_, is, wanted)| is >= wanted);
     if !quotas_met {
@@ -47,25 +45,53 @@ fn main() -> ExitCode {
     }
     if conclusion.has_failed() {
         print!("{}", table::disagreements(&verdict));
-        println!("\nWhat to do now:\n{}", snapshots::NEXT);
-        println!("the other tests and their pictures: cargo test --no-fail-fast");
+        if all {
+            show_snapshots();
+        }
+        println!("\nWhat to do now:\n{}", next::NEXT);
+        println!("all other tests: cargo test --no-fail-fast");
     }
     if conclusion.has_failed() || !quotas_met { ExitCode::FAILURE } else { ExitCode::SUCCESS }
 }
 
-/// Draws the named cases, so that those that look different are stored beside the old ones.
+/// Modules of the test binary `it` that keep snapshots.
+const KEEPERS: [&str; 6] =
+    ["snapshots::", "illustrations::", "scenes::", "specimens::", "matrix::", "cost::"];
+
+/// Has every snapshot drawn in one pass, so that those that changed are stored beside the old ones, and
+/// names them.
 fn show_snapshots() {
-    println!("the named cases, as drawn now:");
-    // What each of them says is gathered, and said once.
-    std::panic::set_hook(Box::new(|_| ()));
-    match std::panic::catch_unwind(snapshots::check_named_cases) {
-        Ok(()) => println!("  all look as before"),
-        Err(payload) => {
-            let message = payload.downcast_ref::<String>().map_or("", String::as_str);
-            println!("{}", message.trim_end_matches(snapshots::NEXT).trim_end());
-        }
+    println!("\ndrawing all that is kept as a snapshot ...");
+    let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    cargo.args(["test", "--test", "it"]).current_dir(env!("CARGO_MANIFEST_DIR"));
+    // The binary that was built with this one.
+    if let Some(profile) = profile().filter(|profile| profile != "debug") {
+        cargo.args(["--profile", &profile]);
     }
-    println!();
+    cargo.arg("--").args(KEEPERS);
+    // The first that changed is not the last; what insta says of each is said once, below.
+    cargo.envs([("INSTA_FORCE_PASS", "1"), ("INSTA_OUTPUT", "none"), ("INSTA_UPDATE", "new")]);
+    if let Err(error) = cargo.output() {
+        return println!("{} cannot be run: {error}", cargo.get_program().display());
+    }
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("snapshots");
+    let files = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    let names: Vec<_> = files.filter_map(|file| file.file_name().into_string().ok()).collect();
+    let ending = |name: &String, end: &str| name.strip_suffix(end).map(str::to_owned);
+    let mut changed: Vec<_> = names.iter().filter_map(|name| ending(name, ".snap.new")).collect();
+    changed.sort();
+    let pictures = names.iter().filter(|name| name.ends_with(".snap.new.png")).count();
+    let count = changed.len();
+    println!("{count} look different and wait in snapshots/, {pictures} of them pictures:");
+    for some in changed.chunks(6) {
+        println!("  {}", some.join(", "));
+    }
+}
+
+/// The folder of `target` that this runs in, named after its profile.
+fn profile() -> Option<String> {
+    let program = std::env::current_exe().ok()?;
+    Some(program.parent()?.parent()?.file_name()?.to_str()?.to_owned())
 }
 
 fn options(family: &str) -> Options {
@@ -82,7 +108,15 @@ fn judge(family: &str, reports: &Mutex<Vec<FamilyReport>>) -> Result<(), Failed>
         return Err(format!("{} of {CASES} cases judged", report.cases).into());
     }
     if !verdict.agrees() {
-        let failures: Vec<_> = verdict.failures.iter().map(ToString::to_string).collect();
+        let seed = verdict.options.seed;
+        let told = verdict.failures.iter().map(|failure| {
+            let (family, index, chapter) = (&failure.family, failure.index, chapter(failure));
+            format!(
+                "{failure}\nsee it: cargo run -- verify --family {family} --case {index} --seed {seed}\n\
+                 read on in: {chapter}"
+            )
+        });
+        let failures: Vec<_> = told.collect();
         return Err(format!("{}\n{}", table::disagreements(&verdict), failures.join("\n")).into());
     }
     Ok(())

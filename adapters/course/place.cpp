@@ -1,6 +1,6 @@
 // The course. Write the function of your step, then: rasterproof course check
 
-// ---- YOUR PLACE: four functions, empty as they stand ----
+// ---- YOUR PLACE: six functions, empty as they stand ----
 
 // Whole pixels from one to another, both drawn, in drawing order (steps 1 to 3).
 static void line(int x0, int y0, int x1, int y1, int width, int height, rasterproof_set_pixel set_pixel) {
@@ -22,5 +22,16 @@ static void values(const rasterproof_corner corners[3], int width, int height, r
 static void samples(double x0, double y0, double x1, double y1, double x2, double y2, int width, int height,
                     rasterproof_set_samples set_pixel) {
     (void)x0, (void)y0, (void)x1, (void)y1, (void)x2, (void)y2, (void)width, (void)height, (void)set_pixel;
+}
+
+// Three corners x, y, z of each triangle; set_pixel(x, y, t) once where triangle t is nearest (step 10).
+static void depth(const rasterproof_point (*triangles)[3], int count, int width, int height,
+                  rasterproof_set_seen set_pixel) {
+    (void)triangles, (void)count, (void)width, (void)height, (void)set_pixel;
+}
+
+// Corners x, y, z, w of clip space; add_corner for each corner of what z >= -w leaves of them (step 11).
+static void clip(const rasterproof_clip_corner corners[3], rasterproof_add_corner add_corner) {
+    (void)corners, (void)add_corner;
 }
 

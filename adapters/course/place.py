@@ -1,7 +1,7 @@
 # The course. Write the function of your step, then: rasterproof course check
 
 
-# ---- YOUR PLACE: four functions, empty as they stand ----
+# ---- YOUR PLACE: six functions, empty as they stand ----
 
 
 def line(x0, y0, x1, y1, width, height, set_pixel):
@@ -18,4 +18,13 @@ def values(corners, width, height, set_pixel):
 
 def samples(x0, y0, x1, y1, x2, y2, width, height, set_pixel):
     """As triangle, with four samples: set_pixel(x, y, mask), bit s of the mask is sample s (step 12)."""
+
+
+def depth(triangles, width, height, set_pixel):
+    """Triangles of three corners (x, y, z); set_pixel(x, y, t) once where triangle t is nearest (step 10)."""
+
+
+def clip(corners):
+    """Three corners (x, y, z, w) of clip space; the corners of what z >= -w leaves of them (step 11)."""
+    return []
 

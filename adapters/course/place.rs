@@ -1,8 +1,10 @@
 // The course. Write the function of your step, then: rasterproof course check
 
-// ---- YOUR PLACE: four functions, empty as they stand ----
+// ---- YOUR PLACE: six functions, empty as they stand ----
 const VALUES: Option<Values> = Some(values);
 const SAMPLES: Option<Samples> = Some(samples);
+const DEPTH: Option<Depth> = Some(depth);
+const CLIP: Option<Clip> = Some(clip);
 
 /// Whole pixels from one to another, both drawn, in drawing order (steps 1 to 3).
 fn line(
@@ -39,5 +41,19 @@ fn samples(
     height: i32,
     set_pixel: &mut dyn FnMut(i32, i32, u8),
 ) {
+}
+
+/// Triangles of three corners x, y, z; set_pixel(x, y, t) once where triangle t is nearest (step 10).
+fn depth(
+    triangles: &[[[f64; 3]; 3]],
+    width: i32,
+    height: i32,
+    set_pixel: &mut dyn FnMut(i32, i32, usize),
+) {
+}
+
+/// Three corners x, y, z, w of clip space; the corners of what z >= -w leaves of them (step 11).
+fn clip(corners: [[f64; 4]; 3]) -> Vec<[f64; 4]> {
+    Vec::new()
 }
 

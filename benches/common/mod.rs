@@ -9,6 +9,7 @@ use rasterproof::contract::Rasterize;
 use rasterproof::frame::Frame;
 use rasterproof::grid::{PixelRect, SubpixelPoint};
 use rasterproof::oracle::Oracle;
+use rasterproof::paint::fill_run;
 use rasterproof::triangle::Corners;
 
 /// Side of the square target in pixels.
@@ -74,28 +75,6 @@ pub fn fill(engine: &impl Rasterize, corners: Corners, target: &mut Frame<u32>) 
     engine.cover(corners, target.bounds(), |span| {
         fill_run(target.span_mut(span.y_px, span.x0_px, span.x1_px), COLOUR);
     });
-}
-
-/// As `run.fill(value)`, with fewer branches that nothing predicts.
-///
-/// `fill` becomes a loop over blocks and one over what is left, and for runs whose lengths follow
-/// no pattern each loop ends in a misprediction. Here the last block overlaps the one before it.
-/// Filling large, medium and small triangles took 0.87, 0.72 and 0.84 of the time with `fill`.
-#[inline]
-pub fn fill_run(run: &mut [u32], value: u32) {
-    let pixels = run.len();
-    if let Some(last) = run.last_chunk_mut::<8>() {
-        *last = [value; 8];
-        for block in run.as_chunks_mut::<8>().0 {
-            *block = [value; 8];
-        }
-    } else if let Some(last) = run.last_chunk_mut::<4>() {
-        *last = [value; 4];
-        run[..4].fill(value);
-    } else if pixels > 0 {
-        // One, two or three pixels.
-        (run[0], run[pixels / 2], run[pixels - 1]) = (value, value, value);
-    }
 }
 
 type Shape = [(f64, f64); 3];

@@ -84,6 +84,74 @@ pub trait Interpolate: Rasterize {
     ) {
         self.fragments(&triangle.with_equal_w(), bounds, emit);
     }
+
+    /// The fragments of [`Interpolate::fragments`], or of [`Interpolate::affine_fragments`] where
+    /// `affine`, bit for bit, in runs: for those who need the varying of some of them only.
+    fn runs<V: Varying>(
+        &self,
+        triangle: &ScreenTriangle<V>,
+        bounds: PixelRect,
+        affine: bool,
+        take: &mut dyn FnMut(Run<'_, V>),
+    ) {
+        let emit = |Fragment { x_px, y_px, depth, varying }| {
+            take(Run { y_px, x0_px: x_px, depths: &[depth], values: &mut Known(varying) });
+        };
+        if affine {
+            self.affine_fragments(triangle, bounds, emit);
+        } else {
+            self.fragments(triangle, bounds, emit);
+        }
+    }
+}
+
+/// Adjacent fragments of one row, at most [`RUN`], whose varyings are computed when they are asked
+/// for.
+pub struct Run<'a, V> {
+    /// The row.
+    pub y_px: i32,
+    /// The first column.
+    pub x0_px: i32,
+    /// The depth of each pixel.
+    pub depths: &'a [f64],
+    /// The varying of each pixel.
+    pub values: &'a mut dyn Varyings<V>,
+}
+
+/// The most fragments of a [`Run`].
+pub const RUN: usize = 16;
+
+/// What computes the varyings of a [`Run`].
+pub trait Varyings<V> {
+    /// Those of the pixels `from..to`, counted from the first of the run; not beyond its last.
+    fn varyings(&mut self, from: usize, to: usize) -> &[V];
+}
+
+impl<V: Copy> Run<'_, V> {
+    /// One past the last column.
+    #[must_use]
+    #[inline]
+    pub fn x1_px(&self) -> i32 {
+        self.x0_px + self.depths.len() as i32
+    }
+
+    /// All fragments, from the first on.
+    #[inline]
+    pub fn each(self, mut emit: impl FnMut(Fragment<V>)) {
+        let varyings = self.values.varyings(0, self.depths.len());
+        for ((x_px, depth), varying) in (self.x0_px..).zip(self.depths).zip(varyings) {
+            emit(Fragment { x_px, y_px: self.y_px, depth: *depth, varying: *varying });
+        }
+    }
+}
+
+/// A run of one fragment.
+struct Known<V>(V);
+
+impl<V> Varyings<V> for Known<V> {
+    fn varyings(&mut self, from: usize, to: usize) -> &[V] {
+        &std::slice::from_ref(&self.0)[from..to]
+    }
 }
 
 /// Decides which pixels of a window a line segment lights, and its values there.
@@ -127,6 +195,16 @@ impl<R: Interpolate> Interpolate for &R {
         emit: impl FnMut(Fragment<V>),
     ) {
         (**self).affine_fragments(triangle, bounds, emit);
+    }
+
+    fn runs<V: Varying>(
+        &self,
+        triangle: &ScreenTriangle<V>,
+        bounds: PixelRect,
+        affine: bool,
+        take: &mut dyn FnMut(Run<'_, V>),
+    ) {
+        (**self).runs(triangle, bounds, affine, take);
     }
 }
 

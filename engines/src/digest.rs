@@ -11,6 +11,7 @@ use serde::Serialize;
 use sha2::{Digest as _, Sha256};
 
 use crate::contract::{DrawLine, Interpolate, Rasterize, RasterizeExact};
+use crate::each::Each as _;
 use crate::effects::plan::Canvas;
 use crate::effects::{Effect, Effects, Mode};
 use crate::frame::Coverage;
@@ -65,9 +66,9 @@ const EXACT_ENGINES: [ExactEngine; 3] =
 fn jobs() -> Vec<Job> {
     let mut jobs = Vec::new();
     jobs.extend(ENGINES.iter().flat_map(|&e| [Job::Coverage(e), Job::Values(e)]));
-    jobs.extend(LINE_ENGINES.map(Job::Lines));
-    jobs.extend(EXACT_ENGINES.map(Job::OffGrid));
-    jobs.extend(Drawer::ALL.map(Job::Frames));
+    jobs.extend(LINE_ENGINES.each(Job::Lines));
+    jobs.extend(EXACT_ENGINES.each(Job::OffGrid));
+    jobs.extend(Drawer::ALL.each(Job::Frames));
     jobs
 }
 

@@ -136,6 +136,16 @@ impl<T: Copy> Frame<T> {
         &mut self.data[start + x0..start + x1]
     }
 
+    /// Everything from pixel (x, y) on: rows lie [`Frame::pitch`] apart.
+    ///
+    /// # Panics
+    /// If the pixel lies outside the frame.
+    #[inline]
+    pub(crate) fn tail_mut(&mut self, x_px: i32, y_px: i32) -> &mut [T] {
+        let start = self.row_start(y_px) + (x_px - self.bounds.x0) as usize;
+        &mut self.data[start..]
+    }
+
     /// The value of pixel (x, y), or nothing outside the frame.
     #[must_use]
     #[inline]

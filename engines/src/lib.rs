@@ -11,6 +11,7 @@ pub mod angle;
 pub mod contract;
 #[cfg(feature = "host")]
 pub mod digest;
+pub mod each;
 pub mod effects;
 #[cfg(feature = "host")]
 pub mod exhaust;
@@ -22,6 +23,7 @@ pub mod line;
 pub mod lineup;
 pub mod mutant;
 pub mod oracle;
+pub mod paint;
 pub mod pipeline;
 pub mod raster;
 pub mod scene;

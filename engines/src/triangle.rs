@@ -4,6 +4,7 @@
 
 use std::ops::{Add, Mul, Sub};
 
+use crate::each::Each as _;
 use crate::grid::{DOMAIN_PX, Refusal, SubpixelPoint};
 
 /// Something that can be interpolated: a number or a vector of numbers.
@@ -117,7 +118,7 @@ impl FreeCorners {
 impl From<Corners> for FreeCorners {
     /// The same positions in pixels, exactly; the lattice lies in the domain.
     fn from(corners: Corners) -> Self {
-        Self(corners.map(|corner| corner.to_px().into()))
+        Self(corners.each(|corner| corner.to_px().into()))
     }
 }
 

@@ -11,7 +11,7 @@ pub mod report;
 
 // The floors below, under the paths that every room calls them by.
 use rasterproof_engines::{
-    contract, effects, exhaust, frame, grid, hazard, line, lineup, mutant, oracle, pipeline,
+    contract, each, effects, exhaust, frame, grid, hazard, line, lineup, mutant, oracle, pipeline,
     raster, scene, specimen, tile, triangle,
 };
 use rasterproof_measures::{cost, verify};

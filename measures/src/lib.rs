@@ -9,6 +9,6 @@ pub mod verify;
 
 // The floors below, under the paths that every room calls them by.
 use rasterproof_engines::{
-    contract, effects, frame, grid, hazard, ladder, line, lineup, oracle, pipeline, raster, scene,
-    specimen, triangle,
+    contract, each, effects, frame, grid, hazard, ladder, line, lineup, oracle, pipeline, raster,
+    scene, specimen, triangle,
 };

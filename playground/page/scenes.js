@@ -1,152 +1,18 @@
 // The scenes: what each asks the engines, how it colours the answer, what it says about a pixel.
 // A scene is {start, ask, panels, look?, tools?, choices?, fields?, breaks?, keeps?, handles?, place?}.
 
-const at = (x, y, more = {}) => ({ x, y, w: 1, depth: 0, u: 0, v: 0, ...more });
-const corner = (i) => LETTERS[i % LETTERS.length];
-const table = (head, rows) => make('div', { className: 'scroll' }, make('table', {},
-  make('thead', {}, make('tr', {}, ...head.map((cell) => make('th', {}, cell)))),
-  make('tbody', {}, ...rows.map((row) => make('tr', {}, ...row.map((cell, i) => (
-    cell instanceof Node ? make('td', {}, cell) : make('td', { className: i && /^[-\d.]/.test(cell) ? 'number' : '' }, String(cell)))))))));
-const round = (value, digits = 4) => (Number.isFinite(value) ? String(Number(value.toFixed(digits))) : '–');
-const mix = (value) => Math.round(255 * Math.max(0, Math.min(1, value)));
-
-/** Names with a label, for a panel to choose from. */
-function painters() {
-  const rules = [['exclusive-edges', word('strict')], ['inclusive-edges', word('inclusive')]];
-  const label = (name) => (name === 'edge-function' ? `${name}: ${word('tl')}` : name);
-  return [...names.triangles.slice(0, 2).map((e) => [e.name, label(e.name)]), ...rules, ...names.triangles.slice(2).map((e) => [e.name, e.name])];
-}
-
-/** A pixel by its hits and what they should be. */
-function judged(hits, right) {
-  const [is, should] = [Number(hits), Number(right)];
-  if (is === 0 && should === 0) return null;
-  if (is < should) return { colour: colours.missing, glyph: is ? String(is) : '−' };
-  const glyph = is > 1 || state.numbers ? String(is) : '';
-  if (is > should) return { colour: is > 1 ? colours.twice : colours.extra, glyph: glyph || '+' };
-  return { colour: colours.agrees, glyph };
-}
-
-function verdict(panel) {
-  if (panel.refused) return { says: `${word('refused')}: ${panel.refused}`, bad: true };
-  const wrong = panel.missing + panel.extra > 0;
-  const count = panel.covered === undefined ? '' : `${panel.covered} ${word('covered')}: `;
-  const says = wrong
-    ? [panel.missing && `${panel.missing} ${word('missing')}`, panel.extra && `${panel.extra} ${word('extra')}`].filter(Boolean).join(', ')
-    : word('agrees');
-  return { says: count + says, bad: wrong };
-}
-
-/** Two panels, or four. */
-function setFour() {
-  const more = ['scanline', 'oracle', 'inclusive-edges', 'games101-strict', 'exclusive-edges'];
-  while (state.four && state.by.length < 4) state.by.push(more.find((name) => !state.by.includes(name)) ?? 'oracle');
-  if (!state.four) state.by.length = 2;
-}
-
-// --- What is said about a pixel ------------------------------------------------------------------
-
-function edgesOf(triangle) {
-  return triangle.edges.map((edge) => [
-    `${edge.ends.map((end) => corner(end)).join(' ')}`,
-    edge.value,
-    edge.sign === 0 ? word('onEdge') : word(edge.sign > 0 ? 'inside' : 'outside'),
-    word(edge.topLeft ? 'topLeft' : 'notTopLeft'),
-  ]);
-}
-
-function rulesOf(triangle) {
-  const all = (test) => word(triangle.edges.every(test) ? 'yes' : 'no');
-  return [
-    [word('strict'), all((e) => e.sign > 0)],
-    [word('inclusive'), all((e) => e.sign >= 0)],
-    [word('tl'), all((e) => e.sign > 0 || (e.sign === 0 && e.topLeft))],
-  ];
-}
-
-/** Why rules differ here, if they do. */
-function reason(triangles) {
-  const touching = triangles.filter((t) => t.edges?.every((e) => e.sign >= 0) && t.edges.some((e) => e.sign === 0));
-  if (touching.length === 0) return null;
-  const strict = triangles.some((t) => t.edges?.every((e) => e.sign > 0));
-  const { by } = state;
-  const says = [];
-  if (by.includes('exclusive-edges') || by.includes('games101-strict')) says.push(strict ? null : word('hole'));
-  if ((by.includes('inclusive-edges') || by.includes('sysu-inclusive')) && touching.length > 1) says.push(word('double'));
-  if (triangles.some((t) => t.covered)) says.push(word('once'));
-  return says.filter(Boolean).map((text) => make('p', { className: 'say' }, text));
-}
-
-function aboutPixel() {
-  const head = make('h2', {}, `${word('pixel')} ${state.px?.join(', ') ?? ''}`);
-  if (!state.snap) return [head, make('p', {}, word('onlyLattice'))];
-  if (!last.look) return [head];
-  const { triangles } = last.look;
-  const near = triangles.map((t, i) => ({ ...t, i })).filter((t) => t.edges?.every((e) => e.sign >= 0));
-  const listed = near.length ? near : triangles.slice(0, 1).map((t, i) => ({ ...t, i }));
-  const parts = [head, ...(reason(triangles) ?? [])];
-  for (const triangle of listed.slice(0, 4)) {
-    if (!triangle.edges) { parts.push(make('p', {}, `${word('ofTriangle')} ${triangle.i + 1}: ${word('degenerate')}`)); continue; }
-    parts.push(make('p', {}, make('strong', {}, `${word('ofTriangle')} ${triangle.i + 1}`)),
-      table([word('edge'), word('value'), '', word('ifOn')], edgesNamed(triangle)),
-      make('p', { className: 'quiet' }, `${word('belongs')}: ${rulesOf(triangle).map((rule) => rule.join(': ')).join('; ')}`));
-  }
-  const walked = listed.find((t) => t.rows.length);
-  if (walked) parts.push(walkOf(walked));
-  return parts;
-}
-
-/** The letters of the handles at the ends of each edge. */
-function edgesNamed(triangle) {
-  const all = handles();
-  const letter = (end) => corner(all.findIndex((handle) => handle.members.includes(state.triangles[triangle.i][end])));
-  return edgesOf(triangle).map((row, i) => [triangle.edges[i].ends.map(letter).join(' → '), ...row.slice(1)]);
-}
-
-/** The rows of the scanline up to the pixel's, with a button that plays them. */
-function walkOf(triangle) {
-  const { rows } = triangle;
-  const row = rows.findIndex((r) => r.y_px === state.px[1]);
-  const first = Math.max(0, Math.min(row < 0 ? 0 : row - 3, rows.length - 5));
-  const cell = (step) => [String(step.column), String(step.remainder), step.carries ? '+1' : ''];
-  const head = [word('row'), word('longEdge'), word('remainder'), word('carry'), word('shortEdge'), word('remainder'), word('carry')];
-  const body = rows.slice(first, first + 6).map((r) => [`${r.y_px === state.px[1] ? '▸ ' : ''}${r.y_px}`, ...cell(r.long), ...cell(r.short)]);
-  const here = rows[Math.max(row, 0)];
-  const step = (name, walk) => `${word(name)}: + ${walk.step_whole}, − ${walk.step_part} / ${walk.dy}`;
-  const steps = `${word('eachRow')} ${step('longEdge', here.long)}; ${step('shortEdge', here.short)}`;
-  return make('details', { open: state.walk !== false, ontoggle: (event) => { state.walk = event.target.open; } },
-    make('summary', {}, word('walk')),
-    button(word(state.playing ? 'pause' : 'play'), playRows, { id: 'play' }), table(head, body), make('p', {}, steps), make('p', { className: 'quiet' }, word('walkNote')));
-}
-
-function playRows() {
-  clearInterval(state.playing);
-  if (state.playing) { state.playing = 0; redraw(); return; }
-  state.hover = false;
-  state.playing = setInterval(() => {
-    const { rows } = last.look?.triangles.find((t) => t.rows.length) ?? { rows: [] };
-    const next = state.px[1] + 1;
-    if (!rows.length || next > rows.at(-1).y_px || next >= state.window[3]) { clearInterval(state.playing); state.playing = 0; redraw(); return; }
-    lookAt(state.px[0], next);
-  }, 700);
-  redraw();
-}
-
-// --- The scenes ----------------------------------------------------------------------------------
-
-const SQUARE = [[at(2.5, 2.5), at(10.5, 2.5), at(10.5, 10.5)], [at(2.5, 10.5), at(2.5, 2.5), at(10.5, 10.5)]];
-
 const SCENES = {
   triangle: {
-    start: { window: [0, 0, 14, 14], triangles: SQUARE, by: ['scanline', 'exclusive-edges'], px: [6, 6] },
+    start: { window: [0, 0, 14, 14], triangles: SQUARE, by: ['scanline', 'exclusive-edges'], px: [6, 6], difference: false },
     choices: painters,
     ask: () => ask({ ask: 'draw', picture: picture(), by: state.by }),
-    panels: (answer) => answer.panels.map((panel) => ({
+    keeps: ['difference'],
+    panels: (answer) => [...answer.panels.map((panel) => ({
       select: panel.name,
       ...verdict(panel),
       pixel: (i) => (panel.hits ? judged(panel.hits[i], answer.truth[i]) : null),
-    })),
-    tools: () => [check(word('snap'), 'snap', () => { if (state.snap) snapAll(); }), check(word('numbers'), 'numbers'), check(word('four'), 'four', setFour)],
+    })), ...(state.difference ? [difference(answer)] : [])],
+    tools: () => [rules(), shapes(), check(word('snap'), 'snap', () => { if (state.snap) snapAll(); }), check(word('numbers'), 'numbers'), check(word('four'), 'four', setFour), check(word('difference'), 'difference')],
     look: (answer) => [...aboutPixel(), make('p', { className: 'quiet' }, `${answer.ties ?? 0} ${word('ties')}`)],
     breaks: () => ({ families: [...names.families, ...names.offFamilies], who: painters(), defaults: { by: 'games101-strict', family: 'half-integer' } }),
   },
@@ -192,9 +58,12 @@ const SCENES = {
       const rise = step * line.rise;
       const length = Math.max(1, line.length);
       const rows = (answer.panels ?? []).map((panel) => [panel.name, (panel.pixels?.[0]?.[step] ?? ['–']).join(', ')]);
+      const whole = Math.floor(rise / length);
+      const part = rise - whole * length;
+      const half = part === 0 ? 'exact' : 2 * part < length ? 'lower' : 2 * part > length ? 'upper' : 'halfway';
       return [
         make('h2', {}, `${word('after')} ${step} ${word('ofSteps')} ${line.length}, ${word('along')} ${line.major}`),
-        make('p', {}, `${word('exactHeight')} ${rise} / ${length} = ${round(rise / length)}`),
+        make('p', {}, `${word('exactHeight')} ${rise} / ${length} = ${whole} + ${part} / ${length}: ${word(half)}`),
         table([word('engines'), word('pixel')], rows),
       ];
     },
@@ -209,7 +78,7 @@ const SCENES = {
     ask: () => ask({ ask: 'values', picture: picture(), by: state.by }),
     panels: (answer) => answer.panels.map((panel) => ({
       select: panel.name,
-      says: panel.refused ?? `${word('worst')}: ${panel.worst[1].toExponential(1)}`,
+      says: panel.refused ?? `${word('worst')} ${panel.worst[1] ? panel.worst[1].toExponential(1) : 0}`,
       bad: panel.refused || panel.worst[1] > 1e-9 ? true : undefined,
       pixel: (i) => {
         const value = panel.values?.[i];
@@ -241,7 +110,7 @@ const SCENES = {
     ask: () => ask({ ask: 'values', picture: picture(), by: state.by }),
     panels: (answer) => answer.panels.map((panel) => ({
       select: panel.name,
-      says: panel.refused ?? `${word('worst')}: ${round(panel.worst[1], 3)}`,
+      says: panel.refused ?? `${word('worst')} ${round(panel.worst[1], 3)}`,
       bad: panel.refused || panel.worst[1] > 1e-9 ? true : undefined,
       pixel: (i) => {
         const value = panel.values?.[i];
@@ -286,7 +155,7 @@ const SCENES = {
     start: { window: [0, 0, 32, 32], near: 1, points: [[-0.6, -0.7, 2], [0.7, -0.5, 2], [-0.1, 0.6, 0.4]] },
     keeps: ['near', 'points'],
     noSamples: true,
-    handles: () => state.points.map((p) => ({ x: (p[0] + 1) * 16, y: (1 - p[1]) * 16, members: [p] })),
+    handles: () => state.points.map((p) => ({ x: Number(round((p[0] + 1) * 16, 6)), y: Number(round((1 - p[1]) * 16, 6)), members: [p] })),
     place: (handle, x, y) => { handle.members[0].splice(0, 2, Math.round((x / 16 - 1) * 100) / 100, Math.round((1 - y / 16) * 100) / 100); },
     fields: [{ key: 'w', step: 0.1, get: (h) => h.members[0][2], set: (h, value) => { h.members[0][2] = value; } }],
     ask: () => ask({ ask: 'near', side_px: 32, corners: state.points, near: state.near }),
@@ -334,65 +203,6 @@ const SCENES = {
       return [make('label', { className: 'group' }, `${word('cullWhat')} `, select), ...state.triangles.map((_, i) => turn(i))];
     },
     look: (answer) => [table([word('ofTriangle'), '2A', '', ''], (answer.areas ?? []).map((area, i) => [
-      String(i + 1), area.twiceArea, word(area.sign > 0 ? 'clockwise' : area.sign < 0 ? 'counter-clockwise' : 'degenerate'), word(area.removed ? 'left' : 'drawn')]))],
+      String(i + 1), area.twiceArea, word(area.sign > 0 ? 'clockwise' : area.sign < 0 ? 'counter-clockwise' : 'degenerate'), word(area.removed ? 'removed' : 'drawn')]))],
   },
 };
-
-/** A value of the corners, in the table; at least `low`. */
-function field(key, low, step) {
-  return { key, step, get: (handle) => handle.members[0][key], set: (handle, value) => setField(handle, key, Math.max(low, value)) };
-}
-
-function setField(handle, key, value) {
-  for (const member of handle.members) member[key] = value;
-}
-
-/** A slider for a value of each corner. */
-const sliders = (key, range) => handles().map((handle, i) => (
-  slide(`${key} ${corner(i)}`, handle.members[0][key], range, (next) => setField(handles()[i], key, next))));
-
-function snapAll() {
-  for (const c of state.triangles.flat()) Object.assign(c, { x: Math.round(c.x * SUB) / SUB, y: Math.round(c.y * SUB) / SUB });
-}
-
-function stepper() {
-  const range = make('input', { type: 'range', id: 'step', min: 0, max: 64, value: state.step });
-  range.addEventListener('input', () => stepTo(Number(range.value)));
-  return range;
-}
-
-function stepTo(step) {
-  const most = last.answer?.lines?.[0]?.length ?? 0;
-  state.step = Math.max(0, Math.min(step, most));
-  if ($('step')) Object.assign($('step'), { max: most, value: state.step });
-  redraw();
-}
-
-function playSteps() {
-  clearInterval(state.playing);
-  stepTo(0);
-  state.playing = setInterval(() => {
-    const before = state.step;
-    if (state.scene === 'line') stepTo(state.step + 1);
-    if (state.scene !== 'line' || state.step === before) clearInterval(state.playing);
-  }, 250);
-}
-
-/** t against t', as a curve in a square, with the diagonal for comparison. */
-function plot(pairs) {
-  const path = pairs.map(([screen, space], i) => `${i ? 'L' : 'M'}${(screen * 100).toFixed(2)} ${(100 - space * 100).toFixed(2)}`).join('');
-  const svg = document.createElementNS('http://www.w3.org/2000/svg', 'svg');
-  svg.setAttribute('viewBox', '-4 -4 108 108');
-  svg.setAttribute('role', 'img');
-  svg.setAttribute('aria-label', word('tPlot'));
-  svg.style.maxWidth = '14rem';
-  const line = (d, colour, width) => {
-    const element = document.createElementNS('http://www.w3.org/2000/svg', 'path');
-    for (const [name, value] of Object.entries({ d, fill: 'none', stroke: colour, 'stroke-width': width })) element.setAttribute(name, value);
-    svg.append(element);
-  };
-  line('M0 0V100H100', colours.cursor, 0.8);
-  line('M0 100L100 0', colours.grid, 1);
-  line(path, colours.edge, 2);
-  return svg;
-}

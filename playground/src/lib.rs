@@ -10,5 +10,6 @@ pub mod page;
 
 // The floors below, under the paths that every room calls them by.
 use rasterproof_engines::{
-    contract, frame, grid, hazard, line, lineup, oracle, pipeline, raster, specimen, triangle,
+    contract, frame, grid, hazard, line, lineup, mutant, oracle, pipeline, raster, specimen,
+    triangle,
 };

@@ -5,9 +5,22 @@ use base64::engine::general_purpose::STANDARD;
 
 const TEMPLATE: &str = include_str!("../page/page.html");
 const STYLE: &str = include_str!("../page/page.css");
-const WORDS: &str = include_str!("../page/words.js");
-const SCENES: &str = include_str!("../page/scenes.js");
-const SCRIPT: &str = include_str!("../page/page.js");
+const SCRIPTS: [&str; 14] = [
+    include_str!("../page/words.js"),
+    include_str!("../page/cases.js"),
+    include_str!("../page/engines.js"),
+    include_str!("../page/state.js"),
+    include_str!("../page/parts.js"),
+    include_str!("../page/look.js"),
+    include_str!("../page/scenes.js"),
+    include_str!("../page/frames.js"),
+    include_str!("../page/panels.js"),
+    include_str!("../page/listen.js"),
+    include_str!("../page/tools.js"),
+    include_str!("../page/hunt.js"),
+    include_str!("../page/address.js"),
+    include_str!("../page/start.js"),
+];
 
 /// What a page may weigh, so that it can be sent and opened anywhere.
 pub const MOST_BYTES: usize = 3_000_000;
@@ -22,9 +35,7 @@ pub fn page(module: &[u8]) -> Result<String, String> {
     }
     let parts = [
         ("{{style}}", STYLE),
-        ("{{words}}", WORDS),
-        ("{{scenes}}", SCENES),
-        ("{{script}}", SCRIPT),
+        ("{{script}}", &SCRIPTS.join("\n")),
         ("{{module}}", &STANDARD.encode(module)),
     ];
     let page = parts

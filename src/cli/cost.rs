@@ -2,10 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-
 use super::page::{PageArguments, write_page};
-use super::{Failure, Streams, exit, usage, write_file};
+use super::progress::Progress;
+use super::{Failure, Streams, exit, program, usage, write_file};
 use crate::cost::{Board, Ladder, Options, Recorded, measure};
 use crate::report::chart::{self, Drawing};
 use crate::report::html::{Figure, Report};
@@ -70,7 +69,7 @@ impl CostArguments {
     /// The command that repeats the run.
     fn repeat(&self) -> String {
         use clap::ValueEnum as _;
-        let mut command = "rasterproof cost".to_owned();
+        let mut command = format!("{} cost", program());
         if let Some(value) = self.which.and_then(|which| which.to_possible_value()) {
             command += &format!(" {}", value.get_name());
         }
@@ -189,28 +188,17 @@ fn write_plots(
     Ok(written)
 }
 
-fn measure_all(ladders: &[Ladder], arguments: &CostArguments, progress: bool) -> Vec<Board> {
-    let bar = if progress { ProgressBar::new(1000) } else { ProgressBar::hidden() };
-    if progress {
-        bar.set_draw_target(ProgressDrawTarget::stderr_with_hz(8));
-        if let Ok(style) = ProgressStyle::with_template(
-            "{elapsed_precise} {wide_bar} {percent}% {msg}, {eta} left",
-        ) {
-            bar.set_style(style);
-        }
-    }
+fn measure_all(ladders: &[Ladder], arguments: &CostArguments, on_terminal: bool) -> Vec<Board> {
+    let progress = Progress::new(on_terminal, "percent", Some(100));
     let options = Options { seed: arguments.seed, quick: arguments.quick, timed: true };
-    let boards = ladders
+    ladders
         .iter()
         .enumerate()
         .map(|(done, &ladder)| {
             measure(ladder, &options, &|share, what| {
                 let all = (done as f64 + share) / ladders.len() as f64;
-                bar.set_position((all * 1000.0) as u64);
-                bar.set_message(what.to_owned());
+                progress.at((all * 100.0) as u64, what);
             })
         })
-        .collect();
-    bar.finish_and_clear();
-    boards
+        .collect()
 }

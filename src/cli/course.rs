@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use super::course_grade::{self, GradeArguments};
+use super::progress::Progress as Shown;
 use super::{Failure, Streams, exit, usage, write_file};
 use crate::course::examine::{self, Amount};
 use crate::course::progress::{self, Progress};
@@ -162,6 +163,7 @@ fn run_check(arguments: &CheckArguments, streams: &mut Streams<'_>) -> Result<u8
     };
     group::end_all_on_ctrl_c();
     let limits = sandbox::Bounds::default();
+    let shown = Shown::new(streams.progress, "steps", Some(1));
     sandbox::build(&arguments.dir, &progress.build, &limits).map_err(usage)?;
     let program = sandbox::start(&arguments.dir, &progress.run, &limits, Limits::default());
     let mut program = program.map_err(usage)?;
@@ -172,6 +174,7 @@ fn run_check(arguments: &CheckArguments, streams: &mut Streams<'_>) -> Result<u8
         patience: Duration::from_secs(3),
     };
     let outcome = examine::examine(&mut program, step, &amount);
+    drop(shown);
     let before = progress.failures.min(3) * usize::from(progress.step == step.name);
     progress.note(step, outcome.passes());
     write_file(&progress::path(&arguments.dir), progress.text().as_bytes())?;

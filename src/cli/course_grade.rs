@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
 
+use super::progress::Progress as Shown;
 use super::{Failure, Streams, exit, usage};
 use crate::course::examine::{self, Amount};
 use crate::course::progress::{self, Progress};
@@ -119,6 +120,7 @@ pub fn run(arguments: &GradeArguments, streams: &mut Streams<'_>) -> Result<u8, 
     };
     group::end_all_on_ctrl_c();
     let mut grades = Vec::new();
+    let shown = Shown::new(streams.progress, "submissions", Some(submissions.len() as u64));
     for submission in submissions {
         let grade = match submission {
             Ok(submission) => grade(&submission, arguments),
@@ -127,7 +129,9 @@ pub fn run(arguments: &GradeArguments, streams: &mut Streams<'_>) -> Result<u8, 
             }
         };
         grades.push(grade);
+        shown.done(1);
     }
+    drop(shown);
     let text = match arguments.format {
         Format::Text => text(&grades, arguments.folder.is_some()),
         Format::Json => pretty(&everything(&grades, arguments)),

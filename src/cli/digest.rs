@@ -1,7 +1,6 @@
 //! `rasterproof digest`: everything the engines compute for a seed, hashed, to compare machines.
 
-use indicatif::{ProgressBar, ProgressDrawTarget};
-
+use super::progress::Progress;
 use super::{Failure, Streams, exit};
 use crate::digest::{self, Options};
 
@@ -33,12 +32,10 @@ pub struct DigestArguments {
 pub fn run(arguments: &DigestArguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
     let DigestArguments { seed, cases, engine, json } = arguments;
     let (options, engine) = (Options { seed: *seed, cases: *cases }, engine.as_deref());
-    let bar = ProgressBar::with_draw_target(
-        Some(digest::case_count(options, engine)),
-        if streams.progress { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() },
-    );
-    let parts = digest::digest(options, engine, &|more| bar.inc(more));
-    bar.finish_and_clear();
+    let cases_in_all = digest::case_count(options, engine);
+    let progress = Progress::new(streams.progress, "cases", Some(cases_in_all));
+    let parts = digest::digest(options, engine, &|more| progress.done(more));
+    drop(progress);
     let total = digest::total(&parts);
     if *json {
         let json = serde_json::json!({

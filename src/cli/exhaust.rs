@@ -5,12 +5,12 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use clap::Subcommand;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
+use super::progress::Progress;
 use super::{Failure, Streams, exit, usage, write_file};
 use crate::exhaust::certificate::{self, Certificate};
 use crate::exhaust::identity::Shard;
-use crate::exhaust::run::{self, Progress};
+use crate::exhaust::run;
 use crate::exhaust::{Plan, edges::Edges, lines::Lines, triangles::Triangles};
 
 /// Time between two checkpoints.
@@ -151,23 +151,25 @@ pub fn run(arguments: &ExhaustArguments, streams: &mut Streams<'_>) -> Result<u8
     let shard = Shard { part: arguments.common.shard.0, parts: arguments.common.shard.1 };
     let path = arguments.checkpoint(&plan);
     let start = if arguments.common.restart { None } else { resume(&path, &plan, shard)? };
-    let start = start.unwrap_or_else(|| Progress::new(&plan, shard));
+    let start = start.unwrap_or_else(|| run::Progress::new(&plan, shard));
 
-    let bar = progress_bar(&plan, shard, &start, streams.progress);
-    let save = |progress: &Progress| {
-        let text = serde_json::to_string(progress).unwrap_or_default();
+    let cases = plan.enumeration().expected_cases() / shard.parts;
+    let progress = Progress::new(streams.progress, "cases", Some(cases));
+    progress.resume_at(start.tally.cases);
+    let save = |state: &run::Progress| {
+        let text = serde_json::to_string(state).unwrap_or_default();
         // A full disk must not end a proof; the next save may succeed.
         if let Err(failure) = write_file(&path, text.as_bytes()) {
-            bar.suspend(|| eprintln!("warning: {failure}"));
+            progress.warn(&format!("warning: {failure}"));
         }
     };
     // Find out at once, not after hours, whether it can be written.
     let text = serde_json::to_string(&start).unwrap_or_default();
     write_file(&path, text.as_bytes())?;
-    let finished = run::run(start, SAVE_EVERY, &save, &|cases| bar.inc(cases));
-    bar.finish_and_clear();
+    let finished = run::run(start, SAVE_EVERY, &save, &|cases| progress.done(cases));
     // Until the certificate is written, the checkpoint is all there is.
     save(&finished);
+    drop(progress);
     let certificate = Certificate::new(finished, rayon::current_num_threads());
     let status = issue(&certificate, arguments.common.output.as_deref(), streams)?;
     let _ = std::fs::remove_file(&path);
@@ -175,14 +177,14 @@ pub fn run(arguments: &ExhaustArguments, streams: &mut Streams<'_>) -> Result<u8
 }
 
 /// The state in the checkpoint file, if there is one.
-fn resume(path: &Path, plan: &Plan, shard: Shard) -> Result<Option<Progress>, Failure> {
+fn resume(path: &Path, plan: &Plan, shard: Shard) -> Result<Option<run::Progress>, Failure> {
     let name = path.display();
     let text = match std::fs::read_to_string(path) {
         Ok(text) => text,
         Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
         Err(error) => return Err(usage(format!("cannot read the checkpoint {name}: {error}"))),
     };
-    let progress: Progress = serde_json::from_str(&text).map_err(|error| {
+    let progress: run::Progress = serde_json::from_str(&text).map_err(|error| {
         usage(format!("{name} is not a checkpoint ({error}); --restart ignores it"))
     })?;
     if !progress.belongs_to(plan, shard) {
@@ -194,22 +196,6 @@ fn resume(path: &Path, plan: &Plan, shard: Shard) -> Result<Option<Progress>, Fa
         return Err(usage(format!("the checkpoint {name} is damaged; --restart ignores it")));
     }
     Ok(Some(progress))
-}
-
-fn progress_bar(plan: &Plan, shard: Shard, start: &Progress, visible: bool) -> ProgressBar {
-    if !visible {
-        return ProgressBar::hidden();
-    }
-    let bar = ProgressBar::new(plan.enumeration().expected_cases() / shard.parts);
-    bar.set_draw_target(ProgressDrawTarget::stderr_with_hz(4));
-    let template = "{elapsed_precise} {wide_bar} {human_pos}/{human_len} cases, {eta} left";
-    if let Ok(style) = ProgressStyle::with_template(template) {
-        bar.set_style(style);
-    }
-    bar.set_position(start.tally.cases);
-    // The estimate is about this sitting.
-    bar.reset_eta();
-    bar
 }
 
 /// Writes the certificate, says what it says, and returns the exit status.

@@ -1,15 +1,19 @@
 //! `rasterproof inspect CASE --pixel X,Y`: why a pixel is covered or not, step by step: edge values,
 //! ties and whose they are, the span of the row, and who hits it.
 
+use std::cmp::Ordering;
 use std::fmt::Write as _;
 
-use crate::contract::Rasterize;
+use crate::contract::{Rasterize, RasterizeExact};
 use crate::grid::{PixelRect, SubpixelPoint};
 use crate::hazard::{Case, Line, Shape, Triangle};
 use crate::oracle::Oracle;
+use crate::oracle::rational::edge_value;
 use crate::raster::edge_function::edge_values;
+use crate::raster::edge_function_exact::EdgeFunctionExact;
 use crate::raster::scanline::Scanline;
-use crate::triangle::{Corners, PixelPoint};
+use crate::raster::scanline_exact::ScanlineExact;
+use crate::triangle::{Corners, FreeCorners, PixelPoint};
 
 /// Triangles or lines that are explained; the rest are counted.
 const MOST: usize = 8;
@@ -19,8 +23,8 @@ pub fn pixel(case: &Case, at: PixelPoint) -> String {
     let mut out = format!("pixel ({}, {})", at.x, at.y);
     let rest = match &case.shape {
         Shape::Triangles { list, .. } => {
-            let centre = [at.x, at.y].map(|v| f64::from(v) + 0.5);
-            let _ = writeln!(out, ": its sample is the centre, ({}, {})", centre[0], centre[1]);
+            let [x, y] = centre(at);
+            let _ = writeln!(out, ": its sample is the centre, ({x}, {y})");
             list.iter().take(MOST).for_each(|t| triangle(&mut out, t, case.window, at));
             list.len().saturating_sub(MOST)
         }
@@ -36,6 +40,25 @@ pub fn pixel(case: &Case, at: PixelPoint) -> String {
     out
 }
 
+/// The explanation of a pixel of triangles whose corners are not snapped.
+pub fn free_pixel(triangles: &[FreeCorners], window: PixelRect, at: PixelPoint) -> String {
+    let mut out = format!("pixel ({}, {}): its sample is the centre, ", at.x, at.y);
+    let _ = writeln!(out, "{}", free_point(centre(at)));
+    triangles.iter().take(MOST).for_each(|t| free_triangle(&mut out, t, window, at));
+    if triangles.len() > MOST {
+        let _ = writeln!(out, "and {} more", triangles.len() - MOST);
+    }
+    out
+}
+
+fn centre(at: PixelPoint) -> [f64; 2] {
+    [at.x, at.y].map(|v| f64::from(v) + 0.5)
+}
+
+fn free_point([x, y]: [f64; 2]) -> String {
+    format!("({x:?}, {y:?})")
+}
+
 fn point(p: SubpixelPoint) -> String {
     let (x, y) = p.to_px();
     format!("({x}, {y})")
@@ -43,14 +66,39 @@ fn point(p: SubpixelPoint) -> String {
 
 /// What an edge of a triangle is to the top-left rule: with the inside to its right, a left edge goes
 /// up and a top edge goes right.
-fn kind(from: SubpixelPoint, to: SubpixelPoint) -> (&'static str, bool) {
-    let (dx, dy) = (i64::from(to.x) - i64::from(from.x), i64::from(to.y) - i64::from(from.y));
-    match (dx.signum(), dy.signum()) {
-        (_, -1) => ("a left edge", true),
-        (1, 0) => ("a top edge", true),
-        (_, 0) => ("a bottom edge", false),
-        _ => ("a right edge", false),
+fn kind<T: PartialOrd>([x0, y0]: [T; 2], [x1, y1]: [T; 2]) -> (&'static str, bool) {
+    match (x1 > x0, y1 < y0, y1 > y0) {
+        (_, true, _) => ("a left edge", true),
+        (_, _, true) => ("a right edge", false),
+        (true, ..) => ("a top edge", true),
+        _ => ("a bottom edge", false),
     }
+}
+
+/// On which side of an edge the sample lies, and whether that makes it the triangle's.
+fn side(sign: Ordering, (name, owns): (&str, bool)) -> (String, bool) {
+    match sign {
+        Ordering::Greater => ("inside".to_owned(), true),
+        Ordering::Less => ("outside".to_owned(), false),
+        Ordering::Equal if owns => {
+            (format!("a tie: the sample lies on {name}, which owns it: inside"), true)
+        }
+        Ordering::Equal => {
+            (format!("a tie: the sample lies on {name}, which does not own it: outside"), false)
+        }
+    }
+}
+
+fn by_the_rule(out: &mut String, is_covered: bool) {
+    let verdict = if is_covered { "covered" } else { "not covered" };
+    let _ = writeln!(out, "  by the top-left rule: {verdict}");
+}
+
+fn span_of_row(out: &mut String, who: &str, row: i32, span: Option<(i32, i32)>) {
+    let _ = match span {
+        None => writeln!(out, "  {who} has no span in row {row}"),
+        Some((x0, x1)) => writeln!(out, "  {who}'s span of row {row} is columns {x0}..{x1}"),
+    };
 }
 
 fn triangle(out: &mut String, triangle: &Triangle, window: PixelRect, at: PixelPoint) {
@@ -73,27 +121,58 @@ fn triangle(out: &mut String, triangle: &Triangle, window: PixelRect, at: PixelP
     let mut is_covered = true;
     for (opposite, value) in values.into_iter().enumerate() {
         let (from, to) = (corners[(opposite + 1) % 3], corners[(opposite + 2) % 3]);
-        let (name, owns) = kind(from, to);
-        let what = match value.signum() {
-            1 => "inside".to_owned(),
-            -1 => "outside".to_owned(),
-            _ if owns => format!("a tie: the sample lies on {name}, which owns it: inside"),
-            _ => format!("a tie: the sample lies on {name}, which does not own it: outside"),
-        };
-        is_covered &= value > 0 || (value == 0 && owns);
+        let (what, is_inside) = side(value.cmp(&0), kind([from.x, from.y], [to.x, to.y]));
+        is_covered &= is_inside;
         let _ = writeln!(out, "  {} to {}: E = {value}, {what}", point(from), point(to));
     }
-    let verdict = if is_covered { "covered" } else { "not covered" };
-    let _ = writeln!(out, "  by the top-left rule: {verdict}");
+    by_the_rule(out, is_covered);
     let mut span = None;
     let row = PixelRect { y0: at.y, y1: at.y + 1, ..window };
     Scanline.cover(corners, row, |s| span = Some((s.x0_px, s.x1_px)));
-    let _ = match span {
-        None => writeln!(out, "  the scanline has no span in row {}", at.y),
-        Some((x0, x1)) => {
-            writeln!(out, "  the scanline's span of row {} is columns {x0}..{x1}", at.y)
+    span_of_row(out, "the scanline", at.y, span);
+}
+
+/// As [`triangle`], in exact arithmetic of any length: edge values in square pixels.
+fn free_triangle(out: &mut String, triangle: &FreeCorners, window: PixelRect, at: PixelPoint) {
+    let mut corners = triangle.px();
+    let _ = writeln!(out, "triangle {}", corners.map(free_point).join(" "));
+    match edge_value(corners[0], corners[1], corners[2]).0 {
+        Ordering::Equal => {
+            let _ = writeln!(out, "  zero area: it covers nothing");
+            return;
         }
-    };
+        Ordering::Less => {
+            corners.swap(1, 2);
+            let _ = writeln!(out, "  counter-clockwise: taken the other way round");
+        }
+        Ordering::Greater => {}
+    }
+    let mut is_covered = true;
+    for i in 0..3 {
+        let (from, to) = (corners[i], corners[(i + 1) % 3]);
+        let (sign, value) = edge_value(from, to, centre(at));
+        let value = match (sign, value == 0.0) {
+            (Ordering::Greater, true) => "above 0 by less than any f64".to_owned(),
+            (Ordering::Less, true) => "below 0 by less than any f64".to_owned(),
+            _ => format!("{value:?} px^2"),
+        };
+        let (what, is_inside) = side(sign, kind(from, to));
+        is_covered &= is_inside;
+        let _ =
+            writeln!(out, "  {} to {}:\n    E = {value}, {what}", free_point(from), free_point(to));
+    }
+    by_the_rule(out, is_covered);
+    let mut span = None;
+    let row = PixelRect { y0: at.y, y1: at.y + 1, ..window };
+    ScanlineExact.cover_exact(triangle, row, |s| span = Some((s.x0_px, s.x1_px)));
+    span_of_row(out, "scanline-exact", at.y, span);
+    let pixel = PixelRect { x0: at.x, x1: at.x + 1, ..row };
+    let decisions = EdgeFunctionExact.cover_exact(triangle, pixel, |_| ());
+    let _ = writeln!(
+        out,
+        "  edge-function-exact: {} signs by floats, {} too close to 0 for them",
+        decisions.by_filter, decisions.by_fallback
+    );
 }
 
 fn line(out: &mut String, line: &Line, window: PixelRect, at: PixelPoint) {

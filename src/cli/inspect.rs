@@ -55,6 +55,10 @@ pub struct InspectArguments {
     /// Show what this published algorithm draws as well; it is not judged
     #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(SPECIMENS.iter().map(|e| e.name)))]
     specimen: Option<String>,
+    /// Show what this Vulkan device draws as well, and judge it: vulkan:0
+    #[cfg(feature = "vulkan")]
+    #[arg(long, value_name = "NAME")]
+    engine: Option<String>,
     /// Judge this planted fault instead of the engines; `list` names them
     #[arg(long, value_name = "FAULT", value_parser = crate::mutant::about::names(), hide_possible_values = true)]
     plant: Option<String>,
@@ -96,6 +100,23 @@ fn parse_window(text: &str) -> Result<PixelRect, String> {
     Ok(PixelRect { x0, y0, x1: end(x0, width)?, y1: end(y0, height)? })
 }
 
+/// Whether the case has other corners than those typed, by the grid.
+fn is_snapped(case: &Case, typed: &FreeCorners) -> bool {
+    let Shape::Triangles { list, .. } = &case.shape else { return false };
+    list.iter().any(|triangle| FreeCorners::from(triangle.corners()) != *typed)
+}
+
+/// A pixel that is to be explained lies in what is drawn.
+fn in_window(window: PixelRect, at: PixelPoint) -> Result<(), Failure> {
+    if window.contains(at.x, at.y) {
+        return Ok(());
+    }
+    Err(usage(format!(
+        "pixel {},{} lies outside the window: add --window X,Y,WIDTHxHEIGHT",
+        at.x, at.y
+    )))
+}
+
 /// A planted fault that has no part in a case cannot be shown by it.
 fn no_part(plant: Option<&String>) -> Failure {
     let name = plant.map_or("", String::as_str);
@@ -120,12 +141,7 @@ pub fn run(arguments: &InspectArguments, streams: &mut Streams<'_>) -> Result<u8
     write!(out, "{}", cropped(&case, arguments))?;
     facts(&case, out)?;
     if let Some(at) = arguments.pixel {
-        if !w.contains(at.x, at.y) {
-            return Err(usage(format!(
-                "pixel {},{} lies outside the window: add --window X,Y,WIDTHxHEIGHT",
-                at.x, at.y
-            )));
-        }
+        in_window(w, at)?;
         write!(out, "\n{}", explain::pixel(&case, at))?;
     }
 
@@ -138,6 +154,8 @@ pub fn run(arguments: &InspectArguments, streams: &mut Streams<'_>) -> Result<u8
     if let Some(specimen) = specimen(arguments, None) {
         shown.add(specimen, &case)?;
     }
+    #[cfg(feature = "vulkan")]
+    let on_device = device(arguments, &case, &mut shown)?;
     let findings = verify::judge_case(&engines, &lines, &case);
     writeln!(out)?;
     if let Some(at) = arguments.pixel {
@@ -145,6 +163,11 @@ pub fn run(arguments: &InspectArguments, streams: &mut Streams<'_>) -> Result<u8
     }
     writeln!(out, "{}", ascii::side_by_side(&shown.blocks(), 100))?;
     let mut agrees = say_findings(&findings, out)?;
+    #[cfg(feature = "vulkan")]
+    if let Some((said, is_right)) = on_device {
+        writeln!(out, "{said}")?;
+        agrees &= is_right;
+    }
     if let Some(expected) = expected.filter(|_| arguments.window.is_none()) {
         let hits = oracle_pixels_each(&case);
         let as_expected = expected.is_empty() || hits == expected;
@@ -163,6 +186,9 @@ pub fn run(arguments: &InspectArguments, streams: &mut Streams<'_>) -> Result<u8
         let px = [parse_px(a)?, parse_px(b)?, parse_px(c)?];
         if let Ok(corners) = FreeCorners::new(px) {
             writeln!(out, "\nnot snapped:")?;
+            if let Some(at) = arguments.pixel.filter(|_| is_snapped(&case, &corners)) {
+                writeln!(out, "{}", explain::free_pixel(&[corners], case.window, at))?;
+            }
             let shown_too = specimen(arguments, None).map(|specimen| (specimen, case.window));
             let typed =
                 OffGridCase { window: case.window, triangles: vec![corners], is_tiling: false };
@@ -177,6 +203,27 @@ pub fn run(arguments: &InspectArguments, streams: &mut Streams<'_>) -> Result<u8
         write_report(arguments, view, agrees, streams)?;
     }
     Ok(if agrees { exit::AGREES } else { exit::DISAGREES })
+}
+
+/// Draws the case on the Vulkan device that is named: how it stands to the oracle.
+#[cfg(feature = "vulkan")]
+fn device(
+    arguments: &InspectArguments,
+    case: &Case,
+    shown: &mut shown::Shown,
+) -> Result<Option<(String, bool)>, Failure> {
+    let Some(engine) = &arguments.engine else { return Ok(None) };
+    let Shape::Triangles { list, .. } = &case.shape else {
+        return Err(usage("a Vulkan device is shown on triangles: leave out --engine"));
+    };
+    let corners: Vec<Corners> = list.iter().map(|t| t.corners()).collect();
+    let hits = super::vulkan::coverage(engine, &corners, case.window)?;
+    let tally = shown.add_drawn(engine, hits);
+    let said = match tally.total() {
+        0 => "agrees".to_owned(),
+        _ => format!("{} missing, {} extra, {} twice", tally.missing, tally.extra, tally.twice),
+    };
+    Ok(Some((format!("{engine} against oracle: {said}"), tally.total() == 0)))
 }
 
 /// A line for each pair that was compared; says whether all agree.
@@ -220,7 +267,7 @@ fn write_report(
         [word] if word.contains('#') => format!(" --seed {}", arguments.seed),
         _ => String::new(),
     };
-    let command = format!("rasterproof inspect{line} {}{seed}{plant}", name(arguments));
+    let command = format!("{} inspect{line} {}{seed}{plant}", program(), name(arguments));
     view.command.clone_from(&command);
     let (word, sentence) = match agrees {
         true => ("AGREES", "Every engine draws what the oracle draws."),
@@ -287,11 +334,6 @@ fn off_grid_alone(
     mut case: OffGridCase,
     streams: &mut Streams<'_>,
 ) -> Result<u8, Failure> {
-    if arguments.pixel.is_some() {
-        return Err(usage(
-            "--pixel explains lines and triangles on the grid, and this case is not",
-        ));
-    }
     let exact = Contestants::new(arguments.plant.as_deref()).exact;
     if exact.is_empty() {
         return Err(no_part(arguments.plant.as_ref()));
@@ -302,6 +344,17 @@ fn off_grid_alone(
     writeln!(out, "{title}")?;
     writeln!(out, "window: columns {}..{}, rows {}..{}", w.x0, w.x1, w.y0, w.y1)?;
     writeln!(out, "triangles {}\n", describe(&case.triangles))?;
+    if let Some(at) = arguments.pixel {
+        in_window(w, at)?;
+        writeln!(out, "{}", explain::free_pixel(&case.triangles, w, at))?;
+        let drawn = exact.iter().chain([&ExactEngine::Oracle]);
+        let hits = drawn.map(|engine| {
+            let hits =
+                exact_coverage(engine, &case).ok().and_then(|(hits, _)| hits.get(at.x, at.y));
+            format!("{} {}", engine.name(), hits.map_or("none".to_owned(), |h| h.to_string()))
+        });
+        writeln!(out, "hits of ({}, {}): {}\n", at.x, at.y, hits.collect::<Vec<_>>().join(", "))?;
+    }
     let recorded = recorded(&arguments.what);
     let screen = recorded.map(|_| PixelRect::window(RECORDED_SIDE_PX, RECORDED_SIDE_PX));
     let specimen = specimen(arguments, recorded).map(|s| (s, screen.unwrap_or(case.window)));

@@ -1,6 +1,9 @@
 //! `rasterproof verify --invariant NAME` and `rasterproof mutants`.
 
-use super::{Failure, Streams, exit, write_entry};
+use std::io::Write;
+
+use super::progress::Progress;
+use super::{Failure, Streams, exit, program, write_entry};
 use crate::invariant::matrix::{self, Matrix};
 use crate::invariant::subject::Subject;
 use crate::invariant::{CATALOGUE, Invariant};
@@ -33,14 +36,21 @@ pub fn run(
     let wanted: Vec<&Invariant> =
         CATALOGUE.iter().filter(|i| all || names.iter().any(|name| name == i.name)).collect();
     let mut wrong = 0;
-    for invariant in &wanted {
+    let progress = Progress::new(streams.progress, "invariants", Some(wanted.len() as u64));
+    // Standard output may be the terminal of the bar: what is said comes after it.
+    let mut text = Vec::new();
+    for (done, invariant) in wanted.iter().enumerate() {
+        progress.at(done as u64, invariant.name);
         let planted = plant.map(|name| format!(" --plant {name}")).unwrap_or_default();
         let repeat = format!(
-            "rasterproof verify --invariant {} --seed {seed} --cases {cases}{planted}",
+            "{} verify --invariant {} --seed {seed} --cases {cases}{planted}",
+            program(),
             invariant.name
         );
-        wrong += usize::from(!judge(invariant, &subject, (seed, cases), &repeat, streams)?);
+        wrong += usize::from(!judge(invariant, &subject, (seed, cases), &repeat, &mut text)?);
     }
+    drop(progress);
+    streams.output.write_all(&text)?;
     if wanted.len() > 1 {
         let held = wanted.len() - wrong;
         writeln!(
@@ -59,9 +69,8 @@ fn judge(
     subject: &Subject,
     (seed, cases): (u64, u64),
     repeat: &str,
-    streams: &mut Streams<'_>,
+    out: &mut dyn Write,
 ) -> Result<bool, Failure> {
-    let out = &mut streams.output;
     writeln!(out, "{} {}: {}", invariant.number, invariant.name, invariant.statement)?;
     let report = invariant.run(subject, seed, cases);
     writeln!(out, "  tolerance: {}", invariant.tolerance)?;
@@ -90,7 +99,10 @@ fn judge(
 
 /// Prints the matrix of invariants and mutants.
 pub fn mutants(streams: &mut Streams<'_>) -> Result<u8, Failure> {
-    let matrix = Matrix::compute(matrix::SEED, matrix::CASES);
+    let rows = Mutant::all().len() as u64;
+    let progress = Progress::new(streams.progress, "faults", Some(rows));
+    let matrix = Matrix::compute(matrix::SEED, matrix::CASES, &|| progress.done(1));
+    drop(progress);
     let out = &mut streams.output;
     writeln!(out, "{}", matrix.text())?;
     writeln!(out, "What each fault is (see one judged: rasterproof --plant NAME):")?;

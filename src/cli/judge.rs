@@ -4,11 +4,10 @@ use std::path::Path;
 use std::time::Duration;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::page::{PageArguments, write_page};
-use super::{Failure, Streams, exit, league, usage, write_file};
-use crate::hazard;
+use super::progress::Progress;
+use super::{Failure, Streams, exit, league, program, usage, write_file};
 use crate::judge::ask::Ask;
 use crate::judge::baseline::Baseline;
 use crate::judge::process::{Limits, Program};
@@ -91,7 +90,7 @@ fn format_words() -> impl TypedValueParser<Value = Format> {
 }
 
 fn families() -> Vec<&'static str> {
-    hazard::families().map(|family| family.name).filter(|name| *name != "far").collect()
+    place::families(&[]).into_iter().map(|family| family.name).collect()
 }
 
 fn seconds(text: &str) -> Result<Duration, String> {
@@ -128,7 +127,7 @@ impl JudgeArguments {
 
     /// A command that judges the same program, with these options first.
     fn repeat(&self, options: &str) -> String {
-        let mut out = format!("rasterproof judge {options} --seed {}", self.seed);
+        let mut out = format!("{} judge {options} --seed {}", program(), self.seed);
         for words in &self.declare {
             out += &format!(" --declare {}", quoted(words));
         }
@@ -183,16 +182,20 @@ pub fn run(arguments: &JudgeArguments, streams: &mut Streams<'_>) -> Result<u8, 
     let declared = askers[0].declared();
     if declared.capabilities().is_empty() {
         return Err(usage(format!(
-            "{} names no capability after HELLO; expected coverage, line, attributes or samples4",
+            "{} names no capability after HELLO; expected coverage, line, attributes, \
+             samples4, depth or clip",
             declared.name
         )));
     }
-    let bar = progress_bar(arguments, streams.progress);
+    let families = place::families(&arguments.family).len() as u64;
+    let cases = if arguments.case.is_some() { 1 } else { arguments.cases };
+    let total = families.saturating_mul(cases);
+    let progress = Progress::new(streams.progress, "cases", Some(total));
     let scope = arguments.scope();
     let recognise = |program: &mut dyn Ask| recognise(program, scope);
     let mut verdict =
-        judge::judge(&mut askers, &arguments.options(), &recognise, &|cases| bar.inc(cases));
-    bar.finish_and_clear();
+        judge::judge(&mut askers, &arguments.options(), &recognise, &|cases| progress.done(cases));
+    drop(progress);
     drop(askers);
     if verdict.found.rows.is_empty() {
         return Err(usage(
@@ -223,18 +226,4 @@ pub fn run(arguments: &JudgeArguments, streams: &mut Streams<'_>) -> Result<u8, 
     // A baseline that was just written knows everything.
     let agrees = verdict.agrees() || arguments.update_baseline;
     Ok(if agrees { exit::AGREES } else { exit::DISAGREES })
-}
-
-fn progress_bar(arguments: &JudgeArguments, is_shown: bool) -> ProgressBar {
-    if !is_shown || arguments.case.is_some() {
-        return ProgressBar::hidden();
-    }
-    let families = place::families(&arguments.family).len() as u64;
-    let bar = ProgressBar::new(families.saturating_mul(arguments.cases));
-    bar.set_draw_target(ProgressDrawTarget::stderr_with_hz(8));
-    let template = "{elapsed_precise} {wide_bar} {pos}/{len} cases";
-    if let Ok(style) = ProgressStyle::with_template(template) {
-        bar.set_style(style);
-    }
-    bar
 }

@@ -3,6 +3,7 @@
 use std::path::Path;
 use std::time::{SystemTime, UNIX_EPOCH};
 
+use super::progress::Progress;
 use super::{Failure, Streams, exit, usage, write_file};
 use crate::judge::ask::Ask;
 use crate::judge::league::{Adapter, League, Standing, date};
@@ -45,7 +46,11 @@ pub fn run(
         let everything = Scope { triangles: true, lines: true, always: true };
         let convention = |program: &mut dyn Ask| recognise(program, everything);
         let mut askers: Vec<Box<dyn Ask>> = vec![Box::new(program)];
-        let verdict = judge::judge(&mut askers, options, &convention, &|_| ());
+        let progress = Progress::new(streams.progress, "cases", None);
+        progress.at(0, &format!("of {}", adapter.name));
+        let verdict =
+            judge::judge(&mut askers, options, &convention, &|cases| progress.done(cases));
+        drop(progress);
         let standing = Standing::new(adapter, &verdict);
         write!(streams.output, "{:<22}", adapter.name)?;
         for (kind, what) in [(&standing.triangles, "triangles"), (&standing.lines, "lines")] {

@@ -23,6 +23,8 @@ mod review;
 mod shown;
 mod specimens;
 mod verify;
+#[cfg(feature = "vulkan")]
+mod vulkan;
 
 use std::fmt;
 use std::io::{self, BufRead, Write};
@@ -260,6 +262,8 @@ fn list(streams: &mut Streams<'_>) -> Result<u8, Failure> {
     for entry in lineup::ENTRIES.iter().chain(&lineup::SPECIMENS) {
         write_entry(out, &format!("{:<19}", entry.name), entry.about)?;
     }
+    #[cfg(feature = "vulkan")]
+    vulkan::list(out)?;
     writeln!(out, "\nPlanted faults (rasterproof --plant NAME; rasterproof mutants):")?;
     for (name, about) in crate::mutant::about::all() {
         write_entry(out, &format!("{name:<26}"), about)?;
@@ -306,12 +310,8 @@ fn write_file(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
 
 /// A count of at least one.
 fn parse_count(text: &str) -> Result<u64, String> {
-    let remedy = "expected a whole number from 1, for example 1000000";
-    match text.parse::<u64>() {
-        Ok(0) => Err(format!("0 is not in 1..: {remedy}")),
-        Ok(count) => Ok(count),
-        Err(error) => Err(format!("{error}: {remedy}")),
-    }
+    let count = text.parse().ok().filter(|count| *count > 0);
+    count.ok_or_else(|| "expected a whole number from 1, for example 1000000".to_owned())
 }
 
 /// Refuses a name that promises another format than the bytes have.

@@ -3,12 +3,11 @@
 use std::fmt::Write as _;
 use std::time::{Duration, Instant};
 
-use indicatif::{ProgressBar, ProgressDrawTarget};
-
 use super::decisions::{grouped, plan_rows};
 use super::page::{PageArguments, write_page};
+use super::progress::Progress;
 use super::render::SceneArguments;
-use super::{Failure, Streams, exit, usage};
+use super::{Failure, Streams, exit, program, usage};
 use crate::effects::render::Rendered;
 use crate::effects::{Effect, Effects, Mode};
 use crate::lineup::Drawer;
@@ -73,6 +72,8 @@ struct Measured {
     time_us: f64,
     /// Smallest and largest.
     range_us: [f64; 2],
+    /// A quarter of the rounds is faster than the first, a quarter slower than the second.
+    quartiles_us: [f64; 2],
     /// Whether the picture has the bits of the one that pays for everything.
     same: bool,
 }
@@ -98,10 +99,10 @@ fn percent(saving: f64, is_noise: bool) -> String {
     if is_noise { "noise".to_owned() } else { format!("{:.0}%", 100.0 * saving) }
 }
 
-/// Whether two medians differ by less than either lies above the fastest of its rounds.
+/// Whether the middle halves of their rounds overlap.
 fn is_noise(a: &Measured, b: &Measured) -> bool {
-    let above = |m: &Measured| m.time_us - m.range_us[0];
-    (a.time_us - b.time_us).abs() <= above(a).max(above(b))
+    let ([a0, a1], [b0, b1]) = (a.quartiles_us, b.quartiles_us);
+    a0 <= b1 && b0 <= a1
 }
 
 /// Everything measured.
@@ -195,13 +196,12 @@ pub fn run(arguments: &PlanArguments, streams: &mut Streams<'_>) -> Result<u8, F
 fn measure(
     arguments: &PlanArguments,
     scene: &Scene,
-    progress: bool,
+    on_terminal: bool,
 ) -> Result<(Savings, Rendered, Rendered), Failure> {
     let mixtures = mixtures();
-    let bar = ProgressBar::with_draw_target(
-        Some(u64::from(arguments.rounds)),
-        if progress { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() },
-    );
+    // One more warms up.
+    let rounds = u64::from(arguments.rounds) + 1;
+    let progress = Progress::new(on_terminal, "rounds", Some(rounds));
     let mut target = arguments.what.target()?;
     let mut times: Vec<Vec<Duration>> = vec![Vec::new(); mixtures.len()];
     let mut frames: Vec<Rendered> = Vec::new();
@@ -222,9 +222,9 @@ fn measure(
                 times[i].push(time);
             }
         }
-        bar.inc(1);
+        progress.done(1);
     }
-    bar.finish_and_clear();
+    drop(progress);
     let measured =
         mixtures.into_iter().zip(&mut times).zip(&frames).map(|(((effects, _), times), frame)| {
             times.sort_unstable();
@@ -233,6 +233,7 @@ fn measure(
                 effects,
                 time_us: us(times[times.len() / 2]),
                 range_us: [us(times[0]), us(times[times.len() - 1])],
+                quartiles_us: [1, 3].map(|n| us(times[(times.len() - 1) * n / 4])),
                 same: frame.picture == frames[0].picture,
             }
         });
@@ -292,7 +293,7 @@ fn describe(scene: &Scene, planned: &Rendered, everything: &Counters, savings: &
             percent(s.saves_last, s.noise_last)
         );
     }
-    text += "alone: the rest paid for; last: paid for, the rest planned; noise: medians differ by less\nthan either lies above the fastest of its rounds\n\n";
+    text += "alone: the rest paid for; last: paid for, the rest planned\nnoise: the middle halves of the rounds of both overlap\n\n";
     for m in savings.all() {
         if !m.same {
             let _ = writeln!(text, "DIFFERENT PICTURE with the effects {}", m.effects);
@@ -324,7 +325,7 @@ fn report_page(
     same: bool,
 ) -> Report {
     let (words, engine) = (arguments.what.words(), Drawer::from(arguments.engine).name());
-    let command = format!("rasterproof plan {words} --engine {engine} --report");
+    let command = format!("{} plan {words} --engine {engine} --report", program());
     let column =
         |label: &str, is_number| Column { label: label.to_owned(), is_number, ..Column::default() };
     let row = |s: &Saving| Row {

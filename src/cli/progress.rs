@@ -1,62 +1,107 @@
-//! How far long work has come: a bar on a terminal, elsewhere a line on standard error every ten
-//! seconds, so that short work in a pipe stays silent.
+//! How far long work has come, on standard error: a bar on a terminal after two seconds, elsewhere a
+//! line every ten, so that short work stays silent.
 
-use std::sync::atomic::{AtomicU64, Ordering};
-use std::time::{Duration, Instant};
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
+use std::thread::{Builder, JoinHandle};
+use std::time::Duration;
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{HumanCount, ProgressBar, ProgressDrawTarget, ProgressStyle};
 
+/// Before a bar appears.
+const PATIENCE: Duration = Duration::from_secs(2);
+/// Between two pictures of a bar.
+const TICK: Duration = Duration::from_millis(250);
 /// Between two lines where there is no terminal.
 const INTERVAL: Duration = Duration::from_secs(10);
 
-/// Counts cases, from any thread.
+/// Counts what is done, from any thread. A thread of its own shows it, so that work which says
+/// nothing for long is seen to go on. The bar vanishes with the value.
 pub struct Progress {
     bar: ProgressBar,
-    /// Whether lines are written instead.
-    in_lines: bool,
-    total: Option<u64>,
-    start: Instant,
-    cases: AtomicU64,
-    lines: AtomicU64,
+    /// Its end wakes the watching thread.
+    end: Option<Sender<()>>,
+    watch: Option<JoinHandle<()>>,
 }
 
 impl Progress {
-    /// A bar of `total` cases where `on_terminal`; without a total, a count.
-    pub fn new(on_terminal: bool, total: Option<u64>) -> Self {
-        let bar = match (on_terminal, total) {
-            (false, _) => ProgressBar::hidden(),
-            (true, None) => ProgressBar::new_spinner(),
-            (true, Some(total)) => ProgressBar::new(total),
-        };
-        if on_terminal {
-            bar.set_draw_target(ProgressDrawTarget::stderr_with_hz(8));
-            let counted = "{elapsed_precise} {wide_bar} {pos}/{len} cases, {eta} left";
-            let spinner = "{elapsed_precise} {spinner} {pos} cases";
-            let template = if total.is_some() { counted } else { spinner };
-            if let Ok(style) = ProgressStyle::with_template(template) {
-                bar.set_style(style);
+    /// Of `total` things called `unit`, in the plural; without a total, a count.
+    pub fn new(on_terminal: bool, unit: &'static str, total: Option<u64>) -> Self {
+        let hidden = ProgressDrawTarget::hidden();
+        let bar = ProgressBar::with_draw_target(total, hidden);
+        let template = match total {
+            Some(_) => {
+                "{elapsed_precise} {wide_bar} {human_pos}/{human_len} UNIT {msg}, {eta} left"
             }
+            None => "{elapsed_precise} {spinner} {human_pos} UNIT {msg}",
+        };
+        if let Ok(style) = ProgressStyle::with_template(&template.replace("UNIT", unit)) {
+            bar.set_style(style);
         }
-        let (cases, lines) = (AtomicU64::new(0), AtomicU64::new(0));
-        Self { bar, in_lines: !on_terminal, total, start: Instant::now(), cases, lines }
+        let (end, ended) = mpsc::channel();
+        let shown = bar.clone();
+        let watch = move || match on_terminal {
+            true => draw(&shown, &ended),
+            false => write_lines(&shown, unit, &ended),
+        };
+        // Without a thread to show it, the work itself goes on.
+        let watch = Builder::new().spawn(watch).ok();
+        Self { bar, end: Some(end), watch }
     }
 
-    /// So many more cases are done.
-    pub fn done(&self, cases: u64) {
-        if !self.in_lines {
-            return self.bar.inc(cases);
-        }
-        let all = self.cases.fetch_add(cases, Ordering::Relaxed) + cases;
-        let due = self.start.elapsed().as_secs() / INTERVAL.as_secs();
-        // One thread writes the line that is due.
-        if self.lines.fetch_max(due, Ordering::Relaxed) < due {
-            let total = self.total.map(|total| format!(" of {total}")).unwrap_or_default();
-            eprintln!("{} s: {all}{total} cases", self.start.elapsed().as_secs());
-        }
+    /// So many were done before, by an earlier run.
+    pub fn resume_at(&self, count: u64) {
+        self.bar.set_position(count);
+        // The estimate is about this sitting.
+        self.bar.reset_eta();
     }
 
-    /// The work is done; a bar vanishes.
-    pub fn finish(self) {
+    /// So many more are done.
+    pub fn done(&self, more: u64) {
+        self.bar.inc(more);
+    }
+
+    /// What is worked on, and how many came before it.
+    pub fn at(&self, count: u64, what: &str) {
+        self.bar.set_position(count);
+        self.bar.set_message(what.to_owned());
+    }
+
+    /// Writes a line that stays.
+    pub fn warn(&self, line: &str) {
+        self.bar.suspend(|| eprintln!("{line}"));
+    }
+}
+
+impl Drop for Progress {
+    fn drop(&mut self) {
+        drop(self.end.take());
+        if let Some(watch) = self.watch.take() {
+            // It cannot panic, and nothing depends on it.
+            let _ = watch.join();
+        }
         self.bar.finish_and_clear();
+    }
+}
+
+/// Whether the work still goes on after this time.
+fn goes_on(ended: &Receiver<()>, time: Duration) -> bool {
+    ended.recv_timeout(time) == Err(RecvTimeoutError::Timeout)
+}
+
+fn draw(bar: &ProgressBar, ended: &Receiver<()>) {
+    if goes_on(ended, PATIENCE) {
+        bar.set_draw_target(ProgressDrawTarget::stderr_with_hz(8));
+        while goes_on(ended, TICK) {
+            bar.tick();
+        }
+    }
+}
+
+fn write_lines(bar: &ProgressBar, unit: &str, ended: &Receiver<()>) {
+    while goes_on(ended, INTERVAL) {
+        let total = bar.length().map(|all| format!(" of {}", HumanCount(all))).unwrap_or_default();
+        let (seconds, count, what) = (bar.elapsed().as_secs(), bar.position(), bar.message());
+        let line = format!("{seconds} s: {}{total} {unit} {what}", HumanCount(count));
+        eprintln!("{}", line.trim_end());
     }
 }

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use clap::ValueEnum;
 
 use super::{Failure, Streams, exit, usage};
-use crate::quiz::page::{TERMINAL_COLUMNS, choices, grids, wrap};
+use crate::quiz::page::{TERMINAL_COLUMNS, choices, grids, legend, wrap};
 use crate::quiz::{CHAPTERS, Chapter, Exercise, Language, chapter, order};
 
 /// Options of `quiz`.
@@ -176,13 +176,14 @@ impl Quiz<'_> {
 
     /// Asks one exercise; whether it was answered rightly, or nothing at the end of input.
     fn ask(&mut self, exercise: &Exercise) -> Result<Option<bool>, Failure> {
-        for line in wrap(self.language.of(exercise.question), TERMINAL_COLUMNS) {
+        let solution = exercise.solution();
+        let question = exercise.question_with_form(self.language, &solution);
+        for line in wrap(&question, TERMINAL_COLUMNS) {
             writeln!(self.output, "{line}")?;
         }
         for choice in choices(exercise, self.language) {
             writeln!(self.output, "  {choice}")?;
         }
-        let solution = exercise.solution();
         let given = loop {
             if self.is_watched {
                 write!(self.output, "> ")?;
@@ -197,7 +198,9 @@ impl Quiz<'_> {
             if line.trim().is_empty() {
                 break None;
             }
-            match solution.answer.read(&line, exercise.choices) {
+            // The program's errors are in English; who answers at a terminal is answered in turn.
+            let language = if self.is_watched { self.language } else { Language::English };
+            match solution.answer.read(&line, exercise.choices, language) {
                 Ok(given) => break Some(given),
                 // Who is there may try again; a file is wrong in that line.
                 Err(remedy) if self.is_watched => writeln!(self.output, "{remedy}")?,
@@ -214,11 +217,19 @@ impl Quiz<'_> {
             Some(_) => phrases.wrong,
         };
         let why = exercise.explanation(self.language, &solution);
-        let text = format!("{verdict}: {}. {why}", solution.answer.text());
+        let answer = solution.answer.text();
+        let text = match self.language {
+            Language::English => format!("{verdict}: {answer}. {why}"),
+            Language::Chinese => format!("{verdict}：{answer}。{why}"),
+        };
         for line in wrap(&text, TERMINAL_COLUMNS) {
             writeln!(self.output, "{line}")?;
         }
-        writeln!(self.output, "{}", grids(&solution))?;
+        write!(self.output, "{}", grids(&solution))?;
+        if let Some(legend) = legend(&solution, self.language) {
+            writeln!(self.output, "{legend}")?;
+        }
+        writeln!(self.output)?;
         Ok(Some(is_right))
     }
 }

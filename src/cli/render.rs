@@ -6,11 +6,11 @@ use std::time::Duration;
 
 use glam::{DMat4, DVec3};
 use image::codecs::gif::{GifEncoder, Repeat};
-use indicatif::{ProgressBar, ProgressDrawTarget};
 
 use super::decisions::plan_rows;
 use super::page::{PageArguments, write_page};
-use super::{Failure, Streams, exit, usage, write_file};
+use super::progress::Progress;
+use super::{Failure, Streams, exit, program, usage, write_file};
 use crate::angle::{atan, cos, sin, tan, turn_y};
 use crate::effects::plan::Plan;
 use crate::effects::render::{BadScene, Rendered};
@@ -247,10 +247,10 @@ impl SceneArguments {
                 });
                 let nearest = near.min_by_key(|name| strsim::levenshtein(&word, name));
                 let hint =
-                    nearest.map_or(String::new(), |name| format!("; did you mean '{name}'?"));
-                let names = scene_names().join(", ");
+                    nearest.map_or(".".to_owned(), |name| format!("; did you mean '{name}'?"));
                 return Err(usage(format!(
-                    "{word} is neither a file nor a scene{hint}; scenes: {names}"
+                    "{word} is neither a file nor a scene{hint} See: {} list",
+                    program()
                 )));
             }
             Err(path) => Base::Model(Box::new(self.frame_model(path, aspect, errors)?)),
@@ -404,19 +404,23 @@ pub fn run(arguments: &RenderArguments, streams: &mut Streams<'_>) -> Result<u8,
             extension.to_ascii_uppercase()
         )));
     }
+    let drawers = if arguments.engine == Drawn::Both { 2 } else { 1 };
+    let pictures = u64::from(arguments.spin.unwrap_or(1)) * drawers;
+    let progress = Progress::new(streams.progress, "pictures", Some(pictures));
     if arguments.engine == Drawn::Tiles {
         return draw_in_tiles(arguments, &maker.scene(0.0), &output, streams);
     }
     if let Some(frames) = arguments.spin {
-        return spin(arguments, &maker, frames, &output, streams);
+        return spin(arguments, &maker, frames, &output, &progress, streams);
     }
     let scene = maker.scene(0.0);
     if arguments.map {
         return map(arguments, &scene, &output, streams);
     }
-    let drawings = draw(arguments, &scene)?;
+    let drawings = draw(arguments, &scene, &progress)?;
     write_file(&output, &frames::png(&drawings[0].rendered.picture)?)?;
     let comparison = compare(&scene, &drawings)?;
+    drop(progress);
     let difference = output.with_extension("difference.png");
     let is_drawn = |c: &&Comparison| !c.agrees() || c.undecided > 0;
     if let Some(comparison) = comparison.as_ref().filter(is_drawn) {
@@ -463,7 +467,7 @@ fn report_page(
     drawings: &[Drawing],
     comparison: Option<&Comparison>,
 ) -> Report {
-    let command = format!("rasterproof render {} --report", what.words());
+    let command = format!("{} render {} --report", program(), what.words());
     let outcome = comparison.map(|c| Outcome {
         good: c.agrees(),
         word: if c.agrees() { "AGREES" } else { "DISAGREES" }.to_owned(),
@@ -516,16 +520,17 @@ fn read_plan(path: &Path) -> Result<Plan, Failure> {
 }
 
 /// Draws one frame by each rasterizer asked for.
-fn draw(arguments: &RenderArguments, scene: &Scene) -> Result<Vec<Drawing>, Failure> {
+fn draw(
+    arguments: &RenderArguments,
+    scene: &Scene,
+    progress: &Progress,
+) -> Result<Vec<Drawing>, Failure> {
     let effects = arguments.effects.unwrap_or(Effects::PLANNED);
-    // To compare every depth, every depth must be there, of every sample.
     let plan = arguments.plan.as_deref().map(read_plan).transpose()?;
     let is_free = arguments.effects.is_none() && plan.is_none();
-    let always = |effect| effects.mode(effect) == Mode::Always;
-    let is_complete = plan.is_none() && always(Effect::Depth) && always(Effect::Samples);
-    let complete = (arguments.engine == Drawn::Both && is_free).then(|| {
-        Effects::PLANNED.with(Effect::Depth, Mode::Always).with(Effect::Samples, Mode::Always)
-    });
+    // To compare every depth, every depth must be there, of every sample.
+    let complete =
+        Effects::PLANNED.with(Effect::Depth, Mode::Always).with(Effect::Samples, Mode::Always);
     let engines: &[Drawer] = match arguments.engine {
         Drawn::Scanline => &[Drawer::Scanline],
         Drawn::EdgeFunction => &[Drawer::EdgeFunction],
@@ -541,22 +546,26 @@ fn draw(arguments: &RenderArguments, scene: &Scene) -> Result<Vec<Drawing>, Fail
             let name = drawer.line_name();
             return Ok(Drawing { name, rendered, target, unplanned: 0, is_complete: false });
         }
-        if let (Some(plan), Some(path)) = (&plan, &arguments.plan) {
-            let misfit = |error| usage(format!("{}: {error}", path.display()));
-            let rendered = drawer.execute(plan, scene, &mut target).map_err(misfit)?;
-            let name = drawer.name();
+        let asked = |target: &mut Target| match (&plan, &arguments.plan) {
+            (Some(plan), Some(path)) => drawer
+                .execute(plan, scene, target)
+                .map_err(|error| usage(format!("{}: {error}", path.display()))),
+            _ => drawer.render(scene, &effects, target).map_err(refused),
+        };
+        let (name, rendered) = (drawer.name(), asked(&mut target)?);
+        if engines.len() < 2 {
             return Ok(Drawing { name, rendered, target, unplanned: 0, is_complete: false });
         }
-        let rendered = drawer.render(scene, &effects, &mut target).map_err(refused)?;
-        let mut unplanned = 0;
-        if let Some(complete) = &complete {
-            let whole = drawer.render(scene, complete, &mut target).map_err(refused)?;
-            unplanned = frames::differing(&rendered.picture, &whole.picture);
+        let whole = drawer.render(scene, &complete, &mut target).map_err(refused)?;
+        let unplanned = frames::differing(&rendered.picture, &whole.picture);
+        if is_free || unplanned == 0 {
+            return Ok(Drawing { name, rendered, target, unplanned, is_complete: true });
         }
-        let is_complete = is_complete || complete.is_some();
-        Ok(Drawing { name: drawer.name(), rendered, target, unplanned, is_complete })
+        // What was asked for changes the picture: the frame is compared as it is, without ties.
+        let rendered = asked(&mut target)?;
+        Ok(Drawing { name, rendered, target, unplanned: 0, is_complete: false })
     };
-    engines.iter().map(drawing).collect()
+    engines.iter().map(drawing).inspect(|_| progress.done(1)).collect()
 }
 
 /// What is undecided by either, in words; nothing where nothing is.
@@ -636,7 +645,10 @@ fn draw_in_tiles(
     streams: &mut Streams<'_>,
 ) -> Result<u8, Failure> {
     let refused = [
-        ("--aa", !matches!(arguments.what.aa, Smoothing::None)),
+        (
+            "--aa other than none and msaa4",
+            !matches!(arguments.what.aa, Smoothing::None | Smoothing::Msaa4),
+        ),
         ("--depth", !matches!(arguments.what.depth, Depths::Unorm32)),
         ("--effects", arguments.effects.is_some()),
         ("--json", arguments.json),
@@ -651,7 +663,11 @@ fn draw_in_tiles(
     }
     let target = arguments.what.target()?;
     let size = target.size();
-    let picture = tiled::render(scene, size.width(), size.height())
+    let samples = match arguments.what.aa {
+        Smoothing::Msaa4 => tiled::Samples::Four,
+        _ => tiled::Samples::One,
+    };
+    let picture = tiled::render(scene, size.width(), size.height(), samples)
         .map_err(|error: BadScene| usage(error.to_string()))?;
     write_file(output, &frames::png(&picture)?)?;
     let out = &mut streams.output;
@@ -689,12 +705,9 @@ fn spin(
     maker: &Maker,
     frames: u32,
     output: &Path,
+    progress: &Progress,
     streams: &mut Streams<'_>,
 ) -> Result<u8, Failure> {
-    let bar = ProgressBar::with_draw_target(
-        Some(frames.into()),
-        if streams.progress { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() },
-    );
     let mut bytes = Vec::new();
     let (mut wrong, mut undecided) = (0, 0);
     let mut screen = DoubleBuffer::new(arguments.what.target()?);
@@ -705,7 +718,7 @@ fn spin(
         encoder.set_repeat(Repeat::Infinite).map_err(failed)?;
         for frame in 0..frames {
             let scene = maker.scene(f64::from(frame) / f64::from(frames));
-            let drawings = draw(arguments, &scene)?;
+            let drawings = draw(arguments, &scene, progress)?;
             if let Some(c) = compare(&scene, &drawings)? {
                 wrong += c.wrong_pixels + c.wrong_depths;
                 undecided += c.undecided;
@@ -718,10 +731,8 @@ fn spin(
             let delay = image::Delay::from_saturating_duration(Duration::from_millis(40));
             let frame = image::Frame::from_parts(picture, 0, 0, delay);
             encoder.encode_frame(frame).map_err(failed)?;
-            bar.inc(1);
         }
     }
-    bar.finish_and_clear();
     write_file(output, &bytes)?;
     writeln!(streams.output, "{frames} frames, drawn in {}", output.display())?;
     if undecided > 0 {

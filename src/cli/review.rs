@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 use image::{ImageFormat, ImageReader, RgbImage};
 
 use super::page::{Place, write_page};
-use super::{Failure, Streams, exit, usage};
+use super::{Failure, Streams, exit, program, usage};
 use crate::report::html::{
     Column, Outcome, PictureLayer, PictureView, Report, Row, Table, TextDiff,
 };
@@ -236,7 +236,7 @@ fn difference(old: &RgbImage, new: &RgbImage) -> String {
     }
     let count = old.pixels().zip(new.pixels()).filter(|(a, b)| a != b).count();
     format!(
-        "{count} of {} picture pixels changed",
+        "{count} of {} pixels of the picture changed",
         u64::from(old.width()) * u64::from(old.height())
     )
 }
@@ -270,7 +270,7 @@ fn report(pending: &[Pending], folders: &[PathBuf]) -> Report {
     let mut report = Report {
         title: "Review of snapshots".to_owned(),
         outcome: Some(Outcome { good: pending.is_empty(), word: word.to_owned(), sentence }),
-        command: format!("rasterproof review {}", names.join(" ")),
+        command: format!("{} review {}", program(), names.join(" ")),
         ..Report::default()
     };
     let mut rows = Vec::new();

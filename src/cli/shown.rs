@@ -142,6 +142,14 @@ impl Shown {
         Ok(())
     }
 
+    /// Puts somebody else before the engines, who draws the case so; and how it differs.
+    #[cfg(feature = "vulkan")]
+    pub fn add_drawn(&mut self, name: &str, hits: Coverage) -> Tally {
+        let tally = Tally::between(&hits, &self.target);
+        self.engines.insert(0, (name.to_owned(), Ok(hits)));
+        tally
+    }
+
     /// Whether nobody draws the case.
     pub fn is_empty(&self) -> bool {
         self.engines.is_empty()

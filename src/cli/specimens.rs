@@ -2,10 +2,9 @@
 
 use std::path::PathBuf;
 
-use indicatif::ProgressBar;
-
 use super::page::{PageArguments, write_page};
-use super::{Failure, Streams, exit, png_name, write_file, write_unasked};
+use super::progress::Progress;
+use super::{Failure, Streams, exit, png_name, program, write_file, write_unasked};
 use crate::report::html::{Outcome, Report};
 use crate::report::{cases, counts, json, picture, sheet, specimens};
 use crate::specimen::catalogue::{CARDS, Card};
@@ -41,18 +40,15 @@ pub fn run(arguments: &SpecimensArguments, streams: &mut Streams<'_>) -> Result<
         .iter()
         .filter(|card| arguments.specimen.as_deref().is_none_or(|name| name == card.name))
         .collect();
-    let bar = match streams.progress {
-        true => ProgressBar::new(cards.len() as u64),
-        false => ProgressBar::hidden(),
-    };
+    let progress = Progress::new(streams.progress, "specimens", Some(cards.len() as u64));
     let reports: Vec<_> = cards
         .iter()
         .map(|card| survey(card, arguments.seed, arguments.cases))
-        .inspect(|_| bar.inc(1))
+        .inspect(|_| progress.done(1))
         .collect();
-    bar.finish_and_clear();
+    drop(progress);
     let (drawn, text) = match (cards.as_slice(), reports.as_slice()) {
-        ([card], [report]) => (sheet::strip(card), specimens::detail(report)),
+        ([card], [report]) => (sheet::alone(card).image, specimens::detail(report)),
         _ => (sheet::contact_sheet(), specimens::table(&reports)),
     };
     if let Some(path) = &arguments.output {
@@ -99,8 +95,10 @@ fn report_page(arguments: &SpecimensArguments, reports: &[SpecimenReport]) -> Re
         title: "Published algorithms and their faults".to_owned(),
         outcome: Some(Outcome { good, word: word.to_owned(), sentence }),
         command: format!(
-            "rasterproof specimens --seed {} --cases {} --report",
-            arguments.seed, arguments.cases
+            "{} specimens --seed {} --cases {} --report",
+            program(),
+            arguments.seed,
+            arguments.cases
         ),
         seed: Some(arguments.seed),
         tables: vec![counts::of_specimens(reports)],

@@ -3,6 +3,7 @@
 use std::path::Path;
 use std::time::Duration;
 
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use image::RgbImage;
 
 use super::page::{PageArguments, write_page};
@@ -30,7 +31,7 @@ pub struct VerifyArguments {
     #[arg(long, value_name = "NAME", value_parser = family_names())]
     family: Vec<String>,
     /// Only this engine against the oracle; may be repeated
-    #[arg(long, value_name = "NAME", value_parser = judged_names())]
+    #[arg(long, value_name = "NAME", value_parser = EngineName)]
     engine: Vec<String>,
     /// Check this invariant instead, or all of them; may be repeated
     #[arg(long, value_name = "NAME", value_parser = invariant::names(), hide_possible_values = true,
@@ -68,6 +69,43 @@ fn judged_names() -> Vec<&'static str> {
     let lines = LineEngine::JUDGED.iter().map(LineEngine::name);
     let exact = ExactEngine::JUDGED.iter().map(ExactEngine::name);
     Engine::CHOICES.iter().map(Engine::name).chain(lines).chain(exact).collect()
+}
+
+/// The beginning of an engine's name that means a Vulkan device.
+const VULKAN: &str = "vulkan:";
+
+/// The name of an engine, or of a Vulkan device.
+#[derive(Clone)]
+struct EngineName;
+
+impl TypedValueParser for EngineName {
+    type Value = String;
+
+    fn parse_ref(
+        &self,
+        command: &clap::Command,
+        argument: Option<&clap::Arg>,
+        value: &std::ffi::OsStr,
+    ) -> Result<String, clap::Error> {
+        if let Some(name) = value.to_str().filter(|name| name.starts_with(VULKAN)) {
+            return match cfg!(feature = "vulkan") {
+                true => Ok(name.to_owned()),
+                false => Err(clap::Error::raw(
+                    clap::error::ErrorKind::InvalidValue,
+                    format!(
+                        "this program was built without Vulkan devices; build it with them:\n  \
+                         cargo run --release --features vulkan -- verify --engine {name}\n"
+                    ),
+                )
+                .with_cmd(command)),
+            };
+        }
+        PossibleValuesParser::new(judged_names()).parse_ref(command, argument, value)
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        Some(Box::new(judged_names().into_iter().map(PossibleValue::new)))
+    }
 }
 
 pub(super) fn parse_shard(text: &str) -> Result<(u64, u64), String> {
@@ -155,6 +193,10 @@ pub fn run(arguments: &VerifyArguments, streams: &mut Streams<'_>) -> Result<u8,
         return invariant::run(names, plant.as_deref(), *seed, *cases, streams);
     }
     let options = arguments.options()?;
+    #[cfg(feature = "vulkan")]
+    if arguments.engine.iter().any(|name| name.starts_with(VULKAN)) {
+        return on_a_device(arguments, options, streams);
+    }
     let Contestants { engines, lines, exact } = arguments.contestants();
     let exact_engines: Vec<_> = exact.into_iter().map(|engine| (engine.name(), engine)).collect();
     if engines.is_empty() && lines.is_empty() && exact_engines.is_empty() {
@@ -182,6 +224,35 @@ pub fn run(arguments: &VerifyArguments, streams: &mut Streams<'_>) -> Result<u8,
         write_page(&arguments.page.place.out.join("verify.html"), page, streams.errors)?;
     }
     Ok(if verdict.agrees() && off_grid.agrees() { exit::AGREES } else { exit::DISAGREES })
+}
+
+/// Judges a Vulkan device, alone.
+#[cfg(feature = "vulkan")]
+fn on_a_device(
+    arguments: &VerifyArguments,
+    options: Options,
+    streams: &mut Streams<'_>,
+) -> Result<u8, Failure> {
+    let [engine] = &arguments.engine[..] else {
+        return Err(usage("a Vulkan device is judged alone: name one --engine"));
+    };
+    if arguments.shard != (0, 1) {
+        return Err(usage("a Vulkan device is judged whole: leave out --shard"));
+    }
+    let job = super::vulkan::Job {
+        engine,
+        cases: arguments.cases,
+        options: crate::judge::Options {
+            seed: options.seed,
+            time_limit: options.time_limit,
+            families: options.families,
+            only: options.only,
+            ..crate::judge::Options::default()
+        },
+        json: arguments.json,
+        page: &arguments.page,
+    };
+    super::vulkan::verify(&job, streams)
 }
 
 /// The run as a page: counts, failing cases, those closest to a bound, the named cases.
@@ -222,7 +293,7 @@ fn judge(
     lines: &[LineEngine],
     exact_engines: &[(&str, ExactEngine)],
     options: &Options,
-    shown: bool,
+    on_terminal: bool,
 ) -> (Verdict, ExactVerdict) {
     let triangles = hazard::triangles::FAMILIES.iter().filter(|_| !engines.is_empty());
     let segments = hazard::lines::FAMILIES.iter().filter(|_| !lines.is_empty());
@@ -235,16 +306,16 @@ fn judge(
         ((families.count() + off_grid_families) as u64).saturating_mul(options.cases)
             / options.shard.1
     });
-    let bar = Progress::new(shown, total);
+    let progress = Progress::new(on_terminal, "cases", total);
     // Where both share a limited time, the families off the lattice get a fifth of it.
     let is_shared = off_grid_families > 0 && engines.len() + lines.len() > 0;
     let share = |fifths: u32| Options {
         time_limit: options.time_limit.map(|t| if is_shared { t * fifths / 5 } else { t }),
         ..options.clone()
     };
-    let verdict = verify::judge_lineup(engines, lines, &share(4), &|cases| bar.done(cases));
-    let off_grid = exact::judge_exact(exact_engines, &share(1), &|cases| bar.done(cases));
-    bar.finish();
+    let verdict = verify::judge_lineup(engines, lines, &share(4), &|cases| progress.done(cases));
+    let off_grid = exact::judge_exact(exact_engines, &share(1), &|cases| progress.done(cases));
+    drop(progress);
     (verdict, off_grid)
 }
 

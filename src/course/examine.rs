@@ -7,8 +7,9 @@ use super::{Exercise, Step};
 use crate::frame::Coverage;
 use crate::hazard::{Case, Shape};
 use crate::judge::ask::{Answer, Ask, Misbehaviour, Question, show};
-use crate::judge::check::{Check, Finding, Truth, expected_answer, picture_of};
+use crate::judge::check::{Check, Truth, expected_answer, picture_of, seen_pictures};
 use crate::judge::declared::Declared;
+use crate::judge::finding::Finding;
 use crate::judge::{place, run};
 use crate::verify::shrink;
 
@@ -197,7 +198,7 @@ fn shrunk(program: &mut dyn Ask, failing: Failing<'_>, patience: Duration) -> Fa
 
 /// Whether each answer is compared with an expected one, not with others.
 fn is_one_by_one(check: Check) -> bool {
-    matches!(check, Check::Coverage | Check::Line | Check::Values)
+    matches!(check, Check::Coverage | Check::Line | Check::Values | Check::Depth | Check::Near)
 }
 
 /// All answers as one picture, and what was expected; of answers that are compared with each other
@@ -215,7 +216,8 @@ fn pictures(
             let other = drawn.iter().find(|other| Some(*other) != drawn.first())?;
             Some([other.clone(), drawn.first()?.clone()])
         }
-        Check::Samples => None,
+        Check::Samples | Check::Near => None,
+        Check::Depth => seen_pictures(questions.first()?, answers.first()?, truth),
         _ => {
             let expected = questions.iter().filter_map(|q| expected_answer(q, truth));
             let expected: Vec<_> =

@@ -321,28 +321,44 @@ pub static STEPS: [Step; 12] = [
         name: "depth",
         title: "depth order",
         page: "docs/ch06.md",
-        judged: "I with w ratios up to 100: z linear in the window, which is what a depth buffer compares; \
-                 a and b are 0",
-        exercises: &[Exercise {
-            check: Check::Values,
-            families: &["w-4", "w-100"],
-            convention: "",
-            prepare: depth_alone,
-        }],
+        judged: "D: of several triangles the nearest at each pixel, whatever order they come in; and I: z is \
+                 linear in the window, whatever w is (a and b are 0)",
+        exercises: &[
+            Exercise {
+                check: Check::Depth,
+                families: &["depth-order"],
+                convention: "",
+                prepare: inside,
+            },
+            Exercise {
+                check: Check::Values,
+                families: &["w-4", "w-100"],
+                convention: "",
+                prepare: depth_alone,
+            },
+        ],
         hints: [
-            "Which of two surfaces is in front is decided by z at the pixel. z has been divided already.",
-            "z is z/w of space: it is linear in the window. Interpolated like a and b, surfaces that cross \
-             change places along a wrong line.",
-            "z = l0 z0 + l1 z1 + l2 z2 with the plain weights l of step 8, whatever w is.",
+            "Which of two triangles is in front is decided at each pixel, not for a triangle as a whole: they \
+             may go through each other.",
+            "Keep the least z of each pixel and who drew it; begin with infinity. z has been divided already: \
+             it is linear in the window.",
+            "z = l0 z0 + l1 z1 + l2 z2 with the plain weights l of step 8, whatever w is. For each pixel of \
+             triangle t: if z < nearest[y][x], then nearest[y][x] = z and seen[y][x] = t.",
         ],
     },
     Step {
         name: "clipping",
         title: "clipping at a plane",
         page: "docs/ch07.md",
-        judged: "T and I of triangles that reach out of the window, some to 2^23 px: what the window's four \
-                 planes leave (the near plane is not in the protocol: w > 0)",
+        judged: "N: the polygon that the near plane z = -w leaves of a triangle of clip space; and T and I of \
+                 triangles that reach out of the window, some to 2^23 px",
         exercises: &[
+            Exercise {
+                check: Check::Near,
+                families: &["near-plane"],
+                convention: "",
+                prepare: anywhere,
+            },
             Exercise {
                 check: Check::Coverage,
                 families: &["partly-off", "off-screen", "huge"],
@@ -357,10 +373,12 @@ pub static STEPS: [Step; 12] = [
             },
         ],
         hints: [
-            "Pixels outside the window are not drawn, and those inside are the same as without a window.",
-            "Do not move corners to the border: a cut corner is rounded, and the edge turns. Cut the box of \
-             pixels that you visit.",
-            "Visit x from max(0, floor(min x)) to min(width, ceil(max x)), y alike; edge functions of far \
+            "Go round the triangle edge by edge: keep the corners with z + w >= 0, and where an edge changes \
+             sides, put a new corner. For the window: pixels inside are the same as without a window.",
+            "With d = z + w of both ends, the new corner is a + (b - a) da / (da - db), w like x, y and z. Do \
+             not move corners to the window's border: a cut corner is rounded, and the edge turns.",
+            "For i in 0..3, a = corner i, b = corner i + 1 mod 3: if da >= 0, add a; if (da >= 0) != (db >= 0), \
+             add the new corner. T: visit the part of the box inside the window; edge functions of far \
              corners reach 2^65 in subpixels: take 128 bits. Values use the corners that were given.",
         ],
     },

@@ -1,6 +1,6 @@
 //! Answers: how they are printed, how one is read, and whether it is right.
 
-use super::Text;
+use super::{Language, Text};
 
 /// What is right.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,6 +55,23 @@ impl Answer {
         }
     }
 
+    /// What a question adds about the form of its answer: the digits of a number that is not whole.
+    #[must_use]
+    pub fn form(&self, language: Language) -> String {
+        match (*self, language) {
+            (Self::Number { decimals: 0, .. } | Self::Choice(_) | Self::Pixel(_), _) => {
+                String::new()
+            }
+            (Self::Number { decimals: 1, .. }, Language::English) => " (To 1 decimal.)".to_owned(),
+            (Self::Number { decimals, .. }, Language::English) => {
+                format!(" (To {decimals} decimals.)")
+            }
+            (Self::Number { decimals, .. }, Language::Chinese) => {
+                format!("（取 {decimals} 位小数。）")
+            }
+        }
+    }
+
     /// Whether what was given is right: for a number, to the digits that were asked for.
     #[must_use]
     pub fn accepts(&self, given: Given) -> bool {
@@ -74,7 +91,7 @@ impl Answer {
     ///
     /// # Errors
     /// What would have been an answer.
-    pub fn read(&self, word: &str, choices: &[Text]) -> Result<Given, String> {
+    pub fn read(&self, word: &str, choices: &[Text], language: Language) -> Result<Given, String> {
         let word = word.trim();
         let remedy = match self {
             Self::Choice(_) => {
@@ -89,18 +106,28 @@ impl Answer {
                 if let Some(i) = by_letter.or_else(by_pixel) {
                     return Ok(Given::Choice(i));
                 }
-                format!("one of a to {last}, or 1 to {}", choices.len())
+                let count = choices.len();
+                [
+                    format!("one of a to {last}, or 1 to {count}"),
+                    format!("a 到 {last}，或 1 到 {count}"),
+                ]
             }
             Self::Pixel(_) => match pixel(word) {
                 Some(pixel) => return Ok(Given::Pixel(pixel)),
-                None => "a pixel, column and row, such as 3,3".to_owned(),
+                None => ["a pixel, column and row, such as 3,3", "像素的列和行，例如 3,3"]
+                    .map(str::to_owned),
             },
             Self::Number { .. } => match number(word) {
                 Some(number) => return Ok(Given::Number(number)),
-                None => "a number, such as 12, 0.25 or 1/4".to_owned(),
+                None => ["a number, such as 12, 0.25 or 1/4", "一个数，例如 12、0.25 或 1/4"]
+                    .map(str::to_owned),
             },
         };
-        Err(format!("'{word}' is no answer here; give {remedy}"))
+        let remedy = &remedy[language as usize];
+        Err(match language {
+            Language::English => format!("'{word}' is no answer here; give {remedy}"),
+            Language::Chinese => format!("这里不能答“{word}”；请答：{remedy}"),
+        })
     }
 }
 
@@ -137,23 +164,29 @@ mod tests {
         let pixels: &[Text] = &[["(0, 3)"; 2], ["(2, 2)"; 2]];
         let choice = Answer::only(&[false, true]);
         for word in ["b", "B", "2", "2,2", " (2, 2) "] {
-            assert!(choice.accepts(choice.read(word, pixels).unwrap()), "{word}");
+            assert!(
+                choice.accepts(choice.read(word, pixels, Language::English).unwrap()),
+                "{word}"
+            );
         }
-        assert!(!choice.accepts(choice.read("0,3", pixels).unwrap()));
+        assert!(!choice.accepts(choice.read("0,3", pixels, Language::English).unwrap()));
         for word in ["c", "0", "3", "1,1", "", "bb"] {
-            assert!(choice.read(word, pixels).unwrap_err().contains("a to b"), "{word}");
+            let refusal = |language| choice.read(word, pixels, language).unwrap_err();
+            assert!(refusal(Language::English).contains("a to b"), "{word}");
+            assert!(refusal(Language::Chinese).contains("a 到 b"), "{word}");
         }
         let third = Answer::Number { value: 1.0 / 3.0, decimals: 2 };
         let right = ["1/3", "0.33", "0.333", ".334"];
-        let given = |word: &str| third.read(word, &[]).unwrap();
+        let read = |answer: &Answer, word: &str| answer.read(word, &[], Language::English);
+        let given = |word: &str| read(&third, word).unwrap();
         assert!(right.iter().all(|word| third.accepts(given(word))));
         assert!(!["0.32", "0.34", "-1/3", "33"].iter().any(|word| third.accepts(given(word))));
-        assert!(["1/0", "nan", "inf", "x", "3,3"].iter().all(|w| third.read(w, &[]).is_err()));
+        assert!(["1/0", "nan", "inf", "x", "3,3"].iter().all(|w| read(&third, w).is_err()));
         let whole = Answer::count(4);
         assert!(whole.accepts(Given::Number(4.0)) && !whole.accepts(Given::Number(4.4)));
         let pixel = Answer::Pixel([4, -2]);
-        assert!(pixel.accepts(pixel.read("4,-2", &[]).unwrap()));
-        assert!(!pixel.accepts(pixel.read("-2,4", &[]).unwrap()) && pixel.read("4", &[]).is_err());
+        assert!(pixel.accepts(read(&pixel, "4,-2").unwrap()));
+        assert!(!pixel.accepts(read(&pixel, "-2,4").unwrap()) && read(&pixel, "4").is_err());
     }
 
     #[test]

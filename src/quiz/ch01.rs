@@ -48,7 +48,7 @@ const TIE: Exercise = Exercise {
     why: [
         "A tie goes to the even neighbour, so it drifts to neither side: 1.5 becomes {}, 2.5 becomes {} and 3.5 \
          becomes {}.",
-        "平局归偶数邻居，所以不会偏向任何一边：1.5 变成 {}，2.5 变成 {}，3.5 变成 {}。",
+        "平局取偶数，所以不会偏向任何一边：1.5 变成 {}，2.5 变成 {}，3.5 变成 {}。",
     ],
 };
 
@@ -73,7 +73,7 @@ const SMALL: Exercise = Exercise {
     why: [
         "A pixel is asked at its centre, and no centre lies in the triangle; the corner (1, 1) of a pixel does. A \
          program that keeps the sample position in an int asks there and draws {} pixel too many (`+`).",
-        "像素只在中心被提问，而三角形里没有任何中心，只有一个像素角 (1, 1)。把采样位置存进 int 的程序就在角上提问，\
+        "只在像素的中心提问，而三角形里没有任何中心，只有像素的一个角 (1, 1)。把采样位置存进 int 的程序就在角上提问，\
          多画了 {} 个像素（`+`）。",
     ],
 };

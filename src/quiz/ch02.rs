@@ -100,7 +100,7 @@ const TWICE: Exercise = Exercise {
 const HOLES: Exercise = Exercise {
     question: [
         "Which of these three rules leaves a hole inside a square of two triangles whose corners are pixel centres?",
-        "由两个三角形拼成、角都在像素中心的正方形，下面三条规则中哪一条会在里面留下空洞？",
+        "由两个三角形拼成、顶点都在像素中心的正方形，下面三条规则中哪一条会在里面留下空洞？",
     ],
     choices: &[
         ["all edge functions > 0", "所有边函数 > 0"],

@@ -99,6 +99,6 @@ const APART: Exercise = Exercise {
     why: [
         "At that distance a step of 2^-24 is about 0.59 wide. A float is fine near 0, and storing 1 - d puts its fine \
          steps where the projection's are coarse.",
-        "在那个距离上，2^-24 的一步约有 0.59 宽。浮点数在 0 附近最细；存 1 - d，细的步子就落在投影粗的地方。",
+        "在那个距离上，2^-24 的一级约有 0.59 宽。浮点数在 0 附近最细；存 1 - d，细的级就落在投影粗的地方。",
     ],
 };

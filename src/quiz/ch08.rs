@@ -41,9 +41,9 @@ const SQUEEZED: [Px; 2] =
 
 const SIZE: Exercise = Exercise {
     question: [
-        "A program maps -1 ... 1 to the window by times (size - 1), with its samples at centres. How many of the 4 x 3 \
+        "A program maps -1 ... 1 to the window by times (size - 1), y up, with its samples at centres. How many of the 4 x 3 \
          pixels does the square over the whole screen cover?",
-        "有个程序把 -1 … 1 乘以（尺寸 - 1）映射到窗口，采样点在像素中心。铺满屏幕的正方形覆盖 4 x 3 个像素中的几个？",
+        "有个程序把 -1 … 1 乘以（尺寸 - 1）映射到窗口，y 向上，采样点在像素中心。铺满屏幕的正方形覆盖 4 x 3 个像素中的几个？",
     ],
     choices: &[],
     solve: |_| {

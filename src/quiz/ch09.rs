@@ -73,7 +73,7 @@ const THIN: Exercise = Exercise {
     why: [
         "1.001 px snaps to {} subpixels, the column of the other two: what is drawn has no area, so nothing is drawn and \
          nothing need be culled. In floats it runs counter-clockwise.",
-        "1.001 像素吸附到 {} 个子像素处，与另外两个同列：画出来的没有面积，什么也不画，也无需剔除。\
+        "1.001 像素吸附到 {} 个子像素处，与另外两个同列：吸附之后没有面积，什么也不画，也就谈不上剔除。\
          用浮点数算，它是逆时针的。",
     ],
 };

@@ -38,7 +38,7 @@ fn is_near(p: DVec3, axis: DVec3) -> bool {
 const QUARTER: Exercise = Exercise {
     question: [
         "Where does a quarter turn about x, in the ring x, y, z, take the y axis?",
-        "按 x、y、z 的环，绕 x 轴转四分之一圈，y 轴转到哪里？",
+        "每根轴都转向 x、y、z、x 这一圈里的下一根。绕 x 轴转四分之一圈，y 轴转到哪里？",
     ],
     choices: &[["z"; 2], ["-z"; 2], ["x"; 2]],
     solve: |_| {
@@ -51,7 +51,7 @@ const QUARTER: Exercise = Exercise {
     why: [
         "Each axis goes towards the next in the ring: a turn about x takes y to z. As the book prints it, its table \
          takes y to {}.",
-        "每条轴转向环里的下一条：绕 x 转，y 到 z。书中印出的表把 y 转到 {}。",
+        "每根轴转向这一圈里的下一根：绕 x 转，y 到 z。书中印出的表把 y 转到 {}。",
     ],
 };
 

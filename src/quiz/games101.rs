@@ -102,7 +102,7 @@ const DEPTH: Exercise = Exercise {
     question: [
         "An edge leads from w = 1, z/w = -1 to w = 4, z/w = 1. In its middle on the screen z/w is 0. Which depth does the \
          published repair give there, which weighs z/w by 1/w?",
-        "一条边从 w = 1、z/w = -1 通到 w = 4、z/w = 1。在屏幕上它的正中间，z/w 是 0。那份已发布的修复用 1/w 给 z/w 加权，\
+        "一条边从 w = 1、z/w = -1 通到 w = 4、z/w = 1。在屏幕上它的正中间，z/w 是 0。那份公开的修正用 1/w 给 z/w 加权，\
          在那里得到的深度是多少？",
     ],
     choices: &[],

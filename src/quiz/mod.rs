@@ -93,6 +93,12 @@ impl Exercise {
         (self.solve)(self.choices)
     }
 
+    /// The question, and to how many digits its answer is asked for.
+    #[must_use]
+    pub fn question_with_form(&self, language: Language, solution: &Solution) -> String {
+        language.of(self.question).to_owned() + &solution.answer.form(language)
+    }
+
     /// The explanation with its figures in place.
     #[must_use]
     pub fn explanation(&self, language: Language, solution: &Solution) -> String {

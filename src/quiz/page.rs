@@ -20,19 +20,26 @@ pub fn section(chapter: &Chapter, language: Language) -> String {
         Language::English => ("asks these in the terminal and checks what you answer.", ""),
         Language::Chinese => ("在终端里提出这些问题，并检验你的回答。", " --language zh"),
     };
-    let mut out = format!(
-        "{}\n\n`cargo run --release -- quiz {word}{extra}` {ask}\n",
-        HEADINGS[language as usize]
-    );
-    for (number, exercise) in (1..).zip(chapter.exercises) {
-        out += &format!(
-            "\n{}",
-            wrapped(&format!("**{number}.** {}", language.of(exercise.question)), language)
-        );
+    let intro = format!("`cargo run --release -- quiz {word}{extra}` {ask}");
+    let solutions: Vec<_> = chapter.exercises.iter().map(Exercise::solution).collect();
+    let axes = match language {
+        Language::English => {
+            " In the grids columns go right and rows down, both from 0; `#` is drawn, `.` is not, `-` is missing, `+` is \
+             too many, `2` is drawn twice."
+        }
+        Language::Chinese => {
+            "网格里列向右、行向下，都从 0 数起；`#` 画了，`.` 没画，`-` 缺失，`+` 多余，`2` 画了两次。"
+        }
+    };
+    let axes = if solutions.iter().any(|s| legend(s, language).is_some()) { axes } else { "" };
+    let mut out = HEADINGS[language as usize].to_owned() + "\n\n";
+    out += &format!("{}\n", wrapped(&format!("{intro}{axes}"), language));
+    for ((number, exercise), solution) in (1..).zip(chapter.exercises).zip(solutions) {
+        let question = exercise.question_with_form(language, &solution);
+        out += &format!("\n{}", wrapped(&format!("**{number}.** {question}"), language));
         if !exercise.choices.is_empty() {
             out += &format!("\n\n{}", wrapped(&choices(exercise, language).join(" · "), language));
         }
-        let solution = exercise.solution();
         let word = ["Answer", "答案"][language as usize];
         let answer = solution.answer.text();
         let why = exercise.explanation(language, &solution);
@@ -65,6 +72,17 @@ pub fn choices(exercise: &Exercise, language: Language) -> Vec<String> {
 #[must_use]
 pub fn grids(solution: &Solution) -> String {
     ascii::side_by_side(&solution.grids, TERMINAL_COLUMNS)
+}
+
+/// What the marks of its grids mean, where there are other marks than drawn and not drawn.
+#[must_use]
+pub fn legend(solution: &Solution, language: Language) -> Option<&'static str> {
+    let mut rows = solution.grids.iter().flat_map(|(_, lines)| lines);
+    let is_needed = rows.any(|row| row.contains(['-', '+', '2']));
+    is_needed.then_some(match language {
+        Language::English => "# agrees, - missing, + too many, 2 twice",
+        Language::Chinese => "# 一致，- 缺失，+ 多余，2 画了两次",
+    })
 }
 
 /// Lines of at most that many columns, a Chinese character taking two. Lines break at blanks, and

@@ -25,7 +25,7 @@ const NOTICES: Exercise = Exercise {
     question: [
         "A rasterizer takes every sample with all edge functions >= 0, so both sides own a shared edge. Which of these \
          statements is untrue of it?",
-        "有个光栅器取所有边函数 >= 0 的采样点，于是公共边两边都占有。下面哪个命题对它不成立？",
+        "有个光栅化器取所有边函数 >= 0 的采样点，于是公共边归两边所有。下面哪条性质对它不成立？",
     ],
     choices: &[
         ["a constant attribute comes out bit for bit", "常数属性逐位原样得出"],
@@ -59,7 +59,7 @@ const ORDERS: Exercise = Exercise {
     question: [
         "A rasterizer draws a triangle only if its corners run clockwise. In how many of the six orders of its corners \
          does it draw?",
-        "有个光栅器只画顶点按顺时针排列的三角形。三个顶点有六种排列，它在其中几种下会画？",
+        "有个光栅化器只画顶点按顺时针排列的三角形。三个顶点有六种排列，它在其中几种下会画？",
     ],
     choices: &[],
     solve: |_| {
@@ -93,7 +93,7 @@ const MOVED: Exercise = Exercise {
     question: [
         "A rasterizer casts to int, which cuts towards zero, and is right about a triangle near the origin. Where is it wrong \
          about the same triangle?",
-        "有个光栅器强制转换成 int，即向零截断；原点右下方的一个三角形它画得对。把同一个三角形移到哪里，它就画错？",
+        "有个光栅化器强制转换成 int，即向零截断；原点右下方的一个三角形它画得对。把同一个三角形移到哪里，它就画错？",
     ],
     choices: &[
         ["20 pixels to the right", "向右 20 像素"],

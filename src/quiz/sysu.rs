@@ -38,7 +38,7 @@ fn rows(to: [i32; 2]) -> Vec<i32> {
 const DECISION: Exercise = Exercise {
     question: [
         "From (0, 0) to (8, 3) the decision begins with p_0 = 2 dy - dx = -2, so column 1 keeps its row. What is p_1?",
-        "从 (0, 0) 到 (8, 3)，判别量从 p_0 = 2 dy - dx = -2 开始，所以第 1 列不换行。p_1 是多少？",
+        "从 (0, 0) 到 (8, 3)，判别量从 p_0 = 2 dy - dx = -2 开始，所以第 1 列留在本行。p_1 是多少？",
     ],
     choices: &[],
     solve: |_| {
@@ -53,7 +53,7 @@ const DECISION: Exercise = Exercise {
     },
     why: [
         "p_0 + 2 dy = -2 + 6, and no 2 dx, for there was no step sideways. It is positive: column 2 is lit in row {}.",
-        "p_0 + 2 dy = -2 + 6；没有侧移，所以不减 2 dx。它是正的：第 2 列点亮的是第 {} 行。",
+        "p_0 + 2 dy = -2 + 6；没有横移，所以不减 2 dx。它是正的：第 2 列点亮的是第 {} 行。",
     ],
 };
 
@@ -70,7 +70,7 @@ const BACKWARDS: Exercise = Exercise {
     question: [
         "The report's code stays in its row while p < 0. From (0, 0) to (2, 1) it lights (1, 1). Which pixel of column 1 \
          does it light from (2, 1) back to (0, 0)?",
-        "报告的代码在 p < 0 时不换行。从 (0, 0) 画到 (2, 1)，它点亮 (1, 1)。从 (2, 1) 画回 (0, 0)，\
+        "报告的代码在 p < 0 时留在本行。从 (0, 0) 画到 (2, 1)，它点亮 (1, 1)。从 (2, 1) 画回 (0, 0)，\
          第 1 列点亮的是哪个像素？",
     ],
     choices: &[],
@@ -84,7 +84,7 @@ const BACKWARDS: Exercise = Exercise {
     why: [
         "The height is 1/2 there, p is 0, and 0 is not < 0: the step is taken, whichever way one comes. A drawer that \
          fixes the side of ties on the sorted ends lights row {} both ways.",
-        "那里的高度是 1/2，p 为 0，而 0 并不 < 0：从哪边来都会侧移。按排好序的两端固定平局归属，\
+        "那里的高度是 1/2，p 为 0，而 0 并不 < 0：不论从哪边来都会横移。按排好序的两端固定平局归属，\
          两个方向点亮的都是第 {} 行。",
     ],
 };

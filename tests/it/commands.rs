@@ -98,8 +98,8 @@ fn misspelt_names_get_a_suggestion() {
 #[test]
 fn bad_input_is_refused_with_a_reason() {
     for (words, reason) in [
-        (&["--cases", "0"][..], "0 is not in 1.."),
-        (&["--cases", "many"], "invalid digit"),
+        (&["--cases", "0"][..], "expected a whole number from 1"),
+        (&["--cases", "many"], "expected a whole number from 1"),
         (&["--seconds", "nan"], "--seconds NaN"),
         (&["--shard", "3/3"], "I from 0 to N - 1"),
         (&["--engine", "dda", "--family", "uniform"], "no case was judged"),
@@ -265,6 +265,15 @@ fn inspect_explains_a_pixel() {
     let (line, _) = check(&["inspect", "--line", "0,0", "8,4", "--pixel", "3,2"], 0);
     assert!(line.contains("passes y = 1 and 4/8, a tie"), "{line}");
     assert!(line.contains("of the two the one farther along is lit: this one"), "{line}");
+    // Off the grid by the exact forms: the case draws around its own corners.
+    let free = ["inspect", "f32-tie#0"];
+    let (case, _) = check(&free, 0);
+    let (_, rest) = case.split_once("window: columns ").unwrap();
+    let first = |axis: &str| rest.split_once(axis).unwrap().1.split_once("..").unwrap().0;
+    let pixel = format!("{},{}", rest.split_once("..").unwrap().0, first("rows "));
+    let (out, _) = check(&[&free[..], &["--pixel", &pixel]].concat(), 0);
+    assert!(out.contains("by the top-left rule: ") && out.contains(" px^2, "), "{out}");
+    assert!(out.contains("edge-function-exact: ") && out.contains("oracle-exact "), "{out}");
     let (_, errors) = check(&["inspect", "T2", "--pixel", "99,3"], 2);
     assert!(errors.contains("lies outside the window"), "{errors}");
 }

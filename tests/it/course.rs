@@ -251,6 +251,30 @@ def samples(x0, y0, x1, y1, x2, y2, width, height, set_pixel):
         set_pixel(x, y, mask)
 
 
+def depth(triangles, width, height, set_pixel):
+    nearest = {}
+    for t, corners in enumerate(triangles):
+        for x, y in box(corners, width, height):
+            l = weights(corners, x + 0.5, y + 0.5)
+            if l:
+                z = sum(l[i] * corners[i][2] for i in range(3))
+                if z < nearest.get((x, y), (math.inf, 0))[0]:
+                    nearest[x, y] = (z, t)
+    for (x, y), (_, t) in nearest.items():
+        set_pixel(x, y, t)
+
+
+def clip(corners):
+    polygon = []
+    for a, b in zip(corners, corners[1:] + corners[:1]):
+        da, db = a[2] + a[3], b[2] + b[3]
+        if da >= 0:
+            polygon.append(a)
+        if (da >= 0) != (db >= 0):
+            polygon.append([p + (q - p) * da / (da - db) for p, q in zip(a, b)])
+    return polygon
+
+
 # ---- the line protocol"#;
     let starter = fs::read_to_string(&path).unwrap();
     fs::write(&path, starter.replace("# ---- the line protocol", code)).unwrap();
@@ -263,6 +287,153 @@ def samples(x0, y0, x1, y1, x2, y2, width, height, set_pixel):
     let (out, _) =
         run(&folder, &["grade", "--cases", "20", "--", "python3", "-B", "starter.py"], 1);
     assert!(out.ends_with("11 of 12 points\n"), "{out}");
+    // What is drawn last, what is farthest, the middle instead of the pixel; another plane, a corner
+    // lost, w forgotten.
+    let right = fs::read_to_string(&path).unwrap();
+    for (step, from, to, said) in [
+        ("depth", "if z < nearest", "if True or z < nearest", "show what lies behind"),
+        (
+            "depth",
+            "if z < nearest.get((x, y), (math.inf",
+            "if z > nearest.get((x, y), (-1",
+            "show what",
+        ),
+        ("depth", "l[i] * corners[i][2] for", "corners[i][2] for", "show what lies behind"),
+        ("clipping", "a[2] + a[3], b[2] + b[3]", "a[2], b[2]", "corners missing"),
+        ("clipping", "    return polygon", "    return polygon[:3]", "corners missing"),
+        ("clipping", "    return polygon", "    return polygon[::-1]", "out of order"),
+        ("clipping", "zip(a, b)]", "zip(a[:3], b[:3])]", "x, y, z, w"),
+    ] {
+        assert!(right.contains(from), "{from}");
+        fs::write(&path, right.replace(from, to)).unwrap();
+        let (out, _) = run(&folder, &["check", step, "--cases", "40"], 1);
+        assert!(out.contains(said), "{from} -> {to}: {out}");
+    }
+}
+
+const RUST_BODIES: [(&str, &str); 2] = [
+    (
+        "usize),\n) {\n}",
+        "usize),\n) {
+    let mut nearest = vec![(f64::INFINITY, 0); (width * height) as usize];
+    for (t, p) in triangles.iter().enumerate() {
+        let turn = |i: usize, s: [f64; 2]| {
+            let (a, b) = (p[i], p[(i + 1) % 3]);
+            (b[0] - a[0]) * (s[1] - a[1]) - (b[1] - a[1]) * (s[0] - a[0])
+        };
+        let area = turn(0, [p[2][0], p[2][1]]);
+        for at in 0..width * height {
+            let s = [f64::from(at % width) + 0.5, f64::from(at / width) + 0.5];
+            let inside = |i: usize| {
+                let (a, b) = if area > 0.0 { (p[i], p[(i + 1) % 3]) } else { (p[(i + 1) % 3], p[i]) };
+                let e = turn(i, s) / area;
+                e > 0.0 || e == 0.0 && (b[1] < a[1] || b[1] == a[1] && b[0] > a[0])
+            };
+            let z = (turn(1, s) * p[0][2] + turn(2, s) * p[1][2] + turn(0, s) * p[2][2]) / area;
+            if area != 0.0 && (0..3).all(inside) && z < nearest[at as usize].0 {
+                nearest[at as usize] = (z, t);
+            }
+        }
+    }
+    for (at, (z, t)) in (0..).zip(nearest) {
+        if z < f64::INFINITY {
+            set_pixel(at % width, at / width, t);
+        }
+    }
+}",
+    ),
+    (
+        "    Vec::new()\n}",
+        "    let mut left = Vec::new();
+    for i in 0..3 {
+        let (a, b) = (corners[i], corners[(i + 1) % 3]);
+        let (from, to) = (a[2] + a[3], b[2] + b[3]);
+        if from >= 0.0 {
+            left.push(a);
+        }
+        if (from >= 0.0) != (to >= 0.0) {
+            left.push(std::array::from_fn(|k| a[k] + (b[k] - a[k]) * from / (from - to)));
+        }
+    }
+    left
+}",
+    ),
+];
+
+const CPP_BODIES: [(&str, &str); 2] = [
+    (
+        "    (void)triangles, (void)count, (void)width, (void)height, (void)set_pixel;\n",
+        "    for (int y = 0; y < height; y++)
+        for (int x = 0; x < width; x++) {
+            double nearest = 1e300;
+            int seen = -1;
+            for (int t = 0; t < count; t++) {
+                const rasterproof_point *p = triangles[t];
+                double e[3], area = 0, z = 0;
+                bool inside = true;
+                for (int i = 0; i < 3; i++) {
+                    const rasterproof_point a = p[i], b = p[(i + 1) % 3];
+                    e[i] = (b.x - a.x) * (y + 0.5 - a.y) - (b.y - a.y) * (x + 0.5 - a.x);
+                    area += e[i];
+                    z += e[i] * p[(i + 2) % 3].z;
+                }
+                for (int i = 0; i < 3; i++) {
+                    const rasterproof_point a = area > 0 ? p[i] : p[(i + 1) % 3], b = area > 0 ? p[(i + 1) % 3] : p[i];
+                    const bool owns = b.y < a.y || (b.y == a.y && b.x > a.x);
+                    inside = inside && (e[i] * area > 0 || (e[i] == 0 && owns));
+                }
+                if (area != 0 && inside && z / area < nearest) nearest = z / area, seen = t;
+            }
+            if (seen >= 0) set_pixel(x, y, seen);
+        }
+",
+    ),
+    (
+        "    (void)corners, (void)add_corner;\n",
+        "    for (int i = 0; i < 3; i++) {
+        const rasterproof_clip_corner a = corners[i], b = corners[(i + 1) % 3];
+        const double from = a.z + a.w, to = b.z + b.w, t = from / (from - to);
+        if (from >= 0) add_corner(a.x, a.y, a.z, a.w);
+        if ((from >= 0) != (to >= 0))
+            add_corner(a.x + (b.x - a.x) * t, a.y + (b.y - a.y) * t, a.z + (b.z - a.z) * t, a.w + (b.w - a.w) * t);
+    }
+",
+    ),
+];
+
+/// The starters of the compiled languages hand over piles and corners, and write what comes back.
+#[test]
+fn course_starters_order_and_clip() {
+    for (language, tool, source, bodies, build) in [
+        ("rust", "rustc", "starter.rs", RUST_BODIES, "rustc -O --edition 2024 starter.rs"),
+        ("cpp", "c++", "starter.cpp", CPP_BODIES, "c++ -std=c++11 -O2 starter.cpp -o starter"),
+    ] {
+        if !has(tool) {
+            continue;
+        }
+        let folder = folder(&format!("{language}-bodies"));
+        run(&folder, &["start", "--language", language], 0);
+        let mut text = fs::read_to_string(folder.join(source)).unwrap();
+        for (empty, body) in bodies {
+            assert!(text.contains(empty), "{language}: {empty}");
+            text = text.replace(empty, body);
+        }
+        fs::write(folder.join(source), text).unwrap();
+        let words: Vec<&str> = build.split(' ').collect();
+        let built = Command::new(words[0]).args(&words[1..]).current_dir(&folder).output().unwrap();
+        assert!(built.status.success(), "{}", String::from_utf8_lossy(&built.stderr));
+        let words = "judge --cases 64 --family depth-order --family near-plane -- ./starter";
+        let judged =
+            Command::new(PROGRAM).args(words.split(' ')).current_dir(&folder).output().unwrap();
+        let out = String::from_utf8(judged.stdout).unwrap();
+        // Its other functions are empty, so that it does not draw; of these two nothing is wrong.
+        for property in ["depth-order", "near-plane"] {
+            let row = out.lines().find(|line| line.starts_with(property)).unwrap_or_default();
+            let words: Vec<&str> = row.split_whitespace().collect();
+            assert!(words.len() == 10 && words[1] != "0", "{language}: {out}");
+            assert_eq!(words[9], "0.00%", "{language}: {out}");
+        }
+    }
 }
 
 /// Points as Gradescope reads them, and a table of a folder; a submission that is broken, hangs or is

@@ -55,6 +55,18 @@ pub const fn figure(
 pub const ALL: &[&[Figure]] =
     &[PIXELS, LINES, TRIANGLES, VALUES, STEPS, CLIPPING, COST, PROOF, EFFECTS];
 
+/// The side, in pixels, of the largest square whose edge functions get one of these words.
+fn widest(words: &[WordWidth]) -> Vec<f64> {
+    let is_enough = |side_px: &u32| words.contains(&WordWidth::of(side_px << 8, side_px << 8));
+    let (mut enough, mut too_wide) = (1, 1 << 23 | 1 << 22);
+    assert!(is_enough(&enough) && !is_enough(&too_wide));
+    while too_wide - enough > 1 {
+        let middle = (enough + too_wide) / 2;
+        *(if is_enough(&middle) { &mut enough } else { &mut too_wide }) = middle;
+    }
+    vec![f64::from(enough)]
+}
+
 /// What a scene costs as the page on effects measures it.
 fn counted(name: &str, antialias: Antialias, effects: Effects) -> Counters {
     let scene = scene(name, 4.0 / 3.0, 0.0).unwrap();
@@ -289,6 +301,21 @@ const VALUES: &[Figure] = &[
 const STEPS: &[Figure] = &[
     figure(
         "ch05",
+        "of a thousand w_a from 1 to 2 the worst is {} wrong at R = 1e7, {} at 1e6",
+        "w_a 取 1 到 2 之间的一千个值，最坏的在 R = 1e7 时错 {}，1e6 时错 {}",
+        || {
+            // Formula (8) of the values 0 and 1, at t' = 1.
+            let wrong = |w_a: f32, ratio: f32| {
+                let w_b = w_a * ratio;
+                f64::from(w_a / (w_b + (w_a - w_b)) - 1.0).abs()
+            };
+            let w = || (0..1000u16).map(|k| 1.0 + f32::from(k) / 1000.0);
+            let worst = |ratio| w().map(|w_a| wrong(w_a, ratio)).fold(0.0, f64::max);
+            vec![worst(1e7), worst(1e6)]
+        },
+    ),
+    figure(
+        "ch05",
         "| from 3.99 to 4, values 0 and 1 | t = {}, value {} |",
         "| 从 3.99 到 4，值 0 和 1 | t = {}，值为 {} |",
         || {
@@ -311,9 +338,11 @@ const STEPS: &[Figure] = &[
     figure("ch06", "at (10,1) the depth is {}:", "在 (10,1) 处深度是 {}：", || {
         vec![bug("depth_poison")["z_at_10_1"].as_f64().unwrap()]
     }),
-    figure("ch02", "`$ | about {} million px square |", "`$ | 约 {} 百万像素见方 |", || {
-        // (W + S)^2 < 2^63 with W and S in subpixels.
-        vec![(2f64.powf(31.5) - 256.0) / 256.0 / 1e6]
+    figure("ch02", "2^{31}`$ | {} px square |", "2^{31}`$ | {} 像素见方 |", || {
+        widest(&[WordWidth::I32])
+    }),
+    figure("ch02", "2^{63}`$ | {} px square |", "2^{63}`$ | {} 像素见方 |", || {
+        widest(&[WordWidth::I32, WordWidth::I64])
     }),
     figure(
         "sysu",

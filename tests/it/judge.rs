@@ -416,7 +416,9 @@ fn of<'a>(options: &[&'a str], engine: &[&'a str]) -> Vec<&'a str> {
 #[test]
 fn judge_prints_a_verdict() {
     let (out, errors) = check(&of(&["--jobs", "2"], &["scanline"]), 0);
-    assert!(out.contains("scanline speaks version 2: coverage attributes samples4 grid=256"));
+    assert!(
+        out.contains("scanline speaks version 2: coverage attributes samples4 depth clip grid=256")
+    );
     assert!(out.contains("\nAGREES: ") && out.contains("as declared:         0 wrong"), "{out}");
     assert_eq!(errors, "");
     let (out, _) = check(&of(&["--family", "half-integer"], &["exclusive-edges"]), 1);
@@ -568,7 +570,7 @@ impl Ask for CutsFirst {
             .iter()
             .map(|q| {
                 let (right, bottom) = (q.width as i32, q.height as i32);
-                let of = match q.of {
+                let of = match q.of.clone() {
                     Asked::Line { ends, whole } => {
                         let end = |p: PixelPoint| {
                             PixelPoint::new(p.x.clamp(0, right - 1), p.y.clamp(0, bottom - 1))
@@ -577,7 +579,7 @@ impl Ask for CutsFirst {
                     }
                     other => other,
                 };
-                Question { of, ..*q }
+                Question { of, width: q.width, height: q.height }
             })
             .collect();
         self.0.ask(&cut, most_deaths)

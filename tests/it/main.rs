@@ -19,6 +19,7 @@ mod league;
 mod matrix;
 mod models;
 mod mutants;
+mod next;
 mod page;
 mod pages;
 mod playground;

@@ -14,7 +14,7 @@ fn settings() -> Settings {
 
 #[test]
 fn every_mutant_dies() {
-    let matrix = Matrix::compute(SEED, CASES);
+    let matrix = Matrix::compute(SEED, CASES, &|| ());
     assert_eq!(matrix.problems(), Vec::<String>::new());
     let text = matrix.text();
     assert!(text.lines().all(|line| line.len() <= 100), "wider than 100 columns");

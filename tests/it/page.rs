@@ -637,6 +637,18 @@ fn page_of_each_command_is_in_the_index() {
     assert!(other.join("render.html").is_file() && other.join("cube.png").is_file());
 }
 
+/// A frame is shown as it is where it has room.
+#[test]
+fn page_shows_frames_as_they_are() {
+    let (_, _, page) = run("page-frame", &["render", "cube", "--report"]);
+    let Some(mut browser) = Browser::start("frame") else { return };
+    for (width, height) in [(1280, 720), (1280, 900)] {
+        browser.resize(width, height);
+        browser.open(&page, "");
+        assert_eq!(browser.eval("document.querySelector('#stage').dataset.cell"), json!("1"));
+    }
+}
+
 /// What a name must not be able to do.
 const HOSTILE: &str = "</script><img src=x onerror=\"document.title='broken into'\">&{{data}}'";
 

@@ -176,6 +176,47 @@ fn pages_tables_add_up() {
     }
 }
 
+/// The table of certificates says what they say, and the README what there is of it.
+#[test]
+fn pages_certificates_are_as_written() {
+    let certificate = |name: &str| -> serde_json::Value {
+        serde_json::from_str(&read(&format!("docs/certificates/{name}.json"))).unwrap()
+    };
+    let counts = ["cases", "comparisons", "oracle_checks", "mismatches"];
+    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("docs/certificates");
+    for pages in ["docs", "docs/zh"] {
+        let text = page(pages, "exhaustion");
+        let is_row = |line: &&str| line.starts_with("| [") && line.contains("certificates/");
+        let rows: Vec<_> = text.lines().filter(is_row).collect();
+        assert_eq!(rows.len(), fs::read_dir(&folder).unwrap().count(), "{pages}");
+        for line in rows {
+            let cells: Vec<_> = line.split('|').map(str::trim).collect();
+            let name = cells[1].trim_start_matches('[').split(']').next().unwrap();
+            let done = &certificate(name)["done"];
+            let said = [2, 3, 4, 5].map(|i| cells[i].replace(',', "").parse::<u64>().ok());
+            assert_eq!(said, counts.map(|count| done[count].as_u64()), "{pages}: {line}");
+        }
+    }
+    let readme = dense(&read("README.md"));
+    let edges = certificate("edges-8")["done"]["cases"].as_f64().unwrap();
+    let invariants = rasterproof::invariant::CATALOGUE.len() as f64;
+    // Rows of the matrix end in a count; the last line sums them up.
+    let matrix = read("snapshots/mutants.snap");
+    let is_mutant = |line: &&str| {
+        let mut words = line.split_whitespace().rev();
+        words.next().is_some_and(|n| n.parse::<u32>().is_ok())
+            && words.next().is_some_and(|marks| marks.contains(['.', '#']))
+    };
+    let mutants = matrix.lines().filter(is_mutant).count() as f64;
+    for (words, value) in [
+        ("0 wrong of {} |", edges),
+        ("| {} [invariants](docs/stability.md)", invariants),
+        ("each of {} faults dies", mutants),
+    ] {
+        assert_eq!(stale(&readme, words, &[value]), None);
+    }
+}
+
 /// What the errata say that needs no rasterizer.
 #[test]
 fn pages_errata_by_arithmetic() {

@@ -59,6 +59,39 @@ fn samples_of_half_a_pixel() {
     }
 }
 
+/// The second triangle has z = x / 2 and goes through the first, whose z is 1/2, at x = 1.
+#[test]
+fn the_nearest_triangle_is_seen() {
+    let pile = "0 0 0.5 4 0 0.5 0 4 0.5 0 0 0 4 0 2 0 4 0";
+    for engine in ["scanline", "edge-function", "oracle"] {
+        check(engine, &format!("D a 2 1 {pile}"), "V a 2 0 0 1 1 0 1 2 0");
+        check(engine, "D b 2 2 0 0 1 1 0 1 0 1 1", "V b 0");
+    }
+    let refusal = "E c D takes an id, width, height and 9 numbers for each of 1 to 64 triangles";
+    check("oracle", "D c 2 1 0 0 0.5 4", &format!("{refusal}; 7 words follow"));
+    check(
+        "oracle",
+        &format!("D c 2 1{}", " 1".repeat(65 * 9)),
+        &format!("{refusal}; 588 words follow"),
+    );
+    let nan = format!("D d 2 1 {}", pile.replace("0 0 0 4 0 2", "0 0 0 4 0 nan"));
+    check("oracle", &nan, "E d of triangle 1: z1 is not a number (NaN)");
+    check("dda", &format!("D e 2 1 {pile}"), "E e unsupported");
+}
+
+/// Two corners are kept, and the edges to the third are halved: its z + w is -1, theirs is 1.
+#[test]
+fn the_near_plane_cuts() {
+    for engine in ["scanline", "edge-function", "oracle"] {
+        let quad = "G a 4 0 0 0 1 4 0 0 1 2 2 -1 1 0 2 -1 1";
+        check(engine, "N a 0 0 0 1 4 0 0 1 0 4 -2 1", quad);
+        check(engine, "N b 0 0 -2 1 4 0 -2 1 0 4 -2 1", "G b 0");
+    }
+    check("oracle", "N c 1 2", "E c N takes an id and 12 numbers; 3 words follow");
+    check("oracle", "N d 0 0 0 inf 4 0 0 1 0 4 -2 1", "E d w0 is infinite");
+    check("bresenham", "N e 0 0 0 1 4 0 0 1 0 4 -2 1", "E e unsupported");
+}
+
 #[test]
 fn lines_in_drawing_order() {
     for engine in ["dda", "bresenham", "oracle"] {
@@ -108,7 +141,7 @@ fn bad_requests_are_answered_and_survived() {
         ("T b 8 8 0 0 one 1 2 2", "E b number 3 'one' cannot be read"),
         ("T b 8 8 0 0 0x 1 2 2", "E b number 3 '0x' cannot be read"),
         ("T b 8 8 0 0 -+1 1 2 2", "E b number 3 '-+1' cannot be read"),
-        ("X b 8 8", "E b unknown request 'X'; expected HELLO, T, L, I, S"),
+        ("X b 8 8", "E b unknown request 'X'; expected HELLO, T, L, I, S, D, N"),
         ("T", "E - T takes an id, width, height and 6 numbers; 0 words follow"),
         (
             "S b 8 8 0 0 1 1 8388607.9 2",

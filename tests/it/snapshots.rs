@@ -1,8 +1,8 @@
 //! Every named case: its pixels as the catalogue says, by every engine; a snapshot as text, and for
 //! the small ones one as a picture.
 //!
-//! One pass stores every snapshot that changed. `tests/differential.rs` runs the named cases too when
-//! the table disagrees, so that plain `cargo test` shows what a wrong line does.
+//! One pass stores every snapshot that changed. `tests/differential.rs` has all of them drawn where the
+//! table disagrees, so that plain `cargo test` shows what a wrong line does.
 //!
 //! A picture is compared by its decoded pixels. Where it differs, a sheet old | new | difference is
 //! written to `target/rasterproof/review/`, and `cargo run -- review` shows old and new pixel by pixel.
@@ -32,6 +32,8 @@ use rasterproof::verify::{
     tolerance,
 };
 
+use crate::next::NEXT;
+
 /// Largest sheet of a case that is kept, and picture of anything else.
 const MOST_BYTES: usize = 28 * 1024;
 const MOST_BYTES_OF_SCENES: usize = 320 * 1024;
@@ -48,12 +50,6 @@ pub fn settings() -> Settings {
     settings.set_omit_expression(true);
     settings
 }
-
-/// What to do about snapshots that changed.
-pub const NEXT: &str = "\
-old beside new, pixel by pixel, and how to accept what is right: cargo run -- review
-the smallest case that is wrong, with its chapter: cargo run -- verify
-what each named case is about: docs/index.md; the house: docs/ARCHITECTURE.md";
 
 /// Checks all of them, whatever comes of the first, and says what to do about those that changed.
 pub fn each<T>(items: impl IntoIterator<Item = T>, check: impl Fn(T)) {
@@ -167,7 +163,8 @@ fn check_text(named: &NamedCase) {
 }
 
 /// Every named case as text and as a picture.
-pub fn check_named_cases() {
+#[test]
+fn snapshots_of_named_cases() {
     let cases = named();
     let drawn =
         |named: &&NamedCase| matches!(&named.input, Input::Drawn { case, .. } if has_picture(case));
@@ -185,11 +182,6 @@ pub fn check_named_cases() {
         let title = format!("{}: {}", named.name, named.about);
         check_sheet(named.name, &panels::of_case(&title, case, &hits, &target));
     });
-}
-
-#[test]
-fn snapshots_of_named_cases() {
-    check_named_cases();
 }
 
 #[test]
@@ -273,6 +265,16 @@ fn pictures_are_compared_by_pixels() {
     assert_eq!((red, sheet.width()), (1, 28));
 }
 
+/// A picture of enlarged panels side by side, four pixels apart, of one size.
+fn enlarged(image: RgbImage, names: &[&str], (width, height): (u32, u32), zoom: u32) -> Sheet {
+    let shown = PixelRect::window(width, height);
+    let panel = |(i, name): (u32, &&str)| {
+        let at = [i * (width + 4) * zoom, 0];
+        panels::Panel { name: (*name).to_owned(), at, zoom, shown }
+    };
+    Sheet { image, panels: (0..).zip(names).map(panel).collect() }
+}
+
 /// Keeps a picture of the docs as a snapshot.
 pub fn check_picture(name: &str, image: &RgbImage) {
     check_png(name, picture::png(image), MOST_BYTES_OF_SCENES);
@@ -321,7 +323,7 @@ fn picture_of_barycentric_interpolation() {
         let colour = Rgb((f.varying * 255.0).round().to_array().map(|c| c as u8));
         square(&mut image, f.x_px as u32, f.y_px as u32, 8, colour);
     });
-    check_picture("barycentric", &image);
+    check_sheet("barycentric", &enlarged(image, &["values"], (30, 31), 8));
 }
 
 /// For chapter 5: a receding square, perspective-correct, affine, and the size of the difference
@@ -374,7 +376,8 @@ fn picture_of_the_affine_error() {
     }
     // (sqrt 4 - 1) / (sqrt 4 + 1) = 1/3 bounds the error, and the edges come close to it.
     assert!(worst <= 1.0 / 3.0 && worst > 0.32, "{worst}");
-    check_picture("affine-error", &image);
+    let names = ["perspective-correct", "affine", "difference"];
+    check_sheet("affine-error", &enlarged(image, &names, (96, 96), 3));
 }
 
 /// For the README: a closed fan by the strict rule (holes), by the inclusive one (twice), by both

@@ -3,7 +3,7 @@
 
 use glam::DVec3;
 use rasterproof::lineup::{self, Specimen};
-use rasterproof::report::sheet::{SHEETS, sheet, strip};
+use rasterproof::report::sheet::{SHEETS, alone, sheet};
 use rasterproof::report::specimens::{detail, table};
 use rasterproof::specimen::book_formulas::{value_f32, value_f32_repaired};
 use rasterproof::specimen::catalogue::{CARDS, RECORDED, find};
@@ -13,7 +13,7 @@ use rasterproof::verify::specimens::{
     SpecimenReport, exposing_name, judge_recorded, survey, wrong,
 };
 
-use crate::snapshots::{check_picture, each, settings};
+use crate::snapshots::{check_sheet, each, settings};
 
 /// Cases of each family: enough for the ties of every family that has them.
 const CASES: u64 = 60;
@@ -104,7 +104,7 @@ fn specimens_repair_of_the_depth_trades_one_error_for_the_other() {
 /// Published, repaired and different, a picture for each.
 #[test]
 fn specimens_are_drawn() {
-    each(CARDS, |card| check_picture(&format!("specimen-{}", card.name), &strip(card)));
+    each(CARDS, |card| check_sheet(&format!("specimen-{}", card.name), &alone(card)));
 }
 
 /// Every card is on one sheet, and what is written on its strip fits.
@@ -116,7 +116,7 @@ fn specimens_sheets() {
         let fits = card.fault.len() <= 62 && card.cure.len() + "cure: ".len() <= 62;
         assert!(fits && 2 * card.name.len() + card.source.len() < 62, "{}", card.name);
     }
-    each(&SHEETS, |of| check_picture(&format!("specimens-{}", of.name), &sheet(of)));
+    each(&SHEETS, |of| check_sheet(&format!("specimens-{}", of.name), &sheet(of)));
 }
 
 /// Every recorded input is wrong, or refused since it overflows.

@@ -116,6 +116,22 @@ fn apart_is_decided() {
     }
 }
 
+/// More rivals than are judged at once: 400 squares in one plane, over 1,650 pixels. No pixel of
+/// theirs is lost where a rectangle is halved.
+#[test]
+fn many_surfaces_in_one_plane() {
+    let mut scene = squares(12.0, 0.0);
+    scene.items = scene.items.iter().cycle().take(400).cloned().collect();
+    let target = Target::new(80, 60, Antialias::None, DepthFormat::F64).unwrap();
+    let drawn = Engine::JUDGED.map(|engine| draw(&scene, engine, target.clone()));
+    let background = drawn[0].0.get(0, 0).unwrap();
+    let rows = drawn[0].0.rows().flat_map(|(_, row)| row);
+    let covered = rows.filter(|&&colour| colour != background).count() as u64;
+    let c = judge(&scene, Engine::JUDGED, &drawn);
+    assert!(covered * 400 > 1 << 19, "{covered} pixels make too few rivals");
+    assert!(c.agrees() && c.undecided == covered, "{c:?} of {covered} pixels");
+}
+
 /// A rasterizer with wrong depths shows a surface that cannot be the nearest, or a depth out of bounds.
 #[test]
 fn a_planted_fault_is_still_found() {
@@ -194,6 +210,37 @@ fn render_model(words: &[&str]) -> (Option<i32>, String, Option<image::RgbImage>
     (output.status.code(), String::from_utf8(output.stdout).unwrap(), image)
 }
 
+/// The page's table, its first row: the model from twelve pitches, one sample a pixel, in f64.
+#[test]
+fn the_page_counts_ties() {
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+    let count = |aa: &str, pitch: u32| -> [u64; 2] {
+        let picture = root.join(format!("target/ties-page-{aa}-{pitch}.png"));
+        let output = Command::new(env!("CARGO_BIN_EXE_rasterproof"))
+            .args(["render", "tests/data/ties.obj", "--yaw", "0", "--pitch", &pitch.to_string()])
+            .args(["--depth", "f64", "--aa", aa, "--json", "-o"])
+            .arg(picture)
+            .current_dir(root)
+            .output()
+            .unwrap();
+        let json: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        ["undecided", "undecided_differ"].map(|key| json["comparison"][key].as_u64().unwrap())
+    };
+    for (number, aa) in ["none", "msaa4", "ssaa2"].into_iter().enumerate() {
+        let counts: Vec<_> = (0..12).into_par_iter().map(|i| count(aa, 3 + 7 * i)).collect();
+        for folder in ["docs", "docs/zh"] {
+            let page = std::fs::read_to_string(root.join(folder).join("ties.md")).unwrap();
+            let row = page.lines().filter(|line| line.starts_with("| `f64` |")).nth(number);
+            let row = row.unwrap();
+            let cells: Vec<_> = row.split('|').map(|cell| cell.trim().replace(',', "")).collect();
+            for i in 0..2 {
+                let sum: u64 = counts.iter().map(|count| count[i]).sum();
+                assert_eq!(cells[3 + i], sum.to_string(), "{folder}: {row}");
+            }
+        }
+    }
+}
+
 #[test]
 fn the_command_names_ties() {
     let (status, text, picture) = render_model(&["--depth", "f64"]);
@@ -207,6 +254,11 @@ fn the_command_names_ties() {
     let of = |key: &str| json["comparison"][key].as_u64().unwrap();
     assert_eq!((status, of("wrong_pixels"), of("wrong_depths")), (Some(0), 0, 0));
     assert!(of("undecided") >= of("undecided_differ") && of("undecided_differ") > 0, "{json}");
+    // As few effects as show the same picture; the edges alone, which both line drawers carry alike.
+    let (status, text, _) = render_model(&["--depth", "f64", "--effects", "planned"]);
+    assert!(status == Some(0) && text.contains("\nUNDECIDED: "), "{text}");
+    let (status, text, _) = render_model(&["--depth", "f64", "--wireframe"]);
+    assert!(status == Some(0) && text.contains("\nAGREES: "), "{text}");
     let (status, text, _) = render_model(&["--depth", "unorm24"]);
     assert!(status == Some(0) && text.contains("\nAGREES: "), "{text}");
 }

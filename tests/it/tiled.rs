@@ -9,12 +9,17 @@ use rasterproof::grid::PixelRect;
 use rasterproof::hazard::{Shape, Triangle, triangles::FAMILIES};
 use rasterproof::lineup::Drawer;
 use rasterproof::oracle::Oracle;
+use rasterproof::pipeline::multisample::{SAMPLES, moved};
 use rasterproof::pipeline::target::{Antialias, Colour, Target};
 use rasterproof::scene::chapters::{self, SCENES};
 use rasterproof::scene::{Material, Scene, random};
 use rasterproof::tile::Tiles;
-use rasterproof::tiled::{self, planes::Planes};
+use rasterproof::tiled::{self, Samples, planes::Planes};
+use rasterproof::triangle::Fragment;
 use rasterproof::verify::tolerance;
+
+/// The centre of a pixel, and the four samples, in 1/16 px.
+const PLACES: [(i32, i32); 5] = [(8, 8), SAMPLES[0], SAMPLES[1], SAMPLES[2], SAMPLES[3]];
 
 /// The box of a triangle in a window, as far as it has pixels there.
 fn box_of(triangle: &Triangle, window: PixelRect) -> PixelRect {
@@ -25,7 +30,7 @@ fn box_of(triangle: &Triangle, window: PixelRect) -> PixelRect {
     PixelRect { x0: low(xs), y0: low(ys), x1: high(xs), y1: high(ys) }.intersect(&window)
 }
 
-/// Every value of every covered pixel lies within the bound of the exact one, and somewhere the
+/// Every value of every covered pixel and sample lies within the bound of the exact one, and somewhere the
 /// bound is used: a bound that is thousands of times too wide would say nothing.
 #[test]
 fn values_lie_within_their_bound() {
@@ -42,12 +47,14 @@ fn values_lie_within_their_bound() {
                 let rounded = |i: usize| {
                     tolerance::ORACLE.attribute.at(triangle.vertices.map(|v| v.varying[i]))
                 };
-                Oracle.fragments(
-                    triangle,
-                    case.window,
-                    |f: rasterproof::triangle::Fragment<DVec2>| {
+                let exact = tolerance::ORACLE.depth.at(triangle.vertices.map(|v| v.depth));
+                for place in PLACES {
+                    let Some(moved) = moved(triangle, place) else { continue };
+                    let [right, down] = [place.0, place.1].map(|at| f64::from(at - 8) / 16.0);
+                    Oracle.fragments(&moved, case.window, |f: Fragment<DVec2>| {
+                        let (x, y) = (f64::from(f.x_px) + right, f64::from(f.y_px) + down);
                         for i in 0..2 {
-                            let (value, bound) = planes.value(i, f.x_px, f.y_px);
+                            let (value, bound) = planes.value(i, x, y);
                             let off = (f64::from(value) - f.varying[i]).abs();
                             assert!(
                                 off <= bound + rounded(i) || bound == f64::INFINITY,
@@ -57,12 +64,11 @@ fn values_lie_within_their_bound() {
                             );
                             largest = largest.max(off / bound);
                         }
-                        let (depth, bound) = planes.depth_at(f.x_px, f.y_px);
+                        let (depth, bound) = planes.depth_at(x, y);
                         let off = (f64::from(depth) - f.depth).abs();
-                        let exact = tolerance::ORACLE.depth.at(triangle.vertices.map(|v| v.depth));
                         assert!(off <= bound + exact, "{} {index}: depth {depth}", family.name);
-                    },
-                );
+                    });
+                }
             }
         }
         println!("{}: up to {largest:.3} of the bound", family.name);
@@ -71,8 +77,12 @@ fn values_lie_within_their_bound() {
     }
 }
 
-fn by_scanline(scene: &Scene, width: u32, height: u32) -> Frame<Colour> {
-    let mut target = Target::new(width, height, Antialias::None, Default::default()).unwrap();
+fn by_scanline(scene: &Scene, width: u32, height: u32, samples: Samples) -> Frame<Colour> {
+    let antialias = match samples {
+        Samples::One => Antialias::None,
+        Samples::Four => Antialias::Multisample4,
+    };
+    let mut target = Target::new(width, height, antialias, Default::default()).unwrap();
     Drawer::Scanline.render(scene, &Effects::PLANNED, &mut target).unwrap().picture
 }
 
@@ -81,17 +91,19 @@ fn scenes() -> Vec<Scene> {
     named.chain((0..12).map(|index| random::scene(1, index))).collect()
 }
 
-/// With one colour for everything, a pixel shows whether anything covers it: bit for bit, whatever
-/// lies in front.
+/// With one colour for everything, a pixel shows how many of its samples anything covers: bit for
+/// bit, whatever lies in front.
 #[test]
 fn coverage_is_that_of_the_engines() {
     for mut scene in scenes() {
         for item in &mut scene.items {
             item.material = Material::default();
         }
-        let (width, height) = (201, 134);
-        let tiles = tiled::render(&scene, width, height).unwrap();
-        assert!(tiles == by_scanline(&scene, width, height), "{}", scene.name);
+        for samples in [Samples::One, Samples::Four] {
+            let tiles = tiled::render(&scene, 201, 134, samples).unwrap();
+            let engine = by_scanline(&scene, 201, 134, samples);
+            assert!(tiles == engine, "{} with {samples:?}", scene.name);
+        }
     }
 }
 
@@ -99,14 +111,16 @@ fn coverage_is_that_of_the_engines() {
 #[test]
 fn neither_threads_nor_instructions_leave_a_trace() {
     for scene in scenes() {
-        let draw = |threads: usize, tiles: Tiles| {
+        let draw = |threads: usize, tiles: Tiles, samples: Samples| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            pool.install(|| tiled::render_in(tiles, &scene, 201, 134).unwrap())
+            pool.install(|| tiled::render_in(tiles, &scene, 201, 134, samples).unwrap())
         };
-        let one = draw(1, Tiles::default());
-        assert!(one == draw(2, Tiles::default()) && one == draw(5, Tiles::default()));
-        for tiles in Tiles::levels() {
-            assert!(one == draw(1, tiles), "{} in {}", scene.name, tiles.instructions());
+        for samples in [Samples::One, Samples::Four] {
+            let one = draw(1, Tiles::default(), samples);
+            assert!([2, 5].iter().all(|&count| one == draw(count, Tiles::default(), samples)));
+            for tiles in Tiles::levels() {
+                assert!(one == draw(1, tiles, samples), "{} {}", scene.name, tiles.instructions());
+            }
         }
     }
 }
@@ -120,7 +134,10 @@ fn sizes_that_cut_tiles() {
         item.material = Material::default();
     }
     for (width, height) in [(1, 1), (15, 64), (64, 64), (65, 63), (128, 1), (130, 129)] {
-        let tiles = tiled::render(&scene, width, height).unwrap();
-        assert!(tiles == by_scanline(&scene, width, height), "{width} x {height}");
+        for samples in [Samples::One, Samples::Four] {
+            let tiles = tiled::render(&scene, width, height, samples).unwrap();
+            let engine = by_scanline(&scene, width, height, samples);
+            assert!(tiles == engine, "{width} x {height} with {samples:?}");
+        }
     }
 }

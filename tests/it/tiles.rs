@@ -6,7 +6,8 @@ use rasterproof::frame::{Coverage, Frame};
 use rasterproof::grid::{PixelRect, SubpixelPoint};
 use rasterproof::hazard::{Shape, triangles::FAMILIES};
 use rasterproof::oracle::Oracle;
-use rasterproof::tile::{CoverList, NARROW_EXTENT, Piece, SIDE_PX, Tiles};
+use rasterproof::paint;
+use rasterproof::tile::{CoverList, NARROW_EXTENT, Piece, Tiles};
 use rasterproof::triangle::Corners;
 
 fn oracle(corners: Corners, window: PixelRect) -> Coverage {
@@ -21,8 +22,10 @@ fn tiles(engine: &Tiles, list: &[Corners], window: PixelRect) -> (Vec<Coverage>,
     let mut pieces = Vec::new();
     engine.cover_list(list, window, &mut |run| pieces.extend_from_slice(run));
     for piece in &pieces {
-        if let Piece::Tile(tile) = piece {
-            assert!(tile.x_px % SIDE_PX == 0 && tile.rows != [0; 16], "{tile:?}");
+        match piece {
+            Piece::Cell(cell) => assert!(cell.pixels != 0, "{cell:?}"),
+            Piece::Tile(tile) => assert!(tile.rows != [0; 16], "{tile:?}"),
+            Piece::Block(block) => assert!(!block.rect.is_empty(), "{block:?}"),
         }
         let hits = &mut hits[piece.triangle() as usize];
         piece.spans(&mut |span| hits.hit(span.y_px, span.x0_px, span.x1_px));
@@ -106,6 +109,37 @@ fn borders_of_the_words_are_exact() {
         }
         let high = origin(i32::MAX - 46_000 - phase, i32::MAX - 46_000 - phase);
         at_the_corners_of_a_box(high, 46_000, 46_000 + i64::from(phase));
+    }
+}
+
+/// Triangles of 1 to 20 px a side at every corner of a window, so that cells and tiles of half the
+/// columns reach over its borders; and both winners of `paint` leave the same pixels.
+#[test]
+fn small_triangles_at_the_borders_are_exact() {
+    let window = PixelRect { x0: 13, y0: -6, x1: 46, y1: 31 };
+    let at = |x: i32, y: i32| SubpixelPoint::new(x, y);
+    for side_px in 1..=20 {
+        let side = side_px * 256 - 3;
+        let mut list = Vec::new();
+        for (x_px, y_px) in [(13, -6), (46, -6), (13, 31), (46, 31), (30, 12)] {
+            for phase in [0, 77, 128, 200] {
+                let (x, y) = (x_px * 256 - side / 2 + phase, y_px * 256 - side / 3 - phase);
+                list.push([at(x, y), at(x + side, y + side / 4), at(x + side / 5, y + side)]);
+                list.push([at(x, y), at(x, y + side), at(x + side, y + side)]);
+            }
+        }
+        compare(&list, window);
+        for engine in Tiles::levels() {
+            let mut painted = Frame::new(window, 0);
+            paint::fill(&engine, &list, 9, &mut painted);
+            let mut truth = Frame::new(window, 0);
+            for &corners in &list {
+                Oracle.cover(corners, window, |span| {
+                    truth.span_mut(span.y_px, span.x0_px, span.x1_px).fill(9);
+                });
+            }
+            assert!(painted == truth, "{} in {}", side_px, engine.instructions());
+        }
     }
 }
 

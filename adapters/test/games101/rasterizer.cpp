@@ -44,7 +44,7 @@ void rst::rasterizer::draw(pos_buf_id positions, ind_buf_id indices, col_buf_id 
     }
 }
 
-static bool insideTriangle(float x, float y, const Eigen::Vector3f *corners) {
+static bool holds(const Eigen::Vector3f *corners, float x, float y) {
     int left = 0, right = 0;
     for (int i = 0; i < 3; i++) {
         const Eigen::Vector3f &from = corners[i], &to = corners[(i + 1) % 3];
@@ -56,8 +56,8 @@ static bool insideTriangle(float x, float y, const Eigen::Vector3f *corners) {
 }
 
 void rst::rasterizer::rasterize_triangle(const Triangle &t) {
-    for (int y = 0; y < height; y++)
-        for (int x = 0; x < width; x++)
-            if (insideTriangle(float(x) + 0.5f, float(y) + 0.5f, t.v))
-                set_pixel(Eigen::Vector3f(float(x), float(y), 0), t.getColor());
+    for (int row = 0; row < height; row++)
+        for (int column = 0; column < width; column++)
+            if (holds(t.v, float(column) + 0.5f, float(row) + 0.5f))
+                set_pixel(Eigen::Vector3f(float(column), float(row), 0), t.getColor());
 }

@@ -32,10 +32,11 @@ void TRShaderPipeline::rasterize_fill_edge_function(const Vertex &v0, const Vert
 
 void TRShaderPipeline::rasterize_wire_aux(const Vertex &from, const Vertex &to, const unsigned &wide,
                                           const unsigned &high, std::vector<Vertex> &found) {
-    const int dx = to.spos.x - from.spos.x, dy = to.spos.y - from.spos.y, steps = glm::max(std::abs(dx), std::abs(dy));
+    const glm::ivec2 way = to.spos - from.spos;
+    const int steps = glm::max(std::abs(way.x), std::abs(way.y));
     for (int i = 0; i <= steps; i++) {
         const double t = steps ? double(i) / steps : 0;
-        keep(from.spos.x + int(std::lround(dx * t)), from.spos.y + int(std::lround(dy * t)), wide, high, found);
+        keep(from.spos.x + int(std::lround(way.x * t)), from.spos.y + int(std::lround(way.y * t)), wide, high, found);
     }
 }
 }

@@ -17,12 +17,12 @@ public:
     virtual ~TRShaderPipeline() = default;
     virtual void vertexShader(VertexData &vertex) = 0;
     virtual void fragmentShader(const VertexData &data, glm::vec4 &color) = 0;
-    static void rasterize_fill_edge_function(const VertexData &v0, const VertexData &v1, const VertexData &v2,
+    static void rasterize_fill_edge_function(const VertexData &a, const VertexData &b, const VertexData &c,
                                              const unsigned &wide, const unsigned &high,
                                              std::vector<VertexData> &found);
 
 protected:
-    static void rasterize_wire_aux(const VertexData &from, const VertexData &to, const unsigned &wide,
+    static void rasterize_wire_aux(const VertexData &a, const VertexData &b, const unsigned &wide,
                                    const unsigned &high, std::vector<VertexData> &found);
 };
 }

@@ -3,6 +3,7 @@
 use super::conditions::{interpolation, perspective};
 use super::piece::{BadScene, Piece, Prepared};
 use super::plan::{Order, PiecePlan, Plan, Rule};
+use crate::each::Each as _;
 use crate::pipeline::Counters;
 use crate::scene::Scene;
 
@@ -41,7 +42,7 @@ impl<'a> Assembled<'a> {
     /// Puts the pieces into an order; equal distances keep the order of submission.
     pub fn sort(&mut self, order: Order) {
         let (Order::FarthestFirst, Some(pieces)) = (order, &mut self.pieces) else { return };
-        let distance = |piece: &Piece| piece.vertices.map(|v| v.depth).iter().sum::<f64>();
+        let distance = |piece: &Piece| piece.vertices.each(|v| v.depth).iter().sum::<f64>();
         let mut sorted: Vec<_> = pieces.iter().copied().zip(self.plans.iter().copied()).collect();
         sorted.sort_by(|((_, a), _), ((_, b), _)| distance(b).total_cmp(&distance(a)));
         (*pieces, self.plans) = sorted.into_iter().unzip();

@@ -10,7 +10,7 @@ use super::plan::{Attributes, PiecePlan};
 use super::samples::OnDemand;
 use crate::contract::Interpolate;
 use crate::pipeline::Counters;
-use crate::pipeline::fill::{Way, fill, fill_flat};
+use crate::pipeline::fill::{Stage, Way, each, fill, fill_flat};
 use crate::pipeline::shade::{ALL, Attributes as Packed, Light, Surface};
 use crate::pipeline::target::{Antialias, Colour, Target, to_colour};
 use crate::pipeline::texture::Texture;
@@ -97,7 +97,8 @@ impl<'a> Kernel<'a> {
         } else {
             let way = Way { affine: true, depth_test: self.plan.depth };
             let bounds = target.bounds();
-            fill(engine, &pack::<0, 0>(piece), target, bounds, way, |_| colour, counters);
+            let stage = each(|_| colour);
+            fill(engine, &pack::<0, 0>(piece), target, bounds, way, &stage, counters);
         }
         // A constant is no run of the fragment stage.
         counters.shaded = shaded;
@@ -116,8 +117,7 @@ impl<'a> Kernel<'a> {
         let way = Way { affine: !self.plan.perspective, depth_test: self.plan.depth };
         let before = *counters;
         // One copy of the rasterizer's loops for all attributes of this size.
-        let stage: &dyn Fn(&Packed<N>) -> Colour =
-            &|varying| to_colour(self.shade::<N, MASK>(varying));
+        let stage: &Stage<'_, Packed<N>> = &self.stage::<N, MASK>();
         if let Some(on_demand) = samples {
             on_demand.draw_varying(engine, piece, &packed, target, self.plan, stage, counters);
         } else {
@@ -141,6 +141,12 @@ impl<'a> Kernel<'a> {
             if varies(Attributes::NORMAL) { self.light.intensity(normal) } else { self.intensity };
         let colour = if varies(Attributes::COLOUR) { self.base * colour } else { self.base };
         colour * texel * intensity
+    }
+
+    /// The fragment stage of the attributes in `MASK`: a function of its own, so that there is one
+    /// copy for all rasterizers.
+    fn stage<const N: usize, const MASK: u8>(&self) -> impl Fn(&[Packed<N>], u32, &mut [Colour]) {
+        each(|varying| to_colour(self.shade::<N, MASK>(varying)))
     }
 
     /// base x colour x texel x light; what is not in `MASK` is constant.

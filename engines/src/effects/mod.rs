@@ -21,6 +21,7 @@ mod planner;
 pub mod render;
 pub mod rivals;
 mod samples;
+#[cfg(feature = "host")]
 pub(crate) mod whole;
 
 use std::fmt;

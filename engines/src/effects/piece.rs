@@ -7,6 +7,7 @@ use glam::{DMat3, DVec2, DVec3};
 
 use super::Mode;
 use super::plan::{Attributes, ItemPlan};
+use crate::each::Each as _;
 use crate::grid::{HALF_PIXEL, PixelRect, SUBPIXEL_BITS, SubpixelPoint};
 use crate::pipeline::assemble::{Assembler, BadVertex, Point, check_vertex};
 use crate::pipeline::shade::{ALL, Attributes as Packed, Light, Surface};
@@ -118,8 +119,19 @@ impl<'a> Prepared<'a> {
         counters: &mut Counters,
         emit: &mut dyn FnMut(&Piece, &mut Counters),
     ) {
+        self.assemble_some(scene, &self.item.mesh.triangles, counters, emit);
+    }
+
+    /// Emits the pieces of some of its triangles.
+    pub fn assemble_some(
+        &self,
+        scene: &Scene,
+        triangles: &[[Corner; 3]],
+        counters: &mut Counters,
+        emit: &mut dyn FnMut(&Piece, &mut Counters),
+    ) {
         let mut fills = Counters::default();
-        for triangle in &self.item.mesh.triangles {
+        for triangle in triangles {
             let point = |i: usize| &self.points[triangle[i].position as usize];
             let varying = |i: usize| {
                 let face = match self.item.material.shading {
@@ -151,7 +163,7 @@ fn assembler(item: &Item, plan: &ItemPlan, window: PixelRect) -> Assembler {
 
 /// The piece with the attributes of `MASK` alone.
 pub(super) fn pack<const N: usize, const MASK: u8>(piece: &Piece) -> ScreenTriangle<Packed<N>> {
-    let vertices = piece.vertices.map(|vertex| {
+    let vertices = piece.vertices.each(|vertex| {
         let all = &vertex.varying.0;
         let mut packed = [0.0; N];
         let mut at = 0;

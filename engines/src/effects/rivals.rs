@@ -12,6 +12,7 @@ use super::samples::depths::Plane;
 use super::samples::pattern::{Pattern, scaled};
 use super::{Effect, Effects, Mode, planner};
 use crate::contract::{Interpolate, Rasterize};
+use crate::each::Each as _;
 use crate::frame::Frame;
 use crate::grid::PixelRect;
 use crate::oracle::Oracle;
@@ -80,15 +81,16 @@ impl<'a> Rivals<'a> {
     pub fn piece(&self, piece: u32, plane: usize) -> Option<(Corners, [f64; 3])> {
         let (_, piece) = &self.pieces[piece as usize];
         let moved = self.pattern.moved(&pack::<0, 0>(piece), plane)?;
-        Some((moved.corners(), moved.vertices.map(|vertex| vertex.depth)))
+        Some((moved.corners(), moved.vertices.each(|vertex| vertex.depth)))
     }
 
-    /// All rivals in a rectangle of pixels, where a sample has at least two, sorted.
+    /// All rivals in a rectangle of pixels, where a sample has at least two, sorted; none where they
+    /// are more than `most`, which is asked of smaller rectangles then.
     ///
     /// Nearer is what has the smaller key, and of equal keys what was drawn first. So a piece may be
     /// the nearest if its nearest (key, place in the order) is not beyond the farthest of another.
     #[must_use]
-    pub fn within(&self, rect: PixelRect) -> Vec<Rival> {
+    pub fn within(&self, rect: PixelRect, most: usize) -> Option<Vec<Rival>> {
         let samples = scaled(rect, self.pattern.scale);
         let beyond_all = (u64::MAX, u32::MAX);
         let mut farthest = vec![Frame::new(samples, beyond_all); self.pattern.planes];
@@ -109,15 +111,18 @@ impl<'a> Rivals<'a> {
             let waiting = &mut first[plane].span_mut(y_px, x_px, x_px + 1)[0];
             if *waiting == u32::MAX {
                 *waiting = rival.piece;
-            } else {
+            } else if rivals.len() <= most {
                 let before = Rival { piece: *waiting, ..rival };
                 // Repeated from the third on.
                 rivals.extend([before, rival]);
             }
         });
+        if rivals.len() > most {
+            return None;
+        }
         rivals.sort_unstable();
         rivals.dedup();
-        rivals
+        Some(rivals)
     }
 
     /// Every sample that a piece covers, with the keys between which its depth lies.

@@ -10,6 +10,8 @@ pub mod named;
 pub mod offgrid;
 #[doc(hidden)]
 pub mod shrink;
+#[doc(hidden)]
+pub mod stages;
 pub mod triangles;
 
 use glam::DVec2;

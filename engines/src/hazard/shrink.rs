@@ -4,6 +4,7 @@
 //! again; stop when none does. Corners on multiples of half a pixel come before short ones. The number of trials is bounded, so a slow engine costs little.
 
 use super::{Case, Line, Shape, Triangle};
+use crate::each::Each as _;
 use crate::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
 use crate::triangle::PixelPoint;
 
@@ -11,7 +12,7 @@ const MOST_TRIALS: u32 = 3000;
 
 /// The smallest case reached from `case`, which fails, through `candidates` that are smaller and
 /// fail too; at most `MOST_TRIALS` are looked at.
-pub fn greedy<C, S: PartialOrd>(
+pub(in crate::hazard) fn greedy<C, S: PartialOrd>(
     case: C,
     size: impl Fn(&C) -> S,
     candidates: impl Fn(&C) -> Vec<C>,
@@ -88,7 +89,7 @@ pub fn size(case: &Case) -> (usize, usize, u64, u32, u64, u64) {
             (list.len(), odd, px, bits, far(&xs) + far(&ys), window)
         }
         Shape::Lines(lines) => {
-            let points: Vec<_> = lines.iter().flat_map(|l| l.ends.map(|end| end.pixel)).collect();
+            let points: Vec<_> = lines.iter().flat_map(|l| l.ends.each(|end| end.pixel)).collect();
             let xs: Vec<_> = points.iter().map(|p| i64::from(p.x)).collect();
             let ys: Vec<_> = points.iter().map(|p| i64::from(p.y)).collect();
             (lines.len(), 0, reach(&xs) + reach(&ys), 0, far(&xs) + far(&ys), window)
@@ -137,17 +138,7 @@ fn triangle_candidates(case: &Case, list: &[Triangle]) -> Vec<Case> {
         ));
     }
     // A smaller window, around the origin.
-    for (width, height) in [
-        (w.width() / 2, w.height()),
-        (w.width(), w.height() / 2),
-        (w.width() - 1, w.height()),
-        (w.width(), w.height() - 1),
-    ] {
-        if width > 0 && height > 0 {
-            let window = PixelRect { x1: w.x0 + width as i32, y1: w.y0 + height as i32, ..w };
-            found.push(with(window, vec![*triangle]));
-        }
-    }
+    found.extend(smaller_windows(w).map(|window| with(window, vec![*triangle])));
     // By whole pixels towards the origin.
     for (dx, dy) in [(16, 0), (0, 16), (4, 0), (0, 4), (1, 0), (0, 1)] {
         let by = |v: i32, px: i32| v.saturating_sub(px * SUBPIXELS);
@@ -188,6 +179,19 @@ fn triangle_candidates(case: &Case, list: &[Triangle]) -> Vec<Case> {
         }
     }
     found
+}
+
+/// Half the window, then a row or column less, around its upper left corner; none that is empty.
+fn smaller_windows(w: PixelRect) -> impl Iterator<Item = PixelRect> {
+    let (width, height) = (w.width(), w.height());
+    [(width / 2, height), (width, height / 2), (width - 1, height), (width, height - 1)]
+        .into_iter()
+        .filter(|&(width, height)| width > 0 && height > 0)
+        .map(move |(width, height)| PixelRect {
+            x1: w.x0 + width as i32,
+            y1: w.y0 + height as i32,
+            ..w
+        })
 }
 
 /// What is added before rounding down to multiples of half a pixel: nearest first, then the other
@@ -243,17 +247,7 @@ fn line_candidates(case: &Case, lines: &[Line]) -> Vec<Case> {
     };
     let w = case.window;
     let mut found = Vec::new();
-    for (width, height) in [
-        (w.width() / 2, w.height()),
-        (w.width(), w.height() / 2),
-        (w.width() - 1, w.height()),
-        (w.width(), w.height() - 1),
-    ] {
-        if width > 0 && height > 0 {
-            let window = PixelRect { x1: w.x0 + width as i32, y1: w.y0 + height as i32, ..w };
-            found.push(with(window, vec![*line]));
-        }
-    }
+    found.extend(smaller_windows(w).map(|window| with(window, vec![*line])));
     for (dx, dy) in [(8, 0), (0, 8), (1, 0), (0, 1), (-8, 0), (0, -8), (-1, 0), (0, -1)] {
         found.push(with(
             w,
@@ -290,11 +284,11 @@ pub fn describe(case: &Case) -> String {
     };
     let shapes: Vec<String> = match &case.shape {
         Shape::Triangles { list, .. } => {
-            list.iter().map(|t| t.corners().map(px).join(" ")).collect()
+            list.iter().map(|t| t.corners().each(px).join(" ")).collect()
         }
         Shape::Lines(lines) => lines
             .iter()
-            .map(|l| l.ends.map(|e| format!("{},{}", e.pixel.x, e.pixel.y)).join(" "))
+            .map(|l| l.ends.each(|e| format!("{},{}", e.pixel.x, e.pixel.y)).join(" "))
             .collect(),
     };
     shapes.join("; ")

@@ -14,6 +14,7 @@ use num_traits::{AsPrimitive, PrimInt, Signed};
 use robust::{Coord, orient2d};
 
 use super::{Cover, Real, Work, snap, snappable};
+use crate::each::Each as _;
 use crate::grid::{HALF_PIXEL, PixelRect, SUBPIXEL_BITS, SUBPIXELS};
 use crate::triangle::{Corners, FreeCorners, Span};
 
@@ -148,7 +149,7 @@ fn clockwise<T: Real>(
     corners: &FreeCorners,
     side: impl Fn(&Point<T>, &Point<T>, &Point<T>) -> T,
 ) -> Option<[Point<T>; 3]> {
-    let [a, b, c] = corners.px().map(|p| p.map(T::of));
+    let [a, b, c] = corners.px().each(|p| p.each(T::of));
     let area = side(&a, &b, &c);
     if area > T::zero() {
         Some([a, b, c])
@@ -167,7 +168,7 @@ fn edges<T: Copy>([a, b, c]: [Point<T>; 3]) -> [[Point<T>; 2]; 3] {
 
 #[inline]
 fn centre<T: Real>(x_px: i32, y_px: i32) -> Point<T> {
-    [x_px, y_px].map(|px| T::of(f64::from(px)) + T::HALF)
+    [x_px, y_px].each(|px| T::of(f64::from(px)) + T::HALF)
 }
 
 /// Covers by asking `side` at every sample.
@@ -180,7 +181,7 @@ fn cover_by<T: Real>(
 ) -> Option<Work> {
     let Some(corners) = clockwise(corners, &side) else { return Some(Work::default()) };
     let rect = pixel_box(&corners, bounds);
-    let edges = edges(corners).map(|[a, b]| (a, b, is_top_left(&a, &b)));
+    let edges = edges(corners).each(|[a, b]| (a, b, is_top_left(&a, &b)));
     let inside = |x_px: i32, y_px: i32| {
         let p = centre(x_px, y_px);
         // Without a branch for each edge, as the stepped rungs.
@@ -222,10 +223,10 @@ impl<T: Real> Cover for Stepped<T> {
         let rect = pixel_box(&corners, bounds);
         let edges = edges(corners);
         let start = centre(rect.x0, rect.y0);
-        let row = edges.map(|[a, b]| side(&a, &b, &start));
-        let right = edges.map(|[a, b]| a[1] - b[1]);
-        let down = edges.map(|[a, b]| b[0] - a[0]);
-        let keeps = edges.map(|[a, b]| is_top_left(&a, &b));
+        let row = edges.each(|[a, b]| side(&a, &b, &start));
+        let right = edges.each(|[a, b]| a[1] - b[1]);
+        let down = edges.each(|[a, b]| b[0] - a[0]);
+        let keeps = edges.each(|[a, b]| is_top_left(&a, &b));
         let outside = |e: [T; 3]| {
             let out = |i: usize| (e[i] < T::zero()) | ((e[i] == T::zero()) & !keeps[i]);
             out(0) | out(1) | out(2)
@@ -246,7 +247,7 @@ where
             let [a, b, c] = v;
             u128::from(a.max(b).max(c).abs_diff(a.min(b).min(c))) + SUBPIXELS as u128
         };
-        let bound = padded(corners.map(|p| p.x)) * padded(corners.map(|p| p.y));
+        let bound = padded(corners.each(|p| p.x)) * padded(corners.each(|p| p.y));
         let holds = |max: Option<u128>, bound: u128| max.is_none_or(|max| bound <= max);
         holds(T::max_value().to_u128(), bound)
             && holds(W::max_value().to_u128(), bound >> SUBPIXEL_BITS)
@@ -254,7 +255,7 @@ where
 
     #[inline]
     fn cover_lattice(corners: &Corners, bounds: PixelRect, emit: impl FnMut(Span)) -> Work {
-        let [a, b, c] = corners.map(|p| [i64::from(p.x), i64::from(p.y)]);
+        let [a, b, c] = corners.each(|p| [i64::from(p.x), i64::from(p.y)]);
         let side = |a: &Point<i64>, b: &Point<i64>, p: &Point<i64>| -> T {
             let wide = |v: i64| -> T { v.as_() };
             wide(b[0] - a[0]) * wide(p[1] - a[1]) - wide(b[1] - a[1]) * wide(p[0] - a[0])
@@ -278,14 +279,14 @@ where
             return Work::default();
         }
         let start = [rect.x0, rect.y0]
-            .map(|px| i64::from(px) * i64::from(SUBPIXELS) + i64::from(HALF_PIXEL));
-        let row = edges.map(|[a, b]| -> W {
+            .each(|px| i64::from(px) * i64::from(SUBPIXELS) + i64::from(HALF_PIXEL));
+        let row = edges.each(|[a, b]| -> W {
             let bias = if is_top_left(&a, &b) { T::zero() } else { T::one() };
             // An arithmetic shift is a floor.
             ((side(&a, &b, &start) - bias) >> SUBPIXEL_BITS as usize).as_()
         });
-        let right = edges.map(|[a, b]| -> W { (a[1] - b[1]).as_() });
-        let down = edges.map(|[a, b]| -> W { (b[0] - a[0]).as_() });
+        let right = edges.each(|[a, b]| -> W { (a[1] - b[1]).as_() });
+        let down = edges.each(|[a, b]| -> W { (b[0] - a[0]).as_() });
         visit_stepped(rect, row, right, down, |[a, b, c]| (a | b | c) < W::zero(), emit)
     }
 }

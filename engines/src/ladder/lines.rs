@@ -8,6 +8,7 @@ use std::marker::PhantomData;
 
 use super::Real;
 use crate::contract::DrawLine;
+use crate::each::Each as _;
 use crate::grid::PixelRect;
 use crate::triangle::{LineEnd, PixelPoint, ScreenLine};
 
@@ -128,7 +129,7 @@ impl<T: Real> Draw for Drifting<T> {
 impl<D: DrawLine> Draw for Contracted<D> {
     #[inline]
     fn draw(&self, ends: [PixelPoint; 2], window: PixelRect, mut emit: impl FnMut(PixelPoint)) {
-        let ends = ends.map(|pixel| LineEnd { pixel, depth: 0.0, varying: 0.0 });
+        let ends = ends.each(|pixel| LineEnd { pixel, depth: 0.0, varying: 0.0 });
         self.0.draw(&ScreenLine { ends }, window, |f| emit(PixelPoint::new(f.x_px, f.y_px)));
     }
 }

@@ -7,6 +7,7 @@ use std::cmp::Ordering;
 
 use super::each_sample;
 use crate::contract::{Decisions, Rasterize, RasterizeExact};
+use crate::each::Each as _;
 use crate::grid::{PixelRect, SubpixelPoint};
 use crate::raster::{edge_function_exact::EdgeFunctionExact, scanline::Scanline};
 use crate::triangle::{FreeCorners, Span};
@@ -91,14 +92,14 @@ impl ExactMutant {
             }
             Self::PlainCrossing => by_crossing(px, bounds, emit),
             Self::SnapsInside => {
-                let snapped = px.map(|[x, y]| SubpixelPoint::from_px(x, y));
+                let snapped = px.each(|[x, y]| SubpixelPoint::from_px(x, y));
                 if let [Ok(a), Ok(b), Ok(c)] = snapped {
                     Scanline.cover([a, b, c], bounds, emit);
                 }
             }
             Self::FlushesToZero => {
                 let flush = |v: f64| if v.abs() < f64::from(f32::MIN_POSITIVE) { 0.0 } else { v };
-                if let Ok(flushed) = FreeCorners::new(px.map(|corner| corner.map(flush))) {
+                if let Ok(flushed) = FreeCorners::new(px.each(|corner| corner.each(flush))) {
                     return EdgeFunctionExact.cover_exact(&flushed, bounds, emit);
                 }
             }
@@ -114,7 +115,7 @@ fn e_f64(a: Point, b: Point, p: Point) -> f64 {
 }
 
 fn e_f32(a: Point, b: Point, p: Point) -> f64 {
-    let [a, b, p] = [a, b, p].map(|point| point.map(|v| v as f32));
+    let [a, b, p] = [a, b, p].each(|point| point.each(|v| v as f32));
     f64::from((b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]))
 }
 

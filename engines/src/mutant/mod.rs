@@ -20,6 +20,7 @@ pub use stages::StageMutant;
 pub use tiles::TileMutant;
 pub use triangles::TriangleMutant;
 
+use crate::each::Each as _;
 use crate::grid::PixelRect;
 use crate::triangle::Span;
 
@@ -53,14 +54,14 @@ impl Mutant {
     #[must_use]
     pub fn all() -> Vec<Self> {
         let mut all: Vec<Self> = TriangleMutant::ALL.map(Self::Triangle).to_vec();
-        all.extend(OracleMutant::ALL.map(Self::Oracle));
+        all.extend(OracleMutant::ALL.each(Self::Oracle));
         all.extend(SnapMutant::ALL.map(Self::Snap));
-        all.extend(EdgeValuesMutant::ALL.map(Self::EdgeValues));
-        all.extend(WordWidthMutant::ALL.map(Self::WordWidth));
+        all.extend(EdgeValuesMutant::ALL.each(Self::EdgeValues));
+        all.extend(WordWidthMutant::ALL.each(Self::WordWidth));
         all.extend(LineMutant::ALL.map(Self::Line));
-        all.extend(SourceMutant::ALL.map(Self::Source));
+        all.extend(SourceMutant::ALL.each(Self::Source));
         all.extend(StageMutant::ALL.map(Self::Stage));
-        all.extend(JudgeMutant::ALL.map(Self::Judge));
+        all.extend(JudgeMutant::ALL.each(Self::Judge));
         all.extend(TileMutant::ALL.map(Self::Tile));
         all
     }

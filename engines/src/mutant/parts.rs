@@ -3,6 +3,7 @@
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
+use crate::each::Each as _;
 use crate::frame::Coverage;
 use crate::grid::{DOMAIN_PX, Refusal, SUBPIXELS, snap};
 use crate::hazard::{Case, Family, Shape, families};
@@ -88,9 +89,9 @@ impl EdgeValuesMutant {
                 let [a, b, _] = edge_values(corners, x_px, y_px);
                 [a, b, edge_values(corners, x_px.saturating_add(1), y_px)[2]]
             },
-            Self::WrapInI32 => {
-                |corners, x_px, y_px| edge_values(corners, x_px, y_px).map(|e| i128::from(e as i32))
-            }
+            Self::WrapInI32 => |corners, x_px, y_px| {
+                edge_values(corners, x_px, y_px).each(|e| i128::from(e as i32))
+            },
         }
     }
 }

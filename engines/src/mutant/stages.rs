@@ -2,6 +2,7 @@
 
 use glam::DVec2;
 
+use crate::each::Each as _;
 use crate::effects::render;
 use crate::effects::{Effect, Effects, Mode};
 use crate::grid::SubpixelPoint;
@@ -121,7 +122,7 @@ fn draw(scene: &Scene, effects: &Effects, target: &mut Target) -> Counters {
 
 /// |2A| < 1 px^2 counts as no winding, as floats with a threshold do.
 fn by_float_area(cull: Cull, corners: Corners) -> bool {
-    let [a, b, c] = corners.map(|p: SubpixelPoint| p.to_px());
+    let [a, b, c] = corners.each(|p: SubpixelPoint| p.to_px());
     let area = (b.0 - a.0) * (c.1 - a.1) - (b.1 - a.1) * (c.0 - a.0);
     match cull {
         Cull::None => false,

@@ -46,7 +46,11 @@ impl TileMutant {
 
     /// A piece as this engine has it.
     fn spoilt(self, piece: Piece) -> Option<Piece> {
-        let Piece::Tile(mut tile) = piece else { return Some(piece) };
+        let mut tile = match piece {
+            Piece::Cell(cell) => cell.tile(),
+            Piece::Tile(tile) => tile,
+            Piece::Block(_) => return Some(piece),
+        };
         match self {
             Self::MaskOffByOne => {
                 let last = tile.rows.iter().fold(0, |all, row| all | row).leading_zeros();

@@ -5,7 +5,9 @@
 
 use super::each_sample;
 use crate::contract::{Interpolate, Rasterize};
+use crate::each::Each as _;
 use crate::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
+use crate::pipeline::assemble::twice_area;
 use crate::raster::edge_function::{self, EdgeFunction};
 use crate::raster::scanline::Scanline;
 use crate::triangle::{Corners, Fragment, ScreenTriangle, ScreenVertex, Span, Varying};
@@ -185,13 +187,13 @@ impl TriangleMutant {
                 }
             }),
             Self::CullsOneWinding => {
-                if cross(corners) > 0 {
+                if twice_area(corners) > 0 {
                     Scanline.cover(corners, bounds, emit);
                 }
             }
             Self::WrapsInI32 => wrapping(corners, bounds, emit),
             Self::PanicsOnFlatBottom => {
-                let lowest = corners.map(|corner| corner.y).into_iter().max();
+                let lowest = corners.each(|corner| corner.y).into_iter().max();
                 let on_it = corners.iter().filter(|corner| Some(corner.y) == lowest).count();
                 assert!(on_it != 2, "planted: slope of a flat edge");
                 Scanline.cover(corners, bounds, emit);
@@ -233,8 +235,10 @@ impl TriangleMutant {
                     emit(Span { x0_px, ..span });
                 }
             }),
-            Self::FillsZeroArea if cross(corners) == 0 => fills_zero_area(corners, bounds, emit),
-            Self::RejectsThin if cross(corners).abs() < i128::from(SUBPIXELS * SUBPIXELS) => {}
+            Self::FillsZeroArea if twice_area(corners) == 0 => {
+                fills_zero_area(corners, bounds, emit)
+            }
+            Self::RejectsThin if twice_area(corners).abs() < i128::from(SUBPIXELS * SUBPIXELS) => {}
             Self::SplitsAtRoundedPoint => splits_at_rounded_point(corners, bounds, emit),
             Self::StepsInF32 => steps_in_f32(corners, bounds, emit),
             _ => EdgeFunction.cover(corners, bounds, emit),
@@ -319,22 +323,23 @@ fn on_outline<V: Varying>(
     let mut vertices = triangle.vertices;
     let top = (0..3).min_by_key(|&i| (vertices[i].position.y, vertices[i].position.x));
     vertices.rotate_left(top.unwrap_or(0));
-    if cross(triangle.corners()) < 0 {
+    if twice_area(triangle.corners()) < 0 {
         vertices.swap(1, 2);
     }
     let [v0, v1, v2] = &vertices;
     let corners = [v0.position, v1.position, v2.position];
-    let area = cross(corners);
+    let area = twice_area(corners);
     let largest = v0.inv_w.max(v1.inv_w).max(v2.inv_w);
-    let q = [v0.inv_w, v1.inv_w, v2.inv_w].map(|inv_w| inv_w / largest);
+    let q = [v0.inv_w, v1.inv_w, v2.inv_w].each(|inv_w| inv_w / largest);
     for x_px in row.x0..row.x1 {
         let sample = centre_of(x_px, row.y0);
         let [a, b, c] = corners;
-        let e = [cross([b, c, sample]), cross([c, a, sample]), cross([a, b, sample])];
+        let e =
+            [twice_area([b, c, sample]), twice_area([c, a, sample]), twice_area([a, b, sample])];
         if area == 0 || e.iter().any(|&e| e < 0) {
             continue;
         }
-        let l = e.map(|e| e as f64 / area as f64);
+        let l = e.each(|e| e as f64 / area as f64);
         let scale = 1.0 / ((l[0] * q[0] + l[1] * q[1]) + l[2] * q[2]);
         let (d1, d2) = (v1.varying - v0.varying, v2.varying - v0.varying);
         emit(Fragment {
@@ -360,16 +365,10 @@ fn scanline_spans(corners: Corners, bounds: PixelRect, emit: &mut dyn FnMut(Span
     Scanline.cover(corners, bounds, emit);
 }
 
-/// Twice the signed area.
-fn cross([a, b, c]: Corners) -> i128 {
-    let [ax, ay, bx, by, cx, cy] = [a.x, a.y, b.x, b.y, c.x, c.y].map(i128::from);
-    (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
-}
-
 /// The pixels of `bounds` that can hold anything of the triangle, with one to spare.
 fn near(corners: &Corners, bounds: PixelRect) -> PixelRect {
     let px = |sub: i32| sub.div_euclid(SUBPIXELS);
-    let (xs, ys) = (corners.map(|p| px(p.x)), corners.map(|p| px(p.y)));
+    let (xs, ys) = (corners.each(|p| px(p.x)), corners.each(|p| px(p.y)));
     let low = |v: [i32; 3]| v.into_iter().min().unwrap_or(0) - 1;
     let high = |v: [i32; 3]| v.into_iter().max().unwrap_or(0) + 2;
     PixelRect { x0: low(xs), y0: low(ys), x1: high(xs), y1: high(ys) }.intersect(&bounds)
@@ -383,7 +382,7 @@ fn by_edges(
     keeps: &dyn Fn([SubpixelPoint; 2], i32, i32) -> bool,
     emit: &mut dyn FnMut(Span),
 ) {
-    match cross(corners).signum() {
+    match twice_area(corners).signum() {
         0 => return,
         -1 => corners.swap(1, 2),
         _ => {}
@@ -405,7 +404,7 @@ fn by_rule(
     let centre = |px: i32| px.saturating_mul(SUBPIXELS).saturating_add(HALF_PIXEL + sample_shift);
     let keeps = |[a, b]: [SubpixelPoint; 2], x_px, y_px| {
         let (dx, dy) = (i128::from(b.x) - i128::from(a.x), i128::from(b.y) - i128::from(a.y));
-        let edge = cross([a, b, SubpixelPoint::new(centre(x_px), centre(y_px))]);
+        let edge = twice_area([a, b, SubpixelPoint::new(centre(x_px), centre(y_px))]);
         edge > 0 || (edge == 0 && owns(dx, dy))
     };
     by_edges(corners, near(&corners, bounds), &keeps, emit);
@@ -426,12 +425,13 @@ fn wrapping(corners: Corners, bounds: PixelRect, emit: &mut dyn FnMut(Span)) {
 
 /// The top-left rule is forgotten; of the three edges as they come the last one is inclusive.
 fn last_edge_inclusive(corners: Corners, bounds: PixelRect, emit: &mut dyn FnMut(Span)) {
-    let sign = cross(corners).signum();
+    let sign = twice_area(corners).signum();
     let [a, b, c] = corners;
     let inside = |x_px, y_px| {
         let sample = centre_of(x_px, y_px);
-        let edges = [cross([a, b, sample]), cross([b, c, sample]), cross([c, a, sample])];
-        let [first, second, last] = edges.map(|edge| edge * sign);
+        let edges =
+            [twice_area([a, b, sample]), twice_area([b, c, sample]), twice_area([c, a, sample])];
+        let [first, second, last] = edges.each(|edge| edge * sign);
         sign != 0 && first > 0 && second > 0 && last >= 0
     };
     each_sample(near(&corners, bounds), &inside, emit);
@@ -448,7 +448,8 @@ fn fills_zero_area(corners: Corners, bounds: PixelRect, emit: &mut dyn FnMut(Spa
         |p: i32, v: [i32; 3]| v.into_iter().min() <= Some(p) && v.into_iter().max() >= Some(p);
     let inside = |x_px, y_px| {
         let p = centre_of(x_px, y_px);
-        let on_line = cross([a, b, p]) == 0 && cross([b, c, p]) == 0 && cross([c, a, p]) == 0;
+        let on_line =
+            twice_area([a, b, p]) == 0 && twice_area([b, c, p]) == 0 && twice_area([c, a, p]) == 0;
         on_line && within(p.x, [a.x, b.x, c.x]) && within(p.y, [a.y, b.y, c.y])
     };
     each_sample(near(&corners, bounds), &inside, emit);
@@ -460,7 +461,7 @@ fn splits_at_rounded_point(mut corners: Corners, bounds: PixelRect, emit: &mut d
     corners.sort_by_key(|p| (p.y, p.x));
     let [top, middle, bottom] = corners;
     let height = i128::from(bottom.y) - i128::from(top.y);
-    if height == 0 || cross(corners) == 0 {
+    if height == 0 || twice_area(corners) == 0 {
         return;
     }
     let down = i128::from(middle.y) - i128::from(top.y);
@@ -475,7 +476,7 @@ fn splits_at_rounded_point(mut corners: Corners, bounds: PixelRect, emit: &mut d
 fn steps_in_f32(mut corners: Corners, bounds: PixelRect, emit: &mut dyn FnMut(Span)) {
     corners.sort_by_key(|p| (p.y, p.x));
     let px = |p: SubpixelPoint| (p.x as f32 / SUBPIXELS as f32, p.y as f32 / SUBPIXELS as f32);
-    let [top, middle, bottom] = corners.map(px);
+    let [top, middle, bottom] = corners.each(px);
     let row = |y: f32| (y - 0.5).ceil() as i32;
     let rows = [row(top.1).max(bounds.y0), row(middle.1), row(bottom.1).min(bounds.y1)];
     for (first, end, from, to) in [
@@ -504,7 +505,7 @@ fn perspective_depth<V: Varying>(
     emit: &mut dyn FnMut(Fragment<V>),
 ) {
     let depths = ScreenTriangle {
-        vertices: triangle.vertices.map(|v| ScreenVertex {
+        vertices: triangle.vertices.each(|v| ScreenVertex {
             position: v.position,
             depth: v.depth,
             inv_w: v.inv_w,
@@ -529,10 +530,10 @@ fn barycentric<V: Varying>(
 ) {
     let [v0, v1, v2] = &triangle.vertices;
     let corners = triangle.corners();
-    let area = cross(corners) as f64;
+    let area = twice_area(corners) as f64;
     let mut row = |span: Span| {
         for x_px in span.x0_px..span.x1_px {
-            let e = edge_function::edge_values(&corners, x_px, span.y_px).map(|e| e as f64 / area);
+            let e = edge_function::edge_values(&corners, x_px, span.y_px).each(|e| e as f64 / area);
             let l = [e[0] * v0.inv_w, e[1] * v1.inv_w, e[2] * v2.inv_w];
             let scale = 1.0 / (l[0] + l[1] + l[2] + epsilon);
             emit(Fragment {

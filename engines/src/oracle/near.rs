@@ -19,6 +19,7 @@
 
 use std::array::from_fn;
 
+use crate::each::Each as _;
 use crate::grid::{HALF_PIXEL, SUBPIXELS};
 use crate::triangle::Corners;
 
@@ -143,7 +144,7 @@ struct Plane {
 impl Plane {
     /// `sides[i]` leads from corner 0 to corner i + 1.
     fn new([f0, f1, f2]: [Double; 3], sides: [[f64; 2]; 2], area: Double) -> Self {
-        let [f0, f1, f2] = [f0, f1, f2].map(|number| Sized { number, size: number.hi.abs() });
+        let [f0, f1, f2] = [f0, f1, f2].each(|number| Sized { number, size: number.hi.abs() });
         let [[x1, y1], [x2, y2]] = sides;
         let (g1, g2) = (f1.minus(f0), f2.minus(f0));
         Self {
@@ -202,8 +203,8 @@ impl<const N: usize> NearTriangle<N> {
         Some(Self {
             origin: [corners[0].x, corners[0].y],
             area,
-            depth: plane(depth.map(Double::of)),
-            inv_w: plane(inv_w.map(Double::of)),
+            depth: plane(depth.each(Double::of)),
+            inv_w: plane(inv_w.each(Double::of)),
             over_w: from_fn(|k| plane(from_fn(|i| Double::product(inv_w[i], attributes[i][k])))),
         })
     }

@@ -6,11 +6,15 @@
 //! corners and centres are whole numbers of one small unit; those are compared, in 64 or 128 bits
 //! where they are certain to fit and in big integers otherwise. No float is ever added or multiplied.
 
-use num_bigint::BigInt;
+use std::cmp::Ordering;
+
+use num_bigint::{BigInt, Sign};
+use num_traits::ToPrimitive;
 
 use super::Oracle;
 use super::values::take_apart;
 use crate::contract::{Decisions, RasterizeExact};
+use crate::each::Each as _;
 use crate::grid::PixelRect;
 use crate::triangle::{FreeCorners, Span};
 
@@ -39,7 +43,7 @@ pub fn cover_and_count_ties(
     if rect.is_empty() {
         return 0;
     }
-    let parts = corners.map(|corner| corner.map(take_apart));
+    let parts = corners.each(|corner| corner.each(take_apart));
     // Centres are odd multiples of 2^-1.
     let last_bits = parts.iter().flatten().filter(|(mantissa, _)| *mantissa != 0);
     let unit = last_bits.map(|&(_, exponent)| exponent).fold(-1, i32::min);
@@ -51,19 +55,42 @@ pub fn cover_and_count_ties(
             BigInt::from(mantissa) << shift(mantissa, exponent, unit)
         };
         let centre = |px: i32| BigInt::from(2 * i64::from(px) + 1) << (-1 - unit);
-        return scan(&parts.map(|corner| corner.map(whole)), centre, rect, emit);
+        return scan(&parts.each(|corner| corner.each(whole)), centre, rect, emit);
     }
     let whole =
         |(mantissa, exponent): (i64, i32)| i128::from(mantissa) << shift(mantissa, exponent, unit);
-    let wide = parts.map(|corner| corner.map(whole));
+    let wide = parts.each(|corner| corner.each(whole));
     // No sample, nor the column after the last, reaches farther than these.
     let ends = [rect.x0, rect.x1, rect.y0, rect.y1].map(|px| centre_in(px, unit));
     if wide.as_flattened().iter().chain(&ends).all(|value| value.abs() < 1 << 30) {
-        let narrow = wide.map(|corner| corner.map(|value| value as i64));
+        let narrow = wide.each(|corner| corner.each(|value| value as i64));
         scan(&narrow, |px| centre_in(px, unit) as i64, rect, emit)
     } else {
         scan(&wide, |px| centre_in(px, unit), rect, emit)
     }
+}
+
+/// The edge function of the edge from `a` to `b` at `p`, all in pixels: (b.x - a.x) (p.y - a.y) -
+/// (b.y - a.y) (p.x - a.x). Its sign is exact; its value in square pixels is cut to 53 bits, and 0
+/// where it is nearer to zero than any f64.
+///
+/// # Panics
+/// If a coordinate is not finite.
+#[must_use]
+pub fn edge_value(a: [f64; 2], b: [f64; 2], p: [f64; 2]) -> (Ordering, f64) {
+    let parts = [a, b, p].map(|point| point.map(take_apart));
+    let unit = parts.as_flattened().iter().map(|&(_, exponent)| exponent).fold(0, i32::min);
+    let [a, b, p] = parts.map(|point| {
+        point.map(|(mantissa, exponent)| BigInt::from(mantissa) << shift(mantissa, exponent, unit))
+    });
+    let value = (&b[0] - &a[0]) * (&p[1] - &a[1]) - (&b[1] - &a[1]) * (&p[0] - &a[0]);
+    // So many bits below the first 53 go; halves of a power that may itself be no f64.
+    let cut = value.bits().saturating_sub(53);
+    let scale = 2 * i64::from(unit) + cut as i64;
+    let (half, rest) = (scale / 2, scale - scale / 2);
+    let two_to = |exponent: i64| 2_f64.powi(exponent as i32);
+    let head = (&value >> cut).to_f64().unwrap_or(f64::NAN);
+    (value.sign().cmp(&Sign::NoSign), head * two_to(half) * two_to(rest))
 }
 
 /// How far a mantissa moves to count in units of 2^`unit`; zero stays where it is.
@@ -79,7 +106,7 @@ fn centre_in(px: i32, unit: i32) -> i128 {
 /// All pixels whose squares touch the bounding box of the corners. Floors of floats are exact.
 fn around(corners: &[[f64; 2]; 3]) -> PixelRect {
     let ends = |axis: usize| {
-        let [a, b, c] = corners.map(|corner| corner[axis].floor());
+        let [a, b, c] = corners.each(|corner| corner[axis].floor());
         // Within the domain, so both fit i32.
         (a.min(b).min(c) as i32, a.max(b).max(c) as i32 + 1)
     };
@@ -126,9 +153,9 @@ fn scan<T: Whole>(
     let mut ties = 0;
     for y_px in rect.y0..rect.y1 {
         let y = centre(y_px);
-        let pairs = [(0, 1), (1, 2), (2, 0)].map(|(i, j)| (&corners[i], &corners[j]));
+        let pairs = [(0, 1), (1, 2), (2, 0)].each(|(i, j)| (&corners[i], &corners[j]));
         // Keep the edges that cross the height of the nudged samples, upper end first.
-        let mut crossing = pairs.map(|(a, b)| match (a[1] <= y, b[1] <= y) {
+        let mut crossing = pairs.each(|(a, b)| match (a[1] <= y, b[1] <= y) {
             (true, false) => Some(Crossing::new(a, b, &y, &first, &pixel)),
             (false, true) => Some(Crossing::new(b, a, &y, &first, &pixel)),
             _ => None,
@@ -221,6 +248,21 @@ mod tests {
         assert_eq!(spans([[tiny, 0.0], right, below]).0, [(0, 1, 4), (1, 2, 4), (2, 3, 4)]);
         assert_eq!(spans([[tiny, 0.0], right, below]).1, 0);
         assert_eq!(spans([[-tiny, 0.0], right, below]), spans([[0.0, tiny], right, below]));
+    }
+
+    /// A square pixel has the edge value 1 across; the smallest f64 away from the edge it is no f64
+    /// where the edge is short.
+    #[test]
+    fn edge_values_by_hand() {
+        let tiny = f64::from_bits(1);
+        assert_eq!(edge_value([0.0, 0.0], [1.0, 0.0], [0.5, 1.0]), (Ordering::Greater, 1.0));
+        assert_eq!(edge_value([0.0, 1.0], [0.0, 0.0], [-0.25, 9.0]), (Ordering::Less, -0.25));
+        assert_eq!(edge_value([0.0, 0.0], [3.0, 3.0], [0.5, 0.5]), (Ordering::Equal, 0.0));
+        assert_eq!(
+            edge_value([0.0, 0.0], [4.0, 0.0], [0.5, tiny]),
+            (Ordering::Greater, 4.0 * tiny)
+        );
+        assert_eq!(edge_value([0.0, 0.0], [tiny, 0.0], [0.5, tiny]), (Ordering::Greater, 0.0));
     }
 
     /// On the lattice it is the other oracle.

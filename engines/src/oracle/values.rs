@@ -9,6 +9,7 @@ use num_bigint::{BigInt, Sign};
 use num_rational::BigRational;
 use num_traits::{Signed, ToPrimitive, Zero};
 
+use crate::each::Each as _;
 use crate::grid::{HALF_PIXEL, SUBPIXELS};
 use crate::triangle::Corners;
 
@@ -63,7 +64,7 @@ impl Plane {
         // Zero has no exponent of its own.
         let exponent =
             values.iter().filter(|v| !v.mantissa.is_zero()).map(|v| v.exponent).min().unwrap_or(0);
-        let [f0, f1, f2] = [0, 1, 2].map(|i| {
+        let [f0, f1, f2] = [0, 1, 2].each(|i| {
             let value = &values[i];
             if value.mantissa.is_zero() {
                 BigInt::zero()
@@ -94,10 +95,17 @@ impl Plane {
 }
 
 /// An exact quotient; the denominator is positive.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 pub struct Exact {
     numerator: BigInt,
     denominator: BigInt,
+}
+
+impl PartialEq for Exact {
+    /// As numbers: quotients are not in lowest terms.
+    fn eq(&self, other: &Self) -> bool {
+        &self.numerator * &other.denominator == &other.numerator * &self.denominator
+    }
 }
 
 impl Exact {
@@ -188,12 +196,12 @@ impl<const N: usize> ExactTriangle<N> {
         if area == 0 {
             return None;
         }
-        let inv_w = inv_w.map(Dyadic::new);
+        let inv_w = inv_w.each(Dyadic::new);
         Some(Self {
             area,
-            depth: Plane::new(corners, area, &depth.map(Dyadic::new)),
+            depth: Plane::new(corners, area, &depth.each(Dyadic::new)),
             over_w: std::array::from_fn(|k| {
-                let over_w = [0, 1, 2].map(|i| inv_w[i].times(&Dyadic::new(attributes[i][k])));
+                let over_w = [0, 1, 2].each(|i| inv_w[i].times(&Dyadic::new(attributes[i][k])));
                 Plane::new(corners, area, &over_w)
             }),
             inv_w: Plane::new(corners, area, &inv_w),
@@ -215,13 +223,42 @@ impl<const N: usize> ExactTriangle<N> {
     }
 }
 
+impl From<f64> for Exact {
+    /// The number itself.
+    fn from(value: f64) -> Self {
+        let value = Dyadic::new(value);
+        Self::new(value.mantissa, 1.into(), value.exponent)
+    }
+}
+
+/// The exact value where an edge crosses a plane. `distances` of its ends from the plane are sums of
+/// two numbers, and differ.
+///
+/// # Panics
+/// If a number is not finite.
+#[must_use]
+pub fn at_crossing(ends: [f64; 2], distances: [[f64; 2]; 2]) -> Exact {
+    let [a, b] = ends.map(Dyadic::new);
+    let parts = distances.map(|sum| sum.map(Dyadic::new));
+    let unit = parts.iter().flatten().map(|part| part.exponent).min().unwrap_or(0);
+    let [from, to] = parts.map(|sum| {
+        let [first, second] = sum.map(|part| part.mantissa << (part.exponent - unit));
+        first + second
+    });
+    let exponent = a.exponent.min(b.exponent);
+    // a + (b - a) from / (from - to)
+    let numerator = (b.mantissa << (b.exponent - exponent)) * &from
+        - (a.mantissa << (a.exponent - exponent)) * &to;
+    Exact::new(numerator, from - to, exponent)
+}
+
 /// The exact value at a step along a line: (first (length - step) + second step) / length.
 ///
 /// # Panics
 /// If an end's value is not finite.
 #[must_use]
 pub fn along_line(ends: [f64; 2], step: u64, length: u64) -> Exact {
-    let [a, b] = ends.map(Dyadic::new);
+    let [a, b] = ends.each(Dyadic::new);
     if length == 0 {
         return Exact::new(a.mantissa, 1.into(), a.exponent);
     }

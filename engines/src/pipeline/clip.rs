@@ -16,6 +16,7 @@
 //! `tests/data/book-bugs.json`).
 
 use super::ClipVertex;
+use crate::each::Each as _;
 use crate::triangle::{MIN_W, Varying};
 
 /// The planes, in the order they cut.
@@ -126,7 +127,7 @@ impl<V: Varying> Polygon<V> {
 #[must_use]
 pub fn clip<V: Varying>(triangle: &[ClipVertex<V>; 3], planes: Outcode) -> (Polygon<V>, u64) {
     let corner = |vertex: ClipVertex<V>| Corner { outside: outcode(&vertex), vertex };
-    let corners = triangle.map(corner);
+    let corners = triangle.each(corner);
     let mut polygon = Polygon { corners: [corners[0]; MOST_VERTICES], len: 0 };
     corners.into_iter().for_each(|corner| polygon.push(corner));
     let mut tests = 0;

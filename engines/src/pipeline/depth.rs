@@ -64,6 +64,19 @@ impl DepthFormat {
         }
     }
 
+    /// Writes the keys of depths where they are nearer than what is stored; a bit for each that is,
+    /// the lowest for the first of at most 32.
+    pub(crate) fn test_and_write(self, depths: &[f64], stored: &mut [u64]) -> u32 {
+        // The format is asked for once, and known in each loop.
+        match self {
+            Self::Unorm32 => test(depths, stored, |depth| Self::Unorm32.key(depth)),
+            Self::Unorm24 => test(depths, stored, |depth| Self::Unorm24.key(depth)),
+            Self::F32 => test(depths, stored, |depth| Self::F32.key(depth)),
+            Self::F32Reversed => test(depths, stored, |depth| Self::F32Reversed.key(depth)),
+            Self::F64 => test(depths, stored, |depth| Self::F64.key(depth)),
+        }
+    }
+
     /// The depth that a key stands for.
     #[must_use]
     pub fn depth(self, key: u64) -> f64 {
@@ -89,6 +102,17 @@ impl DepthFormat {
                 Self::F64 => 0.0,
             }
     }
+}
+
+#[inline]
+fn test(depths: &[f64], stored: &mut [u64], key: impl Fn(f64) -> u64) -> u32 {
+    let mut nearer = 0;
+    for (i, (depth, stored)) in depths.iter().zip(stored).enumerate() {
+        let key = key(*depth);
+        nearer |= u32::from(key < *stored) << i;
+        *stored = key.min(*stored);
+    }
+    nearer
 }
 
 #[cfg(test)]

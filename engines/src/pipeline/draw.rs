@@ -26,11 +26,12 @@
 use std::fmt;
 
 use super::assemble::{Assembler, BadVertex, Cull, check_vertex};
-use super::fill::{Way, fill};
+use super::fill::{Way, each, fill};
 use super::target::{Colour, Target};
 use super::wireframe::draw_edges;
 use super::{ClipVertex, Counters};
 use crate::contract::{DrawLine, Interpolate};
+use crate::each::Each as _;
 use crate::frame::Frame;
 use crate::triangle::{ScreenTriangle, Varying};
 
@@ -109,9 +110,10 @@ impl<E: Interpolate> Renderer<E> {
         let (depth_test, bounds) = (*depth_test, target.bounds());
         let mut fills = Counters::default();
         let assembler = Assembler::new(bounds, self.cull);
+        let stage = each(fragment_stage);
         assemble_all(&assembler, vertices, triangles, vertex_stage, &mut self.counters, |piece| {
             let way = Way { affine: false, depth_test };
-            fill(engine, piece, target, bounds, way, &fragment_stage, &mut fills);
+            fill(engine, piece, target, bounds, way, &stage, &mut fills);
         })?;
         self.counters += fills;
         Ok(())
@@ -187,7 +189,7 @@ fn assemble_all<I, V: Varying>(
     for &[a, b, c] in triangles {
         let indices = [a as usize, b as usize, c as usize];
         let varying = |i: usize| vertices[indices[i]].varying;
-        assembler.assemble(indices.map(|i| &points[i]), varying, counters, &mut emit);
+        assembler.assemble(indices.each(|i| &points[i]), varying, counters, &mut emit);
     }
     Ok(())
 }

@@ -54,9 +54,9 @@ pub struct Counters {
     pub wide: u64,
     /// Fragments (samples, where supersampled) that the rasterizer emitted.
     pub fragments: u64,
-    /// Fragments whose attributes needed a division by 1/w.
+    /// Fragments of pieces that need a division by 1/w; it is done for those that are seen.
     pub divisions: u64,
-    /// Attribute components interpolated.
+    /// Attribute components of the fragments; interpolated are those of fragments that are seen.
     pub components: u64,
     /// Depth values compared with the buffer.
     pub depth_tests: u64,

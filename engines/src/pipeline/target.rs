@@ -8,6 +8,7 @@
 
 use super::Counters;
 use super::depth::{CLEAR, DepthFormat, OFF_FRACTION};
+use crate::each::Each as _;
 use crate::frame::Frame;
 use crate::grid::{MAX_SIDE_PX, PixelRect};
 use glam::DVec3;
@@ -69,7 +70,7 @@ pub const MAX_SAMPLES: u64 = 1 << 26;
 /// In words, for a side of 0 or more than [`MAX_SIDE_PX`], or more than [`MAX_SAMPLES`] samples.
 pub fn check_size(width: u32, height: u32, antialias: Antialias) -> Result<(), String> {
     let scale = antialias.scale();
-    let sides = [width, height].map(|side| u64::from(side) * u64::from(scale));
+    let sides = [width, height].each(|side| u64::from(side) * u64::from(scale));
     if width == 0 || height == 0 || scale == 0 {
         return Err(format!("a picture of {width} x {height} px has no pixels"));
     }
@@ -129,15 +130,20 @@ impl Plane {
     }
 }
 
-/// What one triangle's shading gave in each pixel, for its four samples.
+/// What is known of one triangle in each pixel, while its four samples are drawn.
 #[derive(Clone, Debug)]
 pub(super) struct Shading {
     serial: u64,
-    /// The colour, and which triangle it is of; empty where nothing is multisampled.
+    /// The colour at a sample, and which triangle it is of; empty where nothing is multisampled.
     colours: Frame<(u64, Colour)>,
+    /// [`Shading::CENTRE`] where the triangle covers the centre, with a bit for each sample that
+    /// waits for the colour there. 0 everywhere between two triangles.
+    pub(super) centres: Frame<u8>,
 }
 
 impl Shading {
+    pub(super) const CENTRE: u8 = 0x80;
+
     /// The colour that this triangle has in a pixel already.
     #[inline]
     pub(super) fn get(&self, x_px: i32, y_px: i32) -> Option<Colour> {
@@ -148,6 +154,20 @@ impl Shading {
     #[inline]
     pub(super) fn put(&mut self, x_px: i32, y_px: i32, colour: Colour) {
         self.colours.span_mut(y_px, x_px, x_px + 1)[0] = (self.serial, colour);
+    }
+
+    /// Notes a sample of the pixels whose bits are set; the bits of those that the triangle does not
+    /// cover at the centre.
+    #[inline]
+    pub(super) fn wait(&mut self, y_px: i32, x0_px: i32, visible: u32, sample: usize) -> u32 {
+        let end_px = x0_px + (u32::BITS - visible.leading_zeros()) as i32;
+        let mut outside = 0;
+        for (i, centre) in self.centres.span_mut(y_px, x0_px, end_px).iter_mut().enumerate() {
+            let (is_visible, is_inside) = (visible >> i & 1, u32::from(*centre) >> 7);
+            *centre |= ((is_visible & is_inside) as u8) << sample;
+            outside |= (is_visible & !is_inside) << i;
+        }
+        outside
     }
 }
 
@@ -193,7 +213,8 @@ impl Target {
         let size = PixelRect::window(width, height);
         let shaded =
             if antialias == Antialias::Multisample4 { size } else { PixelRect::window(0, 0) };
-        let shading = Shading { serial: 0, colours: Frame::new(shaded, (0, [0; 4])) };
+        let (colours, centres) = (Frame::new(shaded, (0, [0; 4])), Frame::new(shaded, 0));
+        let shading = Shading { serial: 0, colours, centres };
         Self { antialias, size, shading, format, planes: vec![plane; antialias.planes()] }
     }
 
@@ -267,31 +288,70 @@ impl Target {
             return self.planes[0].colour.clone();
         }
         let mut picture = Frame::new(self.size, [0; 4]);
+        let mut sums = Vec::new();
         for y_px in self.size.y0..self.size.y1 {
-            for x_px in self.size.x0..self.size.x1 {
-                picture.span_mut(y_px, x_px, x_px + 1)[0] = self.pixel(x_px, y_px);
-            }
+            self.resolve_run(y_px, self.size.x0, picture.row_mut(y_px), &mut sums);
         }
         picture
+    }
+
+    /// The means of the samples of adjacent pixels in a row; `sums` is room that several runs share.
+    pub(crate) fn resolve_run(
+        &self,
+        y_px: i32,
+        x0_px: i32,
+        pixels: &mut [Colour],
+        sums: &mut Vec<[u32; 4]>,
+    ) {
+        let (scale, samples) = (self.antialias.scale() as usize, self.antialias.samples() as u32);
+        let columns = x0_px as usize * scale..(x0_px as usize + pixels.len()) * scale;
+        sums.clear();
+        sums.resize(pixels.len(), [0; 4]);
+        for plane in &self.planes {
+            for y in y_px * scale as i32..(y_px + 1) * scale as i32 {
+                add(sums, &plane.colour.row(y)[columns.clone()], scale);
+            }
+        }
+        for (pixel, sum) in pixels.iter_mut().zip(sums) {
+            *pixel = mean(*sum, samples);
+        }
     }
 
     /// The mean of a pixel's samples.
     #[must_use]
     pub fn pixel(&self, x_px: i32, y_px: i32) -> Colour {
-        let scale = self.antialias.scale() as i32;
-        let mut sum = [0u32; 4];
-        for plane in &self.planes {
-            for y in y_px * scale..(y_px + 1) * scale {
-                let row = plane.colour.row(y);
-                for colour in &row[(x_px * scale) as usize..((x_px + 1) * scale) as usize] {
-                    sum = [0, 1, 2, 3].map(|i| sum[i] + u32::from(colour[i]));
-                }
-            }
-        }
-        // A mean of bytes is a byte.
-        let samples = self.antialias.samples() as u32;
-        sum.map(|channel| ((channel + samples / 2) / samples) as u8)
+        let mut pixel = [[0; 4]];
+        self.resolve_run(y_px, x_px, &mut pixel, &mut Vec::new());
+        pixel[0]
     }
+}
+
+/// Adds `scale` adjacent colours to each sum.
+fn add(sums: &mut [[u32; 4]], colours: &[Colour], scale: usize) {
+    let add = |sum: &mut [u32; 4], colour: &Colour| {
+        for (sum, channel) in sum.iter_mut().zip(colour) {
+            *sum += u32::from(*channel);
+        }
+    };
+    if scale == 1 {
+        sums.iter_mut().zip(colours).for_each(|(sum, colour)| add(sum, colour));
+    } else {
+        for (sum, colours) in sums.iter_mut().zip(colours.chunks_exact(scale)) {
+            colours.iter().for_each(|colour| add(sum, colour));
+        }
+    }
+}
+
+/// The mean of so many samples, a half rounded up.
+#[inline]
+fn mean(sum: [u32; 4], samples: u32) -> Colour {
+    // Mostly a power of two; a division by a number that is not known before is slow.
+    let part = |sum: u32| {
+        let sum = sum + samples / 2;
+        if samples.is_power_of_two() { sum >> samples.ilog2() } else { sum / samples }
+    };
+    // A mean of bytes is a byte.
+    [part(sum[0]) as u8, part(sum[1]) as u8, part(sum[2]) as u8, part(sum[3]) as u8]
 }
 
 #[cfg(test)]

@@ -9,6 +9,7 @@
 use glam::{DVec2, DVec3};
 
 use super::depth::OFF_FRACTION;
+use crate::each::Each as _;
 use crate::grid::MAX_SIDE_PX;
 
 /// What lies beyond [0, 1].
@@ -36,8 +37,12 @@ pub enum Filter {
 pub struct Texture {
     width: u32,
     height: u32,
+    /// Subtexels of a row and of a column.
+    subtexels: DVec2,
     /// Row by row from the top, each channel in [0, 1].
     texels: Vec<DVec3>,
+    /// The same as bytes, red the lowest.
+    bytes: Vec<u32>,
     /// Beyond the border.
     pub wrap: Wrap,
     /// Between texels.
@@ -58,15 +63,21 @@ impl Texture {
         if !fits || rgb.len() != width as usize * height as usize {
             return None;
         }
-        let texels = rgb.iter().map(|c| DVec3::from(c.map(f64::from)) / 255.0).collect();
-        Some(Self { width, height, texels, wrap: Wrap::Repeat, filter: Filter::Nearest })
+        let texels = rgb.iter().map(|c| DVec3::from(c.each(f64::from)) / 255.0).collect();
+        let bytes = rgb.iter().map(|&[r, g, b]| u32::from_le_bytes([r, g, b, 0])).collect();
+        Some(Self::of(width, height, texels, bytes))
     }
 
     /// One white texel.
     #[must_use]
     pub fn white() -> Self {
+        Self::of(1, 1, vec![DVec3::ONE], vec![0xff_ffff])
+    }
+
+    fn of(width: u32, height: u32, texels: Vec<DVec3>, bytes: Vec<u32>) -> Self {
+        let subtexels = DVec2::new(f64::from(width), f64::from(height)) * SUBTEXELS as f64;
         let (wrap, filter) = (Wrap::Repeat, Filter::Nearest);
-        Self { width: 1, height: 1, texels: vec![DVec3::ONE], wrap, filter }
+        Self { width, height, subtexels, texels, bytes, wrap, filter }
     }
 
     /// The same, read differently.
@@ -81,12 +92,21 @@ impl Texture {
         (self.width, self.height)
     }
 
+    /// The texels as bytes, red the lowest, row by row from the top, where masks and limits alone say
+    /// which one is read: for who reads many at once.
+    #[must_use]
+    pub fn nearest_bytes(&self) -> Option<&[u32]> {
+        let masks = self.width.is_power_of_two() && self.height.is_power_of_two();
+        let simple = self.filter == Filter::Nearest && (masks || self.wrap == Wrap::Clamp);
+        simple.then_some(&self.bytes)
+    }
+
     /// The colour at (u, v), each channel in [0, 1]. NaN reads as 0, infinities as the border.
     #[must_use]
     #[inline]
     pub fn at(&self, uv: DVec2) -> DVec3 {
-        let x = self.subtexel(uv.x, self.width);
-        let y = self.subtexel(1.0 - uv.y, self.height);
+        let x = subtexel(uv.x, self.subtexels.x);
+        let y = subtexel(1.0 - uv.y, self.subtexels.y);
         match self.filter {
             Filter::Nearest => {
                 let column = self.column(x >> SUBTEXEL_BITS);
@@ -110,18 +130,6 @@ impl Texture {
         }
     }
 
-    /// A coordinate in 1/256 texel.
-    #[inline]
-    fn subtexel(&self, coordinate: f64, side: u32) -> i64 {
-        let texels = coordinate * f64::from(side) * SUBTEXELS as f64;
-        // The quarter keeps sums in range. `as` takes NaN to 0, and the rest towards 0: down from
-        // there is the floor, without a call on machines that have no such instruction.
-        let limit = (i64::MAX / 4) as f64;
-        let moved = (texels + (0.5 + OFF_FRACTION)).clamp(-limit, limit);
-        let whole = moved as i64;
-        whole - i64::from(whole as f64 > moved)
-    }
-
     #[inline]
     fn column(&self, column: i64) -> usize {
         wrapped(self.wrap, column, self.width.into()) as usize
@@ -132,6 +140,30 @@ impl Texture {
     fn row_start(&self, row: i64) -> usize {
         wrapped(self.wrap, row, self.height.into()) as usize * self.width as usize
     }
+}
+
+/// A coordinate in 1/256 texel, where a side has so many of them.
+#[inline]
+fn subtexel(coordinate: f64, side: f64) -> i64 {
+    floor(coordinate * side + (0.5 + OFF_FRACTION))
+}
+
+/// The largest whole number that is not larger; of NaN 0, and of numbers far out their quarter range,
+/// which keeps sums in range.
+#[inline]
+fn floor(x: f64) -> i64 {
+    /// 1.5 times 2^52: in sums with it the last bit counts ones.
+    const ONES: f64 = (3u64 << 51) as f64;
+    if x.abs() < (1u64 << 51) as f64 {
+        // The nearest whole number stands in the last bits. Without a call, as machines without an
+        // instruction for floors need, and without the checks of a conversion.
+        let sum = x + ONES;
+        let nearest = sum.to_bits() as i64 - ONES.to_bits() as i64;
+        return nearest - i64::from(sum - ONES > x);
+    }
+    let limit = (i64::MAX / 4) as f64;
+    // `as` takes NaN to 0.
+    x.floor().clamp(-limit, limit) as i64
 }
 
 /// The column or row that is read in place of `at`. Sides are mostly powers of two, and then the
@@ -204,16 +236,15 @@ mod tests {
                 assert_eq!(wrapped(Wrap::Repeat, at, side), at.rem_euclid(side), "{at} of {side}");
             }
         }
-        let mut texture = two_by_two();
         for width in [1, 2, 3, 255, 16384] {
-            texture.width = width;
             let moderate = (-4000..4000).map(|i| f64::from(i) * 0.37 / f64::from(width));
             let odd = [-0.0, 1e300, -1e300, f64::NAN, f64::INFINITY, 5e-324, 1e15, -1e15];
             for coordinate in moderate.chain(odd) {
                 let texels = coordinate * f64::from(width) * 256.0;
                 let limit = (i64::MAX / 4) as f64;
                 let floor = (texels + (0.5 + OFF_FRACTION)).floor().clamp(-limit, limit) as i64;
-                assert_eq!(texture.subtexel(coordinate, width), floor, "{coordinate}");
+                let side = f64::from(width) * 256.0;
+                assert_eq!(subtexel(coordinate, side), floor, "{coordinate} of {width}");
             }
         }
     }

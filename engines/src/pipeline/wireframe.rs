@@ -6,6 +6,7 @@
 use std::ops::{Add, Mul, Sub};
 
 use crate::contract::DrawLine;
+use crate::each::Each as _;
 use crate::grid::{PixelRect, SUBPIXEL_BITS};
 use crate::triangle::{
     Fragment, LineEnd, PixelPoint, ScreenLine, ScreenTriangle, ScreenVertex, Varying,
@@ -59,7 +60,7 @@ pub fn draw_edges<V: Varying>(
             varying: OverW { value: vertex.varying * inv_w, inv_w },
         }
     };
-    let [a, b, c] = [0, 1, 2].map(|i| end(&triangle.vertices[i]));
+    let [a, b, c] = [0, 1, 2].each(|i| end(&triangle.vertices[i]));
     for ends in [[a, b], [b, c], [c, a]] {
         drawer.draw(&ScreenLine { ends }, bounds, |f| {
             let varying = f.varying.value * (1.0 / f.varying.inv_w);

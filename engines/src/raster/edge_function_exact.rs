@@ -14,6 +14,9 @@
 //! It shares nothing with the scanline. It does not clip, cull, depth-test or shade, and it computes
 //! no values.
 
+#[doc(hidden)]
+pub mod probe;
+
 use std::cmp::Ordering;
 
 use num_bigint::BigInt;
@@ -56,8 +59,7 @@ impl RasterizeExact for EdgeFunctionExact {
         if rect.is_empty() {
             return decisions;
         }
-        let is_deep =
-            corners.px().as_flattened().iter().any(|&v| v != 0.0 && v.abs() < ORIENT2D_MIN);
+        let is_deep = is_deep(corners);
         // Make it clockwise on the screen, so that the inside is where E > 0.
         match Edge::new(a, b, [c, c], is_deep).side(c, &mut decisions) {
             Ordering::Equal => return decisions,
@@ -80,6 +82,11 @@ impl RasterizeExact for EdgeFunctionExact {
         }
         decisions
     }
+}
+
+/// Whether some coordinate is too close to zero for `orient2d`.
+fn is_deep(corners: &FreeCorners) -> bool {
+    corners.px().as_flattened().iter().any(|&v| v != 0.0 && v.abs() < ORIENT2D_MIN)
 }
 
 /// Centre of a pixel; exact, since pixels are whole numbers of at most 32 bits.
@@ -155,10 +162,16 @@ impl Edge {
         }
     }
 
+    /// E(p) as floats compute it; off by at most `bound`.
+    #[inline]
+    fn estimate(&self, p: Point) -> f64 {
+        self.dx * (p[1] - self.from[1]) - self.dy * (p[0] - self.from[0])
+    }
+
     /// The sign of E(p).
     #[inline]
     fn side(&self, p: Point, decisions: &mut Decisions) -> Ordering {
-        let e = self.dx * (p[1] - self.from[1]) - self.dy * (p[0] - self.from[0]);
+        let e = self.estimate(p);
         if e.abs() > self.bound {
             decisions.by_filter += 1;
             return if e > 0.0 { Ordering::Greater } else { Ordering::Less };

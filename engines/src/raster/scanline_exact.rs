@@ -13,6 +13,9 @@
 //! It shares nothing with the edge function: no orientation test, and so no `orient2d`. It does not
 //! clip, cull, depth-test or shade, and it computes no values.
 
+#[doc(hidden)]
+pub mod probe;
+
 use num_bigint::BigInt;
 use num_traits::{Euclid, Float, ToPrimitive};
 
@@ -35,10 +38,7 @@ impl RasterizeExact for ScanlineExact {
         if bounds.is_empty() {
             return decisions;
         }
-        let mut corners = corners.px();
-        // Among equal heights any order does: an edge between them crosses no row.
-        corners.sort_by(|a, b| a[1].total_cmp(&b[1]));
-        let [top, middle, bottom] = corners;
+        let [top, middle, bottom] = in_order(corners);
         let long = Edge { a: top, b: bottom };
         for short in [Edge { a: top, b: middle }, Edge { a: middle, b: bottom }] {
             let first = first_centre(short.a[1]).max(bounds.y0);
@@ -55,6 +55,13 @@ impl RasterizeExact for ScanlineExact {
         }
         decisions
     }
+}
+
+/// The corners from the top. Among equal heights any order does: an edge between them crosses no row.
+fn in_order(corners: &FreeCorners) -> [[f64; 2]; 3] {
+    let mut corners = corners.px();
+    corners.sort_by(|a, b| a[1].total_cmp(&b[1]));
+    corners
 }
 
 /// The first pixel whose centre is at or after `v`: the smallest i with i + 1/2 >= v.
@@ -78,7 +85,8 @@ struct Edge {
 const BOUND: f64 = 4.0 * f64::EPSILON;
 
 impl Edge {
-    /// The first column whose centre is not left of the edge in row `y_px`; ay <= yc < by.
+    /// Where the edge crosses the centres of row `y_px`, ay <= yc < by, and a bound of what x - 1/2 is
+    /// off by.
     ///
     /// # The filter
     /// Each operation rounds: the computed v is v (1 + d), |d| <= u = 2^-53. In T, the two
@@ -96,12 +104,17 @@ impl Edge {
     /// dy >= by - yc, and yc is a half-integer, so dy is at least the distance from 1/2 to its
     /// neighbour, 2^-54: at most 2^-1021, and 7u covers that. Nothing overflows: |T| is at most
     /// |dx| <= 2^24, since 0 <= yc - ay < dy.
-    fn column(&self, y_px: i32, decisions: &mut Decisions) -> i32 {
+    fn crossing(&self, y_px: i32) -> (f64, f64) {
         let (a, b) = (self.a, self.b);
         let down = f64::from(y_px) + 0.5 - a[1];
         let t = down * (b[0] - a[0]) / (b[1] - a[1]);
         let x = a[0] + t;
-        let error = BOUND * (x.abs() + t.abs() + 1.0);
+        (x, BOUND * (x.abs() + t.abs() + 1.0))
+    }
+
+    /// The first column whose centre is not left of the edge in row `y_px`; ay <= yc < by.
+    fn column(&self, y_px: i32, decisions: &mut Decisions) -> i32 {
+        let (x, error) = self.crossing(y_px);
         let (low, high) = ((x - 0.5 - error).ceil(), (x - 0.5 + error).ceil());
         if low == high {
             decisions.by_filter += 1;

@@ -12,6 +12,7 @@
 
 use super::scene::{COLOURS, Colour, Image, SIDE, Setting, Version, empty};
 use crate::contract::Rasterize as _;
+use crate::each::Each as _;
 use crate::grid::{PixelRect, SubpixelPoint};
 use crate::raster::edge_function::EdgeFunction;
 
@@ -43,7 +44,7 @@ pub fn draw(version: Version, setting: Setting) -> Image {
         memory.span_mut(y, 0, width).fill(FENCE);
     }
     let at = |(x, y)| SubpixelPoint::from_px(x, y).expect("the triangle lies in the domain");
-    EdgeFunction.cover(corners.map(at), bounds, |span| {
+    EdgeFunction.cover(corners.each(at), bounds, |span| {
         for x in span.x0_px..span.x1_px {
             let (column, row) = lands(x, span.y_px + GUARD, width);
             if row < width {

@@ -19,6 +19,7 @@ use glam::{DVec2, Vec2};
 
 use super::scene::{Image, Setting, Version, chequered, floor};
 use super::{Published, RealTriangle, RealVertex, Refused, bare, to_int};
+use crate::each::Each as _;
 use crate::grid::PixelRect;
 use crate::triangle::{Fragment, Span};
 
@@ -33,7 +34,7 @@ pub struct Games101Strict {
 
 /// Positions in the frame buffer: y up, samples at + 0.5.
 fn corners(triangle: &RealTriangle, bounds: PixelRect) -> [Vec2; 3] {
-    triangle.map(|v| {
+    triangle.each(|v| {
         let x = v.position_px.x - f64::from(bounds.x0);
         Vec2::new(x as f32, (f64::from(bounds.y1) - v.position_px.y) as f32)
     })
@@ -106,7 +107,7 @@ impl Published for Games101Strict {
     ) -> Result<(), Refused> {
         let corners = corners(triangle, bounds);
         self.pixels(corners, bounds, &mut |x_px, y_px, sample| {
-            let weights = weights(corners, sample).map(f64::from);
+            let weights = weights(corners, sample).each(f64::from);
             let over_w = |i: usize| weights[i] / if self.true_w { triangle[i].w } else { 1.0 };
             let inverse: f64 = (0..3).map(over_w).sum();
             let sum = |value: fn(&RealVertex) -> f64| {

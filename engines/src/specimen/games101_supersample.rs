@@ -12,6 +12,7 @@
 use glam::DVec2;
 
 use super::scene::{COLOURS, Colour, Image, SIDE, Setting, Version, empty, fill};
+use crate::each::Each as _;
 use crate::grid::PixelRect;
 
 /// Samples along a side of a pixel.
@@ -39,14 +40,14 @@ fn resolve(samples: &Image) -> Image {
                 (0..3).for_each(|k| sum[k] += u32::from(colour[k]));
             }
             // A mean of bytes is a byte.
-            image.span_mut(y, x, x + 1)[0] = sum.map(|s| (s / (SAMPLES * SAMPLES)) as u8);
+            image.span_mut(y, x, x + 1)[0] = sum.each(|s| (s / (SAMPLES * SAMPLES)) as u8);
         }
     }
     image
 }
 
 fn drawn(samples: &mut Image, triangle: [DVec2; 3], colour: Colour) {
-    fill(samples, &triangle.map(|p| p * f64::from(SAMPLES)), colour);
+    fill(samples, &triangle.each(|p| p * f64::from(SAMPLES)), colour);
 }
 
 /// Two triangles of one colour that fill a square.

@@ -38,6 +38,7 @@ use std::fmt;
 
 use glam::{DVec2, DVec4};
 
+use crate::each::Each as _;
 use crate::grid::PixelRect;
 use crate::triangle::{Corners, Fragment, ScreenTriangle, Span};
 
@@ -60,7 +61,7 @@ pub type RealTriangle = [RealVertex; 3];
 /// Positions alone, with depth 0, w 1 and no values.
 #[must_use]
 pub fn bare(corners_px: [[f64; 2]; 3]) -> RealTriangle {
-    corners_px.map(|position| RealVertex {
+    corners_px.each(|position| RealVertex {
         position_px: DVec2::from_array(position),
         depth: 0.0,
         w: 1.0,
@@ -71,13 +72,13 @@ pub fn bare(corners_px: [[f64; 2]; 3]) -> RealTriangle {
 /// The same positions as real numbers, exactly.
 #[must_use]
 pub fn from_lattice(corners: Corners) -> RealTriangle {
-    bare(corners.map(|corner| corner.to_px().into()))
+    bare(corners.each(|corner| corner.to_px().into()))
 }
 
 /// The same triangle in real numbers; w is 1 / (1/w).
 #[must_use]
 pub fn from_screen(triangle: &ScreenTriangle<DVec2>) -> RealTriangle {
-    triangle.vertices.map(|v| RealVertex {
+    triangle.vertices.each(|v| RealVertex {
         position_px: v.position.to_px().into(),
         depth: v.depth,
         w: 1.0 / v.inv_w,

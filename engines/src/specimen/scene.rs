@@ -7,6 +7,7 @@ use glam::{DVec2, DVec4};
 
 use super::{ClipVertex, Published, RealTriangle, RealVertex, bare};
 use crate::contract::{Interpolate as _, Rasterize as _};
+use crate::each::Each as _;
 use crate::frame::Frame;
 use crate::grid::{PixelRect, SubpixelPoint};
 use crate::raster::edge_function::EdgeFunction;
@@ -75,7 +76,7 @@ pub fn either(
         // What is refused stays empty.
         Version::Published => drop(specimen.fragments(triangle, bounds, emit)),
         Version::Repaired => {
-            let vertices = triangle.map(|v| ScreenVertex {
+            let vertices = triangle.each(|v| ScreenVertex {
                 position: at(v.position_px),
                 depth: v.depth,
                 inv_w: 1.0 / v.w,
@@ -141,7 +142,7 @@ pub fn fragments(
     bounds: PixelRect,
     emit: &mut dyn FnMut(Fragment<DVec2>),
 ) {
-    let vertices = corners.map(|(position_px, w, varying)| ScreenVertex {
+    let vertices = corners.each(|(position_px, w, varying)| ScreenVertex {
         position: at(position_px),
         depth: varying.x,
         inv_w: 1.0 / w,

@@ -7,17 +7,21 @@
 //!
 //! - Triangles up to 180 px a side are set up in wrapping i32 (`setup`), larger ones in i128
 //!   (`setup::Single`). Both are stepped in i32 as long as that is wide enough, else in i64 (`wide`).
-//! - Tiles begin at columns that are multiples of 16, since rows of pixels are written 64 bytes, a
-//!   line of the cache, at a time; and at the first row of the triangle, so that tiny ones are one.
+//! - Triangles of at most 4 x 4 px are decided whole while they are set up, one a lane (`cells`).
+//! - Tiles of a triangle that is wider than one begin at columns that are multiples of 16, since rows
+//!   of pixels are written 64 bytes, a line of the cache, at a time. All others begin at the first
+//!   pixel of the triangle's box, so that small ones are one tile.
 //!
 //! It shares nothing with the other engines or the oracle. It does not clip, cull, depth-test or
 //! shade, and it computes no values.
 
+mod cells;
 mod paint;
 mod setup;
 mod walk;
 mod wide;
 
+use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd, dispatch};
 
 use crate::contract::Rasterize;
@@ -30,13 +34,31 @@ pub use setup::{NARROW_EXTENT, STEPPED_LIMIT};
 /// Columns and rows of a tile.
 pub const SIDE_PX: i32 = 16;
 
+/// Columns and rows of a cell.
+pub const CELL_PX: i32 = 4;
+
 /// A part of what a triangle of a list covers: plain data, with nothing of the vectors in it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Piece {
+    /// Some pixels of a square of 4 x 4, at least one: all of a tiny triangle.
+    Cell(Cell),
     /// Some pixels of a square of 16 x 16, at least one.
     Tile(Tile),
     /// Every pixel of a rectangle, which is not empty.
     Block(Block),
+}
+
+/// Some pixels of a square of 4 x 4.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Cell {
+    /// Which triangle of the list.
+    pub triangle: u32,
+    /// First column of the square.
+    pub x_px: i32,
+    /// First row of the square.
+    pub y_px: i32,
+    /// Bit 4 j + i: whether pixel (x + i, y + j) is covered.
+    pub pixels: u16,
 }
 
 /// Some pixels of a square of 16 x 16.
@@ -44,7 +66,7 @@ pub enum Piece {
 pub struct Tile {
     /// Which triangle of the list.
     pub triangle: u32,
-    /// First column of the square, a multiple of 16.
+    /// First column of the square.
     pub x_px: i32,
     /// First row of the square.
     pub y_px: i32,
@@ -71,6 +93,15 @@ pub trait CoverList {
     /// They come in runs of any length that is not 0. Total for all inputs; a list has at most
     /// 2^32 triangles.
     fn cover_list(&self, triangles: &[Corners], bounds: PixelRect, take: &mut dyn FnMut(&[Piece]));
+}
+
+/// What comes of a list where large triangles are left to somebody else.
+#[derive(Clone, Copy, Debug)]
+pub enum Part<'a> {
+    /// A run of pieces, as in [`CoverList::cover_list`].
+    Pieces(&'a [Piece]),
+    /// The number of a triangle that is too large.
+    Left(u32),
 }
 
 /// The tile engine in an instruction set; see the module's description.
@@ -128,6 +159,18 @@ impl Tiles {
         }
     }
 
+    /// As [`CoverList::cover_list`] for the triangles of which the window shows a box of at most
+    /// `side_px` columns and rows; the others are handed over as numbers, in their places.
+    pub fn cover_small(
+        &self,
+        triangles: &[Corners],
+        bounds: PixelRect,
+        side_px: i32,
+        take: &mut dyn FnMut(Part<'_>),
+    ) {
+        dispatch!(self.level, simd => cover_in(simd, triangles, bounds, side_px, take));
+    }
+
     /// Fills pieces with one colour, in the order they are given.
     ///
     /// # Panics
@@ -139,7 +182,11 @@ impl Tiles {
 
 impl CoverList for Tiles {
     fn cover_list(&self, triangles: &[Corners], bounds: PixelRect, take: &mut dyn FnMut(&[Piece])) {
-        dispatch!(self.level, simd => cover_in(simd, triangles, bounds, take));
+        self.cover_small(triangles, bounds, i32::MAX, &mut |part| {
+            if let Part::Pieces(run) = part {
+                take(run);
+            }
+        });
     }
 }
 
@@ -151,29 +198,84 @@ fn cover_in<S: Simd>(
     simd: S,
     triangles: &[Corners],
     bounds: PixelRect,
-    take: &mut dyn FnMut(&[Piece]),
+    side_px: i32,
+    take: &mut dyn FnMut(Part<'_>),
 ) {
-    let mut pieces = Vec::with_capacity(2 * RUN);
-    for (number, chunk) in triangles.chunks(setup::LANES).enumerate() {
-        let batch = setup::Batch::new(simd, chunk, bounds);
-        let mut left = batch.narrow | batch.wide;
-        while left != 0 {
-            let lane = left.trailing_zeros() as usize;
-            left &= left - 1;
-            let triangle = (number * setup::LANES + lane) as u32;
-            if batch.narrow >> lane & 1 != 0 {
-                walk::walk(simd, &batch.stepped(lane), triangle, &mut pieces);
-            } else {
-                single(simd, &chunk[lane], batch.rect(lane), triangle, &mut pieces);
+    let mut out = Out { pieces: Vec::with_capacity(2 * RUN), take };
+    let mut columns = setup::Columns::default();
+    let mut number = 0;
+    for group in triangles.chunks(setup::GROUP) {
+        columns.turn(group);
+        for (at, chunk) in group.chunks(setup::LANES).enumerate() {
+            batch(simd, columns.batch(simd, at, bounds), chunk, number, side_px, &mut out);
+            number += setup::LANES as u32;
+            if out.pieces.len() >= RUN {
+                out.hand_over();
             }
         }
-        if pieces.len() >= RUN {
-            take(&pieces);
-            pieces.clear();
+    }
+    out.hand_over();
+}
+
+/// Pieces on their way.
+struct Out<'a> {
+    pieces: Vec<Piece>,
+    take: &'a mut dyn FnMut(Part<'_>),
+}
+
+impl Out<'_> {
+    fn hand_over(&mut self) {
+        if !self.pieces.is_empty() {
+            (self.take)(Part::Pieces(&self.pieces));
+            self.pieces.clear();
         }
     }
-    if !pieces.is_empty() {
-        take(&pieces);
+
+    fn leave(&mut self, number: u32) {
+        self.hand_over();
+        (self.take)(Part::Left(number));
+    }
+}
+
+/// Sixteen triangles or less, of which the first has a number.
+#[inline(always)]
+fn batch<S: Simd>(
+    simd: S,
+    batch: setup::Batch<S>,
+    triangles: &[Corners],
+    number: u32,
+    side_px: i32,
+    out: &mut Out<'_>,
+) {
+    let (narrow, wide) = (batch.narrow.to_bitmask() as u32, batch.wide.to_bitmask() as u32);
+    let tiny = batch.at_most(CELL_PX) & narrow;
+    let cells = if tiny == 0 { cells::Cells::default() } else { cells::Cells::new(simd, &batch) };
+    if narrow | wide == tiny {
+        // Nothing else, as in every list of tiny triangles.
+        cells.append(tiny, number, &mut out.pieces);
+        return;
+    }
+    let ours = batch.at_most(side_px);
+    let records = if (narrow | wide) & ours == tiny {
+        setup::Records::default()
+    } else {
+        batch.records(simd)
+    };
+    let mut left = narrow | wide;
+    while left != 0 {
+        let lane = left.trailing_zeros() as usize & (setup::LANES - 1);
+        let bit = left & left.wrapping_neg();
+        left &= left - 1;
+        let triangle = number + lane as u32;
+        if tiny & bit != 0 {
+            cells.append(bit, number, &mut out.pieces);
+        } else if ours & bit == 0 {
+            out.leave(triangle);
+        } else if narrow & bit != 0 {
+            walk::walk(simd, &records.stepped(lane), triangle, &mut out.pieces);
+        } else {
+            single(simd, &triangles[lane], records.rect(lane), triangle, &mut out.pieces);
+        }
     }
 }
 
@@ -207,6 +309,7 @@ impl Piece {
     #[must_use]
     pub fn triangle(&self) -> u32 {
         match self {
+            Self::Cell(cell) => cell.triangle,
             Self::Tile(tile) => tile.triangle,
             Self::Block(block) => block.triangle,
         }
@@ -215,6 +318,7 @@ impl Piece {
     /// Its pixels as spans, row by row.
     pub fn spans(&self, emit: &mut dyn FnMut(Span)) {
         match self {
+            Self::Cell(cell) => cell.tile().spans(emit),
             Self::Tile(tile) => tile.spans(emit),
             Self::Block(Block { rect, .. }) => {
                 for y_px in rect.y0..rect.y1 {
@@ -222,6 +326,19 @@ impl Piece {
                 }
             }
         }
+    }
+}
+
+impl Cell {
+    /// The same as a tile.
+    #[must_use]
+    pub fn tile(&self) -> Tile {
+        let Self { triangle, x_px, y_px, pixels } = *self;
+        let mut rows = [0; SIDE_PX as usize];
+        for (j, row) in rows.iter_mut().take(CELL_PX as usize).enumerate() {
+            *row = pixels >> (CELL_PX as usize * j) & 0xf;
+        }
+        Tile { triangle, x_px, y_px, rows }
     }
 }
 

@@ -1,9 +1,9 @@
-//! One colour in the pixels of pieces, a row of a tile at a time.
+//! One colour in the pixels of pieces, a cell or a row of a tile at a time.
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, mask32x16, u16x16, u32x16};
+use fearless_simd::{Simd, mask32x8, mask32x16, u16x16, u32x4, u32x8, u32x16};
 
-use super::{Piece, SIDE_PX, Tile};
+use super::{CELL_PX, Cell, Piece, SIDE_PX, Tile};
 use crate::frame::Frame;
 use crate::grid::PixelRect;
 
@@ -12,7 +12,8 @@ pub(super) fn fill<S: Simd>(simd: S, pieces: &[Piece], colour: u32, target: &mut
     let ink = u32x16::splat(simd, colour);
     for piece in pieces {
         match piece {
-            Piece::Tile(tile) => fill_tile(simd, tile, ink, colour, target),
+            Piece::Cell(cell) => fill_cell(simd, cell, ink, target),
+            Piece::Tile(tile) => fill_tile(simd, tile, ink, target),
             Piece::Block(block) => fill_block(block.rect, ink, colour, target),
         }
     }
@@ -34,22 +35,63 @@ fn fill_block<S: Simd>(rect: PixelRect, ink: u32x16<S>, colour: u32, target: &mu
     }
 }
 
+/// All sixteen pixels are read, mixed and written, since nothing predicts which are covered.
 #[inline(always)]
-fn fill_tile<S: Simd>(simd: S, tile: &Tile, ink: u32x16<S>, colour: u32, target: &mut Frame<u32>) {
+fn fill_cell<S: Simd>(simd: S, cell: &Cell, ink: u32x16<S>, target: &mut Frame<u32>) {
     let bounds = target.bounds();
-    if tile.x_px < bounds.x0 || tile.x_px + SIDE_PX > bounds.x1 {
+    if cell.x_px + CELL_PX > bounds.x1 || cell.y_px + CELL_PX > bounds.y1 {
         // At the border there are no sixteen pixels to read and write.
+        let colour = ink[0];
+        cell.tile().spans(|span| target.span_mut(span.y_px, span.x0_px, span.x1_px).fill(colour));
+        return;
+    }
+    let (pitch, from) = (target.pitch(), target.tail_mut(cell.x_px, cell.y_px));
+    let Some(from) = from.get_mut(..3 * pitch + CELL_PX as usize) else { return };
+    let (a, b) =
+        (u32x4::from_slice(simd, &from[..4]), u32x4::from_slice(simd, &from[pitch..][..4]));
+    let c = u32x4::from_slice(simd, &from[2 * pitch..][..4]);
+    let d = u32x4::from_slice(simd, &from[3 * pitch..][..4]);
+    let before = a.combine(b).combine(c.combine(d));
+    let mask = mask32x16::from_bitmask(simd, u64::from(cell.pixels));
+    let (above, below) = mask.select(ink, before).split();
+    let ((a, b), (c, d)) = (above.split(), below.split());
+    a.store_slice(&mut from[..4]);
+    b.store_slice(&mut from[pitch..][..4]);
+    c.store_slice(&mut from[2 * pitch..][..4]);
+    d.store_slice(&mut from[3 * pitch..][..4]);
+}
+
+#[inline(always)]
+fn fill_tile<S: Simd>(simd: S, tile: &Tile, ink: u32x16<S>, target: &mut Frame<u32>) {
+    let bounds = target.bounds();
+    let rows = u16x16::load_array_ref(simd, &tile.rows);
+    let left = rows.simd_ne(0).to_bitmask() as u32;
+    let narrow = rows.simd_gt(0xff).to_bitmask() == 0;
+    let width = if narrow { SIDE_PX / 2 } else { SIDE_PX };
+    if tile.x_px < bounds.x0 || tile.x_px + width > bounds.x1 {
+        // At the border there are not so many pixels to read and write.
+        let colour = ink[0];
         tile.spans(|span| target.span_mut(span.y_px, span.x0_px, span.x1_px).fill(colour));
         return;
     }
-    let rows = u16x16::load_array_ref(simd, &tile.rows);
-    let mut left = rows.simd_ne(0).to_bitmask() as u32;
-    while left != 0 {
-        let row = left.trailing_zeros();
-        left &= left - 1;
-        let mask = mask32x16::from_bitmask(simd, u64::from(tile.rows[row as usize & 15]));
-        let run = target.span_mut(tile.y_px + row as i32, tile.x_px, tile.x_px + SIDE_PX);
-        if let Some(run) = run.first_chunk_mut::<16>() {
+    // Rows between that cover nothing stay what they are.
+    let first = left.trailing_zeros() as i32;
+    let rows = &tile.rows[first as usize & 15..];
+    let count = (32 - left.leading_zeros() as i32 - first) as usize;
+    let pitch = target.pitch();
+    let from = target.tail_mut(tile.x_px, tile.y_px + first);
+    let lines = from.chunks_mut(pitch).zip(rows).take(count);
+    if narrow {
+        let (ink, _) = ink.split();
+        for (line, &row) in lines {
+            let Some(run) = line.first_chunk_mut::<8>() else { return };
+            let mask = mask32x8::from_bitmask(simd, u64::from(row));
+            *run = mask.select(ink, u32x8::load_array_ref(simd, run)).to_array();
+        }
+    } else {
+        for (line, &row) in lines {
+            let Some(run) = line.first_chunk_mut::<16>() else { return };
+            let mask = mask32x16::from_bitmask(simd, u64::from(row));
             *run = mask.select(ink, u32x16::load_array_ref(simd, run)).to_array();
         }
     }

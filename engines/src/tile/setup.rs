@@ -36,6 +36,8 @@ const _: () = {
     assert!(padded * padded < STEPPED_LIMIT, "what is set up in i32 is stepped in i32");
 };
 
+type Lanes<S> = i32x16<S>;
+
 /// A triangle ready to be stepped in words of a kind.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stepped<W> {
@@ -49,38 +51,48 @@ pub(super) struct Stepped<W> {
     pub down: [W; 3],
 }
 
+/// Triangles whose corners are turned into columns at a time. More than are set up at a time: what is
+/// stored number by number and loaded as a vector at once has to arrive in the cache before.
+pub(super) const GROUP: usize = 4 * LANES;
+
 /// Sixteen numbers, aligned for a whole vector: what is stored across two lines of the cache has to
 /// arrive there before any of it is read.
 #[derive(Clone, Copy)]
 #[repr(align(64))]
-struct Line([i32; LANES]);
+pub(super) struct Line(pub [i32; LANES]);
 
-/// Sixteen triangles or less, side by side.
-pub(super) struct Batch {
-    /// Bit i: triangle i may cover a pixel, and is set up.
-    pub narrow: u32,
-    /// Bit i: triangle i may cover a pixel, and is too large to be set up here.
-    pub wide: u32,
-    /// Of each triangle: x0, y0, x1, y1 of its rect, three starts, three steps to the right, three
-    /// down. Together, since numbers that lie apart in memory are gathered slowly.
-    records: [Line; LANES],
+/// The corners of a group side by side: x and y of a, b and c, sixteen triangles each.
+pub(super) struct Columns([[Line; 6]; GROUP / LANES]);
+
+impl Default for Columns {
+    fn default() -> Self {
+        Self([[Line([0; LANES]); 6]; GROUP / LANES])
+    }
 }
 
-type Lanes<S> = i32x16<S>;
-
-impl Batch {
+impl Columns {
     #[inline(always)]
-    pub fn new<S: Simd>(simd: S, triangles: &[Corners], bounds: PixelRect) -> Self {
-        // Lanes without a triangle stay at zero, which has no area.
-        let mut turned = [Line([0; LANES]); 6];
-        for (lane, [a, b, c]) in triangles.iter().enumerate().take(LANES) {
-            (turned[0].0[lane], turned[1].0[lane]) = (a.x, a.y);
-            (turned[2].0[lane], turned[3].0[lane]) = (b.x, b.y);
-            (turned[4].0[lane], turned[5].0[lane]) = (c.x, c.y);
+    pub fn turn(&mut self, triangles: &[Corners]) {
+        for (lines, triangles) in self.0.iter_mut().zip(triangles.chunks(LANES)) {
+            if triangles.len() < LANES {
+                // Lanes without a triangle stay at zero, which has no area.
+                *lines = [Line([0; LANES]); 6];
+            }
+            for (lane, [a, b, c]) in triangles.iter().enumerate().take(LANES) {
+                (lines[0].0[lane], lines[1].0[lane]) = (a.x, a.y);
+                (lines[2].0[lane], lines[3].0[lane]) = (b.x, b.y);
+                (lines[4].0[lane], lines[5].0[lane]) = (c.x, c.y);
+            }
         }
-        let (ax, ay) = (load(simd, &turned[0]), load(simd, &turned[1]));
-        let (bx, by) = (load(simd, &turned[2]), load(simd, &turned[3]));
-        let (cx, cy) = (load(simd, &turned[4]), load(simd, &turned[5]));
+    }
+
+    /// Sets up sixteen triangles.
+    #[inline(always)]
+    pub fn batch<S: Simd>(&self, simd: S, at: usize, bounds: PixelRect) -> Batch<S> {
+        let lines = &self.0[at & (GROUP / LANES - 1)];
+        let (ax, ay) = (load(simd, &lines[0]), load(simd, &lines[1]));
+        let (bx, by) = (load(simd, &lines[2]), load(simd, &lines[3]));
+        let (cx, cy) = (load(simd, &lines[4]), load(simd, &lines[5]));
         let (fits_x, x0, x1) = side([ax, bx, cx], bounds.x0, bounds.x1);
         let (fits_y, y0, y1) = side([ay, by, cy], bounds.y0, bounds.y1);
         let fits = fits_x & fits_y;
@@ -96,29 +108,70 @@ impl Batch {
         let a = edge(simd, [bx, by, cx, cy], px, py);
         let b = edge(simd, [cx, cy, ax, ay], px, py);
         let c = edge(simd, [ax, ay, bx, by], px, py);
-        let narrow = visible & fits & !area.simd_eq(zero);
-        let wide = visible & !fits;
-        let rows = [
-            x0, y0, x1, y1, a[0], b[0], c[0], a[1], b[1], c[1], a[2], b[2], c[2], zero, zero, zero,
-        ];
-        Self {
-            narrow: narrow.to_bitmask() as u32,
-            wide: wide.to_bitmask() as u32,
-            records: transposed(rows),
+        Batch {
+            narrow: visible & fits & !area.simd_eq(zero),
+            wide: visible & !fits,
+            rect: [x0, y0, x1, y1],
+            start: [a[0], b[0], c[0]],
+            right: [a[1], b[1], c[1]],
+            down: [a[2], b[2], c[2]],
         }
     }
+}
 
+/// Sixteen triangles or less, one a lane.
+pub(super) struct Batch<S: Simd> {
+    /// Whether it may cover a pixel, and is set up.
+    pub narrow: mask32x16<S>,
+    /// Whether it may cover a pixel, and is too large to be set up here.
+    pub wide: mask32x16<S>,
+    /// As in [`Stepped`], x0, y0, x1 and y1.
+    pub rect: [Lanes<S>; 4],
+    pub start: [Lanes<S>; 3],
+    pub right: [Lanes<S>; 3],
+    pub down: [Lanes<S>; 3],
+}
+
+impl<S: Simd> Batch<S> {
+    /// Bit i: what the window shows of the box of triangle i has at most `side_px` columns and rows.
+    #[inline(always)]
+    pub fn at_most(&self, side_px: i32) -> u32 {
+        let [x0, y0, x1, y1] = self.rect;
+        ((x1 - x0).simd_le(side_px) & (y1 - y0).simd_le(side_px)).to_bitmask() as u32
+    }
+
+    /// Triangle by triangle.
+    #[inline(always)]
+    pub fn records(&self, simd: S) -> Records {
+        let ([x0, y0, x1, y1], zero) = (self.rect, Lanes::splat(simd, 0));
+        let ([a, b, c], [ra, rb, rc], [da, db, dc]) = (self.start, self.right, self.down);
+        let rows = [x0, y0, x1, y1, a, b, c, ra, rb, rc, da, db, dc, zero, zero, zero];
+        Records(transposed(rows))
+    }
+}
+
+/// Of each triangle: x0, y0, x1, y1 of its rect, three starts, three steps to the right, three down.
+/// Together, since numbers that lie apart in memory are gathered slowly.
+pub(super) struct Records([Line; LANES]);
+
+impl Default for Records {
+    fn default() -> Self {
+        Self([Line([0; LANES]); LANES])
+    }
+}
+
+impl Records {
     /// The pixels of the window in the box of a triangle.
     #[inline(always)]
     pub fn rect(&self, lane: usize) -> PixelRect {
-        let [x0, y0, x1, y1, ..] = self.records[lane].0;
+        let [x0, y0, x1, y1, ..] = self.0[lane].0;
         PixelRect { x0, y0, x1, y1 }
     }
 
-    /// A triangle whose bit in `narrow` is set.
+    /// A triangle that is narrow.
     #[inline(always)]
     pub fn stepped(&self, lane: usize) -> Stepped<i32> {
-        let [_, _, _, _, a, b, c, ra, rb, rc, da, db, dc, ..] = self.records[lane].0;
+        let [_, _, _, _, a, b, c, ra, rb, rc, da, db, dc, ..] = self.0[lane].0;
         Stepped { rect: self.rect(lane), start: [a, b, c], right: [ra, rb, rc], down: [da, db, dc] }
     }
 }
@@ -194,7 +247,7 @@ pub(super) struct Single {
 }
 
 impl Single {
-    /// Nothing where the triangle has no area. `rect` is as [`Batch::rect`] has it.
+    /// Nothing where the triangle has no area. `rect` is as [`Records::rect`] has it.
     pub fn new([a, b, c]: &Corners, rect: PixelRect) -> Option<Self> {
         let area = exact(a, b, i64::from(c.x), i64::from(c.y));
         let (b, c) = if area < 0 { (c, b) } else { (b, c) };

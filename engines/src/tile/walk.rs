@@ -26,19 +26,57 @@ pub(super) fn walk<S: Simd>(simd: S, triangle: &Stepped<i32>, number: u32, out: 
         tiles(simd, triangle, number, out);
         return;
     }
-    // One tile, or two beside each other.
-    let columns = columns(simd, &triangle.right);
-    let first = x0 & !(SIDE_PX - 1);
-    for x_px in (first..x1).step_by(SIDE_PX as usize) {
-        let (before, right) = (x_px - x0, triangle.right);
-        let start = [
-            triangle.start[0] + right[0] * before,
-            triangle.start[1] + right[1] * before,
-            triangle.start[2] + right[2] * before,
-        ];
-        let (first, end) = ((x0 - x_px).max(0), (x1 - x_px).min(SIDE_PX));
-        let square = Square { x_px, y_px: y0, first, end, height: y1 - y0 };
-        tile(simd, triangle, &start, columns, &square, number, out);
+    if x1 - x0 > HALF_PX {
+        let columns = columns(simd, &triangle.right);
+        let square = Square { x_px: x0, y_px: y0, first: 0, end: x1 - x0, height: y1 - y0 };
+        tile(simd, triangle, &triangle.start, columns, &square, number, out);
+    } else {
+        half(simd, triangle, number, out);
+    }
+}
+
+/// Half the columns of a tile: triangles that are no wider are decided two rows at a time.
+const HALF_PX: i32 = SIDE_PX / 2;
+
+/// [`COUNT`] of half a tile, twice.
+const HALF_COUNT: [i32; 16] = [0, 1, 2, 3, 4, 5, 6, 7, 0, 1, 2, 3, 4, 5, 6, 7];
+/// 0 in the first half, 1 in the second.
+const SECOND: [i32; 16] = [0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1];
+
+/// A triangle in one tile, of which it takes half the columns or less.
+#[inline(always)]
+fn half<S: Simd>(simd: S, triangle: &Stepped<i32>, number: u32, out: &mut Vec<Piece>) {
+    let PixelRect { x0, y0, x1, y1 } = triangle.rect;
+    let (start, right, down) = (triangle.start, triangle.right, triangle.down);
+    let count = Lanes::load_array_ref(simd, &HALF_COUNT);
+    let second = Lanes::load_array_ref(simd, &SECOND);
+    let mut a = count * right[0] + (second * down[0] + start[0]);
+    let mut b = count * right[1] + (second * down[1] + start[1]);
+    let mut c = count * right[2] + (second * down[2] + start[2]);
+    let (down_a, down_b, down_c) = (
+        Lanes::splat(simd, 2 * down[0]),
+        Lanes::splat(simd, 2 * down[1]),
+        Lanes::splat(simd, 2 * down[2]),
+    );
+    let looked_at = ((1u32 << (x1 - x0)) - 1) * 0x0101;
+    out.push(Piece::Tile(Tile { triangle: number, x_px: x0, y_px: y0, rows: [0; 16] }));
+    let Some(Piece::Tile(Tile { rows, .. })) = out.last_mut() else { return };
+    let height = (y1 - y0) as usize & 31;
+    let mut any = 0;
+    for rows in rows.as_chunks_mut::<2>().0.iter_mut().take(height / 2) {
+        let mask = none_negative([a, b, c]) & looked_at;
+        *rows = [(mask & 0xff) as u16, (mask >> 8) as u16];
+        any |= mask;
+        (a, b, c) = (a + down_a, b + down_b, c + down_c);
+    }
+    if height % 2 == 1 {
+        // The second half is beyond the box.
+        let mask = none_negative([a, b, c]) & looked_at & 0xff;
+        rows[(height - 1) & 15] = mask as u16;
+        any |= mask;
+    }
+    if any == 0 {
+        out.pop();
     }
 }
 

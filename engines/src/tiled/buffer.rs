@@ -1,44 +1,180 @@
 //! The colours and depths of one tile of a frame.
 
+use crate::frame::Frame;
 use crate::grid::PixelRect;
+use crate::tile;
 
 /// Columns and rows of a tile of a frame.
 pub const SIDE_PX: i32 = 64;
-const SIDE: usize = SIDE_PX as usize;
 
-/// Sixteen pixels, a line of the cache.
-#[derive(Clone, Copy)]
-#[repr(align(64))]
-pub(super) struct Run<T>(pub [T; 16]);
+/// Columns and rows of a block of a tile, whose farthest depth is known.
+const BLOCK_PX: i32 = 16;
+/// Blocks in a row of a tile.
+const BLOCKS: i32 = SIDE_PX / BLOCK_PX;
+
+/// A block's farthest depth is looked for again after it was drawn into so many times: looking costs
+/// about a row of pixels.
+const STALE: u8 = 8;
+
+/// One sample of every pixel of a tile. Beyond its right and lower side there is room for the rows
+/// and cells that begin in it. Columns and rows count from its first pixel.
+pub(super) struct Plane {
+    pub colours: Frame<u32>,
+    /// Smaller is nearer; infinite where nothing has been drawn.
+    pub depths: Frame<f32>,
+}
 
 /// Colours and depths of one tile, owned by who draws it: nothing is shared, so nothing is locked.
 pub(super) struct Buffer {
-    /// Its pixels.
+    /// Its pixels in the window.
     pub rect: PixelRect,
-    /// Row by row, four runs each.
-    pub colours: Vec<Run<u32>>,
-    /// Smaller is nearer; infinite where nothing has been drawn.
-    pub depths: Vec<Run<f32>>,
+    /// One for each sample.
+    pub planes: Vec<Plane>,
+    /// Of each block, no depth is farther.
+    farthest: [f32; (BLOCKS * BLOCKS) as usize],
+    /// Of each block, how often it was drawn into since that was looked for.
+    drawn: [u8; (BLOCKS * BLOCKS) as usize],
 }
 
 impl Buffer {
-    pub fn new(rect: PixelRect, background: u32) -> Self {
-        let runs = SIDE * SIDE / 16;
-        let colours = vec![Run([background; 16]); runs];
-        Self { rect, colours, depths: vec![Run([f32::INFINITY; 16]); runs] }
+    pub fn new(samples: usize) -> Self {
+        let room = PixelRect {
+            x0: 0,
+            y0: 0,
+            x1: SIDE_PX + tile::SIDE_PX,
+            y1: SIDE_PX + tile::CELL_PX - 1,
+        };
+        let plane = || Plane { colours: Frame::new(room, 0), depths: Frame::new(room, 0.0) };
+        Self {
+            rect: PixelRect::window(0, 0),
+            planes: (0..samples).map(|_| plane()).collect(),
+            farthest: [f32::INFINITY; 16],
+            drawn: [0; 16],
+        }
     }
 
-    /// Which run holds sixteen pixels from a column that is a multiple of 16.
-    #[inline]
-    pub fn at(&self, x_px: i32, y_px: i32) -> usize {
-        let (x, y) = ((x_px - self.rect.x0) as usize, (y_px - self.rect.y0) as usize);
-        y * (SIDE / 16) + x / 16
+    /// Begins a tile.
+    pub fn clear(&mut self, rect: PixelRect, background: u32) {
+        self.rect = rect;
+        for plane in &mut self.planes {
+            plane.colours.fill(background);
+            plane.depths.fill(f32::INFINITY);
+        }
+        (self.farthest, self.drawn) = ([f32::INFINITY; 16], [0; 16]);
     }
 
-    /// The colours of a row, from the left border of the tile on.
-    pub fn row(&self, y_px: i32) -> impl Iterator<Item = u32> {
-        let from = self.at(self.rect.x0, y_px);
-        let runs = &self.colours[from..from + SIDE / 16];
-        runs.iter().flat_map(|run| run.0).take(self.rect.width() as usize)
+    /// Whether nothing that is drawn into a rectangle of the window at a depth of `nearest` or
+    /// farther can be seen in this tile. If it can, it counts as drawn.
+    pub fn hides(&mut self, rect: PixelRect, nearest: f64) -> bool {
+        let rect = rect.intersect(&self.rect);
+        let block = |px: i32, first: i32| (px - first) / BLOCK_PX;
+        let (left, right) = (block(rect.x0, self.rect.x0), block(rect.x1 - 1, self.rect.x0));
+        let (top, bottom) = (block(rect.y0, self.rect.y0), block(rect.y1 - 1, self.rect.y0));
+        let mut hidden = true;
+        for row in top..=bottom {
+            for column in left..=right {
+                let at = (row * BLOCKS + column) as usize;
+                if self.drawn[at] >= STALE {
+                    self.farthest[at] = self.farthest_of(column, row);
+                    self.drawn[at] = 0;
+                }
+                hidden &= f64::from(self.farthest[at]) <= nearest;
+            }
+        }
+        for row in top..=bottom {
+            for column in left..=right {
+                self.drawn[(row * BLOCKS + column) as usize] += u8::from(!hidden);
+            }
+        }
+        hidden
+    }
+
+    /// The farthest depth of a block.
+    fn farthest_of(&self, column: i32, row: i32) -> f32 {
+        let (x0, y0) = (column * BLOCK_PX, row * BLOCK_PX);
+        let x1 = (x0 + BLOCK_PX).min(self.rect.width() as i32);
+        let y1 = (y0 + BLOCK_PX).min(self.rect.height() as i32);
+        let mut farthest = [f32::NEG_INFINITY; 16];
+        for plane in &self.planes {
+            for y in y0..y1 {
+                let depths = &plane.depths.row(y)[x0 as usize..x1 as usize];
+                for (far, &depth) in farthest.iter_mut().zip(depths) {
+                    *far = if depth > *far { depth } else { *far };
+                }
+            }
+        }
+        farthest.into_iter().fold(f32::NEG_INFINITY, f32::max)
+    }
+
+    /// The picture's row `y`, counted from the first of the tile: the mean of the samples of each
+    /// pixel, a half rounded up.
+    pub fn resolve(&self, y: i32, out: &mut [[u8; 4]]) {
+        let width = out.len();
+        let row = |sample: usize| &self.planes[sample].colours.row(y)[..width];
+        if self.planes.len() == 1 {
+            for (pixel, colour) in out.iter_mut().zip(row(0)) {
+                *pixel = colour.to_le_bytes();
+            }
+            return;
+        }
+        let [a, b, c, d] = [row(0), row(1), row(2), row(3)];
+        // Two channels at a time, with room for sums of four above each.
+        let channels = |colour: u32| colour & 0x00ff_00ff;
+        let mean = |sum: u32| (sum + 0x0002_0002) >> 2 & 0x00ff_00ff;
+        for (i, pixel) in out.iter_mut().enumerate() {
+            let (a, b, c, d) = (a[i], b[i], c[i], d[i]);
+            let low = channels(a) + channels(b) + channels(c) + channels(d);
+            let high = channels(a >> 8) + channels(b >> 8) + channels(c >> 8) + channels(d >> 8);
+            *pixel = (mean(low) | mean(high) << 8).to_le_bytes();
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What is called hidden is hidden: no depth in the rectangle is farther. After every change of
+    /// depths that a drawing makes, in a tile that the window cuts off, with four samples.
+    #[test]
+    fn hidden_is_behind_every_depth() {
+        let mut buffer = Buffer::new(4);
+        let rect = PixelRect { x0: 128, y0: 64, x1: 128 + 50, y1: 64 + 41 };
+        buffer.clear(rect, 0);
+        let mut state = 1u32;
+        let mut random = |below: u32| {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (state >> 8) % below
+        };
+        let (mut hidden, mut seen) = (0, 0);
+        for _ in 0..4000 {
+            let (x0, y0) = (128 + random(50) as i32, 64 + random(41) as i32);
+            let (x1, y1) = (x0 + 1 + random(40) as i32, y0 + 1 + random(40) as i32);
+            let drawn = PixelRect { x0, y0, x1, y1 };
+            let depth = random(1000) as f32 / 1000.0;
+            let mut farthest = f32::NEG_INFINITY;
+            let inside = drawn.intersect(&rect);
+            let columns = (inside.x0 - rect.x0) as usize..(inside.x1 - rect.x0) as usize;
+            for plane in &buffer.planes {
+                for y in inside.y0 - rect.y0..inside.y1 - rect.y0 {
+                    let row = &plane.depths.row(y)[columns.clone()];
+                    farthest = row.iter().fold(farthest, |farthest, &d| farthest.max(d));
+                }
+            }
+            if buffer.hides(drawn, depth.into()) {
+                assert!(farthest <= depth, "{drawn:?} at {depth}: there is {farthest}");
+                hidden += 1;
+                continue;
+            }
+            seen += 1;
+            for plane in &mut buffer.planes {
+                for y in inside.y0 - rect.y0..inside.y1 - rect.y0 {
+                    for stored in &mut plane.depths.row_mut(y)[columns.clone()] {
+                        *stored = stored.min(depth);
+                    }
+                }
+            }
+        }
+        assert!(hidden > 500 && seen > 100, "{hidden} hidden, {seen} seen");
     }
 }

@@ -108,6 +108,7 @@ impl Candidate {
             Shape::Share { x, y, percent } => {
                 (6, digits(x) + digits(y) + u32::from(percent % 25 != 0))
             }
+            Shape::Scan(scan) => (7, scan as u32),
         };
         let grid = if self.quantum.step == 1 { 0 } else { 1 + self.quantum.rounding as u32 };
         (kind, numbers, grid)

@@ -6,8 +6,10 @@ use super::general::Flip;
 use super::outline::LineTie;
 use super::quantum::{Quantum, Rounding};
 use super::samples::Pattern;
+use super::scan::Scan;
 use super::search::{Range, Scored, Search, Seen};
 use super::shape::Shape;
+use crate::each::Each as _;
 
 /// Grids whose search goes on after the first look.
 const GRIDS: usize = 6;
@@ -22,7 +24,7 @@ pub(super) struct Fit<'a> {
 
 impl<'a> Fit<'a> {
     /// Hypotheses with their wrong pixels, the best first: of the kinds up to the simplest that
-    /// explains all, or of all kinds.
+    /// explains all, or of all kinds and, where none does, the scan conversions of libraries.
     pub(super) fn hypotheses(&self) -> Vec<Scored> {
         let kinds: [fn(&Self, Quantum) -> Vec<Search<'a>>; 5] =
             [Self::points, Self::rows, Self::samples, Self::reaches, Self::shares];
@@ -39,6 +41,9 @@ impl<'a> Fit<'a> {
                 break;
             }
         }
+        if found.iter().all(|(errors, _)| *errors > 0) {
+            found.extend(self.scans());
+        }
         found.sort_by_key(|(errors, candidate)| (*errors, candidate.rank()));
         found
     }
@@ -49,7 +54,7 @@ impl<'a> Fit<'a> {
         let ways = [Rounding::Near, Rounding::HalfEven, Rounding::Down];
         let steps = [4, 16, 64, 256].into_iter().filter(|&step| step > self.grain);
         std::iter::once(Quantum::NONE)
-            .chain(steps.flat_map(|step| ways.map(|rounding| Quantum { step, rounding })))
+            .chain(steps.flat_map(|step| ways.each(|rounding| Quantum { step, rounding })))
             .collect()
     }
 
@@ -74,7 +79,7 @@ impl<'a> Fit<'a> {
         let (Some(x), Some(y)) = (left.meet(right), top.meet(bottom)) else { return Vec::new() };
         let mut found = self.search(quantum, &[x, y], |v| Shape::Point { x: v[0], y: v[1] });
         if quantum.step == 4 {
-            let [x, y] = [x, y].map(|range| Range { finest: 4, ..range });
+            let [x, y] = [x, y].each(|range| Range { finest: 4, ..range });
             found.extend(self.search(quantum, &[x, y], |v| Shape::Stepped { x: v[0], y: v[1] }));
         }
         found
@@ -97,9 +102,20 @@ impl<'a> Fit<'a> {
             .collect()
     }
 
+    /// Those that explain everything: what is nearly one of them is none of them.
+    fn scans(&self) -> Vec<Scored> {
+        let Seen { answers, window, draws } = self.seen;
+        Scan::ALL
+            .map(|scan| Candidate { draws, quantum: Quantum::NONE, shape: Shape::Scan(scan) })
+            .into_iter()
+            .filter(|candidate| candidate.errors(answers, window, 0) == 0)
+            .map(|candidate| (0, candidate))
+            .collect()
+    }
+
     /// The middle between the flips of two opposite edges, and half their distance.
     fn middle(&self, quantum: Quantum, axis: usize) -> [Range; 2] {
-        let [first, second] = [2 * axis, 2 * axis + 1].map(|i| self.flip(i, quantum));
+        let [first, second] = [2 * axis, 2 * axis + 1].each(|i| self.flip(i, quantum));
         let half = |v: i32| v.div_euclid(2);
         [
             Range::of(half(first.low + second.low), half(first.high + second.high + 1)),
@@ -109,7 +125,7 @@ impl<'a> Fit<'a> {
 
     /// Four samples about a middle, of which at least one to four are covered.
     fn samples(&self, quantum: Quantum) -> Vec<Search<'a>> {
-        let [[x, _], [y, _]] = [0, 1].map(|axis| self.middle(quantum, axis));
+        let [[x, _], [y, _]] = [0, 1].each(|axis| self.middle(quantum, axis));
         let makes: [fn(&[i32]) -> Shape; 2] =
             [|v| four(v, Pattern::Square), |v| four(v, Pattern::Rotated)];
         let least = Range { low: 1, high: 4, finest: 1 };
@@ -117,7 +133,7 @@ impl<'a> Fit<'a> {
     }
 
     fn reaches(&self, quantum: Quantum) -> Vec<Search<'a>> {
-        let [[x, reach], [y, down]] = [0, 1].map(|axis| self.middle(quantum, axis));
+        let [[x, reach], [y, down]] = [0, 1].each(|axis| self.middle(quantum, axis));
         let Some(reach) = reach.meet(down).and_then(|r| r.meet(Range::of(1, 512))) else {
             return Vec::new();
         };
@@ -129,7 +145,7 @@ impl<'a> Fit<'a> {
     }
 
     fn shares(&self, quantum: Quantum) -> Vec<Search<'a>> {
-        let [[x, reach], [y, down]] = [0, 1].map(|axis| self.middle(quantum, axis));
+        let [[x, reach], [y, down]] = [0, 1].each(|axis| self.middle(quantum, axis));
         let Some(reach) = reach.meet(down).and_then(|r| r.meet(Range::of(-128, 126))) else {
             return Vec::new();
         };

@@ -6,6 +6,7 @@ use serde::Serialize;
 use super::diagnosis::Confidence;
 use super::outline::{End, Line, LineTie};
 use super::ties::Count;
+use crate::each::Each as _;
 use crate::grid::PixelRect;
 use crate::hazard::Rng;
 
@@ -38,6 +39,12 @@ pub enum LineRounding {
     Toward(End),
     /// Away from the coordinate of that end.
     Away(End),
+    /// One step behind, seen from the end with the smaller major coordinate, which is not drawn; the
+    /// slope is cut to 1/65536: the hairlines of Skia and tiny-skia. Ends and steps have no say.
+    Behind,
+    /// Cut down, half a step ahead where it grows, seen from the end with the smaller major coordinate;
+    /// both ends are drawn; the slope is cut to 1/65536: the lines of Qt. Ends and steps have no say.
+    Ahead,
 }
 
 /// Which ends are drawn.
@@ -101,7 +108,8 @@ impl LineRounding {
         let (below, rest) = line.below(step);
         let up = match self {
             Self::Nearest(tie) => return line.nearest(step, tie),
-            Self::Down => false,
+            // These two have pixels of their own.
+            Self::Down | Self::Behind | Self::Ahead => false,
             Self::Up => true,
             Self::Toward(end) => (line.dv < 0) == end.is_first(line),
             Self::Away(end) => (line.dv > 0) == end.is_first(line),
@@ -142,10 +150,14 @@ impl LineConvention {
     /// more than 65,536 steps.
     #[must_use]
     pub fn pixels(&self, question: &LineQuestion) -> Option<Vec<[i32; 2]>> {
-        let [from, to] = question.ends.map(|end| end.map(i64::from));
+        let [from, to] = question.ends.each(|end| end.each(i64::from));
         let line = Line::new(from, to);
         if line.steps() > MOST_STEPS || (line.steps() == 0 && self.ends != Ends::Both) {
             return None;
+        }
+        if matches!(self.rounding, LineRounding::Behind | LineRounding::Ahead) {
+            let all = stepped(from, to, self.rounding == LineRounding::Behind);
+            return Some(inside(&all, question.window));
         }
         let mut pixels = Vec::new();
         let mut last = None;
@@ -169,23 +181,55 @@ impl LineConvention {
             Ends::Neither => (false, false),
         };
         let kept = usize::from(!first)..pixels.len() - usize::from(!last);
-        let inside = |p: &[i64; 2]| {
-            let w = question.window;
-            (i64::from(w.x0)..w.x1.into()).contains(&p[0])
-                && (i64::from(w.y0)..w.y1.into()).contains(&p[1])
-        };
-        // Inside the window, so both fit i32.
-        let small = |p: &[i64; 2]| p.map(|v| v as i32);
-        Some(pixels.get(kept)?.iter().filter(|p| inside(p)).map(small).collect())
+        Some(inside(pixels.get(kept)?, question.window))
     }
 
     fn all() -> impl Iterator<Item = Self> {
-        Steps::all().flat_map(|steps| {
-            Ends::ALL.into_iter().flat_map(move |ends| {
-                LineRounding::all().map(move |rounding| Self { rounding, ends, steps })
+        Steps::all()
+            .flat_map(|steps| {
+                Ends::ALL.into_iter().flat_map(move |ends| {
+                    LineRounding::all().map(move |rounding| Self { rounding, ends, steps })
+                })
             })
-        })
+            .chain([Self::BEHIND, Self::AHEAD])
     }
+
+    /// [`LineRounding::Behind`], which has ends and steps of its own.
+    pub const BEHIND: Self =
+        Self { rounding: LineRounding::Behind, ends: Ends::WithoutFirst, steps: Steps::Corners };
+    /// [`LineRounding::Ahead`], likewise.
+    pub const AHEAD: Self =
+        Self { rounding: LineRounding::Ahead, ends: Ends::Both, steps: Steps::Corners };
+}
+
+/// The pixels of a list that lie in the window.
+fn inside(pixels: &[[i64; 2]], window: PixelRect) -> Vec<[i32; 2]> {
+    let (x, y) = (i64::from(window.x0)..window.x1.into(), i64::from(window.y0)..window.y1.into());
+    let is_in = |p: &&[i64; 2]| x.contains(&p[0]) && y.contains(&p[1]);
+    // Inside the window, so both fit i32.
+    pixels.iter().filter(is_in).map(|p| p.map(|v| v as i32)).collect()
+}
+
+/// See [`LineRounding::Behind`] and [`LineRounding::Ahead`]: from the end with the smaller major
+/// coordinate in 16.16 numbers, the slope cut toward zero.
+fn stepped(from: [i64; 2], to: [i64; 2], is_behind: bool) -> Vec<[i64; 2]> {
+    let delta = [to[0] - from[0], to[1] - from[1]];
+    let [wide, high] = delta.map(i64::abs);
+    // Of two axes as long as each other.
+    let major = usize::from(wide < high || (wide == high && is_behind));
+    let (start, sign) = if delta[major] < 0 { (to, -1) } else { (from, 1) };
+    let slope = (sign * delta[1 - major] * 65536) / delta[major].abs().max(1);
+    let moved = if is_behind { 32768 - slope } else { (slope.max(0) + 1) / 2 };
+    let at = |step: i64| {
+        let along = start[major] + step;
+        let across = (start[1 - major] * 65536 + moved + step * slope).div_euclid(65536);
+        if major == 0 { [along, across] } else { [across, along] }
+    };
+    let mut pixels: Vec<_> = (i64::from(is_behind)..=delta[major].abs()).map(at).collect();
+    if sign < 0 {
+        pixels.reverse();
+    }
+    pixels
 }
 
 /// The diagnosis of a line drawer.
@@ -254,7 +298,7 @@ const LIKELY_PERCENT: f64 = 95.0;
 /// Random lines: half of them anywhere, half with ties, which random ones seldom have.
 fn lines(rng: &mut Rng, side: i32, count: usize) -> Vec<LineQuestion> {
     let window = PixelRect::window(side as u32, side as u32);
-    let pixel = |rng: &mut Rng| [0; 2].map(|_| rng.int(1, i64::from(side) - 2) as i32);
+    let pixel = |rng: &mut Rng| [0; 2].each(|_| rng.int(1, i64::from(side) - 2) as i32);
     (0..count)
         .flat_map(|number| {
             let from = pixel(rng);
@@ -269,7 +313,7 @@ fn lines(rng: &mut Rng, side: i32, count: usize) -> Vec<LineQuestion> {
                     |from: i32, by: i32| if from < side / 2 { from + by } else { from - by };
                 [toward(from[0], dx), toward(from[1], dy)]
             };
-            [[from, to], [to, from]].map(|ends| LineQuestion { ends, window })
+            [[from, to], [to, from]].each(|ends| LineQuestion { ends, window })
         })
         .collect()
 }

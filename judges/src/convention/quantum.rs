@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use crate::each::Each as _;
 use crate::grid::SubpixelPoint;
 use crate::triangle::Corners;
 
@@ -48,7 +49,7 @@ impl Quantum {
 
     /// All three corners, as [x, y].
     pub(super) fn corners(self, corners: &Corners) -> [[i64; 2]; 3] {
-        corners.map(|SubpixelPoint { x, y }| [self.apply(x), self.apply(y)])
+        corners.each(|SubpixelPoint { x, y }| [self.apply(x), self.apply(y)])
     }
 }
 

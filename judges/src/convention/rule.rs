@@ -8,6 +8,7 @@ use super::mirror::Mirror;
 use super::place::{FACINGS, Place, turn};
 use super::quantum::Quantum;
 use super::shape::Shape;
+use crate::each::Each as _;
 use crate::frame::Coverage;
 use crate::grid::PixelRect;
 use crate::triangle::Corners;
@@ -168,7 +169,7 @@ impl Convention {
 
     fn visit(&self, corners: &Corners, window: PixelRect, draw: &mut dyn FnMut(i32, i32)) -> bool {
         let points = self.quantum.corners(corners);
-        let [turn, given] = [&points, &Quantum::NONE.corners(corners)].map(|p| turn(p).signum());
+        let [turn, given] = [&points, &Quantum::NONE.corners(corners)].each(|p| turn(p).signum());
         let flat = self.flat && turn == 0 && !matches!(self.shape, Shape::Outline(_));
         // Who culls may do so before corners reach their grid, or after.
         let culled = self.draws != Windings::Both && turn != given;

@@ -7,6 +7,7 @@ use super::half_planes::{self, HalfPlanes};
 use super::outline::{self, LineTie};
 use super::place::{Place, Points, turn};
 use super::samples::{self, Pattern};
+use super::scan::Scan;
 use super::share;
 use super::stepped;
 use crate::grid::PixelRect;
@@ -75,6 +76,8 @@ pub enum Shape {
     /// Corners are whole pixels: every pixel whose corner lies in the triangle, and the three sides
     /// as lines.
     Outline(LineTie),
+    /// Row by row in numbers of a library's own.
+    Scan(Scan),
 }
 
 impl Shape {
@@ -92,6 +95,7 @@ impl Shape {
         match self {
             Self::Share { x, y, percent } => share::trace(points, [x, y], percent, window, emit),
             Self::Outline(tie) => outline::trace(points, tie, window, emit),
+            Self::Scan(scan) => scan.trace(points, window, emit),
             Self::Samples { x, y, pattern, least } => {
                 samples::trace(points, [x, y], (pattern, least), window, emit)
             }

@@ -9,6 +9,7 @@ use super::place::FACINGS;
 use super::quantum::{Quantum, Rounding};
 use super::rule::{Convention, Windings};
 use super::samples::Pattern;
+use super::scan::Scan;
 use super::shape::Shape;
 use super::ties::{Compass, Count};
 
@@ -94,6 +95,7 @@ fn shape(shape: Shape) -> String {
             };
             format!("draws a pixel if {many} of its four samples ({how}{middle}) are covered")
         }
+        Shape::Scan(scan) => scan_words(scan).to_owned(),
         Shape::Outline(tie) => format!(
             "fills between whole pixels, and draws the three sides as lines; a line halfway \
              between two pixels goes {}",
@@ -102,10 +104,27 @@ fn shape(shape: Shape) -> String {
     }
 }
 
+fn scan_words(scan: Scan) -> &'static str {
+    match scan {
+        Scan::Above => {
+            "fills the rows whose centres it holds, between crossings taken 1/256 px above the centre \
+             and cut down to 1/256 px"
+        }
+        Scan::Coarse => {
+            "samples at the pixel's centre, row by row, between crossings that are stepped from the \
+             first one, all cut to 1/1024 px"
+        }
+        Scan::Sides => {
+            "fills row by row between crossings stepped in 1/65536 px from the row nearest to a corner, \
+             without the last row, and draws the three sides as lines in such steps"
+        }
+    }
+}
+
 /// Who owns what lies on an edge.
 fn ties(convention: &Convention, compass: &Compass) -> String {
     let seen = compass.seen();
-    if matches!(convention.shape, Shape::Stepped { .. } | Shape::Outline(_)) {
+    if matches!(convention.shape, Shape::Stepped { .. } | Shape::Outline(_) | Shape::Scan(_)) {
         return String::new();
     }
     if let Shape::Share { .. } = convention.shape {
@@ -203,6 +222,17 @@ fn line_convention(of: &LineConvention) -> String {
     let pixel = match of.rounding {
         LineRounding::Nearest(tie) => {
             format!("draws the nearest pixel of each step, a tie goes {}", tie.name())
+        }
+        LineRounding::Behind => {
+            return "draws at each step the pixel that holds the minor coordinate of the step before, \
+                    in 1/65536 px, seen from the end with the smaller major coordinate, which is not \
+                    drawn"
+                .to_owned();
+        }
+        LineRounding::Ahead => {
+            return "cuts the minor coordinate down, half a step ahead where it grows, in 1/65536 px, \
+                    seen from the end with the smaller major coordinate; both ends are drawn"
+                .to_owned();
         }
         LineRounding::Down => "cuts the minor coordinate down".to_owned(),
         LineRounding::Up => "cuts the minor coordinate up".to_owned(),

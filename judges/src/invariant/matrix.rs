@@ -7,6 +7,7 @@ use rayon::prelude::*;
 
 use super::subject::{Subject, part_of};
 use super::{CATALOGUE, Check, Invariant};
+use crate::each::Each as _;
 use crate::mutant::Mutant;
 
 /// Cases of each cell, enough for six of each family of triangles.
@@ -28,9 +29,9 @@ pub struct Matrix {
 }
 
 impl Matrix {
-    /// Computes every cell; a pure function of the two numbers.
+    /// Computes every cell; a pure function of the two numbers. `step` is told of every row.
     #[must_use]
-    pub fn compute(seed: u64, cases: u64) -> Self {
+    pub fn compute(seed: u64, cases: u64, step: &(dyn Fn() + Sync)) -> Self {
         let columns: Vec<&Invariant> = CATALOGUE.iter().collect();
         let mutants = Mutant::all();
         let rows = mutants
@@ -42,6 +43,7 @@ impl Matrix {
                         && invariant.kills(&Subject::with(mutant), seed, cases)
                 };
                 let marks = columns.par_iter().map(|invariant| kills(invariant)).collect();
+                step();
                 (mutant.name().to_owned(), marks)
             })
             .collect();
@@ -93,7 +95,7 @@ impl Matrix {
         };
         let digits = |values: &[usize]| {
             let values = values.to_vec();
-            [10, 1].map(|unit| {
+            [10, 1].each(|unit| {
                 let digits: Vec<char> = values
                     .iter()
                     .map(|&v| match v / unit {

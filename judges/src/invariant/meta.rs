@@ -6,6 +6,7 @@ use rayon::prelude::*;
 use super::Outcome;
 use super::subject::Subject;
 use crate::contract::Rasterize;
+use crate::each::Each as _;
 use crate::frame::Coverage;
 use crate::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
 use crate::hazard::named::plain_triangle;
@@ -32,9 +33,9 @@ pub(super) fn quotas(subject: &Subject, seed: u64, cases: u64) -> Outcome {
         let tie = list.iter().any(|t| samples_on_boundary(&t.corners(), window) > 0);
         let sliver = list.iter().any(|t| is_sliver(&t.corners()));
         let empty = oracle_coverage(&list, window).covered() == 0;
-        [tie, sliver, empty].map(u64::from)
+        [tie, sliver, empty].each(u64::from)
     };
-    let sums = jobs.par_iter().map(facts).reduce(|| [0; 3], |a, b| [0, 1, 2].map(|i| a[i] + b[i]));
+    let sums = jobs.par_iter().map(facts).reduce(|| [0; 3], |a, b| [0, 1, 2].each(|i| a[i] + b[i]));
     let total = jobs.len() as u64;
     for ((what, least), found) in QUOTAS.into_iter().zip(sums) {
         if found * 100 < least * total {
@@ -60,7 +61,7 @@ fn fold(case: &Case) -> u64 {
         Shape::Lines(lines) => {
             for end in lines.iter().flat_map(|line| line.ends) {
                 words.extend([end.pixel.x as u64, end.pixel.y as u64]);
-                words.extend([end.depth, end.varying.x, end.varying.y].map(f64::to_bits));
+                words.extend([end.depth, end.varying.x, end.varying.y].each(f64::to_bits));
             }
         }
     }

@@ -123,7 +123,7 @@ impl Invariant {
             (Check::Clip(check), Input::Clip(input)) => check(subject, input),
             (Check::Run(check, _), &Input::Run { seed, cases }) => check(subject, seed, cases),
             (Check::Matrix, &Input::Run { seed, cases }) => {
-                let matrix = matrix::Matrix::compute(seed, cases);
+                let matrix = matrix::Matrix::compute(seed, cases, &|| ());
                 let problems = matrix.problems();
                 let cells = matrix.rows.len() * matrix.columns.len();
                 if problems.is_empty() { Ok(cells as u64) } else { Err(problems.join("; ")) }

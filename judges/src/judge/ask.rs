@@ -9,11 +9,13 @@ use glam::DVec2;
 
 use super::declared::Declared;
 use super::text::{Words, printable, write_int, write_px};
+use crate::grid::SubpixelPoint;
 use crate::hazard::Triangle;
+use crate::hazard::stages::clip_corners;
 use crate::triangle::{Corners, Fragment, PixelPoint, Span};
 
 /// What is asked of a window at the origin.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Question {
     /// Columns of the window.
     pub width: u32,
@@ -24,7 +26,7 @@ pub struct Question {
 }
 
 /// What is to be drawn, and what is wanted of it.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Asked {
     /// T: the pixels of a triangle.
     Coverage(Corners),
@@ -39,6 +41,11 @@ pub enum Asked {
         /// Positions are whole numbers: the pixel's corner names the pixel as its centre does.
         whole: bool,
     },
+    /// D: which of these triangles is seen, of each pixel.
+    Depth(Vec<Triangle>),
+    /// N: what the near plane leaves of a triangle of clip space, as
+    /// [`crate::hazard::stages::clip_corners`] reads it; the window has no part in it.
+    Near(Triangle),
 }
 
 /// What came back.
@@ -52,6 +59,10 @@ pub enum Answer {
     Samples(Vec<(Span, u8)>),
     /// P: pixels in drawing order.
     Line(Vec<(i32, i32)>),
+    /// V: runs of pixels, with the number of the triangle that is seen there.
+    Seen(Vec<(Span, u8)>),
+    /// G: corners x, y, z, w of a polygon.
+    Polygon(Vec<[f64; 4]>),
     /// E: the reason, printable.
     Refused(String),
     /// No answer: the program had to be started again.
@@ -155,6 +166,11 @@ pub trait Ask: Send {
     /// what goes wrong is an answer too.
     fn ask(&mut self, questions: &[Question], most_deaths: u64) -> Vec<Answer>;
 
+    /// How many cases of a family it is asked at once; the same for every copy.
+    fn cases_at_once(&self) -> u64 {
+        64
+    }
+
     /// What went wrong without a single question at fault, since it was last asked for.
     fn strays(&mut self) -> Vec<Misbehaviour> {
         Vec::new()
@@ -174,8 +190,12 @@ impl Question {
             Asked::Values(_) => b'I',
             Asked::Samples(_) => b'S',
             Asked::Line { .. } => b'L',
+            Asked::Depth(_) => b'D',
+            Asked::Near(_) => b'N',
         });
-        for number in [id, u64::from(self.width), u64::from(self.height)] {
+        let sides = [self.width, self.height];
+        let sides: &[u32] = if matches!(self.of, Asked::Near(_)) { &[] } else { &sides };
+        for number in std::iter::once(id).chain(sides.iter().map(|side| u64::from(*side))) {
             out.push(b' ');
             write_int(out, number as i64);
         }
@@ -188,19 +208,27 @@ impl Question {
             }
             Asked::Values(triangle) => {
                 for v in &triangle.vertices {
-                    for sub in [v.position.x, v.position.y] {
-                        out.push(b' ');
-                        write_px(out, sub);
-                    }
-                    // Rust prints the shortest decimal that reads back as the same number.
-                    let [z, w, a, b] = [v.depth, 1.0 / v.inv_w, v.varying.x, v.varying.y];
-                    out.extend_from_slice(format!(" {z} {w} {a} {b}").as_bytes());
+                    write_numbers(
+                        out,
+                        v.position,
+                        &[v.depth, 1.0 / v.inv_w, v.varying.x, v.varying.y],
+                    );
                 }
             }
             Asked::Line { ends, whole } => {
                 for px in ends.iter().flat_map(|p| [p.x, p.y]) {
                     let centre = if *whole { 0.0 } else { 0.5 };
                     out.extend_from_slice(format!(" {}", f64::from(px) + centre).as_bytes());
+                }
+            }
+            Asked::Depth(list) => {
+                for v in list.iter().flat_map(|triangle| &triangle.vertices) {
+                    write_numbers(out, v.position, &[v.depth]);
+                }
+            }
+            Asked::Near(triangle) => {
+                for (v, [_, _, z, w]) in triangle.vertices.iter().zip(clip_corners(triangle)) {
+                    write_numbers(out, v.position, &[z, w]);
                 }
             }
         }
@@ -230,6 +258,8 @@ impl Question {
             Asked::Values(_) => b'F',
             Asked::Samples(_) => b'M',
             Asked::Line { .. } => b'P',
+            Asked::Depth(_) => b'V',
+            Asked::Near(_) => b'G',
         };
         if letter != expected {
             return Err("its letter does not belong to the request");
@@ -239,11 +269,25 @@ impl Question {
             Asked::Coverage(_) => Answer::Coverage(each(n, words, span)?),
             Asked::Values(_) => Answer::Values(each(n, words, fragment)?),
             Asked::Line { .. } => Answer::Line(each(n, words, |w| Some((w.int()?, w.int()?)))?),
-            Asked::Samples(_) => Answer::Samples(each(n, words, |w| {
-                Some((span(w)?, w.int().and_then(|m| u8::try_from(m).ok())?))
+            Asked::Samples(_) => Answer::Samples(each(n, words, marked)?),
+            Asked::Depth(_) => Answer::Seen(each(n, words, marked)?),
+            Asked::Near(_) => Answer::Polygon(each(n, words, |w| {
+                Some([w.float()?, w.float()?, w.float()?, w.float()?])
             })?),
         };
         if words.is_empty() { Ok(answer) } else { Err("more follows than it counts") }
+    }
+}
+
+/// Appends a position and what else a corner has.
+fn write_numbers(out: &mut Vec<u8>, position: SubpixelPoint, more: &[f64]) {
+    for sub in [position.x, position.y] {
+        out.push(b' ');
+        write_px(out, sub);
+    }
+    for number in more {
+        // Rust prints the shortest decimal that reads back as the same number.
+        out.extend_from_slice(format!(" {number}").as_bytes());
     }
 }
 
@@ -268,6 +312,11 @@ fn span(words: &mut Words<'_>) -> Option<Span> {
     (span.x0_px <= span.x1_px).then_some(span)
 }
 
+/// A run, and the mask or the triangle of its pixels.
+fn marked(words: &mut Words<'_>) -> Option<(Span, u8)> {
+    Some((span(words)?, words.int().and_then(|mark| u8::try_from(mark).ok())?))
+}
+
 fn fragment(words: &mut Words<'_>) -> Option<Fragment<DVec2>> {
     let (x_px, y_px) = (words.int()?, words.int()?);
     let (depth, a, b) = (words.float()?, words.float()?, words.float()?);
@@ -286,6 +335,12 @@ pub fn show(answer: &Answer, id: u64) -> String {
         Answer::Coverage(runs) => list('C', runs.iter().map(run).collect()),
         Answer::Samples(runs) => {
             list('M', runs.iter().map(|(s, mask)| format!("{} {mask}", run(s))).collect())
+        }
+        Answer::Seen(runs) => {
+            list('V', runs.iter().map(|(s, of)| format!("{} {of}", run(s))).collect())
+        }
+        Answer::Polygon(corners) => {
+            list('G', corners.iter().map(|[x, y, z, w]| format!("{x} {y} {z} {w}")).collect())
         }
         Answer::Line(pixels) => list('P', pixels.iter().map(|(x, y)| format!("{x} {y}")).collect()),
         Answer::Values(fragments) => {

@@ -6,15 +6,17 @@
 
 use glam::DVec2;
 
-use super::ask::{Answer, Asked, Misbehaviour, Question};
+use super::ask::{Answer, Asked, Question};
 use super::declared::{Declared, Winding};
-use super::expected::{Declaration, Expect, Picture, area2};
-use super::mesh;
+use super::depth::Pile;
+use super::expected::{Declaration, Expect, Picture, area2, exact_values};
+use super::finding::{Finding, hits, mix};
+use super::{mesh, near};
 use crate::frame::{Coverage, Frame};
 use crate::grid::PixelRect;
 use crate::hazard::{Case, Line, Shape, Triangle};
 use crate::oracle::Oracle;
-use crate::oracle::values::ExactTriangle;
+use crate::oracle::values::Exact;
 use crate::pipeline::multisample;
 use crate::triangle::{Corners, Fragment, Span};
 use crate::verify::Tally;
@@ -30,6 +32,10 @@ pub enum Check {
     Values,
     /// Four samples a pixel against the oracle's.
     Samples,
+    /// Which of several triangles is seen, against exact depths.
+    Depth,
+    /// What the near plane leaves of a triangle, against exact corners.
+    Near,
     /// A triangle with its vertices in another order against itself.
     Order,
     /// A mesh has no holes and no doubles.
@@ -63,46 +69,7 @@ impl Truth {
     }
 }
 
-/// What was found about a case.
-#[derive(Clone, Debug, Default)]
-pub struct Finding {
-    /// Triangles or lines that were judged.
-    pub shapes: u64,
-    /// Pixels expected.
-    pub pixels: u64,
-    /// Wrong pixels; of a mesh its holes and doubles.
-    pub tally: Tally,
-    /// Wrong pixels by what was recognised.
-    pub other: Tally,
-    /// Pixels expected by what was recognised.
-    pub other_pixels: u64,
-    /// Triangles or lines of which the recognised convention says nothing.
-    pub unscored: u64,
-    /// Requests that were refused though they were declared possible.
-    pub refused: u64,
-    /// Reason of the first refusal.
-    pub reason: String,
-    /// Values compared.
-    pub values: u64,
-    /// Largest error of a value as a fraction of the tolerance.
-    pub worst: f64,
-    /// Where that was.
-    pub worst_at: Option<(i32, i32)>,
-    /// Answers there were.
-    pub answered: u64,
-    /// What happened instead of answers, with the number of the question.
-    pub died: Vec<(usize, Misbehaviour)>,
-    /// A hash of the wrong pixels.
-    mark: u64,
-}
-
 impl Finding {
-    /// Whether anything is wrong.
-    #[must_use]
-    pub fn is_wrong(&self) -> bool {
-        self.tally.total() > 0 || self.refused > 0 || !self.died.is_empty() || self.worst > 1.0
-    }
-
     /// What is wrong, in words.
     #[must_use]
     pub fn describe(&self, check: Check) -> String {
@@ -113,11 +80,17 @@ impl Finding {
             Check::Samples => {
                 vec![(missing, "samples missing"), (extra, "extra"), (twice, "twice")]
             }
+            Check::Near => {
+                vec![(missing, "corners missing"), (extra, "corners that are not there")]
+            }
             _ => vec![(missing, "missing"), (extra, "extra"), (twice, "twice")],
         };
         let mut parts: Vec<String> = counts
             .into_iter()
-            .chain([(order, "out of order")])
+            .chain([(
+                order,
+                if check == Check::Depth { "show what lies behind" } else { "out of order" },
+            )])
             .filter(|(n, _)| *n > 0)
             .map(|(n, what)| format!("{n} {what}"))
             .collect();
@@ -128,34 +101,13 @@ impl Finding {
             parts.push(format!("{} refused ({})", self.refused, self.reason));
         }
         parts.extend(self.died.iter().map(|(_, m)| m.to_string()));
-        if parts.is_empty() { "agrees".to_owned() } else { parts.join(", ") }
-    }
-
-    /// A number that changes when what is wrong changes; not with the last bits of values.
-    #[must_use]
-    pub fn fingerprint(&self) -> u64 {
-        let Tally { missing, extra, twice, order } = self.tally;
-        let off = u64::from(self.worst > 1.0);
-        let mut mark = self.mark;
-        [missing, extra, twice, order, off, self.refused].iter().for_each(|n| mix(&mut mark, *n));
-        for (_, misbehaviour) in &self.died {
-            misbehaviour.word().bytes().for_each(|b| mix(&mut mark, u64::from(b)));
-        }
-        mark
-    }
-
-    fn refuse(&mut self, reason: &str) {
-        if self.refused == 0 {
-            self.reason = reason.to_owned();
-        }
-        self.refused += 1;
-    }
-}
-
-/// FNV-1a by words: the same on every machine.
-fn mix(mark: &mut u64, word: u64) {
-    for byte in word.to_le_bytes() {
-        *mark = (*mark ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3);
+        let picture = match check {
+            Check::Depth if self.tally.total() > 0 => {
+                "; the picture is that of the triangle with most wrong pixels"
+            }
+            _ => "",
+        };
+        if parts.is_empty() { "agrees".to_owned() } else { parts.join(", ") + picture }
     }
 }
 
@@ -164,7 +116,7 @@ impl Check {
     #[must_use]
     pub fn name(self, family: &'static str) -> &'static str {
         match self {
-            Self::Coverage | Self::Line => family,
+            Self::Coverage | Self::Line | Self::Depth | Self::Near => family,
             Self::Values => "values",
             Self::Samples => "samples4",
             Self::Order => "vertex-order",
@@ -178,6 +130,17 @@ impl Check {
     pub fn of(family: &str, case: &Case, index: u64, declared: &Declared) -> Vec<Self> {
         let mut checks = Vec::new();
         match &case.shape {
+            // Exact depths of overlapping triangles are dear.
+            Shape::Triangles { .. } if family == "depth-order" => {
+                if declared.depth && index.is_multiple_of(4) {
+                    checks.push(Self::Depth);
+                }
+            }
+            Shape::Triangles { .. } if family == "near-plane" => {
+                if declared.clip {
+                    checks.push(Self::Near);
+                }
+            }
             Shape::Lines(_) if declared.line => checks.extend([Self::Line, Self::Direction]),
             Shape::Lines(_) => {}
             Shape::Triangles { list, disjoint } => {
@@ -208,6 +171,9 @@ impl Check {
         let (width, height) = (case.window.width(), case.window.height());
         let ask = |of| Question { width, height, of };
         match (&case.shape, self) {
+            (Shape::Triangles { list, .. }, Self::Depth) => {
+                out.push(ask(Asked::Depth(list.clone())))
+            }
             (Shape::Triangles { list, .. }, Self::Order) => {
                 // With one winding drawn, only turning leaves the picture as it is.
                 let orders: [[usize; 3]; 3] = match truth.drawn {
@@ -224,6 +190,7 @@ impl Check {
                 ask(match check {
                     Self::Values => Asked::Values(*t),
                     Self::Samples => Asked::Samples(t.corners()),
+                    Self::Near => Asked::Near(*t),
                     // A mesh is wound as the program draws.
                     Self::Watertight => Asked::Coverage(wound(t.corners(), truth.drawn)),
                     _ => Asked::Coverage(t.corners()),
@@ -269,6 +236,20 @@ impl Check {
             }
             (Shape::Triangles { list, .. }, Self::Watertight) => {
                 watertight(&mut finding, list, answers, case.window);
+            }
+            (Shape::Triangles { list, .. }, Self::Depth) => {
+                let pile = Pile::new(list, case.window, &*truth.expect, &truth.declared);
+                if let (Some(pile), Some(Answer::Seen(runs))) = (pile, answers.first()) {
+                    pile.compare(&mut finding, runs);
+                }
+                finding.unscored += u64::from(truth.recognised.is_some());
+            }
+            (Shape::Triangles { list, .. }, Self::Near) => {
+                for (triangle, answer) in list.iter().zip(answers) {
+                    if let Answer::Polygon(corners) = answer {
+                        near::compare(&mut finding, triangle, corners, truth.declared.tolerance);
+                    }
+                }
             }
             (Shape::Triangles { list, .. }, _) => {
                 for (triangle, answer) in list.iter().zip(answers) {
@@ -342,21 +323,6 @@ fn length(runs: &[Span]) -> u64 {
     runs.iter().map(|r| u64::from(r.x0_px.abs_diff(r.x1_px))).sum()
 }
 
-/// Hits of the runs within the window, and how many pixels lie outside.
-pub(super) fn hits(runs: &[Span], window: PixelRect) -> (Coverage, u64) {
-    let (mut hits, mut outside) = (Coverage::new(window, 0), 0);
-    for run in runs {
-        let (x0, x1) = (run.x0_px.max(window.x0), run.x1_px.min(window.x1));
-        let is_in = (window.y0..window.y1).contains(&run.y_px) && x0 < x1;
-        if is_in {
-            hits.hit(run.y_px, x0, x1);
-        }
-        outside += u64::from(run.x0_px.abs_diff(run.x1_px));
-        outside -= if is_in { (x1 - x0) as u64 } else { 0 };
-    }
-    (hits, outside)
-}
-
 /// Compares runs with a picture, pixel by pixel unless they are the same runs.
 fn compare(tally: &mut Tally, mark: &mut u64, runs: &[Span], picture: &Picture, window: PixelRect) {
     if picture.may.is_none() && runs == picture.must {
@@ -402,7 +368,7 @@ fn alike(finding: &mut Finding, answers: &[Answer], window: PixelRect) {
 pub fn picture_of(answer: &Answer, window: PixelRect) -> Option<Coverage> {
     match answer {
         Answer::Coverage(runs) => Some(hits(runs, window).0),
-        Answer::Samples(runs) => {
+        Answer::Samples(runs) | Answer::Seen(runs) => {
             let runs: Vec<_> = runs.iter().map(|(run, _)| *run).collect();
             Some(hits(&runs, window).0)
         }
@@ -411,7 +377,7 @@ pub fn picture_of(answer: &Answer, window: PixelRect) -> Option<Coverage> {
             Some(hits(&runs, window).0)
         }
         Answer::Line(pixels) => Some(hits(&as_runs(pixels), window).0),
-        Answer::Refused(_) | Answer::Died(_) => None,
+        Answer::Polygon(_) | Answer::Refused(_) | Answer::Died(_) => None,
     }
 }
 
@@ -460,6 +426,7 @@ fn values(
             continue;
         }
         let (depth, [a, b]) = exact.at(f.x_px, f.y_px);
+        let bounds = truth.expect.bounds(triangle, (f.x_px, f.y_px)).unwrap_or(bounds);
         let errors = [depth.distance(f.depth), a.distance(f.varying.x), b.distance(f.varying.y)];
         for (error, bound) in errors.into_iter().zip(bounds) {
             finding.values += 1;
@@ -470,15 +437,6 @@ fn values(
             }
         }
     }
-}
-
-/// The exact values at the declared sample; w is the one that the request names.
-#[must_use]
-pub fn exact_values(triangle: &Triangle, declared: &Declared) -> Option<ExactTriangle<2>> {
-    let corners = Declaration::from(declared).centred(&triangle.corners());
-    let v = &triangle.vertices;
-    let inv_w = v.map(|v| 1.0 / (1.0 / v.inv_w));
-    ExactTriangle::new(&corners, v.map(|v| v.depth), inv_w, v.map(|v| v.varying.to_array()))
 }
 
 /// Compares masks bit by bit; the samples have fixed places, so the declared one does not matter.
@@ -573,6 +531,23 @@ pub fn expected_answer(question: &Question, truth: &Truth) -> Option<Answer> {
             };
             Some(Answer::Values(pixels.filter_map(fragment).collect()))
         }
+        Asked::Depth(list) => {
+            let pile = Pile::new(list, window, &*truth.expect, &truth.declared)?;
+            Some(Answer::Seen(pile.runs()))
+        }
+        Asked::Near(triangle) => {
+            let corners = near::polygon(triangle);
+            let floats = corners.iter().map(|corner| corner.each_ref().map(Exact::to_f64));
+            Some(Answer::Polygon(floats.collect()))
+        }
         Asked::Samples(_) => None,
     }
+}
+
+/// Of the triangle of a pile with most wrong pixels where it is seen, and where it should be.
+#[must_use]
+pub fn seen_pictures(question: &Question, answer: &Answer, truth: &Truth) -> Option<[Coverage; 2]> {
+    let (Asked::Depth(list), Answer::Seen(runs)) = (&question.of, answer) else { return None };
+    let window = PixelRect::window(question.width, question.height);
+    Pile::new(list, window, &*truth.expect, &truth.declared)?.pictures(runs)
 }

@@ -85,6 +85,10 @@ pub struct Declared {
     pub attributes: bool,
     /// Answers S.
     pub samples4: bool,
+    /// Answers D.
+    pub depth: bool,
+    /// Answers N.
+    pub clip: bool,
     /// Its coordinates are multiples of 1/grid px: 1, 16, 64 or 256.
     pub grid: i32,
     /// Where in a pixel its sample lies, in subpixels from the upper left corner.
@@ -127,6 +131,8 @@ impl Default for Declared {
             line: false,
             attributes: false,
             samples4: false,
+            depth: false,
+            clip: false,
             grid: SUBPIXELS,
             origin: [HALF_PIXEL; 2],
             rule: Rule::TopLeft,
@@ -174,6 +180,8 @@ impl Declared {
             ("line", None) => self.line = true,
             ("attributes", None) => self.attributes = true,
             ("samples4", None) => self.samples4 = true,
+            ("depth", None) => self.depth = true,
+            ("clip", None) => self.clip = true,
             ("yup", None) => self.yup = true,
             ("mask", None) => self.mask = true,
             ("line-set", None) => self.line_set = true,
@@ -243,6 +251,8 @@ impl Declared {
             ("attributes", self.attributes),
             ("samples4", self.samples4),
             ("line", self.line),
+            ("depth", self.depth),
+            ("clip", self.clip),
         ];
         all.iter().filter(|(_, has)| *has).map(|(word, _)| *word).collect()
     }
@@ -272,7 +282,7 @@ impl fmt::Display for Declared {
             write!(f, " window={width}x{height}")?;
         }
         write!(f, " batch={}", self.batch)?;
-        if self.attributes {
+        if self.attributes || self.depth || self.clip {
             write!(f, " tolerance={:e}", self.tolerance)?;
         }
         Ok(())
@@ -285,7 +295,7 @@ mod tests {
 
     #[test]
     fn declarations_are_read_and_said_again() {
-        let line = "HELLO 2 mine coverage attributes grid=16 origin=0,0.25 rule=strict winding=ccw \
+        let line = "HELLO 2 mine coverage attributes depth clip grid=16 origin=0,0.25 rule=strict winding=ccw \
                     yup mask range=4096 window=64x32 batch=8 tolerance=1e-5";
         let declared = Declared::parse(line).unwrap();
         assert_eq!((declared.grid, declared.origin), (16, [0, 64]));

@@ -9,8 +9,10 @@
 use super::declared::{Declared, Rule, Winding};
 use crate::contract::Rasterize as _;
 use crate::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
+use crate::hazard::Triangle;
 use crate::hazard::named::plain_line;
 use crate::oracle::Oracle;
+use crate::oracle::values::ExactTriangle;
 use crate::triangle::{Corners, PixelPoint, Span};
 
 /// The picture that is expected: every pixel of `must`, no pixel outside `may`.
@@ -29,6 +31,12 @@ pub trait Expect: Send + Sync {
 
     /// The pixels of a line in drawing order; nothing where nothing is promised.
     fn line(&self, ends: &[PixelPoint; 2], window: PixelRect) -> Option<Vec<(i32, i32)>>;
+
+    /// How far depth and both attributes may be off at a pixel; nothing where the declared tolerance
+    /// is meant.
+    fn bounds(&self, _triangle: &Triangle, _pixel: (i32, i32)) -> Option<[f64; 3]> {
+        None
+    }
 
     /// Whether the pixels of a line are expected in that order.
     fn keeps_order(&self) -> bool {
@@ -117,6 +125,15 @@ impl Expect for Declaration {
         Oracle.line_pixels(&line, window, |pixel, _| pixels.push((pixel.x, pixel.y)));
         Some(pixels)
     }
+}
+
+/// The exact values at the declared sample; w is the one that the request names.
+#[must_use]
+pub fn exact_values(triangle: &Triangle, declared: &Declared) -> Option<ExactTriangle<2>> {
+    let corners = Declaration::from(declared).centred(&triangle.corners());
+    let v = &triangle.vertices;
+    let inv_w = v.map(|v| 1.0 / (1.0 / v.inv_w));
+    ExactTriangle::new(&corners, v.map(|v| v.depth), inv_w, v.map(|v| v.varying.to_array()))
 }
 
 /// What the oracle draws of the mirror image, mirrored back.

@@ -2,8 +2,10 @@
 
 use super::ask::{Answer, Ask, Asked, Misbehaviour, Question};
 use super::declared::{Declared, MOST_IN_FLIGHT};
+use super::served;
 use crate::contract::{DrawLine as _, Interpolate as _, Rasterize as _, RasterizeExact as _};
 use crate::grid::PixelRect;
+use crate::hazard::stages::clip_corners;
 use crate::lineup::{Entry, LineSpecimen, Specimen, TriangleSpecimen};
 use crate::pipeline::multisample;
 use crate::specimen::{Published as _, PublishedLine as _, from_lattice, from_screen};
@@ -29,6 +31,8 @@ impl From<&Entry> for Declared {
             line: entry.line_engine.is_some() || matches!(entry.specimen, Some(Specimen::Line(_))),
             attributes: is_engine || triangle.is_some_and(TriangleSpecimen::has_values),
             samples4: is_engine,
+            depth: is_engine,
+            clip: is_engine,
             batch: MOST_IN_FLIGHT / 4,
             tolerance: if is_engine { OWN_TOLERANCE } else { Self::default().tolerance },
             ..Self::default()
@@ -96,6 +100,14 @@ impl Inside {
                 let masks = multisample::masks(&engine, *corners, window).ok_or("unsupported")?;
                 let runs = masks.rows().flat_map(|(y, row)| runs_of(y, row)).collect();
                 Ok(Answer::Samples(runs))
+            }
+            Asked::Depth(list) => {
+                let engine = entry.engine.ok_or("unsupported")?;
+                Ok(Answer::Seen(served::seen(engine, list, window)?))
+            }
+            Asked::Near(triangle) => {
+                entry.engine.ok_or("unsupported")?;
+                Ok(Answer::Polygon(served::clipped(clip_corners(triangle))))
             }
             Asked::Line { ends, .. } => {
                 let mut pixels = Vec::new();

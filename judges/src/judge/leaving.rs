@@ -5,9 +5,10 @@
 //! declared stays in the first score.
 
 use super::ask::{Answer, Asked, Question};
-use super::check::{Check, Truth, hits, picture_of};
+use super::check::{Check, Truth, picture_of};
 use super::declared::Declared;
 use super::expected::Expect;
+use super::finding::hits;
 use super::place;
 use crate::convention::{Count, Quantum};
 use crate::grid::{PixelRect, SUBPIXELS};

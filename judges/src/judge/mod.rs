@@ -4,7 +4,7 @@
 //! [`ask`] is what is asked and answered, [`process`] asks a program through pipes and [`inside`] an
 //! engine of the line-up without one. [`declared`] is what a program says of itself, [`place`] puts
 //! the cases where it says it draws, [`expected`] knows the exact picture, [`check`] finds what is
-//! wrong with a case, [`run`] asks them all, [`recognise`] finds the
+//! wrong with a case ([`finding`]), `depth` and `near` of what is beside the rasterizer, [`run`] asks them all, [`recognise`] finds the
 //! convention that is followed, and [`verdict`] says what came of it, property by property;
 //! [`baseline`] knows failures that are known. [`serve`] is the other side: it answers as an engine.
 
@@ -12,12 +12,15 @@ pub mod ask;
 pub mod baseline;
 pub mod check;
 pub mod declared;
+mod depth;
 pub mod expected;
+pub mod finding;
 pub mod group;
 pub mod inside;
 pub mod league;
 mod leaving;
 pub mod mesh;
+mod near;
 pub mod place;
 pub mod process;
 mod published;
@@ -25,6 +28,7 @@ pub mod recognise;
 mod reply;
 pub mod run;
 pub mod serve;
+mod served;
 pub mod shrunk;
 pub mod stages;
 pub mod text;

@@ -26,11 +26,18 @@ const FIRST: [&str; 8] = [
 #[must_use]
 pub fn families(wanted: &[String]) -> Vec<&'static Family> {
     let mut chosen: Vec<&Family> = hazard::families()
+        .chain(hazard::stages::FAMILIES)
         .filter(|f| f.name != "far" && (wanted.is_empty() || wanted.iter().any(|w| w == f.name)))
         .collect();
     let rank = |f: &Family| FIRST.iter().position(|name| *name == f.name).unwrap_or(FIRST.len());
     chosen.sort_by_key(|f| rank(f));
     chosen
+}
+
+/// The family of a name.
+#[must_use]
+pub fn family(name: &str) -> Option<&'static Family> {
+    families(&[name.to_owned()]).pop()
 }
 
 /// Whether a family is of lines.

@@ -157,7 +157,7 @@ impl Program {
                 return Err((Misbehaviour::Floods(said), sent - answered));
             }
             answers.push(answer);
-            live.answered = Some((id, questions[answered]));
+            live.answered = Some((id, questions[answered].clone()));
             answered += 1;
         }
         Ok(())
@@ -329,7 +329,7 @@ impl Live {
             })
         };
         let letter = match words.word() {
-            Some([letter @ (b'C' | b'F' | b'M' | b'P' | b'E')]) => *letter,
+            Some([letter @ (b'C' | b'F' | b'M' | b'P' | b'V' | b'G' | b'E')]) => *letter,
             _ => return Err(nonsense("no answer begins like this")),
         };
         let named = words.word().unwrap_or(b"");

@@ -10,13 +10,12 @@ use std::time::Instant;
 
 use super::Options;
 use super::ask::{Answer, Ask, Misbehaviour, Question};
-use super::check::{Check, Finding, Truth};
+use super::check::{Check, Truth};
+use super::finding::Finding;
 use super::place;
 use crate::hazard::{Case, Family};
 use crate::verify::Tally;
 
-/// Cases of a family that are asked in one go.
-const BLOCK: u64 = 64;
 /// A family stops when the program has had to be started again this often.
 pub const MOST_DEATHS: u64 = 3;
 /// The judge stops when the program has had to be started again this often altogether.
@@ -289,7 +288,7 @@ fn copy(
         let mut first = cases.start;
         let mut number = 0;
         while first < cases.end && !(number > 0 && shared.expired(pass)) {
-            let end = cases.end.min(first + BLOCK);
+            let end = cases.end.min(first.saturating_add(asker.cases_at_once()));
             for (at, family) in shared.families.iter().enumerate() {
                 let deaths = &shared.deaths[at + usize::from(pass) * shared.families.len()];
                 let stop = deaths.load(Ordering::Relaxed) >= MOST_DEATHS || shared.gave_up();

@@ -14,6 +14,7 @@ use super::declared::Declared;
 use super::inside::runs_of;
 use super::published;
 use super::reply::{Reply, named, write_run, write_words};
+use super::served;
 use super::text::number;
 use crate::contract::{DrawLine, Interpolate, Rasterize, RasterizeExact};
 use crate::grid::{MAX_SIDE_PX, PixelRect, Refusal, SUBPIXELS, SubpixelPoint};
@@ -28,6 +29,8 @@ use crate::triangle::{
 const MOST_BYTES: u64 = 1 << 16;
 /// Requests that are read in one go.
 const READ_BYTES: usize = 1 << 16;
+/// Triangles of a request for depth order.
+const MOST_LAYERS: usize = 64;
 /// Fragments that the oracle, in big integers, computes for one request.
 const MOST_EXACT_FRAGMENTS: u64 = 1 << 20;
 
@@ -121,9 +124,12 @@ fn answer(entry: &Entry, text: &str, out: &mut dyn Write) -> Result<(), Stop> {
         "T" | "S" => 6,
         "L" => 4,
         "I" => 18,
+        "N" => 12,
+        // As many triangles as there are.
+        "D" => (rest.len().saturating_sub(3) / 9).clamp(1, MOST_LAYERS) * 9,
         _ => {
             return Err(refused(format!(
-                "unknown request '{}'; expected HELLO, T, L, I, S",
+                "unknown request '{}'; expected HELLO, T, L, I, S, D, N",
                 printable(verb)
             )));
         }
@@ -134,15 +140,28 @@ fn answer(entry: &Entry, text: &str, out: &mut dyn Write) -> Result<(), Stop> {
         ("I", Some(engine), _, _) => Speaker::Values(engine),
         ("S", Some(engine), _, _) => Speaker::Samples(engine),
         ("L", _, Some(engine), _) => Speaker::Line(engine),
+        ("D", Some(engine), _, _) => Speaker::Depth(engine),
+        ("N", Some(_), _, _) => Speaker::Near,
         _ if published::speaks(entry, verb) => Speaker::Published(entry),
         _ => return Err(refused("unsupported".to_owned())),
     };
-    if rest.len() != count + 3 {
-        let expected = format!("{verb} takes an id, width, height and {count} numbers");
+    // What the near plane leaves has nothing to do with a window.
+    let first = if verb == "N" { 1 } else { 3 };
+    if rest.len() != count + first {
+        let sides = if verb == "N" { "" } else { ", width, height" };
+        let numbers = if verb == "D" {
+            format!("9 numbers for each of 1 to {MOST_LAYERS} triangles")
+        } else {
+            format!("{count} numbers")
+        };
+        let expected = format!("{verb} takes an id{sides} and {numbers}");
         return Err(refused(format!("{expected}; {} words follow", rest.len())));
     }
-    let window = window(rest[1], rest[2]).map_err(refused)?;
-    let numbers: Vec<f64> = rest[3..]
+    let window = match first {
+        1 => PixelRect::window(1, 1),
+        _ => window(rest[1], rest[2]).map_err(refused)?,
+    };
+    let numbers: Vec<f64> = rest[first..]
         .iter()
         .enumerate()
         .map(|(i, word)| {
@@ -156,6 +175,8 @@ fn answer(entry: &Entry, text: &str, out: &mut dyn Write) -> Result<(), Stop> {
         Speaker::CoverExact(engine) => cover_exact(engine, window, &numbers),
         Speaker::Samples(engine) => samples(engine, window, &numbers),
         Speaker::Line(engine) => line(engine, window, &numbers),
+        Speaker::Depth(engine) => depth(engine, window, &numbers),
+        Speaker::Near => near(&numbers),
         Speaker::Published(entry) => published::answer(entry, verb, window, &numbers),
         Speaker::Values(engine) => {
             return match values(engine, window, &numbers) {
@@ -177,13 +198,19 @@ enum Speaker<'a> {
     Values(Engine),
     Samples(Engine),
     Line(LineEngine),
+    Depth(Engine),
+    Near,
     Published(&'a Entry),
 }
 
 fn hello(entry: &Entry, rest: &[&str], out: &mut dyn Write) -> Result<(), Stop> {
     let declared = Declared::from(entry);
     match rest {
-        ["1"] => writeln!(out, "HELLO 1 {} {}", entry.name, declared.capabilities().join(" "))?,
+        ["1"] => {
+            // Version 1 knows no words for what came later.
+            let old = Declared { depth: false, clip: false, ..declared };
+            writeln!(out, "HELLO 1 {} {}", entry.name, old.capabilities().join(" "))?;
+        }
         ["2"] => writeln!(out, "HELLO 2 {} {declared}", entry.name)?,
         _ => {
             let reason = "- this engine speaks versions 1 and 2: say HELLO 1 or HELLO 2";
@@ -238,6 +265,44 @@ fn samples(engine: Engine, window: PixelRect, numbers: &[f64]) -> Reply {
         }
     }
     Ok(('M', n, runs))
+}
+
+/// Runs of pixels that show the same triangle.
+fn depth(engine: Engine, window: PixelRect, numbers: &[f64]) -> Reply {
+    let mut list = Vec::new();
+    for (number, of_one) in numbers.chunks_exact(9).enumerate() {
+        let vertex = |i: usize| -> Result<ScreenVertex<DVec2>, String> {
+            let [x, y, z] = [0, 1, 2].map(|k| of_one[3 * i + k]);
+            let named = |reason: String| format!("of triangle {number}: {reason}");
+            point(&[x, y], i).map_err(named)?;
+            check_value(z).map_err(|refusal| named(format!("z{i} {refusal}")))?;
+            ScreenVertex::new(x, y, z, 1.0, DVec2::ZERO).map_err(|refusal| refusal.to_string())
+        };
+        list.push(ScreenTriangle { vertices: [vertex(0)?, vertex(1)?, vertex(2)?] });
+    }
+    let seen = served::seen(engine, &list, window)?;
+    let mut runs = Vec::new();
+    for (span, number) in &seen {
+        write_run(&mut runs, *span);
+        write_words(&mut runs, [i32::from(*number)]);
+    }
+    Ok(('V', seen.len(), runs))
+}
+
+/// The corners that the near plane leaves.
+fn near(numbers: &[f64]) -> Reply {
+    for (i, &number) in numbers.iter().enumerate() {
+        let axis = ["x", "y", "z", "w"][i % 4];
+        check_value(number).map_err(named(&format!("{axis}{}", i / 4)))?;
+    }
+    let corner = |i: usize| [0, 1, 2, 3].map(|k| numbers[4 * i + k]);
+    let polygon = served::clipped([corner(0), corner(1), corner(2)]);
+    let mut corners = Vec::new();
+    for [x, y, z, w] in &polygon {
+        // Writing to a vector does not fail.
+        let _ = write!(corners, " {x} {y} {z} {w}");
+    }
+    Ok(('G', polygon.len(), corners))
 }
 
 fn cover_exact(engine: ExactEngine, window: PixelRect, numbers: &[f64]) -> Reply {

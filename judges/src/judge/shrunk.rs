@@ -5,7 +5,8 @@ use std::time::Instant;
 
 use super::Options;
 use super::ask::{Answer, Ask, Misbehaviour, show};
-use super::check::{Check, Finding, Truth, expected_answer, picture_of};
+use super::check::{Check, Truth, expected_answer, picture_of, seen_pictures};
+use super::finding::Finding;
 use super::place;
 use super::run::{Failing, Found, MOST_DEATHS};
 use crate::frame::Coverage;
@@ -67,7 +68,7 @@ fn failure(
     options: &Options,
     truth: &Truth,
 ) -> Option<Failure> {
-    let family = hazard::families().find(|f| f.name == failing.family)?;
+    let family = place::family(failing.family)?;
     let case = place::put(family.case(options.seed, failing.index), &truth.declared);
     let check = Check::of(family.name, &case, failing.index, &truth.declared)
         .into_iter()
@@ -108,7 +109,7 @@ fn failure(
         request: question.text(1),
         answer: show(answer, 1),
         expected: match check {
-            Check::Coverage | Check::Line | Check::Values => {
+            Check::Coverage | Check::Line | Check::Values | Check::Depth | Check::Near => {
                 expected_answer(question, truth).map_or_else(String::new, |e| show(&e, 1))
             }
             _ => String::new(),
@@ -154,7 +155,12 @@ fn pictures(check: Check, case: &Case, answers: &[Answer], truth: &Truth) -> Opt
             let other = others.iter().find(|other| *other != first)?;
             Some([other.clone(), first.clone()])
         }
-        Check::Samples => None,
+        Check::Samples | Check::Near => None,
+        Check::Depth => {
+            let mut questions = Vec::new();
+            check.questions(case, truth, &mut questions);
+            seen_pictures(questions.first()?, answers.first()?, truth)
+        }
         _ => {
             let mut questions = Vec::new();
             check.questions(case, truth, &mut questions);

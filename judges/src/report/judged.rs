@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use super::html::{Column, Mark, Outcome, Report, Row, Table};
 use super::{ascii, cases};
+use crate::judge::check::Check;
 use crate::judge::run::{self, MOST_DEATHS};
 use crate::judge::shrunk::Failure;
 use crate::judge::verdict::{self, Score, Verdict, per_million};
@@ -44,7 +45,8 @@ pub fn text(verdict: &Verdict, repeat_all: &str, repeat: &dyn Fn(&str, u64) -> S
 }
 
 /// Breaks a line at spaces; the lines after the first begin with `indent`.
-fn wrapped(text: &str, indent: &str) -> String {
+#[must_use]
+pub fn wrapped(text: &str, indent: &str) -> String {
     let start = text.len() - text.trim_start().len();
     let mut lines = vec![text[..start].to_owned()];
     let mut is_first = true;
@@ -141,7 +143,8 @@ fn table(out: &mut String, verdict: &Verdict) {
     }
 }
 
-fn incidents(out: &mut String, verdict: &Verdict, repeat: &dyn Fn(&str, u64) -> String) {
+/// What happened instead of answers.
+pub fn incidents(out: &mut String, verdict: &Verdict, repeat: &dyn Fn(&str, u64) -> String) {
     let mut shown: Vec<&str> = Vec::new();
     for incident in &verdict.found.incidents {
         let word = incident.what.word();
@@ -164,7 +167,8 @@ fn incidents(out: &mut String, verdict: &Verdict, repeat: &dyn Fn(&str, u64) -> 
     }
 }
 
-fn one_failure(out: &mut String, failure: &Failure, command: &str) {
+/// A failing case: what was asked and answered, with its pixel grid.
+pub fn one_failure(out: &mut String, failure: &Failure, command: &str) {
     *out += "\n";
     let (family, index) = (failure.family, failure.index);
     let found = format!("{}: {} (from {family} #{index}, shrunk)", failure.property, failure.what);
@@ -230,7 +234,9 @@ fn closing(verdict: &Verdict) -> String {
 pub fn page(verdict: &Verdict, repeat_all: &str, repeat: &dyn Fn(&str, u64) -> String) -> Report {
     let good = verdict.agrees();
     let word = if good { "AGREES" } else { "DISAGREES" };
-    let views = verdict.failures.iter().map(|f| {
+    // Of piles and of polygons no engine here draws a picture to compare with.
+    let has_view = |f: &&Failure| !matches!(f.check, Check::Depth | Check::Near);
+    let views = verdict.failures.iter().filter(has_view).map(|f| {
         let name = format!("{}#{}", f.family, f.index);
         let about = format!("{}: found in {} #{}, shrunk", f.property, f.family, f.index);
         let mut view =

@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use super::phrases;
 use crate::judge::league::{Kind, League, Standing};
 use crate::judge::verdict::{Score, per_million};
 
@@ -12,6 +13,11 @@ struct Words {
     unexplained: &'static str,
     unscored: &'static str,
     unanswered: &'static str,
+    kinds: [&'static str; 2],
+    /// What stands after what a line is about, between the parts of one, and at its end.
+    marks: [&'static str; 3],
+    /// A sentence, or how a call is made, which are English in the data.
+    say: fn(&str) -> String,
     made: fn(&League) -> String,
 }
 
@@ -22,6 +28,9 @@ const ENGLISH: Words = Words {
     unexplained: "unexplained",
     unscored: "Left out, since the convention says nothing of them",
     unanswered: "Requests refused, and not answered",
+    kinds: ["Triangles", "Lines"],
+    marks: [": ", "; ", "."],
+    say: str::to_owned,
     made: |l| {
         format!(
             "Made on {} by rasterproof {}, {} cases of each family, seed {}.",
@@ -35,7 +44,10 @@ const CHINESE: Words = Words {
     as_declared: "相同",
     unexplained: "未能解释",
     unscored: "约定对之无所断言、未计入的图形",
-    unanswered: "拒绝的请求与没有回答的请求",
+    unanswered: "被拒绝的请求与没有回答的请求",
+    kinds: ["三角形", "直线"],
+    marks: ["：", "；", "。"],
+    say: phrases::chinese,
     made: |l| {
         format!(
             "{} 由 rasterproof {} 生成，每族 {} 个案例，种子 {}。",
@@ -74,19 +86,25 @@ pub fn tables(league: &League, chinese: bool) -> String {
 /// What a library was asked by, and what it does.
 fn one(out: &mut String, row: &Standing, words: &Words) {
     let Standing { name, version, declares, call, unanswered: [refused, died], .. } = row;
-    let _ = writeln!(out, "- **{name}**: {version}; {call}; `{declares}`.");
-    let kinds = [("Triangles", &row.triangles), ("Lines", &row.lines)];
-    for (about, kind) in kinds.iter().filter_map(|(about, k)| Some((about, k.as_ref()?))) {
+    let [colon, semicolon, stop] = words.marks;
+    let call = (words.say)(call);
+    let _ =
+        writeln!(out, "- **{name}**{colon}{version}{semicolon}{call}{semicolon}`{declares}`{stop}");
+    let kinds = words.kinds.iter().zip([&row.triangles, &row.lines]);
+    for (about, kind) in kinds.filter_map(|(about, k)| Some((about, k.as_ref()?))) {
+        let gap = if stop == "." { " " } else { "" };
         let left_out = match kind.by_convention {
-            Some(Score { unscored: n @ 1.., .. }) => format!(" {}: {n}.", words.unscored),
+            Some(Score { unscored: n @ 1.., .. }) => {
+                format!("{gap}{}{colon}{n}{stop}", words.unscored)
+            }
             _ => String::new(),
         };
         if !kind.sentence.is_empty() {
-            let _ = writeln!(out, "  - {about}: {}{left_out}", kind.sentence);
+            let _ = writeln!(out, "  - {about}{colon}{}{left_out}", (words.say)(&kind.sentence));
         }
     }
     if refused + died > 0 {
-        let _ = writeln!(out, "  - {}: {refused}, {died}.", words.unanswered);
+        let _ = writeln!(out, "  - {}{colon}{refused}, {died}{stop}", words.unanswered);
     }
 }
 

@@ -16,6 +16,7 @@ pub mod judged;
 pub mod league;
 pub mod lettering;
 pub mod panels;
+pub mod phrases;
 pub mod picture;
 pub mod plot;
 pub mod sheet;

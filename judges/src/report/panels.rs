@@ -15,8 +15,8 @@ use super::picture::{
 };
 use crate::frame::Coverage;
 use crate::grid::PixelRect;
-use crate::hazard::Case;
 use crate::hazard::offgrid::OffGridCase;
+use crate::hazard::{Case, Shape};
 use crate::triangle::PixelPoint;
 use crate::verify::Tally;
 
@@ -24,6 +24,8 @@ use crate::verify::Tally;
 const MOST_PX: [u32; 2] = [1400, 1000];
 /// Larger cases are cropped to the pixels that differ.
 const MOST_CROPPED_PX: u32 = 48;
+/// Picture pixels of a pixel's side from which the dot of its sample is shown.
+const SAMPLED: u32 = 8;
 /// Room around everything and between panels.
 const GAP: u32 = 12;
 /// Room for the numbers of the columns, and the least for those of the rows.
@@ -67,18 +69,25 @@ pub struct Sheet {
 /// All coverages show the case's window.
 #[must_use]
 pub fn of_case(title: &str, case: &Case, actual: &[Drawn], target: &Coverage) -> Sheet {
-    sheet(title, case.window, actual, target, |window, zoom| segments(case, window, zoom))
+    let outline = match &case.shape {
+        Shape::Triangles { .. } => "edges",
+        Shape::Lines(_) => "the line itself",
+    };
+    let words = (title, outline);
+    sheet(words, case.window, actual, target, |window, zoom| segments(case, window, zoom))
 }
 
 /// The same of a case off the lattice.
 #[must_use]
 pub fn of_off_grid(title: &str, case: &OffGridCase, actual: &[Drawn], target: &Coverage) -> Sheet {
-    sheet(title, case.window, actual, target, |window, zoom| free_segments(case, window, zoom))
+    let words = (title, "edges");
+    sheet(words, case.window, actual, target, |window, zoom| free_segments(case, window, zoom))
 }
 
-/// Segments are asked for in picture pixels of a panel, once the zoom is known.
+/// The title, and what the outline is. Segments are asked for in picture pixels of a panel, once the
+/// zoom is known.
 fn sheet(
-    title: &str,
+    (title, outline): (&str, &str),
     window: PixelRect,
     actual: &[Drawn],
     target: &Coverage,
@@ -98,7 +107,7 @@ fn sheet(
     let width = (GAP + columns * (wide + GAP)).max(420);
     let heading = lettering::wrapped(title, Size::Heading, width - 2 * GAP);
     let top = GAP + heading.len() as u32 * Size::Heading.cell()[1] + GAP / 2;
-    let foot = foot(width, window, shown, &all, target);
+    let foot = foot(width, window, (shown, zoom), &all, target, outline);
     let height = top + rows * (high + GAP) + foot.height();
     let mut image = RgbImage::from_pixel(width, height, WHITE);
     for (text, y) in heading.iter().zip((GAP..).step_by(Size::Heading.cell()[1] as usize)) {
@@ -271,7 +280,7 @@ fn squares(
                 BORDER
             } else if on_grid {
                 GRID
-            } else if zoom >= 8 && is_sample(x % zoom, zoom) && is_sample(y % zoom, zoom) {
+            } else if zoom >= SAMPLED && is_sample(x % zoom, zoom) && is_sample(y % zoom, zoom) {
                 SAMPLE
             } else {
                 colour(hits(actual), hits(target))
@@ -301,9 +310,10 @@ fn colour(actual: u8, target: u8) -> Rgb<u8> {
 fn foot(
     width: u32,
     window: PixelRect,
-    shown: PixelRect,
+    (shown, zoom): (PixelRect, u32),
     all: &[&Drawn],
     target: &Coverage,
+    outline: &str,
 ) -> RgbImage {
     let of_panel = |(_, hits): &&Drawn| {
         let pixels = (shown.y0..shown.y1).flat_map(|y| (shown.x0..shown.x1).map(move |x| (x, y)));
@@ -319,7 +329,10 @@ fn foot(
         (OVERLAP, "rightly more than once"),
     ];
     let mut entries: Vec<_> = words.into_iter().filter(|(c, _)| occurring.contains(&c.0)).collect();
-    entries.push((EDGE, "edges"));
+    entries.push((EDGE, outline));
+    if zoom >= SAMPLED {
+        entries.push((SAMPLE, "samples"));
+    }
     let mut image = RgbImage::from_pixel(width, 3 * 18 + GAP / 2, WHITE);
     let (mut left, mut top) = (GAP, 0);
     for (colour, text) in entries {
@@ -327,8 +340,12 @@ fn foot(
         if left + wide > width - GAP && left > GAP {
             (left, top) = (GAP, top + 18);
         }
-        let high = if colour == EDGE { 6..8 } else { 1..13 };
-        for (x, y) in (0..12).flat_map(|x| high.clone().map(move |y| (x, y))) {
+        let (wide_mark, high) = match colour {
+            EDGE => (0..12, 6..8),
+            SAMPLE => (4..7, 5..8),
+            _ => (0..12, 1..13),
+        };
+        for (x, y) in wide_mark.flat_map(|x| high.clone().map(move |y| (x, y))) {
             image.put_pixel(left + x, top + y, colour);
         }
         write(&mut image, (i64::from(left) + 18, i64::from(top) - 1), text, Size::Small, INK);
@@ -437,7 +454,7 @@ mod tests {
         let Input::Drawn { case, .. } = find(name).unwrap().input else {
             panic!("{name} is drawn")
         };
-        let crate::hazard::Shape::Triangles { list, .. } = &case.shape else { panic!("{name}") };
+        let Shape::Triangles { list, .. } = &case.shape else { panic!("{name}") };
         let target = crate::verify::oracle_coverage(list, case.window);
         let mut holed = target.clone();
         let (y, row) = target.rows().find(|(_, row)| row.contains(&1)).unwrap();

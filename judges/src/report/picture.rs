@@ -82,17 +82,24 @@ fn edges([a, b, c]: [PixelPoint; 3]) -> [[PixelPoint; 2]; 3] {
     [[a, b], [b, c], [c, a]]
 }
 
+/// Room between two pictures of a stack.
+pub const STACK_GAP: u32 = 12;
+
 /// Stacks pictures under each other on white, with a gap between.
 #[must_use]
 pub fn stack(pictures: &[RgbImage]) -> RgbImage {
-    const GAP: u32 = 12;
     let width = pictures.iter().map(RgbImage::width).max().unwrap_or(1);
-    let height = pictures.iter().map(|p| p.height() + GAP).sum::<u32>().saturating_sub(GAP).max(1);
+    let height = pictures
+        .iter()
+        .map(|p| p.height() + STACK_GAP)
+        .sum::<u32>()
+        .saturating_sub(STACK_GAP)
+        .max(1);
     let mut sheet = RgbImage::from_pixel(width, height, Rgb([255, 255, 255]));
     let mut top = 0;
     for picture in pictures {
         image::imageops::replace(&mut sheet, picture, 0, i64::from(top));
-        top += picture.height() + GAP;
+        top += picture.height() + STACK_GAP;
     }
     sheet
 }

@@ -104,10 +104,13 @@ fn legend(board: &Board) -> &'static str {
     match board.ladder {
         Ladder::Scanline | Ladder::EdgeFunction => {
             "shelf: no error, green rings: none after snapping\n\
-             red rings: holes and double hits inside a mesh, with their number"
+             red rings: holes and double hits inside a mesh, with their number\n\
+             bars: the middle half of the times"
         }
-        Ladder::Interpolation => "green: within half a step of 8 bits (1/512)",
-        _ => "shelf: no error",
+        Ladder::Interpolation => {
+            "green: within half a step of 8 bits (1/512)\nbars: the middle half of the times"
+        }
+        _ => "shelf: no error\nbars: the middle half of the times",
     }
 }
 

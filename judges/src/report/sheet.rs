@@ -10,8 +10,8 @@ use image::{Rgb, RgbImage, imageops};
 use super::chapter::chapter_of_source;
 use super::html::{PictureLayer, PictureView};
 use super::lettering::{self, Size, write};
-use super::picture;
 use super::picture::{AGREES, BACKGROUND, BORDER, EDGE, EXTRA, GRID, MISSING, SAMPLE, TWICE, line};
+use super::{panels, picture};
 use crate::contract::{DrawLine as _, Interpolate as _};
 use crate::frame::{Coverage, Frame};
 use crate::grid::PixelRect;
@@ -94,26 +94,38 @@ struct Panels {
 
 /// All cards of a sheet, two strips to a row, under a title and over a legend.
 #[must_use]
-pub fn sheet(sheet: &Sheet) -> RgbImage {
-    let strips: Vec<RgbImage> = sheet.cards().map(strip).collect();
-    let rows: Vec<RgbImage> = strips.chunks(2).map(beside).collect();
-    let mut top = RgbImage::from_pixel(2 * STRIP, 40, WHITE);
-    write(&mut top, (i64::from(GAP), 12), sheet.title, Size::Heading, INK);
-    let all: Vec<RgbImage> = [top].into_iter().chain(rows).chain([legend()]).collect();
-    super::picture::stack(&all)
+pub fn sheet(sheet: &Sheet) -> panels::Sheet {
+    let strips: Vec<panels::Sheet> = sheet.cards().map(strip).collect();
+    let mut title = RgbImage::from_pixel(2 * STRIP, 40, WHITE);
+    write(&mut title, (i64::from(GAP), 12), sheet.title, Size::Heading, INK);
+    let mut top = title.height() + picture::STACK_GAP;
+    let (mut all, mut panels) = (vec![title], Vec::new());
+    for pair in strips.chunks(2) {
+        for (left, strip) in (0..).step_by(STRIP as usize).zip(pair) {
+            panels.extend(strip.panels.iter().cloned().map(|panel| panels::Panel {
+                at: [panel.at[0] + left, panel.at[1] + top],
+                ..panel
+            }));
+        }
+        let row = beside(pair);
+        top += row.height() + picture::STACK_GAP;
+        all.push(row);
+    }
+    all.push(legend(2 * STRIP));
+    panels::Sheet { image: picture::stack(&all), panels }
 }
 
 /// All sheets, one under the other.
 #[must_use]
 pub fn contact_sheet() -> RgbImage {
-    super::picture::stack(&SHEETS.each_ref().map(sheet))
+    picture::stack(&SHEETS.each_ref().map(|s| sheet(s).image))
 }
 
 /// The exposing pictures of every card, for the page, named apart from the cases that are `taken`.
 #[must_use]
 pub fn views(taken: &[String]) -> Vec<PictureView> {
     let view = |card: &Card| {
-        let Panels { published, repaired, .. } = panels(card)?;
+        let Panels { published, repaired, .. } = versions(card)?;
         let is_taken = taken.iter().any(|name| name == card.name);
         Some(PictureView {
             name: format!("{}{}", card.name, if is_taken { " picture" } else { "" }),
@@ -129,52 +141,83 @@ pub fn views(taken: &[String]) -> Vec<PictureView> {
     CARDS.iter().filter_map(view).collect()
 }
 
-fn beside(strips: &[RgbImage]) -> RgbImage {
-    let height = strips.iter().map(RgbImage::height).max().unwrap_or(1);
+fn beside(strips: &[panels::Sheet]) -> RgbImage {
+    let height = strips.iter().map(|strip| strip.image.height()).max().unwrap_or(1);
     let mut row = RgbImage::from_pixel(2 * STRIP, height, WHITE);
     for (i, strip) in (0..).zip(strips) {
-        imageops::replace(&mut row, strip, i * i64::from(STRIP), 0);
+        imageops::replace(&mut row, &strip.image, i * i64::from(STRIP), 0);
     }
     row
 }
 
-/// What the colours of the panels mean.
-fn legend() -> RgbImage {
-    let mut image = RgbImage::from_pixel(2 * STRIP, 44, WHITE);
+/// What the colours of the panels mean, in rows that fit a width.
+fn legend(width: u32) -> RgbImage {
     let hits = [
-        (AGREES, "right"),
-        (MISSING, "missing"),
-        (EXTRA, "extra"),
-        (TWICE, "drawn twice"),
-        (WRONG, "drawn, but not alike"),
+        (vec![AGREES], "right"),
+        (vec![MISSING], "missing"),
+        (vec![EXTRA], "extra"),
+        (vec![TWICE], "drawn twice"),
+        (vec![WRONG], "drawn, but not alike"),
+        (vec![EDGE], "outline"),
+        (vec![SAMPLE], "sample"),
     ];
-    let shades = [0.0, 0.25, 0.5, 0.75, 1.0].map(|v| (Rgb(shade(v)), ""));
-    let values = [(Rgb(BEYOND), "beyond the corners' values"), (Rgb(BLACK), "not a number")];
-    let mut put = |entries: &[(Rgb<u8>, &str)], mut left: u32, top: u32| {
-        for &(colour, text) in entries {
-            for (x, y) in (0..12).flat_map(|x| (0..12).map(move |y| (x, y))) {
-                let is_border = x % 11 == 0 || y % 11 == 0;
-                image.put_pixel(left + x, top + y, if is_border { BORDER } else { colour });
+    let shades = [0.0, 0.25, 0.5, 0.75, 1.0].map(|v| Rgb(shade(v)));
+    let values = [
+        (shades.to_vec(), "values from 0 to 1"),
+        (vec![Rgb(BEYOND)], "beyond the corners' values"),
+        (vec![Rgb(BLACK)], "not a number"),
+    ];
+    // Each entry of a row: where it begins, its colours, its words.
+    type Entry<'a> = (u32, Vec<Rgb<u8>>, &'a str);
+    let mut rows: Vec<Vec<Entry>> = Vec::new();
+    for entries in [hits.to_vec(), values.to_vec()] {
+        let mut left = width;
+        for (colours, text) in entries {
+            let wide = 16 * colours.len() as u32 + lettering::width(text, Size::Small);
+            if left + wide + GAP > width {
+                rows.push(Vec::new());
+                left = GAP;
             }
-            left += 16;
-            let at = (i64::from(left), i64::from(top) - 2);
-            left += write(&mut image, at, text, Size::Small, INK);
-            left += if text.is_empty() { 0 } else { 24 };
+            rows.last_mut().into_iter().for_each(|row| row.push((left, colours.clone(), text)));
+            left += wide + 24;
         }
-        left
-    };
-    put(&hits, GAP, 4);
-    let left = put(&shades, GAP, 24);
-    put(&values, left + 24 + lettering::width("values from 0 to 1", Size::Small), 24);
-    let at = (i64::from(left), 22);
-    write(&mut image, at, "values from 0 to 1", Size::Small, INK);
+    }
+    let mut image = RgbImage::from_pixel(width, 4 + 20 * rows.len() as u32, WHITE);
+    for (top, row) in (4..).step_by(20).zip(rows) {
+        for (left, colours, text) in row {
+            let words = left + 16 * colours.len() as u32;
+            for (left, colour) in (left..).step_by(16).zip(colours) {
+                for (x, y) in (0..12).flat_map(|x| (0..12).map(move |y| (x, y))) {
+                    let is_border = x % 11 == 0 || y % 11 == 0;
+                    let shown = match colour {
+                        // A line, and a dot.
+                        EDGE if y != 6 => WHITE,
+                        SAMPLE if !(5..7).contains(&x) || !(5..7).contains(&y) => WHITE,
+                        EDGE | SAMPLE => colour,
+                        _ if is_border => BORDER,
+                        _ => colour,
+                    };
+                    image.put_pixel(left + x, top + y, shown);
+                }
+            }
+            write(&mut image, (i64::from(words), i64::from(top) - 2), text, Size::Small, INK);
+        }
+    }
     image
 }
 
-/// The strip of a card.
+/// A card alone: its strip over the legend.
 #[must_use]
-pub fn strip(card: &Card) -> RgbImage {
-    let Some(panels) = panels(card) else { return RgbImage::new(1, 1) };
+pub fn alone(card: &Card) -> panels::Sheet {
+    let panels::Sheet { image, panels } = strip(card);
+    panels::Sheet { image: picture::stack(&[image, legend(STRIP)]), panels }
+}
+
+/// The strip of a card.
+fn strip(card: &Card) -> panels::Sheet {
+    let Some(panels) = versions(card) else {
+        return panels::Sheet { image: RgbImage::new(1, 1), panels: Vec::new() };
+    };
     let bounds = panels.published.bounds();
     let zoom = ((PANEL - 1) / bounds.width().max(bounds.height())).max(1);
     let height = bounds.height() * zoom + 1;
@@ -198,13 +241,16 @@ pub fn strip(card: &Card) -> RgbImage {
         ("repaired", &panels.repaired),
         ("difference", &difference),
     ];
+    let mut places = Vec::new();
     for (i, (title, picture)) in (0u32..).zip(all) {
         let left = GAP + i * (PANEL + GAP);
         write(&mut image, (i64::from(left), i64::from(head) - 17), title, Size::Small, FAINT);
         let panel = enlarged(picture, zoom, &panels);
         imageops::replace(&mut image, &panel, left.into(), head.into());
+        let name = format!("{}, {title}", card.name);
+        places.push(panels::Panel { name, at: [left, head], zoom, shown: bounds });
     }
-    image
+    panels::Sheet { image, panels: places }
 }
 
 /// Each pixel a square, the outline and the samples over it.
@@ -256,7 +302,7 @@ fn difference(panels: &Panels) -> Image {
     image
 }
 
-fn panels(card: &Card) -> Option<Panels> {
+fn versions(card: &Card) -> Option<Panels> {
     let specimen = lineup::find(card.name).and_then(|entry| entry.specimen);
     Some(match (&card.exhibit, specimen) {
         (Exhibit::Scene(_, draw), _) => Panels {

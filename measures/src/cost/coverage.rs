@@ -9,6 +9,7 @@ use std::cell::RefCell;
 use super::{Board, Column, Ladder, Measure, Options, Prepared, Rung, finish};
 use crate::contract::{Rasterize, RasterizeExact};
 use crate::cost::scene::{Scene, Size, W_PREFIX, scenes};
+use crate::each::Each as _;
 use crate::frame::Frame;
 use crate::grid::PixelRect;
 use crate::ladder::edges::{self, Integer, Ordered, Robust, Stepped};
@@ -226,7 +227,7 @@ impl Truth {
                 }
             }),
         ];
-        let pixels = [0, 1].map(|i| spans[i].iter().map(|list| pixels(list)).sum());
+        let pixels = [0, 1].each(|i| spans[i].iter().map(|list| pixels(list)).sum());
         Self { spans, pixels }
     }
 }
@@ -270,7 +271,7 @@ fn cracks(truth: &Truth, spans: &[Vec<Span>], interior: PixelRect) -> (u64, u64)
         shown.then_some(Span { y_px: span.y_px, x0_px, x1_px })
     };
     let all = [&truth.spans[0], &truth.spans[1], spans]
-        .map(|lists| lists.iter().flatten().filter_map(within).collect::<Vec<_>>());
+        .each(|lists| lists.iter().flatten().filter_map(within).collect::<Vec<_>>());
     let (mut holes, mut twice) = (0, 0);
     sweep(&[&all[0][..], &all[1], &all[2]], |[given, snapped, hits], length| {
         if given == 1 && snapped == 1 {

@@ -5,6 +5,7 @@
 
 use super::scene::{Size, scenes};
 use super::{Board, Column, Ladder, Measure, Options, Prepared, Rung, finish};
+use crate::each::Each as _;
 use crate::hazard::Rng;
 use crate::ladder::Real;
 use crate::ladder::depth::{FAR, Fixed24, Format, Forward, NEAR, Reversed, stored};
@@ -40,7 +41,7 @@ struct Layers {
 
 impl Layers {
     fn back(&self) -> [f64; 3] {
-        self.front.map(|z| z * (1.0 + APART))
+        self.front.each(|z| z * (1.0 + APART))
     }
 }
 
@@ -48,7 +49,7 @@ fn layers(seed: u64, name: &str, z: f64, count: usize) -> Vec<Layers> {
     let mut rng = Rng::new(name, seed, 2);
     // Slanted by up to a percent of the distance, within the planes.
     let near = |rng: &mut Rng| (z * (1.0 + 0.01 * rng.signed())).clamp(NEAR, FAR / (1.0 + APART));
-    (0..count).map(|_| Layers { front: [(); 3].map(|()| near(&mut rng)) }).collect()
+    (0..count).map(|_| Layers { front: [(); 3].each(|()| near(&mut rng)) }).collect()
 }
 
 /// Depth over a tile as a plane, at pixel centres, in the float of the format.
@@ -61,7 +62,7 @@ struct Plane<T> {
 impl<T: Real> Plane<T> {
     #[inline]
     fn new<F: Format<Float = T>>(z: [f64; 3]) -> Self {
-        let [a, b, c] = z.map(|z| T::of(F::depth(z)));
+        let [a, b, c] = z.each(|z| T::of(F::depth(z)));
         let side = T::of(1.0 / SIDE_PX as f64);
         let (per_x, per_y) = ((b - a) * side, (c - a) * side);
         Self { start: a + per_x * T::HALF + per_y * T::HALF, per_x, per_y }

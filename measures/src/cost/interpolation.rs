@@ -8,6 +8,7 @@ use std::cell::RefCell;
 use super::scene::{Scene, Size, scenes};
 use super::{Board, Column, Ladder, Measure, Options, Prepared, Rung, finish};
 use crate::contract::Rasterize;
+use crate::each::Each as _;
 use crate::frame::Frame;
 use crate::ladder::interpolation::{
     Accumulated, Affine, BookFormula, Direct, EverySixteen, Offset, Plane, Valued, Values,
@@ -81,21 +82,21 @@ impl Place<'_> {
 
     /// Twice the area, and how much it cancels: the sum of its terms' magnitudes over it.
     fn area(&self) -> (f64, f64) {
-        let [a, b, c] = [0, 1, 2].map(|i| self.at(i));
+        let [a, b, c] = [0, 1, 2].each(|i| self.at(i));
         let (p, q) = ((b[0] - a[0]) * (c[1] - a[1]), (c[0] - a[0]) * (b[1] - a[1]));
         (p - q, (p.abs() + q.abs()) / (p - q).abs())
     }
 
     fn linear(&self, f: [f64; 3]) -> Linear {
-        let [a, b, c] = [0, 1, 2].map(|i| self.at(i));
+        let [a, b, c] = [0, 1, 2].each(|i| self.at(i));
         let area = self.area().0;
         let (d1, d2) = (f[1] - f[0], f[2] - f[0]);
         let [bx, by, cx, cy] = [b[0] - a[0], b[1] - a[1], c[0] - a[0], c[1] - a[1]];
         let pairs = [[d1 * cy, d2 * by], [d2 * bx, d1 * cx]];
         Linear {
             f0: f[0],
-            slope: pairs.map(|[p, q]| (p - q) / area),
-            terms: pairs.map(|[p, q]| (p.abs() + q.abs()) / area.abs()),
+            slope: pairs.each(|[p, q]| (p - q) / area),
+            terms: pairs.each(|[p, q]| (p.abs() + q.abs()) / area.abs()),
         }
     }
 
@@ -118,7 +119,7 @@ impl Place<'_> {
     }
 
     fn over_w(&self) -> [f64; 3] {
-        [0, 1, 2].map(|i| self.triangle.inv_w[i] * self.triangle.value[i])
+        [0, 1, 2].each(|i| self.triangle.inv_w[i] * self.triangle.value[i])
     }
 
     /// The slope of the value along the row.
@@ -268,7 +269,7 @@ impl Values for Rational {
 
 fn exact(triangle: &Valued) -> Option<ExactTriangle<1>> {
     let Valued { corners, inv_w, value } = triangle;
-    ExactTriangle::new(corners, [0.0; 3], *inv_w, value.map(|v| [v]))
+    ExactTriangle::new(corners, [0.0; 3], *inv_w, value.each(|v| [v]))
 }
 
 /// A triangle and the rows it covers.
@@ -358,8 +359,8 @@ fn dress(scene: &Scene) -> Vec<Drawn> {
         Scanline.cover(corners, scene.bounds, |span| spans.push(span));
         // From the positions, so that the values need no generator: within [-1, 1], exactly f32.
         let value =
-            [0, 1, 2].map(|i| f64::from(corners[i].x % 509 - 254 + (w[i] as i32) % 2) / 256.0);
-        let inv_w = w.map(|w| f64::from((1.0 / w) as f32));
+            [0, 1, 2].each(|i| f64::from(corners[i].x % 509 - 254 + (w[i] as i32) % 2) / 256.0);
+        let inv_w = w.each(|w| f64::from((1.0 / w) as f32));
         Some(Drawn { triangle: Valued { corners, inv_w, value }, spans })
     });
     dressed.collect()

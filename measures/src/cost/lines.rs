@@ -4,6 +4,7 @@ use std::cell::RefCell;
 
 use super::scene::{Size, scenes};
 use super::{Board, Column, Ladder, Measure, Options, Prepared, Rung, finish};
+use crate::each::Each as _;
 use crate::frame::Frame;
 use crate::grid::PixelRect;
 use crate::hazard::Rng;
@@ -114,13 +115,13 @@ fn lines(
                 std::mem::swap(&mut a[axis], &mut b[axis]);
             }
         }
-        [a, b].map(|[x, y]| PixelPoint::new(x as i32, y as i32))
+        [a, b].each(|[x, y]| PixelPoint::new(x as i32, y as i32))
     });
     Ok((lines.collect(), about))
 }
 
 fn truth(ends: Ends, window: PixelRect) -> Vec<PixelPoint> {
-    let line = ScreenLine { ends: ends.map(|pixel| LineEnd { pixel, depth: 0.0, varying: 0.0 }) };
+    let line = ScreenLine { ends: ends.each(|pixel| LineEnd { pixel, depth: 0.0, varying: 0.0 }) };
     let mut pixels = Vec::new();
     Oracle.line_pixels(&line, window, |pixel, _| pixels.push(pixel));
     pixels

@@ -7,6 +7,7 @@ use super::finding::{Finding, Tally, caught};
 use super::tolerance::Tolerance;
 use super::truth::{Bounds, Truth, compare_on_line};
 use crate::contract::{DrawLine, Interpolate, Rasterize};
+use crate::each::Each as _;
 use crate::frame::Coverage;
 use crate::grid::{HALF_PIXEL, PixelRect, SUBPIXELS};
 use crate::hazard::{Case, Line, Shape, Triangle};
@@ -308,7 +309,7 @@ impl<D: DrawLine + Sync> Contest for LineContest<'_, D> {
 /// A line passes halfway between two pixels somewhere iff its length over the common divisor of
 /// length and rise is even.
 fn line_has_tie(line: &Line) -> bool {
-    let [a, b] = line.ends.map(|end| end.pixel);
+    let [a, b] = line.ends.each(|end| end.pixel);
     let (dx, dy) = (a.x.abs_diff(b.x), a.y.abs_diff(b.y));
     let (long, short) = (dx.max(dy), dx.min(dy));
     let (mut a, mut b) = (long, short);

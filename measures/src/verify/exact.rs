@@ -13,7 +13,9 @@ use serde::Serialize;
 use super::finding::caught;
 use super::{KEPT, Options, Partial, Tally, in_blocks};
 use crate::contract::{Decisions, RasterizeExact};
+use crate::each::Each as _;
 use crate::frame::Coverage;
+use crate::hazard::offgrid::shrink::{shrink, size};
 use crate::hazard::offgrid::{FAMILIES, OffGridCase, OffGridFamily};
 use crate::oracle::rational::cover_and_count_ties;
 use crate::triangle::{FreeCorners, Span};
@@ -82,7 +84,7 @@ impl fmt::Display for ExactFailure {
 /// The positions of triangles in pixels, as the command line takes them, with all digits.
 #[must_use]
 pub fn describe(triangles: &[FreeCorners]) -> String {
-    let one = |t: &FreeCorners| t.px().map(|[x, y]| format!("{x:?},{y:?}")).join(" ");
+    let one = |t: &FreeCorners| t.px().each(|[x, y]| format!("{x:?},{y:?}")).join(" ");
     triangles.iter().map(one).collect::<Vec<_>>().join("; ")
 }
 
@@ -313,53 +315,4 @@ fn shrink_failures<R: RasterizeExact + Sync>(
     let mut failures: Vec<_> = shrunk.into_iter().map(|(_, failure)| failure).collect();
     failures.sort_by_cached_key(|failure| size(&failure.case));
     failures
-}
-
-/// The smallest case reached from `case` that still fails: fewer triangles, then fewer bits in all
-/// coordinates, then nearer to the origin.
-fn shrink(case: OffGridCase, fails: impl Fn(&OffGridCase) -> bool) -> OffGridCase {
-    super::shrink::greedy(case, size, candidates, fails)
-}
-
-/// Triangles, bits that are set in mantissas, then distance from the origin.
-fn size(case: &OffGridCase) -> (usize, u32, u64) {
-    let values = || case.triangles.iter().flat_map(|t| t.px()).flatten();
-    let bits = |v: f64| {
-        let (mantissa, ..) = num_traits::Float::integer_decode(v);
-        if mantissa == 0 { 0 } else { 64 - mantissa.leading_zeros() - mantissa.trailing_zeros() }
-    };
-    (case.triangles.len(), values().map(bits).sum(), values().map(|v| v.abs() as u64).sum())
-}
-
-fn candidates(case: &OffGridCase) -> Vec<OffGridCase> {
-    let with = |triangles: Vec<FreeCorners>| OffGridCase {
-        window: case.window,
-        triangles,
-        is_tiling: false,
-    };
-    if case.triangles.len() > 1 {
-        return case.triangles.iter().map(|t| with(vec![*t])).collect();
-    }
-    let Some(triangle) = case.triangles.first() else { return Vec::new() };
-    let mut found = Vec::new();
-    for corner in 0..3 {
-        for axis in 0..2 {
-            let value = triangle.px()[corner][axis];
-            for simpler in simpler_coordinates(value) {
-                let mut px = triangle.px();
-                px[corner][axis] = simpler;
-                found.extend(FreeCorners::new(px).ok().map(|t| with(vec![t])));
-            }
-        }
-    }
-    found
-}
-
-/// Zero, whole and half numbers nearby, and fewer bits.
-fn simpler_coordinates(value: f64) -> Vec<f64> {
-    let cut = |bits: u64| f64::from_bits(value.to_bits() & !((1 << bits) - 1));
-    let mut simpler = vec![0.0, value.round(), value.floor() + 0.5];
-    simpler.extend([52, 48, 44, 40, 36, 32, 29, 24, 20, 16, 12, 8, 4, 2, 1].map(cut));
-    simpler.retain(|&v| v != value);
-    simpler
 }

@@ -29,6 +29,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use crate::contract::{DrawLine, Interpolate, Rasterize};
+use crate::each::Each as _;
 use crate::hazard::{Case, Family, Shape};
 use crate::lineup::{Engine, LineEngine};
 use contest::{Contest, CoverageOnly, LineContest, TriangleContest};
@@ -234,7 +235,7 @@ impl Verdict {
             self.sum(false, |f| f.empty_cases),
         ];
         let percent = |part: u64| (100 * part + cases / 2).checked_div(cases).unwrap_or(0);
-        [0, 1, 2].map(|i| (QUOTAS[i].0, percent(counts[i]), QUOTAS[i].1))
+        [0, 1, 2].each(|i| (QUOTAS[i].0, percent(counts[i]), QUOTAS[i].1))
     }
 }
 

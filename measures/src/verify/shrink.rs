@@ -2,6 +2,6 @@
 //!
 //! The steps are those of `hazard`, which needs no threads; this is their public name.
 
+pub(super) use crate::hazard::shrink::size;
 #[doc(inline)]
 pub use crate::hazard::shrink::{describe, shrink};
-pub(super) use crate::hazard::shrink::{greedy, size};

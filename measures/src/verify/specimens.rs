@@ -14,6 +14,7 @@ use serde::Serialize;
 use super::Tally;
 use super::finding::caught;
 use crate::contract::{DrawLine as _, Rasterize as _, RasterizeExact as _};
+use crate::each::Each as _;
 use crate::frame::Coverage;
 use crate::grid::{PixelRect, SubpixelPoint};
 use crate::hazard::named::plain_line;
@@ -137,7 +138,7 @@ pub fn survey(card: &Card, seed: u64, cases: u64) -> SpecimenReport {
     };
     let all = families.iter().fold(Counts::default(), |sum, (_, counts)| sum.merge(*counts));
     let [case_wrong, harmless_wrong] =
-        [Setting::Exposing, Setting::Harmless].map(|s| wrong(card, s));
+        [Setting::Exposing, Setting::Harmless].each(|s| wrong(card, s));
     SpecimenReport {
         name: card.name,
         source: card.source,
@@ -215,7 +216,7 @@ pub fn real_triangles(case: &TriangleCase) -> Vec<RealTriangle> {
         w: case.w[i],
         varying: DVec2::splat(case.values[i]),
     };
-    case.corners_px.iter().map(|corners| [0, 1, 2].map(|i| vertex(corners, i))).collect()
+    case.corners_px.iter().map(|corners| [0, 1, 2].each(|i| vertex(corners, i))).collect()
 }
 
 /// The same triangle on the lattice; none where a corner does not lie there.
@@ -237,7 +238,7 @@ pub fn on_lattice(triangle: &RealTriangle) -> Option<Triangle> {
 pub fn free_truth(triangles: &[RealTriangle], window: PixelRect) -> Coverage {
     let mut hits = Coverage::new(window, 0);
     for triangle in triangles {
-        if let Ok(corners) = FreeCorners::new(triangle.map(|v| v.position_px.to_array())) {
+        if let Ok(corners) = FreeCorners::new(triangle.each(|v| v.position_px.to_array())) {
             Oracle.cover_exact(&corners, window, |s| hits.hit(s.y_px, s.x0_px, s.x1_px));
         }
     }
@@ -274,7 +275,7 @@ fn judge_free(specimen: TriangleSpecimen, triangles: &[RealTriangle], window: Pi
 /// A card's line as a case of the harness.
 #[must_use]
 pub fn line_case(case: &LineCase) -> Case {
-    let [a, b] = case.pixels.map(|(x, y)| PixelPoint::new(x, y));
+    let [a, b] = case.pixels.each(|(x, y)| PixelPoint::new(x, y));
     let side = |a: i32, b: i32, most: u32| (a.max(b) as u32 + 3).min(most);
     let window = PixelRect::window(side(a.x, b.x, 24), side(a.y, b.y, 12));
     Case { window, shape: Shape::Lines(vec![plain_line(a, b)]) }
@@ -310,7 +311,7 @@ pub fn specimen_line_coverage(
     window: PixelRect,
 ) -> Result<Coverage, String> {
     // The centre of a pixel is its position.
-    let ends = line.ends.map(|e| [f64::from(e.pixel.x) + 0.5, f64::from(e.pixel.y) + 0.5]);
+    let ends = line.ends.each(|e| [f64::from(e.pixel.x) + 0.5, f64::from(e.pixel.y) + 0.5]);
     caught(|| {
         let mut hits = Coverage::new(window, 0);
         specimen
@@ -376,10 +377,10 @@ fn values(
     truth: &Coverage,
 ) -> (f64, f64) {
     let v = &triangle.vertices;
-    let depths = v.map(|v| specimen.depth_of(v.depth, 1.0 / v.inv_w));
-    let attributes = v.map(|v| v.varying.to_array());
-    let inv_w = v.map(|v| v.inv_w);
-    let depth_attributes = depths.map(|depth| [depth]);
+    let depths = v.each(|v| specimen.depth_of(v.depth, 1.0 / v.inv_w));
+    let attributes = v.each(|v| v.varying.to_array());
+    let inv_w = v.each(|v| v.inv_w);
+    let depth_attributes = depths.each(|depth| [depth]);
     let exact = ExactTriangle::new(&triangle.corners(), depths, inv_w, attributes);
     let exact_w = ExactTriangle::new(&triangle.corners(), depths, inv_w, depth_attributes);
     let (Some(exact), Some(exact_w)) = (exact, exact_w) else { return (0.0, 0.0) };
@@ -398,9 +399,9 @@ fn values(
         let exact_depth = if is_w { exact_w.at(f.x_px, f.y_px).1[0].clone() } else { exact_depth };
         if specimen != TriangleSpecimen::BookChapter6 {
             attribute =
-                worse(attribute, a.distance(f.varying.x) / spread(attributes.map(|a| a[0])));
+                worse(attribute, a.distance(f.varying.x) / spread(attributes.each(|a| a[0])));
             attribute =
-                worse(attribute, b.distance(f.varying.y) / spread(attributes.map(|a| a[1])));
+                worse(attribute, b.distance(f.varying.y) / spread(attributes.each(|a| a[1])));
         }
         depth = worse(depth, exact_depth.distance(f.depth) / spread(depths));
     }

@@ -9,6 +9,7 @@
 use rayon::prelude::*;
 
 use super::tolerance::{self, Bound};
+use crate::each::Each as _;
 use crate::effects::render::BadScene;
 use crate::effects::rivals::{Rival, Rivals, Sample};
 use crate::frame::Frame;
@@ -61,6 +62,10 @@ pub struct Drawn<'a> {
 /// Samples of a band of rows, which is judged at once.
 const BAND_SAMPLES: u64 = 1 << 16;
 
+/// Rivals that are judged at once, some 100 bytes each. A band with more, many surfaces in one plane,
+/// is halved, down to a pixel.
+const MOST_RIVALS: usize = 1 << 19;
+
 /// Finds the ties in two frames of one scene, in targets of the same kind.
 ///
 /// # Errors
@@ -100,6 +105,26 @@ struct Band {
     excused: Vec<Sample>,
 }
 
+impl Band {
+    fn join(mut self, other: Self) -> Self {
+        self.undecided.extend(other.undecided);
+        self.excused.extend(other.excused);
+        self
+    }
+}
+
+/// The two halves of a rectangle: rows, or columns of a single row. None of a single pixel.
+fn halves(rect: PixelRect) -> Option<[PixelRect; 2]> {
+    let (x, y) = (rect.x0 + (rect.x1 - rect.x0) / 2, rect.y0 + (rect.y1 - rect.y0) / 2);
+    if y > rect.y0 {
+        Some([PixelRect { y1: y, ..rect }, PixelRect { y0: y, ..rect }])
+    } else if x > rect.x0 {
+        Some([PixelRect { x1: x, ..rect }, PixelRect { x0: x, ..rect }])
+    } else {
+        None
+    }
+}
+
 /// A rival, and what is known of it by each of the two rasterizers.
 #[derive(Clone, Copy)]
 struct Candidate {
@@ -118,7 +143,17 @@ struct Judge<'a> {
 
 impl Judge<'_> {
     fn judge(&self, rect: PixelRect) -> Band {
-        let mut candidates = self.candidates(self.rivals.within(rect));
+        let halves = halves(rect);
+        let most = if halves.is_some() { MOST_RIVALS } else { usize::MAX };
+        match (self.rivals.within(rect, most), halves) {
+            (Some(rivals), _) => self.judge_rivals(rivals),
+            (None, Some([a, b])) => self.judge(a).join(self.judge(b)),
+            (None, None) => Band::default(),
+        }
+    }
+
+    fn judge_rivals(&self, rivals: Vec<Rival>) -> Band {
+        let mut candidates = self.candidates(rivals);
         keep_rivals(&mut candidates);
         // By piece, to be shaded, and by sample again.
         candidates.sort_unstable_by_key(|c| (c.rival.piece, c.rival.sample));
@@ -144,7 +179,7 @@ impl Judge<'_> {
     /// Rivals with the keys that each rasterizer may store.
     fn candidates(&self, mut rivals: Vec<Rival>) -> Vec<Candidate> {
         let format = self.frames[0].target.format;
-        let bounds = self.frames.map(|frame| tolerance::of(frame.engine).depth);
+        let bounds = self.frames.each(|frame| tolerance::of(frame.engine).depth);
         rivals.sort_unstable_by_key(|rival| (rival.piece, rival.sample));
         let same = |a: &Rival, b: &Rival| (a.piece, a.sample.plane) == (b.piece, b.sample.plane);
         let mut candidates = Vec::with_capacity(rivals.len());
@@ -159,7 +194,7 @@ impl Judge<'_> {
             };
             candidates.extend(group.iter().map(|&rival| {
                 let depth = exact.at(rival.sample.x_px, rival.sample.y_px).0.to_f64();
-                let keys = bounds.map(|bound| keys(format, depth, bound, depths));
+                let keys = bounds.each(|bound| keys(format, depth, bound, depths));
                 Candidate { rival, keys, colours: [[None; SAMPLES.len()]; 2] }
             }));
         }
@@ -237,7 +272,7 @@ fn keys(format: DepthFormat, exact: f64, bound: Bound, depths: [f64; 3]) -> (u64
 fn keep_rivals(candidates: &mut Vec<Candidate>) {
     let mut kept = Vec::new();
     for group in candidates.chunk_by(|a, b| a.rival.sample == b.rival.sample) {
-        let farthest = [0, 1].map(|who| {
+        let farthest = [0, 1].each(|who| {
             let ends = group.iter().map(|c| (c.keys[who].1, c.rival.piece));
             ends.min().unwrap_or((u64::MAX, u32::MAX))
         });

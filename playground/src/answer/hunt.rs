@@ -31,7 +31,10 @@ pub(super) fn list() -> Value {
     let recorded: Vec<_> = RECORDED.iter().map(|case| entry(case.name, case.specimen)).collect();
     let all = || ENTRIES.iter().chain(&SPECIMENS);
     let triangles: Vec<_> = all()
-        .filter(|e| e.engine.is_some() || matches!(e.specimen, Some(Specimen::Triangle(_))))
+        .filter(|e| {
+            let covers = e.engine.is_some() || e.exact_engine.is_some();
+            covers || matches!(e.specimen, Some(Specimen::Triangle(_)))
+        })
         .map(|e| entry(e.name, e.about))
         .collect();
     let lines: Vec<_> = all()
@@ -147,22 +150,24 @@ pub(super) struct Shrink {
 
 impl Shrink {
     pub fn answer(&self) -> Result<Value, String> {
-        if !self.picture.snap {
-            return Err("cases off the lattice are not shrunk here".to_owned());
-        }
         if !is_caught(&self.by, &self.picture) {
             return Err(format!("{} draws this rightly, so there is nothing to shrink", self.by));
         }
         // What is tried and still fails is what is taken, so the trials tell the way.
         let steps = RefCell::new(vec![json!(self.picture)]);
-        shrink(self.picture.case()?, |smaller: &Case| {
-            let picture = Picture::from(smaller);
+        let fails = |picture: Picture| {
             let fails = is_caught(&self.by, &picture);
             if fails {
                 steps.borrow_mut().push(json!(picture));
             }
             fails
-        });
+        };
+        if self.picture.snap {
+            shrink(self.picture.case()?, |smaller: &Case| fails(Picture::from(smaller)));
+        } else {
+            let case = self.picture.case_as_given()?;
+            offgrid::shrink::shrink(case, |smaller| fails(Picture::from(smaller)));
+        }
         Ok(json!({ "steps": steps.into_inner() }))
     }
 }

@@ -1,4 +1,5 @@
-//! One pixel: what the edge function computes there, and how the scanline came to its row.
+//! One pixel: what the edge function computes there, and how the scanline came to its row; on the
+//! lattice, and for corners as they are given.
 
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -10,9 +11,12 @@ use crate::grid::PixelRect;
 use crate::hazard::Triangle;
 use crate::lineup::Engine;
 use crate::raster::edge_function::probe::edges_at;
+use crate::raster::edge_function_exact;
 use crate::raster::scanline::steps::walked_rows;
+use crate::raster::scanline_exact::probe::crossings_at;
+use crate::triangle::FreeCorners;
 
-/// Asks about a pixel of a picture on the lattice.
+/// Asks about a pixel of a picture.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Look {
@@ -27,9 +31,13 @@ impl Look {
         if !window.contains(x_px, y_px) {
             return Err(format!("pixel {x_px}, {y_px} lies outside the window"));
         }
-        let list = self.picture.on_lattice()?;
-        let triangles: Vec<_> =
-            list.iter().map(|triangle| look(triangle, window, x_px, y_px)).collect();
+        let triangles: Vec<_> = if self.picture.snap {
+            let list = self.picture.on_lattice()?;
+            list.iter().map(|triangle| look(triangle, window, x_px, y_px)).collect()
+        } else {
+            let list = self.picture.as_given()?;
+            list.iter().map(|corners| look_as_given(corners, x_px, y_px)).collect()
+        };
         Ok(json!({ "px": self.px, "triangles": triangles }))
     }
 }
@@ -60,5 +68,29 @@ fn look(triangle: &Triangle, window: PixelRect, x_px: i32, y_px: i32) -> Value {
     json!({
         "edges": edges, "covered": covered, "values": values,
         "rows": walked_rows(corners, window),
+    })
+}
+
+/// The same for corners that are not snapped: what floats compute, how far that may be off, and what
+/// is decided exactly.
+fn look_as_given(corners: &FreeCorners, x_px: i32, y_px: i32) -> Value {
+    let edges = edge_function_exact::probe::edges_at(corners, x_px, y_px);
+    let covered = edges.is_some_and(|edges| {
+        edges.iter().all(|e| e.side.is_gt() || e.side.is_eq() && e.is_top_left)
+    });
+    let edges = edges.map(|edges| {
+        edges.map(|edge| {
+            json!({
+                "ends": edge.ends,
+                "value": format!("{:.3e}", edge.estimate),
+                "bound": edge.bound,
+                "byFilter": edge.estimate.abs() > edge.bound,
+                "sign": edge.side as i8,
+                "topLeft": edge.is_top_left,
+            })
+        })
+    });
+    json!({
+        "edges": edges, "covered": covered, "crossings": crossings_at(corners, y_px),
     })
 }

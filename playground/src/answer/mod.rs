@@ -100,6 +100,12 @@ mod tests {
         assert_eq!(panel(1)["covered"], 12);
         assert_eq!(panel(2)["covered"], 36);
         assert_eq!(panel(2)["hits"].as_str().unwrap().matches('2').count(), 6);
+        assert_eq!(panel(2)["twice"], 6);
+        // Off the lattice the rules are the same ones.
+        let mut free = case;
+        free["snap"] = json!(false);
+        let exact = asked(&json!({ "ask": "draw", "picture": free, "by": by }));
+        assert_eq!(exact["panels"], drawn["panels"]);
     }
 
     /// Questions that make no sense get an answer that says so.
@@ -137,6 +143,36 @@ mod tests {
         let last = shrunk["steps"].as_array().unwrap().last().unwrap().clone();
         let drawn = asked(&json!({ "ask": "draw", "picture": last, "by": ["games101-strict"] }));
         assert!(drawn["panels"][0]["missing"].as_u64().unwrap() > 0, "{drawn}");
+    }
+
+    /// Off the lattice too: an edge missed by less than floats can tell, found and shrunk.
+    #[test]
+    fn a_specimen_is_shrunk_off_the_lattice() {
+        let found = asked(&json!({ "ask": "search", "by": "games101-strict",
+            "family": "f32-tie", "seed": 1, "from": 0, "count": 200 }));
+        let shrunk = asked(&json!({ "ask": "shrink", "by": "games101-strict",
+            "picture": found["picture"] }));
+        let steps = shrunk["steps"].as_array().unwrap();
+        let last = steps.last().unwrap();
+        assert!(steps.len() > 1 && last["snap"] == false, "{shrunk}");
+        let drawn = asked(&json!({ "ask": "draw", "picture": last, "by": ["games101-strict"] }));
+        assert!(drawn["panels"][0]["missing"].as_u64().unwrap() > 0, "{drawn}");
+    }
+
+    /// By hand: the sample (1/2, 1/2) lies 2^-60 px from an edge, which f64 cannot tell from on it.
+    #[test]
+    fn a_pixel_is_explained_off_the_lattice() {
+        let corner = |x: f64, y: f64| json!({ "x": x, "y": y });
+        let x = 2f64.powi(-60);
+        let picture = json!({ "window": [0, 0, 4, 4], "snap": false,
+            "triangles": [[corner(x, 0.0), corner(3.0, 0.0), corner(3.0, 3.0)]] });
+        let looked = asked(&json!({ "ask": "look", "picture": picture, "px": [0, 0] }));
+        let triangle = &looked["triangles"][0];
+        let edge = &triangle["edges"][1];
+        assert_eq!((&edge["ends"], &edge["byFilter"]), (&json!([2, 0]), &json!(false)));
+        assert_eq!((&edge["sign"], &triangle["covered"]), (&json!(-1), &json!(false)), "{looked}");
+        let crossing = &triangle["crossings"][0];
+        assert_eq!((&crossing["by_filter"], &crossing["column"]), (&json!(false), &json!(1)));
     }
 
     /// The digest depends on the seed and on nothing else.

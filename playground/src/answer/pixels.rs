@@ -9,8 +9,10 @@ use crate::frame::Coverage;
 use crate::grid::PixelRect;
 use crate::hazard::Triangle;
 use crate::lineup::{self, Engine, ExactEngine, Specimen, TriangleSpecimen};
+use crate::mutant::exact::ExactMutant;
 use crate::oracle::coverage::samples_on_boundary;
 use crate::oracle::rational::cover_and_count_ties;
+use crate::raster::edge_function_exact::probe::edges_at;
 use crate::specimen::Published as _;
 use crate::triangle::FreeCorners;
 
@@ -24,6 +26,8 @@ pub(super) enum Painter {
     Lattice(Engine),
     /// Corners as they are given.
     Free(ExactEngine),
+    /// The strict rule for corners as they are given: inside of all three edges, by their exact sides.
+    FreeStrict,
     /// A published algorithm, on either.
     Published(TriangleSpecimen),
 }
@@ -31,6 +35,13 @@ pub(super) enum Painter {
 impl Painter {
     /// The one of this name; off the lattice an engine stands for its exact form.
     pub fn find(name: &str, snap: bool) -> Result<Self, String> {
+        match name {
+            "exclusive-edges" if !snap => return Ok(Self::FreeStrict),
+            "inclusive-edges" if !snap => {
+                return Ok(Self::Free(ExactEngine::Mutant(ExactMutant::InclusiveTies)));
+            }
+            _ => {}
+        }
         let rule = RULES.contains(&name).then(|| lineup::find_planted(name)).flatten();
         let entry = lineup::find(name).copied().or(rule);
         let entry = entry.ok_or_else(|| format!("nobody is called {name}"))?;
@@ -68,6 +79,19 @@ impl Painter {
             Self::Free(engine) => {
                 for corners in free(picture)? {
                     engine.cover_exact(&corners, window, |s| hits.hit(s.y_px, s.x0_px, s.x1_px));
+                }
+            }
+            Self::FreeStrict => {
+                for corners in picture.as_given()? {
+                    let is_inside = |x_px: i32, y_px: i32| {
+                        edges_at(&corners, x_px, y_px)
+                            .is_some_and(|edges| edges.iter().all(|edge| edge.side.is_gt()))
+                    };
+                    for y_px in window.y0..window.y1 {
+                        for x_px in (window.x0..window.x1).filter(|&x_px| is_inside(x_px, y_px)) {
+                            hits.hit(y_px, x_px, x_px + 1);
+                        }
+                    }
                 }
             }
             Self::Published(specimen) => {
@@ -124,6 +148,14 @@ pub(super) fn missing_and_extra(hits: &Coverage, truth: &Coverage) -> (u64, u64)
     (missing, extra)
 }
 
+/// Those of the pixels hit too often that are hit more than once.
+fn again(hits: &Coverage, truth: &Coverage) -> usize {
+    let both = hits.rows().zip(truth.rows());
+    both.flat_map(|((_, row), (_, right))| row.iter().zip(right))
+        .filter(|&(hits, right)| hits > right && *hits > 1)
+        .count()
+}
+
 /// Asks for the pixels of a picture by several engines.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -155,7 +187,7 @@ impl Draw {
                 let (missing, extra) = missing_and_extra(&hits, target);
                 json!({
                     "name": name, "hits": digits(&hits), "covered": hits.covered(),
-                    "missing": missing, "extra": extra,
+                    "missing": missing, "extra": extra, "twice": again(&hits, target),
                 })
             }
             Err(refused) => json!({ "name": name, "refused": refused }),

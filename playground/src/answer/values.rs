@@ -35,7 +35,9 @@ fn fragments(
                     .map_err(|refused| refused.to_string())?;
             }
         }
-        Painter::Free(_) => return Err(format!("{name} interpolates nothing")),
+        Painter::Free(_) | Painter::FreeStrict => {
+            return Err(format!("{name} interpolates nothing"));
+        }
     }
     Ok(())
 }

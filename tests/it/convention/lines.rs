@@ -42,6 +42,9 @@ impl Drawer {
             if slope == 0.0 { a[v] } else { a[v] + (b[v] - a[v]) * (at - a[u]) / (b[u] - a[u]) };
         let toward = |end: f64| if end <= ideal { ideal.floor() } else { ideal.ceil() };
         match self.convention.rounding {
+            LineRounding::Behind | LineRounding::Ahead => {
+                unreachable!("they have steps of their own")
+            }
             LineRounding::Down => ideal.floor(),
             LineRounding::Up => ideal.ceil(),
             LineRounding::Toward(end) => toward(if starts_at(end, a, b, u) { a[v] } else { b[v] }),
@@ -61,6 +64,12 @@ impl Drawer {
 
     fn draw(&self, ends: [[i32; 2]; 2]) -> Vec<[i32; 2]> {
         let [a, b] = ends.map(|end| end.map(f64::from));
+        if self.convention == LineConvention::BEHIND {
+            return self.noisy(ends, behind(a, b));
+        }
+        if self.convention == LineConvention::AHEAD {
+            return self.noisy(ends, ahead(a, b));
+        }
         let u = usize::from((b[1] - a[1]).abs() > (b[0] - a[0]).abs());
         let count = (b[u] - a[u]).abs() as i32;
         let at = |v: f64, along: f64| if u == 0 { [along, v] } else { [v, along] };
@@ -85,7 +94,7 @@ impl Drawer {
             pixels = all;
         }
         let right = if (b[0], b[1]) > (a[0], a[1]) { b } else { a };
-        let mut pixels: Vec<_> = pixels
+        let pixels = pixels
             .into_iter()
             .filter(|&p| match self.convention.ends {
                 Ends::Both => true,
@@ -94,14 +103,67 @@ impl Drawer {
                 Ends::WithoutRight => p != right,
                 Ends::Neither => p != a && p != b,
             })
-            .map(|p| p.map(|v| v as i32))
             .collect();
+        self.noisy(ends, pixels)
+    }
+
+    fn noisy(&self, ends: [[i32; 2]; 2], pixels: Vec<[f64; 2]>) -> Vec<[i32; 2]> {
+        let mut pixels: Vec<_> = pixels.into_iter().map(|p| p.map(|v| v as i32)).collect();
         for p in &mut pixels {
             let key =
                 ends.as_flattened().iter().chain(p.iter()).fold(3, |h, &v| hash(h ^ v as u64));
             p[0] += i32::from(key % 1000 < self.noise);
         }
         pixels
+    }
+}
+
+/// Each column (or row) past the first takes the height of the one before.
+fn behind(a: [f64; 2], b: [f64; 2]) -> Vec<[f64; 2]> {
+    let u = usize::from((b[1] - a[1]).abs() >= (b[0] - a[0]).abs());
+    let v = 1 - u;
+    let (low, high) = if a[u] <= b[u] { (a, b) } else { (b, a) };
+    let slope = ((high[v] - low[v]) / (high[u] - low[u]) * 65536.0).trunc() / 65536.0;
+    let mut pixels = Vec::new();
+    let mut height = low[v] + 0.5;
+    let mut along = low[u] + 1.0;
+    while along <= high[u] {
+        pixels.push(if u == 0 { [along, height.floor()] } else { [height.floor(), along] });
+        (along, height) = (along + 1.0, height + slope);
+    }
+    if a[u] > b[u] {
+        pixels.reverse();
+    }
+    pixels
+}
+
+/// Each height is cut down, after half a step more where it grows.
+fn ahead(a: [f64; 2], b: [f64; 2]) -> Vec<[f64; 2]> {
+    let u = usize::from((b[1] - a[1]).abs() > (b[0] - a[0]).abs());
+    let v = 1 - u;
+    let (low, high) = if a[u] <= b[u] { (a, b) } else { (b, a) };
+    let slope = ((high[v] - low[v]) / (high[u] - low[u]).max(1.0) * 65536.0).trunc() / 65536.0;
+    let more = if slope > 0.0 { (slope * 32768.0).ceil() / 65536.0 } else { 0.0 };
+    let place = |step: i32| {
+        let (along, height) = (low[u] + f64::from(step), low[v] + more + f64::from(step) * slope);
+        if u == 0 { [along, height.floor()] } else { [height.floor(), along] }
+    };
+    let mut pixels: Vec<_> = (0..=(high[u] - low[u]) as i32).map(place).collect();
+    if a[u] > b[u] {
+        pixels.reverse();
+    }
+    pixels
+}
+
+/// A step behind, or half a step ahead, is named, and not with noise.
+#[test]
+fn conventions_of_lines_behind_are_named() {
+    let both = [LineConvention::BEHIND, LineConvention::AHEAD];
+    for (convention, noise) in both.into_iter().flat_map(|c| [(c, 0), (c, 20), (c, 200)]) {
+        let found = diagnose_lines(&mut Drawer { convention, noise }, 32, true, 5);
+        let is_named = found.convention == convention && found.confidence == Confidence::Certain;
+        assert_eq!(is_named, noise == 0, "{noise}: {}", found.sentence());
+        super::assert_chinese(&found.sentence());
     }
 }
 
@@ -119,6 +181,7 @@ fn conventions_of_lines_made_up_are_named() {
             let convention = all[number * 59 % all.len()];
             let found = diagnose_lines(&mut Drawer { convention, noise: 0 }, 32, true, 5);
             let named = found.convention == convention;
+            super::assert_chinese(&found.sentence());
             (found.confidence, named, format!("{convention:?}: {}", found.sentence()))
         })
         .collect();

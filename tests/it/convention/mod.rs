@@ -6,15 +6,27 @@ mod specimens;
 mod synthetic;
 
 use rasterproof::convention::{
-    Ask, Confidence, Diagnosis, End, Ends, Known, LineConvention, LineRounding, LineTie, Mirror,
-    Pattern, Quantum, Question, Rounding, Shape, Steps, Ties, Windings, diagnose, diagnose_lines,
+    Ask, Confidence, Convention, Diagnosis, End, Ends, Known, LineConvention, LineRounding,
+    LineTie, Mirror, Pattern, Quantum, Question, Rounding, Scan, Shape, Steps, Ties, Windings,
+    diagnose, diagnose_lines,
 };
 use rasterproof::frame::Coverage;
 use rasterproof::grid::{PixelRect, SubpixelPoint};
+use rasterproof::report::phrases::chinese;
 use rayon::prelude::*;
 
 use recorded::{Recorder, Recording};
 use synthetic::{Mirrored, Owner, Synthetic, hash};
+
+/// Every phrase of a sentence has one in Chinese: no English word is left, but names of directions.
+fn assert_chinese(sentence: &str) {
+    let said = chinese(sentence);
+    let mut words = said.split(|c: char| !c.is_ascii_alphabetic());
+    let known = ["", "px", "N", "NE", "E", "SE", "S", "SW", "W", "NW", "x", "y"];
+    let left = words.find(|word| !known.contains(word));
+    assert_eq!(left, None, "{sentence}\n{said}");
+    assert!(said.ends_with('。'), "{said}");
+}
 
 /// Numbers from a seed.
 struct Dice(u64);
@@ -161,6 +173,7 @@ fn conventions_of_samples_and_mirrors_are_named() {
             if found.convention.mirror != mirror {
                 wrong.push(format!("{:?} not {mirror:?}", found.convention.mirror));
             }
+            assert_chinese(&found.sentence());
             (
                 found.confidence,
                 wrong.is_empty(),
@@ -297,6 +310,41 @@ fn conventions_by_corner_order_are_said_to_be_so() {
     );
 }
 
+/// The scan conversions of libraries, drawn by themselves: each is named, and not where single pixels
+/// are otherwise.
+#[test]
+fn conventions_of_scans_are_named() {
+    struct Drawn(Convention, u64);
+    impl Ask for Drawn {
+        fn ask(&mut self, questions: &[Question]) -> Vec<Option<Coverage>> {
+            let draw = |q: &Question| {
+                let mut picture = self.0.cover(&q.corners, q.window)?;
+                let key = q.corners.iter().fold(7, |h, p| hash(h ^ p.x as u64) ^ p.y as u64);
+                if hash(key) % 1000 < self.1 {
+                    picture.hit(3, 3, 4);
+                }
+                Some(picture)
+            };
+            questions.iter().map(draw).collect()
+        }
+    }
+    for scan in Scan::ALL {
+        let shape = Shape::Scan(scan);
+        let convention = Convention { shape, ..Convention::default() };
+        let found = diagnose(&mut Drawn(convention, 0), &Known::default(), 1);
+        let text = found.sentence();
+        assert_eq!(
+            (found.convention.shape, found.confidence),
+            (shape, Confidence::Certain),
+            "{text}"
+        );
+        assert_chinese(&text);
+        let found = diagnose(&mut Drawn(convention, 100), &Known::default(), 1);
+        let is_sure = found.confidence == Confidence::Certain;
+        assert!(!is_sure, "{scan:?}: {}", found.sentence());
+    }
+}
+
 /// Where coordinates are whole pixels or 1/16 px, what is found predicts all answers on that grid.
 #[test]
 fn conventions_on_coarse_grids_predict() {
@@ -348,10 +396,22 @@ fn conventions_of_libraries_are_named() {
         let exact = found.as_found.general.triangles;
         assert_eq!(exact.drawn, exact.of, "{name}: {text}");
     }
-    for name in ["pillow", "opencv-convex"] {
+    for (name, scan, rule) in [
+        ("cairo", Scan::Above, "1/256 px above the centre"),
+        ("java2d-path", Scan::Coarse, "all cut to 1/1024 px"),
+        ("opencv-convex", Scan::Sides, "without the last row"),
+    ] {
         let found = diagnose(&mut Recording::read(name), &Known::default(), 1);
-        assert_eq!(found.confidence, Confidence::Unexplained, "{name}: {}", found.sentence());
+        let text = found.sentence();
+        let named = (found.convention.shape, found.convention.quantum, found.confidence);
+        let scan = Shape::Scan(scan);
+        assert_eq!(named, (scan, Quantum::NONE, Confidence::Certain), "{name}: {text}");
+        assert!(text.contains(rule), "{name}: {text}");
+        let ties = found.as_found.ties.triangles;
+        assert_eq!(ties.drawn, ties.of, "{name}: {text}");
     }
+    let found = diagnose(&mut Recording::read("pillow"), &Known::default(), 1);
+    assert_eq!(found.confidence, Confidence::Unexplained, "{}", found.sentence());
 }
 
 /// What libraries answered to lines.
@@ -375,7 +435,10 @@ fn conventions_of_library_lines_are_named() {
         assert_eq!(found.both_ways.drawn == found.both_ways.of, both_ways, "{name}: {text}");
         assert_eq!(text.contains("the same from either end"), !both_ways, "{name}: {text}");
     }
-    for name in ["mupdf", "skia", "osmesa-llvmpipe"] {
+    let found = diagnose_lines(&mut Recording::read("skia"), 40, false, 1);
+    let named = (found.convention, found.confidence);
+    assert_eq!(named, (LineConvention::BEHIND, Confidence::Certain), "{}", found.sentence());
+    for name in ["mupdf", "osmesa-llvmpipe"] {
         let found = diagnose_lines(&mut Recording::read(name), 40, false, 1);
         assert_eq!(found.confidence, Confidence::Unexplained, "{name}: {}", found.sentence());
     }

@@ -126,6 +126,7 @@ impl Synthetic {
             Shape::Point { x, y } => self.holds(p, at(x, y)),
             Shape::Rows { left, right, y } => self.row_holds(p, at(left, y), at(right, y)),
             Shape::Stepped { x, y } => stepped(p, at(x, y)),
+            Shape::Scan(_) => unreachable!("these are recorded, and drawn by themselves"),
             Shape::Reach { x, y, reach, square } => {
                 self.reaches(p, at(x, y), f64::from(reach), square)
             }

@@ -6,6 +6,7 @@
 
 use super::depth::share_an_edge;
 use super::survey::of_frame;
+use crate::each::Each as _;
 use crate::effects::piece::{Piece, pixel_box};
 use crate::effects::plan::{Canvas, Clear, Decision, FramePlan, Samples};
 use crate::effects::{Effect, Effects, Mode};
@@ -73,7 +74,7 @@ fn holds(corners: Corners, [(x0, y0), (x1, y1)]: [(i32, i32); 2]) -> bool {
     let centre = |px: i32| px * SUBPIXELS + HALF_PIXEL;
     [(x0, y0), (x1, y0), (x0, y1), (x1, y1)].iter().all(|&(x, y)| {
         let p = SubpixelPoint::new(centre(x), centre(y));
-        let sides = [[a, b, p], [b, c, p], [c, a, p]].map(|side| twice_area(side).signum());
+        let sides = [[a, b, p], [b, c, p], [c, a, p]].each(|side| twice_area(side).signum());
         sides[0] != 0 && sides[0] == sides[1] && sides[1] == sides[2]
     })
 }

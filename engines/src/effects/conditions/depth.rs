@@ -5,6 +5,7 @@
 //! either side of an edge they share count as one: by the fill rule they meet nowhere.
 
 use super::survey::Survey;
+use crate::each::Each as _;
 use crate::effects::piece::{Piece, pixel_box};
 use crate::effects::plan::Decision;
 use crate::effects::{Effect, Effects, Mode};
@@ -116,7 +117,7 @@ fn units(pieces: &[(usize, Piece)], margin_px: i32) -> Vec<Unit> {
 
 /// Whether two triangles have two corners in common and the third ones on either side.
 pub fn share_an_edge(a: &Corners, b: &Corners) -> bool {
-    let [third_a, third_b] = [(a, b), (b, a)].map(|(own, other)| {
+    let [third_a, third_b] = [(a, b), (b, a)].each(|(own, other)| {
         let mut alone = own.iter().filter(|corner| !other.contains(corner));
         alone.next().filter(|_| alone.next().is_none())
     });

@@ -6,6 +6,7 @@
 //! whole, and steps aside where they are too few.
 
 use super::survey::of_frame;
+use crate::each::Each as _;
 use crate::effects::piece::{Prepared, touched};
 use crate::effects::plan::{Canvas, Decision, PiecePlan, Samples};
 use crate::effects::{Effect, Effects, Mode};
@@ -70,7 +71,7 @@ impl Estimate {
         };
         let corners: Vec<Option<SubpixelPoint>> = item.points.iter().map(place).collect();
         for [a, b, c] in &item.item.mesh.triangles {
-            let [a, b, c] = [a, b, c].map(|corner| corners[corner.position as usize]);
+            let [a, b, c] = [a, b, c].each(|corner| corners[corner.position as usize]);
             match (a, b, c) {
                 (Some(a), Some(b), Some(c)) if item.item.cull.removes([a, b, c]) => {}
                 (Some(a), Some(b), Some(c)) => self.see(&[a, b, c], plan),

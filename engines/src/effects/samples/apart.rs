@@ -76,9 +76,11 @@ impl OnDemand {
                     for (i, plane) in target.planes.iter_mut().enumerate() {
                         let moved = pattern.moved(&pieces[serial as usize], i);
                         let Some(moved) = moved else { continue };
-                        engine.affine_fragments(&moved, block, |f| {
-                            let colour = row[(f.x_px / pattern.scale) as usize].colour;
-                            plane.put(f.x_px, f.y_px, format.key(f.depth), colour);
+                        engine.runs(&moved, block, true, &mut |run| {
+                            for (x, depth) in (run.x0_px..).zip(run.depths) {
+                                let colour = row[(x / pattern.scale) as usize].colour;
+                                plane.put(x, run.y_px, format.key(*depth), colour);
+                            }
                         });
                     }
                 }
@@ -110,10 +112,15 @@ impl OnDemand {
         let (mut emitted, mut visible) = (0, 0);
         for (i, plane) in target.planes.iter_mut().enumerate() {
             let Some(moved) = self.pattern.moved(piece, i) else { continue };
-            engine.affine_fragments(&moved, block, |f| {
-                emitted += 1;
-                let key = format.key(f.depth);
-                visible += u64::from(plane.test_and_write(f.x_px, f.y_px, key, || colour));
+            engine.runs(&moved, block, true, &mut |run| {
+                let (x0, x1) = (run.x0_px, run.x1_px());
+                let stored = plane.depth.span_mut(run.y_px, x0, x1);
+                let nearer = format.test_and_write(run.depths, stored);
+                emitted += run.depths.len() as u64;
+                visible += u64::from(nearer.count_ones());
+                for (i, drawn) in plane.colour.span_mut(run.y_px, x0, x1).iter_mut().enumerate() {
+                    *drawn = if nearer >> i & 1 != 0 { colour } else { *drawn };
+                }
             });
         }
         counters.fragments += emitted;
@@ -161,7 +168,11 @@ fn write_part(
         };
         if let Some(piece) = piece {
             let Some(moved) = pattern.moved(piece, i) else { continue };
-            engine.affine_fragments(&moved, block, |f| put(f.x_px, f.y_px, format.key(f.depth)));
+            engine.runs(&moved, block, true, &mut |run| {
+                for (x, depth) in (run.x0_px..).zip(run.depths) {
+                    put(x, run.y_px, format.key(*depth));
+                }
+            });
         } else {
             for y in block.y0..block.y1 {
                 (block.x0..block.x1).for_each(|x| put(x, y, CLEAR));

@@ -2,6 +2,7 @@
 //! computes at the samples it covers there.
 
 use super::pattern::Pattern;
+use crate::each::Each as _;
 use crate::effects::piece::Piece;
 use crate::grid::SUBPIXELS;
 use crate::pipeline::assemble::twice_area;
@@ -39,10 +40,10 @@ impl Plane {
     pub fn new(piece: &Piece, pattern: Pattern) -> Self {
         let [a, b, c] = piece
             .vertices
-            .map(|vertex| (i128::from(vertex.position.x), i128::from(vertex.position.y)));
+            .each(|vertex| (i128::from(vertex.position.x), i128::from(vertex.position.y)));
         let area = twice_area(piece.corners());
         let pixel = i128::from(pattern.scale * SUBPIXELS);
-        let [first, second, third] = piece.vertices.map(|vertex| vertex.depth);
+        let [first, second, third] = piece.vertices.each(|vertex| vertex.depth);
         let weight = |from: (i128, i128), to: (i128, i128), depth: f64| {
             let (dx, dy) = (to.0 - from.0, to.1 - from.1);
             // In half subpixels, so that the middle is whole.
@@ -58,7 +59,7 @@ impl Plane {
         let weights = [weight(c, a, second), weight(a, b, third)];
         // What a pixel adds to the depth along an axis, and that without regard to signs.
         let sum = |per: fn(&Weight) -> f64| -> [f64; 2] {
-            let [one, two] = [0, 1].map(|i| weights[i].slope * per(&weights[i]));
+            let [one, two] = [0, 1].each(|i| weights[i].slope * per(&weights[i]));
             [(one + two).abs(), one.abs() + two.abs()]
         };
         let ([x, all_x], [y, all_y]) = (sum(|weight| weight.per_x), sum(|weight| weight.per_y));
@@ -74,8 +75,8 @@ impl Plane {
     pub fn keys(&self, x_px: i32, y_px: i32, format: DepthFormat) -> (u64, u64) {
         let (x, y) = (f64::from(x_px), f64::from(y_px));
         let [t1, t2] = [0, 1]
-            .map(|i| &self.weights[i])
-            .map(|w| w.slope * (w.origin + w.per_x * x + w.per_y * y));
+            .each(|i| &self.weights[i])
+            .each(|w| w.slope * (w.origin + w.per_x * x + w.per_y * y));
         let middle = self.depth + (t1 + t2);
         let half = self.half_range + Self::ERROR * (1.0 + t1.abs() + t2.abs());
         (format.key(middle - half), format.key(middle + half))

@@ -25,12 +25,12 @@ use self::pattern::{Pattern, PixelRow};
 use self::pixel::{Meeting, Pixel, Pool, State};
 use super::piece::{Piece, pack, touched};
 use super::plan::{PiecePlan, Samples};
-use crate::contract::Interpolate;
+use crate::contract::{Interpolate, RUN};
 use crate::frame::Frame;
 use crate::grid::PixelRect;
 use crate::pipeline::Counters;
 use crate::pipeline::depth::CLEAR;
-use crate::pipeline::fill::{Way, fill, fragments_of_pass};
+use crate::pipeline::fill::{Stage, Way, each, fill, shade};
 use crate::pipeline::shade::Attributes;
 use crate::pipeline::target::{Colour, Target};
 use crate::triangle::{ScreenTriangle, Varying};
@@ -97,7 +97,8 @@ impl OnDemand {
         if self.policy.tells_apart(rect, plan, self.pattern.planes) {
             if self.tell_box_apart(engine, piece, depth, target, counters) {
                 let (bounds, way) = (target.bounds(), Way { affine: true, depth_test: true });
-                fill(engine, &pack::<0, 0>(piece), target, bounds, way, |_| colour, counters);
+                let (piece, stage) = (pack::<0, 0>(piece), each(|_| colour));
+                fill(engine, &piece, target, bounds, way, &stage, counters);
             }
             return;
         }
@@ -124,7 +125,7 @@ impl OnDemand {
         packed: &ScreenTriangle<V>,
         target: &mut Target,
         plan: PiecePlan,
-        fragment_stage: &dyn Fn(&V) -> Colour,
+        stage: &Stage<'_, V>,
         counters: &mut Counters,
     ) {
         let way = Way { affine: !plan.perspective, depth_test: plan.depth };
@@ -132,7 +133,7 @@ impl OnDemand {
         // Supersampled attributes that vary leave no pixel whole, whatever an edited plan says.
         if self.pattern.planes == 1 || self.policy.tells_apart(rect, plan, self.pattern.planes) {
             if self.tell_box_apart(engine, piece, way.depth_test, target, counters) {
-                fill(engine, packed, target, target.bounds(), way, fragment_stage, counters);
+                fill(engine, packed, target, target.bounds(), way, stage, counters);
             }
             return;
         }
@@ -141,16 +142,25 @@ impl OnDemand {
         let runs = std::mem::take(&mut self.runs);
         for &run in &runs {
             self.tell_apart(engine, run, target, counters);
-            fill(engine, packed, target, run.rect(), way, fragment_stage, counters);
+            fill(engine, packed, target, run.rect(), way, stage, counters);
         }
         self.runs = runs;
         let Some(state) = met else { return };
         let (pixels, mut shaded) = (&mut self.pixels, 0);
-        fragments_of_pass(engine, packed, target.bounds(), way.affine, &mut |f| {
-            let pixel = &mut pixels.span_mut(f.y_px, f.x_px, f.x_px + 1)[0];
-            if pixel.state == state {
-                shaded += 1;
-                pixel.colour = fragment_stage(&f.varying);
+        engine.runs(packed, target.bounds(), way.affine, &mut |run| {
+            let pixels = pixels.span_mut(run.y_px, run.x0_px, run.x1_px());
+            let mut colours = [[0; 4]; RUN];
+            let mut wanted = 0;
+            for (i, pixel) in pixels.iter().enumerate() {
+                wanted |= u32::from(pixel.state == state) << i;
+            }
+            if wanted == 0 {
+                return;
+            }
+            shaded += u64::from(wanted.count_ones());
+            shade(run.values, wanted, stage, &mut colours[..pixels.len()]);
+            for (i, (pixel, colour)) in pixels.iter_mut().zip(colours).enumerate() {
+                pixel.colour = if wanted >> i & 1 != 0 { colour } else { pixel.colour };
             }
         });
         counters.fragments += shaded;
@@ -262,13 +272,23 @@ impl OnDemand {
     /// The picture: whole pixels as they are, the others as the mean of their samples.
     pub(super) fn resolve(&self, target: &Target) -> Frame<Colour> {
         let mut picture = Frame::new(target.size(), [0; 4]);
+        let mut sums = Vec::new();
         for (y_px, row) in self.pixels.rows() {
-            for (x_px, (pixel, held)) in (0..).zip(picture.row_mut(y_px).iter_mut().zip(row)) {
-                *pixel = match held.state {
-                    State::Apart => target.pixel(x_px, y_px),
-                    State::Parts(index) => self.pool.parts[index as usize].mean(),
-                    State::Background | State::Whole(_) => held.colour,
-                };
+            let mut x_px = 0;
+            for run in row.chunk_by(|a, b| (a.state == State::Apart) == (b.state == State::Apart)) {
+                let end_px = x_px + run.len() as i32;
+                let pixels = picture.span_mut(y_px, x_px, end_px);
+                if run[0].state == State::Apart {
+                    target.resolve_run(y_px, x_px, pixels, &mut sums);
+                } else {
+                    for (pixel, held) in pixels.iter_mut().zip(run) {
+                        *pixel = match held.state {
+                            State::Parts(index) => self.pool.parts[index as usize].mean(),
+                            _ => held.colour,
+                        };
+                    }
+                }
+                x_px = end_px;
             }
         }
         picture

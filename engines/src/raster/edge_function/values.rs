@@ -5,7 +5,7 @@ use super::{
     BatchedWalk, Edge, EdgeFunction, Exact, WordWidth, centre, edges, extents, pixel_box,
     twice_area, walk_in_batches,
 };
-use crate::contract::Interpolate;
+use crate::contract::{Interpolate, RUN, Run, Varyings};
 use crate::grid::{PixelRect, SUBPIXELS};
 use crate::triangle::{Corners, Fragment, ScreenTriangle, Span, Varying};
 
@@ -36,6 +36,24 @@ impl Interpolate for EdgeFunction {
             fragments_in::<V, false>(&triangle.with_equal_w(), bounds, walk, wide, emit);
         }
     }
+
+    fn runs<V: Varying>(
+        &self,
+        triangle: &ScreenTriangle<V>,
+        bounds: PixelRect,
+        affine: bool,
+        take: &mut dyn FnMut(Run<'_, V>),
+    ) {
+        let (extent_x, extent_y) = extents(&triangle.corners());
+        let (walk, wide) = walk_of(WordWidth::of(extent_x, extent_y));
+        if !affine {
+            runs_in::<V, false>(triangle, bounds, walk, wide, take);
+        } else if is_exact(extent_x, extent_y) {
+            runs_in::<V, true>(triangle, bounds, walk, wide, take);
+        } else {
+            runs_in::<V, false>(&triangle.with_equal_w(), bounds, walk, wide, take);
+        }
+    }
 }
 
 /// The walk in words of a width, and whether E itself needs more than 64 bits.
@@ -63,39 +81,54 @@ fn is_exact(extent_x: u32, extent_y: u32) -> bool {
 /// three w are equal: then the reciprocal is the same at every pixel.
 ///
 /// `walk` finds the spans, and `wide` says that E needs 128 bits; neither changes a value.
-pub(super) fn fragments_in<V: Varying, const AFFINE: bool>(
+fn fragments_in<V: Varying, const AFFINE: bool>(
     triangle: &ScreenTriangle<V>,
     bounds: PixelRect,
     walk: BatchedWalk,
     wide: bool,
     mut emit: impl FnMut(Fragment<V>),
 ) {
-    let Some(setup) = Setup::new(triangle.corners(), bounds, wide) else { return };
-    let [i0, i1, i2] = setup.order;
-    let [v0, v1, v2] = [&triangle.vertices[i0], &triangle.vertices[i1], &triangle.vertices[i2]];
-
-    // Prepare what is constant over the triangle.
-    let largest = v0.inv_w.max(v1.inv_w).max(v2.inv_w);
-    let values = Values {
-        first: (v0.depth, v0.varying),
-        depth: [v1.depth - v0.depth, v2.depth - v0.depth],
-        varying: [v1.varying - v0.varying, v2.varying - v0.varying],
-        q: [v0.inv_w / largest, v1.inv_w / largest, v2.inv_w / largest],
-        inv_area: 1.0 / setup.area,
-        steps: setup.steps,
-    };
+    let Some((setup, values)) = Values::of(triangle, bounds, wide) else { return };
     debug_assert!(setup.exact || !AFFINE);
     // Where f64 does not step E exactly, each pixel starts anew.
     let chunk = if setup.exact { i32::MAX } else { 1 };
-
     walk(&setup.edges, setup.rect, &mut |spans| {
-        for span in spans {
-            let mut x0_px = span.x0_px;
-            while x0_px < span.x1_px {
-                let x1_px = span.x1_px.min(x0_px.saturating_add(chunk));
-                let e = setup.at(x0_px, span.y_px);
-                values.fill::<AFFINE>(e, Span { x0_px, x1_px, ..*span }, &mut emit);
-                x0_px = x1_px;
+        for &Span { y_px, x0_px, x1_px } in spans {
+            let mut x_px = x0_px;
+            while x_px < x1_px {
+                let end_px = x1_px.min(x_px.saturating_add(chunk));
+                let e = setup.at(x_px, y_px);
+                values.fill::<AFFINE>(e, Span { y_px, x0_px: x_px, x1_px: end_px }, &mut emit);
+                x_px = end_px;
+            }
+        }
+    });
+}
+
+/// The same in runs, with the same bits.
+pub(super) fn runs_in<V: Varying, const AFFINE: bool>(
+    triangle: &ScreenTriangle<V>,
+    bounds: PixelRect,
+    walk: BatchedWalk,
+    wide: bool,
+    take: &mut dyn FnMut(Run<'_, V>),
+) {
+    let Some((setup, values)) = Values::of(triangle, bounds, wide) else { return };
+    debug_assert!(setup.exact || !AFFINE);
+    let chunk = if setup.exact { RUN as i32 } else { 1 };
+    let mut room = [values.first.1; RUN];
+    walk(&setup.edges, setup.rect, &mut |spans| {
+        for &Span { y_px, x0_px, x1_px } in spans {
+            let mut x_px = x0_px;
+            while x_px < x1_px {
+                let end_px = x1_px.min(x_px.saturating_add(chunk));
+                let e = setup.at(x_px, y_px);
+                let mut depths = [0.0; RUN];
+                let depths = &mut depths[..(end_px - x_px) as usize];
+                values.fill_depths(e, depths);
+                let values = &mut Part::<V, AFFINE> { values: &values, e, room: &mut room };
+                take(Run { y_px, x0_px: x_px, depths, values });
+                x_px = end_px;
             }
         }
     });
@@ -113,6 +146,24 @@ struct Values<V> {
 }
 
 impl<V: Varying> Values<V> {
+    /// Nothing where no sample is covered.
+    #[inline]
+    fn of(triangle: &ScreenTriangle<V>, bounds: PixelRect, wide: bool) -> Option<(Setup, Self)> {
+        let setup = Setup::new(triangle.corners(), bounds, wide)?;
+        let [i0, i1, i2] = setup.order;
+        let [v0, v1, v2] = [&triangle.vertices[i0], &triangle.vertices[i1], &triangle.vertices[i2]];
+        let largest = v0.inv_w.max(v1.inv_w).max(v2.inv_w);
+        let values = Self {
+            first: (v0.depth, v0.varying),
+            depth: [v1.depth - v0.depth, v2.depth - v0.depth],
+            varying: [v1.varying - v0.varying, v2.varying - v0.varying],
+            q: [v0.inv_w / largest, v1.inv_w / largest, v2.inv_w / largest],
+            inv_area: 1.0 / setup.area,
+            steps: setup.steps,
+        };
+        Some((setup, values))
+    }
+
     /// Emits the fragments of a span, at whose first pixel the three E are `e`. By value, so that the
     /// loop need not look again at numbers that `emit` might have written to.
     #[inline]
@@ -138,6 +189,43 @@ impl<V: Varying> Values<V> {
             });
             e = [e[0] + steps[0], e[1] + steps[1], e[2] + steps[2]];
         }
+    }
+
+    /// The depths of a run, at whose first pixel the three E are `e`.
+    #[inline]
+    fn fill_depths(&self, e: [f64; 3], depths: &mut [f64]) {
+        let Self { first: (z0, _), depth: [z1, z2], inv_area, steps, .. } = *self;
+        for (number, depth) in (0_i32..).zip(depths) {
+            let number = f64::from(number);
+            let (e1, e2) = (e[1] + number * steps[1], e[2] + number * steps[2]);
+            *depth = z0 + (z1 * e1 + z2 * e2) * inv_area;
+        }
+    }
+}
+
+/// The run at whose first pixel the three E are `e`: f64 steps them exactly, or it has one pixel.
+struct Part<'a, V, const AFFINE: bool> {
+    values: &'a Values<V>,
+    e: [f64; 3],
+    room: &'a mut [V; RUN],
+}
+
+impl<V: Varying, const AFFINE: bool> Varyings<V> for Part<'_, V, AFFINE> {
+    fn varyings(&mut self, from: usize, to: usize) -> &[V] {
+        let Values { first: (_, v0), varying: [d1, d2], q, inv_area, steps, .. } = *self.values;
+        let e = self.e;
+        for (number, value) in (from as i32..).zip(&mut self.room[from..to]) {
+            let number = f64::from(number);
+            let e = [e[0] + number * steps[0], e[1] + number * steps[1], e[2] + number * steps[2]];
+            let (a, inv_sum) = if AFFINE {
+                (e, inv_area)
+            } else {
+                let a = [e[0] * q[0], e[1] * q[1], e[2] * q[2]];
+                (a, 1.0 / ((a[0] + a[1]) + a[2]))
+            };
+            *value = v0 + (d1 * a[1] + d2 * a[2]) * inv_sum;
+        }
+        &self.room[from..to]
     }
 }
 

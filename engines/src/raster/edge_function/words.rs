@@ -3,9 +3,9 @@
 
 use std::ops::{Add, BitOr};
 
-use super::values::fragments_in;
+use super::values::runs_in;
 use super::{EdgeFunction, Word, WordWidth, cover_in, extents, walk_in_batches};
-use crate::contract::{Interpolate, Rasterize};
+use crate::contract::{Interpolate, Rasterize, Run};
 use crate::grid::PixelRect;
 use crate::triangle::{Corners, Fragment, ScreenTriangle, Span, Varying};
 
@@ -51,31 +51,40 @@ impl Interpolate for EdgeFunctionIn {
         &self,
         triangle: &ScreenTriangle<V>,
         bounds: PixelRect,
-        emit: impl FnMut(Fragment<V>),
+        mut emit: impl FnMut(Fragment<V>),
     ) {
-        match self.0 {
-            Words::Narrowest => EdgeFunction.fragments(triangle, bounds, emit),
-            Words::Widest => {
-                let walk = walk_in_batches::<i128, i128>;
-                fragments_in::<V, false>(triangle, bounds, walk, true, emit);
-            }
-            Words::Narrow => {
-                let walk = walk_in_batches::<i128, Wrapping>;
-                fragments_in::<V, false>(triangle, bounds, walk, true, emit);
-            }
-        }
+        self.runs(triangle, bounds, false, &mut |run| run.each(&mut emit));
     }
 
     fn affine_fragments<V: Varying>(
         &self,
         triangle: &ScreenTriangle<V>,
         bounds: PixelRect,
-        emit: impl FnMut(Fragment<V>),
+        mut emit: impl FnMut(Fragment<V>),
     ) {
-        match self.0 {
-            Words::Narrowest => EdgeFunction.affine_fragments(triangle, bounds, emit),
-            _ => self.fragments(&triangle.with_equal_w(), bounds, emit),
-        }
+        self.runs(triangle, bounds, true, &mut |run| run.each(&mut emit));
+    }
+
+    fn runs<V: Varying>(
+        &self,
+        triangle: &ScreenTriangle<V>,
+        bounds: PixelRect,
+        affine: bool,
+        take: &mut dyn FnMut(Run<'_, V>),
+    ) {
+        let walk = match self.0 {
+            Words::Narrowest => return EdgeFunction.runs(triangle, bounds, affine, take),
+            Words::Widest => walk_in_batches::<i128, i128>,
+            Words::Narrow => walk_in_batches::<i128, Wrapping>,
+        };
+        let equal;
+        let triangle = if affine {
+            equal = triangle.with_equal_w();
+            &equal
+        } else {
+            triangle
+        };
+        runs_in::<V, false>(triangle, bounds, walk, true, take);
     }
 }
 

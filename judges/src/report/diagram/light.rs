@@ -10,7 +10,7 @@ use crate::pipeline::shade::Light;
 
 /// One normal, light from four directions, and how bright the surface is.
 pub fn cosine() -> String {
-    let mut sheet = Sheet::new(560.0, 200.0);
+    let mut sheet = Sheet::new(590.0, 200.0);
     for (i, degrees) in [0.0f64, 45.0, 75.0, 120.0].into_iter().enumerate() {
         let foot = [75.0 + 135.0 * i as f64, 150.0];
         let angle = degrees.to_radians();

@@ -716,7 +716,7 @@
     const columns = mode === 'side' ? getComputedStyle($('#stage')).gridTemplateColumns.split(' ').length : 1;
     const gap = 13 * (columns - 1);
     const room = $('#viewer').clientWidth;
-    const high = Math.max(220, Math.round(window.innerHeight * (mode === 'side' ? 0.42 : 0.56)));
+    const high = Math.max(220, Math.round(window.innerHeight * (mode === 'side' ? 0.42 : item.isCase ? 0.56 : 0.68)));
     const crop = cropOf(item, state.a, state.b);
     const axis = axisWide(item);
     const fit = (wide) => cellFor(crop, wide - axis, high);
@@ -1152,6 +1152,17 @@
   };
 
   /** Where a case is explained: a link where the page knows the way to the docs. */
+  /** What opens a case in the playground, which knows names, numbers and places; nothing for others. */
+  const playgroundWords = (item) => {
+    const form = /^rasterproof inspect( --line)? '?(.+?)'?(?: --seed (\d+))?$/;
+    const [, line, what = '', seed] = form.exec(item.command ?? '') ?? [];
+    if (/^[\w.#-]+$/.test(what)) return { case: what, ...(seed && { seed }) };
+    const points = what.split(' ');
+    if (!points.every((point) => /^[-+.\de]+,[-+.\de]+$/.test(point))) return null;
+    const window = [item.x0, item.y0, item.x0 + item.width, item.y0 + item.height].join();
+    return line ? { scene: 'line', lines: points.join(), window } : { t: points.join('_'), window };
+  };
+
   const chapterOf = (item) => {
     const { title, path } = item.chapter ?? {};
     if (!title) return [];
@@ -1190,13 +1201,9 @@
     $('#case-found').textContent = item.found;
     $('#case-command').hidden = !item.command;
     $('#case-command code').textContent = item.command;
-    // A case with a name or a number is one that the playground knows too.
-    const known = /^rasterproof inspect '?([\w.#-]+)'?(?: --seed (\d+))?$/.exec(item.command ?? '');
-    $('#case-playground').hidden = !known;
-    if (known) {
-      const words = new URLSearchParams({ case: known[1], ...(known[2] && { seed: known[2] }) });
-      $('#case-playground a').href = `playground.html#${words}`;
-    }
+    const words = playgroundWords(item);
+    $('#case-playground').hidden = !words;
+    if (words) $('#case-playground a').href = `playground.html#${new URLSearchParams(words)}`;
     if (MODES.some(([mode]) => mode === settings.mode)) state.mode = settings.mode;
     all('#modes input').forEach((input) => { input.checked = input.value === state.mode; });
     fillPickers();

@@ -1,0 +1,57 @@
+//! What an engine of the line-up answers about depth order and the near plane: the book's stages
+//! around it, a depth buffer and the clipper of the pipeline.
+
+use std::collections::BTreeMap;
+
+use glam::{DVec2, DVec4};
+
+use super::finding::push;
+use crate::contract::{Interpolate as _, Rasterize as _};
+use crate::grid::PixelRect;
+use crate::hazard::Triangle;
+use crate::lineup::Engine;
+use crate::pipeline::ClipVertex;
+use crate::pipeline::clip::{Plane, clip};
+use crate::triangle::Span;
+
+/// Fragments of one request; their depths are kept until all of them are known.
+const MOST_FRAGMENTS: u64 = 1 << 20;
+
+/// Runs of pixels with the number of the triangle that is nearest; of equal depths the first drawn.
+///
+/// # Errors
+/// The triangles have more fragments than are kept.
+pub(super) fn seen(
+    engine: Engine,
+    list: &[Triangle],
+    window: PixelRect,
+) -> Result<Vec<(Span, u8)>, String> {
+    let mut pixels = 0;
+    for triangle in list {
+        let mut count = |span: Span| pixels += u64::from(span.x0_px.abs_diff(span.x1_px));
+        engine.cover(triangle.corners(), window, &mut count);
+    }
+    if pixels > MOST_FRAGMENTS {
+        return Err(format!("{pixels} fragments; a request may have {MOST_FRAGMENTS}"));
+    }
+    let mut buffer: BTreeMap<(i32, i32), (f64, u8)> = BTreeMap::new();
+    for (number, triangle) in (0..).zip(list) {
+        engine.fragments(triangle, window, |f| {
+            let nearest = buffer.entry((f.y_px, f.x_px)).or_insert((f.depth, number));
+            if f.depth < nearest.0 {
+                *nearest = (f.depth, number);
+            }
+        });
+    }
+    let mut runs = Vec::new();
+    buffer.into_iter().for_each(|((y, x), (_, number))| push(&mut runs, x, y, number));
+    Ok(runs)
+}
+
+/// The corners that the near plane leaves.
+pub(super) fn clipped(corners: [[f64; 4]; 3]) -> Vec<[f64; 4]> {
+    let vertex =
+        |position| ClipVertex { position: DVec4::from_array(position), varying: DVec2::ZERO };
+    let (polygon, _) = clip(&corners.map(vertex), Plane::Near.bit());
+    polygon.vertices().map(|v| v.position.to_array()).collect()
+}

@@ -1,0 +1,97 @@
+// Address and command.
+
+const FIELDS = ['x', 'y', 'w', 'depth', 'u', 'v'];
+
+function address() {
+  const words = new URLSearchParams({ scene: state.scene });
+  if (state.named) words.set('case', state.named);
+  else if (state.generated) {
+    words.set('case', `${state.generated.family}#${state.generated.index}`);
+    words.set('seed', state.generated.seed);
+  }
+  else if (state.lines) words.set('lines', state.lines.map((line) => line.flat().join(',')).join(';'));
+  else if (state.triangles) {
+    // What is as everywhere is left out: w = 1, and values of 0.
+    const corner = (c) => {
+      const values = FIELDS.map((f) => c[f] ?? (f === 'w' ? 1 : 0));
+      return values.slice(0, 1 + values.findLastIndex((value, i) => i < 2 || value !== (i === 2 ? 1 : 0))).join(',');
+    };
+    words.set('t', state.triangles.map((t) => t.map(corner).join('_')).join(';'));
+  }
+  if (state.window) words.set('window', state.window.join(','));
+  if (state.by) words.set('by', state.by.join(','));
+  if (state.px) words.set('px', state.px.join(','));
+  if (state.snap === false) words.set('snap', '0');
+  if (state.numbers) words.set('numbers', '1');
+  for (const key of scene().keeps ?? []) words.set(key, typeof state[key] === 'object' ? JSON.stringify(state[key]) : state[key]);
+  if (state.lang !== 'en') words.set('lang', state.lang);
+  return `#${words.toString().replaceAll('%2C', ',').replaceAll('%3B', ';')}`;
+}
+
+let keeping = 0;
+function keepAddress() {
+  clearTimeout(keeping);
+  // Browsers refuse addresses that change at every frame.
+  keeping = setTimeout(() => history.replaceState(null, '', address()), 250);
+}
+
+/** Restores what an address says; what it does not say is as the scene begins. */
+function restore(hash) {
+  const words = new URLSearchParams(hash.replace(/^#/, ''));
+  state.lang = words.get('lang') ?? (navigator.language.startsWith('zh') ? 'zh' : 'en');
+  if (!WORDS[state.lang]) state.lang = 'en';
+  begin(SCENES[words.get('scene')] ? words.get('scene') : 'triangle');
+  const numbers = (text) => text.split(',').map(Number);
+  const wanted = words.get('case');
+  if (wanted) {
+    const [family, index] = wanted.split('#');
+    const seed = Number(words.get('seed') ?? 1);
+    const found = index === undefined ? ask({ ask: 'named', name: wanted }) : ask({ ask: 'generated', family, seed, index: Number(index) });
+    load(found, index === undefined ? { named: wanted } : { generated: { family, seed, index: Number(index) } });
+  }
+  const good = (list) => list.every((n) => Number.isFinite(n));
+  const lines = words.get('lines')?.split(';').map(numbers);
+  if (lines?.every((l) => l.length === 4 && good(l)) && state.lines) state.lines = lines.map(([a, b, c, d]) => [[a, b], [c, d]]);
+  const triangles = words.get('t')?.split(';').map((t) => t.split('_').map(numbers));
+  if (triangles?.every((t) => t.length === 3 && t.every((c) => c.length >= 2 && good(c))) && state.triangles) {
+    state.triangles = triangles.map((t) => t.map((c) => Object.fromEntries(FIELDS.map((f, i) => [f, c[i] ?? (f === 'w' ? 1 : 0)]))));
+  }
+  const window = words.get('window') && numbers(words.get('window'));
+  if (window?.length === 4 && good(window) && state.window) state.window = window.map(Math.round);
+  const by = words.get('by')?.split(',');
+  if (by && state.by) { state.by = by.slice(0, 4); state.four = by.length === 4; }
+  const px = words.get('px') && numbers(words.get('px'));
+  if (px?.length === 2 && good(px)) state.px = px;
+  if (words.get('snap') === '0') state.snap = false;
+  state.numbers = words.get('numbers') === '1';
+  for (const key of scene().keeps ?? []) {
+    const text = words.get(key);
+    if (text === null) continue;
+    try { state[key] = typeof state[key] === 'string' ? text : JSON.parse(text); } catch { /* as the scene begins */ }
+  }
+  keepPixel();
+}
+
+/** What shows the same on the command line; nothing where there is no such command. */
+function command() {
+  const point = (c) => `${c.x},${c.y}`;
+  if (state.named) return `rasterproof inspect ${state.named}`;
+  if (state.generated) return `rasterproof inspect '${state.generated.family}#${state.generated.index}' --seed ${state.generated.seed}`;
+  if (state.lines) return `rasterproof inspect --line ${state.lines[0].map((end) => end.join(',')).join(' ')}`;
+  if (!state.triangles || !state.snap) return '';
+  return state.triangles.slice(0, 2).map((t) => `rasterproof inspect ${t.map(point).join(' ')}`).join('\n');
+}
+
+async function copy(text) {
+  try {
+    await navigator.clipboard.writeText(text);
+  } catch {
+    const area = make('textarea', { value: text });
+    document.body.append(area);
+    area.select();
+    document.execCommand('copy');
+    area.remove();
+  }
+  $('copied').textContent = word('copied');
+  setTimeout(() => { $('copied').textContent = ''; }, 1500);
+}

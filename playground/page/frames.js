@@ -1,0 +1,69 @@
+// Frames: what is asked and drawn when something changed.
+
+let pending = false;
+function redraw() {
+  if (pending) return;
+  pending = true;
+  requestAnimationFrame(() => {
+    pending = false;
+    const begun = performance.now();
+    drawFrame();
+    frames.push(performance.now() - begun);
+    if (frames.length > 1000) frames.shift();
+  });
+  keepAddress();
+}
+
+function drawFrame() {
+  const answer = scene().ask();
+  trouble(answer.error);
+  if (!answer.error) {
+    last.answer = answer;
+    const panels = scene().panels(answer);
+    while (shown.length > panels.length) shown.pop().figure.remove();
+    $('panels').dataset.count = panels.length;
+    panels.forEach((_, i) => { shown[i] ??= newPanel(i); });
+    // Read before anything is written, so that the page is laid out once.
+    for (const panel of shown) panel.width = panel.canvas.clientWidth;
+    panels.forEach((panel, i) => drawPanel(panel, i, answer));
+  }
+  explain(answer);
+  drawCorners();
+  pressTools();
+  const same = command();
+  if ($('command').textContent !== same) $('command').textContent = same;
+  $('as-command').hidden = same === '';
+}
+
+/** What is said beside the panels. Tables take longer than pixels, so they follow a drag ten times a second. */
+let explained = 0;
+let explaining = 0;
+function explain(answer) {
+  clearTimeout(explaining);
+  const wait = explained + 100 - performance.now();
+  if (wait > 0) { explaining = setTimeout(() => explain(last.answer), wait); return; }
+  explained = performance.now();
+  last.look = null;
+  if (state.px && state.triangles) {
+    const look = ask({ ask: 'look', picture: picture(), px: state.px });
+    last.look = look.error ? null : look;
+  }
+  fill($('look'), scene().look && !answer.error ? scene().look(answer) : []);
+  const handle = handles()[state.chosen];
+  const outputs = shown.map((panel) => panel.canvas.getAttribute('aria-label'));
+  const texts = [...$('look').querySelectorAll('h2, .say')].map((element) => element.textContent);
+  const said = [handle ? `${corner(state.chosen)} ${handle.x}, ${handle.y}` : '', ...outputs, ...texts].join('. ');
+  if ($('announce').textContent !== said) $('announce').textContent = said;
+}
+
+function trouble(text) {
+  $('trouble').hidden = !text;
+  $('trouble').textContent = text ?? '';
+}
+
+/** New contents; what had the focus and is there again keeps it. */
+function fill(element, children) {
+  const focused = element.contains(document.activeElement) ? document.activeElement.id : '';
+  element.replaceChildren(...children.filter(Boolean));
+  if (focused) $(focused)?.focus();
+}

@@ -1,0 +1,135 @@
+// What scenes are made of: tables, fields, sliders, steps and how pixels are judged.
+
+const at = (x, y, more = {}) => ({ x, y, w: 1, depth: 0, u: 0, v: 0, ...more });
+const corner = (i) => LETTERS[i % LETTERS.length];
+const table = (head, rows) => make('div', { className: 'scroll' }, make('table', {},
+  make('thead', {}, make('tr', {}, ...head.map((cell) => make('th', {}, cell)))),
+  make('tbody', {}, ...rows.map((row) => make('tr', {}, ...row.map((cell, i) => (
+    cell instanceof Node ? make('td', {}, cell) : make('td', { className: i && /^[-\d.]/.test(cell) ? 'number' : '' }, String(cell)))))))));
+const round = (value, digits = 4) => (Number.isFinite(value) ? String(Number(value.toFixed(digits))) : '–');
+const mix = (value) => Math.round(255 * Math.max(0, Math.min(1, value)));
+
+/** Names with a label, for a panel to choose from. */
+function painters() {
+  const rules = [['exclusive-edges', word('strict')], ['inclusive-edges', word('inclusive')]];
+  const label = (name) => (name === 'edge-function' ? `${name}: ${word('tl')}` : name);
+  return [...names.triangles.slice(0, 2).map((e) => [e.name, label(e.name)]), ...rules, ...names.triangles.slice(2).map((e) => [e.name, e.name])];
+}
+
+/** A pixel by its hits and what they should be. */
+function judged(hits, right) {
+  const [is, should] = [Number(hits), Number(right)];
+  if (is === 0 && should === 0) return null;
+  if (is < should) return { colour: colours.missing, glyph: is ? String(is) : '−' };
+  const glyph = is > 1 || state.numbers ? String(is) : '';
+  if (is > should) return { colour: is > 1 ? colours.twice : colours.extra, glyph: glyph || '+' };
+  return { colour: colours.agrees, glyph };
+}
+
+function verdict(panel) {
+  if (panel.refused) return { says: `${word('refused')}: ${panel.refused}`, bad: true };
+  const { missing, extra, twice = 0, covered } = panel;
+  const wrong = missing + extra > 0;
+  const counts = [[missing, 'missing'], [extra - twice, 'extra'], [twice, 'twice']].filter(([count]) => count > 0);
+  const says = wrong ? counts.map(([count, kind]) => `${count} ${word(kind)}`).join(', ') : word('agrees');
+  return { says: (covered === undefined ? '' : `${covered} ${word('covered')}: `) + says, bad: wrong };
+}
+
+/** What two painters of an answer make of each pixel differently. */
+function difference({ panels: [a, b] }) {
+  const label = ({ name }) => painters().find(([value]) => value === name)?.[1] ?? name;
+  const title = `${label(a)} − ${label(b)}`;
+  if (!a.hits || !b.hits) return { title, says: word('refused'), bad: true };
+  const count = [...a.hits].filter((hits, i) => hits !== b.hits[i]).length;
+  return {
+    title, says: count ? `${count} ${word('differ')}` : word('same'), bad: count > 0,
+    pixel: (i) => judged(a.hits[i], b.hits[i]),
+  };
+}
+
+/** The rules, to choose for the second panel at one press. */
+const RULES = { 'exclusive-edges': 'strict', 'inclusive-edges': 'inclusive', 'edge-function': 'tl' };
+function rules() {
+  const choose = (name) => () => { state.by[1] = name; redraw(); };
+  const buttons = Object.entries(RULES).map(([name, key]) => button(word(key), choose(name), { id: `rule-${key}`, 'data-by': name }));
+  return make('span', { className: 'group', attr: { role: 'group', 'aria-label': word('ruleOf') } }, `${word('ruleOf')} `, ...buttons);
+}
+
+const SQUARE = [[at(2.5, 2.5), at(10.5, 2.5), at(10.5, 10.5)], [at(2.5, 10.5), at(2.5, 2.5), at(10.5, 10.5)]];
+const RIM = [[11.5, 6.5], [10.5, 10.5], [6.5, 12.5], [2.5, 10.5], [1.5, 6.5], [2.5, 2.5], [6.5, 0.5], [10.5, 2.5]];
+const SHAPES = {
+  square: SQUARE,
+  fan: RIM.map((rim, i) => [at(6.5, 6.5), at(...rim), at(...RIM[(i + 1) % RIM.length])]),
+  single: [[at(2.25, 1.75), at(11.5, 4.5), at(5, 12.25)]],
+};
+function shapes() {
+  const take = (name) => () => { load({ picture: { window: [0, 0, 14, 14], snap: true, triangles: structuredClone(SHAPES[name]) } }, {}); };
+  const buttons = Object.keys(SHAPES).map((name) => button(word(name), take(name), { id: `shape-${name}` }));
+  return make('span', { className: 'group', attr: { role: 'group', 'aria-label': word('shape') } }, `${word('shape')} `, ...buttons);
+}
+
+/** Two panels, or four. */
+function setFour() {
+  const more = ['scanline', 'oracle', 'inclusive-edges', 'games101-strict', 'exclusive-edges'];
+  while (state.four && state.by.length < 4) state.by.push(more.find((name) => !state.by.includes(name)) ?? 'oracle');
+  if (!state.four) state.by.length = 2;
+}
+
+/** A value of the corners, in the table; at least `low`. */
+function field(key, low, step) {
+  return { key, step, get: (handle) => handle.members[0][key], set: (handle, value) => setField(handle, key, Math.max(low, value)) };
+}
+
+function setField(handle, key, value) {
+  for (const member of handle.members) member[key] = value;
+}
+
+/** A slider for a value of each corner. */
+const sliders = (key, range) => handles().map((handle, i) => (
+  slide(`${key} ${corner(i)}`, handle.members[0][key], range, (next) => setField(handles()[i], key, next))));
+
+function snapAll() {
+  for (const c of state.triangles.flat()) Object.assign(c, { x: Math.round(c.x * SUB) / SUB, y: Math.round(c.y * SUB) / SUB });
+}
+
+function stepper() {
+  const range = make('input', { type: 'range', id: 'step', min: 0, max: 64, value: state.step });
+  range.addEventListener('input', () => stepTo(Number(range.value)));
+  return range;
+}
+
+function stepTo(step) {
+  const most = last.answer?.lines?.[0]?.length ?? 0;
+  state.step = Math.max(0, Math.min(step, most));
+  if ($('step')) Object.assign($('step'), { max: most, value: state.step });
+  redraw();
+}
+
+function playSteps() {
+  clearInterval(state.playing);
+  stepTo(0);
+  state.playing = setInterval(() => {
+    const before = state.step;
+    if (state.scene === 'line') stepTo(state.step + 1);
+    if (state.scene !== 'line' || state.step === before) clearInterval(state.playing);
+  }, 250);
+}
+
+/** t against t', as a curve in a square, with the diagonal for comparison. */
+function plot(pairs) {
+  const path = pairs.map(([screen, space], i) => `${i ? 'L' : 'M'}${(screen * 100).toFixed(2)} ${(100 - space * 100).toFixed(2)}`).join('');
+  const svg = document.createElementNS('http://www.w3.org/2000/svg', 'svg');
+  svg.setAttribute('viewBox', '-4 -4 108 108');
+  svg.setAttribute('role', 'img');
+  svg.setAttribute('aria-label', word('tPlot'));
+  svg.style.maxWidth = '14rem';
+  const line = (d, colour, width) => {
+    const element = document.createElementNS('http://www.w3.org/2000/svg', 'path');
+    for (const [name, value] of Object.entries({ d, fill: 'none', stroke: colour, 'stroke-width': width })) element.setAttribute(name, value);
+    svg.append(element);
+  };
+  line('M0 0V100H100', colours.cursor, 0.8);
+  line('M0 100L100 0', colours.grid, 1);
+  line(path, colours.edge, 2);
+  return svg;
+}

@@ -1,0 +1,39 @@
+// The whole: draws a scene anew, and starts the page.
+
+function drawAll() {
+  document.documentElement.lang = state.lang === 'zh' ? 'zh-CN' : 'en';
+  for (const element of document.querySelectorAll('[data-word]')) element.textContent = word(element.dataset.word);
+  $('scenes').setAttribute('aria-label', word('scenes'));
+  $('tools').setAttribute('aria-label', word('engines'));
+  fill($('scenes'), Object.keys(SCENES).map((name) => button(word(name), () => { begin(name); drawAll(); }, { 'aria-pressed': name === state.scene, id: `scene-${name}` })));
+  $('about').textContent = WORDS[state.lang].about[state.scene];
+  $('panels').replaceChildren();
+  shown = [];
+  cornersFor = '';
+  clearTimeout(explaining);
+  explained = 0;
+  hunt = null;
+  drawTools();
+  drawBreak();
+  redraw();
+}
+
+function start() {
+  const text = $('module').textContent.trim();
+  compiled = new WebAssembly.Module(Uint8Array.from(atob(text), (c) => c.charCodeAt(0)));
+  instantiate();
+  names = ask({ ask: 'list' });
+  readColours();
+  restore(location.hash);
+  drawAll();
+  $('language').addEventListener('click', () => { state.lang = state.lang === 'en' ? 'zh' : 'en'; drawAll(); });
+  $('copy').addEventListener('click', () => copy($('command').textContent));
+  $('copy-address').addEventListener('click', () => { history.replaceState(null, '', address()); copy(location.href); });
+  $('reset').addEventListener('click', () => { begin(state.scene); drawAll(); });
+  addEventListener('resize', redraw);
+  addEventListener('hashchange', () => { restore(location.hash); drawAll(); });
+  document.body.dataset.ready = '';
+  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => { readColours(); redraw(); });
+}
+
+start();

@@ -1,0 +1,82 @@
+// Tools and the table of corners.
+
+function button(label, act, attr = {}) {
+  const made = make('button', { type: 'button', attr }, label);
+  made.addEventListener('click', act);
+  return made;
+}
+
+function check(label, key, then = () => {}) {
+  const box = make('input', { type: 'checkbox', checked: state[key], attr: { 'data-state': key } });
+  box.addEventListener('change', () => { state[key] = box.checked; then(); redraw(); });
+  return make('label', {}, box, ` ${label}`);
+}
+
+function slide(label, value, [low, high, step], set) {
+  const range = make('input', { type: 'range', min: low, max: high, step, value });
+  const says = make('output', {}, String(value));
+  range.addEventListener('input', () => { set(Number(range.value)); says.textContent = range.value; redraw(); });
+  return make('label', { className: 'group' }, `${label} `, range, ' ', says);
+}
+
+function drawTools() {
+  const tools = [];
+  if (!scene().handles) {
+    tools.push(make('span', { className: 'group' },
+      button('−', () => zoom(1), { 'aria-label': word('zoomOut') }), button('+', () => zoom(-1), { 'aria-label': word('zoomIn') }),
+      button('←', () => pan(-1, 0), { 'aria-label': word('panLeft') }), button('→', () => pan(1, 0), { 'aria-label': word('panRight') }),
+      button('↑', () => pan(0, -1), { 'aria-label': word('panUp') }), button('↓', () => pan(0, 1), { 'aria-label': word('panDown') })));
+  }
+  fill($('tools'), [...tools, ...(scene().tools?.() ?? [])]);
+}
+
+/** Buttons show what is chosen, wherever it was chosen. */
+function pressTools() {
+  for (const button of $('tools').querySelectorAll('[data-by]')) {
+    const pressed = String(state.by?.[1] === button.dataset.by);
+    if (button.getAttribute('aria-pressed') !== pressed) button.setAttribute('aria-pressed', pressed);
+  }
+}
+
+/** Corners as numbers; built anew only when there are other ones, so that typing is not disturbed. */
+let cornersFor = '';
+function drawCorners() {
+  const all = handles();
+  const fields = scene().fields ?? [];
+  const key = JSON.stringify([state.scene, state.lang, all.length, state.snap, fields.map((f) => f.key)]);
+  if (key !== cornersFor) {
+    cornersFor = key;
+    buildCorners(all, fields);
+  }
+  for (const input of $('corners').querySelectorAll('input')) {
+    const handle = all[Number(input.dataset.corner)];
+    const value = fields.find((f) => f.key === input.dataset.key)?.get(handle) ?? handle[input.dataset.key];
+    const text = String(state.lines ? Math.floor(value) : value);
+    if (document.activeElement !== input && input.value !== text) input.value = text;
+  }
+  [...$('corners').querySelectorAll('tbody tr')].forEach((row, i) => row.classList.toggle('chosen', i === state.chosen));
+}
+
+function buildCorners(all, fields) {
+  const columns = [{ key: 'x' }, { key: 'y' }, ...fields];
+  const head = make('tr', {}, make('th', {}, word(state.lines ? 'end' : 'corner')), ...columns.map((c) => make('th', {}, c.key)));
+  const rows = all.map((handle, i) => {
+    const cells = columns.map((column) => {
+      const step = state.lines ? 1 : column.step ?? (state.snap ? 1 / SUB : 'any');
+      const input = make('input', { type: 'number', attr: { step, 'data-corner': i, 'data-key': column.key, 'aria-label': `${LETTERS[i % 26]} ${column.key}` } });
+      input.addEventListener('input', () => {
+        const value = Number(input.value);
+        const now = handles()[i];
+        if (input.value === '' || !Number.isFinite(value) || !now) return;
+        if (column.set) { column.set(now, value); redraw(); } else place(now, column.key === 'x' ? value : now.x, column.key === 'y' ? value : now.y);
+      });
+      input.addEventListener('focus', () => { state.chosen = i; });
+      return make('td', {}, input);
+    });
+    return make('tr', {}, make('th', { scope: 'row' }, LETTERS[i % 26]), ...cells);
+  });
+  fill($('corners'), [
+    make('h2', { id: 'corners-title' }, word('corners')),
+    make('div', { className: 'scroll' }, make('table', {}, make('thead', {}, head), make('tbody', {}, ...rows))),
+  ]);
+}

@@ -1,0 +1,117 @@
+//! `rasterproof verify --engine vulkan:0`: a Vulkan device on the stand; and which devices there are.
+
+use std::io::Write;
+
+use rasterproof_vulkan::device::find;
+use rasterproof_vulkan::gpu::campaign::{self, Stand};
+use rasterproof_vulkan::gpu::engine::{Gpu, PREFIX};
+use rasterproof_vulkan::gpu::look;
+use rasterproof_vulkan::gpu::plant::Plant;
+use rasterproof_vulkan::gpu::text;
+
+use super::page::{PageArguments, write_page};
+use super::progress::Progress;
+use super::{Failure, Streams, exit, program, usage, write_entry};
+use crate::frame::Coverage;
+use crate::grid::PixelRect;
+use crate::judge::Options;
+use crate::triangle::Corners;
+
+/// Cases of each family where nothing is said.
+const CASES: u64 = 1000;
+
+/// What is asked of a device.
+pub struct Job<'a> {
+    /// Its name, `vulkan:0`.
+    pub engine: &'a str,
+    /// Cases of each family, where they are said.
+    pub cases: Option<u64>,
+    /// What to judge; its number of cases is that of `cases`.
+    pub options: Options,
+    /// JSON instead of text.
+    pub json: bool,
+    /// Whether a page is written, and where.
+    pub page: &'a PageArguments,
+}
+
+impl Job<'_> {
+    fn repeat(&self, words: &str) -> String {
+        let seed = self.options.seed;
+        format!("{} verify --engine {}{words} --seed {seed}", program(), self.engine)
+    }
+
+    fn repeat_all(&self, cases: u64) -> String {
+        let families = self.options.families.iter().map(|f| format!(" --family {f}"));
+        let case = self.options.only.map(|case| format!(" --case {case}")).unwrap_or_default();
+        self.repeat(&format!("{}{case} --cases {cases}", families.collect::<String>()))
+    }
+}
+
+/// Judges a device.
+pub fn verify(job: &Job<'_>, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+    let gpu = Gpu::named(job.engine).map_err(|error| usage(error.to_string()))?;
+    let limited = job.options.time_limit.is_some();
+    let cases = job.cases.unwrap_or(if limited { u64::MAX / 4 } else { CASES });
+    let options = Options { cases, ..job.options.clone() };
+    let families = campaign::families(&options.families).len() as u64;
+    if families == 0 {
+        return Err(usage(
+            "a device is asked families of triangles within f32: not lines, far, w-extreme or stages",
+        ));
+    }
+    let total = (!limited).then(|| families.saturating_mul(cases));
+    let bar = Progress::new(streams.progress, "cases", total);
+    let stand = campaign::judge(gpu, &options, &|cases| bar.done(cases));
+    drop(bar);
+    let judged = stand.verdict.found.rows.iter().map(|row| row.cases).max().unwrap_or(0);
+    let cases = if limited { judged } else { cases };
+    print(job, &stand, cases, streams)?;
+    Ok(if stand.agrees() { exit::AGREES } else { exit::DISAGREES })
+}
+
+fn print(
+    job: &Job<'_>,
+    stand: &Stand,
+    cases: u64,
+    streams: &mut Streams<'_>,
+) -> Result<(), Failure> {
+    let repeat =
+        |family: &str, index: u64| job.repeat(&format!(" --family {family} --case {index}"));
+    let all = job.repeat_all(cases);
+    let said = if job.json { text::json(stand, &repeat) } else { text::text(stand, &all, &repeat) };
+    streams.output.write_all(said.as_bytes())?;
+    streams.output.flush()?;
+    if job.page.report {
+        let page = text::page(stand, &all, &repeat);
+        write_page(&job.page.place.out.join("vulkan.html"), page, streams.errors)?;
+    }
+    Ok(())
+}
+
+/// The hits of triangles in a window as a device draws them.
+pub fn coverage(engine: &str, list: &[Corners], window: PixelRect) -> Result<Coverage, Failure> {
+    let failed = |error: rasterproof_vulkan::device::Error| usage(error.to_string());
+    let mut gpu = Gpu::named(engine).map_err(failed)?;
+    look::coverage(&mut gpu, list, window).map_err(failed)
+}
+
+/// The devices that there are, or why there are none.
+pub fn list(out: &mut dyn Write) -> Result<(), Failure> {
+    writeln!(out, "\nVulkan devices (rasterproof verify --engine NAME):")?;
+    match find::list() {
+        Ok(all) => {
+            for device in all {
+                let name = format!("{PREFIX}{}", device.number);
+                write_entry(out, &format!("{name:<19}"), &text::device(&device.about))?;
+            }
+        }
+        Err(error) => {
+            for line in error.to_string().lines() {
+                writeln!(out, "  {}", line.trim())?;
+            }
+        }
+    }
+    writeln!(out, "\nFaults to plant in a device (rasterproof verify --engine NAME+FAULT):")?;
+    let names = Plant::ALL.map(|(name, _)| name).join(" ");
+    Ok(write_entry(out, "", &names)?)
+}

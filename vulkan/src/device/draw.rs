@@ -1,0 +1,433 @@
+//! Draws lists of primitives, thousands a submission, and reads them back once.
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use ash::vk;
+
+use super::memory::Buffer;
+use super::open::Opened;
+use super::stage::{CELL_PX, CELLS, Kind, PAGE_PX, Stage, VERTEX_BYTES};
+use super::{Error, While as _};
+
+/// Bytes that are read back from one submission at most.
+const MOST_BYTES: usize = 1 << 26;
+/// Seconds that a submission may take.
+const PATIENCE_S: u64 = 120;
+/// Cells of a page.
+const PAGE_CELLS: usize = (CELLS * CELLS) as usize;
+
+/// A vertex: clip coordinates, and two attributes.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Vertex {
+    /// x, y, z, w.
+    pub clip: [f32; 4],
+    /// What is interpolated.
+    pub attributes: [f32; 2],
+}
+
+/// A primitive in a cell.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Draw {
+    /// The cell; several may be drawn into one, in order. Cells of a list must not decrease.
+    pub cell: usize,
+    /// Its corners; of a line the first two.
+    pub vertices: [Vertex; 3],
+    /// The viewport's left and upper side in pixels from those of the cell, its width and height.
+    pub viewport: [f32; 4],
+    /// Columns and rows that are drawn into, from the cell's corner; on its page.
+    pub window: [u32; 2],
+}
+
+/// A planted failure, to see that it is told and survived.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Failing {
+    /// The device is lost at the submission of this number.
+    Lost(u64),
+    /// Memory is short at the submission of this number.
+    OutOfMemory(u64),
+}
+
+/// What was drawn: the pixels of every cell.
+#[derive(PartialEq)]
+pub struct Pictures {
+    kind: Kind,
+    bytes: Vec<u8>,
+}
+
+impl Draw {
+    /// Where it is drawn.
+    fn place(&self) -> (usize, [f32; 4], [u32; 2]) {
+        (self.cell, self.viewport, self.window)
+    }
+}
+
+/// Commands that are recorded once and run often; what a benchmark times.
+pub struct Prepared {
+    commands: vk::CommandBuffer,
+    // Read by every run.
+    _vertices: Buffer,
+}
+
+impl Pictures {
+    /// The pixels of a row of a cell, [`Kind::pixel_bytes`] each.
+    #[must_use]
+    pub fn row(&self, cell: usize, y_px: u32, width: u32) -> &[u8] {
+        let size = self.kind.pixel_bytes();
+        let (page, cell) = (cell / PAGE_CELLS, cell % PAGE_CELLS);
+        let (column, row) = (cell % CELLS as usize, cell / CELLS as usize);
+        let y = row * CELL_PX as usize + y_px as usize;
+        let pixel = (page * PAGE_PX as usize + y) * PAGE_PX as usize + column * CELL_PX as usize;
+        &self.bytes[pixel * size..(pixel + width as usize) * size]
+    }
+}
+
+/// Draws on one device.
+pub struct Painter {
+    device: Arc<Opened>,
+    pool: vk::CommandPool,
+    fence: vk::Fence,
+    stages: HashMap<Kind, Stage>,
+    vertices: Option<Buffer>,
+    pages: Option<Buffer>,
+    submissions: u64,
+    failing: Option<Failing>,
+    /// A submission failed: the device may still be at work on it, so nothing is touched any more.
+    given_up: bool,
+}
+
+impl Drop for Painter {
+    fn drop(&mut self) {
+        // SAFETY: the device may still work where a submission was given up; what was recorded and
+        // drawn into goes after that, with the fields.
+        unsafe {
+            // A lost device waits for nothing.
+            let _ = self.device.raw.device_wait_idle();
+            self.device.raw.destroy_fence(self.fence, None);
+            self.device.raw.destroy_command_pool(self.pool, None);
+        }
+    }
+}
+
+impl Painter {
+    /// Gets ready to draw.
+    ///
+    /// # Errors
+    /// The driver fails.
+    pub fn new(device: &Arc<Opened>, failing: Option<Failing>) -> Result<Self, Error> {
+        let info = vk::CommandPoolCreateInfo::default().queue_family_index(device.family);
+        // SAFETY: the family is one of the device's.
+        let pool = unsafe { device.raw.create_command_pool(&info, None) };
+        let mut painter = Self {
+            device: Arc::clone(device),
+            pool: pool.during("creating a command pool")?,
+            fence: vk::Fence::null(),
+            stages: HashMap::new(),
+            vertices: None,
+            pages: None,
+            submissions: 0,
+            failing,
+            given_up: false,
+        };
+        // SAFETY: the device is alive.
+        let fence = unsafe { device.raw.create_fence(&vk::FenceCreateInfo::default(), None) };
+        painter.fence = fence.during("creating a fence")?;
+        Ok(painter)
+    }
+
+    /// The device that is drawn on.
+    #[must_use]
+    pub fn device(&self) -> &Arc<Opened> {
+        &self.device
+    }
+
+    /// Submissions so far.
+    #[must_use]
+    pub fn submissions(&self) -> u64 {
+        self.submissions
+    }
+
+    /// Draws a list into so many cells, each clear before.
+    ///
+    /// # Errors
+    /// The device cannot draw this kind, is lost, hangs, or memory is short.
+    ///
+    /// # Panics
+    /// If cells are out of order or a window does not fit its page.
+    pub fn draw(&mut self, kind: Kind, cells: usize, draws: &[Draw]) -> Result<Pictures, Error> {
+        self.check(kind, cells, draws)?;
+        let page_bytes = (PAGE_PX * PAGE_PX) as usize * kind.pixel_bytes();
+        let pages = cells.div_ceil(PAGE_CELLS);
+        let at_once = (MOST_BYTES / page_bytes).max(1);
+        let mut bytes = Vec::with_capacity(pages * page_bytes);
+        let mut rest = draws;
+        for first in (0..pages).step_by(at_once) {
+            let end = pages.min(first + at_once);
+            let (here, later) = rest.split_at(rest.partition_point(|d| d.cell < end * PAGE_CELLS));
+            rest = later;
+            self.submit(kind, first..end, here)?;
+            let read = self.pages.as_ref().map_or(&[][..], Buffer::bytes);
+            bytes.extend_from_slice(&read[..(end - first) * page_bytes]);
+        }
+        Ok(Pictures { kind, bytes })
+    }
+
+    /// Records a list on one page, to be run often; what it draws is not read back.
+    ///
+    /// # Errors
+    /// As [`Painter::draw`].
+    pub fn prepare(&mut self, kind: Kind, draws: &[Draw]) -> Result<Prepared, Error> {
+        self.check(kind, 1, draws)?;
+        let bytes = vertex_bytes(kind, draws);
+        let usage = vk::BufferUsageFlags::VERTEX_BUFFER;
+        let mut vertices = Buffer::new(&self.device, bytes.len().max(1), usage)?;
+        vertices.write(&bytes);
+        let commands = self.record(kind, 0..1, draws, &vertices, None)?;
+        Ok(Prepared { commands, _vertices: vertices })
+    }
+
+    /// Submits what this painter prepared, and waits for it.
+    ///
+    /// # Errors
+    /// The device is lost or hangs.
+    pub fn run_prepared(&mut self, prepared: &Prepared) -> Result<(), Error> {
+        if self.given_up {
+            return Err(Error::Lost("drawing after a failure"));
+        }
+        let done = self.run(prepared.commands);
+        self.given_up = done.is_err();
+        done
+    }
+
+    fn check(&mut self, kind: Kind, cells: usize, draws: &[Draw]) -> Result<(), Error> {
+        self.supports(kind)?;
+        if self.given_up {
+            return Err(Error::Lost("drawing after a failure"));
+        }
+        assert!(draws.is_sorted_by_key(|d| d.cell), "cells are in order");
+        let fits = |d: &Draw| {
+            let (_, scissor) = place(d);
+            let (offset, extent) = (scissor.offset, scissor.extent);
+            d.cell < cells.next_multiple_of(PAGE_CELLS)
+                && offset.x as u32 + extent.width <= PAGE_PX
+                && offset.y as u32 + extent.height <= PAGE_PX
+        };
+        assert!(draws.iter().all(fits), "cells and windows lie on their page");
+        if !self.stages.contains_key(&kind) {
+            let stage = Stage::new(&self.device, kind)?;
+            self.stages.insert(kind, stage);
+        }
+        Ok(())
+    }
+
+    fn supports(&self, kind: Kind) -> Result<(), Error> {
+        let about = &self.device.about;
+        let missing = match kind {
+            Kind::Samples if !about.four_samples => "four samples a pixel",
+            Kind::RectangularLines if !about.rectangular_lines => "rectangular lines by choice",
+            Kind::BresenhamLines if !about.bresenham_lines => "Bresenham lines",
+            _ => return Ok(()),
+        };
+        Err(Error::Unsupported(format!("{} has no {missing}", about.device)))
+    }
+
+    fn submit(
+        &mut self,
+        kind: Kind,
+        pages: std::ops::Range<usize>,
+        draws: &[Draw],
+    ) -> Result<(), Error> {
+        self.submissions += 1;
+        match self.failing {
+            Some(Failing::Lost(at)) if at == self.submissions => {
+                return Err(Error::Lost("waiting for a submission"));
+            }
+            Some(Failing::OutOfMemory(at)) if at == self.submissions => {
+                return Err(Error::OutOfMemory("allocating memory of the device"));
+            }
+            _ => {}
+        }
+        let page_bytes = (PAGE_PX * PAGE_PX) as usize * kind.pixel_bytes();
+        let device = Arc::clone(&self.device);
+        let room = |buffer: &mut Option<Buffer>, size: usize, usage| {
+            if buffer.as_ref().is_none_or(|b| b.size < size) {
+                // The old one first: both may not fit.
+                *buffer = None;
+                *buffer = Some(Buffer::new(&device, size, usage)?);
+            }
+            Ok(())
+        };
+        let bytes = vertex_bytes(kind, draws);
+        room(&mut self.vertices, bytes.len().max(1), vk::BufferUsageFlags::VERTEX_BUFFER)?;
+        room(&mut self.pages, pages.len() * page_bytes, vk::BufferUsageFlags::TRANSFER_DST)?;
+        if let Some(vertices) = &mut self.vertices {
+            vertices.write(&bytes);
+        }
+        let (Some(vertices), Some(into)) = (&self.vertices, &self.pages) else {
+            return Err(Error::OutOfMemory("allocating buffers"));
+        };
+        let commands = self.record(kind, pages, draws, vertices, Some(into))?;
+        if let Err(error) = self.run(commands) {
+            self.given_up = true;
+            return Err(error);
+        }
+        // SAFETY: the submission was waited for.
+        unsafe { self.device.raw.free_command_buffers(self.pool, &[commands]) };
+        Ok(())
+    }
+
+    /// Records pages, each copied `into` a buffer behind the one before it; commands that copy nothing
+    /// may be run often.
+    fn record(
+        &self,
+        kind: Kind,
+        pages: std::ops::Range<usize>,
+        draws: &[Draw],
+        vertices: &Buffer,
+        into: Option<&Buffer>,
+    ) -> Result<vk::CommandBuffer, Error> {
+        let raw = &self.device.raw;
+        let info = vk::CommandBufferAllocateInfo::default()
+            .command_pool(self.pool)
+            .level(vk::CommandBufferLevel::PRIMARY)
+            .command_buffer_count(1);
+        // SAFETY: the pool is of this device, and one thread at a time has it.
+        let commands = unsafe { raw.allocate_command_buffers(&info) };
+        let commands = commands.during("allocating a command buffer")?[0];
+        let mut begin = vk::CommandBufferBeginInfo::default();
+        if into.is_some() {
+            begin = begin.flags(vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT);
+        }
+        // SAFETY: the buffer is fresh.
+        unsafe { raw.begin_command_buffer(commands, &begin) }.during("recording")?;
+        let (mut rest, mut first) = (draws, 0);
+        for (page, at) in pages.zip(0..) {
+            let count = rest.partition_point(|d| d.cell < (page + 1) * PAGE_CELLS);
+            self.record_page(commands, kind, &rest[..count], first, vertices);
+            if let Some(into) = into {
+                self.record_copy(commands, kind, at, into);
+            }
+            (rest, first) = (&rest[count..], first + count as u32 * kind.corners());
+        }
+        let barrier = [vk::MemoryBarrier::default()
+            .src_access_mask(vk::AccessFlags::TRANSFER_WRITE)
+            .dst_access_mask(vk::AccessFlags::HOST_READ)];
+        let (copies, host) = (vk::PipelineStageFlags::TRANSFER, vk::PipelineStageFlags::HOST);
+        // SAFETY: recording, outside of a render pass.
+        unsafe {
+            let none = vk::DependencyFlags::empty();
+            raw.cmd_pipeline_barrier(commands, copies, host, none, &barrier, &[], &[]);
+            raw.end_command_buffer(commands)
+        }
+        .during("recording")?;
+        Ok(commands)
+    }
+
+    /// Records a page: cleared and drawn. What follows one another in one place is one draw.
+    fn record_page(
+        &self,
+        commands: vk::CommandBuffer,
+        kind: Kind,
+        draws: &[Draw],
+        first_vertex: u32,
+        vertices: &Buffer,
+    ) {
+        let raw = &self.device.raw;
+        let stage = &self.stages[&kind];
+        let clear = [vk::ClearValue::default(); 2];
+        let all = vk::Rect2D {
+            offset: vk::Offset2D::default(),
+            extent: vk::Extent2D { width: PAGE_PX, height: PAGE_PX },
+        };
+        let begin = vk::RenderPassBeginInfo::default()
+            .render_pass(stage.render_pass)
+            .framebuffer(stage.framebuffer)
+            .render_area(all)
+            .clear_values(&clear);
+        // SAFETY: every handle is of this device and alive; the viewport and the scissor are set
+        // before each draw, and the vertices lie within their buffer.
+        unsafe {
+            raw.cmd_begin_render_pass(commands, &begin, vk::SubpassContents::INLINE);
+            raw.cmd_bind_vertex_buffers(commands, 0, &[vertices.raw], &[0]);
+            for pass in &stage.passes {
+                let graphics = vk::PipelineBindPoint::GRAPHICS;
+                raw.cmd_bind_pipeline(commands, graphics, pass.pipeline);
+                let (fragment, step) = (vk::ShaderStageFlags::FRAGMENT, pass.step.to_ne_bytes());
+                raw.cmd_push_constants(commands, stage.layout, fragment, 0, &step);
+                let mut first = first_vertex;
+                for same in draws.chunk_by(|a, b| a.place() == b.place()) {
+                    let (viewport, scissor) = place(&same[0]);
+                    raw.cmd_set_viewport(commands, 0, &[viewport]);
+                    raw.cmd_set_scissor(commands, 0, &[scissor]);
+                    let count = kind.corners() * same.len() as u32;
+                    raw.cmd_draw(commands, count, 1, first, 0);
+                    first += count;
+                }
+            }
+            raw.cmd_end_render_pass(commands);
+        }
+    }
+
+    /// Records the copy of a page behind those before it.
+    fn record_copy(&self, commands: vk::CommandBuffer, kind: Kind, at: u64, into: &Buffer) {
+        let (raw, stage) = (&self.device.raw, &self.stages[&kind]);
+        let layers = vk::ImageSubresourceLayers::default()
+            .aspect_mask(vk::ImageAspectFlags::COLOR)
+            .layer_count(1);
+        let region = [vk::BufferImageCopy::default()
+            .buffer_offset(at * u64::from(PAGE_PX * PAGE_PX) * kind.pixel_bytes() as u64)
+            .image_subresource(layers)
+            .image_extent(vk::Extent3D { width: PAGE_PX, height: PAGE_PX, depth: 1 })];
+        let layout = vk::ImageLayout::TRANSFER_SRC_OPTIMAL;
+        // SAFETY: the render pass leaves the page in this layout, and the buffer has room for all.
+        unsafe {
+            raw.cmd_copy_image_to_buffer(commands, stage.page.raw, layout, into.raw, &region);
+        }
+    }
+
+    fn run(&self, commands: vk::CommandBuffer) -> Result<(), Error> {
+        let raw = &self.device.raw;
+        let buffers = [commands];
+        let submit = [vk::SubmitInfo::default().command_buffers(&buffers)];
+        // SAFETY: one thread at a time has the queue; the fence is unsignalled, as it was made or reset.
+        unsafe { raw.queue_submit(self.device.queue, &submit, self.fence) }.during("submitting")?;
+        // SAFETY: the fence is of this device.
+        let waited =
+            unsafe { raw.wait_for_fences(&[self.fence], true, PATIENCE_S * 1_000_000_000) };
+        match waited {
+            Err(vk::Result::TIMEOUT) => return Err(Error::Hangs(PATIENCE_S)),
+            other => other.during("waiting for a submission")?,
+        }
+        // SAFETY: it was waited for.
+        unsafe { raw.reset_fences(&[self.fence]) }.during("waiting for a submission")
+    }
+}
+
+/// The viewport and the scissor of a draw on its page.
+fn place(draw: &Draw) -> (vk::Viewport, vk::Rect2D) {
+    let cell = (draw.cell % PAGE_CELLS) as u32;
+    let (x, y) = (cell % CELLS * CELL_PX, cell / CELLS * CELL_PX);
+    let [left, top, width, height] = draw.viewport;
+    let viewport = vk::Viewport {
+        x: x as f32 + left,
+        y: y as f32 + top,
+        width,
+        height,
+        min_depth: 0.0,
+        max_depth: 1.0,
+    };
+    let offset = vk::Offset2D { x: x as i32, y: y as i32 };
+    let [width, height] = draw.window;
+    (viewport, vk::Rect2D { offset, extent: vk::Extent2D { width, height } })
+}
+
+fn vertex_bytes(kind: Kind, draws: &[Draw]) -> Vec<u8> {
+    let corners = kind.corners() as usize;
+    let mut bytes = Vec::with_capacity(draws.len() * corners * VERTEX_BYTES as usize);
+    for vertex in draws.iter().flat_map(|d| &d.vertices[..corners]) {
+        for word in vertex.clip.iter().chain(&vertex.attributes) {
+            bytes.extend_from_slice(&word.to_ne_bytes());
+        }
+    }
+    bytes
+}

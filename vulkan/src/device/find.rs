@@ -1,0 +1,203 @@
+//! The loader, and the devices that it knows.
+
+use std::ffi::{CStr, c_char};
+use std::path::Path;
+use std::sync::Arc;
+
+use ash::vk;
+
+use super::{Error, While as _};
+
+/// The loader with an instance of it; everything else holds it.
+pub struct Instance {
+    // Dropped after `raw`'s last use: the library stays loaded as long as this value lives.
+    _entry: ash::Entry,
+    pub(super) raw: ash::Instance,
+}
+
+impl Drop for Instance {
+    fn drop(&mut self) {
+        // SAFETY: whatever was made from the instance holds this value, so nothing of it is left.
+        unsafe { self.raw.destroy_instance(None) };
+    }
+}
+
+/// A device that the loader knows, and what it says of itself.
+#[derive(Clone)]
+pub struct Listed {
+    pub(super) instance: Arc<Instance>,
+    pub(super) handle: vk::PhysicalDevice,
+    /// Its number in the list.
+    pub number: usize,
+    /// What it says of itself.
+    pub about: About,
+}
+
+/// What a device says of itself.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct About {
+    /// The name of the device.
+    pub device: String,
+    /// The name of the driver, where it is said.
+    pub driver: String,
+    /// The driver's version: in its own words where there are any.
+    pub version: String,
+    /// The version of Vulkan that it offers.
+    pub vulkan: String,
+    /// `subPixelPrecisionBits`: window positions are multiples of 1/2^bits px.
+    pub subpixel_bits: u32,
+    /// `maxViewportDimensions`.
+    pub largest_viewport: [u32; 2],
+    /// `viewportBoundsRange`.
+    pub viewport_bounds: [f32; 2],
+    /// `maxImageDimension2D`.
+    pub largest_image: u32,
+    /// Whether four samples a pixel can be drawn.
+    pub four_samples: bool,
+    /// `standardSampleLocations`: samples lie where the specification's table has them.
+    pub standard_samples: bool,
+    /// `strictLines`: lines are rectangles.
+    pub strict_lines: bool,
+    /// `rectangularLines` of `VK_EXT_line_rasterization`.
+    pub rectangular_lines: bool,
+    /// `bresenhamLines` of `VK_EXT_line_rasterization`.
+    pub bresenham_lines: bool,
+}
+
+impl About {
+    /// The words by which the device is chosen besides its number, in small letters.
+    #[must_use]
+    pub fn words(&self) -> String {
+        // lavapipe is the Vulkan driver around llvmpipe, and calls itself by either name.
+        let also = if self.device.contains("llvmpipe") { " lavapipe" } else { "" };
+        format!("{} {}{also}", self.device, self.driver).to_lowercase()
+    }
+}
+
+/// All devices, in the loader's order.
+///
+/// # Errors
+/// There is no loader, or it finds no driver, or a driver fails.
+pub fn list() -> Result<Vec<Listed>, Error> {
+    list_by(None)
+}
+
+/// The same by the loader in this file.
+///
+/// # Errors
+/// As [`list`].
+pub fn list_by(loader: Option<&Path>) -> Result<Vec<Listed>, Error> {
+    // SAFETY: a Vulkan loader is loaded, the system's or the one that is named: its start-up code runs,
+    // as of any program that links it, and its functions have the signatures of the specification.
+    let entry = unsafe {
+        match loader {
+            None => ash::Entry::load(),
+            Some(path) => ash::Entry::load_from(path),
+        }
+    };
+    let entry = entry.map_err(|e| Error::NoLoader(e.to_string()))?;
+    let application = vk::ApplicationInfo::default()
+        .application_name(c"rasterproof")
+        .api_version(vk::API_VERSION_1_1);
+    let info = vk::InstanceCreateInfo::default().application_info(&application);
+    // SAFETY: `info` and what it points to live during the call.
+    let raw = unsafe { entry.create_instance(&info, None) }.during("creating a Vulkan instance")?;
+    let instance = Arc::new(Instance { _entry: entry, raw });
+    // SAFETY: the instance is alive.
+    let handles = unsafe { instance.raw.enumerate_physical_devices() };
+    let handles = match handles {
+        Err(vk::Result::ERROR_INITIALIZATION_FAILED) => Vec::new(),
+        other => other.during("listing Vulkan devices")?,
+    };
+    if handles.is_empty() {
+        return Err(Error::NoDriver);
+    }
+    let listed = |(number, handle)| {
+        let about = about(&instance.raw, handle)?;
+        Ok(Listed { instance: Arc::clone(&instance), handle, number, about })
+    };
+    handles.into_iter().enumerate().map(listed).collect()
+}
+
+/// The device of this number, or the first whose name or driver has this word in it.
+///
+/// # Errors
+/// As [`list`], or none is called so.
+pub fn choose(word: &str) -> Result<Listed, Error> {
+    let all = list()?;
+    let small = word.to_lowercase();
+    let number = word.parse::<usize>().ok();
+    let names = all.iter().map(|d| format!("vulkan:{} ({})", d.number, d.about.device)).collect();
+    let is_it = |d: &Listed| match number {
+        Some(number) => d.number == number,
+        None => !small.is_empty() && d.about.words().contains(&small),
+    };
+    all.into_iter().find(is_it).ok_or_else(|| Error::Unknown(word.to_owned(), names))
+}
+
+fn text(of: Option<&CStr>) -> String {
+    of.map_or_else(String::new, |text| text.to_string_lossy().into_owned())
+}
+
+fn until_nul(chars: &[c_char]) -> String {
+    let bytes: Vec<u8> = chars.iter().map(|c| c.to_ne_bytes()[0]).collect();
+    text(CStr::from_bytes_until_nul(&bytes).ok())
+}
+
+pub(super) fn extensions(
+    instance: &ash::Instance,
+    handle: vk::PhysicalDevice,
+) -> Result<Vec<String>, Error> {
+    // SAFETY: the handle is of this instance, which is alive.
+    let all = unsafe { instance.enumerate_device_extension_properties(handle) };
+    let all = all.during("listing the extensions of a device")?;
+    Ok(all.iter().map(|e| until_nul(&e.extension_name)).collect())
+}
+
+fn about(instance: &ash::Instance, handle: vk::PhysicalDevice) -> Result<About, Error> {
+    let extensions = extensions(instance, handle)?;
+    let has = |name: &CStr| extensions.iter().any(|e| e.as_bytes() == name.to_bytes());
+    let mut driver = vk::PhysicalDeviceDriverProperties::default();
+    let mut properties = vk::PhysicalDeviceProperties2::default();
+    if has(ash::khr::driver_properties::NAME) {
+        properties = properties.push_next(&mut driver);
+    }
+    // SAFETY: the handle is of this instance; a structure is chained where its extension is there.
+    unsafe { instance.get_physical_device_properties2(handle, &mut properties) };
+    let vk::PhysicalDeviceProperties { limits, device_name, driver_version, api_version, .. } =
+        properties.properties;
+    let lines = lines(instance, handle, has(ash::ext::line_rasterization::NAME));
+    let version = |v: u32| {
+        let [a, b, c] =
+            [vk::api_version_major(v), vk::api_version_minor(v), vk::api_version_patch(v)];
+        format!("{a}.{b}.{c}")
+    };
+    let said = until_nul(&driver.driver_info);
+    Ok(About {
+        device: until_nul(&device_name),
+        driver: until_nul(&driver.driver_name),
+        version: if said.is_empty() { version(driver_version) } else { said },
+        vulkan: version(api_version),
+        subpixel_bits: limits.sub_pixel_precision_bits,
+        largest_viewport: limits.max_viewport_dimensions,
+        viewport_bounds: limits.viewport_bounds_range,
+        largest_image: limits.max_image_dimension2_d,
+        four_samples: limits.framebuffer_color_sample_counts.contains(vk::SampleCountFlags::TYPE_4),
+        standard_samples: limits.standard_sample_locations == vk::TRUE,
+        strict_lines: limits.strict_lines == vk::TRUE,
+        rectangular_lines: lines[0],
+        bresenham_lines: lines[1],
+    })
+}
+
+/// Whether rectangular and Bresenham lines can be chosen.
+fn lines(instance: &ash::Instance, handle: vk::PhysicalDevice, is_there: bool) -> [bool; 2] {
+    if !is_there {
+        return [false; 2];
+    }
+    let mut lines = vk::PhysicalDeviceLineRasterizationFeaturesEXT::default();
+    let mut features = vk::PhysicalDeviceFeatures2::default().push_next(&mut lines);
+    // SAFETY: the handle is of this instance, and the extension of the chained structure is there.
+    unsafe { instance.get_physical_device_features2(handle, &mut features) };
+    [lines.rectangular_lines, lines.bresenham_lines].map(|there| there == vk::TRUE)
+}
