@@ -20,10 +20,14 @@
 //! with warm caches; of each turn the median over all rounds counts. Cold, the writes to memory
 //! cost everyone alike and the ratios are smaller.
 //!
-//! `cargo bench --bench peers` prints the table; `-- --quick` takes one short round, and
-//! `-- tiny small` only the classes named.
+//! Then whole frames of a mesh, see `common/mesh.rs`.
+//!
+//! `cargo bench --bench peers` prints the tables; `-- --quick` takes one short round, and
+//! `-- tiny small mesh` only what is named.
 
 mod common;
+#[path = "common/mesh.rs"]
+mod mesh;
 
 use std::ops::Range;
 use std::time::Instant;
@@ -43,6 +47,8 @@ use tiny_skia::{FillRule, Paint, Path, PathBuilder, Pixmap, Transform};
 
 /// Odd, so that the median is a round that happened.
 const ROUNDS: usize = 31;
+/// The same of the mesh, whose frames take long.
+const MESH_ROUNDS: usize = 15;
 /// Turns of everyone in a round, each with a part of the triangles. Turns of about a millisecond
 /// and less mostly run undisturbed on a busy machine, whoever's they are.
 const TURNS: usize = 8;
@@ -81,6 +87,9 @@ fn main() {
     }
     println!();
     println!("x tiny-skia: how many times as fast as tiny-skia. Pixels: against the exact oracle.");
+    if named.is_empty() || named.iter().any(|name| "mesh".contains(name.as_str())) {
+        mesh::report(if quick { 3 } else { MESH_ROUNDS });
+    }
 }
 
 /// Measures one class and prints its rows.
@@ -394,11 +403,7 @@ mod vulkan {
         let device = |listed: &find::Listed| {
             let opened = Opened::new(listed).expect("a device that opens");
             let painter = Painter::new(&opened, None).expect("a device that draws");
-            let short =
-                if listed.about.device.contains("llvmpipe") { "llvmpipe" } else { "SwiftShader" };
             let name = format!("vulkan:{}", listed.number);
-            let label =
-                if listed.about.words().contains(&short.to_lowercase()) { short } else { &name };
             let half = SIDE_PX as f32 / 2.0;
             let draw = |corners: &Corners| {
                 let mut vertices = plain(corners, half);
@@ -408,8 +413,8 @@ mod vulkan {
                 Draw { cell: 0, vertices, viewport: [0.0, 0.0, side, side], window: [SIDE_PX; 2] }
             };
             let draws = scene.triangles.iter().map(draw).collect();
-            let filler = Device { name: name.clone(), parts: HashMap::new(), painter, draws };
-            (label.to_owned(), Box::new(filler) as Box<dyn Filler>)
+            let filler = Device { name, parts: HashMap::new(), painter, draws };
+            (listed.about.short(), Box::new(filler) as Box<dyn Filler>)
         };
         devices.iter().map(device).collect()
     }

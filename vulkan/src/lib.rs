@@ -10,5 +10,7 @@ pub mod device;
 pub mod gpu;
 
 // The floors below, under the paths that every room calls them by.
-use rasterproof_engines::{contract, frame, grid, hazard, oracle, triangle};
+use rasterproof_engines::{
+    contract, frame, grid, hazard, oracle, pipeline, scene, tiled, triangle,
+};
 use rasterproof_judges::{judge, report};

@@ -62,11 +62,33 @@ impl Draw {
     }
 }
 
-/// Commands that are recorded once and run often; what a benchmark times.
+/// Where commands are recorded; freed with them after the last of those who hold it.
+struct Pool {
+    device: Arc<Opened>,
+    raw: vk::CommandPool,
+}
+
+impl Drop for Pool {
+    fn drop(&mut self) {
+        // SAFETY: whoever recorded something here waited until the device was idle.
+        unsafe { self.device.raw.destroy_command_pool(self.raw, None) };
+    }
+}
+
+/// Commands that are recorded once and run often by the painter that recorded them; what a benchmark
+/// times.
 pub struct Prepared {
+    pool: Arc<Pool>,
     commands: vk::CommandBuffer,
-    // Read by every run.
-    _vertices: Buffer,
+    // What every run reads and writes.
+    _uses: Box<dyn Send>,
+}
+
+impl Drop for Prepared {
+    fn drop(&mut self) {
+        // What was recorded is not in use any more when it goes, with the fields.
+        self.pool.device.wait_idle();
+    }
 }
 
 impl Pictures {
@@ -85,7 +107,7 @@ impl Pictures {
 /// Draws on one device.
 pub struct Painter {
     device: Arc<Opened>,
-    pool: vk::CommandPool,
+    pool: Arc<Pool>,
     fence: vk::Fence,
     stages: HashMap<Kind, Stage>,
     vertices: Option<Buffer>,
@@ -98,14 +120,9 @@ pub struct Painter {
 
 impl Drop for Painter {
     fn drop(&mut self) {
-        // SAFETY: the device may still work where a submission was given up; what was recorded and
-        // drawn into goes after that, with the fields.
-        unsafe {
-            // A lost device waits for nothing.
-            let _ = self.device.raw.device_wait_idle();
-            self.device.raw.destroy_fence(self.fence, None);
-            self.device.raw.destroy_command_pool(self.pool, None);
-        }
+        self.device.wait_idle();
+        // SAFETY: nothing waits for it any more.
+        unsafe { self.device.raw.destroy_fence(self.fence, None) };
     }
 }
 
@@ -118,9 +135,10 @@ impl Painter {
         let info = vk::CommandPoolCreateInfo::default().queue_family_index(device.family);
         // SAFETY: the family is one of the device's.
         let pool = unsafe { device.raw.create_command_pool(&info, None) };
+        let raw = pool.during("creating a command pool")?;
         let mut painter = Self {
             device: Arc::clone(device),
-            pool: pool.during("creating a command pool")?,
+            pool: Arc::new(Pool { device: Arc::clone(device), raw }),
             fence: vk::Fence::null(),
             stages: HashMap::new(),
             vertices: None,
@@ -183,14 +201,27 @@ impl Painter {
         let mut vertices = Buffer::new(&self.device, bytes.len().max(1), usage)?;
         vertices.write(&bytes);
         let commands = self.record(kind, 0..1, draws, &vertices, None)?;
-        Ok(Prepared { commands, _vertices: vertices })
+        Ok(self.prepared(commands, vertices))
+    }
+
+    /// Recorded commands with what they use.
+    pub(super) fn prepared(
+        &self,
+        commands: vk::CommandBuffer,
+        uses: impl Send + 'static,
+    ) -> Prepared {
+        Prepared { pool: Arc::clone(&self.pool), commands, _uses: Box::new(uses) }
     }
 
     /// Submits what this painter prepared, and waits for it.
     ///
     /// # Errors
     /// The device is lost or hangs.
+    ///
+    /// # Panics
+    /// If another painter prepared it.
     pub fn run_prepared(&mut self, prepared: &Prepared) -> Result<(), Error> {
+        assert!(Arc::ptr_eq(&self.pool, &prepared.pool), "each painter runs what it prepared");
         if self.given_up {
             return Err(Error::Lost("drawing after a failure"));
         }
@@ -272,7 +303,7 @@ impl Painter {
             return Err(error);
         }
         // SAFETY: the submission was waited for.
-        unsafe { self.device.raw.free_command_buffers(self.pool, &[commands]) };
+        unsafe { self.device.raw.free_command_buffers(self.pool.raw, &[commands]) };
         Ok(())
     }
 
@@ -286,20 +317,7 @@ impl Painter {
         vertices: &Buffer,
         into: Option<&Buffer>,
     ) -> Result<vk::CommandBuffer, Error> {
-        let raw = &self.device.raw;
-        let info = vk::CommandBufferAllocateInfo::default()
-            .command_pool(self.pool)
-            .level(vk::CommandBufferLevel::PRIMARY)
-            .command_buffer_count(1);
-        // SAFETY: the pool is of this device, and one thread at a time has it.
-        let commands = unsafe { raw.allocate_command_buffers(&info) };
-        let commands = commands.during("allocating a command buffer")?[0];
-        let mut begin = vk::CommandBufferBeginInfo::default();
-        if into.is_some() {
-            begin = begin.flags(vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT);
-        }
-        // SAFETY: the buffer is fresh.
-        unsafe { raw.begin_command_buffer(commands, &begin) }.during("recording")?;
+        let commands = self.begin()?;
         let (mut rest, mut first) = (draws, 0);
         for (page, at) in pages.zip(0..) {
             let count = rest.partition_point(|d| d.cell < (page + 1) * PAGE_CELLS);
@@ -309,13 +327,34 @@ impl Painter {
             }
             (rest, first) = (&rest[count..], first + count as u32 * kind.corners());
         }
+        self.end(commands)
+    }
+
+    /// Begins to record.
+    pub(super) fn begin(&self) -> Result<vk::CommandBuffer, Error> {
+        let raw = &self.device.raw;
+        let info = vk::CommandBufferAllocateInfo::default()
+            .command_pool(self.pool.raw)
+            .level(vk::CommandBufferLevel::PRIMARY)
+            .command_buffer_count(1);
+        // SAFETY: the pool is of this device, and one thread at a time has it.
+        let commands = unsafe { raw.allocate_command_buffers(&info) };
+        let commands = commands.during("allocating a command buffer")?[0];
+        let begin = vk::CommandBufferBeginInfo::default();
+        // SAFETY: the buffer is fresh.
+        unsafe { raw.begin_command_buffer(commands, &begin) }.during("recording")?;
+        Ok(commands)
+    }
+
+    /// Ends what was begun; what it copies can be read by the program.
+    pub(super) fn end(&self, commands: vk::CommandBuffer) -> Result<vk::CommandBuffer, Error> {
         let barrier = [vk::MemoryBarrier::default()
             .src_access_mask(vk::AccessFlags::TRANSFER_WRITE)
             .dst_access_mask(vk::AccessFlags::HOST_READ)];
         let (copies, host) = (vk::PipelineStageFlags::TRANSFER, vk::PipelineStageFlags::HOST);
+        let (raw, none) = (&self.device.raw, vk::DependencyFlags::empty());
         // SAFETY: recording, outside of a render pass.
         unsafe {
-            let none = vk::DependencyFlags::empty();
             raw.cmd_pipeline_barrier(commands, copies, host, none, &barrier, &[], &[]);
             raw.end_command_buffer(commands)
         }
@@ -389,8 +428,10 @@ impl Painter {
         let raw = &self.device.raw;
         let buffers = [commands];
         let submit = [vk::SubmitInfo::default().command_buffers(&buffers)];
-        // SAFETY: one thread at a time has the queue; the fence is unsignalled, as it was made or reset.
-        unsafe { raw.queue_submit(self.device.queue, &submit, self.fence) }.during("submitting")?;
+        let queue = self.device.queue();
+        // SAFETY: this thread has the queue; the fence is unsignalled, as it was made or reset.
+        unsafe { raw.queue_submit(*queue, &submit, self.fence) }.during("submitting")?;
+        drop(queue);
         // SAFETY: the fence is of this device.
         let waited =
             unsafe { raw.wait_for_fences(&[self.fence], true, PATIENCE_S * 1_000_000_000) };

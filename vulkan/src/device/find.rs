@@ -72,6 +72,14 @@ impl About {
         let also = if self.device.contains("llvmpipe") { " lavapipe" } else { "" };
         format!("{} {}{also}", self.device, self.driver).to_lowercase()
     }
+
+    /// A short name for a table.
+    #[must_use]
+    pub fn short(&self) -> String {
+        let words = self.words();
+        let known = ["llvmpipe", "SwiftShader"].iter().find(|n| words.contains(&n.to_lowercase()));
+        known.map_or_else(|| self.device.chars().take(13).collect(), |name| (*name).to_owned())
+    }
 }
 
 /// All devices, in the loader's order.

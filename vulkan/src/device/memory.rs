@@ -86,8 +86,12 @@ impl Buffer {
         // SAFETY: the buffer was just made from this device.
         let needs = unsafe { device.raw.get_buffer_memory_requirements(raw) };
         let seen = vk::MemoryPropertyFlags::HOST_VISIBLE | vk::MemoryPropertyFlags::HOST_COHERENT;
-        // Reading back is slow where it is not cached.
-        let wanted = [seen | vk::MemoryPropertyFlags::HOST_CACHED, seen];
+        // Reading back is slow where it is not cached, drawing where it is not the device's own.
+        let best = match usage.contains(vk::BufferUsageFlags::TRANSFER_DST) {
+            true => vk::MemoryPropertyFlags::HOST_CACHED,
+            false => vk::MemoryPropertyFlags::DEVICE_LOCAL,
+        };
+        let wanted = [seen | best, seen];
         let memory = Memory::new(device, needs, &wanted).and_then(|memory| {
             // SAFETY: the memory is fresh, large enough, and of a type that the buffer allows.
             let bound = unsafe { device.raw.bind_buffer_memory(raw, memory.raw, 0) };
@@ -131,13 +135,33 @@ impl Buffer {
     }
 }
 
-/// An image that is drawn into, and its view.
+/// An image and its view.
 pub struct Image {
     device: Arc<Opened>,
     pub(super) raw: vk::Image,
     pub(super) view: vk::ImageView,
     // Freed after the image.
     _memory: Memory,
+}
+
+/// What an image is like.
+#[derive(Clone, Copy)]
+pub(super) struct Like {
+    pub(super) format: vk::Format,
+    pub(super) size: [u32; 2],
+    pub(super) samples: vk::SampleCountFlags,
+    pub(super) usage: vk::ImageUsageFlags,
+}
+
+impl Like {
+    /// Colours that are drawn, and copied where a pixel has one sample.
+    pub(super) fn drawn(format: vk::Format, side: u32, samples: vk::SampleCountFlags) -> Self {
+        let mut usage = vk::ImageUsageFlags::COLOR_ATTACHMENT;
+        if samples == vk::SampleCountFlags::TYPE_1 {
+            usage |= vk::ImageUsageFlags::TRANSFER_SRC;
+        }
+        Self { format, size: [side; 2], samples, usage }
+    }
 }
 
 impl Drop for Image {
@@ -151,32 +175,24 @@ impl Drop for Image {
 }
 
 impl Image {
-    /// A square image to draw colours into, and to copy from.
+    /// An image like this.
     ///
     /// # Errors
     /// There is not enough memory.
-    pub fn new(
-        device: &Arc<Opened>,
-        format: vk::Format,
-        side: u32,
-        samples: vk::SampleCountFlags,
-    ) -> Result<Self, Error> {
-        let mut usage = vk::ImageUsageFlags::COLOR_ATTACHMENT;
-        if samples == vk::SampleCountFlags::TYPE_1 {
-            usage |= vk::ImageUsageFlags::TRANSFER_SRC;
-        }
+    pub(super) fn new(device: &Arc<Opened>, like: Like) -> Result<Self, Error> {
+        let [width, height] = like.size;
         let info = vk::ImageCreateInfo::default()
             .image_type(vk::ImageType::TYPE_2D)
-            .format(format)
-            .extent(vk::Extent3D { width: side, height: side, depth: 1 })
+            .format(like.format)
+            .extent(vk::Extent3D { width, height, depth: 1 })
             .mip_levels(1)
             .array_layers(1)
-            .samples(samples)
+            .samples(like.samples)
             .tiling(vk::ImageTiling::OPTIMAL)
-            .usage(usage);
+            .usage(like.usage);
         // SAFETY: formats and sample counts are those that every device has or that were asked for.
         let raw = unsafe { device.raw.create_image(&info, None) }.during("creating an image")?;
-        let made = Self::bind(device, raw, format);
+        let made = Self::bind(device, raw, like);
         let (memory, view) = made.inspect_err(|_| {
             // SAFETY: nobody else knows the image.
             unsafe { device.raw.destroy_image(raw, None) };
@@ -187,7 +203,7 @@ impl Image {
     fn bind(
         device: &Arc<Opened>,
         raw: vk::Image,
-        format: vk::Format,
+        like: Like,
     ) -> Result<(Memory, vk::ImageView), Error> {
         // SAFETY: the image was just made from this device.
         let needs = unsafe { device.raw.get_image_memory_requirements(raw) };
@@ -195,11 +211,15 @@ impl Image {
         let memory = Memory::new(device, needs, &wanted)?;
         // SAFETY: the memory is fresh, large enough, and of a type that the image allows.
         unsafe { device.raw.bind_image_memory(raw, memory.raw, 0) }.during("binding an image")?;
+        let aspect = match like.usage.contains(vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT) {
+            true => vk::ImageAspectFlags::DEPTH,
+            false => vk::ImageAspectFlags::COLOR,
+        };
         let info = vk::ImageViewCreateInfo::default()
             .image(raw)
             .view_type(vk::ImageViewType::TYPE_2D)
-            .format(format)
-            .subresource_range(colour());
+            .format(like.format)
+            .subresource_range(whole(aspect));
         // SAFETY: the image has memory, and the view shows all of it in its own format.
         let view = unsafe { device.raw.create_image_view(&info, None) };
         Ok((memory, view.during("creating a view of an image")?))
@@ -207,9 +227,9 @@ impl Image {
 }
 
 /// All of an image of one level and layer.
-fn colour() -> vk::ImageSubresourceRange {
+pub(super) fn whole(aspect_mask: vk::ImageAspectFlags) -> vk::ImageSubresourceRange {
     vk::ImageSubresourceRange {
-        aspect_mask: vk::ImageAspectFlags::COLOR,
+        aspect_mask,
         base_mip_level: 0,
         level_count: 1,
         base_array_layer: 0,

@@ -2,7 +2,8 @@
 //!
 //! [`find`] loads the loader and lists devices, [`open`] makes one ready, [`memory`] owns what is
 //! allocated, [`stage`] knows the kinds of pictures and their pipelines, [`draw`] records, submits
-//! and waits. No window and no surface: pictures are images of 1024 x 1024 px that hold 256 cells.
+//! and waits; [`mesh`] draws a textured mesh for the clock. No window and no surface: pictures are images
+//! of 1024 x 1024 px that hold 256 cells.
 //!
 //! # What the `unsafe` blocks rely on
 //! Every handle is owned by a value that holds what it was made from ([`open::Opened`] holds the
@@ -13,6 +14,7 @@
 pub mod draw;
 pub mod find;
 pub mod memory;
+pub mod mesh;
 pub mod open;
 pub mod stage;
 

@@ -1,6 +1,6 @@
 //! A device made ready: its queue, and the extensions and features that are there.
 
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use ash::vk;
 
@@ -10,9 +10,11 @@ use super::{Error, While as _};
 /// A logical device with a queue that draws; whatever is made from it holds it.
 pub struct Opened {
     pub(super) raw: ash::Device,
-    pub(super) queue: vk::Queue,
+    queue: Mutex<vk::Queue>,
     pub(super) family: u32,
     pub(super) memory: vk::PhysicalDeviceMemoryProperties,
+    /// The finest depth that every device has one of: f32, or 24 bits.
+    pub(super) depth: vk::Format,
     /// What the device says of itself.
     pub about: About,
     // Dropped last, as the fields go in order.
@@ -28,6 +30,19 @@ impl Drop for Opened {
 }
 
 impl Opened {
+    /// The queue, which one thread at a time has.
+    pub(super) fn queue(&self) -> MutexGuard<'_, vk::Queue> {
+        self.queue.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Waits until the device does nothing any more: what a submission that was given up uses is free
+    /// then. A lost device waits for nothing.
+    pub(super) fn wait_idle(&self) {
+        let _queue = self.queue();
+        // SAFETY: nobody else has the queue.
+        let _ = unsafe { self.raw.device_wait_idle() };
+    }
+
     /// Makes a listed device ready.
     ///
     /// # Errors
@@ -69,12 +84,22 @@ impl Opened {
         let queue = unsafe { raw.get_device_queue(family, 0) };
         // SAFETY: the handle is of this instance.
         let memory = unsafe { instance.get_physical_device_memory_properties(listed.handle) };
+        let finest = vk::Format::D32_SFLOAT;
+        // SAFETY: the handle is of this instance.
+        let float =
+            unsafe { instance.get_physical_device_format_properties(listed.handle, finest) };
+        let drawn = vk::FormatFeatureFlags::DEPTH_STENCIL_ATTACHMENT;
+        let depth = match float.optimal_tiling_features.contains(drawn) {
+            true => finest,
+            false => vk::Format::X8_D24_UNORM_PACK32,
+        };
         let about = about.clone();
         Ok(Arc::new(Self {
             raw,
-            queue,
+            queue: Mutex::new(queue),
             family,
             memory,
+            depth,
             about,
             _instance: Arc::clone(&listed.instance),
         }))

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use ash::vk;
 
-use super::memory::Image;
+use super::memory::{Image, Like};
 use super::open::Opened;
 use super::{Error, While as _};
 
@@ -133,7 +133,7 @@ impl Stage {
         let one = vk::SampleCountFlags::TYPE_1;
         let samples = match kind.samples() {
             samples if samples == one => None,
-            samples => Some(Image::new(device, kind.format(), PAGE_PX, samples)?),
+            samples => Some(Image::new(device, Like::drawn(kind.format(), PAGE_PX, samples))?),
         };
         let mut stage = Self {
             device: Arc::clone(device),
@@ -141,7 +141,7 @@ impl Stage {
             framebuffer: vk::Framebuffer::null(),
             layout: vk::PipelineLayout::null(),
             passes: Vec::new(),
-            page: Image::new(device, kind.format(), PAGE_PX, one)?,
+            page: Image::new(device, Like::drawn(kind.format(), PAGE_PX, one))?,
             _samples: samples,
         };
         // Filled field by field: what fails is dropped with what was made before it.
@@ -234,17 +234,32 @@ fn shader(device: &Opened, bytes: &[u8]) -> Result<vk::ShaderModule, Error> {
 }
 
 fn pipeline(stage: &Stage, kind: Kind, sample_mask: u32) -> Result<vk::Pipeline, Error> {
-    let raw = &stage.device.raw;
-    let vertex = shader(&stage.device, include_bytes!("shaders/draw.vert.spv"))?;
-    let fragment = shader(&stage.device, kind.fragment_shader()).inspect_err(|_| {
+    let shaders = [include_bytes!("shaders/draw.vert.spv"), kind.fragment_shader()];
+    with_shaders(&stage.device, shaders, |stages| of_kind(stage, kind, sample_mask, stages))
+}
+
+/// What is made from a vertex and a fragment shader, which are not needed afterwards.
+pub(super) fn with_shaders(
+    device: &Opened,
+    [vertex, fragment]: [&[u8]; 2],
+    make: impl FnOnce(&[vk::PipelineShaderStageCreateInfo<'_>]) -> Result<vk::Pipeline, Error>,
+) -> Result<vk::Pipeline, Error> {
+    let vertex = shader(device, vertex)?;
+    let fragment = shader(device, fragment).inspect_err(|_| {
         // SAFETY: nobody else knows the shader.
-        unsafe { raw.destroy_shader_module(vertex, None) };
+        unsafe { device.raw.destroy_shader_module(vertex, None) };
     })?;
-    let made = with_shaders(stage, kind, sample_mask, [vertex, fragment]);
+    let stage = |module, stage| {
+        vk::PipelineShaderStageCreateInfo::default().stage(stage).module(module).name(c"main")
+    };
+    let made = make(&[
+        stage(vertex, vk::ShaderStageFlags::VERTEX),
+        stage(fragment, vk::ShaderStageFlags::FRAGMENT),
+    ]);
     // SAFETY: a pipeline does not need its shaders once it is made.
     unsafe {
-        raw.destroy_shader_module(vertex, None);
-        raw.destroy_shader_module(fragment, None);
+        device.raw.destroy_shader_module(vertex, None);
+        device.raw.destroy_shader_module(fragment, None);
     }
     made
 }
@@ -252,19 +267,12 @@ fn pipeline(stage: &Stage, kind: Kind, sample_mask: u32) -> Result<vk::Pipeline,
 /// Bytes of a vertex: clip coordinates and two attributes, six f32.
 pub(super) const VERTEX_BYTES: u32 = 24;
 
-fn with_shaders(
+fn of_kind(
     stage: &Stage,
     kind: Kind,
     sample_mask: u32,
-    [vertex, fragment]: [vk::ShaderModule; 2],
+    shaders: &[vk::PipelineShaderStageCreateInfo<'_>],
 ) -> Result<vk::Pipeline, Error> {
-    let shader = |module, stage| {
-        vk::PipelineShaderStageCreateInfo::default().stage(stage).module(module).name(c"main")
-    };
-    let shaders = [
-        shader(vertex, vk::ShaderStageFlags::VERTEX),
-        shader(fragment, vk::ShaderStageFlags::FRAGMENT),
-    ];
     let bindings = [vk::VertexInputBindingDescription::default().stride(VERTEX_BYTES)];
     let attribute = |location, format, offset| vk::VertexInputAttributeDescription {
         location,
@@ -314,7 +322,7 @@ fn with_shaders(
     let states = [vk::DynamicState::VIEWPORT, vk::DynamicState::SCISSOR];
     let dynamic = vk::PipelineDynamicStateCreateInfo::default().dynamic_states(&states);
     let info = vk::GraphicsPipelineCreateInfo::default()
-        .stages(&shaders)
+        .stages(shaders)
         .vertex_input_state(&input)
         .input_assembly_state(&assembly)
         .viewport_state(&viewport)
@@ -326,9 +334,20 @@ fn with_shaders(
         .render_pass(stage.render_pass);
     // SAFETY: `info` and what it points to live during the call, and the layout and the render pass
     // are of this device; line modes are chosen only where the device has them (`Painter::draw`).
-    let made = unsafe {
-        stage.device.raw.create_graphics_pipelines(vk::PipelineCache::null(), &[info], None)
-    };
+    unsafe { create_pipeline(&stage.device, &info) }
+}
+
+/// Makes a pipeline.
+///
+/// # Safety
+/// What `info` points to is alive and of this device.
+pub(super) unsafe fn create_pipeline(
+    device: &Opened,
+    info: &vk::GraphicsPipelineCreateInfo<'_>,
+) -> Result<vk::Pipeline, Error> {
+    let (none, infos) = (vk::PipelineCache::null(), std::slice::from_ref(info));
+    // SAFETY: the caller sees to it.
+    let made = unsafe { device.raw.create_graphics_pipelines(none, infos, None) };
     let made = made.map_err(|(_, result)| result).during("creating a pipeline")?;
     made.into_iter().next().ok_or(Error::Failed("creating a pipeline", "nothing".to_owned()))
 }
