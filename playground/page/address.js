@@ -2,6 +2,12 @@
 
 const FIELDS = ['x', 'y', 'w', 'depth', 'u', 'v'];
 
+/** A corner with its values, at least so many; what is as everywhere is left out: w = 1, and values of 0. */
+function withValues(c, least = 2) {
+  const values = FIELDS.map((f) => c[f] ?? (f === 'w' ? 1 : 0));
+  return values.slice(0, 1 + values.findLastIndex((value, i) => i < least || value !== (i === 2 ? 1 : 0))).join(',');
+}
+
 function address() {
   const words = new URLSearchParams({ scene: state.scene });
   if (state.named) words.set('case', state.named);
@@ -11,17 +17,12 @@ function address() {
   }
   else if (state.lines) words.set('lines', state.lines.map((line) => line.flat().join(',')).join(';'));
   else if (state.triangles) {
-    // What is as everywhere is left out: w = 1, and values of 0.
-    const corner = (c) => {
-      const values = FIELDS.map((f) => c[f] ?? (f === 'w' ? 1 : 0));
-      return values.slice(0, 1 + values.findLastIndex((value, i) => i < 2 || value !== (i === 2 ? 1 : 0))).join(',');
-    };
-    words.set('t', state.triangles.map((t) => t.map(corner).join('_')).join(';'));
+    words.set('t', state.triangles.map((t) => t.map((c) => withValues(c)).join('_')).join(';'));
   }
   if (state.window) words.set('window', state.window.join(','));
   if (state.by) words.set('by', state.by.join(','));
   if (state.px) words.set('px', state.px.join(','));
-  if (state.snap === false) words.set('snap', '0');
+  if (!state.snap || state.named) words.set('snap', Number(state.snap));
   if (state.numbers) words.set('numbers', '1');
   for (const key of scene().keeps ?? []) words.set(key, typeof state[key] === 'object' ? JSON.stringify(state[key]) : state[key]);
   if (state.lang !== 'en') words.set('lang', state.lang);
@@ -58,11 +59,14 @@ function restore(hash) {
   }
   const window = words.get('window') && numbers(words.get('window'));
   if (window?.length === 4 && good(window) && state.window) state.window = window.map(Math.round);
-  const by = words.get('by')?.split(',');
-  if (by && state.by) { state.by = by.slice(0, 4); state.four = by.length === 4; }
+  const by = words.get('by')?.split(',').filter((name) => scene().choices?.().some(([value]) => value === name)) ?? [];
+  if (by.length) {
+    state.by = [...by, ...(by.length < 2 ? state.by.filter((name) => name !== by[0]) : [])].slice(0, Math.max(2, Math.min(4, by.length)));
+    state.four = by.length > 3;
+  }
   const px = words.get('px') && numbers(words.get('px'));
   if (px?.length === 2 && good(px)) state.px = px;
-  if (words.get('snap') === '0') state.snap = false;
+  if (words.has('snap')) state.snap = words.get('snap') !== '0';
   state.numbers = words.get('numbers') === '1';
   for (const key of scene().keeps ?? []) {
     const text = words.get(key);
@@ -72,14 +76,36 @@ function restore(hash) {
   keepPixel();
 }
 
-/** What shows the same on the command line; nothing where there is no such command. */
+/** The corners and lines that are shown, as words of `inspect`; nothing where it knows no such thing. */
+function subject() {
+  if (state.named) return [state.named];
+  if (state.generated) return [`'${state.generated.family}#${state.generated.index}'`, `--seed ${state.generated.seed}`];
+  if (state.lines) return ['--line', ...state.lines.flat().map((end) => end.join(','))];
+  const corners = state.triangles?.flat();
+  // Without values a corner has simple ones to the command line, which cover the same pixels.
+  return corners?.map((c) => (scene().values ? withValues(c, 3) : `${c.x},${c.y}`));
+}
+
+/** Rules are planted faults to the command line, which has one more for corners that are not snapped. */
+const PLANTS = [{ 'inclusive-edges': 'exact-inclusive-ties' }, { 'inclusive-edges': 'inclusive-edges', 'exclusive-edges': 'exclusive-edges' }];
+
+/** What shows the same on the command line, and whom it is shown by; nothing where there is no such command. */
 function command() {
-  const point = (c) => `${c.x},${c.y}`;
-  if (state.named) return `rasterproof inspect ${state.named}`;
-  if (state.generated) return `rasterproof inspect '${state.generated.family}#${state.generated.index}' --seed ${state.generated.seed}`;
-  if (state.lines) return `rasterproof inspect --line ${state.lines[0].map((end) => end.join(',')).join(' ')}`;
-  if (!state.triangles || !state.snap) return '';
-  return state.triangles.slice(0, 2).map((t) => `rasterproof inspect ${t.map(point).join(' ')}`).join('\n');
+  const what = subject();
+  if (!what) return '';
+  const words = ['rasterproof inspect', ...what];
+  if (!state.snap && !names.offFamilies.some(({ name }) => name === state.generated?.family)) words.push('--exact');
+  const [x0, y0, x1, y1] = state.window;
+  // A recorded input has a screen of its own; what is larger than a panel was cut.
+  const isWhole = side() < SIDES.at(-1) && !names.recorded.some(({ name }) => name === state.named);
+  if (!(isWhole && String(state.own) === String(state.window) && (state.named || state.generated))) {
+    words.push(`--window ${x0},${y0},${x1 - x0}x${y1 - y0}`);
+  }
+  const specimen = state.by?.find((name) => entry(name).specimen);
+  if (specimen) words.push(`--specimen ${specimen}`);
+  const plant = state.by?.map((name) => PLANTS[Number(state.snap)][name]).find(Boolean);
+  if (plant) words.push(`--plant ${plant}`);
+  return words.join(' ');
 }
 
 async function copy(text) {

@@ -49,10 +49,10 @@ function explain(answer) {
     last.look = look.error ? null : look;
   }
   fill($('look'), scene().look && !answer.error ? scene().look(answer) : []);
-  const handle = handles()[state.chosen];
+  const grip = grips()[state.chosen];
   const outputs = shown.map((panel) => panel.canvas.getAttribute('aria-label'));
   const texts = [...$('look').querySelectorAll('h2, .say')].map((element) => element.textContent);
-  const said = [handle ? `${corner(state.chosen)} ${handle.x}, ${handle.y}` : '', ...outputs, ...texts].join('. ');
+  const said = [grip ? grip.says ?? `${grip.name} ${grip.x}, ${grip.y}` : '', ...outputs, ...texts].filter(Boolean).map((text) => (/[.。]$/.test(text) ? text : `${text}.`)).join(' ');
   if ($('announce').textContent !== said) $('announce').textContent = said;
 }
 

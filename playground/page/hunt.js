@@ -13,9 +13,8 @@ function load(found, from) {
   state.snap = drawn.snap;
   if (kind === 'line') state.lines = drawn.lines;
   else state.triangles = drawn.triangles;
-  delete state.named;
-  delete state.generated;
-  Object.assign(state, from, { chosen: 0, px: middle(drawn.window), step: 999 });
+  forget();
+  Object.assign(state, from, { chosen: 0, px: middle(drawn.window), step: 999, own: drawn.window });
   const box = document.querySelector('[data-state="snap"]');
   if (box) box.checked = state.snap;
   if ($('named')) {
@@ -35,7 +34,7 @@ const entry = (name) => Object.values(names).flat().find((one) => one.name === n
 function choice(id, label, options, value) {
   const select = make('select', { id, attr: { 'aria-describedby': `${id}-about` } }, ...options);
   if (value) select.value = value;
-  const says = make('p', { id: `${id}-about`, className: 'quiet wide' });
+  const says = make('p', { id: `${id}-about`, className: 'quiet' });
   const tell = () => { says.textContent = about(entry(select.value)); };
   select.addEventListener('change', tell);
   tell();

@@ -11,8 +11,8 @@ function listen(canvas, i) {
     const [x, y] = at(event);
     const { unit, ratio } = shown[i].view;
     const reach = (event.pointerType === 'touch' ? 26 : 14) * ratio;
-    const far = (handle) => Math.hypot(handle.x - x, handle.y - y) * unit;
-    const order = handles().map((handle, index) => ({ index, far: far(handle) })).sort((a, b) => a.far - b.far);
+    const far = (grip) => (grip.view === shown[i].of ? Math.hypot(grip.x - x, grip.y - y) * unit : Infinity);
+    const order = grips().map((grip, index) => ({ index, far: far(grip) })).sort((a, b) => a.far - b.far);
     return order[0]?.far <= reach ? order[0].index : null;
   };
   const fingers = new Map();
@@ -43,7 +43,7 @@ function listen(canvas, i) {
       return;
     }
     const [x, y] = at(event);
-    if (held?.index !== undefined) place(handles()[held.index] ?? handles()[0], x, y);
+    if (held?.index !== undefined) (grips()[held.index] ?? grips()[0]).place(x, y);
     else if (held?.pan) {
       const [dx, dy] = [Math.round(held.pan[0] - x), Math.round(held.pan[1] - y)];
       if (dx || dy) { held.moved = true; pan(dx, dy); }
@@ -63,7 +63,7 @@ function listen(canvas, i) {
     event.preventDefault();
     zoom(event.deltaY > 0 ? 1 : -1, at(event));
   }, { passive: false });
-  canvas.addEventListener('keydown', keys);
+  canvas.addEventListener('keydown', (event) => keys(event, i));
 }
 
 function lookAt(x, y) {
@@ -116,18 +116,22 @@ function keepPixel() {
   state.px = [within(state.px[0], x0, x1), within(state.px[1], y0, y1)];
 }
 
-function keys(event) {
+function keys(event, i) {
   const arrows = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
   const arrow = arrows[event.key];
-  const all = handles();
+  const all = grips();
+  const here = all.flatMap((grip, index) => (grip.view === shown[i].of ? [index] : []));
   if (arrow && event.altKey) pan(...arrow);
   else if (arrow && state.moves === 'pixel') lookAt(state.px[0] + arrow[0], state.px[1] + arrow[1]);
   else if (arrow) {
-    const handle = all[state.chosen % all.length];
+    state.chosen = chosenOn(i);
+    const grip = all[state.chosen];
     const step = event.shiftKey && !state.lines ? 1 / SUB : 1;
-    place(handle, handle.x + arrow[0] * step, handle.y + arrow[1] * step);
+    if (grip.nudge) grip.nudge(...arrow, event.shiftKey);
+    else grip.place(grip.x + arrow[0] * step, grip.y + arrow[1] * step);
   } else if (event.key === ']' || event.key === '[') {
-    Object.assign(state, { moves: 'corner', chosen: (state.chosen + (event.key === ']' ? 1 : all.length - 1)) % all.length });
+    const now = here.indexOf(chosenOn(i));
+    Object.assign(state, { moves: 'corner', chosen: here[(now + (event.key === ']' ? 1 : here.length - 1)) % here.length] });
     redraw();
   } else if (event.key === 'p') {
     state.moves = state.moves === 'pixel' ? 'corner' : 'pixel';

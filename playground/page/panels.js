@@ -17,14 +17,16 @@ function newPanel(i) {
   return { figure, caption, canvas, said: '' };
 }
 
-/** A panel is {title | select, says, bad, pixel(i, x, y), outlines, over}. */
+/** A panel is {title | select, says, bad, pixel(i, x, y), outlines, over, view}. */
 function drawPanel(panel, i, answer) {
+  shown[i].of = panel.view;
   const { caption, canvas } = shown[i];
   const key = JSON.stringify([panel.title, panel.select, state.lang]);
   if (shown[i].said !== key) {
     shown[i].said = key;
     const head = panel.select ? chooser(i, panel.select) : make('strong', {}, panel.title);
-    caption.replaceChildren(head, make('output'));
+    // What it says is said once, by the live region of the page.
+    caption.replaceChildren(head, make('output', { attr: { 'aria-live': 'off' } }));
   }
   const output = caption.lastChild;
   const says = panel.says ?? '';
@@ -32,7 +34,7 @@ function drawPanel(panel, i, answer) {
     output.textContent = says;
     output.className = panel.bad === undefined ? '' : panel.bad ? 'bad' : 'good';
   }
-  const label = `${panel.title ?? caption.querySelector('option:checked')?.textContent}: ${says}`;
+  const label = [panel.title ?? caption.querySelector('option:checked')?.textContent, says].filter(Boolean).join(': ');
   if (canvas.getAttribute('aria-label') !== label) canvas.setAttribute('aria-label', label);
   const [x0, y0, x1, y1] = state.window;
   const ratio = devicePixelRatio || 1;
@@ -45,11 +47,13 @@ function drawPanel(panel, i, answer) {
   const g = canvas.getContext('2d');
   g.fillStyle = colours.empty;
   g.fillRect(0, 0, wide, high);
-  drawPixels(g, view, panel);
-  drawGrid(g, view);
+  if (!panel.view) {
+    drawPixels(g, view, panel);
+    drawGrid(g, view);
+  }
   for (const outline of panel.outlines ?? answer.outlines ?? []) drawOutline(g, view, outline);
   panel.over?.(g, view);
-  drawHandles(g, view);
+  drawGrips(g, view, panel);
 }
 
 function chooser(i, name) {
@@ -139,25 +143,37 @@ function drawOutline(g, view, points, colour = colours.edge) {
   g.stroke();
 }
 
-function drawHandles(g, view) {
-  const focused = handles();
+function drawGrips(g, view, panel) {
+  const all = grips();
   g.font = `600 ${12 * view.ratio}px system-ui, sans-serif`;
   g.textAlign = 'center';
   g.textBaseline = 'middle';
-  focused.forEach((handle, i) => {
+  all.forEach((grip, i) => {
+    if (grip.view !== panel.view) return;
     const chosen = state.moves === 'corner' && i === state.chosen;
+    const [x, y] = [view.x(grip.x), view.y(grip.y)];
+    const radius = (chosen ? 7 : 5) * view.ratio;
+    if (grip.from) drawOutline(g, view, [grip.from, [grip.x, grip.y]]);
     g.beginPath();
-    g.arc(view.x(handle.x), view.y(handle.y), (chosen ? 7 : 5) * view.ratio, 0, 7);
+    // A corner is round, a value of it is not.
+    if (grip.nudge) g.rect(x - radius, y - radius, 2 * radius, 2 * radius);
+    else g.arc(x, y, radius, 0, 7);
     g.fillStyle = chosen ? colours.edge : colours.empty;
     g.fill();
     g.strokeStyle = colours.edge;
     g.lineWidth = 2 * view.ratio;
     g.stroke();
     g.fillStyle = colours.cursor;
-    if (focused.length > LETTERS.length) return;
+    if (all.length > LETTERS.length) return;
     // Beside the corner, and inside of the panel.
-    const [x, y] = [view.x(handle.x), view.y(handle.y)];
-    g.fillText(LETTERS[i], x + (x < g.canvas.width - 20 * view.ratio ? 13 : -13) * view.ratio, y + (y > 18 * view.ratio ? -9 : 11) * view.ratio);
+    const isLeft = x < g.canvas.width - (8 + 12 * grip.name.length) * view.ratio;
+    g.textAlign = isLeft ? 'left' : 'right';
+    const place = [grip.name, x + (isLeft ? 9 : -9) * view.ratio, y + (y > 18 * view.ratio ? -9 : 11) * view.ratio];
+    g.strokeStyle = colours.empty;
+    g.lineWidth = 3 * view.ratio;
+    g.lineJoin = 'round';
+    g.strokeText(...place);
+    g.fillText(...place);
   });
   if (state.px) {
     g.strokeStyle = colours.cursor;

@@ -85,11 +85,36 @@ function setField(handle, key, value) {
 }
 
 /** A slider for a value of each corner. */
-const sliders = (key, range) => handles().map((handle, i) => (
-  slide(`${key} ${corner(i)}`, handle.members[0][key], range, (next) => setField(handles()[i], key, next))));
+const sliders = (key, range) => handles().map((_, i) => (
+  slide(`${key} ${corner(i)}`, () => handles()[i].members[0][key], range, (next) => setField(handles()[i], key, next))));
+
+/** A value within a range, on its steps. */
+function stepped(value, [low, high, step]) {
+  return Math.max(low, Math.min(high, Number((Math.round(value / step) * step).toFixed(6))));
+}
+
+/** A grip for a value of each corner: the longer its stalk to the middle, the larger the value. */
+const stalks = (key, range) => handles().map((handle, i) => {
+  const [x0, y0, x1, y1] = state.window;
+  const [dx, dy] = [(x0 + x1) / 2 - handle.x, (y0 + y1) / 2 - handle.y];
+  const far = Math.hypot(dx, dy);
+  const [along, up] = far > 0 ? [dx / far, dy / far] : [0, -1];
+  const unit = side() / 32;
+  const value = handle.members[0][key];
+  const long = (value + 1.5) * unit;
+  const set = (next) => { setField(handle, key, stepped(next, range)); redraw(); };
+  return {
+    name: `${key} ${corner(i)}`, says: `${key} ${corner(i)} = ${value}`,
+    x: handle.x + along * long, y: handle.y + up * long, from: [handle.x, handle.y],
+    place: (x, y) => set(((x - handle.x) * along + (y - handle.y) * up) / unit - 1.5),
+    nudge: (right, down, isFine) => set(value + (right - down) * (isFine ? range[2] : 5 * range[2])),
+  };
+});
 
 function snapAll() {
-  for (const c of state.triangles.flat()) Object.assign(c, { x: Math.round(c.x * SUB) / SUB, y: Math.round(c.y * SUB) / SUB });
+  const off = state.triangles.flat().filter((c) => [c.x, c.y].some((v) => !Number.isInteger(v * SUB)));
+  for (const c of off) Object.assign(c, { x: Math.round(c.x * SUB) / SUB, y: Math.round(c.y * SUB) / SUB });
+  if (off.length) forget();
 }
 
 function stepper() {
@@ -131,5 +156,13 @@ function plot(pairs) {
   line('M0 0V100H100', colours.cursor, 0.8);
   line('M0 100L100 0', colours.grid, 1);
   line(path, colours.edge, 2);
+  const name = (text, x, y) => {
+    const element = document.createElementNS('http://www.w3.org/2000/svg', 'text');
+    for (const [key, value] of Object.entries({ x, y, fill: colours.sample, 'font-size': 7 })) element.setAttribute(key, value);
+    element.textContent = text;
+    svg.append(element);
+  };
+  name('t', 2, 5);
+  name('t′', 95, 97);
   return svg;
 }

@@ -1,5 +1,37 @@
 // The scenes: what each asks the engines, how it colours the answer, what it says about a pixel.
-// A scene is {start, ask, panels, look?, tools?, choices?, fields?, breaks?, keeps?, handles?, place?}.
+// A scene is {start, ask, panels, look?, tools?, choices?, fields?, breaks?, keeps?, handles?, place?, grips?, values?}.
+
+/** The ranges of values that are dragged: lowest, highest, step. */
+const RANGE_OF_W = [0.25, 8, 0.05];
+const RANGE_BEHIND = [-2, 4, 0.1];
+const RANGE_OF_NEAR = [0.1, 4, 0.1];
+/** The near plane from the side: w to the right, and up. The rays to one place on the screen run straight to the eye. */
+const aside = (w, y = 0) => [((w + 2) / 6) * 32, 16 - y * Math.abs(w) * 4];
+const asideW = (x) => (x / 32) * 6 - 2;
+
+/** Eye, field of view, near plane and triangle from the side; what is cut away is shaded. */
+function fromTheSide() {
+  return {
+    title: word('side'), says: `w ≥ ${state.near}`, view: 'side',
+    outlines: [state.points.map((p) => aside(p[2], p[1]))],
+    over: (g, view) => {
+      const [near] = aside(state.near);
+      const line = (from, to, colour) => drawOutline(g, view, [from, to], colour);
+      for (const way of [1, -1]) line(aside(0), aside(4, way), colours.grid);
+      line([aside(0)[0], 0], [aside(0)[0], 32], colours.grid);
+      line([near, 0], [near, 32], colours.missing);
+      g.globalAlpha = 0.15;
+      g.fillStyle = colours.missing;
+      g.fillRect(0, 0, view.x(near), view.y(32));
+      g.globalAlpha = 1;
+      g.fillStyle = colours.sample;
+      g.textAlign = 'left';
+      g.textBaseline = 'middle';
+      g.font = `${12 * view.ratio}px system-ui, sans-serif`;
+      g.fillText(word('eye'), view.x(aside(0)[0]) + 4 * view.ratio, view.y(1.5));
+    },
+  };
+}
 
 const SCENES = {
   triangle: {
@@ -13,7 +45,7 @@ const SCENES = {
       pixel: (i) => (panel.hits ? judged(panel.hits[i], answer.truth[i]) : null),
     })), ...(state.difference ? [difference(answer)] : [])],
     tools: () => [rules(), shapes(), check(word('snap'), 'snap', () => { if (state.snap) snapAll(); }), check(word('numbers'), 'numbers'), check(word('four'), 'four', setFour), check(word('difference'), 'difference')],
-    look: (answer) => [...aboutPixel(), make('p', { className: 'quiet' }, `${answer.ties ?? 0} ${word('ties')}`)],
+    look: (answer) => [...aboutPixel(), make('p', { className: 'quiet' }, `${word('ties')} ${answer.ties ?? 0}`)],
     breaks: () => ({ families: [...names.families, ...names.offFamilies], who: painters(), defaults: { by: 'games101-strict', family: 'half-integer' } }),
   },
 
@@ -45,7 +77,8 @@ const SCENES = {
     },
     tools: () => [
       make('label', { className: 'group' }, `${word('steps')} `, stepper()),
-      button('−1', () => stepTo(state.step - 1), { id: 'step-back' }), button('+1', () => stepTo(state.step + 1), { id: 'step-on' }),
+      button('−1', () => stepTo(state.step - 1), { id: 'step-back', 'aria-label': `${word('steps')} −1` }),
+      button('+1', () => stepTo(state.step + 1), { id: 'step-on', 'aria-label': `${word('steps')} +1` }),
       button(word('play'), playSteps, { id: 'play' }), check(word('four'), 'four', () => {
         while (state.four && state.by.length < 4) state.by.push(['oracle', 'book-dda', 'sysu-bresenham', 'dda'].find((name) => !state.by.includes(name)));
         if (!state.four) state.by.length = 2;
@@ -74,6 +107,7 @@ const SCENES = {
     start: {
       window: [0, 0, 16, 16], triangles: [[at(2, 13, { u: 1 }), at(8, 2, { v: 1 }), at(14, 11)]], by: ['edge-function', 'scanline'], px: [7, 8],
     },
+    values: true,
     choices: () => ['edge-function', 'scanline', 'oracle', 'book-ch3', 'sysu-weights'].map((name) => [name, name]),
     ask: () => ask({ ask: 'values', picture: picture(), by: state.by }),
     panels: (answer) => answer.panels.map((panel) => ({
@@ -104,9 +138,11 @@ const SCENES = {
       window: [0, 0, 32, 32], by: ['edge-function', 'book-affine'],
       triangles: [[at(2, 29, { w: 1 }), at(12, 4, { w: 4, v: 1 }), at(20, 4, { w: 4, u: 1, v: 1 })], [at(2, 29, { w: 1 }), at(20, 4, { w: 4, u: 1, v: 1 }), at(30, 29, { w: 1, u: 1 })]],
     },
+    values: true,
     choices: () => ['edge-function', 'scanline', 'oracle', 'book-affine', 'book-ch11', 'games101-strict', 'games101-depth'].map((name) => [name, name]),
     fields: [field('w', 0.25, 0.01)],
-    tools: () => sliders('w', [0.25, 8, 0.25]),
+    tools: () => sliders('w', RANGE_OF_W),
+    grips: () => stalks('w', RANGE_OF_W),
     ask: () => ask({ ask: 'values', picture: picture(), by: state.by }),
     panels: (answer) => answer.panels.map((panel) => ({
       select: panel.name,
@@ -134,6 +170,7 @@ const SCENES = {
         [at(26, 5, { depth: 0.2 }), at(2, 14, { depth: 0.8 }), at(26, 23, { depth: 0.2 })],
       ],
     },
+    values: true,
     fields: [field('depth', 0, 0.05)],
     tools: () => sliders('depth', [0, 1, 0.05]),
     ask: () => ask({ ask: 'depth', picture: picture(), by: ['scanline'] }),
@@ -152,23 +189,36 @@ const SCENES = {
   },
 
   near: {
-    start: { window: [0, 0, 32, 32], near: 1, points: [[-0.6, -0.7, 2], [0.7, -0.5, 2], [-0.1, 0.6, 0.4]] },
+    start: { window: [0, 0, 32, 32], near: 1, points: [[-0.7, -0.3, 2], [0.7, -0.1, 2], [-0.1, 0.9, 0.4]] },
     keeps: ['near', 'points'],
     noSamples: true,
     handles: () => state.points.map((p) => ({ x: Number(round((p[0] + 1) * 16, 6)), y: Number(round((1 - p[1]) * 16, 6)), members: [p] })),
     place: (handle, x, y) => { handle.members[0].splice(0, 2, Math.round((x / 16 - 1) * 100) / 100, Math.round((1 - y / 16) * 100) / 100); },
     fields: [{ key: 'w', step: 0.1, get: (h) => h.members[0][2], set: (h, value) => { h.members[0][2] = value; } }],
+    grips: () => {
+      const grip = (name, value, [x, y], range, set) => {
+        const to = (next) => { set(stepped(next, range)); redraw(); };
+        return {
+          view: 'side', name, says: `${name} = ${value}`, x, y,
+          place: (at) => to(asideW(at)), nudge: (right, down, isFine) => to(value + (right - down) * (isFine ? 1 : 5) * range[2]),
+        };
+      };
+      return [
+        ...state.points.map((p, i) => grip(`w ${corner(i)}`, p[2], aside(p[2], p[1]), RANGE_BEHIND, (w) => { p[2] = w; })),
+        grip(word('plane'), state.near, [aside(state.near)[0], 30], RANGE_OF_NEAR, (w) => { state.near = w; }),
+      ];
+    },
     ask: () => ask({ ask: 'near', side_px: 32, corners: state.points, near: state.near }),
-    panels: (answer) => answer.panels.map((panel) => ({
+    panels: (answer) => [fromTheSide(), ...answer.panels.map((panel) => ({
       title: word(panel.name),
       says: panel.refused ? `${word('refused')}: ${panel.refused}` : `${panel.outline.length} ${word('polygon')}, ${panel.covered} ${word('covered')}`,
       bad: panel.refused ? true : undefined,
       outlines: panel.outline ? [panel.outline] : [],
       pixel: (i) => (panel.hits?.[i] > 0 ? { colour: colours.agrees } : null),
-    })),
+    }))],
     tools: () => [
-      slide(word('nearPlane'), state.near, [0.1, 4, 0.1], (value) => { state.near = value; }),
-      ...state.points.map((p, i) => slide(`w ${corner(i)}`, p[2], [-2, 4, 0.1], (value) => { p[2] = value; })),
+      slide(word('nearPlane'), () => state.near, RANGE_OF_NEAR, (value) => { state.near = value; }),
+      ...state.points.map((p, i) => slide(`w ${corner(i)}`, () => p[2], RANGE_BEHIND, (value) => { p[2] = value; })),
     ],
   },
 
@@ -192,7 +242,7 @@ const SCENES = {
     keeps: ['removes'],
     ask: () => ask({ ask: 'cull', picture: picture(), removes: state.removes }),
     panels: (answer) => [{
-      title: word(state.removes), says: `${answer.covered} ${word('covered')}`,
+      title: `${word('cullWhat')}: ${word(state.removes)}`, says: `${answer.covered} ${word('covered')}`,
       pixel: (i) => (answer.hits[i] > 0 ? { colour: colours.agrees } : null),
     }],
     tools: () => {
@@ -202,7 +252,7 @@ const SCENES = {
       const turn = (i) => button(`${word('turn')} ${i + 1}`, () => { const t = state.triangles[i]; [t[1], t[2]] = [t[2], t[1]]; redraw(); });
       return [make('label', { className: 'group' }, `${word('cullWhat')} `, select), ...state.triangles.map((_, i) => turn(i))];
     },
-    look: (answer) => [table([word('ofTriangle'), '2A', '', ''], (answer.areas ?? []).map((area, i) => [
+    look: (answer) => [make('h2', {}, word('culling')), table([word('ofTriangle'), '2A', '', ''], (answer.areas ?? []).map((area, i) => [
       String(i + 1), area.twiceArea, word(area.sign > 0 ? 'clockwise' : area.sign < 0 ? 'counter-clockwise' : 'degenerate'), word(area.removed ? 'removed' : 'drawn')]))],
   },
 };

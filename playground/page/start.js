@@ -4,7 +4,7 @@ function drawAll() {
   document.documentElement.lang = state.lang === 'zh' ? 'zh-CN' : 'en';
   for (const element of document.querySelectorAll('[data-word]')) element.textContent = word(element.dataset.word);
   $('scenes').setAttribute('aria-label', word('scenes'));
-  $('tools').setAttribute('aria-label', word('engines'));
+  $('tools').setAttribute('aria-label', word('tools'));
   fill($('scenes'), Object.keys(SCENES).map((name) => button(word(name), () => { begin(name); drawAll(); }, { 'aria-pressed': name === state.scene, id: `scene-${name}` })));
   $('about').textContent = WORDS[state.lang].about[state.scene];
   $('panels').replaceChildren();

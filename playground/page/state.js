@@ -47,6 +47,20 @@ function handles() {
   return found;
 }
 
+/** All that can be dragged: corners, and what a scene adds. A grip is {name, x, y, place, nudge?, says?, from?, view?};
+ * it lies on the panels of its view. */
+function grips() {
+  const corners = handles().map((handle, i) => ({ ...handle, name: corner(i), place: (x, y) => place(handle, x, y) }));
+  return [...corners, ...(scene().grips?.() ?? [])];
+}
+
+/** The first grip of a panel where the chosen one lies on another. */
+function chosenOn(i) {
+  const all = grips();
+  if (all[state.chosen] && all[state.chosen].view === shown[i].of) return state.chosen;
+  return all.findIndex((grip) => grip.view === shown[i].of);
+}
+
 /** Puts a handle somewhere, on the lattice where corners snap, on a whole pixel for lines. */
 function place(handle, x, y) {
   const limit = (v) => Math.max(-4096, Math.min(4096, v));
@@ -58,7 +72,12 @@ function place(handle, x, y) {
     const to = (v) => limit(state.snap ? Math.round(v * SUB) / SUB : v);
     for (const corner of handle.members) Object.assign(corner, { x: to(x), y: to(y) });
   }
+  forget();
+  redraw();
+}
+
+/** What is shown has no name any more. */
+function forget() {
   delete state.named;
   delete state.generated;
-  redraw();
 }

@@ -12,15 +12,24 @@ function check(label, key, then = () => {}) {
   return make('label', {}, box, ` ${label}`);
 }
 
-function slide(label, value, [low, high, step], set) {
-  const range = make('input', { type: 'range', min: low, max: high, step, value });
-  const says = make('output', {}, String(value));
-  range.addEventListener('input', () => { set(Number(range.value)); says.textContent = range.value; redraw(); });
+function slide(label, get, [low, high, step], set) {
+  const range = make('input', { type: 'range', min: low, max: high, step, value: get() });
+  const says = make('output', { attr: { 'aria-live': 'off' } }, String(get()));
+  range.addEventListener('input', () => { set(Number(range.value)); redraw(); });
+  sliding.push(() => {
+    const text = String(get());
+    if (range.value !== text) range.value = text;
+    if (says.textContent !== text) says.textContent = text;
+  });
   return make('label', { className: 'group' }, `${label} `, range, ' ', says);
 }
 
+/** What brings the sliders to where their values are, which are dragged elsewhere too. */
+let sliding = [];
+
 function drawTools() {
   const tools = [];
+  sliding = [];
   if (!scene().handles) {
     tools.push(make('span', { className: 'group' },
       button('−', () => zoom(1), { 'aria-label': word('zoomOut') }), button('+', () => zoom(-1), { 'aria-label': word('zoomIn') }),
@@ -30,8 +39,9 @@ function drawTools() {
   fill($('tools'), [...tools, ...(scene().tools?.() ?? [])]);
 }
 
-/** Buttons show what is chosen, wherever it was chosen. */
+/** Buttons and sliders show what is chosen, wherever it was chosen. */
 function pressTools() {
+  for (const follow of sliding) follow();
   for (const button of $('tools').querySelectorAll('[data-by]')) {
     const pressed = String(state.by?.[1] === button.dataset.by);
     if (button.getAttribute('aria-pressed') !== pressed) button.setAttribute('aria-pressed', pressed);

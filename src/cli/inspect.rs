@@ -5,22 +5,21 @@ use std::path::PathBuf;
 use clap::builder::PossibleValuesParser;
 use image::RgbImage;
 
+use super::inspect_case::{Found, find, parse_pixel, recorded, words};
 use super::page::{PageArguments, write_page};
 use super::shown::{self, Contestants};
 use super::{Failure, Streams, exit, explain, png_name, program, usage, write_file, write_unasked};
 use crate::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
-use crate::hazard::named::{Input, plain_line, plain_triangle};
-use crate::hazard::offgrid::{self, OffGridCase};
-use crate::hazard::{self, Case, Line, Shape};
+use crate::hazard::offgrid::OffGridCase;
+use crate::hazard::{Case, Shape};
 use crate::lineup::{Entry, ExactEngine, SPECIMENS, Specimen};
 use crate::oracle::coverage::samples_on_boundary;
 use crate::raster::edge_function::WordWidth;
 use crate::report::html::{Outcome, Report};
 use crate::report::{ascii, cases, panels, picture, summary};
-use crate::scene::named;
 use crate::specimen::bare;
-use crate::specimen::catalogue::{RECORDED, RECORDED_SIDE_PX, RecordedCase};
-use crate::triangle::{Corners, FreeCorners, PixelPoint};
+use crate::specimen::catalogue::{RECORDED_SIDE_PX, RecordedCase};
+use crate::triangle::{FreeCorners, PixelPoint};
 use crate::verify::exact::{describe, exact_coverage, judge_exact_case};
 use crate::verify::specimens::specimen_coverage;
 use crate::verify::{self, Finding, Tally, oracle_pixels_each};
@@ -30,6 +29,8 @@ use crate::verify::{self, Finding, Tally, oracle_pixels_each};
 #[command(after_help = "Examples:
   rasterproof inspect T2
   rasterproof inspect 0.5,0.5 5.5,0.5 5.5,5.5 --window 8x8
+  rasterproof inspect 0,0 4,0 0,4 4,0 4,4 0,4            two triangles, three corners each
+  rasterproof inspect 0.1,0.2 5.3,0.7 2,6.1 --exact      the corners as they are, not snapped
   rasterproof inspect --line -100,20 30,40 --window 64x48
   rasterproof inspect sliver#123 --seed 7 -o sliver.png
   rasterproof inspect T3 --specimen book-ch2
@@ -40,18 +41,22 @@ use crate::verify::{self, Finding, Tally, oracle_pixels_each};
 In the grids: # agrees with the oracle, - missing, + extra, 2 twice, * rightly more than once.
 In the picture: grey agrees, red missing, orange extra, violet twice; blue edges, dark samples.")]
 pub struct InspectArguments {
-    /// A named case, FAMILY#NUMBER, or the corners as x,y in pixels
-    #[arg(value_name = "CASE or X,Y", required = true, num_args = 1..=3)]
-    what: Vec<String>,
-    /// The two points are the end pixels of a line
+    /// A named case, FAMILY#NUMBER, or three corners of each triangle: x,y in pixels, or
+    /// x,y,w,depth,u,v
+    #[arg(value_name = "CASE or X,Y", required = true, num_args = 1..)]
+    pub(super) what: Vec<String>,
+    /// The points are pixels, the two ends of each line
     #[arg(long)]
-    line: bool,
+    pub(super) line: bool,
+    /// The corners as they are, not snapped to 1/256 px
+    #[arg(long)]
+    pub(super) exact: bool,
     /// The pixels to show, as WIDTHxHEIGHT or X,Y,WIDTHxHEIGHT [default: around the shape]
     #[arg(long, value_name = "WxH", value_parser = parse_window)]
     window: Option<PixelRect>,
     /// Seed of FAMILY#NUMBER
     #[arg(long, value_name = "N", default_value_t = 1)]
-    seed: u64,
+    pub(super) seed: u64,
     /// Show what this published algorithm draws as well; it is not judged
     #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(SPECIMENS.iter().map(|e| e.name)))]
     specimen: Option<String>,
@@ -101,9 +106,9 @@ fn parse_window(text: &str) -> Result<PixelRect, String> {
 }
 
 /// Whether the case has other corners than those typed, by the grid.
-fn is_snapped(case: &Case, typed: &FreeCorners) -> bool {
+fn is_snapped(case: &Case, typed: &[FreeCorners]) -> bool {
     let Shape::Triangles { list, .. } = &case.shape else { return false };
-    list.iter().any(|triangle| FreeCorners::from(triangle.corners()) != *typed)
+    list.iter().map(|triangle| FreeCorners::from(triangle.corners())).ne(typed.iter().copied())
 }
 
 /// A pixel that is to be explained lies in what is drawn.
@@ -124,8 +129,8 @@ fn no_part(plant: Option<&String>) -> Failure {
 }
 
 pub fn run(arguments: &InspectArguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
-    let (title, mut case, expected) = match find(arguments)? {
-        Found::Case { title, case, expected } => (title, case, expected),
+    let (title, mut case, expected, typed) = match find(arguments)? {
+        Found::Case { title, case, expected, typed } => (title, case, expected, typed),
         Found::Refused { title, corners } => return refused(&title, &corners, streams.output),
         Found::OffGrid { title, case } => {
             return off_grid_alone(arguments, &title, case, streams);
@@ -181,19 +186,14 @@ pub fn run(arguments: &InspectArguments, streams: &mut Streams<'_>) -> Result<u8
         }
     }
     // Corners that were typed in are shown as they were typed, too.
-    let typed = words(arguments);
-    if let ([a, b, c], false, false) = (typed.as_slice(), arguments.line, exact.is_empty()) {
-        let px = [parse_px(a)?, parse_px(b)?, parse_px(c)?];
-        if let Ok(corners) = FreeCorners::new(px) {
-            writeln!(out, "\nnot snapped:")?;
-            if let Some(at) = arguments.pixel.filter(|_| is_snapped(&case, &corners)) {
-                writeln!(out, "{}", explain::free_pixel(&[corners], case.window, at))?;
-            }
-            let shown_too = specimen(arguments, None).map(|specimen| (specimen, case.window));
-            let typed =
-                OffGridCase { window: case.window, triangles: vec![corners], is_tiling: false };
-            agrees &= off_grid(&title, &typed, &exact, shown_too, out)?.0;
+    if !typed.is_empty() && !exact.is_empty() {
+        writeln!(out, "\nnot snapped:")?;
+        if let Some(at) = arguments.pixel.filter(|_| is_snapped(&case, &typed)) {
+            writeln!(out, "{}", explain::free_pixel(&typed, case.window, at))?;
         }
+        let shown_too = specimen(arguments, None).map(|specimen| (specimen, case.window));
+        let typed = OffGridCase { window: case.window, triangles: typed, is_tiling: false };
+        agrees &= off_grid(&title, &typed, &exact, shown_too, out)?.0;
     }
     write_picture(arguments, &shown.picture(&title, &case), streams)?;
     if arguments.page.report {
@@ -216,7 +216,7 @@ fn device(
     let Shape::Triangles { list, .. } = &case.shape else {
         return Err(usage("a Vulkan device is shown on triangles: leave out --engine"));
     };
-    let corners: Vec<Corners> = list.iter().map(|t| t.corners()).collect();
+    let corners: Vec<_> = list.iter().map(|t| t.corners()).collect();
     let hits = super::vulkan::coverage(engine, &corners, case.window)?;
     let tally = shown.add_drawn(engine, hits);
     let said = match tally.total() {
@@ -248,7 +248,36 @@ fn say_findings(
 
 /// The name of the case on its page.
 fn name(arguments: &InspectArguments) -> String {
-    arguments.what.iter().map(|word| word.trim()).collect::<Vec<_>>().join(" ")
+    let what = words(arguments);
+    let shapes = if arguments.line { "lines" } else { "triangles" };
+    match what.len() / if arguments.line { 2 } else { 3 } {
+        0 | 1 => what.join(" "),
+        count => format!("{count} {shapes}"),
+    }
+}
+
+/// The command that shows the same again.
+fn command(arguments: &InspectArguments) -> String {
+    let what = words(arguments);
+    let quoted = |word: &String| match word.contains(['#', '(']) {
+        true => format!("'{word}'"),
+        false => word.clone(),
+    };
+    let mut said = vec![format!("{} inspect", program())];
+    said.extend(arguments.line.then(|| "--line".to_owned()));
+    said.extend(what.iter().map(quoted));
+    if matches!(what.as_slice(), [word] if word.contains('#')) {
+        said.push(format!("--seed {}", arguments.seed));
+    }
+    said.extend(arguments.exact.then(|| "--exact".to_owned()));
+    said.extend(
+        arguments
+            .window
+            .map(|w| format!("--window {},{},{}x{}", w.x0, w.y0, w.width(), w.height())),
+    );
+    said.extend(arguments.specimen.as_ref().map(|name| format!("--specimen {name}")));
+    said.extend(arguments.plant.as_ref().map(|name| format!("--plant {name}")));
+    said.join(" ")
 }
 
 fn kind(agrees: bool) -> cases::Kind {
@@ -261,13 +290,7 @@ fn write_report(
     agrees: bool,
     streams: &mut Streams<'_>,
 ) -> Result<(), Failure> {
-    let plant = arguments.plant.as_ref().map(|name| format!(" --plant {name}")).unwrap_or_default();
-    let line = if arguments.line { " --line" } else { "" };
-    let seed = match arguments.what.as_slice() {
-        [word] if word.contains('#') => format!(" --seed {}", arguments.seed),
-        _ => String::new(),
-    };
-    let command = format!("{} inspect{line} {}{seed}{plant}", program(), name(arguments));
+    let command = command(arguments);
     view.command.clone_from(&command);
     let (word, sentence) = match agrees {
         true => ("AGREES", "Every engine draws what the oracle draws."),
@@ -292,17 +315,19 @@ fn cropped(case: &Case, arguments: &InspectArguments) -> String {
     let w = case.window;
     let mut out = String::new();
     if arguments.window.is_none() && words(arguments).len() > 1 {
-        let whole = match &case.shape {
-            Shape::Triangles { list, .. } => list.first().map(|t| {
-                let (xs, ys) = (t.corners().map(|p| p.x), t.corners().map(|p| p.y));
-                (reach(&xs) / SUBPIXELS, reach(&ys) / SUBPIXELS)
-            }),
-            Shape::Lines(list) => list.first().map(|l| {
-                let ends = l.ends.map(|end| end.pixel);
-                (reach(&ends.map(|p| p.x)), reach(&ends.map(|p| p.y)))
-            }),
+        let (width, height) = match &case.shape {
+            Shape::Triangles { list, .. } => {
+                let corners = || list.iter().flat_map(|t| t.corners());
+                (
+                    reach(corners().map(|p| p.x)) / SUBPIXELS,
+                    reach(corners().map(|p| p.y)) / SUBPIXELS,
+                )
+            }
+            Shape::Lines(list) => {
+                let ends = || list.iter().flat_map(|l| l.ends.map(|end| end.pixel));
+                (reach(ends().map(|p| p.x)), reach(ends().map(|p| p.y)))
+            }
         };
-        let (width, height) = whole.unwrap_or((0, 0));
         if width >= w.width() as i32 || height >= w.height() as i32 {
             out += &format!(
                 "cropped: the shape is {width} x {height} px, the window {} x {}; see more with --window\n",
@@ -322,9 +347,8 @@ fn cropped(case: &Case, arguments: &InspectArguments) -> String {
 }
 
 /// Largest minus smallest.
-fn reach(values: &[i32]) -> i32 {
-    let (low, high) = (values.iter().min().unwrap_or(&0), values.iter().max().unwrap_or(&0));
-    high.saturating_sub(*low)
+fn reach(values: impl Iterator<Item = i32> + Clone) -> i32 {
+    values.clone().max().unwrap_or(0).saturating_sub(values.min().unwrap_or(0))
 }
 
 /// Shows a case off the lattice, which the engines for such corners alone can draw.
@@ -385,11 +409,6 @@ fn write_picture(
     Ok(())
 }
 
-/// The recorded input that the words name.
-fn recorded(words: &[String]) -> Option<&'static RecordedCase> {
-    RECORDED.iter().find(|case| [case.name] == *words)
-}
-
 /// The specimen to show: the one asked for, or the one of a recorded input.
 fn specimen(
     arguments: &InspectArguments,
@@ -397,12 +416,6 @@ fn specimen(
 ) -> Option<&'static Entry> {
     let name = arguments.specimen.as_deref().or(recorded.map(|case| case.specimen))?;
     SPECIMENS.iter().find(|entry| entry.name == name)
-}
-
-enum Found {
-    Case { title: String, case: Case, expected: Option<Vec<u64>> },
-    Refused { title: String, corners: Vec<[[f64; 2]; 3]> },
-    OffGrid { title: String, case: OffGridCase },
 }
 
 /// Pixels of the engines that do not snap, and how they decided; whether they agree, and a picture.
@@ -456,164 +469,6 @@ fn off_grid(
     blocks.push((oracle, ascii::grid(&target, &target)));
     writeln!(out, "\n{}", ascii::side_by_side(&blocks, 100))?;
     Ok((agrees, panels::of_off_grid(title, case, &drawn, &target).image))
-}
-
-fn find(arguments: &InspectArguments) -> Result<Found, Failure> {
-    let words = &words(arguments);
-    let generated = |title: String, case: Case| Found::Case { title, case, expected: None };
-    match (words.as_slice(), arguments.line) {
-        ([a, b], true) => {
-            let (a, b) = (parse_pixel(a)?, parse_pixel(b)?);
-            let line = plain_line(a, b);
-            Ok(generated(format!("line {},{} to {},{}", a.x, a.y, b.x, b.y), line_case(line)))
-        }
-        (_, true) => Err(usage("--line takes two points, for example: inspect --line 0,0 8,3")),
-        ([a, b, c], false) => {
-            let corners = [parse_point(a)?, parse_point(b)?, parse_point(c)?];
-            Ok(generated(format!("triangle {a} {b} {c}"), triangle_case(corners)))
-        }
-        ([word], false) => match word.split_once('#') {
-            Some((family, number)) => {
-                let index = number.parse::<u64>().map_err(|_| {
-                    usage(format!(
-                        "{word}: expected the number of a case after '#', for example {family}#123"
-                    ))
-                });
-                if let Some(family) = offgrid::FAMILIES.iter().find(|f| f.name == family) {
-                    let title = format!("{word} of seed {}: {}", arguments.seed, family.about);
-                    let case = family.case(arguments.seed, index?);
-                    return Ok(Found::OffGrid { title, case });
-                }
-                let found = hazard::families().find(|f| f.name == family);
-                let names = hazard::families().map(|f| f.name);
-                let names = names.chain(offgrid::FAMILIES.iter().map(|f| f.name));
-                let family = found.ok_or_else(|| unknown("family", family, names))?;
-                let index = index?;
-                let title = format!("{word} of seed {}: {}", arguments.seed, family.about);
-                Ok(generated(title, family.case(arguments.seed, index)))
-            }
-            None => {
-                if let Some(case) = recorded(words) {
-                    return Ok(recorded_case(case));
-                }
-                let names = named::named().into_iter().map(|case| case.name);
-                let names: Vec<_> = names.chain(RECORDED.iter().map(|case| case.name)).collect();
-                let named =
-                    named::find(word).ok_or_else(|| unknown("case", word, names.into_iter()))?;
-                let title = format!("{}: {}", named.name, named.about);
-                Ok(match named.input {
-                    Input::Drawn { case, pixels } => {
-                        Found::Case { title, case, expected: Some(pixels) }
-                    }
-                    Input::Refused(corners) => Found::Refused { title, corners },
-                })
-            }
-        },
-        _ => Err(usage(
-            "expected a named case, FAMILY#NUMBER, or three corners x,y; see inspect --help",
-        )),
-    }
-}
-
-/// A recorded input off the lattice, in the part of its screen that it or its specimen touches.
-fn recorded_case(case: &RecordedCase) -> Found {
-    let title =
-        format!("{}: recorded of the book's own code, shown by {}", case.name, case.specimen);
-    let corners = case.corners_px();
-    let all = corners.iter().flatten();
-    let side = f64::from(RECORDED_SIDE_PX);
-    let range = |axis: usize| {
-        let (low, high) = all
-            .clone()
-            .fold((side, 0.0), |(low, high): (f64, f64), p| (low.min(p[axis]), high.max(p[axis])));
-        // Two pixels to spare, within the screen.
-        let within = |px: f64| px.clamp(0.0, side) as i32;
-        (within(low.floor() - 2.0), within(high.ceil() + 2.0))
-    };
-    let ((x0, x1), (y0, y1)) = (range(0), range(1));
-    let triangles: Result<_, _> = corners.iter().map(|&t| FreeCorners::new(t)).collect();
-    let window = PixelRect { x0, y0, x1, y1 };
-    match triangles {
-        Ok(triangles) => {
-            Found::OffGrid { title, case: OffGridCase { window, triangles, is_tiling: false } }
-        }
-        Err(_) => Found::Refused { title, corners },
-    }
-}
-
-/// The words of the case; points that are typed as they are printed, (1, 2) (3, 4), come apart.
-fn words(arguments: &InspectArguments) -> Vec<String> {
-    let whole = arguments.what.join(" ");
-    if !whole.contains('(') {
-        return arguments.what.clone();
-    }
-    let points = whole.split_inclusive(')').map(str::trim).filter(|word| !word.is_empty());
-    points.map(str::to_owned).collect()
-}
-
-/// A point without the parentheses that it may be printed with.
-fn bare_point(text: &str) -> Option<(&str, &str)> {
-    let text = text.trim();
-    let text = text.strip_prefix('(').and_then(|t| t.strip_suffix(')')).unwrap_or(text);
-    text.split_once(',').map(|(x, y)| (x.trim(), y.trim()))
-}
-
-/// An error for a name that is not there, with the nearest one that is.
-fn unknown(kind: &str, word: &str, names: impl Iterator<Item = &'static str>) -> Failure {
-    let distance =
-        |a: &str, b: &str| strsim::levenshtein(&a.to_ascii_lowercase(), &b.to_ascii_lowercase());
-    let nearest = names.map(|name| (distance(word, name), name)).min();
-    let hint = match nearest {
-        Some((steps, name)) if steps * 2 <= name.len().max(word.len()) => {
-            format!("; did you mean '{name}'?")
-        }
-        _ => ".".to_owned(),
-    };
-    usage(format!("no {kind} is called '{word}'{hint} See: {} list", program()))
-}
-
-fn parse_px(text: &str) -> Result<[f64; 2], Failure> {
-    let numbers = bare_point(text).and_then(|(x, y)| Some([x.parse().ok()?, y.parse().ok()?]));
-    numbers.ok_or_else(|| {
-        usage(format!(
-            "'{text}' is not a point: expected X,Y in pixels, for example 0.5,3 (or a named case)"
-        ))
-    })
-}
-
-fn parse_point(text: &str) -> Result<SubpixelPoint, Failure> {
-    let [x, y] = parse_px(text)?;
-    SubpixelPoint::from_px(x, y).map_err(|refusal| usage(format!("'{text}': {refusal}")))
-}
-
-fn parse_pixel(text: &str) -> Result<PixelPoint, Failure> {
-    let numbers = bare_point(text).and_then(|(x, y)| Some((x.parse().ok()?, y.parse().ok()?)));
-    let (x, y) = numbers.ok_or_else(|| {
-        usage(format!("'{text}' is not a pixel: expected two whole numbers X,Y within 32 bits, for example 8,3"))
-    })?;
-    Ok(PixelPoint::new(x, y))
-}
-
-/// Around the triangle with a pixel to spare, at most 64 pixels wide and high.
-fn triangle_case(corners: Corners) -> Case {
-    let range = |subs: [i32; 3]| {
-        let low = subs.into_iter().min().unwrap_or(0).div_euclid(SUBPIXELS).saturating_sub(1);
-        let high = subs.into_iter().max().unwrap_or(0).div_euclid(SUBPIXELS).saturating_add(2);
-        (low, high.min(low.saturating_add(64)))
-    };
-    let ((x0, x1), (y0, y1)) = (range(corners.map(|c| c.x)), range(corners.map(|c| c.y)));
-    let list = vec![plain_triangle(corners)];
-    Case { window: PixelRect { x0, y0, x1, y1 }, shape: Shape::Triangles { list, disjoint: true } }
-}
-
-fn line_case(line: Line) -> Case {
-    let [a, b] = line.ends.map(|end| end.pixel);
-    let range = |a: i32, b: i32| {
-        let low = a.min(b).saturating_sub(1);
-        (low, a.max(b).saturating_add(2).min(low.saturating_add(64)))
-    };
-    let ((x0, x1), (y0, y1)) = (range(a.x, b.x), range(a.y, b.y));
-    Case { window: PixelRect { x0, y0, x1, y1 }, shape: Shape::Lines(vec![line]) }
 }
 
 fn refused(

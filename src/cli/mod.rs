@@ -9,6 +9,7 @@ mod engine;
 mod exhaust;
 mod explain;
 mod inspect;
+mod inspect_case;
 mod invariant;
 mod judge;
 mod league;

@@ -112,6 +112,9 @@ fn bad_input_is_refused_with_a_reason() {
         (&["inspect", "--line", "0,0"], "two points"),
         (&["inspect", "--line", "0,0", "1e9,3"], "whole numbers"),
         (&["inspect", "sliver#x"], "number of a case"),
+        (&["inspect", "--exact", "--line", "0,0", "8,3"], "leave out --exact"),
+        (&["inspect", "--exact", "0,0,2", "8,3", "1,7"], "X,Y alone"),
+        (&["inspect", "0,0", "8,3", "1,7", "2,2"], "three corners"),
         (&["inspect", "T2", "-o", "/proc/none/x.png"], "/proc/none/x.png"),
     ] {
         let (_, errors) = check(words, 2);
@@ -290,6 +293,23 @@ fn inspect_takes_what_the_tool_prints() {
     assert!(errors.contains("in no engine that draws this case"), "{errors}");
     let (out, _) = check(&["inspect", "T2", "--report"], 0);
     assert!(out.contains("report: target/rasterproof/"), "{out}");
+    // Several triangles, each by itself; a corner with values; corners that are not snapped.
+    let square = ["inspect", "0.5,0.5", "5.5,0.5", "5.5,5.5", "0.5,0.5", "5.5,5.5", "0.5,5.5"];
+    let (out, _) = check(&square, 0);
+    assert!(out.starts_with("2 triangles\n") && out.contains("oracle: 25 px"), "{out}");
+    let (out, _) = check(&["inspect", "2,29,1", "12,4,4,0,0,1", "20,4,4,0.5,1,1"], 0);
+    assert!(out.contains("edge-function against oracle: agrees; "), "{out}");
+    let (_, errors) = check(&["inspect", "2,29,-1", "12,4", "20,4"], 2);
+    assert!(errors.contains("'2,29,-1': "), "{errors}");
+    let (out, _) = check(&["inspect", "--exact", "0.1,0.2", "5.3,0.7", "2,6.1"], 0);
+    assert!(
+        out.contains("scanline-exact against oracle-exact: agrees") && !out.contains("oracle: "),
+        "{out}"
+    );
+    let (out, _) = check(&["inspect", "--exact", "T2"], 0);
+    assert!(out.contains("oracle-exact: 25 px"), "{out}");
+    let (out, _) = check(&["inspect", "--line", "0,0", "5,0", "5,0", "5,5"], 0);
+    assert!(out.starts_with("2 lines\n"), "{out}");
     let (out, _) = check(&["inspect", "0,0", "900,0", "0,900"], 0);
     assert!(out.contains("cropped: the shape is 900 x 900 px, the window 64 x 64"), "{out}");
 }

@@ -23,6 +23,7 @@ mod next;
 mod page;
 mod pages;
 mod playground;
+mod playground_hands;
 mod proof;
 mod properties;
 mod protocol;

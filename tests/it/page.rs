@@ -375,10 +375,17 @@ fn steps_and_lost_addresses(browser: &mut Browser, page: &Path) {
         browser.wait_for(&format!("document.body.dataset.ready === {:?}", names[at]));
         assert_eq!(browser.text("#place"), format!("{} of {}", at + 1, names.len()));
     }
-    browser.open(page, "#case-no%20such&mode=side");
-    let said = format!("This page has no case called no such; this is {}.", names[0]);
-    assert_eq!(browser.text("#lost"), said);
-    assert_eq!(browser.eval("document.querySelector('#lost').hidden"), json!(false));
+    for (fragment, lost, at) in [
+        ("#no-such", "This page has no place called no-such", names[0].as_str()),
+        ("#case-T2&a=nobody", "Nobody called nobody draws this case", "T2"),
+        ("#case-T2&mode=fast", "There is no way to compare called fast", "T2"),
+        ("#case-T2&px=99,0", "This case has no pixel 99,0", "T2"),
+        ("#case-no%20such&mode=side", "This page has no case called no such", &names[0]),
+    ] {
+        browser.open(page, fragment);
+        assert_eq!(browser.text("#lost"), format!("{lost}; this is {at}."));
+        assert_eq!(browser.eval("document.querySelector('#lost').hidden"), json!(false));
+    }
     browser.press("n");
     browser.wait_for("document.querySelector('#lost').hidden");
 }

@@ -90,6 +90,8 @@ struct Panels {
     /// Segments in window pixels.
     outline: Vec<[DVec2; 2]>,
     has_samples: bool,
+    /// Whether the colours are those of [`shade`].
+    has_values: bool,
 }
 
 /// All cards of a sheet, two strips to a row, under a title and over a legend.
@@ -111,7 +113,8 @@ pub fn sheet(sheet: &Sheet) -> panels::Sheet {
         top += row.height() + picture::STACK_GAP;
         all.push(row);
     }
-    all.push(legend(2 * STRIP));
+    let shown: Vec<_> = sheet.cards().filter_map(versions).collect();
+    all.push(legend(2 * STRIP, &shown));
     panels::Sheet { image: picture::stack(&all), panels }
 }
 
@@ -150,8 +153,13 @@ fn beside(strips: &[panels::Sheet]) -> RgbImage {
     row
 }
 
-/// What the colours of the panels mean, in rows that fit a width.
-fn legend(width: u32) -> RgbImage {
+/// What the colours of the panels mean, in rows that fit a width; of values those that occur.
+fn legend(width: u32, shown: &[Panels]) -> RgbImage {
+    let values = || shown.iter().filter(|panels| panels.has_values);
+    let occurs = |colour: Colour| {
+        let images = values().flat_map(|panels| [&panels.published, &panels.repaired]);
+        images.flat_map(Frame::rows).any(|(_, row)| row.contains(&colour))
+    };
     let hits = [
         (vec![AGREES], "right"),
         (vec![MISSING], "missing"),
@@ -163,14 +171,16 @@ fn legend(width: u32) -> RgbImage {
     ];
     let shades = [0.0, 0.25, 0.5, 0.75, 1.0].map(|v| Rgb(shade(v)));
     let values = [
-        (shades.to_vec(), "values from 0 to 1"),
-        (vec![Rgb(BEYOND)], "beyond the corners' values"),
-        (vec![Rgb(BLACK)], "not a number"),
+        (values().next().is_some(), shades.to_vec(), "values from 0 to 1"),
+        (occurs(BEYOND), vec![Rgb(BEYOND)], "beyond the corners' values"),
+        (occurs(BLACK), vec![Rgb(BLACK)], "not a number"),
     ];
+    let values =
+        values.into_iter().filter_map(|(occurs, colours, text)| occurs.then_some((colours, text)));
     // Each entry of a row: where it begins, its colours, its words.
     type Entry<'a> = (u32, Vec<Rgb<u8>>, &'a str);
     let mut rows: Vec<Vec<Entry>> = Vec::new();
-    for entries in [hits.to_vec(), values.to_vec()] {
+    for entries in [hits.to_vec(), values.collect()] {
         let mut left = width;
         for (colours, text) in entries {
             let wide = 16 * colours.len() as u32 + lettering::width(text, Size::Small);
@@ -210,7 +220,8 @@ fn legend(width: u32) -> RgbImage {
 #[must_use]
 pub fn alone(card: &Card) -> panels::Sheet {
     let panels::Sheet { image, panels } = strip(card);
-    panels::Sheet { image: picture::stack(&[image, legend(STRIP)]), panels }
+    let shown: Vec<_> = versions(card).into_iter().collect();
+    panels::Sheet { image: picture::stack(&[image, legend(STRIP, &shown)]), panels }
 }
 
 /// The strip of a card.
@@ -311,6 +322,7 @@ fn versions(card: &Card) -> Option<Panels> {
             background: BLACK,
             outline: Vec::new(),
             has_samples: false,
+            has_values: false,
         },
         (Exhibit::Triangles([case, _]), Some(Specimen::Triangle(specimen))) => {
             triangle_panels(specimen, case)
@@ -350,6 +362,7 @@ fn line_panels(specimen: LineSpecimen, case: &Case) -> Option<Panels> {
         background: BACKGROUND.0,
         outline: vec![[centre(&lines[0].ends[0]), centre(&lines[0].ends[1])]],
         has_samples: false,
+        has_values: false,
     })
 }
 
@@ -357,7 +370,8 @@ fn triangle_panels(specimen: TriangleSpecimen, case: &TriangleCase) -> Panels {
     let window = PixelRect::window(case.side_px, case.side_px);
     let triangles = real_triangles(case);
     let shows_values = case.values[0] != case.values[1] || case.values[1] != case.values[2];
-    let (published, repaired) = if shows_values && specimen.has_values() {
+    let has_values = shows_values && specimen.has_values();
+    let (published, repaired) = if has_values {
         value_images(specimen, &triangles, window)
     } else {
         let hits = specimen_coverage(specimen, &triangles, window);
@@ -368,7 +382,7 @@ fn triangle_panels(specimen: TriangleSpecimen, case: &TriangleCase) -> Panels {
         .iter()
         .flat_map(|t| [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]].map(|s| s.map(|v| v.position_px)))
         .collect();
-    Panels { published, repaired, background: BACKGROUND.0, outline, has_samples: true }
+    Panels { published, repaired, background: BACKGROUND.0, outline, has_samples: true, has_values }
 }
 
 /// Values as colours: blue at 0, through white, to red at 1; green beyond either; black for what is

@@ -12,7 +12,7 @@ use crate::grid::PixelRect;
 use crate::hazard::named::{self, Input};
 use crate::hazard::shrink::shrink;
 use crate::hazard::{self, Case, offgrid};
-use crate::lineup::{ENTRIES, LineEngine, SPECIMENS, Specimen};
+use crate::lineup::{ENTRIES, Entry, LineEngine, SPECIMENS, Specimen};
 use crate::specimen::catalogue::{RECORDED, RECORDED_SIDE_PX};
 
 /// Every name that the page offers.
@@ -29,17 +29,19 @@ pub(super) fn list() -> Value {
         .map(|case| entry(case.name, case.about))
         .collect();
     let recorded: Vec<_> = RECORDED.iter().map(|case| entry(case.name, case.specimen)).collect();
+    let painter =
+        |e: &Entry| json!({ "name": e.name, "about": e.about, "specimen": e.specimen.is_some() });
     let all = || ENTRIES.iter().chain(&SPECIMENS);
     let triangles: Vec<_> = all()
         .filter(|e| {
             let covers = e.engine.is_some() || e.exact_engine.is_some();
             covers || matches!(e.specimen, Some(Specimen::Triangle(_)))
         })
-        .map(|e| entry(e.name, e.about))
+        .map(painter)
         .collect();
     let lines: Vec<_> = all()
         .filter(|e| e.line_engine.is_some() || matches!(e.specimen, Some(Specimen::Line(_))))
-        .map(|e| entry(e.name, e.about))
+        .map(painter)
         .collect();
     json!({
         "families": families(false), "lineFamilies": families(true), "offFamilies": off,

@@ -1009,6 +1009,8 @@
   const pairChanged = () => {
     $('#pick-a').value = String(state.a);
     $('#pick-b').value = String(state.b);
+    $('#case-playground').hidden = !state.item.isCase;
+    if (state.item.isCase) $('#case-playground a').href = `playground.html#${new URLSearchParams(playgroundWords(state.item))}`;
     layOut();
     describePair();
     layerTable();
@@ -1132,12 +1134,30 @@
     try { return decodeURIComponent(text); } catch { return text; }
   };
 
+  /** What an address asks for; nothing where it names a part of the page, or nothing. */
   const parseAddress = (url) => {
     const [first, ...rest] = new URL(url).hash.slice(1).split('&');
-    if (!first.startsWith('case-')) return null;
+    if (!first.startsWith('case-')) {
+      const isThere = first === '' || document.getElementById(decodeWord(first));
+      return isThere ? null : { settings: {}, lost: `This page has no place called ${decodeWord(first)}` };
+    }
     const item = items.find((i) => i.name === decodeWord(first.slice(5)));
     const settings = Object.fromEntries(rest.map((part) => part.split('=').map(decodeWord)));
-    return { item, settings, name: decodeWord(first.slice(5)) };
+    const lost = item ? lostOf(item, settings) : `This page has no case called ${decodeWord(first.slice(5))}`;
+    return { item, settings, lost };
+  };
+
+  /** What of an address a case does not have; an address may be older than the page. */
+  const lostOf = (item, { a, b, mode, px }) => {
+    const isThere = (name) => item.layers.some((layer) => layer.names.includes(name));
+    const nobody = [a, b].find((name) => name !== undefined && !isThere(name));
+    if (nobody !== undefined) return `Nobody called ${nobody} draws this case`;
+    if (mode !== undefined && !MODES.some(([name]) => name === mode)) return `There is no way to compare called ${mode}`;
+    const at = px?.split(',').map(Number) ?? [item.x0, item.y0];
+    // How large a picture is, is known when it is there.
+    const isIn = !item.isCase || (at.length === 2 && at.every(Number.isInteger)
+      && at[0] >= item.x0 && at[0] < item.x0 + item.width && at[1] >= item.y0 && at[1] < item.y0 + item.height);
+    return isIn ? '' : `This case has no pixel ${px}`;
   };
 
   /** The first pixel in which A and B differ, in the middle row of those that do; nothing in pictures. */
@@ -1151,18 +1171,27 @@
     return found[Math.floor((found.length - 1) / 2)] ?? null;
   };
 
-  /** Where a case is explained: a link where the page knows the way to the docs. */
-  /** What opens a case in the playground, which knows names, numbers and places; nothing for others. */
+  /** The largest window of the playground. */
+  const PLAYGROUND_PX = 128;
+
+  /** What opens a case in the playground: its name where it has one there, else its places. */
   const playgroundWords = (item) => {
-    const form = /^rasterproof inspect( --line)? '?(.+?)'?(?: --seed (\d+))?$/;
-    const [, line, what = '', seed] = form.exec(item.command ?? '') ?? [];
-    if (/^[\w.#-]+$/.test(what)) return { case: what, ...(seed && { seed }) };
-    const points = what.split(' ');
-    if (!points.every((point) => /^[-+.\de]+,[-+.\de]+$/.test(point))) return null;
-    const window = [item.x0, item.y0, item.x0 + item.width, item.y0 + item.height].join();
-    return line ? { scene: 'line', lines: points.join(), window } : { t: points.join('_'), window };
+    const { kind, points } = item.shape;
+    const by = [state.a, state.b].map((i) => item.layers[i].names[0]).join();
+    const scene = kind === 'lines' ? 'line' : 'triangle';
+    const [, name, seed] = / inspect '?([\w.-]+(?:#\d+)?)'?(?: --seed (\d+))?(?: --plant [\w-]+)?$/.exec(item.command) ?? [];
+    if (name) return { scene, case: name, ...(seed && { seed }), by };
+    const part = Math.max(item.width, item.height) > PLAYGROUND_PX ? cropOf(item, state.a, state.b) : { ...item, x: 0, y: 0 };
+    const [x0, y0] = [item.x0 + part.x, item.y0 + part.y];
+    const end = (from, length) => from + Math.min(length, PLAYGROUND_PX);
+    const window = [x0, y0, end(x0, part.width), end(y0, part.height)].join();
+    if (kind === 'lines') return { scene, lines: points.map((line) => line.flat().join()).join(';'), window, by };
+    const place = (point) => (kind === 'free' ? point : point.map((sub) => sub / 256)).join();
+    const t = points.map((triangle) => triangle.map(place).join('_')).join(';');
+    return { scene, t, window, by, ...(kind === 'free' && { snap: 0 }) };
   };
 
+  /** Where a case is explained: a link where the page knows the way to the docs. */
   const chapterOf = (item) => {
     const { title, path } = item.chapter ?? {};
     if (!title) return [];
@@ -1201,9 +1230,6 @@
     $('#case-found').textContent = item.found;
     $('#case-command').hidden = !item.command;
     $('#case-command code').textContent = item.command;
-    const words = playgroundWords(item);
-    $('#case-playground').hidden = !words;
-    if (words) $('#case-playground a').href = `playground.html#${new URLSearchParams(words)}`;
     if (MODES.some(([mode]) => mode === settings.mode)) state.mode = settings.mode;
     all('#modes input').forEach((input) => { input.checked = input.value === state.mode; });
     fillPickers();
@@ -1218,11 +1244,10 @@
     const found = parseAddress(url);
     if (!found) return;
     clearTimeout(remembering);
-    if (found.item) await open(found.item, found.settings);
-    else {
-      if (!state.item) await open(items[0]);
+    if (found.item || !state.item) await open(found.item ?? items[0], found.settings);
+    if (found.lost) {
       clearTimeout(remembering);
-      $('#lost').textContent = `This page has no case called ${found.name}; this is ${state.item.name}.`;
+      $('#lost').textContent = `${found.lost}; this is ${state.item.name}.`;
       $('#lost').hidden = false;
     }
     const { top } = $('#viewer').getBoundingClientRect();

@@ -1,0 +1,277 @@
+//! The words of `inspect` as a case: its name, its number in a family, or its corners.
+
+use glam::DVec2;
+
+use super::inspect::InspectArguments;
+use super::{Failure, program, usage};
+use crate::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
+use crate::hazard::named::{Input, plain_line, plain_triangle};
+use crate::hazard::offgrid::{self, OffGridCase};
+use crate::hazard::{self, Case, Line, Shape, Triangle};
+use crate::scene::named;
+use crate::specimen::catalogue::{RECORDED, RECORDED_SIDE_PX, RecordedCase};
+use crate::triangle::{FreeCorners, PixelPoint, ScreenTriangle, ScreenVertex, check_value};
+
+/// Largest side of the window around corners that were typed.
+const MOST_AROUND_PX: i32 = 64;
+
+/// What the words name.
+pub(super) enum Found {
+    /// A case on the lattice; `typed` are its corners as they were typed, if they were.
+    Case {
+        title: String,
+        case: Case,
+        expected: Option<Vec<u64>>,
+        typed: Vec<FreeCorners>,
+    },
+    Refused {
+        title: String,
+        corners: Vec<[[f64; 2]; 3]>,
+    },
+    OffGrid {
+        title: String,
+        case: OffGridCase,
+    },
+}
+
+/// A case without anything expected of it.
+fn plain(title: String, case: Case) -> Found {
+    Found::Case { title, case, expected: None, typed: Vec::new() }
+}
+
+pub(super) fn find(arguments: &InspectArguments) -> Result<Found, Failure> {
+    let words = words(arguments);
+    let found = match words.as_slice() {
+        _ if arguments.line => lines(&words)?,
+        [word] => called(word, arguments)?,
+        _ => triangles(&words, arguments.exact)?,
+    };
+    if !arguments.exact {
+        return Ok(found);
+    }
+    // The same corners, for those who do not snap.
+    match found {
+        Found::Case {
+            title,
+            case: Case { window, shape: Shape::Triangles { list, .. } },
+            typed,
+            ..
+        } => {
+            let snapped = || list.iter().map(|t| FreeCorners::from(t.corners())).collect();
+            let triangles = if typed.is_empty() { snapped() } else { typed };
+            Ok(Found::OffGrid { title, case: OffGridCase { window, triangles, is_tiling: false } })
+        }
+        Found::Case { .. } => Err(usage("lines join whole pixels: leave out --exact")),
+        found => Ok(found),
+    }
+}
+
+/// The recorded input that the words name.
+pub(super) fn recorded(words: &[String]) -> Option<&'static RecordedCase> {
+    RECORDED.iter().find(|case| [case.name] == *words)
+}
+
+/// The words of the case; points that are typed as they are printed, (1, 2) (3, 4), come apart.
+pub(super) fn words(arguments: &InspectArguments) -> Vec<String> {
+    let whole = arguments.what.join(" ");
+    if !whole.contains('(') {
+        return arguments.what.clone();
+    }
+    let points = whole.split_inclusive(')').map(str::trim).filter(|word| !word.is_empty());
+    points.map(str::to_owned).collect()
+}
+
+/// Lines by their ends, two for each.
+fn lines(words: &[String]) -> Result<Found, Failure> {
+    let (pairs, rest) = words.as_chunks::<2>();
+    if !rest.is_empty() {
+        return Err(usage(
+            "--line takes two points for each line, for example: inspect --line 0,0 8,3",
+        ));
+    }
+    let mut list = Vec::new();
+    for [a, b] in pairs {
+        list.push(plain_line(parse_pixel(a)?, parse_pixel(b)?));
+    }
+    let title = match list.as_slice() {
+        [Line { ends: [a, b] }] => {
+            format!("line {},{} to {},{}", a.pixel.x, a.pixel.y, b.pixel.x, b.pixel.y)
+        }
+        _ => format!("{} lines", list.len()),
+    };
+    let ends = list.iter().flat_map(|line| line.ends.map(|end| [end.pixel.x, end.pixel.y]));
+    let window = around(ends);
+    Ok(plain(title, Case { window, shape: Shape::Lines(list) }))
+}
+
+/// Triangles by their corners, three for each.
+fn triangles(words: &[String], exact: bool) -> Result<Found, Failure> {
+    let (triples, rest) = words.as_chunks::<3>();
+    if !rest.is_empty() {
+        return Err(usage(
+            "expected a named case, FAMILY#NUMBER, or three corners x,y of each triangle; see inspect --help",
+        ));
+    }
+    let (mut list, mut typed) = (Vec::new(), Vec::new());
+    for triple in triples {
+        let [a, b, c] = triple;
+        let corners = [parse_corner(a)?, parse_corner(b)?, parse_corner(c)?];
+        if exact && corners.iter().any(|corner| corner.values.is_some()) {
+            return Err(usage(
+                "with --exact a corner is X,Y alone: without the lattice there are pixels, but no values",
+            ));
+        }
+        list.push(triangle(triple, &corners)?);
+        let px = corners.map(|corner| corner.px);
+        typed.push(FreeCorners::new(px).map_err(|refusal| usage(format!("'{a}': {refusal}")))?);
+    }
+    let title = match triples {
+        [[a, b, c]] => format!("triangle {a} {b} {c}"),
+        _ => format!("{} triangles", list.len()),
+    };
+    let corners = list.iter().flat_map(ScreenTriangle::corners);
+    let window = around(corners.map(|p| [p.x, p.y].map(|sub| sub.div_euclid(SUBPIXELS))));
+    let disjoint = list.len() == 1;
+    let case = Case { window, shape: Shape::Triangles { list, disjoint } };
+    Ok(Found::Case { title, case, expected: None, typed })
+}
+
+/// The corners on the lattice, with the values that were typed with them, or simple ones.
+fn triangle(words: &[String; 3], corners: &[Corner; 3]) -> Result<Triangle, Failure> {
+    let at = |i: usize| {
+        let [x, y] = corners[i].px;
+        SubpixelPoint::from_px(x, y).map_err(|refusal| usage(format!("'{}': {refusal}", words[i])))
+    };
+    let mut triangle = plain_triangle([at(0)?, at(1)?, at(2)?]);
+    for (i, Corner { px: [x, y], values }) in corners.iter().enumerate() {
+        let Some([w, depth, u, v]) = *values else { continue };
+        let vertex = check_value(u).and(check_value(v));
+        let vertex = vertex.and_then(|()| ScreenVertex::new(*x, *y, depth, w, DVec2::new(u, v)));
+        triangle.vertices[i] =
+            vertex.map_err(|refusal| usage(format!("'{}': {refusal}", words[i])))?;
+    }
+    Ok(triangle)
+}
+
+/// A case of this name, a recorded input, or a case of a family by its number.
+fn called(word: &str, arguments: &InspectArguments) -> Result<Found, Failure> {
+    if let Some((family, number)) = word.split_once('#') {
+        let index = number.parse::<u64>().map_err(|_| {
+            usage(format!(
+                "{word}: expected the number of a case after '#', for example {family}#123"
+            ))
+        });
+        let title = |about: &str| format!("{word} of seed {}: {about}", arguments.seed);
+        if let Some(family) = offgrid::FAMILIES.iter().find(|f| f.name == family) {
+            let case = family.case(arguments.seed, index?);
+            return Ok(Found::OffGrid { title: title(family.about), case });
+        }
+        let found = hazard::families().find(|f| f.name == family);
+        let names = hazard::families().map(|f| f.name);
+        let names = names.chain(offgrid::FAMILIES.iter().map(|f| f.name));
+        let family = found.ok_or_else(|| unknown("family", family, names))?;
+        return Ok(plain(title(family.about), family.case(arguments.seed, index?)));
+    }
+    if let Some(case) = recorded(&arguments.what) {
+        return Ok(recorded_case(case));
+    }
+    let names = named::named().into_iter().map(|case| case.name);
+    let names: Vec<_> = names.chain(RECORDED.iter().map(|case| case.name)).collect();
+    let named = named::find(word).ok_or_else(|| unknown("case", word, names.into_iter()))?;
+    let title = format!("{}: {}", named.name, named.about);
+    Ok(match named.input {
+        Input::Drawn { case, pixels } => {
+            Found::Case { title, case, expected: Some(pixels), typed: Vec::new() }
+        }
+        Input::Refused(corners) => Found::Refused { title, corners },
+    })
+}
+
+/// A recorded input off the lattice, in the part of its screen that it or its specimen touches.
+fn recorded_case(case: &RecordedCase) -> Found {
+    let title =
+        format!("{}: recorded of the book's own code, shown by {}", case.name, case.specimen);
+    let corners = case.corners_px();
+    let all = corners.iter().flatten();
+    let side = f64::from(RECORDED_SIDE_PX);
+    let range = |axis: usize| {
+        let (low, high) = all
+            .clone()
+            .fold((side, 0.0), |(low, high): (f64, f64), p| (low.min(p[axis]), high.max(p[axis])));
+        // Two pixels to spare, within the screen.
+        let within = |px: f64| px.clamp(0.0, side) as i32;
+        (within(low.floor() - 2.0), within(high.ceil() + 2.0))
+    };
+    let ((x0, x1), (y0, y1)) = (range(0), range(1));
+    let triangles: Result<_, _> = corners.iter().map(|&t| FreeCorners::new(t)).collect();
+    let window = PixelRect { x0, y0, x1, y1 };
+    match triangles {
+        Ok(triangles) => {
+            Found::OffGrid { title, case: OffGridCase { window, triangles, is_tiling: false } }
+        }
+        Err(_) => Found::Refused { title, corners },
+    }
+}
+
+/// An error for a name that is not there, with the nearest one that is.
+fn unknown(kind: &str, word: &str, names: impl Iterator<Item = &'static str>) -> Failure {
+    let distance =
+        |a: &str, b: &str| strsim::levenshtein(&a.to_ascii_lowercase(), &b.to_ascii_lowercase());
+    let nearest = names.map(|name| (distance(word, name), name)).min();
+    let hint = match nearest {
+        Some((steps, name)) if steps * 2 <= name.len().max(word.len()) => {
+            format!("; did you mean '{name}'?")
+        }
+        _ => ".".to_owned(),
+    };
+    usage(format!("no {kind} is called '{word}'{hint} See: {} list", program()))
+}
+
+/// A point without the parentheses that it may be printed with.
+fn bare(text: &str) -> &str {
+    let text = text.trim();
+    text.strip_prefix('(').and_then(|t| t.strip_suffix(')')).unwrap_or(text)
+}
+
+/// A corner as it is typed: a position, and w, depth, u and v where they are given.
+struct Corner {
+    px: [f64; 2],
+    values: Option<[f64; 4]>,
+}
+
+fn parse_corner(text: &str) -> Result<Corner, Failure> {
+    let numbers: Option<Vec<f64>> =
+        bare(text).split(',').map(|number| number.trim().parse().ok()).collect();
+    match numbers.as_deref() {
+        Some([x, y]) => Ok(Corner { px: [*x, *y], values: None }),
+        Some([x, y, more @ ..]) if (1..=4).contains(&more.len()) => {
+            let mut values = [1.0, 0.0, 0.0, 0.0];
+            values[..more.len()].copy_from_slice(more);
+            Ok(Corner { px: [*x, *y], values: Some(values) })
+        }
+        _ => Err(usage(format!(
+            "'{text}' is not a point: expected X,Y in pixels, for example 0.5,3 (or a named case)"
+        ))),
+    }
+}
+
+pub(super) fn parse_pixel(text: &str) -> Result<PixelPoint, Failure> {
+    let numbers = bare(text).split_once(',');
+    let numbers = numbers.and_then(|(x, y)| Some((x.trim().parse().ok()?, y.trim().parse().ok()?)));
+    let (x, y) = numbers.ok_or_else(|| {
+        usage(format!("'{text}' is not a pixel: expected two whole numbers X,Y within 32 bits, for example 8,3"))
+    })?;
+    Ok(PixelPoint::new(x, y))
+}
+
+/// The pixels around these, with one to spare.
+fn around(pixels: impl Iterator<Item = [i32; 2]> + Clone) -> PixelRect {
+    let range = |axis: usize| {
+        let along = pixels.clone().map(|pixel| pixel[axis]);
+        let low = along.clone().min().unwrap_or(0).saturating_sub(1);
+        let high = along.max().unwrap_or(0).saturating_add(2);
+        (low, high.min(low.saturating_add(MOST_AROUND_PX)))
+    };
+    let ((x0, x1), (y0, y1)) = (range(0), range(1));
+    PixelRect { x0, y0, x1, y1 }
+}

@@ -1,0 +1,339 @@
+//! The playground under the hands: mouse, fingers and keys do everything, and every control says what
+//! it is.
+//!
+//! Needs what `playground.rs` needs.
+
+use std::collections::BTreeSet;
+
+use serde_json::{Value, json};
+
+use crate::page::Browser;
+use crate::playground::{SCENES, both, opened, settle};
+
+/// Where what is called `name` lies on panel `i`, in pixels of the tab.
+fn grip(browser: &mut Browser, i: usize, name: &str) -> [f64; 2] {
+    let spot = browser.eval(&format!(
+        "(() => {{ const {{ canvas, view }} = shown[{i}]; canvas.scrollIntoView({{ block: 'center' }});
+            const b = canvas.getBoundingClientRect(), g = grips().find(g => g.name === '{name}');
+            return [b.left + view.x(g.x) / view.ratio, b.top + view.y(g.y) / view.ratio]; }})()"
+    ));
+    serde_json::from_value(spot).unwrap()
+}
+
+fn mouse(browser: &mut Browser, kind: &str, [x, y]: [f64; 2]) {
+    let event = json!({ "type": kind, "x": x, "y": y, "button": "left", "buttons": 1,
+        "clickCount": 1 });
+    browser.call("Input.dispatchMouseEvent", event);
+}
+
+/// Drags from one place to another with the mouse.
+fn drag(browser: &mut Browser, [x, y]: [f64; 2], [dx, dy]: [f64; 2]) {
+    mouse(browser, "mousePressed", [x, y]);
+    for step in 1..=10 {
+        let part = f64::from(step) / 10.0;
+        mouse(browser, "mouseMoved", [x + part * dx, y + part * dy]);
+    }
+    mouse(browser, "mouseReleased", [x + dx, y + dy]);
+    settle(browser);
+}
+
+fn touch(browser: &mut Browser, kind: &str, spots: &[[f64; 2]]) {
+    let points: Vec<_> =
+        (0..).zip(spots).map(|(id, [x, y])| json!({ "x": x, "y": y, "id": id })).collect();
+    browser.call("Input.dispatchTouchEvent", json!({ "type": kind, "touchPoints": points }));
+}
+
+/// Presses a key that has no letter, with Shift (8), Alt (1) or neither held.
+fn press(browser: &mut Browser, key: &str, code: u32, modifiers: u32) {
+    for kind in ["rawKeyDown", "keyUp"] {
+        let event = json!({ "type": kind, "key": key, "code": key,
+            "windowsVirtualKeyCode": code, "modifiers": modifiers });
+        browser.call("Input.dispatchKeyEvent", event);
+    }
+}
+
+/// A corner is dragged with the mouse: pixels change, and are those of the program.
+#[test]
+fn playground_follows_the_mouse() {
+    let Some((mut browser, page)) = opened("mouse") else { return };
+    browser.open(&page, "#lang=en");
+    settle(&mut browser);
+    let picture = "shown[0].canvas.toDataURL()";
+    let before = browser.eval(picture);
+    let spot = grip(&mut browser, 0, "B");
+    drag(&mut browser, spot, [-60.0, 40.0]);
+    assert_ne!(browser.eval(picture), before);
+    // The corner was shared by one triangle only; on the lattice, and not where it was.
+    let corner = browser.eval("[state.triangles[0][1].x * 256, state.triangles[0][1].y * 256]");
+    let sub: Vec<f64> = serde_json::from_value(corner).unwrap();
+    assert!(sub.iter().all(|v| v.fract() == 0.0) && sub[0] < 10.5 * 256.0, "{sub:?}");
+    let question = browser.eval("({ ask: 'draw', picture: picture(), by: state.by })");
+    let drawn = browser.eval("last.answer");
+    assert_eq!(both(&mut browser, &question), (drawn.clone(), drawn));
+    // The strict rule leaves holes along the diagonal, and the page says why; so with the other rules.
+    browser.eval("(begin('triangle'), drawAll())");
+    for (rule, says, why) in [
+        ("strict", "22 missing", "hole"),
+        ("inclusive", "16 too many, 9 hit twice", "hit twice"),
+        ("tl", "as the oracle", "hit once"),
+    ] {
+        browser.eval(&format!("document.getElementById('rule-{rule}').click()"));
+        settle(&mut browser);
+        let verdict = browser.text("#panels figure:nth-child(2) output");
+        assert!(verdict.contains(says), "{rule}: {verdict}");
+        assert!(browser.text("#look .say").contains(why), "{rule}");
+    }
+    // Both are shown against each other too.
+    browser.eval("(state.by[1] = 'exclusive-edges', document.querySelector('[data-state=difference]').click())");
+    settle(&mut browser);
+    assert_eq!(browser.text("#panels figure:nth-child(3) output"), "22 pixels differ");
+    assert_eq!(browser.complaints, Vec::<String>::new());
+}
+
+/// w of a corner and the near plane are dragged on the picture, by mouse, finger and keys; sliders follow.
+#[test]
+fn playground_drags_values() {
+    let Some((mut browser, page)) = opened("values") else { return };
+    browser.open(&page, "#scene=perspective&lang=en");
+    settle(&mut browser);
+    let picture = "shown[0].canvas.toDataURL()";
+    let before = browser.eval(picture);
+    let spot = grip(&mut browser, 0, "w A");
+    // Toward the middle of the picture, which is farther from the eye.
+    drag(&mut browser, spot, [40.0, -40.0]);
+    assert_ne!(browser.eval(picture), before);
+    // Both triangles have the corner, and nothing else moved.
+    let ws = browser.eval("state.triangles.map(t => t[0].w)");
+    let ws: Vec<f64> = serde_json::from_value(ws).unwrap();
+    assert!(ws[0] > 2.0 && ws[0] < 8.0 && ws[0] == ws[1], "{ws:?}");
+    let corners = browser.eval("handles().map(h => [h.x, h.y, h.members[0].w])");
+    assert_eq!(corners[0], json!([2, 29, ws[0]]));
+    assert_eq!(corners[1], json!([12, 4, 4]));
+    // It stays under the pointer, to the nearest step.
+    let [x, y] = grip(&mut browser, 0, "w A");
+    assert!((x - spot[0] - 40.0).hypot(y - spot[1] + 40.0) < 8.0, "{spot:?} to {x}, {y}");
+    let slider = "Number(document.querySelector('#tools input[type=range]').value)";
+    assert_eq!(browser.eval(slider), ws[0]);
+    // By keys: from one grip to the next, and along.
+    browser.eval("(shown[0].canvas.focus(), state.chosen = 3)");
+    browser.press("]");
+    browser.press("]");
+    let chosen = "grips()[state.chosen].says";
+    assert_eq!(browser.eval(chosen), "w B = 4");
+    press(&mut browser, "ArrowUp", 38, 0);
+    press(&mut browser, "ArrowLeft", 37, 8);
+    assert_eq!(browser.eval(chosen), "w B = 4.2");
+    settle(&mut browser);
+    assert!(browser.text("#announce").starts_with("w B = 4.2"), "{}", browser.text("#announce"));
+
+    browser.open(&page, "#scene=near&lang=en");
+    settle(&mut browser);
+    let covered = "last.answer.panels.map(p => p.covered ?? null)";
+    let before = browser.eval(covered);
+    let spot = grip(&mut browser, 0, "near plane");
+    drag(&mut browser, spot, [30.0, 0.0]);
+    let near = browser.eval("state.near").as_f64().unwrap();
+    assert!(near > 1.1 && near < 2.0, "{near}");
+    let after = browser.eval(covered);
+    assert!(after[0].as_u64() < before[0].as_u64(), "{before} {after}: less is left");
+    assert_eq!(after[2], before[2], "nothing changes where nothing is clipped");
+    let on_screen = "JSON.stringify(state.points.map(p => p.slice(0, 2)))";
+    let places = browser.eval(on_screen);
+    let touching = json!({ "enabled": true, "maxTouchPoints": 2 });
+    browser.call("Emulation.setTouchEmulationEnabled", touching);
+    let [x, y] = grip(&mut browser, 0, "w C");
+    touch(&mut browser, "touchStart", &[[x, y]]);
+    for step in 1..=4 {
+        touch(&mut browser, "touchMove", &[[x - 20.0 * f64::from(step), y]]);
+    }
+    touch(&mut browser, "touchEnd", &[]);
+    settle(&mut browser);
+    assert!(browser.eval("state.points[2][2]").as_f64().unwrap() < 0.0, "behind the eye");
+    assert_eq!(browser.eval(on_screen), places, "along its ray");
+    browser.eval("(shown[0].canvas.focus(), state.near = 1)");
+    browser.press("]");
+    assert_eq!(browser.eval(chosen), "near plane = 1");
+    press(&mut browser, "ArrowRight", 39, 8);
+    assert_eq!(browser.eval("state.near"), 1.1);
+    // On a panel of the screen the arrows move what lies there.
+    browser.eval("shown[1].canvas.focus()");
+    press(&mut browser, "ArrowDown", 40, 0);
+    assert_eq!(browser.eval("grips()[state.chosen].name"), "A");
+    assert_eq!(browser.complaints, Vec::<String>::new());
+}
+
+/// Whatever takes the focus has a role, a name and, where it has one, a value, as a screen reader is told.
+#[test]
+fn playground_names_every_control() {
+    let Some((mut browser, page)) = opened("names") else { return };
+    browser.call("Accessibility.enable", json!({}));
+    let mut heard = BTreeSet::new();
+    for (scene, lang) in SCENES.into_iter().flat_map(|scene| [(scene, "en"), (scene, "zh")]) {
+        browser.open(&page, &format!("#scene={scene}&lang={lang}"));
+        settle(&mut browser);
+        let tree = browser.call("Accessibility.getFullAXTree", json!({}));
+        let text = |node: &Value, key: &str| match &node[key]["value"] {
+            Value::String(text) => text.clone(),
+            Value::Null => String::new(),
+            other => other.to_string(),
+        };
+        let property = |node: &Value, name: &str| {
+            let all = node["properties"].as_array().cloned().unwrap_or_default();
+            all.into_iter().find(|p| p["name"] == name).map(|p| p["value"]["value"].clone())
+        };
+        let nodes = tree["nodes"].as_array().unwrap().iter().filter(|n| n["ignored"] == false);
+        let focusable = nodes.filter(|n| property(n, "focusable") == Some(json!(true)));
+        for node in focusable.filter(|n| text(n, "role") != "RootWebArea") {
+            let (role, name) = (text(node, "role"), text(node, "name"));
+            assert!(!name.trim().is_empty(), "{scene}, {lang}: a nameless {role}: {node}");
+            assert!(
+                !["", "generic", "none"].contains(&role.as_str()),
+                "{scene}: {name} is nothing"
+            );
+            let has_value = match role.as_str() {
+                "slider" | "spinbutton" | "combobox" => !text(node, "value").is_empty(),
+                "checkbox" => property(node, "checked").is_some(),
+                _ => true,
+            };
+            assert!(has_value, "{scene}, {lang}: {role} {name} without a value");
+            heard.insert(role);
+        }
+        // What changes is said: what is dragged, what each panel makes of it, why.
+        let said = browser.text("#announce");
+        let panels = browser.eval("shown.map(p => p.canvas.getAttribute('aria-label'))");
+        for panel in panels.as_array().unwrap() {
+            assert!(said.contains(panel.as_str().unwrap()), "{scene}: {panel} in {said}");
+        }
+    }
+    for role in ["application", "button", "checkbox", "combobox", "link", "slider", "spinbutton"] {
+        assert!(heard.contains(role), "{role} in {heard:?}");
+    }
+    assert_eq!(browser.complaints, Vec::<String>::new());
+}
+
+/// Frames while a corner is dragged at 64 x 64 pixels with four panels: printed, not judged. The rate
+/// is of this machine with all else that runs on it; the processor time of a frame is the page's own,
+/// script, layout and painting: below 16.7 ms it keeps up with 60 frames a second.
+#[test]
+fn playground_frames_are_timed() {
+    let Some((mut browser, page)) = opened("frames") else { return };
+    browser.open(
+        &page,
+        "#t=3.5,2.5_60.25,10.5_20.5,60.5&window=0,0,64,64\
+         &by=scanline,exclusive-edges,oracle,games101-strict",
+    );
+    settle(&mut browser);
+    assert_eq!(browser.eval("shown.length"), 4);
+    let [x, y] = grip(&mut browser, 0, "B");
+    mouse(&mut browser, "mousePressed", [x, y]);
+    browser.call("Performance.enable", json!({ "timeDomain": "threadTicks" }));
+    let processor_seconds = |browser: &mut Browser| {
+        let metrics = browser.call("Performance.getMetrics", json!({}))["metrics"].clone();
+        let tasks = metrics.as_array().unwrap().iter().find(|m| m["name"] == "TaskDuration");
+        tasks.unwrap()["value"].as_f64().unwrap()
+    };
+    let before = processor_seconds(&mut browser);
+    let seconds = browser.eval(&format!(
+        "(async () => {{
+            const next = () => new Promise(requestAnimationFrame);
+            const [{{ canvas }}] = shown;
+            frames.length = 0;
+            const begun = await next();
+            for (let i = 0; i < 120; i++) {{
+                const [clientX, clientY] = [{x} - i / 2, {y} + i];
+                canvas.dispatchEvent(new PointerEvent('pointermove',
+                    {{ clientX, clientY, pointerId: 1, pointerType: 'mouse', bubbles: true }}));
+                await next();
+            }}
+            return (await next() - begun) / 1000;
+        }})()"
+    ));
+    let processor = processor_seconds(&mut browser) - before;
+    let frames = browser.eval("frames.length").as_f64().unwrap();
+    assert!(frames >= 110.0, "a frame for each move: {frames}");
+    let moved = browser.eval("state.triangles[0][1].x < 55");
+    assert_eq!(moved, true, "the corner followed");
+    eprintln!(
+        "playground: 64 x 64 pixels, four panels: {:.0} frames a second while dragging, \
+         {:.1} ms of processor time a frame",
+        121.0 / seconds.as_f64().unwrap(),
+        1000.0 * processor / frames
+    );
+}
+
+/// Two fingers zoom about the spot between them, and move no corner; one finger drags.
+#[test]
+fn playground_follows_fingers() {
+    let Some((mut browser, page)) = opened("fingers") else { return };
+    let fingers = json!({ "enabled": true, "maxTouchPoints": 2 });
+    browser.call("Emulation.setTouchEmulationEnabled", fingers);
+    browser.open(&page, "#lang=en");
+    settle(&mut browser);
+    let [x, y] = grip(&mut browser, 0, "C");
+    let around = |by: f64| [[x - by, y - 30.0], [x + by, y - 30.0]];
+    touch(&mut browser, "touchStart", &around(20.0));
+    for step in 1..=6 {
+        touch(&mut browser, "touchMove", &around(20.0 + 5.0 * f64::from(step)));
+    }
+    touch(&mut browser, "touchEnd", &[]);
+    settle(&mut browser);
+    let window: [i32; 4] = serde_json::from_value(browser.eval("state.window")).unwrap();
+    assert!(window[2] - window[0] < 14 && window[2] > 10, "{window:?} still holds the corner");
+    assert_eq!(browser.eval("state.triangles[0][2].x"), 10.5);
+    let [x, y] = grip(&mut browser, 0, "C");
+    touch(&mut browser, "touchStart", &[[x, y]]);
+    touch(&mut browser, "touchMove", &[[x - 20.0, y - 20.0]]);
+    touch(&mut browser, "touchMove", &[[x - 40.0, y - 40.0]]);
+    touch(&mut browser, "touchEnd", &[]);
+    assert!(browser.eval("state.triangles[0][2].x").as_f64().unwrap() < 10.5);
+    assert_eq!(browser.complaints, Vec::<String>::new());
+}
+
+/// The keyboard alone reaches every control, moves corners by pixels and subpixels, pans and zooms.
+#[test]
+fn playground_needs_no_mouse() {
+    let Some((mut browser, page)) = opened("keys") else { return };
+    browser.open(&page, "#lang=en");
+    settle(&mut browser);
+    let controls = browser.eval(
+        "[...document.querySelectorAll('button, select, input, canvas, summary')]
+            .filter(e => e.checkVisibility()).length",
+    );
+    let mut reached = BTreeSet::new();
+    browser.eval("window.seen = new Set()");
+    for _ in 0..controls.as_u64().unwrap() + 4 {
+        press(&mut browser, "Tab", 9, 0);
+        browser.eval("seen.add(document.activeElement)");
+        let tag = browser.eval("document.activeElement.tagName");
+        reached.insert(tag.as_str().unwrap().to_owned());
+    }
+    let missed = browser.eval(
+        "[...document.querySelectorAll('button, select, input, canvas, summary')]
+            .filter(e => e.checkVisibility() && !seen.has(e)).map(e => e.outerHTML.slice(0, 90))",
+    );
+    assert_eq!(missed, json!([]), "not reached by Tab; reached {reached:?}");
+    browser.eval("shown[0].canvas.focus()");
+    let corner = "[handles()[state.chosen].x, handles()[state.chosen].y]";
+    // Tab went through the numbers of the corners, and chose the last one.
+    browser.press("]");
+    assert_eq!(browser.eval(corner), json!([2.5, 2.5]));
+    press(&mut browser, "ArrowRight", 39, 0);
+    press(&mut browser, "ArrowDown", 40, 8);
+    assert_eq!(browser.eval(corner), json!([3.5, 2.5 + 1.0 / 256.0]));
+    // Whoever does not see it hears where the corner is, and what both panels made of it.
+    settle(&mut browser);
+    let heard = browser.text("#announce");
+    assert!(heard.contains("A 3.5, 2.50390625") && heard.contains("as the oracle"), "{heard}");
+    browser.press("]");
+    press(&mut browser, "ArrowLeft", 37, 0);
+    assert_eq!(browser.eval(corner), json!([9.5, 2.5]));
+    browser.press("p");
+    press(&mut browser, "ArrowDown", 40, 0);
+    assert_eq!(browser.eval("state.px"), json!([6, 7]));
+    browser.press("+");
+    assert_eq!(browser.eval("state.window"), json!([1, 1, 13, 13]));
+    press(&mut browser, "ArrowRight", 39, 1);
+    assert_eq!(browser.eval("state.window"), json!([2, 1, 14, 13]));
+    settle(&mut browser);
+    assert_eq!(browser.complaints, Vec::<String>::new());
+}
