@@ -48,6 +48,10 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
+#[cfg(test)]
+#[macro_use]
+extern crate rasterproof_engines;
+
 #[doc(inline)]
 pub use rasterproof_engines::{contract, frame, grid, hazard, line, oracle, raster, triangle};
 #[doc(inline)]

@@ -5,6 +5,13 @@ use std::process::ExitCode;
 
 use rasterproof::cli::{self, Streams};
 
+/// Columns of the terminal, or as the environment says where there is none.
+fn columns() -> Option<usize> {
+    let size = terminal_size::terminal_size_of(io::stdout());
+    let said = || std::env::var("COLUMNS").ok()?.parse().ok();
+    size.map(|(width, _)| width.0.into()).or_else(said)
+}
+
 fn main() -> ExitCode {
     let mut streams = Streams {
         input: &mut io::stdin().lock(),
@@ -13,6 +20,7 @@ fn main() -> ExitCode {
         progress: io::stderr().is_terminal(),
         // See no-color.org.
         colour: io::stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none(),
+        columns: columns().filter(|&columns| columns > 0).unwrap_or(cli::fold::USUAL),
     };
     let words = std::env::args_os().map(|word| word.to_string_lossy().into_owned());
     ExitCode::from(cli::run(words, &mut streams))

@@ -4,9 +4,6 @@
 //! Where it disagrees, `cargo test` ends here; so all that is kept as a snapshot is then drawn too, each
 //! changed one is stored with its picture, and the last lines say where to look.
 
-#[path = "it/next.rs"]
-mod next;
-
 use std::path::Path;
 use std::process::{Command, ExitCode};
 use std::sync::{Arc, Mutex};
@@ -17,6 +14,7 @@ use rasterproof::lineup::{Engine, LineEngine};
 use rasterproof::report::summary::chapter;
 use rasterproof::report::table;
 use rasterproof::verify::{FamilyReport, Options, Verdict, judge_lineup, tolerance};
+use rasterproof_engines::next;
 
 /// Cases of each family: enough that every planted fault of `tests/it/mutants.rs` shows.
 const CASES: u64 = 1500;

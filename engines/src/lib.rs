@@ -7,6 +7,13 @@
 // Without `host` nobody looks through the windows that engines open for `exhaust`.
 #![cfg_attr(not(feature = "host"), allow(dead_code))]
 
+// These assert in constants, where the macros below cannot speak.
+pub mod grid;
+pub mod tile;
+
+#[cfg_attr(test, macro_use)]
+pub mod next;
+
 pub mod angle;
 pub mod contract;
 #[cfg(feature = "host")]
@@ -16,7 +23,6 @@ pub mod effects;
 #[cfg(feature = "host")]
 pub mod exhaust;
 pub mod frame;
-pub mod grid;
 pub mod hazard;
 pub mod ladder;
 pub mod line;
@@ -28,7 +34,6 @@ pub mod pipeline;
 pub mod raster;
 pub mod scene;
 pub mod specimen;
-pub mod tile;
 #[cfg(feature = "host")]
 pub mod tiled;
 pub mod triangle;

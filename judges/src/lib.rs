@@ -4,6 +4,10 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
+#[cfg(test)]
+#[macro_use]
+extern crate rasterproof_engines;
+
 pub mod convention;
 pub mod invariant;
 pub mod judge;

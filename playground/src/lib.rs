@@ -3,6 +3,10 @@
 #![deny(unsafe_code)]
 #![warn(missing_docs)]
 
+#[cfg(test)]
+#[macro_use]
+extern crate rasterproof_engines;
+
 pub mod answer;
 #[cfg(target_family = "wasm")]
 pub mod door;

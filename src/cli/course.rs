@@ -9,7 +9,7 @@ use super::{Failure, Streams, exit, usage, write_file};
 use crate::course::examine::{self, Amount};
 use crate::course::progress::{self, Progress};
 use crate::course::starters::{self, Language};
-use crate::course::verdict::{self, wrapped};
+use crate::course::verdict::{self, indented};
 use crate::course::{self, STEPS, sandbox};
 use crate::judge::group;
 use crate::judge::process::Limits;
@@ -95,13 +95,13 @@ fn list(streams: &mut Streams<'_>) -> Result<u8, Failure> {
         };
         let (number, name, title) = (course::number(step), step.name, step.title);
         writeln!(out, "{mark} {number:>2} {name:<14} {title} ({})", step.page)?;
-        out.write_all(wrapped(step.judged, 5).as_bytes())?;
+        out.write_all(indented(step.judged, 5).as_bytes())?;
         let mut families: Vec<_> =
             step.exercises.iter().flat_map(|e| e.families).copied().collect();
         families.sort_unstable();
         families.dedup();
         let families = format!("families: {}", families.join(", "));
-        out.write_all(wrapped(&families, 5).as_bytes())?;
+        out.write_all(indented(&families, 5).as_bytes())?;
     }
     match progress {
         Some(_) => writeln!(out, "(+ passed, > current; next: rasterproof course check)")?,
@@ -189,7 +189,7 @@ fn run_check(arguments: &CheckArguments, streams: &mut Streams<'_>) -> Result<u8
                 format!("next: step {number}, {title} ({}): {}", next.page, next.judged)
             }
         };
-        streams.output.write_all(wrapped(&next, 0).as_bytes())?;
+        streams.output.write_all(indented(&next, 0).as_bytes())?;
         return Ok(exit::AGREES);
     }
     if let Some(last) = examine::complaint(&program) {
@@ -197,7 +197,7 @@ fn run_check(arguments: &CheckArguments, streams: &mut Streams<'_>) -> Result<u8
     }
     let hints = (before + 1 + usize::from(arguments.hint)).min(3);
     for (hint, number) in step.hints.iter().take(hints).zip(1..) {
-        streams.output.write_all(wrapped(&format!("hint {number}: {hint}"), 0).as_bytes())?;
+        streams.output.write_all(indented(&format!("hint {number}: {hint}"), 0).as_bytes())?;
     }
     writeln!(streams.output, "page: {}", step.page)?;
     Ok(exit::DISAGREES)

@@ -166,7 +166,7 @@ pub fn run(arguments: &InspectArguments, streams: &mut Streams<'_>) -> Result<u8
     if let Some(at) = arguments.pixel {
         writeln!(out, "hits of ({}, {}): {}\n", at.x, at.y, shown.hits(at))?;
     }
-    writeln!(out, "{}", ascii::side_by_side(&shown.blocks(), 100))?;
+    writeln!(out, "{}", ascii::side_by_side(&shown.blocks(), streams.columns))?;
     let mut agrees = say_findings(&findings, out)?;
     #[cfg(feature = "vulkan")]
     if let Some((said, is_right)) = on_device {
@@ -193,7 +193,7 @@ pub fn run(arguments: &InspectArguments, streams: &mut Streams<'_>) -> Result<u8
         }
         let shown_too = specimen(arguments, None).map(|specimen| (specimen, case.window));
         let typed = OffGridCase { window: case.window, triangles: typed, is_tiling: false };
-        agrees &= off_grid(&title, &typed, &exact, shown_too, out)?.0;
+        agrees &= off_grid(&title, &typed, &exact, shown_too, (out, streams.columns))?.0;
     }
     write_picture(arguments, &shown.picture(&title, &case), streams)?;
     if arguments.page.report {
@@ -382,7 +382,7 @@ fn off_grid_alone(
     let recorded = recorded(&arguments.what);
     let screen = recorded.map(|_| PixelRect::window(RECORDED_SIDE_PX, RECORDED_SIDE_PX));
     let specimen = specimen(arguments, recorded).map(|s| (s, screen.unwrap_or(case.window)));
-    let (agrees, drawn) = off_grid(title, &case, &exact, specimen, out)?;
+    let (agrees, drawn) = off_grid(title, &case, &exact, specimen, (out, streams.columns))?;
     write_picture(arguments, &drawn, streams)?;
     if arguments.page.report {
         let judged = cases::Judged { engines: &[], lines: &[], exact: &exact };
@@ -425,7 +425,7 @@ fn off_grid(
     case: &OffGridCase,
     engines: &[ExactEngine],
     specimen: Option<(&Entry, PixelRect)>,
-    out: &mut dyn std::io::Write,
+    (out, columns): (&mut dyn std::io::Write, usize),
 ) -> Result<(bool, RgbImage), Failure> {
     let target = exact_coverage(&ExactEngine::Oracle, case).map_err(usage)?.0;
     let mut agrees = true;
@@ -467,7 +467,7 @@ fn off_grid(
     }
     let oracle = format!("oracle-exact: {} px", target.covered());
     blocks.push((oracle, ascii::grid(&target, &target)));
-    writeln!(out, "\n{}", ascii::side_by_side(&blocks, 100))?;
+    writeln!(out, "\n{}", ascii::side_by_side(&blocks, columns))?;
     Ok((agrees, panels::of_off_grid(title, case, &drawn, &target).image))
 }
 
@@ -526,8 +526,9 @@ fn facts(case: &Case, out: &mut dyn std::io::Write) -> Result<(), Failure> {
                 let ties = samples_on_boundary(&corners, case.window);
                 writeln!(
                     out,
-                    "triangle {points}\n  {winding}, area {} px, edge functions in {word:?}, {ties} samples on its boundary",
-                    area as f64 / 131_072.0
+                    "triangle {points}\n  {winding}, area {} px, edge functions in {word:?}, {ties} sample{} on its boundary",
+                    area as f64 / 131_072.0,
+                    if ties == 1 { "" } else { "s" }
                 )?;
             }
             if list.len() > 8 {

@@ -8,6 +8,7 @@ use crate::invariant::matrix::{self, Matrix};
 use crate::invariant::subject::Subject;
 use crate::invariant::{CATALOGUE, Invariant};
 use crate::mutant::{self, Mutant};
+use crate::report::summary;
 
 /// Inputs of each invariant where the command line does not say.
 const CASES: u64 = 2_000;
@@ -97,31 +98,42 @@ fn judge(
     Ok(report.failure.is_none() && report.compared > 0)
 }
 
-/// Prints the matrix of invariants and mutants.
-pub fn mutants(streams: &mut Streams<'_>) -> Result<u8, Failure> {
+/// Options of `mutants`.
+#[derive(clap::Args, Debug)]
+pub struct MutantsArguments {
+    /// The matrix, too: a row for each fault, a column for each invariant
+    #[arg(long)]
+    table: bool,
+}
+
+/// Prints whether each invariant kills a mutant and each mutant dies, then every mutant.
+pub fn mutants(arguments: &MutantsArguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
     let rows = Mutant::all().len() as u64;
     let progress = Progress::new(streams.progress, "faults", Some(rows));
     let matrix = Matrix::compute(matrix::SEED, matrix::CASES, &|| progress.done(1));
     drop(progress);
-    let out = &mut streams.output;
-    writeln!(out, "{}", matrix.text())?;
-    writeln!(out, "What each fault is (see one judged: rasterproof --plant NAME):")?;
-    for mutant in Mutant::all() {
-        let name = mutant.name();
-        write_entry(out, &format!("{name:<26}"), mutant::about::about(name).unwrap_or(""))?;
-    }
-    writeln!(out)?;
-    let problems = matrix.problems();
-    for problem in &problems {
-        writeln!(out, "{problem}")?;
-    }
+    let (out, problems) = (&mut *streams.output, matrix.problems());
+    let mark = |is_right: bool| summary::mark(is_right, streams.colour);
     let (rows, columns) = (matrix.rows.len(), matrix.columns.len());
-    if problems.is_empty() {
-        writeln!(out, "each of {columns} invariants kills a mutant, each of {rows} mutants dies")?;
-        Ok(exit::AGREES)
-    } else {
-        Ok(exit::DISAGREES)
+    let answer = match problems.is_empty() {
+        true => format!("each of {columns} invariants kills a fault, each of {rows} faults dies"),
+        false => problems.join("; "),
+    };
+    writeln!(out, "{} {answer}\n", mark(problems.is_empty()))?;
+    if arguments.table || !problems.is_empty() {
+        writeln!(out, "{}", matrix.text())?;
     }
+    writeln!(out, "each fault, the number of invariants that it breaks, and what it is:")?;
+    for (name, marks) in &matrix.rows {
+        let kills = marks.iter().filter(|&&mark| mark).count();
+        let about = mutant::about::about(name).unwrap_or("a check that cannot fail");
+        writeln!(out, "  {} {name:<26} {kills:>2}  {about}", mark(kills > 0))?;
+    }
+    if !arguments.table {
+        writeln!(out, "which invariant kills which: add --table")?;
+    }
+    writeln!(out, "see one judged: {} --plant NAME", program())?;
+    Ok(if problems.is_empty() { exit::AGREES } else { exit::DISAGREES })
 }
 
 /// Lists them for `rasterproof list`.

@@ -65,6 +65,9 @@ pub struct JudgeArguments {
     /// The same as --format json
     #[arg(long, conflicts_with = "format")]
     json: bool,
+    /// The table of all families, too; it is always there where something is wrong
+    #[arg(long)]
+    table: bool,
     #[command(flatten)]
     page: PageArguments,
     /// Known failures: only what this file does not know counts
@@ -219,7 +222,10 @@ pub fn run(arguments: &JudgeArguments, streams: &mut Streams<'_>) -> Result<u8, 
     }
     let format = if arguments.json { Format::Json } else { arguments.format };
     let text = match format {
-        Format::Text => judged::text(&verdict, &arguments.repeat_all(), &repeat_case),
+        Format::Text => {
+            let (repeat, shown) = (arguments.repeat_all(), (arguments.table, streams.colour));
+            judged::text(&verdict, &repeat, &repeat_case, shown)
+        }
         other => formats::write(&verdict, other, &arguments.repeat_all(), &repeat_case),
     };
     streams.output.write_all(text.as_bytes())?;

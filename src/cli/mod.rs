@@ -8,6 +8,7 @@ mod digest;
 mod engine;
 mod exhaust;
 mod explain;
+pub mod fold;
 mod inspect;
 mod inspect_case;
 mod invariant;
@@ -110,7 +111,7 @@ enum Command {
     /// Show which effects a scene calls for, why, and what leaving out the rest saves
     Plan(Box<plan::PlanArguments>),
     /// Show which invariant kills which planted fault
-    Mutants,
+    Mutants(invariant::MutantsArguments),
     /// Judge every case of a finite set, and certify it
     #[command(after_help = exhaust::HELP)]
     Exhaust(exhaust::ExhaustArguments),
@@ -172,6 +173,8 @@ pub struct Streams<'a> {
     pub progress: bool,
     /// Whether text may be coloured: standard output is a terminal and nobody objects.
     pub colour: bool,
+    /// Columns of the terminal; text is broken to fit.
+    pub columns: usize,
 }
 
 /// Runs a command line, the program's name first, and returns the exit status.
@@ -183,8 +186,11 @@ pub fn run(words: impl IntoIterator<Item = String>, streams: &mut Streams<'_>) -
     };
     // After -- come the words of somebody else, which stay as they are.
     let mut ours = true;
+    // What machines read keeps its lines.
+    let mut for_machines = false;
     let words = words.into_iter().map(|w| {
         ours &= w != "--";
+        for_machines |= ours && (w == "engine" || w == "--json" || w.starts_with("--format"));
         if ours && is_coordinate(&w) { format!(" {w}") } else { w }
     });
     let arguments = match Arguments::try_parse_from(words) {
@@ -199,6 +205,17 @@ pub fn run(words: impl IntoIterator<Item = String>, streams: &mut Streams<'_>) -
         }
     };
     quiet_engines();
+    let Streams { progress, colour, columns, .. } = *streams;
+    let mut folded;
+    let output: &mut dyn Write = match for_machines {
+        true => streams.output,
+        false => {
+            folded = fold::Folded::new(streams.output, columns, program());
+            &mut folded
+        }
+    };
+    let (input, errors) = (&mut *streams.input, &mut *streams.errors);
+    let streams = &mut Streams { input, output, errors, progress, colour, columns };
     let result = match &arguments.command {
         None => verify::run(&arguments.verify, streams),
         Some(Command::Verify(arguments)) => verify::run(arguments, streams),
@@ -210,7 +227,7 @@ pub fn run(words: impl IntoIterator<Item = String>, streams: &mut Streams<'_>) -
         Some(Command::Specimens(arguments)) => specimens::run(arguments, streams),
         Some(Command::Render(arguments)) => render::run(arguments, streams),
         Some(Command::Plan(arguments)) => plan::run(arguments, streams),
-        Some(Command::Mutants) => invariant::mutants(streams),
+        Some(Command::Mutants(arguments)) => invariant::mutants(arguments, streams),
         Some(Command::Exhaust(arguments)) => exhaust::run(arguments, streams),
         Some(Command::Merge(arguments)) => exhaust::merge(arguments, streams),
         Some(Command::Review(arguments)) => review::run(arguments, streams),
@@ -278,19 +295,9 @@ fn list(streams: &mut Streams<'_>) -> Result<u8, Failure> {
     Ok(exit::AGREES)
 }
 
-/// Writes an entry of a list, what it is about beside its name, in lines of at most 100 columns.
+/// Writes an entry of a list, what it is about beside its name.
 fn write_entry(out: &mut dyn Write, name: &str, about: &str) -> io::Result<()> {
-    let mut line = format!("  {name}");
-    let indent = " ".repeat(line.chars().count());
-    for word in about.split(' ') {
-        if line.chars().count() + 1 + word.chars().count() > 100 {
-            writeln!(out, "{line}")?;
-            line.clone_from(&indent);
-        }
-        line.push(' ');
-        line += word;
-    }
-    writeln!(out, "{line}")
+    writeln!(out, "  {name}  {about}")
 }
 
 /// Writes a file whole or not at all: first beside its place, then renamed.

@@ -68,6 +68,8 @@ pub struct PlanArguments {
 struct Measured {
     /// The mixture, for people.
     effects: String,
+    /// How often.
+    rounds: usize,
     /// Median of the rounds.
     time_us: f64,
     /// Smallest and largest.
@@ -99,10 +101,13 @@ fn percent(saving: f64, is_noise: bool) -> String {
     if is_noise { "noise".to_owned() } else { format!("{:.0}%", 100.0 * saving) }
 }
 
-/// Whether the middle halves of their rounds overlap.
+/// Rounds that have quartiles.
+const FEWEST_ROUNDS: usize = 4;
+
+/// Whether the middle halves of their rounds overlap; of too few rounds nobody knows.
 fn is_noise(a: &Measured, b: &Measured) -> bool {
     let ([a0, a1], [b0, b1]) = (a.quartiles_us, b.quartiles_us);
-    a0 <= b1 && b0 <= a1
+    a.rounds.min(b.rounds) < FEWEST_ROUNDS || a0 <= b1 && b0 <= a1
 }
 
 /// Everything measured.
@@ -231,6 +236,7 @@ fn measure(
             let us = |time: Duration| time.as_secs_f64() * 1e6;
             Measured {
                 effects,
+                rounds: times.len(),
                 time_us: us(times[times.len() / 2]),
                 range_us: [us(times[0]), us(times[times.len() - 1])],
                 quartiles_us: [1, 3].map(|n| us(times[(times.len() - 1) * n / 4])),
@@ -293,7 +299,7 @@ fn describe(scene: &Scene, planned: &Rendered, everything: &Counters, savings: &
             percent(s.saves_last, s.noise_last)
         );
     }
-    text += "alone: the rest paid for; last: paid for, the rest planned\nnoise: the middle halves of the rounds of both overlap\n\n";
+    text += "alone: the rest paid for; last: paid for, the rest planned\nnoise: the middle halves of the rounds of both overlap, or there are fewer than four\n\n";
     for m in savings.all() {
         if !m.same {
             let _ = writeln!(text, "DIFFERENT PICTURE with the effects {}", m.effects);

@@ -407,9 +407,7 @@ fn failures(
             writeln!(out, "{}\n", ascii::LEGEND)?;
         }
         writeln!(out, "  repeat with: {}", arguments.repeat(&failure.family, failure.index))?;
-        if let Some(command) = explain(arguments, failure) {
-            writeln!(out, "  explain it:  {command}")?;
-        }
+        writeln!(out, "  explain it:  {}", explain(arguments, failure))?;
         writeln!(out, "  read on in:  {}\n", summary::chapter(failure))?;
     }
     let mut exact = Vec::new();
@@ -457,15 +455,20 @@ fn others(
 /// Cases that a sheet holds.
 const MOST_DRAWN: usize = 6;
 
-/// The command that shows the shrunk case, where the command line can say it.
-fn explain(arguments: &VerifyArguments, failure: &verify::Failure) -> Option<String> {
+/// The command that shows the shrunk case, or, where the command line cannot say it, the case that it is
+/// from.
+fn explain(arguments: &VerifyArguments, failure: &verify::Failure) -> String {
     let (list, words) = match &failure.case.shape {
         Shape::Triangles { list, .. } => (list.len(), String::new()),
         Shape::Lines(list) => (list.len(), "--line ".to_owned()),
     };
     let points = verify::shrink::describe(&failure.case);
     let plant = arguments.plant.as_ref().map(|name| format!(" --plant {name}")).unwrap_or_default();
-    (list == 1).then(|| format!("{} inspect {words}{points}{plant}", program()))
+    let verify::Failure { family, index, seed, .. } = failure;
+    match list == 1 && verify::shrink::has_plain_values(&failure.case) {
+        true => format!("{} inspect {words}{points}{plant}", program()),
+        false => format!("{} inspect {family}#{index} --seed {seed}{plant}", program()),
+    }
 }
 
 /// Names and draws the cases whose values came closest to their bounds.

@@ -17,11 +17,11 @@ pub fn text(step: &Step, outcome: &Outcome) -> String {
         format!("step {number}, {title}: NOT YET, wrong in {wrong} of {cases} cases{late}\n");
     let Some(failure) = &outcome.failure else { return out };
     out +=
-        &wrapped(&format!("smallest found: {} (from {}, shrunk)", failure.what, failure.found), 2);
+        &indented(&format!("smallest found: {} (from {}, shrunk)", failure.what, failure.found), 2);
     for [request, answer, expected] in failure.lines.iter().take(2) {
         for (what, line) in [("request:", request), ("answer:", answer), ("expected:", expected)] {
             if !line.is_empty() {
-                out += &wrapped(&format!("{what:<9} {line}"), 2);
+                out += &indented(&format!("{what:<9} {line}"), 2);
             }
         }
     }
@@ -30,7 +30,7 @@ pub fn text(step: &Step, outcome: &Outcome) -> String {
             ("yours".to_owned(), ascii::grid(actual, target)),
             ("expected".to_owned(), ascii::grid(target, target)),
         ];
-        for line in ascii::side_by_side(&blocks, 98).lines() {
+        for line in ascii::side_by_side(&blocks, 58).lines() {
             out += format!("  {line}").trim_end();
             out.push('\n');
         }
@@ -39,21 +39,8 @@ pub fn text(step: &Step, outcome: &Outcome) -> String {
     out
 }
 
-/// Lines of at most 100 columns, indented.
+/// A line, indented.
 #[must_use]
-pub fn wrapped(text: &str, indent: usize) -> String {
-    let margin = " ".repeat(indent);
-    let mut lines = vec![String::new()];
-    for word in text.split_whitespace() {
-        let line = lines.last_mut().expect("there is a line");
-        if line.is_empty() {
-            *line = format!("{margin}{word}");
-        } else if line.chars().count() + 1 + word.chars().count() > 100 {
-            lines.push(format!("{margin}  {word}"));
-        } else {
-            line.push(' ');
-            *line += word;
-        }
-    }
-    lines.join("\n") + "\n"
+pub fn indented(text: &str, indent: usize) -> String {
+    format!("{:indent$}{}\n", "", text.trim_end())
 }

@@ -292,6 +292,7 @@ fn run(command: &str, input: &str) -> (u8, String, String) {
         errors: &mut errors,
         progress: false,
         colour: false,
+        columns: cli::fold::USUAL,
     };
     let words = command.split_whitespace().map(str::to_owned);
     let status = cli::run(words, &mut streams);

@@ -1,5 +1,8 @@
 //! The tests other than the differential table, in one binary.
 
+#[macro_use]
+extern crate rasterproof_engines;
+
 mod book;
 mod commands;
 mod convention;
@@ -19,7 +22,6 @@ mod league;
 mod matrix;
 mod models;
 mod mutants;
-mod next;
 mod page;
 mod pages;
 mod playground;

@@ -20,6 +20,23 @@ fn exercises(page: &str, language: Language) -> &str {
     page.find(HEADINGS[language as usize]).map_or("", |at| &page[at..])
 }
 
+#[test]
+fn quiz_every_exercise_is_whole() {
+    for chapter in CHAPTERS {
+        assert!((3..=5).contains(&chapter.exercises.len()), "{}", chapter.page);
+        for exercise in chapter.exercises {
+            let (question, solution) = (exercise.question[0], exercise.solution());
+            for why in exercise.why {
+                assert_eq!(why.matches("{}").count(), solution.figures.len(), "{question}");
+            }
+            let is_choice = matches!(solution.answer, Answer::Choice(_));
+            assert_eq!(is_choice, !exercise.choices.is_empty(), "{question}");
+            let widest = solution.grids.iter().flat_map(|(_, lines)| lines);
+            assert!(widest.map(|l| l.chars().count()).max().unwrap_or(0) <= 40, "{question}");
+        }
+    }
+}
+
 /// Pages end with their exercises as the code computes them. `RASTERPROOF_RENEW=1 cargo test --test it
 /// quiz_pages` writes them anew.
 #[test]

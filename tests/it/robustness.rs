@@ -206,6 +206,7 @@ fn answers(name: &str, requests: &[u8]) -> Vec<String> {
         errors: &mut errors,
         progress: false,
         colour: false,
+        columns: cli::fold::USUAL,
     };
     let words = ["rasterproof", "engine", name].map(str::to_owned);
     assert_eq!(

@@ -27,7 +27,7 @@ use rasterproof::scene::{
 use rayon::prelude::*;
 
 use crate::illustrations::headed;
-use crate::snapshots::{check_picture, each, settings};
+use crate::snapshots::{check_picture, check_words, each};
 
 const SMOOTHINGS: [Antialias; 4] = [
     Antialias::None,
@@ -517,7 +517,7 @@ fn every_condition_has_its_counterexample() {
         }
     }
     let text = lines.join("\n");
-    settings().bind(|| insta::assert_snapshot!("counterexamples", text));
+    check_words("counterexamples", &text);
 }
 
 /// A closed mesh seen from inside leaves no background, wherever the eye is and however near the

@@ -31,8 +31,7 @@ use rasterproof::verify::{
     Tally, engine_coverage, judge_case, line_coverage, oracle_coverage, oracle_pixels_each,
     tolerance,
 };
-
-use crate::next::NEXT;
+use rasterproof_engines::next::NEXT;
 
 /// Largest sheet of a case that is kept, and picture of anything else.
 const MOST_BYTES: usize = 28 * 1024;
@@ -61,6 +60,11 @@ pub fn each<T>(items: impl IntoIterator<Item = T>, check: impl Fn(T)) {
     };
     let messages: Vec<_> = failed.iter().map(said).collect();
     assert!(failed.is_empty(), "{}\n{} of them fail.\n{NEXT}", messages.join("\n"), failed.len());
+}
+
+/// Keeps a text as a snapshot.
+pub fn check_words(name: &str, words: &str) {
+    each([words], |words| settings().bind(|| insta::assert_snapshot!(name, words)));
 }
 
 #[derive(Clone)]

@@ -1,8 +1,10 @@
 //! Makes a failing case small enough to read, while it goes on failing.
 //!
 //! Greedy: of the steps below, take the first that makes the case smaller and still fails, and start
-//! again; stop when none does. Corners on multiples of half a pixel come before short ones. The number of trials is bounded, so a slow engine costs little.
+//! again; stop when none does. Values that tell the corners apart come first, then corners on multiples
+//! of half a pixel, then short ones. The number of trials is bounded, so a slow engine costs little.
 
+use super::named::{plain_line, plain_triangle};
 use super::{Case, Line, Shape, Triangle};
 use crate::each::Each as _;
 use crate::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
@@ -65,11 +67,33 @@ fn around(case: &Case) -> Option<Case> {
     Some(Case { window: PixelRect { x0, y0, x1, y1 }, shape: case.shape.clone() })
 }
 
-/// Shapes, then coordinates that are no multiple of half a pixel, then how far the shapes reach in
-/// pixels, then how many subpixel bits they need, then how far from the origin they lie, then the
-/// window.
+/// The case with the values that `inspect` gives to corners which are typed in.
+fn plain(case: &Case) -> Case {
+    let shape = match &case.shape {
+        Shape::Triangles { list, disjoint } => {
+            let list = list.iter().map(|t| plain_triangle(t.corners())).collect();
+            Shape::Triangles { list, disjoint: *disjoint }
+        }
+        Shape::Lines(lines) => {
+            let ends = lines.iter().map(|line| line.ends.each(|end| end.pixel));
+            Shape::Lines(ends.map(|[a, b]| plain_line(a, b)).collect())
+        }
+    };
+    Case { window: case.window, shape }
+}
+
+/// Whether its positions say all: [`describe`] and `inspect` then lead to the same case.
 #[must_use]
-pub fn size(case: &Case) -> (usize, usize, u64, u32, u64, u64) {
+pub fn has_plain_values(case: &Case) -> bool {
+    plain(case).shape == case.shape
+}
+
+/// Shapes, then whether they have values of their own, then coordinates that are no multiple of half a
+/// pixel, then how far the shapes reach in pixels, then how many subpixel bits they need, then how far
+/// from the origin they lie, then the window.
+#[must_use]
+pub fn size(case: &Case) -> (usize, bool, usize, u64, u32, u64, u64) {
+    let own = !has_plain_values(case);
     let window = u64::from(case.window.width()) + u64::from(case.window.height());
     let reach = |values: &[i64]| {
         let (min, max) =
@@ -86,22 +110,37 @@ pub fn size(case: &Case) -> (usize, usize, u64, u32, u64, u64) {
             let odd = all().filter(|v| v & (HALF_PIXEL - 1) != 0).count();
             let bits = all().map(|v| (v & (SUBPIXELS - 1)).count_ones()).sum();
             let px = (reach(&xs) + reach(&ys)).div_ceil(SUBPIXELS as u64);
-            (list.len(), odd, px, bits, far(&xs) + far(&ys), window)
+            (list.len(), own, odd, px, bits, far(&xs) + far(&ys), window)
         }
         Shape::Lines(lines) => {
             let points: Vec<_> = lines.iter().flat_map(|l| l.ends.each(|end| end.pixel)).collect();
             let xs: Vec<_> = points.iter().map(|p| i64::from(p.x)).collect();
             let ys: Vec<_> = points.iter().map(|p| i64::from(p.y)).collect();
-            (lines.len(), 0, reach(&xs) + reach(&ys), 0, far(&xs) + far(&ys), window)
+            (lines.len(), own, 0, reach(&xs) + reach(&ys), 0, far(&xs) + far(&ys), window)
         }
     }
 }
 
 fn candidates(case: &Case) -> Vec<Case> {
-    match &case.shape {
+    let shapes = match &case.shape {
         Shape::Triangles { list, .. } => triangle_candidates(case, list),
         Shape::Lines(lines) => line_candidates(case, lines),
+    };
+    std::iter::once(plain(case)).chain(shapes).collect()
+}
+
+/// Points between two, nearest to the second first, a whole number of `unit` from the first: what lies on
+/// the edge between them goes on lying there.
+fn between(unit: i32, [x0, y0]: [i32; 2], [x1, y1]: [i32; 2]) -> impl Iterator<Item = [i32; 2]> {
+    let [dx, dy] = [i64::from(x1) - i64::from(x0), i64::from(y1) - i64::from(y0)];
+    let (mut divisor, mut rest) = (dx.abs(), dy.abs());
+    while rest > 0 {
+        (divisor, rest) = (rest, divisor % rest);
     }
+    let steps = divisor / i64::from(unit);
+    let at =
+        move |k: i64| [(x0, dx), (y0, dy)].each(|(v, d)| (i64::from(v) + d / steps * k) as i32);
+    [steps - 1, steps / 2, 1].into_iter().filter(move |&k| 0 < k && k < steps).map(at)
 }
 
 fn triangle_candidates(case: &Case, list: &[Triangle]) -> Vec<Case> {
@@ -152,6 +191,16 @@ fn triangle_candidates(case: &Case, list: &[Triangle]) -> Vec<Case> {
     for corner in 0..3 {
         for (dx, dy) in NEARBY {
             let by = |i: usize, p| if i == corner { halves(p, dx, dy) } else { p };
+            found.push(with(w, vec![moved(&by)]));
+        }
+    }
+    // A corner along its edges towards the other two.
+    for (corner, other) in [(0, 1), (1, 2), (2, 0), (1, 0), (2, 1), (0, 2)] {
+        let [from, to] = [corner, other].each(|i| triangle.vertices[i].position);
+        let [from, to] = [from, to].each(|p| [p.x, p.y]);
+        let on_halves = [from, to].as_flattened().iter().all(|v| v % HALF_PIXEL == 0);
+        for [x, y] in between(if on_halves { HALF_PIXEL } else { 1 }, from, to) {
+            let by = |i: usize, p| if i == corner { SubpixelPoint::new(x, y) } else { p };
             found.push(with(w, vec![moved(&by)]));
         }
     }
@@ -222,6 +271,7 @@ fn simpler_coordinates(value: i32) -> Vec<i32> {
         border.saturating_add(HALF_PIXEL),
         step(4 * SUBPIXELS),
         step(SUBPIXELS),
+        step(HALF_PIXEL),
         step(1),
         value & !63,
         value & !15,
@@ -255,12 +305,16 @@ fn line_candidates(case: &Case, lines: &[Line]) -> Vec<Case> {
         ));
     }
     for end in 0..2 {
+        let [from, to] = [end, 1 - end].each(|i| line.ends[i].pixel);
+        for [x, y] in between(1, [from.x, from.y], [to.x, to.y]) {
+            let by = |i: usize, p| if i == end { PixelPoint::new(x, y) } else { p };
+            found.push(with(w, vec![moved(&by)]));
+        }
         for axis in 0..2 {
             let pixel = line.ends[end].pixel;
             let value = [pixel.x, pixel.y][axis];
-            for simpler in
-                [0, value / 2, value - value.signum() * 8.min(value.abs()), value - value.signum()]
-            {
+            let step = |v: i32| value - value.signum() * v.min(value.abs());
+            for simpler in [0, value / 2, step(8), step(2), step(1)] {
                 found.push(with(
                     w,
                     vec![moved(&|i, p| match (i == end, axis) {

@@ -3,31 +3,47 @@
 use std::fmt::Write as _;
 
 use super::html::{Column, Mark, Outcome, Report, Row, Table};
-use super::{ascii, cases};
+use super::{ascii, cases, summary};
 use crate::judge::check::Check;
-use crate::judge::run::{self, MOST_DEATHS};
+use crate::judge::run::{self, MOST_DEATHS, Row as FamilyRow};
 use crate::judge::shrunk::Failure;
 use crate::judge::verdict::{self, Score, Verdict, per_million};
+use crate::verify::Tally;
 
 /// Requests of a failing case that are shown.
 const MOST_EXCHANGES: usize = 3;
 /// Incidents that are shown of each kind.
 const MOST_INCIDENTS: usize = 2;
 
-/// The verdict as text of at most 100 columns, commands left out; they stay whole to be copied.
+/// The verdict as text: the answer, a line for each danger, the table where something is wrong or it is
+/// asked for, what is wrong, and the verdict in a word.
 #[must_use]
-pub fn text(verdict: &Verdict, repeat_all: &str, repeat: &dyn Fn(&str, u64) -> String) -> String {
-    let mut out = String::new();
-    let d = &verdict.declared;
-    let _ = writeln!(out, "rasterproof {}, seed {}\n", env!("CARGO_PKG_VERSION"), verdict.seed);
-    let said = format!("{} speaks version {}: {d}", d.name, d.version);
-    out += &wrapped(&said, "  ");
+pub fn text(
+    verdict: &Verdict,
+    repeat_all: &str,
+    repeat: &dyn Fn(&str, u64) -> String,
+    (with_table, colour): (bool, bool),
+) -> String {
+    let (d, agrees) = (&verdict.declared, verdict.agrees());
+    let answer = if agrees { "is right" } else { "is not right" };
+    let mut out = format!(
+        "{} rasterproof {}, seed {}: {} {answer}\n\n",
+        summary::mark(agrees, colour),
+        env!("CARGO_PKG_VERSION"),
+        verdict.seed,
+        d.name
+    );
+    let _ = writeln!(out, "{} speaks version {}: {d}", d.name, d.version);
     if !d.unknown.is_empty() {
-        out += &wrapped(&format!("not understood, left aside: {}", d.unknown.join(" ")), "  ");
+        let _ = writeln!(out, "not understood, left aside: {}", d.unknown.join(" "));
     }
     out.push('\n');
-    stages(&mut out, verdict);
-    table(&mut out, verdict);
+    dangers(&mut out, verdict, colour);
+    out.push('\n');
+    scores(&mut out, verdict);
+    if with_table || !agrees {
+        table(&mut out, verdict);
+    }
     incidents(&mut out, verdict, repeat);
     for failure in &verdict.failures {
         one_failure(&mut out, failure, &repeat(failure.family, failure.index));
@@ -39,9 +55,55 @@ pub fn text(verdict: &Verdict, repeat_all: &str, repeat: &dyn Fn(&str, u64) -> S
         }
     }
     let _ = writeln!(out, "\nrepeat with: {repeat_all}");
-    let word = if verdict.agrees() { "AGREES" } else { "DISAGREES" };
-    out += &wrapped(&format!("{word}: {}", closing(verdict)), "  ");
+    if !with_table && agrees {
+        out += "every family as a table: add --table\n";
+    }
+    let word = if agrees { "AGREES" } else { "DISAGREES" };
+    let _ = writeln!(out, "{word}: {}", closing(verdict));
     out
+}
+
+/// A line for how it keeps the protocol, for its winding, for each danger and for each other check.
+fn dangers(out: &mut String, verdict: &Verdict, colour: bool) {
+    let mut entry = |is_good, name, what: &str| {
+        *out += &summary::entry(summary::mark(is_good, colour), name, what);
+    };
+    let is_good =
+        |name: &str| verdict.properties.iter().all(|p| p.name != name || p.outcome.is_good());
+    for p in verdict.properties.iter().filter(|p| ["protocol", "winding"].contains(&p.name)) {
+        let what = match (p.name, p.outcome.is_good()) {
+            ("winding", true) => format!("{}, as it declares", verdict.declared.winding.word()),
+            _ => p.detail.clone(),
+        };
+        entry(p.outcome.is_good(), p.name, &what);
+    }
+    let rows = &verdict.found.rows;
+    for danger in summary::DANGERS {
+        let of = || rows.iter().filter(|row| danger.families.contains(&row.name));
+        let sum = |number: fn(&FamilyRow) -> u64| of().map(number).sum::<u64>();
+        let cases = summary::thousands(sum(|row| row.cases));
+        let mut tally = Tally::default();
+        of().for_each(|row| tally += row.tally);
+        let what = match sum(|row| row.wrong_cases) {
+            0 => format!("{cases} cases, all right"),
+            n => {
+                let counts = format!("\npixels: {}", tally.describe());
+                let counts = if tally.total() > 0 { counts } else { String::new() };
+                format!("wrong in {} of {cases} cases{counts}", summary::thousands(n))
+            }
+        };
+        if of().next().is_some() {
+            entry(of().all(|row| is_good(row.name)), danger.name, &what);
+        }
+    }
+    let in_a_danger = |name: &str| summary::DANGERS.iter().any(|d| d.families.contains(&name));
+    for row in rows.iter().filter(|row| !in_a_danger(row.name)) {
+        let what = match row.wrong_cases {
+            0 => format!("{} cases, all right", summary::thousands(row.cases)),
+            _ => verdict::sentence(row),
+        };
+        entry(is_good(row.name), row.name, &what);
+    }
 }
 
 /// Breaks a line at spaces; the lines after the first begin with `indent`.
@@ -73,21 +135,12 @@ fn score(of: Score) -> String {
     format!("{} wrong pixels, {share:.0} in a million{unscored}", of.wrong)
 }
 
-/// Draws, winding, convention, both scores.
-fn stages(out: &mut String, verdict: &Verdict) {
-    for property in verdict
-        .properties
-        .iter()
-        .take_while(|p| p.about.starts_with("it draws") || p.name == "protocol")
-    {
-        let mark = if property.outcome.is_good() { "yes" } else { "NO" };
-        *out += &wrapped(&format!("{:<4} {}: {}", mark, property.about, property.detail), "     ");
-    }
+/// The convention that was recognised, and the score by it.
+fn scores(out: &mut String, verdict: &Verdict) {
     let said = score(verdict.as_declared());
     let _ = writeln!(out, "as declared:         {said}");
-    let indent = " ".repeat(21);
     let line = |out: &mut String, first: &str, text: &str| {
-        *out += &wrapped(&format!("{first:<21}{text}"), &indent);
+        let _ = writeln!(out, "{first:<21}{text}");
     };
     let Some(recognised) = &verdict.recognised else {
         let _ = writeln!(out, "by its convention:   the same: no other one was recognised\n");
@@ -127,8 +180,11 @@ fn table(out: &mut String, verdict: &Verdict) {
     for row in verdict.found.rows.iter().filter(|row| row.values > 0) {
         let _ = writeln!(
             out,
-            "{}: {} compared, the worst at {:.3e} of the tolerance {:e}",
-            row.name, row.values, row.worst, verdict.declared.tolerance
+            "{}: {} compared, {}, which is {:e}",
+            row.name,
+            row.values,
+            summary::of_bound(row.worst).replace("bound", "tolerance"),
+            verdict.declared.tolerance
         );
     }
     for row in verdict.found.rows.iter().filter(|row| row.stopped) {
@@ -154,25 +210,21 @@ pub fn incidents(out: &mut String, verdict: &Verdict, repeat: &dyn Fn(&str, u64)
         shown.push(word);
         let command = repeat(incident.family, incident.index);
         let (family, index) = (incident.family, incident.index);
-        *out += "\n";
-        *out += &wrapped(&format!("{family} #{index}: it {}", incident.what), "  ");
+        let _ = writeln!(out, "\n{family} #{index}: it {}", incident.what);
         let _ = writeln!(out, "  request:  {}", incident.request);
         let _ = writeln!(out, "  repeat with: {command}");
     }
     for stray in &verdict.found.strays {
-        *out += &wrapped(
-            &format!("\nwith several requests in flight it {stray}; each alone was answered"),
-            "  ",
-        );
+        let flight = "with several requests in flight it";
+        let _ = writeln!(out, "\n{flight} {stray}; each alone was answered");
     }
 }
 
 /// A failing case: what was asked and answered, with its pixel grid.
 pub fn one_failure(out: &mut String, failure: &Failure, command: &str) {
-    *out += "\n";
     let (family, index) = (failure.family, failure.index);
-    let found = format!("{}: {} (from {family} #{index}, shrunk)", failure.property, failure.what);
-    *out += &wrapped(&found, "  ");
+    let (property, what) = (failure.property, &failure.what);
+    let _ = writeln!(out, "\n{property}: {what} (from {family} #{index}, shrunk)");
     for exchange in failure.exchanges.iter().take(MOST_EXCHANGES) {
         for (what, line) in [
             ("request", &exchange.request),
@@ -180,7 +232,7 @@ pub fn one_failure(out: &mut String, failure: &Failure, command: &str) {
             ("expected", &exchange.expected),
         ] {
             if !line.is_empty() {
-                *out += &wrapped(&format!("  {:<10}{line}", format!("{what}:")), "            ");
+                let _ = writeln!(out, "  {:<10}{line}", format!("{what}:"));
             }
         }
     }
@@ -193,7 +245,7 @@ pub fn one_failure(out: &mut String, failure: &Failure, command: &str) {
             ("judged".to_owned(), ascii::grid(actual, target)),
             ("expected".to_owned(), ascii::grid(target, target)),
         ];
-        let picture = ascii::side_by_side(&blocks, 98);
+        let picture = ascii::side_by_side(&blocks, 58);
         picture.lines().for_each(|line| {
             let _ = writeln!(out, "  {line}");
         });

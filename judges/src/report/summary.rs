@@ -12,7 +12,7 @@ pub struct Danger {
     pub name: &'static str,
     /// The page that explains it.
     pub chapter: &'static str,
-    families: &'static [&'static str],
+    pub(super) families: &'static [&'static str],
 }
 
 /// Every family is in one of these.
@@ -159,7 +159,7 @@ impl Sum {
 }
 
 /// With commas between groups of three digits.
-fn thousands(n: u64) -> String {
+pub(super) fn thousands(n: u64) -> String {
     let digits = n.to_string();
     let groups = digits.as_bytes().rchunks(3).rev();
     groups.map(|group| String::from_utf8_lossy(group)).collect::<Vec<_>>().join(",")
@@ -176,18 +176,22 @@ pub fn mark(is_right: bool, colour: bool) -> &'static str {
     }
 }
 
+/// A line for something that was judged; more lines below it where there is more to say.
+#[must_use]
+pub fn entry(mark: &str, name: &str, what: &str) -> String {
+    let mut rows = what.lines();
+    let mut out = format!("  {mark} {name:<25} {}\n", rows.next().unwrap_or(""));
+    rows.for_each(|row| {
+        let _ = writeln!(out, "      {row}");
+    });
+    out
+}
+
 /// A line for each danger that was judged, then one for the values.
 #[must_use]
 pub fn lines(verdict: &Verdict, off_grid: &ExactVerdict, colour: bool) -> String {
     let mut out = String::new();
-    let mut entry = |is_right: bool, name: &str, what: &str| {
-        let mut rows = what.lines();
-        let first = rows.next().unwrap_or("");
-        let _ = writeln!(out, "  {} {name:<25} {first}", mark(is_right, colour));
-        rows.for_each(|row| {
-            let _ = writeln!(out, "      {row}");
-        });
-    };
+    let mut entry = |is_right, name, what: &str| out += &entry(mark(is_right, colour), name, what);
     for danger in DANGERS {
         let sum = sum(danger, verdict, off_grid);
         if sum.cases > 0 {

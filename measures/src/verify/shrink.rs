@@ -4,4 +4,4 @@
 
 pub(super) use crate::hazard::shrink::size;
 #[doc(inline)]
-pub use crate::hazard::shrink::{describe, shrink};
+pub use crate::hazard::shrink::{describe, has_plain_values, shrink};
