@@ -50,7 +50,7 @@ pub struct InspectArguments {
     #[arg(long, value_name = "WxH", value_parser = parse_window)]
     window: Option<PixelRect>,
     /// Seed of FAMILY#NUMBER
-    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = super::parse_number, allow_negative_numbers = true)]
     seed: u64,
     /// Show what this published algorithm draws as well; it is not judged
     #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(SPECIMENS.iter().map(|e| e.name)))]
@@ -124,6 +124,9 @@ fn no_part(plant: Option<&String>) -> Failure {
 }
 
 pub fn run(arguments: &InspectArguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+    if let Some(path) = &arguments.output {
+        png_name(path)?;
+    }
     let (title, mut case, expected) = match find(arguments)? {
         Found::Case { title, case, expected } => (title, case, expected),
         Found::Refused { title, corners } => return refused(&title, &corners, streams.output),
@@ -136,12 +139,14 @@ pub fn run(arguments: &InspectArguments, streams: &mut Streams<'_>) -> Result<u8
         case.window = window;
     }
     let w = case.window;
+    if let Some(at) = arguments.pixel {
+        in_window(w, at)?;
+    }
     writeln!(out, "{title}")?;
     writeln!(out, "window: columns {}..{}, rows {}..{}", w.x0, w.x1, w.y0, w.y1)?;
     write!(out, "{}", cropped(&case, arguments))?;
     facts(&case, out)?;
     if let Some(at) = arguments.pixel {
-        in_window(w, at)?;
         write!(out, "\n{}", explain::pixel(&case, at))?;
     }
 
@@ -342,11 +347,13 @@ fn off_grid_alone(
     let out = &mut *streams.output;
     case.window = arguments.window.unwrap_or(case.window);
     let w = case.window;
+    if let Some(at) = arguments.pixel {
+        in_window(w, at)?;
+    }
     writeln!(out, "{title}")?;
     writeln!(out, "window: columns {}..{}, rows {}..{}", w.x0, w.x1, w.y0, w.y1)?;
     writeln!(out, "triangles {}\n", describe(&case.triangles))?;
     if let Some(at) = arguments.pixel {
-        in_window(w, at)?;
         writeln!(out, "{}", explain::free_pixel(&case.triangles, w, at))?;
         let drawn = exact.iter().chain([&ExactEngine::Oracle]);
         let hits = drawn.map(|engine| {
@@ -380,7 +387,6 @@ fn write_picture(
     let Some(path) = &arguments.output else {
         return write_unasked(&arguments.page.place.out.join("inspect.png"), &bytes, streams);
     };
-    png_name(path)?;
     write_file(path, &bytes)?;
     writeln!(streams.output, "drawn in {}", path.display())?;
     Ok(())
@@ -473,6 +479,9 @@ fn find(arguments: &InspectArguments) -> Result<Found, Failure> {
             let corners = [parse_point(a)?, parse_point(b)?, parse_point(c)?];
             Ok(generated(format!("triangle {a} {b} {c}"), triangle_case(corners)))
         }
+        ([word], false) if bare_point(word).is_some() => Err(usage(
+            "a point alone is no case: three corners x,y, or --line and two points; see inspect --help",
+        )),
         ([word], false) => match word.split_once('#') {
             Some((family, number)) => {
                 let index = number.parse::<u64>().map_err(|_| {
@@ -496,6 +505,13 @@ fn find(arguments: &InspectArguments) -> Result<Found, Failure> {
             None => {
                 if let Some(case) = recorded(words) {
                     return Ok(recorded_case(case));
+                }
+                if hazard::families().any(|f| f.name == word)
+                    || offgrid::FAMILIES.iter().any(|f| f.name == word)
+                {
+                    return Err(usage(format!(
+                        "{word} is a family: add the number of a case, {word}#0"
+                    )));
                 }
                 let names = named::named().into_iter().map(|case| case.name);
                 let names: Vec<_> = names.chain(RECORDED.iter().map(|case| case.name)).collect();
