@@ -46,7 +46,7 @@ pub struct CostArguments {
     #[arg(long)]
     quick: bool,
     /// Decides every scene
-    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = super::parse_number, allow_negative_numbers = true)]
     seed: u64,
     /// Measure nothing: show and draw again what --json printed into FILE
     #[arg(long, value_name = "FILE", conflicts_with_all = ["quick", "seed"])]
@@ -95,14 +95,11 @@ pub fn run(arguments: &CostArguments, streams: &mut Streams<'_>) -> Result<u8, F
     };
     let (boards, out) = (&recorded.boards, &mut *streams.output);
     let plots = plots(boards);
-    let written = write_plots(&plots, arguments)?;
-    if arguments.page.report {
-        let path = arguments.page.place.out.join("cost.html");
-        write_page(&path, report_page(&plots, &recorded), streams.errors)?;
-    }
     if arguments.json {
         out.write_all(json::cost(&recorded).as_bytes())?;
-        return Ok(exit::AGREES);
+        out.flush()?;
+        write_plots(&plots, arguments)?;
+        return write_report(arguments, &plots, &recorded, streams);
     }
     let Recorded { version, seed, .. } = &recorded;
     let quick = if recorded.quick { ", quick" } else { "" };
@@ -114,10 +111,24 @@ pub fn run(arguments: &CostArguments, streams: &mut Streams<'_>) -> Result<u8, F
     if !price.is_empty() {
         writeln!(out, "{price}")?;
     }
-    let drawn =
-        format!("in {}, as SVG and PNG: {}", arguments.folder().display(), written.join(", "));
-    writeln!(out, "drawn {}", board::wrap(&drawn).trim_start())?;
     writeln!(out, "repeat with: {}", recorded.repeat)?;
+    // What cannot be written takes nothing of what was measured.
+    out.flush()?;
+    let written = write_plots(&plots, arguments)?.join(", ");
+    writeln!(out, "drawn in {}, as SVG and PNG: {written}", arguments.folder().display())?;
+    write_report(arguments, &plots, &recorded, streams)
+}
+
+fn write_report(
+    arguments: &CostArguments,
+    plots: &[(String, Drawing)],
+    recorded: &Recorded,
+    streams: &mut Streams<'_>,
+) -> Result<u8, Failure> {
+    if arguments.page.report {
+        let path = arguments.page.place.out.join("cost.html");
+        write_page(&path, report_page(plots, recorded), streams.errors)?;
+    }
     Ok(exit::AGREES)
 }
 

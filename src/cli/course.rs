@@ -67,7 +67,7 @@ struct CheckArguments {
         value_parser = clap::value_parser!(u64).range(1..=100_000))]
     cases: u64,
     /// Decides every case
-    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = super::parse_number, allow_negative_numbers = true)]
     seed: u64,
     /// The program and its arguments, after --; remembered in course.toml
     #[arg(last = true, value_name = "CMD")]

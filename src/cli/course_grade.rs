@@ -54,7 +54,7 @@ pub struct GradeArguments {
         value_parser = clap::value_parser!(u64).range(1..=100_000))]
     cases: u64,
     /// Decides every case
-    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = super::parse_number, allow_negative_numbers = true)]
     seed: u64,
     /// Seconds for a submission in all; what is not asked by then is not passed
     #[arg(long, value_name = "S", default_value_t = 120,

@@ -15,7 +15,7 @@ Run it on two machines: the same lines mean the same bits (docs/machines.md).";
 #[derive(clap::Args, Debug)]
 pub struct DigestArguments {
     /// Decides every generated case
-    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = super::parse_number, allow_negative_numbers = true)]
     seed: u64,
     /// Cases of each family, and random scenes
     #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u64).range(1..=1_000_000))]

@@ -55,7 +55,7 @@ pub struct InspectArguments {
     #[arg(long, value_name = "WxH", value_parser = parse_window)]
     window: Option<PixelRect>,
     /// Seed of FAMILY#NUMBER
-    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = super::parse_number, allow_negative_numbers = true)]
     pub(super) seed: u64,
     /// Show what this published algorithm draws as well; it is not judged
     #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(SPECIMENS.iter().map(|e| e.name)))]
@@ -129,6 +129,9 @@ fn no_part(plant: Option<&String>) -> Failure {
 }
 
 pub fn run(arguments: &InspectArguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+    if let Some(path) = &arguments.output {
+        png_name(path)?;
+    }
     let (title, mut case, expected, typed) = match find(arguments)? {
         Found::Case { title, case, expected, typed } => (title, case, expected, typed),
         Found::Refused { title, corners } => return refused(&title, &corners, streams.output),
@@ -141,12 +144,14 @@ pub fn run(arguments: &InspectArguments, streams: &mut Streams<'_>) -> Result<u8
         case.window = window;
     }
     let w = case.window;
+    if let Some(at) = arguments.pixel {
+        in_window(w, at)?;
+    }
     writeln!(out, "{title}")?;
     writeln!(out, "window: columns {}..{}, rows {}..{}", w.x0, w.x1, w.y0, w.y1)?;
     write!(out, "{}", cropped(&case, arguments))?;
     facts(&case, out)?;
     if let Some(at) = arguments.pixel {
-        in_window(w, at)?;
         write!(out, "\n{}", explain::pixel(&case, at))?;
     }
 
@@ -365,11 +370,13 @@ fn off_grid_alone(
     let out = &mut *streams.output;
     case.window = arguments.window.unwrap_or(case.window);
     let w = case.window;
+    if let Some(at) = arguments.pixel {
+        in_window(w, at)?;
+    }
     writeln!(out, "{title}")?;
     writeln!(out, "window: columns {}..{}, rows {}..{}", w.x0, w.x1, w.y0, w.y1)?;
     writeln!(out, "triangles {}\n", describe(&case.triangles))?;
     if let Some(at) = arguments.pixel {
-        in_window(w, at)?;
         writeln!(out, "{}", explain::free_pixel(&case.triangles, w, at))?;
         let drawn = exact.iter().chain([&ExactEngine::Oracle]);
         let hits = drawn.map(|engine| {
@@ -403,7 +410,6 @@ fn write_picture(
     let Some(path) = &arguments.output else {
         return write_unasked(&arguments.page.place.out.join("inspect.png"), &bytes, streams);
     };
-    png_name(path)?;
     write_file(path, &bytes)?;
     writeln!(streams.output, "drawn in {}", path.display())?;
     Ok(())

@@ -43,6 +43,11 @@ pub(super) fn find(arguments: &InspectArguments) -> Result<Found, Failure> {
     let words = words(arguments);
     let found = match words.as_slice() {
         _ if arguments.line => lines(&words)?,
+        [word] if parse_corner(word).is_ok() => {
+            return Err(usage(
+                "a point alone is no case: three corners x,y, or --line and two points; see inspect --help",
+            ));
+        }
         [word] => called(word, arguments)?,
         _ => triangles(&words, arguments.exact)?,
     };
@@ -174,6 +179,11 @@ fn called(word: &str, arguments: &InspectArguments) -> Result<Found, Failure> {
     }
     if let Some(case) = recorded(&arguments.what) {
         return Ok(recorded_case(case));
+    }
+    if hazard::families().any(|f| f.name == word)
+        || offgrid::FAMILIES.iter().any(|f| f.name == word)
+    {
+        return Err(usage(format!("{word} is a family: add the number of a case, {word}#0")));
     }
     let names = named::named().into_iter().map(|case| case.name);
     let names: Vec<_> = names.chain(RECORDED.iter().map(|case| case.name)).collect();

@@ -32,25 +32,25 @@ Exit status: 0 agrees, 1 disagrees, 2 the program or the command cannot be used.
 pub struct JudgeArguments {
     /// Cases of each family
     #[arg(long, visible_alias = "limit", value_name = "N", default_value_t = 1000,
-        value_parser = clap::value_parser!(u64).range(1..))]
+        value_parser = super::parse_count, allow_negative_numbers = true)]
     cases: u64,
     /// Begin no new case after this many seconds
-    #[arg(long, value_name = "S", value_parser = seconds)]
+    #[arg(long, value_name = "S", value_parser = seconds, allow_negative_numbers = true)]
     seconds: Option<Duration>,
     /// Only this family; may be repeated
     #[arg(long, value_name = "NAME", value_parser = families(), hide_possible_values = true)]
     family: Vec<String>,
     /// Decides every generated case
-    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = super::parse_number, allow_negative_numbers = true)]
     seed: u64,
     /// Only the case of this number, to repeat a failure
-    #[arg(long, value_name = "NUMBER")]
+    #[arg(long, value_name = "NUMBER", value_parser = super::parse_number, allow_negative_numbers = true)]
     case: Option<u64>,
     /// Seconds allowed for each answer
-    #[arg(long, value_name = "S", default_value = "5", value_parser = seconds)]
+    #[arg(long, value_name = "S", default_value = "5", value_parser = seconds, allow_negative_numbers = true)]
     timeout: Duration,
     /// Seconds allowed from the start to the answer of HELLO
-    #[arg(long, value_name = "S", default_value = "30", value_parser = seconds)]
+    #[arg(long, value_name = "S", default_value = "30", value_parser = seconds, allow_negative_numbers = true)]
     start_timeout: Duration,
     /// Copies of the program that are run at once
     #[arg(long, value_name = "N", default_value_t = 1,
@@ -216,10 +216,6 @@ pub fn run(arguments: &JudgeArguments, streams: &mut Streams<'_>) -> Result<u8, 
     }
     let repeat_case =
         |family: &str, index: u64| arguments.repeat(&format!("--family {family} --case {index}"));
-    if arguments.page.report {
-        let page = judged::page(&verdict, &arguments.repeat_all(), &repeat_case);
-        write_page(&arguments.page.place.out.join("judge.html"), page, streams.errors)?;
-    }
     let format = if arguments.json { Format::Json } else { arguments.format };
     let text = match format {
         Format::Text => {
@@ -229,6 +225,11 @@ pub fn run(arguments: &JudgeArguments, streams: &mut Streams<'_>) -> Result<u8, 
         other => formats::write(&verdict, other, &arguments.repeat_all(), &repeat_case),
     };
     streams.output.write_all(text.as_bytes())?;
+    streams.output.flush()?;
+    if arguments.page.report {
+        let page = judged::page(&verdict, &arguments.repeat_all(), &repeat_case);
+        write_page(&arguments.page.place.out.join("judge.html"), page, streams.errors)?;
+    }
     // A baseline that was just written knows everything.
     let agrees = verdict.agrees() || arguments.update_baseline;
     Ok(if agrees { exit::AGREES } else { exit::DISAGREES })

@@ -316,6 +316,16 @@ fn write_file(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     })
 }
 
+/// A whole number from zero.
+fn parse_number(text: &str) -> Result<u64, String> {
+    text.parse().map_err(|_| "expected a whole number from 0, for example 7".to_owned())
+}
+
+/// A number of seconds; whether there can be so many is for the command to say.
+fn parse_seconds(text: &str) -> Result<f64, String> {
+    text.parse().map_err(|_| "expected a number of seconds, for example 60".to_owned())
+}
+
 /// A count of at least one.
 fn parse_count(text: &str) -> Result<u64, String> {
     let count = text.parse().ok().filter(|count| *count > 0);

@@ -170,10 +170,6 @@ pub fn run(arguments: &PlanArguments, streams: &mut Streams<'_>) -> Result<u8, F
     let scene = maker.scene(0.0);
     let (measured, everything, planned) = measure(arguments, &scene, streams.progress)?;
     let same = measured.all().all(|mixture| mixture.same);
-    if arguments.page.report {
-        let report = report_page(arguments, &scene, [&everything, &planned], &measured, same);
-        write_page(&arguments.page.place.out.join("plan.html"), report, streams.errors)?;
-    }
     if arguments.json {
         let json = serde_json::json!({
             "scene": scene.name,
@@ -193,6 +189,11 @@ pub fn run(arguments: &PlanArguments, streams: &mut Streams<'_>) -> Result<u8, F
             "DISAGREES: a plan changed the picture"
         };
         writeln!(streams.output, "{verdict}")?;
+    }
+    streams.output.flush()?;
+    if arguments.page.report {
+        let report = report_page(arguments, &scene, [&everything, &planned], &measured, same);
+        write_page(&arguments.page.place.out.join("plan.html"), report, streams.errors)?;
     }
     Ok(if same { exit::AGREES } else { exit::DISAGREES })
 }

@@ -297,6 +297,9 @@ impl SceneArguments {
         if zoom <= 0.0 {
             return Err(usage(format!("--zoom {zoom} is not positive")));
         }
+        if fov <= 0.0 || fov >= 180.0 {
+            return Err(usage(format!("--fov {fov} does not lie between 0 and 180 degrees")));
+        }
         let model = obj::load(path, shading).map_err(|error| usage(error.to_string()))?;
         for warning in model.warnings {
             writeln!(errors, "warning: {warning}")?;
@@ -418,17 +421,14 @@ pub fn run(arguments: &RenderArguments, streams: &mut Streams<'_>) -> Result<u8,
         return map(arguments, &scene, &output, streams);
     }
     let drawings = draw(arguments, &scene, &progress)?;
-    write_file(&output, &frames::png(&drawings[0].rendered.picture)?)?;
+    let mut written = write_file(&output, &frames::png(&drawings[0].rendered.picture)?);
     let comparison = compare(&scene, &drawings)?;
     drop(progress);
     let difference = output.with_extension("difference.png");
     let is_drawn = |c: &&Comparison| !c.agrees() || c.undecided > 0;
     if let Some(comparison) = comparison.as_ref().filter(is_drawn) {
-        write_file(&difference, &frames::png(&comparison.picture)?)?;
-    }
-    if arguments.page.report {
-        let report = report_page(&arguments.what, &scene, &drawings, comparison.as_ref());
-        write_page(&arguments.page.place.out.join("render.html"), report, streams.errors)?;
+        let picture = frames::png(&comparison.picture)?;
+        written = written.and_then(|()| write_file(&difference, &picture));
     }
     if arguments.json {
         let json = frames::json(&scene.name, &names(&drawings), &drawings[0].rendered, &comparison);
@@ -436,6 +436,13 @@ pub fn run(arguments: &RenderArguments, streams: &mut Streams<'_>) -> Result<u8,
     } else {
         let text = describe(&scene, &drawings, comparison.as_ref(), &output, &difference);
         streams.output.write_all(text.as_bytes())?;
+    }
+    // What cannot be written takes nothing of the verdict.
+    streams.output.flush()?;
+    written?;
+    if arguments.page.report {
+        let report = report_page(&arguments.what, &scene, &drawings, comparison.as_ref());
+        write_page(&arguments.page.place.out.join("render.html"), report, streams.errors)?;
     }
     Ok(comparison.map_or(exit::AGREES, |c| if c.agrees() { exit::AGREES } else { exit::DISAGREES }))
 }

@@ -17,7 +17,7 @@ pub struct SpecimensArguments {
     #[arg(long, value_name = "N", default_value_t = 200, value_parser = super::parse_count, allow_hyphen_values = true)]
     cases: u64,
     /// Decides every generated case
-    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = super::parse_number, allow_negative_numbers = true)]
     seed: u64,
     /// Only this one, with every family; its strip instead of the contact sheet
     #[arg(long, value_name = "NAME", value_parser = clap::builder::PossibleValuesParser::new(CARDS.iter().map(|card| card.name)))]

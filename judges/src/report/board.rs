@@ -246,7 +246,7 @@ pub fn price_text(boards: &[Board]) -> String {
 }
 
 /// Breaks a line at spaces so that it fits, with an indent of two.
-pub fn wrap(line: &str) -> String {
+fn wrap(line: &str) -> String {
     let mut out = String::new();
     let mut length = WIDTH;
     for word in line.split(' ') {
