@@ -74,6 +74,7 @@ function restore(hash) {
     try { state[key] = typeof state[key] === 'string' ? text : JSON.parse(text); } catch { /* as the scene begins */ }
   }
   keepPixel();
+  if (!words.has('px') && (wanted || words.has('t')) && state.scene === 'triangle') state.by.some(pointAtWrong);
 }
 
 /** The corners and lines that are shown, as words of `inspect`; nothing where it knows no such thing. */

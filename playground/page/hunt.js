@@ -78,18 +78,20 @@ function drawBreak() {
   ]);
 }
 
-/** Points at the pixel nearest to the middle that somebody gets wrong, so that the column beside explains it. */
+/** Points at the pixel nearest to the middle that somebody gets wrong, so that the column beside explains it; says
+ * whether there is one. */
 function pointAtWrong(by) {
-  if (!state.triangles) return;
+  if (!state.triangles) return false;
   const { panels, truth } = ask({ ask: 'draw', picture: picture(), by: [by] });
   const hits = panels?.[0]?.hits ?? '';
   const [x0, y0, x1] = state.window;
   const [cx, cy] = middle(state.window);
   const far = ([x, y]) => Math.hypot(x - cx, y - cy);
   const wrong = [...hits].flatMap((count, i) => (count === truth[i] ? [] : [[x0 + (i % (x1 - x0)), y0 + Math.floor(i / (x1 - x0))]]));
-  if (wrong.length === 0) return;
+  if (wrong.length === 0) return false;
   state.px = wrong.reduce((best, px) => (far(px) < far(best) ? px : best));
   redraw();
+  return true;
 }
 
 /** Looks at some cases a frame, so that the page stays alive, until one is caught or somebody says stop. */

@@ -7,6 +7,7 @@ function drawAll() {
   $('tools').setAttribute('aria-label', word('tools'));
   fill($('scenes'), Object.keys(SCENES).map((name) => button(word(name), () => { begin(name); drawAll(); }, { 'aria-pressed': name === state.scene, id: `scene-${name}` })));
   $('about').textContent = WORDS[state.lang].about[state.scene];
+  $('columns').classList.toggle('wide', !scene().look);
   $('panels').replaceChildren();
   shown = [];
   cornersFor = '';
@@ -30,7 +31,8 @@ function start() {
   $('copy').addEventListener('click', () => copy($('command').textContent));
   $('copy-address').addEventListener('click', () => { history.replaceState(null, '', address()); copy(location.href); });
   $('reset').addEventListener('click', () => { begin(state.scene); drawAll(); });
-  addEventListener('resize', redraw);
+  // Panels get other sizes with the window, and with a scroll bar.
+  new ResizeObserver(redraw).observe($('panels'));
   addEventListener('hashchange', () => { restore(location.hash); drawAll(); });
   document.body.dataset.ready = '';
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => { readColours(); redraw(); });

@@ -77,7 +77,7 @@ const WORDS = {
     searched: (n) => `${n} 个用例，还没有抓住……`, caught: (name, n) => `被 ${name} 抓住，看了 ${n} 个用例；`, shrunk: (n) => `${n} 步后缩到最小`,
     exact: '恰好在像素上', lower: '不到一半，取低的', upper: '超过一半，取高的', halfway: '正好一半，平局',
     exactHeight: '理想直线在', after: '走了', ofSteps: '共', along: '沿着',
-    nearPlane: '近平面在 w =', plane: '近平面', side: '从侧面看', eye: '眼睛', clip: '这里的裁剪', 'book-near-clip': '书中的裁剪', unclipped: '不裁剪', polygon: '剩下的顶点',
+    nearPlane: '近平面在 w =', plane: '近平面', side: '从侧面看', eye: '眼睛', clip: '这里的裁剪', 'book-near-clip': '书中的裁剪', unclipped: '不裁剪', polygon: '个顶点',
     nearest: '深度缓冲', wrong: '错', last: '画家算法：最后画的', toldApart: '个像素要把采样点分开', cullWhat: '去掉', none: '都不去掉', clockwise: '顺时针', 'counter-clockwise': '逆时针', removed: '去掉了', drawn: '画了', turn: '翻转',
     eachRow: '每一行：', worst: 'u 的最大误差', keys: '双指或滚轮缩放，在顶点旁拖动则平移。画面上的按键：方向键把顶点移动一个像素，加 Shift 移动 1/256，或改变数值；[ 和 ] 选择移动什么，p 选择像素；+ 和 − 缩放，Alt 加方向键平移。',
     crash: '引擎停了，已重新启动。', tPlot: '沿第一条边：空间中的 t 与屏幕上的 t′',

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::builder::PossibleValuesParser;
 use image::RgbImage;
 
-use super::inspect_case::{Found, find, parse_pixel, recorded, words};
+use super::inspect_case::{CaseArguments, Found, find, parse_pixel, recorded, words};
 use super::page::{PageArguments, write_page};
 use super::shown::{self, Contestants};
 use super::{Failure, Streams, exit, explain, png_name, program, usage, write_file, write_unasked};
@@ -13,8 +13,6 @@ use crate::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
 use crate::hazard::offgrid::OffGridCase;
 use crate::hazard::{Case, Shape};
 use crate::lineup::{Entry, ExactEngine, SPECIMENS, Specimen};
-use crate::oracle::coverage::samples_on_boundary;
-use crate::raster::edge_function::WordWidth;
 use crate::report::html::{Outcome, Report};
 use crate::report::{ascii, cases, panels, picture, summary};
 use crate::specimen::bare;
@@ -41,22 +39,11 @@ use crate::verify::{self, Finding, Tally, oracle_pixels_each};
 In the grids: # agrees with the oracle, - missing, + extra, 2 twice, * rightly more than once.
 In the picture: grey agrees, red missing, orange extra, violet twice; blue edges, dark samples.")]
 pub struct InspectArguments {
-    /// A named case, FAMILY#NUMBER, or three corners of each triangle: x,y in pixels, or
-    /// x,y,w,depth,u,v
-    #[arg(value_name = "CASE or X,Y", required = true, num_args = 1..)]
-    pub(super) what: Vec<String>,
-    /// The points are pixels, the two ends of each line
-    #[arg(long)]
-    pub(super) line: bool,
-    /// The corners as they are, not snapped to 1/256 px
-    #[arg(long)]
-    pub(super) exact: bool,
+    #[command(flatten)]
+    case: CaseArguments,
     /// The pixels to show, as WIDTHxHEIGHT or X,Y,WIDTHxHEIGHT [default: around the shape]
     #[arg(long, value_name = "WxH", value_parser = parse_window)]
     window: Option<PixelRect>,
-    /// Seed of FAMILY#NUMBER
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = super::parse_number, allow_negative_numbers = true)]
-    pub(super) seed: u64,
     /// Show what this published algorithm draws as well; it is not judged
     #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(SPECIMENS.iter().map(|e| e.name)))]
     specimen: Option<String>,
@@ -132,7 +119,7 @@ pub fn run(arguments: &InspectArguments, streams: &mut Streams<'_>) -> Result<u8
     if let Some(path) = &arguments.output {
         png_name(path)?;
     }
-    let (title, mut case, expected, typed) = match find(arguments)? {
+    let (title, mut case, expected, typed) = match find(&arguments.case)? {
         Found::Case { title, case, expected, typed } => (title, case, expected, typed),
         Found::Refused { title, corners } => return refused(&title, &corners, streams.output),
         Found::OffGrid { title, case } => {
@@ -150,7 +137,7 @@ pub fn run(arguments: &InspectArguments, streams: &mut Streams<'_>) -> Result<u8
     writeln!(out, "{title}")?;
     writeln!(out, "window: columns {}..{}, rows {}..{}", w.x0, w.x1, w.y0, w.y1)?;
     write!(out, "{}", cropped(&case, arguments))?;
-    facts(&case, out)?;
+    shown::facts(&case, out)?;
     if let Some(at) = arguments.pixel {
         write!(out, "\n{}", explain::pixel(&case, at))?;
     }
@@ -253,9 +240,9 @@ fn say_findings(
 
 /// The name of the case on its page.
 fn name(arguments: &InspectArguments) -> String {
-    let what = words(arguments);
-    let shapes = if arguments.line { "lines" } else { "triangles" };
-    match what.len() / if arguments.line { 2 } else { 3 } {
+    let what = words(&arguments.case);
+    let shapes = if arguments.case.line { "lines" } else { "triangles" };
+    match what.len() / if arguments.case.line { 2 } else { 3 } {
         0 | 1 => what.join(" "),
         count => format!("{count} {shapes}"),
     }
@@ -263,18 +250,18 @@ fn name(arguments: &InspectArguments) -> String {
 
 /// The command that shows the same again.
 fn command(arguments: &InspectArguments) -> String {
-    let what = words(arguments);
+    let what = words(&arguments.case);
     let quoted = |word: &String| match word.contains(['#', '(']) {
         true => format!("'{word}'"),
         false => word.clone(),
     };
     let mut said = vec![format!("{} inspect", program())];
-    said.extend(arguments.line.then(|| "--line".to_owned()));
+    said.extend(arguments.case.line.then(|| "--line".to_owned()));
     said.extend(what.iter().map(quoted));
     if matches!(what.as_slice(), [word] if word.contains('#')) {
-        said.push(format!("--seed {}", arguments.seed));
+        said.push(format!("--seed {}", arguments.case.seed));
     }
-    said.extend(arguments.exact.then(|| "--exact".to_owned()));
+    said.extend(arguments.case.exact.then(|| "--exact".to_owned()));
     said.extend(
         arguments
             .window
@@ -319,7 +306,7 @@ fn write_report(
 fn cropped(case: &Case, arguments: &InspectArguments) -> String {
     let w = case.window;
     let mut out = String::new();
-    if arguments.window.is_none() && words(arguments).len() > 1 {
+    if arguments.window.is_none() && words(&arguments.case).len() > 1 {
         let (width, height) = match &case.shape {
             Shape::Triangles { list, .. } => {
                 let corners = || list.iter().flat_map(|t| t.corners());
@@ -386,7 +373,7 @@ fn off_grid_alone(
         });
         writeln!(out, "hits of ({}, {}): {}\n", at.x, at.y, hits.collect::<Vec<_>>().join(", "))?;
     }
-    let recorded = recorded(&arguments.what);
+    let recorded = recorded(&arguments.case.what);
     let screen = recorded.map(|_| PixelRect::window(RECORDED_SIDE_PX, RECORDED_SIDE_PX));
     let specimen = specimen(arguments, recorded).map(|s| (s, screen.unwrap_or(case.window)));
     let (agrees, drawn) = off_grid(title, &case, &exact, specimen, (out, streams.columns))?;
@@ -499,64 +486,4 @@ fn refused(
         )?;
     }
     Ok(if all { exit::AGREES } else { exit::DISAGREES })
-}
-
-/// Positions, exact area and word of each shape.
-fn facts(case: &Case, out: &mut dyn std::io::Write) -> Result<(), Failure> {
-    match &case.shape {
-        Shape::Triangles { list, .. } => {
-            for triangle in list.iter().take(8) {
-                let corners = triangle.corners();
-                let [a, b, c] = corners;
-                let d = |p: SubpixelPoint| {
-                    (i128::from(p.x) - i128::from(a.x), i128::from(p.y) - i128::from(a.y))
-                };
-                let ((bx, by), (cx, cy)) = (d(b), d(c));
-                let area = bx * cy - by * cx;
-                let extent = |v: [i32; 3]| {
-                    v.iter().max().unwrap_or(&0).abs_diff(*v.iter().min().unwrap_or(&0))
-                };
-                let word =
-                    WordWidth::of(extent(corners.map(|p| p.x)), extent(corners.map(|p| p.y)));
-                let points = corners
-                    .map(|p| {
-                        let (x, y) = p.to_px();
-                        format!("({x}, {y})")
-                    })
-                    .join(" ");
-                let winding = match area.signum() {
-                    1 => "clockwise",
-                    -1 => "counter-clockwise",
-                    _ => "degenerate",
-                };
-                let ties = samples_on_boundary(&corners, case.window);
-                writeln!(
-                    out,
-                    "triangle {points}\n  {winding}, area {} px, edge functions in {word:?}, {ties} sample{} on its boundary",
-                    area as f64 / 131_072.0,
-                    if ties == 1 { "" } else { "s" }
-                )?;
-            }
-            if list.len() > 8 {
-                writeln!(out, "and {} more triangles", list.len() - 8)?;
-            }
-        }
-        Shape::Lines(lines) => {
-            for line in lines {
-                let [a, b] = line.ends.map(|end| end.pixel);
-                let (dx, dy) = (a.x.abs_diff(b.x), a.y.abs_diff(b.y));
-                writeln!(
-                    out,
-                    "line ({}, {}) to ({}, {}): {} steps along {}",
-                    a.x,
-                    a.y,
-                    b.x,
-                    b.y,
-                    dx.max(dy),
-                    if dx >= dy { "x" } else { "y" }
-                )?;
-            }
-        }
-    }
-    Ok(())
 }

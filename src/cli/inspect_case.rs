@@ -2,7 +2,6 @@
 
 use glam::DVec2;
 
-use super::inspect::InspectArguments;
 use super::{Failure, program, usage};
 use crate::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
 use crate::hazard::named::{Input, plain_line, plain_triangle};
@@ -14,6 +13,24 @@ use crate::triangle::{FreeCorners, PixelPoint, ScreenTriangle, ScreenVertex, che
 
 /// Largest side of the window around corners that were typed.
 const MOST_AROUND_PX: i32 = 64;
+
+/// The words that name a case.
+#[derive(clap::Args, Debug)]
+pub(super) struct CaseArguments {
+    /// A named case, FAMILY#NUMBER, or three corners of each triangle: x,y in pixels, or
+    /// x,y,w,depth,u,v
+    #[arg(value_name = "CASE or X,Y", required = true, num_args = 1..)]
+    pub what: Vec<String>,
+    /// The points are pixels, the two ends of each line
+    #[arg(long)]
+    pub line: bool,
+    /// The corners as they are, not snapped to 1/256 px
+    #[arg(long)]
+    pub exact: bool,
+    /// Seed of FAMILY#NUMBER
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = super::parse_number, allow_negative_numbers = true)]
+    pub seed: u64,
+}
 
 /// What the words name.
 pub(super) enum Found {
@@ -39,7 +56,7 @@ fn plain(title: String, case: Case) -> Found {
     Found::Case { title, case, expected: None, typed: Vec::new() }
 }
 
-pub(super) fn find(arguments: &InspectArguments) -> Result<Found, Failure> {
+pub(super) fn find(arguments: &CaseArguments) -> Result<Found, Failure> {
     let words = words(arguments);
     let found = match words.as_slice() {
         _ if arguments.line => lines(&words)?,
@@ -77,7 +94,7 @@ pub(super) fn recorded(words: &[String]) -> Option<&'static RecordedCase> {
 }
 
 /// The words of the case; points that are typed as they are printed, (1, 2) (3, 4), come apart.
-pub(super) fn words(arguments: &InspectArguments) -> Vec<String> {
+pub(super) fn words(arguments: &CaseArguments) -> Vec<String> {
     let whole = arguments.what.join(" ");
     if !whole.contains('(') {
         return arguments.what.clone();
@@ -159,7 +176,7 @@ fn triangle(words: &[String; 3], corners: &[Corner; 3]) -> Result<Triangle, Fail
 }
 
 /// A case of this name, a recorded input, or a case of a family by its number.
-fn called(word: &str, arguments: &InspectArguments) -> Result<Found, Failure> {
+fn called(word: &str, arguments: &CaseArguments) -> Result<Found, Failure> {
     if let Some((family, number)) = word.split_once('#') {
         let index = number.parse::<u64>().map_err(|_| {
             usage(format!(

@@ -1,16 +1,18 @@
-//! A case as each engine draws it: hit counts, grids of characters, a picture.
+//! A case as each engine draws it: hit counts, grids of characters, a picture; and what it is.
 
 use image::RgbImage;
 
 use super::{Failure, usage};
 use crate::frame::Coverage;
-use crate::grid::PixelRect;
+use crate::grid::{PixelRect, SubpixelPoint};
 use crate::hazard::offgrid::OffGridCase;
 use crate::hazard::{Case, Shape};
 use crate::lineup::{Engine, Entry, ExactEngine, LineEngine, Specimen};
 use crate::mutant::exact::ExactMutant;
 use crate::mutant::{LineMutant, TriangleMutant};
 use crate::oracle::Oracle;
+use crate::oracle::coverage::samples_on_boundary;
+use crate::raster::edge_function::WordWidth;
 use crate::report::{ascii, panels};
 use crate::specimen::from_screen;
 use crate::triangle::PixelPoint;
@@ -197,4 +199,64 @@ impl Shown {
         let drawn = drawn.filter_map(|(name, hits)| Some((name.clone(), hits.clone().ok()?)));
         panels::of_case(title, case, &drawn.collect::<Vec<_>>(), &self.target).image
     }
+}
+
+/// Positions, exact area and word of each shape.
+pub fn facts(case: &Case, out: &mut dyn std::io::Write) -> Result<(), Failure> {
+    match &case.shape {
+        Shape::Triangles { list, .. } => {
+            for triangle in list.iter().take(8) {
+                let corners = triangle.corners();
+                let [a, b, c] = corners;
+                let d = |p: SubpixelPoint| {
+                    (i128::from(p.x) - i128::from(a.x), i128::from(p.y) - i128::from(a.y))
+                };
+                let ((bx, by), (cx, cy)) = (d(b), d(c));
+                let area = bx * cy - by * cx;
+                let extent = |v: [i32; 3]| {
+                    v.iter().max().unwrap_or(&0).abs_diff(*v.iter().min().unwrap_or(&0))
+                };
+                let word =
+                    WordWidth::of(extent(corners.map(|p| p.x)), extent(corners.map(|p| p.y)));
+                let points = corners
+                    .map(|p| {
+                        let (x, y) = p.to_px();
+                        format!("({x}, {y})")
+                    })
+                    .join(" ");
+                let winding = match area.signum() {
+                    1 => "clockwise",
+                    -1 => "counter-clockwise",
+                    _ => "degenerate",
+                };
+                let ties = samples_on_boundary(&corners, case.window);
+                writeln!(
+                    out,
+                    "triangle {points}\n  {winding}, area {} px, edge functions in {word:?}, {ties} sample{} on its boundary",
+                    area as f64 / 131_072.0,
+                    if ties == 1 { "" } else { "s" }
+                )?;
+            }
+            if list.len() > 8 {
+                writeln!(out, "and {} more triangles", list.len() - 8)?;
+            }
+        }
+        Shape::Lines(lines) => {
+            for line in lines {
+                let [a, b] = line.ends.map(|end| end.pixel);
+                let (dx, dy) = (a.x.abs_diff(b.x), a.y.abs_diff(b.y));
+                writeln!(
+                    out,
+                    "line ({}, {}) to ({}, {}): {} steps along {}",
+                    a.x,
+                    a.y,
+                    b.x,
+                    b.y,
+                    dx.max(dy),
+                    if dx >= dy { "x" } else { "y" }
+                )?;
+            }
+        }
+    }
+    Ok(())
 }
