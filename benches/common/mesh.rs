@@ -12,6 +12,8 @@ use rasterproof::lineup::Drawer;
 use rasterproof::pipeline::target::{Antialias, Colour, Target};
 use rasterproof::scene::{Scene, meshes};
 use rasterproof::tiled::{self, Samples};
+#[cfg(feature = "vulkan")]
+use rasterproof_vulkan::{device::find, gpu::mesh::Filmed};
 
 use crate::common::SIDE_PX;
 
@@ -113,22 +115,20 @@ fn tiles(scene: &Scene, samples: Samples) -> Frame<Colour> {
     tiled::render(scene, SIDE_PX, SIDE_PX, samples).expect("it draws")
 }
 
-/// Every device that is there; where there is none, it says so.
 #[cfg(feature = "vulkan")]
-pub fn devices(scene: &Scene, samples: Samples) -> Vec<(String, Box<dyn Draw>)> {
-    use rasterproof_vulkan::device::find;
-    use rasterproof_vulkan::gpu::mesh::Filmed;
-
-    impl Draw for Filmed {
-        fn draw(&mut self) {
-            Self::draw(self).expect("a device that draws");
-        }
-
-        fn picture(&mut self) -> Frame<Colour> {
-            Self::picture(self).expect("a device that draws")
-        }
+impl Draw for Filmed {
+    fn draw(&mut self) {
+        Self::draw(self).expect("a device that draws");
     }
 
+    fn picture(&mut self) -> Frame<Colour> {
+        Self::picture(self).expect("a device that draws")
+    }
+}
+
+/// Every device that is there; where there is none, it says so.
+#[cfg(feature = "vulkan")]
+fn devices(scene: &Scene, samples: Samples) -> Vec<(String, Box<dyn Draw>)> {
     let all = find::list().unwrap_or_else(|error| {
         eprintln!("{error}");
         Vec::new()

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use super::page::{PageArguments, write_page};
 use super::progress::Progress;
 use super::{Failure, Streams, exit, program, usage, write_file};
-use crate::cost::{Board, Ladder, Options, Recorded, measure};
+use crate::cost::{Board, Guest, Ladder, Options, Recorded, measure_with};
 use crate::report::chart::{self, Drawing};
 use crate::report::html::{Figure, Report};
 use crate::report::{board, json, picture, plot};
@@ -48,6 +48,10 @@ pub struct CostArguments {
     /// Decides every scene
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = super::parse_number, allow_negative_numbers = true)]
     seed: u64,
+    /// Put this Vulkan device on the ladder of edge functions; may be repeated: vulkan:0
+    #[cfg(feature = "vulkan")]
+    #[arg(long, value_name = "NAME", conflicts_with = "from")]
+    engine: Vec<String>,
     /// Measure nothing: show and draw again what --json printed into FILE
     #[arg(long, value_name = "FILE", conflicts_with_all = ["quick", "seed"])]
     from: Option<PathBuf>,
@@ -76,7 +80,22 @@ impl CostArguments {
         if self.quick {
             command += " --quick";
         }
+        #[cfg(feature = "vulkan")]
+        self.engine.iter().for_each(|name| command += &format!(" --engine {name}"));
         command + &format!(" --seed {}", self.seed)
+    }
+
+    /// The devices that are measured beside the rungs.
+    #[cfg(feature = "vulkan")]
+    fn guests(&self) -> Result<Vec<Box<dyn Guest>>, Failure> {
+        self.engine.iter().map(|name| super::vulkan::guest(name)).collect()
+    }
+
+    /// There are none.
+    #[cfg(not(feature = "vulkan"))]
+    #[allow(clippy::unnecessary_wraps, clippy::unused_self, reason = "with devices there are both")]
+    fn guests(&self) -> Result<Vec<Box<dyn Guest>>, Failure> {
+        Ok(Vec::new())
     }
 }
 
@@ -90,7 +109,7 @@ pub fn run(arguments: &CostArguments, streams: &mut Streams<'_>) -> Result<u8, F
             repeat: arguments.repeat(),
             seed: arguments.seed,
             quick: arguments.quick,
-            boards: measure_all(ladders, arguments, streams.progress),
+            boards: measure_all(ladders, arguments, streams.progress)?,
         },
     };
     let (boards, out) = (&recorded.boards, &mut *streams.output);
@@ -199,17 +218,23 @@ fn write_plots(
     Ok(written)
 }
 
-fn measure_all(ladders: &[Ladder], arguments: &CostArguments, on_terminal: bool) -> Vec<Board> {
+fn measure_all(
+    ladders: &[Ladder],
+    arguments: &CostArguments,
+    on_terminal: bool,
+) -> Result<Vec<Board>, Failure> {
+    let mut guests = arguments.guests()?;
     let progress = Progress::new(on_terminal, "percent", Some(100));
     let options = Options { seed: arguments.seed, quick: arguments.quick, timed: true };
-    ladders
+    let boards = ladders
         .iter()
         .enumerate()
         .map(|(done, &ladder)| {
-            measure(ladder, &options, &|share, what| {
+            measure_with(ladder, &options, &mut guests, &|share, what| {
                 let all = (done as f64 + share) / ladders.len() as f64;
                 progress.at((all * 100.0) as u64, what);
             })
         })
-        .collect()
+        .collect();
+    Ok(boards)
 }

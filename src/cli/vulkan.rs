@@ -7,11 +7,13 @@ use rasterproof_vulkan::gpu::campaign::{self, Stand};
 use rasterproof_vulkan::gpu::engine::{Gpu, PREFIX};
 use rasterproof_vulkan::gpu::look;
 use rasterproof_vulkan::gpu::plant::Plant;
+use rasterproof_vulkan::gpu::rung::OnLadder;
 use rasterproof_vulkan::gpu::text;
 
 use super::page::{PageArguments, write_page};
 use super::progress::Progress;
 use super::{Failure, Streams, exit, program, usage, write_entry};
+use crate::cost::Guest;
 use crate::frame::Coverage;
 use crate::grid::PixelRect;
 use crate::judge::Options;
@@ -35,15 +37,25 @@ pub struct Job<'a> {
 }
 
 impl Job<'_> {
-    fn repeat(&self, words: &str) -> String {
-        let seed = self.options.seed;
-        format!("{} verify --engine {}{words} --seed {seed}", program(), self.engine)
+    /// The words that all commands begin with.
+    fn command(&self) -> String {
+        let program = program();
+        let program = match program.strip_suffix(" --") {
+            Some(cargo) => format!("{cargo} --features vulkan --"),
+            None => program,
+        };
+        let seed = match self.options.seed {
+            seed if seed == Options::default().seed => String::new(),
+            seed => format!(" --seed {seed}"),
+        };
+        format!("{program} verify --engine {}{seed}", self.engine)
     }
 
-    fn repeat_all(&self, cases: u64) -> String {
+    /// What follows for all that was judged.
+    fn all(&self, cases: u64) -> String {
         let families = self.options.families.iter().map(|f| format!(" --family {f}"));
         let case = self.options.only.map(|case| format!(" --case {case}")).unwrap_or_default();
-        self.repeat(&format!("{}{case} --cases {cases}", families.collect::<String>()))
+        format!("{}{case} --cases {cases}", families.collect::<String>())
     }
 }
 
@@ -75,14 +87,17 @@ fn print(
     cases: u64,
     streams: &mut Streams<'_>,
 ) -> Result<(), Failure> {
-    let repeat =
-        |family: &str, index: u64| job.repeat(&format!(" --family {family} --case {index}"));
-    let all = job.repeat_all(cases);
-    let said = if job.json { text::json(stand, &repeat) } else { text::text(stand, &all, &repeat) };
+    let (command, all) = (job.command(), job.all(cases));
+    let case = |family: &str, index: u64| format!(" --family {family} --case {index}");
+    let repeat = |family: &str, index: u64| format!("{command}{}", case(family, index));
+    let said = match job.json {
+        true => text::json(stand, &repeat),
+        false => text::text(stand, &command, &all, &case),
+    };
     streams.output.write_all(said.as_bytes())?;
     streams.output.flush()?;
     if job.page.report {
-        let page = text::page(stand, &all, &repeat);
+        let page = text::page(stand, &format!("{command}{all}"), &repeat);
         write_page(&job.page.place.out.join("vulkan.html"), page, streams.errors)?;
     }
     Ok(())
@@ -93,6 +108,11 @@ pub fn coverage(engine: &str, list: &[Corners], window: PixelRect) -> Result<Cov
     let failed = |error: rasterproof_vulkan::device::Error| usage(error.to_string());
     let mut gpu = Gpu::named(engine).map_err(failed)?;
     look::coverage(&mut gpu, list, window).map_err(failed)
+}
+
+/// A device for a ladder of coverage.
+pub fn guest(engine: &str) -> Result<Box<dyn Guest>, Failure> {
+    Ok(Box::new(OnLadder::new(engine).map_err(|error| usage(error.to_string()))?))
 }
 
 /// The devices that there are, or why there are none.

@@ -14,3 +14,4 @@ use rasterproof_engines::{
     contract, frame, grid, hazard, oracle, pipeline, scene, tiled, triangle,
 };
 use rasterproof_judges::{judge, report};
+use rasterproof_measures::cost;

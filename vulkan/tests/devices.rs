@@ -6,17 +6,22 @@ use std::io::{BufRead as _, BufReader};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use rasterproof_engines::contract::Rasterize as _;
+use rasterproof_engines::contract::{Rasterize as _, RasterizeExact as _};
 use rasterproof_engines::grid::{PixelRect, SubpixelPoint};
 use rasterproof_engines::oracle::Oracle;
+use rasterproof_engines::triangle::{FreeCorners, Span};
 use rasterproof_judges::judge::Options;
+use rasterproof_measures::cost::Guest as _;
 use rasterproof_vulkan::device::Error;
 use rasterproof_vulkan::device::draw::Draw;
 use rasterproof_vulkan::device::find::{self, About};
 use rasterproof_vulkan::device::stage::{CELL_PX, Kind};
 use rasterproof_vulkan::gpu::campaign::{self, Stand};
-use rasterproof_vulkan::gpu::engine::{Gpu, plain, runs};
+use rasterproof_vulkan::gpu::engine::{Gpu, hits_kind, plain, runs};
+use rasterproof_vulkan::gpu::known;
 use rasterproof_vulkan::gpu::rules::Class;
+use rasterproof_vulkan::gpu::rung::OnLadder;
+use rasterproof_vulkan::gpu::specified::twice_area_px2;
 use rasterproof_vulkan::gpu::text;
 
 /// The names of all devices; says where there are none.
@@ -44,7 +49,7 @@ fn judged(engine: &str, options: &Options) -> Stand {
 }
 
 fn said(stand: &Stand) -> String {
-    text::text(stand, "all", &|family, index| format!("{family}#{index}"))
+    text::text(stand, "command", " all", &|family, index| format!(" {family}#{index}"))
 }
 
 fn class(stand: &Stand, name: &str) -> Class {
@@ -105,6 +110,102 @@ fn planted_faults_are_caught() {
                 };
                 assert_eq!(corners, 1);
             }
+        }
+    }
+}
+
+/// Faults that stages find, not families.
+#[test]
+fn faults_of_stages_are_caught() {
+    for engine in devices() {
+        let bits = Gpu::named(&engine).unwrap().about().subpixel_bits;
+        for (plant, names) in [
+            ("coarse-depths", &["depths, 16 bits", "depths, f32"][..]),
+            ("no-near-plane", &["near and far plane"]),
+            ("shifted-samples", &["lines", "clipped, near", "near and far plane"]),
+        ] {
+            // Of 4 bits a shift by 1/16 px is a step, which rounding may explain there.
+            if plant == "shifted-samples" && bits == 4 {
+                continue;
+            }
+            let stand = judged(&format!("{engine}+{plant}"), &options(24, &["uniform"]));
+            for name in names {
+                let found = class(&stand, name);
+                assert!(
+                    [Class::Outside, Class::NotOffered].contains(&found),
+                    "{plant}, {name}: {}",
+                    said(&stand)
+                );
+            }
+        }
+    }
+}
+
+/// A device as a rung draws each triangle of a list as the oracle does, and wrongly with a fault.
+#[test]
+fn a_device_is_a_rung() {
+    let bounds = PixelRect::window(200, 200);
+    // Of 4 bits below the pixel, as every device has.
+    let corner = |i: i32| [f64::from(i * 37 % 3200) / 16.0, f64::from(i * 1013 % 3200) / 16.0];
+    let triangles: Vec<_> = (0..200)
+        .map(|i| FreeCorners::new([corner(3 * i), corner(3 * i + 1), corner(3 * i + 2)]).unwrap())
+        .collect();
+    let right: Vec<u64> = triangles
+        .iter()
+        .map(|corners| {
+            let mut pixels = 0;
+            Oracle.cover_exact(corners, bounds, |s| pixels += u64::from(s.x0_px.abs_diff(s.x1_px)));
+            pixels
+        })
+        .collect();
+    for engine in devices() {
+        let drawn = |plant: &str| {
+            let mut rung = OnLadder::new(&format!("{engine}{plant}")).unwrap();
+            rung.pass(&triangles, bounds).unwrap()();
+            let spans = rung.spans(&triangles, bounds).unwrap();
+            let pixels = |list: &Vec<Span>| -> u64 {
+                list.iter().map(|s| u64::from(s.x0_px.abs_diff(s.x1_px))).sum()
+            };
+            spans.iter().map(pixels).collect::<Vec<_>>()
+        };
+        let wrong = |drawn: &[u64]| drawn.iter().zip(&right).filter(|(a, b)| a != b).count();
+        if is_known_right(Gpu::named(&engine).unwrap().about()) {
+            assert_eq!(wrong(&drawn("")), 0);
+        }
+        assert!(wrong(&drawn("+draws-twice")) > 100);
+        assert!(wrong(&drawn("+shifted-samples")) > 20);
+        let mut rung = OnLadder::new(&engine).unwrap();
+        let far = FreeCorners::new([[0.0, 0.0], [1e6, 0.0], [0.0, 1.0]]).unwrap();
+        let refused = rung.spans(&[far], bounds).unwrap_err();
+        assert!(refused.contains("further than"), "{refused}");
+    }
+}
+
+/// Of a fault that is known, cases are no news; other cases are, and so is that none fails any more.
+#[test]
+fn known_faults_are_no_news() {
+    for engine in devices() {
+        let about = Gpu::named(&engine).unwrap().about().clone();
+        let line = |px2: u64| {
+            let driver = about.words();
+            let text =
+                format!("{driver} | {} | huge | twice-area-px2 >= {px2} | lost", about.version);
+            known::of(&known::parse(&text).unwrap(), &about)
+        };
+        let judged = |plant: &str, known: &[known::Known]| {
+            let gpu = Gpu::named(&format!("{engine}{plant}")).unwrap();
+            let stand = campaign::judge_with(gpu, &options(96, &["huge"]), known, &|_| ());
+            class(&stand, "huge")
+        };
+        assert_eq!(line(1).len(), 1);
+        assert_eq!(judged("+loses-large", &[]), Class::Outside);
+        assert_eq!(judged("+loses-large", &line(1 << 23)), Class::Known);
+        // Some are larger than the file says: the others are news.
+        assert_eq!(judged("+loses-large", &line(1 << 25)), Class::Outside);
+        if is_known_right(&about) {
+            // So triangles of that size were judged, and are right.
+            assert_eq!(judged("", &line(1 << 23)), Class::Stale);
+            assert_eq!(judged("", &[]), Class::Equal);
         }
     }
 }
@@ -187,35 +288,41 @@ fn recordings_are_drawn_again() {
         let records = records(&format!("vulkan-coverage.{driver}.jsonl.gz"));
         let whole: Vec<_> = records.iter().filter(|r| r["clipped"] == 0).collect();
         let half = gpu.viewport_px() / 2.0;
-        let mut draws = Vec::new();
+        let (mut draws, mut alone) = (Vec::new(), Vec::new());
         for (cell, record) in whole.iter().enumerate() {
             let points: Vec<_> = record["v"].as_array().unwrap().iter().map(ints).collect();
             let points: Vec<_> = points.iter().map(|p| SubpixelPoint::new(p[0], p[1])).collect();
             for corners in points.chunks_exact(3) {
-                draws.push(Draw {
+                let corners = [corners[0], corners[1], corners[2]];
+                let list = match hits_kind(twice_area_px2(&corners)) {
+                    Kind::Alone => &mut alone,
+                    _ => &mut draws,
+                };
+                list.push(Draw {
                     cell,
-                    vertices: plain(&[corners[0], corners[1], corners[2]], half),
+                    vertices: plain(&corners, half),
                     viewport: [-half, -half, 2.0 * half, 2.0 * half],
                     window: [CELL_PX; 2],
                 });
             }
         }
+        let lonely: Vec<usize> = alone.iter().map(|draw| draw.cell).collect();
         let pictures = gpu.draw(Kind::Hits, whole.len(), draws).unwrap();
-        let mut checked = 0;
+        let alone = gpu.draw(Kind::Alone, whole.len(), alone).unwrap();
+        let (mut checked, mut wrong) = (0, 0);
         for (cell, record) in whole.iter().enumerate() {
+            let pictures = if lonely.contains(&cell) { &alone } else { &pictures };
             let rows = (0..CELL_PX).flat_map(|y| runs(y as i32, pictures.row(cell, y, CELL_PX)));
             let drawn: Vec<_> = rows.map(|(s, n)| (vec![s.y_px, s.x0_px, s.x1_px], n)).collect();
             let target: Vec<_> =
                 record["runs"].as_array().unwrap().iter().map(|run| (ints(run), 1)).collect();
-            if record["kind"] == "far4000" && record["agree"] == 0 {
-                // Pixels were lost when it was recorded, in a viewport of its own; not in this one.
-                assert_eq!(drawn, exact(record), "{driver} draws {record} wrong");
-            } else {
-                assert_eq!(drawn, target, "{driver} draws {record} otherwise now");
-            }
+            assert_eq!(drawn, target, "{driver} draws {record} otherwise now");
+            wrong += u32::from(drawn != exact(record));
             checked += 1;
         }
         assert!(checked > 600, "{checked}");
+        // The known fault is one of them.
+        eprintln!("{driver}: {wrong} of {checked} are not the oracle's");
     }
 }
 

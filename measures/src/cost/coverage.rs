@@ -6,6 +6,7 @@
 
 use std::cell::RefCell;
 
+use super::guest::{self, Guest};
 use super::{Board, Column, Ladder, Measure, Options, Prepared, Rung, finish};
 use crate::contract::{Rasterize, RasterizeExact};
 use crate::cost::scene::{Scene, Size, W_PREFIX, scenes};
@@ -197,7 +198,7 @@ fn edge_functions() -> Vec<Contender> {
 }
 
 /// The pixels of one scene by both truths.
-struct Truth {
+pub(super) struct Truth {
     /// Spans of each triangle as given, then as snapped.
     spans: [Vec<Vec<Span>>; 2],
     pixels: [u64; 2],
@@ -300,6 +301,11 @@ fn errors(
         }
         spans.push(of_this);
     }
+    Ok((score(&spans, scene, truth), work))
+}
+
+/// The errors of the pixels of each triangle of a scene.
+pub(super) fn score(spans: &[Vec<Span>], scene: &Scene, truth: &Truth) -> Vec<Option<f64>> {
     let per_million = |i: usize| {
         let pairs = spans.iter().zip(&truth.spans[i]);
         let wrong: u64 = pairs.map(|(ours, truth)| wrong_pixels(ours, truth)).sum();
@@ -307,10 +313,10 @@ fn errors(
     };
     let mut errors = vec![Some(per_million(0)), Some(per_million(1)), None, None];
     if let Some(interior) = scene.interior {
-        let (holes, twice) = cracks(truth, &spans, interior);
+        let (holes, twice) = cracks(truth, spans, interior);
         (errors[HOLES], errors[TWICE]) = (Some(holes as f64), Some(twice as f64));
     }
-    Ok((errors, work))
+    errors
 }
 
 fn prepare<'a>(
@@ -331,15 +337,22 @@ fn prepare<'a>(
     }
 }
 
-/// Measures one of the two ladders.
-pub(super) fn measure(ladder: Ladder, options: &Options, progress: &dyn Fn(f64, &str)) -> Board {
+/// Measures one of the two ladders, with guests on it.
+pub(super) fn measure(
+    ladder: Ladder,
+    options: &Options,
+    guests: &mut [Box<dyn Guest>],
+    progress: &dyn Fn(f64, &str),
+) -> Board {
     let pixels = if options.quick { 60_000 } else { 800_000 };
     let scenes = scenes(options.seed, Size { side_px: 1024, pixels });
     let contenders = contenders(ladder);
     let targets: Vec<_> =
         scenes.iter().map(|scene| RefCell::new(Frame::new(scene.bounds, 0))).collect();
     let mut columns = Vec::new();
-    let mut prepared: Vec<Vec<Prepared<'_>>> = contenders.iter().map(|_| Vec::new()).collect();
+    let mut rungs: Vec<Rung> = contenders.iter().map(|c| c.rung.clone()).collect();
+    rungs.extend(guests.iter().map(|guest| guest.rung()));
+    let mut prepared: Vec<Vec<Prepared<'_>>> = rungs.iter().map(|_| Vec::new()).collect();
     for (done, (scene, target)) in scenes.iter().zip(&targets).enumerate() {
         progress(0.3 * done as f64 / scenes.len() as f64, ladder.title());
         let (about, items) = (scene.about.to_owned(), scene.triangles.len() as u64);
@@ -354,9 +367,11 @@ pub(super) fn measure(ladder: Ladder, options: &Options, progress: &dyn Fn(f64, 
         for (contender, row) in contenders.iter().zip(&mut prepared) {
             row.push(prepare(contender, scene, &truth, target));
         }
+        for (guest, row) in guests.iter_mut().zip(&mut prepared[contenders.len()..]) {
+            row.push(guest::prepare(guest.as_mut(), scene, &truth));
+        }
         columns.push(Column::new(scene.name, about, items, truth.pixels[GIVEN]));
     }
-    let rungs = contenders.iter().map(|contender| contender.rung.clone()).collect();
     finish((ladder, measures()), (rungs, columns), prepared, options, progress)
 }
 

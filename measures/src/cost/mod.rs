@@ -9,6 +9,7 @@ mod antialiasing;
 mod clock;
 mod coverage;
 mod depth;
+mod guest;
 mod interpolation;
 mod lines;
 mod recorded;
@@ -22,6 +23,7 @@ use serde::{Deserialize, Serialize};
 use crate::ladder::Work;
 pub use clock::{Spread, Time};
 pub use coverage::{Contender, contenders};
+pub use guest::Guest;
 pub use interpolation::Bound;
 pub use recorded::Recorded;
 pub use verdict::{Best, Dominated, Price, Priced, prices};
@@ -223,8 +225,20 @@ impl Board {
 /// Measures a ladder. `progress` gets the share done, from 0 to 1, and a word about it.
 #[must_use]
 pub fn measure(ladder: Ladder, options: &Options, progress: &dyn Fn(f64, &str)) -> Board {
+    measure_with(ladder, options, &mut [], progress)
+}
+
+/// The same with guests, who fill by edge functions and stand on that ladder.
+#[must_use]
+pub fn measure_with(
+    ladder: Ladder,
+    options: &Options,
+    guests: &mut [Box<dyn Guest>],
+    progress: &dyn Fn(f64, &str),
+) -> Board {
     match ladder {
-        Ladder::Scanline | Ladder::EdgeFunction => coverage::measure(ladder, options, progress),
+        Ladder::Scanline => coverage::measure(ladder, options, &mut [], progress),
+        Ladder::EdgeFunction => coverage::measure(ladder, options, guests, progress),
         Ladder::Interpolation => interpolation::measure(options, progress),
         Ladder::Depth => depth::measure(options, progress),
         Ladder::Lines => lines::measure(options, progress),

@@ -5,17 +5,15 @@ use std::sync::Arc;
 
 use ash::vk;
 
-use super::memory::Buffer;
+use super::memory::{Buffer, copy};
 use super::open::Opened;
-use super::stage::{CELL_PX, CELLS, Kind, PAGE_PX, Stage, VERTEX_BYTES};
+use super::stage::{CELL_PX, Kind, Stage, VERTEX_BYTES};
 use super::{Error, While as _};
 
 /// Bytes that are read back from one submission at most.
 const MOST_BYTES: usize = 1 << 26;
 /// Seconds that a submission may take.
 const PATIENCE_S: u64 = 120;
-/// Cells of a page.
-const PAGE_CELLS: usize = (CELLS * CELLS) as usize;
 
 /// A vertex: clip coordinates, and two attributes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -96,10 +94,11 @@ impl Pictures {
     #[must_use]
     pub fn row(&self, cell: usize, y_px: u32, width: u32) -> &[u8] {
         let size = self.kind.pixel_bytes();
-        let (page, cell) = (cell / PAGE_CELLS, cell % PAGE_CELLS);
-        let (column, row) = (cell % CELLS as usize, cell / CELLS as usize);
+        let (page, cell) = (cell / self.kind.page_cells(), cell % self.kind.page_cells());
+        let (cells, side) = (self.kind.cells() as usize, self.kind.page_px() as usize);
+        let (column, row) = (cell % cells, cell / cells);
         let y = row * CELL_PX as usize + y_px as usize;
-        let pixel = (page * PAGE_PX as usize + y) * PAGE_PX as usize + column * CELL_PX as usize;
+        let pixel = (page * side + y) * side + column * CELL_PX as usize;
         &self.bytes[pixel * size..(pixel + width as usize) * size]
     }
 }
@@ -174,14 +173,15 @@ impl Painter {
     /// If cells are out of order or a window does not fit its page.
     pub fn draw(&mut self, kind: Kind, cells: usize, draws: &[Draw]) -> Result<Pictures, Error> {
         self.check(kind, cells, draws)?;
-        let page_bytes = (PAGE_PX * PAGE_PX) as usize * kind.pixel_bytes();
-        let pages = cells.div_ceil(PAGE_CELLS);
+        let page_bytes = page_bytes(kind);
+        let pages = cells.div_ceil(kind.page_cells());
         let at_once = (MOST_BYTES / page_bytes).max(1);
         let mut bytes = Vec::with_capacity(pages * page_bytes);
         let mut rest = draws;
         for first in (0..pages).step_by(at_once) {
             let end = pages.min(first + at_once);
-            let (here, later) = rest.split_at(rest.partition_point(|d| d.cell < end * PAGE_CELLS));
+            let (here, later) =
+                rest.split_at(rest.partition_point(|d| d.cell < end * kind.page_cells()));
             rest = later;
             self.submit(kind, first..end, here)?;
             let read = self.pages.as_ref().map_or(&[][..], Buffer::bytes);
@@ -237,11 +237,11 @@ impl Painter {
         }
         assert!(draws.is_sorted_by_key(|d| d.cell), "cells are in order");
         let fits = |d: &Draw| {
-            let (_, scissor) = place(d);
+            let (_, scissor) = place(kind, d);
             let (offset, extent) = (scissor.offset, scissor.extent);
-            d.cell < cells.next_multiple_of(PAGE_CELLS)
-                && offset.x as u32 + extent.width <= PAGE_PX
-                && offset.y as u32 + extent.height <= PAGE_PX
+            d.cell < cells.next_multiple_of(kind.page_cells())
+                && offset.x as u32 + extent.width <= kind.page_px()
+                && offset.y as u32 + extent.height <= kind.page_px()
         };
         assert!(draws.iter().all(fits), "cells and windows lie on their page");
         if !self.stages.contains_key(&kind) {
@@ -257,6 +257,7 @@ impl Painter {
             Kind::Samples if !about.four_samples => "four samples a pixel",
             Kind::RectangularLines if !about.rectangular_lines => "rectangular lines by choice",
             Kind::BresenhamLines if !about.bresenham_lines => "Bresenham lines",
+            Kind::Depths if !about.float_depth => "depths in f32",
             _ => return Ok(()),
         };
         Err(Error::Unsupported(format!("{} has no {missing}", about.device)))
@@ -278,7 +279,7 @@ impl Painter {
             }
             _ => {}
         }
-        let page_bytes = (PAGE_PX * PAGE_PX) as usize * kind.pixel_bytes();
+        let page_bytes = page_bytes(kind);
         let device = Arc::clone(&self.device);
         let room = |buffer: &mut Option<Buffer>, size: usize, usage| {
             if buffer.as_ref().is_none_or(|b| b.size < size) {
@@ -320,7 +321,7 @@ impl Painter {
         let commands = self.begin()?;
         let (mut rest, mut first) = (draws, 0);
         for (page, at) in pages.zip(0..) {
-            let count = rest.partition_point(|d| d.cell < (page + 1) * PAGE_CELLS);
+            let count = rest.partition_point(|d| d.cell < (page + 1) * kind.page_cells());
             self.record_page(commands, kind, &rest[..count], first, vertices);
             if let Some(into) = into {
                 self.record_copy(commands, kind, at, into);
@@ -373,10 +374,10 @@ impl Painter {
     ) {
         let raw = &self.device.raw;
         let stage = &self.stages[&kind];
-        let clear = [vk::ClearValue::default(); 2];
+        let clear = [kind.clear(); 2];
         let all = vk::Rect2D {
             offset: vk::Offset2D::default(),
-            extent: vk::Extent2D { width: PAGE_PX, height: PAGE_PX },
+            extent: vk::Extent2D { width: kind.page_px(), height: kind.page_px() },
         };
         let begin = vk::RenderPassBeginInfo::default()
             .render_pass(stage.render_pass)
@@ -395,7 +396,7 @@ impl Painter {
                 raw.cmd_push_constants(commands, stage.layout, fragment, 0, &step);
                 let mut first = first_vertex;
                 for same in draws.chunk_by(|a, b| a.place() == b.place()) {
-                    let (viewport, scissor) = place(&same[0]);
+                    let (viewport, scissor) = place(kind, &same[0]);
                     raw.cmd_set_viewport(commands, 0, &[viewport]);
                     raw.cmd_set_scissor(commands, 0, &[scissor]);
                     let count = kind.corners() * same.len() as u32;
@@ -410,13 +411,8 @@ impl Painter {
     /// Records the copy of a page behind those before it.
     fn record_copy(&self, commands: vk::CommandBuffer, kind: Kind, at: u64, into: &Buffer) {
         let (raw, stage) = (&self.device.raw, &self.stages[&kind]);
-        let layers = vk::ImageSubresourceLayers::default()
-            .aspect_mask(vk::ImageAspectFlags::COLOR)
-            .layer_count(1);
-        let region = [vk::BufferImageCopy::default()
-            .buffer_offset(at * u64::from(PAGE_PX * PAGE_PX) * kind.pixel_bytes() as u64)
-            .image_subresource(layers)
-            .image_extent(vk::Extent3D { width: PAGE_PX, height: PAGE_PX, depth: 1 })];
+        let from = at * page_bytes(kind) as u64;
+        let region = [copy(kind.format(), [kind.page_px(); 2], from)];
         let layout = vk::ImageLayout::TRANSFER_SRC_OPTIMAL;
         // SAFETY: the render pass leaves the page in this layout, and the buffer has room for all.
         unsafe {
@@ -444,10 +440,14 @@ impl Painter {
     }
 }
 
+fn page_bytes(kind: Kind) -> usize {
+    (kind.page_px() * kind.page_px()) as usize * kind.pixel_bytes()
+}
+
 /// The viewport and the scissor of a draw on its page.
-fn place(draw: &Draw) -> (vk::Viewport, vk::Rect2D) {
-    let cell = (draw.cell % PAGE_CELLS) as u32;
-    let (x, y) = (cell % CELLS * CELL_PX, cell / CELLS * CELL_PX);
+fn place(kind: Kind, draw: &Draw) -> (vk::Viewport, vk::Rect2D) {
+    let cell = (draw.cell % kind.page_cells()) as u32;
+    let (x, y) = (cell % kind.cells() * CELL_PX, cell / kind.cells() * CELL_PX);
     let [left, top, width, height] = draw.viewport;
     let viewport = vk::Viewport {
         x: x as f32 + left,

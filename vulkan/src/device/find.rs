@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use ash::vk;
 
-use super::{Error, While as _};
+use super::{Error, While as _, icd};
 
 /// The loader with an instance of it; everything else holds it.
 pub struct Instance {
@@ -56,12 +56,16 @@ pub struct About {
     pub four_samples: bool,
     /// `standardSampleLocations`: samples lie where the specification's table has them.
     pub standard_samples: bool,
+    /// Whether depths can be kept as f32 (`D32_SFLOAT`); otherwise as 24 bits.
+    pub float_depth: bool,
     /// `strictLines`: lines are rectangles.
     pub strict_lines: bool,
     /// `rectangularLines` of `VK_EXT_line_rasterization`.
     pub rectangular_lines: bool,
     /// `bresenhamLines` of `VK_EXT_line_rasterization`.
     pub bresenham_lines: bool,
+    /// `lineSubPixelPrecisionBits` of `VK_EXT_line_rasterization`; without it, those of triangles.
+    pub line_subpixel_bits: u32,
 }
 
 impl About {
@@ -118,7 +122,7 @@ pub fn list_by(loader: Option<&Path>) -> Result<Vec<Listed>, Error> {
         other => other.during("listing Vulkan devices")?,
     };
     if handles.is_empty() {
-        return Err(Error::NoDriver);
+        return Err(Error::NoDriver(icd::faults()));
     }
     let listed = |(number, handle)| {
         let about = about(&instance.raw, handle)?;
@@ -140,7 +144,7 @@ pub fn choose(word: &str) -> Result<Listed, Error> {
         Some(number) => d.number == number,
         None => !small.is_empty() && d.about.words().contains(&small),
     };
-    all.into_iter().find(is_it).ok_or_else(|| Error::Unknown(word.to_owned(), names))
+    all.into_iter().find(is_it).ok_or_else(|| Error::Unknown(word.to_owned(), names, icd::faults()))
 }
 
 fn text(of: Option<&CStr>) -> String {
@@ -166,15 +170,24 @@ fn about(instance: &ash::Instance, handle: vk::PhysicalDevice) -> Result<About, 
     let extensions = extensions(instance, handle)?;
     let has = |name: &CStr| extensions.iter().any(|e| e.as_bytes() == name.to_bytes());
     let mut driver = vk::PhysicalDeviceDriverProperties::default();
+    let mut line = vk::PhysicalDeviceLineRasterizationPropertiesEXT::default();
     let mut properties = vk::PhysicalDeviceProperties2::default();
     if has(ash::khr::driver_properties::NAME) {
         properties = properties.push_next(&mut driver);
+    }
+    let has_lines = has(ash::ext::line_rasterization::NAME);
+    if has_lines {
+        properties = properties.push_next(&mut line);
     }
     // SAFETY: the handle is of this instance; a structure is chained where its extension is there.
     unsafe { instance.get_physical_device_properties2(handle, &mut properties) };
     let vk::PhysicalDeviceProperties { limits, device_name, driver_version, api_version, .. } =
         properties.properties;
-    let lines = lines(instance, handle, has(ash::ext::line_rasterization::NAME));
+    let lines = lines(instance, handle, has_lines);
+    // SAFETY: the handle is of this instance.
+    let depths =
+        unsafe { instance.get_physical_device_format_properties(handle, vk::Format::D32_SFLOAT) };
+    let drawn = vk::FormatFeatureFlags::DEPTH_STENCIL_ATTACHMENT;
     let version = |v: u32| {
         let [a, b, c] =
             [vk::api_version_major(v), vk::api_version_minor(v), vk::api_version_patch(v)];
@@ -195,6 +208,11 @@ fn about(instance: &ash::Instance, handle: vk::PhysicalDevice) -> Result<About, 
         strict_lines: limits.strict_lines == vk::TRUE,
         rectangular_lines: lines[0],
         bresenham_lines: lines[1],
+        line_subpixel_bits: match has_lines {
+            true => line.line_sub_pixel_precision_bits,
+            false => limits.sub_pixel_precision_bits,
+        },
+        float_depth: depths.optimal_tiling_features.contains(drawn),
     })
 }
 

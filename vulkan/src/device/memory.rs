@@ -154,9 +154,12 @@ pub(super) struct Like {
 }
 
 impl Like {
-    /// Colours that are drawn, and copied where a pixel has one sample.
+    /// A square that is drawn into, of colours or depths, and copied where a pixel has one sample.
     pub(super) fn drawn(format: vk::Format, side: u32, samples: vk::SampleCountFlags) -> Self {
-        let mut usage = vk::ImageUsageFlags::COLOR_ATTACHMENT;
+        let mut usage = match is_depth(format) {
+            true => vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT,
+            false => vk::ImageUsageFlags::COLOR_ATTACHMENT,
+        };
         if samples == vk::SampleCountFlags::TYPE_1 {
             usage |= vk::ImageUsageFlags::TRANSFER_SRC;
         }
@@ -211,25 +214,45 @@ impl Image {
         let memory = Memory::new(device, needs, &wanted)?;
         // SAFETY: the memory is fresh, large enough, and of a type that the image allows.
         unsafe { device.raw.bind_image_memory(raw, memory.raw, 0) }.during("binding an image")?;
-        let aspect = match like.usage.contains(vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT) {
-            true => vk::ImageAspectFlags::DEPTH,
-            false => vk::ImageAspectFlags::COLOR,
-        };
         let info = vk::ImageViewCreateInfo::default()
             .image(raw)
             .view_type(vk::ImageViewType::TYPE_2D)
             .format(like.format)
-            .subresource_range(whole(aspect));
+            .subresource_range(whole(like.format));
         // SAFETY: the image has memory, and the view shows all of it in its own format.
         let view = unsafe { device.raw.create_image_view(&info, None) };
         Ok((memory, view.during("creating a view of an image")?))
     }
 }
 
+/// Whether an image holds depths.
+fn is_depth(format: vk::Format) -> bool {
+    [vk::Format::D16_UNORM, vk::Format::X8_D24_UNORM_PACK32, vk::Format::D32_SFLOAT]
+        .contains(&format)
+}
+
+/// What an image of this format holds.
+fn aspect(format: vk::Format) -> vk::ImageAspectFlags {
+    if is_depth(format) { vk::ImageAspectFlags::DEPTH } else { vk::ImageAspectFlags::COLOR }
+}
+
+/// A copy between a buffer and all of an image.
+pub(super) fn copy(
+    format: vk::Format,
+    [width, height]: [u32; 2],
+    from_byte: u64,
+) -> vk::BufferImageCopy {
+    let layers = vk::ImageSubresourceLayers::default().aspect_mask(aspect(format)).layer_count(1);
+    vk::BufferImageCopy::default()
+        .buffer_offset(from_byte)
+        .image_subresource(layers)
+        .image_extent(vk::Extent3D { width, height, depth: 1 })
+}
+
 /// All of an image of one level and layer.
-pub(super) fn whole(aspect_mask: vk::ImageAspectFlags) -> vk::ImageSubresourceRange {
+pub(super) fn whole(format: vk::Format) -> vk::ImageSubresourceRange {
     vk::ImageSubresourceRange {
-        aspect_mask,
+        aspect_mask: aspect(format),
         base_mip_level: 0,
         level_count: 1,
         base_array_layer: 0,

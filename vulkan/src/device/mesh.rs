@@ -5,7 +5,7 @@ use std::sync::Arc;
 use ash::vk;
 
 use super::draw::{Painter, Prepared};
-use super::memory::{Buffer, Image, Like, whole};
+use super::memory::{Buffer, Image, Like, copy, whole};
 use super::open::Opened;
 use super::stage::{create_pipeline, with_shaders};
 use super::{Error, While as _};
@@ -172,14 +172,14 @@ impl Painter {
                 .src_queue_family_index(vk::QUEUE_FAMILY_IGNORED)
                 .dst_queue_family_index(vk::QUEUE_FAMILY_IGNORED)
                 .image(film.texture.raw)
-                .subresource_range(whole(vk::ImageAspectFlags::COLOR))]
+                .subresource_range(whole(COLOURS))]
         };
         let writes = vk::AccessFlags::TRANSFER_WRITE;
         let first = barrier(old, copied, vk::AccessFlags::empty(), writes);
         let then = barrier(copied, read, writes, vk::AccessFlags::SHADER_READ);
         let (top, copies) = (vk::PipelineStageFlags::TOP_OF_PIPE, vk::PipelineStageFlags::TRANSFER);
         let shades = vk::PipelineStageFlags::FRAGMENT_SHADER;
-        let region = [copy([width, height])];
+        let region = [copy(COLOURS, [width, height], 0)];
         let (raw, none) = (&film.device.raw, vk::DependencyFlags::empty());
         // SAFETY: recording, of handles of this device; the buffer holds all texels.
         unsafe {
@@ -192,7 +192,7 @@ impl Painter {
 
     fn record_reading(&self, film: &Film, into: &Buffer) -> Result<vk::CommandBuffer, Error> {
         let commands = self.begin()?;
-        let region = [copy([film.side_px; 2])];
+        let region = [copy(COLOURS, [film.side_px; 2], 0)];
         let layout = vk::ImageLayout::TRANSFER_SRC_OPTIMAL;
         let picture = film.picture().raw;
         // SAFETY: the render pass leaves the picture in this layout, and the buffer has room for all.
@@ -242,18 +242,6 @@ impl Painter {
 fn square(side_px: u32) -> vk::Rect2D {
     let extent = vk::Extent2D { width: side_px, height: side_px };
     vk::Rect2D { offset: vk::Offset2D::default(), extent }
-}
-
-/// All of an image of this size.
-fn copy([width, height]: [u32; 2]) -> vk::BufferImageCopy {
-    let layers = vk::ImageSubresourceLayers::default()
-        .aspect_mask(vk::ImageAspectFlags::COLOR)
-        .layer_count(1);
-    vk::BufferImageCopy::default().image_subresource(layers).image_extent(vk::Extent3D {
-        width,
-        height,
-        depth: 1,
-    })
 }
 
 /// A buffer of these bytes.

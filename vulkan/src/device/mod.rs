@@ -1,9 +1,9 @@
 //! A Vulkan device that draws lists of primitives, each in a cell of its own, and reads them back.
 //!
-//! [`find`] loads the loader and lists devices, [`open`] makes one ready, [`memory`] owns what is
-//! allocated, [`stage`] knows the kinds of pictures and their pipelines, [`draw`] records, submits
-//! and waits; [`mesh`] draws a textured mesh for the clock. No window and no surface: pictures are images
-//! of 1024 x 1024 px that hold 256 cells.
+//! [`find`] loads the loader and lists devices (`icd` says why there are none), [`open`] makes one
+//! ready, [`memory`] owns what is allocated, [`stage`] knows the kinds of pictures and their pipelines,
+//! [`draw`] records, submits and waits; [`mesh`] draws a textured mesh for a clock. No window and no
+//! surface: pictures are images of 1024 x 1024 px that hold 256 cells.
 //!
 //! # What the `unsafe` blocks rely on
 //! Every handle is owned by a value that holds what it was made from ([`open::Opened`] holds the
@@ -13,6 +13,7 @@
 
 pub mod draw;
 pub mod find;
+mod icd;
 pub mod memory;
 pub mod mesh;
 pub mod open;
@@ -27,10 +28,11 @@ use ash::vk;
 pub enum Error {
     /// The loader, `libvulkan`, cannot be loaded: what the system says.
     NoLoader(String),
-    /// The loader finds no driver that it can use.
-    NoDriver,
-    /// No device of this name: the word, and the devices that there are.
-    Unknown(String, Vec<String>),
+    /// The loader finds no driver that it can use; what is wrong with the ICD files that are named.
+    NoDriver(Vec<String>),
+    /// No device of this name: the word, the devices that there are, and what is wrong with the ICD
+    /// files that are named.
+    Unknown(String, Vec<String>, Vec<String>),
     /// The device cannot do what is asked of it.
     Unsupported(String),
     /// There is not enough memory for this.
@@ -50,7 +52,7 @@ impl Error {
                 Self::OutOfMemory(what)
             }
             vk::Result::ERROR_DEVICE_LOST => Self::Lost(what),
-            vk::Result::ERROR_INCOMPATIBLE_DRIVER => Self::NoDriver,
+            vk::Result::ERROR_INCOMPATIBLE_DRIVER => Self::NoDriver(icd::faults()),
             other => Self::Failed(what, format!("{other:?}")),
         }
     }
@@ -64,14 +66,19 @@ impl fmt::Display for Error {
                 "no Vulkan loader: {why}\n  install it (Debian: libvulkan1), and a driver \
                  (mesa-vulkan-drivers)"
             ),
-            Self::NoDriver => f.write_str(
-                "no Vulkan driver: the loader finds none that it can use\n  install one (Debian: \
-                 mesa-vulkan-drivers); where VK_DRIVER_FILES is set, it names an ICD file",
-            ),
-            Self::Unknown(word, there) => {
+            Self::NoDriver(faults) => {
+                f.write_str("no Vulkan driver: the loader finds none that it can use")?;
+                faults.iter().try_for_each(|fault| write!(f, "\n  {fault}"))?;
+                f.write_str(
+                    "\n  install one (Debian: mesa-vulkan-drivers), or name its ICD file: ",
+                )?;
+                f.write_str("VK_DRIVER_FILES=FILE.json")
+            }
+            Self::Unknown(word, there, faults) => {
                 write!(f, "no Vulkan device is called '{word}'; there are:")?;
                 there.iter().try_for_each(|name| write!(f, "\n    {name}"))?;
-                f.write_str("\n  VK_DRIVER_FILES=FILE.json adds a driver that is not installed")
+                faults.iter().try_for_each(|fault| write!(f, "\n  {fault}"))?;
+                f.write_str("\n  VK_DRIVER_FILES=FILE.json names a driver that is not installed")
             }
             Self::Unsupported(what) => write!(f, "the Vulkan device cannot be judged: {what}"),
             Self::OutOfMemory(what) => write!(f, "out of memory while {what}"),

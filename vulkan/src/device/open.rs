@@ -84,13 +84,8 @@ impl Opened {
         let queue = unsafe { raw.get_device_queue(family, 0) };
         // SAFETY: the handle is of this instance.
         let memory = unsafe { instance.get_physical_device_memory_properties(listed.handle) };
-        let finest = vk::Format::D32_SFLOAT;
-        // SAFETY: the handle is of this instance.
-        let float =
-            unsafe { instance.get_physical_device_format_properties(listed.handle, finest) };
-        let drawn = vk::FormatFeatureFlags::DEPTH_STENCIL_ATTACHMENT;
-        let depth = match float.optimal_tiling_features.contains(drawn) {
-            true => finest,
+        let depth = match about.float_depth {
+            true => vk::Format::D32_SFLOAT,
             false => vk::Format::X8_D24_UNORM_PACK32,
         };
         let about = about.clone();

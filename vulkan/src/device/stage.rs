@@ -11,11 +11,11 @@ use super::memory::{Image, Like};
 use super::open::Opened;
 use super::{Error, While as _};
 
-/// Cells of a page, in rows and columns.
-pub const CELLS: u32 = 16;
+/// Cells of most pages, in rows and columns.
+const CELLS: u32 = 16;
 /// Side of a cell in pixels: the largest window.
 pub const CELL_PX: u32 = 64;
-/// Side of a page in pixels.
+/// Side of most pages in pixels, and of the largest.
 pub const PAGE_PX: u32 = CELLS * CELL_PX;
 
 /// What is drawn, and what a pixel says of it.
@@ -23,6 +23,9 @@ pub const PAGE_PX: u32 = CELLS * CELL_PX;
 pub enum Kind {
     /// Triangles: a byte, how often the pixel was hit. Blending adds.
     Hits,
+    /// The same on pages of one cell: a picture that is no larger than the window, of which drivers
+    /// leave out otherwise what lies beyond.
+    Alone,
     /// Triangles: a byte, bit s for sample s of four.
     Samples,
     /// Triangles: four bytes, white and opaque, without blending.
@@ -31,6 +34,10 @@ pub enum Kind {
     Values,
     /// Triangles: four f32, 1/w, two attributes linear in the window, 1 where it was drawn.
     Linear,
+    /// Triangles: the nearest depth in 16 bits, 65535 where there is none.
+    Depths16,
+    /// Triangles: the nearest depth in f32, 1 where there is none.
+    Depths,
     /// Lines 1 px wide as the device draws them where nothing is asked for: a byte of hits.
     Lines,
     /// Rectangular lines: a byte of hits.
@@ -44,10 +51,26 @@ impl Kind {
     #[must_use]
     pub fn pixel_bytes(self) -> usize {
         match self {
-            Self::Flat => 4,
+            Self::Flat | Self::Depths => 4,
+            Self::Depths16 => 2,
             Self::Values | Self::Linear => 16,
             _ => 1,
         }
+    }
+
+    /// Cells of a page, in rows and columns.
+    pub(super) fn cells(self) -> u32 {
+        if self == Self::Alone { 1 } else { CELLS }
+    }
+
+    /// Cells of a page.
+    pub(super) fn page_cells(self) -> usize {
+        (self.cells() * self.cells()) as usize
+    }
+
+    /// Side of a page in pixels.
+    pub(super) fn page_px(self) -> u32 {
+        self.cells() * CELL_PX
     }
 
     /// Vertices of a primitive.
@@ -60,11 +83,26 @@ impl Kind {
         matches!(self, Self::Lines | Self::RectangularLines | Self::BresenhamLines)
     }
 
-    fn format(self) -> vk::Format {
-        // Every device draws into these, and blends in the one of a byte.
-        match self.pixel_bytes() {
-            16 => vk::Format::R32G32B32A32_SFLOAT,
-            4 => vk::Format::R8G8B8A8_UNORM,
+    fn is_depths(self) -> bool {
+        matches!(self, Self::Depths16 | Self::Depths)
+    }
+
+    /// Where nothing is.
+    pub(super) fn clear(self) -> vk::ClearValue {
+        let farthest = vk::ClearDepthStencilValue { depth: 1.0, stencil: 0 };
+        match self.is_depths() {
+            true => vk::ClearValue { depth_stencil: farthest },
+            false => vk::ClearValue::default(),
+        }
+    }
+
+    pub(super) fn format(self) -> vk::Format {
+        // Every device draws into these but f32 of depths, and blends in the one of a byte.
+        match self {
+            Self::Values | Self::Linear => vk::Format::R32G32B32A32_SFLOAT,
+            Self::Flat => vk::Format::R8G8B8A8_UNORM,
+            Self::Depths16 => vk::Format::D16_UNORM,
+            Self::Depths => vk::Format::D32_SFLOAT,
             _ => vk::Format::R8_UNORM,
         }
     }
@@ -133,7 +171,9 @@ impl Stage {
         let one = vk::SampleCountFlags::TYPE_1;
         let samples = match kind.samples() {
             samples if samples == one => None,
-            samples => Some(Image::new(device, Like::drawn(kind.format(), PAGE_PX, samples))?),
+            samples => {
+                Some(Image::new(device, Like::drawn(kind.format(), kind.page_px(), samples))?)
+            }
         };
         let mut stage = Self {
             device: Arc::clone(device),
@@ -141,7 +181,7 @@ impl Stage {
             framebuffer: vk::Framebuffer::null(),
             layout: vk::PipelineLayout::null(),
             passes: Vec::new(),
-            page: Image::new(device, Like::drawn(kind.format(), PAGE_PX, one))?,
+            page: Image::new(device, Like::drawn(kind.format(), kind.page_px(), one))?,
             _samples: samples,
         };
         // Filled field by field: what fails is dropped with what was made before it.
@@ -150,8 +190,8 @@ impl Stage {
         let info = vk::FramebufferCreateInfo::default()
             .render_pass(stage.render_pass)
             .attachments(&views)
-            .width(PAGE_PX)
-            .height(PAGE_PX)
+            .width(kind.page_px())
+            .height(kind.page_px())
             .layers(1);
         // SAFETY: the views are those that the render pass describes, of this size.
         let framebuffer = unsafe { device.raw.create_framebuffer(&info, None) };
@@ -192,22 +232,34 @@ fn render_pass(device: &Opened, kind: Kind) -> Result<vk::RenderPass, Error> {
     }
     let colours = [vk::AttachmentReference { attachment: 0, layout }];
     let resolved = [vk::AttachmentReference { attachment: 1, layout }];
-    let mut subpass = vk::SubpassDescription::default()
-        .pipeline_bind_point(vk::PipelineBindPoint::GRAPHICS)
-        .color_attachments(&colours);
+    let depths = vk::AttachmentReference {
+        attachment: 0,
+        layout: vk::ImageLayout::DEPTH_STENCIL_ATTACHMENT_OPTIMAL,
+    };
+    let mut subpass =
+        vk::SubpassDescription::default().pipeline_bind_point(vk::PipelineBindPoint::GRAPHICS);
+    subpass = match kind.is_depths() {
+        true => subpass.depth_stencil_attachment(&depths),
+        false => subpass.color_attachments(&colours),
+    };
     if has_samples {
         subpass = subpass.resolve_attachments(&resolved);
     }
     // Pages are drawn and copied one after the other.
-    let draws = vk::PipelineStageFlags::COLOR_ATTACHMENT_OUTPUT;
-    let copies = vk::PipelineStageFlags::TRANSFER;
-    let (writes, reads) = (vk::AccessFlags::COLOR_ATTACHMENT_WRITE, vk::AccessFlags::TRANSFER_READ);
+    let draws = vk::PipelineStageFlags::COLOR_ATTACHMENT_OUTPUT
+        | vk::PipelineStageFlags::EARLY_FRAGMENT_TESTS
+        | vk::PipelineStageFlags::LATE_FRAGMENT_TESTS;
+    let writes =
+        vk::AccessFlags::COLOR_ATTACHMENT_WRITE | vk::AccessFlags::DEPTH_STENCIL_ATTACHMENT_WRITE;
+    let tests =
+        vk::AccessFlags::COLOR_ATTACHMENT_READ | vk::AccessFlags::DEPTH_STENCIL_ATTACHMENT_READ;
+    let (copies, reads) = (vk::PipelineStageFlags::TRANSFER, vk::AccessFlags::TRANSFER_READ);
     let before = vk::SubpassDependency::default()
         .src_subpass(vk::SUBPASS_EXTERNAL)
         .src_stage_mask(copies | draws)
         .src_access_mask(reads | writes)
         .dst_stage_mask(draws)
-        .dst_access_mask(writes | vk::AccessFlags::COLOR_ATTACHMENT_READ);
+        .dst_access_mask(writes | tests);
     let after = vk::SubpassDependency::default()
         .dst_subpass(vk::SUBPASS_EXTERNAL)
         .src_stage_mask(draws)
@@ -318,7 +370,14 @@ fn of_kind(
         .src_alpha_blend_factor(vk::BlendFactor::ONE)
         .dst_alpha_blend_factor(vk::BlendFactor::ONE);
     let blends = [adds];
-    let blend = vk::PipelineColorBlendStateCreateInfo::default().attachments(&blends);
+    let mut blend = vk::PipelineColorBlendStateCreateInfo::default();
+    if !kind.is_depths() {
+        blend = blend.attachments(&blends);
+    }
+    let depth = vk::PipelineDepthStencilStateCreateInfo::default()
+        .depth_test_enable(kind.is_depths())
+        .depth_write_enable(kind.is_depths())
+        .depth_compare_op(vk::CompareOp::LESS);
     let states = [vk::DynamicState::VIEWPORT, vk::DynamicState::SCISSOR];
     let dynamic = vk::PipelineDynamicStateCreateInfo::default().dynamic_states(&states);
     let info = vk::GraphicsPipelineCreateInfo::default()
@@ -328,6 +387,7 @@ fn of_kind(
         .viewport_state(&viewport)
         .rasterization_state(&raster)
         .multisample_state(&multisample)
+        .depth_stencil_state(&depth)
         .color_blend_state(&blend)
         .dynamic_state(&dynamic)
         .layout(stage.layout)

@@ -81,13 +81,24 @@ pub fn families(wanted: &[String]) -> Vec<String> {
     place::families(wanted).iter().filter(is_asked).map(|f| f.name.to_owned()).collect()
 }
 
-/// Judges a device.
+/// Judges a device, with the faults that are known of it.
 #[must_use]
 pub fn judge(gpu: Gpu, options: &Options, progress: &(dyn Fn(u64) + Sync)) -> Stand {
+    let known = known::of(&known::parse(known::TEXT).unwrap_or_default(), gpu.about());
+    judge_with(gpu, options, &known, progress)
+}
+
+/// The same with these faults known.
+#[must_use]
+pub fn judge_with(
+    gpu: Gpu,
+    options: &Options,
+    known: &[Known],
+    progress: &(dyn Fn(u64) + Sync),
+) -> Stand {
     let about = gpu.about().clone();
     let plant = gpu.plant_name();
     let declared = gpu.declared().clone();
-    let known = known::of(&known::parse(known::TEXT).unwrap_or_default(), &about);
     let gpu = Arc::new(Mutex::new(gpu));
     let mut shared = Shared(Arc::clone(&gpu), declared.clone());
     let options =
@@ -101,13 +112,13 @@ pub fn judge(gpu: Gpu, options: &Options, progress: &(dyn Fn(u64) + Sync)) -> St
     let mut askers: Vec<Box<dyn Ask>> = vec![Box::new(shared)];
     let mut found = run(&mut askers, &options, &truth, progress);
     let first = &mut *askers[0];
-    let is_news = |f: &Failing| !is_known(&known, f, &options, &declared);
+    let is_news = |f: &Failing| !is_known(known, f, &options, &declared);
     let (news, old): (Vec<_>, Vec<_>) = found.failing.drain(..).partition(is_news);
     found.failing = news;
     let failures = shrunk::failures(first, &found, &options, &truth);
     let scope = Scope { triangles: true, lines: false, always: false };
     let recognised = if found.failing.is_empty() { None } else { recognise(first, scope) };
-    let stale = stale(&known, &found, &old, &options, &declared);
+    let stale = stale(known, &found, &old, &options, &declared);
     let complaints = first.complaints();
     let said = recognised.map(|r| r.said);
     let mut verdict = Verdict::new(declared, &options, windings, said, found, failures, complaints);
@@ -115,7 +126,7 @@ pub fn judge(gpu: Gpu, options: &Options, progress: &(dyn Fn(u64) + Sync)) -> St
     drop(askers);
     if options.only.is_none() {
         let cases = (options.cases * STAGE_SHARE).clamp(16, MOST_OF_A_STAGE);
-        findings.extend(stages::all(&mut lock(&gpu), options.seed, cases));
+        findings.extend(stages::all(&mut lock(&gpu), options.seed, cases, known));
     }
     let known = known.iter().map(|k| k.about.clone()).collect();
     Stand { about, plant, verdict, findings, known }

@@ -10,6 +10,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::plant::Plant;
+use super::specified::twice_area_px2;
 use crate::device::Error;
 use crate::device::draw::{Draw, Painter, Pictures, Vertex};
 use crate::device::find::{self, About, Listed};
@@ -84,14 +85,14 @@ impl Gpu {
     }
 
     /// Opens the device if it is not open.
-    fn ready(&mut self) -> Result<&mut Painter, Error> {
+    pub(super) fn ready(&mut self) -> Result<&mut Painter, Error> {
         if self.painter.is_none() {
             // A planted failure happens once.
             let failing = if self.complaints.is_empty() { self.plant } else { None };
             let opened: Arc<Opened> = Opened::new(&self.listed)?;
             self.painter = Some(Painter::new(&opened, failing.and_then(Plant::failing))?);
         }
-        self.painter.as_mut().ok_or(Error::NoDriver)
+        self.painter.as_mut().ok_or(Error::Lost("opening the device"))
     }
 
     /// Draws a list; after a failure the device is opened anew at the next one.
@@ -110,8 +111,11 @@ impl Gpu {
         }
         let drawn = self.ready().and_then(|painter| painter.draw(kind, cells, &draws));
         drawn.inspect_err(|error| {
-            self.painter = None;
-            self.complaints.push(error.to_string());
+            // What a device does not offer leaves it as it is.
+            if !matches!(error, Error::Unsupported(_)) {
+                self.painter = None;
+                self.complaints.push(error.to_string());
+            }
         })
     }
 
@@ -135,7 +139,7 @@ impl Gpu {
     /// What draws the answer; nothing for what is not declared.
     fn kind(&self, asked: &Asked) -> Option<Kind> {
         Some(match asked {
-            Asked::Coverage(_) => Kind::Hits,
+            Asked::Coverage(corners) => hits_kind(twice_area_px2(corners)),
             Asked::Samples(_) => Kind::Samples,
             Asked::Values(_) if self.plant == Some(Plant::NoPerspective) => Kind::Linear,
             Asked::Values(_) => Kind::Values,
@@ -159,6 +163,17 @@ impl Gpu {
         let pictures = self.draw(kind, questions.len(), draws)?;
         Ok((0..).zip(questions).map(|(cell, q)| answer(&pictures, kind, cell, q)).collect())
     }
+}
+
+/// Twice the area in square pixels from which a triangle is drawn on a page of its own. A picture no larger
+/// than the window is where drivers take other ways with triangles that reach far beyond it.
+const ALONE_FROM_PX2: f64 = 65536.0;
+
+/// What draws the hits of a triangle with twice this area: decided by the triangle alone, so that one that
+/// is asked again is drawn in the same way.
+#[must_use]
+pub fn hits_kind(twice_area_px2: f64) -> Kind {
+    if twice_area_px2 < ALONE_FROM_PX2 { Kind::Hits } else { Kind::Alone }
 }
 
 /// The largest power of two that the limits allow, cells anywhere on a page.
@@ -293,7 +308,8 @@ impl Ask for Gpu {
         };
         let mut answers: Vec<Option<Answer>> = questions.iter().map(refused).collect();
         let mut deaths = 0;
-        let kinds = [Kind::Hits, Kind::Samples, Kind::Values, Kind::Linear, Kind::Lines];
+        let kinds =
+            [Kind::Hits, Kind::Alone, Kind::Samples, Kind::Values, Kind::Linear, Kind::Lines];
         for kind in kinds {
             let is_of = |(_, q): &(usize, &Question)| self.kind(&q.of) == Some(kind);
             let mine: Vec<(usize, &Question)> =

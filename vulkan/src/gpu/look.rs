@@ -1,11 +1,11 @@
 //! One case as a device draws it, in a window of any size.
 
-use super::engine::{Gpu, plain, runs};
+use super::engine::{Gpu, hits_kind, runs};
 use crate::device::Error;
-use crate::device::draw::Draw;
+use crate::device::draw::{Draw, Vertex};
 use crate::device::stage::{CELL_PX, Kind};
 use crate::frame::Coverage;
-use crate::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
+use crate::grid::{PixelRect, SubpixelPoint};
 use crate::triangle::Corners;
 
 /// The hits of triangles in a window.
@@ -21,14 +21,30 @@ pub fn coverage(gpu: &mut Gpu, list: &[Corners], window: PixelRect) -> Result<Co
 /// # Errors
 /// As [`coverage`].
 pub fn coverages(gpu: &mut Gpu, jobs: &[(&[Corners], PixelRect)]) -> Result<Vec<Coverage>, Error> {
+    let px = |p: SubpixelPoint| <[f64; 2]>::from(p.to_px());
+    let jobs: Vec<_> = jobs
+        .iter()
+        .map(|(list, window)| (list.iter().map(|c| c.map(px)).collect(), *window))
+        .collect();
+    coverages_px(gpu, &jobs)
+}
+
+/// The same of corners in pixels, wherever they lie.
+///
+/// # Errors
+/// As [`coverage`].
+pub fn coverages_px(
+    gpu: &mut Gpu,
+    jobs: &[(Vec<[[f64; 2]; 3]>, PixelRect)],
+) -> Result<Vec<Coverage>, Error> {
     let half = gpu.viewport_px() / 2.0;
     let (mut draws, mut tiles) = (Vec::new(), Vec::new());
     for (list, window) in jobs {
         for tile in cut(*window) {
-            for corners in *list {
+            for corners in list {
                 draws.push(Draw {
                     cell: tiles.len(),
-                    vertices: plain(&moved(corners, &tile, half as i32)?, half),
+                    vertices: seen_from(corners, (tile.x0, tile.y0), half)?,
                     viewport: [-half, -half, 2.0 * half, 2.0 * half],
                     window: [tile.width(), tile.height()],
                 });
@@ -36,7 +52,13 @@ pub fn coverages(gpu: &mut Gpu, jobs: &[(&[Corners], PixelRect)]) -> Result<Vec<
             tiles.push(tile);
         }
     }
-    let pictures = gpu.draw(Kind::Hits, tiles.len(), draws)?;
+    // As the judge draws them.
+    let is_large = |corners: &[[f64; 2]; 3]| hits_kind(twice_area_px2(corners)) == Kind::Alone;
+    let kind = match jobs.iter().any(|(list, _)| list.iter().any(is_large)) {
+        true => Kind::Alone,
+        false => Kind::Hits,
+    };
+    let pictures = gpu.draw(kind, tiles.len(), draws)?;
     let mut cells = tiles.iter().enumerate();
     let mut whole = |window: PixelRect| {
         let mut hits = Coverage::new(window, 0);
@@ -64,15 +86,28 @@ fn cut(window: PixelRect) -> impl Iterator<Item = PixelRect> {
     })
 }
 
-/// The corners as seen from a tile, where no corner leaves the viewport.
-fn moved(corners: &Corners, tile: &PixelRect, most_px: i32) -> Result<Corners, Error> {
-    let along = |sub: i32, origin_px: i32| {
-        let moved = i64::from(sub) - i64::from(origin_px) * i64::from(SUBPIXELS);
-        let fits = moved.abs() <= i64::from(most_px) * i64::from(SUBPIXELS);
-        fits.then_some(moved as i32).ok_or_else(|| {
-            Error::Unsupported(format!("a corner lies further than {most_px} px from the window"))
-        })
-    };
-    let [a, b, c] = corners.map(|p| Ok((along(p.x, tile.x0)?, along(p.y, tile.y0)?)));
-    Ok([a?, b?, c?].map(|(x, y)| SubpixelPoint::new(x, y)))
+/// The corners as seen from a place, where no corner leaves the viewport; exact on the lattice.
+///
+/// # Errors
+/// One does.
+pub(super) fn seen_from(
+    corners: &[[f64; 2]; 3],
+    (x_px, y_px): (i32, i32),
+    half_px: f32,
+) -> Result<[Vertex; 3], Error> {
+    let [a, b, c] = corners.map(|[x, y]| {
+        let [x, y] = [x - f64::from(x_px), y - f64::from(y_px)];
+        if x.abs().max(y.abs()) > f64::from(half_px) {
+            return Err(Error::Unsupported(format!(
+                "a corner lies further than {half_px} px from the window"
+            )));
+        }
+        let [x, y] = [x, y].map(|v| (v / f64::from(half_px)) as f32);
+        Ok(Vertex { clip: [x, y, 0.5, 1.0], attributes: [0.0; 2] })
+    });
+    Ok([a?, b?, c?])
+}
+
+fn twice_area_px2([a, b, c]: &[[f64; 2]; 3]) -> f64 {
+    ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])).abs()
 }

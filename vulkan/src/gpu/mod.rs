@@ -2,17 +2,20 @@
 //!
 //! [`engine`] answers the judge's questions with a device, [`plant`] spoils it on purpose;
 //! [`specified`] is the picture that is expected and the bound of a value, [`segment`] what lines are,
-//! [`stages`] what is asked besides the families, each by a rule of [`rules`]; [`known`] holds faults
-//! that are known, [`look`] draws one case, [`mesh`] whole frames of a mesh, [`campaign`] judges and [`text`] says
-//! what came of it.
+//! [`stages`] what is asked besides the families, with `depth` and `lines`, each by a rule of
+//! [`rules`]; [`known`] holds faults that are known, [`look`] draws one case, [`mesh`] whole frames of a
+//! mesh, [`campaign`] judges and [`text`] says what came of it.
 
 pub mod campaign;
+mod depth;
 pub mod engine;
 pub mod known;
+mod lines;
 pub mod look;
 pub mod mesh;
 pub mod plant;
 pub mod rules;
+pub mod rung;
 pub mod segment;
 pub mod specified;
 mod stages;

@@ -16,6 +16,12 @@ pub enum Plant {
     NoPerspective,
     /// Four samples lie elsewhere: the viewport is moved for them alone.
     ShiftedMasks,
+    /// Triangles with twice an area of 2^23 px^2 or more are lost.
+    LosesLarge,
+    /// Depths are rounded to 1/4096 before they are drawn.
+    CoarseDepths,
+    /// What lies in front of the near plane is not clipped but drawn at the plane.
+    NoNearPlane,
     /// The device is lost at the third submission.
     Lost,
     /// Memory is short at the third submission.
@@ -24,12 +30,15 @@ pub enum Plant {
 
 impl Plant {
     /// All of them, by their names.
-    pub const ALL: [(&'static str, Self); 7] = [
+    pub const ALL: [(&'static str, Self); 10] = [
         ("shifted-samples", Self::ShiftedSamples),
         ("bottom-right-rule", Self::BottomRightRule),
         ("draws-twice", Self::DrawsTwice),
         ("no-perspective", Self::NoPerspective),
         ("shifted-masks", Self::ShiftedMasks),
+        ("loses-large", Self::LosesLarge),
+        ("coarse-depths", Self::CoarseDepths),
+        ("no-near-plane", Self::NoNearPlane),
         ("lost", Self::Lost),
         ("out-of-memory", Self::OutOfMemory),
     ];
@@ -57,8 +66,30 @@ impl Plant {
                     d.viewport[1] += step_px;
                 }
             }
+            Self::LosesLarge => draws
+                .iter_mut()
+                .filter(|d| twice_area_px2(d) >= 8_388_608.0)
+                .for_each(|d| d.vertices[1] = d.vertices[0]),
+            Self::CoarseDepths => clips(draws).for_each(|[.., z, w]| {
+                *z = (*z / *w * 4096.0).round() / 4096.0 * *w;
+            }),
+            Self::NoNearPlane => clips(draws).for_each(|[.., z, _]| *z = z.max(0.0)),
             Self::DrawsTwice => *draws = draws.iter().flat_map(|d| [*d, *d]).collect(),
             _ => {}
         }
     }
+}
+
+fn clips(draws: &mut [Draw]) -> impl Iterator<Item = &mut [f32; 4]> {
+    draws.iter_mut().flat_map(|d| &mut d.vertices).map(|v| &mut v.clip)
+}
+
+/// Twice the area of what a draw covers.
+fn twice_area_px2(draw: &Draw) -> f64 {
+    let [.., width, height] = draw.viewport.map(f64::from);
+    let [a, b, c] = draw.vertices.map(|v| {
+        let [x, y, _, w] = v.clip.map(f64::from);
+        [x / w * width / 2.0, y / w * height / 2.0]
+    });
+    ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])).abs()
 }

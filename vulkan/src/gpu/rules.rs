@@ -1,7 +1,8 @@
 //! What the specification says, in short, and how an answer stands to it.
 //!
-//! Sections are those of the chapters "Rasterization" and "Fixed-Function Vertex Post-Processing" and
-//! of the appendix "Invariance" of the Vulkan specification.
+//! A section is named by its title and its anchor in the Vulkan specification: those of `primsrast` are in
+//! the chapter "Rasterization", `vertexpostproc` is "Fixed-Function Vertex Post-Processing", `fragops`
+//! "Fragment Operations", `fundamentals` "Fundamentals", and `invariance` the appendix "Invariance".
 
 /// How what was drawn stands to the specification and to the oracle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
@@ -58,66 +59,92 @@ pub struct Rule {
 
 /// Triangles.
 pub const POLYGONS: Rule = Rule {
-    section: "Basic Polygon Rasterization",
-    says: "a sample inside belongs to the triangle; one on an edge that two share, to exactly one",
-    open: "which of the two: the oracle takes the one whose top or left edge it is",
+    section: "Basic Polygon Rasterization (primsrast-polygons-basic)",
+    says: "samples inside are covered; one on an edge that two triangles share, by exactly one of them",
+    open: "by which, and samples on an edge of one alone: the oracle goes by the top-left rule",
 };
 /// Four samples a pixel.
 pub const SAMPLES: Rule = Rule {
-    section: "Multisampling",
+    section: "Multisampling (primsrast-multisampling)",
     says: "each sample is asked for itself, four at (6, 2) (14, 6) (2, 10) (10, 14) / 16 px where the \
            device says standardSampleLocations",
     open: "samples on edges, as with one sample",
 };
 /// Values.
 pub const PERSPECTIVE: Rule = Rule {
-    section: "Basic Polygon Rasterization",
+    section: "Basic Polygon Rasterization (primsrast-polygons-basic)",
     says: "attributes are weighed by barycentric coordinates over w, depth by them alone",
     open: "how exactly: the bound is derived from roundings in f32",
 };
 /// Values without perspective.
 pub const LINEAR: Rule = Rule {
-    section: "Basic Polygon Rasterization",
+    section: "Basic Polygon Rasterization (primsrast-polygons-basic)",
     says: "noperspective attributes and 1/w are weighed by barycentric coordinates alone",
     open: "how exactly: the bound is derived from roundings in f32",
 };
+/// Depths in an attachment.
+pub const DEPTHS: Rule = Rule {
+    section: "Conversion From Floating-Point to Normalized Fixed-Point (fundamentals-fpfixedconv)",
+    says: "a depth is weighed by barycentric coordinates alone; of 16 bits it is one of the two nearest \
+           multiples of 1/65535",
+    open: "which of the two (the nearest is preferred), and how exact it was before: the bound is \
+           derived from roundings in f32",
+};
+/// The depth test.
+pub const DEPTH_TEST: Rule = Rule {
+    section: "Depth Test (fragops-depth)",
+    says: "with the comparison LESS a sample keeps the smaller of the depth that is kept and the new one",
+    open: "nothing: both are depths that the device draws of each triangle alone",
+};
 /// Snapping.
 pub const SNAPPING: Rule = Rule {
-    section: "Limits: subPixelPrecisionBits",
-    says: "window positions have so many bits below the pixel",
+    section: "Controlling the Viewport (vertexpostproc-viewport)",
+    says: "of x and y in the framebuffer as many bits below the pixel are kept as \
+           subPixelPrecisionBits says",
     open: "how a position between two of them is rounded",
 };
 /// Clipping.
 pub const CLIPPING: Rule = Rule {
-    section: "Primitive Clipping",
-    says: "what leaves the view volume is clipped, and new corners are made where edges leave it",
-    open: "whether x and y are clipped at all (a guard band), and how new corners are rounded",
+    section: "Primitive Clipping (vertexpostproc-clipping)",
+    says: "a triangle that leaves the view volume is clipped: new edges lie on its sides, nothing is \
+           drawn beyond",
+    open: "how new corners are rounded, and so whether there are any in x and y: a guard band shows \
+           nothing else",
 };
 /// Rectangular lines.
 pub const RECTANGLES: Rule = Rule {
-    section: "Basic Line Segment Rasterization",
-    says: "a line of width 1 is a rectangle about it (strictLines, or lines that are rectangular by \
-           choice)",
-    open: "samples on its border, and how its corners are rounded to the lattice",
+    section: "Basic Line Segment Rasterization (primsrast-lines-basic)",
+    says: "a line of width 1 is a rectangle about it, ended at right angles (strictLines, or lines \
+           that are rectangular by choice)",
+    open: "samples on its border, and how its corners are rounded to the lattice of \
+           lineSubPixelPrecisionBits",
 };
 /// Lines of devices without `strictLines`.
 pub const LOOSE_LINES: Rule = Rule {
-    section: "Basic Line Segment Rasterization",
-    says: "without strictLines a line is a parallelogram, or drawn by Bresenham's algorithm",
-    open: "which of them",
+    section: "Basic Line Segment Rasterization (primsrast-lines-basic)",
+    says: "without strictLines a line is a parallelogram with ends along the minor axis, or drawn as a \
+           Bresenham line",
+    open: "which of the two, and how corners are rounded",
 };
 /// Bresenham lines.
 pub const BRESENHAM: Rule = Rule {
-    section: "Bresenham Line Segment Rasterization",
-    says: "the diamond-exit rule, or a pixel at most beside each of its own, one more or fewer, and \
-           one a column (row)",
+    section: "Bresenham Line Segment Rasterization (primsrast-lines-bresenham)",
+    says: "the diamond-exit rule, or pixels that deviate from its own by at most one in x or y, one \
+           more or fewer, and one a column (row)",
     open: "that deviation",
+};
+/// Bresenham lines that go on.
+pub const JOINED: Rule = Rule {
+    section: "Bresenham Line Segment Rasterization (primsrast-lines-bresenham)",
+    says: "of two lines with a common end in the same major direction no pixel is drawn twice, and \
+           none is left out between them",
+    open: "nothing",
 };
 /// The same twice.
 pub const REPEATABILITY: Rule = Rule {
-    section: "Invariance: Repeatability",
+    section: "Repeatability (invariance)",
     says: "the same commands on the same state make the same picture every time",
-    open: "nothing",
+    open: "whether a device opened anew makes it too",
 };
 
 /// What came of a property.

@@ -1,7 +1,9 @@
-//! Lines as the specification describes them: rectangles, and the diamond-exit rule; exactly.
+//! Lines as the specification describes them: rectangles, parallelograms, and the diamond-exit rule;
+//! exactly.
 //!
 //! Positions are subpixels. A rectangular line of width 1 covers the samples whose distance from the
-//! line is at most half a pixel, between its ends. By the diamond-exit rule a segment from a to b lights
+//! line is at most half a pixel, between its ends. A parallelogram has sides of 1 px along the minor axis
+//! through both ends. By the diamond-exit rule a segment from a to b lights
 //! the pixels whose diamond |x - cx| + |y - cy| < 1/2 px it enters, but not the one that holds b. Both
 //! ends are moved by -(e, e^2) first, where e is so small that a smaller one changes nothing: a line
 //! through the point where two diamonds meet enters one of them.
@@ -55,22 +57,50 @@ fn in_rectangle([a, b]: &Ends, (x, y): (i32, i32), more: i64, closed: bool) -> b
     along && is_within(cross, half)
 }
 
+/// The same of a parallelogram.
+fn in_parallelogram([a, b]: &Ends, (x, y): (i32, i32), more: i64, closed: bool) -> bool {
+    let d = [i64::from(b.x) - i64::from(a.x), i64::from(b.y) - i64::from(a.y)];
+    let s = [centre(x) - i64::from(a.x), centre(y) - i64::from(a.y)];
+    // Where both are equal, x is the major axis. Turned so that the line goes forwards.
+    let (major, minor) = if d[0].abs() >= d[1].abs() { (0, 1) } else { (1, 0) };
+    let forwards = if d[major] < 0 { -1 } else { 1 };
+    let (length, rise) = (d[major] * forwards, d[minor] * forwards);
+    let (along, aside) = (s[major] * forwards, s[minor] * forwards);
+    // A corner that is moved in x and in y moves its side by twice that at most along the minor axis.
+    let off = (aside * length - along * rise).abs();
+    let half = (i64::from(HALF_PIXEL) + 2 * more) * length;
+    match closed {
+        true => off <= half && (-more..=length + more).contains(&along),
+        false => off < half && -more < along && along < length + more,
+    }
+}
+
 /// How lit pixels of a window stand to a rectangle of width 1 px, on a lattice of this step.
 #[must_use]
 pub fn rectangle(ends: &Ends, lit: &Pixels, side_px: i32, step: i32) -> Fit {
+    shape(|pixel, more, closed| in_rectangle(ends, pixel, more, closed), lit, side_px, step)
+}
+
+/// How they stand to a parallelogram.
+#[must_use]
+pub fn parallelogram(ends: &Ends, lit: &Pixels, side_px: i32, step: i32) -> Fit {
+    shape(|pixel, more, closed| in_parallelogram(ends, pixel, more, closed), lit, side_px, step)
+}
+
+/// How they stand to a shape that is made wider by so many subpixels, with its border or without.
+fn shape(
+    holds: impl Fn((i32, i32), i64, bool) -> bool,
+    lit: &Pixels,
+    side_px: i32,
+    step: i32,
+) -> Fit {
     let mut fit = Fit::Equal;
     for pixel in window(side_px) {
         let is_lit = lit.contains(&pixel);
-        let is_right = if is_lit {
-            in_rectangle(ends, pixel, 0, true)
-        } else {
-            !in_rectangle(ends, pixel, 0, false)
-        };
-        // The corners of the rectangle are rounded to the lattice: its sides move by a step at most.
-        let is_allowed = if is_lit {
-            in_rectangle(ends, pixel, i64::from(step), true)
-        } else {
-            !in_rectangle(ends, pixel, -i64::from(step), false)
+        // The corners of the shape are rounded to the lattice: its sides move by a step at most.
+        let [is_right, is_allowed] = match is_lit {
+            true => [0, i64::from(step)].map(|more| holds(pixel, more, true)),
+            false => [0, -i64::from(step)].map(|more| !holds(pixel, more, false)),
         };
         match (is_right, is_allowed) {
             (true, _) => {}
@@ -181,6 +211,29 @@ mod tests {
         assert_eq!(rectangle(&row, &hole, 8, 1), Fit::Outside);
         let moved: Pixels = [(1, 4), (2, 4), (3, 4)].into();
         assert_eq!(diamond_exit(&row, &moved, 8), Fit::Outside);
+    }
+
+    /// Along the minor axis 1 px high, so thinner than a rectangle where it slants.
+    #[test]
+    fn a_parallelogram_by_hand() {
+        // y = x / 2 + 0.25 from x = 0 to 4.
+        let slanted = ends([0.0, 0.25, 4.0, 2.25]);
+        let lit: Pixels = [(0, 0), (1, 0), (1, 1), (2, 1), (3, 1), (3, 2)].into();
+        assert_eq!(parallelogram(&slanted, &lit, 8, 1), Fit::Equal);
+        for end in [[0.0, 0.25, 4.0, 2.25], [4.0, 2.25, 0.0, 0.25]] {
+            let fewer: Pixels = [(0, 0), (1, 0), (2, 1), (3, 1)].into();
+            // What lies on both borders may go either way.
+            assert_eq!(parallelogram(&ends(end), &fewer, 8, 1), Fit::Equal);
+            let hole: Pixels = [(0, 0), (1, 0), (3, 1)].into();
+            assert_eq!(parallelogram(&ends(end), &hole, 8, 1), Fit::Outside);
+            let more: Pixels = [(0, 0), (1, 0), (2, 1), (3, 1), (4, 2)].into();
+            assert_eq!(parallelogram(&ends(end), &more, 8, 1), Fit::Outside);
+        }
+        // Upright and level lines are rectangles.
+        let row = ends([1.5, 2.5, 4.5, 2.5]);
+        let lit: Pixels = [(2, 2), (3, 2)].into();
+        assert_eq!(parallelogram(&row, &lit, 8, 1), Fit::Equal);
+        assert_eq!(rectangle(&row, &lit, 8, 1), Fit::Equal);
     }
 
     /// A diagonal through corners of pixels touches no diamond but those it runs through.

@@ -133,6 +133,13 @@ pub fn perspective_bounds(triangle: &Triangle, pixel: (i32, i32)) -> [f64; 3] {
     [depth, quotient(v.map(|v| v.varying.x)), quotient(v.map(|v| v.varying.y))]
 }
 
+/// Bounds of depth: of a plane set up from differences, and of the specification's own sum of weights.
+#[must_use]
+pub fn depth_bounds(triangle: &Triangle) -> [f64; 2] {
+    let (setup, depths) = (Setup::new(triangle), triangle.vertices.map(|v| v.depth));
+    [setup.bound(depths, ROUNDINGS), setup.bound_of_weights(depths, ROUNDINGS)]
+}
+
 /// Bounds of 1/w and of both attributes linear in the window: of a plane set up from differences, and
 /// of the specification's own sum of weights, whatever of the two a device computes.
 #[must_use]

@@ -23,17 +23,30 @@ pub fn device(about: &About) -> String {
         (true, false) => "four samples at places of its own",
         _ => "one sample",
     };
+    let depths = if about.float_depth { "depths of 16 bits and f32" } else { "depths of 16 bits" };
+    let bits = match about.line_subpixel_bits {
+        bits if bits == about.subpixel_bits => String::new(),
+        bits => format!(" with {bits} subpixel bits"),
+    };
     let [width, height] = about.largest_viewport;
     format!(
         "{}; driver {} {}, Vulkan {}; {} subpixel bits, viewport to {width} x {height} px, {samples}, \
-         lines {lines}",
+         {depths}, lines {lines}{bits}",
         about.device, about.driver, about.version, about.vulkan, about.subpixel_bits
     )
 }
 
-/// The verdict as text of at most 100 columns, commands left out.
+/// The verdict as text of at most 100 columns, the command left out, with what follows it for all and for a
+/// case.
 #[must_use]
-pub fn text(stand: &Stand, repeat_all: &str, repeat: &dyn Fn(&str, u64) -> String) -> String {
+pub fn text(
+    stand: &Stand,
+    command: &str,
+    all: &str,
+    repeat: &dyn Fn(&str, u64) -> String,
+) -> String {
+    let repeat = |family: &str, index: u64| format!("...{}", repeat(family, index));
+    let repeat: &dyn Fn(&str, u64) -> String = &repeat;
     let verdict = &stand.verdict;
     let mut out = format!("rasterproof {}, seed {}\n\n", env!("CARGO_PKG_VERSION"), verdict.seed);
     let name = &verdict.declared.name;
@@ -74,7 +87,7 @@ pub fn text(stand: &Stand, repeat_all: &str, repeat: &dyn Fn(&str, u64) -> Strin
     for about in &stand.known {
         out += &wrapped(&format!("known of this driver: {about}"), "  ");
     }
-    let _ = writeln!(out, "\nrepeat with: {repeat_all}");
+    let _ = writeln!(out, "\nrepeat with: ...{all}\nwhere ... is: {command}");
     out += &wrapped(&format!("{}: {}", word(stand), closing(stand)), "  ");
     out
 }
