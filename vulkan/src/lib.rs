@@ -11,4 +11,5 @@ pub mod gpu;
 
 // The floors below, under the paths that every room calls them by.
 use rasterproof_engines::{contract, frame, grid, hazard, oracle, triangle};
-use rasterproof_judges::{judge, report};
+use rasterproof_judges::judge;
+use rasterproof_reports::report;
