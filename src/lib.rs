@@ -70,11 +70,13 @@ pub use rasterproof_engines::{
     tile, tiled,
 };
 #[doc(hidden)]
-pub use rasterproof_judges::{convention, invariant, judge, report};
+pub use rasterproof_judges::{convention, invariant, judge};
 #[doc(hidden)]
 pub use rasterproof_measures::cost;
 #[doc(hidden)]
 pub use rasterproof_playground::{answer, page};
+#[doc(hidden)]
+pub use rasterproof_reports::report;
 
 /// The samples in the pages under `docs/` are tests.
 #[cfg(doctest)]

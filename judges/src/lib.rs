@@ -11,11 +11,10 @@ extern crate rasterproof_engines;
 pub mod convention;
 pub mod invariant;
 pub mod judge;
-pub mod report;
 
 // The floors below, under the paths that every room calls them by.
 use rasterproof_engines::{
-    contract, each, effects, exhaust, frame, grid, hazard, line, lineup, mutant, oracle, pipeline,
-    raster, scene, specimen, tile, triangle,
+    contract, each, effects, frame, grid, hazard, line, lineup, mutant, oracle, pipeline, raster,
+    scene, specimen, tile, triangle,
 };
-use rasterproof_measures::{cost, verify};
+use rasterproof_measures::verify;

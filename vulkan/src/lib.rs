@@ -13,5 +13,6 @@ pub mod gpu;
 use rasterproof_engines::{
     contract, frame, grid, hazard, oracle, pipeline, scene, tiled, triangle,
 };
-use rasterproof_judges::{judge, report};
+use rasterproof_judges::judge;
 use rasterproof_measures::cost;
+use rasterproof_reports::report;

@@ -149,9 +149,12 @@ fn compare_depths(a: &Target, b: &Target, ties: Option<&Ties>) -> (u64, Vec<(i32
     for (plane, (plane_a, plane_b)) in a.planes.iter().zip(&b.planes).enumerate() {
         let PixelRect { x0, y0, y1, .. } = plane_a.depth.bounds();
         for y_px in y0..y1 {
-            let rows = plane_a.depth.row(y_px).iter().zip(plane_b.depth.row(y_px));
-            for (x_px, (&key_a, &key_b)) in (x0..).zip(rows) {
-                count += 1;
+            let [row_a, row_b] = [plane_a, plane_b].map(|plane| plane.depth.row(y_px));
+            count += row_a.len() as u64;
+            if row_a == row_b {
+                continue;
+            }
+            for (x_px, (&key_a, &key_b)) in (x0..).zip(row_a.iter().zip(row_b)) {
                 let near = key_a != CLEAR
                     && key_b != CLEAR
                     && (a.format.depth(key_a) - b.format.depth(key_b)).abs() <= tolerance;
