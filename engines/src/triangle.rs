@@ -54,6 +54,16 @@ impl<V> ScreenVertex<V> {
     }
 }
 
+impl<V> ScreenVertex<V> {
+    /// The same with nothing that travels with it.
+    #[must_use]
+    #[inline]
+    pub fn bare(&self) -> ScreenVertex<()> {
+        let &Self { position, depth, inv_w, .. } = self;
+        ScreenVertex { position, depth, inv_w, varying: () }
+    }
+}
+
 impl ScreenVertex<()> {
     /// The same with something that travels with it.
     #[must_use]

@@ -14,5 +14,5 @@ pub mod verify;
 // The floors below, under the paths that every room calls them by.
 use rasterproof_engines::{
     contract, each, effects, frame, grid, hazard, ladder, line, lineup, oracle, pipeline, raster,
-    scene, specimen, triangle,
+    scene, specimen, tile, tiled, triangle,
 };

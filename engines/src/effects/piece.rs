@@ -3,7 +3,7 @@
 use std::fmt;
 use std::sync::LazyLock;
 
-use glam::{DMat3, DVec2, DVec3};
+use glam::{DMat3, DMat4, DVec2, DVec3};
 
 use super::Mode;
 use super::plan::{Attributes, ItemPlan};
@@ -50,7 +50,10 @@ pub(super) struct Prepared<'a> {
     pub carries: Attributes,
     pub texture: Option<&'a Texture>,
     pub light: Light,
+    index: usize,
     assembler: Assembler,
+    /// From object to clip space.
+    matrix: DMat4,
     /// From object to world space for normals.
     normals: DMat3,
 }
@@ -72,27 +75,79 @@ impl<'a> Prepared<'a> {
         window: PixelRect,
         counters: &mut Counters,
     ) -> Result<Self, BadScene> {
-        let item = &scene.items[index];
-        let matrix = scene.projection * scene.view * item.model;
-        let assembler = assembler(item, plan, window);
-        let mut points = Vec::with_capacity(item.mesh.positions.len());
-        for (i, p) in item.mesh.positions.iter().enumerate() {
-            let position = matrix * p.extend(1.0);
-            check_vertex(i, &ClipVertex { position, varying: () })
-                .map_err(|vertex| BadScene { item: index, vertex })?;
-            points.push(assembler.point(position));
+        let mut prepared = Self::without_points(scene, index, plan, window);
+        let positions = &prepared.item.mesh.positions;
+        let mut points = Vec::with_capacity(positions.len());
+        for (i, &p) in positions.iter().enumerate() {
+            points.push(prepared.point(i, p)?);
         }
         counters.vertices += points.len() as u64;
+        prepared.points = points;
+        Ok(prepared)
+    }
+
+    /// The same before a position is transformed.
+    pub fn without_points(
+        scene: &'a Scene,
+        index: usize,
+        plan: &ItemPlan,
+        window: PixelRect,
+    ) -> Self {
+        let item = &scene.items[index];
         let texture = item.material.texture.as_deref().unwrap_or(&WHITE);
-        Ok(Self {
+        Self {
             item,
-            points,
+            points: Vec::new(),
             carries: plan.carries,
             texture: plan.carries.has(Attributes::UV).then_some(texture),
             light: if is_lit(scene, item) { scene.light } else { Light::NONE },
-            assembler,
+            index,
+            assembler: assembler(item, plan, window),
+            matrix: scene.projection * scene.view * item.model,
             normals: DMat3::from_mat4(item.model).inverse().transpose(),
-        })
+        }
+    }
+
+    /// Transforms position `i`, which is `p`, and checks it.
+    #[inline]
+    pub fn point(&self, i: usize, p: DVec3) -> Result<Point, BadScene> {
+        let position = self.matrix * p.extend(1.0);
+        check_vertex(i, &ClipVertex { position, varying: () })
+            .map_err(|vertex| BadScene { item: self.index, vertex })?;
+        Ok(self.assembler.point(position))
+    }
+
+    /// The vertex stage of the corners of a triangle: all but their positions.
+    #[inline]
+    pub fn varyings(&self, scene: &Scene, triangle: &[Corner; 3]) -> [[f64; ALL]; 3] {
+        let face = self.face(triangle);
+        let [a, b, c] = triangle;
+        let varying = |corner: &Corner| self.varying(scene, corner, face).0;
+        [varying(a), varying(b), varying(c)]
+    }
+
+    /// The normal of a triangle, where it is asked for.
+    fn face(&self, triangle: &[Corner; 3]) -> DVec3 {
+        match self.item.material.shading {
+            Shading::Flat => self.item.mesh.face_normal(triangle),
+            _ => DVec3::ZERO,
+        }
+    }
+
+    /// Emits the pieces of one triangle, whose positions are transformed for it alone.
+    pub fn assemble_one(
+        &self,
+        scene: &Scene,
+        triangle: &[Corner; 3],
+        emit: &mut dyn FnMut(&Piece),
+    ) {
+        let point = |i: usize| {
+            let at = triangle[i].position as usize;
+            self.point(at, self.item.mesh.positions[at])
+        };
+        let (Ok(a), Ok(b), Ok(c)) = (point(0), point(1), point(2)) else { return };
+        let varying = |i: usize| self.varying(scene, &triangle[i], self.face(triangle));
+        self.assembler.assemble([&a, &b, &c], varying, &mut Counters::default(), emit);
     }
 
     /// The vertex stage of one corner: all but its position.
@@ -119,27 +174,10 @@ impl<'a> Prepared<'a> {
         counters: &mut Counters,
         emit: &mut dyn FnMut(&Piece, &mut Counters),
     ) {
-        self.assemble_some(scene, &self.item.mesh.triangles, counters, emit);
-    }
-
-    /// Emits the pieces of some of its triangles.
-    pub fn assemble_some(
-        &self,
-        scene: &Scene,
-        triangles: &[[Corner; 3]],
-        counters: &mut Counters,
-        emit: &mut dyn FnMut(&Piece, &mut Counters),
-    ) {
         let mut fills = Counters::default();
-        for triangle in triangles {
+        for triangle in &self.item.mesh.triangles {
             let point = |i: usize| &self.points[triangle[i].position as usize];
-            let varying = |i: usize| {
-                let face = match self.item.material.shading {
-                    Shading::Flat => self.item.mesh.face_normal(triangle),
-                    _ => DVec3::ZERO,
-                };
-                self.varying(scene, &triangle[i], face)
-            };
+            let varying = |i: usize| self.varying(scene, &triangle[i], self.face(triangle));
             let points = [point(0), point(1), point(2)];
             self.assembler.assemble(points, varying, counters, |piece| emit(piece, &mut fills));
         }

@@ -1,18 +1,25 @@
-//! A scene's pieces with nothing left out, and what shades them: for what draws frames in a way of
-//! its own. Assembled on the threads of the pool that it is called in, in parts of a mesh.
+//! A scene with nothing left out, for what draws frames in a way of its own: the vertex stage and
+//! assembly, on the threads of the pool that it is called in.
+//!
+//! A piece is its outline and a number: where it is and how near. What it looks like is found by the
+//! number when it is to be seen, so most of what is hidden costs no attributes. A triangle that a
+//! plane cuts is cut again then, to the same bits.
+
+use std::ops::Range;
 
 use glam::DVec3;
 use rayon::prelude::*;
 
 use super::conditions::attributes;
-use super::piece::{BadScene, Piece, Prepared};
+use super::piece::{BadScene, Prepared};
 use super::plan::{Attributes, ItemPlan, PiecePlan, Pieces};
 use super::{Effects, Mode};
-use crate::grid::PixelRect;
-use crate::pipeline::Counters;
-use crate::pipeline::shade::Light;
+use crate::grid::{PixelRect, SubpixelPoint};
+use crate::pipeline::clip::Outcode;
+use crate::pipeline::shade::{ALL, Light};
 use crate::pipeline::texture::Texture;
-use crate::scene::{Hidden, Scene};
+use crate::scene::{Corner, Hidden, Scene};
+use crate::triangle::{Corners, ScreenVertex};
 
 /// What the pieces of an item have in common.
 pub struct Skin<'a> {
@@ -26,64 +33,254 @@ pub struct Skin<'a> {
     pub texture: Option<&'a Texture>,
 }
 
+/// A piece as far as tiles need to know it before it is seen.
+#[derive(Clone, Copy)]
+pub struct Outline {
+    /// Where it is.
+    pub corners: Corners,
+    /// The depths of the corners.
+    pub depths: [f64; 3],
+    /// No corner is nearer.
+    pub nearest: f32,
+    /// The triangle it is of, counted through the scene; above [`FACE_BITS`], 0 where it is whole,
+    /// else which part of it.
+    number: u32,
+}
+
+/// Bits of an [`Outline`]'s number that name the triangle: with seven planes at most eight parts of
+/// it are left.
+const FACE_BITS: u32 = 28;
+
+/// A piece with all that it looks like.
+pub struct Surface<'a> {
+    /// What it has in common with others.
+    pub skin: &'a Skin<'a>,
+    /// Where its corners are.
+    pub corners: [ScreenVertex<()>; 3],
+    /// Colour, normal and texture coordinates of each corner.
+    pub values: [[f64; ALL]; 3],
+}
+
 /// A scene in the window.
 pub struct Whole<'a> {
-    /// One for each item.
-    pub skins: Vec<Skin<'a>>,
-    /// With the items they are of, in drawing order, in parts of any length.
-    pub parts: Vec<Vec<(usize, Piece)>>,
+    scene: &'a Scene,
+    items: Vec<Item<'a>>,
     /// The pixels they are drawn in.
     pub window: PixelRect,
     /// Whether nearer pieces win, or later ones.
     pub depth_test: bool,
 }
 
-impl Whole<'_> {
-    /// The piece in a part, and the item it is of.
-    pub fn at(&self, [part, number]: [u32; 2]) -> &(usize, Piece) {
-        &self.parts[part as usize][number as usize]
+struct Item<'a> {
+    skin: Skin<'a>,
+    prepared: Prepared<'a>,
+    vertices: Vec<Vertex>,
+    /// The number of its first triangle.
+    first: usize,
+}
+
+/// A vertex in the window.
+#[derive(Clone, Copy)]
+struct Vertex {
+    /// Anything where a plane cuts it off.
+    place: ScreenVertex<()>,
+    /// The planes that do, or [`NOWHERE`].
+    code: Outcode,
+    /// It must not be there at all.
+    bad: bool,
+}
+
+/// Beyond the planes: a vertex that has no place all the same.
+const NOWHERE: Outcode = 1 << 7;
+
+/// Vertices that are worth a task.
+const SHARE: usize = 1024;
+
+impl<'a> Whole<'a> {
+    /// Brings the vertices of a scene into a window.
+    ///
+    /// # Errors
+    /// [`BadScene`].
+    ///
+    /// # Panics
+    /// If there are 2^28 triangles or more.
+    pub fn new(scene: &'a Scene, window: PixelRect) -> Result<Self, BadScene> {
+        assert!(scene.triangles() < 1 << FACE_BITS, "a scene of {} triangles", scene.triangles());
+        let mut items: Vec<Item<'a>> = Vec::with_capacity(scene.items.len());
+        let mut first = 0;
+        for (index, item) in scene.items.iter().enumerate() {
+            items.push(Item::new(scene, index, first, window)?);
+            first += item.mesh.triangles.len();
+        }
+        Ok(Self { scene, items, window, depth_test: scene.hidden == Hidden::DepthBuffer })
+    }
+
+    /// What is seen where nothing is drawn.
+    pub fn background(&self) -> u32 {
+        u32::from_le_bytes(self.scene.background)
+    }
+
+    /// Whether attributes are interpolated linearly in the window.
+    pub fn affine(&self) -> bool {
+        self.scene.affine
+    }
+
+    /// All triangles in drawing order, in runs of at most `most` of one item.
+    pub fn runs(&self, most: usize) -> Vec<(usize, Range<usize>)> {
+        let mut runs = Vec::new();
+        for (number, item) in self.items.iter().enumerate() {
+            let count = item.prepared.item.mesh.triangles.len();
+            let starts = (0..count).step_by(most);
+            runs.extend(starts.map(|start| (number, start..(start + most).min(count))));
+        }
+        runs
+    }
+
+    /// The pieces of a run of [`Whole::runs`] that are in the window and not culled.
+    pub fn outlines(&self, (item, run): &(usize, Range<usize>)) -> Vec<Outline> {
+        let item = &self.items[*item];
+        let (prepared, first) = (&item.prepared, item.first + run.start);
+        let triangles = &prepared.item.mesh.triangles[run.clone()];
+        let mut outlines = Vec::with_capacity(triangles.len());
+        for (number, triangle) in (first as u32..).zip(triangles) {
+            let [a, b, c] = item.corners(triangle);
+            if a.code & b.code & c.code != 0 {
+                continue;
+            }
+            if a.code | b.code | c.code != 0 {
+                self.cut(item, triangle, &mut |part, surface| {
+                    outlines.push(outline(&surface.corners, number | (part + 1) << FACE_BITS));
+                });
+                continue;
+            }
+            let outline = outline(&[a.place, b.place, c.place], number);
+            if !prepared.item.cull.removes(outline.corners) {
+                outlines.push(outline);
+            }
+        }
+        outlines
+    }
+
+    /// All pieces, the farthest first; equal distances keep the drawing order.
+    pub fn farthest_first(&self) -> Vec<Outline> {
+        let runs = self.runs(SHARE);
+        let outlines = runs.par_iter().flat_map_iter(|run| self.outlines(run));
+        let distance = |outline: &Outline| -> f64 { outline.depths.iter().sum() };
+        let mut sorted: Vec<_> = outlines.map(|outline| (distance(&outline), outline)).collect();
+        sorted.par_sort_by(|(a, _), (b, _)| b.total_cmp(a));
+        sorted.into_iter().map(|(_, outline)| outline).collect()
+    }
+
+    /// What a piece looks like.
+    #[inline]
+    pub fn surface(&self, outline: &Outline) -> Surface<'_> {
+        let (face, part) = (outline.number & ((1 << FACE_BITS) - 1), outline.number >> FACE_BITS);
+        let item = match &self.items[..] {
+            [item] => item,
+            items => &items[items.partition_point(|item| item.first <= face as usize) - 1],
+        };
+        let triangle = &item.prepared.item.mesh.triangles[face as usize - item.first];
+        if part != 0 {
+            return self.part(item, triangle, part - 1);
+        }
+        let [a, b, c] = item.corners(triangle);
+        let values = item.prepared.varyings(self.scene, triangle);
+        Surface { skin: &item.skin, corners: [a.place, b.place, c.place], values }
+    }
+
+    /// A part of a triangle that a plane cuts.
+    #[cold]
+    fn part<'s>(&'s self, item: &'s Item<'_>, triangle: &[Corner; 3], number: u32) -> Surface<'s> {
+        let mut found = None;
+        self.cut(item, triangle, &mut |part, surface| {
+            if part == number {
+                found = Some(surface);
+            }
+        });
+        found.unwrap_or_else(|| unreachable!("a triangle is cut as it was"))
+    }
+
+    /// The parts that are left of a triangle, with their numbers.
+    #[cold]
+    fn cut<'s>(
+        &'s self,
+        item: &'s Item<'_>,
+        triangle: &[Corner; 3],
+        emit: &mut dyn FnMut(u32, Surface<'s>),
+    ) {
+        let mut parts = 0;
+        item.prepared.assemble_one(self.scene, triangle, &mut |piece| {
+            let [a, b, c] = &piece.vertices;
+            let values = [a.varying.0, b.varying.0, c.varying.0];
+            let corners = [a.bare(), b.bare(), c.bare()];
+            emit(parts, Surface { skin: &item.skin, corners, values });
+            parts += 1;
+        });
     }
 }
 
-/// Triangles of a part: enough to be worth a task.
-const PART: usize = 512;
-
-/// Brings a scene into a window.
-///
-/// # Errors
-/// [`BadScene`].
-pub fn assemble(scene: &Scene, window: PixelRect) -> Result<Whole<'_>, BadScene> {
-    let mut counters = Counters::default();
-    let mut parts: Vec<Vec<(usize, Piece)>> = Vec::new();
-    let mut skins = Vec::with_capacity(scene.items.len());
-    for (index, item) in scene.items.iter().enumerate() {
+impl<'a> Item<'a> {
+    fn new(
+        scene: &'a Scene,
+        index: usize,
+        first: usize,
+        window: PixelRect,
+    ) -> Result<Self, BadScene> {
+        let item = &scene.items[index];
         let carries = attributes::carries(scene, item, &Effects::PLANNED);
-        let of_pieces = Pieces::Listed(vec![(
-            0,
-            PiecePlan { interpolates: carries, perspective: true, depth: true },
-        )]);
-        let (clip, cull) = (Mode::Planned, Mode::Planned);
-        let plan = ItemPlan { clip, cull, carries, pieces: of_pieces };
-        let prepared = Prepared::new(scene, index, &plan, window, &mut counters)?;
-        parts.par_extend(item.mesh.triangles.par_chunks(PART).map(|triangles| {
-            let mut pieces = Vec::with_capacity(triangles.len());
-            let mut emit = |piece: &Piece, _: &mut Counters| pieces.push((index, *piece));
-            prepared.assemble_some(scene, triangles, &mut Counters::default(), &mut emit);
-            pieces
-        }));
-        skins.push(Skin {
+        let of_pieces = PiecePlan { interpolates: carries, perspective: true, depth: true };
+        let plan = ItemPlan {
+            clip: Mode::Planned,
+            cull: Mode::Planned,
+            carries,
+            pieces: Pieces::Listed(vec![(0, of_pieces)]),
+        };
+        let prepared = Prepared::without_points(scene, index, &plan, window);
+        let positions = item.mesh.positions.par_iter().with_min_len(SHARE);
+        let vertices: Vec<Vertex> = positions.map(|&p| vertex(&prepared, p)).collect();
+        if let Some(bad) = vertices.par_iter().with_min_len(SHARE).position_first(|v| v.bad) {
+            prepared.point(bad, item.mesh.positions[bad])?;
+        }
+        let skin = Skin {
             base: item.material.colour,
             colours: carries.has(Attributes::COLOUR),
             light: carries.has(Attributes::NORMAL).then_some(prepared.light),
             texture: prepared.texture,
-        });
+        };
+        Ok(Self { skin, prepared, vertices, first })
     }
-    let depth_test = scene.hidden == Hidden::DepthBuffer;
-    if !depth_test {
-        let distance = |piece: &Piece| piece.vertices.iter().map(|v| v.depth).sum::<f64>();
-        let mut pieces = parts.concat();
-        pieces.sort_by(|(_, a), (_, b)| distance(b).total_cmp(&distance(a)));
-        parts = vec![pieces];
+
+    #[inline]
+    fn corners(&self, [a, b, c]: &[Corner; 3]) -> [&Vertex; 3] {
+        let vertex = |corner: &Corner| &self.vertices[corner.position as usize];
+        [vertex(a), vertex(b), vertex(c)]
     }
-    Ok(Whole { skins, parts, window, depth_test })
+}
+
+#[inline]
+fn vertex(prepared: &Prepared<'_>, position: DVec3) -> Vertex {
+    let nowhere =
+        ScreenVertex { position: SubpixelPoint::new(0, 0), depth: 0.0, inv_w: 0.0, varying: () };
+    let Ok(point) = prepared.point(0, position) else {
+        return Vertex { place: nowhere, code: NOWHERE, bad: true };
+    };
+    match (point.code(), point.vertex()) {
+        (_, Some(place)) => Vertex { place, code: 0, bad: false },
+        (0, None) => Vertex { place: nowhere, code: NOWHERE, bad: false },
+        (code, None) => Vertex { place: nowhere, code, bad: false },
+    }
+}
+
+#[inline]
+fn outline([a, b, c]: &[ScreenVertex<()>; 3], number: u32) -> Outline {
+    let depths = [a.depth, b.depth, c.depth];
+    let nearest = below(a.depth.min(b.depth).min(c.depth));
+    Outline { corners: [a.position, b.position, c.position], depths, nearest, number }
+}
+
+/// The largest f32 that is not larger.
+#[inline]
+pub fn below(value: f64) -> f32 {
+    let near = value as f32;
+    if f64::from(near) > value { near.next_down() } else { near }
 }

@@ -136,6 +136,16 @@ impl Point {
     pub fn place(&self) -> Option<SubpixelPoint> {
         self.place.map(|vertex| vertex.position)
     }
+
+    /// The same as a vertex.
+    pub(crate) fn vertex(&self) -> Option<ScreenVertex<()>> {
+        self.place
+    }
+
+    /// The planes it lies outside of.
+    pub(crate) fn code(&self) -> Outcode {
+        self.code
+    }
 }
 
 /// Takes triangles from clip space to the window: clips, divides, snaps and culls them, into pieces

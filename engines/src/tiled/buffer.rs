@@ -1,5 +1,7 @@
 //! The colours and depths of one tile of a frame.
 
+use std::ops::Range;
+
 use crate::frame::Frame;
 use crate::grid::PixelRect;
 use crate::tile;
@@ -19,6 +21,8 @@ const STALE: u8 = 8;
 /// One sample of every pixel of a tile. Beyond its right and lower side there is room for the rows
 /// and cells that begin in it. Columns and rows count from its first pixel.
 pub(super) struct Plane {
+    /// Opaque; with one sample a pixel, until it is coloured, the number of what is seen there, below
+    /// every colour, and 0 for nothing.
     pub colours: Frame<u32>,
     /// Smaller is nearer; infinite where nothing has been drawn.
     pub depths: Frame<f32>,
@@ -28,6 +32,8 @@ pub(super) struct Plane {
 pub(super) struct Buffer {
     /// Its pixels in the window.
     pub rect: PixelRect,
+    /// Where nothing is.
+    background: u32,
     /// One for each sample.
     pub planes: Vec<Plane>,
     /// Of each block, no depth is farther.
@@ -47,6 +53,7 @@ impl Buffer {
         let plane = || Plane { colours: Frame::new(room, 0), depths: Frame::new(room, 0.0) };
         Self {
             rect: PixelRect::window(0, 0),
+            background: 0,
             planes: (0..samples).map(|_| plane()).collect(),
             farthest: [f32::INFINITY; 16],
             drawn: [0; 16],
@@ -55,38 +62,55 @@ impl Buffer {
 
     /// Begins a tile.
     pub fn clear(&mut self, rect: PixelRect, background: u32) {
-        self.rect = rect;
+        (self.rect, self.background) = (rect, background);
+        let empty = if self.planes.len() == 1 { 0 } else { background };
         for plane in &mut self.planes {
-            plane.colours.fill(background);
+            plane.colours.fill(empty);
             plane.depths.fill(f32::INFINITY);
         }
         (self.farthest, self.drawn) = ([f32::INFINITY; 16], [0; 16]);
     }
 
-    /// Whether nothing that is drawn into a rectangle of the window at a depth of `nearest` or
-    /// farther can be seen in this tile. If it can, it counts as drawn.
-    pub fn hides(&mut self, rect: PixelRect, nearest: f64) -> bool {
-        let rect = rect.intersect(&self.rect);
-        let block = |px: i32, first: i32| (px - first) / BLOCK_PX;
-        let (left, right) = (block(rect.x0, self.rect.x0), block(rect.x1 - 1, self.rect.x0));
-        let (top, bottom) = (block(rect.y0, self.rect.y0), block(rect.y1 - 1, self.rect.y0));
-        let mut hidden = true;
-        for row in top..=bottom {
-            for column in left..=right {
+    /// Whether nothing that is drawn into a rectangle of the window, no depth nearer than `nearest`, can
+    /// be seen in this tile.
+    #[inline]
+    pub fn hides(&mut self, rect: PixelRect, nearest: f32) -> bool {
+        let [columns, rows] = self.blocks(rect);
+        for row in rows {
+            for column in columns.clone() {
                 let at = (row * BLOCKS + column) as usize;
-                if self.drawn[at] >= STALE {
+                if self.farthest[at] > nearest && self.drawn[at] >= STALE {
                     self.farthest[at] = self.farthest_of(column, row);
                     self.drawn[at] = 0;
                 }
-                hidden &= f64::from(self.farthest[at]) <= nearest;
+                if self.farthest[at] > nearest {
+                    return false;
+                }
             }
         }
-        for row in top..=bottom {
-            for column in left..=right {
-                self.drawn[(row * BLOCKS + column) as usize] += u8::from(!hidden);
+        true
+    }
+
+    /// Takes note that a rectangle of the window is drawn into.
+    #[inline]
+    pub fn draws(&mut self, rect: PixelRect) {
+        let [columns, rows] = self.blocks(rect);
+        for row in rows {
+            for column in columns.clone() {
+                let drawn = &mut self.drawn[(row * BLOCKS + column) as usize];
+                *drawn = drawn.saturating_add(1);
             }
         }
-        hidden
+    }
+
+    /// The columns and rows of blocks that a rectangle of the window reaches into.
+    #[inline]
+    fn blocks(&self, rect: PixelRect) -> [Range<i32>; 2] {
+        let rect = rect.intersect(&self.rect);
+        let blocks = |from: i32, to: i32, first: i32| {
+            (from - first) / BLOCK_PX..(to - 1 - first) / BLOCK_PX + 1
+        };
+        [blocks(rect.x0, rect.x1, self.rect.x0), blocks(rect.y0, rect.y1, self.rect.y0)]
     }
 
     /// The farthest depth of a block.
@@ -112,8 +136,8 @@ impl Buffer {
         let width = out.len();
         let row = |sample: usize| &self.planes[sample].colours.row(y)[..width];
         if self.planes.len() == 1 {
-            for (pixel, colour) in out.iter_mut().zip(row(0)) {
-                *pixel = colour.to_le_bytes();
+            for (pixel, &colour) in out.iter_mut().zip(row(0)) {
+                *pixel = if colour == 0 { self.background } else { colour }.to_le_bytes();
             }
             return;
         }
@@ -161,12 +185,13 @@ mod tests {
                     farthest = row.iter().fold(farthest, |farthest, &d| farthest.max(d));
                 }
             }
-            if buffer.hides(drawn, depth.into()) {
+            if buffer.hides(drawn, depth) {
                 assert!(farthest <= depth, "{drawn:?} at {depth}: there is {farthest}");
                 hidden += 1;
                 continue;
             }
             seen += 1;
+            buffer.draws(drawn);
             for plane in &mut buffer.planes {
                 for y in inside.y0 - rect.y0..inside.y1 - rect.y0 {
                     for stored in &mut plane.depths.row_mut(y)[columns.clone()] {

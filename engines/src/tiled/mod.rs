@@ -1,7 +1,8 @@
 //! Frames in tiles: a scene drawn 64 x 64 pixels at a time, each tile by one thread, without locks.
 //!
-//! Pieces are put into the bins of the tiles they touch. Each tile owns its colours and depths, asks
-//! the tile engine for exact coverage, and computes values sixteen pixels at a time from planes in
+//! Pieces are put into the bins of the tiles they touch, in parts of the scene (`bins`), and each tile
+//! reads the parts in order. Each tile owns its colours and depths, asks the tile engine for exact
+//! coverage of what is not hidden, and computes values sixteen pixels at a time from planes in
 //! f32 whose errors are bounded (`planes`). What a pixel gets depends on the pieces before it in the
 //! scene alone, so neither threads nor instruction sets leave a trace: operations are those that
 //! IEEE 754 rounds in one way, and none is fused.
@@ -10,29 +11,34 @@
 //! their bound of the exact ones, and so two surfaces nearer to each other than that may come out in
 //! either order. It does not plan, and of antialiasing it has four samples a pixel, shaded once.
 
+mod bins;
 mod buffer;
 pub mod planes;
 mod samples;
 mod shade;
+mod stamp;
 
+use fearless_simd::prelude::*;
 use fearless_simd::{Simd, dispatch};
 use rayon::prelude::*;
 
-use crate::effects::piece::{BadScene, Piece};
-use crate::effects::whole::{self, Skin, Whole};
+use crate::effects::piece::BadScene;
+use crate::effects::whole::{Outline, Whole};
 use crate::frame::Frame;
-use crate::grid::{PixelRect, SUBPIXEL_BITS};
+use crate::grid::{PixelRect, SUBPIXELS};
 use crate::pipeline::multisample;
 use crate::pipeline::target::Colour;
 use crate::scene::Scene;
-use crate::tile::{self, CoverList, Tiles};
+use crate::tile::{self, CELL_PX, CoverList, Tiles};
 use crate::triangle::Corners;
 
+use bins::{Bins, Tiling, reached};
 use buffer::Buffer;
 pub use buffer::SIDE_PX;
-use planes::Planes;
+use planes::{Depth, Planes};
 use samples::{Masks, PLACES};
 use shade::Brush;
+use stamp::{CELL, PAIR, PAIR_PX, Pencil, Stamp, load_colours, store_colours};
 
 /// How many samples a pixel has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -71,134 +77,201 @@ pub fn render_in(
     samples: Samples,
 ) -> Result<Frame<Colour>, BadScene> {
     let window = PixelRect::window(width, height);
-    let whole = whole::assemble(scene, window)?;
-    let bins = Bins::new(&whole, window);
-    let background = u32::from_le_bytes(scene.background);
-    let affine = scene.affine;
-    let planes = if samples == Samples::One { 1 } else { multisample::SAMPLES.len() };
-    let mut picture = Frame::new(window, scene.background);
-    let pitch = picture.pitch();
-    // Each row of tiles is a part of the picture that nobody else has.
-    picture.tail_mut(0, 0).par_chunks_mut(pitch * SIDE_PX as usize).enumerate().for_each_init(
-        || Buffer::new(planes),
-        |buffer, (row, pixels)| {
-            for number in bins.row(row) {
-                let rect = bins.rect(number);
-                buffer.clear(rect, background);
-                let mut drawing = Drawing::new(&whole, &bins.lists[number], affine, buffer);
-                drawing.draw(engine, samples);
-                for (y, line) in pixels.chunks_mut(pitch).take(rect.height() as usize).enumerate() {
-                    buffer.resolve(y as i32, &mut line[rect.x0 as usize..rect.x1 as usize]);
-                }
-            }
-        },
+    let whole = Whole::new(scene, window)?;
+    // From the centre to the farthest sample, 6/16 px.
+    let (planes, reach) = match samples {
+        Samples::One => (1, 0),
+        Samples::Four => (multisample::SAMPLES.len(), 6 * SUBPIXELS / 16),
+    };
+    let bins = Bins::new(&whole, Tiling::new(window, reach));
+    // Zeros come from the machine when they are first touched, by the thread that draws there.
+    let mut picture = Frame::new(window, [0; 4]);
+    let canvases = canvases(&mut picture, &bins.tiles);
+    canvases.into_par_iter().with_max_len(TURN).for_each_init(
+        || Drawing::new(&whole, &bins, engine, planes),
+        |drawing, canvas| drawing.draw(canvas),
     );
     Ok(picture)
 }
 
-/// Which pieces touch which tile, in their order.
-struct Bins {
-    window: PixelRect,
-    /// Tiles in a row.
-    across: usize,
-    lists: Vec<Vec<Place>>,
+/// Tiles that a thread takes at a time: few, since some take much longer than others.
+const TURN: usize = 4;
+
+/// A tile's part of the picture, which nobody else has.
+struct Canvas<'a> {
+    tile: usize,
+    lines: Vec<&'a mut [Colour]>,
 }
 
-/// The part that a piece is in, and where there.
-type Place = [u32; 2];
-
-impl Bins {
-    fn new(whole: &Whole<'_>, window: PixelRect) -> Self {
-        let tiles = |side: u32| (side as i32 + SIDE_PX - 1) / SIDE_PX;
-        let (across, down) = (tiles(window.width()), tiles(window.height()));
-        let mut lists = vec![Vec::new(); (across * down) as usize];
-        for (part, pieces) in whole.parts.iter().enumerate() {
-            for (number, (_, piece)) in pieces.iter().enumerate() {
-                let touched = pixel_box(&piece.corners(), window);
-                if touched.is_empty() {
-                    continue;
-                }
-                for y in touched.y0 / SIDE_PX..=(touched.y1 - 1) / SIDE_PX {
-                    for x in touched.x0 / SIDE_PX..=(touched.x1 - 1) / SIDE_PX {
-                        lists[(y * across + x) as usize].push([part as u32, number as u32]);
-                    }
-                }
+/// A picture in tiles, row by row.
+fn canvases<'a>(picture: &'a mut Frame<Colour>, tiles: &Tiling) -> Vec<Canvas<'a>> {
+    let (pitch, height) = (picture.pitch(), picture.bounds().height() as usize);
+    let mut canvases: Vec<Canvas<'a>> = Vec::new();
+    if picture.bounds().is_empty() {
+        return canvases;
+    }
+    for (y, mut line) in picture.tail_mut(0, 0).chunks_mut(pitch).take(height).enumerate() {
+        let first = y / SIDE_PX as usize * tiles.across;
+        for tile in first..first + tiles.across {
+            if tile == canvases.len() {
+                canvases.push(Canvas { tile, lines: Vec::with_capacity(SIDE_PX as usize) });
             }
+            let (part, rest) = line.split_at_mut(tiles.rect(tile).width() as usize);
+            canvases[tile].lines.push(part);
+            line = rest;
         }
-        Self { window, across: across as usize, lists }
     }
-
-    /// The tiles of a row of them.
-    fn row(&self, row: usize) -> std::ops::Range<usize> {
-        row * self.across..((row + 1) * self.across).min(self.lists.len())
-    }
-
-    fn rect(&self, number: usize) -> PixelRect {
-        let (x, y) = ((number % self.across) as i32, (number / self.across) as i32);
-        let (x0, y0) = (x * SIDE_PX, y * SIDE_PX);
-        PixelRect { x0, y0, x1: x0 + SIDE_PX, y1: y0 + SIDE_PX }.intersect(&self.window)
-    }
+    canvases
 }
 
-/// The pixels of a window that a triangle may touch: those that its box reaches into.
-fn pixel_box([a, b, c]: &Corners, window: PixelRect) -> PixelRect {
-    let low = |a: i32, b: i32, c: i32| a.min(b).min(c) >> SUBPIXEL_BITS;
-    let high = |a: i32, b: i32, c: i32| (a.max(b).max(c) >> SUBPIXEL_BITS) + 1;
-    PixelRect {
-        x0: low(a.x, b.x, c.x),
-        y0: low(a.y, b.y, c.y),
-        x1: high(a.x, b.x, c.x),
-        y1: high(a.y, b.y, c.y),
-    }
-    .intersect(&window)
-}
+/// Pieces that are looked at together: the tile engine sets them up in one go.
+const BATCH: usize = 64;
 
 /// The pieces of a tile on their way into it.
 struct Drawing<'a> {
     whole: &'a Whole<'a>,
-    list: &'a [Place],
-    affine: bool,
-    buffer: &'a mut Buffer,
-    /// The piece that is drawn, as a place in the list.
+    bins: &'a Bins,
+    engine: Tiles,
+    buffer: Buffer,
+    /// Those that were not hidden when they were looked at.
+    batch: Vec<&'a Outline>,
+    /// Where these are asked for.
+    corners: Vec<Corners>,
+    /// The piece that is drawn, as a place in the batch.
     last: u32,
-    /// Nothing while it is hidden.
-    brush: Option<Brush<'a>>,
+    of_centres: Centres<'a>,
+    of_samples: OfSamples<'a>,
+}
+
+/// Of one sample a pixel: first numbers are drawn, then colours.
+struct Centres<'a> {
+    pencil: Pencil,
+    /// What was drawn, by their numbers less 1.
+    drawn: Vec<&'a Outline>,
+    stamps: Vec<Stamp>,
+}
+
+/// Of four samples a pixel: what the piece covers, and how it looks.
+struct OfSamples<'a> {
     masks: Masks,
+    /// Nothing before the first piece.
+    brush: Option<(Brush<'a>, Option<Depth>)>,
 }
 
 impl<'a> Drawing<'a> {
-    fn new(whole: &'a Whole<'a>, list: &'a [Place], affine: bool, buffer: &'a mut Buffer) -> Self {
-        Self { whole, list, affine, buffer, last: u32::MAX, brush: None, masks: Masks::new() }
+    fn new(whole: &'a Whole<'a>, bins: &'a Bins, engine: Tiles, planes: usize) -> Self {
+        let pencil = Pencil { number: 0, depth: None };
+        Self {
+            whole,
+            bins,
+            engine,
+            buffer: Buffer::new(planes),
+            batch: Vec::with_capacity(BATCH),
+            corners: Vec::with_capacity(BATCH * PLACES),
+            last: u32::MAX,
+            of_centres: Centres { pencil, drawn: Vec::new(), stamps: Vec::new() },
+            of_samples: OfSamples { masks: Masks::new(), brush: None },
+        }
     }
 
-    fn draw(&mut self, engine: Tiles, samples: Samples) {
-        let (whole, tile) = (self.whole, self.buffer.rect);
-        let corners = self.list.iter().map(|&place| whole.at(place).1.corners());
-        if samples == Samples::One {
-            let corners: Vec<Corners> = corners.collect();
+    /// Draws a tile.
+    fn draw(&mut self, canvas: Canvas<'_>) {
+        let (bins, engine) = (self.bins, self.engine);
+        self.buffer.clear(bins.tiles.rect(canvas.tile), self.whole.background());
+        for outline in bins.of(canvas.tile) {
+            let touched = bins.tiles.box_of(&outline.corners);
+            if self.whole.depth_test && self.buffer.hides(touched, outline.nearest) {
+                continue;
+            }
+            self.buffer.draws(touched);
+            self.batch.push(outline);
+            if self.batch.len() == BATCH {
+                self.draw_batch();
+            }
+        }
+        self.draw_batch();
+        dispatch!(engine.level(), simd => self.colour(simd));
+        for (y, line) in (0..).zip(canvas.lines) {
+            self.buffer.resolve(y, line);
+        }
+    }
+
+    fn draw_batch(&mut self) {
+        let (engine, tile) = (self.engine, self.buffer.rect);
+        let mut corners = std::mem::take(&mut self.corners);
+        let of_batch = self.batch.iter().map(|outline| outline.corners);
+        if self.buffer.planes.len() == 1 {
+            corners.extend(of_batch);
             engine.cover_list(&corners, tile, &mut |run| {
                 dispatch!(engine.level(), simd => self.centres(simd, run));
             });
         } else {
-            let corners: Vec<Corners> = corners.flat_map(samples::places).collect();
+            corners.extend(of_batch.flat_map(samples::places));
             engine.cover_list(&corners, tile, &mut |run| {
                 dispatch!(engine.level(), simd => self.samples(simd, run));
             });
             dispatch!(engine.level(), simd => self.finish(simd));
         }
+        corners.clear();
+        self.corners = corners;
+        self.batch.clear();
+        self.last = u32::MAX;
     }
 
-    /// Draws pieces at the centres of pixels.
+    /// Draws the numbers of pieces at the centres of pixels.
     #[inline(always)]
     fn centres<S: Simd>(&mut self, simd: S, run: &[tile::Piece]) {
         for covered in run {
             if covered.triangle() != self.last {
-                self.begin(covered.triangle());
+                self.last = covered.triangle();
+                let outline = self.batch[self.last as usize];
+                self.of_centres.drawn.push(outline);
+                let number = self.of_centres.drawn.len() as u32;
+                self.of_centres.pencil = Pencil { number, depth: self.depth(outline) };
             }
-            if let Some(brush) = &self.brush {
-                brush.piece(simd, covered, self.buffer);
+            let Centres { pencil, stamps, .. } = &mut self.of_centres;
+            pencil.piece(simd, covered, &mut self.buffer, stamps);
+        }
+    }
+
+    /// Colours what shows a number still.
+    #[inline(always)]
+    fn colour<S: Simd>(&mut self, simd: S) {
+        let stamps = std::mem::take(&mut self.of_centres.stamps);
+        let (mut last, mut brush) = (0, None);
+        let [x0, y0] = [self.buffer.rect.x0, self.buffer.rect.y0];
+        let pitch = self.buffer.planes[0].colours.pitch();
+        for &Stamp { number, left, top, is_cell } in &stamps {
+            let (left, top) = (i32::from(left), i32::from(top));
+            let run = self.buffer.planes[0].colours.tail_mut(left, top);
+            let before = if is_cell {
+                load_colours::<S, CELL_PX>(simd, run, pitch)
+            } else {
+                load_colours::<S, PAIR_PX>(simd, run, pitch)
+            };
+            let seen = before.simd_eq(number);
+            let mask = seen.to_bitmask() as u32;
+            if mask == 0 {
+                continue;
+            }
+            if number != last {
+                last = number;
+                let outline = self.of_centres.drawn[number as usize - 1];
+                brush = Some(self.brush(simd, outline));
+            }
+            let Some(brush) = &brush else { continue };
+            let place = if is_cell { &CELL } else { &PAIR };
+            let colours = brush.stamp(simd, place, [x0 + left, y0 + top], mask);
+            let run = self.buffer.planes[0].colours.tail_mut(left, top);
+            if is_cell {
+                store_colours::<S, CELL_PX>(seen.select(colours, before), run, pitch);
+            } else {
+                store_colours::<S, PAIR_PX>(seen.select(colours, before), run, pitch);
             }
         }
+        self.of_centres.stamps = stamps;
+        self.of_centres.stamps.clear();
+        self.of_centres.drawn.clear();
     }
 
     /// Collects pieces at the samples, and draws each triangle when the next one comes.
@@ -209,53 +282,39 @@ impl<'a> Drawing<'a> {
                 (covered.triangle() / PLACES as u32, covered.triangle() as usize % PLACES);
             if number != self.last {
                 self.finish(simd);
-                self.begin(number);
+                self.last = number;
+                let outline = self.batch[number as usize];
+                self.of_samples.brush = Some((self.brush(simd, outline), self.depth(outline)));
             }
-            if self.brush.is_some() {
-                self.masks.add(covered, place, self.buffer.rect);
-            }
+            self.of_samples.masks.add(covered, place, self.buffer.rect);
         }
     }
 
     /// Draws what has been collected.
     #[inline(always)]
     fn finish<S: Simd>(&mut self, simd: S) {
-        if let Some(brush) = &self.brush {
-            brush.samples(simd, &self.masks, self.buffer);
-            self.masks.clear();
+        let OfSamples { masks, brush } = &mut self.of_samples;
+        if let Some((brush, depth)) = brush.take() {
+            brush.samples(simd, depth.as_ref(), masks, &mut self.buffer);
+            masks.clear();
         }
     }
 
-    /// Prepares the next piece of the list.
+    /// The depth of a piece, where it is tested.
     #[inline(always)]
-    fn begin(&mut self, at: u32) {
-        self.last = at;
-        let (item, piece) = self.whole.at(self.list[at as usize]);
-        let skin = &self.whole.skins[*item];
-        let (window, depth_test) = (self.whole.window, self.whole.depth_test);
-        let planes = planes_of(piece, skin, window, self.affine, depth_test, self.buffer);
-        self.brush = planes.map(|planes| Brush { skin, planes, depth_test });
+    fn depth(&self, outline: &Outline) -> Option<Depth> {
+        let shown = reached(&outline.corners, self.whole.window);
+        self.whole.depth_test.then(|| Depth::of(&outline.corners, outline.depths, shown))
     }
-}
 
-/// The planes of a piece, from the first pixel of its box in the window: not of a tile, so that
-/// tiles leave no trace. Nothing where all of it lies behind what a tile shows already.
-#[inline(always)]
-fn planes_of(
-    piece: &Piece,
-    skin: &Skin<'_>,
-    window: PixelRect,
-    affine: bool,
-    depth_test: bool,
-    buffer: &mut Buffer,
-) -> Option<Planes<8>> {
-    let [a, b, c] = &piece.vertices;
-    let values = [&a.varying.0, &b.varying.0, &c.varying.0];
-    // Colour, normal, texture coordinates.
-    let used = if skin.colours { 0b0000_0111 } else { 0 }
-        | if skin.light.is_some() { 0b0011_1000 } else { 0 }
-        | if skin.texture.is_some() { 0b1100_0000 } else { 0 };
-    let shown = pixel_box(&piece.corners(), window);
-    let mut hidden = |nearest| depth_test && buffer.hides(shown, nearest);
-    Planes::of(piece, values, shown, affine, used, &mut hidden)
+    /// How a piece looks. Its planes begin at the first pixel of its box in the window, not of a tile,
+    /// so that tiles leave no trace.
+    #[inline(always)]
+    fn brush<S: Simd>(&self, simd: S, outline: &Outline) -> Brush<'a> {
+        let surface = self.whole.surface(outline);
+        let shown = reached(&outline.corners, self.whole.window);
+        let affine = self.whole.affine();
+        let planes = Planes::of(simd, &surface.corners, &surface.values, shown, affine);
+        Brush { skin: surface.skin, planes }
+    }
 }

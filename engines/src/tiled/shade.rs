@@ -1,140 +1,49 @@
-//! The pixels of a triangle in a tile: depth test, attributes and colour, sixteen at a time.
+//! The pixels of a triangle in a tile: attributes and colour, sixteen at a time; of four samples a
+//! pixel the depth test too.
 //!
 //! Sums and products are written out and never fused, so that every instruction set rounds alike.
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f32x4, f32x16, i32x16, mask32x16, u32x4, u32x16};
+use fearless_simd::{Simd, f32x16, i32x4, i32x16, mask32x16, u32x16};
 use glam::DVec2;
 
 use super::buffer::Buffer;
-use super::planes::{Plane, Planes};
+use super::planes::{Depth, Planes, along};
 use super::samples::{CENTRE, Masks};
+use super::stamp::{
+    PAIR, PAIR_PX, Place, beside, load_colours, load_depths, store_colours, store_depths,
+};
 use crate::effects::whole::Skin;
 use crate::pipeline::multisample::SAMPLES;
 use crate::pipeline::shade::Light;
 use crate::pipeline::texture::{Texture, Wrap};
-use crate::tile::{Block, Piece, SIDE_PX};
 
 type Lanes<S> = f32x16<S>;
-
-/// Columns of a row, from its first.
-const ROW: [f32; 16] = [0., 1., 2., 3., 4., 5., 6., 7., 8., 9., 10., 11., 12., 13., 14., 15.];
-/// Columns and rows of a cell.
-const CELL_X: [f32; 16] = [0., 1., 2., 3., 0., 1., 2., 3., 0., 1., 2., 3., 0., 1., 2., 3.];
-const CELL_Y: [f32; 16] = [0., 0., 0., 0., 1., 1., 1., 1., 2., 2., 2., 2., 3., 3., 3., 3.];
 
 /// How the pixels of a triangle are coloured.
 pub(super) struct Brush<'a> {
     pub skin: &'a Skin<'a>,
-    pub planes: Planes<8>,
-    pub depth_test: bool,
+    pub planes: Planes,
 }
 
 impl Brush<'_> {
-    /// Draws what is covered, one sample a pixel.
+    /// Colours of sixteen pixels as stamps have them, where `mask` has bits.
     #[inline(always)]
-    pub fn piece<S: Simd>(&self, simd: S, covered: &Piece, buffer: &mut Buffer) {
-        let (columns, rows) = match covered {
-            Piece::Cell(cell) => {
-                self.cell(simd, cell.x_px, cell.y_px, cell.pixels, buffer);
-                return;
-            }
-            Piece::Tile(tile) => (tile.x_px..tile.x_px + 1, tile.y_px..tile.y_px + SIDE_PX),
-            Piece::Block(Block { rect, .. }) => {
-                (rect.x0 & !(SIDE_PX - 1)..rect.x1, rect.y0..rect.y1)
-            }
-        };
-        for x_px in columns.step_by(SIDE_PX as usize) {
-            for y_px in rows.clone() {
-                let mask = match covered {
-                    Piece::Tile(tile) => tile.rows[(y_px - tile.y_px) as usize & 15],
-                    Piece::Block(Block { rect, .. }) => {
-                        let from = (rect.x0 - x_px).max(0);
-                        let to = (rect.x1 - x_px).min(SIDE_PX);
-                        ((1u32 << to) - (1 << from)) as u16
-                    }
-                    Piece::Cell(_) => 0,
-                };
-                if mask != 0 {
-                    self.row(simd, x_px, y_px, mask, buffer);
-                }
-            }
-        }
-    }
-
-    /// Pixels of 4 x 4, bit 4 j + i for (i, j).
-    #[inline(always)]
-    fn cell<S: Simd>(&self, simd: S, x_px: i32, y_px: i32, mask: u16, buffer: &mut Buffer) {
-        let (x, y) = self.beside_first(simd, &CELL_X, &CELL_Y, x_px, y_px);
-        let (left, top) = (x_px - buffer.rect.x0, y_px - buffer.rect.y0);
-        let plane = &mut buffer.planes[0];
-        let mut visible = mask32x16::from_bitmask(simd, u64::from(mask));
-        if self.depth_test {
-            let pitch = plane.depths.pitch();
-            let depths = plane.depths.tail_mut(left, top);
-            let depth = along(&self.planes.depth, x, y);
-            let before = f32x4::from_slice(simd, &depths[..4])
-                .combine(f32x4::from_slice(simd, &depths[pitch..][..4]))
-                .combine(
-                    f32x4::from_slice(simd, &depths[2 * pitch..][..4])
-                        .combine(f32x4::from_slice(simd, &depths[3 * pitch..][..4])),
-                );
-            visible &= depth.simd_lt(before);
-            let (above, below) = visible.select(depth, before).split();
-            let ((a, b), (c, d)) = (above.split(), below.split());
-            a.store_slice(&mut depths[..4]);
-            b.store_slice(&mut depths[pitch..][..4]);
-            c.store_slice(&mut depths[2 * pitch..][..4]);
-            d.store_slice(&mut depths[3 * pitch..][..4]);
-        }
-        let mask = visible.to_bitmask() as u32;
-        if mask == 0 {
-            return;
-        }
-        let colours = self.colours(simd, x, y, mask);
-        let pitch = plane.colours.pitch();
-        let runs = plane.colours.tail_mut(left, top);
-        let before = u32x4::from_slice(simd, &runs[..4])
-            .combine(u32x4::from_slice(simd, &runs[pitch..][..4]))
-            .combine(
-                u32x4::from_slice(simd, &runs[2 * pitch..][..4])
-                    .combine(u32x4::from_slice(simd, &runs[3 * pitch..][..4])),
-            );
-        let (above, below) = visible.select(colours, before).split();
-        let ((a, b), (c, d)) = (above.split(), below.split());
-        a.store_slice(&mut runs[..4]);
-        b.store_slice(&mut runs[pitch..][..4]);
-        c.store_slice(&mut runs[2 * pitch..][..4]);
-        d.store_slice(&mut runs[3 * pitch..][..4]);
-    }
-
-    /// Sixteen pixels of a row, those of `mask`.
-    #[inline(always)]
-    fn row<S: Simd>(&self, simd: S, x_px: i32, y_px: i32, mask: u16, buffer: &mut Buffer) {
-        let (x, y) = self.beside_first(simd, &ROW, &[0.0; 16], x_px, y_px);
-        let (left, top) = (x_px - buffer.rect.x0, y_px - buffer.rect.y0);
-        let plane = &mut buffer.planes[0];
-        let mut visible = mask32x16::from_bitmask(simd, u64::from(mask));
-        if self.depth_test {
-            let depths = &mut plane.depths.tail_mut(left, top)[..16];
-            let depth = along(&self.planes.depth, x, y);
-            let before = Lanes::from_slice(simd, depths);
-            visible &= depth.simd_lt(before);
-            visible.select(depth, before).store_slice(depths);
-        }
-        let mask = visible.to_bitmask() as u32;
-        if mask == 0 {
-            return;
-        }
-        let colours = self.colours(simd, x, y, mask);
-        let run = &mut plane.colours.tail_mut(left, top)[..16];
-        visible.select(colours, u32x16::from_slice(simd, run)).store_slice(run);
+    pub fn stamp<S: Simd>(&self, simd: S, place: &Place, at_px: [i32; 2], mask: u32) -> u32x16<S> {
+        let (x, y) = beside(simd, place, self.planes.first_px, at_px);
+        self.colours(simd, x, y, mask)
     }
 
     /// Draws four samples a pixel, shaded once: at the centre where it is covered, else at the first
     /// sample that is visible, so that no value is extrapolated.
     #[inline(always)]
-    pub fn samples<S: Simd>(&self, simd: S, masks: &Masks, buffer: &mut Buffer) {
+    pub fn samples<S: Simd>(
+        &self,
+        simd: S,
+        depth: Option<&Depth>,
+        masks: &Masks,
+        buffer: &mut Buffer,
+    ) {
         let mut columns = 0;
         for row in &masks.rows[masks.first.min(masks.end)..masks.end] {
             columns |= row[0] | row[1] | row[2] | row[3];
@@ -143,35 +52,34 @@ impl Brush<'_> {
             return;
         }
         let (first, end) = (columns.trailing_zeros(), 64 - columns.leading_zeros());
-        for top in masks.first..masks.end {
-            let row = &masks.rows[top];
-            for left in (first..end).step_by(SIDE_PX as usize) {
-                let part = [
-                    (row[0] >> left) as u16,
-                    (row[1] >> left) as u16,
-                    (row[2] >> left) as u16,
-                    (row[3] >> left) as u16,
-                    (row[CENTRE] >> left) as u16,
-                ];
-                if part[0] | part[1] | part[2] | part[3] != 0 {
-                    self.sample_row(simd, left as i32, top as i32, part, buffer);
+        // From an even row, so that the last one has a row below it in the masks.
+        for top in (masks.first & !1..masks.end).step_by(2) {
+            let [above, below] = [&masks.rows[top], &masks.rows[top + 1]];
+            for left in (first..end).step_by(PAIR_PX as usize) {
+                let pair = |place: usize| {
+                    let run = |row: u64| (row >> left) as u32 & 0xff;
+                    run(above[place]) | run(below[place]) << PAIR_PX
+                };
+                let pairs = [pair(0), pair(1), pair(2), pair(3), pair(CENTRE)];
+                if pairs[0] | pairs[1] | pairs[2] | pairs[3] != 0 {
+                    self.sample_pair(simd, depth, [left as i32, top as i32], pairs, buffer);
                 }
             }
         }
     }
 
-    /// Sixteen pixels of a row; columns and rows of the tile.
+    /// A pair; columns and rows of the tile.
     #[inline(always)]
-    fn sample_row<S: Simd>(
+    fn sample_pair<S: Simd>(
         &self,
         simd: S,
-        left: i32,
-        top: i32,
-        masks: [u16; CENTRE + 1],
+        depth: Option<&Depth>,
+        [left, top]: [i32; 2],
+        masks: [u32; CENTRE + 1],
         buffer: &mut Buffer,
     ) {
-        let (x_px, y_px) = (left + buffer.rect.x0, top + buffer.rect.y0);
-        let (x, y) = self.beside_first(simd, &ROW, &[0.0; 16], x_px, y_px);
+        let at_px = [left + buffer.rect.x0, top + buffer.rect.y0];
+        let (x, y) = beside(simd, &PAIR, self.planes.first_px, at_px);
         let mut visible = [mask32x16::from_bitmask(simd, 0); CENTRE];
         let zero = Lanes::splat(simd, 0.0);
         let (mut at_x, mut at_y) = (zero, zero);
@@ -180,12 +88,14 @@ impl Brush<'_> {
         for sample in (0..CENTRE).rev() {
             let mut seen = mask32x16::from_bitmask(simd, u64::from(masks[sample]));
             let [right, down] = from_centre(SAMPLES[sample]);
-            if self.depth_test {
-                let depths = &mut buffer.planes[sample].depths.tail_mut(left, top)[..16];
-                let depth = along(&self.planes.depth, x + right, y + down);
-                let before = Lanes::from_slice(simd, depths);
+            if let Some(depth) = depth {
+                let plane = &mut buffer.planes[sample].depths;
+                let pitch = plane.pitch();
+                let depths = plane.tail_mut(left, top);
+                let before = load_depths::<S, PAIR_PX>(simd, depths, pitch);
+                let depth = depth.at(x + right, y + down);
                 seen &= depth.simd_lt(before);
-                seen.select(depth, before).store_slice(depths);
+                store_depths::<S, PAIR_PX>(seen.select(depth, before), depths, pitch);
             }
             at_x = seen.select(Lanes::splat(simd, right), at_x);
             at_y = seen.select(Lanes::splat(simd, down), at_y);
@@ -200,52 +110,36 @@ impl Brush<'_> {
         let (at_x, at_y) = (centre.select(zero, at_x), centre.select(zero, at_y));
         let colours = self.colours(simd, x + at_x, y + at_y, mask);
         for (plane, visible) in buffer.planes.iter_mut().zip(visible).take(CENTRE) {
-            let run = &mut plane.colours.tail_mut(left, top)[..16];
-            let before = u32x16::from_slice(simd, run);
-            visible.select(colours, before).store_slice(run);
+            let pitch = plane.colours.pitch();
+            let run = plane.colours.tail_mut(left, top);
+            let before = load_colours::<S, PAIR_PX>(simd, run, pitch);
+            store_colours::<S, PAIR_PX>(visible.select(colours, before), run, pitch);
         }
     }
 
-    /// Pixels as planes count them.
-    #[inline(always)]
-    fn beside_first<S: Simd>(
-        &self,
-        simd: S,
-        columns: &[f32; 16],
-        rows: &[f32; 16],
-        x_px: i32,
-        y_px: i32,
-    ) -> (Lanes<S>, Lanes<S>) {
-        let [x0, y0] = self.planes.first_px;
-        let x = Lanes::load_array_ref(simd, columns) + (x_px - x0) as f32;
-        (x, Lanes::load_array_ref(simd, rows) + (y_px - y0) as f32)
-    }
-
-    /// base x colour of the corners x texel x light, as bytes, where `mask` has bits.
+    /// base x colour of the corners x texel x light, in steps of 255, where `mask` has bits. A normal is
+    /// brought back to length 1, so that it is not divided by 1/w before.
     #[inline(always)]
     fn colours<S: Simd>(&self, simd: S, x: Lanes<S>, y: Lanes<S>, mask: u32) -> u32x16<S> {
         let Skin { base, colours, light, texture } = self.skin;
         let w = Lanes::splat(simd, 1.0) / along(&self.planes.inv_w, x, y);
-        let mut r = Lanes::splat(simd, base.x as f32);
-        let mut g = Lanes::splat(simd, base.y as f32);
-        let mut b = Lanes::splat(simd, base.z as f32);
-        let over_w = &self.planes.over_w;
+        let mut r = Lanes::splat(simd, (base.x * 255.0) as f32);
+        let mut g = Lanes::splat(simd, (base.y * 255.0) as f32);
+        let mut b = Lanes::splat(simd, (base.z * 255.0) as f32);
+        let over_w = |i: usize| self.planes.over_w(i);
         if *colours {
-            r *= along(&over_w[0], x, y) * w;
-            g *= along(&over_w[1], x, y) * w;
-            b *= along(&over_w[2], x, y) * w;
+            r *= along(&over_w(0), x, y) * w;
+            g *= along(&over_w(1), x, y) * w;
+            b *= along(&over_w(2), x, y) * w;
         }
         if let Some(texture) = texture {
-            let (u, v) = (along(&over_w[6], x, y) * w, along(&over_w[7], x, y) * w);
+            let (u, v) = (along(&over_w(6), x, y) * w, along(&over_w(7), x, y) * w);
             let texel = texels(simd, texture, u, v, mask);
             (r, g, b) = (r * texel[0], g * texel[1], b * texel[2]);
         }
         if let Some(light) = light {
-            let normal = [
-                along(&over_w[3], x, y) * w,
-                along(&over_w[4], x, y) * w,
-                along(&over_w[5], x, y) * w,
-            ];
+            let normal =
+                [along(&over_w(3), x, y), along(&over_w(4), x, y), along(&over_w(5), x, y)];
             let intensity = intensity(simd, light, normal);
             (r, g, b) = (r * intensity, g * intensity, b * intensity);
         }
@@ -257,12 +151,6 @@ impl Brush<'_> {
 /// From the centre of a pixel to a sample, in pixels.
 fn from_centre((x_16th, y_16th): (i32, i32)) -> [f32; 2] {
     [(x_16th - 8) as f32 / 16.0, (y_16th - 8) as f32 / 16.0]
-}
-
-/// A plane at (x, y), as [`Plane::at`] has it.
-#[inline(always)]
-fn along<S: Simd>(plane: &Plane, x: Lanes<S>, y: Lanes<S>) -> Lanes<S> {
-    x * plane.right + (y * plane.down + plane.start)
 }
 
 /// The texels at (u, v), where `mask` has bits.
@@ -306,12 +194,15 @@ fn bytes_at<S: Simd>(
     let column = nearest(u, width as i32, texture.wrap);
     let row = nearest(Lanes::splat(simd, 1.0) - v, height as i32, texture.wrap);
     let at = (row * (width as i32) + column).to_array();
-    let mut found = [0; 16];
-    for (found, at) in found.iter_mut().zip(at) {
+    // Four by four: of sixteen numbers one by one the compiler makes sixteen masks.
+    let four = |i: usize| {
         // Masks and limits leave nothing else.
-        *found = bytes.get(at as usize).map_or(0, |&texel| texel as i32);
-    }
-    let found = i32x16::load_array_ref(simd, &found);
+        let texel = |at: i32| bytes.get(at as usize).map_or(0, |&texel| texel as i32);
+        [texel(at[i]), texel(at[i + 1]), texel(at[i + 2]), texel(at[i + 3])]
+    };
+    let (a, b) = (i32x4::load_array(simd, four(0)), i32x4::load_array(simd, four(4)));
+    let (c, d) = (i32x4::load_array(simd, four(8)), i32x4::load_array(simd, four(12)));
+    let found = a.combine(b).combine(c.combine(d));
     let (r, g, b) = (found & 0xff, (found >> 8) & 0xff, found >> 16);
     let step = 1.0 / 255.0;
     let (r, g, b): (Lanes<S>, Lanes<S>, Lanes<S>) = (r.to_float(), g.to_float(), b.to_float());
@@ -342,8 +233,8 @@ fn intensity<S: Simd>(simd: S, light: &Light, [x, y, z]: [Lanes<S>; 3]) -> Lanes
     lit.max(zero) * light.diffuse as f32 + light.ambient as f32
 }
 
-/// The nearest of 256 steps; beyond [0, 1] the nearer end.
+/// The nearest of 256 steps; beyond them the nearer end.
 #[inline(always)]
 fn byte<S: Simd>(c: Lanes<S>) -> u32x16<S> {
-    (c * 255.0 + 0.5).max(0.0).min(255.0).to_int()
+    (c + 0.5).max(0.0).min(255.0).to_int()
 }

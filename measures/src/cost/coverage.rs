@@ -7,6 +7,7 @@
 use std::cell::RefCell;
 
 use super::guest::{self, Guest};
+use super::tiles::Lists;
 use super::{Board, Column, Ladder, Measure, Options, Prepared, Rung, finish};
 use crate::contract::{Rasterize, RasterizeExact};
 use crate::cost::scene::{Scene, Size, W_PREFIX, scenes};
@@ -99,6 +100,25 @@ impl<R: Cover + Sync> AnyRung for R {
     }
 }
 
+impl AnyRung for Lists {
+    fn accepts(&self, corners: &FreeCorners, bounds: PixelRect) -> Result<(), String> {
+        Cover::accepts(&self.snapped(), corners, bounds)
+    }
+
+    fn spans(
+        &self,
+        corners: &FreeCorners,
+        bounds: PixelRect,
+        spans: &mut Vec<Span>,
+    ) -> Option<Work> {
+        self.snapped().cover(corners, bounds, |span| spans.push(span))
+    }
+
+    fn paint(&self, triangles: &[FreeCorners], bounds: PixelRect, target: &mut Frame<u32>) {
+        Lists::paint(*self, triangles, bounds, target);
+    }
+}
+
 /// A rung of coverage, ready to run: it lists the pixels of a triangle, to be judged, or paints them,
 /// to be timed.
 pub struct Contender {
@@ -187,6 +207,7 @@ fn edge_functions() -> Vec<Contender> {
             &[SNAPPED],
             Snapped(EdgeFunction),
         ),
+        lists(),
         contender(
             "adaptive",
             "the engine edge-function-exact",
@@ -195,6 +216,12 @@ fn edge_functions() -> Vec<Contender> {
         ),
         contender("robust", "orient2d at every sample", &[GIVEN], Robust),
     ]
+}
+
+fn lists() -> Contender {
+    let mut rung = Rung::new("tiles i32 x 16", "", &[SNAPPED]);
+    rung.about = Lists::default().about().into();
+    Contender { rung, body: Box::new(Lists::default()) }
 }
 
 /// The pixels of one scene by both truths.

@@ -6,6 +6,7 @@
 //! machine disturbs all rungs alike. It draws nothing and prints nothing.
 
 mod antialiasing;
+mod bounds;
 mod clock;
 mod coverage;
 mod depth;
@@ -14,6 +15,7 @@ mod interpolation;
 mod lines;
 mod recorded;
 pub mod scene;
+mod tiles;
 mod verdict;
 
 use std::borrow::Cow;
@@ -21,10 +23,10 @@ use std::borrow::Cow;
 use serde::{Deserialize, Serialize};
 
 use crate::ladder::Work;
+pub use bounds::Bound;
 pub use clock::{Spread, Time};
 pub use coverage::{Contender, contenders};
 pub use guest::Guest;
-pub use interpolation::Bound;
 pub use recorded::Recorded;
 pub use verdict::{Best, Dominated, Price, Priced, prices};
 

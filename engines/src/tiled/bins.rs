@@ -1,0 +1,142 @@
+//! Which pieces touch which tile, in parts of a scene, one after the other.
+
+use rayon::prelude::*;
+
+use super::buffer::SIDE_PX;
+use crate::effects::whole::{Outline, Whole};
+use crate::grid::{HALF_PIXEL, PixelRect, SUBPIXEL_BITS};
+use crate::triangle::Corners;
+
+/// Pieces of a part, at least: enough to be worth a task.
+const PART: usize = 2048;
+
+/// The pieces of a scene, for each tile.
+pub(super) struct Bins {
+    pub tiles: Tiling,
+    parts: Vec<Part>,
+}
+
+/// Some pieces in a row.
+struct Part {
+    outlines: Vec<Outline>,
+    /// Numbers of outlines, tile by tile, in their order.
+    touching: Vec<u32>,
+    /// Where those of each tile begin, and where the last ones end.
+    starts: Vec<u32>,
+}
+
+impl Bins {
+    /// Of every piece, on the threads of the pool that it is called in. With samples beside the
+    /// centres pieces reach farther.
+    pub fn new(whole: &Whole<'_>, tiles: Tiling) -> Self {
+        // Each part has a list of tiles, so it has as many pieces at least.
+        let most = PART.max(tiles.count());
+        let parts = if whole.depth_test {
+            let runs = whole.runs(most).into_par_iter();
+            runs.map(|run| Part::new(whole.outlines(&run), &tiles)).collect()
+        } else {
+            let outlines = whole.farthest_first();
+            outlines.par_chunks(most).map(|part| Part::new(part.to_vec(), &tiles)).collect()
+        };
+        Self { tiles, parts }
+    }
+
+    /// The pieces that touch a tile, in drawing order.
+    pub fn of(&self, tile: usize) -> impl Iterator<Item = &Outline> {
+        self.parts.iter().flat_map(move |part| {
+            let range = part.starts[tile] as usize..part.starts[tile + 1] as usize;
+            part.touching[range].iter().map(|&number| &part.outlines[number as usize])
+        })
+    }
+}
+
+impl Part {
+    fn new(outlines: Vec<Outline>, tiles: &Tiling) -> Self {
+        let mut starts = vec![0; tiles.count() + 1];
+        for outline in &outlines {
+            tiles.touched(outline, &mut |tile| starts[tile + 1] += 1);
+        }
+        let mut sum = 0;
+        for start in &mut starts {
+            sum += *start;
+            *start = sum;
+        }
+        let mut touching = vec![0; sum as usize];
+        let mut next = starts.clone();
+        for (number, outline) in (0..).zip(&outlines) {
+            tiles.touched(outline, &mut |tile| {
+                touching[next[tile] as usize] = number;
+                next[tile] += 1;
+            });
+        }
+        Self { outlines, touching, starts }
+    }
+}
+
+/// A window in tiles.
+pub(super) struct Tiling {
+    window: PixelRect,
+    /// Tiles in a row.
+    pub across: usize,
+    down: usize,
+    /// From the centre of a pixel to the farthest place that is asked for, in subpixels.
+    reach: i32,
+}
+
+impl Tiling {
+    pub fn new(window: PixelRect, reach: i32) -> Self {
+        let tiles = |side: u32| side.div_ceil(SIDE_PX as u32) as usize;
+        Self { window, across: tiles(window.width()), down: tiles(window.height()), reach }
+    }
+
+    fn count(&self) -> usize {
+        self.across * self.down
+    }
+
+    /// The pixels of tile `number`, row by row.
+    pub fn rect(&self, number: usize) -> PixelRect {
+        let (x, y) = ((number % self.across) as i32, (number / self.across) as i32);
+        let (x0, y0) = (x * SIDE_PX, y * SIDE_PX);
+        PixelRect { x0, y0, x1: x0 + SIDE_PX, y1: y0 + SIDE_PX }.intersect(&self.window)
+    }
+
+    /// The numbers of the tiles that a piece may touch.
+    #[inline]
+    fn touched(&self, outline: &Outline, take: &mut impl FnMut(usize)) {
+        let touched = self.box_of(&outline.corners);
+        if touched.is_empty() {
+            return;
+        }
+        for y in touched.y0 / SIDE_PX..=(touched.y1 - 1) / SIDE_PX {
+            for x in touched.x0 / SIDE_PX..=(touched.x1 - 1) / SIDE_PX {
+                take(y as usize * self.across + x as usize);
+            }
+        }
+    }
+
+    /// The pixels of which a triangle may cover a place that is asked for.
+    #[inline]
+    pub fn box_of(&self, [a, b, c]: &Corners) -> PixelRect {
+        let (x0, x1) = (a.x.min(b.x).min(c.x), a.x.max(b.x).max(c.x));
+        let (y0, y1) = (a.y.min(b.y).min(c.y), a.y.max(b.y).max(c.y));
+        // The first whose last place lies at `low` or after it, and past the last whose first place
+        // lies before `high` or at it. Pieces lie in the window, so nothing leaves i32.
+        let first = |low: i32| (low - self.reach + (HALF_PIXEL - 1)) >> SUBPIXEL_BITS;
+        let end = |high: i32| (high + self.reach + HALF_PIXEL) >> SUBPIXEL_BITS;
+        PixelRect { x0: first(x0), y0: first(y0), x1: end(x1), y1: end(y1) }.intersect(&self.window)
+    }
+}
+
+/// The pixels of a window that a triangle reaches into.
+#[inline]
+pub(super) fn reached([a, b, c]: &Corners, window: PixelRect) -> PixelRect {
+    let low = |a: i32, b: i32, c: i32| a.min(b).min(c) >> SUBPIXEL_BITS;
+    let high = |a: i32, b: i32, c: i32| (a.max(b).max(c) >> SUBPIXEL_BITS) + 1;
+    PixelRect {
+        x0: low(a.x, b.x, c.x),
+        y0: low(a.y, b.y, c.y),
+        x1: high(a.x, b.x, c.x),
+        y1: high(a.y, b.y, c.y),
+    }
+    .intersect(&window)
+}
