@@ -66,8 +66,8 @@ pub mod course;
 pub mod quiz;
 #[doc(hidden)]
 pub use rasterproof_engines::{
-    angle, digest, effects, exhaust, ladder, lineup, mutant, paint, pipeline, scene, specimen,
-    tile, tiled,
+    angle, digest, effects, exhaust, ladder, lineup, mutant, next, paint, pipeline, scene,
+    specimen, tile, tiled,
 };
 #[doc(hidden)]
 pub use rasterproof_judges::{convention, invariant, judge};

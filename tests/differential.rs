@@ -4,6 +4,7 @@
 //! Where it disagrees, `cargo test` ends here; so all that is kept as a snapshot is then drawn too, each
 //! changed one is stored with its picture, and the last lines say where to look.
 
+use std::collections::BTreeSet;
 use std::path::Path;
 use std::process::{Command, ExitCode};
 use std::sync::{Arc, Mutex};
@@ -11,10 +12,10 @@ use std::sync::{Arc, Mutex};
 use libtest_mimic::{Arguments, Failed, Trial};
 use rasterproof::hazard;
 use rasterproof::lineup::{Engine, LineEngine};
+use rasterproof::next;
 use rasterproof::report::summary::chapter;
 use rasterproof::report::table;
 use rasterproof::verify::{FamilyReport, Options, Verdict, judge_lineup, tolerance};
-use rasterproof_engines::next;
 
 /// Cases of each family: enough that every planted fault of `tests/it/mutants.rs` shows.
 const CASES: u64 = 1500;
@@ -22,11 +23,12 @@ const CASES: u64 = 1500;
 fn main() -> ExitCode {
     let arguments = Arguments::from_args();
     let reports: Arc<Mutex<Vec<FamilyReport>>> = Arc::default();
+    let chapters: Arc<Mutex<BTreeSet<&'static str>>> = Arc::default();
     let trials = hazard::families()
         .map(|family| {
-            let reports = Arc::clone(&reports);
+            let (reports, chapters) = (Arc::clone(&reports), Arc::clone(&chapters));
             Trial::test(format!("differential::{}", family.name), move || {
-                judge(family.name, &reports)
+                judge(family.name, &reports, &chapters)
             })
         })
         .collect();
@@ -47,6 +49,9 @@ fn main() -> ExitCode {
             show_snapshots();
         }
         println!("\nWhat to do now:\n{}", next::NEXT);
+        let chapters: Vec<_> =
+            chapters.lock().expect("no trial holds the lock now").iter().copied().collect();
+        println!("what is wrong is explained in: {}", chapters.join(", "));
         println!("all other tests: cargo test --no-fail-fast");
     }
     if conclusion.has_failed() || !quotas_met { ExitCode::FAILURE } else { ExitCode::SUCCESS }
@@ -96,7 +101,11 @@ fn options(family: &str) -> Options {
     Options { cases: CASES, families: vec![family.to_owned()], ..Options::default() }
 }
 
-fn judge(family: &str, reports: &Mutex<Vec<FamilyReport>>) -> Result<(), Failed> {
+fn judge(
+    family: &str,
+    reports: &Mutex<Vec<FamilyReport>>,
+    chapters: &Mutex<BTreeSet<&'static str>>,
+) -> Result<(), Failed> {
     let engines =
         [(Engine::Scanline, tolerance::SCANLINE), (Engine::EdgeFunction, tolerance::EDGE_FUNCTION)];
     let verdict = judge_lineup(&engines, &LineEngine::JUDGED, &options(family), &|_| ());
@@ -107,6 +116,8 @@ fn judge(family: &str, reports: &Mutex<Vec<FamilyReport>>) -> Result<(), Failed>
     }
     if !verdict.agrees() {
         let seed = verdict.options.seed;
+        let explained = verdict.failures.iter().map(chapter);
+        chapters.lock().map_err(|_| "another trial failed")?.extend(explained);
         let told = verdict.failures.iter().map(|failure| {
             let (family, index, chapter) = (&failure.family, failure.index, chapter(failure));
             format!(

@@ -190,7 +190,7 @@ pub fn run(words: impl IntoIterator<Item = String>, streams: &mut Streams<'_>) -
     let mut for_machines = false;
     let words = words.into_iter().map(|w| {
         ours &= w != "--";
-        for_machines |= ours && (w == "engine" || w == "--json" || w.starts_with("--format"));
+        for_machines |= ours && (w == "--json" || w.starts_with("--format"));
         if ours && is_coordinate(&w) { format!(" {w}") } else { w }
     });
     let arguments = match Arguments::try_parse_from(words) {
@@ -207,6 +207,16 @@ pub fn run(words: impl IntoIterator<Item = String>, streams: &mut Streams<'_>) -
     quiet_engines();
     let Streams { progress, colour, columns, .. } = *streams;
     let mut folded;
+    let for_machines = for_machines
+        || matches!(
+            arguments.command,
+            Some(
+                Command::Engine { .. }
+                    | Command::Exhaust(_)
+                    | Command::Merge(_)
+                    | Command::Digest(_)
+            )
+        );
     let output: &mut dyn Write = match for_machines {
         true => streams.output,
         false => {

@@ -4,15 +4,17 @@ use std::process::{Command, Output};
 
 use rasterproof::mutant::exact::ExactMutant;
 
-fn run(words: &[&str]) -> Output {
+fn command(words: &[&str]) -> Command {
     let folder = std::env::temp_dir().join(format!("rasterproof-commands-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
     // Pictures go to the working folder's target/.
-    Command::new(env!("CARGO_BIN_EXE_rasterproof"))
-        .args(words)
-        .current_dir(folder)
-        .output()
-        .unwrap()
+    let mut command = Command::new(env!("CARGO_BIN_EXE_rasterproof"));
+    command.args(words).current_dir(folder).env_remove("COLUMNS");
+    command
+}
+
+fn run(words: &[&str]) -> Output {
+    command(words).output().unwrap()
 }
 
 fn text(bytes: &[u8]) -> String {
@@ -36,6 +38,30 @@ fn verify_agrees_and_says_how_to_repeat() {
         "{out}"
     );
     assert_eq!(errors, "", "no progress bar in a pipe");
+}
+
+/// Commands stay whole, and so do the tables of what is wrong; all else fits.
+#[test]
+fn text_fits_a_narrow_terminal() {
+    let engine =
+        ["judge", "--cases", "20", "--", env!("CARGO_BIN_EXE_rasterproof"), "engine", "scanline"];
+    for words in [
+        &["--cases", "20"][..],
+        &["list"],
+        &["course", "list"],
+        &["inspect", "T2", "--pixel", "3,3"],
+        &["inspect", "0.1,0.2", "9.7,0.5", "5.5,5.5", "--pixel", "3,3"],
+        &["inspect", "--line", "0,0", "40,3"],
+        &["render", "cube", "--size", "32x32"],
+        &engine,
+    ] {
+        let output = command(words).env("COLUMNS", "60").output().unwrap();
+        let out = text(&output.stdout);
+        assert_eq!(output.status.code(), Some(0), "{words:?}: {out}");
+        let fits = |line: &&str| line.chars().count() <= 60 || line.contains("rasterproof ");
+        let wide: Vec<_> = out.lines().filter(|line| !fits(line)).collect();
+        assert!(wide.is_empty() && out.lines().count() > 3, "{words:?}: {wide:#?}");
+    }
 }
 
 #[test]
@@ -100,6 +126,12 @@ fn bad_input_is_refused_with_a_reason() {
     for (words, reason) in [
         (&["--cases", "0"][..], "expected a whole number from 1"),
         (&["--cases", "many"], "expected a whole number from 1"),
+        (&["--seed", "-1"], "expected a whole number from 0"),
+        (&["--case", "1e3"], "expected a whole number from 0"),
+        (&["--seconds", "-1"], "expected a number above 0"),
+        (&["judge", "--cases", "-1", "--", "x"], "expected a whole number from 1"),
+        (&["inspect", "1,2"], "a point alone"),
+        (&["inspect", "sliver"], "sliver#0"),
         (&["--seconds", "nan"], "--seconds NaN"),
         (&["--shard", "3/3"], "I from 0 to N - 1"),
         (&["--engine", "dda", "--family", "uniform"], "no case was judged"),

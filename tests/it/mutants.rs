@@ -9,6 +9,7 @@ use rasterproof::mutant::{LineMutant, TriangleMutant};
 use rasterproof::report::{counts, json, table};
 use rasterproof::triangle::{Corners, Fragment, ScreenTriangle, Span, Varying};
 use rasterproof::verify::exact::ExactVerdict;
+use rasterproof::verify::shrink::has_plain_values;
 use rasterproof::verify::{Options, Tally, Verdict, caught, judge_lineup, judge_values, tolerance};
 
 /// As many cases as `tests/differential.rs` judges, or fewer.
@@ -195,6 +196,23 @@ fn stray_fragments_are_counted_apart() {
     assert_eq!((sums.fragments.missing, sums.fragments.total()), (drawn, drawn));
     let what = &verdict.failures[0].what;
     assert_eq!(what, "its fragments against its own coverage: 1 missing");
+}
+
+/// What is wrong with values is wrong with the plain ones, too, so that the corners alone repeat it.
+#[test]
+fn wrong_values_shrink_to_plain_ones() {
+    let affine = [(Engine::Mutant(TriangleMutant::AffineAttributes), tolerance::SCANLINE)];
+    let clipped = [LineEngine::Mutant(LineMutant::WeightsFromClip)];
+    for verdict in [
+        judge_lineup(&affine, &[], &options(), &|_| ()),
+        judge_lineup(&[], &clipped, &options(), &|_| ()),
+    ] {
+        assert!(verdict.failures.len() > 3, "{}", verdict.failures.len());
+        for failure in &verdict.failures {
+            assert!(has_plain_values(&failure.case), "{failure}");
+            assert!(failure.what.contains("an attribute off by"), "{failure}");
+        }
+    }
 }
 
 /// The smallest failure of every family that fails, smallest first, and the first of all on halves.

@@ -21,6 +21,7 @@ use rasterproof::hazard::named::{Input, NamedCase};
 use rasterproof::hazard::{Case, Shape};
 use rasterproof::lineup::{Engine, LineEngine};
 use rasterproof::mutant::TriangleMutant;
+use rasterproof::next::NEXT;
 use rasterproof::raster::edge_function::EdgeFunction;
 use rasterproof::raster::scanline::Scanline;
 use rasterproof::report::panels::{self, Sheet};
@@ -31,7 +32,6 @@ use rasterproof::verify::{
     Tally, engine_coverage, judge_case, line_coverage, oracle_coverage, oracle_pixels_each,
     tolerance,
 };
-use rasterproof_engines::next::NEXT;
 
 /// Largest sheet of a case that is kept, and picture of anything else.
 const MOST_BYTES: usize = 28 * 1024;

@@ -42,6 +42,7 @@ pub fn text(
     out.push('\n');
     scores(&mut out, verdict);
     if with_table || !agrees {
+        out.push('\n');
         table(&mut out, verdict);
     }
     incidents(&mut out, verdict, repeat);
@@ -143,8 +144,7 @@ fn scores(out: &mut String, verdict: &Verdict) {
         let _ = writeln!(out, "{first:<21}{text}");
     };
     let Some(recognised) = &verdict.recognised else {
-        let _ = writeln!(out, "by its convention:   the same: no other one was recognised\n");
-        return;
+        return line(out, "by its convention:", "the same: no other one was recognised");
     };
     match verdict.by_convention() {
         Some(found) => line(out, "by its convention:", &score(found)),
@@ -154,7 +154,6 @@ fn scores(out: &mut String, verdict: &Verdict) {
     if !recognised.declare.is_empty() {
         line(out, "", &format!("to be judged by it: --declare '{}'", recognised.declare));
     }
-    out.push('\n');
 }
 
 fn table(out: &mut String, verdict: &Verdict) {
