@@ -51,7 +51,9 @@ function explain(answer) {
   fill($('look'), scene().look && !answer.error ? scene().look(answer) : []);
   const grip = grips()[state.chosen];
   const outputs = shown.map((panel) => panel.canvas.getAttribute('aria-label'));
-  const texts = [...$('look').querySelectorAll('h2, .say')].map((element) => element.textContent);
+  // Of triangles the reason, which is short; elsewhere the numbers are what there is to say.
+  const told = $('look').querySelectorAll(state.scene === 'triangle' ? 'h2, .say' : 'h2, p, tbody tr');
+  const texts = [...told].map(({ cells, textContent }) => (cells ? [...cells].map((cell) => cell.textContent).join(' ').trim() : textContent));
   const said = [grip ? grip.says ?? `${grip.name} ${grip.x}, ${grip.y}` : '', ...outputs, ...texts].filter(Boolean).map((text) => (/[.。]$/.test(text) ? text : `${text}.`)).join(' ');
   if ($('announce').textContent !== said) $('announce').textContent = said;
 }

@@ -204,6 +204,14 @@ fn playground_names_every_control() {
         for panel in panels.as_array().unwrap() {
             assert!(said.contains(panel.as_str().unwrap()), "{scene}: {panel} in {said}");
         }
+        let number = match scene {
+            "line" => "10, 6",
+            "weights" => "A 2850816 0.3625",
+            "depth" => "2 0.4875",
+            "culling" => "2 -4718592",
+            _ => "",
+        };
+        assert!(said.contains(number), "{scene}: {number} in {said}");
     }
     for role in ["application", "button", "checkbox", "combobox", "link", "slider", "spinbutton"] {
         assert!(heard.contains(role), "{role} in {heard:?}");
