@@ -22,6 +22,7 @@ const CASES: u64 = 1500;
 
 fn main() -> ExitCode {
     let arguments = Arguments::from_args();
+    rasterproof::cli::quiet_engines();
     let reports: Arc<Mutex<Vec<FamilyReport>>> = Arc::default();
     let chapters: Arc<Mutex<BTreeSet<&'static str>>> = Arc::default();
     let trials = hazard::families()

@@ -260,7 +260,7 @@ pub fn run(words: impl IntoIterator<Item = String>, streams: &mut Streams<'_>) -
 }
 
 /// Keeps the panics of engines off the terminal: they are part of the verdict. Others still show.
-fn quiet_engines() {
+pub fn quiet_engines() {
     static ONCE: std::sync::Once = std::sync::Once::new();
     ONCE.call_once(|| {
         let hook = std::panic::take_hook();
