@@ -6,7 +6,7 @@
 
 use std::cell::RefCell;
 
-use super::guest::{self, Guest};
+use super::guest::Guest;
 use super::tiles::Lists;
 use super::{Board, Column, Ladder, Measure, Options, Prepared, Rung, finish};
 use crate::contract::{Rasterize, RasterizeExact};
@@ -225,7 +225,7 @@ fn lists() -> Contender {
 }
 
 /// The pixels of one scene by both truths.
-pub(super) struct Truth {
+struct Truth {
     /// Spans of each triangle as given, then as snapped.
     spans: [Vec<Vec<Span>>; 2],
     pixels: [u64; 2],
@@ -332,7 +332,7 @@ fn errors(
 }
 
 /// The errors of the pixels of each triangle of a scene.
-pub(super) fn score(spans: &[Vec<Span>], scene: &Scene, truth: &Truth) -> Vec<Option<f64>> {
+fn score(spans: &[Vec<Span>], scene: &Scene, truth: &Truth) -> Vec<Option<f64>> {
     let per_million = |i: usize| {
         let pairs = spans.iter().zip(&truth.spans[i]);
         let wrong: u64 = pairs.map(|(ours, truth)| wrong_pixels(ours, truth)).sum();
@@ -362,6 +362,16 @@ fn prepare<'a>(
             }),
         },
     }
+}
+
+/// The errors of a guest on a scene, and what is to be timed.
+fn invited<'a>(guest: &mut dyn Guest, scene: &Scene, truth: &Truth) -> Prepared<'a> {
+    let mut ready = || {
+        let spans = guest.spans(&scene.triangles, scene.bounds)?;
+        let pass = guest.pass(&scene.triangles, scene.bounds)?;
+        Ok(Prepared::Ready { errors: score(&spans, scene, truth), work: None, pass })
+    };
+    ready().unwrap_or_else(Prepared::NotRun)
 }
 
 /// Measures one of the two ladders, with guests on it.
@@ -395,7 +405,7 @@ pub(super) fn measure(
             row.push(prepare(contender, scene, &truth, target));
         }
         for (guest, row) in guests.iter_mut().zip(&mut prepared[contenders.len()..]) {
-            row.push(guest::prepare(guest.as_mut(), scene, &truth));
+            row.push(invited(guest.as_mut(), scene, &truth));
         }
         columns.push(Column::new(scene.name, about, items, truth.pixels[GIVEN]));
     }

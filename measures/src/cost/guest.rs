@@ -1,8 +1,6 @@
 //! Somebody from outside the house on a ladder of coverage, who draws lists: a graphics card.
 
-use super::coverage::{Truth, score};
-use super::scene::Scene;
-use super::{Prepared, Rung};
+use super::Rung;
 use crate::grid::PixelRect;
 use crate::triangle::{FreeCorners, Span};
 
@@ -30,14 +28,4 @@ pub trait Guest {
         triangles: &[FreeCorners],
         bounds: PixelRect,
     ) -> Result<Box<dyn FnMut()>, String>;
-}
-
-/// Its errors on a scene, and what is to be timed.
-pub(super) fn prepare<'a>(guest: &mut dyn Guest, scene: &Scene, truth: &Truth) -> Prepared<'a> {
-    let mut ready = || {
-        let spans = guest.spans(&scene.triangles, scene.bounds)?;
-        let pass = guest.pass(&scene.triangles, scene.bounds)?;
-        Ok(Prepared::Ready { errors: score(&spans, scene, truth), work: None, pass })
-    };
-    ready().unwrap_or_else(Prepared::NotRun)
 }
