@@ -113,7 +113,12 @@ pub fn list_by(loader: Option<&Path>) -> Result<Vec<Listed>, Error> {
         .api_version(vk::API_VERSION_1_1);
     let info = vk::InstanceCreateInfo::default().application_info(&application);
     // SAFETY: `info` and what it points to live during the call.
-    let raw = unsafe { entry.create_instance(&info, None) }.during("creating a Vulkan instance")?;
+    let raw = unsafe { entry.create_instance(&info, None) };
+    let raw = raw.map_err(|result| match icd::faults() {
+        // The loader calls a file that it cannot read a lack of memory.
+        faults if !faults.is_empty() => Error::NoDriver(faults),
+        _ => Error::of("creating a Vulkan instance", result),
+    })?;
     let instance = Arc::new(Instance { _entry: entry, raw });
     // SAFETY: the instance is alive.
     let handles = unsafe { instance.raw.enumerate_physical_devices() };

@@ -150,8 +150,8 @@ fn stale(
     options: &Options,
     declared: &Declared,
 ) -> Vec<String> {
-    let named = known.iter().flat_map(|k| k.properties.iter().map(move |p| (k, p)));
-    let is_stale = |(k, property): &(&Known, &String)| {
+    let named = known.iter().flat_map(|k| k.certain().map(move |p| (k, p)));
+    let is_stale = |(k, property): &(&Known, &str)| {
         let mut judged = found.judged.iter().filter(|(p, ..)| p == property);
         !old.iter().any(|f| f.property == *property)
             && judged.any(|(_, family, index)| {
@@ -159,7 +159,7 @@ fn stale(
                     .is_some_and(|case| k.covers(property, &case))
             })
     };
-    named.filter(is_stale).map(|(_, property)| property.clone()).collect()
+    named.filter(is_stale).map(|(_, property)| property.to_owned()).collect()
 }
 
 fn rule(property: &str) -> Rule {

@@ -20,8 +20,8 @@ pub struct Known {
     driver: String,
     /// The beginning of its version.
     version: String,
-    /// The families and other properties of cases that fail.
-    pub properties: Vec<String>,
+    /// The families, stages and other properties that fail, and whether each does in every run.
+    properties: Vec<(String, bool)>,
     condition: Condition,
     /// What happens.
     pub about: String,
@@ -40,8 +40,8 @@ enum Condition {
 const ENOUGH: u64 = 512;
 
 /// Reads known faults: lines `driver | version | properties | condition | about`, after `#` whatever is
-/// to be said. Properties are separated by `;`, a condition is `twice-area-px2 >= N` or, of a stage,
-/// `at most N in 1000`.
+/// to be said. Properties are separated by `;`; of one with `?` behind it few cases fail, so that it is no
+/// news if none does. A condition is `twice-area-px2 >= N` or, of a stage, `at most N in 1000`.
 ///
 /// # Errors
 /// The line that cannot be read, with what was expected.
@@ -68,12 +68,18 @@ pub fn parse(text: &str) -> Result<Vec<Known>, String> {
         Ok(Known {
             driver: driver.to_lowercase(),
             version: version.to_owned(),
-            properties: properties.split(';').map(|p| p.trim().to_owned()).collect(),
+            properties: properties.split(';').map(property).collect(),
             condition: condition.ok_or_else(wrong)?,
             about: about.to_owned(),
         })
     };
     lines.map(known).collect()
+}
+
+fn property(word: &str) -> (String, bool) {
+    let word = word.trim();
+    let name = word.trim_end_matches('?');
+    (name.to_owned(), name == word)
 }
 
 /// The known faults of a device.
@@ -85,6 +91,15 @@ pub fn of(all: &[Known], about: &About) -> Vec<Known> {
 }
 
 impl Known {
+    /// The properties of which cases fail in every run.
+    pub fn certain(&self) -> impl Iterator<Item = &str> {
+        self.properties.iter().filter(|(_, certain)| *certain).map(|(name, _)| name.as_str())
+    }
+
+    fn names(&self, property: &str) -> bool {
+        self.properties.iter().any(|(name, _)| name == property)
+    }
+
     /// Whether it says of this property that a case fails.
     #[must_use]
     pub fn covers(&self, property: &str, case: &Case) -> bool {
@@ -94,7 +109,7 @@ impl Known {
 
     fn covers_area(&self, property: &str, px2: f64) -> bool {
         let is_large = matches!(self.condition, Condition::TwiceAreaPx2(least) if px2 >= least);
-        is_large && self.properties.iter().any(|p| p == property)
+        is_large && self.names(property)
     }
 }
 
@@ -114,7 +129,7 @@ pub fn class_of_areas(known: &[Known], property: &str, judged: &[(f64, bool)]) -
 /// What a stage came to in which so many of its cases are wrong.
 #[must_use]
 pub fn class_of_share(known: &[Known], property: &str, wrong: u64, cases: u64) -> Class {
-    let most = known.iter().filter(|k| k.properties.iter().any(|p| p == property));
+    let most = known.iter().filter(|k| k.names(property));
     let most = most.filter_map(|k| match k.condition {
         Condition::PerMille(most) => Some(most),
         Condition::TwiceAreaPx2(_) => None,
@@ -135,7 +150,7 @@ mod tests {
     #[test]
     fn a_line_covers_what_it_says() {
         let known =
-            parse("# word\n\nLavaPipe | 22.3 | huge; values | twice-area-px2 >= 8 | lost\n");
+            parse("# word\n\nLavaPipe | 22.3 | huge; values? | twice-area-px2 >= 8 | lost\n");
         let known = known.unwrap().remove(0);
         let square = |side_px: i32| {
             let mut case = hazard::families().next().unwrap().case(1, 0);
@@ -152,6 +167,7 @@ mod tests {
         assert!(known.covers("values", &square(3)));
         assert!(!known.covers("huge", &square(2)));
         assert!(!known.covers("fan", &square(3)));
+        assert_eq!(known.certain().collect::<Vec<_>>(), ["huge"]);
     }
 
     #[test]

@@ -141,11 +141,14 @@ pub(super) fn joined(
         let mut lit: Vec<_> = lit(&pictures, cell).into_iter().collect();
         lit.sort_by_key(|&(x, y)| if is_wide { (x, y) } else { (y, x) });
         let touch = |p: &[(i32, i32)]| (p[0].0 - p[1].0).abs() <= 1 && (p[0].1 - p[1].1).abs() <= 1;
-        if !lit.windows(2).all(touch) {
+        if let Some(gap) = lit.windows(2).find(|pixels| !touch(pixels)) {
             gaps += 1;
             if example.is_empty() {
                 let [a, b, c] = [a, pair[0].1[1], c].map(|p| p.to_px());
-                example = format!(", the first from {a:?} over {b:?} to {c:?} px");
+                let [before, after] = [gap[0], gap[1]];
+                example = format!(
+                    ", the first from {a:?} over {b:?} to {c:?} between {before:?} and {after:?}"
+                );
             }
         }
     }
