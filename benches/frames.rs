@@ -9,8 +9,13 @@
 //! the exact engines', and `other`, those whose colour is off by more than two of 255 steps in a
 //! channel: another texel or another surface. Then threads: the tiles with one and with two.
 //!
+//! With the feature `vulkan` every Vulkan device that is there draws too: its vertices, texture and
+//! commands are made before, submitting and waiting are timed, and its picture stays where it is.
+//! `LP_NUM_THREADS=0` in the environment gives llvmpipe one thread, the caller's.
+//!
 //! `cargo bench --bench frames` measures the meshes of [`MESHES`]; `-- knot` those whose name contains
-//! a word, `-- --quick` with fewer rounds.
+//! a word, `-- --quick` with fewer rounds. `-- --curves` measures one shape in all its sizes instead,
+//! and one mesh in pictures of several sides.
 
 use std::time::Instant;
 
@@ -20,6 +25,7 @@ use euc::rasterizer::{BackfaceCullingDisabled, Triangles};
 use glam::{DMat3, DVec2, Mat4, Vec3, Vec4};
 use rasterproof::effects::Effects;
 use rasterproof::frame::Frame;
+use rasterproof::grid::PixelRect;
 use rasterproof::lineup::Drawer;
 use rasterproof::pipeline::target::{Antialias, Colour, Target};
 use rasterproof::pipeline::texture::Texture;
@@ -30,13 +36,28 @@ use rasterproof::tiled::{self, Samples};
 const SIDE_PX: u32 = 1024;
 /// Two of a displaced sphere and a torus with few triangles, two with many.
 const MESHES: [&str; 4] = ["torus-2000", "bumps-4000", "knot-50000", "bumps-70000"];
+/// A shape in all its sizes, and the sides of pictures of the first of them.
+const CURVE: [&str; 4] = ["torus-2000", "torus-4000", "torus-50000", "torus-70000"];
+const SIDES_PX: [u32; 4] = [256, 512, 1024, 2048];
 
 fn main() {
     let args: Vec<String> = std::env::args().skip(1).filter(|arg| arg != "--bench").collect();
-    if args.iter().any(|arg| arg == "--list") {
+    let has = |word: &str| args.iter().any(|arg| arg == word);
+    if has("--list") {
         return;
     }
-    let rounds = if args.iter().any(|arg| arg == "--quick") { 3 } else { 15 };
+    let rounds = if has("--quick") { 3 } else { 15 };
+    let scene = |name: &str| meshes::scene(name).expect("a mesh of the catalogue");
+    if has("--curves") {
+        println!("textured and lit; ms, medians of {rounds} interleaved rounds");
+        for name in CURVE {
+            curve(&scene(name), SIDE_PX, rounds);
+        }
+        for side_px in SIDES_PX {
+            curve(&scene(CURVE[0]), side_px, rounds);
+        }
+        return;
+    }
     let word = args.iter().find(|arg| !arg.starts_with("--")).map_or("", String::as_str);
     println!("{SIDE_PX} x {SIDE_PX} px, textured and lit; medians of {rounds} interleaved rounds");
     println!(
@@ -44,53 +65,137 @@ fn main() {
         "mesh", "drawn by", "ms", "x euc", "uncovered", "other"
     );
     for name in MESHES.iter().filter(|name| name.contains(word)) {
-        report(&meshes::scene(name).expect("a mesh of the catalogue"), rounds);
+        report(&scene(name), rounds);
     }
 }
 
-type Draw<'a> = (&'static str, Box<dyn FnMut() -> Frame<Colour> + 'a>);
+/// Somebody who draws a frame.
+struct Draws<'a> {
+    name: String,
+    samples: Samples,
+    /// This is timed.
+    draw: Box<dyn FnMut() -> Option<Frame<Colour>> + 'a>,
+    /// What was drawn, of those who leave it where it is.
+    shown: Option<Frame<Colour>>,
+}
 
-fn report(scene: &Scene, rounds: usize) {
-    let pool = |threads: usize| {
-        rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool of threads")
+impl<'a> Draws<'a> {
+    fn new(name: &str, samples: Samples, mut draw: impl FnMut() -> Frame<Colour> + 'a) -> Self {
+        let draw = Box::new(move || Some(draw()));
+        Self { name: name.to_owned(), samples, draw, shown: None }
+    }
+
+    fn picture(&mut self) -> Frame<Colour> {
+        let drawn = (self.draw)();
+        drawn.or_else(|| self.shown.take()).expect("a picture")
+    }
+}
+
+/// Everybody, euc first.
+fn everybody<'a>(
+    scene: &'a Scene,
+    side_px: u32,
+    pools: &'a [rayon::ThreadPool; 2],
+) -> Vec<Draws<'a>> {
+    let tiles = move |threads: usize, samples| {
+        let draw = move || tiled::render(scene, side_px, side_px, samples).expect("it draws");
+        move || pools[threads - 1].install(draw)
     };
-    let (one, two) = (pool(1), pool(2));
-    let tiles = |samples| tiled::render(scene, SIDE_PX, SIDE_PX, samples).expect("it draws");
-    let euc = Euc::new(scene);
-    let mut draws: [Draw<'_>; 7] = [
-        ("euc", Box::new(|| euc.draw())),
-        ("scanline", Box::new(engine(scene, Antialias::None))),
-        ("tiles", Box::new(|| one.install(|| tiles(Samples::One)))),
-        ("tiles, 2 threads", Box::new(|| two.install(|| tiles(Samples::One)))),
-        ("scanline msaa4", Box::new(engine(scene, Antialias::Multisample4))),
-        ("tiles msaa4", Box::new(|| one.install(|| tiles(Samples::Four)))),
-        ("msaa4, 2 threads", Box::new(|| two.install(|| tiles(Samples::Four)))),
+    let (single, four) = (Samples::One, Samples::Four);
+    let euc = Euc::new(scene, side_px);
+    let mut all = vec![
+        Draws::new("euc", single, move || euc.draw()),
+        Draws::new("scanline", single, engine(scene, side_px, Antialias::None)),
+        Draws::new("tiles", single, tiles(1, single)),
+        Draws::new("tiles, 2 threads", single, tiles(2, single)),
+        Draws::new("scanline msaa4", four, engine(scene, side_px, Antialias::Multisample4)),
+        Draws::new("tiles msaa4", four, tiles(1, four)),
+        Draws::new("msaa4, 2 threads", four, tiles(2, four)),
     ];
-    let pictures: Vec<_> = draws.iter_mut().map(|(_, draw)| draw()).collect();
-    let mut times = [const { Vec::new() }; 7];
+    #[cfg(feature = "vulkan")]
+    for samples in [single, four] {
+        all.extend(devices(scene, side_px, samples));
+    }
+    all
+}
+
+/// Every device that is there.
+#[cfg(feature = "vulkan")]
+fn devices(scene: &Scene, side_px: u32, samples: Samples) -> Vec<Draws<'static>> {
+    use rasterproof_vulkan::device::find;
+    use rasterproof_vulkan::gpu::mesh::Filmed;
+
+    let all = find::list().unwrap_or_else(|error| {
+        eprintln!("{error}");
+        Vec::new()
+    });
+    let device = |listed: &find::Listed| {
+        let mut filmed = Filmed::new(listed, scene, side_px, samples).expect("a device that draws");
+        let shown = Some(filmed.picture().expect("a device that draws"));
+        let draw = move || {
+            filmed.draw().expect("a device that draws");
+            None
+        };
+        let four = if samples == Samples::Four { " msaa4" } else { "" };
+        let name = format!("{}{four}", listed.about.short());
+        Draws { name, samples, draw: Box::new(draw), shown }
+    };
+    all.iter().map(device).collect()
+}
+
+/// Pools of one thread and of two.
+fn pools() -> [rayon::ThreadPool; 2] {
+    [1, 2].map(|threads| {
+        rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool of threads")
+    })
+}
+
+/// Medians of milliseconds.
+fn times(all: &mut [Draws<'_>], rounds: usize) -> Vec<f64> {
+    let mut times = vec![Vec::new(); all.len()];
     for _ in 0..rounds {
-        for ((_, draw), times) in draws.iter_mut().zip(&mut times) {
+        for (draws, times) in all.iter_mut().zip(&mut times) {
             let start = Instant::now();
-            std::hint::black_box(draw());
+            std::hint::black_box((draws.draw)());
             times.push(start.elapsed().as_secs_f64() * 1e3);
         }
     }
-    let ms = times.map(|mut times| {
+    let median = |times: &mut Vec<f64>| {
         times.sort_by(f64::total_cmp);
         times[times.len() / 2]
-    });
-    for (i, (name, _)) in draws.iter().enumerate() {
-        let truth = &pictures[if i < 4 { 1 } else { 4 }];
-        let [uncovered, other] = wrong(&pictures[i], truth, scene.background);
+    };
+    times.iter_mut().map(median).collect()
+}
+
+fn report(scene: &Scene, rounds: usize) {
+    let pools = pools();
+    let mut all = everybody(scene, SIDE_PX, &pools);
+    let pictures: Vec<_> = all.iter_mut().map(Draws::picture).collect();
+    let ms = times(&mut all, rounds);
+    for (i, draws) in all.iter().enumerate() {
+        let exact = if draws.samples == Samples::One { "scanline" } else { "scanline msaa4" };
+        let truth = all.iter().position(|draws| draws.name == exact).expect("it is there");
+        let [uncovered, other] = wrong(&pictures[i], &pictures[truth], scene.background);
         let mesh = if i == 0 { scene.name.as_str() } else { "" };
-        let factor = ms[0] / ms[i];
+        let (name, factor) = (&draws.name, ms[0] / ms[i]);
         println!("{mesh:<12} {name:<16} {:>9.2} {factor:>8.2} {uncovered:>10} {other:>8}", ms[i]);
     }
 }
 
-fn engine(scene: &Scene, antialias: Antialias) -> impl FnMut() -> Frame<Colour> {
+/// One row of a curve.
+fn curve(scene: &Scene, side_px: u32, rounds: usize) {
+    let pools = pools();
+    let mut all = everybody(scene, side_px, &pools);
+    all.iter_mut().for_each(|draws| drop(draws.picture()));
+    let row: Vec<String> = all.iter().map(|draws| draws.name.clone()).collect();
+    let ms = times(&mut all, rounds);
+    let cells = row.iter().zip(ms).map(|(name, ms)| format!("{name} {ms:.2}"));
+    println!("{} {side_px} px: {}", scene.name, cells.collect::<Vec<_>>().join(" | "));
+}
+
+fn engine(scene: &Scene, side_px: u32, antialias: Antialias) -> impl FnMut() -> Frame<Colour> {
     let mut target =
-        Target::new(SIDE_PX, SIDE_PX, antialias, Default::default()).expect("a usual size");
+        Target::new(side_px, side_px, antialias, Default::default()).expect("a usual size");
     move || {
         let frame = Drawer::Scanline.render(scene, &Effects::PLANNED, &mut target);
         frame.expect("it draws").picture
@@ -124,10 +229,11 @@ struct Euc {
     /// Texels, row by row from the top, as many rows as columns.
     texels: Vec<Vec3>,
     background: u32,
+    side_px: u32,
 }
 
 impl Euc {
-    fn new(scene: &Scene) -> Self {
+    fn new(scene: &Scene, side_px: u32) -> Self {
         let item = &scene.items[0];
         let normals = DMat3::from_mat4(item.model).inverse().transpose();
         let corners = item.mesh.triangles.iter().flatten();
@@ -143,11 +249,12 @@ impl Euc {
             diffuse: scene.light.diffuse as f32,
             texels: texels(item.material.texture.as_deref().expect("meshes are textured")),
             background: u32::from_le_bytes(scene.background),
+            side_px,
         }
     }
 
     fn draw(&self) -> Frame<Colour> {
-        let side = SIDE_PX as usize;
+        let side = self.side_px as usize;
         let mut target = Buffer2d::new([side, side], self.background);
         let mut depth = Buffer2d::new([side, side], f32::INFINITY);
         Pipeline::draw::<Triangles<Buffer2d<f32>, BackfaceCullingDisabled>, _>(
@@ -156,8 +263,7 @@ impl Euc {
             &mut target,
             Some(&mut depth),
         );
-        let mut picture =
-            Frame::new(rasterproof::grid::PixelRect::window(SIDE_PX, SIDE_PX), [0; 4]);
+        let mut picture = Frame::new(PixelRect::window(self.side_px, self.side_px), [0; 4]);
         for (y, row) in target.as_ref().chunks(side).enumerate() {
             for (pixel, colour) in picture.row_mut(y as i32).iter_mut().zip(row) {
                 *pixel = colour.to_le_bytes();
