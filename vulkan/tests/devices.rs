@@ -17,11 +17,11 @@ use rasterproof_vulkan::device::draw::Draw;
 use rasterproof_vulkan::device::find::{self, About};
 use rasterproof_vulkan::device::stage::{CELL_PX, Kind};
 use rasterproof_vulkan::gpu::campaign::{self, Stand};
-use rasterproof_vulkan::gpu::engine::{Gpu, hits_kind, plain, runs};
+use rasterproof_vulkan::gpu::cells::{plain, runs, twice_area_px2};
+use rasterproof_vulkan::gpu::engine::{Gpu, hits_kind};
 use rasterproof_vulkan::gpu::known;
 use rasterproof_vulkan::gpu::rules::Class;
 use rasterproof_vulkan::gpu::rung::OnLadder;
-use rasterproof_vulkan::gpu::specified::twice_area_px2;
 use rasterproof_vulkan::gpu::text;
 
 /// The names of all devices; says where there are none.

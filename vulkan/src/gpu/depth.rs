@@ -1,13 +1,14 @@
 //! Depths as a device keeps them, which of two is nearer, and what the near and the far plane leave.
 
-use super::engine::{Gpu, valued};
-use super::rules::Class;
+use super::cells::{draw_of, hits_of, in_perspective, valued};
+use super::engine::Gpu;
+use super::rules::{Class, Outcome};
 use super::specified::depth_bounds;
-use super::stages::{Outcome, draw_of, hits_of, in_perspective};
 use crate::device::Error;
 use crate::device::draw::{Draw, Pictures, Vertex};
 use crate::device::stage::{CELL_PX, Kind};
 use crate::hazard::{Rng, Triangle};
+use crate::judge::ask::Ask as _;
 use crate::oracle::values::ExactTriangle;
 
 /// The largest depth of 16 bits.
@@ -16,7 +17,7 @@ const MOST_16: f64 = 65535.0;
 /// Triangles of the families whose depths stay off both ends, so that what is cleared is told from what
 /// is drawn.
 fn triangles(gpu: &Gpu, seed: u64, cases: u64) -> Vec<Triangle> {
-    let mut all = in_perspective(gpu, seed, cases);
+    let mut all = in_perspective(gpu.declared(), seed, cases);
     for vertex in all.iter_mut().flat_map(|t| &mut t.vertices) {
         vertex.depth = f64::from((0.0625 + 0.875 * vertex.depth.clamp(0.0, 1.0)) as f32);
     }

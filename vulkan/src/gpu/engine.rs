@@ -9,18 +9,17 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
+use super::cells::{floats, plain, runs, twice_area_px2, valued};
 use super::plant::Plant;
-use super::specified::twice_area_px2;
 use crate::device::Error;
 use crate::device::draw::{Draw, Painter, Pictures, Vertex};
 use crate::device::find::{self, About, Listed};
 use crate::device::open::Opened;
 use crate::device::stage::{CELL_PX, Kind, PAGE_PX};
 use crate::grid::{SUBPIXELS, SubpixelPoint};
-use crate::hazard::Triangle;
 use crate::judge::ask::{Answer, Ask, Asked, Misbehaviour, Question};
 use crate::judge::declared::{Declared, MOST_IN_FLIGHT};
-use crate::triangle::{Corners, Fragment, Span};
+use crate::triangle::{Fragment, Span};
 
 /// The beginning of an engine's name that means a device.
 pub const PREFIX: &str = "vulkan:";
@@ -218,30 +217,6 @@ fn vertices(asked: &Asked, half_px: f32) -> Option<[Vertex; 3]> {
     })
 }
 
-/// Corners with w = 1, halfway into the view volume.
-#[must_use]
-pub fn plain(corners: &Corners, half_px: f32) -> [Vertex; 3] {
-    corners.map(|p| {
-        let [x, y] = [p.x, p.y].map(|sub| sub as f32 / SUBPIXELS as f32 / half_px);
-        Vertex { clip: [x, y, 0.5, 1.0], attributes: [0.0; 2] }
-    })
-}
-
-/// Corners with depth, w and attributes, rounded to f32.
-#[must_use]
-pub fn valued(triangle: &Triangle, half_px: f32) -> [Vertex; 3] {
-    triangle.vertices.map(|v| {
-        let half = f64::from(half_px);
-        let w = (1.0 / v.inv_w) as f32;
-        let [x, y] = [v.position.x, v.position.y].map(|sub| {
-            let ndc = f64::from(sub) / f64::from(SUBPIXELS) / half;
-            (ndc * f64::from(w)) as f32
-        });
-        let z = (v.depth * f64::from(w)) as f32;
-        Vertex { clip: [x, y, z, w], attributes: [v.varying.x as f32, v.varying.y as f32] }
-    })
-}
-
 fn answer(pictures: &Pictures, kind: Kind, cell: usize, question: &Question) -> Answer {
     let rows = (0..question.height).map(|y| (y as i32, pictures.row(cell, y, question.width)));
     match kind {
@@ -266,30 +241,6 @@ fn answer(pictures: &Pictures, kind: Kind, cell: usize, question: &Question) -> 
             Answer::Coverage(runs.flat_map(times).collect())
         }
     }
-}
-
-/// Four f32.
-#[must_use]
-pub fn floats(pixel: &[u8]) -> [f64; 4] {
-    let word = |i: usize| {
-        let bytes = [pixel[4 * i], pixel[4 * i + 1], pixel[4 * i + 2], pixel[4 * i + 3]];
-        f64::from(f32::from_ne_bytes(bytes))
-    };
-    [word(0), word(1), word(2), word(3)]
-}
-
-/// Runs of pixels of a row with the same byte, but not 0.
-pub fn runs(y_px: i32, row: &[u8]) -> Vec<(Span, u8)> {
-    let mut x_px = 0;
-    let mut runs = Vec::new();
-    for run in row.chunk_by(|a, b| a == b) {
-        let x1_px = x_px + run.len() as i32;
-        if run[0] != 0 {
-            runs.push((Span { y_px, x0_px: x_px, x1_px }, run[0]));
-        }
-        x_px = x1_px;
-    }
-    runs
 }
 
 impl Ask for Gpu {

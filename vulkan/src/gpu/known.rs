@@ -7,8 +7,8 @@
 use crate::device::find::About;
 use crate::hazard::{Case, Shape};
 
+use super::cells::twice_area_px2;
 use super::rules::Class;
-use super::specified::twice_area_px2;
 
 /// The faults that are known, as text.
 pub const TEXT: &str = include_str!("known-faults.txt");

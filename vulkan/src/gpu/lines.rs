@@ -1,10 +1,10 @@
 //! Lines of a device: each alone, by the rules of its mode, and joined.
 
-use super::engine::{Gpu, plain, runs};
+use super::cells::{draw_of, plain, runs};
+use super::engine::Gpu;
 use super::known::{self, Known};
-use super::rules::Class;
+use super::rules::{Class, Outcome};
 use super::segment::{self, Fit, Pixels};
-use super::stages::{Outcome, draw_of};
 use crate::device::Error;
 use crate::device::draw::Pictures;
 use crate::device::stage::{CELL_PX, Kind};

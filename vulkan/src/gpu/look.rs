@@ -1,6 +1,7 @@
 //! One case as a device draws it, in a window of any size.
 
-use super::engine::{Gpu, hits_kind, runs};
+use super::cells::runs;
+use super::engine::{Gpu, hits_kind};
 use crate::device::Error;
 use crate::device::draw::{Draw, Vertex};
 use crate::device::stage::{CELL_PX, Kind};

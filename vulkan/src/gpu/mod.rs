@@ -1,12 +1,13 @@
 //! Vulkan devices under judgement.
 //!
-//! [`engine`] answers the judge's questions with a device, [`plant`] spoils it on purpose;
+//! [`cells`] is what is drawn in a cell and read from it; [`engine`] answers the judge's questions with a device, [`plant`] spoils it on purpose;
 //! [`specified`] is the picture that is expected and the bound of a value, [`segment`] what lines are,
 //! [`stages`] what is asked besides the families, with `depth` and `lines`, each by a rule of
 //! [`rules`]; [`known`] holds faults that are known, [`look`] draws one case, [`mesh`] whole frames of a
 //! mesh, [`campaign`] judges and [`text`] says what came of it.
 
 pub mod campaign;
+pub mod cells;
 mod depth;
 pub mod engine;
 pub mod known;

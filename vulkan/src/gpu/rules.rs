@@ -24,6 +24,9 @@ pub enum Class {
     NoAnswer,
 }
 
+/// What a stage found.
+pub type Outcome = (Class, String);
+
 impl Class {
     /// Whether nothing is to be done.
     #[must_use]

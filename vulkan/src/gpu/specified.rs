@@ -20,9 +20,9 @@
 //! |a1 - a0| and |a2 - a0| in Gx and Gy become |a1| + |a0| and |a2| + |a0|: the products are rounded
 //! before they cancel.
 
-use super::engine::plain;
+use super::cells::plain;
 use crate::device::stage::PAGE_PX;
-use crate::grid::{PixelRect, SUBPIXELS};
+use crate::grid::PixelRect;
 use crate::hazard::Triangle;
 use crate::judge::declared::Declared;
 use crate::judge::expected::{Declaration, Expect, Picture};
@@ -149,11 +149,4 @@ pub fn linear_bounds(triangle: &Triangle) -> [[f64; 2]; 3] {
     [v.map(|v| v.inv_w), v.map(|v| v.varying.x), v.map(|v| v.varying.y)].map(|values| {
         [setup.bound(values, ROUNDINGS_OVER_W), setup.bound_of_weights(values, ROUNDINGS_OVER_W)]
     })
-}
-
-/// Twice the area of a triangle in square pixels.
-#[must_use]
-pub fn twice_area_px2(corners: &Corners) -> f64 {
-    let square = f64::from(SUBPIXELS) * f64::from(SUBPIXELS);
-    crate::judge::expected::area2(corners).unsigned_abs() as f64 / square
 }

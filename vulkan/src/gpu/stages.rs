@@ -1,28 +1,29 @@
 //! What is asked besides the families: snapping, clipping, values without perspective, and the same
 //! twice; depths are in [`super::depth`], lines in [`super::lines`].
 
-use super::engine::{Gpu, floats, plain, runs};
+use super::cells::{
+    WINDOW, draw_of, floats, hits_of, in_perspective, plain, twice_area_px2, valued,
+};
+use super::engine::Gpu;
 use super::known::{self, Known};
-use super::rules::{self, Class, Finding, Rule};
-use super::specified::{linear_bounds, twice_area_px2};
+use super::rules::{self, Class, Finding, Outcome, Rule};
+use super::specified::linear_bounds;
 use super::{depth, lines};
 use crate::contract::Rasterize as _;
 use crate::device::Error;
-use crate::device::draw::{Draw, Pictures, Vertex};
+use crate::device::draw::Vertex;
 use crate::device::stage::{CELL_PX, Kind};
 use crate::frame::Coverage;
 use crate::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
-use crate::hazard::{self, Rng, Shape, Triangle};
+use crate::hazard::{self, Rng, Shape};
+use crate::judge::ask::Ask as _;
 use crate::judge::{expected, place};
 use crate::oracle::Oracle;
 use crate::oracle::values::ExactTriangle;
 use crate::triangle::Corners;
 
-const WINDOW: PixelRect = PixelRect::window(CELL_PX, CELL_PX);
-
 /// A stage, by its name.
 type Stage = fn(&mut Gpu, u64, u64) -> Result<Outcome, Error>;
-pub(super) type Outcome = (Class, String);
 
 /// All stages with their rules.
 const STAGES: [(&str, Rule, Stage); 12] = [
@@ -118,23 +119,6 @@ fn large(gpu: &mut Gpu, seed: u64, cases: u64, known: &[Known]) -> Result<Outcom
     Ok((known::class_of_areas(known, LARGE, &judged), said))
 }
 
-/// A draw whose window's corner is the middle of its viewport.
-pub(super) fn draw_of(cell: usize, vertices: [Vertex; 3], side_px: f32) -> Draw {
-    let half = side_px / 2.0;
-    Draw { cell, vertices, viewport: [-half, -half, side_px, side_px], window: [CELL_PX; 2] }
-}
-
-/// The hits in a cell.
-pub(super) fn hits_of(pictures: &Pictures, cell: usize) -> Coverage {
-    let mut hits = Coverage::new(WINDOW, 0);
-    for y in 0..CELL_PX {
-        for (run, times) in runs(y as i32, pictures.row(cell, y, CELL_PX)) {
-            (0..times).for_each(|_| hits.hit(run.y_px, run.x0_px, run.x1_px));
-        }
-    }
-    hits
-}
-
 /// The oracle's hits in a cell.
 fn oracle(corners: &Corners) -> Coverage {
     let mut hits = Coverage::new(WINDOW, 0);
@@ -199,28 +183,11 @@ fn snapping(gpu: &mut Gpu, seed: u64, cases: u64) -> Result<Outcome, Error> {
     })
 }
 
-/// Triangles of the families in perspective.
-pub(super) fn in_perspective(gpu: &Gpu, seed: u64, cases: u64) -> Vec<Triangle> {
-    let declared = crate::judge::ask::Ask::declared(gpu);
-    let names = ["w-equal", "w-4", "w-100"].map(str::to_owned);
-    let mut triangles = Vec::new();
-    for family in place::families(&names) {
-        for index in 0..cases / 3 {
-            let case = place::put(family.case(seed, index), declared);
-            let Shape::Triangles { list, .. } = case.shape else { continue };
-            triangles.extend(list.iter().take(1));
-        }
-    }
-    triangles
-}
-
 /// Triangles of the families in perspective, their attributes drawn without it.
 fn linear(gpu: &mut Gpu, seed: u64, cases: u64) -> Result<Outcome, Error> {
-    let triangles = in_perspective(gpu, seed, cases);
+    let triangles = in_perspective(gpu.declared(), seed, cases);
     let side = gpu.viewport_px();
-    let draws = (0..)
-        .zip(&triangles)
-        .map(|(cell, t)| draw_of(cell, super::engine::valued(t, side / 2.0), side));
+    let draws = (0..).zip(&triangles).map(|(cell, t)| draw_of(cell, valued(t, side / 2.0), side));
     let pictures = gpu.draw(Kind::Linear, triangles.len(), draws.collect())?;
     let (mut worst, mut values, mut over, mut outside) = (0.0f64, 0u64, 0u64, 0u64);
     for (cell, triangle) in (0..).zip(&triangles) {
@@ -363,7 +330,7 @@ fn twice(gpu: &mut Gpu, seed: u64, cases: u64) -> Result<Outcome, Error> {
             let case = place::put(family.case(seed, index), &declared);
             let Shape::Triangles { list, .. } = case.shape else { continue };
             if let Some(t) = list.first() {
-                draws.push(draw_of(draws.len(), super::engine::valued(t, side / 2.0), side));
+                draws.push(draw_of(draws.len(), valued(t, side / 2.0), side));
             }
         }
     }
