@@ -112,11 +112,16 @@ fn everybody<'a>(
         Draws::new("tiles msaa4", four, tiles(1, four)),
         Draws::new("msaa4, 2 threads", four, tiles(2, four)),
     ];
-    #[cfg(feature = "vulkan")]
     for samples in [single, four] {
         all.extend(devices(scene, side_px, samples));
     }
     all
+}
+
+/// Without the feature there are none.
+#[cfg(not(feature = "vulkan"))]
+fn devices(_: &Scene, _: u32, _: Samples) -> Vec<Draws<'static>> {
+    Vec::new()
 }
 
 /// Every device that is there.
