@@ -380,7 +380,8 @@ mod vulkan {
     use rasterproof_vulkan::device::find;
     use rasterproof_vulkan::device::open::Opened;
     use rasterproof_vulkan::device::stage::Kind;
-    use rasterproof_vulkan::gpu::engine::{Gpu, plain};
+    use rasterproof_vulkan::gpu::cells::plain;
+    use rasterproof_vulkan::gpu::engine::Gpu;
     use rasterproof_vulkan::gpu::look;
 
     use super::{Filler, SIDE_PX, Scene, Wrong, neighbourhood};
