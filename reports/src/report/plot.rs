@@ -290,7 +290,9 @@ fn shelved(drawing: &mut Drawing, dots: &[Dot], time: &Axis, [x0, x1]: [f64; 2],
         let room = chart::width(&dot.label) + 10.0;
         let [low, high] = ends(dot, time);
         if high + room <= x1 || low - room < x0 {
-            drawing.text([high + 9.0, at[1]], &dot.label, ink);
+            // Where the quartiles leave no room on either side, across them.
+            let left = (high + 9.0).min(x1 - chart::width(&dot.label));
+            drawing.text([left, at[1]], &dot.label, ink);
         } else {
             drawing.text_before([low - 9.0, at[1]], &dot.label, ink);
         }
