@@ -59,7 +59,9 @@ pub fn each<T>(items: impl IntoIterator<Item = T>, check: impl Fn(T)) {
         text.or_else(|| payload.downcast_ref::<String>().cloned()).unwrap_or_default()
     };
     let messages: Vec<_> = failed.iter().map(said).collect();
-    assert!(failed.is_empty(), "{}\n{} of them fail.\n{NEXT}", messages.join("\n"), failed.len());
+    // It says itself what is next.
+    let count = failed.len();
+    std::assert!(failed.is_empty(), "{}\n{count} of them fail.\n{NEXT}", messages.join("\n"));
 }
 
 /// Keeps a text as a snapshot.
