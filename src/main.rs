@@ -4,6 +4,7 @@ use std::io::{self, BufWriter, IsTerminal};
 use std::process::ExitCode;
 
 use rasterproof::cli::{self, Streams};
+use rasterproof::judge::group::end_strays;
 
 fn main() -> ExitCode {
     let mut streams = Streams {
@@ -15,5 +16,7 @@ fn main() -> ExitCode {
         colour: io::stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none(),
     };
     let words = std::env::args_os().map(|word| word.to_string_lossy().into_owned());
-    ExitCode::from(cli::run(words, &mut streams))
+    let status = cli::run(words, &mut streams);
+    end_strays();
+    ExitCode::from(status)
 }

@@ -14,6 +14,7 @@ mod figures;
 mod house;
 mod illustrations;
 mod judge;
+mod judge_shown;
 mod languages;
 mod league;
 mod matrix;
