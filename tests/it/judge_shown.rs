@@ -72,7 +72,8 @@ fn judge_pictures_every_stage() {
         assert!(picture.of.contains(of) && picture.drawn != picture.expected, "{failure:?}");
         let Shape::Triangles { list, .. } = &failure.case.shape else { panic!("{property}") };
         let corners = list.iter().flat_map(|t| t.corners());
-        let used: u32 = corners.map(|p| p.x.count_ones() + p.y.count_ones()).sum();
+        let bits_of = |sub: i32| sub.unsigned_abs().count_ones();
+        let used: u32 = corners.map(|p| bits_of(p.x) + bits_of(p.y)).sum();
         assert!(list.len() == triangles && used <= bits, "{property}: {used} {:?}", failure.case);
     }
     let repeat = |family: &str, index: u64| format!("{family} {index}");
