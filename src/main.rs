@@ -4,6 +4,7 @@ use std::io::{self, BufWriter, IsTerminal};
 use std::process::ExitCode;
 
 use rasterproof::cli::{self, Streams};
+use rasterproof::judge::group::end_strays;
 
 /// Columns of the terminal, or as the environment says where there is none.
 fn columns() -> Option<usize> {
@@ -23,5 +24,7 @@ fn main() -> ExitCode {
         columns: columns().filter(|&columns| columns > 0).unwrap_or(cli::fold::USUAL),
     };
     let words = std::env::args_os().map(|word| word.to_string_lossy().into_owned());
-    ExitCode::from(cli::run(words, &mut streams))
+    let status = cli::run(words, &mut streams);
+    end_strays();
+    ExitCode::from(status)
 }

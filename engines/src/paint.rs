@@ -6,7 +6,8 @@
 //! is about time alone; the order of the list is kept.
 //!
 //! In narrow vectors tiles are faster for cells alone, and a list that goes to and fro between the two
-//! is slower than the scanline: there groups of cells alone go to the tiles.
+//! is slower than the scanline: there groups of cells alone go to the tiles. In wide ones a group goes
+//! there if anything in it is small.
 
 use crate::contract::Rasterize;
 use crate::frame::Frame;
@@ -25,17 +26,21 @@ pub fn widest_px(tiles: &Tiles) -> i32 {
     }
 }
 
-/// Triangles that go to the same engine in narrow vectors.
+/// Triangles that go to the same engine.
 const GROUP: usize = 64;
 
 /// Fills triangles with one colour, in the order they are given.
 pub fn fill(tiles: &Tiles, triangles: &[Corners], colour: u32, target: &mut Frame<u32>) {
-    if widest_px(tiles) > CELL_PX {
-        fill_list(tiles, triangles, colour, target);
-        return;
-    }
+    let widest = widest_px(tiles);
+    let pay = |group: &[Corners]| {
+        if widest > CELL_PX {
+            group.iter().any(|corners| fits(corners, widest))
+        } else {
+            group.iter().all(|corners| fits(corners, CELL_PX))
+        }
+    };
     for group in triangles.chunks(GROUP) {
-        if group.iter().all(is_cell) {
+        if pay(group) {
             fill_list(tiles, group, colour, target);
         } else {
             group.iter().for_each(|&corners| fill_one(corners, colour, target));
@@ -43,13 +48,13 @@ pub fn fill(tiles: &Tiles, triangles: &[Corners], colour: u32, target: &mut Fram
     }
 }
 
-/// Whether a triangle has room in a cell, wherever that begins.
+/// Whether a triangle has room in a square of this side, wherever that begins.
 #[inline]
-fn is_cell([a, b, c]: &Corners) -> bool {
-    let fits = |a: i32, b: i32, c: i32| {
-        i64::from(a.max(b).max(c)) - i64::from(a.min(b).min(c)) < i64::from(CELL_PX * SUBPIXELS)
+fn fits([a, b, c]: &Corners, side_px: i32) -> bool {
+    let along = |a: i32, b: i32, c: i32| {
+        i64::from(a.max(b).max(c)) - i64::from(a.min(b).min(c)) < i64::from(side_px * SUBPIXELS)
     };
-    fits(a.x, b.x, c.x) && fits(a.y, b.y, c.y)
+    along(a.x, b.x, c.x) && along(a.y, b.y, c.y)
 }
 
 /// By tiles, what is too large for them by the scanline.

@@ -205,6 +205,13 @@ pub fn run(arguments: &JudgeArguments, streams: &mut Streams<'_>) -> Result<u8, 
             "no case was judged: the program does not draw what these families hold",
         ));
     }
+    // Whoever draws nothing would agree.
+    let expects = verdict.windings.is_known() || verdict.found.rows.iter().any(|r| r.pixels > 0);
+    if arguments.case.is_none() && verdict.agrees() && !expects {
+        return Err(usage(
+            "no pixel was expected: the range, the window or the families leave nothing to judge",
+        ));
+    }
     if let Some(baseline) = &mut baseline {
         baseline.apply(&mut verdict);
         if arguments.update_baseline {

@@ -51,7 +51,7 @@ pub fn run(
         let verdict =
             judge::judge(&mut askers, options, &convention, &|cases| progress.done(cases));
         drop(progress);
-        let standing = Standing::new(adapter, &verdict);
+        let standing = Standing::new(adapter, today(), &verdict);
         write!(streams.output, "{:<22}", adapter.name)?;
         for (kind, what) in [(&standing.triangles, "triangles"), (&standing.lines, "lines")] {
             let Some(kind) = kind else { continue };
@@ -66,9 +66,7 @@ pub fn run(
     if rows.is_empty() {
         return Err(usage("no adapter is installed\n  adapters/install prepares them"));
     }
-    let days = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |t| t.as_secs() / 86_400);
     let league = League {
-        date: date(days),
         rasterproof: env!("CARGO_PKG_VERSION").to_owned(),
         seed: options.seed,
         cases: options.cases,
@@ -81,4 +79,9 @@ pub fn run(
     }
     writeln!(streams.errors, "league: {JSON}, {}, {}", PAGES[0].0, PAGES[1].0)?;
     Ok(exit::AGREES)
+}
+
+/// The day in Greenwich, year-month-day.
+fn today() -> String {
+    date(SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |t| t.as_secs() / 86_400))
 }

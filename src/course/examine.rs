@@ -4,14 +4,14 @@ use std::cell::RefCell;
 use std::time::{Duration, Instant};
 
 use super::{Exercise, Step};
-use crate::frame::Coverage;
 use crate::hazard::{Case, Shape};
 use crate::judge::ask::{Answer, Ask, Misbehaviour, Question, show};
-use crate::judge::check::{Check, Truth, expected_answer, picture_of, seen_pictures};
+use crate::judge::check::{Check, Truth, expected_answer};
 use crate::judge::declared::Declared;
 use crate::judge::finding::Finding;
+use crate::judge::pictured::{Pictured, pictured};
+use crate::judge::smaller::smaller;
 use crate::judge::{place, run};
-use crate::verify::shrink;
 
 /// How long and how much.
 #[derive(Clone, Copy, Debug)]
@@ -57,7 +57,7 @@ pub struct Failure {
     /// Requests, answers and expected answers, as lines of the protocol.
     pub lines: Vec<[String; 3]>,
     /// What was drawn, and what was expected, where there are both.
-    pub pictures: Option<[Coverage; 2]>,
+    pub picture: Option<Pictured>,
 }
 
 /// A case that fails, and the exercise it belongs to.
@@ -171,7 +171,7 @@ fn shrunk(program: &mut dyn Ask, failing: Failing<'_>, patience: Duration) -> Fa
     let case = if !first.is_wrong() || first.died.iter().any(|(_, m)| is_slow(m)) {
         case
     } else {
-        shrink::shrink(case, |smaller| {
+        smaller(check, case, |smaller| {
             let smaller = place::put(smaller.clone(), &truth.declared);
             start.elapsed() < patience
                 && place::holds(&smaller, &truth.declared)
@@ -186,55 +186,19 @@ fn shrunk(program: &mut dyn Ask, failing: Failing<'_>, patience: Duration) -> Fa
     } else {
         "wrong at first, right when asked again".to_owned()
     };
-    let pictures = pictures(&questions, &answers, check, &case, &truth);
+    let picture = pictured(check, &case, &answers, &truth);
     let line = |(question, answer): (&Question, &Answer)| {
         let expected = expected_answer(question, &truth).filter(|_| is_one_by_one(check));
         let expected = expected.map_or_else(String::new, |e| show(&e, 1));
         [question.text(1), show(answer, 1), expected]
     };
     let lines = questions.iter().zip(&answers).map(line).collect();
-    Failure { found, what, lines, pictures }
+    Failure { found, what, lines, picture }
 }
 
 /// Whether each answer is compared with an expected one, not with others.
 fn is_one_by_one(check: Check) -> bool {
     matches!(check, Check::Coverage | Check::Line | Check::Values | Check::Depth | Check::Near)
-}
-
-/// All answers as one picture, and what was expected; of answers that are compared with each other
-/// the one that differs, and the first.
-fn pictures(
-    questions: &[Question],
-    answers: &[Answer],
-    check: Check,
-    case: &Case,
-    truth: &Truth,
-) -> Option<[Coverage; 2]> {
-    let drawn: Vec<_> = answers.iter().filter_map(|a| picture_of(a, case.window)).collect();
-    match check {
-        Check::Order | Check::Direction => {
-            let other = drawn.iter().find(|other| Some(*other) != drawn.first())?;
-            Some([other.clone(), drawn.first()?.clone()])
-        }
-        Check::Samples | Check::Near => None,
-        Check::Depth => seen_pictures(questions.first()?, answers.first()?, truth),
-        _ => {
-            let expected = questions.iter().filter_map(|q| expected_answer(q, truth));
-            let expected: Vec<_> =
-                expected.filter_map(|answer| picture_of(&answer, case.window)).collect();
-            Some([sum(&drawn, case)?, sum(&expected, case)?])
-        }
-    }
-}
-
-fn sum(pictures: &[Coverage], case: &Case) -> Option<Coverage> {
-    let mut whole = Coverage::new(case.window, 0);
-    for (y, row) in pictures.iter().flat_map(Coverage::rows) {
-        for (sum, hits) in whole.row_mut(y).iter_mut().zip(row) {
-            *sum = sum.saturating_add(*hits);
-        }
-    }
-    (!pictures.is_empty()).then_some(whole)
 }
 
 /// The last line of a program's standard error, if it wrote any.

@@ -2,7 +2,7 @@
 
 use super::examine::Outcome;
 use super::{Step, number};
-use crate::report::ascii;
+use crate::report::judged;
 
 /// How a step came out, with its smallest failing case.
 #[must_use]
@@ -25,16 +25,8 @@ pub fn text(step: &Step, outcome: &Outcome) -> String {
             }
         }
     }
-    if let Some([actual, target]) = &failure.pictures {
-        let blocks = [
-            ("yours".to_owned(), ascii::grid(actual, target)),
-            ("expected".to_owned(), ascii::grid(target, target)),
-        ];
-        for line in ascii::side_by_side(&blocks, 58).lines() {
-            out += format!("  {line}").trim_end();
-            out.push('\n');
-        }
-        out += "  (# agrees, - missing, + extra, 2 twice, . neither)\n";
+    if let Some(picture) = &failure.picture {
+        judged::picture(&mut out, "yours", picture);
     }
     out
 }

@@ -17,6 +17,7 @@ mod figures;
 mod house;
 mod illustrations;
 mod judge;
+mod judge_shown;
 mod languages;
 mod league;
 mod matrix;

@@ -101,7 +101,7 @@ fn planted_faults_are_caught() {
             let failure = &stand.verdict.failures.iter().find(|f| f.property == property);
             let failure = failure.unwrap_or_else(|| panic!("{plant}: {text}"));
             if property == family {
-                assert!(failure.pictures.is_some(), "{plant}: {text}");
+                assert!(failure.picture.is_some(), "{plant}: {text}");
                 assert!(text.contains("judged"), "{text}");
                 // Shrunk: a fault of the sample is seen on few pixels.
                 let corners = match &failure.case.shape {

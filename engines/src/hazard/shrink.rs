@@ -14,7 +14,7 @@ const MOST_TRIALS: u32 = 3000;
 
 /// The smallest case reached from `case`, which fails, through `candidates` that are smaller and
 /// fail too; at most `MOST_TRIALS` are looked at.
-pub(in crate::hazard) fn greedy<C, S: PartialOrd>(
+pub fn greedy<C, S: PartialOrd>(
     case: C,
     size: impl Fn(&C) -> S,
     candidates: impl Fn(&C) -> Vec<C>,

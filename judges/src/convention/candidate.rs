@@ -42,7 +42,7 @@ impl Candidate {
         let turned = turn(&self.quantum.corners(corners)).signum();
         // Who culls may do so before or after.
         let culled = self.draws != Windings::Both && turned != area(corners).signum();
-        culled || (turned == 0 && !matches!(self.shape, Shape::Outline(_)))
+        culled || (turned == 0 && !self.shape.draws_flat())
     }
 
     /// Wrong pixels of the answers, ties apart. Stops counting beyond `enough`.

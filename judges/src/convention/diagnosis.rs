@@ -6,8 +6,11 @@ use super::bench::{Answer, Bench, Question};
 use super::candidate::Candidate;
 use super::fit::Fit;
 use super::mirror::Mirror;
+use super::quantum::Quantum;
 use super::rule::{Convention, Ties, Windings};
+use super::scan::Scan;
 use super::search::Seen;
+use super::shape::Shape;
 use super::ties::{Compass, Count};
 use super::upright::mirror_of;
 use super::{Ask, Known};
@@ -59,6 +62,14 @@ pub struct Share {
     pub general: Agreement,
     /// With samples on their edges.
     pub ties: Agreement,
+}
+
+impl Share {
+    /// Whether every triangle is as expected.
+    fn is_exact(&self) -> bool {
+        let is_exact = |a: &Agreement| a.triangles.drawn == a.triangles.of;
+        is_exact(&self.general) && is_exact(&self.ties)
+    }
 }
 
 /// The diagnosis of a rasterizer.
@@ -146,13 +157,26 @@ impl Bench<'_> {
             mirror: Mirror::None,
             flat: flat.drawn > 0,
         };
-        let found = convention(candidate, compass.ties());
+        let mut found = convention(candidate, compass.ties());
         let fresh = self.generals(FRESH, draws);
         let share = |convention: &Convention, bench: &Self| Share {
             general: Agreement::of(convention, &fresh, bench),
             ties: Agreement::of(convention, &tried, bench),
         };
-        let as_found = share(&found, self);
+        let mut as_found = share(&found, self);
+        let mut others = others;
+        // Ties without a rule: the scan conversion of a library may say why.
+        if !as_found.is_exact() {
+            let scan = |scan| Candidate { draws, quantum: Quantum::NONE, shape: Shape::Scan(scan) };
+            let fits = |scan: &Candidate| scan.errors(&ties, self.window, 0) == 0;
+            let scans = Scan::ALL.map(scan).into_iter().filter(fits);
+            for scan in scans.map(|scan| convention(&scan, compass.ties())) {
+                let as_scan = share(&scan, self);
+                if as_scan.is_exact() {
+                    (found, as_found, others) = (scan, as_scan, &[]);
+                }
+            }
+        }
         // Answers are taken back from their mirror, so what is declared is put into it.
         let as_declared = share(&Convention { mirror: self.mirror, ..self.known.declared }, self);
         let mut twice = Count::default();

@@ -16,6 +16,7 @@ mod diagnosis;
 mod fit;
 mod general;
 mod half_planes;
+mod joined;
 mod lines;
 mod mask;
 mod mirror;

@@ -170,7 +170,7 @@ impl Convention {
     fn visit(&self, corners: &Corners, window: PixelRect, draw: &mut dyn FnMut(i32, i32)) -> bool {
         let points = self.quantum.corners(corners);
         let [turn, given] = [&points, &Quantum::NONE.corners(corners)].each(|p| turn(p).signum());
-        let flat = self.flat && turn == 0 && !matches!(self.shape, Shape::Outline(_));
+        let flat = self.flat && turn == 0 && !self.shape.draws_flat();
         // Who culls may do so before corners reach their grid, or after.
         let culled = self.draws != Windings::Both && turn != given;
         if flat || culled {

@@ -7,6 +7,7 @@
 
 use serde::Serialize;
 
+use super::joined;
 use super::place::{Place, Points, around};
 use crate::grid::PixelRect;
 
@@ -21,6 +22,11 @@ pub enum Scan {
     /// Crossings in 1/65536 px, begun in the row nearest to a corner at the corner's column, the last
     /// row left out, and the three sides as lines in such steps: OpenCV, convex polygons.
     Sides,
+    /// Between whole pixels, both ends of every side included, corners drawn on: Pillow.
+    Joined,
+    /// Corners moved a quarter of a pixel right and down, crossings in f32, stepped with a remainder of 31
+    /// bits: Java 2D, polygons of whole pixels.
+    Carried,
 }
 
 /// Corners farther out are not computed.
@@ -28,7 +34,8 @@ const MOST: i64 = 1 << 22;
 
 impl Scan {
     /// All of them.
-    pub const ALL: [Self; 3] = [Self::Above, Self::Coarse, Self::Sides];
+    pub const ALL: [Self; 5] =
+        [Self::Above, Self::Coarse, Self::Sides, Self::Joined, Self::Carried];
 
     /// As [`super::shape::Shape::trace`]. Nothing where a corner lies 2^14 px out.
     pub(super) fn trace(
@@ -48,10 +55,16 @@ impl Scan {
                 emit(x as i32, y as i32, Place::In);
             }
         };
-        if self == Self::Sides {
-            sides(points, &mut put);
-            return true;
+        match self {
+            Self::Sides => sides(points, &mut put),
+            Self::Joined => joined::trace(points, window, &mut put),
+            Self::Above | Self::Coarse | Self::Carried => self.rows(points, window, &mut put),
         }
+        true
+    }
+
+    /// Rows between two crossings.
+    fn rows(self, points: &Points, window: PixelRect, put: &mut dyn FnMut(i64, i64)) {
         let edges = [0, 1, 2].map(|i| {
             let (p, q) = (points[i], points[(i + 1) % 3]);
             if p[1] <= q[1] { [p, q] } else { [q, p] }
@@ -60,12 +73,12 @@ impl Scan {
         for y in i64::from(rect.y0)..rect.y1.into() {
             let columns = edges.iter().filter_map(|edge| match self {
                 Self::Coarse => coarse(edge, y),
+                Self::Carried => carried(edge, y),
                 _ => above(edge, y),
             });
             let (low, high) = columns.fold((i64::MAX, i64::MIN), |(l, h), x| (l.min(x), h.max(x)));
             (low..high).for_each(|x| put(x, y));
         }
-        true
     }
 }
 
@@ -93,6 +106,24 @@ fn coarse([p, q]: &[[i64; 2]; 2], row: i64) -> Option<i64> {
         let (dx, dy) = (end - x, bottom - top);
         let enter = x + dx * (rows.start * 1024 + 512 - top) / dy;
         (enter + (row - rows.start) * (dx * 1024 / dy) + 511).div_euclid(1024)
+    })
+}
+
+/// As [`above`].
+fn carried([p, q]: &[[i64; 2]; 2], row: i64) -> Option<i64> {
+    let first = |y: i64| (y + 64 + 127).div_euclid(256);
+    let rows = first(p[1])..first(q[1]);
+    rows.contains(&row).then(|| {
+        let px = |v: i64| (v + 64) as f32 / 256.0;
+        let (dx, dy) = (px(q[0]) - px(p[0]), px(q[1]) - px(p[1]));
+        let fall = rows.start as f32 + 0.5 - px(p[1]);
+        let x = px(p[0]) + fall * dx / dy;
+        let column = (x - 0.5).ceil();
+        let remainder = |share: f64| (share * f64::from(i32::MAX)) as i64;
+        let (slope, steps) = (f64::from(dx / dy), row - rows.start);
+        let carry =
+            remainder((x - (column - 0.5)).into()) + steps * remainder(slope - slope.floor());
+        column as i64 + steps * slope.floor() as i64 + (carry >> 31)
     })
 }
 

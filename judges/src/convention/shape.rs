@@ -81,15 +81,20 @@ pub enum Shape {
 }
 
 impl Shape {
+    /// Whether it says what a triangle without area leaves.
+    pub(super) fn draws_flat(self) -> bool {
+        matches!(self, Self::Outline(_) | Self::Scan(Scan::Joined))
+    }
+
     /// Calls `emit` with every pixel of `window` that is not outside. A triangle without area has
-    /// none, but for its outline. Nothing where this shape is not computed for triangles so large: then false.
+    /// none, but for what [`Shape::draws_flat`]. Nothing where this shape is not computed for triangles so large: then false.
     pub(super) fn trace(
         self,
         points: &Points,
         window: PixelRect,
         emit: &mut dyn FnMut(i32, i32, Place),
     ) -> bool {
-        if turn(points) == 0 && !matches!(self, Self::Outline(_)) {
+        if turn(points) == 0 && !self.draws_flat() {
             return true;
         }
         match self {

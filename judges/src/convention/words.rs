@@ -118,6 +118,15 @@ fn scan_words(scan: Scan) -> &'static str {
             "fills row by row between crossings stepped in 1/65536 px from the row nearest to a corner, \
              without the last row, and draws the three sides as lines in such steps"
         }
+        Scan::Joined => {
+            "moves corners to whole pixels (toward zero), fills every row from the first to the last \
+             between crossings rounded to the nearest pixel, halves inwards, and draws on the row of a \
+             corner to where the next one begins"
+        }
+        Scan::Carried => {
+            "moves corners a quarter of a pixel right and down, and samples at the pixel's centre, row by row, \
+             between crossings in single precision that are stepped with a remainder of 31 bits"
+        }
     }
 }
 

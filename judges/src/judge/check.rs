@@ -101,13 +101,7 @@ impl Finding {
             parts.push(format!("{} refused ({})", self.refused, self.reason));
         }
         parts.extend(self.died.iter().map(|(_, m)| m.to_string()));
-        let picture = match check {
-            Check::Depth if self.tally.total() > 0 => {
-                "; the picture is that of the triangle with most wrong pixels"
-            }
-            _ => "",
-        };
-        if parts.is_empty() { "agrees".to_owned() } else { parts.join(", ") + picture }
+        if parts.is_empty() { "agrees".to_owned() } else { parts.join(", ") }
     }
 }
 
@@ -542,12 +536,4 @@ pub fn expected_answer(question: &Question, truth: &Truth) -> Option<Answer> {
         }
         Asked::Samples(_) => None,
     }
-}
-
-/// Of the triangle of a pile with most wrong pixels where it is seen, and where it should be.
-#[must_use]
-pub fn seen_pictures(question: &Question, answer: &Answer, truth: &Truth) -> Option<[Coverage; 2]> {
-    let (Asked::Depth(list), Answer::Seen(runs)) = (&question.of, answer) else { return None };
-    let window = PixelRect::window(question.width, question.height);
-    Pile::new(list, window, &*truth.expect, &truth.declared)?.pictures(runs)
 }

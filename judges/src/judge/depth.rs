@@ -106,8 +106,8 @@ impl Pile {
         }
     }
 
-    /// Of the triangle with most wrong pixels where it is seen, and where it should be.
-    pub fn pictures(&self, runs: &[(Span, u8)]) -> Option<[Coverage; 2]> {
+    /// The triangle with most wrong pixels, where it is seen, and where it should be.
+    pub fn pictures(&self, runs: &[(Span, u8)]) -> Option<(usize, [Coverage; 2])> {
         let of = |t: usize| {
             let mut drawn = Coverage::new(self.window, 0);
             let mut expected = Coverage::new(self.window, 0);
@@ -123,9 +123,9 @@ impl Pile {
                     expected.hit(y, x_px, x_px + i32::from(should == Some(t)));
                 }
             }
-            [drawn, expected]
+            (t, [drawn, expected])
         };
-        let wrong = |[drawn, expected]: &[Coverage; 2]| {
+        let wrong = |(_, [drawn, expected]): &(usize, [Coverage; 2])| {
             let rows = drawn.rows().zip(expected.rows());
             rows.map(|((_, a), (_, b))| a.iter().zip(b).filter(|(a, b)| a != b).count())
                 .sum::<usize>()
@@ -188,7 +188,7 @@ mod tests {
             let mut finding = Finding::default();
             let runs = answer(list, case.window);
             pile.compare(&mut finding, &runs);
-            let [drawn, expected] = pile.pictures(&runs).unwrap();
+            let (_, [drawn, expected]) = pile.pictures(&runs).unwrap();
             // What is wrong is seen in the picture, unless it is a pixel drawn twice.
             assert!(
                 finding.tally.twice > 0 || finding.is_wrong() == (drawn != expected),

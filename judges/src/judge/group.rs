@@ -2,8 +2,8 @@
 //!
 //! On Unix a program is the leader of a process group of its own, and it is the group that is
 //! killed: when its [`Group`] is dropped, and on Ctrl-C. The leader is reaped after the kill, so its
-//! number still names this group. What leaves the group by `setsid` is out of reach. Elsewhere the
-//! program alone is killed.
+//! number still names this group. What leaves the group by `setsid` is killed last, on Linux, where the
+//! judge adopts it; elsewhere that is out of reach, and where there are no groups the program alone is killed.
 
 use std::io;
 use std::process::{Child, Command, ExitStatus};
@@ -79,18 +79,62 @@ impl Drop for Group {
     }
 }
 
-/// Ends every group and exits with status 130 on Ctrl-C, and on a request to terminate.
+/// Ends every group and exits with status 130 on Ctrl-C, and on a request to terminate. From now on
+/// [`end_strays`] has something to do.
 pub fn end_all_on_ctrl_c() {
+    adopt();
     static ONCE: std::sync::Once = std::sync::Once::new();
     // Without a handler the groups would live on; judging still works.
     ONCE.call_once(|| {
         let _ = ctrlc::set_handler(|| {
             let mut live = LIVE.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
             live.take().into_iter().flatten().for_each(kill);
+            end_strays();
             std::process::exit(130);
         });
     });
 }
+
+/// Makes this process the parent of what programs leave behind.
+#[cfg(target_os = "linux")]
+fn adopt() {
+    // Where it is refused, strays live on.
+    let _ = rustix::process::set_child_subreaper(Some(rustix::process::getpid()));
+}
+
+#[cfg(not(target_os = "linux"))]
+fn adopt() {}
+
+/// Ends what left its group and outlived its program. For the end of a process that starts nothing else:
+/// every child is taken for a stray.
+#[cfg(target_os = "linux")]
+pub fn end_strays() {
+    use rustix::process::{Pid, Signal, WaitOptions, child_subreaper, kill_process, waitpid};
+    if !matches!(child_subreaper(), Ok(Some(_))) {
+        return;
+    }
+    // What a stray has started is adopted when the stray ends; one that goes on for ever is left.
+    for _ in 0..1000 {
+        let tasks = std::fs::read_dir("/proc/self/task").into_iter().flatten().flatten();
+        let lists =
+            tasks.filter_map(|task| std::fs::read_to_string(task.path().join("children")).ok());
+        let children = lists.collect::<Vec<_>>().join(" ");
+        let pids = children.split_whitespace().filter_map(|word| Pid::from_raw(word.parse().ok()?));
+        let strays: Vec<Pid> = pids.collect();
+        for stray in &strays {
+            if kill_process(*stray, Signal::KILL).is_ok() {
+                let _ = waitpid(Some(*stray), WaitOptions::empty());
+            }
+        }
+        if strays.is_empty() {
+            return;
+        }
+    }
+}
+
+/// Elsewhere they live on.
+#[cfg(not(target_os = "linux"))]
+pub fn end_strays() {}
 
 #[cfg(unix)]
 fn kill(leader: u32) {

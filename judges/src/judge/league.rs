@@ -37,6 +37,8 @@ pub struct Standing {
     pub library: String,
     /// What it calls itself at HELLO, with its version.
     pub version: String,
+    /// The day it was judged, year-month-day.
+    pub date: String,
     /// The exact call.
     pub call: String,
     /// What it declares.
@@ -58,8 +60,6 @@ pub struct Standing {
 /// All rows, and what they were made by.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct League {
-    /// The day, year-month-day.
-    pub date: String,
     /// Version of this project.
     pub rasterproof: String,
     /// Decides the cases.
@@ -73,7 +73,7 @@ pub struct League {
 impl Standing {
     /// The row of an adapter, from its verdict.
     #[must_use]
-    pub fn new(adapter: &Adapter, verdict: &Verdict) -> Self {
+    pub fn new(adapter: &Adapter, date: String, verdict: &Verdict) -> Self {
         let row = |name: &str| verdict.found.rows.iter().find(|row| row.name == name);
         let kind = |lines: bool, about: &str| {
             let as_declared = verdict.score(Some(lines), |r| (r.tally.total(), r.pixels, 0));
@@ -93,6 +93,7 @@ impl Standing {
             name: adapter.name.clone(),
             library: adapter.library.clone(),
             version: verdict.declared.name.clone(),
+            date,
             call: adapter.call.clone(),
             declares: verdict.declared.to_string(),
             triangles: kind(false, "Triangles: "),

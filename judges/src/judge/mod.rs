@@ -21,6 +21,7 @@ pub mod league;
 mod leaving;
 pub mod mesh;
 mod near;
+pub mod pictured;
 pub mod place;
 pub mod process;
 mod published;
@@ -30,15 +31,18 @@ pub mod run;
 pub mod serve;
 mod served;
 pub mod shrunk;
+pub mod smaller;
 pub mod stages;
 pub mod text;
 pub mod verdict;
 
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
-use ask::Ask;
+use ask::{Answer, Ask, Question};
 use check::Truth;
-use recognise::Recognised;
+use declared::Declared;
+use recognise::{Recognised, Said};
+use run::Incident;
 use verdict::Verdict;
 
 /// What to judge.
@@ -48,7 +52,7 @@ pub struct Options {
     pub seed: u64,
     /// Cases of each family.
     pub cases: u64,
-    /// No new case is begun after this long.
+    /// No new case is begun after this long; a failing case is then made smaller for a tenth of it.
     pub time_limit: Option<Duration>,
     /// Names of families; empty means all.
     pub families: Vec<String>,
@@ -91,15 +95,73 @@ pub fn judge(
     let first = askers.first_mut().expect("somebody to be asked");
     let declared = first.declared().clone();
     let mut truth = Truth::of(&declared);
-    let windings = stages::windings(&mut **first, options.seed);
+    let start = Instant::now();
+    // A third of a limited time is for what is asked before the families.
+    let end = options.time_limit.map(|limit| start + limit / 3);
+    let mut first = Watched { asked: &mut **first, incidents: Vec::new(), end, is_late: false };
+    let windings = stages::windings(&mut first, options.seed);
     truth.drawn = windings.seen().unwrap_or(truth.drawn);
-    let recognised = recognise(&mut **first).map(|found| {
+    let mut recognised = recognise(&mut first).map(|found| {
         truth.recognised = found.expect;
         found.said
     });
+    if first.is_late {
+        let late = "The time was up before its convention was found.".to_owned();
+        (recognised, truth.recognised) =
+            (Some(Said { sentences: vec![late], ..Said::default() }), None);
+    }
+    let before = first.incidents;
+    let mut options = options.clone();
+    if let Some(limit) = options.time_limit {
+        options.time_limit = Some(limit.saturating_sub(start.elapsed()));
+        options.patience = options.patience.min(limit / 10);
+    }
+    let options = &options;
     let mut found = run::run(askers, options, &truth, progress);
+    found.incidents.splice(0..0, before);
+    found.incidents.truncate(run::MOST_INCIDENTS);
     let first = &mut *askers[0];
     let failures = shrunk::failures(first, &found, options, &truth);
     found.strays.extend(first.strays());
     Verdict::new(declared, options, windings, recognised, found, failures, first.complaints())
+}
+
+/// Somebody who is asked before the families, and what came instead of answers.
+struct Watched<'a> {
+    asked: &'a mut dyn Ask,
+    incidents: Vec<Incident>,
+    /// Nothing is asked after this, and whether something would have been.
+    end: Option<Instant>,
+    is_late: bool,
+}
+
+impl Ask for Watched<'_> {
+    fn declared(&self) -> &Declared {
+        self.asked.declared()
+    }
+
+    fn ask(&mut self, questions: &[Question], most_deaths: u64) -> Vec<Answer> {
+        // Where the time is limited it is looked at now and then.
+        let at_once = match self.end {
+            Some(_) => self.asked.declared().batch.max(16),
+            None => questions.len().max(1),
+        };
+        let (mut answers, mut deaths) = (Vec::new(), 0);
+        for some in questions.chunks(at_once) {
+            self.is_late |= self.end.is_some_and(|end| Instant::now() >= end);
+            if self.is_late || deaths >= most_deaths {
+                break;
+            }
+            let answered = self.asked.ask(some, most_deaths - deaths);
+            for (question, answer) in some.iter().zip(&answered) {
+                if let Answer::Died(what) = answer {
+                    let (what, request) = (what.clone(), question.text(1));
+                    self.incidents.push(Incident { family: "", index: 0, what, request });
+                    deaths += 1;
+                }
+            }
+            answers.extend(answered);
+        }
+        answers
+    }
 }

@@ -46,6 +46,8 @@ const PIECE_BYTES: usize = 1 << 16;
 const MOST_PIECES: usize = 16;
 /// How often a silent program is looked after.
 const LOOK: Duration = Duration::from_millis(20);
+/// What comes without such a pause is one flood.
+const SILENCE: Duration = Duration::from_millis(100);
 /// What is kept of standard error: its end.
 const MOST_COMPLAINT_BYTES: usize = 4096;
 
@@ -150,7 +152,7 @@ impl Program {
             let id = first_id + answered as u64;
             let answer = live
                 .answer(&questions[answered], id, first_id..self.next_id, self.limits)
-                .map_err(|m| (m, sent - answered))?;
+                .map_err(|m| (live.or_flood(m, self.limits), sent - answered))?;
             self.kept += live.heard;
             if self.kept > MOST_BLOCK_BYTES {
                 let said = format!("{} bytes of answers to a block of requests", self.kept);
@@ -278,8 +280,11 @@ impl Live {
                     if refuses && asked == 2 {
                         asked = 1;
                         let _ = self.requests.send(b"HELLO 1\n".to_vec());
-                    } else if refuses || heard > MOST_CHATTER_BYTES {
+                    } else if refuses {
                         return Err(Misbehaviour::NoHello(quote(&last)));
+                    } else if heard > MOST_CHATTER_BYTES {
+                        let said = format!("{heard} bytes before HELLO, at last {}", quote(&last));
+                        return Err(Misbehaviour::Floods(said));
                     }
                 }
                 Err(NoLine::Ended) => {
@@ -346,6 +351,23 @@ impl Live {
             });
         }
         question.read(letter, &mut words).map_err(nonsense)
+    }
+
+    /// What it did, or that it floods its output: after a line that is no answer comes more without an end.
+    fn or_flood(&mut self, what: Misbehaviour, limits: Limits) -> Misbehaviour {
+        use Misbehaviour::{Nonsense, OutOfOrder, Twice, Unasked};
+        if !matches!(what, Nonsense(_) | OutOfOrder(_) | Twice(_) | Unasked(_)) {
+            return what;
+        }
+        let start = Instant::now();
+        let mut more = self.pending.len() - self.used;
+        while more <= MOST_LINE_BYTES {
+            match self.pieces.recv_timeout(SILENCE) {
+                Ok(piece) if start.elapsed() < limits.answer => more += piece.len(),
+                _ => return what,
+            }
+        }
+        Misbehaviour::Floods(format!("{more} bytes and more after it {what}"))
     }
 
     fn why(&mut self, no_line: NoLine, limit: f64) -> Misbehaviour {

@@ -25,7 +25,7 @@ pub const MOST_REMEMBERED: usize = 1 << 20;
 /// Failing cases of a property that are remembered without one, by each copy.
 const KEPT: usize = 4;
 /// Incidents that are kept to be shown.
-const MOST_INCIDENTS: usize = 24;
+pub const MOST_INCIDENTS: usize = 24;
 
 /// What came of a property: of a family, or of a check over all families.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
@@ -136,7 +136,7 @@ pub struct Failing {
 /// Something other than an answer, and the request that it came to.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Incident {
-    /// Name of the family.
+    /// Name of the family; empty of what was asked before the families.
     pub family: &'static str,
     /// Number of the case.
     pub index: u64,
@@ -261,7 +261,6 @@ pub fn run(
         let family = shared.families.iter().position(|family| family.name == f.family);
         (family, f.index, f.property)
     });
-    whole.incidents.truncate(MOST_INCIDENTS);
     whole.gave_up = shared.gave_up();
     whole.seconds = shared.start.elapsed().as_secs_f64();
     for (family, deaths) in shared.families.iter().cycle().zip(&shared.deaths) {
@@ -288,10 +287,17 @@ fn copy(
         let mut first = cases.start;
         let mut number = 0;
         while first < cases.end && !(number > 0 && shared.expired(pass)) {
-            let end = cases.end.min(first.saturating_add(asker.cases_at_once()));
+            // Where the time is limited, blocks begin small: of a slow program each family is asked.
+            let most = match shared.options.time_limit {
+                Some(_) => asker.cases_at_once().min(1 << number.min(32)),
+                None => asker.cases_at_once(),
+            };
+            let end = cases.end.min(first.saturating_add(most));
             for (at, family) in shared.families.iter().enumerate() {
                 let deaths = &shared.deaths[at + usize::from(pass) * shared.families.len()];
-                let stop = deaths.load(Ordering::Relaxed) >= MOST_DEATHS || shared.gave_up();
+                let stop = deaths.load(Ordering::Relaxed) >= MOST_DEATHS
+                    || shared.gave_up()
+                    || (number > 0 && shared.expired(pass));
                 // Families are dealt out like cards, so that one copy is not left with the slow ones.
                 if (number + at as u64) % shared.copies == part && !stop {
                     block(asker, family, first..end, pass, shared, deaths, &mut found);

@@ -5,13 +5,13 @@ use std::time::Instant;
 
 use super::Options;
 use super::ask::{Answer, Ask, Misbehaviour, show};
-use super::check::{Check, Truth, expected_answer, picture_of, seen_pictures};
+use super::check::{Check, Truth, expected_answer};
 use super::finding::Finding;
+use super::pictured::{Pictured, pictured};
 use super::place;
-use super::run::{Failing, Found, MOST_DEATHS};
-use crate::frame::Coverage;
+use super::run::{Failing, Found, MOST_DEATHS, Row};
+use super::smaller::smaller;
 use crate::hazard::{self, Case};
-use crate::verify::shrink;
 
 /// A failing case, shrunk.
 #[derive(Clone, Debug)]
@@ -31,7 +31,7 @@ pub struct Failure {
     /// What was said.
     pub exchanges: Vec<Exchange>,
     /// All its answers as one picture, and the one expected, where there are both.
-    pub pictures: Option<[Coverage; 2]>,
+    pub picture: Option<Pictured>,
 }
 
 /// A request, its answer, and the answer that was expected; as lines of the protocol.
@@ -48,7 +48,7 @@ pub struct Exchange {
 /// Properties whose first failing case is shown.
 const MOST_SHOWN: usize = 6;
 
-/// The first failing case of each property, those of the most often wrong first, shrunk.
+/// The first failing case of each property, shrunk: holes and doubles, then those of the most often wrong.
 pub fn failures(
     program: &mut dyn Ask,
     found: &Found,
@@ -56,7 +56,8 @@ pub fn failures(
     truth: &Truth,
 ) -> Vec<Failure> {
     let mut rows: Vec<_> = found.rows.iter().filter(|row| row.wrong_cases > 0).collect();
-    rows.sort_by(|a, b| b.share().total_cmp(&a.share()));
+    let share = |row: &Row| if row.name == "watertight" { f64::INFINITY } else { row.share() };
+    rows.sort_by(|a, b| share(b).total_cmp(&share(a)));
     let of = |name: &str| found.failing.iter().find(|f| f.property == name);
     let firsts = rows.into_iter().filter_map(|row| of(row.name)).take(MOST_SHOWN);
     firsts.filter_map(|failing| failure(program, failing, options, truth)).collect()
@@ -89,7 +90,7 @@ fn failure(
     let case = if !first.is_wrong() || first.died.iter().any(|(_, m)| is_slow(m)) {
         case
     } else {
-        shrink::shrink(case, |smaller| {
+        smaller(check, case, |smaller| {
             let is_asked = place::holds(smaller, &truth.declared)
                 && (leaves || !place::leaves_window(smaller))
                 && start.elapsed() < options.patience;
@@ -122,7 +123,7 @@ fn failure(
         index: failing.index,
         what,
         exchanges: exchanges.collect(),
-        pictures: pictures(check, &case, &answers, truth),
+        picture: pictured(check, &case, &answers, truth),
         case,
     })
 }
@@ -143,40 +144,4 @@ fn still_a_mesh(check: Check, case: &Case) -> bool {
         hazard::Shape::Lines(_) => false,
     };
     check != Check::Watertight || is_mesh
-}
-
-/// The answers as one picture, and beside it what was expected; for checks that compare answers with
-/// each other the first and the one that differs.
-fn pictures(check: Check, case: &Case, answers: &[Answer], truth: &Truth) -> Option<[Coverage; 2]> {
-    let drawn: Vec<Coverage> = answers.iter().filter_map(|a| picture_of(a, case.window)).collect();
-    match check {
-        Check::Order | Check::Direction => {
-            let (first, others) = drawn.split_first()?;
-            let other = others.iter().find(|other| *other != first)?;
-            Some([other.clone(), first.clone()])
-        }
-        Check::Samples | Check::Near => None,
-        Check::Depth => {
-            let mut questions = Vec::new();
-            check.questions(case, truth, &mut questions);
-            seen_pictures(questions.first()?, answers.first()?, truth)
-        }
-        _ => {
-            let mut questions = Vec::new();
-            check.questions(case, truth, &mut questions);
-            let expected = questions.iter().filter_map(|q| expected_answer(q, truth));
-            let expected: Vec<_> = expected.filter_map(|e| picture_of(&e, case.window)).collect();
-            Some([sum(&drawn, case)?, sum(&expected, case)?])
-        }
-    }
-}
-
-fn sum(pictures: &[Coverage], case: &Case) -> Option<Coverage> {
-    let mut whole = Coverage::new(case.window, 0);
-    for (y, row) in pictures.iter().flat_map(Coverage::rows) {
-        for (sum, hits) in whole.row_mut(y).iter_mut().zip(row) {
-            *sum = sum.saturating_add(*hits);
-        }
-    }
-    (!pictures.is_empty()).then_some(whole)
 }

@@ -11,6 +11,7 @@ use crate::grid::PixelRect;
 use crate::hazard::named::Input;
 use crate::hazard::offgrid::{self, OffGridCase};
 use crate::hazard::{self, Case, Shape};
+use crate::judge::pictured::Pictured;
 use crate::lineup::{self, Engine, ExactEngine, LineEngine, Specimen};
 use crate::scene::named;
 use crate::specimen::catalogue::{CARDS, Exhibit, TriangleCase};
@@ -37,6 +38,8 @@ pub struct CaseView {
     pub command: String,
     /// Where it is explained.
     pub chapter: Chapter,
+    /// What the picture shows, where that is not the pixels of the case.
+    pictured: String,
     window: PixelRect,
     shape: ShapeView,
     layers: Vec<Layer>,
@@ -258,33 +261,39 @@ fn request(engine: &str, case: &Case) -> String {
 }
 
 /// A failing case of a program that was judged, beside what the engines and the specimens draw. Where
-/// something else is expected of it than of them, by its declaration, beside that alone. `pictures` are
-/// what it drew and what was expected.
+/// something else is expected of it than of them, or the picture is another than theirs, beside what
+/// was expected alone.
 #[must_use]
 pub fn of_program(
     name: String,
     about: String,
     case: &Case,
     program: &str,
-    pictures: Option<&[Coverage; 2]>,
+    picture: Option<&Pictured>,
 ) -> CaseView {
     let mut view = on_grid(name, about, Kind::Failing, case, Judged::default());
-    if let Some([drawn, expected]) = pictures {
-        let truth = match &case.shape {
-            Shape::Triangles { list, .. } => Some(oracle_coverage(list, case.window)),
-            Shape::Lines(lines) => line_coverage(&LineEngine::Oracle, lines, case.window).ok(),
-        };
-        let truth = truth.unwrap_or_else(|| Coverage::new(case.window, 0));
-        if *expected != truth {
-            let drawn = layer(program.to_owned(), Role::Engine, Ok(drawn.clone()), expected);
-            let target =
-                layer("expected".to_owned(), Role::Expected, Ok(expected.clone()), expected);
-            (view.layers, view.start) = (vec![drawn, target], [0, 1]);
-            return view;
+    let Some(Pictured { drawn, expected, of, moved }) = picture else { return view };
+    let truth = match &case.shape {
+        Shape::Triangles { list, .. } => Some(oracle_coverage(list, case.window)),
+        Shape::Lines(lines) => line_coverage(&LineEngine::Oracle, lines, case.window).ok(),
+    };
+    let truth = truth.unwrap_or_else(|| Coverage::new(case.window, 0));
+    if !of.is_empty() || *expected != truth {
+        let drawn = layer(program.to_owned(), Role::Engine, Ok(drawn.clone()), expected);
+        let target = layer("expected".to_owned(), Role::Expected, Ok(expected.clone()), expected);
+        (view.layers, view.start) = (vec![drawn, target], [0, 1]);
+        view.window = expected.bounds();
+        if !of.is_empty() {
+            view.pictured = format!("The picture: {of}.");
         }
-        view.layers.insert(0, layer(program.to_owned(), Role::Engine, Ok(drawn.clone()), &truth));
-        view.start = [0, view.place("oracle", 1)];
+        if let Some(moved) = moved {
+            let corners = moved.iter().map(|c| c.map(|p| [p.x, p.y]));
+            view.shape = ShapeView::Triangles(corners.collect());
+        }
+        return view;
     }
+    view.layers.insert(0, layer(program.to_owned(), Role::Engine, Ok(drawn.clone()), &truth));
+    view.start = [0, view.place("oracle", 1)];
     view
 }
 
@@ -431,9 +440,9 @@ fn view(
         }
     }
     let start = start(&layers);
-    let (found, command) = (String::new(), String::new());
+    let [found, command, pictured] = [const { String::new() }; 3];
     let chapter = chapter(kind, &shape);
-    CaseView { name, about, kind, found, command, chapter, window, shape, layers, start }
+    CaseView { name, about, kind, found, command, chapter, pictured, window, shape, layers, start }
 }
 
 /// Where the docs derive what decides such a case.

@@ -82,12 +82,10 @@ fn message(verdict: &Verdict, property: &Property, repeat: &dyn Fn(&str, u64) ->
     }
     if property.name == "protocol" {
         for incident in verdict.found.incidents.iter().take(3) {
-            let command = repeat(incident.family, incident.index);
-            let _ = write!(
-                out,
-                "\nit {}\nrequest:  {}\nrepeat with: {command}",
-                incident.what, incident.request
-            );
+            let _ = write!(out, "\nit {}\nrequest:  {}", incident.what, incident.request);
+            if !incident.family.is_empty() {
+                let _ = write!(out, "\nrepeat with: {}", repeat(incident.family, incident.index));
+            }
         }
     }
     out
@@ -112,9 +110,10 @@ fn everything(verdict: &Verdict, repeat_all: &str, repeat: &dyn Fn(&str, u64) ->
         })
         .collect();
     let incidents = verdict.found.incidents.iter().map(|i| {
+        let of_family = Some(i).filter(|i| !i.family.is_empty());
         json!({
             "family": i.family, "index": i.index, "word": i.what.word(), "what": i.what.to_string(),
-            "request": i.request, "repeat": repeat(i.family, i.index),
+            "request": i.request, "repeat": of_family.map(|i| repeat(i.family, i.index)),
         })
     });
     json!({

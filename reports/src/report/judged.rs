@@ -2,9 +2,10 @@
 
 use std::fmt::Write as _;
 
-use super::html::{Column, Mark, Outcome, Report, Row, Table};
+use super::html::{Chapter, Column, Mark, Outcome, Report, Row, Table};
 use super::{ascii, cases, summary};
 use crate::judge::check::Check;
+use crate::judge::pictured::Pictured;
 use crate::judge::run::{self, MOST_DEATHS, Row as FamilyRow};
 use crate::judge::shrunk::Failure;
 use crate::judge::verdict::{self, Score, Verdict, per_million};
@@ -152,7 +153,8 @@ fn scores(out: &mut String, verdict: &Verdict) {
     }
     recognised.sentences.iter().chain(&recognised.compass).for_each(|text| line(out, "", text));
     if !recognised.declare.is_empty() {
-        line(out, "", &format!("to be judged by it: --declare '{}'", recognised.declare));
+        let turned = if verdict.declared.yup { " (in its words, y up)" } else { "" };
+        line(out, "", &format!("to be judged by it: --declare '{}'{turned}", recognised.declare));
     }
 }
 
@@ -207,11 +209,16 @@ pub fn incidents(out: &mut String, verdict: &Verdict, repeat: &dyn Fn(&str, u64)
             continue;
         }
         shown.push(word);
-        let command = repeat(incident.family, incident.index);
         let (family, index) = (incident.family, incident.index);
-        let _ = writeln!(out, "\n{family} #{index}: it {}", incident.what);
+        let place = match family {
+            "" => "before the families".to_owned(),
+            _ => format!("{family} #{index}"),
+        };
+        let _ = writeln!(out, "\n{place}: it {}", incident.what);
         let _ = writeln!(out, "  request:  {}", incident.request);
-        let _ = writeln!(out, "  repeat with: {command}");
+        if !family.is_empty() {
+            let _ = writeln!(out, "  repeat with: {}", repeat(family, index));
+        }
     }
     for stray in &verdict.found.strays {
         let flight = "with several requests in flight it";
@@ -239,18 +246,26 @@ pub fn one_failure(out: &mut String, failure: &Failure, command: &str) {
     if more > 0 {
         let _ = writeln!(out, "  and {more} requests more");
     }
-    if let Some([actual, target]) = &failure.pictures {
-        let blocks = [
-            ("judged".to_owned(), ascii::grid(actual, target)),
-            ("expected".to_owned(), ascii::grid(target, target)),
-        ];
-        let picture = ascii::side_by_side(&blocks, 58);
-        picture.lines().for_each(|line| {
-            let _ = writeln!(out, "  {line}");
-        });
-        *out += "  (# agrees, - missing, + extra, 2 twice, . neither)\n";
+    if let Some(pictured) = &failure.picture {
+        picture(out, "judged", pictured);
     }
     let _ = writeln!(out, "  repeat with: {command}");
+}
+
+/// What was drawn beside what was expected, as characters.
+pub fn picture(out: &mut String, drawn_by: &str, picture: &Pictured) {
+    let Pictured { drawn, expected, of, .. } = picture;
+    let blocks = [
+        (drawn_by.to_owned(), ascii::grid(drawn, expected)),
+        ("expected".to_owned(), ascii::grid(expected, expected)),
+    ];
+    for line in ascii::side_by_side(&blocks, 98).lines() {
+        let _ = writeln!(out, "{}", format!("  {line}").trim_end());
+    }
+    *out += "  (# agrees, - missing, + extra, 2 twice, . neither)\n";
+    if !of.is_empty() {
+        *out += &wrapped(&format!("  ({of})"), "   ");
+    }
 }
 
 /// The verdict in a sentence.
@@ -285,15 +300,22 @@ fn closing(verdict: &Verdict) -> String {
 pub fn page(verdict: &Verdict, repeat_all: &str, repeat: &dyn Fn(&str, u64) -> String) -> Report {
     let good = verdict.agrees();
     let word = if good { "AGREES" } else { "DISAGREES" };
-    // Of piles and of polygons no engine here draws a picture to compare with.
-    let has_view = |f: &&Failure| !matches!(f.check, Check::Depth | Check::Near);
-    let views = verdict.failures.iter().filter(has_view).map(|f| {
+    let views = verdict.failures.iter().map(|f| {
         let name = format!("{}#{}", f.family, f.index);
         let about = format!("{}: found in {} #{}, shrunk", f.property, f.family, f.index);
         let mut view =
-            cases::of_program(name, about, &f.case, &verdict.declared.name, f.pictures.as_ref());
+            cases::of_program(name, about, &f.case, &verdict.declared.name, f.picture.as_ref());
         view.found.clone_from(&f.what);
         view.command = repeat(f.family, f.index);
+        let chapter = match f.check {
+            Check::Depth => Some(("chapter 6, depth", "ch06.md")),
+            Check::Near => Some(("chapter 7, clipping", "ch07.md")),
+            Check::Samples => Some(("GAMES101, four samples", "games101.md")),
+            _ => None,
+        };
+        if let Some((title, path)) = chapter {
+            view.chapter = Chapter { title, path };
+        }
         view
     });
     let d = &verdict.declared;

@@ -22,7 +22,7 @@ struct Words {
 }
 
 const ENGLISH: Words = Words {
-    header: "| library | as is | by its convention | holes | doubles | order | lines as is | lines by \
+    header: "| library | version | day | as is | by its convention | holes | doubles | order | lines as is | lines by \
              theirs | from either end |",
     as_declared: "the same",
     unexplained: "unexplained",
@@ -33,14 +33,14 @@ const ENGLISH: Words = Words {
     say: str::to_owned,
     made: |l| {
         format!(
-            "Made on {} by rasterproof {}, {} cases of each family, seed {}.",
-            l.date, l.rasterproof, l.cases, l.seed
+            "Made by rasterproof {}, {} cases of each family, seed {}.",
+            l.rasterproof, l.cases, l.seed
         )
     },
 };
 
 const CHINESE: Words = Words {
-    header: "| 库 | 原样 | 按其约定 | 空洞 | 重复 | 顶点顺序 | 直线原样 | 直线按其约定 | 两端互换 |",
+    header: "| 库 | 版本 | 日期 | 原样 | 按其约定 | 空洞 | 重复 | 顶点顺序 | 直线原样 | 直线按其约定 | 两端互换 |",
     as_declared: "相同",
     unexplained: "未能解释",
     unscored: "约定对之无所断言、未计入的图形",
@@ -49,10 +49,7 @@ const CHINESE: Words = Words {
     marks: ["：", "；", "。"],
     say: phrases::chinese,
     made: |l| {
-        format!(
-            "{} 由 rasterproof {} 生成，每族 {} 个案例，种子 {}。",
-            l.date, l.rasterproof, l.cases, l.seed
-        )
+        format!("由 rasterproof {} 生成，每族 {} 个案例，种子 {}。", l.rasterproof, l.cases, l.seed)
     },
 };
 
@@ -60,7 +57,7 @@ const CHINESE: Words = Words {
 #[must_use]
 pub fn tables(league: &League, chinese: bool) -> String {
     let words = if chinese { &CHINESE } else { &ENGLISH };
-    let mut out = format!("{}\n\n{}\n|---|", (words.made)(league), words.header);
+    let mut out = format!("{}\n\n{}\n|---|---|---|", (words.made)(league), words.header);
     out += &"---:|".repeat(8);
     out.push('\n');
     for row in &league.rows {
@@ -70,8 +67,10 @@ pub fn tables(league: &League, chinese: bool) -> String {
         let of = |n: u64, all: u64| if all == 0 { "-".to_owned() } else { n.to_string() };
         let _ = writeln!(
             out,
-            "| {} | {as_is} | {found} | {} | {} | {} | {lines} | {lines_found} | {} |",
+            "| {} | {} | {} | {as_is} | {found} | {} | {} | {} | {lines} | {lines_found} | {} |",
             row.name,
+            row.version,
+            row.date,
             of(holes, meshes),
             of(doubles, meshes),
             percent(row.orders),
@@ -85,11 +84,10 @@ pub fn tables(league: &League, chinese: bool) -> String {
 
 /// What a library was asked by, and what it does.
 fn one(out: &mut String, row: &Standing, words: &Words) {
-    let Standing { name, version, declares, call, unanswered: [refused, died], .. } = row;
+    let Standing { name, declares, call, unanswered: [refused, died], .. } = row;
     let [colon, semicolon, stop] = words.marks;
     let call = (words.say)(call);
-    let _ =
-        writeln!(out, "- **{name}**{colon}{version}{semicolon}{call}{semicolon}`{declares}`{stop}");
+    let _ = writeln!(out, "- **{name}**{colon}{call}{semicolon}`{declares}`{stop}");
     let kinds = words.kinds.iter().zip([&row.triangles, &row.lines]);
     for (about, kind) in kinds.filter_map(|(about, k)| Some((about, k.as_ref()?))) {
         let gap = if stop == "." { " " } else { "" };

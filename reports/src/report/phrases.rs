@@ -113,6 +113,16 @@ const PHRASES: &[(&str, &str)] = &[
         "逐行填充，交点从离顶点最近的那一行起以 1/65536 px 步进，最后一行不填，三条边再按同样的步子画成直线",
     ),
     (
+        "fills every row from the first to the last between crossings rounded to the nearest pixel, halves \
+         inwards, and draws on the row of a corner to where the next one begins",
+        "从第一行到最后一行逐行填充，交点取最近的整像素，正在中间的向内，顶点所在的行一直画到下一行开始的地方",
+    ),
+    (
+        "moves corners a quarter of a pixel right and down, and samples at the pixel's centre, row by row, \
+         between crossings in single precision that are stepped with a remainder of 31 bits",
+        "顶点向右、向下各移四分之一像素，采样点在像素中心，逐行填充，交点用单精度算出，再带着 31 位的余数逐行步进",
+    ),
+    (
         "draws at each step the pixel that holds the minor coordinate of the step before, in 1/65536 px, seen \
          from the end with the smaller major coordinate, which is not drawn",
         "每一步画的像素取上一步的次坐标，以 1/65536 px 计，从主坐标较小的一端看起，该端不画",

@@ -400,6 +400,7 @@ fn conventions_of_libraries_are_named() {
         ("cairo", Scan::Above, "1/256 px above the centre"),
         ("java2d-path", Scan::Coarse, "all cut to 1/1024 px"),
         ("opencv-convex", Scan::Sides, "without the last row"),
+        ("pillow", Scan::Joined, "halves inwards"),
     ] {
         let found = diagnose(&mut Recording::read(name), &Known::default(), 1);
         let text = found.sentence();
@@ -410,8 +411,6 @@ fn conventions_of_libraries_are_named() {
         let ties = found.as_found.ties.triangles;
         assert_eq!(ties.drawn, ties.of, "{name}: {text}");
     }
-    let found = diagnose(&mut Recording::read("pillow"), &Known::default(), 1);
-    assert_eq!(found.confidence, Confidence::Unexplained, "{}", found.sentence());
 }
 
 /// What libraries answered to lines.

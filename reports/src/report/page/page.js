@@ -1002,8 +1002,8 @@
     const r = rule(item);
     const agrees = r && item.layers[item.oracle].hits.every((hits, i) => hits === r.hits[i]);
     const other = 'Expected is the exact picture of what the program declares, not of the top-left rule at the centre.';
-    const words = item.isCase && item.layers[item.oracle].role === 'expected' ? other : `The rule, computed by this page at every pixel, says ${agrees ? 'what' : 'something else than'} the oracle says.`;
-    $('#by-rule').textContent = r ? words : '';
+    const words = item.pictured ? item.pictured : item.isCase && item.layers[item.oracle].role === 'expected' ? other : `The rule, computed by this page at every pixel, says ${agrees ? 'what' : 'something else than'} the oracle says.`;
+    $('#by-rule').textContent = r || item.pictured ? words : '';
   };
 
   const pairChanged = () => {
