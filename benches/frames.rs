@@ -17,20 +17,20 @@
 //! a word, `-- --quick` with fewer rounds. `-- --curves` measures one shape in all its sizes instead,
 //! and one mesh in pictures of several sides.
 
-use std::time::Instant;
+#[path = "common/mesh.rs"]
+mod mesh;
 
 use euc::Pipeline;
 use euc::buffer::Buffer2d;
 use euc::rasterizer::{BackfaceCullingDisabled, Triangles};
 use glam::{DMat3, DVec2, Mat4, Vec3, Vec4};
-use rasterproof::effects::Effects;
+use mesh::{Draws, devices, engine, tiles, times, wrong};
 use rasterproof::frame::Frame;
 use rasterproof::grid::PixelRect;
-use rasterproof::lineup::Drawer;
-use rasterproof::pipeline::target::{Antialias, Colour, Target};
+use rasterproof::pipeline::target::{Antialias, Colour};
 use rasterproof::pipeline::texture::Texture;
 use rasterproof::scene::{Scene, meshes};
-use rasterproof::tiled::{self, Samples};
+use rasterproof::tiled::Samples;
 
 /// Side of the square picture.
 const SIDE_PX: u32 = 1024;
@@ -69,83 +69,30 @@ fn main() {
     }
 }
 
-/// Somebody who draws a frame.
-struct Draws<'a> {
-    name: String,
-    samples: Samples,
-    /// This is timed.
-    draw: Box<dyn FnMut() -> Option<Frame<Colour>> + 'a>,
-    /// What was drawn, of those who leave it where it is.
-    shown: Option<Frame<Colour>>,
-}
-
-impl<'a> Draws<'a> {
-    fn new(name: &str, samples: Samples, mut draw: impl FnMut() -> Frame<Colour> + 'a) -> Self {
-        let draw = Box::new(move || Some(draw()));
-        Self { name: name.to_owned(), samples, draw, shown: None }
-    }
-
-    fn picture(&mut self) -> Frame<Colour> {
-        let drawn = (self.draw)();
-        drawn.or_else(|| self.shown.take()).expect("a picture")
-    }
-}
-
 /// Everybody, euc first.
 fn everybody<'a>(
     scene: &'a Scene,
     side_px: u32,
     pools: &'a [rayon::ThreadPool; 2],
 ) -> Vec<Draws<'a>> {
-    let tiles = move |threads: usize, samples| {
-        let draw = move || tiled::render(scene, side_px, side_px, samples).expect("it draws");
-        move || pools[threads - 1].install(draw)
-    };
+    let tiles = move |threads: usize, samples| tiles(scene, side_px, &pools[threads - 1], samples);
     let (single, four) = (Samples::One, Samples::Four);
     let euc = Euc::new(scene, side_px);
     let mut all = vec![
-        Draws::new("euc", single, move || euc.draw()),
-        Draws::new("scanline", single, engine(scene, side_px, Antialias::None)),
-        Draws::new("tiles", single, tiles(1, single)),
-        Draws::new("tiles, 2 threads", single, tiles(2, single)),
-        Draws::new("scanline msaa4", four, engine(scene, side_px, Antialias::Multisample4)),
-        Draws::new("tiles msaa4", four, tiles(1, four)),
-        Draws::new("msaa4, 2 threads", four, tiles(2, four)),
+        Draws::new("euc", move || euc.draw()),
+        Draws::new("scanline", engine(scene, side_px, Antialias::None)),
+        Draws::new("tiles", tiles(1, single)),
+        Draws::new("tiles, 2 threads", tiles(2, single)),
+        Draws::new("scanline msaa4", engine(scene, side_px, Antialias::Multisample4)),
+        Draws::new("tiles msaa4", tiles(1, four)),
+        Draws::new("msaa4, 2 threads", tiles(2, four)),
     ];
-    for samples in [single, four] {
-        all.extend(devices(scene, side_px, samples));
+    all.extend(devices(scene, side_px, single));
+    for mut draws in devices(scene, side_px, four) {
+        draws.name += " msaa4";
+        all.push(draws);
     }
     all
-}
-
-/// Without the feature there are none.
-#[cfg(not(feature = "vulkan"))]
-fn devices(_: &Scene, _: u32, _: Samples) -> Vec<Draws<'static>> {
-    Vec::new()
-}
-
-/// Every device that is there.
-#[cfg(feature = "vulkan")]
-fn devices(scene: &Scene, side_px: u32, samples: Samples) -> Vec<Draws<'static>> {
-    use rasterproof_vulkan::device::find;
-    use rasterproof_vulkan::gpu::mesh::Filmed;
-
-    let all = find::list().unwrap_or_else(|error| {
-        eprintln!("{error}");
-        Vec::new()
-    });
-    let device = |listed: &find::Listed| {
-        let mut filmed = Filmed::new(listed, scene, side_px, samples).expect("a device that draws");
-        let shown = Some(filmed.picture().expect("a device that draws"));
-        let draw = move || {
-            filmed.draw().expect("a device that draws");
-            None
-        };
-        let four = if samples == Samples::Four { " msaa4" } else { "" };
-        let name = format!("{}{four}", listed.about.short());
-        Draws { name, samples, draw: Box::new(draw), shown }
-    };
-    all.iter().map(device).collect()
 }
 
 /// Pools of one thread and of two.
@@ -155,30 +102,13 @@ fn pools() -> [rayon::ThreadPool; 2] {
     })
 }
 
-/// Medians of milliseconds.
-fn times(all: &mut [Draws<'_>], rounds: usize) -> Vec<f64> {
-    let mut times = vec![Vec::new(); all.len()];
-    for _ in 0..rounds {
-        for (draws, times) in all.iter_mut().zip(&mut times) {
-            let start = Instant::now();
-            std::hint::black_box((draws.draw)());
-            times.push(start.elapsed().as_secs_f64() * 1e3);
-        }
-    }
-    let median = |times: &mut Vec<f64>| {
-        times.sort_by(f64::total_cmp);
-        times[times.len() / 2]
-    };
-    times.iter_mut().map(median).collect()
-}
-
 fn report(scene: &Scene, rounds: usize) {
     let pools = pools();
     let mut all = everybody(scene, SIDE_PX, &pools);
     let pictures: Vec<_> = all.iter_mut().map(Draws::picture).collect();
     let ms = times(&mut all, rounds);
     for (i, draws) in all.iter().enumerate() {
-        let exact = if draws.samples == Samples::One { "scanline" } else { "scanline msaa4" };
+        let exact = if draws.name.contains("msaa4") { "scanline msaa4" } else { "scanline" };
         let truth = all.iter().position(|draws| draws.name == exact).expect("it is there");
         let [uncovered, other] = wrong(&pictures[i], &pictures[truth], scene.background);
         let mesh = if i == 0 { scene.name.as_str() } else { "" };
@@ -196,31 +126,6 @@ fn curve(scene: &Scene, side_px: u32, rounds: usize) {
     let ms = times(&mut all, rounds);
     let cells = row.iter().zip(ms).map(|(name, ms)| format!("{name} {ms:.2}"));
     println!("{} {side_px} px: {}", scene.name, cells.collect::<Vec<_>>().join(" | "));
-}
-
-fn engine(scene: &Scene, side_px: u32, antialias: Antialias) -> impl FnMut() -> Frame<Colour> {
-    let mut target =
-        Target::new(side_px, side_px, antialias, Default::default()).expect("a usual size");
-    move || {
-        let frame = Drawer::Scanline.render(scene, &Effects::PLANNED, &mut target);
-        frame.expect("it draws").picture
-    }
-}
-
-/// Pixels that are background in one picture alone, and others of another colour.
-fn wrong(picture: &Frame<Colour>, truth: &Frame<Colour>, background: Colour) -> [u64; 2] {
-    let (mut uncovered, mut other) = (0, 0);
-    for ((_, row), (_, truth)) in picture.rows().zip(truth.rows()) {
-        for (a, b) in row.iter().zip(truth) {
-            let far = (0..3).any(|i| a[i].abs_diff(b[i]) > 2);
-            if (*a == background) != (*b == background) {
-                uncovered += 1;
-            } else if far {
-                other += 1;
-            }
-        }
-    }
-    [uncovered, other]
 }
 
 /// euc's stages for a scene of one mesh, textured and lit.

@@ -141,76 +141,45 @@ pub(super) fn beside<S: Simd>(
     (x, f32x16::load_array_ref(simd, &place.rows) + (y_px - y0) as f32)
 }
 
-/// Of a rectangle of sixteen pixels, `SIDE` columns wide, in rows that lie `pitch` apart.
-#[inline(always)]
-pub(super) fn load_depths<S: Simd, const SIDE: i32>(
-    simd: S,
-    from: &[f32],
-    pitch: usize,
-) -> f32x16<S> {
-    if SIDE == PAIR_PX {
-        let (above, below) = (&from[..8], &from[pitch..][..8]);
-        return f32x8::from_slice(simd, above).combine(f32x8::from_slice(simd, below));
-    }
-    let [a, b] = [&from[..4], &from[pitch..][..4]];
-    let [c, d] = [&from[2 * pitch..][..4], &from[3 * pitch..][..4]];
-    let above = f32x4::from_slice(simd, a).combine(f32x4::from_slice(simd, b));
-    above.combine(f32x4::from_slice(simd, c).combine(f32x4::from_slice(simd, d)))
+/// Loading and storing a rectangle of sixteen pixels, `SIDE` columns wide, in rows that lie `pitch` apart.
+macro_rules! rectangles {
+    ($load:ident, $store:ident, $pixel:ty, $four:ident, $eight:ident, $all:ident) => {
+        #[inline(always)]
+        pub(super) fn $load<S: Simd, const SIDE: i32>(
+            simd: S,
+            from: &[$pixel],
+            pitch: usize,
+        ) -> $all<S> {
+            if SIDE == PAIR_PX {
+                let (above, below) = (&from[..8], &from[pitch..][..8]);
+                return $eight::from_slice(simd, above).combine($eight::from_slice(simd, below));
+            }
+            let [a, b] = [&from[..4], &from[pitch..][..4]];
+            let [c, d] = [&from[2 * pitch..][..4], &from[3 * pitch..][..4]];
+            let above = $four::from_slice(simd, a).combine($four::from_slice(simd, b));
+            above.combine($four::from_slice(simd, c).combine($four::from_slice(simd, d)))
+        }
+
+        #[inline(always)]
+        pub(super) fn $store<S: Simd, const SIDE: i32>(
+            values: $all<S>,
+            to: &mut [$pixel],
+            pitch: usize,
+        ) {
+            let (above, below) = values.split();
+            if SIDE == PAIR_PX {
+                above.store_slice(&mut to[..8]);
+                below.store_slice(&mut to[pitch..][..8]);
+                return;
+            }
+            let ((a, b), (c, d)) = (above.split(), below.split());
+            a.store_slice(&mut to[..4]);
+            b.store_slice(&mut to[pitch..][..4]);
+            c.store_slice(&mut to[2 * pitch..][..4]);
+            d.store_slice(&mut to[3 * pitch..][..4]);
+        }
+    };
 }
 
-/// As [`load_depths`].
-#[inline(always)]
-pub(super) fn store_depths<S: Simd, const SIDE: i32>(
-    values: f32x16<S>,
-    to: &mut [f32],
-    pitch: usize,
-) {
-    let (above, below) = values.split();
-    if SIDE == PAIR_PX {
-        above.store_slice(&mut to[..8]);
-        below.store_slice(&mut to[pitch..][..8]);
-        return;
-    }
-    let ((a, b), (c, d)) = (above.split(), below.split());
-    a.store_slice(&mut to[..4]);
-    b.store_slice(&mut to[pitch..][..4]);
-    c.store_slice(&mut to[2 * pitch..][..4]);
-    d.store_slice(&mut to[3 * pitch..][..4]);
-}
-
-/// Of a rectangle of sixteen pixels, `SIDE` columns wide, in rows that lie `pitch` apart.
-#[inline(always)]
-pub(super) fn load_colours<S: Simd, const SIDE: i32>(
-    simd: S,
-    from: &[u32],
-    pitch: usize,
-) -> u32x16<S> {
-    if SIDE == PAIR_PX {
-        let (above, below) = (&from[..8], &from[pitch..][..8]);
-        return u32x8::from_slice(simd, above).combine(u32x8::from_slice(simd, below));
-    }
-    let [a, b] = [&from[..4], &from[pitch..][..4]];
-    let [c, d] = [&from[2 * pitch..][..4], &from[3 * pitch..][..4]];
-    let above = u32x4::from_slice(simd, a).combine(u32x4::from_slice(simd, b));
-    above.combine(u32x4::from_slice(simd, c).combine(u32x4::from_slice(simd, d)))
-}
-
-/// As [`load_colours`].
-#[inline(always)]
-pub(super) fn store_colours<S: Simd, const SIDE: i32>(
-    values: u32x16<S>,
-    to: &mut [u32],
-    pitch: usize,
-) {
-    let (above, below) = values.split();
-    if SIDE == PAIR_PX {
-        above.store_slice(&mut to[..8]);
-        below.store_slice(&mut to[pitch..][..8]);
-        return;
-    }
-    let ((a, b), (c, d)) = (above.split(), below.split());
-    a.store_slice(&mut to[..4]);
-    b.store_slice(&mut to[pitch..][..4]);
-    c.store_slice(&mut to[2 * pitch..][..4]);
-    d.store_slice(&mut to[3 * pitch..][..4]);
-}
+rectangles!(load_depths, store_depths, f32, f32x4, f32x8, f32x16);
+rectangles!(load_colours, store_colours, u32, u32x4, u32x8, u32x16);

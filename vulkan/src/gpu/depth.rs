@@ -2,7 +2,7 @@
 
 use super::cells::{draw_of, hits_of, in_perspective, valued};
 use super::engine::Gpu;
-use super::rules::{Class, Outcome};
+use super::rules::{Class, Errors, Outcome};
 use super::specified::depth_bounds;
 use crate::device::Error;
 use crate::device::draw::{Draw, Pictures, Vertex};
@@ -52,7 +52,7 @@ pub(super) fn stored(gpu: &mut Gpu, seed: u64, cases: u64, kind: Kind) -> Result
     let triangles = triangles(gpu, seed, cases);
     let list = draws(gpu, &triangles);
     let pictures = gpu.draw(kind, triangles.len(), list)?;
-    let (mut values, mut worst, mut other, mut outside) = (0u64, 0.0f64, 0u64, 0u64);
+    let mut errors = Errors::default();
     for (cell, triangle) in (0..).zip(&triangles) {
         let v = &triangle.vertices;
         let (depths, inv_w) = (v.map(|v| v.depth), v.map(|v| v.inv_w));
@@ -69,20 +69,11 @@ pub(super) fn stored(gpu: &mut Gpu, seed: u64, cases: u64, kind: Kind) -> Result
                 _ => (f64::from(f32::from_bits(word)), 0.0),
             };
             let error = exact.at(pixel.0 as i32, pixel.1 as i32).0.distance(value);
-            values += 1;
             // Of two steps the nearer is preferred, and either allowed.
-            other += u64::from(error > bound + step / 2.0);
-            outside += u64::from(error > of_weights + step);
-            worst = worst.max(error / (bound + step / 2.0));
+            errors.add(error, bound + step / 2.0, of_weights + step);
         }
     }
-    let said = format!("{values} depths, the worst at {worst:.3} of the derived bound");
-    let more = format!("{said}, {other} beyond it, {outside} of them beyond what is allowed");
-    Ok(match (other, outside) {
-        (0, _) => (Class::Equal, said),
-        (_, 0) => (Class::Allowed, more),
-        _ => (Class::Outside, more),
-    })
+    Ok(errors.outcome("depths", "what is allowed"))
 }
 
 /// Two triangles in one cell: each pixel keeps the smaller of the depths that each of them has alone.

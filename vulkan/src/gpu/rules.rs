@@ -150,6 +150,38 @@ pub const REPEATABILITY: Rule = Rule {
     open: "whether a device opened anew makes it too",
 };
 
+/// Errors of values, against the derived bound and against a wider one, up to which they are allowed.
+#[derive(Default)]
+pub struct Errors {
+    values: u64,
+    beyond: u64,
+    outside: u64,
+    worst: f64,
+}
+
+impl Errors {
+    /// Takes an error into account.
+    pub fn add(&mut self, error: f64, bound: f64, allowed: f64) {
+        self.values += 1;
+        self.beyond += u64::from(error > bound);
+        self.outside += u64::from(error > allowed);
+        self.worst = self.worst.max(error / bound);
+    }
+
+    /// What came of them: of `what` there are so many, some beyond `allowed`.
+    #[must_use]
+    pub fn outcome(&self, what: &str, allowed: &str) -> Outcome {
+        let Self { values, beyond, outside, worst } = self;
+        let said = format!("{values} {what}, the worst at {worst:.3} of the derived bound");
+        let more = format!("{said}, {beyond} beyond it, {outside} of them beyond {allowed}");
+        match (beyond, outside) {
+            (0, _) => (Class::Equal, said),
+            (_, 0) => (Class::Allowed, more),
+            _ => (Class::Outside, more),
+        }
+    }
+}
+
 /// What came of a property.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Finding {

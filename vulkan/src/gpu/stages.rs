@@ -6,7 +6,7 @@ use super::cells::{
 };
 use super::engine::Gpu;
 use super::known::{self, Known};
-use super::rules::{self, Class, Finding, Outcome, Rule};
+use super::rules::{self, Class, Errors, Finding, Outcome, Rule};
 use super::specified::linear_bounds;
 use super::{depth, lines};
 use crate::contract::Rasterize as _;
@@ -189,7 +189,7 @@ fn linear(gpu: &mut Gpu, seed: u64, cases: u64) -> Result<Outcome, Error> {
     let side = gpu.viewport_px();
     let draws = (0..).zip(&triangles).map(|(cell, t)| draw_of(cell, valued(t, side / 2.0), side));
     let pictures = gpu.draw(Kind::Linear, triangles.len(), draws.collect())?;
-    let (mut worst, mut values, mut over, mut outside) = (0.0f64, 0u64, 0u64, 0u64);
+    let mut errors = Errors::default();
     for (cell, triangle) in (0..).zip(&triangles) {
         let v = &triangle.vertices;
         let attributes = v.map(|v| v.varying.to_array());
@@ -209,21 +209,12 @@ fn linear(gpu: &mut Gpu, seed: u64, cases: u64) -> Result<Outcome, Error> {
             for (error, [bound, of_weights]) in
                 [w.distance(inv_w), e.distance(a), f.distance(b)].into_iter().zip(bounds)
             {
-                values += 1;
-                over += u64::from(error > bound);
-                outside += u64::from(error > of_weights);
-                worst = worst.max(error / bound);
+                errors.add(error, bound, of_weights);
             }
         }
     }
-    let said = format!("{values} values, the worst at {worst:.3} of the derived bound");
     // The specification has a sum of weights and no bound on its error.
-    let beyond = format!("{said}, {over} beyond it, {outside} of them beyond that of weights");
-    Ok(match (over, outside) {
-        (0, _) => (Class::Equal, said),
-        (_, 0) => (Class::Allowed, beyond),
-        _ => (Class::Outside, beyond),
-    })
+    Ok(errors.outcome("values", "that of weights"))
 }
 
 /// The viewport of what is clipped near: in the middle of a cell, so that what is drawn beyond it shows.
