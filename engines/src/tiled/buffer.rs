@@ -2,7 +2,6 @@
 
 use std::ops::Range;
 
-use crate::frame::Frame;
 use crate::grid::PixelRect;
 use crate::tile;
 
@@ -18,14 +17,49 @@ const BLOCKS: i32 = SIDE_PX / BLOCK_PX;
 /// about a row of pixels.
 const STALE: u8 = 8;
 
-/// One sample of every pixel of a tile. Beyond its right and lower side there is room for the rows
+/// From row to row of a [`Sheet`].
+pub const PITCH: usize = (SIDE_PX + tile::SIDE_PX) as usize;
+
+/// One number for every pixel of a tile. Beyond its right and lower side there is room for the pairs
 /// and cells that begin in it. Columns and rows count from its first pixel.
+pub(super) struct Sheet<T>(Vec<T>);
+
+impl<T: Copy> Sheet<T> {
+    fn new(value: T) -> Self {
+        Self(vec![value; PITCH * (SIDE_PX + tile::CELL_PX - 1) as usize])
+    }
+
+    fn fill(&mut self, value: T) {
+        self.0.fill(value);
+    }
+
+    /// Row `y`, and the room beyond it.
+    pub fn row(&self, y: i32) -> &[T] {
+        &self.0[y as usize * PITCH..][..PITCH]
+    }
+
+    /// So many from a pixel on: a part of its row, and of those below.
+    #[inline(always)]
+    pub fn run<const N: usize>(&self, left: i32, top: i32) -> &[T; N] {
+        let run = self.0[top as usize * PITCH + left as usize..].first_chunk();
+        run.expect("there is room for what begins in a tile")
+    }
+
+    /// As [`Sheet::run`].
+    #[inline(always)]
+    pub fn run_mut<const N: usize>(&mut self, left: i32, top: i32) -> &mut [T; N] {
+        let run = self.0[top as usize * PITCH + left as usize..].first_chunk_mut();
+        run.expect("there is room for what begins in a tile")
+    }
+}
+
+/// One sample of every pixel of a tile.
 pub(super) struct Plane {
     /// Opaque; with one sample a pixel, until it is coloured, the number of what is seen there, below
     /// every colour, and 0 for nothing.
-    pub colours: Frame<u32>,
+    pub colours: Sheet<u32>,
     /// Smaller is nearer; infinite where nothing has been drawn.
-    pub depths: Frame<f32>,
+    pub depths: Sheet<f32>,
 }
 
 /// Colours and depths of one tile, owned by who draws it: nothing is shared, so nothing is locked.
@@ -44,13 +78,7 @@ pub(super) struct Buffer {
 
 impl Buffer {
     pub fn new(samples: usize) -> Self {
-        let room = PixelRect {
-            x0: 0,
-            y0: 0,
-            x1: SIDE_PX + tile::SIDE_PX,
-            y1: SIDE_PX + tile::CELL_PX - 1,
-        };
-        let plane = || Plane { colours: Frame::new(room, 0), depths: Frame::new(room, 0.0) };
+        let plane = || Plane { colours: Sheet::new(0), depths: Sheet::new(0.0) };
         Self {
             rect: PixelRect::window(0, 0),
             background: 0,
@@ -194,7 +222,8 @@ mod tests {
             buffer.draws(drawn);
             for plane in &mut buffer.planes {
                 for y in inside.y0 - rect.y0..inside.y1 - rect.y0 {
-                    for stored in &mut plane.depths.row_mut(y)[columns.clone()] {
+                    for x in columns.clone() {
+                        let [stored] = plane.depths.run_mut(x as i32, y);
                         *stored = stored.min(depth);
                     }
                 }

@@ -240,14 +240,13 @@ impl<'a> Drawing<'a> {
         let stamps = std::mem::take(&mut self.of_centres.stamps);
         let (mut last, mut brush) = (0, None);
         let [x0, y0] = [self.buffer.rect.x0, self.buffer.rect.y0];
-        let pitch = self.buffer.planes[0].colours.pitch();
         for &Stamp { number, left, top, is_cell } in &stamps {
             let (left, top) = (i32::from(left), i32::from(top));
-            let run = self.buffer.planes[0].colours.tail_mut(left, top);
+            let sheet = &mut self.buffer.planes[0].colours;
             let before = if is_cell {
-                load_colours::<S, CELL_PX>(simd, run, pitch)
+                load_colours::<S, CELL_PX>(simd, sheet, left, top)
             } else {
-                load_colours::<S, PAIR_PX>(simd, run, pitch)
+                load_colours::<S, PAIR_PX>(simd, sheet, left, top)
             };
             let seen = before.simd_eq(number);
             let mask = seen.to_bitmask() as u32;
@@ -262,11 +261,11 @@ impl<'a> Drawing<'a> {
             let Some(brush) = &brush else { continue };
             let place = if is_cell { &CELL } else { &PAIR };
             let colours = brush.stamp(simd, place, [x0 + left, y0 + top], mask);
-            let run = self.buffer.planes[0].colours.tail_mut(left, top);
+            let (sheet, after) = (&mut self.buffer.planes[0].colours, seen.select(colours, before));
             if is_cell {
-                store_colours::<S, CELL_PX>(seen.select(colours, before), run, pitch);
+                store_colours::<S, CELL_PX>(after, sheet, left, top);
             } else {
-                store_colours::<S, PAIR_PX>(seen.select(colours, before), run, pitch);
+                store_colours::<S, PAIR_PX>(after, sheet, left, top);
             }
         }
         self.of_centres.stamps = stamps;

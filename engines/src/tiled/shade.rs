@@ -89,13 +89,11 @@ impl Brush<'_> {
             let mut seen = mask32x16::from_bitmask(simd, u64::from(masks[sample]));
             let [right, down] = from_centre(SAMPLES[sample]);
             if let Some(depth) = depth {
-                let plane = &mut buffer.planes[sample].depths;
-                let pitch = plane.pitch();
-                let depths = plane.tail_mut(left, top);
-                let before = load_depths::<S, PAIR_PX>(simd, depths, pitch);
+                let sheet = &mut buffer.planes[sample].depths;
+                let before = load_depths::<S, PAIR_PX>(simd, sheet, left, top);
                 let depth = depth.at(x + right, y + down);
                 seen &= depth.simd_lt(before);
-                store_depths::<S, PAIR_PX>(seen.select(depth, before), depths, pitch);
+                store_depths::<S, PAIR_PX>(seen.select(depth, before), sheet, left, top);
             }
             at_x = seen.select(Lanes::splat(simd, right), at_x);
             at_y = seen.select(Lanes::splat(simd, down), at_y);
@@ -110,10 +108,9 @@ impl Brush<'_> {
         let (at_x, at_y) = (centre.select(zero, at_x), centre.select(zero, at_y));
         let colours = self.colours(simd, x + at_x, y + at_y, mask);
         for (plane, visible) in buffer.planes.iter_mut().zip(visible).take(CENTRE) {
-            let pitch = plane.colours.pitch();
-            let run = plane.colours.tail_mut(left, top);
-            let before = load_colours::<S, PAIR_PX>(simd, run, pitch);
-            store_colours::<S, PAIR_PX>(visible.select(colours, before), run, pitch);
+            let before = load_colours::<S, PAIR_PX>(simd, &plane.colours, left, top);
+            let after = visible.select(colours, before);
+            store_colours::<S, PAIR_PX>(after, &mut plane.colours, left, top);
         }
     }
 

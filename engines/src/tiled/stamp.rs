@@ -4,10 +4,9 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x4, f32x8, f32x16, mask32x16, u32x4, u32x8, u32x16};
 
-use super::buffer::Buffer;
+use super::buffer::{Buffer, PITCH, Sheet};
 use super::planes::Depth;
-use crate::grid::PixelRect;
-use crate::tile::{Block, CELL_PX, Piece, SIDE_PX};
+use crate::tile::{CELL_PX, Piece, Tile};
 
 /// Columns of a pair: two runs of eight pixels, one below the other, which small triangles fill
 /// better than one run of sixteen.
@@ -59,34 +58,48 @@ impl Pencil {
         buffer: &mut Buffer,
         stamps: &mut Vec<Stamp>,
     ) {
-        let (rect, tile) = match covered {
+        let rect = match covered {
             Piece::Cell(cell) => {
                 let (at_px, mask) = ([cell.x_px, cell.y_px], u32::from(cell.pixels));
-                self.pixels::<S, { CELL_PX }>(simd, at_px, mask, buffer, stamps);
-                return;
+                return self.pixels::<S, CELL_PX>(simd, at_px, mask, buffer, stamps);
             }
-            Piece::Tile(tile) => {
-                let (x0, y0) = (tile.x_px, tile.y_px);
-                (PixelRect { x0, y0, x1: x0 + SIDE_PX, y1: y0 + SIDE_PX }, Some(tile))
-            }
-            Piece::Block(Block { rect, .. }) => (*rect, None),
+            Piece::Tile(tile) => return self.tile(simd, tile, buffer, stamps),
+            Piece::Block(block) => block.rect,
         };
         for y_px in (rect.y0..rect.y1).step_by(2) {
+            let two = if y_px + 1 < rect.y1 { 0xffff } else { 0x00ff };
             for x_px in (rect.x0..rect.x1).step_by(PAIR_PX as usize) {
-                let [above, below] = match tile {
-                    Some(tile) => {
-                        let (row, column) = ((y_px - rect.y0) as usize & 14, x_px - rect.x0);
-                        let run = |row: u16| u32::from(row) >> column & 0xff;
-                        [run(tile.rows[row]), run(tile.rows[row + 1])]
-                    }
-                    None => {
-                        let run = 0xff >> (PAIR_PX - (rect.x1 - x_px).min(PAIR_PX));
-                        [run, if y_px + 1 < rect.y1 { run } else { 0 }]
-                    }
-                };
-                let mask = above | below << PAIR_PX;
-                if mask != 0 {
-                    self.pixels::<S, { PAIR_PX }>(simd, [x_px, y_px], mask, buffer, stamps);
+                let run = 0x0101 * (0xff >> (PAIR_PX - (rect.x1 - x_px).min(PAIR_PX)));
+                self.pixels::<S, PAIR_PX>(simd, [x_px, y_px], run & two, buffer, stamps);
+            }
+        }
+    }
+
+    /// Four rows at a time: as one cell where four columns hold what is covered, else as pairs, each
+    /// from the first column that is covered on.
+    #[inline(always)]
+    fn tile<S: Simd>(&self, simd: S, tile: &Tile, buffer: &mut Buffer, stamps: &mut Vec<Stamp>) {
+        for (y_px, rows) in (tile.y_px..).step_by(4).zip(tile.rows.as_chunks::<4>().0) {
+            let [a, b, c, d] = rows.map(u32::from);
+            let any = a | b | c | d;
+            if any == 0 {
+                continue;
+            }
+            let left = any.trailing_zeros();
+            if any >> left < 1 << CELL_PX {
+                let mask = a >> left | b >> left << 4 | c >> left << 8 | d >> left << 12;
+                let at_px = [tile.x_px + left as i32, y_px];
+                self.pixels::<S, CELL_PX>(simd, at_px, mask, buffer, stamps);
+                continue;
+            }
+            for (y_px, mut above, mut below) in [(y_px, a, b), (y_px + 2, c, d)] {
+                let mut x_px = tile.x_px;
+                while above | below != 0 {
+                    let left = (above | below).trailing_zeros();
+                    (above, below, x_px) = (above >> left, below >> left, x_px + left as i32);
+                    let mask = above & 0xff | (below & 0xff) << PAIR_PX;
+                    self.pixels::<S, PAIR_PX>(simd, [x_px, y_px], mask, buffer, stamps);
+                    (above, below, x_px) = (above >> PAIR_PX, below >> PAIR_PX, x_px + PAIR_PX);
                 }
             }
         }
@@ -109,21 +122,18 @@ impl Pencil {
         if let Some(depth) = &self.depth {
             let place = if SIDE == PAIR_PX { &PAIR } else { &CELL };
             let (x, y) = beside(simd, place, depth.first_px, [x_px, y_px]);
-            let pitch = plane.depths.pitch();
-            let depths = plane.depths.tail_mut(left, top);
-            let before = load_depths::<S, SIDE>(simd, depths, pitch);
+            let before = load_depths::<S, SIDE>(simd, &plane.depths, left, top);
             let depth = depth.at(x, y);
             visible &= depth.simd_lt(before);
             if visible.to_bitmask() == 0 {
                 return;
             }
-            store_depths::<S, SIDE>(visible.select(depth, before), depths, pitch);
+            store_depths::<S, SIDE>(visible.select(depth, before), &mut plane.depths, left, top);
         }
-        let pitch = plane.colours.pitch();
-        let run = plane.colours.tail_mut(left, top);
-        let before = load_colours::<S, SIDE>(simd, run, pitch);
+        let before = load_colours::<S, SIDE>(simd, &plane.colours, left, top);
         let number = u32x16::splat(simd, self.number);
-        store_colours::<S, SIDE>(visible.select(number, before), run, pitch);
+        let colours = visible.select(number, before);
+        store_colours::<S, SIDE>(colours, &mut plane.colours, left, top);
         let (left, top) = (left as u8, top as u8);
         stamps.push(Stamp { number: self.number, left, top, is_cell: SIDE == CELL_PX });
     }
@@ -141,21 +151,29 @@ pub(super) fn beside<S: Simd>(
     (x, f32x16::load_array_ref(simd, &place.rows) + (y_px - y0) as f32)
 }
 
-/// Loading and storing a rectangle of sixteen pixels, `SIDE` columns wide, in rows that lie `pitch` apart.
+/// From the first pixel of a pair past its last, row by row of a sheet.
+const PAIR_RUN: usize = PITCH + PAIR_PX as usize;
+/// The same of a cell.
+const CELL_RUN: usize = 3 * PITCH + CELL_PX as usize;
+
+/// Loading and storing sixteen pixels of a sheet, a pair or a cell by its columns, `SIDE`.
 macro_rules! rectangles {
     ($load:ident, $store:ident, $pixel:ty, $four:ident, $eight:ident, $all:ident) => {
         #[inline(always)]
         pub(super) fn $load<S: Simd, const SIDE: i32>(
             simd: S,
-            from: &[$pixel],
-            pitch: usize,
+            from: &Sheet<$pixel>,
+            left: i32,
+            top: i32,
         ) -> $all<S> {
             if SIDE == PAIR_PX {
-                let (above, below) = (&from[..8], &from[pitch..][..8]);
+                let run = from.run::<PAIR_RUN>(left, top);
+                let (above, below) = (&run[..8], &run[PITCH..][..8]);
                 return $eight::from_slice(simd, above).combine($eight::from_slice(simd, below));
             }
-            let [a, b] = [&from[..4], &from[pitch..][..4]];
-            let [c, d] = [&from[2 * pitch..][..4], &from[3 * pitch..][..4]];
+            let run = from.run::<CELL_RUN>(left, top);
+            let [a, b] = [&run[..4], &run[PITCH..][..4]];
+            let [c, d] = [&run[2 * PITCH..][..4], &run[3 * PITCH..][..4]];
             let above = $four::from_slice(simd, a).combine($four::from_slice(simd, b));
             above.combine($four::from_slice(simd, c).combine($four::from_slice(simd, d)))
         }
@@ -163,20 +181,23 @@ macro_rules! rectangles {
         #[inline(always)]
         pub(super) fn $store<S: Simd, const SIDE: i32>(
             values: $all<S>,
-            to: &mut [$pixel],
-            pitch: usize,
+            to: &mut Sheet<$pixel>,
+            left: i32,
+            top: i32,
         ) {
             let (above, below) = values.split();
             if SIDE == PAIR_PX {
-                above.store_slice(&mut to[..8]);
-                below.store_slice(&mut to[pitch..][..8]);
+                let run = to.run_mut::<PAIR_RUN>(left, top);
+                above.store_slice(&mut run[..8]);
+                below.store_slice(&mut run[PITCH..][..8]);
                 return;
             }
+            let run = to.run_mut::<CELL_RUN>(left, top);
             let ((a, b), (c, d)) = (above.split(), below.split());
-            a.store_slice(&mut to[..4]);
-            b.store_slice(&mut to[pitch..][..4]);
-            c.store_slice(&mut to[2 * pitch..][..4]);
-            d.store_slice(&mut to[3 * pitch..][..4]);
+            a.store_slice(&mut run[..4]);
+            b.store_slice(&mut run[PITCH..][..4]);
+            c.store_slice(&mut run[2 * PITCH..][..4]);
+            d.store_slice(&mut run[3 * PITCH..][..4]);
         }
     };
 }
