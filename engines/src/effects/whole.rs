@@ -7,7 +7,7 @@
 
 use std::ops::Range;
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
 use super::conditions::attributes;
@@ -21,16 +21,26 @@ use crate::pipeline::texture::Texture;
 use crate::scene::{Corner, Hidden, Scene};
 use crate::triangle::{Corners, ScreenVertex};
 
-/// What the pieces of an item have in common.
+/// What the pieces of an item have in common, as numbers of what draws them.
 pub struct Skin<'a> {
-    /// Everything is multiplied by this.
-    pub base: DVec3,
+    /// Everything is multiplied by this, in steps of 255.
+    pub base: Vec3,
     /// Whether the colours of the corners are.
     pub colours: bool,
     /// The light, where there is one.
-    pub light: Option<Light>,
+    pub light: Option<Lamp>,
     /// The texture, where there is one.
     pub texture: Option<&'a Texture>,
+}
+
+/// A [`Light`].
+pub struct Lamp {
+    /// Towards the light, length 1.
+    pub towards: Vec3,
+    /// What every surface gets.
+    pub ambient: f32,
+    /// What a surface that faces the light gets on top.
+    pub diffuse: f32,
 }
 
 /// A piece as far as tiles need to know it before it is seen.
@@ -137,11 +147,10 @@ impl<'a> Whole<'a> {
     }
 
     /// The pieces of a run of [`Whole::runs`] that are in the window and not culled.
-    pub fn outlines(&self, (item, run): &(usize, Range<usize>)) -> Vec<Outline> {
+    pub fn outlines(&self, (item, run): &(usize, Range<usize>), emit: &mut impl FnMut(Outline)) {
         let item = &self.items[*item];
         let (prepared, first) = (&item.prepared, item.first + run.start);
         let triangles = &prepared.item.mesh.triangles[run.clone()];
-        let mut outlines = Vec::with_capacity(triangles.len());
         for (number, triangle) in (first as u32..).zip(triangles) {
             let [a, b, c] = item.corners(triangle);
             if a.code & b.code & c.code != 0 {
@@ -149,22 +158,25 @@ impl<'a> Whole<'a> {
             }
             if a.code | b.code | c.code != 0 {
                 self.cut(item, triangle, &mut |part, surface| {
-                    outlines.push(outline(&surface.corners, number | (part + 1) << FACE_BITS));
+                    emit(outline(&surface.corners, number | (part + 1) << FACE_BITS));
                 });
                 continue;
             }
             let outline = outline(&[a.place, b.place, c.place], number);
             if !prepared.item.cull.removes(outline.corners) {
-                outlines.push(outline);
+                emit(outline);
             }
         }
-        outlines
     }
 
     /// All pieces, the farthest first; equal distances keep the drawing order.
     pub fn farthest_first(&self) -> Vec<Outline> {
         let runs = self.runs(SHARE);
-        let outlines = runs.par_iter().flat_map_iter(|run| self.outlines(run));
+        let outlines = runs.par_iter().flat_map_iter(|run| {
+            let mut outlines = Vec::with_capacity(run.1.len());
+            self.outlines(run, &mut |outline| outlines.push(outline));
+            outlines
+        });
         let distance = |outline: &Outline| -> f64 { outline.depths.iter().sum() };
         let mut sorted: Vec<_> = outlines.map(|outline| (distance(&outline), outline)).collect();
         sorted.par_sort_by(|(a, _), (b, _)| b.total_cmp(a));
@@ -242,9 +254,9 @@ impl<'a> Item<'a> {
             prepared.point(bad, item.mesh.positions[bad])?;
         }
         let skin = Skin {
-            base: item.material.colour,
+            base: (item.material.colour * 255.0).as_vec3(),
             colours: carries.has(Attributes::COLOUR),
-            light: carries.has(Attributes::NORMAL).then_some(prepared.light),
+            light: carries.has(Attributes::NORMAL).then(|| lamp(&prepared.light)),
             texture: prepared.texture,
         };
         Ok(Self { skin, prepared, vertices, first })
@@ -269,6 +281,10 @@ fn vertex(prepared: &Prepared<'_>, position: DVec3) -> Vertex {
         (0, None) => Vertex { place: nowhere, code: NOWHERE, bad: false },
         (code, None) => Vertex { place: nowhere, code, bad: false },
     }
+}
+
+fn lamp(&Light { towards, ambient, diffuse }: &Light) -> Lamp {
+    Lamp { towards: towards.as_vec3(), ambient: ambient as f32, diffuse: diffuse as f32 }
 }
 
 #[inline]

@@ -1,8 +1,10 @@
 //! Which pieces touch which tile, in parts of a scene, one after the other.
 
+use std::ops::Range;
+
 use rayon::prelude::*;
 
-use super::buffer::SIDE_PX;
+use super::buffer::{SIDE_PX, Touched};
 use crate::effects::whole::{Outline, Whole};
 use crate::grid::{HALF_PIXEL, PixelRect, SUBPIXEL_BITS};
 use crate::triangle::Corners;
@@ -16,10 +18,16 @@ pub(super) struct Bins {
     parts: Vec<Part>,
 }
 
+/// A piece, and the pixels of the window where it may cover a place that is asked for, at least one.
+pub(super) struct Placed {
+    pub outline: Outline,
+    pub touched: Touched,
+}
+
 /// Some pieces in a row.
 struct Part {
-    outlines: Vec<Outline>,
-    /// Numbers of outlines, tile by tile, in their order.
+    pieces: Vec<Placed>,
+    /// Numbers of pieces, tile by tile, in their order.
     touching: Vec<u32>,
     /// Where those of each tile begin, and where the last ones end.
     starts: Vec<u32>,
@@ -32,29 +40,35 @@ impl Bins {
         // Each part has a list of tiles, so it has as many pieces at least.
         let most = PART.max(tiles.count());
         let parts = if whole.depth_test {
-            let runs = whole.runs(most).into_par_iter();
-            runs.map(|run| Part::new(whole.outlines(&run), &tiles)).collect()
+            let part = |run: (usize, Range<usize>)| {
+                let mut pieces = Vec::with_capacity(run.1.len());
+                whole.outlines(&run, &mut |outline| pieces.extend(tiles.placed(outline)));
+                Part::new(pieces, &tiles)
+            };
+            whole.runs(most).into_par_iter().map(part).collect()
         } else {
-            let outlines = whole.farthest_first();
-            outlines.par_chunks(most).map(|part| Part::new(part.to_vec(), &tiles)).collect()
+            let part = |outlines: &[Outline]| {
+                Part::new(outlines.iter().filter_map(|&o| tiles.placed(o)).collect(), &tiles)
+            };
+            whole.farthest_first().par_chunks(most).map(part).collect()
         };
         Self { tiles, parts }
     }
 
     /// The pieces that touch a tile, in drawing order.
-    pub fn of(&self, tile: usize) -> impl Iterator<Item = &Outline> {
+    pub fn of(&self, tile: usize) -> impl Iterator<Item = &Placed> {
         self.parts.iter().flat_map(move |part| {
             let range = part.starts[tile] as usize..part.starts[tile + 1] as usize;
-            part.touching[range].iter().map(|&number| &part.outlines[number as usize])
+            part.touching[range].iter().map(|&number| &part.pieces[number as usize])
         })
     }
 }
 
 impl Part {
-    fn new(outlines: Vec<Outline>, tiles: &Tiling) -> Self {
+    fn new(pieces: Vec<Placed>, tiles: &Tiling) -> Self {
         let mut starts = vec![0; tiles.count() + 1];
-        for outline in &outlines {
-            tiles.touched(outline, &mut |tile| starts[tile + 1] += 1);
+        for piece in &pieces {
+            tiles.touched(piece.touched, &mut |tile| starts[tile + 1] += 1);
         }
         let mut sum = 0;
         for start in &mut starts {
@@ -63,13 +77,13 @@ impl Part {
         }
         let mut touching = vec![0; sum as usize];
         let mut next = starts.clone();
-        for (number, outline) in (0..).zip(&outlines) {
-            tiles.touched(outline, &mut |tile| {
+        for (number, piece) in (0..).zip(&pieces) {
+            tiles.touched(piece.touched, &mut |tile| {
                 touching[next[tile] as usize] = number;
                 next[tile] += 1;
             });
         }
-        Self { outlines, touching, starts }
+        Self { pieces, touching, starts }
     }
 }
 
@@ -102,28 +116,30 @@ impl Tiling {
 
     /// The numbers of the tiles that a piece may touch.
     #[inline]
-    fn touched(&self, outline: &Outline, take: &mut impl FnMut(usize)) {
-        let touched = self.box_of(&outline.corners);
-        if touched.is_empty() {
-            return;
-        }
-        for y in touched.y0 / SIDE_PX..=(touched.y1 - 1) / SIDE_PX {
-            for x in touched.x0 / SIDE_PX..=(touched.x1 - 1) / SIDE_PX {
-                take(y as usize * self.across + x as usize);
+    fn touched(&self, Touched { x0, y0, x1, y1 }: Touched, take: &mut impl FnMut(usize)) {
+        let tile = |px: u16| usize::from(px) / SIDE_PX as usize;
+        for y in tile(y0)..=tile(y1) {
+            for x in tile(x0)..=tile(x1) {
+                take(y * self.across + x);
             }
         }
     }
 
-    /// The pixels of which a triangle may cover a place that is asked for.
+    /// A piece, if it may cover a place that is asked for.
     #[inline]
-    pub fn box_of(&self, [a, b, c]: &Corners) -> PixelRect {
+    fn placed(&self, outline: Outline) -> Option<Placed> {
+        let [a, b, c] = &outline.corners;
         let (x0, x1) = (a.x.min(b.x).min(c.x), a.x.max(b.x).max(c.x));
         let (y0, y1) = (a.y.min(b.y).min(c.y), a.y.max(b.y).max(c.y));
-        // The first whose last place lies at `low` or after it, and past the last whose first place
-        // lies before `high` or at it. Pieces lie in the window, so nothing leaves i32.
+        // The first whose last place lies at `low` or after it, and the last whose first place lies
+        // before `high` or at it. Pieces lie in the window, so nothing leaves i32.
         let first = |low: i32| (low - self.reach + (HALF_PIXEL - 1)) >> SUBPIXEL_BITS;
-        let end = |high: i32| (high + self.reach + HALF_PIXEL) >> SUBPIXEL_BITS;
-        PixelRect { x0: first(x0), y0: first(y0), x1: end(x1), y1: end(y1) }.intersect(&self.window)
+        let last = |high: i32| ((high + self.reach + HALF_PIXEL) >> SUBPIXEL_BITS) - 1;
+        let (x0, x1) = (first(x0).max(0), last(x1).min(self.window.x1 - 1));
+        let (y0, y1) = (first(y0).max(0), last(y1).min(self.window.y1 - 1));
+        // Columns and rows of a window lie below 2^16.
+        let touched = Touched { x0: x0 as u16, y0: y0 as u16, x1: x1 as u16, y1: y1 as u16 };
+        (x0 <= x1 && y0 <= y1).then_some(Placed { outline, touched })
     }
 }
 

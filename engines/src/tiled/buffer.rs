@@ -2,8 +2,11 @@
 
 use std::ops::Range;
 
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, f32x4, f32x8, f32x16, u32x4, u32x8, u32x16};
+
 use crate::grid::PixelRect;
-use crate::tile;
+use crate::tile::CELL_PX;
 
 /// Columns and rows of a tile of a frame.
 pub const SIDE_PX: i32 = 64;
@@ -17,8 +20,11 @@ const BLOCKS: i32 = SIDE_PX / BLOCK_PX;
 /// about a row of pixels.
 const STALE: u8 = 8;
 
+/// Columns of a pair: two runs of eight pixels, one below the other, which small triangles fill
+/// better than one run of sixteen.
+pub(super) const PAIR_PX: i32 = 8;
 /// From row to row of a [`Sheet`].
-pub const PITCH: usize = (SIDE_PX + tile::SIDE_PX) as usize;
+const PITCH: usize = (SIDE_PX + PAIR_PX) as usize;
 
 /// One number for every pixel of a tile. Beyond its right and lower side there is room for the pairs
 /// and cells that begin in it. Columns and rows count from its first pixel.
@@ -26,16 +32,24 @@ pub(super) struct Sheet<T>(Vec<T>);
 
 impl<T: Copy> Sheet<T> {
     fn new(value: T) -> Self {
-        Self(vec![value; PITCH * (SIDE_PX + tile::CELL_PX - 1) as usize])
+        Self(vec![value; PITCH * (SIDE_PX + CELL_PX - 1) as usize])
     }
 
+    /// The room beyond may hold anything: nothing of it is ever seen.
     fn fill(&mut self, value: T) {
-        self.0.fill(value);
+        self.0[..PITCH * SIDE_PX as usize].fill(value);
     }
 
-    /// Row `y`, and the room beyond it.
-    pub fn row(&self, y: i32) -> &[T] {
-        &self.0[y as usize * PITCH..][..PITCH]
+    /// Row `y`.
+    #[inline(always)]
+    pub fn row(&self, y: i32) -> &[T; SIDE_PX as usize] {
+        self.run(0, y)
+    }
+
+    /// As [`Sheet::row`].
+    #[inline(always)]
+    fn row_mut(&mut self, y: i32) -> &mut [T; SIDE_PX as usize] {
+        self.run_mut(0, y)
     }
 
     /// So many from a pixel on: a part of its row, and of those below.
@@ -53,6 +67,60 @@ impl<T: Copy> Sheet<T> {
     }
 }
 
+/// From the first pixel of a pair past its last, row by row of a sheet.
+const PAIR_RUN: usize = PITCH + PAIR_PX as usize;
+/// The same of a cell.
+const CELL_RUN: usize = 3 * PITCH + CELL_PX as usize;
+
+/// Loading and storing sixteen pixels of a sheet, a pair or a cell by its columns, `SIDE`.
+macro_rules! rectangles {
+    ($load:ident, $store:ident, $pixel:ty, $four:ident, $eight:ident, $all:ident) => {
+        #[inline(always)]
+        pub(super) fn $load<S: Simd, const SIDE: i32>(
+            simd: S,
+            from: &Sheet<$pixel>,
+            left: i32,
+            top: i32,
+        ) -> $all<S> {
+            if SIDE == PAIR_PX {
+                let run = from.run::<PAIR_RUN>(left, top);
+                let (above, below) = (&run[..8], &run[PITCH..][..8]);
+                return $eight::from_slice(simd, above).combine($eight::from_slice(simd, below));
+            }
+            let run = from.run::<CELL_RUN>(left, top);
+            let [a, b] = [&run[..4], &run[PITCH..][..4]];
+            let [c, d] = [&run[2 * PITCH..][..4], &run[3 * PITCH..][..4]];
+            let above = $four::from_slice(simd, a).combine($four::from_slice(simd, b));
+            above.combine($four::from_slice(simd, c).combine($four::from_slice(simd, d)))
+        }
+
+        #[inline(always)]
+        pub(super) fn $store<S: Simd, const SIDE: i32>(
+            values: $all<S>,
+            to: &mut Sheet<$pixel>,
+            left: i32,
+            top: i32,
+        ) {
+            let (above, below) = values.split();
+            if SIDE == PAIR_PX {
+                let run = to.run_mut::<PAIR_RUN>(left, top);
+                above.store_slice(&mut run[..8]);
+                below.store_slice(&mut run[PITCH..][..8]);
+                return;
+            }
+            let run = to.run_mut::<CELL_RUN>(left, top);
+            let ((a, b), (c, d)) = (above.split(), below.split());
+            a.store_slice(&mut run[..4]);
+            b.store_slice(&mut run[PITCH..][..4]);
+            c.store_slice(&mut run[2 * PITCH..][..4]);
+            d.store_slice(&mut run[3 * PITCH..][..4]);
+        }
+    };
+}
+
+rectangles!(load_depths, store_depths, f32, f32x4, f32x8, f32x16);
+rectangles!(load_colours, store_colours, u32, u32x4, u32x8, u32x16);
+
 /// One sample of every pixel of a tile.
 pub(super) struct Plane {
     /// Opaque; with one sample a pixel, until it is coloured, the number of what is seen there, below
@@ -60,6 +128,21 @@ pub(super) struct Plane {
     pub colours: Sheet<u32>,
     /// Smaller is nearer; infinite where nothing has been drawn.
     pub depths: Sheet<f32>,
+}
+
+/// The first and the last column and row of some pixels of a window.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Touched {
+    pub x0: u16,
+    pub y0: u16,
+    pub x1: u16,
+    pub y1: u16,
+}
+
+/// Columns and rows of blocks of a tile.
+pub(super) struct Blocks {
+    columns: Range<i32>,
+    rows: Range<i32>,
 }
 
 /// Colours and depths of one tile, owned by who draws it: nothing is shared, so nothing is locked.
@@ -96,19 +179,26 @@ impl Buffer {
             plane.colours.fill(empty);
             plane.depths.fill(f32::INFINITY);
         }
+        let (width, height) = (rect.width() as usize, rect.height() as i32);
+        if width < SIDE_PX as usize || height < SIDE_PX {
+            // Nothing is drawn beyond the window, and nothing there is farther than anything.
+            for depths in self.planes.iter_mut().map(|plane| &mut plane.depths) {
+                (0..height).for_each(|y| depths.row_mut(y)[width..].fill(f32::NEG_INFINITY));
+                (height..SIDE_PX).for_each(|y| depths.row_mut(y).fill(f32::NEG_INFINITY));
+            }
+        }
         (self.farthest, self.drawn) = ([f32::INFINITY; 16], [0; 16]);
     }
 
-    /// Whether nothing that is drawn into a rectangle of the window, no depth nearer than `nearest`, can
-    /// be seen in this tile.
-    #[inline]
-    pub fn hides(&mut self, rect: PixelRect, nearest: f32) -> bool {
-        let [columns, rows] = self.blocks(rect);
-        for row in rows {
+    /// Whether nothing that is drawn into these blocks, no depth nearer than `nearest`, can be seen.
+    #[inline(always)]
+    pub fn hides<S: Simd>(&mut self, simd: S, blocks: &Blocks, nearest: f32) -> bool {
+        let Blocks { columns, rows } = blocks;
+        for row in rows.clone() {
             for column in columns.clone() {
-                let at = (row * BLOCKS + column) as usize;
+                let at = (row * BLOCKS + column) as usize & 15;
                 if self.farthest[at] > nearest && self.drawn[at] >= STALE {
-                    self.farthest[at] = self.farthest_of(column, row);
+                    self.farthest[at] = self.farthest_of(simd, column, row);
                     self.drawn[at] = 0;
                 }
                 if self.farthest[at] > nearest {
@@ -119,47 +209,45 @@ impl Buffer {
         true
     }
 
-    /// Takes note that a rectangle of the window is drawn into.
-    #[inline]
-    pub fn draws(&mut self, rect: PixelRect) {
-        let [columns, rows] = self.blocks(rect);
-        for row in rows {
+    /// Takes note that these blocks are drawn into.
+    #[inline(always)]
+    pub fn draws(&mut self, Blocks { columns, rows }: &Blocks) {
+        for row in rows.clone() {
             for column in columns.clone() {
-                let drawn = &mut self.drawn[(row * BLOCKS + column) as usize];
+                let drawn = &mut self.drawn[(row * BLOCKS + column) as usize & 15];
                 *drawn = drawn.saturating_add(1);
             }
         }
     }
 
-    /// The columns and rows of blocks that a rectangle of the window reaches into.
-    #[inline]
-    fn blocks(&self, rect: PixelRect) -> [Range<i32>; 2] {
-        let rect = rect.intersect(&self.rect);
-        let blocks = |from: i32, to: i32, first: i32| {
-            (from - first) / BLOCK_PX..(to - 1 - first) / BLOCK_PX + 1
+    /// The blocks that pixels of the window reach into, which reach into the tile.
+    #[inline(always)]
+    pub fn blocks(&self, touched: Touched) -> Blocks {
+        let Touched { x0, y0, x1, y1 } = touched;
+        let blocks = |from: u16, to: u16, first: i32| {
+            let (from, to) = (i32::from(from) - first, i32::from(to) - first);
+            from.max(0) / BLOCK_PX..to.min(SIDE_PX - 1) / BLOCK_PX + 1
         };
-        [blocks(rect.x0, rect.x1, self.rect.x0), blocks(rect.y0, rect.y1, self.rect.y0)]
+        Blocks { columns: blocks(x0, x1, self.rect.x0), rows: blocks(y0, y1, self.rect.y0) }
     }
 
     /// The farthest depth of a block.
-    fn farthest_of(&self, column: i32, row: i32) -> f32 {
-        let (x0, y0) = (column * BLOCK_PX, row * BLOCK_PX);
-        let x1 = (x0 + BLOCK_PX).min(self.rect.width() as i32);
-        let y1 = (y0 + BLOCK_PX).min(self.rect.height() as i32);
-        let mut farthest = [f32::NEG_INFINITY; 16];
+    #[inline(always)]
+    fn farthest_of<S: Simd>(&self, simd: S, column: i32, row: i32) -> f32 {
+        let (left, top) = (column * BLOCK_PX, row * BLOCK_PX);
+        let mut farthest = f32x16::splat(simd, f32::NEG_INFINITY);
         for plane in &self.planes {
-            for y in y0..y1 {
-                let depths = &plane.depths.row(y)[x0 as usize..x1 as usize];
-                for (far, &depth) in farthest.iter_mut().zip(depths) {
-                    *far = if depth > *far { depth } else { *far };
-                }
+            for y in top..top + BLOCK_PX {
+                let depths = f32x16::load_array_ref(simd, plane.depths.run(left, y));
+                farthest = farthest.max(depths);
             }
         }
-        farthest.into_iter().fold(f32::NEG_INFINITY, f32::max)
+        farthest.to_array().into_iter().fold(f32::NEG_INFINITY, f32::max)
     }
 
     /// The picture's row `y`, counted from the first of the tile: the mean of the samples of each
     /// pixel, a half rounded up.
+    #[inline(always)]
     pub fn resolve(&self, y: i32, out: &mut [[u8; 4]]) {
         let width = out.len();
         let row = |sample: usize| &self.planes[sample].colours.row(y)[..width];
@@ -184,6 +272,8 @@ impl Buffer {
 
 #[cfg(test)]
 mod tests {
+    use fearless_simd::{Level, dispatch};
+
     use super::*;
 
     /// What is called hidden is hidden: no depth in the rectangle is farther. After every change of
@@ -203,6 +293,9 @@ mod tests {
             let (x0, y0) = (128 + random(50) as i32, 64 + random(41) as i32);
             let (x1, y1) = (x0 + 1 + random(40) as i32, y0 + 1 + random(40) as i32);
             let drawn = PixelRect { x0, y0, x1, y1 };
+            let [left, right] = [x0, x1 - 1].map(|x| x as u16);
+            let [above, below] = [y0, y1 - 1].map(|y| y as u16);
+            let blocks = buffer.blocks(Touched { x0: left, y0: above, x1: right, y1: below });
             let depth = random(1000) as f32 / 1000.0;
             let mut farthest = f32::NEG_INFINITY;
             let inside = drawn.intersect(&rect);
@@ -213,13 +306,14 @@ mod tests {
                     farthest = row.iter().fold(farthest, |farthest, &d| farthest.max(d));
                 }
             }
-            if buffer.hides(drawn, depth) {
+            let hides = dispatch!(Level::new(), simd => buffer.hides(simd, &blocks, depth));
+            if hides {
                 assert!(farthest <= depth, "{drawn:?} at {depth}: there is {farthest}");
                 hidden += 1;
                 continue;
             }
             seen += 1;
-            buffer.draws(drawn);
+            buffer.draws(&blocks);
             for plane in &mut buffer.planes {
                 for y in inside.y0 - rect.y0..inside.y1 - rect.y0 {
                     for x in columns.clone() {

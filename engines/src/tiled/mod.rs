@@ -32,13 +32,13 @@ use crate::scene::Scene;
 use crate::tile::{self, CELL_PX, CoverList, Tiles};
 use crate::triangle::Corners;
 
-use bins::{Bins, Tiling, reached};
-use buffer::Buffer;
+use bins::{Bins, Placed, Tiling, reached};
 pub use buffer::SIDE_PX;
+use buffer::{Buffer, PAIR_PX, load_colours, store_colours};
 use planes::{Depth, Planes};
 use samples::{Masks, PLACES};
 use shade::Brush;
-use stamp::{CELL, PAIR, PAIR_PX, Pencil, Stamp, load_colours, store_colours};
+use stamp::{CELL, PAIR, Pencil, Stamp};
 
 /// How many samples a pixel has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -76,7 +76,27 @@ pub fn render_in(
     height: u32,
     samples: Samples,
 ) -> Result<Frame<Colour>, BadScene> {
-    let window = PixelRect::window(width, height);
+    // Zeros come from the machine when they are first touched, by the thread that draws there.
+    let mut picture = Frame::new(PixelRect::window(width, height), [0; 4]);
+    render_into(engine, scene, &mut picture, samples)?;
+    Ok(picture)
+}
+
+/// As [`render_in`], over a picture that is kept: every pixel is written, none is read.
+///
+/// # Errors
+/// As [`render`].
+///
+/// # Panics
+/// If the picture does not begin at column 0 and row 0.
+pub fn render_into(
+    engine: Tiles,
+    scene: &Scene,
+    picture: &mut Frame<Colour>,
+    samples: Samples,
+) -> Result<(), BadScene> {
+    let window = picture.bounds();
+    assert!(window.x0 == 0 && window.y0 == 0, "a picture that begins at {window:?}");
     let whole = Whole::new(scene, window)?;
     // From the centre to the farthest sample, 6/16 px.
     let (planes, reach) = match samples {
@@ -84,18 +104,20 @@ pub fn render_in(
         Samples::Four => (multisample::SAMPLES.len(), 6 * SUBPIXELS / 16),
     };
     let bins = Bins::new(&whole, Tiling::new(window, reach));
-    // Zeros come from the machine when they are first touched, by the thread that draws there.
-    let mut picture = Frame::new(window, [0; 4]);
-    let canvases = canvases(&mut picture, &bins.tiles);
-    canvases.into_par_iter().with_max_len(TURN).for_each_init(
-        || Drawing::new(&whole, &bins, engine, planes),
-        |drawing, canvas| drawing.draw(canvas),
-    );
-    Ok(picture)
+    if window.is_empty() {
+        return Ok(());
+    }
+    let (pitch, height) = (picture.pitch(), window.height() as usize);
+    let lines = &mut picture.tail_mut(0, 0)[..pitch * height];
+    lines.par_chunks_mut(pitch * SIDE_PX as usize).enumerate().for_each(|(band, lines)| {
+        let canvases = canvases(&bins.tiles, band, lines, pitch);
+        canvases.into_par_iter().for_each_init(
+            || Drawing::new(&whole, &bins, engine, planes),
+            |drawing, canvas| drawing.draw(canvas),
+        );
+    });
+    Ok(())
 }
-
-/// Tiles that a thread takes at a time: few, since some take much longer than others.
-const TURN: usize = 4;
 
 /// A tile's part of the picture, which nobody else has.
 struct Canvas<'a> {
@@ -103,21 +125,20 @@ struct Canvas<'a> {
     lines: Vec<&'a mut [Colour]>,
 }
 
-/// A picture in tiles, row by row.
-fn canvases<'a>(picture: &'a mut Frame<Colour>, tiles: &Tiling) -> Vec<Canvas<'a>> {
-    let (pitch, height) = (picture.pitch(), picture.bounds().height() as usize);
-    let mut canvases: Vec<Canvas<'a>> = Vec::new();
-    if picture.bounds().is_empty() {
-        return canvases;
-    }
-    for (y, mut line) in picture.tail_mut(0, 0).chunks_mut(pitch).take(height).enumerate() {
-        let first = y / SIDE_PX as usize * tiles.across;
-        for tile in first..first + tiles.across {
-            if tile == canvases.len() {
-                canvases.push(Canvas { tile, lines: Vec::with_capacity(SIDE_PX as usize) });
-            }
-            let (part, rest) = line.split_at_mut(tiles.rect(tile).width() as usize);
-            canvases[tile].lines.push(part);
+/// The tiles of a band, a row of tiles, whose lines are given.
+fn canvases<'a>(
+    tiles: &Tiling,
+    band: usize,
+    lines: &'a mut [Colour],
+    pitch: usize,
+) -> Vec<Canvas<'a>> {
+    let numbers = band * tiles.across..(band + 1) * tiles.across;
+    let canvas = |tile| Canvas { tile, lines: Vec::with_capacity(SIDE_PX as usize) };
+    let mut canvases: Vec<Canvas<'a>> = numbers.map(canvas).collect();
+    for mut line in lines.chunks_mut(pitch) {
+        for canvas in &mut canvases {
+            let (part, rest) = line.split_at_mut(tiles.rect(canvas.tile).width() as usize);
+            canvas.lines.push(part);
             line = rest;
         }
     }
@@ -176,21 +197,26 @@ impl<'a> Drawing<'a> {
 
     /// Draws a tile.
     fn draw(&mut self, canvas: Canvas<'_>) {
-        let (bins, engine) = (self.bins, self.engine);
+        dispatch!(self.engine.level(), simd => self.tile(simd, canvas));
+    }
+
+    #[inline(always)]
+    fn tile<S: Simd>(&mut self, simd: S, canvas: Canvas<'_>) {
+        let bins = self.bins;
         self.buffer.clear(bins.tiles.rect(canvas.tile), self.whole.background());
-        for outline in bins.of(canvas.tile) {
-            let touched = bins.tiles.box_of(&outline.corners);
-            if self.whole.depth_test && self.buffer.hides(touched, outline.nearest) {
+        for Placed { outline, touched } in bins.of(canvas.tile) {
+            let blocks = self.buffer.blocks(*touched);
+            if self.whole.depth_test && self.buffer.hides(simd, &blocks, outline.nearest) {
                 continue;
             }
-            self.buffer.draws(touched);
+            self.buffer.draws(&blocks);
             self.batch.push(outline);
             if self.batch.len() == BATCH {
                 self.draw_batch();
             }
         }
         self.draw_batch();
-        dispatch!(engine.level(), simd => self.colour(simd));
+        self.colour(simd);
         for (y, line) in (0..).zip(canvas.lines) {
             self.buffer.resolve(y, line);
         }

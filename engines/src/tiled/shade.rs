@@ -7,15 +7,12 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x16, i32x4, i32x16, mask32x16, u32x16};
 use glam::DVec2;
 
-use super::buffer::Buffer;
+use super::buffer::{Buffer, PAIR_PX, load_colours, load_depths, store_colours, store_depths};
 use super::planes::{Depth, Planes, along};
 use super::samples::{CENTRE, Masks};
-use super::stamp::{
-    PAIR, PAIR_PX, Place, beside, load_colours, load_depths, store_colours, store_depths,
-};
-use crate::effects::whole::Skin;
+use super::stamp::{PAIR, Place, beside};
+use crate::effects::whole::{Lamp, Skin};
 use crate::pipeline::multisample::SAMPLES;
-use crate::pipeline::shade::Light;
 use crate::pipeline::texture::{Texture, Wrap};
 
 type Lanes<S> = f32x16<S>;
@@ -120,10 +117,10 @@ impl Brush<'_> {
     fn colours<S: Simd>(&self, simd: S, x: Lanes<S>, y: Lanes<S>, mask: u32) -> u32x16<S> {
         let Skin { base, colours, light, texture } = self.skin;
         let w = Lanes::splat(simd, 1.0) / along(&self.planes.inv_w, x, y);
-        let mut r = Lanes::splat(simd, (base.x * 255.0) as f32);
-        let mut g = Lanes::splat(simd, (base.y * 255.0) as f32);
-        let mut b = Lanes::splat(simd, (base.z * 255.0) as f32);
         let over_w = |i: usize| self.planes.over_w(i);
+        let mut r = Lanes::splat(simd, base.x);
+        let mut g = Lanes::splat(simd, base.y);
+        let mut b = Lanes::splat(simd, base.z);
         if *colours {
             r *= along(&over_w(0), x, y) * w;
             g *= along(&over_w(1), x, y) * w;
@@ -191,10 +188,12 @@ fn bytes_at<S: Simd>(
     let column = nearest(u, width as i32, texture.wrap);
     let row = nearest(Lanes::splat(simd, 1.0) - v, height as i32, texture.wrap);
     let at = (row * (width as i32) + column).to_array();
+    // From memory, one load each: left alone, the compiler takes them out of the vector, which is dearer.
+    let at = std::hint::black_box(&at);
     // Four by four: of sixteen numbers one by one the compiler makes sixteen masks.
     let four = |i: usize| {
         // Masks and limits leave nothing else.
-        let texel = |at: i32| bytes.get(at as usize).map_or(0, |&texel| texel as i32);
+        let texel = |at: i32| bytes[at as u32 as usize] as i32;
         [texel(at[i]), texel(at[i + 1]), texel(at[i + 2]), texel(at[i + 3])]
     };
     let (a, b) = (i32x4::load_array(simd, four(0)), i32x4::load_array(simd, four(4)));
@@ -221,13 +220,13 @@ fn nearest<S: Simd>(coordinate: Lanes<S>, side: i32, wrap: Wrap) -> i32x16<S> {
 
 /// ambient + diffuse max(0, n . l) for normals of any length; of length 0, ambient alone.
 #[inline(always)]
-fn intensity<S: Simd>(simd: S, light: &Light, [x, y, z]: [Lanes<S>; 3]) -> Lanes<S> {
+fn intensity<S: Simd>(simd: S, light: &Lamp, [x, y, z]: [Lanes<S>; 3]) -> Lanes<S> {
     let zero = Lanes::splat(simd, 0.0);
-    let towards = light.towards.as_vec3();
+    let towards = light.towards;
     let length = (x * x + y * y + z * z).sqrt();
     let cosine = (x * towards.x + y * towards.y + z * towards.z) / length;
     let lit = length.simd_gt(zero).select(cosine, zero);
-    lit.max(zero) * light.diffuse as f32 + light.ambient as f32
+    lit.max(zero) * light.diffuse + light.ambient
 }
 
 /// The nearest of 256 steps; beyond them the nearer end.

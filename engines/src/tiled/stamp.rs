@@ -2,16 +2,13 @@
 //! when all pieces have been drawn, so that what is covered later costs no colours.
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f32x4, f32x8, f32x16, mask32x16, u32x4, u32x8, u32x16};
+use fearless_simd::{Simd, f32x16, mask32x16, u32x16};
 
-use super::buffer::{Buffer, PITCH, Sheet};
+use super::buffer::{Buffer, PAIR_PX, load_colours, load_depths, store_colours, store_depths};
 use super::planes::Depth;
 use crate::tile::{CELL_PX, Piece, Tile};
 
-/// Columns of a pair: two runs of eight pixels, one below the other, which small triangles fill
-/// better than one run of sixteen.
-pub(super) const PAIR_PX: i32 = 8;
-/// Columns and rows of its pixels.
+/// Columns and rows of the pixels of a pair.
 pub(super) const PAIR: Place = Place {
     columns: [0., 1., 2., 3., 4., 5., 6., 7., 0., 1., 2., 3., 4., 5., 6., 7.],
     rows: [0., 0., 0., 0., 0., 0., 0., 0., 1., 1., 1., 1., 1., 1., 1., 1.],
@@ -150,57 +147,3 @@ pub(super) fn beside<S: Simd>(
     let x = f32x16::load_array_ref(simd, &place.columns) + (x_px - x0) as f32;
     (x, f32x16::load_array_ref(simd, &place.rows) + (y_px - y0) as f32)
 }
-
-/// From the first pixel of a pair past its last, row by row of a sheet.
-const PAIR_RUN: usize = PITCH + PAIR_PX as usize;
-/// The same of a cell.
-const CELL_RUN: usize = 3 * PITCH + CELL_PX as usize;
-
-/// Loading and storing sixteen pixels of a sheet, a pair or a cell by its columns, `SIDE`.
-macro_rules! rectangles {
-    ($load:ident, $store:ident, $pixel:ty, $four:ident, $eight:ident, $all:ident) => {
-        #[inline(always)]
-        pub(super) fn $load<S: Simd, const SIDE: i32>(
-            simd: S,
-            from: &Sheet<$pixel>,
-            left: i32,
-            top: i32,
-        ) -> $all<S> {
-            if SIDE == PAIR_PX {
-                let run = from.run::<PAIR_RUN>(left, top);
-                let (above, below) = (&run[..8], &run[PITCH..][..8]);
-                return $eight::from_slice(simd, above).combine($eight::from_slice(simd, below));
-            }
-            let run = from.run::<CELL_RUN>(left, top);
-            let [a, b] = [&run[..4], &run[PITCH..][..4]];
-            let [c, d] = [&run[2 * PITCH..][..4], &run[3 * PITCH..][..4]];
-            let above = $four::from_slice(simd, a).combine($four::from_slice(simd, b));
-            above.combine($four::from_slice(simd, c).combine($four::from_slice(simd, d)))
-        }
-
-        #[inline(always)]
-        pub(super) fn $store<S: Simd, const SIDE: i32>(
-            values: $all<S>,
-            to: &mut Sheet<$pixel>,
-            left: i32,
-            top: i32,
-        ) {
-            let (above, below) = values.split();
-            if SIDE == PAIR_PX {
-                let run = to.run_mut::<PAIR_RUN>(left, top);
-                above.store_slice(&mut run[..8]);
-                below.store_slice(&mut run[PITCH..][..8]);
-                return;
-            }
-            let run = to.run_mut::<CELL_RUN>(left, top);
-            let ((a, b), (c, d)) = (above.split(), below.split());
-            a.store_slice(&mut run[..4]);
-            b.store_slice(&mut run[PITCH..][..4]);
-            c.store_slice(&mut run[2 * PITCH..][..4]);
-            d.store_slice(&mut run[3 * PITCH..][..4]);
-        }
-    };
-}
-
-rectangles!(load_depths, store_depths, f32, f32x4, f32x8, f32x16);
-rectangles!(load_colours, store_colours, u32, u32x4, u32x8, u32x16);
