@@ -20,13 +20,12 @@
 #[path = "common/mesh.rs"]
 mod mesh;
 
-use euc::Pipeline;
 use euc::buffer::Buffer2d;
 use euc::rasterizer::{BackfaceCullingDisabled, Triangles};
+use euc::{Pipeline, Target as _};
 use glam::{DMat3, DVec2, Mat4, Vec3, Vec4};
 use mesh::{Draws, devices, engine, tiles, times, wrong};
 use rasterproof::frame::Frame;
-use rasterproof::grid::PixelRect;
 use rasterproof::pipeline::target::{Antialias, Colour};
 use rasterproof::pipeline::texture::Texture;
 use rasterproof::scene::{Scene, meshes};
@@ -75,17 +74,19 @@ fn everybody<'a>(
     side_px: u32,
     pools: &'a [rayon::ThreadPool; 2],
 ) -> Vec<Draws<'a>> {
-    let tiles = move |threads: usize, samples| tiles(scene, side_px, &pools[threads - 1], samples);
+    let tiles = move |threads: usize, samples| tiles(scene, &pools[threads - 1], samples);
     let (single, four) = (Samples::One, Samples::Four);
-    let euc = Euc::new(scene, side_px);
+    let euc = Euc::new(scene);
+    let sides = [side_px as usize; 2];
+    let (mut colours, mut depths) = (Buffer2d::new(sides, 0), Buffer2d::new(sides, 0.0));
     let mut all = vec![
-        Draws::new("euc", move || euc.draw()),
-        Draws::new("scanline", engine(scene, side_px, Antialias::None)),
-        Draws::new("tiles", tiles(1, single)),
-        Draws::new("tiles, 2 threads", tiles(2, single)),
-        Draws::new("scanline msaa4", engine(scene, side_px, Antialias::Multisample4)),
-        Draws::new("tiles msaa4", tiles(1, four)),
-        Draws::new("msaa4, 2 threads", tiles(2, four)),
+        Draws::new("euc", side_px, move |picture| euc.draw(&mut colours, &mut depths, picture)),
+        Draws::new("scanline", side_px, engine(scene, side_px, Antialias::None)),
+        Draws::new("tiles", side_px, tiles(1, single)),
+        Draws::new("tiles, 2 threads", side_px, tiles(2, single)),
+        Draws::new("scanline msaa4", side_px, engine(scene, side_px, Antialias::Multisample4)),
+        Draws::new("tiles msaa4", side_px, tiles(1, four)),
+        Draws::new("msaa4, 2 threads", side_px, tiles(2, four)),
     ];
     all.extend(devices(scene, side_px, single));
     for mut draws in devices(scene, side_px, four) {
@@ -139,11 +140,10 @@ struct Euc {
     /// Texels, row by row from the top, as many rows as columns.
     texels: Vec<Vec3>,
     background: u32,
-    side_px: u32,
 }
 
 impl Euc {
-    fn new(scene: &Scene, side_px: u32) -> Self {
+    fn new(scene: &Scene) -> Self {
         let item = &scene.items[0];
         let normals = DMat3::from_mat4(item.model).inverse().transpose();
         let corners = item.mesh.triangles.iter().flatten();
@@ -159,27 +159,30 @@ impl Euc {
             diffuse: scene.light.diffuse as f32,
             texels: texels(item.material.texture.as_deref().expect("meshes are textured")),
             background: u32::from_le_bytes(scene.background),
-            side_px,
         }
     }
 
-    fn draw(&self) -> Frame<Colour> {
-        let side = self.side_px as usize;
-        let mut target = Buffer2d::new([side, side], self.background);
-        let mut depth = Buffer2d::new([side, side], f32::INFINITY);
+    /// Draws with buffers that are kept from frame to frame.
+    fn draw(
+        &self,
+        colours: &mut Buffer2d<u32>,
+        depths: &mut Buffer2d<f32>,
+        picture: &mut Frame<Colour>,
+    ) {
+        colours.clear(self.background);
+        depths.clear(f32::INFINITY);
         Pipeline::draw::<Triangles<Buffer2d<f32>, BackfaceCullingDisabled>, _>(
             self,
             &self.vertices,
-            &mut target,
-            Some(&mut depth),
+            colours,
+            Some(depths),
         );
-        let mut picture = Frame::new(PixelRect::window(self.side_px, self.side_px), [0; 4]);
-        for (y, row) in target.as_ref().chunks(side).enumerate() {
+        let side = picture.bounds().width() as usize;
+        for (y, row) in colours.as_ref().chunks(side).enumerate() {
             for (pixel, colour) in picture.row_mut(y as i32).iter_mut().zip(row) {
                 *pixel = colour.to_le_bytes();
             }
         }
-        picture
     }
 }
 

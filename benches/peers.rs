@@ -116,8 +116,8 @@ fn report_mesh(rounds: usize) {
         [("1", Samples::One, Antialias::None), ("4", Samples::Four, Antialias::Multisample4)]
     {
         let mut all = vec![
-            Draws::new("scanline", mesh::engine(&scene, SIDE_PX, antialias)),
-            Draws::new("tiles", mesh::tiles(&scene, SIDE_PX, &one, samples)),
+            Draws::new("scanline", SIDE_PX, mesh::engine(&scene, SIDE_PX, antialias)),
+            Draws::new("tiles", SIDE_PX, mesh::tiles(&scene, &one, samples)),
         ];
         all.extend(mesh::devices(&scene, SIDE_PX, samples));
         let pictures: Vec<_> = all.iter_mut().map(Draws::picture).collect();

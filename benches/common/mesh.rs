@@ -1,57 +1,65 @@
 //! Whole frames of a mesh: who draws them, in which time, and with how many wrong pixels.
 //!
-//! Ours is everything from the mesh to the picture. A device has its vertices, indices, texture and
-//! commands before; submitting and waiting are timed, its picture stays where it is.
+//! Ours is everything from the mesh to the picture, which is drawn over the one before. A device has its
+//! vertices, indices, texture and commands before; submitting and waiting are timed, its picture stays
+//! where it is.
 
 use std::time::Instant;
 
 use rasterproof::effects::Effects;
 use rasterproof::frame::Frame;
+use rasterproof::grid::PixelRect;
 use rasterproof::lineup::Drawer;
 use rasterproof::pipeline::target::{Antialias, Colour, Target};
 use rasterproof::scene::Scene;
+use rasterproof::tile::Tiles;
 use rasterproof::tiled::{self, Samples};
+
+/// Draws over a picture.
+type Draw<'a> = dyn FnMut(&mut Frame<Colour>) + 'a;
 
 /// Somebody who draws a frame.
 pub struct Draws<'a> {
     pub name: String,
     /// This is timed.
-    draw: Box<dyn FnMut() -> Option<Frame<Colour>> + 'a>,
-    /// What was drawn, of those who leave it where it is.
-    shown: Option<Frame<Colour>>,
+    draw: Box<Draw<'a>>,
+    /// Kept from frame to frame.
+    picture: Frame<Colour>,
 }
 
 impl<'a> Draws<'a> {
-    pub fn new(name: &str, mut draw: impl FnMut() -> Frame<Colour> + 'a) -> Self {
-        let draw = Box::new(move || Some(draw()));
-        Self { name: name.to_owned(), draw, shown: None }
+    pub fn new(name: &str, side_px: u32, draw: impl FnMut(&mut Frame<Colour>) + 'a) -> Self {
+        let picture = Frame::new(PixelRect::window(side_px, side_px), [0; 4]);
+        Self { name: name.to_owned(), draw: Box::new(draw), picture }
     }
 
     pub fn picture(&mut self) -> Frame<Colour> {
-        let drawn = (self.draw)();
-        drawn.or_else(|| self.shown.take()).expect("a picture")
+        (self.draw)(&mut self.picture);
+        self.picture.clone()
     }
 }
 
 /// The planned scanline.
-pub fn engine(scene: &Scene, side_px: u32, antialias: Antialias) -> impl FnMut() -> Frame<Colour> {
+pub fn engine(scene: &Scene, side_px: u32, antialias: Antialias) -> impl FnMut(&mut Frame<Colour>) {
     let mut target =
         Target::new(side_px, side_px, antialias, Default::default()).expect("a usual size");
-    move || {
+    move |picture| {
         let frame = Drawer::Scanline.render(scene, &Effects::PLANNED, &mut target);
-        frame.expect("it draws").picture
+        *picture = frame.expect("it draws").picture;
     }
 }
 
 /// The tiles, by the threads of a pool.
 pub fn tiles(
     scene: &Scene,
-    side_px: u32,
     pool: &rayon::ThreadPool,
     samples: Samples,
-) -> impl FnMut() -> Frame<Colour> {
-    let draw = move || tiled::render(scene, side_px, side_px, samples).expect("it draws");
-    move || pool.install(draw)
+) -> impl FnMut(&mut Frame<Colour>) {
+    let engine = Tiles::default();
+    move |picture| {
+        let draw = || tiled::render_into(engine, scene, picture, samples);
+        pool.install(draw).expect("it draws");
+    }
 }
 
 /// Pixels that are background in one picture alone, and others of another colour.
@@ -88,23 +96,22 @@ pub fn devices(scene: &Scene, side_px: u32, samples: Samples) -> Vec<Draws<'stat
     });
     let device = |listed: &find::Listed| {
         let mut filmed = Filmed::new(listed, scene, side_px, samples).expect("a device that draws");
-        let shown = Some(filmed.picture().expect("a device that draws"));
-        let draw = move || {
-            filmed.draw().expect("a device that draws");
-            None
-        };
-        Draws { name: listed.about.short(), draw: Box::new(draw), shown }
+        let picture = filmed.picture().expect("a device that draws");
+        let draw = move |_: &mut Frame<Colour>| filmed.draw().expect("a device that draws");
+        Draws { name: listed.about.short(), draw: Box::new(draw), picture }
     };
     all.iter().map(device).collect()
 }
 
-/// Medians of milliseconds.
+/// Medians of milliseconds. Each draws a frame that is not timed before one that is: caches and threads
+/// are warm for everyone, as they are from the second frame on.
 pub fn times(all: &mut [Draws<'_>], rounds: usize) -> Vec<f64> {
     let mut times = vec![Vec::new(); all.len()];
     for _ in 0..rounds {
         for (draws, times) in all.iter_mut().zip(&mut times) {
+            (draws.draw)(&mut draws.picture);
             let start = Instant::now();
-            std::hint::black_box((draws.draw)());
+            (draws.draw)(std::hint::black_box(&mut draws.picture));
             times.push(start.elapsed().as_secs_f64() * 1e3);
         }
     }
