@@ -103,13 +103,16 @@ pub fn devices(scene: &Scene, side_px: u32, samples: Samples) -> Vec<Draws<'stat
     all.iter().map(device).collect()
 }
 
-/// Medians of milliseconds. Each draws a frame that is not timed before one that is: caches and threads
-/// are warm for everyone, as they are from the second frame on.
+/// Frames of a turn that are not timed: after them caches, threads and clocks are as they are in the
+/// middle of an animation, for everyone alike.
+const WARM: usize = 3;
+
+/// Medians of milliseconds of a frame, each the last of a turn.
 pub fn times(all: &mut [Draws<'_>], rounds: usize) -> Vec<f64> {
     let mut times = vec![Vec::new(); all.len()];
     for _ in 0..rounds {
         for (draws, times) in all.iter_mut().zip(&mut times) {
-            (draws.draw)(&mut draws.picture);
+            (0..WARM).for_each(|_| (draws.draw)(&mut draws.picture));
             let start = Instant::now();
             (draws.draw)(std::hint::black_box(&mut draws.picture));
             times.push(start.elapsed().as_secs_f64() * 1e3);

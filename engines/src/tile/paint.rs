@@ -74,6 +74,10 @@ fn fill_tile<S: Simd>(simd: S, tile: &Tile, ink: u32x16<S>, target: &mut Frame<u
         tile.spans(|span| target.span_mut(span.y_px, span.x0_px, span.x1_px).fill(colour));
         return;
     }
+    if narrow && left <= 0xff {
+        fill_half(simd, tile, left, ink, target);
+        return;
+    }
     // Rows between that cover nothing stay what they are.
     let first = left.trailing_zeros() as i32;
     let rows = &tile.rows[first as usize & 15..];
@@ -94,5 +98,28 @@ fn fill_tile<S: Simd>(simd: S, tile: &Tile, ink: u32x16<S>, target: &mut Frame<u
             let mask = mask32x16::from_bitmask(simd, u64::from(row));
             *run = mask.select(ink, u32x16::load_array_ref(simd, run)).to_array();
         }
+    }
+}
+
+/// A tile of which only columns and rows below 8 are covered; bit i of `left` is for row i. Always eight
+/// rows, since nothing predicts how many there are: the last one again and again. All are read before
+/// any is written, so that reads that miss the cache wait together.
+#[inline(always)]
+fn fill_half<S: Simd>(simd: S, tile: &Tile, left: u32, ink: u32x16<S>, target: &mut Frame<u32>) {
+    let last = (31 - (left | 1).leading_zeros()) as usize & 7;
+    let pitch = target.pitch();
+    let from = target.tail_mut(tile.x_px, tile.y_px);
+    let Some(from) = from.get_mut(..last * pitch + 8) else { return };
+    let (ink, _) = ink.split();
+    let mut rows = [ink; 8];
+    for (j, pixels) in rows.iter_mut().enumerate() {
+        let row = j.min(last);
+        let Some(run) = from[row * pitch..].first_chunk::<8>() else { return };
+        let mask = mask32x8::from_bitmask(simd, u64::from(tile.rows[row]));
+        *pixels = mask.select(ink, u32x8::load_array_ref(simd, run));
+    }
+    for (j, pixels) in rows.iter().enumerate() {
+        let Some(run) = from[j.min(last) * pitch..].first_chunk_mut::<8>() else { return };
+        *run = pixels.to_array();
     }
 }

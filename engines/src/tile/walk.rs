@@ -35,7 +35,8 @@ pub(super) fn walk<S: Simd>(simd: S, triangle: &Stepped<i32>, number: u32, out: 
     }
 }
 
-/// Half the columns of a tile: triangles that are no wider are decided two rows at a time.
+/// Half the columns of a tile: triangles that are no wider are decided two rows at a time, and at once
+/// where they are no higher either.
 const HALF_PX: i32 = SIDE_PX / 2;
 
 /// [`COUNT`] of half a tile, twice.
@@ -58,10 +59,27 @@ fn half<S: Simd>(simd: S, triangle: &Stepped<i32>, number: u32, out: &mut Vec<Pi
         Lanes::splat(simd, 2 * down[1]),
         Lanes::splat(simd, 2 * down[2]),
     );
-    let looked_at = ((1u32 << (x1 - x0)) - 1) * 0x0101;
+    let columns = (1u32 << (x1 - x0)) - 1;
     out.push(Piece::Tile(Tile { triangle: number, x_px: x0, y_px: y0, rows: [0; 16] }));
     let Some(Piece::Tile(Tile { rows, .. })) = out.last_mut() else { return };
     let height = (y1 - y0) as usize & 31;
+    if height <= HALF_PX as usize {
+        // Always eight rows, as bytes of one word: how many there are nothing predicts.
+        let mut all = 0;
+        for pair in 0..4 {
+            all |= u64::from(none_negative([a, b, c]) & 0xffff) << (16 * pair);
+            (a, b, c) = (a + down_a, b + down_b, c + down_c);
+        }
+        all &= u64::from(columns) * 0x0101_0101_0101_0101 & u64::MAX >> (64 - 8 * height);
+        for (row, byte) in rows.iter_mut().zip(all.to_le_bytes()) {
+            *row = byte.into();
+        }
+        if all == 0 {
+            out.pop();
+        }
+        return;
+    }
+    let looked_at = columns * 0x0101;
     let mut any = 0;
     for rows in rows.as_chunks_mut::<2>().0.iter_mut().take(height / 2) {
         let mask = none_negative([a, b, c]) & looked_at;
