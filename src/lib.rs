@@ -66,11 +66,12 @@ pub mod course;
 pub mod quiz;
 #[doc(hidden)]
 pub use rasterproof_engines::{
-    angle, digest, effects, exhaust, ladder, lineup, mutant, next, paint, pipeline, scene,
-    specimen, tile, tiled,
+    angle, effects, exhaust, ladder, mutant, next, paint, pipeline, scene, specimen, tile, tiled,
 };
 #[doc(hidden)]
 pub use rasterproof_judges::{convention, invariant, judge};
+#[doc(hidden)]
+pub use rasterproof_lineup::{digest, lineup};
 #[doc(hidden)]
 pub use rasterproof_measures::cost;
 #[doc(hidden)]

@@ -1,5 +1,5 @@
 //! The engines of [rasterproof](https://docs.rs/rasterproof), the oracle they are held to, and what
-//! is drawn with them: the floors 0 to 8 of the house, see `docs/ARCHITECTURE.md`.
+//! is drawn with them: the floors 0 to 7 of the house, see `docs/ARCHITECTURE.md`.
 //!
 //! Users take them from the crate `rasterproof`, which shows these rooms under its own name.
 #![forbid(unsafe_code)]
@@ -16,8 +16,6 @@ pub mod next;
 
 pub mod angle;
 pub mod contract;
-#[cfg(feature = "host")]
-pub mod digest;
 pub mod each;
 pub mod effects;
 #[cfg(feature = "host")]
@@ -26,7 +24,6 @@ pub mod frame;
 pub mod hazard;
 pub mod ladder;
 pub mod line;
-pub mod lineup;
 pub mod mutant;
 pub mod oracle;
 pub mod paint;

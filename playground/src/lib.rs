@@ -14,6 +14,6 @@ pub mod page;
 
 // The floors below, under the paths that every room calls them by.
 use rasterproof_engines::{
-    contract, frame, grid, hazard, line, lineup, mutant, oracle, pipeline, raster, specimen,
-    triangle,
+    contract, frame, grid, hazard, line, mutant, oracle, pipeline, raster, specimen, triangle,
 };
+use rasterproof_lineup::lineup;

@@ -8,8 +8,9 @@ pub mod report;
 
 // The floors below, under the paths that every room calls them by.
 use rasterproof_engines::{
-    contract, effects, exhaust, frame, grid, hazard, line, lineup, oracle, pipeline, raster, scene,
+    contract, effects, exhaust, frame, grid, hazard, line, oracle, pipeline, raster, scene,
     specimen, triangle,
 };
 use rasterproof_judges::judge;
+use rasterproof_lineup::lineup;
 use rasterproof_measures::{cost, verify};

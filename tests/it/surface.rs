@@ -54,8 +54,15 @@ fn file(module: &str) -> PathBuf {
         let path = Path::new(src).join(module.replace("::", "/"));
         [path.join("mod.rs"), path.with_extension("rs")]
     };
-    let crates =
-        ["engines/src", "measures/src", "judges/src", "reports/src", "playground/src", "src"];
+    let crates = [
+        "engines/src",
+        "lineup/src",
+        "measures/src",
+        "judges/src",
+        "reports/src",
+        "playground/src",
+        "src",
+    ];
     let mut files = crates.iter().flat_map(|src| at(src));
     files.find(|file| root().join(file).exists()).unwrap_or_else(|| panic!("no module {module}"))
 }

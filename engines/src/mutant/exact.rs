@@ -75,7 +75,7 @@ impl RasterizeExact for ExactMutant {
 
 impl ExactMutant {
     /// As [`RasterizeExact::cover_exact`].
-    pub(crate) fn spans(
+    pub fn spans(
         &self,
         corners: &FreeCorners,
         bounds: PixelRect,

@@ -81,7 +81,7 @@ fn bresenham<V: Varying>(
 
 impl LineMutant {
     /// As [`DrawLine::draw`].
-    pub(crate) fn stroke<V: Varying>(
+    pub fn stroke<V: Varying>(
         &self,
         line: &ScreenLine<V>,
         bounds: PixelRect,

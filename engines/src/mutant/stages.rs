@@ -3,15 +3,11 @@
 use glam::DVec2;
 
 use crate::each::Each as _;
-use crate::effects::render;
 use crate::effects::{Effect, Effects, Mode};
 use crate::grid::SubpixelPoint;
+use crate::pipeline::ClipVertex;
 use crate::pipeline::assemble::Cull;
 use crate::pipeline::clip::{self, Outcode, Plane};
-use crate::pipeline::target::Target;
-use crate::pipeline::{ClipVertex, Counters};
-use crate::raster::scanline::Scanline;
-use crate::scene::Scene;
 use crate::triangle::Corners;
 
 /// A stage with a planted fault.
@@ -39,7 +35,7 @@ pub enum StageMutant {
 
 type ClipStage = fn(&[ClipVertex<DVec2>; 3], Outcode) -> Vec<ClipVertex<DVec2>>;
 type CullStage = fn(Cull, Corners) -> bool;
-type RenderStage = fn(&Scene, &Effects, &mut Target) -> Counters;
+type ChooseStage = fn(Effects) -> Effects;
 
 impl StageMutant {
     /// Every mutant.
@@ -72,7 +68,7 @@ impl StageMutant {
     }
 
     /// Puts the fault in the place of the stage it belongs to.
-    pub fn replace(self, clip: &mut ClipStage, culls: &mut CullStage, render: &mut RenderStage) {
+    pub fn replace(self, clip: &mut ClipStage, culls: &mut CullStage, choose: &mut ChooseStage) {
         match self {
             Self::ForgetsNear => *clip = |t, planes| real(t, planes & !Plane::Near.bit()),
             Self::FromStartToEnd => *clip = |t, planes| textbook(t, planes, true, false),
@@ -99,25 +95,14 @@ impl StageMutant {
                 *culls = |cull, [a, b, c]| cull.removes([a, c, b]);
             }
             Self::CullByFloatArea => *culls = by_float_area,
-            Self::EffectsIgnored => {
-                *render = |scene, _, target| draw(scene, &Effects::ALWAYS, target);
-            }
-            Self::ClearsAlways => {
-                *render = |scene, effects, target| {
-                    draw(scene, &effects.with(Effect::Clear, Mode::Always), target)
-                };
-            }
+            Self::EffectsIgnored => *choose = |_| Effects::ALWAYS,
+            Self::ClearsAlways => *choose = |asked| asked.with(Effect::Clear, Mode::Always),
         }
     }
 }
 
 fn real(triangle: &[ClipVertex<DVec2>; 3], planes: Outcode) -> Vec<ClipVertex<DVec2>> {
     clip::clip(triangle, planes).0.vertices().copied().collect()
-}
-
-fn draw(scene: &Scene, effects: &Effects, target: &mut Target) -> Counters {
-    render::render(scene, &Scanline, effects, target)
-        .map_or(Counters::default(), |rendered| rendered.counters)
 }
 
 /// |2A| < 1 px^2 counts as no winding, as floats with a threshold do.

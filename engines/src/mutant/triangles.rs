@@ -161,7 +161,7 @@ impl Interpolate for TriangleMutant {
 // No mutant is called from a hot loop: through `dyn`, its engines are compiled once.
 impl TriangleMutant {
     /// As [`Rasterize::cover`].
-    pub(crate) fn spans(&self, corners: Corners, bounds: PixelRect, emit: &mut dyn FnMut(Span)) {
+    pub fn spans(&self, corners: Corners, bounds: PixelRect, emit: &mut dyn FnMut(Span)) {
         match self {
             Self::InclusiveEdges => by_rule(corners, bounds, 0, |_, _| true, emit),
             Self::ExclusiveEdges => by_rule(corners, bounds, 0, |_, _| false, emit),
@@ -246,7 +246,7 @@ impl TriangleMutant {
     }
 
     /// As [`Interpolate::fragments`].
-    pub(crate) fn values<V: Varying>(
+    pub fn values<V: Varying>(
         &self,
         triangle: &ScreenTriangle<V>,
         bounds: PixelRect,

@@ -30,10 +30,14 @@ impl<'a> Fit<'a> {
             [Self::points, Self::rows, Self::samples, Self::reaches, Self::shares];
         let mut found = Vec::new();
         for (number, kind) in kinds.iter().enumerate() {
-            let searches = self.quanta().into_iter().flat_map(|quantum| kind(self, quantum));
-            let mut searches: Vec<_> = searches.collect();
+            let mut searches = Vec::new();
+            for quantum in self.quanta() {
+                searches.extend(kind(self, quantum));
+            }
             searches.sort_by_key(Search::least);
-            found.extend(searches.into_iter().take(GRIDS).flat_map(Search::finish));
+            for search in searches.into_iter().take(GRIDS) {
+                found.extend(search.finish());
+            }
             if number == 1 {
                 found.extend(self.outlines());
             }
@@ -129,7 +133,11 @@ impl<'a> Fit<'a> {
         let makes: [fn(&[i32]) -> Shape; 2] =
             [|v| four(v, Pattern::Square), |v| four(v, Pattern::Rotated)];
         let least = Range { low: 1, high: 4, finest: 1 };
-        makes.into_iter().flat_map(|make| self.search(quantum, &[x, y, least], make)).collect()
+        let mut searches = Vec::new();
+        for make in makes {
+            searches.extend(self.search(quantum, &[x, y, least], make));
+        }
+        searches
     }
 
     fn reaches(&self, quantum: Quantum) -> Vec<Search<'a>> {
@@ -141,7 +149,11 @@ impl<'a> Fit<'a> {
             |v| Shape::Reach { x: v[0], y: v[1], reach: v[2], square: true },
             |v| Shape::Reach { x: v[0], y: v[1], reach: v[2], square: false },
         ];
-        makes.into_iter().flat_map(|make| self.search(quantum, &[x, y, reach], make)).collect()
+        let mut searches = Vec::new();
+        for make in makes {
+            searches.extend(self.search(quantum, &[x, y, reach], make));
+        }
+        searches
     }
 
     fn shares(&self, quantum: Quantum) -> Vec<Search<'a>> {

@@ -299,23 +299,24 @@ const LIKELY_PERCENT: f64 = 95.0;
 fn lines(rng: &mut Rng, side: i32, count: usize) -> Vec<LineQuestion> {
     let window = PixelRect::window(side as u32, side as u32);
     let pixel = |rng: &mut Rng| [0; 2].each(|_| rng.int(1, i64::from(side) - 2) as i32);
-    (0..count)
-        .flat_map(|number| {
-            let from = pixel(rng);
-            let to = if number % 2 == 0 {
-                pixel(rng)
-            } else {
-                // Over an odd count of rows in an even count of columns, or the other way.
-                let du = 2 * rng.int(1, i64::from(side) / 7) as i32;
-                let dv = 2 * rng.int(0, i64::from(du) / 2 - 1) as i32 + 1;
-                let (dx, dy) = if rng.chance(2) { (du, dv) } else { (dv, du) };
-                let toward =
-                    |from: i32, by: i32| if from < side / 2 { from + by } else { from - by };
-                [toward(from[0], dx), toward(from[1], dy)]
-            };
-            [[from, to], [to, from]].each(|ends| LineQuestion { ends, window })
-        })
-        .collect()
+    let mut lines = Vec::with_capacity(2 * count);
+    for number in 0..count {
+        let from = pixel(rng);
+        let to = if number % 2 == 0 {
+            pixel(rng)
+        } else {
+            // Over an odd count of rows in an even count of columns, or the other way.
+            let du = 2 * rng.int(1, i64::from(side) / 7) as i32;
+            let dv = 2 * rng.int(0, i64::from(du) / 2 - 1) as i32 + 1;
+            let (dx, dy) = if rng.chance(2) { (du, dv) } else { (dv, du) };
+            let toward = |from: i32, by: i32| if from < side / 2 { from + by } else { from - by };
+            [toward(from[0], dx), toward(from[1], dy)]
+        };
+        for ends in [[from, to], [to, from]] {
+            lines.push(LineQuestion { ends, window });
+        }
+    }
+    lines
 }
 
 /// Questions a line drawer until its convention is known; the same for the same seed and answers.

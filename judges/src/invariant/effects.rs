@@ -44,7 +44,7 @@ pub(super) fn disabled(subject: &Subject, seed: u64, cases: u64) -> Outcome {
             let Ok(mut target) = Target::new(24, 18, antialias, DepthFormat::Unorm32) else {
                 return Err("a small target is refused".to_owned());
             };
-            let counters = (subject.render)(&scene, &effects, &mut target);
+            let counters = (subject.render)(&scene, &(subject.choose)(effects), &mut target);
             let calls = calls(effect, &counters);
             if calls != 0 {
                 return Err(format!("scene {index}: {} off makes {calls} calls", effect.name()));

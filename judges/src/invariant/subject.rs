@@ -173,6 +173,8 @@ pub struct Subject {
     pub clip: ClipStage,
     /// Whether culling removes a triangle.
     pub culls: fn(Cull, Corners) -> bool,
+    /// The effects a scene is drawn with, of those that are asked for.
+    pub choose: fn(Effects) -> Effects,
     /// Draws a scene and counts.
     pub render: RenderStage,
     /// Whether a coverage agrees with another one.
@@ -247,6 +249,7 @@ impl Subject {
             make_case: Family::case,
             clip: |triangle, planes| clip(triangle, planes).0.vertices().copied().collect(),
             culls: Cull::removes,
+            choose: |asked| asked,
             render: |scene, effects, target| {
                 lineup::Drawer::EdgeFunction
                     .render(scene, effects, target)
@@ -277,7 +280,7 @@ impl Subject {
             Mutant::WordWidth(fault) => subject.word_width = fault.function(),
             Mutant::Source(fault) => subject.make_case = fault.function(),
             Mutant::Stage(fault) => {
-                fault.replace(&mut subject.clip, &mut subject.culls, &mut subject.render)
+                fault.replace(&mut subject.clip, &mut subject.culls, &mut subject.choose)
             }
             Mutant::Judge(fault) => subject.coverage_agrees = fault.function(),
             Mutant::Tile(fault) => subject.lists = vec![(fault.name(), Box::new(fault))],

@@ -38,7 +38,12 @@ fn edges(&[a, b, c]: &Corners) -> impl Iterator<Item = Edge> {
 /// The edges that belong to one triangle only, in one direction or the other.
 fn outline(list: &[Corners]) -> Vec<Edge> {
     let sorted = |[a, b]: Edge| if a < b { [a, b] } else { [b, a] };
-    let mut all: Vec<Edge> = list.iter().flat_map(edges).map(sorted).collect();
+    let mut all = Vec::with_capacity(3 * list.len());
+    for triangle in list {
+        for edge in edges(triangle) {
+            all.push(sorted(edge));
+        }
+    }
     all.sort_unstable();
     all.chunk_by(|a, b| a == b).filter(|same| same.len() % 2 == 1).map(|same| same[0]).collect()
 }

@@ -73,8 +73,11 @@ fn candidates(case: &Case, check: Check) -> Vec<Case> {
         let by = |v: i32, px: i32| v.saturating_sub(px * SUBPIXELS);
         found.push(moved(&|p| SubpixelPoint::new(by(p.x, x_px), by(p.y, y_px))));
     }
-    let mut corners: Vec<SubpixelPoint> = list.iter().flat_map(Triangle::corners).collect();
-    corners.sort_by_key(|p| (p.x, p.y));
+    let mut corners = Vec::new();
+    for triangle in list {
+        corners.extend(triangle.corners());
+    }
+    corners.sort_by_key(|p: &SubpixelPoint| (p.x, p.y));
     corners.dedup();
     for corner in corners {
         let to = |x, y| moved(&|p| if p == corner { SubpixelPoint::new(x, y) } else { p });

@@ -68,17 +68,13 @@ pub fn windings(program: &mut dyn Ask, seed: u64) -> Windings {
         is_plain.then_some((case.window, corners))
     });
     let plain: Vec<_> = plain.take(PROBES as usize).collect();
-    let questions: Vec<Question> = plain
-        .iter()
-        .flat_map(|(window, [a, b, c])| {
+    let mut questions = Vec::with_capacity(2 * plain.len());
+    for (window, [a, b, c]) in &plain {
+        for corners in [[*a, *b, *c], [*a, *c, *b]] {
             let (width, height) = (window.width(), window.height());
-            [[*a, *b, *c], [*a, *c, *b]].map(|corners| Question {
-                width,
-                height,
-                of: Asked::Coverage(corners),
-            })
-        })
-        .collect();
+            questions.push(Question { width, height, of: Asked::Coverage(corners) });
+        }
+    }
     for (question, answer) in questions.iter().zip(program.ask(&questions, super::run::MOST_DEATHS))
     {
         let Asked::Coverage(corners) = &question.of else { continue };
