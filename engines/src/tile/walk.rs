@@ -70,7 +70,8 @@ fn half<S: Simd>(simd: S, triangle: &Stepped<i32>, number: u32, out: &mut Vec<Pi
             all |= u64::from(none_negative([a, b, c]) & 0xffff) << (16 * pair);
             (a, b, c) = (a + down_a, b + down_b, c + down_c);
         }
-        all &= u64::from(columns) * 0x0101_0101_0101_0101 & u64::MAX >> (64 - 8 * height);
+        let rows_shown = u64::MAX >> (64 - 8 * height);
+        all &= rows_shown & (u64::from(columns) * 0x0101_0101_0101_0101);
         for (row, byte) in rows.iter_mut().zip(all.to_le_bytes()) {
             *row = byte.into();
         }
