@@ -86,13 +86,13 @@ const EFFECTS: &[Figure] = &[
         "307,200 个像素中只有 {} 个不止一种颜色",
         || apart("facets", Antialias::Supersample(4)),
     ),
-    figure("effects", "| 43 (57) | {} of them", "| 43 (57) | 其中 {} 个", || {
+    figure("effects", "| 16 (17) | {} of them", "| 16 (17) | 其中 {} 个", || {
         apart("panels", Antialias::Supersample(4))
     }),
-    figure("effects", "| 8.9 (12) | {} of them", "| 8.9 (12) | 其中 {} 个", || {
+    figure("effects", "| 2.9 (3.2) | {} of them", "| 2.9 (3.2) | 其中 {} 个", || {
         apart("panels", Antialias::Multisample4)
     }),
-    figure("effects", "| 3.7 (4.3) | {} of them", "| 3.7 (4.3) | 其中 {} 个", || {
+    figure("effects", "| 2.1 (2.2) | {} of them", "| 2.1 (2.2) | 其中 {} 个", || {
         apart("tilted", Antialias::Multisample4)
     }),
     figure(

@@ -308,6 +308,9 @@ impl<E: Interpolate> Stage<'_, '_, E> {
                 look(front);
             }
         }
+        if let Some(on_demand) = on_demand {
+            on_demand.finish(target);
+        }
         Rendered { picture, counters, plan }
     }
 }

@@ -139,7 +139,7 @@ impl<'a> Rivals<'a> {
                     for x_px in span.x0_px..span.x1_px {
                         let keys = depths.keys(x_px, span.y_px, self.canvas.depth);
                         let sample = Sample { plane, y_px: span.y_px, x_px };
-                        see(Rival { sample, piece: index as u32 }, keys);
+                        see(Rival { sample, piece: index as u32 }, keys.into());
                     }
                 });
             }

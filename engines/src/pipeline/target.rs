@@ -177,6 +177,8 @@ pub struct Target {
     antialias: Antialias,
     size: PixelRect,
     shading: Shading,
+    /// Room for two keys of each pixel, kept from frame to frame by those who use it.
+    intervals: Option<Frame<[u64; 2]>>,
     /// How depths are stored.
     pub format: DepthFormat,
     /// One plane, or four of [`Antialias::Multisample4`].
@@ -215,7 +217,18 @@ impl Target {
             if antialias == Antialias::Multisample4 { size } else { PixelRect::window(0, 0) };
         let (colours, centres) = (Frame::new(shaded, (0, [0; 4])), Frame::new(shaded, 0));
         let shading = Shading { serial: 0, colours, centres };
-        Self { antialias, size, shading, format, planes: vec![plane; antialias.planes()] }
+        let planes = vec![plane; antialias.planes()];
+        Self { antialias, size, shading, intervals: None, format, planes }
+    }
+
+    /// Room for two keys of each pixel, with whatever stands there.
+    pub(crate) fn take_intervals(&mut self) -> Frame<[u64; 2]> {
+        self.intervals.take().unwrap_or_else(|| Frame::new(self.size, [0; 2]))
+    }
+
+    /// Keeps that room for the next frame.
+    pub(crate) fn keep_intervals(&mut self, intervals: Frame<[u64; 2]>) {
+        self.intervals = Some(intervals);
     }
 
     /// The picture's pixels.

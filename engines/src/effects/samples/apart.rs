@@ -4,10 +4,11 @@
 use super::depths::Plane;
 use super::parts::Part;
 use super::pattern::{Pattern, scaled};
-use super::pixel::{Pixel, State};
+use super::pixel::{EMPTY, Interval, State};
 use super::{DepthPiece, OnDemand, Run};
 use crate::contract::Interpolate;
 use crate::effects::piece::{Piece, touched};
+use crate::frame::Frame;
 use crate::grid::PixelRect;
 use crate::pipeline::Counters;
 use crate::pipeline::depth::CLEAR;
@@ -27,19 +28,34 @@ impl OnDemand {
         let rect = touched(&piece.corners(), target.antialias()).intersect(&target.size());
         let nearest = piece.vertices.iter().fold(1.0, |min: f64, vertex| min.min(vertex.depth));
         let nearest = if depth { target.format.key(nearest - Plane::ERROR) } else { 0 };
-        let is_visible = |pixel: &Pixel| !depth || nearest < pixel.farthest;
+        let is_visible = |(state, interval): (&State, &Interval)| {
+            !depth || *state == State::Background || nearest < interval[1]
+        };
         let mut rows = rect.y0..rect.y1;
         if rect.is_empty()
-            || !rows.any(|y| self.pixels.span_mut(y, rect.x0, rect.x1).iter().any(is_visible))
+            || !rows.any(|y| {
+                let states = self.states.span_mut(y, rect.x0, rect.x1).iter();
+                states
+                    .zip(self.intervals.span_mut(y, rect.x0, rect.x1))
+                    .any(|(s, i)| is_visible((s, i)))
+            })
         {
             return false;
         }
+        self.runs.clear();
         for y_px in rect.y0..rect.y1 {
-            self.tell_apart(engine, Run { y_px, x0_px: rect.x0, x1_px: rect.x1 }, target, counters);
-            for pixel in self.pixels.span_mut(y_px, rect.x0, rect.x1) {
-                pixel.nearest = pixel.nearest.min(nearest);
+            self.runs.push(Run { y_px, x0_px: rect.x0, x1_px: rect.x1 });
+            let states = self.states.span_mut(y_px, rect.x0, rect.x1).iter();
+            for (state, interval) in states.zip(self.intervals.span_mut(y_px, rect.x0, rect.x1)) {
+                if *state == State::Background {
+                    *interval = EMPTY;
+                }
+                interval[0] = interval[0].min(nearest);
             }
         }
+        let runs = std::mem::take(&mut self.runs);
+        self.tell_apart(engine, &runs, target, counters);
+        self.runs = runs;
         true
     }
 
@@ -47,68 +63,83 @@ impl OnDemand {
     pub(super) fn tell_apart(
         &mut self,
         engine: &impl Interpolate,
-        run: Run,
+        runs: &[Run],
         target: &mut Target,
         counters: &mut Counters,
     ) {
-        let Self { pattern, pixels, pieces, pool, .. } = self;
-        let format = target.format;
-        let mut x0_px = run.x0_px;
-        while x0_px < run.x1_px {
-            let rest = pixels.span_mut(run.y_px, x0_px, run.x1_px);
-            let Pixel { state, colour, .. } = rest[0];
-            let alike = rest.iter().take_while(|pixel| pixel.state == state).count();
-            let run = Run { y_px: run.y_px, x0_px, x1_px: x0_px + alike as i32 };
-            x0_px = run.x1_px;
-            let block = scaled(run.rect(), pattern.scale);
-            match state {
-                State::Apart => continue,
-                State::Background => {
-                    for plane in &mut target.planes {
-                        for y in block.y0..block.y1 {
-                            plane.depth.span_mut(y, block.x0, block.x1).fill(CLEAR);
-                            plane.colour.span_mut(y, block.x0, block.x1).fill(colour);
+        let Self { pattern, colours, states, was_apart, pieces, pool, written, background, .. } =
+            self;
+        written.clear();
+        for &Run { y_px, mut x0_px, x1_px } in runs {
+            while x0_px < x1_px {
+                let rest = states.span_mut(y_px, x0_px, x1_px);
+                let state = rest[0];
+                let alike = rest.iter().take_while(|other| **other == state).count();
+                let run = Run { y_px, x0_px, x1_px: x0_px + alike as i32 };
+                x0_px = run.x1_px;
+                let block = scaled(run.rect(), pattern.scale);
+                match state {
+                    State::Apart => continue,
+                    State::Background => {
+                        for plane in &mut target.planes {
+                            for y in block.y0..block.y1 {
+                                plane.depth.span_mut(y, block.x0, block.x1).fill(CLEAR);
+                                plane.colour.span_mut(y, block.x0, block.x1).fill(*background);
+                            }
                         }
                     }
-                }
-                State::Whole(serial) => {
-                    let row = pixels.row(run.y_px);
-                    for (i, plane) in target.planes.iter_mut().enumerate() {
-                        let moved = pattern.moved(&pieces[serial as usize], i);
-                        let Some(moved) = moved else { continue };
-                        engine.runs(&moved, block, true, &mut |run| {
-                            for (x, depth) in (run.x0_px..).zip(run.depths) {
-                                let colour = row[(x / pattern.scale) as usize].colour;
-                                plane.put(x, run.y_px, format.key(*depth), colour);
-                            }
-                        });
+                    // They stay whole until all of their piece are written.
+                    State::Whole(serial) => {
+                        written.add(run, serial);
+                        continue;
+                    }
+                    State::Parts(index) => {
+                        for part in pool.parts[index as usize].iter() {
+                            let piece = part.serial.map(|serial| &pieces[serial as usize]);
+                            write_part(*pattern, engine, part, piece, block, target);
+                        }
+                        pool.spare.push(index);
                     }
                 }
-                State::Parts(index) => {
-                    for part in pool.parts[index as usize].iter() {
-                        let piece = part.serial.map(|serial| &pieces[serial as usize]);
-                        write_part(*pattern, engine, part, piece, block, target);
-                    }
-                    pool.spare.push(index);
-                }
+                divide(states, was_apart, run, counters);
             }
-            for pixel in pixels.span_mut(run.y_px, run.x0_px, run.x1_px) {
-                pixel.divide(State::Apart, counters);
-            }
+        }
+        if written.is_empty() {
+            return;
+        }
+        for (block, serial) in written.iter() {
+            write_whole(
+                *pattern,
+                engine,
+                (states, colours, &pieces[serial as usize], serial),
+                block,
+                target,
+            );
+        }
+        for &run in runs {
+            divide(states, was_apart, run, counters);
         }
     }
 
-    /// Tests and writes the samples of a run of pixels that are apart.
+    /// Gathers runs of pixels that are apart in blocks to be drawn in one go.
+    pub(super) fn gather(&mut self, runs: &[Run]) {
+        self.drawn.clear();
+        for &run in runs {
+            self.drawn.add(run, 0);
+        }
+    }
+
+    /// Tests and writes the samples of pixels that are apart, in a block.
     pub(super) fn test_samples(
         &self,
         engine: &impl Interpolate,
         piece: &DepthPiece,
-        run: Run,
+        block: PixelRect,
         colour: Colour,
         target: &mut Target,
         counters: &mut Counters,
     ) {
-        let (block, format) = (scaled(run.rect(), self.pattern.scale), target.format);
+        let (block, format) = (scaled(block, self.pattern.scale), target.format);
         let (mut emitted, mut visible) = (0, 0);
         for (i, plane) in target.planes.iter_mut().enumerate() {
             let Some(moved) = self.pattern.moved(piece, i) else { continue };
@@ -147,6 +178,43 @@ impl OnDemand {
                 }
             }
         }
+    }
+}
+
+/// Notes that pixels are apart, and counts those that have not been in parts or apart before.
+fn divide(
+    states: &mut Frame<State>,
+    was_apart: &mut Frame<bool>,
+    Run { y_px, x0_px, x1_px }: Run,
+    counters: &mut Counters,
+) {
+    states.span_mut(y_px, x0_px, x1_px).fill(State::Apart);
+    let was_apart = was_apart.span_mut(y_px, x0_px, x1_px);
+    counters.expanded += was_apart.iter().map(|was| u64::from(!was)).sum::<u64>();
+    was_apart.fill(true);
+}
+
+/// Writes the samples of the pixels of a block that are whole and of this piece into the target.
+fn write_whole(
+    pattern: Pattern,
+    engine: &impl Interpolate,
+    (states, colours, piece, serial): (&Frame<State>, &Frame<Colour>, &DepthPiece, u32),
+    block: PixelRect,
+    target: &mut Target,
+) {
+    let (format, block) = (target.format, scaled(block, pattern.scale));
+    for (i, plane) in target.planes.iter_mut().enumerate() {
+        let Some(moved) = pattern.moved(piece, i) else { continue };
+        engine.runs(&moved, block, true, &mut |run| {
+            let y_px = run.y_px / pattern.scale;
+            let (states, colours) = (states.row(y_px), colours.row(y_px));
+            for (x, depth) in (run.x0_px..).zip(run.depths) {
+                let x_px = (x / pattern.scale) as usize;
+                if states[x_px] == State::Whole(serial) {
+                    plane.put(x, run.y_px, format.key(*depth), colours[x_px]);
+                }
+            }
+        });
     }
 }
 

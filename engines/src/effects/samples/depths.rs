@@ -72,14 +72,14 @@ impl Plane {
     /// Keys of the nearest and farthest depth that a rasterizer may compute at the samples of a
     /// pixel that it covers.
     #[inline]
-    pub fn keys(&self, x_px: i32, y_px: i32, format: DepthFormat) -> (u64, u64) {
+    pub fn keys(&self, x_px: i32, y_px: i32, format: DepthFormat) -> [u64; 2] {
         let (x, y) = (f64::from(x_px), f64::from(y_px));
         let [t1, t2] = [0, 1]
             .each(|i| &self.weights[i])
             .each(|w| w.slope * (w.origin + w.per_x * x + w.per_y * y));
         let middle = self.depth + (t1 + t2);
         let half = self.half_range + Self::ERROR * (1.0 + t1.abs() + t2.abs());
-        (format.key(middle - half), format.key(middle + half))
+        [format.key(middle - half), format.key(middle + half)]
     }
 }
 
@@ -150,7 +150,7 @@ mod tests {
             let pattern = Pattern::of(antialias);
             for format in DepthFormat::ALL {
                 let (count, wrong) = outside(pattern, |plane, x, y, depth| {
-                    let (nearest, farthest) = plane.keys(x, y, format);
+                    let [nearest, farthest] = plane.keys(x, y, format);
                     (nearest..=farthest).contains(&format.key(depth))
                 });
                 assert!(count > 20_000 && wrong == 0, "{antialias:?} {format:?}: {wrong}");

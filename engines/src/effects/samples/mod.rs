@@ -12,6 +12,7 @@
 //! each triangle anyway, so there every triangle gives one colour to the pixels in its inside.
 
 mod apart;
+mod blocks;
 pub(super) mod depths;
 mod parts;
 pub(super) mod pattern;
@@ -19,17 +20,17 @@ mod pixel;
 
 use std::ops::Range;
 
+use self::blocks::Blocks;
 use self::depths::Plane;
 use self::parts::Part;
 use self::pattern::{Pattern, PixelRow};
-use self::pixel::{Meeting, Pixel, Pool, State};
+use self::pixel::{EMPTY, Interval, Meeting, Pixel, Pool, State, meet};
 use super::piece::{Piece, pack, touched};
 use super::plan::{PiecePlan, Samples};
 use crate::contract::{Interpolate, RUN};
 use crate::frame::Frame;
 use crate::grid::PixelRect;
 use crate::pipeline::Counters;
-use crate::pipeline::depth::CLEAR;
 use crate::pipeline::fill::{Stage, Way, each, fill, shade};
 use crate::pipeline::shade::Attributes;
 use crate::pipeline::target::{Colour, Target};
@@ -50,7 +51,14 @@ struct Run {
 pub(super) struct OnDemand {
     policy: Samples,
     pattern: Pattern,
-    pixels: Frame<Pixel>,
+    background: Colour,
+    /// Of pixels that are whole, or background.
+    colours: Frame<Colour>,
+    states: Frame<State>,
+    /// Of pixels in which something was drawn; the others are [`EMPTY`], whatever stands here.
+    intervals: Frame<Interval>,
+    /// Pixels that were in parts or apart at any time.
+    was_apart: Frame<bool>,
     /// Pieces that pixels are of, whole or in part.
     pieces: Vec<DepthPiece>,
     pool: Pool,
@@ -58,27 +66,30 @@ pub(super) struct OnDemand {
     rows: Vec<(i32, i32)>,
     /// Pixels whose samples the piece at hand needs apart.
     runs: Vec<Run>,
+    /// Those that were of one earlier piece, in blocks of each.
+    written: Blocks,
+    /// All of them, in blocks.
+    drawn: Blocks,
 }
 
 impl OnDemand {
     /// The pixels of an empty frame, by a policy.
-    pub(super) fn new(target: &Target, background: Colour, policy: Samples) -> Self {
-        let pattern = Pattern::of(target.antialias());
-        let pixel = Pixel {
-            colour: background,
-            state: State::Background,
-            was_apart: false,
-            nearest: CLEAR,
-            farthest: CLEAR,
-        };
+    pub(super) fn new(target: &mut Target, background: Colour, policy: Samples) -> Self {
+        let (pattern, size) = (Pattern::of(target.antialias()), target.size());
         Self {
             policy,
             pattern,
-            pixels: Frame::new(target.size(), pixel),
+            background,
+            colours: Frame::new(size, background),
+            states: Frame::new(size, State::Background),
+            intervals: target.take_intervals(),
+            was_apart: Frame::new(size, false),
             pieces: Vec::new(),
             pool: Pool::default(),
             rows: vec![(0, 0); target.bounds().height() as usize * pattern.planes],
             runs: Vec::new(),
+            written: Blocks::new(pattern),
+            drawn: Blocks::new(pattern),
         }
     }
 
@@ -105,11 +116,14 @@ impl OnDemand {
         let plane = depth.then(|| Plane::new(piece, self.pattern));
         self.meet(engine, piece, plane.as_ref(), Some(colour), target, counters);
         let runs = std::mem::take(&mut self.runs);
-        for &run in &runs {
-            self.tell_apart(engine, run, target, counters);
-            if depth {
-                self.test_samples(engine, &pack::<0, 0>(piece), run, colour, target, counters);
-            } else {
+        self.tell_apart(engine, &runs, target, counters);
+        if depth {
+            self.gather(&runs);
+            for block in self.drawn.rects() {
+                self.test_samples(engine, &pack::<0, 0>(piece), block, colour, target, counters);
+            }
+        } else {
+            for &run in &runs {
                 self.fill_samples(run, colour, target, counters);
             }
         }
@@ -140,27 +154,23 @@ impl OnDemand {
         let plane = way.depth_test.then(|| Plane::new(piece, self.pattern));
         let met = self.meet(engine, piece, plane.as_ref(), None, target, counters);
         let runs = std::mem::take(&mut self.runs);
-        for &run in &runs {
-            self.tell_apart(engine, run, target, counters);
-            fill(engine, packed, target, run.rect(), way, stage, counters);
+        self.tell_apart(engine, &runs, target, counters);
+        self.gather(&runs);
+        for block in self.drawn.rects() {
+            fill(engine, packed, target, block, way, stage, counters);
         }
         self.runs = runs;
         let Some(state) = met else { return };
-        let (pixels, mut shaded) = (&mut self.pixels, 0);
+        let (Self { states, colours, .. }, mut shaded) = (self, 0);
         engine.runs(packed, target.bounds(), way.affine, &mut |run| {
-            let pixels = pixels.span_mut(run.y_px, run.x0_px, run.x1_px());
-            let mut colours = [[0; 4]; RUN];
+            let (y_px, x0_px, x1_px) = (run.y_px, run.x0_px, run.x1_px());
             let mut wanted = 0;
-            for (i, pixel) in pixels.iter().enumerate() {
-                wanted |= u32::from(pixel.state == state) << i;
+            for (i, other) in states.span_mut(y_px, x0_px, x1_px).iter().enumerate() {
+                wanted |= u32::from(*other == state) << i;
             }
-            if wanted == 0 {
-                return;
-            }
-            shaded += u64::from(wanted.count_ones());
-            shade(run.values, wanted, stage, &mut colours[..pixels.len()]);
-            for (i, (pixel, colour)) in pixels.iter_mut().zip(colours).enumerate() {
-                pixel.colour = if wanted >> i & 1 != 0 { colour } else { pixel.colour };
+            if wanted != 0 {
+                shaded += u64::from(wanted.count_ones());
+                shade(run.values, wanted, stage, colours.span_mut(y_px, x0_px, x1_px));
             }
         });
         counters.fragments += shaded;
@@ -184,31 +194,37 @@ impl OnDemand {
         let rows = self.covered_rows(engine, piece, target)?;
         let format = target.format;
         let serial = self.pieces.len() as u32;
-        let state = State::Whole(serial);
+        let whole = State::Whole(serial);
         let (mut is_whole, mut is_part) = (false, false);
-        let Self { pattern, pixels, pool, runs, .. } = self;
+        let Self { pattern, colours, states, intervals, was_apart, pool, runs, .. } = self;
         for y_px in rows {
             let samples = pattern.rows_of(&self.rows, y_px);
             let Some(PixelRow { touched, inner }) = pattern.pixel_row(samples) else { continue };
             let mut first_apart = None;
-            let pixels = pixels.span_mut(y_px, touched.0, touched.1);
-            for (x_px, pixel) in (touched.0..).zip(pixels) {
+            let states = states.span_mut(y_px, touched.0, touched.1).iter_mut();
+            let colours = colours.span_mut(y_px, touched.0, touched.1);
+            let intervals = intervals.span_mut(y_px, touched.0, touched.1);
+            let pixels = states.zip(colours).zip(intervals);
+            for (x_px, ((state, own_colour), interval)) in (touched.0..).zip(pixels) {
                 let keys = plane.map(|plane| plane.keys(x_px, y_px, format));
                 let covered = (inner.0..inner.1).contains(&x_px);
-                let before = *pixel;
-                match pixel.meet(covered, keys) {
+                if *state == State::Background {
+                    *interval = EMPTY;
+                }
+                let before = Pixel { colour: *own_colour, state: *state, interval: *interval };
+                match meet(interval, covered, keys) {
                     Meeting::Hidden => {}
                     Meeting::Whole => {
                         is_whole = true;
-                        if let State::Parts(index) = pixel.state {
+                        if let State::Parts(index) = *state {
                             pool.spare.push(index);
                         }
-                        pixel.state = state;
-                        pixel.colour = colour.unwrap_or(pixel.colour);
+                        *state = whole;
+                        *own_colour = colour.unwrap_or(*own_colour);
                     }
                     Meeting::Apart => {
                         let part = colour.filter(|_| pattern.has_masks()).map(|colour| {
-                            let (nearest, farthest) = keys.unwrap_or_default();
+                            let [nearest, farthest] = keys.unwrap_or_default();
                             let samples = pattern.mask(samples, x_px);
                             Part { serial: Some(serial), samples, colour, nearest, farthest }
                         });
@@ -219,8 +235,11 @@ impl OnDemand {
                             continue;
                         };
                         is_part = true;
-                        (pixel.nearest, pixel.farthest) = pool.parts[index as usize].range();
-                        pixel.divide(State::Parts(index), counters);
+                        *interval = pool.parts[index as usize].range();
+                        *state = State::Parts(index);
+                        let was_apart = &mut was_apart.span_mut(y_px, x_px, x_px + 1)[0];
+                        counters.expanded += u64::from(!*was_apart);
+                        *was_apart = true;
                     }
                 }
                 if let Some(x0_px) = first_apart.take() {
@@ -234,7 +253,7 @@ impl OnDemand {
         if is_whole || is_part {
             self.pieces.push(pack::<0, 0>(piece));
         }
-        is_whole.then_some(state)
+        is_whole.then_some(whole)
     }
 
     /// Notes the columns that the piece covers in each row of samples; the rows of pixels touched.
@@ -266,32 +285,42 @@ impl OnDemand {
 
     /// Whether a pixel's samples were told apart at any time.
     pub(super) fn was_apart(&self, x_px: i32, y_px: i32) -> bool {
-        self.pixels.get(x_px, y_px).is_some_and(|pixel| pixel.was_apart)
+        self.was_apart.get(x_px, y_px) == Some(true)
     }
 
     /// The picture: whole pixels as they are, the others as the mean of their samples.
     pub(super) fn resolve(&self, target: &Target) -> Frame<Colour> {
-        let mut picture = Frame::new(target.size(), [0; 4]);
+        let mut picture = self.colours.clone();
         let mut sums = Vec::new();
-        for (y_px, row) in self.pixels.rows() {
-            let mut x_px = 0;
-            for run in row.chunk_by(|a, b| (a.state == State::Apart) == (b.state == State::Apart)) {
-                let end_px = x_px + run.len() as i32;
-                let pixels = picture.span_mut(y_px, x_px, end_px);
-                if run[0].state == State::Apart {
-                    target.resolve_run(y_px, x_px, pixels, &mut sums);
-                } else {
-                    for (pixel, held) in pixels.iter_mut().zip(run) {
-                        *pixel = match held.state {
-                            State::Parts(index) => self.pool.parts[index as usize].mean(),
-                            _ => held.colour,
-                        };
+        for (y_px, states) in self.states.rows() {
+            let (was_apart, pixels) = (self.was_apart.row(y_px), picture.row_mut(y_px));
+            let mut x = 0;
+            while x < states.len() {
+                // Most of a picture is whole.
+                if was_apart[x..].first_chunk() == Some(&[false; RUN]) {
+                    x += RUN;
+                    continue;
+                }
+                match states[x] {
+                    State::Background | State::Whole(_) => x += 1,
+                    State::Parts(index) => {
+                        pixels[x] = self.pool.parts[index as usize].mean();
+                        x += 1;
+                    }
+                    State::Apart => {
+                        let alike = states[x..].iter().take_while(|s| **s == State::Apart).count();
+                        target.resolve_run(y_px, x as i32, &mut pixels[x..][..alike], &mut sums);
+                        x += alike;
                     }
                 }
-                x_px = end_px;
             }
         }
         picture
+    }
+
+    /// Gives back what the next frame can use.
+    pub(super) fn finish(self, target: &mut Target) {
+        target.keep_intervals(self.intervals);
     }
 }
 

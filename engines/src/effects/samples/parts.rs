@@ -72,9 +72,9 @@ impl Parts {
     }
 
     /// Keys that no depth is nearer or farther than.
-    pub fn range(&self) -> (u64, u64) {
-        self.iter().fold((u64::MAX, 0), |(nearest, farthest), part| {
-            (nearest.min(part.nearest), farthest.max(part.farthest))
+    pub fn range(&self) -> [u64; 2] {
+        self.iter().fold([u64::MAX, 0], |[nearest, farthest], part| {
+            [nearest.min(part.nearest), farthest.max(part.farthest)]
         })
     }
 
@@ -111,7 +111,7 @@ mod tests {
         assert!(pixel.draw(part(1, 0b0011, 50, 60), true));
         assert!(pixel.draw(part(2, 0b0100, 50, 60), true), "beside the first");
         assert_eq!(serials(&pixel), [(None, 0b1000), (Some(1), 0b0011), (Some(2), 0b0100)]);
-        assert_eq!(pixel.range(), (50, u64::MAX));
+        assert_eq!(pixel.range(), [50, u64::MAX]);
         // (1 x 0 + 2 x 10 + 1 x 20) / 4.
         assert_eq!(pixel.mean(), [10, 0, 0, 255]);
         assert!(pixel.draw(part(3, 0b0110, 60, 70), true), "behind: an equal key is behind");

@@ -2,19 +2,21 @@
 
 use super::parts::{Part, Parts};
 use super::pattern::Pattern;
-use crate::pipeline::Counters;
+use crate::pipeline::depth::CLEAR;
 use crate::pipeline::target::Colour;
 
-/// What a pixel holds.
+/// Keys that no sample's depth in a pixel is nearer than, and none farther.
+pub type Interval = [u64; 2];
+
+/// That of a pixel in which nothing was drawn.
+pub const EMPTY: Interval = [CLEAR; 2];
+
+/// A pixel that is not in parts yet.
 #[derive(Clone, Copy)]
 pub struct Pixel {
     pub colour: Colour,
     pub state: State,
-    /// Whether its samples were apart at any time.
-    pub was_apart: bool,
-    /// Keys that no sample's depth is nearer or farther than.
-    pub nearest: u64,
-    pub farthest: u64,
+    pub interval: Interval,
 }
 
 /// Where a pixel's samples come from.
@@ -44,9 +46,9 @@ pub enum Meeting {
 impl Pixel {
     /// Draws a piece on some of its samples; its place in the pool afterwards. None, with nothing
     /// drawn, where they are apart or must be.
-    pub fn draw(&self, part: Part, depth: bool, pool: &mut Pool, pattern: &Pattern) -> Option<u32> {
-        let Self { colour, nearest, farthest, .. } = *self;
-        let serial = match self.state {
+    pub fn draw(self, part: Part, depth: bool, pool: &mut Pool, pattern: &Pattern) -> Option<u32> {
+        let Self { colour, state, interval: [nearest, farthest] } = self;
+        let serial = match state {
             State::Apart => return None,
             State::Parts(index) => {
                 return pool.parts[index as usize].draw(part, depth).then_some(index);
@@ -58,40 +60,33 @@ impl Pixel {
         let mut parts = Parts::of(whole);
         parts.draw(part, depth).then(|| pool.add(parts))
     }
+}
 
-    /// Gives it a state in which its samples differ, and counts it the first time.
-    pub fn divide(&mut self, state: State, counters: &mut Counters) {
-        self.state = state;
-        counters.expanded += u64::from(!self.was_apart);
-        self.was_apart = true;
-    }
-
-    /// What becomes of it under a piece that covers all its samples or some of them, at depths
-    /// between two keys, or drawn over whatever is there.
-    #[inline]
-    pub fn meet(&mut self, covered: bool, keys: Option<(u64, u64)>) -> Meeting {
-        let Some((nearest, farthest)) = keys else {
-            if covered {
-                (self.nearest, self.farthest) = (0, 0);
-                return Meeting::Whole;
-            }
-            return Meeting::Apart;
-        };
-        if nearest >= self.farthest {
-            return Meeting::Hidden;
-        }
-        if covered && farthest < self.nearest {
-            (self.nearest, self.farthest) = (nearest, farthest);
+/// What becomes of a pixel under a piece that covers all its samples or some of them, at depths
+/// between two keys, or drawn over whatever is there.
+#[inline]
+pub fn meet(interval: &mut Interval, covered: bool, keys: Option<Interval>) -> Meeting {
+    let Some([nearest, farthest]) = keys else {
+        if covered {
+            *interval = [0, 0];
             return Meeting::Whole;
         }
-        // Nothing that is drawn moves a sample away from the eye, and where all samples are covered
-        // none is left behind the piece.
-        self.nearest = self.nearest.min(nearest);
-        if covered {
-            self.farthest = self.farthest.min(farthest);
-        }
-        Meeting::Apart
+        return Meeting::Apart;
+    };
+    if nearest >= interval[1] {
+        return Meeting::Hidden;
     }
+    if covered && farthest < interval[0] {
+        *interval = [nearest, farthest];
+        return Meeting::Whole;
+    }
+    // Nothing that is drawn moves a sample away from the eye, and where all samples are covered
+    // none is left behind the piece.
+    interval[0] = interval[0].min(nearest);
+    if covered {
+        interval[1] = interval[1].min(farthest);
+    }
+    Meeting::Apart
 }
 
 /// The parts of all pixels that have several.
@@ -117,24 +112,15 @@ impl Pool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::pipeline::depth::CLEAR;
-
     #[test]
     fn a_pixel_is_hidden_whole_or_apart() {
-        let clear = Pixel {
-            colour: [0; 4],
-            state: State::Background,
-            was_apart: false,
-            nearest: CLEAR,
-            farthest: CLEAR,
-        };
         let met = |covered: bool, keys: &[Option<(u64, u64)>]| {
-            let mut pixel = clear;
+            let mut interval = EMPTY;
             let mut last = Meeting::Hidden;
-            for &keys in keys {
-                last = pixel.meet(covered, keys);
+            for keys in keys {
+                last = meet(&mut interval, covered, keys.map(Interval::from));
             }
-            (last, pixel.nearest, pixel.farthest)
+            (last, interval[0], interval[1])
         };
         assert_eq!(met(true, &[Some((5, 9))]), (Meeting::Whole, 5, 9));
         assert_eq!(met(false, &[Some((5, 9))]), (Meeting::Apart, 5, CLEAR));
