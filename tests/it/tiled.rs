@@ -180,6 +180,10 @@ fn sizes_that_cut_tiles() {
             let tiles = tiled::render(&scene, width, height, samples).unwrap();
             let engine = by_scanline(&scene, width, height, samples);
             assert!(tiles == engine, "{width} x {height} with {samples:?}");
+            // Over a picture that is kept nothing is left of it.
+            let mut kept = Frame::new(PixelRect::window(width, height), [9; 4]);
+            tiled::render_into(Tiles::default(), &scene, &mut kept, samples).unwrap();
+            assert!(kept == engine, "{width} x {height} with {samples:?}, kept");
         }
     }
 }
