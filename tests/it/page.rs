@@ -146,10 +146,18 @@ impl Browser {
         );
     }
 
+    /// Gives the window a size, and waits until the page has been told and drawn at it.
     pub fn resize(&mut self, width: u32, height: u32) {
         let screen =
             json!({ "width": width, "height": height, "deviceScaleFactor": 1, "mobile": false });
         self.call("Emulation.setDeviceMetricsOverride", screen);
+        self.wait_for(&format!("innerWidth === {width} && innerHeight === {height}"));
+        self.draw();
+    }
+
+    /// Waits for two frames: what was asked before has been handled and laid out in the first.
+    fn draw(&mut self) {
+        self.eval("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))");
     }
 
     pub fn prefer(&mut self, feature: &str, value: &str) {
@@ -186,8 +194,10 @@ impl Browser {
 
     /// Moves the mouse over the middle of a pixel of the first panel, counted from the window's corner.
     fn hover(&mut self, x: u32, y: u32) {
+        self.eval("document.querySelector('#stage canvas').scrollIntoView()");
+        self.draw();
         let spot = self.eval(&format!(
-            "(() => {{ const c = document.querySelector('#stage canvas'); c.scrollIntoView();
+            "(() => {{ const c = document.querySelector('#stage canvas');
                 const b = c.getBoundingClientRect();
                 const cell = Number(document.querySelector('#stage').dataset.cell);
                 const p = c.closest('.port');

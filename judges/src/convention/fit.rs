@@ -133,11 +133,7 @@ impl<'a> Fit<'a> {
         let makes: [fn(&[i32]) -> Shape; 2] =
             [|v| four(v, Pattern::Square), |v| four(v, Pattern::Rotated)];
         let least = Range { low: 1, high: 4, finest: 1 };
-        let mut searches = Vec::new();
-        for make in makes {
-            searches.extend(self.search(quantum, &[x, y, least], make));
-        }
-        searches
+        self.search_each(quantum, &[x, y, least], makes)
     }
 
     fn reaches(&self, quantum: Quantum) -> Vec<Search<'a>> {
@@ -149,11 +145,17 @@ impl<'a> Fit<'a> {
             |v| Shape::Reach { x: v[0], y: v[1], reach: v[2], square: true },
             |v| Shape::Reach { x: v[0], y: v[1], reach: v[2], square: false },
         ];
-        let mut searches = Vec::new();
-        for make in makes {
-            searches.extend(self.search(quantum, &[x, y, reach], make));
-        }
-        searches
+        self.search_each(quantum, &[x, y, reach], makes)
+    }
+
+    /// Two kinds of shapes with the same ranges.
+    fn search_each(
+        &self,
+        quantum: Quantum,
+        ranges: &[Range],
+        makes: [fn(&[i32]) -> Shape; 2],
+    ) -> Vec<Search<'a>> {
+        makes.map(|make| Search::new(self.seen, quantum, ranges, make)).into()
     }
 
     fn shares(&self, quantum: Quantum) -> Vec<Search<'a>> {

@@ -35,9 +35,8 @@ impl OnDemand {
         if rect.is_empty()
             || !rows.any(|y| {
                 let states = self.states.span_mut(y, rect.x0, rect.x1).iter();
-                states
-                    .zip(self.intervals.span_mut(y, rect.x0, rect.x1))
-                    .any(|(s, i)| is_visible((s, i)))
+                let intervals = self.intervals.span_mut(y, rect.x0, rect.x1).iter();
+                states.zip(intervals).any(is_visible)
             })
         {
             return false;

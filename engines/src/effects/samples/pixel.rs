@@ -112,6 +112,7 @@ impl Pool {
 #[cfg(test)]
 mod tests {
     use super::*;
+
     #[test]
     fn a_pixel_is_hidden_whole_or_apart() {
         let met = |covered: bool, keys: &[Option<(u64, u64)>]| {
