@@ -110,7 +110,7 @@ impl<T: Copy> Frame<T> {
     #[inline]
     pub fn row(&self, y_px: i32) -> &[T] {
         let start = self.row_start(y_px);
-        &self.data[start..start + self.bounds.width() as usize]
+        &self.data[start..start + self.width()]
     }
 
     /// As [`Frame::row`], to write to.
@@ -120,7 +120,7 @@ impl<T: Copy> Frame<T> {
     #[inline]
     pub fn row_mut(&mut self, y_px: i32) -> &mut [T] {
         let start = self.row_start(y_px);
-        let width = self.bounds.width() as usize;
+        let width = self.width();
         &mut self.data[start..start + width]
     }
 
@@ -156,6 +156,12 @@ impl<T: Copy> Frame<T> {
     /// Every row with its number, from the top.
     pub fn rows(&self) -> impl Iterator<Item = (i32, &[T])> {
         (self.bounds.y0..self.bounds.y1).map(|y_px| (y_px, self.row(y_px)))
+    }
+
+    /// Columns, of the same value as [`PixelRect::width`], which is a call from other crates.
+    #[inline]
+    fn width(&self) -> usize {
+        (i64::from(self.bounds.x1) - i64::from(self.bounds.x0)).max(0) as usize
     }
 
     #[inline]
