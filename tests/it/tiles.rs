@@ -7,7 +7,7 @@ use rasterproof::grid::{PixelRect, SubpixelPoint};
 use rasterproof::hazard::{Shape, triangles::FAMILIES};
 use rasterproof::oracle::Oracle;
 use rasterproof::paint;
-use rasterproof::tile::{CoverList, NARROW_EXTENT, Piece, Tiles};
+use rasterproof::tile::{CoverList, NARROW_EXTENT, NEAR_EXTENT, Piece, Tiles};
 use rasterproof::triangle::Corners;
 
 fn oracle(corners: Corners, window: PixelRect) -> Coverage {
@@ -24,6 +24,7 @@ fn tiles(engine: &Tiles, list: &[Corners], window: PixelRect) -> (Vec<Coverage>,
     for piece in &pieces {
         match piece {
             Piece::Cell(cell) => assert!(cell.pixels != 0, "{cell:?}"),
+            Piece::Quarter(quarter) => assert!(quarter.pixels != 0, "{quarter:?}"),
             Piece::Tile(tile) => assert!(tile.rows != [0; 16], "{tile:?}"),
             Piece::Block(block) => assert!(!block.rect.is_empty(), "{block:?}"),
         }
@@ -89,16 +90,17 @@ fn at_the_corners_of_a_box(at: SubpixelPoint, width: i64, height: i64) {
     }
 }
 
-/// 180 px and just beyond, at all kinds of phases; what is stepped in i32 and just beyond that; and
+/// 11 and 180 px and just beyond, at all kinds of phases; what is stepped in i32 and just beyond that; and
 /// the largest boxes there are, where extents wrap around in 32 bits.
 #[test]
 fn borders_of_the_words_are_exact() {
-    let narrow = i64::from(NARROW_EXTENT);
+    let (near, narrow) = (i64::from(NEAR_EXTENT), i64::from(NARROW_EXTENT));
     let stepped = 733_263;
     let origin = SubpixelPoint::new;
     for phase in [0, 1, 127, 128, 129, 255] {
         for (more, less) in [(0, 0), (1, 0), (0, 1), (1, 1), (-1, 0), (300, -300)] {
             let at = origin(-77 * 256 + phase, 31 * 256 - phase);
+            at_the_corners_of_a_box(at, near + more, near + less);
             at_the_corners_of_a_box(at, narrow + more, narrow + less);
             at_the_corners_of_a_box(at, stepped + more, stepped + less);
         }
@@ -112,8 +114,8 @@ fn borders_of_the_words_are_exact() {
     }
 }
 
-/// Triangles of 1 to 20 px a side at every corner of a window, so that cells and tiles of half the
-/// columns reach over its borders; and both winners of `paint` leave the same pixels.
+/// Triangles of 1 to 20 px a side at every corner of a window, so that cells and quarters of tiles
+/// reach over its borders; and both winners of `paint` leave the same pixels.
 #[test]
 fn small_triangles_at_the_borders_are_exact() {
     let window = PixelRect { x0: 13, y0: -6, x1: 46, y1: 31 };

@@ -48,6 +48,7 @@ impl TileMutant {
     fn spoilt(self, piece: Piece) -> Option<Piece> {
         let mut tile = match piece {
             Piece::Cell(cell) => cell.tile(),
+            Piece::Quarter(quarter) => quarter.tile(),
             Piece::Tile(tile) => tile,
             Piece::Block(_) => return Some(piece),
         };

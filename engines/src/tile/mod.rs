@@ -7,7 +7,8 @@
 //!
 //! - Triangles up to 180 px a side are set up in wrapping i32 (`setup`), larger ones in i128
 //!   (`setup::Single`). Both are stepped in i32 as long as that is wide enough, else in i64 (`wide`).
-//! - Triangles of at most 4 x 4 px are decided whole while they are set up, one a lane (`cells`).
+//! - Triangles of at most 4 x 4 and 8 x 8 px are decided whole while they are set up, one a lane, in i16
+//!   (`cells`).
 //! - Tiles of a triangle that is wider than one begin at columns that are multiples of 16, since rows
 //!   of pixels are written 64 bytes, a line of the cache, at a time. All others begin at the first
 //!   pixel of the triangle's box, so that small ones are one tile.
@@ -29,7 +30,7 @@ use crate::frame::Frame;
 use crate::grid::PixelRect;
 use crate::triangle::{Corners, Span};
 
-pub use setup::{NARROW_EXTENT, STEPPED_LIMIT};
+pub use setup::{NARROW_EXTENT, NEAR_EXTENT, STEPPED_LIMIT};
 
 /// Columns and rows of a tile.
 pub const SIDE_PX: i32 = 16;
@@ -37,11 +38,16 @@ pub const SIDE_PX: i32 = 16;
 /// Columns and rows of a cell.
 pub const CELL_PX: i32 = 4;
 
+/// Columns and rows of a quarter of a tile.
+pub const QUARTER_PX: i32 = SIDE_PX / 2;
+
 /// A part of what a triangle of a list covers: plain data, with nothing of the vectors in it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Piece {
     /// Some pixels of a square of 4 x 4, at least one: all of a tiny triangle.
     Cell(Cell),
+    /// Some pixels of a square of 8 x 8, at least one: all of a small triangle.
+    Quarter(Quarter),
     /// Some pixels of a square of 16 x 16, at least one.
     Tile(Tile),
     /// Every pixel of a rectangle, which is not empty.
@@ -59,6 +65,19 @@ pub struct Cell {
     pub y_px: i32,
     /// Bit 4 j + i: whether pixel (x + i, y + j) is covered.
     pub pixels: u16,
+}
+
+/// Some pixels of a square of 8 x 8, a quarter of a tile.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Quarter {
+    /// Which triangle of the list.
+    pub triangle: u32,
+    /// First column of the square.
+    pub x_px: i32,
+    /// First row of the square.
+    pub y_px: i32,
+    /// Bit 8 j + i: whether pixel (x + i, y + j) is covered.
+    pub pixels: u64,
 }
 
 /// Some pixels of a square of 16 x 16.
@@ -248,27 +267,34 @@ fn batch<S: Simd>(
     out: &mut Out<'_>,
 ) {
     let (narrow, wide) = (batch.narrow.to_bitmask() as u32, batch.wide.to_bitmask() as u32);
-    let tiny = batch.at_most(CELL_PX) & narrow;
+    let near = batch.near.to_bitmask() as u32;
+    let tiny = batch.at_most(CELL_PX) & near;
+    let small = batch.at_most(QUARTER_PX) & near & !tiny;
     let cells = if tiny == 0 { cells::Cells::default() } else { cells::Cells::new(simd, &batch) };
-    if narrow | wide == tiny {
+    let mut left = narrow | wide;
+    if left == tiny {
         // Nothing else, as in every list of tiny triangles.
-        cells.append(tiny, number, &mut out.pieces);
+        while left != 0 {
+            let lane = left.trailing_zeros() as usize & (setup::LANES - 1);
+            left &= left - 1;
+            cells.append(lane, number + lane as u32, &mut out.pieces);
+        }
         return;
     }
+    let quarters =
+        if small == 0 { cells::Quarters::default() } else { cells::Quarters::new(simd, &batch) };
     let ours = batch.at_most(side_px);
-    let records = if (narrow | wide) & ours == tiny {
-        setup::Records::default()
-    } else {
-        batch.records(simd)
-    };
-    let mut left = narrow | wide;
+    let records =
+        if left & ours == tiny | small { setup::Records::default() } else { batch.records() };
     while left != 0 {
         let lane = left.trailing_zeros() as usize & (setup::LANES - 1);
         let bit = left & left.wrapping_neg();
         left &= left - 1;
         let triangle = number + lane as u32;
         if tiny & bit != 0 {
-            cells.append(bit, number, &mut out.pieces);
+            cells.append(lane, triangle, &mut out.pieces);
+        } else if small & bit != 0 {
+            quarters.append(lane, triangle, &mut out.pieces);
         } else if ours & bit == 0 {
             out.leave(triangle);
         } else if narrow & bit != 0 {
@@ -310,6 +336,7 @@ impl Piece {
     pub fn triangle(&self) -> u32 {
         match self {
             Self::Cell(cell) => cell.triangle,
+            Self::Quarter(quarter) => quarter.triangle,
             Self::Tile(tile) => tile.triangle,
             Self::Block(block) => block.triangle,
         }
@@ -319,6 +346,7 @@ impl Piece {
     pub fn spans(&self, emit: &mut dyn FnMut(Span)) {
         match self {
             Self::Cell(cell) => cell.tile().spans(emit),
+            Self::Quarter(quarter) => quarter.tile().spans(emit),
             Self::Tile(tile) => tile.spans(emit),
             Self::Block(Block { rect, .. }) => {
                 for y_px in rect.y0..rect.y1 {
@@ -337,6 +365,19 @@ impl Cell {
         let mut rows = [0; SIDE_PX as usize];
         for (j, row) in rows.iter_mut().take(CELL_PX as usize).enumerate() {
             *row = pixels >> (CELL_PX as usize * j) & 0xf;
+        }
+        Tile { triangle, x_px, y_px, rows }
+    }
+}
+
+impl Quarter {
+    /// The same as a tile.
+    #[must_use]
+    pub fn tile(&self) -> Tile {
+        let Self { triangle, x_px, y_px, pixels } = *self;
+        let mut rows = [0; SIDE_PX as usize];
+        for (row, byte) in rows.iter_mut().zip(pixels.to_le_bytes()) {
+            *row = byte.into();
         }
         Tile { triangle, x_px, y_px, rows }
     }

@@ -3,9 +3,10 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, mask32x8, mask32x16, u16x16, u32x4, u32x8, u32x16};
 
-use super::{CELL_PX, Cell, Piece, SIDE_PX, Tile};
+use super::{CELL_PX, Cell, Piece, QUARTER_PX, Quarter, SIDE_PX, Tile};
 use crate::frame::Frame;
 use crate::grid::PixelRect;
+use crate::triangle::Span;
 
 #[inline(always)]
 pub(super) fn fill<S: Simd>(simd: S, pieces: &[Piece], colour: u32, target: &mut Frame<u32>) {
@@ -13,6 +14,7 @@ pub(super) fn fill<S: Simd>(simd: S, pieces: &[Piece], colour: u32, target: &mut
     for piece in pieces {
         match piece {
             Piece::Cell(cell) => fill_cell(simd, cell, ink, target),
+            Piece::Quarter(quarter) => fill_quarter(simd, quarter, ink, target),
             Piece::Tile(tile) => fill_tile(simd, tile, ink, target),
             Piece::Block(block) => fill_block(block.rect, ink, colour, target),
         }
@@ -74,10 +76,6 @@ fn fill_tile<S: Simd>(simd: S, tile: &Tile, ink: u32x16<S>, target: &mut Frame<u
         tile.spans(|span| target.span_mut(span.y_px, span.x0_px, span.x1_px).fill(colour));
         return;
     }
-    if narrow && left <= 0xff {
-        fill_half(simd, tile, left, ink, target);
-        return;
-    }
     // Rows between that cover nothing stay what they are.
     let first = left.trailing_zeros() as i32;
     let rows = &tile.rows[first as usize & 15..];
@@ -101,25 +99,45 @@ fn fill_tile<S: Simd>(simd: S, tile: &Tile, ink: u32x16<S>, target: &mut Frame<u
     }
 }
 
-/// A tile of which only columns and rows below 8 are covered; bit i of `left` is for row i. Always eight
-/// rows, since nothing predicts how many there are: the last one again and again. All are read before
-/// any is written, so that reads that miss the cache wait together.
+/// The bits of four rows of a quarter in a word.
+const BITS: [[u32; 8]; 4] = {
+    let mut bits = [[0; 8]; 4];
+    let mut at = 0;
+    while at < 32 {
+        bits[at / 8][at % 8] = 1 << at;
+        at += 1;
+    }
+    bits
+};
+
+/// Always eight rows, since nothing predicts how many there are: the last one again and again. All are
+/// read before any is written, so that reads that miss the cache wait together; and the last is written
+/// first, since what is after the last has nothing of it.
 #[inline(always)]
-fn fill_half<S: Simd>(simd: S, tile: &Tile, left: u32, ink: u32x16<S>, target: &mut Frame<u32>) {
-    let last = (31 - (left | 1).leading_zeros()) as usize & 7;
+fn fill_quarter<S: Simd>(simd: S, quarter: &Quarter, ink: u32x16<S>, target: &mut Frame<u32>) {
+    let pixels = quarter.pixels;
+    if quarter.x_px + QUARTER_PX > target.bounds().x1 {
+        // At the border there are not so many pixels to read and write.
+        let colour = ink[0];
+        let fill = |span: Span| target.span_mut(span.y_px, span.x0_px, span.x1_px).fill(colour);
+        quarter.tile().spans(fill);
+        return;
+    }
+    let last = (63 - (pixels | 1).leading_zeros()) as usize / 8;
     let pitch = target.pitch();
-    let from = target.tail_mut(tile.x_px, tile.y_px);
+    let from = target.tail_mut(quarter.x_px, quarter.y_px);
     let Some(from) = from.get_mut(..last * pitch + 8) else { return };
     let (ink, _) = ink.split();
+    let halves = [u32x8::splat(simd, pixels as u32), u32x8::splat(simd, (pixels >> 32) as u32)];
     let mut rows = [ink; 8];
-    for (j, pixels) in rows.iter_mut().enumerate() {
-        let row = j.min(last);
-        let Some(run) = from[row * pitch..].first_chunk::<8>() else { return };
-        let mask = mask32x8::from_bitmask(simd, u64::from(tile.rows[row]));
-        *pixels = mask.select(ink, u32x8::load_array_ref(simd, run));
+    for (j, row) in rows.iter_mut().enumerate() {
+        let Some(run) = from[j.min(last) * pitch..].first_chunk::<8>() else { return };
+        let bits = u32x8::load_array_ref(simd, &BITS[j % 4]);
+        let mask = (halves[j / 4] & bits).simd_eq(bits);
+        *row = mask.select(ink, u32x8::load_array_ref(simd, run));
     }
-    for (j, pixels) in rows.iter().enumerate() {
+    for (j, row) in rows.iter().enumerate().rev() {
         let Some(run) = from[j.min(last) * pitch..].first_chunk_mut::<8>() else { return };
-        *run = pixels.to_array();
+        *run = row.to_array();
     }
 }

@@ -36,6 +36,13 @@ const _: () = {
     assert!(padded * padded < STEPPED_LIMIT, "what is set up in i32 is stepped in i32");
 };
 
+/// The largest side of a box, in subpixels, of which E' fits i16: 11 px.
+pub const NEAR_EXTENT: i32 = 11 * SUBPIXELS;
+const _: () = assert!(
+    NEAR_EXTENT * NEAR_EXTENT / SUBPIXELS < i16::MAX as i32,
+    "E', and what it grows by, fit i16"
+);
+
 type Lanes<S> = i32x16<S>;
 
 /// A triangle ready to be stepped in words of a kind.
@@ -93,9 +100,9 @@ impl Columns {
         let (ax, ay) = (load(simd, &lines[0]), load(simd, &lines[1]));
         let (bx, by) = (load(simd, &lines[2]), load(simd, &lines[3]));
         let (cx, cy) = (load(simd, &lines[4]), load(simd, &lines[5]));
-        let (fits_x, x0, x1) = side([ax, bx, cx], bounds.x0, bounds.x1);
-        let (fits_y, y0, y1) = side([ay, by, cy], bounds.y0, bounds.y1);
-        let fits = fits_x & fits_y;
+        let (extent_x, x0, x1) = side([ax, bx, cx], bounds.x0, bounds.x1);
+        let (extent_y, y0, y1) = side([ay, by, cy], bounds.y0, bounds.y1);
+        let fits = within(extent_x, NARROW_EXTENT) & within(extent_y, NARROW_EXTENT);
         let visible = x0.simd_lt(x1) & y0.simd_lt(y1);
         let area = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax);
         let zero = Lanes::splat(simd, 0);
@@ -108,8 +115,10 @@ impl Columns {
         let a = edge(simd, [bx, by, cx, cy], px, py);
         let b = edge(simd, [cx, cy, ax, ay], px, py);
         let c = edge(simd, [ax, ay, bx, by], px, py);
+        let narrow = visible & fits & !area.simd_eq(zero);
         Batch {
-            narrow: visible & fits & !area.simd_eq(zero),
+            narrow,
+            near: narrow & extent_x.simd_le(NEAR_EXTENT) & extent_y.simd_le(NEAR_EXTENT),
             wide: visible & !fits,
             rect: [x0, y0, x1, y1],
             start: [a[0], b[0], c[0]],
@@ -123,6 +132,8 @@ impl Columns {
 pub(super) struct Batch<S: Simd> {
     /// Whether it may cover a pixel, and is set up.
     pub narrow: mask32x16<S>,
+    /// Whether it is narrow, and E' fits i16 in all of its box.
+    pub near: mask32x16<S>,
     /// Whether it may cover a pixel, and is too large to be set up here.
     pub wide: mask32x16<S>,
     /// As in [`Stepped`], x0, y0, x1 and y1.
@@ -140,23 +151,26 @@ impl<S: Simd> Batch<S> {
         ((x1 - x0).simd_le(side_px) & (y1 - y0).simd_le(side_px)).to_bitmask() as u32
     }
 
-    /// Triangle by triangle.
+    /// Number by number, in memory.
     #[inline(always)]
-    pub fn records(&self, simd: S) -> Records {
-        let ([x0, y0, x1, y1], zero) = (self.rect, Lanes::splat(simd, 0));
-        let ([a, b, c], [ra, rb, rc], [da, db, dc]) = (self.start, self.right, self.down);
-        let rows = [x0, y0, x1, y1, a, b, c, ra, rb, rc, da, db, dc, zero, zero, zero];
-        Records(transposed(rows))
+    pub fn records(&self) -> Records {
+        let ([x0, y0, x1, y1], [a, b, c]) = (self.rect, self.start);
+        let ([ra, rb, rc], [da, db, dc]) = (self.right, self.down);
+        let mut records = Records::default();
+        let numbers = [x0, y0, x1, y1, a, b, c, ra, rb, rc, da, db, dc];
+        for (line, number) in records.0.iter_mut().zip(numbers) {
+            line.0 = number.to_array();
+        }
+        records
     }
 }
 
-/// Of each triangle: x0, y0, x1, y1 of its rect, three starts, three steps to the right, three down.
-/// Together, since numbers that lie apart in memory are gathered slowly.
-pub(super) struct Records([Line; LANES]);
+/// x0, y0, x1, y1 of the rect, three starts, three steps to the right, three down; of each sixteen triangles.
+pub(super) struct Records([Line; 13]);
 
 impl Default for Records {
     fn default() -> Self {
-        Self([Line([0; LANES]); LANES])
+        Self([Line([0; LANES]); 13])
     }
 }
 
@@ -164,38 +178,17 @@ impl Records {
     /// The pixels of the window in the box of a triangle.
     #[inline(always)]
     pub fn rect(&self, lane: usize) -> PixelRect {
-        let [x0, y0, x1, y1, ..] = self.0[lane].0;
-        PixelRect { x0, y0, x1, y1 }
+        let number = |at: usize| self.0[at].0[lane];
+        PixelRect { x0: number(0), y0: number(1), x1: number(2), y1: number(3) }
     }
 
     /// A triangle that is narrow.
     #[inline(always)]
     pub fn stepped(&self, lane: usize) -> Stepped<i32> {
-        let [_, _, _, _, a, b, c, ra, rb, rc, da, db, dc, ..] = self.0[lane].0;
-        Stepped { rect: self.rect(lane), start: [a, b, c], right: [ra, rb, rc], down: [da, db, dc] }
+        let three =
+            |at: usize| [self.0[at].0[lane], self.0[at + 1].0[lane], self.0[at + 2].0[lane]];
+        Stepped { rect: self.rect(lane), start: three(4), right: three(7), down: three(10) }
     }
-}
-
-/// Columns of a square of numbers as lines. Each round interleaves the first half of the rows with
-/// the second; after four rounds the number of a row has become that of a column.
-#[inline(always)]
-fn transposed<S: Simd>(rows: [Lanes<S>; LANES]) -> [Line; LANES] {
-    let rows = round(round(round(round(rows))));
-    let mut lines = [Line([0; LANES]); LANES];
-    for (line, row) in lines.iter_mut().zip(rows) {
-        line.0 = row.to_array();
-    }
-    lines
-}
-
-#[inline(always)]
-fn round<S: Simd>(rows: [Lanes<S>; LANES]) -> [Lanes<S>; LANES] {
-    let mut next = rows;
-    for i in 0..LANES / 2 {
-        next[2 * i] = rows[i].zip_low(rows[i + LANES / 2]);
-        next[2 * i + 1] = rows[i].zip_high(rows[i + LANES / 2]);
-    }
-    next
 }
 
 #[inline(always)]
@@ -203,24 +196,27 @@ fn load<S: Simd>(simd: S, values: &Line) -> Lanes<S> {
     Lanes::load_array_ref(simd, &values.0)
 }
 
-/// Of the coordinates of the corners on one axis: whether their box is narrow, and its first pixel
-/// and the one past its last within the window.
+/// Whether a side of a box is that long at most. One of 2^31 and more has wrapped around to below zero.
+#[inline(always)]
+fn within<S: Simd>(extent: Lanes<S>, limit: i32) -> mask32x16<S> {
+    extent.simd_ge(0) & extent.simd_le(limit)
+}
+
+/// Of the coordinates of the corners on one axis: the extent of their box, and its first pixel and the
+/// one past its last within the window.
 #[inline(always)]
 fn side<S: Simd>(
     [a, b, c]: [Lanes<S>; 3],
     from_px: i32,
     to_px: i32,
-) -> (mask32x16<S>, Lanes<S>, Lanes<S>) {
+) -> (Lanes<S>, Lanes<S>, Lanes<S>) {
     let (low, high) = (a.min(b).min(c), a.max(b).max(c));
-    // An extent of 2^31 and more wraps around to below zero.
-    let extent = high - low;
-    let fits = extent.simd_ge(0) & extent.simd_le(NARROW_EXTENT);
     // ceil((low - S/2) / S) and floor((high + S/2) / S), with nothing that leaves i32 on the way:
     // of the first centre at or after `low`, and the last one at or before `high`.
     let first =
         (low >> SUBPIXEL_BITS) + (((low & (SUBPIXELS - 1)) + (HALF_PIXEL - 1)) >> SUBPIXEL_BITS);
     let end = (high >> SUBPIXEL_BITS) + (((high & (SUBPIXELS - 1)) + HALF_PIXEL) >> SUBPIXEL_BITS);
-    (fits, first.max(from_px), end.min(to_px))
+    (high - low, first.max(from_px), end.min(to_px))
 }
 
 /// E' at a point, and its steps to the right and down, of the edges from `[x, y, ..]` to `[.., x, y]`.

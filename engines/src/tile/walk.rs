@@ -7,7 +7,7 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, i32x16};
 
 use super::setup::Stepped;
-use super::{Block, Piece, SIDE_PX, Tile};
+use super::{Block, Piece, QUARTER_PX, SIDE_PX, Tile};
 use crate::grid::PixelRect;
 
 type Lanes<S> = i32x16<S>;
@@ -26,7 +26,7 @@ pub(super) fn walk<S: Simd>(simd: S, triangle: &Stepped<i32>, number: u32, out: 
         tiles(simd, triangle, number, out);
         return;
     }
-    if x1 - x0 > HALF_PX {
+    if x1 - x0 > QUARTER_PX {
         let columns = columns(simd, &triangle.right);
         let square = Square { x_px: x0, y_px: y0, first: 0, end: x1 - x0, height: y1 - y0 };
         tile(simd, triangle, &triangle.start, columns, &square, number, out);
@@ -35,16 +35,12 @@ pub(super) fn walk<S: Simd>(simd: S, triangle: &Stepped<i32>, number: u32, out: 
     }
 }
 
-/// Half the columns of a tile: triangles that are no wider are decided two rows at a time, and at once
-/// where they are no higher either.
-const HALF_PX: i32 = SIDE_PX / 2;
-
 /// [`COUNT`] of half a tile, twice.
 const HALF_COUNT: [i32; 16] = [0, 1, 2, 3, 4, 5, 6, 7, 0, 1, 2, 3, 4, 5, 6, 7];
 /// 0 in the first half, 1 in the second.
 const SECOND: [i32; 16] = [0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1];
 
-/// A triangle in one tile, of which it takes half the columns or less.
+/// A triangle in one tile, of which it takes half the columns or less: two rows at a time.
 #[inline(always)]
 fn half<S: Simd>(simd: S, triangle: &Stepped<i32>, number: u32, out: &mut Vec<Piece>) {
     let PixelRect { x0, y0, x1, y1 } = triangle.rect;
@@ -63,23 +59,6 @@ fn half<S: Simd>(simd: S, triangle: &Stepped<i32>, number: u32, out: &mut Vec<Pi
     out.push(Piece::Tile(Tile { triangle: number, x_px: x0, y_px: y0, rows: [0; 16] }));
     let Some(Piece::Tile(Tile { rows, .. })) = out.last_mut() else { return };
     let height = (y1 - y0) as usize & 31;
-    if height <= HALF_PX as usize {
-        // Always eight rows, as bytes of one word: how many there are nothing predicts.
-        let mut all = 0;
-        for pair in 0..4 {
-            all |= u64::from(none_negative([a, b, c]) & 0xffff) << (16 * pair);
-            (a, b, c) = (a + down_a, b + down_b, c + down_c);
-        }
-        let rows_shown = u64::MAX >> (64 - 8 * height);
-        all &= rows_shown & (u64::from(columns) * 0x0101_0101_0101_0101);
-        for (row, byte) in rows.iter_mut().zip(all.to_le_bytes()) {
-            *row = byte.into();
-        }
-        if all == 0 {
-            out.pop();
-        }
-        return;
-    }
     let looked_at = columns * 0x0101;
     let mut any = 0;
     for rows in rows.as_chunks_mut::<2>().0.iter_mut().take(height / 2) {

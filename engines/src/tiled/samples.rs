@@ -61,6 +61,13 @@ impl Masks {
                 }
                 (y, 4)
             }
+            Piece::Quarter(quarter) => {
+                let (x, y) = ((quarter.x_px - tile.x0) as u32, (quarter.y_px - tile.y0) as usize);
+                for (j, byte) in quarter.pixels.to_le_bytes().into_iter().enumerate() {
+                    or(y + j, u64::from(byte) << x);
+                }
+                (y, 8)
+            }
             Piece::Tile(covered) => {
                 let (x, y) = ((covered.x_px - tile.x0) as u32, (covered.y_px - tile.y0) as usize);
                 for (j, &row) in covered.rows.iter().enumerate() {

@@ -6,7 +6,7 @@ use fearless_simd::{Simd, f32x16, mask32x16, u32x16};
 
 use super::buffer::{Buffer, PAIR_PX, load_colours, load_depths, store_colours, store_depths};
 use super::planes::Depth;
-use crate::tile::{CELL_PX, Piece, Tile};
+use crate::tile::{CELL_PX, Piece, QUARTER_PX};
 
 /// Columns and rows of the pixels of a pair.
 pub(super) const PAIR: Place = Place {
@@ -60,7 +60,13 @@ impl Pencil {
                 let (at_px, mask) = ([cell.x_px, cell.y_px], u32::from(cell.pixels));
                 return self.pixels::<S, CELL_PX>(simd, at_px, mask, buffer, stamps);
             }
-            Piece::Tile(tile) => return self.tile(simd, tile, buffer, stamps),
+            Piece::Quarter(quarter) => {
+                let (at_px, rows) = ([quarter.x_px, quarter.y_px], quarter.tile().rows);
+                return self.rows(simd, at_px, &rows[..QUARTER_PX as usize], buffer, stamps);
+            }
+            Piece::Tile(tile) => {
+                return self.rows(simd, [tile.x_px, tile.y_px], &tile.rows, buffer, stamps);
+            }
             Piece::Block(block) => block.rect,
         };
         for y_px in (rect.y0..rect.y1).step_by(2) {
@@ -72,11 +78,18 @@ impl Pencil {
         }
     }
 
-    /// Four rows at a time: as one cell where four columns hold what is covered, else as pairs, each
+    /// Masks of rows from a pixel on, four at a time: as one cell where four columns hold what is covered, else as pairs, each
     /// from the first column that is covered on.
     #[inline(always)]
-    fn tile<S: Simd>(&self, simd: S, tile: &Tile, buffer: &mut Buffer, stamps: &mut Vec<Stamp>) {
-        for (y_px, rows) in (tile.y_px..).step_by(4).zip(tile.rows.as_chunks::<4>().0) {
+    fn rows<S: Simd>(
+        &self,
+        simd: S,
+        [x0_px, y0_px]: [i32; 2],
+        rows: &[u16],
+        buffer: &mut Buffer,
+        stamps: &mut Vec<Stamp>,
+    ) {
+        for (y_px, rows) in (y0_px..).step_by(4).zip(rows.as_chunks::<4>().0) {
             let [a, b, c, d] = rows.map(u32::from);
             let any = a | b | c | d;
             if any == 0 {
@@ -85,12 +98,12 @@ impl Pencil {
             let left = any.trailing_zeros();
             if any >> left < 1 << CELL_PX {
                 let mask = a >> left | b >> left << 4 | c >> left << 8 | d >> left << 12;
-                let at_px = [tile.x_px + left as i32, y_px];
+                let at_px = [x0_px + left as i32, y_px];
                 self.pixels::<S, CELL_PX>(simd, at_px, mask, buffer, stamps);
                 continue;
             }
             for (y_px, mut above, mut below) in [(y_px, a, b), (y_px + 2, c, d)] {
-                let mut x_px = tile.x_px;
+                let mut x_px = x0_px;
                 while above | below != 0 {
                     let left = (above | below).trailing_zeros();
                     (above, below, x_px) = (above >> left, below >> left, x_px + left as i32);
