@@ -37,30 +37,33 @@ fn fill_block<S: Simd>(rect: PixelRect, ink: u32x16<S>, colour: u32, target: &mu
     }
 }
 
-/// All sixteen pixels are read, mixed and written, since nothing predicts which are covered.
+/// All sixteen pixels are read, mixed and written, since nothing predicts which are covered. Rows after
+/// the last that is covered are that one again, so that nothing else has to arrive from memory: it is
+/// written first as it was, then as it is.
 #[inline(always)]
 fn fill_cell<S: Simd>(simd: S, cell: &Cell, ink: u32x16<S>, target: &mut Frame<u32>) {
-    let bounds = target.bounds();
-    if cell.x_px + CELL_PX > bounds.x1 || cell.y_px + CELL_PX > bounds.y1 {
-        // At the border there are no sixteen pixels to read and write.
+    if cell.x_px + CELL_PX > target.bounds().x1 {
+        // At the border there are not so many pixels to read and write.
         let colour = ink[0];
         cell.tile().spans(|span| target.span_mut(span.y_px, span.x0_px, span.x1_px).fill(colour));
         return;
     }
+    let last = (31 - (u32::from(cell.pixels) | 1).leading_zeros()) as usize / 4;
     let (pitch, from) = (target.pitch(), target.tail_mut(cell.x_px, cell.y_px));
-    let Some(from) = from.get_mut(..3 * pitch + CELL_PX as usize) else { return };
-    let (a, b) =
-        (u32x4::from_slice(simd, &from[..4]), u32x4::from_slice(simd, &from[pitch..][..4]));
-    let c = u32x4::from_slice(simd, &from[2 * pitch..][..4]);
-    let d = u32x4::from_slice(simd, &from[3 * pitch..][..4]);
+    let Some(from) = from.get_mut(..last * pitch + CELL_PX as usize) else { return };
+    let at = [0, last.min(1) * pitch, last.min(2) * pitch, last * pitch];
+    let a = u32x4::from_slice(simd, &from[..4]);
+    let b = u32x4::from_slice(simd, &from[at[1]..][..4]);
+    let c = u32x4::from_slice(simd, &from[at[2]..][..4]);
+    let d = u32x4::from_slice(simd, &from[at[3]..][..4]);
     let before = a.combine(b).combine(c.combine(d));
     let mask = mask32x16::from_bitmask(simd, u64::from(cell.pixels));
     let (above, below) = mask.select(ink, before).split();
     let ((a, b), (c, d)) = (above.split(), below.split());
+    d.store_slice(&mut from[at[3]..][..4]);
+    c.store_slice(&mut from[at[2]..][..4]);
+    b.store_slice(&mut from[at[1]..][..4]);
     a.store_slice(&mut from[..4]);
-    b.store_slice(&mut from[pitch..][..4]);
-    c.store_slice(&mut from[2 * pitch..][..4]);
-    d.store_slice(&mut from[3 * pitch..][..4]);
 }
 
 #[inline(always)]
