@@ -7,47 +7,118 @@ use crate::pages::page;
 pub const COST: &[Figure] = &[
     figure(
         "cost",
-        "the cheapest float takes {} to {} times as long",
+        "The cheapest float takes {} to {} times as long",
         "最便宜的浮点阶所用的时间是它的 {} 到 {} 倍",
-        || range(8, |i| cheapest("Coverage by scanline", &FLOATS, i) / scanline("24.8 DDA", i)),
-    ),
-    figure(
-        "cost",
-        "**Exact for the vertices as given** costs {} to {} times the cheapest rung, and {} times where corners lie on samples",
-        "**对原始顶点精确**的代价是最便宜那一阶的 {} 到 {} 倍；若顶点正好落在采样点上，过滤器常常拿不定主意，则要 {} 倍",
         || {
-            let price = |i| {
-                let edges = cell("Coverage by edge function", "ns", "adaptive", i);
-                scanline("adaptive", i).min(edges) / scanline("24.8 DDA", i)
-            };
-            let mut prices: Vec<f64> = (0..8).filter(|&i| i != HALF).map(price).collect();
-            prices.sort_by(f64::total_cmp);
-            vec![prices[0], prices[6], price(HALF)]
+            let tiles_come_first = |i: &usize| edges(TILES, *i) < scanline("24.8 DDA", *i);
+            assert_eq!((0..8).filter(tiles_come_first).collect::<Vec<_>>(), [1, 2], "25 px, <8 px");
+            let prices = drawn_prices().map(|[float, _]| float);
+            sorted_ends(prices.to_vec())
         },
     ),
     figure(
         "cost",
-        "beats every float rung of the scanline in every class, by {} to {} times; the book's own takes {} to nearly 4 times as long",
-        "快 {} 到 {} 倍；书中自己的做法要用 {} 到将近 4 倍的时间",
+        "**Exact for the vertices as given** costs {} to {} times the cheapest rung, {} times on slivers and {} times where corners lie on samples",
+        "**对原始顶点精确**的代价是最便宜那一阶的 {} 到 {} 倍，细长三角形上 {} 倍；若顶点正好落在采样点上，过滤器常常拿不定主意，则要 {} 倍",
+        || {
+            let prices = drawn_prices().map(|[_, given]| given);
+            let others = (0..8).filter(|i| ![SLIVER, HALF].contains(i)).map(|i| prices[i]);
+            [sorted_ends(others.collect()), vec![prices[SLIVER], prices[HALF]]].concat()
+        },
+    ),
+    figure(
+        "cost",
+        "beats every float rung of the scanline in every class, by {} to {} times; the book's own takes {} to {} times as long",
+        "快 {} 到 {} 倍；书中自己的做法要用 {} 到 {} 倍的时间",
         || {
             let mut values = range(8, |i| {
                 cheapest("Coverage by scanline", &FLOATS, i) / scanline("24.8 DDA", i)
             });
-            let book = range(8, |i| scanline("book", i) / scanline("24.8 DDA", i));
-            assert!((3.5..4.0).contains(&book[1]), "nearly 4: {book:?}");
-            values.push(book[0]);
+            values.extend(range(8, |i| scanline("book", i) / scanline("24.8 DDA", i)));
             values
         },
     ),
     figure(
         "cost",
-        "take {} ns a pixel on large triangles where f32 ones take {}:",
-        "在大三角形上每个像素 {} ns，f32 的却要 {}：",
+        "take {} ns a pixel on large triangles where f32 ones take {} or more:",
+        "在大三角形上每个像素 {} ns，f32 的却至少要 {}：",
         || {
-            ["i32", "f32 stepped"]
-                .map(|rung| cell("Coverage by edge function", "ns", rung, 0))
-                .to_vec()
+            let f32s = ["f32 stepped", "f32 direct", "f32 ordered"];
+            vec![edges("i32", 0), cheapest("Coverage by edge function", &f32s, 0)]
         },
+    ),
+    figure(
+        "cost",
+        "the perspective-correct `plane` in f32 is faster than `affine` on triangles of 1000 px with equal w ({} against {} ns)",
+        "在 1000 px、w 相等的三角形上，透视校正的 f32 `plane` 比 `affine` 还快（{} 对 {} ns）",
+        || ["plane", "affine"].map(|rung| interpolation(rung, W1)).to_vec(),
+    ),
+    figure(
+        "cost",
+        "before the DDA on small triangles: {} against {} at 25 px, {} against {} below 8 px. At `tie` both take {}.",
+        "在小三角形上胜过 DDA：25 px 时 {} 对 {}，8 px 以下 {} 对 {}。在 `tie` 里两者都是 {}。",
+        || {
+            let both = |i| [edges(TILES, i), scanline("24.8 DDA", i)];
+            assert_eq!(both(TIE)[0], both(TIE)[1], "both take as long");
+            [both(1).as_slice(), &both(2), &both(TIE)[..1]].concat()
+        },
+    ),
+    figure(
+        "cost",
+        "The DDA comes first elsewhere: {} against {} on large triangles, {} against {} on slivers, {} against {} in `half`, {} against {} in `far`, {} against {} in `mesh`.",
+        "其余各类是 DDA 领先：大三角形 {} 对 {}，细长三角形 {} 对 {}，`half` {} 对 {}，`far` {} 对 {}，`mesh` {} 对 {}。",
+        || {
+            [0, SLIVER, HALF, FAR, MESH]
+                .map(|i| [scanline("24.8 DDA", i), edges(TILES, i)])
+                .concat()
+        },
+    ),
+    figure(
+        "cost",
+        "one sample at a time, take {} to {} times as long as the tiles",
+        "一次问一个采样点，所用的时间是分块的 {} 到 {} 倍",
+        || range(8, |i| edges("engine", i) / edges(TILES, i)),
+    ),
+    figure(
+        "cost",
+        "16 samples at once: {} ns a pixel on slivers, `engine` {}.",
+        "一次问 16 个采样点：细长三角形上每个像素 {} ns，`engine` 则要 {}。",
+        || [TILES, "engine"].map(|rung| edges(rung, SLIVER)).to_vec(),
+    ),
+    figure(
+        "cost",
+        "takes {} ns a pixel on large triangles and {} on those of 1000 px with equal w, `plane` in f32 scalars {} and {} (a part of that is the call for each pixel); but below 8 px {} against {}, on slivers {} against {}.",
+        "在大三角形上每个像素 {} ns，在 1000 px、w 相等的三角形上 {}，标量 f32 的 `plane` 是 {} 和 {}（其中一部分是每个像素的那次调用）；而 8 px 以下却是 {} 对 {}，细长三角形 {} 对 {}。",
+        || {
+            let long = [PLANES, "plane"].map(|rung| [0, W1].map(|i| interpolation(rung, i)));
+            let short = [2, SLIVER].map(|i| [PLANES, "plane"].map(|rung| interpolation(rung, i)));
+            [long, short].as_flattened().concat()
+        },
+    ),
+    figure(
+        "cost",
+        "the worst is {} M against {} M, both at w 1e4, and the planes' is larger only in `far`, {} M against {} M.",
+        "最坏是 {} M 对 {} M，都在 w 1e4；`planes` 的误差只在 `far` 里更大，{} M 对 {} M。",
+        || {
+            let errors = |i| [PLANES, "plane"].map(|rung| cell("Interpolation", "worst", rung, i));
+            let larger = |i: &usize| errors(*i)[0] > errors(*i)[1];
+            assert_eq!((0..12).filter(larger).collect::<Vec<_>>(), [FAR]);
+            let worst = [0, 1].map(|which| range(12, |i| errors(i)[which])[1]);
+            assert_eq!(worst, errors(11), "at w 1e4");
+            [worst, errors(FAR)].concat()
+        },
+    ),
+    figure(
+        "cost",
+        "The f64 rung takes {} to {} times the time of reversed f32",
+        "f64 这一阶所用的时间是反向 f32 的 {} 到 {} 倍",
+        || range(5, |i| cell("Depth", "ns", "f64", i) / cell("Depth", "ns", "f32 reversed", i)),
+    ),
+    figure(
+        "cost",
+        "in `half`, where it takes {} times as long as the DDA",
+        "它在那里所用的时间是 DDA 的 {} 倍",
+        || vec![scanline("adaptive", HALF) / scanline("24.8 DDA", HALF)],
     ),
     figure(
         "cost",
@@ -83,10 +154,7 @@ pub const COST: &[Figure] = &[
         "cost",
         "The exact area takes {} to {} times the time of 64 samples",
         "精确面积所用的时间是 64 个采样点的 {} 到 {} 倍",
-        || {
-            let times = |i| antialiasing("exact area", i) / antialiasing("8x8 supersample", i);
-            range(7, |i| times(if i < SLIVER { i } else { i + 1 }))
-        },
+        || range(8, |i| antialiasing("exact area", i) / antialiasing("8x8 supersample", i)),
     ),
     figure(
         "games101",
@@ -120,9 +188,14 @@ pub const COST: &[Figure] = &[
 /// Columns of the tables of coverage.
 const SLIVER: usize = 3;
 const HALF: usize = 4;
+const TIE: usize = 5;
+const FAR: usize = 6;
 pub const MESH: usize = 7;
 /// The first column of the tables of interpolation with a ratio of w: all equal.
 pub const W1: usize = 8;
+/// The rungs in vectors.
+const TILES: &str = "tiles i32 x 16";
+const PLANES: &str = "planes f32 x 16";
 const FLOATS: [&str; 4] = ["f32 accumulated", "f32 direct", "f64 accumulated", "f64 direct"];
 
 /// A cell of a table of `docs/cost.md`: under a heading, of the board whose title begins so.
@@ -135,6 +208,17 @@ pub fn cell(heading: &str, title: &str, rung: &str, column: usize) -> f64 {
     let row = row.unwrap_or_else(|| panic!("{heading}, {title}: no row {rung}"));
     let cells: Vec<_> = row.split_whitespace().collect();
     cells[column].trim_end_matches(['<', '*', '+']).parse().expect("a number")
+}
+
+/// The prices that the picture at the top states, by class: of the cheapest float, and of what is exact as given.
+fn drawn_prices() -> [[f64; 2]; 8] {
+    let plot = include_str!("../../docs/cost-price.svg");
+    let labels = plot.split("</text>").filter_map(|text| text.rsplit_once('>'));
+    let prices = labels.filter_map(|(_, label)| label.rsplit_once(' ')?.1.strip_suffix('x'));
+    let prices: Vec<f64> = prices.filter_map(|price| price.parse().ok()).collect();
+    let (pairs, rest) = prices.as_chunks();
+    assert!(rest.is_empty(), "two for each class: {prices:?}");
+    pairs.try_into().expect("eight classes")
 }
 
 pub fn edges(rung: &str, column: usize) -> f64 {

@@ -187,14 +187,15 @@ const TRIANGLES: &[Figure] = &[
     }),
     figure(
         "ch02",
-        "scanline as in the book {}, f64 at each row anew {}, **integer DDA {}**, snapping included; edge functions in f32, stepped or direct, {}, in f64 {} or {}, **i32 on E' {}**, i64 {}, i128 {}.",
-        "扫描线，照书的写法 {}，每行重新用 f64 计算 {}，**整数 DDA {}**，吸附已算在内；边函数，f32 步进或直接计算 {}，f64 是 {} 或 {}，**E' 上的 i32 {}**，i64 {}，i128 {}。",
+        "scanline as in the book {}, f64 at each row anew {}, **integer DDA {}**, snapping included; edge functions in f32, stepped or direct, {} or {}, in f64 {} or {}, **i32 on E' {}**, i64 {}, i128 {}.",
+        "扫描线，照书的写法 {}，每行重新用 f64 计算 {}，**整数 DDA {}**，吸附已算在内；边函数，f32 步进或直接计算 {} 或 {}，f64 是 {} 或 {}，**E' 上的 i32 {}**，i64 {}，i128 {}。",
         || {
             let rows = |rung| cell("Coverage by scanline", "ns", rung, 0);
             let edges = |rung| cell("Coverage by edge function", "ns", rung, 0);
             let mut values = ["book", "f64 direct", "24.8 DDA"].map(rows).to_vec();
             values.extend(
-                ["f32 stepped", "f64 stepped", "f64 direct", "i32", "i64", "i128"].map(edges),
+                ["f32 stepped", "f32 direct", "f64 stepped", "f64 direct", "i32", "i64", "i128"]
+                    .map(edges),
             );
             values
         },
