@@ -20,6 +20,8 @@ pub struct Frame<T> {
     pitch: usize,
     /// Where the first pixel is.
     first: usize,
+    /// Where pixel (0, 0) would be.
+    origin: isize,
     data: Vec<T>,
 }
 
@@ -81,7 +83,10 @@ impl<T: Copy> Frame<T> {
         // Sizes that do not divide a line have no such place.
         let first = data.as_ptr().align_offset(LINE);
         let first = if first <= room::<T>() { first } else { 0 };
-        Self { bounds, pitch, first, data }
+        let (x0, y0) = (bounds.x0 as isize, bounds.y0 as isize);
+        let origin =
+            (first as isize).wrapping_sub(y0.wrapping_mul(pitch as isize)).wrapping_sub(x0);
+        Self { bounds, pitch, first, origin, data }
     }
 
     /// The pixels this frame holds.
@@ -109,7 +114,7 @@ impl<T: Copy> Frame<T> {
     #[must_use]
     #[inline]
     pub fn row(&self, y_px: i32) -> &[T] {
-        let start = self.row_start(y_px);
+        let start = self.at(self.bounds.x0, y_px);
         &self.data[start..start + self.width()]
     }
 
@@ -119,7 +124,7 @@ impl<T: Copy> Frame<T> {
     /// If the row lies outside the frame.
     #[inline]
     pub fn row_mut(&mut self, y_px: i32) -> &mut [T] {
-        let start = self.row_start(y_px);
+        let start = self.at(self.bounds.x0, y_px);
         let width = self.width();
         &mut self.data[start..start + width]
     }
@@ -130,10 +135,8 @@ impl<T: Copy> Frame<T> {
     /// If they lie outside the frame.
     #[inline]
     pub fn span_mut(&mut self, y_px: i32, x0_px: i32, x1_px: i32) -> &mut [T] {
-        let start = self.row_start(y_px);
-        let x0 = (x0_px - self.bounds.x0) as usize;
-        let x1 = (x1_px - self.bounds.x0) as usize;
-        &mut self.data[start + x0..start + x1]
+        let (start, end) = (self.at(x0_px, y_px), self.at(x1_px, y_px));
+        &mut self.data[start..end]
     }
 
     /// Everything from pixel (x, y) on: rows lie [`Frame::pitch`] apart.
@@ -142,7 +145,7 @@ impl<T: Copy> Frame<T> {
     /// If the pixel lies outside the frame.
     #[inline]
     pub(crate) fn tail_mut(&mut self, x_px: i32, y_px: i32) -> &mut [T] {
-        let start = self.row_start(y_px) + (x_px - self.bounds.x0) as usize;
+        let start = self.at(x_px, y_px);
         &mut self.data[start..]
     }
 
@@ -164,10 +167,12 @@ impl<T: Copy> Frame<T> {
         (i64::from(self.bounds.x1) - i64::from(self.bounds.x0)).max(0) as usize
     }
 
+    /// Where a pixel is: one product and two sums, whatever the first row and column are.
     #[inline]
-    fn row_start(&self, y_px: i32) -> usize {
+    fn at(&self, x_px: i32, y_px: i32) -> usize {
         debug_assert!((self.bounds.y0..self.bounds.y1).contains(&y_px));
-        (y_px - self.bounds.y0) as usize * self.pitch + self.first
+        let row = (y_px as isize).wrapping_mul(self.pitch as isize);
+        self.origin.wrapping_add(row).wrapping_add(x_px as isize) as usize
     }
 }
 
