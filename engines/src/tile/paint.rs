@@ -6,7 +6,6 @@ use fearless_simd::{Simd, mask32x8, mask32x16, u16x16, u32x4, u32x8, u32x16};
 use super::{CELL_PX, Cell, Piece, QUARTER_PX, Quarter, SIDE_PX, Tile};
 use crate::frame::Frame;
 use crate::grid::PixelRect;
-use crate::triangle::Span;
 
 #[inline(always)]
 pub(super) fn fill<S: Simd>(simd: S, pieces: &[Piece], colour: u32, target: &mut Frame<u32>) {
@@ -37,15 +36,18 @@ fn fill_block<S: Simd>(rect: PixelRect, ink: u32x16<S>, colour: u32, target: &mu
     }
 }
 
+/// At the border, where there are not so many pixels to read and write.
+fn fill_spans(tile: &Tile, colour: u32, target: &mut Frame<u32>) {
+    tile.spans(|span| target.span_mut(span.y_px, span.x0_px, span.x1_px).fill(colour));
+}
+
 /// All sixteen pixels are read, mixed and written, since nothing predicts which are covered. Rows after
 /// the last that is covered are that one again, so that nothing else has to arrive from memory: it is
 /// written first as it was, then as it is.
 #[inline(always)]
 fn fill_cell<S: Simd>(simd: S, cell: &Cell, ink: u32x16<S>, target: &mut Frame<u32>) {
     if cell.x_px + CELL_PX > target.bounds().x1 {
-        // At the border there are not so many pixels to read and write.
-        let colour = ink[0];
-        cell.tile().spans(|span| target.span_mut(span.y_px, span.x0_px, span.x1_px).fill(colour));
+        fill_spans(&cell.tile(), ink[0], target);
         return;
     }
     let last = (31 - (u32::from(cell.pixels) | 1).leading_zeros()) as usize / 4;
@@ -74,9 +76,7 @@ fn fill_tile<S: Simd>(simd: S, tile: &Tile, ink: u32x16<S>, target: &mut Frame<u
     let narrow = rows.simd_gt(0xff).to_bitmask() == 0;
     let width = if narrow { SIDE_PX / 2 } else { SIDE_PX };
     if tile.x_px < bounds.x0 || tile.x_px + width > bounds.x1 {
-        // At the border there are not so many pixels to read and write.
-        let colour = ink[0];
-        tile.spans(|span| target.span_mut(span.y_px, span.x0_px, span.x1_px).fill(colour));
+        fill_spans(tile, ink[0], target);
         return;
     }
     // Rows between that cover nothing stay what they are.
@@ -120,10 +120,7 @@ const BITS: [[u32; 8]; 4] = {
 fn fill_quarter<S: Simd>(simd: S, quarter: &Quarter, ink: u32x16<S>, target: &mut Frame<u32>) {
     let pixels = quarter.pixels;
     if quarter.x_px + QUARTER_PX > target.bounds().x1 {
-        // At the border there are not so many pixels to read and write.
-        let colour = ink[0];
-        let fill = |span: Span| target.span_mut(span.y_px, span.x0_px, span.x1_px).fill(colour);
-        quarter.tile().spans(fill);
+        fill_spans(&quarter.tile(), ink[0], target);
         return;
     }
     let last = (63 - (pixels | 1).leading_zeros()) as usize / 8;
