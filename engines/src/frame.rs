@@ -20,13 +20,16 @@ pub struct Frame<T> {
     pitch: usize,
     /// Where the first pixel is.
     first: usize,
-    /// Where pixel (0, 0) would be.
-    origin: isize,
+    /// Where pixel (0, 0) would be, modulo 2^32.
+    origin: i32,
     data: Vec<T>,
 }
 
 /// Bytes of a line of the cache.
 const LINE: usize = 64;
+
+// Places of pixels are counted in 32 bits: rows are longer than a side by a line at most.
+const _: () = std::assert!((MAX_SIDE_PX as u64 + 64) * MAX_SIDE_PX as u64 + 64 <= u32::MAX as u64);
 
 impl<T: Copy> Clone for Frame<T> {
     fn clone(&self) -> Self {
@@ -83,9 +86,8 @@ impl<T: Copy> Frame<T> {
         // Sizes that do not divide a line have no such place.
         let first = data.as_ptr().align_offset(LINE);
         let first = if first <= room::<T>() { first } else { 0 };
-        let (x0, y0) = (bounds.x0 as isize, bounds.y0 as isize);
-        let origin =
-            (first as isize).wrapping_sub(y0.wrapping_mul(pitch as isize)).wrapping_sub(x0);
+        let row = bounds.y0.wrapping_mul(pitch as i32);
+        let origin = (first as i32).wrapping_sub(row).wrapping_sub(bounds.x0);
         Self { bounds, pitch, first, origin, data }
     }
 
@@ -135,7 +137,8 @@ impl<T: Copy> Frame<T> {
     /// If they lie outside the frame.
     #[inline]
     pub fn span_mut(&mut self, y_px: i32, x0_px: i32, x1_px: i32) -> &mut [T] {
-        let (start, end) = (self.at(x0_px, y_px), self.at(x1_px, y_px));
+        let start = self.at(x0_px, y_px);
+        let end = start.wrapping_add((x1_px - x0_px) as usize);
         &mut self.data[start..end]
     }
 
@@ -167,12 +170,12 @@ impl<T: Copy> Frame<T> {
         (i64::from(self.bounds.x1) - i64::from(self.bounds.x0)).max(0) as usize
     }
 
-    /// Where a pixel is: one product and two sums, whatever the first row and column are.
+    /// Where a pixel is: one product and two sums of 32 bits, whatever the first row and column are.
     #[inline]
     fn at(&self, x_px: i32, y_px: i32) -> usize {
         debug_assert!((self.bounds.y0..self.bounds.y1).contains(&y_px));
-        let row = (y_px as isize).wrapping_mul(self.pitch as isize);
-        self.origin.wrapping_add(row).wrapping_add(x_px as isize) as usize
+        let row = y_px.wrapping_mul(self.pitch as i32);
+        self.origin.wrapping_add(row).wrapping_add(x_px) as u32 as usize
     }
 }
 
@@ -246,6 +249,25 @@ mod tests {
         assert_eq!(coverage.runs().collect::<Vec<_>>(), [(2, -1, 2), (3, 3, 5)]);
         assert_eq!(coverage.get(1, 2), Some(2));
         assert_eq!(coverage.get(5, 2), None);
+    }
+
+    #[test]
+    fn places_are_right_wherever_the_frame_is() {
+        let side = MAX_SIDE_PX as i32;
+        for (x0, y0) in [(0, 0), (i32::MIN, i32::MIN), (i32::MAX - side, i32::MAX - side), (7, -9)]
+        {
+            let bounds = PixelRect { x0, y0, x1: x0 + side, y1: y0 + side };
+            // Nothing that takes room.
+            let largest = Frame::new(bounds, ());
+            for (x, y) in [(0, 0), (side - 1, 0), (0, side - 1), (side - 1, side - 1), (77, 12_345)]
+            {
+                let place = largest.first + y as usize * largest.pitch + x as usize;
+                assert_eq!(largest.at(x0 + x, y0 + y), place, "({x}, {y}) from ({x0}, {y0})");
+            }
+            let mut small = Frame::new(PixelRect { x1: x0 + 3, y1: y0 + 2, ..bounds }, 0u8);
+            small.span_mut(y0 + 1, x0 + 1, x0 + 3).fill(1);
+            assert_eq!((small.row(y0), small.row(y0 + 1)), (&[0, 0, 0][..], &[0, 1, 1][..]));
+        }
     }
 
     #[test]
