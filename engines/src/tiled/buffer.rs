@@ -276,6 +276,28 @@ mod tests {
 
     use super::*;
 
+    /// Each pixel of a block is asked, and none of any other.
+    #[test]
+    fn the_farthest_of_a_block_is_any_of_its_pixels() {
+        let mut buffer = Buffer::new(4);
+        buffer.clear(PixelRect::window(64, 64), 0);
+        for (x, y, sample) in (0..SIDE_PX)
+            .flat_map(|y| (0..SIDE_PX).flat_map(move |x| [0, 1, 2, 3].map(|s| (x, y, s))))
+        {
+            for plane in &mut buffer.planes {
+                plane.depths.fill(0.25);
+            }
+            buffer.planes[sample].depths.row_mut(y)[x as usize] = 0.5;
+            let farthest = |column, row| dispatch!(Level::new(), simd => buffer.farthest_of(simd, column, row));
+            for at in 0..BLOCKS * BLOCKS {
+                let (column, row) = (at % BLOCKS, at / BLOCKS);
+                let inside = (column, row) == (x / BLOCK_PX, y / BLOCK_PX);
+                let expected = if inside { 0.5 } else { 0.25 };
+                assert_eq!(farthest(column, row), expected, "block {at}, pixel ({x}, {y})");
+            }
+        }
+    }
+
     /// What is called hidden is hidden: no depth in the rectangle is farther. After every change of
     /// depths that a drawing makes, in a tile that the window cuts off, with four samples.
     #[test]
