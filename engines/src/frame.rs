@@ -33,12 +33,15 @@ const _: () = std::assert!((MAX_SIDE_PX as u64 + 64) * MAX_SIDE_PX as u64 + 64 <
 
 impl<T: Copy> Clone for Frame<T> {
     fn clone(&self) -> Self {
-        // Never empty: there is room for a line.
-        let mut copy = Self::new(self.bounds, self.data[0]);
         let pixels = self.data.len() - room::<T>();
-        copy.data[copy.first..copy.first + pixels]
-            .copy_from_slice(&self.data[self.first..self.first + pixels]);
-        copy
+        let mut data = Vec::with_capacity(self.data.len());
+        let first = aligned(data.as_ptr());
+        // What is before and after the pixels may be anything: there is room for a line, so something.
+        data.resize(first, self.data[0]);
+        data.extend_from_slice(&self.data[self.first..self.first + pixels]);
+        data.resize(self.data.len(), self.data[0]);
+        let origin = self.origin.wrapping_sub(self.first as i32).wrapping_add(first as i32);
+        Self { first, origin, data, ..*self }
     }
 }
 
@@ -49,6 +52,12 @@ impl<T: Copy + PartialEq> PartialEq for Frame<T> {
 }
 
 impl<T: Copy + Eq> Eq for Frame<T> {}
+
+/// Elements from here to the beginning of a line; none where their size divides no line.
+fn aligned<T>(from: *const T) -> usize {
+    let first = from.align_offset(LINE);
+    if first <= room::<T>() { first } else { 0 }
+}
 
 /// Elements that a first pixel is moved by at most.
 const fn room<T>() -> usize {
@@ -83,9 +92,7 @@ impl<T: Copy> Frame<T> {
             pitch += (64 / size).max(1);
         }
         let data = vec![value; pitch * height as usize + room::<T>()];
-        // Sizes that do not divide a line have no such place.
-        let first = data.as_ptr().align_offset(LINE);
-        let first = if first <= room::<T>() { first } else { 0 };
+        let first = aligned(data.as_ptr());
         let row = bounds.y0.wrapping_mul(pitch as i32);
         let origin = (first as i32).wrapping_sub(row).wrapping_sub(bounds.x0);
         Self { bounds, pitch, first, origin, data }
@@ -156,7 +163,7 @@ impl<T: Copy> Frame<T> {
     #[must_use]
     #[inline]
     pub fn get(&self, x_px: i32, y_px: i32) -> Option<T> {
-        self.bounds.contains(x_px, y_px).then(|| self.row(y_px)[(x_px - self.bounds.x0) as usize])
+        self.bounds.contains(x_px, y_px).then(|| self.data[self.at(x_px, y_px)])
     }
 
     /// Every row with its number, from the top.
@@ -266,7 +273,11 @@ mod tests {
             }
             let mut small = Frame::new(PixelRect { x1: x0 + 3, y1: y0 + 2, ..bounds }, 0u8);
             small.span_mut(y0 + 1, x0 + 1, x0 + 3).fill(1);
-            assert_eq!((small.row(y0), small.row(y0 + 1)), (&[0, 0, 0][..], &[0, 1, 1][..]));
+            let copy = small.clone();
+            for frame in [small, copy] {
+                assert_eq!((frame.row(y0), frame.row(y0 + 1)), (&[0, 0, 0][..], &[0, 1, 1][..]));
+                assert_eq!(frame.get(x0 + 1, y0 + 1), Some(1));
+            }
         }
     }
 
