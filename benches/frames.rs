@@ -11,7 +11,7 @@
 //!
 //! With the feature `vulkan` every Vulkan device that is there draws too: its vertices, texture and
 //! commands are made before, submitting and waiting are timed, and its picture stays where it is.
-//! `LP_NUM_THREADS=0` in the environment gives llvmpipe one thread, the caller's.
+//! llvmpipe has one thread, the caller's; `LP_NUM_THREADS` in the environment gives it others.
 //!
 //! `cargo bench --bench frames` measures the meshes of [`MESHES`]; `-- knot` those whose name contains
 //! a word, `-- --quick` with fewer rounds. `-- --curves` measures one shape in all its sizes instead,
@@ -20,11 +20,13 @@
 #[path = "common/mesh.rs"]
 mod mesh;
 
+use std::process::ExitCode;
+
 use euc::buffer::Buffer2d;
 use euc::rasterizer::{BackfaceCullingDisabled, Triangles};
 use euc::{Pipeline, Target as _};
 use glam::{DMat3, DVec2, Mat4, Vec3, Vec4};
-use mesh::{Draws, devices, engine, tiles, times, wrong};
+use mesh::{Draws, devices, engine, one_thread_each, tiles, times, wrong};
 use rasterproof::frame::Frame;
 use rasterproof::pipeline::target::{Antialias, Colour};
 use rasterproof::pipeline::texture::Texture;
@@ -41,9 +43,11 @@ const SIDES_PX: [u32; 4] = [256, 512, 1024, 2048];
 
 /// On a thread of the pool of two: a frame of three milliseconds that is handed to a pool from outside is
 /// often drawn by one of its threads alone, since both wake up on one core.
-fn main() {
-    let pools = pools();
-    pools[1].install(|| measure(&pools));
+fn main() -> ExitCode {
+    one_thread_each(|| {
+        let pools = pools();
+        pools[1].install(|| measure(&pools));
+    })
 }
 
 fn measure(pools: &[rayon::ThreadPool; 2]) {

@@ -11,8 +11,8 @@
 //!   culling, depth and varyings off. Edges are inclusive on both sides.
 //!
 //! - With `--features vulkan`, each Vulkan device: one vertex buffer and one draw of all triangles,
-//!   recorded before, into a target that is cleared first; submitting and waiting are timed. On a
-//!   driver that runs on the processor, `LP_NUM_THREADS=0` keeps lavapipe to one core.
+//!   recorded before, into a target that is cleared first; submitting and waiting are timed.
+//!   llvmpipe has one thread, unless `LP_NUM_THREADS` in the environment gives it others.
 //!
 //! All get the same numbers: positions are multiples of 1/256 px, and so exact as `f32`. Everyone
 //! fills the same few triangles in turn, then the next few, so that a machine that changes its
@@ -31,6 +31,7 @@ mod common;
 mod mesh;
 
 use std::ops::Range;
+use std::process::ExitCode;
 use std::time::Instant;
 
 use common::{COLOUR, SIDE_PX, Scene};
@@ -60,7 +61,11 @@ const MESH_ROUNDS: usize = 15;
 /// and less mostly run undisturbed on a busy machine, whoever's they are.
 const TURNS: usize = 8;
 
-fn main() {
+fn main() -> ExitCode {
+    mesh::one_thread_each(measure)
+}
+
+fn measure() {
     let args: Vec<String> = std::env::args().skip(1).collect();
     let has = |flag: &str| args.iter().any(|arg| arg == flag);
     if has("--list") {

@@ -4,6 +4,7 @@
 //! vertices, indices, texture and commands before; submitting and waiting are timed, its picture stays
 //! where it is.
 
+use std::process::{Command, ExitCode};
 use std::time::Instant;
 
 use rasterproof::effects::Effects;
@@ -14,6 +15,21 @@ use rasterproof::pipeline::target::{Antialias, Colour, Target};
 use rasterproof::scene::Scene;
 use rasterproof::tile::Tiles;
 use rasterproof::tiled::{self, Samples};
+
+/// Where devices draw too, llvmpipe has one thread, the caller's, unless `LP_NUM_THREADS` says otherwise.
+/// It reads that when it is loaded, so the bench is started again with it.
+pub fn one_thread_each(bench: impl FnOnce()) -> ExitCode {
+    const THREADS: &str = "LP_NUM_THREADS";
+    if cfg!(not(feature = "vulkan")) || std::env::var_os(THREADS).is_some() {
+        bench();
+        return ExitCode::SUCCESS;
+    }
+    let again = std::env::current_exe().and_then(|program| {
+        Command::new(program).args(std::env::args_os().skip(1)).env(THREADS, "0").status()
+    });
+    let ended_well = again.is_ok_and(|status| status.success());
+    if ended_well { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+}
 
 /// Draws over a picture.
 type Draw<'a> = dyn FnMut(&mut Frame<Colour>) + 'a;
