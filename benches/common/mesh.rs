@@ -27,8 +27,17 @@ pub fn one_thread_each(bench: impl FnOnce()) -> ExitCode {
     let again = std::env::current_exe().and_then(|program| {
         Command::new(program).args(std::env::args_os().skip(1)).env(THREADS, "0").status()
     });
-    let ended_well = again.is_ok_and(|status| status.success());
-    if ended_well { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+    match again {
+        Ok(status) if status.success() => ExitCode::SUCCESS,
+        Ok(status) => {
+            eprintln!("the bench with {THREADS}=0: {status}");
+            ExitCode::FAILURE
+        }
+        Err(error) => {
+            eprintln!("cannot start the bench with {THREADS}=0: {error}; set it before");
+            ExitCode::FAILURE
+        }
+    }
 }
 
 /// Draws over a picture.

@@ -40,8 +40,7 @@ impl<T: Copy> Clone for Frame<T> {
         data.resize(first, self.data[0]);
         data.extend_from_slice(&self.data[self.first..self.first + pixels]);
         data.resize(self.data.len(), self.data[0]);
-        let origin = self.origin.wrapping_sub(self.first as i32).wrapping_add(first as i32);
-        Self { first, origin, data, ..*self }
+        Self::placed(self.bounds, self.pitch, first, data)
     }
 }
 
@@ -93,6 +92,11 @@ impl<T: Copy> Frame<T> {
         }
         let data = vec![value; pitch * height as usize + room::<T>()];
         let first = aligned(data.as_ptr());
+        Self::placed(bounds, pitch, first, data)
+    }
+
+    /// Over data whose element `first` is the first pixel.
+    fn placed(bounds: PixelRect, pitch: usize, first: usize, data: Vec<T>) -> Self {
         let row = bounds.y0.wrapping_mul(pitch as i32);
         let origin = (first as i32).wrapping_sub(row).wrapping_sub(bounds.x0);
         Self { bounds, pitch, first, origin, data }
