@@ -78,11 +78,17 @@ fn fill_one(corners: Corners, colour: u32, target: &mut Frame<u32>) {
 ///
 /// `fill` becomes a loop over blocks and one over what is left, and for runs whose lengths follow
 /// no pattern each loop ends in a misprediction. Here the last block overlaps the one before it.
-/// Filling large, medium and small triangles took 0.87, 0.72 and 0.84 of the time with `fill`.
+/// Filling large, medium and small triangles took 0.87, 0.72 and 0.84 of the time with `fill`. The
+/// shortest are asked for first: with one branch fewer slivers took 0.92 of the time.
 #[inline]
 pub fn fill_run(run: &mut [u32], value: u32) {
     let pixels = run.len();
-    if let Some(last) = run.last_chunk_mut::<8>() {
+    if pixels < 4 {
+        // One, two or three pixels.
+        if pixels > 0 {
+            (run[0], run[pixels / 2], run[pixels - 1]) = (value, value, value);
+        }
+    } else if let Some(last) = run.last_chunk_mut::<8>() {
         *last = [value; 8];
         for block in run.as_chunks_mut::<8>().0 {
             *block = [value; 8];
@@ -90,8 +96,21 @@ pub fn fill_run(run: &mut [u32], value: u32) {
     } else if let Some(last) = run.last_chunk_mut::<4>() {
         *last = [value; 4];
         run[..4].fill(value);
-    } else if pixels > 0 {
-        // One, two or three pixels.
-        (run[0], run[pixels / 2], run[pixels - 1]) = (value, value, value);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_run_is_filled_and_nothing_else() {
+        for pixels in 0..40 {
+            let mut row = [0; 42];
+            fill_run(&mut row[1..1 + pixels], 7);
+            let expected =
+                std::array::from_fn(|x| if (1..1 + pixels).contains(&x) { 7 } else { 0 });
+            assert_eq!(row, expected, "{pixels} px");
+        }
     }
 }
