@@ -7,6 +7,7 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::fs;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 
 use rasterproof::hazard;
 use rasterproof::invariant::CATALOGUE;
@@ -292,6 +293,31 @@ fn house_breaches_are_found() {
 }
 
 /// The pages under `docs/` and those beside the README, with their text.
+/// Crates with their features, as the program (`no-dev`) or the tests (`all`) ask for them.
+fn features(edges: &str) -> BTreeSet<String> {
+    let arguments =
+        ["tree", "--locked", "--prefix", "none", "--format", "{p}|{f}", "--edges", edges];
+    let output = Command::new(env!("CARGO")).args(arguments).current_dir(root()).output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let text = String::from_utf8(output.stdout).unwrap();
+    text.lines().map(|line| line.trim_end_matches(" (*)").to_owned()).collect()
+}
+
+/// Where the tests ask more of a crate than the program does, all that stands on it is compiled twice.
+/// Colours of help are the one thing asked for that users should not wait for: only the root calls `clap`.
+#[test]
+fn house_is_compiled_once() {
+    let (program, tests) = (features("no-dev"), features("all"));
+    assert!(program.len() > 50 && tests.len() > program.len());
+    let twice: Vec<_> =
+        program.difference(&tests).map(|line| line.split(' ').next().unwrap()).collect();
+    assert_eq!(
+        twice,
+        ["clap", "clap_builder"],
+        "{twice:?}: state the features in Cargo.toml, as for bytemuck"
+    );
+}
+
 fn pages() -> Vec<(PathBuf, String)> {
     let mut pages = files(&root().join("docs"), "md");
     pages.extend(["README.md", "CHANGELOG.md", "CONTRIBUTING.md"].map(|name| root().join(name)));
