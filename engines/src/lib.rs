@@ -16,6 +16,8 @@ pub mod next;
 
 pub mod angle;
 pub mod contract;
+#[cfg(feature = "host")]
+pub mod cores;
 pub mod each;
 pub mod effects;
 #[cfg(feature = "host")]

@@ -14,8 +14,8 @@ pub mod judge;
 
 // The floors below, under the paths that every room calls them by.
 use rasterproof_engines::{
-    contract, each, effects, frame, grid, hazard, line, mutant, oracle, pipeline, raster, scene,
-    specimen, tile, triangle,
+    contract, cores, each, effects, frame, grid, hazard, line, mutant, oracle, pipeline, raster,
+    scene, specimen, tile, triangle,
 };
 use rasterproof_lineup::lineup;
 use rasterproof_measures::verify;

@@ -6,11 +6,11 @@
 //! Every case has a hash of its own, and these are joined in the order of the cases, so the number of
 //! threads leaves no trace.
 
-use rayon::prelude::*;
 use serde::Serialize;
 use sha2::{Digest as _, Sha256};
 
 use crate::contract::{DrawLine, Interpolate, Rasterize, RasterizeExact};
+use crate::cores;
 use crate::each::Each as _;
 use crate::effects::plan::Canvas;
 use crate::effects::{Effect, Effects, Mode};
@@ -143,11 +143,11 @@ pub fn digest(
         .into_iter()
         .filter(wanted)
         .map(|job| {
-            let hashes: Vec<[u8; 32]> = (0..job.count(options.cases))
-                .into_par_iter()
-                .map(|index| job.hash(options, index))
-                .inspect(|_| progress(1))
-                .collect();
+            let hashes = cores::map(job.count(options.cases) as usize, |index| {
+                let hash = job.hash(options, index as u64);
+                progress(1);
+                hash
+            });
             let ((engine, what), sha256) = (job.names(), hex(&Sha256::digest(hashes.concat())));
             Part { engine, what, sha256 }
         })

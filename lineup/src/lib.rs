@@ -15,4 +15,4 @@ use rasterproof_engines::{
     triangle,
 };
 #[cfg(feature = "host")]
-use rasterproof_engines::{each, hazard};
+use rasterproof_engines::{cores, each, hazard};

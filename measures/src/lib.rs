@@ -13,7 +13,7 @@ pub mod verify;
 
 // The floors below, under the paths that every room calls them by.
 use rasterproof_engines::{
-    contract, each, effects, frame, grid, hazard, ladder, line, oracle, pipeline, raster, scene,
-    specimen, tile, tiled, triangle,
+    contract, cores, each, effects, frame, grid, hazard, ladder, line, oracle, pipeline, raster,
+    scene, specimen, tile, tiled, triangle,
 };
 use rasterproof_lineup::lineup;

@@ -102,8 +102,9 @@ impl Certificate {
             && self.done.oracle_checks == self.expected.oracle_checks
     }
 
-    /// The file.
+    /// The file. Inlined, as reading is: compiled where it is called, which need not be for speed.
     #[must_use]
+    #[inline]
     pub fn to_json(&self) -> String {
         // Strings, numbers and maps with string keys: this cannot fail.
         serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
@@ -113,6 +114,7 @@ impl Certificate {
     ///
     /// # Errors
     /// In words, if it is not a certificate, or not one that its own plan could have issued.
+    #[inline]
     pub fn from_json(text: &str) -> Result<Self, String> {
         let certificate: Self =
             serde_json::from_str(text).map_err(|error| format!("is not a certificate: {error}"))?;

@@ -9,11 +9,11 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::identity::{Identity, Shard};
 use super::{Plan, Tally};
+use crate::cores;
 
 /// How far a run has come: the content of a checkpoint file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -72,7 +72,8 @@ pub fn run(
     let (begun, spent) = (Instant::now(), resumed.seconds);
     let judge = enumeration.judge();
     let state = Mutex::new((resumed, done, Instant::now()));
-    pending.into_par_iter().with_max_len(1).for_each(|chunk| {
+    cores::each(pending.len(), &|number| {
+        let chunk = pending[number];
         let found = guarded(&judge, chunk);
         step(found.cases);
         // A panic while saving is the end of the run anyway.

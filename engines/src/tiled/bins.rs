@@ -1,10 +1,7 @@
 //! Which pieces touch which tile, in parts of a scene, one after the other.
 
-use std::ops::Range;
-
-use rayon::prelude::*;
-
 use super::buffer::{SIDE_PX, Touched};
+use crate::cores;
 use crate::effects::whole::{Outline, Whole};
 use crate::grid::{HALF_PIXEL, PixelRect, SUBPIXEL_BITS};
 use crate::triangle::Corners;
@@ -40,17 +37,18 @@ impl Bins {
         // Each part has a list of tiles, so it has as many pieces at least.
         let most = PART.max(tiles.count());
         let parts = if whole.depth_test {
-            let part = |run: (usize, Range<usize>)| {
-                let mut pieces = Vec::with_capacity(run.1.len());
-                whole.outlines(&run, &mut |outline| pieces.extend(tiles.placed(outline)));
+            let runs = whole.runs(most);
+            cores::map(runs.len(), |part| {
+                let mut pieces = Vec::with_capacity(runs[part].1.len());
+                whole.outlines(&runs[part], &mut |outline| pieces.extend(tiles.placed(outline)));
                 Part::new(pieces, &tiles)
-            };
-            whole.runs(most).into_par_iter().map(part).collect()
+            })
         } else {
-            let part = |outlines: &[Outline]| {
-                Part::new(outlines.iter().filter_map(|&o| tiles.placed(o)).collect(), &tiles)
-            };
-            whole.farthest_first().par_chunks(most).map(part).collect()
+            let outlines = whole.farthest_first();
+            let parts: Vec<_> = outlines.chunks(most).collect();
+            cores::map(parts.len(), |part| {
+                Part::new(parts[part].iter().filter_map(|&o| tiles.placed(o)).collect(), &tiles)
+            })
         };
         Self { tiles, parts }
     }

@@ -1,12 +1,12 @@
 //! Invariants 1 to 20: coverage. Every tolerance is zero but that of 19, which is a theorem.
 
-use rayon::prelude::*;
 use robust::{Coord, orient2d};
 
 use super::Outcome;
 use super::exact::{self, Nudge, TOP_LEFT, around, centre, owns, pixels};
 use super::source::{Fan, Position, Quad, TriangleInput};
 use super::subject::{Engine, Subject, hits};
+use crate::cores;
 use crate::each::Each as _;
 use crate::frame::Coverage;
 use crate::grid::{DOMAIN_PX, HALF_PIXEL, PixelRect, Refusal, SUBPIXELS, SubpixelPoint};
@@ -409,17 +409,18 @@ pub(super) fn crop(subject: &Subject, input: &TriangleInput) -> Outcome {
         let whole = engine.hits(triangle.corners(), window);
         let fragments = engine.fragments(triangle, window);
         let value_at = |x: i32, y: i32| fragments.iter().find(|f| (f.x_px, f.y_px) == (x, y));
-        let check = |tile: &PixelRect| {
-            let hits = engine.hits(triangle.corners(), *tile);
+        let check = |number: usize| {
+            let tile = tiles[number];
+            let hits = engine.hits(triangle.corners(), tile);
             let differs = |&(x, y): &(i32, i32)| hits.get(x, y) != whole.get(x, y);
-            if let Some((x, y)) = pixels(*tile).find(differs) {
+            if let Some((x, y)) = pixels(tile).find(differs) {
                 return Err(format!(
                     "{} differs at ({x}, {y}) in a tile of {side} px",
                     engine.name
                 ));
             }
             // The last fragment of a tile is where a walk from another start has gone farthest.
-            let inside = engine.fragments(triangle, *tile);
+            let inside = engine.fragments(triangle, tile);
             for f in inside.first().into_iter().chain(inside.last()) {
                 if value_at(f.x_px, f.y_px) != Some(f) {
                     return Err(format!(
@@ -430,7 +431,7 @@ pub(super) fn crop(subject: &Subject, input: &TriangleInput) -> Outcome {
             }
             Ok(hits.covered() + 1)
         };
-        tiles.par_iter().map(check).collect::<Vec<Outcome>>().into_iter().sum()
+        cores::map(tiles.len(), check).into_iter().sum()
     })
 }
 

@@ -3,10 +3,9 @@
 
 use std::fmt::Write as _;
 
-use rayon::prelude::*;
-
 use super::subject::{Subject, part_of};
 use super::{CATALOGUE, Check, Invariant};
+use crate::cores;
 use crate::each::Each as _;
 use crate::mutant::Mutant;
 
@@ -34,19 +33,17 @@ impl Matrix {
     pub fn compute(seed: u64, cases: u64, step: &(dyn Fn() + Sync)) -> Self {
         let columns: Vec<&Invariant> = CATALOGUE.iter().collect();
         let mutants = Mutant::all();
-        let rows = mutants
-            .par_iter()
-            .map(|&mutant| {
-                let kills = |invariant: &Invariant| {
-                    invariant.parts.contains(&part_of(&mutant))
-                        && !matches!(invariant.check, Check::Matrix)
-                        && invariant.kills(&Subject::with(mutant), seed, cases)
-                };
-                let marks = columns.par_iter().map(|invariant| kills(invariant)).collect();
-                step();
-                (mutant.name().to_owned(), marks)
-            })
-            .collect();
+        let rows = cores::map(mutants.len(), |row| {
+            let mutant = mutants[row];
+            let marks = cores::map(columns.len(), |column| {
+                let invariant = columns[column];
+                invariant.parts.contains(&part_of(&mutant))
+                    && !matches!(invariant.check, Check::Matrix)
+                    && invariant.kills(&Subject::with(mutant), seed, cases)
+            });
+            step();
+            (mutant.name().to_owned(), marks)
+        });
         let mut matrix = Self { columns: columns.iter().map(|i| i.number).collect(), rows };
         matrix.add_blind_row();
         matrix

@@ -1,11 +1,10 @@
 //! Invariants 43 to 45: the cases themselves, that a run can be repeated, and that one wrong pixel is
 //! never forgiven. (42 is [`super::matrix`].)
 
-use rayon::prelude::*;
-
 use super::Outcome;
 use super::subject::Subject;
 use crate::contract::Rasterize;
+use crate::cores;
 use crate::each::Each as _;
 use crate::frame::Coverage;
 use crate::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
@@ -24,9 +23,10 @@ pub(super) fn quotas(subject: &Subject, seed: u64, cases: u64) -> Outcome {
         .iter()
         .flat_map(|family| (0..cases).map(move |index| (family, index)))
         .collect();
-    let facts = |(family, index): &(&Family, u64)| {
+    let facts = |number: usize| {
+        let (family, index) = jobs[number];
         let Case { window, shape: Shape::Triangles { list, .. } } =
-            (subject.make_case)(family, seed, *index)
+            (subject.make_case)(family, seed, index)
         else {
             return [0, 0, 1];
         };
@@ -35,7 +35,8 @@ pub(super) fn quotas(subject: &Subject, seed: u64, cases: u64) -> Outcome {
         let empty = oracle_coverage(&list, window).covered() == 0;
         [tie, sliver, empty].each(u64::from)
     };
-    let sums = jobs.par_iter().map(facts).reduce(|| [0; 3], |a, b| [0, 1, 2].each(|i| a[i] + b[i]));
+    let facts = cores::map(jobs.len(), facts).into_iter();
+    let sums = facts.fold([0; 3], |a, b| [0, 1, 2].each(|i| a[i] + b[i]));
     let total = jobs.len() as u64;
     for ((what, least), found) in QUOTAS.into_iter().zip(sums) {
         if found * 100 < least * total {
@@ -102,7 +103,7 @@ pub(super) fn replay(subject: &Subject, seed: u64, cases: u64) -> Outcome {
     let forward: Vec<u64> = jobs.iter().map(|job| make(seed, job)).collect();
     let mut backward: Vec<u64> = jobs.iter().rev().map(|job| make(seed, job)).collect();
     backward.reverse();
-    let parallel: Vec<u64> = jobs.par_iter().map(|job| make(seed, job)).collect();
+    let parallel = cores::map(jobs.len(), |number| make(seed, &jobs[number]));
     for other in [backward, parallel] {
         if let Some(i) = (0..jobs.len()).find(|&i| forward[i] != other[i]) {
             let (family, index) = jobs[i];

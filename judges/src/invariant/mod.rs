@@ -22,8 +22,7 @@ pub mod source;
 pub mod subject;
 mod values;
 
-use rayon::prelude::*;
-
+use crate::cores;
 use crate::verify::caught;
 use source::{ClipInput, Fan, Input, LineInput, Position, Quad, TriangleInput};
 use subject::{Part, Subject};
@@ -158,7 +157,8 @@ impl Invariant {
         while start < count && report.failure.is_none() {
             let end = count.min(start + 16 * BLOCK);
             let judge = |index| self.judge(subject, &self.input(subject, seed, index));
-            let outcomes: Vec<Outcome> = (start..end).into_par_iter().map(judge).collect();
+            let outcomes =
+                cores::map((end - start) as usize, |number| judge(start + number as u64));
             for (index, outcome) in (start..end).zip(outcomes) {
                 match outcome {
                     Ok(0) => report.skipped += 1,

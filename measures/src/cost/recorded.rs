@@ -27,6 +27,8 @@ impl Recorded {
     /// # Errors
     /// A sentence that begins with the line at which the reader stopped: no JSON, a field that is
     /// missing or of another kind, or boards whose parts do not fit each other.
+    // Inlined: compiled where it is called, which need not be for speed.
+    #[inline]
     pub fn read(text: &str) -> Result<Self, String> {
         serde_json::from_str(text).map_err(|error| {
             let (line, told) = (error.line(), error.to_string());

@@ -7,12 +7,12 @@
 use std::fmt;
 use std::ops::AddAssign;
 
-use rayon::prelude::*;
 use serde::Serialize;
 
 use super::finding::caught;
 use super::{KEPT, Options, Partial, Tally, in_blocks};
 use crate::contract::{Decisions, RasterizeExact};
+use crate::cores;
 use crate::each::Each as _;
 use crate::frame::Coverage;
 use crate::hazard::offgrid::shrink::{shrink, size};
@@ -293,23 +293,21 @@ fn shrink_failures<R: RasterizeExact + Sync>(
     let failing: Vec<_> = failing
         .flat_map(|(place, partial)| partial.failing.iter().map(move |&(at, i)| (place, at, i)))
         .collect();
-    let mut shrunk: Vec<_> = failing
-        .into_par_iter()
-        .map(|(place, at, index)| {
-            let (name, engine) = &engines[at];
-            let fails = |case: &OffGridCase| judge_exact_case(engine, case).is_wrong();
-            let case = shrink(chosen[place].case(options.seed, index), fails);
-            let failure = ExactFailure {
-                family: chosen[place].name.to_owned(),
-                index,
-                seed: options.seed,
-                engine: (*name).to_owned(),
-                what: judge_exact_case(engine, &case).describe(),
-                case,
-            };
-            ((place, at), failure)
-        })
-        .collect();
+    let mut shrunk = cores::map(failing.len(), |number| {
+        let (place, at, index) = failing[number];
+        let (name, engine) = &engines[at];
+        let fails = |case: &OffGridCase| judge_exact_case(engine, case).is_wrong();
+        let case = shrink(chosen[place].case(options.seed, index), fails);
+        let failure = ExactFailure {
+            family: chosen[place].name.to_owned(),
+            index,
+            seed: options.seed,
+            engine: (*name).to_owned(),
+            what: judge_exact_case(engine, &case).describe(),
+            case,
+        };
+        ((place, at), failure)
+    });
     shrunk.sort_by_cached_key(|(origin, failure)| (*origin, size(&failure.case)));
     shrunk.dedup_by_key(|(origin, _)| *origin);
     let mut failures: Vec<_> = shrunk.into_iter().map(|(_, failure)| failure).collect();

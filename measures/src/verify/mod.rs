@@ -25,10 +25,10 @@ use std::fmt;
 use std::ops::AddAssign;
 use std::time::{Duration, Instant};
 
-use rayon::prelude::*;
 use serde::Serialize;
 
 use crate::contract::{DrawLine, Interpolate, Rasterize};
+use crate::cores;
 use crate::each::Each as _;
 use crate::hazard::{Case, Family, Shape};
 use crate::lineup::{Engine, LineEngine};
@@ -331,17 +331,15 @@ fn in_blocks<F: Sync, R: AddAssign + Send>(
     while done < all.end && !(done > all.start && expired()) {
         let end = all.end.min(done.saturating_add(round));
         for (slot, family) in partials.iter_mut().zip(families) {
-            let blocks: Vec<u64> = (done..end).step_by(BLOCK as usize).collect();
-            let merged = blocks
-                .into_par_iter()
-                .map(|first| {
-                    let block = first..end.min(first + BLOCK);
-                    let indices: Vec<u64> = block.filter(|index| index % parts == part).collect();
-                    let partial = judge(family, &indices);
-                    progress(indices.len() as u64);
-                    partial
-                })
-                .reduce_with(Partial::merge);
+            let blocks = cores::map((end - done).div_ceil(BLOCK) as usize, |number| {
+                let first = done + number as u64 * BLOCK;
+                let block = first..end.min(first + BLOCK);
+                let indices: Vec<u64> = block.filter(|index| index % parts == part).collect();
+                let partial = judge(family, &indices);
+                progress(indices.len() as u64);
+                partial
+            });
+            let merged = blocks.into_iter().reduce(Partial::merge);
             *slot = match (slot.take(), merged) {
                 (Some(a), Some(b)) => Some(a.merge(b)),
                 (a, b) => a.or(b),
@@ -520,23 +518,21 @@ fn shrink_failures(
         let unknown = partial.failing.iter().filter(|(pair, _)| !is_known(*pair));
         failing.extend(unknown.map(|&(pair, index)| (place, pair, index)));
     }
-    let mut shrunk: Vec<_> = failing
-        .into_par_iter()
-        .map(|(place, pair, index)| {
-            let (family, lines, pairs) = &chosen[place];
-            let original = family.case(options.seed, index);
-            let case = shrink::shrink(original, |case| findings(*lines, case)[pair].is_wrong());
-            let failure = Failure {
-                family: family.name.to_owned(),
-                index,
-                seed: options.seed,
-                pair: pairs[pair].clone(),
-                what: findings(*lines, &case)[pair].describe(),
-                case,
-            };
-            ((place, pair), failure)
-        })
-        .collect();
+    let mut shrunk = cores::map(failing.len(), |number| {
+        let (place, pair, index) = failing[number];
+        let (family, lines, pairs) = &chosen[place];
+        let original = family.case(options.seed, index);
+        let case = shrink::shrink(original, |case| findings(*lines, case)[pair].is_wrong());
+        let failure = Failure {
+            family: family.name.to_owned(),
+            index,
+            seed: options.seed,
+            pair: pairs[pair].clone(),
+            what: findings(*lines, &case)[pair].describe(),
+            case,
+        };
+        ((place, pair), failure)
+    });
     shrunk.sort_by_cached_key(|(origin, failure)| (*origin, shrink::size(&failure.case)));
     shrunk.dedup_by_key(|(origin, _)| *origin);
     let mut failures: Vec<_> = shrunk.into_iter().map(|(_, failure)| failure).collect();

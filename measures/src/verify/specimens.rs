@@ -8,12 +8,12 @@
 //! it is counted besides what several of their triangles draw.
 
 use glam::DVec2;
-use rayon::prelude::*;
 use serde::Serialize;
 
-use super::Tally;
 use super::finding::caught;
+use super::{BLOCK, Tally};
 use crate::contract::{DrawLine as _, Rasterize as _, RasterizeExact as _};
+use crate::cores;
 use crate::each::Each as _;
 use crate::frame::Coverage;
 use crate::grid::{PixelRect, SubpixelPoint};
@@ -164,8 +164,15 @@ fn over(
     judge: impl Fn(&Case) -> Counts + Sync,
 ) -> Vec<(&'static str, Counts)> {
     let counts = |family: &Family| {
-        let all = (0..cases).into_par_iter().map(|index| judge(&family.case(seed, index)));
-        all.reduce(Counts::default, Counts::merge)
+        let block = |number: usize| {
+            let first = number as u64 * BLOCK;
+            let cases = first..cases.min(first + BLOCK);
+            cases
+                .map(|index| judge(&family.case(seed, index)))
+                .fold(Counts::default(), Counts::merge)
+        };
+        let blocks = cores::map(cases.div_ceil(BLOCK) as usize, block);
+        blocks.into_iter().fold(Counts::default(), Counts::merge)
     };
     families.iter().map(|family| (family.name, counts(family))).collect()
 }

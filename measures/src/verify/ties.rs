@@ -6,9 +6,8 @@
 //! excused only if each of the two shows a surface that may be the nearest, in its colour and at its
 //! depth; anything else remains a difference.
 
-use rayon::prelude::*;
-
 use super::tolerance::{self, Bound};
+use crate::cores;
 use crate::each::Each as _;
 use crate::effects::render::BadScene;
 use crate::effects::rivals::{Rival, Rivals, Sample};
@@ -76,14 +75,11 @@ pub fn find(scene: &Scene, frames: [Drawn<'_>; 2]) -> Result<Ties, BadScene> {
     let (size, bounds) = (rivals.size(), target.bounds());
     let per_row = u64::from(size.width()) * target.antialias().samples();
     let rows = (BAND_SAMPLES / per_row).max(1) as usize;
-    let bands: Vec<Band> = (size.y0..size.y1)
-        .into_par_iter()
-        .step_by(rows)
-        .map(|y0| {
-            let y1 = (y0 + rows as i32).min(size.y1);
-            Judge { rivals: &rivals, frames }.judge(PixelRect { y0, y1, ..size })
-        })
-        .collect();
+    let bands = cores::map((size.height() as usize).div_ceil(rows), |number| {
+        let y0 = size.y0 + (number * rows) as i32;
+        let y1 = (y0 + rows as i32).min(size.y1);
+        Judge { rivals: &rivals, frames }.judge(PixelRect { y0, y1, ..size })
+    });
     let mut ties = Ties {
         undecided: Frame::new(size, false),
         excused: vec![Frame::new(bounds, false); target.planes.len()],

@@ -1,0 +1,55 @@
+//! Work on all cores, item by item.
+//!
+//! Compiled once: a parallel iterator is a few thousand lines for the optimiser wherever one stands, so it
+//! is left to loops whose items take less than a lock does.
+
+use std::sync::{Mutex, PoisonError};
+
+use rayon::prelude::*;
+
+/// What `job` makes of the numbers below `count`, in order.
+///
+/// # Panics
+/// As `job` does.
+pub fn map<T: Send>(count: usize, job: impl Fn(usize) -> T + Sync) -> Vec<T> {
+    let made: Vec<Mutex<Option<T>>> = (0..count).map(|_| Mutex::new(None)).collect();
+    each(count, &|number| {
+        let item = job(number);
+        *made[number].lock().unwrap_or_else(PoisonError::into_inner) = Some(item);
+    });
+    made.into_iter().filter_map(|item| item.into_inner().unwrap_or_default()).collect()
+}
+
+/// Calls `job` with each of the numbers below `count`.
+///
+/// # Panics
+/// As `job` does.
+pub fn each(count: usize, job: &(dyn Fn(usize) + Sync)) {
+    (0..count).into_par_iter().with_max_len(1).for_each(job);
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::atomic::{AtomicUsize, Ordering};
+
+    use super::*;
+
+    #[test]
+    fn every_number_comes_once_and_in_order() {
+        for count in [0, 1, 2, 1000] {
+            let calls = AtomicUsize::new(0);
+            let squares = map(count, |number| {
+                calls.fetch_add(1, Ordering::Relaxed);
+                number * number
+            });
+            assert_eq!(squares, (0..count).map(|number| number * number).collect::<Vec<_>>());
+            assert_eq!(calls.into_inner(), count);
+        }
+    }
+
+    #[test]
+    #[should_panic(expected = "seven")]
+    fn a_panic_is_handed_on() {
+        map(10, |number| assert!(number != 7, "seven"));
+    }
+}
