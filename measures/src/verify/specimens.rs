@@ -10,8 +10,8 @@
 use glam::DVec2;
 use serde::Serialize;
 
+use super::Tally;
 use super::finding::caught;
-use super::{BLOCK, Tally};
 use crate::contract::{DrawLine as _, Rasterize as _, RasterizeExact as _};
 use crate::cores;
 use crate::each::Each as _;
@@ -156,6 +156,9 @@ pub fn survey(card: &Card, seed: u64, cases: u64) -> SpecimenReport {
         all,
     }
 }
+
+/// Cases that one core judges at a time.
+const BLOCK: u64 = 16;
 
 fn over(
     families: &'static [Family],
