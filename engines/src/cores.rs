@@ -3,7 +3,7 @@
 //! Compiled once: a parallel iterator is a few thousand lines for the optimiser wherever one stands, so it
 //! is left to loops whose items take less than a lock does.
 
-use std::sync::{Mutex, PoisonError};
+use std::sync::Mutex;
 
 use rayon::prelude::*;
 
@@ -14,10 +14,13 @@ use rayon::prelude::*;
 pub fn map<T: Send>(count: usize, job: impl Fn(usize) -> T + Sync) -> Vec<T> {
     let made: Vec<Mutex<Option<T>>> = (0..count).map(|_| Mutex::new(None)).collect();
     each(count, &|number| {
+        // A panic of `job` is before the lock.
         let item = job(number);
-        *made[number].lock().unwrap_or_else(PoisonError::into_inner) = Some(item);
+        *made[number].lock().unwrap() = Some(item);
     });
-    made.into_iter().filter_map(|item| item.into_inner().unwrap_or_default()).collect()
+    let asked =
+        |item: Mutex<Option<T>>| item.into_inner().unwrap().expect("each number is asked for");
+    made.into_iter().map(asked).collect()
 }
 
 /// Calls `job` with each of the numbers below `count`.

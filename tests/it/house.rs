@@ -292,7 +292,6 @@ fn house_breaches_are_found() {
     assert!(breaches("raster/scanline.rs", "//! ok\nuse crate::grid::snap;", &floors).is_empty());
 }
 
-/// The pages under `docs/` and those beside the README, with their text.
 /// Crates with their features, as the program (`no-dev`) or the tests (`all`) ask for them.
 fn features(edges: &str) -> BTreeSet<String> {
     let arguments =
@@ -318,6 +317,7 @@ fn house_is_compiled_once() {
     );
 }
 
+/// The pages under `docs/` and those beside the README, with their text.
 fn pages() -> Vec<(PathBuf, String)> {
     let mut pages = files(&root().join("docs"), "md");
     pages.extend(["README.md", "CHANGELOG.md", "CONTRIBUTING.md"].map(|name| root().join(name)));
