@@ -9,6 +9,10 @@
 //!
 //! `cargo bench --bench effects` measures all rows, `-- facets` those whose name contains a word,
 //! `-- --quick` with fewer rounds. Each pair of pictures is compared to the bit before it is timed.
+#![allow(
+    clippy::disallowed_methods,
+    reason = "tests and benches read and write files of their own"
+)]
 
 use std::process::ExitCode;
 

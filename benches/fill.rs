@@ -3,6 +3,10 @@
 //! Every bench first asserts that it draws as many pixels as the exact oracle, so that no time is
 //! ever reported for a wrong picture. `cargo bench --bench fill -- medium/scanline` picks by name.
 //! For times beside those of other crates see `peers`.
+#![allow(
+    clippy::disallowed_methods,
+    reason = "tests and benches read and write files of their own"
+)]
 
 mod common;
 

@@ -16,6 +16,10 @@
 //! `cargo bench --bench frames` measures the meshes of [`MESHES`]; `-- knot` those whose name contains
 //! a word, `-- --quick` with fewer rounds. `-- --curves` measures one shape in all its sizes instead,
 //! and one mesh in pictures of several sides.
+#![allow(
+    clippy::disallowed_methods,
+    reason = "tests and benches read and write files of their own"
+)]
 
 #[path = "common/mesh.rs"]
 mod mesh;

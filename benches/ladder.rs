@@ -5,6 +5,10 @@
 //! pixels as the exact oracle, every other one a number that the seed decides, the same when asked
 //! again. `cargo bench --bench ladder -- sliver/f64` picks by name. `rasterproof cost` measures all
 //! ladders, in interleaved rounds, and is the one to compare rungs with.
+#![allow(
+    clippy::disallowed_methods,
+    reason = "tests and benches read and write files of their own"
+)]
 
 use std::hint::black_box;
 use std::time::Duration;

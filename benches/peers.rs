@@ -25,6 +25,10 @@
 //!
 //! `cargo bench --bench peers` prints the tables; `-- --quick` takes one short round, and
 //! `-- tiny small mesh` only what is named.
+#![allow(
+    clippy::disallowed_methods,
+    reason = "tests and benches read and write files of their own"
+)]
 
 mod common;
 #[path = "common/mesh.rs"]

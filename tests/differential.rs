@@ -3,6 +3,10 @@
 //!
 //! Where it disagrees, `cargo test` ends here; so all that is kept as a snapshot is then drawn too, each
 //! changed one is stored with its picture, and the last lines say where to look.
+#![allow(
+    clippy::disallowed_methods,
+    reason = "tests and benches read and write files of their own"
+)]
 
 use std::collections::BTreeSet;
 use std::path::Path;

@@ -1,4 +1,8 @@
 //! The tests other than the differential table, in one binary.
+#![allow(
+    clippy::disallowed_methods,
+    reason = "tests and benches read and write files of their own"
+)]
 
 #[macro_use]
 extern crate rasterproof_engines;

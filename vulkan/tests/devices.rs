@@ -1,6 +1,10 @@
 //! Every Vulkan device that is there, on the stand; where there is none, the tests say so.
 //!
 //! `.ci/run` names two drivers that run on the processor, lavapipe and SwiftShader.
+#![allow(
+    clippy::disallowed_methods,
+    reason = "tests and benches read and write files of their own"
+)]
 
 use std::io::{BufRead as _, BufReader};
 use std::path::{Path, PathBuf};

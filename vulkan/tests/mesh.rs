@@ -1,4 +1,8 @@
 //! Frames of a textured mesh on every Vulkan device, held to pictures by hand and to the engines.
+#![allow(
+    clippy::disallowed_methods,
+    reason = "tests and benches read and write files of their own"
+)]
 
 use std::sync::Arc;
 

@@ -1,0 +1,187 @@
+//! Opening files: regular files only, at most a stated size, and never with waiting.
+
+use std::fmt;
+use std::fs::{File, OpenOptions};
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+
+use crate::text::printable_path;
+
+/// Why a file was not read.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct InputError {
+    /// The file as it was named.
+    pub path: PathBuf,
+    /// What is wrong, in words that follow the name of the file.
+    pub cause: String,
+    /// Whether nothing has this name.
+    pub missing: bool,
+}
+
+impl fmt::Display for InputError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", printable_path(&self.path), self.cause)
+    }
+}
+
+impl std::error::Error for InputError {}
+
+fn refused(path: &Path, cause: impl Into<String>) -> InputError {
+    InputError { path: path.to_owned(), cause: cause.into(), missing: false }
+}
+
+fn failed(path: &Path, error: &io::Error) -> InputError {
+    let missing = error.kind() == io::ErrorKind::NotFound;
+    InputError { missing, ..refused(path, format!("cannot be read: {error}")) }
+}
+
+/// Why something that is not a regular file is refused, or nothing for a regular one.
+fn wrong_kind(kind: std::fs::FileType) -> Option<&'static str> {
+    if kind.is_file() {
+        return None;
+    }
+    if kind.is_dir() {
+        return Some("is a directory, not a file");
+    }
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::FileTypeExt as _;
+        if kind.is_fifo() {
+            return Some("is a pipe, not a file: save what comes through it, and name that file");
+        }
+        if kind.is_char_device() || kind.is_block_device() {
+            return Some("is a device, not a file");
+        }
+        if kind.is_socket() {
+            return Some("is a socket, not a file");
+        }
+    }
+    Some("is not a regular file")
+}
+
+/// Opens a regular file of at most `limit_bytes` for reading. Links are followed.
+///
+/// The kind is looked at before the file is opened, since to open a device can have an effect, and
+/// again afterwards, since the name may mean another file by then.
+///
+/// # Errors
+/// [`InputError`] where the file is missing, is not a regular file, is too large, or may not be read.
+#[allow(clippy::disallowed_methods, reason = "this is the one function that opens an input file")]
+pub fn open(path: &Path, limit_bytes: u64) -> Result<File, InputError> {
+    let before = std::fs::metadata(path).map_err(|error| failed(path, &error))?;
+    if let Some(cause) = wrong_kind(before.file_type()) {
+        return Err(refused(path, cause));
+    }
+    let mut options = OpenOptions::new();
+    options.read(true);
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::OpenOptionsExt as _;
+        // A pipe that has taken the file's place since would be waited for.
+        options.custom_flags(rustix::fs::OFlags::NONBLOCK.bits() as i32);
+    }
+    let file = options.open(path).map_err(|error| failed(path, &error))?;
+    let data = file.metadata().map_err(|error| failed(path, &error))?;
+    if let Some(cause) = wrong_kind(data.file_type()) {
+        return Err(refused(path, cause));
+    }
+    if data.len() > limit_bytes {
+        return Err(too_large(path, limit_bytes));
+    }
+    Ok(file)
+}
+
+fn too_large(path: &Path, limit_bytes: u64) -> InputError {
+    let size = match limit_bytes {
+        bytes if bytes >= 1 << 30 => format!("{} GiB", bytes >> 30),
+        bytes if bytes >= 1 << 20 => format!("{} MiB", bytes >> 20),
+        bytes => format!("{bytes} bytes"),
+    };
+    refused(path, format!("is too large: at most {size} are read"))
+}
+
+/// The bytes of a regular file of at most `limit_bytes`.
+///
+/// # Errors
+/// As [`open`]; also where a file grows beyond the limit while it is read, as those below `/proc` may.
+pub fn read(path: &Path, limit_bytes: u64) -> Result<Vec<u8>, InputError> {
+    let file = open(path, limit_bytes)?;
+    let expected = file.metadata().map_or(0, |data| data.len());
+    let mut bytes = Vec::with_capacity(usize::try_from(expected).unwrap_or(0));
+    file.take(limit_bytes.saturating_add(1))
+        .read_to_end(&mut bytes)
+        .map_err(|error| failed(path, &error))?;
+    if bytes.len() as u64 > limit_bytes {
+        return Err(too_large(path, limit_bytes));
+    }
+    Ok(bytes)
+}
+
+/// The text of a regular file of at most `limit_bytes`, without the byte order mark that some
+/// editors write.
+///
+/// # Errors
+/// As [`read`]; also where the bytes are not UTF-8.
+pub fn read_text(path: &Path, limit_bytes: u64) -> Result<String, InputError> {
+    let bytes = read(path, limit_bytes)?;
+    let mut text = String::from_utf8(bytes).map_err(|error| {
+        let good = error.utf8_error().valid_up_to();
+        let line = 1 + error.as_bytes()[..good].iter().filter(|&&byte| byte == b'\n').count();
+        refused(path, format!("is not UTF-8 text (line {line})"))
+    })?;
+    if text.starts_with('\u{feff}') {
+        text.drain(..'\u{feff}'.len_utf8());
+    }
+    Ok(text)
+}
+
+#[cfg(test)]
+#[allow(clippy::disallowed_methods, reason = "the tests make the files that are read")]
+mod tests {
+    use std::fs;
+
+    use super::*;
+    use crate::output::tests::Folder;
+
+    #[test]
+    fn a_file_is_read_up_to_its_limit() {
+        let folder = Folder::new("read");
+        let file = folder.path("a.txt");
+        fs::write(&file, "\u{feff}1234").unwrap();
+        assert_eq!(read_text(&file, 7).unwrap(), "1234");
+        assert_eq!(read(&file, 7).unwrap().len(), 7);
+        let error = read(&file, 6).unwrap_err();
+        assert_eq!(error.cause, "is too large: at most 6 bytes are read");
+        assert!(read(&folder.path("b.txt"), 7).unwrap_err().missing);
+        fs::write(&file, b"one\ntwo \xff").unwrap();
+        assert_eq!(read_text(&file, 99).unwrap_err().cause, "is not UTF-8 text (line 2)");
+    }
+
+    #[test]
+    fn only_regular_files_are_read() {
+        let folder = Folder::new("kinds");
+        assert_eq!(read(&folder.0, 9).unwrap_err().cause, "is a directory, not a file");
+        #[cfg(unix)]
+        {
+            assert_eq!(
+                read(Path::new("/dev/zero"), 9).unwrap_err().cause,
+                "is a device, not a file"
+            );
+            let pipe = folder.path("pipe");
+            crate::output::tests::make_pipe(&pipe);
+            assert!(read(&pipe, 9).unwrap_err().cause.starts_with("is a pipe"));
+            let link = folder.path("link");
+            std::os::unix::fs::symlink("/dev/zero", &link).unwrap();
+            assert_eq!(read(&link, 9).unwrap_err().cause, "is a device, not a file");
+        }
+    }
+
+    /// Sparse, so that the test takes no space on the disk.
+    #[test]
+    fn a_file_of_five_gigabytes_is_refused_at_once() {
+        let folder = Folder::new("sparse");
+        let file = folder.path("big");
+        File::create(&file).unwrap().set_len(5_000_000_000).unwrap();
+        assert_eq!(read(&file, 1 << 30).unwrap_err().cause, "is too large: at most 1 GiB are read");
+    }
+}

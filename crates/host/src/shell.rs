@@ -1,0 +1,79 @@
+//! Commands that a reader may copy into a shell.
+
+use std::borrow::Cow;
+
+use crate::text::is_hidden;
+
+/// One word as a POSIX shell reads it back: as it is where it needs no quotes, else in single
+/// quotes. A word with hidden characters is written as `$'...'`, which bash, zsh and ksh read.
+#[must_use]
+pub fn quote(word: &str) -> Cow<'_, str> {
+    let plain = |c: char| c.is_alphanumeric() || "-_./,:=+@%^".contains(c);
+    if !word.is_empty() && !word.starts_with('=') && word.chars().all(plain) {
+        return Cow::Borrowed(word);
+    }
+    if !word.chars().any(is_hidden) {
+        return Cow::Owned(format!("'{}'", word.replace('\'', r"'\''")));
+    }
+    let mut quoted = String::from("$'");
+    for character in word.chars() {
+        match character {
+            '\'' | '\\' => quoted.extend(['\\', character]),
+            // Three octal digits for each byte: a digit that follows cannot be taken for a fourth.
+            hidden if is_hidden(hidden) => {
+                for byte in hidden.encode_utf8(&mut [0; 4]).bytes() {
+                    quoted += &format!("\\{byte:03o}");
+                }
+            }
+            shown => quoted.push(shown),
+        }
+    }
+    quoted.push('\'');
+    Cow::Owned(quoted)
+}
+
+/// A command line whose words are read back as they are.
+#[must_use]
+pub fn line<'a>(words: impl IntoIterator<Item = &'a str>) -> String {
+    words.into_iter().map(quote).collect::<Vec<_>>().join(" ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_are_quoted_where_a_shell_needs_it() {
+        assert_eq!(quote("a/b-1.snap"), "a/b-1.snap");
+        assert_eq!(quote("--shard=1/2"), "--shard=1/2");
+        assert_eq!(quote(""), "''");
+        assert_eq!(quote("a'; touch PWNED; '.snap"), r"'a'\''; touch PWNED; '\''.snap'");
+        assert_eq!(quote("$(x) `y` ~ * # !"), "'$(x) `y` ~ * # !'");
+        assert_eq!(quote("\u{1b}1'"), "$'\\0331\\''");
+        assert_eq!(line(["rm", "a b"]), "rm 'a b'");
+    }
+
+    /// A shell is asked what it read.
+    #[cfg(unix)]
+    #[test]
+    fn a_shell_reads_the_same_word() {
+        for word in [
+            "",
+            "a b",
+            "a'b",
+            "\\",
+            "$x",
+            "~",
+            "{a,b}",
+            "a\tb\n",
+            "\u{1b}[31m'7",
+            "\u{4e2d}\u{200b}",
+        ] {
+            let script = format!("printf %s {}", quote(word));
+            let output = std::process::Command::new("bash").args(["-c", &script]).output();
+            // Not every machine has bash.
+            let Ok(output) = output else { return };
+            assert_eq!(String::from_utf8(output.stdout).unwrap(), word, "{script}");
+        }
+    }
+}
