@@ -1,38 +1,55 @@
 //! The account of a plan, as lines for the terminal and as rows of a page.
 
 use crate::effects::Effect;
-use crate::effects::plan::Decision;
+use crate::effects::plan::{Decision, Unit};
 use crate::report::html::PlanRow;
 
 /// A decision that some items share, or one about the frame.
 pub(super) struct Line<'a> {
     pub effect: Effect,
     pub reason: &'a str,
+    /// What the counts count.
+    pub unit: Unit,
     /// On, off, open.
     pub counts: [u64; 3],
     items: Vec<usize>,
 }
 
 impl Line<'_> {
-    /// Which items, in short.
+    /// Which items, in short: ranges, or their number where there are too many of them.
     pub fn items(&self) -> String {
-        match self.items[..] {
-            [] => "frame".to_owned(),
+        /// Characters of the column.
+        const MOST: usize = 9;
+        let runs = self.items.chunk_by(|a, b| a + 1 == *b).map(|run| match run {
+            [first, .., last] => format!("{first}-{last}"),
             [one] => one.to_string(),
-            [first, .., last] if last - first + 1 == self.items.len() => format!("{first}-{last}"),
-            [first, ..] => format!("{first}.."),
+            [] => String::new(),
+        });
+        let text = runs.collect::<Vec<_>>().join(",");
+        match text.len() {
+            0 => "frame".to_owned(),
+            1..=MOST => text,
+            _ => format!("{} items", self.items.len()),
         }
+    }
+
+    /// Which of the counts are not 0.
+    fn kind(&self) -> [bool; 3] {
+        self.counts.map(|count| count > 0)
     }
 }
 
-/// Decisions that several items share become one line, in the order of the pipeline.
+/// Decisions that several items share become one line, in the order of the pipeline: those with one
+/// reason that are paid for by all, by none or by some.
 pub(super) fn grouped(decisions: &[Decision]) -> Vec<Line<'_>> {
     let mut lines: Vec<Line<'_>> = Vec::new();
     for d in decisions {
-        let same = |line: &&mut Line<'_>| {
-            line.effect == d.effect && line.reason == d.reason && d.item.is_some()
-        };
         let counts = [d.on, d.off, d.open];
+        let same = |line: &&mut Line<'_>| {
+            (line.effect, line.reason, line.unit) == (d.effect, &d.reason, d.unit)
+                && line.kind() == counts.map(|count| count > 0)
+                && d.item.is_some()
+        };
         if let Some(line) = lines.iter_mut().find(same) {
             for (sum, count) in line.counts.iter_mut().zip(counts) {
                 *sum += count;
@@ -40,7 +57,7 @@ pub(super) fn grouped(decisions: &[Decision]) -> Vec<Line<'_>> {
             line.items.extend(d.item);
         } else {
             let items = d.item.into_iter().collect();
-            lines.push(Line { effect: d.effect, reason: &d.reason, counts, items });
+            lines.push(Line { effect: d.effect, reason: &d.reason, unit: d.unit, counts, items });
         }
     }
     lines.sort_by_key(|line| line.effect);
@@ -60,7 +77,7 @@ pub(super) fn plan_rows(decisions: &[Decision]) -> Vec<PlanRow> {
             .into_iter()
             .zip(line.counts)
             .filter(|(name, count)| *name != "open" || *count > 0)
-            .map(|(name, count)| (name.to_owned(), count.to_string()))
+            .map(|(name, count)| (name.to_owned(), format!("{count} {}", line.unit.name())))
             .collect(),
     };
     grouped(decisions).into_iter().map(row).collect()

@@ -8,6 +8,7 @@ use super::page::{PageArguments, write_page};
 use super::progress::Progress;
 use super::render::SceneArguments;
 use super::{Failure, Streams, exit, program, usage};
+use crate::effects::plan::Canvas;
 use crate::effects::render::Rendered;
 use crate::effects::{Effect, Effects, Mode};
 use crate::lineup::Drawer;
@@ -171,9 +172,14 @@ pub fn run(arguments: &PlanArguments, streams: &mut Streams<'_>) -> Result<u8, F
     let (measured, everything, planned) = measure(arguments, &scene, streams.progress)?;
     let same = measured.all().all(|mixture| mixture.same);
     if arguments.json {
+        // The same plan with the digest of its scene, so that it can be drawn by.
+        let canvas = Canvas::of(&arguments.what.target()?);
+        let plan = Drawer::from(arguments.engine)
+            .plan(&scene, &Effects::PLANNED, &canvas)
+            .map_err(|error| usage(error.to_string()))?;
         let json = serde_json::json!({
             "scene": scene.name,
-            "plan": planned.plan,
+            "plan": plan,
             "everything": everything.counters,
             "planned": planned.counters,
             "measured": measured,
@@ -254,18 +260,15 @@ fn measure(
 
 fn describe(scene: &Scene, planned: &Rendered, everything: &Counters, savings: &Savings) -> String {
     let mut text = format!("{}: {}\n\n", scene.name, scene.about);
-    let _ = writeln!(
-        text,
-        "{:<6} {:<13} {:>7} {:>8} {:>7}  why",
-        "item", "effect", "on", "off", "open"
-    );
+    text += "effect        item            on      off     open  unit\n";
     for line in grouped(&planned.plan.decisions) {
         let (items, effect) = (line.items(), line.effect.name());
         let [on, off, open] = line.counts;
-        let reason = line.reason;
-        let _ = writeln!(text, "{items:<6} {effect:<13} {on:>7} {off:>8} {open:>7}  {reason}");
+        let (unit, reason) = (line.unit.name(), line.reason);
+        let _ = writeln!(text, "{effect:<13} {items:<9} {on:>8} {off:>8} {open:>8}  {unit}");
+        let _ = writeln!(text, "    {reason}");
     }
-    text += "open: decided while it is drawn\n";
+    text += "open: decided while it is drawn; several items: the sums of them\n";
     text += "\ncounts               everything     planned\n";
     let names = |c: &Counters| {
         [

@@ -6,14 +6,16 @@ use std::time::Duration;
 
 use glam::{DMat4, DVec3};
 use image::codecs::gif::{GifEncoder, Repeat};
+use rasterproof_host::text::{printable, printable_path};
+use rasterproof_host::{input, limits};
 
 use super::decisions::plan_rows;
 use super::page::{PageArguments, write_page};
 use super::progress::Progress;
 use super::{Failure, Streams, exit, program, usage, write_file};
 use crate::angle::{atan, cos, sin, tan, turn_y};
-use crate::effects::plan::Plan;
-use crate::effects::render::{BadScene, Rendered};
+use crate::effects::plan::{Plan, VERSION};
+use crate::effects::render::{BadScene, Misfit, Rendered};
 use crate::effects::{Effect, Effects, Mode};
 use crate::frame::Frame;
 use crate::lineup::{Drawer, Engine};
@@ -58,7 +60,7 @@ pub struct RenderArguments {
     #[arg(long)]
     wireframe: bool,
     /// What is paid for: planned, usual, all, or +EFFECT and -EFFECT, separated by commas
-    #[arg(long, value_name = "EFFECTS", allow_hyphen_values = true)]
+    #[arg(long, value_name = "EFFECTS", allow_hyphen_values = true, conflicts_with = "wireframe")]
     effects: Option<Effects>,
     /// Draw by the plan in this file, from plan --json, edited or not
     #[arg(long, value_name = "FILE", conflicts_with_all = ["effects", "wireframe", "map", "spin"])]
@@ -75,7 +77,7 @@ pub struct RenderArguments {
     #[command(flatten)]
     page: PageArguments,
     /// Counters as JSON on standard output
-    #[arg(long)]
+    #[arg(long, conflicts_with_all = ["map", "spin"])]
     json: bool,
 }
 
@@ -386,8 +388,10 @@ struct Drawing {
     rendered: Rendered,
     /// Holds every depth, where two rasterizers are compared.
     target: Target,
-    /// Pixels that are others where every depth and sample is there.
+    /// Pixels that are others where every depth and sample is there, which is a fault.
     unplanned: u64,
+    /// Pixels that the plan of a file, or effects that were switched off, change.
+    changed: u64,
     /// Whether the target holds every depth of every sample.
     is_complete: bool,
 }
@@ -422,7 +426,7 @@ pub fn run(arguments: &RenderArguments, streams: &mut Streams<'_>) -> Result<u8,
     }
     let drawings = draw(arguments, &scene, &progress)?;
     let mut written = write_file(&output, &frames::png(&drawings[0].rendered.picture)?);
-    let comparison = compare(&scene, &drawings)?;
+    let comparison = compare(&scene, &drawings, arguments.plan.is_some())?;
     drop(progress);
     let difference = output.with_extension("difference.png");
     let is_drawn = |c: &&Comparison| !c.agrees() || c.undecided > 0;
@@ -452,7 +456,11 @@ fn names(drawings: &[Drawing]) -> Vec<&'static str> {
 }
 
 /// Compares two drawings; ties are looked for where there are depths to look at.
-fn compare(scene: &Scene, drawings: &[Drawing]) -> Result<Option<Comparison>, Failure> {
+fn compare(
+    scene: &Scene,
+    drawings: &[Drawing],
+    follows_plan: bool,
+) -> Result<Option<Comparison>, Failure> {
     let [a, b] = drawings else { return Ok(None) };
     let ties = if a.is_complete && b.is_complete {
         let engines = [Engine::Scanline, Engine::EdgeFunction];
@@ -464,6 +472,10 @@ fn compare(scene: &Scene, drawings: &[Drawing]) -> Result<Option<Comparison>, Fa
     let (first, second) = ((&a.rendered.picture, &a.target), (&b.rendered.picture, &b.target));
     let mut comparison = frames::compare(first, second, ties.as_ref());
     comparison.wrong_pixels += a.unplanned + b.unplanned;
+    if follows_plan {
+        // Two rasterizers that follow one wrong plan agree with each other, not with the scene.
+        comparison.wrong_pixels += a.changed.max(b.changed);
+    }
     Ok(Some(comparison))
 }
 
@@ -510,20 +522,19 @@ fn report_page(
 
 /// A plan from a file: the plan alone, or all that `plan --json` writes.
 fn read_plan(path: &Path) -> Result<Plan, Failure> {
-    let refused = |error: &dyn std::fmt::Display| usage(format!("{}: {error}", path.display()));
-    let text = std::fs::read_to_string(path).map_err(|error| refused(&error))?;
-    #[derive(serde::Deserialize)]
-    struct Written {
-        plan: Plan,
-    }
-    // Which of the two it is meant to be says which error is the reader's.
-    let whole = serde_json::from_str::<serde_json::Value>(&text).map_err(|e| refused(&e))?;
-    let plan = if whole.get("plan").is_some() {
-        serde_json::from_str::<Written>(&text).map(|written| written.plan)
-    } else {
-        serde_json::from_str(&text)
+    let refused = |error: &dyn std::fmt::Display| {
+        usage(format!("{}: {}", printable_path(path), printable(&error.to_string())))
     };
-    plan.map_err(|error| refused(&error))
+    let text = input::read_text(path, limits::DOCUMENT_BYTES)
+        .map_err(|error| usage(error.to_string()))?;
+    let whole = serde_json::from_str::<serde_json::Value>(&text).map_err(|e| refused(&e))?;
+    let plan = whole.get("plan").unwrap_or(&whole);
+    // Before anything else: the words of another version are not misspelt.
+    let version = plan.get("version").and_then(serde_json::Value::as_u64);
+    if version != Some(VERSION.into()) {
+        return Err(refused(&Misfit::Version(version)));
+    }
+    serde_path_to_error::deserialize(plan).map_err(|error| refused(&error))
 }
 
 /// Draws one frame by each rasterizer asked for.
@@ -548,29 +559,31 @@ fn draw(
     let drawing = |drawer: &Drawer| {
         let mut target = arguments.what.target()?;
         let refused = |error: BadScene| usage(error.to_string());
+        let incomplete = |name, rendered, target, changed| {
+            Ok(Drawing { name, rendered, target, unplanned: 0, changed, is_complete: false })
+        };
         if arguments.wireframe {
             let rendered = drawer.render_wireframe(scene, &mut target).map_err(refused)?;
-            let name = drawer.line_name();
-            return Ok(Drawing { name, rendered, target, unplanned: 0, is_complete: false });
+            return incomplete(drawer.line_name(), rendered, target, 0);
         }
         let asked = |target: &mut Target| match (&plan, &arguments.plan) {
             (Some(plan), Some(path)) => drawer
                 .execute(plan, scene, target)
-                .map_err(|error| usage(format!("{}: {error}", path.display()))),
+                .map_err(|error| usage(format!("{}: {error}", printable_path(path)))),
             _ => drawer.render(scene, &effects, target).map_err(refused),
         };
         let (name, rendered) = (drawer.name(), asked(&mut target)?);
         if engines.len() < 2 {
-            return Ok(Drawing { name, rendered, target, unplanned: 0, is_complete: false });
+            return incomplete(name, rendered, target, 0);
         }
         let whole = drawer.render(scene, &complete, &mut target).map_err(refused)?;
         let unplanned = frames::differing(&rendered.picture, &whole.picture);
         if is_free || unplanned == 0 {
-            return Ok(Drawing { name, rendered, target, unplanned, is_complete: true });
+            return Ok(Drawing { name, rendered, target, unplanned, changed: 0, is_complete: true });
         }
         // What was asked for changes the picture: the frame is compared as it is, without ties.
         let rendered = asked(&mut target)?;
-        Ok(Drawing { name, rendered, target, unplanned: 0, is_complete: false })
+        incomplete(name, rendered, target, unplanned)
     };
     engines.iter().map(drawing).inspect(|_| progress.done(1)).collect()
 }
@@ -606,6 +619,10 @@ fn describe(
     let _ = writeln!(text, "  drawn in {}", output.display());
     if is_empty(&drawings[0].rendered) {
         let _ = writeln!(text, "  EMPTY: nothing of it is seen; the picture is background alone");
+    }
+    let changed = drawings.iter().map(|drawing| drawing.changed).max().unwrap_or(0);
+    if changed > 0 {
+        let _ = writeln!(text, "  what is switched off is called for: it changes {changed} pixels");
     }
     match comparison {
         None => {}
@@ -726,7 +743,7 @@ fn spin(
         for frame in 0..frames {
             let scene = maker.scene(f64::from(frame) / f64::from(frames));
             let drawings = draw(arguments, &scene, progress)?;
-            if let Some(c) = compare(&scene, &drawings)? {
+            if let Some(c) = compare(&scene, &drawings, false)? {
                 wrong += c.wrong_pixels + c.wrong_depths;
                 undecided += c.undecided;
             }

@@ -6,7 +6,9 @@ use super::Effect;
 use super::assembled::{Assembled, plan_of};
 use super::kernel::Kernel;
 use super::piece::{BadScene, Piece, Prepared};
-use super::plan::{Attributes, Canvas, Clear, ItemPlan, Order, PiecePlan, Pieces, Plan, Samples};
+use super::plan::{
+    Attributes, Canvas, Clear, ItemPlan, Order, PiecePlan, Pieces, Plan, Samples, SceneDigest, VERSION,
+};
 use super::samples::OnDemand;
 use crate::contract::Interpolate;
 use crate::frame::Frame;
@@ -30,6 +32,22 @@ pub struct Rendered {
 pub enum Misfit {
     /// The scene cannot be drawn by any plan.
     Scene(BadScene),
+    /// The plan has another form, or does not name its form.
+    Version(Option<u64>),
+    /// The plan is for another scene, or does not say for which.
+    OtherScene {
+        /// What it is for.
+        planned: Option<SceneDigest>,
+        /// What there is.
+        there: SceneDigest,
+    },
+    /// The plan contradicts itself: a piece interpolates what its item does not carry.
+    NotCarried {
+        /// Which item.
+        item: usize,
+        /// What it does not carry.
+        attributes: Attributes,
+    },
     /// The plan is for another target.
     Canvas {
         /// What it is for.
@@ -61,9 +79,33 @@ impl fmt::Display for Misfit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Scene(bad) => write!(f, "{bad}"),
+            Self::Version(planned) => {
+                match planned {
+                    Some(planned) => write!(f, "the plan has the form of version {planned}")?,
+                    None => f.write_str("the plan does not name its version")?,
+                }
+                write!(f, ", and this program reads version {VERSION}; plan again with it")
+            }
+            Self::OtherScene { planned: Some(planned), there } => write!(
+                f,
+                "the plan is for another scene, or for the same one seen otherwise: its scene has \
+                 the digest {planned}, and this one {there}; plan again with the options of this \
+                 picture"
+            ),
+            Self::OtherScene { planned: None, there } => write!(
+                f,
+                "the plan does not say which scene it is for (\"scene\"), and this one has the \
+                 digest {there}; plan again"
+            ),
+            Self::NotCarried { item, attributes } => write!(
+                f,
+                "the plan contradicts itself: pieces of item {item} interpolate {attributes}, which \
+                 is not in its \"carries\"; add it there, or remove it from \"interpolates\""
+            ),
             Self::Canvas { planned, there } => write!(
                 f,
-                "the plan is for {planned}, and this is {there}; plan again, or ask for the same"
+                "the plan is for {planned}, and this is {there}, {}; plan again, or draw the same",
+                differences(planned, there)
             ),
             Self::Items { planned, there } => {
                 write!(f, "the plan has {planned} items, and the scene {there}")
@@ -82,6 +124,17 @@ impl fmt::Display for Misfit {
             ),
         }
     }
+}
+
+/// What two canvases differ in, in words.
+fn differences(planned: &Canvas, there: &Canvas) -> String {
+    let differ = [
+        ("the size", planned.size() != there.size()),
+        ("the antialiasing", planned.antialias != there.antialias),
+        ("the depth format", planned.depth != there.depth),
+    ];
+    let names: Vec<_> = differ.iter().filter(|(_, differ)| *differ).map(|(name, _)| *name).collect();
+    format!("so that {} {}", names.join(" and "), if names.len() == 1 { "differs" } else { "differ" })
 }
 
 impl std::error::Error for Misfit {}
@@ -110,6 +163,9 @@ pub(super) fn fit<'a>(
     scene: &'a Scene,
     target: &Target,
 ) -> Result<Assembled<'a>, Misfit> {
+    if plan.version != VERSION {
+        return Err(Misfit::Version(Some(plan.version.into())));
+    }
     let there = Canvas { watched: plan.canvas.watched, ..Canvas::of(target) };
     if plan.canvas != there {
         return Err(Misfit::Canvas { planned: plan.canvas, there });
@@ -117,6 +173,12 @@ pub(super) fn fit<'a>(
     let (planned, there) = (plan.items.len(), scene.items.len());
     if planned != there {
         return Err(Misfit::Items { planned, there });
+    }
+    for (item, plan) in plan.items.iter().enumerate() {
+        let attributes = plan.interpolates().without(plan.carries);
+        if !attributes.is_empty() {
+            return Err(Misfit::NotCarried { item, attributes });
+        }
     }
     let window = plan.drawn().window();
     if let Clear::Tiles(tiles) = &plan.frame.clear
@@ -126,6 +188,10 @@ pub(super) fn fit<'a>(
         return Err(Misfit::Tile(*tile));
     }
     let mut assembled = Assembled::new(scene, plan)?;
+    let there = SceneDigest::of(scene);
+    if plan.scene != Some(there) {
+        return Err(Misfit::OtherScene { planned: plan.scene, there });
+    }
     let lists = |item: &ItemPlan| matches!(item.pieces, Pieces::Listed(_));
     if plan.items.iter().any(lists) || plan.frame.order == Order::FarthestFirst {
         assembled.assemble(scene);

@@ -21,6 +21,7 @@ mod planner;
 pub mod render;
 pub mod rivals;
 mod samples;
+mod scene_digest;
 #[cfg(feature = "host")]
 pub(crate) mod whole;
 

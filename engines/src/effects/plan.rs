@@ -10,10 +10,15 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
+pub use super::scene_digest::SceneDigest;
 use super::{Effect, Mode};
 use crate::grid::PixelRect;
 use crate::pipeline::depth::DepthFormat;
 use crate::pipeline::target::{Antialias, Target};
+
+/// The form of plans that this program writes and reads. It changes when a word of a plan gets another
+/// meaning.
+pub const VERSION: u32 = 1;
 
 /// What is drawn into, as far as a plan depends on it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -70,8 +75,17 @@ impl Canvas {
 impl fmt::Display for Canvas {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { width, height, antialias, depth, .. } = self;
-        let (samples, depth) = (antialias.samples(), depth.name());
-        write!(f, "{width} x {height} px, {samples} samples each, depths as {depth}")
+        let (antialias, depth) = (name_of(*antialias), depth.name());
+        write!(f, "{width} x {height} px, antialiasing {antialias}, depths as {depth}")
+    }
+}
+
+/// The name of an antialiasing on the command line.
+fn name_of(antialias: Antialias) -> String {
+    match antialias {
+        Antialias::None => "none".to_owned(),
+        Antialias::Multisample4 => "msaa4".to_owned(),
+        Antialias::Supersample(side) => format!("ssaa{side}"),
     }
 }
 
@@ -116,6 +130,19 @@ impl Attributes {
 
     pub(super) fn both(self, other: Self) -> Self {
         Self(self.0 & other.0)
+    }
+
+    pub(super) fn without(self, other: Self) -> Self {
+        Self(self.0 & !other.0)
+    }
+}
+
+impl fmt::Display for Attributes {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let names = [(Self::COLOUR, "colour"), (Self::NORMAL, "normal"), (Self::UV, "uv")];
+        let names: Vec<_> =
+            names.into_iter().filter(|(bit, _)| self.has(*bit)).map(|(_, name)| name).collect();
+        f.write_str(&names.join(" and "))
     }
 }
 
@@ -271,6 +298,33 @@ pub struct FramePlan {
     pub second_buffer: bool,
 }
 
+/// What the numbers of a [`Decision`] count.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Unit {
+    /// Triangles of the scene.
+    Triangles,
+    /// What is left of the triangles in the window.
+    Pieces,
+    /// Pixels of the picture.
+    Pixels,
+    /// Samples of all pixels.
+    Samples,
+}
+
+impl Unit {
+    /// Its name in a plan.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Triangles => "triangles",
+            Self::Pieces => "pieces",
+            Self::Pixels => "pixels",
+            Self::Samples => "samples",
+        }
+    }
+}
+
 /// One line of a plan's account.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -279,8 +333,9 @@ pub struct Decision {
     pub effect: Effect,
     /// The item it is about; of the whole frame where there is none.
     pub item: Option<usize>,
-    /// Pieces that pay for it, or triangles where pieces come as they are drawn; triangles for clip
-    /// and cull, pixels for samples and the second buffer, samples for clear and the depth buffer.
+    /// What is counted.
+    pub unit: Unit,
+    /// How many pay for it.
     pub on: u64,
     /// Those that do without.
     pub off: u64,
@@ -294,14 +349,33 @@ pub struct Decision {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Plan {
+    /// The form of the plan, [`VERSION`].
+    pub version: u32,
+    /// The scene that the plan was made for. Nothing in the plan that a frame reports: plan and frame
+    /// are of one scene there, and to take the digest would cost more than some plans save. Such a plan
+    /// cannot be executed.
+    pub scene: Option<SceneDigest>,
     /// What is drawn into.
     pub canvas: Canvas,
     /// Of the frame.
     pub frame: FramePlan,
     /// Of each item.
     pub items: Vec<ItemPlan>,
-    /// The account for people, which is not followed.
+    /// The account for people, which is not followed and may be missing.
+    #[serde(default)]
     pub decisions: Vec<Decision>,
+}
+
+impl ItemPlan {
+    /// The attributes that some piece interpolates.
+    pub(super) fn interpolates(&self) -> Attributes {
+        match &self.pieces {
+            Pieces::AsTheyCome(rule) => rule.interpolates,
+            Pieces::Listed(runs) => {
+                Attributes(runs.iter().fold(0, |bits, (_, plan)| bits | plan.interpolates.0))
+            }
+        }
+    }
 }
 
 impl Plan {

@@ -8,7 +8,7 @@ use super::conditions::{
 };
 use super::piece::{BadScene, Piece};
 use super::plan::{
-    Canvas, Clear, Decision, FramePlan, ItemPlan, Order, PiecePlan, Pieces, Plan, Rule,
+    Canvas, Clear, Decision, FramePlan, ItemPlan, Order, PiecePlan, Pieces, Plan, Rule, VERSION,
 };
 use super::{Effect, Effects, Mode};
 use crate::scene::{Hidden, Scene};
@@ -85,6 +85,8 @@ fn outset(scene: &Scene, canvas: &Canvas, effects: &Effects) -> Plan {
         }
     };
     Plan {
+        version: VERSION,
+        scene: None,
         canvas: *canvas,
         frame: FramePlan {
             order,

@@ -5,7 +5,7 @@ pub use super::piece::BadScene;
 
 use super::execute::{Onlooker, draw, fit};
 use super::kernel::Kernel;
-use super::plan::{Canvas, PiecePlan, Plan};
+use super::plan::{Canvas, PiecePlan, Plan, SceneDigest};
 use super::planner;
 use super::{Effect, Effects, Mode};
 use crate::contract::{DrawLine, Interpolate, Rasterize};
@@ -28,7 +28,8 @@ pub fn plan(
     canvas: &Canvas,
 ) -> Result<Plan, BadScene> {
     let word_bits = |corners: &_| engine.word_bits(corners);
-    Ok(planner::plan(scene, canvas, effects, &word_bits)?.0)
+    let (plan, _) = planner::plan(scene, canvas, effects, &word_bits)?;
+    Ok(Plan { scene: Some(SceneDigest::of(scene)), ..plan })
 }
 
 /// Draws a scene into a target by a plan, word for word; what the target held before is last

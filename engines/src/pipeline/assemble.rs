@@ -156,7 +156,7 @@ pub struct Assembler {
     cull: Cull,
     /// Planes that every triangle is cut by, asked for or not; the rest only where a vertex is out.
     always: Outcode,
-    /// Planes that are never asked about: a claim that no triangle crosses them.
+    /// Planes that cut no triangle: a claim that none crosses them.
     never: Outcode,
     /// Ask for the winding even where nothing is left out.
     asks: bool,
@@ -175,7 +175,8 @@ impl Assembler {
         Self { always: Outcode::MAX, ..self }
     }
 
-    /// Forgets planes, whatever crosses them. Wrong wherever something does.
+    /// Cuts by none of these planes, whatever crosses them, which is wrong wherever something does. A
+    /// triangle that lies outside one of them altogether is rejected all the same.
     #[must_use]
     pub fn without_planes(self, never: Outcode) -> Self {
         Self { never, ..self }
@@ -198,8 +199,8 @@ impl Assembler {
     #[must_use]
     pub fn point(&self, position: DVec4) -> Point {
         let vertex = ClipVertex { position, varying: () };
-        let code = clip::outcode(&vertex) & !self.never;
-        let is_placed = code == 0 && self.always & !self.never == 0;
+        let code = clip::outcode(&vertex);
+        let is_placed = (code | self.always) & !self.never == 0;
         let place = if is_placed { self.viewport.place(&vertex).ok() } else { None };
         Point { position, code, place }
     }
@@ -219,8 +220,8 @@ impl Assembler {
             counters.rejected += 1;
             return;
         }
-        let crossed = a.code | b.code | c.code;
-        let planes = (crossed | self.always) & !self.never;
+        let crossed = (a.code | b.code | c.code) & !self.never;
+        let planes = crossed | (self.always & !self.never);
         if planes == 0 {
             // What a forgotten plane leaves outside the domain cannot be drawn; it is left out.
             let (Some(a), Some(b), Some(c)) = (a.place, b.place, c.place) else { return };

@@ -7,6 +7,7 @@ use super::survey::Survey;
 use crate::effects::piece::is_lit;
 use crate::effects::plan::{Attributes, Decision};
 use crate::effects::{Effect, Effects};
+use crate::pipeline::shade::Light;
 use crate::scene::{Item, Scene, Shading};
 
 /// The effects, the attributes they need, and what they are called.
@@ -32,14 +33,27 @@ pub fn carries(scene: &Scene, item: &Item, effects: &Effects) -> Attributes {
     Attributes(ALL.into_iter().filter(paid).fold(0, |bits, (_, bit, _)| bits | bit))
 }
 
+/// Why an item does without.
+fn unused(survey: &Survey<'_>, effect: Effect) -> &'static str {
+    let is_gouraud = survey.item.material.shading == Shading::Gouraud;
+    match effect {
+        Effect::Light if survey.scene.light == Light::NONE => "the scene has no light",
+        Effect::Light if is_gouraud => "Gouraud: the light is in the colours of the corners",
+        Effect::Light => "the material is unlit",
+        Effect::Texture => "the material has no texture",
+        _ => "the material uses no colours of its corners",
+    }
+}
+
 pub fn explain<'a>(survey: &'a Survey<'_>) -> impl Iterator<Item = Decision> + 'a {
     let pieces = survey.pieces;
     ALL.into_iter().zip(survey.interpolated).map(move |((effect, bit, what), varies)| {
         let reason = match (uses(survey.scene, survey.item, effect), survey.is_listed, varies) {
-            (false, ..) => format!("the material has no {what}"),
+            (false, ..) => unused(survey, effect).to_owned(),
             (true, false, _) => format!("{what}: interpolated where it varies"),
             (true, true, 0) => format!("{what}: one for each triangle"),
-            (true, true, _) => format!("{what}: varies in {varies} of {pieces} pieces"),
+            (true, true, _) if varies == pieces => format!("{what}: varies in every piece"),
+            (true, true, _) => format!("{what}: varies in some pieces"),
         };
         survey.decide(effect, if survey.carries.has(bit) { pieces } else { 0 }, reason)
     })

@@ -3,6 +3,9 @@
 //! Left out for each plane that has no corner of the triangle on its other side (outcodes). The
 //! clipper walks the polygon and adds a corner at each change of side: without a change it returns
 //! what it got.
+//!
+//! A triangle that lies outside one plane altogether is *rejected*, which is not cutting: it is counted
+//! apart, and no mode of the effect switches it off.
 
 use super::survey::of_frame;
 use crate::effects::plan::{Decision, Plan};
@@ -18,7 +21,7 @@ pub fn explain(
 ) -> Decision {
     let mode = plan.items.first().map_or(effects.mode(Effect::Clip), |item| item.clip);
     let decide = |counts, reason: String| of_frame(effects, Effect::Clip, counts, reason);
-    let Some(&Counters { clipped, rejected, .. }) = seen else {
+    let Some(&Counters { triangles, clipped, rejected, .. }) = seen else {
         let counts = match mode {
             Mode::Planned | Mode::Material => [0, 0, triangles],
             Mode::Always => [triangles, 0, 0],
@@ -26,15 +29,18 @@ pub fn explain(
         };
         return decide(counts, "each triangle is cut by the planes that it crosses".to_owned());
     };
-    let reason = match (clipped, rejected) {
-        (0, 0) => "no corner lies outside the view volume".to_owned(),
-        (0, _) => format!("{rejected} triangles lie outside one plane altogether; none is cut"),
-        _ => format!("{clipped} of {triangles} triangles cross a plane, {rejected} lie outside"),
-    };
+    let left = triangles.saturating_sub(rejected);
     let on = match mode {
         Mode::Planned | Mode::Material => clipped,
-        Mode::Always => triangles - rejected,
+        Mode::Always => left,
         Mode::Never => 0,
     };
-    decide([on, triangles - on, 0], reason)
+    let mut decision = decide(
+        [on, left.saturating_sub(on), 0],
+        if on == 0 { "no triangle crosses a plane" } else { "those that cross a plane" }.to_owned(),
+    );
+    if rejected > 0 {
+        decision.reason += &format!("; {rejected} more are rejected, outside one plane altogether");
+    }
+    decision
 }

@@ -44,7 +44,8 @@ pub fn explain(survey: &Survey<'_>) -> Decision {
     }
     let reason = match depth {
         0 => "no bounding box of another piece meets this item's".to_owned(),
-        _ => format!("{depth} of {pieces} pieces may overlap others"),
+        _ if depth == pieces => "every piece may overlap another".to_owned(),
+        _ => "some pieces may overlap others".to_owned(),
     };
     survey.decide(Effect::Depth, depth, reason)
 }

@@ -60,6 +60,10 @@ pub fn explain(survey: &Survey<'_>) -> Decision {
         let reason = "attributes that differ between the corners";
         return survey.leave_open(Effect::Interpolation, reason);
     }
-    let reason = format!("{any_interpolated} of {pieces} pieces have an attribute that varies");
+    let reason = match any_interpolated {
+        0 => "no piece has an attribute that varies",
+        _ if any_interpolated == pieces => "every piece has an attribute that varies",
+        _ => "some pieces have an attribute that varies",
+    };
     survey.decide(Effect::Interpolation, any_interpolated, reason)
 }

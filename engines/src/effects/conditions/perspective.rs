@@ -35,9 +35,10 @@ pub fn explain(survey: &Survey<'_>) -> Decision {
         return survey.leave_open(Effect::Perspective, "where w differs between the corners");
     }
     let reason = match (any_interpolated, one_w == pieces) {
-        (0, _) => "only depth varies, which is linear in the window".to_owned(),
-        (_, true) => "w is the same at the three corners of every piece".to_owned(),
-        _ => format!("w differs between corners in {} of {pieces} pieces", pieces - one_w),
+        (0, _) => "only depth varies, which is linear in the window",
+        (_, true) => "w is the same at the three corners of every piece",
+        _ if perspective == pieces => "w differs between the corners of every piece",
+        _ => "some pieces have attributes that vary and corners whose w differ",
     };
     survey.decide(Effect::Perspective, perspective, reason)
 }

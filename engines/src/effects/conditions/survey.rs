@@ -1,7 +1,10 @@
 //! What was found out about the pieces of an item before drawing, and how it becomes a decision.
+//!
+//! A reason names no number of its own: decisions of several items with the same reason are shown as
+//! one line, whose counts are sums.
 
 use crate::effects::piece::{Piece, has_one_w};
-use crate::effects::plan::{Attributes, Decision, PiecePlan};
+use crate::effects::plan::{Attributes, Decision, PiecePlan, Unit};
 use crate::effects::{Effect, Effects, Mode};
 use crate::scene::{Item, Scene};
 
@@ -76,7 +79,8 @@ impl<'a> Survey<'a> {
     pub fn decide_triangles(&self, effect: Effect, pays: bool, reason: &str) -> Decision {
         let triangles = self.item.mesh.triangles.len() as u64;
         let counts = if pays { [triangles, 0, 0] } else { [0, triangles, 0] };
-        self.decision(effect, counts, reason.to_owned())
+        let decision = self.decision(effect, counts, reason.to_owned());
+        Decision { unit: Unit::Triangles, ..decision }
     }
 
     /// A decision that is left to a policy, except where a mode settles it.
@@ -91,7 +95,8 @@ impl<'a> Survey<'a> {
 
     fn decision(&self, effect: Effect, [on, off, open]: [u64; 3], reason: String) -> Decision {
         let reason = asked_for(self.effects.mode(effect), reason);
-        Decision { effect, item: Some(self.index), on, off, open, reason }
+        let unit = if self.is_listed { Unit::Pieces } else { Unit::Triangles };
+        Decision { effect, item: Some(self.index), unit, on, off, open, reason }
     }
 }
 
@@ -99,7 +104,12 @@ impl<'a> Survey<'a> {
 pub fn of_frame(effects: &Effects, effect: Effect, counts: [u64; 3], reason: String) -> Decision {
     let [on, off, open] = counts;
     let reason = asked_for(effects.mode(effect), reason);
-    Decision { effect, item: None, on, off, open, reason }
+    let unit = match effect {
+        Effect::Clear | Effect::DepthBuffer => Unit::Samples,
+        Effect::Samples | Effect::SecondBuffer => Unit::Pixels,
+        _ => Unit::Triangles,
+    };
+    Decision { effect, item: None, unit, on, off, open, reason }
 }
 
 /// The reason, unless an order was one.

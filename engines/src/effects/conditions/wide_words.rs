@@ -17,7 +17,8 @@ pub fn explain(survey: &Survey<'_>) -> Decision {
     }
     let reason = match wide {
         0 => "32 bits hold the edge functions of every piece".to_owned(),
-        _ => format!("{wide} of {pieces} pieces are too large for 32 bits"),
+        _ if wide == pieces => "every piece is too large for 32 bits".to_owned(),
+        _ => "some pieces are too large for 32 bits".to_owned(),
     };
     survey.decide(Effect::WideWords, wide, reason)
 }

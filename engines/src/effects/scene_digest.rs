@@ -1,0 +1,176 @@
+//! A digest of a scene, by which the plan of another one is recognized.
+
+use std::fmt;
+
+use glam::DVec3;
+use serde::{Deserialize, Serialize};
+
+use crate::pipeline::assemble::Cull;
+use crate::pipeline::shade::Light;
+use crate::scene::{Corner, Hidden, Item, Material, Scene, Shading};
+
+/// 64 bits of all that a plan depends on in a scene: meshes with their attributes, where they are and how
+/// they are seen, materials, light, and how what is hidden is found out. The texels of a texture are not
+/// among it, only whether there is one; nor are the names of the scene.
+///
+/// It recognizes a mistake. It is no protection from somebody who looks for two scenes with one digest.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(into = "String", try_from = "String")]
+pub struct SceneDigest(u64);
+
+impl SceneDigest {
+    /// The digest of a scene.
+    #[must_use]
+    pub fn of(scene: &Scene) -> Self {
+        // Every field is named, so that a new one is considered.
+        let Scene {
+            name: _,
+            about: _,
+            items,
+            view,
+            projection,
+            light: Light { towards, ambient, diffuse },
+            background,
+            hidden,
+            affine,
+        } = scene;
+        let mut words = Words(0);
+        words.numbers(&view.to_cols_array());
+        words.numbers(&projection.to_cols_array());
+        words.point(*towards);
+        words.numbers(&[*ambient, *diffuse]);
+        words.whole(u32::from_le_bytes(*background).into());
+        words.whole(match hidden {
+            Hidden::DepthBuffer => 0,
+            Hidden::Painter => 1,
+        });
+        words.whole((*affine).into());
+        words.whole(items.len() as u64);
+        for item in items {
+            words.item(item);
+        }
+        Self(words.0)
+    }
+}
+
+impl fmt::Display for SceneDigest {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:016x}", self.0)
+    }
+}
+
+impl From<SceneDigest> for String {
+    fn from(digest: SceneDigest) -> Self {
+        digest.to_string()
+    }
+}
+
+impl TryFrom<String> for SceneDigest {
+    type Error = &'static str;
+
+    fn try_from(text: String) -> Result<Self, Self::Error> {
+        let is_hex = text.len() == 16 && text.bytes().all(|byte| byte.is_ascii_hexdigit());
+        let digest = u64::from_str_radix(&text, 16).ok().filter(|_| is_hex);
+        digest.map(Self).ok_or("a digest of a scene has 16 hexadecimal digits")
+    }
+}
+
+/// Words mixed into one, each by the finalizer of SplitMix64 (Steele, Lea, Flood 2014).
+struct Words(u64);
+
+impl Words {
+    fn whole(&mut self, word: u64) {
+        let z = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15) ^ word;
+        let z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        self.0 = z ^ (z >> 31);
+    }
+
+    fn numbers(&mut self, numbers: &[f64]) {
+        numbers.iter().for_each(|number| self.whole(number.to_bits()));
+    }
+
+    fn point(&mut self, point: DVec3) {
+        self.numbers(&point.to_array());
+    }
+
+    fn item(&mut self, item: &Item) {
+        let Item { mesh, model, material, cull } = item;
+        let Material { colour, vertex_colours, texture, shading } = material;
+        self.numbers(&model.to_cols_array());
+        self.point(*colour);
+        self.whole((*vertex_colours).into());
+        self.whole(texture.is_some().into());
+        self.whole(match shading {
+            Shading::Unlit => 0,
+            Shading::Flat => 1,
+            Shading::Gouraud => 2,
+            Shading::Phong => 3,
+        });
+        self.whole(match cull {
+            Cull::None => 0,
+            Cull::Clockwise => 1,
+            Cull::CounterClockwise => 2,
+        });
+        self.whole(mesh.positions.len() as u64);
+        mesh.positions.iter().for_each(|position| self.point(*position));
+        self.whole(mesh.triangles.len() as u64);
+        for Corner { position, colour, normal, uv } in mesh.triangles.as_flattened() {
+            self.whole((*position).into());
+            self.point(*colour);
+            self.point(*normal);
+            self.numbers(&uv.to_array());
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DMat4;
+
+    use super::*;
+    use crate::scene::shapes;
+
+    #[test]
+    fn whatever_a_plan_depends_on_changes_the_digest() {
+        let mesh = || shapes::quad([DVec3::ZERO, DVec3::X, DVec3::ONE, DVec3::Y]);
+        let scene = || {
+            let mut scene = Scene::new("a", "", DMat4::IDENTITY);
+            scene.items = vec![Item::new(mesh(), Material::default())];
+            scene
+        };
+        let digest = SceneDigest::of(&scene());
+        let renamed = Scene { name: "b".to_owned(), ..scene() };
+        assert_eq!(SceneDigest::of(&renamed), digest);
+        type Change = fn(&mut Scene);
+        let changes: [(&str, Change); 9] = [
+            ("turned", |scene| scene.items[0].model = DMat4::from_rotation_y(0.1)),
+            ("another eye", |scene| scene.view = DMat4::from_rotation_x(0.1)),
+            ("another angle of view", |scene| scene.projection.x_axis.x = 2.0),
+            ("lit", |scene| scene.light.ambient = 0.5),
+            ("shading", |scene| scene.items[0].material.shading = Shading::Phong),
+            ("culled", |scene| scene.items[0].cull = Cull::Clockwise),
+            ("painted", |scene| scene.hidden = Hidden::Painter),
+            ("twice", |scene| scene.items.push(scene.items[0].clone())),
+            ("a colour of a corner", |scene| {
+                std::sync::Arc::make_mut(&mut scene.items[0].mesh).triangles[1][2].colour.x = 0.5;
+            }),
+        ];
+        for (what, change) in changes {
+            let mut other = scene();
+            change(&mut other);
+            assert_ne!(SceneDigest::of(&other), digest, "{what}");
+        }
+    }
+
+    #[test]
+    fn a_digest_is_read_as_it_is_written() {
+        let digest = SceneDigest(0x0123_4567_89ab_cdef);
+        let text = serde_json::to_string(&digest).unwrap();
+        assert_eq!(text, "\"0123456789abcdef\"");
+        assert_eq!(serde_json::from_str::<SceneDigest>(&text).unwrap(), digest);
+        for wrong in ["\"\"", "\"+123456789abcdef\"", "\"12\"", "12"] {
+            assert!(serde_json::from_str::<SceneDigest>(wrong).is_err(), "{wrong}");
+        }
+    }
+}
