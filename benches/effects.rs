@@ -21,13 +21,13 @@
 use std::process::ExitCode;
 
 use glam::{DVec2, DVec3};
-use rasterproof::hazard::Rng;
-use rasterproof::pipeline::shade::Light;
-use rasterproof::pipeline::transform::{look_at, perspective};
 use rasterproof::effects::Effects;
+use rasterproof::hazard::Rng;
 use rasterproof::lineup::Drawer;
 use rasterproof::pipeline::depth::DepthFormat;
+use rasterproof::pipeline::shade::Light;
 use rasterproof::pipeline::target::{Antialias, Target};
+use rasterproof::pipeline::transform::{look_at, perspective};
 use rasterproof::scene::chapters::{SCENES, scene};
 use rasterproof::scene::{Corner, Item, Material, Mesh, Scene, Shading, meshes, random, shapes};
 use rustix::time::{ClockId, clock_gettime};
@@ -198,8 +198,7 @@ fn slivers_scene(mesh: Mesh) -> Scene {
     scene.view = look_at(eye, DVec3::ZERO, DVec3::Y).expect("an eye in front of it");
     let towards = DVec3::new(-0.4, 0.7, -0.6).normalize();
     scene.light = Light { towards, ambient: 0.25, diffuse: 0.75 };
-    let material =
-        Material { shading: Shading::Flat, vertex_colours: true, ..Material::default() };
+    let material = Material { shading: Shading::Flat, vertex_colours: true, ..Material::default() };
     scene.items = vec![Item::new(mesh, material)];
     scene
 }
@@ -313,9 +312,8 @@ fn random_scenes(
         }
     }
     let [all, usual, planned] = sums;
-    let least = worst.map(|(share, index, seed)| {
-        format!("{:.2} (scene {index} of seed {seed})", 1.0 / share)
-    });
+    let least = worst
+        .map(|(share, index, seed)| format!("{:.2} (scene {index} of seed {seed})", 1.0 / share));
     println!(
         "{:<34} {all:>8.2} {usual:>8.2} {planned:>8.2} {:>7.2} {:>7.2}   least {}",
         format!("{} {} {word} {}", SEEDS.len() as u64 * EACH, family.name, drawer.name()),

@@ -82,3 +82,34 @@ pub(super) fn plan_rows(decisions: &[Decision]) -> Vec<PlanRow> {
     };
     grouped(decisions).into_iter().map(row).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn decision(item: usize, [on, off]: [u64; 2]) -> Decision {
+        let reason = "asked for everywhere".to_owned();
+        let (effect, unit) = (Effect::Depth, Unit::Pieces);
+        Decision { effect, item: Some(item), unit, on, off, open: 0, reason }
+    }
+
+    #[test]
+    fn unlike_items_are_not_merged() {
+        let decisions =
+            [decision(0, [2, 0]), decision(1, [0, 5]), decision(2, [3, 0]), decision(3, [1, 1])];
+        let lines: Vec<_> = grouped(&decisions).iter().map(|l| (l.items(), l.counts)).collect();
+        let expected = [("0,2", [5, 0, 0]), ("1", [0, 5, 0]), ("3", [1, 1, 0])];
+        assert_eq!(lines, expected.map(|(items, counts)| (items.to_owned(), counts)));
+    }
+
+    #[test]
+    fn items_are_ranges_or_a_number() {
+        let items = |items: &[usize]| {
+            let decisions: Vec<_> = items.iter().map(|item| decision(*item, [1, 0])).collect();
+            grouped(&decisions)[0].items()
+        };
+        assert_eq!(items(&[0, 1, 2, 5]), "0-2,5");
+        assert_eq!(items(&[4]), "4");
+        assert_eq!(items(&[0, 2, 4, 6, 8, 10]), "6 items");
+    }
+}

@@ -8,7 +8,7 @@ use super::page::{PageArguments, write_page};
 use super::progress::Progress;
 use super::render::SceneArguments;
 use super::{Failure, Streams, exit, program, usage};
-use crate::effects::plan::Canvas;
+use crate::effects::plan::{Plan, SceneDigest};
 use crate::effects::render::Rendered;
 use crate::effects::{Effect, Effects, Mode};
 use crate::lineup::Drawer;
@@ -172,11 +172,8 @@ pub fn run(arguments: &PlanArguments, streams: &mut Streams<'_>) -> Result<u8, F
     let (measured, everything, planned) = measure(arguments, &scene, streams.progress)?;
     let same = measured.all().all(|mixture| mixture.same);
     if arguments.json {
-        // The same plan with the digest of its scene, so that it can be drawn by.
-        let canvas = Canvas::of(&arguments.what.target()?);
-        let plan = Drawer::from(arguments.engine)
-            .plan(&scene, &Effects::PLANNED, &canvas)
-            .map_err(|error| usage(error.to_string()))?;
+        // With its scene it can be drawn by.
+        let plan = Plan { scene: Some(SceneDigest::of(&scene)), ..planned.plan.clone() };
         let json = serde_json::json!({
             "scene": scene.name,
             "plan": plan,

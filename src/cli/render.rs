@@ -14,7 +14,7 @@ use super::page::{PageArguments, write_page};
 use super::progress::Progress;
 use super::{Failure, Streams, exit, program, usage, write_file};
 use crate::angle::{atan, cos, sin, tan, turn_y};
-use crate::effects::plan::{Plan, VERSION};
+use crate::effects::plan::{Plan, SceneDigest, VERSION};
 use crate::effects::render::{BadScene, Misfit, Rendered};
 use crate::effects::{Effect, Effects, Mode};
 use crate::frame::Frame;
@@ -424,17 +424,21 @@ pub fn run(arguments: &RenderArguments, streams: &mut Streams<'_>) -> Result<u8,
     if arguments.map {
         return map(arguments, &scene, &output, streams);
     }
-    let drawings = draw(arguments, &scene, &progress)?;
+    let mut drawings = draw(arguments, &scene, &progress)?;
     let mut written = write_file(&output, &frames::png(&drawings[0].rendered.picture)?);
     let comparison = compare(&scene, &drawings, arguments.plan.is_some())?;
     drop(progress);
     let difference = output.with_extension("difference.png");
-    let is_drawn = |c: &&Comparison| !c.agrees() || c.undecided > 0;
+    // What a plan changes in both frames alike is no difference between them.
+    let is_drawn =
+        |c: &&Comparison| !(c.agrees() || is_plan_alone(c, &drawings)) || c.undecided > 0;
     if let Some(comparison) = comparison.as_ref().filter(is_drawn) {
         let picture = frames::png(&comparison.picture)?;
         written = written.and_then(|()| write_file(&difference, &picture));
     }
     if arguments.json {
+        // With its scene the plan can be drawn by.
+        drawings[0].rendered.plan.scene = Some(SceneDigest::of(&scene));
         let json = frames::json(&scene.name, &names(&drawings), &drawings[0].rendered, &comparison);
         writeln!(streams.output, "{json}")?;
     } else {
@@ -453,6 +457,16 @@ pub fn run(arguments: &RenderArguments, streams: &mut Streams<'_>) -> Result<u8,
 
 fn names(drawings: &[Drawing]) -> Vec<&'static str> {
     drawings.iter().map(|drawing| drawing.name).collect()
+}
+
+/// Pixels that the plan of a file, or effects that were switched off, change.
+fn changed(drawings: &[Drawing]) -> u64 {
+    drawings.iter().map(|drawing| drawing.changed).max().unwrap_or(0)
+}
+
+/// Whether two frames are alike, and nothing but their plan is wrong.
+fn is_plan_alone(c: &Comparison, drawings: &[Drawing]) -> bool {
+    c.wrong_depths == 0 && c.wrong_pixels > 0 && c.wrong_pixels == changed(drawings)
 }
 
 /// Compares two drawings; ties are looked for where there are depths to look at.
@@ -474,7 +488,7 @@ fn compare(
     comparison.wrong_pixels += a.unplanned + b.unplanned;
     if follows_plan {
         // Two rasterizers that follow one wrong plan agree with each other, not with the scene.
-        comparison.wrong_pixels += a.changed.max(b.changed);
+        comparison.wrong_pixels += changed(drawings);
     }
     Ok(Some(comparison))
 }
@@ -525,8 +539,8 @@ fn read_plan(path: &Path) -> Result<Plan, Failure> {
     let refused = |error: &dyn std::fmt::Display| {
         usage(format!("{}: {}", printable_path(path), printable(&error.to_string())))
     };
-    let text = input::read_text(path, limits::DOCUMENT_BYTES)
-        .map_err(|error| usage(error.to_string()))?;
+    let text =
+        input::read_text(path, limits::DOCUMENT_BYTES).map_err(|error| usage(error.to_string()))?;
     let whole = serde_json::from_str::<serde_json::Value>(&text).map_err(|e| refused(&e))?;
     let plan = whole.get("plan").unwrap_or(&whole);
     // Before anything else: the words of another version are not misspelt.
@@ -579,7 +593,14 @@ fn draw(
         let whole = drawer.render(scene, &complete, &mut target).map_err(refused)?;
         let unplanned = frames::differing(&rendered.picture, &whole.picture);
         if is_free || unplanned == 0 {
-            return Ok(Drawing { name, rendered, target, unplanned, changed: 0, is_complete: true });
+            return Ok(Drawing {
+                name,
+                rendered,
+                target,
+                unplanned,
+                changed: 0,
+                is_complete: true,
+            });
         }
         // What was asked for changes the picture: the frame is compared as it is, without ties.
         let rendered = asked(&mut target)?;
@@ -620,7 +641,7 @@ fn describe(
     if is_empty(&drawings[0].rendered) {
         let _ = writeln!(text, "  EMPTY: nothing of it is seen; the picture is background alone");
     }
-    let changed = drawings.iter().map(|drawing| drawing.changed).max().unwrap_or(0);
+    let changed = changed(drawings);
     if changed > 0 {
         let _ = writeln!(text, "  what is switched off is called for: it changes {changed} pixels");
     }
@@ -632,6 +653,14 @@ fn describe(
                 text,
                 "AGREES: {names}, {} pixels and {} depths, 0 differ",
                 comparison.pixels, comparison.depths
+            );
+        }
+        Some(comparison) if is_plan_alone(comparison, drawings) => {
+            let names = names(drawings).join(" and ");
+            let _ = writeln!(
+                text,
+                "DISAGREES: {names} draw alike, and by this plan {} of {} pixels wrong; plan again",
+                comparison.wrong_pixels, comparison.pixels
             );
         }
         Some(comparison) => {

@@ -29,6 +29,7 @@ mod models;
 mod mutants;
 mod page;
 mod pages;
+mod plans;
 mod playground;
 mod playground_hands;
 mod proof;

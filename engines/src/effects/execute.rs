@@ -7,7 +7,8 @@ use super::assembled::{Assembled, plan_of};
 use super::kernel::Kernel;
 use super::piece::{BadScene, Piece, Prepared};
 use super::plan::{
-    Attributes, Canvas, Clear, ItemPlan, Order, PiecePlan, Pieces, Plan, Samples, SceneDigest, VERSION,
+    Attributes, Canvas, Clear, ItemPlan, Order, PiecePlan, Pieces, Plan, Samples, SceneDigest,
+    VERSION,
 };
 use super::samples::OnDemand;
 use crate::contract::Interpolate;
@@ -133,8 +134,13 @@ fn differences(planned: &Canvas, there: &Canvas) -> String {
         ("the antialiasing", planned.antialias != there.antialias),
         ("the depth format", planned.depth != there.depth),
     ];
-    let names: Vec<_> = differ.iter().filter(|(_, differ)| *differ).map(|(name, _)| *name).collect();
-    format!("so that {} {}", names.join(" and "), if names.len() == 1 { "differs" } else { "differ" })
+    let names: Vec<_> =
+        differ.iter().filter(|(_, differ)| *differ).map(|(name, _)| *name).collect();
+    format!(
+        "so that {} {}",
+        names.join(" and "),
+        if names.len() == 1 { "differs" } else { "differ" }
+    )
 }
 
 impl std::error::Error for Misfit {}

@@ -110,7 +110,7 @@ fn list(
 ) -> Vec<PiecePlan> {
     let apart =
         effects.mode(Effect::Depth) == Mode::Planned && plan.frame.order == Order::Submission;
-    let overlaps = apart.then(|| depth::overlaps(pieces, canvas.antialias));
+    let overlaps = apart.then(|| depth::overlaps(pieces, canvas));
     let rules: Vec<Option<Rule>> = plan
         .items
         .iter()

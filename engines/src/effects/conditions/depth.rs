@@ -7,7 +7,7 @@
 use super::survey::Survey;
 use crate::each::Each as _;
 use crate::effects::piece::{Piece, pixel_box};
-use crate::effects::plan::Decision;
+use crate::effects::plan::{Canvas, Decision};
 use crate::effects::{Effect, Effects, Mode};
 use crate::grid::{PixelRect, SubpixelPoint};
 use crate::pipeline::assemble::twice_area;
@@ -20,6 +20,13 @@ const MOST_TRIANGLES: usize = 2048;
 
 /// Comparisons for each box, on average, after which all are taken to overlap.
 const MOST_COMPARISONS: usize = 64;
+
+/// Boxes whose areas add up to so many times that of the window are all taken to overlap: boxes that are
+/// apart add up to once at most.
+const MOST_AREA: u64 = 2;
+
+/// If nearly all of the first boxes of the sweep meet another, all are taken to.
+const FIRST_BOXES: usize = 64;
 
 /// Whether it pays to list the pieces before anything is drawn.
 pub fn is_looked_at(scene: &Scene, effects: &Effects) -> bool {
@@ -58,10 +65,16 @@ struct Unit {
 
 /// Which pieces may hide or be hidden: compares all bounding boxes, by a sweep along the axis where
 /// they are shorter.
-pub fn overlaps(pieces: &[(usize, Piece)], antialias: Antialias) -> Vec<bool> {
+pub fn overlaps(pieces: &[(usize, Piece)], canvas: &Canvas) -> Vec<bool> {
     // Samples lie up to 6/16 px off the centre.
-    let margin_px = i32::from(antialias == Antialias::Multisample4);
+    let margin_px = i32::from(canvas.antialias == Antialias::Multisample4);
     let mut units = units(pieces, margin_px);
+    let window = canvas.window();
+    let area = |rect: &PixelRect| u64::from(rect.width()) * u64::from(rect.height());
+    let boxes: u64 = units.iter().map(|unit| area(&unit.rect.intersect(&window))).sum();
+    if units.len() > FIRST_BOXES && boxes > MOST_AREA * area(&window) {
+        return vec![true; pieces.len()];
+    }
     let sum = |side: fn(&PixelRect) -> u32| -> u64 {
         units.iter().map(|unit| u64::from(side(&unit.rect))).sum()
     };
@@ -73,7 +86,7 @@ pub fn overlaps(pieces: &[(usize, Piece)], antialias: Antialias) -> Vec<bool> {
     }
     units.sort_unstable_by_key(|unit| unit.rect.x0);
     let mut overlaps = vec![false; pieces.len()];
-    let mut comparisons = 0;
+    let (mut comparisons, mut met) = (0, 0);
     for (i, unit) in units.iter().enumerate() {
         let meets = units[i + 1..].iter().take_while(|other| other.rect.x0 < unit.rect.x1);
         for other in meets {
@@ -83,7 +96,9 @@ pub fn overlaps(pieces: &[(usize, Piece)], antialias: Antialias) -> Vec<bool> {
                 overlaps[other.pieces.clone()].fill(true);
             }
         }
-        if comparisons > MOST_COMPARISONS * units.len() {
+        met += usize::from(overlaps[unit.pieces.start]);
+        let nearly_all = i + 1 >= FIRST_BOXES && met * 8 > (i + 1) * 7;
+        if comparisons > MOST_COMPARISONS * units.len() || nearly_all {
             overlaps.fill(true);
             break;
         }

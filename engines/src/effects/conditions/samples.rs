@@ -31,6 +31,10 @@ const ASKED: u64 = 6;
 /// apart from the row.
 const ROW_ENDS: u64 = 350;
 
+/// So much each pixel at the border of a large flat piece, of which there are about as many as its box
+/// has columns and rows. Slivers, hair and blades of grass consist of nothing else.
+const BORDER: u64 = 16;
+
 /// What pieces would save and cost: how often small ones ask for pixels, and which; how much the
 /// others draw.
 pub struct Estimate {
@@ -40,8 +44,10 @@ pub struct Estimate {
     busy: Vec<bool>,
     /// Pixels in the boxes of small pieces, each as often as it is in one.
     asked: u64,
-    /// Pixels of the other pieces, where samples lie in planes.
+    /// Pixels of the other pieces, as far as they may stay whole.
     drawn: u64,
+    /// Pixels at the borders of flat ones.
+    borders: u64,
     /// Rows of those whose attributes vary.
     varying_rows: u64,
 }
@@ -51,22 +57,27 @@ impl Estimate {
         let squares = |side: u32| side.div_ceil(SQUARE_PX as u32) as usize;
         let (columns, rows) = (squares(canvas.width), squares(canvas.height));
         let busy = vec![false; columns * rows];
-        Self { canvas: *canvas, columns, busy, asked: 0, drawn: 0, varying_rows: 0 }
+        Self { canvas: *canvas, columns, busy, asked: 0, drawn: 0, borders: 0, varying_rows: 0 }
     }
 
     /// Takes a piece into account.
     pub fn see(&mut self, corners: &Corners, plan: PiecePlan) {
         let rect = touched(corners, self.canvas.antialias);
-        if self.see_box(rect, plan) || self.canvas.antialias.planes() == 1 {
+        if self.see_box(rect, plan) {
             return;
         }
         let rect = rect.intersect(&self.canvas.size());
-        let area =
-            twice_area(*corners).unsigned_abs() / 2 / u128::from(SUBPIXELS.unsigned_abs()).pow(2);
-        self.drawn += (u64::from(rect.width()) * u64::from(rect.height()))
-            .min(u64::try_from(area).unwrap_or(u64::MAX));
-        if !plan.interpolates.is_empty() {
-            self.varying_rows += u64::from(rect.height());
+        // The window of a supersampled picture has `scale` subpixels more on each side of a pixel.
+        let side = u128::from(SUBPIXELS.unsigned_abs() * self.canvas.antialias.scale());
+        let area = twice_area(*corners).unsigned_abs() / 2 / side.pow(2);
+        let (width, height) = (u64::from(rect.width()), u64::from(rect.height()));
+        let area = (width * height).min(u64::try_from(area).unwrap_or(u64::MAX));
+        if plan.interpolates.is_empty() {
+            self.borders += width + height;
+            self.drawn += area.saturating_sub(width + height);
+        } else {
+            self.drawn += area;
+            self.varying_rows += height;
         }
     }
 
@@ -119,7 +130,8 @@ impl Estimate {
         let busy = self.busy.iter().filter(|busy| **busy).count() as u64;
         let busy = busy * u64::from(SQUARE_PX.unsigned_abs()).pow(2);
         let saved = (self.canvas.pixels() + self.drawn) * (self.canvas.antialias.samples() - 1);
-        saved >= ASKED * (self.asked + busy) + ROW_ENDS * self.varying_rows
+        let borders = BORDER * self.borders + ROW_ENDS * self.varying_rows;
+        saved >= ASKED * (self.asked + busy) + borders
     }
 }
 

@@ -1,0 +1,262 @@
+//! Plans that are written and read by the program: of which scene they are, what is wrong with them, and
+//! how they are shown.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use glam::{DMat4, DVec3};
+use rasterproof::effects::plan::Canvas;
+use rasterproof::effects::{Effect, Effects, Mode};
+use rasterproof::lineup::Drawer;
+use rasterproof::pipeline::depth::DepthFormat;
+use rasterproof::pipeline::target::{Antialias, Target};
+use rasterproof::scene::chapters::{SCENES, scene};
+use rasterproof::scene::{Item, Material, Scene, shapes};
+use serde_json::{Value, json};
+
+/// Two squares that are apart as long as they are seen from the front.
+const SQUARES: &str = "v -1 -.5 0\nv -.2 -.5 0\nv -.2 .5 0\nv -1 .5 0\nv .2 -.5 -1.5\nv 1 -.5 -1\n\
+                       v 1 .5 -1\nv .2 .5 -1.5\nf 1 2 3\nf 1 3 4\nf 5 6 7\nf 5 7 8\n";
+
+/// As many triangles at other places.
+const OTHERS: &str = "v -1 -.5 0\nv -.2 -.5 0\nv -.2 .5 0\nv -1 .5 0\nv -.6 -.5 -1.5\nv 1 -.5 -1\n\
+                      v 1 .5 -1\nv -.6 .5 -1.5\nf 1 2 3\nf 1 3 4\nf 5 6 7\nf 5 7 8\n";
+
+const FRONT: [&str; 4] = ["--yaw", "0", "--pitch", "0"];
+
+/// A folder of its own with two models.
+fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("plans-{name}"));
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).unwrap();
+    fs::write(folder.join("squares.obj"), SQUARES).unwrap();
+    fs::write(folder.join("others.obj"), OTHERS).unwrap();
+    folder
+}
+
+fn run(folder: &Path, words: &[&str]) -> (Option<i32>, String, String) {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_rasterproof"));
+    let output = command.args(words).current_dir(folder).env_remove("COLUMNS").output().unwrap();
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    (output.status.code(), text(output.stdout), text(output.stderr))
+}
+
+/// The plan of a model, small and from the front unless the words say otherwise.
+fn plan(folder: &Path, words: &[&str]) -> Value {
+    let words = [&["plan", "--json", "--rounds", "1", "--size", "160x120"], words].concat();
+    let (status, out, errors) = run(folder, &words);
+    assert_eq!(status, Some(0), "{errors}");
+    serde_json::from_str::<Value>(&out).unwrap()["plan"].take()
+}
+
+/// Draws by a plan.
+fn render(folder: &Path, plan: &Value, words: &[&str]) -> (Option<i32>, String, String) {
+    fs::write(folder.join("plan.json"), plan.to_string()).unwrap();
+    let words = [&["render", "--plan", "plan.json", "-o", "a.png", "--size", "160x120"], words];
+    run(folder, &words.concat())
+}
+
+fn with<'a>(model: &'a str, more: &[&'a str]) -> Vec<&'a str> {
+    [&[model], &FRONT[..], more].concat()
+}
+
+#[test]
+fn a_plan_is_of_one_scene_seen_from_one_place() {
+    let folder = folder("scene");
+    let plan = plan(&folder, &with("squares.obj", &[]));
+    let (status, out, _) = render(&folder, &plan, &with("squares.obj", &[]));
+    assert_eq!(status, Some(0));
+    assert!(out.contains("AGREES"), "{out}");
+    // So can the plan that a drawn picture comes with.
+    let (_, out, _) = render(&folder, &plan, &with("squares.obj", &["--json"]));
+    let drawn: Value = serde_json::from_str(&out).unwrap();
+    let (status, out, _) = render(&folder, &drawn, &with("squares.obj", &[]));
+    assert_eq!(status, Some(0), "{out}");
+    fs::remove_file(folder.join("a.png")).unwrap();
+    let seen = |words: &[&'static str]| [&["squares.obj"], words].concat();
+    for (words, part) in [
+        (seen(&["--yaw", "40", "--pitch", "0"]), "for the same one seen otherwise"),
+        (seen(&["--yaw", "0", "--pitch", "1"]), "for the same one seen otherwise"),
+        (with("squares.obj", &["--zoom", "1.5"]), "for the same one seen otherwise"),
+        (with("squares.obj", &["--shading", "flat"]), "for another scene"),
+        (with("squares.obj", &["--cull", "cw"]), "for another scene"),
+        (with("others.obj", &[]), "for another scene"),
+        (with("squares.obj", &["--aa", "ssaa2"]), "so that the antialiasing differs"),
+        (with("squares.obj", &["--depth", "f32"]), "so that the depth format differs"),
+    ] {
+        let (status, out, errors) = render(&folder, &plan, &words);
+        assert_eq!((status, out.as_str()), (Some(2), ""), "{words:?}");
+        assert!(errors.contains("plan.json: ") && errors.contains(part), "{words:?}: {errors}");
+        assert!(!folder.join("a.png").exists(), "{words:?}: something was drawn");
+    }
+}
+
+#[test]
+fn a_wrong_plan_never_agrees() {
+    let folder = folder("wrong");
+    let words = with("others.obj", &[]);
+    let mut plan = plan(&folder, &words);
+    let (status, out, _) = render(&folder, &plan, &words);
+    assert_eq!(status, Some(0), "{out}");
+    for run in plan["items"][0]["pieces"]["listed"].as_array_mut().unwrap() {
+        run[1]["depth"] = json!(false);
+    }
+    for piece in ["--engine=both", "--engine=scanline"] {
+        let (status, out, errors) = render(&folder, &plan, &[&words[..], &[piece]].concat());
+        assert!(!out.contains("AGREES") || out.contains("DISAGREES"), "{out}");
+        // One engine draws what the plan says.
+        assert_eq!(status, Some(i32::from(piece.ends_with("both"))), "{out}{errors}");
+    }
+    let (_, out, _) = render(&folder, &plan, &[&words[..], &["--json"]].concat());
+    let json: Value = serde_json::from_str(&out).unwrap();
+    assert_ne!(json["comparison"]["wrong_pixels"], json!(0), "{json}");
+}
+
+#[test]
+fn what_is_wrong_with_a_plan_is_named() {
+    let folder = folder("named");
+    let words = with("squares.obj", &[]);
+    let whole = plan(&folder, &words);
+    let rule = json!({"as-they-come": {
+        "interpolates": ["normal"],
+        "where_it_varies": true,
+        "perspective": "planned",
+        "depth": true,
+    }});
+    type Edit<'a> = &'a dyn Fn(&mut Value);
+    let with_rule = |edit: &dyn Fn(&mut Value)| {
+        let mut plan = whole.clone();
+        plan["items"][0]["pieces"] = rule.clone();
+        edit(&mut plan);
+        plan
+    };
+    // What is not followed is not needed.
+    let plan = with_rule(&|plan| drop(plan.as_object_mut().unwrap().remove("decisions")));
+    let (status, _, errors) = render(&folder, &plan, &words);
+    assert_eq!(status, Some(0), "{errors}");
+    let edits: [(Edit<'_>, &str); 8] = [
+        (&|plan| plan["items"][0]["carries"] = json!([]), "item 0 interpolate normal"),
+        (
+            &|plan| plan["items"][0]["pieces"]["as-they-come"]["depth"] = json!("yes"),
+            "items[0].pieces.as-they-come.depth: ",
+        ),
+        (
+            &|plan| plan["items"][0]["pieces"]["as-they-come"]["depht"] = json!(true),
+            "items[0].pieces.as-they-come.depht: ",
+        ),
+        (
+            &|plan| {
+                plan["items"][0]["pieces"]["as-they-come"].as_object_mut().unwrap().remove("depth");
+            },
+            "items[0].pieces.as-they-come: missing field `depth`",
+        ),
+        (&|plan| plan["scene"] = json!("a"), "scene: a digest of a scene"),
+        (&|plan| plan["scene"] = json!(null), "does not say which scene it is for"),
+        (&|plan| plan["version"] = json!(7), "the form of version 7"),
+        (&|plan| drop(plan.as_object_mut().unwrap().remove("version")), "not name its version"),
+    ];
+    for (edit, part) in edits {
+        let (status, out, errors) = render(&folder, &with_rule(edit), &words);
+        assert_eq!((status, out.as_str()), (Some(2), ""), "{part}: {errors}");
+        assert!(errors.contains(part), "{part}: {errors}");
+        assert!(!errors.contains("column"), "{errors}");
+    }
+    // Text of the file reaches the terminal printable.
+    let plan = with_rule(&|plan| plan["\u{1b}[31m"] = json!(1));
+    let (status, _, errors) = render(&folder, &plan, &words);
+    assert_eq!(status, Some(2));
+    assert!(!errors.contains('\u{1b}'), "{errors:?}");
+}
+
+#[test]
+fn options_that_would_be_ignored_are_refused() {
+    let folder = folder("ignored");
+    for words in
+        [&["--wireframe", "--effects", "all"][..], &["--map", "--json"], &["--spin", "2", "--json"]]
+    {
+        let all = [&["render", "squares.obj", "--size", "16x12", "-o", "a.png"], words].concat();
+        let (status, _, errors) = run(&folder, &all);
+        assert_eq!(status, Some(2), "{words:?}");
+        assert!(errors.contains("cannot be used with"), "{words:?}: {errors}");
+    }
+}
+
+/// A triangle in the window, and one that lies outside a plane altogether.
+fn one_inside_one_outside() -> Scene {
+    let triangle = |x: f64| {
+        let corners = [DVec3::ZERO, DVec3::X * 0.5, DVec3::Y * 0.5].map(|p| p + DVec3::X * x);
+        Item::new(shapes::triangle(corners, [DVec3::ONE; 3]), Material::default())
+    };
+    let mut scene = Scene::new("outside", "", DMat4::IDENTITY);
+    scene.items = vec![triangle(-0.2), triangle(5.0)];
+    // In front of the near plane, where its picture would lie in the window.
+    let mut near = triangle(-0.9);
+    near.model = DMat4::from_translation(DVec3::Z * -3.0);
+    scene.items.push(near);
+    scene
+}
+
+#[test]
+fn what_is_not_called_for_can_be_switched_off() {
+    let scene = one_inside_one_outside();
+    for drawer in Drawer::ALL {
+        let draw = |effects: &Effects| {
+            let mut target = Target::new(80, 60, Antialias::None, DepthFormat::Unorm32).unwrap();
+            drawer.render(&scene, effects, &mut target).unwrap()
+        };
+        let planned = draw(&Effects::PLANNED);
+        let clip = planned.plan.decisions.iter().find(|d| d.effect == Effect::Clip).unwrap();
+        assert_eq!((clip.on, clip.off, clip.open), (0, 1, 0), "{clip:?}");
+        assert!(clip.reason.ends_with("2 more are rejected, outside one plane altogether"));
+        let off = draw(&Effects::PLANNED.with(Effect::Clip, Mode::Never));
+        assert!(off.picture == planned.picture, "{}", drawer.name());
+        assert_eq!((off.counters.rejected, off.counters.clipped), (2, 0));
+    }
+}
+
+/// The counts of a row say what its reason says.
+#[test]
+fn reasons_and_counts_say_the_same() {
+    for (entry, antialias) in
+        SCENES.iter().flat_map(|entry| [(entry, Antialias::None), (entry, Antialias::Multisample4)])
+    {
+        let scene = scene(entry.name, 4.0 / 3.0, 0.0).unwrap();
+        let target = Target::new(160, 120, antialias, DepthFormat::Unorm32).unwrap();
+        let plan = Drawer::EdgeFunction.plan(&scene, &Effects::PLANNED, &Canvas::of(&target));
+        for d in plan.unwrap().decisions.into_iter().filter(|d| d.item.is_some()) {
+            let agrees = match d.reason.split(' ').next().unwrap() {
+                "every" => d.on > 0 && d.off == 0,
+                "some" => d.on > 0 && d.off > 0,
+                "no" => d.on == 0,
+                _ => true,
+            };
+            assert!(agrees, "{}: {d:?}", scene.name);
+            let is_counted = d.reason.starts_with(|first: char| first.is_ascii_digit());
+            assert!(!is_counted || d.effect == Effect::WideWords, "{}: {d:?}", scene.name);
+        }
+    }
+}
+
+#[test]
+fn a_plan_is_shown_in_80_columns_with_units() {
+    let folder = folder("shown");
+    for words in [&["panels"][..], &["facets", "--aa", "ssaa4"], &["squares.obj"]] {
+        let all = [&["plan", "--rounds", "1", "--size", "160x120"], words].concat();
+        let (status, out, errors) = run(&folder, &all);
+        assert_eq!(status, Some(0), "{errors}");
+        let table = out.lines().skip_while(|line| !line.starts_with("effect")).skip(1);
+        let rows: Vec<&str> = table.take_while(|line| !line.starts_with("open:")).collect();
+        assert!(rows.len() >= 26, "{out}");
+        for line in &rows {
+            assert!(line.chars().count() <= 80, "{line}");
+        }
+        let units = ["triangles", "pieces", "pixels", "samples"];
+        for row in rows.iter().filter(|row| !row.starts_with(' ')) {
+            assert!(units.iter().any(|unit| row.ends_with(unit)), "{row}");
+        }
+    }
+    let words = ["plan", "squares.obj", "--rounds", "1", "--size", "80x60", "--shading", "gouraud"];
+    let (_, out, _) = run(&folder, &words);
+    assert!(out.contains("Gouraud: the light is in the colours of the corners"), "{out}");
+}
