@@ -33,7 +33,7 @@ const ROW_ENDS: u64 = 350;
 
 /// So much each pixel at the border of a large flat piece, of which there are about as many as its box
 /// has columns and rows. Slivers, hair and blades of grass consist of nothing else.
-const BORDER: u64 = 16;
+const BORDER: u64 = 12;
 
 /// What pieces would save and cost: how often small ones ask for pixels, and which; how much the
 /// others draw.
@@ -131,7 +131,8 @@ impl Estimate {
         let busy = busy * u64::from(SQUARE_PX.unsigned_abs()).pow(2);
         let saved = (self.canvas.pixels() + self.drawn) * (self.canvas.antialias.samples() - 1);
         let borders = BORDER * self.borders + ROW_ENDS * self.varying_rows;
-        saved >= ASKED * (self.asked + busy) + borders
+        // A quarter more than the costs: a scene at which the estimate is wrong loses more than one gains.
+        4 * saved >= 5 * (ASKED * (self.asked + busy) + borders)
     }
 }
 
