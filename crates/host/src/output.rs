@@ -63,7 +63,8 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
     }
 }
 
-fn create_folder(path: &Path) -> Result<(), OutputError> {
+/// Makes the folder of a file where it is missing.
+pub(crate) fn create_folder(path: &Path) -> Result<(), OutputError> {
     let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) else {
         return Ok(());
     };
