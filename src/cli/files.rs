@@ -21,19 +21,19 @@ pub(super) fn distinct(files: &[(&str, &Path, Use)]) -> Result<(), Failure> {
     let standard_output = cfg!(unix).then_some(Path::new("/dev/stdout"));
     let all = files.iter().copied();
     let all = all.chain(standard_output.map(|path| ("standard output", path, Use::Writes)));
-    let mut seen: Vec<(&str, &Path, Use, Identity)> = Vec::new();
-    for (option, path, of) in all {
-        let Some(identity) = Identity::of(path) else { continue };
-        let other = seen.iter().find(|(.., before, identified)| {
-            (of == Use::Writes || *before == Use::Writes) && identity.is(identified)
+    let identified = |(option, path, of)| Some((option, path, of, Identity::of(path)?));
+    let all: Vec<(&str, &Path, Use, Identity)> = all.filter_map(identified).collect();
+    let is_written = |of: Use| of == Use::Writes;
+    for (at, (option, path, of, identity)) in all.iter().enumerate() {
+        let mut others = all.iter().enumerate().filter(|&(other, (.., use_of_it, _))| {
+            is_written(*of) && other != at && (other > at || !is_written(*use_of_it))
         });
-        if let Some((before, named, ..)) = other {
+        if let Some((_, (other, ..))) = others.find(|(_, (.., other))| identity.is(other)) {
             return Err(usage(format!(
-                "{}: {before} and {option} name this file; give each a file of its own",
-                printable_path(named)
+                "{}: {option} and {other} name this file; give each a file of its own",
+                printable_path(path)
             )));
         }
-        seen.push((option, path, of, identity));
     }
     Ok(())
 }

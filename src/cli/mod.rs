@@ -36,8 +36,8 @@ use std::io::{self, BufRead, Write};
 use std::path::Path;
 
 use clap::{Parser, Subcommand};
-pub use delivery::Delivery;
 use delivery::Delivered;
+pub use delivery::Delivery;
 use rasterproof_host::text::{printable, printable_path};
 use rasterproof_host::{output, shell};
 

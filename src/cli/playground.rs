@@ -4,6 +4,10 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use rasterproof_host::text::printable_path;
+use rasterproof_host::{input, limits};
+
+use super::files::{Use, distinct};
 use super::{Failure, Streams, exit, usage, write_file};
 use crate::page::page;
 
@@ -28,19 +32,13 @@ pub(super) fn run(
     streams: &mut Streams<'_>,
 ) -> Result<u8, Failure> {
     let module = &arguments.module;
-    let bytes = std::fs::read(module).map_err(|error| {
-        usage(format!(
-            "cannot read {}: {error}\nThe engines are compiled for the page first: playground/build",
-            module.display()
-        ))
-    })?;
-    let page = page(&bytes).map_err(|problem| {
-        usage(format!(
-            "{} {problem}\nCompile the engines for the page: playground/build",
-            module.display()
-        ))
-    })?;
+    distinct(&[("--module", module, Use::Reads), ("--output", &arguments.output, Use::Writes)])?;
+    let refused =
+        |why: String| usage(format!("{why}\nCompile the engines for the page: playground/build"));
+    let bytes = input::read(module, limits::SOURCE_BYTES).map_err(|e| refused(e.to_string()))?;
+    let page =
+        page(&bytes).map_err(|problem| refused(format!("{} {problem}", printable_path(module))))?;
     write_file(&arguments.output, page.as_bytes())?;
-    writeln!(streams.output, "playground: {}", arguments.output.display())?;
+    writeln!(streams.output, "playground: {}", printable_path(&arguments.output))?;
     Ok(exit::AGREES)
 }

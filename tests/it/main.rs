@@ -13,6 +13,7 @@ mod convention;
 mod cost;
 mod cost_tables;
 mod course;
+mod delivery;
 mod diagrams;
 mod digest;
 mod exact;
