@@ -12,6 +12,7 @@ use std::path::Path;
 use std::rc::Rc;
 
 use rasterproof_host::output;
+use rasterproof_host::text::printable_lines;
 
 use super::{Streams, exit};
 
@@ -105,7 +106,7 @@ impl Streams<'_> {
     pub(super) fn lose(&mut self, what: &dyn Display) {
         // Both may go to one terminal: what was computed comes first.
         let _ = self.output.flush();
-        let _ = writeln!(self.errors, "error: {what}");
+        let _ = writeln!(self.errors, "error: {}", printable_lines(&what.to_string()));
         self.delivery.note(Loss::Failed);
     }
 }

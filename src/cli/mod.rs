@@ -38,7 +38,7 @@ use std::path::Path;
 use clap::{Parser, Subcommand};
 use delivery::Delivered;
 pub use delivery::Delivery;
-use rasterproof_host::text::{printable, printable_path};
+use rasterproof_host::text::{printable, printable_lines, printable_path};
 use rasterproof_host::{output, shell};
 
 use crate::{hazard, lineup};
@@ -246,7 +246,8 @@ pub fn run(words: impl IntoIterator<Item: Into<OsString>>, streams: &mut Streams
 /// The exit status of what a command returned; a failure is printed.
 fn status_of(result: Result<u8, Failure>, errors: &mut dyn Write) -> u8 {
     result.unwrap_or_else(|failure| {
-        let _ = writeln!(errors, "error: {failure}");
+        // A message may quote a file that somebody else wrote.
+        let _ = writeln!(errors, "error: {}", printable_lines(&failure.to_string()));
         exit::USAGE
     })
 }

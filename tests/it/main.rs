@@ -19,6 +19,7 @@ mod digest;
 mod exact;
 mod exhaust;
 mod figures;
+mod hostile_files;
 mod house;
 mod illustrations;
 mod judge;
