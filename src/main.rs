@@ -3,7 +3,7 @@
 use std::io::{self, BufWriter, IsTerminal};
 use std::process::ExitCode;
 
-use rasterproof::cli::{self, Streams};
+use rasterproof::cli::{self, Delivery, Streams};
 use rasterproof::judge::group::end_strays;
 
 /// Columns of the terminal, or as the environment says where there is none.
@@ -22,9 +22,9 @@ fn main() -> ExitCode {
         // See no-color.org.
         colour: io::stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none(),
         columns: columns().filter(|&columns| columns > 0).unwrap_or(cli::fold::USUAL),
+        delivery: Delivery::default(),
     };
-    let words = std::env::args_os().map(|word| word.to_string_lossy().into_owned());
-    let status = cli::run(words, &mut streams);
+    let status = cli::run(std::env::args_os(), &mut streams);
     end_strays();
     ExitCode::from(status)
 }

@@ -2,9 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use super::page::{PageArguments, write_page};
+use rasterproof_host::text::{printable, printable_path};
+use rasterproof_host::{input, limits};
+
+use super::files::{Use, distinct};
+use super::page::{PageArguments, as_file, write_page};
 use super::progress::Progress;
-use super::{Failure, Streams, exit, program, usage, write_file};
+use super::{Failure, Streams, exit, program, usage};
 use crate::cost::{Board, Guest, Ladder, Options, Recorded, measure_with};
 use crate::report::chart::{self, Drawing};
 use crate::report::html::{Figure, Report};
@@ -70,6 +74,16 @@ impl CostArguments {
         self.output.as_deref().unwrap_or(&self.page.place.out)
     }
 
+    /// Refuses names of plots and pages that are the file of --from or each other's.
+    fn check_files(&self, ladders: &[Ladder]) -> Result<(), Failure> {
+        let page = self.page.page("cost.html");
+        let names = ladders.iter().map(|&ladder| plot_name(ladder)).chain([PRICE.to_owned()]);
+        let plots: Vec<_> = names.flat_map(|name| plot_files(self.folder(), &name)).collect();
+        let from = self.from.as_deref().map(|path| ("--from", path, Use::Reads));
+        let plots = plots.iter().map(|path| ("a plot in --output", path.as_path(), Use::Writes));
+        distinct(&from.into_iter().chain(plots).chain(as_file(&page)).collect::<Vec<_>>())
+    }
+
     /// The command that repeats the run.
     fn repeat(&self) -> String {
         use clap::ValueEnum as _;
@@ -102,6 +116,7 @@ impl CostArguments {
 /// Measures or reads, prints and draws. Nothing here disagrees with anything: errors are the result.
 pub fn run(arguments: &CostArguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
     let ladders = arguments.which.map_or(&Ladder::ALL[..], Which::ladders);
+    arguments.check_files(ladders)?;
     let recorded = match &arguments.from {
         Some(path) => read(path, ladders)?,
         None => Recorded {
@@ -116,9 +131,9 @@ pub fn run(arguments: &CostArguments, streams: &mut Streams<'_>) -> Result<u8, F
     let plots = plots(boards);
     if arguments.json {
         out.write_all(json::cost(&recorded).as_bytes())?;
-        out.flush()?;
-        write_plots(&plots, arguments)?;
-        return write_report(arguments, &plots, &recorded, streams);
+        write_plots(&plots, arguments, streams);
+        write_report(arguments, &plots, &recorded, streams);
+        return Ok(exit::AGREES);
     }
     let Recorded { version, seed, .. } = &recorded;
     let quick = if recorded.quick { ", quick" } else { "" };
@@ -130,12 +145,14 @@ pub fn run(arguments: &CostArguments, streams: &mut Streams<'_>) -> Result<u8, F
     if !price.is_empty() {
         writeln!(out, "{price}")?;
     }
-    writeln!(out, "repeat with: {}", recorded.repeat)?;
-    // What cannot be written takes nothing of what was measured.
-    out.flush()?;
-    let written = write_plots(&plots, arguments)?.join(", ");
-    writeln!(out, "drawn in {}, as SVG and PNG: {written}", arguments.folder().display())?;
-    write_report(arguments, &plots, &recorded, streams)
+    writeln!(out, "repeat with: {}", printable(&recorded.repeat))?;
+    let written = write_plots(&plots, arguments, streams).join(", ");
+    if !written.is_empty() {
+        let folder = printable_path(arguments.folder());
+        writeln!(streams.output, "drawn in {folder}, as SVG and PNG: {written}")?;
+    }
+    write_report(arguments, &plots, &recorded, streams);
+    Ok(exit::AGREES)
 }
 
 fn write_report(
@@ -143,18 +160,17 @@ fn write_report(
     plots: &[(String, Drawing)],
     recorded: &Recorded,
     streams: &mut Streams<'_>,
-) -> Result<u8, Failure> {
-    if arguments.page.report {
-        let path = arguments.page.place.out.join("cost.html");
-        write_page(&path, report_page(plots, recorded), streams.errors)?;
+) {
+    if let Some(path) = arguments.page.page("cost.html") {
+        write_page(&path, report_page(plots, recorded), streams);
     }
-    Ok(exit::AGREES)
 }
 
 /// What an earlier run printed, as far as it is asked for.
 fn read(path: &Path, ladders: &[Ladder]) -> Result<Recorded, Failure> {
-    let named = |what: String| usage(format!("{}: {what}", path.display()));
-    let text = std::fs::read_to_string(path).map_err(|error| named(error.to_string()))?;
+    let named = |what: String| usage(format!("{}: {}", printable_path(path), printable(&what)));
+    let text =
+        input::read_text(path, limits::DOCUMENT_BYTES).map_err(|error| usage(error.to_string()))?;
     let mut recorded = Recorded::read(&text).map_err(|why| {
         named(format!("{why}; write such a file with `rasterproof cost --json > FILE`"))
     })?;
@@ -166,16 +182,23 @@ fn read(path: &Path, ladders: &[Ladder]) -> Result<Recorded, Failure> {
     Ok(recorded)
 }
 
-fn plot_name(board: &Board) -> String {
-    format!("cost-{}", board.ladder.name())
+fn plot_name(ladder: Ladder) -> String {
+    format!("cost-{}", ladder.name())
+}
+
+/// The plot that answers what exact coverage costs.
+const PRICE: &str = "cost-price";
+
+fn plot_files(folder: &Path, name: &str) -> [PathBuf; 2] {
+    ["svg", "png"].map(|ending| folder.join(name).with_extension(ending))
 }
 
 /// The plots with their names; the one picture that answers the question comes last.
 fn plots(boards: &[Board]) -> Vec<(String, Drawing)> {
     let mut plots: Vec<(String, Drawing)> =
-        boards.iter().map(|board| (plot_name(board), plot::pareto(board))).collect();
+        boards.iter().map(|board| (plot_name(board.ladder), plot::pareto(board))).collect();
     if boards.iter().any(|board| board.ladder == Ladder::Scanline) {
-        plots.push(("cost-price".to_owned(), plot::price(boards)));
+        plots.push((PRICE.to_owned(), plot::price(boards)));
     }
     plots
 }
@@ -185,13 +208,13 @@ fn report_page(plots: &[(String, Drawing)], recorded: &Recorded) -> Report {
     let boards = &recorded.boards;
     let figure = |(name, drawing): &(String, Drawing)| Figure {
         caption: match name.as_str() {
-            "cost-price" => "What exact coverage costs over the cheapest rung".to_owned(),
+            PRICE => "What exact coverage costs over the cheapest rung".to_owned(),
             name => format!("Time against error: {}", name.trim_start_matches("cost-")),
         },
         svg: chart::svg(drawing),
         narrow: boards
             .iter()
-            .find(|board| *name == plot_name(board))
+            .find(|board| *name == plot_name(board.ladder))
             .map(|board| chart::svg(&plot::pareto_narrow(board))),
     };
     Report {
@@ -203,19 +226,22 @@ fn report_page(plots: &[(String, Drawing)], recorded: &Recorded) -> Report {
     }
 }
 
-/// Writes the plots and returns their names.
+/// Writes the plots and returns the names of those that were written.
 fn write_plots(
     plots: &[(String, Drawing)],
     arguments: &CostArguments,
-) -> Result<Vec<String>, Failure> {
+    streams: &mut Streams<'_>,
+) -> Vec<String> {
     let mut written = Vec::new();
     for (name, drawing) in plots {
-        let path = arguments.folder().join(name);
-        write_file(&path.with_extension("svg"), chart::svg(drawing).as_bytes())?;
-        write_file(&path.with_extension("png"), &picture::png(&chart::picture(drawing)))?;
-        written.push(name.clone());
+        let [svg, png] = plot_files(arguments.folder(), name);
+        let is_written = streams.save(&svg, chart::svg(drawing).as_bytes())
+            && streams.save(&png, &picture::png(&chart::picture(drawing)));
+        if is_written {
+            written.push(name.clone());
+        }
     }
-    Ok(written)
+    written
 }
 
 fn measure_all(

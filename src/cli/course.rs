@@ -177,9 +177,9 @@ fn run_check(arguments: &CheckArguments, streams: &mut Streams<'_>) -> Result<u8
     drop(shown);
     let before = progress.failures.min(3) * usize::from(progress.step == step.name);
     progress.note(step, outcome.passes());
-    write_file(&progress::path(&arguments.dir), progress.text().as_bytes())?;
     let text = verdict::text(step, &outcome);
     streams.output.write_all(text.as_bytes())?;
+    streams.save(&progress::path(&arguments.dir), progress.text().as_bytes());
     if outcome.passes() {
         let next = match STEPS.iter().all(|step| progress.has_passed(step)) {
             true => "all twelve steps are passed; next: rasterproof judge -- CMD\n".to_owned(),

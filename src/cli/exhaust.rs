@@ -1,11 +1,14 @@
 //! `rasterproof exhaust` and `rasterproof merge`: proofs by exhaustion and their certificates.
 
-use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use clap::Subcommand;
+use rasterproof_host::lock::Lock;
+use rasterproof_host::text::{printable, printable_path};
+use rasterproof_host::{input, limits, output};
 
+use super::files::{Use, distinct};
 use super::progress::Progress;
 use super::{Failure, Streams, exit, usage, write_file};
 use crate::exhaust::certificate::{self, Certificate};
@@ -150,6 +153,10 @@ pub fn run(arguments: &ExhaustArguments, streams: &mut Streams<'_>) -> Result<u8
     plan.check().map_err(usage)?;
     let shard = Shard { part: arguments.common.shard.0, parts: arguments.common.shard.1 };
     let path = arguments.checkpoint(&plan);
+    let lock = Lock::file_of(&path);
+    let output = arguments.common.output.as_deref().map(|path| ("--output", path, Use::Writes));
+    let kept = [("--checkpoint", path.as_path(), Use::Writes), ("its lock", &lock, Use::Writes)];
+    distinct(&kept.into_iter().chain(output).collect::<Vec<_>>())?;
     let start = if arguments.common.restart { None } else { resume(&path, &plan, shard)? };
     let start = start.unwrap_or_else(|| run::Progress::new(&plan, shard));
 
@@ -172,20 +179,29 @@ pub fn run(arguments: &ExhaustArguments, streams: &mut Streams<'_>) -> Result<u8
     drop(progress);
     let certificate = Certificate::new(finished, rayon::current_num_threads());
     let status = issue(&certificate, arguments.common.output.as_deref(), streams)?;
-    let _ = std::fs::remove_file(&path);
+    // Standard output, too, holds the certificate only if it was taken.
+    streams.output.flush()?;
+    if streams.delivery.is_whole() {
+        if let Err(error) = output::remove(&path) {
+            writeln!(streams.errors, "warning: {error}")?;
+        }
+    } else {
+        let kept = printable_path(&path);
+        writeln!(streams.errors, "the result is kept in {kept}; the same command writes it again")?;
+    }
     Ok(status)
 }
 
 /// The state in the checkpoint file, if there is one.
 fn resume(path: &Path, plan: &Plan, shard: Shard) -> Result<Option<run::Progress>, Failure> {
-    let name = path.display();
-    let text = match std::fs::read_to_string(path) {
-        Ok(text) => text,
-        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
-        Err(error) => return Err(usage(format!("cannot read the checkpoint {name}: {error}"))),
+    let name = printable_path(path);
+    let text = match input::read_text(path, limits::DOCUMENT_BYTES) {
+        Err(error) if error.missing => return Ok(None),
+        read => read.map_err(|error| usage(format!("the checkpoint {error}")))?,
     };
     let progress: run::Progress = serde_json::from_str(&text).map_err(|error| {
-        usage(format!("{name} is not a checkpoint ({error}); --restart ignores it"))
+        let error = error.to_string();
+        usage(format!("{name} is not a checkpoint ({}); --restart ignores it", printable(&error)))
     })?;
     if !progress.belongs_to(plan, shard) {
         let what = "was made by other options or other code; --restart ignores it";
@@ -204,13 +220,12 @@ fn issue(
     file: Option<&Path>,
     streams: &mut Streams<'_>,
 ) -> Result<u8, Failure> {
-    match file {
-        Some(path) => write_file(path, certificate.to_json().as_bytes())?,
-        None => streams.output.write_all(certificate.to_json().as_bytes())?,
+    if file.is_none() {
+        streams.output.write_all(certificate.to_json().as_bytes())?;
     }
     let done = &certificate.done;
     for example in &done.examples {
-        writeln!(streams.errors, "wrong: {}", example.what)?;
+        writeln!(streams.errors, "wrong: {}", printable(&example.what))?;
     }
     let Shard { part, parts } = certificate.shard;
     let whole = parts == 1;
@@ -227,17 +242,23 @@ fn issue(
         certificate.timing.seconds,
         certificate.timing.threads,
     )?;
+    if let Some(path) = file {
+        streams.save(path, certificate.to_json().as_bytes());
+    }
     Ok(if agrees { exit::AGREES } else { exit::DISAGREES })
 }
 
 pub fn merge(arguments: &MergeArguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+    let read = arguments.files.iter().map(|path| ("a shard", path.as_path(), Use::Reads));
+    let written = arguments.output.as_deref().map(|path| ("--output", path, Use::Writes));
+    distinct(&read.chain(written).collect::<Vec<_>>())?;
     let mut shards = Vec::new();
     for path in &arguments.files {
-        let name = path.display().to_string();
-        let text =
-            std::fs::read_to_string(path).map_err(|e| usage(format!("cannot read {name}: {e}")))?;
-        let certificate =
-            Certificate::from_json(&text).map_err(|what| usage(format!("{name} {what}")))?;
+        let name = printable_path(path);
+        let text = input::read_text(path, limits::DOCUMENT_BYTES)
+            .map_err(|error| usage(error.to_string()))?;
+        let certificate = Certificate::from_json(&text)
+            .map_err(|what| usage(format!("{name} {}", printable(&what.to_string()))))?;
         shards.push((name, certificate));
     }
     let merged = certificate::merge(&shards).map_err(usage)?;

@@ -4,11 +4,13 @@ use std::path::PathBuf;
 
 use clap::builder::PossibleValuesParser;
 use image::RgbImage;
+use rasterproof_host::text::printable_path;
 
+use super::files::{Use, distinct};
 use super::inspect_case::{CaseArguments, Found, find, parse_pixel, recorded, words};
-use super::page::{PageArguments, write_page};
+use super::page::{PageArguments, as_file, save_page};
 use super::shown::{self, Contestants};
-use super::{Failure, Streams, exit, explain, png_name, program, usage, write_file, write_unasked};
+use super::{Failure, Streams, exit, explain, png_name, program, usage, write_unasked};
 use crate::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
 use crate::hazard::offgrid::OffGridCase;
 use crate::hazard::{Case, Shape};
@@ -118,6 +120,9 @@ fn no_part(plant: Option<&String>) -> Failure {
 pub fn run(arguments: &InspectArguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
     if let Some(path) = &arguments.output {
         png_name(path)?;
+        let page = arguments.page.page("inspect.html");
+        let output = ("--output", path.as_path(), Use::Writes);
+        distinct(&[output].into_iter().chain(as_file(&page)).collect::<Vec<_>>())?;
     }
     let (title, mut case, expected, typed) = match find(&arguments.case)? {
         Found::Case { title, case, expected, typed } => (title, case, expected, typed),
@@ -299,7 +304,11 @@ fn write_report(
         cases: vec![view],
         ..Report::default()
     };
-    write_page(&arguments.page.place.out.join("inspect.html"), report, streams.output)
+    let path = arguments.page.place.out.join("inspect.html");
+    if save_page(&path, report, streams) {
+        writeln!(streams.output, "report: {}", printable_path(&path))?;
+    }
+    Ok(())
 }
 
 /// What is not shown, if anything, and how to see it.
@@ -397,8 +406,9 @@ fn write_picture(
     let Some(path) = &arguments.output else {
         return write_unasked(&arguments.page.place.out.join("inspect.png"), &bytes, streams);
     };
-    write_file(path, &bytes)?;
-    writeln!(streams.output, "drawn in {}", path.display())?;
+    if streams.save(path, &bytes) {
+        writeln!(streams.output, "drawn in {}", printable_path(path))?;
+    }
     Ok(())
 }
 

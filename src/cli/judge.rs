@@ -1,13 +1,16 @@
 //! `rasterproof judge -- CMD`: any program that speaks the line protocol, on the stand.
 
-use std::path::Path;
+use std::path::PathBuf;
 use std::time::Duration;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use rasterproof_host::shell;
+use rasterproof_host::text::printable_path;
 
-use super::page::{PageArguments, write_page};
+use super::files::{Use, distinct};
+use super::page::{PageArguments, as_file, write_page};
 use super::progress::Progress;
-use super::{Failure, Streams, exit, league, program, usage, write_file};
+use super::{Failure, Streams, exit, league, program, usage};
 use crate::judge::ask::Ask;
 use crate::judge::baseline::Baseline;
 use crate::judge::process::{Limits, Program};
@@ -72,7 +75,7 @@ pub struct JudgeArguments {
     page: PageArguments,
     /// Known failures: only what this file does not know counts
     #[arg(long, value_name = "FILE")]
-    baseline: Option<String>,
+    baseline: Option<PathBuf>,
     /// Write what fails now into the file of --baseline
     #[arg(long, requires = "baseline")]
     update_baseline: bool,
@@ -132,10 +135,9 @@ impl JudgeArguments {
     fn repeat(&self, options: &str) -> String {
         let mut out = format!("{} judge {options} --seed {}", program(), self.seed);
         for words in &self.declare {
-            out += &format!(" --declare {}", quoted(words));
+            out += &format!(" --declare {}", shell::quote(words));
         }
-        let command: Vec<_> = self.command.iter().map(|word| quoted(word)).collect();
-        format!("{out} -- {}", command.join(" "))
+        format!("{out} -- {}", shell::line(self.command.iter().map(String::as_str)))
     }
 
     fn repeat_all(&self) -> String {
@@ -145,34 +147,16 @@ impl JudgeArguments {
     }
 }
 
-/// A word as a shell takes it.
-fn quoted(word: &str) -> String {
-    let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_./=:,+@%".contains(c);
-    if !word.is_empty() && word.chars().all(is_plain) {
-        return word.to_owned();
-    }
-    // Control characters would reach the terminal: $'...' spells them.
-    if word.chars().any(char::is_control) {
-        let escaped: String = word
-            .chars()
-            .map(|c| match c {
-                '\'' | '\\' => format!("\\{c}"),
-                c if c.is_control() => format!("\\x{:02x}", u32::from(c)),
-                c => c.to_string(),
-            })
-            .collect();
-        return format!("$'{escaped}'");
-    }
-    format!("'{}'", word.replace('\'', "'\\''"))
-}
-
 pub fn run(arguments: &JudgeArguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
     let limits = Limits { answer: arguments.timeout, start: arguments.start_timeout };
     if let Some(names) = &arguments.league {
         return league::run(names, &arguments.options(), limits, streams);
     }
-    let mut baseline = match &arguments.baseline {
-        Some(path) => Some(Baseline::read(Path::new(path), arguments.seed).map_err(usage)?),
+    let page = arguments.page.page("judge.html");
+    let known = arguments.baseline.as_deref().map(|path| ("--baseline", path, Use::Reads));
+    distinct(&known.into_iter().chain(as_file(&page)).collect::<Vec<_>>())?;
+    let baseline = match &arguments.baseline {
+        Some(path) => Some(Baseline::read(path, arguments.seed).map_err(usage)?),
         None => None,
     };
     group::end_all_on_ctrl_c();
@@ -212,14 +196,8 @@ pub fn run(arguments: &JudgeArguments, streams: &mut Streams<'_>) -> Result<u8, 
             "no pixel was expected: the range, the window or the families leave nothing to judge",
         ));
     }
-    if let Some(baseline) = &mut baseline {
+    if let Some(baseline) = &baseline {
         baseline.apply(&mut verdict);
-        if arguments.update_baseline {
-            let text = baseline.updated(&verdict).map_err(usage)?;
-            let path = arguments.baseline.as_deref().unwrap_or_default();
-            write_file(Path::new(path), text.as_bytes())?;
-            writeln!(streams.errors, "baseline: {path}")?;
-        }
     }
     let repeat_case =
         |family: &str, index: u64| arguments.repeat(&format!("--family {family} --case {index}"));
@@ -233,11 +211,22 @@ pub fn run(arguments: &JudgeArguments, streams: &mut Streams<'_>) -> Result<u8, 
     };
     streams.output.write_all(text.as_bytes())?;
     streams.output.flush()?;
-    if arguments.page.report {
-        let page = judged::page(&verdict, &arguments.repeat_all(), &repeat_case);
-        write_page(&arguments.page.place.out.join("judge.html"), page, streams.errors)?;
+    if let Some(path) = page {
+        write_page(&path, judged::page(&verdict, &arguments.repeat_all(), &repeat_case), streams);
     }
-    // A baseline that was just written knows everything.
-    let agrees = verdict.agrees() || arguments.update_baseline;
+    let mut agrees = verdict.agrees();
+    if let (Some(baseline), Some(path), true) =
+        (&baseline, &arguments.baseline, arguments.update_baseline)
+    {
+        match baseline.updated(&verdict) {
+            Err(why) => streams.lose(&format!("{}: not written: {why}", printable_path(path))),
+            Ok(text) if streams.save(path, text.as_bytes()) => {
+                writeln!(streams.errors, "baseline: {}", printable_path(path))?;
+                // A baseline that was just written knows everything.
+                agrees = true;
+            }
+            Ok(_) => {}
+        }
+    }
     Ok(if agrees { exit::AGREES } else { exit::DISAGREES })
 }

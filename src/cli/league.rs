@@ -4,7 +4,10 @@ use std::path::Path;
 use std::time::{SystemTime, UNIX_EPOCH};
 
 use super::progress::Progress;
-use super::{Failure, Streams, exit, usage, write_file};
+use rasterproof_host::text::printable;
+use rasterproof_host::{input, limits};
+
+use super::{Failure, Streams, exit, usage};
 use crate::judge::ask::Ask;
 use crate::judge::league::{Adapter, League, Standing, date};
 use crate::judge::process::{Limits, Program};
@@ -24,10 +27,10 @@ pub fn run(
     limits: Limits,
     streams: &mut Streams<'_>,
 ) -> Result<u8, Failure> {
-    let text = std::fs::read_to_string(ADAPTERS)
-        .map_err(|e| usage(format!("{ADAPTERS}: {e}\n  run it in the folder of the project")))?;
-    let adapters: Vec<Adapter> =
-        serde_json::from_str(&text).map_err(|e| usage(format!("{ADAPTERS}: {e}")))?;
+    let text = input::read_text(Path::new(ADAPTERS), limits::NOTE_BYTES)
+        .map_err(|e| usage(format!("{e}\n  run it in the folder of the project")))?;
+    let adapters: Vec<Adapter> = serde_json::from_str(&text)
+        .map_err(|e| usage(format!("{ADAPTERS}: {}", printable(&e.to_string()))))?;
     if let Some(name) = names.iter().find(|name| adapters.iter().all(|a| a.name != **name)) {
         return Err(usage(format!(
             "{name:?} is no adapter\n  adapters/install --list shows the names"
@@ -73,11 +76,12 @@ pub fn run(
         rows,
     };
     let json = serde_json::to_string_pretty(&league).unwrap_or_default() + "\n";
-    write_file(Path::new(JSON), json.as_bytes())?;
-    for (path, chinese) in PAGES {
-        write_file(Path::new(path), tables(&league, chinese).as_bytes())?;
+    let pages = PAGES.map(|(path, chinese)| (path, tables(&league, chinese)));
+    for (path, text) in [(JSON, json)].into_iter().chain(pages) {
+        if streams.save(Path::new(path), text.as_bytes()) {
+            writeln!(streams.errors, "league: {path}")?;
+        }
     }
-    writeln!(streams.errors, "league: {JSON}, {}, {}", PAGES[0].0, PAGES[1].0)?;
     Ok(exit::AGREES)
 }
 

@@ -4,10 +4,12 @@ mod cost;
 mod course;
 mod course_grade;
 mod decisions;
+mod delivery;
 mod digest;
 mod engine;
 mod exhaust;
 mod explain;
+mod files;
 pub mod fold;
 mod inspect;
 mod inspect_case;
@@ -28,11 +30,16 @@ mod verify;
 #[cfg(feature = "vulkan")]
 mod vulkan;
 
+use std::ffi::OsString;
 use std::fmt;
 use std::io::{self, BufRead, Write};
 use std::path::Path;
 
 use clap::{Parser, Subcommand};
+use delivery::Delivered;
+pub use delivery::Delivery;
+use rasterproof_host::text::{printable, printable_lines, printable_path};
+use rasterproof_host::{output, shell};
 
 use crate::{hazard, lineup};
 
@@ -175,10 +182,100 @@ pub struct Streams<'a> {
     pub colour: bool,
     /// Columns of the terminal; text is broken to fit.
     pub columns: usize,
+    /// Whether the streams and files took what was written to them.
+    pub delivery: Delivery,
 }
 
 /// Runs a command line, the program's name first, and returns the exit status.
-pub fn run(words: impl IntoIterator<Item = String>, streams: &mut Streams<'_>) -> u8 {
+///
+/// The words may be any that the system allows: a path need not be UTF-8.
+pub fn run(words: impl IntoIterator<Item: Into<OsString>>, streams: &mut Streams<'_>) -> u8 {
+    let delivery = streams.delivery.clone();
+    let errors = &mut Delivered::new(streams.errors, &delivery);
+    let Streams { progress, colour, columns, .. } = *streams;
+    let arguments = match parse(words) {
+        Ok(arguments) => arguments,
+        Err(Refused { text, is_error }) => {
+            let output = &mut Delivered::new(streams.output, &delivery);
+            let stream: &mut Delivered<'_> = if is_error { errors } else { output };
+            let _ = stream.write_all(text.as_bytes()).and_then(|()| stream.flush());
+            report_loss(output, errors);
+            return delivery.status(if is_error { exit::USAGE } else { exit::AGREES });
+        }
+    };
+    quiet_engines();
+    let Parsed { command, for_machines } = arguments;
+    let input = &mut *streams.input;
+    // A conversation ends where nobody listens any more.
+    if matches!(command, Command::Engine { .. }) {
+        let streams = &mut Streams {
+            input,
+            output: streams.output,
+            errors,
+            progress,
+            colour,
+            columns,
+            delivery: delivery.clone(),
+        };
+        let result = dispatch(&command, streams);
+        let result = result.and_then(|status| Ok(streams.output.flush().map(|()| status)?));
+        return match result {
+            Err(Failure::Io(error)) if error.kind() == io::ErrorKind::BrokenPipe => exit::AGREES,
+            result => status_of(result, streams.errors),
+        };
+    }
+    let mut output = Delivered::new(streams.output, &delivery);
+    let mut folded;
+    let result = {
+        let output: &mut dyn Write = if for_machines {
+            &mut output
+        } else {
+            folded = fold::Folded::new(&mut output, columns, program());
+            &mut folded
+        };
+        let delivery = delivery.clone();
+        let streams = &mut Streams { input, output, errors, progress, colour, columns, delivery };
+        let result = dispatch(&command, streams);
+        result.and_then(|status| Ok(streams.output.flush().map(|()| status)?))
+    };
+    let status = status_of(result, errors);
+    report_loss(&output, errors);
+    delivery.status(status)
+}
+
+/// The exit status of what a command returned; a failure is printed.
+fn status_of(result: Result<u8, Failure>, errors: &mut dyn Write) -> u8 {
+    result.unwrap_or_else(|failure| {
+        // A message may quote a file that somebody else wrote.
+        let _ = writeln!(errors, "error: {}", printable_lines(&failure.to_string()));
+        exit::USAGE
+    })
+}
+
+/// Says why standard output did not take everything.
+fn report_loss(output: &Delivered<'_>, errors: &mut dyn Write) {
+    if let Some(error) = output.lost() {
+        let _ = writeln!(
+            errors,
+            "error: standard output cannot be written: {error}; make room, or name another place"
+        );
+    }
+}
+
+/// A command line that was understood.
+struct Parsed {
+    command: Command,
+    /// What machines read keeps its lines.
+    for_machines: bool,
+}
+
+/// A command line that is not run: help and the version, which were asked for, or an error.
+struct Refused {
+    text: String,
+    is_error: bool,
+}
+
+fn parse(words: impl IntoIterator<Item: Into<OsString>>) -> Result<Parsed, Refused> {
     // A coordinate such as -1.5,3 is no option: a space in front tells the parser so.
     let is_coordinate = |word: &str| {
         let number = |c: char| c.is_ascii_digit() || c == '.';
@@ -186,76 +283,53 @@ pub fn run(words: impl IntoIterator<Item = String>, streams: &mut Streams<'_>) -
     };
     // After -- come the words of somebody else, which stay as they are.
     let mut ours = true;
-    // What machines read keeps its lines.
     let mut for_machines = false;
-    let words = words.into_iter().map(|w| {
+    let mut not_text = Vec::new();
+    let words = words.into_iter().map(|word| {
+        let word: OsString = word.into();
+        let Some(w) = word.to_str() else {
+            not_text.push(printable(&word.to_string_lossy()).into_owned());
+            return word;
+        };
         ours &= w != "--";
         for_machines |= ours && (w == "--json" || w.starts_with("--format"));
-        if ours && is_coordinate(&w) { format!(" {w}") } else { w }
+        if ours && is_coordinate(w) { format!(" {w}").into() } else { word }
     });
-    let arguments = match Arguments::try_parse_from(words) {
-        Ok(arguments) => arguments,
-        Err(error) => {
-            let text = error.render().to_string();
-            let asked = !error.use_stderr();
-            let stream: &mut dyn Write = if asked { streams.output } else { streams.errors };
-            // Nobody is left to tell if this fails.
-            let _ = stream.write_all(text.as_bytes());
-            return if asked { exit::AGREES } else { exit::USAGE };
+    let arguments = Arguments::try_parse_from(words).map_err(|error| {
+        let mut text = error.render().to_string();
+        if error.kind() == clap::error::ErrorKind::InvalidUtf8 {
+            text += &format!("not UTF-8: {}\n", not_text.join(", "));
         }
-    };
-    quiet_engines();
-    let Streams { progress, colour, columns, .. } = *streams;
-    let mut folded;
-    let for_machines = for_machines
-        || matches!(
-            arguments.command,
-            Some(
-                Command::Engine { .. }
-                    | Command::Exhaust(_)
-                    | Command::Merge(_)
-                    | Command::Digest(_)
-            )
-        );
-    let output: &mut dyn Write = match for_machines {
-        true => streams.output,
-        false => {
-            folded = fold::Folded::new(streams.output, columns, program());
-            &mut folded
-        }
-    };
-    let (input, errors) = (&mut *streams.input, &mut *streams.errors);
-    let streams = &mut Streams { input, output, errors, progress, colour, columns };
-    let result = match &arguments.command {
-        None => verify::run(&arguments.verify, streams),
-        Some(Command::Verify(arguments)) => verify::run(arguments, streams),
-        Some(Command::Inspect(arguments)) => inspect::run(arguments, streams),
-        Some(Command::Engine { name, plant: None }) => engine::run(name, streams),
-        Some(Command::Engine { name, plant: Some(fault) }) => misbehave::run(name, *fault, streams),
-        Some(Command::Judge(arguments)) => judge::run(arguments, streams),
-        Some(Command::Course(arguments)) => course::run(arguments, streams),
-        Some(Command::Specimens(arguments)) => specimens::run(arguments, streams),
-        Some(Command::Render(arguments)) => render::run(arguments, streams),
-        Some(Command::Plan(arguments)) => plan::run(arguments, streams),
-        Some(Command::Mutants(arguments)) => invariant::mutants(arguments, streams),
-        Some(Command::Exhaust(arguments)) => exhaust::run(arguments, streams),
-        Some(Command::Merge(arguments)) => exhaust::merge(arguments, streams),
-        Some(Command::Review(arguments)) => review::run(arguments, streams),
-        Some(Command::Cost(arguments)) => cost::run(arguments, streams),
-        Some(Command::Digest(arguments)) => digest::run(arguments, streams),
-        Some(Command::Playground(arguments)) => playground::run(arguments, streams),
-        Some(Command::Quiz(arguments)) => quiz::run(arguments, streams),
-        Some(Command::List) => list(streams),
-    };
-    let result = result.and_then(|status| Ok(streams.output.flush().map(|()| status)?));
-    match result {
-        Ok(status) => status,
-        // The reader has seen enough, as in `rasterproof list | head`.
-        Err(Failure::Io(error)) if error.kind() == io::ErrorKind::BrokenPipe => exit::AGREES,
-        Err(failure) => {
-            let _ = writeln!(streams.errors, "error: {failure}");
-            exit::USAGE
-        }
+        Refused { text, is_error: error.use_stderr() }
+    })?;
+    let command = arguments.command.unwrap_or(Command::Verify(arguments.verify));
+    for_machines |= matches!(
+        command,
+        Command::Engine { .. } | Command::Exhaust(_) | Command::Merge(_) | Command::Digest(_)
+    );
+    Ok(Parsed { command, for_machines })
+}
+
+fn dispatch(command: &Command, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+    match command {
+        Command::Verify(arguments) => verify::run(arguments, streams),
+        Command::Inspect(arguments) => inspect::run(arguments, streams),
+        Command::Engine { name, plant: None } => engine::run(name, streams),
+        Command::Engine { name, plant: Some(fault) } => misbehave::run(name, *fault, streams),
+        Command::Judge(arguments) => judge::run(arguments, streams),
+        Command::Course(arguments) => course::run(arguments, streams),
+        Command::Specimens(arguments) => specimens::run(arguments, streams),
+        Command::Render(arguments) => render::run(arguments, streams),
+        Command::Plan(arguments) => plan::run(arguments, streams),
+        Command::Mutants(arguments) => invariant::mutants(arguments, streams),
+        Command::Exhaust(arguments) => exhaust::run(arguments, streams),
+        Command::Merge(arguments) => exhaust::merge(arguments, streams),
+        Command::Review(arguments) => review::run(arguments, streams),
+        Command::Cost(arguments) => cost::run(arguments, streams),
+        Command::Digest(arguments) => digest::run(arguments, streams),
+        Command::Playground(arguments) => playground::run(arguments, streams),
+        Command::Quiz(arguments) => quiz::run(arguments, streams),
+        Command::List => list(streams),
     }
 }
 
@@ -310,20 +384,9 @@ fn write_entry(out: &mut dyn Write, name: &str, about: &str) -> io::Result<()> {
     writeln!(out, "  {name}  {about}")
 }
 
-/// Writes a file whole or not at all: first beside its place, then renamed.
+/// Writes a file whole or not at all.
 fn write_file(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    let failed =
-        |what: &str, error: io::Error| usage(format!("{what} {}: {error}", path.display()));
-    if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
-        std::fs::create_dir_all(folder).map_err(|e| failed("cannot create the folder of", e))?;
-    }
-    let mut beside = path.as_os_str().to_owned();
-    beside.push(".part");
-    std::fs::write(&beside, bytes).map_err(|e| failed("cannot write", e))?;
-    std::fs::rename(&beside, path).map_err(|e| {
-        let _ = std::fs::remove_file(&beside);
-        failed("cannot write", e)
-    })
+    output::write(path, bytes).map_err(|error| usage(error.to_string()))
 }
 
 /// A whole number from zero.
@@ -347,7 +410,8 @@ fn png_name(path: &Path) -> Result<(), Failure> {
     match path.extension().and_then(|ending| ending.to_str()) {
         Some(ending) if ending.eq_ignore_ascii_case("png") => Ok(()),
         _ => {
-            Err(usage(format!("{}: the picture is a PNG: end its name with .png", path.display())))
+            let path = printable_path(path);
+            Err(usage(format!("{path}: the picture is a PNG: end its name with .png")))
         }
     }
 }
@@ -356,7 +420,7 @@ fn png_name(path: &Path) -> Result<(), Failure> {
 /// warning, and not the verdict.
 fn write_unasked(path: &Path, bytes: &[u8], streams: &mut Streams<'_>) -> Result<(), Failure> {
     match write_file(path, bytes) {
-        Ok(()) => writeln!(streams.output, "drawn in {}", path.display())?,
+        Ok(()) => writeln!(streams.output, "drawn in {}", printable_path(path))?,
         Err(failure) => writeln!(streams.errors, "warning: no picture: {failure}")?,
     }
     Ok(())
@@ -365,13 +429,13 @@ fn write_unasked(path: &Path, bytes: &[u8], streams: &mut Streams<'_>) -> Result
 /// How this program was called, for commands that can be copied: through cargo where cargo started
 /// it, else by the path that was typed, else by its name.
 fn program() -> String {
-    let word = std::env::args().next().unwrap_or_default();
+    let word = std::env::args_os().next().unwrap_or_default().to_string_lossy().into_owned();
     let path = Path::new(&word);
     // cargo calls it as target/PROFILE/rasterproof.
     let profile = path.parent().and_then(Path::file_name).and_then(|name| name.to_str());
     match profile.filter(|_| path.is_relative() && path.components().count() > 1) {
         None => "rasterproof".to_owned(),
-        Some(_) if std::env::var_os("CARGO").is_none() => word,
+        Some(_) if std::env::var_os("CARGO").is_none() => shell::quote(&word).into_owned(),
         Some("debug") => "cargo run --".to_owned(),
         Some("release") => "cargo run --release --".to_owned(),
         Some(profile) => format!("cargo run --profile {profile} --"),

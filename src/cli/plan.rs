@@ -196,7 +196,7 @@ pub fn run(arguments: &PlanArguments, streams: &mut Streams<'_>) -> Result<u8, F
     streams.output.flush()?;
     if arguments.page.report {
         let report = report_page(arguments, &scene, [&everything, &planned], &measured, same);
-        write_page(&arguments.page.place.out.join("plan.html"), report, streams.errors)?;
+        write_page(&arguments.page.place.out.join("plan.html"), report, streams);
     }
     Ok(if same { exit::AGREES } else { exit::DISAGREES })
 }

@@ -4,6 +4,10 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use rasterproof_host::text::printable_path;
+use rasterproof_host::{input, limits};
+
+use super::files::{Use, distinct};
 use super::{Failure, Streams, exit, usage, write_file};
 use crate::page::page;
 
@@ -28,19 +32,55 @@ pub(super) fn run(
     streams: &mut Streams<'_>,
 ) -> Result<u8, Failure> {
     let module = &arguments.module;
-    let bytes = std::fs::read(module).map_err(|error| {
-        usage(format!(
-            "cannot read {}: {error}\nThe engines are compiled for the page first: playground/build",
-            module.display()
-        ))
-    })?;
-    let page = page(&bytes).map_err(|problem| {
-        usage(format!(
-            "{} {problem}\nCompile the engines for the page: playground/build",
-            module.display()
-        ))
-    })?;
+    distinct(&[("--module", module, Use::Reads), ("--output", &arguments.output, Use::Writes)])?;
+    let refused =
+        |why: String| usage(format!("{why}\nCompile the engines for the page: playground/build"));
+    let bytes = input::read(module, limits::SOURCE_BYTES).map_err(|e| refused(e.to_string()))?;
+    if !is_whole(&bytes) {
+        let module = printable_path(module);
+        return Err(refused(format!("{module} ends in the middle of a section, or is damaged")));
+    }
+    let page =
+        page(&bytes).map_err(|problem| refused(format!("{} {problem}", printable_path(module))))?;
     write_file(&arguments.output, page.as_bytes())?;
-    writeln!(streams.output, "playground: {}", arguments.output.display())?;
+    writeln!(streams.output, "playground: {}", printable_path(&arguments.output))?;
     Ok(exit::AGREES)
+}
+
+/// Whether the sections of a module end where its bytes end. Bytes that are not a module at all are
+/// for [`page`] to refuse.
+fn is_whole(module: &[u8]) -> bool {
+    // The eight bytes before the first section are "\0asm" and the version.
+    let Some(mut rest) = module.strip_prefix(b"\0asm") else { return true };
+    let Some(sections) = rest.get(4..) else { return false };
+    rest = sections;
+    while let [_kind, after_kind @ ..] = rest {
+        // The length of a section: seven bits in each byte, the lowest first.
+        let Some(digits) = after_kind.iter().take(5).position(|byte| byte & 0x80 == 0) else {
+            return false;
+        };
+        let (length, content) = after_kind.split_at(digits + 1);
+        let length = length.iter().rev().fold(0, |sum, byte| sum << 7 | u64::from(byte & 0x7f));
+        let end = usize::try_from(length).unwrap_or(usize::MAX);
+        let Some(next) = content.get(end..) else { return false };
+        rest = next;
+    }
+    true
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_truncated_module_is_recognised() {
+        // A custom section of 130 bytes, whose length takes two bytes, and one of none.
+        let mut module = b"\0asm\x01\0\0\0\0\x82\x01".to_vec();
+        module.resize(module.len() + 130, 7);
+        module.extend([0, 0]);
+        assert!(is_whole(&module) && is_whole(&module[..8]) && is_whole(&module[..141]));
+        for length in (4..8).chain(9..141).chain([142]) {
+            assert!(!is_whole(&module[..length]), "{length}");
+        }
+    }
 }

@@ -1,10 +1,11 @@
 //! `rasterproof quiz`: the exercises of the pages, one at a time, each explained with its pixel grid.
 
-use std::fs::File;
-use std::io::{BufRead, BufReader, Write};
+use std::io::{BufRead, Write};
 use std::path::PathBuf;
 
 use clap::ValueEnum;
+use rasterproof_host::text::{printable, printable_path};
+use rasterproof_host::{input, limits};
 
 use super::{Failure, Streams, exit, usage};
 use crate::quiz::page::{TERMINAL_COLUMNS, choices, grids, legend, wrap};
@@ -82,16 +83,12 @@ pub fn run(arguments: &QuizArguments, streams: &mut Streams<'_>) -> Result<u8, F
         };
         return quiz.ask_all(&asked);
     }
-    let name = arguments.answers.display().to_string();
-    let file = File::open(&arguments.answers).map_err(|e| {
-        usage(format!(
-            "cannot read the answers from {name}: {e}; give a file with an answer a line"
-        ))
-    })?;
+    let answers = input::read_text(&arguments.answers, limits::NOTE_BYTES)
+        .map_err(|error| usage(format!("{error}\nGive a file with one answer in each line")))?;
     let mut quiz = Quiz {
-        input: &mut BufReader::new(file),
+        input: &mut answers.as_bytes(),
         output: &mut *streams.output,
-        name,
+        name: printable_path(&arguments.answers),
         line: 0,
         is_watched: false,
         language,
@@ -205,6 +202,7 @@ impl Quiz<'_> {
                 // Who is there may try again; a file is wrong in that line.
                 Err(remedy) if self.is_watched => writeln!(self.output, "{remedy}")?,
                 Err(remedy) => {
+                    let remedy = printable(&remedy);
                     return Err(usage(format!("{}, line {}: {remedy}", self.name, self.line)));
                 }
             }

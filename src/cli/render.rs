@@ -10,9 +10,10 @@ use rasterproof_host::text::{printable, printable_path};
 use rasterproof_host::{input, limits};
 
 use super::decisions::plan_rows;
-use super::page::{PageArguments, write_page};
+use super::files::{Use, distinct};
+use super::page::{PageArguments, as_file, write_page};
 use super::progress::Progress;
-use super::{Failure, Streams, exit, program, usage, write_file};
+use super::{Failure, Streams, exit, program, usage};
 use crate::angle::{atan, cos, sin, tan, turn_y};
 use crate::effects::plan::{Plan, SceneDigest, VERSION};
 use crate::effects::render::{BadScene, Misfit, Rendered};
@@ -398,7 +399,6 @@ struct Drawing {
 
 pub fn run(arguments: &RenderArguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
     let what = &arguments.what;
-    let maker = what.maker(streams.errors)?;
     let extension = if arguments.spin.is_some() { "gif" } else { "png" };
     let default = || arguments.page.place.out.join(format!("{}.{extension}", what.name()));
     let output = arguments.output.clone().unwrap_or_else(default);
@@ -406,11 +406,22 @@ pub fn run(arguments: &RenderArguments, streams: &mut Streams<'_>) -> Result<u8,
     if !ending.eq_ignore_ascii_case(extension) {
         return Err(usage(format!(
             "{}: {} is written as {}: end its name with .{extension}",
-            output.display(),
+            printable_path(&output),
             if extension == "gif" { "a full turn" } else { "the picture" },
             extension.to_ascii_uppercase()
         )));
     }
+    let difference = output.with_extension("difference.png");
+    let page = arguments.page.page("render.html");
+    let files = [
+        what.source().err().map(|path| ("the model", path, Use::Reads)),
+        arguments.plan.as_deref().map(|path| ("--plan", path, Use::Reads)),
+        Some(("--output", output.as_path(), Use::Writes)),
+        Some(("the picture of differences", difference.as_path(), Use::Writes)),
+        as_file(&page),
+    ];
+    distinct(&files.into_iter().flatten().collect::<Vec<_>>())?;
+    let maker = what.maker(streams.errors)?;
     let drawers = if arguments.engine == Drawn::Both { 2 } else { 1 };
     let pictures = u64::from(arguments.spin.unwrap_or(1)) * drawers;
     let progress = Progress::new(streams.progress, "pictures", Some(pictures));
@@ -425,16 +436,17 @@ pub fn run(arguments: &RenderArguments, streams: &mut Streams<'_>) -> Result<u8,
         return map(arguments, &scene, &output, streams);
     }
     let mut drawings = draw(arguments, &scene, &progress)?;
-    let mut written = write_file(&output, &frames::png(&drawings[0].rendered.picture)?);
+    let picture = frames::png(&drawings[0].rendered.picture)?;
     let comparison = compare(&scene, &drawings, arguments.plan.is_some())?;
     drop(progress);
-    let difference = output.with_extension("difference.png");
+    let drawn_in = streams.save(&output, &picture).then_some(output.as_path());
     // What a plan changes in both frames alike is no difference between them.
     let is_drawn =
         |c: &&Comparison| !(c.agrees() || is_plan_alone(c, &drawings)) || c.undecided > 0;
+    let mut difference_in = None;
     if let Some(comparison) = comparison.as_ref().filter(is_drawn) {
         let picture = frames::png(&comparison.picture)?;
-        written = written.and_then(|()| write_file(&difference, &picture));
+        difference_in = streams.save(&difference, &picture).then_some(difference.as_path());
     }
     if arguments.json {
         // With its scene the plan can be drawn by.
@@ -442,15 +454,13 @@ pub fn run(arguments: &RenderArguments, streams: &mut Streams<'_>) -> Result<u8,
         let json = frames::json(&scene.name, &names(&drawings), &drawings[0].rendered, &comparison);
         writeln!(streams.output, "{json}")?;
     } else {
-        let text = describe(&scene, &drawings, comparison.as_ref(), &output, &difference);
+        let text = describe(&scene, &drawings, comparison.as_ref(), drawn_in, difference_in);
         streams.output.write_all(text.as_bytes())?;
     }
-    // What cannot be written takes nothing of the verdict.
     streams.output.flush()?;
-    written?;
-    if arguments.page.report {
+    if let Some(path) = page {
         let report = report_page(&arguments.what, &scene, &drawings, comparison.as_ref());
-        write_page(&arguments.page.place.out.join("render.html"), report, streams.errors)?;
+        write_page(&path, report, streams);
     }
     Ok(comparison.map_or(exit::AGREES, |c| if c.agrees() { exit::AGREES } else { exit::DISAGREES }))
 }
@@ -621,8 +631,8 @@ fn describe(
     scene: &Scene,
     drawings: &[Drawing],
     comparison: Option<&Comparison>,
-    output: &Path,
-    difference: &Path,
+    output: Option<&Path>,
+    difference: Option<&Path>,
 ) -> String {
     let mut text = String::new();
     let c = &drawings[0].rendered.counters;
@@ -637,7 +647,9 @@ fn describe(
         "  fragments {}, depth tests {} (failed {}), shaded {}",
         c.fragments, c.depth_tests, c.depth_failed, c.shaded
     );
-    let _ = writeln!(text, "  drawn in {}", output.display());
+    if let Some(output) = output {
+        let _ = writeln!(text, "  drawn in {}", printable_path(output));
+    }
     if is_empty(&drawings[0].rendered) {
         let _ = writeln!(text, "  EMPTY: nothing of it is seen; the picture is background alone");
     }
@@ -667,18 +679,25 @@ fn describe(
             let names = names(drawings).join(" and ");
             let _ = writeln!(
                 text,
-                "DISAGREES: {names}: {} of {} pixels and {} of {} depths differ, drawn in {}",
+                "DISAGREES: {names}: {} of {} pixels and {} of {} depths differ{}",
                 comparison.wrong_pixels,
                 comparison.pixels,
                 comparison.wrong_depths,
                 comparison.depths,
-                difference.display()
+                difference.map_or(String::new(), |p| format!(", drawn in {}", printable_path(p)))
             );
         }
     }
     if let Some(words) = comparison.and_then(undecided) {
-        let _ = writeln!(text, "UNDECIDED: {words}: surfaces that tie, drawn in");
-        let _ = writeln!(text, "  {} (see docs/ties.md)", difference.display());
+        match difference {
+            Some(path) => {
+                let _ = writeln!(text, "UNDECIDED: {words}: surfaces that tie, drawn in");
+                let _ = writeln!(text, "  {} (see docs/ties.md)", printable_path(path));
+            }
+            None => {
+                let _ = writeln!(text, "UNDECIDED: {words}: surfaces that tie (see docs/ties.md)");
+            }
+        }
     }
     text
 }
@@ -722,10 +741,11 @@ fn draw_in_tiles(
     };
     let picture = tiled::render(scene, size.width(), size.height(), samples)
         .map_err(|error: BadScene| usage(error.to_string()))?;
-    write_file(output, &frames::png(&picture)?)?;
-    let out = &mut streams.output;
-    writeln!(out, "{}: {}", scene.name, scene.about)?;
-    writeln!(out, "  drawn in tiles of {0} x {0} px in {1}", tiled::SIDE_PX, output.display())?;
+    writeln!(streams.output, "{}: {}", scene.name, scene.about)?;
+    if streams.save(output, &frames::png(&picture)?) {
+        let (side, path) = (tiled::SIDE_PX, printable_path(output));
+        writeln!(streams.output, "  drawn in tiles of {side} x {side} px in {path}")?;
+    }
     Ok(exit::AGREES)
 }
 
@@ -744,8 +764,12 @@ fn map(
         .render_mapped(scene, &effects, &mut target)
         .map_err(|error| usage(error.to_string()))?;
     let title = format!("{}: what each pixel pays for", scene.name);
-    write_file(output, &picture::png(&frames::map_picture(&title, &rendered.picture, &map)))?;
-    writeln!(streams.output, "{}: effects paid for, drawn in {}", scene.name, output.display())?;
+    let picture = picture::png(&frames::map_picture(&title, &rendered.picture, &map));
+    let drawn_in = match streams.save(output, &picture) {
+        true => format!(", drawn in {}", printable_path(output)),
+        false => String::new(),
+    };
+    writeln!(streams.output, "{}: effects paid for{drawn_in}", scene.name)?;
     for (effect, _) in frames::MAP_COLOURS {
         writeln!(streams.output, "  {:<12} {} px", effect.name(), frames::paid(&map, effect))?;
     }
@@ -786,8 +810,11 @@ fn spin(
             encoder.encode_frame(frame).map_err(failed)?;
         }
     }
-    write_file(output, &bytes)?;
-    writeln!(streams.output, "{frames} frames, drawn in {}", output.display())?;
+    let drawn_in = match streams.save(output, &bytes) {
+        true => format!(", drawn in {}", printable_path(output)),
+        false => String::new(),
+    };
+    writeln!(streams.output, "{frames} frames{drawn_in}")?;
     if undecided > 0 {
         writeln!(streams.output, "UNDECIDED: {undecided} pixels, where surfaces tie")?;
     }

@@ -10,8 +10,11 @@ use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
 use image::{ImageFormat, ImageReader, RgbImage};
+use rasterproof_host::text::printable_path;
+use rasterproof_host::{input, limits};
 
-use super::page::{Place, write_page};
+use super::files::{Use, distinct};
+use super::page::{Place, save_page};
 use super::{Failure, Streams, exit, program, usage};
 use crate::report::html::{
     Column, Outcome, PictureLayer, PictureView, Report, Row, Table, TextDiff,
@@ -76,11 +79,14 @@ pub fn run(arguments: &ReviewArguments, streams: &mut Streams<'_>) -> Result<u8,
     found.dedup();
     let looked = found.iter().map(|path| look(path)).collect::<Result<Vec<_>, _>>()?;
     let pending: Vec<_> = looked.into_iter().flatten().collect();
-    let report = report(&pending, &folders);
     let default = || arguments.place.out.join("review.html");
     let output = arguments.output.clone().unwrap_or_else(default);
+    let read = found.iter().map(|path| ("a pending snapshot", path.as_path(), Use::Reads));
+    let olds = pending.iter().map(|one| ("a snapshot", one.path.as_path(), Use::Reads));
+    let page = ("the page", output.as_path(), Use::Writes);
+    distinct(&read.chain(olds).chain([page]).collect::<Vec<_>>())?;
+    let report = report(&pending, &folders);
     let sentence = report.outcome.clone().map(|outcome| outcome.sentence).unwrap_or_default();
-    write_page(&output, report, streams.output)?;
     for one in &pending {
         writeln!(streams.output, "\n{}: {}", one.path.display(), one.what)?;
         writeln!(streams.output, "  accept: {}", accept(one))?;
@@ -94,6 +100,9 @@ pub fn run(arguments: &ReviewArguments, streams: &mut Streams<'_>) -> Result<u8,
         )?;
     }
     writeln!(streams.output, "{}{sentence}", if pending.is_empty() { "" } else { "\n" })?;
+    if save_page(&output, report, streams) {
+        writeln!(streams.output, "report: {}", printable_path(&output))?;
+    }
     Ok(if pending.is_empty() { exit::AGREES } else { exit::DISAGREES })
 }
 
@@ -114,7 +123,7 @@ fn walk(folder: &Path, depth: u32, found: &mut Vec<PathBuf>) -> Result<(), Failu
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, Failure> {
-    fs::read(path).map_err(|error| usage(format!("cannot read {}: {error}", path.display())))
+    input::read(path, limits::DOCUMENT_BYTES).map_err(|error| usage(error.to_string()))
 }
 
 /// A file that may be missing.

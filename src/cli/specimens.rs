@@ -2,9 +2,12 @@
 
 use std::path::PathBuf;
 
-use super::page::{PageArguments, write_page};
+use rasterproof_host::text::printable_path;
+
+use super::files::{Use, distinct};
+use super::page::{PageArguments, as_file, write_page};
 use super::progress::Progress;
-use super::{Failure, Streams, exit, png_name, program, write_file, write_unasked};
+use super::{Failure, Streams, exit, png_name, program, write_unasked};
 use crate::report::html::{Outcome, Report};
 use crate::report::{cases, counts, json, picture, sheet, specimens};
 use crate::specimen::catalogue::{CARDS, Card};
@@ -35,7 +38,13 @@ pub struct SpecimensArguments {
 
 /// Surveys, prints and draws. A specimen that its case does not expose is a disagreement.
 pub fn run(arguments: &SpecimensArguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
-    let out = &mut *streams.output;
+    let page = arguments.page.page("specimens.html");
+    let sheet_file = arguments.output.as_deref().map(|path| ("--output", path, Use::Writes));
+    let files: Vec<_> = sheet_file.into_iter().chain(as_file(&page)).collect();
+    distinct(&files)?;
+    if let Some(path) = &arguments.output {
+        png_name(path)?;
+    }
     let cards: Vec<&Card> = CARDS
         .iter()
         .filter(|card| arguments.specimen.as_deref().is_none_or(|name| name == card.name))
@@ -51,22 +60,26 @@ pub fn run(arguments: &SpecimensArguments, streams: &mut Streams<'_>) -> Result<
         ([card], [report]) => (sheet::alone(card).image, specimens::detail(report)),
         _ => (sheet::contact_sheet(), specimens::table(&reports)),
     };
-    if let Some(path) = &arguments.output {
-        png_name(path)?;
-        write_file(path, &picture::png(&drawn))?;
+    if arguments.json {
+        let json = json::specimens(arguments.seed, arguments.cases, &reports);
+        write!(streams.output, "{json}")?;
+    } else {
+        writeln!(streams.output, "{text}")?;
     }
-    let folder = &arguments.page.place.out;
-    match (arguments.json, &arguments.output) {
-        (true, _) => write!(out, "{}", json::specimens(arguments.seed, arguments.cases, &reports))?,
-        (false, Some(path)) => writeln!(out, "{text}\ndrawn in {}", path.display())?,
-        (false, None) => {
-            writeln!(out, "{text}")?;
-            write_unasked(&folder.join("specimens.png"), &picture::png(&drawn), streams)?;
+    match &arguments.output {
+        Some(path) => {
+            if streams.save(path, &picture::png(&drawn)) && !arguments.json {
+                writeln!(streams.output, "drawn in {}", printable_path(path))?;
+            }
+        }
+        None if arguments.json => {}
+        None => {
+            let path = arguments.page.place.out.join("specimens.png");
+            write_unasked(&path, &picture::png(&drawn), streams)?;
         }
     }
-    if arguments.page.report {
-        let path = folder.join("specimens.html");
-        write_page(&path, report_page(arguments, &reports), streams.errors)?;
+    if let Some(path) = page {
+        write_page(&path, report_page(arguments, &reports), streams);
     }
     Ok(if are_caught(&reports) { exit::AGREES } else { exit::DISAGREES })
 }

@@ -221,7 +221,7 @@ pub fn run(arguments: &VerifyArguments, streams: &mut Streams<'_>) -> Result<u8,
     streams.output.flush()?;
     if arguments.page.report {
         let page = report_page(arguments, &verdict, &off_grid, &engines, &lines, &exact_engines);
-        write_page(&arguments.page.place.out.join("verify.html"), page, streams.errors)?;
+        write_page(&arguments.page.place.out.join("verify.html"), page, streams);
     }
     Ok(if verdict.agrees() && off_grid.agrees() { exit::AGREES } else { exit::DISAGREES })
 }

@@ -98,7 +98,7 @@ fn print(
     streams.output.flush()?;
     if job.page.report {
         let page = text::page(stand, &format!("{command}{all}"), &repeat);
-        write_page(&job.page.place.out.join("vulkan.html"), page, streams.errors)?;
+        write_page(&job.page.place.out.join("vulkan.html"), page, streams);
     }
     Ok(())
 }

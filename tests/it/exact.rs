@@ -293,6 +293,7 @@ fn run(command: &str, input: &str) -> (u8, String, String) {
         progress: false,
         colour: false,
         columns: cli::fold::USUAL,
+        delivery: cli::Delivery::default(),
     };
     let words = command.split_whitespace().map(str::to_owned);
     let status = cli::run(words, &mut streams);

@@ -207,6 +207,7 @@ fn answers(name: &str, requests: &[u8]) -> Vec<String> {
         progress: false,
         colour: false,
         columns: cli::fold::USUAL,
+        delivery: cli::Delivery::default(),
     };
     let words = ["rasterproof", "engine", name].map(str::to_owned);
     assert_eq!(

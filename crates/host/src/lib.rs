@@ -1,5 +1,6 @@
 //! The border between rasterproof and the machine it runs on. This crate is the one place that
-//! opens a file ([`input`]), writes a file ([`output`]), shows text that other people wrote
+//! opens a file ([`input`]), writes a file ([`output`]), recognises two names of one file
+//! ([`identity`]), shows text that other people wrote
 //! ([`text`]), quotes a command that a reader may copy ([`shell`]), and states the limits of size
 //! and time ([`limits`]).
 //!
@@ -8,6 +9,7 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
+pub mod identity;
 pub mod input;
 pub mod limits;
 pub mod lock;

@@ -4,10 +4,13 @@ use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{Read as _, Seek as _, Write as _};
 use std::path::{Path, PathBuf};
 
-use crate::output::{OutputError, remove};
+use crate::identity::place;
+use crate::output::{OutputError, create_folder, remove};
+use crate::text::printable_path;
 
 /// The right to replace a file, held until it goes out of scope. The lock is a file beside the one
-/// it protects, with `.lock` added to the name; it is removed at the end.
+/// it protects, with `.lock` added to the name; it is removed at the end. Two links to one file have
+/// one lock.
 #[derive(Debug)]
 pub struct Lock {
     /// Open as long as the lock is held: the system ends a lock with its process.
@@ -16,17 +19,25 @@ pub struct Lock {
 }
 
 impl Lock {
-    /// Locks `path`, or says which process has it.
+    /// The file that is the lock of `path`.
+    #[must_use]
+    pub fn file_of(path: &Path) -> PathBuf {
+        let mut name = place(path).into_os_string();
+        name.push(".lock");
+        PathBuf::from(name)
+    }
+
+    /// Locks `path`, or says which process has it. The folder of `path` is made where it is missing.
     ///
     /// # Errors
-    /// [`OutputError`] where another process holds the lock, or the file of the lock cannot be made.
+    /// [`OutputError`] where another process holds the lock, where the file of the lock cannot be
+    /// made, or where a file that is not a lock has its name.
     #[allow(clippy::disallowed_methods, reason = "the lock has to be the file that was opened")]
     pub fn acquire(path: &Path) -> Result<Self, OutputError> {
         let refused = |cause: String| OutputError { path: path.to_owned(), cause };
         let failed = |error: std::io::Error| refused(format!("cannot be locked: {error}"));
-        let mut name = path.as_os_str().to_owned();
-        name.push(".lock");
-        let lock = PathBuf::from(name);
+        let lock = Self::file_of(path);
+        create_folder(&lock)?;
         loop {
             let mut options = OpenOptions::new();
             options.read(true).write(true).create(true).truncate(false);
@@ -40,9 +51,7 @@ impl Lock {
             match file.try_lock() {
                 Ok(()) => {}
                 Err(TryLockError::WouldBlock) => {
-                    let mut holder = String::new();
-                    let _ = file.take(20).read_to_string(&mut holder);
-                    let holder = holder.trim().parse::<u32>();
+                    let holder = holder(&mut file).flatten();
                     let holder = holder.map_or(String::new(), |number| format!(" {number}"));
                     return Err(refused(format!(
                         "is in use by another process{holder}; wait for its end, or name another file"
@@ -54,6 +63,13 @@ impl Lock {
             if !is_at(&file, &lock) {
                 continue;
             }
+            // Another program may use this name for a file with content, such as Cargo.lock.
+            if holder(&mut file).is_none() {
+                let lock = printable_path(&lock);
+                return Err(refused(format!(
+                    "cannot be locked: {lock} exists and is not a lock; name another file"
+                )));
+            }
             let number = std::process::id();
             file.set_len(0)
                 .and_then(|()| file.rewind())
@@ -62,6 +78,17 @@ impl Lock {
             return Ok(Self { _file: file, path: lock });
         }
     }
+}
+
+/// The process whose number is in the file of a lock, or none where the file is empty. Nothing where
+/// the file holds anything else.
+fn holder(file: &mut File) -> Option<Option<u32>> {
+    let mut text = String::new();
+    file.take(20).read_to_string(&mut text).ok()?;
+    if text.is_empty() {
+        return Some(None);
+    }
+    text.strip_suffix('\n')?.parse().ok().map(Some)
 }
 
 /// Whether `path` still names the file that is open.
@@ -103,5 +130,32 @@ mod tests {
         drop(first);
         assert!(!folder.path("c.json.lock").exists());
         Lock::acquire(&file).unwrap();
+    }
+
+    #[test]
+    fn the_folder_is_made_and_links_share_a_lock() {
+        let folder = Folder::new("lock-folder");
+        let file = folder.path("a/b/c.json");
+        let lock = Lock::acquire(&file).unwrap();
+        #[cfg(unix)]
+        {
+            std::os::unix::fs::symlink("a", folder.path("link")).unwrap();
+            let error = Lock::acquire(&folder.path("link/b/c.json")).unwrap_err();
+            assert!(error.cause.starts_with("is in use by another process "), "{error}");
+        }
+        drop(lock);
+    }
+
+    /// What a killed process leaves is taken over; a file of another program is left alone.
+    #[test]
+    #[allow(clippy::disallowed_methods, reason = "the test makes the files in question")]
+    fn a_file_that_is_not_a_lock_is_left_alone() {
+        let folder = Folder::new("lock-other");
+        std::fs::write(folder.path("Cargo.lock"), "version = 4\n").unwrap();
+        let error = Lock::acquire(&folder.path("Cargo")).unwrap_err();
+        assert!(error.cause.contains("is not a lock"), "{error}");
+        assert_eq!(std::fs::read(folder.path("Cargo.lock")).unwrap(), b"version = 4\n");
+        std::fs::write(folder.path("c.json.lock"), "77\n").unwrap();
+        Lock::acquire(&folder.path("c.json")).unwrap();
     }
 }

@@ -63,7 +63,8 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
     }
 }
 
-fn create_folder(path: &Path) -> Result<(), OutputError> {
+/// Makes the folder of a file where it is missing.
+pub(crate) fn create_folder(path: &Path) -> Result<(), OutputError> {
     let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) else {
         return Ok(());
     };
@@ -300,8 +301,13 @@ pub(crate) mod tests {
         write(&pipe, &bytes).unwrap();
         assert!(reader.join().unwrap() == bytes);
         assert!(fs::metadata(&pipe).unwrap().file_type().is_fifo());
-        write(Path::new("/dev/null"), b"gone").unwrap();
-        assert!(write(Path::new("/dev/full"), b"lost").unwrap_err().cause.contains("No space"));
+        // By links: a fault here must not replace the machine's devices.
+        let (null, full) = (folder.path("null"), folder.path("full"));
+        std::os::unix::fs::symlink("/dev/null", &null).unwrap();
+        std::os::unix::fs::symlink("/dev/full", &full).unwrap();
+        write(&null, b"gone").unwrap();
+        assert!(write(&full, b"lost").unwrap_err().cause.contains("No space"));
+        assert!(fs::symlink_metadata(&null).unwrap().is_symlink());
     }
 
     #[cfg(unix)]

@@ -9,11 +9,12 @@ use std::collections::{BTreeMap, HashSet};
 use std::fmt::Write as _;
 use std::path::Path;
 
+use rasterproof_host::text::{printable, printable_path};
+use rasterproof_host::{input, limits};
+
 use super::verdict::{Outcome, Verdict};
 
 const HEADER: &str = "# rasterproof baseline 1, seed ";
-/// A longer file is no baseline that anybody reads.
-const MOST_BYTES: u64 = 1 << 26;
 
 /// Known failures: a fingerprint for each `property family#number`.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -28,18 +29,12 @@ impl Baseline {
     /// # Errors
     /// It cannot be read, is none, or is of another seed: with its name, line and remedy.
     pub fn read(path: &Path, seed: u64) -> Result<Self, String> {
-        let name = path.display();
-        match std::fs::metadata(path) {
-            Err(e) if e.kind() == std::io::ErrorKind::NotFound => {
-                return Ok(Self { seed, known: BTreeMap::new() });
-            }
-            Ok(file) if file.len() > MOST_BYTES => {
-                return Err(format!("{name}: a baseline has at most {MOST_BYTES} bytes"));
-            }
-            _ => {}
-        }
-        let text = std::fs::read_to_string(path).map_err(|e| format!("cannot read {name}: {e}"))?;
-        Self::parse(&text, seed).map_err(|what| format!("{name}: {what}"))
+        let text = match input::read_text(path, limits::DOCUMENT_BYTES) {
+            Err(error) if error.missing => return Ok(Self { seed, known: BTreeMap::new() }),
+            read => read.map_err(|error| error.to_string())?,
+        };
+        Self::parse(&text, seed)
+            .map_err(|what| format!("{}: {}", printable_path(path), printable(&what)))
     }
 
     /// Reads the text of a file.
@@ -52,7 +47,7 @@ impl Baseline {
         match of {
             None => {
                 return Err(format!(
-                    "line 1: expected '{HEADER}N'; write it anew with --update-baseline"
+                    "line 1: expected '{HEADER}N'; delete the file, and write it anew with --update-baseline"
                 ));
             }
             Some(of) if of != seed => {

@@ -3,6 +3,9 @@
 
 use std::path::Path;
 
+use rasterproof_host::text::{printable, printable_path};
+use rasterproof_host::{input, limits};
+
 /// The variables that name drivers, the newer one first; the loader reads the first that is set.
 const VARIABLES: [&str; 2] = ["VK_DRIVER_FILES", "VK_ICD_FILENAMES"];
 
@@ -12,7 +15,8 @@ pub(super) fn faults() -> Vec<String> {
     set.map_or_else(Vec::new, |(name, value)| {
         let files = std::env::split_paths(&value).collect::<Vec<_>>();
         let fault = |file: &std::path::PathBuf| {
-            Some(format!("{name} names {}: {}", file.display(), fault(file)?))
+            let why = fault(file)?;
+            Some(format!("{name} names {}: {}", printable_path(file), printable(&why)))
         };
         files.iter().filter_map(fault).collect()
     })
@@ -23,9 +27,9 @@ fn fault(file: &Path) -> Option<String> {
     if file.is_dir() {
         return None;
     }
-    match std::fs::read_to_string(file) {
+    match input::read_text(file, limits::NOTE_BYTES) {
         Ok(text) => wrong(&text, file.parent().unwrap_or(Path::new(""))),
-        Err(error) => Some(error.to_string()),
+        Err(error) => Some(error.cause),
     }
 }
 

@@ -1,0 +1,333 @@
+//! Every option that reads a file, with files that are none: each ends at once, with a message that
+//! names the file, and nothing in a file reaches the terminal as a command to it.
+#![cfg(unix)]
+
+use std::fs::{self, File};
+use std::os::unix::fs::symlink;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+use rasterproof::cli::exit::{AGREES, DISAGREES, USAGE};
+
+const PROGRAM: &str = env!("CARGO_BIN_EXE_rasterproof");
+/// All that is read here is refused in milliseconds; what waits would wait for ever.
+const PATIENCE: Duration = Duration::from_secs(120);
+/// Kibibytes of addresses: what reads a device to its end is stopped by this.
+const MEMORY_KIB: u64 = 8 << 20;
+
+/// What is put in the place of a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Hostile {
+    Pipe,
+    Device,
+    Directory,
+    FiveGigabytes,
+    ControlCharacters,
+    Truncated,
+    Missing,
+}
+
+const ALL: [Hostile; 7] = [
+    Hostile::Pipe,
+    Hostile::Device,
+    Hostile::Directory,
+    Hostile::FiveGigabytes,
+    Hostile::ControlCharacters,
+    Hostile::Truncated,
+    Hostile::Missing,
+];
+
+/// An option that reads a file.
+struct Reader {
+    name: &'static str,
+    /// The command; `{}` is the file.
+    words: &'static str,
+    /// The file in the folder of the command.
+    file: &'static str,
+    /// The beginning of a right file.
+    truncated: &'static [u8],
+    /// Other files that the command needs.
+    beside: &'static [(&'static str, &'static str)],
+    /// Statuses other than [`USAGE`] that are right, and for which files.
+    or: &'static [(u8, &'static [Hostile])],
+}
+
+const MODEL: &str = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl a\nf 1/1 2/1 3/1\n";
+const PNG: &[u8] = b"\x89PNG\r\n\x1a\n\0\0";
+
+const READERS: [Reader; 17] = [
+    Reader {
+        name: "render MODEL",
+        words: "render --size 16x16 {}",
+        file: "x.obj",
+        truncated: b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2",
+        beside: &[],
+        or: &[],
+    },
+    Reader {
+        name: "plan MODEL",
+        words: "plan --size 16x16 --rounds 1 {}",
+        file: "x.obj",
+        truncated: b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2",
+        beside: &[],
+        or: &[],
+    },
+    // A model without its materials is drawn grey, with a warning.
+    Reader {
+        name: "materials of a model",
+        words: "render --size 16x16 model.obj",
+        file: "m.mtl",
+        truncated: b"newmtl a\nKd 1 0 0\nmap_K",
+        beside: &[("model.obj", MODEL)],
+        or: &[(AGREES, &ALL)],
+    },
+    Reader {
+        name: "texture of a model",
+        words: "render --size 16x16 model.obj",
+        file: "t.png",
+        truncated: PNG,
+        beside: &[("model.obj", MODEL), ("m.mtl", "newmtl a\nKd 1 0 0\nmap_Kd t.png\n")],
+        or: &[],
+    },
+    Reader {
+        name: "render --plan",
+        words: "render cube --size 16x16 --plan {}",
+        file: "p.json",
+        truncated: b"{\"plan\": {",
+        beside: &[],
+        or: &[],
+    },
+    Reader {
+        name: "merge",
+        words: "merge {}",
+        file: "c.json",
+        truncated: b"{\"rasterproof\": \"0",
+        beside: &[],
+        or: &[],
+    },
+    Reader {
+        name: "cost --from",
+        words: "cost --from {}",
+        file: "c.json",
+        truncated: b"{\"version\": \"",
+        beside: &[],
+        or: &[],
+    },
+    // A checkpoint that is not there is a run that begins.
+    Reader {
+        name: "exhaust --checkpoint",
+        words: "exhaust lines --reach 2 --checkpoint {}",
+        file: "c.json",
+        truncated: b"{\"identity\": {",
+        beside: &[],
+        or: &[(AGREES, &[Hostile::Missing])],
+    },
+    Reader {
+        name: "quiz --answers",
+        words: "quiz 2 --answers {}",
+        file: "a.txt",
+        truncated: b"1\n\xe4\xb8",
+        beside: &[],
+        or: &[],
+    },
+    Reader {
+        name: "playground --module",
+        words: "playground --module {}",
+        file: "m.wasm",
+        truncated: b"\0asm\x01\0\0\0\x01\x07",
+        beside: &[],
+        or: &[],
+    },
+    // A baseline that is not there knows no failure.
+    Reader {
+        name: "judge --baseline",
+        words: "judge --cases 2 --family fan --baseline {} -- PROGRAM engine scanline",
+        file: "b.txt",
+        truncated: b"# rasterproof baseline 1, se",
+        beside: &[],
+        or: &[(AGREES, &[Hostile::Missing])],
+    },
+    Reader {
+        name: "judge --league",
+        words: "judge --league",
+        file: "adapters/league.json",
+        truncated: b"[{\"name\":",
+        beside: &[],
+        or: &[],
+    },
+    // What cannot be shown waits for review all the same.
+    Reader {
+        name: "review, new text",
+        words: "review",
+        file: "snapshots/x.snap.new",
+        truncated: b"---\nsource: a",
+        beside: &[],
+        or: &[(DISAGREES, &ALL), (AGREES, &ALL)],
+    },
+    Reader {
+        name: "review, old text",
+        words: "review",
+        file: "snapshots/x.snap",
+        truncated: b"---\nsource: a",
+        beside: &[("snapshots/x.snap.new", "---\nsource: a.rs\n---\nnew\n")],
+        or: &[(DISAGREES, &ALL)],
+    },
+    Reader {
+        name: "review, new picture",
+        words: "review",
+        file: "snapshots/x.snap.new.png",
+        truncated: PNG,
+        beside: &[(
+            "snapshots/x.snap.new",
+            "---\nsource: a.rs\nextension: png\nsnapshot_kind: binary\n---\n",
+        )],
+        or: &[(DISAGREES, &ALL)],
+    },
+    // What is not a page is not listed.
+    Reader {
+        name: "pages beside --report",
+        words: "--cases 2 --report --out out",
+        file: "out/x.html",
+        truncated: b"<html><ti",
+        beside: &[],
+        or: &[(AGREES, &ALL)],
+    },
+    Reader {
+        name: "index of --report",
+        words: "--cases 2 --report --out out",
+        file: "out/index.html",
+        truncated: b"<html><ti",
+        beside: &[],
+        or: &[(AGREES, &ALL)],
+    },
+];
+
+/// A folder below the system's folder for such files, removed with what is in it.
+struct Folder(PathBuf);
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
+
+fn put(hostile: Hostile, path: &Path, truncated: &[u8]) {
+    match hostile {
+        Hostile::Pipe => assert!(Command::new("mkfifo").arg(path).status().unwrap().success()),
+        Hostile::Device => symlink("/dev/zero", path).unwrap(),
+        Hostile::Directory => fs::create_dir(path).unwrap(),
+        // Sparse: it takes no space on the disk.
+        Hostile::FiveGigabytes => File::create(path).unwrap().set_len(5_000_000_000).unwrap(),
+        Hostile::ControlCharacters => {
+            let text = "\x1b[31m{\"a\x1b[32m\": \x1b[31m\nusemtl \x1b[31m\nf \x1b[31m 2 3\n";
+            fs::write(path, text).unwrap();
+        }
+        Hostile::Truncated => fs::write(path, truncated).unwrap(),
+        Hostile::Missing => {}
+    }
+}
+
+/// Runs a command with a hostile file; says what is wrong with how it ended.
+fn check(reader: &Reader, hostile: Hostile) -> Result<(), String> {
+    let name = format!("rasterproof-hostile-{}-{hostile:?}-{}", reader.name, std::process::id());
+    let folder = Folder(std::env::temp_dir().join(name.replace([' ', ','], "_")));
+    let _ = fs::remove_dir_all(&folder.0);
+    // A name with control characters, where the name is free.
+    let is_free = reader.words.contains("{}") && hostile == Hostile::ControlCharacters;
+    let file = if is_free { format!("\x1b[31m{}", reader.file) } else { reader.file.to_owned() };
+    let path = folder.0.join(&file);
+    fs::create_dir_all(path.parent().unwrap()).unwrap();
+    for (name, text) in reader.beside {
+        fs::write(folder.0.join(name), text).unwrap();
+    }
+    put(hostile, &path, reader.truncated);
+    let words = reader.words.split(' ').map(|word| match word {
+        "{}" => &file,
+        "PROGRAM" => PROGRAM,
+        word => word,
+    });
+    let [out, errors] = ["standard.out", "standard.errors"].map(|name| folder.0.join(name));
+    let start = Instant::now();
+    let mut child = Command::new("sh")
+        .args(["-c", &format!("ulimit -v {MEMORY_KIB}; exec \"$0\" \"$@\""), PROGRAM])
+        .args(words)
+        .current_dir(&folder.0)
+        .stdin(Stdio::null())
+        .stdout(File::create(&out).unwrap())
+        .stderr(File::create(&errors).unwrap())
+        .spawn()
+        .unwrap();
+    let status = loop {
+        if let Some(status) = child.try_wait().unwrap() {
+            break status.code();
+        }
+        if start.elapsed() > PATIENCE {
+            child.kill().unwrap();
+            child.wait().unwrap();
+            return Err("does not end".to_owned());
+        }
+        std::thread::sleep(Duration::from_millis(5));
+    };
+    let text = |path| String::from_utf8_lossy(&fs::read(path).unwrap()).into_owned();
+    let (out, errors) = (text(&out), text(&errors));
+    let wrong = |what: &str| Err(format!("{what}: status {status:?}\n{out}\n{errors}"));
+    let is_known =
+        |&(code, files): &(u8, &[Hostile])| status == Some(code.into()) && files.contains(&hostile);
+    if status != Some(USAGE.into()) && !reader.or.iter().any(|known| is_known(known)) {
+        return wrong("another status");
+    }
+    if errors.contains("panicked") || errors.contains("allocation") {
+        return wrong("a panic");
+    }
+    if errors.contains('\x1b') || out.contains('\x1b') {
+        return wrong("a control character");
+    }
+    let lines = errors.lines().count();
+    let shown = reader.file.rsplit('/').next().unwrap_or_default();
+    if status == Some(USAGE.into()) && !(errors.contains(shown) && (1..=2).contains(&lines)) {
+        return wrong("a message that does not name the file in two lines");
+    }
+    Ok(())
+}
+
+#[test]
+fn every_option_that_reads_a_file_refuses_what_is_none() {
+    let mut wrong = Vec::new();
+    for reader in &READERS {
+        for hostile in ALL {
+            let result = check(reader, hostile);
+            wrong.extend(result.err().map(|what| format!("{}, {hostile:?}: {what}", reader.name)));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
+}
+
+/// `clippy.toml` refuses the standard library's functions for files. The lint may be switched off in
+/// the one crate that calls them, and in tests.
+#[test]
+fn only_one_crate_opens_and_writes_files() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let crates = ["", "engines", "judges", "lineup", "measures", "playground", "reports", "vulkan"];
+    let mut folders: Vec<_> = crates.map(|name| root.join(name).join("src")).into();
+    let mut files = 0;
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|ending| ending == "rs") {
+                let text = fs::read_to_string(&path).unwrap();
+                // The tests of a file are its last part.
+                let code = text.split("\n#[cfg(test)]\n").next().unwrap_or_default();
+                assert!(!code.contains("disallowed_methods"), "{}", path.display());
+                files += 1;
+            }
+        }
+    }
+    assert!(files > 100, "{files}");
+    let lint = fs::read_to_string(root.join("clippy.toml")).unwrap();
+    for function in ["read", "read_to_string", "write", "rename", "File::open", "File::create"] {
+        assert!(lint.contains(&format!("\"std::fs::{function}\"")), "{function}");
+    }
+}
