@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use super::page::{PageArguments, write_page};
 use super::progress::Progress;
-use super::{Failure, Streams, exit, program, usage, write_file};
+use super::typed::Typed;
+use super::{Failure, Streams, exit, usage, write_file};
 use crate::cost::{Board, Guest, Ladder, Options, Recorded, measure_with};
 use crate::report::chart::{self, Drawing};
 use crate::report::html::{Figure, Report};
@@ -70,21 +71,6 @@ impl CostArguments {
         self.output.as_deref().unwrap_or(&self.page.place.out)
     }
 
-    /// The command that repeats the run.
-    fn repeat(&self) -> String {
-        use clap::ValueEnum as _;
-        let mut command = format!("{} cost", program());
-        if let Some(value) = self.which.and_then(|which| which.to_possible_value()) {
-            command += &format!(" {}", value.get_name());
-        }
-        if self.quick {
-            command += " --quick";
-        }
-        #[cfg(feature = "vulkan")]
-        self.engine.iter().for_each(|name| command += &format!(" --engine {name}"));
-        command + &format!(" --seed {}", self.seed)
-    }
-
     /// The devices that are measured beside the rungs.
     #[cfg(feature = "vulkan")]
     fn guests(&self) -> Result<Vec<Box<dyn Guest>>, Failure> {
@@ -100,13 +86,17 @@ impl CostArguments {
 }
 
 /// Measures or reads, prints and draws. Nothing here disagrees with anything: errors are the result.
-pub fn run(arguments: &CostArguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+pub fn run(
+    arguments: &CostArguments,
+    typed: &Typed,
+    streams: &mut Streams<'_>,
+) -> Result<u8, Failure> {
     let ladders = arguments.which.map_or(&Ladder::ALL[..], Which::ladders);
     let recorded = match &arguments.from {
         Some(path) => read(path, ladders)?,
         None => Recorded {
             version: env!("CARGO_PKG_VERSION").to_owned(),
-            repeat: arguments.repeat(),
+            repeat: typed.clone().without_output().set("seed", arguments.seed).line(),
             seed: arguments.seed,
             quick: arguments.quick,
             boards: measure_all(ladders, arguments, streams.progress)?,

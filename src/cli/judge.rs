@@ -7,7 +7,8 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
 use super::page::{PageArguments, write_page};
 use super::progress::Progress;
-use super::{Failure, Streams, exit, league, program, usage, write_file};
+use super::typed::Typed;
+use super::{Failure, Streams, exit, league, usage, write_file};
 use crate::judge::ask::Ask;
 use crate::judge::baseline::Baseline;
 use crate::judge::process::{Limits, Program};
@@ -127,46 +128,13 @@ impl JudgeArguments {
     fn words(&self) -> Vec<String> {
         self.declare.iter().flat_map(|words| words.split_whitespace()).map(str::to_owned).collect()
     }
-
-    /// A command that judges the same program, with these options first.
-    fn repeat(&self, options: &str) -> String {
-        let mut out = format!("{} judge {options} --seed {}", program(), self.seed);
-        for words in &self.declare {
-            out += &format!(" --declare {}", quoted(words));
-        }
-        let command: Vec<_> = self.command.iter().map(|word| quoted(word)).collect();
-        format!("{out} -- {}", command.join(" "))
-    }
-
-    fn repeat_all(&self) -> String {
-        let families: String = self.family.iter().map(|f| format!("--family {f} ")).collect();
-        let case = self.case.map(|case| format!(" --case {case}")).unwrap_or_default();
-        self.repeat(&format!("{families}--cases {}{case}", self.cases))
-    }
 }
 
-/// A word as a shell takes it.
-fn quoted(word: &str) -> String {
-    let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_./=:,+@%".contains(c);
-    if !word.is_empty() && word.chars().all(is_plain) {
-        return word.to_owned();
-    }
-    // Control characters would reach the terminal: $'...' spells them.
-    if word.chars().any(char::is_control) {
-        let escaped: String = word
-            .chars()
-            .map(|c| match c {
-                '\'' | '\\' => format!("\\{c}"),
-                c if c.is_control() => format!("\\x{:02x}", u32::from(c)),
-                c => c.to_string(),
-            })
-            .collect();
-        return format!("$'{escaped}'");
-    }
-    format!("'{}'", word.replace('\'', "'\\''"))
-}
-
-pub fn run(arguments: &JudgeArguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+pub fn run(
+    arguments: &JudgeArguments,
+    typed: &Typed,
+    streams: &mut Streams<'_>,
+) -> Result<u8, Failure> {
     let limits = Limits { answer: arguments.timeout, start: arguments.start_timeout };
     if let Some(names) = &arguments.league {
         return league::run(names, &arguments.options(), limits, streams);
@@ -221,20 +189,26 @@ pub fn run(arguments: &JudgeArguments, streams: &mut Streams<'_>) -> Result<u8, 
             writeln!(streams.errors, "baseline: {path}")?;
         }
     }
-    let repeat_case =
-        |family: &str, index: u64| arguments.repeat(&format!("--family {family} --case {index}"));
+    let again = typed.clone().without_output().without(&["update-baseline"]);
+    let again = again.set("seed", arguments.seed);
+    let repeat_case = |family: &str, index: u64| {
+        let one = again.clone().without(&["cases", "seconds", "jobs", "baseline"]);
+        one.first("case", index).first("family", family).line()
+    };
+    let repeat_all = again.clone().first("cases", arguments.cases).line();
     let format = if arguments.json { Format::Json } else { arguments.format };
     let text = match format {
         Format::Text => {
-            let (repeat, shown) = (arguments.repeat_all(), (arguments.table, streams.colour));
-            judged::text(&verdict, &repeat, &repeat_case, shown)
+            let shown = (arguments.table, streams.colour);
+            judged::text(&verdict, &repeat_all, &repeat_case, shown)
         }
-        other => formats::write(&verdict, other, &arguments.repeat_all(), &repeat_case),
+        other => formats::write(&verdict, other, &repeat_all, &repeat_case),
     };
     streams.output.write_all(text.as_bytes())?;
     streams.output.flush()?;
     if arguments.page.report {
-        let page = judged::page(&verdict, &arguments.repeat_all(), &repeat_case);
+        let page =
+            judged::page(&verdict, &typed.clone().set("seed", arguments.seed).line(), &repeat_case);
         write_page(&arguments.page.place.out.join("judge.html"), page, streams.errors)?;
     }
     // A baseline that was just written knows everything.

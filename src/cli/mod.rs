@@ -9,6 +9,7 @@ mod engine;
 mod exhaust;
 mod explain;
 pub mod fold;
+mod guard;
 mod inspect;
 mod inspect_case;
 mod invariant;
@@ -24,6 +25,7 @@ mod render;
 mod review;
 mod shown;
 mod specimens;
+mod typed;
 mod verify;
 #[cfg(feature = "vulkan")]
 mod vulkan;
@@ -32,7 +34,11 @@ use std::fmt;
 use std::io::{self, BufRead, Write};
 use std::path::Path;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
+use guard::{Escape, Guarded};
+use rasterproof_host::shell;
+use rasterproof_host::text::{is_hidden, printable, printable_lines};
+use typed::Typed;
 
 use crate::{hazard, lineup};
 
@@ -177,26 +183,48 @@ pub struct Streams<'a> {
     pub columns: usize,
 }
 
+/// Whether a word is a coordinate such as -1.5,3, which is no option.
+fn is_coordinate(word: &str) -> bool {
+    let number = |c: char| c.is_ascii_digit() || c == '.';
+    word.contains(',') && word.strip_prefix('-').is_some_and(|rest| rest.starts_with(number))
+}
+
+/// The arguments, and the same as a command that can be printed.
+fn parse(words: Vec<String>) -> Result<(Arguments, Typed), clap::Error> {
+    // A space in front of a coordinate tells the parser that it is no option. After -- come the words
+    // of somebody else, which stay as they are.
+    let mut ours = true;
+    let words = words.into_iter().map(|word| {
+        ours &= word != "--";
+        if ours && is_coordinate(&word) { format!(" {word}") } else { word }
+    });
+    let mut command = Arguments::command();
+    let matches = command.try_get_matches_from_mut(words)?;
+    let arguments =
+        Arguments::from_arg_matches(&matches).map_err(|error| error.format(&mut command))?;
+    Ok((arguments, Typed::of(&command, &matches)))
+}
+
+/// What the parser says of words that it refuses. It repeats them as they are, so they are made
+/// printable before.
+fn refusal(error: clap::Error, words: &[String]) -> clap::Error {
+    if !words.iter().any(|word| word.chars().any(is_hidden)) {
+        return error;
+    }
+    parse(words.iter().map(|word| printable(word).into_owned()).collect()).err().unwrap_or(error)
+}
+
 /// Runs a command line, the program's name first, and returns the exit status.
 pub fn run(words: impl IntoIterator<Item = String>, streams: &mut Streams<'_>) -> u8 {
-    // A coordinate such as -1.5,3 is no option: a space in front tells the parser so.
-    let is_coordinate = |word: &str| {
-        let number = |c: char| c.is_ascii_digit() || c == '.';
-        word.contains(',') && word.strip_prefix('-').is_some_and(|rest| rest.starts_with(number))
-    };
-    // After -- come the words of somebody else, which stay as they are.
-    let mut ours = true;
+    let words: Vec<String> = words.into_iter().collect();
     // What machines read keeps its lines.
-    let mut for_machines = false;
-    let words = words.into_iter().map(|w| {
-        ours &= w != "--";
-        for_machines |= ours && (w == "--json" || w.starts_with("--format"));
-        if ours && is_coordinate(&w) { format!(" {w}") } else { w }
-    });
-    let arguments = match Arguments::try_parse_from(words) {
-        Ok(arguments) => arguments,
+    let ours = words.iter().take_while(|word| *word != "--");
+    let for_machines = { ours }.any(|word| word == "--json" || word.starts_with("--format"));
+    let (arguments, typed) = match parse(words.clone()) {
+        Ok(parsed) => parsed,
         Err(error) => {
-            let text = error.render().to_string();
+            let error = refusal(error, &words);
+            let text = printable_lines(&error.render().to_string()).into_owned();
             let asked = !error.use_stderr();
             let stream: &mut dyn Write = if asked { streams.output } else { streams.errors };
             // Nobody is left to tell if this fails.
@@ -217,31 +245,38 @@ pub fn run(words: impl IntoIterator<Item = String>, streams: &mut Streams<'_>) -
                     | Command::Digest(_)
             )
         );
+    let escape = match (for_machines, colour) {
+        (true, _) => Escape::Json,
+        (false, true) => Escape::WordsAndColours,
+        (false, false) => Escape::Words,
+    };
+    let mut guarded = Guarded::new(streams.output, escape);
     let output: &mut dyn Write = match for_machines {
-        true => streams.output,
+        true => &mut guarded,
         false => {
-            folded = fold::Folded::new(streams.output, columns, program());
+            folded = fold::Folded::new(&mut guarded, columns, program());
             &mut folded
         }
     };
-    let (input, errors) = (&mut *streams.input, &mut *streams.errors);
+    let mut errors = Guarded::new(streams.errors, Escape::Words);
+    let (input, errors) = (&mut *streams.input, &mut errors);
     let streams = &mut Streams { input, output, errors, progress, colour, columns };
     let result = match &arguments.command {
-        None => verify::run(&arguments.verify, streams),
-        Some(Command::Verify(arguments)) => verify::run(arguments, streams),
-        Some(Command::Inspect(arguments)) => inspect::run(arguments, streams),
+        None => verify::run(&arguments.verify, &typed, streams),
+        Some(Command::Verify(arguments)) => verify::run(arguments, &typed, streams),
+        Some(Command::Inspect(arguments)) => inspect::run(arguments, &typed, streams),
         Some(Command::Engine { name, plant: None }) => engine::run(name, streams),
         Some(Command::Engine { name, plant: Some(fault) }) => misbehave::run(name, *fault, streams),
-        Some(Command::Judge(arguments)) => judge::run(arguments, streams),
+        Some(Command::Judge(arguments)) => judge::run(arguments, &typed, streams),
         Some(Command::Course(arguments)) => course::run(arguments, streams),
-        Some(Command::Specimens(arguments)) => specimens::run(arguments, streams),
-        Some(Command::Render(arguments)) => render::run(arguments, streams),
-        Some(Command::Plan(arguments)) => plan::run(arguments, streams),
+        Some(Command::Specimens(arguments)) => specimens::run(arguments, &typed, streams),
+        Some(Command::Render(arguments)) => render::run(arguments, &typed, streams),
+        Some(Command::Plan(arguments)) => plan::run(arguments, &typed, streams),
         Some(Command::Mutants(arguments)) => invariant::mutants(arguments, streams),
         Some(Command::Exhaust(arguments)) => exhaust::run(arguments, streams),
         Some(Command::Merge(arguments)) => exhaust::merge(arguments, streams),
         Some(Command::Review(arguments)) => review::run(arguments, streams),
-        Some(Command::Cost(arguments)) => cost::run(arguments, streams),
+        Some(Command::Cost(arguments)) => cost::run(arguments, &typed, streams),
         Some(Command::Digest(arguments)) => digest::run(arguments, streams),
         Some(Command::Playground(arguments)) => playground::run(arguments, streams),
         Some(Command::Quiz(arguments)) => quiz::run(arguments, streams),
@@ -371,9 +406,9 @@ fn program() -> String {
     let profile = path.parent().and_then(Path::file_name).and_then(|name| name.to_str());
     match profile.filter(|_| path.is_relative() && path.components().count() > 1) {
         None => "rasterproof".to_owned(),
-        Some(_) if std::env::var_os("CARGO").is_none() => word,
+        Some(_) if std::env::var_os("CARGO").is_none() => shell::quote(&word).into_owned(),
         Some("debug") => "cargo run --".to_owned(),
         Some("release") => "cargo run --release --".to_owned(),
-        Some(profile) => format!("cargo run --profile {profile} --"),
+        Some(profile) => format!("cargo run --profile {} --", shell::quote(profile)),
     }
 }

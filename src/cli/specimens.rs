@@ -4,7 +4,8 @@ use std::path::PathBuf;
 
 use super::page::{PageArguments, write_page};
 use super::progress::Progress;
-use super::{Failure, Streams, exit, png_name, program, write_file, write_unasked};
+use super::typed::Typed;
+use super::{Failure, Streams, exit, png_name, write_file, write_unasked};
 use crate::report::html::{Outcome, Report};
 use crate::report::{cases, counts, json, picture, sheet, specimens};
 use crate::specimen::catalogue::{CARDS, Card};
@@ -34,7 +35,11 @@ pub struct SpecimensArguments {
 }
 
 /// Surveys, prints and draws. A specimen that its case does not expose is a disagreement.
-pub fn run(arguments: &SpecimensArguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+pub fn run(
+    arguments: &SpecimensArguments,
+    typed: &Typed,
+    streams: &mut Streams<'_>,
+) -> Result<u8, Failure> {
     let out = &mut *streams.output;
     let cards: Vec<&Card> = CARDS
         .iter()
@@ -66,7 +71,7 @@ pub fn run(arguments: &SpecimensArguments, streams: &mut Streams<'_>) -> Result<
     }
     if arguments.page.report {
         let path = folder.join("specimens.html");
-        write_page(&path, report_page(arguments, &reports), streams.errors)?;
+        write_page(&path, report_page(arguments, typed, &reports), streams.errors)?;
     }
     Ok(if are_caught(&reports) { exit::AGREES } else { exit::DISAGREES })
 }
@@ -77,7 +82,11 @@ fn are_caught(reports: &[SpecimenReport]) -> bool {
 }
 
 /// The survey as a page: how often each is wrong, the exposing cases, the pictures.
-fn report_page(arguments: &SpecimensArguments, reports: &[SpecimenReport]) -> Report {
+fn report_page(
+    arguments: &SpecimensArguments,
+    typed: &Typed,
+    reports: &[SpecimenReport],
+) -> Report {
     let good = are_caught(reports);
     let sentence = if good {
         format!("Each of {} published faults is exposed by its case.", reports.len())
@@ -94,12 +103,10 @@ fn report_page(arguments: &SpecimensArguments, reports: &[SpecimenReport]) -> Re
     Report {
         title: "Published algorithms and their faults".to_owned(),
         outcome: Some(Outcome { good, word: word.to_owned(), sentence }),
-        command: format!(
-            "{} specimens --seed {} --cases {} --report",
-            program(),
-            arguments.seed,
-            arguments.cases
-        ),
+        command: {
+            let typed = typed.clone().first("cases", arguments.cases);
+            typed.first("seed", arguments.seed).line()
+        },
         seed: Some(arguments.seed),
         tables: vec![counts::of_specimens(reports)],
         cases,

@@ -575,8 +575,12 @@ mod tests {
     #[test]
     fn texts_too_different_are_not_compared_to_the_end() {
         let text = |a: u32| (0..50_000u32).map(|i| format!("{}\n", (i * a) % 9973)).collect();
-        let diff =
-            TextDiff { name: "x".to_owned(), old: Some(text(7)), new: text(11), ..TextDiff::default() };
+        let diff = TextDiff {
+            name: "x".to_owned(),
+            old: Some(text(7)),
+            new: text(11),
+            ..TextDiff::default()
+        };
         let begin = Instant::now();
         let page = page(&Report { diffs: vec![diff; 20], ..Report::default() });
         assert!(page.contains("of 50000 and of 50000 lines, are too different to show"), "{page}");
@@ -595,8 +599,11 @@ mod tests {
             new: "x\n".repeat(100),
             ..TextDiff::default()
         };
-        let report =
-            Report { tables: vec![table], diffs: (0..20_000).map(diff).collect(), ..Report::default() };
+        let report = Report {
+            tables: vec![table],
+            diffs: (0..20_000).map(diff).collect(),
+            ..Report::default()
+        };
         let page = page(&report);
         assert!(page.len() < MOST_BYTES, "{}", page.len());
         assert!(page.contains(" more rows are left out") && page.contains(" more.</p>"), "{page}");
