@@ -108,7 +108,7 @@ pub fn run(
         out.write_all(json::cost(&recorded).as_bytes())?;
         out.flush()?;
         write_plots(&plots, arguments)?;
-        return write_report(arguments, &plots, &recorded, streams);
+        return write_report((arguments, typed), &plots, &recorded, streams);
     }
     let Recorded { version, seed, .. } = &recorded;
     let quick = if recorded.quick { ", quick" } else { "" };
@@ -125,18 +125,18 @@ pub fn run(
     out.flush()?;
     let written = write_plots(&plots, arguments)?.join(", ");
     writeln!(out, "drawn in {}, as SVG and PNG: {written}", arguments.folder().display())?;
-    write_report(arguments, &plots, &recorded, streams)
+    write_report((arguments, typed), &plots, &recorded, streams)
 }
 
 fn write_report(
-    arguments: &CostArguments,
+    (arguments, typed): (&CostArguments, &Typed),
     plots: &[(String, Drawing)],
     recorded: &Recorded,
     streams: &mut Streams<'_>,
 ) -> Result<u8, Failure> {
     if arguments.page.report {
         let path = arguments.page.place.out.join("cost.html");
-        write_page(&path, report_page(plots, recorded), streams.errors)?;
+        write_page(&path, report_page(typed, plots, recorded), streams.errors)?;
     }
     Ok(exit::AGREES)
 }
@@ -171,7 +171,7 @@ fn plots(boards: &[Board]) -> Vec<(String, Drawing)> {
 }
 
 /// The plots as a page, the answer first.
-fn report_page(plots: &[(String, Drawing)], recorded: &Recorded) -> Report {
+fn report_page(typed: &Typed, plots: &[(String, Drawing)], recorded: &Recorded) -> Report {
     let boards = &recorded.boards;
     let figure = |(name, drawing): &(String, Drawing)| Figure {
         caption: match name.as_str() {
@@ -186,7 +186,7 @@ fn report_page(plots: &[(String, Drawing)], recorded: &Recorded) -> Report {
     };
     Report {
         title: "What accuracy costs in time".to_owned(),
-        command: recorded.repeat.clone(),
+        command: typed.line(),
         seed: Some(recorded.seed),
         figures: plots.iter().rev().map(figure).collect(),
         ..Report::default()

@@ -212,6 +212,8 @@ mod tests {
                     for all in &mut together {
                         let more = with(all, &form);
                         if parsed(&more).is_some() {
+                            // Some options require another one.
+                            accepted = true;
                             *all = more;
                         }
                     }
