@@ -37,7 +37,7 @@ use std::path::Path;
 use clap::{CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 use guard::{Escape, Guarded};
 use rasterproof_host::shell;
-use rasterproof_host::text::{is_hidden, printable, printable_lines};
+use rasterproof_host::text::{is_hidden, printable, printable_lines, printable_path};
 use typed::Typed;
 
 use crate::{hazard, lineup};
@@ -348,7 +348,7 @@ fn write_entry(out: &mut dyn Write, name: &str, about: &str) -> io::Result<()> {
 /// Writes a file whole or not at all: first beside its place, then renamed.
 fn write_file(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     let failed =
-        |what: &str, error: io::Error| usage(format!("{what} {}: {error}", path.display()));
+        |what: &str, error: io::Error| usage(format!("{what} {}: {error}", printable_path(path)));
     if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
         std::fs::create_dir_all(folder).map_err(|e| failed("cannot create the folder of", e))?;
     }
@@ -381,9 +381,10 @@ fn parse_count(text: &str) -> Result<u64, String> {
 fn png_name(path: &Path) -> Result<(), Failure> {
     match path.extension().and_then(|ending| ending.to_str()) {
         Some(ending) if ending.eq_ignore_ascii_case("png") => Ok(()),
-        _ => {
-            Err(usage(format!("{}: the picture is a PNG: end its name with .png", path.display())))
-        }
+        _ => Err(usage(format!(
+            "{}: the picture is a PNG: end its name with .png",
+            printable_path(path)
+        ))),
     }
 }
 
@@ -391,7 +392,7 @@ fn png_name(path: &Path) -> Result<(), Failure> {
 /// warning, and not the verdict.
 fn write_unasked(path: &Path, bytes: &[u8], streams: &mut Streams<'_>) -> Result<(), Failure> {
     match write_file(path, bytes) {
-        Ok(()) => writeln!(streams.output, "drawn in {}", path.display())?,
+        Ok(()) => writeln!(streams.output, "drawn in {}", printable_path(path))?,
         Err(failure) => writeln!(streams.errors, "warning: no picture: {failure}")?,
     }
     Ok(())

@@ -4,6 +4,10 @@
 use std::io::{Read as _, Write};
 use std::path::{Component, Path, PathBuf};
 
+use rasterproof_host::input;
+use rasterproof_host::limits::SOURCE_BYTES;
+use rasterproof_host::text::printable_path;
+
 use super::{Failure, usage, write_file};
 use crate::report::html::{self, Report};
 
@@ -33,7 +37,7 @@ pub fn write_page(path: &Path, report: Report, stream: &mut dyn Write) -> Result
     let folder = path.parent().unwrap_or(Path::new(""));
     let report = Report { docs: docs_from(folder), ..report };
     write_file(path, html::page(&report).as_bytes())?;
-    writeln!(stream, "report: {}", path.display())?;
+    writeln!(stream, "report: {}", printable_path(path))?;
     write_index(folder)
 }
 
@@ -45,7 +49,7 @@ fn write_index(folder: &Path) -> Result<(), Failure> {
         return Ok(());
     }
     let here = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
-    let failed = |error| usage(format!("cannot read {}: {error}", here.display()));
+    let failed = |error| usage(format!("cannot read {}: {error}", printable_path(here)));
     let mut pages = Vec::new();
     for entry in std::fs::read_dir(here).map_err(failed)? {
         let path = entry.map_err(failed)?.path();
@@ -61,7 +65,7 @@ fn write_index(folder: &Path) -> Result<(), Failure> {
 /// The first bytes of a file as text, or nothing.
 fn read_head(path: &Path) -> Option<String> {
     let mut bytes = Vec::new();
-    std::fs::File::open(path).ok()?.take(HEAD_BYTES).read_to_end(&mut bytes).ok()?;
+    input::open(path, SOURCE_BYTES).ok()?.take(HEAD_BYTES).read_to_end(&mut bytes).ok()?;
     Some(String::from_utf8_lossy(&bytes).into_owned())
 }
 

@@ -325,7 +325,9 @@ fn who_changed(old: &Sheet, new: &Sheet) -> String {
     if changed.len() > MOST_PANELS {
         said.push(format!("and {} more panels changed", changed.len() - MOST_PANELS));
     }
-    said.join(", ")
+    let windows = [old, new].map(|sheet| sheet.panels.first().map(|panel| panel.shown));
+    let moved = if windows[0] == windows[1] { "" } else { "another part of the case is shown: " };
+    format!("{moved}{}", said.join(", "))
 }
 
 fn difference(old: &RgbImage, new: &RgbImage) -> String {
