@@ -246,6 +246,9 @@ pub fn run(words: impl IntoIterator<Item = String>, streams: &mut Streams<'_>) -
             )
         );
     let escape = match (for_machines, colour) {
+        _ if matches!(arguments.command, Some(Command::Engine { plant: Some(_), .. })) => {
+            Escape::Kept
+        }
         (true, _) => Escape::Json,
         (false, true) => Escape::WordsAndColours,
         (false, false) => Escape::Words,
@@ -258,7 +261,8 @@ pub fn run(words: impl IntoIterator<Item = String>, streams: &mut Streams<'_>) -
             &mut folded
         }
     };
-    let mut errors = Guarded::new(streams.errors, Escape::Words);
+    let kept = escape == Escape::Kept;
+    let mut errors = Guarded::new(streams.errors, if kept { escape } else { Escape::Words });
     let (input, errors) = (&mut *streams.input, &mut errors);
     let streams = &mut Streams { input, output, errors, progress, colour, columns };
     let result = match &arguments.command {
