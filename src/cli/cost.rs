@@ -8,7 +8,8 @@ use rasterproof_host::{input, limits};
 use super::files::{Use, distinct};
 use super::page::{PageArguments, as_file, write_page};
 use super::progress::Progress;
-use super::{Failure, Streams, exit, program, usage};
+use super::typed::Typed;
+use super::{Failure, Streams, exit, usage};
 use crate::cost::{Board, Guest, Ladder, Options, Recorded, measure_with};
 use crate::report::chart::{self, Drawing};
 use crate::report::html::{Figure, Report};
@@ -84,21 +85,6 @@ impl CostArguments {
         distinct(&from.into_iter().chain(plots).chain(as_file(&page)).collect::<Vec<_>>())
     }
 
-    /// The command that repeats the run.
-    fn repeat(&self) -> String {
-        use clap::ValueEnum as _;
-        let mut command = format!("{} cost", program());
-        if let Some(value) = self.which.and_then(|which| which.to_possible_value()) {
-            command += &format!(" {}", value.get_name());
-        }
-        if self.quick {
-            command += " --quick";
-        }
-        #[cfg(feature = "vulkan")]
-        self.engine.iter().for_each(|name| command += &format!(" --engine {name}"));
-        command + &format!(" --seed {}", self.seed)
-    }
-
     /// The devices that are measured beside the rungs.
     #[cfg(feature = "vulkan")]
     fn guests(&self) -> Result<Vec<Box<dyn Guest>>, Failure> {
@@ -114,14 +100,18 @@ impl CostArguments {
 }
 
 /// Measures or reads, prints and draws. Nothing here disagrees with anything: errors are the result.
-pub fn run(arguments: &CostArguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+pub fn run(
+    arguments: &CostArguments,
+    typed: &Typed,
+    streams: &mut Streams<'_>,
+) -> Result<u8, Failure> {
     let ladders = arguments.which.map_or(&Ladder::ALL[..], Which::ladders);
     arguments.check_files(ladders)?;
     let recorded = match &arguments.from {
         Some(path) => read(path, ladders)?,
         None => Recorded {
             version: env!("CARGO_PKG_VERSION").to_owned(),
-            repeat: arguments.repeat(),
+            repeat: typed.clone().without_output().set("seed", arguments.seed).line(),
             seed: arguments.seed,
             quick: arguments.quick,
             boards: measure_all(ladders, arguments, streams.progress)?,
@@ -132,7 +122,7 @@ pub fn run(arguments: &CostArguments, streams: &mut Streams<'_>) -> Result<u8, F
     if arguments.json {
         out.write_all(json::cost(&recorded).as_bytes())?;
         write_plots(&plots, arguments, streams);
-        write_report(arguments, &plots, &recorded, streams);
+        write_report((arguments, typed), &plots, &recorded, streams);
         return Ok(exit::AGREES);
     }
     let Recorded { version, seed, .. } = &recorded;
@@ -151,18 +141,18 @@ pub fn run(arguments: &CostArguments, streams: &mut Streams<'_>) -> Result<u8, F
         let folder = printable_path(arguments.folder());
         writeln!(streams.output, "drawn in {folder}, as SVG and PNG: {written}")?;
     }
-    write_report(arguments, &plots, &recorded, streams);
+    write_report((arguments, typed), &plots, &recorded, streams);
     Ok(exit::AGREES)
 }
 
 fn write_report(
-    arguments: &CostArguments,
+    (arguments, typed): (&CostArguments, &Typed),
     plots: &[(String, Drawing)],
     recorded: &Recorded,
     streams: &mut Streams<'_>,
 ) {
     if let Some(path) = arguments.page.page("cost.html") {
-        write_page(&path, report_page(plots, recorded), streams);
+        write_page(&path, report_page(typed, plots, recorded), streams);
     }
 }
 
@@ -204,7 +194,7 @@ fn plots(boards: &[Board]) -> Vec<(String, Drawing)> {
 }
 
 /// The plots as a page, the answer first.
-fn report_page(plots: &[(String, Drawing)], recorded: &Recorded) -> Report {
+fn report_page(typed: &Typed, plots: &[(String, Drawing)], recorded: &Recorded) -> Report {
     let boards = &recorded.boards;
     let figure = |(name, drawing): &(String, Drawing)| Figure {
         caption: match name.as_str() {
@@ -219,7 +209,7 @@ fn report_page(plots: &[(String, Drawing)], recorded: &Recorded) -> Report {
     };
     Report {
         title: "What accuracy costs in time".to_owned(),
-        command: recorded.repeat.clone(),
+        command: typed.line(),
         seed: Some(recorded.seed),
         figures: plots.iter().rev().map(figure).collect(),
         ..Report::default()

@@ -19,7 +19,7 @@ pub struct Folded<'a> {
 }
 
 impl<'a> Folded<'a> {
-    /// Lines of at most so many columns, but for those that hold `command`.
+    /// Lines of at most so many columns, but for those that hold `command` or a command of cargo.
     pub fn new(inner: &'a mut dyn Write, columns: usize, command: String) -> Self {
         Self { inner, columns: columns.clamp(LEAST, USUAL), command, begun: Vec::new() }
     }
@@ -27,7 +27,7 @@ impl<'a> Folded<'a> {
     fn end_line(&mut self) -> io::Result<()> {
         let line = std::mem::take(&mut self.begun);
         match std::str::from_utf8(&line) {
-            Ok(text) if !text.contains(&self.command) => {
+            Ok(text) if !text.contains(&self.command) && !text.contains(" cargo ") => {
                 self.inner.write_all(fold(text, self.columns).as_bytes())
             }
             _ => self.inner.write_all(&line),

@@ -10,6 +10,7 @@ use super::files::{Use, distinct};
 use super::inspect_case::{CaseArguments, Found, find, parse_pixel, recorded, words};
 use super::page::{PageArguments, as_file, save_page};
 use super::shown::{self, Contestants};
+use super::typed::Typed;
 use super::{Failure, Streams, exit, explain, png_name, program, usage, write_unasked};
 use crate::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
 use crate::hazard::offgrid::OffGridCase;
@@ -117,7 +118,11 @@ fn no_part(plant: Option<&String>) -> Failure {
     usage(format!("{name} is in no engine that draws this case. See: {} list", program()))
 }
 
-pub fn run(arguments: &InspectArguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+pub fn run(
+    arguments: &InspectArguments,
+    command: &Typed,
+    streams: &mut Streams<'_>,
+) -> Result<u8, Failure> {
     if let Some(path) = &arguments.output {
         png_name(path)?;
         let page = arguments.page.page("inspect.html");
@@ -128,7 +133,7 @@ pub fn run(arguments: &InspectArguments, streams: &mut Streams<'_>) -> Result<u8
         Found::Case { title, case, expected, typed } => (title, case, expected, typed),
         Found::Refused { title, corners } => return refused(&title, &corners, streams.output),
         Found::OffGrid { title, case } => {
-            return off_grid_alone(arguments, &title, case, streams);
+            return off_grid_alone((arguments, command), &title, case, streams);
         }
     };
     let out = &mut *streams.output;
@@ -197,7 +202,7 @@ pub fn run(arguments: &InspectArguments, streams: &mut Streams<'_>) -> Result<u8
         let engines: Vec<_> = engines.iter().map(|(engine, _)| *engine).collect();
         let judged = cases::Judged { engines: &engines, lines: &lines, exact: &exact };
         let view = cases::on_grid(name(arguments), title, kind(agrees), &case, judged);
-        write_report(arguments, view, agrees, streams)?;
+        write_report((arguments, command), view, agrees, streams)?;
     }
     Ok(if agrees { exit::AGREES } else { exit::DISAGREES })
 }
@@ -253,42 +258,17 @@ fn name(arguments: &InspectArguments) -> String {
     }
 }
 
-/// The command that shows the same again.
-fn command(arguments: &InspectArguments) -> String {
-    let what = words(&arguments.case);
-    let quoted = |word: &String| match word.contains(['#', '(']) {
-        true => format!("'{word}'"),
-        false => word.clone(),
-    };
-    let mut said = vec![format!("{} inspect", program())];
-    said.extend(arguments.case.line.then(|| "--line".to_owned()));
-    said.extend(what.iter().map(quoted));
-    if matches!(what.as_slice(), [word] if word.contains('#')) {
-        said.push(format!("--seed {}", arguments.case.seed));
-    }
-    said.extend(arguments.case.exact.then(|| "--exact".to_owned()));
-    said.extend(
-        arguments
-            .window
-            .map(|w| format!("--window {},{},{}x{}", w.x0, w.y0, w.width(), w.height())),
-    );
-    said.extend(arguments.specimen.as_ref().map(|name| format!("--specimen {name}")));
-    said.extend(arguments.plant.as_ref().map(|name| format!("--plant {name}")));
-    said.join(" ")
-}
-
 fn kind(agrees: bool) -> cases::Kind {
     if agrees { cases::Kind::Named } else { cases::Kind::Failing }
 }
 
 fn write_report(
-    arguments: &InspectArguments,
+    (arguments, command): (&InspectArguments, &Typed),
     mut view: cases::CaseView,
     agrees: bool,
     streams: &mut Streams<'_>,
 ) -> Result<(), Failure> {
-    let command = command(arguments);
-    view.command.clone_from(&command);
+    view.command = command.clone().without(&["report"]).line();
     let (word, sentence) = match agrees {
         true => ("AGREES", "Every engine draws what the oracle draws."),
         false => ("DISAGREES", "Not every engine draws what the oracle draws."),
@@ -300,7 +280,7 @@ fn write_report(
             word: word.to_owned(),
             sentence: sentence.to_owned(),
         }),
-        command: format!("{command} --report"),
+        command: command.line(),
         cases: vec![view],
         ..Report::default()
     };
@@ -354,7 +334,7 @@ fn reach(values: impl Iterator<Item = i32> + Clone) -> i32 {
 
 /// Shows a case off the lattice, which the engines for such corners alone can draw.
 fn off_grid_alone(
-    arguments: &InspectArguments,
+    (arguments, command): (&InspectArguments, &Typed),
     title: &str,
     mut case: OffGridCase,
     streams: &mut Streams<'_>,
@@ -391,7 +371,7 @@ fn off_grid_alone(
         let judged = cases::Judged { engines: &[], lines: &[], exact: &exact };
         let (name, title) = (name(arguments), title.to_owned());
         let view = cases::off_lattice(name, title, kind(agrees), &case, judged);
-        write_report(arguments, view, agrees, streams)?;
+        write_report((arguments, command), view, agrees, streams)?;
     }
     Ok(if agrees { exit::AGREES } else { exit::DISAGREES })
 }

@@ -4,13 +4,13 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use rasterproof_host::shell;
 use rasterproof_host::text::printable_path;
 
 use super::files::{Use, distinct};
 use super::page::{PageArguments, as_file, write_page};
 use super::progress::Progress;
-use super::{Failure, Streams, exit, league, program, usage};
+use super::typed::Typed;
+use super::{Failure, Streams, exit, league, usage};
 use crate::judge::ask::Ask;
 use crate::judge::baseline::Baseline;
 use crate::judge::process::{Limits, Program};
@@ -130,24 +130,13 @@ impl JudgeArguments {
     fn words(&self) -> Vec<String> {
         self.declare.iter().flat_map(|words| words.split_whitespace()).map(str::to_owned).collect()
     }
-
-    /// A command that judges the same program, with these options first.
-    fn repeat(&self, options: &str) -> String {
-        let mut out = format!("{} judge {options} --seed {}", program(), self.seed);
-        for words in &self.declare {
-            out += &format!(" --declare {}", shell::quote(words));
-        }
-        format!("{out} -- {}", shell::line(self.command.iter().map(String::as_str)))
-    }
-
-    fn repeat_all(&self) -> String {
-        let families: String = self.family.iter().map(|f| format!("--family {f} ")).collect();
-        let case = self.case.map(|case| format!(" --case {case}")).unwrap_or_default();
-        self.repeat(&format!("{families}--cases {}{case}", self.cases))
-    }
 }
 
-pub fn run(arguments: &JudgeArguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+pub fn run(
+    arguments: &JudgeArguments,
+    typed: &Typed,
+    streams: &mut Streams<'_>,
+) -> Result<u8, Failure> {
     let limits = Limits { answer: arguments.timeout, start: arguments.start_timeout };
     if let Some(names) = &arguments.league {
         return league::run(names, &arguments.options(), limits, streams);
@@ -199,20 +188,29 @@ pub fn run(arguments: &JudgeArguments, streams: &mut Streams<'_>) -> Result<u8, 
     if let Some(baseline) = &baseline {
         baseline.apply(&mut verdict);
     }
-    let repeat_case =
-        |family: &str, index: u64| arguments.repeat(&format!("--family {family} --case {index}"));
+    let again = typed.clone().without_output().without(&["update-baseline"]);
+    let again = again.set("seed", arguments.seed);
+    let repeat_case = |family: &str, index: u64| {
+        let one = again.clone().without(&["cases", "seconds", "jobs", "baseline"]);
+        one.first("case", index).first("family", family).line()
+    };
+    let repeat_all = again.clone().first("cases", arguments.cases).line();
     let format = if arguments.json { Format::Json } else { arguments.format };
     let text = match format {
         Format::Text => {
-            let (repeat, shown) = (arguments.repeat_all(), (arguments.table, streams.colour));
-            judged::text(&verdict, &repeat, &repeat_case, shown)
+            let shown = (arguments.table, streams.colour);
+            judged::text(&verdict, &repeat_all, &repeat_case, shown)
         }
-        other => formats::write(&verdict, other, &arguments.repeat_all(), &repeat_case),
+        other => formats::write(&verdict, other, &repeat_all, &repeat_case),
     };
     streams.output.write_all(text.as_bytes())?;
     streams.output.flush()?;
     if let Some(path) = page {
-        write_page(&path, judged::page(&verdict, &arguments.repeat_all(), &repeat_case), streams);
+        write_page(
+            &path,
+            judged::page(&verdict, &typed.clone().set("seed", arguments.seed).line(), &repeat_case),
+            streams,
+        );
     }
     let mut agrees = verdict.agrees();
     if let (Some(baseline), Some(path), true) =

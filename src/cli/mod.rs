@@ -11,6 +11,7 @@ mod exhaust;
 mod explain;
 mod files;
 pub mod fold;
+mod guard;
 mod inspect;
 mod inspect_case;
 mod invariant;
@@ -26,6 +27,7 @@ mod render;
 mod review;
 mod shown;
 mod specimens;
+mod typed;
 mod verify;
 #[cfg(feature = "vulkan")]
 mod vulkan;
@@ -35,11 +37,13 @@ use std::fmt;
 use std::io::{self, BufRead, Write};
 use std::path::Path;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 use delivery::Delivered;
 pub use delivery::Delivery;
-use rasterproof_host::text::{printable, printable_lines, printable_path};
+use guard::{Escape, Guarded};
+use rasterproof_host::text::{is_hidden, printable, printable_lines, printable_path};
 use rasterproof_host::{output, shell};
+use typed::Typed;
 
 use crate::{hazard, lineup};
 
@@ -186,61 +190,127 @@ pub struct Streams<'a> {
     pub delivery: Delivery,
 }
 
+/// Whether a word is a coordinate such as -1.5,3, which is no option.
+fn is_coordinate(word: &str) -> bool {
+    let number = |c: char| c.is_ascii_digit() || c == '.';
+    word.contains(',') && word.strip_prefix('-').is_some_and(|rest| rest.starts_with(number))
+}
+
+/// The arguments, and the same as a command that can be printed.
+fn parse(words: Vec<OsString>) -> Result<(Arguments, Typed), clap::Error> {
+    // A space in front of a coordinate tells the parser that it is no option. After -- come the words
+    // of somebody else, which stay as they are.
+    let mut ours = true;
+    let words = words.into_iter().map(|word| {
+        let Some(text) = word.to_str() else { return word };
+        ours &= text != "--";
+        if ours && is_coordinate(text) { format!(" {text}").into() } else { word }
+    });
+    let mut command = Arguments::command();
+    let matches = command.try_get_matches_from_mut(words)?;
+    let arguments =
+        Arguments::from_arg_matches(&matches).map_err(|error| error.format(&mut command))?;
+    Ok((arguments, Typed::of(&command, &matches)))
+}
+
+/// What is printed for a command line that is not run: help and the version, which were asked for, or an error.
+struct Refusal {
+    words: String,
+    is_error: bool,
+}
+
+/// What the parser says of words that it refuses. It repeats them as they are, so they are made
+/// printable before.
+fn refusal(error: clap::Error, words: &[OsString]) -> Refusal {
+    let shown = |word: &OsString| printable(&word.to_string_lossy()).into_owned();
+    let is_error = error.use_stderr();
+    let not_text = words.iter().filter(|word| word.to_str().is_none());
+    let not_text: Vec<_> = not_text.map(shown).collect();
+    let is_not_text = error.kind() == clap::error::ErrorKind::InvalidUtf8;
+    let has_hidden = |word: &OsString| word.to_string_lossy().chars().any(is_hidden);
+    let error = if words.iter().any(has_hidden) && !is_not_text {
+        parse(words.iter().map(|word| shown(word).into()).collect()).err().unwrap_or(error)
+    } else {
+        error
+    };
+    let mut words = printable_lines(&error.render().to_string()).into_owned();
+    if is_not_text {
+        words += &format!("not UTF-8: {}\n", not_text.join(", "));
+    }
+    Refusal { words, is_error }
+}
+
 /// Runs a command line, the program's name first, and returns the exit status.
 ///
 /// The words may be any that the system allows: a path need not be UTF-8.
 pub fn run(words: impl IntoIterator<Item: Into<OsString>>, streams: &mut Streams<'_>) -> u8 {
+    let words: Vec<OsString> = words.into_iter().map(Into::into).collect();
     let delivery = streams.delivery.clone();
-    let errors = &mut Delivered::new(streams.errors, &delivery);
     let Streams { progress, colour, columns, .. } = *streams;
-    let arguments = match parse(words) {
-        Ok(arguments) => arguments,
-        Err(Refused { text, is_error }) => {
+    let (arguments, typed) = match parse(words.clone()) {
+        Ok(parsed) => parsed,
+        Err(error) => {
+            let text = refusal(error, &words);
             let output = &mut Delivered::new(streams.output, &delivery);
-            let stream: &mut Delivered<'_> = if is_error { errors } else { output };
-            let _ = stream.write_all(text.as_bytes()).and_then(|()| stream.flush());
+            let errors = &mut Delivered::new(streams.errors, &delivery);
+            let stream: &mut Delivered<'_> = if text.is_error { errors } else { output };
+            let _ = stream.write_all(text.words.as_bytes()).and_then(|()| stream.flush());
             report_loss(output, errors);
-            return delivery.status(if is_error { exit::USAGE } else { exit::AGREES });
+            return delivery.status(if text.is_error { exit::USAGE } else { exit::AGREES });
         }
     };
     quiet_engines();
-    let Parsed { command, for_machines } = arguments;
+    let command = arguments.command.unwrap_or(Command::Verify(arguments.verify));
+    let for_machines = is_for_machines(&command, &words);
+    let escape = match (for_machines, colour) {
+        _ if matches!(command, Command::Engine { plant: Some(_), .. }) => Escape::Kept,
+        (true, _) => Escape::Json,
+        (false, true) => Escape::WordsAndColours,
+        (false, false) => Escape::Words,
+    };
+    let errors = &mut Delivered::new(streams.errors, &delivery);
+    let escape_errors = if escape == Escape::Kept { escape } else { Escape::Words };
+    let errors = &mut Guarded::new(errors, escape_errors);
     let input = &mut *streams.input;
     // A conversation ends where nobody listens any more.
     if matches!(command, Command::Engine { .. }) {
-        let streams = &mut Streams {
-            input,
-            output: streams.output,
-            errors,
-            progress,
-            colour,
-            columns,
-            delivery: delivery.clone(),
-        };
-        let result = dispatch(&command, streams);
+        let output = &mut Guarded::new(streams.output, escape);
+        let streams = &mut Streams { input, output, errors, progress, colour, columns, delivery };
+        let result = dispatch(&command, &typed, streams);
         let result = result.and_then(|status| Ok(streams.output.flush().map(|()| status)?));
         return match result {
             Err(Failure::Io(error)) if error.kind() == io::ErrorKind::BrokenPipe => exit::AGREES,
             result => status_of(result, streams.errors),
         };
     }
-    let mut output = Delivered::new(streams.output, &delivery);
-    let mut folded;
+    let mut delivered = Delivered::new(streams.output, &delivery);
     let result = {
+        let mut guarded = Guarded::new(&mut delivered, escape);
+        let mut folded;
         let output: &mut dyn Write = if for_machines {
-            &mut output
+            &mut guarded
         } else {
-            folded = fold::Folded::new(&mut output, columns, program());
+            folded = fold::Folded::new(&mut guarded, columns, program());
             &mut folded
         };
         let delivery = delivery.clone();
         let streams = &mut Streams { input, output, errors, progress, colour, columns, delivery };
-        let result = dispatch(&command, streams);
+        let result = dispatch(&command, &typed, streams);
         result.and_then(|status| Ok(streams.output.flush().map(|()| status)?))
     };
     let status = status_of(result, errors);
-    report_loss(&output, errors);
+    report_loss(&delivered, errors);
     delivery.status(status)
+}
+
+/// Whether programs read what a command prints, so that its lines are not broken.
+fn is_for_machines(command: &Command, words: &[OsString]) -> bool {
+    let ours = words.iter().map(|word| word.to_string_lossy()).take_while(|word| word != "--");
+    { ours }.any(|word| word == "--json" || word.starts_with("--format"))
+        || matches!(
+            command,
+            Command::Engine { .. } | Command::Exhaust(_) | Command::Merge(_) | Command::Digest(_)
+        )
 }
 
 /// The exit status of what a command returned; a failure is printed.
@@ -262,70 +332,22 @@ fn report_loss(output: &Delivered<'_>, errors: &mut dyn Write) {
     }
 }
 
-/// A command line that was understood.
-struct Parsed {
-    command: Command,
-    /// What machines read keeps its lines.
-    for_machines: bool,
-}
-
-/// A command line that is not run: help and the version, which were asked for, or an error.
-struct Refused {
-    text: String,
-    is_error: bool,
-}
-
-fn parse(words: impl IntoIterator<Item: Into<OsString>>) -> Result<Parsed, Refused> {
-    // A coordinate such as -1.5,3 is no option: a space in front tells the parser so.
-    let is_coordinate = |word: &str| {
-        let number = |c: char| c.is_ascii_digit() || c == '.';
-        word.contains(',') && word.strip_prefix('-').is_some_and(|rest| rest.starts_with(number))
-    };
-    // After -- come the words of somebody else, which stay as they are.
-    let mut ours = true;
-    let mut for_machines = false;
-    let mut not_text = Vec::new();
-    let words = words.into_iter().map(|word| {
-        let word: OsString = word.into();
-        let Some(w) = word.to_str() else {
-            not_text.push(printable(&word.to_string_lossy()).into_owned());
-            return word;
-        };
-        ours &= w != "--";
-        for_machines |= ours && (w == "--json" || w.starts_with("--format"));
-        if ours && is_coordinate(w) { format!(" {w}").into() } else { word }
-    });
-    let arguments = Arguments::try_parse_from(words).map_err(|error| {
-        let mut text = error.render().to_string();
-        if error.kind() == clap::error::ErrorKind::InvalidUtf8 {
-            text += &format!("not UTF-8: {}\n", not_text.join(", "));
-        }
-        Refused { text, is_error: error.use_stderr() }
-    })?;
-    let command = arguments.command.unwrap_or(Command::Verify(arguments.verify));
-    for_machines |= matches!(
-        command,
-        Command::Engine { .. } | Command::Exhaust(_) | Command::Merge(_) | Command::Digest(_)
-    );
-    Ok(Parsed { command, for_machines })
-}
-
-fn dispatch(command: &Command, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+fn dispatch(command: &Command, typed: &Typed, streams: &mut Streams<'_>) -> Result<u8, Failure> {
     match command {
-        Command::Verify(arguments) => verify::run(arguments, streams),
-        Command::Inspect(arguments) => inspect::run(arguments, streams),
+        Command::Verify(arguments) => verify::run(arguments, typed, streams),
+        Command::Inspect(arguments) => inspect::run(arguments, typed, streams),
         Command::Engine { name, plant: None } => engine::run(name, streams),
         Command::Engine { name, plant: Some(fault) } => misbehave::run(name, *fault, streams),
-        Command::Judge(arguments) => judge::run(arguments, streams),
+        Command::Judge(arguments) => judge::run(arguments, typed, streams),
         Command::Course(arguments) => course::run(arguments, streams),
-        Command::Specimens(arguments) => specimens::run(arguments, streams),
-        Command::Render(arguments) => render::run(arguments, streams),
-        Command::Plan(arguments) => plan::run(arguments, streams),
+        Command::Specimens(arguments) => specimens::run(arguments, typed, streams),
+        Command::Render(arguments) => render::run(arguments, typed, streams),
+        Command::Plan(arguments) => plan::run(arguments, typed, streams),
         Command::Mutants(arguments) => invariant::mutants(arguments, streams),
         Command::Exhaust(arguments) => exhaust::run(arguments, streams),
         Command::Merge(arguments) => exhaust::merge(arguments, streams),
         Command::Review(arguments) => review::run(arguments, streams),
-        Command::Cost(arguments) => cost::run(arguments, streams),
+        Command::Cost(arguments) => cost::run(arguments, typed, streams),
         Command::Digest(arguments) => digest::run(arguments, streams),
         Command::Playground(arguments) => playground::run(arguments, streams),
         Command::Quiz(arguments) => quiz::run(arguments, streams),
@@ -438,6 +460,6 @@ fn program() -> String {
         Some(_) if std::env::var_os("CARGO").is_none() => shell::quote(&word).into_owned(),
         Some("debug") => "cargo run --".to_owned(),
         Some("release") => "cargo run --release --".to_owned(),
-        Some(profile) => format!("cargo run --profile {profile} --"),
+        Some(profile) => format!("cargo run --profile {} --", shell::quote(profile)),
     }
 }

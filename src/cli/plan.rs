@@ -7,7 +7,8 @@ use super::decisions::{grouped, plan_rows};
 use super::page::{PageArguments, write_page};
 use super::progress::Progress;
 use super::render::SceneArguments;
-use super::{Failure, Streams, exit, program, usage};
+use super::typed::Typed;
+use super::{Failure, Streams, exit, usage};
 use crate::effects::plan::{Plan, SceneDigest};
 use crate::effects::render::Rendered;
 use crate::effects::{Effect, Effects, Mode};
@@ -166,7 +167,11 @@ impl Savings {
     }
 }
 
-pub fn run(arguments: &PlanArguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+pub fn run(
+    arguments: &PlanArguments,
+    typed: &Typed,
+    streams: &mut Streams<'_>,
+) -> Result<u8, Failure> {
     let maker = arguments.what.maker(streams.errors)?;
     let scene = maker.scene(0.0);
     let (measured, everything, planned) = measure(arguments, &scene, streams.progress)?;
@@ -195,7 +200,7 @@ pub fn run(arguments: &PlanArguments, streams: &mut Streams<'_>) -> Result<u8, F
     }
     streams.output.flush()?;
     if arguments.page.report {
-        let report = report_page(arguments, &scene, [&everything, &planned], &measured, same);
+        let report = report_page(typed, &scene, [&everything, &planned], &measured, same);
         write_page(&arguments.page.place.out.join("plan.html"), report, streams);
     }
     Ok(if same { exit::AGREES } else { exit::DISAGREES })
@@ -325,14 +330,13 @@ fn describe(scene: &Scene, planned: &Rendered, everything: &Counters, savings: &
 
 /// The plan, what it saves and the picture.
 fn report_page(
-    arguments: &PlanArguments,
+    typed: &Typed,
     scene: &Scene,
     frames: [&Rendered; 2],
     savings: &Savings,
     same: bool,
 ) -> Report {
-    let (words, engine) = (arguments.what.words(), Drawer::from(arguments.engine).name());
-    let command = format!("{} plan {words} --engine {engine} --report", program());
+    let command = typed.line();
     let column =
         |label: &str, is_number| Column { label: label.to_owned(), is_number, ..Column::default() };
     let row = |s: &Saving| Row {

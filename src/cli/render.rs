@@ -13,6 +13,7 @@ use super::decisions::plan_rows;
 use super::files::{Use, distinct};
 use super::page::{PageArguments, as_file, write_page};
 use super::progress::Progress;
+use super::typed::Typed;
 use super::{Failure, Streams, exit, program, usage};
 use crate::angle::{atan, cos, sin, tan, turn_y};
 use crate::effects::plan::{Plan, SceneDigest, VERSION};
@@ -215,18 +216,6 @@ impl SceneArguments {
         self.source().map_or_else(stem, str::to_owned)
     }
 
-    /// The words that ask for the same scene or model.
-    pub(super) fn words(&self) -> String {
-        let what = match self.source() {
-            Ok(name) => format!("--scene {name}"),
-            Err(path) => path.display().to_string(),
-        };
-        let (width, height) = self.size;
-        let aa = clap::ValueEnum::to_possible_value(&self.aa);
-        let aa = aa.as_ref().map_or("none", |value| value.get_name());
-        format!("{what} --size {width}x{height} --aa {aa}")
-    }
-
     /// The scene, turned by a share of a full turn, as a function that makes it.
     pub(super) fn maker(&self, errors: &mut dyn std::io::Write) -> Result<Maker, Failure> {
         let (width, height) = self.size;
@@ -397,7 +386,11 @@ struct Drawing {
     is_complete: bool,
 }
 
-pub fn run(arguments: &RenderArguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+pub fn run(
+    arguments: &RenderArguments,
+    typed: &Typed,
+    streams: &mut Streams<'_>,
+) -> Result<u8, Failure> {
     let what = &arguments.what;
     let extension = if arguments.spin.is_some() { "gif" } else { "png" };
     let default = || arguments.page.place.out.join(format!("{}.{extension}", what.name()));
@@ -459,7 +452,7 @@ pub fn run(arguments: &RenderArguments, streams: &mut Streams<'_>) -> Result<u8,
     }
     streams.output.flush()?;
     if let Some(path) = page {
-        let report = report_page(&arguments.what, &scene, &drawings, comparison.as_ref());
+        let report = report_page(typed, &scene, &drawings, comparison.as_ref());
         write_page(&path, report, streams);
     }
     Ok(comparison.map_or(exit::AGREES, |c| if c.agrees() { exit::AGREES } else { exit::DISAGREES }))
@@ -505,12 +498,12 @@ fn compare(
 
 /// The frames side by side, with the plan that was followed.
 fn report_page(
-    what: &SceneArguments,
+    typed: &Typed,
     scene: &Scene,
     drawings: &[Drawing],
     comparison: Option<&Comparison>,
 ) -> Report {
-    let command = format!("{} render {} --report", program(), what.words());
+    let command = typed.line();
     let outcome = comparison.map(|c| Outcome {
         good: c.agrees(),
         word: if c.agrees() { "AGREES" } else { "DISAGREES" }.to_owned(),

@@ -2,16 +2,20 @@
 //!
 //! insta leaves a changed snapshot `X.snap` as `X.snap.new` beside it, and the bytes of a changed
 //! picture as `X.snap.new.png`. With `INSTA_UPDATE=always` it updates `X.snap` and leaves an older
-//! `X.snap.new` until the next run; such a left-over does not wait for anything. This only looks: accepting is insta's business. What is no text and
-//! no PNG, or is broken or too large to show, is listed without being shown.
+//! `X.snap.new` until the next run; such a left-over does not wait for anything. This only looks:
+//! accepting is insta's business. What is no text and no PNG, or is broken or too large to show, is
+//! listed without being shown. The work is bounded: a review of many snapshots shows the first ones
+//! and counts the others.
 
 use std::fs;
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
 use image::{ImageFormat, ImageReader, RgbImage};
-use rasterproof_host::text::printable_path;
-use rasterproof_host::{input, limits};
+use rasterproof_host::input::{self, InputError};
+use rasterproof_host::limits::DOCUMENT_BYTES;
+use rasterproof_host::shell;
+use rasterproof_host::text::{printable, printable_path, printable_short};
 
 use super::files::{Use, distinct};
 use super::page::{Place, save_page};
@@ -41,8 +45,14 @@ const USUAL: [&str; 2] = ["snapshots", "tests"];
 const MOST_SIDE_PX: u32 = 4096;
 /// Longest text whose lines are compared.
 const MOST_BYTES: usize = 1 << 18;
-/// Deepest folder that is looked into.
-const MOST_DEPTH: u32 = 32;
+/// Snapshots that are listed, and shown where there is room on the page.
+const MOST_LISTED: usize = 500;
+/// Picture pixels that one review decodes: some seconds of work.
+const MOST_DECODED_PX: u64 = 1 << 27;
+/// Panels of one sheet that are named with their counts.
+const MOST_PANELS: usize = 12;
+/// Folders that are named where they cannot be read.
+const MOST_UNREAD: usize = 10;
 
 /// A snapshot that waits.
 struct Pending {
@@ -71,64 +81,121 @@ pub fn run(arguments: &ReviewArguments, streams: &mut Streams<'_>) -> Result<u8,
             "there is no folder snapshots and no folder tests here: name the folder to look into",
         ));
     }
-    let mut found = Vec::new();
+    let (mut found, mut unread) = (Vec::new(), Vec::new());
     for folder in &folders {
-        walk(folder, 0, &mut found)?;
+        // A folder that was named must be there; one inside it costs a warning.
+        fs::read_dir(folder).map_err(|error| usage(cannot_read(folder, &error)))?;
+        walk(folder, &mut found, &mut unread);
     }
     found.sort();
     found.dedup();
-    let looked = found.iter().map(|path| look(path)).collect::<Result<Vec<_>, _>>()?;
-    let pending: Vec<_> = looked.into_iter().flatten().collect();
+    let mut left_px = MOST_DECODED_PX;
+    let (mut pending, mut accepted) = (Vec::new(), 0);
+    let mut left_out = 0;
+    for path in &found {
+        if pending.len() == MOST_LISTED {
+            left_out += 1;
+            continue;
+        }
+        match look(path, &mut left_px) {
+            Some(one) => pending.push(one),
+            None => accepted += 1,
+        }
+    }
     let default = || arguments.place.out.join("review.html");
     let output = arguments.output.clone().unwrap_or_else(default);
     let read = found.iter().map(|path| ("a pending snapshot", path.as_path(), Use::Reads));
     let olds = pending.iter().map(|one| ("a snapshot", one.path.as_path(), Use::Reads));
     let page = ("the page", output.as_path(), Use::Writes);
     distinct(&read.chain(olds).chain([page]).collect::<Vec<_>>())?;
-    let report = report(&pending, &folders);
-    let sentence = report.outcome.clone().map(|outcome| outcome.sentence).unwrap_or_default();
     for one in &pending {
-        writeln!(streams.output, "\n{}: {}", one.path.display(), one.what)?;
+        writeln!(streams.output, "\n{}: {}", printable_path(&one.path), one.what)?;
         writeln!(streams.output, "  accept: {}", accept(one))?;
         writeln!(streams.output, "  or, without cargo-insta: {}", update(one))?;
     }
-    let left_over = found.len() - pending.len();
-    if left_over > 0 {
+    if left_out > 0 {
+        writeln!(streams.output, "\n{}", not_listed(left_out))?;
+    }
+    if accepted > 0 {
         writeln!(
             streams.output,
-            "{left_over} accepted already; the next cargo test removes what is left over"
+            "{accepted} accepted already; the next cargo test removes what is left over"
         )?;
     }
+    for warning in unread.iter().take(MOST_UNREAD) {
+        writeln!(streams.errors, "warning: not looked into: {warning}")?;
+    }
+    if unread.len() > MOST_UNREAD {
+        let more = unread.len() - MOST_UNREAD;
+        writeln!(streams.errors, "warning: {more} more folders could not be looked into")?;
+    }
+    let report = report(&pending, left_out, &folders);
+    let sentence = report.outcome.clone().map(|outcome| outcome.sentence).unwrap_or_default();
     writeln!(streams.output, "{}{sentence}", if pending.is_empty() { "" } else { "\n" })?;
+    // What was found is printed before the page is written, which may fail.
     if save_page(&output, report, streams) {
         writeln!(streams.output, "report: {}", printable_path(&output))?;
     }
-    Ok(if pending.is_empty() { exit::AGREES } else { exit::DISAGREES })
+    Ok(match (pending.is_empty(), unread.is_empty()) {
+        (false, _) => exit::DISAGREES,
+        (true, true) => exit::AGREES,
+        // Something may wait where nobody could look.
+        (true, false) => exit::USAGE,
+    })
 }
 
-/// Files that end in `.snap.new` below a folder; links are not followed.
-fn walk(folder: &Path, depth: u32, found: &mut Vec<PathBuf>) -> Result<(), Failure> {
-    let failed = |error| usage(format!("cannot read {}: {error}", folder.display()));
-    for entry in fs::read_dir(folder).map_err(failed)? {
-        let entry = entry.map_err(failed)?;
-        let (kind, path) = (entry.file_type().map_err(failed)?, entry.path());
-        let name = entry.file_name();
-        if kind.is_dir() && depth < MOST_DEPTH && name != "target" && name != ".git" {
-            walk(&path, depth + 1, found)?;
-        } else if kind.is_file() && name.to_string_lossy().ends_with(".snap.new") {
-            found.push(path);
+fn not_listed(left_out: usize) -> String {
+    format!(
+        "{left_out} more are not looked into: accept or reject the {MOST_LISTED} listed ones first, \
+         or name a folder with fewer"
+    )
+}
+
+fn cannot_read(folder: &Path, error: &std::io::Error) -> String {
+    format!("cannot read {}: {error}", printable_path(folder))
+}
+
+/// What ends in `.snap.new` below a folder, and the folders that could not be read. Links to folders
+/// are not followed, so that this ends.
+fn walk(top: &Path, found: &mut Vec<PathBuf>, unread: &mut Vec<String>) {
+    let mut folders = vec![top.to_owned()];
+    while let Some(folder) = folders.pop() {
+        let entries = match fs::read_dir(&folder) {
+            Ok(entries) => entries,
+            Err(error) => {
+                unread.push(cannot_read(&folder, &error));
+                continue;
+            }
+        };
+        for entry in entries {
+            let kind = entry.and_then(|entry| Ok((entry.file_type()?, entry)));
+            let (kind, entry) = match kind {
+                Ok(both) => both,
+                Err(error) => {
+                    unread.push(cannot_read(&folder, &error));
+                    continue;
+                }
+            };
+            let name = entry.file_name();
+            if kind.is_dir() && name != "target" && name != ".git" {
+                folders.push(entry.path());
+            } else if !kind.is_dir() && name.to_string_lossy().ends_with(".snap.new") {
+                found.push(entry.path());
+            }
         }
     }
-    Ok(())
 }
 
-fn read(path: &Path) -> Result<Vec<u8>, Failure> {
-    input::read(path, limits::DOCUMENT_BYTES).map_err(|error| usage(error.to_string()))
+fn read(path: &Path) -> Result<Vec<u8>, InputError> {
+    input::read(path, DOCUMENT_BYTES)
 }
 
 /// A file that may be missing.
-fn read_if_there(path: &Path) -> Result<Option<Vec<u8>>, Failure> {
-    if path.exists() { read(path).map(Some) } else { Ok(None) }
+fn read_if_there(path: &Path) -> Result<Option<Vec<u8>>, InputError> {
+    match read(path) {
+        Err(error) if error.missing => Ok(None),
+        other => other.map(Some),
+    }
 }
 
 fn with_ending(path: &Path, ending: &str) -> PathBuf {
@@ -157,20 +224,40 @@ fn field<'a>(head: &'a str, name: &str) -> Option<&'a str> {
     Some(value.trim().trim_matches('"'))
 }
 
-/// What waits, or nothing where it was accepted in the meantime.
-fn look(new_path: &Path) -> Result<Option<Pending>, Failure> {
+/// What waits, or nothing where it was accepted in the meantime. A file that cannot be read is
+/// listed with the reason, since it may hide a change.
+fn look(new_path: &Path, left_px: &mut u64) -> Option<Pending> {
     let path = new_path.with_extension("");
+    look_into(new_path, &path, left_px).unwrap_or_else(|error| {
+        let what = format!("cannot be shown: {error}");
+        Some(Pending { path, source: String::new(), what, shown: Shown::Nothing })
+    })
+}
+
+fn look_into(
+    new_path: &Path,
+    path: &Path,
+    left_px: &mut u64,
+) -> Result<Option<Pending>, InputError> {
     let text = text_of(&read(new_path)?);
     let (head, new) = parse(&text);
     let source = field(head, "source").unwrap_or("").to_owned();
+    let path = path.to_owned();
     if field(head, "snapshot_kind") == Some("binary") {
-        let ending = format!(".{}", field(head, "extension").unwrap_or("bin"));
+        let ending = field(head, "extension").unwrap_or("bin");
+        let shown_ending = printable_short(ending, 20);
+        // It names a file beside this one, and no other.
+        if ending.contains(['/', '\\']) {
+            let what = format!("the ending {shown_ending} of its file is no ending");
+            return Ok(Some(Pending { path, source, what, shown: Shown::Nothing }));
+        }
+        let ending = format!(".{ending}");
         let bytes = read_if_there(&with_ending(new_path, &ending))?;
         let old = read_if_there(&with_ending(&path, &ending))?;
         let (what, shown) = match bytes {
             None if old.is_some() => return Ok(None),
-            None => (format!("the new file X.snap.new{ending} is missing"), Shown::Nothing),
-            Some(bytes) if ending == ".png" => pictures(old.as_deref(), &bytes),
+            None => (format!("the new file X.snap.new.{shown_ending} is missing"), Shown::Nothing),
+            Some(bytes) if ending == ".png" => pictures(old.as_deref(), &bytes, left_px),
             Some(bytes) => (format!("{} bytes that are no picture", bytes.len()), Shown::Nothing),
         };
         return Ok(Some(Pending { path, source, what, shown }));
@@ -190,23 +277,29 @@ fn look(new_path: &Path) -> Result<Option<Pending>, Failure> {
 }
 
 /// A picture of at most [`MOST_SIDE_PX`] a side.
-fn decode(bytes: &[u8]) -> Result<RgbImage, String> {
+fn decode(bytes: &[u8], left_px: &mut u64) -> Result<RgbImage, String> {
     let reader = || ImageReader::with_format(Cursor::new(bytes), ImageFormat::Png);
     let (width, height) = reader().into_dimensions().map_err(|e| e.to_string())?;
     if width.max(height) > MOST_SIDE_PX {
         return Err(format!("{width} x {height} px is too large to show"));
     }
+    *left_px = left_px.checked_sub(u64::from(width) * u64::from(height)).ok_or_else(|| {
+        format!(
+            "not looked into: the pictures before it have {} million pixels",
+            MOST_DECODED_PX >> 20
+        )
+    })?;
     Ok(reader().decode().map_err(|e| e.to_string())?.to_rgb8())
 }
 
 /// What changed: for the sheets of cases who draws how many pixels of the case otherwise.
-fn pictures(old: Option<&[u8]>, new: &[u8]) -> (String, Shown) {
-    let image = match decode(new) {
+fn pictures(old: Option<&[u8]>, new: &[u8], left_px: &mut u64) -> (String, Shown) {
+    let image = match decode(new, left_px) {
         Ok(image) => image,
         Err(reason) => return (format!("no readable PNG: {reason}"), Shown::Nothing),
     };
     let new_layer = PictureLayer::new("new", &image);
-    match old.map(decode) {
+    match old.map(|old| decode(old, left_px)) {
         None => ("a new picture".to_owned(), Shown::Picture(vec![new_layer])),
         Some(Err(reason)) => (
             format!("a picture; the old one is not readable: {reason}"),
@@ -224,18 +317,24 @@ fn pictures(old: Option<&[u8]>, new: &[u8]) -> (String, Shown) {
 /// Panels of old and new sheet, compared by the pixels of the case.
 fn who_changed(old: &Sheet, new: &Sheet) -> String {
     let changes = panels::changes(old, new);
-    let changed: Vec<_> = changes
+    let changed: Vec<_> = changes.iter().filter(|(_, count)| *count > 0).collect();
+    if changed.is_empty() {
+        return "no pixel of the case changed: the sheet itself did".to_owned();
+    }
+    let mut said: Vec<_> = changed
         .iter()
-        .filter(|(_, count)| *count > 0)
-        .map(|(name, count)| match count {
-            1 => format!("{name} changed in 1 pixel"),
-            n => format!("{name} changed in {n} pixels"),
+        .take(MOST_PANELS)
+        .map(|(name, count)| {
+            let s = if *count == 1 { "" } else { "s" };
+            format!("{} changed in {count} pixel{s}", printable_short(name, 60))
         })
         .collect();
-    match changed.as_slice() {
-        [] => "no pixel of the case changed: the sheet itself did".to_owned(),
-        _ => changed.join(", "),
+    if changed.len() > MOST_PANELS {
+        said.push(format!("and {} more panels changed", changed.len() - MOST_PANELS));
     }
+    let windows = [old, new].map(|sheet| sheet.panels.first().map(|panel| panel.shown));
+    let moved = if windows[0] == windows[1] { "" } else { "another part of the case is shown: " };
+    format!("{moved}{}", said.join(", "))
 }
 
 fn difference(old: &RgbImage, new: &RgbImage) -> String {
@@ -251,40 +350,46 @@ fn difference(old: &RgbImage, new: &RgbImage) -> String {
 }
 
 fn accept(one: &Pending) -> String {
-    format!("cargo insta accept --snapshot '{}'", one.path.display())
+    let path = one.path.to_string_lossy();
+    shell::line(["cargo", "insta", "accept", "--snapshot", &path])
 }
 
 /// The command that accepts all that its test file says now: `tests/it/page.rs` is module `page` of
 /// the test binary `it`.
 fn update(one: &Pending) -> String {
     let parts: Vec<_> = one.source.trim_end_matches(".rs").split('/').collect();
-    let which = match parts.as_slice() {
-        ["tests", binary] => format!(" --test {binary}"),
-        ["tests", binary, "main"] => format!(" --test {binary}"),
-        ["tests", binary, module] => format!(" --test {binary} {module}::"),
-        _ => String::new(),
+    let module;
+    let which: &[&str] = match parts.as_slice() {
+        ["tests", binary] | ["tests", binary, "main"] => &["--test", binary],
+        ["tests", binary, name] => {
+            module = format!("{name}::");
+            &["--test", binary, &module]
+        }
+        _ => &[],
     };
-    format!("INSTA_UPDATE=always cargo test{which}")
+    format!("INSTA_UPDATE=always {}", shell::line(["cargo", "test"].iter().chain(which).copied()))
 }
 
-fn report(pending: &[Pending], folders: &[PathBuf]) -> Report {
-    let names: Vec<_> = folders.iter().map(|folder| folder.display().to_string()).collect();
-    let places = names.join(", ");
-    let sentence = match pending.len() {
+fn report(pending: &[Pending], left_out: usize, folders: &[PathBuf]) -> Report {
+    let names: Vec<_> = folders.iter().map(|folder| folder.to_string_lossy()).collect();
+    let places = printable(&names.join(", ")).into_owned();
+    let sentence = match pending.len() + left_out {
         0 => format!("No snapshot waits for review in {places}."),
         1 => format!("1 changed snapshot waits for review in {places}."),
         n => format!("{n} changed snapshots wait for review in {places}."),
     };
     let word = if pending.is_empty() { "NOTHING PENDING" } else { "PENDING" };
+    let words = names.iter().map(|name| &**name);
     let mut report = Report {
         title: "Review of snapshots".to_owned(),
         outcome: Some(Outcome { good: pending.is_empty(), word: word.to_owned(), sentence }),
-        command: format!("{} review {}", program(), names.join(" ")),
+        command: format!("{} review {}", program(), shell::line(words)),
+        notes: if left_out > 0 { vec![not_listed(left_out)] } else { Vec::new() },
         ..Report::default()
     };
     let mut rows = Vec::new();
     for one in pending {
-        let name = one.path.display().to_string();
+        let name = printable_path(&one.path);
         let cells = vec![name.clone(), one.what.clone(), accept(one), update(one)];
         let search = matches!(one.shown, Shown::Picture(_)).then(|| name.clone());
         rows.push(Row { cells, search, ..Row::default() });

@@ -7,7 +7,8 @@ use rasterproof_host::text::printable_path;
 use super::files::{Use, distinct};
 use super::page::{PageArguments, as_file, write_page};
 use super::progress::Progress;
-use super::{Failure, Streams, exit, png_name, program, write_unasked};
+use super::typed::Typed;
+use super::{Failure, Streams, exit, png_name, write_unasked};
 use crate::report::html::{Outcome, Report};
 use crate::report::{cases, counts, json, picture, sheet, specimens};
 use crate::specimen::catalogue::{CARDS, Card};
@@ -37,7 +38,11 @@ pub struct SpecimensArguments {
 }
 
 /// Surveys, prints and draws. A specimen that its case does not expose is a disagreement.
-pub fn run(arguments: &SpecimensArguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+pub fn run(
+    arguments: &SpecimensArguments,
+    typed: &Typed,
+    streams: &mut Streams<'_>,
+) -> Result<u8, Failure> {
     let page = arguments.page.page("specimens.html");
     let sheet_file = arguments.output.as_deref().map(|path| ("--output", path, Use::Writes));
     let files: Vec<_> = sheet_file.into_iter().chain(as_file(&page)).collect();
@@ -79,7 +84,7 @@ pub fn run(arguments: &SpecimensArguments, streams: &mut Streams<'_>) -> Result<
         }
     }
     if let Some(path) = page {
-        write_page(&path, report_page(arguments, &reports), streams);
+        write_page(&path, report_page(arguments, typed, &reports), streams);
     }
     Ok(if are_caught(&reports) { exit::AGREES } else { exit::DISAGREES })
 }
@@ -90,7 +95,11 @@ fn are_caught(reports: &[SpecimenReport]) -> bool {
 }
 
 /// The survey as a page: how often each is wrong, the exposing cases, the pictures.
-fn report_page(arguments: &SpecimensArguments, reports: &[SpecimenReport]) -> Report {
+fn report_page(
+    arguments: &SpecimensArguments,
+    typed: &Typed,
+    reports: &[SpecimenReport],
+) -> Report {
     let good = are_caught(reports);
     let sentence = if good {
         format!("Each of {} published faults is exposed by its case.", reports.len())
@@ -107,12 +116,10 @@ fn report_page(arguments: &SpecimensArguments, reports: &[SpecimenReport]) -> Re
     Report {
         title: "Published algorithms and their faults".to_owned(),
         outcome: Some(Outcome { good, word: word.to_owned(), sentence }),
-        command: format!(
-            "{} specimens --seed {} --cases {} --report",
-            program(),
-            arguments.seed,
-            arguments.cases
-        ),
+        command: {
+            let typed = typed.clone().first("cases", arguments.cases);
+            typed.first("seed", arguments.seed).line()
+        },
         seed: Some(arguments.seed),
         tables: vec![counts::of_specimens(reports)],
         cases,

@@ -9,6 +9,7 @@ use image::RgbImage;
 use super::page::{PageArguments, write_page};
 use super::progress::Progress;
 use super::shown::{self, Contestants};
+use super::typed::Typed;
 use super::{Failure, Streams, exit, invariant, program, usage, write_unasked};
 use crate::hazard::{self, Shape};
 use crate::lineup::{Engine, ExactEngine, LineEngine};
@@ -153,41 +154,25 @@ impl VerifyArguments {
         all.exact.retain(|engine| wanted(engine.name()));
         all
     }
-
-    /// The command that repeats one case.
-    fn repeat(&self, family: &str, index: u64) -> String {
-        let plant = self.plant.as_ref().map(|name| format!(" --plant {name}")).unwrap_or_default();
-        let engines: String = self.engine.iter().map(|name| format!(" --engine {name}")).collect();
-        format!(
-            "{} verify --family {family} --case {index} --seed {}{engines}{plant}",
-            program(),
-            self.seed
-        )
-    }
-
-    /// The command that repeats the run.
-    fn repeat_all(&self, cases: u64) -> String {
-        let mut command = format!("{} verify --seed {} --cases {cases}", program(), self.seed);
-        for family in &self.family {
-            command += &format!(" --family {family}");
-        }
-        for engine in &self.engine {
-            command += &format!(" --engine {engine}");
-        }
-        if self.shard != (0, 1) {
-            command += &format!(" --shard {}/{}", self.shard.0, self.shard.1);
-        }
-        if let Some(case) = self.case {
-            command += &format!(" --case {case}");
-        }
-        if let Some(plant) = &self.plant {
-            command += &format!(" --plant {plant}");
-        }
-        command
-    }
 }
 
-pub fn run(arguments: &VerifyArguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+/// The command that repeats one case.
+fn repeat(typed: &Typed, seed: u64, (family, index): (&str, u64)) -> String {
+    let one = typed.clone().without_output().without(&["cases", "seconds", "shard"]);
+    one.set("seed", seed).first("case", index).first("family", family).line()
+}
+
+/// The command that repeats the run.
+fn repeat_all(typed: &Typed, seed: u64, cases: u64) -> Typed {
+    typed.clone().without(&["seconds"]).first("cases", cases).first("seed", seed)
+}
+
+/// Judges, prints, and writes what was asked for.
+pub fn run(
+    arguments: &VerifyArguments,
+    typed: &Typed,
+    streams: &mut Streams<'_>,
+) -> Result<u8, Failure> {
     if !arguments.invariant.is_empty() {
         let VerifyArguments { invariant: names, plant, seed, cases, .. } = arguments;
         return invariant::run(names, plant.as_deref(), *seed, *cases, streams);
@@ -211,16 +196,23 @@ pub fn run(arguments: &VerifyArguments, streams: &mut Streams<'_>) -> Result<u8,
         ));
     }
     if arguments.json {
-        let text =
-            json::verdict(&verdict, &off_grid, |family, index| arguments.repeat(family, index));
+        let text = json::verdict(&verdict, &off_grid, |family, index| {
+            repeat(typed, arguments.seed, (family, index))
+        });
         streams.output.write_all(text.as_bytes())?;
     } else {
-        print(arguments, (&verdict, &engines, &lines), (&off_grid, &exact_engines), streams)?;
+        print(
+            (arguments, typed),
+            (&verdict, &engines, &lines),
+            (&off_grid, &exact_engines),
+            streams,
+        )?;
     }
     // What was asked for may fail, but not before the verdict is said.
     streams.output.flush()?;
     if arguments.page.report {
-        let page = report_page(arguments, &verdict, &off_grid, &engines, &lines, &exact_engines);
+        let page =
+            report_page((arguments, typed), &verdict, &off_grid, &engines, &lines, &exact_engines);
         write_page(&arguments.page.place.out.join("verify.html"), page, streams);
     }
     Ok(if verdict.agrees() && off_grid.agrees() { exit::AGREES } else { exit::DISAGREES })
@@ -257,7 +249,7 @@ fn on_a_device(
 
 /// The run as a page: counts, failing cases, those closest to a bound, the named cases.
 fn report_page(
-    arguments: &VerifyArguments,
+    (arguments, typed): (&VerifyArguments, &Typed),
     verdict: &Verdict,
     off_grid: &ExactVerdict,
     engines: &[(Engine, Tolerance)],
@@ -273,11 +265,13 @@ fn report_page(
     Report {
         title: "Verdict of rasterproof".to_owned(),
         outcome: Some(counts::outcome(verdict, off_grid)),
-        command: format!("{} --report", arguments.repeat_all(judged_cases(arguments, verdict))),
+        command: repeat_all(typed, arguments.seed, judged_cases(arguments, verdict)).line(),
         seed: Some(arguments.seed),
         notes: Some(quotas).filter(|line| !line.is_empty()).into_iter().collect(),
         tables,
-        cases: cases::of_verdict(verdict, off_grid, judged, |f, i| arguments.repeat(f, i)),
+        cases: cases::of_verdict(verdict, off_grid, judged, |f, i| {
+            repeat(typed, arguments.seed, (f, i))
+        }),
         ..Report::default()
     }
 }
@@ -322,7 +316,7 @@ fn judge(
 /// The answer and what it rests on. Where something is wrong, the smallest case that shows it comes
 /// first; the last line is the verdict in a word.
 fn print(
-    arguments: &VerifyArguments,
+    (arguments, typed): (&VerifyArguments, &Typed),
     on_grid: (&Verdict, &[(Engine, Tolerance)], &[LineEngine]),
     off_grid: (&ExactVerdict, &[(&str, ExactEngine)]),
     streams: &mut Streams<'_>,
@@ -331,7 +325,7 @@ fn print(
     let agrees = verdict.agrees() && exact.agrees();
     let mut pictures = Vec::new();
     if !agrees {
-        pictures = failures(arguments, on_grid, off_grid, streams)?;
+        pictures = failures((arguments, typed), on_grid, off_grid, streams)?;
     }
     let (part, parts) = verdict.options.shard;
     let shard = if parts > 1 { format!(", shard {part}/{parts}") } else { String::new() };
@@ -363,7 +357,11 @@ fn print(
     if !arguments.table && agrees {
         writeln!(out, "every family as a table: add --table")?;
     }
-    writeln!(out, "repeat with: {}", arguments.repeat_all(judged_cases(arguments, verdict)))?;
+    writeln!(
+        out,
+        "repeat with: {}",
+        repeat_all(typed, arguments.seed, judged_cases(arguments, verdict)).without_output().line()
+    )?;
     let (triangles, segments) = (verdict.sum(false, |f| f.shapes), verdict.sum(true, |f| f.shapes));
     let beside = match exact.triangles() {
         0 => String::new(),
@@ -386,7 +384,7 @@ type Sheet = (&'static str, Vec<RgbImage>);
 
 /// The smallest failure with its pixels, then a line for each other family; all of them as pictures.
 fn failures(
-    arguments: &VerifyArguments,
+    (arguments, typed): (&VerifyArguments, &Typed),
     (verdict, engines, lines): (&Verdict, &[(Engine, Tolerance)], &[LineEngine]),
     (off_grid, exact_engines): (&ExactVerdict, &[(&str, ExactEngine)]),
     streams: &mut Streams<'_>,
@@ -406,7 +404,11 @@ fn failures(
             writeln!(out, "\n{}", ascii::side_by_side(&blocks, 60))?;
             writeln!(out, "{}\n", ascii::LEGEND)?;
         }
-        writeln!(out, "  repeat with: {}", arguments.repeat(&failure.family, failure.index))?;
+        writeln!(
+            out,
+            "  repeat with: {}",
+            repeat(typed, arguments.seed, (&failure.family, failure.index))
+        )?;
         writeln!(out, "  explain it:  {}", explain(arguments, failure))?;
         writeln!(out, "  read on in:  {}\n", summary::chapter(failure))?;
     }
@@ -416,7 +418,11 @@ fn failures(
         exact.extend(picture.filter(|_| rank < MOST_DRAWN));
         if rank == 0 {
             writeln!(out, "{failure}")?;
-            writeln!(out, "  repeat with: {}", arguments.repeat(&failure.family, failure.index))?;
+            writeln!(
+                out,
+                "  repeat with: {}",
+                repeat(typed, arguments.seed, (&failure.family, failure.index))
+            )?;
             writeln!(out, "  read on in:  docs/offgrid.md\n")?;
         }
     }

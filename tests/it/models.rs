@@ -220,7 +220,7 @@ fn render_and_plan_write_a_page() {
     };
     let page = run(&["render", "--scene", "cube", "--size", "64x48", "--report"]);
     assert!(page.contains("AGREES") && page.contains("edge-function"));
-    assert!(page.contains("rasterproof render --scene cube --size 64x48 --aa none --report"));
+    assert!(page.contains("rasterproof render --scene cube --size 64x48 --report"));
     let words = ["plan", "--scene", "panels", "--size", "64x48", "--rounds", "1", "--report"];
     let page = run(&words);
     assert!(page.contains("the material has no texture") && page.contains("second-buffer"));

@@ -831,7 +831,7 @@ fn page_reviews_a_changed_snapshot() {
     assert_eq!(status, 1, "{said}");
     for line in [
         "snapshots/verdict.snap: scanline changed in 1 pixel\n",
-        "  accept: cargo insta accept --snapshot 'snapshots/verdict.snap'",
+        "  accept: cargo insta accept --snapshot snapshots/verdict.snap",
         "INSTA_UPDATE=always cargo test --test it snapshots::",
         "1 changed snapshot waits for review in snapshots.",
     ] {

@@ -390,7 +390,7 @@ fn playground_opens_cases_of_the_report() {
     assert_eq!(browser.complaints, Vec::<String>::new());
 }
 
-/// Every chapter links into its scene, from both languages alike, and the address opens it.
+/// Every chapter names its scene, from both languages alike, and the address opens it.
 #[test]
 fn playground_is_where_chapters_lead() {
     let links = |folder: &str| -> Vec<(String, String)> {
@@ -402,9 +402,9 @@ fn playground_is_where_chapters_lead() {
             let found: Vec<_> = text
                 .split("target/rasterproof/playground.html")
                 .skip(1)
-                .map(|rest| (page.clone(), rest.split(')').next().unwrap().to_owned()))
+                .map(|rest| (page.clone(), rest.split('`').next().unwrap().to_owned()))
                 .collect();
-            assert!(!found.is_empty(), "{folder}/{page} links nowhere into the playground");
+            assert!(!found.is_empty(), "{folder}/{page} names no scene of the playground");
             found
         };
         pages.into_iter().flat_map(link).collect()

@@ -22,6 +22,7 @@
 //! beyond [`MOST_BYTES`]: what does not fit is left out, and the page says what that is.
 
 use std::fmt::Write as _;
+use std::time::{Duration, Instant};
 
 use base64::Engine as _;
 use image::RgbImage;
@@ -36,6 +37,14 @@ use super::picture;
 pub const MOST_BYTES: usize = 2_000_000;
 /// Unchanged lines that are shown around a changed one.
 const CONTEXT: usize = 3;
+/// Time to compare the lines of two texts, which is quadratic in what differs.
+const DIFF_TIME: Duration = Duration::from_millis(500);
+/// Time to compare all texts of a page.
+const ALL_DIFFS_TIME: Duration = Duration::from_secs(2);
+/// Names of what was left out that are listed.
+const MOST_LEFT_OUT_NAMES: usize = 20;
+/// Bytes of the rows of a table.
+const MOST_TABLE_BYTES: usize = 500_000;
 
 const TEMPLATE: &str = include_str!("page/page.html");
 const STYLE: &str = include_str!("page/page.css");
@@ -260,8 +269,12 @@ pub fn page(report: &Report) -> String {
             None
         }
     };
-    let diffs: Vec<_> =
-        report.diffs.iter().filter_map(|diff| kept(&diff.name, text_diff(diff))).collect();
+    let last = Instant::now() + ALL_DIFFS_TIME;
+    let diffs: Vec<_> = report
+        .diffs
+        .iter()
+        .filter_map(|diff| kept(&diff.name, text_diff(diff, last.min(Instant::now() + DIFF_TIME))))
+        .collect();
     let figures: Vec<_> =
         report.figures.iter().filter_map(|f| kept(&f.caption, figure(f))).collect();
     let cases: Vec<_> =
@@ -274,7 +287,7 @@ pub fn page(report: &Report) -> String {
         cases.join(","),
         frames.join(",")
     );
-    let run = run(report, &left_out);
+    let run = run(report, left_out);
     let sections = [
         ("Plan", plan),
         ("Summary", tables),
@@ -355,12 +368,12 @@ fn head(report: &Report) -> String {
 }
 
 /// How the page was made, and what it left out.
-fn run(report: &Report, left_out: &[String]) -> String {
+fn run(report: &Report, left_out: Vec<String>) -> String {
     let mut out = command(&report.command);
     if let Some(seed) = report.seed {
         let _ = writeln!(out, "<p class=\"quiet\">seed {seed}</p>");
     }
-    out + &notes(&report.notes, left_out)
+    out + &notes(&report.notes, &left_out)
 }
 
 /// What an index says of a page stands in its head.
@@ -414,7 +427,11 @@ fn command(text: &str) -> String {
 fn notes(notes: &[String], left_out: &[String]) -> String {
     let mut out: String = notes.iter().map(|note| format!("<p>{}</p>\n", escape(note))).collect();
     if !left_out.is_empty() {
-        let names = escape(&left_out.join(", "));
+        let mut names = left_out.iter().take(MOST_LEFT_OUT_NAMES).cloned().collect::<Vec<_>>();
+        if left_out.len() > names.len() {
+            names.push(format!("and {} more", left_out.len() - names.len()));
+        }
+        let names = escape(&names.join(", "));
         let _ = writeln!(
             out,
             "<p id=\"left-out\">Left out, to keep this file below {MOST_BYTES} bytes: {names}.</p>"
@@ -438,7 +455,12 @@ fn table(table: &Table) -> String {
         let _ = write!(out, "<th scope=\"col\"{class}{about}>{}</th>", escape(&column.label));
     }
     out.push_str("</tr></thead>\n<tbody>\n");
+    let mut left_out = table.rows.len();
     for row in &table.rows {
+        if out.len() > MOST_TABLE_BYTES {
+            break;
+        }
+        left_out -= 1;
         let class = match row.mark {
             Mark::Plain => "",
             Mark::Wrong => " class=\"wrong\"",
@@ -461,6 +483,9 @@ fn table(table: &Table) -> String {
         out.push_str("</tr>\n");
     }
     out.push_str("</tbody></table></div>\n");
+    if left_out > 0 {
+        let _ = writeln!(out, "<p>{left_out} more rows are left out.</p>");
+    }
     out
 }
 
@@ -492,15 +517,25 @@ fn figure(figure: &Figure) -> String {
     )
 }
 
-fn text_diff(diff: &TextDiff) -> String {
+/// The lines that differ, or a sentence where they are not found before the deadline.
+fn text_diff(diff: &TextDiff, deadline: Instant) -> String {
     let old = diff.old.as_deref().unwrap_or("");
-    let lines = Lines::from_lines(old, &diff.new);
     let mut out = format!(
         "<article class=\"diff\" id=\"text-{0}\"><h3>{0}</h3><p>{1}</p>\n{2}",
         escape(&diff.name),
         escape(&diff.about),
         command(&diff.command)
     );
+    let lines = Lines::configure().deadline(deadline).diff_lines(old, &diff.new);
+    if Instant::now() > deadline {
+        let [before, after] = [old, &diff.new].map(|text| text.lines().count());
+        let _ = writeln!(
+            out,
+            "<p>The two texts, of {before} and of {after} lines, are too different to show line by line. \
+             Compare the two files with another program.</p></article>"
+        );
+        return out;
+    }
     let _ = writeln!(
         out,
         "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"lines of {0}\"><table>\
@@ -530,4 +565,47 @@ fn text_diff(diff: &TextDiff) -> String {
     }
     out.push_str("</table></div></article>\n");
     out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Found line by line, the differences of these take minutes.
+    #[test]
+    fn texts_too_different_are_not_compared_to_the_end() {
+        let text = |a: u32| (0..50_000u32).map(|i| format!("{}\n", (i * a) % 9973)).collect();
+        let diff = TextDiff {
+            name: "x".to_owned(),
+            old: Some(text(7)),
+            new: text(11),
+            ..TextDiff::default()
+        };
+        let begin = Instant::now();
+        let page = page(&Report { diffs: vec![diff; 20], ..Report::default() });
+        assert!(page.contains("of 50000 and of 50000 lines, are too different to show"), "{page}");
+        // Twenty texts share two seconds; to prepare each takes some more.
+        assert!(begin.elapsed() < Duration::from_secs(30), "{:?}", begin.elapsed());
+    }
+
+    #[test]
+    fn a_page_stays_small_whatever_it_lists() {
+        let row = |i: usize| Row { cells: vec![format!("{i}"), "x".repeat(200)], ..Row::default() };
+        let columns = ["a", "b"].map(Column::words).to_vec();
+        let rows = (0..20_000).map(row).collect();
+        let table = Table { caption: "many".to_owned(), columns, rows };
+        let diff = |i: usize| TextDiff {
+            name: format!("text {i}"),
+            new: "x\n".repeat(100),
+            ..TextDiff::default()
+        };
+        let report = Report {
+            tables: vec![table],
+            diffs: (0..20_000).map(diff).collect(),
+            ..Report::default()
+        };
+        let page = page(&report);
+        assert!(page.len() < MOST_BYTES, "{}", page.len());
+        assert!(page.contains(" more rows are left out") && page.contains(" more.</p>"), "{page}");
+    }
 }

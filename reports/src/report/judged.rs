@@ -297,7 +297,7 @@ fn closing(verdict: &Verdict) -> String {
 
 /// The run as a page: properties and counts, then each failing case with what everybody draws there.
 #[must_use]
-pub fn page(verdict: &Verdict, repeat_all: &str, repeat: &dyn Fn(&str, u64) -> String) -> Report {
+pub fn page(verdict: &Verdict, command: &str, repeat: &dyn Fn(&str, u64) -> String) -> Report {
     let good = verdict.agrees();
     let word = if good { "AGREES" } else { "DISAGREES" };
     let views = verdict.failures.iter().map(|f| {
@@ -326,11 +326,7 @@ pub fn page(verdict: &Verdict, repeat_all: &str, repeat: &dyn Fn(&str, u64) -> S
     Report {
         title: format!("Verdict on {}", d.name),
         outcome: Some(Outcome { good, word: word.to_owned(), sentence: closing(verdict) }),
-        command: format!("{repeat_all} --report").replace(" --report", "").replacen(
-            "rasterproof judge",
-            "rasterproof judge --report",
-            1,
-        ),
+        command: command.to_owned(),
         seed: Some(verdict.seed),
         notes,
         tables: vec![properties(verdict)],

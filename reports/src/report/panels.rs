@@ -4,7 +4,7 @@
 //! The PNG of a sheet remembers where its panels are, so that two sheets can be compared pixel for
 //! pixel of the cases instead of picture pixel for picture pixel.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap};
 
 use image::{Rgb, RgbImage, imageops};
 
@@ -380,37 +380,49 @@ impl Sheet {
         encoded(&self.image, Some((KEY, &rows.join("\n"))))
     }
 
-    /// The sheet that a PNG remembers; nothing where it is no such PNG.
+    /// The sheet that a PNG remembers; nothing where it is no such PNG, or where its panels claim more
+    /// pixels than the picture has, so that to compare them takes no longer than to read the picture.
     #[must_use]
     pub fn from_png(bytes: &[u8]) -> Option<Self> {
         let reader = png::Decoder::new(std::io::Cursor::new(bytes)).read_info().ok()?;
         let texts = &reader.info().uncompressed_latin1_text;
         let text = &texts.iter().find(|chunk| chunk.keyword == KEY)?.text;
-        let panels = text.lines().map(parsed).collect::<Option<Vec<_>>>()?;
+        let size = [reader.info().width, reader.info().height].map(u64::from);
+        let (mut panels, mut claimed) = (Vec::new(), 0);
+        for row in text.lines() {
+            let panel = parsed(row)?;
+            let sides = [panel.shown.width(), panel.shown.height()]
+                .map(|side| u64::from(side) * u64::from(panel.zoom));
+            let fits = |i: usize| u64::from(panel.at[i]) + sides[i] <= size[i];
+            claimed += sides[0] * sides[1];
+            if !fits(0) || !fits(1) || claimed > size[0] * size[1] {
+                return None;
+            }
+            panels.push(panel);
+        }
         Some(Self { image: image::load_from_memory(bytes).ok()?.to_rgb8(), panels })
     }
 
     /// The colour of a pixel of the case in a panel: the most frequent in its square.
-    fn colour(&self, panel: &Panel, x_px: i32, y_px: i32) -> [u8; 3] {
+    fn colour(&self, panel: &Panel, x_px: i32, y_px: i32, square: &mut Vec<[u8; 3]>) -> [u8; 3] {
         let PixelRect { x0, y0, x1, y1 } = panel.shown;
         if !(x0..x1).contains(&x_px) || !(y0..y1).contains(&y_px) {
             return BACKGROUND.0;
         }
         let offset = |v: i32, from: i32| v.abs_diff(from) * panel.zoom;
         let (left, top) = (panel.at[0] + offset(x_px, x0), panel.at[1] + offset(y_px, y0));
-        let mut counts: Vec<([u8; 3], u32)> = Vec::new();
+        square.clear();
         for (x, y) in (0..panel.zoom).flat_map(|y| (0..panel.zoom).map(move |x| (x, y))) {
-            let Some(pixel) = self.image.get_pixel_checked(left + x, top + y) else { continue };
-            match counts.iter_mut().find(|(colour, _)| *colour == pixel.0) {
-                Some((_, count)) => *count += 1,
-                None => counts.push((pixel.0, 1)),
-            }
+            square.extend(self.image.get_pixel_checked(left + x, top + y).map(|pixel| pixel.0));
         }
-        counts.into_iter().max_by_key(|(_, count)| *count).map_or(BACKGROUND.0, |(c, _)| c)
+        // Sorted, since a square may have as many colours as it has picture pixels.
+        square.sort_unstable();
+        let runs = square.chunk_by(|a, b| a == b);
+        runs.max_by_key(|run| run.len()).map_or(BACKGROUND.0, |run| run[0])
     }
 }
 
-/// A panel as a PNG remembers it; its pixels are few enough to be on a picture.
+/// A panel as a PNG remembers it.
 fn parsed(row: &str) -> Option<Panel> {
     let mut words = row.splitn(8, ' ');
     let mut number = || words.next()?.parse::<i32>().ok();
@@ -422,25 +434,42 @@ fn parsed(row: &str) -> Option<Panel> {
     }
     Some(Panel {
         name: words.next()?.to_owned(),
-        at: [left.ok()?.min(1 << 20), top.ok()?.min(1 << 20)],
+        at: [left.ok()?, top.ok()?],
         zoom: zoom.ok()?,
         shown: PixelRect { x0, y0, x1, y1 },
     })
 }
 
 /// For each panel of both sheets its name, and in how many pixels of the case they differ.
+///
+/// Only the pixels that a panel shows are compared. The two windows may lie far apart, so that the
+/// rectangle around both can be many times larger than the pictures.
 #[must_use]
 pub fn changes(old: &Sheet, new: &Sheet) -> Vec<(String, u64)> {
-    let pairs = new.panels.iter().filter_map(|panel| {
-        Some((old.panels.iter().find(|other| other.name == panel.name)?, panel))
-    });
-    let changed = |(before, after): (&Panel, &Panel)| {
-        let PixelRect { x0, y0, x1, y1 } = union(before.shown, after.shown);
-        let pixels = (y0..y1).flat_map(|y| (x0..x1).map(move |x| (x, y)));
-        let differ = pixels.filter(|&(x, y)| old.colour(before, x, y) != new.colour(after, x, y));
-        (after.name.clone(), differ.count() as u64)
+    let mut by_name = HashMap::new();
+    for panel in &old.panels {
+        by_name.entry(panel.name.as_str()).or_insert(panel);
+    }
+    let squares = &mut [Vec::new(), Vec::new()];
+    let mut changed = |before: &Panel, after: &Panel| {
+        let is_new = |&(x, y): &(i32, i32)| {
+            let PixelRect { x0, y0, x1, y1 } = before.shown;
+            !(x0..x1).contains(&x) || !(y0..y1).contains(&y)
+        };
+        let pixels = pixels(before.shown).chain(pixels(after.shown).filter(is_new));
+        let [a, b] = &mut *squares;
+        let differ = pixels
+            .filter(|&(x, y)| old.colour(before, x, y, a) != new.colour(after, x, y, b))
+            .count();
+        (after.name.clone(), differ as u64)
     };
-    pairs.map(changed).collect()
+    let pairs = new.panels.iter().filter_map(|after| Some((*by_name.get(&*after.name)?, after)));
+    pairs.map(|(before, after)| changed(before, after)).collect()
+}
+
+/// The pixels of a rectangle, row by row.
+fn pixels(PixelRect { x0, y0, x1, y1 }: PixelRect) -> impl Iterator<Item = (i32, i32)> {
+    (y0..y1).flat_map(move |y| (x0..x1).map(move |x| (x, y)))
 }
 
 #[cfg(test)]
@@ -491,6 +520,42 @@ mod tests {
         assert!(shown.width() <= 9 && shown.height() <= 9, "{shown:?}");
         let whole = of_case("T4", &case, &engines[..1], &target).panels[0].shown;
         assert!(whole.width() > 9 && whole.width() <= case.window.width(), "{whole:?}");
+    }
+
+    /// A sheet whose panels are as given, as a PNG that says so.
+    fn claiming(side: u32, panels: Vec<Panel>) -> Sheet {
+        Sheet { image: RgbImage::from_pixel(side, side, WHITE), panels }
+    }
+
+    fn far_panel(name: &str, x0: i32, side: i32, zoom: u32) -> Panel {
+        let shown = PixelRect { x0, y0: -x0, x1: x0 + side, y1: side - x0 };
+        Panel { name: name.to_owned(), at: [0, 0], zoom, shown }
+    }
+
+    /// The rectangle around both windows has 16,000,000 x 16,000,000 pixels.
+    #[test]
+    fn windows_far_apart_are_compared_alone() {
+        let old = claiming(64, vec![far_panel("x", -8_000_000, 8, 8)]);
+        let mut new = claiming(64, vec![far_panel("x", 8_000_000, 8, 8)]);
+        assert_eq!(changes(&old, &new), [("x".to_owned(), 128)]);
+        new.panels[0].shown = old.panels[0].shown;
+        assert_eq!(changes(&old, &new), [("x".to_owned(), 0)]);
+        // A window that grew: old pixels are compared with old ones, new ones with the background.
+        new = claiming(96, vec![far_panel("x", -8_000_000, 12, 8)]);
+        assert_eq!(changes(&old, &new), [("x".to_owned(), 144 - 64)]);
+    }
+
+    #[test]
+    fn panels_claim_no_more_than_the_picture_has() {
+        let huge = claiming(64, vec![far_panel("x", 0, 4096, 64)]);
+        assert!(Sheet::from_png(&huge.png()).is_none());
+        let whole = far_panel("x", 0, 8, 8);
+        assert!(Sheet::from_png(&claiming(64, vec![whole.clone()]).png()).is_some());
+        assert!(Sheet::from_png(&claiming(64, vec![whole; 1000]).png()).is_none());
+        let apart = |i: u32| Panel { at: [i % 64, i / 64], ..far_panel(&format!("{i}"), 0, 1, 1) };
+        let many = claiming(64, (0..1000).map(apart).collect());
+        let again = Sheet::from_png(&many.png()).unwrap();
+        assert_eq!(changes(&many, &again).len(), 1000);
     }
 
     #[test]

@@ -1,0 +1,229 @@
+//! A command line that was parsed, turned back into a command that can be copied.
+//!
+//! It is made from what the parser matched, option by option, and not from the fields of a command's
+//! arguments. So an option that is added later is part of it without another line of code.
+
+use clap::ArgMatches;
+use rasterproof_host::shell;
+
+use super::program;
+
+/// A subcommand with the options that were given for it; options with default values are left out.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Typed {
+    name: String,
+    positional: Vec<String>,
+    /// Each by its long name without `--`, with the values of each time that it was given.
+    options: Vec<(String, Vec<String>)>,
+    /// Words after `--`, where the command takes some.
+    after: Vec<String>,
+}
+
+impl Typed {
+    /// What was matched; `verify` where no subcommand was named.
+    pub fn of(command: &clap::Command, matches: &ArgMatches) -> Self {
+        let inner = matches.subcommand();
+        let found = inner.and_then(|(name, inner)| Some((command.find_subcommand(name)?, inner)));
+        let (name, (command, matches)) =
+            (inner.map_or("verify", |(name, _)| name), found.unwrap_or((command, matches)));
+        let mut typed = Self {
+            name: name.to_owned(),
+            positional: Vec::new(),
+            options: Vec::new(),
+            after: Vec::new(),
+        };
+        let is_typed = |arg: &clap::Arg| {
+            matches.ids().any(|id| id == arg.get_id())
+                && matches.value_source(arg.get_id().as_str())
+                    == Some(clap::parser::ValueSource::CommandLine)
+        };
+        for arg in command.get_arguments().filter(|arg| is_typed(arg)) {
+            let each: Vec<Vec<String>> = matches
+                .get_raw_occurrences(arg.get_id().as_str())
+                .into_iter()
+                .flatten()
+                .map(|values| values.map(|value| value.to_string_lossy().into_owned()).collect())
+                .collect();
+            match arg.get_long() {
+                Some(long) if arg.get_action().takes_values() => {
+                    typed.options.extend(each.into_iter().map(|values| (long.to_owned(), values)));
+                }
+                Some(long) => typed.options.push((long.to_owned(), Vec::new())),
+                None if arg.is_last_set() => typed.after.extend(each.concat()),
+                // A space was put before a coordinate such as -1,2 for the parser.
+                None => typed
+                    .positional
+                    .extend(each.concat().into_iter().map(|word| word.trim_start().to_owned())),
+            }
+        }
+        typed
+    }
+
+    /// The same with this value of an option, at the place where the option was given, or at the end.
+    pub fn set(mut self, option: &str, value: impl ToString) -> Self {
+        let at = self.options.iter().position(|(name, _)| name == option);
+        let at = at.unwrap_or(self.options.len());
+        self = self.without(&[option]);
+        self.options
+            .insert(at.min(self.options.len()), (option.to_owned(), vec![value.to_string()]));
+        self
+    }
+
+    /// The same with this option first.
+    pub fn first(self, option: &str, value: impl ToString) -> Self {
+        let mut typed = self.without(&[option]);
+        typed.options.insert(0, (option.to_owned(), vec![value.to_string()]));
+        typed
+    }
+
+    /// The same without these options.
+    pub fn without(mut self, options: &[&str]) -> Self {
+        self.options.retain(|(name, _)| !options.contains(&name.as_str()));
+        self
+    }
+
+    /// The same without what only decides where results go and how they are shown.
+    pub fn without_output(self) -> Self {
+        self.without(&["report", "out", "output", "json", "table", "format"])
+    }
+
+    /// The words after the name of the program.
+    pub fn words(&self) -> Vec<String> {
+        let mut words = vec![self.name.clone()];
+        // From the first that would be taken for an option, they come last, in their order.
+        let is_option = |word: &String| word.starts_with('-') && !super::is_coordinate(word);
+        let first = self.positional.iter().position(is_option).unwrap_or(self.positional.len());
+        let (plain, rest) = self.positional.split_at(first);
+        words.extend_from_slice(plain);
+        for (name, values) in &self.options {
+            match values.as_slice() {
+                // Taken for an option otherwise.
+                [value] if value.starts_with('-') => words.push(format!("--{name}={value}")),
+                values => {
+                    words.push(format!("--{name}"));
+                    words.extend(values.iter().cloned());
+                }
+            }
+        }
+        if !rest.is_empty() || !self.after.is_empty() {
+            words.push("--".to_owned());
+        }
+        words.extend(rest.iter().chain(&self.after).cloned());
+        words
+    }
+
+    /// The command, quoted for a shell.
+    pub fn line(&self) -> String {
+        format!("{} {}", program(), shell::line(self.words().iter().map(String::as_str)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory as _;
+
+    use super::super::{Arguments, parse};
+
+    /// What the parser makes of words, as text, and the words that it is turned back into.
+    fn parsed(words: &[String]) -> Option<(String, Vec<String>)> {
+        let all = std::iter::once("rasterproof".to_owned()).chain(words.iter().cloned());
+        let (arguments, typed) = parse(all.map(Into::into).collect()).ok()?;
+        Some((format!("{arguments:?}"), typed.words()))
+    }
+
+    /// Parsing a command that was made from options gives the same options.
+    fn check(words: &[String]) {
+        let (arguments, again) = parsed(words).unwrap_or_else(|| panic!("{words:?}"));
+        // `verify` may be left out, and then the same options are at another place.
+        let (parsed_again, same) = parsed(&again).unwrap_or_else(|| panic!("{words:?}: {again:?}"));
+        assert_eq!(arguments, parsed_again, "{words:?}: {again:?}");
+        assert_eq!(again, same);
+    }
+
+    /// Words that some option takes; each option is given the first that its parser accepts.
+    const VALUES: [&str; 11] = [
+        "a b'$(x)\u{1b}.png",
+        "-7.5",
+        "7",
+        "3",
+        "1/4",
+        "64x48",
+        "-3,3",
+        "vulkan:0",
+        "+clip",
+        "x",
+        "T2",
+    ];
+
+    /// The words that give an option, in all forms that its parser accepts.
+    fn forms(arg: &clap::Arg) -> Vec<Vec<String>> {
+        let Some(long) = arg.get_long() else { return Vec::new() };
+        if !arg.get_action().takes_values() {
+            return vec![vec![format!("--{long}")]];
+        }
+        let possible = arg.get_possible_values();
+        let names = possible.iter().map(|value| value.get_name().to_owned());
+        let values = names.chain(VALUES.map(str::to_owned));
+        let mut forms: Vec<_> = values.map(|value| vec![format!("--{long}={value}")]).collect();
+        if matches!(arg.get_action(), clap::ArgAction::Append) {
+            forms.extend(forms.clone().into_iter().map(|form| [form.clone(), form].concat()));
+        }
+        forms
+    }
+
+    /// Every option of every command that writes a page, alone and together with all that it agrees
+    /// with. The options are enumerated by the parser, so that none can be forgotten.
+    #[test]
+    fn options_survive_the_way_to_a_command_and_back() {
+        let mut command = Arguments::command();
+        command.build();
+        let has_page = |c: &&clap::Command| c.get_arguments().any(|a| a.get_long() == Some("out"));
+        let pages: Vec<_> = command.get_subcommands().filter(has_page).collect();
+        assert!(pages.len() >= 8, "{}", pages.len());
+        for subcommand in pages {
+            let name = subcommand.get_name().to_owned();
+            // Words without which nothing is parsed.
+            let required: &[&[&str]] =
+                &[&[], &["T2"], &["cube"], &["--", "./a b", "-x", "it's"], &["-1,2", "-x.obj"]];
+            let bases: Vec<Vec<String>> = required
+                .iter()
+                .map(|more| std::iter::once(&*name).chain(more.iter().copied()))
+                .map(|words| words.map(str::to_owned).collect())
+                .filter(|words: &Vec<String>| parsed(words).is_some())
+                .collect();
+            let with = |words: &[String], form: &[String]| {
+                let at = words.iter().position(|word| word == "--").unwrap_or(words.len());
+                [&words[..at], form, &words[at..]].concat()
+            };
+            bases.iter().for_each(|base| check(base));
+            let mut together: Vec<Vec<String>> = bases.clone();
+            for arg in subcommand.get_arguments() {
+                let mut accepted = matches!(arg.get_long(), None | Some("help" | "version"));
+                for form in forms(arg) {
+                    // Some options take the place of the words that are required otherwise.
+                    let alone = vec![name.clone()];
+                    for base in bases.iter().chain([&alone]) {
+                        let words = with(base, &form);
+                        if parsed(&words).is_some() {
+                            check(&words);
+                            accepted = true;
+                        }
+                    }
+                    for all in &mut together {
+                        let more = with(all, &form);
+                        if parsed(&more).is_some() {
+                            // Some options require another one.
+                            accepted = true;
+                            *all = more;
+                        }
+                    }
+                }
+                assert!(accepted, "{name}: no value in this test is accepted by {arg:?}");
+            }
+            for all in &together {
+                assert!(all.len() > 2, "{all:?}");
+                check(all);
+            }
+        }
+    }
+}

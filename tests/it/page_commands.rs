@@ -1,0 +1,89 @@
+//! The command on a page makes the same page again: it holds every option that was given.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("page-commands-{name}"));
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+/// Runs the program; the command that its page shows.
+fn shown(folder: &Path, words: &[&str], page: &str) -> String {
+    let output = Command::new(env!("CARGO_BIN_EXE_rasterproof"))
+        .args(words)
+        .current_dir(folder)
+        .env_remove("CARGO")
+        .output()
+        .unwrap();
+    assert!(matches!(output.status.code(), Some(0 | 1)), "{words:?}: {output:?}");
+    let text = std::fs::read_to_string(folder.join(page)).unwrap();
+    let after = text.rsplit("<p class=\"command\"><code>").next().unwrap();
+    let command = after.split("</code>").next().unwrap();
+    command.replace("&#39;", "'").replace("&quot;", "\"").replace("&amp;", "&").replace("&lt;", "<")
+}
+
+/// The words after the name of the program, as a shell reads them.
+fn words_of(command: &str) -> Vec<String> {
+    let script = format!("printf '%s\\0' {command}");
+    let output = Command::new("bash").args(["-c", &script]).output().unwrap();
+    let text = String::from_utf8(output.stdout).unwrap();
+    text.split_terminator('\0').skip(1).map(str::to_owned).collect()
+}
+
+#[test]
+fn every_option_is_on_the_page() {
+    let folder = folder("all");
+    let model = "v -1 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    std::fs::write(folder.join("a 'model'.obj"), model).unwrap();
+    let program = env!("CARGO_BIN_EXE_rasterproof");
+    let view = "--size 32x24 --aa msaa4 --cull cw --shading flat --depth unorm24 --yaw=-30 \
+                --pitch 10.5 --zoom 2 --fov 50";
+    let report = "--report --out pages";
+    let runs = [
+        ("render", vec!["a 'model'.obj"], format!("{view} --engine both --effects all {report}")),
+        (
+            "plan",
+            vec!["a 'model'.obj"],
+            format!("{view} --engine edge-function --rounds 1 {report}"),
+        ),
+        ("inspect", vec!["-0.5,0.5", "5.5,0.5", "5.5,5.5"], {
+            format!("--window 0,0,8x8 --plant inclusive-edges --pixel 1,1 {report}")
+        }),
+        ("specimens", vec![], format!("--seed 3 --cases 2 --specimen book-ch2 {report}")),
+        ("verify", vec![], {
+            format!(
+                "--seed 3 --cases 20 --family sliver --shard 1/2 --plant exclusive-edges {report}"
+            )
+        }),
+        ("cost", vec!["lines"], format!("--quick --seed 3 {report}")),
+    ];
+    for (name, positional, options) in runs {
+        let options = options.split_whitespace();
+        let words: Vec<_> =
+            std::iter::once(name).chain(positional.iter().copied()).chain(options).collect();
+        let again = words_of(&shown(&folder, &words, &format!("pages/{name}.html")));
+        let sorted = |mut words: Vec<String>| {
+            words.sort();
+            words
+        };
+        let typed = words.iter().map(|&word| word.to_owned()).collect();
+        // Some put the seed and the number of cases first.
+        assert_eq!(sorted(again.clone()), sorted(typed), "{again:?}");
+        assert_eq!(again[0], name);
+    }
+    let judged = ["judge", "--cases", "5", "--family", "sliver", "--timeout", "9", "--jobs", "2"];
+    let of_them = ["--seed", "2", "--declare", "rule=top left", "--report", "--out", "pages", "--"];
+    let words = [&judged[..], &of_them, &[program, "engine", "scanline"]].concat();
+    let again = words_of(&shown(&folder, &words, "pages/judge.html"));
+    let typed: Vec<_> = words.iter().map(|&word| word.to_owned()).collect();
+    for word in &typed {
+        assert!(again.contains(word), "{word}: {again:?}");
+    }
+    assert_eq!(again.len(), typed.len());
+    let place =
+        |words: &[String]| words.iter().skip_while(|w| *w != "--").cloned().collect::<Vec<_>>();
+    assert_eq!(place(&again), place(&typed));
+}

@@ -1,0 +1,126 @@
+//! `review` of folders that hold anything: bounded work, commands that are safe to copy, and results
+//! that are printed whether the page can be written or not.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+/// An empty folder with a folder `snapshots`.
+fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("review-{name}"));
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(folder.join("snapshots")).unwrap();
+    folder
+}
+
+fn write(folder: &Path, name: &str, text: &str) {
+    std::fs::write(folder.join("snapshots").join(name), text).unwrap();
+}
+
+/// The exit status, standard output and standard error.
+fn review(folder: &Path, words: &[&str]) -> (i32, String, String) {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_rasterproof"));
+    let Output { status, stdout, stderr } =
+        command.arg("review").args(words).current_dir(folder).output().unwrap();
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    (status.code().unwrap(), text(stdout), text(stderr))
+}
+
+/// What a shell makes of a command that was printed: its words, one a line.
+fn words_of(command: &str) -> Vec<String> {
+    let script = format!("for word in {command}; do printf '%s\\0' \"$word\"; done");
+    let output = Command::new("bash").args(["-c", &script]).output().unwrap();
+    let text = String::from_utf8(output.stdout).unwrap();
+    text.split_terminator('\0').map(str::to_owned).collect()
+}
+
+#[test]
+fn names_are_quoted_in_commands_and_made_printable() {
+    let folder = folder("quoted");
+    let name = "a'; touch PWNED; '\u{1b}[31m\u{202e}\nb.snap";
+    let source = "tests/it; touch PWNED/x$(touch PWNED).rs";
+    write(&folder, &format!("{name}.new"), &format!("---\nsource: \"{source}\"\n---\nnew\n"));
+    let (status, out, errors) = review(&folder, &[]);
+    assert_eq!(status, 1, "{out}{errors}");
+    assert!(!out.contains(['\u{1b}', '\u{202e}']) && !errors.contains(['\u{1b}', '\u{202e}']));
+    assert!(out.contains(r"snapshots/a'; touch PWNED; '\u{1b}[31m\u{202e}\nb.snap: a new text"));
+    let after = |label: &str| out.lines().find_map(|line| line.split_once(label)).unwrap().1;
+    let accept = words_of(after("accept: "));
+    assert_eq!(accept[..4], ["cargo", "insta", "accept", "--snapshot"]);
+    assert_eq!(accept[4], format!("snapshots/{name}"));
+    let update = words_of(after("without cargo-insta: "));
+    let expected = ["INSTA_UPDATE=always", "cargo", "test", "--test", "it; touch PWNED"];
+    assert_eq!(
+        (&update[..5], &*update[5]),
+        (&expected.map(str::to_owned)[..], "x$(touch PWNED)::")
+    );
+    assert!(!folder.join("PWNED").exists() && !Path::new("PWNED").exists());
+    let page = std::fs::read_to_string(folder.join("target/rasterproof/review.html")).unwrap();
+    assert!(!page.contains(['\u{1b}', '\u{202e}']));
+}
+
+#[test]
+fn one_file_that_cannot_be_read_does_not_stop_the_review() {
+    let folder = folder("kinds");
+    std::fs::create_dir(folder.join("snapshots/folder.snap")).unwrap();
+    write(&folder, "folder.snap.new", "---\n---\nnew\n");
+    write(&folder, "good.snap.new", "---\n---\nnew\n");
+    write(&folder, "climbs.snap.new", "---\nextension: /../../x\nsnapshot_kind: binary\n---\n");
+    let deep: PathBuf = std::iter::repeat_n("d", 60).collect();
+    std::fs::create_dir_all(folder.join("snapshots").join(&deep)).unwrap();
+    write(&folder, &format!("{}/deep.snap.new", deep.display()), "---\n---\nnew\n");
+    #[cfg(unix)]
+    {
+        let pipe = folder.join("snapshots/pipe.snap.new");
+        assert!(Command::new("mkfifo").arg(pipe).status().unwrap().success());
+        std::os::unix::fs::symlink("/dev/zero", folder.join("snapshots/zero.snap.new")).unwrap();
+        std::fs::File::create(folder.join("snapshots/large.snap.new"))
+            .unwrap()
+            .set_len(5_000_000_000)
+            .unwrap();
+    }
+    let (status, out, errors) = review(&folder, &[]);
+    assert_eq!(status, 1, "{out}{errors}");
+    let mut expected = vec![
+        "folder.snap: cannot be shown: snapshots/folder.snap: is a directory, not a file",
+        "good.snap: a new text",
+        "climbs.snap: the ending /../../x of its file is no ending",
+        "d/deep.snap: a new text",
+    ];
+    if cfg!(unix) {
+        expected.extend(["pipe.snap.new: is a pipe", "zero.snap.new: is a device"]);
+        expected.push("large.snap.new: is too large: at most 64 MiB are read");
+    }
+    for line in expected {
+        // Long lines are broken.
+        let flat = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(flat(&out).contains(line), "{line}: {out}");
+    }
+}
+
+#[test]
+fn many_snapshots_are_counted_and_the_first_are_shown() {
+    let folder = folder("many");
+    for i in 0..2000 {
+        write(&folder, &format!("{i:04}-{}.snap.new", "x".repeat(150)), "---\n---\nnew\n");
+    }
+    let (status, out, errors) = review(&folder, &[]);
+    assert_eq!(status, 1, "{out}{errors}");
+    assert!(out.contains("2000 changed snapshots wait for review in snapshots."), "{out}");
+    assert!(
+        out.contains("1500 more are not looked into: accept or reject the 500 listed"),
+        "{out}"
+    );
+    let page = std::fs::read_to_string(folder.join("target/rasterproof/review.html")).unwrap();
+    assert!(page.len() < 2_000_000 && page.contains("1500 more are not looked into"));
+}
+
+#[test]
+fn what_waits_is_printed_before_the_page_is_written() {
+    let folder = folder("unwritten");
+    write(&folder, "a.snap.new", "---\n---\nnew\n");
+    let (status, out, errors) = review(&folder, &["-o", "snapshots"]);
+    assert_eq!(status, 2, "{out}{errors}");
+    assert!(out.contains("snapshots/a.snap: a new text"), "{out}");
+    assert!(out.contains("1 changed snapshot waits"), "{out}");
+    assert!(errors.contains("snapshots"), "{errors}");
+}
