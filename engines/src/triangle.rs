@@ -5,7 +5,7 @@
 use std::ops::{Add, Mul, Sub};
 
 use crate::each::Each as _;
-use crate::grid::{DOMAIN_PX, Refusal, SubpixelPoint};
+use crate::grid::{DOMAIN_PX, Refusal, SUBPIXELS, SubpixelPoint, snap};
 
 /// Something that can be interpolated: a number or a vector of numbers.
 ///
@@ -27,6 +27,19 @@ pub const MAX_W: f64 = f64::from_bits((1023 + 200) << 52);
 /// Largest accepted magnitude of a depth or an attribute.
 pub const MAX_VALUE: f64 = f64::from_bits((1023 + 500) << 52);
 
+/// Why a number called `name` is refused, as a message. A position just below the end of the domain is refused
+/// because it rounds to the end; the message says so.
+#[must_use]
+pub fn refused_number(name: &str, refusal: Refusal) -> String {
+    let domain = f64::from(DOMAIN_PX);
+    match refusal {
+        Refusal::OutOfDomain(px) if (-domain..domain).contains(&px) => {
+            format!("{name} {refusal}: rounded to 1/{SUBPIXELS} px it is {DOMAIN_PX}")
+        }
+        _ => format!("{name} {refusal}"),
+    }
+}
+
 /// A vertex in the window.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct ScreenVertex<V> {
@@ -41,6 +54,23 @@ pub struct ScreenVertex<V> {
 }
 
 impl<V> ScreenVertex<V> {
+    /// The vertex, or the name of the number that is refused (`x`, `y`, `z`, `w`) with its reason.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn by_name(
+        [x_px, y_px]: [f64; 2],
+        depth: f64,
+        w: f64,
+        varying: V,
+    ) -> Result<Self, (&'static str, Refusal)> {
+        let on_grid = |name, px| snap(px).map_err(|refusal| (name, refusal));
+        let position = SubpixelPoint::new(on_grid("x", x_px)?, on_grid("y", y_px)?);
+        check_value(depth).map_err(|refusal| ("z", refusal))?;
+        check_range(w, MIN_W, MAX_W).map_err(|refusal| ("w", refusal))?;
+        Ok(Self { position, depth, inv_w: 1.0 / w, varying })
+    }
+
     /// Snaps a position in pixels and checks depth and w.
     ///
     /// # Errors
@@ -48,9 +78,7 @@ impl<V> ScreenVertex<V> {
     /// or w is not within [[`MIN_W`], [`MAX_W`]]. The varying is the caller's to check, with
     /// [`check_value`].
     pub fn new(x_px: f64, y_px: f64, depth: f64, w: f64, varying: V) -> Result<Self, Refusal> {
-        check_value(depth)?;
-        check_range(w, MIN_W, MAX_W)?;
-        Ok(Self { position: SubpixelPoint::from_px(x_px, y_px)?, depth, inv_w: 1.0 / w, varying })
+        Self::by_name([x_px, y_px], depth, w, varying).map_err(|(_, refusal)| refusal)
     }
 }
 

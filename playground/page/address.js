@@ -36,18 +36,46 @@ function keepAddress() {
   keeping = setTimeout(() => history.replaceState(null, '', address()), 250);
 }
 
-/** Restores what an address says; what it does not say is as the scene begins. */
+/**
+ * Restores what an address says; what it does not say is as the scene begins. Of an address that asks for what cannot be
+ * drawn only the scene is kept, and the page says why.
+ */
 function restore(hash) {
   const words = new URLSearchParams(hash.replace(/^#/, ''));
   state.lang = words.get('lang') ?? (navigator.language.startsWith('zh') ? 'zh' : 'en');
-  if (!WORDS[state.lang]) state.lang = 'en';
-  begin(SCENES[words.get('scene')] ? words.get('scene') : 'triangle');
+  if (!Object.hasOwn(WORDS, state.lang)) state.lang = 'en';
+  const wanted = Object.hasOwn(SCENES, words.get('scene') ?? '') ? words.get('scene') : 'triangle';
+  begin(wanted);
+  let refused;
+  try {
+    refused = read(words) ?? scene().ask().error;
+  } catch (error) {
+    refused = error.message;
+  }
+  if (refused) {
+    begin(wanted);
+    state.refused = refused;
+  }
+}
+
+/** Whether a value has the form of another: the same types, keys and lengths, and finite numbers. */
+function isLike(model, value) {
+  if (typeof model === 'number') return typeof value === 'number' && Number.isFinite(value);
+  if (typeof model !== 'object' || model === null) return typeof value === typeof model;
+  if (typeof value !== 'object' || value === null || Array.isArray(value) !== Array.isArray(model)) return false;
+  const keys = Object.keys(model);
+  return keys.length === Object.keys(value).length && keys.every((key) => Object.hasOwn(value, key) && isLike(model[key], value[key]));
+}
+
+/** Takes the words of an address into the state; returns why a case cannot be shown, or nothing. */
+function read(words) {
   const numbers = (text) => text.split(',').map(Number);
   const wanted = words.get('case');
   if (wanted) {
     const [family, index] = wanted.split('#');
     const seed = Number(words.get('seed') ?? 1);
     const found = index === undefined ? ask({ ask: 'named', name: wanted }) : ask({ ask: 'generated', family, seed, index: Number(index) });
+    if (found.error) return found.error;
     load(found, index === undefined ? { named: wanted } : { generated: { family, seed, index: Number(index) } });
   }
   const good = (list) => list.every((n) => Number.isFinite(n));
@@ -71,10 +99,12 @@ function restore(hash) {
   for (const key of scene().keeps ?? []) {
     const text = words.get(key);
     if (text === null) continue;
-    try { state[key] = typeof state[key] === 'string' ? text : JSON.parse(text); } catch { /* as the scene begins */ }
+    const value = typeof state[key] === 'string' ? text : JSON.parse(text);
+    if (isLike(state[key], value)) state[key] = value;
   }
   keepPixel();
   if (!words.has('px') && (wanted || words.has('t')) && state.scene === 'triangle') state.by.some(pointAtWrong);
+  return undefined;
 }
 
 /** The corners and lines that are shown, as words of `inspect`; nothing where it knows no such thing. */

@@ -16,7 +16,7 @@ function redraw() {
 
 function drawFrame() {
   const answer = scene().ask();
-  trouble(answer.error);
+  trouble(answer.error ?? (state.refused && `${word('refusedAddress')} ${state.refused}`));
   if (!answer.error) {
     last.answer = answer;
     const panels = scene().panels(answer);
@@ -41,7 +41,7 @@ let explaining = 0;
 function explain(answer) {
   clearTimeout(explaining);
   const wait = explained + 100 - performance.now();
-  if (wait > 0) { explaining = setTimeout(() => explain(last.answer), wait); return; }
+  if (wait > 0) { explaining = setTimeout(() => { if (last.answer) explain(last.answer); }, wait); return; }
   explained = performance.now();
   last.look = null;
   if (state.px && state.triangles) {

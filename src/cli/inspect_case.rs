@@ -3,13 +3,15 @@
 use glam::DVec2;
 
 use super::{Failure, program, usage};
-use crate::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
+use crate::grid::{PixelRect, SUBPIXELS, SubpixelPoint, snap};
 use crate::hazard::named::{Input, plain_line, plain_triangle};
 use crate::hazard::offgrid::{self, OffGridCase};
 use crate::hazard::{self, Case, Line, Shape, Triangle};
 use crate::scene::named;
 use crate::specimen::catalogue::{RECORDED, RECORDED_SIDE_PX, RecordedCase};
-use crate::triangle::{FreeCorners, PixelPoint, ScreenTriangle, ScreenVertex, check_value};
+use crate::triangle::{
+    FreeCorners, PixelPoint, ScreenTriangle, ScreenVertex, check_value, refused_number,
+};
 
 /// Largest side of the window around corners that were typed.
 const MOST_AROUND_PX: i32 = 64;
@@ -162,15 +164,25 @@ fn triangles(words: &[String], exact: bool) -> Result<Found, Failure> {
 fn triangle(words: &[String; 3], corners: &[Corner; 3]) -> Result<Triangle, Failure> {
     let at = |i: usize| {
         let [x, y] = corners[i].px;
-        SubpixelPoint::from_px(x, y).map_err(|refusal| usage(format!("'{}': {refusal}", words[i])))
+        let on_grid = |name, px| {
+            snap(px).map_err(|refusal| {
+                usage(format!("'{}': {}", words[i], refused_number(name, refusal)))
+            })
+        };
+        Ok::<_, Failure>(SubpixelPoint::new(on_grid("x", x)?, on_grid("y", y)?))
     };
     let mut triangle = plain_triangle([at(0)?, at(1)?, at(2)?]);
     for (i, Corner { px: [x, y], values }) in corners.iter().enumerate() {
         let Some([w, depth, u, v]) = *values else { continue };
-        let vertex = check_value(u).and(check_value(v));
-        let vertex = vertex.and_then(|()| ScreenVertex::new(*x, *y, depth, w, DVec2::new(u, v)));
-        triangle.vertices[i] =
-            vertex.map_err(|refusal| usage(format!("'{}': {refusal}", words[i])))?;
+        let checked = |name, value| check_value(value).map_err(|refusal| (name, refusal));
+        let vertex = checked("u", u)
+            .and(checked("v", v))
+            .and_then(|()| ScreenVertex::by_name([*x, *y], depth, w, DVec2::new(u, v)));
+        triangle.vertices[i] = vertex.map_err(|(name, refusal)| {
+            // The options call it by its whole name.
+            let name = if name == "z" { "depth" } else { name };
+            usage(format!("'{}': {}", words[i], refused_number(name, refusal)))
+        })?;
     }
     Ok(triangle)
 }

@@ -196,16 +196,37 @@ fn is_coordinate(word: &str) -> bool {
     word.contains(',') && word.strip_prefix('-').is_some_and(|rest| rest.starts_with(number))
 }
 
+/// Whether a word is a negative number such as -1 or -1/2, which is no option either.
+fn is_negative(word: &str) -> bool {
+    word.strip_prefix('-')
+        .is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit() || c == '.'))
+}
+
 /// The arguments, and the same as a command that can be printed.
 fn parse(words: Vec<OsString>) -> Result<(Arguments, Typed), clap::Error> {
-    // A space in front of a coordinate tells the parser that it is no option. After -- come the words
-    // of somebody else, which stay as they are.
+    // A space in front of a coordinate tells the parser that it is no option, and so does a `=` between an option
+    // and a negative number. After -- come the words of somebody else, which stay as they are.
     let mut ours = true;
-    let words = words.into_iter().map(|word| {
-        let Some(text) = word.to_str() else { return word };
+    let mut given: Vec<OsString> = Vec::with_capacity(words.len());
+    for word in words {
+        let text = word.to_str().unwrap_or_default();
         ours &= text != "--";
-        if ours && is_coordinate(text) { format!(" {text}").into() } else { word }
-    });
+        let option = given.last().and_then(|last| last.to_str());
+        let option = option.filter(|last| last.starts_with("--") && !last.contains('='));
+        if ours && is_coordinate(text) {
+            given.push(format!(" {text}").into());
+        } else if ours
+            && is_negative(text)
+            && let Some(option) = option
+        {
+            let joined = format!("{option}={text}");
+            given.pop();
+            given.push(joined.into());
+        } else {
+            given.push(word);
+        }
+    }
+    let words = given;
     let mut command = Arguments::command();
     let matches = command.try_get_matches_from_mut(words)?;
     let arguments =

@@ -134,6 +134,8 @@ fn bad_input_is_refused_with_a_reason() {
         (&["inspect", "sliver"], "sliver#0"),
         (&["--seconds", "nan"], "--seconds NaN"),
         (&["--shard", "3/3"], "I from 0 to N - 1"),
+        (&["--shard", "-1/2"], "I from 0 to N - 1"),
+        (&["inspect", "T2", "--exact", "--seed", "-3/4"], "whole number from 0"),
         (&["--engine", "dda", "--family", "uniform"], "no case was judged"),
         (&["inspect", "1,2", "3,4"], "three corners"),
         (&["inspect", "nan,2", "3,4", "5,6"], "not a number"),

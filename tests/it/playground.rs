@@ -219,6 +219,41 @@ fn playground_shows_every_scene() {
     assert_eq!(browser.complaints, Vec::<String>::new());
 }
 
+/// An address may hold anything: what cannot be drawn is said, the scene is shown as it begins, and nothing is thrown.
+#[test]
+fn playground_survives_any_address() {
+    let Some((mut browser, page)) = opened("addresses") else { return };
+    let refused = [
+        "#scene=triangle&window=0,0,300,300",
+        "#scene=triangle&window=5,5,5,5",
+        "#scene=line&window=0,0,-1e9,4",
+        "#scene=triangle&t=0,0_1e9,0_0,1e300",
+        "#scene=line&lines=0,0,1e300,5",
+        "#case=no-such-case",
+        "#case=sliver%23-1&seed=x",
+        "#scene=culling&removes=everything",
+    ];
+    let taken = [
+        "#scene=near&points=null&near=[]",
+        "#scene=near&points=[[1,2,3],[1,2,null],[1]]&near=\"x\"",
+        "#scene=line&step={}",
+        "#scene=constructor&lang=__proto__",
+        "#scene=triangle&by=nobody&px=1e300,nan&snap=x&numbers=2",
+        "#scene=triangle&t=;;_&window=a,b,c,d",
+        "#%%%&&=&scene",
+    ];
+    let all = refused.into_iter().map(|a| (a, true)).chain(taken.into_iter().map(|a| (a, false)));
+    for (address, is_refused) in all {
+        browser.open(&page, &format!("{address}&lang=en"));
+        settle(&mut browser);
+        let shown = browser.eval("[shown.length > 0, last.answer?.error ?? null]");
+        assert_eq!(shown, json!([true, null]), "{address}");
+        let trouble = browser.text("#trouble");
+        assert_eq!(trouble.contains("cannot be shown"), is_refused, "{address}: {trouble}");
+    }
+    assert_eq!(browser.complaints, Vec::<String>::new());
+}
+
 /// A specimen is hunted until it is caught, then shrunk; the command names what is shown.
 #[test]
 fn playground_breaks_a_specimen() {

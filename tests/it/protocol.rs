@@ -122,10 +122,18 @@ fn values_are_perspective_correct() {
 
 #[test]
 fn bad_requests_are_answered_and_survived() {
-    let cases: [(&str, &str); 16] = [
+    let cases: [(&str, &str); 18] = [
         ("T b 8 8 nan 0 1 1 2 2", "E b x0 is not a number (NaN)"),
         ("T b 8 8 0 -inf 1 1 2 2", "E b y0 is infinite"),
         ("T b 8 8 0 0 1e300 1 2 2", "E b x1 1e300 px is outside the domain [-8388608, 8388608) px"),
+        (
+            "T b 8 8 0 0 1 1 2 8388607.998046875",
+            "E b y2 8.388607998046875e6 px is outside the domain [-8388608, 8388608) px: rounded to 1/256 px it is 8388608",
+        ),
+        (
+            "I b 8 8 0 0 0 1 0 0 4 0 0 0 0 0 0 4 0 1 0 0",
+            "E b w1 0e0 is outside the accepted range [6.223015277861142e-61, 1.6069380442589903e60]",
+        ),
         ("T b 8 8 0 0 1 1 2", "E b T takes an id, width, height and 6 numbers; 8 words follow"),
         (
             "T b 8 8 0 0 1 1 2 2 3",
@@ -190,7 +198,23 @@ fn absurd_windows_are_bounded() {
     check(
         "oracle",
         request,
-        "E big 134209536 fragments; the oracle computes at most 1048576 for a request",
+        "E big more than 1048576 fragments, which is the most that the oracle computes for a request",
+    );
+}
+
+/// What would take gigabytes or minutes is refused instead, with the limit.
+#[test]
+fn answers_are_bounded() {
+    let corners = "-20000 -20000 0 40000 -20000 0 -20000 40000 0";
+    check(
+        "oracle",
+        &format!("D d 16384 16384 {corners} {corners} {corners}"),
+        "E d more than 1048576 fragments, which is the most of a request: ask for a smaller window",
+    );
+    check(
+        "games101-strict",
+        "T t 16384 16384 -20000 -20000 40000 -20000 -20000 40000",
+        "E t 186918160 runs or pixels; a specimen answers with at most 4194304: ask for a smaller window",
     );
 }
 

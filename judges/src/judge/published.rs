@@ -16,6 +16,20 @@ use crate::triangle::{MAX_W, MIN_W, check_value};
 /// Fragments that a specimen computes for one request: its answer is collected before it is sent.
 const MOST_FRAGMENTS: u64 = 1 << 20;
 
+/// Runs or pixels of one answer. Some published algorithms make a run of every pixel, and the largest window has 2^28 of
+/// them, so that an answer would take gigabytes.
+const MOST_RUNS: usize = 1 << 22;
+
+/// The answer, unless it has more parts than are kept.
+fn whole(letter: char, n: usize, runs: Vec<u8>) -> Reply {
+    if n > MOST_RUNS {
+        return Err(format!(
+            "{n} runs or pixels; a specimen answers with at most {MOST_RUNS}: ask for a smaller window"
+        ));
+    }
+    Ok((letter, n, runs))
+}
+
 /// Whether this entry is a specimen that answers the verb.
 pub(super) fn speaks(entry: &Entry, verb: &str) -> bool {
     match (entry.specimen, verb) {
@@ -54,10 +68,12 @@ fn cover(specimen: TriangleSpecimen, window: PixelRect, numbers: &[f64]) -> Repl
     specimen
         .cover(&bare(corners), window, &mut |span| {
             n += 1;
-            write_run(&mut runs, span);
+            if n <= MOST_RUNS {
+                write_run(&mut runs, span);
+            }
         })
         .map_err(|refused| refused.to_string())?;
-    Ok(('C', n, runs))
+    whole('C', n, runs)
 }
 
 fn line(specimen: LineSpecimen, window: PixelRect, numbers: &[f64]) -> Reply {
@@ -66,10 +82,12 @@ fn line(specimen: LineSpecimen, window: PixelRect, numbers: &[f64]) -> Reply {
     specimen
         .draw(ends, window, &mut |x_px, y_px| {
             n += 1;
-            write_words(&mut pixels, [x_px, y_px]);
+            if n <= MOST_RUNS {
+                write_words(&mut pixels, [x_px, y_px]);
+            }
         })
         .map_err(|refused| refused.to_string())?;
-    Ok(('P', n, pixels))
+    whole('P', n, pixels)
 }
 
 fn values(specimen: TriangleSpecimen, window: PixelRect, numbers: &[f64]) -> Reply {

@@ -240,6 +240,18 @@ fn point(numbers: &[f64], i: usize) -> Result<SubpixelPoint, String> {
     Ok(SubpixelPoint::new(snap(numbers[0], "x")?, snap(numbers[1], "y")?))
 }
 
+/// Vertex `i` of a request, or the number of it that is refused.
+fn vertex(
+    px: [f64; 2],
+    z: f64,
+    w: f64,
+    values: DVec2,
+    i: usize,
+) -> Result<ScreenVertex<DVec2>, String> {
+    ScreenVertex::by_name(px, z, w, values)
+        .map_err(|(name, refusal)| named(&format!("{name}{i}"))(refusal))
+}
+
 fn cover(engine: Engine, window: PixelRect, numbers: &[f64]) -> Reply {
     let corners = [point(&numbers[0..], 0)?, point(&numbers[2..], 1)?, point(&numbers[4..], 2)?];
     let (mut runs, mut n) = (Vec::new(), 0);
@@ -273,10 +285,8 @@ fn depth(engine: Engine, window: PixelRect, numbers: &[f64]) -> Reply {
     for (number, of_one) in numbers.chunks_exact(9).enumerate() {
         let vertex = |i: usize| -> Result<ScreenVertex<DVec2>, String> {
             let [x, y, z] = [0, 1, 2].map(|k| of_one[3 * i + k]);
-            let named = |reason: String| format!("of triangle {number}: {reason}");
-            point(&[x, y], i).map_err(named)?;
-            check_value(z).map_err(|refusal| named(format!("z{i} {refusal}")))?;
-            ScreenVertex::new(x, y, z, 1.0, DVec2::ZERO).map_err(|refusal| refusal.to_string())
+            self::vertex([x, y], z, 1.0, DVec2::ZERO, i)
+                .map_err(|reason| format!("of triangle {number}: {reason}"))
         };
         list.push(ScreenTriangle { vertices: [vertex(0)?, vertex(1)?, vertex(2)?] });
     }
@@ -359,22 +369,21 @@ fn values(engine: Engine, window: PixelRect, numbers: &[f64]) -> Result<Values, 
         for (name, value) in [("z", z), ("a", a), ("b", b)] {
             check_value(value).map_err(named(&format!("{name}{i}")))?;
         }
-        point(&[x, y], i)?;
-        ScreenVertex::new(x, y, z, w, DVec2::new(a, b)).map_err(named(&format!("w{i}")))
+        self::vertex([x, y], z, w, DVec2::new(a, b), i)
     };
     let triangle = ScreenTriangle { vertices: [vertex(0)?, vertex(1)?, vertex(2)?] };
     let mut n = 0;
-    if matches!(engine, Engine::Mutant(_)) {
+    if matches!(engine, Engine::Oracle) {
+        let most = MOST_EXACT_FRAGMENTS;
+        n = served::covered_at_most(engine, triangle.corners(), window, most).ok_or_else(|| {
+            format!("more than {most} fragments, which is the most that the oracle computes for a request")
+        })?;
+    } else if matches!(engine, Engine::Mutant(_)) {
         // A fault of coverage may cover pixels that have no fragment.
         engine.fragments(&triangle, window, |_| n += 1);
     } else {
         let mut count = |span: Span| n += u64::from(span.x0_px.abs_diff(span.x1_px));
         engine.cover(triangle.corners(), window, &mut count);
-    }
-    if matches!(engine, Engine::Oracle) && n > MOST_EXACT_FRAGMENTS {
-        return Err(format!(
-            "{n} fragments; the oracle computes at most {MOST_EXACT_FRAGMENTS} for a request"
-        ));
     }
     Ok((triangle, n))
 }

@@ -12,10 +12,33 @@ use crate::hazard::Triangle;
 use crate::lineup::Engine;
 use crate::pipeline::ClipVertex;
 use crate::pipeline::clip::{Plane, clip};
-use crate::triangle::Span;
+use crate::triangle::{Corners, Span};
 
 /// Fragments of one request; their depths are kept until all of them are known.
 const MOST_FRAGMENTS: u64 = 1 << 20;
+
+/// The number of pixels that a triangle covers, or nothing where it is more than `most`.
+///
+/// The oracle looks at every pixel of the window, so a large window is counted in bands of rows, and no band is counted
+/// once the answer is known.
+pub(super) fn covered_at_most(
+    engine: Engine,
+    corners: Corners,
+    window: PixelRect,
+    most: u64,
+) -> Option<u64> {
+    const BAND_PX: i32 = 64;
+    let mut pixels = 0;
+    for y0 in (window.y0..window.y1).step_by(BAND_PX as usize) {
+        let band = PixelRect { y0, y1: window.y1.min(y0 + BAND_PX), ..window };
+        let mut count = |span: Span| pixels += u64::from(span.x0_px.abs_diff(span.x1_px));
+        engine.cover(corners, band, &mut count);
+        if pixels > most {
+            return None;
+        }
+    }
+    Some(pixels)
+}
 
 /// Runs of pixels with the number of the triangle that is nearest; of equal depths the first drawn.
 ///
@@ -28,11 +51,13 @@ pub(super) fn seen(
 ) -> Result<Vec<(Span, u8)>, String> {
     let mut pixels = 0;
     for triangle in list {
-        let mut count = |span: Span| pixels += u64::from(span.x0_px.abs_diff(span.x1_px));
-        engine.cover(triangle.corners(), window, &mut count);
-    }
-    if pixels > MOST_FRAGMENTS {
-        return Err(format!("{pixels} fragments; a request may have {MOST_FRAGMENTS}"));
+        let left = MOST_FRAGMENTS - pixels;
+        let Some(covered) = covered_at_most(engine, triangle.corners(), window, left) else {
+            return Err(format!(
+                "more than {MOST_FRAGMENTS} fragments, which is the most of a request: ask for a smaller window"
+            ));
+        };
+        pixels += covered;
     }
     let mut buffer: BTreeMap<(i32, i32), (f64, u8)> = BTreeMap::new();
     for (number, triangle) in (0..).zip(list) {

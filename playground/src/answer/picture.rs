@@ -11,6 +11,7 @@ use crate::hazard::{Case, Line, Shape, Triangle};
 use crate::specimen::{RealTriangle, RealVertex};
 use crate::triangle::{
     Corners, FreeCorners, MAX_W, MIN_W, PixelPoint, ScreenTriangle, ScreenVertex, check_value,
+    refused_number,
 };
 
 /// The longest side of a window in pixels: more cannot be seen, and takes longer than a frame.
@@ -75,11 +76,12 @@ impl Picture {
     /// The triangles, snapped to the lattice.
     pub fn on_lattice(&self) -> Result<Vec<Triangle>, String> {
         let vertex = |c: &Corner| {
-            let vertex = ScreenVertex::new(c.x, c.y, c.depth, c.w, DVec2::new(c.u, c.v));
-            let values = check_value(c.u).and(check_value(c.v));
-            vertex
-                .and_then(|vertex| values.map(|()| vertex))
-                .map_err(|refusal| format!("corner {}, {}: {refusal}", c.x, c.y))
+            let vertex = ScreenVertex::by_name([c.x, c.y], c.depth, c.w, DVec2::new(c.u, c.v));
+            let checked = |name, value| check_value(value).map_err(|refusal| (name, refusal));
+            let values = checked("u", c.u).and(checked("v", c.v));
+            vertex.and_then(|vertex| values.map(|()| vertex)).map_err(|(name, refusal)| {
+                format!("corner {}, {}: {}", c.x, c.y, refused_number(name, refusal))
+            })
         };
         let triangle = |[a, b, c]: &[Corner; 3]| {
             Ok(ScreenTriangle { vertices: [vertex(a)?, vertex(b)?, vertex(c)?] })
