@@ -21,15 +21,17 @@
 use std::process::ExitCode;
 
 use glam::{DVec2, DVec3};
-use rasterproof::effects::Effects;
-use rasterproof::hazard::Rng;
-use rasterproof::lineup::Drawer;
-use rasterproof::pipeline::depth::DepthFormat;
-use rasterproof::pipeline::shade::Light;
-use rasterproof::pipeline::target::{Antialias, Target};
-use rasterproof::pipeline::transform::{look_at, perspective};
-use rasterproof::scene::chapters::{SCENES, scene};
-use rasterproof::scene::{Corner, Item, Material, Mesh, Scene, Shading, meshes, random, shapes};
+use rasterproof_registry::engines::Drawer;
+use rasterproof_render::effects::Effects;
+use rasterproof_render::pipeline::depth::DepthFormat;
+use rasterproof_render::pipeline::shade::Light;
+use rasterproof_render::pipeline::target::{Antialias, Target};
+use rasterproof_render::pipeline::transform::{look_at, perspective};
+use rasterproof_render::scene::chapters::{SCENES, scene};
+use rasterproof_render::scene::{
+    Corner, Item, Material, Mesh, Scene, Shading, meshes, random, shapes,
+};
+use rasterproof_verify::cases::Rng;
 use rustix::time::{ClockId, clock_gettime};
 
 /// Planned may take so many times as long as everything-on.

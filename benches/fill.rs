@@ -18,19 +18,19 @@ use criterion::{
     BenchmarkId, Criterion, SamplingMode, Throughput, criterion_group, criterion_main,
 };
 use glam::DVec2;
-use rasterproof::contract::{DrawLine, Interpolate, Rasterize};
-use rasterproof::frame::Frame;
-use rasterproof::grid::PixelRect;
-use rasterproof::line::bresenham::Bresenham;
-use rasterproof::line::dda::Dda;
-use rasterproof::oracle::Oracle;
-use rasterproof::paint;
-use rasterproof::raster::edge_function::EdgeFunction;
-use rasterproof::raster::scanline::Scanline;
-use rasterproof::tile::{CoverList, Tiles};
-use rasterproof::triangle::{
+use rasterproof_core::contract::{DrawLine, Interpolate, Rasterize};
+use rasterproof_core::frame::Frame;
+use rasterproof_core::grid::PixelRect;
+use rasterproof_core::line::bresenham::Bresenham;
+use rasterproof_core::line::dda::Dda;
+use rasterproof_core::raster::edge_function::EdgeFunction;
+use rasterproof_core::raster::scanline::Scanline;
+use rasterproof_core::triangle::{
     Fragment, LineEnd, PixelPoint, ScreenLine, ScreenTriangle, ScreenVertex, Span,
 };
+use rasterproof_tiles::coverage::{CoverList, Tiles};
+use rasterproof_tiles::paint;
+use rasterproof_verify::oracle::Oracle;
 
 fn cover(criterion: &mut Criterion) {
     for scene in common::scenes() {

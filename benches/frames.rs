@@ -31,11 +31,11 @@ use euc::rasterizer::{BackfaceCullingDisabled, Triangles};
 use euc::{Pipeline, Target as _};
 use glam::{DMat3, DVec2, Mat4, Vec3, Vec4};
 use mesh::{Draws, devices, engine, one_thread_each, tiles, times, wrong};
-use rasterproof::frame::Frame;
-use rasterproof::pipeline::target::{Antialias, Colour};
-use rasterproof::pipeline::texture::Texture;
-use rasterproof::scene::{Scene, meshes};
-use rasterproof::tiled::Samples;
+use rasterproof_core::frame::Frame;
+use rasterproof_render::pipeline::target::{Antialias, Colour};
+use rasterproof_render::pipeline::texture::Texture;
+use rasterproof_render::scene::{Scene, meshes};
+use rasterproof_tiles::frames::Samples;
 
 /// Side of the square picture.
 const SIDE_PX: u32 = 1024;

@@ -16,12 +16,12 @@ use std::time::Duration;
 use criterion::{
     BenchmarkId, Criterion, SamplingMode, Throughput, criterion_group, criterion_main,
 };
-use rasterproof::contract::RasterizeExact;
-use rasterproof::cost::scene::{Scene, Size, W_PREFIX, scenes};
-use rasterproof::cost::{Contender, Ladder, contenders};
-use rasterproof::frame::Frame;
-use rasterproof::ladder::snap;
-use rasterproof::oracle::Oracle;
+use rasterproof_core::contract::RasterizeExact;
+use rasterproof_core::frame::Frame;
+use rasterproof_precision::cost::scene::{Scene, Size, W_PREFIX, scenes};
+use rasterproof_precision::cost::{Contender, Ladder, contenders};
+use rasterproof_precision::ladder::snap;
+use rasterproof_verify::oracle::Oracle;
 
 fn covered(contender: &Contender, scene: &Scene) -> u64 {
     let mut spans = Vec::new();

@@ -43,16 +43,16 @@ use euc::Pipeline;
 use euc::buffer::Buffer2d;
 use euc::rasterizer::{BackfaceCullingDisabled, Triangles};
 use mesh::Draws;
-use rasterproof::contract::Rasterize;
-use rasterproof::frame::Frame;
-use rasterproof::grid::PixelRect;
-use rasterproof::oracle::Oracle;
-use rasterproof::pipeline::target::Antialias;
-use rasterproof::raster::edge_function::EdgeFunction;
-use rasterproof::raster::scanline::Scanline;
-use rasterproof::scene::meshes;
-use rasterproof::tiled::Samples;
-use rasterproof::triangle::Corners;
+use rasterproof_core::contract::Rasterize;
+use rasterproof_core::frame::Frame;
+use rasterproof_core::grid::PixelRect;
+use rasterproof_core::raster::edge_function::EdgeFunction;
+use rasterproof_core::raster::scanline::Scanline;
+use rasterproof_core::triangle::Corners;
+use rasterproof_render::pipeline::target::Antialias;
+use rasterproof_render::scene::meshes;
+use rasterproof_tiles::frames::Samples;
+use rasterproof_verify::oracle::Oracle;
 use tiny_skia::{FillRule, Paint, Path, PathBuilder, Pixmap, Transform};
 
 /// Odd, so that the median is a round that happened.
@@ -413,7 +413,7 @@ impl Canvas for Euc {
 }
 
 /// A corner in pixels: at most 10 bits before the point and 8 behind it, exact in 24.
-fn exact_f32(corner: rasterproof::grid::SubpixelPoint) -> [f32; 2] {
+fn exact_f32(corner: rasterproof_core::grid::SubpixelPoint) -> [f32; 2] {
     let (x, y) = corner.to_px();
     [x as f32, y as f32]
 }
@@ -424,11 +424,11 @@ mod vulkan {
     use std::collections::HashMap;
     use std::ops::Range;
 
-    use rasterproof::contract::Rasterize as _;
-    use rasterproof::frame::Coverage;
-    use rasterproof::oracle::Oracle;
-    use rasterproof::triangle::Corners;
-    use rasterproof::verify::Tally;
+    use rasterproof_core::contract::Rasterize as _;
+    use rasterproof_core::frame::Coverage;
+    use rasterproof_core::triangle::Corners;
+    use rasterproof_verify::comparison::Tally;
+    use rasterproof_verify::oracle::Oracle;
     use rasterproof_vulkan::device::draw::{Draw, Painter, Prepared};
     use rasterproof_vulkan::device::find;
     use rasterproof_vulkan::device::open::Opened;
@@ -494,7 +494,8 @@ mod vulkan {
                 let drawn = look::coverages(&mut gpu, &jobs).expect("a device that draws");
                 for ((corners, near), drawn) in jobs.iter().zip(&drawn) {
                     let mut truth = Coverage::new(*near, 0);
-                    let hit = |s: rasterproof::triangle::Span| truth.hit(s.y_px, s.x0_px, s.x1_px);
+                    let hit =
+                        |s: rasterproof_core::triangle::Span| truth.hit(s.y_px, s.x0_px, s.x1_px);
                     Oracle.cover(corners[0], *near, hit);
                     let tally = Tally::between(drawn, &truth);
                     wrong.missing += tally.missing;

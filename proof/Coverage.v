@@ -1,5 +1,5 @@
-(** What it means for a sample to belong to a triangle, as engines/src/oracle/coverage.rs says and as
-    engines/src/raster/edge_function.rs says, and that the two are one. *)
+(** What it means for a sample to belong to a triangle, as crates/verify/src/oracle/coverage.rs says and as
+    crates/core/src/raster/edge_function.rs says, and that the two are one. *)
 From Coq Require Import ZArith Lia Bool.
 Open Scope Z_scope.
 
@@ -25,7 +25,7 @@ Definition crosses (a b : point) (x y : Z) : bool :=
 Definition inside (a b c : point) (x y : Z) : bool :=
   xorb (crosses a b x y) (xorb (crosses b c x y) (crosses c a x y)).
 
-(** ** The edge function with its top-left bias (engines/src/raster/edge_function.rs). *)
+(** ** The edge function with its top-left bias (crates/core/src/raster/edge_function.rs). *)
 
 Definition E (a b : point) (x y : Z) : Z :=
   (X b - X a) * (y - Y a) - (Y b - Y a) * (x - X a).

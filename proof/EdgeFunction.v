@@ -1,4 +1,4 @@
-(** The edge-function engine (engines/src/raster/edge_function.rs), loop by loop, in words of any width. *)
+(** The edge-function engine (crates/core/src/raster/edge_function.rs), loop by loop, in words of any width. *)
 From Coq Require Import ZArith Lia Bool List.
 From Rasterproof Require Import Coverage Grid.
 Import ListNotations.

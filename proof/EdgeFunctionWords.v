@@ -1,4 +1,4 @@
-(** The edge-function engine in the words of its code (engines/src/raster/edge_function.rs), line by line:
+(** The edge-function engine in the words of its code (crates/core/src/raster/edge_function.rs), line by line:
     extents, the choice of the word, the box, the set-up of E before it is narrowed, and every step. *)
 From Coq Require Import ZArith Lia Bool List.
 From Rasterproof Require Import Coverage Grid EdgeFunction WordWidth Words ScanlineWords.

@@ -1,4 +1,4 @@
-(** Pixels, their centres and windows (engines/src/grid.rs), for any even number of subpixels S = 2 h; spans
+(** Pixels, their centres and windows (crates/core/src/grid.rs), for any even number of subpixels S = 2 h; spans
     and how often they hit a pixel. *)
 From Coq Require Import ZArith Lia Bool List.
 Import ListNotations.

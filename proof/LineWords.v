@@ -1,4 +1,4 @@
-(** The line drawers in the words of their code (engines/src/line/dda.rs, engines/src/line/bresenham.rs), line by line:
+(** The line drawers in the words of their code (crates/core/src/line/dda.rs, crates/core/src/line/bresenham.rs), line by line:
     no operation overflows and no cast changes a number, for all ends and windows in i32. *)
 From Coq Require Import ZArith Lia Bool List.
 From Rasterproof Require Import Coverage Grid WordWidth Words ScanlineWords Lines.

@@ -1,4 +1,4 @@
-(** The DDA and Bresenham's drawer (engines/src/line/dda.rs, engines/src/line/bresenham.rs), loop by loop: one list of
+(** The DDA and Bresenham's drawer (crates/core/src/line/dda.rs, crates/core/src/line/bresenham.rs), loop by loop: one list of
     pixels, all octants, all windows, both directions. *)
 From Coq Require Import ZArith Lia Bool List.
 From Rasterproof Require Import Coverage Grid.
@@ -34,7 +34,7 @@ Definition line (a b : point) : list point :=
 
 Definition in_window (r : rect) (p : point) : bool := in_rect r (X p) (Y p).
 
-(** ** The DDA (engines/src/line/dda.rs) *)
+(** ** The DDA (crates/core/src/line/dda.rs) *)
 
 Record height := Height { whole : Z; part : Z }.
 
@@ -110,7 +110,7 @@ Definition dda (a b : point) (r : rect) : list point :=
   let '(first, endd) := steps_within s r in
   dda_walk s (Z.to_nat (endd - first)) first (height_at s first).
 
-(** ** Bresenham (engines/src/line/bresenham.rs) *)
+(** ** Bresenham (crates/core/src/line/bresenham.rs) *)
 
 Definition max_i64 : Z := 2 ^ 63 - 1.
 

@@ -1,4 +1,4 @@
-(** Four samples a pixel (engines/src/pipeline/multisample.rs): a sample is the centre of a moved triangle,
+(** Four samples a pixel (crates/render/src/pipeline/multisample.rs): a sample is the centre of a moved triangle,
     so the masks need no theorem of their own about engines. *)
 From Coq Require Import ZArith Lia Bool List.
 From Rasterproof Require Import Coverage Grid Scanline EdgeFunction WordWidth Mesh.

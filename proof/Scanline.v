@@ -1,4 +1,4 @@
-(** The scanline engine (engines/src/raster/scanline.rs), loop by loop, and what it covers. *)
+(** The scanline engine (crates/core/src/raster/scanline.rs), loop by loop, and what it covers. *)
 From Coq Require Import ZArith Lia Bool List.
 From Rasterproof Require Import Coverage Grid.
 Import ListNotations.

@@ -1,4 +1,4 @@
-(** The scanline engine in the words of its code (engines/src/raster/scanline.rs), line by line: no operation
+(** The scanline engine in the words of its code (crates/core/src/raster/scanline.rs), line by line: no operation
     overflows and no cast changes a number, for all corners and windows in i32. *)
 From Coq Require Import ZArith Lia Bool List.
 From Rasterproof Require Import Coverage Grid Scanline WordWidth Words.

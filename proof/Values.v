@@ -1,4 +1,4 @@
-(** The parameters of the scanline's values (engines/src/raster/scanline/values.rs), over the rationals: the
+(** The parameters of the scanline's values (crates/core/src/raster/scanline/values.rs), over the rationals: the
     book's formulas as repaired never leave [0, 1), so there is nothing for a clamp to do. *)
 From Coq Require Import ZArith QArith Lia Lqa Bool.
 From Rasterproof Require Import Coverage Grid Scanline.

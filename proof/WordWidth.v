@@ -1,4 +1,4 @@
-(** The word that the edge-function engine picks, [WordWidth::of] in engines/src/raster/edge_function.rs, is
+(** The word that the edge-function engine picks, [WordWidth::of] in crates/core/src/raster/edge_function.rs, is
     wide enough for S = 256 and corners in i32. *)
 From Coq Require Import ZArith Lia Bool List.
 From Rasterproof Require Import Coverage Grid EdgeFunction.

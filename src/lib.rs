@@ -3,7 +3,7 @@
 //!
 //! # What you may rely on
 //!
-//! These rooms, in the order in which a triangle travels; everything in them that these pages show
+//! These modules, in the order in which a triangle travels; everything in them that these pages show
 //! keeps its meaning within a minor version:
 //!
 //! - [`grid`]: the 1/256-px lattice and windows of pixels; every coordinate is on it
@@ -13,7 +13,7 @@
 //! - [`raster`]: [`raster::scanline`] and [`raster::edge_function`], and their exact forms
 //! - [`line`](mod@line): [`line::dda`] and [`line::bresenham`]
 //! - [`oracle`]: the truth, by mathematics that no engine uses
-//! - [`hazard`]: families of hard cases, and cases with names
+//! - [`cases`]: families of hard cases, and cases with names
 //! - [`verify`]: judges an engine and finds the smallest case that fails
 //!
 //! The rest is public for the program, its tests and the samples under `docs/`, is not shown here,
@@ -26,7 +26,10 @@
 //! Implement one method:
 //!
 //! ```
-//! use rasterproof::{contract::Rasterize, grid::PixelRect, triangle::{Corners, Span}, verify};
+//! use rasterproof::contract::Rasterize;
+//! use rasterproof::grid::PixelRect;
+//! use rasterproof::triangle::{Corners, Span};
+//! use rasterproof::verify;
 //!
 //! /// Fills the bounding box: wrong for nearly every triangle.
 //! struct FillsItsBox;
@@ -48,36 +51,14 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
-#[cfg(test)]
-#[macro_use]
-extern crate rasterproof_engines;
-
 #[doc(inline)]
-pub use rasterproof_engines::{contract, frame, grid, hazard, line, oracle, raster, triangle};
+pub use rasterproof_core::{contract, frame, grid, line, raster, triangle};
 #[doc(inline)]
-pub use rasterproof_measures::verify;
+pub use rasterproof_verify::{cases, comparison as verify, oracle};
 
-// Not promised: for the program, its tests and the samples under docs/.
+// The command line, for `main` and the tests.
 #[doc(hidden)]
 pub mod cli;
-#[doc(hidden)]
-pub mod course;
-#[doc(hidden)]
-pub mod quiz;
-#[doc(hidden)]
-pub use rasterproof_engines::{
-    angle, effects, exhaust, ladder, mutant, next, paint, pipeline, scene, specimen, tile, tiled,
-};
-#[doc(hidden)]
-pub use rasterproof_judges::{convention, invariant, judge};
-#[doc(hidden)]
-pub use rasterproof_lineup::{digest, lineup};
-#[doc(hidden)]
-pub use rasterproof_measures::cost;
-#[doc(hidden)]
-pub use rasterproof_playground::{answer, page};
-#[doc(hidden)]
-pub use rasterproof_reports::report;
 
 /// The samples in the pages under `docs/` are tests.
 #[cfg(doctest)]

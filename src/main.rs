@@ -4,7 +4,7 @@ use std::io::{self, BufWriter, IsTerminal};
 use std::process::ExitCode;
 
 use rasterproof::cli::{self, Delivery, Streams};
-use rasterproof::judge::group::end_strays;
+use rasterproof_judge::process_group::end_strays;
 
 /// Columns of the terminal, or as the environment says where there is none.
 fn columns() -> Option<usize> {
@@ -21,7 +21,7 @@ fn main() -> ExitCode {
         progress: io::stderr().is_terminal(),
         // See no-color.org.
         colour: io::stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none(),
-        columns: columns().filter(|&columns| columns > 0).unwrap_or(cli::fold::USUAL),
+        columns: columns().filter(|&columns| columns > 0).unwrap_or(cli::wrap::USUAL),
         delivery: Delivery::default(),
     };
     let status = cli::run(std::env::args_os(), &mut streams);

@@ -14,12 +14,12 @@ use std::process::{Command, ExitCode};
 use std::sync::{Arc, Mutex};
 
 use libtest_mimic::{Arguments, Failed, Trial};
-use rasterproof::hazard;
-use rasterproof::lineup::{Engine, LineEngine};
 use rasterproof::next;
-use rasterproof::report::summary::chapter;
-use rasterproof::report::table;
-use rasterproof::verify::{FamilyReport, Options, Verdict, judge_lineup, tolerance};
+use rasterproof_registry::engines::{Engine, LineEngine};
+use rasterproof_report::summary::chapter;
+use rasterproof_report::table;
+use rasterproof_verify::cases;
+use rasterproof_verify::comparison::{FamilyReport, Options, Verdict, judge_lineup, tolerance};
 
 /// Cases of each family: enough that every planted fault of `tests/it/mutants.rs` shows.
 const CASES: u64 = 1500;
@@ -29,7 +29,7 @@ fn main() -> ExitCode {
     rasterproof::cli::quiet_engines();
     let reports: Arc<Mutex<Vec<FamilyReport>>> = Arc::default();
     let chapters: Arc<Mutex<BTreeSet<&'static str>>> = Arc::default();
-    let trials = hazard::families()
+    let trials = cases::families()
         .map(|family| {
             let (reports, chapters) = (Arc::clone(&reports), Arc::clone(&chapters));
             Trial::test(format!("differential::{}", family.name), move || {
@@ -39,9 +39,9 @@ fn main() -> ExitCode {
         .collect();
     let conclusion = libtest_mimic::run(&arguments, trials);
     let mut families = std::mem::take(&mut *reports.lock().expect("no trial holds the lock now"));
-    let place = |report: &FamilyReport| hazard::families().position(|f| f.name == report.family);
+    let place = |report: &FamilyReport| cases::families().position(|f| f.name == report.family);
     families.sort_by_key(place);
-    let all = families.len() == hazard::families().count();
+    let all = families.len() == cases::families().count();
     let verdict = Verdict { options: options(""), families, failures: Vec::new() };
     println!("{}{}", table::table(&verdict), table::quota_line(&verdict));
     let quotas_met = !all || verdict.quotas().iter().all(|(_, is, wanted)| is >= wanted);

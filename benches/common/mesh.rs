@@ -7,14 +7,14 @@
 use std::process::{Command, ExitCode};
 use std::time::Instant;
 
-use rasterproof::effects::Effects;
-use rasterproof::frame::Frame;
-use rasterproof::grid::PixelRect;
-use rasterproof::lineup::Drawer;
-use rasterproof::pipeline::target::{Antialias, Colour, Target};
-use rasterproof::scene::Scene;
-use rasterproof::tile::Tiles;
-use rasterproof::tiled::{self, Samples};
+use rasterproof_core::frame::Frame;
+use rasterproof_core::grid::PixelRect;
+use rasterproof_registry::engines::Drawer;
+use rasterproof_render::effects::Effects;
+use rasterproof_render::pipeline::target::{Antialias, Colour, Target};
+use rasterproof_render::scene::Scene;
+use rasterproof_tiles::coverage::Tiles;
+use rasterproof_tiles::frames::{self, Samples};
 
 /// Where devices draw too, llvmpipe has one thread, the caller's, unless `LP_NUM_THREADS` says otherwise.
 /// It reads that when it is loaded, so the bench is started again with it.
@@ -82,7 +82,7 @@ pub fn tiles(
 ) -> impl FnMut(&mut Frame<Colour>) {
     let engine = Tiles::default();
     move |picture| {
-        let draw = || tiled::render_into(engine, scene, picture, samples);
+        let draw = || frames::render_into(engine, scene, picture, samples);
         pool.install(draw).expect("it draws");
     }
 }

@@ -5,12 +5,12 @@
 //! Shapes are made without trigonometry (square roots are exact in IEEE 754, sines are not), so
 //! that every machine times the same triangles.
 
-use rasterproof::contract::Rasterize;
-use rasterproof::frame::Frame;
-use rasterproof::grid::{PixelRect, SubpixelPoint};
-use rasterproof::oracle::Oracle;
-use rasterproof::paint::fill_run;
-use rasterproof::triangle::Corners;
+use rasterproof_core::contract::Rasterize;
+use rasterproof_core::frame::Frame;
+use rasterproof_core::grid::{PixelRect, SubpixelPoint};
+use rasterproof_core::triangle::Corners;
+use rasterproof_tiles::paint::fill_run;
+use rasterproof_verify::oracle::Oracle;
 
 /// Side of the square target in pixels.
 pub const SIDE_PX: u32 = 1024;

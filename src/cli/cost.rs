@@ -10,10 +10,10 @@ use super::page::{PageArguments, as_file, write_page};
 use super::progress::Progress;
 use super::typed::Typed;
 use super::{Failure, Streams, exit, usage};
-use crate::cost::{Board, Guest, Ladder, Options, Recorded, measure_with};
-use crate::report::chart::{self, Drawing};
-use crate::report::html::{Figure, Report};
-use crate::report::{board, json, picture, plot};
+use rasterproof_precision::cost::{Board, Guest, Ladder, Options, Recorded, measure_with};
+use rasterproof_report::canvas::{self, Drawing};
+use rasterproof_report::html::{Figure, Report};
+use rasterproof_report::{board, cost_plots, json, picture};
 
 /// What is measured together under one word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -186,9 +186,9 @@ fn plot_files(folder: &Path, name: &str) -> [PathBuf; 2] {
 /// The plots with their names; the one picture that answers the question comes last.
 fn plots(boards: &[Board]) -> Vec<(String, Drawing)> {
     let mut plots: Vec<(String, Drawing)> =
-        boards.iter().map(|board| (plot_name(board.ladder), plot::pareto(board))).collect();
+        boards.iter().map(|board| (plot_name(board.ladder), cost_plots::pareto(board))).collect();
     if boards.iter().any(|board| board.ladder == Ladder::Scanline) {
-        plots.push((PRICE.to_owned(), plot::price(boards)));
+        plots.push((PRICE.to_owned(), cost_plots::price(boards)));
     }
     plots
 }
@@ -201,11 +201,11 @@ fn report_page(typed: &Typed, plots: &[(String, Drawing)], recorded: &Recorded) 
             PRICE => "What exact coverage costs over the cheapest rung".to_owned(),
             name => format!("Time against error: {}", name.trim_start_matches("cost-")),
         },
-        svg: chart::svg(drawing),
+        svg: canvas::svg(drawing),
         narrow: boards
             .iter()
             .find(|board| *name == plot_name(board.ladder))
-            .map(|board| chart::svg(&plot::pareto_narrow(board))),
+            .map(|board| canvas::svg(&cost_plots::pareto_narrow(board))),
     };
     Report {
         title: "What accuracy costs in time".to_owned(),
@@ -225,8 +225,8 @@ fn write_plots(
     let mut written = Vec::new();
     for (name, drawing) in plots {
         let [svg, png] = plot_files(arguments.folder(), name);
-        let is_written = streams.save(&svg, chart::svg(drawing).as_bytes())
-            && streams.save(&png, &picture::png(&chart::picture(drawing)));
+        let is_written = streams.save(&svg, canvas::svg(drawing).as_bytes())
+            && streams.save(&png, &picture::png(&canvas::picture(drawing)));
         if is_written {
             written.push(name.clone());
         }

@@ -6,13 +6,13 @@ use std::time::{Duration, Instant};
 use super::course_grade::{self, GradeArguments};
 use super::progress::Progress as Shown;
 use super::{Failure, Streams, exit, usage, write_file};
-use crate::course::examine::{self, Amount};
-use crate::course::progress::{self, Progress};
-use crate::course::starters::{self, Language};
-use crate::course::verdict::{self, indented};
-use crate::course::{self, STEPS, sandbox};
-use crate::judge::group;
-use crate::judge::process::Limits;
+use crate::cli::starters::{self, Language};
+use rasterproof_judge::process::Limits;
+use rasterproof_judge::process_group;
+use rasterproof_teaching::course::examine::{self, Amount};
+use rasterproof_teaching::course::progress::{self, Progress};
+use rasterproof_teaching::course::verdict::{self, indented};
+use rasterproof_teaching::course::{self, STEPS, sandbox};
 
 pub const HELP: &str = "Examples:
   rasterproof course                                   the twelve steps
@@ -161,7 +161,7 @@ fn run_check(arguments: &CheckArguments, streams: &mut Streams<'_>) -> Result<u8
             usage(format!("no step is called '{word}'; there are {}", names.join(", ")))
         })?,
     };
-    group::end_all_on_ctrl_c();
+    process_group::end_all_on_ctrl_c();
     let limits = sandbox::Bounds::default();
     let shown = Shown::new(streams.progress, "steps", Some(1));
     sandbox::build(&arguments.dir, &progress.build, &limits).map_err(usage)?;

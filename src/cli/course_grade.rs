@@ -8,13 +8,13 @@ use serde_json::{Value, json};
 
 use super::progress::Progress as Shown;
 use super::{Failure, Streams, exit, usage};
-use crate::course::examine::{self, Amount};
-use crate::course::progress::{self, Progress};
-use crate::course::sandbox::{self, Bounds};
-use crate::course::{self, STEPS, verdict};
-use crate::judge::group;
-use crate::judge::process::{Limits, Program};
-use crate::judge::text::printable;
+use rasterproof_judge::process::{Limits, Program};
+use rasterproof_judge::process_group;
+use rasterproof_judge::text::printable;
+use rasterproof_teaching::course::examine::{self, Amount};
+use rasterproof_teaching::course::progress::{self, Progress};
+use rasterproof_teaching::course::sandbox::{self, Bounds};
+use rasterproof_teaching::course::{self, STEPS, verdict};
 
 pub const HELP: &str = "Examples:
   rasterproof course --grade ./mine                                  points of a program
@@ -118,7 +118,7 @@ pub fn run(arguments: &GradeArguments, streams: &mut Streams<'_>) -> Result<u8, 
             vec![Ok(Submission { name: run.join(" "), folder, build: Vec::new(), run })]
         }
     };
-    group::end_all_on_ctrl_c();
+    process_group::end_all_on_ctrl_c();
     let mut grades = Vec::new();
     let shown = Shown::new(streams.progress, "submissions", Some(submissions.len() as u64));
     for submission in submissions {

@@ -2,7 +2,7 @@
 
 use super::progress::Progress;
 use super::{Failure, Streams, exit};
-use crate::digest::{self, Options};
+use rasterproof_registry::digest::{self, Options};
 
 pub const HELP: &str = "Examples:
   rasterproof digest                          hash what every engine computes

@@ -3,9 +3,10 @@
 use clap::builder::PossibleValue;
 
 use super::{Failure, Streams, exit};
-use crate::judge::serve;
-use crate::lineup::{self, Entry};
-use crate::mutant::{Mutant, exact::ExactMutant};
+use rasterproof_faults::planted::Mutant;
+use rasterproof_faults::planted::exact::ExactMutant;
+use rasterproof_judge::server;
+use rasterproof_registry::engines::{self, Entry};
 
 pub const HELP: &str = "Requests and answers, one a line (numbers decimal or C99 hex floats):
   HELLO 1                                    HELLO 1 <name> <capability>...
@@ -22,22 +23,22 @@ names end in -exact; those answer T only. Example:
 
 /// The engine of this name, planted faults among them.
 pub(super) fn find(name: &str) -> Result<Entry, Failure> {
-    let entry = lineup::find(name).copied().or_else(|| lineup::find_planted(name));
+    let entry = engines::find(name).copied().or_else(|| engines::find_planted(name));
     entry
         .ok_or_else(|| super::usage(format!("no engine is called '{name}'; see: rasterproof list")))
 }
 
 pub fn run(name: &str, streams: &mut Streams<'_>) -> Result<u8, Failure> {
-    serve::serve(&find(name)?, &mut *streams.input, streams.output)?;
+    server::serve(&find(name)?, &mut *streams.input, streams.output)?;
     Ok(exit::AGREES)
 }
 
 /// The names that `engine` takes; planted faults are not shown.
 pub fn names() -> Vec<PossibleValue> {
-    let shown = lineup::ENTRIES.iter().chain(&lineup::SPECIMENS).map(|entry| entry.name);
+    let shown = engines::ENTRIES.iter().chain(&engines::SPECIMENS).map(|entry| entry.name);
     let exact = ExactMutant::ALL.map(|mutant| mutant.name());
     let planted = Mutant::all().into_iter().map(|mutant| mutant.name()).chain(exact);
-    let planted = planted.filter(|name| lineup::find_planted(name).is_some());
+    let planted = planted.filter(|name| engines::find_planted(name).is_some());
     let hidden = planted.map(|name| PossibleValue::new(name).hide(true));
     shown.map(PossibleValue::new).chain(hidden).collect()
 }

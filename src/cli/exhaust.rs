@@ -11,10 +11,13 @@ use rasterproof_host::{input, limits, output};
 use super::files::{Use, distinct};
 use super::progress::Progress;
 use super::{Failure, Streams, exit, usage, write_file};
-use crate::exhaust::certificate::{self, Certificate};
-use crate::exhaust::identity::Shard;
-use crate::exhaust::run;
-use crate::exhaust::{Plan, edges::Edges, lines::Lines, triangles::Triangles};
+use rasterproof_exhaustive::Plan;
+use rasterproof_exhaustive::certificate::{self, Certificate};
+use rasterproof_exhaustive::edges::Edges;
+use rasterproof_exhaustive::identity::Shard;
+use rasterproof_exhaustive::lines::Lines;
+use rasterproof_exhaustive::run;
+use rasterproof_exhaustive::triangles::Triangles;
 
 /// Time between two checkpoints.
 const SAVE_EVERY: Duration = Duration::from_secs(3);

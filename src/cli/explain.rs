@@ -4,16 +4,16 @@
 use std::cmp::Ordering;
 use std::fmt::Write as _;
 
-use crate::contract::{Rasterize, RasterizeExact};
-use crate::grid::{PixelRect, SubpixelPoint};
-use crate::hazard::{Case, Line, Shape, Triangle};
-use crate::oracle::Oracle;
-use crate::oracle::rational::edge_value;
-use crate::raster::edge_function::edge_values;
-use crate::raster::edge_function_exact::EdgeFunctionExact;
-use crate::raster::scanline::Scanline;
-use crate::raster::scanline_exact::ScanlineExact;
-use crate::triangle::{Corners, FreeCorners, PixelPoint};
+use rasterproof_core::contract::{Rasterize, RasterizeExact};
+use rasterproof_core::grid::{PixelRect, SubpixelPoint};
+use rasterproof_core::raster::edge_function::edge_values;
+use rasterproof_core::raster::edge_function_exact::EdgeFunctionExact;
+use rasterproof_core::raster::scanline::Scanline;
+use rasterproof_core::raster::scanline_exact::ScanlineExact;
+use rasterproof_core::triangle::{Corners, FreeCorners, PixelPoint};
+use rasterproof_verify::cases::{Case, Line, Shape, Triangle};
+use rasterproof_verify::oracle::Oracle;
+use rasterproof_verify::oracle::rational::edge_value;
 
 /// Triangles or lines that are explained; the rest are counted.
 const MOST: usize = 8;

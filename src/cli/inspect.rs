@@ -6,24 +6,24 @@ use clap::builder::PossibleValuesParser;
 use image::RgbImage;
 use rasterproof_host::text::printable_path;
 
+use super::case_view::{self, Contestants};
 use super::files::{Use, distinct};
 use super::inspect_case::{CaseArguments, Found, find, parse_pixel, recorded, words};
 use super::page::{PageArguments, as_file, save_page};
-use super::shown::{self, Contestants};
 use super::typed::Typed;
 use super::{Failure, Streams, exit, explain, png_name, program, usage, write_unasked};
-use crate::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
-use crate::hazard::offgrid::OffGridCase;
-use crate::hazard::{Case, Shape};
-use crate::lineup::{Entry, ExactEngine, SPECIMENS, Specimen};
-use crate::report::html::{Outcome, Report};
-use crate::report::{ascii, cases, panels, picture, summary};
-use crate::specimen::bare;
-use crate::specimen::catalogue::{RECORDED_SIDE_PX, RecordedCase};
-use crate::triangle::{FreeCorners, PixelPoint};
-use crate::verify::exact::{describe, exact_coverage, judge_exact_case};
-use crate::verify::specimens::specimen_coverage;
-use crate::verify::{self, Finding, Tally, oracle_pixels_each};
+use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
+use rasterproof_core::triangle::{FreeCorners, PixelPoint};
+use rasterproof_faults::published::bare;
+use rasterproof_faults::published::catalogue::{RECORDED_SIDE_PX, RecordedCase};
+use rasterproof_registry::engines::{Entry, ExactEngine, SPECIMENS, Specimen};
+use rasterproof_registry::published_check::specimen_coverage;
+use rasterproof_report::html::{Outcome, Report};
+use rasterproof_report::{ascii, page_cases, panels, picture, summary};
+use rasterproof_verify::cases::unsnapped::OffGridCase;
+use rasterproof_verify::cases::{Case, Shape};
+use rasterproof_verify::comparison::unsnapped::{describe, exact_coverage, judge_exact_case};
+use rasterproof_verify::comparison::{self, Finding, Tally, oracle_pixels_each};
 
 /// Options of `inspect`.
 #[derive(clap::Args, Debug)]
@@ -55,7 +55,7 @@ pub struct InspectArguments {
     #[arg(long, value_name = "NAME")]
     engine: Option<String>,
     /// Judge this planted fault instead of the engines; `list` names them
-    #[arg(long, value_name = "FAULT", value_parser = crate::mutant::about::names(), hide_possible_values = true)]
+    #[arg(long, value_name = "FAULT", value_parser = rasterproof_faults::planted::about::names(), hide_possible_values = true)]
     plant: Option<String>,
     /// Explain this pixel: edge values, ties, the rule, the span
     #[arg(long, value_name = "X,Y", value_parser = parse_pixel_option, allow_hyphen_values = true)]
@@ -147,14 +147,14 @@ pub fn run(
     writeln!(out, "{title}")?;
     writeln!(out, "window: columns {}..{}, rows {}..{}", w.x0, w.x1, w.y0, w.y1)?;
     write!(out, "{}", cropped(&case, arguments))?;
-    shown::facts(&case, out)?;
+    case_view::facts(&case, out)?;
     if let Some(at) = arguments.pixel {
         write!(out, "\n{}", explain::pixel(&case, at))?;
     }
 
     // Judge and show.
     let Contestants { engines, lines, exact } = Contestants::new(arguments.plant.as_deref());
-    let mut shown = shown::draw(&case, &engines, &lines);
+    let mut shown = case_view::draw(&case, &engines, &lines);
     if shown.is_empty() {
         return Err(no_part(arguments.plant.as_ref()));
     }
@@ -163,7 +163,7 @@ pub fn run(
     }
     #[cfg(feature = "vulkan")]
     let on_device = device(arguments, &case, &mut shown)?;
-    let findings = verify::judge_case(&engines, &lines, &case);
+    let findings = comparison::judge_case(&engines, &lines, &case);
     writeln!(out)?;
     if let Some(at) = arguments.pixel {
         writeln!(out, "hits of ({}, {}): {}\n", at.x, at.y, shown.hits(at))?;
@@ -200,8 +200,8 @@ pub fn run(
     write_picture(arguments, &shown.picture(&title, &case), streams)?;
     if arguments.page.report {
         let engines: Vec<_> = engines.iter().map(|(engine, _)| *engine).collect();
-        let judged = cases::Judged { engines: &engines, lines: &lines, exact: &exact };
-        let view = cases::on_grid(name(arguments), title, kind(agrees), &case, judged);
+        let judged = page_cases::Judged { engines: &engines, lines: &lines, exact: &exact };
+        let view = page_cases::on_grid(name(arguments), title, kind(agrees), &case, judged);
         write_report((arguments, command), view, agrees, streams)?;
     }
     Ok(if agrees { exit::AGREES } else { exit::DISAGREES })
@@ -212,7 +212,7 @@ pub fn run(
 fn device(
     arguments: &InspectArguments,
     case: &Case,
-    shown: &mut shown::Shown,
+    shown: &mut case_view::Shown,
 ) -> Result<Option<(String, bool)>, Failure> {
     let Some(engine) = &arguments.engine else { return Ok(None) };
     let Shape::Triangles { list, .. } = &case.shape else {
@@ -258,13 +258,13 @@ fn name(arguments: &InspectArguments) -> String {
     }
 }
 
-fn kind(agrees: bool) -> cases::Kind {
-    if agrees { cases::Kind::Named } else { cases::Kind::Failing }
+fn kind(agrees: bool) -> page_cases::Kind {
+    if agrees { page_cases::Kind::Named } else { page_cases::Kind::Failing }
 }
 
 fn write_report(
     (arguments, command): (&InspectArguments, &Typed),
-    mut view: cases::CaseView,
+    mut view: page_cases::CaseView,
     agrees: bool,
     streams: &mut Streams<'_>,
 ) -> Result<(), Failure> {
@@ -368,9 +368,9 @@ fn off_grid_alone(
     let (agrees, drawn) = off_grid(title, &case, &exact, specimen, (out, streams.columns))?;
     write_picture(arguments, &drawn, streams)?;
     if arguments.page.report {
-        let judged = cases::Judged { engines: &[], lines: &[], exact: &exact };
+        let judged = page_cases::Judged { engines: &[], lines: &[], exact: &exact };
         let (name, title) = (name(arguments), title.to_owned());
-        let view = cases::off_lattice(name, title, kind(agrees), &case, judged);
+        let view = page_cases::off_lattice(name, title, kind(agrees), &case, judged);
         write_report((arguments, command), view, agrees, streams)?;
     }
     Ok(if agrees { exit::AGREES } else { exit::DISAGREES })
@@ -420,7 +420,7 @@ fn off_grid(
         let triangles: Vec<_> = case.triangles.iter().map(|t| bare(t.px())).collect();
         match specimen_coverage(*specimen, &triangles, screen) {
             Ok(hits) => {
-                let hits = shown::crop(&hits, case.window);
+                let hits = case_view::crop(&hits, case.window);
                 let Tally { missing, extra, twice, .. } = Tally::between(&hits, &target);
                 writeln!(
                     out,

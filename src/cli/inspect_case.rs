@@ -3,15 +3,15 @@
 use glam::DVec2;
 
 use super::{Failure, program, usage};
-use crate::grid::{PixelRect, SUBPIXELS, SubpixelPoint, snap};
-use crate::hazard::named::{Input, plain_line, plain_triangle};
-use crate::hazard::offgrid::{self, OffGridCase};
-use crate::hazard::{self, Case, Line, Shape, Triangle};
-use crate::scene::named;
-use crate::specimen::catalogue::{RECORDED, RECORDED_SIDE_PX, RecordedCase};
-use crate::triangle::{
+use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint, snap};
+use rasterproof_core::triangle::{
     FreeCorners, PixelPoint, ScreenTriangle, ScreenVertex, check_value, refused_number,
 };
+use rasterproof_faults::published::catalogue::{RECORDED, RECORDED_SIDE_PX, RecordedCase};
+use rasterproof_render::scene::named;
+use rasterproof_verify::cases::named::{Input, plain_line, plain_triangle};
+use rasterproof_verify::cases::unsnapped::{self, OffGridCase};
+use rasterproof_verify::cases::{self, Case, Line, Shape, Triangle};
 
 /// Largest side of the window around corners that were typed.
 const MOST_AROUND_PX: i32 = 64;
@@ -196,21 +196,21 @@ fn called(word: &str, arguments: &CaseArguments) -> Result<Found, Failure> {
             ))
         });
         let title = |about: &str| format!("{word} of seed {}: {about}", arguments.seed);
-        if let Some(family) = offgrid::FAMILIES.iter().find(|f| f.name == family) {
+        if let Some(family) = unsnapped::FAMILIES.iter().find(|f| f.name == family) {
             let case = family.case(arguments.seed, index?);
             return Ok(Found::OffGrid { title: title(family.about), case });
         }
-        let found = hazard::families().find(|f| f.name == family);
-        let names = hazard::families().map(|f| f.name);
-        let names = names.chain(offgrid::FAMILIES.iter().map(|f| f.name));
+        let found = cases::families().find(|f| f.name == family);
+        let names = cases::families().map(|f| f.name);
+        let names = names.chain(unsnapped::FAMILIES.iter().map(|f| f.name));
         let family = found.ok_or_else(|| unknown("family", family, names))?;
         return Ok(plain(title(family.about), family.case(arguments.seed, index?)));
     }
     if let Some(case) = recorded(&arguments.what) {
         return Ok(recorded_case(case));
     }
-    if hazard::families().any(|f| f.name == word)
-        || offgrid::FAMILIES.iter().any(|f| f.name == word)
+    if cases::families().any(|f| f.name == word)
+        || unsnapped::FAMILIES.iter().any(|f| f.name == word)
     {
         return Err(usage(format!("{word} is a family: add the number of a case, {word}#0")));
     }

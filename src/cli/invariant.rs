@@ -4,11 +4,11 @@ use std::io::Write;
 
 use super::progress::Progress;
 use super::{Failure, Streams, exit, program, write_entry};
-use crate::invariant::matrix::{self, Matrix};
-use crate::invariant::subject::Subject;
-use crate::invariant::{CATALOGUE, Invariant};
-use crate::mutant::{self, Mutant};
-use crate::report::summary;
+use rasterproof_faults::planted::{self, Mutant};
+use rasterproof_invariants::matrix::{self, Matrix};
+use rasterproof_invariants::subject::Subject;
+use rasterproof_invariants::{CATALOGUE, Invariant};
+use rasterproof_report::summary;
 
 /// Inputs of each invariant where the command line does not say.
 const CASES: u64 = 2_000;
@@ -126,7 +126,7 @@ pub fn mutants(arguments: &MutantsArguments, streams: &mut Streams<'_>) -> Resul
     writeln!(out, "each fault, the number of invariants that it breaks, and what it is:")?;
     for (name, marks) in &matrix.rows {
         let kills = marks.iter().filter(|&&mark| mark).count();
-        let about = mutant::about::about(name).unwrap_or("a check that cannot fail");
+        let about = planted::about::about(name).unwrap_or("a check that cannot fail");
         writeln!(out, "  {} {name:<26} {kills:>2}  {about}", mark(kills > 0))?;
     }
     if !arguments.table {

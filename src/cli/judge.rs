@@ -11,13 +11,13 @@ use super::page::{PageArguments, as_file, write_page};
 use super::progress::Progress;
 use super::typed::Typed;
 use super::{Failure, Streams, exit, league, usage};
-use crate::judge::ask::Ask;
-use crate::judge::baseline::Baseline;
-use crate::judge::process::{Limits, Program};
-use crate::judge::recognise::{Scope, recognise};
-use crate::judge::{self, Options, group, place};
-use crate::report::formats::{self, Format};
-use crate::report::judged;
+use rasterproof_judge::ask::Ask;
+use rasterproof_judge::baseline::Baseline;
+use rasterproof_judge::process::{Limits, Program};
+use rasterproof_judge::recognise::{Scope, recognise};
+use rasterproof_judge::{Options, adapt_case, process_group};
+use rasterproof_report::formats::{self, Format};
+use rasterproof_report::judge_text;
 
 pub const HELP: &str = "The program reads requests on its standard input and answers on its standard output, a line each; see
 docs/protocol.md. It is run as given, without a shell, in the current folder.
@@ -96,7 +96,7 @@ fn format_words() -> impl TypedValueParser<Value = Format> {
 }
 
 fn families() -> Vec<&'static str> {
-    place::families(&[]).into_iter().map(|family| family.name).collect()
+    adapt_case::families(&[]).into_iter().map(|family| family.name).collect()
 }
 
 fn seconds(text: &str) -> Result<Duration, String> {
@@ -121,9 +121,10 @@ impl JudgeArguments {
 
     /// The convention of what is judged is recognised, of more than one case.
     fn scope(&self) -> Scope {
-        let families = place::families(&self.family);
-        let any =
-            |lines| self.case.is_none() && families.iter().any(|f| place::is_lines(f) == lines);
+        let families = adapt_case::families(&self.family);
+        let any = |lines| {
+            self.case.is_none() && families.iter().any(|f| adapt_case::is_lines(f) == lines)
+        };
         Scope { triangles: any(false), lines: any(true), always: false }
     }
 
@@ -148,7 +149,7 @@ pub fn run(
         Some(path) => Some(Baseline::read(path, arguments.seed).map_err(usage)?),
         None => None,
     };
-    group::end_all_on_ctrl_c();
+    process_group::end_all_on_ctrl_c();
     let mut askers = Vec::new();
     for _ in 0..arguments.jobs {
         let program = Program::start(&arguments.command, &arguments.words(), limits);
@@ -163,14 +164,16 @@ pub fn run(
             declared.name
         )));
     }
-    let families = place::families(&arguments.family).len() as u64;
+    let families = adapt_case::families(&arguments.family).len() as u64;
     let cases = if arguments.case.is_some() { 1 } else { arguments.cases };
     let total = families.saturating_mul(cases);
     let progress = Progress::new(streams.progress, "cases", Some(total));
     let scope = arguments.scope();
     let recognise = |program: &mut dyn Ask| recognise(program, scope);
     let mut verdict =
-        judge::judge(&mut askers, &arguments.options(), &recognise, &|cases| progress.done(cases));
+        rasterproof_judge::judge(&mut askers, &arguments.options(), &recognise, &|cases| {
+            progress.done(cases)
+        });
     drop(progress);
     drop(askers);
     if verdict.found.rows.is_empty() {
@@ -199,7 +202,7 @@ pub fn run(
     let text = match format {
         Format::Text => {
             let shown = (arguments.table, streams.colour);
-            judged::text(&verdict, &repeat_all, &repeat_case, shown)
+            judge_text::text(&verdict, &repeat_all, &repeat_case, shown)
         }
         other => formats::write(&verdict, other, &repeat_all, &repeat_case),
     };
@@ -208,7 +211,11 @@ pub fn run(
     if let Some(path) = page {
         write_page(
             &path,
-            judged::page(&verdict, &typed.clone().set("seed", arguments.seed).line(), &repeat_case),
+            judge_text::page(
+                &verdict,
+                &typed.clone().set("seed", arguments.seed).line(),
+                &repeat_case,
+            ),
             streams,
         );
     }

@@ -8,12 +8,12 @@ use rasterproof_host::text::printable;
 use rasterproof_host::{input, limits};
 
 use super::{Failure, Streams, exit, usage};
-use crate::judge::ask::Ask;
-use crate::judge::league::{Adapter, League, Standing, date};
-use crate::judge::process::{Limits, Program};
-use crate::judge::recognise::{Scope, recognise};
-use crate::judge::{self, Options, group};
-use crate::report::league::tables;
+use rasterproof_judge::ask::Ask;
+use rasterproof_judge::league::{Adapter, League, Standing, date};
+use rasterproof_judge::process::{Limits, Program};
+use rasterproof_judge::recognise::{Scope, recognise};
+use rasterproof_judge::{Options, process_group};
+use rasterproof_report::league::tables;
 
 const ADAPTERS: &str = "adapters/league.json";
 /// Where it is written, as data and as a page.
@@ -36,7 +36,7 @@ pub fn run(
             "{name:?} is no adapter\n  adapters/install --list shows the names"
         )));
     }
-    group::end_all_on_ctrl_c();
+    process_group::end_all_on_ctrl_c();
     let mut rows = Vec::new();
     for adapter in adapters.iter().filter(|a| names.is_empty() || names.contains(&a.name)) {
         let program = match Program::start(&adapter.command, &[], limits) {
@@ -51,8 +51,9 @@ pub fn run(
         let mut askers: Vec<Box<dyn Ask>> = vec![Box::new(program)];
         let progress = Progress::new(streams.progress, "cases", None);
         progress.at(0, &format!("of {}", adapter.name));
-        let verdict =
-            judge::judge(&mut askers, options, &convention, &|cases| progress.done(cases));
+        let verdict = rasterproof_judge::judge(&mut askers, options, &convention, &|cases| {
+            progress.done(cases)
+        });
         drop(progress);
         let standing = Standing::new(adapter, today(), &verdict);
         write!(streams.output, "{:<22}", adapter.name)?;

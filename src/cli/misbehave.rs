@@ -8,7 +8,7 @@ use std::process::{Command, Stdio};
 use std::time::Duration;
 
 use super::{Failure, Streams, engine, exit};
-use crate::judge::serve;
+use rasterproof_judge::server;
 
 /// A way to break the protocol.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -81,7 +81,7 @@ pub fn run(name: &str, fault: Fault, streams: &mut Streams<'_>) -> Result<u8, Fa
             return Ok(exit::AGREES);
         }
         let mut answer = Vec::new();
-        serve::respond(entry, line.trim_end(), &mut answer)?;
+        server::respond(entry, line.trim_end(), &mut answer)?;
         let words: Vec<&str> = line.split_whitespace().collect();
         if words.first() == Some(&"HELLO") {
             let refused = fault == Fault::Rude || (fault == Fault::Old && words[1] == "2");

@@ -1,16 +1,15 @@
 //! The command line: words to functions. Text goes to the writers it is given; only `main` exits.
 
+mod case_view;
 mod cost;
 mod course;
 mod course_grade;
-mod decisions;
 mod delivery;
 mod digest;
 mod engine;
 mod exhaust;
 mod explain;
 mod files;
-pub mod fold;
 mod guard;
 mod inspect;
 mod inspect_case;
@@ -20,17 +19,19 @@ mod league;
 mod misbehave;
 mod page;
 mod plan;
+mod plan_table;
 mod playground;
 mod progress;
 mod quiz;
 mod render;
 mod review;
-mod shown;
 mod specimens;
+mod starters;
 mod typed;
 mod verify;
 #[cfg(feature = "vulkan")]
 mod vulkan;
+pub mod wrap;
 
 use std::ffi::OsString;
 use std::fmt;
@@ -45,7 +46,8 @@ use rasterproof_host::text::{is_hidden, printable, printable_lines, printable_pa
 use rasterproof_host::{output, shell};
 use typed::Typed;
 
-use crate::{hazard, lineup};
+use rasterproof_registry::engines;
+use rasterproof_verify::cases;
 
 /// Exit codes.
 pub mod exit {
@@ -311,7 +313,7 @@ pub fn run(words: impl IntoIterator<Item: Into<OsString>>, streams: &mut Streams
         let output: &mut dyn Write = if for_machines {
             &mut guarded
         } else {
-            folded = fold::Folded::new(&mut guarded, columns, program());
+            folded = wrap::Folded::new(&mut guarded, columns, program());
             &mut folded
         };
         let delivery = delivery.clone();
@@ -382,7 +384,7 @@ pub fn quiet_engines() {
     ONCE.call_once(|| {
         let hook = std::panic::take_hook();
         std::panic::set_hook(Box::new(move |info| {
-            if !crate::verify::is_judging() {
+            if !rasterproof_verify::comparison::is_judging() {
                 hook(info);
             }
         }));
@@ -392,31 +394,31 @@ pub fn quiet_engines() {
 fn list(streams: &mut Streams<'_>) -> Result<u8, Failure> {
     let out = &mut streams.output;
     writeln!(out, "Families (rasterproof --family NAME, rasterproof inspect NAME#NUMBER):")?;
-    for family in hazard::families() {
+    for family in cases::families() {
         write_entry(out, &format!("{:<16}", family.name), family.about)?;
     }
     writeln!(out, "\nFamilies off the grid, for the engines that do not snap:")?;
-    for family in hazard::offgrid::FAMILIES {
+    for family in cases::unsnapped::FAMILIES {
         write_entry(out, &format!("{:<16}", family.name), family.about)?;
     }
     writeln!(out, "\nNamed cases (rasterproof inspect NAME):")?;
-    for case in crate::scene::named::named() {
+    for case in rasterproof_render::scene::named::named() {
         write_entry(out, &format!("{:<5}", case.name), case.about)?;
     }
     writeln!(out, "\nEngines (rasterproof engine NAME):")?;
-    for entry in lineup::ENTRIES.iter().chain(&lineup::SPECIMENS) {
+    for entry in engines::ENTRIES.iter().chain(&engines::SPECIMENS) {
         write_entry(out, &format!("{:<19}", entry.name), entry.about)?;
     }
     #[cfg(feature = "vulkan")]
     vulkan::list(out)?;
     writeln!(out, "\nPlanted faults (rasterproof --plant NAME; rasterproof mutants):")?;
-    for (name, about) in crate::mutant::about::all() {
+    for (name, about) in rasterproof_faults::planted::about::all() {
         write_entry(out, &format!("{name:<26}"), about)?;
     }
     invariant::list(streams)?;
     let out = &mut streams.output;
     writeln!(out, "\nScenes (rasterproof render --scene NAME):")?;
-    for entry in crate::scene::chapters::SCENES {
+    for entry in rasterproof_render::scene::chapters::SCENES {
         write_entry(out, &format!("{:<19}", entry.name), entry.about)?;
     }
     Ok(exit::AGREES)

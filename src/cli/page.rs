@@ -9,7 +9,7 @@ use rasterproof_host::text::printable_path;
 
 use super::Streams;
 use super::files::Use;
-use crate::report::html::{self, Report};
+use rasterproof_report::html::{self, Report};
 
 /// Options of every command that writes pages or pictures.
 #[derive(clap::Args, Debug)]

@@ -3,22 +3,22 @@
 use std::fmt::Write as _;
 use std::time::{Duration, Instant};
 
-use super::decisions::{grouped, plan_rows};
 use super::page::{PageArguments, write_page};
+use super::plan_table::{grouped, plan_rows};
 use super::progress::Progress;
 use super::render::SceneArguments;
 use super::typed::Typed;
 use super::{Failure, Streams, exit, usage};
-use crate::effects::plan::{Plan, SceneDigest};
-use crate::effects::render::Rendered;
-use crate::effects::{Effect, Effects, Mode};
-use crate::lineup::Drawer;
-use crate::pipeline::Counters;
-use crate::report::frames;
-use crate::report::html::{
+use rasterproof_registry::engines::Drawer;
+use rasterproof_render::effects::plan::{Plan, SceneDigest};
+use rasterproof_render::effects::render::Rendered;
+use rasterproof_render::effects::{Effect, Effects, Mode};
+use rasterproof_render::pipeline::Counters;
+use rasterproof_render::scene::Scene;
+use rasterproof_report::frame_comparison;
+use rasterproof_report::html::{
     Chapter, Column, Outcome, PictureLayer, PictureView, Report, Row, Table,
 };
-use crate::scene::Scene;
 
 const HELP: &str = "Examples:
   rasterproof plan panels                  a user interface: hardly anything
@@ -388,7 +388,9 @@ fn report_page(
             layers: ["everything", "planned"]
                 .into_iter()
                 .zip(frames)
-                .map(|(name, frame)| PictureLayer::new(name, &frames::rgb(&frame.picture)))
+                .map(|(name, frame)| {
+                    PictureLayer::new(name, &frame_comparison::rgb(&frame.picture))
+                })
                 .collect(),
         }],
         plan: plan_rows(&frames[1].plan.decisions),

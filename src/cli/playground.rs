@@ -9,17 +9,17 @@ use rasterproof_host::{input, limits};
 
 use super::files::{Use, distinct};
 use super::{Failure, Streams, exit, usage, write_file};
-use crate::page::page;
+use rasterproof_playground::page::page;
 
 pub(super) const HELP: &str =
     "The page is one file that loads nothing: open it in a browser. The engines inside
-are compiled by a script of the repository, playground/build, which needs a network
+are compiled by a script of the repository, crates/playground/build, which needs a network
 or Debian's packages; nothing else needs it.";
 
 /// Options of `playground`.
 #[derive(Args, Debug)]
 pub(super) struct PlaygroundArguments {
-    /// The compiled engines, as playground/build leaves them
+    /// The compiled engines, as crates/playground/build leaves them
     #[arg(long, value_name = "FILE", default_value = "target/rasterproof/playground.wasm")]
     module: PathBuf,
     /// Where the page goes
@@ -33,8 +33,9 @@ pub(super) fn run(
 ) -> Result<u8, Failure> {
     let module = &arguments.module;
     distinct(&[("--module", module, Use::Reads), ("--output", &arguments.output, Use::Writes)])?;
-    let refused =
-        |why: String| usage(format!("{why}\nCompile the engines for the page: playground/build"));
+    let refused = |why: String| {
+        usage(format!("{why}\nCompile the engines for the page: crates/playground/build"))
+    };
     let bytes = input::read(module, limits::SOURCE_BYTES).map_err(|e| refused(e.to_string()))?;
     if !is_whole(&bytes) {
         let module = printable_path(module);

@@ -8,8 +8,8 @@ use rasterproof_host::text::{printable, printable_path};
 use rasterproof_host::{input, limits};
 
 use super::{Failure, Streams, exit, usage};
-use crate::quiz::page::{TERMINAL_COLUMNS, choices, grids, legend, wrap};
-use crate::quiz::{CHAPTERS, Chapter, Exercise, Language, chapter, order};
+use rasterproof_teaching::quiz::page::{TERMINAL_COLUMNS, choices, grids, legend, wrap};
+use rasterproof_teaching::quiz::{CHAPTERS, Chapter, Exercise, Language, chapter, order};
 
 /// Options of `quiz`.
 #[derive(clap::Args, Debug)]

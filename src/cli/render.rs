@@ -9,32 +9,32 @@ use image::codecs::gif::{GifEncoder, Repeat};
 use rasterproof_host::text::{printable, printable_path};
 use rasterproof_host::{input, limits};
 
-use super::decisions::plan_rows;
 use super::files::{Use, distinct};
 use super::page::{PageArguments, as_file, write_page};
+use super::plan_table::plan_rows;
 use super::progress::Progress;
 use super::typed::Typed;
 use super::{Failure, Streams, exit, program, usage};
-use crate::angle::{atan, cos, sin, tan, turn_y};
-use crate::effects::plan::{Plan, SceneDigest, VERSION};
-use crate::effects::render::{BadScene, Misfit, Rendered};
-use crate::effects::{Effect, Effects, Mode};
-use crate::frame::Frame;
-use crate::lineup::{Drawer, Engine};
-use crate::pipeline::Counters;
-use crate::pipeline::assemble::Cull;
-use crate::pipeline::depth::DepthFormat;
-use crate::pipeline::present::DoubleBuffer;
-use crate::pipeline::shade::Light;
-use crate::pipeline::target::{Antialias, Colour, Target, check_size};
-use crate::pipeline::transform::{about, look_at, perspective};
-use crate::report::frames::{self, Comparison};
-use crate::report::html::{Chapter, Outcome, PictureLayer, PictureView, Report};
-use crate::report::picture;
-use crate::scene::chapters::{self, SCENES};
-use crate::scene::{Scene, Shading, obj};
-use crate::tiled;
-use crate::verify::ties::{self, Drawn as DrawnBy};
+use rasterproof_core::angle::{atan, cos, sin, tan, turn_y};
+use rasterproof_core::frame::Frame;
+use rasterproof_registry::engines::{Drawer, Engine};
+use rasterproof_registry::undecided::{self, Drawn as DrawnBy};
+use rasterproof_render::effects::plan::{Plan, SceneDigest, VERSION};
+use rasterproof_render::effects::render::{BadScene, Misfit, Rendered};
+use rasterproof_render::effects::{Effect, Effects, Mode};
+use rasterproof_render::pipeline::Counters;
+use rasterproof_render::pipeline::assemble::Cull;
+use rasterproof_render::pipeline::depth::DepthFormat;
+use rasterproof_render::pipeline::present::DoubleBuffer;
+use rasterproof_render::pipeline::shade::Light;
+use rasterproof_render::pipeline::target::{Antialias, Colour, Target, check_size};
+use rasterproof_render::pipeline::transform::{about, look_at, perspective};
+use rasterproof_render::scene::chapters::{self, SCENES};
+use rasterproof_render::scene::{Scene, Shading, obj};
+use rasterproof_report::frame_comparison::{self, Comparison};
+use rasterproof_report::html::{Chapter, Outcome, PictureLayer, PictureView, Report};
+use rasterproof_report::picture;
+use rasterproof_tiles::frames;
 
 pub const HELP: &str = "Examples:
   rasterproof render cube                                a scene of the book, by both rasterizers
@@ -310,7 +310,8 @@ impl SceneArguments {
         let turn = turn_y(yaw);
         let away = DVec3::new(0.0, sin(pitch), -cos(pitch));
         let up = DVec3::new(0.0, cos(pitch), sin(pitch));
-        let refused = |error: crate::pipeline::transform::NoProjection| usage(error.to_string());
+        let refused =
+            |error: rasterproof_render::pipeline::transform::NoProjection| usage(error.to_string());
         let view = look_at(centre + away * distance, centre, up).map_err(refused)?;
         let near = (distance - radius).max(distance * 1e-3).max(radius * 1e-3);
         let projection = perspective(fov.to_radians(), aspect, near, distance + radius * 1.01)
@@ -429,7 +430,7 @@ pub fn run(
         return map(arguments, &scene, &output, streams);
     }
     let mut drawings = draw(arguments, &scene, &progress)?;
-    let picture = frames::png(&drawings[0].rendered.picture)?;
+    let picture = frame_comparison::png(&drawings[0].rendered.picture)?;
     let comparison = compare(&scene, &drawings, arguments.plan.is_some())?;
     drop(progress);
     let drawn_in = streams.save(&output, &picture).then_some(output.as_path());
@@ -438,13 +439,18 @@ pub fn run(
         |c: &&Comparison| !(c.agrees() || is_plan_alone(c, &drawings)) || c.undecided > 0;
     let mut difference_in = None;
     if let Some(comparison) = comparison.as_ref().filter(is_drawn) {
-        let picture = frames::png(&comparison.picture)?;
+        let picture = frame_comparison::png(&comparison.picture)?;
         difference_in = streams.save(&difference, &picture).then_some(difference.as_path());
     }
     if arguments.json {
         // With its scene the plan can be drawn by.
         drawings[0].rendered.plan.scene = Some(SceneDigest::of(&scene));
-        let json = frames::json(&scene.name, &names(&drawings), &drawings[0].rendered, &comparison);
+        let json = frame_comparison::json(
+            &scene.name,
+            &names(&drawings),
+            &drawings[0].rendered,
+            &comparison,
+        );
         writeln!(streams.output, "{json}")?;
     } else {
         let text = describe(&scene, &drawings, comparison.as_ref(), drawn_in, difference_in);
@@ -482,12 +488,12 @@ fn compare(
     let ties = if a.is_complete && b.is_complete {
         let engines = [Engine::Scanline, Engine::EdgeFunction];
         let drawn = [0, 1].map(|i| DrawnBy { engine: engines[i], target: &drawings[i].target });
-        Some(ties::find(scene, drawn).map_err(|error| usage(error.to_string()))?)
+        Some(undecided::find(scene, drawn).map_err(|error| usage(error.to_string()))?)
     } else {
         None
     };
     let (first, second) = ((&a.rendered.picture, &a.target), (&b.rendered.picture, &b.target));
-    let mut comparison = frames::compare(first, second, ties.as_ref());
+    let mut comparison = frame_comparison::compare(first, second, ties.as_ref());
     comparison.wrong_pixels += a.unplanned + b.unplanned;
     if follows_plan {
         // Two rasterizers that follow one wrong plan agree with each other, not with the scene.
@@ -517,9 +523,11 @@ fn report_page(
             undecided(c).map_or(String::new(), |words| format!(" {words}."))
         ),
     });
-    let layer = |d: &Drawing| PictureLayer::new(d.name, &frames::rgb(&d.rendered.picture));
+    let layer =
+        |d: &Drawing| PictureLayer::new(d.name, &frame_comparison::rgb(&d.rendered.picture));
     let marked = comparison.filter(|c| !c.agrees() || c.undecided > 0);
-    let marked = marked.map(|c| PictureLayer::new("what differs", &frames::rgb(&c.picture)));
+    let marked =
+        marked.map(|c| PictureLayer::new("what differs", &frame_comparison::rgb(&c.picture)));
     let view = PictureView {
         name: scene.name.clone(),
         about: scene.about.clone(),
@@ -594,7 +602,7 @@ fn draw(
             return incomplete(name, rendered, target, 0);
         }
         let whole = drawer.render(scene, &complete, &mut target).map_err(refused)?;
-        let unplanned = frames::differing(&rendered.picture, &whole.picture);
+        let unplanned = frame_comparison::differing(&rendered.picture, &whole.picture);
         if is_free || unplanned == 0 {
             return Ok(Drawing {
                 name,
@@ -729,14 +737,14 @@ fn draw_in_tiles(
     let target = arguments.what.target()?;
     let size = target.size();
     let samples = match arguments.what.aa {
-        Smoothing::Msaa4 => tiled::Samples::Four,
-        _ => tiled::Samples::One,
+        Smoothing::Msaa4 => frames::Samples::Four,
+        _ => frames::Samples::One,
     };
-    let picture = tiled::render(scene, size.width(), size.height(), samples)
+    let picture = frames::render(scene, size.width(), size.height(), samples)
         .map_err(|error: BadScene| usage(error.to_string()))?;
     writeln!(streams.output, "{}: {}", scene.name, scene.about)?;
-    if streams.save(output, &frames::png(&picture)?) {
-        let (side, path) = (tiled::SIDE_PX, printable_path(output));
+    if streams.save(output, &frame_comparison::png(&picture)?) {
+        let (side, path) = (frames::SIDE_PX, printable_path(output));
         writeln!(streams.output, "  drawn in tiles of {side} x {side} px in {path}")?;
     }
     Ok(exit::AGREES)
@@ -757,14 +765,19 @@ fn map(
         .render_mapped(scene, &effects, &mut target)
         .map_err(|error| usage(error.to_string()))?;
     let title = format!("{}: what each pixel pays for", scene.name);
-    let picture = picture::png(&frames::map_picture(&title, &rendered.picture, &map));
+    let picture = picture::png(&frame_comparison::map_picture(&title, &rendered.picture, &map));
     let drawn_in = match streams.save(output, &picture) {
         true => format!(", drawn in {}", printable_path(output)),
         false => String::new(),
     };
     writeln!(streams.output, "{}: effects paid for{drawn_in}", scene.name)?;
-    for (effect, _) in frames::MAP_COLOURS {
-        writeln!(streams.output, "  {:<12} {} px", effect.name(), frames::paid(&map, effect))?;
+    for (effect, _) in frame_comparison::MAP_COLOURS {
+        writeln!(
+            streams.output,
+            "  {:<12} {} px",
+            effect.name(),
+            frame_comparison::paid(&map, effect)
+        )?;
     }
     Ok(exit::AGREES)
 }

@@ -20,10 +20,10 @@ use rasterproof_host::text::{printable, printable_path, printable_short};
 use super::files::{Use, distinct};
 use super::page::{Place, save_page};
 use super::{Failure, Streams, exit, program, usage};
-use crate::report::html::{
+use rasterproof_report::html::{
     Column, Outcome, PictureLayer, PictureView, Report, Row, Table, TextDiff,
 };
-use crate::report::panels::{self, Sheet};
+use rasterproof_report::panels::{self, Sheet};
 
 /// Options of `review`.
 #[derive(clap::Args, Debug)]

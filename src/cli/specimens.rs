@@ -9,10 +9,10 @@ use super::page::{PageArguments, as_file, write_page};
 use super::progress::Progress;
 use super::typed::Typed;
 use super::{Failure, Streams, exit, png_name, write_unasked};
-use crate::report::html::{Outcome, Report};
-use crate::report::{cases, counts, json, picture, sheet, specimens};
-use crate::specimen::catalogue::{CARDS, Card};
-use crate::verify::specimens::{SpecimenReport, survey};
+use rasterproof_faults::published::catalogue::{CARDS, Card};
+use rasterproof_registry::published_check::{SpecimenReport, survey};
+use rasterproof_report::html::{Outcome, Report};
+use rasterproof_report::{counts, json, page_cases, picture, specimen_sheet, specimens};
 
 /// Options of `specimens`.
 #[derive(clap::Args, Debug)]
@@ -62,8 +62,8 @@ pub fn run(
         .collect();
     drop(progress);
     let (drawn, text) = match (cards.as_slice(), reports.as_slice()) {
-        ([card], [report]) => (sheet::alone(card).image, specimens::detail(report)),
-        _ => (sheet::contact_sheet(), specimens::table(&reports)),
+        ([card], [report]) => (specimen_sheet::alone(card).image, specimens::detail(report)),
+        _ => (specimen_sheet::contact_sheet(), specimens::table(&reports)),
     };
     if arguments.json {
         let json = json::specimens(arguments.seed, arguments.cases, &reports);
@@ -108,10 +108,10 @@ fn report_page(
     };
     let word = if good { "CAUGHT" } else { "NOT CAUGHT" };
     let is_asked = |name: &str| reports.iter().any(|r| r.name == name.trim_end_matches(" picture"));
-    let mut cases = cases::of_specimens();
+    let mut cases = page_cases::of_specimens();
     cases.retain(|case| is_asked(&case.name));
     let taken: Vec<_> = cases.iter().map(|case| case.name.clone()).collect();
-    let mut frames = sheet::views(&taken);
+    let mut frames = specimen_sheet::views(&taken);
     frames.retain(|view| is_asked(&view.name));
     Report {
         title: "Published algorithms and their faults".to_owned(),

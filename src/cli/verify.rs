@@ -6,18 +6,18 @@ use std::time::Duration;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use image::RgbImage;
 
+use super::case_view::{self, Contestants};
 use super::page::{PageArguments, write_page};
 use super::progress::Progress;
-use super::shown::{self, Contestants};
 use super::typed::Typed;
 use super::{Failure, Streams, exit, invariant, program, usage, write_unasked};
-use crate::hazard::{self, Shape};
-use crate::lineup::{Engine, ExactEngine, LineEngine};
-use crate::report::html::Report;
-use crate::report::{self, ascii, cases, counts, json, picture, summary, table};
-use crate::verify::exact::{self, ExactVerdict};
-use crate::verify::tolerance::Tolerance;
-use crate::verify::{self, Options, Verdict};
+use rasterproof_registry::engines::{Engine, ExactEngine, LineEngine};
+use rasterproof_report::html::Report;
+use rasterproof_report::{ascii, counts, json, page_cases, picture, summary, table};
+use rasterproof_verify::cases::{self, Shape};
+use rasterproof_verify::comparison::tolerance::Tolerance;
+use rasterproof_verify::comparison::unsnapped::{self, ExactVerdict};
+use rasterproof_verify::comparison::{self, Options, Verdict};
 
 /// Options of `verify`.
 #[derive(clap::Args, Debug)]
@@ -56,14 +56,14 @@ pub struct VerifyArguments {
     #[command(flatten)]
     page: PageArguments,
     /// Judge an engine with a planted fault instead, to see the harness fail; `list` names them
-    #[arg(long, value_name = "FAULT", value_parser = crate::mutant::about::names(), hide_possible_values = true,
+    #[arg(long, value_name = "FAULT", value_parser = rasterproof_faults::planted::about::names(), hide_possible_values = true,
         conflicts_with = "engine")]
     plant: Option<String>,
 }
 
 fn family_names() -> Vec<&'static str> {
-    let off_grid = hazard::offgrid::FAMILIES.iter().map(|family| family.name);
-    hazard::families().map(|family| family.name).chain(off_grid).collect()
+    let off_grid = cases::unsnapped::FAMILIES.iter().map(|family| family.name);
+    cases::families().map(|family| family.name).chain(off_grid).collect()
 }
 
 fn judged_names() -> Vec<&'static str> {
@@ -147,7 +147,7 @@ impl VerifyArguments {
             return all;
         }
         // Some that are judged only when asked for.
-        all.engines = Engine::CHOICES.iter().map(|&e| (e, verify::tolerance::of(e))).collect();
+        all.engines = Engine::CHOICES.iter().map(|&e| (e, comparison::tolerance::of(e))).collect();
         let wanted = |name: &str| self.engine.iter().any(|n| n == name);
         all.engines.retain(|(engine, _)| wanted(engine.name()));
         all.lines.retain(|engine| wanted(engine.name()));
@@ -234,12 +234,12 @@ fn on_a_device(
     let job = super::vulkan::Job {
         engine,
         cases: arguments.cases,
-        options: crate::judge::Options {
+        options: rasterproof_judge::Options {
             seed: options.seed,
             time_limit: options.time_limit,
             families: options.families,
             only: options.only,
-            ..crate::judge::Options::default()
+            ..rasterproof_judge::Options::default()
         },
         json: arguments.json,
         page: &arguments.page,
@@ -258,7 +258,7 @@ fn report_page(
 ) -> Report {
     let engines: Vec<_> = engines.iter().map(|(engine, _)| *engine).collect();
     let exact: Vec<_> = exact_engines.iter().map(|(_, engine)| *engine).collect();
-    let judged = cases::Judged { engines: &engines, lines, exact: &exact };
+    let judged = page_cases::Judged { engines: &engines, lines, exact: &exact };
     let mut tables = counts::of_verdict(verdict, off_grid);
     tables.push(counts::refused());
     let quotas = table::quota_line(verdict).trim_end().to_owned();
@@ -269,7 +269,7 @@ fn report_page(
         seed: Some(arguments.seed),
         notes: Some(quotas).filter(|line| !line.is_empty()).into_iter().collect(),
         tables,
-        cases: cases::of_verdict(verdict, off_grid, judged, |f, i| {
+        cases: page_cases::of_verdict(verdict, off_grid, judged, |f, i| {
             repeat(typed, arguments.seed, (f, i))
         }),
         ..Report::default()
@@ -289,13 +289,13 @@ fn judge(
     options: &Options,
     on_terminal: bool,
 ) -> (Verdict, ExactVerdict) {
-    let triangles = hazard::triangles::FAMILIES.iter().filter(|_| !engines.is_empty());
-    let segments = hazard::lines::FAMILIES.iter().filter(|_| !lines.is_empty());
+    let triangles = cases::triangles::FAMILIES.iter().filter(|_| !engines.is_empty());
+    let segments = cases::lines::FAMILIES.iter().filter(|_| !lines.is_empty());
     let families = triangles
         .chain(segments)
         .filter(|f| options.families.is_empty() || options.families.iter().any(|n| n == f.name));
     let off_grid_families =
-        if exact_engines.is_empty() { 0 } else { exact::exact_families(options).count() };
+        if exact_engines.is_empty() { 0 } else { unsnapped::exact_families(options).count() };
     let total = options.time_limit.is_none().then(|| {
         ((families.count() + off_grid_families) as u64).saturating_mul(options.cases)
             / options.shard.1
@@ -307,8 +307,9 @@ fn judge(
         time_limit: options.time_limit.map(|t| if is_shared { t * fifths / 5 } else { t }),
         ..options.clone()
     };
-    let verdict = verify::judge_lineup(engines, lines, &share(4), &|cases| progress.done(cases));
-    let off_grid = exact::judge_exact(exact_engines, &share(1), &|cases| progress.done(cases));
+    let verdict =
+        comparison::judge_lineup(engines, lines, &share(4), &|cases| progress.done(cases));
+    let off_grid = unsnapped::judge_exact(exact_engines, &share(1), &|cases| progress.done(cases));
     drop(progress);
     (verdict, off_grid)
 }
@@ -344,8 +345,13 @@ fn print(
     writeln!(out, "{}", summary::lines(verdict, exact, streams.colour))?;
     if arguments.table || !agrees {
         writeln!(out, "{}{}", table::table(verdict), table::quota_line(verdict))?;
-        write!(out, "{}{}", table::disagreements(verdict), report::exact::table(exact))?;
-        write!(out, "{}", report::exact::disagreements(exact))?;
+        write!(
+            out,
+            "{}{}",
+            table::disagreements(verdict),
+            rasterproof_report::exact::table(exact)
+        )?;
+        write!(out, "{}", rasterproof_report::exact::disagreements(exact))?;
     }
     if verdict.agrees() {
         pictures.push(("worst.png", worst_cases(arguments, on_grid, out)?));
@@ -392,7 +398,7 @@ fn failures(
     let out = &mut *streams.output;
     let mut drawn = Vec::new();
     for (rank, failure) in verdict.failures.iter().enumerate() {
-        let shown = shown::draw(&failure.case, engines, lines);
+        let shown = case_view::draw(&failure.case, engines, lines);
         if drawn.len() < MOST_DRAWN {
             drawn.push(shown.picture(&heading(failure), &failure.case));
         }
@@ -414,7 +420,7 @@ fn failures(
     }
     let mut exact = Vec::new();
     for (rank, failure) in off_grid.failures.iter().enumerate() {
-        let picture = shown::picture_off_grid(&heading(failure), &failure.case, exact_engines);
+        let picture = case_view::picture_off_grid(&heading(failure), &failure.case, exact_engines);
         exact.extend(picture.filter(|_| rank < MOST_DRAWN));
         if rank == 0 {
             writeln!(out, "{failure}")?;
@@ -436,16 +442,14 @@ fn others(
     off_grid: &ExactVerdict,
     out: &mut dyn std::io::Write,
 ) -> Result<(), Failure> {
-    let on_grid = verdict
-        .failures
-        .iter()
-        .skip(1)
-        .map(|f| (&f.family, f.index, &f.pair[0], &f.what, verify::shrink::describe(&f.case)));
-    let free = off_grid
-        .failures
-        .iter()
-        .skip(1)
-        .map(|f| (&f.family, f.index, &f.engine, &f.what, exact::describe(&f.case.triangles)));
+    let on_grid =
+        verdict.failures.iter().skip(1).map(|f| {
+            (&f.family, f.index, &f.pair[0], &f.what, comparison::shrink::describe(&f.case))
+        });
+    let free =
+        off_grid.failures.iter().skip(1).map(|f| {
+            (&f.family, f.index, &f.engine, &f.what, unsnapped::describe(&f.case.triangles))
+        });
     let others: Vec<_> = on_grid.chain(free).collect();
     if others.is_empty() {
         return Ok(());
@@ -463,15 +467,15 @@ const MOST_DRAWN: usize = 6;
 
 /// The command that shows the shrunk case, or, where the command line cannot say it, the case that it is
 /// from.
-fn explain(arguments: &VerifyArguments, failure: &verify::Failure) -> String {
+fn explain(arguments: &VerifyArguments, failure: &comparison::Failure) -> String {
     let (list, words) = match &failure.case.shape {
         Shape::Triangles { list, .. } => (list.len(), String::new()),
         Shape::Lines(list) => (list.len(), "--line ".to_owned()),
     };
-    let points = verify::shrink::describe(&failure.case);
+    let points = comparison::shrink::describe(&failure.case);
     let plant = arguments.plant.as_ref().map(|name| format!(" --plant {name}")).unwrap_or_default();
-    let verify::Failure { family, index, seed, .. } = failure;
-    match list == 1 && verify::shrink::has_plain_values(&failure.case) {
+    let comparison::Failure { family, index, seed, .. } = failure;
+    match list == 1 && comparison::shrink::has_plain_values(&failure.case) {
         true => format!("{} inspect {words}{points}{plant}", program()),
         false => format!("{} inspect {family}#{index} --seed {seed}{plant}", program()),
     }
@@ -504,7 +508,7 @@ fn worst_cases(
                 arguments.seed
             )?;
         }
-        let found = hazard::families().find(|f| f.name == name);
+        let found = cases::families().find(|f| f.name == name);
         if let Some(case) = found.map(|f| f.case(arguments.seed, pair.worst_case)) {
             let title = format!(
                 "{name}#{}: {} at {:.2} of a bound",
@@ -512,7 +516,7 @@ fn worst_cases(
                 pair.actual,
                 pair.worst()
             );
-            pictures.push(shown::draw(&case, engines, lines).picture(&title, &case));
+            pictures.push(case_view::draw(&case, engines, lines).picture(&title, &case));
         }
     }
     Ok(pictures)

@@ -13,11 +13,11 @@ use rasterproof_vulkan::gpu::text;
 use super::page::{PageArguments, write_page};
 use super::progress::Progress;
 use super::{Failure, Streams, exit, program, usage, write_entry};
-use crate::cost::Guest;
-use crate::frame::Coverage;
-use crate::grid::PixelRect;
-use crate::judge::Options;
-use crate::triangle::Corners;
+use rasterproof_core::frame::Coverage;
+use rasterproof_core::grid::PixelRect;
+use rasterproof_core::triangle::Corners;
+use rasterproof_judge::Options;
+use rasterproof_precision::cost::Guest;
 
 /// Cases of each family where nothing is said.
 const CASES: u64 = 1000;

@@ -6,12 +6,14 @@ use std::io::{BufRead, BufReader};
 
 use flate2::read::GzDecoder;
 use glam::{DVec2, DVec4};
-use rasterproof::grid::PixelRect;
-use rasterproof::specimen::book_dda::BookDda;
-use rasterproof::specimen::book_final::{BookFinal, clip};
-use rasterproof::specimen::book_near_clip::clip_near;
-use rasterproof::specimen::book_triangle::{BookChapter2, cover_book};
-use rasterproof::specimen::{ClipVertex, Published, PublishedLine, RealTriangle, Refused, bare};
+use rasterproof_core::grid::PixelRect;
+use rasterproof_faults::published::book_dda::BookDda;
+use rasterproof_faults::published::book_final::{BookFinal, clip};
+use rasterproof_faults::published::book_near_clip::clip_near;
+use rasterproof_faults::published::book_triangle::{BookChapter2, cover_book};
+use rasterproof_faults::published::{
+    ClipVertex, Published, PublishedLine, RealTriangle, Refused, bare,
+};
 use serde_json::Value;
 
 use crate::protocol::ask;

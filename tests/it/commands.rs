@@ -2,7 +2,7 @@
 
 use std::process::{Command, Output};
 
-use rasterproof::mutant::exact::ExactMutant;
+use rasterproof_faults::planted::exact::ExactMutant;
 
 fn command(words: &[&str]) -> Command {
     let folder = std::env::temp_dir().join(format!("rasterproof-commands-{}", std::process::id()));
@@ -158,7 +158,7 @@ fn bad_input_is_refused_with_a_reason() {
 
 #[test]
 fn inspect_explains_named_cases() {
-    for named in rasterproof::scene::named::named() {
+    for named in rasterproof_render::scene::named::named() {
         let (out, _) = check(&["inspect", named.name], 0);
         assert!(out.starts_with(&format!("{}: ", named.name)), "{out}");
     }
@@ -376,7 +376,7 @@ fn options_without_an_effect_are_refused() {
 #[test]
 fn planted_faults_are_listed() {
     let (out, _) = check(&["list"], 0);
-    for (name, about) in rasterproof::mutant::about::all() {
+    for (name, about) in rasterproof_faults::planted::about::all() {
         assert!(out.lines().any(|line| line.contains(name) && line.contains(about)), "{name}");
     }
     assert!(check(&["--help"], 0).0.contains("--plant <FAULT>"));

@@ -2,8 +2,8 @@
 
 use std::process::Command;
 
-use rasterproof::cost::{Board, Cell, Ladder, Options, Recorded, Run, measure};
-use rasterproof::report::{board, chart, json, plot};
+use rasterproof_precision::cost::{Board, Cell, Ladder, Options, Recorded, Run, measure};
+use rasterproof_report::{board, canvas, cost_plots, json};
 
 use crate::snapshots::check_words;
 
@@ -203,18 +203,18 @@ fn cost_from_the_command_line() {
 fn cost_plots_name_every_rung() {
     let options = Options { seed: 1, quick: true, timed: true };
     let board = measure(Ladder::Lines, &options, &|_, _| ());
-    let drawings = [plot::pareto(&board), plot::pareto_narrow(&board)];
+    let drawings = [cost_plots::pareto(&board), cost_plots::pareto_narrow(&board)];
     assert!(drawings[1].size[0] <= 400.0, "{:?}", drawings[1].size);
     for drawing in drawings {
-        let svg = chart::svg(&drawing);
+        let svg = canvas::svg(&drawing);
         for (number, rung) in board.rungs.iter().enumerate() {
             let ran = board.columns_run().filter(|&c| board.run(number, c).is_some()).count();
             let labels = svg.matches(&format!(">{}</text>", rung.name)).count();
             assert_eq!(labels, ran, "{}", rung.name);
         }
         for shape in &drawing.shapes {
-            if let chart::Shape::Text { at, text, .. } = shape {
-                assert!(at[0] >= 0.0 && at[0] + chart::width(text) <= drawing.size[0], "{text}");
+            if let canvas::Shape::Text { at, text, .. } = shape {
+                assert!(at[0] >= 0.0 && at[0] + canvas::width(text) <= drawing.size[0], "{text}");
             }
         }
     }
@@ -243,7 +243,7 @@ fn cost_json_is_read_back() {
     assert_eq!(json::cost(&back), text);
     for (a, b) in recorded.boards.iter().zip(&back.boards) {
         assert_eq!(board::text(a, true), board::text(b, true));
-        assert_eq!(chart::svg(&plot::pareto(a)), chart::svg(&plot::pareto(b)));
+        assert_eq!(canvas::svg(&cost_plots::pareto(a)), canvas::svg(&cost_plots::pareto(b)));
     }
 }
 

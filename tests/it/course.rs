@@ -5,8 +5,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use rasterproof::course::STEPS;
-use rasterproof::course::progress::Progress;
+use rasterproof_teaching::course::STEPS;
+use rasterproof_teaching::course::progress::Progress;
 use serde_json::Value;
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_rasterproof");

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::PathBuf;
 
-use rasterproof::report::diagram::ALL;
+use rasterproof_report::diagram::ALL;
 
 const RENEW: &str = "RASTERPROOF_RENEW";
 

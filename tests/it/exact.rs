@@ -5,16 +5,17 @@ use std::collections::BTreeSet;
 
 use proptest::prelude::*;
 use rasterproof::cli::{self, Streams};
-use rasterproof::contract::{Rasterize, RasterizeExact};
-use rasterproof::frame::Coverage;
-use rasterproof::grid::{PixelRect, Refusal, SubpixelPoint};
-use rasterproof::hazard::offgrid::{FAMILIES, OffGridCase};
-use rasterproof::lineup::ExactEngine;
-use rasterproof::mutant::exact::ExactMutant;
-use rasterproof::raster::{edge_function::EdgeFunction, scanline::Scanline};
-use rasterproof::triangle::FreeCorners;
-use rasterproof::verify::Options;
-use rasterproof::verify::exact::{exact_coverage, judge_exact, judge_exact_case};
+use rasterproof_core::contract::{Rasterize, RasterizeExact};
+use rasterproof_core::frame::Coverage;
+use rasterproof_core::grid::{PixelRect, Refusal, SubpixelPoint};
+use rasterproof_core::raster::edge_function::EdgeFunction;
+use rasterproof_core::raster::scanline::Scanline;
+use rasterproof_core::triangle::FreeCorners;
+use rasterproof_faults::planted::exact::ExactMutant;
+use rasterproof_registry::engines::ExactEngine;
+use rasterproof_verify::cases::unsnapped::{FAMILIES, OffGridCase};
+use rasterproof_verify::comparison::Options;
+use rasterproof_verify::comparison::unsnapped::{exact_coverage, judge_exact, judge_exact_case};
 
 const ALL: [ExactEngine; 3] =
     [ExactEngine::Scanline, ExactEngine::EdgeFunction, ExactEngine::Oracle];
@@ -74,9 +75,10 @@ fn families_agree_and_reach_both_paths() {
             }
         }
         assert!(verdict.agrees() && verdict.failures.is_empty());
-        let sum = |count: fn(&rasterproof::verify::exact::ExactFamilyReport) -> u64| {
-            verdict.families.iter().map(count).sum::<u64>()
-        };
+        let sum =
+            |count: fn(&rasterproof_verify::comparison::unsnapped::ExactFamilyReport) -> u64| {
+                verdict.families.iter().map(count).sum::<u64>()
+            };
         assert!(4 * sum(|f| f.tie_cases) >= sum(|f| f.cases), "a quarter of the cases has a tie");
         assert!(20 * sum(|f| f.empty_cases) >= sum(|f| f.cases), "one in twenty is empty");
     }
@@ -279,9 +281,9 @@ fn independence_of_orient2d() {
     let uses = |source: &str| {
         source.lines().any(|l| !l.trim_start().starts_with("//") && l.contains("orient2d"))
     };
-    assert!(uses(include_str!("../../engines/src/raster/edge_function_exact.rs")));
-    assert!(!uses(include_str!("../../engines/src/raster/scanline_exact.rs")));
-    assert!(!uses(include_str!("../../engines/src/oracle/rational.rs")));
+    assert!(uses(include_str!("../../crates/core/src/raster/edge_function_exact.rs")));
+    assert!(!uses(include_str!("../../crates/core/src/raster/scanline_exact.rs")));
+    assert!(!uses(include_str!("../../crates/verify/src/oracle/rational.rs")));
 }
 
 fn run(command: &str, input: &str) -> (u8, String, String) {
@@ -292,7 +294,7 @@ fn run(command: &str, input: &str) -> (u8, String, String) {
         errors: &mut errors,
         progress: false,
         colour: false,
-        columns: cli::fold::USUAL,
+        columns: cli::wrap::USUAL,
         delivery: cli::Delivery::default(),
     };
     let words = command.split_whitespace().map(str::to_owned);
@@ -385,7 +387,7 @@ proptest! {
         EdgeFunction.cover(corners, window, |s| targets[1].hit(s.y_px, s.x0_px, s.x1_px));
         for engine in ALL {
             let mut actual = Coverage::new(window, 0);
-            let hit = |s: rasterproof::triangle::Span| actual.hit(s.y_px, s.x0_px, s.x1_px);
+            let hit = |s: rasterproof_core::triangle::Span| actual.hit(s.y_px, s.x0_px, s.x1_px);
             engine.cover_exact(&corners.into(), window, hit);
             for target in &targets {
                 prop_assert!(&actual == target, "{} on {corners:?}", engine.name());

@@ -6,10 +6,10 @@ use std::process::{Command, Output};
 use std::sync::Mutex;
 use std::time::Duration;
 
-use rasterproof::exhaust::certificate::{Certificate, Timing, merge};
-use rasterproof::exhaust::identity::Shard;
-use rasterproof::exhaust::run::{Progress, run};
-use rasterproof::exhaust::{Plan, edges, lines, triangles};
+use rasterproof_exhaustive::certificate::{Certificate, Timing, merge};
+use rasterproof_exhaustive::identity::Shard;
+use rasterproof_exhaustive::run::{Progress, run};
+use rasterproof_exhaustive::{Plan, edges, lines, triangles};
 
 fn triangles(subpixel_bits: u32) -> triangles::Triangles {
     triangles::Triangles {

@@ -2,27 +2,27 @@
 //! computes it: by drawing, by counting, by a formula, or from a table of another page.
 
 use glam::{DVec4, Vec4};
-use rasterproof::contract::Rasterize as _;
-use rasterproof::effects::Effects;
-use rasterproof::frame::{Coverage, Frame};
-use rasterproof::grid::PixelRect;
-use rasterproof::hazard::named::{Input, find};
-use rasterproof::hazard::{Case, Shape, families};
-use rasterproof::invariant::CATALOGUE;
-use rasterproof::lineup::{Drawer, TriangleSpecimen};
-use rasterproof::oracle::Oracle;
-use rasterproof::oracle::coverage::samples_on_boundary;
-use rasterproof::pipeline::Counters;
-use rasterproof::pipeline::clip::MOST_VERTICES;
-use rasterproof::pipeline::target::{Antialias, Target};
-use rasterproof::raster::edge_function::WordWidth;
-use rasterproof::scene::chapters::scene;
-use rasterproof::specimen::PublishedLine as _;
-use rasterproof::specimen::bare;
-use rasterproof::specimen::book_dda::BookDda;
-use rasterproof::specimen::catalogue::{RECORDED, RECORDED_SIDE_PX};
-use rasterproof::specimen::sysu_strict_t::clip_strict;
-use rasterproof::verify::specimens::{free_truth, specimen_coverage};
+use rasterproof_core::contract::Rasterize as _;
+use rasterproof_core::frame::{Coverage, Frame};
+use rasterproof_core::grid::PixelRect;
+use rasterproof_core::raster::edge_function::WordWidth;
+use rasterproof_faults::published::PublishedLine as _;
+use rasterproof_faults::published::bare;
+use rasterproof_faults::published::book_dda::BookDda;
+use rasterproof_faults::published::catalogue::{RECORDED, RECORDED_SIDE_PX};
+use rasterproof_faults::published::sysu_strict_t::clip_strict;
+use rasterproof_invariants::CATALOGUE;
+use rasterproof_registry::engines::{Drawer, TriangleSpecimen};
+use rasterproof_registry::published_check::{free_truth, specimen_coverage};
+use rasterproof_render::effects::Effects;
+use rasterproof_render::pipeline::Counters;
+use rasterproof_render::pipeline::clip::MOST_VERTICES;
+use rasterproof_render::pipeline::target::{Antialias, Target};
+use rasterproof_render::scene::chapters::scene;
+use rasterproof_verify::cases::named::{Input, find};
+use rasterproof_verify::cases::{Case, Shape, families};
+use rasterproof_verify::oracle::Oracle;
+use rasterproof_verify::oracle::coverage::samples_on_boundary;
 use serde_json::Value;
 
 use crate::cost_tables::{COST, MESH, W1, cell, edges, interpolation, range, scanline};

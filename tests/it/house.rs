@@ -9,10 +9,10 @@ use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use rasterproof::hazard;
-use rasterproof::invariant::CATALOGUE;
-use rasterproof::scene::chapters::SCENES;
-use rasterproof::specimen::catalogue::CARDS;
+use rasterproof_faults::published::catalogue::CARDS;
+use rasterproof_invariants::CATALOGUE;
+use rasterproof_render::scene::chapters::SCENES;
+use rasterproof_verify::cases;
 
 use crate::protocol::ask;
 
@@ -443,7 +443,7 @@ impl Known {
         Self {
             code: sources.map(|path| fs::read_to_string(path).unwrap()).collect(),
             options: [
-                ("--family ", hazard::families().map(|family| family.name).collect()),
+                ("--family ", cases::families().map(|family| family.name).collect()),
                 ("--scene ", SCENES.iter().map(|scene| scene.name).collect()),
                 ("--specimen ", CARDS.iter().map(|card| card.name).collect()),
                 ("--invariant ", [invariants.clone(), vec!["all"]].concat()),
@@ -535,15 +535,15 @@ fn house_lists_its_tests() {
 #[test]
 fn house_missing_names_are_found() {
     let known = Known::new();
-    let page = "`src/nowhere.rs` `engines/src/grid.rs` --scene moon --scene cube\n\
+    let page = "`src/nowhere.rs` `crates/core/src/grid.rs` --scene moon --scene cube\n\
         ## The test that proves it\n- `proves_nothing`, `crop`, `snap_by_hand`\n";
     let missing = known.missing("docs/a.md", page);
     let names = ["--scene moon", "src/nowhere.rs", "test proves_nothing"];
     assert_eq!(missing, names.map(|name| format!("docs/a.md: {name}")));
     let table = "| what | where |\n|---|---|\n\
-        | ties: `snap`, `snap_down`, `PixelRect::window` | [grid](../engines/src/grid.rs) |\n";
+        | ties: `snap`, `snap_down`, `PixelRect::window` | [grid](../crates/core/src/grid.rs) |\n";
     assert_eq!(known.missing("docs/a.md", table), ["docs/a.md: code snap_down"]);
-    let table = "| [1.1](ch01.md) | pixel | [grid](../engines/src/grid.rs): `snap_up` | `proves_nothing` |  |  |\n";
+    let table = "| [1.1](ch01.md) | pixel | [grid](../crates/core/src/grid.rs): `snap_up` | `proves_nothing` |  |  |\n";
     let names = ["test proves_nothing", "code snap_up"];
     let missing = names.map(|name| format!("docs/sections.md: {name}"));
     assert_eq!(known.missing("docs/sections.md", table), missing);

@@ -2,26 +2,26 @@
 
 use glam::{DVec2, DVec3};
 use image::{Rgb, RgbImage, imageops};
-use rasterproof::contract::DrawLine as _;
-use rasterproof::effects::{Effect, Effects, Mode};
-use rasterproof::frame::Frame;
-use rasterproof::grid::PixelRect;
-use rasterproof::hazard::offgrid::{FAMILIES, OffGridCase};
-use rasterproof::line::dda::Dda;
-use rasterproof::lineup::{Drawer, ExactEngine};
-use rasterproof::mutant::exact::ExactMutant;
-use rasterproof::pipeline::depth::DepthFormat;
-use rasterproof::pipeline::target::{Antialias, Target};
-use rasterproof::pipeline::transform::frustum;
-use rasterproof::report::lettering::{self, Size};
-use rasterproof::report::{frames, panels, picture};
-use rasterproof::scene::chapters::scene;
-use rasterproof::scene::{shapes, textures};
-use rasterproof::specimen::book_final::BookFinal;
-use rasterproof::specimen::{Published as _, RealVertex};
-use rasterproof::triangle::{Fragment, LineEnd, PixelPoint, ScreenLine};
-use rasterproof::verify::Tally;
-use rasterproof::verify::exact::exact_coverage;
+use rasterproof_core::contract::DrawLine as _;
+use rasterproof_core::frame::Frame;
+use rasterproof_core::grid::PixelRect;
+use rasterproof_core::line::dda::Dda;
+use rasterproof_core::triangle::{Fragment, LineEnd, PixelPoint, ScreenLine};
+use rasterproof_faults::planted::exact::ExactMutant;
+use rasterproof_faults::published::book_final::BookFinal;
+use rasterproof_faults::published::{Published as _, RealVertex};
+use rasterproof_registry::engines::{Drawer, ExactEngine};
+use rasterproof_render::effects::{Effect, Effects, Mode};
+use rasterproof_render::pipeline::depth::DepthFormat;
+use rasterproof_render::pipeline::target::{Antialias, Target};
+use rasterproof_render::pipeline::transform::frustum;
+use rasterproof_render::scene::chapters::scene;
+use rasterproof_render::scene::{shapes, textures};
+use rasterproof_report::lettering::{self, Size};
+use rasterproof_report::{frame_comparison, panels, picture};
+use rasterproof_verify::cases::unsnapped::{FAMILIES, OffGridCase};
+use rasterproof_verify::comparison::Tally;
+use rasterproof_verify::comparison::unsnapped::exact_coverage;
 
 use crate::snapshots::{check_picture, check_sheet};
 
@@ -62,7 +62,7 @@ fn larger(picture: &RgbImage, zoom: u32) -> RgbImage {
 fn rendered(name: &str, effects: Effects, antialias: Antialias) -> RgbImage {
     let scene = scene(name, 4.0 / 3.0, 0.0).unwrap();
     let mut target = Target::new(WIDTH, HEIGHT, antialias, DepthFormat::Unorm32).unwrap();
-    frames::rgb(&Drawer::Scanline.render(&scene, &effects, &mut target).unwrap().picture)
+    frame_comparison::rgb(&Drawer::Scanline.render(&scene, &effects, &mut target).unwrap().picture)
 }
 
 /// A part of the homework's scene, where both triangles have an edge: one sample a pixel, four.
@@ -112,7 +112,7 @@ fn picture_of_what_is_paid_for() {
                 1 => format!("{name}, one sample a pixel"),
                 many => format!("{name}, {many} samples a pixel"),
             };
-            frames::map_picture(&head, &rendered.picture, &map)
+            frame_comparison::map_picture(&head, &rendered.picture, &map)
         },
     );
     check_picture("effects-map", &picture::stack(&sheets));

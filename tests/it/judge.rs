@@ -5,19 +5,19 @@ use std::path::PathBuf;
 use std::process::{Command, Output};
 use std::time::Duration;
 
-use rasterproof::grid::PixelRect;
-use rasterproof::judge::ask::{Answer, Ask, Asked, Misbehaviour, Question};
-use rasterproof::judge::declared::Declared;
-use rasterproof::judge::expected::{Declaration, Expect as _};
-use rasterproof::judge::inside::Inside;
-use rasterproof::judge::process::{Limits, Program};
-use rasterproof::judge::recognise::{Scope, recognise};
-use rasterproof::judge::verdict::{Outcome, Verdict};
-use rasterproof::judge::{Options, judge};
-use rasterproof::lineup::{self, SPECIMENS};
-use rasterproof::mutant::exact::ExactMutant;
-use rasterproof::mutant::{LineMutant, TriangleMutant};
-use rasterproof::triangle::PixelPoint;
+use rasterproof_core::grid::PixelRect;
+use rasterproof_core::triangle::PixelPoint;
+use rasterproof_faults::planted::exact::ExactMutant;
+use rasterproof_faults::planted::{LineMutant, TriangleMutant};
+use rasterproof_judge::ask::{Answer, Ask, Asked, Misbehaviour, Question};
+use rasterproof_judge::declared::Declared;
+use rasterproof_judge::expected::{Declaration, Expect as _};
+use rasterproof_judge::in_process::Inside;
+use rasterproof_judge::process::{Limits, Program};
+use rasterproof_judge::recognise::{Scope, recognise};
+use rasterproof_judge::verdict::{Outcome, Verdict};
+use rasterproof_judge::{Options, judge};
+use rasterproof_registry::engines::{self, SPECIMENS};
 use rayon::prelude::*;
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_rasterproof");
@@ -33,7 +33,7 @@ pub fn judged(asker: Box<dyn Ask>, options: &Options) -> Verdict {
 }
 
 pub fn inside(name: &str) -> Box<dyn Ask> {
-    let entry = lineup::find(name).copied().or_else(|| lineup::find_planted(name));
+    let entry = engines::find(name).copied().or_else(|| engines::find_planted(name));
     Box::new(Inside::new(&entry.unwrap_or_else(|| panic!("{name}"))))
 }
 
@@ -94,13 +94,13 @@ fn judge_catches_every_specimen() {
 /// every specimen, every planted fault.
 #[test]
 fn judge_finds_the_same_through_a_pipe() {
-    let engines = lineup::ENTRIES.iter().chain(&SPECIMENS).map(|entry| entry.name);
+    let engines = engines::ENTRIES.iter().chain(&SPECIMENS).map(|entry| entry.name);
     let triangles = TriangleMutant::ALL.iter().map(|mutant| mutant.name());
     let lines = LineMutant::ALL.iter().map(|mutant| mutant.name());
     let exact = ExactMutant::ALL.iter().map(|mutant| mutant.name());
     let planted = triangles.chain(lines).chain(exact);
     let names: Vec<_> =
-        engines.chain(planted.filter(|name| lineup::find_planted(name).is_some())).collect();
+        engines.chain(planted.filter(|name| engines::find_planted(name).is_some())).collect();
     assert!(names.len() > 60, "{}", names.len());
     names.par_iter().for_each(|name| {
         let options = options(8, &[]);
@@ -591,7 +591,7 @@ impl Ask for CutsFirst {
 #[test]
 fn judge_tells_what_leaves_the_window() {
     let options = options(30, &["line-octants", "line-clipped"]);
-    let entry = lineup::find("bresenham").unwrap();
+    let entry = engines::find("bresenham").unwrap();
     // Within the window it draws as it declares, so that it is questioned only where that is asked.
     let scope = Scope { triangles: false, lines: true, always: true };
     let mut cuts: [Box<dyn Ask>; 1] = [Box::new(CutsFirst(Inside::new(entry)))];

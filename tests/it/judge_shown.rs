@@ -3,17 +3,17 @@
 
 use std::time::Duration;
 
-use rasterproof::hazard::Shape;
-use rasterproof::hazard::stages::clip_corners;
-use rasterproof::judge::ask::{Answer, Ask, Asked, Misbehaviour, Question};
-use rasterproof::judge::declared::Declared;
-use rasterproof::judge::inside::Inside;
-use rasterproof::judge::recognise::{Scope, recognise};
-use rasterproof::judge::verdict::Outcome;
-use rasterproof::judge::{Options, judge};
-use rasterproof::lineup;
-use rasterproof::report::html::page;
-use rasterproof::report::judged as shown;
+use rasterproof_judge::ask::{Answer, Ask, Asked, Misbehaviour, Question};
+use rasterproof_judge::declared::Declared;
+use rasterproof_judge::in_process::Inside;
+use rasterproof_judge::recognise::{Scope, recognise};
+use rasterproof_judge::verdict::Outcome;
+use rasterproof_judge::{Options, judge};
+use rasterproof_registry::engines;
+use rasterproof_report::html::page;
+use rasterproof_report::judge_text as shown;
+use rasterproof_verify::cases::Shape;
+use rasterproof_verify::cases::near_plane::clip_corners;
 
 #[cfg(target_os = "linux")]
 use crate::judge::is_gone;
@@ -60,7 +60,7 @@ impl Ask for Careless {
 #[test]
 fn judge_pictures_every_stage() {
     let options = Options { patience: Duration::from_secs(5), ..options(64, &STAGES) };
-    let careless = Careless(Inside::new(lineup::find("scanline").unwrap()));
+    let careless = Careless(Inside::new(engines::find("scanline").unwrap()));
     let verdict = judged(Box::new(careless), &options);
     for (property, of, triangles, bits) in [
         ("depth-order", "of the pile is seen", 2, 10),
@@ -115,7 +115,7 @@ impl Ask for Slow {
 /// A limited time is kept with a slow program too, and every family is asked.
 #[test]
 fn judge_keeps_its_time() {
-    let slow = || Slow(Inside::new(lineup::find("games101-strict").unwrap()));
+    let slow = || Slow(Inside::new(engines::find("games101-strict").unwrap()));
     let limited = |limit| {
         let limit = Some(Duration::from_secs(limit));
         let options = Options { time_limit: limit, ..options(100_000, &[]) };
@@ -160,7 +160,7 @@ impl Ask for DiesOnce {
 /// What happens before the families are asked counts too.
 #[test]
 fn judge_sees_the_first_request() {
-    let dies = DiesOnce(Inside::new(lineup::find("scanline").unwrap()), false);
+    let dies = DiesOnce(Inside::new(engines::find("scanline").unwrap()), false);
     let verdict = judged(Box::new(dies), &options(8, &["uniform"]));
     assert_eq!(property(&verdict, "protocol"), Outcome::Fail);
     let text = shown::text(&verdict, "", &|_, _| String::new(), (false, false));

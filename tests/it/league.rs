@@ -4,8 +4,8 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use rasterproof::judge::league::League;
-use rasterproof::report::league::tables;
+use rasterproof_judge::league::League;
+use rasterproof_report::league::tables;
 
 fn read(path: &str) -> String {
     fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(path)).unwrap()

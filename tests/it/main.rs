@@ -4,9 +4,6 @@
     reason = "tests and benches read and write files of their own"
 )]
 
-#[macro_use]
-extern crate rasterproof_engines;
-
 mod book;
 mod commands;
 mod convention;

@@ -1,6 +1,6 @@
 //! Which invariant kills which mutant, kept as a snapshot.
 
-use rasterproof::invariant::matrix::{CASES, Matrix, SEED};
+use rasterproof_invariants::matrix::{CASES, Matrix, SEED};
 
 use crate::snapshots::check_words;
 

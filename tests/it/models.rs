@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use image::{Rgb, RgbImage};
-use rasterproof::scene::obj::{load, load_texture};
-use rasterproof::scene::{Shading, shapes};
+use rasterproof_render::scene::obj::{load, load_texture};
+use rasterproof_render::scene::{Shading, shapes};
 
 /// A folder of its own below `target/`.
 fn folder(name: &str) -> PathBuf {

@@ -1,16 +1,18 @@
 //! Planted faults: the harness must report every one of them, or it proves nothing.
 
-use rasterproof::contract::{DrawLine, Interpolate, Rasterize};
-use rasterproof::grid::PixelRect;
-use rasterproof::hazard::triangles::FAMILIES;
-use rasterproof::hazard::{Shape, lines};
-use rasterproof::lineup::{Engine, LineEngine};
-use rasterproof::mutant::{LineMutant, TriangleMutant};
-use rasterproof::report::{counts, json, table};
-use rasterproof::triangle::{Corners, Fragment, ScreenTriangle, Span, Varying};
-use rasterproof::verify::exact::ExactVerdict;
-use rasterproof::verify::shrink::has_plain_values;
-use rasterproof::verify::{Options, Tally, Verdict, caught, judge_lineup, judge_values, tolerance};
+use rasterproof_core::contract::{DrawLine, Interpolate, Rasterize};
+use rasterproof_core::grid::PixelRect;
+use rasterproof_core::triangle::{Corners, Fragment, ScreenTriangle, Span, Varying};
+use rasterproof_faults::planted::{LineMutant, TriangleMutant};
+use rasterproof_registry::engines::{Engine, LineEngine};
+use rasterproof_report::{counts, json, table};
+use rasterproof_verify::cases::triangles::FAMILIES;
+use rasterproof_verify::cases::{Shape, lines};
+use rasterproof_verify::comparison::shrink::has_plain_values;
+use rasterproof_verify::comparison::unsnapped::ExactVerdict;
+use rasterproof_verify::comparison::{
+    Options, Tally, Verdict, caught, judge_lineup, judge_values, tolerance,
+};
 
 /// As many cases as `tests/differential.rs` judges, or fewer.
 fn options() -> Options {
@@ -44,7 +46,8 @@ fn a_failure_is_shrunk() {
     let verdict = judge_lineup(&engines, &[], &options(), &|_| ());
     let text = verdict.failures[0].to_string();
     assert!(text.contains("1 extra on "), "{text}");
-    let rasterproof::hazard::Shape::Triangles { list, .. } = &verdict.failures[0].case.shape else {
+    let rasterproof_verify::cases::Shape::Triangles { list, .. } = &verdict.failures[0].case.shape
+    else {
         panic!("a triangle fails as a triangle")
     };
     let xs = list[0].corners().map(|corner| corner.x);

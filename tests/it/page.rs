@@ -11,11 +11,11 @@ use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
 
 use image::{Rgb, RgbImage};
-use rasterproof::report::html::{
+use rasterproof_report::html::{
     Column, Figure, MOST_BYTES, Outcome, PictureLayer, PictureView, PlanRow, Report, Row, Table,
     TextDiff, page,
 };
-use rasterproof::report::panels::Sheet;
+use rasterproof_report::panels::Sheet;
 use serde_json::{Value, json};
 
 use crate::snapshots::ELSEWHERE;
@@ -601,7 +601,7 @@ fn page_of_the_specimens_shows_each_fault() {
     }
     chapters_exist(&mut browser);
     // Every card is there, as a case or as pictures.
-    for card in rasterproof::specimen::catalogue::CARDS {
+    for card in rasterproof_faults::published::catalogue::CARDS {
         let is_shown = |name: &&String| name.split(' ').next() == Some(card.name);
         assert!(names.iter().any(|name| is_shown(&name)), "{} in {names:?}", card.name);
     }

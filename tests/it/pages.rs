@@ -142,7 +142,7 @@ fn pages_specimens_are_as_surveyed() {
             assert!(shown.ends_with(&format!(" {pixels}")), "{folder}: {name}: {pixels}, {shown}");
             checked += 1;
         }
-        assert_eq!(checked, rasterproof::specimen::catalogue::CARDS.len());
+        assert_eq!(checked, rasterproof_faults::published::catalogue::CARDS.len());
     }
 }
 
@@ -199,7 +199,7 @@ fn pages_certificates_are_as_written() {
     }
     let readme = dense(&read("README.md"));
     let edges = certificate("edges-8")["done"]["cases"].as_f64().unwrap();
-    let invariants = rasterproof::invariant::CATALOGUE.len() as f64;
+    let invariants = rasterproof_invariants::CATALOGUE.len() as f64;
     // Rows of the matrix end in a count; the last line sums them up.
     let matrix = read("snapshots/mutants.snap");
     let is_mutant = |line: &&str| {

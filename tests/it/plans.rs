@@ -6,13 +6,13 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use glam::{DMat4, DVec3};
-use rasterproof::effects::plan::Canvas;
-use rasterproof::effects::{Effect, Effects, Mode};
-use rasterproof::lineup::Drawer;
-use rasterproof::pipeline::depth::DepthFormat;
-use rasterproof::pipeline::target::{Antialias, Target};
-use rasterproof::scene::chapters::{SCENES, scene};
-use rasterproof::scene::{Item, Material, Scene, shapes};
+use rasterproof_registry::engines::Drawer;
+use rasterproof_render::effects::plan::Canvas;
+use rasterproof_render::effects::{Effect, Effects, Mode};
+use rasterproof_render::pipeline::depth::DepthFormat;
+use rasterproof_render::pipeline::target::{Antialias, Target};
+use rasterproof_render::scene::chapters::{SCENES, scene};
+use rasterproof_render::scene::{Item, Material, Scene, shapes};
 use serde_json::{Value, json};
 
 /// Two squares that are apart as long as they are seen from the front.

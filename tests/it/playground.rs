@@ -1,27 +1,27 @@
 //! The playground in a browser: the compiled engines draw what the program draws, and what the page shows
 //! is what its addresses and commands say.
 //!
-//! Needs the module that `playground/build` leaves, and Chromium. Without them these tests say so and
+//! Needs the module that `crates/playground/build` leaves, and Chromium. Without them these tests say so and
 //! pass, unless `RASTERPROOF_NEEDS_PLAYGROUND` or `RASTERPROOF_NEEDS_CHROMIUM` is set, as `.ci/run` does.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use rasterproof::answer::answer;
-use rasterproof::contract::{Rasterize as _, RasterizeExact as _};
-use rasterproof::frame::Coverage;
-use rasterproof::grid::PixelRect;
-use rasterproof::hazard::{Shape, offgrid, triangles};
-use rasterproof::page;
-use rasterproof::raster::edge_function::EdgeFunction;
-use rasterproof::raster::edge_function::probe::edges_at;
-use rasterproof::raster::edge_function_exact::EdgeFunctionExact;
-use rasterproof::raster::edge_function_exact::probe::edges_at as exact_edges_at;
-use rasterproof::raster::scanline::Scanline;
-use rasterproof::raster::scanline::steps::walked_rows;
-use rasterproof::raster::scanline_exact::ScanlineExact;
-use rasterproof::raster::scanline_exact::probe::crossings_at;
-use rasterproof::triangle::{Corners, Span};
+use rasterproof_core::contract::{Rasterize as _, RasterizeExact as _};
+use rasterproof_core::frame::Coverage;
+use rasterproof_core::grid::PixelRect;
+use rasterproof_core::raster::edge_function::EdgeFunction;
+use rasterproof_core::raster::edge_function::probe::edges_at;
+use rasterproof_core::raster::edge_function_exact::EdgeFunctionExact;
+use rasterproof_core::raster::edge_function_exact::probe::edges_at as exact_edges_at;
+use rasterproof_core::raster::scanline::Scanline;
+use rasterproof_core::raster::scanline::steps::walked_rows;
+use rasterproof_core::raster::scanline_exact::ScanlineExact;
+use rasterproof_core::raster::scanline_exact::probe::crossings_at;
+use rasterproof_core::triangle::{Corners, Span};
+use rasterproof_playground::answer::answer;
+use rasterproof_playground::page;
+use rasterproof_verify::cases::{Shape, triangles, unsnapped};
 use serde_json::{Value, json};
 
 use crate::page::{Browser, folder};
@@ -36,8 +36,8 @@ fn module() -> Option<PathBuf> {
         return Some(path);
     }
     let demanded = std::env::var_os("RASTERPROOF_NEEDS_PLAYGROUND").is_some();
-    assert!(!demanded, "no {}: run playground/build", path.display());
-    eprintln!("SKIPPED: no {}; run playground/build", path.display());
+    assert!(!demanded, "no {}: run crates/playground/build", path.display());
+    eprintln!("SKIPPED: no {}; run crates/playground/build", path.display());
     None
 }
 
@@ -128,7 +128,7 @@ fn edges_at_a_pixel_decide_as_the_engine() {
 #[test]
 fn exact_probes_decide_as_the_engines() {
     let mut unsure = 0;
-    for family in offgrid::FAMILIES {
+    for family in unsnapped::FAMILIES {
         for case in (0..20).map(|index| family.case(7, index)) {
             for corners in &case.triangles {
                 let mut by_edges = Coverage::new(case.window, 0);
@@ -168,7 +168,7 @@ fn playground_draws_what_the_program_draws() {
     browser.open(&page, "");
     let (theirs, ours) = both(&mut browser, &json!({ "ask": "digest", "seed": 1, "cases": 1000 }));
     eprintln!("playground: {theirs}");
-    assert_eq!(theirs, ours, "run playground/build again after a change of the engines");
+    assert_eq!(theirs, ours, "run crates/playground/build again after a change of the engines");
     assert!(ours["fragments"].as_u64().unwrap() > 100_000, "{ours}");
     // The comparison can fail: other cases have another digest.
     let (other, _) = both(&mut browser, &json!({ "ask": "digest", "seed": 2, "cases": 1000 }));
@@ -462,7 +462,7 @@ fn playground_says_what_it_needs() {
     let folder = folder("playground-none");
     let (status, printed, complaint) = run(&folder, &[]);
     assert_eq!((status, printed.as_str()), (2, ""));
-    assert!(complaint.contains("playground/build"), "{complaint}");
+    assert!(complaint.contains("crates/playground/build"), "{complaint}");
     std::fs::write(folder.join("x.wasm"), "no module").unwrap();
     let (status, _, complaint) = run(&folder, &["--module", "x.wasm"]);
     assert_eq!(status, 2);

@@ -7,14 +7,14 @@
 use glam::DVec2;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestError, TestRng, TestRunner};
-use rasterproof::grid::{PixelRect, SubpixelPoint};
-use rasterproof::hazard::Triangle;
-use rasterproof::invariant::source::{
+use rasterproof_core::grid::{PixelRect, SubpixelPoint};
+use rasterproof_core::triangle::{LineEnd, PixelPoint, ScreenLine, ScreenTriangle, ScreenVertex};
+use rasterproof_invariants::source::{
     ClipInput, Fan, Input, LineInput, Position, Quad, TriangleInput,
 };
-use rasterproof::invariant::subject::Subject;
-use rasterproof::invariant::{self, CATALOGUE, Check, Invariant};
-use rasterproof::triangle::{LineEnd, PixelPoint, ScreenLine, ScreenTriangle, ScreenVertex};
+use rasterproof_invariants::subject::Subject;
+use rasterproof_invariants::{CATALOGUE, Check, Invariant};
+use rasterproof_verify::cases::Triangle;
 
 /// Side of the window of triangles, in pixels.
 const SIDE_PX: u32 = 16;
@@ -144,7 +144,7 @@ macro_rules! properties {
         $(#[test]
         fn $test() {
             let name = stringify!($test).replace('_', "-");
-            check(invariant::find(&name).expect("a name of the catalogue"));
+            check(rasterproof_invariants::find(&name).expect("a name of the catalogue"));
         })*
 
         #[test]
@@ -171,9 +171,9 @@ properties! {
 /// The same strategies find a planted fault, and the failure shrinks to small numbers.
 #[test]
 fn a_planted_fault_shrinks() {
-    let mutant = rasterproof::mutant::Mutant::find("exclusive-edges").expect("a mutant");
+    let mutant = rasterproof_faults::planted::Mutant::find("exclusive-edges").expect("a mutant");
     let subject = Subject::with(mutant);
-    let invariant = invariant::find("engines-agree").expect("an invariant");
+    let invariant = rasterproof_invariants::find("engines-agree").expect("an invariant");
     let strategy = inputs(&invariant.check).expect("triangles");
     let result = runner().run(&strategy, |input| {
         invariant.judge(&subject, &input).map(|_| ()).map_err(TestCaseError::fail)

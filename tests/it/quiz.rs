@@ -5,8 +5,8 @@ use std::io::Write as _;
 use std::path::PathBuf;
 use std::process::{Command, Output, Stdio};
 
-use rasterproof::quiz::page::{HEADINGS, section};
-use rasterproof::quiz::{Answer, CHAPTERS, Chapter, Language};
+use rasterproof_teaching::quiz::page::{HEADINGS, section};
+use rasterproof_teaching::quiz::{Answer, CHAPTERS, Chapter, Language};
 
 const RENEW: &str = "RASTERPROOF_RENEW";
 

@@ -4,15 +4,15 @@ use std::io::{BufRead, BufReader};
 
 use flate2::read::GzDecoder;
 use glam::DVec2;
-use rasterproof::contract::{Interpolate, Rasterize};
-use rasterproof::frame::{Coverage, Frame};
-use rasterproof::grid::{PixelRect, SubpixelPoint, snap};
-use rasterproof::hazard::Triangle;
-use rasterproof::lineup::Engine;
-use rasterproof::oracle::values::ExactTriangle;
-use rasterproof::pipeline::multisample::masks;
-use rasterproof::triangle::{ScreenTriangle, ScreenVertex};
-use rasterproof::verify::tolerance;
+use rasterproof_core::contract::{Interpolate, Rasterize};
+use rasterproof_core::frame::{Coverage, Frame};
+use rasterproof_core::grid::{PixelRect, SubpixelPoint, snap};
+use rasterproof_core::triangle::{ScreenTriangle, ScreenVertex};
+use rasterproof_registry::engines::Engine;
+use rasterproof_render::pipeline::multisample::masks;
+use rasterproof_verify::cases::Triangle;
+use rasterproof_verify::comparison::tolerance;
+use rasterproof_verify::oracle::values::ExactTriangle;
 use serde_json::Value;
 
 const ENGINES: [Engine; 3] = [Engine::Scanline, Engine::EdgeFunction, Engine::Oracle];

@@ -9,13 +9,13 @@ use std::io::Cursor;
 use glam::DVec2;
 use proptest::prelude::*;
 use rasterproof::cli::{self, Streams};
-use rasterproof::contract::{DrawLine, Interpolate, Rasterize, RasterizeExact};
-use rasterproof::frame::Coverage;
-use rasterproof::grid::PixelRect;
-use rasterproof::lineup::{ENTRIES, Engine, ExactEngine, LineEngine};
-use rasterproof::triangle::{
+use rasterproof_core::contract::{DrawLine, Interpolate, Rasterize, RasterizeExact};
+use rasterproof_core::frame::Coverage;
+use rasterproof_core::grid::PixelRect;
+use rasterproof_core::triangle::{
     FreeCorners, LineEnd, PixelPoint, ScreenLine, ScreenTriangle, ScreenVertex, check_value,
 };
+use rasterproof_registry::engines::{ENTRIES, Engine, ExactEngine, LineEngine};
 use rayon::prelude::*;
 
 /// SplitMix64, for streams of bits that do not shrink.
@@ -206,7 +206,7 @@ fn answers(name: &str, requests: &[u8]) -> Vec<String> {
         errors: &mut errors,
         progress: false,
         colour: false,
-        columns: cli::fold::USUAL,
+        columns: cli::wrap::USUAL,
         delivery: cli::Delivery::default(),
     };
     let words = ["rasterproof", "engine", name].map(str::to_owned);

@@ -6,24 +6,24 @@ use std::sync::Arc;
 use glam::{DMat4, DVec3, DVec4};
 use proptest::prelude::*;
 use proptest::test_runner::Config;
-use rasterproof::effects::plan::{Canvas, Clear, Order, Pieces, Plan, Samples};
-use rasterproof::effects::render::Rendered;
-use rasterproof::effects::{Effect, Effects, Mode};
-use rasterproof::frame::Frame;
-use rasterproof::grid::PixelRect;
-use rasterproof::lineup::Drawer;
-use rasterproof::pipeline::Counters;
-use rasterproof::pipeline::assemble::Cull;
-use rasterproof::pipeline::depth::DepthFormat;
-use rasterproof::pipeline::present::DoubleBuffer;
-use rasterproof::pipeline::shade::Light;
-use rasterproof::pipeline::target::{Antialias, Colour, Target};
-use rasterproof::pipeline::transform::{look_at, perspective};
-use rasterproof::report::frames;
-use rasterproof::scene::chapters::{SCENES, scene};
-use rasterproof::scene::{
+use rasterproof_core::frame::Frame;
+use rasterproof_core::grid::PixelRect;
+use rasterproof_registry::engines::Drawer;
+use rasterproof_render::effects::plan::{Canvas, Clear, Order, Pieces, Plan, Samples};
+use rasterproof_render::effects::render::Rendered;
+use rasterproof_render::effects::{Effect, Effects, Mode};
+use rasterproof_render::pipeline::Counters;
+use rasterproof_render::pipeline::assemble::Cull;
+use rasterproof_render::pipeline::depth::DepthFormat;
+use rasterproof_render::pipeline::present::DoubleBuffer;
+use rasterproof_render::pipeline::shade::Light;
+use rasterproof_render::pipeline::target::{Antialias, Colour, Target};
+use rasterproof_render::pipeline::transform::{look_at, perspective};
+use rasterproof_render::scene::chapters::{SCENES, scene};
+use rasterproof_render::scene::{
     Hidden, Item, Material, Mesh, Scene, Shading, meshes, random, shapes, textures,
 };
+use rasterproof_report::frame_comparison;
 use rayon::prelude::*;
 
 use crate::illustrations::headed;
@@ -70,7 +70,8 @@ fn scenes_are_the_same_by_both_rasterizers() {
             let [a, b] = &mut targets;
             let first = Drawer::Scanline.render(&scene, &Effects::ALWAYS, a).unwrap();
             let second = Drawer::EdgeFunction.render(&scene, &Effects::ALWAYS, b).unwrap();
-            let comparison = frames::compare((&first.picture, a), (&second.picture, b), None);
+            let comparison =
+                frame_comparison::compare((&first.picture, a), (&second.picture, b), None);
             assert!(comparison.agrees(), "{} {antialias:?}: {comparison:?}", scene.name);
             assert!(comparison.depths >= 4800);
             // One of the two has words of several widths.
@@ -91,7 +92,7 @@ fn scenes_look_as_kept() {
         });
         assert!(scanline == edges, "{}", entry.name);
         let head = format!("{}, by scanline and by edge-function: the same", entry.name);
-        let picture = headed(&head, &frames::rgb(&scanline));
+        let picture = headed(&head, &frame_comparison::rgb(&scanline));
         check_picture(&format!("scene-{}", entry.name), &picture);
     });
 }
@@ -611,7 +612,8 @@ fn torture_is_the_same_by_both() {
             let [a, b] = &mut targets;
             let first = Drawer::Scanline.render(&scene, &Effects::ALWAYS, a).unwrap();
             let second = Drawer::EdgeFunction.render(&scene, &Effects::ALWAYS, b).unwrap();
-            let comparison = frames::compare((&first.picture, a), (&second.picture, b), None);
+            let comparison =
+                frame_comparison::compare((&first.picture, a), (&second.picture, b), None);
             assert!(comparison.agrees(), "{k} {antialias:?}: {comparison:?}");
         }
     }

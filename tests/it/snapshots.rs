@@ -14,21 +14,21 @@ use glam::{DVec2, DVec3};
 use image::{Rgb, RgbImage};
 use insta::internals::SnapshotContents;
 use insta::{Comparator, Settings, Snapshot};
-use rasterproof::contract::Interpolate;
-use rasterproof::frame::{Coverage, Frame};
-use rasterproof::grid::{PixelRect, SubpixelPoint};
-use rasterproof::hazard::named::{Input, NamedCase};
-use rasterproof::hazard::{Case, Shape};
-use rasterproof::lineup::{Engine, LineEngine};
-use rasterproof::mutant::TriangleMutant;
 use rasterproof::next::NEXT;
-use rasterproof::raster::edge_function::EdgeFunction;
-use rasterproof::raster::scanline::Scanline;
-use rasterproof::report::panels::{self, Sheet};
-use rasterproof::report::{ascii, picture};
-use rasterproof::scene::named::{find, named};
-use rasterproof::triangle::{ScreenTriangle, ScreenVertex};
-use rasterproof::verify::{
+use rasterproof_core::contract::Interpolate;
+use rasterproof_core::frame::{Coverage, Frame};
+use rasterproof_core::grid::{PixelRect, SubpixelPoint};
+use rasterproof_core::raster::edge_function::EdgeFunction;
+use rasterproof_core::raster::scanline::Scanline;
+use rasterproof_core::triangle::{ScreenTriangle, ScreenVertex};
+use rasterproof_faults::planted::TriangleMutant;
+use rasterproof_registry::engines::{Engine, LineEngine};
+use rasterproof_render::scene::named::{find, named};
+use rasterproof_report::panels::{self, Sheet};
+use rasterproof_report::{ascii, picture};
+use rasterproof_verify::cases::named::{Input, NamedCase};
+use rasterproof_verify::cases::{Case, Shape};
+use rasterproof_verify::comparison::{
     Tally, engine_coverage, judge_case, line_coverage, oracle_coverage, oracle_pixels_each,
     tolerance,
 };
@@ -415,8 +415,8 @@ fn picture_of_a_verdict() {
 /// naive on the left, the oracle on the right.
 #[test]
 fn pictures_of_naive_versions() {
-    use rasterproof::mutant::LineMutant as L;
-    use rasterproof::mutant::TriangleMutant as T;
+    use rasterproof_faults::planted::LineMutant as L;
+    use rasterproof_faults::planted::TriangleMutant as T;
     let triangles = [
         ("half-integer", T::ExclusiveEdges),
         ("rectangle", T::InclusiveEdges),
@@ -461,7 +461,7 @@ fn each_check_runs_and_the_message_leads_on() {
 }
 
 fn naive(family: &str, mutant: &str, draw: impl Fn(&Case) -> (Coverage, Coverage)) {
-    let family = rasterproof::hazard::families().find(|f| f.name == family).unwrap();
+    let family = rasterproof_verify::cases::families().find(|f| f.name == family).unwrap();
     // The case with the most wrong pixels among the first few hundred.
     let worst = (0..400)
         .map(|index| family.case(1, index))

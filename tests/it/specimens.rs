@@ -2,16 +2,16 @@
 //! recorded, and not by their harmless case.
 
 use glam::DVec3;
-use rasterproof::lineup::{self, Specimen};
-use rasterproof::report::sheet::{SHEETS, alone, sheet};
-use rasterproof::report::specimens::{detail, table};
-use rasterproof::specimen::book_formulas::{value_f32, value_f32_repaired};
-use rasterproof::specimen::catalogue::{CARDS, RECORDED, find};
-use rasterproof::specimen::games101_depth::published;
-use rasterproof::specimen::scene::Setting;
-use rasterproof::verify::specimens::{
+use rasterproof_faults::published::book_formulas::{value_f32, value_f32_repaired};
+use rasterproof_faults::published::catalogue::{CARDS, RECORDED, find};
+use rasterproof_faults::published::games101_depth::published;
+use rasterproof_faults::published::scene::Setting;
+use rasterproof_registry::engines::{self, Specimen};
+use rasterproof_registry::published_check::{
     SpecimenReport, exposing_name, judge_recorded, survey, wrong,
 };
+use rasterproof_report::specimen_sheet::{SHEETS, alone, sheet};
+use rasterproof_report::specimens::{detail, table};
 
 use crate::snapshots::{check_sheet, each, settings};
 
@@ -36,11 +36,11 @@ fn specimens_agree_on_their_harmless_case() {
 /// Every specimen of the line-up has a card, and every card that is no scene an engine's name.
 #[test]
 fn specimens_have_cards() {
-    for entry in &lineup::SPECIMENS {
+    for entry in &engines::SPECIMENS {
         assert!(find(entry.name).is_some(), "{} has no card", entry.name);
     }
-    let spoken = CARDS.iter().filter(|card| lineup::find(card.name).is_some()).count();
-    assert_eq!((spoken, CARDS.len()), (lineup::SPECIMENS.len(), 26));
+    let spoken = CARDS.iter().filter(|card| engines::find(card.name).is_some()).count();
+    assert_eq!((spoken, CARDS.len()), (engines::SPECIMENS.len(), 26));
 }
 
 fn surveyed(name: &str) -> SpecimenReport {
@@ -156,9 +156,9 @@ fn specimen_depth_repair_is_wrong_by_twice_the_bound() {
 /// Of the 4,225 lines from (0, 0) to (x, y), 0 <= x, y <= 64, 1,428 change when reversed.
 #[test]
 fn specimen_bresenham_depends_on_the_direction() {
-    use rasterproof::grid::PixelRect;
-    use rasterproof::specimen::PublishedLine as _;
-    let Some(Specimen::Line(specimen)) = lineup::find("sysu-bresenham").unwrap().specimen else {
+    use rasterproof_core::grid::PixelRect;
+    use rasterproof_faults::published::PublishedLine as _;
+    let Some(Specimen::Line(specimen)) = engines::find("sysu-bresenham").unwrap().specimen else {
         panic!("a line drawer")
     };
     let drawn = |from: [f64; 2], to: [f64; 2]| {
@@ -178,7 +178,7 @@ fn specimen_bresenham_depends_on_the_direction() {
 /// just the ring's: none of them reverses, while of the ring's own the ones about x and y do.
 #[test]
 fn specimen_turns_mix_two_conventions() {
-    use rasterproof::specimen::book_rotate::{Turn, published, repaired};
+    use rasterproof_faults::published::book_rotate::{Turn, published, repaired};
     let quarter = std::f64::consts::FRAC_PI_2;
     let is = |p: DVec3, q: DVec3| (p - q).length() < 1e-15;
     assert!(is(published(Turn::Z, quarter, DVec3::X), DVec3::Y));

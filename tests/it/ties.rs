@@ -4,16 +4,16 @@
 use std::process::Command;
 
 use glam::{DMat4, DVec2, DVec3};
-use rasterproof::effects::{Effects, render};
-use rasterproof::frame::Frame;
-use rasterproof::lineup::{Drawer, Engine};
-use rasterproof::mutant::TriangleMutant;
-use rasterproof::pipeline::depth::DepthFormat;
-use rasterproof::pipeline::target::{Antialias, Colour, Target};
-use rasterproof::pipeline::transform::perspective;
-use rasterproof::report::frames::{self, Comparison};
-use rasterproof::scene::{Corner, Item, Material, Mesh, Scene, chapters};
-use rasterproof::verify::ties::{self, Drawn};
+use rasterproof_core::frame::Frame;
+use rasterproof_faults::planted::TriangleMutant;
+use rasterproof_registry::engines::{Drawer, Engine};
+use rasterproof_registry::undecided::{self, Drawn};
+use rasterproof_render::effects::{Effects, render};
+use rasterproof_render::pipeline::depth::DepthFormat;
+use rasterproof_render::pipeline::target::{Antialias, Colour, Target};
+use rasterproof_render::pipeline::transform::perspective;
+use rasterproof_render::scene::{Corner, Item, Material, Mesh, Scene, chapters};
+use rasterproof_report::frame_comparison::{self, Comparison};
 use rayon::prelude::*;
 
 /// A square, split along one diagonal or the other.
@@ -35,7 +35,7 @@ fn square(diagonal: usize, colour: DVec3, model: DMat4) -> Item {
 
 /// A red square and a blue one, turned alike, `behind` apart.
 fn squares(pitch_degrees: f64, behind: f64) -> Scene {
-    let turn = rasterproof::angle::turn_x(pitch_degrees.to_radians());
+    let turn = rasterproof_core::angle::turn_x(pitch_degrees.to_radians());
     let model = |z: f64| DMat4::from_translation(DVec3::Z * (4.0 + z)) * turn;
     let projection = perspective(0.7, 4.0 / 3.0, 1.0, 10.0).unwrap();
     let mut scene = Scene::new("squares", "a square twice", projection);
@@ -65,9 +65,9 @@ fn compare(
 
 fn judge(scene: &Scene, engines: [Engine; 2], drawn: &[(Frame<Colour>, Target); 2]) -> Comparison {
     let frames = [0, 1].map(|i| Drawn { engine: engines[i], target: &drawn[i].1 });
-    let ties = ties::find(scene, frames).unwrap();
+    let ties = undecided::find(scene, frames).unwrap();
     let [(a, a_target), (b, b_target)] = drawn;
-    frames::compare((a, a_target), (b, b_target), Some(&ties))
+    frame_comparison::compare((a, a_target), (b, b_target), Some(&ties))
 }
 
 const SMOOTHINGS: [Antialias; 3] =

@@ -2,21 +2,23 @@
 //! the other engines exactly, and no trace of tiles, threads or instruction sets.
 
 use glam::{DVec2, DVec3};
-use rasterproof::contract::Interpolate;
-use rasterproof::effects::Effects;
-use rasterproof::frame::Frame;
-use rasterproof::grid::PixelRect;
-use rasterproof::hazard::{Shape, Triangle, triangles::FAMILIES};
-use rasterproof::lineup::Drawer;
-use rasterproof::oracle::Oracle;
-use rasterproof::pipeline::multisample::{SAMPLES, moved};
-use rasterproof::pipeline::target::{Antialias, Colour, Target};
-use rasterproof::scene::chapters::{self, SCENES};
-use rasterproof::scene::{Hidden, Material, Scene, meshes, random};
-use rasterproof::tile::Tiles;
-use rasterproof::tiled::{self, Samples, planes::Bounded};
-use rasterproof::triangle::Fragment;
-use rasterproof::verify::tolerance;
+use rasterproof_core::contract::Interpolate;
+use rasterproof_core::frame::Frame;
+use rasterproof_core::grid::PixelRect;
+use rasterproof_core::triangle::Fragment;
+use rasterproof_registry::engines::Drawer;
+use rasterproof_render::effects::Effects;
+use rasterproof_render::pipeline::multisample::{SAMPLES, moved};
+use rasterproof_render::pipeline::target::{Antialias, Colour, Target};
+use rasterproof_render::scene::chapters::{self, SCENES};
+use rasterproof_render::scene::{Hidden, Material, Scene, meshes, random};
+use rasterproof_tiles::coverage::Tiles;
+use rasterproof_tiles::frames::planes::Bounded;
+use rasterproof_tiles::frames::{self, Samples};
+use rasterproof_verify::cases::triangles::FAMILIES;
+use rasterproof_verify::cases::{Shape, Triangle};
+use rasterproof_verify::comparison::tolerance;
+use rasterproof_verify::oracle::Oracle;
 
 /// The centre of a pixel, and the four samples, in 1/16 px.
 const PLACES: [(i32, i32); 5] = [(8, 8), SAMPLES[0], SAMPLES[1], SAMPLES[2], SAMPLES[3]];
@@ -111,7 +113,7 @@ fn coverage_is_that_of_the_engines() {
             item.material = Material::default();
         }
         for samples in [Samples::One, Samples::Four] {
-            let tiles = tiled::render(&scene, 201, 134, samples).unwrap();
+            let tiles = frames::render(&scene, 201, 134, samples).unwrap();
             let engine = by_scanline(&scene, 201, 134, samples);
             assert!(tiles == engine, "{} with {samples:?}", scene.name);
         }
@@ -124,7 +126,7 @@ fn neither_threads_nor_instructions_leave_a_trace() {
     for scene in scenes() {
         let draw = |threads: usize, tiles: Tiles, samples: Samples| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            pool.install(|| tiled::render_in(tiles, &scene, 201, 134, samples).unwrap())
+            pool.install(|| frames::render_in(tiles, &scene, 201, 134, samples).unwrap())
         };
         for samples in [Samples::One, Samples::Four] {
             let one = draw(1, Tiles::default(), samples);
@@ -158,7 +160,7 @@ fn painted(names: &[(&str, [u8; 3])], hidden: Hidden) -> Scene {
 fn the_order_of_pieces_is_kept() {
     let (a, b) = (("knot-4000", [250, 10, 20]), ("bumps-4000", [0, 200, 30]));
     for samples in [Samples::One, Samples::Four] {
-        let draw = |scene: &Scene| tiled::render(scene, 201, 134, samples).unwrap();
+        let draw = |scene: &Scene| frames::render(scene, 201, 134, samples).unwrap();
         let sorted = painted(&[a, b, ("torus-4000", [9, 90, 240])], Hidden::Painter);
         assert!(draw(&sorted) == by_scanline(&sorted, 201, 134, samples), "{samples:?}");
         let (once, twice) = ([a], [a, (a.0, [5, 6, 7])]);
@@ -177,12 +179,12 @@ fn sizes_that_cut_tiles() {
     }
     for (width, height) in [(1, 1), (15, 64), (64, 64), (65, 63), (128, 1), (130, 129)] {
         for samples in [Samples::One, Samples::Four] {
-            let tiles = tiled::render(&scene, width, height, samples).unwrap();
+            let tiles = frames::render(&scene, width, height, samples).unwrap();
             let engine = by_scanline(&scene, width, height, samples);
             assert!(tiles == engine, "{width} x {height} with {samples:?}");
             // Over a picture that is kept nothing is left of it.
             let mut kept = Frame::new(PixelRect::window(width, height), [9; 4]);
-            tiled::render_into(Tiles::default(), &scene, &mut kept, samples).unwrap();
+            frames::render_into(Tiles::default(), &scene, &mut kept, samples).unwrap();
             assert!(kept == engine, "{width} x {height} with {samples:?}, kept");
         }
     }

@@ -1,14 +1,15 @@
 //! The tile engine against the oracle in every instruction set of this machine, at the borders of
 //! its words, and what is painted from its pieces. Lists and their order are invariant 47.
 
-use rasterproof::contract::Rasterize;
-use rasterproof::frame::{Coverage, Frame};
-use rasterproof::grid::{PixelRect, SubpixelPoint};
-use rasterproof::hazard::{Shape, triangles::FAMILIES};
-use rasterproof::oracle::Oracle;
-use rasterproof::paint;
-use rasterproof::tile::{CoverList, NARROW_EXTENT, NEAR_EXTENT, Piece, Tiles};
-use rasterproof::triangle::Corners;
+use rasterproof_core::contract::Rasterize;
+use rasterproof_core::frame::{Coverage, Frame};
+use rasterproof_core::grid::{PixelRect, SubpixelPoint};
+use rasterproof_core::triangle::Corners;
+use rasterproof_tiles::coverage::{CoverList, NARROW_EXTENT, NEAR_EXTENT, Piece, Tiles};
+use rasterproof_tiles::paint;
+use rasterproof_verify::cases::Shape;
+use rasterproof_verify::cases::triangles::FAMILIES;
+use rasterproof_verify::oracle::Oracle;
 
 fn oracle(corners: Corners, window: PixelRect) -> Coverage {
     let mut hits = Coverage::new(window, 0);

@@ -1,6 +1,6 @@
 //! Line conventions are recognised: made-up drawers for every hypothesis, and noise.
 
-use rasterproof::convention::{
+use rasterproof_convention::{
     AskLine, Confidence, End, Ends, LineConvention, LineQuestion, LineRounding, Steps,
     diagnose_lines,
 };
@@ -202,7 +202,7 @@ fn conventions_of_noisy_lines_are_unexplained() {
         assert!(found.sentence().starts_with("Unexplained"));
         let question = LineQuestion {
             ends: [[1, 1], [5, 3]],
-            window: rasterproof::grid::PixelRect::window(8, 8),
+            window: rasterproof_core::grid::PixelRect::window(8, 8),
         };
         assert_eq!(found.expected(&question), None);
     }

@@ -5,14 +5,14 @@ mod recorded;
 mod specimens;
 mod synthetic;
 
-use rasterproof::convention::{
+use rasterproof_convention::{
     Ask, Confidence, Convention, Diagnosis, End, Ends, Known, LineConvention, LineRounding,
     LineTie, Mirror, Pattern, Quantum, Question, Rounding, Scan, Shape, Steps, Ties, Windings,
     diagnose, diagnose_lines,
 };
-use rasterproof::frame::Coverage;
-use rasterproof::grid::{PixelRect, SubpixelPoint};
-use rasterproof::report::phrases::chinese;
+use rasterproof_core::frame::Coverage;
+use rasterproof_core::grid::{PixelRect, SubpixelPoint};
+use rasterproof_report::phrases::chinese;
 use rayon::prelude::*;
 
 use recorded::{Recorder, Recording};

@@ -1,15 +1,15 @@
 //! What the published algorithms follow, recognised from their answers in this process.
 
-use rasterproof::contract::Rasterize;
-use rasterproof::convention::{
+use rasterproof_convention::{
     Ask, Confidence, Convention, Diagnosis, Known, Quantum, Question, Rounding, Shape as Drawn,
     Windings, diagnose,
 };
-use rasterproof::frame::Coverage;
-use rasterproof::hazard::{self, Shape};
-use rasterproof::lineup::{self, Specimen, TriangleSpecimen};
-use rasterproof::oracle::Oracle;
-use rasterproof::specimen::{Published, from_lattice};
+use rasterproof_core::contract::Rasterize;
+use rasterproof_core::frame::Coverage;
+use rasterproof_faults::published::{Published, from_lattice};
+use rasterproof_registry::engines::{self, Specimen, TriangleSpecimen};
+use rasterproof_verify::cases::{self, Shape};
+use rasterproof_verify::oracle::Oracle;
 
 struct InProcess(TriangleSpecimen);
 
@@ -18,7 +18,7 @@ impl Ask for InProcess {
         let draw = |question: &Question| {
             let mut picture = Coverage::new(question.window, 0);
             let triangle = from_lattice(question.corners);
-            let mut hit = |span: rasterproof::triangle::Span| {
+            let mut hit = |span: rasterproof_core::triangle::Span| {
                 picture.hit(span.y_px, span.x0_px, span.x1_px);
             };
             self.0.cover(&triangle, question.window, &mut hit).ok().map(|()| picture)
@@ -28,7 +28,7 @@ impl Ask for InProcess {
 }
 
 fn diagnosed(name: &str) -> Diagnosis {
-    let Some(Specimen::Triangle(specimen)) = lineup::find(name).unwrap().specimen else {
+    let Some(Specimen::Triangle(specimen)) = engines::find(name).unwrap().specimen else {
         panic!("{name} draws no triangles")
     };
     diagnose(&mut InProcess(specimen), &Known::default(), 1)
@@ -64,7 +64,7 @@ fn conventions_of_specimens_are_named() {
 #[test]
 fn conventions_own_is_the_oracles() {
     let mut compared = 0;
-    for family in hazard::families() {
+    for family in cases::families() {
         for case in (0..40).map(|index| family.case(3, index)) {
             let Shape::Triangles { list, .. } = case.shape else { continue };
             for corners in list.iter().map(|triangle| triangle.corners()) {

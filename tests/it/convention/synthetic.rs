@@ -1,8 +1,8 @@
 //! Rasterizers made up for the tests, one for every hypothesis: written from the meaning of each
 //! convention, in floats that are exact for such small numbers, and without the crate's own code.
 
-use rasterproof::convention::{Ask, LineTie, Mirror, Pattern, Question, Rounding, Shape, Windings};
-use rasterproof::frame::Coverage;
+use rasterproof_convention::{Ask, LineTie, Mirror, Pattern, Question, Rounding, Shape, Windings};
+use rasterproof_core::frame::Coverage;
 
 /// What a made-up rasterizer does on an edge.
 #[derive(Clone, Copy, Debug, PartialEq)]

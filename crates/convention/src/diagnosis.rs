@@ -1,0 +1,249 @@
+//! What was found: the convention, how much it explains, and how sure that is.
+
+use serde::Serialize;
+
+use super::bench::{Answer, Bench, Question};
+use super::candidate::Candidate;
+use super::fit::Fit;
+use super::mirror::Mirror;
+use super::quantum::Quantum;
+use super::rule::{Convention, Ties, Windings};
+use super::scan::Scan;
+use super::search::Seen;
+use super::shape::Shape;
+use super::ties::{Compass, Count};
+use super::upright::mirror_of;
+use super::{Ask, Known};
+use rasterproof_core::frame::Coverage;
+
+/// How sure the convention is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub enum Confidence {
+    /// It explains every fresh triangle in general position, and no other hypothesis does.
+    Certain,
+    /// It explains nearly all, or all but not alone: see [`Diagnosis::alternatives`].
+    Likely,
+    /// No hypothesis explains the answers. The nearest one is kept, and is not the convention.
+    Unexplained,
+}
+
+/// How far answers agree with a convention.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Agreement {
+    /// Triangles whose pixels are exactly the expected ones.
+    pub triangles: Count,
+    /// Pixels expected in all.
+    pub covered: u64,
+    /// Pixels expected and not drawn.
+    pub missing: u64,
+    /// Pixels drawn and not expected.
+    pub extra: u64,
+}
+
+impl Agreement {
+    fn of(convention: &Convention, answers: &[Answer], bench: &Bench<'_>) -> Self {
+        let mut sum = Self::default();
+        for answer in answers {
+            let Some(mask) = convention.mask(&answer.corners, bench.window) else { continue };
+            let (missing, extra) = (mask.beyond(&answer.drawn), answer.drawn.beyond(&mask));
+            sum.triangles.add(missing + extra == 0);
+            sum.covered += u64::from(mask.count());
+            sum.missing += u64::from(missing);
+            sum.extra += u64::from(extra);
+        }
+        sum
+    }
+}
+
+/// The agreement on triangles in general position, and on those with samples on their edges.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Share {
+    /// In general position.
+    pub general: Agreement,
+    /// With samples on their edges.
+    pub ties: Agreement,
+}
+
+impl Share {
+    /// Whether every triangle is as expected.
+    fn is_exact(&self) -> bool {
+        let is_exact = |a: &Agreement| a.triangles.drawn == a.triangles.of;
+        is_exact(&self.general) && is_exact(&self.ties)
+    }
+}
+
+/// The diagnosis of a rasterizer.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Diagnosis {
+    /// What it does; the nearest hypothesis where that is not known.
+    pub convention: Convention,
+    /// How sure that is.
+    pub confidence: Confidence,
+    /// Others that explain the answers equally well, the simplest first.
+    pub alternatives: Vec<Convention>,
+    /// The samples on edges.
+    pub compass: Compass,
+    /// Triangles without area that leave pixels.
+    pub flat: Count,
+    /// Triangles that change when their corners are rotated.
+    pub rotated: Count,
+    /// Triangles that change when their winding is reversed; of none, where one winding is drawn.
+    pub reversed: Count,
+    /// Triangles with a pixel that was hit more than once; of none, where that cannot be seen.
+    pub twice: Count,
+    /// Agreement with the convention that was declared.
+    pub as_declared: Share,
+    /// Agreement with the convention that was found, on answers that it was not found from.
+    pub as_found: Share,
+    /// Triangles asked for.
+    pub asked: u64,
+    /// Of these, those that were refused or not answered.
+    pub refused: u64,
+}
+
+/// From this share of triangles on, a convention that does not explain all is likely.
+const LIKELY_PERCENT: f64 = 95.0;
+
+/// Triangles that hypotheses are fitted to, and fresh ones that the best is tried on.
+const FITTED: usize = 80;
+const FRESH: usize = 150;
+
+/// Questions a rasterizer until its convention is known. Exact, and the same for the same seed and
+/// answers. Asks about 700 triangles.
+pub fn diagnose(ask: &mut dyn Ask, known: &Known, seed: u64) -> Diagnosis {
+    let mut silent = Diagnosis::nothing(known);
+    let Some(mut bench) = Bench::new(ask, known, seed) else { return silent };
+    let (draws, pictures) = bench.windings();
+    bench.mirror = mirror_of(&pictures, bench.window);
+    if draws == Windings::Neither {
+        silent.convention.draws = draws;
+        (silent.asked, silent.refused) = (bench.asked, bench.refused);
+        return silent;
+    }
+    let flips = bench.flips(draws);
+    let fitted = bench.generals(FITTED, draws);
+    let seen = Seen { answers: &fitted, window: bench.window, draws };
+    let scored = Fit { seen, flips, grain: bench.grain }.hypotheses();
+    let candidates = bench.separate(&scored, draws);
+    let Some(&candidate) = candidates.first() else { return silent };
+    let mut found = bench.conclude(&candidate, &candidates[1..], &fitted);
+    found.convention.mirror = bench.mirror;
+    found.alternatives.iter_mut().for_each(|other| other.mirror = bench.mirror);
+    Diagnosis { asked: bench.asked, refused: bench.refused, ..found }
+}
+
+impl Bench<'_> {
+    /// Everything that is asked once a hypothesis stands.
+    fn conclude(
+        &mut self,
+        candidate: &Candidate,
+        others: &[Candidate],
+        fitted: &[Answer],
+    ) -> Diagnosis {
+        let draws = candidate.draws;
+        // One set for the rule, one to try it on.
+        let questions = self.tie_questions(candidate, 40);
+        let mut ties = self.draw(&questions);
+        ties.extend(fitted);
+        let questions = self.tie_questions(candidate, 20);
+        let tried = self.draw(&questions);
+        let compass = self.compass(candidate, &ties);
+        let flat = self.flat();
+        let convention = |candidate: &Candidate, ties: Ties| Convention {
+            draws,
+            quantum: candidate.quantum,
+            shape: candidate.shape,
+            ties,
+            mirror: Mirror::None,
+            flat: flat.drawn > 0,
+        };
+        let mut found = convention(candidate, compass.ties());
+        let fresh = self.generals(FRESH, draws);
+        let share = |convention: &Convention, bench: &Self| Share {
+            general: Agreement::of(convention, &fresh, bench),
+            ties: Agreement::of(convention, &tried, bench),
+        };
+        let mut as_found = share(&found, self);
+        let mut others = others;
+        // Ties without a rule: the scan conversion of a library may say why.
+        if !as_found.is_exact() {
+            let scan = |scan| Candidate { draws, quantum: Quantum::NONE, shape: Shape::Scan(scan) };
+            let fits = |scan: &Candidate| scan.errors(&ties, self.window, 0) == 0;
+            let scans = Scan::ALL.map(scan).into_iter().filter(fits);
+            for scan in scans.map(|scan| convention(&scan, compass.ties())) {
+                let as_scan = share(&scan, self);
+                if as_scan.is_exact() {
+                    (found, as_found, others) = (scan, as_scan, &[]);
+                }
+            }
+        }
+        // Answers are taken back from their mirror, so what is declared is put into it.
+        let as_declared = share(&Convention { mirror: self.mirror, ..self.known.declared }, self);
+        let mut twice = Count::default();
+        if !self.known.mask {
+            fresh.iter().chain(&tried).for_each(|answer| twice.add(!answer.twice.is_empty()));
+        }
+        let ordered: Vec<_> =
+            fresh.iter().take(15).chain(tried.iter().take(25)).map(|a| a.corners).collect();
+        let [rotated, reversed] = self.orders(&ordered, draws);
+        let alternatives: Vec<_> = others
+            .iter()
+            .filter(|other| !candidate.is_near(other))
+            .map(|other| convention(other, compass.ties()))
+            .collect();
+        Diagnosis {
+            convention: found,
+            confidence: confidence(&as_found, &alternatives),
+            alternatives,
+            compass,
+            flat,
+            rotated,
+            reversed,
+            twice,
+            as_declared,
+            as_found,
+            asked: 0,
+            refused: 0,
+        }
+    }
+}
+
+fn confidence(found: &Share, alternatives: &[Convention]) -> Confidence {
+    let exact = found.general.triangles;
+    if exact.of > 0 && exact.drawn == exact.of && alternatives.is_empty() {
+        Confidence::Certain
+    } else if exact.percent().is_some_and(|percent| percent >= LIKELY_PERCENT) {
+        Confidence::Likely
+    } else {
+        Confidence::Unexplained
+    }
+}
+
+impl Diagnosis {
+    /// Of a program that leaves nothing to see.
+    fn nothing(known: &Known) -> Self {
+        Self {
+            convention: known.declared,
+            confidence: Confidence::Unexplained,
+            alternatives: Vec::new(),
+            compass: Compass::default(),
+            flat: Count::default(),
+            rotated: Count::default(),
+            reversed: Count::default(),
+            twice: Count::default(),
+            as_declared: Share::default(),
+            as_found: Share::default(),
+            asked: 0,
+            refused: 0,
+        }
+    }
+
+    /// The pixels that the convention expects, to judge again by what was found. None where it is
+    /// not known, or says nothing.
+    #[must_use]
+    pub fn expected(&self, question: &Question) -> Option<Coverage> {
+        (self.confidence != Confidence::Unexplained)
+            .then(|| self.convention.cover(&question.corners, question.window))
+            .flatten()
+    }
+}

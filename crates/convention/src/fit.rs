@@ -1,0 +1,177 @@
+//! Which grid and which shape explain the answers: hypotheses in order of simplicity, their
+//! parameters bounded by where edges flip.
+
+use super::candidate::Candidate;
+use super::general::Flip;
+use super::outline::LineTie;
+use super::quantum::{Quantum, Rounding};
+use super::samples::Pattern;
+use super::scan::Scan;
+use super::search::{Range, Scored, Search, Seen};
+use super::shape::Shape;
+use rasterproof_core::arrays::Each as _;
+
+/// Grids whose search goes on after the first look.
+const GRIDS: usize = 6;
+
+/// What hypotheses are made from.
+pub(super) struct Fit<'a> {
+    pub(super) seen: Seen<'a>,
+    pub(super) flips: [Option<Flip>; 4],
+    /// Subpixels between neighbouring coordinates that may be asked.
+    pub(super) grain: i32,
+}
+
+impl<'a> Fit<'a> {
+    /// Hypotheses with their wrong pixels, the best first: of the kinds up to the simplest that
+    /// explains all, or of all kinds and, where none does, the scan conversions of libraries.
+    pub(super) fn hypotheses(&self) -> Vec<Scored> {
+        let kinds: [fn(&Self, Quantum) -> Vec<Search<'a>>; 5] =
+            [Self::points, Self::rows, Self::samples, Self::reaches, Self::shares];
+        let mut found = Vec::new();
+        for (number, kind) in kinds.iter().enumerate() {
+            let mut searches = Vec::new();
+            for quantum in self.quanta() {
+                searches.extend(kind(self, quantum));
+            }
+            searches.sort_by_key(Search::least);
+            for search in searches.into_iter().take(GRIDS) {
+                found.extend(search.finish());
+            }
+            if number == 1 {
+                found.extend(self.outlines());
+            }
+            if found.iter().any(|(errors, _)| *errors == 0) {
+                break;
+            }
+        }
+        if found.iter().all(|(errors, _)| *errors > 0) {
+            found.extend(self.scans());
+        }
+        found.sort_by_key(|(errors, candidate)| (*errors, candidate.rank()));
+        found
+    }
+
+    /// Grids coarser than that of the questions. What rounds toward zero looks like what rounds
+    /// down until corners are negative: see [`super::bench::Bench::separate`].
+    fn quanta(&self) -> Vec<Quantum> {
+        let ways = [Rounding::Near, Rounding::HalfEven, Rounding::Down];
+        let steps = [4, 16, 64, 256].into_iter().filter(|&step| step > self.grain);
+        std::iter::once(Quantum::NONE)
+            .chain(steps.flat_map(|step| ways.each(|rounding| Quantum { step, rounding })))
+            .collect()
+    }
+
+    /// The positions between which an edge flips, on the grid.
+    fn flip(&self, which: usize, quantum: Quantum) -> Range {
+        let base = self.seen.window.x1 / 2 * 256;
+        let at = |sub: i32| (quantum.apply(base + sub) - i64::from(base)) as i32;
+        self.flips[which].map_or(Range::of(-256, 512), |f| Range::of(at(f.low), at(f.high)))
+    }
+
+    fn search(
+        &self,
+        quantum: Quantum,
+        ranges: &[Range],
+        make: fn(&[i32]) -> Shape,
+    ) -> Vec<Search<'a>> {
+        vec![Search::new(self.seen, quantum, ranges, make)]
+    }
+
+    fn points(&self, quantum: Quantum) -> Vec<Search<'a>> {
+        let [left, right, top, bottom] = [0, 1, 2, 3].map(|i| self.flip(i, quantum));
+        let (Some(x), Some(y)) = (left.meet(right), top.meet(bottom)) else { return Vec::new() };
+        let mut found = self.search(quantum, &[x, y], |v| Shape::Point { x: v[0], y: v[1] });
+        if quantum.step == 4 {
+            let [x, y] = [x, y].each(|range| Range { finest: 4, ..range });
+            found.extend(self.search(quantum, &[x, y], |v| Shape::Stepped { x: v[0], y: v[1] }));
+        }
+        found
+    }
+
+    fn rows(&self, quantum: Quantum) -> Vec<Search<'a>> {
+        let [left, right, top, bottom] = [0, 1, 2, 3].map(|i| self.flip(i, quantum));
+        let Some(y) = top.meet(bottom) else { return Vec::new() };
+        let make = |v: &[i32]| Shape::Rows { left: v[0], right: v[1], y: v[2] };
+        self.search(quantum, &[left, right, y], make)
+    }
+
+    fn outlines(&self) -> Vec<Scored> {
+        let quanta = self.quanta().into_iter().filter(|q| q.step.max(self.grain) == 256);
+        let Seen { answers, window, draws } = self.seen;
+        quanta
+            .flat_map(|quantum| LineTie::ALL.map(|tie| (quantum, Shape::Outline(tie))))
+            .map(|(quantum, shape)| Candidate { draws, quantum, shape })
+            .map(|candidate| (candidate.errors(answers, window, u32::MAX), candidate))
+            .collect()
+    }
+
+    /// Those that explain everything: what is nearly one of them is none of them.
+    fn scans(&self) -> Vec<Scored> {
+        let Seen { answers, window, draws } = self.seen;
+        Scan::ALL
+            .map(|scan| Candidate { draws, quantum: Quantum::NONE, shape: Shape::Scan(scan) })
+            .into_iter()
+            .filter(|candidate| candidate.errors(answers, window, 0) == 0)
+            .map(|candidate| (0, candidate))
+            .collect()
+    }
+
+    /// The middle between the flips of two opposite edges, and half their distance.
+    fn middle(&self, quantum: Quantum, axis: usize) -> [Range; 2] {
+        let [first, second] = [2 * axis, 2 * axis + 1].each(|i| self.flip(i, quantum));
+        let half = |v: i32| v.div_euclid(2);
+        [
+            Range::of(half(first.low + second.low), half(first.high + second.high + 1)),
+            Range::of(half(first.low - second.high), half(first.high - second.low + 1)),
+        ]
+    }
+
+    /// Four samples about a middle, of which at least one to four are covered.
+    fn samples(&self, quantum: Quantum) -> Vec<Search<'a>> {
+        let [[x, _], [y, _]] = [0, 1].each(|axis| self.middle(quantum, axis));
+        let makes: [fn(&[i32]) -> Shape; 2] =
+            [|v| four(v, Pattern::Square), |v| four(v, Pattern::Rotated)];
+        let least = Range { low: 1, high: 4, finest: 1 };
+        self.search_each(quantum, &[x, y, least], makes)
+    }
+
+    fn reaches(&self, quantum: Quantum) -> Vec<Search<'a>> {
+        let [[x, reach], [y, down]] = [0, 1].each(|axis| self.middle(quantum, axis));
+        let Some(reach) = reach.meet(down).and_then(|r| r.meet(Range::of(1, 512))) else {
+            return Vec::new();
+        };
+        let makes: [fn(&[i32]) -> Shape; 2] = [
+            |v| Shape::Reach { x: v[0], y: v[1], reach: v[2], square: true },
+            |v| Shape::Reach { x: v[0], y: v[1], reach: v[2], square: false },
+        ];
+        self.search_each(quantum, &[x, y, reach], makes)
+    }
+
+    /// Two kinds of shapes with the same ranges.
+    fn search_each(
+        &self,
+        quantum: Quantum,
+        ranges: &[Range],
+        makes: [fn(&[i32]) -> Shape; 2],
+    ) -> Vec<Search<'a>> {
+        makes.map(|make| Search::new(self.seen, quantum, ranges, make)).into()
+    }
+
+    fn shares(&self, quantum: Quantum) -> Vec<Search<'a>> {
+        let [[x, reach], [y, down]] = [0, 1].each(|axis| self.middle(quantum, axis));
+        let Some(reach) = reach.meet(down).and_then(|r| r.meet(Range::of(-128, 126))) else {
+            return Vec::new();
+        };
+        // An upright edge leaves the share 1/2 - reach/256 px of a pixel.
+        let percent = |reach: i32| (100 * (128 - reach)).div_euclid(256);
+        let low = percent(reach.high).max(1);
+        let high = (percent(reach.low) + 1).min(100);
+        let make = |v: &[i32]| Shape::Share { x: v[0], y: v[1], percent: v[2] };
+        self.search(quantum, &[x, y, Range { low, high, finest: 1 }], make)
+    }
+}
+
+fn four(v: &[i32], pattern: Pattern) -> Shape {
+    Shape::Samples { x: v[0], y: v[1], pattern, least: v[2] as u8 }
+}

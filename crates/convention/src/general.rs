@@ -1,0 +1,202 @@
+//! The questions that need no hypothesis: triangles in general position, edges that are moved until
+//! a pixel flips, orders of the corners, triangles without area.
+
+use super::bench::{Answer, Bench};
+use super::place::turn;
+use super::rule::Windings;
+use super::{Count, Quantum};
+use rasterproof_core::arrays::Each as _;
+use rasterproof_core::grid::SubpixelPoint;
+use rasterproof_core::triangle::Corners;
+
+/// The six orders of three corners: the even ones first.
+pub(super) const ORDERS: [[usize; 3]; 6] =
+    [[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 2, 1], [2, 1, 0], [1, 0, 2]];
+
+/// Twice the area; positive where the corners turn clockwise on the screen.
+pub(super) fn area(corners: &Corners) -> i128 {
+    turn(&Quantum::NONE.corners(corners))
+}
+
+/// The corners in an order that is drawn.
+pub(super) fn drawable(mut corners: Corners, draws: Windings) -> Corners {
+    if !draws.draws(area(&corners) > 0) {
+        corners.swap(1, 2);
+    }
+    corners
+}
+
+impl Bench<'_> {
+    /// A triangle with an area, in the window: large, small or thin.
+    pub(super) fn general(&mut self) -> Corners {
+        let side = self.side();
+        loop {
+            let kind = self.rng.int(0, 5);
+            let size = if kind < 3 { side - 2 } else { 7 };
+            let at = [self.coordinate(1, side - 1 - size), self.coordinate(1, side - 1 - size)];
+            let mut corners = [SubpixelPoint::new(0, 0); 3];
+            for corner in &mut corners {
+                *corner = SubpixelPoint::new(
+                    at[0] + self.coordinate(0, size),
+                    at[1] + self.coordinate(0, size),
+                );
+            }
+            if kind == 5 {
+                // Thin: the third corner near the middle of the first two.
+                let near = |a: i32, b: i32| (a / 2 + b / 2) / 256 * 256;
+                let [a, b, _] = corners;
+                let off = [self.coordinate(0, 1), self.coordinate(0, 1)];
+                corners[2] = SubpixelPoint::new(near(a.x, b.x) + off[0], near(a.y, b.y) + off[1]);
+            }
+            if area(&corners) != 0 {
+                return corners;
+            }
+        }
+    }
+
+    /// As many answers to triangles in general position, of a winding that is drawn.
+    pub(super) fn generals(&mut self, count: usize, draws: Windings) -> Vec<Answer> {
+        let questions: Vec<_> = (0..count).map(|_| drawable(self.general(), draws)).collect();
+        let questions: Vec<_> = questions
+            .into_iter()
+            .map(|c| if draws == Windings::Both && self.rng.chance(2) { turned(c) } else { c })
+            .collect();
+        self.draw(&questions)
+    }
+
+    /// Which windings leave pixels, and what they leave.
+    pub(super) fn windings(&mut self) -> (Windings, Vec<Answer>) {
+        let (mut drawn, mut all) = ([0, 0], Vec::new());
+        let fat: Vec<_> = (0..10)
+            .map(|_| {
+                loop {
+                    let corners = drawable(self.general(), Windings::Clockwise);
+                    if area(&corners) > 20 * 65536 {
+                        break corners;
+                    }
+                }
+            })
+            .collect();
+        for (way, drawn) in drawn.iter_mut().enumerate() {
+            let list: Vec<_> = fat.iter().map(|&c| if way == 0 { c } else { turned(c) }).collect();
+            let answers = self.draw(&list);
+            *drawn = answers.iter().filter(|answer| !answer.drawn.is_empty()).count();
+            all.extend(answers);
+        }
+        let draws = match drawn.each(|count| count > fat.len() / 4) {
+            [true, true] => Windings::Both,
+            [true, false] => Windings::Clockwise,
+            [false, true] => Windings::CounterClockwise,
+            [false, false] => Windings::Neither,
+        };
+        (draws, all)
+    }
+
+    /// How often triangles without area leave pixels: points, segments, and corners on one line.
+    pub(super) fn flat(&mut self) -> Count {
+        let whole = |v: i64| v as i32 * 256;
+        let questions: Vec<_> = (0..30)
+            .map(|i| {
+                let [x, y, dx, dy] = [(4, 10), (4, 10), (-2, 2), (-2, 2)]
+                    .map(|(low, high)| whole(self.rng.int(low, high)));
+                // Where the grid allows, half of them run through centres.
+                let half = if self.grain <= 128 && i % 2 == 0 { 128 } else { 0 };
+                let at = |n: i32| SubpixelPoint::new(x + n * dx + half, y + n * dy + half);
+                match i % 3 {
+                    0 => [at(0); 3],
+                    1 => [at(0), at(2), at(0)],
+                    _ => [at(0), at(1), at(2)],
+                }
+            })
+            .collect();
+        let answers = self.draw(&questions);
+        let drawn = answers.iter().filter(|answer| !answer.drawn.is_empty()).count();
+        Count { drawn: drawn as u64, of: answers.len() as u64 }
+    }
+}
+
+/// The other winding.
+fn turned([a, b, c]: Corners) -> Corners {
+    [a, c, b]
+}
+
+/// Between which positions of an upright or level edge a pixel flips, in subpixels from the pixel's
+/// upper left corner. At `low` the pixel is still what it was at the start, at `high` no more.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Flip {
+    pub(super) low: i32,
+    pub(super) high: i32,
+}
+
+/// The four edges of a triangle that can be upright or level.
+const EDGES: [(usize, bool); 4] = [(0, true), (0, false), (1, true), (1, false)];
+
+/// The pixel that is watched, both column and row.
+fn watched(side: i32) -> i32 {
+    side / 2
+}
+
+/// A triangle whose edge at `at` (from the watched pixel) is upright (axis 0) or level (axis 1); the
+/// rest of it lies on the far side if it is its left or upper edge (`first`), else on the near side.
+fn with_edge(side: i32, (axis, first): (usize, bool), at: i32) -> Corners {
+    let px = |v: i32| v * 256;
+    let along = px(watched(side)) + at;
+    let far = if first { px(side - 2) } else { px(2) };
+    let corners = [[along, px(2)], [along, px(side - 2)], [far, px(side / 2)]];
+    corners
+        .each(|[u, v]| if axis == 0 { SubpixelPoint::new(u, v) } else { SubpixelPoint::new(v, u) })
+}
+
+impl Bench<'_> {
+    /// Where the watched pixel flips as its left, right, upper and lower edge is moved; None where
+    /// it does not.
+    pub(super) fn flips(&mut self, draws: Windings) -> [Option<Flip>; 4] {
+        let (side, grain) = (self.side(), self.grain);
+        let mut flips = [Flip { low: -512, high: 768 }; 4];
+        let watch = |bench: &mut Self, at: [i32; 4]| -> [Option<bool>; 4] {
+            let list: Vec<_> =
+                (0..4).map(|i| drawable(with_edge(side, EDGES[i], at[i]), draws)).collect();
+            let answers = bench.draw_all(&list);
+            [0, 1, 2, 3]
+                .map(|i| answers[i].map(|answer| answer.drawn.has(watched(side), watched(side))))
+        };
+        let [start, end] = [flips.map(|f| f.low), flips.map(|f| f.high)].each(|at| watch(self, at));
+        while flips.iter().any(|flip| flip.high - flip.low > grain) {
+            let middle = flips.map(|f| (f.low + f.high).div_euclid(2 * grain) * grain);
+            let seen = watch(self, middle);
+            for (i, flip) in flips.iter_mut().enumerate().filter(|(_, f)| f.high - f.low > grain) {
+                // A refusal decides nothing in particular.
+                if seen[i] == start[i] {
+                    flip.low = middle[i];
+                } else {
+                    flip.high = middle[i];
+                }
+            }
+        }
+        [0, 1, 2, 3].map(|i| (start[i] != end[i] && end[i].is_some()).then_some(flips[i]))
+    }
+
+    /// Whether answers depend on the order of the corners: of `triangles` in all orders, those that
+    /// change when the corners are rotated, and those that change when the winding is reversed.
+    pub(super) fn orders(&mut self, triangles: &[Corners], draws: Windings) -> [Count; 2] {
+        let count = if draws == Windings::Both { 6 } else { 3 };
+        let list: Vec<Corners> = triangles
+            .iter()
+            .flat_map(|t| ORDERS[..count].iter().map(|order| order.each(|i| t[i])))
+            .collect();
+        let answers = self.draw_all(&list);
+        let mut changed = [Count::default(); 2];
+        for group in answers.chunks_exact(count) {
+            let drawn: Vec<_> = group.iter().flatten().map(|answer| answer.drawn).collect();
+            if drawn.len() < count {
+                continue;
+            }
+            changed[0].add(drawn[..3].iter().any(|mask| *mask != drawn[0]));
+            if count == 6 {
+                let backwards = [(0, 3), (1, 4), (2, 5)];
+                changed[1].add(backwards.iter().any(|&(a, b)| drawn[a] != drawn[b]));
+            }
+        }
+        changed
+    }
+}

@@ -1,0 +1,51 @@
+//! Recognises the convention of an outside rasterizer or line drawer from its answers alone.
+//!
+//! Most programs differ by convention, not by fault. A hypothesis is a pure function from corners to
+//! pixels ([`Convention`]); hypotheses are tried from the general to the particular: which windings
+//! draw, where in a pixel the sample lies, on which grid the corners, which shape, and then who owns
+//! a sample exactly on an edge. Questions are chosen by what is in doubt: an edge is moved until a
+//! pixel flips, triangles are looked for on which two hypotheses differ, ties are constructed for
+//! the point and grid that were found. What no hypothesis explains is called unexplained.
+//!
+//! Nothing here starts a process: whoever answers implements [`Ask`]. Source of the hypotheses: what
+//! some forty rasterizers drew (`docs/conventions.md`).
+
+mod area_coverage;
+mod bench;
+mod candidate;
+mod describe;
+mod diagnosis;
+mod disambiguate;
+mod fit;
+mod general;
+mod half_planes;
+mod joined;
+mod lines;
+mod mask;
+mod mirror;
+mod outline;
+mod place;
+mod quantum;
+mod rule;
+mod samples;
+mod scan;
+mod search;
+mod shape;
+mod stepped;
+mod ties;
+mod upright;
+
+pub use bench::{Ask, Known, Question};
+pub use diagnosis::{Agreement, Confidence, Diagnosis, Share, diagnose};
+pub use lines::{
+    AskLine, Ends, LineConvention, LineDiagnosis, LineQuestion, LineRounding, Steps, diagnose_lines,
+};
+pub use mirror::Mirror;
+pub use outline::{End, LineTie};
+pub use place::FACINGS;
+pub use quantum::{Quantum, Rounding};
+pub use rule::{Convention, CornerRule, Ties, Windings};
+pub use samples::Pattern;
+pub use scan::Scan;
+pub use shape::Shape;
+pub use ties::{Compass, Count};

@@ -1,0 +1,67 @@
+//! A window of at most 32 x 32 pixels as 32 words: what a question is asked in, so that a
+//! comparison of two pictures is 32 instructions.
+
+use super::mirror::Mirror;
+use rasterproof_core::frame::Coverage;
+use rasterproof_core::grid::PixelRect;
+
+/// Largest side of the window of a question, in pixels.
+pub(super) const SIDE_PX: i32 = 32;
+
+/// A yes or no for each pixel of a window at the origin.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Mask([u32; SIDE_PX as usize]);
+
+impl Mask {
+    /// Every pixel.
+    pub(super) const FULL: Self = Self([u32::MAX; SIDE_PX as usize]);
+
+    /// The pixels with at least `least` hits.
+    pub(super) fn of(coverage: &Coverage, least: u8) -> Self {
+        let mut mask = Self::default();
+        for (y_px, row) in coverage.rows().filter(|(y_px, _)| (0..SIDE_PX).contains(y_px)) {
+            for (x_px, &hits) in row.iter().enumerate().take(SIDE_PX as usize) {
+                mask.0[y_px as usize] |= u32::from(hits >= least) << x_px;
+            }
+        }
+        mask
+    }
+
+    pub(super) fn set(&mut self, x_px: i32, y_px: i32) {
+        self.0[y_px as usize] |= 1 << x_px;
+    }
+
+    pub(super) fn has(&self, x_px: i32, y_px: i32) -> bool {
+        self.0[y_px as usize] >> x_px & 1 == 1
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.count() == 0
+    }
+
+    pub(super) fn count(&self) -> u32 {
+        self.0.iter().map(|row| row.count_ones()).sum()
+    }
+
+    /// Pixels of `self` that `other` lacks.
+    pub(super) fn beyond(&self, other: &Self) -> u32 {
+        self.0.iter().zip(&other.0).map(|(a, b)| (a & !b).count_ones()).sum()
+    }
+
+    /// The picture taken back from a mirror.
+    pub(super) fn mirrored(&self, mirror: Mirror, window: PixelRect) -> Self {
+        if mirror == Mirror::None {
+            return *self;
+        }
+        let mut back = Self::default();
+        for y in window.y0..window.y1 {
+            for x in window.x0..window.x1 {
+                let [from_x, from_y] = mirror.at(x, y, window);
+                if window.contains(from_x, from_y) && self.has(from_x, from_y) {
+                    back.set(x, y);
+                }
+            }
+        }
+        back
+    }
+}

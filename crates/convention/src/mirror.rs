@@ -1,0 +1,49 @@
+//! Pictures that come out turned over: a y axis that points up where rows are stored, x and y
+//! exchanged. Taken back before anything is compared.
+
+use serde::Serialize;
+
+use rasterproof_core::grid::PixelRect;
+
+/// How the whole picture is turned over, about the middle of its window.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+pub enum Mirror {
+    /// Not at all.
+    None,
+    /// Upside down: row y is row height - 1 - y.
+    UpsideDown,
+    /// Column x is column width - 1 - x.
+    LeftToRight,
+    /// Both: turned by half a turn.
+    HalfTurn,
+    /// x and y exchanged.
+    Exchanged,
+}
+
+impl Mirror {
+    /// Every way.
+    pub const ALL: [Self; 5] =
+        [Self::None, Self::UpsideDown, Self::LeftToRight, Self::HalfTurn, Self::Exchanged];
+
+    /// Where the pixel that belongs at (x, y) is drawn. Its own inverse.
+    pub(super) fn at(self, x: i32, y: i32, window: PixelRect) -> [i32; 2] {
+        let [across, down] = [window.x0 + window.x1 - 1 - x, window.y0 + window.y1 - 1 - y];
+        match self {
+            Self::None => [x, y],
+            Self::UpsideDown => [x, down],
+            Self::LeftToRight => [across, y],
+            Self::HalfTurn => [across, down],
+            Self::Exchanged => [y, x],
+        }
+    }
+
+    /// The window in which belongs what is drawn in `window`.
+    pub(super) fn window(self, window: PixelRect) -> PixelRect {
+        match self {
+            Self::Exchanged => {
+                PixelRect { x0: window.y0, y0: window.x0, x1: window.y1, y1: window.x1 }
+            }
+            _ => window,
+        }
+    }
+}

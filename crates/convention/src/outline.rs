@@ -1,0 +1,222 @@
+//! Lines between whole pixels by the rule for ties, and triangles drawn with such an outline.
+
+use serde::Serialize;
+
+use super::half_planes;
+use super::place::{Place, Points};
+use rasterproof_core::arrays::Each as _;
+use rasterproof_core::grid::PixelRect;
+
+/// Where a line goes that passes exactly between two pixels. 'Go' means on, in its minor direction,
+/// as seen from the end that is named; 'stay' means not yet.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+pub enum LineTie {
+    /// To the larger minor coordinate: v + 1/2 is cut.
+    Up,
+    /// To the smaller one.
+    Down,
+    /// To the even one.
+    Even,
+    /// Of flat lines to the upper pixel, of steep ones to the right one.
+    UpperRight,
+    /// Of flat lines to the lower pixel, of steep ones to the left one.
+    LowerLeft,
+    /// On, from the first end.
+    FirstGo,
+    /// Not yet, from the first end: Bresenham's algorithm as mostly printed.
+    FirstStay,
+    /// On, from the left end (of upright lines, the upper).
+    LeftGo,
+    /// Not yet, from the left end.
+    LeftStay,
+    /// On, from the upper end.
+    TopGo,
+    /// Not yet, from the upper end.
+    TopStay,
+    /// On, from the end with the smaller major coordinate: this project's rule.
+    SmallGo,
+    /// Not yet, from the end with the smaller major coordinate.
+    SmallStay,
+}
+
+impl LineTie {
+    /// Every rule.
+    pub const ALL: [Self; 13] = [
+        Self::SmallGo,
+        Self::SmallStay,
+        Self::FirstGo,
+        Self::FirstStay,
+        Self::LeftGo,
+        Self::LeftStay,
+        Self::TopGo,
+        Self::TopStay,
+        Self::Up,
+        Self::Down,
+        Self::Even,
+        Self::UpperRight,
+        Self::LowerLeft,
+    ];
+
+    /// In words.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Up => "toward larger coordinates",
+            Self::Down => "toward smaller coordinates",
+            Self::Even => "to the even pixel",
+            Self::UpperRight => {
+                "to the upper pixel of a flat line, to the right one of a steep one"
+            }
+            Self::LowerLeft => "to the lower pixel of a flat line, to the left one of a steep one",
+            Self::FirstGo => "on, seen from the first end",
+            Self::FirstStay => "not yet, seen from the first end",
+            Self::LeftGo => "on, seen from the left end",
+            Self::LeftStay => "not yet, seen from the left end",
+            Self::TopGo => "on, seen from the upper end",
+            Self::TopStay => "not yet, seen from the upper end",
+            Self::SmallGo => "on, seen from the end with the smaller major coordinate",
+            Self::SmallStay => "not yet, seen from the end with the smaller major coordinate",
+        }
+    }
+
+    /// Whether the minor coordinate, exactly at `below` + 1/2, becomes the larger one. `du` and
+    /// `dv` run along the major and the minor axis.
+    fn rises(self, line: &Line, below: i64) -> bool {
+        let plus = line.dv > 0;
+        let from = |end: End| plus == end.is_first(line);
+        match self {
+            Self::Up => true,
+            Self::Down => false,
+            Self::Even => below % 2 != 0,
+            Self::UpperRight => line.steep,
+            Self::LowerLeft => !line.steep,
+            Self::FirstGo => from(End::First),
+            Self::FirstStay => !from(End::First),
+            Self::LeftGo => from(End::Left),
+            Self::LeftStay => !from(End::Left),
+            Self::TopGo => from(End::Top),
+            Self::TopStay => !from(End::Top),
+            Self::SmallGo => from(End::Small),
+            Self::SmallStay => !from(End::Small),
+        }
+    }
+}
+
+/// The end that a line is seen from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+pub enum End {
+    /// The first.
+    First,
+    /// The one with the smaller major coordinate.
+    Small,
+    /// The left one; of upright lines, the upper.
+    Left,
+    /// The upper one; of level lines, the right.
+    Top,
+}
+
+impl End {
+    /// Every end.
+    pub const ALL: [Self; 4] = [Self::First, Self::Small, Self::Left, Self::Top];
+
+    /// In words.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::First => "the first end",
+            Self::Small => "the end with the smaller major coordinate",
+            Self::Left => "the left end",
+            Self::Top => "the upper end",
+        }
+    }
+
+    /// Whether it is the first end of that line.
+    pub(super) fn is_first(self, line: &Line) -> bool {
+        let [dx, dy] = if line.steep { [line.dv, line.du] } else { [line.du, line.dv] };
+        match self {
+            Self::First => true,
+            Self::Small => line.du > 0,
+            Self::Left => dx > 0 || (dx == 0 && dy > 0),
+            Self::Top => dy > 0,
+        }
+    }
+}
+
+/// A line between two pixels, taken apart along its axes.
+pub(super) struct Line {
+    /// Whether the major axis is y.
+    pub(super) steep: bool,
+    /// The first end along the major and the minor axis.
+    start: [i64; 2],
+    pub(super) du: i64,
+    pub(super) dv: i64,
+}
+
+impl Line {
+    /// From pixel to pixel, [x, y].
+    pub(super) fn new(from: [i64; 2], to: [i64; 2]) -> Self {
+        let [dx, dy] = [to[0] - from[0], to[1] - from[1]];
+        if dy.abs() > dx.abs() {
+            Self { steep: true, start: [from[1], from[0]], du: dy, dv: dx }
+        } else {
+            Self { steep: false, start: from, du: dx, dv: dy }
+        }
+    }
+
+    /// Steps along the major axis.
+    pub(super) fn steps(&self) -> i64 {
+        self.du.abs()
+    }
+
+    /// [x, y] of major and minor coordinates, as steps and pixels from the first end.
+    pub(super) fn pixel(&self, step: i64, minor: i64) -> [i64; 2] {
+        let (u, v) = (self.start[0] + step * self.du.signum(), self.start[1] + minor);
+        if self.steep { [v, u] } else { [u, v] }
+    }
+
+    /// The minor coordinate after `step` steps, from the first end: the pixel below the line, and
+    /// what remains, as a share of [`Line::steps`].
+    pub(super) fn below(&self, step: i64) -> (i64, i64) {
+        let length = self.steps().max(1);
+        ((step * self.dv).div_euclid(length), (step * self.dv).rem_euclid(length))
+    }
+
+    /// As [`Line::below`], rounded to the nearest pixel.
+    pub(super) fn nearest(&self, step: i64, tie: LineTie) -> i64 {
+        let (below, rest) = self.below(step);
+        let up = match (2 * rest).cmp(&self.steps()) {
+            std::cmp::Ordering::Less => false,
+            std::cmp::Ordering::Equal => self.steps() > 0 && tie.rises(self, self.start[1] + below),
+            std::cmp::Ordering::Greater => true,
+        };
+        below + i64::from(up)
+    }
+}
+
+/// Sides of more pixels than this are not walked.
+const MOST_STEPS: i64 = 1 << 13;
+
+/// As [`super::shape::Shape::trace`]: the pixels whose corner lies in the closed triangle, and the three sides.
+/// Corners are multiples of a pixel.
+pub(super) fn trace(
+    points: &Points,
+    tie: LineTie,
+    window: PixelRect,
+    emit: &mut dyn FnMut(i32, i32, Place),
+) -> bool {
+    let pixels = points.each(|p| p.each(|v| v.div_euclid(256)));
+    let lines = [0, 1, 2].each(|i| Line::new(pixels[i], pixels[(i + 1) % 3]));
+    if lines.iter().any(|line| line.steps() > MOST_STEPS) {
+        return false;
+    }
+    half_planes::at(0, 0).trace(points, window, &mut |x, y, _| emit(x, y, Place::In));
+    for line in lines {
+        for step in 0..=line.steps() {
+            let [x, y] = line.pixel(step, line.nearest(step, tie)).each(|v| v as i32);
+            if window.contains(x, y) {
+                emit(x, y, Place::In);
+            }
+        }
+    }
+    true
+}

@@ -1,0 +1,78 @@
+//! What a program does to a corner before it looks at it: the grid, and the way onto it.
+
+use serde::Serialize;
+
+use rasterproof_core::arrays::Each as _;
+use rasterproof_core::grid::SubpixelPoint;
+use rasterproof_core::triangle::Corners;
+
+/// The way onto the grid.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+pub enum Rounding {
+    /// To the nearest, a half up: floor(v + 1/2).
+    Near,
+    /// To the nearest, a half to the even one.
+    HalfEven,
+    /// Down: floor(v).
+    Down,
+    /// Toward zero, as a cast to `int` does.
+    TowardZero,
+}
+
+/// The grid of corners: multiples of `step` subpixels (1/256 px).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+pub struct Quantum {
+    /// 1, 4, 16, 64 or 256 subpixels. 1 is the grid of the questions: that, or finer.
+    pub step: i32,
+    /// How a corner gets there.
+    pub rounding: Rounding,
+}
+
+impl Quantum {
+    /// Corners as they are given, or on a grid too fine to be seen.
+    pub const NONE: Self = Self { step: 1, rounding: Rounding::Near };
+
+    /// The multiple of the step that `sub` becomes.
+    #[must_use]
+    pub fn apply(self, sub: i32) -> i64 {
+        let (sub, step) = (i64::from(sub), i64::from(self.step));
+        let below = sub.div_euclid(step);
+        let rest = 2 * sub.rem_euclid(step);
+        let up = match self.rounding {
+            Rounding::Near => rest >= step && step > 1,
+            Rounding::HalfEven => rest > step || (rest == step && below % 2 != 0),
+            Rounding::Down => false,
+            Rounding::TowardZero => sub < 0 && rest > 0,
+        };
+        (below + i64::from(up)) * step
+    }
+
+    /// All three corners, as [x, y].
+    pub(super) fn corners(self, corners: &Corners) -> [[i64; 2]; 3] {
+        corners.each(|SubpixelPoint { x, y }| [self.apply(x), self.apply(y)])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quanta_by_hand() {
+        let at = |rounding| Quantum { step: 256, rounding };
+        for (sub, near, even, down, zero) in [
+            (128, 256, 0, 0, 0),
+            (384, 512, 512, 256, 256),
+            (127, 0, 0, 0, 0),
+            (-128, 0, 0, -256, 0),
+            (-129, -256, -256, -256, 0),
+            (-256, -256, -256, -256, -256),
+        ] {
+            assert_eq!(at(Rounding::Near).apply(sub), near, "{sub}");
+            assert_eq!(at(Rounding::HalfEven).apply(sub), even, "{sub}");
+            assert_eq!(at(Rounding::Down).apply(sub), down, "{sub}");
+            assert_eq!(at(Rounding::TowardZero).apply(sub), zero, "{sub}");
+        }
+        assert_eq!(Quantum::NONE.apply(-77), -77);
+    }
+}

@@ -1,0 +1,131 @@
+//! Works off the chunks of an enumeration on all cores, and can stop and resume anywhere.
+//!
+//! State is a value: [`Progress`] says which chunks are done and what they found. It is handed to
+//! `save` every few seconds, and whoever hands one back continues from there. A run that is killed
+//! loses the chunks since the last save and nothing else; a chunk is counted once or not at all.
+
+use std::any::Any;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::{Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+use serde::{Deserialize, Serialize};
+
+use super::identity::{Identity, Shard};
+use super::{Plan, Tally};
+use rasterproof_core::parallel;
+
+/// How far a run has come: the content of a checkpoint file.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Progress {
+    /// What is being run, by which code.
+    pub identity: Identity,
+    /// Which part of it.
+    pub shard: Shard,
+    /// Chunks that are done, as half-open ranges in ascending order.
+    pub done: Vec<[u64; 2]>,
+    /// What they found.
+    pub tally: Tally,
+    /// Time spent so far, over all sittings.
+    pub seconds: f64,
+}
+
+impl Progress {
+    /// Nothing done yet.
+    #[must_use]
+    pub fn new(plan: &Plan, shard: Shard) -> Self {
+        let identity = Identity::of(plan);
+        Self { identity, shard, done: Vec::new(), tally: Tally::default(), seconds: 0.0 }
+    }
+
+    /// Whether this is a state of the same run, by the same code.
+    #[must_use]
+    pub fn belongs_to(&self, plan: &Plan, shard: Shard) -> bool {
+        self.identity == Identity::of(plan) && self.shard == shard
+    }
+}
+
+/// Runs all chunks of the shard that are not done yet and returns the final state. Every now and
+/// then `save` gets the state so far, and after each chunk `step` the cases judged.
+///
+/// # Panics
+/// If `resumed` [does not belong](Progress::belongs_to) to its own plan's chunks, which whoever
+/// reads a file checks first.
+pub fn run(
+    resumed: Progress,
+    save_every: Duration,
+    save: &(dyn Fn(&Progress) + Sync),
+    step: &(dyn Fn(u64) + Sync),
+) -> Progress {
+    let plan = resumed.identity.plan.clone();
+    let enumeration = plan.enumeration();
+    let chunks = enumeration.chunks();
+    let mut done = vec![false; chunks as usize];
+    for &[from, to] in &resumed.done {
+        done[from as usize..to as usize].fill(true);
+    }
+    let Shard { part, parts } = resumed.shard;
+    let pending: Vec<u64> =
+        (part..chunks).step_by(parts as usize).filter(|&chunk| !done[chunk as usize]).collect();
+
+    let (begun, spent) = (Instant::now(), resumed.seconds);
+    let judge = enumeration.judge();
+    let state = Mutex::new((resumed, done, Instant::now()));
+    parallel::each(pending.len(), &|number| {
+        let chunk = pending[number];
+        let found = guarded(&judge, chunk);
+        step(found.cases);
+        // A panic while saving is the end of the run anyway.
+        let mut state = state.lock().unwrap_or_else(PoisonError::into_inner);
+        let (progress, done, saved) = &mut *state;
+        progress.tally.add(found);
+        done[chunk as usize] = true;
+        if saved.elapsed() >= save_every {
+            progress.done = ranges(done);
+            progress.seconds = spent + begun.elapsed().as_secs_f64();
+            save(progress);
+            *saved = Instant::now();
+        }
+    });
+    let (mut progress, done, _) = state.into_inner().unwrap_or_else(PoisonError::into_inner);
+    progress.done = ranges(&done);
+    progress.seconds = spent + begun.elapsed().as_secs_f64();
+    progress
+}
+
+/// A panic of an engine is a finding; the cases of its chunk are then missing from the count too.
+fn guarded(judge: &dyn Fn(u64) -> Tally, chunk: u64) -> Tally {
+    catch_unwind(AssertUnwindSafe(|| judge(chunk))).unwrap_or_else(|payload| {
+        let mut tally = Tally::default();
+        tally.wrong(chunk, || format!("panic: {}", message(payload.as_ref())));
+        tally
+    })
+}
+
+fn message(payload: &(dyn Any + Send)) -> &str {
+    let text = payload.downcast_ref::<&str>().copied();
+    text.or_else(|| payload.downcast_ref::<String>().map(String::as_str)).unwrap_or("no message")
+}
+
+/// The runs of `true` as half-open ranges.
+fn ranges(done: &[bool]) -> Vec<[u64; 2]> {
+    let mut start = 0;
+    let runs = done.chunk_by(|a, b| a == b).map(|run| {
+        let from = start;
+        start += run.len() as u64;
+        (run[0], [from, start])
+    });
+    runs.filter(|(is_done, _)| *is_done).map(|(_, range)| range).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ranges_by_hand() {
+        assert_eq!(ranges(&[true, true, false, true]), [[0, 2], [3, 4]]);
+        assert!(ranges(&[false, false]).is_empty());
+    }
+}

@@ -1,0 +1,179 @@
+//! Mutants of the engines off the lattice: what somebody would write who thinks that floats suffice.
+//!
+//! As elsewhere a mutant is a small type behind the contract. The sample testers below share a walk
+//! and differ in how they find the sign; the crossing mutant is a scanline without a fallback.
+
+use std::cmp::Ordering;
+
+use super::each_sample;
+use rasterproof_core::arrays::Each as _;
+use rasterproof_core::contract::{Decisions, Rasterize, RasterizeExact};
+use rasterproof_core::grid::{PixelRect, SubpixelPoint};
+use rasterproof_core::raster::edge_function_exact::EdgeFunctionExact;
+use rasterproof_core::raster::scanline::Scanline;
+use rasterproof_core::triangle::{FreeCorners, Span};
+
+/// An engine off the lattice with a planted fault.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ExactMutant {
+    /// The sign of E as f64 computes it, without a filter.
+    PlainF64,
+    /// The same in f32.
+    PlainF32,
+    /// A filter a thousand times too small before the exact sign.
+    FilterTooSmall,
+    /// Crossings as f64 computes them, without a fallback.
+    PlainCrossing,
+    /// Corners are snapped to 1/256 px first.
+    SnapsInside,
+    /// Subnormal and other tiny coordinates count as zero.
+    FlushesToZero,
+    /// Samples on any edge belong.
+    InclusiveTies,
+    /// Bottom and right edges belong instead of top and left ones.
+    BottomRightTies,
+}
+
+impl ExactMutant {
+    /// Every mutant.
+    pub const ALL: [Self; 8] = [
+        Self::PlainF64,
+        Self::PlainF32,
+        Self::FilterTooSmall,
+        Self::PlainCrossing,
+        Self::SnapsInside,
+        Self::FlushesToZero,
+        Self::InclusiveTies,
+        Self::BottomRightTies,
+    ];
+
+    /// Its name for `--plant`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::PlainF64 => "exact-plain-f64",
+            Self::PlainF32 => "exact-plain-f32",
+            Self::FilterTooSmall => "exact-filter-too-small",
+            Self::PlainCrossing => "exact-plain-crossing",
+            Self::SnapsInside => "exact-snaps-inside",
+            Self::FlushesToZero => "exact-flushes-to-zero",
+            Self::InclusiveTies => "exact-inclusive-ties",
+            Self::BottomRightTies => "exact-bottom-right-ties",
+        }
+    }
+}
+
+impl RasterizeExact for ExactMutant {
+    fn cover_exact(
+        &self,
+        corners: &FreeCorners,
+        bounds: PixelRect,
+        mut emit: impl FnMut(Span),
+    ) -> Decisions {
+        self.spans(corners, bounds, &mut emit)
+    }
+}
+
+impl ExactMutant {
+    /// As [`RasterizeExact::cover_exact`].
+    pub fn spans(
+        &self,
+        corners: &FreeCorners,
+        bounds: PixelRect,
+        emit: &mut dyn FnMut(Span),
+    ) -> Decisions {
+        let px = corners.px();
+        match self {
+            Self::PlainF64 => by_sign(px, bounds, e_f64, top_left, emit),
+            Self::PlainF32 => by_sign(px, bounds, e_f32, top_left, emit),
+            Self::FilterTooSmall => by_sign(px, bounds, e_filtered, top_left, emit),
+            Self::InclusiveTies => by_sign(px, bounds, e_exact, |_, _| true, emit),
+            Self::BottomRightTies => {
+                by_sign(px, bounds, e_exact, |a, b| !top_left(a, b), emit);
+            }
+            Self::PlainCrossing => by_crossing(px, bounds, emit),
+            Self::SnapsInside => {
+                let snapped = px.each(|[x, y]| SubpixelPoint::from_px(x, y));
+                if let [Ok(a), Ok(b), Ok(c)] = snapped {
+                    Scanline.cover([a, b, c], bounds, emit);
+                }
+            }
+            Self::FlushesToZero => {
+                let flush = |v: f64| if v.abs() < f64::from(f32::MIN_POSITIVE) { 0.0 } else { v };
+                if let Ok(flushed) = FreeCorners::new(px.each(|corner| corner.each(flush))) {
+                    return EdgeFunctionExact.cover_exact(&flushed, bounds, emit);
+                }
+            }
+        }
+        Decisions::default()
+    }
+}
+
+type Point = [f64; 2];
+
+fn e_f64(a: Point, b: Point, p: Point) -> f64 {
+    (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])
+}
+
+fn e_f32(a: Point, b: Point, p: Point) -> f64 {
+    let [a, b, p] = [a, b, p].each(|point| point.each(|v| v as f32));
+    f64::from((b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]))
+}
+
+fn e_filtered(a: Point, b: Point, p: Point) -> f64 {
+    let (left, right) = ((b[0] - a[0]) * (p[1] - a[1]), (b[1] - a[1]) * (p[0] - a[0]));
+    let bound = 5e-3 * (f64::EPSILON / 2.0) * (left.abs() + right.abs());
+    if (left - right).abs() > bound { left - right } else { e_exact(a, b, p) }
+}
+
+fn e_exact(a: Point, b: Point, p: Point) -> f64 {
+    let coord = |[x, y]: Point| robust::Coord { x, y };
+    robust::orient2d(coord(a), coord(b), coord(p))
+}
+
+fn top_left(a: Point, b: Point) -> bool {
+    b[1] < a[1] || (b[1] == a[1] && b[0] > a[0])
+}
+
+/// Tests each sample of the window by the sign of `e` and, where that is zero, by `owns`.
+fn by_sign(
+    [a, mut b, mut c]: [Point; 3],
+    bounds: PixelRect,
+    e: fn(Point, Point, Point) -> f64,
+    owns: fn(Point, Point) -> bool,
+    emit: &mut dyn FnMut(Span),
+) {
+    match e(a, b, c).partial_cmp(&0.0) {
+        Some(Ordering::Greater) => {}
+        Some(Ordering::Less) => (b, c) = (c, b),
+        _ => return,
+    }
+    let edges = [(a, b), (b, c), (c, a)];
+    let inside = |x_px, y_px| {
+        let p = [f64::from(x_px) + 0.5, f64::from(y_px) + 0.5];
+        edges.iter().all(|&(from, to)| {
+            let side = e(from, to, p);
+            side > 0.0 || (side == 0.0 && owns(from, to))
+        })
+    };
+    each_sample(bounds, &inside, emit);
+}
+
+/// Tests each sample by the parity of crossings that floats compute.
+fn by_crossing(corners: [Point; 3], bounds: PixelRect, emit: &mut dyn FnMut(Span)) {
+    for y_px in bounds.y0..bounds.y1 {
+        let y = f64::from(y_px) + 0.5;
+        let crossings: Vec<f64> = [(0, 1), (1, 2), (2, 0)]
+            .into_iter()
+            .map(|(i, j)| (corners[i], corners[j]))
+            .filter(|(a, b)| (a[1] <= y) != (b[1] <= y))
+            .map(|(a, b)| a[0] + (y - a[1]) * (b[0] - a[0]) / (b[1] - a[1]))
+            .collect();
+        for x_px in bounds.x0..bounds.x1 {
+            let x = f64::from(x_px) + 0.5;
+            if crossings.iter().filter(|crossing| **crossing <= x).count() % 2 == 1 {
+                emit(Span { y_px, x0_px: x_px, x1_px: x_px + 1 });
+            }
+        }
+    }
+}

@@ -1,0 +1,191 @@
+//! Line drawers with a planted fault each.
+
+use rasterproof_core::contract::DrawLine;
+use rasterproof_core::grid::PixelRect;
+use rasterproof_core::line::bresenham::Bresenham;
+use rasterproof_core::triangle::{Fragment, PixelPoint, ScreenLine, Varying};
+
+/// A line drawer with a planted fault.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LineMutant {
+    /// The last pixel is missing (the book's DrawLine).
+    MissesEnd,
+    /// A tie is decided by the drawing direction.
+    DirectedTies,
+    /// The height accumulates in f32 and is rounded.
+    DriftsInF32,
+    /// The height is truncated instead of rounded.
+    Truncates,
+    /// Attributes count from the clipped start of the line.
+    WeightsFromClip,
+    /// Pixels come out from the second end to the first.
+    DrawsBackwards,
+    /// In steep octants a tie goes the other way.
+    SteepTiesFlipped,
+    /// A step along the minor axis is a pixel of its own.
+    FourConnected,
+    /// What lies inside the window is drawn as a line between its first and last pixel.
+    RestartsAtBorder,
+}
+
+impl LineMutant {
+    /// Every mutant.
+    pub const ALL: [Self; 9] = [
+        Self::MissesEnd,
+        Self::DirectedTies,
+        Self::DriftsInF32,
+        Self::Truncates,
+        Self::WeightsFromClip,
+        Self::DrawsBackwards,
+        Self::SteepTiesFlipped,
+        Self::FourConnected,
+        Self::RestartsAtBorder,
+    ];
+
+    /// Its name for `--plant`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::MissesEnd => "line-misses-end",
+            Self::DirectedTies => "line-directed-ties",
+            Self::DriftsInF32 => "line-drifts-in-f32",
+            Self::Truncates => "line-truncates",
+            Self::WeightsFromClip => "line-weights-from-clip",
+            Self::DrawsBackwards => "line-draws-backwards",
+            Self::SteepTiesFlipped => "line-steep-ties-flipped",
+            Self::FourConnected => "line-four-connected",
+            Self::RestartsAtBorder => "line-restarts-at-border",
+        }
+    }
+}
+
+impl DrawLine for LineMutant {
+    fn draw<V: Varying>(
+        &self,
+        line: &ScreenLine<V>,
+        bounds: PixelRect,
+        mut emit: impl FnMut(Fragment<V>),
+    ) {
+        self.stroke(line, bounds, &mut emit);
+    }
+}
+
+/// The line that most mutants spoil.
+fn bresenham<V: Varying>(
+    line: &ScreenLine<V>,
+    bounds: PixelRect,
+    emit: &mut dyn FnMut(Fragment<V>),
+) {
+    Bresenham.draw(line, bounds, emit);
+}
+
+impl LineMutant {
+    /// As [`DrawLine::draw`].
+    pub fn stroke<V: Varying>(
+        &self,
+        line: &ScreenLine<V>,
+        bounds: PixelRect,
+        emit: &mut dyn FnMut(Fragment<V>),
+    ) {
+        let [a, b] = &line.ends;
+        match self {
+            Self::MissesEnd => bresenham(line, bounds, &mut |f| {
+                if (f.x_px, f.y_px) != (b.pixel.x, b.pixel.y) {
+                    emit(f);
+                }
+            }),
+            Self::DrawsBackwards => {
+                let mut fragments = Vec::new();
+                bresenham(line, bounds, &mut |f| fragments.push(f));
+                fragments.into_iter().rev().for_each(emit);
+            }
+            Self::WeightsFromClip => {
+                let mut fragments = Vec::new();
+                bresenham(line, bounds, &mut |f| fragments.push(f));
+                let last = fragments.len().saturating_sub(1).max(1) as f64;
+                for (i, f) in fragments.into_iter().enumerate() {
+                    let t = i as f64 / last;
+                    let varying = a.varying + (b.varying - a.varying) * t;
+                    emit(Fragment { depth: a.depth + (b.depth - a.depth) * t, varying, ..f });
+                }
+            }
+            Self::FourConnected => {
+                let mut last: Option<Fragment<V>> = None;
+                bresenham(line, bounds, &mut |f| {
+                    if let Some(last) = last.replace(f)
+                        && last.x_px != f.x_px
+                        && last.y_px != f.y_px
+                    {
+                        emit(Fragment { y_px: last.y_px, ..f });
+                    }
+                    emit(f);
+                });
+            }
+            Self::RestartsAtBorder => {
+                let mut inside = Vec::new();
+                bresenham(line, bounds, &mut |f| inside.push(f));
+                let mut visible = *line;
+                if let [first, .., last] = &inside[..] {
+                    for (end, f) in visible.ends.iter_mut().zip([first, last]) {
+                        end.pixel = PixelPoint::new(f.x_px, f.y_px);
+                    }
+                }
+                bresenham(&visible, bounds, emit);
+            }
+            Self::DirectedTies | Self::DriftsInF32 | Self::Truncates | Self::SteepTiesFlipped => {
+                self.walk_all(line, bounds, emit);
+            }
+        }
+    }
+
+    /// Walks every step of a line of at most 2^16 pixels; longer ones are left to Bresenham, so
+    /// that a mutant takes no longer than an engine.
+    fn walk_all<V: Varying>(
+        self,
+        line: &ScreenLine<V>,
+        bounds: PixelRect,
+        emit: &mut dyn FnMut(Fragment<V>),
+    ) {
+        let [a, b] = &line.ends;
+        let (dx, dy) = (
+            i64::from(b.pixel.x) - i64::from(a.pixel.x),
+            i64::from(b.pixel.y) - i64::from(a.pixel.y),
+        );
+        let steps = dx.abs().max(dy.abs());
+        if steps == 0 || steps > 1 << 16 {
+            return bresenham(line, bounds, emit);
+        }
+        let (slope_x, slope_y) = (dx as f32 / steps as f32, dy as f32 / steps as f32);
+        let (mut x, mut y) = (a.pixel.x as f32, a.pixel.y as f32);
+        for i in 0..=steps {
+            let (x_px, y_px) = match self {
+                Self::DriftsInF32 => ((x + 0.5).floor() as i32, (y + 0.5).floor() as i32),
+                Self::Truncates => {
+                    (a.pixel.x + (dx * i / steps) as i32, a.pixel.y + (dy * i / steps) as i32)
+                }
+                Self::SteepTiesFlipped => {
+                    // Half goes farther along, seen from the end with the smaller coordinate on
+                    // the major axis; in steep octants, by mistake, seen from the other end.
+                    let steep = dy.abs() > dx.abs();
+                    let backwards = if steep { dy > 0 } else { dx < 0 };
+                    let half = steps - i64::from(backwards);
+                    let round =
+                        |d: i64| (d.signum() * ((2 * d.abs() * i + half) / (2 * steps))) as i32;
+                    (a.pixel.x + round(dx), a.pixel.y + round(dy))
+                }
+                _ => {
+                    // Rounds half away from the first end, whichever end that is.
+                    let round =
+                        |d: i64| (d.signum() * ((2 * d.abs() * i + steps) / (2 * steps))) as i32;
+                    (a.pixel.x + round(dx), a.pixel.y + round(dy))
+                }
+            };
+            (x, y) = (x + slope_x, y + slope_y);
+            if bounds.contains(x_px, y_px) {
+                let t = i as f64 / steps as f64;
+                let varying = a.varying + (b.varying - a.varying) * t;
+                emit(Fragment { x_px, y_px, depth: a.depth + (b.depth - a.depth) * t, varying });
+            }
+        }
+    }
+}

@@ -1,0 +1,83 @@
+//! Oracles with a planted fault each: what the engines are judged by can be wrong too.
+
+use super::each_sample;
+use rasterproof_core::contract::{Interpolate, Rasterize};
+use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
+use rasterproof_core::triangle::{Corners, Fragment, ScreenTriangle, Span, Varying};
+use rasterproof_verify::oracle::Oracle;
+
+/// An oracle with a planted fault.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OracleMutant {
+    /// A crossing exactly at a sample is not left of it: right edges own.
+    TiesGoLeft,
+    /// Sides are the signs of A x + B y - C in f32.
+    PlanesInF32,
+    /// Values ignore w.
+    AffineValues,
+}
+
+impl OracleMutant {
+    /// Every mutant.
+    pub const ALL: [Self; 3] = [Self::TiesGoLeft, Self::PlanesInF32, Self::AffineValues];
+
+    /// Its name for `--plant`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::TiesGoLeft => "oracle-ties-go-left",
+            Self::PlanesInF32 => "oracle-planes-in-f32",
+            Self::AffineValues => "oracle-affine-values",
+        }
+    }
+
+    /// Whether the edge from `upper` to `lower` crosses the row left of a sample, by this mutant.
+    fn is_left(self, upper: SubpixelPoint, lower: SubpixelPoint, sample: SubpixelPoint) -> bool {
+        let [ux, uy, lx, ly, sx, sy] =
+            [upper.x, upper.y, lower.x, lower.y, sample.x, sample.y].map(i128::from);
+        if self == Self::PlanesInF32 {
+            // dy x - dx y - c >= 0, each number rounded to 24 bits.
+            let (a, b) = ((ly - uy) as f32, (ux - lx) as f32);
+            let c = a * ux as f32 + b * uy as f32;
+            return a * sx as f32 + b * sy as f32 >= c;
+        }
+        (sy - uy) * (lx - ux) < (sx - ux) * (ly - uy)
+    }
+}
+
+impl Rasterize for OracleMutant {
+    fn cover(&self, corners: Corners, bounds: PixelRect, mut emit: impl FnMut(Span)) {
+        if *self == Self::AffineValues {
+            return Oracle.cover(corners, bounds, emit);
+        }
+        let centre = |px: i32| px.saturating_mul(SUBPIXELS).saturating_add(HALF_PIXEL);
+        let inside = |x_px, y_px| {
+            let sample = SubpixelPoint::new(centre(x_px), centre(y_px));
+            let crossings = [(0, 1), (1, 2), (2, 0)].into_iter().filter(|&(i, j)| {
+                let (a, b) = (corners[i], corners[j]);
+                match (a.y <= sample.y, b.y <= sample.y) {
+                    (true, false) => self.is_left(a, b, sample),
+                    (false, true) => self.is_left(b, a, sample),
+                    _ => false,
+                }
+            });
+            crossings.count() % 2 == 1
+        };
+        each_sample(bounds, &inside, &mut emit);
+    }
+}
+
+impl Interpolate for OracleMutant {
+    fn fragments<V: Varying>(
+        &self,
+        triangle: &ScreenTriangle<V>,
+        bounds: PixelRect,
+        emit: impl FnMut(Fragment<V>),
+    ) {
+        let mut spoilt = *triangle;
+        if *self == Self::AffineValues {
+            spoilt.vertices.iter_mut().for_each(|vertex| vertex.inv_w = 1.0);
+        }
+        Oracle.fragments(&spoilt, bounds, emit);
+    }
+}

@@ -1,0 +1,165 @@
+//! Faults in the stages of the pipeline: clipping, culling, effects.
+
+use glam::DVec2;
+
+use rasterproof_core::arrays::Each as _;
+use rasterproof_core::grid::SubpixelPoint;
+use rasterproof_core::triangle::Corners;
+use rasterproof_render::effects::{Effect, Effects, Mode};
+use rasterproof_render::pipeline::ClipVertex;
+use rasterproof_render::pipeline::assemble::Cull;
+use rasterproof_render::pipeline::clip::{self, Outcode, Plane};
+
+/// A stage with a planted fault.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StageMutant {
+    /// The near plane is forgotten.
+    ForgetsNear,
+    /// A crossing is interpolated from the edge's start to its end, whichever is inside.
+    FromStartToEnd,
+    /// A crossing keeps the interpolated coordinate instead of the plane's.
+    NotAssigned,
+    /// The last vertex of the polygon is lost.
+    DropsLast,
+    /// Positions are divided by w on the way, inside or not.
+    DividesFirst,
+    /// Clockwise and counter-clockwise are mixed up.
+    CullSwapped,
+    /// The winding is asked of a float area with a threshold.
+    CullByFloatArea,
+    /// Every effect is paid for, whatever was asked.
+    EffectsIgnored,
+    /// The buffers are cleared, whatever was asked.
+    ClearsAlways,
+}
+
+type ClipStage = fn(&[ClipVertex<DVec2>; 3], Outcode) -> Vec<ClipVertex<DVec2>>;
+type CullStage = fn(Cull, Corners) -> bool;
+type ChooseStage = fn(Effects) -> Effects;
+
+impl StageMutant {
+    /// Every mutant.
+    pub const ALL: [Self; 9] = [
+        Self::ForgetsNear,
+        Self::FromStartToEnd,
+        Self::NotAssigned,
+        Self::DropsLast,
+        Self::DividesFirst,
+        Self::CullSwapped,
+        Self::CullByFloatArea,
+        Self::EffectsIgnored,
+        Self::ClearsAlways,
+    ];
+
+    /// Its name for `--plant`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::ForgetsNear => "clip-forgets-near",
+            Self::FromStartToEnd => "clip-from-start-to-end",
+            Self::NotAssigned => "clip-not-assigned",
+            Self::DropsLast => "clip-drops-last",
+            Self::DividesFirst => "clip-divides-first",
+            Self::CullSwapped => "cull-swapped",
+            Self::CullByFloatArea => "cull-by-float-area",
+            Self::EffectsIgnored => "effects-ignored",
+            Self::ClearsAlways => "effects-clear-always",
+        }
+    }
+
+    /// Puts the fault in the place of the stage it belongs to.
+    pub fn replace(self, clip: &mut ClipStage, culls: &mut CullStage, choose: &mut ChooseStage) {
+        match self {
+            Self::ForgetsNear => *clip = |t, planes| real(t, planes & !Plane::Near.bit()),
+            Self::FromStartToEnd => *clip = |t, planes| textbook(t, planes, true, false),
+            Self::NotAssigned => *clip = |t, planes| textbook(t, planes, false, true),
+            Self::DropsLast => {
+                *clip = |t, planes| {
+                    let mut polygon = real(t, planes);
+                    if polygon.len() > 3 {
+                        polygon.pop();
+                    }
+                    polygon
+                };
+            }
+            Self::DividesFirst => {
+                *clip = |t, planes| {
+                    let mut polygon = real(t, planes);
+                    for vertex in &mut polygon {
+                        vertex.position /= vertex.position.w;
+                    }
+                    polygon
+                };
+            }
+            Self::CullSwapped => {
+                *culls = |cull, [a, b, c]| cull.removes([a, c, b]);
+            }
+            Self::CullByFloatArea => *culls = by_float_area,
+            Self::EffectsIgnored => *choose = |_| Effects::ALWAYS,
+            Self::ClearsAlways => *choose = |asked| asked.with(Effect::Clear, Mode::Always),
+        }
+    }
+}
+
+fn real(triangle: &[ClipVertex<DVec2>; 3], planes: Outcode) -> Vec<ClipVertex<DVec2>> {
+    clip::clip(triangle, planes).0.vertices().copied().collect()
+}
+
+/// |2A| < 1 px^2 counts as no winding, as floats with a threshold do.
+fn by_float_area(cull: Cull, corners: Corners) -> bool {
+    let [a, b, c] = corners.each(|p: SubpixelPoint| p.to_px());
+    let area = (b.0 - a.0) * (c.1 - a.1) - (b.1 - a.1) * (c.0 - a.0);
+    match cull {
+        Cull::None => false,
+        Cull::Clockwise => area > 1.0,
+        Cull::CounterClockwise => area < -1.0,
+    }
+}
+
+/// Sutherland and Hodgman as in most textbooks: sides asked anew at every plane, crossings from
+/// start to end, coordinates as interpolated.
+fn textbook(
+    triangle: &[ClipVertex<DVec2>; 3],
+    planes: Outcode,
+    assigns: bool,
+    inside_out: bool,
+) -> Vec<ClipVertex<DVec2>> {
+    let mut polygon = triangle.to_vec();
+    for plane in Plane::ALL.into_iter().filter(|plane| planes & plane.bit() != 0) {
+        let mut kept = Vec::new();
+        for (i, start) in polygon.iter().enumerate() {
+            let end = &polygon[(i + 1) % polygon.len()];
+            let (from, to) = (plane.distance(start), plane.distance(end));
+            if from >= 0.0 {
+                kept.push(*start);
+            }
+            if (from >= 0.0) != (to >= 0.0) {
+                let turned = inside_out && from < 0.0;
+                let (a, b, t) = if turned {
+                    (end, start, to / (to - from))
+                } else {
+                    (start, end, from / (from - to))
+                };
+                let mut vertex = ClipVertex {
+                    position: a.position + (b.position - a.position) * t,
+                    varying: a.varying + (b.varying - a.varying) * t,
+                };
+                if assigns {
+                    let p = &mut vertex.position;
+                    match plane {
+                        Plane::MinW => {}
+                        Plane::Near => p.z = -p.w,
+                        Plane::Far => p.z = p.w,
+                        Plane::Left => p.x = -p.w,
+                        Plane::Right => p.x = p.w,
+                        Plane::Bottom => p.y = -p.w,
+                        Plane::Top => p.y = p.w,
+                    }
+                }
+                kept.push(vertex);
+            }
+        }
+        polygon = kept;
+    }
+    polygon
+}

@@ -1,0 +1,136 @@
+//! Tile engines with a planted fault each: they spoil the pieces of the real one the way real code
+//! for vectors goes wrong.
+
+use super::each_sample;
+use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
+use rasterproof_core::triangle::Corners;
+use rasterproof_tiles::coverage::{CoverList, NARROW_EXTENT, Piece, SIDE_PX, Tile, Tiles};
+
+/// A tile engine with a planted fault.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TileMutant {
+    /// Extents are compared after they wrapped around below zero: the widest triangles are taken
+    /// for the narrowest and set up in i32.
+    WrappedWidth,
+    /// The mask of columns ends one bit early.
+    MaskOffByOne,
+    /// A tile is rejected when none of its four corner pixels is covered.
+    WrongReject,
+    /// What is left over after the last full batch of sixteen is forgotten.
+    TailOfBatch,
+    /// Of a batch, the triangles that need wide words come last.
+    WideOnesLast,
+}
+
+impl TileMutant {
+    /// Every mutant.
+    pub const ALL: [Self; 5] = [
+        Self::WrappedWidth,
+        Self::MaskOffByOne,
+        Self::WrongReject,
+        Self::TailOfBatch,
+        Self::WideOnesLast,
+    ];
+
+    /// Its name for `--plant`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::WrappedWidth => "tile-wrapped-width",
+            Self::MaskOffByOne => "tile-mask-off-by-one",
+            Self::WrongReject => "tile-wrong-reject",
+            Self::TailOfBatch => "tile-tail-of-batch",
+            Self::WideOnesLast => "tile-wide-ones-last",
+        }
+    }
+
+    /// A piece as this engine has it.
+    fn spoilt(self, piece: Piece) -> Option<Piece> {
+        let mut tile = match piece {
+            Piece::Cell(cell) => cell.tile(),
+            Piece::Quarter(quarter) => quarter.tile(),
+            Piece::Tile(tile) => tile,
+            Piece::Block(_) => return Some(piece),
+        };
+        match self {
+            Self::MaskOffByOne => {
+                let last = tile.rows.iter().fold(0, |all, row| all | row).leading_zeros();
+                tile.rows.iter_mut().for_each(|row| *row &= !(0x8000 >> last));
+            }
+            Self::WrongReject => {
+                let corners = (tile.rows[0] | tile.rows[15]) & 0x8001;
+                tile.rows = if corners == 0 { [0; 16] } else { tile.rows };
+            }
+            _ => {}
+        }
+        (tile.rows != [0; 16]).then_some(Piece::Tile(tile))
+    }
+}
+
+impl CoverList for TileMutant {
+    fn cover_list(&self, triangles: &[Corners], bounds: PixelRect, take: &mut dyn FnMut(&[Piece])) {
+        let mut pieces = Vec::new();
+        Tiles::default().cover_list(triangles, bounds, &mut |run| pieces.extend_from_slice(run));
+        pieces = pieces.into_iter().filter_map(|piece| self.spoilt(piece)).collect();
+        match self {
+            Self::WrappedWidth => {
+                let wraps = |piece: &Piece| taken_for_narrow(&triangles[piece.triangle() as usize]);
+                pieces.retain(|piece| !wraps(piece));
+                for (number, corners) in triangles.iter().enumerate() {
+                    if taken_for_narrow(corners) {
+                        wrapping(corners, bounds, number as u32, &mut pieces);
+                    }
+                }
+                pieces.sort_by_key(Piece::triangle);
+            }
+            Self::TailOfBatch if triangles.len() > 16 => {
+                let full = triangles.len() / 16 * 16;
+                pieces.retain(|piece| (piece.triangle() as usize) < full);
+            }
+            Self::WideOnesLast => pieces.sort_by_key(|piece| {
+                let number = piece.triangle();
+                (number / 16, widest(&triangles[number as usize]) > i64::from(NARROW_EXTENT))
+            }),
+            _ => {}
+        }
+        if !pieces.is_empty() {
+            take(&pieces);
+        }
+    }
+}
+
+/// The larger side of the box, in subpixels.
+fn widest([a, b, c]: &Corners) -> i64 {
+    let side = |a: i32, b: i32, c: i32| i64::from(a.max(b).max(c)) - i64::from(a.min(b).min(c));
+    side(a.x, b.x, c.x).max(side(a.y, b.y, c.y))
+}
+
+/// Whether the box is wide, but not after its sides have wrapped around.
+fn taken_for_narrow(corners: &Corners) -> bool {
+    let [a, b, c] = corners;
+    let side = |a: i32, b: i32, c: i32| a.max(b).max(c).wrapping_sub(a.min(b).min(c));
+    let wrapped = side(a.x, b.x, c.x).max(side(a.y, b.y, c.y));
+    wrapped <= NARROW_EXTENT && widest(corners) > i64::from(NARROW_EXTENT)
+}
+
+/// The pixels of a triangle as the engine's words have it if they wrap around, one a piece.
+fn wrapping([a, b, c]: &Corners, bounds: PixelRect, triangle: u32, pieces: &mut Vec<Piece>) {
+    let edge = |from: &SubpixelPoint, to: &SubpixelPoint, x, y| {
+        let (dx, dy) = (to.x.wrapping_sub(from.x), to.y.wrapping_sub(from.y));
+        let top_left = dy < 0 || (dy == 0 && dx > 0);
+        dx.wrapping_mul(i32::wrapping_sub(y, from.y))
+            .wrapping_sub(dy.wrapping_mul(i32::wrapping_sub(x, from.x)))
+            .wrapping_sub(i32::from(!top_left))
+    };
+    let centre = |px: i32| px.wrapping_mul(SUBPIXELS).wrapping_add(HALF_PIXEL);
+    let inside = |x_px, y_px| {
+        let (x, y) = (centre(x_px), centre(y_px));
+        let all = |b, c| edge(a, b, x, y) | edge(b, c, x, y) | edge(c, a, x, y);
+        all(b, c) >= 0 || all(c, b) >= 0
+    };
+    each_sample(bounds, &inside, &mut |span| {
+        let mut rows = [0; SIDE_PX as usize];
+        rows[0] = 1;
+        pieces.push(Piece::Tile(Tile { triangle, x_px: span.x0_px, y_px: span.y_px, rows }));
+    });
+}

@@ -1,0 +1,78 @@
+//! Specimens: the three depths of the book: w itself, with perspective (part 2, chapter 6), -1/w,
+//! linear (chapter 7), z/w, linear (from chapter 8).
+//!
+//! Source: the book (yangzhenzhuozz/Renderer on GitHub) and its companion code; see
+//! `docs/sources.md`.
+//!
+//! Symptoms, of all three: the depth starts at the crossing and steps without regard to the samples,
+//! so a nearly flat span throws it far out of the range of its corners, and what is drawn later
+//! vanishes behind nothing; ties pass the test, and so does NaN. Chapter 6 besides needs the buffer
+//! cleared to a true distance, and evaluates formula (8) for each pixel.
+//! Cure: the depth of the sample, linear in the window. Exposed by `depth_poison`; harmless where
+//! edges and rows start on samples.
+
+use glam::DVec2;
+
+use super::book_final::BookFinal;
+use super::{Published, RealTriangle, Refused};
+use rasterproof_core::arrays::Each as _;
+use rasterproof_core::grid::PixelRect;
+use rasterproof_core::triangle::{Fragment, Span};
+
+/// Which chapter's depth.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BookDepth {
+    /// w, perspective-correct.
+    Chapter6,
+    /// -1/w, linear.
+    Chapter7,
+    /// z/w, linear.
+    Chapter8,
+}
+
+impl BookDepth {
+    /// The depth of a corner that has this z/w and w; the one the chapter compares.
+    #[must_use]
+    pub fn of(self, depth: f64, w: f64) -> f64 {
+        match self {
+            Self::Chapter6 => w,
+            Self::Chapter7 => -1.0 / w,
+            Self::Chapter8 => depth,
+        }
+    }
+}
+
+impl Published for BookDepth {
+    fn cover(
+        &self,
+        triangle: &RealTriangle,
+        bounds: PixelRect,
+        emit: &mut dyn FnMut(Span),
+    ) -> Result<(), Refused> {
+        BookFinal { exercise: false }.cover(triangle, bounds, emit)
+    }
+
+    /// The fragments of the final triangle, the depth being the chapter's.
+    fn fragments(
+        &self,
+        triangle: &RealTriangle,
+        bounds: PixelRect,
+        emit: &mut dyn FnMut(Fragment<DVec2>),
+    ) -> Result<(), Refused> {
+        // z within [-1, 1] passes the clip and steps as z/w does; w travels as an attribute.
+        let scale = triangle.iter().fold(1.0, |most: f64, v| most.max(self.of(v.depth, v.w).abs()));
+        let triangle = triangle.each(|v| {
+            let depth = self.of(v.depth, v.w);
+            match self {
+                Self::Chapter6 => {
+                    super::RealVertex { depth: 0.0, varying: DVec2::splat(depth), ..v }
+                }
+                _ => super::RealVertex { depth: depth / scale, ..v },
+            }
+        });
+        BookFinal { exercise: false }.fragments(&triangle, bounds, &mut |f| {
+            let depth = if *self == Self::Chapter6 { f.varying.x } else { f.depth * scale };
+            emit(Fragment { depth, ..f });
+        })
+    }
+}

@@ -1,0 +1,133 @@
+//! Specimen: the triangle of GAMES101 homework 2 (rasterize_triangle and insideTriangle), in f32.
+//!
+//! Source: GAMES101 (Lingqi Yan, 2020), homework 2, and its published solutions; see
+//! `docs/sources.md`.
+//!
+//! Symptom: a sample belongs where three cross products are all above or all below zero, so a sample
+//! on an edge belongs to no triangle: meshes have holes along shared edges. Cross products in f32
+//! round far from the origin. The skeleton's insideTriangle takes `int x, int y`
+//! ([`Games101Strict::whole_samples`], 'pitfall 2'): every sample of a pixel is its lower left corner.
+//! Cure: the top-left rule on exact edge functions ([`rasterproof_core::raster::edge_function`]). Exposed by a
+//! square on pixel centres; harmless while no sample lies on an edge.
+//!
+//! Values: alpha v0/w0 + ... over alpha/w0 + ..., and the skeleton has set every w to 1. So all are
+//! linear on the screen: right for z/w, by luck, and wrong for every attribute, by up to
+//! (sqrt R - 1)/(sqrt R + 1) of its spread. One solution puts the true w back
+//! ([`Games101Strict::true_w`], [`super::games101_depth`]): right for attributes, wrong for z/w.
+
+use glam::{DVec2, Vec2};
+
+use super::scene::{Image, Setting, Version, chequered, floor};
+use super::{Published, RealTriangle, RealVertex, Refused, bare, to_int};
+use rasterproof_core::arrays::Each as _;
+use rasterproof_core::grid::PixelRect;
+use rasterproof_core::triangle::{Fragment, Span};
+
+/// The rasterizer of homework 2.
+#[derive(Clone, Copy, Debug)]
+pub struct Games101Strict {
+    /// Whether sample positions pass through an `int`.
+    pub whole_samples: bool,
+    /// Whether the true w is put back where the skeleton has set 1.
+    pub true_w: bool,
+}
+
+/// Positions in the frame buffer: y up, samples at + 0.5.
+fn corners(triangle: &RealTriangle, bounds: PixelRect) -> [Vec2; 3] {
+    triangle.each(|v| {
+        let x = v.position_px.x - f64::from(bounds.x0);
+        Vec2::new(x as f32, (f64::from(bounds.y1) - v.position_px.y) as f32)
+    })
+}
+
+fn inside(corners: [Vec2; 3], sample: Vec2) -> bool {
+    let side = |i: usize| {
+        let (a, b) = (corners[i], corners[(i + 1) % 3]);
+        (a - sample).perp_dot(a - b)
+    };
+    let sides = [side(0), side(1), side(2)];
+    sides.iter().all(|&s| s > 0.0) || sides.iter().all(|&s| s < 0.0)
+}
+
+impl Games101Strict {
+    fn pixels(
+        self,
+        corners: [Vec2; 3],
+        bounds: PixelRect,
+        emit: &mut dyn FnMut(i32, i32, Vec2),
+    ) -> Result<(), Refused> {
+        let low = corners.into_iter().fold(corners[0], Vec2::min);
+        let high = corners.into_iter().fold(corners[0], Vec2::max);
+        let range = |low: f32, high: f32, size: u32| -> Result<_, Refused> {
+            let (first, last) = (to_int(low.into())?, to_int(high.into())? + 1);
+            Ok(first.max(0)..(last + 1).min(size.into()))
+        };
+        let rows = range(low.y, high.y, bounds.height())?;
+        for x in range(low.x, high.x, bounds.width())? {
+            for y in rows.clone() {
+                let corner = Vec2::new(x as f32, y as f32);
+                let sample = if self.whole_samples { corner } else { corner + 0.5 };
+                if inside(corners, sample) {
+                    emit(bounds.x0 + x as i32, bounds.y1 - 1 - y as i32, corner + 0.5);
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// computeBarycentric2D: the weights of the first two corners and of the third.
+fn weights([a, b, c]: [Vec2; 3], p: Vec2) -> [f32; 3] {
+    let weight = |a: Vec2, b: Vec2, c: Vec2| {
+        let at = |q: Vec2| q.x * (b.y - c.y) + (c.x - b.x) * q.y + b.x * c.y - c.x * b.y;
+        at(p) / at(a)
+    };
+    [weight(a, b, c), weight(b, c, a), weight(c, a, b)]
+}
+
+impl Published for Games101Strict {
+    fn cover(
+        &self,
+        triangle: &RealTriangle,
+        bounds: PixelRect,
+        emit: &mut dyn FnMut(Span),
+    ) -> Result<(), Refused> {
+        self.pixels(corners(triangle, bounds), bounds, &mut |x_px, y_px, _| {
+            emit(Span { y_px, x0_px: x_px, x1_px: x_px + 1 });
+        })
+    }
+
+    /// The depth as published; the attributes by the same formula, as the homework that follows
+    /// does.
+    fn fragments(
+        &self,
+        triangle: &RealTriangle,
+        bounds: PixelRect,
+        emit: &mut dyn FnMut(Fragment<DVec2>),
+    ) -> Result<(), Refused> {
+        let corners = corners(triangle, bounds);
+        self.pixels(corners, bounds, &mut |x_px, y_px, sample| {
+            let weights = weights(corners, sample).each(f64::from);
+            let over_w = |i: usize| weights[i] / if self.true_w { triangle[i].w } else { 1.0 };
+            let inverse: f64 = (0..3).map(over_w).sum();
+            let sum = |value: fn(&RealVertex) -> f64| {
+                (0..3).map(|i| over_w(i) * value(&triangle[i])).sum::<f64>() / inverse
+            };
+            let varying = DVec2::new(sum(|v| v.varying.x), sum(|v| v.varying.y));
+            emit(Fragment { x_px, y_px, depth: sum(|v| v.depth), varying });
+        })
+    }
+}
+
+/// The chequered floor with every w set to 1, or a triangle that has no other.
+#[must_use]
+pub fn draw(version: Version, setting: Setting) -> Image {
+    let specimen = Games101Strict { whole_samples: false, true_w: false };
+    match setting {
+        Setting::Exposing => floor(&specimen, version, 4.0),
+        Setting::Harmless => {
+            let triangle = bare([[1.25, 2.75], [12.75, 4.25], [5.25, 11.75]]);
+            chequered(&specimen, version, &[triangle])
+        }
+    }
+}

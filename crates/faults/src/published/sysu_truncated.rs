@@ -1,0 +1,50 @@
+//! Specimen: pixel positions truncated after interpolation, a mistake that the report on SYSU
+//! assignment 2 (task 6) describes.
+//!
+//! Source: Sun Yat-sen University, Computer Graphics, assignment 2, and a published report (2022);
+//! see `docs/sources.md`.
+//!
+//! Symptom: a fragment's position is interpolated from the corners like any attribute and cut to
+//! whole numbers. Weights rounded in f32 put it just below the pixel it came from, so it lands on the
+//! neighbour: holes inside triangles, and neighbours drawn twice.
+//! Cure: the position is the pixel that was tested. Exposed by a triangle whose 1/(2A) is no power of
+//! two; harmless where it is one.
+
+use super::sysu_inclusive::{front, samples};
+use super::{Published, RealTriangle, Refused, to_int};
+use rasterproof_core::arrays::Each as _;
+use rasterproof_core::grid::PixelRect;
+use rasterproof_core::triangle::Span;
+
+/// The rasterizer that truncates interpolated positions.
+#[derive(Clone, Copy, Debug)]
+pub struct SysuTruncated;
+
+impl Published for SysuTruncated {
+    fn cover(
+        &self,
+        triangle: &RealTriangle,
+        bounds: PixelRect,
+        emit: &mut dyn FnMut(Span),
+    ) -> Result<(), Refused> {
+        let triangle = front(triangle)?;
+        // The corners' positions in whole pixels, as f32.
+        let position = |i: usize, axis: usize| triangle[i].position_px[axis].trunc() as f32;
+        let mut result = Ok(());
+        samples(&triangle, bounds, &mut |s| {
+            let [ab, bc, ca] = s.edges.each(|f| f as f32 * s.inverse);
+            let at = |axis: usize| {
+                let sum = bc * position(0, axis) + ca * position(1, axis) + ab * position(2, axis);
+                to_int(sum.into()).map(|px| px as i32)
+            };
+            match (at(0), at(1)) {
+                (Ok(x_px), Ok(y_px)) if bounds.contains(x_px, y_px) => {
+                    emit(Span { y_px, x0_px: x_px, x1_px: x_px + 1 });
+                }
+                (Ok(_), Ok(_)) => {}
+                (Err(refused), _) | (_, Err(refused)) => result = Err(refused),
+            }
+        })?;
+        result
+    }
+}

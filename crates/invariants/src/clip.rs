@@ -1,0 +1,157 @@
+//! Invariants 32 to 35: clipping in homogeneous space.
+
+use glam::{DVec2, DVec4};
+
+use super::Outcome;
+use super::source::ClipInput;
+use super::subject::{Subject, hits};
+use rasterproof_core::arrays::Each as _;
+use rasterproof_core::grid::PixelRect;
+use rasterproof_render::pipeline::ClipVertex;
+use rasterproof_render::pipeline::assemble::Viewport;
+use rasterproof_render::pipeline::clip::{MOST_VERTICES, Outcode, Plane, outcode};
+
+type Vertex = ClipVertex<DVec2>;
+
+fn vertices(input: &ClipInput) -> [Vertex; 3] {
+    let mut number = 0.0;
+    input.vertices.each(|[x, y, z, w]| {
+        number += 1.0;
+        let position = DVec4::new(x.into(), y.into(), z.into(), w.into());
+        ClipVertex { position, varying: DVec2::new(number, -3.0 * number * number) }
+    })
+}
+
+fn bits(vertex: &Vertex) -> [u64; 6] {
+    let [x, y, z, w] = vertex.position.to_array();
+    let [a, b] = vertex.varying.to_array();
+    // The two zeros are the same place.
+    [x, y, z, w, a, b].map(|v| (v + 0.0).to_bits())
+}
+
+/// 32: no plane changes a triangle that lies inside all of them.
+pub(super) fn inside(subject: &Subject, input: &ClipInput) -> Outcome {
+    let triangle = vertices(input);
+    if triangle.iter().any(|vertex| outcode(vertex) != 0) {
+        return Ok(0);
+    }
+    let clipped = (subject.clip)(&triangle, Outcode::MAX);
+    let same = clipped.len() == 3
+        && clipped.iter().zip(&triangle).all(|(actual, target)| bits(actual) == bits(target));
+    if same { Ok(3) } else { Err(format!("{triangle:?} became {clipped:?}")) }
+}
+
+/// 33: the reversed triangle has the same vertices; and what becomes of an edge alone is found, bit
+/// for bit, in every triangle that has the edge: a neighbour makes the same vertices of it.
+pub(super) fn reversed(subject: &Subject, input: &ClipInput) -> Outcome {
+    let [a, b, c] = vertices(input);
+    let set = |triangle: [Vertex; 3]| {
+        let mut set: Vec<_> = (subject.clip)(&triangle, Outcode::MAX).iter().map(bits).collect();
+        set.sort_unstable();
+        set
+    };
+    let whole = set([a, b, c]);
+    let turned = set([c, b, a]);
+    if whole != turned {
+        return Err(format!("{} vertices one way, other bits or numbers the other", whole.len()));
+    }
+    for (edge, from, to) in [("first", a, b), ("second", b, c), ("third", c, a)] {
+        let alone = set([from, to, to]);
+        if let Some(missing) = alone.iter().find(|vertex| !whole.contains(vertex)) {
+            let missing = missing.map(f64::from_bits);
+            return Err(format!("the {edge} edge alone has the vertex {missing:?}"));
+        }
+    }
+    Ok(whole.len() as u64)
+}
+
+/// 35: new vertices lie on a plane exactly, no vertex lies outside any, and there are at most ten.
+pub(super) fn planes(subject: &Subject, input: &ClipInput) -> Outcome {
+    let triangle = vertices(input);
+    let clipped = (subject.clip)(&triangle, Outcode::MAX);
+    if clipped.len() > MOST_VERTICES {
+        return Err(format!("{} vertices", clipped.len()));
+    }
+    let old = triangle.each(|vertex| bits(&vertex));
+    for vertex in &clipped {
+        let distance = |plane: &Plane| plane.distance(vertex);
+        if let Some(plane) = Plane::ALL.iter().find(|plane| distance(plane) < 0.0) {
+            return Err(format!("{vertex:?} lies outside {plane:?}"));
+        }
+        if !old.contains(&bits(vertex)) && Plane::ALL.iter().all(|plane| distance(plane) != 0.0) {
+            return Err(format!("{vertex:?} is new and on no plane"));
+        }
+    }
+    Ok(clipped.len() as u64)
+}
+
+const SIDE_PX: u32 = 16;
+
+/// 34: a pixel is covered once if its centre sees the triangle between near and far plane, else
+/// never.
+///
+/// The truth needs no clipping (Olano and Greer 1997): with l_i the cross product of the other two
+/// vertices' (x, y, w), the centre (x, y, 1) lies on the visible side of edge i iff l_i (x, y, 1)
+/// has the sign of the determinant; z + w and w - z are sums of the same numbers, so near and far
+/// plane are lines too. Vertices are whole numbers below 2^6 and centres odd 32nds, so everything
+/// is a whole number below 2^40, exactly. Snapping moves a vertex by at most 1/512 px in x and y, a
+/// border thus by less than sqrt(2)/512 < 1/256 px; centres nearer than 1/256 px to a border are
+/// not asked.
+pub(super) fn coverage(subject: &Subject, input: &ClipInput) -> Outcome {
+    let window = PixelRect::window(SIDE_PX, SIDE_PX);
+    let clipped = (subject.clip)(&vertices(input), Outcode::MAX);
+    let viewport = Viewport::new(window);
+    let placed: Result<Vec<_>, _> = clipped.iter().map(|vertex| viewport.place(vertex)).collect();
+    let placed = placed.map_err(|refusal| format!("a clipped vertex {refusal}"))?;
+    let corners: Vec<_> = placed.iter().map(|vertex| vertex.position).collect();
+    let fan = corners.get(1..).unwrap_or_default().windows(2).map(|p| [corners[0], p[0], p[1]]);
+    let drawn = hits(&*subject.oracle, fan, window);
+    let Some(lines) = lines(input) else { return Ok(0) };
+    let mut compared = 0;
+    for (y_px, row) in drawn.rows() {
+        for (x_px, &hit) in (0..).zip(row) {
+            // The centre in 16ths of the half side, y up, and 16 for 1.
+            let side = i64::from(SIDE_PX);
+            let centre = [2 * i64::from(x_px) + 1 - side, side - 2 * i64::from(y_px) - 1, side];
+            let values = lines.map(|line| (0..3).map(|k| line[k] * centre[k]).sum::<i64>());
+            // One pixel moves the first two by 2.
+            let near_border = lines.iter().zip(values).any(|(line, value)| {
+                let step = (2 * line[0].abs()).max(2 * line[1].abs());
+                256 * i128::from(value.abs()) <= 2 * i128::from(step)
+            });
+            if near_border {
+                continue;
+            }
+            compared += 1;
+            let visible = values.iter().all(|&value| value > 0);
+            if u8::from(visible) != hit {
+                return Err(format!("pixel ({x_px}, {y_px}): {hit} hits, visible: {visible}"));
+            }
+        }
+    }
+    Ok(compared)
+}
+
+/// The borders of what is visible as lines that are positive inside: three edges, near, far.
+fn lines(input: &ClipInput) -> Option<[[i64; 3]; 5]> {
+    let [a, b, c] = input.vertices.each(|[x, y, _, w]| [x, y, w].each(i64::from));
+    let cross = |p: [i64; 3], q: [i64; 3]| {
+        [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]]
+    };
+    let edges = [cross(b, c), cross(c, a), cross(a, b)];
+    let determinant: i64 = (0..3).map(|k| a[k] * edges[0][k]).sum();
+    if determinant == 0 {
+        return None;
+    }
+    let edges = edges.each(|line| line.each(|v| v * determinant.signum()));
+    let combine = |weight: fn(&[i32; 4]) -> i32| {
+        [0, 1, 2].each(|k| {
+            let term = |i: usize| edges[i][k] * i64::from(weight(&input.vertices[i]));
+            term(0) + term(1) + term(2)
+        })
+    };
+    let near = combine(|[_, _, z, w]| w + z);
+    let far = combine(|[_, _, z, w]| w - z);
+    let [first, second, third] = edges;
+    Some([first, second, third, near, far])
+}

@@ -1,0 +1,723 @@
+//! Invariants 1 to 20: coverage. Every tolerance is zero but that of 19, which is a theorem.
+
+use robust::{Coord, orient2d};
+
+use super::Outcome;
+use super::exact::{self, Nudge, TOP_LEFT, around, centre, owns, pixels};
+use super::source::{Fan, Position, Quad, TriangleInput};
+use super::subject::{Engine, Subject, hits};
+use rasterproof_core::arrays::Each as _;
+use rasterproof_core::frame::Coverage;
+use rasterproof_core::grid::{DOMAIN_PX, HALF_PIXEL, PixelRect, Refusal, SUBPIXELS, SubpixelPoint};
+use rasterproof_core::parallel;
+use rasterproof_core::raster::edge_function::WordWidth;
+use rasterproof_core::triangle::Corners;
+use rasterproof_render::pipeline::assemble::Cull;
+
+/// Compares hit counts; both show the same window. The number of pixels, or the first difference.
+fn same(name: &str, actual: &Coverage, target: &Coverage, what: &str) -> Outcome {
+    let bounds = actual.bounds();
+    if actual == target {
+        return Ok(u64::from(bounds.width()) * u64::from(bounds.height()));
+    }
+    let differs = |&(x, y): &(i32, i32)| actual.get(x, y) != target.get(x, y);
+    let (x, y) = pixels(bounds).find(differs).unwrap_or((bounds.x0, bounds.y0));
+    let [actual, target] = [actual, target].each(|c| c.get(x, y).unwrap_or(0));
+    Err(format!("{name} hits pixel ({x}, {y}) {actual} times, {what} {target} times"))
+}
+
+/// Compares an engine's hits in a window with a predicate.
+fn expect(
+    engine: &Engine,
+    corners: Corners,
+    window: PixelRect,
+    what: &str,
+    inside: impl Fn(i32, i32) -> bool,
+) -> Outcome {
+    let mut target = Coverage::new(window, 0);
+    for (x, y) in pixels(around(&corners, window)).filter(|&(x, y)| inside(x, y)) {
+        target.hit(y, x, x + 1);
+    }
+    same(engine.name, &engine.hits(corners, window), &target, what)
+}
+
+/// Runs a check for every engine and adds up what was compared.
+fn each(subject: &Subject, check: impl Fn(&Engine) -> Outcome) -> Outcome {
+    subject.engines.iter().map(check).sum()
+}
+
+/// 1: each engine against the oracle, so against each other too.
+pub(super) fn engines_agree(subject: &Subject, input: &TriangleInput) -> Outcome {
+    let (corners, window) = (input.triangle.corners(), input.window);
+    let truth = hits(&*subject.oracle, [corners], window);
+    each(subject, |engine| same(engine.name, &engine.hits(corners, window), &truth, "the oracle"))
+}
+
+/// 2: three signs of `robust::orient2d` at each centre decide what the oracle must say.
+pub(super) fn oracle_sign(subject: &Subject, input: &TriangleInput) -> Outcome {
+    let (corners, window) = (input.triangle.corners(), input.window);
+    // Every i32 and every centre is a whole number below 2^32: exact in f64, and so is the sign.
+    let coord = |p: SubpixelPoint| Coord { x: f64::from(p.x), y: f64::from(p.y) };
+    let sign = |a, b, c| {
+        let turn = orient2d(a, b, c);
+        if turn == 0.0 { 0 } else { turn.signum() as i32 }
+    };
+    let [a, b, c] = corners;
+    let winding = sign(coord(a), coord(b), coord(c));
+    let [a, b, c] = if winding < 0 { [a, c, b] } else { [a, b, c] };
+    let mut target = Coverage::new(window, 0);
+    for (x, y) in pixels(around(&corners, window)) {
+        let sample = Coord { x: centre(x) as f64, y: centre(y) as f64 };
+        let inside = [(a, b), (b, c), (c, a)].into_iter().all(|(from, to)| {
+            let top_left = to.y < from.y || (to.y == from.y && to.x > from.x);
+            let side = sign(coord(from), coord(to), sample);
+            side > 0 || (side == 0 && top_left)
+        });
+        if inside && winding != 0 {
+            target.hit(y, x, x + 1);
+        }
+    }
+    same("the oracle", &hits(&*subject.oracle, [corners], window), &target, "robust says")
+}
+
+/// All orders of three things.
+pub(super) const ORDERS: [[usize; 3]; 6] =
+    [[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 2, 1], [2, 1, 0], [1, 0, 2]];
+
+/// 3: the set does not depend on the order of the vertices.
+pub(super) fn vertex_order(subject: &Subject, input: &TriangleInput) -> Outcome {
+    let (corners, window) = (input.triangle.corners(), input.window);
+    each(subject, |engine| {
+        let first = engine.hits(corners, window);
+        ORDERS[1..]
+            .iter()
+            .map(|order| {
+                let other = engine.hits(order.each(|i| corners[i]), window);
+                same(engine.name, &other, &first, &format!("in order {order:?} and in 0 1 2"))
+            })
+            .sum()
+    })
+}
+
+fn shift_rect(rect: PixelRect, dx: i32, dy: i32) -> Option<PixelRect> {
+    Some(PixelRect {
+        x0: rect.x0.checked_add(dx)?,
+        y0: rect.y0.checked_add(dy)?,
+        x1: rect.x1.checked_add(dx)?,
+        y1: rect.y1.checked_add(dy)?,
+    })
+}
+
+/// Moves by whole pixels, or nothing where that leaves the domain.
+fn shift(corners: Corners, dx_px: i32, dy_px: i32) -> Option<Corners> {
+    let mut moved = corners;
+    for p in &mut moved {
+        p.x = p.x.checked_add(dx_px.checked_mul(SUBPIXELS)?)?;
+        p.y = p.y.checked_add(dy_px.checked_mul(SUBPIXELS)?)?;
+    }
+    Some(moved)
+}
+
+/// 4: by a pixel, across zero, and to where floats lose their subpixels.
+pub(super) fn translation(subject: &Subject, input: &TriangleInput) -> Outcome {
+    let (corners, window) = (input.triangle.corners(), input.window);
+    let half = (window.width() / 2) as i32;
+    let shifts = [
+        (1, 0),
+        (0, 1),
+        (-window.x0 - half, -window.y0 - half),
+        (1 << 11, -(1 << 11)),
+        (-(1 << 14), 1 << 14),
+        (DOMAIN_PX / 2, -DOMAIN_PX / 2),
+    ];
+    each(subject, |engine| {
+        let still = engine.hits(corners, window);
+        let mut compared = 0;
+        for (dx, dy) in shifts {
+            let moved = shift(corners, dx, dy).zip(shift_rect(window, dx, dy));
+            let Some((moved, there)) = moved else { continue };
+            let moved = engine.hits(moved, there);
+            for ((_, a), (_, b)) in moved.rows().zip(still.rows()) {
+                if a != b {
+                    return Err(format!("{} draws another set after ({dx}, {dy}) px", engine.name));
+                }
+                compared += a.len() as u64;
+            }
+        }
+        Ok(compared)
+    })
+}
+
+/// The mirrors and turns of the square but for the identity, as matrices by rows.
+const SYMMETRIES: [[[i32; 2]; 2]; 7] = [
+    [[-1, 0], [0, 1]],
+    [[1, 0], [0, -1]],
+    [[-1, 0], [0, -1]],
+    [[0, 1], [1, 0]],
+    [[0, -1], [1, 0]],
+    [[0, 1], [-1, 0]],
+    [[0, -1], [-1, 0]],
+];
+
+/// 5: the image of a triangle covers what the original covers by the rule that the same map turns
+/// into top-left: with M the map, samples of the original are nudged by the inverse of M.
+pub(super) fn conjugate_rules(subject: &Subject, input: &TriangleInput) -> Outcome {
+    let (corners, window) = (input.triangle.corners(), input.window);
+    if window.is_empty() || corners.iter().any(|p| p.x == i32::MIN || p.y == i32::MIN) {
+        // The mirror image of the domain's first column lies outside the domain.
+        return Ok(0);
+    }
+    each(subject, |engine| {
+        let check = |[mx, my]: [[i32; 2]; 2]| {
+            let image = corners
+                .each(|p| SubpixelPoint::new(mx[0] * p.x + mx[1] * p.y, my[0] * p.x + my[1] * p.y));
+            // The inverse of an orthogonal matrix is its transpose: columns are rows.
+            let nudge = Nudge { first: mx, second: my };
+            // Pixel i of a mirrored axis is pixel -1 - i.
+            let along = |m: [i32; 2], x: i32, y: i32| {
+                let (v, sign) = if m[0] != 0 { (x, m[0]) } else { (y, m[1]) };
+                if sign > 0 { v } else { -1 - v }
+            };
+            let ends = [(window.x0, window.y0), (window.x1 - 1, window.y1 - 1)]
+                .each(|(x, y)| (along(mx, x, y), along(my, x, y)));
+            let there = PixelRect {
+                x0: ends[0].0.min(ends[1].0),
+                y0: ends[0].1.min(ends[1].1),
+                x1: ends[0].0.max(ends[1].0) + 1,
+                y1: ends[0].1.max(ends[1].1) + 1,
+            };
+            let mut target = Coverage::new(there, 0);
+            for (x, y) in pixels(around(&corners, window)) {
+                if owns(&corners, x, y, nudge) {
+                    let (u, v) = (along(mx, x, y), along(my, x, y));
+                    target.hit(v, u, u + 1);
+                }
+            }
+            let what = format!("mapped by {:?}, the conjugate rule", [mx, my]);
+            same(engine.name, &engine.hits(image, there), &target, &what)
+        };
+        SYMMETRIES.into_iter().map(check).sum()
+    })
+}
+
+/// 6: both ways to split give the same union, and no pixel twice.
+pub(super) fn quad_split(subject: &Subject, input: &Quad) -> Outcome {
+    let ([a, b, c, d], window) = (input.corners, input.window);
+    each(subject, |engine| {
+        let one = hits(&*engine.fill, [[a, b, c], [a, c, d]], window);
+        let other = hits(&*engine.fill, [[a, b, d], [b, c, d]], window);
+        if let Some((x, y)) = pixels(window).find(|&(x, y)| one.get(x, y) > Some(1)) {
+            return Err(format!("{} hits pixel ({x}, {y}) twice", engine.name));
+        }
+        same(engine.name, &one, &other, "split on the other diagonal")
+    })
+}
+
+fn fan_triangles(centre: SubpixelPoint, ring: &[SubpixelPoint]) -> Vec<Corners> {
+    (0..ring.len()).map(|i| [centre, ring[i], ring[(i + 1) % ring.len()]]).collect()
+}
+
+/// 7: the triangles of a closed fan cover what its outline winds round once, once each.
+pub(super) fn closed_fan(subject: &Subject, input: &Fan) -> Outcome {
+    let triangles = fan_triangles(input.centre, &input.ring);
+    if triangles.iter().any(|corners| exact::twice_area(corners) <= 0) {
+        return Ok(0);
+    }
+    let mut target = Coverage::new(input.window, 0);
+    for (x, y) in pixels(input.window) {
+        for _ in 0..exact::winding(&input.ring, x, y) {
+            target.hit(y, x, x + 1);
+        }
+    }
+    each(subject, |engine| {
+        let fan = hits(&*engine.fill, triangles.iter().copied(), input.window);
+        same(engine.name, &fan, &target, "the outline winds round it")
+    })
+}
+
+/// Hits with the sign of the triangle's area.
+fn signed_hits(engine: &Engine, triangles: &[Corners], window: PixelRect) -> Vec<i32> {
+    let mut sum = vec![0; window.width() as usize * window.height() as usize];
+    for &corners in triangles {
+        let sign = exact::twice_area(&corners).signum() as i32;
+        let hits = engine.hits(corners, window);
+        let counts = hits.rows().flat_map(|(_, row)| row);
+        sum.iter_mut().zip(counts).for_each(|(sum, &count)| *sum += sign * i32::from(count));
+    }
+    sum
+}
+
+/// 8: two fans over one outline, one of them turned inside out, are closed; one of them is a disk,
+/// folded where the apex lies outside.
+pub(super) fn signed_hit_count(subject: &Subject, input: &Fan) -> Outcome {
+    let disk = fan_triangles(input.apex, &input.ring);
+    let turned = fan_triangles(input.centre, &input.ring).into_iter().map(|[a, b, c]| [a, c, b]);
+    let closed: Vec<Corners> = disk.iter().copied().chain(turned).collect();
+    each(subject, |engine| {
+        let on_disk = signed_hits(engine, &disk, input.window);
+        let on_closed = signed_hits(engine, &closed, input.window);
+        for (i, (x, y)) in pixels(input.window).enumerate() {
+            let target = exact::winding(&input.ring, x, y);
+            if on_disk[i] != target || on_closed[i] != 0 {
+                return Err(format!(
+                    "{} hits pixel ({x}, {y}) {} times on the disk and {} times on the closed mesh, signed; right are {target} and 0",
+                    engine.name, on_disk[i], on_closed[i]
+                ));
+            }
+        }
+        Ok(2 * on_disk.len() as u64)
+    })
+}
+
+/// 9: what is covered of a row is one run.
+pub(super) fn contiguous_rows(subject: &Subject, input: &TriangleInput) -> Outcome {
+    each(subject, |engine| {
+        let hits = engine.hits(input.triangle.corners(), input.window);
+        let mut last_row = None;
+        for (y_px, ..) in hits.runs() {
+            if last_row.replace(y_px) == Some(y_px) {
+                return Err(format!("{} leaves a hole in row {y_px}", engine.name));
+            }
+        }
+        Ok(u64::from(input.window.height()))
+    })
+}
+
+/// 10: nothing outside the snapped box, everything strictly inside.
+pub(super) fn inside_the_box(subject: &Subject, input: &TriangleInput) -> Outcome {
+    let (corners, window) = (input.triangle.corners(), input.window);
+    let range = |v: fn(&SubpixelPoint) -> i32| {
+        let (low, high) = (corners.iter().map(v).min(), corners.iter().map(v).max());
+        i64::from(low.unwrap_or(0))..=i64::from(high.unwrap_or(0))
+    };
+    let (columns, rows) = (range(|p| p.x), range(|p| p.y));
+    let oriented = exact::clockwise(&corners);
+    each(subject, |engine| {
+        let hits = engine.hits(corners, window);
+        for (x, y) in pixels(window) {
+            let covered = hits.get(x, y) > Some(0);
+            let in_box = columns.contains(&centre(x)) && rows.contains(&centre(y));
+            if covered && !in_box {
+                return Err(format!("{} covers ({x}, {y}), outside the box", engine.name));
+            }
+            let strictly = |c: &Corners| exact::edges(c, x, y).iter().all(|&e| e > 0);
+            if !covered && in_box && oriented.as_ref().is_some_and(strictly) {
+                return Err(format!("{} misses ({x}, {y}), strictly inside", engine.name));
+            }
+        }
+        Ok(u64::from(window.width()) * u64::from(window.height()))
+    })
+}
+
+/// 11: triangles cut out of a triangle cover a part of it.
+pub(super) fn nesting(subject: &Subject, input: &TriangleInput) -> Outcome {
+    let (outer, window) = (input.triangle.corners(), input.window);
+    let Some([a, b, c]) = exact::clockwise(&outer) else { return Ok(0) };
+    let salt = i64::from(input.salt);
+    let between = |p: SubpixelPoint, q: SubpixelPoint, parts: i64| {
+        let mix =
+            |p: i32, q: i32| (i64::from(p) + (i64::from(q) - i64::from(p)) * parts / 16) as i32;
+        SubpixelPoint::new(mix(p.x, q.x), mix(p.y, q.y))
+    };
+    let inner = between(between(a, b, salt % 17), c, salt / 17 % 17);
+    let [ab, bc, ca] = [between(a, b, 8), between(b, c, 8), between(c, a, 8)];
+    // Rounding to the lattice may have left the outer triangle.
+    let inside = |p: &SubpixelPoint| {
+        let (x, y) = (i64::from(p.x), i64::from(p.y));
+        [(a, b), (b, c), (c, a)].into_iter().all(|(p, q)| exact::edge(p, q, x, y) >= 0)
+    };
+    each(subject, |engine| {
+        let whole = engine.hits(outer, window);
+        let mut compared = 0;
+        for part in [[a, b, inner], [inner, b, c], [ab, bc, ca], [a, ab, inner]] {
+            if !part.iter().all(inside) {
+                continue;
+            }
+            let hits = engine.hits(part, window);
+            if let Some((x, y)) = pixels(window).find(|&(x, y)| hits.get(x, y) > whole.get(x, y)) {
+                let name = engine.name;
+                return Err(format!("{name} covers ({x}, {y}) by {part:?} but not by {outer:?}"));
+            }
+            compared += 1;
+        }
+        Ok(compared)
+    })
+}
+
+/// 12: flat triangles made of the input's corners: a point twice, three times, three on a line.
+pub(super) fn zero_area(subject: &Subject, input: &TriangleInput) -> Outcome {
+    let ([a, b, _], window) = (input.triangle.corners(), input.window);
+    // A third point on the line through a and b: b mirrored at a, if it lies in the domain.
+    let mirrored = |a: i32, b: i32| i32::try_from(2 * i64::from(a) - i64::from(b)).ok();
+    let c = mirrored(a.x, b.x).zip(mirrored(a.y, b.y));
+    let mut flat = vec![[a, a, b], [a, b, a], [b, a, a], [a, a, a]];
+    if let Some((x, y)) = c {
+        let c = SubpixelPoint::new(x, y);
+        flat.extend([[a, b, c], [b, c, a], [c, b, a]]);
+    }
+    if exact::twice_area(&input.triangle.corners()) == 0 {
+        flat.push(input.triangle.corners());
+    }
+    each(subject, |engine| {
+        for corners in &flat {
+            let covered = engine.hits(*corners, window).covered();
+            let mut triangle = input.triangle;
+            triangle.vertices.iter_mut().zip(corners).for_each(|(v, p)| v.position = *p);
+            let fragments = engine.fragments(&triangle, window).len();
+            if covered > 0 || fragments > 0 {
+                return Err(format!(
+                    "{} covers {covered} pixels and emits {fragments} fragments of {corners:?}",
+                    engine.name
+                ));
+            }
+        }
+        Ok(flat.len() as u64)
+    })
+}
+
+/// 13: a triangle and the same one seen from behind.
+pub(super) fn windings(subject: &Subject, input: &TriangleInput) -> Outcome {
+    let ([a, b, c], window) = (input.triangle.corners(), input.window);
+    let sign = exact::twice_area(&[a, b, c]).signum();
+    for (corners, sign) in [([a, b, c], sign), ([c, b, a], -sign)] {
+        let removed = [Cull::None, Cull::Clockwise, Cull::CounterClockwise]
+            .each(|cull| (subject.culls)(cull, corners));
+        let expected = [false, sign > 0, sign < 0];
+        if removed != expected {
+            return Err(format!("culling none, clockwise, counter-clockwise: {removed:?}"));
+        }
+    }
+    each(subject, |engine| {
+        let front = engine.hits([a, b, c], window);
+        same(engine.name, &engine.hits([c, b, a], window), &front, "with the other winding")
+    })
+}
+
+/// 14: the window cut into tiles, drawn on several threads, gives the window; so do the values.
+pub(super) fn crop(subject: &Subject, input: &TriangleInput) -> Outcome {
+    let (triangle, window) = (&input.triangle, input.window);
+    let side = 1 + (input.salt % 19) as i32;
+    let cut = |low: i32, high: i32| {
+        (low..high).step_by(side as usize).map(move |v| (v, (v + side).min(high)))
+    };
+    let tiles: Vec<PixelRect> = cut(window.y0, window.y1)
+        .flat_map(|(y0, y1)| {
+            cut(window.x0, window.x1).map(move |(x0, x1)| PixelRect { x0, y0, x1, y1 })
+        })
+        .collect();
+    each(subject, |engine| {
+        let whole = engine.hits(triangle.corners(), window);
+        let fragments = engine.fragments(triangle, window);
+        let value_at = |x: i32, y: i32| fragments.iter().find(|f| (f.x_px, f.y_px) == (x, y));
+        let check = |number: usize| {
+            let tile = tiles[number];
+            let hits = engine.hits(triangle.corners(), tile);
+            let differs = |&(x, y): &(i32, i32)| hits.get(x, y) != whole.get(x, y);
+            if let Some((x, y)) = pixels(tile).find(differs) {
+                return Err(format!(
+                    "{} differs at ({x}, {y}) in a tile of {side} px",
+                    engine.name
+                ));
+            }
+            // The last fragment of a tile is where a walk from another start has gone farthest.
+            let inside = engine.fragments(triangle, tile);
+            for f in inside.first().into_iter().chain(inside.last()) {
+                if value_at(f.x_px, f.y_px) != Some(f) {
+                    return Err(format!(
+                        "{} has another value at ({}, {}) in a tile of {side} px",
+                        engine.name, f.x_px, f.y_px
+                    ));
+                }
+            }
+            Ok(hits.covered() + 1)
+        };
+        parallel::map(tiles.len(), check).into_iter().sum()
+    })
+}
+
+/// The eight arms of a fan in clockwise order (y down).
+const ARMS: [[i32; 2]; 8] = [[1, 0], [1, 1], [0, 1], [-1, 1], [-1, 0], [-1, -1], [0, -1], [1, -1]];
+
+/// What a rule, as a set of directions whose edges own their samples, does in the two figures of
+/// [`identifies_the_rule`]: bit i of the first number is triangle i of the fan, which has an edge
+/// out along arm i and one back along the arm after it; bit i of the second is an edge along arm i
+/// with the sample in its middle.
+fn fingerprint(owns: u8) -> (u8, u8) {
+    let has = |arm: usize| owns >> (arm % 8) & 1 == 1;
+    let fan = (0..8).filter(|&i| has(i) && has(i + 5)).fold(0, |bits, i| bits | 1 << i);
+    (fan, owns)
+}
+
+/// Left edges go up, top edges go right: arms 5, 6, 7 and 0.
+const TOP_LEFT_ARMS: u8 = 0b1110_0001;
+
+/// 15: eight triangles around a centre, and eight edges through one. Of the 256 sets of directions
+/// only top-left has this fingerprint; of the 16 consistent ones (one of two opposite directions
+/// owns) the fan alone tells it from the others.
+pub(super) fn identifies_the_rule(subject: &Subject, input: &TriangleInput) -> Outcome {
+    let target = fingerprint(TOP_LEFT_ARMS);
+    for rule in (0..=u8::MAX).filter(|&rule| rule != TOP_LEFT_ARMS) {
+        let consistent = rule ^ rule.rotate_left(4) == u8::MAX;
+        if fingerprint(rule) == target || (consistent && fingerprint(rule).0 == target.0) {
+            return Err(format!("the figures cannot tell the rule {rule:08b} from top-left"));
+        }
+    }
+    // Any pixel, any size of the arms: both from the salt.
+    let (x_px, y_px) = ((input.salt % 13) as i32, (input.salt / 13 % 13) as i32);
+    let arm_sub = 3 + (input.salt / 169 % 125) as i32;
+    let window = PixelRect { x0: x_px, y0: y_px, x1: x_px + 1, y1: y_px + 1 };
+    let sample = SubpixelPoint::new(centre(x_px) as i32, centre(y_px) as i32);
+    let tip = |arm: usize, times: i32| {
+        let [dx, dy] = ARMS[arm % 8];
+        SubpixelPoint::new(sample.x + dx * times, sample.y + dy * times)
+    };
+    each(subject, |engine| {
+        let bit =
+            |corners: Corners, i: usize| u8::from(engine.hits(corners, window).covered() > 0) << i;
+        let fan = (0..8).map(|i| bit([sample, tip(i, arm_sub), tip(i + 1, arm_sub)], i)).sum();
+        // From the opposite arm to arm i, the third corner a right angle clockwise of it.
+        let middle = |i: usize| [tip(i + 4, arm_sub), tip(i, arm_sub), tip(i + 2, arm_sub)];
+        let edges = (0..8).map(|i| bit(middle(i), i)).sum();
+        if (fan, edges) == target {
+            Ok(16)
+        } else {
+            let (target_fan, target_edges) = target;
+            Err(format!(
+                "{}: fan {fan:08b}, edges {edges:08b}; top-left has {target_fan:08b}, {target_edges:08b}",
+                engine.name
+            ))
+        }
+    })
+}
+
+/// The first column whose centre is not left of the crossing of the edge from a down to b with a
+/// row of centres: ceil((x - S/2) / S), in one exact division.
+fn first_column(a: SubpixelPoint, b: SubpixelPoint, y_sub: i64) -> i128 {
+    let [ax, ay, bx, by] = [a.x, a.y, b.x, b.y].map(i128::from);
+    let (dx, dy) = (bx - ax, by - ay);
+    let numerator = (ax - i128::from(HALF_PIXEL)) * dy + (i128::from(y_sub) - ay) * dx;
+    -(-numerator).div_euclid(i128::from(SUBPIXELS) * dy)
+}
+
+/// 16: each half-plane of a row starts at the ceiling of the crossing, by its sign as by division;
+/// so a row of a triangle is what lies between its two ceilings.
+pub(super) fn edge_lemma(subject: &Subject, input: &TriangleInput) -> Outcome {
+    let (corners, window) = (input.triangle.corners(), input.window);
+    let mut compared = 0;
+    for y_px in window.y0..window.y1 {
+        let y = centre(y_px);
+        let mut columns = Vec::new();
+        for (i, j) in [(0, 1), (1, 2), (2, 0)] {
+            let (p, q) = (corners[i], corners[j]);
+            let (a, b) = if p.y <= q.y { (p, q) } else { (q, p) };
+            if !(i64::from(a.y) <= y && y < i64::from(b.y)) {
+                continue;
+            }
+            let column = first_column(a, b, y);
+            // Right of a downward edge its function is not positive: at the column, not before it.
+            let right_of = |column: i128| {
+                let x = column as i64 * i64::from(SUBPIXELS) + i64::from(HALF_PIXEL);
+                exact::edge(a, b, x, y) <= 0
+            };
+            if !right_of(column) || right_of(column - 1) {
+                return Err(format!(
+                    "row {y_px}: the ceiling {column} of {a:?} {b:?} is no sign change"
+                ));
+            }
+            columns.push(column);
+        }
+        columns.sort_unstable();
+        for engine in &subject.engines {
+            let row = PixelRect { y0: y_px, y1: y_px + 1, ..window };
+            let actual = engine.hits(corners, row);
+            let between = |x: i32| matches!(columns[..], [l, r] if l <= x.into() && r > x.into());
+            let differs =
+                (row.x0..row.x1).find(|&x| (actual.get(x, y_px) == Some(1)) != between(x));
+            if let Some(x) = differs {
+                return Err(format!("{} errs at ({x}, {y_px}); ceilings {columns:?}", engine.name));
+            }
+            compared += 1;
+        }
+    }
+    Ok(compared)
+}
+
+/// 17: sizes up to the widest, around the thresholds of the words. The functions are bounded by
+/// the box at its corners (they are linear, so everywhere in it), the chosen word holds them with
+/// one step more, and the engines neither panic nor err.
+pub(super) fn edge_bound(subject: &Subject, input: &TriangleInput) -> Outcome {
+    let corners = sized(input);
+    let extent = |v: fn(&SubpixelPoint) -> i32| {
+        let values = corners.iter().map(v);
+        values.clone().max().unwrap_or(0).abs_diff(values.min().unwrap_or(0))
+    };
+    let (width, height) = (extent(|p| p.x), extent(|p| p.y));
+    let bound = i128::from(width) * i128::from(height);
+    let whole = PixelRect { x0: -DOMAIN_PX, y0: -DOMAIN_PX, x1: DOMAIN_PX, y1: DOMAIN_PX };
+    // Pixels whose centres lie in the box.
+    let touched = around(&corners, whole);
+    let [low_x, low_y, high_x, high_y] = [
+        corners.iter().map(|p| p.x).min(),
+        corners.iter().map(|p| p.y).min(),
+        corners.iter().map(|p| p.x).max(),
+        corners.iter().map(|p| p.y).max(),
+    ]
+    .map(|v| i64::from(v.unwrap_or(0)));
+    let inside = |x: i32, y: i32| {
+        (low_x..=high_x).contains(&centre(x)) && (low_y..=high_y).contains(&centre(y))
+    };
+    for x in [touched.x0, touched.x0 + 1, touched.x1 - 2, touched.x1 - 1] {
+        for y in [touched.y0, touched.y0 + 1, touched.y1 - 2, touched.y1 - 1] {
+            let values = (subject.edge_values)(&corners, x, y);
+            if inside(x, y) && values.iter().any(|e| e.abs() > bound) {
+                return Err(format!("|E| of {values:?} exceeds {width} x {height} at ({x}, {y})"));
+            }
+        }
+    }
+    // In the box |E| <= Wx Wy is attained; a step past it adds at most S Wx or S Wy, or both.
+    let padded =
+        (i128::from(width) + i128::from(SUBPIXELS)) * (i128::from(height) + i128::from(SUBPIXELS));
+    let fits = match (subject.word_width)(width, height) {
+        WordWidth::I32 => padded / i128::from(SUBPIXELS) < 1 << 31,
+        WordWidth::I64 => padded < 1 << 63,
+        WordWidth::I128 => true,
+    };
+    if !fits {
+        return Err(format!("{width} x {height} subpixels do not fit the chosen word"));
+    }
+    let near = PixelRect {
+        x0: touched.x0.max(touched.x1.saturating_sub(12)),
+        y0: touched.y0,
+        x1: touched.x1,
+        y1: touched.y1.min(touched.y0.saturating_add(12)),
+    };
+    each(subject, |engine| {
+        [near, input.window]
+            .into_iter()
+            .map(|w| {
+                expect(engine, corners, w, "checked arithmetic", |x, y| {
+                    owns(&corners, x, y, TOP_LEFT)
+                })
+            })
+            .sum()
+    })
+}
+
+/// The input's triangle, or one whose box has a size at a threshold of some word.
+fn sized(input: &TriangleInput) -> Corners {
+    let salt = input.salt;
+    let around = |n: i64, spread: u32| n - 40 + i64::from(spread % 80);
+    let side = match salt % 6 {
+        0 => around(46_340, salt / 6),
+        1 => around(2_896 * 256 - 256, salt / 6),
+        2 => around(3_037_000_499 - 256, salt / 6),
+        3 => i64::from(u32::MAX),
+        _ => return input.triangle.corners(),
+    };
+    // The box from (low, low) to (low + side, low + side), the long edge falling or rising.
+    let low = if side > i64::from(i32::MAX) { i64::from(i32::MIN) } else { -side / 2 };
+    let [low, high] = [low as i32, (low + side) as i32];
+    let p = SubpixelPoint::new;
+    if salt & 64 == 0 {
+        [p(low, low), p(high, low), p(high, high)]
+    } else {
+        [p(low, high), p(high, low), p(high, high)]
+    }
+}
+
+/// 18: half a subpixel at most, ties to even, moved with whole pixels; the rest is refused.
+pub(super) fn snapping(subject: &Subject, input: &Position) -> Outcome {
+    let Position { px, shift_px } = *input;
+    let scale = f64::from(SUBPIXELS);
+    let snap = subject.snap;
+    let Ok(sub) = snap(px) else { return Err(format!("{px:?} px is refused")) };
+    // Exact: px has a mantissa of at most 44 bits, and a factor of 256 moves the exponent only.
+    let moved_by = (px * scale - f64::from(sub)).abs();
+    if moved_by > 0.5 || (moved_by == 0.5 && sub % 2 != 0) {
+        return Err(format!("{px:?} px = {:?} subpixels snaps to {sub}", px * scale));
+    }
+    let shifted = px + f64::from(shift_px);
+    if shifted - f64::from(shift_px) == px && shifted.abs() < f64::from(DOMAIN_PX - 1) {
+        let there = snap(shifted);
+        if there != Ok(sub + shift_px * SUBPIXELS) {
+            return Err(format!("{px:?} px snaps to {sub}, {shift_px} px further to {there:?}"));
+        }
+    }
+    let refused = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, f64::from(DOMAIN_PX), 1e22, -1e22];
+    for px in refused {
+        let answer = snap(px);
+        let right = match answer {
+            Err(Refusal::NotANumber) => px.is_nan(),
+            Err(Refusal::Infinite) => px.is_infinite(),
+            Err(Refusal::OutOfDomain(_)) => px.is_finite(),
+            _ => false,
+        };
+        if !right {
+            return Err(format!("{px:?} px gives {answer:?} instead of a reason"));
+        }
+    }
+    Ok(2 + refused.len() as u64)
+}
+
+/// Unit roundoff of f64.
+const U: f64 = f64::EPSILON / 2.0;
+
+/// 19: pixels against area. A convex region of area A and perimeter P, in general position to the
+/// lattice (the nudge puts it there), has A - P/2 < N < A + P/2 + 1 lattice points (Nosarzewska
+/// 1948), so |N - A| <= P + 1.
+pub(super) fn area(subject: &Subject, input: &TriangleInput) -> Outcome {
+    const MOST_PX: u32 = 512;
+    let corners = input.triangle.corners();
+    let whole = PixelRect { x0: -DOMAIN_PX, y0: -DOMAIN_PX, x1: DOMAIN_PX, y1: DOMAIN_PX };
+    let window = around(&corners, whole);
+    if window.width() > MOST_PX || window.height() > MOST_PX {
+        return Ok(0);
+    }
+    // Sides of at most 512 px: twice the area is a whole number below 2^36, exact in f64. The
+    // sides have a relative error of 2 u each, as have their sum and the comparison.
+    let s = f64::from(SUBPIXELS);
+    let area_px = exact::twice_area(&corners).abs() as f64 / (2.0 * s * s);
+    let side = |i: usize, j: usize| {
+        let (p, q) = (corners[i], corners[j]);
+        (f64::from(p.x - q.x) / s).hypot(f64::from(p.y - q.y) / s)
+    };
+    let perimeter_px = (side(0, 1) + side(1, 2) + side(2, 0)) * (1.0 + 8.0 * U);
+    each(subject, |engine| {
+        let covered = engine.hits(corners, window).covered();
+        if area_px > 0.0 && (covered as f64 - area_px).abs() > perimeter_px + 1.0 {
+            return Err(format!(
+                "{} covers {covered} pixels of an area of {area_px} and a perimeter of {perimeter_px}",
+                engine.name
+            ));
+        }
+        Ok(1)
+    })
+}
+
+/// 20: N x N samples a pixel, as N^2 shifted triangles, are the pixels of the triangle N times as
+/// large. N is 2 or 4: the samples lie at odd multiples of S / 2N, on the lattice.
+pub(super) fn supersampling(subject: &Subject, input: &TriangleInput) -> Outcome {
+    let (corners, window) = (input.triangle.corners(), input.window);
+    let n: i32 = if input.salt.is_multiple_of(2) { 2 } else { 4 };
+    let small = |v: i32| v.unsigned_abs() < 1 << 27;
+    if !corners.iter().all(|p| small(p.x) && small(p.y)) || !small(window.x0 * SUBPIXELS) {
+        return Ok(0);
+    }
+    let scaled = corners.each(|p| SubpixelPoint::new(p.x * n, p.y * n));
+    let there =
+        PixelRect { x0: window.x0 * n, y0: window.y0 * n, x1: window.x1 * n, y1: window.y1 * n };
+    each(subject, |engine| {
+        let large = engine.hits(scaled, there);
+        for (i, j) in (0..n).flat_map(|j| (0..n).map(move |i| (i, j))) {
+            // From the sample to the centre.
+            let by = |k: i32| HALF_PIXEL - (2 * k + 1) * SUBPIXELS / (2 * n);
+            let moved = corners.each(|p| SubpixelPoint::new(p.x + by(i), p.y + by(j)));
+            let hits = engine.hits(moved, window);
+            let differs = |&(x, y): &(i32, i32)| hits.get(x, y) != large.get(x * n + i, y * n + j);
+            if let Some((x, y)) = pixels(window).find(differs) {
+                return Err(format!("{}: sample {i},{j} of {n} x {n} of ({x}, {y})", engine.name));
+            }
+        }
+        Ok(u64::from(there.width()) * u64::from(there.height()))
+    })
+}

@@ -1,0 +1,366 @@
+//! Invariants: what must hold of every implementation, each under a number and a name.
+//!
+//! Floor: above [`rasterproof_verify::comparison`] and [`rasterproof_registry::engines`], below the command line. It may ask every
+//! room from `verify` downwards.
+//!
+//! A check is a function of a [`Subject`] (the implementations under test) and an [`Input`]. Inputs
+//! come from (seed, number) here and from a property test's small numbers in `tests/it`; mutants
+//! are put in the place of the real thing to show that each check can fail ([`matrix`]).
+//!
+//! - Coverage is 1 to 20, values 21 to 31, clipping 32 to 35, lines 36 to 41, the harness itself 42
+//!   to 45, effects 46, lists of triangles 47.
+
+mod clip;
+mod coverage;
+mod effects;
+mod exact;
+mod lines;
+mod lists;
+pub mod matrix;
+mod meta;
+pub mod source;
+pub mod subject;
+mod values;
+
+use rasterproof_core::parallel;
+use rasterproof_verify::comparison::caught;
+use source::{ClipInput, Fan, Input, LineInput, Position, Quad, TriangleInput};
+use subject::{Part, Subject};
+
+/// What a check compared (0 where the input does not fit it), or the first thing that is wrong.
+pub type Outcome = Result<u64, String>;
+
+/// The function of an invariant, by what it takes.
+#[derive(Clone, Copy)]
+pub enum Check {
+    /// Of a triangle.
+    Triangle(fn(&Subject, &TriangleInput) -> Outcome),
+    /// Of a convex quadrilateral.
+    Quad(fn(&Subject, &Quad) -> Outcome),
+    /// Of a closed fan.
+    Fan(fn(&Subject, &Fan) -> Outcome),
+    /// Of a line.
+    Line(fn(&Subject, &LineInput) -> Outcome),
+    /// Of a coordinate.
+    Position(fn(&Subject, &Position) -> Outcome),
+    /// Of a triangle in clip space.
+    Clip(fn(&Subject, &ClipInput) -> Outcome),
+    /// Of a whole run: its seed, its cases of each family, at most the number given.
+    Run(fn(&Subject, u64, u64) -> Outcome, u64),
+    /// Of the matrix of mutants and invariants.
+    Matrix,
+}
+
+/// A property with its number, its name and its tolerance.
+#[derive(Clone, Copy)]
+pub struct Invariant {
+    /// Its number, which never changes.
+    pub number: u32,
+    /// Its name on the command line.
+    pub name: &'static str,
+    /// What must hold, in one sentence.
+    pub statement: &'static str,
+    /// How much may be missing; derived where the check stands.
+    pub tolerance: &'static str,
+    /// The parts of a subject that it looks at.
+    pub parts: &'static [Part],
+    /// The check.
+    pub check: Check,
+}
+
+/// What came of a run.
+#[derive(Clone, Debug)]
+pub struct Report {
+    /// Inputs that were checked.
+    pub cases: u64,
+    /// Inputs that do not fit the property and were left out.
+    pub skipped: u64,
+    /// Pixels, values or steps compared.
+    pub compared: u64,
+    /// The first failure by number, if any.
+    pub failure: Option<Failure>,
+}
+
+/// A failing input.
+#[derive(Clone, Debug)]
+pub struct Failure {
+    /// Its number.
+    pub index: u64,
+    /// The smallest input found that still fails.
+    pub input: Input,
+    /// What is wrong with that.
+    pub message: String,
+}
+
+impl Invariant {
+    /// The input of a number: a pure function of the three, as far as the subject's source is.
+    #[must_use]
+    pub fn input(&self, subject: &Subject, seed: u64, index: u64) -> Input {
+        match self.check {
+            Check::Triangle(_) => source::triangle(subject.make_case, seed, index),
+            Check::Quad(_) => source::quad(seed, index),
+            Check::Fan(_) => source::fan(seed, index),
+            Check::Line(_) => source::line(subject.make_case, seed, index),
+            Check::Position(_) => source::position(seed, index),
+            Check::Clip(_) => source::clip(seed, index),
+            Check::Run(_, cases) => Input::Run { seed, cases },
+            Check::Matrix => Input::Run { seed, cases: matrix::CASES },
+        }
+    }
+
+    /// Checks one input; an input of another kind is nothing to compare.
+    ///
+    /// # Errors
+    /// What is wrong, a panic of the implementation among it.
+    pub fn judge(&self, subject: &Subject, input: &Input) -> Outcome {
+        let outcome = caught(|| match (self.check, input) {
+            (Check::Triangle(check), Input::Triangle(input)) => check(subject, input),
+            (Check::Quad(check), Input::Quad(input)) => check(subject, input),
+            (Check::Fan(check), Input::Fan(input)) => check(subject, input),
+            (Check::Line(check), Input::Line(input)) => check(subject, input),
+            (Check::Position(check), Input::Position(input)) => check(subject, input),
+            (Check::Clip(check), Input::Clip(input)) => check(subject, input),
+            (Check::Run(check, _), &Input::Run { seed, cases }) => check(subject, seed, cases),
+            (Check::Matrix, &Input::Run { seed, cases }) => {
+                let matrix = matrix::Matrix::compute(seed, cases, &|| ());
+                let problems = matrix.problems();
+                let cells = matrix.rows.len() * matrix.columns.len();
+                if problems.is_empty() { Ok(cells as u64) } else { Err(problems.join("; ")) }
+            }
+            _ => Ok(0),
+        });
+        outcome.unwrap_or_else(|panic| Err(format!("panics ({panic})")))
+    }
+
+    /// Whether any of the first inputs fails.
+    #[must_use]
+    pub fn kills(&self, subject: &Subject, seed: u64, cases: u64) -> bool {
+        (0..self.count(cases))
+            .any(|index| self.judge(subject, &self.input(subject, seed, index)).is_err())
+    }
+
+    /// Runs of the whole harness take one input, whatever the number asked for.
+    fn count(&self, cases: u64) -> u64 {
+        match self.check {
+            Check::Run(..) | Check::Matrix => 1,
+            _ => cases,
+        }
+    }
+
+    /// Checks the inputs of a seed on all cores and makes the first failing one small.
+    #[must_use]
+    pub fn run(&self, subject: &Subject, seed: u64, cases: u64) -> Report {
+        const BLOCK: u64 = 64;
+        let mut report = Report { cases: 0, skipped: 0, compared: 0, failure: None };
+        let count = self.count(cases);
+        let mut start = 0;
+        while start < count && report.failure.is_none() {
+            let end = count.min(start + 16 * BLOCK);
+            let judge = |index| self.judge(subject, &self.input(subject, seed, index));
+            let outcomes =
+                parallel::map((end - start) as usize, |number| judge(start + number as u64));
+            for (index, outcome) in (start..end).zip(outcomes) {
+                match outcome {
+                    Ok(0) => report.skipped += 1,
+                    Ok(compared) => {
+                        (report.cases, report.compared) =
+                            (report.cases + 1, report.compared + compared)
+                    }
+                    Err(message) => {
+                        report.cases += 1;
+                        report.failure = Some(self.shrunk(subject, seed, index, message));
+                        break;
+                    }
+                }
+            }
+            start = end;
+        }
+        report
+    }
+
+    fn shrunk(&self, subject: &Subject, seed: u64, index: u64, message: String) -> Failure {
+        let input = self.input(subject, seed, index);
+        let input = source::smallest(input, |input| self.judge(subject, input).is_err());
+        let message = self.judge(subject, &input).err().unwrap_or(message);
+        Failure { index, input, message }
+    }
+}
+
+/// The invariant of a name.
+#[must_use]
+pub fn find(name: &str) -> Option<&'static Invariant> {
+    CATALOGUE.iter().find(|i| i.name == name)
+}
+
+const ENGINE: &[Part] = &[Part::Engine];
+const JUDGED: &[Part] = &[Part::Engine, Part::Oracle];
+const DRAWER: &[Part] = &[Part::Drawer];
+const CLIP: &[Part] = &[Part::Clip];
+
+const fn invariant(
+    number: u32,
+    name: &'static str,
+    statement: &'static str,
+    tolerance: &'static str,
+    parts: &'static [Part],
+    check: Check,
+) -> Invariant {
+    Invariant { number, name, statement, tolerance, parts, check }
+}
+
+/// Every invariant, in the order of its number.
+#[rustfmt::skip]
+pub const CATALOGUE: &[Invariant] = &[
+    invariant(1, "engines-agree",
+        "Scanline, edge functions, tiles and oracle hit every pixel the same number of times.",
+        "0", JUDGED, Check::Triangle(coverage::engines_agree)),
+    invariant(2, "oracle-sign",
+        "The oracle covers a sample iff the three signs of robust::orient2d say so.",
+        "0", &[Part::Oracle], Check::Triangle(coverage::oracle_sign)),
+    invariant(3, "vertex-order",
+        "All six orders of the vertices cover the same pixels.",
+        "0", ENGINE, Check::Triangle(coverage::vertex_order)),
+    invariant(4, "translation",
+        "Moving a triangle by whole pixels, across zero or far away, moves its pixels along.",
+        "0", ENGINE, Check::Triangle(coverage::translation)),
+    invariant(5, "conjugate-rules",
+        "A mirrored or turned triangle covers the image of what the conjugate tie rule covers.",
+        "0", ENGINE, Check::Triangle(coverage::conjugate_rules)),
+    invariant(6, "quad-split",
+        "A convex quadrilateral split on either diagonal covers the same pixels, each once.",
+        "0", ENGINE, Check::Quad(coverage::quad_split)),
+    invariant(7, "closed-fan",
+        "A closed fan hits each pixel its outline winds round exactly once, and no other.",
+        "0", ENGINE, Check::Fan(coverage::closed_fan)),
+    invariant(8, "signed-hit-count",
+        "Signed hits are 0 everywhere on a closed mesh, and on a disk what its outline winds.",
+        "0", ENGINE, Check::Fan(coverage::signed_hit_count)),
+    invariant(9, "contiguous-rows",
+        "What a triangle covers of a row is one run of pixels.",
+        "0", ENGINE, Check::Triangle(coverage::contiguous_rows)),
+    invariant(10, "inside-the-box",
+        "No covered sample lies outside the snapped bounding box, every sample strictly inside is covered.",
+        "0", ENGINE, Check::Triangle(coverage::inside_the_box)),
+    invariant(11, "nesting",
+        "A triangle inside another covers a part of its pixels.",
+        "0", ENGINE, Check::Triangle(coverage::nesting)),
+    invariant(12, "zero-area",
+        "A triangle of zero snapped area covers nothing and emits no fragment.",
+        "0", ENGINE, Check::Triangle(coverage::zero_area)),
+    invariant(13, "windings",
+        "Both windings cover the same pixels, and culling tells them apart by the snapped area's sign.",
+        "0", &[Part::Engine, Part::Cull], Check::Triangle(coverage::windings)),
+    invariant(14, "crop",
+        "Bounds, tiles and threads only crop: pixels and values of a tile are those of the window.",
+        "0, bit for bit", ENGINE, Check::Triangle(coverage::crop)),
+    invariant(15, "identifies-the-rule",
+        "Eight triangles and eight edges around a centre have the fingerprint of top-left alone.",
+        "0", ENGINE, Check::Triangle(coverage::identifies_the_rule)),
+    invariant(16, "edge-lemma",
+        "In every row {x : E >= 0} is {x >= ceil(crossing)}, and a triangle is what lies between.",
+        "0", ENGINE, Check::Triangle(coverage::edge_lemma)),
+    invariant(17, "edge-bound",
+        "|E| <= Wx Wy in the box, the chosen word holds it, and nothing overflows in the domain.",
+        "0", &[Part::Engine, Part::EdgeValues, Part::WordWidth], Check::Triangle(coverage::edge_bound)),
+    invariant(18, "snapping",
+        "Snapping moves by half a subpixel at most, ties to even, alike everywhere; or refuses.",
+        "1/2 subpixel, the definition", &[Part::Snap], Check::Position(coverage::snapping)),
+    invariant(19, "area",
+        "The number of covered pixels differs from the area by the perimeter + 1 at most.",
+        "perimeter + 1 (Nosarzewska)", ENGINE, Check::Triangle(coverage::area)),
+    invariant(20, "supersampling",
+        "N x N samples a pixel are the pixels of the triangle N times as large.",
+        "0", ENGINE, Check::Triangle(coverage::supersampling)),
+    invariant(21, "edges-sum",
+        "The three edge functions add up to twice the area at every centre.",
+        "0", &[Part::EdgeValues], Check::Triangle(values::edges_sum)),
+    invariant(22, "weights-sum",
+        "The weights of the vertices lie in [0, 1] and add up to 1.",
+        "6 u (3 ulp) in the sum, 4 u at the ends", ENGINE, Check::Triangle(values::weights_sum)),
+    invariant(23, "perspective-values",
+        "Depth and values are the exact rationals within the bounds derived for each engine.",
+        "u (d D + m M), verify::tolerance", JUDGED, Check::Triangle(values::perspective)),
+    invariant(24, "hull",
+        "No depth or value leaves the range of the vertices by more than the bound of rounding.",
+        "u (d D + m M)", ENGINE, Check::Triangle(values::hull)),
+    invariant(25, "constant-attribute",
+        "A constant attribute comes out bit for bit.",
+        "0, bit for bit", ENGINE, Check::Triangle(values::constant)),
+    invariant(26, "equal-w",
+        "Three equal w give what affine interpolation gives, bit for bit.",
+        "0, bit for bit", ENGINE, Check::Triangle(values::equal_w)),
+    invariant(27, "scaled-w",
+        "Scaling every w by a power of two changes no bit.",
+        "0, bit for bit", ENGINE, Check::Triangle(values::scaled_w)),
+    invariant(28, "rotated-vertices",
+        "Rotating or reversing the vertices changes no bit of any value.",
+        "0, bit for bit", ENGINE, Check::Triangle(values::rotated_vertices)),
+    invariant(29, "shared-edge",
+        "Both sides of a shared edge give the same values at a sample on it.",
+        "the bounds of both triangles", ENGINE, Check::Triangle(values::shared_edge)),
+    invariant(30, "flat-depth",
+        "A flat depth comes out bit for bit, so a depth test does not depend on the order.",
+        "0, bit for bit", ENGINE, Check::Triangle(values::flat_depth)),
+    invariant(31, "finite",
+        "No NaN and no infinity for any w, depth and value of the accepted domain.",
+        "0", ENGINE, Check::Triangle(values::finite)),
+    invariant(32, "clip-inside", "What is entirely inside is the same with and without clipping.",
+        "0, bit for bit", CLIP, Check::Clip(clip::inside)),
+    invariant(33, "clip-reversed", "Clipping A to B and B to A gives the same vertices, so neighbours across an edge meet.",
+        "0, bit for bit", CLIP, Check::Clip(clip::reversed)),
+    invariant(34, "clip-coverage", "The clipped fan covers what lies in the triangle and in front of the eye, exactly.",
+        "0 beyond 1/256 px of the border, where snapping decides", CLIP, Check::Clip(clip::coverage)),
+    invariant(35, "clip-plane", "Every clipped vertex satisfies its plane exactly, and no vertex lies outside any.",
+        "0", CLIP, Check::Clip(clip::planes)),
+    invariant(36, "nearest-pixel",
+        "Every pixel of a line is the nearest one, |2 (dx y - x dy)| <= dx, ties as the contract says.",
+        "0", DRAWER, Check::Line(lines::nearest_pixel)),
+    invariant(37, "one-per-step",
+        "A line has max(|dx|, |dy|) + 1 pixels, one a step, touching, from its first to its last end.",
+        "0", DRAWER, Check::Line(lines::one_per_step)),
+    invariant(38, "reversal",
+        "A line drawn backwards lights the same pixels.",
+        "0", DRAWER, Check::Line(lines::reversal)),
+    invariant(39, "octants",
+        "The eight octants are images of each other, ties conjugate.",
+        "0", DRAWER, Check::Line(lines::octants)),
+    invariant(40, "clipped-line",
+        "A line in a window is the window of the line, in work bounded by the window.",
+        "0, bit for bit", DRAWER, Check::Line(lines::clipped_line)),
+    invariant(41, "listed-differences",
+        "The list of a line's pixels that differ from exact rounding is empty, not 'within 1 px'.",
+        "0", DRAWER, Check::Line(lines::listed_differences)),
+    invariant(42, "every-mutant-dies",
+        "Every invariant kills a mutant, and every mutant dies.",
+        "0", &[Part::Matrix], Check::Matrix),
+    invariant(43, "quotas",
+        "Of the generated triangles a quarter has ties, a tenth are slivers, a twentieth is empty.",
+        "0", &[Part::Source], Check::Run(meta::quotas, 200)),
+    invariant(44, "replay",
+        "A seed gives the same cases and the same verdict, in debug and release, on any thread.",
+        "0, bit for bit", &[Part::Source], Check::Run(meta::replay, 40)),
+    invariant(45, "metrics-report-only",
+        "One wrong pixel of a large frame is a disagreement, whatever an image metric makes of it.",
+        "0", &[Part::Judge], Check::Run(meta::metrics_report_only, 12)),
+    invariant(46, "disabled-effect", "A disabled effect makes no call at all.",
+        "0", &[Part::Render], Check::Run(effects::disabled, 24)),
+    invariant(47, "lists",
+        "A list covers what each of its triangles covers, in their order, in every instruction set.",
+        "0", &[Part::Lists], Check::Triangle(lists::one_by_one)),
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn catalogue_is_numbered_and_named() {
+        let numbers: Vec<u32> = CATALOGUE.iter().map(|i| i.number).collect();
+        assert_eq!(numbers, (1..=47).collect::<Vec<_>>());
+        let kebab = |name: &str| name.bytes().all(|b| b.is_ascii_lowercase() || b == b'-');
+        assert!(CATALOGUE.iter().all(|i| kebab(i.name) && i.statement.ends_with('.')));
+        for invariant in CATALOGUE {
+            assert_eq!(find(invariant.name).map(|i| i.number), Some(invariant.number));
+        }
+    }
+}

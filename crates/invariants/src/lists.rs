@@ -1,0 +1,81 @@
+//! Invariant 47: lists of triangles. A rasterizer of lists works on many at a time, so what a
+//! triangle covers must not depend on its place, its neighbours, or how full the last batch is.
+
+use super::Outcome;
+use super::source::TriangleInput;
+use super::subject::{Subject, hits};
+use rasterproof_core::frame::Coverage;
+use rasterproof_core::grid::{PixelRect, SubpixelPoint};
+use rasterproof_core::triangle::Corners;
+use rasterproof_tiles::coverage::{CoverList, Piece};
+
+/// The longest list: more than two batches of sixteen.
+const MOST: u32 = 40;
+
+/// 47: every triangle of a list against the oracle, and the order of the pieces.
+pub(super) fn one_by_one(subject: &Subject, input: &TriangleInput) -> Outcome {
+    let list = list_around(input.triangle.corners(), 1 + input.salt % MOST);
+    let window = input.window;
+    let truth: Vec<Coverage> =
+        list.iter().map(|&corners| hits(&*subject.oracle, [corners], window)).collect();
+    subject.lists.iter().map(|(name, lists)| compare(name, &**lists, &list, window, &truth)).sum()
+}
+
+fn compare(
+    name: &str,
+    lists: &dyn CoverList,
+    list: &[Corners],
+    window: PixelRect,
+    truth: &[Coverage],
+) -> Outcome {
+    let mut pieces: Vec<Piece> = Vec::new();
+    lists.cover_list(list, window, &mut |run| pieces.extend_from_slice(run));
+    if let Some(pair) = pieces.windows(2).find(|pair| pair[0].triangle() > pair[1].triangle()) {
+        let [before, after] = [pair[0].triangle(), pair[1].triangle()];
+        return Err(format!("{name} emits triangle {before} before triangle {after}"));
+    }
+    let mut compared = 0;
+    for (number, truth) in truth.iter().enumerate() {
+        let mut actual = Coverage::new(window, 0);
+        for piece in pieces.iter().filter(|piece| piece.triangle() as usize == number) {
+            piece.spans(&mut |span| actual.hit(span.y_px, span.x0_px, span.x1_px));
+        }
+        if actual != *truth {
+            let corners = list[number];
+            let len = list.len();
+            return Err(format!(
+                "{name} and the oracle differ in triangle {number} of {len}, {corners:?}"
+            ));
+        }
+        compared += u64::from(window.width()) * u64::from(window.height());
+    }
+    Ok(compared)
+}
+
+/// Triangles around one: itself first, then moved by odd subpixels, of either winding and any order,
+/// every eighth 64 times as large, and every eighth as wide and high as the domain, so that extents
+/// wrap around in 32 bits.
+fn list_around([a, b, c]: Corners, len: u32) -> Vec<Corners> {
+    let moved = |p: SubpixelPoint, i: i32| {
+        SubpixelPoint::new(p.x.saturating_add(i * 37), p.y.saturating_sub(i * i * 3))
+    };
+    let larger = |p: SubpixelPoint| {
+        let away = |p: i32, a: i32| a.saturating_add(p.saturating_sub(a).saturating_mul(64));
+        SubpixelPoint::new(away(p.x, a.x), away(p.y, a.y))
+    };
+    (0..len as i32)
+        .map(|i| {
+            let [a, b, c] = match i % 8 {
+                4 => [a, larger(b), larger(c)],
+                6 => [
+                    a,
+                    SubpixelPoint::new(i32::MAX, i32::MAX - i),
+                    SubpixelPoint::new(i32::MIN, i32::MIN),
+                ],
+                _ => [a, b, c],
+            };
+            let [a, b, c] = [moved(a, i), moved(b, i), moved(c, i)];
+            [[a, b, c], [c, b, a], [b, c, a]][i as usize % 3]
+        })
+        .collect()
+}

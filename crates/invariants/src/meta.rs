@@ -1,0 +1,196 @@
+//! Invariants 43 to 45: the cases themselves, that a run can be repeated, and that one wrong pixel is
+//! never forgiven. (42 is [`super::matrix`].)
+
+use super::Outcome;
+use super::subject::Subject;
+use rasterproof_core::arrays::Each as _;
+use rasterproof_core::contract::Rasterize;
+use rasterproof_core::frame::Coverage;
+use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
+use rasterproof_core::parallel;
+use rasterproof_core::triangle::{Corners, Span};
+use rasterproof_registry::engines::{Engine, LineEngine};
+use rasterproof_verify::cases::named::plain_triangle;
+use rasterproof_verify::cases::{self, Case, Family, Rng, Shape};
+use rasterproof_verify::comparison::tolerance;
+use rasterproof_verify::comparison::{self, Options, QUOTAS, is_sliver, oracle_coverage};
+use rasterproof_verify::oracle::Oracle;
+use rasterproof_verify::oracle::coverage::samples_on_boundary;
+
+/// 43: ties in a quarter of the cases, slivers in a tenth, nothing to draw in a twentieth.
+pub(super) fn quotas(subject: &Subject, seed: u64, cases: u64) -> Outcome {
+    let jobs: Vec<(&Family, u64)> = cases::triangles::FAMILIES
+        .iter()
+        .flat_map(|family| (0..cases).map(move |index| (family, index)))
+        .collect();
+    let facts = |number: usize| {
+        let (family, index) = jobs[number];
+        let Case { window, shape: Shape::Triangles { list, .. } } =
+            (subject.make_case)(family, seed, index)
+        else {
+            return [0, 0, 1];
+        };
+        let tie = list.iter().any(|t| samples_on_boundary(&t.corners(), window) > 0);
+        let sliver = list.iter().any(|t| is_sliver(&t.corners()));
+        let empty = oracle_coverage(&list, window).covered() == 0;
+        [tie, sliver, empty].each(u64::from)
+    };
+    let facts = parallel::map(jobs.len(), facts).into_iter();
+    let sums = facts.fold([0; 3], |a, b| [0, 1, 2].each(|i| a[i] + b[i]));
+    let total = jobs.len() as u64;
+    for ((what, least), found) in QUOTAS.into_iter().zip(sums) {
+        if found * 100 < least * total {
+            return Err(format!("{what}: {found} of {total} cases, quota {least}%"));
+        }
+    }
+    Ok(total)
+}
+
+/// The bits of a case, folded (FNV-1a).
+fn fold(case: &Case) -> u64 {
+    let mut words = vec![case.window.x0, case.window.y0, case.window.x1, case.window.y1]
+        .into_iter()
+        .map(|v| v as u64)
+        .collect::<Vec<_>>();
+    match &case.shape {
+        Shape::Triangles { list, .. } => {
+            for v in list.iter().flat_map(|t| t.vertices) {
+                words.extend([v.position.x as u64, v.position.y as u64]);
+                words.extend([v.depth, v.inv_w, v.varying.x, v.varying.y].map(f64::to_bits));
+            }
+        }
+        Shape::Lines(lines) => {
+            for end in lines.iter().flat_map(|line| line.ends) {
+                words.extend([end.pixel.x as u64, end.pixel.y as u64]);
+                words.extend([end.depth, end.varying.x, end.varying.y].each(f64::to_bits));
+            }
+        }
+    }
+    words.iter().flat_map(|word| word.to_le_bytes()).fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3)
+    })
+}
+
+/// Families whose first cases of seed 1 are pinned, so that debug, release and every machine must
+/// agree on them. Whoever changes one of these families on purpose writes the new number here.
+const PINNED: [(&str, u64); 3] = [
+    ("uniform", 0x1873_6895_9080_eecd),
+    ("w-1e6", 0xab58_5cd8_ebb3_106e),
+    ("line-far", 0xf683_e1cd_7255_458c),
+];
+
+/// 44: the same case for the same seed and number, whenever and on whichever thread it is made, and
+/// the same verdict on one thread and on three.
+pub(super) fn replay(subject: &Subject, seed: u64, cases: u64) -> Outcome {
+    let families: Vec<&Family> = cases::families().collect();
+    let make =
+        |seed, (family, index): &(&Family, u64)| fold(&(subject.make_case)(family, seed, *index));
+    // All of them, so that one run shows every number to write down.
+    let wrong: Vec<String> = PINNED
+        .iter()
+        .filter_map(|(name, target)| {
+            let family = families.iter().find(|f| f.name == *name)?;
+            let folds = (0..8).map(|index| make(1, &(*family, index)));
+            let actual = folds.fold(0u64, |sum, hash| sum.rotate_left(7) ^ hash);
+            (actual != *target).then(|| format!("{name} folds to {actual:#x}, pinned {target:#x}"))
+        })
+        .collect();
+    if !wrong.is_empty() {
+        return Err(format!("the first cases of seed 1 have changed: {}", wrong.join("; ")));
+    }
+    let jobs: Vec<(&Family, u64)> =
+        families.iter().flat_map(|f| (0..cases).map(move |index| (*f, index))).collect();
+    let forward: Vec<u64> = jobs.iter().map(|job| make(seed, job)).collect();
+    let mut backward: Vec<u64> = jobs.iter().rev().map(|job| make(seed, job)).collect();
+    backward.reverse();
+    let parallel = parallel::map(jobs.len(), |number| make(seed, &jobs[number]));
+    for other in [backward, parallel] {
+        if let Some(i) = (0..jobs.len()).find(|&i| forward[i] != other[i]) {
+            let (family, index) = jobs[i];
+            return Err(format!(
+                "{}#{index} of seed {seed} is another case next time",
+                family.name
+            ));
+        }
+    }
+    let options = Options { seed, cases: cases.min(4), ..Options::default() };
+    let verdict = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        let pool = pool.map_err(|error| format!("no pool of {threads} threads: {error}"))?;
+        Ok::<_, String>(pool.install(|| {
+            let engines = [
+                (Engine::Scanline, tolerance::SCANLINE),
+                (Engine::EdgeFunction, tolerance::EDGE_FUNCTION),
+            ];
+            comparison::judge_lineup(&engines, &LineEngine::JUDGED, &options, &|_| ()).families
+        }))
+    };
+    if verdict(1)? != verdict(3)? {
+        return Err(format!("seed {seed}: one thread and three give different verdicts"));
+    }
+    Ok(jobs.len() as u64)
+}
+
+/// The oracle, but for one pixel.
+struct OneWrong {
+    /// Column and row.
+    at: (i32, i32),
+    /// How often that pixel is hit too often; -1 where it is not hit at all.
+    by: i32,
+}
+
+impl Rasterize for OneWrong {
+    fn cover(&self, corners: Corners, bounds: PixelRect, mut emit: impl FnMut(Span)) {
+        let (x, y) = self.at;
+        let here = Span { y_px: y, x0_px: x, x1_px: x + 1 };
+        Oracle.cover(corners, bounds, |span| {
+            if self.by < 0 && span.y_px == y && (span.x0_px..span.x1_px).contains(&x) {
+                let parts = [Span { x1_px: x, ..span }, Span { x0_px: x + 1, ..span }];
+                parts.into_iter().filter(|part| part.x0_px < part.x1_px).for_each(&mut emit);
+            } else {
+                emit(span);
+            }
+        });
+        (0..self.by).for_each(|_| emit(here));
+    }
+}
+
+/// 45: one pixel of a frame of 128 to 1024 pixels a side is missing, extra or hit twice. Over N
+/// pixels the peak signal-to-noise ratio is 10 log10 N, 42 to 60 dB: every metric that averages
+/// would let it pass. The coverages are not allowed to agree, and a run is not either.
+pub(super) fn metrics_report_only(subject: &Subject, seed: u64, cases: u64) -> Outcome {
+    let mut compared = 0;
+    for index in 0..cases {
+        let side = 128 << (index % 4);
+        let mut rng = Rng::new("one-wrong-pixel", seed, index);
+        // The upper left half of the frame.
+        let far = side * SUBPIXELS;
+        let corner = |x, y| SubpixelPoint::new(x, y);
+        let triangle = plain_triangle([corner(0, 0), corner(far, 0), corner(0, far)]);
+        let window = PixelRect::window(side as u32, side as u32);
+        let any = &mut || rng.int(0, i64::from(side) - 1) as i32;
+        let at = (any(), any());
+        let is_covered = at.0 + at.1 < side - 1;
+        let by = if is_covered && index % 8 < 4 { -1 } else { 1 };
+        let what = format!("pixel {at:?} of {side} x {side}, hits off by {by}");
+
+        let target = oracle_coverage(&[triangle], window);
+        let mut actual = Coverage::new(window, 0);
+        let planted = OneWrong { at, by };
+        planted.cover(triangle.corners(), window, |s| actual.hit(s.y_px, s.x0_px, s.x1_px));
+        if (subject.coverage_agrees)(&actual, &target) {
+            return Err(format!("the judge forgives {what}"));
+        }
+        if !(subject.coverage_agrees)(&target, &target) {
+            return Err("the judge finds a coverage unlike itself".to_owned());
+        }
+        let case =
+            Case { window, shape: Shape::Triangles { list: vec![triangle], disjoint: true } };
+        let finding = comparison::judge_coverage_of(&planted, &case);
+        if !finding.is_wrong() || finding.tally.total() != 1 {
+            return Err(format!("a case with a wrong {what} {}", finding.describe()));
+        }
+        compared += 3 * u64::from(window.width()) * u64::from(window.height());
+    }
+    Ok(compared)
+}

@@ -1,0 +1,422 @@
+//! Inputs of the checks: made from (invariant, seed, number) here, or from small whole numbers by a
+//! property test. Every constructor is total, so that whatever a shrinker tries is an input.
+
+use std::fmt;
+
+use rasterproof_core::arrays::Each as _;
+use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
+use rasterproof_verify::cases::{self, Case, Line, Rng, Shape, Triangle, named};
+use rasterproof_verify::comparison::shrink;
+
+use super::subject::MakeCase;
+
+/// Side of the window of quads and fans, in pixels.
+const SIDE_PX: u32 = 24;
+const SIDE: i64 = SIDE_PX as i64 * SUBPIXELS as i64;
+
+/// A triangle, the window it is drawn in, and a number for what else a check has to choose.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TriangleInput {
+    /// The triangle with its values.
+    pub triangle: Triangle,
+    /// The pixels that are looked at.
+    pub window: PixelRect,
+    /// Decides tiles, shifts and the like.
+    pub salt: u32,
+}
+
+/// A convex quadrilateral, corners clockwise.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Quad {
+    /// Its corners.
+    pub corners: [SubpixelPoint; 4],
+    /// The pixels that are looked at.
+    pub window: PixelRect,
+}
+
+impl Quad {
+    /// The quadrilateral with one corner on each side of a box: convex whatever the numbers are.
+    /// `along` says where on the top, right, bottom and left side, in 256ths of the side.
+    #[must_use]
+    pub fn inscribed([left, top, width, height]: [u16; 4], along: [u8; 4]) -> Self {
+        let [left, top, width, height] = [left, top, width, height].map(i32::from);
+        let part = |length: i32, k: usize| (i64::from(length) * i64::from(along[k]) / 255) as i32;
+        let at = |x: i32, y: i32| SubpixelPoint::new(left + x, top + y);
+        Self {
+            corners: [
+                at(part(width, 0), 0),
+                at(width, part(height, 1)),
+                at(part(width, 2), height),
+                at(0, part(height, 3)),
+            ],
+            window: PixelRect::window(SIDE_PX, SIDE_PX),
+        }
+    }
+}
+
+/// A star-shaped polygon around a centre, spokes clockwise, and one more point anywhere.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fan {
+    /// From where every spoke is seen.
+    pub centre: SubpixelPoint,
+    /// The outline, clockwise.
+    pub ring: Vec<SubpixelPoint>,
+    /// Any point.
+    pub apex: SubpixelPoint,
+    /// The pixels that are looked at.
+    pub window: PixelRect,
+}
+
+/// The sixteen directions of a fan, clockwise on the screen. Whole numbers, so that a spoke passes
+/// through centres often; any eight or more neighbours of these are less than half a turn apart.
+const DIRECTIONS: [[i32; 2]; 16] = [
+    [2, 0],
+    [2, 1],
+    [2, 2],
+    [1, 2],
+    [0, 2],
+    [-1, 2],
+    [-2, 2],
+    [-2, 1],
+    [-2, 0],
+    [-2, -1],
+    [-2, -2],
+    [-1, -2],
+    [0, -2],
+    [1, -2],
+    [2, -2],
+    [2, -1],
+];
+
+impl Fan {
+    /// The fan with these reaches in half subpixels; `every` 1 takes all directions, 2 every other
+    /// one.
+    #[must_use]
+    pub fn new(centre: SubpixelPoint, reach: [u16; 16], every: usize, apex: SubpixelPoint) -> Self {
+        let spokes = DIRECTIONS.iter().zip(reach).step_by(every.clamp(1, 2));
+        let tip = |([dx, dy], reach): (&[i32; 2], u16)| {
+            // At least one subpixel, or the polygon would not go round its centre.
+            let reach = i32::from(reach).max(1);
+            SubpixelPoint::new(centre.x + dx * reach, centre.y + dy * reach)
+        };
+        let ring = spokes.map(tip).collect();
+        Self { centre, ring, apex, window: PixelRect::window(SIDE_PX, SIDE_PX) }
+    }
+}
+
+/// A line, its window, and a number for what else a check has to choose.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LineInput {
+    /// The line with its values.
+    pub line: Line,
+    /// The pixels that are looked at.
+    pub window: PixelRect,
+}
+
+/// A coordinate to be snapped.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Position {
+    /// The coordinate.
+    pub px: f64,
+    /// A whole number of pixels to move it by.
+    pub shift_px: i32,
+}
+
+impl Position {
+    /// `sub` subpixels and `part` 2^-12ths of one: ties at 2048, a short mantissa so that a shift
+    /// is exact.
+    #[must_use]
+    pub fn new(sub: i32, part: u16, shift_px: i32) -> Self {
+        let part = f64::from(part % (1 << 12)) / f64::from(1 << 12);
+        Self { px: (f64::from(sub) + part) / f64::from(SUBPIXELS), shift_px }
+    }
+}
+
+/// A triangle in clip space, in small whole numbers so that the truth about it can be computed
+/// exactly.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ClipInput {
+    /// x, y, z, w of each vertex; the varying is their number.
+    pub vertices: [[i32; 4]; 3],
+}
+
+/// The input of a check.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Input {
+    /// A triangle.
+    Triangle(TriangleInput),
+    /// A convex quadrilateral.
+    Quad(Quad),
+    /// A closed fan.
+    Fan(Fan),
+    /// A line.
+    Line(LineInput),
+    /// A coordinate.
+    Position(Position),
+    /// A triangle in clip space.
+    Clip(ClipInput),
+    /// A run of the harness: its seed and the cases of each family.
+    Run {
+        /// Decides every case.
+        seed: u64,
+        /// Cases of each family.
+        cases: u64,
+    },
+}
+
+/// Triangles of all families in turn.
+pub(super) fn triangle(make_case: MakeCase, seed: u64, index: u64) -> Input {
+    let families = cases::triangles::FAMILIES;
+    let count = families.len() as u64;
+    let case = make_case(&families[(index % count) as usize], seed, index / count);
+    let Case { window, shape: Shape::Triangles { list, .. } } = case else {
+        unreachable!("a family of triangles makes triangles");
+    };
+    // Meshes have a triangle or more; each is a case of its own here.
+    let triangle = list[(index / count) as usize % list.len()];
+    let salt = Rng::new("salt", seed, index).next() as u32;
+    Input::Triangle(TriangleInput { triangle, window, salt })
+}
+
+/// Quadrilaterals, half of them with corners on centres.
+pub(super) fn quad(seed: u64, index: u64) -> Input {
+    let mut rng = Rng::new("quad", seed, index);
+    let on_centres = rng.chance(2);
+    let align = |v: i64| if on_centres { v / 256 * 256 + 128 } else { v };
+    let (left, top) = (align(rng.int(0, SIDE / 2)), align(rng.int(0, SIDE / 2)));
+    let size = |rng: &mut Rng| {
+        let length = rng.int(1, SIDE / 2);
+        // A multiple of a pixel keeps the far side on centres as well.
+        if on_centres { (length / 256 * 256).max(256) } else { length }
+    };
+    let (width, height) = (size(&mut rng), size(&mut rng));
+    // The corners of the box give rectangles and triangles with a point on a side.
+    let mut part = || [0, 255, 128, rng.int(0, 255)][rng.int(0, 3) as usize] as u8;
+    let along = [part(), part(), part(), part()];
+    Input::Quad(Quad::inscribed([left, top, width, height].map(|v| v as u16), along))
+}
+
+/// Fans, three in four with their centre on a sample.
+pub(super) fn fan(seed: u64, index: u64) -> Input {
+    let mut rng = Rng::new("fan", seed, index);
+    let coordinate = |rng: &mut Rng, low: i64, high: i64| rng.int(low, high) as i32;
+    let (x, y) = (coordinate(&mut rng, 0, SIDE), coordinate(&mut rng, 0, SIDE));
+    let align = |v: i32| v & !(SUBPIXELS - 1) | HALF_PIXEL;
+    let centre = if rng.chance(4) {
+        SubpixelPoint::new(x, y)
+    } else {
+        SubpixelPoint::new(align(x), align(y))
+    };
+    let whole = rng.chance(2);
+    let most = 1 << rng.int(2, 11);
+    let reach = [(); 16].map(|()| {
+        let reach = rng.int(1, most) as u16;
+        if whole { reach & !127 } else { reach }
+    });
+    let every = if rng.chance(2) { 1 } else { 2 };
+    let far = |rng: &mut Rng| rng.int(-SIDE, 2 * SIDE) as i32;
+    let apex = SubpixelPoint::new(far(&mut rng), far(&mut rng));
+    Input::Fan(Fan::new(centre, reach, every, apex))
+}
+
+/// Lines of all families in turn.
+pub(super) fn line(make_case: MakeCase, seed: u64, index: u64) -> Input {
+    let families = cases::lines::FAMILIES;
+    let count = families.len() as u64;
+    let case = make_case(&families[(index % count) as usize], seed, index / count);
+    let Case { window, shape: Shape::Lines(lines) } = case else {
+        unreachable!("a family of lines makes lines");
+    };
+    Input::Line(LineInput { line: lines[(index / count) as usize % lines.len()], window })
+}
+
+/// Coordinates, a third of them ties, with shifts that often cross zero.
+pub(super) fn position(seed: u64, index: u64) -> Input {
+    let mut rng = Rng::new("position", seed, index);
+    let bits = rng.int(4, 30);
+    let sub = rng.int(-(1 << bits), 1 << bits) as i32;
+    let part = [0, 1 << 11, rng.int(0, (1 << 12) - 1)][rng.int(0, 2) as usize] as u16;
+    let across = -2 * (sub / SUBPIXELS);
+    let shift_px = if rng.chance(2) { across } else { rng.int(-1 << 14, 1 << 14) as i32 };
+    Input::Position(Position::new(sub, part, shift_px))
+}
+
+/// Triangles in clip space: many with vertices on planes, behind the eye, or all inside.
+pub(super) fn clip(seed: u64, index: u64) -> Input {
+    let mut rng = Rng::new("clip", seed, index);
+    let inside = rng.chance(4);
+    let behind = rng.chance(2);
+    let vertices = [(); 3].each(|()| {
+        let w = rng.int(if behind && !inside { -12 } else { 1 }, 24);
+        let reach = if inside { w } else { 30 };
+        // A third of the coordinates lie on a plane.
+        let mut coordinate = || match rng.int(0, 5) {
+            0 => w,
+            1 => -w,
+            _ => rng.int(-reach, reach),
+        };
+        [coordinate(), coordinate(), coordinate(), w].map(|v| v as i32)
+    });
+    Input::Clip(ClipInput { vertices })
+}
+
+/// The smallest input reached from a failing one for which `fails` still holds.
+pub(super) fn smallest(input: Input, fails: impl Fn(&Input) -> bool) -> Input {
+    match input {
+        Input::Triangle(input) => smallest_triangle(input, fails),
+        Input::Line(LineInput { line, window }) => {
+            let wrap = |case: &Case| match &case.shape {
+                Shape::Lines(lines) => {
+                    Some(Input::Line(LineInput { line: *lines.first()?, window: case.window }))
+                }
+                Shape::Triangles { .. } => None,
+            };
+            let case = Case { window, shape: Shape::Lines(vec![line]) };
+            let found = shrink::shrink(case, |case| wrap(case).as_ref().is_some_and(&fails));
+            wrap(&found).unwrap_or(Input::Line(LineInput { line, window }))
+        }
+        Input::Quad(quad) => greedy(Input::Quad(quad), &fails),
+        Input::Fan(fan) => greedy(Input::Fan(fan), &fails),
+        Input::Position(position) => greedy(Input::Position(position), &fails),
+        Input::Clip(clip) => greedy(Input::Clip(clip), &fails),
+        run @ Input::Run { .. } => run,
+    }
+}
+
+fn smallest_triangle(mut input: TriangleInput, fails: impl Fn(&Input) -> bool) -> Input {
+    // Simple values and choices first, if they fail too.
+    let plain = named::plain_triangle(input.triangle.corners());
+    let simpler = [
+        TriangleInput { triangle: plain, salt: 0, ..input.clone() },
+        TriangleInput { triangle: plain, ..input.clone() },
+        TriangleInput { salt: 0, ..input.clone() },
+    ];
+    if let Some(found) = simpler.into_iter().find(|s| fails(&Input::Triangle(s.clone()))) {
+        input = found;
+    }
+    let salt = input.salt;
+    let wrap = |case: &Case| match &case.shape {
+        Shape::Triangles { list, .. } => Some(Input::Triangle(TriangleInput {
+            triangle: *list.first()?,
+            window: case.window,
+            salt,
+        })),
+        Shape::Lines(_) => None,
+    };
+    let shape = Shape::Triangles { list: vec![input.triangle], disjoint: false };
+    let case = Case { window: input.window, shape };
+    let found = shrink::shrink(case, |case| wrap(case).as_ref().is_some_and(&fails));
+    wrap(&found).unwrap_or(Input::Triangle(input))
+}
+
+/// Takes the first simpler neighbour that still fails, until none does. Every neighbour moves a
+/// number towards zero or drops a point, so this ends.
+fn greedy(mut input: Input, fails: &impl Fn(&Input) -> bool) -> Input {
+    while let Some(simpler) = neighbours(&input).into_iter().find(|i| *i != input && fails(i)) {
+        input = simpler;
+    }
+    input
+}
+
+fn neighbours(input: &Input) -> Vec<Input> {
+    let by_px = |p: SubpixelPoint, dx: i32, dy: i32| {
+        SubpixelPoint::new(p.x - dx * SUBPIXELS, p.y - dy * SUBPIXELS)
+    };
+    match input {
+        Input::Quad(quad) => {
+            let moved = |dx: i32, dy: i32| {
+                let corners = quad.corners.map(|p| by_px(p, dx, dy));
+                corners
+                    .iter()
+                    .all(|p| p.x >= 0 && p.y >= 0)
+                    .then(|| Input::Quad(Quad { corners, ..quad.clone() }))
+            };
+            [(8, 0), (0, 8), (1, 0), (0, 1)].into_iter().filter_map(|(x, y)| moved(x, y)).collect()
+        }
+        Input::Fan(fan) => {
+            let fewer = (0..fan.ring.len()).filter(|_| fan.ring.len() > 8).map(|i| {
+                let mut ring = fan.ring.clone();
+                ring.remove(i);
+                Input::Fan(Fan { ring, ..fan.clone() })
+            });
+            let halved = Fan {
+                ring: fan
+                    .ring
+                    .iter()
+                    .map(|p| {
+                        let half = |p: i32, c: i32| c + (p - c) / 2;
+                        SubpixelPoint::new(half(p.x, fan.centre.x), half(p.y, fan.centre.y))
+                    })
+                    .collect(),
+                ..fan.clone()
+            };
+            // Halved spokes must still be spokes.
+            let distinct = halved.ring.iter().all(|p| {
+                (p.x - fan.centre.x).abs().max((p.y - fan.centre.y).abs()) >= SUBPIXELS / 8
+            });
+            fewer.chain(distinct.then_some(Input::Fan(halved))).collect()
+        }
+        Input::Position(p) => {
+            let mut found = vec![Position { shift_px: p.shift_px / 2, ..*p }];
+            let whole = p.px.trunc();
+            found.push(Position { px: p.px - whole, ..*p });
+            found.push(Position { px: p.px - (whole / 2.0).trunc(), ..*p });
+            found.into_iter().map(Input::Position).collect()
+        }
+        Input::Clip(clip) => (0..12)
+            .flat_map(|i| {
+                let moved = |to: fn(i32) -> i32| {
+                    let mut vertices = clip.vertices;
+                    let number = &mut vertices[i / 4][i % 4];
+                    *number = to(*number);
+                    Input::Clip(ClipInput { vertices })
+                };
+                [moved(|_| 0), moved(|v| v / 2), moved(|v| v - v.signum())]
+            })
+            .collect(),
+        _ => Vec::new(),
+    }
+}
+
+impl fmt::Display for Input {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let px = |p: &SubpixelPoint| {
+            let (x, y) = p.to_px();
+            format!("{x},{y}")
+        };
+        let list = |points: &[SubpixelPoint]| points.iter().map(px).collect::<Vec<_>>().join(" ");
+        let rect = |w: &PixelRect| format!("columns {}..{}, rows {}..{}", w.x0, w.x1, w.y0, w.y1);
+        match self {
+            Self::Triangle(TriangleInput { triangle, window, salt }) => {
+                write!(f, "triangle {} px in {}", list(&triangle.corners()), rect(window))?;
+                for v in &triangle.vertices {
+                    let [a, b] = v.varying.to_array();
+                    write!(f, "; 1/w {:?} depth {:?} values {a:?} {b:?}", v.inv_w, v.depth)?;
+                }
+                write!(f, "; choice {salt}")
+            }
+            Self::Quad(quad) => {
+                write!(f, "quad {} px in {}", list(&quad.corners), rect(&quad.window))
+            }
+            Self::Fan(fan) => write!(
+                f,
+                "fan around {} px through {}, apex {}, in {}",
+                px(&fan.centre),
+                list(&fan.ring),
+                px(&fan.apex),
+                rect(&fan.window)
+            ),
+            Self::Line(LineInput { line, window }) => {
+                let [a, b] = line.ends.each(|end| end.pixel);
+                write!(f, "line {},{} to {},{} in {}", a.x, a.y, b.x, b.y, rect(window))
+            }
+            Self::Position(p) => write!(f, "coordinate {:?} px, moved by {} px", p.px, p.shift_px),
+            Self::Clip(ClipInput { vertices }) => {
+                write!(f, "clip coordinates (x, y, z, w) {vertices:?}")
+            }
+            Self::Run { seed, cases } => {
+                write!(f, "a run of seed {seed}, {cases} cases of each family")
+            }
+        }
+    }
+}

@@ -1,0 +1,312 @@
+//! What the invariants are asked of: a set of implementations, the real ones or one with a fault.
+//!
+//! The contracts of this crate are generic in the type of the values and so cannot be stored side
+//! by side. [`Fill`] and [`Stroke`] are the same contracts for the two types that the checks need,
+//! and every implementation of the contracts is one of these too.
+
+use glam::{DVec2, DVec3};
+
+use rasterproof_core::contract::{DrawLine, Interpolate, Rasterize};
+use rasterproof_core::frame::Coverage;
+use rasterproof_core::grid::{self, PixelRect, Refusal};
+use rasterproof_core::line::bresenham::Bresenham;
+use rasterproof_core::line::dda::Dda;
+use rasterproof_core::raster::edge_function::{self, EdgeFunction, WordWidth};
+use rasterproof_core::raster::scanline::Scanline;
+use rasterproof_core::triangle::{Corners, Fragment, ScreenTriangle, Span};
+use rasterproof_faults::planted::{Mutant, StageMutant};
+use rasterproof_registry::engines;
+use rasterproof_render::effects::Effects;
+use rasterproof_render::pipeline::assemble::Cull;
+use rasterproof_render::pipeline::clip::{Outcode, clip};
+use rasterproof_render::pipeline::target::Target;
+use rasterproof_render::pipeline::{ClipVertex, Counters};
+use rasterproof_render::scene::Scene;
+use rasterproof_tiles::coverage::{CoverList, Tiles};
+use rasterproof_verify::cases::{Case, Family, Line, Triangle};
+use rasterproof_verify::comparison::Tally;
+use rasterproof_verify::comparison::tolerance::{self, Tolerance};
+use rasterproof_verify::oracle::Oracle;
+
+/// A rasterizer with values, as the checks call it.
+pub trait Fill: Sync {
+    /// As [`Rasterize::cover`].
+    fn spans(&self, corners: Corners, bounds: PixelRect, emit: &mut dyn FnMut(Span));
+    /// As [`Interpolate::fragments`].
+    fn values(&self, triangle: &Triangle, bounds: PixelRect, emit: &mut dyn FnMut(Fragment<DVec2>));
+    /// As [`Interpolate::fragments`], for three numbers a vertex.
+    fn weights(
+        &self,
+        triangle: &ScreenTriangle<DVec3>,
+        bounds: PixelRect,
+        emit: &mut dyn FnMut(Fragment<DVec3>),
+    );
+}
+
+impl<R: Interpolate + Sync> Fill for R {
+    fn spans(&self, corners: Corners, bounds: PixelRect, emit: &mut dyn FnMut(Span)) {
+        Rasterize::cover(self, corners, bounds, emit);
+    }
+
+    fn values(
+        &self,
+        triangle: &Triangle,
+        bounds: PixelRect,
+        emit: &mut dyn FnMut(Fragment<DVec2>),
+    ) {
+        Interpolate::fragments(self, triangle, bounds, emit);
+    }
+
+    fn weights(
+        &self,
+        triangle: &ScreenTriangle<DVec3>,
+        bounds: PixelRect,
+        emit: &mut dyn FnMut(Fragment<DVec3>),
+    ) {
+        Interpolate::fragments(self, triangle, bounds, emit);
+    }
+}
+
+/// A line drawer, as the checks call it.
+pub trait Stroke: Sync {
+    /// As [`DrawLine::draw`].
+    fn stroke(&self, line: &Line, bounds: PixelRect, emit: &mut dyn FnMut(Fragment<DVec2>));
+}
+
+impl<D: DrawLine + Sync> Stroke for D {
+    fn stroke(&self, line: &Line, bounds: PixelRect, emit: &mut dyn FnMut(Fragment<DVec2>)) {
+        DrawLine::draw(self, line, bounds, emit);
+    }
+}
+
+/// An engine with its name and the bounds of its values.
+pub struct Engine {
+    /// What messages call it.
+    pub name: &'static str,
+    /// The engine.
+    pub fill: Box<dyn Fill>,
+    /// How far its values may lie from the exact ones.
+    pub tolerance: Tolerance,
+}
+
+impl Engine {
+    /// Hit counts of one triangle.
+    ///
+    /// # Panics
+    /// Where the engine does, or leaves the window.
+    #[must_use]
+    pub fn hits(&self, corners: Corners, window: PixelRect) -> Coverage {
+        hits(&*self.fill, [corners], window)
+    }
+
+    /// The fragments of a triangle, as emitted.
+    #[must_use]
+    pub fn fragments(&self, triangle: &Triangle, window: PixelRect) -> Vec<Fragment<DVec2>> {
+        let mut fragments = Vec::new();
+        self.fill.values(triangle, window, &mut |fragment| fragments.push(fragment));
+        fragments
+    }
+}
+
+/// Hit counts of several triangles together.
+///
+/// # Panics
+/// Where the engine does, or leaves the window.
+#[must_use]
+pub fn hits(
+    fill: &dyn Fill,
+    triangles: impl IntoIterator<Item = Corners>,
+    window: PixelRect,
+) -> Coverage {
+    let mut hits = Coverage::new(window, 0);
+    for corners in triangles {
+        fill.spans(corners, window, &mut |span| hits.hit(span.y_px, span.x0_px, span.x1_px));
+    }
+    hits
+}
+
+/// A line drawer with its name.
+pub struct Drawer {
+    /// What messages call it.
+    pub name: &'static str,
+    /// The drawer.
+    pub stroke: Box<dyn Stroke>,
+}
+
+impl Drawer {
+    /// The fragments of a line, as emitted.
+    #[must_use]
+    pub fn fragments(&self, line: &Line, window: PixelRect) -> Vec<Fragment<DVec2>> {
+        let mut fragments = Vec::new();
+        self.stroke.stroke(line, window, &mut |fragment| fragments.push(fragment));
+        fragments
+    }
+}
+
+/// Makes the case of a family, a seed and a number.
+pub type MakeCase = fn(&Family, u64, u64) -> Case;
+
+/// Clips a triangle by a set of planes.
+pub type ClipStage = fn(&[ClipVertex<DVec2>; 3], Outcode) -> Vec<ClipVertex<DVec2>>;
+
+/// Draws a scene with some effects into a target of a kind, and says what it cost.
+pub type RenderStage = fn(&Scene, &Effects, &mut Target) -> Counters;
+
+/// The implementations under test.
+pub struct Subject {
+    /// Rasterizers: scanline, edge function and tiles, or a faulty one.
+    pub engines: Vec<Engine>,
+    /// Rasterizers of lists: the tile engine in every instruction set here, or a faulty one.
+    pub lists: Vec<(&'static str, Box<dyn CoverList + Sync>)>,
+    /// What the engines are judged by.
+    pub oracle: Box<dyn Fill>,
+    /// Line drawers: DDA and Bresenham, or a faulty one.
+    pub drawers: Vec<Drawer>,
+    /// Pixels to subpixels.
+    pub snap: fn(f64) -> Result<i32, Refusal>,
+    /// The three edge functions at a pixel's centre.
+    pub edge_values: fn(&Corners, i32, i32) -> [i128; 3],
+    /// The word that edge functions are stepped in, from the extents of the triangle.
+    pub word_width: fn(u32, u32) -> WordWidth,
+    /// The source of generated cases.
+    pub make_case: MakeCase,
+    /// The clipper.
+    pub clip: ClipStage,
+    /// Whether culling removes a triangle.
+    pub culls: fn(Cull, Corners) -> bool,
+    /// The effects a scene is drawn with, of those that are asked for.
+    pub choose: fn(Effects) -> Effects,
+    /// Draws a scene and counts.
+    pub render: RenderStage,
+    /// Whether a coverage agrees with another one.
+    pub coverage_agrees: fn(&Coverage, &Coverage) -> bool,
+}
+
+/// A part of a [`Subject`]: what a check looks at, and where a fault sits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// The rasterizers.
+    Engine,
+    /// The oracle.
+    Oracle,
+    /// The line drawers.
+    Drawer,
+    /// Snapping.
+    Snap,
+    /// The edge functions' values.
+    EdgeValues,
+    /// The choice of the word.
+    WordWidth,
+    /// The source of cases.
+    Source,
+    /// The clipper.
+    Clip,
+    /// Culling.
+    Cull,
+    /// Rendering with effects.
+    Render,
+    /// The judge of two coverages.
+    Judge,
+    /// The rasterizers of lists.
+    Lists,
+    /// The matrix of invariants and mutants itself.
+    Matrix,
+}
+
+impl Subject {
+    /// The real implementations.
+    #[must_use]
+    pub fn real() -> Self {
+        Self {
+            engines: vec![
+                Engine {
+                    name: "scanline",
+                    fill: Box::new(Scanline),
+                    tolerance: tolerance::SCANLINE,
+                },
+                Engine {
+                    name: "edge-function",
+                    fill: Box::new(EdgeFunction),
+                    tolerance: tolerance::EDGE_FUNCTION,
+                },
+                Engine {
+                    name: "tile",
+                    fill: Box::new(engines::Engine::Tile),
+                    tolerance: tolerance::of(engines::Engine::Tile),
+                },
+            ],
+            lists: Tiles::levels()
+                .into_iter()
+                .map(|tiles| (tiles.instructions(), Box::new(tiles) as Box<dyn CoverList + Sync>))
+                .collect(),
+            oracle: Box::new(Oracle),
+            drawers: vec![
+                Drawer { name: "dda", stroke: Box::new(Dda) },
+                Drawer { name: "bresenham", stroke: Box::new(Bresenham) },
+            ],
+            snap: grid::snap,
+            edge_values: edge_function::edge_values,
+            word_width: WordWidth::of,
+            make_case: Family::case,
+            clip: |triangle, planes| clip(triangle, planes).0.vertices().copied().collect(),
+            culls: Cull::removes,
+            choose: |asked| asked,
+            render: |scene, effects, target| {
+                engines::Drawer::EdgeFunction
+                    .render(scene, effects, target)
+                    .map_or(Counters::default(), |rendered| rendered.counters)
+            },
+            coverage_agrees: |actual, target| Tally::between(actual, target).total() == 0,
+        }
+    }
+
+    /// The real implementations but for one, in whose place stands the mutant.
+    #[must_use]
+    pub fn with(mutant: Mutant) -> Self {
+        let mut subject = Self::real();
+        match mutant {
+            Mutant::Triangle(fault) => {
+                // The wider of the two tolerances, so that no mutant dies of a bound that was not
+                // derived for it.
+                let tolerance = tolerance::SCANLINE;
+                subject.engines =
+                    vec![Engine { name: fault.name(), fill: Box::new(fault), tolerance }];
+            }
+            Mutant::Line(fault) => {
+                subject.drawers = vec![Drawer { name: fault.name(), stroke: Box::new(fault) }];
+            }
+            Mutant::Oracle(fault) => subject.oracle = Box::new(fault),
+            Mutant::Snap(fault) => subject.snap = fault.function(),
+            Mutant::EdgeValues(fault) => subject.edge_values = fault.function(),
+            Mutant::WordWidth(fault) => subject.word_width = fault.function(),
+            Mutant::Source(fault) => subject.make_case = fault.function(),
+            Mutant::Stage(fault) => {
+                fault.replace(&mut subject.clip, &mut subject.culls, &mut subject.choose)
+            }
+            Mutant::Judge(fault) => subject.coverage_agrees = fault.function(),
+            Mutant::Tile(fault) => subject.lists = vec![(fault.name(), Box::new(fault))],
+        }
+        subject
+    }
+}
+
+/// The part of a subject that a mutant replaces.
+#[must_use]
+pub fn part_of(mutant: &Mutant) -> Part {
+    match mutant {
+        Mutant::Triangle(_) => Part::Engine,
+        Mutant::Line(_) => Part::Drawer,
+        Mutant::Oracle(_) => Part::Oracle,
+        Mutant::Snap(_) => Part::Snap,
+        Mutant::EdgeValues(_) => Part::EdgeValues,
+        Mutant::WordWidth(_) => Part::WordWidth,
+        Mutant::Source(_) => Part::Source,
+        Mutant::Stage(fault) => match fault {
+            StageMutant::CullSwapped | StageMutant::CullByFloatArea => Part::Cull,
+            StageMutant::EffectsIgnored | StageMutant::ClearsAlways => Part::Render,
+            _ => Part::Clip,
+        },
+        Mutant::Judge(_) => Part::Judge,
+        Mutant::Tile(_) => Part::Lists,
+    }
+}

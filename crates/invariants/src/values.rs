@@ -1,0 +1,423 @@
+//! Invariants 21 to 31: depth and attributes. What can be exact is compared bit by bit; the other
+//! tolerances are those derived in [`rasterproof_verify::comparison::tolerance`] from the operations of an engine.
+
+use std::collections::HashMap;
+
+use glam::{DVec2, DVec3};
+
+use super::Outcome;
+use super::coverage::ORDERS;
+use super::exact;
+use super::source::TriangleInput;
+use super::subject::{Engine, Subject};
+use rasterproof_core::arrays::Each as _;
+use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
+use rasterproof_core::triangle::{Fragment, MAX_VALUE, MAX_W, MIN_W, ScreenTriangle, ScreenVertex};
+use rasterproof_verify::cases::Triangle;
+use rasterproof_verify::comparison::tolerance::{self, Bound, Tolerance};
+use rasterproof_verify::oracle::values::ExactTriangle;
+
+/// Unit roundoff of f64.
+const U: f64 = f64::EPSILON / 2.0;
+
+fn each(subject: &Subject, check: impl Fn(&Engine) -> Outcome) -> Outcome {
+    subject.engines.iter().map(check).sum()
+}
+
+/// Bit by bit, and in the order of the pixels.
+fn identical(name: &str, a: &[Fragment<DVec2>], b: &[Fragment<DVec2>], what: &str) -> Outcome {
+    let bits = |f: &Fragment<DVec2>| {
+        (f.y_px, f.x_px, f.depth.to_bits(), f.varying.to_array().each(f64::to_bits))
+    };
+    let sorted = |list: &[Fragment<DVec2>]| {
+        let mut list: Vec<_> = list.iter().map(bits).collect();
+        list.sort_unstable();
+        list
+    };
+    let (a, b) = (sorted(a), sorted(b));
+    if a.len() != b.len() {
+        return Err(format!("{name}: {} fragments and {} {what}", a.len(), b.len()));
+    }
+    match a.iter().zip(&b).find(|(a, b)| a != b) {
+        None => Ok(a.len() as u64),
+        Some(((y, x, z, v), (_, _, other_z, other_v))) => {
+            let read = |bits: &u64| f64::from_bits(*bits);
+            Err(format!(
+                "{name} at ({x}, {y}): depth {:?}, values {:?}; {what}: {:?}, {:?}",
+                read(z),
+                v.each_ref().each(read),
+                read(other_z),
+                other_v.each_ref().each(read)
+            ))
+        }
+    }
+}
+
+fn with(triangle: &Triangle, change: impl Fn(usize, &mut ScreenVertex<DVec2>)) -> Triangle {
+    let mut changed = *triangle;
+    changed.vertices.iter_mut().enumerate().for_each(|(i, vertex)| change(i, vertex));
+    changed
+}
+
+/// 21: the three functions add up to twice the area at every centre, whichever way the corners go
+/// round.
+pub(super) fn edges_sum(subject: &Subject, input: &TriangleInput) -> Outcome {
+    let corners = input.triangle.corners();
+    let area = exact::twice_area(&corners);
+    let mut compared = 0;
+    for (x, y) in exact::pixels(input.window).step_by(7) {
+        let values = (subject.edge_values)(&corners, x, y);
+        let sum: i128 = values.iter().sum();
+        if sum != area {
+            return Err(format!(
+                "at ({x}, {y}) {values:?} add up to {sum}, twice the area is {area}"
+            ));
+        }
+        compared += 1;
+    }
+    Ok(compared)
+}
+
+/// 22: interpolating (1,0,0), (0,1,0), (0,0,1) shows the weights. Their sum, in units of u = 2^-53:
+///
+/// Edge functions, v0 + (a1 d1 + a2 d2) r: with l = (a1 + a2) r <= 1 the first weight is 1 - l with
+/// the roundings of the sum, of the product (both times l) and of the subtraction; the others have
+/// one rounding each, l together. 3 l + (1 - l) <= 3.
+/// Scanline, vL + (vR - vL) s: at each end 1 - t and t, a rounding of at most 1. In the row three
+/// differences of 2 together, a rounding and that of the product each: 4; the last additions 1.
+/// Together 6, which is 3 ulp of 1.
+///
+/// Each weight lies in [0, 1] but for the roundings of a difference, a product and an addition
+/// around 1: 3 u below and 4 u above.
+pub(super) fn weights_sum(subject: &Subject, input: &TriangleInput) -> Outcome {
+    let unit = [DVec3::X, DVec3::Y, DVec3::Z];
+    let vertices = [0, 1, 2].each(|i| {
+        let ScreenVertex { position, depth, inv_w, .. } = input.triangle.vertices[i];
+        ScreenVertex { position, depth, inv_w, varying: unit[i] }
+    });
+    each(subject, |engine| {
+        let mut wrong = None;
+        let mut compared = 0;
+        engine.fill.weights(&ScreenTriangle { vertices }, input.window, &mut |f| {
+            let [a, b, c] = f.varying.to_array();
+            let excess = sum_less_one([a, b, c]);
+            let in_range = |w: f64| (-3.0 * U..=1.0 + 4.0 * U).contains(&w);
+            if !(excess.abs() <= 6.0 * U && [a, b, c].into_iter().all(in_range)) {
+                wrong.get_or_insert((f.x_px, f.y_px, [a, b, c], excess));
+            }
+            compared += 1;
+        });
+        match wrong {
+            None => Ok(compared),
+            Some((x, y, weights, excess)) => Err(format!(
+                "{} at ({x}, {y}): weights {weights:?}, sum less one {excess:e}",
+                engine.name
+            )),
+        }
+    })
+}
+
+/// a + b + c - 1 rounded once or twice where it matters: TwoSum (Knuth) gives the error of each sum
+/// exactly, and what is left is around 1e-16.
+fn sum_less_one(weights: [f64; 3]) -> f64 {
+    let [mut sum, mut errors] = [-1.0, 0.0];
+    for weight in weights {
+        let next: f64 = sum + weight;
+        let virtual_part = next - sum;
+        errors += (sum - (next - virtual_part)) + (weight - virtual_part);
+        sum = next;
+    }
+    sum + errors
+}
+
+fn values_of(triangle: &Triangle, k: usize) -> [f64; 3] {
+    triangle.vertices.each(|vertex| vertex.varying.to_array()[k])
+}
+
+/// The first, the last and two fragments between.
+fn few(fragments: &[Fragment<DVec2>]) -> impl Iterator<Item = &Fragment<DVec2>> {
+    let n = fragments.len();
+    let mut picks = vec![0, n / 3, 2 * n / 3, n.saturating_sub(1)];
+    picks.dedup();
+    picks.into_iter().filter_map(|i| fragments.get(i))
+}
+
+/// 23: values against exact rationals within the derived bounds; the oracle's too, which are the
+/// rationals rounded.
+pub(super) fn perspective(subject: &Subject, input: &TriangleInput) -> Outcome {
+    let t = &input.triangle;
+    let depths = t.vertices.each(|v| v.depth);
+    let attributes = t.vertices.each(|v| v.varying.to_array());
+    let exact = ExactTriangle::new(&t.corners(), depths, t.vertices.each(|v| v.inv_w), attributes);
+    let Some(exact) = exact else { return Ok(0) };
+    let judge = |name: &str, tolerance: &Tolerance, fragments: &[Fragment<DVec2>]| -> Outcome {
+        let mut compared = 0;
+        for f in few(fragments) {
+            let (depth, values) = exact.at(f.x_px, f.y_px);
+            let actual = f.varying.to_array();
+            let ratio = [0, 1]
+                .each(|k| values[k].distance(actual[k]) / tolerance.attribute.at(values_of(t, k)));
+            let depth_ratio = depth.distance(f.depth) / tolerance.depth.at(depths);
+            if ratio.into_iter().chain([depth_ratio]).any(|ratio| ratio > 1.0) {
+                return Err(format!(
+                    "{name} at ({}, {}): depth {:?} and values {actual:?} are {depth_ratio:.3e} and {ratio:.3?} times their bounds away",
+                    f.x_px, f.y_px, f.depth
+                ));
+            }
+            compared += 1;
+        }
+        Ok(compared)
+    };
+    let mut oracle = Vec::new();
+    subject.oracle.values(t, input.window, &mut |f| oracle.push(f));
+    let engines = each(subject, |engine| {
+        judge(engine.name, &engine.tolerance, &engine.fragments(t, input.window))
+    })?;
+    Ok(engines + judge("the oracle", &tolerance::ORACLE, &oracle)?)
+}
+
+/// 24: no value beyond those of the vertices by more than the engine's own bound of rounding. The
+/// exact value is a mean of the three with weights in [0, 1]; so this bound is as derived, and a
+/// clamp would only hide a larger error.
+pub(super) fn hull(subject: &Subject, input: &TriangleInput) -> Outcome {
+    let t = &input.triangle;
+    each(subject, |engine| {
+        let within = |value: f64, ends: [f64; 3], bound: Bound| {
+            let slack = bound.at(ends);
+            let (low, high) =
+                ends.iter().fold((f64::MAX, f64::MIN), |(l, h), &v| (l.min(v), h.max(v)));
+            (low - slack..=high + slack).contains(&value)
+        };
+        let fragments = engine.fragments(t, input.window);
+        for f in &fragments {
+            let actual = f.varying.to_array();
+            let attribute = engine.tolerance.attribute;
+            let good = (0..2).all(|k| within(actual[k], values_of(t, k), attribute))
+                && within(f.depth, t.vertices.each(|v| v.depth), engine.tolerance.depth);
+            if !good {
+                return Err(format!(
+                    "{} at ({}, {}): depth {:?} or values {actual:?} leave the hull",
+                    engine.name, f.x_px, f.y_px, f.depth
+                ));
+            }
+        }
+        Ok(fragments.len() as u64)
+    })
+}
+
+/// 25: a constant comes out as it went in.
+pub(super) fn constant(subject: &Subject, input: &TriangleInput) -> Outcome {
+    let value = input.triangle.vertices[0].varying;
+    let flat = with(&input.triangle, |_, vertex| vertex.varying = value);
+    each(subject, |engine| {
+        let fragments = engine.fragments(&flat, input.window);
+        match fragments.iter().find(|f| f.varying != value) {
+            None => Ok(fragments.len() as u64),
+            Some(f) => Err(format!(
+                "{} at ({}, {}): {:?} instead of {value:?}",
+                engine.name, f.x_px, f.y_px, f.varying
+            )),
+        }
+    })
+}
+
+/// 26: any three equal w are as good as 1.
+pub(super) fn equal_w(subject: &Subject, input: &TriangleInput) -> Outcome {
+    let inv_w = input.triangle.vertices[0].inv_w;
+    let equal = with(&input.triangle, |_, vertex| vertex.inv_w = inv_w);
+    let affine = with(&input.triangle, |_, vertex| vertex.inv_w = 1.0);
+    each(subject, |engine| {
+        let [equal, affine] = [equal, affine].each(|t| engine.fragments(&t, input.window));
+        identical(engine.name, &equal, &affine, "with w = 1")
+    })
+}
+
+/// 27: a power of two moves the exponent of every w and of nothing else.
+pub(super) fn scaled_w(subject: &Subject, input: &TriangleInput) -> Outcome {
+    each(subject, |engine| {
+        let still = engine.fragments(&input.triangle, input.window);
+        let mut compared = 0;
+        for power in [-150, -3, 1, 40, 150] {
+            let factor = 2f64.powi(power);
+            let allowed = 1.0 / MAX_W..=1.0 / MIN_W;
+            if !input.triangle.vertices.iter().all(|v| allowed.contains(&(v.inv_w * factor))) {
+                continue;
+            }
+            let scaled = with(&input.triangle, |_, vertex| vertex.inv_w *= factor);
+            let fragments = engine.fragments(&scaled, input.window);
+            let what = format!("before w was divided by 2^{power}");
+            compared += identical(engine.name, &fragments, &still, &what)?;
+        }
+        Ok(compared)
+    })
+}
+
+/// 28: not only the rotations but all six orders.
+pub(super) fn rotated_vertices(subject: &Subject, input: &TriangleInput) -> Outcome {
+    let v = &input.triangle.vertices;
+    each(subject, |engine| {
+        let first = engine.fragments(&input.triangle, input.window);
+        let other = |order: &[usize; 3]| {
+            let turned = ScreenTriangle { vertices: order.each(|i| v[i]) };
+            let fragments = engine.fragments(&turned, input.window);
+            identical(engine.name, &fragments, &first, &format!("in order 0 1 2, not {order:?}"))
+        };
+        ORDERS[1..].iter().map(other).sum()
+    })
+}
+
+/// 29: a sample exactly on an edge belongs to one side only, so each side is asked where it owns:
+/// as it is, or turned by half a turn about the sample, which changes no exact value. Both answers
+/// are the same number, the value on the edge, within the bounds of the two triangles together.
+pub(super) fn shared_edge(subject: &Subject, input: &TriangleInput) -> Outcome {
+    let [a, b, c] = input.triangle.corners();
+    let window = PixelRect::window(48, 48);
+    let (px, py) = ((input.salt % 48) as i32, (input.salt / 48 % 48) as i32);
+    let sample = SubpixelPoint::new(exact::centre(px) as i32, exact::centre(py) as i32);
+    let direction = |p: SubpixelPoint, q: SubpixelPoint| {
+        // Short enough that four of them stay near.
+        let d = |p: i32, q: i32| ((i64::from(q) - i64::from(p)) % 2000) as i32;
+        [d(p.x, q.x), d(p.y, q.y)]
+    };
+    let ([dx, dy], [ex, ey]) = (direction(a, b), direction(a, c));
+    let turn = i64::from(dx) * i64::from(ey) - i64::from(dy) * i64::from(ex);
+    if turn == 0 {
+        return Ok(0);
+    }
+    let at =
+        |k: i32, l: i32| SubpixelPoint::new(sample.x + k * dx + l * ex, sample.y + k * dy + l * ey);
+    let (back, ahead) = (1 + (input.salt >> 12 & 3) as i32, 1 + (input.salt >> 14 & 3) as i32);
+    let values = &input.triangle.vertices;
+    // Third corners on either side, with values of their own.
+    let side = |l: i32, depth: f64, varying: DVec2| {
+        let corners = [at(-back, 0), at(ahead, 0), at(0, l)];
+        let mut triangle = with(&input.triangle, |i, vertex| vertex.position = corners[i]);
+        triangle.vertices[2].depth = depth;
+        triangle.vertices[2].varying = varying;
+        triangle
+    };
+    let one = side(1, values[2].depth, values[2].varying);
+    let other = side(-1, -values[2].depth, values[0].varying - values[2].varying);
+    let mirror = |t: &Triangle| {
+        with(t, |_, v| {
+            v.position =
+                SubpixelPoint::new(2 * sample.x - v.position.x, 2 * sample.y - v.position.y);
+        })
+    };
+    each(subject, |engine| {
+        let value = |t: &Triangle| {
+            let there = PixelRect { x0: px, y0: py, x1: px + 1, y1: py + 1 }.intersect(&window);
+            let found = engine.fragments(t, there);
+            found.first().copied().or_else(|| engine.fragments(&mirror(t), there).first().copied())
+        };
+        let (Some(f), Some(g)) = (value(&one), value(&other)) else {
+            return Err(format!("{} never owns the sample on the edge", engine.name));
+        };
+        let bound = |k: usize| {
+            let at = |t: &Triangle| engine.tolerance.attribute.at(values_of(t, k));
+            at(&one) + at(&other)
+        };
+        let depth_bound = [&one, &other]
+            .each(|t| engine.tolerance.depth.at(t.vertices.each(|v| v.depth)))
+            .iter()
+            .sum::<f64>();
+        let difference = (f.varying - g.varying).abs().to_array();
+        let near =
+            (0..2).all(|k| difference[k] <= bound(k)) && (f.depth - g.depth).abs() <= depth_bound;
+        if near {
+            return Ok(1);
+        }
+        Err(format!(
+            "{} on the edge {:?} to {:?} at ({px}, {py}): {:?}, {:?} from one side, {:?}, {:?} from the other",
+            engine.name,
+            at(-back, 0),
+            at(ahead, 0),
+            f.depth,
+            f.varying,
+            g.depth,
+            g.varying
+        ))
+    })
+}
+
+/// 30: a flat depth is exact, so a depth test gives one picture for every order of submission.
+pub(super) fn flat_depth(subject: &Subject, input: &TriangleInput) -> Outcome {
+    let depths = input.triangle.vertices.each(|vertex| vertex.depth);
+    // The triangle and two copies a few pixels on, each at a depth of its own.
+    let copies: Vec<Option<Triangle>> = (0..3)
+        .map(|i| {
+            let mut copy = input.triangle;
+            for vertex in &mut copy.vertices {
+                vertex.depth = depths[i];
+                vertex.position.x = vertex.position.x.checked_add(i as i32 * 3 * SUBPIXELS)?;
+            }
+            Some(copy)
+        })
+        .collect();
+    let Some(copies) = copies.into_iter().collect::<Option<Vec<_>>>() else { return Ok(0) };
+    let distinct = depths[0] != depths[1] && depths[1] != depths[2] && depths[0] != depths[2];
+    each(subject, |engine| {
+        let drawn: Vec<_> = copies.iter().map(|t| engine.fragments(t, input.window)).collect();
+        for (i, fragments) in drawn.iter().enumerate() {
+            if let Some(f) = fragments.iter().find(|f| f.depth != depths[i]) {
+                return Err(format!(
+                    "{} at ({}, {}): depth {:?} instead of {:?}",
+                    engine.name, f.x_px, f.y_px, f.depth, depths[i]
+                ));
+            }
+        }
+        // Nearer wins; who does must not depend on who came first.
+        let picture = |order: &[usize; 3]| {
+            let mut nearest: HashMap<(i32, i32), (f64, usize)> = HashMap::new();
+            for &i in order {
+                for f in &drawn[i] {
+                    let entry = nearest.entry((f.x_px, f.y_px)).or_insert((f.depth, i));
+                    if f.depth < entry.0 {
+                        *entry = (f.depth, i);
+                    }
+                }
+            }
+            nearest
+        };
+        let first = picture(&ORDERS[0]);
+        if distinct && ORDERS[1..].iter().any(|order| picture(order) != first) {
+            return Err(format!("{}: the picture depends on the order of submission", engine.name));
+        }
+        Ok(drawn.iter().map(|fragments| fragments.len() as u64).sum())
+    })
+}
+
+/// 31: the corners of the domain of w, of depth and of values.
+pub(super) fn finite(subject: &Subject, input: &TriangleInput) -> Outcome {
+    let (smallest, largest) = (1.0 / MAX_W, 1.0 / MIN_W);
+    let inv_ws = [
+        [smallest, largest, 1.0],
+        [largest, smallest, smallest],
+        [smallest; 3],
+        [largest; 3],
+        [1.0, smallest, largest],
+    ];
+    let values = [
+        [MAX_VALUE, -MAX_VALUE, MAX_VALUE],
+        [MAX_VALUE; 3],
+        [f64::MIN_POSITIVE, -f64::MIN_POSITIVE, 0.0],
+        [-MAX_VALUE, f64::MIN_POSITIVE / 4.0, 1.0],
+    ];
+    let inv_w = inv_ws[input.salt as usize % inv_ws.len()];
+    let value = values[input.salt as usize / inv_ws.len() % values.len()];
+    let extreme = with(&input.triangle, |i, vertex| {
+        vertex.inv_w = inv_w[i];
+        vertex.depth = value[i];
+        vertex.varying = DVec2::new(value[i], value[(i + 1) % 3]);
+    });
+    each(subject, |engine| {
+        let fragments = engine.fragments(&extreme, input.window);
+        match fragments.iter().find(|f| !(f.depth.is_finite() && f.varying.is_finite())) {
+            None => Ok(fragments.len() as u64),
+            Some(f) => Err(format!(
+                "{} at ({}, {}): depth {:?}, values {:?} from 1/w {inv_w:?} and values {value:?}",
+                engine.name, f.x_px, f.y_px, f.depth, f.varying
+            )),
+        }
+    })
+}

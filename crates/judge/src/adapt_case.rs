@@ -1,0 +1,175 @@
+//! The cases of the families, put where a program declares that it draws.
+//!
+//! A case is moved so that what lay on a pixel's centre lies on the declared sample, then every
+//! coordinate is rounded to the declared grid and kept within the declared range. Ties stay ties
+//! where the grid holds the sample. The protocol's windows begin at the origin, so the family `far`,
+//! whose windows do not, is left out.
+
+use super::declared::Declared;
+use rasterproof_core::grid::{HALF_PIXEL, SUBPIXELS, SubpixelPoint};
+use rasterproof_core::triangle::{Corners, PixelPoint};
+use rasterproof_verify::cases::{self, Case, Family, Shape};
+
+/// Families whose danger are ties come first, values and far coordinates last.
+const FIRST: [&str; 8] = [
+    "half-integer",
+    "rectangle",
+    "fan",
+    "near-tie",
+    "flat",
+    "near-horizontal",
+    "near-vertical",
+    "line-ties",
+];
+
+/// The families that are asked, in order; a name is that of the catalogue.
+#[must_use]
+pub fn families(wanted: &[String]) -> Vec<&'static Family> {
+    let mut chosen: Vec<&Family> = cases::families()
+        .chain(cases::near_plane::FAMILIES)
+        .filter(|f| f.name != "far" && (wanted.is_empty() || wanted.iter().any(|w| w == f.name)))
+        .collect();
+    let rank = |f: &Family| FIRST.iter().position(|name| *name == f.name).unwrap_or(FIRST.len());
+    chosen.sort_by_key(|f| rank(f));
+    chosen
+}
+
+/// The family of a name.
+#[must_use]
+pub fn family(name: &str) -> Option<&'static Family> {
+    families(&[name.to_owned()]).pop()
+}
+
+/// Whether a family is of lines.
+#[must_use]
+pub fn is_lines(family: &Family) -> bool {
+    cases::lines::FAMILIES.iter().any(|f| f.name == family.name)
+}
+
+/// Puts a case on the declared grid.
+#[must_use]
+pub fn put(mut case: Case, declared: &Declared) -> Case {
+    if let Some([width, height]) = declared.window {
+        case.window.x1 = case.window.x1.min(width as i32);
+        case.window.y1 = case.window.y1.min(height as i32);
+    }
+    match &mut case.shape {
+        Shape::Triangles { list, disjoint } => {
+            for vertex in list.iter_mut().flat_map(|t| &mut t.vertices) {
+                let [x, y] = [(vertex.position.x, 0), (vertex.position.y, 1)]
+                    .map(|(sub, axis)| coordinate(sub, declared.origin[axis], declared));
+                vertex.position = SubpixelPoint::new(x, y);
+            }
+            let corners: Vec<Corners> = list.iter().map(|t| t.corners()).collect();
+            *disjoint = list.len() > 1 && super::mesh::is_disjoint(&corners);
+        }
+        Shape::Lines(lines) => {
+            let most = declared.range.unwrap_or(i32::MAX);
+            // The centre of a pixel lies half a pixel further.
+            let keep =
+                |px: i32| px.clamp(if most == i32::MAX { i32::MIN } else { -most }, most - 1);
+            for end in lines.iter_mut().flat_map(|l| &mut l.ends) {
+                end.pixel = PixelPoint::new(keep(end.pixel.x), keep(end.pixel.y));
+            }
+        }
+    }
+    case
+}
+
+fn coordinate(sub: i32, origin: i32, declared: &Declared) -> i32 {
+    let step = i64::from(SUBPIXELS / declared.grid);
+    let moved = i64::from(sub) + i64::from(origin - HALF_PIXEL);
+    let on_grid = (moved + step / 2).div_euclid(step) * step;
+    let (least, most) = limits(declared);
+    on_grid.clamp(least, most) as i32
+}
+
+/// The coordinates that are asked, in subpixels: the domain, with room at its ends for a mirror
+/// image where one is needed to know the truth.
+fn limits(declared: &Declared) -> (i64, i64) {
+    let step = i64::from(SUBPIXELS / declared.grid);
+    let room = if declared.is_standard() { 0 } else { 1 << 23 };
+    let (least, most) = match declared.range {
+        Some(range) => (-i64::from(range) * 256, i64::from(range) * 256),
+        None => (i64::from(i32::MIN), i64::from(i32::MAX)),
+    };
+    let least = least.max(i64::from(i32::MIN) + room);
+    let most = most.min(i64::from(i32::MAX) - room);
+    (-(-least).div_euclid(step) * step, most.div_euclid(step) * step)
+}
+
+/// Whether a case, shrunk perhaps, is one that the program says it draws.
+#[must_use]
+pub fn holds(case: &Case, declared: &Declared) -> bool {
+    let w = case.window;
+    let fits = declared.window.is_none_or(|[wide, high]| w.width() <= wide && w.height() <= high);
+    if (w.x0, w.y0) != (0, 0) || !fits {
+        return false;
+    }
+    let (least, most) = limits(declared);
+    let step = SUBPIXELS / declared.grid;
+    let is_on = |v: i32| (least..=most).contains(&i64::from(v)) && v.rem_euclid(step) == 0;
+    match &case.shape {
+        Shape::Triangles { list, .. } => {
+            list.iter().flat_map(|t| t.corners()).all(|p| is_on(p.x) && is_on(p.y))
+        }
+        Shape::Lines(_) => put(case.clone(), declared) == *case,
+    }
+}
+
+/// Whether any corner or end lies outside the window: programs that do not clip crash on these.
+#[must_use]
+pub fn leaves_window(case: &Case) -> bool {
+    let w = case.window;
+    match &case.shape {
+        Shape::Triangles { list, .. } => {
+            let is_in = |v: i32, side_px: i32| (0..=side_px * SUBPIXELS).contains(&v);
+            list.iter().flat_map(|t| t.corners()).any(|p| !is_in(p.x, w.x1) || !is_in(p.y, w.y1))
+        }
+        Shape::Lines(lines) => {
+            lines.iter().flat_map(|l| l.ends).any(|e| !w.contains(e.pixel.x, e.pixel.y))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_corner_lies_where_it_is_declared() {
+        for words in [
+            "",
+            "grid=1 origin=0,0 range=100",
+            "grid=16 rule=bottom-right window=20x10",
+            "grid=64 origin=0.875,0",
+            "grid=1 rule=strict range=8000000",
+        ] {
+            let declared = Declared::parse(&format!("HELLO 2 x coverage line {words}")).unwrap();
+            assert!(declared.unknown.is_empty());
+            for family in families(&[]) {
+                for index in 0..30 {
+                    let case = put(family.case(1, index), &declared);
+                    assert!(holds(&case, &declared), "{words}: {}#{index}", family.name);
+                }
+            }
+        }
+    }
+
+    /// Corners on centres come to lie on the sample, so that ties stay ties.
+    #[test]
+    fn ties_move_with_the_sample() {
+        let declared = Declared::parse("HELLO 2 x coverage origin=0,0 grid=1").unwrap();
+        let family = families(&["half-integer".to_owned()])[0];
+        let (before, after) = (family.case(1, 5), put(family.case(1, 5), &declared));
+        let (Shape::Triangles { list: a, .. }, Shape::Triangles { list: b, .. }) =
+            (before.shape, after.shape)
+        else {
+            panic!("triangles")
+        };
+        let (p, q) = (a[0].corners()[0], b[0].corners()[0]);
+        assert_eq!((q.x, q.y), (p.x - 128, p.y - 128));
+        let unmoved = put(family.case(1, 5), &Declared::default());
+        assert!(matches!(unmoved.shape, Shape::Triangles { list, .. } if list == a));
+    }
+}

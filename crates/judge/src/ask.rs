@@ -1,0 +1,355 @@
+//! Questions and answers as values, and who answers them: anybody behind [`Ask`].
+//!
+//! A child process and an engine of the line-up are asked alike, so that one judge serves both and
+//! the tests can compare them.
+
+use std::fmt;
+
+use glam::DVec2;
+
+use super::declared::Declared;
+use super::text::{Words, printable, write_int, write_px};
+use rasterproof_core::grid::SubpixelPoint;
+use rasterproof_core::triangle::{Corners, Fragment, PixelPoint, Span};
+use rasterproof_verify::cases::Triangle;
+use rasterproof_verify::cases::near_plane::clip_corners;
+
+/// What is asked of a window at the origin.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Question {
+    /// Columns of the window.
+    pub width: u32,
+    /// Rows of the window.
+    pub height: u32,
+    /// What is to be drawn in it.
+    pub of: Asked,
+}
+
+/// What is to be drawn, and what is wanted of it.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Asked {
+    /// T: the pixels of a triangle.
+    Coverage(Corners),
+    /// I: the values of a triangle.
+    Values(Triangle),
+    /// S: the samples of a triangle, of four.
+    Samples(Corners),
+    /// L: the pixels of a line, from the first to the second; `whole` leaves out the half pixel.
+    Line {
+        /// Its ends.
+        ends: [PixelPoint; 2],
+        /// Positions are whole numbers: the pixel's corner names the pixel as its centre does.
+        whole: bool,
+    },
+    /// D: which of these triangles is seen, of each pixel.
+    Depth(Vec<Triangle>),
+    /// N: what the near plane leaves of a triangle of clip space, as
+    /// [`rasterproof_verify::cases::near_plane::clip_corners`] reads it; the window has no part in it.
+    Near(Triangle),
+}
+
+/// What came back.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Answer {
+    /// C: runs of covered pixels as they came.
+    Coverage(Vec<Span>),
+    /// F: fragments as they came.
+    Values(Vec<Fragment<DVec2>>),
+    /// M: runs of pixels, with the samples of each.
+    Samples(Vec<(Span, u8)>),
+    /// P: pixels in drawing order.
+    Line(Vec<(i32, i32)>),
+    /// V: runs of pixels, with the number of the triangle that is seen there.
+    Seen(Vec<(Span, u8)>),
+    /// G: corners x, y, z, w of a polygon.
+    Polygon(Vec<[f64; 4]>),
+    /// E: the reason, printable.
+    Refused(String),
+    /// No answer: the program had to be started again.
+    Died(Misbehaviour),
+}
+
+impl Answer {
+    /// Whether the program had to be started again.
+    #[must_use]
+    pub fn is_death(&self) -> bool {
+        matches!(self, Self::Died(_))
+    }
+}
+
+/// What a program did instead of answering.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Misbehaviour {
+    /// It could not be started: the reason.
+    CannotStart(String),
+    /// It did not answer HELLO: the last thing it said, or what it did instead.
+    NoHello(String),
+    /// No answer within the limit, and none within as much again: the limit in seconds.
+    Hangs(f64),
+    /// An answer after the limit: seconds it took, and the limit.
+    Late(f64, f64),
+    /// It ended, or closed its output, before it had answered: how.
+    Exits(String),
+    /// It was ended by this signal, or panicked with this message.
+    Crashes(String),
+    /// A line that is no answer, printable.
+    Nonsense(String),
+    /// A second answer for a request.
+    Twice(String),
+    /// The answer of a later request.
+    OutOfOrder(String),
+    /// An answer for a request that was never made.
+    Unasked(String),
+    /// More output than any answers have: how much.
+    Floods(String),
+}
+
+impl Misbehaviour {
+    /// It in a word or two, for tables.
+    #[must_use]
+    pub fn word(&self) -> &'static str {
+        match self {
+            Self::CannotStart(_) => "cannot be started",
+            Self::NoHello(_) => "never says HELLO",
+            Self::Hangs(_) => "hangs",
+            Self::Late(..) => "answers late",
+            Self::Exits(_) => "exits early",
+            Self::Crashes(_) => "crashes",
+            Self::Nonsense(_) => "prints nonsense",
+            Self::Twice(_) => "answers twice",
+            Self::OutOfOrder(_) => "answers out of order",
+            Self::Unasked(_) => "answers for another id",
+            Self::Floods(_) => "floods its output",
+        }
+    }
+
+    /// What to do about a program that cannot be judged at all.
+    #[must_use]
+    pub fn remedy(&self) -> &'static str {
+        match self {
+            Self::CannotStart(_) => "name a program and its arguments after --",
+            _ => {
+                "a program answers 'HELLO 2' with 'HELLO 2 name coverage' and flushes it; \
+                 see docs/protocol.md"
+            }
+        }
+    }
+}
+
+impl fmt::Display for Misbehaviour {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let word = self.word();
+        match self {
+            Self::CannotStart(what)
+            | Self::NoHello(what)
+            | Self::Exits(what)
+            | Self::Crashes(what)
+            | Self::Nonsense(what)
+            | Self::Twice(what)
+            | Self::OutOfOrder(what)
+            | Self::Unasked(what)
+            | Self::Floods(what) => write!(f, "{word}: {what}"),
+            Self::Hangs(limit) => write!(f, "{word}: no answer within {limit} s"),
+            Self::Late(took, limit) => {
+                write!(f, "{word}: after {took:.1} s, allowed are {limit} s")
+            }
+        }
+    }
+}
+
+/// Somebody who answers questions.
+pub trait Ask: Send {
+    /// What it says of itself.
+    fn declared(&self) -> &Declared;
+
+    /// An answer for each question, in order; fewer where that many of them are deaths. Never fails:
+    /// what goes wrong is an answer too.
+    fn ask(&mut self, questions: &[Question], most_deaths: u64) -> Vec<Answer>;
+
+    /// How many cases of a family it is asked at once; the same for every copy.
+    fn cases_at_once(&self) -> u64 {
+        64
+    }
+
+    /// What went wrong without a single question at fault, since it was last asked for.
+    fn strays(&mut self) -> Vec<Misbehaviour> {
+        Vec::new()
+    }
+
+    /// What it wrote on standard error, printable lines; the last ones.
+    fn complaints(&self) -> Vec<String> {
+        Vec::new()
+    }
+}
+
+impl Question {
+    /// Appends the request, with its line end.
+    pub fn write(&self, id: u64, out: &mut Vec<u8>) {
+        out.push(match self.of {
+            Asked::Coverage(_) => b'T',
+            Asked::Values(_) => b'I',
+            Asked::Samples(_) => b'S',
+            Asked::Line { .. } => b'L',
+            Asked::Depth(_) => b'D',
+            Asked::Near(_) => b'N',
+        });
+        let sides = [self.width, self.height];
+        let sides: &[u32] = if matches!(self.of, Asked::Near(_)) { &[] } else { &sides };
+        for number in std::iter::once(id).chain(sides.iter().map(|side| u64::from(*side))) {
+            out.push(b' ');
+            write_int(out, number as i64);
+        }
+        match &self.of {
+            Asked::Coverage(corners) | Asked::Samples(corners) => {
+                for sub in corners.iter().flat_map(|p| [p.x, p.y]) {
+                    out.push(b' ');
+                    write_px(out, sub);
+                }
+            }
+            Asked::Values(triangle) => {
+                for v in &triangle.vertices {
+                    write_numbers(
+                        out,
+                        v.position,
+                        &[v.depth, 1.0 / v.inv_w, v.varying.x, v.varying.y],
+                    );
+                }
+            }
+            Asked::Line { ends, whole } => {
+                for px in ends.iter().flat_map(|p| [p.x, p.y]) {
+                    let centre = if *whole { 0.0 } else { 0.5 };
+                    out.extend_from_slice(format!(" {}", f64::from(px) + centre).as_bytes());
+                }
+            }
+            Asked::Depth(list) => {
+                for v in list.iter().flat_map(|triangle| &triangle.vertices) {
+                    write_numbers(out, v.position, &[v.depth]);
+                }
+            }
+            Asked::Near(triangle) => {
+                for (v, [_, _, z, w]) in triangle.vertices.iter().zip(clip_corners(triangle)) {
+                    write_numbers(out, v.position, &[z, w]);
+                }
+            }
+        }
+        out.push(b'\n');
+    }
+
+    /// The request as text, without its line end.
+    #[must_use]
+    pub fn text(&self, id: u64) -> String {
+        let mut out = Vec::new();
+        self.write(id, &mut out);
+        String::from_utf8_lossy(&out).trim_end().to_owned()
+    }
+
+    /// Reads the words after the id of an answer to this question, whose letter this is. The error
+    /// says what is wrong with them.
+    ///
+    /// # Errors
+    /// A letter that does not belong to the question, a number that cannot be read, a count that is
+    /// not that of what follows, a run that ends before it begins.
+    pub fn read(&self, letter: u8, words: &mut Words<'_>) -> Result<Answer, &'static str> {
+        if letter == b'E' {
+            return Ok(Answer::Refused(printable(words.0.trim_ascii(), 80)));
+        }
+        let expected = match self.of {
+            Asked::Coverage(_) => b'C',
+            Asked::Values(_) => b'F',
+            Asked::Samples(_) => b'M',
+            Asked::Line { .. } => b'P',
+            Asked::Depth(_) => b'V',
+            Asked::Near(_) => b'G',
+        };
+        if letter != expected {
+            return Err("its letter does not belong to the request");
+        }
+        let n = words.int().and_then(|n| usize::try_from(n).ok()).ok_or("it has no count")?;
+        let answer = match self.of {
+            Asked::Coverage(_) => Answer::Coverage(each(n, words, span)?),
+            Asked::Values(_) => Answer::Values(each(n, words, fragment)?),
+            Asked::Line { .. } => Answer::Line(each(n, words, |w| Some((w.int()?, w.int()?)))?),
+            Asked::Samples(_) => Answer::Samples(each(n, words, marked)?),
+            Asked::Depth(_) => Answer::Seen(each(n, words, marked)?),
+            Asked::Near(_) => Answer::Polygon(each(n, words, |w| {
+                Some([w.float()?, w.float()?, w.float()?, w.float()?])
+            })?),
+        };
+        if words.is_empty() { Ok(answer) } else { Err("more follows than it counts") }
+    }
+}
+
+/// Appends a position and what else a corner has.
+fn write_numbers(out: &mut Vec<u8>, position: SubpixelPoint, more: &[f64]) {
+    for sub in [position.x, position.y] {
+        out.push(b' ');
+        write_px(out, sub);
+    }
+    for number in more {
+        // Rust prints the shortest decimal that reads back as the same number.
+        out.extend_from_slice(format!(" {number}").as_bytes());
+    }
+}
+
+/// Reads `n` items; a count that is a lie costs no more than what is really there.
+fn each<T>(
+    n: usize,
+    words: &mut Words<'_>,
+    mut item: impl FnMut(&mut Words<'_>) -> Option<T>,
+) -> Result<Vec<T>, &'static str> {
+    let mut items = Vec::with_capacity(n.min(words.0.len() / 4 + 1));
+    for _ in 0..n {
+        if words.is_empty() {
+            return Err("less follows than it counts");
+        }
+        items.push(item(words).ok_or("a number cannot be read, or a run ends before it begins")?);
+    }
+    Ok(items)
+}
+
+fn span(words: &mut Words<'_>) -> Option<Span> {
+    let span = Span { y_px: words.int()?, x0_px: words.int()?, x1_px: words.int()? };
+    (span.x0_px <= span.x1_px).then_some(span)
+}
+
+/// A run, and the mask or the triangle of its pixels.
+fn marked(words: &mut Words<'_>) -> Option<(Span, u8)> {
+    Some((span(words)?, words.int().and_then(|mark| u8::try_from(mark).ok())?))
+}
+
+fn fragment(words: &mut Words<'_>) -> Option<Fragment<DVec2>> {
+    let (x_px, y_px) = (words.int()?, words.int()?);
+    let (depth, a, b) = (words.float()?, words.float()?, words.float()?);
+    Some(Fragment { x_px, y_px, depth, varying: DVec2::new(a, b) })
+}
+
+/// The answer as a line of the protocol, cut where it gets long.
+#[must_use]
+pub fn show(answer: &Answer, id: u64) -> String {
+    let list = |letter: char, items: Vec<String>| {
+        let text = format!("{letter} {id} {}  {}", items.len(), items.join("  "));
+        printable(text.trim_end().as_bytes(), 400)
+    };
+    let run = |s: &Span| format!("{} {} {}", s.y_px, s.x0_px, s.x1_px);
+    match answer {
+        Answer::Coverage(runs) => list('C', runs.iter().map(run).collect()),
+        Answer::Samples(runs) => {
+            list('M', runs.iter().map(|(s, mask)| format!("{} {mask}", run(s))).collect())
+        }
+        Answer::Seen(runs) => {
+            list('V', runs.iter().map(|(s, of)| format!("{} {of}", run(s))).collect())
+        }
+        Answer::Polygon(corners) => {
+            list('G', corners.iter().map(|[x, y, z, w]| format!("{x} {y} {z} {w}")).collect())
+        }
+        Answer::Line(pixels) => list('P', pixels.iter().map(|(x, y)| format!("{x} {y}")).collect()),
+        Answer::Values(fragments) => {
+            let one = |f: &Fragment<DVec2>| {
+                format!("{} {} {} {} {}", f.x_px, f.y_px, f.depth, f.varying.x, f.varying.y)
+            };
+            list('F', fragments.iter().map(one).collect())
+        }
+        Answer::Refused(reason) => format!("E {id} {reason}"),
+        Answer::Died(misbehaviour) => format!("({misbehaviour})"),
+    }
+}

@@ -1,0 +1,544 @@
+//! What is asked about a case and what is found in the answers, one kind of question at a time.
+//!
+//! Some checks compare with the picture that is expected, others compare answers with each other
+//! and need no convention. A check alone knows its questions, so that the same code judges a
+//! generated case, shrinks it and repeats it.
+
+use glam::DVec2;
+
+use super::ask::{Answer, Asked, Question};
+use super::declared::{Declared, Winding};
+use super::depth::Pile;
+use super::expected::{Declaration, Expect, Picture, area2, exact_values};
+use super::finding::{Finding, hits, mix};
+use super::{mesh, near_plane};
+use rasterproof_core::frame::{Coverage, Frame};
+use rasterproof_core::grid::PixelRect;
+use rasterproof_core::triangle::{Corners, Fragment, Span};
+use rasterproof_render::pipeline::multisample;
+use rasterproof_verify::cases::{Case, Line, Shape, Triangle};
+use rasterproof_verify::comparison::Tally;
+use rasterproof_verify::oracle::Oracle;
+use rasterproof_verify::oracle::values::Exact;
+
+/// What may be asked about a case.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Check {
+    /// Each triangle alone against the expected picture.
+    Coverage,
+    /// Each line alone against the expected pixels.
+    Line,
+    /// Fragments against the expected picture, and some of their values against exact ones.
+    Values,
+    /// Four samples a pixel against the oracle's.
+    Samples,
+    /// Which of several triangles is seen, against exact depths.
+    Depth,
+    /// What the near plane leaves of a triangle, against exact corners.
+    Near,
+    /// A triangle with its vertices in another order against itself.
+    Order,
+    /// A mesh has no holes and no doubles.
+    Watertight,
+    /// A line drawn backwards against itself.
+    Direction,
+}
+
+/// What the answers are judged by.
+pub struct Truth {
+    /// What the program says of itself.
+    pub declared: Declared,
+    /// What it is expected to draw, as declared.
+    pub expect: Box<dyn Expect>,
+    /// What it was recognised to draw, if that is something else.
+    pub recognised: Option<Box<dyn Expect>>,
+    /// The windings that it was seen to draw, or declares.
+    pub drawn: Winding,
+}
+
+impl Truth {
+    /// Judged as declared, nothing recognised.
+    #[must_use]
+    pub fn of(declared: &Declared) -> Self {
+        Self {
+            expect: Box::new(Declaration::from(declared)),
+            recognised: None,
+            drawn: declared.seen_winding(),
+            declared: declared.clone(),
+        }
+    }
+}
+
+impl Finding {
+    /// What is wrong, in words.
+    #[must_use]
+    pub fn describe(&self, check: Check) -> String {
+        let Tally { missing, extra, twice, order } = self.tally;
+        let counts = match check {
+            Check::Watertight => vec![(missing, "holes"), (twice, "drawn by two triangles")],
+            Check::Order | Check::Direction => vec![(missing + extra + twice, "pixels differ")],
+            Check::Samples => {
+                vec![(missing, "samples missing"), (extra, "extra"), (twice, "twice")]
+            }
+            Check::Near => {
+                vec![(missing, "corners missing"), (extra, "corners that are not there")]
+            }
+            _ => vec![(missing, "missing"), (extra, "extra"), (twice, "twice")],
+        };
+        let mut parts: Vec<String> = counts
+            .into_iter()
+            .chain([(
+                order,
+                if check == Check::Depth { "show what lies behind" } else { "out of order" },
+            )])
+            .filter(|(n, _)| *n > 0)
+            .map(|(n, what)| format!("{n} {what}"))
+            .collect();
+        if self.worst > 1.0 {
+            parts.push(format!("a value off by {:.3e} times the tolerance", self.worst));
+        }
+        if self.refused > 0 {
+            parts.push(format!("{} refused ({})", self.refused, self.reason));
+        }
+        parts.extend(self.died.iter().map(|(_, m)| m.to_string()));
+        if parts.is_empty() { "agrees".to_owned() } else { parts.join(", ") }
+    }
+}
+
+impl Check {
+    /// Its name as a property; that of the family for the first two.
+    #[must_use]
+    pub fn name(self, family: &'static str) -> &'static str {
+        match self {
+            Self::Coverage | Self::Line | Self::Depth | Self::Near => family,
+            Self::Values => "values",
+            Self::Samples => "samples4",
+            Self::Order => "vertex-order",
+            Self::Watertight => "watertight",
+            Self::Direction => "line-direction",
+        }
+    }
+
+    /// The checks of a case: each case is asked the first question, some of them others.
+    #[must_use]
+    pub fn of(family: &str, case: &Case, index: u64, declared: &Declared) -> Vec<Self> {
+        let mut checks = Vec::new();
+        match &case.shape {
+            // Exact depths of overlapping triangles are dear.
+            Shape::Triangles { .. } if family == "depth-order" => {
+                if declared.depth && index.is_multiple_of(4) {
+                    checks.push(Self::Depth);
+                }
+            }
+            Shape::Triangles { .. } if family == "near-plane" => {
+                if declared.clip {
+                    checks.push(Self::Near);
+                }
+            }
+            Shape::Lines(_) if declared.line => checks.extend([Self::Line, Self::Direction]),
+            Shape::Lines(_) => {}
+            Shape::Triangles { list, disjoint } => {
+                let is_perspective = family.starts_with("w-");
+                if declared.attributes && (is_perspective || index % 8 == 3) {
+                    checks.push(Self::Values);
+                }
+                if declared.coverage && !is_perspective {
+                    checks.push(Self::Coverage);
+                    if index.is_multiple_of(4) && list.len() == 1 {
+                        checks.push(Self::Order);
+                    }
+                    if *disjoint {
+                        checks.push(Self::Watertight);
+                    }
+                }
+                if declared.samples4 && declared.is_standard() && index % 8 == 1 && !is_perspective
+                {
+                    checks.push(Self::Samples);
+                }
+            }
+        }
+        checks
+    }
+
+    /// Appends the questions about a case.
+    pub fn questions(self, case: &Case, truth: &Truth, out: &mut Vec<Question>) {
+        let (width, height) = (case.window.width(), case.window.height());
+        let ask = |of| Question { width, height, of };
+        match (&case.shape, self) {
+            (Shape::Triangles { list, .. }, Self::Depth) => {
+                out.push(ask(Asked::Depth(list.clone())))
+            }
+            (Shape::Triangles { list, .. }, Self::Order) => {
+                // With one winding drawn, only turning leaves the picture as it is.
+                let orders: [[usize; 3]; 3] = match truth.drawn {
+                    Winding::Both => [[0, 1, 2], [1, 2, 0], [0, 2, 1]],
+                    _ => [[0, 1, 2], [1, 2, 0], [2, 0, 1]],
+                };
+                let ordered = list.iter().flat_map(|t| {
+                    let corners = t.corners();
+                    orders.map(|order| ask(Asked::Coverage(order.map(|i| corners[i]))))
+                });
+                out.extend(ordered);
+            }
+            (Shape::Triangles { list, .. }, check) => out.extend(list.iter().map(|t| {
+                ask(match check {
+                    Self::Values => Asked::Values(*t),
+                    Self::Samples => Asked::Samples(t.corners()),
+                    Self::Near => Asked::Near(*t),
+                    // A mesh is wound as the program draws.
+                    Self::Watertight => Asked::Coverage(wound(t.corners(), truth.drawn)),
+                    _ => Asked::Coverage(t.corners()),
+                })
+            })),
+            (Shape::Lines(lines), check) => {
+                let whole = truth.declared.grid == 1;
+                for [a, b] in lines.iter().map(|l| l.ends.map(|end| end.pixel)) {
+                    out.push(ask(Asked::Line { ends: [a, b], whole }));
+                    if check == Self::Direction {
+                        out.push(ask(Asked::Line { ends: [b, a], whole }));
+                    }
+                }
+            }
+        }
+    }
+
+    /// What happened instead of answers, where some of them are missing.
+    #[must_use]
+    pub fn judge_deaths(answers: &[Answer]) -> Finding {
+        let mut finding = Finding { mark: 0xcbf2_9ce4_8422_2325, ..Finding::default() };
+        for (i, answer) in answers.iter().enumerate() {
+            match answer {
+                Answer::Died(misbehaviour) => finding.died.push((i, misbehaviour.clone())),
+                Answer::Refused(reason) => {
+                    finding.answered += 1;
+                    finding.refuse(reason);
+                }
+                _ => finding.answered += 1,
+            }
+        }
+        finding
+    }
+
+    /// Judges the answers to the questions of [`Check::questions`].
+    #[must_use]
+    pub fn judge(self, case: &Case, answers: &[Answer], truth: &Truth) -> Finding {
+        let mut finding = Self::judge_deaths(answers);
+        match (&case.shape, self) {
+            (Shape::Triangles { list, .. }, Self::Order) => {
+                finding.shapes = list.len() as u64;
+                answers.chunks(3).for_each(|same| alike(&mut finding, same, case.window));
+            }
+            (Shape::Triangles { list, .. }, Self::Watertight) => {
+                watertight(&mut finding, list, answers, case.window);
+            }
+            (Shape::Triangles { list, .. }, Self::Depth) => {
+                let pile = Pile::new(list, case.window, &*truth.expect, &truth.declared);
+                if let (Some(pile), Some(Answer::Seen(runs))) = (pile, answers.first()) {
+                    pile.compare(&mut finding, runs);
+                }
+                finding.unscored += u64::from(truth.recognised.is_some());
+            }
+            (Shape::Triangles { list, .. }, Self::Near) => {
+                for (triangle, answer) in list.iter().zip(answers) {
+                    if let Answer::Polygon(corners) = answer {
+                        near_plane::compare(
+                            &mut finding,
+                            triangle,
+                            corners,
+                            truth.declared.tolerance,
+                        );
+                    }
+                }
+            }
+            (Shape::Triangles { list, .. }, _) => {
+                for (triangle, answer) in list.iter().zip(answers) {
+                    one_triangle(&mut finding, triangle, answer, case.window, truth);
+                }
+            }
+            (Shape::Lines(lines), Self::Direction) => {
+                finding.shapes = lines.len() as u64;
+                answers.chunks(2).for_each(|both| alike(&mut finding, both, case.window));
+            }
+            (Shape::Lines(lines), _) => {
+                for (line, answer) in lines.iter().zip(answers) {
+                    one_line(&mut finding, line, answer, case.window, truth);
+                }
+            }
+        }
+        finding
+    }
+}
+
+/// The triangle turned over where this winding alone is drawn and it has the other.
+fn wound([a, b, c]: Corners, drawn: Winding) -> Corners {
+    let is_other = match drawn {
+        Winding::Clockwise => area2(&[a, b, c]) < 0,
+        Winding::CounterClockwise => area2(&[a, b, c]) > 0,
+        Winding::Both => false,
+    };
+    if is_other { [a, c, b] } else { [a, b, c] }
+}
+
+fn one_triangle(
+    finding: &mut Finding,
+    triangle: &Triangle,
+    answer: &Answer,
+    window: PixelRect,
+    truth: &Truth,
+) {
+    let corners = triangle.corners();
+    let Some(picture) = truth.expect.picture(&corners, window) else { return };
+    finding.shapes += 1;
+    finding.pixels += length(&picture.must);
+    let compare_both = |runs: &[Span], finding: &mut Finding| {
+        compare(&mut finding.tally, &mut finding.mark, runs, &picture, window);
+        let Some(recognised) = &truth.recognised else { return };
+        match recognised.picture(&corners, window) {
+            Some(picture) => {
+                finding.other_pixels += length(&picture.must);
+                compare(&mut finding.other, &mut 0, runs, &picture, window);
+            }
+            None => finding.unscored += 1,
+        }
+    };
+    match answer {
+        Answer::Coverage(runs) => compare_both(runs, finding),
+        Answer::Values(fragments) => {
+            let runs: Vec<_> = fragments.iter().map(pixel_of).collect();
+            compare_both(&runs, finding);
+            let expected = hits(&picture.must, window).0;
+            values(finding, triangle, fragments, &expected, truth);
+        }
+        Answer::Samples(runs) => samples(finding, &corners, runs, window, truth),
+        _ => {}
+    }
+}
+
+fn pixel_of(f: &Fragment<DVec2>) -> Span {
+    Span { y_px: f.y_px, x0_px: f.x_px, x1_px: f.x_px.saturating_add(1) }
+}
+
+fn length(runs: &[Span]) -> u64 {
+    runs.iter().map(|r| u64::from(r.x0_px.abs_diff(r.x1_px))).sum()
+}
+
+/// Compares runs with a picture, pixel by pixel unless they are the same runs.
+fn compare(tally: &mut Tally, mark: &mut u64, runs: &[Span], picture: &Picture, window: PixelRect) {
+    if picture.may.is_none() && runs == picture.must {
+        return;
+    }
+    let (actual, outside) = hits(runs, window);
+    let must = hits(&picture.must, window).0;
+    let may = picture.may.as_ref().map(|may| hits(may, window).0);
+    tally.extra += outside;
+    mix(mark, outside);
+    for (y, row) in actual.rows() {
+        let (must, may) = (must.row(y), may.as_ref().unwrap_or(&must).row(y));
+        for (x, &n) in row.iter().enumerate() {
+            let is_right = n == must[x] || (n == 1 && may[x] == 1);
+            if is_right {
+                continue;
+            }
+            tally.missing += u64::from(n < must[x]);
+            tally.extra += u64::from(n > 0 && may[x] == 0);
+            tally.twice += u64::from(n.saturating_sub(1));
+            [y as u64, x as u64, u64::from(n)].iter().for_each(|word| mix(mark, *word));
+        }
+    }
+}
+
+/// Counts the pixels in which answers differ from the first one.
+fn alike(finding: &mut Finding, answers: &[Answer], window: PixelRect) {
+    let drawn: Vec<Coverage> = answers.iter().filter_map(|a| picture_of(a, window)).collect();
+    let Some((first, others)) = drawn.split_first() else { return };
+    finding.pixels += first.covered();
+    for other in others {
+        finding.tally += Tally::between(other, first);
+        if other != first {
+            first.rows().zip(other.rows()).for_each(|((_, a), (_, b))| {
+                a.iter().zip(b).for_each(|(a, b)| mix(&mut finding.mark, u64::from(*a ^ *b)));
+            });
+        }
+    }
+}
+
+/// The pixels of an answer by hits, those outside the window left out.
+#[must_use]
+pub fn picture_of(answer: &Answer, window: PixelRect) -> Option<Coverage> {
+    match answer {
+        Answer::Coverage(runs) => Some(hits(runs, window).0),
+        Answer::Samples(runs) | Answer::Seen(runs) => {
+            let runs: Vec<_> = runs.iter().map(|(run, _)| *run).collect();
+            Some(hits(&runs, window).0)
+        }
+        Answer::Values(fragments) => {
+            let runs: Vec<_> = fragments.iter().map(pixel_of).collect();
+            Some(hits(&runs, window).0)
+        }
+        Answer::Line(pixels) => Some(hits(&as_runs(pixels), window).0),
+        Answer::Polygon(_) | Answer::Refused(_) | Answer::Died(_) => None,
+    }
+}
+
+fn as_runs(pixels: &[(i32, i32)]) -> Vec<Span> {
+    let run = |&(x, y): &(i32, i32)| Span { y_px: y, x0_px: x, x1_px: x.saturating_add(1) };
+    pixels.iter().map(run).collect()
+}
+
+fn watertight(finding: &mut Finding, list: &[Triangle], answers: &[Answer], window: PixelRect) {
+    finding.shapes = list.len() as u64;
+    let mut sum = Coverage::new(window, 0);
+    for answer in answers {
+        // A mesh with a triangle that was refused has a hole for another reason.
+        let Some(drawn) = picture_of(answer, window) else { return };
+        for (y, row) in drawn.rows() {
+            for (sum, hits) in sum.row_mut(y).iter_mut().zip(row) {
+                *sum = sum.saturating_add((*hits).min(1));
+            }
+        }
+    }
+    finding.pixels += sum.covered();
+    let corners: Vec<Corners> = list.iter().map(|t| t.corners()).collect();
+    let (holes, doubles) = mesh::holes_and_doubles(&corners, &sum);
+    finding.tally += Tally { missing: holes, twice: doubles, ..Tally::default() };
+}
+
+/// Compares values at the first, the last and two fragments between, where they belong.
+fn values(
+    finding: &mut Finding,
+    triangle: &Triangle,
+    fragments: &[Fragment<DVec2>],
+    expected: &Coverage,
+    truth: &Truth,
+) {
+    let Some(exact) = exact_values(triangle, &truth.declared) else { return };
+    let largest = |values: [f64; 3]| values.into_iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+    let v = &triangle.vertices;
+    // Where all are zero the result must be; the smallest number keeps the quotient defined.
+    let scale = |values| (truth.declared.tolerance * largest(values)).max(f64::MIN_POSITIVE);
+    let bounds = [v.map(|v| v.depth), v.map(|v| v.varying.x), v.map(|v| v.varying.y)].map(scale);
+    let n = fragments.len();
+    let mut picks = vec![0, n / 3, 2 * n / 3, n.saturating_sub(1)];
+    picks.dedup();
+    for f in picks.into_iter().filter_map(|i| fragments.get(i)) {
+        if expected.get(f.x_px, f.y_px).is_none_or(|hits| hits == 0) {
+            continue;
+        }
+        let (depth, [a, b]) = exact.at(f.x_px, f.y_px);
+        let bounds = truth.expect.bounds(triangle, (f.x_px, f.y_px)).unwrap_or(bounds);
+        let errors = [depth.distance(f.depth), a.distance(f.varying.x), b.distance(f.varying.y)];
+        for (error, bound) in errors.into_iter().zip(bounds) {
+            finding.values += 1;
+            // The distance to what is no number is infinite.
+            if error / bound > finding.worst {
+                finding.worst = error / bound;
+                finding.worst_at = Some((f.x_px, f.y_px));
+            }
+        }
+    }
+}
+
+/// Compares masks bit by bit; the samples have fixed places, so the declared one does not matter.
+fn samples(
+    finding: &mut Finding,
+    corners: &Corners,
+    runs: &[(Span, u8)],
+    window: PixelRect,
+    truth: &Truth,
+) {
+    let drawn = Declaration::from(&truth.declared).draws(area2(corners));
+    let Some(expected) = multisample::masks(&Oracle, *corners, window).filter(|_| drawn) else {
+        return;
+    };
+    let mut actual = Frame::new(window, 0u8);
+    let all: Vec<Span> = runs.iter().map(|(run, _)| *run).collect();
+    let (hit, outside) = hits(&all, window);
+    finding.tally.extra += outside;
+    for (run, mask) in runs {
+        let (x0, x1) = (run.x0_px.max(window.x0), run.x1_px.min(window.x1));
+        if (window.y0..window.y1).contains(&run.y_px) && x0 < x1 {
+            actual.span_mut(run.y_px, x0, x1).iter_mut().for_each(|m| *m |= mask);
+        }
+    }
+    for (y, row) in actual.rows() {
+        for ((&a, &e), &n) in row.iter().zip(expected.row(y)).zip(hit.row(y)) {
+            finding.tally.missing += u64::from((e & !a).count_ones());
+            finding.tally.extra += u64::from((a & !e).count_ones());
+            finding.tally.twice += u64::from(n.saturating_sub(1));
+            mix(&mut finding.mark, u64::from(a ^ e));
+        }
+    }
+}
+
+fn one_line(finding: &mut Finding, line: &Line, answer: &Answer, window: PixelRect, truth: &Truth) {
+    let Answer::Line(pixels) = answer else { return };
+    let ends = line.ends.map(|end| end.pixel);
+    let Some(expected) = truth.expect.line(&ends, window) else { return };
+    finding.shapes += 1;
+    finding.pixels += expected.len() as u64;
+    let in_order = !truth.declared.line_set;
+    sequence(&mut finding.tally, &mut finding.mark, pixels, &expected, window, in_order);
+    let Some(recognised) = &truth.recognised else { return };
+    match recognised.line(&ends, window) {
+        Some(expected) => {
+            finding.other_pixels += expected.len() as u64;
+            let in_order = in_order && recognised.keeps_order();
+            sequence(&mut finding.other, &mut 0, pixels, &expected, window, in_order);
+        }
+        None => finding.unscored += 1,
+    }
+}
+
+/// Compares the pixels of a line, and where they are the same ones their order.
+fn sequence(
+    tally: &mut Tally,
+    mark: &mut u64,
+    pixels: &[(i32, i32)],
+    expected: &[(i32, i32)],
+    window: PixelRect,
+    in_order: bool,
+) {
+    if pixels == expected {
+        return;
+    }
+    let picture = Picture { must: as_runs(expected), may: None };
+    let before = tally.total();
+    compare(tally, mark, &as_runs(pixels), &picture, window);
+    if tally.total() == before && in_order {
+        tally.order += pixels.iter().zip(expected).filter(|(a, b)| a != b).count() as u64;
+    }
+}
+
+/// The answer that was expected to each question of a check, where there is one.
+#[must_use]
+pub fn expected_answer(question: &Question, truth: &Truth) -> Option<Answer> {
+    let window = PixelRect::window(question.width, question.height);
+    match &question.of {
+        Asked::Coverage(corners) => {
+            truth.expect.picture(corners, window).map(|picture| Answer::Coverage(picture.must))
+        }
+        Asked::Line { ends, .. } => truth.expect.line(ends, window).map(Answer::Line),
+        Asked::Values(triangle) => {
+            let picture = truth.expect.picture(&triangle.corners(), window)?;
+            let exact = exact_values(triangle, &truth.declared);
+            let pixels =
+                picture.must.iter().flat_map(|run| (run.x0_px..run.x1_px).map(|x| (x, run.y_px)));
+            let fragment = |(x_px, y_px)| {
+                let (depth, [a, b]) = exact.as_ref()?.at(x_px, y_px);
+                let varying = DVec2::new(a.to_f64(), b.to_f64());
+                Some(Fragment { x_px, y_px, depth: depth.to_f64(), varying })
+            };
+            Some(Answer::Values(pixels.filter_map(fragment).collect()))
+        }
+        Asked::Depth(list) => {
+            let pile = Pile::new(list, window, &*truth.expect, &truth.declared)?;
+            Some(Answer::Seen(pile.runs()))
+        }
+        Asked::Near(triangle) => {
+            let corners = near_plane::polygon(triangle);
+            let floats = corners.iter().map(|corner| corner.each_ref().map(Exact::to_f64));
+            Some(Answer::Polygon(floats.collect()))
+        }
+        Asked::Samples(_) => None,
+    }
+}

@@ -1,0 +1,321 @@
+//! What a program says of itself in answer to HELLO: its capabilities, and the limits and the rule
+//! it wants to be judged by.
+//!
+//! A word that is not known, or whose value cannot be used, is kept to be reported and has no
+//! effect. What is not declared has the default of the protocol, version 2.
+
+use std::fmt;
+
+use super::text::{number, printable};
+use rasterproof_core::grid::{DOMAIN_PX, HALF_PIXEL, MAX_SIDE_PX, SUBPIXELS};
+
+/// Which samples exactly on an edge belong to a triangle, seen with the program's own y axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rule {
+    /// Those on top and left edges.
+    TopLeft,
+    /// Those on top and right edges.
+    TopRight,
+    /// Those on bottom and left edges.
+    BottomLeft,
+    /// Those on bottom and right edges.
+    BottomRight,
+    /// All of them.
+    Inclusive,
+    /// None of them.
+    Strict,
+    /// Nothing is promised.
+    Unspecified,
+}
+
+impl Rule {
+    /// Every rule, with its word.
+    pub const ALL: [(&'static str, Self); 7] = [
+        ("top-left", Self::TopLeft),
+        ("top-right", Self::TopRight),
+        ("bottom-left", Self::BottomLeft),
+        ("bottom-right", Self::BottomRight),
+        ("inclusive", Self::Inclusive),
+        ("strict", Self::Strict),
+        ("none", Self::Unspecified),
+    ];
+
+    /// The word of the protocol.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        Self::ALL.iter().find(|(_, rule)| *rule == self).map_or("", |(word, _)| word)
+    }
+}
+
+/// Which windings are drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Winding {
+    /// Clockwise alone.
+    Clockwise,
+    /// Counter-clockwise alone.
+    CounterClockwise,
+    /// Both.
+    Both,
+}
+
+impl Winding {
+    /// The word of the protocol.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Clockwise => "cw",
+            Self::CounterClockwise => "ccw",
+            Self::Both => "both",
+        }
+    }
+}
+
+/// What a program declares; the default is what version 1 promises.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Declared {
+    /// Its name, printable.
+    pub name: String,
+    /// The version of the protocol it speaks, 1 or 2.
+    pub version: u32,
+    /// Answers T.
+    pub coverage: bool,
+    /// Answers L.
+    pub line: bool,
+    /// Answers I.
+    pub attributes: bool,
+    /// Answers S.
+    pub samples4: bool,
+    /// Answers D.
+    pub depth: bool,
+    /// Answers N.
+    pub clip: bool,
+    /// Its coordinates are multiples of 1/grid px: 1, 16, 64 or 256.
+    pub grid: i32,
+    /// Where in a pixel its sample lies, in subpixels from the upper left corner.
+    pub origin: [i32; 2],
+    /// Which samples on an edge belong.
+    pub rule: Rule,
+    /// Which windings it draws.
+    pub winding: Winding,
+    /// Its own y axis points up: top and bottom, cw and ccw change places.
+    pub yup: bool,
+    /// Coordinates lie in [-range, range] px; none means the whole domain.
+    pub range: Option<i32>,
+    /// The largest window it draws; none means any.
+    pub window: Option<[u32; 2]>,
+    /// Requests it may be sent before it has answered.
+    pub batch: usize,
+    /// A pixel drawn twice cannot be seen in its answers.
+    pub mask: bool,
+    /// The pixels of its lines come in no order.
+    pub line_set: bool,
+    /// How far a value may be off, in units of the largest magnitude at the vertices.
+    pub tolerance: f64,
+    /// Words that are not known or cannot be used, printable.
+    pub unknown: Vec<String>,
+}
+
+/// A tolerance for programs that compute in f32 and declare none.
+pub const DEFAULT_TOLERANCE: f64 = 1e-4;
+/// The most requests that are ever in flight.
+pub const MOST_IN_FLIGHT: usize = 4096;
+/// Words of an unknown meaning that are kept.
+const MOST_UNKNOWN: usize = 8;
+
+impl Default for Declared {
+    fn default() -> Self {
+        Self {
+            name: String::new(),
+            version: 1,
+            coverage: false,
+            line: false,
+            attributes: false,
+            samples4: false,
+            depth: false,
+            clip: false,
+            grid: SUBPIXELS,
+            origin: [HALF_PIXEL; 2],
+            rule: Rule::TopLeft,
+            winding: Winding::Both,
+            yup: false,
+            range: None,
+            window: None,
+            batch: 1,
+            mask: false,
+            line_set: false,
+            tolerance: DEFAULT_TOLERANCE,
+            unknown: Vec::new(),
+        }
+    }
+}
+
+impl Declared {
+    /// Reads `HELLO 1 name word...` or `HELLO 2 name word...`; nothing for any other line.
+    #[must_use]
+    pub fn parse(line: &str) -> Option<Self> {
+        let mut words = line.split_ascii_whitespace();
+        let version = match (words.next(), words.next()) {
+            (Some("HELLO"), Some("1")) => 1,
+            (Some("HELLO"), Some("2")) => 2,
+            _ => return None,
+        };
+        let name = printable(words.next()?.as_bytes(), 40);
+        let mut declared = Self { name, version, ..Self::default() };
+        words.for_each(|word| declared.hear(word));
+        Some(declared)
+    }
+
+    /// Takes a word into account; one that cannot be used is kept as unknown.
+    pub fn hear(&mut self, word: &str) {
+        let (key, value) = word.split_once('=').map_or((word, None), |(k, v)| (k, Some(v)));
+        if self.take(key, value).is_none() && self.unknown.len() < MOST_UNKNOWN {
+            self.unknown.push(printable(word.as_bytes(), 40));
+        }
+    }
+
+    fn take(&mut self, key: &str, value: Option<&str>) -> Option<()> {
+        let whole = |v: &str, most: i32| v.parse::<i32>().ok().filter(|n| (1..=most).contains(n));
+        match (key, value) {
+            ("coverage", None) => self.coverage = true,
+            ("line", None) => self.line = true,
+            ("attributes", None) => self.attributes = true,
+            ("samples4", None) => self.samples4 = true,
+            ("depth", None) => self.depth = true,
+            ("clip", None) => self.clip = true,
+            ("yup", None) => self.yup = true,
+            ("mask", None) => self.mask = true,
+            ("line-set", None) => self.line_set = true,
+            ("grid", Some(v)) => {
+                self.grid = whole(v, SUBPIXELS).filter(|g| [1, 16, 64, 256].contains(g))?;
+            }
+            ("origin", Some(v)) => {
+                let (x, y) = v.split_once(',')?;
+                self.origin = [subpixels(x)?, subpixels(y)?];
+            }
+            ("rule", Some(v)) => {
+                self.rule = Rule::ALL.iter().find(|(word, _)| *word == v).map(|(_, r)| *r)?;
+            }
+            ("winding", Some("cw")) => self.winding = Winding::Clockwise,
+            ("winding", Some("ccw")) => self.winding = Winding::CounterClockwise,
+            ("winding", Some("both")) => self.winding = Winding::Both,
+            ("range", Some(v)) => self.range = Some(whole(v, DOMAIN_PX - 1)?),
+            ("window", Some(v)) => {
+                let (w, h) = v.split_once('x')?;
+                let side = |v| whole(v, MAX_SIDE_PX as i32).map(|n| n as u32);
+                self.window = Some([side(w)?, side(h)?]);
+            }
+            ("batch", Some(v)) => {
+                self.batch = v.parse::<usize>().ok().filter(|n| *n > 0)?.min(MOST_IN_FLIGHT);
+            }
+            ("tolerance", Some(v)) => {
+                self.tolerance = number(v).filter(|t| (0.0..=1.0).contains(t))?;
+            }
+            _ => return None,
+        }
+        Some(())
+    }
+
+    /// Whether it speaks of the centre of the pixel and the top-left rule, as the engines do.
+    #[must_use]
+    pub fn is_standard(&self) -> bool {
+        self.origin == [HALF_PIXEL; 2] && self.seen_rule() == Rule::TopLeft
+    }
+
+    /// The rule as it is seen in a picture whose rows count from the top.
+    #[must_use]
+    pub fn seen_rule(&self) -> Rule {
+        match (self.yup, self.rule) {
+            (true, Rule::TopLeft) => Rule::BottomLeft,
+            (true, Rule::TopRight) => Rule::BottomRight,
+            (true, Rule::BottomLeft) => Rule::TopLeft,
+            (true, Rule::BottomRight) => Rule::TopRight,
+            (_, rule) => rule,
+        }
+    }
+
+    /// The windings as they are seen in a picture whose rows count from the top.
+    #[must_use]
+    pub fn seen_winding(&self) -> Winding {
+        match (self.yup, self.winding) {
+            (true, Winding::Clockwise) => Winding::CounterClockwise,
+            (true, Winding::CounterClockwise) => Winding::Clockwise,
+            (_, winding) => winding,
+        }
+    }
+
+    /// Its capabilities as words.
+    #[must_use]
+    pub fn capabilities(&self) -> Vec<&'static str> {
+        let all = [
+            ("coverage", self.coverage),
+            ("attributes", self.attributes),
+            ("samples4", self.samples4),
+            ("line", self.line),
+            ("depth", self.depth),
+            ("clip", self.clip),
+        ];
+        all.iter().filter(|(_, has)| *has).map(|(word, _)| *word).collect()
+    }
+}
+
+/// A distance in px as subpixels; nothing where it is no whole number of them, or a pixel too far.
+fn subpixels(word: &str) -> Option<i32> {
+    let sub = number(word)? * f64::from(SUBPIXELS);
+    (sub.fract() == 0.0 && sub.abs() <= f64::from(2 * SUBPIXELS)).then_some(sub as i32)
+}
+
+impl fmt::Display for Declared {
+    /// The words after the name, as HELLO 2 has them.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let px = |sub: i32| f64::from(sub) / f64::from(SUBPIXELS);
+        f.write_str(&self.capabilities().join(" "))?;
+        write!(f, " grid={} origin={},{}", self.grid, px(self.origin[0]), px(self.origin[1]))?;
+        write!(f, " rule={} winding={}", self.rule.word(), self.winding.word())?;
+        let flags = [("yup", self.yup), ("mask", self.mask), ("line-set", self.line_set)];
+        for (word, _) in flags.iter().filter(|(_, is_set)| *is_set) {
+            write!(f, " {word}")?;
+        }
+        if let Some(range) = self.range {
+            write!(f, " range={range}")?;
+        }
+        if let Some([width, height]) = self.window {
+            write!(f, " window={width}x{height}")?;
+        }
+        write!(f, " batch={}", self.batch)?;
+        if self.attributes || self.depth || self.clip {
+            write!(f, " tolerance={:e}", self.tolerance)?;
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn declarations_are_read_and_said_again() {
+        let line = "HELLO 2 mine coverage attributes depth clip grid=16 origin=0,0.25 rule=strict winding=ccw \
+                    yup mask range=4096 window=64x32 batch=8 tolerance=1e-5";
+        let declared = Declared::parse(line).unwrap();
+        assert_eq!((declared.grid, declared.origin), (16, [0, 64]));
+        assert_eq!((declared.rule, declared.seen_winding()), (Rule::Strict, Winding::Clockwise));
+        assert_eq!((declared.range, declared.window), (Some(4096), Some([64, 32])));
+        assert!(declared.unknown.is_empty());
+        let again = Declared::parse(&format!("HELLO 2 mine {declared}")).unwrap();
+        assert_eq!(again, declared);
+    }
+
+    #[test]
+    fn what_cannot_be_used_is_reported() {
+        let line = "HELLO 2 a\u{1b}[2J coverage grid=3 origin=0.3,0 window=0x1 batch=0 dance";
+        let declared = Declared::parse(line).unwrap();
+        assert_eq!(declared.unknown.len(), 5, "{:?}", declared.unknown);
+        assert!(declared.name.chars().all(|c| !c.is_control()));
+        assert_eq!((declared.grid, declared.batch), (256, 1));
+        assert_eq!(Declared::parse("HELLO 3 x coverage"), None);
+        assert_eq!(Declared::parse("HELLO 1"), None);
+        let flipped = Declared::parse("HELLO 2 gl coverage rule=top-left yup").unwrap();
+        assert_eq!(flipped.seen_rule(), Rule::BottomLeft);
+    }
+}

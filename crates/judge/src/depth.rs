@@ -1,0 +1,247 @@
+//! Which of several triangles is seen, by the exact depths at the sample of each pixel.
+//!
+//! Less depth is nearer. A program may be off by its tolerance times the largest depth, at the triangle
+//! that it shows and at the nearest one: so a triangle may be seen that is at most twice that behind.
+//! At equal depths nothing is promised: a sum of weighted depths is rounded otherwise in each.
+
+use super::declared::Declared;
+use super::expected::{Expect, Picture, exact_values};
+use super::finding::{Finding, hits, mix, push};
+use rasterproof_core::frame::Coverage;
+use rasterproof_core::grid::PixelRect;
+use rasterproof_core::triangle::Span;
+use rasterproof_verify::cases::Triangle;
+use rasterproof_verify::oracle::values::ExactTriangle;
+
+/// One triangle of a pile: the pixels that it has to cover, those that it may, and its depths.
+struct Layer {
+    must: Coverage,
+    may: Coverage,
+    depths: Option<ExactTriangle<2>>,
+}
+
+/// Knows what is seen of a pile of triangles.
+pub(super) struct Pile {
+    layers: Vec<Layer>,
+    window: PixelRect,
+    allowance: f64,
+}
+
+impl Pile {
+    /// The pile under a convention; nothing where that promises nothing of one of its triangles.
+    pub fn new(
+        list: &[Triangle],
+        window: PixelRect,
+        expect: &dyn Expect,
+        declared: &Declared,
+    ) -> Option<Self> {
+        let layer = |triangle: &Triangle| {
+            let Picture { must, may } = expect.picture(&triangle.corners(), window)?;
+            let (must, may) = (hits(&must, window).0, may.map(|may| hits(&may, window).0));
+            let may = may.unwrap_or_else(|| must.clone());
+            Some(Layer { must, may, depths: exact_values(triangle, declared) })
+        };
+        let layers = list.iter().map(layer).collect::<Option<Vec<_>>>()?;
+        let depths = list.iter().flat_map(|t| &t.vertices).map(|v| v.depth.abs());
+        // Beside the tolerances: exact depths are compared as the nearest floats.
+        let rounding = 2.0 * f64::EPSILON;
+        let allowance = (2.0 * declared.tolerance + rounding) * depths.fold(0.0, f64::max);
+        Some(Self { layers, window, allowance })
+    }
+
+    /// The triangles that may be seen at a pixel, nearest first, and whether one has to be.
+    fn seen(&self, x: usize, y: i32) -> (Vec<usize>, bool) {
+        let of = |t: usize| &self.layers[t];
+        let must: Vec<_> = (0..self.layers.len()).filter(|&t| of(t).must.row(y)[x] > 0).collect();
+        let may: Vec<_> = (0..self.layers.len()).filter(|&t| of(t).may.row(y)[x] > 0).collect();
+        if may.len() < 2 {
+            return (may, !must.is_empty());
+        }
+        let depth = |t: usize| {
+            let x_px = self.window.x0 + x as i32;
+            of(t).depths.as_ref().map_or(f64::INFINITY, |d| d.at(x_px, y).0.to_f64())
+        };
+        let nearest = must.iter().map(|&t| depth(t)).fold(f64::INFINITY, f64::min);
+        let mut all: Vec<_> = may.into_iter().map(|t| (depth(t), t)).collect();
+        all.retain(|(depth, _)| *depth <= nearest + self.allowance);
+        all.sort_by(|a, b| a.0.total_cmp(&b.0));
+        (all.into_iter().map(|(_, t)| t).collect(), !must.is_empty())
+    }
+
+    /// What is seen, as runs of pixels with the number of their triangle.
+    pub fn runs(&self) -> Vec<(Span, u8)> {
+        let mut runs: Vec<(Span, u8)> = Vec::new();
+        for y_px in self.window.y0..self.window.y1 {
+            for x in 0..self.window.width() as usize {
+                let (seen, true) = self.seen(x, y_px) else { continue };
+                let Some(&first) = seen.first() else { continue };
+                push(&mut runs, self.window.x0 + x as i32, y_px, first as u8);
+            }
+        }
+        runs
+    }
+
+    /// Counts the pixels that show nothing, what is not there, or what lies behind.
+    pub fn compare(&self, finding: &mut Finding, runs: &[(Span, u8)]) {
+        finding.shapes += self.layers.len() as u64;
+        let all: Vec<Span> = runs.iter().map(|(run, _)| *run).collect();
+        let (counts, outside) = hits(&all, self.window);
+        finding.tally.extra += outside;
+        for (y, row) in counts.rows() {
+            for (x, &count) in row.iter().enumerate() {
+                let (seen, must) = self.seen(x, y);
+                finding.pixels += u64::from(must);
+                finding.tally.twice += u64::from(count.saturating_sub(1));
+                finding.tally.missing += u64::from(count == 0 && must);
+                finding.tally.extra += u64::from(count > 0 && seen.is_empty());
+                let shown = shown(runs, self.window.x0 + x as i32, y);
+                let is_behind = !seen.is_empty() && shown.is_some_and(|t| !seen.contains(&t));
+                finding.tally.order += u64::from(is_behind);
+                if count > 1 || is_behind || (count == 0) == (must || seen.is_empty()) {
+                    [y as u64, x as u64, u64::from(count)]
+                        .iter()
+                        .for_each(|w| mix(&mut finding.mark, *w));
+                }
+            }
+        }
+    }
+
+    /// The triangle with most wrong pixels, where it is seen, and where it should be.
+    pub fn pictures(&self, runs: &[(Span, u8)]) -> Option<(usize, [Coverage; 2])> {
+        let of = |t: usize| {
+            let mut drawn = Coverage::new(self.window, 0);
+            let mut expected = Coverage::new(self.window, 0);
+            for y in self.window.y0..self.window.y1 {
+                for x in 0..self.window.width() as usize {
+                    let x_px = self.window.x0 + x as i32;
+                    let (seen, must) = self.seen(x, y);
+                    let shown = shown(runs, x_px, y);
+                    let is_right = shown.is_some_and(|s| seen.contains(&s));
+                    let should =
+                        if is_right { shown } else { seen.first().copied().filter(|_| must) };
+                    drawn.hit(y, x_px, x_px + i32::from(shown == Some(t)));
+                    expected.hit(y, x_px, x_px + i32::from(should == Some(t)));
+                }
+            }
+            (t, [drawn, expected])
+        };
+        let wrong = |(_, [drawn, expected]): &(usize, [Coverage; 2])| {
+            let rows = drawn.rows().zip(expected.rows());
+            rows.map(|((_, a), (_, b))| a.iter().zip(b).filter(|(a, b)| a != b).count())
+                .sum::<usize>()
+        };
+        (0..self.layers.len()).map(of).max_by_key(wrong)
+    }
+}
+
+/// The triangle that an answer shows at a pixel: the first, where it names several.
+fn shown(runs: &[(Span, u8)], x_px: i32, y_px: i32) -> Option<usize> {
+    let here = |run: &Span| run.y_px == y_px && (run.x0_px..run.x1_px).contains(&x_px);
+    runs.iter().find(|(run, _)| here(run)).map(|(_, t)| usize::from(*t))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::expected::Declaration;
+    use crate::server::pipeline;
+    use rasterproof_core::contract::Interpolate as _;
+    use rasterproof_core::raster::scanline::Scanline;
+    use rasterproof_registry::engines::{self, Engine};
+    use rasterproof_verify::cases::Shape;
+    use rasterproof_verify::cases::near_plane::FAMILIES;
+
+    /// The triangle of each pixel by a choice among those that cover it, with their depths.
+    fn chosen(list: &[Triangle], window: PixelRect, wins: fn(f64, f64) -> bool) -> Vec<(Span, u8)> {
+        let mut buffer = std::collections::BTreeMap::new();
+        for (number, triangle) in (0..).zip(list) {
+            Scanline.fragments(triangle, window, |f| {
+                let held = buffer.entry((f.y_px, f.x_px)).or_insert((f.depth, number));
+                if wins(f.depth, held.0) {
+                    *held = (f.depth, number);
+                }
+            });
+        }
+        let mut runs = Vec::new();
+        buffer.into_iter().for_each(|((y, x), (_, number))| push(&mut runs, x, y, number));
+        runs
+    }
+
+    /// Sorted as a whole by the mean depth of their corners, the far ones first.
+    fn painted(list: &[Triangle], window: PixelRect) -> Vec<(Span, u8)> {
+        let mean = |t: &usize| -list[*t].vertices.iter().map(|v| v.depth).sum::<f64>();
+        let mut order: Vec<usize> = (0..list.len()).collect();
+        order.sort_by(|a, b| mean(a).total_cmp(&mean(b)));
+        let sorted: Vec<Triangle> = order.iter().map(|&t| list[t]).collect();
+        let runs = chosen(&sorted, window, |_, _| true);
+        runs.into_iter().map(|(run, t)| (run, order[usize::from(t)] as u8)).collect()
+    }
+
+    /// What of 200 piles is found wrong.
+    fn wrong(answer: impl Fn(&[Triangle], PixelRect) -> Vec<(Span, u8)>) -> usize {
+        let declared = Declared { tolerance: 1e-9, ..Declared::default() };
+        let is_wrong = |index: &u64| {
+            let case = FAMILIES[0].case(1, *index);
+            let Shape::Triangles { list, .. } = &case.shape else { return true };
+            let expect = Declaration::from(&declared);
+            let Some(pile) = Pile::new(list, case.window, &expect, &declared) else { return true };
+            let mut finding = Finding::default();
+            let runs = answer(list, case.window);
+            pile.compare(&mut finding, &runs);
+            let (_, [drawn, expected]) = pile.pictures(&runs).unwrap();
+            // What is wrong is seen in the picture, unless it is a pixel drawn twice.
+            assert!(
+                finding.tally.twice > 0 || finding.is_wrong() == (drawn != expected),
+                "{index}"
+            );
+            finding.is_wrong()
+        };
+        (0..200).filter(is_wrong).count()
+    }
+
+    /// Of equal depths either may be seen; every fault is found.
+    #[test]
+    fn orders_are_told_apart() {
+        let scanline = lineup_engine();
+        assert_eq!(wrong(|list, window| pipeline::seen(scanline, list, window).unwrap()), 0);
+        assert_eq!(wrong(|list, window| chosen(list, window, |new, held| new <= held)), 0);
+        let faults = [
+            wrong(|list, window| chosen(list, window, |new, held| new > held)),
+            wrong(|list, window| chosen(list, window, |_, _| true)),
+            wrong(|list, window| chosen(list, window, |_, _| false)),
+            wrong(painted),
+            wrong(|list, window| {
+                [chosen(list, window, |_, _| true), chosen(list, window, |a, b| a < b)].concat()
+            }),
+            wrong(|_, _| Vec::new()),
+        ];
+        assert!(faults.iter().all(|found| *found > 40), "{faults:?}");
+    }
+
+    fn lineup_engine() -> Engine {
+        engines::find("scanline").and_then(|entry| entry.engine).unwrap()
+    }
+
+    /// Under every declaration what is expected agrees with itself.
+    #[test]
+    fn expectations_agree_with_themselves() {
+        for words in [
+            "",
+            "origin=0,0",
+            "rule=none",
+            "rule=strict winding=cw",
+            "origin=0.25,1 rule=bottom-right",
+        ] {
+            let declared = Declared::parse(&format!("HELLO 2 x depth {words}")).unwrap();
+            for index in 0..20 {
+                let case = FAMILIES[0].case(2, index);
+                let Shape::Triangles { list, .. } = &case.shape else { panic!("triangles") };
+                let expect = Declaration::from(&declared);
+                let Some(pile) = Pile::new(list, case.window, &expect, &declared) else { continue };
+                let mut finding = Finding::default();
+                pile.compare(&mut finding, &pile.runs());
+                assert!(!finding.is_wrong(), "{words} {index}: {:?}", finding.tally);
+            }
+        }
+    }
+}

@@ -1,0 +1,99 @@
+//! What was found about a case, and what finding it needs: hits by pixel, and a mark that changes with
+//! what is wrong.
+
+use super::ask::Misbehaviour;
+use rasterproof_core::frame::Coverage;
+use rasterproof_core::grid::PixelRect;
+use rasterproof_core::triangle::Span;
+use rasterproof_verify::comparison::Tally;
+
+/// What was found about a case.
+#[derive(Clone, Debug, Default)]
+pub struct Finding {
+    /// Triangles or lines that were judged.
+    pub shapes: u64,
+    /// Pixels expected.
+    pub pixels: u64,
+    /// Wrong pixels; of a mesh its holes and doubles.
+    pub tally: Tally,
+    /// Wrong pixels by what was recognised.
+    pub other: Tally,
+    /// Pixels expected by what was recognised.
+    pub other_pixels: u64,
+    /// Triangles or lines of which the recognised convention says nothing.
+    pub unscored: u64,
+    /// Requests that were refused though they were declared possible.
+    pub refused: u64,
+    /// Reason of the first refusal.
+    pub reason: String,
+    /// Values compared.
+    pub values: u64,
+    /// Largest error of a value as a fraction of the tolerance.
+    pub worst: f64,
+    /// Where that was.
+    pub worst_at: Option<(i32, i32)>,
+    /// Answers there were.
+    pub answered: u64,
+    /// What happened instead of answers, with the number of the question.
+    pub died: Vec<(usize, Misbehaviour)>,
+    /// A hash of the wrong pixels.
+    pub(super) mark: u64,
+}
+
+impl Finding {
+    /// Whether anything is wrong.
+    #[must_use]
+    pub fn is_wrong(&self) -> bool {
+        self.tally.total() > 0 || self.refused > 0 || !self.died.is_empty() || self.worst > 1.0
+    }
+
+    /// A number that changes when what is wrong changes; not with the last bits of values.
+    #[must_use]
+    pub fn fingerprint(&self) -> u64 {
+        let Tally { missing, extra, twice, order } = self.tally;
+        let off = u64::from(self.worst > 1.0);
+        let mut mark = self.mark;
+        [missing, extra, twice, order, off, self.refused].iter().for_each(|n| mix(&mut mark, *n));
+        for (_, misbehaviour) in &self.died {
+            misbehaviour.word().bytes().for_each(|b| mix(&mut mark, u64::from(b)));
+        }
+        mark
+    }
+
+    pub(super) fn refuse(&mut self, reason: &str) {
+        if self.refused == 0 {
+            self.reason = reason.to_owned();
+        }
+        self.refused += 1;
+    }
+}
+
+/// FNV-1a by words: the same on every machine.
+pub(super) fn mix(mark: &mut u64, word: u64) {
+    for byte in word.to_le_bytes() {
+        *mark = (*mark ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3);
+    }
+}
+
+/// Hits of the runs within the window, and how many pixels lie outside.
+pub(super) fn hits(runs: &[Span], window: PixelRect) -> (Coverage, u64) {
+    let (mut hits, mut outside) = (Coverage::new(window, 0), 0);
+    for run in runs {
+        let (x0, x1) = (run.x0_px.max(window.x0), run.x1_px.min(window.x1));
+        let is_in = (window.y0..window.y1).contains(&run.y_px) && x0 < x1;
+        if is_in {
+            hits.hit(run.y_px, x0, x1);
+        }
+        outside += u64::from(run.x0_px.abs_diff(run.x1_px));
+        outside -= if is_in { (x1 - x0) as u64 } else { 0 };
+    }
+    (hits, outside)
+}
+
+/// Appends a pixel to the last run, or begins another; pixels come row by row, from the left.
+pub(super) fn push(runs: &mut Vec<(Span, u8)>, x_px: i32, y_px: i32, of: u8) {
+    match runs.last_mut() {
+        Some((run, last)) if run.y_px == y_px && run.x1_px == x_px && *last == of => run.x1_px += 1,
+        _ => runs.push((Span { y_px, x0_px: x_px, x1_px: x_px + 1 }, of)),
+    }
+}

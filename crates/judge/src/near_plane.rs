@@ -1,0 +1,168 @@
+//! What the near plane leaves of a triangle of clip space, exactly, and whether an answer is that.
+//!
+//! Kept is what has z >= -w. The side of a corner is the sign of z + w, which rounding keeps; a new
+//! corner divides an edge as the exact distances of its ends do, in big integers, where programs
+//! interpolate. A polygon may begin at any corner and may name a corner several times: where an edge
+//! begins in the plane, the textbook names it twice.
+
+use super::finding::Finding;
+use rasterproof_verify::cases::Triangle;
+use rasterproof_verify::cases::near_plane::clip_corners;
+use rasterproof_verify::oracle::values::{Exact, at_crossing};
+
+type Corner = [Exact; 4];
+
+/// The corners that are left, in the order of the triangle's.
+pub(super) fn polygon(triangle: &Triangle) -> Vec<Corner> {
+    let corners = clip_corners(triangle);
+    let is_kept = |[_, _, z, w]: [f64; 4]| z + w >= 0.0;
+    let mut left = Vec::new();
+    for (i, &from) in corners.iter().enumerate() {
+        let to = corners[(i + 1) % 3];
+        let distances = [from, to].map(|[_, _, z, w]| [z, w]);
+        let at = |k: usize| at_crossing([from[k], to[k]], distances);
+        if is_kept(from) {
+            left.push(from.map(Exact::from));
+        }
+        if is_kept(from) != is_kept(to) {
+            left.push([at(0), at(1), at(2), at(3)]);
+        }
+    }
+    left
+}
+
+/// Compares a polygon with the exact one: corners within `tolerance` times the largest number asked.
+pub(super) fn compare(
+    finding: &mut Finding,
+    triangle: &Triangle,
+    answer: &[[f64; 4]],
+    tolerance: f64,
+) {
+    let mut exact = polygon(triangle);
+    exact.dedup();
+    if exact.len() > 1 && exact.first() == exact.last() {
+        exact.pop();
+    }
+    let numbers = clip_corners(triangle);
+    let largest = numbers.as_flattened().iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+    let bound = (tolerance * largest).max(f64::MIN_POSITIVE);
+    let near = |at: &Corner, corner: &[f64; 4]| {
+        at.iter().zip(corner).all(|(e, v)| e.distance(*v) <= bound)
+    };
+    finding.shapes += 1;
+    finding.pixels += exact.len() as u64;
+    // What has no area may be left out.
+    if answer.is_empty() && exact.len() < 3 {
+        return;
+    }
+    let lacks = |at: &&Corner| !answer.iter().any(|corner| near(at, corner));
+    let missing = exact.iter().filter(lacks).count() as u64;
+    let strays = |corner: &&[f64; 4]| !exact.iter().any(|at| near(at, corner));
+    let extra = answer.iter().filter(strays).count() as u64;
+    finding.tally.missing += missing;
+    finding.tally.extra += extra;
+    if missing + extra == 0
+        && !is_round(exact.len(), answer.len(), |i, j| near(&exact[i], &answer[j]))
+    {
+        finding.tally.order += 1;
+    }
+}
+
+/// Whether both are the same corners on one way round: from a pair that is near, each step goes to
+/// the next corner of one or of both, every pair is near, and the way ends where it began.
+fn is_round(exact: usize, answer: usize, near: impl Fn(usize, usize) -> bool) -> bool {
+    if exact == 0 || answer == 0 {
+        return exact == answer;
+    }
+    (0..answer).any(|first| {
+        let near = |i: usize, j: usize| near(i, (first + j) % answer);
+        let mut reached = vec![vec![false; answer]; exact];
+        for i in 0..exact {
+            for j in 0..answer {
+                let before =
+                    |up: usize, left: usize| i >= up && j >= left && reached[i - up][j - left];
+                let comes = (i, j) == (0, 0) || before(1, 0) || before(0, 1) || before(1, 1);
+                reached[i][j] = comes && near(i, j);
+            }
+        }
+        reached[exact - 1][answer - 1]
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::server::pipeline;
+    use rasterproof_verify::cases::Shape;
+    use rasterproof_verify::cases::near_plane::FAMILIES;
+
+    /// What of 400 cases is found wrong with a clipper.
+    fn wrong(clip: impl Fn([[f64; 4]; 3]) -> Vec<[f64; 4]>) -> usize {
+        let is_wrong = |index: &u64| {
+            let Shape::Triangles { list, .. } = FAMILIES[1].case(1, *index).shape else {
+                return true;
+            };
+            let mut finding = Finding::default();
+            compare(&mut finding, &list[0], &clip(clip_corners(&list[0])), 1e-9);
+            finding.is_wrong()
+        };
+        (0..400).filter(is_wrong).count()
+    }
+
+    /// Sutherland and Hodgman with a plane of its own, and sides of its own.
+    fn textbook(
+        corners: [[f64; 4]; 3],
+        distance: fn([f64; 4]) -> f64,
+        is_kept: fn(f64) -> bool,
+    ) -> Vec<[f64; 4]> {
+        let mut left = Vec::new();
+        for i in 0..3 {
+            let (a, b) = (corners[i], corners[(i + 1) % 3]);
+            let (from, to) = (distance(a), distance(b));
+            if is_kept(from) {
+                left.push(a);
+            }
+            if is_kept(from) != is_kept(to) {
+                left.push([0, 1, 2, 3].map(|k| a[k] + (b[k] - a[k]) * from / (from - to)));
+            }
+        }
+        left
+    }
+
+    /// Another first corner, a corner named twice, a corner in the plane left out where that leaves no
+    /// area: all of it is the same polygon. Every fault is found.
+    #[test]
+    fn polygons_are_told_apart() {
+        let near: fn([f64; 4]) -> f64 = |[_, _, z, w]| z + w;
+        let right = |corners| textbook(corners, near, |d| d >= 0.0);
+        assert_eq!((wrong(pipeline::clipped), wrong(right)), (0, 0));
+        let turned = |corners| {
+            let mut polygon = right(corners);
+            let turn = 1.min(polygon.len());
+            polygon.rotate_left(turn);
+            polygon.extend(polygon.last().copied());
+            polygon
+        };
+        assert_eq!(wrong(turned), 0);
+        assert_eq!(wrong(|corners| textbook(corners, near, |d| d > 0.0)), 0);
+        let backwards = |corners| right(corners).into_iter().rev().collect();
+        let divided = |corners| {
+            let by_w = |[x, y, z, w]: [f64; 4]| [x / w, y / w, z / w, 1.0];
+            right(corners).into_iter().map(by_w).collect()
+        };
+        let shortened = |corners| right(corners).into_iter().take(3).collect();
+        let faults = [
+            wrong(|corners| textbook(corners, |[_, _, z, _]| z, |d| d >= 0.0)),
+            wrong(|corners| textbook(corners, |[_, _, _, w]| w - 0.1, |d| d >= 0.0)),
+            wrong(|corners| textbook(corners, |[_, _, z, w]| w - z, |d| d >= 0.0)),
+            wrong(|corners| corners.to_vec()),
+            wrong(|_| Vec::new()),
+            wrong(backwards),
+            wrong(divided),
+            wrong(shortened),
+        ];
+        assert!(faults.iter().all(|found| *found > 40), "{faults:?}");
+        let nothing = Finding::default();
+        assert!(!nothing.is_wrong());
+    }
+}

@@ -1,0 +1,268 @@
+//! The answers to a case as one picture, beside the one that was expected: what people are shown.
+//!
+//! What is no picture of pixels is made one. Of a pile it is the triangle with most wrong pixels, where
+//! it is seen; of four samples a grid four times as fine, in whose cells' middles the samples lie; of a
+//! polygon of clip space what it covers in x and y, before the division.
+
+use super::ask::{Answer, Asked, Question};
+use super::check::{Check, Truth, expected_answer, picture_of};
+use super::depth::Pile;
+use super::expected::{Declaration, area2};
+use super::near_plane;
+use rasterproof_core::contract::Rasterize as _;
+use rasterproof_core::frame::Coverage;
+use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
+use rasterproof_core::triangle::{Corners, Span};
+use rasterproof_render::pipeline::multisample;
+use rasterproof_verify::cases::Case;
+use rasterproof_verify::oracle::Oracle;
+use rasterproof_verify::oracle::values::Exact;
+
+/// What was drawn, and what was expected.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pictured {
+    /// All answers.
+    pub drawn: Coverage,
+    /// What they should have been.
+    pub expected: Coverage,
+    /// What the picture is of, where it is not of the window as it was asked.
+    pub of: String,
+    /// The triangles as they lie in it, where that is not as they were asked.
+    pub moved: Option<Vec<Corners>>,
+}
+
+/// The answers as one picture, and beside it what was expected; for checks that compare answers with
+/// each other the first and the one that differs.
+#[must_use]
+pub fn pictured(check: Check, case: &Case, answers: &[Answer], truth: &Truth) -> Option<Pictured> {
+    let mut questions = Vec::new();
+    check.questions(case, truth, &mut questions);
+    let plain =
+        |drawn, expected| Some(Pictured { drawn, expected, of: String::new(), moved: None });
+    let drawn: Vec<Coverage> = answers.iter().filter_map(|a| picture_of(a, case.window)).collect();
+    match check {
+        Check::Order | Check::Direction => {
+            let (first, others) = drawn.split_first()?;
+            let other = others.iter().find(|other| *other != first)?;
+            plain(other.clone(), first.clone())
+        }
+        Check::Samples => Some(samples(&questions, answers, case.window, truth)),
+        Check::Near => near(&questions, answers),
+        Check::Depth => pile(questions.first()?, answers.first()?, truth),
+        _ => {
+            let expected = questions.iter().filter_map(|q| expected_answer(q, truth));
+            let expected: Vec<_> = expected.filter_map(|e| picture_of(&e, case.window)).collect();
+            plain(sum(&drawn, case.window)?, sum(&expected, case.window)?)
+        }
+    }
+}
+
+fn sum(pictures: &[Coverage], window: PixelRect) -> Option<Coverage> {
+    let mut whole = Coverage::new(window, 0);
+    for (y, row) in pictures.iter().flat_map(Coverage::rows) {
+        for (sum, hits) in whole.row_mut(y).iter_mut().zip(row) {
+            *sum = sum.saturating_add(*hits);
+        }
+    }
+    (!pictures.is_empty()).then_some(whole)
+}
+
+/// The triangle of a pile with most wrong pixels; an answer that names none shows none.
+fn pile(question: &Question, answer: &Answer, truth: &Truth) -> Option<Pictured> {
+    let Asked::Depth(list) = &question.of else { return None };
+    let window = PixelRect::window(question.width, question.height);
+    let runs = if let Answer::Seen(runs) = answer { &runs[..] } else { &[] };
+    let pile = Pile::new(list, window, &*truth.expect, &truth.declared)?;
+    let (triangle, [drawn, expected]) = pile.pictures(runs)?;
+    let of =
+        format!("where triangle {triangle} of the pile is seen, the one with most wrong pixels");
+    Some(Pictured { drawn, expected, of, moved: None })
+}
+
+/// Cells of a pixel's side, so that each sample lies in the middle of one.
+const FINER: i32 = 4;
+
+/// The samples of all triangles, each in a cell of its own.
+fn samples(
+    questions: &[Question],
+    answers: &[Answer],
+    window: PixelRect,
+    truth: &Truth,
+) -> Pictured {
+    let finer = PixelRect {
+        x0: window.x0 * FINER,
+        y0: window.y0 * FINER,
+        x1: window.x1 * FINER,
+        y1: window.y1 * FINER,
+    };
+    let (mut drawn, mut expected) = (Coverage::new(finer, 0), Coverage::new(finer, 0));
+    let hit = |picture: &mut Coverage, x_px: i32, y_px: i32, mask: u8| {
+        for (bit, (x_16th, y_16th)) in multisample::SAMPLES.into_iter().enumerate() {
+            let (x, y) = (x_px * FINER + x_16th / FINER, y_px * FINER + y_16th / FINER);
+            picture.hit(y, x, x + i32::from(mask >> bit & 1));
+        }
+    };
+    let mut moved = Vec::new();
+    for (question, answer) in questions.iter().zip(answers) {
+        let Asked::Samples(corners) = &question.of else { continue };
+        let four = |sub: i32| sub.saturating_mul(FINER);
+        moved.push(corners.map(|p| SubpixelPoint::new(four(p.x), four(p.y))));
+        let is_drawn = Declaration::from(&truth.declared).draws(area2(corners));
+        let masks = multisample::masks(&Oracle, *corners, window).filter(|_| is_drawn);
+        for (y, row) in masks.iter().flat_map(|masks| masks.rows()) {
+            (window.x0..).zip(row).for_each(|(x, mask)| hit(&mut expected, x, y, *mask));
+        }
+        let runs = if let Answer::Samples(runs) = answer { &runs[..] } else { &[] };
+        for (run, mask) in runs.iter().filter(|(run, _)| (window.y0..window.y1).contains(&run.y_px))
+        {
+            let columns = run.x0_px.max(window.x0)..run.x1_px.min(window.x1);
+            columns.for_each(|x| hit(&mut drawn, x, run.y_px, *mask));
+        }
+    }
+    let of = "the four samples of each pixel, in a grid of 4 x 4 cells for a pixel".to_owned();
+    Pictured { drawn, expected, of, moved: Some(moved) }
+}
+
+/// Cells that the longer side of a triangle of clip space spans at least.
+const FEW_CELLS: f64 = 12.0;
+
+/// What a polygon covers in x and y: an affine image of it, whatever w is.
+fn near(questions: &[Question], answers: &[Answer]) -> Option<Pictured> {
+    let (question, answer) = (questions.first()?, answers.first()?);
+    let Asked::Near(triangle) = &question.of else { return None };
+    let corners = triangle.corners().map(|p| p.to_px());
+    let reach = |of: fn(&(f64, f64)) -> f64| {
+        let values = corners.iter().map(of);
+        values.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], v| [a.min(v), b.max(v)])
+    };
+    let ([x0, x1], [y0, y1]) = (reach(|c| c.0), reach(|c| c.1));
+    let longer = (x1 - x0).max(y1 - y0);
+    // The largest power of two of which it spans so many; corners stay on the lattice.
+    let mut cell = 256.0;
+    while longer / cell < FEW_CELLS && cell > 1.0 / 256.0 {
+        cell /= 2.0;
+    }
+    let cells = |v: f64| (v / cell).floor() as i32;
+    let window =
+        PixelRect { x0: cells(x0) - 1, y0: cells(y0) - 1, x1: cells(x1) + 2, y1: cells(y1) + 2 };
+    let exact: Vec<[f64; 2]> = near_plane::polygon(triangle)
+        .iter()
+        .map(|[x, y, ..]| [Exact::to_f64(x), Exact::to_f64(y)])
+        .collect();
+    let answered: Vec<[f64; 2]> = match answer {
+        Answer::Polygon(corners) => corners.iter().map(|[x, y, ..]| [*x, *y]).collect(),
+        _ => Vec::new(),
+    };
+    let expected = fan(&exact, cell, window);
+    let drawn = fan(&answered, cell, window);
+    let [left, top] = [window.x0, window.y0].map(|v| f64::from(v) * cell);
+    let mut of = format!(
+        "x and y of clip space, before the division; a cell is {cell}, the first begins at {left}, {top}"
+    );
+    if drawn == expected {
+        of += "; what differs is z, w or the way round";
+    }
+    let moved = on_cells(&corners.map(|(x, y)| [x, y]), cell);
+    let moved = moved.and_then(|m| <Corners>::try_from(m).ok()).map(|corners| vec![corners]);
+    Some(Pictured { drawn, expected, of, moved })
+}
+
+/// Positions in cells as positions in pixels; nothing where one is too far away or no number.
+fn on_cells(corners: &[[f64; 2]], cell: f64) -> Option<Vec<SubpixelPoint>> {
+    let subpixels = |v: f64| {
+        let sub = (v / cell * f64::from(SUBPIXELS)).round();
+        (sub.abs() < f64::from(1 << 28)).then_some(sub as i32)
+    };
+    let point = |[x, y]: &[f64; 2]| Some(SubpixelPoint::new(subpixels(*x)?, subpixels(*y)?));
+    corners.iter().map(point).collect()
+}
+
+/// A polygon as triangles around its first corner; nothing of one that cannot be drawn.
+fn fan(corners: &[[f64; 2]], cell: f64, window: PixelRect) -> Coverage {
+    let mut picture = Coverage::new(window, 0);
+    let corners = on_cells(corners, cell).unwrap_or_default();
+    let Some((first, rest)) = corners.split_first() else { return picture };
+    for pair in rest.windows(2) {
+        let mut hit = |span: Span| picture.hit(span.y_px, span.x0_px, span.x1_px);
+        Oracle.cover([*first, pair[0], pair[1]], window, &mut hit);
+    }
+    picture
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::declared::Declared;
+    use rasterproof_verify::cases::near_plane::FAMILIES;
+    use rasterproof_verify::cases::{Shape, Triangle};
+
+    fn pictures(check: Check, case: &Case, answers: &[Answer]) -> Pictured {
+        let truth = Truth::of(&Declared::default());
+        pictured(check, case, answers, &truth).unwrap()
+    }
+
+    /// The right polygon is the picture that is expected; a part of the triangle is missing or extra in
+    /// that of no clipping at all, and of a corner left out.
+    #[test]
+    fn polygons_are_pictures() {
+        let mut differ = [0; 2];
+        for index in 0..100 {
+            let case = FAMILIES[1].case(1, index);
+            let Shape::Triangles { list, .. } = &case.shape else { panic!("triangles") };
+            let corners = rasterproof_verify::cases::near_plane::clip_corners(&list[0]);
+            let exact: Vec<[f64; 4]> = near_plane::polygon(&list[0])
+                .iter()
+                .map(|c| c.each_ref().map(Exact::to_f64))
+                .collect();
+            let of = |polygon: &[[f64; 4]]| {
+                pictures(Check::Near, &case, &[Answer::Polygon(polygon.to_vec())])
+            };
+            let right = of(&exact);
+            assert_eq!(right.drawn, right.expected, "{index}");
+            let few = FEW_CELLS as u32;
+            let side = right.drawn.bounds().width().max(right.drawn.bounds().height());
+            assert!((few..2 * few + 6).contains(&side), "{index}: {side}");
+            let [whole, cut] = [&corners[..], &exact[..exact.len().min(2)]].map(of);
+            differ[0] += usize::from(whole.drawn != whole.expected);
+            differ[1] += usize::from(cut.drawn != cut.expected);
+        }
+        assert!(differ.iter().all(|n| *n > 50), "{differ:?}");
+    }
+
+    /// In the finer grid the samples are centres of cells: what the mask says of one, the oracle says of
+    /// its cell.
+    #[test]
+    fn samples_are_cells() {
+        let p = |x, y| SubpixelPoint::from_px(x, y).unwrap();
+        let vertex = |position| rasterproof_core::triangle::ScreenVertex {
+            position,
+            depth: 0.0,
+            inv_w: 1.0,
+            varying: glam::DVec2::ZERO,
+        };
+        let triangle = Triangle { vertices: [p(0.0, 0.0), p(2.5, 0.0), p(0.0, 1.75)].map(vertex) };
+        let case = Case {
+            window: PixelRect::window(3, 2),
+            shape: Shape::Triangles { list: vec![triangle], disjoint: false },
+        };
+        let all = Answer::Samples(vec![
+            (Span { y_px: 0, x0_px: 0, x1_px: 3 }, 15),
+            (Span { y_px: 1, x0_px: 0, x1_px: 3 }, 15),
+        ]);
+        let picture = pictures(Check::Samples, &case, &[all]);
+        let corners = picture.moved.as_ref().unwrap()[0];
+        let mut cells = Coverage::new(picture.drawn.bounds(), 0);
+        Oracle.cover(corners, cells.bounds(), |s| cells.hit(s.y_px, s.x0_px, s.x1_px));
+        let mut covered = 0;
+        for ((_, all), ((_, cells), (_, expected))) in
+            picture.drawn.rows().zip(cells.rows().zip(picture.expected.rows()))
+        {
+            for ((all, cell), expected) in all.iter().zip(cells).zip(expected) {
+                assert_eq!(*expected, all * cell);
+                covered += u64::from(*expected);
+            }
+        }
+        assert_eq!(picture.drawn.covered(), 24);
+        assert!(covered > 5 && covered < 20, "{covered}");
+    }
+}

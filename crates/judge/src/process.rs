@@ -1,0 +1,472 @@
+//! A program that is asked through pipes: requests on its standard input, answers on its standard
+//! output, its standard error kept apart.
+//!
+//! Three threads serve the pipes, so that nothing the program does can block the judge: one writes
+//! requests, one reads answers into a queue of bounded size, one keeps the end of what it says on
+//! standard error. A program that breaks the protocol is ended with everything it started and
+//! started again. What was in flight is then asked one by one, so that the request that did it is
+//! known.
+
+use std::collections::VecDeque;
+use std::io::{Read, Write};
+use std::process::{Command, ExitStatus, Stdio};
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
+use std::sync::{Arc, Mutex};
+use std::time::{Duration, Instant};
+
+use super::ask::{Answer, Ask, Misbehaviour, Question};
+use super::declared::Declared;
+use super::process_group::Group;
+use super::text::{Words, printable};
+
+/// Time limits of a program.
+#[derive(Clone, Copy, Debug)]
+pub struct Limits {
+    /// For each answer, from the one before it or from the request.
+    pub answer: Duration,
+    /// From the start to the answer of HELLO.
+    pub start: Duration,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self { answer: Duration::from_secs(5), start: Duration::from_secs(30) }
+    }
+}
+
+/// A longer line is no answer: windows of cases are small.
+const MOST_LINE_BYTES: usize = 1 << 20;
+/// The answers of the questions that are asked at once are kept together: so many bytes at most. The
+/// cases of a block need less than a tenth.
+const MOST_BLOCK_BYTES: usize = 32 << 20;
+/// What is said before HELLO is answered is skipped up to this.
+const MOST_CHATTER_BYTES: usize = 1 << 18;
+/// Bytes read in one go, and how many such pieces wait to be looked at.
+const PIECE_BYTES: usize = 1 << 16;
+const MOST_PIECES: usize = 16;
+/// How often a silent program is looked after.
+const LOOK: Duration = Duration::from_millis(20);
+/// What comes without such a pause is one flood.
+const SILENCE: Duration = Duration::from_millis(100);
+/// What is kept of standard error: its end.
+const MOST_COMPLAINT_BYTES: usize = 4096;
+
+/// A program under judgement; it is running from the first question on.
+pub struct Program {
+    command: Vec<String>,
+    limits: Limits,
+    declared: Declared,
+    /// Words of `--declare`, which are heard after those of the program.
+    extra: Vec<String>,
+    live: Option<Live>,
+    next_id: u64,
+    /// Bytes of the answers to what was asked last.
+    kept: usize,
+    complaints: Arc<Mutex<VecDeque<u8>>>,
+    strays: Vec<Misbehaviour>,
+}
+
+/// The pipes of a running program.
+struct Live {
+    group: Group,
+    requests: Sender<Vec<u8>>,
+    pieces: Receiver<Vec<u8>>,
+    /// What has been read and not yet used, from `used` on.
+    pending: Vec<u8>,
+    used: usize,
+    /// The last request that was answered, to name it when it is answered again.
+    answered: Option<(u64, Question)>,
+    /// Bytes of the last answer.
+    heard: usize,
+}
+
+/// Why no line could be read.
+enum NoLine {
+    Ended,
+    TimeOut,
+    TooLong(usize),
+}
+
+impl Program {
+    /// Starts a program and asks what it is. `command` is its name and its arguments, `extra` what
+    /// is declared for it.
+    ///
+    /// # Errors
+    /// It cannot be started, or does not say HELLO.
+    pub fn start(
+        command: &[String],
+        extra: &[String],
+        limits: Limits,
+    ) -> Result<Self, Misbehaviour> {
+        let mut program = Self {
+            command: command.to_vec(),
+            limits,
+            declared: Declared::default(),
+            extra: extra.to_vec(),
+            live: None,
+            next_id: 1,
+            kept: 0,
+            complaints: Arc::default(),
+            strays: Vec::new(),
+        };
+        program.declared = program.restart()?;
+        Ok(program)
+    }
+
+    fn restart(&mut self) -> Result<Declared, Misbehaviour> {
+        self.live = None;
+        let mut live = Live::start(&self.command, &self.complaints)?;
+        let mut declared = live.hello(self.limits)?;
+        self.extra.iter().for_each(|word| declared.hear(word));
+        self.live = Some(live);
+        Ok(declared)
+    }
+
+    /// Asks with at most `batch` requests in flight, until all are answered or something breaks;
+    /// then also how many were in flight.
+    fn exchange(
+        &mut self,
+        questions: &[Question],
+        batch: usize,
+        answers: &mut Vec<Answer>,
+    ) -> Result<(), (Misbehaviour, usize)> {
+        if self.live.is_none() {
+            self.restart().map_err(|m| (m, 1))?;
+        }
+        let Some(live) = &mut self.live else { return Ok(()) };
+        let first_id = self.next_id;
+        let (mut sent, mut answered) = (0, 0);
+        while answered < questions.len() {
+            // Filled up when half is answered, so that requests travel in blocks.
+            if sent < questions.len() && sent - answered <= batch / 2 {
+                let mut block = Vec::new();
+                let end = questions.len().min(answered + batch);
+                for (question, id) in questions[sent..end].iter().zip(self.next_id..) {
+                    question.write(id, &mut block);
+                }
+                self.next_id += (end - sent) as u64;
+                sent = end;
+                // Where the pipe is closed, reading tells why.
+                let _ = live.requests.send(block);
+            }
+            let id = first_id + answered as u64;
+            let answer = live
+                .answer(&questions[answered], id, first_id..self.next_id, self.limits)
+                .map_err(|m| (live.or_flood(m, self.limits), sent - answered))?;
+            self.kept += live.heard;
+            if self.kept > MOST_BLOCK_BYTES {
+                let said = format!("{} bytes of answers to a block of requests", self.kept);
+                return Err((Misbehaviour::Floods(said), sent - answered));
+            }
+            answers.push(answer);
+            live.answered = Some((id, questions[answered].clone()));
+            answered += 1;
+        }
+        Ok(())
+    }
+}
+
+impl Ask for Program {
+    fn declared(&self) -> &Declared {
+        &self.declared
+    }
+
+    fn ask(&mut self, questions: &[Question], most_deaths: u64) -> Vec<Answer> {
+        let (mut answers, mut deaths) = (Vec::with_capacity(questions.len()), 0);
+        self.kept = 0;
+        while answers.len() < questions.len() && deaths < most_deaths {
+            let rest = &questions[answers.len()..];
+            let Err((misbehaviour, in_flight)) =
+                self.exchange(rest, self.declared.batch, &mut answers)
+            else {
+                break;
+            };
+            self.live = None;
+            deaths += 1;
+            if in_flight == 1 {
+                answers.push(Answer::Died(misbehaviour));
+                continue;
+            }
+            // One of these did it: each alone, in a program that has just been started.
+            let end = questions.len().min(answers.len() + in_flight);
+            let mut found = false;
+            while answers.len() < end && !found {
+                let one = &questions[answers.len()..=answers.len()];
+                if let Err((misbehaviour, _)) = self.exchange(one, 1, &mut answers) {
+                    self.live = None;
+                    answers.push(Answer::Died(misbehaviour));
+                    found = true;
+                }
+            }
+            if !found {
+                self.strays.push(misbehaviour);
+            }
+        }
+        answers
+    }
+
+    fn strays(&mut self) -> Vec<Misbehaviour> {
+        std::mem::take(&mut self.strays)
+    }
+
+    fn complaints(&self) -> Vec<String> {
+        let tail = self.complaints.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        let bytes: Vec<u8> = tail.iter().copied().collect();
+        let lines: Vec<_> = bytes.split(|b| *b == b'\n').filter(|l| !l.is_empty()).collect();
+        let last = lines.len().saturating_sub(8);
+        lines[last..].iter().map(|line| printable(line.trim_ascii_end(), 90)).collect()
+    }
+}
+
+impl Live {
+    fn start(
+        command: &[String],
+        complaints: &Arc<Mutex<VecDeque<u8>>>,
+    ) -> Result<Self, Misbehaviour> {
+        let Some((name, arguments)) = command.split_first() else {
+            return Err(Misbehaviour::CannotStart("no program is named".to_owned()));
+        };
+        let mut command = Command::new(name);
+        command.args(arguments).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+        let failed = |e: std::io::Error| {
+            Misbehaviour::CannotStart(format!("{}: {e}", printable(name.as_bytes(), 80)))
+        };
+        let mut group = Group::start(&mut command).map_err(failed)?;
+        let child = group.child();
+        let pipes = (child.stdin.take(), child.stdout.take(), child.stderr.take());
+        let (Some(mut stdin), Some(mut stdout), Some(stderr)) = pipes else {
+            return Err(Misbehaviour::CannotStart("it has no pipes".to_owned()));
+        };
+        let (requests, blocks) = mpsc::channel::<Vec<u8>>();
+        std::thread::spawn(move || {
+            for block in blocks {
+                if stdin.write_all(&block).and_then(|()| stdin.flush()).is_err() {
+                    break;
+                }
+            }
+        });
+        let (read, pieces) = mpsc::sync_channel(MOST_PIECES);
+        std::thread::spawn(move || {
+            let mut piece = vec![0; PIECE_BYTES];
+            while let Ok(n @ 1..) = stdout.read(&mut piece) {
+                if read.send(piece[..n].to_vec()).is_err() {
+                    break;
+                }
+            }
+        });
+        keep_complaints(stderr, Arc::clone(complaints));
+        Ok(Self { group, requests, pieces, pending: Vec::new(), used: 0, answered: None, heard: 0 })
+    }
+
+    /// Says HELLO 2, and HELLO 1 to a program that refuses it; what comes before is skipped.
+    fn hello(&mut self, limits: Limits) -> Result<Declared, Misbehaviour> {
+        let end = Instant::now() + limits.start;
+        let (mut heard, mut last, mut asked) = (0, Vec::new(), 2);
+        let _ = self.requests.send(b"HELLO 2\n".to_vec());
+        loop {
+            let quote = |last: &[u8]| match last {
+                [] => "it says nothing".to_owned(),
+                last => format!("it says {}", printable(last.trim_ascii_end(), 60)),
+            };
+            match self.line(end) {
+                Ok(line) => {
+                    heard += line.len();
+                    let text = String::from_utf8_lossy(&self.pending[line.clone()]).into_owned();
+                    if let Some(declared) = Declared::parse(text.trim_end()) {
+                        return Ok(declared);
+                    }
+                    let refuses = text.starts_with("E ");
+                    last = self.pending[line].to_vec();
+                    if refuses && asked == 2 {
+                        asked = 1;
+                        let _ = self.requests.send(b"HELLO 1\n".to_vec());
+                    } else if refuses {
+                        return Err(Misbehaviour::NoHello(quote(&last)));
+                    } else if heard > MOST_CHATTER_BYTES {
+                        let said = format!("{heard} bytes before HELLO, at last {}", quote(&last));
+                        return Err(Misbehaviour::Floods(said));
+                    }
+                }
+                Err(NoLine::Ended) => {
+                    let how = match ending(self.group.end(LOOK * 50)) {
+                        Misbehaviour::Exits(how) => format!("it exits: {how}"),
+                        other => other.to_string(),
+                    };
+                    return Err(Misbehaviour::NoHello(how));
+                }
+                Err(NoLine::TimeOut) => {
+                    let limit = limits.start.as_secs_f64();
+                    let said = quote(&last);
+                    return Err(Misbehaviour::NoHello(format!("{said}, for {limit} s")));
+                }
+                Err(NoLine::TooLong(bytes)) => return Err(Misbehaviour::Floods(unended(bytes))),
+            }
+        }
+    }
+
+    /// The answer of one request; `asked` are the ids of this exchange.
+    fn answer(
+        &mut self,
+        question: &Question,
+        id: u64,
+        asked: std::ops::Range<u64>,
+        limits: Limits,
+    ) -> Result<Answer, Misbehaviour> {
+        let start = Instant::now();
+        let limit = limits.answer.as_secs_f64();
+        let line = match self.line(start + limits.answer) {
+            // As much time again tells an answer that is late from none at all.
+            Err(NoLine::TimeOut) => match self.line(start + 2 * limits.answer) {
+                Ok(_) => Err(Misbehaviour::Late(start.elapsed().as_secs_f64(), limit)),
+                Err(why) => Err(self.why(why, limit)),
+            },
+            other => other.map_err(|why| self.why(why, limit)),
+        }?;
+        self.heard = line.len();
+        let line = self.pending[line].trim_ascii_end();
+        let mut words = Words(line);
+        let nonsense = |why: &str| {
+            let said = printable(line, 60);
+            Misbehaviour::Nonsense(if said.is_empty() {
+                "an empty line".to_owned()
+            } else {
+                format!("{said} ({why})")
+            })
+        };
+        let letter = match words.word() {
+            Some([letter @ (b'C' | b'F' | b'M' | b'P' | b'V' | b'G' | b'E')]) => *letter,
+            _ => return Err(nonsense("no answer begins like this")),
+        };
+        let named = words.word().unwrap_or(b"");
+        let named_id = std::str::from_utf8(named).ok().and_then(|word| word.parse::<u64>().ok());
+        if named_id != Some(id) {
+            let text = |id: u64, q: &Question| printable(q.text(id).as_bytes(), 80);
+            return Err(match (named_id, &self.answered) {
+                (Some(n), Some((last, q))) if n == *last => Misbehaviour::Twice(text(n, q)),
+                (Some(n), _) if n < id && n > 0 => Misbehaviour::Twice(format!("request {n}")),
+                (Some(n), _) if n > id && asked.contains(&n) => {
+                    Misbehaviour::OutOfOrder(format!("{n} before {id}"))
+                }
+                _ => Misbehaviour::Unasked(format!("{} for {id}", printable(named, 20))),
+            });
+        }
+        question.read(letter, &mut words).map_err(nonsense)
+    }
+
+    /// What it did, or that it floods its output: after a line that is no answer comes more without an end.
+    fn or_flood(&mut self, what: Misbehaviour, limits: Limits) -> Misbehaviour {
+        use Misbehaviour::{Nonsense, OutOfOrder, Twice, Unasked};
+        if !matches!(what, Nonsense(_) | OutOfOrder(_) | Twice(_) | Unasked(_)) {
+            return what;
+        }
+        let start = Instant::now();
+        let mut more = self.pending.len() - self.used;
+        while more <= MOST_LINE_BYTES {
+            match self.pieces.recv_timeout(SILENCE) {
+                Ok(piece) if start.elapsed() < limits.answer => more += piece.len(),
+                _ => return what,
+            }
+        }
+        Misbehaviour::Floods(format!("{more} bytes and more after it {what}"))
+    }
+
+    fn why(&mut self, no_line: NoLine, limit: f64) -> Misbehaviour {
+        match no_line {
+            NoLine::Ended => ending(self.group.end(LOOK * 50)),
+            NoLine::TimeOut => Misbehaviour::Hangs(limit),
+            NoLine::TooLong(bytes) => Misbehaviour::Floods(unended(bytes)),
+        }
+    }
+
+    /// The next line as a part of `pending`, with its end; not later than `end`.
+    fn line(&mut self, end: Instant) -> Result<std::ops::Range<usize>, NoLine> {
+        let mut searched = self.used;
+        loop {
+            if let Some(at) = self.pending[searched..].iter().position(|b| *b == b'\n') {
+                let line = self.used..searched + at + 1;
+                self.used = line.end;
+                return Ok(line);
+            }
+            searched = self.pending.len();
+            if searched - self.used > MOST_LINE_BYTES {
+                return Err(NoLine::TooLong(searched - self.used));
+            }
+            let piece = self.piece(end)?;
+            if self.used > 0 {
+                self.pending.drain(..self.used);
+                searched -= self.used;
+                self.used = 0;
+            }
+            self.pending.extend_from_slice(&piece);
+        }
+    }
+
+    /// The next piece of output. A program that has ended is noticed even where something it
+    /// started keeps its output open.
+    fn piece(&mut self, end: Instant) -> Result<Vec<u8>, NoLine> {
+        let mut has_ended = false;
+        loop {
+            let left = end.saturating_duration_since(Instant::now());
+            match self.pieces.recv_timeout(left.min(LOOK)) {
+                Ok(piece) => return Ok(piece),
+                Err(RecvTimeoutError::Disconnected) => return Err(NoLine::Ended),
+                // It ended before the last look, and nothing has come since.
+                Err(RecvTimeoutError::Timeout) if has_ended => return Err(NoLine::Ended),
+                Err(RecvTimeoutError::Timeout) if left.is_zero() => return Err(NoLine::TimeOut),
+                Err(RecvTimeoutError::Timeout) => has_ended = self.group.has_ended(),
+            }
+        }
+    }
+}
+
+impl Drop for Live {
+    /// Closes the program's input, which ends a well-behaved one, then ends what is left.
+    fn drop(&mut self) {
+        self.requests = mpsc::channel().0;
+        self.group.end(LOOK);
+    }
+}
+
+fn unended(bytes: usize) -> String {
+    format!("{bytes} bytes without the end of a line")
+}
+
+/// What an ending says; nothing is known of one that closed its output and had to be ended.
+fn ending(status: Option<ExitStatus>) -> Misbehaviour {
+    let Some(status) = status else {
+        return Misbehaviour::Exits("it closed its output".to_owned());
+    };
+    #[cfg(unix)]
+    if let Some(signal) = std::os::unix::process::ExitStatusExt::signal(&status) {
+        return Misbehaviour::Crashes(format!("signal {signal}{}", signal_name(signal)));
+    }
+    match status.code() {
+        // What a Rust panic ends with.
+        Some(101) => Misbehaviour::Crashes("status 101, a panic".to_owned()),
+        code => Misbehaviour::Exits(format!("with status {}", code.unwrap_or(-1))),
+    }
+}
+
+#[cfg(unix)]
+fn signal_name(signal: i32) -> &'static str {
+    match signal {
+        4 => " (illegal instruction)",
+        6 => " (abort)",
+        8 => " (division by zero)",
+        9 => " (killed)",
+        11 => " (segmentation fault)",
+        _ => "",
+    }
+}
+
+fn keep_complaints(mut stderr: impl Read + Send + 'static, kept: Arc<Mutex<VecDeque<u8>>>) {
+    std::thread::spawn(move || {
+        let mut piece = [0; 4096];
+        while let Ok(n @ 1..) = stderr.read(&mut piece) {
+            let mut kept = kept.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+            kept.extend(&piece[..n]);
+            let over = kept.len().saturating_sub(MOST_COMPLAINT_BYTES);
+            kept.drain(..over);
+        }
+    });
+}

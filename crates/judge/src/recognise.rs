@@ -1,0 +1,352 @@
+//! Recognises the convention of a program under judgement: puts the questions of [`rasterproof_convention`]
+//! to it, and turns what was found into an expectation and into words.
+//!
+//! A program that draws as it declares is not questioned: a short look at families full of ties says
+//! so, with a few hundred requests instead of a thousand.
+
+use std::fmt::Write as _;
+
+use super::adapt_case;
+use super::ask::{Answer, Ask, Asked, Question};
+use super::check::{Check, Truth, picture_of};
+use super::declared::{Declared, Rule, Winding};
+use super::expected::{Declaration, Expect, Picture};
+use super::leaving;
+use super::run::MOST_DEATHS;
+use rasterproof_convention::{
+    Confidence, Convention, CornerRule, Diagnosis, FACINGS, Known, LineDiagnosis, LineQuestion,
+    Mirror, Quantum, Shape, Ties, Windings,
+};
+use rasterproof_core::frame::Coverage;
+use rasterproof_core::grid::{PixelRect, SUBPIXELS};
+use rasterproof_core::triangle::{Corners, PixelPoint, Span};
+
+/// A convention that was recognised from answers.
+pub struct Recognised {
+    /// What was found, in words.
+    pub said: Said,
+    /// What it is expected to draw under this convention; nothing where no hypothesis explains it.
+    pub expect: Option<Box<dyn Expect>>,
+}
+
+/// What was recognised, in words.
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
+pub struct Said {
+    /// What the program does, a sentence or two for triangles and for lines.
+    pub sentences: Vec<String>,
+    /// Which samples on edges are drawn, where no rule with a name says so.
+    pub compass: Option<String>,
+    /// The words that declare it, where the protocol has words for it that are not declared.
+    pub declare: String,
+    /// Whether there is something to score it by.
+    pub is_explained: bool,
+}
+
+/// What is to be recognised.
+#[derive(Clone, Copy, Debug)]
+pub struct Scope {
+    /// Of triangles.
+    pub triangles: bool,
+    /// Of lines.
+    pub lines: bool,
+    /// Also where it draws as it declares.
+    pub always: bool,
+}
+
+/// The questions are the same in every run.
+const SEED: u64 = 1;
+/// Families of the short look, and cases of each.
+const LOOK: [&str; 4] = ["half-integer", "rectangle", "fan", "uniform"];
+const LOOK_CASES: u64 = 16;
+
+/// The convention of a program; nothing where it draws as it declares.
+pub fn recognise(program: &mut dyn Ask, scope: Scope) -> Option<Recognised> {
+    let declared = program.declared().clone();
+    let mut bench = Bench { program, deaths_left: MOST_DEATHS };
+    let open = declared.rule == Rule::Unspecified;
+    let triangles = (scope.triangles && declared.coverage)
+        .then(|| {
+            let ask = scope.always || open || !bench.draws_as_declared(&declared, false);
+            ask.then(|| rasterproof_convention::diagnose(&mut bench, &known(&declared), SEED))
+        })
+        .flatten();
+    let lines = (scope.lines && declared.line)
+        .then(|| {
+            let ask = scope.always || !bench.draws_as_declared(&declared, true);
+            let most = known(&declared);
+            let side_px = (most.window_px.0.min(most.window_px.1) as i32).min(most.range_px);
+            let ordered = !declared.line_set;
+            ask.then(|| rasterproof_convention::diagnose_lines(&mut bench, side_px, ordered, SEED))
+        })
+        .flatten();
+    if triangles.is_none() && lines.is_none() {
+        return None;
+    }
+    let is_explained = triangles.as_ref().is_some_and(|t| t.confidence != Confidence::Unexplained)
+        || lines.as_ref().is_some_and(|l| l.confidence != Confidence::Unexplained);
+    let mut sentences = Vec::new();
+    sentences.extend(triangles.as_ref().map(|t| clause("Triangles", &t.sentence())));
+    sentences.extend(lines.as_ref().map(|l| clause("Lines", &l.sentence())));
+    let compass = triangles.as_ref().and_then(compass);
+    let declare = triangles.as_ref().map(|t| words(&declared, t)).unwrap_or_default();
+    let mut found = Found {
+        declaration: Declaration::from(&declared),
+        triangles,
+        lines,
+        otherwise: [false; 2],
+    };
+    found.look_at_leaving(&mut bench, &declared, &mut sentences);
+    let said = Said { sentences, compass, declare, is_explained };
+    Some(Recognised { said, expect: is_explained.then(|| Box::new(found) as Box<dyn Expect>) })
+}
+
+/// A sentence that says what it is about.
+fn clause(about: &str, sentence: &str) -> String {
+    let mut chars = sentence.chars();
+    let first = chars.next().map(|c| c.to_ascii_lowercase());
+    format!("{about}: {}{}", first.map(String::from).unwrap_or_default(), chars.as_str())
+}
+
+/// What is found, and what is declared where nothing was looked for.
+struct Found {
+    declaration: Declaration,
+    triangles: Option<Diagnosis>,
+    lines: Option<LineDiagnosis>,
+    /// Whether triangles, and lines, that leave the window come out otherwise.
+    otherwise: [bool; 2],
+}
+
+impl Found {
+    /// Where everything within the window is explained, looks at what leaves it.
+    fn look_at_leaving(
+        &mut self,
+        bench: &mut Bench<'_>,
+        declared: &Declared,
+        sentences: &mut [String],
+    ) {
+        let certain = Some(Confidence::Certain);
+        let is_certain = [
+            self.triangles.as_ref().map(|t| t.confidence) == certain,
+            self.lines.as_ref().map(|l| l.confidence) == certain,
+        ];
+        for (lines, what) in [(false, "Triangles"), (true, "Lines")] {
+            if !is_certain[usize::from(lines)] {
+                continue;
+            }
+            let mut ask = |questions: &[Question]| bench.answers(questions);
+            let count = leaving::otherwise(&mut ask, declared, self, lines, self.quantum());
+            let Some(said) = leaving::sentence(what, count) else { continue };
+            self.otherwise[usize::from(lines)] = true;
+            let about = |sentence: &&mut String| sentence.starts_with(what);
+            sentences.iter_mut().filter(about).for_each(|sentence| *sentence += &said);
+        }
+    }
+
+    /// The grid that corners were found to be on.
+    fn quantum(&self) -> Quantum {
+        self.triangles.as_ref().map_or(Quantum::NONE, |found| found.convention.quantum)
+    }
+}
+
+impl Expect for Found {
+    fn picture(&self, corners: &Corners, window: PixelRect) -> Option<Picture> {
+        if self.otherwise[0] && leaving::triangle_leaves(corners, self.quantum(), window) {
+            return None;
+        }
+        let Some(found) = &self.triangles else { return self.declaration.picture(corners, window) };
+        let coverage =
+            found.expected(&rasterproof_convention::Question { corners: *corners, window })?;
+        Some(Picture { must: runs(&coverage), may: None })
+    }
+
+    fn line(&self, ends: &[PixelPoint; 2], window: PixelRect) -> Option<Vec<(i32, i32)>> {
+        if self.otherwise[1] && leaving::line_leaves(ends, window) {
+            return None;
+        }
+        let Some(found) = &self.lines else { return self.declaration.line(ends, window) };
+        let question = LineQuestion { ends: ends.map(|p| [p.x, p.y]), window };
+        Some(found.expected(&question)?.into_iter().map(|[x, y]| (x, y)).collect())
+    }
+
+    fn keeps_order(&self) -> bool {
+        self.lines.as_ref().is_none_or(|found| found.in_order.drawn == found.in_order.of)
+    }
+}
+
+/// The pixels with hits, as runs.
+fn runs(coverage: &Coverage) -> Vec<Span> {
+    let mut runs: Vec<Span> = Vec::new();
+    for (y_px, row) in coverage.rows() {
+        let mut x0_px = coverage.bounds().x0;
+        for run in row.chunk_by(|a, b| (*a > 0) == (*b > 0)) {
+            let x1_px = x0_px + run.len() as i32;
+            if run[0] > 0 {
+                runs.push(Span { y_px, x0_px, x1_px });
+            }
+            x0_px = x1_px;
+        }
+    }
+    runs
+}
+
+/// What the questions have to keep to.
+fn known(declared: &Declared) -> Known {
+    let declaration = Declaration::from(declared);
+    let [x, y] = declaration.origin;
+    let default = Known::default();
+    Known {
+        grid: declared.grid,
+        range_px: declared.range.unwrap_or(default.range_px),
+        window_px: declared.window.map_or(default.window_px, |[width, height]| (width, height)),
+        mask: declared.mask,
+        declared: Convention {
+            draws: match declaration.winding {
+                Winding::Both => Windings::Both,
+                Winding::Clockwise => Windings::Clockwise,
+                Winding::CounterClockwise => Windings::CounterClockwise,
+            },
+            shape: Shape::Point { x, y },
+            ties: Ties::named(declaration.rule.word()).unwrap_or(default.declared.ties),
+            ..default.declared
+        },
+    }
+}
+
+/// The program as the questions want it; asked no more once it has died too often.
+struct Bench<'a> {
+    program: &'a mut dyn Ask,
+    deaths_left: u64,
+}
+
+impl Bench<'_> {
+    fn answers(&mut self, questions: &[Question]) -> Vec<Answer> {
+        if self.deaths_left == 0 {
+            return Vec::new();
+        }
+        let answers = self.program.ask(questions, self.deaths_left);
+        let deaths = answers.iter().filter(|answer| answer.is_death()).count() as u64;
+        self.deaths_left = self.deaths_left.saturating_sub(deaths);
+        answers
+    }
+
+    /// A short look: whether some cases full of ties, and some without, are as declared.
+    fn draws_as_declared(&mut self, declared: &Declared, lines: bool) -> bool {
+        let truth = Truth::of(declared);
+        let check = if lines { Check::Line } else { Check::Coverage };
+        let families = adapt_case::families(&[]);
+        let is_looked_at = |name| if lines { true } else { LOOK.contains(&name) };
+        families.iter().filter(|f| adapt_case::is_lines(f) == lines && is_looked_at(f.name)).all(
+            |f| {
+                let cases =
+                    (0..LOOK_CASES).map(|index| adapt_case::put(f.case(SEED, index), declared));
+                let cases: Vec<_> = cases.filter(|case| !adapt_case::leaves_window(case)).collect();
+                let mut questions = Vec::new();
+                let mut ends = Vec::new();
+                for case in &cases {
+                    check.questions(case, &truth, &mut questions);
+                    ends.push(questions.len());
+                }
+                let answers = self.answers(&questions);
+                let starts = std::iter::once(0).chain(ends.iter().copied());
+                answers.len() == questions.len()
+                    && cases.iter().zip(starts).zip(&ends).all(|((case, start), &end)| {
+                        !check.judge(case, &answers[start..end], &truth).is_wrong()
+                    })
+            },
+        )
+    }
+}
+
+impl rasterproof_convention::Ask for Bench<'_> {
+    fn ask(&mut self, questions: &[rasterproof_convention::Question]) -> Vec<Option<Coverage>> {
+        let asked = questions.iter().map(|q| Question {
+            width: q.window.width(),
+            height: q.window.height(),
+            of: Asked::Coverage(q.corners),
+        });
+        let answers = self.answers(&asked.collect::<Vec<_>>());
+        answers.iter().zip(questions).map(|(answer, q)| picture_of(answer, q.window)).collect()
+    }
+}
+
+impl rasterproof_convention::AskLine for Bench<'_> {
+    fn ask_lines(&mut self, questions: &[LineQuestion]) -> Vec<Option<Vec<[i32; 2]>>> {
+        let whole = self.program.declared().grid == 1;
+        let asked = questions.iter().map(|q| Question {
+            width: q.window.width(),
+            height: q.window.height(),
+            of: Asked::Line { ends: q.ends.map(|[x, y]| PixelPoint::new(x, y)), whole },
+        });
+        let answers = self.answers(&asked.collect::<Vec<_>>());
+        let pixels = |answer| match answer {
+            Answer::Line(pixels) => Some(pixels.into_iter().map(|(x, y)| [x, y]).collect()),
+            _ => None,
+        };
+        answers.into_iter().map(pixels).collect()
+    }
+}
+
+/// The rule of the protocol that was found, seen with y down; none is promised where none fits.
+fn rule(found: &Diagnosis) -> Rule {
+    let ties = &found.convention.ties;
+    let name = ties.name(found.compass.seen()).filter(|_| found.compass.is_decided());
+    let rule = Rule::ALL.iter().find(|(word, _)| Some(*word) == name).map(|(_, rule)| *rule);
+    match (rule, ties.corners) {
+        (Some(rule), CornerRule::AsEdges)
+        | (Some(rule @ Rule::Inclusive), CornerRule::Always)
+        | (Some(rule @ Rule::Strict), CornerRule::Never) => rule,
+        _ => Rule::Unspecified,
+    }
+}
+
+/// The words that declare what was found and is not declared; none where the protocol has none.
+fn words(declared: &Declared, found: &Diagnosis) -> String {
+    let c = &found.convention;
+    let Shape::Point { x, y } = c.shape else { return String::new() };
+    if found.confidence == Confidence::Unexplained || c.mirror != Mirror::None {
+        return String::new();
+    }
+    // Corners on a grid that holds the found one are left where they are.
+    let holds = |grid: &i32| (SUBPIXELS / grid) % c.quantum.step == 0;
+    let grid = [256, 64, 16, 1].into_iter().find(holds).unwrap_or(1);
+    let winding = match c.draws {
+        Windings::Clockwise => Winding::Clockwise,
+        Windings::CounterClockwise => Winding::CounterClockwise,
+        Windings::Both | Windings::Neither => Winding::Both,
+    };
+    let is_seen = found.compass.seen().contains(&true);
+    let rule = if is_seen { rule(found) } else { declared.seen_rule() };
+    // What is seen, turned over where y goes up, is what the program says.
+    let seen = Declared { rule, winding, ..declared.clone() };
+    let (rule, winding) = (seen.seen_rule(), seen.seen_winding());
+    let px = |sub: i32| f64::from(sub) / f64::from(SUBPIXELS);
+    let mut out = String::new();
+    if grid < declared.grid {
+        let _ = write!(out, " grid={grid}");
+    }
+    if [x, y] != declared.origin {
+        let _ = write!(out, " origin={},{}", px(x), px(y));
+    }
+    if rule != declared.rule {
+        let _ = write!(out, " rule={}", rule.word());
+    }
+    if winding != declared.winding {
+        let _ = write!(out, " winding={}", winding.word());
+    }
+    out.trim_start().to_owned()
+}
+
+/// Which samples on edges are drawn, where the sentence has no name for it and no percentages.
+fn compass(found: &Diagnosis) -> Option<String> {
+    let (compass, seen) = (&found.compass, found.compass.seen());
+    let has_name = found.convention.ties.name(seen).is_some();
+    let is_known = found.confidence != Confidence::Unexplained && compass.is_decided();
+    if !seen.contains(&true) || has_name || !is_known {
+        return None;
+    }
+    let directions = FACINGS.iter().zip(compass.edges);
+    let list: Vec<_> = directions
+        .filter_map(|(facing, count)| Some(format!("{facing} {:.0} %", count.percent()?)))
+        .collect();
+    Some(format!("samples on an edge, by the way it faces: {}", list.join(", ")))
+}

@@ -1,0 +1,399 @@
+//! Asks every case, block by block, on as many copies of the program as there are.
+//!
+//! Families take turns, so that a limited time is shared. Cases that leave the window come last.
+//! A family stops at the third time the program had to be started again.
+
+use std::ops::AddAssign;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::Instant;
+
+use super::Options;
+use super::adapt_case;
+use super::ask::{Answer, Ask, Misbehaviour, Question};
+use super::check::{Check, Truth};
+use super::finding::Finding;
+use rasterproof_verify::cases::{Case, Family};
+use rasterproof_verify::comparison::Tally;
+
+/// A family stops when the program has had to be started again this often.
+pub const MOST_DEATHS: u64 = 3;
+/// The judge stops when the program has had to be started again this often altogether.
+pub const MOST_DEATHS_IN_ALL: u64 = 30;
+/// Failing cases that are remembered for a baseline.
+pub const MOST_REMEMBERED: usize = 1 << 20;
+/// Failing cases of a property that are remembered without one, by each copy.
+const KEPT: usize = 4;
+/// Incidents that are kept to be shown.
+pub const MOST_INCIDENTS: usize = 24;
+
+/// What came of a property: of a family, or of a check over all families.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct Row {
+    /// Name of the family or the check.
+    pub name: &'static str,
+    /// Cases judged.
+    pub cases: u64,
+    /// Triangles or lines judged.
+    pub shapes: u64,
+    /// Pixels expected.
+    pub pixels: u64,
+    /// Cases with anything wrong.
+    pub wrong_cases: u64,
+    /// Wrong pixels as declared.
+    pub tally: Tally,
+    /// Wrong pixels by the convention that was recognised.
+    pub recognised: Tally,
+    /// Pixels expected by it.
+    pub recognised_pixels: u64,
+    /// Triangles or lines of which it says nothing.
+    pub unscored: u64,
+    /// Requests refused.
+    pub refused: u64,
+    /// Values compared.
+    pub values: u64,
+    /// The largest error of a value as a fraction of the tolerance.
+    pub worst: f64,
+    /// Times the program had to be started again.
+    pub deaths: u64,
+    /// Whether it was given up.
+    pub stopped: bool,
+}
+
+impl Row {
+    /// How bad it is: the share of its cases that are wrong.
+    #[must_use]
+    pub fn share(&self) -> f64 {
+        self.wrong_cases as f64 / self.cases.max(1) as f64
+    }
+
+    fn new(name: &'static str) -> Self {
+        Self {
+            name,
+            cases: 0,
+            shapes: 0,
+            pixels: 0,
+            wrong_cases: 0,
+            tally: Tally::default(),
+            recognised: Tally::default(),
+            recognised_pixels: 0,
+            unscored: 0,
+            refused: 0,
+            values: 0,
+            worst: 0.0,
+            deaths: 0,
+            stopped: false,
+        }
+    }
+
+    fn count(&mut self, finding: &Finding) {
+        self.cases += 1;
+        self.shapes += finding.shapes;
+        self.pixels += finding.pixels;
+        self.wrong_cases += u64::from(finding.is_wrong());
+        self.tally += finding.tally;
+        self.recognised += finding.other;
+        self.recognised_pixels += finding.other_pixels;
+        self.unscored += finding.unscored;
+        self.refused += finding.refused;
+        self.values += finding.values;
+        self.worst = self.worst.max(finding.worst);
+        self.deaths += finding.died.len() as u64;
+    }
+}
+
+impl AddAssign<&Row> for Row {
+    fn add_assign(&mut self, other: &Row) {
+        self.cases += other.cases;
+        self.shapes += other.shapes;
+        self.pixels += other.pixels;
+        self.wrong_cases += other.wrong_cases;
+        self.tally += other.tally;
+        self.recognised += other.recognised;
+        self.recognised_pixels += other.recognised_pixels;
+        self.unscored += other.unscored;
+        self.refused += other.refused;
+        self.values += other.values;
+        self.worst = self.worst.max(other.worst);
+        self.deaths += other.deaths;
+        self.stopped |= other.stopped;
+    }
+}
+
+/// A case in which a check failed.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Failing {
+    /// Name of the property.
+    pub property: &'static str,
+    /// Name of the family.
+    pub family: &'static str,
+    /// Number of the case.
+    pub index: u64,
+    /// Changes when what is wrong changes.
+    pub fingerprint: u64,
+}
+
+/// Something other than an answer, and the request that it came to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Incident {
+    /// Name of the family; empty of what was asked before the families.
+    pub family: &'static str,
+    /// Number of the case.
+    pub index: u64,
+    /// What happened.
+    pub what: Misbehaviour,
+    /// The request.
+    pub request: String,
+}
+
+/// Everything that was found.
+#[derive(Clone, Debug, Default)]
+pub struct Found {
+    /// A row for each property that was judged.
+    pub rows: Vec<Row>,
+    /// Failing cases, sorted.
+    pub failing: Vec<Failing>,
+    /// Cases that were judged, by property and family, where they are remembered.
+    pub judged: Vec<(&'static str, &'static str, u64)>,
+    /// Whether more failed than are remembered.
+    pub forgot: bool,
+    /// What happened instead of answers.
+    pub incidents: Vec<Incident>,
+    /// What went wrong without a single request at fault.
+    pub strays: Vec<Misbehaviour>,
+    /// Answers there were.
+    pub answered: u64,
+    /// Whether the program was given up for good.
+    pub gave_up: bool,
+    /// Seconds that asking took.
+    pub seconds: f64,
+}
+
+impl Found {
+    fn row(&mut self, name: &'static str) -> &mut Row {
+        let at = self.rows.iter().position(|row| row.name == name).unwrap_or_else(|| {
+            self.rows.push(Row::new(name));
+            self.rows.len() - 1
+        });
+        &mut self.rows[at]
+    }
+
+    fn merge(&mut self, other: Self) {
+        for row in &other.rows {
+            *self.row(row.name) += row;
+        }
+        self.failing.extend(other.failing);
+        self.judged.extend(other.judged);
+        self.forgot |= other.forgot;
+        self.incidents.extend(other.incidents);
+        self.strays.extend(other.strays);
+        self.answered += other.answered;
+    }
+}
+
+/// Two passes: cases within their windows, then those that leave it.
+const PASSES: [bool; 2] = [false, true];
+
+/// What the copies share.
+struct Shared<'a> {
+    families: Vec<&'static Family>,
+    options: &'a Options,
+    truth: &'a Truth,
+    start: Instant,
+    copies: u64,
+    /// Deaths by pass and family.
+    deaths: Vec<AtomicU64>,
+    deaths_in_all: AtomicU64,
+    answered: AtomicU64,
+}
+
+impl Shared<'_> {
+    fn gave_up(&self) -> bool {
+        let deaths = self.deaths_in_all.load(Ordering::Relaxed);
+        // One that has never answered is given up sooner.
+        let most = match self.answered.load(Ordering::Relaxed) {
+            0 => 2 * MOST_DEATHS,
+            _ => MOST_DEATHS_IN_ALL,
+        };
+        deaths >= most
+    }
+
+    /// Whether the time of a pass is over; the first one leaves a quarter.
+    fn expired(&self, pass: bool) -> bool {
+        let share = if pass { 1.0 } else { 0.75 };
+        self.options.time_limit.is_some_and(|limit| self.start.elapsed() >= limit.mul_f64(share))
+    }
+}
+
+/// Asks everything.
+pub fn run(
+    askers: &mut [Box<dyn Ask>],
+    options: &Options,
+    truth: &Truth,
+    progress: &(dyn Fn(u64) + Sync),
+) -> Found {
+    let families = adapt_case::families(&options.families);
+    let shared = Shared {
+        deaths: families.iter().chain(&families).map(|_| AtomicU64::new(0)).collect(),
+        families,
+        options,
+        truth,
+        start: Instant::now(),
+        copies: askers.len() as u64,
+        deaths_in_all: AtomicU64::new(0),
+        answered: AtomicU64::new(0),
+    };
+    let all = Mutex::new(Vec::new());
+    std::thread::scope(|scope| {
+        for (part, asker) in (0..).zip(askers.iter_mut()) {
+            let (shared, all) = (&shared, &all);
+            scope.spawn(move || {
+                let found = copy(&mut **asker, part, shared, progress);
+                all.lock().unwrap_or_else(std::sync::PoisonError::into_inner).push((part, found));
+            });
+        }
+    });
+    let mut parts = all.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
+    parts.sort_by_key(|(part, _)| *part);
+    let mut whole = Found::default();
+    parts.into_iter().for_each(|(_, found)| whole.merge(found));
+    whole.failing.sort_by_key(|f| {
+        let family = shared.families.iter().position(|family| family.name == f.family);
+        (family, f.index, f.property)
+    });
+    whole.gave_up = shared.gave_up();
+    whole.seconds = shared.start.elapsed().as_secs_f64();
+    for (family, deaths) in shared.families.iter().cycle().zip(&shared.deaths) {
+        if deaths.load(Ordering::Relaxed) >= MOST_DEATHS {
+            whole.row(family.name).stopped = true;
+        }
+    }
+    whole
+}
+
+/// What one copy of the program is asked: every block whose number is its own.
+fn copy(
+    asker: &mut dyn Ask,
+    part: u64,
+    shared: &Shared<'_>,
+    progress: &(dyn Fn(u64) + Sync),
+) -> Found {
+    let mut found = Found::default();
+    let cases = match shared.options.only {
+        Some(index) => index..index.saturating_add(1),
+        None => 0..shared.options.cases,
+    };
+    for pass in PASSES {
+        let mut first = cases.start;
+        let mut number = 0;
+        while first < cases.end && !(number > 0 && shared.expired(pass)) {
+            // Where the time is limited, blocks begin small: of a slow program each family is asked.
+            let most = match shared.options.time_limit {
+                Some(_) => asker.cases_at_once().min(1 << number.min(32)),
+                None => asker.cases_at_once(),
+            };
+            let end = cases.end.min(first.saturating_add(most));
+            for (at, family) in shared.families.iter().enumerate() {
+                let deaths = &shared.deaths[at + usize::from(pass) * shared.families.len()];
+                let stop = deaths.load(Ordering::Relaxed) >= MOST_DEATHS
+                    || shared.gave_up()
+                    || (number > 0 && shared.expired(pass));
+                // Families are dealt out like cards, so that one copy is not left with the slow ones.
+                if (number + at as u64) % shared.copies == part && !stop {
+                    block(asker, family, first..end, pass, shared, deaths, &mut found);
+                    progress(if pass { 0 } else { end - first });
+                }
+            }
+            number += 1;
+            first = end;
+        }
+    }
+    found.strays.extend(asker.strays());
+    found
+}
+
+/// Asks the checks of some cases of a family, and judges the answers.
+fn block(
+    asker: &mut dyn Ask,
+    family: &'static Family,
+    indices: std::ops::Range<u64>,
+    pass: bool,
+    shared: &Shared<'_>,
+    deaths: &AtomicU64,
+    found: &mut Found,
+) {
+    let truth = shared.truth;
+    let mut jobs: Vec<(u64, usize, Check, usize)> = Vec::new();
+    let mut cases: Vec<Case> = Vec::new();
+    let mut questions: Vec<Question> = Vec::new();
+    for index in indices {
+        let case = adapt_case::put(family.case(shared.options.seed, index), &truth.declared);
+        if adapt_case::leaves_window(&case) != pass {
+            continue;
+        }
+        for check in Check::of(family.name, &case, index, &truth.declared) {
+            let start = questions.len();
+            check.questions(&case, truth, &mut questions);
+            jobs.push((index, start, check, cases.len()));
+        }
+        cases.push(case);
+    }
+    let left = MOST_DEATHS.saturating_sub(deaths.load(Ordering::Relaxed));
+    let answers = asker.ask(&questions, left.max(1));
+    for (at, (index, first, check, case)) in jobs.iter().enumerate() {
+        let next = jobs.get(at + 1).map_or(questions.len(), |(_, next, ..)| *next);
+        // Where the program was given up, the rest of the answers is not there.
+        let here = &answers[*first.min(&answers.len())..next.min(answers.len())];
+        let is_whole = here.len() == next - first;
+        let finding = match (is_whole, here.iter().any(Answer::is_death)) {
+            (false, false) => return,
+            (true, _) => check.judge(&cases[*case], here, truth),
+            (false, true) => Check::judge_deaths(here),
+        };
+        let died = finding.died.len() as u64;
+        deaths.fetch_add(died, Ordering::Relaxed);
+        shared.deaths_in_all.fetch_add(died, Ordering::Relaxed);
+        shared.answered.fetch_add(finding.answered, Ordering::Relaxed);
+        let asked = &questions[*first..next];
+        note(found, family, *index, *check, &finding, (asked, shared.options.remember));
+    }
+}
+
+fn note(
+    found: &mut Found,
+    family: &'static Family,
+    index: u64,
+    check: Check,
+    finding: &Finding,
+    (asked, remember): (&[Question], bool),
+) {
+    let property = check.name(family.name);
+    found.answered += finding.answered;
+    found.row(property).count(finding);
+    if remember {
+        found.judged.push((property, family.name, index));
+    }
+    for (at, what) in &finding.died {
+        if found.incidents.len() < MOST_INCIDENTS {
+            let request = asked.get(*at).map_or_else(String::new, |q| q.text(1));
+            found.incidents.push(Incident {
+                family: family.name,
+                index,
+                what: what.clone(),
+                request,
+            });
+        }
+    }
+    if finding.is_wrong() {
+        let of_it = || found.failing.iter().filter(|f| f.property == property).count();
+        if !remember && of_it() >= KEPT {
+            return;
+        }
+        if found.failing.len() < MOST_REMEMBERED {
+            let fingerprint = finding.fingerprint();
+            found.failing.push(Failing { property, family: family.name, index, fingerprint });
+        } else {
+            found.forgot = true;
+        }
+    }
+}

@@ -1,0 +1,415 @@
+//! The answering side of the line protocol, versions 1 and 2: an engine of the line-up behind a reader
+//! and a writer.
+//!
+//! A request is a line of words; an answer is a line, flushed before another request is waited for. A
+//! request that cannot be read, or asks for what is outside the domain, is answered `E id reason`
+//! and the engine goes on. Positions are window pixels, y down, snapped to 1/256 px half to even;
+//! the engines whose names end in `-exact`, and the specimens, take them as they are.
+
+mod pipeline;
+mod published;
+mod reply;
+
+use std::io::{self, BufRead, BufReader, Read, Write};
+
+use glam::DVec2;
+
+use crate::declared::Declared;
+use crate::in_process::runs_of;
+use crate::server::pipeline;
+use crate::server::published;
+use crate::server::reply::{Reply, named, write_run, write_words};
+use crate::text::number;
+use rasterproof_core::contract::{DrawLine, Interpolate, Rasterize, RasterizeExact};
+use rasterproof_core::grid::{MAX_SIDE_PX, PixelRect, Refusal, SUBPIXELS, SubpixelPoint};
+use rasterproof_core::triangle::{
+    FreeCorners, LineEnd, PixelPoint, ScreenLine, ScreenTriangle, ScreenVertex, Span,
+    check_position, check_value,
+};
+use rasterproof_registry::engines::{Engine, Entry, ExactEngine, LineEngine};
+use rasterproof_render::pipeline::multisample;
+
+/// A longer line is refused without being kept.
+const MOST_BYTES: u64 = 1 << 16;
+/// Requests that are read in one go.
+const READ_BYTES: usize = 1 << 16;
+/// Triangles of a request for depth order.
+const MOST_LAYERS: usize = 64;
+/// Fragments that the oracle, in big integers, computes for one request.
+const MOST_EXACT_FRAGMENTS: u64 = 1 << 20;
+
+/// Answers requests until there are none.
+///
+/// # Errors
+/// The reader or the writer fails.
+pub fn serve(entry: &Entry, input: &mut dyn Read, output: &mut dyn Write) -> io::Result<()> {
+    let mut input = BufReader::with_capacity(READ_BYTES, input);
+    let mut line = Vec::new();
+    loop {
+        // While another request is there already, answers may wait for company.
+        if !input.buffer().contains(&b'\n') {
+            output.flush()?;
+        }
+        if !read_line(&mut input, &mut line)? {
+            return Ok(());
+        }
+        let request = match std::str::from_utf8(&line) {
+            _ if line.len() as u64 > MOST_BYTES => {
+                Err(format!("- a request has at most {MOST_BYTES} bytes"))
+            }
+            Err(_) => Err("- the request is not UTF-8".to_owned()),
+            Ok(text) => Ok(text),
+        };
+        match request {
+            Ok(text) if text.trim().is_empty() => {}
+            Ok(text) => respond(entry, text, output)?,
+            Err(reason) => writeln!(output, "E {reason}")?,
+        }
+    }
+}
+
+/// Writes the answer of a request, or why there is none.
+///
+/// # Errors
+/// The writer fails.
+pub fn respond(entry: &Entry, text: &str, out: &mut dyn Write) -> io::Result<()> {
+    match answer(entry, text, out) {
+        Ok(()) => Ok(()),
+        Err(Stop::Refused(reason)) => writeln!(out, "E {reason}"),
+        Err(Stop::Io(error)) => Err(error),
+    }
+}
+
+/// Reads a line without its end; of an overlong one the rest is thrown away. False at the end.
+fn read_line(input: &mut dyn BufRead, line: &mut Vec<u8>) -> std::io::Result<bool> {
+    line.clear();
+    if (&mut *input).take(MOST_BYTES + 1).read_until(b'\n', line)? == 0 {
+        return Ok(false);
+    }
+    if line.last() == Some(&b'\n') {
+        line.pop();
+    } else if line.len() as u64 > MOST_BYTES {
+        loop {
+            let buffer = input.fill_buf()?;
+            let (used, ended) = match buffer.iter().position(|&byte| byte == b'\n') {
+                Some(at) => (at + 1, true),
+                None => (buffer.len(), buffer.is_empty()),
+            };
+            input.consume(used);
+            if ended {
+                break;
+            }
+        }
+    }
+    Ok(true)
+}
+
+enum Stop {
+    /// `id reason`.
+    Refused(String),
+    Io(std::io::Error),
+}
+
+impl From<std::io::Error> for Stop {
+    fn from(error: std::io::Error) -> Self {
+        Self::Io(error)
+    }
+}
+
+fn answer(entry: &Entry, text: &str, out: &mut dyn Write) -> Result<(), Stop> {
+    let words: Vec<&str> = text.split_whitespace().collect();
+    let (verb, rest) = words.split_first().map_or(("", &[][..]), |(verb, rest)| (*verb, rest));
+    if verb == "HELLO" {
+        return hello(entry, rest, out);
+    }
+    let id = rest.first().copied().unwrap_or("-");
+    let refused = |reason: String| Stop::Refused(format!("{id} {reason}"));
+    let count = match verb {
+        "T" | "S" => 6,
+        "L" => 4,
+        "I" => 18,
+        "N" => 12,
+        // As many triangles as there are.
+        "D" => (rest.len().saturating_sub(3) / 9).clamp(1, MOST_LAYERS) * 9,
+        _ => {
+            return Err(refused(format!(
+                "unknown request '{}'; expected HELLO, T, L, I, S, D, N",
+                printable(verb)
+            )));
+        }
+    };
+    let engine = match (verb, entry.engine, entry.line_engine, entry.exact_engine) {
+        ("T", Some(engine), _, _) => Speaker::Cover(engine),
+        ("T", _, _, Some(engine)) => Speaker::CoverExact(engine),
+        ("I", Some(engine), _, _) => Speaker::Values(engine),
+        ("S", Some(engine), _, _) => Speaker::Samples(engine),
+        ("L", _, Some(engine), _) => Speaker::Line(engine),
+        ("D", Some(engine), _, _) => Speaker::Depth(engine),
+        ("N", Some(_), _, _) => Speaker::Near,
+        _ if published::speaks(entry, verb) => Speaker::Published(entry),
+        _ => return Err(refused("unsupported".to_owned())),
+    };
+    // What the near plane leaves has nothing to do with a window.
+    let first = if verb == "N" { 1 } else { 3 };
+    if rest.len() != count + first {
+        let sides = if verb == "N" { "" } else { ", width, height" };
+        let numbers = if verb == "D" {
+            format!("9 numbers for each of 1 to {MOST_LAYERS} triangles")
+        } else {
+            format!("{count} numbers")
+        };
+        let expected = format!("{verb} takes an id{sides} and {numbers}");
+        return Err(refused(format!("{expected}; {} words follow", rest.len())));
+    }
+    let window = match first {
+        1 => PixelRect::window(1, 1),
+        _ => window(rest[1], rest[2]).map_err(refused)?,
+    };
+    let numbers: Vec<f64> = rest[first..]
+        .iter()
+        .enumerate()
+        .map(|(i, word)| {
+            number(word)
+                .ok_or_else(|| format!("number {} '{}' cannot be read", i + 1, printable(word)))
+        })
+        .collect::<Result<_, _>>()
+        .map_err(refused)?;
+    let reply = match engine {
+        Speaker::Cover(engine) => cover(engine, window, &numbers),
+        Speaker::CoverExact(engine) => cover_exact(engine, window, &numbers),
+        Speaker::Samples(engine) => samples(engine, window, &numbers),
+        Speaker::Line(engine) => line(engine, window, &numbers),
+        Speaker::Depth(engine) => depth(engine, window, &numbers),
+        Speaker::Near => near(&numbers),
+        Speaker::Published(entry) => published::answer(entry, verb, window, &numbers),
+        Speaker::Values(engine) => {
+            return match values(engine, window, &numbers) {
+                Ok((triangle, n)) => write_fragments(engine, &triangle, window, id, n, out),
+                Err(reason) => Err(refused(reason)),
+            };
+        }
+    };
+    let (letter, n, runs) = reply.map_err(refused)?;
+    write!(out, "{letter} {id} {n}")?;
+    out.write_all(&runs)?;
+    Ok(out.write_all(b"\n")?)
+}
+
+#[derive(Clone, Copy)]
+enum Speaker<'a> {
+    Cover(Engine),
+    CoverExact(ExactEngine),
+    Values(Engine),
+    Samples(Engine),
+    Line(LineEngine),
+    Depth(Engine),
+    Near,
+    Published(&'a Entry),
+}
+
+fn hello(entry: &Entry, rest: &[&str], out: &mut dyn Write) -> Result<(), Stop> {
+    let declared = Declared::from(entry);
+    match rest {
+        ["1"] => {
+            // Version 1 knows no words for what came later.
+            let old = Declared { depth: false, clip: false, ..declared };
+            writeln!(out, "HELLO 1 {} {}", entry.name, old.capabilities().join(" "))?;
+        }
+        ["2"] => writeln!(out, "HELLO 2 {} {declared}", entry.name)?,
+        _ => {
+            let reason = "- this engine speaks versions 1 and 2: say HELLO 1 or HELLO 2";
+            return Err(Stop::Refused(reason.to_owned()));
+        }
+    }
+    Ok(())
+}
+
+/// A word of the request, short and without control characters, to quote in an answer.
+fn printable(word: &str) -> String {
+    word.chars().filter(|c| !c.is_control()).take(40).collect()
+}
+
+fn window(width: &str, height: &str) -> Result<PixelRect, String> {
+    let side = |name: &str, word: &str| {
+        word.parse::<u32>().ok().filter(|side| (1..=MAX_SIDE_PX).contains(side)).ok_or_else(|| {
+            format!("{name} '{}' is not a whole number from 1 to {MAX_SIDE_PX}", printable(word))
+        })
+    };
+    Ok(PixelRect::window(side("width", width)?, side("height", height)?))
+}
+
+fn point(numbers: &[f64], i: usize) -> Result<SubpixelPoint, String> {
+    let snap = |value: f64, axis: &str| {
+        rasterproof_core::grid::snap(value).map_err(named(&format!("{axis}{i}")))
+    };
+    Ok(SubpixelPoint::new(snap(numbers[0], "x")?, snap(numbers[1], "y")?))
+}
+
+/// Vertex `i` of a request, or the number of it that is refused.
+fn vertex(
+    px: [f64; 2],
+    z: f64,
+    w: f64,
+    values: DVec2,
+    i: usize,
+) -> Result<ScreenVertex<DVec2>, String> {
+    ScreenVertex::by_name(px, z, w, values)
+        .map_err(|(name, refusal)| named(&format!("{name}{i}"))(refusal))
+}
+
+fn cover(engine: Engine, window: PixelRect, numbers: &[f64]) -> Reply {
+    let corners = [point(&numbers[0..], 0)?, point(&numbers[2..], 1)?, point(&numbers[4..], 2)?];
+    let (mut runs, mut n) = (Vec::new(), 0);
+    engine.cover(corners, window, |span| {
+        n += 1;
+        write_run(&mut runs, span);
+    });
+    Ok(('C', n, runs))
+}
+
+/// Runs of pixels with the same samples covered.
+fn samples(engine: Engine, window: PixelRect, numbers: &[f64]) -> Reply {
+    let corners = [point(&numbers[0..], 0)?, point(&numbers[2..], 1)?, point(&numbers[4..], 2)?];
+    let masks = multisample::masks(&engine, corners, window).ok_or(
+        "a corner lies within half a pixel of the domain's end, where samples have no place",
+    )?;
+    let (mut runs, mut n) = (Vec::new(), 0);
+    for (y_px, row) in masks.rows() {
+        for (span, mask) in runs_of(y_px, row) {
+            n += 1;
+            write_run(&mut runs, span);
+            write_words(&mut runs, [i32::from(mask)]);
+        }
+    }
+    Ok(('M', n, runs))
+}
+
+/// Runs of pixels that show the same triangle.
+fn depth(engine: Engine, window: PixelRect, numbers: &[f64]) -> Reply {
+    let mut list = Vec::new();
+    for (number, of_one) in numbers.chunks_exact(9).enumerate() {
+        let vertex = |i: usize| -> Result<ScreenVertex<DVec2>, String> {
+            let [x, y, z] = [0, 1, 2].map(|k| of_one[3 * i + k]);
+            self::vertex([x, y], z, 1.0, DVec2::ZERO, i)
+                .map_err(|reason| format!("of triangle {number}: {reason}"))
+        };
+        list.push(ScreenTriangle { vertices: [vertex(0)?, vertex(1)?, vertex(2)?] });
+    }
+    let seen = pipeline::seen(engine, &list, window)?;
+    let mut runs = Vec::new();
+    for (span, number) in &seen {
+        write_run(&mut runs, *span);
+        write_words(&mut runs, [i32::from(*number)]);
+    }
+    Ok(('V', seen.len(), runs))
+}
+
+/// The corners that the near plane leaves.
+fn near(numbers: &[f64]) -> Reply {
+    for (i, &number) in numbers.iter().enumerate() {
+        let axis = ["x", "y", "z", "w"][i % 4];
+        check_value(number).map_err(named(&format!("{axis}{}", i / 4)))?;
+    }
+    let corner = |i: usize| [0, 1, 2, 3].map(|k| numbers[4 * i + k]);
+    let polygon = pipeline::clipped([corner(0), corner(1), corner(2)]);
+    let mut corners = Vec::new();
+    for [x, y, z, w] in &polygon {
+        // Writing to a vector does not fail.
+        let _ = write!(corners, " {x} {y} {z} {w}");
+    }
+    Ok(('G', polygon.len(), corners))
+}
+
+fn cover_exact(engine: ExactEngine, window: PixelRect, numbers: &[f64]) -> Reply {
+    for (i, &px) in numbers.iter().enumerate() {
+        let axis = if i % 2 == 0 { 'x' } else { 'y' };
+        check_position(px).map_err(named(&format!("{axis}{}", i / 2)))?;
+    }
+    let corner = |i: usize| [numbers[2 * i], numbers[2 * i + 1]];
+    let corners = FreeCorners::new([corner(0), corner(1), corner(2)]).map_err(|r| r.to_string())?;
+    let (mut runs, mut n) = (Vec::new(), 0);
+    engine.cover_exact(&corners, window, |span| {
+        n += 1;
+        write_run(&mut runs, span);
+    });
+    Ok(('C', n, runs))
+}
+
+/// The pixel that holds a position, after snapping to the lattice: the floor.
+fn pixel(value: f64, name: &str) -> Result<i32, String> {
+    let scale = f64::from(SUBPIXELS);
+    let floor = ((value * scale).round_ties_even() / scale).floor();
+    if value.is_nan() {
+        Err(named(name)(Refusal::NotANumber))
+    } else if value.is_infinite() {
+        Err(named(name)(Refusal::Infinite))
+    } else if floor < f64::from(i32::MIN) || floor > f64::from(i32::MAX) {
+        Err(format!("{name} {value:e} is outside the domain of lines, [-2^31, 2^31) px"))
+    } else {
+        // A whole number within i32.
+        Ok(floor as i32)
+    }
+}
+
+fn line(engine: LineEngine, window: PixelRect, numbers: &[f64]) -> Reply {
+    let end = |i: usize| -> Result<_, String> {
+        let x = pixel(numbers[2 * i], &format!("x{i}"))?;
+        let y = pixel(numbers[2 * i + 1], &format!("y{i}"))?;
+        Ok(LineEnd { pixel: PixelPoint::new(x, y), depth: 0.0, varying: 0.0 })
+    };
+    let (mut pixels, mut n) = (Vec::new(), 0);
+    engine.draw(&ScreenLine { ends: [end(0)?, end(1)?] }, window, |fragment| {
+        n += 1;
+        write_words(&mut pixels, [fragment.x_px, fragment.y_px]);
+    });
+    Ok(('P', n, pixels))
+}
+
+type Values = (ScreenTriangle<DVec2>, u64);
+
+/// The triangle of an `I` request and how many fragments it has.
+fn values(engine: Engine, window: PixelRect, numbers: &[f64]) -> Result<Values, String> {
+    let vertex = |i: usize| -> Result<ScreenVertex<DVec2>, String> {
+        let [x, y, z, w, a, b] = [0, 1, 2, 3, 4, 5].map(|k| numbers[6 * i + k]);
+        for (name, value) in [("z", z), ("a", a), ("b", b)] {
+            check_value(value).map_err(named(&format!("{name}{i}")))?;
+        }
+        self::vertex([x, y], z, w, DVec2::new(a, b), i)
+    };
+    let triangle = ScreenTriangle { vertices: [vertex(0)?, vertex(1)?, vertex(2)?] };
+    let mut n = 0;
+    if matches!(engine, Engine::Oracle) {
+        let most = MOST_EXACT_FRAGMENTS;
+        n = pipeline::covered_at_most(engine, triangle.corners(), window, most).ok_or_else(|| {
+            format!("more than {most} fragments, which is the most that the oracle computes for a request")
+        })?;
+    } else if matches!(engine, Engine::Mutant(_)) {
+        // A fault of coverage may cover pixels that have no fragment.
+        engine.fragments(&triangle, window, |_| n += 1);
+    } else {
+        let mut count = |span: Span| n += u64::from(span.x0_px.abs_diff(span.x1_px));
+        engine.cover(triangle.corners(), window, &mut count);
+    }
+    Ok((triangle, n))
+}
+
+/// Streams the fragments, so that a large window takes no memory.
+fn write_fragments(
+    engine: Engine,
+    triangle: &ScreenTriangle<DVec2>,
+    window: PixelRect,
+    id: &str,
+    n: u64,
+    out: &mut dyn Write,
+) -> Result<(), Stop> {
+    write!(out, "F {id} {n}")?;
+    let mut result = Ok(());
+    engine.fragments(triangle, window, |f| {
+        if result.is_ok() {
+            let (a, b) = (f.varying.x, f.varying.y);
+            result = write!(out, " {} {} {} {a} {b}", f.x_px, f.y_px, f.depth);
+        }
+    });
+    result?;
+    Ok(writeln!(out)?)
+}

@@ -1,0 +1,82 @@
+//! What an engine of the line-up answers about depth order and the near plane: the book's stages
+//! around it, a depth buffer and the clipper of the pipeline.
+
+use std::collections::BTreeMap;
+
+use glam::{DVec2, DVec4};
+
+use crate::finding::push;
+use rasterproof_core::contract::{Interpolate as _, Rasterize as _};
+use rasterproof_core::grid::PixelRect;
+use rasterproof_core::triangle::{Corners, Span};
+use rasterproof_registry::engines::Engine;
+use rasterproof_render::pipeline::ClipVertex;
+use rasterproof_render::pipeline::clip::{Plane, clip};
+use rasterproof_verify::cases::Triangle;
+
+/// Fragments of one request; their depths are kept until all of them are known.
+const MOST_FRAGMENTS: u64 = 1 << 20;
+
+/// The number of pixels that a triangle covers, or nothing where it is more than `most`.
+///
+/// The oracle looks at every pixel of the window, so a large window is counted in bands of rows, and no band is counted
+/// once the answer is known.
+pub(super) fn covered_at_most(
+    engine: Engine,
+    corners: Corners,
+    window: PixelRect,
+    most: u64,
+) -> Option<u64> {
+    const BAND_PX: i32 = 64;
+    let mut pixels = 0;
+    for y0 in (window.y0..window.y1).step_by(BAND_PX as usize) {
+        let band = PixelRect { y0, y1: window.y1.min(y0 + BAND_PX), ..window };
+        let mut count = |span: Span| pixels += u64::from(span.x0_px.abs_diff(span.x1_px));
+        engine.cover(corners, band, &mut count);
+        if pixels > most {
+            return None;
+        }
+    }
+    Some(pixels)
+}
+
+/// Runs of pixels with the number of the triangle that is nearest; of equal depths the first drawn.
+///
+/// # Errors
+/// The triangles have more fragments than are kept.
+pub(super) fn seen(
+    engine: Engine,
+    list: &[Triangle],
+    window: PixelRect,
+) -> Result<Vec<(Span, u8)>, String> {
+    let mut pixels = 0;
+    for triangle in list {
+        let left = MOST_FRAGMENTS - pixels;
+        let Some(covered) = covered_at_most(engine, triangle.corners(), window, left) else {
+            return Err(format!(
+                "more than {MOST_FRAGMENTS} fragments, which is the most of a request: ask for a smaller window"
+            ));
+        };
+        pixels += covered;
+    }
+    let mut buffer: BTreeMap<(i32, i32), (f64, u8)> = BTreeMap::new();
+    for (number, triangle) in (0..).zip(list) {
+        engine.fragments(triangle, window, |f| {
+            let nearest = buffer.entry((f.y_px, f.x_px)).or_insert((f.depth, number));
+            if f.depth < nearest.0 {
+                *nearest = (f.depth, number);
+            }
+        });
+    }
+    let mut runs = Vec::new();
+    buffer.into_iter().for_each(|((y, x), (_, number))| push(&mut runs, x, y, number));
+    Ok(runs)
+}
+
+/// The corners that the near plane leaves.
+pub(super) fn clipped(corners: [[f64; 4]; 3]) -> Vec<[f64; 4]> {
+    let vertex =
+        |position| ClipVertex { position: DVec4::from_array(position), varying: DVec2::ZERO };
+    let (polygon, _) = clip(&corners.map(vertex), Plane::Near.bit());
+    polygon.vertices().map(|v| v.position.to_array()).collect()
+}

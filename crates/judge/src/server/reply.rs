@@ -1,0 +1,26 @@
+//! What an answer of the line protocol is made of.
+
+use crate::text::write_int;
+use rasterproof_core::grid::Refusal;
+use rasterproof_core::triangle::{Span, refused_number};
+
+/// The letter of an answer, its count and what is counted; or the reason why there is none.
+pub type Reply = Result<(char, usize, Vec<u8>), String>;
+
+/// A refusal with the name of the number that is refused.
+pub fn named(name: &str) -> impl FnOnce(Refusal) -> String {
+    move |refusal| refused_number(name, refusal)
+}
+
+/// Appends whole numbers, a space before each.
+pub fn write_words<const N: usize>(out: &mut Vec<u8>, words: [i32; N]) {
+    for word in words {
+        out.push(b' ');
+        write_int(out, word.into());
+    }
+}
+
+/// Appends a run of pixels.
+pub fn write_run(out: &mut Vec<u8>, span: Span) {
+    write_words(out, [span.y_px, span.x0_px, span.x1_px]);
+}

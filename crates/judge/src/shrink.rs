@@ -1,0 +1,174 @@
+//! Failing cases made smaller: by the steps of [`rasterproof_verify::cases`], and where these stop, at several triangles and
+//! at what only the judge asks, by simpler numbers.
+//!
+//! A corner that triangles share moves for all of them, so that a mesh stays together. Depths of piles, and z
+//! and w of clip space, are numbers like the others.
+
+use super::check::Check;
+use super::expected::area2;
+use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
+use rasterproof_verify::cases::shrink::{greedy, shrink};
+use rasterproof_verify::cases::{Case, Shape, Triangle};
+
+/// The smallest case reached from `case` that still fails; `case` itself does.
+pub fn smaller(check: Check, case: Case, fails: impl Fn(&Case) -> bool) -> Case {
+    let has_depth = matches!(check, Check::Depth | Check::Near);
+    // Of these a picture is shown, and what has no area has none.
+    let most_flat = if has_depth { flat(&case) } else { usize::MAX };
+    let fails = |case: &Case| flat(case) <= most_flat && fails(case);
+    let case = shrink(case, fails);
+    if !has_depth && triangles(&case).len() < 2 {
+        return case;
+    }
+    greedy(case, size, |case| candidates(case, check), fails)
+}
+
+/// Triangles without area.
+fn flat(case: &Case) -> usize {
+    triangles(case).iter().filter(|t| area2(&t.corners()) == 0).count()
+}
+
+fn triangles(case: &Case) -> &[Triangle] {
+    if let Shape::Triangles { list, .. } = &case.shape { list } else { &[] }
+}
+
+/// Triangles, then the bits of all numbers, then how large these are, then the window.
+fn size(case: &Case) -> (usize, u32, u64, u64) {
+    let list = triangles(case);
+    let (mut bits, mut sum) = (0, 0);
+    for v in list.iter().flat_map(|t| &t.vertices) {
+        let fine = [v.depth, v.varying.x].map(|number| (number * f64::from(SUBPIXELS)) as i64);
+        for number in [i64::from(v.position.x), i64::from(v.position.y), fine[0], fine[1]] {
+            bits += number.unsigned_abs().count_ones();
+            sum += number.unsigned_abs();
+        }
+    }
+    let window = u64::from(case.window.width()) + u64::from(case.window.height());
+    (list.len(), bits, sum, window)
+}
+
+fn candidates(case: &Case, check: Check) -> Vec<Case> {
+    let (list, w) = (triangles(case), case.window);
+    let with = |window: PixelRect, list: Vec<Triangle>| Case {
+        window,
+        shape: Shape::Triangles { list, disjoint: false },
+    };
+    let mut found = Vec::new();
+    if list.len() > 1 {
+        let without = |i: usize| [&list[..i], &list[i + 1..]].concat();
+        found.extend((0..list.len()).map(|i| with(w, without(i))));
+    }
+    // What N asks has no window.
+    if check != Check::Near {
+        let sides = [[w.x1 / 2, w.y1], [w.x1, w.y1 / 2], [w.x1 - 1, w.y1], [w.x1, w.y1 - 1]];
+        let sides = sides.into_iter().filter(|[x1, y1]| *x1 > w.x0 && *y1 > w.y0);
+        found.extend(sides.map(|[x1, y1]| with(PixelRect { x1, y1, ..w }, list.to_vec())));
+    }
+    let moved = |by: &dyn Fn(SubpixelPoint) -> SubpixelPoint| {
+        let mut list = list.to_vec();
+        list.iter_mut().flat_map(|t| &mut t.vertices).for_each(|v| v.position = by(v.position));
+        with(w, list)
+    };
+    for (x_px, y_px) in [(4, 0), (0, 4), (1, 0), (0, 1)] {
+        let by = |v: i32, px: i32| v.saturating_sub(px * SUBPIXELS);
+        found.push(moved(&|p| SubpixelPoint::new(by(p.x, x_px), by(p.y, y_px))));
+    }
+    let mut corners = Vec::new();
+    for triangle in list {
+        corners.extend(triangle.corners());
+    }
+    corners.sort_by_key(|p: &SubpixelPoint| (p.x, p.y));
+    corners.dedup();
+    for corner in corners {
+        let to = |x, y| moved(&|p| if p == corner { SubpixelPoint::new(x, y) } else { p });
+        found.extend(simpler(corner.x).map(|x| to(x, corner.y)));
+        found.extend(simpler(corner.y).map(|y| to(corner.x, y)));
+    }
+    // The depths of a whole triangle, then each number alone.
+    let numbers = |change: &dyn Fn(usize, usize, &mut f64, &mut f64)| {
+        let mut list = list.to_vec();
+        for (i, triangle) in list.iter_mut().enumerate() {
+            for (j, v) in triangle.vertices.iter_mut().enumerate() {
+                change(i, j, &mut v.depth, &mut v.varying.x);
+            }
+        }
+        with(w, list)
+    };
+    for (i, triangle) in list.iter().enumerate() {
+        if check == Check::Depth {
+            for all in [0.0, 1.0] {
+                found.push(numbers(&|t, _, z, _| *z = if t == i { all } else { *z }));
+            }
+        }
+        for (j, v) in triangle.vertices.iter().enumerate() {
+            if matches!(check, Check::Depth | Check::Near) {
+                let to = |z| {
+                    numbers(&|t, c, depth, _| *depth = if (t, c) == (i, j) { z } else { *depth })
+                };
+                found.extend(simpler_number(v.depth).map(to));
+            }
+            if check == Check::Near {
+                let to =
+                    |w| numbers(&|t, c, _, old| *old = if (t, c) == (i, j) { w } else { *old });
+                // At w = 0 a corner lies nowhere.
+                found.extend(simpler_number(v.varying.x).filter(|w| *w != 0.0).map(to));
+            }
+        }
+    }
+    found
+}
+
+/// Simpler coordinates, the simplest first.
+fn simpler(value: i32) -> impl Iterator<Item = i32> {
+    let to = |step: i32| value.div_euclid(step) * step;
+    let all =
+        [0, to(SUBPIXELS) / 2, to(SUBPIXELS), to(HALF_PIXEL), value - value.signum() * SUBPIXELS];
+    all.into_iter().filter(move |v| *v != value)
+}
+
+/// Simpler numbers, the simplest first.
+fn simpler_number(value: f64) -> impl Iterator<Item = f64> {
+    let all = [0.0, 1.0, -1.0, value.trunc(), (2.0 * value).trunc() / 2.0, value - value.signum()];
+    all.into_iter().filter(move |v| *v != value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rasterproof_verify::cases::near_plane::{FAMILIES, clip_corners};
+
+    /// What fails where a fault is planted is small afterwards, and still fails.
+    #[test]
+    fn piles_and_polygons_get_small() {
+        let mut piles = 0;
+        for index in 0..40 {
+            let case = FAMILIES[0].case(1, index);
+            // Two triangles, of which one is nearer at its first corner.
+            let fails = |case: &Case| {
+                let list = triangles(case);
+                list.len() > 1 && list[0].vertices[0].depth < list[1].vertices[0].depth
+            };
+            if fails(&case) && flat(&case) == 0 {
+                let small = smaller(Check::Depth, case, fails);
+                assert!(fails(&small) && triangles(&small).len() == 2);
+                assert!(size(&small).1 <= 12, "{small:?}");
+                piles += 1;
+            }
+        }
+        let mut polygons = 0;
+        for index in 0..40 {
+            let case = FAMILIES[1].case(1, index);
+            let fails = |case: &Case| {
+                let sides = clip_corners(&triangles(case)[0]).map(|[_, _, z, w]| z + w);
+                sides.iter().filter(|side| **side < 0.0).count() == 1
+            };
+            if fails(&case) && flat(&case) == 0 {
+                let small = smaller(Check::Near, case, fails);
+                assert!(fails(&small) && flat(&small) == 0);
+                assert!(size(&small).1 <= 10, "{small:?}");
+                polygons += 1;
+            }
+        }
+        assert!(piles > 5 && polygons > 5, "{piles} {polygons}");
+    }
+}

@@ -1,0 +1,268 @@
+//! What came of it: one property after the other, passed or failed.
+
+use super::Options;
+use super::adapt_case;
+use super::ask::Misbehaviour;
+use super::declared::Declared;
+use super::failures::Failure;
+use super::recognise::Said;
+use super::run::{Found, Row};
+use super::windings::Windings;
+
+/// How a property came out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Outcome {
+    /// It holds.
+    Pass,
+    /// It does not hold.
+    Fail,
+    /// It does not hold, as the baseline says.
+    ExpectedFailure,
+    /// The baseline says that it does not hold, and it does.
+    UnexpectedPass,
+}
+
+impl Outcome {
+    /// Whether nothing is to be done.
+    #[must_use]
+    pub fn is_good(self) -> bool {
+        matches!(self, Self::Pass | Self::ExpectedFailure)
+    }
+}
+
+/// A property and how it came out.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct Property {
+    /// Its name.
+    pub name: &'static str,
+    /// What it says.
+    pub about: String,
+    /// How it came out.
+    pub outcome: Outcome,
+    /// What was found, in a sentence.
+    pub detail: String,
+}
+
+/// The outcome of a run.
+#[derive(Clone, Debug)]
+pub struct Verdict {
+    /// What the program says of itself.
+    pub declared: Declared,
+    /// Decides the cases.
+    pub seed: u64,
+    /// Cases of each family that were asked for.
+    pub cases: u64,
+    /// Which windings it draws.
+    pub windings: Windings,
+    /// What was recognised, if it does not draw as it declares.
+    pub recognised: Option<Said>,
+    /// Everything that was found; rows in the order of the catalogue.
+    pub found: Found,
+    /// Failing cases, shrunk.
+    pub failures: Vec<Failure>,
+    /// The end of what it wrote on standard error.
+    pub complaints: Vec<String>,
+    /// Every property that was judged.
+    pub properties: Vec<Property>,
+}
+
+/// How far a program agrees.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+pub struct Score {
+    /// Wrong pixels.
+    pub wrong: u64,
+    /// Pixels expected.
+    pub pixels: u64,
+    /// Triangles and lines of which the convention says nothing.
+    pub unscored: u64,
+}
+
+/// Wrong pixels per million expected; cases where nothing is expected count as one pixel.
+#[must_use]
+pub fn per_million(wrong: u64, pixels: u64) -> f64 {
+    1e6 * wrong as f64 / pixels.max(1) as f64
+}
+
+/// What the checks over all families say.
+const CHECKS: [(&str, &str); 5] = [
+    ("watertight", "meshes have no holes and no pixels drawn by two triangles"),
+    ("vertex-order", "the order of the vertices does not change the picture"),
+    ("values", "values lie within the tolerance of the exact ones"),
+    ("samples4", "four samples a pixel are covered as the oracle says"),
+    ("line-direction", "a line drawn backwards lights the same pixels"),
+];
+
+impl Verdict {
+    /// Sorts out what was found.
+    #[must_use]
+    pub fn new(
+        declared: Declared,
+        options: &Options,
+        windings: Windings,
+        recognised: Option<Said>,
+        mut found: Found,
+        failures: Vec<Failure>,
+        complaints: Vec<String>,
+    ) -> Self {
+        let families = adapt_case::families(&[]);
+        let rank = |row: &Row| {
+            let family = families.iter().position(|f| f.name == row.name);
+            family.unwrap_or_else(|| {
+                families.len() + CHECKS.iter().position(|(name, _)| *name == row.name).unwrap_or(0)
+            })
+        };
+        found.rows.sort_by_key(rank);
+        let mut verdict = Self {
+            declared,
+            seed: options.seed,
+            cases: options.cases,
+            windings,
+            recognised,
+            found,
+            failures,
+            complaints,
+            properties: Vec::new(),
+        };
+        verdict.properties = verdict.judge();
+        verdict
+    }
+
+    fn judge(&self) -> Vec<Property> {
+        let property = |name, about: &str, holds: bool, detail: String| Property {
+            name,
+            about: about.to_owned(),
+            outcome: if holds { Outcome::Pass } else { Outcome::Fail },
+            detail,
+        };
+        let mut all = vec![property(
+            "protocol",
+            "every request is answered in time, once and in order",
+            self.keeps_protocol(),
+            self.manners(),
+        )];
+        if self.windings.is_known() {
+            let w = &self.windings;
+            let counts = format!(
+                "{} of {} clockwise and {} of {} counter-clockwise plain triangles, seen with y down",
+                w.clockwise[0], w.clockwise[1], w.counter_clockwise[0], w.counter_clockwise[1]
+            );
+            let is_declared = w.seen() == Some(self.declared.seen_winding());
+            let declared = self.declared.winding.word();
+            all.push(property("draws", "it draws at all", w.any(), counts.clone()));
+            let about = format!("it draws the declared winding ({declared})");
+            all.push(property("winding", &about, is_declared, counts));
+        }
+        for row in &self.found.rows {
+            let about = about(row.name);
+            all.push(property(row.name, &about, row.wrong_cases == 0, sentence(row)));
+        }
+        all
+    }
+
+    /// Whether every request was answered as the protocol says.
+    #[must_use]
+    pub fn keeps_protocol(&self) -> bool {
+        self.found.incidents.is_empty() && self.found.strays.is_empty() && !self.found.gave_up
+    }
+
+    /// How it kept the protocol, in a sentence.
+    fn manners(&self) -> String {
+        let whats = self.found.incidents.iter().map(|i| &i.what).chain(&self.found.strays);
+        let mut words: Vec<&str> = whats.map(Misbehaviour::word).collect();
+        words.sort_unstable();
+        words.dedup();
+        if words.is_empty() {
+            format!("{} answers", self.found.answered)
+        } else {
+            format!("it {}; {} answers", words.join(", "), self.found.answered)
+        }
+    }
+
+    /// Whether nothing is to be done.
+    #[must_use]
+    pub fn agrees(&self) -> bool {
+        self.properties.iter().all(|p| p.outcome.is_good())
+    }
+
+    /// Triangles or lines that were judged against an expected picture.
+    #[must_use]
+    pub fn shapes(&self, lines: bool) -> u64 {
+        let is_lines = |row: &&Row| row.name.starts_with("line-") == lines;
+        self.pictures().filter(is_lines).map(|row| row.shapes).sum()
+    }
+
+    /// Rows that compare with an expected picture; not those that compare answers.
+    pub fn pictures(&self) -> impl Iterator<Item = &Row> {
+        let compares =
+            |name: &str| ["watertight", "vertex-order", "line-direction"].contains(&name);
+        self.found.rows.iter().filter(move |row| !compares(row.name))
+    }
+
+    /// The score as declared.
+    #[must_use]
+    pub fn as_declared(&self) -> Score {
+        self.score(None, |row| (row.tally.total(), row.pixels, 0))
+    }
+
+    /// The score by the convention that was recognised; nothing where nothing was, or is explained.
+    #[must_use]
+    pub fn by_convention(&self) -> Option<Score> {
+        let score = || {
+            self.score(None, |row| (row.recognised.total(), row.recognised_pixels, row.unscored))
+        };
+        self.recognised.as_ref().filter(|said| said.is_explained).map(|_| score())
+    }
+
+    /// Sums over the rows, those of lines or of triangles alone where that is asked.
+    #[must_use]
+    pub fn score(&self, lines: Option<bool>, of: impl Fn(&Row) -> (u64, u64, u64)) -> Score {
+        let is_asked = |row: &&Row| lines.is_none_or(|l| row.name.starts_with("line-") == l);
+        // Samples, corners of polygons and pixels of piles are no pixels of a triangle.
+        let others = ["samples4", "depth-order", "near-plane"];
+        let rows = self.pictures().filter(|row| !others.contains(&row.name)).filter(is_asked);
+        rows.map(of).fold(Score::default(), |sum, (wrong, pixels, unscored)| Score {
+            wrong: sum.wrong + wrong,
+            pixels: sum.pixels + pixels,
+            unscored: sum.unscored + unscored,
+        })
+    }
+}
+
+/// What a property says.
+fn about(name: &str) -> String {
+    if let Some((_, about)) = CHECKS.iter().find(|(check, _)| *check == name) {
+        return (*about).to_owned();
+    }
+    let family = adapt_case::families(&[]).into_iter().find(|f| f.name == name);
+    family.map_or_else(String::new, |f| format!("as expected: {}", f.about))
+}
+
+/// What was found, in a sentence.
+#[must_use]
+pub fn sentence(row: &Row) -> String {
+    let mut out = match row.wrong_cases {
+        0 => format!("{} cases agree", row.cases),
+        n => format!("wrong in {n} of {} cases", row.cases),
+    };
+    let (missing, twice) =
+        if row.name == "watertight" { ("holes", "drawn by two") } else { ("missing", "twice") };
+    let counts = [
+        (row.tally.missing, missing),
+        (row.tally.extra, "extra"),
+        (row.tally.twice, twice),
+        (row.tally.order, "out of order"),
+        (row.refused, "refused"),
+        (row.deaths, "without an answer"),
+    ];
+    for (n, what) in counts.iter().filter(|(n, _)| *n > 0) {
+        out += &format!(", {n} {what}");
+    }
+    if row.values > 0 {
+        out += &format!(", worst value at {:.2e} of the tolerance", row.worst);
+    }
+    if row.stopped {
+        out += ", then given up";
+    }
+    out
+}

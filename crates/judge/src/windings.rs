@@ -1,0 +1,102 @@
+//! The first stages: does it draw at all, and which windings.
+
+use super::adapt_case;
+use super::ask::{Answer, Ask, Asked, Question};
+use super::check::picture_of;
+use super::declared::{Declared, Winding};
+use super::expected::{Declaration, Expect as _, area2};
+use rasterproof_core::grid::PixelRect;
+use rasterproof_core::triangle::Corners;
+use rasterproof_verify::cases::Shape;
+
+/// How many plain triangles of each winding were drawn; seen on a screen with y down.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
+pub struct Windings {
+    /// Clockwise triangles with any pixel, and those that were answered.
+    pub clockwise: [u64; 2],
+    /// Counter-clockwise triangles with any pixel, and those that were answered.
+    pub counter_clockwise: [u64; 2],
+}
+
+/// Plain triangles that are asked in both windings.
+const PROBES: u64 = 32;
+/// A triangle with fewer pixels says nothing about its winding.
+const FEW_PIXELS: u64 = 12;
+
+impl Windings {
+    fn drawn([drawn, answered]: [u64; 2]) -> bool {
+        2 * drawn > answered
+    }
+
+    /// Whether most of either are drawn.
+    #[must_use]
+    pub fn any(&self) -> bool {
+        Self::drawn(self.clockwise) || Self::drawn(self.counter_clockwise)
+    }
+
+    /// Whether triangles were asked and answered.
+    #[must_use]
+    pub fn is_known(&self) -> bool {
+        self.clockwise[1] > 0 && self.counter_clockwise[1] > 0
+    }
+
+    /// What is drawn as the protocol's word, as seen; nothing where none is.
+    #[must_use]
+    pub fn seen(&self) -> Option<Winding> {
+        match (Self::drawn(self.clockwise), Self::drawn(self.counter_clockwise)) {
+            (true, true) => Some(Winding::Both),
+            (true, false) => Some(Winding::Clockwise),
+            (false, true) => Some(Winding::CounterClockwise),
+            (false, false) => None,
+        }
+    }
+}
+
+/// Asks plain triangles in both windings.
+pub fn windings(program: &mut dyn Ask, seed: u64) -> Windings {
+    let declared = program.declared().clone();
+    let mut windings = Windings::default();
+    if !declared.coverage {
+        return windings;
+    }
+    let family = adapt_case::families(&["uniform".to_owned()])[0];
+    let plain = (0..8 * PROBES).filter_map(|index| {
+        let case = adapt_case::put(family.case(seed, index), &declared);
+        let Shape::Triangles { list, .. } = &case.shape else { return None };
+        let corners = list[0].corners();
+        let is_plain =
+            !adapt_case::leaves_window(&case) && is_fat(&corners, case.window, &declared);
+        is_plain.then_some((case.window, corners))
+    });
+    let plain: Vec<_> = plain.take(PROBES as usize).collect();
+    let mut questions = Vec::with_capacity(2 * plain.len());
+    for (window, [a, b, c]) in &plain {
+        for corners in [[*a, *b, *c], [*a, *c, *b]] {
+            let (width, height) = (window.width(), window.height());
+            questions.push(Question { width, height, of: Asked::Coverage(corners) });
+        }
+    }
+    for (question, answer) in questions.iter().zip(program.ask(&questions, super::run::MOST_DEATHS))
+    {
+        let Asked::Coverage(corners) = &question.of else { continue };
+        let window = PixelRect::window(question.width, question.height);
+        count(&mut windings, corners, window, &answer);
+    }
+    windings
+}
+
+fn is_fat(corners: &Corners, window: PixelRect, declared: &Declared) -> bool {
+    let any = Declaration { winding: Winding::Both, ..Declaration::from(declared) };
+    any.picture(corners, window).is_some_and(|picture| {
+        let pixels = picture.must.iter().map(|r| u64::from(r.x0_px.abs_diff(r.x1_px)));
+        pixels.sum::<u64>() >= FEW_PIXELS
+    })
+}
+
+fn count(windings: &mut Windings, corners: &Corners, window: PixelRect, answer: &Answer) {
+    let Some(drawn) = picture_of(answer, window) else { return };
+    let of =
+        if area2(corners) > 0 { &mut windings.clockwise } else { &mut windings.counter_clockwise };
+    of[0] += u64::from(drawn.covered() > 0);
+    of[1] += 1;
+}

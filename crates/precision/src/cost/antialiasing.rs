@@ -1,0 +1,124 @@
+//! The ladder of antialiasing: how far sampled shares are from exact areas, and what they take.
+//!
+//! The error is the root of the mean square over the pixels that some edge passes through; pixels
+//! wholly inside or outside are right with any number of samples.
+
+use std::cell::RefCell;
+
+use super::scene::{Scene, Size, W_PREFIX, scenes};
+use super::{Board, Column, Ladder, Measure, Options, Prepared, Rung, finish};
+use crate::ladder::antialiasing::{Antialias, ExactArea, FOUR, Multisample, ONE, Supersample};
+use crate::ladder::{area, snap};
+use rasterproof_core::frame::Frame;
+use rasterproof_core::raster::scanline::Scanline;
+use rasterproof_core::triangle::Corners;
+
+fn measures() -> Vec<Measure> {
+    let title = "root mean square distance from the exact share, over the pixels on an edge";
+    vec![Measure::new(title, "rms", Some(0.0))]
+}
+
+struct Contender {
+    rung: Rung,
+    make: fn() -> Box<dyn Antialias>,
+}
+
+fn contenders() -> Vec<Contender> {
+    let new = |name, about, exact: bool, make| Contender {
+        rung: Rung::new(name, about, if exact { &[0] } else { &[] }),
+        make,
+    };
+    vec![
+        new("1x", "the centre", false, || Box::new(Multisample::new(Scanline, ONE))),
+        new("4x multisample", "the standard pattern of four", false, || {
+            Box::new(Multisample::new(Scanline, FOUR))
+        }),
+        new("2x2 supersample", "a window twice as large", false, || {
+            Box::new(Supersample::new(Scanline, 2))
+        }),
+        new("4x4 supersample", "a window four times as large", false, || {
+            Box::new(Supersample::new(Scanline, 4))
+        }),
+        new("8x8 supersample", "a window eight times as large", false, || {
+            Box::new(Supersample::new(Scanline, 8))
+        }),
+        new("exact area", "whole numbers, rounded once: the reference", true, || {
+            Box::new(ExactArea)
+        }),
+    ]
+}
+
+/// The exact shares, and the pixels on an edge.
+struct Truth {
+    shares: Frame<f64>,
+    on_edge: Frame<bool>,
+    pixels: u64,
+}
+
+fn truth(triangles: &[Corners], scene: &Scene) -> Truth {
+    let bounds = scene.bounds;
+    let (mut shares, mut on_edge) = (Frame::new(bounds, 0.0), Frame::new(bounds, false));
+    let mut sum = 0.0;
+    for corners in triangles {
+        area::shares(corners, bounds, |x_px, y_px, share| {
+            let x = (x_px - bounds.x0) as usize;
+            shares.row_mut(y_px)[x] += share;
+            on_edge.row_mut(y_px)[x] |= share < 1.0;
+            sum += share;
+        });
+    }
+    Truth { shares, on_edge, pixels: sum as u64 }
+}
+
+fn root_mean_square(actual: &Frame<f64>, truth: &Truth) -> f64 {
+    let (mut sum, mut count) = (0.0, 0u64);
+    for (y_px, row) in truth.on_edge.rows() {
+        let pairs = actual.row(y_px).iter().zip(truth.shares.row(y_px));
+        for ((actual, exact), _) in pairs.zip(row).filter(|(_, on_edge)| **on_edge) {
+            sum += (actual - exact) * (actual - exact);
+            count += 1;
+        }
+    }
+    (sum / count.max(1) as f64).sqrt()
+}
+
+/// Measures the ladder.
+pub(super) fn measure(options: &Options, progress: &dyn Fn(f64, &str)) -> Board {
+    let ladder = Ladder::Antialiasing;
+    let pixels = if options.quick { 8_000 } else { 30_000 };
+    let scenes = scenes(options.seed, Size { side_px: 256, pixels });
+    let contenders = contenders();
+    let triangles: Vec<Vec<Corners>> =
+        scenes.iter().map(|scene| scene.triangles.iter().filter_map(snap).collect()).collect();
+    let targets: Vec<_> =
+        scenes.iter().map(|scene| RefCell::new(Frame::new(scene.bounds, 0.0))).collect();
+    let mut columns = Vec::new();
+    let mut prepared: Vec<Vec<Prepared<'_>>> = contenders.iter().map(|_| Vec::new()).collect();
+    for (i, scene) in scenes.iter().enumerate() {
+        progress(0.3 * i as f64 / scenes.len() as f64, ladder.title());
+        let (about, items) = (scene.about.to_owned(), triangles[i].len() as u64);
+        if scene.name.starts_with(W_PREFIX) {
+            let why = "coverage does not depend on w";
+            prepared.iter_mut().for_each(|row| row.push(Prepared::NotRun(why.to_owned())));
+            columns.push(Column::new(scene.name, about, items, 0));
+            continue;
+        }
+        let truth = truth(&triangles[i], scene);
+        for (contender, row) in contenders.iter().zip(&mut prepared) {
+            let (triangles, target) = (&triangles[i], &targets[i]);
+            let mut rung = (contender.make)();
+            rung.draw(triangles, &mut target.borrow_mut());
+            let error = root_mean_square(&target.borrow(), &truth);
+            row.push(Prepared::Ready {
+                errors: vec![Some(error)],
+                work: None,
+                pass: Box::new(move || {
+                    rung.draw(std::hint::black_box(triangles), &mut target.borrow_mut());
+                }),
+            });
+        }
+        columns.push(Column::new(scene.name, about, items, truth.pixels));
+    }
+    let rungs = contenders.iter().map(|contender| contender.rung.clone()).collect();
+    finish((ladder, measures()), (rungs, columns), prepared, options, progress)
+}

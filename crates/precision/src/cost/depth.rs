@@ -1,0 +1,218 @@
+//! The ladder of depth: how far apart two surfaces must be to be told apart, and how many pixels show
+//! the wrong one of two nearly coplanar layers.
+//!
+//! The columns are distances from the eye. The layers lie a ten-thousandth of the distance apart.
+
+use super::scene::{Size, scenes};
+use super::{Board, Column, Ladder, Measure, Options, Prepared, Rung, finish};
+use crate::ladder::Real;
+use crate::ladder::depth::{FAR, Fixed24, Format, Forward, NEAR, Reversed, stored};
+use rasterproof_core::arrays::Each as _;
+use rasterproof_verify::cases::Rng;
+
+/// Distances from the eye; the last is that of the classic table.
+const DISTANCES: [(&str, f64); 5] =
+    [("z 1", 1.0), ("z 10", 10.0), ("z 100", 100.0), ("z 500", 500.0), ("z 990", 990.0)];
+/// How far apart the layers are, over the distance.
+const APART: f64 = 1e-4;
+const SIDE_PX: usize = 64;
+
+fn measures() -> Vec<Measure> {
+    vec![
+        Measure::new(
+            "pixels per million showing the wrong one of two layers z / 10,000 apart",
+            "wrong/M",
+            Some(0.0),
+        ),
+        Measure::new(
+            "gap: the least distance behind z that is stored as another depth",
+            "gap",
+            None,
+        ),
+        Measure::new("step: the largest such gap over a thousand distances around z", "step", None),
+    ]
+}
+
+/// Two layers over a tile of pixels, as the depths at three of its corners.
+struct Layers {
+    /// Distances from the eye at the corners (0, 0), (SIDE, 0), (0, SIDE) of the front layer.
+    front: [f64; 3],
+}
+
+impl Layers {
+    fn back(&self) -> [f64; 3] {
+        self.front.each(|z| z * (1.0 + APART))
+    }
+}
+
+fn layers(seed: u64, name: &str, z: f64, count: usize) -> Vec<Layers> {
+    let mut rng = Rng::new(name, seed, 2);
+    // Slanted by up to a percent of the distance, within the planes.
+    let near = |rng: &mut Rng| (z * (1.0 + 0.01 * rng.signed())).clamp(NEAR, FAR / (1.0 + APART));
+    (0..count).map(|_| Layers { front: [(); 3].each(|()| near(&mut rng)) }).collect()
+}
+
+/// Depth over a tile as a plane, at pixel centres, in the float of the format.
+struct Plane<T> {
+    start: T,
+    per_x: T,
+    per_y: T,
+}
+
+impl<T: Real> Plane<T> {
+    #[inline]
+    fn new<F: Format<Float = T>>(z: [f64; 3]) -> Self {
+        let [a, b, c] = z.each(|z| T::of(F::depth(z)));
+        let side = T::of(1.0 / SIDE_PX as f64);
+        let (per_x, per_y) = ((b - a) * side, (c - a) * side);
+        Self { start: a + per_x * T::HALF + per_y * T::HALF, per_x, per_y }
+    }
+
+    #[inline]
+    fn at(&self, x: usize, y: usize) -> T {
+        self.start + self.per_x * T::of(x as f64) + self.per_y * T::of(y as f64)
+    }
+}
+
+/// Draws all back layers, then all front ones, a tile beside the other; 2 marks the pixels that a
+/// front one got.
+#[inline]
+fn draw<F: Format>(layers: &[Layers], buffer: &mut [F::Stored], colours: &mut [u8]) {
+    const TILE: usize = SIDE_PX * SIDE_PX;
+    for (layers, (held, colours)) in
+        layers.iter().zip(buffer.chunks_exact_mut(TILE).zip(colours.chunks_exact_mut(TILE)))
+    {
+        let back = Plane::<F::Float>::new::<F>(layers.back());
+        for (i, (held, colour)) in held.iter_mut().zip(colours).enumerate() {
+            *held = F::store(back.at(i % SIDE_PX, i / SIDE_PX));
+            *colour = 1;
+        }
+    }
+    for (layers, (held, colours)) in
+        layers.iter().zip(buffer.chunks_exact_mut(TILE).zip(colours.chunks_exact_mut(TILE)))
+    {
+        let front = Plane::<F::Float>::new::<F>(layers.front);
+        for (i, (held, colour)) in held.iter_mut().zip(colours).enumerate() {
+            let depth = F::store(front.at(i % SIDE_PX, i / SIDE_PX));
+            if F::hides(depth, *held) {
+                (*held, *colour) = (depth, 2);
+            }
+        }
+    }
+}
+
+/// The least distance behind `z` that is stored as another depth, by bisection; at most FAR - z.
+fn gap<F: Format>(z: f64) -> f64 {
+    let at_z = stored::<F>(z);
+    let differs = |d: f64| stored::<F>(z + d) != at_z;
+    let (mut low, mut high) = (0.0, FAR - z);
+    while low < high {
+        let middle = low + (high - low) / 2.0;
+        // The two are neighbours.
+        if middle <= low || middle >= high {
+            break;
+        }
+        if differs(middle) { high = middle } else { low = middle }
+    }
+    high
+}
+
+/// The largest gap near `z`.
+fn step<F: Format>(z: f64) -> f64 {
+    // Whole numbers over a number that no power of two divides hit all phases of a step.
+    (0..1000).map(|i| gap::<F>(z * (1.0 - 0.003 * f64::from(i) / 1013.0))).fold(0.0, f64::max)
+}
+
+trait AnyFormat {
+    fn errors(&self, z: f64, layers: &[Layers]) -> Vec<Option<f64>>;
+    fn pass<'a>(&self, layers: &'a [Layers]) -> Box<dyn FnMut() + 'a>;
+}
+
+impl<F: Format + 'static> AnyFormat for F {
+    fn errors(&self, z: f64, layers: &[Layers]) -> Vec<Option<f64>> {
+        let pixels = layers.len() * SIDE_PX * SIDE_PX;
+        let (mut buffer, mut colours) = (vec![stored::<F>(FAR); pixels], vec![0u8; pixels]);
+        draw::<F>(layers, &mut buffer, &mut colours);
+        let wrong = colours.iter().filter(|&&colour| colour != 2).count();
+        let per_million = wrong as f64 * 1e6 / pixels as f64;
+        vec![Some(per_million), Some(gap::<F>(z)), Some(step::<F>(z))]
+    }
+
+    fn pass<'a>(&self, layers: &'a [Layers]) -> Box<dyn FnMut() + 'a> {
+        let pixels = layers.len() * SIDE_PX * SIDE_PX;
+        let (mut buffer, mut colours) = (vec![stored::<F>(FAR); pixels], vec![0u8; pixels]);
+        Box::new(move || {
+            draw::<F>(std::hint::black_box(layers), &mut buffer, &mut colours);
+            std::hint::black_box(&buffer);
+        })
+    }
+}
+
+fn contenders() -> Vec<(Rung, Box<dyn AnyFormat>)> {
+    let rung = |name, about| Rung::new(name, about, &[]);
+    vec![
+        (rung("24-bit", "whole numbers, 0 at the near plane"), Box::new(Fixed24)),
+        (rung("f32", "-1 at the near plane"), Box::new(Forward::<f32>::default())),
+        (rung("f32 reversed", "1 at the near plane"), Box::new(Reversed::<f32>::default())),
+        (rung("f64", "-1 at the near plane"), Box::new(Forward::<f64>::default())),
+    ]
+}
+
+/// Measures the ladder.
+pub(super) fn measure(options: &Options, progress: &dyn Fn(f64, &str)) -> Board {
+    let ladder = Ladder::Depth;
+    let contenders = contenders();
+    // A million pixels, so that the size of a depth counts as well.
+    let tiles = if options.quick { 16 } else { 256 };
+    let made: Vec<_> =
+        DISTANCES.iter().map(|&(name, z)| layers(options.seed, name, z, tiles)).collect();
+    let mut columns = Vec::new();
+    let mut prepared: Vec<Vec<Prepared<'_>>> = contenders.iter().map(|_| Vec::new()).collect();
+    for (i, &(name, z)) in DISTANCES.iter().enumerate() {
+        progress(0.3 * i as f64 / DISTANCES.len() as f64, ladder.title());
+        for ((_, format), row) in contenders.iter().zip(&mut prepared) {
+            let (errors, pass) = (format.errors(z, &made[i]), format.pass(&made[i]));
+            row.push(Prepared::Ready { errors, work: None, pass });
+        }
+        let about = format!("{z} from the eye, planes at {NEAR} and {FAR}");
+        let pixels = (2 * tiles * SIDE_PX * SIDE_PX) as u64;
+        columns.push(Column::new(name, about, 2 * tiles as u64, pixels));
+    }
+    for class in scenes(options.seed, Size { side_px: 64, pixels: 0 }) {
+        let why = "depth depends on the distance from the eye, not on the shape";
+        prepared.iter_mut().for_each(|row| row.push(Prepared::NotRun(why.to_owned())));
+        columns.push(Column::new(class.name, class.about.to_owned(), 0, 0));
+    }
+    let rungs = contenders.iter().map(|(rung, _)| rung.clone()).collect();
+    finish((ladder, measures()), (rungs, columns), prepared, options, progress)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The table of the design, measured: n = 0.1, f = 1000, z = 990.
+    #[test]
+    fn gaps_as_in_the_table() {
+        let near = |measured: f64, known: f64| {
+            assert!((measured / known - 1.0).abs() < 0.05, "{measured} {known}");
+        };
+        near(gap::<Fixed24>(990.0), 0.26);
+        near(gap::<Forward<f32>>(990.0), 0.116);
+        near(gap::<Reversed<f32>>(990.0), 5.9e-7);
+        near(gap::<Forward<f64>>(990.0), 5.3e-10);
+    }
+
+    /// A step of depth d is d z^2 (f - n) / (f n) of distance: what theory says of each format. Floats
+    /// in [-1, 1] have the steps of 2^-24 near 1 and twice the slope.
+    #[test]
+    fn steps_as_theory_says() {
+        let at = |ulp: f64, z: f64| ulp * z * z * (FAR - NEAR) / (FAR * NEAR);
+        for (measured, theory) in [
+            (step::<Fixed24>(500.0), at(1.0 / f64::from((1 << 24) - 1), 500.0)),
+            (step::<Forward<f32>>(500.0), at(f64::from(f32::EPSILON) / 4.0, 500.0)),
+        ] {
+            assert!((0.97..1.01).contains(&(measured / theory)), "{measured} {theory}");
+        }
+    }
+}

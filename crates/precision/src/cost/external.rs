@@ -1,0 +1,31 @@
+//! Somebody from outside the house on a ladder of coverage, who draws lists: a graphics card.
+
+use super::Rung;
+use rasterproof_core::grid::PixelRect;
+use rasterproof_core::triangle::{FreeCorners, Span};
+
+/// Somebody who fills triangles, and is judged and timed as the rungs are.
+pub trait Guest {
+    /// What it is.
+    fn rung(&self) -> Rung;
+
+    /// The pixels of each triangle.
+    ///
+    /// # Errors
+    /// The reason why it draws no such list.
+    fn spans(
+        &mut self,
+        triangles: &[FreeCorners],
+        bounds: PixelRect,
+    ) -> Result<Vec<Vec<Span>>, String>;
+
+    /// Gets ready to fill all of them; what is returned does so, and is timed.
+    ///
+    /// # Errors
+    /// The reason why it draws no such list.
+    fn pass(
+        &mut self,
+        triangles: &[FreeCorners],
+        bounds: PixelRect,
+    ) -> Result<Box<dyn FnMut()>, String>;
+}

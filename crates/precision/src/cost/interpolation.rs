@@ -1,0 +1,391 @@
+//! The ladder of interpolation: how far values are from the exact ones, and what they take.
+//!
+//! Spans come from the exact scanline and are not timed. Errors are taken at a sample of the pixels,
+//! against quotients of big integers; each rung with a derived bound is also held to that.
+
+use std::cell::RefCell;
+
+use super::bounds::{Bound, Place, largest};
+use super::scene::{Scene, Size, scenes};
+use super::tiles::{Planes, box_of};
+use super::{Board, Column, Ladder, Measure, Options, Prepared, Rung, finish};
+use crate::ladder::interpolation::{
+    Accumulated, Affine, BookFormula, Direct, EverySixteen, Offset, Plane, Valued, Values,
+};
+use crate::ladder::{Real, snap};
+use rasterproof_core::arrays::Each as _;
+use rasterproof_core::contract::Rasterize;
+use rasterproof_core::frame::Frame;
+use rasterproof_core::raster::scanline::Scanline;
+use rasterproof_core::triangle::Span;
+use rasterproof_verify::oracle::values::{Exact, ExactTriangle};
+
+/// Half a step of 8 bits over [0, M]: nobody sees less.
+const HALF_STEP: f64 = 1.0 / 512.0;
+
+fn measures() -> Vec<Measure> {
+    vec![
+        Measure::new(
+            "worst error over M, the largest value of a vertex",
+            "error / M",
+            Some(HALF_STEP),
+        ),
+        Measure::new("worst error in units of u M, u of the float used", "u M", None),
+        Measure::new("worst error over its derived bound", "of bound", None),
+    ]
+}
+
+/// What the measurements need of a rung, without its type.
+trait AnyValues {
+    fn each(&self, drawn: &Drawn, emit: &mut dyn FnMut(i32, i32, f64));
+    fn paint(&self, drawn: &[Drawn], target: &mut Frame<f32>);
+}
+
+impl<R: Values> AnyValues for R {
+    fn each(&self, Drawn { triangle, spans }: &Drawn, emit: &mut dyn FnMut(i32, i32, f64)) {
+        self.values(triangle, spans, emit);
+    }
+
+    fn paint(&self, drawn: &[Drawn], target: &mut Frame<f32>) {
+        let x0 = target.bounds().x0;
+        for Drawn { triangle, spans } in drawn {
+            self.values(triangle, spans, |x_px, y_px, value| {
+                target.row_mut(y_px)[(x_px - x0) as usize] = value as f32;
+            });
+        }
+    }
+}
+
+impl AnyValues for Planes {
+    fn each(&self, Drawn { triangle, spans }: &Drawn, emit: &mut dyn FnMut(i32, i32, f64)) {
+        self.runs(triangle, spans, &mut |x_px, y_px, values| {
+            for (x_px, &value) in (x_px..).zip(values) {
+                emit(x_px, y_px, value.into());
+            }
+        });
+    }
+
+    fn paint(&self, drawn: &[Drawn], target: &mut Frame<f32>) {
+        for Drawn { triangle, spans } in drawn {
+            self.runs(triangle, spans, &mut |x_px, y_px, values| {
+                let run = target.span_mut(y_px, x_px, x_px + values.len() as i32);
+                run.copy_from_slice(values);
+            });
+        }
+    }
+}
+
+/// The oracle as a rung: the exact quotient at every pixel, rounded once.
+#[derive(Clone, Copy, Debug)]
+struct Rational;
+
+impl Values for Rational {
+    fn values(&self, triangle: &Valued, spans: &[Span], mut emit: impl FnMut(i32, i32, f64)) {
+        let Some(exact) = exact(triangle) else { return };
+        for span in spans {
+            for x_px in span.x0_px..span.x1_px {
+                let (_, [value]) = exact.at(x_px, span.y_px);
+                emit(x_px, span.y_px, value.to_f64());
+            }
+        }
+    }
+}
+
+fn exact(triangle: &Valued) -> Option<ExactTriangle<1>> {
+    let Valued { corners, inv_w, value } = triangle;
+    ExactTriangle::new(corners, [0.0; 3], *inv_w, value.each(|v| [v]))
+}
+
+/// A triangle and the rows it covers.
+struct Drawn {
+    triangle: Valued,
+    spans: Vec<Span>,
+}
+
+struct Contender {
+    rung: Rung,
+    bound: Bound,
+    unit: f64,
+    body: Box<dyn AnyValues>,
+}
+
+fn contender<T: Real>(
+    name: &'static str,
+    about: &'static str,
+    bound: Bound,
+    body: impl Values + 'static,
+) -> Contender {
+    // 13 D + M is at most 27 M, far below the goal with either float.
+    let promises =
+        if matches!(bound, Bound::Offset | Bound::Rounded) { vec![0] } else { Vec::new() };
+    Contender {
+        rung: Rung::new(name, about, &promises),
+        bound,
+        unit: T::UNIT,
+        body: Box::new(body),
+    }
+}
+
+fn contenders() -> Vec<Contender> {
+    vec![
+        contender::<f32>("affine", "f32, w ignored", Bound::Affine, Affine::<f32>::default()),
+        contender::<f32>(
+            "every 16 px",
+            "f32, one division for 16 pixels, as Quake did",
+            Bound::EverySixteen,
+            EverySixteen::<f32>::default(),
+        ),
+        contender::<f32>(
+            "book (8)",
+            "f32, the book's formula with t accumulated",
+            Bound::BookFormula,
+            BookFormula::<f32>::default(),
+        ),
+        contender::<f32>(
+            "1/w added up",
+            "f32, 1/w and v/w accumulated along the row",
+            Bound::Accumulated,
+            Accumulated::<f32>::default(),
+        ),
+        contender::<f32>(
+            "1/w direct",
+            "f32, 1/w and v/w at each pixel",
+            Bound::Direct,
+            Direct::<f32>::default(),
+        ),
+        contender::<f32>(
+            "plane",
+            "f32, 1/w and v/w as planes",
+            Bound::Plane,
+            Plane::<f32>::default(),
+        ),
+        planes(),
+        contender::<f32>(
+            "offset f32",
+            "exact edge functions as weights",
+            Bound::Offset,
+            Offset::<f32>::default(),
+        ),
+        contender::<f64>(
+            "offset f64",
+            "exact edge functions as weights",
+            Bound::Offset,
+            Offset::<f64>::default(),
+        ),
+        contender::<f64>("rational", "the oracle, rounded once", Bound::Rounded, Rational),
+    ]
+}
+
+fn planes() -> Contender {
+    let mut rung = Rung::new("planes f32 x 16", "", &[]);
+    rung.about = Planes::default().about().into();
+    let body = Box::new(Planes::default());
+    Contender { rung, bound: Bound::Tile, unit: f32::UNIT, body }
+}
+
+/// The triangles of a scene on the lattice, with w and a value at each corner.
+fn dress(scene: &Scene) -> Vec<Drawn> {
+    let dressed = scene.triangles.iter().zip(&scene.w).filter_map(|(corners, w)| {
+        let corners = snap(corners)?;
+        let mut spans = Vec::new();
+        Scanline.cover(corners, scene.bounds, |span| spans.push(span));
+        // From the positions, so that the values need no generator: within [-1, 1], exactly f32.
+        let value =
+            [0, 1, 2].each(|i| f64::from(corners[i].x % 509 - 254 + (w[i] as i32) % 2) / 256.0);
+        let inv_w = w.each(|w| f64::from((1.0 / w) as f32));
+        Some(Drawn { triangle: Valued { corners, inv_w, value }, spans })
+    });
+    dressed.collect()
+}
+
+/// The exact value at one pixel, by its number in drawing order.
+struct Sample {
+    triangle: usize,
+    /// Number of the pixel within its triangle.
+    number: usize,
+    exact: Exact,
+}
+
+/// About `count` samples of all pixels, evenly spread in drawing order.
+fn samples(drawn: &[Drawn], count: usize) -> Vec<Sample> {
+    let width = |span: &Span| span.x0_px.abs_diff(span.x1_px) as usize;
+    let pixels: usize = drawn.iter().flat_map(|d| &d.spans).map(width).sum();
+    // Odd, so that a stride does not keep step with rows of even length.
+    let stride = (pixels / count).max(1) | 1;
+    let mut samples = Vec::new();
+    let mut before = 0;
+    for (triangle, Drawn { triangle: valued, spans }) in drawn.iter().enumerate() {
+        let columns = spans.iter().flat_map(|s| (s.x0_px..s.x1_px).map(|x_px| (x_px, s.y_px)));
+        let Some(plane) = exact(valued) else { continue };
+        let mut number = 0;
+        for (x_px, y_px) in columns {
+            if (before + number) % stride == 0 {
+                let (_, [exact]) = plane.at(x_px, y_px);
+                samples.push(Sample { triangle, number, exact });
+            }
+            number += 1;
+        }
+        before += number;
+    }
+    samples
+}
+
+/// Errors of a rung at the samples: over M, in u M, over the bound.
+fn errors(contender: &Contender, drawn: &[Drawn], samples: &[Sample]) -> Vec<Option<f64>> {
+    let (mut worst, mut worst_bound) = (0f64, None::<f64>);
+    let mut samples = samples.iter().peekable();
+    for (i, of_this) in drawn.iter().enumerate() {
+        let Drawn { triangle, spans } = of_this;
+        if samples.peek().is_none_or(|sample| sample.triangle != i) {
+            continue;
+        }
+        let m = largest(triangle.value);
+        let box_px = box_of(spans).expect("it has samples");
+        let mut number = 0;
+        contender.body.each(of_this, &mut |x_px, y_px, value| {
+            if let Some(sample) = samples.next_if(|s| s.triangle == i && s.number == number) {
+                let error = sample.exact.distance(value);
+                worst = worst.max(if m > 0.0 { error / m } else { error });
+                let row = spans[0].y_px;
+                let span = spans[(y_px - row).clamp(0, spans.len() as i32 - 1) as usize];
+                let span = if span.y_px == y_px { span } else { find(spans, y_px) };
+                let place = Place { triangle, span, x_px, rows: y_px - row, box_px };
+                if let Some(bound) = contender.bound.at(&place, contender.unit) {
+                    let share = if error == 0.0 { 0.0 } else { error / bound };
+                    worst_bound = Some(worst_bound.unwrap_or(0.0).max(share));
+                }
+            }
+            number += 1;
+        });
+    }
+    vec![Some(worst), Some(worst / contender.unit), worst_bound]
+}
+
+/// The span of a row that some rows before it lack.
+fn find(spans: &[Span], y_px: i32) -> Span {
+    *spans.iter().find(|span| span.y_px == y_px).expect("values come from the rows given")
+}
+
+/// Measures the ladder.
+pub(super) fn measure(options: &Options, progress: &dyn Fn(f64, &str)) -> Board {
+    let ladder = Ladder::Interpolation;
+    let (pixels, count) = if options.quick { (8_000, 500) } else { (60_000, 4000) };
+    let scenes = scenes(options.seed, Size { side_px: 512, pixels });
+    let contenders = contenders();
+    let drawn: Vec<_> = scenes.iter().map(dress).collect();
+    let targets: Vec<_> =
+        scenes.iter().map(|scene| RefCell::new(Frame::new(scene.bounds, 0f32))).collect();
+    let mut columns = Vec::new();
+    let mut prepared: Vec<Vec<Prepared<'_>>> = contenders.iter().map(|_| Vec::new()).collect();
+    for (i, scene) in scenes.iter().enumerate() {
+        progress(0.3 * i as f64 / scenes.len() as f64, ladder.title());
+        let (drawn, target) = (&drawn[i], &targets[i]);
+        let samples = samples(drawn, count);
+        for (contender, row) in contenders.iter().zip(&mut prepared) {
+            row.push(Prepared::Ready {
+                errors: errors(contender, drawn, &samples),
+                work: None,
+                pass: Box::new(|| {
+                    contender.body.paint(std::hint::black_box(drawn), &mut target.borrow_mut());
+                }),
+            });
+        }
+        let width = |span: &Span| u64::from(span.x0_px.abs_diff(span.x1_px));
+        let pixels = drawn.iter().flat_map(|d| &d.spans).map(width).sum();
+        let about = scene.about.to_owned();
+        columns.push(Column::new(scene.name, about, drawn.len() as u64, pixels));
+    }
+    let rungs = contenders.iter().map(|contender| contender.rung.clone()).collect();
+    finish((ladder, measures()), (rungs, columns), prepared, options, progress)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The worst share of its bound that a rung reaches on every class of scenes, all pixels asked.
+    fn worst(contender: &Contender, seed: u64) -> f64 {
+        scenes(seed, Size { side_px: 64, pixels: 1500 })
+            .iter()
+            .map(|scene| {
+                let drawn = dress(scene);
+                let samples = samples(&drawn, usize::MAX);
+                assert!(samples.len() > 100, "{}", scene.name);
+                errors(contender, &drawn, &samples)[2].unwrap_or(0.0)
+            })
+            .fold(0.0, f64::max)
+    }
+
+    fn in_both<T: Real>() -> Vec<Contender> {
+        vec![
+            contender::<T>("affine", "", Bound::Affine, Affine::<T>::default()),
+            contender::<T>("sixteen", "", Bound::EverySixteen, EverySixteen::<T>::default()),
+            contender::<T>("book", "", Bound::BookFormula, BookFormula::<T>::default()),
+            contender::<T>("accumulated", "", Bound::Accumulated, Accumulated::<T>::default()),
+            contender::<T>("direct", "", Bound::Direct, Direct::<T>::default()),
+            contender::<T>("plane", "", Bound::Plane, Plane::<T>::default()),
+            contender::<T>("offset", "", Bound::Offset, Offset::<T>::default()),
+        ]
+    }
+
+    /// Every rung keeps its derived bound, in either float; and none of the bounds is idle.
+    #[test]
+    fn bounds_are_kept() {
+        let rungs = in_both::<f32>().into_iter().chain(in_both::<f64>());
+        for contender in rungs.chain(contenders()) {
+            let shares: Vec<f64> = (1..=3).map(|seed| worst(&contender, seed)).collect();
+            let name = (contender.rung.name, contender.unit);
+            assert!(shares.iter().all(|&share| share <= 1.0), "{name:?} {shares:?}");
+            assert!(shares.iter().any(|&share| share > 0.05), "{name:?} {shares:?}");
+        }
+    }
+
+    /// Each bound is exceeded by the rung with a fault planted: values of the next pixel, off by less
+    /// than anybody sees in most scenes.
+    struct Late<R>(R);
+
+    impl<R: Values> Values for Late<R> {
+        fn values(&self, triangle: &Valued, spans: &[Span], mut emit: impl FnMut(i32, i32, f64)) {
+            let mut held = 0.0;
+            self.0.values(triangle, spans, |x_px, y_px, value| {
+                // The first pixel of a row is right.
+                let is_first = spans.iter().any(|s| s.y_px == y_px && s.x0_px == x_px);
+                emit(x_px, y_px, if is_first { value } else { held });
+                held = value;
+            });
+        }
+    }
+
+    #[test]
+    fn bounds_find_planted_faults() {
+        let late = [
+            contender::<f32>("affine", "", Bound::Affine, Late(Affine::<f32>::default())),
+            contender::<f32>(
+                "sixteen",
+                "",
+                Bound::EverySixteen,
+                Late(EverySixteen::<f32>::default()),
+            ),
+            contender::<f32>("book", "", Bound::BookFormula, Late(BookFormula::<f32>::default())),
+            contender::<f32>(
+                "accumulated",
+                "",
+                Bound::Accumulated,
+                Late(Accumulated::<f32>::default()),
+            ),
+            contender::<f32>("direct", "", Bound::Direct, Late(Direct::<f32>::default())),
+            contender::<f32>("plane", "", Bound::Plane, Late(Plane::<f32>::default())),
+            contender::<f32>("planes", "", Bound::Tile, Late(Plane::<f32>::default())),
+            contender::<f32>("offset", "", Bound::Offset, Late(Offset::<f32>::default())),
+            contender::<f32>("rational", "", Bound::Rounded, Late(Rational)),
+            // The float that the bound is not for, and the model that it is not for.
+            contender::<f64>("offset", "", Bound::Offset, Offset::<f32>::default()),
+            contender::<f32>("direct", "", Bound::Direct, EverySixteen::<f32>::default()),
+            contender::<f32>("sixteen", "", Bound::EverySixteen, Affine::<f32>::default()),
+        ];
+        for contender in late {
+            let share = worst(&contender, 1);
+            assert!(share > 1.0, "{} {:?} {share}", contender.rung.name, contender.bound);
+        }
+    }
+}

@@ -1,0 +1,194 @@
+//! The ladder of lines: pixels beside the nearest one, and what drawing takes.
+
+use std::cell::RefCell;
+
+use super::scene::{Size, scenes};
+use super::{Board, Column, Ladder, Measure, Options, Prepared, Rung, finish};
+use crate::ladder::lines::{Contracted, Draw, Drifting, FixedPoint};
+use rasterproof_core::arrays::Each as _;
+use rasterproof_core::frame::Frame;
+use rasterproof_core::grid::PixelRect;
+use rasterproof_core::line::bresenham::Bresenham;
+use rasterproof_core::line::dda::Dda;
+use rasterproof_core::triangle::{LineEnd, PixelPoint, ScreenLine};
+use rasterproof_verify::cases::Rng;
+use rasterproof_verify::oracle::Oracle;
+
+type Ends = [PixelPoint; 2];
+
+fn measures() -> Vec<Measure> {
+    let title = "wrong pixels per million, against the exact line";
+    vec![Measure::new(title, "wrong/M", Some(0.0))]
+}
+
+trait AnyDraw {
+    fn accepts(&self, ends: Ends) -> Result<(), String>;
+    fn pixels(&self, ends: Ends, window: PixelRect) -> Vec<PixelPoint>;
+    fn paint(&self, lines: &[Ends], target: &mut Frame<u32>);
+}
+
+impl<D: Draw> AnyDraw for D {
+    fn accepts(&self, ends: Ends) -> Result<(), String> {
+        Draw::accepts(self, ends)
+    }
+
+    fn pixels(&self, ends: Ends, window: PixelRect) -> Vec<PixelPoint> {
+        let mut pixels = Vec::new();
+        self.draw(ends, window, |pixel| pixels.push(pixel));
+        pixels
+    }
+
+    fn paint(&self, lines: &[Ends], target: &mut Frame<u32>) {
+        let window = target.bounds();
+        for (ends, colour) in lines.iter().zip(1..) {
+            self.draw(*ends, window, |p| {
+                // Off by a row at the border, a drifting rung must not leave the frame.
+                let y_px = p.y.clamp(window.y0, window.y1 - 1);
+                let x = (p.x.clamp(window.x0, window.x1 - 1) - window.x0) as usize;
+                target.row_mut(y_px)[x] = colour;
+            });
+        }
+    }
+}
+
+struct Contender {
+    rung: Rung,
+    body: Box<dyn AnyDraw>,
+}
+
+fn contenders() -> Vec<Contender> {
+    let new = |name, about, exact: bool, body| Contender {
+        rung: Rung::new(name, about, if exact { &[0] } else { &[] }),
+        body,
+    };
+    vec![
+        new("16.16 DDA", "y += dy / dx in fixed point", false, Box::new(FixedPoint)),
+        new("f32 DDA", "y += dy / dx", false, Box::<Drifting<f32>>::default()),
+        new("f64 DDA", "y += dy / dx", false, Box::<Drifting<f64>>::default()),
+        new("Bresenham", "the line drawer bresenham", true, Box::new(Contracted(Bresenham))),
+        new("exact DDA", "the line drawer dda: whole + part / n", true, Box::new(Contracted(Dda))),
+    ]
+}
+
+/// Lines for the classes of scenes that mean something for them, and why not for the others.
+fn lines(
+    name: &str,
+    seed: u64,
+    size: &Size,
+    bounds: PixelRect,
+) -> Result<(Vec<Ends>, &'static str), String> {
+    let (most, about) = match name {
+        "large" => (900, "up to 900 px long"),
+        "25 px" => (25, "up to 25 px long"),
+        "<8 px" => (7, "up to 7 px long"),
+        "half" => (240, "halfway between two pixels at every odd multiple of a step"),
+        "tie" => (900, "dv / du next to 1/2, 1/3, 2/3, 1/4 or 3/4"),
+        "far" => (240, "up to 240 px long, 2^14 px from the origin"),
+        _ => return Err("a class of triangles, not of lines".to_owned()),
+    };
+    let mut rng = Rng::new(name, seed, 1);
+    let count = (size.pixels / (u64::from(most as u16) / 2 + 1)).max(16);
+    let side = i64::from(bounds.width());
+    let lines = (0..count).map(|_| {
+        let [du, dv] = match name {
+            "half" => {
+                // An odd rise over a power of two times two: heights of k + 1/2 occur.
+                let du = 2i64 << rng.int(0, 6);
+                [du, (2 * rng.int(0, du / 2) + 1).min(du - 1)]
+            }
+            "tie" => {
+                let (p, q) = [(1, 2), (1, 3), (2, 3), (1, 4), (3, 4)][rng.int(0, 4) as usize];
+                let k = rng.int(2, most / q - 1);
+                [q * k + rng.int(-1, 1), p * k]
+            }
+            _ => {
+                let du = rng.int(0, most);
+                [du, rng.int(0, du)]
+            }
+        };
+        let (dx, dy) = if rng.chance(2) { (du, dv) } else { (dv, du) };
+        let start = |rng: &mut Rng, d: i64, low: i32| i64::from(low) + rng.int(1, side - 2 - d);
+        let (x, y) = (start(&mut rng, dx, bounds.x0), start(&mut rng, dy, bounds.y0));
+        // Any direction: swap the ends of one axis or the other.
+        let (mut a, mut b) = ([x, y], [x + dx, y + dy]);
+        for axis in [0, 1] {
+            if rng.chance(2) {
+                std::mem::swap(&mut a[axis], &mut b[axis]);
+            }
+        }
+        [a, b].each(|[x, y]| PixelPoint::new(x as i32, y as i32))
+    });
+    Ok((lines.collect(), about))
+}
+
+fn truth(ends: Ends, window: PixelRect) -> Vec<PixelPoint> {
+    let line = ScreenLine { ends: ends.each(|pixel| LineEnd { pixel, depth: 0.0, varying: 0.0 }) };
+    let mut pixels = Vec::new();
+    Oracle.line_pixels(&line, window, |pixel, _| pixels.push(pixel));
+    pixels
+}
+
+/// Pixels of either list that are missing in the other.
+fn differences(mut ours: Vec<PixelPoint>, truth: &[PixelPoint]) -> u64 {
+    let key = |p: &PixelPoint| (p.x, p.y);
+    let mut truth = truth.to_vec();
+    ours.sort_unstable_by_key(key);
+    truth.sort_unstable_by_key(key);
+    let missing = |a: &[PixelPoint], b: &[PixelPoint]| {
+        a.iter().filter(|p| b.binary_search_by_key(&key(p), key).is_err()).count() as u64
+    };
+    // A pixel beside the line is one that is missing and one too many: count it once. Pixels drawn
+    // twice have no counterpart and add to the excess.
+    missing(&truth, &ours).max(missing(&ours, &truth)) + ours.len().abs_diff(truth.len()) as u64
+}
+
+/// Measures the ladder.
+pub(super) fn measure(options: &Options, progress: &dyn Fn(f64, &str)) -> Board {
+    let ladder = Ladder::Lines;
+    let size = Size { side_px: 1024, pixels: if options.quick { 20_000 } else { 300_000 } };
+    let contenders = contenders();
+    // The classes of the other ladders, for their names and windows.
+    let classes = scenes(options.seed, Size { side_px: size.side_px, pixels: 0 });
+    let mut columns = Vec::new();
+    let made: Vec<_> =
+        classes.iter().map(|class| lines(class.name, options.seed, &size, class.bounds)).collect();
+    let targets: Vec<_> =
+        classes.iter().map(|class| RefCell::new(Frame::new(class.bounds, 0))).collect();
+    let mut prepared: Vec<Vec<Prepared<'_>>> = contenders.iter().map(|_| Vec::new()).collect();
+    for (i, class) in classes.iter().enumerate() {
+        progress(0.3 * i as f64 / classes.len() as f64, ladder.title());
+        let (lines, about) = match &made[i] {
+            Ok(made) => made,
+            Err(why) => {
+                prepared.iter_mut().for_each(|row| row.push(Prepared::NotRun(why.clone())));
+                let about = class.about.to_owned();
+                columns.push(Column::new(class.name, about, 0, 0));
+                continue;
+            }
+        };
+        let truth: Vec<_> = lines.iter().map(|&ends| truth(ends, class.bounds)).collect();
+        let pixels: u64 = truth.iter().map(|list| list.len() as u64).sum();
+        for (contender, row) in contenders.iter().zip(&mut prepared) {
+            let refused = lines.iter().find_map(|&ends| contender.body.accepts(ends).err());
+            row.push(match refused {
+                Some(why) => Prepared::NotRun(why),
+                None => {
+                    let drawn = lines.iter().map(|&ends| contender.body.pixels(ends, class.bounds));
+                    let wrong: u64 = drawn.zip(&truth).map(|(ours, t)| differences(ours, t)).sum();
+                    let (body, target) = (&contender.body, &targets[i]);
+                    Prepared::Ready {
+                        errors: vec![Some(wrong as f64 * 1e6 / pixels.max(1) as f64)],
+                        work: None,
+                        pass: Box::new(move || {
+                            body.paint(std::hint::black_box(lines), &mut target.borrow_mut());
+                        }),
+                    }
+                }
+            });
+        }
+        let (about, items) = ((*about).to_owned(), lines.len() as u64);
+        columns.push(Column::new(class.name, about, items, pixels));
+    }
+    let rungs = contenders.iter().map(|contender| contender.rung.clone()).collect();
+    finish((ladder, measures()), (rungs, columns), prepared, options, progress)
+}

@@ -1,0 +1,295 @@
+//! What accuracy costs: every rung of a ladder on every class of scenes, verified, then timed.
+//!
+//! A [`Board`] is a value: errors are decided by the seed alone, times are of this run. The result
+//! of a rung is compared with the oracle before the rung is timed, so no time is ever shown without
+//! its error. Times are medians over interleaved rounds in one process, so that what disturbs the
+//! machine disturbs all rungs alike. It draws nothing and prints nothing.
+
+mod antialiasing;
+mod bounds;
+mod clock;
+mod coverage;
+mod depth;
+mod external;
+mod interpolation;
+mod lines;
+mod recorded;
+pub mod scene;
+mod tiles;
+mod verdict;
+
+use std::borrow::Cow;
+
+use serde::{Deserialize, Serialize};
+
+use crate::ladder::Work;
+pub use bounds::Bound;
+pub use clock::{Spread, Time};
+pub use coverage::{Contender, contenders};
+pub use external::Guest;
+pub use recorded::Recorded;
+pub use verdict::{Best, Dominated, Price, Priced, prices};
+
+/// A ladder of rungs that do the same job.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Ladder {
+    /// Coverage by walking down the edges.
+    Scanline,
+    /// Coverage by testing samples against edges.
+    EdgeFunction,
+    /// Attributes at covered pixels.
+    Interpolation,
+    /// Formats of the depth buffer.
+    Depth,
+    /// Samples for each pixel.
+    Antialiasing,
+    /// Line drawers.
+    Lines,
+}
+
+impl Ladder {
+    /// Every ladder, in the order of the boards.
+    pub const ALL: [Self; 6] = [
+        Self::Scanline,
+        Self::EdgeFunction,
+        Self::Interpolation,
+        Self::Depth,
+        Self::Antialiasing,
+        Self::Lines,
+    ];
+
+    /// Its name, as in names of files.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Scanline => "scanline",
+            Self::EdgeFunction => "edge-function",
+            Self::Interpolation => "interpolation",
+            Self::Depth => "depth",
+            Self::Antialiasing => "antialiasing",
+            Self::Lines => "lines",
+        }
+    }
+
+    /// What it is a ladder of.
+    #[must_use]
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Scanline => "Coverage by scanline",
+            Self::EdgeFunction => "Coverage by edge function",
+            Self::Interpolation => "Interpolation",
+            Self::Depth => "Depth",
+            Self::Antialiasing => "Antialiasing",
+            Self::Lines => "Lines",
+        }
+    }
+}
+
+/// Words of a board: of the program where it was measured, of the file where it was read.
+pub type Name = Cow<'static, str>;
+
+/// How much is measured.
+#[derive(Clone, Copy, Debug)]
+pub struct Options {
+    /// Decides every scene, and with them every error.
+    pub seed: u64,
+    /// Smaller scenes and fewer rounds.
+    pub quick: bool,
+    /// Whether to time at all; errors do not need it.
+    pub timed: bool,
+}
+
+/// A kind of error.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Measure {
+    /// What is measured, with its unit.
+    pub title: Name,
+    /// Short name for a column or an axis.
+    pub short: Name,
+    /// Errors up to this one are as good as none; `None` for a measure that ranks nothing.
+    pub goal: Option<f64>,
+}
+
+impl Measure {
+    fn new(title: &'static str, short: &'static str, goal: Option<f64>) -> Self {
+        Self { title: title.into(), short: short.into(), goal }
+    }
+}
+
+/// A class of scenes, the columns of a board.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Column {
+    /// Its name.
+    pub name: Name,
+    /// What is drawn.
+    pub about: String,
+    /// Triangles or lines.
+    pub items: u64,
+    /// Pixels that they cover, added up, by the oracle.
+    pub pixels: u64,
+}
+
+impl Column {
+    fn new(name: &'static str, about: String, items: u64, pixels: u64) -> Self {
+        Self { name: name.into(), about, items, pixels }
+    }
+}
+
+/// A rung, the rows of a board.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Rung {
+    /// Its name.
+    pub name: Name,
+    /// How it works, in a few words.
+    pub about: Name,
+    /// Of which measures, by number, it promises to meet the goal, whatever the scene.
+    pub promises: Vec<usize>,
+}
+
+impl Rung {
+    fn new(name: &'static str, about: &'static str, promises: &[usize]) -> Self {
+        Self { name: name.into(), about: about.into(), promises: promises.to_vec() }
+    }
+}
+
+/// What became of a rung on a class of scenes.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Cell {
+    /// It was not run, and why.
+    NotRun(String),
+    /// It was.
+    Run(Run),
+}
+
+impl Cell {
+    /// What was measured, if anything.
+    #[must_use]
+    pub fn run(&self) -> Option<&Run> {
+        match self {
+            Self::Run(run) => Some(run),
+            Self::NotRun(_) => None,
+        }
+    }
+}
+
+/// What was measured of a rung on a class of scenes.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Run {
+    /// For each measure of the board its error, where the measure applies.
+    pub errors: Vec<Option<f64>>,
+    /// Counted work, where the rung counts.
+    pub work: Option<Work>,
+    /// Time, where it was taken.
+    pub time: Option<Time>,
+}
+
+/// The measurements of one ladder.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Board {
+    /// Which ladder.
+    pub ladder: Ladder,
+    /// What decided the scenes.
+    pub seed: u64,
+    /// Rounds that the medians are over, 0 without times.
+    pub rounds: usize,
+    /// The kinds of error.
+    pub measures: Vec<Measure>,
+    /// Classes of scenes.
+    pub columns: Vec<Column>,
+    /// Rungs.
+    pub rungs: Vec<Rung>,
+    /// A row for each rung, in it a cell for each column.
+    pub cells: Vec<Vec<Cell>>,
+}
+
+impl Board {
+    /// The measurement of a rung on a class of scenes.
+    #[must_use]
+    pub fn run(&self, rung: usize, column: usize) -> Option<&Run> {
+        self.cells[rung][column].run()
+    }
+
+    /// An error, where it was measured.
+    #[must_use]
+    pub fn error(&self, rung: usize, column: usize, measure: usize) -> Option<f64> {
+        self.run(rung, column)?.errors[measure]
+    }
+
+    /// Nanoseconds for each covered pixel.
+    #[must_use]
+    pub fn time(&self, rung: usize, column: usize) -> Option<&Time> {
+        self.run(rung, column)?.time.as_ref()
+    }
+}
+
+/// Measures a ladder. `progress` gets the share done, from 0 to 1, and a word about it.
+#[must_use]
+pub fn measure(ladder: Ladder, options: &Options, progress: &dyn Fn(f64, &str)) -> Board {
+    measure_with(ladder, options, &mut [], progress)
+}
+
+/// The same with guests, who fill by edge functions and stand on that ladder.
+#[must_use]
+pub fn measure_with(
+    ladder: Ladder,
+    options: &Options,
+    guests: &mut [Box<dyn Guest>],
+    progress: &dyn Fn(f64, &str),
+) -> Board {
+    match ladder {
+        Ladder::Scanline => coverage::measure(ladder, options, &mut [], progress),
+        Ladder::EdgeFunction => coverage::measure(ladder, options, guests, progress),
+        Ladder::Interpolation => interpolation::measure(options, progress),
+        Ladder::Depth => depth::measure(options, progress),
+        Ladder::Lines => lines::measure(options, progress),
+        Ladder::Antialiasing => antialiasing::measure(options, progress),
+    }
+}
+
+/// A cell before it is timed: a closure that does all of the work once.
+enum Prepared<'a> {
+    NotRun(String),
+    Ready { errors: Vec<Option<f64>>, work: Option<Work>, pass: Box<dyn FnMut() + 'a> },
+}
+
+/// Times what was prepared (cells by rung, then by column) and puts the board together.
+fn finish(
+    (ladder, measures): (Ladder, Vec<Measure>),
+    (rungs, columns): (Vec<Rung>, Vec<Column>),
+    prepared: Vec<Vec<Prepared<'_>>>,
+    options: &Options,
+    progress: &dyn Fn(f64, &str),
+) -> Board {
+    let mut passes: Vec<clock::Pass<'_>> = Vec::new();
+    let mut cells: Vec<Vec<Cell>> = Vec::new();
+    let mut places = Vec::new();
+    for (rung, row) in prepared.into_iter().enumerate() {
+        let mut out = Vec::new();
+        for (column, cell) in row.into_iter().enumerate() {
+            out.push(match cell {
+                Prepared::NotRun(why) => Cell::NotRun(why),
+                Prepared::Ready { errors, work, pass } => {
+                    passes.push(clock::Pass { column, run: pass });
+                    places.push((rung, column));
+                    Cell::Run(Run { errors, work, time: None })
+                }
+            });
+        }
+        cells.push(out);
+    }
+    let rounds = if options.timed { clock::rounds(options.quick) } else { 0 };
+    if options.timed {
+        let spreads = clock::time(&mut passes, rounds, options.quick, &|share| {
+            progress(0.3 + 0.7 * share, ladder.title());
+        });
+        for ((rung, column), spread) in places.into_iter().zip(spreads) {
+            if let Cell::Run(run) = &mut cells[rung][column] {
+                let Column { items, pixels, .. } = columns[column];
+                run.time = Some(Time::new(spread, pixels, items));
+            }
+        }
+    }
+    Board { ladder, seed: options.seed, rounds, measures, columns, rungs, cells }
+}

@@ -1,0 +1,137 @@
+//! Ladders of precision: the same job in several arithmetics, so that `cost` can measure what each
+//! step of accuracy costs and what it removes.
+//!
+//! A rung is a small type. Where only the number type differs, it is one algorithm generic over
+//! [`Real`]. Rungs take corners as they were given; one that works on the lattice snaps them itself,
+//! in the time that is measured. Rungs are here to be measured, faults included: to draw a triangle,
+//! take the engines of [`raster`](rasterproof_core::raster). Where a rung is such an engine, `cost` wraps it
+//! ([`Snapped`], [`Unsnapped`]) and says so; nothing here is a copy of one.
+
+pub mod antialiasing;
+pub mod area;
+pub mod depth;
+pub mod edges;
+pub mod interpolation;
+pub mod lines;
+pub mod scanline;
+
+use std::ops::AddAssign;
+
+use num_traits::{AsPrimitive, Float};
+
+use rasterproof_core::contract::{Rasterize, RasterizeExact};
+use rasterproof_core::grid::{PixelRect, SubpixelPoint};
+use rasterproof_core::triangle::{Corners, FreeCorners, Span};
+
+/// The float a rung computes in.
+pub trait Real:
+    Float + Default + AsPrimitive<i32> + AsPrimitive<f64> + Send + Sync + 'static
+{
+    /// Unit roundoff: the largest relative error of one operation.
+    const UNIT: f64;
+    /// The nearest value of this type.
+    fn of(value: f64) -> Self;
+    /// 1/2.
+    const HALF: Self;
+}
+
+impl Real for f32 {
+    const UNIT: f64 = 1.0 / (1u64 << 24) as f64;
+    const HALF: Self = 0.5;
+    #[inline]
+    fn of(value: f64) -> Self {
+        value as Self
+    }
+}
+
+impl Real for f64 {
+    const UNIT: f64 = 1.0 / (1u64 << 53) as f64;
+    const HALF: Self = 0.5;
+    #[inline]
+    fn of(value: f64) -> Self {
+        value
+    }
+}
+
+/// What a rung did, where that explains its time.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+pub struct Work {
+    /// Divisions.
+    pub divisions: u64,
+    /// Edges asked at a sample, or crossings of an edge and a row.
+    pub evaluations: u64,
+    /// Evaluations that needed exact arithmetic after a filter in floats.
+    pub fallbacks: u64,
+}
+
+impl AddAssign for Work {
+    fn add_assign(&mut self, other: Self) {
+        self.divisions += other.divisions;
+        self.evaluations += other.evaluations;
+        self.fallbacks += other.fallbacks;
+    }
+}
+
+/// Decides which pixels a triangle covers, with whatever error the rung has.
+pub trait Cover {
+    /// Whether the rung may be given this triangle; otherwise why not.
+    ///
+    /// # Errors
+    /// The reason, for a reader.
+    fn accepts(&self, _free: &FreeCorners, _bounds: PixelRect) -> Result<(), String> {
+        Ok(())
+    }
+
+    /// Emits the pixels of `bounds` that the rung takes for covered by the corners as given, in spans
+    /// that are not empty. The rule is that of [`Rasterize::cover`]; how well it is kept is what is
+    /// measured. Returns the work as far as the rung can count it, in all fields or in none.
+    fn cover(&self, free: &FreeCorners, bounds: PixelRect, emit: impl FnMut(Span)) -> Option<Work>;
+}
+
+/// Rounds the corners to the lattice; `None` where one lies at the very end of the domain.
+#[inline]
+#[must_use]
+pub fn snap(corners: &FreeCorners) -> Option<Corners> {
+    let [a, b, c] = corners.px();
+    let point = |[x, y]: [f64; 2]| SubpixelPoint::from_px(x, y).ok();
+    Some([point(a)?, point(b)?, point(c)?])
+}
+
+/// The reason of a rung whose corners cannot be snapped.
+fn snappable(corners: &FreeCorners) -> Result<Corners, String> {
+    snap(corners).ok_or_else(|| "a corner rounds to a point outside the lattice".to_owned())
+}
+
+/// A rasterizer of the lattice as a rung: snaps, then draws.
+#[derive(Clone, Copy, Debug)]
+pub struct Snapped<E>(pub E);
+
+impl<E: Rasterize> Cover for Snapped<E> {
+    fn accepts(&self, free: &FreeCorners, _bounds: PixelRect) -> Result<(), String> {
+        snappable(free).map(drop)
+    }
+
+    #[inline]
+    fn cover(&self, free: &FreeCorners, bounds: PixelRect, emit: impl FnMut(Span)) -> Option<Work> {
+        if let Some(corners) = snap(free) {
+            self.0.cover(corners, bounds, emit);
+        }
+        None
+    }
+}
+
+/// An exact rasterizer of corners as given, as a rung.
+#[derive(Clone, Copy, Debug)]
+pub struct Unsnapped<E>(pub E);
+
+impl<E: RasterizeExact> Cover for Unsnapped<E> {
+    #[inline]
+    fn cover(&self, free: &FreeCorners, bounds: PixelRect, emit: impl FnMut(Span)) -> Option<Work> {
+        let decisions = self.0.cover_exact(free, bounds, emit);
+        Some(Work {
+            divisions: 0,
+            evaluations: decisions.by_filter + decisions.by_fallback,
+            fallbacks: decisions.by_fallback,
+        })
+    }
+}

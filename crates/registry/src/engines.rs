@@ -1,0 +1,761 @@
+//! The line-up: the one file that names every engine and line drawer, and turns a word of the
+//! command line into one.
+
+use glam::DVec2;
+
+use rasterproof_core::contract::{Decisions, DrawLine, Interpolate, Rasterize, RasterizeExact};
+use rasterproof_core::frame::Frame;
+use rasterproof_core::grid::PixelRect;
+use rasterproof_core::line::bresenham::Bresenham;
+use rasterproof_core::line::dda::Dda;
+use rasterproof_core::raster::edge_function::EdgeFunction;
+use rasterproof_core::raster::edge_function::words::{EdgeFunctionIn, Words};
+use rasterproof_core::raster::edge_function_exact::EdgeFunctionExact;
+use rasterproof_core::raster::scanline::Scanline;
+use rasterproof_core::raster::scanline_exact::ScanlineExact;
+use rasterproof_core::triangle::{
+    Corners, Fragment, FreeCorners, ScreenLine, ScreenTriangle, Span, Varying,
+};
+use rasterproof_faults::planted::exact::ExactMutant;
+use rasterproof_faults::planted::{LineMutant, TriangleMutant};
+use rasterproof_faults::published::book_affine::BookAffine;
+use rasterproof_faults::published::book_dda::BookDda;
+use rasterproof_faults::published::book_depth::BookDepth;
+use rasterproof_faults::published::book_final::BookFinal;
+use rasterproof_faults::published::book_triangle::{BookChapter2, BookChapter3};
+use rasterproof_faults::published::games101_strict::Games101Strict;
+use rasterproof_faults::published::sysu_bresenham::SysuBresenham;
+use rasterproof_faults::published::sysu_inclusive::SysuInclusive;
+use rasterproof_faults::published::sysu_truncated::SysuTruncated;
+use rasterproof_faults::published::sysu_weights::SysuWeights;
+use rasterproof_faults::published::{Published, PublishedLine, RealTriangle, Refused};
+use rasterproof_render::effects::plan::{Canvas, Plan};
+use rasterproof_render::effects::render::{self, BadScene, Misfit, Rendered};
+use rasterproof_render::effects::{Effect, Effects, Mode};
+use rasterproof_render::pipeline::present::DoubleBuffer;
+use rasterproof_render::pipeline::target::{Colour, Target};
+use rasterproof_render::scene::Scene;
+use rasterproof_tiles::coverage::Tiles;
+use rasterproof_verify::oracle::Oracle;
+
+/// A rasterizer of the line-up.
+#[derive(Clone, Copy, Debug)]
+pub enum Engine {
+    /// The book's split-triangle fill, repaired.
+    Scanline,
+    /// The bounding-box fill with edge functions.
+    EdgeFunction,
+    /// Lists of triangles in tiles. It decides coverage only: values at its pixels are those of the
+    /// edge function.
+    Tile,
+    /// The exact oracle, as an engine.
+    Oracle,
+    /// A planted fault.
+    Mutant(TriangleMutant),
+}
+
+impl Engine {
+    /// The rasterizers that are judged.
+    pub const JUDGED: [Self; 2] = [Self::Scanline, Self::EdgeFunction];
+    /// The rasterizers that are judged when they are asked for.
+    pub const CHOICES: [Self; 3] = [Self::Scanline, Self::EdgeFunction, Self::Tile];
+
+    /// Its name on the command line.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Scanline => "scanline",
+            Self::EdgeFunction => "edge-function",
+            Self::Tile => "tile",
+            Self::Oracle => "oracle",
+            Self::Mutant(mutant) => mutant.name(),
+        }
+    }
+}
+
+impl Rasterize for Engine {
+    #[inline]
+    fn cover(&self, corners: Corners, bounds: PixelRect, mut emit: impl FnMut(Span)) {
+        self.spans(corners, bounds, &mut emit);
+    }
+}
+
+impl Interpolate for Engine {
+    #[inline]
+    fn fragments<V: Varying>(
+        &self,
+        triangle: &ScreenTriangle<V>,
+        bounds: PixelRect,
+        mut emit: impl FnMut(Fragment<V>),
+    ) {
+        self.values(triangle, bounds, &mut emit);
+    }
+}
+
+// A word of the command line is no hot loop: engines are called through `dyn` here, so that they are
+// compiled once and not for every caller.
+impl Engine {
+    fn spans(&self, corners: Corners, bounds: PixelRect, emit: &mut dyn FnMut(Span)) {
+        match self {
+            Self::Scanline => Scanline.cover(corners, bounds, emit),
+            Self::EdgeFunction => EdgeFunction.cover(corners, bounds, emit),
+            Self::Tile => Tiles::default().cover(corners, bounds, emit),
+            Self::Oracle => Oracle.cover(corners, bounds, emit),
+            Self::Mutant(mutant) => mutant.spans(corners, bounds, emit),
+        }
+    }
+
+    fn values<V: Varying>(
+        &self,
+        triangle: &ScreenTriangle<V>,
+        bounds: PixelRect,
+        emit: &mut dyn FnMut(Fragment<V>),
+    ) {
+        match self {
+            Self::Scanline => Scanline.fragments(triangle, bounds, emit),
+            Self::EdgeFunction => EdgeFunction.fragments(triangle, bounds, emit),
+            Self::Tile => Tiles::default().cover(triangle.corners(), bounds, |span| {
+                let Span { y_px, x0_px, x1_px } = span;
+                let run = PixelRect { x0: x0_px, y0: y_px, x1: x1_px, y1: y_px + 1 };
+                EdgeFunction.fragments(triangle, run, &mut *emit);
+            }),
+            Self::Oracle => Oracle.fragments(triangle, bounds, emit),
+            Self::Mutant(mutant) => mutant.values(triangle, bounds, emit),
+        }
+    }
+}
+
+/// A line drawer of the line-up.
+#[derive(Clone, Copy, Debug)]
+pub enum LineEngine {
+    /// The book's DDA, repaired.
+    Dda,
+    /// Bresenham's algorithm.
+    Bresenham,
+    /// The exact oracle, as a line drawer.
+    Oracle,
+    /// A planted fault.
+    Mutant(LineMutant),
+}
+
+impl LineEngine {
+    /// The line drawers that are judged.
+    pub const JUDGED: [Self; 2] = [Self::Dda, Self::Bresenham];
+
+    /// Its name on the command line.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Dda => "dda",
+            Self::Bresenham => "bresenham",
+            Self::Oracle => "oracle",
+            Self::Mutant(mutant) => mutant.name(),
+        }
+    }
+}
+
+impl DrawLine for LineEngine {
+    #[inline]
+    fn draw<V: Varying>(
+        &self,
+        line: &ScreenLine<V>,
+        bounds: PixelRect,
+        mut emit: impl FnMut(Fragment<V>),
+    ) {
+        self.stroke(line, bounds, &mut emit);
+    }
+}
+
+impl LineEngine {
+    fn stroke<V: Varying>(
+        &self,
+        line: &ScreenLine<V>,
+        bounds: PixelRect,
+        emit: &mut dyn FnMut(Fragment<V>),
+    ) {
+        match self {
+            Self::Dda => Dda.draw(line, bounds, emit),
+            Self::Bresenham => Bresenham.draw(line, bounds, emit),
+            Self::Oracle => Oracle.draw(line, bounds, emit),
+            Self::Mutant(mutant) => mutant.stroke(line, bounds, emit),
+        }
+    }
+}
+
+/// What draws scenes: one of the judged rasterizers, with a line drawer for edges.
+///
+/// Each of the two is a call of its own, so that kernels are compiled for these two and not for
+/// every planted fault.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Drawer {
+    /// The scanline engine and the DDA.
+    Scanline,
+    /// The edge-function engine and Bresenham's algorithm.
+    EdgeFunction,
+}
+
+impl Drawer {
+    /// Both.
+    pub const ALL: [Self; 2] = [Self::Scanline, Self::EdgeFunction];
+
+    /// The rasterizer's name.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Scanline => Engine::Scanline.name(),
+            Self::EdgeFunction => Engine::EdgeFunction.name(),
+        }
+    }
+
+    /// The line drawer's name.
+    #[must_use]
+    pub fn line_name(self) -> &'static str {
+        match self {
+            Self::Scanline => LineEngine::Dda.name(),
+            Self::EdgeFunction => LineEngine::Bresenham.name(),
+        }
+    }
+
+    /// As [`rasterproof_render::effects::render::plan`].
+    ///
+    /// # Errors
+    /// As there.
+    pub fn plan(self, scene: &Scene, effects: &Effects, canvas: &Canvas) -> Result<Plan, BadScene> {
+        match self {
+            Self::Scanline => render::plan(scene, &Scanline, effects, canvas),
+            Self::EdgeFunction => {
+                let words = effects.mode(Effect::WideWords);
+                render::plan(scene, &in_words(words), effects, canvas)
+            }
+        }
+    }
+
+    /// As [`rasterproof_render::effects::render::execute`].
+    ///
+    /// # Errors
+    /// As there.
+    pub fn execute(
+        self,
+        plan: &Plan,
+        scene: &Scene,
+        target: &mut Target,
+    ) -> Result<Rendered, Misfit> {
+        match self {
+            Self::Scanline => render::execute(plan, scene, &Scanline, target),
+            Self::EdgeFunction => {
+                render::execute(plan, scene, &in_words(plan.frame.wide_words), target)
+            }
+        }
+    }
+
+    /// As [`rasterproof_render::effects::render::render`].
+    ///
+    /// # Errors
+    /// As there.
+    pub fn render(
+        self,
+        scene: &Scene,
+        effects: &Effects,
+        target: &mut Target,
+    ) -> Result<Rendered, BadScene> {
+        match self {
+            Self::Scanline => render::render(scene, &Scanline, effects, target),
+            Self::EdgeFunction => {
+                render::render(scene, &in_words(effects.mode(Effect::WideWords)), effects, target)
+            }
+        }
+    }
+
+    /// As [`rasterproof_render::effects::render::render_mapped`].
+    ///
+    /// # Errors
+    /// As there.
+    pub fn render_mapped(
+        self,
+        scene: &Scene,
+        effects: &Effects,
+        target: &mut Target,
+    ) -> Result<(Rendered, Frame<u16>), BadScene> {
+        match self {
+            Self::Scanline => render::render_mapped(scene, &Scanline, effects, target),
+            Self::EdgeFunction => render::render_mapped(
+                scene,
+                &in_words(effects.mode(Effect::WideWords)),
+                effects,
+                target,
+            ),
+        }
+    }
+
+    /// As [`rasterproof_render::effects::render::render_watched`].
+    ///
+    /// # Errors
+    /// As there.
+    pub fn render_watched(
+        self,
+        scene: &Scene,
+        effects: &Effects,
+        screen: &mut DoubleBuffer,
+        look: &mut dyn FnMut(&Frame<Colour>),
+    ) -> Result<Rendered, BadScene> {
+        match self {
+            Self::Scanline => render::render_watched(scene, &Scanline, effects, screen, look),
+            Self::EdgeFunction => render::render_watched(
+                scene,
+                &in_words(effects.mode(Effect::WideWords)),
+                effects,
+                screen,
+                look,
+            ),
+        }
+    }
+
+    /// As [`rasterproof_render::effects::render::render_wireframe`].
+    ///
+    /// # Errors
+    /// As there.
+    pub fn render_wireframe(
+        self,
+        scene: &Scene,
+        target: &mut Target,
+    ) -> Result<Rendered, BadScene> {
+        match self {
+            Self::Scanline => render::render_wireframe(scene, &Dda, target),
+            Self::EdgeFunction => render::render_wireframe(scene, &Bresenham, target),
+        }
+    }
+}
+
+/// The edge-function engine in the words that a plan asks for.
+fn in_words(mode: Mode) -> EdgeFunctionIn {
+    EdgeFunctionIn(match mode {
+        Mode::Planned | Mode::Material => Words::Narrowest,
+        Mode::Always => Words::Widest,
+        Mode::Never => Words::Narrow,
+    })
+}
+
+/// A rasterizer of the line-up for corners that are not snapped.
+#[derive(Clone, Copy, Debug)]
+pub enum ExactEngine {
+    /// The book's fill with filtered crossings.
+    Scanline,
+    /// The bounding-box fill with filtered edge functions.
+    EdgeFunction,
+    /// The exact oracle, as an engine.
+    Oracle,
+    /// A planted fault.
+    Mutant(ExactMutant),
+}
+
+impl ExactEngine {
+    /// The rasterizers that are judged.
+    pub const JUDGED: [Self; 2] = [Self::Scanline, Self::EdgeFunction];
+
+    /// Its name on the command line.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Scanline => "scanline-exact",
+            Self::EdgeFunction => "edge-function-exact",
+            Self::Oracle => "oracle-exact",
+            Self::Mutant(mutant) => mutant.name(),
+        }
+    }
+}
+
+impl RasterizeExact for ExactEngine {
+    fn cover_exact(
+        &self,
+        corners: &FreeCorners,
+        bounds: PixelRect,
+        mut emit: impl FnMut(Span),
+    ) -> Decisions {
+        self.spans(corners, bounds, &mut emit)
+    }
+}
+
+impl ExactEngine {
+    fn spans(
+        &self,
+        corners: &FreeCorners,
+        bounds: PixelRect,
+        emit: &mut dyn FnMut(Span),
+    ) -> Decisions {
+        match self {
+            Self::Scanline => ScanlineExact.cover_exact(corners, bounds, emit),
+            Self::EdgeFunction => EdgeFunctionExact.cover_exact(corners, bounds, emit),
+            Self::Oracle => Oracle.cover_exact(corners, bounds, emit),
+            Self::Mutant(mutant) => mutant.spans(corners, bounds, emit),
+        }
+    }
+}
+
+/// A published algorithm with its faults.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Specimen {
+    /// A rasterizer.
+    Triangle(TriangleSpecimen),
+    /// A line drawer.
+    Line(LineSpecimen),
+}
+
+/// A published rasterizer with its faults.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TriangleSpecimen {
+    /// The book's triangle of chapter 2.
+    BookChapter2,
+    /// The same of chapter 3, without the clamp.
+    BookChapter3,
+    /// The same on projected corners.
+    BookAffine,
+    /// The final triangle with the depth of chapter 6.
+    BookChapter6,
+    /// The final triangle with the depth of chapter 7.
+    BookChapter7,
+    /// The book's final triangle.
+    BookChapter11,
+    /// The same after the last exercise.
+    BookChapter11Fixed,
+    /// GAMES101 homework 2.
+    Games101Strict,
+    /// The same with samples through an int.
+    Games101Int,
+    /// The same with the true w put back.
+    Games101Depth,
+    /// SYSU assignment 2.
+    SysuInclusive,
+    /// The same with its weights in the wrong order.
+    SysuWeights,
+    /// The same with truncated positions.
+    SysuTruncated,
+}
+
+impl TriangleSpecimen {
+    /// Whether it interpolates values.
+    #[must_use]
+    pub fn has_values(self) -> bool {
+        !matches!(self, Self::BookChapter2 | Self::SysuTruncated)
+    }
+
+    /// The depth that it compares, for a corner with this z/w and w.
+    #[must_use]
+    pub fn depth_of(self, depth: f64, w: f64) -> f64 {
+        match self {
+            Self::BookChapter6 => BookDepth::Chapter6.of(depth, w),
+            Self::BookChapter7 => BookDepth::Chapter7.of(depth, w),
+            _ => depth,
+        }
+    }
+}
+
+/// Does the same with whichever specimen it is.
+macro_rules! with_specimen {
+    ($specimen:expr, $name:ident => $do:expr) => {
+        match $specimen {
+            TriangleSpecimen::BookChapter2 => {
+                let $name = BookChapter2;
+                $do
+            }
+            TriangleSpecimen::BookChapter3 => {
+                let $name = BookChapter3;
+                $do
+            }
+            TriangleSpecimen::BookAffine => {
+                let $name = BookAffine;
+                $do
+            }
+            TriangleSpecimen::BookChapter6 => {
+                let $name = BookDepth::Chapter6;
+                $do
+            }
+            TriangleSpecimen::BookChapter7 => {
+                let $name = BookDepth::Chapter7;
+                $do
+            }
+            TriangleSpecimen::BookChapter11 => {
+                let $name = BookFinal { exercise: false };
+                $do
+            }
+            TriangleSpecimen::BookChapter11Fixed => {
+                let $name = BookFinal { exercise: true };
+                $do
+            }
+            TriangleSpecimen::Games101Strict => {
+                let $name = Games101Strict { whole_samples: false, true_w: false };
+                $do
+            }
+            TriangleSpecimen::Games101Int => {
+                let $name = Games101Strict { whole_samples: true, true_w: false };
+                $do
+            }
+            TriangleSpecimen::Games101Depth => {
+                let $name = Games101Strict { whole_samples: false, true_w: true };
+                $do
+            }
+            TriangleSpecimen::SysuInclusive => {
+                let $name = SysuInclusive;
+                $do
+            }
+            TriangleSpecimen::SysuWeights => {
+                let $name = SysuWeights;
+                $do
+            }
+            TriangleSpecimen::SysuTruncated => {
+                let $name = SysuTruncated;
+                $do
+            }
+        }
+    };
+}
+
+impl Published for TriangleSpecimen {
+    fn cover(
+        &self,
+        triangle: &RealTriangle,
+        bounds: PixelRect,
+        emit: &mut dyn FnMut(Span),
+    ) -> Result<(), Refused> {
+        with_specimen!(self, specimen => specimen.cover(triangle, bounds, emit))
+    }
+
+    fn fragments(
+        &self,
+        triangle: &RealTriangle,
+        bounds: PixelRect,
+        emit: &mut dyn FnMut(Fragment<DVec2>),
+    ) -> Result<(), Refused> {
+        with_specimen!(self, specimen => specimen.fragments(triangle, bounds, emit))
+    }
+}
+
+/// A published line drawer with its faults.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LineSpecimen {
+    /// The book's DDA.
+    BookDda,
+    /// The Bresenham of SYSU assignment 2.
+    SysuBresenham,
+}
+
+impl PublishedLine for LineSpecimen {
+    fn draw(
+        &self,
+        ends_px: [[f64; 2]; 2],
+        bounds: PixelRect,
+        emit: &mut dyn FnMut(i32, i32),
+    ) -> Result<(), Refused> {
+        match self {
+            Self::BookDda => BookDda.draw(ends_px, bounds, emit),
+            Self::SysuBresenham => SysuBresenham.draw(ends_px, bounds, emit),
+        }
+    }
+}
+
+/// What a name stands for: some engines rasterize, some draw lines, the oracle does both.
+#[derive(Clone, Copy, Debug)]
+pub struct Entry {
+    /// The name.
+    pub name: &'static str,
+    /// What it is, in a few words.
+    pub about: &'static str,
+    /// The rasterizer of this name.
+    pub engine: Option<Engine>,
+    /// The line drawer of this name.
+    pub line_engine: Option<LineEngine>,
+    /// The rasterizer of this name for corners that are not snapped.
+    pub exact_engine: Option<ExactEngine>,
+    /// The published algorithm of this name.
+    pub specimen: Option<Specimen>,
+}
+
+/// Every engine that has a name of its own.
+pub const ENTRIES: [Entry; 9] = [
+    Entry {
+        name: "scanline",
+        about: "the book's split-triangle fill, repaired: exact integer DDA down the edges",
+        engine: Some(Engine::Scanline),
+        line_engine: None,
+        exact_engine: None,
+        specimen: None,
+    },
+    Entry {
+        name: "edge-function",
+        about: "bounding box and three integer edge functions with a top-left bias",
+        engine: Some(Engine::EdgeFunction),
+        line_engine: None,
+        exact_engine: None,
+        specimen: None,
+    },
+    Entry {
+        name: "tile",
+        about: "tiles of 16 x 16 px, sixteen pixels or triangles at a time",
+        engine: Some(Engine::Tile),
+        line_engine: None,
+        exact_engine: None,
+        specimen: None,
+    },
+    Entry {
+        name: "dda",
+        about: "the book's line drawer, repaired: exact slope, rounded height",
+        engine: None,
+        line_engine: Some(LineEngine::Dda),
+        exact_engine: None,
+        specimen: None,
+    },
+    Entry {
+        name: "bresenham",
+        about: "Bresenham's line drawer in all octants",
+        engine: None,
+        line_engine: Some(LineEngine::Bresenham),
+        exact_engine: None,
+        specimen: None,
+    },
+    Entry {
+        name: "oracle",
+        about: "the truth: parity of crossings, nearest pixels, planes in big integers",
+        engine: Some(Engine::Oracle),
+        line_engine: Some(LineEngine::Oracle),
+        exact_engine: None,
+        specimen: None,
+    },
+    exact(
+        "scanline-exact",
+        ExactEngine::Scanline,
+        "corners not snapped: filtered crossings, big integers in doubt",
+    ),
+    exact(
+        "edge-function-exact",
+        ExactEngine::EdgeFunction,
+        "corners not snapped: filtered edge functions, orient2d in doubt",
+    ),
+    exact(
+        "oracle-exact",
+        ExactEngine::Oracle,
+        "corners not snapped: the truth, parity of crossings in whole numbers",
+    ),
+];
+
+/// The entry of a rasterizer for corners that are not snapped, which does nothing else.
+const fn exact(name: &'static str, engine: ExactEngine, about: &'static str) -> Entry {
+    Entry {
+        name,
+        about,
+        engine: None,
+        line_engine: None,
+        exact_engine: Some(engine),
+        specimen: None,
+    }
+}
+
+const fn triangle_specimen(
+    name: &'static str,
+    about: &'static str,
+    specimen: TriangleSpecimen,
+) -> Entry {
+    let specimen = Some(Specimen::Triangle(specimen));
+    Entry { name, about, engine: None, line_engine: None, exact_engine: None, specimen }
+}
+
+const fn line_specimen(name: &'static str, about: &'static str, specimen: LineSpecimen) -> Entry {
+    let specimen = Some(Specimen::Line(specimen));
+    Entry { name, about, engine: None, line_engine: None, exact_engine: None, specimen }
+}
+
+/// Every specimen that speaks the line protocol; they take positions as they are given.
+pub const SPECIMENS: [Entry; 15] = [
+    triangle_specimen(
+        "book-ch2",
+        "specimen: the book's DrawTriangle2D, section 2.2",
+        TriangleSpecimen::BookChapter2,
+    ),
+    triangle_specimen(
+        "book-ch3",
+        "specimen: the same without its clamp, with values, section 3.2",
+        TriangleSpecimen::BookChapter3,
+    ),
+    triangle_specimen(
+        "book-affine",
+        "specimen: the same on projected corners, section 5.3",
+        TriangleSpecimen::BookAffine,
+    ),
+    triangle_specimen(
+        "book-ch6",
+        "specimen: the book's triangle with w as its depth, chapter 6",
+        TriangleSpecimen::BookChapter6,
+    ),
+    triangle_specimen(
+        "book-ch7",
+        "specimen: the same with -1/w as its depth, chapter 7",
+        TriangleSpecimen::BookChapter7,
+    ),
+    triangle_specimen(
+        "book-ch11",
+        "specimen: the book's final DrawTriangle, chapter 11",
+        TriangleSpecimen::BookChapter11,
+    ),
+    triangle_specimen(
+        "book-ch11-fixed",
+        "specimen: the same after the exercise of section 11.4",
+        TriangleSpecimen::BookChapter11Fixed,
+    ),
+    triangle_specimen(
+        "games101-strict",
+        "specimen: GAMES101 homework 2, strict inside test",
+        TriangleSpecimen::Games101Strict,
+    ),
+    triangle_specimen(
+        "games101-int",
+        "specimen: the same with sample positions through an int",
+        TriangleSpecimen::Games101Int,
+    ),
+    triangle_specimen(
+        "games101-depth",
+        "specimen: the same with the true w put back, depth included",
+        TriangleSpecimen::Games101Depth,
+    ),
+    triangle_specimen(
+        "sysu-inclusive",
+        "specimen: SYSU assignment 2, inclusive integer edge functions",
+        TriangleSpecimen::SysuInclusive,
+    ),
+    triangle_specimen(
+        "sysu-weights",
+        "specimen: the same with weights in the wrong order",
+        TriangleSpecimen::SysuWeights,
+    ),
+    triangle_specimen(
+        "sysu-truncated",
+        "specimen: the same with positions truncated",
+        TriangleSpecimen::SysuTruncated,
+    ),
+    line_specimen("book-dda", "specimen: the book's DrawLine, section 2.1", LineSpecimen::BookDda),
+    line_specimen(
+        "sysu-bresenham",
+        "specimen: SYSU assignment 2, Bresenham",
+        LineSpecimen::SysuBresenham,
+    ),
+];
+
+/// The entry called `name`, engines first.
+#[must_use]
+pub fn find(name: &str) -> Option<&'static Entry> {
+    ENTRIES.iter().chain(&SPECIMENS).find(|entry| entry.name == name)
+}
+
+/// The rasterizer or line drawer with the planted fault of this name.
+#[must_use]
+pub fn find_planted(name: &str) -> Option<Entry> {
+    let engine = TriangleMutant::ALL.into_iter().find(|mutant| mutant.name() == name);
+    let line = LineMutant::ALL.into_iter().find(|mutant| mutant.name() == name);
+    let exact = ExactMutant::ALL.into_iter().find(|mutant| mutant.name() == name);
+    let named = engine.map(TriangleMutant::name).or(line.map(LineMutant::name));
+    Some(Entry {
+        name: named.or(exact.map(|mutant| mutant.name()))?,
+        about: "a planted fault",
+        engine: engine.map(Engine::Mutant),
+        line_engine: line.map(LineEngine::Mutant),
+        exact_engine: exact.map(ExactEngine::Mutant),
+        specimen: None,
+    })
+}

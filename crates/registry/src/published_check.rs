@@ -1,0 +1,443 @@
+//! The survey of the specimens: how often each published fault shows, by family, and whether the
+//! exposing case shows it while the harmless one does not.
+//!
+//! Truth is the oracle at the same positions: of generated triangles the one on the lattice, of
+//! catalogued ones, which need not lie there, the one for free corners. Specimens that sample at
+//! whole numbers receive the triangle moved by half a pixel, so a count here is a fault and no
+//! convention. Triangles are judged one by one; of meshes
+//! it is counted besides what several of their triangles draw.
+
+use glam::DVec2;
+use serde::Serialize;
+
+use crate::engines::{self, LineSpecimen, Specimen, TriangleSpecimen};
+use rasterproof_core::arrays::Each as _;
+use rasterproof_core::contract::{DrawLine as _, Rasterize as _, RasterizeExact as _};
+use rasterproof_core::frame::Coverage;
+use rasterproof_core::grid::{PixelRect, SubpixelPoint};
+use rasterproof_core::parallel;
+use rasterproof_core::triangle::{Fragment, FreeCorners, PixelPoint, ScreenTriangle, ScreenVertex};
+use rasterproof_faults::published::catalogue::{
+    Card, Exhibit, LineCase, RECORDED, RECORDED_SIDE_PX, RecordedCase, TriangleCase,
+};
+use rasterproof_faults::published::scene::{Image, Setting, Version};
+use rasterproof_faults::published::{
+    Published as _, PublishedLine as _, RealTriangle, RealVertex, bare, from_screen,
+};
+use rasterproof_verify::cases::named::plain_line;
+use rasterproof_verify::cases::{self, Case, Family, Line, Shape, Triangle};
+use rasterproof_verify::comparison::Tally;
+use rasterproof_verify::comparison::finding::caught;
+use rasterproof_verify::oracle::Oracle;
+use rasterproof_verify::oracle::values::ExactTriangle;
+
+/// What came of some triangles or lines.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Counts {
+    /// Triangles or lines drawn.
+    pub shapes: u64,
+    /// Those with a wrong pixel or a wrong value.
+    pub wrong: u64,
+    /// Those with a wrong pixel.
+    pub wrong_pixels: u64,
+    /// Those with a wrong value at a pixel that they cover.
+    pub wrong_values: u64,
+    /// Those that the specimen refuses, since the published code is undefined there.
+    pub refused: u64,
+    /// Covered pixels by the oracle.
+    pub pixels: u64,
+    /// Wrong pixels, each triangle for itself.
+    pub tally: Tally,
+    /// Hits of pixels that another triangle of the same mesh has too, where their interiors are
+    /// disjoint: what a wrong rule for shared edges draws twice.
+    pub shared: u64,
+    /// Largest error of an attribute, as a fraction of the spread of its corner values; infinite
+    /// where a value is not a number.
+    pub worst_attribute: f64,
+    /// Largest error of the depth, likewise.
+    pub worst_depth: f64,
+}
+
+impl Counts {
+    fn merge(mut self, other: Self) -> Self {
+        self.shapes += other.shapes;
+        self.wrong += other.wrong;
+        self.wrong_pixels += other.wrong_pixels;
+        self.wrong_values += other.wrong_values;
+        self.refused += other.refused;
+        self.pixels += other.pixels;
+        self.tally += other.tally;
+        self.shared += other.shared;
+        self.worst_attribute = self.worst_attribute.max(other.worst_attribute);
+        self.worst_depth = self.worst_depth.max(other.worst_depth);
+        self
+    }
+
+    /// Wrong triangles in percent.
+    #[must_use]
+    pub fn percent(&self) -> f64 {
+        self.percent_of(self.wrong)
+    }
+
+    /// A number of triangles in percent of all.
+    #[must_use]
+    pub fn percent_of(&self, triangles: u64) -> f64 {
+        100.0 * triangles as f64 / self.shapes.max(1) as f64
+    }
+
+    /// A number of pixels per million that the oracle covers; nothing where it covers none.
+    #[must_use]
+    pub fn per_million(&self, pixels: u64) -> Option<f64> {
+        (self.pixels > 0).then(|| 1e6 * pixels as f64 / self.pixels as f64)
+    }
+}
+
+/// A specimen over the families.
+#[derive(Clone, Debug, Serialize)]
+pub struct SpecimenReport {
+    /// Its name.
+    pub name: &'static str,
+    /// Where it comes from.
+    pub source: &'static str,
+    /// What is wrong.
+    pub fault: &'static str,
+    /// The repair.
+    pub cure: &'static str,
+    /// The case that exposes it, and what it shows there.
+    pub case: &'static str,
+    /// Pixels that are wrong in that case.
+    pub case_wrong: u64,
+    /// Pixels that are wrong in the harmless case.
+    pub harmless_wrong: u64,
+    /// Recorded inputs by name, and what is wrong with each.
+    pub recorded: Vec<(&'static str, Counts)>,
+    /// Family and counts; empty for scenes.
+    pub families: Vec<(&'static str, Counts)>,
+    /// All of them.
+    pub all: Counts,
+}
+
+/// Values differ where they are off by more than this fraction of their spread: f32 weights, which
+/// two of the specimens use, reach 1e-6 of it.
+const VALUE_DIFFERS: f64 = 1e-4;
+/// Fragments of a triangle that are compared with exact values.
+const COMPARED: usize = 16;
+
+/// Surveys a specimen: its cases, its recorded inputs, and `cases` cases of each family.
+#[must_use]
+pub fn survey(card: &Card, seed: u64, cases: u64) -> SpecimenReport {
+    let specimen = engines::find(card.name).and_then(|entry| entry.specimen);
+    let families: Vec<_> = match specimen {
+        Some(Specimen::Triangle(specimen)) => {
+            over(cases::triangles::FAMILIES, seed, cases, |case| triangles(specimen, case))
+        }
+        Some(Specimen::Line(specimen)) => {
+            over(cases::lines::FAMILIES, seed, cases, |case| lines(specimen, case))
+        }
+        None => Vec::new(),
+    };
+    let all = families.iter().fold(Counts::default(), |sum, (_, counts)| sum.merge(*counts));
+    let [case_wrong, harmless_wrong] =
+        [Setting::Exposing, Setting::Harmless].each(|s| wrong(card, s));
+    SpecimenReport {
+        name: card.name,
+        source: card.source,
+        fault: card.fault,
+        cure: card.cure,
+        case: exposing_name(card),
+        case_wrong,
+        harmless_wrong,
+        recorded: RECORDED
+            .iter()
+            .filter(|case| case.specimen == card.name)
+            .map(|case| (case.name, judge_recorded(case)))
+            .collect(),
+        families,
+        all,
+    }
+}
+
+/// Cases that one core judges at a time.
+const BLOCK: u64 = 16;
+
+fn over(
+    families: &'static [Family],
+    seed: u64,
+    cases: u64,
+    judge: impl Fn(&Case) -> Counts + Sync,
+) -> Vec<(&'static str, Counts)> {
+    let counts = |family: &Family| {
+        let block = |number: usize| {
+            let first = number as u64 * BLOCK;
+            let cases = first..cases.min(first + BLOCK);
+            cases
+                .map(|index| judge(&family.case(seed, index)))
+                .fold(Counts::default(), Counts::merge)
+        };
+        let blocks = parallel::map(cases.div_ceil(BLOCK) as usize, block);
+        blocks.into_iter().fold(Counts::default(), Counts::merge)
+    };
+    families.iter().map(|family| (family.name, counts(family))).collect()
+}
+
+/// The exposing case's name.
+#[must_use]
+pub fn exposing_name(card: &Card) -> &'static str {
+    match &card.exhibit {
+        Exhibit::Triangles([case, _]) => case.name,
+        Exhibit::Lines([case, _]) => case.name,
+        Exhibit::Scene(name, _) => name,
+    }
+}
+
+/// Pixels with a wrong hit count, a wrong value or a wrong colour in one of a card's cases; a
+/// refusal counts as one.
+#[must_use]
+pub fn wrong(card: &Card, setting: Setting) -> u64 {
+    let which = usize::from(setting == Setting::Harmless);
+    let specimen = engines::find(card.name).and_then(|entry| entry.specimen);
+    match (&card.exhibit, specimen) {
+        (Exhibit::Triangles(cases), Some(Specimen::Triangle(specimen))) => {
+            let counts = judge_case(specimen, &cases[which]);
+            counts.tally.total() + counts.wrong_values + counts.refused
+        }
+        (Exhibit::Lines(cases), Some(Specimen::Line(specimen))) => {
+            lines(specimen, &line_case(&cases[which])).tally.total()
+        }
+        (Exhibit::Scene(_, draw), _) => {
+            let (a, b) = (draw(Version::Published, setting), draw(Version::Repaired, setting));
+            different(&a, &b)
+        }
+        _ => 0,
+    }
+}
+
+fn different(a: &Image, b: &Image) -> u64 {
+    let pixels = a.rows().zip(b.rows()).flat_map(|((_, a), (_, b))| a.iter().zip(b));
+    pixels.filter(|(a, b)| a != b).count() as u64
+}
+
+/// A card's triangles with their values.
+#[must_use]
+pub fn real_triangles(case: &TriangleCase) -> Vec<RealTriangle> {
+    let vertex = |corners: &[(f64, f64); 3], i: usize| RealVertex {
+        position_px: DVec2::new(corners[i].0, corners[i].1),
+        depth: case.values[i],
+        w: case.w[i],
+        varying: DVec2::splat(case.values[i]),
+    };
+    case.corners_px.iter().map(|corners| [0, 1, 2].each(|i| vertex(corners, i))).collect()
+}
+
+/// The same triangle on the lattice; none where a corner does not lie there.
+#[must_use]
+pub fn on_lattice(triangle: &RealTriangle) -> Option<Triangle> {
+    let vertex = |v: &RealVertex| {
+        let position = SubpixelPoint::from_px(v.position_px.x, v.position_px.y).ok()?;
+        let is_exact = DVec2::from(position.to_px()) == v.position_px;
+        let vertex =
+            ScreenVertex { position, depth: v.depth, inv_w: 1.0 / v.w, varying: v.varying };
+        is_exact.then_some(vertex)
+    };
+    let [a, b, c] = triangle;
+    Some(ScreenTriangle { vertices: [vertex(a)?, vertex(b)?, vertex(c)?] })
+}
+
+/// Hits of the oracle for free corners; none for a triangle outside the domain.
+#[must_use]
+pub fn free_truth(triangles: &[RealTriangle], window: PixelRect) -> Coverage {
+    let mut hits = Coverage::new(window, 0);
+    for triangle in triangles {
+        if let Ok(corners) = FreeCorners::new(triangle.each(|v| v.position_px.to_array())) {
+            Oracle.cover_exact(&corners, window, |s| hits.hit(s.y_px, s.x0_px, s.x1_px));
+        }
+    }
+    hits
+}
+
+/// Judges a card's triangles one by one.
+fn judge_case(specimen: TriangleSpecimen, case: &TriangleCase) -> Counts {
+    let window = PixelRect::window(case.side_px, case.side_px);
+    judge_free(specimen, &real_triangles(case), window)
+}
+
+/// Judges a recorded input; nothing where its specimen is no rasterizer.
+#[must_use]
+pub fn judge_recorded(case: &RecordedCase) -> Counts {
+    match engines::find(case.specimen).and_then(|entry| entry.specimen) {
+        Some(Specimen::Triangle(specimen)) => {
+            let triangles: Vec<_> = case.corners_px().into_iter().map(bare).collect();
+            let window = PixelRect::window(RECORDED_SIDE_PX, RECORDED_SIDE_PX);
+            judge_free(specimen, &triangles, window)
+        }
+        _ => Counts::default(),
+    }
+}
+
+fn judge_free(specimen: TriangleSpecimen, triangles: &[RealTriangle], window: PixelRect) -> Counts {
+    let one = |triangle: &RealTriangle| {
+        let truth = free_truth(std::slice::from_ref(triangle), window);
+        judge(specimen, triangle, on_lattice(triangle).as_ref(), window, &truth)
+    };
+    triangles.iter().map(one).fold(Counts::default(), Counts::merge)
+}
+
+/// A card's line as a case of the harness.
+#[must_use]
+pub fn line_case(case: &LineCase) -> Case {
+    let [a, b] = case.pixels.each(|(x, y)| PixelPoint::new(x, y));
+    let side = |a: i32, b: i32, most: u32| (a.max(b) as u32 + 3).min(most);
+    let window = PixelRect::window(side(a.x, b.x, 24), side(a.y, b.y, 12));
+    Case { window, shape: Shape::Lines(vec![plain_line(a, b)]) }
+}
+
+/// Hits of a specimen over triangles; a pixel that it puts outside the window is a panic.
+///
+/// # Errors
+/// What it refuses, or the message of its panic.
+pub fn specimen_coverage(
+    specimen: TriangleSpecimen,
+    list: &[RealTriangle],
+    window: PixelRect,
+) -> Result<Coverage, String> {
+    caught(|| {
+        let mut hits = Coverage::new(window, 0);
+        for triangle in list {
+            specimen
+                .cover(triangle, window, &mut |s| hits.hit(s.y_px, s.x0_px, s.x1_px))
+                .map_err(|refused| refused.to_string())?;
+        }
+        Ok(hits)
+    })?
+}
+
+/// Hits of a line specimen.
+///
+/// # Errors
+/// What it refuses, or the message of its panic.
+pub fn specimen_line_coverage(
+    specimen: LineSpecimen,
+    line: &Line,
+    window: PixelRect,
+) -> Result<Coverage, String> {
+    // The centre of a pixel is its position.
+    let ends = line.ends.each(|e| [f64::from(e.pixel.x) + 0.5, f64::from(e.pixel.y) + 0.5]);
+    caught(|| {
+        let mut hits = Coverage::new(window, 0);
+        specimen
+            .draw(ends, window, &mut |x, y| hits.hit(y, x, x + 1))
+            .map_err(|refused| refused.to_string())?;
+        Ok(hits)
+    })?
+}
+
+fn triangles(specimen: TriangleSpecimen, case: &Case) -> Counts {
+    let Shape::Triangles { list, disjoint } = &case.shape else { return Counts::default() };
+    let one = |triangle: &Triangle| {
+        let mut truth = Coverage::new(case.window, 0);
+        Oracle.cover(triangle.corners(), case.window, |s| truth.hit(s.y_px, s.x0_px, s.x1_px));
+        judge(specimen, &from_screen(triangle), Some(triangle), case.window, &truth)
+    };
+    let mut counts = list.iter().map(one).fold(Counts::default(), Counts::merge);
+    if *disjoint && list.len() > 1 {
+        counts.shared = shared(specimen, list, case.window);
+    }
+    counts
+}
+
+/// Pixels of each triangle alone, less those of all together; none where one is refused.
+fn shared(specimen: TriangleSpecimen, list: &[Triangle], window: PixelRect) -> u64 {
+    let mesh: Vec<RealTriangle> = list.iter().map(from_screen).collect();
+    let Ok(together) = specimen_coverage(specimen, &mesh, window) else { return 0 };
+    let alone = |t: &RealTriangle| specimen_coverage(specimen, std::slice::from_ref(t), window);
+    let each = mesh.iter().filter_map(|t| Some(alone(t).ok()?.covered()));
+    each.sum::<u64>().saturating_sub(together.covered())
+}
+
+/// Compares hits with the truth, and values where the triangle lies on the lattice.
+fn judge(
+    specimen: TriangleSpecimen,
+    triangle: &RealTriangle,
+    on_lattice: Option<&Triangle>,
+    window: PixelRect,
+    truth: &Coverage,
+) -> Counts {
+    let mut counts = Counts { shapes: 1, pixels: truth.covered(), ..Counts::default() };
+    let Ok(hits) = specimen_coverage(specimen, &[*triangle], window) else {
+        counts.refused = 1;
+        return counts;
+    };
+    counts.tally = Tally::between(&hits, truth);
+    if let Some(triangle) = on_lattice.filter(|_| specimen.has_values()) {
+        (counts.worst_attribute, counts.worst_depth) = values(specimen, triangle, window, truth);
+    }
+    let off = counts.worst_attribute.max(counts.worst_depth) > VALUE_DIFFERS;
+    counts.wrong_pixels = u64::from(counts.tally.total() > 0);
+    counts.wrong_values = u64::from(off);
+    counts.wrong = counts.wrong_pixels | counts.wrong_values;
+    counts
+}
+
+/// Worst errors of attribute and depth at pixels that the triangle really covers, as fractions of
+/// the spread of the corner values.
+fn values(
+    specimen: TriangleSpecimen,
+    triangle: &Triangle,
+    window: PixelRect,
+    truth: &Coverage,
+) -> (f64, f64) {
+    let v = &triangle.vertices;
+    let depths = v.each(|v| specimen.depth_of(v.depth, 1.0 / v.inv_w));
+    let attributes = v.each(|v| v.varying.to_array());
+    let inv_w = v.each(|v| v.inv_w);
+    let depth_attributes = depths.each(|depth| [depth]);
+    let exact = ExactTriangle::new(&triangle.corners(), depths, inv_w, attributes);
+    let exact_w = ExactTriangle::new(&triangle.corners(), depths, inv_w, depth_attributes);
+    let (Some(exact), Some(exact_w)) = (exact, exact_w) else { return (0.0, 0.0) };
+    let mut drawn: Vec<Fragment<DVec2>> = Vec::new();
+    let _ = specimen.fragments(&from_screen(triangle), window, &mut |f| {
+        if truth.get(f.x_px, f.y_px).is_some_and(|hits| hits > 0) {
+            drawn.push(f);
+        }
+    });
+    let worse = |old: f64, new: f64| if new.is_nan() { f64::INFINITY } else { old.max(new) };
+    let (mut attribute, mut depth) = (0.0, 0.0);
+    for f in drawn.iter().step_by(drawn.len().div_ceil(COMPARED).max(1)) {
+        let (exact_depth, [a, b]) = exact.at(f.x_px, f.y_px);
+        // Chapter 6 compares w, which is linear in space and not on the screen.
+        let is_w = specimen == TriangleSpecimen::BookChapter6;
+        let exact_depth = if is_w { exact_w.at(f.x_px, f.y_px).1[0].clone() } else { exact_depth };
+        if specimen != TriangleSpecimen::BookChapter6 {
+            attribute =
+                worse(attribute, a.distance(f.varying.x) / spread(attributes.each(|a| a[0])));
+            attribute =
+                worse(attribute, b.distance(f.varying.y) / spread(attributes.each(|a| a[1])));
+        }
+        depth = worse(depth, exact_depth.distance(f.depth) / spread(depths));
+    }
+    (attribute, depth)
+}
+
+/// Largest minus smallest, or the magnitude where they are equal.
+fn spread(values: [f64; 3]) -> f64 {
+    let low = values.into_iter().fold(f64::INFINITY, f64::min);
+    let high = values.into_iter().fold(f64::NEG_INFINITY, f64::max);
+    if high > low { high - low } else { high.abs().max(f64::MIN_POSITIVE) }
+}
+
+fn lines(specimen: LineSpecimen, case: &Case) -> Counts {
+    let Shape::Lines(list) = &case.shape else { return Counts::default() };
+    let one = |line: &Line| {
+        let mut truth = Coverage::new(case.window, 0);
+        Oracle.draw(line, case.window, |f| truth.hit(f.y_px, f.x_px, f.x_px + 1));
+        let mut counts = Counts { shapes: 1, pixels: truth.covered(), ..Counts::default() };
+        match specimen_line_coverage(specimen, line, case.window) {
+            Ok(hits) => counts.tally = Tally::between(&hits, &truth),
+            Err(_) => counts.refused = 1,
+        }
+        counts.wrong = u64::from(counts.tally.total() > 0);
+        counts.wrong_pixels = counts.wrong;
+        counts
+    };
+    list.iter().map(one).fold(Counts::default(), Counts::merge)
+}

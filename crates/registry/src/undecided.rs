@@ -1,0 +1,284 @@
+//! Depth ties: samples at which the bounds of two rasterizers leave open which surface is nearer.
+//!
+//! A depth is computed within a derived bound of the exact one ([`rasterproof_verify::comparison::tolerance`]). Where the
+//! intervals of two surfaces meet, in the format that stores them, one right rasterizer may show the
+//! one and another right one the other. Such a sample is undecided by either. A difference there is
+//! excused only if each of the two shows a surface that may be the nearest, in its colour and at its
+//! depth; anything else remains a difference.
+
+use crate::engines::Engine;
+use rasterproof_core::arrays::Each as _;
+use rasterproof_core::frame::Frame;
+use rasterproof_core::grid::PixelRect;
+use rasterproof_core::parallel;
+use rasterproof_render::effects::depth_ties::{Rival, Rivals, Sample};
+use rasterproof_render::effects::render::BadScene;
+use rasterproof_render::pipeline::depth::DepthFormat;
+use rasterproof_render::pipeline::multisample::SAMPLES;
+use rasterproof_render::pipeline::target::{Antialias, Colour, Target};
+use rasterproof_render::scene::Scene;
+use rasterproof_verify::comparison::tolerance::{self, Bound};
+use rasterproof_verify::oracle::values::ExactTriangle;
+
+/// The samples of two frames that are undecided.
+#[derive(Clone, Debug)]
+pub struct Ties {
+    /// Pixels with a sample that may show one of several colours.
+    undecided: Frame<bool>,
+    /// For each plane, samples where both frames show what they may.
+    excused: Vec<Frame<bool>>,
+}
+
+impl Ties {
+    /// Pixels that are undecided by either rasterizer.
+    #[must_use]
+    pub fn count(&self) -> u64 {
+        self.undecided.rows().flat_map(|(_, row)| row).filter(|&&is| is).count() as u64
+    }
+
+    /// Whether a pixel of the picture is undecided.
+    #[must_use]
+    pub fn is_undecided(&self, x_px: i32, y_px: i32) -> bool {
+        self.undecided.get(x_px, y_px).unwrap_or(false)
+    }
+
+    /// Whether a sample of a plane is undecided, and both rasterizers show there what they may.
+    #[must_use]
+    pub fn is_excused(&self, plane: usize, x_px: i32, y_px: i32) -> bool {
+        self.excused[plane].get(x_px, y_px).unwrap_or(false)
+    }
+}
+
+/// A rasterizer, and its frame of the scene with every depth of every sample.
+#[derive(Clone, Copy)]
+pub struct Drawn<'a> {
+    /// Who drew it.
+    pub engine: Engine,
+    /// What it drew.
+    pub target: &'a Target,
+}
+
+/// Samples of a band of rows, which is judged at once.
+const BAND_SAMPLES: u64 = 1 << 16;
+
+/// Rivals that are judged at once, some 100 bytes each. A band with more, many surfaces in one plane,
+/// is halved, down to a pixel.
+const MOST_RIVALS: usize = 1 << 19;
+
+/// Finds the ties in two frames of one scene, in targets of the same kind.
+///
+/// # Errors
+/// [`BadScene`].
+pub fn find(scene: &Scene, frames: [Drawn<'_>; 2]) -> Result<Ties, BadScene> {
+    let target = frames[0].target;
+    let rivals = Rivals::new(scene, target)?;
+    let (size, bounds) = (rivals.size(), target.bounds());
+    let per_row = u64::from(size.width()) * target.antialias().samples();
+    let rows = (BAND_SAMPLES / per_row).max(1) as usize;
+    let bands = parallel::map((size.height() as usize).div_ceil(rows), |number| {
+        let y0 = size.y0 + (number * rows) as i32;
+        let y1 = (y0 + rows as i32).min(size.y1);
+        Judge { rivals: &rivals, frames }.judge(PixelRect { y0, y1, ..size })
+    });
+    let mut ties = Ties {
+        undecided: Frame::new(size, false),
+        excused: vec![Frame::new(bounds, false); target.planes.len()],
+    };
+    let scale = target.antialias().scale() as i32;
+    for Sample { plane, x_px, y_px } in bands.iter().flat_map(|band| &band.excused).copied() {
+        ties.excused[plane].span_mut(y_px, x_px, x_px + 1)[0] = true;
+    }
+    for Sample { x_px, y_px, .. } in bands.iter().flat_map(|band| &band.undecided).copied() {
+        ties.undecided.span_mut(y_px / scale, x_px / scale, x_px / scale + 1)[0] = true;
+    }
+    Ok(ties)
+}
+
+/// What was found in a band.
+#[derive(Default)]
+struct Band {
+    undecided: Vec<Sample>,
+    excused: Vec<Sample>,
+}
+
+impl Band {
+    fn join(mut self, other: Self) -> Self {
+        self.undecided.extend(other.undecided);
+        self.excused.extend(other.excused);
+        self
+    }
+}
+
+/// The two halves of a rectangle: rows, or columns of a single row. None of a single pixel.
+fn halves(rect: PixelRect) -> Option<[PixelRect; 2]> {
+    let (x, y) = (rect.x0 + (rect.x1 - rect.x0) / 2, rect.y0 + (rect.y1 - rect.y0) / 2);
+    if y > rect.y0 {
+        Some([PixelRect { y1: y, ..rect }, PixelRect { y0: y, ..rect }])
+    } else if x > rect.x0 {
+        Some([PixelRect { x1: x, ..rect }, PixelRect { x0: x, ..rect }])
+    } else {
+        None
+    }
+}
+
+/// A rival, and what is known of it by each of the two rasterizers.
+#[derive(Clone, Copy)]
+struct Candidate {
+    rival: Rival,
+    /// The nearest and the farthest key that the rasterizer may store.
+    keys: [(u64, u64); 2],
+    /// The colours that it may give to the sample. A multisampled pixel is shaded in the middle, or
+    /// where the piece does not cover that, at whichever sample comes first.
+    colours: [[Option<Colour>; SAMPLES.len()]; 2],
+}
+
+struct Judge<'a> {
+    rivals: &'a Rivals<'a>,
+    frames: [Drawn<'a>; 2],
+}
+
+impl Judge<'_> {
+    fn judge(&self, rect: PixelRect) -> Band {
+        let halves = halves(rect);
+        let most = if halves.is_some() { MOST_RIVALS } else { usize::MAX };
+        match (self.rivals.within(rect, most), halves) {
+            (Some(rivals), _) => self.judge_rivals(rivals),
+            (None, Some([a, b])) => self.judge(a).join(self.judge(b)),
+            (None, None) => Band::default(),
+        }
+    }
+
+    fn judge_rivals(&self, rivals: Vec<Rival>) -> Band {
+        let mut candidates = self.candidates(rivals);
+        keep_rivals(&mut candidates);
+        // By piece, to be shaded, and by sample again.
+        candidates.sort_unstable_by_key(|c| (c.rival.piece, c.rival.sample));
+        for group in candidates.chunk_by_mut(|a, b| a.rival.piece == b.rival.piece) {
+            (0..2).for_each(|who| self.shade(who, group));
+        }
+        candidates.sort_unstable_by_key(|c| c.rival);
+        let mut band = Band::default();
+        for group in candidates.chunk_by(|a, b| a.rival.sample == b.rival.sample) {
+            let sample = group[0].rival.sample;
+            let mut colours = group.iter().flat_map(|c| c.colours.as_flattened()).flatten();
+            let first = colours.next();
+            if colours.any(|colour| Some(colour) != first) {
+                band.undecided.push(sample);
+                if self.is_excused(group) {
+                    band.excused.push(sample);
+                }
+            }
+        }
+        band
+    }
+
+    /// Rivals with the keys that each rasterizer may store.
+    fn candidates(&self, mut rivals: Vec<Rival>) -> Vec<Candidate> {
+        let format = self.frames[0].target.format;
+        let bounds = self.frames.each(|frame| tolerance::of(frame.engine).depth);
+        rivals.sort_unstable_by_key(|rival| (rival.piece, rival.sample));
+        let same = |a: &Rival, b: &Rival| (a.piece, a.sample.plane) == (b.piece, b.sample.plane);
+        let mut candidates = Vec::with_capacity(rivals.len());
+        for group in rivals.chunk_by(same) {
+            let Some((corners, depths)) = self.rivals.piece(group[0].piece, group[0].sample.plane)
+            else {
+                continue;
+            };
+            let no_values = [[0.0; 0]; 3];
+            let Some(exact) = ExactTriangle::new(&corners, depths, [1.0; 3], no_values) else {
+                continue;
+            };
+            candidates.extend(group.iter().map(|&rival| {
+                let depth = exact.at(rival.sample.x_px, rival.sample.y_px).0.to_f64();
+                let keys = bounds.each(|bound| keys(format, depth, bound, depths));
+                Candidate { rival, keys, colours: [[None; SAMPLES.len()]; 2] }
+            }));
+        }
+        candidates.sort_unstable_by_key(|c| c.rival);
+        candidates
+    }
+
+    /// Finds what one of the two rasterizers shows of a piece at its candidates.
+    fn shade(&self, who: usize, group: &mut [Candidate]) {
+        let Drawn { engine, target } = self.frames[who];
+        let piece = group[0].rival.piece;
+        let samples = || group.iter().map(|c| c.rival.sample);
+        let empty = PixelRect { x0: i32::MAX, y0: i32::MAX, x1: i32::MIN, y1: i32::MIN };
+        let bounds = samples().fold(empty, |rect, Sample { x_px, y_px, .. }| PixelRect {
+            x0: rect.x0.min(x_px),
+            y0: rect.y0.min(y_px),
+            x1: rect.x1.max(x_px + 1),
+            y1: rect.y1.max(y_px + 1),
+        });
+        let find = |group: &[Candidate], plane, x_px, y_px| {
+            let wanted = Sample { plane, x_px, y_px };
+            group.binary_search_by_key(&wanted, |c| c.rival.sample).ok()
+        };
+        if target.antialias() != Antialias::Multisample4 {
+            self.rivals.show(&engine, piece, Some(0), bounds, &mut |x, y, colour| {
+                if let Some(at) = find(group, 0, x, y) {
+                    group[at].colours[who][0] = Some(colour);
+                }
+            });
+            return;
+        }
+        for plane in 0..SAMPLES.len() {
+            self.rivals.show(&engine, piece, Some(plane), bounds, &mut |x, y, colour| {
+                for of in 0..SAMPLES.len() {
+                    if let Some(at) = find(group, of, x, y) {
+                        group[at].colours[who][plane] = Some(colour);
+                    }
+                }
+            });
+        }
+        self.rivals.show(&engine, piece, None, bounds, &mut |x, y, colour| {
+            for of in 0..SAMPLES.len() {
+                if let Some(at) = find(group, of, x, y) {
+                    group[at].colours[who] = [Some(colour); SAMPLES.len()];
+                }
+            }
+        });
+    }
+
+    /// Whether both frames show at this sample a rival, in its colour and at its depth, and the two
+    /// rasterizers agree about the colours of all.
+    fn is_excused(&self, group: &[Candidate]) -> bool {
+        let Sample { plane, x_px, y_px } = group[0].rival.sample;
+        let shows = |who: usize| {
+            let plane = &self.frames[who].target.planes[plane];
+            let (key, colour) = (plane.depth.get(x_px, y_px), plane.colour.get(x_px, y_px));
+            group.iter().any(|c| {
+                let (near, far) = c.keys[who];
+                key.is_some_and(|key| (near..=far).contains(&key))
+                    && c.colours[who].contains(&colour)
+            })
+        };
+        group.iter().all(|c| c.colours[0] == c.colours[1]) && shows(0) && shows(1)
+    }
+}
+
+/// The keys of all depths within a bound of the exact one, which was rounded once. The ends are
+/// rounded outwards.
+fn keys(format: DepthFormat, exact: f64, bound: Bound, depths: [f64; 3]) -> (u64, u64) {
+    let error = bound.at(depths) + tolerance::ORACLE.depth.at(depths);
+    (format.key((exact - error).next_down()), format.key((exact + error).next_up()))
+}
+
+/// Keeps what may be the nearest by one of the two rasterizers, at samples where several may.
+fn keep_rivals(candidates: &mut Vec<Candidate>) {
+    let mut kept = Vec::new();
+    for group in candidates.chunk_by(|a, b| a.rival.sample == b.rival.sample) {
+        let farthest = [0, 1].each(|who| {
+            let ends = group.iter().map(|c| (c.keys[who].1, c.rival.piece));
+            ends.min().unwrap_or((u64::MAX, u32::MAX))
+        });
+        let may_win =
+            |c: &&Candidate| (0..2).any(|who| (c.keys[who].0, c.rival.piece) <= farthest[who]);
+        let before = kept.len();
+        kept.extend(group.iter().filter(may_win).copied());
+        if kept.len() == before + 1 {
+            kept.truncate(before);
+        }
+    }
+    *candidates = kept;
+}

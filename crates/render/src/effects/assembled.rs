@@ -1,0 +1,58 @@
+//! A scene on its way from plan to picture: in clip space, and in pieces where they are looked at.
+
+use super::conditions::{interpolation, perspective};
+use super::plan::{Order, PiecePlan, Plan, Rule};
+use super::primitive::{BadScene, Piece, Prepared};
+use crate::pipeline::Counters;
+use crate::scene::Scene;
+use rasterproof_core::arrays::Each as _;
+
+/// A scene after the vertex stage, and after assembly where all pieces are looked at.
+pub(super) struct Assembled<'a> {
+    pub items: Vec<Prepared<'a>>,
+    /// With the items they are of.
+    pub pieces: Option<Vec<(usize, Piece)>>,
+    /// Of these pieces.
+    pub plans: Vec<PiecePlan>,
+    pub counters: Counters,
+}
+
+impl<'a> Assembled<'a> {
+    /// Brings a scene into clip space, by a plan of its items.
+    pub fn new(scene: &'a Scene, plan: &Plan) -> Result<Self, BadScene> {
+        let mut counters = Counters::default();
+        let window = plan.drawn().window();
+        let items = plan.items.iter().enumerate();
+        let items = items
+            .map(|(i, item)| Prepared::new(scene, i, item, window, &mut counters))
+            .collect::<Result<_, _>>()?;
+        Ok(Self { items, pieces: None, plans: Vec::new(), counters })
+    }
+
+    /// Brings all pieces into the window.
+    pub fn assemble(&mut self, scene: &Scene) {
+        let mut pieces = Vec::with_capacity(scene.triangles());
+        for (index, item) in self.items.iter().enumerate() {
+            let mut keep = |piece: &Piece, _: &mut Counters| pieces.push((index, *piece));
+            item.assemble(scene, &mut self.counters, &mut keep);
+        }
+        self.pieces = Some(pieces);
+    }
+
+    /// Puts the pieces into an order; equal distances keep the order of submission.
+    pub fn sort(&mut self, order: Order) {
+        let (Order::FarthestFirst, Some(pieces)) = (order, &mut self.pieces) else { return };
+        let distance = |piece: &Piece| piece.vertices.each(|v| v.depth).iter().sum::<f64>();
+        let mut sorted: Vec<_> = pieces.iter().copied().zip(self.plans.iter().copied()).collect();
+        sorted.sort_by(|((_, a), _), ((_, b), _)| distance(b).total_cmp(&distance(a)));
+        (*pieces, self.plans) = sorted.into_iter().unzip();
+    }
+}
+
+/// What a rule says about a piece.
+#[inline]
+pub(super) fn plan_of(rule: &Rule, piece: &Piece) -> PiecePlan {
+    let interpolates = interpolation::of(rule, piece);
+    let perspective = perspective::pays(rule.perspective, piece, interpolates);
+    PiecePlan { interpolates, perspective, depth: rule.depth }
+}

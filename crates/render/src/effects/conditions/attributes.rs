@@ -1,0 +1,60 @@
+//! Colour, light, texture: what the fragment stage multiplies in, and the attribute it needs.
+//!
+//! Left out where the material does not use it: the factor left out is exactly 1, and the others
+//! keep their order.
+
+use super::survey::Survey;
+use crate::effects::plan::{Attributes, Decision};
+use crate::effects::primitive::is_lit;
+use crate::effects::{Effect, Effects};
+use crate::pipeline::shade::Light;
+use crate::scene::{Item, Scene, Shading};
+
+/// The effects, the attributes they need, and what they are called.
+const ALL: [(Effect, u8, &str); 3] = [
+    (Effect::Colour, Attributes::COLOUR, "colour of the corners"),
+    (Effect::Light, Attributes::NORMAL, "light and normal"),
+    (Effect::Texture, Attributes::UV, "texture"),
+];
+
+fn uses(scene: &Scene, item: &Item, effect: Effect) -> bool {
+    let material = &item.material;
+    match effect {
+        Effect::Colour => material.vertex_colours || material.shading == Shading::Gouraud,
+        Effect::Light => is_lit(scene, item),
+        _ => material.texture.is_some(),
+    }
+}
+
+/// The attributes that an item's pieces carry.
+pub fn carries(scene: &Scene, item: &Item, effects: &Effects) -> Attributes {
+    let paid =
+        |(effect, _, _): &(Effect, u8, &str)| effects.pays(*effect, uses(scene, item, *effect));
+    Attributes(ALL.into_iter().filter(paid).fold(0, |bits, (_, bit, _)| bits | bit))
+}
+
+/// Why an item does without.
+fn unused(survey: &Survey<'_>, effect: Effect) -> &'static str {
+    let is_gouraud = survey.item.material.shading == Shading::Gouraud;
+    match effect {
+        Effect::Light if survey.scene.light == Light::NONE => "the scene has no light",
+        Effect::Light if is_gouraud => "Gouraud: the light is in the colours of the corners",
+        Effect::Light => "the material is unlit",
+        Effect::Texture => "the material has no texture",
+        _ => "the material uses no colours of its corners",
+    }
+}
+
+pub fn explain<'a>(survey: &'a Survey<'_>) -> impl Iterator<Item = Decision> + 'a {
+    let pieces = survey.pieces;
+    ALL.into_iter().zip(survey.interpolated).map(move |((effect, bit, what), varies)| {
+        let reason = match (uses(survey.scene, survey.item, effect), survey.is_listed, varies) {
+            (false, ..) => unused(survey, effect).to_owned(),
+            (true, false, _) => format!("{what}: interpolated where it varies"),
+            (true, true, 0) => format!("{what}: one for each triangle"),
+            (true, true, _) if varies == pieces => format!("{what}: varies in every piece"),
+            (true, true, _) => format!("{what}: varies in some pieces"),
+        };
+        survey.decide(effect, if survey.carries.has(bit) { pieces } else { 0 }, reason)
+    })
+}

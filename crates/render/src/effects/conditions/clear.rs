@@ -1,0 +1,114 @@
+//! Clear: forgetting last frame's colours.
+//!
+//! Left out for tiles that the first piece covers, or the second if it shares an edge with it: what
+//! a triangle covers is convex, so it covers a tile if it covers the four corner pixels. Here the
+//! centres must lie strictly inside, which is what every rasterizer covers.
+
+use super::depth::share_an_edge;
+use super::survey::of_frame;
+use crate::effects::plan::{Canvas, Clear, Decision, FramePlan, Samples};
+use crate::effects::primitive::{Piece, pixel_box};
+use crate::effects::{Effect, Effects, Mode};
+use crate::pipeline::assemble::twice_area;
+use crate::pipeline::target::Antialias;
+use rasterproof_core::arrays::Each as _;
+use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
+use rasterproof_core::triangle::Corners;
+
+/// Side of the tiles whose clearing is decided together.
+const TILE_PX: i32 = 32;
+
+/// What is cleared; `pieces` are those that are drawn first, where that is known.
+pub fn decide(
+    effects: &Effects,
+    canvas: &Canvas,
+    samples: Samples,
+    pieces: Option<&[(usize, Piece)]>,
+) -> Clear {
+    match effects.mode(Effect::Clear) {
+        Mode::Always => Clear::Everything,
+        Mode::Never => Clear::Nothing,
+        _ if matches!(samples, Samples::OnDemand { .. }) => Clear::Nothing,
+        _ => {
+            pieces.and_then(|pieces| tiles(canvas, pieces)).map_or(Clear::Everything, Clear::Tiles)
+        }
+    }
+}
+
+/// The tiles that the first piece does not cover; nothing where that is not known.
+fn tiles(canvas: &Canvas, pieces: &[(usize, Piece)]) -> Option<Vec<PixelRect>> {
+    let first = pieces.first()?.1.corners();
+    // A small first piece covers no tile; samples off the centre are not asked for.
+    let touched = pixel_box(&first, 0);
+    let large = touched.width() as i32 >= TILE_PX && touched.height() as i32 >= TILE_PX;
+    if !large || canvas.antialias == Antialias::Multisample4 {
+        return None;
+    }
+    // The second piece is drawn over what the first leaves only if it shares an edge with it.
+    let second = pieces.get(1).map(|(_, piece)| piece.corners());
+    let second = second.filter(|second| share_an_edge(&first, second));
+    let is_covered = |tile: PixelRect| {
+        let ends = [(tile.x0, tile.y0), (tile.x1 - 1, tile.y1 - 1)];
+        [Some(first), second].into_iter().flatten().any(|corners| holds(corners, ends))
+    };
+    let bounds = canvas.window();
+    let mut tiles: Vec<PixelRect> = Vec::new();
+    for y0 in (bounds.y0..bounds.y1).step_by(TILE_PX as usize) {
+        for x0 in (bounds.x0..bounds.x1).step_by(TILE_PX as usize) {
+            let (x1, y1) = ((x0 + TILE_PX).min(bounds.x1), (y0 + TILE_PX).min(bounds.y1));
+            let tile = PixelRect { x0, y0, x1, y1 };
+            match tiles.last_mut() {
+                _ if is_covered(tile) => {}
+                // Neighbours in a row become one.
+                Some(last) if (last.y0, last.x1) == (y0, x0) => last.x1 = x1,
+                _ => tiles.push(tile),
+            }
+        }
+    }
+    Some(tiles)
+}
+
+/// Whether the centres of the four corner pixels, between two opposite ones, lie strictly inside.
+fn holds(corners: Corners, [(x0, y0), (x1, y1)]: [(i32, i32); 2]) -> bool {
+    let [a, b, c] = corners;
+    let centre = |px: i32| px * SUBPIXELS + HALF_PIXEL;
+    [(x0, y0), (x1, y0), (x0, y1), (x1, y1)].iter().all(|&(x, y)| {
+        let p = SubpixelPoint::new(centre(x), centre(y));
+        let sides = [[a, b, p], [b, c, p], [c, a, p]].each(|side| twice_area(side).signum());
+        sides[0] != 0 && sides[0] == sides[1] && sides[1] == sides[2]
+    })
+}
+
+pub fn explain(effects: &Effects, canvas: &Canvas, frame: &FramePlan) -> Decision {
+    let area = |tile: &PixelRect| u64::from(tile.width()) * u64::from(tile.height());
+    let on_demand = matches!(frame.samples, Samples::OnDemand { .. });
+    let cleared = match &frame.clear {
+        Clear::Nothing => 0,
+        Clear::Everything => canvas.samples(),
+        Clear::Tiles(tiles) => tiles.iter().map(area).sum(),
+    } + if on_demand { canvas.pixels() } else { 0 };
+    let reason = match cleared {
+        0 => "every tile is covered by what is drawn first",
+        _ if on_demand => "pixels are; the samples of one as they are told apart",
+        _ if cleared < canvas.samples() => "the rest is covered by what is drawn first",
+        _ => "nothing that is drawn first covers a tile",
+    };
+    let off = canvas.samples().saturating_sub(cleared);
+    of_frame(effects, Effect::Clear, [cleared, off, 0], reason.to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// On a border some rasterizer may not cover the pixel.
+    #[test]
+    fn centres_on_a_border_are_not_inside() {
+        let p = |x_px: i32, y_px: i32| SubpixelPoint::new(x_px * SUBPIXELS, y_px * SUBPIXELS);
+        let corners = [p(0, 0), p(64, 0), p(0, 64)];
+        assert!(holds(corners, [(0, 0), (31, 31)]), "63 of 64");
+        assert!(!holds(corners, [(0, 0), (31, 32)]), "on the hypotenuse");
+        assert!(!holds(corners, [(0, 0), (32, 32)]));
+        assert!(holds([corners[0], corners[2], corners[1]], [(0, 0), (31, 31)]), "either winding");
+    }
+}

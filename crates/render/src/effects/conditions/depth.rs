@@ -1,0 +1,145 @@
+//! Depth: comparing with the depth buffer and writing to it.
+//!
+//! Left out where no other piece has a bounding box that meets this one's. Then nothing is in front
+//! of it, and it is in front of nothing; the clear value is farther than every depth. Two pieces on
+//! either side of an edge they share count as one: by the fill rule they meet nowhere.
+
+use super::survey::Survey;
+use crate::effects::plan::{Canvas, Decision};
+use crate::effects::primitive::{Piece, pixel_box};
+use crate::effects::{Effect, Effects, Mode};
+use crate::pipeline::assemble::twice_area;
+use crate::pipeline::target::Antialias;
+use crate::scene::{Hidden, Scene};
+use rasterproof_core::arrays::Each as _;
+use rasterproof_core::grid::{PixelRect, SubpixelPoint};
+use rasterproof_core::triangle::Corners;
+
+/// Scenes with more triangles are taken to overlap: to look would cost more than it saves.
+const MOST_TRIANGLES: usize = 2048;
+
+/// Comparisons for each box, on average, after which all are taken to overlap.
+const MOST_COMPARISONS: usize = 64;
+
+/// Boxes whose areas add up to so many times that of the window are all taken to overlap: boxes that are
+/// apart add up to once at most.
+const MOST_AREA: u64 = 2;
+
+/// If nearly all of the first boxes of the sweep meet another, all are taken to.
+const FIRST_BOXES: usize = 64;
+
+/// Whether it pays to list the pieces before anything is drawn.
+pub fn is_looked_at(scene: &Scene, effects: &Effects) -> bool {
+    scene.hidden == Hidden::DepthBuffer
+        && effects.mode(Effect::Depth) == Mode::Planned
+        && scene.triangles() <= MOST_TRIANGLES
+}
+
+/// Whether a piece pays that may overlap another or not.
+pub fn pays(scene: &Scene, effects: &Effects, overlaps: bool) -> bool {
+    scene.hidden == Hidden::DepthBuffer && effects.pays(Effect::Depth, overlaps)
+}
+
+pub fn explain(survey: &Survey<'_>) -> Decision {
+    let Survey { pieces, depth, .. } = *survey;
+    if survey.scene.hidden == Hidden::Painter {
+        return survey.decide(Effect::Depth, 0, "the scene is drawn from back to front");
+    }
+    if !survey.is_listed {
+        let on = if pays(survey.scene, survey.effects, true) { pieces } else { 0 };
+        return survey.decide(Effect::Depth, on, "so many triangles are taken to overlap");
+    }
+    let reason = match depth {
+        0 => "no bounding box of another piece meets this item's".to_owned(),
+        _ if depth == pieces => "every piece may overlap another".to_owned(),
+        _ => "some pieces may overlap others".to_owned(),
+    };
+    survey.decide(Effect::Depth, depth, reason)
+}
+
+/// Pieces whose boxes are compared as one: a piece, or two on either side of a shared edge.
+struct Unit {
+    pieces: std::ops::Range<usize>,
+    rect: PixelRect,
+}
+
+/// Which pieces may hide or be hidden: compares all bounding boxes, by a sweep along the axis where
+/// they are shorter.
+pub fn overlaps(pieces: &[(usize, Piece)], canvas: &Canvas) -> Vec<bool> {
+    // Samples lie up to 6/16 px off the centre.
+    let margin_px = i32::from(canvas.antialias == Antialias::Multisample4);
+    let mut units = units(pieces, margin_px);
+    let window = canvas.window();
+    let area = |rect: &PixelRect| u64::from(rect.width()) * u64::from(rect.height());
+    let boxes: u64 = units.iter().map(|unit| area(&unit.rect.intersect(&window))).sum();
+    if units.len() > FIRST_BOXES && boxes > MOST_AREA * area(&window) {
+        return vec![true; pieces.len()];
+    }
+    let sum = |side: fn(&PixelRect) -> u32| -> u64 {
+        units.iter().map(|unit| u64::from(side(&unit.rect))).sum()
+    };
+    if sum(PixelRect::height) < sum(PixelRect::width) {
+        for Unit { rect: PixelRect { x0, y0, x1, y1 }, .. } in &mut units {
+            std::mem::swap(x0, y0);
+            std::mem::swap(x1, y1);
+        }
+    }
+    units.sort_unstable_by_key(|unit| unit.rect.x0);
+    let mut overlaps = vec![false; pieces.len()];
+    let (mut comparisons, mut met) = (0, 0);
+    for (i, unit) in units.iter().enumerate() {
+        let meets = units[i + 1..].iter().take_while(|other| other.rect.x0 < unit.rect.x1);
+        for other in meets {
+            comparisons += 1;
+            if other.rect.y0 < unit.rect.y1 && unit.rect.y0 < other.rect.y1 {
+                overlaps[unit.pieces.clone()].fill(true);
+                overlaps[other.pieces.clone()].fill(true);
+            }
+        }
+        met += usize::from(overlaps[unit.pieces.start]);
+        let nearly_all = i + 1 >= FIRST_BOXES && met * 8 > (i + 1) * 7;
+        if comparisons > MOST_COMPARISONS * units.len() || nearly_all {
+            overlaps.fill(true);
+            break;
+        }
+    }
+    overlaps
+}
+
+fn units(pieces: &[(usize, Piece)], margin_px: i32) -> Vec<Unit> {
+    let mut units: Vec<Unit> = Vec::with_capacity(pieces.len());
+    let mut i = 0;
+    while i < pieces.len() {
+        let corners = pieces[i].1.corners();
+        let mut rect = pixel_box(&corners, margin_px);
+        let mut end = i + 1;
+        if let Some(next) = pieces.get(end).map(|(_, piece)| piece.corners())
+            && share_an_edge(&corners, &next)
+        {
+            let other = pixel_box(&next, margin_px);
+            rect = PixelRect {
+                x0: rect.x0.min(other.x0),
+                y0: rect.y0.min(other.y0),
+                x1: rect.x1.max(other.x1),
+                y1: rect.y1.max(other.y1),
+            };
+            end += 1;
+        }
+        units.push(Unit { pieces: i..end, rect });
+        i = end;
+    }
+    units
+}
+
+/// Whether two triangles have two corners in common and the third ones on either side.
+pub fn share_an_edge(a: &Corners, b: &Corners) -> bool {
+    let [third_a, third_b] = [(a, b), (b, a)].each(|(own, other)| {
+        let mut alone = own.iter().filter(|corner| !other.contains(corner));
+        alone.next().filter(|_| alone.next().is_none())
+    });
+    let (Some(third_a), Some(third_b)) = (third_a, third_b) else { return false };
+    let mut shared = a.iter().filter(|corner| *corner != third_a);
+    let (Some(p), Some(q)) = (shared.next(), shared.next()) else { return false };
+    let side = |r: &SubpixelPoint| twice_area([*p, *q, *r]).signum();
+    side(third_a) * side(third_b) < 0
+}

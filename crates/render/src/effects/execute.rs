@@ -1,0 +1,421 @@
+//! A plan to a picture: does what the plan says, and decides nothing.
+
+use std::fmt;
+
+use super::Effect;
+use super::assembled::{Assembled, plan_of};
+use super::kernel::Kernel;
+use super::plan::{
+    Attributes, Canvas, Clear, ItemPlan, Order, PiecePlan, Pieces, Plan, Samples, SceneDigest,
+    VERSION,
+};
+use super::primitive::{BadScene, Piece, Prepared};
+use super::samples::OnDemand;
+use crate::pipeline::Counters;
+use crate::pipeline::target::{Colour, Target};
+use crate::scene::Scene;
+use rasterproof_core::contract::Interpolate;
+use rasterproof_core::frame::Frame;
+
+/// A frame, what it cost and why.
+#[derive(Clone, Debug)]
+pub struct Rendered {
+    /// The pixels, resolved.
+    pub picture: Frame<Colour>,
+    /// What was done.
+    pub counters: Counters,
+    /// What was paid for, and why.
+    pub plan: Plan,
+}
+
+/// Why a plan cannot be followed. Nothing was drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Misfit {
+    /// The scene cannot be drawn by any plan.
+    Scene(BadScene),
+    /// The plan has another form, or does not name its form.
+    Version(Option<u64>),
+    /// The plan is for another scene, or does not say for which.
+    OtherScene {
+        /// What it is for.
+        planned: Option<SceneDigest>,
+        /// What there is.
+        there: SceneDigest,
+    },
+    /// The plan contradicts itself: a piece interpolates what its item does not carry.
+    NotCarried {
+        /// Which item.
+        item: usize,
+        /// What it does not carry.
+        attributes: Attributes,
+    },
+    /// The plan is for another target.
+    Canvas {
+        /// What it is for.
+        planned: Canvas,
+        /// What there is.
+        there: Canvas,
+    },
+    /// The plan is for a scene with another number of items.
+    Items {
+        /// Items of the plan.
+        planned: usize,
+        /// Items of the scene.
+        there: usize,
+    },
+    /// The plan lists another number of pieces than the item has.
+    Pieces {
+        /// Which item.
+        item: usize,
+        /// Pieces of the plan.
+        planned: u64,
+        /// Pieces of the item.
+        there: u64,
+    },
+    /// A tile to be cleared does not lie in the window.
+    Tile(rasterproof_core::grid::PixelRect),
+}
+
+impl fmt::Display for Misfit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Scene(bad) => write!(f, "{bad}"),
+            Self::Version(planned) => {
+                match planned {
+                    Some(planned) => write!(f, "the plan has the form of version {planned}")?,
+                    None => f.write_str("the plan does not name its version")?,
+                }
+                write!(f, ", and this program reads version {VERSION}; plan again with it")
+            }
+            Self::OtherScene { planned: Some(planned), there } => write!(
+                f,
+                "the plan is for another scene, or for the same one seen otherwise: its scene has \
+                 the digest {planned}, and this one {there}; plan again with the options of this \
+                 picture"
+            ),
+            Self::OtherScene { planned: None, there } => write!(
+                f,
+                "the plan does not say which scene it is for (\"scene\"), and this one has the \
+                 digest {there}; plan again"
+            ),
+            Self::NotCarried { item, attributes } => write!(
+                f,
+                "the plan contradicts itself: pieces of item {item} interpolate {attributes}, which \
+                 is not in its \"carries\"; add it there, or remove it from \"interpolates\""
+            ),
+            Self::Canvas { planned, there } => write!(
+                f,
+                "the plan is for {planned}, and this is {there}, {}; plan again, or draw the same",
+                differences(planned, there)
+            ),
+            Self::Items { planned, there } => {
+                write!(f, "the plan has {planned} items, and the scene {there}")
+            }
+            Self::Pieces { item, planned, there } => {
+                write!(
+                    f,
+                    "the plan lists {planned} pieces of item {item}, which has {there}; a rule, \
+                     \"as-they-come\", fits any number"
+                )
+            }
+            Self::Tile(tile) => write!(
+                f,
+                "the plan clears a tile from ({}, {}) to ({}, {}), which is not in the window",
+                tile.x0, tile.y0, tile.x1, tile.y1
+            ),
+        }
+    }
+}
+
+/// What two canvases differ in, in words.
+fn differences(planned: &Canvas, there: &Canvas) -> String {
+    let differ = [
+        ("the size", planned.size() != there.size()),
+        ("the antialiasing", planned.antialias != there.antialias),
+        ("the depth format", planned.depth != there.depth),
+    ];
+    let names: Vec<_> =
+        differ.iter().filter(|(_, differ)| *differ).map(|(name, _)| *name).collect();
+    format!(
+        "so that {} {}",
+        names.join(" and "),
+        if names.len() == 1 { "differs" } else { "differ" }
+    )
+}
+
+impl std::error::Error for Misfit {}
+
+impl From<BadScene> for Misfit {
+    fn from(bad: BadScene) -> Self {
+        Self::Scene(bad)
+    }
+}
+
+/// Who wants to know more than the finished picture.
+pub(super) enum Onlooker<'a> {
+    None,
+    /// Notes for each pixel what it paid for.
+    Map(&'a mut Frame<u16>),
+    /// Looks at the screen meanwhile.
+    Viewer {
+        front: &'a mut Frame<Colour>,
+        look: &'a mut dyn FnMut(&Frame<Colour>),
+    },
+}
+
+/// Assembles a scene for a plan, as far as the plan needs to know its pieces.
+pub(super) fn fit<'a>(
+    plan: &Plan,
+    scene: &'a Scene,
+    target: &Target,
+) -> Result<Assembled<'a>, Misfit> {
+    if plan.version != VERSION {
+        return Err(Misfit::Version(Some(plan.version.into())));
+    }
+    let there = Canvas { watched: plan.canvas.watched, ..Canvas::of(target) };
+    if plan.canvas != there {
+        return Err(Misfit::Canvas { planned: plan.canvas, there });
+    }
+    let (planned, there) = (plan.items.len(), scene.items.len());
+    if planned != there {
+        return Err(Misfit::Items { planned, there });
+    }
+    for (item, plan) in plan.items.iter().enumerate() {
+        let attributes = plan.interpolates().without(plan.carries);
+        if !attributes.is_empty() {
+            return Err(Misfit::NotCarried { item, attributes });
+        }
+    }
+    let window = plan.drawn().window();
+    if let Clear::Tiles(tiles) = &plan.frame.clear
+        && let Some(tile) =
+            tiles.iter().find(|tile| tile.is_empty() || tile.intersect(&window) != **tile)
+    {
+        return Err(Misfit::Tile(*tile));
+    }
+    let mut assembled = Assembled::new(scene, plan)?;
+    let there = SceneDigest::of(scene);
+    if plan.scene != Some(there) {
+        return Err(Misfit::OtherScene { planned: plan.scene, there });
+    }
+    let lists = |item: &ItemPlan| matches!(item.pieces, Pieces::Listed(_));
+    if plan.items.iter().any(lists) || plan.frame.order == Order::FarthestFirst {
+        assembled.assemble(scene);
+        assembled.plans = plans(plan, assembled.pieces.as_deref().unwrap_or_default())?;
+        assembled.sort(plan.frame.order);
+    }
+    Ok(assembled)
+}
+
+/// What a plan says of each piece, in the order of submission.
+fn plans(plan: &Plan, pieces: &[(usize, Piece)]) -> Result<Vec<PiecePlan>, Misfit> {
+    let mut plans = Vec::with_capacity(pieces.len());
+    for (item, ItemPlan { pieces: planned, .. }) in plan.items.iter().enumerate() {
+        let own = pieces.iter().filter(|(index, _)| *index == item);
+        match planned {
+            Pieces::AsTheyCome(rule) => plans.extend(own.map(|(_, piece)| plan_of(rule, piece))),
+            Pieces::Listed(runs) => {
+                let there = own.count() as u64;
+                let planned =
+                    runs.iter().fold(0, |sum: u64, (count, _)| sum.saturating_add(*count));
+                if planned != there {
+                    return Err(Misfit::Pieces { item, planned, there });
+                }
+                for (count, plan) in runs {
+                    plans.extend((0..*count).map(|_| *plan));
+                }
+            }
+        }
+    }
+    Ok(plans)
+}
+
+/// Draws what was assembled for a plan.
+pub(super) fn draw(
+    plan: Plan,
+    assembled: Assembled<'_>,
+    scene: &Scene,
+    engine: &impl Interpolate,
+    target: &mut Target,
+    onlooker: Onlooker<'_>,
+) -> Rendered {
+    let mut single;
+    let target = if plan.frame.samples == Samples::Middle {
+        single = target.single();
+        &mut single
+    } else {
+        target
+    };
+    let counters = assembled.counters;
+    let stage = Stage { plan, scene, engine, target, counters, on_demand: None, onlooker };
+    stage.draw_all(&assembled)
+}
+
+/// A frame being drawn.
+struct Stage<'a, 'b, E> {
+    plan: Plan,
+    scene: &'a Scene,
+    engine: &'a E,
+    target: &'a mut Target,
+    counters: Counters,
+    on_demand: Option<OnDemand>,
+    onlooker: Onlooker<'b>,
+}
+
+impl<E: Interpolate> Stage<'_, '_, E> {
+    fn draw_all(mut self, assembled: &Assembled<'_>) -> Rendered {
+        self.begin();
+        if let Some(pieces) = &assembled.pieces {
+            self.draw_listed(&assembled.items, pieces, &assembled.plans);
+        } else {
+            self.draw_as_they_come(&assembled.items);
+        }
+        self.finish()
+    }
+
+    /// Draws each piece when it is assembled.
+    fn draw_as_they_come(&mut self, items: &[Prepared<'_>]) {
+        let scene = self.scene;
+        for (index, item) in items.iter().enumerate() {
+            let Pieces::AsTheyCome(rule) = self.plan.items[index].pieces else { continue };
+            let mut counters = std::mem::take(&mut self.counters);
+            item.assemble(scene, &mut counters, &mut |piece, fills| {
+                self.draw(item, piece, plan_of(&rule, piece), fills);
+            });
+            self.counters += counters;
+            self.look();
+        }
+    }
+
+    fn draw_listed(
+        &mut self,
+        items: &[Prepared<'_>],
+        pieces: &[(usize, Piece)],
+        plans: &[PiecePlan],
+    ) {
+        let mut fills = Counters::default();
+        for (i, ((index, piece), plan)) in pieces.iter().zip(plans).enumerate() {
+            self.draw(&items[*index], piece, *plan, &mut fills);
+            if pieces.get(i + 1).is_none_or(|(next, _)| next != index) {
+                self.look();
+            }
+        }
+        self.counters += fills;
+    }
+
+    /// Clears what is called for, and sets up samples on demand.
+    fn begin(&mut self) {
+        let Self { plan, target, counters, scene, .. } = self;
+        let pixels = target.pixel_count();
+        if matches!(plan.frame.samples, Samples::OnDemand { .. }) {
+            counters.cleared += pixels;
+            counters.depths_cleared += if plan.tests_depths() { pixels } else { 0 };
+            self.on_demand = Some(OnDemand::new(target, scene.background, plan.frame.samples));
+        } else if target.antialias().samples() > 1 {
+            counters.expanded += pixels;
+        }
+        match &plan.frame.clear {
+            Clear::Nothing => {}
+            Clear::Everything => target.clear_colour(scene.background, counters),
+            Clear::Tiles(tiles) => target.clear_tiles(tiles, scene.background, counters),
+        }
+        if plan.frame.clear_depths {
+            target.clear_depth(counters);
+        }
+        self.look();
+    }
+
+    /// Shows a viewer what is on the screen meanwhile.
+    fn look(&mut self) {
+        let Onlooker::Viewer { front, look } = &mut self.onlooker else { return };
+        if self.plan.frame.second_buffer {
+            look(front);
+        } else {
+            look(&resolve(self.on_demand.as_ref(), self.target));
+        }
+    }
+
+    /// Draws one piece.
+    fn draw(
+        &mut self,
+        item: &Prepared<'_>,
+        piece: &Piece,
+        plan: PiecePlan,
+        counters: &mut Counters,
+    ) {
+        counters.wide += u64::from(self.engine.word_bits(&piece.corners()) > Some(i32::BITS));
+        if let Onlooker::Map(map) = &mut self.onlooker {
+            let paid = paid(plan);
+            let scale = self.target.antialias().scale() as i32;
+            self.engine.cover(piece.corners(), self.target.bounds(), |span| {
+                let (x0_px, x1_px) = (span.x0_px / scale, (span.x1_px - 1) / scale + 1);
+                for pixel in map.span_mut(span.y_px / scale, x0_px, x1_px) {
+                    *pixel |= paid;
+                }
+            });
+        }
+        let kernel = Kernel::new(item, piece, plan, counters);
+        kernel.draw(self.engine, piece, self.target, self.on_demand.as_mut(), counters);
+    }
+
+    fn finish(self) -> Rendered {
+        let Self { plan, mut counters, target, on_demand, onlooker, .. } = self;
+        let picture = resolve(on_demand.as_ref(), target);
+        // What is presented is a copy: the back buffer goes on to the next frame.
+        let picture = if plan.frame.second_buffer {
+            counters.presented += target.pixel_count();
+            picture.clone()
+        } else {
+            picture
+        };
+        match onlooker {
+            Onlooker::None => {}
+            Onlooker::Map(map) => {
+                if target.antialias().samples() > 1 {
+                    mark_samples(map, on_demand.as_ref());
+                }
+            }
+            Onlooker::Viewer { front, look } => {
+                front.clone_from(&picture);
+                look(front);
+            }
+        }
+        if let Some(on_demand) = on_demand {
+            on_demand.finish(target);
+        }
+        Rendered { picture, counters, plan }
+    }
+}
+
+/// What a fragment of a piece pays for, as bits of [`Effect`].
+fn paid(plan: PiecePlan) -> u16 {
+    let PiecePlan { interpolates, perspective, depth } = plan;
+    [
+        (Effect::Perspective, perspective && !interpolates.is_empty()),
+        (Effect::Depth, depth),
+        (Effect::Colour, interpolates.has(Attributes::COLOUR)),
+        (Effect::Light, interpolates.has(Attributes::NORMAL)),
+        (Effect::Texture, interpolates.has(Attributes::UV)),
+        (Effect::Interpolation, !interpolates.is_empty()),
+    ]
+    .into_iter()
+    .filter(|(_, pays)| *pays)
+    .fold(0, |bits, (effect, _)| bits | 1 << effect as u16)
+}
+
+/// The picture so far.
+fn resolve(on_demand: Option<&OnDemand>, target: &Target) -> Frame<Colour> {
+    on_demand.map_or_else(|| target.resolve(), |on_demand| on_demand.resolve(target))
+}
+
+/// Marks the pixels whose samples were told apart.
+fn mark_samples(map: &mut Frame<u16>, on_demand: Option<&OnDemand>) {
+    let bounds = map.bounds();
+    for y_px in bounds.y0..bounds.y1 {
+        for (x_px, pixel) in (bounds.x0..).zip(map.row_mut(y_px)) {
+            if on_demand.is_none_or(|on_demand| on_demand.was_apart(x_px, y_px)) {
+                *pixel |= 1 << Effect::Samples as u16;
+            }
+        }
+    }
+}

@@ -1,0 +1,174 @@
+//! Kernels: each piece is drawn by code that knows at compile time which attributes vary.
+//!
+//! What is switched off is not in its loop. What is left of a switched-off attribute is a constant,
+//! in the same place of the same product, so the bits are the same.
+
+use glam::DVec3;
+
+use super::plan::{Attributes, PiecePlan};
+use super::primitive::{Piece, Prepared, pack};
+use super::samples::OnDemand;
+use crate::pipeline::Counters;
+use crate::pipeline::fill::{Stage, Way, each, fill, fill_flat};
+use crate::pipeline::shade::{ALL, Attributes as Packed, Light, Surface};
+use crate::pipeline::target::{Antialias, Colour, Target, to_colour};
+use crate::pipeline::texture::Texture;
+use rasterproof_core::contract::Interpolate;
+
+/// Draws one piece: constants, and what is left to do in each fragment.
+pub(super) struct Kernel<'a> {
+    plan: PiecePlan,
+    /// base x colour of the corners, where it does not vary.
+    base: DVec3,
+    texture: Option<&'a Texture>,
+    /// The texel, where it does not vary.
+    texel: DVec3,
+    light: Light,
+    /// The light, where it does not vary.
+    intensity: f64,
+}
+
+impl<'a> Kernel<'a> {
+    pub fn new(
+        item: &Prepared<'a>,
+        piece: &Piece,
+        plan: PiecePlan,
+        counters: &mut Counters,
+    ) -> Self {
+        let first = Surface::from(piece.vertices[0].varying);
+        let constant = |bit: u8| item.carries.has(bit) && !plan.interpolates.has(bit);
+        let mut kernel = Self {
+            plan,
+            base: item.item.material.colour,
+            texture: item.texture,
+            texel: DVec3::ONE,
+            light: item.light,
+            intensity: 1.0,
+        };
+        if constant(Attributes::COLOUR) {
+            kernel.base *= first.colour;
+        }
+        if let (Some(texture), true) = (item.texture, constant(Attributes::UV)) {
+            counters.texels += 1;
+            kernel.texel = texture.at(first.uv);
+        }
+        if constant(Attributes::NORMAL) {
+            counters.lights += 1;
+            kernel.intensity = item.light.intensity(first.normal);
+        }
+        kernel
+    }
+
+    pub fn draw(
+        &self,
+        engine: &impl Interpolate,
+        piece: &Piece,
+        target: &mut Target,
+        samples: Option<&mut OnDemand>,
+        counters: &mut Counters,
+    ) {
+        match self.plan.interpolates.0 {
+            0 => self.draw_flat(engine, piece, target, samples, counters),
+            1 => self.draw_as::<3, 1>(engine, piece, target, samples, counters),
+            2 => self.draw_as::<3, 2>(engine, piece, target, samples, counters),
+            3 => self.draw_as::<6, 3>(engine, piece, target, samples, counters),
+            4 => self.draw_as::<2, 4>(engine, piece, target, samples, counters),
+            5 => self.draw_as::<5, 5>(engine, piece, target, samples, counters),
+            6 => self.draw_as::<5, 6>(engine, piece, target, samples, counters),
+            _ => self.draw_as::<ALL, 7>(engine, piece, target, samples, counters),
+        }
+    }
+
+    /// One colour.
+    fn draw_flat(
+        &self,
+        engine: &impl Interpolate,
+        piece: &Piece,
+        target: &mut Target,
+        samples: Option<&mut OnDemand>,
+        counters: &mut Counters,
+    ) {
+        let colour = to_colour(self.shade::<0, 0>(&Packed([])));
+        let shaded = counters.shaded;
+        if let Some(on_demand) = samples {
+            on_demand.draw_flat(engine, piece, self.plan, colour, target, counters);
+        } else if !self.plan.depth && target.antialias() != Antialias::Multisample4 {
+            fill_flat(engine, piece.corners(), target, colour, counters);
+        } else {
+            let way = Way { affine: true, depth_test: self.plan.depth };
+            let bounds = target.bounds();
+            let stage = each(|_| colour);
+            fill(engine, &pack::<0, 0>(piece), target, bounds, way, &stage, counters);
+        }
+        // A constant is no run of the fragment stage.
+        counters.shaded = shaded;
+    }
+
+    /// The kernel for the `N` components of the attributes in `MASK`.
+    fn draw_as<const N: usize, const MASK: u8>(
+        &self,
+        engine: &impl Interpolate,
+        piece: &Piece,
+        target: &mut Target,
+        samples: Option<&mut OnDemand>,
+        counters: &mut Counters,
+    ) {
+        let packed = pack::<N, MASK>(piece);
+        let way = Way { affine: !self.plan.perspective, depth_test: self.plan.depth };
+        let before = *counters;
+        // One copy of the rasterizer's loops for all attributes of this size.
+        let stage: &Stage<'_, Packed<N>> = &self.stage::<N, MASK>();
+        if let Some(on_demand) = samples {
+            on_demand.draw_varying(engine, piece, &packed, target, self.plan, stage, counters);
+        } else {
+            fill(engine, &packed, target, target.bounds(), way, stage, counters);
+        }
+        let (fragments, shaded) =
+            (counters.fragments - before.fragments, counters.shaded - before.shaded);
+        counters.components += fragments * N as u64;
+        counters.divisions += if way.affine { 0 } else { fragments };
+        counters.texels += if MASK & Attributes::UV != 0 { shaded } else { 0 };
+        counters.lights += if MASK & Attributes::NORMAL != 0 { shaded } else { 0 };
+    }
+
+    /// The colour of all attributes, for what has no kernel of its own.
+    pub fn shade_all(&self, varying: &Packed<ALL>) -> DVec3 {
+        let Surface { colour, normal, uv } = (*varying).into();
+        let varies = |bit: u8| self.plan.interpolates.has(bit);
+        let texel =
+            self.texture.filter(|_| varies(Attributes::UV)).map_or(self.texel, |t| t.at(uv));
+        let intensity =
+            if varies(Attributes::NORMAL) { self.light.intensity(normal) } else { self.intensity };
+        let colour = if varies(Attributes::COLOUR) { self.base * colour } else { self.base };
+        colour * texel * intensity
+    }
+
+    /// The fragment stage of the attributes in `MASK`: a function of its own, so that there is one
+    /// copy for all rasterizers.
+    fn stage<const N: usize, const MASK: u8>(&self) -> impl Fn(&[Packed<N>], u32, &mut [Colour]) {
+        each(|varying| to_colour(self.shade::<N, MASK>(varying)))
+    }
+
+    /// base x colour x texel x light; what is not in `MASK` is constant.
+    #[inline]
+    fn shade<const N: usize, const MASK: u8>(&self, varying: &Packed<N>) -> DVec3 {
+        let mut rest = varying.0.iter().copied();
+        let mut next = || rest.next().unwrap_or_default();
+        let mut colour = self.base;
+        if MASK & Attributes::COLOUR != 0 {
+            colour *= DVec3::new(next(), next(), next());
+        }
+        let intensity = if MASK & Attributes::NORMAL != 0 {
+            self.light.intensity(DVec3::new(next(), next(), next()))
+        } else {
+            self.intensity
+        };
+        let texel = match self.texture {
+            Some(texture) if MASK & Attributes::UV != 0 => {
+                texture.at(glam::DVec2::new(next(), next()))
+            }
+            _ => self.texel,
+        };
+        colour * texel * intensity
+    }
+}

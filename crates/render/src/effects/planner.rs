@@ -1,0 +1,169 @@
+//! A scene to a plan: asks the conditions in the order in which they depend on each other.
+
+use super::assembled::{Assembled, plan_of};
+use super::conditions::survey::Survey;
+use super::conditions::{
+    attributes, clear, clip, cull, depth, depth_buffer, interpolation, perspective, samples,
+    second_buffer, wide_words,
+};
+use super::plan::{
+    Canvas, Clear, Decision, FramePlan, ItemPlan, Order, PiecePlan, Pieces, Plan, Rule, VERSION,
+};
+use super::primitive::{BadScene, Piece};
+use super::{Effect, Effects, Mode};
+use crate::scene::{Hidden, Scene};
+use rasterproof_core::triangle::Corners;
+
+/// How many bits an engine decides a triangle in, where it has several widths.
+pub(super) type WordBits<'a> = &'a dyn Fn(&Corners) -> Option<u32>;
+
+/// Plans a frame. What was assembled on the way is not assembled again.
+pub(super) fn plan<'a>(
+    scene: &'a Scene,
+    canvas: &Canvas,
+    effects: &Effects,
+    word_bits: WordBits<'_>,
+) -> Result<(Plan, Assembled<'a>), BadScene> {
+    let mut plan = outset(scene, canvas, effects);
+    let drawn = plan.drawn();
+    let mut assembled = Assembled::new(scene, &plan)?;
+    let is_listed = plan.frame.order == Order::FarthestFirst || depth::is_looked_at(scene, effects);
+    let mut surveys: Vec<Survey<'_>> = (0..scene.items.len())
+        .map(|i| Survey::new(scene, effects, i, plan.items[i].carries, is_listed))
+        .collect();
+    let estimates = samples::may_be_on_demand(&drawn, effects);
+    let mut estimate = estimates.then(|| samples::Estimate::new(&drawn));
+    let mut is_tested = depth::pays(scene, effects, true);
+    if is_listed {
+        assembled.assemble(scene);
+        let pieces = assembled.pieces.as_deref().unwrap_or_default();
+        let plans = list(effects, &drawn, &mut plan, pieces);
+        is_tested = plans.iter().any(|plan| plan.depth);
+        for ((index, piece), plan) in pieces.iter().zip(&plans) {
+            surveys[*index].count(piece, *plan, word_bits(&piece.corners()));
+            if let Some(estimate) = &mut estimate {
+                estimate.see(&piece.corners(), *plan);
+            }
+        }
+        assembled.plans = plans;
+        assembled.sort(plan.frame.order);
+    } else if let Some(estimate) = &mut estimate {
+        for item in &assembled.items {
+            let interpolates = interpolation::at_most(item.item, item.carries);
+            estimate
+                .see_roughly(item, PiecePlan { interpolates, perspective: true, depth: is_tested });
+        }
+    }
+    let nothing = rasterproof_core::grid::SubpixelPoint::new(0, 0);
+    for survey in &mut surveys {
+        survey.has_widths = word_bits(&[nothing; 3]).is_some();
+    }
+    let samples = samples::decide(canvas, effects, estimate.as_ref());
+    plan.frame.samples = samples;
+    plan.frame.clear = clear::decide(effects, &drawn, samples, assembled.pieces.as_deref());
+    plan.frame.clear_depths = depth_buffer::clears(effects, is_tested, samples);
+    plan.decisions = account(scene, effects, &plan, &surveys, &assembled, is_tested);
+    Ok((plan, assembled))
+}
+
+/// What is known without looking at triangles.
+fn outset(scene: &Scene, canvas: &Canvas, effects: &Effects) -> Plan {
+    let order = match scene.hidden {
+        Hidden::Painter => Order::FarthestFirst,
+        Hidden::DepthBuffer => Order::Submission,
+    };
+    let item = |item| {
+        let carries = attributes::carries(scene, item, effects);
+        let (interpolates, where_it_varies) = interpolation::rule(item, carries, effects);
+        let perspective = perspective::mode(scene, effects);
+        let depth = depth::pays(scene, effects, true);
+        ItemPlan {
+            clip: effects.mode(Effect::Clip),
+            cull: effects.mode(Effect::Cull),
+            carries,
+            pieces: Pieces::AsTheyCome(Rule { interpolates, where_it_varies, perspective, depth }),
+        }
+    };
+    Plan {
+        version: VERSION,
+        scene: None,
+        canvas: *canvas,
+        frame: FramePlan {
+            order,
+            wide_words: effects.mode(Effect::WideWords),
+            samples: samples::decide(canvas, effects, None),
+            clear: Clear::Everything,
+            clear_depths: true,
+            second_buffer: second_buffer::pays(canvas, effects),
+        },
+        items: scene.items.iter().map(item).collect(),
+        decisions: Vec::new(),
+    }
+}
+
+/// Lists what each piece pays for in the plan of its item.
+fn list(
+    effects: &Effects,
+    canvas: &Canvas,
+    plan: &mut Plan,
+    pieces: &[(usize, Piece)],
+) -> Vec<PiecePlan> {
+    let apart =
+        effects.mode(Effect::Depth) == Mode::Planned && plan.frame.order == Order::Submission;
+    let overlaps = apart.then(|| depth::overlaps(pieces, canvas));
+    let rules: Vec<Option<Rule>> = plan
+        .items
+        .iter()
+        .map(|item| match item.pieces {
+            Pieces::AsTheyCome(rule) => Some(rule),
+            Pieces::Listed(_) => None,
+        })
+        .collect();
+    let mut plans = Vec::with_capacity(pieces.len());
+    for item in &mut plan.items {
+        item.pieces = Pieces::Listed(Vec::new());
+    }
+    for (i, (index, piece)) in pieces.iter().enumerate() {
+        let (Some(rule), Pieces::Listed(runs)) = (&rules[*index], &mut plan.items[*index].pieces)
+        else {
+            continue;
+        };
+        let depth = rule.depth && overlaps.as_ref().is_none_or(|overlaps| overlaps[i]);
+        let plan = PiecePlan { depth, ..plan_of(rule, piece) };
+        match runs.last_mut() {
+            Some((count, last)) if *last == plan => *count += 1,
+            _ => runs.push((1, plan)),
+        }
+        plans.push(plan);
+    }
+    plans
+}
+
+/// The account of a plan, to read.
+fn account(
+    scene: &Scene,
+    effects: &Effects,
+    plan: &Plan,
+    surveys: &[Survey<'_>],
+    assembled: &Assembled<'_>,
+    is_tested: bool,
+) -> Vec<Decision> {
+    let (canvas, frame) = (&plan.drawn(), &plan.frame);
+    let mut decisions = Vec::with_capacity(8 * surveys.len() + 5);
+    for survey in surveys {
+        decisions.push(cull::explain(survey));
+        decisions.push(wide_words::explain(survey));
+        decisions.push(perspective::explain(survey));
+        decisions.push(depth::explain(survey));
+        decisions.extend(attributes::explain(survey));
+        decisions.push(interpolation::explain(survey));
+    }
+    let triangles = scene.triangles() as u64;
+    let seen = assembled.pieces.as_ref().map(|_| &assembled.counters);
+    decisions.push(clip::explain(effects, plan, triangles, seen));
+    decisions.push(depth_buffer::explain(scene, effects, canvas, frame, is_tested));
+    decisions.push(samples::explain(&plan.canvas, effects, frame.samples));
+    decisions.push(clear::explain(effects, canvas, frame));
+    decisions.push(second_buffer::explain(canvas, effects));
+    decisions
+}

@@ -1,0 +1,249 @@
+//! Items to pieces: the vertex stage and assembly, with the effects that a plan names for an item.
+
+use std::fmt;
+use std::sync::LazyLock;
+
+use glam::{DMat3, DMat4, DVec2, DVec3};
+
+use super::Mode;
+use super::plan::{Attributes, ItemPlan};
+use crate::pipeline::assemble::{Assembler, BadVertex, Point, check_vertex};
+use crate::pipeline::shade::{ALL, Attributes as Packed, Light, Surface};
+use crate::pipeline::target::Antialias;
+use crate::pipeline::texture::Texture;
+use crate::pipeline::{ClipVertex, Counters};
+use crate::scene::{Corner, Item, Scene, Shading};
+use rasterproof_core::arrays::Each as _;
+use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXEL_BITS, SubpixelPoint};
+use rasterproof_core::triangle::{Corners, ScreenTriangle, ScreenVertex};
+
+/// A triangle in the window with all attributes.
+pub(crate) type Piece = ScreenTriangle<Packed<ALL>>;
+
+/// Whether the three 1/w are equal to the bit.
+pub(super) fn has_one_w(piece: &Piece) -> bool {
+    let [a, b, c] = &piece.vertices;
+    a.inv_w == b.inv_w && b.inv_w == c.inv_w
+}
+
+/// A vertex of an item that has no place in clip space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BadScene {
+    /// Which item.
+    pub item: usize,
+    /// Which of its positions, and why.
+    pub vertex: BadVertex,
+}
+
+impl fmt::Display for BadScene {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "item {}: {}", self.item, self.vertex)
+    }
+}
+
+impl std::error::Error for BadScene {}
+
+/// One item, its positions in clip space and in the window.
+pub(super) struct Prepared<'a> {
+    pub item: &'a Item,
+    pub points: Vec<Point>,
+    pub carries: Attributes,
+    pub texture: Option<&'a Texture>,
+    pub light: Light,
+    index: usize,
+    assembler: Assembler,
+    /// From object to clip space.
+    matrix: DMat4,
+    /// From object to world space for normals.
+    normals: DMat3,
+}
+
+/// What is looked up where texture is paid for and there is none.
+static WHITE: LazyLock<Texture> = LazyLock::new(Texture::white);
+
+/// Whether light depends on the fragment or triangle: Gouraud's is a colour of the corners.
+pub(super) fn is_lit(scene: &Scene, item: &Item) -> bool {
+    matches!(item.material.shading, Shading::Flat | Shading::Phong) && scene.light != Light::NONE
+}
+
+impl<'a> Prepared<'a> {
+    /// Transforms the positions of an item and checks them.
+    pub fn new(
+        scene: &'a Scene,
+        index: usize,
+        plan: &ItemPlan,
+        window: PixelRect,
+        counters: &mut Counters,
+    ) -> Result<Self, BadScene> {
+        let mut prepared = Self::without_points(scene, index, plan, window);
+        let positions = &prepared.item.mesh.positions;
+        let mut points = Vec::with_capacity(positions.len());
+        for (i, &p) in positions.iter().enumerate() {
+            points.push(prepared.point(i, p)?);
+        }
+        counters.vertices += points.len() as u64;
+        prepared.points = points;
+        Ok(prepared)
+    }
+
+    /// The same before a position is transformed.
+    pub fn without_points(
+        scene: &'a Scene,
+        index: usize,
+        plan: &ItemPlan,
+        window: PixelRect,
+    ) -> Self {
+        let item = &scene.items[index];
+        let texture = item.material.texture.as_deref().unwrap_or(&WHITE);
+        Self {
+            item,
+            points: Vec::new(),
+            carries: plan.carries,
+            texture: plan.carries.has(Attributes::UV).then_some(texture),
+            light: if is_lit(scene, item) { scene.light } else { Light::NONE },
+            index,
+            assembler: assembler(item, plan, window),
+            matrix: scene.projection * scene.view * item.model,
+            normals: DMat3::from_mat4(item.model).inverse().transpose(),
+        }
+    }
+
+    /// Transforms position `i`, which is `p`, and checks it.
+    #[inline]
+    pub fn point(&self, i: usize, p: DVec3) -> Result<Point, BadScene> {
+        let position = self.matrix * p.extend(1.0);
+        check_vertex(i, &ClipVertex { position, varying: () })
+            .map_err(|vertex| BadScene { item: self.index, vertex })?;
+        Ok(self.assembler.point(position))
+    }
+
+    /// The vertex stage of the corners of a triangle: all but their positions.
+    #[inline]
+    pub fn varyings(&self, scene: &Scene, triangle: &[Corner; 3]) -> [[f64; ALL]; 3] {
+        let face = self.face(triangle);
+        let [a, b, c] = triangle;
+        let varying = |corner: &Corner| self.varying(scene, corner, face).0;
+        [varying(a), varying(b), varying(c)]
+    }
+
+    /// The normal of a triangle, where it is asked for.
+    fn face(&self, triangle: &[Corner; 3]) -> DVec3 {
+        match self.item.material.shading {
+            Shading::Flat => self.item.mesh.face_normal(triangle),
+            _ => DVec3::ZERO,
+        }
+    }
+
+    /// Emits the pieces of one triangle, whose positions are transformed for it alone.
+    pub fn assemble_one(
+        &self,
+        scene: &Scene,
+        triangle: &[Corner; 3],
+        emit: &mut dyn FnMut(&Piece),
+    ) {
+        let point = |i: usize| {
+            let at = triangle[i].position as usize;
+            self.point(at, self.item.mesh.positions[at])
+        };
+        let (Ok(a), Ok(b), Ok(c)) = (point(0), point(1), point(2)) else { return };
+        let varying = |i: usize| self.varying(scene, &triangle[i], self.face(triangle));
+        self.assembler.assemble([&a, &b, &c], varying, &mut Counters::default(), emit);
+    }
+
+    /// The vertex stage of one corner: all but its position.
+    fn varying(&self, scene: &Scene, corner: &Corner, face: DVec3) -> Packed<ALL> {
+        let material = &self.item.material;
+        let mut colour = if material.vertex_colours { corner.colour } else { DVec3::ONE };
+        if material.shading == Shading::Gouraud {
+            // Light of the corners is light too.
+            colour *= scene.light.intensity(self.normals * corner.normal);
+        }
+        let normal = match material.shading {
+            Shading::Flat => self.normals * face,
+            Shading::Phong => self.normals * corner.normal,
+            Shading::Unlit | Shading::Gouraud => DVec3::ZERO,
+        };
+        let uv = if material.texture.is_some() { corner.uv } else { DVec2::ZERO };
+        Surface { colour, normal, uv }.into()
+    }
+
+    /// Emits the pieces of every triangle.
+    pub fn assemble(
+        &self,
+        scene: &Scene,
+        counters: &mut Counters,
+        emit: &mut dyn FnMut(&Piece, &mut Counters),
+    ) {
+        let mut fills = Counters::default();
+        for triangle in &self.item.mesh.triangles {
+            let point = |i: usize| &self.points[triangle[i].position as usize];
+            let varying = |i: usize| self.varying(scene, &triangle[i], self.face(triangle));
+            let points = [point(0), point(1), point(2)];
+            self.assembler.assemble(points, varying, counters, |piece| emit(piece, &mut fills));
+        }
+        *counters += fills;
+    }
+}
+
+fn assembler(item: &Item, plan: &ItemPlan, window: PixelRect) -> Assembler {
+    let assembler = Assembler::new(window, item.cull);
+    let assembler = match plan.clip {
+        Mode::Planned | Mode::Material => assembler,
+        Mode::Always => assembler.with_every_plane(),
+        Mode::Never => assembler.without_planes(u8::MAX),
+    };
+    match plan.cull {
+        Mode::Planned | Mode::Material => assembler,
+        Mode::Always => assembler.asking_for_winding(),
+        Mode::Never => assembler.without_culling(),
+    }
+}
+
+/// The piece with the attributes of `MASK` alone.
+pub(super) fn pack<const N: usize, const MASK: u8>(piece: &Piece) -> ScreenTriangle<Packed<N>> {
+    let vertices = piece.vertices.each(|vertex| {
+        let all = &vertex.varying.0;
+        let mut packed = [0.0; N];
+        let mut at = 0;
+        for (mask, range) in
+            [(Attributes::COLOUR, 0..3), (Attributes::NORMAL, 3..6), (Attributes::UV, 6..8)]
+        {
+            if MASK & mask != 0 {
+                packed[at..at + range.len()].copy_from_slice(&all[range.clone()]);
+                at += range.len();
+            }
+        }
+        ScreenVertex {
+            position: vertex.position,
+            depth: vertex.depth,
+            inv_w: vertex.inv_w,
+            varying: Packed(packed),
+        }
+    });
+    ScreenTriangle { vertices }
+}
+
+/// Pixels that a triangle may touch: those whose centres lie in [min, max), by the fill rule.
+pub(super) fn pixel_box(corners: &Corners, margin_px: i32) -> PixelRect {
+    let range = |coordinate: fn(&SubpixelPoint) -> i32| {
+        let (mut min, mut max) = (i32::MAX, i32::MIN);
+        for corner in corners {
+            let c = coordinate(corner);
+            (min, max) = (min.min(c), max.max(c));
+        }
+        let first = |sub: i32| (i64::from(sub) + i64::from(HALF_PIXEL - 1)) >> SUBPIXEL_BITS;
+        (first(min) as i32 - margin_px, first(max) as i32 + margin_px)
+    };
+    let ((x0, x1), (y0, y1)) = (range(|corner| corner.x), range(|corner| corner.y));
+    PixelRect { x0, y0, x1, y1 }
+}
+
+/// Pixels that a triangle in the window of an antialiased picture may touch.
+pub(super) fn touched(corners: &Corners, antialias: Antialias) -> PixelRect {
+    // In planes of samples, a moved piece lies up to half a pixel off.
+    let samples = pixel_box(corners, i32::from(antialias.planes() > 1));
+    let scale = antialias.scale() as i32;
+    let down = |x: i32| x.div_euclid(scale);
+    let up = |x: i32| (x + scale - 1).div_euclid(scale);
+    PixelRect { x0: down(samples.x0), y0: down(samples.y0), x1: up(samples.x1), y1: up(samples.y1) }
+}

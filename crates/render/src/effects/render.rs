@@ -1,0 +1,147 @@
+//! A scene to a picture, through any rasterizer: [`plan`], then [`execute`], or both in one.
+
+pub use super::execute::{Misfit, Rendered};
+pub use super::primitive::BadScene;
+
+use super::execute::{Onlooker, draw, fit};
+use super::kernel::Kernel;
+use super::plan::{Canvas, PiecePlan, Plan, SceneDigest};
+use super::planner;
+use super::{Effect, Effects, Mode};
+use crate::pipeline::Counters;
+use crate::pipeline::present::DoubleBuffer;
+use crate::pipeline::target::{Colour, Target, to_colour};
+use crate::pipeline::wireframe::draw_edges;
+use crate::scene::Scene;
+use rasterproof_core::contract::{DrawLine, Interpolate, Rasterize};
+use rasterproof_core::frame::Frame;
+
+/// What a scene calls for on a canvas. The same scene, canvas and effects give the same plan; of the
+/// engine only the width of its words is asked.
+///
+/// # Errors
+/// [`BadScene`].
+pub fn plan(
+    scene: &Scene,
+    engine: &impl Rasterize,
+    effects: &Effects,
+    canvas: &Canvas,
+) -> Result<Plan, BadScene> {
+    let word_bits = |corners: &_| engine.word_bits(corners);
+    let (plan, _) = planner::plan(scene, canvas, effects, &word_bits)?;
+    Ok(Plan { scene: Some(SceneDigest::of(scene)), ..plan })
+}
+
+/// Draws a scene into a target by a plan, word for word; what the target held before is last
+/// frame's. The engine is the caller's, in the words that the plan names.
+///
+/// The depths are in the target afterwards, except where the plan does not test them, or tells
+/// samples apart on demand; with [`super::plan::Samples::Middle`] the target stays as it was.
+///
+/// # Errors
+/// [`Misfit`] before anything is drawn, where the plan is of another scene or target.
+pub fn execute(
+    plan: &Plan,
+    scene: &Scene,
+    engine: &impl Interpolate,
+    target: &mut Target,
+) -> Result<Rendered, Misfit> {
+    let assembled = fit(plan, scene, target)?;
+    Ok(draw(plan.clone(), assembled, scene, engine, target, Onlooker::None))
+}
+
+/// Plans a frame and draws it.
+///
+/// # Errors
+/// [`BadScene`] before anything is drawn.
+pub fn render(
+    scene: &Scene,
+    engine: &impl Interpolate,
+    effects: &Effects,
+    target: &mut Target,
+) -> Result<Rendered, BadScene> {
+    plan_and_draw(scene, engine, effects, target, Onlooker::None)
+}
+
+/// As [`render`], while somebody looks: `look` is shown what is on the screen after the clearing,
+/// after each item, and at the end. With [`Effect::SecondBuffer`] that is the front buffer, which
+/// changes when the frame is finished; without, the frame as it is drawn.
+///
+/// # Errors
+/// As [`render`].
+pub fn render_watched(
+    scene: &Scene,
+    engine: &impl Interpolate,
+    effects: &Effects,
+    screen: &mut DoubleBuffer,
+    look: &mut dyn FnMut(&Frame<Colour>),
+) -> Result<Rendered, BadScene> {
+    let (front, back) = screen.split();
+    plan_and_draw(scene, engine, effects, back, Onlooker::Viewer { front, look })
+}
+
+/// As [`render`], and for each pixel the effects that its fragments paid for, as bits of
+/// [`Effect`] in the order of [`Effect::ALL`].
+///
+/// # Errors
+/// As [`render`].
+pub fn render_mapped(
+    scene: &Scene,
+    engine: &impl Interpolate,
+    effects: &Effects,
+    target: &mut Target,
+) -> Result<(Rendered, Frame<u16>), BadScene> {
+    let mut map = Frame::new(target.size(), 0);
+    let rendered = plan_and_draw(scene, engine, effects, target, Onlooker::Map(&mut map))?;
+    Ok((rendered, map))
+}
+
+fn plan_and_draw(
+    scene: &Scene,
+    engine: &impl Interpolate,
+    effects: &Effects,
+    target: &mut Target,
+    onlooker: Onlooker<'_>,
+) -> Result<Rendered, BadScene> {
+    let watched = matches!(onlooker, Onlooker::Viewer { .. });
+    let canvas = Canvas { watched, ..Canvas::of(target) };
+    let word_bits = |corners: &_| engine.word_bits(corners);
+    let (plan, assembled) = planner::plan(scene, &canvas, effects, &word_bits)?;
+    Ok(draw(plan, assembled, scene, engine, target, onlooker))
+}
+
+/// Draws the edges of a scene's triangles by a line drawer, with the colours of its fragments. What
+/// any renderer does, and every depth is tested: lines have no inside to be planned for.
+///
+/// # Errors
+/// As [`render`].
+pub fn render_wireframe(
+    scene: &Scene,
+    drawer: &impl DrawLine,
+    target: &mut Target,
+) -> Result<Rendered, BadScene> {
+    let effects = Effects::USUAL.with(Effect::Interpolation, Mode::Always);
+    let canvas = Canvas::of(target);
+    let (plan, assembled) = planner::plan(scene, &canvas, &effects, &|_| None)?;
+    // What the painter assembled to be sorted is assembled again.
+    let vertices = assembled.counters.vertices;
+    let mut counters = Counters { vertices, ..Counters::default() };
+    target.clear_colour(scene.background, &mut counters);
+    target.clear_depth(&mut counters);
+    let (bounds, format) = (target.bounds(), target.format);
+    for item in &assembled.items {
+        item.assemble(scene, &mut counters, &mut |piece, fills| {
+            let interpolates = item.carries;
+            let plan = PiecePlan { interpolates, perspective: !scene.affine, depth: true };
+            let kernel = Kernel::new(item, piece, plan, fills);
+            draw_edges(drawer, piece, bounds, |f| {
+                fills.fragments += 1;
+                let colour = to_colour(kernel.shade_all(&f.varying));
+                for plane in &mut target.planes {
+                    plane.test_and_write(f.x_px, f.y_px, format.key(f.depth), || colour);
+                }
+            });
+        });
+    }
+    Ok(Rendered { picture: target.resolve(), counters, plan })
+}

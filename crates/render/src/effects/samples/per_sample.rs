@@ -1,0 +1,249 @@
+//! Pixels whose samples are apart: written into the target as drawing them would have, and drawn one
+//! by one from then on.
+
+use super::depths::Plane;
+use super::pattern::{Pattern, scaled};
+use super::pixel::{EMPTY, Interval, State};
+use super::sample_masks::Part;
+use super::{DepthPiece, OnDemand, Run};
+use crate::effects::primitive::{Piece, touched};
+use crate::pipeline::Counters;
+use crate::pipeline::depth::CLEAR;
+use crate::pipeline::target::{Colour, Target};
+use rasterproof_core::contract::Interpolate;
+use rasterproof_core::frame::Frame;
+use rasterproof_core::grid::PixelRect;
+
+impl OnDemand {
+    /// Tells all pixels of a piece's bounding box apart, before it is drawn sample by sample; false
+    /// where all of it is hidden.
+    pub(super) fn tell_box_apart(
+        &mut self,
+        engine: &impl Interpolate,
+        piece: &Piece,
+        depth: bool,
+        target: &mut Target,
+        counters: &mut Counters,
+    ) -> bool {
+        let rect = touched(&piece.corners(), target.antialias()).intersect(&target.size());
+        let nearest = piece.vertices.iter().fold(1.0, |min: f64, vertex| min.min(vertex.depth));
+        let nearest = if depth { target.format.key(nearest - Plane::ERROR) } else { 0 };
+        let is_visible = |(state, interval): (&State, &Interval)| {
+            !depth || *state == State::Background || nearest < interval[1]
+        };
+        let mut rows = rect.y0..rect.y1;
+        if rect.is_empty()
+            || !rows.any(|y| {
+                let states = self.states.span_mut(y, rect.x0, rect.x1).iter();
+                let intervals = self.intervals.span_mut(y, rect.x0, rect.x1).iter();
+                states.zip(intervals).any(is_visible)
+            })
+        {
+            return false;
+        }
+        self.runs.clear();
+        for y_px in rect.y0..rect.y1 {
+            self.runs.push(Run { y_px, x0_px: rect.x0, x1_px: rect.x1 });
+            let states = self.states.span_mut(y_px, rect.x0, rect.x1).iter();
+            for (state, interval) in states.zip(self.intervals.span_mut(y_px, rect.x0, rect.x1)) {
+                if *state == State::Background {
+                    *interval = EMPTY;
+                }
+                interval[0] = interval[0].min(nearest);
+            }
+        }
+        let runs = std::mem::take(&mut self.runs);
+        self.tell_apart(engine, &runs, target, counters);
+        self.runs = runs;
+        true
+    }
+
+    /// Writes the samples of pixels that are not apart into the target, as drawing them would have.
+    pub(super) fn tell_apart(
+        &mut self,
+        engine: &impl Interpolate,
+        runs: &[Run],
+        target: &mut Target,
+        counters: &mut Counters,
+    ) {
+        let Self { pattern, colours, states, was_apart, pieces, pool, written, background, .. } =
+            self;
+        written.clear();
+        for &Run { y_px, mut x0_px, x1_px } in runs {
+            while x0_px < x1_px {
+                let rest = states.span_mut(y_px, x0_px, x1_px);
+                let state = rest[0];
+                let alike = rest.iter().take_while(|other| **other == state).count();
+                let run = Run { y_px, x0_px, x1_px: x0_px + alike as i32 };
+                x0_px = run.x1_px;
+                let block = scaled(run.rect(), pattern.scale);
+                match state {
+                    State::Apart => continue,
+                    State::Background => {
+                        for plane in &mut target.planes {
+                            for y in block.y0..block.y1 {
+                                plane.depth.span_mut(y, block.x0, block.x1).fill(CLEAR);
+                                plane.colour.span_mut(y, block.x0, block.x1).fill(*background);
+                            }
+                        }
+                    }
+                    // They stay whole until all of their piece are written.
+                    State::Whole(serial) => {
+                        written.add(run, serial);
+                        continue;
+                    }
+                    State::Parts(index) => {
+                        for part in pool.parts[index as usize].iter() {
+                            let piece = part.serial.map(|serial| &pieces[serial as usize]);
+                            write_part(*pattern, engine, part, piece, block, target);
+                        }
+                        pool.spare.push(index);
+                    }
+                }
+                divide(states, was_apart, run, counters);
+            }
+        }
+        if written.is_empty() {
+            return;
+        }
+        for (block, serial) in written.iter() {
+            write_whole(
+                *pattern,
+                engine,
+                (states, colours, &pieces[serial as usize], serial),
+                block,
+                target,
+            );
+        }
+        for &run in runs {
+            divide(states, was_apart, run, counters);
+        }
+    }
+
+    /// Gathers runs of pixels that are apart in blocks to be drawn in one go.
+    pub(super) fn gather(&mut self, runs: &[Run]) {
+        self.drawn.clear();
+        for &run in runs {
+            self.drawn.add(run, 0);
+        }
+    }
+
+    /// Tests and writes the samples of pixels that are apart, in a block.
+    pub(super) fn test_samples(
+        &self,
+        engine: &impl Interpolate,
+        piece: &DepthPiece,
+        block: PixelRect,
+        colour: Colour,
+        target: &mut Target,
+        counters: &mut Counters,
+    ) {
+        let (block, format) = (scaled(block, self.pattern.scale), target.format);
+        let (mut emitted, mut visible) = (0, 0);
+        for (i, plane) in target.planes.iter_mut().enumerate() {
+            let Some(moved) = self.pattern.moved(piece, i) else { continue };
+            engine.runs(&moved, block, true, &mut |run| {
+                let (x0, x1) = (run.x0_px, run.x1_px());
+                let stored = plane.depth.span_mut(run.y_px, x0, x1);
+                let nearer = format.test_and_write(run.depths, stored);
+                emitted += run.depths.len() as u64;
+                visible += u64::from(nearer.count_ones());
+                for (i, drawn) in plane.colour.span_mut(run.y_px, x0, x1).iter_mut().enumerate() {
+                    *drawn = if nearer >> i & 1 != 0 { colour } else { *drawn };
+                }
+            });
+        }
+        counters.fragments += emitted;
+        counters.depth_tests += emitted;
+        counters.depth_failed += emitted - visible;
+    }
+
+    /// Writes the covered samples of a run of pixels that are apart.
+    pub(super) fn fill_samples(
+        &self,
+        run: Run,
+        colour: Colour,
+        target: &mut Target,
+        counters: &mut Counters,
+    ) {
+        let (block, planes) = (scaled(run.rect(), self.pattern.scale), self.pattern.planes);
+        for y in block.y0..block.y1 {
+            let rows = &self.rows[y as usize * planes..];
+            for (plane, &(x0, x1)) in target.planes.iter_mut().zip(rows) {
+                let (x0, x1) = (x0.max(block.x0), x1.min(block.x1));
+                if x0 < x1 {
+                    plane.colour.span_mut(y, x0, x1).fill(colour);
+                    counters.fragments += u64::from(x0.abs_diff(x1));
+                }
+            }
+        }
+    }
+}
+
+/// Notes that pixels are apart, and counts those that have not been in parts or apart before.
+fn divide(
+    states: &mut Frame<State>,
+    was_apart: &mut Frame<bool>,
+    Run { y_px, x0_px, x1_px }: Run,
+    counters: &mut Counters,
+) {
+    states.span_mut(y_px, x0_px, x1_px).fill(State::Apart);
+    let was_apart = was_apart.span_mut(y_px, x0_px, x1_px);
+    counters.expanded += was_apart.iter().map(|was| u64::from(!was)).sum::<u64>();
+    was_apart.fill(true);
+}
+
+/// Writes the samples of the pixels of a block that are whole and of this piece into the target.
+fn write_whole(
+    pattern: Pattern,
+    engine: &impl Interpolate,
+    (states, colours, piece, serial): (&Frame<State>, &Frame<Colour>, &DepthPiece, u32),
+    block: PixelRect,
+    target: &mut Target,
+) {
+    let (format, block) = (target.format, scaled(block, pattern.scale));
+    for (i, plane) in target.planes.iter_mut().enumerate() {
+        let Some(moved) = pattern.moved(piece, i) else { continue };
+        engine.runs(&moved, block, true, &mut |run| {
+            let y_px = run.y_px / pattern.scale;
+            let (states, colours) = (states.row(y_px), colours.row(y_px));
+            for (x, depth) in (run.x0_px..).zip(run.depths) {
+                let x_px = (x / pattern.scale) as usize;
+                if states[x_px] == State::Whole(serial) {
+                    plane.put(x, run.y_px, format.key(*depth), colours[x_px]);
+                }
+            }
+        });
+    }
+}
+
+/// Writes the samples of one part of a pixel, which are those in `block`, into the target.
+fn write_part(
+    pattern: Pattern,
+    engine: &impl Interpolate,
+    part: &Part,
+    piece: Option<&DepthPiece>,
+    block: PixelRect,
+    target: &mut Target,
+) {
+    let format = target.format;
+    for (i, plane) in target.planes.iter_mut().enumerate() {
+        let mut put = |x: i32, y: i32, key: u64| {
+            if part.samples & pattern.bit(x - block.x0, y - block.y0, i) != 0 {
+                plane.put(x, y, key, part.colour);
+            }
+        };
+        if let Some(piece) = piece {
+            let Some(moved) = pattern.moved(piece, i) else { continue };
+            engine.runs(&moved, block, true, &mut |run| {
+                for (x, depth) in (run.x0_px..).zip(run.depths) {
+                    put(x, run.y_px, format.key(*depth));
+                }
+            });
+        } else {
+            for y in block.y0..block.y1 {
+                (block.x0..block.x1).for_each(|x| put(x, y, CLEAR));
+            }
+        }
+    }
+}

@@ -1,0 +1,6 @@
+//! The pipeline of the book around a rasterizer: [`pipeline`] has its stages, [`scene`] what is drawn, and
+//! [`effects`] decides which effects a scene calls for and draws it without the others.
+
+pub mod effects;
+pub mod pipeline;
+pub mod scene;

@@ -1,0 +1,257 @@
+//! Textures: nearest and bilinear lookup, repeat and clamp (the book's sections 3.3 and 11.2).
+//!
+//! A coordinate is rounded to 1/256 texel before a texel is chosen, as GPUs do, so that two engines
+//! that differ in the last bit of a coordinate read the same texel. The thresholds of that rounding
+//! lie off simple fractions for the same reason, see [`super::depth`].
+//!
+//! It refuses to be empty or larger than [`MAX_SIDE_PX`] a side.
+
+use glam::{DVec2, DVec3};
+
+use super::depth::OFF_FRACTION;
+use rasterproof_core::arrays::Each as _;
+use rasterproof_core::grid::MAX_SIDE_PX;
+
+/// What lies beyond [0, 1].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
+pub enum Wrap {
+    /// The texture again.
+    #[default]
+    Repeat,
+    /// Its border.
+    Clamp,
+}
+
+/// How a value is read between texels.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
+pub enum Filter {
+    /// The texel that holds the point.
+    #[default]
+    Nearest,
+    /// The four around it, weighed by 1/256.
+    Bilinear,
+}
+
+/// An opaque picture that is looked up by (u, v): u right, v **up**, [0, 1] each over the picture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Texture {
+    width: u32,
+    height: u32,
+    /// Subtexels of a row and of a column.
+    subtexels: DVec2,
+    /// Row by row from the top, each channel in [0, 1].
+    texels: Vec<DVec3>,
+    /// The same as bytes, red the lowest.
+    bytes: Vec<u32>,
+    /// Beyond the border.
+    pub wrap: Wrap,
+    /// Between texels.
+    pub filter: Filter,
+}
+
+/// Subtexels in a texel, as a power of two: shifts and masks are floors and remainders.
+const SUBTEXEL_BITS: u32 = 8;
+const SUBTEXELS: i64 = 1 << SUBTEXEL_BITS;
+
+impl Texture {
+    /// A texture from rows of 8-bit red, green, blue, the top row first. Nothing if a side is 0 or
+    /// exceeds [`MAX_SIDE_PX`], or the number of texels is not width times height.
+    #[must_use]
+    pub fn new(width: u32, height: u32, rgb: &[[u8; 3]]) -> Option<Self> {
+        let sides = 1..=MAX_SIDE_PX;
+        let fits = sides.contains(&width) && sides.contains(&height);
+        if !fits || rgb.len() != width as usize * height as usize {
+            return None;
+        }
+        let texels = rgb.iter().map(|c| DVec3::from(c.each(f64::from)) / 255.0).collect();
+        let bytes = rgb.iter().map(|&[r, g, b]| u32::from_le_bytes([r, g, b, 0])).collect();
+        Some(Self::of(width, height, texels, bytes))
+    }
+
+    /// One white texel.
+    #[must_use]
+    pub fn white() -> Self {
+        Self::of(1, 1, vec![DVec3::ONE], vec![0xff_ffff])
+    }
+
+    fn of(width: u32, height: u32, texels: Vec<DVec3>, bytes: Vec<u32>) -> Self {
+        let subtexels = DVec2::new(f64::from(width), f64::from(height)) * SUBTEXELS as f64;
+        let (wrap, filter) = (Wrap::Repeat, Filter::Nearest);
+        Self { width, height, subtexels, texels, bytes, wrap, filter }
+    }
+
+    /// The same, read differently.
+    #[must_use]
+    pub fn with(self, filter: Filter, wrap: Wrap) -> Self {
+        Self { wrap, filter, ..self }
+    }
+
+    /// Width and height in texels.
+    #[must_use]
+    pub fn size(&self) -> (u32, u32) {
+        (self.width, self.height)
+    }
+
+    /// The texels as bytes, red the lowest, row by row from the top, where masks and limits alone say
+    /// which one is read: for who reads many at once.
+    #[must_use]
+    pub fn nearest_bytes(&self) -> Option<&[u32]> {
+        let masks = self.width.is_power_of_two() && self.height.is_power_of_two();
+        let simple = self.filter == Filter::Nearest && (masks || self.wrap == Wrap::Clamp);
+        simple.then_some(&self.bytes)
+    }
+
+    /// The colour at (u, v), each channel in [0, 1]. NaN reads as 0, infinities as the border.
+    #[must_use]
+    #[inline]
+    pub fn at(&self, uv: DVec2) -> DVec3 {
+        let x = subtexel(uv.x, self.subtexels.x);
+        let y = subtexel(1.0 - uv.y, self.subtexels.y);
+        match self.filter {
+            Filter::Nearest => {
+                let column = self.column(x >> SUBTEXEL_BITS);
+                self.texels[self.row_start(y >> SUBTEXEL_BITS) + column]
+            }
+            Filter::Bilinear => {
+                // Texel centres carry the values, so half a texel lies before the first.
+                let (x, y) = (x - SUBTEXELS / 2, y - SUBTEXELS / 2);
+                let (column, row) = (x >> SUBTEXEL_BITS, y >> SUBTEXEL_BITS);
+                let part = |sub: i64| (sub & (SUBTEXELS - 1)) as f64 / SUBTEXELS as f64;
+                let (right, down) = (part(x), part(y));
+                let columns = (self.column(column), self.column(column + 1));
+                let line = |row| {
+                    let start = self.row_start(row);
+                    let (a, b) = (self.texels[start + columns.0], self.texels[start + columns.1]);
+                    a + (b - a) * right
+                };
+                let (a, b) = (line(row), line(row + 1));
+                a + (b - a) * down
+            }
+        }
+    }
+
+    #[inline]
+    fn column(&self, column: i64) -> usize {
+        wrapped(self.wrap, column, self.width.into()) as usize
+    }
+
+    /// Where the texels of a row start.
+    #[inline]
+    fn row_start(&self, row: i64) -> usize {
+        wrapped(self.wrap, row, self.height.into()) as usize * self.width as usize
+    }
+}
+
+/// A coordinate in 1/256 texel, where a side has so many of them.
+#[inline]
+fn subtexel(coordinate: f64, side: f64) -> i64 {
+    floor(coordinate * side + (0.5 + OFF_FRACTION))
+}
+
+/// The largest whole number that is not larger; of NaN 0, and of numbers far out their quarter range,
+/// which keeps sums in range.
+#[inline]
+fn floor(x: f64) -> i64 {
+    /// 1.5 times 2^52: in sums with it the last bit counts ones.
+    const ONES: f64 = (3u64 << 51) as f64;
+    if x.abs() < (1u64 << 51) as f64 {
+        // The nearest whole number stands in the last bits. Without a call, as machines without an
+        // instruction for floors need, and without the checks of a conversion.
+        let sum = x + ONES;
+        let nearest = sum.to_bits() as i64 - ONES.to_bits() as i64;
+        return nearest - i64::from(sum - ONES > x);
+    }
+    let limit = (i64::MAX / 4) as f64;
+    // `as` takes NaN to 0.
+    x.floor().clamp(-limit, limit) as i64
+}
+
+/// The column or row that is read in place of `at`. Sides are mostly powers of two, and then the
+/// remainder is a mask: a division by a number that is not known before takes longer than the rest.
+#[inline]
+fn wrapped(wrap: Wrap, at: i64, side: i64) -> i64 {
+    match wrap {
+        Wrap::Repeat if side & (side - 1) == 0 => at & (side - 1),
+        Wrap::Repeat => at.rem_euclid(side),
+        Wrap::Clamp => at.clamp(0, side - 1),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn two_by_two() -> Texture {
+        let (r, g, b, w) = ([255, 0, 0], [0, 255, 0], [0, 0, 255], [255; 3]);
+        Texture::new(2, 2, &[r, g, b, w]).unwrap()
+    }
+
+    #[test]
+    fn v_points_up() {
+        let texture = two_by_two();
+        assert_eq!(texture.at(DVec2::new(0.1, 0.9)), DVec3::X);
+        assert_eq!(texture.at(DVec2::new(0.9, 0.9)), DVec3::Y);
+        assert_eq!(texture.at(DVec2::new(0.1, 0.1)), DVec3::Z);
+        assert_eq!(texture.at(DVec2::new(0.9, 0.1)), DVec3::ONE);
+    }
+
+    #[test]
+    fn beyond_the_border() {
+        let texture = two_by_two();
+        assert_eq!(texture.at(DVec2::new(1.1, -0.9)), DVec3::Z);
+        let texture = texture.with(Filter::Nearest, Wrap::Clamp);
+        assert_eq!(texture.at(DVec2::new(1.1, -0.9)), DVec3::ONE);
+        for odd in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e300] {
+            for wrap in [Wrap::Clamp, Wrap::Repeat] {
+                let texture = two_by_two().with(Filter::Bilinear, wrap);
+                assert!(texture.at(DVec2::new(odd, odd)).is_finite());
+            }
+        }
+    }
+
+    #[test]
+    fn bilinear_is_exact_at_centres_and_halfway() {
+        let texture = two_by_two().with(Filter::Bilinear, Wrap::Clamp);
+        assert_eq!(texture.at(DVec2::new(0.25, 0.75)), DVec3::X);
+        assert_eq!(texture.at(DVec2::new(0.5, 0.75)), DVec3::new(0.5, 0.5, 0.0));
+        assert_eq!(texture.at(DVec2::new(0.5, 0.5)), DVec3::splat(0.5));
+    }
+
+    /// A last bit of the coordinate does not change the texel where borders and centres lie.
+    #[test]
+    fn simple_fractions_are_no_thresholds() {
+        let texture = two_by_two().with(Filter::Bilinear, Wrap::Repeat);
+        for i in 1..1024 {
+            let u = f64::from(i) / 1024.0;
+            let read = |u: f64| texture.at(DVec2::new(u, 0.3));
+            assert_eq!(read(u.next_up()), read(u.next_down()), "{u}");
+        }
+    }
+
+    /// The remainder by a mask and by a division, and the floor without a call, are what they were.
+    #[test]
+    fn shortcuts_are_what_they_stand_for() {
+        for side in 1..=70_i64 {
+            for at in -300..300_i64 {
+                assert_eq!(wrapped(Wrap::Repeat, at, side), at.rem_euclid(side), "{at} of {side}");
+            }
+        }
+        for width in [1, 2, 3, 255, 16384] {
+            let moderate = (-4000..4000).map(|i| f64::from(i) * 0.37 / f64::from(width));
+            let odd = [-0.0, 1e300, -1e300, f64::NAN, f64::INFINITY, 5e-324, 1e15, -1e15];
+            for coordinate in moderate.chain(odd) {
+                let texels = coordinate * f64::from(width) * 256.0;
+                let limit = (i64::MAX / 4) as f64;
+                let floor = (texels + (0.5 + OFF_FRACTION)).floor().clamp(-limit, limit) as i64;
+                let side = f64::from(width) * 256.0;
+                assert_eq!(subtexel(coordinate, side), floor, "{coordinate} of {width}");
+            }
+        }
+    }
+
+    #[test]
+    fn no_empty_or_wrong_size() {
+        assert!(Texture::new(0, 1, &[]).is_none());
+        assert!(Texture::new(2, 2, &[[0; 3]; 3]).is_none());
+    }
+}

@@ -1,0 +1,243 @@
+//! The named hard cases that need more than corners in the window: P perspective and clipping, given
+//! in clip space and brought to the window by the pipeline; M samples, moved onto the centres.
+//!
+//! [`named`] is the whole catalogue, these after those of [`rasterproof_verify::cases::named`].
+
+use glam::{DVec2, DVec4};
+
+use crate::pipeline::Counters;
+use crate::pipeline::assemble::{Assembler, Cull};
+use crate::pipeline::multisample::{SAMPLES, onto_centre};
+use rasterproof_core::grid::{PixelRect, SubpixelPoint};
+use rasterproof_verify::cases::named::{Input, NamedCase, plain_triangle};
+use rasterproof_verify::cases::{self, Case, Shape, Triangle};
+
+/// Every named case.
+#[must_use]
+pub fn named() -> Vec<NamedCase> {
+    [cases::named::named(), perspective(), samples()].concat()
+}
+
+/// The named case called `name`.
+#[must_use]
+pub fn find(name: &str) -> Option<NamedCase> {
+    named().into_iter().find(|case| case.name.eq_ignore_ascii_case(name))
+}
+
+type Clip = (f64, f64, f64, f64);
+type Px = (f64, f64);
+
+/// A square of 16 x 16 px: clip coordinates of 1/8 w are pixels.
+const WINDOW: PixelRect = PixelRect::window(16, 16);
+
+/// What the pipeline makes of triangles in clip space, with the pixels of each piece.
+fn clipped(
+    (name, about): (&'static str, &'static str),
+    triangles: &[[Clip; 3]],
+    disjoint: bool,
+    pixels: &[u64],
+) -> NamedCase {
+    let mut list: Vec<Triangle> = Vec::new();
+    for corners in triangles {
+        let values = [DVec2::ZERO, DVec2::X, DVec2::Y];
+        let assembler = Assembler::new(WINDOW, Cull::None);
+        let points = corners.map(|(x, y, z, w)| assembler.point(DVec4::new(x, y, z, w)));
+        let varying = |i: usize| values[i];
+        let mut counters = Counters::default();
+        assembler.assemble(points.each_ref(), varying, &mut counters, |p| list.push(*p));
+    }
+    let case = Case { window: WINDOW, shape: Shape::Triangles { list, disjoint } };
+    NamedCase { name, about, input: Input::Drawn { case, pixels: pixels.to_vec() } }
+}
+
+fn drawn(
+    (name, about): (&'static str, &'static str),
+    window: PixelRect,
+    triangles: Vec<Triangle>,
+    pixels: &[u64],
+) -> NamedCase {
+    let case = Case { window, shape: Shape::Triangles { list: triangles, disjoint: true } };
+    NamedCase { name, about, input: Input::Drawn { case, pixels: pixels.to_vec() } }
+}
+
+fn at((x, y): Px) -> SubpixelPoint {
+    // The catalogue holds positions inside the domain only.
+    SubpixelPoint::from_px(x, y).expect("a catalogued position lies in the domain")
+}
+
+/// The same triangle with all coordinates times `scale`: the same place.
+fn scaled(corners: [Clip; 3], scale: f64) -> [Clip; 3] {
+    corners.map(|(x, y, z, w)| (x * scale, y * scale, z * scale, w * scale))
+}
+
+fn perspective() -> Vec<NamedCase> {
+    let eps = 0.5f64.powi(30);
+    let hex = f64::from_bits;
+    // Corners of the square from (4, 4) to (12, 12) px, from the upper left clockwise.
+    let [a, b, c, d] = [(-0.5, 0.5), (0.5, 0.5), (0.5, -0.5), (-0.5, -0.5)];
+    let with = |(x, y): Px, z: f64, w: f64| (x * w, y * w, z * w, w);
+    let plain = [with(a, 0.0, 1.0), with(b, 0.0, 1.0), with(c, 0.0, 1.0)];
+    let edge = |z: f64, w: f64| [with(a, z, w), with(c, z, w)];
+    let [shared_from, shared_to] = edge(0.0, 1.0);
+    let tiny = [(16384.48, 0.48), (16384.541, 0.48), (16384.48, 0.541)];
+    let far_window = PixelRect { x0: 16380, y0: 0, x1: 16388, y1: 4 };
+    // `clip_stack_overflow` of tests/data/book-bugs.json: corners within ulps of planes.
+    let overflow = [
+        (
+            -hex(0x3fdb_eb36_ea27_ad99),
+            -hex(0x3fdb_eb36_ea27_ad99),
+            hex(0x3fd6_0b72_ae50_45a0),
+            hex(0x3fdb_eb36_ea27_ad98),
+        ),
+        (
+            hex(0x3ff5_4745_ca4b_7662),
+            -hex(0x3ff5_4745_ca4b_765f),
+            -hex(0x4002_9900_398c_6241),
+            hex(0x3ff5_4745_ca4b_7661),
+        ),
+        (
+            hex(0x3fea_24f4_4fcf_6ffe),
+            -hex(0x4005_be88_0eb6_5e2d),
+            -hex(0x3ff9_6287_b229_276d),
+            hex(0x3ff9_6287_b229_276d),
+        ),
+    ];
+    let mut flat = plain_triangle([at((0.0, 0.0)), at((16.0, 0.0)), at((0.0, 16.0))]);
+    for vertex in &mut flat.vertices {
+        vertex.depth = 0.1;
+    }
+    vec![
+        clipped(
+            ("P1", "w = 1, 1e-6, 1: the place of w = 1 throughout"),
+            &[[with(a, 0.0, 1.0), with(b, 0.0, 1e-6), with(c, 0.0, 1.0)]],
+            true,
+            &[36],
+        ),
+        clipped(
+            ("P2", "w = 1, 2^-30, -1: cut before w = 0, nothing from behind the eye"),
+            &[[with(d, 0.0, 1.0), with((0.0, 0.5), 0.0, eps), with(c, 0.0, -1.0)]],
+            true,
+            &[16, 38, 22],
+        ),
+        clipped(
+            (
+                "P3",
+                "coordinates times 1e-23 and 1e20: products of z leave f32, not the domain here",
+            ),
+            &[scaled(plain, 1e-23), scaled(plain, 1e20)],
+            false,
+            &[36, 36],
+        ),
+        clipped(
+            ("P4", "nvdiffrast#225: of a pair with a shared edge one is clipped, the other is not"),
+            &[
+                [shared_from, with(b, 0.0, 1.0), shared_to],
+                [shared_from, shared_to, with(d, -3.0, 1.0)],
+            ],
+            true,
+            &[36, 7, 6],
+        ),
+        clipped(
+            ("P5", "a corner on the near plane, exactly: inside, nothing is cut"),
+            &[[with(a, -1.0, 1.0), with(b, 0.0, 1.0), with(c, 0.0, 1.0)]],
+            true,
+            &[36],
+        ),
+        clipped(
+            ("P5S", "all six planes and the three edges leave a side: nine corners"),
+            &[[(9.25, 20.0, 24.97, 24.5), (12.875, -18.83, 2.54, 4.2), (-3.625, 3.5, -1.77, 0.3)]],
+            true,
+            &[10, 60, 36, 32, 46, 16, 0],
+        ),
+        clipped(
+            ("P5U", "book-bugs clip_stack_overflow: corners within ulps of planes"),
+            &[overflow],
+            true,
+            &[0],
+        ),
+        drawn(
+            ("P6", "a triangle .061 px wide, 2^14 px from the origin: one pixel"),
+            far_window,
+            vec![plain_triangle(tiny.map(at))],
+            &[1],
+        ),
+        drawn(
+            (
+                "P7",
+                "nvdiffrast 20c4135: samples on the edge opposite a corner: weights add up to 1",
+            ),
+            WINDOW,
+            vec![plain_triangle([(0.5, 0.5), (8.5, 0.5), (0.5, 8.5)].map(at))],
+            &[36],
+        ),
+        drawn(
+            ("P8", "PCSX2#2980: the same depth at the corners is that depth, to the bit"),
+            WINDOW,
+            vec![flat],
+            &[120],
+        ),
+        clipped(
+            ("P9", "xemu#665: the last two corners fall on one point, w = 1 and w = -0.1"),
+            &[[with(a, 0.0, 1.0), with(c, 0.0, 1.0), with(c, 0.0, -0.1)]],
+            true,
+            &[0, 0, 0],
+        ),
+    ]
+}
+
+fn samples() -> Vec<NamedCase> {
+    // Around pixel (1 + 3 s, 1) a square whose diagonal passes through sample s; moved so that the
+    // centres are the samples.
+    let through: Vec<Triangle> = SAMPLES
+        .into_iter()
+        .enumerate()
+        .flat_map(|(s, (x_16th, y_16th))| {
+            let sample =
+                (1.0 + 3.0 * s as f64 + f64::from(x_16th) / 16.0, 1.0 + f64::from(y_16th) / 16.0);
+            let corner = |x: f64, y: f64| {
+                let moved = onto_centre(at((sample.0 + x, sample.1 + y)), (x_16th, y_16th));
+                moved.expect("far from the domain's end")
+            };
+            let [a, b, c, d] =
+                [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
+            [plain_triangle([a, b, c]), plain_triangle([a, c, d])]
+        })
+        .collect();
+    let strip = [
+        [(0.0, 0.3), (64.0, 0.3), (64.0, 2.35)],
+        [(0.0, 0.3), (64.0, 2.35), (0.0, 2.1)],
+        [(0.0, 2.1), (64.0, 2.35), (64.0, 4.0)],
+        [(0.0, 2.1), (64.0, 4.0), (0.0, 4.0)],
+    ];
+    // A pixel as 2 x 2 samples: one belongs to the first triangle, three to the rest.
+    let pixel = [
+        [(0.0, 0.0), (1.2, 0.0), (0.0, 1.2)],
+        [(2.0, 2.0), (0.0, 2.0), (0.0, 1.2)],
+        [(2.0, 2.0), (0.0, 1.2), (1.2, 0.0)],
+        [(2.0, 2.0), (1.2, 0.0), (2.0, 0.0)],
+    ];
+    let plain = |list: [[Px; 3]; 4]| list.map(|corners| plain_triangle(corners.map(at))).to_vec();
+    vec![
+        drawn(
+            ("M1", "an edge through each of the four sample positions: each sample is hit once"),
+            PixelRect::window(13, 4),
+            through,
+            &[3, 1, 3, 1, 3, 1, 3, 1],
+        ),
+        drawn(
+            ("M2", "seams at grazing angles: no sample is lost or drawn twice"),
+            PixelRect::window(64, 4),
+            plain(strip),
+            &[85, 43, 68, 60],
+        ),
+        drawn(
+            (
+                "M3",
+                "a pixel as 2 x 2 samples, a quarter and three quarters: black edges if averaged early",
+            ),
+            PixelRect::window(2, 2),
+            plain(pixel),
+            &[1, 1, 1, 1],
+        ),
+    ]
+}

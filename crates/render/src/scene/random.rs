@@ -1,0 +1,91 @@
+//! Scenes at random, a pure function of seed and number: every mixture of shapes, materials, places
+//! and windings, with the cases that a plan of effects lives on, equal w, constant attributes,
+//! disjoint boxes, and those that almost are.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use super::{Hidden, Item, Material, Mesh, Scene, Shading, shapes, textures};
+use crate::pipeline::assemble::Cull;
+use crate::pipeline::shade::Light;
+use crate::pipeline::texture::{Filter, Wrap};
+use crate::pipeline::transform::{about, frustum};
+use rasterproof_core::angle::{turn_x, turn_y};
+use rasterproof_verify::cases::Rng;
+
+/// The scene of a seed and a number.
+///
+/// # Panics
+/// Never: its frustum is a constant.
+#[must_use]
+pub fn scene(seed: u64, index: u64) -> Scene {
+    let mut rng = Rng::new("scene", seed, index);
+    let projection = frustum(-0.8, 0.8, -0.6, 0.6, 1.0, 20.0).expect("a constant");
+    let mut scene = Scene::new(&format!("random-{index}"), "a random scene", projection);
+    if rng.chance(2) {
+        let towards = DVec3::new(rng.signed(), rng.signed(), -1.0).normalize();
+        scene.light = Light { towards, ambient: 0.25, diffuse: 0.75 };
+    }
+    scene.hidden = if rng.chance(8) { Hidden::Painter } else { Hidden::DepthBuffer };
+    for _ in 0..rng.int(1, 5) {
+        let item = item(&mut rng);
+        scene.items.push(item);
+    }
+    scene
+}
+
+fn item(rng: &mut Rng) -> Item {
+    // Few distances, so that surfaces meet.
+    let z = [1.5, 2.0, 3.0, 4.0, 8.0, 0.5][rng.int(0, 5) as usize];
+    let centre = DVec3::new(rng.signed() * z, rng.signed() * z * 0.7, z);
+    let size = z * (0.1 + 0.7 * rng.unit());
+    let mut mesh = match rng.int(0, 4) {
+        0 => {
+            let mut point = || centre + DVec3::new(rng.signed(), rng.signed(), rng.signed()) * size;
+            shapes::triangle([point(), point(), point()], [DVec3::X, DVec3::Y, DVec3::Z])
+        }
+        1 | 2 => {
+            let at = |x: f64, y: f64| centre + DVec3::new(x, y * 0.6, 0.0) * size;
+            shapes::quad([at(-1.0, -1.0), at(1.0, -1.0), at(1.0, 1.0), at(-1.0, 1.0)])
+        }
+        3 => shapes::cuboid(centre - DVec3::splat(size / 2.0), centre + DVec3::splat(size / 2.0)),
+        _ => shapes::sphere(centre, size / 2.0, 5, 4),
+    };
+    if rng.chance(2) {
+        tint(&mut mesh, rng);
+    }
+    let material = material(rng);
+    let mut item = Item::new(mesh, material);
+    if rng.chance(2) {
+        let turn = turn_y(rng.signed() * 3.0) * turn_x(rng.signed());
+        item.model = about(centre, turn);
+    }
+    item.cull =
+        [Cull::None, Cull::None, Cull::Clockwise, Cull::CounterClockwise][rng.int(0, 3) as usize];
+    item
+}
+
+/// One colour for all, or one for each corner.
+fn tint(mesh: &mut Mesh, rng: &mut Rng) {
+    let mut colour = || DVec3::new(rng.unit(), rng.unit(), rng.unit());
+    let one = colour();
+    let many = colour().x < 0.5;
+    for corner in mesh.triangles.as_flattened_mut() {
+        corner.colour = if many { colour() } else { one };
+    }
+}
+
+fn material(rng: &mut Rng) -> Material {
+    let texture = match rng.int(0, 4) {
+        0 => Some(textures::four()),
+        1 => Some(textures::checkerboard().with(Filter::Bilinear, Wrap::Clamp)),
+        _ => None,
+    };
+    Material {
+        colour: DVec3::new(0.5 + rng.unit() / 2.0, 1.0, 0.25 + rng.unit() / 2.0),
+        vertex_colours: rng.chance(3),
+        texture: texture.map(Arc::new),
+        shading: Shading::ALL[rng.int(0, 3) as usize],
+    }
+}

@@ -1,0 +1,92 @@
+//! Coverage as characters: `#` agrees, `-` missing, `+` extra, `2` twice, `.` outside both.
+
+use rasterproof_core::frame::Coverage;
+
+/// What the characters mean.
+pub const LEGEND: &str = "# agrees, - missing, + extra, 2 twice, * rightly more than once";
+
+/// Largest grid that is printed whole; a larger window is cropped around what is drawn.
+pub const MOST_COLUMNS: u32 = 96;
+/// Rows of the largest grid.
+pub const MOST_ROWS: u32 = 48;
+
+/// The character of a pixel with these hits.
+#[must_use]
+pub fn mark(actual: u8, target: u8) -> char {
+    match (actual, target) {
+        (0, 0) => '.',
+        (a, t) if a > t && a > 1 => '2',
+        (a, t) if a > t => '+',
+        (a, t) if a < t => '-',
+        (1, _) => '#',
+        // More than one hit, rightly so: triangles of the case overlap.
+        _ => '*',
+    }
+}
+
+/// The grid of `actual` judged by `target`, one line for each row, without line ends.
+#[must_use]
+pub fn grid(actual: &Coverage, target: &Coverage) -> Vec<String> {
+    let (x, y) = shown(actual, target);
+    let rows = actual.rows().zip(target.rows()).skip(y.start).take(y.len());
+    rows.map(|((_, a), (_, t))| {
+        a.iter().zip(t).skip(x.start).take(x.len()).map(|(&a, &t)| mark(a, t)).collect()
+    })
+    .collect()
+}
+
+/// The columns and rows worth showing, counted from the window's corner.
+fn shown(actual: &Coverage, target: &Coverage) -> (std::ops::Range<usize>, std::ops::Range<usize>) {
+    let bounds = actual.bounds();
+    let (width, height) = (bounds.width() as usize, bounds.height() as usize);
+    let (most_x, most_y) = (MOST_COLUMNS as usize, MOST_ROWS as usize);
+    if width <= most_x && height <= most_y {
+        return (0..width, 0..height);
+    }
+    // Start just before the first pixel that differs, else before the first one that is hit.
+    let find = |wanted: &dyn Fn(u8, u8) -> bool| {
+        let mut found: Option<(usize, usize)> = None;
+        for (j, ((_, a), (_, t))) in actual.rows().zip(target.rows()).enumerate() {
+            if let Some(i) = a.iter().zip(t).position(|(&a, &t)| wanted(a, t)) {
+                let x = found.map_or(i, |(x, _)| x.min(i));
+                found = Some((x, found.map_or(j, |(_, y)| y)));
+            }
+        }
+        found
+    };
+    let (x, y) = find(&|a, t| a != t).or_else(|| find(&|a, t| a > 0 || t > 0)).unwrap_or((0, 0));
+    let start =
+        |at: usize, size: usize, most: usize| at.saturating_sub(2).min(size.saturating_sub(most));
+    let (x, y) = (start(x, width, most_x), start(y, height, most_y));
+    (x..width.min(x + most_x), y..height.min(y + most_y))
+}
+
+/// Puts blocks of lines beside each other under their titles, as many as fit `columns`.
+#[must_use]
+pub fn side_by_side(blocks: &[(String, Vec<String>)], columns: usize) -> String {
+    let mut out = String::new();
+    let width = |(title, lines): &(String, Vec<String>)| {
+        lines.iter().map(|l| l.chars().count()).chain([title.chars().count()]).max().unwrap_or(0)
+    };
+    let mut rest = blocks;
+    while !rest.is_empty() {
+        let mut count = 0;
+        let mut used = 0;
+        while count < rest.len() && (count == 0 || used + width(&rest[count]) <= columns) {
+            used += width(&rest[count]) + 3;
+            count += 1;
+        }
+        let (now, later) = rest.split_at(count);
+        let height = now.iter().map(|(_, lines)| lines.len()).max().unwrap_or(0);
+        for row in 0..=height {
+            let cells = now.iter().map(|block| {
+                let text = if row == 0 { Some(&block.0) } else { block.1.get(row - 1) };
+                format!("{:w$}", text.map_or("", String::as_str), w = width(block))
+            });
+            out.push_str(cells.collect::<Vec<_>>().join("   ").trim_end());
+            out.push('\n');
+        }
+        rest = later;
+    }
+    out
+}

@@ -1,0 +1,235 @@
+//! Diagrams of chapters 2, 3 and 9 and of the page on exhaustion: which pixels, which side, which area.
+
+use super::{Point, Sheet, between};
+use rasterproof_core::contract::Rasterize as _;
+use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
+use rasterproof_core::raster::scanline::Scanline;
+use rasterproof_core::triangle::Corners;
+use rasterproof_exhaustive::Enumeration as _;
+use rasterproof_exhaustive::triangles::Triangles;
+use rasterproof_render::pipeline::assemble::twice_area;
+use rasterproof_verify::oracle::values::ExactTriangle;
+
+fn snapped(corners: [Point; 3]) -> Corners {
+    corners.map(|[x, y]| SubpixelPoint::from_px(x, y).expect("diagrams stay in the domain"))
+}
+
+/// The covered spans as (row, first column, one past the last).
+fn spans(corners: [Point; 3], window: PixelRect) -> Vec<[i32; 3]> {
+    let mut list = Vec::new();
+    Scanline.cover(snapped(corners), window, |s| list.push([s.y_px, s.x0_px, s.x1_px]));
+    list
+}
+
+/// The scanline's split at the middle corner, its spans, and ties on a left and on a right edge.
+pub fn split() -> String {
+    let (corners, side) = ([[1.5, 0.5], [9.5, 3.5], [1.5, 7.5]], 40.0);
+    let at = |[x, y]: Point| [30.0 + x * side, 20.0 + y * side];
+    let mut sheet = Sheet::new(500.0, 380.0);
+    sheet.grid(at([0.0, 0.0]), side, 11, 8);
+    sheet.polygon("ink", &corners.map(at));
+    sheet.line("soft", at([1.5, 3.5]), at([9.5, 3.5]));
+    let covered = spans(corners, PixelRect::window(11, 8));
+    for &[y, x0, x1] in &covered {
+        let middle = f64::from(y) + 0.5;
+        sheet.line("one", at([f64::from(x0) + 0.5, middle]), at([f64::from(x1 - 1) + 0.5, middle]));
+    }
+    for (y, x) in (0..8).flat_map(|y| (0..11).map(move |x| (y, x))) {
+        let is_in = covered.iter().any(|&[row, x0, x1]| row == y && (x0..x1).contains(&x));
+        let centre = at([f64::from(x) + 0.5, f64::from(y) + 0.5]);
+        sheet.dot(if is_in { "dot1" } else { "ring" }, centre, if is_in { 5.0 } else { 3.0 });
+    }
+    for (name, corner, shift) in
+        [("a", 0, [-16.0, -4.0]), ("b", 1, [12.0, -8.0]), ("c", 2, [-16.0, 14.0])]
+    {
+        let [x, y] = at(corners[corner]);
+        sheet.text("middle", [x + shift[0], y + shift[1]], name);
+    }
+    sheet.text("start", [30.0, 366.0], "● xₗ ≤ x < xᵣ · ○ x = xᵣ");
+    sheet.svg()
+}
+
+/// The sign of an edge function at the centres around an edge.
+pub fn edge_sign() -> String {
+    let (a, b, side) = ([1.5, 6.5], [7.5, 0.5], 44.0);
+    let at = |[x, y]: Point| [20.0 + x * side, 20.0 + y * side];
+    let mut sheet = Sheet::new(440.0, 364.0);
+    for (y, x) in (0..7).flat_map(|y| (0..9).map(move |x| (y, x))) {
+        let p = [f64::from(x) + 0.5, f64::from(y) + 0.5];
+        let sign = twice_area(snapped([a, b, p])).signum();
+        let (class, mark) = match sign {
+            1 => ("dot1", "+"),
+            -1 => ("dot2", "−"),
+            _ => ("ring", "0"),
+        };
+        let [px, py] = at(p);
+        sheet.dot(class, [px, py], 4.0);
+        sheet.text("start", [px + 6.0, py + 16.0], mark);
+    }
+    sheet.arrow("ink", at(a), at(b));
+    let ([ax, ay], [bx, by]) = (at(a), at(b));
+    sheet.text("end", [ax - 10.0, ay - 8.0], "a");
+    sheet.text("end", [bx - 10.0, by - 4.0], "b");
+    sheet.text("start", [20.0, 350.0], "+ : E > 0 · − : E < 0 · 0 : E = 0");
+    sheet.svg()
+}
+
+/// The rows of an edge by the integer DDA: (row, M, first column, remainder).
+fn dda(a: SubpixelPoint, b: SubpixelPoint, rows: std::ops::Range<i32>) -> Vec<[i64; 4]> {
+    let [dx, dy] = [b.x - a.x, b.y - a.y].map(i64::from);
+    let ceil = |over: i64, under: i64| -(-over).div_euclid(under);
+    let line = |y: i32| {
+        let centre = i64::from(y * SUBPIXELS + HALF_PIXEL);
+        let n = (i64::from(a.x) - i64::from(HALF_PIXEL)) * dy + (centre - i64::from(a.y)) * dx;
+        let m = ceil(n, i64::from(SUBPIXELS));
+        let column = ceil(m, dy);
+        [i64::from(y), m, column, column * dy - m]
+    };
+    rows.map(line).collect()
+}
+
+const DDA_CORNERS: [Point; 3] = [[1.25, 0.25], [6.5, 4.75], [9.0, 0.25]];
+
+/// One edge, row by row, in whole numbers.
+pub fn dda_row() -> String {
+    let side = 40.0;
+    let at = |[x, y]: Point| [20.0 + x * side, 30.0 + y * side];
+    let mut sheet = Sheet::new(620.0, 260.0);
+    sheet.grid(at([0.0, 0.0]), side, 8, 5);
+    let [a, b, _] = snapped(DDA_CORNERS);
+    sheet.line("ink", at(DDA_CORNERS[0]), at(DDA_CORNERS[1]));
+    let columns = [380.0, 460.0, 520.0, 590.0];
+    for (x, head) in columns.into_iter().zip(["y", "M", "i", "r"]) {
+        sheet.text("end", [x, 20.0], head);
+    }
+    for row in dda(a, b, 0..5) {
+        let y = row[0] as f64 + 0.5;
+        for x in 0..8 {
+            let centre = at([f64::from(x) + 0.5, y]);
+            let is_first = i64::from(x) == row[2];
+            sheet.dot(
+                if is_first { "dot1" } else { "ring" },
+                centre,
+                if is_first { 6.0 } else { 3.0 },
+            );
+        }
+        for (x, number) in columns.into_iter().zip(row) {
+            sheet.text("end", [x, at([0.0, y])[1] + 5.0], &number.to_string());
+        }
+    }
+    let (dx, dy) = (b.x - a.x, b.y - a.y);
+    sheet.text("start", [20.0, 20.0], &format!("dx = {dx} · dy = {dy}"));
+    sheet.svg()
+}
+
+/// Barycentric coordinates as areas.
+pub fn areas() -> String {
+    let (corners, pixel) = ([[0.0, 0.0], [8.0, 0.0], [0.0, 8.0]], [2, 2]);
+    let at = |[x, y]: Point| [40.0 + x * 36.0, 30.0 + y * 36.0];
+    let p = [f64::from(pixel[0]) + 0.5, f64::from(pixel[1]) + 0.5];
+    let units = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let exact = ExactTriangle::new(&snapped(corners), [0.0; 3], [1.0; 3], units);
+    let weights = exact.expect("it has an area").at(pixel[0], pixel[1]).1;
+    let mut sheet = Sheet::new(400.0, 350.0);
+    for (i, class) in ["fill1", "fill2", "fill3"].into_iter().enumerate() {
+        let (b, c) = (corners[(i + 1) % 3], corners[(i + 2) % 3]);
+        sheet.polygon(class, &[at(p), at(b), at(c)]);
+        let [x, y] = at([(p[0] + b[0] + c[0]) / 3.0, (p[1] + b[1] + c[1]) / 3.0]);
+        sheet.text("middle", [x, y + 5.0], &format!("{:.4}", weights[i].to_f64()));
+        sheet.line("soft", at(p), at(corners[i]));
+    }
+    sheet.polygon("ink", &corners.map(at));
+    sheet.dot("dot", at(p), 4.0);
+    for (i, shift) in [[-14.0, 0.0], [14.0, 5.0], [-14.0, 8.0]].into_iter().enumerate() {
+        let [x, y] = at(corners[i]);
+        sheet.text("middle", [x + shift[0], y + shift[1]], &i.to_string());
+    }
+    sheet.text("start", [200.0, 300.0], "λᵢ = Eᵢ / 2A · Σ λᵢ = 1");
+    sheet.svg()
+}
+
+/// The two windings and their signs, y down.
+pub fn winding() -> String {
+    let mut sheet = Sheet::new(460.0, 220.0);
+    let clockwise = [[1.0, 1.0], [6.0, 1.0], [1.0, 6.0]];
+    let other = [clockwise[0], clockwise[2], clockwise[1]];
+    for (left, corners) in [(20.0, clockwise), (240.0, other)] {
+        let at = |[x, y]: Point| [left + x * 28.0, y * 28.0];
+        let area = twice_area(snapped(corners)) as f64 / f64::from(SUBPIXELS).powi(2);
+        sheet.polygon(if area > 0.0 { "fill1" } else { "fill2" }, &corners.map(at));
+        for i in 0..3 {
+            let (from, to) = (at(corners[i]), at(corners[(i + 1) % 3]));
+            sheet.arrow(if area > 0.0 { "one" } else { "two" }, from, between(from, to, 0.9));
+            let [x, y] = from;
+            sheet.text("end", [x - 6.0, y - 4.0], ["a", "b", "c"][i]);
+        }
+        sheet.text(
+            "start",
+            at([0.7, 7.2]),
+            &format!("2A = {area} {}", if area > 0.0 { "↻" } else { "↺" }),
+        );
+    }
+    sheet.svg()
+}
+
+/// The lattices whose triangles are enumerated, with one of them each.
+pub fn lattices() -> String {
+    let (side, bits) = (50.0, [1, 2]);
+    let set = |subpixel_bits| Triangles {
+        window_px: 4,
+        subpixel_bits,
+        offset_px: [0; 2],
+        all_orders: false,
+        plant: None,
+    };
+    let examples = [[[0.5, 0.0], [4.0, 1.5], [1.0, 4.0]], [[3.75, 0.25], [3.5, 3.75], [0.0, 2.25]]];
+    let mut sheet = Sheet::new(490.0, 300.0);
+    for ((left, bits), corners) in [20.0, 260.0].into_iter().zip(bits).zip(examples) {
+        let at = |[x, y]: Point| [left + x * side, 20.0 + y * side];
+        sheet.grid(at([0.0; 2]), side, 4, 4);
+        sheet.polygon("fill1", &corners.map(at));
+        let steps = 4 << bits;
+        for (i, j) in (0..=steps).flat_map(|j| (0..=steps).map(move |i| (i, j))) {
+            let of_window = |step: i32| f64::from(step) * 4.0 / f64::from(steps);
+            sheet.dot("dot", at([of_window(i), of_window(j)]), 1.5);
+        }
+        for [y, x0, x1] in spans(corners, PixelRect::window(4, 4)) {
+            for x in x0..x1 {
+                sheet.dot("dot1", at([f64::from(x) + 0.5, f64::from(y) + 0.5]), 5.0);
+            }
+        }
+        let set = set(bits);
+        let label = format!("s = {bits}: {} · {}", set.chunks(), grouped(set.expected_cases()));
+        sheet.text("start", [left, 246.0], &label);
+    }
+    for (left, bits) in [(20.0, 3), (260.0, 4)] {
+        let set = set(bits);
+        let points = grouped(set.chunks());
+        let label = format!("s = {bits}: {points} · {}", grouped(set.expected_cases()));
+        sheet.text("start", [left, 276.0], &label);
+    }
+    sheet.svg()
+}
+
+/// 12345 as 12,345.
+fn grouped(number: u64) -> String {
+    let digits = number.to_string();
+    let parts: Vec<_> = digits.as_bytes().rchunks(3).rev().map(String::from_utf8_lossy).collect();
+    parts.join(",")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The worked rows are those of the engine.
+    #[test]
+    fn dda_rows_are_the_engines() {
+        let [a, b, _] = snapped(DDA_CORNERS);
+        let drawn = spans(DDA_CORNERS, PixelRect::window(10, 5));
+        let firsts: Vec<_> = dda(a, b, 0..5).iter().map(|row| [row[0], row[2]]).collect();
+        let engine: Vec<_> =
+            drawn.iter().map(|&[y, x0, _]| [i64::from(y), i64::from(x0)]).collect();
+        assert_eq!(firsts, engine);
+    }
+}

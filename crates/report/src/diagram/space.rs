@@ -1,0 +1,127 @@
+//! Diagrams of chapters 4 to 10: film, clipping, the cube, the hands.
+
+use glam::{DVec3, DVec4};
+
+use super::{Point, Sheet, between};
+use rasterproof_render::pipeline::ClipVertex;
+use rasterproof_render::pipeline::clip::{Plane, clip};
+use rasterproof_render::pipeline::transform::frustum;
+
+/// Device coordinates of a point; the film is 1 before the eye and reaches from -1 to 1.
+fn ndc(p: DVec3) -> DVec3 {
+    let clip = frustum(-1.0, 1.0, -1.0, 1.0, 1.0, 6.0).expect("it is a frustum") * p.extend(1.0);
+    clip.truncate() / clip.w
+}
+
+/// Halfway in space and halfway on the film, from above: x to the right, z up.
+pub fn share() -> String {
+    let at = |[x, z]: Point| [180.0 + x * 50.0, 350.0 - z * 50.0];
+    let mut sheet = Sheet::new(540.0, 380.0);
+    let rod: [Point; 2] = [[-2.0, 2.0], [6.0, 6.0]];
+    let film = |[x, z]: Point| [ndc(DVec3::new(x, 0.0, z)).x, 1.0];
+    let middle = between(rod[0], rod[1], 0.5);
+    sheet.line("ink", at([-1.6, 1.0]), at([1.6, 1.0]));
+    sheet.line("one", at(rod[0]), at(rod[1]));
+    for p in [rod[0], middle, rod[1]] {
+        sheet.line("soft", at([0.0, 0.0]), at(p));
+        sheet.dot("dot1", at(p), 5.0);
+        sheet.dot("dot2", at(film(p)), 5.0);
+    }
+    let [a, m, b] = [rod[0], middle, rod[1]].map(|p| film(p)[0]);
+    let [x, y] = at(middle);
+    sheet.text("end", [x - 8.0, y - 8.0], "t = 0.5");
+    let [x, y] = at(film(middle));
+    sheet.text("start", [x + 50.0, y + 22.0], &format!("t' = {}", (m - a) / (b - a)));
+    for (name, p) in [("w = 2", rod[0]), ("w = 6", rod[1])] {
+        let [x, y] = at(p);
+        sheet.text("middle", [x, y - 12.0], name);
+    }
+    sheet.dot("dot", at([0.0, 0.0]), 4.0);
+    sheet.text("end", at([-1.7, 1.0]), "n = 1");
+    sheet.svg()
+}
+
+/// A triangle with a corner behind the near plane, the points where it goes out and comes in.
+pub fn near_plane() -> String {
+    // Seen from the side: x upwards, z to the right; w is 1 and the border at z = -1.
+    let at = |[z, x]: Point| [200.0 + z * 70.0, 190.0 - x * 70.0];
+    let corners: [Point; 3] = [[1.5, 1.6], [2.5, -1.0], [-2.0, -0.4]];
+    let vertex = |[z, x]: Point| ClipVertex { position: DVec4::new(x, 0.0, z, 1.0), varying: 0.0 };
+    let (kept, _) = clip(&corners.map(vertex), Plane::Near.bit());
+    let kept: Vec<Point> = kept.vertices().map(|v| [v.position.z, v.position.x]).collect();
+    let mut sheet = Sheet::new(420.0, 310.0);
+    sheet.polygon("soft", &corners.map(at));
+    let on_sheet: Vec<_> = kept.iter().map(|&p| at(p)).collect();
+    sheet.polygon("fill1", &on_sheet);
+    sheet.polygon("one", &on_sheet);
+    sheet.line("ink", at([-1.0, 2.2]), at([-1.0, -1.5]));
+    sheet.text("middle", at([-1.0, -1.65]), "w + z = 0");
+    for (i, p) in corners.into_iter().enumerate() {
+        let [x, y] = at(p);
+        sheet.dot("dot", [x, y], 4.0);
+        sheet.text("middle", [x, y - 10.0], ["a", "b", "c"][i]);
+    }
+    // Walking a, b, c: out on the way to c, in on the way back to a.
+    let mut cuts: Vec<_> = kept.into_iter().filter(|p| p[0] == -1.0).collect();
+    cuts.sort_by(|p, q| p[1].total_cmp(&q[1]));
+    for (p, word) in cuts.into_iter().zip(["out", "in"]) {
+        let [x, y] = at(p);
+        sheet.dot("dot2", [x, y], 6.0);
+        sheet.text("end", [x - 10.0, y + if word == "in" { -8.0 } else { 20.0 }], word);
+    }
+    sheet.svg()
+}
+
+/// The frustum with equal steps of depth, and where they land in the cube.
+pub fn cube() -> String {
+    let mut sheet = Sheet::new(600.0, 320.0);
+    let left = |[x, z]: Point| [150.0 + x * 22.0, 300.0 - z * 45.0];
+    let right = |[x, z]: Point| [450.0 + x * 110.0, 160.0 - z * 110.0];
+    let (near, far) = ([[-1.0, 1.0], [1.0, 1.0]], [[6.0, 6.0], [-6.0, 6.0]]);
+    let whole = [near[0], near[1], far[0], far[1]];
+    let land = |[x, z]: Point| {
+        let p = ndc(DVec3::new(x, 0.0, z));
+        right([p.x, p.z])
+    };
+    for z in 1..=6 {
+        let z = f64::from(z);
+        sheet.line("soft", left([-z, z]), left([z, z]));
+        sheet.line("soft", land([-z, z]), land([z, z]));
+        let [x, y] = land([z, z]);
+        // The far steps crowd: every other one is named.
+        if z < 4.0 || z == 6.0 {
+            sheet.text("start", [x + 8.0, y + 5.0], &format!("{z}"));
+        }
+        let [x, y] = left([z, z]);
+        sheet.text("start", [x + 8.0, y + 5.0], &format!("{z}"));
+    }
+    sheet.polygon("one", &whole.map(left));
+    sheet.polygon("one", &whole.map(land));
+    sheet.line("ink", left([0.0, 0.0]), left([1.0, 1.0]));
+    sheet.line("ink", left([0.0, 0.0]), left([-1.0, 1.0]));
+    sheet.dot("dot", left([0.0, 0.0]), 4.0);
+    sheet.arrow("ink", [298.0, 240.0], [332.0, 240.0]);
+    sheet.text("middle", [450.0, 290.0], "z' = -1");
+    sheet.text("middle", [450.0, 40.0], "z' = 1");
+    sheet.svg()
+}
+
+/// Left-handed and right-handed axes.
+pub fn handedness() -> String {
+    let mut sheet = Sheet::new(440.0, 200.0);
+    for (origin, z, sign) in
+        [([90.0, 130.0], [60.0, -45.0], "+z"), ([320.0, 130.0], [-55.0, 45.0], "+z")]
+    {
+        let end = |[x, y]: Point| [origin[0] + x, origin[1] + y];
+        sheet.arrow("one", origin, end([90.0, 0.0]));
+        sheet.arrow("two", origin, end([0.0, -95.0]));
+        sheet.arrow("ink", origin, end(z));
+        sheet.text("start", end([94.0, 5.0]), "+x");
+        sheet.text("middle", end([0.0, -102.0]), "+y");
+        let [x, y] = end(z);
+        sheet.text("middle", [x + z[0].signum() * 14.0, y + 5.0], sign);
+    }
+    sheet.text("middle", [110.0, 188.0], "L");
+    sheet.text("middle", [350.0, 188.0], "R");
+    sheet.svg()
+}

@@ -1,0 +1,242 @@
+//! The verdict for machines: JSON, JUnit XML, TAP, Gradescope's results, GitHub Classroom's.
+//!
+//! Each property is one test that passes or fails; no test has a fraction. A failure that the
+//! baseline knows counts as passed where points are given, and is marked where there is a mark for
+//! it.
+
+use std::fmt::Write as _;
+
+use serde_json::{Value, json};
+
+use rasterproof_judge::verdict::{Outcome, Property, Verdict};
+use rasterproof_verify::comparison::shrink;
+
+/// What to print.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// For people.
+    Text,
+    /// Everything that was found.
+    Json,
+    /// JUnit XML, for build servers.
+    Junit,
+    /// Test Anything Protocol, version 14.
+    Tap,
+    /// Gradescope's results.json.
+    Gradescope,
+    /// The result of an autograding step of GitHub Classroom.
+    GithubClassroom,
+}
+
+impl Format {
+    /// All, with the words of the command line and what they are for.
+    pub const ALL: [(&'static str, Self, &'static str); 6] = [
+        ("text", Self::Text, "For people"),
+        ("json", Self::Json, "Everything that was found"),
+        ("junit", Self::Junit, "JUnit XML, for build servers"),
+        ("tap", Self::Tap, "Test Anything Protocol, version 14"),
+        ("gradescope", Self::Gradescope, "Gradescope's results.json"),
+        (
+            "github-classroom",
+            Self::GithubClassroom,
+            "The result of an autograding step of GitHub Classroom",
+        ),
+    ];
+}
+
+/// The verdict in a format other than text; `repeat` gives the command that repeats a case.
+#[must_use]
+pub fn write(
+    verdict: &Verdict,
+    format: Format,
+    repeat_all: &str,
+    repeat: &dyn Fn(&str, u64) -> String,
+) -> String {
+    match format {
+        Format::Text => String::new(),
+        Format::Json => pretty(&everything(verdict, repeat_all, repeat)),
+        Format::Junit => junit(verdict, repeat),
+        Format::Tap => tap(verdict, repeat),
+        Format::Gradescope => pretty(&gradescope(verdict, repeat)),
+        Format::GithubClassroom => pretty(&classroom(verdict, repeat_all, repeat)),
+    }
+}
+
+fn pretty(value: &Value) -> String {
+    // Numbers and strings only: this cannot fail.
+    serde_json::to_string_pretty(value).unwrap_or_default() + "\n"
+}
+
+/// What was found, and where it fails the smallest case.
+fn message(verdict: &Verdict, property: &Property, repeat: &dyn Fn(&str, u64) -> String) -> String {
+    let mut out = format!("{}: {}", property.about, property.detail);
+    for failure in verdict.failures.iter().filter(|f| f.property == property.name) {
+        let _ = write!(out, "\n{}", failure.what);
+        for e in failure.exchanges.iter().take(3) {
+            let _ = write!(out, "\nrequest:  {}\nanswer:   {}", e.request, e.answer);
+            if !e.expected.is_empty() {
+                let _ = write!(out, "\nexpected: {}", e.expected);
+            }
+        }
+        let _ = write!(out, "\nrepeat with: {}", repeat(failure.family, failure.index));
+    }
+    if property.name == "protocol" {
+        for incident in verdict.found.incidents.iter().take(3) {
+            let _ = write!(out, "\nit {}\nrequest:  {}", incident.what, incident.request);
+            if !incident.family.is_empty() {
+                let _ = write!(out, "\nrepeat with: {}", repeat(incident.family, incident.index));
+            }
+        }
+    }
+    out
+}
+
+fn everything(verdict: &Verdict, repeat_all: &str, repeat: &dyn Fn(&str, u64) -> String) -> Value {
+    let d = &verdict.declared;
+    let failures: Vec<Value> = verdict
+        .failures
+        .iter()
+        .map(|f| {
+            let exchanges: Vec<Value> = f
+                .exchanges
+                .iter()
+                .map(|e| json!({"request": e.request, "answer": e.answer, "expected": e.expected}))
+                .collect();
+            json!({
+                "property": f.property, "family": f.family, "index": f.index, "what": f.what,
+                "shrunk": shrink::describe(&f.case), "window": f.case.window,
+                "exchanges": exchanges, "repeat": repeat(f.family, f.index),
+            })
+        })
+        .collect();
+    let incidents = verdict.found.incidents.iter().map(|i| {
+        let of_family = Some(i).filter(|i| !i.family.is_empty());
+        json!({
+            "family": i.family, "index": i.index, "word": i.what.word(), "what": i.what.to_string(),
+            "request": i.request, "repeat": of_family.map(|i| repeat(i.family, i.index)),
+        })
+    });
+    json!({
+        "version": env!("CARGO_PKG_VERSION"), "program": d.name, "protocol": d.version,
+        "declared": d.to_string(), "not_understood": d.unknown, "seed": verdict.seed,
+        "cases": verdict.cases, "agrees": verdict.agrees(), "windings": verdict.windings,
+        "recognised": verdict.recognised, "score_as_declared": verdict.as_declared(),
+        "score_by_convention": verdict.by_convention(), "answers": verdict.found.answered,
+        "properties": verdict.properties, "rows": verdict.found.rows, "failures": failures,
+        "incidents": incidents.collect::<Vec<_>>(),
+        "strays": verdict.found.strays.iter().map(ToString::to_string).collect::<Vec<_>>(),
+        "stderr": verdict.complaints, "repeat": repeat_all,
+    })
+}
+
+/// Text between tags and in quoted attributes. What programs said is printable by now; what XML has
+/// no place for is replaced all the same.
+fn xml(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '"' => out.push_str("&quot;"),
+            '\n' => out.push_str("&#10;"),
+            c if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') => out.push('\u{fffd}'),
+            c => out.push(c),
+        }
+    }
+    out
+}
+
+fn junit(verdict: &Verdict, repeat: &dyn Fn(&str, u64) -> String) -> String {
+    let count = |wanted: &dyn Fn(Outcome) -> bool| {
+        verdict.properties.iter().filter(|p| wanted(p.outcome)).count()
+    };
+    let (tests, failures) = (verdict.properties.len(), count(&|o| !o.is_good()));
+    let skipped = count(&|o| o == Outcome::ExpectedFailure);
+    let name = xml(&verdict.declared.name);
+    let seconds = verdict.found.seconds;
+    let mut out = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
+    let counts = format!(
+        "tests=\"{tests}\" failures=\"{failures}\" errors=\"0\" skipped=\"{skipped}\" time=\"{seconds:.3}\""
+    );
+    let _ = writeln!(out, "<testsuites name=\"rasterproof judge\" {counts}>");
+    let _ = writeln!(out, "  <testsuite name=\"{name}\" {counts}>");
+    for p in &verdict.properties {
+        let case = format!("<testcase classname=\"{name}\" name=\"{}\" time=\"0\"", xml(p.name));
+        let text = xml(&message(verdict, p, repeat));
+        let about = xml(&p.detail);
+        let _ = match p.outcome {
+            Outcome::Pass => writeln!(out, "    {case}/>"),
+            Outcome::ExpectedFailure => {
+                writeln!(out, "    {case}><skipped message=\"known: {about}\"/></testcase>")
+            }
+            Outcome::UnexpectedPass => writeln!(
+                out,
+                "    {case}><failure type=\"unexpected pass\" message=\"{about}\">{text}</failure></testcase>"
+            ),
+            Outcome::Fail => writeln!(
+                out,
+                "    {case}><failure type=\"disagrees\" message=\"{about}\">{text}</failure></testcase>"
+            ),
+        };
+    }
+    if !verdict.complaints.is_empty() {
+        let text = xml(&verdict.complaints.join("\n"));
+        let _ = writeln!(out, "    <system-err>{text}</system-err>");
+    }
+    out + "  </testsuite>\n</testsuites>\n"
+}
+
+fn tap(verdict: &Verdict, repeat: &dyn Fn(&str, u64) -> String) -> String {
+    let mut out = format!("TAP version 14\n1..{}\n", verdict.properties.len());
+    for (p, number) in verdict.properties.iter().zip(1..) {
+        let (word, mark) = match p.outcome {
+            Outcome::Pass => ("ok", ""),
+            Outcome::ExpectedFailure => ("not ok", " # TODO known failure"),
+            Outcome::Fail | Outcome::UnexpectedPass => ("not ok", ""),
+        };
+        let _ = writeln!(out, "{word} {number} - {}{mark}", p.name);
+        if p.outcome != Outcome::Pass {
+            out += "  ---\n  message: |\n";
+            for line in message(verdict, p, repeat).lines() {
+                let _ = writeln!(out, "    {line}");
+            }
+            out += "  ...\n";
+        }
+    }
+    out
+}
+
+fn gradescope(verdict: &Verdict, repeat: &dyn Fn(&str, u64) -> String) -> Value {
+    let tests = verdict.properties.iter().zip(1..).map(|(p, number)| {
+        let good = p.outcome.is_good();
+        json!({
+            "name": p.name, "number": number.to_string(), "score": i32::from(good), "max_score": 1,
+            "status": if good { "passed" } else { "failed" },
+            "output": message(verdict, p, repeat), "output_format": "text",
+            "visibility": "visible",
+        })
+    });
+    let passed = verdict.properties.iter().filter(|p| p.outcome.is_good()).count();
+    json!({
+        "score": passed, "visibility": "visible", "stdout_visibility": "visible",
+        "execution_time": verdict.found.seconds.ceil() as u64,
+        "output": format!("{passed} of {} properties hold", verdict.properties.len()),
+        "tests": tests.collect::<Vec<_>>(),
+    })
+}
+
+fn classroom(verdict: &Verdict, repeat_all: &str, repeat: &dyn Fn(&str, u64) -> String) -> Value {
+    let tests = verdict.properties.iter().map(|p| {
+        let good = p.outcome.is_good();
+        json!({
+            "name": p.name, "status": if good { "pass" } else { "fail" }, "score": i32::from(good),
+            "message": message(verdict, p, repeat), "test_code": repeat_all, "filename": "",
+            "line_no": 0, "execution_time": "0s",
+        })
+    });
+    json!({
+        "version": 1, "status": if verdict.agrees() { "pass" } else { "fail" },
+        "max_score": verdict.properties.len(), "tests": tests.collect::<Vec<_>>(),
+    })
+}

@@ -1,0 +1,268 @@
+//! Rendered frames: as PNG, and two of them compared pixel for pixel and depth for depth.
+
+use std::io::{self, Cursor};
+
+use image::{ImageFormat, RgbImage};
+
+use super::lettering::{Size, write};
+use rasterproof_core::frame::Frame;
+use rasterproof_core::grid::PixelRect;
+use rasterproof_registry::undecided::Ties;
+use rasterproof_render::effects::Effect;
+use rasterproof_render::effects::render::Rendered;
+use rasterproof_render::pipeline::depth::CLEAR;
+use rasterproof_render::pipeline::target::{Colour, Target};
+use rasterproof_verify::comparison::tolerance;
+
+/// A frame as an image, without its opacity.
+#[must_use]
+pub fn rgb(picture: &Frame<Colour>) -> RgbImage {
+    let bounds = picture.bounds();
+    RgbImage::from_fn(bounds.width(), bounds.height(), |x, y| {
+        let [r, g, b, _] = picture.row(bounds.y0 + y as i32)[x as usize];
+        image::Rgb([r, g, b])
+    })
+}
+
+/// A frame as a PNG.
+///
+/// # Errors
+/// Where the encoder fails.
+pub fn png(picture: &Frame<Colour>) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    rgb(picture)
+        .write_to(&mut Cursor::new(&mut bytes), ImageFormat::Png)
+        .map_err(io::Error::other)?;
+    Ok(bytes)
+}
+
+/// Two frames, compared.
+#[derive(Clone, Debug, serde::Serialize)]
+pub struct Comparison {
+    /// Pixels compared.
+    pub pixels: u64,
+    /// Pixels whose colours differ by a bit.
+    pub wrong_pixels: u64,
+    /// Depths compared, of every sample.
+    pub depths: u64,
+    /// Depths that differ by more than two rasterizers may.
+    pub wrong_depths: u64,
+    /// Pixels that are undecided by either: where two surfaces tie, see [`rasterproof_registry::undecided`].
+    pub undecided: u64,
+    /// Those of them that the two frames show in different colours, which is no fault.
+    pub undecided_differ: u64,
+    /// The first frame, dimmed, with what differs in red, what is undecided in brown, and in yellow
+    /// where the frames show it differently.
+    #[serde(skip)]
+    pub picture: Frame<Colour>,
+}
+
+impl Comparison {
+    /// Whether nothing differs.
+    #[must_use]
+    pub fn agrees(&self) -> bool {
+        self.wrong_pixels == 0 && self.wrong_depths == 0
+    }
+}
+
+const RED: Colour = [255, 40, 40, 255];
+const BROWN: Colour = [120, 84, 0, 255];
+const YELLOW: Colour = [255, 200, 0, 255];
+
+/// Compares two frames of the same size: colours to the bit; depths within the sum of the bounds
+/// that [`tolerance`] derives for the two rasterizers, with depths from 0 to 1, and one step of the
+/// format. Where ties are known, what they excuse is no difference; the targets then hold every
+/// sample of the frames.
+#[must_use]
+pub fn compare(
+    a: (&Frame<Colour>, &Target),
+    b: (&Frame<Colour>, &Target),
+    ties: Option<&Ties>,
+) -> Comparison {
+    let bounds = a.0.bounds();
+    let pixels = u64::from(bounds.width()) * u64::from(bounds.height());
+    let mut picture = Frame::new(bounds, [0; 4]);
+    let (mut wrong_pixels, mut undecided_differ) = (0, 0);
+    for y_px in bounds.y0..bounds.y1 {
+        let rows = a.0.row(y_px).iter().zip(b.0.row(y_px));
+        for (x_px, (pixel, (first, second))) in
+            (bounds.x0..).zip(picture.row_mut(y_px).iter_mut().zip(rows))
+        {
+            let ties = ties.filter(|ties| ties.is_undecided(x_px, y_px));
+            let differs = first != second;
+            let is_excused = differs && ties.is_some_and(|t| only_ties(t, [a.1, b.1], x_px, y_px));
+            wrong_pixels += u64::from(differs && !is_excused);
+            undecided_differ += u64::from(is_excused);
+            *pixel = match (differs, is_excused, ties) {
+                (true, true, _) => YELLOW,
+                (true, false, _) => RED,
+                (false, _, Some(_)) => BROWN,
+                (false, _, None) => first.map(|channel| channel / 3),
+            };
+        }
+    }
+    let (depths, wrong) = compare_depths(a.1, b.1, ties);
+    let scale = a.1.antialias().scale() as i32;
+    for (x_px, y_px) in &wrong {
+        picture.span_mut(y_px / scale, x_px / scale, x_px / scale + 1)[0] = RED;
+    }
+    let (wrong_depths, undecided) = (wrong.len() as u64, ties.map_or(0, Ties::count));
+    Comparison { pixels, wrong_pixels, depths, wrong_depths, undecided, undecided_differ, picture }
+}
+
+/// Whether the samples of a pixel differ in colour only where ties excuse it, and somewhere do.
+fn only_ties(ties: &Ties, [a, b]: [&Target; 2], x_px: i32, y_px: i32) -> bool {
+    let scale = a.antialias().scale() as i32;
+    let mut excused = 0;
+    for (plane, (first, second)) in a.planes.iter().zip(&b.planes).enumerate() {
+        for y in y_px * scale..(y_px + 1) * scale {
+            for x in x_px * scale..(x_px + 1) * scale {
+                if first.colour.get(x, y) != second.colour.get(x, y) {
+                    if !ties.is_excused(plane, x, y) {
+                        return false;
+                    }
+                    excused += 1;
+                }
+            }
+        }
+    }
+    excused > 0
+}
+
+/// How many pixels of two frames of the same size differ.
+#[must_use]
+pub fn differing(a: &Frame<Colour>, b: &Frame<Colour>) -> u64 {
+    a.rows()
+        .zip(b.rows())
+        .flat_map(|((_, a), (_, b))| a.iter().zip(b))
+        .filter(|(a, b)| a != b)
+        .count() as u64
+}
+
+/// How many depths were compared, and the samples where they differ.
+fn compare_depths(a: &Target, b: &Target, ties: Option<&Ties>) -> (u64, Vec<(i32, i32)>) {
+    let error =
+        tolerance::SCANLINE.depth.at([0.0, 1.0]) + tolerance::EDGE_FUNCTION.depth.at([0.0, 1.0]);
+    let tolerance = a.format.tolerance(error);
+    let mut wrong = Vec::new();
+    let mut count = 0;
+    for (plane, (plane_a, plane_b)) in a.planes.iter().zip(&b.planes).enumerate() {
+        let PixelRect { x0, y0, y1, .. } = plane_a.depth.bounds();
+        for y_px in y0..y1 {
+            let [row_a, row_b] = [plane_a, plane_b].map(|plane| plane.depth.row(y_px));
+            count += row_a.len() as u64;
+            if row_a == row_b {
+                continue;
+            }
+            for (x_px, (&key_a, &key_b)) in (x0..).zip(row_a.iter().zip(row_b)) {
+                let near = key_a != CLEAR
+                    && key_b != CLEAR
+                    && (a.format.depth(key_a) - b.format.depth(key_b)).abs() <= tolerance;
+                let is_excused = || ties.is_some_and(|ties| ties.is_excused(plane, x_px, y_px));
+                if key_a != key_b && !near && !is_excused() {
+                    wrong.push((x_px, y_px));
+                }
+            }
+        }
+    }
+    (count, wrong)
+}
+
+/// The effects of a map, in the order of its panels, each with its colour.
+pub const MAP_COLOURS: [(Effect, [u8; 3]); 6] = [
+    (Effect::Samples, [235, 140, 30]),
+    (Effect::Perspective, [225, 70, 70]),
+    (Effect::Depth, [80, 130, 240]),
+    (Effect::Colour, [215, 195, 40]),
+    (Effect::Light, [60, 180, 90]),
+    (Effect::Texture, [190, 90, 205]),
+];
+
+/// Pixels of a map that paid for an effect.
+#[must_use]
+pub fn paid(map: &Frame<u16>, effect: Effect) -> u64 {
+    let pays = |paid: &&u16| **paid & (1 << effect as u16) != 0;
+    map.rows().map(|(_, row)| row.iter().filter(pays).count() as u64).sum()
+}
+
+/// Panels in a row of a map, and the widest such row.
+const MAP_COLUMNS: u32 = 3;
+const MAP_WIDTH_PX: u32 = 1440;
+
+/// A map of effects as one small picture for each: the frame, dimmed, and in colour what paid for it.
+#[must_use]
+pub fn map_picture(title: &str, picture: &Frame<Colour>, map: &Frame<u16>) -> RgbImage {
+    const GAP: u32 = 12;
+    let bounds = map.bounds();
+    let shrunk = (bounds.width() * MAP_COLUMNS).div_ceil(MAP_WIDTH_PX).max(1);
+    let (width, height) = (bounds.width().div_ceil(shrunk), bounds.height().div_ceil(shrunk));
+    let cell = [width.max(210) + GAP, height + 42 + GAP];
+    let rows = (MAP_COLOURS.len() as u32).div_ceil(MAP_COLUMNS);
+    let size = [GAP + MAP_COLUMNS * cell[0], 40 + rows * cell[1] + 24];
+    let mut sheet = RgbImage::from_pixel(size[0], size[1], image::Rgb([255, 255, 255]));
+    let (ink, faint) = (image::Rgb([30, 30, 30]), image::Rgb([95, 95, 95]));
+    write(&mut sheet, (GAP.into(), 10), title, Size::Heading, ink);
+    let pixels = u64::from(bounds.width()) * u64::from(bounds.height());
+    for (i, (effect, colour)) in (0u32..).zip(MAP_COLOURS) {
+        let left = GAP + i % MAP_COLUMNS * cell[0];
+        let top = 40 + i / MAP_COLUMNS * cell[1];
+        let at = |down: i64| (i64::from(left), i64::from(top) + down);
+        let count = paid(map, effect);
+        write(&mut sheet, at(0), effect.name(), Size::Heading, image::Rgb(colour.map(|c| c / 2)));
+        let share = 100.0 * count as f64 / pixels.max(1) as f64;
+        write(&mut sheet, at(20), &format!("{count} px, {share:.1}%"), Size::Small, faint);
+        for (y, x) in (0..height).flat_map(|y| (0..width).map(move |x| (y, x))) {
+            let mean = block_mean(picture, map, (effect, colour), [x * shrunk, y * shrunk], shrunk);
+            sheet.put_pixel(left + x, top + 38 + y, mean);
+        }
+    }
+    let words = "in colour: pixels that pay for the effect; behind it the frame, dimmed";
+    write(&mut sheet, (GAP.into(), i64::from(size[1]) - 24), words, Size::Small, faint);
+    sheet
+}
+
+/// The mean of a block of the frame, in the effect's colour where it is paid for, else dimmed.
+fn block_mean(
+    picture: &Frame<Colour>,
+    map: &Frame<u16>,
+    (effect, colour): (Effect, [u8; 3]),
+    [x, y]: [u32; 2],
+    side: u32,
+) -> image::Rgb<u8> {
+    let bounds = map.bounds();
+    let (mut sum, mut count) = ([0u32; 3], 0);
+    for (dx, dy) in (0..side).flat_map(|dy| (0..side).map(move |dx| (dx, dy))) {
+        let (x_px, y_px) = (bounds.x0 + (x + dx) as i32, bounds.y0 + (y + dy) as i32);
+        let (Some(paid), Some([r, g, b, _])) = (map.get(x_px, y_px), picture.get(x_px, y_px))
+        else {
+            continue;
+        };
+        let grey = (u32::from(r) * 2 + u32::from(g) * 5 + u32::from(b)) / 8;
+        let shown = match paid & (1 << effect as u16) {
+            0 => [40 + grey / 5; 3],
+            // The frame shows through.
+            _ => colour.map(|c| u32::from(c) * (160 + grey * 3 / 8) / 256),
+        };
+        (0..3).for_each(|i| sum[i] += shown[i]);
+        count += 1;
+    }
+    image::Rgb(sum.map(|sum| (sum / count.max(1)).min(255) as u8))
+}
+
+/// A frame for machines.
+#[must_use]
+pub fn json(
+    scene: &str,
+    engines: &[&str],
+    rendered: &Rendered,
+    comparison: &Option<Comparison>,
+) -> String {
+    serde_json::json!({
+        "scene": scene,
+        "engines": engines,
+        "counters": rendered.counters,
+        "plan": rendered.plan,
+        "comparison": comparison,
+    })
+    .to_string()
+}

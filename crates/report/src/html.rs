@@ -1,0 +1,611 @@
+//! The report page: a [`Report`] becomes one HTML file that needs nothing else, opened from disk.
+//!
+//! A section that is empty is not shown, so a command fills in what it has:
+//!
+//! ```
+//! use rasterproof_report::html::{Figure, Outcome, PlanRow, Report, page};
+//!
+//! let report = Report {
+//!     title: "cost of a fill".to_owned(),
+//!     outcome: Some(Outcome { good: true, word: "AGREES".to_owned(), sentence: "0 wrong pixels.".to_owned() }),
+//!     command: "rasterproof cost".to_owned(),
+//!     figures: vec![Figure { caption: "ns per pixel".to_owned(), svg: "<svg/>".to_owned(), narrow: None }],
+//!     plan: vec![PlanRow { effect: "fog".to_owned(), is_on: true, ..PlanRow::default() }],
+//!     ..Report::default()
+//! };
+//! assert!(page(&report).starts_with("<!DOCTYPE html>"));
+//! ```
+//!
+//! Pictures that were rendered go in as [`PictureView`], cases of the harness as [`CaseView`]; both
+//! are shown in the same viewer. Every text is escaped, whatever it holds; the JSON for the script
+//! too. Nothing is loaded from outside, which the page's own policy forbids. It refuses to grow
+//! beyond [`MOST_BYTES`]: what does not fit is left out, and the page says what that is.
+
+use std::fmt::Write as _;
+use std::time::{Duration, Instant};
+
+use base64::Engine as _;
+use image::RgbImage;
+use serde::Serialize;
+use similar::{ChangeTag, TextDiff as Lines};
+
+pub use super::chapter::Chapter;
+use super::page_cases::CaseView;
+use super::picture;
+
+/// The page stays below this.
+pub const MOST_BYTES: usize = 2_000_000;
+/// Unchanged lines that are shown around a changed one.
+const CONTEXT: usize = 3;
+/// Time to compare the lines of two texts, which is quadratic in what differs.
+const DIFF_TIME: Duration = Duration::from_millis(500);
+/// Time to compare all texts of a page.
+const ALL_DIFFS_TIME: Duration = Duration::from_secs(2);
+/// Names of what was left out that are listed.
+const MOST_LEFT_OUT_NAMES: usize = 20;
+/// Bytes of the rows of a table.
+const MOST_TABLE_BYTES: usize = 500_000;
+
+const TEMPLATE: &str = include_str!("page/page.html");
+const STYLE: &str = include_str!("page/page.css");
+const SCRIPT: &str = include_str!("page/page.js");
+
+/// What the page shows; sections that are empty are left out.
+#[derive(Clone, Debug, Default)]
+pub struct Report {
+    /// What was done, in a few words; the heading.
+    pub title: String,
+    /// The verdict, shown first.
+    pub outcome: Option<Outcome>,
+    /// The command that makes the same report.
+    pub command: String,
+    /// Decides the generated cases, where there are any.
+    pub seed: Option<u64>,
+    /// Sentences under the verdict.
+    pub notes: Vec<String>,
+    /// Counts and other tables, worst row first.
+    pub tables: Vec<Table>,
+    /// Cases to look into, worst first.
+    pub cases: Vec<CaseView>,
+    /// Rendered pictures to compare.
+    pub frames: Vec<PictureView>,
+    /// Plots.
+    pub figures: Vec<Figure>,
+    /// Effects that were on or off, and why.
+    pub plan: Vec<PlanRow>,
+    /// Texts that changed.
+    pub diffs: Vec<TextDiff>,
+    /// Where the page finds the folder `docs`: an address that ends in `/`, or nothing.
+    pub docs: String,
+}
+
+/// A verdict in a word and a sentence.
+#[derive(Clone, Debug, Default)]
+pub struct Outcome {
+    /// Whether all is well; decides the colour.
+    pub good: bool,
+    /// The word, such as AGREES.
+    pub word: String,
+    /// The plain sentence after it.
+    pub sentence: String,
+}
+
+/// A table with a header and a row head in its first column.
+#[derive(Clone, Debug, Default)]
+pub struct Table {
+    /// What the table counts.
+    pub caption: String,
+    /// Columns from left to right.
+    pub columns: Vec<Column>,
+    /// Rows from top to bottom.
+    pub rows: Vec<Row>,
+}
+
+/// A column of a [`Table`].
+#[derive(Clone, Debug, Default)]
+pub struct Column {
+    /// Its head.
+    pub label: String,
+    /// The head in more words, or nothing.
+    pub about: String,
+    /// Whether it holds numbers.
+    pub is_number: bool,
+}
+
+impl Column {
+    /// A column of words.
+    #[must_use]
+    pub fn words(label: &str) -> Self {
+        Self { label: label.to_owned(), about: String::new(), is_number: false }
+    }
+
+    /// A column of numbers; `about` says what is counted.
+    #[must_use]
+    pub fn numbers(label: &str, about: &str) -> Self {
+        Self { label: label.to_owned(), about: about.to_owned(), is_number: true }
+    }
+}
+
+/// A row of a [`Table`].
+#[derive(Clone, Debug, Default)]
+pub struct Row {
+    /// A cell for each column.
+    pub cells: Vec<String>,
+    /// How it is set off.
+    pub mark: Mark,
+    /// What to search the cases for when its head is chosen, if anything.
+    pub search: Option<String>,
+}
+
+/// How a row is set off.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Mark {
+    /// Not at all.
+    #[default]
+    Plain,
+    /// As wrong.
+    Wrong,
+    /// As the sum of the others; always shown.
+    Sum,
+}
+
+/// A plot.
+#[derive(Clone, Debug, Default)]
+pub struct Figure {
+    /// What it shows; also its text for who does not see it.
+    pub caption: String,
+    /// An SVG document with a size, shown as an image: scripts in it do not run. Colours for a dark
+    /// page go into its own `prefers-color-scheme` style.
+    pub svg: String,
+    /// The same for narrow pages, where it differs.
+    pub narrow: Option<String>,
+}
+
+/// A row of the table of a plan: an effect, whether it is on, why, and what was counted.
+#[derive(Clone, Debug, Default)]
+pub struct PlanRow {
+    /// Its name.
+    pub effect: String,
+    /// Whether it is on.
+    pub is_on: bool,
+    /// Why.
+    pub reason: String,
+    /// What was counted, name and number.
+    pub counters: Vec<(String, String)>,
+}
+
+/// Two texts whose lines are compared.
+#[derive(Clone, Debug, Default)]
+pub struct TextDiff {
+    /// Its name.
+    pub name: String,
+    /// What it is.
+    pub about: String,
+    /// A command that belongs to it, or nothing.
+    pub command: String,
+    /// Before; nothing where there was none.
+    pub old: Option<String>,
+    /// Now.
+    pub new: String,
+}
+
+/// Rendered pictures of one scene, any two of which can be compared.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct PictureView {
+    /// Its name; unique within the page.
+    pub name: String,
+    /// What it shows.
+    pub about: String,
+    /// The command that makes it, or nothing.
+    pub command: String,
+    /// Where it is explained.
+    pub chapter: Chapter,
+    /// The pictures; the first two are compared at first.
+    pub layers: Vec<PictureLayer>,
+}
+
+/// One of the pictures of a [`PictureView`].
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct PictureLayer {
+    /// Who made it.
+    pub name: String,
+    png: String,
+}
+
+impl PictureLayer {
+    /// A picture; it is kept as PNG in a `data:` address. An empty one is shown as one pixel.
+    #[must_use]
+    pub fn new(name: &str, image: &RgbImage) -> Self {
+        let one = RgbImage::new(1, 1);
+        let is_empty = image.width() == 0 || image.height() == 0;
+        Self::from_png(name, &picture::png(if is_empty { &one } else { image }))
+    }
+
+    /// The bytes of a PNG file as they are.
+    #[must_use]
+    pub fn from_png(name: &str, bytes: &[u8]) -> Self {
+        Self { name: name.to_owned(), png: data_address("image/png", bytes) }
+    }
+}
+
+fn data_address(kind: &str, bytes: &[u8]) -> String {
+    format!("data:{kind};base64,{}", base64::engine::general_purpose::STANDARD.encode(bytes))
+}
+
+/// Text that is safe between tags and in quoted attributes.
+#[must_use]
+pub fn escape(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '"' => out.push_str("&quot;"),
+            '\'' => out.push_str("&#39;"),
+            // Characters that HTML has no place for.
+            c if c.is_control() && c != '\n' && c != '\t' => out.push('\u{fffd}'),
+            c => out.push(c),
+        }
+    }
+    out
+}
+
+/// The whole page, below [`MOST_BYTES`]; the same for the same report.
+#[must_use]
+pub fn page(report: &Report) -> String {
+    let mut room = MOST_BYTES.saturating_sub(TEMPLATE.len() + STYLE.len() + SCRIPT.len() + 4096);
+    let mut left_out = Vec::new();
+    let head = head(report);
+    let tables: String = report.tables.iter().map(table).collect();
+    let plan = plan(&report.plan);
+    room = room.saturating_sub(head.len() + tables.len() + plan.len() + report.command.len());
+    let mut kept = |name: &str, text: String| {
+        if text.len() < room {
+            room -= text.len() + 1;
+            Some(text)
+        } else {
+            left_out.push(format!("{name} ({} bytes)", text.len()));
+            None
+        }
+    };
+    let last = Instant::now() + ALL_DIFFS_TIME;
+    let diffs: Vec<_> = report
+        .diffs
+        .iter()
+        .filter_map(|diff| kept(&diff.name, text_diff(diff, last.min(Instant::now() + DIFF_TIME))))
+        .collect();
+    let figures: Vec<_> =
+        report.figures.iter().filter_map(|f| kept(&f.caption, figure(f))).collect();
+    let cases: Vec<_> =
+        report.cases.iter().filter_map(|case| kept(&case.name, json(case))).collect();
+    let frames: Vec<_> =
+        report.frames.iter().filter_map(|view| kept(&view.name, json(view))).collect();
+    let data = format!(
+        "{{\"docs\":{},\"cases\":[{}],\"frames\":[{}]}}",
+        json(&report.docs),
+        cases.join(","),
+        frames.join(",")
+    );
+    let run = run(report, left_out);
+    let sections = [
+        ("Plan", plan),
+        ("Summary", tables),
+        ("Plots", figures.concat()),
+        ("Texts", diffs.concat()),
+        ("Run", run),
+    ];
+    let has_cases = !cases.is_empty() || !frames.is_empty();
+    let titles = sections.iter().filter(|(_, inside)| !inside.is_empty()).map(|(title, _)| *title);
+    let cases_title = if cases.is_empty() { "Pictures" } else { "Cases" };
+    let first = has_cases.then(|| ("cases".to_owned(), cases_title));
+    let others = titles.map(|title| (title.to_ascii_lowercase(), title));
+    let links: Vec<_> = first.into_iter().chain(others).collect();
+    let jump = jump(&links);
+    fill(|part| match part {
+        "title" => escape(&report.title),
+        "style" => STYLE.to_owned(),
+        "script" => SCRIPT.to_owned(),
+        "head" => head.clone(),
+        "about" => about(report),
+        "jump" => jump.clone(),
+        "cases-title" => cases_title.to_owned(),
+        "sections" => sections.iter().map(|(title, inside)| section(title, inside)).collect(),
+        "data" => data.clone(),
+        _ => String::new(),
+    })
+}
+
+/// The template with each `{{name}}` replaced once: what is put in is not looked at again.
+fn fill(part: impl Fn(&str) -> String) -> String {
+    let mut pieces = TEMPLATE.split("{{");
+    let mut out = pieces.next().unwrap_or("").to_owned();
+    for piece in pieces {
+        let (name, rest) = piece.split_once("}}").unwrap_or(("", piece));
+        out.push_str(&part(name));
+        out.push_str(rest);
+    }
+    out
+}
+
+/// JSON that cannot end the script element it stands in.
+fn json(value: &impl Serialize) -> String {
+    // Numbers and strings only: this cannot fail.
+    serde_json::to_string(value).unwrap_or_default().replace('<', "\\u003c")
+}
+
+/// Links to the sections, as address and title, where there is more than one.
+fn jump(sections: &[(String, &str)]) -> String {
+    if sections.len() < 2 {
+        return String::new();
+    }
+    let links = sections.iter().map(|(id, title)| format!("<a href=\"#{id}\">{title}</a>"));
+    let links = links.collect::<Vec<_>>().join(" ");
+    format!("<nav class=\"jump\" aria-label=\"on this page\">{links}</nav>\n")
+}
+
+fn section(title: &str, inside: &str) -> String {
+    if inside.is_empty() {
+        return String::new();
+    }
+    let id = title.to_ascii_lowercase();
+    format!(
+        "<section id=\"{id}\" aria-labelledby=\"{id}-title\"><h2 id=\"{id}-title\">{title}</h2>\n{inside}</section>\n"
+    )
+}
+
+fn head(report: &Report) -> String {
+    let mut out = format!("<h1>{}</h1>\n", escape(&report.title));
+    if let Some(Outcome { good, word, sentence }) = &report.outcome {
+        let class = if *good { "good" } else { "bad" };
+        let (word, sentence) = (escape(word), escape(sentence));
+        let _ = writeln!(
+            out,
+            "<p id=\"verdict\" class=\"verdict {class}\"><strong>{word}</strong> <span>{sentence}</span></p>"
+        );
+    }
+    out
+}
+
+/// How the page was made, and what it left out.
+fn run(report: &Report, left_out: Vec<String>) -> String {
+    let mut out = command(&report.command);
+    if let Some(seed) = report.seed {
+        let _ = writeln!(out, "<p class=\"quiet\">seed {seed}</p>");
+    }
+    out + &notes(&report.notes, &left_out)
+}
+
+/// What an index says of a page stands in its head.
+const ABOUT: &str = "<meta name=\"rasterproof\" content=\"";
+
+fn about(report: &Report) -> String {
+    let outcome = report.outcome.as_ref();
+    let said = outcome.map_or(String::new(), |o| format!("{}: {}", o.word, o.sentence));
+    format!("{ABOUT}{}\">\n", escape(&said))
+}
+
+/// The index of the pages in a folder, each given by its file name and its text; nothing is said of
+/// what is no page of this program.
+#[must_use]
+pub fn index(pages: &[(String, String)]) -> String {
+    let rows: String = pages
+        .iter()
+        .filter_map(|(name, text)| {
+            let between = |from: &str, to: &str| {
+                let (_, rest) = text.split_once(from)?;
+                rest.split_once(to).map(|(inside, _)| inside).filter(|t| !t.contains('<'))
+            };
+            let (said, title) = (between(ABOUT, "\">")?, between("<title>", "</title>")?);
+            let name = escape(name);
+            Some(format!(
+                "<li><a href=\"{name}\">{title}</a> <span class=\"quiet\">{name}</span><p>{said}</p></li>\n"
+            ))
+        })
+        .collect();
+    format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+         <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; \
+         style-src 'unsafe-inline'; img-src data:\">\n<title>Pages of rasterproof</title>\n\
+         <link rel=\"icon\" href=\"data:,\">\n<style>\n{STYLE}</style>\n</head>\n<body>\n<header>\
+         <h1>Pages of rasterproof</h1></header>\n<main>\n<ul class=\"pages\">\n{rows}</ul>\n</main>\n\
+         </body>\n</html>\n"
+    )
+}
+
+fn command(text: &str) -> String {
+    if text.is_empty() {
+        return String::new();
+    }
+    format!(
+        "<p class=\"command\"><code>{}</code><button type=\"button\" class=\"copy\">copy</button></p>\n",
+        escape(text)
+    )
+}
+
+fn notes(notes: &[String], left_out: &[String]) -> String {
+    let mut out: String = notes.iter().map(|note| format!("<p>{}</p>\n", escape(note))).collect();
+    if !left_out.is_empty() {
+        let mut names = left_out.iter().take(MOST_LEFT_OUT_NAMES).cloned().collect::<Vec<_>>();
+        if left_out.len() > names.len() {
+            names.push(format!("and {} more", left_out.len() - names.len()));
+        }
+        let names = escape(&names.join(", "));
+        let _ = writeln!(
+            out,
+            "<p id=\"left-out\">Left out, to keep this file below {MOST_BYTES} bytes: {names}.</p>"
+        );
+    }
+    out
+}
+
+fn table(table: &Table) -> String {
+    let mut out = format!(
+        "<h3 class=\"caption\">{0}</h3><div class=\"scroll\" tabindex=\"0\" role=\"region\" \
+         aria-label=\"{0}\"><table class=\"counts\" aria-label=\"{0}\">\n<thead><tr>",
+        escape(&table.caption)
+    );
+    for column in &table.columns {
+        let class = if column.is_number { " class=\"number\"" } else { "" };
+        let about = match column.about.as_str() {
+            "" => String::new(),
+            about => format!(" title=\"{}\"", escape(about)),
+        };
+        let _ = write!(out, "<th scope=\"col\"{class}{about}>{}</th>", escape(&column.label));
+    }
+    out.push_str("</tr></thead>\n<tbody>\n");
+    let mut left_out = table.rows.len();
+    for row in &table.rows {
+        if out.len() > MOST_TABLE_BYTES {
+            break;
+        }
+        left_out -= 1;
+        let class = match row.mark {
+            Mark::Plain => "",
+            Mark::Wrong => " class=\"wrong\"",
+            Mark::Sum => " class=\"sum\"",
+        };
+        let _ = write!(out, "<tr{class}>");
+        for (i, (cell, column)) in row.cells.iter().zip(&table.columns).enumerate() {
+            let text = escape(cell);
+            let number = if column.is_number { " class=\"number\"" } else { "" };
+            let _ = match (i, &row.search) {
+                (0, Some(search)) => write!(
+                    out,
+                    "<th scope=\"row\"><button type=\"button\" class=\"find\" data-search=\"{}\">{text}</button></th>",
+                    escape(search)
+                ),
+                (0, None) => write!(out, "<th scope=\"row\">{text}</th>"),
+                _ => write!(out, "<td{number}>{text}</td>"),
+            };
+        }
+        out.push_str("</tr>\n");
+    }
+    out.push_str("</tbody></table></div>\n");
+    if left_out > 0 {
+        let _ = writeln!(out, "<p>{left_out} more rows are left out.</p>");
+    }
+    out
+}
+
+fn plan(rows: &[PlanRow]) -> String {
+    if rows.is_empty() {
+        return String::new();
+    }
+    let columns = ["effect", "state", "reason", "counted"].map(Column::words).to_vec();
+    let rows = rows.iter().map(|row| {
+        let counters = row.counters.iter().map(|(name, n)| format!("{name} {n}"));
+        let state = if row.is_on { "on" } else { "off" };
+        let counters = counters.collect::<Vec<_>>().join(", ");
+        let cells = vec![row.effect.clone(), state.to_owned(), row.reason.clone(), counters];
+        Row { cells, ..Row::default() }
+    });
+    table(&Table { caption: "Effects, in order".to_owned(), columns, rows: rows.collect() })
+}
+
+fn figure(figure: &Figure) -> String {
+    let caption = escape(&figure.caption);
+    let address = |svg: &str| data_address("image/svg+xml", svg.as_bytes());
+    let narrow = figure.narrow.as_ref().map_or(String::new(), |svg| {
+        format!("<source media=\"(max-width: 40rem)\" srcset=\"{}\">", address(svg))
+    });
+    format!(
+        "<figure><picture>{narrow}<img src=\"{}\" alt=\"{caption}\"></picture>\
+         <figcaption>{caption}</figcaption></figure>\n",
+        address(&figure.svg)
+    )
+}
+
+/// The lines that differ, or a sentence where they are not found before the deadline.
+fn text_diff(diff: &TextDiff, deadline: Instant) -> String {
+    let old = diff.old.as_deref().unwrap_or("");
+    let mut out = format!(
+        "<article class=\"diff\" id=\"text-{0}\"><h3>{0}</h3><p>{1}</p>\n{2}",
+        escape(&diff.name),
+        escape(&diff.about),
+        command(&diff.command)
+    );
+    let lines = Lines::configure().deadline(deadline).diff_lines(old, &diff.new);
+    if Instant::now() > deadline {
+        let [before, after] = [old, &diff.new].map(|text| text.lines().count());
+        let _ = writeln!(
+            out,
+            "<p>The two texts, of {before} and of {after} lines, are too different to show line by line. \
+             Compare the two files with another program.</p></article>"
+        );
+        return out;
+    }
+    let _ = writeln!(
+        out,
+        "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"lines of {0}\"><table>\
+         <thead><tr><th scope=\"col\">old</th><th scope=\"col\">new</th><th scope=\"col\">change</th>\
+         <th scope=\"col\">line</th></tr></thead>",
+        escape(&diff.name)
+    );
+    for group in lines.grouped_ops(CONTEXT) {
+        out.push_str("<tbody>\n");
+        for change in group.iter().flat_map(|op| lines.iter_changes(op)) {
+            let (class, word, sign) = match change.tag() {
+                ChangeTag::Delete => ("removed", "removed", '-'),
+                ChangeTag::Insert => ("added", "added", '+'),
+                ChangeTag::Equal => ("", "same", ' '),
+            };
+            let number =
+                |index: Option<usize>| index.map_or(String::new(), |i| (i + 1).to_string());
+            let _ = writeln!(
+                out,
+                "<tr class=\"{class}\"><td>{}</td><td>{}</td><td aria-label=\"{word}\">{sign}</td><td><pre>{}</pre></td></tr>",
+                number(change.old_index()),
+                number(change.new_index()),
+                escape(change.value().trim_end_matches(['\n', '\r']))
+            );
+        }
+        out.push_str("</tbody>\n");
+    }
+    out.push_str("</table></div></article>\n");
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Found line by line, the differences of these take minutes.
+    #[test]
+    fn texts_too_different_are_not_compared_to_the_end() {
+        let text = |a: u32| (0..50_000u32).map(|i| format!("{}\n", (i * a) % 9973)).collect();
+        let diff = TextDiff {
+            name: "x".to_owned(),
+            old: Some(text(7)),
+            new: text(11),
+            ..TextDiff::default()
+        };
+        let begin = Instant::now();
+        let page = page(&Report { diffs: vec![diff; 20], ..Report::default() });
+        assert!(page.contains("of 50000 and of 50000 lines, are too different to show"), "{page}");
+        // Twenty texts share two seconds; to prepare each takes some more.
+        assert!(begin.elapsed() < Duration::from_secs(30), "{:?}", begin.elapsed());
+    }
+
+    #[test]
+    fn a_page_stays_small_whatever_it_lists() {
+        let row = |i: usize| Row { cells: vec![format!("{i}"), "x".repeat(200)], ..Row::default() };
+        let columns = ["a", "b"].map(Column::words).to_vec();
+        let rows = (0..20_000).map(row).collect();
+        let table = Table { caption: "many".to_owned(), columns, rows };
+        let diff = |i: usize| TextDiff {
+            name: format!("text {i}"),
+            new: "x\n".repeat(100),
+            ..TextDiff::default()
+        };
+        let report = Report {
+            tables: vec![table],
+            diffs: (0..20_000).map(diff).collect(),
+            ..Report::default()
+        };
+        let page = page(&report);
+        assert!(page.len() < MOST_BYTES, "{}", page.len());
+        assert!(page.contains(" more rows are left out") && page.contains(" more.</p>"), "{page}");
+    }
+}

@@ -1,0 +1,129 @@
+//! A verdict for machines.
+
+use serde::Serialize;
+
+use rasterproof_precision::cost::{Recorded, prices};
+use rasterproof_registry::published_check::SpecimenReport;
+use rasterproof_verify::comparison::unsnapped::{self, ExactFamilyReport, ExactVerdict};
+use rasterproof_verify::comparison::{Comparisons, FamilyReport, Verdict, shrink};
+
+#[derive(Serialize)]
+struct Json<'a> {
+    version: &'static str,
+    seed: u64,
+    cases: u64,
+    shard: String,
+    agrees: bool,
+    /// Wrong pixels against the oracle, on and off the lattice.
+    mismatches: u64,
+    comparisons: Comparisons,
+    triangles: u64,
+    lines: u64,
+    families: &'a [FamilyReport],
+    failures: Vec<FailureJson>,
+    off_grid_triangles: u64,
+    off_grid_families: &'a [ExactFamilyReport],
+}
+
+#[derive(Serialize)]
+struct FailureJson {
+    family: String,
+    index: u64,
+    pair: [String; 2],
+    what: String,
+    shrunk: String,
+    window: rasterproof_core::grid::PixelRect,
+    repeat: String,
+}
+
+/// The verdicts on and off the lattice as JSON; `repeat` gives the command that repeats a failing
+/// case.
+#[must_use]
+pub fn verdict(
+    verdict: &Verdict,
+    off_grid: &ExactVerdict,
+    repeat: impl Fn(&str, u64) -> String,
+) -> String {
+    let failures = verdict.failures.iter().map(|f| FailureJson {
+        family: f.family.clone(),
+        index: f.index,
+        pair: f.pair.clone(),
+        what: f.what.clone(),
+        shrunk: shrink::describe(&f.case),
+        window: f.case.window,
+        repeat: repeat(&f.family, f.index),
+    });
+    let off_grid_failures = off_grid.failures.iter().map(|f| FailureJson {
+        family: f.family.clone(),
+        index: f.index,
+        pair: [f.engine.clone(), "oracle-exact".to_owned()],
+        what: f.what.clone(),
+        shrunk: unsnapped::describe(&f.case.triangles),
+        window: f.case.window,
+        repeat: repeat(&f.family, f.index),
+    });
+    let (part, parts) = verdict.options.shard;
+    let json = Json {
+        version: env!("CARGO_PKG_VERSION"),
+        seed: verdict.options.seed,
+        cases: verdict.options.cases,
+        shard: format!("{part}/{parts}"),
+        agrees: verdict.agrees() && off_grid.agrees(),
+        mismatches: verdict.mismatches() + off_grid.mismatches(),
+        comparisons: verdict.comparisons(),
+        triangles: verdict.sum(false, |f| f.shapes),
+        lines: verdict.sum(true, |f| f.shapes),
+        families: &verdict.families,
+        failures: failures.chain(off_grid_failures).collect(),
+        off_grid_triangles: off_grid.triangles(),
+        off_grid_families: &off_grid.families,
+    };
+    // Numbers and strings only: this cannot fail.
+    serde_json::to_string_pretty(&json).unwrap_or_default() + "\n"
+}
+
+/// The survey of the specimens as JSON; an infinite error is `null`.
+#[must_use]
+pub fn specimens(seed: u64, cases: u64, reports: &[SpecimenReport]) -> String {
+    let json = serde_json::json!({
+        "version": env!("CARGO_PKG_VERSION"), "seed": seed, "cases": cases, "specimens": reports,
+    });
+    serde_json::to_string_pretty(&json).unwrap_or_default() + "\n"
+}
+
+/// The boards of `cost` as JSON, with what exact coverage costs and the rungs that nobody needs.
+/// [`Recorded::read`] takes it back.
+#[must_use]
+pub fn cost(recorded: &Recorded) -> String {
+    let boards = &recorded.boards;
+    let verdicts: Vec<_> = boards
+        .iter()
+        .flat_map(|board| board.ranking().map(move |measure| (board, measure)))
+        .map(|(board, measure)| {
+            let named = |rung: usize| &*board.rungs[rung].name;
+            let best = |column: usize| {
+                let best = board.best(column, measure)?;
+                let name = |rung: Option<usize>| rung.map(named);
+                Some(serde_json::json!({
+                    "column": board.columns[column].name, "fastest": named(best.fastest),
+                    "cheapest_good": name(best.good), "cheapest_certain": name(best.certain),
+                }))
+            };
+            let dominated = board.dominated(measure).into_iter().map(|d| {
+                let by: Vec<_> = d.by.into_iter().map(named).collect();
+                serde_json::json!({ "rung": named(d.rung), "by": by })
+            });
+            serde_json::json!({
+                "ladder": board.ladder, "measure": board.measures[measure].title,
+                "best": board.columns_run().filter_map(best).collect::<Vec<_>>(),
+                "dominated": dominated.collect::<Vec<_>>(),
+            })
+        })
+        .collect();
+    let json = serde_json::json!({
+        "version": recorded.version, "repeat": recorded.repeat, "seed": recorded.seed,
+        "quick": recorded.quick, "boards": boards,
+        "verdicts": verdicts, "price_of_exact_coverage": prices(boards),
+    });
+    serde_json::to_string_pretty(&json).unwrap_or_default() + "\n"
+}

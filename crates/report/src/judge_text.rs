@@ -1,0 +1,361 @@
+//! The verdict on a program that was judged through the line protocol: as text, and as a page.
+
+use std::fmt::Write as _;
+
+use super::html::{Chapter, Column, Mark, Outcome, Report, Row, Table};
+use super::{ascii, page_cases, summary};
+use rasterproof_judge::check::Check;
+use rasterproof_judge::failures::Failure;
+use rasterproof_judge::pictured::Pictured;
+use rasterproof_judge::run::{self, MOST_DEATHS, Row as FamilyRow};
+use rasterproof_judge::verdict::{self, Score, Verdict, per_million};
+use rasterproof_verify::comparison::Tally;
+
+/// Requests of a failing case that are shown.
+const MOST_EXCHANGES: usize = 3;
+/// Incidents that are shown of each kind.
+const MOST_INCIDENTS: usize = 2;
+
+/// The verdict as text: the answer, a line for each danger, the table where something is wrong or it is
+/// asked for, what is wrong, and the verdict in a word.
+#[must_use]
+pub fn text(
+    verdict: &Verdict,
+    repeat_all: &str,
+    repeat: &dyn Fn(&str, u64) -> String,
+    (with_table, colour): (bool, bool),
+) -> String {
+    let (d, agrees) = (&verdict.declared, verdict.agrees());
+    let answer = if agrees { "is right" } else { "is not right" };
+    let mut out = format!(
+        "{} rasterproof {}, seed {}: {} {answer}\n\n",
+        summary::mark(agrees, colour),
+        env!("CARGO_PKG_VERSION"),
+        verdict.seed,
+        d.name
+    );
+    let _ = writeln!(out, "{} speaks version {}: {d}", d.name, d.version);
+    if !d.unknown.is_empty() {
+        let _ = writeln!(out, "not understood, left aside: {}", d.unknown.join(" "));
+    }
+    out.push('\n');
+    dangers(&mut out, verdict, colour);
+    out.push('\n');
+    scores(&mut out, verdict);
+    if with_table || !agrees {
+        out.push('\n');
+        table(&mut out, verdict);
+    }
+    incidents(&mut out, verdict, repeat);
+    for failure in &verdict.failures {
+        one_failure(&mut out, failure, &repeat(failure.family, failure.index));
+    }
+    if !verdict.complaints.is_empty() {
+        let _ = writeln!(out, "\nthe end of its standard error:");
+        for line in &verdict.complaints {
+            let _ = writeln!(out, "  | {line}");
+        }
+    }
+    let _ = writeln!(out, "\nrepeat with: {repeat_all}");
+    if !with_table && agrees {
+        out += "every family as a table: add --table\n";
+    }
+    let word = if agrees { "AGREES" } else { "DISAGREES" };
+    let _ = writeln!(out, "{word}: {}", closing(verdict));
+    out
+}
+
+/// A line for how it keeps the protocol, for its winding, for each danger and for each other check.
+fn dangers(out: &mut String, verdict: &Verdict, colour: bool) {
+    let mut entry = |is_good, name, what: &str| {
+        *out += &summary::entry(summary::mark(is_good, colour), name, what);
+    };
+    let is_good =
+        |name: &str| verdict.properties.iter().all(|p| p.name != name || p.outcome.is_good());
+    for p in verdict.properties.iter().filter(|p| ["protocol", "winding"].contains(&p.name)) {
+        let what = match (p.name, p.outcome.is_good()) {
+            ("winding", true) => format!("{}, as it declares", verdict.declared.winding.word()),
+            _ => p.detail.clone(),
+        };
+        entry(p.outcome.is_good(), p.name, &what);
+    }
+    let rows = &verdict.found.rows;
+    for danger in summary::DANGERS {
+        let of = || rows.iter().filter(|row| danger.families.contains(&row.name));
+        let sum = |number: fn(&FamilyRow) -> u64| of().map(number).sum::<u64>();
+        let cases = summary::thousands(sum(|row| row.cases));
+        let mut tally = Tally::default();
+        of().for_each(|row| tally += row.tally);
+        let what = match sum(|row| row.wrong_cases) {
+            0 => format!("{cases} cases, all right"),
+            n => {
+                let counts = format!("\npixels: {}", tally.describe());
+                let counts = if tally.total() > 0 { counts } else { String::new() };
+                format!("wrong in {} of {cases} cases{counts}", summary::thousands(n))
+            }
+        };
+        if of().next().is_some() {
+            entry(of().all(|row| is_good(row.name)), danger.name, &what);
+        }
+    }
+    let in_a_danger = |name: &str| summary::DANGERS.iter().any(|d| d.families.contains(&name));
+    for row in rows.iter().filter(|row| !in_a_danger(row.name)) {
+        let what = match row.wrong_cases {
+            0 => format!("{} cases, all right", summary::thousands(row.cases)),
+            _ => verdict::sentence(row),
+        };
+        entry(is_good(row.name), row.name, &what);
+    }
+}
+
+/// Breaks a line at spaces; the lines after the first begin with `indent`.
+#[must_use]
+pub fn wrapped(text: &str, indent: &str) -> String {
+    let start = text.len() - text.trim_start().len();
+    let mut lines = vec![text[..start].to_owned()];
+    let mut is_first = true;
+    for word in text[start..].split(' ') {
+        let line = lines.last_mut().expect("there is a first line");
+        if !is_first && line.chars().count() + 1 + word.chars().count() > 100 {
+            lines.push(format!("{indent}{word}"));
+        } else {
+            *line += if is_first { "" } else { " " };
+            *line += word;
+        }
+        is_first = false;
+    }
+    let lines: Vec<_> = lines.iter().map(|line| line.trim_end()).collect();
+    lines.join("\n") + "\n"
+}
+
+fn score(of: Score) -> String {
+    let share = per_million(of.wrong, of.pixels);
+    let unscored = match of.unscored {
+        0 => String::new(),
+        n => format!("; {n} triangles or lines of which it says nothing are left out"),
+    };
+    format!("{} wrong pixels, {share:.0} in a million{unscored}", of.wrong)
+}
+
+/// The convention that was recognised, and the score by it.
+fn scores(out: &mut String, verdict: &Verdict) {
+    let said = score(verdict.as_declared());
+    let _ = writeln!(out, "as declared:         {said}");
+    let line = |out: &mut String, first: &str, text: &str| {
+        let _ = writeln!(out, "{first:<21}{text}");
+    };
+    let Some(recognised) = &verdict.recognised else {
+        return line(out, "by its convention:", "the same: no other one was recognised");
+    };
+    match verdict.by_convention() {
+        Some(found) => line(out, "by its convention:", &score(found)),
+        None => line(out, "by its convention:", "unexplained, so there is no score"),
+    }
+    recognised.sentences.iter().chain(&recognised.compass).for_each(|text| line(out, "", text));
+    if !recognised.declare.is_empty() {
+        let turned = if verdict.declared.yup { " (in its words, y up)" } else { "" };
+        line(out, "", &format!("to be judged by it: --declare '{}'{turned}", recognised.declare));
+    }
+}
+
+fn table(out: &mut String, verdict: &Verdict) {
+    let header = ["cases", "shapes", "pixels", "missing", "extra", "twice", "order", "refused"];
+    let _ = write!(out, "{:<16}", "property");
+    header.iter().for_each(|name| {
+        let _ = write!(out, " {name:>8}");
+    });
+    let _ = writeln!(out, " {:>7}", "wrong");
+    let mut rows: Vec<_> = verdict.found.rows.iter().collect();
+    rows.sort_by(|a, b| b.share().total_cmp(&a.share()));
+    for row in rows {
+        let t = &row.tally;
+        let numbers =
+            [row.cases, row.shapes, row.pixels, t.missing, t.extra, t.twice, t.order, row.refused];
+        let _ = write!(out, "{:<16}", row.name);
+        numbers.iter().for_each(|n| {
+            let _ = write!(out, " {n:>8}");
+        });
+        let _ = writeln!(out, " {:>6.2}%", 100.0 * row.share());
+    }
+    *out += "(wrong: share of the cases with anything wrong; of meshes, missing are holes)\n";
+    for row in verdict.found.rows.iter().filter(|row| row.values > 0) {
+        let _ = writeln!(
+            out,
+            "{}: {} compared, {}, which is {:e}",
+            row.name,
+            row.values,
+            summary::of_bound(row.worst).replace("bound", "tolerance"),
+            verdict.declared.tolerance
+        );
+    }
+    for row in verdict.found.rows.iter().filter(|row| row.stopped) {
+        let _ = writeln!(out, "{}: given up after {MOST_DEATHS} times without an answer", row.name);
+    }
+    if verdict.found.gave_up {
+        let _ = writeln!(
+            out,
+            "given up for good: {} times without an answer, or no answer at all",
+            run::MOST_DEATHS_IN_ALL
+        );
+    }
+}
+
+/// What happened instead of answers.
+pub fn incidents(out: &mut String, verdict: &Verdict, repeat: &dyn Fn(&str, u64) -> String) {
+    let mut shown: Vec<&str> = Vec::new();
+    for incident in &verdict.found.incidents {
+        let word = incident.what.word();
+        if shown.iter().filter(|w| **w == word).count() == MOST_INCIDENTS {
+            continue;
+        }
+        shown.push(word);
+        let (family, index) = (incident.family, incident.index);
+        let place = match family {
+            "" => "before the families".to_owned(),
+            _ => format!("{family} #{index}"),
+        };
+        let _ = writeln!(out, "\n{place}: it {}", incident.what);
+        let _ = writeln!(out, "  request:  {}", incident.request);
+        if !family.is_empty() {
+            let _ = writeln!(out, "  repeat with: {}", repeat(family, index));
+        }
+    }
+    for stray in &verdict.found.strays {
+        let flight = "with several requests in flight it";
+        let _ = writeln!(out, "\n{flight} {stray}; each alone was answered");
+    }
+}
+
+/// A failing case: what was asked and answered, with its pixel grid.
+pub fn one_failure(out: &mut String, failure: &Failure, command: &str) {
+    let (family, index) = (failure.family, failure.index);
+    let (property, what) = (failure.property, &failure.what);
+    let _ = writeln!(out, "\n{property}: {what} (from {family} #{index}, shrunk)");
+    for exchange in failure.exchanges.iter().take(MOST_EXCHANGES) {
+        for (what, line) in [
+            ("request", &exchange.request),
+            ("answer", &exchange.answer),
+            ("expected", &exchange.expected),
+        ] {
+            if !line.is_empty() {
+                let _ = writeln!(out, "  {:<10}{line}", format!("{what}:"));
+            }
+        }
+    }
+    let more = failure.exchanges.len().saturating_sub(MOST_EXCHANGES);
+    if more > 0 {
+        let _ = writeln!(out, "  and {more} requests more");
+    }
+    if let Some(pictured) = &failure.picture {
+        picture(out, "judged", pictured);
+    }
+    let _ = writeln!(out, "  repeat with: {command}");
+}
+
+/// What was drawn beside what was expected, as characters.
+pub fn picture(out: &mut String, drawn_by: &str, picture: &Pictured) {
+    let Pictured { drawn, expected, of, .. } = picture;
+    let blocks = [
+        (drawn_by.to_owned(), ascii::grid(drawn, expected)),
+        ("expected".to_owned(), ascii::grid(expected, expected)),
+    ];
+    for line in ascii::side_by_side(&blocks, 98).lines() {
+        let _ = writeln!(out, "{}", format!("  {line}").trim_end());
+    }
+    *out += "  (# agrees, - missing, + extra, 2 twice, . neither)\n";
+    if !of.is_empty() {
+        *out += &wrapped(&format!("  ({of})"), "   ");
+    }
+}
+
+/// The verdict in a sentence.
+fn closing(verdict: &Verdict) -> String {
+    let wrong = verdict.as_declared().wrong;
+    let failing: Vec<_> =
+        verdict.properties.iter().filter(|p| !p.outcome.is_good()).map(|p| p.name).collect();
+    let what = format!(
+        "{} triangles and {} lines, {wrong} wrong pixels",
+        verdict.shapes(false),
+        verdict.shapes(true)
+    );
+    let known =
+        verdict.properties.iter().filter(|p| p.outcome == verdict::Outcome::ExpectedFailure);
+    let known = match known.count() {
+        0 => String::new(),
+        n => format!(", {n} properties fail as the baseline says"),
+    };
+    match failing.as_slice() {
+        [] => format!("{what}{known}"),
+        names => format!(
+            "{what}{known}; {} of {} properties fail: {}",
+            names.len(),
+            verdict.properties.len(),
+            names.join(", ")
+        ),
+    }
+}
+
+/// The run as a page: properties and counts, then each failing case with what everybody draws there.
+#[must_use]
+pub fn page(verdict: &Verdict, command: &str, repeat: &dyn Fn(&str, u64) -> String) -> Report {
+    let good = verdict.agrees();
+    let word = if good { "AGREES" } else { "DISAGREES" };
+    let views = verdict.failures.iter().map(|f| {
+        let name = format!("{}#{}", f.family, f.index);
+        let about = format!("{}: found in {} #{}, shrunk", f.property, f.family, f.index);
+        let mut view = page_cases::of_program(
+            name,
+            about,
+            &f.case,
+            &verdict.declared.name,
+            f.picture.as_ref(),
+        );
+        view.found.clone_from(&f.what);
+        view.command = repeat(f.family, f.index);
+        let chapter = match f.check {
+            Check::Depth => Some(("chapter 6, depth", "ch06.md")),
+            Check::Near => Some(("chapter 7, clipping", "ch07.md")),
+            Check::Samples => Some(("GAMES101, four samples", "games101.md")),
+            _ => None,
+        };
+        if let Some((title, path)) = chapter {
+            view.chapter = Chapter { title, path };
+        }
+        view
+    });
+    let d = &verdict.declared;
+    let mut notes = vec![format!("{} speaks version {}: {d}", d.name, d.version)];
+    if let Some(said) = &verdict.recognised {
+        notes.extend(said.sentences.iter().chain(&said.compass).cloned());
+    }
+    Report {
+        title: format!("Verdict on {}", d.name),
+        outcome: Some(Outcome { good, word: word.to_owned(), sentence: closing(verdict) }),
+        command: command.to_owned(),
+        seed: Some(verdict.seed),
+        notes,
+        tables: vec![properties(verdict)],
+        cases: views.collect(),
+        ..Report::default()
+    }
+}
+
+fn properties(verdict: &Verdict) -> Table {
+    let row = |p: &verdict::Property| Row {
+        cells: vec![
+            p.name.to_owned(),
+            if p.outcome.is_good() { "holds" } else { "fails" }.to_owned(),
+            p.about.clone(),
+            p.detail.clone(),
+        ],
+        mark: if p.outcome.is_good() { Mark::Plain } else { Mark::Wrong },
+        search: verdict.failures.iter().any(|f| f.property == p.name).then(|| p.name.to_owned()),
+    };
+    let (bad, good): (Vec<_>, Vec<_>) =
+        verdict.properties.iter().partition(|p| !p.outcome.is_good());
+    Table {
+        caption: "Properties, those that fail first".to_owned(),
+        columns: ["property", "", "what it says", "found"].map(Column::words).to_vec(),
+        rows: bad.into_iter().chain(good).map(row).collect(),
+    }
+}

@@ -1,0 +1,123 @@
+//! The league as tables of a page, in English and in Chinese.
+
+use std::fmt::Write as _;
+
+use super::phrases;
+use rasterproof_judge::league::{Kind, League, Standing};
+use rasterproof_judge::verdict::{Score, per_million};
+
+/// What stands around the numbers.
+struct Words {
+    header: &'static str,
+    as_declared: &'static str,
+    unexplained: &'static str,
+    unscored: &'static str,
+    unanswered: &'static str,
+    kinds: [&'static str; 2],
+    /// What stands after what a line is about, between the parts of one, and at its end.
+    marks: [&'static str; 3],
+    /// A sentence, or how a call is made, which are English in the data.
+    say: fn(&str) -> String,
+    made: fn(&League) -> String,
+}
+
+const ENGLISH: Words = Words {
+    header: "| library | version | day | as is | by its convention | holes | doubles | order | lines as is | lines by \
+             theirs | from either end |",
+    as_declared: "the same",
+    unexplained: "unexplained",
+    unscored: "Left out, since the convention says nothing of them",
+    unanswered: "Requests refused, and not answered",
+    kinds: ["Triangles", "Lines"],
+    marks: [": ", "; ", "."],
+    say: str::to_owned,
+    made: |l| {
+        format!(
+            "Made by rasterproof {}, {} cases of each family, seed {}.",
+            l.rasterproof, l.cases, l.seed
+        )
+    },
+};
+
+const CHINESE: Words = Words {
+    header: "| 库 | 版本 | 日期 | 原样 | 按其约定 | 空洞 | 重复 | 顶点顺序 | 直线原样 | 直线按其约定 | 两端互换 |",
+    as_declared: "相同",
+    unexplained: "未能解释",
+    unscored: "约定对之无所断言、未计入的图形",
+    unanswered: "被拒绝的请求与没有回答的请求",
+    kinds: ["三角形", "直线"],
+    marks: ["：", "；", "。"],
+    say: phrases::chinese,
+    made: |l| {
+        format!("由 rasterproof {} 生成，每族 {} 个案例，种子 {}。", l.rasterproof, l.cases, l.seed)
+    },
+};
+
+/// The tables: numbers, then what each library does.
+#[must_use]
+pub fn tables(league: &League, chinese: bool) -> String {
+    let words = if chinese { &CHINESE } else { &ENGLISH };
+    let mut out = format!("{}\n\n{}\n|---|---|---|", (words.made)(league), words.header);
+    out += &"---:|".repeat(8);
+    out.push('\n');
+    for row in &league.rows {
+        let [as_is, found] = scores(row.triangles.as_ref(), words);
+        let [lines, lines_found] = scores(row.lines.as_ref(), words);
+        let [meshes, holes, doubles] = row.meshes;
+        let of = |n: u64, all: u64| if all == 0 { "-".to_owned() } else { n.to_string() };
+        let _ = writeln!(
+            out,
+            "| {} | {} | {} | {as_is} | {found} | {} | {} | {} | {lines} | {lines_found} | {} |",
+            row.name,
+            row.version,
+            row.date,
+            of(holes, meshes),
+            of(doubles, meshes),
+            percent(row.orders),
+            percent(row.directions)
+        );
+    }
+    out.push('\n');
+    league.rows.iter().for_each(|row| one(&mut out, row, words));
+    out
+}
+
+/// What a library was asked by, and what it does.
+fn one(out: &mut String, row: &Standing, words: &Words) {
+    let Standing { name, declares, call, unanswered: [refused, died], .. } = row;
+    let [colon, semicolon, stop] = words.marks;
+    let call = (words.say)(call);
+    let _ = writeln!(out, "- **{name}**{colon}{call}{semicolon}`{declares}`{stop}");
+    let kinds = words.kinds.iter().zip([&row.triangles, &row.lines]);
+    for (about, kind) in kinds.filter_map(|(about, k)| Some((about, k.as_ref()?))) {
+        let gap = if stop == "." { " " } else { "" };
+        let left_out = match kind.by_convention {
+            Some(Score { unscored: n @ 1.., .. }) => {
+                format!("{gap}{}{colon}{n}{stop}", words.unscored)
+            }
+            _ => String::new(),
+        };
+        if !kind.sentence.is_empty() {
+            let _ = writeln!(out, "  - {about}{colon}{}{left_out}", (words.say)(&kind.sentence));
+        }
+    }
+    if refused + died > 0 {
+        let _ = writeln!(out, "  - {}{colon}{refused}, {died}{stop}", words.unanswered);
+    }
+}
+
+/// Wrong pixels in a million, as declared and by the convention.
+fn scores(kind: Option<&Kind>, words: &Words) -> [String; 2] {
+    let Some(kind) = kind else { return ["-".to_owned(), "-".to_owned()] };
+    let share = |s: Score| format!("{:.0}", per_million(s.wrong, s.pixels));
+    let found = match kind.by_convention {
+        Some(score) => share(score),
+        None if kind.sentence.is_empty() => words.as_declared.to_owned(),
+        None => words.unexplained.to_owned(),
+    };
+    [share(kind.as_declared), found]
+}
+
+fn percent([all, changed]: [u64; 2]) -> String {
+    if all == 0 { "-".to_owned() } else { format!("{:.0} %", 100.0 * changed as f64 / all as f64) }
+}

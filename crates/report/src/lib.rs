@@ -1,0 +1,25 @@
+//! Verdicts as text, JSON, pictures and a page. Everything here is a value; only `main` prints.
+
+pub mod ascii;
+pub mod board;
+pub mod canvas;
+pub mod chapter;
+pub mod cost_plots;
+pub mod counts;
+pub mod diagram;
+pub mod exact;
+pub mod formats;
+pub mod frame_comparison;
+pub mod html;
+pub mod json;
+pub mod judge_text;
+pub mod league;
+pub mod lettering;
+pub mod page_cases;
+pub mod panels;
+pub mod phrases;
+pub mod picture;
+pub mod specimen_sheet;
+pub mod specimens;
+pub mod summary;
+pub mod table;

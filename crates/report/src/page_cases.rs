@@ -1,0 +1,500 @@
+//! Cases for the report page: positions as whole numbers, and what everybody draws there.
+//!
+//! Each case has its engines, the oracle and the specimens that can draw it, all by hit counts. The
+//! page computes the edge functions itself from the positions; nothing here rounds one.
+
+use serde::Serialize;
+
+use super::chapter::{Chapter, chapter_of_source};
+use rasterproof_core::frame::Coverage;
+use rasterproof_core::grid::PixelRect;
+use rasterproof_core::triangle::{ScreenTriangle, ScreenVertex};
+use rasterproof_faults::published::catalogue::{CARDS, Exhibit, TriangleCase};
+use rasterproof_faults::published::{RealTriangle, RealVertex, from_screen};
+use rasterproof_judge::pictured::Pictured;
+use rasterproof_registry::engines::{self, Engine, ExactEngine, LineEngine, Specimen};
+use rasterproof_registry::published_check::{
+    line_case, real_triangles, specimen_coverage, specimen_line_coverage,
+};
+use rasterproof_render::scene::named;
+use rasterproof_verify::cases::named::Input;
+use rasterproof_verify::cases::unsnapped::{self, OffGridCase};
+use rasterproof_verify::cases::{self, Case, Shape};
+use rasterproof_verify::comparison::unsnapped::{ExactVerdict, exact_coverage};
+use rasterproof_verify::comparison::{
+    Tally, Verdict, engine_coverage, line_coverage, oracle_coverage,
+};
+
+/// A case as the page shows it.
+#[derive(Clone, Debug, Serialize)]
+pub struct CaseView {
+    /// Its name; unique within the page, and its address.
+    pub name: String,
+    /// What it threatens.
+    pub about: String,
+    /// Why it is shown.
+    pub kind: Kind,
+    /// What was found, in a sentence, or nothing.
+    pub found: String,
+    /// The command that repeats it.
+    pub command: String,
+    /// Where it is explained.
+    pub chapter: Chapter,
+    /// What the picture shows, where that is not the pixels of the case.
+    pictured: String,
+    window: PixelRect,
+    shape: ShapeView,
+    layers: Vec<Layer>,
+    /// The two layers that are compared at first.
+    start: [usize; 2],
+}
+
+/// Why a case is shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Kind {
+    /// Something disagrees.
+    Failing,
+    /// Its values came closest to a bound.
+    Closest,
+    /// The first of a family off the lattice.
+    OffGrid,
+    /// It has a name in the catalogue.
+    Named,
+    /// It exposes a published fault.
+    Specimen,
+}
+
+/// Positions: subpixels, whole pixels, or doubles in pixels.
+#[derive(Clone, Debug, Serialize)]
+#[serde(tag = "kind", content = "points", rename_all = "lowercase")]
+enum ShapeView {
+    Triangles(Vec<[[i32; 2]; 3]>),
+    Lines(Vec<[[i32; 2]; 2]>),
+    Free(Vec<[[f64; 2]; 3]>),
+}
+
+/// What one or several draw alike.
+#[derive(Clone, Debug, Serialize)]
+struct Layer {
+    names: Vec<String>,
+    role: Role,
+    /// Run lengths and hits, by rows from the top: n, hits, n, hits ...; empty where it is refused.
+    runs: Vec<u32>,
+    /// Pixels that are hit.
+    covered: u64,
+    tally: Tally,
+    /// Why nothing is drawn, or nothing.
+    refused: String,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+enum Role {
+    Engine,
+    Planted,
+    Oracle,
+    /// Of a program that declares another convention than this project's.
+    Expected,
+    Specimen,
+}
+
+type Drawn = (String, Role, Result<Coverage, String>);
+
+/// Who is judged, besides those that are always shown.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Judged<'a> {
+    /// Rasterizers.
+    pub engines: &'a [Engine],
+    /// Line drawers.
+    pub lines: &'a [LineEngine],
+    /// Rasterizers of corners off the lattice.
+    pub exact: &'a [ExactEngine],
+}
+
+/// The failing cases of a run, then for each family the one that came closest to a bound, then
+/// every named case. `repeat` gives the command that repeats a failing case.
+#[must_use]
+pub fn of_verdict(
+    verdict: &Verdict,
+    off_grid: &ExactVerdict,
+    judged: Judged<'_>,
+    repeat: impl Fn(&str, u64) -> String,
+) -> Vec<CaseView> {
+    let mut views = Vec::new();
+    for f in &verdict.failures {
+        let name = format!("{}#{}", f.family, f.index);
+        let about = format!("found in {} #{} of seed {}, shrunk", f.family, f.index, f.seed);
+        let found = format!("{} against {}: {}", f.pair[0], f.pair[1], f.what);
+        let mut view = on_grid(name, about, Kind::Failing, &f.case, judged);
+        view.start = [view.place(&f.pair[0], 0), view.place(&f.pair[1], 1)];
+        views.push(CaseView { found, command: repeat(&f.family, f.index), ..view });
+    }
+    for f in &off_grid.failures {
+        let name = format!("{}#{}", f.family, f.index);
+        let about = format!("found in {} #{} of seed {}, shrunk", f.family, f.index, f.seed);
+        let found = format!("{} against oracle-exact: {}", f.engine, f.what);
+        let mut view = off_lattice(name, about, Kind::Failing, &f.case, judged);
+        view.start = [view.place(&f.engine, 0), view.place("oracle-exact", 1)];
+        views.push(CaseView { found, command: repeat(&f.family, f.index), ..view });
+    }
+    views.extend(closest(verdict, judged));
+    views.extend(off_lattice_samples(off_grid, verdict.options.seed, judged));
+    views.extend(every_named(judged));
+    unique(&mut views);
+    views
+}
+
+/// For each family the case whose values came closest to their bound, the closest family first.
+fn closest(verdict: &Verdict, judged: Judged<'_>) -> Vec<CaseView> {
+    let seed = verdict.options.seed;
+    let mut worst: Vec<_> = verdict
+        .families
+        .iter()
+        .filter_map(|f| {
+            let pairs = f.pairs.iter().filter(|p| p.target == "oracle" && p.values > 0);
+            let pair = pairs.max_by(|a, b| a.worst().total_cmp(&b.worst()))?;
+            (pair.worst() > 0.0 && pair.worst() <= 1.0).then_some((f, pair))
+        })
+        .collect();
+    worst.sort_by(|(_, a), (_, b)| b.worst().total_cmp(&a.worst()));
+    let views = worst.into_iter().filter_map(|(report, pair)| {
+        let family = page_cases::families().find(|f| f.name == report.family)?;
+        let name = format!("{}#{}", family.name, pair.worst_case);
+        let case = family.case(seed, pair.worst_case);
+        let view = on_grid(name.clone(), family.about.to_owned(), Kind::Closest, &case, judged);
+        // Wrong pixels are the news of such a case, and stand among the failing ones.
+        let is_wrong = |l: &Layer| l.role != Role::Specimen && l.tally.total() > 0;
+        if view.layers.iter().any(is_wrong) {
+            return None;
+        }
+        let found = format!("a value of {} at {:.2} of its bound", pair.actual, pair.worst());
+        let command = format!("rasterproof inspect {name} --seed {seed}");
+        Some(CaseView { found, command, ..view })
+    });
+    views.collect()
+}
+
+/// The first case of each family off the lattice that was judged: they have no bounds to come
+/// close to.
+fn off_lattice_samples(off_grid: &ExactVerdict, seed: u64, judged: Judged<'_>) -> Vec<CaseView> {
+    let judged_families = off_grid
+        .families
+        .iter()
+        .filter_map(|r| unsnapped::FAMILIES.iter().find(|f| f.name == r.family));
+    let views = judged_families.map(|family| {
+        let name = format!("{}#0", family.name);
+        let case = family.case(seed, 0);
+        let view = off_lattice(name.clone(), family.about.to_owned(), Kind::OffGrid, &case, judged);
+        CaseView { command: format!("rasterproof inspect {name} --seed {seed}"), ..view }
+    });
+    views.collect()
+}
+
+/// Every named case that is drawn.
+fn every_named(judged: Judged<'_>) -> Vec<CaseView> {
+    let views = named::named().into_iter().filter_map(|named| {
+        let Input::Drawn { case, .. } = named.input else { return None };
+        let (name, about) = (named.name.to_owned(), named.about.to_owned());
+        let view = on_grid(name, about, Kind::Named, &case, judged);
+        Some(CaseView { command: format!("rasterproof inspect {}", named.name), ..view })
+    });
+    views.collect()
+}
+
+/// The case that exposes each specimen that draws triangles or lines.
+#[must_use]
+pub fn of_specimens() -> Vec<CaseView> {
+    let judged = Judged { engines: &Engine::JUDGED, lines: &LineEngine::JUDGED, exact: &[] };
+    let views = CARDS.iter().filter_map(|card| {
+        let (case, shown) = match &card.exhibit {
+            Exhibit::Triangles([case, _]) => (snapped(case)?, case.name),
+            Exhibit::Lines([case, _]) => (line_case(case), case.name),
+            Exhibit::Scene(..) => return None,
+        };
+        let about = format!("{}: {shown}", card.source);
+        let mut view = on_grid(card.name.to_owned(), about, Kind::Specimen, &case, judged);
+        let place = view.place(card.name, 0);
+        // A fault of the values alone is for the pictures to show.
+        if view.layers[place].tally.total() == 0 && view.layers[place].refused.is_empty() {
+            return None;
+        }
+        view.start = [place, view.place("oracle", 1)];
+        let found = format!("{}; cure: {}", card.fault, card.cure);
+        let (command, chapter) = (request(card.name, &case), chapter_of_source(card.source));
+        Some(CaseView { found, command, chapter, ..view })
+    });
+    views.collect()
+}
+
+/// The case on the lattice: the page shows whole subpixels.
+fn snapped(case: &TriangleCase) -> Option<Case> {
+    let vertex = |v: &RealVertex| {
+        let (x, y) = (v.position_px.x, v.position_px.y);
+        ScreenVertex::new(x, y, v.depth, v.w, v.varying).ok()
+    };
+    let triangle = |[a, b, c]: &RealTriangle| {
+        Some(ScreenTriangle { vertices: [vertex(a)?, vertex(b)?, vertex(c)?] })
+    };
+    let list = real_triangles(case).iter().map(triangle).collect::<Option<Vec<_>>>()?;
+    let window = PixelRect::window(case.side_px, case.side_px);
+    Some(Case { window, shape: Shape::Triangles { list, disjoint: false } })
+}
+
+/// The command that has an engine draw a case, in the line protocol.
+fn request(engine: &str, case: &Case) -> String {
+    let (width, height) = (case.window.width(), case.window.height());
+    let px = |(x, y): (f64, f64)| format!("{x} {y}");
+    let requests: Vec<String> = match &case.shape {
+        Shape::Triangles { list, .. } => {
+            let corners = list.iter().map(|t| t.corners().map(|p| px(p.to_px())).join(" "));
+            corners.map(|corners| format!("T 1 {width} {height} {corners}")).collect()
+        }
+        Shape::Lines(list) => {
+            let centre = |v: i32| f64::from(v) + 0.5;
+            let ends = list
+                .iter()
+                .map(|l| l.ends.map(|e| px((centre(e.pixel.x), centre(e.pixel.y)))).join(" "));
+            ends.map(|ends| format!("L 1 {width} {height} {ends}")).collect()
+        }
+    };
+    let quoted: Vec<_> = requests.iter().map(|request| format!("'{request}'")).collect();
+    format!("printf '%s\\n' {} | rasterproof engine {engine}", quoted.join(" "))
+}
+
+/// A failing case of a program that was judged, beside what the engines and the specimens draw. Where
+/// something else is expected of it than of them, or the picture is another than theirs, beside what
+/// was expected alone.
+#[must_use]
+pub fn of_program(
+    name: String,
+    about: String,
+    case: &Case,
+    program: &str,
+    picture: Option<&Pictured>,
+) -> CaseView {
+    let mut view = on_grid(name, about, Kind::Failing, case, Judged::default());
+    let Some(Pictured { drawn, expected, of, moved }) = picture else { return view };
+    let truth = match &case.shape {
+        Shape::Triangles { list, .. } => Some(oracle_coverage(list, case.window)),
+        Shape::Lines(lines) => line_coverage(&LineEngine::Oracle, lines, case.window).ok(),
+    };
+    let truth = truth.unwrap_or_else(|| Coverage::new(case.window, 0));
+    if !of.is_empty() || *expected != truth {
+        let drawn = layer(program.to_owned(), Role::Engine, Ok(drawn.clone()), expected);
+        let target = layer("expected".to_owned(), Role::Expected, Ok(expected.clone()), expected);
+        (view.layers, view.start) = (vec![drawn, target], [0, 1]);
+        view.window = expected.bounds();
+        if !of.is_empty() {
+            view.pictured = format!("The picture: {of}.");
+        }
+        if let Some(moved) = moved {
+            let corners = moved.iter().map(|c| c.map(|p| [p.x, p.y]));
+            view.shape = ShapeView::Triangles(corners.collect());
+        }
+        return view;
+    }
+    view.layers.insert(0, layer(program.to_owned(), Role::Engine, Ok(drawn.clone()), &truth));
+    view.start = [0, view.place("oracle", 1)];
+    view
+}
+
+/// Names that occur again get a number.
+fn unique(views: &mut [CaseView]) {
+    let mut seen = std::collections::HashMap::new();
+    for view in views {
+        let times: &mut u32 = seen.entry(view.name.clone()).or_insert(0);
+        *times += 1;
+        if *times > 1 {
+            view.name = format!("{}~{times}", view.name);
+        }
+    }
+}
+
+/// A case on the lattice, drawn by those that are judged, the engines, the oracle and the specimens.
+#[must_use]
+pub fn on_grid(
+    name: String,
+    about: String,
+    kind: Kind,
+    case: &Case,
+    judged: Judged<'_>,
+) -> CaseView {
+    let (shape, drawn) = match &case.shape {
+        Shape::Triangles { list, .. } => {
+            let corners = list.iter().map(|t| t.corners().map(|p| [p.x, p.y])).collect();
+            let real: Vec<RealTriangle> = list.iter().map(from_screen).collect();
+            let others = Engine::JUDGED
+                .into_iter()
+                .filter(|e| judged.engines.iter().all(|j| j.name() != e.name()));
+            let engines = judged.engines.iter().copied().chain(others);
+            let mut drawn: Vec<Drawn> = engines
+                .map(|e| {
+                    let hits = engine_coverage(&e, list, case.window);
+                    (e.name().to_owned(), role(matches!(e, Engine::Mutant(_))), hits)
+                })
+                .collect();
+            drawn.push(("oracle".to_owned(), Role::Oracle, Ok(oracle_coverage(list, case.window))));
+            drawn.extend(engines::SPECIMENS.iter().filter_map(|entry| match entry.specimen {
+                Some(Specimen::Triangle(s)) => Some((
+                    entry.name.to_owned(),
+                    Role::Specimen,
+                    specimen_coverage(s, &real, case.window),
+                )),
+                _ => None,
+            }));
+            (ShapeView::Triangles(corners), drawn)
+        }
+        Shape::Lines(list) => {
+            let ends = list.iter().map(|l| l.ends.map(|e| [e.pixel.x, e.pixel.y])).collect();
+            (ShapeView::Lines(ends), drawn_lines(list, case.window, judged))
+        }
+    };
+    view(name, about, kind, case.window, shape, drawn)
+}
+
+fn drawn_lines(list: &[page_cases::Line], window: PixelRect, judged: Judged<'_>) -> Vec<Drawn> {
+    let others = LineEngine::JUDGED
+        .into_iter()
+        .filter(|e| judged.lines.iter().all(|j| j.name() != e.name()));
+    let engines = judged.lines.iter().copied().chain(others).chain([LineEngine::Oracle]);
+    let mut drawn: Vec<Drawn> = engines
+        .map(|e| {
+            let role = match e {
+                LineEngine::Oracle => Role::Oracle,
+                LineEngine::Mutant(_) => Role::Planted,
+                _ => Role::Engine,
+            };
+            (e.name().to_owned(), role, line_coverage(&e, list, window))
+        })
+        .collect();
+    drawn.extend(engines::SPECIMENS.iter().filter_map(|entry| {
+        let Some(Specimen::Line(specimen)) = entry.specimen else { return None };
+        let hits = list.iter().try_fold(Coverage::new(window, 0), |sum, line| {
+            Ok::<_, String>(added(sum, &specimen_line_coverage(specimen, line, window)?))
+        });
+        Some((entry.name.to_owned(), Role::Specimen, hits))
+    }));
+    drawn
+}
+
+/// Hits of both.
+fn added(mut sum: Coverage, more: &Coverage) -> Coverage {
+    for (y_px, row) in more.rows() {
+        for (sum, more) in sum.row_mut(y_px).iter_mut().zip(row) {
+            *sum = sum.saturating_add(*more);
+        }
+    }
+    sum
+}
+
+/// A case off the lattice, drawn by those that are judged, the engines and the oracle.
+#[must_use]
+pub fn off_lattice(
+    name: String,
+    about: String,
+    kind: Kind,
+    case: &OffGridCase,
+    judged: Judged<'_>,
+) -> CaseView {
+    let others = ExactEngine::JUDGED
+        .into_iter()
+        .filter(|e| judged.exact.iter().all(|j| j.name() != e.name()));
+    let engines = judged.exact.iter().copied().chain(others).chain([ExactEngine::Oracle]);
+    let drawn = engines.map(|e| {
+        let role = match e {
+            ExactEngine::Oracle => Role::Oracle,
+            _ => role(matches!(e, ExactEngine::Mutant(_))),
+        };
+        (e.name().to_owned(), role, exact_coverage(&e, case).map(|(hits, _)| hits))
+    });
+    let points = case.triangles.iter().map(|t| t.px()).collect();
+    view(name, about, kind, case.window, ShapeView::Free(points), drawn.collect())
+}
+
+fn role(is_planted: bool) -> Role {
+    if is_planted { Role::Planted } else { Role::Engine }
+}
+
+fn view(
+    name: String,
+    about: String,
+    kind: Kind,
+    window: PixelRect,
+    shape: ShapeView,
+    drawn: Vec<Drawn>,
+) -> CaseView {
+    let oracle = drawn.iter().position(|(_, role, _)| *role == Role::Oracle);
+    let truth = oracle.and_then(|i| drawn[i].2.clone().ok());
+    let truth = truth.unwrap_or_else(|| Coverage::new(window, 0));
+    let mut layers: Vec<Layer> = Vec::new();
+    for (name, role, hits) in drawn {
+        let layer = layer(name, role, hits, &truth);
+        // Specimens of one author often draw alike: one layer for all of them.
+        let alike = layers.iter_mut().find(|l| {
+            role == Role::Specimen
+                && l.role == Role::Specimen
+                && (&l.runs, &l.refused) == (&layer.runs, &layer.refused)
+        });
+        match alike {
+            Some(other) => other.names.extend(layer.names),
+            None => layers.push(layer),
+        }
+    }
+    let start = start(&layers);
+    let [found, command, pictured] = [const { String::new() }; 3];
+    let chapter = chapter(kind, &shape);
+    CaseView { name, about, kind, found, command, chapter, pictured, window, shape, layers, start }
+}
+
+/// Where the docs derive what decides such a case.
+fn chapter(kind: Kind, shape: &ShapeView) -> Chapter {
+    let (title, path) = match (kind, shape) {
+        (_, ShapeView::Lines(_)) => ("chapter 2, lines", "ch02.md#lines-section-21-the-idea"),
+        (_, ShapeView::Free(_)) => ("off the grid", "offgrid.md"),
+        (Kind::Closest, _) => ("chapter 3, values at the pixels", "ch03.md"),
+        _ => ("chapter 2, the top-left rule", "ch02.md#the-formula-the-top-left-rule-derived"),
+    };
+    Chapter { title, path }
+}
+
+fn layer(name: String, role: Role, hits: Result<Coverage, String>, truth: &Coverage) -> Layer {
+    let (runs, covered, tally, refused) = match hits {
+        Ok(hits) => (runs(&hits), hits.covered(), Tally::between(&hits, truth), String::new()),
+        Err(message) => (Vec::new(), 0, Tally::default(), message),
+    };
+    Layer { names: vec![name], role, runs, covered, tally, refused }
+}
+
+fn runs(hits: &Coverage) -> Vec<u32> {
+    let mut runs: Vec<u32> = Vec::new();
+    for &hits in hits.rows().flat_map(|(_, row)| row) {
+        match runs.as_mut_slice() {
+            [.., count, last] if *last == u32::from(hits) => *count += 1,
+            _ => runs.extend([1, u32::from(hits)]),
+        }
+    }
+    runs
+}
+
+/// A layer that is wrong against the oracle: an engine before a specimen. Where all agree, the first
+/// two engines.
+fn start(layers: &[Layer]) -> [usize; 2] {
+    let oracle = layers.iter().position(|l| l.role == Role::Oracle).unwrap_or(0);
+    let is_wrong = |l: &&Layer| l.tally.total() > 0;
+    let engines = layers.iter().filter(|l| l.role != Role::Specimen);
+    let specimens = layers.iter().filter(|l| l.role == Role::Specimen);
+    let worst = engines.filter(is_wrong).max_by_key(|l| l.tally.total());
+    let worst = worst.or_else(|| specimens.filter(is_wrong).max_by_key(|l| l.tally.total()));
+    match worst.and_then(|w| layers.iter().position(|l| l.names == w.names)) {
+        Some(at) => [at, oracle],
+        None => [0, 1.min(layers.len().saturating_sub(1))],
+    }
+}
+
+impl CaseView {
+    /// The layer that `name` draws, or `otherwise`.
+    fn place(&self, name: &str, otherwise: usize) -> usize {
+        self.layers.iter().position(|l| l.names.iter().any(|n| n == name)).unwrap_or(otherwise)
+    }
+}

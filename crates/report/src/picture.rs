@@ -1,0 +1,167 @@
+//! What pictures of cases are made of: colours, outlines, PNG files.
+//!
+//! Grey agrees, red is missing, orange is extra, violet is hit twice, green is hit more than once
+//! and rightly so. A dark dot is a sample; a blue line is an edge.
+
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
+
+use image::{Rgb, RgbImage};
+
+use rasterproof_core::contract::DrawLine;
+use rasterproof_core::frame::Frame;
+use rasterproof_core::grid::{PixelRect, SUBPIXELS};
+use rasterproof_core::line::bresenham::Bresenham;
+use rasterproof_core::triangle::{LineEnd, PixelPoint, ScreenLine};
+use rasterproof_verify::cases::unsnapped::OffGridCase;
+use rasterproof_verify::cases::{Case, Shape};
+
+pub(super) const BACKGROUND: Rgb<u8> = Rgb([250, 250, 247]);
+pub(super) const GRID: Rgb<u8> = Rgb([222, 222, 216]);
+pub(super) const BORDER: Rgb<u8> = Rgb([90, 90, 90]);
+pub(super) const EDGE: Rgb<u8> = Rgb([36, 90, 190]);
+pub(super) const SAMPLE: Rgb<u8> = Rgb([60, 60, 60]);
+pub(super) const AGREES: Rgb<u8> = Rgb([170, 178, 184]);
+pub(super) const OVERLAP: Rgb<u8> = Rgb([110, 170, 110]);
+pub(super) const MISSING: Rgb<u8> = Rgb([214, 60, 60]);
+pub(super) const EXTRA: Rgb<u8> = Rgb([240, 160, 40]);
+pub(super) const TWICE: Rgb<u8> = Rgb([150, 70, 190]);
+
+/// The picture pixels of a segment that lie in a panel.
+pub(super) fn line(ends: [PixelPoint; 2], panel: PixelRect, mut put: impl FnMut(u32, u32)) {
+    let ends = ends.map(|pixel| LineEnd { pixel, depth: 0.0, varying: 0.0 });
+    Bresenham.draw(&ScreenLine { ends }, panel, |f| put(f.x_px as u32, f.y_px as u32));
+}
+
+/// The pixels of a frame as a picture of the same size.
+#[must_use]
+pub fn of_frame(frame: &Frame<[u8; 3]>) -> RgbImage {
+    let bounds = frame.bounds();
+    RgbImage::from_fn(bounds.width(), bounds.height(), |x, y| {
+        Rgb(frame.get(bounds.x0 + x as i32, bounds.y0 + y as i32).unwrap_or_default())
+    })
+}
+
+/// Edges of triangles through their corners, lines through the centres of their end pixels.
+///
+/// In picture pixels from the corner of the part that is shown.
+pub(super) fn segments(case: &Case, shown: PixelRect, zoom: u32) -> Vec<[PixelPoint; 2]> {
+    let to_picture = |x_sub: i64, y_sub: i64| {
+        let at = |sub: i64, origin: i32| {
+            let from_origin = sub - i64::from(origin) * i64::from(SUBPIXELS);
+            (from_origin * i64::from(zoom)).div_euclid(i64::from(SUBPIXELS))
+        };
+        let limit = |v: i64| v.clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32;
+        PixelPoint::new(limit(at(x_sub, shown.x0)), limit(at(y_sub, shown.y0)))
+    };
+    match &case.shape {
+        Shape::Triangles { list, .. } => list
+            .iter()
+            .flat_map(|t| edges(t.corners().map(|p| to_picture(p.x.into(), p.y.into()))))
+            .collect(),
+        Shape::Lines(lines) => {
+            let centre = |px: i32| i64::from(px) * i64::from(SUBPIXELS) + i64::from(SUBPIXELS / 2);
+            let end = |e: PixelPoint| to_picture(centre(e.x), centre(e.y));
+            lines.iter().map(|l| [end(l.ends[0].pixel), end(l.ends[1].pixel)]).collect()
+        }
+    }
+}
+
+/// Edges of triangles whose corners are not on the lattice.
+pub(super) fn free_segments(
+    case: &OffGridCase,
+    shown: PixelRect,
+    zoom: u32,
+) -> Vec<[PixelPoint; 2]> {
+    let at = |px: f64, origin: i32| ((px - f64::from(origin)) * f64::from(zoom)).floor() as i32;
+    let to_picture = |[x, y]: [f64; 2]| PixelPoint::new(at(x, shown.x0), at(y, shown.y0));
+    case.triangles.iter().flat_map(|t| edges(t.px().map(to_picture))).collect()
+}
+
+fn edges([a, b, c]: [PixelPoint; 3]) -> [[PixelPoint; 2]; 3] {
+    [[a, b], [b, c], [c, a]]
+}
+
+/// Room between two pictures of a stack.
+pub const STACK_GAP: u32 = 12;
+
+/// Stacks pictures under each other on white, with a gap between.
+#[must_use]
+pub fn stack(pictures: &[RgbImage]) -> RgbImage {
+    let width = pictures.iter().map(RgbImage::width).max().unwrap_or(1);
+    let height = pictures
+        .iter()
+        .map(|p| p.height() + STACK_GAP)
+        .sum::<u32>()
+        .saturating_sub(STACK_GAP)
+        .max(1);
+    let mut sheet = RgbImage::from_pixel(width, height, Rgb([255, 255, 255]));
+    let mut top = 0;
+    for picture in pictures {
+        image::imageops::replace(&mut sheet, picture, 0, i64::from(top));
+        top += picture.height() + STACK_GAP;
+    }
+    sheet
+}
+
+/// The picture as a PNG file's bytes, with a palette where it has at most 256 colours.
+///
+/// # Panics
+/// Never: writing to memory does not fail.
+#[must_use]
+pub fn png(image: &RgbImage) -> Vec<u8> {
+    encoded(image, None)
+}
+
+/// The same, with a text under a key.
+pub(super) fn encoded(image: &RgbImage, text: Option<(&str, &str)>) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, image.width(), image.height());
+    encoder.set_compression(png::Compression::High);
+    let data = match indexed(image) {
+        Some((palette, indices)) => {
+            encoder.set_color(png::ColorType::Indexed);
+            encoder.set_palette(palette);
+            encoder.set_filter(png::Filter::NoFilter);
+            indices
+        }
+        None => {
+            encoder.set_color(png::ColorType::Rgb);
+            image.as_raw().clone()
+        }
+    };
+    let noted =
+        text.map_or(Ok(()), |(key, text)| encoder.add_text_chunk(key.to_owned(), text.to_owned()));
+    noted
+        .and_then(|()| encoder.write_header())
+        .and_then(|mut writer| writer.write_image_data(&data))
+        .expect("writing to memory does not fail");
+    bytes
+}
+
+/// The colours in the order of their first pixels, and the number of each pixel's; none beyond 256.
+fn indexed(image: &RgbImage) -> Option<(Vec<u8>, Vec<u8>)> {
+    let mut numbers: HashMap<[u8; 3], u8> = HashMap::new();
+    let (mut palette, mut indices) = (Vec::new(), Vec::new());
+    let mut last = None;
+    for pixel in image.pixels() {
+        // Most pixels have the colour of the one before.
+        if let Some((colour, number)) = last
+            && colour == pixel.0
+        {
+            indices.push(number);
+            continue;
+        }
+        let next = numbers.len();
+        let number = match numbers.entry(pixel.0) {
+            Entry::Occupied(known) => *known.get(),
+            Entry::Vacant(new) => {
+                palette.extend(pixel.0);
+                *new.insert(u8::try_from(next).ok()?)
+            }
+        };
+        indices.push(number);
+        last = Some((pixel.0, number));
+    }
+    Some((palette, indices))
+}

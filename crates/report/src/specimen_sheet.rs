@@ -1,0 +1,443 @@
+//! The contact sheet of the specimens: for each a strip of three panels, published, repaired,
+//! difference, with its name, its fault and its cure; sheets by source, with a legend.
+//!
+//! Panels show the exposing case alone, each pixel a square. A strip refuses nothing: what the
+//! published code leaves undefined stays empty.
+
+use glam::DVec2;
+use image::{Rgb, RgbImage, imageops};
+
+use super::chapter::chapter_of_source;
+use super::html::{PictureLayer, PictureView};
+use super::lettering::{self, Size, write};
+use super::picture::{AGREES, BACKGROUND, BORDER, EDGE, EXTRA, GRID, MISSING, SAMPLE, TWICE, line};
+use super::{panels, picture};
+use rasterproof_core::contract::{DrawLine as _, Interpolate as _};
+use rasterproof_core::frame::{Coverage, Frame};
+use rasterproof_core::grid::PixelRect;
+use rasterproof_core::raster::edge_function::EdgeFunction;
+use rasterproof_core::triangle::{Fragment, LineEnd, PixelPoint};
+use rasterproof_faults::published::catalogue::{CARDS, Card, Exhibit, TriangleCase};
+use rasterproof_faults::published::scene::{BLACK, Colour, Image, Setting, Version};
+use rasterproof_faults::published::{Published as _, RealTriangle};
+use rasterproof_registry::engines::{self, LineSpecimen, Specimen, TriangleSpecimen};
+use rasterproof_registry::published_check::{
+    free_truth, line_case, on_lattice, real_triangles, specimen_coverage, specimen_line_coverage,
+};
+use rasterproof_verify::cases::{Case, Shape};
+use rasterproof_verify::oracle::Oracle;
+
+const WHITE: Rgb<u8> = Rgb([255, 255, 255]);
+const INK: Rgb<u8> = Rgb([30, 30, 30]);
+const FAINT: Rgb<u8> = Rgb([110, 110, 110]);
+/// Drawn by both, but not alike.
+const WRONG: Rgb<u8> = Rgb([60, 120, 220]);
+/// A value beyond the range of its corners.
+const BEYOND: Colour = [40, 170, 60];
+
+/// Largest side of a panel, and the space between panels and around them.
+const PANEL: u32 = 161;
+const GAP: u32 = 8;
+/// Width of a strip.
+const STRIP: u32 = 3 * PANEL + 4 * GAP;
+
+/// A sheet: the cards of one source, or of some of its chapters.
+pub struct Sheet {
+    /// Its name in file names.
+    pub name: &'static str,
+    title: &'static str,
+    /// What the source of its cards begins with.
+    sources: &'static [&'static str],
+}
+
+/// The sheets in their order; each card is on one.
+pub const SHEETS: [Sheet; 4] = [
+    Sheet {
+        name: "book-1",
+        title: "The book, chapters 2 to 5: lines, triangles, values",
+        sources: &["book 2", "book 3", "book 5"],
+    },
+    Sheet {
+        name: "book-2",
+        title: "The book, chapters 6 to 11: depth, clipping, viewport, turns",
+        sources: &["book 6", "book 7", "book 8", "book 10", "book 11"],
+    },
+    Sheet {
+        name: "games101",
+        title: "GAMES101, homework 2: triangles and the depth buffer",
+        sources: &["GAMES101"],
+    },
+    Sheet {
+        name: "sysu",
+        title: "SYSU, assignment 2: lines, clipping, triangles",
+        sources: &["SYSU"],
+    },
+];
+
+impl Sheet {
+    /// Its cards, in the order of the catalogue.
+    pub fn cards(&self) -> impl Iterator<Item = &'static Card> {
+        let is_here = |card: &&Card| self.sources.iter().any(|s| card.source.starts_with(s));
+        CARDS.iter().filter(is_here)
+    }
+}
+
+/// What a strip shows.
+struct Panels {
+    published: Image,
+    repaired: Image,
+    background: Colour,
+    /// Segments in window pixels.
+    outline: Vec<[DVec2; 2]>,
+    has_samples: bool,
+    /// Whether the colours are those of [`shade`].
+    has_values: bool,
+}
+
+/// All cards of a sheet, two strips to a row, under a title and over a legend.
+#[must_use]
+pub fn sheet(sheet: &Sheet) -> panels::Sheet {
+    let strips: Vec<panels::Sheet> = sheet.cards().map(strip).collect();
+    let mut title = RgbImage::from_pixel(2 * STRIP, 40, WHITE);
+    write(&mut title, (i64::from(GAP), 12), sheet.title, Size::Heading, INK);
+    let mut top = title.height() + picture::STACK_GAP;
+    let (mut all, mut panels) = (vec![title], Vec::new());
+    for pair in strips.chunks(2) {
+        for (left, strip) in (0..).step_by(STRIP as usize).zip(pair) {
+            panels.extend(strip.panels.iter().cloned().map(|panel| panels::Panel {
+                at: [panel.at[0] + left, panel.at[1] + top],
+                ..panel
+            }));
+        }
+        let row = beside(pair);
+        top += row.height() + picture::STACK_GAP;
+        all.push(row);
+    }
+    let shown: Vec<_> = sheet.cards().filter_map(versions).collect();
+    all.push(legend(2 * STRIP, &shown));
+    panels::Sheet { image: picture::stack(&all), panels }
+}
+
+/// All sheets, one under the other.
+#[must_use]
+pub fn contact_sheet() -> RgbImage {
+    picture::stack(&SHEETS.each_ref().map(|s| sheet(s).image))
+}
+
+/// The exposing pictures of every card, for the page, named apart from the cases that are `taken`.
+#[must_use]
+pub fn views(taken: &[String]) -> Vec<PictureView> {
+    let view = |card: &Card| {
+        let Panels { published, repaired, .. } = versions(card)?;
+        let is_taken = taken.iter().any(|name| name == card.name);
+        Some(PictureView {
+            name: format!("{}{}", card.name, if is_taken { " picture" } else { "" }),
+            chapter: chapter_of_source(card.source),
+            about: format!("{}: {}; cure: {}", card.source, card.fault, card.cure),
+            command: format!("rasterproof specimens --specimen {}", card.name),
+            layers: vec![
+                PictureLayer::new("published", &picture::of_frame(&published)),
+                PictureLayer::new("repaired", &picture::of_frame(&repaired)),
+            ],
+        })
+    };
+    CARDS.iter().filter_map(view).collect()
+}
+
+fn beside(strips: &[panels::Sheet]) -> RgbImage {
+    let height = strips.iter().map(|strip| strip.image.height()).max().unwrap_or(1);
+    let mut row = RgbImage::from_pixel(2 * STRIP, height, WHITE);
+    for (i, strip) in (0..).zip(strips) {
+        imageops::replace(&mut row, &strip.image, i * i64::from(STRIP), 0);
+    }
+    row
+}
+
+/// What the colours of the panels mean, in rows that fit a width; of values those that occur.
+fn legend(width: u32, shown: &[Panels]) -> RgbImage {
+    let values = || shown.iter().filter(|panels| panels.has_values);
+    let occurs = |colour: Colour| {
+        let images = values().flat_map(|panels| [&panels.published, &panels.repaired]);
+        images.flat_map(Frame::rows).any(|(_, row)| row.contains(&colour))
+    };
+    let hits = [
+        (vec![AGREES], "right"),
+        (vec![MISSING], "missing"),
+        (vec![EXTRA], "extra"),
+        (vec![TWICE], "drawn twice"),
+        (vec![WRONG], "drawn, but not alike"),
+        (vec![EDGE], "outline"),
+        (vec![SAMPLE], "sample"),
+    ];
+    let shades = [0.0, 0.25, 0.5, 0.75, 1.0].map(|v| Rgb(shade(v)));
+    let values = [
+        (values().next().is_some(), shades.to_vec(), "values from 0 to 1"),
+        (occurs(BEYOND), vec![Rgb(BEYOND)], "beyond the corners' values"),
+        (occurs(BLACK), vec![Rgb(BLACK)], "not a number"),
+    ];
+    let values =
+        values.into_iter().filter_map(|(occurs, colours, text)| occurs.then_some((colours, text)));
+    // Each entry of a row: where it begins, its colours, its words.
+    type Entry<'a> = (u32, Vec<Rgb<u8>>, &'a str);
+    let mut rows: Vec<Vec<Entry>> = Vec::new();
+    for entries in [hits.to_vec(), values.collect()] {
+        let mut left = width;
+        for (colours, text) in entries {
+            let wide = 16 * colours.len() as u32 + lettering::width(text, Size::Small);
+            if left + wide + GAP > width {
+                rows.push(Vec::new());
+                left = GAP;
+            }
+            rows.last_mut().into_iter().for_each(|row| row.push((left, colours.clone(), text)));
+            left += wide + 24;
+        }
+    }
+    let mut image = RgbImage::from_pixel(width, 4 + 20 * rows.len() as u32, WHITE);
+    for (top, row) in (4..).step_by(20).zip(rows) {
+        for (left, colours, text) in row {
+            let words = left + 16 * colours.len() as u32;
+            for (left, colour) in (left..).step_by(16).zip(colours) {
+                for (x, y) in (0..12).flat_map(|x| (0..12).map(move |y| (x, y))) {
+                    let is_border = x % 11 == 0 || y % 11 == 0;
+                    let shown = match colour {
+                        // A line, and a dot.
+                        EDGE if y != 6 => WHITE,
+                        SAMPLE if !(5..7).contains(&x) || !(5..7).contains(&y) => WHITE,
+                        EDGE | SAMPLE => colour,
+                        _ if is_border => BORDER,
+                        _ => colour,
+                    };
+                    image.put_pixel(left + x, top + y, shown);
+                }
+            }
+            write(&mut image, (i64::from(words), i64::from(top) - 2), text, Size::Small, INK);
+        }
+    }
+    image
+}
+
+/// A card alone: its strip over the legend.
+#[must_use]
+pub fn alone(card: &Card) -> panels::Sheet {
+    let panels::Sheet { image, panels } = strip(card);
+    let shown: Vec<_> = versions(card).into_iter().collect();
+    panels::Sheet { image: picture::stack(&[image, legend(STRIP, &shown)]), panels }
+}
+
+/// The strip of a card.
+fn strip(card: &Card) -> panels::Sheet {
+    let Some(panels) = versions(card) else {
+        return panels::Sheet { image: RgbImage::new(1, 1), panels: Vec::new() };
+    };
+    let bounds = panels.published.bounds();
+    let zoom = ((PANEL - 1) / bounds.width().max(bounds.height())).max(1);
+    let height = bounds.height() * zoom + 1;
+    // The fault and its cure, as many lines as they need.
+    let room = STRIP - 2 * GAP;
+    let mut words: Vec<_> =
+        lettering::wrapped(card.fault, Size::Small, room).into_iter().map(|l| (l, INK)).collect();
+    let cure = format!("cure: {}", card.cure);
+    words.extend(lettering::wrapped(&cure, Size::Small, room).into_iter().map(|l| (l, FAINT)));
+    let head = 26 + 16 * (words.len() as u32 + 1) + 4;
+    let mut image = RgbImage::from_pixel(STRIP, head + height + 2 * GAP, WHITE);
+    let left = i64::from(GAP);
+    let name = write(&mut image, (left, 4), card.name, Size::Heading, INK);
+    write(&mut image, (left + i64::from(name + GAP), 6), card.source, Size::Small, FAINT);
+    for ((text, ink), top) in words.iter().zip((26..).step_by(16)) {
+        write(&mut image, (left, top), text, Size::Small, *ink);
+    }
+    let difference = difference(&panels);
+    let all = [
+        ("published", &panels.published),
+        ("repaired", &panels.repaired),
+        ("difference", &difference),
+    ];
+    let mut places = Vec::new();
+    for (i, (title, picture)) in (0u32..).zip(all) {
+        let left = GAP + i * (PANEL + GAP);
+        write(&mut image, (i64::from(left), i64::from(head) - 17), title, Size::Small, FAINT);
+        let panel = enlarged(picture, zoom, &panels);
+        imageops::replace(&mut image, &panel, left.into(), head.into());
+        let name = format!("{}, {title}", card.name);
+        places.push(panels::Panel { name, at: [left, head], zoom, shown: bounds });
+    }
+    panels::Sheet { image, panels: places }
+}
+
+/// Each pixel a square, the outline and the samples over it.
+fn enlarged(picture: &Image, zoom: u32, panels: &Panels) -> RgbImage {
+    let bounds = picture.bounds();
+    let (width, height) = (bounds.width() * zoom + 1, bounds.height() * zoom + 1);
+    let middle = |offset: u32| zoom >= 8 && offset == zoom / 2;
+    let mut image = RgbImage::from_fn(width, height, |x, y| {
+        let (x_px, y_px) = (bounds.x0 + (x / zoom) as i32, bounds.y0 + (y / zoom) as i32);
+        if x == 0 || y == 0 || x + 1 == width || y + 1 == height {
+            BORDER
+        } else if zoom >= 6 && (x % zoom == 0 || y % zoom == 0) {
+            GRID
+        } else if panels.has_samples && middle(x % zoom) && middle(y % zoom) {
+            SAMPLE
+        } else {
+            Rgb(picture.get(x_px, y_px).unwrap_or_default())
+        }
+    });
+    let origin = DVec2::new(bounds.x0.into(), bounds.y0.into());
+    for segment in &panels.outline {
+        // Saturating: a corner far outside stays far outside.
+        let ends = segment.map(|p| ((p - origin) * f64::from(zoom)).floor());
+        let ends = ends.map(|p| PixelPoint::new(p.x as i32, p.y as i32));
+        line(ends, PixelRect::window(width, height), |x, y| image.put_pixel(x, y, EDGE));
+    }
+    image
+}
+
+/// Red missing, orange extra, violet twice, blue drawn by both but not alike, grey the same.
+fn difference(panels: &Panels) -> Image {
+    let bounds = panels.published.bounds();
+    let mut image = Frame::new(bounds, BACKGROUND.0);
+    for y in bounds.y0..bounds.y1 {
+        for x in bounds.x0..bounds.x1 {
+            let [published, repaired] = [&panels.published, &panels.repaired]
+                .map(|image| image.get(x, y).unwrap_or_default());
+            let colour = match (published, repaired) {
+                (p, r) if p == r && r == panels.background => BACKGROUND,
+                (p, r) if p == r => AGREES,
+                (p, _) if p == panels.background => MISSING,
+                (p, _) if p == TWICE.0 => TWICE,
+                (_, r) if r == panels.background => EXTRA,
+                _ => WRONG,
+            };
+            image.span_mut(y, x, x + 1)[0] = colour.0;
+        }
+    }
+    image
+}
+
+fn versions(card: &Card) -> Option<Panels> {
+    let specimen = engines::find(card.name).and_then(|entry| entry.specimen);
+    Some(match (&card.exhibit, specimen) {
+        (Exhibit::Scene(_, draw), _) => Panels {
+            published: draw(Version::Published, Setting::Exposing),
+            repaired: draw(Version::Repaired, Setting::Exposing),
+            background: BLACK,
+            outline: Vec::new(),
+            has_samples: false,
+            has_values: false,
+        },
+        (Exhibit::Triangles([case, _]), Some(Specimen::Triangle(specimen))) => {
+            triangle_panels(specimen, case)
+        }
+        (Exhibit::Lines([case, _]), Some(Specimen::Line(specimen))) => {
+            line_panels(specimen, &line_case(case))?
+        }
+        _ => return None,
+    })
+}
+
+/// Hits as colours.
+fn hits_image(hits: &Coverage) -> Image {
+    let bounds = hits.bounds();
+    let mut image = Frame::new(bounds, BACKGROUND.0);
+    for (y, row) in hits.rows() {
+        for (x, &hits) in (bounds.x0..).zip(row) {
+            image.span_mut(y, x, x + 1)[0] = match hits {
+                0 => BACKGROUND.0,
+                1 => AGREES.0,
+                _ => TWICE.0,
+            };
+        }
+    }
+    image
+}
+
+fn line_panels(specimen: LineSpecimen, case: &Case) -> Option<Panels> {
+    let Shape::Lines(lines) = &case.shape else { return None };
+    let mut truth = Coverage::new(case.window, 0);
+    Oracle.draw(&lines[0], case.window, |f| truth.hit(f.y_px, f.x_px, f.x_px + 1));
+    let hits = specimen_line_coverage(specimen, &lines[0], case.window);
+    let centre = |end: &LineEnd<DVec2>| DVec2::new(end.pixel.x.into(), end.pixel.y.into()) + 0.5;
+    Some(Panels {
+        published: hits_image(&hits.unwrap_or_else(|_| Coverage::new(case.window, 0))),
+        repaired: hits_image(&truth),
+        background: BACKGROUND.0,
+        outline: vec![[centre(&lines[0].ends[0]), centre(&lines[0].ends[1])]],
+        has_samples: false,
+        has_values: false,
+    })
+}
+
+fn triangle_panels(specimen: TriangleSpecimen, case: &TriangleCase) -> Panels {
+    let window = PixelRect::window(case.side_px, case.side_px);
+    let triangles = real_triangles(case);
+    let shows_values = case.values[0] != case.values[1] || case.values[1] != case.values[2];
+    let has_values = shows_values && specimen.has_values();
+    let (published, repaired) = if has_values {
+        value_images(specimen, &triangles, window)
+    } else {
+        let hits = specimen_coverage(specimen, &triangles, window);
+        let hits = hits.unwrap_or_else(|_| Coverage::new(window, 0));
+        (hits_image(&hits), hits_image(&free_truth(&triangles, window)))
+    };
+    let outline = triangles
+        .iter()
+        .flat_map(|t| [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]].map(|s| s.map(|v| v.position_px)))
+        .collect();
+    Panels { published, repaired, background: BACKGROUND.0, outline, has_samples: true, has_values }
+}
+
+/// Values as colours: blue at 0, through white, to red at 1; green beyond either; black for what is
+/// no number.
+fn shade(value: f64) -> Colour {
+    let part = |v: f64| (v * 255.0).round().clamp(0.0, 255.0) as u8;
+    match value {
+        v if !v.is_finite() => BLACK,
+        v if !(-0.02..=1.02).contains(&v) => BEYOND,
+        v if v < 0.5 => [part(0.2 + 1.6 * v), part(0.2 + 1.6 * v), 255],
+        v => [255, part(1.8 - 1.6 * v), part(1.8 - 1.6 * v)],
+    }
+}
+
+/// The attribute, or the depth stretched so that the corners' range is 0 to 1, in colours.
+fn value_images(
+    specimen: TriangleSpecimen,
+    triangles: &[RealTriangle],
+    window: PixelRect,
+) -> (Image, Image) {
+    let by_depth = matches!(
+        specimen,
+        TriangleSpecimen::BookChapter6
+            | TriangleSpecimen::BookChapter7
+            | TriangleSpecimen::BookChapter11Fixed
+    );
+    let depths = triangles.iter().flatten().map(|v| specimen.depth_of(v.depth, v.w));
+    let low = depths.clone().fold(f64::INFINITY, f64::min);
+    let high = depths.fold(f64::NEG_INFINITY, f64::max);
+    let shown = |f: &Fragment<DVec2>| {
+        shade(if by_depth { (f.depth - low) / (high - low) } else { f.varying.x })
+    };
+    let [mut published, mut repaired] =
+        [(); 2].map(|()| -> Image { Frame::new(window, BACKGROUND.0) });
+    let put = |image: &mut Image, f: &Fragment<DVec2>| {
+        image.span_mut(f.y_px, f.x_px, f.x_px + 1)[0] = shown(f);
+    };
+    for triangle in triangles {
+        // What is refused stays empty.
+        let _ = specimen.fragments(triangle, window, &mut |f| put(&mut published, &f));
+        let Some(mut of_depth) = on_lattice(triangle) else { continue };
+        for v in &mut of_depth.vertices {
+            let depth = specimen.depth_of(v.depth, 1.0 / v.inv_w);
+            // Chapter 6 compares w, which is an attribute and not linear on the screen.
+            if specimen == TriangleSpecimen::BookChapter6 {
+                v.varying = DVec2::splat(depth);
+            }
+            v.depth = depth;
+        }
+        EdgeFunction.fragments(&of_depth, window, |mut f| {
+            if specimen == TriangleSpecimen::BookChapter6 {
+                f.depth = f.varying.x;
+            }
+            put(&mut repaired, &f);
+        });
+    }
+    (published, repaired)
+}

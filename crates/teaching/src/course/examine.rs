@@ -1,0 +1,208 @@
+//! A step asked of a program: cases, the first that fails made small, and what was said about it.
+
+use std::cell::RefCell;
+use std::time::{Duration, Instant};
+
+use super::{Exercise, Step};
+use rasterproof_judge::ask::{Answer, Ask, Misbehaviour, Question, show};
+use rasterproof_judge::check::{Check, Truth, expected_answer};
+use rasterproof_judge::declared::Declared;
+use rasterproof_judge::finding::Finding;
+use rasterproof_judge::pictured::{Pictured, pictured};
+use rasterproof_judge::shrink::smaller;
+use rasterproof_judge::{adapt_case, run};
+use rasterproof_verify::cases::{Case, Shape};
+
+/// How long and how much.
+#[derive(Clone, Copy, Debug)]
+pub struct Amount {
+    /// Cases of each family.
+    pub cases: u64,
+    /// Decides every case.
+    pub seed: u64,
+    /// No new family is begun after this.
+    pub end: Instant,
+    /// How long the smallest failing case is looked for.
+    pub patience: Duration,
+}
+
+/// What came of a step.
+#[derive(Debug, Default)]
+pub struct Outcome {
+    /// Cases that were judged.
+    pub cases: u64,
+    /// Cases with anything wrong.
+    pub wrong: u64,
+    /// Whether the time was up before everything was asked.
+    pub out_of_time: bool,
+    /// The first failing case, shrunk.
+    pub failure: Option<Failure>,
+}
+
+impl Outcome {
+    /// Whether the step is passed: everything was asked, and all of it was right.
+    #[must_use]
+    pub fn passes(&self) -> bool {
+        self.cases > 0 && self.wrong == 0 && !self.out_of_time
+    }
+}
+
+/// A failing case, shrunk.
+#[derive(Debug)]
+pub struct Failure {
+    /// The family it was found in, and its number there.
+    pub found: String,
+    /// What is wrong with it.
+    pub what: String,
+    /// Requests, answers and expected answers, as lines of the protocol.
+    pub lines: Vec<[String; 3]>,
+    /// What was drawn, and what was expected, where there are both.
+    pub picture: Option<Pictured>,
+}
+
+/// A case that fails, and the exercise it belongs to.
+struct Failing<'a> {
+    exercise: &'a Exercise,
+    found: String,
+    case: Case,
+    truth: Truth,
+}
+
+/// Asks all exercises of a step. What the program says of its rule, its grid and its range does not
+/// count here: the course has one convention.
+pub fn examine(program: &mut dyn Ask, step: &Step, amount: &Amount) -> Outcome {
+    let mut outcome = Outcome::default();
+    let mut failing = None;
+    let mut deaths = run::MOST_DEATHS;
+    for exercise in step.exercises {
+        for family in exercise.families {
+            if Instant::now() >= amount.end {
+                outcome.out_of_time = true;
+            }
+            if outcome.out_of_time || deaths == 0 {
+                break;
+            }
+            let first = ask_family(program, exercise, family, amount, &mut deaths, &mut outcome);
+            failing = failing.or(first);
+        }
+    }
+    outcome.failure = failing.map(|failing| shrunk(program, failing, amount.patience));
+    outcome
+}
+
+/// Asks the cases of a family; the first that fails.
+fn ask_family<'a>(
+    program: &mut dyn Ask,
+    exercise: &'a Exercise,
+    name: &str,
+    amount: &Amount,
+    deaths: &mut u64,
+    outcome: &mut Outcome,
+) -> Option<Failing<'a>> {
+    let check = exercise.check;
+    let truth = truth(exercise);
+    let family = adapt_case::families(&[name.to_owned()])[0];
+    let mut cases = Vec::new();
+    let mut questions = Vec::new();
+    for index in 0..amount.cases {
+        let case = adapt_case::put(family.case(amount.seed, index), &truth.declared);
+        let Some(case) = (exercise.prepare)(case).filter(|case| fits(check, case)) else {
+            continue;
+        };
+        let start = questions.len();
+        check.questions(&case, &truth, &mut questions);
+        cases.push((index, case, start..questions.len()));
+    }
+    let answers = program.ask(&questions, *deaths);
+    let died = answers.iter().filter(|a| a.is_death()).count() as u64;
+    *deaths = deaths.saturating_sub(died);
+    let mut first = None;
+    for (index, case, range) in cases {
+        // Where the program was given up, the rest of the answers is not there.
+        let Some(here) = answers.get(range.start..range.end.min(answers.len())) else { break };
+        let finding = judge(check, &case, here, range.len(), &truth);
+        outcome.cases += 1;
+        outcome.wrong += u64::from(finding.is_wrong());
+        if finding.is_wrong() && first.is_none() {
+            first = Some((format!("{name} #{index}"), case));
+        }
+    }
+    first.map(|(found, case)| Failing { exercise, found, case, truth })
+}
+
+/// What a program is judged by: the course's convention, and no limit that it declares.
+fn truth(exercise: &Exercise) -> Truth {
+    let mut declared = Declared::default();
+    exercise.convention.split_whitespace().for_each(|word| declared.hear(word));
+    Truth::of(&declared)
+}
+
+/// A mesh has to be one to be asked for its holes.
+fn fits(check: Check, case: &Case) -> bool {
+    match &case.shape {
+        Shape::Triangles { disjoint, .. } => check != Check::Watertight || *disjoint,
+        Shape::Lines(_) => true,
+    }
+}
+
+fn judge(check: Check, case: &Case, answers: &[Answer], asked: usize, truth: &Truth) -> Finding {
+    if answers.len() < asked {
+        Check::judge_deaths(answers)
+    } else {
+        check.judge(case, answers, truth)
+    }
+}
+
+fn shrunk(program: &mut dyn Ask, failing: Failing<'_>, patience: Duration) -> Failure {
+    let Failing { exercise, found, case, truth } = failing;
+    let check = exercise.check;
+    let program = RefCell::new(program);
+    let ask = |case: &Case| {
+        let mut questions = Vec::new();
+        check.questions(case, &truth, &mut questions);
+        let answers = program.borrow_mut().ask(&questions, run::MOST_DEATHS);
+        let finding = judge(check, case, &answers, questions.len(), &truth);
+        (questions, answers, finding)
+    };
+    let first = ask(&case).2;
+    let is_slow = |m: &Misbehaviour| matches!(m, Misbehaviour::Hangs(_) | Misbehaviour::Late(..));
+    let start = Instant::now();
+    // What takes long to go wrong is shown as it is.
+    let case = if !first.is_wrong() || first.died.iter().any(|(_, m)| is_slow(m)) {
+        case
+    } else {
+        smaller(check, case, |smaller| {
+            let smaller = adapt_case::put(smaller.clone(), &truth.declared);
+            start.elapsed() < patience
+                && adapt_case::holds(&smaller, &truth.declared)
+                && fits(check, &smaller)
+                && (exercise.prepare)(smaller.clone()).as_ref() == Some(&smaller)
+                && ask(&smaller).2.is_wrong()
+        })
+    };
+    let (questions, answers, finding) = ask(&case);
+    let what = if finding.is_wrong() {
+        finding.describe(check)
+    } else {
+        "wrong at first, right when asked again".to_owned()
+    };
+    let picture = pictured(check, &case, &answers, &truth);
+    let line = |(question, answer): (&Question, &Answer)| {
+        let expected = expected_answer(question, &truth).filter(|_| is_one_by_one(check));
+        let expected = expected.map_or_else(String::new, |e| show(&e, 1));
+        [question.text(1), show(answer, 1), expected]
+    };
+    let lines = questions.iter().zip(&answers).map(line).collect();
+    Failure { found, what, lines, picture }
+}
+
+/// Whether each answer is compared with an expected one, not with others.
+fn is_one_by_one(check: Check) -> bool {
+    matches!(check, Check::Coverage | Check::Line | Check::Values | Check::Depth | Check::Near)
+}
+
+/// The last line of a program's standard error, if it wrote any.
+#[must_use]
+pub fn complaint(program: &dyn Ask) -> Option<String> {
+    program.complaints().pop()
+}

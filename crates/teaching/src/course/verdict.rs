@@ -1,0 +1,38 @@
+//! How a step came out, for people.
+
+use super::examine::Outcome;
+use super::{Step, number};
+use rasterproof_report::judge_text;
+
+/// How a step came out, with its smallest failing case.
+#[must_use]
+pub fn text(step: &Step, outcome: &Outcome) -> String {
+    let (number, title) = (number(step), step.title);
+    let Outcome { cases, wrong, .. } = outcome;
+    if outcome.passes() {
+        return format!("step {number}, {title}: PASSED, {cases} cases\n");
+    }
+    let late = if outcome.out_of_time { ", and the time was up" } else { "" };
+    let mut out =
+        format!("step {number}, {title}: NOT YET, wrong in {wrong} of {cases} cases{late}\n");
+    let Some(failure) = &outcome.failure else { return out };
+    out +=
+        &indented(&format!("smallest found: {} (from {}, shrunk)", failure.what, failure.found), 2);
+    for [request, answer, expected] in failure.lines.iter().take(2) {
+        for (what, line) in [("request:", request), ("answer:", answer), ("expected:", expected)] {
+            if !line.is_empty() {
+                out += &indented(&format!("{what:<9} {line}"), 2);
+            }
+        }
+    }
+    if let Some(picture) = &failure.picture {
+        judge_text::picture(&mut out, "yours", picture);
+    }
+    out
+}
+
+/// A line, indented.
+#[must_use]
+pub fn indented(text: &str, indent: usize) -> String {
+    format!("{:indent$}{}\n", "", text.trim_end())
+}

@@ -1,0 +1,134 @@
+//! Exercises as text: the last section of a page, and what the terminal shows.
+
+use super::answer::letter;
+use super::{Chapter, Exercise, Language, Solution};
+use rasterproof_report::ascii;
+
+/// Columns of a page's English text; Chinese is not broken, for a line's end would show as a blank.
+const PAGE_COLUMNS: usize = 130;
+/// Columns of the terminal's text.
+pub const TERMINAL_COLUMNS: usize = 96;
+
+/// The headings of the sections that hold the exercises.
+pub const HEADINGS: [&str; 2] = ["## Predict, then check", "## 先预测，再检验"];
+
+/// The section of a chapter's page, from its heading to the page's end.
+#[must_use]
+pub fn section(chapter: &Chapter, language: Language) -> String {
+    let word = chapter.word();
+    let (ask, extra) = match language {
+        Language::English => ("asks these in the terminal and checks what you answer.", ""),
+        Language::Chinese => ("在终端里提出这些问题，并检验你的回答。", " --language zh"),
+    };
+    let intro = format!("`cargo run --release -- quiz {word}{extra}` {ask}");
+    let solutions: Vec<_> = chapter.exercises.iter().map(Exercise::solution).collect();
+    let axes = match language {
+        Language::English => {
+            " In the grids columns go right and rows down, both from 0; `#` is drawn, `.` is not, `-` is missing, `+` is \
+             too many, `2` is drawn twice."
+        }
+        Language::Chinese => {
+            "网格里列向右、行向下，都从 0 数起；`#` 画了，`.` 没画，`-` 缺失，`+` 多余，`2` 画了两次。"
+        }
+    };
+    let axes = if solutions.iter().any(|s| legend(s, language).is_some()) { axes } else { "" };
+    let mut out = HEADINGS[language as usize].to_owned() + "\n\n";
+    out += &format!("{}\n", wrapped(&format!("{intro}{axes}"), language));
+    for ((number, exercise), solution) in (1..).zip(chapter.exercises).zip(solutions) {
+        let question = exercise.question_with_form(language, &solution);
+        out += &format!("\n{}", wrapped(&format!("**{number}.** {question}"), language));
+        if !exercise.choices.is_empty() {
+            out += &format!("\n\n{}", wrapped(&choices(exercise, language).join(" · "), language));
+        }
+        let word = ["Answer", "答案"][language as usize];
+        let answer = solution.answer.text();
+        let why = exercise.explanation(language, &solution);
+        out += &format!("\n\n<details><summary>{word}</summary>\n\n");
+        out += &wrapped(&format!("**{answer}** {why}"), language);
+        let grids = grids(&solution);
+        if !grids.is_empty() {
+            out += &format!("\n\n```text\n{grids}```");
+        }
+        out += "\n\n</details>\n";
+    }
+    out
+}
+
+fn wrapped(text: &str, language: Language) -> String {
+    match language {
+        Language::English => wrap(text, PAGE_COLUMNS).join("\n"),
+        Language::Chinese => text.to_owned(),
+    }
+}
+
+/// The choices with their letters.
+#[must_use]
+pub fn choices(exercise: &Exercise, language: Language) -> Vec<String> {
+    let choices = exercise.choices.iter().enumerate();
+    choices.map(|(i, &text)| format!("{}) {}", letter(i), language.of(text))).collect()
+}
+
+/// The pixel grids of a solution beside each other, or nothing.
+#[must_use]
+pub fn grids(solution: &Solution) -> String {
+    ascii::side_by_side(&solution.grids, TERMINAL_COLUMNS)
+}
+
+/// What the marks of its grids mean, where there are other marks than drawn and not drawn.
+#[must_use]
+pub fn legend(solution: &Solution, language: Language) -> Option<&'static str> {
+    let mut rows = solution.grids.iter().flat_map(|(_, lines)| lines);
+    let is_needed = rows.any(|row| row.contains(['-', '+', '2']));
+    is_needed.then_some(match language {
+        Language::English => "# agrees, - missing, + too many, 2 twice",
+        Language::Chinese => "# 一致，- 缺失，+ 多余，2 画了两次",
+    })
+}
+
+/// Lines of at most that many columns, a Chinese character taking two. Lines break at blanks, and
+/// between Chinese characters, but not before a mark such as a full stop.
+#[must_use]
+pub fn wrap(text: &str, columns: usize) -> Vec<String> {
+    let (mut lines, mut line, mut word) = (Vec::new(), String::new(), String::new());
+    let mut flush = |line: &mut String, word: &mut String| {
+        if width(line) + width(word.trim_end()) > columns && !line.is_empty() {
+            lines.push(line.trim_end().to_owned());
+            line.clear();
+        }
+        line.push_str(word);
+        word.clear();
+    };
+    for c in text.chars() {
+        if is_wide(c) && !"，。、；：？！）”".contains(c) {
+            flush(&mut line, &mut word);
+        }
+        word.push(c);
+        if c == ' ' {
+            flush(&mut line, &mut word);
+        }
+    }
+    flush(&mut line, &mut word);
+    lines.push(line.trim_end().to_owned());
+    lines
+}
+
+fn is_wide(c: char) -> bool {
+    ('\u{2e80}'..='\u{ffe6}').contains(&c)
+}
+
+fn width(text: &str) -> usize {
+    text.chars().map(|c| 1 + usize::from(is_wide(c))).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_break_where_they_may() {
+        assert_eq!(wrap("one two three", 7), ["one two", "three"]);
+        assert_eq!(wrap("three", 3), ["three"]);
+        assert_eq!(wrap("像素在中心。答案是 12 个", 8), ["像素在中", "心。答案", "是 12 个"]);
+        assert_eq!(wrap("像素在中心，", 10), ["像素在中", "心，"]);
+    }
+}

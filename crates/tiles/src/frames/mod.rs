@@ -1,0 +1,345 @@
+//! Frames in tiles: a scene drawn 64 x 64 pixels at a time, each tile by one thread, without locks.
+//!
+//! Pieces are put into the bins of the tiles they touch, in parts of the scene (`bins`), and each tile
+//! reads the parts in order. Each tile owns its colours and depths, asks the tile engine for exact
+//! coverage of what is not hidden, and computes values sixteen pixels at a time from planes in
+//! f32 whose errors are bounded (`planes`). What a pixel gets depends on the pieces before it in the
+//! scene alone, so neither threads nor instruction sets leave a trace: operations are those that
+//! IEEE 754 rounds in one way, and none is fused.
+//!
+//! It is the fast way, not the exact one: coverage is that of the other engines, values lie within
+//! their bound of the exact ones, and so two surfaces nearer to each other than that may come out in
+//! either order. It does not plan, and of antialiasing it has four samples a pixel, shaded once.
+
+mod bins;
+mod buffer;
+pub mod planes;
+mod samples;
+mod shade;
+mod visible;
+
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, dispatch};
+use rayon::prelude::*;
+
+use crate::coverage::{self, CELL_PX, CoverList, Tiles};
+use rasterproof_core::frame::Frame;
+use rasterproof_core::grid::{PixelRect, SUBPIXELS};
+use rasterproof_core::triangle::Corners;
+use rasterproof_render::effects::geometry::{Outline, Whole};
+use rasterproof_render::effects::primitive::BadScene;
+use rasterproof_render::pipeline::multisample;
+use rasterproof_render::pipeline::target::Colour;
+use rasterproof_render::scene::Scene;
+
+use bins::{Bins, Placed, Tiling, reached};
+pub use buffer::SIDE_PX;
+use buffer::{Buffer, PAIR_PX, load_colours, store_colours};
+use planes::{Depth, Planes};
+use samples::{Masks, PLACES};
+use shade::Brush;
+use visible::{CELL, PAIR, Pencil, Stamp};
+
+/// How many samples a pixel has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Samples {
+    /// One, at the centre.
+    One,
+    /// Four at [`multisample::SAMPLES`], shaded once for each triangle.
+    Four,
+}
+
+/// Draws a scene into a picture of its own, on the threads of the pool that it is called in.
+///
+/// # Errors
+/// [`BadScene`] before anything is drawn.
+///
+/// # Panics
+/// If a side exceeds what a frame can have.
+pub fn render(
+    scene: &Scene,
+    width: u32,
+    height: u32,
+    samples: Samples,
+) -> Result<Frame<Colour>, BadScene> {
+    render_in(Tiles::default(), scene, width, height, samples)
+}
+
+/// As [`render`], in an instruction set.
+///
+/// # Errors
+/// As [`render`].
+pub fn render_in(
+    engine: Tiles,
+    scene: &Scene,
+    width: u32,
+    height: u32,
+    samples: Samples,
+) -> Result<Frame<Colour>, BadScene> {
+    // Zeros come from the machine when they are first touched, by the thread that draws there.
+    let mut picture = Frame::new(PixelRect::window(width, height), [0; 4]);
+    render_into(engine, scene, &mut picture, samples)?;
+    Ok(picture)
+}
+
+/// As [`render_in`], over a picture that is kept: every pixel is written, none is read.
+///
+/// # Errors
+/// As [`render`].
+///
+/// # Panics
+/// If the picture does not begin at column 0 and row 0.
+pub fn render_into(
+    engine: Tiles,
+    scene: &Scene,
+    picture: &mut Frame<Colour>,
+    samples: Samples,
+) -> Result<(), BadScene> {
+    let window = picture.bounds();
+    assert!(window.x0 == 0 && window.y0 == 0, "a picture that begins at {window:?}");
+    let whole = Whole::new(scene, window)?;
+    // From the centre to the farthest sample, 6/16 px.
+    let (planes, reach) = match samples {
+        Samples::One => (1, 0),
+        Samples::Four => (multisample::SAMPLES.len(), 6 * SUBPIXELS / 16),
+    };
+    let bins = Bins::new(&whole, Tiling::new(window, reach));
+    if window.is_empty() {
+        return Ok(());
+    }
+    let (pitch, height) = (picture.pitch(), window.height() as usize);
+    let lines = &mut picture.tail_mut(0, 0)[..pitch * height];
+    lines.par_chunks_mut(pitch * SIDE_PX as usize).enumerate().for_each(|(band, lines)| {
+        let canvases = canvases(&bins.tiles, band, lines, pitch);
+        canvases.into_par_iter().for_each_init(
+            || Drawing::new(&whole, &bins, engine, planes),
+            |drawing, canvas| drawing.draw(canvas),
+        );
+    });
+    Ok(())
+}
+
+/// A tile's part of the picture, which nobody else has.
+struct Canvas<'a> {
+    tile: usize,
+    lines: Vec<&'a mut [Colour]>,
+}
+
+/// The tiles of a band, a row of tiles, whose lines are given.
+fn canvases<'a>(
+    tiles: &Tiling,
+    band: usize,
+    lines: &'a mut [Colour],
+    pitch: usize,
+) -> Vec<Canvas<'a>> {
+    let numbers = band * tiles.across..(band + 1) * tiles.across;
+    let canvas = |tile| Canvas { tile, lines: Vec::with_capacity(SIDE_PX as usize) };
+    let mut canvases: Vec<Canvas<'a>> = numbers.map(canvas).collect();
+    for mut line in lines.chunks_mut(pitch) {
+        for canvas in &mut canvases {
+            let (part, rest) = line.split_at_mut(tiles.rect(canvas.tile).width() as usize);
+            canvas.lines.push(part);
+            line = rest;
+        }
+    }
+    canvases
+}
+
+/// Pieces that are looked at together: the tile engine sets them up in one go.
+const BATCH: usize = 64;
+
+/// The pieces of a tile on their way into it.
+struct Drawing<'a> {
+    whole: &'a Whole<'a>,
+    bins: &'a Bins,
+    engine: Tiles,
+    buffer: Buffer,
+    /// Those that were not hidden when they were looked at.
+    batch: Vec<&'a Outline>,
+    /// Where these are asked for.
+    corners: Vec<Corners>,
+    /// The piece that is drawn, as a place in the batch.
+    last: u32,
+    of_centres: Centres<'a>,
+    of_samples: OfSamples<'a>,
+}
+
+/// Of one sample a pixel: first numbers are drawn, then colours.
+struct Centres<'a> {
+    pencil: Pencil,
+    /// What was drawn, by their numbers less 1.
+    drawn: Vec<&'a Outline>,
+    stamps: Vec<Stamp>,
+}
+
+/// Of four samples a pixel: what the piece covers, and how it looks.
+struct OfSamples<'a> {
+    masks: Masks,
+    /// Nothing before the first piece.
+    brush: Option<(Brush<'a>, Option<Depth>)>,
+}
+
+impl<'a> Drawing<'a> {
+    fn new(whole: &'a Whole<'a>, bins: &'a Bins, engine: Tiles, planes: usize) -> Self {
+        let pencil = Pencil { number: 0, depth: None };
+        Self {
+            whole,
+            bins,
+            engine,
+            buffer: Buffer::new(planes),
+            batch: Vec::with_capacity(BATCH),
+            corners: Vec::with_capacity(BATCH * PLACES),
+            last: u32::MAX,
+            of_centres: Centres { pencil, drawn: Vec::new(), stamps: Vec::new() },
+            of_samples: OfSamples { masks: Masks::new(), brush: None },
+        }
+    }
+
+    /// Draws a tile.
+    fn draw(&mut self, canvas: Canvas<'_>) {
+        dispatch!(self.engine.level(), simd => self.tile(simd, canvas));
+    }
+
+    #[inline(always)]
+    fn tile<S: Simd>(&mut self, simd: S, canvas: Canvas<'_>) {
+        let bins = self.bins;
+        self.buffer.clear(bins.tiles.rect(canvas.tile), self.whole.background());
+        for Placed { outline, touched } in bins.of(canvas.tile) {
+            let blocks = self.buffer.blocks(*touched);
+            if self.whole.depth_test && self.buffer.hides(simd, &blocks, outline.nearest) {
+                continue;
+            }
+            self.buffer.draws(&blocks);
+            self.batch.push(outline);
+            if self.batch.len() == BATCH {
+                self.draw_batch();
+            }
+        }
+        self.draw_batch();
+        self.colour(simd);
+        for (y, line) in (0..).zip(canvas.lines) {
+            self.buffer.resolve(y, line);
+        }
+    }
+
+    fn draw_batch(&mut self) {
+        let (engine, tile) = (self.engine, self.buffer.rect);
+        let mut corners = std::mem::take(&mut self.corners);
+        let of_batch = self.batch.iter().map(|outline| outline.corners);
+        if self.buffer.planes.len() == 1 {
+            corners.extend(of_batch);
+            engine.cover_list(&corners, tile, &mut |run| {
+                dispatch!(engine.level(), simd => self.centres(simd, run));
+            });
+        } else {
+            corners.extend(of_batch.flat_map(samples::places));
+            engine.cover_list(&corners, tile, &mut |run| {
+                dispatch!(engine.level(), simd => self.samples(simd, run));
+            });
+            dispatch!(engine.level(), simd => self.finish(simd));
+        }
+        corners.clear();
+        self.corners = corners;
+        self.batch.clear();
+        self.last = u32::MAX;
+    }
+
+    /// Draws the numbers of pieces at the centres of pixels.
+    #[inline(always)]
+    fn centres<S: Simd>(&mut self, simd: S, run: &[coverage::Piece]) {
+        for covered in run {
+            if covered.triangle() != self.last {
+                self.last = covered.triangle();
+                let outline = self.batch[self.last as usize];
+                self.of_centres.drawn.push(outline);
+                let number = self.of_centres.drawn.len() as u32;
+                self.of_centres.pencil = Pencil { number, depth: self.depth(outline) };
+            }
+            let Centres { pencil, stamps, .. } = &mut self.of_centres;
+            pencil.piece(simd, covered, &mut self.buffer, stamps);
+        }
+    }
+
+    /// Colours what shows a number still.
+    #[inline(always)]
+    fn colour<S: Simd>(&mut self, simd: S) {
+        let stamps = std::mem::take(&mut self.of_centres.stamps);
+        let (mut last, mut brush) = (0, None);
+        let [x0, y0] = [self.buffer.rect.x0, self.buffer.rect.y0];
+        for &Stamp { number, left, top, is_cell } in &stamps {
+            let (left, top) = (i32::from(left), i32::from(top));
+            let sheet = &mut self.buffer.planes[0].colours;
+            let before = if is_cell {
+                load_colours::<S, CELL_PX>(simd, sheet, left, top)
+            } else {
+                load_colours::<S, PAIR_PX>(simd, sheet, left, top)
+            };
+            let seen = before.simd_eq(number);
+            let mask = seen.to_bitmask() as u32;
+            if mask == 0 {
+                continue;
+            }
+            if number != last {
+                last = number;
+                let outline = self.of_centres.drawn[number as usize - 1];
+                brush = Some(self.brush(simd, outline));
+            }
+            let Some(brush) = &brush else { continue };
+            let place = if is_cell { &CELL } else { &PAIR };
+            let colours = brush.stamp(simd, place, [x0 + left, y0 + top], mask);
+            let (sheet, after) = (&mut self.buffer.planes[0].colours, seen.select(colours, before));
+            if is_cell {
+                store_colours::<S, CELL_PX>(after, sheet, left, top);
+            } else {
+                store_colours::<S, PAIR_PX>(after, sheet, left, top);
+            }
+        }
+        self.of_centres.stamps = stamps;
+        self.of_centres.stamps.clear();
+        self.of_centres.drawn.clear();
+    }
+
+    /// Collects pieces at the samples, and draws each triangle when the next one comes.
+    #[inline(always)]
+    fn samples<S: Simd>(&mut self, simd: S, run: &[coverage::Piece]) {
+        for covered in run {
+            let (number, place) =
+                (covered.triangle() / PLACES as u32, covered.triangle() as usize % PLACES);
+            if number != self.last {
+                self.finish(simd);
+                self.last = number;
+                let outline = self.batch[number as usize];
+                self.of_samples.brush = Some((self.brush(simd, outline), self.depth(outline)));
+            }
+            self.of_samples.masks.add(covered, place, self.buffer.rect);
+        }
+    }
+
+    /// Draws what has been collected.
+    #[inline(always)]
+    fn finish<S: Simd>(&mut self, simd: S) {
+        let OfSamples { masks, brush } = &mut self.of_samples;
+        if let Some((brush, depth)) = brush.take() {
+            brush.samples(simd, depth.as_ref(), masks, &mut self.buffer);
+            masks.clear();
+        }
+    }
+
+    /// The depth of a piece, where it is tested.
+    #[inline(always)]
+    fn depth(&self, outline: &Outline) -> Option<Depth> {
+        let shown = reached(&outline.corners, self.whole.window);
+        self.whole.depth_test.then(|| Depth::of(&outline.corners, outline.depths, shown))
+    }
+
+    /// How a piece looks. Its planes begin at the first pixel of its box in the window, not of a tile,
+    /// so that tiles leave no trace.
+    #[inline(always)]
+    fn brush<S: Simd>(&self, simd: S, outline: &Outline) -> Brush<'a> {
+        let surface = self.whole.surface(outline);
+        let shown = reached(&outline.corners, self.whole.window);
+        let affine = self.whole.affine();
+        let planes = Planes::of(simd, &surface.corners, &surface.values, shown, affine);
+        Brush { skin: surface.skin, planes }
+    }
+}

@@ -1,0 +1,162 @@
+//! Which piece is seen at each pixel of a tile: depth tests, sixteen pixels at a time. They are coloured
+//! when all pieces have been drawn, so that what is covered later costs no colours.
+
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, f32x16, mask32x16, u32x16};
+
+use super::buffer::{Buffer, PAIR_PX, load_colours, load_depths, store_colours, store_depths};
+use super::planes::Depth;
+use crate::coverage::{CELL_PX, Piece, QUARTER_PX};
+
+/// Columns and rows of the pixels of a pair.
+pub(super) const PAIR: Place = Place {
+    columns: [0., 1., 2., 3., 4., 5., 6., 7., 0., 1., 2., 3., 4., 5., 6., 7.],
+    rows: [0., 0., 0., 0., 0., 0., 0., 0., 1., 1., 1., 1., 1., 1., 1., 1.],
+};
+/// Columns and rows of the pixels of a cell.
+pub(super) const CELL: Place = Place {
+    columns: [0., 1., 2., 3., 0., 1., 2., 3., 0., 1., 2., 3., 0., 1., 2., 3.],
+    rows: [0., 0., 0., 0., 1., 1., 1., 1., 2., 2., 2., 2., 3., 3., 3., 3.],
+};
+
+/// Where sixteen pixels lie, from the first.
+pub(super) struct Place {
+    columns: [f32; 16],
+    rows: [f32; 16],
+}
+
+/// Sixteen pixels of a tile, some of which showed a piece when it was drawn: a pair or a cell.
+#[derive(Clone, Copy)]
+pub(super) struct Stamp {
+    /// What stands in their place in the buffer of colours until they are coloured, from 1 on.
+    pub number: u32,
+    /// Column and row of the first one in the tile.
+    pub left: u8,
+    pub top: u8,
+    /// Whether it is a cell.
+    pub is_cell: bool,
+}
+
+/// How a piece is drawn before it is coloured.
+pub(super) struct Pencil {
+    /// As [`Stamp`] has it.
+    pub number: u32,
+    /// Nothing where depths are not tested.
+    pub depth: Option<Depth>,
+}
+
+impl Pencil {
+    /// Draws what is covered at the centres of pixels.
+    #[inline(always)]
+    pub fn piece<S: Simd>(
+        &self,
+        simd: S,
+        covered: &Piece,
+        buffer: &mut Buffer,
+        stamps: &mut Vec<Stamp>,
+    ) {
+        let rect = match covered {
+            Piece::Cell(cell) => {
+                let (at_px, mask) = ([cell.x_px, cell.y_px], u32::from(cell.pixels));
+                return self.pixels::<S, CELL_PX>(simd, at_px, mask, buffer, stamps);
+            }
+            Piece::Quarter(quarter) => {
+                let (at_px, rows) = ([quarter.x_px, quarter.y_px], quarter.tile().rows);
+                return self.rows(simd, at_px, &rows[..QUARTER_PX as usize], buffer, stamps);
+            }
+            Piece::Tile(tile) => {
+                return self.rows(simd, [tile.x_px, tile.y_px], &tile.rows, buffer, stamps);
+            }
+            Piece::Block(block) => block.rect,
+        };
+        for y_px in (rect.y0..rect.y1).step_by(2) {
+            let two = if y_px + 1 < rect.y1 { 0xffff } else { 0x00ff };
+            for x_px in (rect.x0..rect.x1).step_by(PAIR_PX as usize) {
+                let run = 0x0101 * (0xff >> (PAIR_PX - (rect.x1 - x_px).min(PAIR_PX)));
+                self.pixels::<S, PAIR_PX>(simd, [x_px, y_px], run & two, buffer, stamps);
+            }
+        }
+    }
+
+    /// Masks of rows from a pixel on, four at a time: as one cell where four columns hold what is covered, else as pairs, each
+    /// from the first column that is covered on.
+    #[inline(always)]
+    fn rows<S: Simd>(
+        &self,
+        simd: S,
+        [x0_px, y0_px]: [i32; 2],
+        rows: &[u16],
+        buffer: &mut Buffer,
+        stamps: &mut Vec<Stamp>,
+    ) {
+        for (y_px, rows) in (y0_px..).step_by(4).zip(rows.as_chunks::<4>().0) {
+            let [a, b, c, d] = rows.map(u32::from);
+            let any = a | b | c | d;
+            if any == 0 {
+                continue;
+            }
+            let left = any.trailing_zeros();
+            if any >> left < 1 << CELL_PX {
+                let mask = a >> left | b >> left << 4 | c >> left << 8 | d >> left << 12;
+                let at_px = [x0_px + left as i32, y_px];
+                self.pixels::<S, CELL_PX>(simd, at_px, mask, buffer, stamps);
+                continue;
+            }
+            for (y_px, mut above, mut below) in [(y_px, a, b), (y_px + 2, c, d)] {
+                let mut x_px = x0_px;
+                while above | below != 0 {
+                    let left = (above | below).trailing_zeros();
+                    (above, below, x_px) = (above >> left, below >> left, x_px + left as i32);
+                    let mask = above & 0xff | (below & 0xff) << PAIR_PX;
+                    self.pixels::<S, PAIR_PX>(simd, [x_px, y_px], mask, buffer, stamps);
+                    (above, below, x_px) = (above >> PAIR_PX, below >> PAIR_PX, x_px + PAIR_PX);
+                }
+            }
+        }
+    }
+
+    /// Pixels of a rectangle of sixteen, `SIDE` columns wide, from the one that is given on; bit i is
+    /// pixel i, row by row.
+    #[inline(always)]
+    fn pixels<S: Simd, const SIDE: i32>(
+        &self,
+        simd: S,
+        [x_px, y_px]: [i32; 2],
+        mask: u32,
+        buffer: &mut Buffer,
+        stamps: &mut Vec<Stamp>,
+    ) {
+        let (left, top) = (x_px - buffer.rect.x0, y_px - buffer.rect.y0);
+        let plane = &mut buffer.planes[0];
+        let mut visible = mask32x16::from_bitmask(simd, u64::from(mask));
+        if let Some(depth) = &self.depth {
+            let place = if SIDE == PAIR_PX { &PAIR } else { &CELL };
+            let (x, y) = beside(simd, place, depth.first_px, [x_px, y_px]);
+            let before = load_depths::<S, SIDE>(simd, &plane.depths, left, top);
+            let depth = depth.at(x, y);
+            visible &= depth.simd_lt(before);
+            if visible.to_bitmask() == 0 {
+                return;
+            }
+            store_depths::<S, SIDE>(visible.select(depth, before), &mut plane.depths, left, top);
+        }
+        let before = load_colours::<S, SIDE>(simd, &plane.colours, left, top);
+        let number = u32x16::splat(simd, self.number);
+        let colours = visible.select(number, before);
+        store_colours::<S, SIDE>(colours, &mut plane.colours, left, top);
+        let (left, top) = (left as u8, top as u8);
+        stamps.push(Stamp { number: self.number, left, top, is_cell: SIDE == CELL_PX });
+    }
+}
+
+/// Sixteen pixels of which the first is given, counted from another pixel.
+#[inline(always)]
+pub(super) fn beside<S: Simd>(
+    simd: S,
+    place: &Place,
+    [x0, y0]: [i32; 2],
+    [x_px, y_px]: [i32; 2],
+) -> (f32x16<S>, f32x16<S>) {
+    let x = f32x16::load_array_ref(simd, &place.columns) + (x_px - x0) as f32;
+    (x, f32x16::load_array_ref(simd, &place.rows) + (y_px - y0) as f32)
+}

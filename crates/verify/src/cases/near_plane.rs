@@ -1,0 +1,99 @@
+//! Families for stages beside the rasterizer: which of several triangles is seen, and what the near
+//! plane leaves of one. They are asked of programs that say they do these, and of no engine here.
+//!
+//! Numbers are few bits long, so that a request reads easily and f32 holds it exactly.
+
+use glam::DVec2;
+
+use super::{Case, Family, Rng, Shape, Triangle, sub};
+use rasterproof_core::grid::PixelRect;
+use rasterproof_core::triangle::{ScreenTriangle, ScreenVertex};
+
+/// Every family of stages.
+pub const FAMILIES: &[Family] = &[
+    Family { name: "depth-order", about: "triangles before and through each other", make: piles },
+    Family {
+        name: "near-plane",
+        about: "corners before, behind and in the near plane",
+        make: near,
+    },
+];
+
+/// Side of the window of a pile, in pixels.
+const SIDE_PX: u32 = 24;
+/// Subpixels of a quarter of a pixel, which corners are multiples of.
+const QUARTER: i64 = 64;
+
+/// Two to five triangles, each with a depth of its own or leaning through the others; some of them
+/// wholly behind, some drawn last and nearest.
+fn piles(rng: &mut Rng) -> Case {
+    let count = rng.int(2, 5);
+    let leans = rng.chance(2);
+    let side = i64::from(SIDE_PX) * 4;
+    let list = (0..count).map(|_| {
+        let plain = rng.int(0, 16);
+        let vertices = [(); 3].map(|()| ScreenVertex {
+            position: sub(rng.int(0, side) * QUARTER, rng.int(0, side) * QUARTER),
+            depth: if leans { rng.int(0, 16) } else { plain } as f64 / 16.0,
+            inv_w: 1.0,
+            varying: DVec2::ZERO,
+        });
+        ScreenTriangle { vertices }
+    });
+    let list = list.collect();
+    Case {
+        window: PixelRect::window(SIDE_PX, SIDE_PX),
+        shape: Shape::Triangles { list, disjoint: false },
+    }
+}
+
+/// A triangle of clip space, as [`clip_corners`] reads it: z + w is what the near plane asks.
+fn near(rng: &mut Rng) -> Case {
+    // Corners in the plane are what formulas with a division forget.
+    let in_plane = rng.chance(3).then(|| rng.int(0, 2));
+    // Some lie wholly behind it.
+    let [w_most, z_most] = if rng.chance(5) { [4, 0] } else { [12, 12] };
+    let mut number = 0;
+    let vertices = [(); 3].map(|()| {
+        let quarters = |rng: &mut Rng, low: i64, high: i64| rng.int(4 * low, 4 * high) as f64 / 4.0;
+        let position = sub(rng.int(-64, 64) * QUARTER, rng.int(-64, 64) * QUARTER);
+        let w = quarters(rng, -4, w_most);
+        let depth = if in_plane == Some(number) { -w } else { quarters(rng, -12, z_most) };
+        number += 1;
+        ScreenVertex { position, depth, inv_w: 1.0, varying: DVec2::new(w, 0.0) }
+    });
+    let list = vec![ScreenTriangle { vertices }];
+    Case {
+        window: PixelRect::window(SIDE_PX, SIDE_PX),
+        shape: Shape::Triangles { list, disjoint: true },
+    }
+}
+
+/// x, y, z, w in clip space of a case of `near-plane`, whose vertices keep w as their first attribute:
+/// a window position has no place for a w that is zero or less.
+#[must_use]
+pub fn clip_corners(triangle: &Triangle) -> [[f64; 4]; 3] {
+    triangle.vertices.each_ref().map(|v| {
+        let (x, y) = v.position.to_px();
+        [x, y, v.depth, v.varying.x]
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of the near plane: all, nothing, three and four corners left, and corners in the plane.
+    #[test]
+    fn the_near_plane_is_met_in_every_way() {
+        let mut behind = [0; 4];
+        let mut in_plane = 0;
+        for index in 0..400 {
+            let Shape::Triangles { list, .. } = FAMILIES[1].case(1, index).shape else { continue };
+            let sides = clip_corners(&list[0]).map(|[_, _, z, w]| z + w);
+            behind[sides.iter().filter(|s| **s < 0.0).count()] += 1;
+            in_plane += sides.iter().filter(|s| **s == 0.0).count();
+        }
+        assert!(behind.iter().all(|n| *n > 20) && in_plane > 100, "{behind:?} {in_plane}");
+    }
+}

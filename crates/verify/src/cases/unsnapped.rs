@@ -1,0 +1,434 @@
+//! Families of triangles whose corners are not on the lattice: any float is a position.
+//!
+//! The danger here is rounding. A sample decides wrongly where the error of a computed side or
+//! crossing exceeds its distance to the edge, so the families put edges through samples, exactly or
+//! but for the last bit, or make the terms of the computation differ wildly in size. Families `f32-`
+//! have corners that are exactly f32, as a vertex buffer would hold them; families `f64-` use all 53
+//! bits and exponents that f32 does not have.
+//!
+//! Only additions, multiplications and conversions are used, which round alike on every machine.
+
+#[doc(hidden)]
+pub mod shrink;
+
+use super::Rng;
+use rasterproof_core::arrays::Each as _;
+use rasterproof_core::grid::PixelRect;
+use rasterproof_core::triangle::FreeCorners;
+
+/// Something to draw without snapping, and the window to draw it in.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OffGridCase {
+    /// The pixels that are looked at.
+    pub window: PixelRect,
+    /// What is drawn.
+    pub triangles: Vec<FreeCorners>,
+    /// Whether the triangles tile a region around the window, so that every pixel of it must be hit
+    /// exactly once.
+    pub is_tiling: bool,
+}
+
+/// A way to make cases that share a danger.
+#[derive(Clone, Copy)]
+pub struct OffGridFamily {
+    /// Its name on the command line.
+    pub name: &'static str,
+    /// What it threatens, in a few words.
+    pub about: &'static str,
+    make: fn(&mut Rng) -> OffGridCase,
+}
+
+impl OffGridFamily {
+    /// The case number `index` of this family under `seed`.
+    #[must_use]
+    pub fn case(&self, seed: u64, index: u64) -> OffGridCase {
+        (self.make)(&mut Rng::new(self.name, seed, index))
+    }
+}
+
+/// Every family of triangles off the lattice.
+pub const FAMILIES: &[OffGridFamily] = &[
+    OffGridFamily { name: "f32-random", about: "anywhere in the window", make: random },
+    OffGridFamily { name: "f32-sliver", about: "collinear but for a few ulps", make: sliver },
+    OffGridFamily {
+        name: "f32-near-tie",
+        about: "an edge through a sample, an end moved by 1 ulp",
+        make: near_tie_f32,
+    },
+    OffGridFamily {
+        name: "f32-tie",
+        about: "dyadic fractions, edges exactly through samples",
+        make: tie,
+    },
+    OffGridFamily { name: "f32-fan", about: "closed fans around the whole window", make: fan },
+    OffGridFamily {
+        name: "f32-cut",
+        about: "the window cut in two along an edge through a sample",
+        make: cut,
+    },
+    OffGridFamily { name: "f32-tiny", about: "a few ulps around a sample", make: tiny },
+    OffGridFamily {
+        name: "f32-mixed",
+        about: "exponents from 2^-149 to 2^22 in one triangle",
+        make: mixed,
+    },
+    OffGridFamily {
+        name: "f32-denormal",
+        about: "a tie missed by a subnormal offset",
+        make: denormal_f32,
+    },
+    OffGridFamily {
+        name: "f32-far",
+        about: "offsets of 2^11, 2^14 and 2^22 px from the origin",
+        make: far,
+    },
+    OffGridFamily {
+        name: "f32-huge",
+        about: "ends far off, an edge past a sample",
+        make: huge_f32,
+    },
+    OffGridFamily {
+        name: "f64-near-tie",
+        about: "as f32-near-tie, by an ulp of f64",
+        make: near_tie_f64,
+    },
+    OffGridFamily { name: "f64-huge", about: "as f32-huge, by an ulp of f64", make: huge_f64 },
+    OffGridFamily {
+        name: "f64-denormal",
+        about: "a tie missed by 2^-300 down to 2^-1074",
+        make: denormal_f64,
+    },
+];
+
+/// Side of the usual window.
+const SIDE_PX: i64 = 16;
+
+type Point = [f64; 2];
+
+fn case(triangles: &[[Point; 3]], window: PixelRect, is_tiling: bool) -> OffGridCase {
+    let domain = -8_388_608.0..8_388_608.0;
+    debug_assert!(triangles.as_flattened().as_flattened().iter().all(|px| domain.contains(px)));
+    // What cannot be is skipped; the families below never leave the domain.
+    let triangles = triangles.iter().filter_map(|&corners| FreeCorners::new(corners).ok());
+    OffGridCase { window, triangles: triangles.collect(), is_tiling }
+}
+
+fn single(mut corners: [Point; 3], rng: &mut Rng) -> OffGridCase {
+    // Any corner first, either winding.
+    corners.rotate_left(rng.int(0, 2) as usize);
+    if rng.chance(2) {
+        corners.swap(0, 1);
+    }
+    case(&[corners], PixelRect::window(SIDE_PX as u32, SIDE_PX as u32), false)
+}
+
+/// Rounds to f32.
+fn f32_of(v: f64) -> f64 {
+    f64::from(v as f32)
+}
+
+fn coordinate(rng: &mut Rng, low: f64, high: f64) -> f64 {
+    f32_of(low + rng.unit() * (high - low))
+}
+
+fn anywhere(rng: &mut Rng) -> Point {
+    [(); 2].each(|()| coordinate(rng, -2.0, SIDE_PX as f64 + 2.0))
+}
+
+/// The centre of a pixel of the window.
+fn sample(rng: &mut Rng) -> Point {
+    [(); 2].each(|()| rng.int(0, SIDE_PX - 1) as f64 + 0.5)
+}
+
+/// `v` moved by `ulps` f32 numbers.
+fn nudge_f32(v: f64, ulps: i64) -> f64 {
+    let step = if ulps > 0 { f32::next_up } else { f32::next_down };
+    f64::from((0..ulps.abs()).fold(v as f32, |v, _| step(v)))
+}
+
+/// `v` moved by `ulps` f64 numbers.
+fn nudge_f64(v: f64, ulps: i64) -> f64 {
+    let step = if ulps > 0 { f64::next_up } else { f64::next_down };
+    (0..ulps.abs()).fold(v, |v, _| step(v))
+}
+
+fn random(rng: &mut Rng) -> OffGridCase {
+    let corners = [(); 3].each(|()| anywhere(rng));
+    single(corners, rng)
+}
+
+/// The line through two corners goes past a sample, and so does the third corner's side.
+fn sliver(rng: &mut Rng) -> OffGridCase {
+    let (a, s) = (anywhere(rng), sample(rng));
+    let b = [0, 1].each(|i| f32_of(2.0 * s[i] - a[i]));
+    let t = rng.unit() * 1.5 - 0.25;
+    // Rounding alone moves it off the line; sometimes more than that.
+    let reach = 1 << rng.int(0, 16);
+    let c = [0, 1].each(|i| {
+        let on_line = a[i] + (b[i] - a[i]) * t;
+        f32_of(on_line + rng.int(-reach, reach) as f64 / (1 << 22) as f64)
+    });
+    single([a, b, c], rng)
+}
+
+fn near_tie_f32(rng: &mut Rng) -> OffGridCase {
+    near_tie(rng, f32_of, nudge_f32, 12)
+}
+
+fn near_tie_f64(rng: &mut Rng) -> OffGridCase {
+    near_tie(rng, |v| v, nudge_f64, 40)
+}
+
+/// An edge through a sample, whose one end is then rounded or moved by an ulp. Half of the edges
+/// start on fractions of `bits` bits, where the tie before is exact and only the ulp decides.
+fn near_tie(
+    rng: &mut Rng,
+    round: fn(f64) -> f64,
+    nudge: fn(f64, i64) -> f64,
+    bits: u32,
+) -> OffGridCase {
+    let s = sample(rng);
+    let one = (1i64 << bits) as f64;
+    let fraction = |rng: &mut Rng| rng.int(-(4 << bits), 4 << bits) as f64 / one;
+    let (a, mut b) = if rng.chance(2) {
+        let d = [fraction(rng), fraction(rng)];
+        let (back, on) = (rng.int(1, 2) as f64, rng.int(1, 2) as f64);
+        ([0, 1].each(|i| s[i] - back * d[i]), [0, 1].each(|i| s[i] + on * d[i]))
+    } else {
+        let a = [(); 2].each(|()| round(rng.unit() * 16.0));
+        (a, [0, 1].each(|i| round(2.0 * s[i] - a[i])))
+    };
+    let axis = rng.int(0, 1) as usize;
+    b[axis] = nudge(b[axis], rng.int(-1, 1));
+    let c = [(); 2].each(|()| round(rng.unit() * 20.0 - 2.0));
+    single([a, b, c], rng)
+}
+
+fn tie(rng: &mut Rng) -> OffGridCase {
+    if rng.chance(3) {
+        let corners = [(); 3].each(|()| sample(rng));
+        return single(corners, rng);
+    }
+    // Both edges at c, or only one of them, go through samples.
+    let scale = (1i64 << rng.int(1, 10)) as f64;
+    let step = |rng: &mut Rng| {
+        [(); 2].each(|()| rng.int(-3 * scale as i64, 3 * scale as i64) as f64 / scale)
+    };
+    let (s, d) = (sample(rng), step(rng));
+    let beside = |k: f64| [0, 1].each(|i| s[i] + k * d[i]);
+    let (a, c) = (beside(-(rng.int(1, 3) as f64)), beside(rng.int(1, 3) as f64));
+    let b = if rng.chance(2) {
+        let other = sample(rng);
+        [0, 1].each(|i| 2.0 * other[i] - c[i])
+    } else {
+        anywhere(rng)
+    };
+    single([a, b, c], rng)
+}
+
+/// Spokes from a centre to points on a rectangle around the window, in order: every pixel of the
+/// window belongs to exactly one of the triangles.
+fn fan(rng: &mut Rng) -> OffGridCase {
+    let centre =
+        if rng.chance(2) { sample(rng) } else { [(); 2].each(|()| coordinate(rng, 1.0, 15.0)) };
+    let border = Border::around_window(rng);
+    let mut ring = Vec::new();
+    for side in 0..4 {
+        let mut along: Vec<f64> = (0..rng.int(0, 3)).map(|_| rng.unit()).collect();
+        along.sort_by(f64::total_cmp);
+        ring.push(border.corner(side));
+        ring.extend(along.into_iter().map(|t| border.point(side, t)));
+        if rng.chance(2) {
+            // A spoke as nearly as can be through a sample; in its place only where that is last.
+            let through = border.opposite(side, centre, sample(rng));
+            let last = ring[ring.len() - 1];
+            ring.extend(through.filter(|p| border.is_between(side, last, *p)));
+        }
+    }
+    let next = |i: usize| ring[(i + 1) % ring.len()];
+    let triangles: Vec<_> = (0..ring.len()).map(|i| [centre, ring[i], next(i)]).collect();
+    case(&triangles, PixelRect::window(SIDE_PX as u32, SIDE_PX as u32), true)
+}
+
+/// A rectangle around the window, cut from its top to its bottom by an edge past a sample; both
+/// parts are split on a diagonal. Every pixel of the window belongs to exactly one of the four.
+fn cut(rng: &mut Rng) -> OffGridCase {
+    let s = sample(rng);
+    let (border, above, below) = if rng.chance(2) {
+        // On whole pixels with a slope of n/64, the edge goes through the sample exactly.
+        let border = Border { left: -20.0, top: -1.0, right: 40.0, bottom: 18.0 };
+        let slope = rng.int(-64, 64) as f64 / 64.0;
+        let at = |y: f64| [s[0] + (y - s[1]) * slope, y];
+        let (above, below) = (at(border.top), at(border.bottom));
+        (border, above, below)
+    } else {
+        let border = Border::around_window(rng);
+        let above = [f32_of(s[0] + coordinate(rng, -1.0, 1.0)), border.top];
+        let below = border.opposite(2, above, s).unwrap_or([s[0], border.bottom]);
+        (border, above, below)
+    };
+    let below = [nudge_f32(below[0], rng.int(-1, 1)), below[1]];
+    let [top_left, top_right, bottom_right, bottom_left] = [0, 1, 2, 3].map(|i| border.corner(i));
+    let split = |rng: &mut Rng, [a, b, c, d]: [Point; 4]| {
+        if rng.chance(2) { [[a, b, c], [a, c, d]] } else { [[b, c, d], [b, d, a]] }
+    };
+    let left = split(rng, [top_left, above, below, bottom_left]);
+    let right = split(rng, [above, top_right, bottom_right, below]);
+    let triangles = [left[0], left[1], right[0], right[1]];
+    // Outside of the rectangle the parts would overlap.
+    let is_tiling = [above[0], below[0]].iter().all(|x| *x > border.left && *x < border.right);
+    case(&triangles, PixelRect::window(SIDE_PX as u32, SIDE_PX as u32), is_tiling)
+}
+
+/// A rectangle of f32 coordinates that holds all centres of the window inside.
+struct Border {
+    left: f64,
+    top: f64,
+    right: f64,
+    bottom: f64,
+}
+
+impl Border {
+    fn around_window(rng: &mut Rng) -> Self {
+        let side = SIDE_PX as f64;
+        Self {
+            left: -coordinate(rng, 0.0, 3.0),
+            top: -coordinate(rng, 0.0, 3.0),
+            right: coordinate(rng, side, side + 3.0),
+            bottom: coordinate(rng, side, side + 3.0),
+        }
+    }
+
+    /// Where side 0 (top), 1 (right), 2 (bottom) or 3 (left) starts, clockwise.
+    fn corner(&self, side: usize) -> Point {
+        match side {
+            0 => [self.left, self.top],
+            1 => [self.right, self.top],
+            2 => [self.right, self.bottom],
+            _ => [self.left, self.bottom],
+        }
+    }
+
+    /// The point a fraction `t` along a side.
+    fn point(&self, side: usize, t: f64) -> Point {
+        let (a, b) = (self.corner(side), self.corner((side + 1) % 4));
+        [0, 1].each(|i| f32_of(a[i] + (b[i] - a[i]) * t))
+    }
+
+    /// The f32 point nearest to where the ray from `from` through `s` meets the line of a side, if
+    /// it goes that way.
+    fn opposite(&self, side: usize, from: Point, s: Point) -> Option<Point> {
+        let along = side % 2;
+        let across = 1 - along;
+        let level = self.corner(side)[across];
+        let t = (level - from[across]) / (s[across] - from[across]);
+        let at = f32_of(from[along] + (s[along] - from[along]) * t);
+        let mut point = [level; 2];
+        point[along] = at;
+        (t > 0.0 && at.abs() < 1000.0).then_some(point)
+    }
+
+    /// Whether `p` on a side comes after `last` and before the side's end.
+    fn is_between(&self, side: usize, last: Point, p: Point) -> bool {
+        let along = side % 2;
+        let (last, p, end) = (last[along], p[along], self.corner((side + 1) % 4)[along]);
+        (last < p && p < end) || (last > p && p > end)
+    }
+}
+
+fn tiny(rng: &mut Rng) -> OffGridCase {
+    let s = sample(rng);
+    let reach = 1 << rng.int(0, 12);
+    let corners = [(); 3].each(|()| s.each(|v| nudge_f32_far(v, rng.int(-reach, reach))));
+    single(corners, rng)
+}
+
+/// As [`nudge_f32`], by any number of ulps of a positive number that stays positive.
+fn nudge_f32_far(v: f64, ulps: i64) -> f64 {
+    f64::from(f32::from_bits((i64::from((v as f32).to_bits()) + ulps) as u32))
+}
+
+fn mixed(rng: &mut Rng) -> OffGridCase {
+    let mut wild = || {
+        // Subnormal where the field is 0, below 2^23 up to the field 149.
+        let field = if rng.chance(2) { rng.int(118, 149) } else { rng.int(0, 149) } as u32;
+        let fraction = rng.int(0, (1 << 23) - 1) as u32;
+        let magnitude = f64::from(f32::from_bits(field << 23 | fraction));
+        if rng.chance(2) { -magnitude } else { magnitude }
+    };
+    let mut corners = [(); 3].each(|()| [wild(), wild()]);
+    if rng.chance(2) {
+        corners[0] = anywhere(rng);
+    }
+    single(corners, rng)
+}
+
+fn denormal_f32(rng: &mut Rng) -> OffGridCase {
+    denormal(rng, |rng| {
+        let bits = rng.int(1, 25);
+        f64::from(f32::from_bits(rng.int(1, 1 << bits) as u32))
+    })
+}
+
+fn denormal_f64(rng: &mut Rng) -> OffGridCase {
+    denormal(rng, |rng| {
+        let field = rng.int(0, 1023 - 300) as u64;
+        let bits = rng.int(1, 52);
+        f64::from_bits(field << 52 | rng.int(1, (1 << bits) - 1) as u64)
+    })
+}
+
+/// An edge from the origin through samples exactly, then one or more zeros replaced by something
+/// tiny of either sign.
+fn denormal(rng: &mut Rng, tiny: impl Fn(&mut Rng) -> f64) -> OffGridCase {
+    let offset = |rng: &mut Rng| match rng.int(0, 3) {
+        0 => 0.0,
+        1 => -tiny(rng),
+        _ => tiny(rng),
+    };
+    let origin = [offset(rng), offset(rng)];
+    // From the origin through (i + 1/2, j + 1/2) to a multiple of that.
+    let (i, j, k) = (rng.int(0, 4), rng.int(0, 4), rng.int(1, 4) as f64);
+    let through = [(i as f64 + 0.5) * k, (j as f64 + 0.5) * k];
+    let third = match rng.int(0, 3) {
+        0 => [offset(rng), coordinate(rng, -2.0, 10.0)],
+        1 => [coordinate(rng, -2.0, 10.0), offset(rng)],
+        2 => [offset(rng), offset(rng)],
+        _ => [coordinate(rng, -2.0, 10.0), coordinate(rng, -2.0, 10.0)],
+    };
+    let mut case = single([origin, through, third], rng);
+    case.window = PixelRect { x0: -1, y0: -1, x1: 7, y1: 7 };
+    case
+}
+
+fn far(rng: &mut Rng) -> OffGridCase {
+    let corners = if rng.chance(2) { near_tie_f32(rng) } else { random(rng) };
+    let mut offset = || {
+        let px = (1i64 << [0, 11, 14, 22][rng.int(0, 3) as usize]) as f64;
+        if rng.chance(2) { px } else { -px }
+    };
+    let (dx, dy) = (offset(), offset());
+    let moved = |corners: [Point; 3]| corners.each(|[x, y]| [f32_of(x + dx), f32_of(y + dy)]);
+    let triangles: Vec<_> = corners.triangles.iter().map(|t| moved(t.px())).collect();
+    let w = corners.window;
+    let (x, y) = (dx as i32, dy as i32);
+    let window = PixelRect { x0: w.x0 + x, y0: w.y0 + y, x1: w.x1 + x, y1: w.y1 + y };
+    case(&triangles, window, false)
+}
+
+fn huge_f32(rng: &mut Rng) -> OffGridCase {
+    huge(rng, f32_of, nudge_f32)
+}
+
+fn huge_f64(rng: &mut Rng) -> OffGridCase {
+    huge(rng, |v| v, nudge_f64)
+}
+
+fn huge(rng: &mut Rng, round: fn(f64) -> f64, nudge: fn(f64, i64) -> f64) -> OffGridCase {
+    let s = sample(rng);
+    let mut away = || round(rng.signed() * (1i64 << rng.int(5, 22)) as f64);
+    let (a, c) = ([away(), away()], [away(), away()]);
+    // The mirror image at a sample, but for an ulp.
+    let b = [0, 1].each(|i| nudge(round(2.0 * s[i] - a[i]), rng.int(-1, 1)));
+    single([a, b, c], rng)
+}

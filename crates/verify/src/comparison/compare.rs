@@ -1,0 +1,367 @@
+//! One case, several engines: who draws what the oracle draws?
+
+use glam::DVec2;
+
+use super::finding::{Finding, Tally, caught};
+use super::spans::{Covered, fragments_against};
+use super::tolerance::Tolerance;
+use super::truth::{Bounds, Truth, compare_on_line};
+use crate::cases::{Case, Line, Shape, Triangle};
+use crate::oracle::Oracle;
+use crate::oracle::coverage::samples_on_boundary;
+use rasterproof_core::arrays::Each as _;
+use rasterproof_core::contract::{DrawLine, Interpolate, Rasterize};
+use rasterproof_core::frame::Coverage;
+use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS};
+use rasterproof_core::triangle::{Corners, Fragment, ScreenTriangle, Span, Varying};
+
+/// What the oracle says of a case.
+#[derive(Clone, Debug, Default)]
+pub struct CaseFacts {
+    pub shapes: u64,
+    pub pixels: u64,
+    pub ties: u64,
+    pub sliver: bool,
+    pub overlap: u64,
+}
+
+/// Judges cases; a finding for each pair, in the order of [`Contest::pairs`].
+pub trait Contest: Sync {
+    fn pairs(&self) -> Vec<[String; 2]>;
+
+    /// Adds what is found about each pair to what is known about it.
+    fn judge(&self, case: &Case, known: Vec<Finding>) -> (CaseFacts, Vec<Finding>);
+
+    /// The findings of one case, where nothing is known before.
+    fn findings(&self, case: &Case) -> Vec<Finding> {
+        self.judge(case, vec![Finding::default(); self.pairs().len()]).1
+    }
+}
+
+/// Each engine against the oracle, then each against the next.
+fn pairs_of<'a>(names: impl Iterator<Item = &'a str>) -> Vec<[String; 2]> {
+    let names: Vec<String> = names.map(str::to_owned).collect();
+    let oracle = names.iter().map(|name| [name.clone(), "oracle".to_owned()]);
+    let each_other = names.windows(2).map(|two| [two[0].clone(), two[1].clone()]);
+    oracle.chain(each_other).collect()
+}
+
+/// An engine that is judged by its coverage alone.
+pub struct CoverageOnly<'a, R>(pub &'a R);
+
+impl<R: Rasterize> Rasterize for CoverageOnly<'_, R> {
+    fn cover(&self, corners: Corners, bounds: PixelRect, emit: impl FnMut(Span)) {
+        self.0.cover(corners, bounds, emit);
+    }
+}
+
+impl<R: Rasterize> Interpolate for CoverageOnly<'_, R> {
+    /// Never called: an engine without a tolerance is not asked for values.
+    fn fragments<V: Varying>(
+        &self,
+        _: &ScreenTriangle<V>,
+        _: PixelRect,
+        _: impl FnMut(Fragment<V>),
+    ) {
+    }
+}
+
+/// Rasterizers, with the bounds of their values where they have any.
+pub struct TriangleContest<'a, R> {
+    engines: &'a [(&'a str, R, Option<Tolerance>)],
+}
+
+impl<'a, R: Interpolate + Sync> TriangleContest<'a, R> {
+    pub fn new(engines: &'a [(&'a str, R, Option<Tolerance>)]) -> Self {
+        Self { engines }
+    }
+}
+
+impl<R: Interpolate + Sync> Contest for TriangleContest<'_, R> {
+    fn pairs(&self) -> Vec<[String; 2]> {
+        pairs_of(self.engines.iter().map(|(name, ..)| *name))
+    }
+
+    fn judge(&self, case: &Case, mut findings: Vec<Finding>) -> (CaseFacts, Vec<Finding>) {
+        let Shape::Triangles { list, disjoint } = &case.shape else {
+            return (CaseFacts::default(), findings);
+        };
+        // What is true. The oracle does not panic, and stays inside the window.
+        let truth = Covered::by(&Oracle, list, case.window);
+        let facts = CaseFacts {
+            shapes: list.len() as u64,
+            pixels: truth.as_ref().map_or(0, Covered::pixels),
+            ties: list.iter().map(|t| samples_on_boundary(&t.corners(), case.window)).sum(),
+            sliver: list.iter().any(|t| is_sliver(&t.corners())),
+            overlap: truth.as_ref().map_or(0, |truth| if *disjoint { truth.twice() } else { 0 }),
+        };
+
+        // Compare each engine with the truth, then with the next one.
+        let covered: Vec<_> = self
+            .engines
+            .iter()
+            .map(|(_, engine, _)| Covered::by(engine, list, case.window))
+            .collect();
+        let count = self.engines.len();
+        let (alone, each_other) = findings.split_at_mut(count);
+        for (finding, covered) in alone.iter_mut().zip(&covered) {
+            finding.cover(against(covered, &truth));
+        }
+        for (finding, two) in each_other.iter_mut().zip(covered.windows(2)) {
+            finding.cover(against(&two[0], &two[1]));
+        }
+        for (at, triangle) in list.iter().enumerate() {
+            let spans: Vec<_> = covered.iter().map(|c| c.as_ref().ok().map(|c| c.of(at))).collect();
+            self.judge_values(triangle, case.window, &spans, alone, each_other);
+        }
+        (facts, findings)
+    }
+}
+
+fn against(
+    actual: &Result<Covered, String>,
+    target: &Result<Covered, String>,
+) -> Result<Tally, String> {
+    match (actual, target) {
+        (Ok(actual), Ok(target)) => Ok(actual.against(target)),
+        (Err(message), _) | (_, Err(message)) => Err(message.clone()),
+    }
+}
+
+impl<R: Interpolate + Sync> TriangleContest<'_, R> {
+    /// Compares fragments: their pixels with the same engine's spans, their values at a few pixels
+    /// with the exact ones and with those of the next engine.
+    fn judge_values(
+        &self,
+        triangle: &Triangle,
+        window: PixelRect,
+        spans: &[Option<&[Span]>],
+        alone: &mut [Finding],
+        each_other: &mut [Finding],
+    ) {
+        let mut truth = Truth::new(triangle);
+        let mut previous: Option<(Vec<Fragment<DVec2>>, Bounds)> = None;
+        for (i, (_, engine, tolerance)) in self.engines.iter().enumerate() {
+            // Nothing to compare the next engine with, unless this one has values.
+            let before = previous.take();
+            let Some(tolerance) = tolerance else { continue };
+            let (None, Some(spans)) = (&alone[i].panic, spans[i]) else { continue };
+            let fragments = match caught(|| collect_fragments(engine, triangle, spans, window)) {
+                Ok(fragments) => fragments,
+                Err(message) => {
+                    alone[i].panic = Some(message);
+                    continue;
+                }
+            };
+            alone[i].fragments += fragments_against(&fragments, spans, window);
+            let bounds = Bounds::new(*tolerance, triangle);
+            if let Some(truth) = &mut truth {
+                // Outside the triangle no value is right or wrong; the pixel is.
+                for f in few(&fragments).filter(|f| holds_centre(&triangle.corners(), f)) {
+                    truth.compare(f, &bounds, &mut alone[i]);
+                }
+            }
+            if let Some((other, other_bounds)) = &before {
+                for (a, b) in pairs_at_same_pixel(other, &fragments) {
+                    let ratio = |k: usize| {
+                        (a.varying[k] - b.varying[k]).abs()
+                            / (other_bounds.attributes[k] + bounds.attributes[k])
+                    };
+                    each_other[i - 1].compare(
+                        ratio(0).max(ratio(1)),
+                        (a.depth - b.depth).abs() / (other_bounds.depth + bounds.depth),
+                    );
+                }
+            }
+            previous = Some((fragments, bounds));
+        }
+    }
+}
+
+/// The fragments of a triangle that covers `spans`, which say how many there will be.
+fn collect_fragments(
+    engine: &impl Interpolate,
+    triangle: &Triangle,
+    spans: &[Span],
+    window: PixelRect,
+) -> Vec<Fragment<DVec2>> {
+    let pixels = spans.iter().map(Span::pixels).sum();
+    let mut fragments = Vec::with_capacity(pixels);
+    engine.fragments(triangle, window, |fragment| fragments.push(fragment));
+    fragments
+}
+
+/// The first, the last and two fragments between: corners and middle of most triangles.
+fn few(fragments: &[Fragment<DVec2>]) -> impl Iterator<Item = &Fragment<DVec2>> {
+    let n = fragments.len();
+    let mut picks = [0, n / 3, 2 * n / 3, n.saturating_sub(1)].to_vec();
+    picks.dedup();
+    picks.into_iter().filter_map(|i| fragments.get(i))
+}
+
+/// Whether the centre of the pixel lies in the triangle or on its outline.
+fn holds_centre(corners: &Corners, f: &Fragment<DVec2>) -> bool {
+    let centre = |px: i32| i128::from(px) * i128::from(SUBPIXELS) + i128::from(HALF_PIXEL);
+    let (x, y) = (centre(f.x_px), centre(f.y_px));
+    let side = |i: usize, j: usize| {
+        let [ax, ay, bx, by] = [corners[i].x, corners[i].y, corners[j].x, corners[j].y];
+        let [ax, ay, bx, by] = [ax, ay, bx, by].map(i128::from);
+        ((bx - ax) * (y - ay) - (by - ay) * (x - ax)).signum()
+    };
+    let sides = [side(0, 1), side(1, 2), side(2, 0)];
+    sides.iter().all(|&side| side >= 0) || sides.iter().all(|&side| side <= 0)
+}
+
+/// Fragments of two engines at the same pixels, which they may emit in different orders.
+fn pairs_at_same_pixel<'a>(
+    a: &'a [Fragment<DVec2>],
+    b: &'a [Fragment<DVec2>],
+) -> impl Iterator<Item = (&'a Fragment<DVec2>, &'a Fragment<DVec2>)> {
+    few(a).filter_map(|f| {
+        let key = (f.y_px, f.x_px);
+        // Both engines walk rows from the top and columns from the left; else look for it.
+        let found = b.binary_search_by_key(&key, |g| (g.y_px, g.x_px)).ok();
+        let found = found.or_else(|| b.iter().position(|g| (g.y_px, g.x_px) == key));
+        found.map(|i| (f, &b[i]))
+    })
+}
+
+/// Thinner than a pixel and at least eight times as long as thick, in exact integers: with twice
+/// the area A and the longest side L, the thickness is A / L.
+#[must_use]
+pub fn is_sliver(corners: &Corners) -> bool {
+    let side = |i: usize, j: usize| {
+        let d = |a: i32, b: i32| i128::from(a) - i128::from(b);
+        (d(corners[i].x, corners[j].x), d(corners[i].y, corners[j].y))
+    };
+    let ((ax, ay), (bx, by), (cx, cy)) = (side(1, 0), side(2, 0), side(2, 1));
+    // Extents of at most 2^32 make the area at most 2^65 and its square too wide; slivers have
+    // |A| < 2^8 L <= 2^41.
+    let area = (ax * by - ay * bx).abs();
+    let longest = (ax * ax + ay * ay).max(bx * bx + by * by).max(cx * cx + cy * cy);
+    let pixel = i128::from(SUBPIXELS);
+    area > 0 && area < 1 << 42 && area * area < longest * pixel * pixel && 8 * area <= longest
+}
+
+/// Line drawers.
+pub struct LineContest<'a, D> {
+    engines: &'a [(&'a str, D)],
+}
+
+impl<'a, D: DrawLine + Sync> LineContest<'a, D> {
+    pub fn new(engines: &'a [(&'a str, D)]) -> Self {
+        Self { engines }
+    }
+}
+
+impl<D: DrawLine + Sync> Contest for LineContest<'_, D> {
+    fn pairs(&self) -> Vec<[String; 2]> {
+        pairs_of(self.engines.iter().map(|(name, _)| *name))
+    }
+
+    fn judge(&self, case: &Case, mut findings: Vec<Finding>) -> (CaseFacts, Vec<Finding>) {
+        let mut facts = CaseFacts::default();
+        let Shape::Lines(lines) = &case.shape else {
+            return (facts, findings);
+        };
+        for line in lines {
+            let mut truth = Vec::new();
+            Oracle
+                .line_pixels(line, case.window, |pixel, step| truth.push((pixel.x, pixel.y, step)));
+            facts.shapes += 1;
+            facts.pixels += truth.len() as u64;
+            facts.ties += u64::from(line_has_tie(line));
+            let drawn: Vec<_> = self
+                .engines
+                .iter()
+                .map(|(_, engine)| {
+                    caught(|| {
+                        let mut pixels = Vec::new();
+                        engine.draw(line, case.window, |fragment| pixels.push(fragment));
+                        pixels
+                    })
+                })
+                .collect();
+            let pixels: Vec<(i32, i32)> = truth.iter().map(|&(x, y, _)| (x, y)).collect();
+            for (finding, drawn) in findings.iter_mut().zip(&drawn) {
+                match drawn {
+                    Ok(drawn) => {
+                        finding.tally += sequence(drawn, &pixels, case.window);
+                        line_values(line, drawn, &truth, finding);
+                    }
+                    Err(message) => finding.panic = Some(message.clone()),
+                }
+            }
+            for (finding, two) in findings.iter_mut().skip(drawn.len()).zip(drawn.windows(2)) {
+                match (&two[0], &two[1]) {
+                    (Ok(a), Ok(b)) => {
+                        let target: Vec<_> = b.iter().map(|f| (f.x_px, f.y_px)).collect();
+                        finding.tally += sequence(a, &target, case.window);
+                    }
+                    (Err(message), _) | (_, Err(message)) => finding.panic = Some(message.clone()),
+                }
+            }
+        }
+        (facts, findings)
+    }
+}
+
+/// A line passes halfway between two pixels somewhere iff its length over the common divisor of
+/// length and rise is even.
+fn line_has_tie(line: &Line) -> bool {
+    let [a, b] = line.ends.each(|end| end.pixel);
+    let (dx, dy) = (a.x.abs_diff(b.x), a.y.abs_diff(b.y));
+    let (long, short) = (dx.max(dy), dx.min(dy));
+    let (mut a, mut b) = (long, short);
+    while b > 0 {
+        (a, b) = (b, a % b);
+    }
+    short > 0 && (long / a).is_multiple_of(2)
+}
+
+/// Compares the pixels of a line, and where they are the same ones their order.
+fn sequence(drawn: &[Fragment<DVec2>], target: &[(i32, i32)], window: PixelRect) -> Tally {
+    let actual = drawn.iter().map(|f| (f.x_px, f.y_px));
+    if actual.clone().eq(target.iter().copied()) {
+        return Tally::default();
+    }
+    let hits = |pixels: &mut dyn Iterator<Item = (i32, i32)>| {
+        let (mut hits, mut outside) = (Coverage::new(window, 0), 0);
+        for (x_px, y_px) in pixels {
+            if window.contains(x_px, y_px) {
+                hits.hit(y_px, x_px, x_px + 1);
+            } else {
+                outside += 1;
+            }
+        }
+        (hits, outside)
+    };
+    let (actual_hits, outside) = hits(&mut actual.clone());
+    let (target_hits, _) = hits(&mut target.iter().copied());
+    let mut tally = Tally::between(&actual_hits, &target_hits);
+    tally.extra += outside;
+    if tally.total() == 0 {
+        tally.order = actual.zip(target.iter().copied()).filter(|(a, b)| a != b).count() as u64;
+    }
+    tally
+}
+
+/// Compares values with the exact ones at the first, the last and a middle pixel in common.
+fn line_values(
+    line: &Line,
+    drawn: &[Fragment<DVec2>],
+    truth: &[(i32, i32, u64)],
+    finding: &mut Finding,
+) {
+    let [a, b] = &line.ends;
+    let length = a.pixel.x.abs_diff(b.pixel.x).max(a.pixel.y.abs_diff(b.pixel.y));
+    let mut picks = [0, truth.len() / 2, truth.len().saturating_sub(1)].to_vec();
+    picks.dedup();
+    for i in picks {
+        let (Some(&(x, y, step)), Some(f)) = (truth.get(i), drawn.get(i)) else { continue };
+        if (f.x_px, f.y_px) != (x, y) {
+            continue;
+        }
+        compare_on_line(line, [step, length.into()], f, finding);
+    }
+}

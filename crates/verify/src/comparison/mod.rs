@@ -1,0 +1,555 @@
+//! The comparison: families of cases, every engine against the oracle and against each other.
+//!
+//! Coverage is compared for every pixel of every case, by hit count, with tolerance zero. Values
+//! are compared with exact rationals at a few pixels of every case, and the difference is reported
+//! as a fraction of the bound derived in [`tolerance`]. A panic of an engine is a finding like any
+//! other. A result depends on the options alone, not on the number of threads.
+//!
+//! The same functions judge an engine of yours: [`judge_coverage`], [`judge_values`],
+//! [`judge_lines`]; off the lattice, [`unsnapped::judge_exact`].
+
+mod compare;
+mod finding;
+pub mod shrink;
+mod spans;
+pub mod tolerance;
+mod truth;
+pub mod unsnapped;
+
+use std::cmp::Ordering;
+use std::fmt;
+use std::ops::AddAssign;
+use std::time::{Duration, Instant};
+
+use serde::Serialize;
+
+use crate::cases::{Case, Family, Shape};
+use compare::{Contest, CoverageOnly, LineContest, TriangleContest};
+use rasterproof_core::arrays::Each as _;
+use rasterproof_core::contract::{DrawLine, Interpolate, Rasterize};
+use rasterproof_core::parallel;
+use rasterproof_registry::engines::{Engine, LineEngine};
+use tolerance::Tolerance;
+
+pub use finding::{Finding, Tally};
+#[doc(hidden)]
+pub use {
+    compare::is_sliver,
+    finding::{caught, is_judging},
+    spans::{engine_coverage, line_coverage, oracle_coverage, oracle_pixels_each},
+};
+
+/// What to judge.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// Decides every generated case.
+    pub seed: u64,
+    /// Cases of each family.
+    pub cases: u64,
+    /// Stop starting new cases after this long; the number of cases done is then what varies.
+    pub time_limit: Option<Duration>,
+    /// Names of families; empty means all.
+    pub families: Vec<String>,
+    /// This part out of how many: case i belongs to part i mod n.
+    pub shard: (u64, u64),
+    /// Only the case of this number.
+    pub only: Option<u64>,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            seed: 1,
+            cases: 20_000,
+            time_limit: None,
+            families: Vec::new(),
+            shard: (0, 1),
+            only: None,
+        }
+    }
+}
+
+impl Options {
+    fn wants(&self, family: &str) -> bool {
+        self.families.is_empty() || self.families.iter().any(|name| name == family)
+    }
+}
+
+/// How two engines compare over a family.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct PairReport {
+    /// The one that is judged.
+    pub actual: String,
+    /// The one it is judged by.
+    pub target: String,
+    /// Wrong pixels: the coverage of the one against that of the other.
+    pub tally: Tally,
+    /// The pixels of the engine's fragments against its own coverage; counted where the target is
+    /// the oracle, and no part of `tally`.
+    pub fragments: Tally,
+    /// Largest difference of an attribute, as a fraction of its bound.
+    pub worst_attribute: f64,
+    /// Largest difference of a depth, as a fraction of its bound.
+    pub worst_depth: f64,
+    /// Number of the first case with the larger of the two.
+    pub worst_case: u64,
+    /// Values compared.
+    pub values: u64,
+    /// Cases in which an engine panicked.
+    pub panics: u64,
+    /// Cases in which anything was wrong.
+    pub wrong_cases: u64,
+}
+
+impl PairReport {
+    /// Whether nothing was wrong.
+    #[must_use]
+    pub fn agrees(&self) -> bool {
+        self.wrong_cases == 0
+    }
+}
+
+/// How a family went.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct FamilyReport {
+    /// Its name.
+    pub family: String,
+    /// Cases judged.
+    pub cases: u64,
+    /// Triangles or lines judged.
+    pub shapes: u64,
+    /// Whether the shapes are lines.
+    pub lines: bool,
+    /// Covered pixels, by the oracle.
+    pub pixels: u64,
+    /// Cases in which a sample lies exactly on an edge, or a line passes halfway between pixels.
+    pub tie_cases: u64,
+    /// Cases with a triangle thinner than a pixel and eight times as long.
+    pub sliver_cases: u64,
+    /// Cases that light no pixel.
+    pub empty_cases: u64,
+    /// Pixels that the oracle itself hits twice where the shapes are disjoint by construction.
+    pub oracle_overlap: u64,
+    /// One for each pair of engines.
+    pub pairs: Vec<PairReport>,
+}
+
+/// A failing case, shrunk.
+#[derive(Clone, Debug)]
+pub struct Failure {
+    /// Family and number of the case it was found in.
+    pub family: String,
+    /// Number of the case.
+    pub index: u64,
+    /// Seed of the run.
+    pub seed: u64,
+    /// Engine and what it was judged by.
+    pub pair: [String; 2],
+    /// What is wrong with the shrunk case.
+    pub what: String,
+    /// The smallest case found that still fails.
+    pub case: Case,
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [actual, target] = &self.pair;
+        write!(f, "{actual} against {target}: {} on {}", self.what, shrink::describe(&self.case))?;
+        write!(f, " (from {} #{} of seed {})", self.family, self.index, self.seed)
+    }
+}
+
+/// The outcome of a run.
+#[derive(Clone, Debug)]
+pub struct Verdict {
+    /// The options it was run with.
+    pub options: Options,
+    /// One for each family, in the order of the catalogue.
+    pub families: Vec<FamilyReport>,
+    /// The smallest failing case found of each family and pair, shrunk, smallest first.
+    pub failures: Vec<Failure>,
+}
+
+impl Verdict {
+    /// Whether nothing was wrong anywhere.
+    #[must_use]
+    pub fn agrees(&self) -> bool {
+        self.families
+            .iter()
+            .all(|f| f.oracle_overlap == 0 && f.pairs.iter().all(PairReport::agrees))
+    }
+
+    /// Wrong pixels of all engines against the oracle, over all families.
+    #[must_use]
+    pub fn mismatches(&self) -> u64 {
+        self.comparisons().oracle.total()
+    }
+
+    /// Wrong pixels over all families, each comparison for itself.
+    #[must_use]
+    pub fn comparisons(&self) -> Comparisons {
+        let mut sums = Comparisons::default();
+        for pair in self.families.iter().flat_map(|f| &f.pairs) {
+            let sum = if pair.target == "oracle" { &mut sums.oracle } else { &mut sums.engines };
+            *sum += pair.tally;
+            sums.fragments += pair.fragments;
+        }
+        sums
+    }
+
+    /// Sum of a number over the families of triangles (false) or lines (true).
+    #[must_use]
+    pub fn sum(&self, lines: bool, number: impl Fn(&FamilyReport) -> u64) -> u64 {
+        self.families.iter().filter(|f| f.lines == lines).map(number).sum()
+    }
+}
+
+/// Wrong pixels by what was compared with what. The same pixel may be wrong in several ways, so the
+/// three are never added up.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Comparisons {
+    /// The coverage of each engine against the oracle's.
+    pub oracle: Tally,
+    /// The coverage of each engine against that of the next.
+    pub engines: Tally,
+    /// The pixels of each engine's fragments against its own coverage.
+    pub fragments: Tally,
+}
+
+/// Quotas for ties, slivers and empty cases, in percent of the cases of triangles: what the families
+/// must offer for a verdict to mean something.
+pub const QUOTAS: [(&str, u64); 3] = [("ties", 25), ("slivers", 10), ("empty", 5)];
+
+impl Verdict {
+    /// What the quotas are about, how much of it there was in percent, and how much is wanted.
+    #[must_use]
+    pub fn quotas(&self) -> [(&'static str, u64, u64); 3] {
+        let cases = self.sum(false, |f| f.cases);
+        let counts = [
+            self.sum(false, |f| f.tie_cases),
+            self.sum(false, |f| f.sliver_cases),
+            self.sum(false, |f| f.empty_cases),
+        ];
+        let percent = |part: u64| (100 * part + cases / 2).checked_div(cases).unwrap_or(0);
+        [0, 1, 2].each(|i| (QUOTAS[i].0, percent(counts[i]), QUOTAS[i].1))
+    }
+}
+
+/// Judges the line-up: both rasterizers and both line drawers, or a selection of them.
+#[doc(hidden)]
+pub fn judge_lineup(
+    engines: &[(Engine, Tolerance)],
+    lines: &[LineEngine],
+    options: &Options,
+    progress: &(dyn Fn(u64) + Sync),
+) -> Verdict {
+    let engines: Vec<_> = engines.iter().map(|(e, t)| (e.name(), *e, Some(*t))).collect();
+    let lines: Vec<_> = lines.iter().map(|e| (e.name(), *e)).collect();
+    drive(&TriangleContest::new(&engines), &LineContest::new(&lines), options, progress)
+}
+
+/// Judges the coverage of any rasterizer against the oracle.
+pub fn judge_coverage<R: Rasterize + Sync>(engine: &R, options: &Options) -> Verdict {
+    let engines = [("candidate", CoverageOnly(engine), None)];
+    let none: [(&str, LineEngine); 0] = [];
+    drive(&TriangleContest::new(&engines), &LineContest::new(&none), options, &|_| ())
+}
+
+/// Judges the coverage of one case by any rasterizer against the oracle.
+#[must_use]
+pub fn judge_coverage_of<R: Rasterize + Sync>(engine: &R, case: &Case) -> Finding {
+    let engines = [("candidate", CoverageOnly(engine), None)];
+    TriangleContest::new(&engines).findings(case).swap_remove(0)
+}
+
+/// Judges coverage and values of any rasterizer against the oracle, values within `tolerance`.
+pub fn judge_values<R: Interpolate + Sync>(
+    engine: &R,
+    tolerance: Tolerance,
+    options: &Options,
+) -> Verdict {
+    let engines = [("candidate", engine, Some(tolerance))];
+    let none: [(&str, LineEngine); 0] = [];
+    drive(&TriangleContest::new(&engines), &LineContest::new(&none), options, &|_| ())
+}
+
+/// Judges pixels and values of any line drawer against the oracle.
+pub fn judge_lines<D: DrawLine + Sync>(engine: &D, options: &Options) -> Verdict {
+    let none: [(&str, Engine, Option<Tolerance>); 0] = [];
+    let engines = [("candidate", engine)];
+    drive(&TriangleContest::new(&none), &LineContest::new(&engines), options, &|_| ())
+}
+
+/// Cases that a thread judges in one go.
+const BLOCK: u64 = 64;
+/// Cases of a family judged before the next family's turn: bounds the list of blocks.
+const MOST_PER_ROUND: u64 = 1 << 20;
+/// Failing cases of each family and pair that are shrunk; the smaller result is kept.
+const KEPT: usize = 2;
+
+/// What some cases of one family came to; `R` is a report whose sum is the same in any order.
+struct Partial<R> {
+    report: R,
+    /// Pair and number of failing cases, lowest numbers first.
+    failing: Vec<(usize, u64)>,
+}
+
+impl<R: AddAssign> Partial<R> {
+    fn merge(mut self, other: Self) -> Self {
+        self.report += other.report;
+        self.failing.extend(other.failing);
+        self.failing.sort_unstable();
+        let pairs = self.failing.chunk_by(|a, b| a.0 == b.0);
+        self.failing = pairs.flat_map(|pair| pair.iter().take(KEPT)).copied().collect();
+        self
+    }
+}
+
+/// What `judge` makes of the cases of each family, by number, within the limits and the shard of
+/// `options`; in blocks, on all threads. `progress` hears how many were judged.
+fn in_blocks<F: Sync, R: AddAssign + Send>(
+    families: &[F],
+    options: &Options,
+    progress: &(dyn Fn(u64) + Sync),
+    judge: impl Fn(&F, &[u64]) -> Partial<R> + Sync,
+) -> Vec<Partial<R>> {
+    let start = Instant::now();
+    let expired = || options.time_limit.is_some_and(|limit| start.elapsed() >= limit);
+    let mut partials: Vec<Option<Partial<R>>> = families.iter().map(|_| None).collect();
+    // With a time limit, families advance together, a few blocks at a time.
+    let round = if options.time_limit.is_some() { BLOCK * 8 } else { MOST_PER_ROUND };
+    let all = match options.only {
+        Some(index) => index..index.saturating_add(1),
+        None => 0..options.cases,
+    };
+    let (part, parts) = options.shard;
+    let mut done = all.start;
+    while done < all.end && !(done > all.start && expired()) {
+        let end = all.end.min(done.saturating_add(round));
+        for (slot, family) in partials.iter_mut().zip(families) {
+            let blocks = parallel::map((end - done).div_ceil(BLOCK) as usize, |number| {
+                let first = done + number as u64 * BLOCK;
+                let block = first..end.min(first + BLOCK);
+                let indices: Vec<u64> = block.filter(|index| index % parts == part).collect();
+                let partial = judge(family, &indices);
+                progress(indices.len() as u64);
+                partial
+            });
+            let merged = blocks.into_iter().reduce(Partial::merge);
+            *slot = match (slot.take(), merged) {
+                (Some(a), Some(b)) => Some(a.merge(b)),
+                (a, b) => a.or(b),
+            };
+        }
+        done = end;
+    }
+    partials.into_iter().flatten().collect()
+}
+
+fn drive(
+    triangles: &impl Contest,
+    lines: &impl Contest,
+    options: &Options,
+    progress: &(dyn Fn(u64) + Sync),
+) -> Verdict {
+    let wanted = |pairs: Vec<[String; 2]>, family: &Family| {
+        (options.wants(family.name) && !pairs.is_empty()).then_some(pairs)
+    };
+    let chosen: Vec<(&Family, bool, Vec<[String; 2]>)> = crate::cases::triangles::FAMILIES
+        .iter()
+        .filter_map(|f| Some((f, false, wanted(triangles.pairs(), f)?)))
+        .chain(
+            crate::cases::lines::FAMILIES
+                .iter()
+                .filter_map(|f| Some((f, true, wanted(lines.pairs(), f)?))),
+        )
+        .collect();
+    let partials = in_blocks(&chosen, options, progress, |(family, is_lines, pairs), indices| {
+        let report = FamilyReport::new(family, *is_lines, pairs);
+        if *is_lines {
+            judge_block(family, report, indices, options, lines)
+        } else {
+            judge_block(family, report, indices, options, triangles)
+        }
+    });
+    let findings = |is_lines: bool, case: &Case| {
+        if is_lines { lines.findings(case) } else { triangles.findings(case) }
+    };
+    let failures = shrink_failures(&partials, &chosen, options, &findings);
+    Verdict {
+        options: options.clone(),
+        families: partials.into_iter().map(|partial| partial.report).collect(),
+        failures,
+    }
+}
+
+fn judge_block(
+    family: &Family,
+    mut report: FamilyReport,
+    indices: &[u64],
+    options: &Options,
+    contest: &impl Contest,
+) -> Partial<FamilyReport> {
+    let mut failing = Vec::new();
+    for &index in indices {
+        // What an earlier case reached need not be looked into again.
+        let known = |pair: &PairReport| Finding::known(pair.worst_attribute, pair.worst_depth);
+        let known = report.pairs.iter().map(known).collect();
+        let (facts, findings) = contest.judge(&family.case(options.seed, index), known);
+        report.count(&facts);
+        for (pair, finding) in findings.iter().enumerate() {
+            report.pairs[pair].count(index, finding);
+            if finding.is_wrong() && failing.iter().filter(|(p, _)| *p == pair).count() < KEPT {
+                failing.push((pair, index));
+            }
+        }
+    }
+    Partial { report, failing }
+}
+
+impl AddAssign for FamilyReport {
+    /// Sums and maxima over the same pairs on other cases.
+    fn add_assign(&mut self, other: Self) {
+        self.cases += other.cases;
+        self.shapes += other.shapes;
+        self.pixels += other.pixels;
+        self.tie_cases += other.tie_cases;
+        self.sliver_cases += other.sliver_cases;
+        self.empty_cases += other.empty_cases;
+        self.oracle_overlap += other.oracle_overlap;
+        for (a, b) in self.pairs.iter_mut().zip(&other.pairs) {
+            a.tally += b.tally;
+            a.fragments += b.fragments;
+            a.worst_case = match a.worst().total_cmp(&b.worst()) {
+                Ordering::Less => b.worst_case,
+                Ordering::Equal => a.worst_case.min(b.worst_case),
+                Ordering::Greater => a.worst_case,
+            };
+            a.worst_attribute = a.worst_attribute.max(b.worst_attribute);
+            a.worst_depth = a.worst_depth.max(b.worst_depth);
+            a.values += b.values;
+            a.panics += b.panics;
+            a.wrong_cases += b.wrong_cases;
+        }
+    }
+}
+
+impl FamilyReport {
+    fn new(family: &Family, lines: bool, pairs: &[[String; 2]]) -> Self {
+        let pairs = pairs.iter().map(|[actual, target]| PairReport {
+            actual: actual.clone(),
+            target: target.clone(),
+            tally: Tally::default(),
+            fragments: Tally::default(),
+            worst_attribute: 0.0,
+            worst_depth: 0.0,
+            worst_case: u64::MAX,
+            values: 0,
+            panics: 0,
+            wrong_cases: 0,
+        });
+        Self {
+            family: family.name.to_owned(),
+            cases: 0,
+            shapes: 0,
+            lines,
+            pixels: 0,
+            tie_cases: 0,
+            sliver_cases: 0,
+            empty_cases: 0,
+            oracle_overlap: 0,
+            pairs: pairs.collect(),
+        }
+    }
+
+    fn count(&mut self, facts: &compare::CaseFacts) {
+        self.cases += 1;
+        self.shapes += facts.shapes;
+        self.pixels += facts.pixels;
+        self.tie_cases += u64::from(facts.ties > 0);
+        self.sliver_cases += u64::from(facts.sliver);
+        self.empty_cases += u64::from(facts.pixels == 0);
+        self.oracle_overlap += facts.overlap;
+    }
+}
+
+impl PairReport {
+    /// The larger of the two worst differences, each as a fraction of its bound.
+    #[must_use]
+    pub fn worst(&self) -> f64 {
+        self.worst_attribute.max(self.worst_depth)
+    }
+
+    fn count(&mut self, index: u64, finding: &Finding) {
+        self.tally += finding.tally;
+        self.fragments += finding.fragments;
+        if finding.attribute.max(finding.depth) > self.worst() {
+            self.worst_case = index;
+        }
+        self.worst_attribute = self.worst_attribute.max(finding.attribute);
+        self.worst_depth = self.worst_depth.max(finding.depth);
+        self.values += finding.values;
+        self.panics += u64::from(finding.panic.is_some());
+        self.wrong_cases += u64::from(finding.is_wrong());
+    }
+}
+
+/// Shrinks the first failing cases of each family and pair, and keeps the smallest of each. Two
+/// engines against each other are left out where the oracle says which of them is wrong.
+fn shrink_failures(
+    partials: &[Partial<FamilyReport>],
+    chosen: &[(&Family, bool, Vec<[String; 2]>)],
+    options: &Options,
+    findings: &(impl Fn(bool, &Case) -> Vec<Finding> + Sync),
+) -> Vec<Failure> {
+    let mut failing = Vec::new();
+    for (place, (partial, (.., pairs))) in partials.iter().zip(chosen).enumerate() {
+        let by_oracle = |pair: usize| pairs[pair][1] == "oracle";
+        let is_known = |pair: usize| {
+            let wrong = |name: &String| {
+                partial.failing.iter().any(|&(p, _)| by_oracle(p) && pairs[p][0] == *name)
+            };
+            !by_oracle(pair) && pairs[pair].iter().any(wrong)
+        };
+        let unknown = partial.failing.iter().filter(|(pair, _)| !is_known(*pair));
+        failing.extend(unknown.map(|&(pair, index)| (place, pair, index)));
+    }
+    let mut shrunk = parallel::map(failing.len(), |number| {
+        let (place, pair, index) = failing[number];
+        let (family, lines, pairs) = &chosen[place];
+        let original = family.case(options.seed, index);
+        let case = shrink::shrink(original, |case| findings(*lines, case)[pair].is_wrong());
+        let failure = Failure {
+            family: family.name.to_owned(),
+            index,
+            seed: options.seed,
+            pair: pairs[pair].clone(),
+            what: findings(*lines, &case)[pair].describe(),
+            case,
+        };
+        ((place, pair), failure)
+    });
+    shrunk.sort_by_cached_key(|(origin, failure)| (*origin, shrink::size(&failure.case)));
+    shrunk.dedup_by_key(|(origin, _)| *origin);
+    let mut failures: Vec<_> = shrunk.into_iter().map(|(_, failure)| failure).collect();
+    failures.sort_by_cached_key(|failure| shrink::size(&failure.case));
+    failures
+}
+
+/// Judges one case by the line-up; what [`judge_lineup`] does for each generated case.
+#[must_use]
+#[doc(hidden)]
+pub fn judge_case(
+    engines: &[(Engine, Tolerance)],
+    lines: &[LineEngine],
+    case: &Case,
+) -> Vec<([String; 2], Finding)> {
+    let engines: Vec<_> = engines.iter().map(|(e, t)| (e.name(), *e, Some(*t))).collect();
+    let lines: Vec<_> = lines.iter().map(|e| (e.name(), *e)).collect();
+    let (triangles, lines) = (TriangleContest::new(&engines), LineContest::new(&lines));
+    let (pairs, findings) = match case.shape {
+        Shape::Triangles { .. } => (triangles.pairs(), triangles.findings(case)),
+        Shape::Lines(_) => (lines.pairs(), lines.findings(case)),
+    };
+    pairs.into_iter().zip(findings).collect()
+}

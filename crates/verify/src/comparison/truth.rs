@@ -1,0 +1,197 @@
+//! The exact values of triangles and lines, asked of big integers only where nearly exact ones leave a doubt.
+
+use std::cell::OnceCell;
+
+use glam::DVec2;
+
+use super::finding::Finding;
+use super::tolerance::{Bound, LINE, Tolerance};
+use crate::cases::{Line, Triangle};
+use crate::oracle::double_double::{self, NearPixel, NearTriangle};
+use crate::oracle::values::{ExactTriangle, along_line};
+use rasterproof_core::triangle::Fragment;
+
+/// What fragments of a triangle are held to.
+pub struct Truth {
+    triangle: Triangle,
+    exact: OnceCell<Option<ExactTriangle<2>>>,
+    near: Option<NearTriangle<2>>,
+    /// The pixels asked for so far; engines are compared at the same few.
+    pixels: Vec<((i32, i32), NearPixel<2>)>,
+}
+
+/// How far an engine's values may lie from the exact ones.
+pub struct Bounds {
+    /// For each attribute.
+    pub attributes: [f64; 2],
+    /// For the depth.
+    pub depth: f64,
+}
+
+impl Bounds {
+    /// Those of an engine for a triangle.
+    pub fn new(tolerance: Tolerance, triangle: &Triangle) -> Self {
+        let [a, b, c] = &triangle.vertices;
+        let of = |bound: Bound, k: usize| bound.at([a.varying[k], b.varying[k], c.varying[k]]);
+        Self {
+            attributes: [of(tolerance.attribute, 0), of(tolerance.attribute, 1)],
+            depth: tolerance.depth.at([a.depth, b.depth, c.depth]),
+        }
+    }
+}
+
+fn depths_and_weights(triangle: &Triangle) -> [[f64; 3]; 2] {
+    let [a, b, c] = &triangle.vertices;
+    [[a.depth, b.depth, c.depth], [a.inv_w, b.inv_w, c.inv_w]]
+}
+
+fn attributes(triangle: &Triangle) -> [[f64; 2]; 3] {
+    let [a, b, c] = &triangle.vertices;
+    [a.varying.to_array(), b.varying.to_array(), c.varying.to_array()]
+}
+
+impl Truth {
+    /// Nothing for a triangle of zero area, which has no values.
+    pub fn new(triangle: &Triangle) -> Option<Self> {
+        let [depths, inv_w] = depths_and_weights(triangle);
+        let corners = triangle.corners();
+        let near = NearTriangle::new(&corners, depths, inv_w, attributes(triangle));
+        let truth = Self { triangle: *triangle, exact: OnceCell::new(), near, pixels: Vec::new() };
+        (truth.near.is_some() || truth.exact().is_some()).then_some(truth)
+    }
+
+    fn exact(&self) -> Option<&ExactTriangle<2>> {
+        let exact = || {
+            let [depths, inv_w] = depths_and_weights(&self.triangle);
+            let corners = self.triangle.corners();
+            ExactTriangle::new(&corners, depths, inv_w, attributes(&self.triangle))
+        };
+        self.exact.get_or_init(exact).as_ref()
+    }
+
+    /// Compares a fragment with the exact values, unless its differences certainly stay within what
+    /// is known. The worst found is the same in either case.
+    pub fn compare(&mut self, f: &Fragment<DVec2>, bounds: &Bounds, finding: &mut Finding) {
+        let known = (finding.attribute.min(1.0), finding.depth.min(1.0));
+        let (attribute, depth) =
+            if self.is_within(known, f, bounds) { known } else { self.ratios(f, bounds) };
+        finding.compare(attribute, depth);
+    }
+
+    /// Whether no attribute and no depth differs by more than these fractions of their bounds, for
+    /// certain.
+    fn is_within(&mut self, known: (f64, f64), f: &Fragment<DVec2>, bounds: &Bounds) -> bool {
+        let Some(near) = &self.near else { return false };
+        let key = (f.x_px, f.y_px);
+        let at = self.pixels.iter().position(|(pixel, _)| *pixel == key).unwrap_or_else(|| {
+            self.pixels.push((key, near.at(f.x_px, f.y_px)));
+            self.pixels.len() - 1
+        });
+        let pixel = &self.pixels[at].1;
+        let ratio = |k: usize| pixel.attribute_at_most(k, f.varying[k]) / bounds.attributes[k];
+        ratio(0) <= known.0
+            && ratio(1) <= known.0
+            && pixel.depth_at_most(f.depth) / bounds.depth <= known.1
+    }
+
+    /// The larger difference of an attribute and that of the depth, as fractions of their bounds;
+    /// for a triangle that has values.
+    fn ratios(&self, f: &Fragment<DVec2>, bounds: &Bounds) -> (f64, f64) {
+        let Some(exact) = self.exact() else { return (0.0, 0.0) };
+        let (depth, values) = exact.at(f.x_px, f.y_px);
+        let ratio = |k: usize| values[k].distance(f.varying[k]) / bounds.attributes[k];
+        (ratio(0).max(ratio(1)), depth.distance(f.depth) / bounds.depth)
+    }
+}
+
+/// As [`Truth::compare`], for a fragment that is `step` of `length` steps along a line.
+pub fn compare_on_line(
+    line: &Line,
+    [step, length]: [u64; 2],
+    f: &Fragment<DVec2>,
+    finding: &mut Finding,
+) {
+    let ratio = |known: f64, ends: [f64; 2], value: f64, bound: Bound| {
+        let (known, bound) = (known.min(1.0), bound.at(ends));
+        if double_double::along_line_at_most(ends, step, length, value) / bound <= known {
+            return known;
+        }
+        along_line(ends, step, length).distance(value) / bound
+    };
+    let ([a, b], known) = (&line.ends, finding.attribute);
+    let of = |k: usize| ratio(known, [a.varying[k], b.varying[k]], f.varying[k], LINE.attribute);
+    let depth = ratio(finding.depth, [a.depth, b.depth], f.depth, LINE.depth);
+    finding.compare(of(0).max(of(1)), depth);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cases::triangles::FAMILIES;
+    use crate::cases::{Family, Shape};
+    use crate::comparison::finding::caught;
+    use crate::comparison::tolerance;
+    use rasterproof_core::contract::Interpolate as _;
+    use rasterproof_faults::planted::TriangleMutant;
+    use rasterproof_registry::engines::Engine;
+
+    /// Every fragment that an engine makes of the cases of a family, with its triangle.
+    fn see_all(
+        engine: Engine,
+        family: &Family,
+        cases: u64,
+        see: &mut dyn FnMut(&Triangle, &Fragment<DVec2>),
+    ) {
+        for index in 0..cases {
+            let case = family.case(3, index);
+            let Shape::Triangles { list, .. } = &case.shape else { continue };
+            for triangle in list {
+                // Some planted faults panic, which is no value to compare.
+                let fragments = caught(|| {
+                    let mut fragments = Vec::new();
+                    engine.fragments(triangle, case.window, |f| fragments.push(f));
+                    fragments
+                });
+                fragments.iter().flatten().for_each(|f| see(triangle, f));
+            }
+        }
+    }
+
+    /// Looking only into what may be the worst finds what looking into everything finds, bit for bit,
+    /// of engines that are right and of those with a planted fault in their values.
+    #[test]
+    fn the_worst_is_the_same_whether_everything_is_looked_into_or_not() {
+        let mutants = TriangleMutant::ALL.map(Engine::Mutant);
+        let (mut wrong, mut saved, mut values) = (0, 0, 0);
+        for engine in Engine::JUDGED.into_iter().chain(mutants) {
+            let tolerance = tolerance::of(engine);
+            let cases = if matches!(engine, Engine::Mutant(_)) { 1 } else { 6 };
+            for family in FAMILIES {
+                let (mut quick, mut slow) = (Finding::default(), Finding::default());
+                see_all(engine, family, cases, &mut |triangle, f| {
+                    let Some(mut truth) = Truth::new(triangle) else { return };
+                    let bounds = Bounds::new(tolerance, triangle);
+                    // A case starts from what was found before.
+                    let mut known = Finding::known(quick.attribute, quick.depth);
+                    truth.compare(f, &bounds, &mut known);
+                    saved += u64::from(truth.exact.get().is_none());
+                    truth.near = None;
+                    let mut alone = Finding::default();
+                    truth.compare(f, &bounds, &mut alone);
+                    assert_eq!(known.is_wrong(), alone.is_wrong(), "{} {f:?}", family.name);
+                    quick.compare(known.attribute, known.depth);
+                    slow.compare(alone.attribute, alone.depth);
+                    wrong += u64::from(alone.is_wrong());
+                    values += 1;
+                });
+                let worst =
+                    |finding: &Finding| (finding.attribute.to_bits(), finding.depth.to_bits());
+                assert_eq!(worst(&quick), worst(&slow), "{} {}", engine.name(), family.name);
+            }
+        }
+        // Both ways were taken often enough for this to mean something. What is wrong has to be
+        // looked into, and of the rest all but a few need not be.
+        let counts = format!("{wrong} wrong, {saved} of {values} saved");
+        assert!(wrong > 1000 && saved * 10 > (values - wrong) * 9, "{counts}");
+    }
+}

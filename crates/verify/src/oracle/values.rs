@@ -1,0 +1,307 @@
+//! Exact depth and attribute values, as quotients of big integers.
+//!
+//! Every finite f64 is a whole number times a power of two, so the vertices' values are exact
+//! numbers. A function that is linear in the window (depth, 1/w, v/w) is a plane over the lattice;
+//! Cramer's rule gives the plane through three vertices without any rounding. The engines use
+//! weights (barycentric or along edges) and never planes.
+
+use num_bigint::{BigInt, Sign};
+use num_rational::BigRational;
+use num_traits::{Signed, ToPrimitive, Zero};
+
+use rasterproof_core::arrays::Each as _;
+use rasterproof_core::grid::{HALF_PIXEL, SUBPIXELS};
+use rasterproof_core::triangle::Corners;
+
+/// `mantissa` times two to the power `exponent`.
+#[derive(Clone, Debug)]
+struct Dyadic {
+    mantissa: BigInt,
+    exponent: i32,
+}
+
+impl Dyadic {
+    /// Takes a finite number apart.
+    fn new(value: f64) -> Self {
+        let (mantissa, exponent) = take_apart(value);
+        Self { mantissa: mantissa.into(), exponent }
+    }
+
+    fn times(&self, other: &Self) -> Self {
+        Self {
+            mantissa: &self.mantissa * &other.mantissa,
+            exponent: self.exponent + other.exponent,
+        }
+    }
+}
+
+/// A finite number as a mantissa, odd or zero, and an exponent of two.
+pub(super) fn take_apart(value: f64) -> (i64, i32) {
+    assert!(value.is_finite(), "{value} has no exact value");
+    let bits = value.to_bits();
+    let field = ((bits >> 52) & 0x7ff) as i32;
+    let fraction = (bits & ((1 << 52) - 1)) as i64;
+    let (magnitude, exponent) =
+        if field == 0 { (fraction, -1074) } else { (fraction | 1 << 52, field - 1075) };
+    let zeros = if magnitude == 0 { 0 } else { magnitude.trailing_zeros() };
+    let mantissa = (magnitude >> zeros) * if value.is_sign_negative() { -1 } else { 1 };
+    (mantissa, exponent + zeros as i32)
+}
+
+/// num(x, y) / den with x, y in subpixels: the plane through three values at three points.
+#[derive(Clone, Debug)]
+struct Plane {
+    origin: [i64; 2],
+    at_origin: BigInt,
+    per_x: BigInt,
+    per_y: BigInt,
+    /// The numbers above count in units of 2^exponent.
+    exponent: i32,
+}
+
+impl Plane {
+    fn new(corners: &Corners, area: i128, values: &[Dyadic; 3]) -> Self {
+        // Zero has no exponent of its own.
+        let exponent =
+            values.iter().filter(|v| !v.mantissa.is_zero()).map(|v| v.exponent).min().unwrap_or(0);
+        let [f0, f1, f2] = [0, 1, 2].each(|i| {
+            let value = &values[i];
+            if value.mantissa.is_zero() {
+                BigInt::zero()
+            } else {
+                &value.mantissa << (value.exponent - exponent)
+            }
+        });
+        let offset = |i: usize| {
+            let (p, o) = (corners[i], corners[0]);
+            (i64::from(p.x) - i64::from(o.x), i64::from(p.y) - i64::from(o.y))
+        };
+        let ((x1, y1), (x2, y2)) = (offset(1), offset(2));
+        let (g1, g2) = (f1 - &f0, f2 - &f0);
+        Self {
+            origin: [i64::from(corners[0].x), i64::from(corners[0].y)],
+            at_origin: f0 * area,
+            per_x: &g1 * y2 - &g2 * y1,
+            per_y: &g2 * x1 - &g1 * x2,
+            exponent,
+        }
+    }
+
+    fn numerator(&self, x_sub: i64, y_sub: i64) -> BigInt {
+        &self.at_origin
+            + &self.per_x * (x_sub - self.origin[0])
+            + &self.per_y * (y_sub - self.origin[1])
+    }
+}
+
+/// An exact quotient; the denominator is positive.
+#[derive(Clone, Debug)]
+pub struct Exact {
+    numerator: BigInt,
+    denominator: BigInt,
+}
+
+impl PartialEq for Exact {
+    /// As numbers: quotients are not in lowest terms.
+    fn eq(&self, other: &Self) -> bool {
+        &self.numerator * &other.denominator == &other.numerator * &self.denominator
+    }
+}
+
+impl Exact {
+    /// numerator / denominator times 2^exponent; the denominator is not zero.
+    fn new(numerator: BigInt, denominator: BigInt, exponent: i32) -> Self {
+        let (numerator, denominator) = if denominator.is_negative() {
+            (-numerator, -denominator)
+        } else {
+            (numerator, denominator)
+        };
+        if exponent >= 0 {
+            Self { numerator: numerator << exponent, denominator }
+        } else {
+            Self { numerator, denominator: denominator << -exponent }
+        }
+    }
+
+    /// The nearest f64.
+    #[must_use]
+    pub fn to_f64(&self) -> f64 {
+        BigRational::new_raw(self.numerator.clone(), self.denominator.clone())
+            .to_f64()
+            .unwrap_or(f64::NAN)
+    }
+
+    /// |value - self|, to a relative accuracy of 2^-50; infinite where the value is not finite.
+    #[must_use]
+    pub fn distance(&self, value: f64) -> f64 {
+        if !value.is_finite() {
+            return f64::INFINITY;
+        }
+        let value = Dyadic::new(value);
+        let (mut left, mut denominator) =
+            (value.mantissa * &self.denominator, self.denominator.clone());
+        let mut right = self.numerator.clone();
+        if value.exponent >= 0 {
+            left <<= value.exponent;
+        } else {
+            right <<= -value.exponent;
+            denominator <<= -value.exponent;
+        }
+        quotient(&(left - right), &denominator)
+    }
+}
+
+/// |a / b| as a float, from the leading 64 bits of each.
+fn quotient(a: &BigInt, b: &BigInt) -> f64 {
+    let leading = |n: &BigInt| {
+        let shift = n.bits().saturating_sub(64);
+        let top = (n.magnitude() >> shift).to_u64().unwrap_or(u64::MAX);
+        (top as f64, shift as i32)
+    };
+    if a.sign() == Sign::NoSign {
+        return 0.0;
+    }
+    let ((a, a_shift), (b, b_shift)) = (leading(a), leading(b));
+    a / b * 2f64.powi((a_shift - b_shift).clamp(-1000, 1000))
+}
+
+/// The exact values of a triangle of N attributes at pixel centres.
+#[derive(Clone, Debug)]
+pub struct ExactTriangle<const N: usize> {
+    area: i128,
+    depth: Plane,
+    inv_w: Plane,
+    over_w: [Plane; N],
+}
+
+impl<const N: usize> ExactTriangle<N> {
+    /// Prepares the planes; `attributes[i]` belongs to `corners[i]`. Nothing for a triangle of zero
+    /// area, which has no values.
+    ///
+    /// # Panics
+    /// If a number is not finite.
+    #[must_use]
+    pub fn new(
+        corners: &Corners,
+        depth: [f64; 3],
+        inv_w: [f64; 3],
+        attributes: [[f64; N]; 3],
+    ) -> Option<Self> {
+        let d = |i: usize, j: usize| {
+            let (p, q) = (corners[i], corners[j]);
+            (i128::from(q.x) - i128::from(p.x), i128::from(q.y) - i128::from(p.y))
+        };
+        let ((x1, y1), (x2, y2)) = (d(0, 1), d(0, 2));
+        let area = x1 * y2 - x2 * y1;
+        if area == 0 {
+            return None;
+        }
+        let inv_w = inv_w.each(Dyadic::new);
+        Some(Self {
+            area,
+            depth: Plane::new(corners, area, &depth.each(Dyadic::new)),
+            over_w: std::array::from_fn(|k| {
+                let over_w = [0, 1, 2].each(|i| inv_w[i].times(&Dyadic::new(attributes[i][k])));
+                Plane::new(corners, area, &over_w)
+            }),
+            inv_w: Plane::new(corners, area, &inv_w),
+        })
+    }
+
+    /// Depth and attributes at the centre of a pixel.
+    #[must_use]
+    pub fn at(&self, x_px: i32, y_px: i32) -> (Exact, [Exact; N]) {
+        let centre = |px: i32| i64::from(px) * i64::from(SUBPIXELS) + i64::from(HALF_PIXEL);
+        let (x, y) = (centre(x_px), centre(y_px));
+        let inv_w = self.inv_w.numerator(x, y);
+        let depth = Exact::new(self.depth.numerator(x, y), self.area.into(), self.depth.exponent);
+        let attributes = std::array::from_fn(|k| {
+            let plane = &self.over_w[k];
+            Exact::new(plane.numerator(x, y), inv_w.clone(), plane.exponent - self.inv_w.exponent)
+        });
+        (depth, attributes)
+    }
+}
+
+impl From<f64> for Exact {
+    /// The number itself.
+    fn from(value: f64) -> Self {
+        let value = Dyadic::new(value);
+        Self::new(value.mantissa, 1.into(), value.exponent)
+    }
+}
+
+/// The exact value where an edge crosses a plane. `distances` of its ends from the plane are sums of
+/// two numbers, and differ.
+///
+/// # Panics
+/// If a number is not finite.
+#[must_use]
+pub fn at_crossing(ends: [f64; 2], distances: [[f64; 2]; 2]) -> Exact {
+    let [a, b] = ends.map(Dyadic::new);
+    let parts = distances.map(|sum| sum.map(Dyadic::new));
+    let unit = parts.iter().flatten().map(|part| part.exponent).min().unwrap_or(0);
+    let [from, to] = parts.map(|sum| {
+        let [first, second] = sum.map(|part| part.mantissa << (part.exponent - unit));
+        first + second
+    });
+    let exponent = a.exponent.min(b.exponent);
+    // a + (b - a) from / (from - to)
+    let numerator = (b.mantissa << (b.exponent - exponent)) * &from
+        - (a.mantissa << (a.exponent - exponent)) * &to;
+    Exact::new(numerator, from - to, exponent)
+}
+
+/// The exact value at a step along a line: (first (length - step) + second step) / length.
+///
+/// # Panics
+/// If an end's value is not finite.
+#[must_use]
+pub fn along_line(ends: [f64; 2], step: u64, length: u64) -> Exact {
+    let [a, b] = ends.each(Dyadic::new);
+    if length == 0 {
+        return Exact::new(a.mantissa, 1.into(), a.exponent);
+    }
+    let exponent = a.exponent.min(b.exponent);
+    let numerator = (a.mantissa << (a.exponent - exponent)) * (length - step)
+        + (b.mantissa << (b.exponent - exponent)) * step;
+    Exact::new(numerator, length.into(), exponent)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rasterproof_core::grid::SubpixelPoint;
+
+    /// w = 1, 2, 4 and values 0, 1, 2 over the triangle (0,0) (4,0) (0,4), worked out on paper at
+    /// the centre (1.5, 0.5): weights 1/2, 3/8, 1/8; 1/w = 1/2 + 3/16 + 1/32 = 23/32;
+    /// v/w = 3/16 + 2/32 = 8/32; so v = 8/23, and depth 10 * 3/8 + 20/8 = 25/4.
+    #[test]
+    fn a_value_by_hand() {
+        let p = |x: i32, y: i32| SubpixelPoint::new(x * 256, y * 256);
+        for corners in [[0, 1, 2], [0, 2, 1], [2, 0, 1]] {
+            let pick = |values: [f64; 3]| corners.map(|i| values[i]);
+            let triangle = ExactTriangle::new(
+                &corners.map(|i| [p(0, 0), p(4, 0), p(0, 4)][i]),
+                pick([0.0, 10.0, 20.0]),
+                pick([1.0, 0.5, 0.25]),
+                pick([0.0, 1.0, 2.0]).map(|v| [v, 0.0]),
+            )
+            .unwrap();
+            let (depth, [a, zero]) = triangle.at(1, 0);
+            assert_eq!(depth.to_f64(), 6.25);
+            assert_eq!(a.to_f64(), 8.0 / 23.0);
+            assert_eq!((zero.to_f64(), zero.distance(0.5)), (0.0, 0.5));
+            assert_eq!(depth.distance(6.0), 0.25);
+            assert!(a.distance(8.0 / 23.0) < 1e-16 && a.distance(8.0 / 23.0) > 0.0);
+            assert_eq!(a.distance(f64::NAN), f64::INFINITY);
+        }
+    }
+
+    #[test]
+    fn along_a_line_by_hand() {
+        assert_eq!(along_line([1.0, 2.0], 1, 4).to_f64(), 1.25);
+        assert_eq!(along_line([0.0, 3.0], 4, 4).to_f64(), 3.0);
+        assert_eq!(along_line([7.5, 3.0], 0, 0).to_f64(), 7.5);
+    }
+}

@@ -1,0 +1,216 @@
+//! A device judged: the families by the judge of programs, then the stages, each with its rule.
+
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use super::engine::Gpu;
+use super::known::{self, Known};
+use super::requirements;
+use super::rules::{self, Class, Finding, Rule};
+use super::specified::Specified;
+use crate::device::find::About;
+use rasterproof_judge::ask::{Answer, Ask, Question};
+use rasterproof_judge::check::Truth;
+use rasterproof_judge::declared::{Declared, Rule as Tie};
+use rasterproof_judge::expected::Declaration;
+use rasterproof_judge::recognise::{Scope, recognise};
+use rasterproof_judge::run::{Failing, Found, Row, run};
+use rasterproof_judge::verdict::{Outcome, Verdict, sentence};
+use rasterproof_judge::{Options, adapt_case, failures, windings as first_stages};
+use rasterproof_verify::cases::{self, Case};
+
+/// Cases of a stage for each case of a family.
+const STAGE_SHARE: u64 = 2;
+/// A device is asked this many cases of a stage at most.
+const MOST_OF_A_STAGE: u64 = 2048;
+
+/// What came of a device.
+#[derive(Clone, Debug)]
+pub struct Stand {
+    /// What it says of itself.
+    pub about: About,
+    /// What was planted, if anything was.
+    pub plant: Option<&'static str>,
+    /// The families, as the judge of programs has them.
+    pub verdict: Verdict,
+    /// Every property and every stage with its rule.
+    pub findings: Vec<Finding>,
+    /// Known faults of this driver that were seen, or not any more.
+    pub known: Vec<String>,
+}
+
+impl Stand {
+    /// Whether nothing is to be done.
+    #[must_use]
+    pub fn agrees(&self) -> bool {
+        self.findings.iter().all(|f| f.class.is_good())
+    }
+}
+
+/// The device as somebody who is asked, while somebody else still holds it.
+struct Shared(Arc<Mutex<Gpu>>, Declared);
+
+fn lock(gpu: &Mutex<Gpu>) -> MutexGuard<'_, Gpu> {
+    gpu.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+impl Ask for Shared {
+    fn declared(&self) -> &Declared {
+        &self.1
+    }
+
+    fn cases_at_once(&self) -> u64 {
+        lock(&self.0).cases_at_once()
+    }
+
+    fn ask(&mut self, questions: &[Question], most_deaths: u64) -> Vec<Answer> {
+        lock(&self.0).ask(questions, most_deaths)
+    }
+
+    fn complaints(&self) -> Vec<String> {
+        lock(&self.0).complaints()
+    }
+}
+
+/// The families that a device is asked: values of f32 end before w does, lines have a stage of their
+/// own, and depth tests and the near plane are not asked.
+#[must_use]
+pub fn families(wanted: &[String]) -> Vec<String> {
+    let of_triangles =
+        |f: &cases::Family| cases::triangles::FAMILIES.iter().any(|t| t.name == f.name);
+    let is_asked = |f: &&&cases::Family| f.name != "w-extreme" && of_triangles(f);
+    adapt_case::families(wanted).iter().filter(is_asked).map(|f| f.name.to_owned()).collect()
+}
+
+/// Judges a device, with the faults that are known of it.
+#[must_use]
+pub fn judge(gpu: Gpu, options: &Options, progress: &(dyn Fn(u64) + Sync)) -> Stand {
+    let known = known::of(&known::parse(known::TEXT).unwrap_or_default(), gpu.about());
+    judge_with(gpu, options, &known, progress)
+}
+
+/// The same with these faults known.
+#[must_use]
+pub fn judge_with(
+    gpu: Gpu,
+    options: &Options,
+    known: &[Known],
+    progress: &(dyn Fn(u64) + Sync),
+) -> Stand {
+    let about = gpu.about().clone();
+    let plant = gpu.plant_name();
+    let declared = gpu.declared().clone();
+    let gpu = Arc::new(Mutex::new(gpu));
+    let mut shared = Shared(Arc::clone(&gpu), declared.clone());
+    let options =
+        Options { families: families(&options.families), remember: true, ..options.clone() };
+    let mut truth = Truth::of(&declared);
+    truth.expect = Box::new(Specified::new(&declared));
+    // The specification asks for less than the oracle: either of two triangles has a shared sample.
+    let open = Declaration { rule: Tie::Unspecified, ..Declaration::from(&declared) };
+    truth.recognised = Some(Box::new(open));
+    let windings = first_stages::windings(&mut shared, options.seed);
+    let mut askers: Vec<Box<dyn Ask>> = vec![Box::new(shared)];
+    let mut found = run(&mut askers, &options, &truth, progress);
+    let first = &mut *askers[0];
+    let is_news = |f: &Failing| !is_known(known, f, &options, &declared);
+    let (news, old): (Vec<_>, Vec<_>) = found.failing.drain(..).partition(is_news);
+    found.failing = news;
+    let failures = failures::failures(first, &found, &options, &truth);
+    let scope = Scope { triangles: true, lines: false, always: false };
+    let recognised = if found.failing.is_empty() { None } else { recognise(first, scope) };
+    let stale = stale(known, &found, &old, &options, &declared);
+    let complaints = first.complaints();
+    let said = recognised.map(|r| r.said);
+    let mut verdict = Verdict::new(declared, &options, windings, said, found, failures, complaints);
+    let mut findings = of_rows(&mut verdict, &old, &stale);
+    drop(askers);
+    if options.only.is_none() {
+        let cases = (options.cases * STAGE_SHARE).clamp(16, MOST_OF_A_STAGE);
+        findings.extend(requirements::all(&mut lock(&gpu), options.seed, cases, known));
+    }
+    let known = known.iter().map(|k| k.about.clone()).collect();
+    Stand { about, plant, verdict, findings, known }
+}
+
+fn case_of(family: &str, index: u64, options: &Options, declared: &Declared) -> Option<Case> {
+    let family = cases::families().find(|f| f.name == family)?;
+    Some(adapt_case::put(family.case(options.seed, index), declared))
+}
+
+fn is_known(known: &[Known], failing: &Failing, options: &Options, declared: &Declared) -> bool {
+    case_of(failing.family, failing.index, options, declared)
+        .is_some_and(|case| known.iter().any(|k| k.covers(failing.property, &case)))
+}
+
+/// Properties of which a known fault says that cases fail, of which some were judged and none did.
+fn stale(
+    known: &[Known],
+    found: &Found,
+    old: &[Failing],
+    options: &Options,
+    declared: &Declared,
+) -> Vec<String> {
+    let named = known.iter().flat_map(|k| k.certain().map(move |p| (k, p)));
+    let is_stale = |(k, property): &(&Known, &str)| {
+        let mut judged = found.judged.iter().filter(|(p, ..)| p == property);
+        !old.iter().any(|f| f.property == *property)
+            && judged.any(|(_, family, index)| {
+                case_of(family, *index, options, declared)
+                    .is_some_and(|case| k.covers(property, &case))
+            })
+    };
+    named.filter(is_stale).map(|(_, property)| property.to_owned()).collect()
+}
+
+fn rule(property: &str) -> Rule {
+    match property {
+        "values" => rules::PERSPECTIVE,
+        "samples4" => rules::SAMPLES,
+        _ => rules::POLYGONS,
+    }
+}
+
+/// Every row with its rule; the verdict's properties come out alike.
+fn of_rows(verdict: &mut Verdict, old: &[Failing], stale: &[String]) -> Vec<Finding> {
+    let mut findings = Vec::new();
+    for row in &verdict.found.rows {
+        let is_of = |f: &&Failing| f.property == row.name;
+        let known = old.iter().filter(is_of).count();
+        let news = verdict.found.failing.iter().filter(is_of).count();
+        let class = class(row, known, news, stale);
+        let mut detail = sentence(row);
+        if known > 0 {
+            detail += &format!("; {known} as the baseline says, {news} new");
+        }
+        findings.push(Finding { name: row.name.to_owned(), rule: rule(row.name), class, detail });
+    }
+    for property in &mut verdict.properties {
+        if let Some(finding) = findings.iter().find(|f| f.name == property.name) {
+            property.outcome = match finding.class {
+                Class::Known => Outcome::ExpectedFailure,
+                Class::Stale => Outcome::UnexpectedPass,
+                class if class.is_good() => Outcome::Pass,
+                _ => Outcome::Fail,
+            };
+        } else if !property.outcome.is_good() {
+            // That it draws, in both windings, and answers.
+            let (name, detail) = (property.name.to_owned(), property.detail.clone());
+            let class = if name == "protocol" { Class::NoAnswer } else { Class::Outside };
+            findings.push(Finding { name, rule: rules::POLYGONS, class, detail });
+        }
+    }
+    findings
+}
+
+fn class(row: &Row, known: usize, news: usize, stale: &[String]) -> Class {
+    // Checks that compare answers have no second opinion: what they find is no matter of ties.
+    let compares = ["watertight", "vertex-order", "samples4"].contains(&row.name);
+    match (news, known) {
+        (0, 0) if stale.iter().any(|name| name == row.name) => Class::Stale,
+        (0, 0) => Class::Equal,
+        (0, _) => Class::Known,
+        _ if row.deaths > 0 => Class::NoAnswer,
+        _ if row.recognised.total() == 0 && row.worst <= 1.0 && !compares => Class::Allowed,
+        _ => Class::Outside,
+    }
+}

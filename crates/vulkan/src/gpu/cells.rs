@@ -1,0 +1,99 @@
+//! What is drawn in a cell, and what is read from it.
+
+use crate::device::draw::{Draw, Pictures, Vertex};
+use crate::device::stage::CELL_PX;
+use rasterproof_core::frame::Coverage;
+use rasterproof_core::grid::{PixelRect, SUBPIXELS};
+use rasterproof_core::triangle::{Corners, Span};
+use rasterproof_judge::adapt_case;
+use rasterproof_judge::declared::Declared;
+use rasterproof_verify::cases::{Shape, Triangle};
+
+/// The pixels of a cell.
+pub const WINDOW: PixelRect = PixelRect::window(CELL_PX, CELL_PX);
+
+/// Corners with w = 1, halfway into the view volume.
+#[must_use]
+pub fn plain(corners: &Corners, half_px: f32) -> [Vertex; 3] {
+    corners.map(|p| {
+        let [x, y] = [p.x, p.y].map(|sub| sub as f32 / SUBPIXELS as f32 / half_px);
+        Vertex { clip: [x, y, 0.5, 1.0], attributes: [0.0; 2] }
+    })
+}
+
+/// Corners with depth, w and attributes, rounded to f32.
+#[must_use]
+pub fn valued(triangle: &Triangle, half_px: f32) -> [Vertex; 3] {
+    triangle.vertices.map(|v| {
+        let half = f64::from(half_px);
+        let w = (1.0 / v.inv_w) as f32;
+        let [x, y] = [v.position.x, v.position.y].map(|sub| {
+            let ndc = f64::from(sub) / f64::from(SUBPIXELS) / half;
+            (ndc * f64::from(w)) as f32
+        });
+        let z = (v.depth * f64::from(w)) as f32;
+        Vertex { clip: [x, y, z, w], attributes: [v.varying.x as f32, v.varying.y as f32] }
+    })
+}
+
+/// Four f32.
+#[must_use]
+pub fn floats(pixel: &[u8]) -> [f64; 4] {
+    let word = |i: usize| {
+        let bytes = [pixel[4 * i], pixel[4 * i + 1], pixel[4 * i + 2], pixel[4 * i + 3]];
+        f64::from(f32::from_ne_bytes(bytes))
+    };
+    [word(0), word(1), word(2), word(3)]
+}
+
+/// Runs of pixels of a row with the same byte, but not 0.
+pub fn runs(y_px: i32, row: &[u8]) -> Vec<(Span, u8)> {
+    let mut x_px = 0;
+    let mut runs = Vec::new();
+    for run in row.chunk_by(|a, b| a == b) {
+        let x1_px = x_px + run.len() as i32;
+        if run[0] != 0 {
+            runs.push((Span { y_px, x0_px: x_px, x1_px }, run[0]));
+        }
+        x_px = x1_px;
+    }
+    runs
+}
+
+/// A draw whose window's corner is the middle of its viewport.
+pub fn draw_of(cell: usize, vertices: [Vertex; 3], side_px: f32) -> Draw {
+    let half = side_px / 2.0;
+    Draw { cell, vertices, viewport: [-half, -half, side_px, side_px], window: [CELL_PX; 2] }
+}
+
+/// The hits in a cell.
+pub fn hits_of(pictures: &Pictures, cell: usize) -> Coverage {
+    let mut hits = Coverage::new(WINDOW, 0);
+    for y in 0..CELL_PX {
+        for (run, times) in runs(y as i32, pictures.row(cell, y, CELL_PX)) {
+            (0..times).for_each(|_| hits.hit(run.y_px, run.x0_px, run.x1_px));
+        }
+    }
+    hits
+}
+
+/// Twice the area of a triangle in square pixels.
+#[must_use]
+pub fn twice_area_px2(corners: &Corners) -> f64 {
+    let square = f64::from(SUBPIXELS) * f64::from(SUBPIXELS);
+    rasterproof_judge::expected::area2(corners).unsigned_abs() as f64 / square
+}
+
+/// Triangles of the families in perspective.
+pub fn in_perspective(declared: &Declared, seed: u64, cases: u64) -> Vec<Triangle> {
+    let names = ["w-equal", "w-4", "w-100"].map(str::to_owned);
+    let mut triangles = Vec::new();
+    for family in adapt_case::families(&names) {
+        for index in 0..cases / 3 {
+            let case = adapt_case::put(family.case(seed, index), declared);
+            let Shape::Triangles { list, .. } = case.shape else { continue };
+            triangles.extend(list.iter().take(1));
+        }
+    }
+    triangles
+}

@@ -1,0 +1,201 @@
+//! Known faults of drivers: a baseline by condition, so that it holds for every seed.
+//!
+//! A line names a driver, a version, a property and where it fails: see `known-faults.txt`. A failing
+//! case that meets the condition is known; one that does not is news. A fault of which no case fails
+//! any more, though cases that meet its condition were judged, is news too.
+
+use crate::device::find::About;
+use rasterproof_verify::cases::{Case, Shape};
+
+use super::cells::twice_area_px2;
+use super::rules::Class;
+
+/// The faults that are known, as text.
+pub const TEXT: &str = include_str!("known-faults.txt");
+
+/// A known fault of a driver.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Known {
+    /// Part of the driver's name, in small letters.
+    driver: String,
+    /// The beginning of its version.
+    version: String,
+    /// The families, stages and other properties that fail, and whether each does in every run.
+    properties: Vec<(String, bool)>,
+    condition: Condition,
+    /// What happens.
+    pub about: String,
+}
+
+/// Where it happens.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Condition {
+    /// With triangles of twice this area in square pixels or more.
+    TwiceAreaPx2(f64),
+    /// In so many of a thousand cases of a stage at most.
+    PerMille(u64),
+}
+
+/// Cases of a stage from which on it is news that none of them fails.
+const ENOUGH: u64 = 512;
+
+/// Reads known faults: lines `driver | version | properties | condition | about`, after `#` whatever is
+/// to be said. Properties are separated by `;`; of one with `?` behind it few cases fail, so that it is no
+/// news if none does. A condition is `twice-area-px2 >= N` or, of a stage, `at most N in 1000`.
+///
+/// # Errors
+/// The line that cannot be read, with what was expected.
+pub fn parse(text: &str) -> Result<Vec<Known>, String> {
+    let lines = text.lines().zip(1..).filter(|(line, _)| {
+        let line = line.trim();
+        !line.is_empty() && !line.starts_with('#')
+    });
+    let known = |(line, number): (&str, u32)| {
+        let wrong = || {
+            format!(
+                "line {number}: expected 'driver | version | properties | condition | about', where \
+                 condition is 'twice-area-px2 >= N' or 'at most N in 1000'"
+            )
+        };
+        let cells: Vec<&str> = line.split('|').map(str::trim).collect();
+        let [driver, version, properties, condition, about] = cells[..] else {
+            return Err(wrong());
+        };
+        let least = condition.strip_prefix("twice-area-px2 >= ").and_then(|n| n.parse().ok());
+        let most = condition.strip_prefix("at most ").and_then(|n| n.strip_suffix(" in 1000"));
+        let most = most.and_then(|n| n.parse().ok());
+        let condition = least.map(Condition::TwiceAreaPx2).or(most.map(Condition::PerMille));
+        Ok(Known {
+            driver: driver.to_lowercase(),
+            version: version.to_owned(),
+            properties: properties.split(';').map(property).collect(),
+            condition: condition.ok_or_else(wrong)?,
+            about: about.to_owned(),
+        })
+    };
+    lines.map(known).collect()
+}
+
+fn property(word: &str) -> (String, bool) {
+    let word = word.trim();
+    let name = word.trim_end_matches('?');
+    (name.to_owned(), name == word)
+}
+
+/// The known faults of a device.
+#[must_use]
+pub fn of(all: &[Known], about: &About) -> Vec<Known> {
+    let is_its =
+        |k: &&Known| about.words().contains(&k.driver) && about.version.contains(&k.version);
+    all.iter().filter(is_its).cloned().collect()
+}
+
+impl Known {
+    /// The properties of which cases fail in every run.
+    pub fn certain(&self) -> impl Iterator<Item = &str> {
+        self.properties.iter().filter(|(_, certain)| *certain).map(|(name, _)| name.as_str())
+    }
+
+    fn names(&self, property: &str) -> bool {
+        self.properties.iter().any(|(name, _)| name == property)
+    }
+
+    /// Whether it says of this property that a case fails.
+    #[must_use]
+    pub fn covers(&self, property: &str, case: &Case) -> bool {
+        let Shape::Triangles { list, .. } = &case.shape else { return false };
+        list.iter().any(|t| self.covers_area(property, twice_area_px2(&t.corners())))
+    }
+
+    fn covers_area(&self, property: &str, px2: f64) -> bool {
+        let is_large = matches!(self.condition, Condition::TwiceAreaPx2(least) if px2 >= least);
+        is_large && self.names(property)
+    }
+}
+
+/// What a stage came to whose triangles have these areas, by whether each was right.
+#[must_use]
+pub fn class_of_areas(known: &[Known], property: &str, judged: &[(f64, bool)]) -> Class {
+    let is_known = |px2: f64| known.iter().any(|k| k.covers_area(property, px2));
+    let wrong: Vec<f64> = judged.iter().filter(|(_, right)| !right).map(|(px2, _)| *px2).collect();
+    match wrong.is_empty() {
+        true if judged.iter().any(|(px2, _)| is_known(*px2)) => Class::Stale,
+        true => Class::Equal,
+        false if wrong.iter().all(|px2| is_known(*px2)) => Class::Known,
+        false => Class::Outside,
+    }
+}
+
+/// What a stage came to in which so many of its cases are wrong.
+#[must_use]
+pub fn class_of_share(known: &[Known], property: &str, wrong: u64, cases: u64) -> Class {
+    let most = known.iter().filter(|k| k.names(property));
+    let most = most.filter_map(|k| match k.condition {
+        Condition::PerMille(most) => Some(most),
+        Condition::TwiceAreaPx2(_) => None,
+    });
+    match most.max() {
+        Some(_) if wrong == 0 && cases >= ENOUGH => Class::Stale,
+        Some(most) if wrong > 0 && wrong * 1000 <= most * cases => Class::Known,
+        _ if wrong == 0 => Class::Equal,
+        _ => Class::Outside,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rasterproof_verify::cases;
+
+    #[test]
+    fn a_line_covers_what_it_says() {
+        let known =
+            parse("# word\n\nLavaPipe | 22.3 | huge; values? | twice-area-px2 >= 8 | lost\n");
+        let known = known.unwrap().remove(0);
+        let square = |side_px: i32| {
+            let mut case = cases::families().next().unwrap().case(1, 0);
+            let sub = |x: i32, y: i32| rasterproof_core::grid::SubpixelPoint::new(x * 256, y * 256);
+            let Shape::Triangles { list, .. } = &mut case.shape else { panic!("triangles") };
+            list.truncate(1);
+            let corners = [sub(0, 0), sub(side_px, 0), sub(0, side_px)];
+            for (vertex, corner) in list[0].vertices.iter_mut().zip(corners) {
+                vertex.position = corner;
+            }
+            case
+        };
+        assert!(known.covers("huge", &square(3)));
+        assert!(known.covers("values", &square(3)));
+        assert!(!known.covers("huge", &square(2)));
+        assert!(!known.covers("fan", &square(3)));
+        assert_eq!(known.certain().collect::<Vec<_>>(), ["huge"]);
+    }
+
+    #[test]
+    fn stages_by_area_and_by_share() {
+        let known =
+            parse("a | b | x, y | twice-area-px2 >= 8 | c\na | b | z | at most 20 in 1000 | c");
+        let known = known.unwrap();
+        let by_area = |judged: &[(f64, bool)]| class_of_areas(&known, "x, y", judged);
+        assert_eq!(by_area(&[(9.0, false), (9.0, true), (1.0, true)]), Class::Known);
+        assert_eq!(by_area(&[(9.0, false), (7.0, false)]), Class::Outside);
+        assert_eq!(by_area(&[(9.0, true), (7.0, true)]), Class::Stale);
+        assert_eq!(by_area(&[(7.0, true)]), Class::Equal);
+        assert_eq!(class_of_areas(&known, "z", &[(9.0, false)]), Class::Outside);
+        let by_share = |wrong, cases| class_of_share(&known, "z", wrong, cases);
+        assert_eq!(by_share(2, 100), Class::Known);
+        assert_eq!(by_share(3, 100), Class::Outside);
+        assert_eq!(by_share(0, 100), Class::Equal);
+        assert_eq!(by_share(0, 1000), Class::Stale);
+        assert_eq!(class_of_share(&known, "x, y", 1, 1000), Class::Outside);
+    }
+
+    #[test]
+    fn what_cannot_be_read_names_its_line() {
+        assert!(parse(TEXT).is_ok());
+        for bad in
+            ["a | b | c | d", "a | b | c | twice-area-px2 >= many | e", "a | b | c | at most 3 | e"]
+        {
+            assert!(parse(&format!("# word\n{bad}")).unwrap_err().starts_with("line 2: "));
+        }
+    }
+}

@@ -1,0 +1,118 @@
+//! A device on a ladder of coverage: its wrong pixels and its time beside those of the rungs.
+
+use std::sync::Arc;
+
+use super::engine::Gpu;
+use super::look;
+use crate::device::Error;
+use crate::device::draw::{Draw, Painter};
+use crate::device::open::Opened;
+use crate::device::stage::{Kind, PAGE_PX};
+use rasterproof_core::grid::PixelRect;
+use rasterproof_core::triangle::{FreeCorners, Span};
+use rasterproof_precision::cost::{Guest, Rung};
+
+/// Triangles that are drawn at once to be judged.
+const AT_ONCE: usize = 1024;
+
+/// A device as a rung.
+pub struct OnLadder {
+    gpu: Gpu,
+    opened: Arc<Opened>,
+}
+
+impl OnLadder {
+    /// The device that an engine's name means.
+    ///
+    /// # Errors
+    /// As [`Gpu::named`].
+    pub fn new(engine: &str) -> Result<Self, Error> {
+        let mut gpu = Gpu::named(engine)?;
+        let opened = Arc::clone(gpu.ready()?.device());
+        Ok(Self { gpu, opened })
+    }
+
+    fn half(&self) -> f32 {
+        self.gpu.viewport_px() / 2.0
+    }
+}
+
+/// The pixels of a triangle and a few around.
+fn near(corners: &FreeCorners, bounds: PixelRect) -> PixelRect {
+    let px = corners.px();
+    let range = |axis: usize| {
+        let (low, high) = px.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| {
+            (low.min(p[axis]), high.max(p[axis]))
+        });
+        // `as` saturates.
+        ((low.floor() as i32).saturating_sub(2), (high.ceil() as i32).saturating_add(2))
+    };
+    let ((x0, x1), (y0, y1)) = (range(0), range(1));
+    PixelRect { x0, y0, x1, y1 }.intersect(&bounds)
+}
+
+impl Guest for OnLadder {
+    fn rung(&self) -> Rung {
+        let about = self.gpu.about();
+        let bits = about.subpixel_bits;
+        let text = format!(
+            "{} {}: snaps to {bits} bits; cleared, drawn, waited for",
+            about.driver, about.version
+        );
+        Rung { name: about.short().into(), about: text.into(), promises: Vec::new() }
+    }
+
+    fn spans(
+        &mut self,
+        triangles: &[FreeCorners],
+        bounds: PixelRect,
+    ) -> Result<Vec<Vec<Span>>, String> {
+        let mut all = Vec::with_capacity(triangles.len());
+        for some in triangles.chunks(AT_ONCE) {
+            let jobs: Vec<_> = some.iter().map(|c| (vec![c.px()], near(c, bounds))).collect();
+            let drawn = look::coverages_px(&mut self.gpu, &jobs).map_err(|e| e.to_string())?;
+            all.extend(drawn.iter().map(|hits| {
+                let mut spans = Vec::new();
+                for (y_px, row) in hits.rows() {
+                    let mut x0_px = hits.bounds().x0;
+                    for run in row.chunk_by(|a, b| a == b) {
+                        let x1_px = x0_px + run.len() as i32;
+                        let span = Span { y_px, x0_px, x1_px };
+                        spans.extend(std::iter::repeat_n(span, usize::from(run[0])));
+                        x0_px = x1_px;
+                    }
+                }
+                spans
+            }));
+        }
+        Ok(all)
+    }
+
+    fn pass(
+        &mut self,
+        triangles: &[FreeCorners],
+        bounds: PixelRect,
+    ) -> Result<Box<dyn FnMut()>, String> {
+        let (width, height) = (bounds.width(), bounds.height());
+        if (bounds.x0, bounds.y0) != (0, 0) || width.max(height) > PAGE_PX {
+            return Err(format!("a page has {PAGE_PX} x {PAGE_PX} px"));
+        }
+        let half = self.half();
+        let draw = |corners: &FreeCorners| {
+            Ok(Draw {
+                cell: 0,
+                vertices: look::seen_from(&corners.px(), (0, 0), half)?,
+                viewport: [-half, -half, 2.0 * half, 2.0 * half],
+                window: [width, height],
+            })
+        };
+        let said = |error: Error| error.to_string();
+        let draws: Vec<Draw> =
+            triangles.iter().map(draw).collect::<Result<_, _>>().map_err(said)?;
+        let mut painter = Painter::new(&self.opened, None).map_err(said)?;
+        let prepared = painter.prepare(Kind::Flat, &draws).map_err(said)?;
+        painter.run_prepared(&prepared).map_err(said)?;
+        // Better no board than the time of a device that draws nothing.
+        Ok(Box::new(move || painter.run_prepared(&prepared).expect("what was drawn before")))
+    }
+}

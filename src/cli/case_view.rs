@@ -1,0 +1,262 @@
+//! A case as each engine draws it: hit counts, grids of characters, a picture; and what it is.
+
+use image::RgbImage;
+
+use super::{Failure, usage};
+use rasterproof_core::frame::Coverage;
+use rasterproof_core::grid::{PixelRect, SubpixelPoint};
+use rasterproof_core::raster::edge_function::WordWidth;
+use rasterproof_core::triangle::PixelPoint;
+use rasterproof_faults::planted::exact::ExactMutant;
+use rasterproof_faults::planted::{LineMutant, TriangleMutant};
+use rasterproof_faults::published::from_screen;
+use rasterproof_registry::engines::{Engine, Entry, ExactEngine, LineEngine, Specimen};
+use rasterproof_registry::published_check::{specimen_coverage, specimen_line_coverage};
+use rasterproof_report::{ascii, panels};
+use rasterproof_verify::cases::unsnapped::OffGridCase;
+use rasterproof_verify::cases::{Case, Shape};
+use rasterproof_verify::comparison::tolerance::{self, Tolerance};
+use rasterproof_verify::comparison::unsnapped::exact_coverage;
+use rasterproof_verify::comparison::{Tally, engine_coverage, line_coverage, oracle_coverage};
+use rasterproof_verify::oracle::Oracle;
+use rasterproof_verify::oracle::coverage::samples_on_boundary;
+
+/// Who is judged: the engines of each kind, or a planted fault alone.
+pub struct Contestants {
+    /// Rasterizers, with the bounds of their values.
+    pub engines: Vec<(Engine, Tolerance)>,
+    /// Line drawers.
+    pub lines: Vec<LineEngine>,
+    /// Rasterizers of corners that are not snapped.
+    pub exact: Vec<ExactEngine>,
+}
+
+impl Contestants {
+    /// Everybody, or the fault of this name.
+    pub fn new(plant: Option<&str>) -> Self {
+        let Some(name) = plant else {
+            let engines = Engine::JUDGED.into_iter().map(|e| (e, tolerance::of(e)));
+            return Self {
+                engines: engines.collect(),
+                lines: LineEngine::JUDGED.to_vec(),
+                exact: ExactEngine::JUDGED.to_vec(),
+            };
+        };
+        let triangle = TriangleMutant::ALL.into_iter().find(|m| m.name() == name);
+        let line = LineMutant::ALL.into_iter().find(|m| m.name() == name);
+        let exact = ExactMutant::ALL.into_iter().find(|m| m.name() == name);
+        let with_bound = |m| (Engine::Mutant(m), tolerance::SCANLINE);
+        Self {
+            engines: triangle.map(with_bound).into_iter().collect(),
+            lines: line.map(LineEngine::Mutant).into_iter().collect(),
+            exact: exact.map(ExactEngine::Mutant).into_iter().collect(),
+        }
+    }
+}
+
+/// A case off the lattice as every engine for such corners draws it.
+pub fn picture_off_grid(
+    title: &str,
+    case: &OffGridCase,
+    engines: &[(&str, ExactEngine)],
+) -> Option<RgbImage> {
+    let (target, _) = exact_coverage(&ExactEngine::Oracle, case).ok()?;
+    let hits = engines.iter().filter_map(|(name, engine)| {
+        Some(((*name).to_owned(), exact_coverage(engine, case).ok()?.0))
+    });
+    Some(panels::of_off_grid(title, case, &hits.collect::<Vec<_>>(), &target).image)
+}
+
+/// The hits in a window; none where the other one has no pixels.
+pub fn crop(hits: &Coverage, window: PixelRect) -> Coverage {
+    let mut cropped = Coverage::new(window, 0);
+    for y in window.y0..window.y1 {
+        for (x, cell) in (window.x0..).zip(cropped.row_mut(y)) {
+            *cell = hits.get(x, y).unwrap_or(0);
+        }
+    }
+    cropped
+}
+
+/// Hits of both.
+fn sum(a: &Coverage, b: &Coverage) -> Coverage {
+    let mut all = a.clone();
+    for (y, row) in b.rows() {
+        for (sum, hits) in all.row_mut(y).iter_mut().zip(row) {
+            *sum = sum.saturating_add(*hits);
+        }
+    }
+    all
+}
+
+/// A case as each engine draws it.
+pub struct Shown {
+    engines: Vec<(String, Result<Coverage, String>)>,
+    target: Coverage,
+}
+
+/// Draws a case with each engine that can.
+pub fn draw(case: &Case, engines: &[(Engine, Tolerance)], lines: &[LineEngine]) -> Shown {
+    match &case.shape {
+        Shape::Triangles { list, .. } => Shown {
+            engines: engines
+                .iter()
+                .map(|(e, _)| (e.name().to_owned(), engine_coverage(e, list, case.window)))
+                .collect(),
+            target: oracle_coverage(list, case.window),
+        },
+        Shape::Lines(list) => {
+            let mut target = Coverage::new(case.window, 0);
+            for line in list {
+                Oracle.line_pixels(line, case.window, |p, _| target.hit(p.y, p.x, p.x + 1));
+            }
+            Shown {
+                engines: lines
+                    .iter()
+                    .map(|e| (e.name().to_owned(), line_coverage(e, list, case.window)))
+                    .collect(),
+                target,
+            }
+        }
+    }
+}
+
+impl Shown {
+    /// Puts a specimen before the engines.
+    pub fn add(&mut self, entry: &Entry, case: &Case) -> Result<(), Failure> {
+        let window = case.window;
+        let hits = match (&case.shape, entry.specimen) {
+            (Shape::Triangles { list, .. }, Some(Specimen::Triangle(specimen))) => {
+                let list: Vec<_> = list.iter().map(from_screen).collect();
+                specimen_coverage(specimen, &list, window)
+            }
+            (Shape::Lines(lines), Some(Specimen::Line(specimen))) => {
+                let mut hits = Ok(Coverage::new(window, 0));
+                for line in lines {
+                    let more = specimen_line_coverage(specimen, line, window);
+                    hits = hits.and_then(|hits| Ok(sum(&hits, &more?)));
+                }
+                hits
+            }
+            _ => return Err(usage(format!("{} does not draw what this case holds", entry.name))),
+        };
+        self.engines.insert(0, (entry.name.to_owned(), hits));
+        Ok(())
+    }
+
+    /// Puts somebody else before the engines, who draws the case so; and how it differs.
+    #[cfg(feature = "vulkan")]
+    pub fn add_drawn(&mut self, name: &str, hits: Coverage) -> Tally {
+        let tally = Tally::between(&hits, &self.target);
+        self.engines.insert(0, (name.to_owned(), Ok(hits)));
+        tally
+    }
+
+    /// Whether nobody draws the case.
+    pub fn is_empty(&self) -> bool {
+        self.engines.is_empty()
+    }
+
+    /// How often each hits a pixel, and the oracle.
+    pub fn hits(&self, at: PixelPoint) -> String {
+        let of = |hits: &Coverage| hits.get(at.x, at.y).unwrap_or(0);
+        let engines = self.engines.iter().map(|(name, hits)| match hits {
+            Ok(hits) => format!("{name} {}", of(hits)),
+            Err(_) => format!("{name} panics"),
+        });
+        engines.chain([format!("oracle {}", of(&self.target))]).collect::<Vec<_>>().join(", ")
+    }
+
+    /// A titled grid for each engine; one that panicked has its message instead.
+    pub fn blocks(&self) -> Vec<(String, Vec<String>)> {
+        let blocks = self.engines.iter().map(|(name, hits)| match hits {
+            Ok(hits) => {
+                let tally = Tally::between(hits, &self.target);
+                (
+                    format!("{name}: {} px, {} wrong", hits.covered(), tally.total()),
+                    ascii::grid(hits, &self.target),
+                )
+            }
+            Err(message) => (format!("{name}: panics"), vec![message.clone()]),
+        });
+        let oracle = (
+            format!("oracle: {} px", self.target.covered()),
+            ascii::grid(&self.target, &self.target),
+        );
+        blocks.chain([oracle]).collect()
+    }
+
+    /// The grid of one engine and the oracle's, where coverage differs or an engine panicked.
+    pub fn judged_blocks(&self, name: &str) -> Option<Vec<(String, Vec<String>)>> {
+        let at = self.engines.iter().position(|(n, _)| n == name)?;
+        let blocks = self.blocks();
+        Some(vec![blocks[at].clone(), blocks.last()?.clone()])
+    }
+
+    /// A panel for each engine that did not panic, then the oracle.
+    pub fn picture(&self, title: &str, case: &Case) -> RgbImage {
+        let drawn = self.engines.iter();
+        let drawn = drawn.filter_map(|(name, hits)| Some((name.clone(), hits.clone().ok()?)));
+        panels::of_case(title, case, &drawn.collect::<Vec<_>>(), &self.target).image
+    }
+}
+
+/// Positions, exact area and word of each shape.
+pub fn facts(case: &Case, out: &mut dyn std::io::Write) -> Result<(), Failure> {
+    match &case.shape {
+        Shape::Triangles { list, .. } => {
+            for triangle in list.iter().take(8) {
+                let corners = triangle.corners();
+                let [a, b, c] = corners;
+                let d = |p: SubpixelPoint| {
+                    (i128::from(p.x) - i128::from(a.x), i128::from(p.y) - i128::from(a.y))
+                };
+                let ((bx, by), (cx, cy)) = (d(b), d(c));
+                let area = bx * cy - by * cx;
+                let extent = |v: [i32; 3]| {
+                    v.iter().max().unwrap_or(&0).abs_diff(*v.iter().min().unwrap_or(&0))
+                };
+                let word =
+                    WordWidth::of(extent(corners.map(|p| p.x)), extent(corners.map(|p| p.y)));
+                let points = corners
+                    .map(|p| {
+                        let (x, y) = p.to_px();
+                        format!("({x}, {y})")
+                    })
+                    .join(" ");
+                let winding = match area.signum() {
+                    1 => "clockwise",
+                    -1 => "counter-clockwise",
+                    _ => "degenerate",
+                };
+                let ties = samples_on_boundary(&corners, case.window);
+                writeln!(
+                    out,
+                    "triangle {points}\n  {winding}, area {} px, edge functions in {word:?}, {ties} sample{} on its boundary",
+                    area as f64 / 131_072.0,
+                    if ties == 1 { "" } else { "s" }
+                )?;
+            }
+            if list.len() > 8 {
+                writeln!(out, "and {} more triangles", list.len() - 8)?;
+            }
+        }
+        Shape::Lines(lines) => {
+            for line in lines {
+                let [a, b] = line.ends.map(|end| end.pixel);
+                let (dx, dy) = (a.x.abs_diff(b.x), a.y.abs_diff(b.y));
+                writeln!(
+                    out,
+                    "line ({}, {}) to ({}, {}): {} steps along {}",
+                    a.x,
+                    a.y,
+                    b.x,
+                    b.y,
+                    dx.max(dy),
+                    if dx >= dy { "x" } else { "y" }
+                )?;
+            }
+        }
+    }
+    Ok(())
+}

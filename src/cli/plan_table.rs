@@ -1,0 +1,115 @@
+//! The account of a plan, as lines for the terminal and as rows of a page.
+
+use rasterproof_render::effects::Effect;
+use rasterproof_render::effects::plan::{Decision, Unit};
+use rasterproof_report::html::PlanRow;
+
+/// A decision that some items share, or one about the frame.
+pub(super) struct Line<'a> {
+    pub effect: Effect,
+    pub reason: &'a str,
+    /// What the counts count.
+    pub unit: Unit,
+    /// On, off, open.
+    pub counts: [u64; 3],
+    items: Vec<usize>,
+}
+
+impl Line<'_> {
+    /// Which items, in short: ranges, or their number where there are too many of them.
+    pub fn items(&self) -> String {
+        /// Characters of the column.
+        const MOST: usize = 9;
+        let runs = self.items.chunk_by(|a, b| a + 1 == *b).map(|run| match run {
+            [first, .., last] => format!("{first}-{last}"),
+            [one] => one.to_string(),
+            [] => String::new(),
+        });
+        let text = runs.collect::<Vec<_>>().join(",");
+        match text.len() {
+            0 => "frame".to_owned(),
+            1..=MOST => text,
+            _ => format!("{} items", self.items.len()),
+        }
+    }
+
+    /// Which of the counts are not 0.
+    fn kind(&self) -> [bool; 3] {
+        self.counts.map(|count| count > 0)
+    }
+}
+
+/// Decisions that several items share become one line, in the order of the pipeline: those with one
+/// reason that are paid for by all, by none or by some.
+pub(super) fn grouped(decisions: &[Decision]) -> Vec<Line<'_>> {
+    let mut lines: Vec<Line<'_>> = Vec::new();
+    for d in decisions {
+        let counts = [d.on, d.off, d.open];
+        let same = |line: &&mut Line<'_>| {
+            (line.effect, line.reason, line.unit) == (d.effect, &d.reason, d.unit)
+                && line.kind() == counts.map(|count| count > 0)
+                && d.item.is_some()
+        };
+        if let Some(line) = lines.iter_mut().find(same) {
+            for (sum, count) in line.counts.iter_mut().zip(counts) {
+                *sum += count;
+            }
+            line.items.extend(d.item);
+        } else {
+            let items = d.item.into_iter().collect();
+            lines.push(Line { effect: d.effect, reason: &d.reason, unit: d.unit, counts, items });
+        }
+    }
+    lines.sort_by_key(|line| line.effect);
+    lines
+}
+
+/// The same lines as rows of the page.
+pub(super) fn plan_rows(decisions: &[Decision]) -> Vec<PlanRow> {
+    let row = |line: Line<'_>| PlanRow {
+        effect: line.effect.name().to_owned(),
+        is_on: line.counts[0] + line.counts[2] > 0,
+        reason: match line.items().as_str() {
+            "frame" => line.reason.to_owned(),
+            items => format!("item {items}: {}", line.reason),
+        },
+        counters: ["on", "off", "open"]
+            .into_iter()
+            .zip(line.counts)
+            .filter(|(name, count)| *name != "open" || *count > 0)
+            .map(|(name, count)| (name.to_owned(), format!("{count} {}", line.unit.name())))
+            .collect(),
+    };
+    grouped(decisions).into_iter().map(row).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn decision(item: usize, [on, off]: [u64; 2]) -> Decision {
+        let reason = "asked for everywhere".to_owned();
+        let (effect, unit) = (Effect::Depth, Unit::Pieces);
+        Decision { effect, item: Some(item), unit, on, off, open: 0, reason }
+    }
+
+    #[test]
+    fn unlike_items_are_not_merged() {
+        let decisions =
+            [decision(0, [2, 0]), decision(1, [0, 5]), decision(2, [3, 0]), decision(3, [1, 1])];
+        let lines: Vec<_> = grouped(&decisions).iter().map(|l| (l.items(), l.counts)).collect();
+        let expected = [("0,2", [5, 0, 0]), ("1", [0, 5, 0]), ("3", [1, 1, 0])];
+        assert_eq!(lines, expected.map(|(items, counts)| (items.to_owned(), counts)));
+    }
+
+    #[test]
+    fn items_are_ranges_or_a_number() {
+        let items = |items: &[usize]| {
+            let decisions: Vec<_> = items.iter().map(|item| decision(*item, [1, 0])).collect();
+            grouped(&decisions)[0].items()
+        };
+        assert_eq!(items(&[0, 1, 2, 5]), "0-2,5");
+        assert_eq!(items(&[4]), "4");
+        assert_eq!(items(&[0, 2, 4, 6, 8, 10]), "6 items");
+    }
+}
