@@ -14,12 +14,14 @@ use std::process::{Command, ExitCode};
 use std::sync::{Arc, Mutex};
 
 use libtest_mimic::{Arguments, Failed, Trial};
-use rasterproof::next;
+#[path = "common/next.rs"]
+mod next;
+use rasterproof_registry::comparison;
 use rasterproof_registry::engines::{Engine, LineEngine};
 use rasterproof_report::summary::chapter;
 use rasterproof_report::table;
 use rasterproof_verify::cases;
-use rasterproof_verify::comparison::{FamilyReport, Options, Verdict, judge_lineup, tolerance};
+use rasterproof_verify::comparison::{FamilyReport, Options, Verdict, tolerance};
 
 /// Cases of each family: enough that every planted fault of `tests/it/mutants.rs` shows.
 const CASES: u64 = 1500;
@@ -113,7 +115,7 @@ fn judge(
 ) -> Result<(), Failed> {
     let engines =
         [(Engine::Scanline, tolerance::SCANLINE), (Engine::EdgeFunction, tolerance::EDGE_FUNCTION)];
-    let verdict = judge_lineup(&engines, &LineEngine::JUDGED, &options(family), &|_| ());
+    let verdict = comparison::judge(&engines, &LineEngine::JUDGED, &options(family), &|_| ());
     let report = verdict.families.first().ok_or("the family was not judged")?.clone();
     reports.lock().map_err(|_| "another trial failed")?.push(report.clone());
     if report.cases != CASES {

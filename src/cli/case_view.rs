@@ -35,7 +35,7 @@ impl Contestants {
     /// Everybody, or the fault of this name.
     pub fn new(plant: Option<&str>) -> Self {
         let Some(name) = plant else {
-            let engines = Engine::JUDGED.into_iter().map(|e| (e, tolerance::of(e)));
+            let engines = Engine::JUDGED.into_iter().map(|e| (e, e.tolerance()));
             return Self {
                 engines: engines.collect(),
                 lines: LineEngine::JUDGED.to_vec(),

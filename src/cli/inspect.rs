@@ -23,7 +23,7 @@ use rasterproof_report::{ascii, page_cases, panels, picture, summary};
 use rasterproof_verify::cases::unsnapped::OffGridCase;
 use rasterproof_verify::cases::{Case, Shape};
 use rasterproof_verify::comparison::unsnapped::{describe, exact_coverage, judge_exact_case};
-use rasterproof_verify::comparison::{self, Finding, Tally, oracle_pixels_each};
+use rasterproof_verify::comparison::{Finding, Tally, oracle_pixels_each};
 
 /// Options of `inspect`.
 #[derive(clap::Args, Debug)]
@@ -163,7 +163,7 @@ pub fn run(
     }
     #[cfg(feature = "vulkan")]
     let on_device = device(arguments, &case, &mut shown)?;
-    let findings = comparison::judge_case(&engines, &lines, &case);
+    let findings = rasterproof_registry::comparison::judge_case(&engines, &lines, &case);
     writeln!(out)?;
     if let Some(at) = arguments.pixel {
         writeln!(out, "hits of ({}, {}): {}\n", at.x, at.y, shown.hits(at))?;

@@ -147,7 +147,7 @@ impl VerifyArguments {
             return all;
         }
         // Some that are judged only when asked for.
-        all.engines = Engine::CHOICES.iter().map(|&e| (e, comparison::tolerance::of(e))).collect();
+        all.engines = Engine::CHOICES.iter().map(|&e| (e, e.tolerance())).collect();
         let wanted = |name: &str| self.engine.iter().any(|n| n == name);
         all.engines.retain(|(engine, _)| wanted(engine.name()));
         all.lines.retain(|engine| wanted(engine.name()));
@@ -307,8 +307,9 @@ fn judge(
         time_limit: options.time_limit.map(|t| if is_shared { t * fifths / 5 } else { t }),
         ..options.clone()
     };
-    let verdict =
-        comparison::judge_lineup(engines, lines, &share(4), &|cases| progress.done(cases));
+    let verdict = rasterproof_registry::comparison::judge(engines, lines, &share(4), &|cases| {
+        progress.done(cases)
+    });
     let off_grid = unsnapped::judge_exact(exact_engines, &share(1), &|cases| progress.done(cases));
     drop(progress);
     (verdict, off_grid)

@@ -4,15 +4,14 @@ use rasterproof_core::contract::{DrawLine, Interpolate, Rasterize};
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{Corners, Fragment, ScreenTriangle, Span, Varying};
 use rasterproof_faults::planted::{LineMutant, TriangleMutant};
+use rasterproof_registry::comparison;
 use rasterproof_registry::engines::{Engine, LineEngine};
 use rasterproof_report::{counts, json, table};
 use rasterproof_verify::cases::triangles::FAMILIES;
 use rasterproof_verify::cases::{Shape, lines};
 use rasterproof_verify::comparison::shrink::has_plain_values;
 use rasterproof_verify::comparison::unsnapped::ExactVerdict;
-use rasterproof_verify::comparison::{
-    Options, Tally, Verdict, caught, judge_lineup, judge_values, tolerance,
-};
+use rasterproof_verify::comparison::{Options, Tally, Verdict, caught, judge_values, tolerance};
 
 /// As many cases as `tests/differential.rs` judges, or fewer.
 fn options() -> Options {
@@ -23,7 +22,7 @@ fn options() -> Options {
 fn every_planted_rasterizer_fault_is_reported() {
     for mutant in TriangleMutant::ALL {
         let engines = [(Engine::Mutant(mutant), tolerance::SCANLINE)];
-        let verdict = judge_lineup(&engines, &[], &options(), &|_| ());
+        let verdict = comparison::judge(&engines, &[], &options(), &|_| ());
         assert!(!verdict.agrees(), "{} survives", mutant.name());
         let failure = verdict.failures.first().expect("a disagreement comes with a case");
         assert!(!failure.what.is_empty() && failure.what != "agrees", "{failure}");
@@ -33,7 +32,7 @@ fn every_planted_rasterizer_fault_is_reported() {
 #[test]
 fn every_planted_line_fault_is_reported() {
     for mutant in LineMutant::ALL {
-        let verdict = judge_lineup(&[], &[LineEngine::Mutant(mutant)], &options(), &|_| ());
+        let verdict = comparison::judge(&[], &[LineEngine::Mutant(mutant)], &options(), &|_| ());
         assert!(!verdict.agrees(), "{} survives", mutant.name());
         assert!(!verdict.failures.is_empty());
     }
@@ -43,7 +42,7 @@ fn every_planted_line_fault_is_reported() {
 #[test]
 fn a_failure_is_shrunk() {
     let engines = [(Engine::Mutant(TriangleMutant::InclusiveEdges), tolerance::SCANLINE)];
-    let verdict = judge_lineup(&engines, &[], &options(), &|_| ());
+    let verdict = comparison::judge(&engines, &[], &options(), &|_| ());
     let text = verdict.failures[0].to_string();
     assert!(text.contains("1 extra on "), "{text}");
     let rasterproof_verify::cases::Shape::Triangles { list, .. } = &verdict.failures[0].case.shape
@@ -114,7 +113,7 @@ fn counts_equal_a_recount() {
     let options = Options { cases: CASES, ..Options::default() };
     for mutant in TriangleMutant::ALL {
         let engines = [(Engine::Mutant(mutant), tolerance::SCANLINE)];
-        let verdict = judge_lineup(&engines, &[], &options, &|_| ());
+        let verdict = comparison::judge(&engines, &[], &options, &|_| ());
         let mut sums = [0; 3];
         for case in FAMILIES.iter().flat_map(|f| (0..CASES).map(|index| f.case(1, index))) {
             let Shape::Triangles { list, .. } = &case.shape else { unreachable!("triangles") };
@@ -136,7 +135,7 @@ fn counts_equal_a_recount() {
         same_everywhere(mutant.name(), &verdict, sums);
     }
     for mutant in LineMutant::ALL {
-        let verdict = judge_lineup(&[], &[LineEngine::Mutant(mutant)], &options, &|_| ());
+        let verdict = comparison::judge(&[], &[LineEngine::Mutant(mutant)], &options, &|_| ());
         let mut sums = [0; 3];
         for case in lines::FAMILIES.iter().flat_map(|f| (0..CASES).map(|index| f.case(1, index))) {
             let Shape::Lines(list) = &case.shape else { unreachable!("lines") };
@@ -160,7 +159,7 @@ fn counts_equal_a_recount() {
 #[test]
 fn an_inclusive_engine_misses_nothing() {
     let engines = [(Engine::Mutant(TriangleMutant::InclusiveEdges), tolerance::SCANLINE)];
-    let verdict = judge_lineup(&engines, &[], &options(), &|_| ());
+    let verdict = comparison::judge(&engines, &[], &options(), &|_| ());
     let sums = verdict.comparisons();
     assert!(sums.oracle.extra > 0 && sums.oracle.twice > 0, "{sums:?}");
     assert_eq!((sums.oracle.missing, sums.fragments.total()), (0, 0), "{sums:?}");
@@ -207,8 +206,8 @@ fn wrong_values_shrink_to_plain_ones() {
     let affine = [(Engine::Mutant(TriangleMutant::AffineAttributes), tolerance::SCANLINE)];
     let clipped = [LineEngine::Mutant(LineMutant::WeightsFromClip)];
     for verdict in [
-        judge_lineup(&affine, &[], &options(), &|_| ()),
-        judge_lineup(&[], &clipped, &options(), &|_| ()),
+        comparison::judge(&affine, &[], &options(), &|_| ()),
+        comparison::judge(&[], &clipped, &options(), &|_| ()),
     ] {
         assert!(verdict.failures.len() > 3, "{}", verdict.failures.len());
         for failure in &verdict.failures {
@@ -222,7 +221,7 @@ fn wrong_values_shrink_to_plain_ones() {
 #[test]
 fn each_family_has_its_smallest_failure() {
     let engines = [(Engine::Mutant(TriangleMutant::InclusiveEdges), tolerance::SCANLINE)];
-    let verdict = judge_lineup(&engines, &[], &options(), &|_| ());
+    let verdict = comparison::judge(&engines, &[], &options(), &|_| ());
     let wrong: Vec<_> = verdict.families.iter().filter(|f| !f.pairs[0].agrees()).collect();
     let mut shown: Vec<_> = verdict.failures.iter().map(|f| f.family.as_str()).collect();
     shown.sort_unstable();

@@ -620,7 +620,7 @@ fn chapters_exist(browser: &mut Browser) {
         let (file, anchor) = path.split_once('#').unwrap_or((path, ""));
         let place = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs").join(file);
         let text = std::fs::read_to_string(&place).unwrap_or_else(|e| panic!("{path}: {e}"));
-        let is_there = crate::house::anchors(&text).iter().any(|a| a == anchor);
+        let is_there = crate::workspace::anchors(&text).iter().any(|a| a == anchor);
         assert!(anchor.is_empty() || is_there, "{path}");
     }
 }

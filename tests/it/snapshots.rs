@@ -14,7 +14,9 @@ use glam::{DVec2, DVec3};
 use image::{Rgb, RgbImage};
 use insta::internals::SnapshotContents;
 use insta::{Comparator, Settings, Snapshot};
-use rasterproof::next::NEXT;
+#[path = "../common/next.rs"]
+mod next;
+use next::NEXT;
 use rasterproof_core::contract::Interpolate;
 use rasterproof_core::frame::{Coverage, Frame};
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
@@ -22,6 +24,7 @@ use rasterproof_core::raster::edge_function::EdgeFunction;
 use rasterproof_core::raster::scanline::Scanline;
 use rasterproof_core::triangle::{ScreenTriangle, ScreenVertex};
 use rasterproof_faults::planted::TriangleMutant;
+use rasterproof_registry::comparison;
 use rasterproof_registry::engines::{Engine, LineEngine};
 use rasterproof_render::scene::named::{find, named};
 use rasterproof_report::panels::{self, Sheet};
@@ -29,8 +32,7 @@ use rasterproof_report::{ascii, picture};
 use rasterproof_verify::cases::named::{Input, NamedCase};
 use rasterproof_verify::cases::{Case, Shape};
 use rasterproof_verify::comparison::{
-    Tally, engine_coverage, judge_case, line_coverage, oracle_coverage, oracle_pixels_each,
-    tolerance,
+    Tally, engine_coverage, line_coverage, oracle_coverage, oracle_pixels_each, tolerance,
 };
 
 /// Largest sheet of a case that is kept, and picture of anything else.
@@ -197,7 +199,9 @@ fn named_cases_are_as_catalogued() {
     for named in named() {
         match &named.input {
             Input::Drawn { case, pixels } => {
-                for ([actual, target], finding) in judge_case(&engines, &LineEngine::JUDGED, case) {
+                for ([actual, target], finding) in
+                    comparison::judge_case(&engines, &LineEngine::JUDGED, case)
+                {
                     assert!(
                         !finding.is_wrong(),
                         "{}: {actual} against {target}: {}",

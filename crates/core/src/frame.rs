@@ -158,7 +158,8 @@ impl<T: Copy> Frame<T> {
     /// # Panics
     /// If the pixel lies outside the frame.
     #[inline]
-    pub(crate) fn tail_mut(&mut self, x_px: i32, y_px: i32) -> &mut [T] {
+    #[doc(hidden)]
+    pub fn tail_mut(&mut self, x_px: i32, y_px: i32) -> &mut [T] {
         let start = self.at(x_px, y_px);
         &mut self.data[start..]
     }

@@ -38,8 +38,9 @@ use serde::{Deserialize, Serialize};
 
 use super::{Enumeration, Source, Tally, common_words};
 use rasterproof_core::grid::{HALF_PIXEL, SUBPIXEL_BITS, SUBPIXELS, SubpixelPoint};
-use rasterproof_core::raster::edge_function::edge_steps;
-use rasterproof_core::raster::scanline::{edge_columns, first_centre};
+use rasterproof_core::raster::edge_function::probe::edge_steps;
+use rasterproof_core::raster::scanline::probe::{edge_columns, first_centre};
+use rasterproof_core::source_text;
 
 /// The fault that can be planted: the edge function samples one subpixel further left, which is what it
 /// does when the edge lies one further right.
@@ -122,10 +123,10 @@ impl Enumeration for Edges {
 
     fn sources(&self) -> Vec<Source> {
         vec![
-            Source::file("src/grid.rs", include_str!("../grid.rs")),
+            Source::file("src/grid.rs", source_text::GRID),
             Source {
                 path: "src/raster/scanline.rs",
-                text: include_str!("../raster/scanline.rs"),
+                text: source_text::SCANLINE,
                 items: &[
                     "fn first_centre",
                     "fn centre",
@@ -137,7 +138,7 @@ impl Enumeration for Edges {
             },
             Source {
                 path: "src/raster/edge_function.rs",
-                text: include_str!("../raster/edge_function.rs"),
+                text: source_text::EDGE_FUNCTION,
                 items: &[
                     "trait Exact",
                     "impl Exact for i64",

@@ -19,6 +19,7 @@ use rasterproof_core::contract::DrawLine;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::line::bresenham::Bresenham;
 use rasterproof_core::line::dda::Dda;
+use rasterproof_core::source_text;
 use rasterproof_core::triangle::{LineEnd, PixelPoint, ScreenLine};
 use rasterproof_faults::planted::LineMutant;
 use rasterproof_verify::oracle::Oracle;
@@ -91,10 +92,10 @@ impl Enumeration for Lines {
 
     fn sources(&self) -> Vec<Source> {
         vec![
-            Source::file("src/grid.rs", include_str!("../grid.rs")),
-            Source::file("src/line/dda.rs", include_str!("../line/dda.rs")),
-            Source::file("src/line/bresenham.rs", include_str!("../line/bresenham.rs")),
-            Source::file("src/oracle/pixels.rs", include_str!("../oracle/pixels.rs")),
+            Source::file("src/grid.rs", source_text::GRID),
+            Source::file("src/line/dda.rs", source_text::DDA),
+            Source::file("src/line/bresenham.rs", source_text::BRESENHAM),
+            Source::file("src/oracle/pixels.rs", rasterproof_verify::source_text::ORACLE_PIXELS),
             Source::file("src/exhaust/lines.rs", include_str!("lines.rs")),
         ]
     }

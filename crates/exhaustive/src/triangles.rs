@@ -19,6 +19,7 @@ use rasterproof_core::contract::Rasterize;
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXEL_BITS, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::raster::edge_function::EdgeFunction;
 use rasterproof_core::raster::scanline::Scanline;
+use rasterproof_core::source_text;
 use rasterproof_core::triangle::{Corners, Span};
 use rasterproof_faults::planted::TriangleMutant;
 use rasterproof_verify::oracle::Oracle;
@@ -108,10 +109,10 @@ impl Enumeration for Triangles {
 
     fn sources(&self) -> Vec<Source> {
         vec![
-            Source::file("src/grid.rs", include_str!("../grid.rs")),
+            Source::file("src/grid.rs", source_text::GRID),
             Source {
                 path: "src/raster/scanline.rs",
-                text: include_str!("../raster/scanline.rs"),
+                text: source_text::SCANLINE,
                 items: &[
                     "impl Rasterize for Scanline",
                     "fn sort_by_height",
@@ -125,7 +126,7 @@ impl Enumeration for Triangles {
             },
             Source {
                 path: "src/raster/edge_function.rs",
-                text: include_str!("../raster/edge_function.rs"),
+                text: source_text::EDGE_FUNCTION,
                 items: &[
                     "impl Rasterize for EdgeFunction",
                     "enum WordWidth",
@@ -147,7 +148,10 @@ impl Enumeration for Triangles {
                     "fn walk",
                 ],
             },
-            Source::file("src/oracle/coverage.rs", include_str!("../oracle/coverage.rs")),
+            Source::file(
+                "src/oracle/coverage.rs",
+                rasterproof_verify::source_text::ORACLE_COVERAGE,
+            ),
             Source::file("src/exhaust/triangles.rs", include_str!("triangles.rs")),
         ]
     }

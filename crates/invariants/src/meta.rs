@@ -122,7 +122,13 @@ pub(super) fn replay(subject: &Subject, seed: u64, cases: u64) -> Outcome {
                 (Engine::Scanline, tolerance::SCANLINE),
                 (Engine::EdgeFunction, tolerance::EDGE_FUNCTION),
             ];
-            comparison::judge_lineup(&engines, &LineEngine::JUDGED, &options, &|_| ()).families
+            rasterproof_registry::comparison::judge(
+                &engines,
+                &LineEngine::JUDGED,
+                &options,
+                &|_| (),
+            )
+            .families
         }))
     };
     if verdict(1)? != verdict(3)? {

@@ -232,7 +232,7 @@ impl Subject {
                 Engine {
                     name: "tile",
                     fill: Box::new(engines::Engine::Tile),
-                    tolerance: tolerance::of(engines::Engine::Tile),
+                    tolerance: engines::Engine::Tile.tolerance(),
                 },
             ],
             lists: Tiles::levels()

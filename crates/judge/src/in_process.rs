@@ -2,7 +2,7 @@
 
 use super::ask::{Answer, Ask, Asked, Misbehaviour, Question};
 use super::declared::{Declared, MOST_IN_FLIGHT};
-use super::served;
+use super::server::pipeline;
 use rasterproof_core::contract::{
     DrawLine as _, Interpolate as _, Rasterize as _, RasterizeExact as _,
 };
@@ -107,11 +107,11 @@ impl Inside {
             }
             Asked::Depth(list) => {
                 let engine = entry.engine.ok_or("unsupported")?;
-                Ok(Answer::Seen(served::seen(engine, list, window)?))
+                Ok(Answer::Seen(pipeline::seen(engine, list, window)?))
             }
             Asked::Near(triangle) => {
                 entry.engine.ok_or("unsupported")?;
-                Ok(Answer::Polygon(served::clipped(clip_corners(triangle))))
+                Ok(Answer::Polygon(pipeline::clipped(clip_corners(triangle))))
             }
             Asked::Line { ends, .. } => {
                 let mut pixels = Vec::new();

@@ -27,7 +27,7 @@ use rasterproof_faults::published::{
 use rasterproof_verify::cases::named::plain_line;
 use rasterproof_verify::cases::{self, Case, Family, Line, Shape, Triangle};
 use rasterproof_verify::comparison::Tally;
-use rasterproof_verify::comparison::finding::caught;
+use rasterproof_verify::comparison::caught;
 use rasterproof_verify::oracle::Oracle;
 use rasterproof_verify::oracle::values::ExactTriangle;
 

@@ -175,7 +175,7 @@ impl Judge<'_> {
     /// Rivals with the keys that each rasterizer may store.
     fn candidates(&self, mut rivals: Vec<Rival>) -> Vec<Candidate> {
         let format = self.frames[0].target.format;
-        let bounds = self.frames.each(|frame| tolerance::of(frame.engine).depth);
+        let bounds = self.frames.each(|frame| frame.engine.tolerance().depth);
         rivals.sort_unstable_by_key(|rival| (rival.piece, rival.sample));
         let same = |a: &Rival, b: &Rival| (a.piece, a.sample.plane) == (b.piece, b.sample.plane);
         let mut candidates = Vec::with_capacity(rivals.len());

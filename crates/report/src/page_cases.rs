@@ -159,7 +159,7 @@ fn closest(verdict: &Verdict, judged: Judged<'_>) -> Vec<CaseView> {
         .collect();
     worst.sort_by(|(_, a), (_, b)| b.worst().total_cmp(&a.worst()));
     let views = worst.into_iter().filter_map(|(report, pair)| {
-        let family = page_cases::families().find(|f| f.name == report.family)?;
+        let family = cases::families().find(|f| f.name == report.family)?;
         let name = format!("{}#{}", family.name, pair.worst_case);
         let case = family.case(seed, pair.worst_case);
         let view = on_grid(name.clone(), family.about.to_owned(), Kind::Closest, &case, judged);
@@ -353,7 +353,7 @@ pub fn on_grid(
     view(name, about, kind, case.window, shape, drawn)
 }
 
-fn drawn_lines(list: &[page_cases::Line], window: PixelRect, judged: Judged<'_>) -> Vec<Drawn> {
+fn drawn_lines(list: &[cases::Line], window: PixelRect, judged: Judged<'_>) -> Vec<Drawn> {
     let others = LineEngine::JUDGED
         .into_iter()
         .filter(|e| judged.lines.iter().all(|j| j.name() != e.name()));

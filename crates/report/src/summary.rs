@@ -224,9 +224,9 @@ mod tests {
 
     #[test]
     fn every_family_is_one_danger() {
-        let on_grid = page_cases::families().map(|f| f.name);
+        let on_grid = cases::families().map(|f| f.name);
         let names: Vec<_> =
-            on_grid.chain(page_cases::offgrid::FAMILIES.iter().map(|f| f.name)).collect();
+            on_grid.chain(cases::unsnapped::FAMILIES.iter().map(|f| f.name)).collect();
         for name in &names {
             let times = DANGERS.iter().filter(|d| d.families.contains(name)).count();
             assert_eq!(times, 1, "{name}");

@@ -6,7 +6,7 @@
 //! and the engine goes on. Positions are window pixels, y down, snapped to 1/256 px half to even;
 //! the engines whose names end in `-exact`, and the specimens, take them as they are.
 
-mod pipeline;
+pub(crate) mod pipeline;
 mod published;
 mod reply;
 
@@ -16,8 +16,6 @@ use glam::DVec2;
 
 use crate::declared::Declared;
 use crate::in_process::runs_of;
-use crate::server::pipeline;
-use crate::server::published;
 use crate::server::reply::{Reply, named, write_run, write_words};
 use crate::text::number;
 use rasterproof_core::contract::{DrawLine, Interpolate, Rasterize, RasterizeExact};

@@ -44,7 +44,7 @@ pub(super) fn covered_at_most(
 ///
 /// # Errors
 /// The triangles have more fragments than are kept.
-pub(super) fn seen(
+pub(crate) fn seen(
     engine: Engine,
     list: &[Triangle],
     window: PixelRect,
@@ -74,7 +74,7 @@ pub(super) fn seen(
 }
 
 /// The corners that the near plane leaves.
-pub(super) fn clipped(corners: [[f64; 4]; 3]) -> Vec<[f64; 4]> {
+pub(crate) fn clipped(corners: [[f64; 4]; 3]) -> Vec<[f64; 4]> {
     let vertex =
         |position| ClipVertex { position: DVec4::from_array(position), varying: DVec2::ZERO };
     let (polygon, _) = clip(&corners.map(vertex), Plane::Near.bit());

@@ -33,7 +33,7 @@ fn whole(letter: char, n: usize, runs: Vec<u8>) -> Reply {
 }
 
 /// Whether this entry is a specimen that answers the verb.
-pub(super) fn speaks(entry: &Entry, verb: &str) -> bool {
+pub(crate) fn speaks(entry: &Entry, verb: &str) -> bool {
     match (entry.specimen, verb) {
         (Some(Specimen::Triangle(_)), "T") | (Some(Specimen::Line(_)), "L") => true,
         (Some(Specimen::Triangle(specimen)), "I") => specimen.has_values(),
@@ -42,7 +42,7 @@ pub(super) fn speaks(entry: &Entry, verb: &str) -> bool {
 }
 
 /// Answers a request that [`speaks`] accepts.
-pub(super) fn answer(entry: &Entry, verb: &str, window: PixelRect, numbers: &[f64]) -> Reply {
+pub(crate) fn answer(entry: &Entry, verb: &str, window: PixelRect, numbers: &[f64]) -> Reply {
     match (entry.specimen, verb) {
         (Some(Specimen::Triangle(specimen)), "T") => cover(specimen, window, numbers),
         (Some(Specimen::Triangle(specimen)), "I") => values(specimen, window, numbers),

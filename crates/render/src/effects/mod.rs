@@ -16,11 +16,11 @@ mod conditions;
 pub mod depth_ties;
 mod execute;
 #[cfg(feature = "host")]
-pub(crate) mod geometry;
+pub mod geometry;
 mod kernel;
 pub mod plan;
 mod planner;
-pub(crate) mod primitive;
+pub mod primitive;
 pub mod render;
 mod samples;
 mod scene_digest;

@@ -24,11 +24,11 @@ use std::time::{Duration, Instant};
 use serde::Serialize;
 
 use crate::cases::{Case, Family, Shape};
+use crate::oracle::Oracle;
 use compare::{Contest, CoverageOnly, LineContest, TriangleContest};
 use rasterproof_core::arrays::Each as _;
 use rasterproof_core::contract::{DrawLine, Interpolate, Rasterize};
 use rasterproof_core::parallel;
-use rasterproof_registry::engines::{Engine, LineEngine};
 use tolerance::Tolerance;
 
 pub use finding::{Finding, Tally};
@@ -235,23 +235,22 @@ impl Verdict {
     }
 }
 
-/// Judges the line-up: both rasterizers and both line drawers, or a selection of them.
+/// Judges several rasterizers and line drawers against the oracle and against each other, each under its name.
 #[doc(hidden)]
-pub fn judge_lineup(
-    engines: &[(Engine, Tolerance)],
-    lines: &[LineEngine],
+pub fn judge_engines<R: Interpolate + Sync, D: DrawLine + Sync>(
+    engines: &[(&str, R, Tolerance)],
+    lines: &[(&str, D)],
     options: &Options,
     progress: &(dyn Fn(u64) + Sync),
 ) -> Verdict {
-    let engines: Vec<_> = engines.iter().map(|(e, t)| (e.name(), *e, Some(*t))).collect();
-    let lines: Vec<_> = lines.iter().map(|e| (e.name(), *e)).collect();
-    drive(&TriangleContest::new(&engines), &LineContest::new(&lines), options, progress)
+    let engines: Vec<_> = engines.iter().map(|(name, e, t)| (*name, e, Some(*t))).collect();
+    drive(&TriangleContest::new(&engines), &LineContest::new(lines), options, progress)
 }
 
 /// Judges the coverage of any rasterizer against the oracle.
 pub fn judge_coverage<R: Rasterize + Sync>(engine: &R, options: &Options) -> Verdict {
     let engines = [("candidate", CoverageOnly(engine), None)];
-    let none: [(&str, LineEngine); 0] = [];
+    let none: [(&str, Oracle); 0] = [];
     drive(&TriangleContest::new(&engines), &LineContest::new(&none), options, &|_| ())
 }
 
@@ -269,13 +268,13 @@ pub fn judge_values<R: Interpolate + Sync>(
     options: &Options,
 ) -> Verdict {
     let engines = [("candidate", engine, Some(tolerance))];
-    let none: [(&str, LineEngine); 0] = [];
+    let none: [(&str, Oracle); 0] = [];
     drive(&TriangleContest::new(&engines), &LineContest::new(&none), options, &|_| ())
 }
 
 /// Judges pixels and values of any line drawer against the oracle.
 pub fn judge_lines<D: DrawLine + Sync>(engine: &D, options: &Options) -> Verdict {
-    let none: [(&str, Engine, Option<Tolerance>); 0] = [];
+    let none: [(&str, Oracle, Option<Tolerance>); 0] = [];
     let engines = [("candidate", engine)];
     drive(&TriangleContest::new(&none), &LineContest::new(&engines), options, &|_| ())
 }
@@ -536,17 +535,16 @@ fn shrink_failures(
     failures
 }
 
-/// Judges one case by the line-up; what [`judge_lineup`] does for each generated case.
+/// Judges one case as [`judge_engines`] judges each generated case.
 #[must_use]
 #[doc(hidden)]
-pub fn judge_case(
-    engines: &[(Engine, Tolerance)],
-    lines: &[LineEngine],
+pub fn judge_case<R: Interpolate + Sync, D: DrawLine + Sync>(
+    engines: &[(&str, R, Tolerance)],
+    lines: &[(&str, D)],
     case: &Case,
 ) -> Vec<([String; 2], Finding)> {
-    let engines: Vec<_> = engines.iter().map(|(e, t)| (e.name(), *e, Some(*t))).collect();
-    let lines: Vec<_> = lines.iter().map(|e| (e.name(), *e)).collect();
-    let (triangles, lines) = (TriangleContest::new(&engines), LineContest::new(&lines));
+    let engines: Vec<_> = engines.iter().map(|(name, e, t)| (*name, e, Some(*t))).collect();
+    let (triangles, lines) = (TriangleContest::new(&engines), LineContest::new(lines));
     let (pairs, findings) = match case.shape {
         Shape::Triangles { .. } => (triangles.pairs(), triangles.findings(case)),
         Shape::Lines(_) => (lines.pairs(), lines.findings(case)),

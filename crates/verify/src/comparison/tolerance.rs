@@ -5,8 +5,6 @@
 //! with |d| <= u. D is the largest difference between two of the values at the vertices, M the
 //! largest magnitude among them. All bounds have the form u (d D + m M).
 
-use rasterproof_registry::engines::Engine;
-
 /// The bound u (d D + m M) as its two factors.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Bound {
@@ -70,17 +68,6 @@ const SECOND_ORDER: f64 = 1.0 + 1.0 / (1u64 << 40) as f64;
 /// Below 2^-1022 rounding is absolute, 2^-1075 an operation; divided by sums that are at least
 /// 2^-400 (see `triangle::MIN_W` and `MAX_W`) a few of them stay below 2^-660.
 const UNDERFLOW: f64 = f64::from_bits((1023 - 660) << 52);
-
-/// The bound that belongs to an engine of the line-up; a planted fault gets the wider one.
-#[must_use]
-#[doc(hidden)]
-pub fn of(engine: Engine) -> Tolerance {
-    match engine {
-        Engine::Scanline | Engine::Mutant(_) => SCANLINE,
-        Engine::EdgeFunction | Engine::Tile => EDGE_FUNCTION,
-        Engine::Oracle => ORACLE,
-    }
-}
 
 impl Bound {
     /// The largest error allowed for values interpolated between these.

@@ -2,7 +2,16 @@
 //! [`EdgeFunction`](super::EdgeFunction) for those who want to look.
 
 use super::{centre, edges, twice_area};
+use crate::grid::SubpixelPoint;
 use crate::triangle::Corners;
+
+/// E' of the edge from `from` to `to` at a pixel, and its steps to the right and down, as the engine has them for
+/// triangles of [`WordWidth::I32`](super::WordWidth::I32).
+#[inline]
+#[must_use]
+pub fn edge_steps(from: SubpixelPoint, to: SubpixelPoint, x_px: i32, y_px: i32) -> [i32; 3] {
+    super::edge_steps(from, to, x_px, y_px)
+}
 
 /// One edge seen from the centre of a pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

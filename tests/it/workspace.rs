@@ -1,11 +1,8 @@
-//! The house rules: who may import whom, what every file begins with, what the docs name.
-//!
-//! The floors are read from the table in `docs/ARCHITECTURE.md`, so the page cannot drift from the
-//! code: a room imports only from lower floors, or from its own room.
+//! The rules of the workspace: which crate may depend on which, what is independent of what, and that the pages name
+//! what exists.
 
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
-use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -34,263 +31,97 @@ fn files(folder: &Path, ending: &str) -> Vec<PathBuf> {
     found
 }
 
-/// Rooms and their floors, from rows like "| 2 | `raster/scanline`, `raster/edge_function` | job |".
-fn floors(page: &str) -> HashMap<String, u32> {
-    let mut floors = HashMap::new();
-    for line in page.lines() {
-        let cells: Vec<_> = line.split('|').map(str::trim).collect();
-        let Some(floor) = cells.get(1).and_then(|cell| cell.parse::<u32>().ok()) else { continue };
-        for room in cells[2].split(',') {
-            floors.insert(room.trim().trim_matches('`').to_owned(), floor);
-        }
-    }
-    floors
+/// The folders with the source code of every crate.
+fn source_folders() -> Vec<String> {
+    let crates = fs::read_dir(root().join("crates")).unwrap();
+    let mut folders: Vec<_> = crates
+        .map(|entry| format!("crates/{}/src", entry.unwrap().file_name().to_str().unwrap()))
+        .collect();
+    folders.push("src".to_owned());
+    folders.sort();
+    folders
 }
 
-/// The room of a module path such as `raster::scanline::Scanline`: the longest listed prefix.
-fn room_of(path: &str, floors: &HashMap<String, u32>) -> Option<String> {
-    let parts: Vec<_> = path.split("::").collect();
-    (1..=parts.len()).rev().map(|n| parts[..n].join("/")).find(|room| floors.contains_key(room))
-}
-
-/// What a file imports from the crate, `use crate::{a, b::c}` taken apart.
-fn imports(text: &str) -> Vec<String> {
-    paths_after("crate::", text)
-}
-
-/// The paths that follow a beginning such as `crate::`, groups in braces taken apart.
-fn paths_after(beginning: &str, text: &str) -> Vec<String> {
-    let flat =
-        text.lines().map(|l| l.split("//").next().unwrap_or("")).collect::<Vec<_>>().join(" ");
-    let mut found = Vec::new();
-    for (at, _) in flat.match_indices(beginning) {
-        // Of `super::super::x` the second `super` is part of the first.
-        let before = flat[..at].chars().next_back().unwrap_or(' ');
-        if before.is_alphanumeric() || "_:".contains(before) {
-            continue;
-        }
-        let rest = &flat[at + beginning.len()..];
-        let end =
-            rest.find(|c: char| !(c.is_alphanumeric() || "_:".contains(c))).unwrap_or(rest.len());
-        let head = rest[..end].trim_end_matches(':');
-        if rest[end..].starts_with('{') {
-            let mut depth = 0;
-            let close = rest[end..].find(|c| {
-                depth += i32::from(c == '{') - i32::from(c == '}');
-                depth == 0
-            });
-            let group = &rest[end + 1..end + close.expect("a group is closed")];
-            // Only the outermost names matter.
-            let mut depth = 0;
-            for item in group.split(|c| {
-                depth += i32::from(c == '{') - i32::from(c == '}');
-                c == ',' && depth == 0
-            }) {
-                let name = item.trim().split(['{', ' ']).next().unwrap_or("").trim_end_matches(':');
-                if !name.is_empty() {
-                    found.push(
-                        [head, name]
-                            .iter()
-                            .filter(|p| !p.is_empty())
-                            .copied()
-                            .collect::<Vec<_>>()
-                            .join("::"),
-                    );
-                }
-            }
-        } else {
-            found.push(head.to_owned());
-        }
-    }
-    found
-}
-
-/// Breaches of the floors by one file.
-fn breaches(name: &str, text: &str, floors: &HashMap<String, u32>) -> Vec<String> {
-    let Some(room) = room_of(&module_of(name), floors) else {
-        return vec![format!("{name} is not listed in docs/ARCHITECTURE.md")];
+/// Each crate with the crates of the workspace that its manifest names as dependencies.
+fn dependencies() -> BTreeMap<String, BTreeSet<String>> {
+    let arguments = ["metadata", "--locked", "--no-deps", "--format-version", "1"];
+    let output = Command::new(env!("CARGO")).args(arguments).current_dir(root()).output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let data: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let short = |name: &serde_json::Value| {
+        name.as_str().unwrap().strip_prefix("rasterproof-").map(str::to_owned)
     };
-    let mut wrong = Vec::new();
-    if !text.starts_with("//! ") {
-        wrong.push(format!("{name} does not open with a `//!` line that says what it is"));
-    }
-    for import in imports(text) {
-        let Some(from) = room_of(&import, floors) else { continue };
-        let family = |room: &str| room.split('/').next().unwrap_or("").to_owned();
-        // A child may use its own room's root; siblings under one room are strangers unless listed together.
-        let own = from == room
-            || (floors[&from] == floors[&room] && room.starts_with(&format!("{from}/")));
-        if !own && floors[&from] >= floors[&room] {
-            wrong.push(format!(
-                "{name} ({room}, floor {}) imports {import} ({from}, floor {}, family {})",
-                floors[&room],
-                floors[&from],
-                family(&from)
-            ));
-        }
-    }
-    wrong
-}
-
-/// The module of a file, `cli::plan` for `cli/plan.rs` and `cli` for `cli/mod.rs`.
-fn module_of(name: &str) -> String {
-    name.trim_end_matches(".rs").trim_end_matches("/mod").replace('/', "::")
-}
-
-/// The modules, as paths from the crate, that a file names.
-fn named_modules(module: &str, text: &str) -> Vec<String> {
-    let mut named = imports(text);
-    for path in paths_after("super::", text) {
-        let mut from: Vec<_> = module.split("::").collect();
-        from.pop();
-        let mut rest = path.as_str();
-        while let Some(above) = rest.strip_prefix("super::") {
-            from.pop();
-            rest = above;
-        }
-        from.extend(rest.split("::"));
-        named.push(from.join("::"));
-    }
-    named
-}
-
-/// Circles of imports among the parts of a room, its own root left out: a part may use what its root
-/// offers to all, and the root names its parts.
-fn circles(files: &[(String, String)]) -> Vec<String> {
-    let modules: Vec<_> = files.iter().map(|(name, _)| module_of(name)).collect();
-    // Between the children of each room: who names whom.
-    let mut edges: BTreeMap<(String, String), BTreeSet<String>> = BTreeMap::new();
-    for ((_, text), module) in files.iter().zip(&modules) {
-        let own: Vec<_> = module.split("::").collect();
-        for named in named_modules(module, &without_tests(text)) {
-            let other: Vec<_> = named.split("::").collect();
-            let common = own.iter().zip(&other).take_while(|(a, b)| a == b).count();
-            let (Some(from), Some(to)) = (own.get(common), other.get(common)) else { continue };
-            let room = own[..common].join("::");
-            let child = |part: &str| [&own[..common], &[part]].concat().join("::");
-            // Only modules count, not the items of the room's root.
-            if modules.iter().any(|m| *m == child(to) || m.starts_with(&format!("{}::", child(to))))
-            {
-                edges.entry((room, (*from).to_owned())).or_default().insert((*to).to_owned());
-            }
-        }
-    }
-    // A part that reaches itself lies on a circle.
-    let mut found = Vec::new();
-    for (room, start) in edges.keys() {
-        let mut reached = BTreeSet::new();
-        let mut open = vec![start.clone()];
-        while let Some(part) = open.pop() {
-            for next in edges.get(&(room.clone(), part)).into_iter().flatten() {
-                if reached.insert(next.clone()) {
-                    open.push(next.clone());
-                }
-            }
-        }
-        if reached.contains(start) {
-            found.push(format!("{room}::{start}"));
-        }
+    let mut found = BTreeMap::new();
+    for package in data["packages"].as_array().unwrap() {
+        let Some(name) = short(&package["name"]) else { continue };
+        let normal = package["dependencies"].as_array().unwrap().iter();
+        let normal = normal.filter(|dependency| dependency["kind"].is_null());
+        found.insert(name, normal.filter_map(|dependency| short(&dependency["name"])).collect());
     }
     found
 }
 
-/// A file without its unit tests, which may look at neighbours.
-fn without_tests(text: &str) -> String {
-    text.split("#[cfg(test)]\nmod tests").next().unwrap_or("").to_owned()
+/// The table of crates in the architecture page is what cargo says of them.
+#[test]
+fn the_table_of_crates_is_cargos() {
+    let dependencies = dependencies();
+    assert!(dependencies.len() > 10, "{dependencies:?}");
+    for page in ["docs/ARCHITECTURE.md", "docs/zh/ARCHITECTURE.md"] {
+        let text = fs::read_to_string(root().join(page)).unwrap();
+        let stated: BTreeMap<String, BTreeSet<String>> = rows(&text)
+            .filter(|row| row.len() == 3 && row[0].starts_with("[`crates/"))
+            .map(|row| {
+                let name = row[0].split(['/', '`']).nth(2).unwrap().to_owned();
+                (name, quoted(row[2]).map(str::to_owned).collect())
+            })
+            .collect();
+        assert_eq!(stated, dependencies, "{page}");
+    }
 }
 
-/// The sources of the nine crates, which are one house: a border of a crate is a floor.
-const CRATES: [&str; 9] = [
-    "crates/host/src",
-    "engines/src",
-    "lineup/src",
-    "measures/src",
-    "judges/src",
-    "reports/src",
-    "playground/src",
-    "vulkan/src",
-    "src",
-];
-
-/// Every file of the crates but `lib.rs`, by its path there, with its text.
-fn sources() -> Vec<(String, String)> {
-    let mut sources = Vec::new();
-    for src in CRATES.map(|folder| root().join(folder)) {
-        for path in files(&src, "rs") {
-            let name = path.strip_prefix(&src).unwrap().to_str().unwrap().replace('\\', "/");
-            if name != "lib.rs" {
-                sources.push((name, fs::read_to_string(&path).unwrap()));
+/// Two implementations that are compared with each other share nothing but what both are built on: neither
+/// names the other, and the oracle names neither.
+#[test]
+fn what_is_compared_is_independent() {
+    let rules = [
+        ("crates/core/src/raster/scanline", &["edge_function"][..]),
+        ("crates/core/src/raster/edge_function", &["scanline"]),
+        ("crates/core/src/line/dda", &["bresenham"]),
+        ("crates/core/src/line/bresenham", &["dda"]),
+        ("crates/verify/src/oracle", &["scanline", "edge_function", "dda", "bresenham"]),
+    ];
+    let mut looked_at = 0;
+    for folder in source_folders() {
+        for path in files(&root().join(&folder), "rs") {
+            let name = path.strip_prefix(root()).unwrap().to_str().unwrap().replace('\\', "/");
+            let text = fs::read_to_string(&path).unwrap();
+            for (beginning, others) in rules {
+                if !name.starts_with(beginning) {
+                    continue;
+                }
+                looked_at += 1;
+                for other in others {
+                    assert!(!names_module(without_tests(&text), other), "{name} names {other}");
+                }
             }
         }
     }
-    sources
+    assert!(looked_at > 15, "{looked_at} files");
+    assert!(names_module("use super::dda::Dda;", "dda"));
+    assert!(names_module("use crate::line::{bresenham, dda};", "dda"));
+    assert!(!names_module("// like dda::Dda\nlet dda_like = 1;", "dda"));
 }
 
-/// No circles, inside rooms either; says what the house looks like, past the capture of the tests.
-#[test]
-fn house_has_no_circles() {
-    let floors = floors(&fs::read_to_string(root().join("docs/ARCHITECTURE.md")).unwrap());
-    let sources = sources();
-    let circles = circles(&sources);
-    let mut plan = String::new();
-    for floor in 0..=floors.values().copied().max().unwrap_or(0) {
-        let mut rooms: Vec<_> =
-            floors.iter().filter(|(_, f)| **f == floor).map(|(r, _)| r.as_str()).collect();
-        rooms.sort_unstable();
-        plan += &format!("floor {floor:>2}: {}\n", rooms.join(", "));
-    }
-    let (files, rooms) = (sources.len(), floors.len());
-    plan += &format!("house: {files} files in {rooms} rooms, {} circles\n", circles.len());
-    std::io::stderr().write_all(plan.as_bytes()).unwrap();
-    assert!(circles.is_empty(), "{} import each other in a circle", circles.join(", "));
+/// A file without its unit tests, which may compare with what the file itself must not use.
+fn without_tests(text: &str) -> &str {
+    text.split("#[cfg(test)]\nmod tests").next().unwrap_or("")
 }
 
-/// The rule can fail: a circle of three, one through `super`, and none where only the root is shared.
-#[test]
-fn house_circles_are_found() {
-    let file = |name: &str, text: &str| (name.to_owned(), text.to_owned());
-    let parts = [
-        file("cli/mod.rs", "//! x\nmod a;\nuse self::a::f;"),
-        file("cli/a.rs", "//! x\nuse super::b::g;\nuse super::usage;"),
-        file("cli/b.rs", "//! x\nfn g() { crate::cli::c::h() }"),
-        file("cli/c.rs", "//! x\nuse super::{usage, a};"),
-        file("cli/d.rs", "//! x\nuse super::a;\n#[cfg(test)]\nmod tests { use super::super::e; }"),
-        file("cli/e.rs", "//! x\nuse super::d;"),
-    ];
-    assert_eq!(circles(&parts), ["cli::a", "cli::b", "cli::c"]);
-    assert_eq!(circles(&[parts[0].clone(), parts[4].clone(), parts[5].clone()]), [""; 0]);
-}
-
-#[test]
-fn house_floors_are_kept() {
-    let floors = floors(&fs::read_to_string(root().join("docs/ARCHITECTURE.md")).unwrap());
-    let mut wrong = Vec::new();
-    for (name, text) in sources() {
-        wrong.extend(breaches(&name, &without_tests(&text), &floors));
-    }
-    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
-    for room in floors.keys() {
-        let exists = CRATES
-            .map(|folder| root().join(folder))
-            .iter()
-            .any(|src| src.join(room).is_dir() || src.join(format!("{room}.rs")).is_file());
-        assert!(exists, "docs/ARCHITECTURE.md lists {room}, which does not exist");
-    }
-}
-
-/// The rule can fail: each kind of breach is found in a file that commits it.
-#[test]
-fn house_breaches_are_found() {
-    let floors = floors(
-        "| 0 | `grid` | x |\n| 2 | `raster/scanline`, `raster/edge_function`, `raster` | x |\n| 4 | `lineup` | x |",
-    );
-    let text = "//! ok\nuse crate::raster::edge_function::Edge;\nuse crate::{grid, lineup::{Engine, find}};\n";
-    let wrong = breaches("raster/scanline.rs", text, &floors);
-    assert_eq!(wrong.len(), 2, "{wrong:?}");
-    assert!(wrong[0].contains("raster/edge_function") && wrong[1].contains("lineup"));
-    assert_eq!(breaches("raster/scanline.rs", "use crate::grid;", &floors).len(), 1, "no opening");
-    assert_eq!(breaches("util.rs", "//! drawer\n", &floors).len(), 1, "not listed");
-    assert!(breaches("raster/scanline.rs", "//! ok\nuse crate::grid::snap;", &floors).is_empty());
+/// Whether code, comments left out, has the name of a module as a word of its own.
+fn names_module(text: &str, module: &str) -> bool {
+    let code = text.lines().filter(|line| !line.trim_start().starts_with("//"));
+    let mut words = code.flat_map(|line| line.split(|c: char| !(c.is_alphanumeric() || c == '_')));
+    words.any(|word| word == module)
 }
 
 /// Crates with their features, as the program (`no-dev`) or the tests (`all`) ask for them.
@@ -306,7 +137,7 @@ fn features(edges: &str) -> BTreeSet<String> {
 /// Where the tests ask more of a crate than the program does, all that stands on it is compiled twice.
 /// Colours of help are the one thing asked for that users should not wait for: only the root calls `clap`.
 #[test]
-fn house_is_compiled_once() {
+fn everything_is_compiled_once() {
     let (program, tests) = (features("no-dev"), features("all"));
     assert!(program.len() > 50 && tests.len() > program.len());
     let twice: Vec<_> =
@@ -385,7 +216,7 @@ fn broken_links(page: &Path, text: &str) -> Vec<String> {
 
 /// Links in the docs and the README lead somewhere.
 #[test]
-fn house_links_lead_somewhere() {
+fn links_lead_somewhere() {
     let broken: Vec<_> = pages().iter().flat_map(|(page, text)| broken_links(page, text)).collect();
     assert!(broken.is_empty(), "{}", broken.join("\n"));
     let page = root().join("docs/index.md");
@@ -437,7 +268,8 @@ struct Known {
 
 impl Known {
     fn new() -> Self {
-        let folders = CRATES.iter().chain(&["tests", "benches", "vulkan/tests"]);
+        let beside = ["tests", "benches", "crates/vulkan/tests"].map(str::to_owned);
+        let folders = source_folders().into_iter().chain(beside);
         let sources = folders.flat_map(|folder| files(&root().join(folder), "rs"));
         let invariants: Vec<_> = CATALOGUE.iter().map(|invariant| invariant.name).collect();
         Self {
@@ -465,10 +297,9 @@ impl Known {
             let words = options(text, option).filter(|w| *w != "NAME" && !names.contains(w));
             missing.extend(words.map(|word| format!("{name}: {option}{word}")));
         }
-        let beside = ["tests/", "docs/", "snapshots/", "benches/", "adapters/"];
-        let folders: Vec<_> = CRATES.iter().chain(&beside).collect();
+        let folders = ["crates/", "src/", "tests/", "docs/", "snapshots/", "benches/", "adapters/"];
         let is_path =
-            |w: &&str| folders.iter().any(|f| w.starts_with(**f)) && !w.contains([' ', '*']);
+            |w: &&str| folders.iter().any(|f| w.starts_with(f)) && !w.contains([' ', '*']);
         let paths = quoted(text).filter(is_path).filter(|word| !root().join(word).exists());
         missing.extend(paths.map(|word| format!("{name}: {word}")));
         let table: Vec<_> = match name {
@@ -509,7 +340,7 @@ fn unknown_names<'a>(names: &'a str, links: &str) -> impl Iterator<Item = &'a st
 
 /// Tests, commands, cases, code and paths that the docs name exist.
 #[test]
-fn house_docs_name_what_exists() {
+fn docs_name_what_exists() {
     let known = Known::new();
     let name = |page: &Path| page.strip_prefix(root()).unwrap().display().to_string();
     let pages = pages();
@@ -520,7 +351,7 @@ fn house_docs_name_what_exists() {
 
 /// The architecture page says of every file of tests what it is for.
 #[test]
-fn house_lists_its_tests() {
+fn lists_its_tests() {
     let page = fs::read_to_string(root().join("docs/ARCHITECTURE.md")).unwrap();
     for path in files(&root().join("tests/it"), "rs") {
         let name = path.strip_prefix(root()).unwrap().display().to_string();
@@ -533,7 +364,7 @@ fn house_lists_its_tests() {
 
 /// Each kind of name that leads nowhere is found.
 #[test]
-fn house_missing_names_are_found() {
+fn missing_names_are_found() {
     let known = Known::new();
     let page = "`src/nowhere.rs` `crates/core/src/grid.rs` --scene moon --scene cube\n\
         ## The test that proves it\n- `proves_nothing`, `crop`, `snap_by_hand`\n";
@@ -551,9 +382,9 @@ fn house_missing_names_are_found() {
 
 /// Every specimen credits its source.
 #[test]
-fn house_specimens_credit_their_source() {
+fn specimens_credit_their_source() {
     let of_all = ["mod.rs", "catalogue.rs", "scene.rs"];
-    for path in files(&root().join("engines/src/specimen"), "rs") {
+    for path in files(&root().join("crates/faults/src/published"), "rs") {
         let name = path.file_name().unwrap().to_str().unwrap();
         let text = fs::read_to_string(&path).unwrap();
         assert!(of_all.contains(&name) || text.contains("\n//! Source: "), "{name}");
@@ -574,7 +405,7 @@ fn bare_commands(text: &str) -> usize {
 
 /// Commands are written in one way: through cargo, or installed where the page says how.
 #[test]
-fn house_commands_are_written_in_one_way() {
+fn commands_are_written_in_one_way() {
     for (page, text) in pages() {
         let is_said = text.contains("cargo install --path .");
         assert!(is_said || bare_commands(&text) == 0, "{}", page.display());
@@ -591,7 +422,7 @@ const SECTIONS: &str = "1.1 1.2 1.3 1.4 1.5 1.5.1 1.5.2 1.6 2.1 2.2 3.1 3.2 3.2.
 /// Every section of the book has a row in the table, which leads to the page of its chapter; that
 /// page names the section. Code, snapshots and specimens of the rows exist.
 #[test]
-fn house_table_has_every_section() {
+fn table_has_every_section() {
     let table = fs::read_to_string(root().join("docs/sections.md")).unwrap();
     let table = table.as_str();
     let specimens: Vec<_> = CARDS.iter().map(|card| card.name).collect();
@@ -625,7 +456,7 @@ fn house_table_has_every_section() {
 
 /// The table of invariants says what the catalogue says.
 #[test]
-fn house_stability_lists_the_invariants() {
+fn stability_lists_the_invariants() {
     let text = fs::read_to_string(root().join("docs/stability.md")).unwrap();
     let text = text.replace("\\|", "/");
     let table: Vec<_> = rows(section(&text, "The invariants")).collect();
@@ -642,7 +473,7 @@ fn house_stability_lists_the_invariants() {
 
 /// The conversation on the page of the protocol is what an engine says.
 #[test]
-fn house_protocol_is_spoken() {
+fn protocol_is_spoken() {
     let text = fs::read_to_string(root().join("docs/protocol.md")).unwrap();
     let lines = |sign: &str| -> Vec<String> {
         let spoken = section(&text, "A conversation").lines();
