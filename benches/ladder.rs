@@ -19,14 +19,14 @@ use criterion::{
 use rasterproof_core::contract::RasterizeExact;
 use rasterproof_core::frame::Frame;
 use rasterproof_precision::cost::scene::{Scene, Size, W_PREFIX, scenes};
-use rasterproof_precision::cost::{Contender, Ladder, contenders};
+use rasterproof_precision::cost::{Ladder, Variant, variants};
 use rasterproof_precision::ladder::snap;
 use rasterproof_verify::oracle::Oracle;
 
-fn covered(contender: &Contender, scene: &Scene) -> u64 {
+fn covered(variant: &Variant, scene: &Scene) -> u64 {
     let mut spans = Vec::new();
     for corners in &scene.triangles {
-        contender.spans(corners, scene.bounds, &mut spans).expect("the scenes suit every rung");
+        variant.spans(corners, scene.bounds, &mut spans).expect("the scenes suit every rung");
     }
     spans.iter().map(|span| u64::from(span.x0_px.abs_diff(span.x1_px))).sum()
 }
@@ -49,8 +49,8 @@ fn ladders(criterion: &mut Criterion) {
     for scene in scenes.iter().filter(|scene| !scene.name.starts_with(W_PREFIX)) {
         let truths = [truth(scene, false), truth(scene, true)];
         for (ladder, kind) in [(Ladder::Scanline, "scanline"), (Ladder::EdgeFunction, "edge")] {
-            for contender in contenders(ladder) {
-                bench(criterion, scene, &truths, kind, &contender);
+            for variant in variants(ladder) {
+                bench(criterion, scene, &truths, kind, &variant);
             }
         }
     }
@@ -61,20 +61,20 @@ fn bench(
     scene: &Scene,
     truths: &[u64; 2],
     kind: &str,
-    contender: &Contender,
+    variant: &Variant,
 ) {
-    let pixels = covered(contender, scene);
-    assert_eq!(pixels, covered(contender, scene), "the same pixels each time");
-    for &promise in &contender.rung.promises {
-        assert_eq!(pixels, truths[promise], "{} on {}", contender.rung.name, scene.name);
+    let pixels = covered(variant, scene);
+    assert_eq!(pixels, covered(variant, scene), "the same pixels each time");
+    for &promise in &variant.rung.promises {
+        assert_eq!(pixels, truths[promise], "{} on {}", variant.rung.name, scene.name);
     }
     let mut target = Frame::new(scene.bounds, 0);
     let mut group = criterion.benchmark_group(format!("ladder/{}", scene.name));
     group.sampling_mode(SamplingMode::Flat);
     group.throughput(Throughput::Elements(pixels));
-    let name = format!("{kind} {}", contender.rung.name);
+    let name = format!("{kind} {}", variant.rung.name);
     group.bench_function(BenchmarkId::from_parameter(name), |bencher| {
-        bencher.iter(|| contender.paint(black_box(&scene.triangles), &mut target));
+        bencher.iter(|| variant.paint(black_box(&scene.triangles), &mut target));
     });
 }
 

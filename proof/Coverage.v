@@ -6,7 +6,7 @@ Open Scope Z_scope.
 (** A position in subpixels, y down. *)
 Record point := Pt { X : Z; Y : Z }.
 
-(** ** The specification: parity of crossings to the left of the nudged sample (engines/src/oracle). *)
+(** ** The specification: parity of crossings to the left of the nudged sample (crates/verify/src/oracle). *)
 
 (** An end point lies above the nudged sample (x + eps, y + eps^2). *)
 Definition above (p : point) (y : Z) : bool := Y p <=? y.

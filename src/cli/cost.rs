@@ -10,7 +10,9 @@ use super::page::{PageArguments, as_file, write_page};
 use super::progress::Progress;
 use super::typed::Typed;
 use super::{Failure, Streams, exit, usage};
-use rasterproof_precision::cost::{Board, Guest, Ladder, Options, Recorded, measure_with};
+use rasterproof_precision::cost::{
+    Board, ExternalVariant, Ladder, Options, Recorded, measure_with,
+};
 use rasterproof_report::canvas::{self, Drawing};
 use rasterproof_report::html::{Figure, Report};
 use rasterproof_report::{board, cost_plots, json, picture};
@@ -87,14 +89,14 @@ impl CostArguments {
 
     /// The devices that are measured beside the rungs.
     #[cfg(feature = "vulkan")]
-    fn guests(&self) -> Result<Vec<Box<dyn Guest>>, Failure> {
+    fn guests(&self) -> Result<Vec<Box<dyn ExternalVariant>>, Failure> {
         self.engine.iter().map(|name| super::vulkan::guest(name)).collect()
     }
 
     /// There are none.
     #[cfg(not(feature = "vulkan"))]
     #[allow(clippy::unnecessary_wraps, clippy::unused_self, reason = "with devices there are both")]
-    fn guests(&self) -> Result<Vec<Box<dyn Guest>>, Failure> {
+    fn guests(&self) -> Result<Vec<Box<dyn ExternalVariant>>, Failure> {
         Ok(Vec::new())
     }
 }

@@ -20,7 +20,7 @@ use rasterproof_core::frame::Frame;
 use rasterproof_registry::engines::{Drawer, Engine};
 use rasterproof_registry::undecided::{self, Drawn as DrawnBy};
 use rasterproof_render::effects::plan::{Plan, SceneDigest, VERSION};
-use rasterproof_render::effects::render::{BadScene, Misfit, Rendered};
+use rasterproof_render::effects::render::{BadScene, PlanError, Rendered};
 use rasterproof_render::effects::{Effect, Effects, Mode};
 use rasterproof_render::pipeline::Counters;
 use rasterproof_render::pipeline::assemble::Cull;
@@ -557,7 +557,7 @@ fn read_plan(path: &Path) -> Result<Plan, Failure> {
     // Before anything else: the words of another version are not misspelt.
     let version = plan.get("version").and_then(serde_json::Value::as_u64);
     if version != Some(VERSION.into()) {
-        return Err(refused(&Misfit::Version(version)));
+        return Err(refused(&PlanError::Version(version)));
     }
     serde_path_to_error::deserialize(plan).map_err(|error| refused(&error))
 }

@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use rasterproof_vulkan::device::find;
-use rasterproof_vulkan::gpu::campaign::{self, Stand};
+use rasterproof_vulkan::gpu::campaign::{self, DeviceReport};
 use rasterproof_vulkan::gpu::engine::{Gpu, PREFIX};
 use rasterproof_vulkan::gpu::look;
 use rasterproof_vulkan::gpu::plant::Plant;
@@ -17,7 +17,7 @@ use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::Corners;
 use rasterproof_judge::Options;
-use rasterproof_precision::cost::Guest;
+use rasterproof_precision::cost::ExternalVariant;
 
 /// Cases of each family where nothing is said.
 const CASES: u64 = 1000;
@@ -83,7 +83,7 @@ pub fn verify(job: &Job<'_>, streams: &mut Streams<'_>) -> Result<u8, Failure> {
 
 fn print(
     job: &Job<'_>,
-    stand: &Stand,
+    stand: &DeviceReport,
     cases: u64,
     streams: &mut Streams<'_>,
 ) -> Result<(), Failure> {
@@ -111,7 +111,7 @@ pub fn coverage(engine: &str, list: &[Corners], window: PixelRect) -> Result<Cov
 }
 
 /// A device for a ladder of coverage.
-pub fn guest(engine: &str) -> Result<Box<dyn Guest>, Failure> {
+pub fn guest(engine: &str) -> Result<Box<dyn ExternalVariant>, Failure> {
     Ok(Box::new(OnLadder::new(engine).map_err(|error| usage(error.to_string()))?))
 }
 

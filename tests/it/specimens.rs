@@ -33,7 +33,7 @@ fn specimens_agree_on_their_harmless_case() {
     }
 }
 
-/// Every specimen of the line-up has a card, and every card that is no scene an engine's name.
+/// Every specimen of the registry has a card, and every card that is no scene an engine's name.
 #[test]
 fn specimens_have_cards() {
     for entry in &engines::SPECIMENS {

@@ -5,7 +5,7 @@
 //! Each term is a fraction over twice the edge's height and width, so the sum is one fraction.
 
 use super::place::{Place, Points, around, turn};
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 
 /// Corners within this many subpixels of each other keep every product within i128.
@@ -28,7 +28,7 @@ fn under(p: [i64; 2], q: [i64; 2]) -> Fraction {
     if dy == 0 {
         return Fraction(0, 1);
     }
-    let [px, py, qy] = [p[0], p[1], q[1]].each(i128::from);
+    let [px, py, qy] = [p[0], p[1], q[1]].map_array(i128::from);
     let (low, high) = (py.min(qy).max(0), py.max(qy).min(256));
     if low >= high {
         return Fraction(0, 1);
@@ -55,7 +55,7 @@ fn under(p: [i64; 2], q: [i64; 2]) -> Fraction {
 
 /// Twice the area of the triangle in the box of one pixel at `corner`, as a fraction.
 fn twice_area(points: &Points, corner: [i64; 2]) -> Fraction {
-    let at = points.each(|p| [p[0] - corner[0], p[1] - corner[1]]);
+    let at = points.map_array(|p| [p[0] - corner[0], p[1] - corner[1]]);
     let sum = (0..3).map(|i| under(at[i], at[(i + 1) % 3])).reduce(Fraction::plus);
     let Fraction(n, d) = sum.unwrap_or(Fraction(0, 1));
     // Clockwise on the screen goes down on its right side: that adds.
@@ -70,7 +70,8 @@ fn apart(points: &Points, corner: [i64; 2]) -> bool {
         let (p, q) = (points[i], points[(i + 1) % 3]);
         let (a, b) = (sign * (p[1] - q[1]), sign * (q[0] - p[0]));
         // The corner of the pixel that lies farthest inside.
-        let far = [(a, 0), (b, 1)].each(|(v, axis)| corner[axis] + if v > 0 { 256 } else { 0 });
+        let far =
+            [(a, 0), (b, 1)].map_array(|(v, axis)| corner[axis] + if v > 0 { 256 } else { 0 });
         a * (far[0] - p[0]) + b * (far[1] - p[1]) <= 0
     })
 }
@@ -90,7 +91,8 @@ pub(super) fn trace(
     let rect = rect.intersect(&window);
     for y_px in rect.y0..rect.y1 {
         for x_px in rect.x0..rect.x1 {
-            let corner = [(x_px, x), (y_px, y)].each(|(px, at)| i64::from(px * 256 + at - 128));
+            let corner =
+                [(x_px, x), (y_px, y)].map_array(|(px, at)| i64::from(px * 256 + at - 128));
             if apart(points, corner) {
                 continue;
             }

@@ -9,7 +9,7 @@ use super::samples::Pattern;
 use super::scan::Scan;
 use super::search::{Range, Scored, Search, Seen};
 use super::shape::Shape;
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 
 /// Grids whose search goes on after the first look.
 const GRIDS: usize = 6;
@@ -58,7 +58,7 @@ impl<'a> Fit<'a> {
         let ways = [Rounding::Near, Rounding::HalfEven, Rounding::Down];
         let steps = [4, 16, 64, 256].into_iter().filter(|&step| step > self.grain);
         std::iter::once(Quantum::NONE)
-            .chain(steps.flat_map(|step| ways.each(|rounding| Quantum { step, rounding })))
+            .chain(steps.flat_map(|step| ways.map_array(|rounding| Quantum { step, rounding })))
             .collect()
     }
 
@@ -83,7 +83,7 @@ impl<'a> Fit<'a> {
         let (Some(x), Some(y)) = (left.meet(right), top.meet(bottom)) else { return Vec::new() };
         let mut found = self.search(quantum, &[x, y], |v| Shape::Point { x: v[0], y: v[1] });
         if quantum.step == 4 {
-            let [x, y] = [x, y].each(|range| Range { finest: 4, ..range });
+            let [x, y] = [x, y].map_array(|range| Range { finest: 4, ..range });
             found.extend(self.search(quantum, &[x, y], |v| Shape::Stepped { x: v[0], y: v[1] }));
         }
         found
@@ -119,7 +119,7 @@ impl<'a> Fit<'a> {
 
     /// The middle between the flips of two opposite edges, and half their distance.
     fn middle(&self, quantum: Quantum, axis: usize) -> [Range; 2] {
-        let [first, second] = [2 * axis, 2 * axis + 1].each(|i| self.flip(i, quantum));
+        let [first, second] = [2 * axis, 2 * axis + 1].map_array(|i| self.flip(i, quantum));
         let half = |v: i32| v.div_euclid(2);
         [
             Range::of(half(first.low + second.low), half(first.high + second.high + 1)),
@@ -129,7 +129,7 @@ impl<'a> Fit<'a> {
 
     /// Four samples about a middle, of which at least one to four are covered.
     fn samples(&self, quantum: Quantum) -> Vec<Search<'a>> {
-        let [[x, _], [y, _]] = [0, 1].each(|axis| self.middle(quantum, axis));
+        let [[x, _], [y, _]] = [0, 1].map_array(|axis| self.middle(quantum, axis));
         let makes: [fn(&[i32]) -> Shape; 2] =
             [|v| four(v, Pattern::Square), |v| four(v, Pattern::Rotated)];
         let least = Range { low: 1, high: 4, finest: 1 };
@@ -137,7 +137,7 @@ impl<'a> Fit<'a> {
     }
 
     fn reaches(&self, quantum: Quantum) -> Vec<Search<'a>> {
-        let [[x, reach], [y, down]] = [0, 1].each(|axis| self.middle(quantum, axis));
+        let [[x, reach], [y, down]] = [0, 1].map_array(|axis| self.middle(quantum, axis));
         let Some(reach) = reach.meet(down).and_then(|r| r.meet(Range::of(1, 512))) else {
             return Vec::new();
         };
@@ -159,7 +159,7 @@ impl<'a> Fit<'a> {
     }
 
     fn shares(&self, quantum: Quantum) -> Vec<Search<'a>> {
-        let [[x, reach], [y, down]] = [0, 1].each(|axis| self.middle(quantum, axis));
+        let [[x, reach], [y, down]] = [0, 1].map_array(|axis| self.middle(quantum, axis));
         let Some(reach) = reach.meet(down).and_then(|r| r.meet(Range::of(-128, 126))) else {
             return Vec::new();
         };

@@ -5,7 +5,7 @@ use super::bench::{Answer, Bench};
 use super::place::turn;
 use super::rule::Windings;
 use super::{Count, Quantum};
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::SubpixelPoint;
 use rasterproof_core::triangle::Corners;
 
@@ -83,7 +83,7 @@ impl Bench<'_> {
             *drawn = answers.iter().filter(|answer| !answer.drawn.is_empty()).count();
             all.extend(answers);
         }
-        let draws = match drawn.each(|count| count > fat.len() / 4) {
+        let draws = match drawn.map_array(|count| count > fat.len() / 4) {
             [true, true] => Windings::Both,
             [true, false] => Windings::Clockwise,
             [false, true] => Windings::CounterClockwise,
@@ -143,8 +143,9 @@ fn with_edge(side: i32, (axis, first): (usize, bool), at: i32) -> Corners {
     let along = px(watched(side)) + at;
     let far = if first { px(side - 2) } else { px(2) };
     let corners = [[along, px(2)], [along, px(side - 2)], [far, px(side / 2)]];
-    corners
-        .each(|[u, v]| if axis == 0 { SubpixelPoint::new(u, v) } else { SubpixelPoint::new(v, u) })
+    corners.map_array(
+        |[u, v]| if axis == 0 { SubpixelPoint::new(u, v) } else { SubpixelPoint::new(v, u) },
+    )
 }
 
 impl Bench<'_> {
@@ -160,7 +161,8 @@ impl Bench<'_> {
             [0, 1, 2, 3]
                 .map(|i| answers[i].map(|answer| answer.drawn.has(watched(side), watched(side))))
         };
-        let [start, end] = [flips.map(|f| f.low), flips.map(|f| f.high)].each(|at| watch(self, at));
+        let [start, end] =
+            [flips.map(|f| f.low), flips.map(|f| f.high)].map_array(|at| watch(self, at));
         while flips.iter().any(|flip| flip.high - flip.low > grain) {
             let middle = flips.map(|f| (f.low + f.high).div_euclid(2 * grain) * grain);
             let seen = watch(self, middle);
@@ -182,7 +184,7 @@ impl Bench<'_> {
         let count = if draws == Windings::Both { 6 } else { 3 };
         let list: Vec<Corners> = triangles
             .iter()
-            .flat_map(|t| ORDERS[..count].iter().map(|order| order.each(|i| t[i])))
+            .flat_map(|t| ORDERS[..count].iter().map(|order| order.map_array(|i| t[i])))
             .collect();
         let answers = self.draw_all(&list);
         let mut changed = [Count::default(); 2];

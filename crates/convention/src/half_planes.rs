@@ -2,7 +2,7 @@
 //! differ for left and right edges are crossings rounded row by row, a reach moves the edges outward.
 
 use super::place::{Place, Points, around, turn};
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 
 /// a x + b y + c > 0 inside.
@@ -86,7 +86,7 @@ impl HalfPlanes {
         let Self { left, right, y, reach, square, rows, boxed } = self;
         let side = |a: i64, b: i64, [px, py]: [i64; 2], reach: i64| {
             let x = if a > 0 { left } else { right };
-            let [wa, wb] = [a, b].each(i128::from);
+            let [wa, wb] = [a, b].map_array(i128::from);
             let c = wa * (i128::from(x) - i128::from(px)) + wb * (i128::from(y) - i128::from(py));
             Side { a: wa, b: wb, c: c + i128::from(reach), facing: facing(a, b) }
         };
@@ -102,7 +102,7 @@ impl HalfPlanes {
             sides.push(side(a, b, *p, width * i64::from(reach)));
         }
         let ends = |axis: usize| {
-            let v = points.each(|p| p[axis]);
+            let v = points.map_array(|p| p[axis]);
             (v.into_iter().min().unwrap_or(0), v.into_iter().max().unwrap_or(0))
         };
         let ((x0, x1), (y0, y1)) = (ends(0), ends(1));
@@ -125,7 +125,7 @@ where
 {
     let (zero, pixel) = (T::from(0), T::from(256));
     for y_px in rect.y0..rect.y1 {
-        let corner = [rect.x0, y_px].each(|px| T::from(i64::from(px)) * pixel);
+        let corner = [rect.x0, y_px].map_array(|px| T::from(i64::from(px)) * pixel);
         let mut values = [zero; 7];
         for (value, side) in values.iter_mut().zip(sides) {
             *value = side.a * corner[0] + side.b * corner[1] + side.c;

@@ -7,7 +7,7 @@
 use std::ops::RangeInclusive;
 
 use super::place::Points;
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 
 /// A side that is not level, between whole pixels.
@@ -67,7 +67,7 @@ fn last(x: f32) -> i64 {
 
 /// Calls `put` with every pixel, some of them twice.
 pub(super) fn trace(points: &Points, window: PixelRect, put: &mut dyn FnMut(i64, i64)) {
-    let corners = points.each(|p| p.each(|v| v / 256));
+    let corners = points.map_array(|p| p.map_array(|v| v / 256));
     let mut sides = Vec::new();
     for i in 0..3 {
         let (p, q) = (corners[i], corners[(i + 1) % 3]);

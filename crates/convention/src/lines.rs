@@ -6,7 +6,7 @@ use serde::Serialize;
 use super::diagnosis::Confidence;
 use super::outline::{End, Line, LineTie};
 use super::ties::Count;
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_verify::cases::Rng;
 
@@ -150,7 +150,7 @@ impl LineConvention {
     /// more than 65,536 steps.
     #[must_use]
     pub fn pixels(&self, question: &LineQuestion) -> Option<Vec<[i32; 2]>> {
-        let [from, to] = question.ends.each(|end| end.each(i64::from));
+        let [from, to] = question.ends.map_array(|end| end.map_array(i64::from));
         let line = Line::new(from, to);
         if line.steps() > MOST_STEPS || (line.steps() == 0 && self.ends != Ends::Both) {
             return None;
@@ -298,7 +298,7 @@ const LIKELY_PERCENT: f64 = 95.0;
 /// Random lines: half of them anywhere, half with ties, which random ones seldom have.
 fn lines(rng: &mut Rng, side: i32, count: usize) -> Vec<LineQuestion> {
     let window = PixelRect::window(side as u32, side as u32);
-    let pixel = |rng: &mut Rng| [0; 2].each(|_| rng.int(1, i64::from(side) - 2) as i32);
+    let pixel = |rng: &mut Rng| [0; 2].map_array(|_| rng.int(1, i64::from(side) - 2) as i32);
     let mut lines = Vec::with_capacity(2 * count);
     for number in 0..count {
         let from = pixel(rng);

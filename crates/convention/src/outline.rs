@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::half_planes;
 use super::place::{Place, Points};
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 
 /// Where a line goes that passes exactly between two pixels. 'Go' means on, in its minor direction,
@@ -204,15 +204,15 @@ pub(super) fn trace(
     window: PixelRect,
     emit: &mut dyn FnMut(i32, i32, Place),
 ) -> bool {
-    let pixels = points.each(|p| p.each(|v| v.div_euclid(256)));
-    let lines = [0, 1, 2].each(|i| Line::new(pixels[i], pixels[(i + 1) % 3]));
+    let pixels = points.map_array(|p| p.map_array(|v| v.div_euclid(256)));
+    let lines = [0, 1, 2].map_array(|i| Line::new(pixels[i], pixels[(i + 1) % 3]));
     if lines.iter().any(|line| line.steps() > MOST_STEPS) {
         return false;
     }
     half_planes::at(0, 0).trace(points, window, &mut |x, y, _| emit(x, y, Place::In));
     for line in lines {
         for step in 0..=line.steps() {
-            let [x, y] = line.pixel(step, line.nearest(step, tie)).each(|v| v as i32);
+            let [x, y] = line.pixel(step, line.nearest(step, tie)).map_array(|v| v as i32);
             if window.contains(x, y) {
                 emit(x, y, Place::In);
             }

@@ -1,6 +1,6 @@
 //! Where pixels lie with respect to a triangle, and the corners it is asked about.
 
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 
 /// The direction an edge faces: that of its outward normal. On the screen, y down: N is up.
@@ -39,7 +39,7 @@ pub(super) fn turn([a, b, c]: &Points) -> i128 {
 /// Pixels within `margin_px` of the corners, which must leave room for every sample position.
 pub(super) fn around(points: &Points, margin_px: i64) -> PixelRect {
     let ends = |axis: usize| {
-        let v = points.each(|p| p[axis].div_euclid(256));
+        let v = points.map_array(|p| p[axis].div_euclid(256));
         let low = v.into_iter().min().unwrap_or(0) - margin_px;
         let high = v.into_iter().max().unwrap_or(0) + margin_px + 1;
         // Corners are i32 subpixels, so pixels fit with room to spare.

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::SubpixelPoint;
 use rasterproof_core::triangle::Corners;
 
@@ -49,7 +49,7 @@ impl Quantum {
 
     /// All three corners, as [x, y].
     pub(super) fn corners(self, corners: &Corners) -> [[i64; 2]; 3] {
-        corners.each(|SubpixelPoint { x, y }| [self.apply(x), self.apply(y)])
+        corners.map_array(|SubpixelPoint { x, y }| [self.apply(x), self.apply(y)])
     }
 }
 

@@ -8,7 +8,7 @@ use super::mirror::Mirror;
 use super::place::{FACINGS, Place, turn};
 use super::quantum::Quantum;
 use super::shape::Shape;
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::Corners;
@@ -169,7 +169,8 @@ impl Convention {
 
     fn visit(&self, corners: &Corners, window: PixelRect, draw: &mut dyn FnMut(i32, i32)) -> bool {
         let points = self.quantum.corners(corners);
-        let [turn, given] = [&points, &Quantum::NONE.corners(corners)].each(|p| turn(p).signum());
+        let [turn, given] =
+            [&points, &Quantum::NONE.corners(corners)].map_array(|p| turn(p).signum());
         let flat = self.flat && turn == 0 && !self.shape.draws_flat();
         // Who culls may do so before corners reach their grid, or after.
         let culled = self.draws != Windings::Both && turn != given;

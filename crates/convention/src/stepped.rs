@@ -5,7 +5,7 @@
 //! roundings move an edge by up to a step of the grid, so two triangles at one edge still agree.
 
 use super::place::{Place, Points, around};
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 
 /// Corners on 1/64 px: the grid of the first crossing.
@@ -42,12 +42,12 @@ pub(super) fn trace(
     window: PixelRect,
     emit: &mut dyn FnMut(i32, i32, Place),
 ) -> bool {
-    let at = points.each(|p| [p[0] - i64::from(x), p[1] - i64::from(y)]);
+    let at = points.map_array(|p| [p[0] - i64::from(x), p[1] - i64::from(y)]);
     if at.as_flattened().iter().any(|v| v % STEP != 0 || v.abs() > 1 << 22) {
         return false;
     }
-    let at = at.each(|p| p.each(|v| v / STEP));
-    let edges = [0, 1, 2].each(|i| {
+    let at = at.map_array(|p| p.map_array(|v| v / STEP));
+    let edges = [0, 1, 2].map_array(|i| {
         let (p, q) = (at[i], at[(i + 1) % 3]);
         if p[1] <= q[1] { Edge { top: p, bottom: q } } else { Edge { top: q, bottom: p } }
     });

@@ -9,7 +9,7 @@ use super::general::{area, drawable};
 use super::place::Place;
 use super::rule::{CornerRule, Ties, Windings};
 use super::shape::Shape;
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::SubpixelPoint;
 use rasterproof_core::triangle::Corners;
 
@@ -171,7 +171,7 @@ impl Bench<'_> {
             Shape::Point { x, y } | Shape::Stepped { x, y } | Shape::Share { x, y, .. } => [x, y],
             Shape::Reach { x, y, reach, square } => {
                 let [right, down] =
-                    [0, 0].each(|_| if self.rng.chance(2) { reach } else { -reach });
+                    [0, 0].map_array(|_| if self.rng.chance(2) { reach } else { -reach });
                 match (square, self.rng.chance(2)) {
                     (true, _) => [x + right, y + down],
                     (false, true) => [x + right, y],
@@ -194,20 +194,20 @@ impl Bench<'_> {
         let unit = candidate.quantum.step.max(self.grain);
         let at = self.meeting(candidate.shape);
         let side = self.side() * 256;
-        let pixel = [0, 0].each(|_| self.rng.int(4, i64::from(self.side() - 5)) as i32 * 256);
+        let pixel = [0, 0].map_array(|_| self.rng.int(4, i64::from(self.side() - 5)) as i32 * 256);
         let mut point = |low: i32, high: i32| {
-            [0, 1].each(|axis| {
+            [0, 1].map_array(|axis| {
                 let v = pixel[axis] + self.rng.int(low.into(), high.into()) as i32;
                 (v + unit / 2).div_euclid(unit) * unit
             })
         };
         let (from, third) = (point(-700, 700), point(-1000, 1000));
-        let ahead = [0, 1].each(|axis| pixel[axis] + at[axis] - from[axis]);
+        let ahead = [0, 1].map_array(|axis| pixel[axis] + at[axis] - from[axis]);
         let times = unit / gcd(gcd(ahead[0], ahead[1]), unit);
         // Once more where that is the sample itself.
         let times = if times == 1 { 2 } else { times };
-        let to = [0, 1].each(|axis| from[axis] + times * ahead[axis]);
-        let corners = [from, to, third].each(|[x, y]| SubpixelPoint::new(x, y));
+        let to = [0, 1].map_array(|axis| from[axis] + times * ahead[axis]);
+        let corners = [from, to, third].map_array(|[x, y]| SubpixelPoint::new(x, y));
         to.iter().all(|v| (0..side).contains(v)).then_some(corners)
     }
 
@@ -222,10 +222,10 @@ impl Bench<'_> {
             4 => 0,
             _ => bench.rng.int(0, 3) as i32 * 64,
         };
-        let base = [self.rng.int(2, 8), self.rng.int(2, 8)].each(|v| v as i32 * 256);
+        let base = [self.rng.int(2, 8), self.rng.int(2, 8)].map_array(|v| v as i32 * 256);
         let mut corners = [SubpixelPoint::new(0, 0); 3];
         for corner in &mut corners {
-            let [x, y] = [0, 1].each(|axis| {
+            let [x, y] = [0, 1].map_array(|axis| {
                 let v = base[axis] + self.rng.int(0, 6) as i32 * 256 + away(self, at[axis]);
                 (v + unit / 2).div_euclid(unit) * unit
             });

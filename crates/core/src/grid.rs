@@ -3,7 +3,7 @@
 //! Pixel (i, j) is the square [i, i+1) x [j, j+1) and is sampled at its centre (i + 1/2, j + 1/2).
 //! Snapping a float to this lattice is the only rounding a position ever meets; what comes after is
 //! integer arithmetic. Snapping is round-half-to-even, as the recorded Vulkan drivers do
-//! (`tests/data/vulkan-snap.*`). This room is shared by the engines and the oracle, so a mistake
+//! (`tests/data/vulkan-snap.*`). This module is shared by the engines and the oracle, so a mistake
 //! here would be invisible to their comparison: it is pinned by hand-computed cases instead.
 //!
 //! It refuses, with a reason, what has no place on the lattice: NaN, infinities and coordinates

@@ -4,7 +4,7 @@
 
 use std::ops::{Add, Mul, Sub};
 
-use crate::arrays::Each as _;
+use crate::arrays::MapArray as _;
 use crate::grid::{DOMAIN_PX, Refusal, SUBPIXELS, SubpixelPoint, snap};
 
 /// Something that can be interpolated: a number or a vector of numbers.
@@ -156,7 +156,7 @@ impl FreeCorners {
 impl From<Corners> for FreeCorners {
     /// The same positions in pixels, exactly; the lattice lies in the domain.
     fn from(corners: Corners) -> Self {
-        Self(corners.each(|corner| corner.to_px().into()))
+        Self(corners.map_array(|corner| corner.to_px().into()))
     }
 }
 

@@ -5,17 +5,17 @@ use glam::{DVec2, DVec4};
 use super::Outcome;
 use super::source::ClipInput;
 use super::subject::{Subject, hits};
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_render::pipeline::ClipVertex;
 use rasterproof_render::pipeline::assemble::Viewport;
-use rasterproof_render::pipeline::clip::{MOST_VERTICES, Outcode, Plane, outcode};
+use rasterproof_render::pipeline::clip::{ClipPlane, MOST_VERTICES, Outcode, outcode};
 
 type Vertex = ClipVertex<DVec2>;
 
 fn vertices(input: &ClipInput) -> [Vertex; 3] {
     let mut number = 0.0;
-    input.vertices.each(|[x, y, z, w]| {
+    input.vertices.map_array(|[x, y, z, w]| {
         number += 1.0;
         let position = DVec4::new(x.into(), y.into(), z.into(), w.into());
         ClipVertex { position, varying: DVec2::new(number, -3.0 * number * number) }
@@ -72,13 +72,14 @@ pub(super) fn planes(subject: &Subject, input: &ClipInput) -> Outcome {
     if clipped.len() > MOST_VERTICES {
         return Err(format!("{} vertices", clipped.len()));
     }
-    let old = triangle.each(|vertex| bits(&vertex));
+    let old = triangle.map_array(|vertex| bits(&vertex));
     for vertex in &clipped {
-        let distance = |plane: &Plane| plane.distance(vertex);
-        if let Some(plane) = Plane::ALL.iter().find(|plane| distance(plane) < 0.0) {
+        let distance = |plane: &ClipPlane| plane.distance(vertex);
+        if let Some(plane) = ClipPlane::ALL.iter().find(|plane| distance(plane) < 0.0) {
             return Err(format!("{vertex:?} lies outside {plane:?}"));
         }
-        if !old.contains(&bits(vertex)) && Plane::ALL.iter().all(|plane| distance(plane) != 0.0) {
+        if !old.contains(&bits(vertex)) && ClipPlane::ALL.iter().all(|plane| distance(plane) != 0.0)
+        {
             return Err(format!("{vertex:?} is new and on no plane"));
         }
     }
@@ -134,7 +135,7 @@ pub(super) fn coverage(subject: &Subject, input: &ClipInput) -> Outcome {
 
 /// The borders of what is visible as lines that are positive inside: three edges, near, far.
 fn lines(input: &ClipInput) -> Option<[[i64; 3]; 5]> {
-    let [a, b, c] = input.vertices.each(|[x, y, _, w]| [x, y, w].each(i64::from));
+    let [a, b, c] = input.vertices.map_array(|[x, y, _, w]| [x, y, w].map_array(i64::from));
     let cross = |p: [i64; 3], q: [i64; 3]| {
         [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]]
     };
@@ -143,9 +144,9 @@ fn lines(input: &ClipInput) -> Option<[[i64; 3]; 5]> {
     if determinant == 0 {
         return None;
     }
-    let edges = edges.each(|line| line.each(|v| v * determinant.signum()));
+    let edges = edges.map_array(|line| line.map_array(|v| v * determinant.signum()));
     let combine = |weight: fn(&[i32; 4]) -> i32| {
-        [0, 1, 2].each(|k| {
+        [0, 1, 2].map_array(|k| {
             let term = |i: usize| edges[i][k] * i64::from(weight(&input.vertices[i]));
             term(0) + term(1) + term(2)
         })

@@ -6,7 +6,7 @@ use super::Outcome;
 use super::exact::{self, Nudge, TOP_LEFT, around, centre, owns, pixels};
 use super::source::{Fan, Position, Quad, TriangleInput};
 use super::subject::{Engine, Subject, hits};
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{DOMAIN_PX, HALF_PIXEL, PixelRect, Refusal, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::parallel;
@@ -22,7 +22,7 @@ fn same(name: &str, actual: &Coverage, target: &Coverage, what: &str) -> Outcome
     }
     let differs = |&(x, y): &(i32, i32)| actual.get(x, y) != target.get(x, y);
     let (x, y) = pixels(bounds).find(differs).unwrap_or((bounds.x0, bounds.y0));
-    let [actual, target] = [actual, target].each(|c| c.get(x, y).unwrap_or(0));
+    let [actual, target] = [actual, target].map_array(|c| c.get(x, y).unwrap_or(0));
     Err(format!("{name} hits pixel ({x}, {y}) {actual} times, {what} {target} times"))
 }
 
@@ -92,7 +92,7 @@ pub(super) fn vertex_order(subject: &Subject, input: &TriangleInput) -> Outcome 
         ORDERS[1..]
             .iter()
             .map(|order| {
-                let other = engine.hits(order.each(|i| corners[i]), window);
+                let other = engine.hits(order.map_array(|i| corners[i]), window);
                 same(engine.name, &other, &first, &format!("in order {order:?} and in 0 1 2"))
             })
             .sum()
@@ -169,8 +169,9 @@ pub(super) fn conjugate_rules(subject: &Subject, input: &TriangleInput) -> Outco
     }
     each(subject, |engine| {
         let check = |[mx, my]: [[i32; 2]; 2]| {
-            let image = corners
-                .each(|p| SubpixelPoint::new(mx[0] * p.x + mx[1] * p.y, my[0] * p.x + my[1] * p.y));
+            let image = corners.map_array(|p| {
+                SubpixelPoint::new(mx[0] * p.x + mx[1] * p.y, my[0] * p.x + my[1] * p.y)
+            });
             // The inverse of an orthogonal matrix is its transpose: columns are rows.
             let nudge = Nudge { first: mx, second: my };
             // Pixel i of a mirrored axis is pixel -1 - i.
@@ -179,7 +180,7 @@ pub(super) fn conjugate_rules(subject: &Subject, input: &TriangleInput) -> Outco
                 if sign > 0 { v } else { -1 - v }
             };
             let ends = [(window.x0, window.y0), (window.x1 - 1, window.y1 - 1)]
-                .each(|(x, y)| (along(mx, x, y), along(my, x, y)));
+                .map_array(|(x, y)| (along(mx, x, y), along(my, x, y)));
             let there = PixelRect {
                 x0: ends[0].0.min(ends[1].0),
                 y0: ends[0].1.min(ends[1].1),
@@ -381,7 +382,7 @@ pub(super) fn windings(subject: &Subject, input: &TriangleInput) -> Outcome {
     let sign = exact::twice_area(&[a, b, c]).signum();
     for (corners, sign) in [([a, b, c], sign), ([c, b, a], -sign)] {
         let removed = [Cull::None, Cull::Clockwise, Cull::CounterClockwise]
-            .each(|cull| (subject.culls)(cull, corners));
+            .map_array(|cull| (subject.culls)(cull, corners));
         let expected = [false, sign > 0, sign < 0];
         if removed != expected {
             return Err(format!("culling none, clockwise, counter-clockwise: {removed:?}"));
@@ -703,7 +704,7 @@ pub(super) fn supersampling(subject: &Subject, input: &TriangleInput) -> Outcome
     if !corners.iter().all(|p| small(p.x) && small(p.y)) || !small(window.x0 * SUBPIXELS) {
         return Ok(0);
     }
-    let scaled = corners.each(|p| SubpixelPoint::new(p.x * n, p.y * n));
+    let scaled = corners.map_array(|p| SubpixelPoint::new(p.x * n, p.y * n));
     let there =
         PixelRect { x0: window.x0 * n, y0: window.y0 * n, x1: window.x1 * n, y1: window.y1 * n };
     each(subject, |engine| {
@@ -711,7 +712,7 @@ pub(super) fn supersampling(subject: &Subject, input: &TriangleInput) -> Outcome
         for (i, j) in (0..n).flat_map(|j| (0..n).map(move |i| (i, j))) {
             // From the sample to the centre.
             let by = |k: i32| HALF_PIXEL - (2 * k + 1) * SUBPIXELS / (2 * n);
-            let moved = corners.each(|p| SubpixelPoint::new(p.x + by(i), p.y + by(j)));
+            let moved = corners.map_array(|p| SubpixelPoint::new(p.x + by(i), p.y + by(j)));
             let hits = engine.hits(moved, window);
             let differs = |&(x, y): &(i32, i32)| hits.get(x, y) != large.get(x * n + i, y * n + j);
             if let Some((x, y)) = pixels(window).find(differs) {

@@ -1,8 +1,5 @@
 //! Invariants: what must hold of every implementation, each under a number and a name.
 //!
-//! Floor: above [`rasterproof_verify::comparison`] and [`rasterproof_registry::engines`], below the command line. It may ask every
-//! room from `verify` downwards.
-//!
 //! A check is a function of a [`Subject`] (the implementations under test) and an [`Input`]. Inputs
 //! come from (seed, number) here and from a property test's small numbers in `tests/it`; mutants
 //! are put in the place of the real thing to show that each check can fail ([`matrix`]).

@@ -5,7 +5,7 @@ use glam::DVec2;
 use super::Outcome;
 use super::source::LineInput;
 use super::subject::{Drawer, Subject};
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{Fragment, PixelPoint};
 use rasterproof_verify::cases::Line;
@@ -18,7 +18,7 @@ fn each(subject: &Subject, check: impl Fn(&Drawer) -> Outcome) -> Outcome {
 /// The same line at most 300 pixels long and near the origin, for checks that look at every pixel
 /// of it.
 fn near(line: &Line) -> Line {
-    let [a, b] = line.ends.each(|end| end.pixel);
+    let [a, b] = line.ends.map_array(|end| end.pixel);
     let length = |a: i32, b: i32| ((i64::from(b) - i64::from(a)) % 301) as i32;
     let start = PixelPoint::new(a.x % 64, a.y % 64);
     let mut line = *line;
@@ -29,7 +29,7 @@ fn near(line: &Line) -> Line {
 
 /// A window around a whole line.
 fn around(line: &Line) -> PixelRect {
-    let [a, b] = line.ends.each(|end| end.pixel);
+    let [a, b] = line.ends.map_array(|end| end.pixel);
     PixelRect {
         x0: a.x.min(b.x) - 2,
         y0: a.y.min(b.y) - 2,
@@ -47,7 +47,7 @@ fn all_pixels(drawer: &Drawer, line: &Line) -> Vec<[i64; 2]> {
 }
 
 fn ends(line: &Line) -> [[i64; 2]; 2] {
-    line.ends.each(|end| [end.pixel.x.into(), end.pixel.y.into()])
+    line.ends.map_array(|end| [end.pixel.x.into(), end.pixel.y.into()])
 }
 
 /// Index of the longer axis; x where they are equal.

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 
 use super::subject::{Subject, part_of};
 use super::{CATALOGUE, Check, Invariant};
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::parallel;
 use rasterproof_faults::planted::Mutant;
 
@@ -92,7 +92,7 @@ impl Matrix {
         };
         let digits = |values: &[usize]| {
             let values = values.to_vec();
-            [10, 1].each(|unit| {
+            [10, 1].map_array(|unit| {
                 let digits: Vec<char> = values
                     .iter()
                     .map(|&v| match v / unit {

@@ -3,7 +3,7 @@
 
 use super::Outcome;
 use super::subject::Subject;
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::Rasterize;
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
@@ -33,10 +33,10 @@ pub(super) fn quotas(subject: &Subject, seed: u64, cases: u64) -> Outcome {
         let tie = list.iter().any(|t| samples_on_boundary(&t.corners(), window) > 0);
         let sliver = list.iter().any(|t| is_sliver(&t.corners()));
         let empty = oracle_coverage(&list, window).covered() == 0;
-        [tie, sliver, empty].each(u64::from)
+        [tie, sliver, empty].map_array(u64::from)
     };
     let facts = parallel::map(jobs.len(), facts).into_iter();
-    let sums = facts.fold([0; 3], |a, b| [0, 1, 2].each(|i| a[i] + b[i]));
+    let sums = facts.fold([0; 3], |a, b| [0, 1, 2].map_array(|i| a[i] + b[i]));
     let total = jobs.len() as u64;
     for ((what, least), found) in QUOTAS.into_iter().zip(sums) {
         if found * 100 < least * total {
@@ -62,7 +62,7 @@ fn fold(case: &Case) -> u64 {
         Shape::Lines(lines) => {
             for end in lines.iter().flat_map(|line| line.ends) {
                 words.extend([end.pixel.x as u64, end.pixel.y as u64]);
-                words.extend([end.depth, end.varying.x, end.varying.y].each(f64::to_bits));
+                words.extend([end.depth, end.varying.x, end.varying.y].map_array(f64::to_bits));
             }
         }
     }

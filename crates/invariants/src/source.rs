@@ -3,7 +3,7 @@
 
 use std::fmt;
 
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_verify::cases::{self, Case, Line, Rng, Shape, Triangle, named};
 use rasterproof_verify::comparison::shrink;
@@ -246,7 +246,7 @@ pub(super) fn clip(seed: u64, index: u64) -> Input {
     let mut rng = Rng::new("clip", seed, index);
     let inside = rng.chance(4);
     let behind = rng.chance(2);
-    let vertices = [(); 3].each(|()| {
+    let vertices = [(); 3].map_array(|()| {
         let w = rng.int(if behind && !inside { -12 } else { 1 }, 24);
         let reach = if inside { w } else { 30 };
         // A third of the coordinates lie on a plane.
@@ -407,7 +407,7 @@ impl fmt::Display for Input {
                 rect(&fan.window)
             ),
             Self::Line(LineInput { line, window }) => {
-                let [a, b] = line.ends.each(|end| end.pixel);
+                let [a, b] = line.ends.map_array(|end| end.pixel);
                 write!(f, "line {},{} to {},{} in {}", a.x, a.y, b.x, b.y, rect(window))
             }
             Self::Position(p) => write!(f, "coordinate {:?} px, moved by {} px", p.px, p.shift_px),

@@ -10,7 +10,7 @@ use super::coverage::ORDERS;
 use super::exact;
 use super::source::TriangleInput;
 use super::subject::{Engine, Subject};
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::{Fragment, MAX_VALUE, MAX_W, MIN_W, ScreenTriangle, ScreenVertex};
 use rasterproof_verify::cases::Triangle;
@@ -27,7 +27,7 @@ fn each(subject: &Subject, check: impl Fn(&Engine) -> Outcome) -> Outcome {
 /// Bit by bit, and in the order of the pixels.
 fn identical(name: &str, a: &[Fragment<DVec2>], b: &[Fragment<DVec2>], what: &str) -> Outcome {
     let bits = |f: &Fragment<DVec2>| {
-        (f.y_px, f.x_px, f.depth.to_bits(), f.varying.to_array().each(f64::to_bits))
+        (f.y_px, f.x_px, f.depth.to_bits(), f.varying.to_array().map_array(f64::to_bits))
     };
     let sorted = |list: &[Fragment<DVec2>]| {
         let mut list: Vec<_> = list.iter().map(bits).collect();
@@ -45,9 +45,9 @@ fn identical(name: &str, a: &[Fragment<DVec2>], b: &[Fragment<DVec2>], what: &st
             Err(format!(
                 "{name} at ({x}, {y}): depth {:?}, values {:?}; {what}: {:?}, {:?}",
                 read(z),
-                v.each_ref().each(read),
+                v.each_ref().map_array(read),
                 read(other_z),
-                other_v.each_ref().each(read)
+                other_v.each_ref().map_array(read)
             ))
         }
     }
@@ -91,7 +91,7 @@ pub(super) fn edges_sum(subject: &Subject, input: &TriangleInput) -> Outcome {
 /// around 1: 3 u below and 4 u above.
 pub(super) fn weights_sum(subject: &Subject, input: &TriangleInput) -> Outcome {
     let unit = [DVec3::X, DVec3::Y, DVec3::Z];
-    let vertices = [0, 1, 2].each(|i| {
+    let vertices = [0, 1, 2].map_array(|i| {
         let ScreenVertex { position, depth, inv_w, .. } = input.triangle.vertices[i];
         ScreenVertex { position, depth, inv_w, varying: unit[i] }
     });
@@ -131,7 +131,7 @@ fn sum_less_one(weights: [f64; 3]) -> f64 {
 }
 
 fn values_of(triangle: &Triangle, k: usize) -> [f64; 3] {
-    triangle.vertices.each(|vertex| vertex.varying.to_array()[k])
+    triangle.vertices.map_array(|vertex| vertex.varying.to_array()[k])
 }
 
 /// The first, the last and two fragments between.
@@ -146,17 +146,19 @@ fn few(fragments: &[Fragment<DVec2>]) -> impl Iterator<Item = &Fragment<DVec2>> 
 /// rationals rounded.
 pub(super) fn perspective(subject: &Subject, input: &TriangleInput) -> Outcome {
     let t = &input.triangle;
-    let depths = t.vertices.each(|v| v.depth);
-    let attributes = t.vertices.each(|v| v.varying.to_array());
-    let exact = ExactTriangle::new(&t.corners(), depths, t.vertices.each(|v| v.inv_w), attributes);
+    let depths = t.vertices.map_array(|v| v.depth);
+    let attributes = t.vertices.map_array(|v| v.varying.to_array());
+    let exact =
+        ExactTriangle::new(&t.corners(), depths, t.vertices.map_array(|v| v.inv_w), attributes);
     let Some(exact) = exact else { return Ok(0) };
     let judge = |name: &str, tolerance: &Tolerance, fragments: &[Fragment<DVec2>]| -> Outcome {
         let mut compared = 0;
         for f in few(fragments) {
             let (depth, values) = exact.at(f.x_px, f.y_px);
             let actual = f.varying.to_array();
-            let ratio = [0, 1]
-                .each(|k| values[k].distance(actual[k]) / tolerance.attribute.at(values_of(t, k)));
+            let ratio = [0, 1].map_array(|k| {
+                values[k].distance(actual[k]) / tolerance.attribute.at(values_of(t, k))
+            });
             let depth_ratio = depth.distance(f.depth) / tolerance.depth.at(depths);
             if ratio.into_iter().chain([depth_ratio]).any(|ratio| ratio > 1.0) {
                 return Err(format!(
@@ -193,7 +195,7 @@ pub(super) fn hull(subject: &Subject, input: &TriangleInput) -> Outcome {
             let actual = f.varying.to_array();
             let attribute = engine.tolerance.attribute;
             let good = (0..2).all(|k| within(actual[k], values_of(t, k), attribute))
-                && within(f.depth, t.vertices.each(|v| v.depth), engine.tolerance.depth);
+                && within(f.depth, t.vertices.map_array(|v| v.depth), engine.tolerance.depth);
             if !good {
                 return Err(format!(
                     "{} at ({}, {}): depth {:?} or values {actual:?} leave the hull",
@@ -227,7 +229,7 @@ pub(super) fn equal_w(subject: &Subject, input: &TriangleInput) -> Outcome {
     let equal = with(&input.triangle, |_, vertex| vertex.inv_w = inv_w);
     let affine = with(&input.triangle, |_, vertex| vertex.inv_w = 1.0);
     each(subject, |engine| {
-        let [equal, affine] = [equal, affine].each(|t| engine.fragments(&t, input.window));
+        let [equal, affine] = [equal, affine].map_array(|t| engine.fragments(&t, input.window));
         identical(engine.name, &equal, &affine, "with w = 1")
     })
 }
@@ -258,7 +260,7 @@ pub(super) fn rotated_vertices(subject: &Subject, input: &TriangleInput) -> Outc
     each(subject, |engine| {
         let first = engine.fragments(&input.triangle, input.window);
         let other = |order: &[usize; 3]| {
-            let turned = ScreenTriangle { vertices: order.each(|i| v[i]) };
+            let turned = ScreenTriangle { vertices: order.map_array(|i| v[i]) };
             let fragments = engine.fragments(&turned, input.window);
             identical(engine.name, &fragments, &first, &format!("in order 0 1 2, not {order:?}"))
         };
@@ -318,7 +320,7 @@ pub(super) fn shared_edge(subject: &Subject, input: &TriangleInput) -> Outcome {
             at(&one) + at(&other)
         };
         let depth_bound = [&one, &other]
-            .each(|t| engine.tolerance.depth.at(t.vertices.each(|v| v.depth)))
+            .map_array(|t| engine.tolerance.depth.at(t.vertices.map_array(|v| v.depth)))
             .iter()
             .sum::<f64>();
         let difference = (f.varying - g.varying).abs().to_array();
@@ -342,7 +344,7 @@ pub(super) fn shared_edge(subject: &Subject, input: &TriangleInput) -> Outcome {
 
 /// 30: a flat depth is exact, so a depth test gives one picture for every order of submission.
 pub(super) fn flat_depth(subject: &Subject, input: &TriangleInput) -> Outcome {
-    let depths = input.triangle.vertices.each(|vertex| vertex.depth);
+    let depths = input.triangle.vertices.map_array(|vertex| vertex.depth);
     // The triangle and two copies a few pixels on, each at a depth of its own.
     let copies: Vec<Option<Triangle>> = (0..3)
         .map(|i| {

@@ -1,6 +1,6 @@
 //! Questions and answers as values, and who answers them: anybody behind [`Ask`].
 //!
-//! A child process and an engine of the line-up are asked alike, so that one judge serves both and
+//! A child process and an engine of the registry are asked alike, so that one judge serves both and
 //! the tests can compare them.
 
 use std::fmt;

@@ -1,4 +1,4 @@
-//! An engine of the line-up that is asked without a process: what it would answer over the protocol.
+//! An engine of the registry that is asked without a process: what it would answer over the protocol.
 
 use super::ask::{Answer, Ask, Asked, Misbehaviour, Question};
 use super::declared::{Declared, MOST_IN_FLIGHT};
@@ -21,7 +21,7 @@ use rasterproof_verify::comparison::caught;
 const OWN_TOLERANCE: f64 = 32.0 * (f64::EPSILON / 2.0);
 
 impl From<&Entry> for Declared {
-    /// What an engine of the line-up says of itself. A specimen promises nothing.
+    /// What an engine of the registry says of itself. A specimen promises nothing.
     fn from(entry: &Entry) -> Self {
         let triangle = match entry.specimen {
             Some(Specimen::Triangle(specimen)) => Some(specimen),
@@ -44,7 +44,7 @@ impl From<&Entry> for Declared {
     }
 }
 
-/// An engine of the line-up under judgement.
+/// An engine of the registry under judgement.
 pub struct Inside {
     entry: Entry,
     declared: Declared,

@@ -2,7 +2,7 @@
 //! families and judged as our own engines are.
 //!
 //! [`ask`] is what is asked and answered, [`process`] asks a program through pipes and [`in_process`] an
-//! engine of the line-up without one. [`declared`] is what a program says of itself, [`adapt_case`] puts
+//! engine of the registry without one. [`declared`] is what a program says of itself, [`adapt_case`] puts
 //! the cases where it says it draws, [`expected`] knows the exact picture, [`check`] finds what is
 //! wrong with a case ([`finding`]), `depth` and `near` of what is beside the rasterizer, [`run`] asks them all, [`recognise`] finds the
 //! convention that is followed, and [`verdict`] says what came of it, property by property;

@@ -10,7 +10,7 @@ use serde::Serialize;
 use sha2::{Digest as _, Sha256};
 
 use crate::engines::{Drawer, Engine, ExactEngine, LineEngine};
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::{DrawLine, Interpolate, Rasterize, RasterizeExact};
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::PixelRect;
@@ -34,7 +34,7 @@ pub struct Options {
 
 /// The digest of one kind of result of one engine.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct Part {
+pub struct DigestRow {
     /// Who computed it.
     pub engine: &'static str,
     /// What: coverage, values, lines, frames.
@@ -66,9 +66,9 @@ const EXACT_ENGINES: [ExactEngine; 3] =
 fn jobs() -> Vec<Job> {
     let mut jobs = Vec::new();
     jobs.extend(ENGINES.iter().flat_map(|&e| [Job::Coverage(e), Job::Values(e)]));
-    jobs.extend(LINE_ENGINES.each(Job::Lines));
-    jobs.extend(EXACT_ENGINES.each(Job::OffGrid));
-    jobs.extend(Drawer::ALL.each(Job::Frames));
+    jobs.extend(LINE_ENGINES.map_array(Job::Lines));
+    jobs.extend(EXACT_ENGINES.map_array(Job::OffGrid));
+    jobs.extend(Drawer::ALL.map_array(Job::Frames));
     jobs
 }
 
@@ -137,7 +137,7 @@ pub fn digest(
     options: Options,
     engine: Option<&str>,
     progress: &(dyn Fn(u64) + Sync),
-) -> Vec<Part> {
+) -> Vec<DigestRow> {
     let wanted = |job: &Job| engine.is_none_or(|name| job.names().0 == name);
     jobs()
         .into_iter()
@@ -149,7 +149,7 @@ pub fn digest(
                 hash
             });
             let ((engine, what), sha256) = (job.names(), hex(&Sha256::digest(hashes.concat())));
-            Part { engine, what, sha256 }
+            DigestRow { engine, what, sha256 }
         })
         .collect()
 }
@@ -163,9 +163,9 @@ pub fn case_count(options: Options, engine: Option<&str>) -> u64 {
 
 /// One digest over others.
 #[must_use]
-pub fn total(parts: &[Part]) -> String {
+pub fn total(parts: &[DigestRow]) -> String {
     let mut all = Sha256::new();
-    for Part { engine, what, sha256 } in parts {
+    for DigestRow { engine, what, sha256 } in parts {
         all.update(format!("{engine} {what} {sha256}\n"));
     }
     hex(&all.finalize())

@@ -1,4 +1,4 @@
-//! The line-up: the one file that names every engine and line drawer, and turns a word of the
+//! The engines by name: the one file that names every engine and line drawer, and turns a word of the
 //! command line into one.
 
 use glam::DVec2;
@@ -30,7 +30,7 @@ use rasterproof_faults::published::sysu_truncated::SysuTruncated;
 use rasterproof_faults::published::sysu_weights::SysuWeights;
 use rasterproof_faults::published::{Published, PublishedLine, RealTriangle, Refused};
 use rasterproof_render::effects::plan::{Canvas, Plan};
-use rasterproof_render::effects::render::{self, BadScene, Misfit, Rendered};
+use rasterproof_render::effects::render::{self, BadScene, PlanError, Rendered};
 use rasterproof_render::effects::{Effect, Effects, Mode};
 use rasterproof_render::pipeline::present::DoubleBuffer;
 use rasterproof_render::pipeline::target::{Colour, Target};
@@ -38,7 +38,7 @@ use rasterproof_render::scene::Scene;
 use rasterproof_tiles::coverage::Tiles;
 use rasterproof_verify::oracle::Oracle;
 
-/// A rasterizer of the line-up.
+/// A rasterizer of the registry.
 #[derive(Clone, Copy, Debug)]
 pub enum Engine {
     /// The book's split-triangle fill, repaired.
@@ -125,7 +125,7 @@ impl Engine {
     }
 }
 
-/// A line drawer of the line-up.
+/// A line drawer of the registry.
 #[derive(Clone, Copy, Debug)]
 pub enum LineEngine {
     /// The book's DDA, repaired.
@@ -239,7 +239,7 @@ impl Drawer {
         plan: &Plan,
         scene: &Scene,
         target: &mut Target,
-    ) -> Result<Rendered, Misfit> {
+    ) -> Result<Rendered, PlanError> {
         match self {
             Self::Scanline => render::execute(plan, scene, &Scanline, target),
             Self::EdgeFunction => {
@@ -335,7 +335,7 @@ fn in_words(mode: Mode) -> EdgeFunctionIn {
     })
 }
 
-/// A rasterizer of the line-up for corners that are not snapped.
+/// A rasterizer of the registry for corners that are not snapped.
 #[derive(Clone, Copy, Debug)]
 pub enum ExactEngine {
     /// The book's fill with filtered crossings.

@@ -11,7 +11,7 @@ use glam::DVec2;
 use serde::Serialize;
 
 use crate::engines::{self, LineSpecimen, Specimen, TriangleSpecimen};
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::{DrawLine as _, Rasterize as _, RasterizeExact as _};
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
@@ -138,7 +138,7 @@ pub fn survey(card: &Card, seed: u64, cases: u64) -> SpecimenReport {
     };
     let all = families.iter().fold(Counts::default(), |sum, (_, counts)| sum.merge(*counts));
     let [case_wrong, harmless_wrong] =
-        [Setting::Exposing, Setting::Harmless].each(|s| wrong(card, s));
+        [Setting::Exposing, Setting::Harmless].map_array(|s| wrong(card, s));
     SpecimenReport {
         name: card.name,
         source: card.source,
@@ -226,7 +226,7 @@ pub fn real_triangles(case: &TriangleCase) -> Vec<RealTriangle> {
         w: case.w[i],
         varying: DVec2::splat(case.values[i]),
     };
-    case.corners_px.iter().map(|corners| [0, 1, 2].each(|i| vertex(corners, i))).collect()
+    case.corners_px.iter().map(|corners| [0, 1, 2].map_array(|i| vertex(corners, i))).collect()
 }
 
 /// The same triangle on the lattice; none where a corner does not lie there.
@@ -248,7 +248,7 @@ pub fn on_lattice(triangle: &RealTriangle) -> Option<Triangle> {
 pub fn free_truth(triangles: &[RealTriangle], window: PixelRect) -> Coverage {
     let mut hits = Coverage::new(window, 0);
     for triangle in triangles {
-        if let Ok(corners) = FreeCorners::new(triangle.each(|v| v.position_px.to_array())) {
+        if let Ok(corners) = FreeCorners::new(triangle.map_array(|v| v.position_px.to_array())) {
             Oracle.cover_exact(&corners, window, |s| hits.hit(s.y_px, s.x0_px, s.x1_px));
         }
     }
@@ -285,7 +285,7 @@ fn judge_free(specimen: TriangleSpecimen, triangles: &[RealTriangle], window: Pi
 /// A card's line as a case of the harness.
 #[must_use]
 pub fn line_case(case: &LineCase) -> Case {
-    let [a, b] = case.pixels.each(|(x, y)| PixelPoint::new(x, y));
+    let [a, b] = case.pixels.map_array(|(x, y)| PixelPoint::new(x, y));
     let side = |a: i32, b: i32, most: u32| (a.max(b) as u32 + 3).min(most);
     let window = PixelRect::window(side(a.x, b.x, 24), side(a.y, b.y, 12));
     Case { window, shape: Shape::Lines(vec![plain_line(a, b)]) }
@@ -321,7 +321,7 @@ pub fn specimen_line_coverage(
     window: PixelRect,
 ) -> Result<Coverage, String> {
     // The centre of a pixel is its position.
-    let ends = line.ends.each(|e| [f64::from(e.pixel.x) + 0.5, f64::from(e.pixel.y) + 0.5]);
+    let ends = line.ends.map_array(|e| [f64::from(e.pixel.x) + 0.5, f64::from(e.pixel.y) + 0.5]);
     caught(|| {
         let mut hits = Coverage::new(window, 0);
         specimen
@@ -387,10 +387,10 @@ fn values(
     truth: &Coverage,
 ) -> (f64, f64) {
     let v = &triangle.vertices;
-    let depths = v.each(|v| specimen.depth_of(v.depth, 1.0 / v.inv_w));
-    let attributes = v.each(|v| v.varying.to_array());
-    let inv_w = v.each(|v| v.inv_w);
-    let depth_attributes = depths.each(|depth| [depth]);
+    let depths = v.map_array(|v| specimen.depth_of(v.depth, 1.0 / v.inv_w));
+    let attributes = v.map_array(|v| v.varying.to_array());
+    let inv_w = v.map_array(|v| v.inv_w);
+    let depth_attributes = depths.map_array(|depth| [depth]);
     let exact = ExactTriangle::new(&triangle.corners(), depths, inv_w, attributes);
     let exact_w = ExactTriangle::new(&triangle.corners(), depths, inv_w, depth_attributes);
     let (Some(exact), Some(exact_w)) = (exact, exact_w) else { return (0.0, 0.0) };
@@ -409,9 +409,9 @@ fn values(
         let exact_depth = if is_w { exact_w.at(f.x_px, f.y_px).1[0].clone() } else { exact_depth };
         if specimen != TriangleSpecimen::BookChapter6 {
             attribute =
-                worse(attribute, a.distance(f.varying.x) / spread(attributes.each(|a| a[0])));
+                worse(attribute, a.distance(f.varying.x) / spread(attributes.map_array(|a| a[0])));
             attribute =
-                worse(attribute, b.distance(f.varying.y) / spread(attributes.each(|a| a[1])));
+                worse(attribute, b.distance(f.varying.y) / spread(attributes.map_array(|a| a[1])));
         }
         depth = worse(depth, exact_depth.distance(f.depth) / spread(depths));
     }

@@ -7,7 +7,7 @@
 //! depth; anything else remains a difference.
 
 use crate::engines::Engine;
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::frame::Frame;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::parallel;
@@ -175,7 +175,7 @@ impl Judge<'_> {
     /// Rivals with the keys that each rasterizer may store.
     fn candidates(&self, mut rivals: Vec<Rival>) -> Vec<Candidate> {
         let format = self.frames[0].target.format;
-        let bounds = self.frames.each(|frame| frame.engine.tolerance().depth);
+        let bounds = self.frames.map_array(|frame| frame.engine.tolerance().depth);
         rivals.sort_unstable_by_key(|rival| (rival.piece, rival.sample));
         let same = |a: &Rival, b: &Rival| (a.piece, a.sample.plane) == (b.piece, b.sample.plane);
         let mut candidates = Vec::with_capacity(rivals.len());
@@ -190,7 +190,7 @@ impl Judge<'_> {
             };
             candidates.extend(group.iter().map(|&rival| {
                 let depth = exact.at(rival.sample.x_px, rival.sample.y_px).0.to_f64();
-                let keys = bounds.each(|bound| keys(format, depth, bound, depths));
+                let keys = bounds.map_array(|bound| keys(format, depth, bound, depths));
                 Candidate { rival, keys, colours: [[None; SAMPLES.len()]; 2] }
             }));
         }
@@ -268,7 +268,7 @@ fn keys(format: DepthFormat, exact: f64, bound: Bound, depths: [f64; 3]) -> (u64
 fn keep_rivals(candidates: &mut Vec<Candidate>) {
     let mut kept = Vec::new();
     for group in candidates.chunk_by(|a, b| a.rival.sample == b.rival.sample) {
-        let farthest = [0, 1].each(|who| {
+        let farthest = [0, 1].map_array(|who| {
             let ends = group.iter().map(|c| (c.keys[who].1, c.rival.piece));
             ends.min().unwrap_or((u64::MAX, u32::MAX))
         });

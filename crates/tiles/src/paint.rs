@@ -9,7 +9,7 @@
 //! is slower than the scanline: there groups of cells alone go to the tiles. In wide ones a group goes
 //! there if anything in it is small.
 
-use crate::coverage::{CELL_PX, Part, SIDE_PX, Tiles};
+use crate::coverage::{CELL_PX, ListItem, SIDE_PX, Tiles};
 use rasterproof_core::contract::Rasterize;
 use rasterproof_core::frame::Frame;
 use rasterproof_core::grid::SUBPIXELS;
@@ -61,8 +61,8 @@ fn fits([a, b, c]: &Corners, side_px: i32) -> bool {
 fn fill_list(tiles: &Tiles, triangles: &[Corners], colour: u32, target: &mut Frame<u32>) {
     let bounds = target.bounds();
     tiles.cover_small(triangles, bounds, widest_px(tiles), &mut |part| match part {
-        Part::Pieces(pieces) => tiles.fill(pieces, colour, target),
-        Part::Left(number) => fill_one(triangles[number as usize], colour, target),
+        ListItem::Pieces(pieces) => tiles.fill(pieces, colour, target),
+        ListItem::Left(number) => fill_one(triangles[number as usize], colour, target),
     });
 }
 

@@ -14,13 +14,13 @@ use rasterproof_core::contract::{Rasterize as _, RasterizeExact as _};
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_core::triangle::{FreeCorners, Span};
 use rasterproof_judge::Options;
-use rasterproof_precision::cost::Guest as _;
+use rasterproof_precision::cost::ExternalVariant as _;
 use rasterproof_verify::oracle::Oracle;
 use rasterproof_vulkan::device::Error;
 use rasterproof_vulkan::device::draw::Draw;
 use rasterproof_vulkan::device::find::{self, About};
 use rasterproof_vulkan::device::stage::{CELL_PX, Kind};
-use rasterproof_vulkan::gpu::campaign::{self, Stand};
+use rasterproof_vulkan::gpu::campaign::{self, DeviceReport};
 use rasterproof_vulkan::gpu::cells::{plain, runs, twice_area_px2};
 use rasterproof_vulkan::gpu::engine::{Gpu, hits_kind};
 use rasterproof_vulkan::gpu::known;
@@ -48,15 +48,15 @@ fn options(cases: u64, families: &[&str]) -> Options {
     Options { cases, families, ..Options::default() }
 }
 
-fn judged(engine: &str, options: &Options) -> Stand {
+fn judged(engine: &str, options: &Options) -> DeviceReport {
     campaign::judge(Gpu::named(engine).unwrap(), options, &|_| ())
 }
 
-fn said(stand: &Stand) -> String {
+fn said(stand: &DeviceReport) -> String {
     text::text(stand, "command", " all", &|family, index| format!(" {family}#{index}"))
 }
 
-fn class(stand: &Stand, name: &str) -> Class {
+fn class(stand: &DeviceReport, name: &str) -> Class {
     stand.findings.iter().find(|f| f.name == name).unwrap_or_else(|| panic!("no {name}")).class
 }
 

@@ -6,7 +6,7 @@
 use std::cmp::Ordering;
 
 use super::each_sample;
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::{Decisions, Rasterize, RasterizeExact};
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_core::raster::edge_function_exact::EdgeFunctionExact;
@@ -93,14 +93,16 @@ impl ExactMutant {
             }
             Self::PlainCrossing => by_crossing(px, bounds, emit),
             Self::SnapsInside => {
-                let snapped = px.each(|[x, y]| SubpixelPoint::from_px(x, y));
+                let snapped = px.map_array(|[x, y]| SubpixelPoint::from_px(x, y));
                 if let [Ok(a), Ok(b), Ok(c)] = snapped {
                     Scanline.cover([a, b, c], bounds, emit);
                 }
             }
             Self::FlushesToZero => {
                 let flush = |v: f64| if v.abs() < f64::from(f32::MIN_POSITIVE) { 0.0 } else { v };
-                if let Ok(flushed) = FreeCorners::new(px.each(|corner| corner.each(flush))) {
+                if let Ok(flushed) =
+                    FreeCorners::new(px.map_array(|corner| corner.map_array(flush)))
+                {
                     return EdgeFunctionExact.cover_exact(&flushed, bounds, emit);
                 }
             }
@@ -116,7 +118,7 @@ fn e_f64(a: Point, b: Point, p: Point) -> f64 {
 }
 
 fn e_f32(a: Point, b: Point, p: Point) -> f64 {
-    let [a, b, p] = [a, b, p].each(|point| point.each(|v| v as f32));
+    let [a, b, p] = [a, b, p].map_array(|point| point.map_array(|v| v as f32));
     f64::from((b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]))
 }
 

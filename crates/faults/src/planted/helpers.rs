@@ -3,7 +3,7 @@
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{DOMAIN_PX, Refusal, SUBPIXELS, snap};
 use rasterproof_core::raster::edge_function::{WordWidth, edge_values};
@@ -90,7 +90,7 @@ impl EdgeValuesMutant {
                 [a, b, edge_values(corners, x_px.saturating_add(1), y_px)[2]]
             },
             Self::WrapInI32 => |corners, x_px, y_px| {
-                edge_values(corners, x_px, y_px).each(|e| i128::from(e as i32))
+                edge_values(corners, x_px, y_px).map_array(|e| i128::from(e as i32))
             },
         }
     }

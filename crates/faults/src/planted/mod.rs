@@ -20,7 +20,7 @@ pub use pipeline::StageMutant;
 pub use tiles::TileMutant;
 pub use triangles::TriangleMutant;
 
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::Span;
 
@@ -54,14 +54,14 @@ impl Mutant {
     #[must_use]
     pub fn all() -> Vec<Self> {
         let mut all: Vec<Self> = TriangleMutant::ALL.map(Self::Triangle).to_vec();
-        all.extend(OracleMutant::ALL.each(Self::Oracle));
+        all.extend(OracleMutant::ALL.map_array(Self::Oracle));
         all.extend(SnapMutant::ALL.map(Self::Snap));
-        all.extend(EdgeValuesMutant::ALL.each(Self::EdgeValues));
-        all.extend(WordWidthMutant::ALL.each(Self::WordWidth));
+        all.extend(EdgeValuesMutant::ALL.map_array(Self::EdgeValues));
+        all.extend(WordWidthMutant::ALL.map_array(Self::WordWidth));
         all.extend(LineMutant::ALL.map(Self::Line));
-        all.extend(SourceMutant::ALL.each(Self::Source));
+        all.extend(SourceMutant::ALL.map_array(Self::Source));
         all.extend(StageMutant::ALL.map(Self::Stage));
-        all.extend(JudgeMutant::ALL.each(Self::Judge));
+        all.extend(JudgeMutant::ALL.map_array(Self::Judge));
         all.extend(TileMutant::ALL.map(Self::Tile));
         all
     }

@@ -2,13 +2,13 @@
 
 use glam::DVec2;
 
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::SubpixelPoint;
 use rasterproof_core::triangle::Corners;
 use rasterproof_render::effects::{Effect, Effects, Mode};
 use rasterproof_render::pipeline::ClipVertex;
 use rasterproof_render::pipeline::assemble::Cull;
-use rasterproof_render::pipeline::clip::{self, Outcode, Plane};
+use rasterproof_render::pipeline::clip::{self, ClipPlane, Outcode};
 
 /// A stage with a planted fault.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -70,7 +70,7 @@ impl StageMutant {
     /// Puts the fault in the place of the stage it belongs to.
     pub fn replace(self, clip: &mut ClipStage, culls: &mut CullStage, choose: &mut ChooseStage) {
         match self {
-            Self::ForgetsNear => *clip = |t, planes| real(t, planes & !Plane::Near.bit()),
+            Self::ForgetsNear => *clip = |t, planes| real(t, planes & !ClipPlane::Near.bit()),
             Self::FromStartToEnd => *clip = |t, planes| textbook(t, planes, true, false),
             Self::NotAssigned => *clip = |t, planes| textbook(t, planes, false, true),
             Self::DropsLast => {
@@ -107,7 +107,7 @@ fn real(triangle: &[ClipVertex<DVec2>; 3], planes: Outcode) -> Vec<ClipVertex<DV
 
 /// |2A| < 1 px^2 counts as no winding, as floats with a threshold do.
 fn by_float_area(cull: Cull, corners: Corners) -> bool {
-    let [a, b, c] = corners.each(|p: SubpixelPoint| p.to_px());
+    let [a, b, c] = corners.map_array(|p: SubpixelPoint| p.to_px());
     let area = (b.0 - a.0) * (c.1 - a.1) - (b.1 - a.1) * (c.0 - a.0);
     match cull {
         Cull::None => false,
@@ -125,7 +125,7 @@ fn textbook(
     inside_out: bool,
 ) -> Vec<ClipVertex<DVec2>> {
     let mut polygon = triangle.to_vec();
-    for plane in Plane::ALL.into_iter().filter(|plane| planes & plane.bit() != 0) {
+    for plane in ClipPlane::ALL.into_iter().filter(|plane| planes & plane.bit() != 0) {
         let mut kept = Vec::new();
         for (i, start) in polygon.iter().enumerate() {
             let end = &polygon[(i + 1) % polygon.len()];
@@ -147,13 +147,13 @@ fn textbook(
                 if assigns {
                     let p = &mut vertex.position;
                     match plane {
-                        Plane::MinW => {}
-                        Plane::Near => p.z = -p.w,
-                        Plane::Far => p.z = p.w,
-                        Plane::Left => p.x = -p.w,
-                        Plane::Right => p.x = p.w,
-                        Plane::Bottom => p.y = -p.w,
-                        Plane::Top => p.y = p.w,
+                        ClipPlane::MinW => {}
+                        ClipPlane::Near => p.z = -p.w,
+                        ClipPlane::Far => p.z = p.w,
+                        ClipPlane::Left => p.x = -p.w,
+                        ClipPlane::Right => p.x = p.w,
+                        ClipPlane::Bottom => p.y = -p.w,
+                        ClipPlane::Top => p.y = p.w,
                     }
                 }
                 kept.push(vertex);

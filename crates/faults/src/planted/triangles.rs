@@ -4,7 +4,7 @@
 //! spans of an engine the way real code goes wrong; those of values do so with its fragments.
 
 use super::each_sample;
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::{Interpolate, Rasterize};
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::raster::edge_function::{self, EdgeFunction};
@@ -193,7 +193,7 @@ impl TriangleMutant {
             }
             Self::WrapsInI32 => wrapping(corners, bounds, emit),
             Self::PanicsOnFlatBottom => {
-                let lowest = corners.each(|corner| corner.y).into_iter().max();
+                let lowest = corners.map_array(|corner| corner.y).into_iter().max();
                 let on_it = corners.iter().filter(|corner| Some(corner.y) == lowest).count();
                 assert!(on_it != 2, "planted: slope of a flat edge");
                 Scanline.cover(corners, bounds, emit);
@@ -330,7 +330,7 @@ fn on_outline<V: Varying>(
     let corners = [v0.position, v1.position, v2.position];
     let area = twice_area(corners);
     let largest = v0.inv_w.max(v1.inv_w).max(v2.inv_w);
-    let q = [v0.inv_w, v1.inv_w, v2.inv_w].each(|inv_w| inv_w / largest);
+    let q = [v0.inv_w, v1.inv_w, v2.inv_w].map_array(|inv_w| inv_w / largest);
     for x_px in row.x0..row.x1 {
         let sample = centre_of(x_px, row.y0);
         let [a, b, c] = corners;
@@ -339,7 +339,7 @@ fn on_outline<V: Varying>(
         if area == 0 || e.iter().any(|&e| e < 0) {
             continue;
         }
-        let l = e.each(|e| e as f64 / area as f64);
+        let l = e.map_array(|e| e as f64 / area as f64);
         let scale = 1.0 / ((l[0] * q[0] + l[1] * q[1]) + l[2] * q[2]);
         let (d1, d2) = (v1.varying - v0.varying, v2.varying - v0.varying);
         emit(Fragment {
@@ -368,7 +368,7 @@ fn scanline_spans(corners: Corners, bounds: PixelRect, emit: &mut dyn FnMut(Span
 /// The pixels of `bounds` that can hold anything of the triangle, with one to spare.
 fn near(corners: &Corners, bounds: PixelRect) -> PixelRect {
     let px = |sub: i32| sub.div_euclid(SUBPIXELS);
-    let (xs, ys) = (corners.each(|p| px(p.x)), corners.each(|p| px(p.y)));
+    let (xs, ys) = (corners.map_array(|p| px(p.x)), corners.map_array(|p| px(p.y)));
     let low = |v: [i32; 3]| v.into_iter().min().unwrap_or(0) - 1;
     let high = |v: [i32; 3]| v.into_iter().max().unwrap_or(0) + 2;
     PixelRect { x0: low(xs), y0: low(ys), x1: high(xs), y1: high(ys) }.intersect(&bounds)
@@ -431,7 +431,7 @@ fn last_edge_inclusive(corners: Corners, bounds: PixelRect, emit: &mut dyn FnMut
         let sample = centre_of(x_px, y_px);
         let edges =
             [twice_area([a, b, sample]), twice_area([b, c, sample]), twice_area([c, a, sample])];
-        let [first, second, last] = edges.each(|edge| edge * sign);
+        let [first, second, last] = edges.map_array(|edge| edge * sign);
         sign != 0 && first > 0 && second > 0 && last >= 0
     };
     each_sample(near(&corners, bounds), &inside, emit);
@@ -476,7 +476,7 @@ fn splits_at_rounded_point(mut corners: Corners, bounds: PixelRect, emit: &mut d
 fn steps_in_f32(mut corners: Corners, bounds: PixelRect, emit: &mut dyn FnMut(Span)) {
     corners.sort_by_key(|p| (p.y, p.x));
     let px = |p: SubpixelPoint| (p.x as f32 / SUBPIXELS as f32, p.y as f32 / SUBPIXELS as f32);
-    let [top, middle, bottom] = corners.each(px);
+    let [top, middle, bottom] = corners.map_array(px);
     let row = |y: f32| (y - 0.5).ceil() as i32;
     let rows = [row(top.1).max(bounds.y0), row(middle.1), row(bottom.1).min(bounds.y1)];
     for (first, end, from, to) in [
@@ -505,7 +505,7 @@ fn perspective_depth<V: Varying>(
     emit: &mut dyn FnMut(Fragment<V>),
 ) {
     let depths = ScreenTriangle {
-        vertices: triangle.vertices.each(|v| ScreenVertex {
+        vertices: triangle.vertices.map_array(|v| ScreenVertex {
             position: v.position,
             depth: v.depth,
             inv_w: v.inv_w,
@@ -533,7 +533,8 @@ fn barycentric<V: Varying>(
     let area = twice_area(corners) as f64;
     let mut row = |span: Span| {
         for x_px in span.x0_px..span.x1_px {
-            let e = edge_function::edge_values(&corners, x_px, span.y_px).each(|e| e as f64 / area);
+            let e = edge_function::edge_values(&corners, x_px, span.y_px)
+                .map_array(|e| e as f64 / area);
             let l = [e[0] * v0.inv_w, e[1] * v1.inv_w, e[2] * v2.inv_w];
             let scale = 1.0 / (l[0] + l[1] + l[2] + epsilon);
             emit(Fragment {

@@ -11,7 +11,7 @@
 //! the end.
 
 use super::{BookScreen, MOST_STEPS, PublishedLine, Refused, to_int};
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 
 /// The book's line drawer.
@@ -26,7 +26,7 @@ impl PublishedLine for BookDda {
         emit: &mut dyn FnMut(i32, i32),
     ) -> Result<(), Refused> {
         let screen = BookScreen { bounds };
-        let [p, q] = ends_px.each(|end| screen.position(end.into()));
+        let [p, q] = ends_px.map_array(|end| screen.position(end.into()));
         // 0/0 and x/0 are meant to happen: both go to the steep branch.
         let slope = (p.y - q.y) / (p.x - q.x);
         let (width, height) = screen.size();

@@ -15,7 +15,7 @@ use glam::DVec2;
 
 use super::book_final::BookFinal;
 use super::{Published, RealTriangle, Refused};
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{Fragment, Span};
 
@@ -61,7 +61,7 @@ impl Published for BookDepth {
     ) -> Result<(), Refused> {
         // z within [-1, 1] passes the clip and steps as z/w does; w travels as an attribute.
         let scale = triangle.iter().fold(1.0, |most: f64, v| most.max(self.of(v.depth, v.w).abs()));
-        let triangle = triangle.each(|v| {
+        let triangle = triangle.map_array(|v| {
             let depth = self.of(v.depth, v.w);
             match self {
                 Self::Chapter6 => {

@@ -22,7 +22,7 @@ use super::scene::{
     COLOURS, Image, SIDE, Setting, Version, clip_by_sign, clip_vertex, empty, fill_clipped,
 };
 use super::{BookScreen, ClipVertex, Columns, Published, RealTriangle, Refused, int_loop};
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{Fragment, Span};
 
@@ -101,7 +101,7 @@ impl BookFinal {
     ) -> Result<(), Refused> {
         let screen = BookScreen { bounds };
         let steps = device_steps(bounds);
-        let corners = triangle.each(|v| {
+        let corners = triangle.map_array(|v| {
             let ndc = screen.position(v.position_px) / (steps / 2.0) - 1.0;
             let position = DVec4::new(ndc.x * v.w, ndc.y * v.w, v.depth * v.w, v.w);
             ClipVertex { position, varying: v.varying }
@@ -109,11 +109,11 @@ impl BookFinal {
         let polygon = clip(corners)?;
         for pair in polygon.get(1..).unwrap_or_default().windows(2) {
             let fan = [polygon[0], pair[0], pair[1]];
-            let divided = fan.each(|v| v.position.truncate() / v.position.w);
-            if twice_area(divided.each(|p| p.truncate())).abs() < AREA_LIMIT {
+            let divided = fan.map_array(|v| v.position.truncate() / v.position.w);
+            if twice_area(divided.map_array(|p| p.truncate())).abs() < AREA_LIMIT {
                 continue;
             }
-            let on_screen = [0, 1, 2].each(|i| Corner {
+            let on_screen = [0, 1, 2].map_array(|i| Corner {
                 at: (divided[i].truncate() + 1.0) / 2.0 * steps,
                 z: divided[i].z,
                 w: fan[i].position.w,
@@ -131,7 +131,7 @@ impl BookFinal {
         visit: &mut dyn FnMut(ValuedRow) -> Result<(), Refused>,
     ) -> Result<(), Refused> {
         // Split the long edge, with perspective for w and the varying and without for z.
-        let [low, middle, high] = sorted(corners.each(|c| c.at)).each(|i| corners[i]);
+        let [low, middle, high] = sorted(corners.map_array(|c| c.at)).map_array(|i| corners[i]);
         let (at, share) = split(low.at, middle.at, high.at);
         let split = Corner {
             at,
@@ -151,7 +151,7 @@ impl BookFinal {
             let sides = &sides[row.half];
             if half != row.half {
                 half = row.half;
-                z = sides.each(|(start, _)| start.z);
+                z = sides.map_array(|(start, _)| start.z);
                 t = [0.0; 2];
             }
             let at = |side: usize| {
@@ -230,9 +230,9 @@ pub fn draw_clip(version: Version, setting: Setting) -> Image {
             [-1.905683186406554, -1.0000000000000002, 0.41618974220568494, 1.0],
             [1.8917334344143573, 5.448163312758888, -0.8406224546287921, 1.8917334344143568],
         ]
-        .each(|p| ClipVertex { position: p.into(), varying: DVec2::ZERO }),
+        .map_array(|p| ClipVertex { position: p.into(), varying: DVec2::ZERO }),
         Setting::Harmless => {
-            [(-1.5, -0.7), (1.5, -0.8), (0.2, 1.5)].each(|(x, y)| clip_vertex(x, y, 0.0, 1.0))
+            [(-1.5, -0.7), (1.5, -0.8), (0.2, 1.5)].map_array(|(x, y)| clip_vertex(x, y, 0.0, 1.0))
         }
     };
     let polygon = match version {

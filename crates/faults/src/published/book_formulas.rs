@@ -14,7 +14,7 @@
 use glam::DVec2;
 
 use super::scene::{COLOURS, Image, SIDE, Setting, Version, WHITE, empty};
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 
 /// Formula (8): a value at t' between two corners with w of `wa` and `wb`.
 #[must_use]
@@ -68,7 +68,7 @@ pub fn draw(version: Version, setting: Setting) -> Image {
         // In eighths, so that the last bits do not show.
         let off = ((value - 1.0).abs().min(1.0) * 8.0).round() / 8.0;
         let mix = |k: usize| {
-            let [from, to] = [COLOURS[0], COLOURS[1]].each(|colour| f64::from(colour[k]));
+            let [from, to] = [COLOURS[0], COLOURS[1]].map_array(|colour| f64::from(colour[k]));
             (from + (to - from) * off) as u8
         };
         let colour = if value.is_finite() { [mix(0), mix(1), mix(2)] } else { WHITE };

@@ -15,7 +15,7 @@ use super::ClipVertex;
 use super::scene::{
     COLOURS, Image, SIDE, Setting, Version, clip_by_sign, clip_vertex, empty, fill_clipped,
 };
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 
 /// Clips by w = `boundary`, as published; the polygon has at most four corners, NaN among them.
 #[must_use]
@@ -43,7 +43,7 @@ pub fn clip_near(triangle: [ClipVertex; 3], boundary: f64) -> Vec<ClipVertex> {
 pub fn draw(version: Version, setting: Setting) -> Image {
     let near = if setting == Setting::Exposing { [20.0, 15.0, 15.0] } else { [20.0, 16.0, 12.0] };
     let places = [(-0.8, -0.7), (0.8, -0.6), (-0.2, 0.8)];
-    let triangle = [0, 1, 2].each(|i| clip_vertex(places[i].0, places[i].1, 0.0, near[i]));
+    let triangle = [0, 1, 2].map_array(|i| clip_vertex(places[i].0, places[i].1, 0.0, near[i]));
     let polygon = match version {
         Version::Published => clip_near(triangle, 15.0),
         Version::Repaired => clip_by_sign(&triangle, |p| p.w - 15.0),

@@ -11,7 +11,7 @@
 use glam::DVec2;
 
 use super::scene::{COLOURS, Image, SIDE, Setting, Version, empty, fill, fragments};
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::frame::Frame;
 
 /// Three blades, each turned by a third of a circle; each starts near, broad, and ends far under
@@ -19,15 +19,15 @@ use rasterproof_core::frame::Frame;
 fn blades(setting: Setting) -> [[(DVec2, f64); 3]; 3] {
     let third = DVec2::new(-0.5, 0.866_025_403_784_438_6);
     let blade = [DVec2::new(-15.0, 2.0), DVec2::new(-7.0, 14.0), DVec2::new(14.0, -1.0)];
-    let turned = blade.each(|p| third.rotate(p));
-    let blades = [blade, turned, turned.each(|p| third.rotate(p))];
-    [0, 1, 2].each(|i| {
+    let turned = blade.map_array(|p| third.rotate(p));
+    let blades = [blade, turned, turned.map_array(|p| third.rotate(p))];
+    [0, 1, 2].map_array(|i| {
         let depths = match setting {
             Setting::Exposing => [0.2, 0.2, 0.8],
             Setting::Harmless => [0.2 + 0.3 * i as f64; 3],
         };
         let middle = DVec2::splat(f64::from(SIDE) / 2.0);
-        [0, 1, 2].each(|k| (blades[i][k] + middle, depths[k]))
+        [0, 1, 2].map_array(|k| (blades[i][k] + middle, depths[k]))
     })
 }
 
@@ -41,13 +41,13 @@ pub fn draw(version: Version, setting: Setting) -> Image {
         let mut order = [0, 1, 2];
         order.sort_by(|&a, &b| mean(b).total_cmp(&mean(a)));
         for i in order {
-            fill(&mut image, &blades[i].each(|(corner, _)| corner), COLOURS[i]);
+            fill(&mut image, &blades[i].map_array(|(corner, _)| corner), COLOURS[i]);
         }
         return image;
     }
     let mut nearest = Frame::new(image.bounds(), f64::INFINITY);
     for (blade, colour) in blades.iter().zip(COLOURS) {
-        let corners = blade.each(|(corner, depth)| (corner, 1.0, DVec2::splat(depth)));
+        let corners = blade.map_array(|(corner, depth)| (corner, 1.0, DVec2::splat(depth)));
         fragments(corners, image.bounds(), &mut |f| {
             let depth = &mut nearest.span_mut(f.y_px, f.x_px, f.x_px + 1)[0];
             if f.depth < *depth {

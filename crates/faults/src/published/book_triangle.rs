@@ -18,7 +18,7 @@
 use glam::DVec2;
 
 use super::{BookScreen, Columns, MOST_STEPS, Published, RealTriangle, Refused, int_loop, to_int};
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{Fragment, Span};
 
@@ -139,7 +139,7 @@ pub fn cover_book(
     if twice_area(corners).abs() < AREA_LIMIT {
         return Ok(());
     }
-    let [low, middle, high] = sorted(corners).each(|i| corners[i]);
+    let [low, middle, high] = sorted(corners).map_array(|i| corners[i]);
     let (split, _) = split(low, middle, high);
     let (left, right) = if middle.x > split.x { (split, middle) } else { (middle, split) };
     walk([low, left, right, high], clamped, screen.size().1, |row| {
@@ -157,7 +157,7 @@ fn cover(
     emit: impl FnMut(Span),
 ) -> Result<(), Refused> {
     let screen = BookScreen { bounds };
-    cover_book(triangle.each(|v| screen.position(v.position_px)), bounds, clamped, emit)
+    cover_book(triangle.map_array(|v| screen.position(v.position_px)), bounds, clamped, emit)
 }
 
 impl BookChapter2 {
@@ -203,15 +203,15 @@ impl Published for BookChapter3 {
         emit: &mut dyn FnMut(Fragment<DVec2>),
     ) -> Result<(), Refused> {
         let screen = BookScreen { bounds };
-        let corners = triangle.each(|v| Valued {
+        let corners = triangle.map_array(|v| Valued {
             at: screen.position(v.position_px),
             value: v.varying.extend(v.depth),
         });
-        let positions = corners.each(|corner| corner.at);
+        let positions = corners.map_array(|corner| corner.at);
         if twice_area(positions).abs() < AREA_LIMIT {
             return Ok(());
         }
-        let [low, middle, high] = sorted(positions).each(|i| corners[i]);
+        let [low, middle, high] = sorted(positions).map_array(|i| corners[i]);
         let (at, share) = split(low.at, middle.at, high.at);
         let split = Valued { at, value: (high.value - low.value) * share + low.value };
         let (left, right) =

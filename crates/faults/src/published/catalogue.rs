@@ -11,7 +11,7 @@ use super::{
     book_viewport, games101_box, games101_depth, games101_strict, games101_supersample,
     sysu_simple_clip, sysu_strict_t, sysu_weights,
 };
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 
 /// A specimen's card.
 #[derive(Clone, Copy, Debug)]
@@ -82,7 +82,7 @@ impl RecordedCase {
     #[must_use]
     pub fn corners_px(&self) -> Vec<[[f64; 2]; 3]> {
         let to_window = |(x, y): (f64, f64)| [x + 0.5, f64::from(RECORDED_SIDE_PX) - y - 0.5];
-        self.corners.iter().map(|corners| corners.each(to_window)).collect()
+        self.corners.iter().map(|corners| corners.map_array(to_window)).collect()
     }
 }
 

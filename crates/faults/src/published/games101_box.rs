@@ -11,7 +11,7 @@
 //! the right and below; harmless within the window.
 
 use super::scene::{COLOURS, Colour, Image, SIDE, Setting, Version, empty};
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::Rasterize as _;
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_core::raster::edge_function::EdgeFunction;
@@ -44,7 +44,7 @@ pub fn draw(version: Version, setting: Setting) -> Image {
         memory.span_mut(y, 0, width).fill(FENCE);
     }
     let at = |(x, y)| SubpixelPoint::from_px(x, y).expect("the triangle lies in the domain");
-    EdgeFunction.cover(corners.each(at), bounds, |span| {
+    EdgeFunction.cover(corners.map_array(at), bounds, |span| {
         for x in span.x0_px..span.x1_px {
             let (column, row) = lands(x, span.y_px + GUARD, width);
             if row < width {

@@ -19,7 +19,7 @@ use glam::{DVec2, Vec2};
 
 use super::scene::{Image, Setting, Version, chequered, floor};
 use super::{Published, RealTriangle, RealVertex, Refused, bare, to_int};
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{Fragment, Span};
 
@@ -34,7 +34,7 @@ pub struct Games101Strict {
 
 /// Positions in the frame buffer: y up, samples at + 0.5.
 fn corners(triangle: &RealTriangle, bounds: PixelRect) -> [Vec2; 3] {
-    triangle.each(|v| {
+    triangle.map_array(|v| {
         let x = v.position_px.x - f64::from(bounds.x0);
         Vec2::new(x as f32, (f64::from(bounds.y1) - v.position_px.y) as f32)
     })
@@ -107,7 +107,7 @@ impl Published for Games101Strict {
     ) -> Result<(), Refused> {
         let corners = corners(triangle, bounds);
         self.pixels(corners, bounds, &mut |x_px, y_px, sample| {
-            let weights = weights(corners, sample).each(f64::from);
+            let weights = weights(corners, sample).map_array(f64::from);
             let over_w = |i: usize| weights[i] / if self.true_w { triangle[i].w } else { 1.0 };
             let inverse: f64 = (0..3).map(over_w).sum();
             let sum = |value: fn(&RealVertex) -> f64| {

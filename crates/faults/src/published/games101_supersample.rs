@@ -12,7 +12,7 @@
 use glam::DVec2;
 
 use super::scene::{COLOURS, Colour, Image, SIDE, Setting, Version, empty, fill};
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 
 /// Samples along a side of a pixel.
@@ -40,14 +40,14 @@ fn resolve(samples: &Image) -> Image {
                 (0..3).for_each(|k| sum[k] += u32::from(colour[k]));
             }
             // A mean of bytes is a byte.
-            image.span_mut(y, x, x + 1)[0] = sum.each(|s| (s / (SAMPLES * SAMPLES)) as u8);
+            image.span_mut(y, x, x + 1)[0] = sum.map_array(|s| (s / (SAMPLES * SAMPLES)) as u8);
         }
     }
     image
 }
 
 fn drawn(samples: &mut Image, triangle: [DVec2; 3], colour: Colour) {
-    fill(samples, &triangle.each(|p| p * f64::from(SAMPLES)), colour);
+    fill(samples, &triangle.map_array(|p| p * f64::from(SAMPLES)), colour);
 }
 
 /// Two triangles of one colour that fill a square.

@@ -38,7 +38,7 @@ use std::fmt;
 
 use glam::{DVec2, DVec4};
 
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{Corners, Fragment, ScreenTriangle, Span};
 
@@ -61,7 +61,7 @@ pub type RealTriangle = [RealVertex; 3];
 /// Positions alone, with depth 0, w 1 and no values.
 #[must_use]
 pub fn bare(corners_px: [[f64; 2]; 3]) -> RealTriangle {
-    corners_px.each(|position| RealVertex {
+    corners_px.map_array(|position| RealVertex {
         position_px: DVec2::from_array(position),
         depth: 0.0,
         w: 1.0,
@@ -72,13 +72,13 @@ pub fn bare(corners_px: [[f64; 2]; 3]) -> RealTriangle {
 /// The same positions as real numbers, exactly.
 #[must_use]
 pub fn from_lattice(corners: Corners) -> RealTriangle {
-    bare(corners.each(|corner| corner.to_px().into()))
+    bare(corners.map_array(|corner| corner.to_px().into()))
 }
 
 /// The same triangle in real numbers; w is 1 / (1/w).
 #[must_use]
 pub fn from_screen(triangle: &ScreenTriangle<DVec2>) -> RealTriangle {
-    triangle.vertices.each(|v| RealVertex {
+    triangle.vertices.map_array(|v| RealVertex {
         position_px: v.position.to_px().into(),
         depth: v.depth,
         w: 1.0 / v.inv_w,

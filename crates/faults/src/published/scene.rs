@@ -6,7 +6,7 @@
 use glam::{DVec2, DVec4};
 
 use super::{ClipVertex, Published, RealTriangle, RealVertex, bare};
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::{Interpolate as _, Rasterize as _};
 use rasterproof_core::frame::Frame;
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
@@ -76,7 +76,7 @@ pub fn either(
         // What is refused stays empty.
         Version::Published => drop(specimen.fragments(triangle, bounds, emit)),
         Version::Repaired => {
-            let vertices = triangle.each(|v| ScreenVertex {
+            let vertices = triangle.map_array(|v| ScreenVertex {
                 position: at(v.position_px),
                 depth: v.depth,
                 inv_w: 1.0 / v.w,
@@ -142,7 +142,7 @@ pub fn fragments(
     bounds: PixelRect,
     emit: &mut dyn FnMut(Fragment<DVec2>),
 ) {
-    let vertices = corners.each(|(position_px, w, varying)| ScreenVertex {
+    let vertices = corners.map_array(|(position_px, w, varying)| ScreenVertex {
         position: at(position_px),
         depth: varying.x,
         inv_w: 1.0 / w,

@@ -11,7 +11,7 @@
 //! harmless where no tie occurs, as in (0, 0) to (3, 1).
 
 use super::{MOST_STEPS, PublishedLine, Refused, to_int};
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 
 /// The line drawer of assignment 2.
@@ -34,7 +34,7 @@ impl PublishedLine for SysuBresenham {
         if length as f64 > MOST_STEPS {
             return Err(Refused::TooFar(length as f64));
         }
-        let step = [dx, dy].each(|d| if d < 0 { -1 } else { 1 });
+        let step = [dx, dy].map_array(|d| if d < 0 { -1 } else { 1 });
         let (mut at, mut flag) = (from, 2 * rise - length);
         for _ in 0..=length {
             // Within i32: between two ends that are.

@@ -18,7 +18,7 @@
 use glam::DVec2;
 
 use super::{Published, RealTriangle, Refused, to_int};
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{Fragment, Span};
 
@@ -47,7 +47,7 @@ fn whole(triangle: &RealTriangle) -> Result<[[i32; 2]; 3], Refused> {
 
 /// The order of the corners that the published sign test accepts.
 pub(super) fn front(triangle: &RealTriangle) -> Result<RealTriangle, Refused> {
-    let [a, b, c] = whole(triangle)?.each(|corner| corner.each(i128::from));
+    let [a, b, c] = whole(triangle)?.map_array(|corner| corner.map_array(i128::from));
     let area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
     let [a, b, c] = *triangle;
     Ok(if area > 0 { [a, c, b] } else { [a, b, c] })
@@ -70,7 +70,7 @@ pub(super) fn samples(
         (p[1].wrapping_sub(q[1]), q[0].wrapping_sub(p[0]), constant)
     };
     let edges = [edge(a, b), edge(b, c), edge(c, a)];
-    let start = edges.each(|(i, j, k)| {
+    let start = edges.map_array(|(i, j, k)| {
         k.wrapping_add(i.wrapping_mul(*columns.start())).wrapping_add(j.wrapping_mul(*rows.start()))
     });
     let delta = start.into_iter().fold(0i32, i32::wrapping_add);
@@ -97,7 +97,7 @@ pub(super) fn samples(
 /// before and multiplies after).
 pub(super) fn lerp(triangle: &RealTriangle, weights: [f32; 3]) -> (f64, DVec2) {
     let [a, b, c] = triangle;
-    let w = weights.each(f64::from);
+    let w = weights.map_array(f64::from);
     let depth = w[0] * a.depth + w[1] * b.depth + w[2] * c.depth;
     let over_w = a.varying * (w[0] / a.w) + b.varying * (w[1] / b.w) + c.varying * (w[2] / c.w);
     (depth, over_w / (w[0] / a.w + w[1] / b.w + w[2] / c.w))
@@ -123,7 +123,7 @@ impl Published for SysuInclusive {
     ) -> Result<(), Refused> {
         let triangle = front(triangle)?;
         samples(&triangle, bounds, &mut |s| {
-            let [ab, bc, ca] = s.edges.each(|f| f as f32 * s.inverse);
+            let [ab, bc, ca] = s.edges.map_array(|f| f as f32 * s.inverse);
             let (depth, varying) = lerp(&triangle, [bc, ca, ab]);
             emit(Fragment { x_px: s.x_px, y_px: s.y_px, depth, varying });
         })

@@ -14,7 +14,7 @@ use super::ClipVertex;
 use super::scene::{
     COLOURS, Image, SIDE, Setting, Version, clip_by_sign, clip_vertex, empty, fill_clipped,
 };
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 
 /// Whether a corner lies inside, for near and far of 0.1 and 100.
 fn inside(v: &ClipVertex) -> bool {
@@ -40,7 +40,7 @@ fn clipped(triangle: [ClipVertex; 3]) -> Vec<ClipVertex> {
 pub fn draw(version: Version, setting: Setting) -> Image {
     let reach = if setting == Setting::Exposing { 2.5 } else { 0.8 };
     let triangle = [(-reach, -reach), (reach, -reach), (0.0, reach)]
-        .each(|(x, y)| clip_vertex(x, y, 0.0, 1.0));
+        .map_array(|(x, y)| clip_vertex(x, y, 0.0, 1.0));
     let mut image = empty(SIDE);
     let polygon = match version {
         Version::Published => kept(triangle),

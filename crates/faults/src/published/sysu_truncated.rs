@@ -12,7 +12,7 @@
 
 use super::sysu_inclusive::{front, samples};
 use super::{Published, RealTriangle, Refused, to_int};
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::Span;
 
@@ -32,7 +32,7 @@ impl Published for SysuTruncated {
         let position = |i: usize, axis: usize| triangle[i].position_px[axis].trunc() as f32;
         let mut result = Ok(());
         samples(&triangle, bounds, &mut |s| {
-            let [ab, bc, ca] = s.edges.each(|f| f as f32 * s.inverse);
+            let [ab, bc, ca] = s.edges.map_array(|f| f as f32 * s.inverse);
             let at = |axis: usize| {
                 let sum = bc * position(0, axis) + ca * position(1, axis) + ab * position(2, axis);
                 to_int(sum.into()).map(|px| px as i32)

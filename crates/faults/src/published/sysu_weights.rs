@@ -14,7 +14,7 @@ use glam::DVec2;
 use super::scene::{Colour, Image, SIDE, Setting, Version, either, empty};
 use super::sysu_inclusive::{SysuInclusive, front, lerp, samples};
 use super::{Published, RealTriangle, Refused, bare};
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{Fragment, Span};
 
@@ -40,7 +40,7 @@ impl Published for SysuWeights {
     ) -> Result<(), Refused> {
         let triangle = front(triangle)?;
         samples(&triangle, bounds, &mut |s| {
-            let (depth, varying) = lerp(&triangle, s.edges.each(|f| f as f32 * s.inverse));
+            let (depth, varying) = lerp(&triangle, s.edges.map_array(|f| f as f32 * s.inverse));
             emit(Fragment { x_px: s.x_px, y_px: s.y_px, depth, varying });
         })
     }
@@ -61,7 +61,7 @@ pub fn draw(version: Version, setting: Setting) -> Image {
     // Two channels at a time.
     for channels in [[0, 1], [2, 2]] {
         for (v, colour) in triangle.iter_mut().zip(colours) {
-            v.varying = channels.each(|k| colour[k]).into();
+            v.varying = channels.map_array(|k| colour[k]).into();
         }
         either(&SysuWeights, version, &triangle, image.bounds(), &mut |f| {
             let pixel: &mut Colour = &mut image.span_mut(f.y_px, f.x_px, f.x_px + 1)[0];

@@ -1,4 +1,4 @@
-//! The answering side of the line protocol, versions 1 and 2: an engine of the line-up behind a reader
+//! The answering side of the line protocol, versions 1 and 2: an engine of the registry behind a reader
 //! and a writer.
 //!
 //! A request is a line of words; an answer is a line, flushed before another request is waited for. A

@@ -1,4 +1,4 @@
-//! What an engine of the line-up answers about depth order and the near plane: the book's stages
+//! What an engine of the registry answers about depth order and the near plane: the book's stages
 //! around it, a depth buffer and the clipper of the pipeline.
 
 use std::collections::BTreeMap;
@@ -11,7 +11,7 @@ use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{Corners, Span};
 use rasterproof_registry::engines::Engine;
 use rasterproof_render::pipeline::ClipVertex;
-use rasterproof_render::pipeline::clip::{Plane, clip};
+use rasterproof_render::pipeline::clip::{ClipPlane, clip};
 use rasterproof_verify::cases::Triangle;
 
 /// Fragments of one request; their depths are kept until all of them are known.
@@ -77,6 +77,6 @@ pub(crate) fn seen(
 pub(crate) fn clipped(corners: [[f64; 4]; 3]) -> Vec<[f64; 4]> {
     let vertex =
         |position| ClipVertex { position: DVec4::from_array(position), varying: DVec2::ZERO };
-    let (polygon, _) = clip(&corners.map(vertex), Plane::Near.bit());
+    let (polygon, _) = clip(&corners.map(vertex), ClipPlane::Near.bit());
     polygon.vertices().map(|v| v.position.to_array()).collect()
 }

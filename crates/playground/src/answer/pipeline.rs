@@ -15,7 +15,7 @@ use rasterproof_faults::published::book_near_clip::clip_near;
 use rasterproof_registry::engines::Engine;
 use rasterproof_render::pipeline::ClipVertex;
 use rasterproof_render::pipeline::assemble::{Cull, twice_area};
-use rasterproof_render::pipeline::clip::{Plane, clip};
+use rasterproof_render::pipeline::clip::{ClipPlane, clip};
 use rasterproof_render::pipeline::multisample::masks;
 
 /// Asks what the near plane w = `near` leaves of a triangle. A corner is [x/w, y/w, w]: where it would
@@ -42,7 +42,7 @@ impl Near {
         let triangle = self
             .corners
             .map(|corner| ClipVertex { position: position(corner), varying: DVec2::ZERO });
-        let (kept, _) = clip(&triangle, Plane::MinW.bit() | Plane::Near.bit());
+        let (kept, _) = clip(&triangle, ClipPlane::MinW.bit() | ClipPlane::Near.bit());
         let ours: Vec<DVec4> = kept.vertices().map(|vertex| vertex.position).collect();
         let published =
             triangle.map(|v| published::ClipVertex { position: v.position, varying: v.varying });

@@ -18,13 +18,13 @@ fn measures() -> Vec<Measure> {
     vec![Measure::new(title, "rms", Some(0.0))]
 }
 
-struct Contender {
+struct Variant {
     rung: Rung,
     make: fn() -> Box<dyn Antialias>,
 }
 
-fn contenders() -> Vec<Contender> {
-    let new = |name, about, exact: bool, make| Contender {
+fn variants() -> Vec<Variant> {
+    let new = |name, about, exact: bool, make| Variant {
         rung: Rung::new(name, about, if exact { &[0] } else { &[] }),
         make,
     };
@@ -87,13 +87,13 @@ pub(super) fn measure(options: &Options, progress: &dyn Fn(f64, &str)) -> Board 
     let ladder = Ladder::Antialiasing;
     let pixels = if options.quick { 8_000 } else { 30_000 };
     let scenes = scenes(options.seed, Size { side_px: 256, pixels });
-    let contenders = contenders();
+    let variants = variants();
     let triangles: Vec<Vec<Corners>> =
         scenes.iter().map(|scene| scene.triangles.iter().filter_map(snap).collect()).collect();
     let targets: Vec<_> =
         scenes.iter().map(|scene| RefCell::new(Frame::new(scene.bounds, 0.0))).collect();
     let mut columns = Vec::new();
-    let mut prepared: Vec<Vec<Prepared<'_>>> = contenders.iter().map(|_| Vec::new()).collect();
+    let mut prepared: Vec<Vec<Prepared<'_>>> = variants.iter().map(|_| Vec::new()).collect();
     for (i, scene) in scenes.iter().enumerate() {
         progress(0.3 * i as f64 / scenes.len() as f64, ladder.title());
         let (about, items) = (scene.about.to_owned(), triangles[i].len() as u64);
@@ -104,9 +104,9 @@ pub(super) fn measure(options: &Options, progress: &dyn Fn(f64, &str)) -> Board 
             continue;
         }
         let truth = truth(&triangles[i], scene);
-        for (contender, row) in contenders.iter().zip(&mut prepared) {
+        for (variant, row) in variants.iter().zip(&mut prepared) {
             let (triangles, target) = (&triangles[i], &targets[i]);
-            let mut rung = (contender.make)();
+            let mut rung = (variant.make)();
             rung.draw(triangles, &mut target.borrow_mut());
             let error = root_mean_square(&target.borrow(), &truth);
             row.push(Prepared::Ready {
@@ -119,6 +119,6 @@ pub(super) fn measure(options: &Options, progress: &dyn Fn(f64, &str)) -> Board 
         }
         columns.push(Column::new(scene.name, about, items, truth.pixels));
     }
-    let rungs = contenders.iter().map(|contender| contender.rung.clone()).collect();
+    let rungs = variants.iter().map(|variant| variant.rung.clone()).collect();
     finish((ladder, measures()), (rungs, columns), prepared, options, progress)
 }

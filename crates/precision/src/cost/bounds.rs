@@ -2,7 +2,7 @@
 
 use super::tiles::packed;
 use crate::ladder::interpolation::Valued;
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::Span;
 use rasterproof_tiles::coverage::Tiles;
@@ -61,21 +61,21 @@ impl Place<'_> {
 
     /// Twice the area, and how much it cancels: the sum of its terms' magnitudes over it.
     fn area(&self) -> (f64, f64) {
-        let [a, b, c] = [0, 1, 2].each(|i| self.at(i));
+        let [a, b, c] = [0, 1, 2].map_array(|i| self.at(i));
         let (p, q) = ((b[0] - a[0]) * (c[1] - a[1]), (c[0] - a[0]) * (b[1] - a[1]));
         (p - q, (p.abs() + q.abs()) / (p - q).abs())
     }
 
     fn linear(&self, f: [f64; 3]) -> Linear {
-        let [a, b, c] = [0, 1, 2].each(|i| self.at(i));
+        let [a, b, c] = [0, 1, 2].map_array(|i| self.at(i));
         let area = self.area().0;
         let (d1, d2) = (f[1] - f[0], f[2] - f[0]);
         let [bx, by, cx, cy] = [b[0] - a[0], b[1] - a[1], c[0] - a[0], c[1] - a[1]];
         let pairs = [[d1 * cy, d2 * by], [d2 * bx, d1 * cx]];
         Linear {
             f0: f[0],
-            slope: pairs.each(|[p, q]| (p - q) / area),
-            terms: pairs.each(|[p, q]| (p.abs() + q.abs()) / area.abs()),
+            slope: pairs.map_array(|[p, q]| (p - q) / area),
+            terms: pairs.map_array(|[p, q]| (p.abs() + q.abs()) / area.abs()),
         }
     }
 
@@ -98,7 +98,7 @@ impl Place<'_> {
     }
 
     fn over_w(&self) -> [f64; 3] {
-        [0, 1, 2].each(|i| self.triangle.inv_w[i] * self.triangle.value[i])
+        [0, 1, 2].map_array(|i| self.triangle.inv_w[i] * self.triangle.value[i])
     }
 
     /// The slope of the value along the row.

@@ -6,14 +6,14 @@
 
 use std::cell::RefCell;
 
-use super::external::Guest;
+use super::external::ExternalVariant;
 use super::tiles::Lists;
 use super::{Board, Column, Ladder, Measure, Options, Prepared, Rung, finish};
 use crate::cost::scene::{Scene, Size, W_PREFIX, scenes};
 use crate::ladder::edges::{self, Integer, Ordered, Robust, Stepped};
 use crate::ladder::scanline::{self, Accumulated, BigIntegers};
 use crate::ladder::{Cover, Snapped, Unsnapped, Work, snap};
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::{Rasterize, RasterizeExact};
 use rasterproof_core::frame::Frame;
 use rasterproof_core::grid::PixelRect;
@@ -121,22 +121,22 @@ impl AnyRung for Lists {
 
 /// A rung of coverage, ready to run: it lists the pixels of a triangle, to be judged, or paints them,
 /// to be timed.
-pub struct Contender {
+pub struct Variant {
     /// What it is.
     pub rung: Rung,
     body: Box<dyn AnyRung>,
 }
 
-fn contender(
+fn variant(
     name: &'static str,
     about: &'static str,
     promises: &[usize],
     body: impl Cover + Sync + 'static,
-) -> Contender {
-    Contender { rung: Rung::new(name, about, promises), body: Box::new(body) }
+) -> Variant {
+    Variant { rung: Rung::new(name, about, promises), body: Box::new(body) }
 }
 
-impl Contender {
+impl Variant {
     /// Adds the pixels of a triangle, as the rung sees it, to `spans`; returns its counted work.
     ///
     /// # Errors
@@ -159,7 +159,7 @@ impl Contender {
 
 /// The rungs of a ladder of coverage, none for other ladders.
 #[must_use]
-pub fn contenders(ladder: Ladder) -> Vec<Contender> {
+pub fn variants(ladder: Ladder) -> Vec<Variant> {
     match ladder {
         Ladder::Scanline => scanlines(),
         Ladder::EdgeFunction => edge_functions(),
@@ -167,61 +167,61 @@ pub fn contenders(ladder: Ladder) -> Vec<Contender> {
     }
 }
 
-fn scanlines() -> Vec<Contender> {
+fn scanlines() -> Vec<Variant> {
     vec![
-        contender("book", "as published, section 2.2, f64", &[], AsPublished(BookChapter2)),
-        contender("f32 accumulated", "x += slope", &[], Accumulated::<f32>::default()),
-        contender(
+        variant("book", "as published, section 2.2, f64", &[], AsPublished(BookChapter2)),
+        variant("f32 accumulated", "x += slope", &[], Accumulated::<f32>::default()),
+        variant(
             "f32 direct",
             "x = ax + (yc - ay) dx / dy",
             &[],
             scanline::Direct::<f32>::default(),
         ),
-        contender("f64 accumulated", "x += slope", &[], Accumulated::<f64>::default()),
-        contender(
+        variant("f64 accumulated", "x += slope", &[], Accumulated::<f64>::default()),
+        variant(
             "f64 direct",
             "x = ax + (yc - ay) dx / dy",
             &[],
             scanline::Direct::<f64>::default(),
         ),
-        contender("24.8 DDA", "snaps; the engine scanline", &[SNAPPED], Snapped(Scanline)),
-        contender("adaptive", "the engine scanline-exact", &[GIVEN], Unsnapped(ScanlineExact)),
-        contender("big integers", "every crossing an exact quotient", &[GIVEN], BigIntegers),
+        variant("24.8 DDA", "snaps; the engine scanline", &[SNAPPED], Snapped(Scanline)),
+        variant("adaptive", "the engine scanline-exact", &[GIVEN], Unsnapped(ScanlineExact)),
+        variant("big integers", "every crossing an exact quotient", &[GIVEN], BigIntegers),
     ]
 }
 
-fn edge_functions() -> Vec<Contender> {
+fn edge_functions() -> Vec<Variant> {
     vec![
-        contender("f32 stepped", "E += step", &[], Stepped::<f32>::default()),
-        contender("f32 direct", "E at every sample", &[], edges::Direct::<f32>::default()),
-        contender("f32 ordered", "direct, from the smaller end", &[], Ordered::<f32>::default()),
-        contender("f64 stepped", "E += step", &[], Stepped::<f64>::default()),
-        contender("f64 direct", "E at every sample", &[], edges::Direct::<f64>::default()),
-        contender("f64 ordered", "direct, from the smaller end", &[], Ordered::<f64>::default()),
-        contender("i32", "snaps; E' stepped", &[SNAPPED], Integer::<i64, i32>::default()),
-        contender("i64", "snaps; E' stepped", &[SNAPPED], Integer::<i64, i64>::default()),
-        contender("i128", "snaps; E' stepped", &[SNAPPED], Integer::<i128, i128>::default()),
-        contender(
+        variant("f32 stepped", "E += step", &[], Stepped::<f32>::default()),
+        variant("f32 direct", "E at every sample", &[], edges::Direct::<f32>::default()),
+        variant("f32 ordered", "direct, from the smaller end", &[], Ordered::<f32>::default()),
+        variant("f64 stepped", "E += step", &[], Stepped::<f64>::default()),
+        variant("f64 direct", "E at every sample", &[], edges::Direct::<f64>::default()),
+        variant("f64 ordered", "direct, from the smaller end", &[], Ordered::<f64>::default()),
+        variant("i32", "snaps; E' stepped", &[SNAPPED], Integer::<i64, i32>::default()),
+        variant("i64", "snaps; E' stepped", &[SNAPPED], Integer::<i64, i64>::default()),
+        variant("i128", "snaps; E' stepped", &[SNAPPED], Integer::<i128, i128>::default()),
+        variant(
             "engine",
             "snaps; the engine edge-function, width by triangle",
             &[SNAPPED],
             Snapped(EdgeFunction),
         ),
         lists(),
-        contender(
+        variant(
             "adaptive",
             "the engine edge-function-exact",
             &[GIVEN],
             Unsnapped(EdgeFunctionExact),
         ),
-        contender("robust", "orient2d at every sample", &[GIVEN], Robust),
+        variant("robust", "orient2d at every sample", &[GIVEN], Robust),
     ]
 }
 
-fn lists() -> Contender {
+fn lists() -> Variant {
     let mut rung = Rung::new("tiles i32 x 16", "", &[SNAPPED]);
     rung.about = Lists::default().about().into();
-    Contender { rung, body: Box::new(Lists::default()) }
+    Variant { rung, body: Box::new(Lists::default()) }
 }
 
 /// The pixels of one scene by both truths.
@@ -255,7 +255,7 @@ impl Truth {
                 }
             }),
         ];
-        let pixels = [0, 1].each(|i| spans[i].iter().map(|list| pixels(list)).sum());
+        let pixels = [0, 1].map_array(|i| spans[i].iter().map(|list| pixels(list)).sum());
         Self { spans, pixels }
     }
 }
@@ -299,7 +299,7 @@ fn cracks(truth: &Truth, spans: &[Vec<Span>], interior: PixelRect) -> (u64, u64)
         shown.then_some(Span { y_px: span.y_px, x0_px, x1_px })
     };
     let all = [&truth.spans[0], &truth.spans[1], spans]
-        .each(|lists| lists.iter().flatten().filter_map(within).collect::<Vec<_>>());
+        .map_array(|lists| lists.iter().flatten().filter_map(within).collect::<Vec<_>>());
     let (mut holes, mut twice) = (0, 0);
     sweep(&[&all[0][..], &all[1], &all[2]], |[given, snapped, hits], length| {
         if given == 1 && snapped == 1 {
@@ -312,7 +312,7 @@ fn cracks(truth: &Truth, spans: &[Vec<Span>], interior: PixelRect) -> (u64, u64)
 
 /// The errors of a rung on a scene, and its work.
 fn errors(
-    contender: &Contender,
+    variant: &Variant,
     scene: &Scene,
     truth: &Truth,
 ) -> Result<(Vec<Option<f64>>, Option<Work>), String> {
@@ -320,7 +320,7 @@ fn errors(
     let mut spans = Vec::new();
     for corners in &scene.triangles {
         let mut of_this = Vec::new();
-        let counted = contender.spans(corners, scene.bounds, &mut of_this)?;
+        let counted = variant.spans(corners, scene.bounds, &mut of_this)?;
         if let (Some(sum), Some(counted)) = (&mut work, counted) {
             *sum += counted;
         } else {
@@ -347,25 +347,25 @@ fn score(spans: &[Vec<Span>], scene: &Scene, truth: &Truth) -> Vec<Option<f64>> 
 }
 
 fn prepare<'a>(
-    contender: &'a Contender,
+    variant: &'a Variant,
     scene: &'a Scene,
     truth: &Truth,
     target: &'a RefCell<Frame<u32>>,
 ) -> Prepared<'a> {
-    match errors(contender, scene, truth) {
+    match errors(variant, scene, truth) {
         Err(why) => Prepared::NotRun(why),
         Ok((errors, work)) => Prepared::Ready {
             errors,
             work,
             pass: Box::new(|| {
-                contender.paint(std::hint::black_box(&scene.triangles), &mut target.borrow_mut());
+                variant.paint(std::hint::black_box(&scene.triangles), &mut target.borrow_mut());
             }),
         },
     }
 }
 
 /// The errors of a guest on a scene, and what is to be timed.
-fn invited<'a>(guest: &mut dyn Guest, scene: &Scene, truth: &Truth) -> Prepared<'a> {
+fn invited<'a>(guest: &mut dyn ExternalVariant, scene: &Scene, truth: &Truth) -> Prepared<'a> {
     let mut ready = || {
         let spans = guest.spans(&scene.triangles, scene.bounds)?;
         let pass = guest.pass(&scene.triangles, scene.bounds)?;
@@ -378,16 +378,16 @@ fn invited<'a>(guest: &mut dyn Guest, scene: &Scene, truth: &Truth) -> Prepared<
 pub(super) fn measure(
     ladder: Ladder,
     options: &Options,
-    guests: &mut [Box<dyn Guest>],
+    guests: &mut [Box<dyn ExternalVariant>],
     progress: &dyn Fn(f64, &str),
 ) -> Board {
     let pixels = if options.quick { 60_000 } else { 800_000 };
     let scenes = scenes(options.seed, Size { side_px: 1024, pixels });
-    let contenders = contenders(ladder);
+    let variants = variants(ladder);
     let targets: Vec<_> =
         scenes.iter().map(|scene| RefCell::new(Frame::new(scene.bounds, 0))).collect();
     let mut columns = Vec::new();
-    let mut rungs: Vec<Rung> = contenders.iter().map(|c| c.rung.clone()).collect();
+    let mut rungs: Vec<Rung> = variants.iter().map(|c| c.rung.clone()).collect();
     rungs.extend(guests.iter().map(|guest| guest.rung()));
     let mut prepared: Vec<Vec<Prepared<'_>>> = rungs.iter().map(|_| Vec::new()).collect();
     for (done, (scene, target)) in scenes.iter().zip(&targets).enumerate() {
@@ -401,10 +401,10 @@ pub(super) fn measure(
             continue;
         }
         let truth = Truth::of(scene);
-        for (contender, row) in contenders.iter().zip(&mut prepared) {
-            row.push(prepare(contender, scene, &truth, target));
+        for (variant, row) in variants.iter().zip(&mut prepared) {
+            row.push(prepare(variant, scene, &truth, target));
         }
-        for (guest, row) in guests.iter_mut().zip(&mut prepared[contenders.len()..]) {
+        for (guest, row) in guests.iter_mut().zip(&mut prepared[variants.len()..]) {
             row.push(invited(guest.as_mut(), scene, &truth));
         }
         columns.push(Column::new(scene.name, about, items, truth.pixels[GIVEN]));
@@ -449,11 +449,11 @@ mod tests {
 
     /// The errors of a planted rung on every class with coverage.
     fn of(body: impl Cover + Sync + 'static) -> Vec<(&'static str, Vec<Option<f64>>)> {
-        let contender = contender("planted", "", &[], body);
+        let variant = variant("planted", "", &[], body);
         scenes(1, Size { side_px: 128, pixels: 4000 })
             .iter()
             .filter(|scene| !scene.name.starts_with(W_PREFIX))
-            .map(|scene| (scene.name, errors(&contender, scene, &Truth::of(scene)).unwrap().0))
+            .map(|scene| (scene.name, errors(&variant, scene, &Truth::of(scene)).unwrap().0))
             .collect()
     }
 

@@ -7,7 +7,7 @@ use super::scene::{Size, scenes};
 use super::{Board, Column, Ladder, Measure, Options, Prepared, Rung, finish};
 use crate::ladder::Real;
 use crate::ladder::depth::{FAR, Fixed24, Format, Forward, NEAR, Reversed, stored};
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_verify::cases::Rng;
 
 /// Distances from the eye; the last is that of the classic table.
@@ -41,7 +41,7 @@ struct Layers {
 
 impl Layers {
     fn back(&self) -> [f64; 3] {
-        self.front.each(|z| z * (1.0 + APART))
+        self.front.map_array(|z| z * (1.0 + APART))
     }
 }
 
@@ -49,20 +49,20 @@ fn layers(seed: u64, name: &str, z: f64, count: usize) -> Vec<Layers> {
     let mut rng = Rng::new(name, seed, 2);
     // Slanted by up to a percent of the distance, within the planes.
     let near = |rng: &mut Rng| (z * (1.0 + 0.01 * rng.signed())).clamp(NEAR, FAR / (1.0 + APART));
-    (0..count).map(|_| Layers { front: [(); 3].each(|()| near(&mut rng)) }).collect()
+    (0..count).map(|_| Layers { front: [(); 3].map_array(|()| near(&mut rng)) }).collect()
 }
 
 /// Depth over a tile as a plane, at pixel centres, in the float of the format.
-struct Plane<T> {
+struct DepthPlane<T> {
     start: T,
     per_x: T,
     per_y: T,
 }
 
-impl<T: Real> Plane<T> {
+impl<T: Real> DepthPlane<T> {
     #[inline]
     fn new<F: Format<Float = T>>(z: [f64; 3]) -> Self {
-        let [a, b, c] = z.each(|z| T::of(F::depth(z)));
+        let [a, b, c] = z.map_array(|z| T::of(F::depth(z)));
         let side = T::of(1.0 / SIDE_PX as f64);
         let (per_x, per_y) = ((b - a) * side, (c - a) * side);
         Self { start: a + per_x * T::HALF + per_y * T::HALF, per_x, per_y }
@@ -82,7 +82,7 @@ fn draw<F: Format>(layers: &[Layers], buffer: &mut [F::Stored], colours: &mut [u
     for (layers, (held, colours)) in
         layers.iter().zip(buffer.chunks_exact_mut(TILE).zip(colours.chunks_exact_mut(TILE)))
     {
-        let back = Plane::<F::Float>::new::<F>(layers.back());
+        let back = DepthPlane::<F::Float>::new::<F>(layers.back());
         for (i, (held, colour)) in held.iter_mut().zip(colours).enumerate() {
             *held = F::store(back.at(i % SIDE_PX, i / SIDE_PX));
             *colour = 1;
@@ -91,7 +91,7 @@ fn draw<F: Format>(layers: &[Layers], buffer: &mut [F::Stored], colours: &mut [u
     for (layers, (held, colours)) in
         layers.iter().zip(buffer.chunks_exact_mut(TILE).zip(colours.chunks_exact_mut(TILE)))
     {
-        let front = Plane::<F::Float>::new::<F>(layers.front);
+        let front = DepthPlane::<F::Float>::new::<F>(layers.front);
         for (i, (held, colour)) in held.iter_mut().zip(colours).enumerate() {
             let depth = F::store(front.at(i % SIDE_PX, i / SIDE_PX));
             if F::hides(depth, *held) {
@@ -148,7 +148,7 @@ impl<F: Format + 'static> AnyFormat for F {
     }
 }
 
-fn contenders() -> Vec<(Rung, Box<dyn AnyFormat>)> {
+fn variants() -> Vec<(Rung, Box<dyn AnyFormat>)> {
     let rung = |name, about| Rung::new(name, about, &[]);
     vec![
         (rung("24-bit", "whole numbers, 0 at the near plane"), Box::new(Fixed24)),
@@ -161,16 +161,16 @@ fn contenders() -> Vec<(Rung, Box<dyn AnyFormat>)> {
 /// Measures the ladder.
 pub(super) fn measure(options: &Options, progress: &dyn Fn(f64, &str)) -> Board {
     let ladder = Ladder::Depth;
-    let contenders = contenders();
+    let variants = variants();
     // A million pixels, so that the size of a depth counts as well.
     let tiles = if options.quick { 16 } else { 256 };
     let made: Vec<_> =
         DISTANCES.iter().map(|&(name, z)| layers(options.seed, name, z, tiles)).collect();
     let mut columns = Vec::new();
-    let mut prepared: Vec<Vec<Prepared<'_>>> = contenders.iter().map(|_| Vec::new()).collect();
+    let mut prepared: Vec<Vec<Prepared<'_>>> = variants.iter().map(|_| Vec::new()).collect();
     for (i, &(name, z)) in DISTANCES.iter().enumerate() {
         progress(0.3 * i as f64 / DISTANCES.len() as f64, ladder.title());
-        for ((_, format), row) in contenders.iter().zip(&mut prepared) {
+        for ((_, format), row) in variants.iter().zip(&mut prepared) {
             let (errors, pass) = (format.errors(z, &made[i]), format.pass(&made[i]));
             row.push(Prepared::Ready { errors, work: None, pass });
         }
@@ -183,7 +183,7 @@ pub(super) fn measure(options: &Options, progress: &dyn Fn(f64, &str)) -> Board 
         prepared.iter_mut().for_each(|row| row.push(Prepared::NotRun(why.to_owned())));
         columns.push(Column::new(class.name, class.about.to_owned(), 0, 0));
     }
-    let rungs = contenders.iter().map(|(rung, _)| rung.clone()).collect();
+    let rungs = variants.iter().map(|(rung, _)| rung.clone()).collect();
     finish((ladder, measures()), (rungs, columns), prepared, options, progress)
 }
 

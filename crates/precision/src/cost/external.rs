@@ -1,11 +1,11 @@
-//! Somebody from outside the house on a ladder of coverage, who draws lists: a graphics card.
+//! An external rasterizer on a ladder of coverage that draws lists of triangles, such as a graphics card.
 
 use super::Rung;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{FreeCorners, Span};
 
 /// Somebody who fills triangles, and is judged and timed as the rungs are.
-pub trait Guest {
+pub trait ExternalVariant {
     /// What it is.
     fn rung(&self) -> Rung;
 

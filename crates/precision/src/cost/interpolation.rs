@@ -13,7 +13,7 @@ use crate::ladder::interpolation::{
     Accumulated, Affine, BookFormula, Direct, EverySixteen, Offset, Plane, Valued, Values,
 };
 use crate::ladder::{Real, snap};
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::Rasterize;
 use rasterproof_core::frame::Frame;
 use rasterproof_core::raster::scanline::Scanline;
@@ -93,7 +93,7 @@ impl Values for Rational {
 
 fn exact(triangle: &Valued) -> Option<ExactTriangle<1>> {
     let Valued { corners, inv_w, value } = triangle;
-    ExactTriangle::new(corners, [0.0; 3], *inv_w, value.each(|v| [v]))
+    ExactTriangle::new(corners, [0.0; 3], *inv_w, value.map_array(|v| [v]))
 }
 
 /// A triangle and the rows it covers.
@@ -102,85 +102,80 @@ struct Drawn {
     spans: Vec<Span>,
 }
 
-struct Contender {
+struct Variant {
     rung: Rung,
     bound: Bound,
     unit: f64,
     body: Box<dyn AnyValues>,
 }
 
-fn contender<T: Real>(
+fn variant<T: Real>(
     name: &'static str,
     about: &'static str,
     bound: Bound,
     body: impl Values + 'static,
-) -> Contender {
+) -> Variant {
     // 13 D + M is at most 27 M, far below the goal with either float.
     let promises =
         if matches!(bound, Bound::Offset | Bound::Rounded) { vec![0] } else { Vec::new() };
-    Contender {
-        rung: Rung::new(name, about, &promises),
-        bound,
-        unit: T::UNIT,
-        body: Box::new(body),
-    }
+    Variant { rung: Rung::new(name, about, &promises), bound, unit: T::UNIT, body: Box::new(body) }
 }
 
-fn contenders() -> Vec<Contender> {
+fn variants() -> Vec<Variant> {
     vec![
-        contender::<f32>("affine", "f32, w ignored", Bound::Affine, Affine::<f32>::default()),
-        contender::<f32>(
+        variant::<f32>("affine", "f32, w ignored", Bound::Affine, Affine::<f32>::default()),
+        variant::<f32>(
             "every 16 px",
             "f32, one division for 16 pixels, as Quake did",
             Bound::EverySixteen,
             EverySixteen::<f32>::default(),
         ),
-        contender::<f32>(
+        variant::<f32>(
             "book (8)",
             "f32, the book's formula with t accumulated",
             Bound::BookFormula,
             BookFormula::<f32>::default(),
         ),
-        contender::<f32>(
+        variant::<f32>(
             "1/w added up",
             "f32, 1/w and v/w accumulated along the row",
             Bound::Accumulated,
             Accumulated::<f32>::default(),
         ),
-        contender::<f32>(
+        variant::<f32>(
             "1/w direct",
             "f32, 1/w and v/w at each pixel",
             Bound::Direct,
             Direct::<f32>::default(),
         ),
-        contender::<f32>(
+        variant::<f32>(
             "plane",
             "f32, 1/w and v/w as planes",
             Bound::Plane,
             Plane::<f32>::default(),
         ),
         planes(),
-        contender::<f32>(
+        variant::<f32>(
             "offset f32",
             "exact edge functions as weights",
             Bound::Offset,
             Offset::<f32>::default(),
         ),
-        contender::<f64>(
+        variant::<f64>(
             "offset f64",
             "exact edge functions as weights",
             Bound::Offset,
             Offset::<f64>::default(),
         ),
-        contender::<f64>("rational", "the oracle, rounded once", Bound::Rounded, Rational),
+        variant::<f64>("rational", "the oracle, rounded once", Bound::Rounded, Rational),
     ]
 }
 
-fn planes() -> Contender {
+fn planes() -> Variant {
     let mut rung = Rung::new("planes f32 x 16", "", &[]);
     rung.about = Planes::default().about().into();
     let body = Box::new(Planes::default());
-    Contender { rung, bound: Bound::Tile, unit: f32::UNIT, body }
+    Variant { rung, bound: Bound::Tile, unit: f32::UNIT, body }
 }
 
 /// The triangles of a scene on the lattice, with w and a value at each corner.
@@ -190,9 +185,9 @@ fn dress(scene: &Scene) -> Vec<Drawn> {
         let mut spans = Vec::new();
         Scanline.cover(corners, scene.bounds, |span| spans.push(span));
         // From the positions, so that the values need no generator: within [-1, 1], exactly f32.
-        let value =
-            [0, 1, 2].each(|i| f64::from(corners[i].x % 509 - 254 + (w[i] as i32) % 2) / 256.0);
-        let inv_w = w.each(|w| f64::from((1.0 / w) as f32));
+        let value = [0, 1, 2]
+            .map_array(|i| f64::from(corners[i].x % 509 - 254 + (w[i] as i32) % 2) / 256.0);
+        let inv_w = w.map_array(|w| f64::from((1.0 / w) as f32));
         Some(Drawn { triangle: Valued { corners, inv_w, value }, spans })
     });
     dressed.collect()
@@ -231,7 +226,7 @@ fn samples(drawn: &[Drawn], count: usize) -> Vec<Sample> {
 }
 
 /// Errors of a rung at the samples: over M, in u M, over the bound.
-fn errors(contender: &Contender, drawn: &[Drawn], samples: &[Sample]) -> Vec<Option<f64>> {
+fn errors(variant: &Variant, drawn: &[Drawn], samples: &[Sample]) -> Vec<Option<f64>> {
     let (mut worst, mut worst_bound) = (0f64, None::<f64>);
     let mut samples = samples.iter().peekable();
     for (i, of_this) in drawn.iter().enumerate() {
@@ -242,7 +237,7 @@ fn errors(contender: &Contender, drawn: &[Drawn], samples: &[Sample]) -> Vec<Opt
         let m = largest(triangle.value);
         let box_px = box_of(spans).expect("it has samples");
         let mut number = 0;
-        contender.body.each(of_this, &mut |x_px, y_px, value| {
+        variant.body.each(of_this, &mut |x_px, y_px, value| {
             if let Some(sample) = samples.next_if(|s| s.triangle == i && s.number == number) {
                 let error = sample.exact.distance(value);
                 worst = worst.max(if m > 0.0 { error / m } else { error });
@@ -250,7 +245,7 @@ fn errors(contender: &Contender, drawn: &[Drawn], samples: &[Sample]) -> Vec<Opt
                 let span = spans[(y_px - row).clamp(0, spans.len() as i32 - 1) as usize];
                 let span = if span.y_px == y_px { span } else { find(spans, y_px) };
                 let place = Place { triangle, span, x_px, rows: y_px - row, box_px };
-                if let Some(bound) = contender.bound.at(&place, contender.unit) {
+                if let Some(bound) = variant.bound.at(&place, variant.unit) {
                     let share = if error == 0.0 { 0.0 } else { error / bound };
                     worst_bound = Some(worst_bound.unwrap_or(0.0).max(share));
                 }
@@ -258,7 +253,7 @@ fn errors(contender: &Contender, drawn: &[Drawn], samples: &[Sample]) -> Vec<Opt
             number += 1;
         });
     }
-    vec![Some(worst), Some(worst / contender.unit), worst_bound]
+    vec![Some(worst), Some(worst / variant.unit), worst_bound]
 }
 
 /// The span of a row that some rows before it lack.
@@ -271,22 +266,22 @@ pub(super) fn measure(options: &Options, progress: &dyn Fn(f64, &str)) -> Board 
     let ladder = Ladder::Interpolation;
     let (pixels, count) = if options.quick { (8_000, 500) } else { (60_000, 4000) };
     let scenes = scenes(options.seed, Size { side_px: 512, pixels });
-    let contenders = contenders();
+    let variants = variants();
     let drawn: Vec<_> = scenes.iter().map(dress).collect();
     let targets: Vec<_> =
         scenes.iter().map(|scene| RefCell::new(Frame::new(scene.bounds, 0f32))).collect();
     let mut columns = Vec::new();
-    let mut prepared: Vec<Vec<Prepared<'_>>> = contenders.iter().map(|_| Vec::new()).collect();
+    let mut prepared: Vec<Vec<Prepared<'_>>> = variants.iter().map(|_| Vec::new()).collect();
     for (i, scene) in scenes.iter().enumerate() {
         progress(0.3 * i as f64 / scenes.len() as f64, ladder.title());
         let (drawn, target) = (&drawn[i], &targets[i]);
         let samples = samples(drawn, count);
-        for (contender, row) in contenders.iter().zip(&mut prepared) {
+        for (variant, row) in variants.iter().zip(&mut prepared) {
             row.push(Prepared::Ready {
-                errors: errors(contender, drawn, &samples),
+                errors: errors(variant, drawn, &samples),
                 work: None,
                 pass: Box::new(|| {
-                    contender.body.paint(std::hint::black_box(drawn), &mut target.borrow_mut());
+                    variant.body.paint(std::hint::black_box(drawn), &mut target.borrow_mut());
                 }),
             });
         }
@@ -295,7 +290,7 @@ pub(super) fn measure(options: &Options, progress: &dyn Fn(f64, &str)) -> Board 
         let about = scene.about.to_owned();
         columns.push(Column::new(scene.name, about, drawn.len() as u64, pixels));
     }
-    let rungs = contenders.iter().map(|contender| contender.rung.clone()).collect();
+    let rungs = variants.iter().map(|variant| variant.rung.clone()).collect();
     finish((ladder, measures()), (rungs, columns), prepared, options, progress)
 }
 
@@ -304,27 +299,27 @@ mod tests {
     use super::*;
 
     /// The worst share of its bound that a rung reaches on every class of scenes, all pixels asked.
-    fn worst(contender: &Contender, seed: u64) -> f64 {
+    fn worst(variant: &Variant, seed: u64) -> f64 {
         scenes(seed, Size { side_px: 64, pixels: 1500 })
             .iter()
             .map(|scene| {
                 let drawn = dress(scene);
                 let samples = samples(&drawn, usize::MAX);
                 assert!(samples.len() > 100, "{}", scene.name);
-                errors(contender, &drawn, &samples)[2].unwrap_or(0.0)
+                errors(variant, &drawn, &samples)[2].unwrap_or(0.0)
             })
             .fold(0.0, f64::max)
     }
 
-    fn in_both<T: Real>() -> Vec<Contender> {
+    fn in_both<T: Real>() -> Vec<Variant> {
         vec![
-            contender::<T>("affine", "", Bound::Affine, Affine::<T>::default()),
-            contender::<T>("sixteen", "", Bound::EverySixteen, EverySixteen::<T>::default()),
-            contender::<T>("book", "", Bound::BookFormula, BookFormula::<T>::default()),
-            contender::<T>("accumulated", "", Bound::Accumulated, Accumulated::<T>::default()),
-            contender::<T>("direct", "", Bound::Direct, Direct::<T>::default()),
-            contender::<T>("plane", "", Bound::Plane, Plane::<T>::default()),
-            contender::<T>("offset", "", Bound::Offset, Offset::<T>::default()),
+            variant::<T>("affine", "", Bound::Affine, Affine::<T>::default()),
+            variant::<T>("sixteen", "", Bound::EverySixteen, EverySixteen::<T>::default()),
+            variant::<T>("book", "", Bound::BookFormula, BookFormula::<T>::default()),
+            variant::<T>("accumulated", "", Bound::Accumulated, Accumulated::<T>::default()),
+            variant::<T>("direct", "", Bound::Direct, Direct::<T>::default()),
+            variant::<T>("plane", "", Bound::Plane, Plane::<T>::default()),
+            variant::<T>("offset", "", Bound::Offset, Offset::<T>::default()),
         ]
     }
 
@@ -332,9 +327,9 @@ mod tests {
     #[test]
     fn bounds_are_kept() {
         let rungs = in_both::<f32>().into_iter().chain(in_both::<f64>());
-        for contender in rungs.chain(contenders()) {
-            let shares: Vec<f64> = (1..=3).map(|seed| worst(&contender, seed)).collect();
-            let name = (contender.rung.name, contender.unit);
+        for variant in rungs.chain(variants()) {
+            let shares: Vec<f64> = (1..=3).map(|seed| worst(&variant, seed)).collect();
+            let name = (variant.rung.name, variant.unit);
             assert!(shares.iter().all(|&share| share <= 1.0), "{name:?} {shares:?}");
             assert!(shares.iter().any(|&share| share > 0.05), "{name:?} {shares:?}");
         }
@@ -359,33 +354,33 @@ mod tests {
     #[test]
     fn bounds_find_planted_faults() {
         let late = [
-            contender::<f32>("affine", "", Bound::Affine, Late(Affine::<f32>::default())),
-            contender::<f32>(
+            variant::<f32>("affine", "", Bound::Affine, Late(Affine::<f32>::default())),
+            variant::<f32>(
                 "sixteen",
                 "",
                 Bound::EverySixteen,
                 Late(EverySixteen::<f32>::default()),
             ),
-            contender::<f32>("book", "", Bound::BookFormula, Late(BookFormula::<f32>::default())),
-            contender::<f32>(
+            variant::<f32>("book", "", Bound::BookFormula, Late(BookFormula::<f32>::default())),
+            variant::<f32>(
                 "accumulated",
                 "",
                 Bound::Accumulated,
                 Late(Accumulated::<f32>::default()),
             ),
-            contender::<f32>("direct", "", Bound::Direct, Late(Direct::<f32>::default())),
-            contender::<f32>("plane", "", Bound::Plane, Late(Plane::<f32>::default())),
-            contender::<f32>("planes", "", Bound::Tile, Late(Plane::<f32>::default())),
-            contender::<f32>("offset", "", Bound::Offset, Late(Offset::<f32>::default())),
-            contender::<f32>("rational", "", Bound::Rounded, Late(Rational)),
+            variant::<f32>("direct", "", Bound::Direct, Late(Direct::<f32>::default())),
+            variant::<f32>("plane", "", Bound::Plane, Late(Plane::<f32>::default())),
+            variant::<f32>("planes", "", Bound::Tile, Late(Plane::<f32>::default())),
+            variant::<f32>("offset", "", Bound::Offset, Late(Offset::<f32>::default())),
+            variant::<f32>("rational", "", Bound::Rounded, Late(Rational)),
             // The float that the bound is not for, and the model that it is not for.
-            contender::<f64>("offset", "", Bound::Offset, Offset::<f32>::default()),
-            contender::<f32>("direct", "", Bound::Direct, EverySixteen::<f32>::default()),
-            contender::<f32>("sixteen", "", Bound::EverySixteen, Affine::<f32>::default()),
+            variant::<f64>("offset", "", Bound::Offset, Offset::<f32>::default()),
+            variant::<f32>("direct", "", Bound::Direct, EverySixteen::<f32>::default()),
+            variant::<f32>("sixteen", "", Bound::EverySixteen, Affine::<f32>::default()),
         ];
-        for contender in late {
-            let share = worst(&contender, 1);
-            assert!(share > 1.0, "{} {:?} {share}", contender.rung.name, contender.bound);
+        for variant in late {
+            let share = worst(&variant, 1);
+            assert!(share > 1.0, "{} {:?} {share}", variant.rung.name, variant.bound);
         }
     }
 }

@@ -5,7 +5,7 @@ use std::cell::RefCell;
 use super::scene::{Size, scenes};
 use super::{Board, Column, Ladder, Measure, Options, Prepared, Rung, finish};
 use crate::ladder::lines::{Contracted, Draw, Drifting, FixedPoint};
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::frame::Frame;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::line::bresenham::Bresenham;
@@ -51,13 +51,13 @@ impl<D: Draw> AnyDraw for D {
     }
 }
 
-struct Contender {
+struct Variant {
     rung: Rung,
     body: Box<dyn AnyDraw>,
 }
 
-fn contenders() -> Vec<Contender> {
-    let new = |name, about, exact: bool, body| Contender {
+fn variants() -> Vec<Variant> {
+    let new = |name, about, exact: bool, body| Variant {
         rung: Rung::new(name, about, if exact { &[0] } else { &[] }),
         body,
     };
@@ -116,13 +116,14 @@ fn lines(
                 std::mem::swap(&mut a[axis], &mut b[axis]);
             }
         }
-        [a, b].each(|[x, y]| PixelPoint::new(x as i32, y as i32))
+        [a, b].map_array(|[x, y]| PixelPoint::new(x as i32, y as i32))
     });
     Ok((lines.collect(), about))
 }
 
 fn truth(ends: Ends, window: PixelRect) -> Vec<PixelPoint> {
-    let line = ScreenLine { ends: ends.each(|pixel| LineEnd { pixel, depth: 0.0, varying: 0.0 }) };
+    let line =
+        ScreenLine { ends: ends.map_array(|pixel| LineEnd { pixel, depth: 0.0, varying: 0.0 }) };
     let mut pixels = Vec::new();
     Oracle.line_pixels(&line, window, |pixel, _| pixels.push(pixel));
     pixels
@@ -146,7 +147,7 @@ fn differences(mut ours: Vec<PixelPoint>, truth: &[PixelPoint]) -> u64 {
 pub(super) fn measure(options: &Options, progress: &dyn Fn(f64, &str)) -> Board {
     let ladder = Ladder::Lines;
     let size = Size { side_px: 1024, pixels: if options.quick { 20_000 } else { 300_000 } };
-    let contenders = contenders();
+    let variants = variants();
     // The classes of the other ladders, for their names and windows.
     let classes = scenes(options.seed, Size { side_px: size.side_px, pixels: 0 });
     let mut columns = Vec::new();
@@ -154,7 +155,7 @@ pub(super) fn measure(options: &Options, progress: &dyn Fn(f64, &str)) -> Board 
         classes.iter().map(|class| lines(class.name, options.seed, &size, class.bounds)).collect();
     let targets: Vec<_> =
         classes.iter().map(|class| RefCell::new(Frame::new(class.bounds, 0))).collect();
-    let mut prepared: Vec<Vec<Prepared<'_>>> = contenders.iter().map(|_| Vec::new()).collect();
+    let mut prepared: Vec<Vec<Prepared<'_>>> = variants.iter().map(|_| Vec::new()).collect();
     for (i, class) in classes.iter().enumerate() {
         progress(0.3 * i as f64 / classes.len() as f64, ladder.title());
         let (lines, about) = match &made[i] {
@@ -168,14 +169,14 @@ pub(super) fn measure(options: &Options, progress: &dyn Fn(f64, &str)) -> Board 
         };
         let truth: Vec<_> = lines.iter().map(|&ends| truth(ends, class.bounds)).collect();
         let pixels: u64 = truth.iter().map(|list| list.len() as u64).sum();
-        for (contender, row) in contenders.iter().zip(&mut prepared) {
-            let refused = lines.iter().find_map(|&ends| contender.body.accepts(ends).err());
+        for (variant, row) in variants.iter().zip(&mut prepared) {
+            let refused = lines.iter().find_map(|&ends| variant.body.accepts(ends).err());
             row.push(match refused {
                 Some(why) => Prepared::NotRun(why),
                 None => {
-                    let drawn = lines.iter().map(|&ends| contender.body.pixels(ends, class.bounds));
+                    let drawn = lines.iter().map(|&ends| variant.body.pixels(ends, class.bounds));
                     let wrong: u64 = drawn.zip(&truth).map(|(ours, t)| differences(ours, t)).sum();
-                    let (body, target) = (&contender.body, &targets[i]);
+                    let (body, target) = (&variant.body, &targets[i]);
                     Prepared::Ready {
                         errors: vec![Some(wrong as f64 * 1e6 / pixels.max(1) as f64)],
                         work: None,
@@ -189,6 +190,6 @@ pub(super) fn measure(options: &Options, progress: &dyn Fn(f64, &str)) -> Board 
         let (about, items) = ((*about).to_owned(), lines.len() as u64);
         columns.push(Column::new(class.name, about, items, pixels));
     }
-    let rungs = contenders.iter().map(|contender| contender.rung.clone()).collect();
+    let rungs = variants.iter().map(|variant| variant.rung.clone()).collect();
     finish((ladder, measures()), (rungs, columns), prepared, options, progress)
 }

@@ -25,8 +25,8 @@ use serde::{Deserialize, Serialize};
 use crate::ladder::Work;
 pub use bounds::Bound;
 pub use clock::{Spread, Time};
-pub use coverage::{Contender, contenders};
-pub use external::Guest;
+pub use coverage::{Variant, variants};
+pub use external::ExternalVariant;
 pub use recorded::Recorded;
 pub use verdict::{Best, Dominated, Price, Priced, prices};
 
@@ -235,7 +235,7 @@ pub fn measure(ladder: Ladder, options: &Options, progress: &dyn Fn(f64, &str)) 
 pub fn measure_with(
     ladder: Ladder,
     options: &Options,
-    guests: &mut [Box<dyn Guest>],
+    guests: &mut [Box<dyn ExternalVariant>],
     progress: &dyn Fn(f64, &str),
 ) -> Board {
     match ladder {

@@ -5,7 +5,7 @@
 //! rung in f32 starts with a rounding of its input; but for half of the corners of `tie` and `mesh`,
 //! which are any f64, since an f64 rung cannot fail on corners of 24 bits.
 
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::FreeCorners;
 use rasterproof_verify::cases::Rng;
@@ -106,10 +106,11 @@ fn scene(class: &Class, seed: u64, size: Size) -> Scene {
     let to = offset + side;
     let triangles: Vec<_> = corners
         .into_iter()
-        .map(|corners| corners.each(|p| p.each(|v| round(v + f64::from(offset)))))
+        .map(|corners| corners.map_array(|p| p.map_array(|v| round(v + f64::from(offset)))))
         .filter_map(|corners| FreeCorners::new(corners).ok())
         .collect();
-    let w = triangles.iter().map(|_| [(); 3].each(|()| spread(&mut rng, class.ratio))).collect();
+    let w =
+        triangles.iter().map(|_| [(); 3].map_array(|()| spread(&mut rng, class.ratio))).collect();
     Scene {
         name: class.name,
         about: class.about,
@@ -176,12 +177,12 @@ fn compact(rng: &mut Rng, size: &Size, area_px: f64) -> Vec<Corners> {
 /// A triangle of the given area that is not thin: three points of a square, scaled.
 fn shape(rng: &mut Rng, area_px: f64) -> Corners {
     loop {
-        let [a, b, c] = [(); 3].each(|()| [rng.unit(), rng.unit()]);
+        let [a, b, c] = [(); 3].map_array(|()| [rng.unit(), rng.unit()]);
         let area = ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])).abs() / 2.0;
         // The largest triangle in the unit square has area 1/2.
         if area > 0.25 {
             let scale = (area_px / area).sqrt();
-            return [a, b, c].each(|p| p.each(|v| v * scale));
+            return [a, b, c].map_array(|p| p.map_array(|v| v * scale));
         }
     }
 }
@@ -189,12 +190,12 @@ fn shape(rng: &mut Rng, area_px: f64) -> Corners {
 /// Puts a shape somewhere in the window, a pixel away from its border at least.
 fn place(rng: &mut Rng, size: &Size, shape: Corners) -> Corners {
     let mut offset = |axis: usize| {
-        let [a, b, c] = shape.each(|p| p[axis]);
+        let [a, b, c] = shape.map_array(|p| p[axis]);
         let (min, max) = (a.min(b).min(c), a.max(b).max(c));
         1.0 - min + rng.unit() * (f64::from(size.side_px) - 2.0 - (max - min)).max(0.0)
     };
     let (dx, dy) = (offset(0), offset(1));
-    shape.each(|[x, y]| [x + dx, y + dy])
+    shape.map_array(|[x, y]| [x + dx, y + dy])
 }
 
 fn sliver(rng: &mut Rng, size: &Size) -> Vec<Corners> {
@@ -222,10 +223,10 @@ fn sliver(rng: &mut Rng, size: &Size) -> Vec<Corners> {
 fn half(rng: &mut Rng, size: &Size) -> Vec<Corners> {
     (0..size.pixels / 80)
         .map(|_| {
-            let shape = [(); 3].each(|()| [(); 2].each(|()| rng.int(0, 31) as f64));
+            let shape = [(); 3].map_array(|()| [(); 2].map_array(|()| rng.int(0, 31) as f64));
             let mut corner = || rng.int(1, i64::from(size.side_px) - 34) as f64 + 0.5;
             let (dx, dy) = (corner(), corner());
-            shape.each(|[x, y]| [x + dx, y + dy])
+            shape.map_array(|[x, y]| [x + dx, y + dy])
         })
         .collect()
 }
@@ -264,7 +265,7 @@ impl Grain {
     /// The point as far behind the sample `s` as `a` is before it, or twice as far; nudged. (At equal
     /// distances the products of an edge function are equal however they round.)
     fn mirror(self, rng: &mut Rng, a: Point, s: Point, times: f64) -> Point {
-        let [x, y] = [0, 1].each(|i| self.round(s[i] + times * (s[i] - a[i])));
+        let [x, y] = [0, 1].map_array(|i| self.round(s[i] + times * (s[i] - a[i])));
         [self.nudge(rng, x), self.nudge(rng, y)]
     }
 }
@@ -273,10 +274,10 @@ fn tie(rng: &mut Rng, size: &Size) -> Vec<Corners> {
     let side = i64::from(size.side_px);
     (0..size.pixels / 130)
         .map(|_| {
-            let s = [(); 2].each(|()| rng.int(26, side - 27) as f64 + 0.5);
+            let s = [(); 2].map_array(|()| rng.int(26, side - 27) as f64 + 0.5);
             let grain = Grain::any(rng);
             let near =
-                |rng: &mut Rng, reach: f64| s.each(|v| grain.round(v + reach * rng.signed()));
+                |rng: &mut Rng, reach: f64| s.map_array(|v| grain.round(v + reach * rng.signed()));
             let a = near(rng, 12.0);
             let times = rng.int(1, 2) as f64;
             let b = grain.mirror(rng, a, s, times);
@@ -310,9 +311,9 @@ fn mesh(rng: &mut Rng, size: &Size) -> Vec<Corners> {
     for j in 0..=cells {
         let mut row: Vec<Point> = Vec::new();
         for i in 0..=cells {
-            let at = [i, j].each(|k| 8.0 + CELL_PX * k as f64);
+            let at = [i, j].map_array(|k| 8.0 + CELL_PX * k as f64);
             let grain = Grain::any(rng);
-            let free = at.each(|v| grain.round(v + 1.5 * rng.signed()));
+            let free = at.map_array(|v| grain.round(v + 1.5 * rng.signed()));
             let times = rng.int(1, 2) as f64;
             // How far before this vertex the sample lies.
             let back = CELL_PX * times / (1.0 + times);
@@ -323,7 +324,7 @@ fn mesh(rng: &mut Rng, size: &Size) -> Vec<Corners> {
             };
             row.push(match neighbour {
                 None => free,
-                Some((a, s)) => grain.mirror(rng, a, s.each(|v| v.floor() + 0.5), times),
+                Some((a, s)) => grain.mirror(rng, a, s.map_array(|v| v.floor() + 0.5), times),
             });
         }
         net.push(row);

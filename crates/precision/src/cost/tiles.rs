@@ -2,7 +2,7 @@
 
 use crate::ladder::interpolation::Valued;
 use crate::ladder::{Snapped, snap};
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::frame::Frame;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{Corners, FreeCorners, ScreenVertex, Span};
@@ -60,7 +60,7 @@ pub(super) fn packed(triangle: &Valued) -> (planes::Corners, [[f64; ATTRIBUTES];
         ScreenVertex { position, depth: 0.0, inv_w, varying: () }
     };
     let values = |i: usize| [triangle.value[i], 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
-    ([0, 1, 2].each(vertex), [0, 1, 2].each(values))
+    ([0, 1, 2].map_array(vertex), [0, 1, 2].map_array(values))
 }
 
 /// The pixels that hold all spans, which come from the top down; nothing where there are none.

@@ -7,7 +7,7 @@
 //! supersampling once for each sample.
 
 use super::area;
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::Rasterize;
 use rasterproof_core::frame::{Coverage, Frame};
 use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
@@ -50,9 +50,9 @@ impl<E: Rasterize, const N: usize> Antialias for Multisample<E, N> {
         for (offset, samples) in self.offsets.iter().zip(&mut self.samples) {
             samples.fill(0);
             // The sample comes to lie on the centre.
-            let [dx, dy] = offset.each(|sixteenths| (8 - sixteenths) * SUBPIXELS / 16);
+            let [dx, dy] = offset.map_array(|sixteenths| (8 - sixteenths) * SUBPIXELS / 16);
             for corners in triangles {
-                let moved = corners.each(|p| SubpixelPoint::new(p.x + dx, p.y + dy));
+                let moved = corners.map_array(|p| SubpixelPoint::new(p.x + dx, p.y + dy));
                 self.engine.cover(moved, bounds, |s| samples.hit(s.y_px, s.x0_px, s.x1_px));
             }
         }
@@ -94,7 +94,7 @@ impl<E: Rasterize> Antialias for Supersample<E> {
         let mut samples = samples.unwrap_or_else(|| Coverage::new(large, 0));
         samples.fill(0);
         for corners in triangles {
-            let scaled = corners.each(|p| SubpixelPoint::new(p.x * side, p.y * side));
+            let scaled = corners.map_array(|p| SubpixelPoint::new(p.x * side, p.y * side));
             self.engine.cover(scaled, large, |s| samples.hit(s.y_px, s.x0_px, s.x1_px));
         }
         for y_px in y0..y1 {

@@ -16,7 +16,7 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
 
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::{PixelRect, SUBPIXEL_BITS, SUBPIXELS};
 use rasterproof_core::triangle::Corners;
 
@@ -28,7 +28,7 @@ const S: i64 = SUBPIXELS as i64;
 pub fn share(corners: &Corners, x_px: i32, y_px: i32) -> f64 {
     // The corners as seen from the upper left corner of the pixel.
     let seen = |sub: i32, px: i32| i64::from(sub) - i64::from(px) * S;
-    let [a, b, c] = corners.each(|p| [seen(p.x, x_px), seen(p.y, y_px)]);
+    let [a, b, c] = corners.map_array(|p| [seen(p.x, x_px), seen(p.y, y_px)]);
     let parts = [right_of(a, b), right_of(b, c), right_of(c, a)];
     // Each part is at most S^2 = 2^16, so three denominators and 16 bits must fit.
     if parts.iter().all(|&(_, d)| d < 1 << 36) {
@@ -80,10 +80,10 @@ pub fn shares(corners: &Corners, bounds: PixelRect, mut emit: impl FnMut(i32, i3
         let end = i64::from(a.max(b).max(c)) + S - 1;
         (a.min(b).min(c) >> SUBPIXEL_BITS, (end >> SUBPIXEL_BITS) as i32)
     };
-    let (x0, x1) = range(corners.each(|p| p.x));
-    let (y0, y1) = range(corners.each(|p| p.y));
+    let (x0, x1) = range(corners.map_array(|p| p.x));
+    let (y0, y1) = range(corners.map_array(|p| p.y));
     let rect = PixelRect { x0, y0, x1, y1 }.intersect(&bounds);
-    let [a, b, c] = corners.each(|p| [i64::from(p.x), i64::from(p.y)]);
+    let [a, b, c] = corners.map_array(|p| [i64::from(p.x), i64::from(p.y)]);
     let side = |[a, b]: [[i64; 2]; 2], x: i64, y: i64| {
         i128::from(b[0] - a[0]) * i128::from(y - a[1])
             - i128::from(b[1] - a[1]) * i128::from(x - a[0])
@@ -98,7 +98,7 @@ pub fn shares(corners: &Corners, bounds: PixelRect, mut emit: impl FnMut(i32, i3
             let (x, y) = (i64::from(x_px) * S, i64::from(y_px) * S);
             let corners_at = [(x, y), (x + S, y), (x, y + S), (x + S, y + S)];
             let inside = |edge| corners_at.iter().filter(|&&(x, y)| side(edge, x, y) > 0).count();
-            let counts = edges.each(inside);
+            let counts = edges.map_array(inside);
             if counts.contains(&0) {
                 continue;
             }

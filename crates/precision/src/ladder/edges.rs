@@ -14,7 +14,7 @@ use num_traits::{AsPrimitive, PrimInt, Signed};
 use robust::{Coord, orient2d};
 
 use super::{Cover, Real, Work, snap, snappable};
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXEL_BITS, SUBPIXELS};
 use rasterproof_core::triangle::{Corners, FreeCorners, Span};
 
@@ -149,7 +149,7 @@ fn clockwise<T: Real>(
     corners: &FreeCorners,
     side: impl Fn(&Point<T>, &Point<T>, &Point<T>) -> T,
 ) -> Option<[Point<T>; 3]> {
-    let [a, b, c] = corners.px().each(|p| p.each(T::of));
+    let [a, b, c] = corners.px().map_array(|p| p.map_array(T::of));
     let area = side(&a, &b, &c);
     if area > T::zero() {
         Some([a, b, c])
@@ -168,7 +168,7 @@ fn edges<T: Copy>([a, b, c]: [Point<T>; 3]) -> [[Point<T>; 2]; 3] {
 
 #[inline]
 fn centre<T: Real>(x_px: i32, y_px: i32) -> Point<T> {
-    [x_px, y_px].each(|px| T::of(f64::from(px)) + T::HALF)
+    [x_px, y_px].map_array(|px| T::of(f64::from(px)) + T::HALF)
 }
 
 /// Covers by asking `side` at every sample.
@@ -181,7 +181,7 @@ fn cover_by<T: Real>(
 ) -> Option<Work> {
     let Some(corners) = clockwise(corners, &side) else { return Some(Work::default()) };
     let rect = pixel_box(&corners, bounds);
-    let edges = edges(corners).each(|[a, b]| (a, b, is_top_left(&a, &b)));
+    let edges = edges(corners).map_array(|[a, b]| (a, b, is_top_left(&a, &b)));
     let inside = |x_px: i32, y_px: i32| {
         let p = centre(x_px, y_px);
         // Without a branch for each edge, as the stepped rungs.
@@ -223,10 +223,10 @@ impl<T: Real> Cover for Stepped<T> {
         let rect = pixel_box(&corners, bounds);
         let edges = edges(corners);
         let start = centre(rect.x0, rect.y0);
-        let row = edges.each(|[a, b]| side(&a, &b, &start));
-        let right = edges.each(|[a, b]| a[1] - b[1]);
-        let down = edges.each(|[a, b]| b[0] - a[0]);
-        let keeps = edges.each(|[a, b]| is_top_left(&a, &b));
+        let row = edges.map_array(|[a, b]| side(&a, &b, &start));
+        let right = edges.map_array(|[a, b]| a[1] - b[1]);
+        let down = edges.map_array(|[a, b]| b[0] - a[0]);
+        let keeps = edges.map_array(|[a, b]| is_top_left(&a, &b));
         let outside = |e: [T; 3]| {
             let out = |i: usize| (e[i] < T::zero()) | ((e[i] == T::zero()) & !keeps[i]);
             out(0) | out(1) | out(2)
@@ -247,7 +247,7 @@ where
             let [a, b, c] = v;
             u128::from(a.max(b).max(c).abs_diff(a.min(b).min(c))) + SUBPIXELS as u128
         };
-        let bound = padded(corners.each(|p| p.x)) * padded(corners.each(|p| p.y));
+        let bound = padded(corners.map_array(|p| p.x)) * padded(corners.map_array(|p| p.y));
         let holds = |max: Option<u128>, bound: u128| max.is_none_or(|max| bound <= max);
         holds(T::max_value().to_u128(), bound)
             && holds(W::max_value().to_u128(), bound >> SUBPIXEL_BITS)
@@ -255,7 +255,7 @@ where
 
     #[inline]
     fn cover_lattice(corners: &Corners, bounds: PixelRect, emit: impl FnMut(Span)) -> Work {
-        let [a, b, c] = corners.each(|p| [i64::from(p.x), i64::from(p.y)]);
+        let [a, b, c] = corners.map_array(|p| [i64::from(p.x), i64::from(p.y)]);
         let side = |a: &Point<i64>, b: &Point<i64>, p: &Point<i64>| -> T {
             let wide = |v: i64| -> T { v.as_() };
             wide(b[0] - a[0]) * wide(p[1] - a[1]) - wide(b[1] - a[1]) * wide(p[0] - a[0])
@@ -279,14 +279,14 @@ where
             return Work::default();
         }
         let start = [rect.x0, rect.y0]
-            .each(|px| i64::from(px) * i64::from(SUBPIXELS) + i64::from(HALF_PIXEL));
-        let row = edges.each(|[a, b]| -> W {
+            .map_array(|px| i64::from(px) * i64::from(SUBPIXELS) + i64::from(HALF_PIXEL));
+        let row = edges.map_array(|[a, b]| -> W {
             let bias = if is_top_left(&a, &b) { T::zero() } else { T::one() };
             // An arithmetic shift is a floor.
             ((side(&a, &b, &start) - bias) >> SUBPIXEL_BITS as usize).as_()
         });
-        let right = edges.each(|[a, b]| -> W { (a[1] - b[1]).as_() });
-        let down = edges.each(|[a, b]| -> W { (b[0] - a[0]).as_() });
+        let right = edges.map_array(|[a, b]| -> W { (a[1] - b[1]).as_() });
+        let down = edges.map_array(|[a, b]| -> W { (b[0] - a[0]).as_() });
         visit_stepped(rect, row, right, down, |[a, b, c]| (a | b | c) < W::zero(), emit)
     }
 }

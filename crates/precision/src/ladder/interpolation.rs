@@ -11,7 +11,7 @@
 use std::marker::PhantomData;
 
 use super::Real;
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::{HALF_PIXEL, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::{Corners, Span};
 
@@ -86,9 +86,9 @@ impl<T: Real> Floats<T> {
     #[inline]
     fn new(triangle: &Valued) -> Self {
         Self {
-            at: triangle.corners.each(position),
-            inv_w: triangle.inv_w.each(T::of),
-            value: triangle.value.each(T::of),
+            at: triangle.corners.map_array(position),
+            inv_w: triangle.inv_w.map_array(T::of),
+            value: triangle.value.map_array(T::of),
         }
     }
 }
@@ -129,7 +129,7 @@ fn inv_area<T: Real>(at: &[[T; 2]; 3]) -> T {
 fn quotient<T: Real>(triangle: &Valued) -> impl Fn(i32, i32) -> T {
     let t = Floats::<T>::new(triangle);
     let inv_area = inv_area(&t.at);
-    let over_w = Slopes::new(&t.at, [0, 1, 2].each(|i| t.value[i] * t.inv_w[i]), inv_area);
+    let over_w = Slopes::new(&t.at, [0, 1, 2].map_array(|i| t.value[i] * t.inv_w[i]), inv_area);
     let inv_w = Slopes::new(&t.at, t.inv_w, inv_area);
     move |x_px, y_px| {
         let (dx, dy) = (centre::<T>(x_px) - t.at[0][0], centre::<T>(y_px) - t.at[0][1]);
@@ -191,25 +191,25 @@ impl<T: Real> Values for Plane<T> {
 impl<T: Real> Values for Offset<T> {
     #[inline]
     fn values(&self, triangle: &Valued, spans: &[Span], mut emit: impl FnMut(i32, i32, f64)) {
-        let [a, b, c] = triangle.corners.each(|p| [i64::from(p.x), i64::from(p.y)]);
+        let [a, b, c] = triangle.corners.map_array(|p| [i64::from(p.x), i64::from(p.y)]);
         let side = |a: [i64; 2], b: [i64; 2], p: [i64; 2]| {
             (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])
         };
         // Clockwise, so that every E is positive inside.
         let order = if side(a, b, c) > 0 { [0, 1, 2] } else { [0, 2, 1] };
-        let p = order.each(|i| [a, b, c][i]);
-        let most = triangle.inv_w.each(T::of).into_iter().fold(T::zero(), T::max);
-        let q = order.each(|i| T::of(triangle.inv_w[i]) / most);
-        let [v0, v1, v2] = order.each(|i| T::of(triangle.value[i]));
+        let p = order.map_array(|i| [a, b, c][i]);
+        let most = triangle.inv_w.map_array(T::of).into_iter().fold(T::zero(), T::max);
+        let q = order.map_array(|i| T::of(triangle.inv_w[i]) / most);
+        let [v0, v1, v2] = order.map_array(|i| T::of(triangle.value[i]));
         let (d1, d2) = (v1 - v0, v2 - v0);
-        let edges = [(1, 2), (2, 0), (0, 1)].each(|(i, j)| (p[i], p[j]));
-        let right = edges.each(|(a, b)| (a[1] - b[1]) * i64::from(SUBPIXELS));
+        let edges = [(1, 2), (2, 0), (0, 1)].map_array(|(i, j)| (p[i], p[j]));
+        let right = edges.map_array(|(a, b)| (a[1] - b[1]) * i64::from(SUBPIXELS));
         for span in spans {
             let start = [span.x0_px, span.y_px]
-                .each(|px| i64::from(px) * i64::from(SUBPIXELS) + i64::from(HALF_PIXEL));
-            let mut e = edges.each(|(a, b)| side(a, b, start));
+                .map_array(|px| i64::from(px) * i64::from(SUBPIXELS) + i64::from(HALF_PIXEL));
+            let mut e = edges.map_array(|(a, b)| side(a, b, start));
             for x_px in span.x0_px..span.x1_px {
-                let [a0, a1, a2] = [0, 1, 2].each(|i| whole::<T>(e[i]) * q[i]);
+                let [a0, a1, a2] = [0, 1, 2].map_array(|i| whole::<T>(e[i]) * q[i]);
                 let r = T::one() / ((a0 + a1) + a2);
                 emit(x_px, span.y_px, (v0 + (a1 * d1 + a2 * d2) * r).as_());
                 e = [e[0] + right[0], e[1] + right[1], e[2] + right[2]];
@@ -245,8 +245,8 @@ impl<T: Real> Sorted<T> {
         order.sort_by_key(|&i| (triangle.corners[i].y, triangle.corners[i].x));
         let t = Floats::<T>::new(triangle);
         Self {
-            at: order.each(|i| t.at[i]),
-            carried: order.each(|i| carried(t.inv_w[i], t.value[i])),
+            at: order.map_array(|i| t.at[i]),
+            carried: order.map_array(|i| carried(t.inv_w[i], t.value[i])),
         }
     }
 
@@ -259,13 +259,13 @@ impl<T: Real> Sorted<T> {
     /// Both ends of the row at height `yc`, from the left, each computed directly.
     #[inline]
     fn ends(&self, yc: T) -> [End<T>; 2] {
-        let [a, b] = self.edges(yc).each(|[i, j]| {
+        let [a, b] = self.edges(yc).map_array(|[i, j]| {
             let (p, q) = (self.at[i], self.at[j]);
             let t = (yc - p[1]) / (q[1] - p[1]);
             let along = |from: T, to: T| from + (to - from) * t;
             End {
                 x: along(p[0], q[0]),
-                carried: [0, 1].each(|k| along(self.carried[i][k], self.carried[j][k])),
+                carried: [0, 1].map_array(|k| along(self.carried[i][k], self.carried[j][k])),
             }
         });
         if a.x <= b.x { [a, b] } else { [b, a] }
@@ -281,8 +281,8 @@ impl<T: Real> Values for Direct<T> {
             let width = right.x - left.x;
             for x_px in span.x0_px..span.x1_px {
                 let s = (centre::<T>(x_px) - left.x) / width;
-                let [inv_w, over_w] =
-                    [0, 1].each(|k| left.carried[k] + (right.carried[k] - left.carried[k]) * s);
+                let [inv_w, over_w] = [0, 1]
+                    .map_array(|k| left.carried[k] + (right.carried[k] - left.carried[k]) * s);
                 emit(x_px, span.y_px, (over_w / inv_w).as_());
             }
         }
@@ -296,9 +296,9 @@ impl<T: Real> Values for Accumulated<T> {
         for span in spans {
             let [left, right] = sorted.ends(centre(span.y_px));
             let width = right.x - left.x;
-            let step = [0, 1].each(|k| (right.carried[k] - left.carried[k]) / width);
+            let step = [0, 1].map_array(|k| (right.carried[k] - left.carried[k]) / width);
             let start = centre::<T>(span.x0_px) - left.x;
-            let mut now = [0, 1].each(|k| left.carried[k] + step[k] * start);
+            let mut now = [0, 1].map_array(|k| left.carried[k] + step[k] * start);
             for x_px in span.x0_px..span.x1_px {
                 emit(x_px, span.y_px, (now[1] / now[0]).as_());
                 now = [now[0] + step[0], now[1] + step[1]];
@@ -352,8 +352,9 @@ impl<T: Real> Values for BookFormula<T> {
         let Some(first) = spans.first() else { return };
         let sorted = Sorted::<T>::new(triangle, |inv_w, value| [T::one() / inv_w, value]);
         let mut y_px = first.y_px;
-        let mut edges =
-            sorted.edges(centre(y_px)).each(|ends| BookEdge::start(&sorted, ends, centre(y_px)));
+        let mut edges = sorted
+            .edges(centre(y_px))
+            .map_array(|ends| BookEdge::start(&sorted, ends, centre(y_px)));
         for span in spans {
             while y_px < span.y_px {
                 y_px += 1;

@@ -7,7 +7,7 @@
 use std::marker::PhantomData;
 
 use super::Real;
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::DrawLine;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{LineEnd, PixelPoint, ScreenLine};
@@ -129,7 +129,7 @@ impl<T: Real> Draw for Drifting<T> {
 impl<D: DrawLine> Draw for Contracted<D> {
     #[inline]
     fn draw(&self, ends: [PixelPoint; 2], window: PixelRect, mut emit: impl FnMut(PixelPoint)) {
-        let ends = ends.each(|pixel| LineEnd { pixel, depth: 0.0, varying: 0.0 });
+        let ends = ends.map_array(|pixel| LineEnd { pixel, depth: 0.0, varying: 0.0 });
         self.0.draw(&ScreenLine { ends }, window, |f| emit(PixelPoint::new(f.x_px, f.y_px)));
     }
 }

@@ -12,7 +12,7 @@ use num_bigint::BigInt;
 use num_traits::{Euclid, Float, ToPrimitive};
 
 use super::{Cover, Real, Work};
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{FreeCorners, Span};
 
@@ -51,7 +51,7 @@ fn walk<S: Side>(
     mut emit: impl FnMut(Span),
 ) -> Option<Work> {
     let [top, middle, bottom] = corners;
-    let [first, split, end] = [top, middle, bottom].each(S::first_row);
+    let [first, split, end] = [top, middle, bottom].map_array(S::first_row);
     let (y0, y1) = (first.max(bounds.y0), end.min(bounds.y1));
     if y0 >= y1 || bounds.is_empty() {
         return Some(Work::default());
@@ -88,7 +88,7 @@ fn first_centre<T: Real>(v: T) -> i32 {
 /// Converts and sorts by height.
 #[inline]
 fn sorted<T: Real>(corners: &FreeCorners) -> [[T; 2]; 3] {
-    let [mut a, mut b, mut c] = corners.px().each(|p| p.each(T::of));
+    let [mut a, mut b, mut c] = corners.px().map_array(|p| p.map_array(T::of));
     if b[1] < a[1] {
         (a, b) = (b, a);
     }
@@ -232,7 +232,7 @@ impl Cover for BigIntegers {
             // Shifts right only where the bits that leave are zero.
             if shift >= 0 { whole << shift } else { whole >> -shift }
         };
-        let points = corners.each(|[x, y]| BigPoint { x: whole(x), y: whole(y), bits });
+        let points = corners.map_array(|[x, y]| BigPoint { x: whole(x), y: whole(y), bits });
         walk::<BigSide>(&points, bounds, emit)
     }
 }

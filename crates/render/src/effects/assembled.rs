@@ -5,7 +5,7 @@ use super::plan::{Order, PiecePlan, Plan, Rule};
 use super::primitive::{BadScene, Piece, Prepared};
 use crate::pipeline::Counters;
 use crate::scene::Scene;
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 
 /// A scene after the vertex stage, and after assembly where all pieces are looked at.
 pub(super) struct Assembled<'a> {
@@ -42,7 +42,7 @@ impl<'a> Assembled<'a> {
     /// Puts the pieces into an order; equal distances keep the order of submission.
     pub fn sort(&mut self, order: Order) {
         let (Order::FarthestFirst, Some(pieces)) = (order, &mut self.pieces) else { return };
-        let distance = |piece: &Piece| piece.vertices.each(|v| v.depth).iter().sum::<f64>();
+        let distance = |piece: &Piece| piece.vertices.map_array(|v| v.depth).iter().sum::<f64>();
         let mut sorted: Vec<_> = pieces.iter().copied().zip(self.plans.iter().copied()).collect();
         sorted.sort_by(|((_, a), _), ((_, b), _)| distance(b).total_cmp(&distance(a)));
         (*pieces, self.plans) = sorted.into_iter().unzip();

@@ -8,13 +8,13 @@ use super::assembled::Assembled;
 use super::kernel::Kernel;
 use super::plan::{Canvas, PiecePlan};
 use super::primitive::{BadScene, Piece, Prepared, pack, touched};
-use super::samples::depths::Plane;
+use super::samples::depths::DepthPlane;
 use super::samples::pattern::{Pattern, scaled};
 use super::{Effect, Effects, Mode, planner};
 use crate::pipeline::Counters;
 use crate::pipeline::target::{Colour, Target, to_colour};
 use crate::scene::{Hidden, Scene};
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::{Interpolate, Rasterize};
 use rasterproof_core::frame::Frame;
 use rasterproof_core::grid::PixelRect;
@@ -81,7 +81,7 @@ impl<'a> Rivals<'a> {
     pub fn piece(&self, piece: u32, plane: usize) -> Option<(Corners, [f64; 3])> {
         let (_, piece) = &self.pieces[piece as usize];
         let moved = self.pattern.moved(&pack::<0, 0>(piece), plane)?;
-        Some((moved.corners(), moved.vertices.each(|vertex| vertex.depth)))
+        Some((moved.corners(), moved.vertices.map_array(|vertex| vertex.depth)))
     }
 
     /// All rivals in a rectangle of pixels, where a sample has at least two, sorted; none where they
@@ -134,7 +134,7 @@ impl<'a> Rivals<'a> {
             }
             for plane in 0..self.pattern.planes {
                 let Some(moved) = self.pattern.moved(piece, plane) else { continue };
-                let depths = Plane::new(&moved, one);
+                let depths = DepthPlane::new(&moved, one);
                 Oracle.cover(moved.corners(), samples, |span| {
                     for x_px in span.x0_px..span.x1_px {
                         let keys = depths.keys(x_px, span.y_px, self.canvas.depth);

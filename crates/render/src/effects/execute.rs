@@ -30,7 +30,7 @@ pub struct Rendered {
 
 /// Why a plan cannot be followed. Nothing was drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Misfit {
+pub enum PlanError {
     /// The scene cannot be drawn by any plan.
     Scene(BadScene),
     /// The plan has another form, or does not name its form.
@@ -76,7 +76,7 @@ pub enum Misfit {
     Tile(rasterproof_core::grid::PixelRect),
 }
 
-impl fmt::Display for Misfit {
+impl fmt::Display for PlanError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Scene(bad) => write!(f, "{bad}"),
@@ -143,16 +143,16 @@ fn differences(planned: &Canvas, there: &Canvas) -> String {
     )
 }
 
-impl std::error::Error for Misfit {}
+impl std::error::Error for PlanError {}
 
-impl From<BadScene> for Misfit {
+impl From<BadScene> for PlanError {
     fn from(bad: BadScene) -> Self {
         Self::Scene(bad)
     }
 }
 
 /// Who wants to know more than the finished picture.
-pub(super) enum Onlooker<'a> {
+pub(super) enum Observer<'a> {
     None,
     /// Notes for each pixel what it paid for.
     Map(&'a mut Frame<u16>),
@@ -168,22 +168,22 @@ pub(super) fn fit<'a>(
     plan: &Plan,
     scene: &'a Scene,
     target: &Target,
-) -> Result<Assembled<'a>, Misfit> {
+) -> Result<Assembled<'a>, PlanError> {
     if plan.version != VERSION {
-        return Err(Misfit::Version(Some(plan.version.into())));
+        return Err(PlanError::Version(Some(plan.version.into())));
     }
     let there = Canvas { watched: plan.canvas.watched, ..Canvas::of(target) };
     if plan.canvas != there {
-        return Err(Misfit::Canvas { planned: plan.canvas, there });
+        return Err(PlanError::Canvas { planned: plan.canvas, there });
     }
     let (planned, there) = (plan.items.len(), scene.items.len());
     if planned != there {
-        return Err(Misfit::Items { planned, there });
+        return Err(PlanError::Items { planned, there });
     }
     for (item, plan) in plan.items.iter().enumerate() {
         let attributes = plan.interpolates().without(plan.carries);
         if !attributes.is_empty() {
-            return Err(Misfit::NotCarried { item, attributes });
+            return Err(PlanError::NotCarried { item, attributes });
         }
     }
     let window = plan.drawn().window();
@@ -191,12 +191,12 @@ pub(super) fn fit<'a>(
         && let Some(tile) =
             tiles.iter().find(|tile| tile.is_empty() || tile.intersect(&window) != **tile)
     {
-        return Err(Misfit::Tile(*tile));
+        return Err(PlanError::Tile(*tile));
     }
     let mut assembled = Assembled::new(scene, plan)?;
     let there = SceneDigest::of(scene);
     if plan.scene != Some(there) {
-        return Err(Misfit::OtherScene { planned: plan.scene, there });
+        return Err(PlanError::OtherScene { planned: plan.scene, there });
     }
     let lists = |item: &ItemPlan| matches!(item.pieces, Pieces::Listed(_));
     if plan.items.iter().any(lists) || plan.frame.order == Order::FarthestFirst {
@@ -208,7 +208,7 @@ pub(super) fn fit<'a>(
 }
 
 /// What a plan says of each piece, in the order of submission.
-fn plans(plan: &Plan, pieces: &[(usize, Piece)]) -> Result<Vec<PiecePlan>, Misfit> {
+fn plans(plan: &Plan, pieces: &[(usize, Piece)]) -> Result<Vec<PiecePlan>, PlanError> {
     let mut plans = Vec::with_capacity(pieces.len());
     for (item, ItemPlan { pieces: planned, .. }) in plan.items.iter().enumerate() {
         let own = pieces.iter().filter(|(index, _)| *index == item);
@@ -219,7 +219,7 @@ fn plans(plan: &Plan, pieces: &[(usize, Piece)]) -> Result<Vec<PiecePlan>, Misfi
                 let planned =
                     runs.iter().fold(0, |sum: u64, (count, _)| sum.saturating_add(*count));
                 if planned != there {
-                    return Err(Misfit::Pieces { item, planned, there });
+                    return Err(PlanError::Pieces { item, planned, there });
                 }
                 for (count, plan) in runs {
                     plans.extend((0..*count).map(|_| *plan));
@@ -237,7 +237,7 @@ pub(super) fn draw(
     scene: &Scene,
     engine: &impl Interpolate,
     target: &mut Target,
-    onlooker: Onlooker<'_>,
+    onlooker: Observer<'_>,
 ) -> Rendered {
     let mut single;
     let target = if plan.frame.samples == Samples::Middle {
@@ -259,7 +259,7 @@ struct Stage<'a, 'b, E> {
     target: &'a mut Target,
     counters: Counters,
     on_demand: Option<OnDemand>,
-    onlooker: Onlooker<'b>,
+    onlooker: Observer<'b>,
 }
 
 impl<E: Interpolate> Stage<'_, '_, E> {
@@ -327,7 +327,7 @@ impl<E: Interpolate> Stage<'_, '_, E> {
 
     /// Shows a viewer what is on the screen meanwhile.
     fn look(&mut self) {
-        let Onlooker::Viewer { front, look } = &mut self.onlooker else { return };
+        let Observer::Viewer { front, look } = &mut self.onlooker else { return };
         if self.plan.frame.second_buffer {
             look(front);
         } else {
@@ -344,7 +344,7 @@ impl<E: Interpolate> Stage<'_, '_, E> {
         counters: &mut Counters,
     ) {
         counters.wide += u64::from(self.engine.word_bits(&piece.corners()) > Some(i32::BITS));
-        if let Onlooker::Map(map) = &mut self.onlooker {
+        if let Observer::Map(map) = &mut self.onlooker {
             let paid = paid(plan);
             let scale = self.target.antialias().scale() as i32;
             self.engine.cover(piece.corners(), self.target.bounds(), |span| {
@@ -369,13 +369,13 @@ impl<E: Interpolate> Stage<'_, '_, E> {
             picture
         };
         match onlooker {
-            Onlooker::None => {}
-            Onlooker::Map(map) => {
+            Observer::None => {}
+            Observer::Map(map) => {
                 if target.antialias().samples() > 1 {
                     mark_samples(map, on_demand.as_ref());
                 }
             }
-            Onlooker::Viewer { front, look } => {
+            Observer::Viewer { front, look } => {
                 front.clone_from(&picture);
                 look(front);
             }

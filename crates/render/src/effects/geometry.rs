@@ -22,19 +22,19 @@ use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_core::triangle::{Corners, ScreenVertex};
 
 /// What the pieces of an item have in common, as numbers of what draws them.
-pub struct Skin<'a> {
+pub struct SurfaceMaterial<'a> {
     /// Everything is multiplied by this, in steps of 255.
     pub base: Vec3,
     /// Whether the colours of the corners are.
     pub colours: bool,
     /// The light, where there is one.
-    pub light: Option<Lamp>,
+    pub light: Option<DirectionalLight>,
     /// The texture, where there is one.
     pub texture: Option<&'a Texture>,
 }
 
 /// A [`Light`].
-pub struct Lamp {
+pub struct DirectionalLight {
     /// Towards the light, length 1.
     pub towards: Vec3,
     /// What every surface gets.
@@ -64,7 +64,7 @@ const FACE_BITS: u32 = 28;
 /// A piece with all that it looks like.
 pub struct Surface<'a> {
     /// What it has in common with others.
-    pub skin: &'a Skin<'a>,
+    pub skin: &'a SurfaceMaterial<'a>,
     /// Where its corners are.
     pub corners: [ScreenVertex<()>; 3],
     /// Colour, normal and texture coordinates of each corner.
@@ -82,7 +82,7 @@ pub struct Whole<'a> {
 }
 
 struct Item<'a> {
-    skin: Skin<'a>,
+    skin: SurfaceMaterial<'a>,
     prepared: Prepared<'a>,
     vertices: Vec<Vertex>,
     /// The number of its first triangle.
@@ -253,7 +253,7 @@ impl<'a> Item<'a> {
         if let Some(bad) = vertices.par_iter().with_min_len(SHARE).position_first(|v| v.bad) {
             prepared.point(bad, item.mesh.positions[bad])?;
         }
-        let skin = Skin {
+        let skin = SurfaceMaterial {
             base: (item.material.colour * 255.0).as_vec3(),
             colours: carries.has(Attributes::COLOUR),
             light: carries.has(Attributes::NORMAL).then(|| lamp(&prepared.light)),
@@ -283,8 +283,12 @@ fn vertex(prepared: &Prepared<'_>, position: DVec3) -> Vertex {
     }
 }
 
-fn lamp(&Light { towards, ambient, diffuse }: &Light) -> Lamp {
-    Lamp { towards: towards.as_vec3(), ambient: ambient as f32, diffuse: diffuse as f32 }
+fn lamp(&Light { towards, ambient, diffuse }: &Light) -> DirectionalLight {
+    DirectionalLight {
+        towards: towards.as_vec3(),
+        ambient: ambient as f32,
+        diffuse: diffuse as f32,
+    }
 }
 
 #[inline]

@@ -13,7 +13,7 @@ use crate::pipeline::target::Antialias;
 use crate::pipeline::texture::Texture;
 use crate::pipeline::{ClipVertex, Counters};
 use crate::scene::{Corner, Item, Scene, Shading};
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXEL_BITS, SubpixelPoint};
 use rasterproof_core::triangle::{Corners, ScreenTriangle, ScreenVertex};
 
@@ -201,7 +201,7 @@ fn assembler(item: &Item, plan: &ItemPlan, window: PixelRect) -> Assembler {
 
 /// The piece with the attributes of `MASK` alone.
 pub(super) fn pack<const N: usize, const MASK: u8>(piece: &Piece) -> ScreenTriangle<Packed<N>> {
-    let vertices = piece.vertices.each(|vertex| {
+    let vertices = piece.vertices.map_array(|vertex| {
         let all = &vertex.varying.0;
         let mut packed = [0.0; N];
         let mut at = 0;

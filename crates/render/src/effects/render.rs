@@ -1,9 +1,9 @@
 //! A scene to a picture, through any rasterizer: [`plan`], then [`execute`], or both in one.
 
-pub use super::execute::{Misfit, Rendered};
+pub use super::execute::{PlanError, Rendered};
 pub use super::primitive::BadScene;
 
-use super::execute::{Onlooker, draw, fit};
+use super::execute::{Observer, draw, fit};
 use super::kernel::Kernel;
 use super::plan::{Canvas, PiecePlan, Plan, SceneDigest};
 use super::planner;
@@ -39,15 +39,15 @@ pub fn plan(
 /// samples apart on demand; with [`super::plan::Samples::Middle`] the target stays as it was.
 ///
 /// # Errors
-/// [`Misfit`] before anything is drawn, where the plan is of another scene or target.
+/// [`PlanError`] before anything is drawn, where the plan is of another scene or target.
 pub fn execute(
     plan: &Plan,
     scene: &Scene,
     engine: &impl Interpolate,
     target: &mut Target,
-) -> Result<Rendered, Misfit> {
+) -> Result<Rendered, PlanError> {
     let assembled = fit(plan, scene, target)?;
-    Ok(draw(plan.clone(), assembled, scene, engine, target, Onlooker::None))
+    Ok(draw(plan.clone(), assembled, scene, engine, target, Observer::None))
 }
 
 /// Plans a frame and draws it.
@@ -60,7 +60,7 @@ pub fn render(
     effects: &Effects,
     target: &mut Target,
 ) -> Result<Rendered, BadScene> {
-    plan_and_draw(scene, engine, effects, target, Onlooker::None)
+    plan_and_draw(scene, engine, effects, target, Observer::None)
 }
 
 /// As [`render`], while somebody looks: `look` is shown what is on the screen after the clearing,
@@ -77,7 +77,7 @@ pub fn render_watched(
     look: &mut dyn FnMut(&Frame<Colour>),
 ) -> Result<Rendered, BadScene> {
     let (front, back) = screen.split();
-    plan_and_draw(scene, engine, effects, back, Onlooker::Viewer { front, look })
+    plan_and_draw(scene, engine, effects, back, Observer::Viewer { front, look })
 }
 
 /// As [`render`], and for each pixel the effects that its fragments paid for, as bits of
@@ -92,7 +92,7 @@ pub fn render_mapped(
     target: &mut Target,
 ) -> Result<(Rendered, Frame<u16>), BadScene> {
     let mut map = Frame::new(target.size(), 0);
-    let rendered = plan_and_draw(scene, engine, effects, target, Onlooker::Map(&mut map))?;
+    let rendered = plan_and_draw(scene, engine, effects, target, Observer::Map(&mut map))?;
     Ok((rendered, map))
 }
 
@@ -101,9 +101,9 @@ fn plan_and_draw(
     engine: &impl Interpolate,
     effects: &Effects,
     target: &mut Target,
-    onlooker: Onlooker<'_>,
+    onlooker: Observer<'_>,
 ) -> Result<Rendered, BadScene> {
-    let watched = matches!(onlooker, Onlooker::Viewer { .. });
+    let watched = matches!(onlooker, Observer::Viewer { .. });
     let canvas = Canvas { watched, ..Canvas::of(target) };
     let word_bits = |corners: &_| engine.word_bits(corners);
     let (plan, assembled) = planner::plan(scene, &canvas, effects, &word_bits)?;

@@ -16,12 +16,12 @@
 //! `tests/data/book-bugs.json`).
 
 use super::ClipVertex;
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::triangle::{MIN_W, Varying};
 
 /// The planes, in the order they cut.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
-pub enum Plane {
+pub enum ClipPlane {
     /// w = [`MIN_W`], so that there is something to divide by.
     MinW,
     /// z = -w.
@@ -38,7 +38,7 @@ pub enum Plane {
     Top,
 }
 
-impl Plane {
+impl ClipPlane {
     /// All of them.
     pub const ALL: [Self; 7] =
         [Self::MinW, Self::Near, Self::Far, Self::Left, Self::Right, Self::Bottom, Self::Top];
@@ -86,13 +86,13 @@ pub type Outcode = u8;
 #[must_use]
 #[inline]
 pub fn outcode<V>(vertex: &ClipVertex<V>) -> Outcode {
-    Plane::ALL
+    ClipPlane::ALL
         .into_iter()
         .fold(0, |code, plane| code | if plane.distance(vertex) < 0.0 { plane.bit() } else { 0 })
 }
 
 /// The most vertices that seven planes leave of a triangle.
-pub const MOST_VERTICES: usize = 3 + Plane::ALL.len();
+pub const MOST_VERTICES: usize = 3 + ClipPlane::ALL.len();
 
 #[derive(Clone, Copy, Debug)]
 struct Corner<V> {
@@ -120,18 +120,18 @@ impl<V: Varying> Polygon<V> {
     }
 }
 
-/// What `planes` (a set of [`Plane::bit`]s) leave of a triangle.
+/// What `planes` (a set of [`ClipPlane::bit`]s) leave of a triangle.
 ///
 /// A plane that no vertex lies outside of changes no bit of the result, so leaving it out of the
 /// set does not either. Returns the polygon and how many vertices were tested against a plane.
 #[must_use]
 pub fn clip<V: Varying>(triangle: &[ClipVertex<V>; 3], planes: Outcode) -> (Polygon<V>, u64) {
     let corner = |vertex: ClipVertex<V>| Corner { outside: outcode(&vertex), vertex };
-    let corners = triangle.each(corner);
+    let corners = triangle.map_array(corner);
     let mut polygon = Polygon { corners: [corners[0]; MOST_VERTICES], len: 0 };
     corners.into_iter().for_each(|corner| polygon.push(corner));
     let mut tests = 0;
-    for plane in Plane::ALL.into_iter().filter(|plane| planes & plane.bit() != 0) {
+    for plane in ClipPlane::ALL.into_iter().filter(|plane| planes & plane.bit() != 0) {
         tests += polygon.len as u64;
         polygon = cut(&polygon, plane);
     }
@@ -139,7 +139,7 @@ pub fn clip<V: Varying>(triangle: &[ClipVertex<V>; 3], planes: Outcode) -> (Poly
 }
 
 /// What one plane leaves of a polygon.
-fn cut<V: Varying>(polygon: &Polygon<V>, plane: Plane) -> Polygon<V> {
+fn cut<V: Varying>(polygon: &Polygon<V>, plane: ClipPlane) -> Polygon<V> {
     let mut kept = Polygon { len: 0, ..*polygon };
     let is_inside = |corner: &Corner<V>| corner.outside & plane.bit() == 0;
     for i in 0..polygon.len {
@@ -158,7 +158,7 @@ fn cut<V: Varying>(polygon: &Polygon<V>, plane: Plane) -> Polygon<V> {
 }
 
 /// Where an edge leaves the inside of a plane.
-fn crossing<V: Varying>(inner: &Corner<V>, outer: &Corner<V>, plane: Plane) -> Corner<V> {
+fn crossing<V: Varying>(inner: &Corner<V>, outer: &Corner<V>, plane: ClipPlane) -> Corner<V> {
     // The sides are decided; a rounded distance may contradict them by its last bit.
     let inside = plane.distance(&inner.vertex).max(0.0);
     let outside = plane.distance(&outer.vertex).min(0.0);
@@ -168,13 +168,13 @@ fn crossing<V: Varying>(inner: &Corner<V>, outer: &Corner<V>, plane: Plane) -> C
         position: a.position + (b.position - a.position) * t,
         varying: a.varying + (b.varying - a.varying) * t,
     };
-    if (inner.outside | outer.outside) & Plane::MinW.bit() == 0 {
+    if (inner.outside | outer.outside) & ClipPlane::MinW.bit() == 0 {
         vertex.position.w = vertex.position.w.max(MIN_W);
     }
     plane.assign(&mut vertex);
     // Agree with both ends where they agree; only elsewhere the coordinates decide.
     let mut sides = inner.outside & outer.outside;
-    for other in Plane::ALL.into_iter().filter(|other| *other != plane) {
+    for other in ClipPlane::ALL.into_iter().filter(|other| *other != plane) {
         let bit = other.bit();
         if other.distance(&vertex) < 0.0 {
             if (inner.outside | outer.outside) & bit == 0 {

@@ -32,7 +32,7 @@ use super::fill::{Way, each, fill};
 use super::target::{Colour, Target};
 use super::wireframe::draw_edges;
 use super::{ClipVertex, Counters};
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::{DrawLine, Interpolate};
 use rasterproof_core::frame::Frame;
 use rasterproof_core::triangle::{ScreenTriangle, Varying};
@@ -191,7 +191,7 @@ fn assemble_all<I, V: Varying>(
     for &[a, b, c] in triangles {
         let indices = [a as usize, b as usize, c as usize];
         let varying = |i: usize| vertices[indices[i]].varying;
-        assembler.assemble(indices.each(|i| &points[i]), varying, counters, &mut emit);
+        assembler.assemble(indices.map_array(|i| &points[i]), varying, counters, &mut emit);
     }
     Ok(())
 }

@@ -3,7 +3,7 @@
 use super::Counters;
 use super::depth::DepthFormat;
 use super::multisample::{SAMPLES, moved};
-use super::target::{Antialias, Colour, Plane, Shading, Target};
+use super::target::{Antialias, Colour, SamplePlane, Shading, Target};
 use rasterproof_core::contract::{Interpolate, RUN, Run, Varyings};
 use rasterproof_core::frame::Frame;
 use rasterproof_core::grid::PixelRect;
@@ -95,7 +95,7 @@ fn fill_single<V: Varying>(
     counters: &mut Counters,
 ) {
     let format = target.format;
-    let Plane { colour, depth } = &mut target.planes[0];
+    let SamplePlane { colour, depth } = &mut target.planes[0];
     let (mut emitted, mut shaded) = (0, 0);
     engine.runs(piece, bounds, way.affine, &mut |run| {
         let (y_px, x0_px, x1_px) = (run.y_px, run.x0_px, run.x1_px());
@@ -154,7 +154,7 @@ fn fill_multisampled<V: Varying>(
     for (i, (plane, sample)) in planes.iter_mut().zip(SAMPLES).enumerate() {
         // Clipped pieces lie in the window, far from the domain's end.
         let Some(moved) = moved(piece, sample) else { continue };
-        let Plane { colour, depth } = plane;
+        let SamplePlane { colour, depth } = plane;
         engine.runs(&moved, bounds, way.affine, &mut |run| {
             let (y_px, x0_px) = (run.y_px, run.x0_px);
             let nearer =
@@ -190,7 +190,7 @@ fn fill_multisampled<V: Varying>(
 fn fill_waiting<V: Varying>(
     engine: &impl Interpolate,
     piece: &ScreenTriangle<V>,
-    (planes, shading): (&mut [Plane], &mut Shading),
+    (planes, shading): (&mut [SamplePlane], &mut Shading),
     bounds: PixelRect,
     affine: bool,
     stage: &Stage<'_, V>,

@@ -9,7 +9,7 @@
 use super::Counters;
 use super::depth::{CLEAR, DepthFormat, OFF_FRACTION};
 use glam::DVec3;
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::frame::Frame;
 use rasterproof_core::grid::{MAX_SIDE_PX, PixelRect};
 
@@ -70,7 +70,7 @@ pub const MAX_SAMPLES: u64 = 1 << 26;
 /// In words, for a side of 0 or more than [`MAX_SIDE_PX`], or more than [`MAX_SAMPLES`] samples.
 pub fn check_size(width: u32, height: u32, antialias: Antialias) -> Result<(), String> {
     let scale = antialias.scale();
-    let sides = [width, height].each(|side| u64::from(side) * u64::from(scale));
+    let sides = [width, height].map_array(|side| u64::from(side) * u64::from(scale));
     if width == 0 || height == 0 || scale == 0 {
         return Err(format!("a picture of {width} x {height} px has no pixels"));
     }
@@ -89,14 +89,14 @@ pub fn check_size(width: u32, height: u32, antialias: Antialias) -> Result<(), S
 
 /// Colour and depth of one sample of every pixel.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Plane {
+pub struct SamplePlane {
     /// Colours.
     pub colour: Frame<Colour>,
     /// Keys of [`DepthFormat`], [`CLEAR`] where nothing was drawn.
     pub depth: Frame<u64>,
 }
 
-impl Plane {
+impl SamplePlane {
     /// Writes a fragment over what is there.
     #[inline]
     pub fn write(&mut self, x_px: i32, y_px: i32, colour: Colour) {
@@ -182,7 +182,7 @@ pub struct Target {
     /// How depths are stored.
     pub format: DepthFormat,
     /// One plane, or four of [`Antialias::Multisample4`].
-    pub planes: Vec<Plane>,
+    pub planes: Vec<SamplePlane>,
 }
 
 impl Target {
@@ -208,7 +208,7 @@ impl Target {
     fn unchecked(width: u32, height: u32, antialias: Antialias, format: DepthFormat) -> Self {
         let scale = antialias.scale();
         let bounds = PixelRect::window(width * scale, height * scale);
-        let plane = Plane {
+        let plane = SamplePlane {
             colour: Frame::new(bounds, [0, 0, 0, u8::MAX]),
             depth: Frame::new(bounds, CLEAR),
         };
@@ -250,7 +250,7 @@ impl Target {
     }
 
     /// The planes, and room for the colours of one more triangle.
-    pub(super) fn with_shading(&mut self) -> (&mut [Plane], &mut Shading) {
+    pub(super) fn with_shading(&mut self) -> (&mut [SamplePlane], &mut Shading) {
         self.shading.serial += 1;
         (&mut self.planes, &mut self.shading)
     }

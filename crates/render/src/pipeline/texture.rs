@@ -9,7 +9,7 @@
 use glam::{DVec2, DVec3};
 
 use super::depth::OFF_FRACTION;
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::MAX_SIDE_PX;
 
 /// What lies beyond [0, 1].
@@ -63,7 +63,7 @@ impl Texture {
         if !fits || rgb.len() != width as usize * height as usize {
             return None;
         }
-        let texels = rgb.iter().map(|c| DVec3::from(c.each(f64::from)) / 255.0).collect();
+        let texels = rgb.iter().map(|c| DVec3::from(c.map_array(f64::from)) / 255.0).collect();
         let bytes = rgb.iter().map(|&[r, g, b]| u32::from_le_bytes([r, g, b, 0])).collect();
         Some(Self::of(width, height, texels, bytes))
     }

@@ -5,7 +5,7 @@
 
 use std::ops::{Add, Mul, Sub};
 
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::DrawLine;
 use rasterproof_core::grid::{PixelRect, SUBPIXEL_BITS};
 use rasterproof_core::triangle::{
@@ -60,7 +60,7 @@ pub fn draw_edges<V: Varying>(
             varying: OverW { value: vertex.varying * inv_w, inv_w },
         }
     };
-    let [a, b, c] = [0, 1, 2].each(|i| end(&triangle.vertices[i]));
+    let [a, b, c] = [0, 1, 2].map_array(|i| end(&triangle.vertices[i]));
     for ends in [[a, b], [b, c], [c, a]] {
         drawer.draw(&ScreenLine { ends }, bounds, |f| {
             let varying = f.varying.value * (1.0 / f.varying.inv_w);

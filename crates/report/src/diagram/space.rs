@@ -4,7 +4,7 @@ use glam::{DVec3, DVec4};
 
 use super::{Point, Sheet, between};
 use rasterproof_render::pipeline::ClipVertex;
-use rasterproof_render::pipeline::clip::{Plane, clip};
+use rasterproof_render::pipeline::clip::{ClipPlane, clip};
 use rasterproof_render::pipeline::transform::frustum;
 
 /// Device coordinates of a point; the film is 1 before the eye and reaches from -1 to 1.
@@ -47,7 +47,7 @@ pub fn near_plane() -> String {
     let at = |[z, x]: Point| [200.0 + z * 70.0, 190.0 - x * 70.0];
     let corners: [Point; 3] = [[1.5, 1.6], [2.5, -1.0], [-2.0, -0.4]];
     let vertex = |[z, x]: Point| ClipVertex { position: DVec4::new(x, 0.0, z, 1.0), varying: 0.0 };
-    let (kept, _) = clip(&corners.map(vertex), Plane::Near.bit());
+    let (kept, _) = clip(&corners.map(vertex), ClipPlane::Near.bit());
     let kept: Vec<Point> = kept.vertices().map(|v| [v.position.z, v.position.x]).collect();
     let mut sheet = Sheet::new(420.0, 310.0);
     sheet.polygon("soft", &corners.map(at));

@@ -4,7 +4,7 @@ use glam::DVec4;
 
 use super::{Answer, Chapter, Exercise, Solution};
 use rasterproof_render::pipeline::ClipVertex;
-use rasterproof_render::pipeline::clip::{MOST_VERTICES, Outcode, Plane, clip, outcode};
+use rasterproof_render::pipeline::clip::{ClipPlane, MOST_VERTICES, Outcode, clip, outcode};
 
 pub const CHAPTER: Chapter = Chapter {
     page: "ch07",
@@ -33,7 +33,7 @@ const SHARE: Exercise = Exercise {
     ],
     choices: &[],
     solve: |_| {
-        let (polygon, _) = clip(&behind(), Plane::Near.bit());
+        let (polygon, _) = clip(&behind(), ClipPlane::Near.bit());
         // The attribute runs from 0 to 1 along the edge, so that it is t at the crossing.
         let t = polygon.vertices().map(|v| v.varying).fold(0.0, f64::max);
         Solution::new(Answer::Number { value: t, decimals: 2 })
@@ -51,7 +51,7 @@ const CORNERS: Exercise = Exercise {
     ],
     choices: &[],
     solve: |_| {
-        let (polygon, _) = clip(&behind(), Plane::Near.bit());
+        let (polygon, _) = clip(&behind(), ClipPlane::Near.bit());
         Solution::new(Answer::count(polygon.vertices().len() as u64))
     },
     why: [
@@ -97,7 +97,7 @@ const MOST: Exercise = Exercise {
         "三角形可能被七个边界裁剪。存放结果的数组要容得下几个顶点？",
     ],
     choices: &[],
-    solve: |_| Solution::new(Answer::count(MOST_VERTICES as u64)).figure(Plane::ALL.len()),
+    solve: |_| Solution::new(Answer::count(MOST_VERTICES as u64)).figure(ClipPlane::ALL.len()),
     why: [
         "Every border drops at least one corner and adds two, so it adds one at most: 3 + {}. The book's array for \
          nine counts on convexity, which rounding breaks.",

@@ -116,7 +116,7 @@ pub trait CoverList {
 
 /// What comes of a list where large triangles are left to somebody else.
 #[derive(Clone, Copy, Debug)]
-pub enum Part<'a> {
+pub enum ListItem<'a> {
     /// A run of pieces, as in [`CoverList::cover_list`].
     Pieces(&'a [Piece]),
     /// The number of a triangle that is too large.
@@ -185,7 +185,7 @@ impl Tiles {
         triangles: &[Corners],
         bounds: PixelRect,
         side_px: i32,
-        take: &mut dyn FnMut(Part<'_>),
+        take: &mut dyn FnMut(ListItem<'_>),
     ) {
         dispatch!(self.level, simd => cover_in(simd, triangles, bounds, side_px, take));
     }
@@ -202,7 +202,7 @@ impl Tiles {
 impl CoverList for Tiles {
     fn cover_list(&self, triangles: &[Corners], bounds: PixelRect, take: &mut dyn FnMut(&[Piece])) {
         self.cover_small(triangles, bounds, i32::MAX, &mut |part| {
-            if let Part::Pieces(run) = part {
+            if let ListItem::Pieces(run) = part {
                 take(run);
             }
         });
@@ -218,7 +218,7 @@ fn cover_in<S: Simd>(
     triangles: &[Corners],
     bounds: PixelRect,
     side_px: i32,
-    take: &mut dyn FnMut(Part<'_>),
+    take: &mut dyn FnMut(ListItem<'_>),
 ) {
     let mut out = Out { pieces: Vec::with_capacity(2 * RUN), take };
     let mut columns = setup::Columns::default();
@@ -239,20 +239,20 @@ fn cover_in<S: Simd>(
 /// Pieces on their way.
 struct Out<'a> {
     pieces: Vec<Piece>,
-    take: &'a mut dyn FnMut(Part<'_>),
+    take: &'a mut dyn FnMut(ListItem<'_>),
 }
 
 impl Out<'_> {
     fn hand_over(&mut self) {
         if !self.pieces.is_empty() {
-            (self.take)(Part::Pieces(&self.pieces));
+            (self.take)(ListItem::Pieces(&self.pieces));
             self.pieces.clear();
         }
     }
 
     fn leave(&mut self, number: u32) {
         self.hand_over();
-        (self.take)(Part::Left(number));
+        (self.take)(ListItem::Left(number));
     }
 }
 

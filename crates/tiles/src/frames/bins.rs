@@ -12,7 +12,7 @@ const PART: usize = 2048;
 /// The pieces of a scene, for each tile.
 pub(super) struct Bins {
     pub tiles: Tiling,
-    parts: Vec<Part>,
+    parts: Vec<MeshPart>,
 }
 
 /// A piece, and the pixels of the window where it may cover a place that is asked for, at least one.
@@ -22,7 +22,7 @@ pub(super) struct Placed {
 }
 
 /// Some pieces in a row.
-struct Part {
+struct MeshPart {
     pieces: Vec<Placed>,
     /// Numbers of pieces, tile by tile, in their order.
     touching: Vec<u32>,
@@ -41,13 +41,13 @@ impl Bins {
             parallel::map(runs.len(), |part| {
                 let mut pieces = Vec::with_capacity(runs[part].1.len());
                 whole.outlines(&runs[part], &mut |outline| pieces.extend(tiles.placed(outline)));
-                Part::new(pieces, &tiles)
+                MeshPart::new(pieces, &tiles)
             })
         } else {
             let outlines = whole.farthest_first();
             let parts: Vec<_> = outlines.chunks(most).collect();
             parallel::map(parts.len(), |part| {
-                Part::new(parts[part].iter().filter_map(|&o| tiles.placed(o)).collect(), &tiles)
+                MeshPart::new(parts[part].iter().filter_map(|&o| tiles.placed(o)).collect(), &tiles)
             })
         };
         Self { tiles, parts }
@@ -62,7 +62,7 @@ impl Bins {
     }
 }
 
-impl Part {
+impl MeshPart {
     fn new(pieces: Vec<Placed>, tiles: &Tiling) -> Self {
         let mut starts = vec![0; tiles.count() + 1];
         for piece in &pieces {

@@ -23,14 +23,14 @@ const STALE: u8 = 8;
 /// Columns of a pair: two runs of eight pixels, one below the other, which small triangles fill
 /// better than one run of sixteen.
 pub(super) const PAIR_PX: i32 = 8;
-/// From row to row of a [`Sheet`].
+/// From row to row of a [`TilePlane`].
 const PITCH: usize = (SIDE_PX + PAIR_PX) as usize;
 
 /// One number for every pixel of a tile. Beyond its right and lower side there is room for the pairs
 /// and cells that begin in it. Columns and rows count from its first pixel.
-pub(super) struct Sheet<T>(Vec<T>);
+pub(super) struct TilePlane<T>(Vec<T>);
 
-impl<T: Copy> Sheet<T> {
+impl<T: Copy> TilePlane<T> {
     fn new(value: T) -> Self {
         Self(vec![value; PITCH * (SIDE_PX + CELL_PX - 1) as usize])
     }
@@ -46,7 +46,7 @@ impl<T: Copy> Sheet<T> {
         self.run(0, y)
     }
 
-    /// As [`Sheet::row`].
+    /// As [`TilePlane::row`].
     #[inline(always)]
     fn row_mut(&mut self, y: i32) -> &mut [T; SIDE_PX as usize] {
         self.run_mut(0, y)
@@ -59,7 +59,7 @@ impl<T: Copy> Sheet<T> {
         run.expect("there is room for what begins in a tile")
     }
 
-    /// As [`Sheet::run`].
+    /// As [`TilePlane::run`].
     #[inline(always)]
     pub fn run_mut<const N: usize>(&mut self, left: i32, top: i32) -> &mut [T; N] {
         let run = self.0[top as usize * PITCH + left as usize..].first_chunk_mut();
@@ -78,7 +78,7 @@ macro_rules! rectangles {
         #[inline(always)]
         pub(super) fn $load<S: Simd, const SIDE: i32>(
             simd: S,
-            from: &Sheet<$pixel>,
+            from: &TilePlane<$pixel>,
             left: i32,
             top: i32,
         ) -> $all<S> {
@@ -97,7 +97,7 @@ macro_rules! rectangles {
         #[inline(always)]
         pub(super) fn $store<S: Simd, const SIDE: i32>(
             values: $all<S>,
-            to: &mut Sheet<$pixel>,
+            to: &mut TilePlane<$pixel>,
             left: i32,
             top: i32,
         ) {
@@ -122,12 +122,12 @@ rectangles!(load_depths, store_depths, f32, f32x4, f32x8, f32x16);
 rectangles!(load_colours, store_colours, u32, u32x4, u32x8, u32x16);
 
 /// One sample of every pixel of a tile.
-pub(super) struct Plane {
+pub(super) struct TileSample {
     /// Opaque; with one sample a pixel, until it is coloured, the number of what is seen there, below
     /// every colour, and 0 for nothing.
-    pub colours: Sheet<u32>,
+    pub colours: TilePlane<u32>,
     /// Smaller is nearer; infinite where nothing has been drawn.
-    pub depths: Sheet<f32>,
+    pub depths: TilePlane<f32>,
 }
 
 /// The first and the last column and row of some pixels of a window.
@@ -152,7 +152,7 @@ pub(super) struct Buffer {
     /// Where nothing is.
     background: u32,
     /// One for each sample.
-    pub planes: Vec<Plane>,
+    pub planes: Vec<TileSample>,
     /// Of each block, no depth is farther.
     farthest: [f32; (BLOCKS * BLOCKS) as usize],
     /// Of each block, how often it was drawn into since that was looked for.
@@ -161,7 +161,7 @@ pub(super) struct Buffer {
 
 impl Buffer {
     pub fn new(samples: usize) -> Self {
-        let plane = || Plane { colours: Sheet::new(0), depths: Sheet::new(0.0) };
+        let plane = || TileSample { colours: TilePlane::new(0), depths: TilePlane::new(0.0) };
         Self {
             rect: PixelRect::window(0, 0),
             background: 0,

@@ -38,7 +38,7 @@ use buffer::{Buffer, PAIR_PX, load_colours, store_colours};
 use planes::{Depth, Planes};
 use samples::{Masks, PLACES};
 use shade::Brush;
-use visible::{CELL, PAIR, Pencil, Stamp};
+use visible::{CELL, PAIR, VisibilityPass, VisibleBlock};
 
 /// How many samples a pixel has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -166,10 +166,10 @@ struct Drawing<'a> {
 
 /// Of one sample a pixel: first numbers are drawn, then colours.
 struct Centres<'a> {
-    pencil: Pencil,
+    pencil: VisibilityPass,
     /// What was drawn, by their numbers less 1.
     drawn: Vec<&'a Outline>,
-    stamps: Vec<Stamp>,
+    stamps: Vec<VisibleBlock>,
 }
 
 /// Of four samples a pixel: what the piece covers, and how it looks.
@@ -181,7 +181,7 @@ struct OfSamples<'a> {
 
 impl<'a> Drawing<'a> {
     fn new(whole: &'a Whole<'a>, bins: &'a Bins, engine: Tiles, planes: usize) -> Self {
-        let pencil = Pencil { number: 0, depth: None };
+        let pencil = VisibilityPass { number: 0, depth: None };
         Self {
             whole,
             bins,
@@ -253,7 +253,7 @@ impl<'a> Drawing<'a> {
                 let outline = self.batch[self.last as usize];
                 self.of_centres.drawn.push(outline);
                 let number = self.of_centres.drawn.len() as u32;
-                self.of_centres.pencil = Pencil { number, depth: self.depth(outline) };
+                self.of_centres.pencil = VisibilityPass { number, depth: self.depth(outline) };
             }
             let Centres { pencil, stamps, .. } = &mut self.of_centres;
             pencil.piece(simd, covered, &mut self.buffer, stamps);
@@ -266,7 +266,7 @@ impl<'a> Drawing<'a> {
         let stamps = std::mem::take(&mut self.of_centres.stamps);
         let (mut last, mut brush) = (0, None);
         let [x0, y0] = [self.buffer.rect.x0, self.buffer.rect.y0];
-        for &Stamp { number, left, top, is_cell } in &stamps {
+        for &VisibleBlock { number, left, top, is_cell } in &stamps {
             let (left, top) = (i32::from(left), i32::from(top));
             let sheet = &mut self.buffer.planes[0].colours;
             let before = if is_cell {

@@ -47,7 +47,7 @@ pub type Corners = [ScreenVertex<()>; 3];
 
 /// f0, and the slopes to the right and down.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Plane {
+pub struct ValuePlane {
     /// At the first pixel.
     pub start: f32,
     /// From column to column.
@@ -56,7 +56,7 @@ pub struct Plane {
     pub down: f32,
 }
 
-impl Plane {
+impl ValuePlane {
     /// At (x, y) pixels from the first one: one product, one sum, for the row, then for the column.
     #[must_use]
     #[inline]
@@ -79,7 +79,7 @@ pub struct Depth {
     /// The pixel that the plane begins at.
     pub first_px: [i32; 2],
     /// Depth, as it is.
-    plane: Plane,
+    plane: ValuePlane,
     /// No depth is nearer.
     nearest: f32,
 }
@@ -90,7 +90,7 @@ pub struct Planes {
     /// The pixel that they begin at.
     pub first_px: [i32; 2],
     /// 1/w over the largest of the three.
-    pub inv_w: Plane,
+    pub inv_w: ValuePlane,
     /// Attributes times that: starts, slopes to the right and slopes down.
     over_w: [[f32; ATTRIBUTES]; 3],
 }
@@ -121,13 +121,13 @@ impl Frame {
 
     /// As a sum of differences from the first corner.
     #[inline(always)]
-    fn plane(&self, [v0, v1, v2]: [f64; 3]) -> Plane {
+    fn plane(&self, [v0, v1, v2]: [f64; 3]) -> ValuePlane {
         let [[x1, y1], [x2, y2]] = self.edges;
         let (d1, d2) = (v1 - v0, v2 - v0);
         let right = (d1 * y2 - d2 * y1) * self.per_area;
         let down = (d2 * x1 - d1 * x2) * self.per_area;
         let start = v0 + (right * self.to_first[0] + down * self.to_first[1]);
-        Plane { start: start as f32, right: right as f32, down: down as f32 }
+        ValuePlane { start: start as f32, right: right as f32, down: down as f32 }
     }
 
     /// The same of all attributes.
@@ -216,9 +216,9 @@ impl Planes {
     /// The plane of attribute `i` times 1/w.
     #[must_use]
     #[inline(always)]
-    pub fn over_w(&self, i: usize) -> Plane {
+    pub fn over_w(&self, i: usize) -> ValuePlane {
         let [start, right, down] = &self.over_w;
-        Plane { start: start[i], right: right[i], down: down[i] }
+        ValuePlane { start: start[i], right: right[i], down: down[i] }
     }
 }
 
@@ -264,9 +264,9 @@ impl Planes {
     }
 }
 
-/// A plane at (x, y), as [`Plane::at`] has it.
+/// A plane at (x, y), as [`ValuePlane::at`] has it.
 #[inline(always)]
-pub(super) fn along<S: Simd>(plane: &Plane, x: f32x16<S>, y: f32x16<S>) -> f32x16<S> {
+pub(super) fn along<S: Simd>(plane: &ValuePlane, x: f32x16<S>, y: f32x16<S>) -> f32x16<S> {
     x * plane.right + (y * plane.down + plane.start)
 }
 

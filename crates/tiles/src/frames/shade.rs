@@ -11,7 +11,7 @@ use super::buffer::{Buffer, PAIR_PX, load_colours, load_depths, store_colours, s
 use super::planes::{Depth, Planes, along};
 use super::samples::{CENTRE, Masks};
 use super::visible::{PAIR, Place, beside};
-use rasterproof_render::effects::geometry::{Lamp, Skin};
+use rasterproof_render::effects::geometry::{DirectionalLight, SurfaceMaterial};
 use rasterproof_render::pipeline::multisample::SAMPLES;
 use rasterproof_render::pipeline::texture::{Texture, Wrap};
 
@@ -19,7 +19,7 @@ type Lanes<S> = f32x16<S>;
 
 /// How the pixels of a triangle are coloured.
 pub(super) struct Brush<'a> {
-    pub skin: &'a Skin<'a>,
+    pub skin: &'a SurfaceMaterial<'a>,
     pub planes: Planes,
 }
 
@@ -115,7 +115,7 @@ impl Brush<'_> {
     /// brought back to length 1, so that it is not divided by 1/w before.
     #[inline(always)]
     fn colours<S: Simd>(&self, simd: S, x: Lanes<S>, y: Lanes<S>, mask: u32) -> u32x16<S> {
-        let Skin { base, colours, light, texture } = self.skin;
+        let SurfaceMaterial { base, colours, light, texture } = self.skin;
         let w = Lanes::splat(simd, 1.0) / along(&self.planes.inv_w, x, y);
         let over_w = |i: usize| self.planes.over_w(i);
         let mut r = Lanes::splat(simd, base.x);
@@ -220,7 +220,7 @@ fn nearest<S: Simd>(coordinate: Lanes<S>, side: i32, wrap: Wrap) -> i32x16<S> {
 
 /// ambient + diffuse max(0, n . l) for normals of any length; of length 0, ambient alone.
 #[inline(always)]
-fn intensity<S: Simd>(simd: S, light: &Lamp, [x, y, z]: [Lanes<S>; 3]) -> Lanes<S> {
+fn intensity<S: Simd>(simd: S, light: &DirectionalLight, [x, y, z]: [Lanes<S>; 3]) -> Lanes<S> {
     let zero = Lanes::splat(simd, 0.0);
     let towards = light.towards;
     let length = (x * x + y * y + z * z).sqrt();

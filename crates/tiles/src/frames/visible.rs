@@ -27,7 +27,7 @@ pub(super) struct Place {
 
 /// Sixteen pixels of a tile, some of which showed a piece when it was drawn: a pair or a cell.
 #[derive(Clone, Copy)]
-pub(super) struct Stamp {
+pub(super) struct VisibleBlock {
     /// What stands in their place in the buffer of colours until they are coloured, from 1 on.
     pub number: u32,
     /// Column and row of the first one in the tile.
@@ -38,14 +38,14 @@ pub(super) struct Stamp {
 }
 
 /// How a piece is drawn before it is coloured.
-pub(super) struct Pencil {
-    /// As [`Stamp`] has it.
+pub(super) struct VisibilityPass {
+    /// As [`VisibleBlock`] has it.
     pub number: u32,
     /// Nothing where depths are not tested.
     pub depth: Option<Depth>,
 }
 
-impl Pencil {
+impl VisibilityPass {
     /// Draws what is covered at the centres of pixels.
     #[inline(always)]
     pub fn piece<S: Simd>(
@@ -53,7 +53,7 @@ impl Pencil {
         simd: S,
         covered: &Piece,
         buffer: &mut Buffer,
-        stamps: &mut Vec<Stamp>,
+        stamps: &mut Vec<VisibleBlock>,
     ) {
         let rect = match covered {
             Piece::Cell(cell) => {
@@ -87,7 +87,7 @@ impl Pencil {
         [x0_px, y0_px]: [i32; 2],
         rows: &[u16],
         buffer: &mut Buffer,
-        stamps: &mut Vec<Stamp>,
+        stamps: &mut Vec<VisibleBlock>,
     ) {
         for (y_px, rows) in (y0_px..).step_by(4).zip(rows.as_chunks::<4>().0) {
             let [a, b, c, d] = rows.map(u32::from);
@@ -124,7 +124,7 @@ impl Pencil {
         [x_px, y_px]: [i32; 2],
         mask: u32,
         buffer: &mut Buffer,
-        stamps: &mut Vec<Stamp>,
+        stamps: &mut Vec<VisibleBlock>,
     ) {
         let (left, top) = (x_px - buffer.rect.x0, y_px - buffer.rect.y0);
         let plane = &mut buffer.planes[0];
@@ -145,7 +145,7 @@ impl Pencil {
         let colours = visible.select(number, before);
         store_colours::<S, SIDE>(colours, &mut plane.colours, left, top);
         let (left, top) = (left as u8, top as u8);
-        stamps.push(Stamp { number: self.number, left, top, is_cell: SIDE == CELL_PX });
+        stamps.push(VisibleBlock { number: self.number, left, top, is_cell: SIDE == CELL_PX });
     }
 }
 

@@ -1,4 +1,4 @@
-//! Hazards: what breaks rasterizers, as generated families and as named cases.
+//! Hard cases: what breaks rasterizers, as generated families and as named cases.
 //!
 //! Uniformly random triangles prove little: on the 1/256-px lattice two or three in ten thousand have
 //! a sample exactly on an edge, so random draws hardly ever refute a wrong tie rule. Each family here

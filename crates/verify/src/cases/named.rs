@@ -6,7 +6,7 @@
 use glam::DVec2;
 
 use super::{Case, Line, Shape, Triangle};
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_core::triangle::{LineEnd, PixelPoint, ScreenLine, ScreenTriangle, ScreenVertex};
 
@@ -54,7 +54,7 @@ type Px = (f64, f64);
 pub fn plain_triangle(corners: [SubpixelPoint; 3]) -> Triangle {
     let values = [(0.0, 1.0, DVec2::ZERO), (0.5, 0.5, DVec2::X), (1.0, 0.25, DVec2::Y)];
     ScreenTriangle {
-        vertices: [0, 1, 2].each(|i| {
+        vertices: [0, 1, 2].map_array(|i| {
             let (depth, inv_w, varying) = values[i];
             ScreenVertex { position: corners[i], depth, inv_w, varying }
         }),
@@ -84,7 +84,7 @@ fn drawn(
     disjoint: bool,
     pixels: &[u64],
 ) -> NamedCase {
-    let list = triangles.iter().map(|corners| plain_triangle(corners.each(at))).collect();
+    let list = triangles.iter().map(|corners| plain_triangle(corners.map_array(at))).collect();
     let case = Case { window, shape: Shape::Triangles { list, disjoint } };
     NamedCase { name, about, input: Input::Drawn { case, pixels: pixels.to_vec() } }
 }

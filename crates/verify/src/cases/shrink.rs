@@ -6,7 +6,7 @@
 
 use super::named::{plain_line, plain_triangle};
 use super::{Case, Line, Shape, Triangle};
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::PixelPoint;
 
@@ -75,7 +75,7 @@ fn plain(case: &Case) -> Case {
             Shape::Triangles { list, disjoint: *disjoint }
         }
         Shape::Lines(lines) => {
-            let ends = lines.iter().map(|line| line.ends.each(|end| end.pixel));
+            let ends = lines.iter().map(|line| line.ends.map_array(|end| end.pixel));
             Shape::Lines(ends.map(|[a, b]| plain_line(a, b)).collect())
         }
     };
@@ -113,7 +113,8 @@ pub fn size(case: &Case) -> (usize, bool, usize, u64, u32, u64, u64) {
             (list.len(), own, odd, px, bits, far(&xs) + far(&ys), window)
         }
         Shape::Lines(lines) => {
-            let points: Vec<_> = lines.iter().flat_map(|l| l.ends.each(|end| end.pixel)).collect();
+            let points: Vec<_> =
+                lines.iter().flat_map(|l| l.ends.map_array(|end| end.pixel)).collect();
             let xs: Vec<_> = points.iter().map(|p| i64::from(p.x)).collect();
             let ys: Vec<_> = points.iter().map(|p| i64::from(p.y)).collect();
             (lines.len(), own, 0, reach(&xs) + reach(&ys), 0, far(&xs) + far(&ys), window)
@@ -138,8 +139,9 @@ fn between(unit: i32, [x0, y0]: [i32; 2], [x1, y1]: [i32; 2]) -> impl Iterator<I
         (divisor, rest) = (rest, divisor % rest);
     }
     let steps = divisor / i64::from(unit);
-    let at =
-        move |k: i64| [(x0, dx), (y0, dy)].each(|(v, d)| (i64::from(v) + d / steps * k) as i32);
+    let at = move |k: i64| {
+        [(x0, dx), (y0, dy)].map_array(|(v, d)| (i64::from(v) + d / steps * k) as i32)
+    };
     [steps - 1, steps / 2, 1].into_iter().filter(move |&k| 0 < k && k < steps).map(at)
 }
 
@@ -196,8 +198,8 @@ fn triangle_candidates(case: &Case, list: &[Triangle]) -> Vec<Case> {
     }
     // A corner along its edges towards the other two.
     for (corner, other) in [(0, 1), (1, 2), (2, 0), (1, 0), (2, 1), (0, 2)] {
-        let [from, to] = [corner, other].each(|i| triangle.vertices[i].position);
-        let [from, to] = [from, to].each(|p| [p.x, p.y]);
+        let [from, to] = [corner, other].map_array(|i| triangle.vertices[i].position);
+        let [from, to] = [from, to].map_array(|p| [p.x, p.y]);
         let on_halves = [from, to].as_flattened().iter().all(|v| v % HALF_PIXEL == 0);
         for [x, y] in between(if on_halves { HALF_PIXEL } else { 1 }, from, to) {
             let by = |i: usize, p| if i == corner { SubpixelPoint::new(x, y) } else { p };
@@ -305,7 +307,7 @@ fn line_candidates(case: &Case, lines: &[Line]) -> Vec<Case> {
         ));
     }
     for end in 0..2 {
-        let [from, to] = [end, 1 - end].each(|i| line.ends[i].pixel);
+        let [from, to] = [end, 1 - end].map_array(|i| line.ends[i].pixel);
         for [x, y] in between(1, [from.x, from.y], [to.x, to.y]) {
             let by = |i: usize, p| if i == end { PixelPoint::new(x, y) } else { p };
             found.push(with(w, vec![moved(&by)]));
@@ -338,11 +340,11 @@ pub fn describe(case: &Case) -> String {
     };
     let shapes: Vec<String> = match &case.shape {
         Shape::Triangles { list, .. } => {
-            list.iter().map(|t| t.corners().each(px).join(" ")).collect()
+            list.iter().map(|t| t.corners().map_array(px).join(" ")).collect()
         }
         Shape::Lines(lines) => lines
             .iter()
-            .map(|l| l.ends.each(|e| format!("{},{}", e.pixel.x, e.pixel.y)).join(" "))
+            .map(|l| l.ends.map_array(|e| format!("{},{}", e.pixel.x, e.pixel.y)).join(" "))
             .collect(),
     };
     shapes.join("; ")

@@ -5,7 +5,7 @@
 use glam::DVec2;
 
 use super::{Case, Family, Rng, Shape, Triangle, sub};
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_core::triangle::{Corners, ScreenTriangle, ScreenVertex};
 
@@ -77,7 +77,7 @@ fn dressed(rng: &mut Rng, corners: Corners) -> Triangle {
 }
 
 fn dressed_with(rng: &mut Rng, corners: Corners, mut w: impl FnMut(&mut Rng) -> f64) -> Triangle {
-    let vertices = corners.each(|position| ScreenVertex {
+    let vertices = corners.map_array(|position| ScreenVertex {
         position,
         depth: rng.unit(),
         inv_w: 1.0 / w(rng),
@@ -105,7 +105,7 @@ fn point(rng: &mut Rng, low: i64, high: i64) -> SubpixelPoint {
 }
 
 fn points(rng: &mut Rng, low: i64, high: i64) -> Corners {
-    [(); 3].each(|()| point(rng, low, high))
+    [(); 3].map_array(|()| point(rng, low, high))
 }
 
 /// A point on a pixel centre, pixels low..=high.
@@ -119,7 +119,7 @@ fn uniform(rng: &mut Rng) -> Case {
 }
 
 fn half_integer(rng: &mut Rng) -> Case {
-    let corners = [(); 3].each(|()| on_centre(rng, 0, 15));
+    let corners = [(); 3].map_array(|()| on_centre(rng, 0, 15));
     single(rng, PixelRect::window(16, 16), corners)
 }
 
@@ -191,7 +191,7 @@ fn near_horizontal(rng: &mut Rng) -> Case {
 }
 
 fn near_vertical(rng: &mut Rng) -> Case {
-    let corners = near_line(rng).each(|p| SubpixelPoint::new(p.y, p.x));
+    let corners = near_line(rng).map_array(|p| SubpixelPoint::new(p.y, p.x));
     single(rng, window(), corners)
 }
 
@@ -206,7 +206,7 @@ fn near_line(rng: &mut Rng) -> Corners {
 
 fn tiny(rng: &mut Rng) -> Case {
     let corner = point(rng, 0, 7 * 256);
-    let corners = [(); 3].each(|()| {
+    let corners = [(); 3].map_array(|()| {
         SubpixelPoint::new(corner.x + rng.coordinate(0, 255), corner.y + rng.coordinate(0, 255))
     });
     single(rng, PixelRect::window(8, 8), corners)
@@ -241,7 +241,7 @@ fn off_screen(rng: &mut Rng) -> Case {
     let corners = match rng.int(0, 3) {
         0 => points(rng, -3 * SIDE, -1),
         1 => points(rng, SIDE + 1, 4 * SIDE),
-        2 => points(rng, 0, SIDE).each(|p| SubpixelPoint::new(p.x - SIDE as i32, p.y)),
+        2 => points(rng, 0, SIDE).map_array(|p| SubpixelPoint::new(p.x - SIDE as i32, p.y)),
         _ => {
             let (x, y) = (rng.int(1, SIDE), rng.int(1, SIDE));
             // Above the line x + y = 0 there is nothing of the window.
@@ -257,7 +257,7 @@ fn huge(rng: &mut Rng) -> Case {
         let limit = 1i64 << bits;
         rng.int(-limit, limit - 1)
     };
-    let mut corners = [(); 3].each(|()| sub(far(rng), far(rng)));
+    let mut corners = [(); 3].map_array(|()| sub(far(rng), far(rng)));
     if rng.chance(2) {
         // Make an edge run through the window: mirror one end at a point inside it.
         let (p, a) = (point(rng, 0, SIDE), corners[0]);
@@ -282,14 +282,17 @@ fn near_tie(rng: &mut Rng) -> Case {
 }
 
 fn far(rng: &mut Rng) -> Case {
-    let corners =
-        if rng.chance(2) { points(rng, 0, SIDE) } else { [(); 3].each(|()| on_centre(rng, 0, 47)) };
+    let corners = if rng.chance(2) {
+        points(rng, 0, SIDE)
+    } else {
+        [(); 3].map_array(|()| on_centre(rng, 0, 47))
+    };
     let offset = |rng: &mut Rng| {
         let px = 1i32 << [0, 11, 14, 22][rng.int(0, 3) as usize];
         if rng.chance(2) { px } else { -px }
     };
     let (dx, dy) = (offset(rng), offset(rng));
-    let moved = corners.each(|p| SubpixelPoint::new(p.x + dx * 256, p.y + dy * 256));
+    let moved = corners.map_array(|p| SubpixelPoint::new(p.x + dx * 256, p.y + dy * 256));
     let w = window();
     single(rng, PixelRect { x0: w.x0 + dx, y0: w.y0 + dy, x1: w.x1 + dx, y1: w.y1 + dy }, moved)
 }
@@ -333,8 +336,11 @@ fn spread(rng: &mut Rng, ratio: f64) -> f64 {
 }
 
 fn perspective(rng: &mut Rng, w: impl FnMut(&mut Rng) -> f64) -> Case {
-    let corners =
-        if rng.chance(3) { [(); 3].each(|()| on_centre(rng, 0, 47)) } else { points(rng, 0, SIDE) };
+    let corners = if rng.chance(3) {
+        [(); 3].map_array(|()| on_centre(rng, 0, 47))
+    } else {
+        points(rng, 0, SIDE)
+    };
     let list = vec![dressed_with(rng, corners, w)];
     Case { window: window(), shape: Shape::Triangles { list, disjoint: true } }
 }

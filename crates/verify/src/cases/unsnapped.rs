@@ -12,7 +12,7 @@
 pub mod shrink;
 
 use super::Rng;
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::FreeCorners;
 
@@ -132,12 +132,12 @@ fn coordinate(rng: &mut Rng, low: f64, high: f64) -> f64 {
 }
 
 fn anywhere(rng: &mut Rng) -> Point {
-    [(); 2].each(|()| coordinate(rng, -2.0, SIDE_PX as f64 + 2.0))
+    [(); 2].map_array(|()| coordinate(rng, -2.0, SIDE_PX as f64 + 2.0))
 }
 
 /// The centre of a pixel of the window.
 fn sample(rng: &mut Rng) -> Point {
-    [(); 2].each(|()| rng.int(0, SIDE_PX - 1) as f64 + 0.5)
+    [(); 2].map_array(|()| rng.int(0, SIDE_PX - 1) as f64 + 0.5)
 }
 
 /// `v` moved by `ulps` f32 numbers.
@@ -153,18 +153,18 @@ fn nudge_f64(v: f64, ulps: i64) -> f64 {
 }
 
 fn random(rng: &mut Rng) -> OffGridCase {
-    let corners = [(); 3].each(|()| anywhere(rng));
+    let corners = [(); 3].map_array(|()| anywhere(rng));
     single(corners, rng)
 }
 
 /// The line through two corners goes past a sample, and so does the third corner's side.
 fn sliver(rng: &mut Rng) -> OffGridCase {
     let (a, s) = (anywhere(rng), sample(rng));
-    let b = [0, 1].each(|i| f32_of(2.0 * s[i] - a[i]));
+    let b = [0, 1].map_array(|i| f32_of(2.0 * s[i] - a[i]));
     let t = rng.unit() * 1.5 - 0.25;
     // Rounding alone moves it off the line; sometimes more than that.
     let reach = 1 << rng.int(0, 16);
-    let c = [0, 1].each(|i| {
+    let c = [0, 1].map_array(|i| {
         let on_line = a[i] + (b[i] - a[i]) * t;
         f32_of(on_line + rng.int(-reach, reach) as f64 / (1 << 22) as f64)
     });
@@ -193,33 +193,33 @@ fn near_tie(
     let (a, mut b) = if rng.chance(2) {
         let d = [fraction(rng), fraction(rng)];
         let (back, on) = (rng.int(1, 2) as f64, rng.int(1, 2) as f64);
-        ([0, 1].each(|i| s[i] - back * d[i]), [0, 1].each(|i| s[i] + on * d[i]))
+        ([0, 1].map_array(|i| s[i] - back * d[i]), [0, 1].map_array(|i| s[i] + on * d[i]))
     } else {
-        let a = [(); 2].each(|()| round(rng.unit() * 16.0));
-        (a, [0, 1].each(|i| round(2.0 * s[i] - a[i])))
+        let a = [(); 2].map_array(|()| round(rng.unit() * 16.0));
+        (a, [0, 1].map_array(|i| round(2.0 * s[i] - a[i])))
     };
     let axis = rng.int(0, 1) as usize;
     b[axis] = nudge(b[axis], rng.int(-1, 1));
-    let c = [(); 2].each(|()| round(rng.unit() * 20.0 - 2.0));
+    let c = [(); 2].map_array(|()| round(rng.unit() * 20.0 - 2.0));
     single([a, b, c], rng)
 }
 
 fn tie(rng: &mut Rng) -> OffGridCase {
     if rng.chance(3) {
-        let corners = [(); 3].each(|()| sample(rng));
+        let corners = [(); 3].map_array(|()| sample(rng));
         return single(corners, rng);
     }
     // Both edges at c, or only one of them, go through samples.
     let scale = (1i64 << rng.int(1, 10)) as f64;
     let step = |rng: &mut Rng| {
-        [(); 2].each(|()| rng.int(-3 * scale as i64, 3 * scale as i64) as f64 / scale)
+        [(); 2].map_array(|()| rng.int(-3 * scale as i64, 3 * scale as i64) as f64 / scale)
     };
     let (s, d) = (sample(rng), step(rng));
-    let beside = |k: f64| [0, 1].each(|i| s[i] + k * d[i]);
+    let beside = |k: f64| [0, 1].map_array(|i| s[i] + k * d[i]);
     let (a, c) = (beside(-(rng.int(1, 3) as f64)), beside(rng.int(1, 3) as f64));
     let b = if rng.chance(2) {
         let other = sample(rng);
-        [0, 1].each(|i| 2.0 * other[i] - c[i])
+        [0, 1].map_array(|i| 2.0 * other[i] - c[i])
     } else {
         anywhere(rng)
     };
@@ -229,8 +229,11 @@ fn tie(rng: &mut Rng) -> OffGridCase {
 /// Spokes from a centre to points on a rectangle around the window, in order: every pixel of the
 /// window belongs to exactly one of the triangles.
 fn fan(rng: &mut Rng) -> OffGridCase {
-    let centre =
-        if rng.chance(2) { sample(rng) } else { [(); 2].each(|()| coordinate(rng, 1.0, 15.0)) };
+    let centre = if rng.chance(2) {
+        sample(rng)
+    } else {
+        [(); 2].map_array(|()| coordinate(rng, 1.0, 15.0))
+    };
     let border = Border::around_window(rng);
     let mut ring = Vec::new();
     for side in 0..4 {
@@ -312,7 +315,7 @@ impl Border {
     /// The point a fraction `t` along a side.
     fn point(&self, side: usize, t: f64) -> Point {
         let (a, b) = (self.corner(side), self.corner((side + 1) % 4));
-        [0, 1].each(|i| f32_of(a[i] + (b[i] - a[i]) * t))
+        [0, 1].map_array(|i| f32_of(a[i] + (b[i] - a[i]) * t))
     }
 
     /// The f32 point nearest to where the ray from `from` through `s` meets the line of a side, if
@@ -339,7 +342,7 @@ impl Border {
 fn tiny(rng: &mut Rng) -> OffGridCase {
     let s = sample(rng);
     let reach = 1 << rng.int(0, 12);
-    let corners = [(); 3].each(|()| s.each(|v| nudge_f32_far(v, rng.int(-reach, reach))));
+    let corners = [(); 3].map_array(|()| s.map_array(|v| nudge_f32_far(v, rng.int(-reach, reach))));
     single(corners, rng)
 }
 
@@ -356,7 +359,7 @@ fn mixed(rng: &mut Rng) -> OffGridCase {
         let magnitude = f64::from(f32::from_bits(field << 23 | fraction));
         if rng.chance(2) { -magnitude } else { magnitude }
     };
-    let mut corners = [(); 3].each(|()| [wild(), wild()]);
+    let mut corners = [(); 3].map_array(|()| [wild(), wild()]);
     if rng.chance(2) {
         corners[0] = anywhere(rng);
     }
@@ -408,7 +411,7 @@ fn far(rng: &mut Rng) -> OffGridCase {
         if rng.chance(2) { px } else { -px }
     };
     let (dx, dy) = (offset(), offset());
-    let moved = |corners: [Point; 3]| corners.each(|[x, y]| [f32_of(x + dx), f32_of(y + dy)]);
+    let moved = |corners: [Point; 3]| corners.map_array(|[x, y]| [f32_of(x + dx), f32_of(y + dy)]);
     let triangles: Vec<_> = corners.triangles.iter().map(|t| moved(t.px())).collect();
     let w = corners.window;
     let (x, y) = (dx as i32, dy as i32);
@@ -429,6 +432,6 @@ fn huge(rng: &mut Rng, round: fn(f64) -> f64, nudge: fn(f64, i64) -> f64) -> Off
     let mut away = || round(rng.signed() * (1i64 << rng.int(5, 22)) as f64);
     let (a, c) = ([away(), away()], [away(), away()]);
     // The mirror image at a sample, but for an ulp.
-    let b = [0, 1].each(|i| nudge(round(2.0 * s[i] - a[i]), rng.int(-1, 1)));
+    let b = [0, 1].map_array(|i| nudge(round(2.0 * s[i] - a[i]), rng.int(-1, 1)));
     single([a, b, c], rng)
 }

@@ -9,7 +9,7 @@ use super::truth::{Bounds, Truth, compare_on_line};
 use crate::cases::{Case, Line, Shape, Triangle};
 use crate::oracle::Oracle;
 use crate::oracle::coverage::samples_on_boundary;
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::{DrawLine, Interpolate, Rasterize};
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS};
@@ -309,7 +309,7 @@ impl<D: DrawLine + Sync> Contest for LineContest<'_, D> {
 /// A line passes halfway between two pixels somewhere iff its length over the common divisor of
 /// length and rise is even.
 fn line_has_tie(line: &Line) -> bool {
-    let [a, b] = line.ends.each(|end| end.pixel);
+    let [a, b] = line.ends.map_array(|end| end.pixel);
     let (dx, dy) = (a.x.abs_diff(b.x), a.y.abs_diff(b.y));
     let (long, short) = (dx.max(dy), dx.min(dy));
     let (mut a, mut b) = (long, short);

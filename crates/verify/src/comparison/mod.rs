@@ -26,7 +26,7 @@ use serde::Serialize;
 use crate::cases::{Case, Family, Shape};
 use crate::oracle::Oracle;
 use compare::{Contest, CoverageOnly, LineContest, TriangleContest};
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::{DrawLine, Interpolate, Rasterize};
 use rasterproof_core::parallel;
 use tolerance::Tolerance;
@@ -231,7 +231,7 @@ impl Verdict {
             self.sum(false, |f| f.empty_cases),
         ];
         let percent = |part: u64| (100 * part + cases / 2).checked_div(cases).unwrap_or(0);
-        [0, 1, 2].each(|i| (QUOTAS[i].0, percent(counts[i]), QUOTAS[i].1))
+        [0, 1, 2].map_array(|i| (QUOTAS[i].0, percent(counts[i]), QUOTAS[i].1))
     }
 }
 

@@ -1,6 +1,6 @@
 //! Makes a failing case small enough to read, while it goes on failing.
 //!
-//! The steps are those of `hazard`, which needs no threads; this is their public name.
+//! The steps are those of `cases`, which needs no threads; this is their public name.
 
 pub(super) use crate::cases::shrink::size;
 #[doc(inline)]

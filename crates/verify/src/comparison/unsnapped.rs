@@ -14,7 +14,7 @@ use super::{KEPT, Options, Partial, Tally, in_blocks};
 use crate::cases::unsnapped::shrink::{shrink, size};
 use crate::cases::unsnapped::{FAMILIES, OffGridCase, OffGridFamily};
 use crate::oracle::rational::cover_and_count_ties;
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::{Decisions, RasterizeExact};
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::parallel;
@@ -84,7 +84,7 @@ impl fmt::Display for ExactFailure {
 /// The positions of triangles in pixels, as the command line takes them, with all digits.
 #[must_use]
 pub fn describe(triangles: &[FreeCorners]) -> String {
-    let one = |t: &FreeCorners| t.px().each(|[x, y]| format!("{x:?},{y:?}")).join(" ");
+    let one = |t: &FreeCorners| t.px().map_array(|[x, y]| format!("{x:?},{y:?}")).join(" ");
     triangles.iter().map(one).collect::<Vec<_>>().join("; ")
 }
 

@@ -19,7 +19,7 @@
 
 use std::array::from_fn;
 
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::{HALF_PIXEL, SUBPIXELS};
 use rasterproof_core::triangle::Corners;
 
@@ -135,16 +135,16 @@ impl Sized {
 
 /// The plane through three values: at the first corner, and for each subpixel from there.
 #[derive(Clone, Copy, Debug)]
-struct Plane {
+struct LinearFunction {
     at_origin: Sized,
     per_x: Sized,
     per_y: Sized,
 }
 
-impl Plane {
+impl LinearFunction {
     /// `sides[i]` leads from corner 0 to corner i + 1.
     fn new([f0, f1, f2]: [Double; 3], sides: [[f64; 2]; 2], area: Double) -> Self {
-        let [f0, f1, f2] = [f0, f1, f2].each(|number| Sized { number, size: number.hi.abs() });
+        let [f0, f1, f2] = [f0, f1, f2].map_array(|number| Sized { number, size: number.hi.abs() });
         let [[x1, y1], [x2, y2]] = sides;
         let (g1, g2) = (f1.minus(f0), f2.minus(f0));
         Self {
@@ -168,9 +168,9 @@ pub struct NearTriangle<const N: usize> {
     /// Corner 0, in subpixels.
     origin: [i32; 2],
     area: Double,
-    depth: Plane,
-    inv_w: Plane,
-    over_w: [Plane; N],
+    depth: LinearFunction,
+    inv_w: LinearFunction,
+    over_w: [LinearFunction; N],
 }
 
 impl<const N: usize> NearTriangle<N> {
@@ -199,12 +199,12 @@ impl<const N: usize> NearTriangle<N> {
         }
         let area = Double::whole(area);
         let sides = [[x1 as f64, y1 as f64], [x2 as f64, y2 as f64]];
-        let plane = |values: [Double; 3]| Plane::new(values, sides, area);
+        let plane = |values: [Double; 3]| LinearFunction::new(values, sides, area);
         Some(Self {
             origin: [corners[0].x, corners[0].y],
             area,
-            depth: plane(depth.each(Double::of)),
-            inv_w: plane(inv_w.each(Double::of)),
+            depth: plane(depth.map_array(Double::of)),
+            inv_w: plane(inv_w.map_array(Double::of)),
             over_w: from_fn(|k| plane(from_fn(|i| Double::product(inv_w[i], attributes[i][k])))),
         })
     }
@@ -286,7 +286,7 @@ mod tests {
     use crate::oracle::values::ExactTriangle;
 
     /// Numbers near the exact value at pixels in and around a triangle: how far they are from it, and
-    /// what this room says that is at most.
+    /// what this module says that is at most.
     fn see_all(triangle: &Triangle, see: &mut dyn FnMut(f64, f64)) {
         let v = &triangle.vertices;
         let (depths, inv_w) = (v.map(|v| v.depth), v.map(|v| v.inv_w));

@@ -16,7 +16,7 @@ pub mod pixels;
 pub mod rational;
 pub mod values;
 
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::{DrawLine, Interpolate, Rasterize};
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{Fragment, ScreenLine, ScreenTriangle, Varying};
@@ -35,8 +35,8 @@ impl Interpolate for Oracle {
     ) {
         let [v0, v1, v2] = &triangle.vertices;
         let unit = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-        let depths = triangle.vertices.each(|vertex| vertex.depth);
-        let inv_w = triangle.vertices.each(|vertex| vertex.inv_w);
+        let depths = triangle.vertices.map_array(|vertex| vertex.depth);
+        let inv_w = triangle.vertices.map_array(|vertex| vertex.inv_w);
         let corners = triangle.corners();
         let Some(exact) = values::ExactTriangle::new(&corners, depths, inv_w, unit) else {
             return;
@@ -44,7 +44,7 @@ impl Interpolate for Oracle {
         self.cover(corners, bounds, |span| {
             for x_px in span.x0_px..span.x1_px {
                 let (depth, weights) = exact.at(x_px, span.y_px);
-                let [b0, b1, b2] = weights.each(|weight| weight.to_f64());
+                let [b0, b1, b2] = weights.map_array(|weight| weight.to_f64());
                 emit(Fragment {
                     x_px,
                     y_px: span.y_px,

@@ -13,7 +13,7 @@ use num_traits::ToPrimitive;
 
 use super::Oracle;
 use super::values::take_apart;
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::{Decisions, RasterizeExact};
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{FreeCorners, Span};
@@ -43,7 +43,7 @@ pub fn cover_and_count_ties(
     if rect.is_empty() {
         return 0;
     }
-    let parts = corners.each(|corner| corner.each(take_apart));
+    let parts = corners.map_array(|corner| corner.map_array(take_apart));
     // Centres are odd multiples of 2^-1.
     let last_bits = parts.iter().flatten().filter(|(mantissa, _)| *mantissa != 0);
     let unit = last_bits.map(|&(_, exponent)| exponent).fold(-1, i32::min);
@@ -55,15 +55,15 @@ pub fn cover_and_count_ties(
             BigInt::from(mantissa) << shift(mantissa, exponent, unit)
         };
         let centre = |px: i32| BigInt::from(2 * i64::from(px) + 1) << (-1 - unit);
-        return scan(&parts.each(|corner| corner.each(whole)), centre, rect, emit);
+        return scan(&parts.map_array(|corner| corner.map_array(whole)), centre, rect, emit);
     }
     let whole =
         |(mantissa, exponent): (i64, i32)| i128::from(mantissa) << shift(mantissa, exponent, unit);
-    let wide = parts.each(|corner| corner.each(whole));
+    let wide = parts.map_array(|corner| corner.map_array(whole));
     // No sample, nor the column after the last, reaches farther than these.
     let ends = [rect.x0, rect.x1, rect.y0, rect.y1].map(|px| centre_in(px, unit));
     if wide.as_flattened().iter().chain(&ends).all(|value| value.abs() < 1 << 30) {
-        let narrow = wide.each(|corner| corner.each(|value| value as i64));
+        let narrow = wide.map_array(|corner| corner.map_array(|value| value as i64));
         scan(&narrow, |px| centre_in(px, unit) as i64, rect, emit)
     } else {
         scan(&wide, |px| centre_in(px, unit), rect, emit)
@@ -106,7 +106,7 @@ fn centre_in(px: i32, unit: i32) -> i128 {
 /// All pixels whose squares touch the bounding box of the corners. Floors of floats are exact.
 fn around(corners: &[[f64; 2]; 3]) -> PixelRect {
     let ends = |axis: usize| {
-        let [a, b, c] = corners.each(|corner| corner[axis].floor());
+        let [a, b, c] = corners.map_array(|corner| corner[axis].floor());
         // Within the domain, so both fit i32.
         (a.min(b).min(c) as i32, a.max(b).max(c) as i32 + 1)
     };
@@ -153,9 +153,9 @@ fn scan<T: Whole>(
     let mut ties = 0;
     for y_px in rect.y0..rect.y1 {
         let y = centre(y_px);
-        let pairs = [(0, 1), (1, 2), (2, 0)].each(|(i, j)| (&corners[i], &corners[j]));
+        let pairs = [(0, 1), (1, 2), (2, 0)].map_array(|(i, j)| (&corners[i], &corners[j]));
         // Keep the edges that cross the height of the nudged samples, upper end first.
-        let mut crossing = pairs.each(|(a, b)| match (a[1] <= y, b[1] <= y) {
+        let mut crossing = pairs.map_array(|(a, b)| match (a[1] <= y, b[1] <= y) {
             (true, false) => Some(Crossing::new(a, b, &y, &first, &pixel)),
             (false, true) => Some(Crossing::new(b, a, &y, &first, &pixel)),
             _ => None,

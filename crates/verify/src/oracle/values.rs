@@ -9,7 +9,7 @@ use num_bigint::{BigInt, Sign};
 use num_rational::BigRational;
 use num_traits::{Signed, ToPrimitive, Zero};
 
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::{HALF_PIXEL, SUBPIXELS};
 use rasterproof_core::triangle::Corners;
 
@@ -50,7 +50,7 @@ pub(super) fn take_apart(value: f64) -> (i64, i32) {
 
 /// num(x, y) / den with x, y in subpixels: the plane through three values at three points.
 #[derive(Clone, Debug)]
-struct Plane {
+struct LinearFunction {
     origin: [i64; 2],
     at_origin: BigInt,
     per_x: BigInt,
@@ -59,12 +59,12 @@ struct Plane {
     exponent: i32,
 }
 
-impl Plane {
+impl LinearFunction {
     fn new(corners: &Corners, area: i128, values: &[Dyadic; 3]) -> Self {
         // Zero has no exponent of its own.
         let exponent =
             values.iter().filter(|v| !v.mantissa.is_zero()).map(|v| v.exponent).min().unwrap_or(0);
-        let [f0, f1, f2] = [0, 1, 2].each(|i| {
+        let [f0, f1, f2] = [0, 1, 2].map_array(|i| {
             let value = &values[i];
             if value.mantissa.is_zero() {
                 BigInt::zero()
@@ -169,9 +169,9 @@ fn quotient(a: &BigInt, b: &BigInt) -> f64 {
 #[derive(Clone, Debug)]
 pub struct ExactTriangle<const N: usize> {
     area: i128,
-    depth: Plane,
-    inv_w: Plane,
-    over_w: [Plane; N],
+    depth: LinearFunction,
+    inv_w: LinearFunction,
+    over_w: [LinearFunction; N],
 }
 
 impl<const N: usize> ExactTriangle<N> {
@@ -196,15 +196,16 @@ impl<const N: usize> ExactTriangle<N> {
         if area == 0 {
             return None;
         }
-        let inv_w = inv_w.each(Dyadic::new);
+        let inv_w = inv_w.map_array(Dyadic::new);
         Some(Self {
             area,
-            depth: Plane::new(corners, area, &depth.each(Dyadic::new)),
+            depth: LinearFunction::new(corners, area, &depth.map_array(Dyadic::new)),
             over_w: std::array::from_fn(|k| {
-                let over_w = [0, 1, 2].each(|i| inv_w[i].times(&Dyadic::new(attributes[i][k])));
-                Plane::new(corners, area, &over_w)
+                let over_w =
+                    [0, 1, 2].map_array(|i| inv_w[i].times(&Dyadic::new(attributes[i][k])));
+                LinearFunction::new(corners, area, &over_w)
             }),
-            inv_w: Plane::new(corners, area, &inv_w),
+            inv_w: LinearFunction::new(corners, area, &inv_w),
         })
     }
 
@@ -258,7 +259,7 @@ pub fn at_crossing(ends: [f64; 2], distances: [[f64; 2]; 2]) -> Exact {
 /// If an end's value is not finite.
 #[must_use]
 pub fn along_line(ends: [f64; 2], step: u64, length: u64) -> Exact {
-    let [a, b] = ends.each(Dyadic::new);
+    let [a, b] = ends.map_array(Dyadic::new);
     if length == 0 {
         return Exact::new(a.mantissa, 1.into(), a.exponent);
     }

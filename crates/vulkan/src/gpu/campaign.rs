@@ -25,7 +25,7 @@ const MOST_OF_A_STAGE: u64 = 2048;
 
 /// What came of a device.
 #[derive(Clone, Debug)]
-pub struct Stand {
+pub struct DeviceReport {
     /// What it says of itself.
     pub about: About,
     /// What was planted, if anything was.
@@ -38,7 +38,7 @@ pub struct Stand {
     pub known: Vec<String>,
 }
 
-impl Stand {
+impl DeviceReport {
     /// Whether nothing is to be done.
     #[must_use]
     pub fn agrees(&self) -> bool {
@@ -83,7 +83,7 @@ pub fn families(wanted: &[String]) -> Vec<String> {
 
 /// Judges a device, with the faults that are known of it.
 #[must_use]
-pub fn judge(gpu: Gpu, options: &Options, progress: &(dyn Fn(u64) + Sync)) -> Stand {
+pub fn judge(gpu: Gpu, options: &Options, progress: &(dyn Fn(u64) + Sync)) -> DeviceReport {
     let known = known::of(&known::parse(known::TEXT).unwrap_or_default(), gpu.about());
     judge_with(gpu, options, &known, progress)
 }
@@ -95,7 +95,7 @@ pub fn judge_with(
     options: &Options,
     known: &[Known],
     progress: &(dyn Fn(u64) + Sync),
-) -> Stand {
+) -> DeviceReport {
     let about = gpu.about().clone();
     let plant = gpu.plant_name();
     let declared = gpu.declared().clone();
@@ -129,7 +129,7 @@ pub fn judge_with(
         findings.extend(requirements::all(&mut lock(&gpu), options.seed, cases, known));
     }
     let known = known.iter().map(|k| k.about.clone()).collect();
-    Stand { about, plant, verdict, findings, known }
+    DeviceReport { about, plant, verdict, findings, known }
 }
 
 fn case_of(family: &str, index: u64, options: &Options, declared: &Declared) -> Option<Case> {

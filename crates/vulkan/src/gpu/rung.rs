@@ -10,7 +10,7 @@ use crate::device::open::Opened;
 use crate::device::stage::{Kind, PAGE_PX};
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{FreeCorners, Span};
-use rasterproof_precision::cost::{Guest, Rung};
+use rasterproof_precision::cost::{ExternalVariant, Rung};
 
 /// Triangles that are drawn at once to be judged.
 const AT_ONCE: usize = 1024;
@@ -51,7 +51,7 @@ fn near(corners: &FreeCorners, bounds: PixelRect) -> PixelRect {
     PixelRect { x0, y0, x1, y1 }.intersect(&bounds)
 }
 
-impl Guest for OnLadder {
+impl ExternalVariant for OnLadder {
     fn rung(&self) -> Rung {
         let about = self.gpu.about();
         let bits = about.subpixel_bits;

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::campaign::Stand;
+use super::campaign::DeviceReport;
 use super::rules::{Class, Finding};
 use crate::device::find::About;
 use rasterproof_report::html::{Column, Mark, Outcome, Report, Row, Table};
@@ -40,7 +40,7 @@ pub fn device(about: &About) -> String {
 /// case.
 #[must_use]
 pub fn text(
-    stand: &Stand,
+    stand: &DeviceReport,
     command: &str,
     all: &str,
     repeat: &dyn Fn(&str, u64) -> String,
@@ -106,11 +106,11 @@ fn sections(findings: &[Finding]) -> Vec<(String, Vec<&str>)> {
     sections
 }
 
-fn word(stand: &Stand) -> &'static str {
+fn word(stand: &DeviceReport) -> &'static str {
     if stand.agrees() { "AGREES" } else { "DISAGREES" }
 }
 
-fn closing(stand: &Stand) -> String {
+fn closing(stand: &DeviceReport) -> String {
     let count = |class: Class| stand.findings.iter().filter(|f| f.class == class).count();
     let bad: Vec<_> =
         stand.findings.iter().filter(|f| !f.class.is_good()).map(|f| f.name.as_str()).collect();
@@ -131,7 +131,7 @@ fn closing(stand: &Stand) -> String {
 
 /// The verdict for machines.
 #[must_use]
-pub fn json(stand: &Stand, repeat: &dyn Fn(&str, u64) -> String) -> String {
+pub fn json(stand: &DeviceReport, repeat: &dyn Fn(&str, u64) -> String) -> String {
     let failures: Vec<_> = stand
         .verdict
         .failures
@@ -164,7 +164,11 @@ pub fn json(stand: &Stand, repeat: &dyn Fn(&str, u64) -> String) -> String {
 
 /// The verdict as a page.
 #[must_use]
-pub fn page(stand: &Stand, repeat_all: &str, repeat: &dyn Fn(&str, u64) -> String) -> Report {
+pub fn page(
+    stand: &DeviceReport,
+    repeat_all: &str,
+    repeat: &dyn Fn(&str, u64) -> String,
+) -> Report {
     let row = |f: &Finding| Row {
         cells: vec![
             f.name.clone(),

@@ -11,7 +11,7 @@ use crate::effects::primitive::{Piece, pixel_box};
 use crate::effects::{Effect, Effects, Mode};
 use crate::pipeline::assemble::twice_area;
 use crate::pipeline::target::Antialias;
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::Corners;
 
@@ -74,7 +74,7 @@ fn holds(corners: Corners, [(x0, y0), (x1, y1)]: [(i32, i32); 2]) -> bool {
     let centre = |px: i32| px * SUBPIXELS + HALF_PIXEL;
     [(x0, y0), (x1, y0), (x0, y1), (x1, y1)].iter().all(|&(x, y)| {
         let p = SubpixelPoint::new(centre(x), centre(y));
-        let sides = [[a, b, p], [b, c, p], [c, a, p]].each(|side| twice_area(side).signum());
+        let sides = [[a, b, p], [b, c, p], [c, a, p]].map_array(|side| twice_area(side).signum());
         sides[0] != 0 && sides[0] == sides[1] && sides[1] == sides[2]
     })
 }

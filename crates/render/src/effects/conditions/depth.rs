@@ -11,7 +11,7 @@ use crate::effects::{Effect, Effects, Mode};
 use crate::pipeline::assemble::twice_area;
 use crate::pipeline::target::Antialias;
 use crate::scene::{Hidden, Scene};
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_core::triangle::Corners;
 
@@ -133,7 +133,7 @@ fn units(pieces: &[(usize, Piece)], margin_px: i32) -> Vec<Unit> {
 
 /// Whether two triangles have two corners in common and the third ones on either side.
 pub fn share_an_edge(a: &Corners, b: &Corners) -> bool {
-    let [third_a, third_b] = [(a, b), (b, a)].each(|(own, other)| {
+    let [third_a, third_b] = [(a, b), (b, a)].map_array(|(own, other)| {
         let mut alone = own.iter().filter(|corner| !other.contains(corner));
         alone.next().filter(|_| alone.next().is_none())
     });

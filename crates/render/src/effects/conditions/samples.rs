@@ -11,7 +11,7 @@ use crate::effects::primitive::{Prepared, touched};
 use crate::effects::{Effect, Effects, Mode};
 use crate::pipeline::ClipVertex;
 use crate::pipeline::assemble::{Point, Viewport, twice_area};
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::Corners;
 
@@ -111,7 +111,7 @@ impl Estimate {
         };
         let corners: Vec<Option<SubpixelPoint>> = item.points.iter().map(place).collect();
         for [a, b, c] in &item.item.mesh.triangles {
-            let [a, b, c] = [a, b, c].each(|corner| corners[corner.position as usize]);
+            let [a, b, c] = [a, b, c].map_array(|corner| corners[corner.position as usize]);
             match (a, b, c) {
                 (Some(a), Some(b), Some(c)) if item.item.cull.removes([a, b, c]) => {}
                 (Some(a), Some(b), Some(c)) => self.see(&[a, b, c], plan),
@@ -142,7 +142,7 @@ pub fn decide(canvas: &Canvas, effects: &Effects, estimate: Option<&Estimate>) -
     match estimate {
         _ if effects.mode(Effect::Samples) == Mode::Never && !is_one => Samples::Middle,
         Some(estimate) if estimate.pays() => POLICY,
-        _ => Samples::Each,
+        _ => Samples::MapArray,
     }
 }
 
@@ -158,7 +158,7 @@ pub fn explain(canvas: &Canvas, effects: &Effects, samples: Samples) -> Decision
     let pixels = canvas.pixels();
     let (counts, reason) = match samples {
         _ if canvas.antialias.samples() == 1 => ([0, pixels, 0], "a pixel has one sample"),
-        Samples::Each => ([pixels, 0, 0], "too few pixels would stay whole"),
+        Samples::MapArray => ([pixels, 0, 0], "too few pixels would stay whole"),
         Samples::Middle => ([0, pixels, 0], ""),
         Samples::OnDemand { .. } => ([0, 0, pixels], "as soon as a pixel may hold two colours"),
     };

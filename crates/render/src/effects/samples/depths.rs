@@ -5,11 +5,11 @@ use super::pattern::Pattern;
 use crate::effects::primitive::Piece;
 use crate::pipeline::assemble::twice_area;
 use crate::pipeline::depth::DepthFormat;
-use rasterproof_core::arrays::Each as _;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::SUBPIXELS;
 
 /// The plane of a piece's depth over pixels.
-pub struct Plane {
+pub struct DepthPlane {
     /// Depth at the first vertex.
     depth: f64,
     /// Edge functions over twice the area, in the middle of pixel (0, 0), and what a pixel adds.
@@ -26,7 +26,7 @@ struct Weight {
     per_y: f64,
 }
 
-impl Plane {
+impl DepthPlane {
     /// z = z0 + (z1 - z0) E1 / 2A + (z2 - z0) E2 / 2A = z0 + t1 + t2.
     ///
     /// Error: in a window of at most 2^14 samples a side, 2^22 subpixels, the E are whole or half
@@ -40,10 +40,10 @@ impl Plane {
     pub fn new(piece: &Piece, pattern: Pattern) -> Self {
         let [a, b, c] = piece
             .vertices
-            .each(|vertex| (i128::from(vertex.position.x), i128::from(vertex.position.y)));
+            .map_array(|vertex| (i128::from(vertex.position.x), i128::from(vertex.position.y)));
         let area = twice_area(piece.corners());
         let pixel = i128::from(pattern.scale * SUBPIXELS);
-        let [first, second, third] = piece.vertices.each(|vertex| vertex.depth);
+        let [first, second, third] = piece.vertices.map_array(|vertex| vertex.depth);
         let weight = |from: (i128, i128), to: (i128, i128), depth: f64| {
             let (dx, dy) = (to.0 - from.0, to.1 - from.1);
             // In half subpixels, so that the middle is whole.
@@ -59,7 +59,7 @@ impl Plane {
         let weights = [weight(c, a, second), weight(a, b, third)];
         // What a pixel adds to the depth along an axis, and that without regard to signs.
         let sum = |per: fn(&Weight) -> f64| -> [f64; 2] {
-            let [one, two] = [0, 1].each(|i| weights[i].slope * per(&weights[i]));
+            let [one, two] = [0, 1].map_array(|i| weights[i].slope * per(&weights[i]));
             [(one + two).abs(), one.abs() + two.abs()]
         };
         let ([x, all_x], [y, all_y]) = (sum(|weight| weight.per_x), sum(|weight| weight.per_y));
@@ -75,8 +75,8 @@ impl Plane {
     pub fn keys(&self, x_px: i32, y_px: i32, format: DepthFormat) -> [u64; 2] {
         let (x, y) = (f64::from(x_px), f64::from(y_px));
         let [t1, t2] = [0, 1]
-            .each(|i| &self.weights[i])
-            .each(|w| w.slope * (w.origin + w.per_x * x + w.per_y * y));
+            .map_array(|i| &self.weights[i])
+            .map_array(|w| w.slope * (w.origin + w.per_x * x + w.per_y * y));
         let middle = self.depth + (t1 + t2);
         let half = self.half_range + Self::ERROR * (1.0 + t1.abs() + t2.abs());
         [format.key(middle - half), format.key(middle + half)]
@@ -121,13 +121,16 @@ mod tests {
     }
 
     /// Depths of both engines at samples, and those among them that `within` does not hold.
-    fn outside(pattern: Pattern, within: impl Fn(&Plane, i32, i32, f64) -> bool) -> (u64, u64) {
+    fn outside(
+        pattern: Pattern,
+        within: impl Fn(&DepthPlane, i32, i32, f64) -> bool,
+    ) -> (u64, u64) {
         let (mut count, mut wrong) = (0, 0);
         let window = PixelRect::window(SIZE_PX, SIZE_PX);
         let bounds = scaled(window, pattern.scale);
         for index in 0..400 {
             let piece = piece(&mut Rng::new("plane", 1, index), pattern);
-            let plane = Plane::new(&piece, pattern);
+            let plane = DepthPlane::new(&piece, pattern);
             for i in 0..pattern.planes {
                 let moved = pattern.moved(&pack::<0, 0>(&piece), i).unwrap();
                 let mut see = |x: i32, y: i32, depth: f64| {
@@ -164,7 +167,7 @@ mod tests {
                     (depth - middle).abs() <= plane.half_range * share + error
                 })
             };
-            assert!(narrow(0.875, Plane::ERROR).1 > 0, "{antialias:?}");
+            assert!(narrow(0.875, DepthPlane::ERROR).1 > 0, "{antialias:?}");
             assert!(narrow(1.0, 0.0).1 > 0, "{antialias:?}");
         }
     }

@@ -21,10 +21,10 @@ mod sample_masks;
 use std::ops::Range;
 
 use self::blocks::Blocks;
-use self::depths::Plane;
+use self::depths::DepthPlane;
 use self::pattern::{Pattern, PixelRow};
 use self::pixel::{EMPTY, Interval, Meeting, Pixel, Pool, State, meet};
-use self::sample_masks::Part;
+use self::sample_masks::SampleMask;
 use super::plan::{PiecePlan, Samples};
 use super::primitive::{Piece, pack, touched};
 use crate::pipeline::Counters;
@@ -113,7 +113,7 @@ impl OnDemand {
             }
             return;
         }
-        let plane = depth.then(|| Plane::new(piece, self.pattern));
+        let plane = depth.then(|| DepthPlane::new(piece, self.pattern));
         self.meet(engine, piece, plane.as_ref(), Some(colour), target, counters);
         let runs = std::mem::take(&mut self.runs);
         self.tell_apart(engine, &runs, target, counters);
@@ -151,7 +151,7 @@ impl OnDemand {
             }
             return;
         }
-        let plane = way.depth_test.then(|| Plane::new(piece, self.pattern));
+        let plane = way.depth_test.then(|| DepthPlane::new(piece, self.pattern));
         let met = self.meet(engine, piece, plane.as_ref(), None, target, counters);
         let runs = std::mem::take(&mut self.runs);
         self.tell_apart(engine, &runs, target, counters);
@@ -185,7 +185,7 @@ impl OnDemand {
         &mut self,
         engine: &impl Interpolate,
         piece: &Piece,
-        plane: Option<&Plane>,
+        plane: Option<&DepthPlane>,
         colour: Option<Colour>,
         target: &Target,
         counters: &mut Counters,
@@ -226,7 +226,7 @@ impl OnDemand {
                         let part = colour.filter(|_| pattern.has_masks()).map(|colour| {
                             let [nearest, farthest] = keys.unwrap_or_default();
                             let samples = pattern.mask(samples, x_px);
-                            Part { serial: Some(serial), samples, colour, nearest, farthest }
+                            SampleMask { serial: Some(serial), samples, colour, nearest, farthest }
                         });
                         let index =
                             part.and_then(|part| before.draw(part, plane.is_some(), pool, pattern));

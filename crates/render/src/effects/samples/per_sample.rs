@@ -1,10 +1,10 @@
 //! Pixels whose samples are apart: written into the target as drawing them would have, and drawn one
 //! by one from then on.
 
-use super::depths::Plane;
+use super::depths::DepthPlane;
 use super::pattern::{Pattern, scaled};
 use super::pixel::{EMPTY, Interval, State};
-use super::sample_masks::Part;
+use super::sample_masks::SampleMask;
 use super::{DepthPiece, OnDemand, Run};
 use crate::effects::primitive::{Piece, touched};
 use crate::pipeline::Counters;
@@ -27,7 +27,7 @@ impl OnDemand {
     ) -> bool {
         let rect = touched(&piece.corners(), target.antialias()).intersect(&target.size());
         let nearest = piece.vertices.iter().fold(1.0, |min: f64, vertex| min.min(vertex.depth));
-        let nearest = if depth { target.format.key(nearest - Plane::ERROR) } else { 0 };
+        let nearest = if depth { target.format.key(nearest - DepthPlane::ERROR) } else { 0 };
         let is_visible = |(state, interval): (&State, &Interval)| {
             !depth || *state == State::Background || nearest < interval[1]
         };
@@ -221,7 +221,7 @@ fn write_whole(
 fn write_part(
     pattern: Pattern,
     engine: &impl Interpolate,
-    part: &Part,
+    part: &SampleMask,
     piece: Option<&DepthPiece>,
     block: PixelRect,
     target: &mut Target,

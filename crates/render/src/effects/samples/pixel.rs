@@ -1,7 +1,7 @@
 //! A pixel that is whole, in parts, or apart, and what becomes of it under a piece.
 
 use super::pattern::Pattern;
-use super::sample_masks::{Part, Parts};
+use super::sample_masks::{Parts, SampleMask};
 use crate::pipeline::depth::CLEAR;
 use crate::pipeline::target::Colour;
 
@@ -46,7 +46,13 @@ pub enum Meeting {
 impl Pixel {
     /// Draws a piece on some of its samples; its place in the pool afterwards. None, with nothing
     /// drawn, where they are apart or must be.
-    pub fn draw(self, part: Part, depth: bool, pool: &mut Pool, pattern: &Pattern) -> Option<u32> {
+    pub fn draw(
+        self,
+        part: SampleMask,
+        depth: bool,
+        pool: &mut Pool,
+        pattern: &Pattern,
+    ) -> Option<u32> {
         let Self { colour, state, interval: [nearest, farthest] } = self;
         let serial = match state {
             State::Apart => return None,
@@ -56,7 +62,7 @@ impl Pixel {
             State::Whole(serial) => Some(serial),
             State::Background => None,
         };
-        let whole = Part { serial, samples: pattern.all(), colour, nearest, farthest };
+        let whole = SampleMask { serial, samples: pattern.all(), colour, nearest, farthest };
         let mut parts = Parts::of(whole);
         parts.draw(part, depth).then(|| pool.add(parts))
     }

@@ -8,7 +8,7 @@ use crate::pipeline::target::Colour;
 
 /// The samples of a pixel that are of one piece.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Part {
+pub struct SampleMask {
     /// The piece; none for the background.
     pub serial: Option<u32>,
     /// A bit for each sample.
@@ -22,7 +22,7 @@ pub struct Part {
 /// All samples of a pixel, in parts.
 #[derive(Clone, Copy, Debug)]
 pub struct Parts {
-    parts: [Part; Self::MOST],
+    parts: [SampleMask; Self::MOST],
     len: usize,
 }
 
@@ -30,25 +30,25 @@ impl Parts {
     /// Pixels with more parts are drawn sample by sample.
     const MOST: usize = 4;
 
-    pub fn of(whole: Part) -> Self {
+    pub fn of(whole: SampleMask) -> Self {
         Self { parts: [whole; Self::MOST], len: 1 }
     }
 
-    pub fn iter(&self) -> impl Iterator<Item = &Part> {
+    pub fn iter(&self) -> impl Iterator<Item = &SampleMask> {
         self.parts[..self.len].iter()
     }
 
     /// Draws a piece, over what is there or where it is nearer. False, with nothing drawn, where the
     /// samples decide one by one, or where there would be too many parts.
-    pub fn draw(&mut self, new: Part, depth: bool) -> bool {
+    pub fn draw(&mut self, new: SampleMask, depth: bool) -> bool {
         let count = self.len;
         let parts = &self.parts[..count];
-        let is_over = |part: &Part| !depth || new.farthest < part.nearest;
-        let meets = |part: &&Part| part.samples & new.samples != 0;
+        let is_over = |part: &SampleMask| !depth || new.farthest < part.nearest;
+        let meets = |part: &&SampleMask| part.samples & new.samples != 0;
         if parts.iter().filter(meets).any(|part| !is_over(part) && new.nearest < part.farthest) {
             return false;
         }
-        let hidden = |part: &&Part| meets(part) && !is_over(part);
+        let hidden = |part: &&SampleMask| meets(part) && !is_over(part);
         let behind = parts.iter().filter(hidden).fold(0, |all, part| all | part.samples);
         let samples = new.samples & !behind;
         let left = parts.iter().filter(|part| part.samples & !samples != 0).count();
@@ -58,13 +58,13 @@ impl Parts {
         self.len = 0;
         for i in 0..count {
             let part = self.parts[i];
-            self.push(Part { samples: part.samples & !samples, ..part });
+            self.push(SampleMask { samples: part.samples & !samples, ..part });
         }
-        self.push(Part { samples, ..new });
+        self.push(SampleMask { samples, ..new });
         true
     }
 
-    fn push(&mut self, part: Part) {
+    fn push(&mut self, part: SampleMask) {
         if part.samples != 0 {
             self.parts[self.len] = part;
             self.len += 1;
@@ -96,14 +96,14 @@ impl Parts {
 mod tests {
     use super::*;
 
-    fn part(serial: u32, samples: u64, nearest: u64, farthest: u64) -> Part {
+    fn part(serial: u32, samples: u64, nearest: u64, farthest: u64) -> SampleMask {
         let colour = [serial as u8 * 10, 0, 0, 255];
-        Part { serial: Some(serial), samples, colour, nearest, farthest }
+        SampleMask { serial: Some(serial), samples, colour, nearest, farthest }
     }
 
     #[test]
     fn parts_by_hand() {
-        let background = Part { serial: None, ..part(0, 0b1111, u64::MAX, u64::MAX) };
+        let background = SampleMask { serial: None, ..part(0, 0b1111, u64::MAX, u64::MAX) };
         let mut pixel = Parts::of(background);
         let serials = |pixel: &Parts| -> Vec<_> {
             pixel.iter().map(|part| (part.serial, part.samples)).collect()
