@@ -680,7 +680,8 @@ pub(super) fn area(subject: &Subject, input: &TriangleInput) -> Outcome {
     let area_px = exact::twice_area(&corners).abs() as f64 / (2.0 * s * s);
     let side = |i: usize, j: usize| {
         let (p, q) = (corners[i], corners[j]);
-        (f64::from(p.x - q.x) / s).hypot(f64::from(p.y - q.y) / s)
+        let (x, y) = (f64::from(p.x - q.x) / s, f64::from(p.y - q.y) / s);
+        (x * x + y * y).sqrt()
     };
     let perimeter_px = (side(0, 1) + side(1, 2) + side(2, 0)) * (1.0 + 8.0 * U);
     each(subject, |engine| {

@@ -242,7 +242,8 @@ fn distance(p: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
     let (d, q) = ([b[0] - a[0], b[1] - a[1]], [p[0] - a[0], p[1] - a[1]]);
     let length = d[0] * d[0] + d[1] * d[1];
     let t = if length > 0.0 { ((q[0] * d[0] + q[1] * d[1]) / length).clamp(0.0, 1.0) } else { 0.0 };
-    (q[0] - d[0] * t).hypot(q[1] - d[1] * t)
+    let (x, y) = (q[0] - d[0] * t, q[1] - d[1] * t);
+    (x * x + y * y).sqrt()
 }
 
 /// Paints the pixels around `corners`, as opaque as `depth` (how far inside a point lies) says.

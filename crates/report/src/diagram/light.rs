@@ -1,6 +1,7 @@
 //! Diagrams of chapter 11 and of antialiasing: the cosine, and the samples of a pixel.
 
 use glam::DVec3;
+use rasterproof_core::angle::sin_cos;
 
 use super::{Point, Sheet};
 use rasterproof_core::grid::{SUBPIXELS, SubpixelPoint};
@@ -13,8 +14,8 @@ pub fn cosine() -> String {
     let mut sheet = Sheet::new(590.0, 200.0);
     for (i, degrees) in [0.0f64, 45.0, 75.0, 120.0].into_iter().enumerate() {
         let foot = [75.0 + 135.0 * i as f64, 150.0];
-        let angle = degrees.to_radians();
-        let towards = DVec3::new(angle.sin(), angle.cos(), 0.0);
+        let (sin, cos) = sin_cos(degrees.to_radians());
+        let towards = DVec3::new(sin, cos, 0.0);
         let light = Light { towards, ambient: 0.0, diffuse: 1.0 };
         let end = |d: DVec3| [foot[0] + d.x * 80.0, foot[1] - d.y * 80.0];
         sheet.line("ink", [foot[0] - 50.0, foot[1]], [foot[0] + 50.0, foot[1]]);

@@ -76,7 +76,7 @@ impl Sheet {
     fn arrow(&mut self, class: &str, from: Point, to: Point) {
         self.line(class, from, to);
         let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
-        let scale = 9.0 / dx.hypot(dy);
+        let scale = 9.0 / (dx * dx + dy * dy).sqrt();
         for turn in [-0.5, 0.5] {
             let (x, y) = (dx * scale, dy * scale);
             self.line(class, to, [to[0] - x + y * turn, to[1] - y - x * turn]);

@@ -5,6 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 use glam::{DMat4, DVec3};
 
 use super::{Answer, Chapter, Exercise, Solution};
+use rasterproof_core::angle::turn_x;
 use rasterproof_faults::published::book_rotate::{Turn, published};
 
 pub const CHAPTER: Chapter = Chapter {
@@ -42,7 +43,7 @@ const QUARTER: Exercise = Exercise {
     ],
     choices: &[["z"; 2], ["-z"; 2], ["x"; 2]],
     solve: |_| {
-        let y = DMat4::from_rotation_x(FRAC_PI_2).transform_vector3(DVec3::Y);
+        let y = turn_x(FRAC_PI_2).transform_vector3(DVec3::Y);
         let book = published(Turn::X, FRAC_PI_2, DVec3::Y);
         let all = [DVec3::Z, DVec3::NEG_Z, DVec3::X].map(|axis| is_near(y, axis));
         let name = if is_near(book, DVec3::NEG_Z) { "-z" } else { "z" };
