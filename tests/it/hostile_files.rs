@@ -308,8 +308,10 @@ fn every_option_that_reads_a_file_refuses_what_is_none() {
 #[test]
 fn only_one_crate_opens_and_writes_files() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let crates = ["", "engines", "judges", "lineup", "measures", "playground", "reports", "vulkan"];
-    let mut folders: Vec<_> = crates.map(|name| root.join(name).join("src")).into();
+    let crates = fs::read_dir(root.join("crates")).unwrap().map(|entry| entry.unwrap().path());
+    let others = crates.filter(|folder| !folder.ends_with("host"));
+    let mut folders: Vec<_> = others.map(|folder| folder.join("src")).collect();
+    folders.push(root.join("src"));
     let mut files = 0;
     while let Some(folder) = folders.pop() {
         for entry in fs::read_dir(folder).unwrap() {

@@ -144,8 +144,8 @@ mod tests {
         assert_eq!(SceneDigest::of(&renamed), digest);
         type Change = fn(&mut Scene);
         let changes: [(&str, Change); 9] = [
-            ("turned", |scene| scene.items[0].model = DMat4::from_rotation_y(0.1)),
-            ("another eye", |scene| scene.view = DMat4::from_rotation_x(0.1)),
+            ("turned", |scene| scene.items[0].model = rasterproof_core::angle::turn_y(0.1)),
+            ("another eye", |scene| scene.view = rasterproof_core::angle::turn_x(0.1)),
             ("another angle of view", |scene| scene.projection.x_axis.x = 2.0),
             ("lit", |scene| scene.light.ambient = 0.5),
             ("shading", |scene| scene.items[0].material.shading = Shading::Phong),
