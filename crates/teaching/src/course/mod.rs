@@ -1,8 +1,8 @@
 //! The course: twelve steps from a pixel to four samples, each judged by cases of the families.
 //!
-//! [`STEPS`] is all there is to a step: what is asked, which page tells why, three hints. [`examine`]
-//! asks a program, [`progress`] is the file beside the student's code, [`starters`] what they begin
-//! with, [`sandbox`] how their programs are run, [`verdict`] what they read.
+//! [`STEPS`] has the cases of each step, the page that explains it, and three hints. [`examine`] sends the cases to a
+//! program, [`sandbox`] limits how that program runs, and [`verdict`] says how it did. [`progress`] is the file beside the
+//! student's code.
 
 pub mod examine;
 pub mod progress;
