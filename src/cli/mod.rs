@@ -53,7 +53,7 @@ pub mod exit {
     pub const AGREES: u8 = 0;
     /// Something disagrees.
     pub const DISAGREES: u8 = 1;
-    /// The command or its input cannot be used.
+    /// The command or its input cannot be used, or something could not be judged.
     pub const USAGE: u8 = 2;
 }
 
@@ -81,7 +81,7 @@ const EXAMPLES: &str = "Examples:
   rasterproof quiz 2                              exercises of a chapter, answered and explained
   rasterproof list                                families, cases, engines, faults, invariants
 
-Exit status: 0 all agree, 1 something disagrees, 2 usage or bad input.";
+Exit status: 0 all agree, 1 something disagrees, 2 usage, bad input, or something was not judged.";
 
 /// Two rasterizers, two line drawers and an exact oracle, compared pixel for pixel.
 #[derive(Parser, Debug)]
