@@ -27,6 +27,7 @@ mod render;
 mod review;
 mod shown;
 mod specimens;
+mod threads;
 mod typed;
 mod verify;
 #[cfg(feature = "vulkan")]
@@ -271,6 +272,10 @@ pub fn run(words: impl IntoIterator<Item: Into<OsString>>, streams: &mut Streams
     let errors = &mut Delivered::new(streams.errors, &delivery);
     let escape_errors = if escape == Escape::Kept { escape } else { Escape::Words };
     let errors = &mut Guarded::new(errors, escape_errors);
+    // An engine answers on one thread.
+    if !matches!(command, Command::Engine { .. } | Command::List) {
+        threads::prepare(errors);
+    }
     let input = &mut *streams.input;
     // A conversation ends where nobody listens any more.
     if matches!(command, Command::Engine { .. }) {
