@@ -27,6 +27,7 @@ mod render;
 mod review;
 mod shown;
 mod specimens;
+mod threads;
 mod typed;
 mod verify;
 #[cfg(feature = "vulkan")]
@@ -53,7 +54,7 @@ pub mod exit {
     pub const AGREES: u8 = 0;
     /// Something disagrees.
     pub const DISAGREES: u8 = 1;
-    /// The command or its input cannot be used.
+    /// The command or its input cannot be used, or something could not be judged.
     pub const USAGE: u8 = 2;
 }
 
@@ -81,7 +82,7 @@ const EXAMPLES: &str = "Examples:
   rasterproof quiz 2                              exercises of a chapter, answered and explained
   rasterproof list                                families, cases, engines, faults, invariants
 
-Exit status: 0 all agree, 1 something disagrees, 2 usage or bad input.";
+Exit status: 0 all agree, 1 something disagrees, 2 usage, bad input, or something was not judged.";
 
 /// Two rasterizers, two line drawers and an exact oracle, compared pixel for pixel.
 #[derive(Parser, Debug)]
@@ -292,6 +293,10 @@ pub fn run(words: impl IntoIterator<Item: Into<OsString>>, streams: &mut Streams
     let errors = &mut Delivered::new(streams.errors, &delivery);
     let escape_errors = if escape == Escape::Kept { escape } else { Escape::Words };
     let errors = &mut Guarded::new(errors, escape_errors);
+    // An engine answers on one thread.
+    if !matches!(command, Command::Engine { .. } | Command::List) {
+        threads::prepare(errors);
+    }
     let input = &mut *streams.input;
     // A conversation ends where nobody listens any more.
     if matches!(command, Command::Engine { .. }) {

@@ -308,7 +308,8 @@ fn judge(
         ..options.clone()
     };
     let verdict = verify::judge_lineup(engines, lines, &share(4), &|cases| progress.done(cases));
-    let off_grid = exact::judge_exact(exact_engines, &share(1), &|cases| progress.done(cases));
+    let off_grid =
+        exact::judge_exact_lineup(exact_engines, &share(1), &|cases| progress.done(cases));
     drop(progress);
     (verdict, off_grid)
 }

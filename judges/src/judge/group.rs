@@ -86,6 +86,10 @@ pub fn end_all_on_ctrl_c() {
     static ONCE: std::sync::Once = std::sync::Once::new();
     // Without a handler the groups would live on; judging still works.
     ONCE.call_once(|| {
+        // The handler runs on a thread. Where none can be started, `ctrlc` would only switch Ctrl-C off.
+        if !std::thread::Builder::new().spawn(|| ()).is_ok_and(|thread| thread.join().is_ok()) {
+            return;
+        }
         let _ = ctrlc::set_handler(|| {
             let mut live = LIVE.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
             live.take().into_iter().flatten().for_each(kill);
