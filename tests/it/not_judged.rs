@@ -1,12 +1,13 @@
 //! What was not judged is neither right nor wrong, and the program says which of the three it is.
 
+use std::path::Path;
 use std::process::Command;
 
 use rasterproof::verify::{NothingJudged, Options, judge_coverage, judge_lines};
 use rasterproof_lineup::lineup::{Engine, LineEngine};
 
 fn run(words: &[&str]) -> (i32, String, String) {
-    let folder = std::env::temp_dir().join(format!("rasterproof-judged-{}", std::process::id()));
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("not-judged");
     std::fs::create_dir_all(&folder).unwrap();
     let mut command = Command::new(env!("CARGO_BIN_EXE_rasterproof"));
     let output = command.args(words).current_dir(folder).env_remove("COLUMNS").output().unwrap();

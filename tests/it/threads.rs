@@ -3,7 +3,7 @@
 //! A limit of processes does not bind every user. A stack larger than the address space has the same
 //! effect on everybody: no thread can be started.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_rasterproof");
@@ -11,7 +11,7 @@ const PROGRAM: &str = env!("CARGO_BIN_EXE_rasterproof");
 const ENDLESS_STACK: &str = "70368744177664";
 
 fn folder() -> PathBuf {
-    let folder = std::env::temp_dir().join(format!("rasterproof-threads-{}", std::process::id()));
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("threads");
     std::fs::create_dir_all(&folder).unwrap();
     folder
 }
