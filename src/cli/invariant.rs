@@ -6,7 +6,7 @@ use super::progress::Progress;
 use super::{Failure, Streams, exit, program, write_entry};
 use crate::invariant::matrix::{self, Matrix};
 use crate::invariant::subject::Subject;
-use crate::invariant::{CATALOGUE, Invariant, MOST_LOOKED_THROUGH, Ruling};
+use crate::invariant::{CATALOGUE, Check, Invariant, MOST_LOOKED_THROUGH, Ruling};
 use crate::mutant::{self, Mutant};
 use crate::report::summary;
 
@@ -134,11 +134,12 @@ fn judge(
             "  NOT JUDGED: none of these cases fits it; the first that fits needs more:"
         )?;
         writeln!(out, "  judge it with: {}", repeat(needed))?;
+    } else if matches!(invariant.check, Check::Run(..) | Check::Matrix) {
+        writeln!(out, "  NOT JUDGED: the system refuses the threads whose verdicts it compares;")?;
+        writeln!(out, "  allow this user more processes (ulimit -u)")?;
     } else {
-        writeln!(
-            out,
-            "  NOT JUDGED: none of the first {MOST_LOOKED_THROUGH} cases of this seed fits it; try another --seed"
-        )?;
+        writeln!(out, "  NOT JUDGED: none of the first {MOST_LOOKED_THROUGH} cases fits it;")?;
+        writeln!(out, "  try another --seed")?;
     }
     writeln!(out)?;
     Ok(())

@@ -293,8 +293,7 @@ pub fn run(words: impl IntoIterator<Item: Into<OsString>>, streams: &mut Streams
     let errors = &mut Delivered::new(streams.errors, &delivery);
     let escape_errors = if escape == Escape::Kept { escape } else { Escape::Words };
     let errors = &mut Guarded::new(errors, escape_errors);
-    // An engine answers on one thread.
-    if !matches!(command, Command::Engine { .. } | Command::List) {
+    if uses_pool(&command) {
         threads::prepare(errors);
     }
     let input = &mut *streams.input;
@@ -327,6 +326,13 @@ pub fn run(words: impl IntoIterator<Item: Into<OsString>>, streams: &mut Streams
     let status = status_of(result, errors);
     report_loss(&delivered, errors);
     delivery.status(status)
+}
+
+/// Whether a command computes on several threads. Others leave what the system allows to the programs
+/// that they start.
+fn uses_pool(command: &Command) -> bool {
+    use Command::{Course, Engine, Judge, List, Quiz};
+    !matches!(command, Engine { .. } | Judge(_) | Course(_) | Quiz(_) | List)
 }
 
 /// Whether programs read what a command prints, so that its lines are not broken.

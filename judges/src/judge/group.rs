@@ -113,6 +113,7 @@ fn adopt() {}
 /// every child is taken for a stray.
 #[cfg(target_os = "linux")]
 pub fn end_strays() {
+    use rasterproof_host::{input::read_text, limits};
     use rustix::process::{Pid, Signal, WaitOptions, child_subreaper, kill_process, waitpid};
     if !matches!(child_subreaper(), Ok(Some(_))) {
         return;
@@ -120,8 +121,9 @@ pub fn end_strays() {
     // What a stray has started is adopted when the stray ends; one that goes on for ever is left.
     for _ in 0..1000 {
         let tasks = std::fs::read_dir("/proc/self/task").into_iter().flatten().flatten();
-        let lists =
-            tasks.filter_map(|task| std::fs::read_to_string(task.path().join("children")).ok());
+        let list =
+            |task: std::fs::DirEntry| read_text(&task.path().join("children"), limits::NOTE_BYTES);
+        let lists = tasks.filter_map(|task| list(task).ok());
         let children = lists.collect::<Vec<_>>().join(" ");
         let pids = children.split_whitespace().filter_map(|word| Pid::from_raw(word.parse().ok()?));
         let strays: Vec<Pid> = pids.collect();
