@@ -27,6 +27,7 @@ mod judge_shown;
 mod languages;
 mod league;
 mod matrix;
+mod model_files;
 mod models;
 mod mutants;
 mod not_judged;
