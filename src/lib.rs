@@ -43,10 +43,11 @@
 //!         }
 //!     }
 //! }
-//! let verdict = verify::judge_coverage(&FillsItsBox, &verify::Options { cases: 20, ..verify::Options::default() });
+//! let verdict = verify::judge_coverage(&FillsItsBox, &verify::Options { cases: 20, ..verify::Options::default() })?;
 //! assert!(!verdict.agrees());
 //! let smallest = verdict.failures[0].clone();
 //! println!("{} wrong pixels; the smallest triangle: {smallest}", verdict.mismatches());
+//! # Ok::<(), verify::NothingJudged>(())
 //! ```
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]

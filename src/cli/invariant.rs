@@ -7,7 +7,7 @@ use super::{Failure, Streams, exit, program, write_entry};
 use rasterproof_faults::planted::{self, Mutant};
 use rasterproof_invariants::matrix::{self, Matrix};
 use rasterproof_invariants::subject::Subject;
-use rasterproof_invariants::{CATALOGUE, Invariant};
+use rasterproof_invariants::{CATALOGUE, Check, Invariant, MOST_LOOKED_THROUGH, Ruling};
 use rasterproof_report::summary;
 
 /// Inputs of each invariant where the command line does not say.
@@ -36,42 +36,74 @@ pub fn run(
     let all = names.iter().any(|name| name == ALL);
     let wanted: Vec<&Invariant> =
         CATALOGUE.iter().filter(|i| all || names.iter().any(|name| name == i.name)).collect();
-    let mut wrong = 0;
+    let mut outcomes = Outcomes::default();
     let progress = Progress::new(streams.progress, "invariants", Some(wanted.len() as u64));
     // Standard output may be the terminal of the bar: what is said comes after it.
     let mut text = Vec::new();
     for (done, invariant) in wanted.iter().enumerate() {
         progress.at(done as u64, invariant.name);
         let planted = plant.map(|name| format!(" --plant {name}")).unwrap_or_default();
-        let repeat = format!(
-            "{} verify --invariant {} --seed {seed} --cases {cases}{planted}",
-            program(),
-            invariant.name
-        );
-        wrong += usize::from(!judge(invariant, &subject, (seed, cases), &repeat, &mut text)?);
+        let repeat = |cases: u64| {
+            let (program, name) = (program(), invariant.name);
+            format!("{program} verify --invariant {name} --seed {seed} --cases {cases}{planted}")
+        };
+        judge(invariant, &subject, (seed, cases), &repeat, (&mut outcomes, &mut text))?;
     }
     drop(progress);
     streams.output.write_all(&text)?;
     if wanted.len() > 1 {
-        let held = wanted.len() - wrong;
-        writeln!(
-            streams.output,
-            "{}: {held} of {} invariants hold, {wrong} do not",
-            if wrong == 0 { "AGREES" } else { "DISAGREES" },
-            wanted.len()
-        )?;
+        writeln!(streams.output, "{}", outcomes.summary())?;
     }
-    Ok(if wrong == 0 { exit::AGREES } else { exit::DISAGREES })
+    Ok(outcomes.status())
 }
 
-/// Prints what came of one invariant; says whether it held.
+/// How many invariants came to what.
+#[derive(Default)]
+struct Outcomes {
+    holding: usize,
+    failing: usize,
+    not_judged: usize,
+    /// Cases with which all of those that were not judged compare something, where that is known.
+    cases_needed: u64,
+}
+
+impl Outcomes {
+    /// A failure is one whatever else was not judged; and what was not judged does not agree.
+    fn status(&self) -> u8 {
+        match (self.failing, self.not_judged) {
+            (0, 0) => exit::AGREES,
+            (0, _) => exit::USAGE,
+            _ => exit::DISAGREES,
+        }
+    }
+
+    fn summary(&self) -> String {
+        let Self { holding, failing, not_judged, cases_needed } = *self;
+        let word = match self.status() {
+            exit::AGREES => "AGREES",
+            exit::DISAGREES => "DISAGREES",
+            _ => "NOT JUDGED",
+        };
+        let all = holding + failing + not_judged;
+        let mut text = format!("{word}: {holding} of {all} invariants hold, {failing} do not");
+        if not_judged > 0 {
+            text += &format!(", {not_judged} not judged");
+        }
+        if cases_needed > 0 {
+            text += &format!(" (--cases {cases_needed} judges them)");
+        }
+        text
+    }
+}
+
+/// Prints what came of one invariant, and counts it.
 fn judge(
     invariant: &Invariant,
     subject: &Subject,
     (seed, cases): (u64, u64),
-    repeat: &str,
-    out: &mut dyn Write,
-) -> Result<bool, Failure> {
+    repeat: &dyn Fn(u64) -> String,
+    (outcomes, out): (&mut Outcomes, &mut dyn Write),
+) -> Result<(), Failure> {
     writeln!(out, "{} {}: {}", invariant.number, invariant.name, invariant.statement)?;
     let report = invariant.run(subject, seed, cases);
     writeln!(out, "  tolerance: {}", invariant.tolerance)?;
@@ -84,18 +116,33 @@ fn judge(
         "  seed {seed}, {} cases{skipped}, {} comparisons",
         report.cases, report.compared
     )?;
-    match &report.failure {
-        // Nothing compared is not agreement.
-        None if report.compared == 0 => writeln!(out, "  FAILS: no case fits it")?,
-        None => writeln!(out, "  holds")?,
-        Some(failure) => {
-            writeln!(out, "  FAILS in case {}: {}", failure.index, failure.message)?;
-            writeln!(out, "  smallest found: {}", failure.input)?;
-            writeln!(out, "  repeat with: {repeat}")?;
-        }
+    match report.ruling() {
+        Ruling::Holds => outcomes.holding += 1,
+        Ruling::Fails => outcomes.failing += 1,
+        Ruling::NotJudged => outcomes.not_judged += 1,
+    }
+    if let Some(failure) = &report.failure {
+        writeln!(out, "  FAILS in case {}: {}", failure.index, failure.message)?;
+        writeln!(out, "  smallest found: {}", failure.input)?;
+        writeln!(out, "  repeat with: {}", repeat(cases))?;
+    } else if report.ruling() == Ruling::Holds {
+        writeln!(out, "  holds")?;
+    } else if let Some(needed) = invariant.cases_needed(subject, seed) {
+        outcomes.cases_needed = outcomes.cases_needed.max(needed);
+        writeln!(
+            out,
+            "  NOT JUDGED: none of these cases fits it; the first that fits needs more:"
+        )?;
+        writeln!(out, "  judge it with: {}", repeat(needed))?;
+    } else if matches!(invariant.check, Check::Run(..) | Check::Matrix) {
+        writeln!(out, "  NOT JUDGED: the system refuses the threads whose verdicts it compares;")?;
+        writeln!(out, "  allow this user more processes (ulimit -u)")?;
+    } else {
+        writeln!(out, "  NOT JUDGED: none of the first {MOST_LOOKED_THROUGH} cases fits it;")?;
+        writeln!(out, "  try another --seed")?;
     }
     writeln!(out)?;
-    Ok(report.failure.is_none() && report.compared > 0)
+    Ok(())
 }
 
 /// Options of `mutants`.

@@ -27,6 +27,7 @@ mod render;
 mod review;
 mod specimens;
 mod starters;
+mod threads;
 mod typed;
 mod verify;
 #[cfg(feature = "vulkan")]
@@ -55,7 +56,7 @@ pub mod exit {
     pub const AGREES: u8 = 0;
     /// Something disagrees.
     pub const DISAGREES: u8 = 1;
-    /// The command or its input cannot be used.
+    /// The command or its input cannot be used, or something could not be judged.
     pub const USAGE: u8 = 2;
 }
 
@@ -83,7 +84,7 @@ const EXAMPLES: &str = "Examples:
   rasterproof quiz 2                              exercises of a chapter, answered and explained
   rasterproof list                                families, cases, engines, faults, invariants
 
-Exit status: 0 all agree, 1 something disagrees, 2 usage or bad input.";
+Exit status: 0 all agree, 1 something disagrees, 2 usage, bad input, or something was not judged.";
 
 /// Two rasterizers, two line drawers and an exact oracle, compared pixel for pixel.
 #[derive(Parser, Debug)]
@@ -294,6 +295,9 @@ pub fn run(words: impl IntoIterator<Item: Into<OsString>>, streams: &mut Streams
     let errors = &mut Delivered::new(streams.errors, &delivery);
     let escape_errors = if escape == Escape::Kept { escape } else { Escape::Words };
     let errors = &mut Guarded::new(errors, escape_errors);
+    if uses_pool(&command) {
+        threads::prepare(errors);
+    }
     let input = &mut *streams.input;
     // A conversation ends where nobody listens any more.
     if matches!(command, Command::Engine { .. }) {
@@ -324,6 +328,13 @@ pub fn run(words: impl IntoIterator<Item: Into<OsString>>, streams: &mut Streams
     let status = status_of(result, errors);
     report_loss(&delivered, errors);
     delivery.status(status)
+}
+
+/// Whether a command computes on several threads. Others leave what the system allows to the programs
+/// that they start.
+fn uses_pool(command: &Command) -> bool {
+    use Command::{Course, Engine, Judge, List, Quiz};
+    !matches!(command, Engine { .. } | Judge(_) | Course(_) | Quiz(_) | List)
 }
 
 /// Whether programs read what a command prints, so that its lines are not broken.

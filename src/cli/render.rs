@@ -286,8 +286,10 @@ impl SceneArguments {
         if let Some((name, value)) = numbers.iter().find(|(_, value)| !value.is_finite()) {
             return Err(usage(format!("{name} {value} is not a finite number")));
         }
-        if zoom <= 0.0 {
-            return Err(usage(format!("--zoom {zoom} is not positive")));
+        // Beyond, the distance to the model is lost in the rounding of a double, or overflows.
+        if !(1e-6..=1e6).contains(&zoom) {
+            let cause = format!("--zoom {zoom} does not lie between 0.000001 and 1000000");
+            return Err(usage(cause));
         }
         if fov <= 0.0 || fov >= 180.0 {
             return Err(usage(format!("--fov {fov} does not lie between 0 and 180 degrees")));

@@ -310,7 +310,8 @@ fn judge(
     let verdict = rasterproof_registry::comparison::judge(engines, lines, &share(4), &|cases| {
         progress.done(cases)
     });
-    let off_grid = unsnapped::judge_exact(exact_engines, &share(1), &|cases| progress.done(cases));
+    let off_grid =
+        unsnapped::judge_exact_engines(exact_engines, &share(1), &|cases| progress.done(cases));
     drop(progress);
     (verdict, off_grid)
 }

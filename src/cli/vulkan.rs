@@ -75,6 +75,9 @@ pub fn verify(job: &Job<'_>, streams: &mut Streams<'_>) -> Result<u8, Failure> {
     let bar = Progress::new(streams.progress, "cases", total);
     let stand = campaign::judge(gpu, &options, &|cases| bar.done(cases));
     drop(bar);
+    if stand.verdict.found.rows.is_empty() {
+        return Err(usage("no case was judged: the device does not draw what these families hold"));
+    }
     let judged = stand.verdict.found.rows.iter().map(|row| row.cases).max().unwrap_or(0);
     let cases = if limited { judged } else { cases };
     print(job, &stand, cases, streams)?;

@@ -56,7 +56,7 @@ fn pixels_and_most(engine: ExactEngine, whole: &OffGridCase) -> (Vec<u64>, u8) {
 #[test]
 fn families_agree_and_reach_both_paths() {
     for seed in [1, 2] {
-        let verdict = judge_exact(&judged(), &options(seed, 400), &|_| ());
+        let verdict = judge_exact(&judged(), &options(seed, 400), &|_| ()).unwrap();
         assert_eq!(verdict.families.len(), FAMILIES.len());
         for f in &verdict.families {
             assert_eq!((f.cases, f.oracle_faults), (400, 0), "{}", f.family);
@@ -144,7 +144,7 @@ fn mutants_die() {
     };
     for mutant in ExactMutant::ALL {
         let engine = ExactEngine::Mutant(mutant);
-        let verdict = judge_exact(&[(engine.name(), engine)], &options(1, 400), &|_| ());
+        let verdict = judge_exact(&[(engine.name(), engine)], &options(1, 400), &|_| ()).unwrap();
         let killers: BTreeSet<_> = verdict
             .families
             .iter()

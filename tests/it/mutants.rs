@@ -191,7 +191,7 @@ fn stray_fragments_are_counted_apart() {
         }
     }
     let options = Options { cases: 20, families: vec!["uniform".to_owned()], ..Options::default() };
-    let verdict = judge_values(&Forgetful, tolerance::SCANLINE, &options);
+    let verdict = judge_values(&Forgetful, tolerance::SCANLINE, &options).unwrap();
     let sums = verdict.comparisons();
     assert!(!verdict.agrees() && sums.oracle.total() == 0, "{sums:?}");
     let drawn = verdict.families[0].cases - verdict.families[0].empty_cases;

@@ -6,6 +6,9 @@ pub const MODEL_BYTES: u64 = 1 << 30;
 /// One texture file, before it is decoded.
 pub const TEXTURE_BYTES: u64 = 1 << 28;
 
+/// All material files of a model together: a million materials are some 50 MB.
+pub const MATERIAL_BYTES: u64 = 1 << 26;
+
 /// One texture after decoding: 16,384 x 16,384 px in RGBA take 1 GiB, so this allows half of that.
 pub const DECODED_TEXTURE_BYTES: u64 = 1 << 29;
 

@@ -89,6 +89,32 @@ pub struct Failure {
     pub message: String,
 }
 
+/// What a report comes to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ruling {
+    /// Something was compared, and nothing is wrong.
+    Holds,
+    /// An input fails.
+    Fails,
+    /// No input fits the property, so nothing was compared: neither right nor wrong.
+    NotJudged,
+}
+
+impl Report {
+    /// Whether it holds, fails, or was not judged.
+    #[must_use]
+    pub fn ruling(&self) -> Ruling {
+        match self.failure {
+            Some(_) => Ruling::Fails,
+            None if self.compared == 0 => Ruling::NotJudged,
+            None => Ruling::Holds,
+        }
+    }
+}
+
+/// Inputs that are looked through for one that fits.
+pub const MOST_LOOKED_THROUGH: u64 = 10_000;
+
 impl Invariant {
     /// The input of a number: a pure function of the three, as far as the subject's source is.
     #[must_use]
@@ -142,6 +168,18 @@ impl Invariant {
             Check::Run(..) | Check::Matrix => 1,
             _ => cases,
         }
+    }
+
+    /// The number of cases with which something is compared: one more than the number of the first
+    /// input that fits. Nothing where none of the first [`MOST_LOOKED_THROUGH`] fits, and for a run of
+    /// the whole harness, where the number changes nothing.
+    #[must_use]
+    pub fn cases_needed(&self, subject: &Subject, seed: u64) -> Option<u64> {
+        if matches!(self.check, Check::Run(..) | Check::Matrix) {
+            return None;
+        }
+        let fits = |index| self.judge(subject, &self.input(subject, seed, index)) != Ok(0);
+        (0..MOST_LOOKED_THROUGH).find(|&index| fits(index)).map(|index| index + 1)
     }
 
     /// Checks the inputs of a seed on all cores and makes the first failing one small.

@@ -127,7 +127,9 @@ impl Misbehaviour {
     #[must_use]
     pub fn remedy(&self) -> &'static str {
         match self {
-            Self::CannotStart(_) => "name a program and its arguments after --",
+            Self::CannotStart(_) => {
+                "name a program and its arguments after --; at a limit of processes, allow more (ulimit -u)"
+            }
             _ => {
                 "a program answers 'HELLO 2' with 'HELLO 2 name coverage' and flushes it; \
                  see docs/protocol.md"

@@ -238,23 +238,23 @@ impl Live {
             return Err(Misbehaviour::CannotStart("it has no pipes".to_owned()));
         };
         let (requests, blocks) = mpsc::channel::<Vec<u8>>();
-        std::thread::spawn(move || {
+        serve(move || {
             for block in blocks {
                 if stdin.write_all(&block).and_then(|()| stdin.flush()).is_err() {
                     break;
                 }
             }
-        });
+        })?;
         let (read, pieces) = mpsc::sync_channel(MOST_PIECES);
-        std::thread::spawn(move || {
+        serve(move || {
             let mut piece = vec![0; PIECE_BYTES];
             while let Ok(n @ 1..) = stdout.read(&mut piece) {
                 if read.send(piece[..n].to_vec()).is_err() {
                     break;
                 }
             }
-        });
-        keep_complaints(stderr, Arc::clone(complaints));
+        })?;
+        keep_complaints(stderr, Arc::clone(complaints))?;
         Ok(Self { group, requests, pieces, pending: Vec::new(), used: 0, answered: None, heard: 0 })
     }
 
@@ -459,8 +459,20 @@ fn signal_name(signal: i32) -> &'static str {
     }
 }
 
-fn keep_complaints(mut stderr: impl Read + Send + 'static, kept: Arc<Mutex<VecDeque<u8>>>) {
-    std::thread::spawn(move || {
+/// Starts a thread that serves a pipe.
+fn serve(work: impl FnOnce() + Send + 'static) -> Result<(), Misbehaviour> {
+    let refused = |error| {
+        let why = "no thread can be started for its pipes; allow more processes (ulimit -u)";
+        Misbehaviour::CannotStart(format!("{why}: {error}"))
+    };
+    std::thread::Builder::new().spawn(work).map(drop).map_err(refused)
+}
+
+fn keep_complaints(
+    mut stderr: impl Read + Send + 'static,
+    kept: Arc<Mutex<VecDeque<u8>>>,
+) -> Result<(), Misbehaviour> {
+    serve(move || {
         let mut piece = [0; 4096];
         while let Ok(n @ 1..) = stderr.read(&mut piece) {
             let mut kept = kept.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
@@ -468,5 +480,5 @@ fn keep_complaints(mut stderr: impl Read + Send + 'static, kept: Arc<Mutex<VecDe
             let over = kept.len().saturating_sub(MOST_COMPLAINT_BYTES);
             kept.drain(..over);
         }
-    });
+    })
 }

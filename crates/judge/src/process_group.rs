@@ -86,6 +86,10 @@ pub fn end_all_on_ctrl_c() {
     static ONCE: std::sync::Once = std::sync::Once::new();
     // Without a handler the groups would live on; judging still works.
     ONCE.call_once(|| {
+        // The handler runs on a thread. Where none can be started, `ctrlc` would only switch Ctrl-C off.
+        if !std::thread::Builder::new().spawn(|| ()).is_ok_and(|thread| thread.join().is_ok()) {
+            return;
+        }
         let _ = ctrlc::set_handler(|| {
             let mut live = LIVE.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
             live.take().into_iter().flatten().for_each(kill);
@@ -109,6 +113,7 @@ fn adopt() {}
 /// every child is taken for a stray.
 #[cfg(target_os = "linux")]
 pub fn end_strays() {
+    use rasterproof_host::{input::read_text, limits};
     use rustix::process::{Pid, Signal, WaitOptions, child_subreaper, kill_process, waitpid};
     if !matches!(child_subreaper(), Ok(Some(_))) {
         return;
@@ -116,8 +121,9 @@ pub fn end_strays() {
     // What a stray has started is adopted when the stray ends; one that goes on for ever is left.
     for _ in 0..1000 {
         let tasks = std::fs::read_dir("/proc/self/task").into_iter().flatten().flatten();
-        let lists =
-            tasks.filter_map(|task| std::fs::read_to_string(task.path().join("children")).ok());
+        let list =
+            |task: std::fs::DirEntry| read_text(&task.path().join("children"), limits::NOTE_BYTES);
+        let lists = tasks.filter_map(|task| list(task).ok());
         let children = lists.collect::<Vec<_>>().join(" ");
         let pids = children.split_whitespace().filter_map(|word| Pid::from_raw(word.parse().ok()?));
         let strays: Vec<Pid> = pids.collect();

@@ -244,14 +244,22 @@ pub fn run(
         answered: AtomicU64::new(0),
     };
     let all = Mutex::new(Vec::new());
-    std::thread::scope(|scope| {
-        for (part, asker) in (0..).zip(askers.iter_mut()) {
-            let (shared, all) = (&shared, &all);
-            scope.spawn(move || {
-                let found = copy(&mut **asker, part, shared, progress);
-                all.lock().unwrap_or_else(std::sync::PoisonError::into_inner).push((part, found));
-            });
+    let waiting = Mutex::new((0..).zip(askers.iter_mut()));
+    let next = || waiting.lock().unwrap_or_else(std::sync::PoisonError::into_inner).next();
+    let work = || {
+        while let Some((part, asker)) = next() {
+            let found = copy(&mut **asker, part, &shared, progress);
+            all.lock().unwrap_or_else(std::sync::PoisonError::into_inner).push((part, found));
         }
+    };
+    std::thread::scope(|scope| {
+        // This thread is one of them; where the system refuses others, it works off all copies.
+        for _ in 1..shared.copies {
+            if std::thread::Builder::new().spawn_scoped(scope, work).is_err() {
+                break;
+            }
+        }
+        work();
     });
     let mut parts = all.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
     parts.sort_by_key(|(part, _)| *part);

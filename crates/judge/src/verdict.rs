@@ -179,10 +179,10 @@ impl Verdict {
         }
     }
 
-    /// Whether nothing is to be done.
+    /// Whether nothing is to be done. Where nothing could be asked, nothing agrees.
     #[must_use]
     pub fn agrees(&self) -> bool {
-        self.properties.iter().all(|p| p.outcome.is_good())
+        !self.found.rows.is_empty() && self.properties.iter().all(|p| p.outcome.is_good())
     }
 
     /// Triangles or lines that were judged against an expected picture.

@@ -39,9 +39,8 @@ pub struct Texture {
     height: u32,
     /// Subtexels of a row and of a column.
     subtexels: DVec2,
-    /// Row by row from the top, each channel in [0, 1].
-    texels: Vec<DVec3>,
-    /// The same as bytes, red the lowest.
+    /// Row by row from the top, as bytes, red the lowest. A table turns them into channels in [0, 1]:
+    /// doubles would take seven times the memory.
     bytes: Vec<u32>,
     /// Beyond the border.
     pub wrap: Wrap,
@@ -53,6 +52,17 @@ pub struct Texture {
 const SUBTEXEL_BITS: u32 = 8;
 const SUBTEXELS: i64 = 1 << SUBTEXEL_BITS;
 
+/// The channel in [0, 1] of each byte.
+static CHANNELS: [f64; 256] = {
+    let mut channels = [0.0; 256];
+    let mut byte = 0;
+    while byte < 256 {
+        channels[byte] = byte as f64 / 255.0;
+        byte += 1;
+    }
+    channels
+};
+
 impl Texture {
     /// A texture from rows of 8-bit red, green, blue, the top row first. Nothing if a side is 0 or
     /// exceeds [`MAX_SIDE_PX`], or the number of texels is not width times height.
@@ -63,21 +73,20 @@ impl Texture {
         if !fits || rgb.len() != width as usize * height as usize {
             return None;
         }
-        let texels = rgb.iter().map(|c| DVec3::from(c.map_array(f64::from)) / 255.0).collect();
         let bytes = rgb.iter().map(|&[r, g, b]| u32::from_le_bytes([r, g, b, 0])).collect();
-        Some(Self::of(width, height, texels, bytes))
+        Some(Self::of(width, height, bytes))
     }
 
     /// One white texel.
     #[must_use]
     pub fn white() -> Self {
-        Self::of(1, 1, vec![DVec3::ONE], vec![0xff_ffff])
+        Self::of(1, 1, vec![0xff_ffff])
     }
 
-    fn of(width: u32, height: u32, texels: Vec<DVec3>, bytes: Vec<u32>) -> Self {
+    fn of(width: u32, height: u32, bytes: Vec<u32>) -> Self {
         let subtexels = DVec2::new(f64::from(width), f64::from(height)) * SUBTEXELS as f64;
         let (wrap, filter) = (Wrap::Repeat, Filter::Nearest);
-        Self { width, height, subtexels, texels, bytes, wrap, filter }
+        Self { width, height, subtexels, bytes, wrap, filter }
     }
 
     /// The same, read differently.
@@ -110,7 +119,7 @@ impl Texture {
         match self.filter {
             Filter::Nearest => {
                 let column = self.column(x >> SUBTEXEL_BITS);
-                self.texels[self.row_start(y >> SUBTEXEL_BITS) + column]
+                self.texel(self.row_start(y >> SUBTEXEL_BITS) + column)
             }
             Filter::Bilinear => {
                 // Texel centres carry the values, so half a texel lies before the first.
@@ -121,13 +130,19 @@ impl Texture {
                 let columns = (self.column(column), self.column(column + 1));
                 let line = |row| {
                     let start = self.row_start(row);
-                    let (a, b) = (self.texels[start + columns.0], self.texels[start + columns.1]);
+                    let (a, b) = (self.texel(start + columns.0), self.texel(start + columns.1));
                     a + (b - a) * right
                 };
                 let (a, b) = (line(row), line(row + 1));
                 a + (b - a) * down
             }
         }
+    }
+
+    #[inline]
+    fn texel(&self, at: usize) -> DVec3 {
+        let [red, green, blue, _] = self.bytes[at].to_le_bytes();
+        DVec3::from([red, green, blue].map_array(|byte| CHANNELS[usize::from(byte)]))
     }
 
     #[inline]

@@ -5,6 +5,8 @@
 
 pub mod chapters;
 pub mod meshes;
+#[cfg(feature = "host")]
+mod mtl;
 pub mod named;
 #[cfg(feature = "host")]
 pub mod obj;

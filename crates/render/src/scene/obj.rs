@@ -1,23 +1,27 @@
-//! Models and textures from files: OBJ with MTL through `tobj`, PNG, JPEG and BMP through `image`
+//! Models and textures from files: OBJ through `tobj`, PNG, JPEG and BMP through `image`
 //! (the book's sections 11.2 and 11.3).
 //!
-//! A file is checked line by line before it is read, so that an error names the line. OBJ files are
-//! right-handed: z is negated. Polygons become fans, missing normals are computed, colours and
+//! A file is checked line by line before it is read, so that an error names the line. The module `mtl`
+//! reads material files. OBJ files are right-handed: z is negated. Polygons become fans, missing normals are computed, colours and
 //! textures come from `Kd` and `map_Kd`.
 
-use std::cell::RefCell;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::fmt;
-use std::fs;
-use std::io::{self, Cursor};
+use std::fmt::Write as _;
+use std::io::Cursor;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
-use image::{ImageReader, Limits};
+use image::{DynamicImage, ImageDecoder as _, ImageReader, Limits};
+use rasterproof_host::text::{printable_path, printable_short};
+use rasterproof_host::{input, limits};
 
+use super::mtl::{self, Described};
 use super::{Corner, Item, Material, Mesh, Shading, shapes};
 use crate::pipeline::texture::{Filter, Texture, Wrap};
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::MAX_SIDE_PX;
 
 /// What is wrong with a file, where, and what to do about it.
@@ -33,7 +37,7 @@ pub struct BadFile {
 
 impl fmt::Display for BadFile {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}", self.path.display())?;
+        write!(f, "{}", printable_path(&self.path))?;
         if let Some(line) = self.line {
             write!(f, ":{line}")?;
         }
@@ -43,31 +47,17 @@ impl fmt::Display for BadFile {
 
 impl std::error::Error for BadFile {}
 
-/// Files beyond this are refused: 1 GiB.
-const MOST_BYTES: u64 = 1 << 30;
-
 fn bad(path: &Path, line: Option<usize>, cause: impl Into<String>) -> BadFile {
     BadFile { path: path.to_owned(), line, cause: cause.into() }
 }
 
-fn read(path: &Path) -> Result<Vec<u8>, BadFile> {
-    let failed = |error: io::Error| bad(path, None, format!("cannot be read: {error}"));
-    let data = fs::metadata(path).map_err(failed)?;
-    if data.is_dir() {
-        return Err(bad(path, None, "is a directory, not a file"));
-    }
-    if !data.is_file() {
-        return Err(bad(path, None, "is not a regular file"));
-    }
-    if data.len() > MOST_BYTES {
-        return Err(bad(path, None, format!("has more than {MOST_BYTES} bytes")));
-    }
-    fs::read(path).map_err(failed)
+fn read(path: &Path, limit_bytes: u64) -> Result<Vec<u8>, BadFile> {
+    input::read(path, limit_bytes).map_err(|error| bad(path, None, error.cause))
 }
 
 /// The bytes of a text, without the byte order mark that some editors put before it.
-fn read_text(path: &Path) -> Result<Vec<u8>, BadFile> {
-    let mut bytes = read(path)?;
+fn read_text(path: &Path, limit_bytes: u64) -> Result<Vec<u8>, BadFile> {
+    let mut bytes = read(path, limit_bytes)?;
     if bytes.starts_with(b"\xef\xbb\xbf") {
         bytes.drain(..3);
     }
@@ -90,31 +80,12 @@ pub struct Model {
 /// is out of range, a model without faces, a texture that cannot be decoded. A material file that
 /// is missing is a warning: the model is grey.
 pub fn load(path: &Path, shading: Shading) -> Result<Model, BadFile> {
-    let bytes = read_text(path)?;
+    let bytes = read_text(path, limits::MODEL_BYTES)?;
     let text = String::from_utf8_lossy(&bytes);
-    let text = checked(path, &text)?;
+    let Checked { text, libraries, mut warnings } = checked(path, &text)?;
     let folder = path.parent().unwrap_or(Path::new("")).to_owned();
-    let warnings = RefCell::new(Vec::new());
-    let options = tobj::LoadOptions { triangulate: true, ..tobj::LoadOptions::default() };
-    let loaded = tobj::load_obj_buf(&mut Cursor::new(text), &options, |name| {
-        let file = folder.join(name);
-        match read_text(&file) {
-            Ok(bytes) => tobj::load_mtl_buf(&mut Cursor::new(bytes)),
-            Err(error) => {
-                warnings.borrow_mut().push(format!("{error}; the model is drawn grey"));
-                Ok(Default::default())
-            }
-        }
-    });
-    let (models, materials) =
-        loaded.map_err(|error| bad(path, None, format!("is not a readable OBJ: {error}")))?;
-    let materials = match materials {
-        Ok(materials) => materials,
-        Err(error) => {
-            warnings.borrow_mut().push(format!("{}: a material file: {error}", path.display()));
-            Vec::new()
-        }
-    };
+    let materials = read_materials(&folder, &libraries, &mut warnings);
+    let models = parsed(path, text, &materials)?;
     let mut textures = Textures { folder, read: HashMap::new() };
     let made = materials
         .iter()
@@ -129,7 +100,47 @@ pub fn load(path: &Path, shading: Shading) -> Result<Model, BadFile> {
             Item::new(mesh(&model.mesh), material.clone())
         })
         .collect();
-    Ok(Model { items, warnings: warnings.into_inner() })
+    Ok(Model { items, warnings })
+}
+
+/// The materials of the files that a model names, in their order. A file that cannot be read is a
+/// warning.
+fn read_materials(
+    folder: &Path,
+    libraries: &[String],
+    warnings: &mut Vec<String>,
+) -> Vec<Described> {
+    let (mut materials, mut left_bytes) = (Vec::new(), limits::MATERIAL_BYTES);
+    for name in libraries {
+        let file = folder.join(name);
+        match read_text(&file, left_bytes) {
+            Ok(bytes) => {
+                left_bytes -= bytes.len() as u64;
+                let read = mtl::read(&file, &String::from_utf8_lossy(&bytes));
+                materials.extend(read.materials);
+                warnings.extend(read.warnings);
+            }
+            Err(error) => warnings.push(format!("{error}; what it describes is drawn grey")),
+        }
+    }
+    materials
+}
+
+/// The meshes of a text that was checked. `tobj` sees the names of the materials only.
+fn parsed(path: &Path, text: String, materials: &[Described]) -> Result<Vec<tobj::Model>, BadFile> {
+    let options = tobj::LoadOptions { triangulate: true, ..tobj::LoadOptions::default() };
+    let numbers = materials.iter().enumerate();
+    let named = |_: &Path| {
+        let names = numbers.clone().map(|(number, material)| (material.name.clone(), number));
+        Ok((Vec::new(), names.collect()))
+    };
+    // The text holds nothing that was not checked; a panic would end the program nevertheless.
+    let load = || tobj::load_obj_buf(&mut Cursor::new(text), &options, named);
+    match catch_unwind(AssertUnwindSafe(load)) {
+        Ok(Ok((models, _))) => Ok(models),
+        Ok(Err(error)) => Err(bad(path, None, format!("is not a readable OBJ: {error}"))),
+        Err(_) => Err(bad(path, None, "is not a readable OBJ: the reader of models failed")),
+    }
 }
 
 /// The textures that materials name, each read once.
@@ -139,18 +150,13 @@ struct Textures {
 }
 
 impl Textures {
-    fn material(
-        &mut self,
-        material: &tobj::Material,
-        shading: Shading,
-    ) -> Result<Material, BadFile> {
-        let [r, g, b] = material.diffuse.unwrap_or([0.8; 3]).map(f64::from);
-        let texture = match material.diffuse_texture.as_deref().map(str::trim) {
+    fn material(&mut self, material: &Described, shading: Shading) -> Result<Material, BadFile> {
+        let colour =
+            material.colour.map_or(DVec3::splat(0.8), |c| DVec3::from(c.map_array(f64::from)));
+        let texture = match material.texture.as_deref() {
             None | Some("") => None,
             Some(name) => Some(self.texture(name)?),
         };
-        let colour = DVec3::new(r, g, b);
-        let colour = if colour.is_finite() { colour } else { DVec3::splat(0.8) };
         Ok(Material { colour, vertex_colours: false, texture, shading })
     }
 
@@ -173,19 +179,31 @@ impl Textures {
 /// # Errors
 /// [`BadFile`] where it cannot be read or decoded, or a side exceeds the largest one.
 pub fn load_texture(path: &Path) -> Result<Texture, BadFile> {
-    let bytes = read(path)?;
+    let bytes = read(path, limits::TEXTURE_BYTES)?;
+    let cause = |error| format!("is not a readable PNG, JPEG or BMP: {error}");
+    let failed = |error| bad(path, None, cause(error));
     let mut reader = ImageReader::new(Cursor::new(bytes))
         .with_guessed_format()
         .map_err(|error| bad(path, None, error.to_string()))?;
-    let mut limits = Limits::default();
-    limits.max_image_width = Some(MAX_SIDE_PX);
-    limits.max_image_height = Some(MAX_SIDE_PX);
-    reader.limits(limits);
-    let cause = |error| format!("is not a readable PNG, JPEG or BMP: {error}");
-    let picture = reader.decode().map_err(|error| bad(path, None, cause(error)))?.into_rgb8();
-    let rgb: Vec<[u8; 3]> = picture.pixels().map(|pixel| pixel.0).collect();
-    Texture::new(picture.width(), picture.height(), &rgb)
-        .ok_or_else(|| bad(path, None, "is a picture without pixels"))
+    let mut sides = Limits::default();
+    sides.max_image_width = Some(MAX_SIDE_PX);
+    sides.max_image_height = Some(MAX_SIDE_PX);
+    sides.max_alloc = Some(limits::DECODED_TEXTURE_BYTES);
+    reader.limits(sides);
+    let decoder = reader.into_decoder().map_err(failed)?;
+    let (width, height) = decoder.dimensions();
+    // A texel is kept in four bytes, whatever the file has.
+    let kept_bytes = u64::from(width) * u64::from(height) * 4;
+    if kept_bytes.max(decoder.total_bytes()) > limits::DECODED_TEXTURE_BYTES {
+        let most = limits::DECODED_TEXTURE_BYTES >> 20;
+        let cause = format!(
+            "has {width} x {height} px, which take more than {most} MiB: make the picture smaller"
+        );
+        return Err(bad(path, None, cause));
+    }
+    let picture = DynamicImage::from_decoder(decoder).map_err(failed)?.into_rgb8();
+    let (rgb, _) = picture.as_chunks::<3>();
+    Texture::new(width, height, rgb).ok_or_else(|| bad(path, None, "is a picture without pixels"))
 }
 
 /// A mesh of `tobj` as ours: left-handed, with normals.
@@ -219,47 +237,137 @@ fn mesh(source: &tobj::Mesh) -> Mesh {
 /// Numbers of positions, texture coordinates and normals.
 type Counts = [usize; 3];
 
-/// Checks every line that the model consists of. Where some corners lack a texture coordinate or a
-/// normal that others have, returns the text with a neutral one in their place, since `tobj` keeps
-/// the three lists of a mesh apart by their lengths.
-fn checked(path: &Path, text: &str) -> Result<String, BadFile> {
+/// A corner of a face: indices from 1 of its position, texture coordinate and normal.
+type FaceCorner = [Option<i64>; 3];
+
+/// A model as it is handed to `tobj`.
+struct Checked {
+    /// The vectors first, then names of groups and materials and the faces in their order.
+    text: String,
+    /// The material files that it names, each once.
+    libraries: Vec<String>,
+    warnings: Vec<String>,
+}
+
+/// What stands between the vectors.
+enum Element<'a> {
+    /// A group or an object begins. Nothing depends on its name.
+    Group,
+    /// The name of the material of the faces that follow.
+    Material(&'a str),
+    /// The line's number, and which of the corners are its.
+    Face(usize, std::ops::Range<usize>),
+}
+
+/// Checks every line that the model consists of, and writes them anew: vectors without what is not
+/// drawn, faces with absolute indices. Where some corners lack a texture coordinate or a normal that
+/// others have, they get a neutral one, since `tobj` keeps the three lists of a mesh apart by their
+/// lengths.
+fn checked(path: &Path, text: &str) -> Result<Checked, BadFile> {
     let mut counts: Counts = [0; 3];
-    let mut faces: Vec<(usize, Vec<[Option<i64>; 3]>)> = Vec::new();
+    let mut elements = Vec::new();
+    let mut corners: Vec<FaceCorner> = Vec::new();
+    let (mut libraries, mut seen) = (Vec::new(), HashSet::new());
+    let mut loose = 0u64;
+    // One line names all materials, which are read beforehand.
+    let mut out = String::from("mtllib all\n");
     for (number, line) in text.lines().enumerate().map(|(i, line)| (i + 1, line)) {
-        let line = line.split('#').next().unwrap_or_default();
+        let line = line.split('#').next().unwrap_or_default().trim();
         let mut words = line.split_whitespace();
-        let (kind, least) = match words.next() {
-            Some("v") => (0, 3),
-            Some("vt") => (1, 1),
-            Some("vn") => (2, 3),
+        let (kind, least, most) = match words.next() {
+            Some("v") => (0, 3, 3),
+            Some("vt") => (1, 1, 2),
+            Some("vn") => (2, 3, 3),
             Some("f") => {
-                let corners = words
-                    .map(|word| face_corner(word, counts))
-                    .collect::<Result<Vec<_>, _>>()
-                    .map_err(|cause| bad(path, Some(number), cause))?;
-                if corners.len() < 3 {
+                let start = corners.len();
+                for word in words {
+                    let corner = face_corner(word, counts);
+                    corners.push(corner.map_err(|cause| bad(path, Some(number), cause))?);
+                }
+                if corners.len() < start + 3 {
                     return Err(bad(path, Some(number), "a face needs three corners or more"));
                 }
-                faces.push((number, corners));
+                elements.push(Element::Face(number, start..corners.len()));
+                continue;
+            }
+            Some("o" | "g") => {
+                elements.push(Element::Group);
+                continue;
+            }
+            Some("usemtl") => {
+                let name = line["usemtl".len()..].trim();
+                if !name.is_empty() {
+                    elements.push(Element::Material(name));
+                }
+                continue;
+            }
+            Some("mtllib") => {
+                let name = line["mtllib".len()..].trim();
+                if !name.is_empty() && seen.insert(name) {
+                    libraries.push(name.to_owned());
+                }
+                continue;
+            }
+            Some("l" | "p") => {
+                loose += 1;
                 continue;
             }
             _ => continue,
         };
-        check_numbers(words, least).map_err(|cause| bad(path, Some(number), cause))?;
+        check_numbers(words.clone(), least).map_err(|cause| bad(path, Some(number), cause))?;
         counts[kind] += 1;
+        out.push_str(["v", "vt", "vn"][kind]);
+        for word in words.chain(["0"]).take(most) {
+            out.push(' ');
+            out.push_str(word);
+        }
+        out.push('\n');
     }
-    if faces.is_empty() {
+    if corners.is_empty() {
         return Err(bad(path, None, "has no faces (lines that begin with 'f'); is it an OBJ?"));
     }
-    for (number, corners) in &faces {
-        check_range(corners, counts).map_err(|cause| bad(path, Some(*number), cause))?;
+    let some = [1, 2].map_array(|kind| corners.iter().any(|corner| corner[kind].is_some()));
+    let neutral = counts.map_array(|count| count as i64 + 1);
+    out.push_str("vt 0 0\nvn 0 0 0\n");
+    for element in elements {
+        let (number, range) = match element {
+            Element::Group => {
+                out.push_str("g part\n");
+                continue;
+            }
+            Element::Material(name) => {
+                writeln!(out, "usemtl {name}").expect("a string takes all text");
+                continue;
+            }
+            Element::Face(number, range) => (number, range),
+        };
+        let corners = &corners[range];
+        check_range(corners, counts).map_err(|cause| bad(path, Some(number), cause))?;
+        out.push('f');
+        for corner in corners {
+            let [position, uv, normal] =
+                [0, 1, 2].map_array(|kind| corner[kind].unwrap_or(neutral[kind]));
+            let written = match some {
+                [false, false] => write!(out, " {position}"),
+                [true, false] => write!(out, " {position}/{uv}"),
+                [false, true] => write!(out, " {position}//{normal}"),
+                [true, true] => write!(out, " {position}/{uv}/{normal}"),
+            };
+            written.expect("a string takes all text");
+        }
+        out.push('\n');
     }
-    Ok(completed(text, &faces, counts))
+    let mut warnings = Vec::new();
+    if loose > 0 {
+        let path = printable_path(path);
+        warnings.push(format!("{path}: {loose} lines of kind 'l' or 'p' are not drawn"));
+    }
+    Ok(Checked { text: out, libraries, warnings })
 }
 
 fn check_numbers<'a>(words: impl Iterator<Item = &'a str>, least: usize) -> Result<(), String> {
     let mut found = 0;
-    for word in words.take(3) {
+    for word in words {
         match word.parse::<f32>() {
             Ok(value) if value.is_finite() => found += 1,
             Ok(_) => return Err(format!("'{}' is not a finite number", short(word))),
@@ -273,11 +381,11 @@ fn check_numbers<'a>(words: impl Iterator<Item = &'a str>, least: usize) -> Resu
 }
 
 fn short(word: &str) -> String {
-    word.chars().filter(|c| !c.is_control()).take(40).collect()
+    printable_short(word, 40)
 }
 
 /// `position/texture/normal` as indices from 1; negative ones count back from here.
-fn face_corner(word: &str, counts: Counts) -> Result<[Option<i64>; 3], String> {
+fn face_corner(word: &str, counts: Counts) -> Result<FaceCorner, String> {
     let mut corner = [None; 3];
     for (kind, part) in word.split('/').enumerate() {
         if kind > 2 {
@@ -297,7 +405,7 @@ fn face_corner(word: &str, counts: Counts) -> Result<[Option<i64>; 3], String> {
     Ok(corner)
 }
 
-fn check_range(corners: &[[Option<i64>; 3]], counts: Counts) -> Result<(), String> {
+fn check_range(corners: &[FaceCorner], counts: Counts) -> Result<(), String> {
     for corner in corners {
         for (kind, name) in ["position", "texture coordinate", "normal"].into_iter().enumerate() {
             let (index, count) = (corner[kind].unwrap_or(0), counts[kind]);
@@ -307,33 +415,4 @@ fn check_range(corners: &[[Option<i64>; 3]], counts: Counts) -> Result<(), Strin
         }
     }
     Ok(())
-}
-
-/// The text, every face with the same kinds of indices.
-fn completed(text: &str, faces: &[(usize, Vec<[Option<i64>; 3]>)], counts: Counts) -> String {
-    let corners = || faces.iter().flat_map(|(_, corners)| corners);
-    let some = [1, 2].map(|kind| corners().any(|corner| corner[kind].is_some()));
-    let all = [1, 2].map(|kind| corners().all(|corner| corner[kind].is_some()));
-    if some == all {
-        return text.to_owned();
-    }
-    let neutral = counts.map(|count| count as i64 + 1);
-    let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
-    for (number, corners) in faces {
-        let mut line = String::from("f");
-        for corner in corners {
-            let [position, uv, normal] = [0, 1, 2].map(|kind| {
-                let wanted = kind == 0 || some[kind - 1];
-                let index = corner[kind].unwrap_or(neutral[kind]);
-                if wanted { index.to_string() } else { String::new() }
-            });
-            line += &match (some[0], some[1]) {
-                (true, false) => format!(" {position}/{uv}"),
-                _ => format!(" {position}/{uv}/{normal}"),
-            };
-        }
-        lines[number - 1] = line;
-    }
-    // At the end, where they change the number of nothing else.
-    format!("{}\nvt 0 0\nvn 0 0 0\n", lines.join("\n"))
 }

@@ -6,10 +6,12 @@
 //! other. A result depends on the options alone, not on the number of threads.
 //!
 //! The same functions judge an engine of yours: [`judge_coverage`], [`judge_values`],
-//! [`judge_lines`]; off the lattice, [`unsnapped::judge_exact`].
+//! [`judge_lines`]; off the lattice, [`unsnapped::judge_exact`]. They return [`NothingJudged`] where the
+//! options leave no case, since a verdict on nothing would agree.
 
 mod compare;
 mod finding;
+mod nothing;
 pub mod shrink;
 mod spans;
 pub mod tolerance;
@@ -23,7 +25,7 @@ use std::time::{Duration, Instant};
 
 use serde::Serialize;
 
-use crate::cases::{Case, Family, Shape};
+use crate::cases::{self, Case, Family, Shape};
 use crate::oracle::Oracle;
 use compare::{Contest, CoverageOnly, LineContest, TriangleContest};
 use rasterproof_core::arrays::MapArray as _;
@@ -32,6 +34,7 @@ use rasterproof_core::parallel;
 use tolerance::Tolerance;
 
 pub use finding::{Finding, Tally};
+pub use nothing::NothingJudged;
 #[doc(hidden)]
 pub use {
     compare::is_sliver,
@@ -50,7 +53,7 @@ pub struct Options {
     pub time_limit: Option<Duration>,
     /// Names of families; empty means all.
     pub families: Vec<String>,
-    /// This part out of how many: case i belongs to part i mod n.
+    /// This part, from 0, out of how many: case i belongs to part i mod n.
     pub shard: (u64, u64),
     /// Only the case of this number.
     pub only: Option<u64>,
@@ -179,6 +182,12 @@ impl Verdict {
             .all(|f| f.oracle_overlap == 0 && f.pairs.iter().all(PairReport::agrees))
     }
 
+    /// This verdict, unless it rests on no case.
+    fn of_cases(self) -> Result<Self, NothingJudged> {
+        let is_empty = self.families.iter().all(|family| family.cases == 0);
+        if is_empty { Err(NothingJudged::NoneReached) } else { Ok(self) }
+    }
+
     /// Wrong pixels of all engines against the oracle, over all families.
     #[must_use]
     pub fn mismatches(&self) -> u64 {
@@ -236,6 +245,7 @@ impl Verdict {
 }
 
 /// Judges several rasterizers and line drawers against the oracle and against each other, each under its name.
+/// Where nothing is selected, the verdict has no families, and the caller has to notice.
 #[doc(hidden)]
 pub fn judge_engines<R: Interpolate + Sync, D: DrawLine + Sync>(
     engines: &[(&str, R, Tolerance)],
@@ -248,10 +258,14 @@ pub fn judge_engines<R: Interpolate + Sync, D: DrawLine + Sync>(
 }
 
 /// Judges the coverage of any rasterizer against the oracle.
-pub fn judge_coverage<R: Rasterize + Sync>(engine: &R, options: &Options) -> Verdict {
-    let engines = [("candidate", CoverageOnly(engine), None)];
-    let none: [(&str, Oracle); 0] = [];
-    drive(&TriangleContest::new(&engines), &LineContest::new(&none), options, &|_| ())
+///
+/// # Errors
+/// By these options no case was judged.
+pub fn judge_coverage<R: Rasterize + Sync>(
+    engine: &R,
+    options: &Options,
+) -> Result<Verdict, NothingJudged> {
+    judge_triangles(CoverageOnly(engine), None, options)
 }
 
 /// Judges the coverage of one case by any rasterizer against the oracle.
@@ -262,21 +276,40 @@ pub fn judge_coverage_of<R: Rasterize + Sync>(engine: &R, case: &Case) -> Findin
 }
 
 /// Judges coverage and values of any rasterizer against the oracle, values within `tolerance`.
+///
+/// # Errors
+/// By these options no case was judged.
 pub fn judge_values<R: Interpolate + Sync>(
     engine: &R,
     tolerance: Tolerance,
     options: &Options,
-) -> Verdict {
-    let engines = [("candidate", engine, Some(tolerance))];
+) -> Result<Verdict, NothingJudged> {
+    judge_triangles(engine, Some(tolerance), options)
+}
+
+fn judge_triangles<R: Interpolate + Sync>(
+    engine: R,
+    tolerance: Option<Tolerance>,
+    options: &Options,
+) -> Result<Verdict, NothingJudged> {
+    NothingJudged::by(options, &nothing::names(cases::triangles::FAMILIES))?;
+    let engines = [("candidate", engine, tolerance)];
     let none: [(&str, Oracle); 0] = [];
-    drive(&TriangleContest::new(&engines), &LineContest::new(&none), options, &|_| ())
+    drive(&TriangleContest::new(&engines), &LineContest::new(&none), options, &|_| ()).of_cases()
 }
 
 /// Judges pixels and values of any line drawer against the oracle.
-pub fn judge_lines<D: DrawLine + Sync>(engine: &D, options: &Options) -> Verdict {
+///
+/// # Errors
+/// By these options no case was judged.
+pub fn judge_lines<D: DrawLine + Sync>(
+    engine: &D,
+    options: &Options,
+) -> Result<Verdict, NothingJudged> {
+    NothingJudged::by(options, &nothing::names(cases::lines::FAMILIES))?;
     let none: [(&str, Oracle, Option<Tolerance>); 0] = [];
     let engines = [("candidate", engine)];
-    drive(&TriangleContest::new(&none), &LineContest::new(&engines), options, &|_| ())
+    drive(&TriangleContest::new(&none), &LineContest::new(&engines), options, &|_| ()).of_cases()
 }
 
 /// Cases that a thread judges in one go.
@@ -354,11 +387,11 @@ fn drive(
     let wanted = |pairs: Vec<[String; 2]>, family: &Family| {
         (options.wants(family.name) && !pairs.is_empty()).then_some(pairs)
     };
-    let chosen: Vec<(&Family, bool, Vec<[String; 2]>)> = crate::cases::triangles::FAMILIES
+    let chosen: Vec<(&Family, bool, Vec<[String; 2]>)> = cases::triangles::FAMILIES
         .iter()
         .filter_map(|f| Some((f, false, wanted(triangles.pairs(), f)?)))
         .chain(
-            crate::cases::lines::FAMILIES
+            cases::lines::FAMILIES
                 .iter()
                 .filter_map(|f| Some((f, true, wanted(lines.pairs(), f)?))),
         )

@@ -10,7 +10,7 @@ use std::ops::AddAssign;
 use serde::Serialize;
 
 use super::finding::caught;
-use super::{KEPT, Options, Partial, Tally, in_blocks};
+use super::{KEPT, NothingJudged, Options, Partial, Tally, in_blocks};
 use crate::cases::unsnapped::shrink::{shrink, size};
 use crate::cases::unsnapped::{FAMILIES, OffGridCase, OffGridFamily};
 use crate::oracle::rational::cover_and_count_ties;
@@ -197,7 +197,28 @@ fn against(engine: &impl RasterizeExact, case: &OffGridCase, target: &Coverage) 
 ///
 /// Families, seed, shard and limits are those of `options`; names of families on the lattice are
 /// passed over.
+///
+/// # Errors
+/// By these options, or without engines, no case was judged.
 pub fn judge_exact<R: RasterizeExact + Sync>(
+    engines: &[(&str, R)],
+    options: &Options,
+    progress: &(dyn Fn(u64) + Sync),
+) -> Result<ExactVerdict, NothingJudged> {
+    if engines.is_empty() {
+        return Err(NothingJudged::NoEngine);
+    }
+    let fitting: Vec<_> = FAMILIES.iter().map(|family| family.name).collect();
+    NothingJudged::by(options, &fitting)?;
+    let verdict = judge_exact_engines(engines, options, progress);
+    let is_empty = verdict.families.iter().all(|family| family.cases == 0);
+    if is_empty { Err(NothingJudged::NoneReached) } else { Ok(verdict) }
+}
+
+/// What [`judge_exact`] does, for a caller that judges other engines too and notices where nothing was
+/// judged at all.
+#[doc(hidden)]
+pub fn judge_exact_engines<R: RasterizeExact + Sync>(
     engines: &[(&str, R)],
     options: &Options,
     progress: &(dyn Fn(u64) + Sync),

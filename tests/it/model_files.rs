@@ -1,0 +1,225 @@
+//! Hostile model files: none ends the program with a panic or takes memory without limit, and what is
+//! wrong is named with its file and line.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use image::GrayImage;
+use rasterproof_render::scene::Shading;
+use rasterproof_render::scene::obj::{load, load_texture};
+
+fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("model-files-{name}"));
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+
+/// Only the bad line is left out, and the warning names it.
+#[test]
+fn a_bad_line_of_a_material_file_is_a_warning_with_its_line() {
+    let folder = folder("lines");
+    let obj = folder.join("m.obj");
+    let text = format!("mtllib m.mtl\n{TRIANGLE}usemtl a\nf 1 2 3\nusemtl b\nf 1 2 3\n");
+    fs::write(&obj, text).unwrap();
+    for bad in ["Kd 1 0", "Kd x 1 1", "Kd", "Kd nan 0 0", "Kd 1e99 0 0"] {
+        let text = format!("newmtl a\n{bad}\nNs x\nd\nillum -1\nnewmtl b\nKd 0 0.5 1\n");
+        fs::write(folder.join("m.mtl"), text).unwrap();
+        let model = load(&obj, Shading::Phong).unwrap();
+        let [warning] = &model.warnings[..] else { panic!("{bad}: {:?}", model.warnings) };
+        assert!(warning.contains("m.mtl:2: "), "{bad}: {warning}");
+        let colours: Vec<_> =
+            model.items.iter().map(|item| item.material.colour.to_array()).collect();
+        assert_eq!(colours, [[0.8; 3], [0.0, 0.5, 1.0]], "{bad}");
+    }
+    fs::write(folder.join("m.mtl"), "Kd 1 1 1\nnewmtl \u{1b}[31m\nKd \u{1b}[31m 1 1\n").unwrap();
+    let warnings = load(&obj, Shading::Phong).unwrap().warnings.join("\n");
+    assert!(warnings.contains("m.mtl:3") && !warnings.contains('\u{1b}'), "{warnings:?}");
+}
+
+#[test]
+fn lines_are_read_as_the_format_says() {
+    let folder = folder("format");
+    let obj = folder.join("m.obj");
+    let read = |text: &str| {
+        fs::write(&obj, text).unwrap();
+        load(&obj, Shading::Phong)
+    };
+    let error = read("v 0 0 0 nan\nf 1 1 1\n").err().unwrap();
+    assert_eq!((error.line, error.path.clone()), (Some(1), obj.clone()), "{error}");
+    let triangles = |text: &str| {
+        let model = read(text).unwrap_or_else(|error| panic!("{text:?}: {error}"));
+        let count: usize = model.items.iter().map(|item| item.mesh.triangles.len()).sum();
+        (count, model.warnings)
+    };
+    assert_eq!(triangles(&format!("{TRIANGLE}f 1 2 3 # c\n")).0, 1);
+    let (count, warnings) = triangles(&format!("{TRIANGLE}f 1 2 3\nl 1 2 3\np 1\n"));
+    assert_eq!(count, 1);
+    assert!(warnings[0].contains("2 lines of kind 'l' or 'p'"), "{warnings:?}");
+    // Corners of one kind in one object, of another in the next.
+    let mixed =
+        format!("{TRIANGLE}vt 0 0\nvt 1\nvn 0 0 1\no a\nf 1//1 2//1 3//1\no b\nf 1/1 2/2 3/2\n");
+    assert_eq!(triangles(&mixed).0, 2);
+    assert_eq!(triangles(&format!("{TRIANGLE}o\ng\nusemtl\nusemtl\tx\nf 1 2 3\n")).0, 1);
+}
+
+/// The limit of a texture counts what is kept of it, not the bytes of the file.
+#[test]
+fn a_texture_that_grows_when_decoded_is_refused() {
+    let folder = folder("texture");
+    let path = folder.join("grey.png");
+    GrayImage::new(16_384, 16_384).save(&path).unwrap();
+    assert!(fs::metadata(&path).unwrap().len() < 1 << 20);
+    let error = load_texture(&path).unwrap_err();
+    assert!(error.cause.contains("16384 x 16384 px"), "{error}");
+    GrayImage::from_pixel(300, 2, image::Luma([51])).save(&path).unwrap();
+    let colour = load_texture(&path).unwrap().at(glam::DVec2::splat(0.5));
+    assert_eq!(colour.to_array(), [51.0 / 255.0; 3]);
+}
+
+/// Five hundred lines that name one file: its one warning comes once.
+#[test]
+fn a_material_file_is_read_once() {
+    let folder = folder("once");
+    let obj = folder.join("m.obj");
+    fs::write(folder.join("m.mtl"), "newmtl a\nKd 1 0\n").unwrap();
+    fs::write(&obj, format!("{}{TRIANGLE}f 1 2 3\n", "mtllib m.mtl\n".repeat(500))).unwrap();
+    assert_eq!(load(&obj, Shading::Phong).unwrap().warnings.len(), 1);
+}
+
+/// A generator of numbers that is the same everywhere (SplitMix64).
+struct Numbers(u64);
+
+impl Numbers {
+    fn below(&mut self, limit: usize) -> usize {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) % limit as u64) as usize
+    }
+}
+
+const WORDS: &[&str] = &[
+    "v",
+    "vt",
+    "vn",
+    "f",
+    "l",
+    "p",
+    "o",
+    "g",
+    "s",
+    "usemtl",
+    "mtllib",
+    "newmtl",
+    "Kd",
+    "Ks",
+    "Ka",
+    "Ns",
+    "d",
+    "Tr",
+    "illum",
+    "map_Kd",
+    "map_Bump",
+    "1",
+    "0",
+    "-1",
+    "-3",
+    "1/1",
+    "1//1",
+    "1/1/1",
+    "2/",
+    "3//",
+    "/",
+    "nan",
+    "inf",
+    "1e39",
+    "-0",
+    "0.5",
+    "9999999999",
+    "99999999999999999999",
+    "#",
+    "\\",
+    "\"",
+    "\n",
+    "\r",
+    "\t",
+    " ",
+    "\u{0}",
+    "\u{1b}",
+    "\u{feff}",
+    "é",
+    "m.mtl",
+    "a",
+    "off",
+];
+
+fn mutated(text: &str, numbers: &mut Numbers) -> Vec<u8> {
+    let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
+    for _ in 0..=numbers.below(4) {
+        let at = numbers.below(lines.len());
+        let mut words: Vec<&str> = lines[at].split(' ').collect();
+        let word = WORDS[numbers.below(WORDS.len())];
+        let place = numbers.below(words.len());
+        match numbers.below(5) {
+            0 => words[place] = word,
+            1 => words.insert(place, word),
+            2 => drop(words.remove(place)),
+            3 => words.push(word),
+            _ => words.truncate(place),
+        }
+        let line = words.join(" ");
+        lines[at] = line;
+        if numbers.below(6) == 0 {
+            let other = numbers.below(lines.len());
+            lines.swap(at, other);
+        }
+    }
+    let mut bytes = lines.join("\n").into_bytes();
+    if !bytes.is_empty() && numbers.below(4) == 0 {
+        let at = numbers.below(bytes.len());
+        bytes[at] = numbers.below(256) as u8;
+    }
+    bytes
+}
+
+/// Reads mutated models with mutated materials; a panic fails the test, with the number of the case.
+fn fuzz(cases: u64, name: &str) {
+    let folder = folder(name);
+    let obj = "mtllib m.mtl\nv 0 0 0\nv 1 0 0 1\nv 0 1 0\nv 0 0 1 .5 .5 .5\nvt 0 0\nvt 1 0\nvn 0 0 1\n\
+        o one\nusemtl a\nf 1/1/1 2/2/1 3/1/1\ng two\nusemtl b\nf 1//1 2//1 3//1 4//1\nf -1 -2 -3\ns off\nl 1 2\n";
+    let mtl = "# materials\nnewmtl a\nKa 0 0 0\nKd 1 0.5 0\nKs 0 0 0\nNs 10\nd 1\nillum 2\n\
+        newmtl b\nKd 0.5\nTr 0\nNi 1\nmap_Bump -bm 1 b.png\n";
+    let (mut read, mut refused) = (0, 0);
+    for case in 0..cases {
+        let mut numbers = Numbers(case);
+        fs::write(folder.join("m.obj"), mutated(obj, &mut numbers)).unwrap();
+        fs::write(folder.join("m.mtl"), mutated(mtl, &mut numbers)).unwrap();
+        let load = || load(&folder.join("m.obj"), Shading::Phong);
+        match std::panic::catch_unwind(load) {
+            Ok(Ok(_)) => read += 1,
+            Ok(Err(error)) => {
+                // What the line-by-line check lets through, the reader takes.
+                assert!(!error.cause.contains("reader of models"), "case {case}: {error}");
+                refused += 1;
+            }
+            Err(_) => panic!("case {case} panics; its files are in {}", folder.display()),
+        }
+    }
+    assert!(read > cases / 10 && refused > cases / 10, "{read} read, {refused} refused");
+    println!("{cases} cases: {read} read, {refused} refused, no panic");
+}
+
+#[test]
+fn mutated_models_never_panic() {
+    fuzz(3_000, "fuzz");
+}
+
+#[test]
+#[ignore = "takes minutes"]
+fn half_a_million_mutated_models_never_panic() {
+    fuzz(500_000, "fuzz-long");
+}
