@@ -22,7 +22,7 @@ pub const HELP: &str = "Examples:
   rasterproof course --grade --folder submissions                    each by its own course.toml
   rasterproof course --grade --folder submissions --run 'python3 -B {}/starter.py'
 
-MapArray program has --seconds in all, --timeout for each answer and --memory MiB of addresses, and runs
+Each program has --seconds in all, --timeout for each answer and --memory MiB of addresses, and runs
 with your rights: judge only what you would run, or in a container.
 Exit status: 0 every step passed, 1 not, 2 nothing could be judged.";
 

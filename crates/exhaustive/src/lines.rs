@@ -52,7 +52,7 @@ impl Enumeration for Lines {
              directions: Bresenham's drawer and the DDA emit exactly the pixels of the rule of contract::DrawLine, \
              ties included, in order and once each, and in each of two windows that cut the lines exactly those \
              inside. On all lines of a reach up to {checked} the rule is compared in this run with the oracle's own \
-             code (oracle_checks). MapArray comparison is one drawing by one drawer.",
+             code (oracle_checks). Each comparison is one drawing by one drawer.",
             reach = self.reach,
             checked = self.reach.min(ORACLE_REACH),
         )

@@ -71,7 +71,7 @@ impl Enumeration for Triangles {
              {side}x{side} px window at ({x}, {y}) px, {order}: the scanline and the edge-function engine hit exactly \
              the samples of the window that the tabulated oracle says, once each. The table is compared in this run \
              with the oracle's own code on all triangles of the sublattice with {checked} subpixel bits \
-             (oracle_checks). MapArray comparison is one drawing by one engine."
+             (oracle_checks). Each comparison is one drawing by one engine."
         )
     }
 

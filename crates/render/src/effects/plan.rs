@@ -251,7 +251,7 @@ fn tiles<'de, D: serde::Deserializer<'de>>(from: D) -> Result<Vec<PixelRect>, D:
 #[serde(rename_all = "kebab-case")]
 pub enum Samples {
     /// Each for itself.
-    MapArray,
+    Each,
     /// One in the middle of the pixel, whatever the target has.
     Middle,
     /// A policy: a pixel is one until something needs its samples told apart. That costs more than
@@ -393,7 +393,7 @@ impl Plan {
     pub fn drawn(&self) -> Canvas {
         match self.frame.samples {
             Samples::Middle => Canvas { antialias: Antialias::None, ..self.canvas },
-            Samples::MapArray | Samples::OnDemand { .. } => self.canvas,
+            Samples::Each | Samples::OnDemand { .. } => self.canvas,
         }
     }
 }

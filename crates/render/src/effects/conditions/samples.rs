@@ -142,7 +142,7 @@ pub fn decide(canvas: &Canvas, effects: &Effects, estimate: Option<&Estimate>) -
     match estimate {
         _ if effects.mode(Effect::Samples) == Mode::Never && !is_one => Samples::Middle,
         Some(estimate) if estimate.pays() => POLICY,
-        _ => Samples::MapArray,
+        _ => Samples::Each,
     }
 }
 
@@ -158,7 +158,7 @@ pub fn explain(canvas: &Canvas, effects: &Effects, samples: Samples) -> Decision
     let pixels = canvas.pixels();
     let (counts, reason) = match samples {
         _ if canvas.antialias.samples() == 1 => ([0, pixels, 0], "a pixel has one sample"),
-        Samples::MapArray => ([pixels, 0, 0], "too few pixels would stay whole"),
+        Samples::Each => ([pixels, 0, 0], "too few pixels would stay whole"),
         Samples::Middle => ([0, pixels, 0], ""),
         Samples::OnDemand { .. } => ([0, 0, pixels], "as soon as a pixel may hold two colours"),
     };
