@@ -274,7 +274,7 @@ fn check(reader: &Reader, hostile: Hostile) -> Result<(), String> {
     let wrong = |what: &str| Err(format!("{what}: status {status:?}\n{out}\n{errors}"));
     let is_known =
         |&(code, files): &(u8, &[Hostile])| status == Some(code.into()) && files.contains(&hostile);
-    if status != Some(USAGE.into()) && !reader.or.iter().any(|known| is_known(known)) {
+    if status != Some(USAGE.into()) && !reader.or.iter().any(is_known) {
         return wrong("another status");
     }
     if errors.contains("panicked") || errors.contains("allocation") {

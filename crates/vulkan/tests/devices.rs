@@ -250,7 +250,7 @@ fn what_is_not_there_is_said() {
 }
 
 fn data(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/data").join(name)
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/data").join(name)
 }
 
 fn records(name: &str) -> Vec<serde_json::Value> {

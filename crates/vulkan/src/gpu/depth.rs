@@ -155,7 +155,8 @@ impl Linear {
 
     /// The distance in px of a pixel's centre from where it is 0.
     fn distance_px(self, pixel: (u32, u32)) -> f64 {
-        let steep = (self.0[0] as f64).hypot(self.0[1] as f64);
+        let (x, y) = (self.0[0] as f64, self.0[1] as f64);
+        let steep = (x * x + y * y).sqrt();
         if steep > 0.0 {
             (self.at(pixel).unsigned_abs() as f64) / steep / 2.0
         } else {

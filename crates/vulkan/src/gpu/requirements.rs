@@ -301,7 +301,8 @@ fn from_edges_px(corners: &Corners, x: i32, y: i32) -> f64 {
     let s = SubpixelPoint::new(centre(x), centre(y));
     let distance = |i: usize| {
         let (a, b) = (corners[i], corners[(i + 1) % 3]);
-        let length = f64::from(b.x - a.x).hypot(f64::from(b.y - a.y));
+        let (x, y) = (f64::from(b.x - a.x), f64::from(b.y - a.y));
+        let length = (x * x + y * y).sqrt();
         let twice = expected::area2(&[a, b, s]).unsigned_abs() as f64;
         if length > 0.0 { twice / length / f64::from(SUBPIXELS) } else { f64::INFINITY }
     };
