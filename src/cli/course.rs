@@ -3,9 +3,12 @@
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use super::course_grade::{self, GradeArguments};
+use super::course_grade::{self, BuildLimits, GradeArguments};
 use super::progress::Progress as Shown;
 use super::{Failure, Streams, exit, usage, write_file};
+use rasterproof_host::shell::quote;
+use rasterproof_host::text::printable_path;
+
 use crate::cli::starters::{self, Language};
 use rasterproof_judge::process::Limits;
 use rasterproof_judge::process_group;
@@ -69,6 +72,8 @@ struct CheckArguments {
     /// Decides every case
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = super::parse_number, allow_negative_numbers = true)]
     seed: u64,
+    #[command(flatten)]
+    build: BuildLimits,
     /// The program and its arguments, after --; remembered in course.toml
     #[arg(last = true, value_name = "CMD")]
     command: Vec<String>,
@@ -118,10 +123,10 @@ fn start(language: Language, folder: &Path, streams: &mut Streams<'_>) -> Result
     for (name, text) in files.chain([(progress::FILE, progress.text())]) {
         let path = folder.join(name);
         if path.symlink_metadata().is_ok() {
-            writeln!(streams.output, "kept:    {}", path.display())?;
+            writeln!(streams.output, "kept:    {}", printable_path(&path))?;
         } else {
             write_file(&path, text.as_bytes())?;
-            writeln!(streams.output, "written: {}", path.display())?;
+            writeln!(streams.output, "written: {}", printable_path(&path))?;
         }
     }
     let step = &STEPS[0];
@@ -129,7 +134,7 @@ fn start(language: Language, folder: &Path, streams: &mut Streams<'_>) -> Result
     let dir = if folder == Path::new(".") {
         String::new()
     } else {
-        format!(" --dir {}", folder.display())
+        format!(" --dir {}", quote(&folder.to_string_lossy()))
     };
     writeln!(streams.output, "write it, then: rasterproof course check{dir}")?;
     Ok(exit::AGREES)
@@ -145,8 +150,8 @@ fn run_check(arguments: &CheckArguments, streams: &mut Streams<'_>) -> Result<u8
             return Err(usage(format!(
                 "{} is not there\n  write one with: rasterproof course start {}\n  \
                  or name a program: rasterproof course check -- CMD",
-                path.display(),
-                arguments.dir.display()
+                printable_path(&path),
+                quote(&arguments.dir.to_string_lossy())
             )));
         }
     };
@@ -162,7 +167,7 @@ fn run_check(arguments: &CheckArguments, streams: &mut Streams<'_>) -> Result<u8
         })?,
     };
     process_group::end_all_on_ctrl_c();
-    let limits = sandbox::Bounds::default();
+    let limits = arguments.build.bounds();
     let shown = Shown::new(streams.progress, "steps", Some(1));
     sandbox::build(&arguments.dir, &progress.build, &limits).map_err(usage)?;
     let program = sandbox::start(&arguments.dir, &progress.run, &limits, Limits::default());

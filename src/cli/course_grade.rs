@@ -1,5 +1,6 @@
 //! `rasterproof course --grade`: points by step, of one program or of a folder of submissions.
 
+use std::ffi::{OsStr, OsString};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -8,6 +9,7 @@ use serde_json::{Value, json};
 
 use super::progress::Progress as Shown;
 use super::{Failure, Streams, exit, usage};
+use rasterproof_host::text::printable_path;
 use rasterproof_judge::process::{Limits, Program};
 use rasterproof_judge::process_group;
 use rasterproof_judge::text::printable;
@@ -22,8 +24,10 @@ pub const HELP: &str = "Examples:
   rasterproof course --grade --folder submissions                    each by its own course.toml
   rasterproof course --grade --folder submissions --run 'python3 -B {}/starter.py'
 
-Each program has --seconds in all, --timeout for each answer and --memory MiB of addresses, and runs
-with your rights: judge only what you would run, or in a container.
+Each program has --seconds in all, its build at most --build-seconds of them, --timeout for each
+answer and --memory MiB of addresses, and runs with your rights: judge only what you would run, or
+in a container. A submission that cannot be read, built or started has no points, and the reason is
+printed.
 Exit status: 0 every step passed, 1 not, 2 nothing could be judged.";
 
 /// What to print.
@@ -67,6 +71,8 @@ pub struct GradeArguments {
     /// MiB of addresses that a process may map; 0 sets no bound
     #[arg(long, value_name = "MIB", default_value_t = 2048)]
     memory: u64,
+    #[command(flatten)]
+    build: BuildLimits,
     /// The program and its arguments, last
     #[arg(
         trailing_var_arg = true,
@@ -74,7 +80,31 @@ pub struct GradeArguments {
         value_name = "CMD",
         required_unless_present = "folder"
     )]
-    command: Vec<String>,
+    command: Vec<OsString>,
+}
+
+/// What a build may take; what it started is ended with it.
+#[derive(clap::Args, Clone, Copy, Debug)]
+pub struct BuildLimits {
+    /// Seconds for a build
+    #[arg(long, value_name = "S", default_value_t = 120,
+        value_parser = clap::value_parser!(u64).range(1..=100_000))]
+    build_seconds: u64,
+    /// MiB that a build may write to standard error
+    #[arg(long, value_name = "MIB", default_value_t = sandbox::BUILD_OUTPUT_MIB,
+        value_parser = clap::value_parser!(u64).range(1..=1 << 20))]
+    build_output: u64,
+}
+
+impl BuildLimits {
+    /// These limits, in bounds that have none other.
+    pub fn bounds(self) -> Bounds {
+        Bounds {
+            build: Duration::from_secs(self.build_seconds),
+            build_bytes: self.build_output << 20,
+            ..Bounds::default()
+        }
+    }
 }
 
 /// How a program is made and run.
@@ -82,7 +112,7 @@ struct Submission {
     name: String,
     folder: PathBuf,
     build: Vec<String>,
-    run: Vec<String>,
+    run: Vec<OsString>,
 }
 
 /// What a submission got.
@@ -115,7 +145,9 @@ pub fn run(arguments: &GradeArguments, streams: &mut Streams<'_>) -> Result<u8, 
         Some(folder) => submissions(folder, arguments.run.as_deref())?,
         None => {
             let (folder, run) = (PathBuf::from("."), arguments.command.clone());
-            vec![Ok(Submission { name: run.join(" "), folder, build: Vec::new(), run })]
+            let words: Vec<_> = run.iter().map(|word| word.to_string_lossy()).collect();
+            let name = printable(words.join(" ").as_bytes(), 200);
+            vec![Ok(Submission { name, folder, build: Vec::new(), run })]
         }
     };
     process_group::end_all_on_ctrl_c();
@@ -149,7 +181,8 @@ type Found = Result<Submission, (String, String)>;
 
 /// The folders of a folder, by name; each with its commands, or why it has none.
 fn submissions(folder: &Path, template: Option<&str>) -> Result<Vec<Found>, Failure> {
-    let failed = |e: std::io::Error| usage(format!("cannot read {}: {e}", folder.display()));
+    let shown = printable_path(folder);
+    let failed = |e: std::io::Error| usage(format!("cannot read {shown}: {e}"));
     let mut paths = Vec::new();
     for entry in std::fs::read_dir(folder).map_err(failed)? {
         let path = entry.map_err(failed)?.path();
@@ -159,21 +192,22 @@ fn submissions(folder: &Path, template: Option<&str>) -> Result<Vec<Found>, Fail
     }
     paths.sort();
     if paths.is_empty() {
-        return Err(usage(format!(
-            "{} holds no folder\n  expected one for each submission",
-            folder.display()
-        )));
+        return Err(usage(format!("{shown} holds no folder\n  expected one for each submission")));
     }
     let one = |path: PathBuf| {
-        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        let name = printable(name.as_bytes(), 40);
+        let name = path.file_name().unwrap_or_default();
+        let name = printable(name.as_encoded_bytes(), 40);
         if let Some(template) = template {
-            let own = path.to_string_lossy();
-            let run = template.split_whitespace().map(|word| word.replace("{}", &own)).collect();
+            let word = |word: &str| {
+                let parts: Vec<_> = word.split("{}").map(OsStr::new).collect();
+                parts.join(path.as_os_str())
+            };
+            let run = template.split_whitespace().map(word).collect();
             return Ok(Submission { name, folder: PathBuf::from("."), build: Vec::new(), run });
         }
         match Progress::read(&path) {
             Ok(Some(Progress { build, run, .. })) => {
+                let run = run.into_iter().map(OsString::from).collect();
                 Ok(Submission { name, folder: path, build, run })
             }
             Ok(None) => Err((name, format!("it has no {}, and there is no --run", progress::FILE))),
@@ -186,10 +220,12 @@ fn submissions(folder: &Path, template: Option<&str>) -> Result<Vec<Found>, Fail
 fn grade(submission: &Submission, arguments: &GradeArguments) -> Grade {
     let start = Instant::now();
     let seconds = Duration::from_secs(arguments.seconds);
+    let bounds = arguments.build.bounds();
     let bounds = Bounds {
         memory_mib: Some(arguments.memory).filter(|mib| *mib > 0),
         processor_s: Some(arguments.seconds),
-        build: seconds,
+        build: bounds.build.min(seconds),
+        ..bounds
     };
     let mut grade =
         Grade { name: submission.name.clone(), steps: Vec::new(), error: None, seconds: 0.0 };
@@ -208,6 +244,8 @@ fn grade(submission: &Submission, arguments: &GradeArguments) -> Grade {
             }
         }
     }
+    // What it has left behind would take time from the next one.
+    process_group::end_strays_of_ended_groups();
     grade.seconds = start.elapsed().as_secs_f64();
     grade
 }

@@ -17,6 +17,7 @@ mod exact;
 mod exhaust;
 mod figures;
 mod hostile_files;
+mod hostile_submissions;
 mod illustrations;
 mod judge;
 mod judge_shown;

@@ -8,6 +8,7 @@
 //! known.
 
 use std::collections::VecDeque;
+use std::ffi::{OsStr, OsString};
 use std::io::{Read, Write};
 use std::process::{Command, ExitStatus, Stdio};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
@@ -53,7 +54,7 @@ const MOST_COMPLAINT_BYTES: usize = 4096;
 
 /// A program under judgement; it is running from the first question on.
 pub struct Program {
-    command: Vec<String>,
+    command: Vec<OsString>,
     limits: Limits,
     declared: Declared,
     /// Words of `--declare`, which are heard after those of the program.
@@ -94,12 +95,12 @@ impl Program {
     /// # Errors
     /// It cannot be started, or does not say HELLO.
     pub fn start(
-        command: &[String],
+        command: &[impl AsRef<OsStr>],
         extra: &[String],
         limits: Limits,
     ) -> Result<Self, Misbehaviour> {
         let mut program = Self {
-            command: command.to_vec(),
+            command: command.iter().map(|word| word.as_ref().to_owned()).collect(),
             limits,
             declared: Declared::default(),
             extra: extra.to_vec(),
@@ -220,7 +221,7 @@ impl Ask for Program {
 
 impl Live {
     fn start(
-        command: &[String],
+        command: &[OsString],
         complaints: &Arc<Mutex<VecDeque<u8>>>,
     ) -> Result<Self, Misbehaviour> {
         let Some((name, arguments)) = command.split_first() else {
@@ -229,7 +230,7 @@ impl Live {
         let mut command = Command::new(name);
         command.args(arguments).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
         let failed = |e: std::io::Error| {
-            Misbehaviour::CannotStart(format!("{}: {e}", printable(name.as_bytes(), 80)))
+            Misbehaviour::CannotStart(format!("{}: {e}", printable(name.as_encoded_bytes(), 80)))
         };
         let mut group = Group::start(&mut command).map_err(failed)?;
         let child = group.child();

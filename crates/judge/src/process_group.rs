@@ -113,6 +113,25 @@ fn adopt() {}
 /// every child is taken for a stray.
 #[cfg(target_os = "linux")]
 pub fn end_strays() {
+    end_children(|_| true);
+}
+
+/// As [`end_strays`], while this process goes on: children in its own session and process group, which it
+/// may have started itself, and programs that still run are left alone.
+#[cfg(target_os = "linux")]
+pub fn end_strays_of_ended_groups() {
+    use rustix::process::{getpgid, getsid};
+    // Held meanwhile, so that what is being started is in the list.
+    let live = LIVE.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+    let (session, group) = (getsid(None), getpgid(None));
+    end_children(|child| {
+        let is_live = live.iter().flatten().any(|id| *id == child.as_raw_nonzero().get() as u32);
+        !is_live && (getsid(Some(child)) != session || getpgid(Some(child)) != group)
+    });
+}
+
+#[cfg(target_os = "linux")]
+fn end_children(is_stray: impl Fn(rustix::process::Pid) -> bool) {
     use rasterproof_host::{input::read_text, limits};
     use rustix::process::{Pid, Signal, WaitOptions, child_subreaper, kill_process, waitpid};
     if !matches!(child_subreaper(), Ok(Some(_))) {
@@ -126,7 +145,7 @@ pub fn end_strays() {
         let lists = tasks.filter_map(|task| list(task).ok());
         let children = lists.collect::<Vec<_>>().join(" ");
         let pids = children.split_whitespace().filter_map(|word| Pid::from_raw(word.parse().ok()?));
-        let strays: Vec<Pid> = pids.collect();
+        let strays: Vec<Pid> = pids.filter(|pid| is_stray(*pid)).collect();
         for stray in &strays {
             if kill_process(*stray, Signal::KILL).is_ok() {
                 let _ = waitpid(Some(*stray), WaitOptions::empty());
@@ -141,6 +160,10 @@ pub fn end_strays() {
 /// Elsewhere they live on.
 #[cfg(not(target_os = "linux"))]
 pub fn end_strays() {}
+
+/// Elsewhere they live on.
+#[cfg(not(target_os = "linux"))]
+pub fn end_strays_of_ended_groups() {}
 
 #[cfg(unix)]
 fn kill(leader: u32) {

@@ -2,6 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
+use rasterproof_host::text::{printable_path, printable_short};
+use rasterproof_host::{input, limits};
+
 use super::{STEPS, Step};
 
 /// Its name.
@@ -52,14 +55,17 @@ impl Progress {
     /// What is wrong with the file, where, and what to do about it.
     pub fn read(folder: &Path) -> Result<Option<Self>, String> {
         let path = path(folder);
-        let text = match std::fs::read_to_string(&path) {
+        const REMEDY: &str = "mend it, or delete it and say: rasterproof course start";
+        let text = match input::read_text(&path, limits::NOTE_BYTES) {
             Ok(text) => text,
-            Err(e) if e.kind() == std::io::ErrorKind::NotFound => return Ok(None),
-            Err(e) => return Err(format!("cannot read {}: {e}", path.display())),
+            Err(error) if error.missing => return Ok(None),
+            Err(error) => return Err(format!("{error}\n  {REMEDY}")),
         };
         Self::parse(&text).map(Some).map_err(|what| {
-            let remedy = "mend it, or delete it and say: rasterproof course start";
-            format!("{}: {what}\n  {remedy}", path.display())
+            // The error quotes a line of the file, which can be long.
+            let lines = what.lines().take(8).map(|line| printable_short(line, 200));
+            let what = lines.collect::<Vec<_>>().join("\n");
+            format!("{}: {what}\n  {REMEDY}", printable_path(&path))
         })
     }
 

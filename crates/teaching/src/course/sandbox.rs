@@ -5,13 +5,16 @@
 //! folder, sets them with `ulimit` and becomes the program. Words of the command are arguments of
 //! this fixed line, never parts of it.
 
-use std::io::Read as _;
+use std::ffi::{OsStr, OsString};
+use std::io::Read;
 use std::path::Path;
 use std::process::{Command, Stdio};
-use std::time::Duration;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
 
+use rasterproof_host::text::printable_path;
 use rasterproof_judge::process::{Limits, Program};
-use rasterproof_judge::process_group::Group;
+use rasterproof_judge::process_group::{Group, end_strays_of_ended_groups};
 use rasterproof_judge::text::printable;
 
 /// What a program may use.
@@ -23,12 +26,22 @@ pub struct Bounds {
     pub processor_s: Option<u64>,
     /// How long its build may take.
     pub build: Duration,
+    /// Bytes that its build may write to standard error; its standard output is thrown away.
+    pub build_bytes: u64,
 }
+
+/// What a build may write to standard error where nothing else is said, in MiB.
+pub const BUILD_OUTPUT_MIB: u64 = 16;
 
 impl Default for Bounds {
     /// A student's own program is not bounded.
     fn default() -> Self {
-        Self { memory_mib: None, processor_s: None, build: Duration::from_secs(120) }
+        Self {
+            memory_mib: None,
+            processor_s: None,
+            build: Duration::from_secs(120),
+            build_bytes: BUILD_OUTPUT_MIB << 20,
+        }
     }
 }
 
@@ -39,7 +52,7 @@ const LINE: &str =
 
 /// The command that runs a program in its folder and its bounds.
 #[must_use]
-pub fn command(folder: &Path, run: &[String], bounds: &Bounds) -> Vec<String> {
+pub fn command<S: AsRef<OsStr>>(folder: &Path, run: &[S], bounds: &Bounds) -> Vec<OsString> {
     let bound = |n: Option<u64>| n.map_or_else(|| "unlimited".to_owned(), |n| n.to_string());
     // Nothing to set is left as it is: another `sh` may know no such bound.
     let line = match (bounds.memory_mib, bounds.processor_s) {
@@ -47,32 +60,32 @@ pub fn command(folder: &Path, run: &[String], bounds: &Bounds) -> Vec<String> {
         _ => LINE,
     };
     let memory = bound(bounds.memory_mib.map(|mib| mib.saturating_mul(1024)));
-    let head = ["sh", "-c", line, "sh", &memory, &bound(bounds.processor_s)].map(str::to_owned);
-    let folder = folder.to_string_lossy().into_owned();
-    head.into_iter().chain([folder]).chain(run.iter().cloned()).collect()
+    let head = ["sh", "-c", line, "sh", &memory, &bound(bounds.processor_s)].map(OsString::from);
+    let run = run.iter().map(|word| word.as_ref().to_owned());
+    head.into_iter().chain([folder.into()]).chain(run).collect()
 }
 
 /// Whether the program is there to be run.
 ///
 /// # Errors
 /// What is missing, and what to do about it.
-pub fn check_command(folder: &Path, run: &[String]) -> Result<(), String> {
-    let Some(name) = run.first().filter(|name| !name.is_empty()) else {
+pub fn check_command<S: AsRef<OsStr>>(folder: &Path, run: &[S]) -> Result<(), String> {
+    let Some(name) = run.first().map(AsRef::as_ref).filter(|name| !name.is_empty()) else {
         return Err("no program is named\n  name one: rasterproof course check -- CMD, or run in \
                     course.toml"
             .to_owned());
     };
-    let shown = printable(name.as_bytes(), 80);
+    let shown = printable(name.as_encoded_bytes(), 80);
     if !folder.is_dir() {
-        return Err(format!("{} is no folder", folder.display()));
+        return Err(format!("{} is no folder", printable_path(folder)));
     }
-    if name.contains('/') {
+    if name.as_encoded_bytes().contains(&b'/') {
         return if folder.join(name).is_file() {
             Ok(())
         } else {
             Err(format!(
                 "{shown} is not in {}\n  build it, or mend run in course.toml",
-                folder.display()
+                printable_path(folder)
             ))
         };
     }
@@ -91,26 +104,35 @@ pub fn check_command(folder: &Path, run: &[String]) -> Result<(), String> {
 ///
 /// # Errors
 /// It is not there, cannot be started or says no HELLO; with what to do about it.
-pub fn start(
+pub fn start<S: AsRef<OsStr>>(
     folder: &Path,
-    run: &[String],
+    run: &[S],
     bounds: &Bounds,
     limits: Limits,
 ) -> Result<Program, String> {
     check_command(folder, run)?;
     Program::start(&command(folder, run, bounds), &[], limits).map_err(|misbehaviour| {
-        let shown = printable(run.join(" ").as_bytes(), 80);
+        let shown = shown(run, 80);
         format!("the program {shown} {misbehaviour}\n  {}", misbehaviour.remedy())
     })
 }
 
-/// What is kept of what a build says.
-const MOST_SAID: u64 = 1 << 14;
+/// A command in a message.
+fn shown<S: AsRef<OsStr>>(words: &[S], most: usize) -> String {
+    let words: Vec<_> = words.iter().map(|word| word.as_ref().to_string_lossy()).collect();
+    printable(words.join(" ").as_bytes(), most)
+}
 
-/// Builds a program, if it is to be built.
+/// What is kept of what a build says.
+const MOST_SAID: usize = 1 << 14;
+
+/// The beginning of what a build has written to standard error, and how many bytes it was.
+type Said = Arc<Mutex<(Vec<u8>, u64)>>;
+
+/// Builds a program, if it is to be built, and ends whatever the build has started.
 ///
 /// # Errors
-/// The builder is missing, fails, or takes too long; with the beginning of what it said.
+/// The builder is missing, fails, writes too much or takes too long; with the beginning of what it said.
 pub fn build(folder: &Path, build: &[String], bounds: &Bounds) -> Result<(), String> {
     if build.is_empty() {
         return Ok(());
@@ -120,30 +142,58 @@ pub fn build(folder: &Path, build: &[String], bounds: &Bounds) -> Result<(), Str
     let mut command = Command::new(&line[0]);
     command.args(&line[1..]).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped());
     let mut group = Group::start(&mut command).map_err(|e| format!("cannot build: {e}"))?;
-    let stderr = group.child().stderr.take();
-    let said = std::thread::spawn(move || {
-        let mut said = Vec::new();
-        if let Some(mut stderr) = stderr {
-            let _ = (&mut stderr).take(MOST_SAID).read_to_end(&mut said);
-            // The rest is read, so that the builder can end.
-            let _ = std::io::copy(&mut stderr, &mut std::io::sink());
-        }
-        said
-    });
-    let ended = group.end(bounds.build);
-    if ended.is_some_and(|status| status.success()) {
-        return Ok(());
+    let said = Said::default();
+    if let Some(stderr) = group.child().stderr.take() {
+        keep(stderr, Arc::clone(&said)).map_err(|e| {
+            format!("cannot build: no thread can be started; allow more processes (ulimit -u): {e}")
+        })?;
     }
-    let said = said.join().unwrap_or_default();
-    let said: Vec<String> = said
+    let lock = || said.lock().unwrap_or_else(PoisonError::into_inner);
+    let end = Instant::now() + bounds.build;
+    let floods = || lock().1 > bounds.build_bytes;
+    while !group.has_ended() && !floods() && Instant::now() < end {
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    let ended = group.end(Duration::ZERO);
+    // What has left the group may hold the pipe, which is therefore not waited for.
+    end_strays_of_ended_groups();
+    let limit = match ended {
+        _ if floods() => Some(format!(
+            "the build writes more than {} MiB to standard error",
+            bounds.build_bytes >> 20
+        )),
+        None => Some(format!("the build takes more than {} s", bounds.build.as_secs())),
+        Some(status) if status.success() => return Ok(()),
+        Some(_) => None,
+    };
+    if limit.is_none() {
+        // It has ended: what it wrote last is on its way through the pipe.
+        let patience = Instant::now() + Duration::from_millis(200);
+        while Arc::strong_count(&said) > 1 && Instant::now() < patience {
+            std::thread::sleep(Duration::from_millis(1));
+        }
+    }
+    let text = lock().0.clone();
+    let text: Vec<String> = text
         .split(|b| *b == b'\n')
         .filter(|line| !line.is_empty())
         .take(12)
         .map(|line| format!("  | {}", printable(line.trim_ascii_end(), 94)))
         .collect();
-    let why = match ended {
-        Some(_) => "the build fails".to_owned(),
-        None => format!("the build takes more than {} s", bounds.build.as_secs()),
+    let why = limit.unwrap_or_else(|| "the build fails".to_owned());
+    Err(format!("{why}: {}\n{}", shown(build, 200), text.join("\n")))
+}
+
+/// Reads a pipe to its end on a thread of its own, and keeps the beginning.
+fn keep(mut stderr: impl Read + Send + 'static, said: Said) -> std::io::Result<()> {
+    let read = move || {
+        let mut piece = vec![0; 1 << 16];
+        while let Ok(n @ 1..) = stderr.read(&mut piece) {
+            let mut said = said.lock().unwrap_or_else(PoisonError::into_inner);
+            let left = MOST_SAID - said.0.len();
+            said.0.extend_from_slice(&piece[..n.min(left)]);
+            said.1 += n as u64;
+        }
     };
-    Err(format!("{why}: {}\n{}", build.join(" "), said.join("\n")))
+    std::thread::Builder::new().spawn(read).map(drop)
 }

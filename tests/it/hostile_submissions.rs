@@ -1,0 +1,218 @@
+//! Grading of submissions that are hostile: each that cannot be used has no points and a reason, the rest is
+//! graded, and nothing that a submission started lives on.
+
+#![cfg(unix)]
+
+use std::ffi::OsStr;
+use std::fs;
+use std::os::unix::ffi::OsStrExt as _;
+use std::os::unix::fs::symlink;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::time::{Duration, Instant};
+
+use serde_json::Value;
+
+const PROGRAM: &str = env!("CARGO_BIN_EXE_rasterproof");
+
+/// An empty folder of this test.
+fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("hostile-submissions").join(name);
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+fn course(folder: &Path, words: &[&str]) -> (i32, String, String) {
+    let mut command = Command::new(PROGRAM);
+    command.arg("course").args(words).current_dir(folder).env_remove("COLUMNS");
+    let output = command.output().unwrap();
+    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
+    (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
+}
+
+/// A progress file that builds by a line of `sh`, and then runs the scanline engine.
+fn progress(build: &str) -> String {
+    let build = match build {
+        "" => String::new(),
+        line => format!("\"sh\", \"-c\", {line:?}"),
+    };
+    format!("build = [{build}]\nrun = [{PROGRAM:?}, \"engine\", \"scanline\"]\nstep = \"pixel\"\n")
+}
+
+fn submit(class: &Path, name: &str, text: &str) {
+    fs::create_dir(class.join(name)).unwrap();
+    fs::write(class.join(name).join("course.toml"), text).unwrap();
+}
+
+/// Points and the reason of each submission of a class.
+fn graded(class: &Path, words: &[&str]) -> impl Fn(&str) -> (i64, String) {
+    let head = ["--grade", "--folder", ".", "--cases", "1", "--format", "json"];
+    let (status, out, errors) = course(class, &[&head, words].concat());
+    assert_eq!((status, &*errors), (1, ""), "{out}");
+    assert!(!out.contains('\u{1b}'), "{out}");
+    let all: Value = serde_json::from_str(&out).unwrap();
+    move |name| {
+        let found = all["submissions"].as_array().unwrap().iter().find(|s| s["name"] == name);
+        let found = found.unwrap_or_else(|| panic!("no {name} in {all:#}"));
+        (found["points"].as_i64().unwrap(), found["error"].as_str().unwrap_or("").to_owned())
+    }
+}
+
+#[test]
+fn one_hostile_file_does_not_stop_the_class() {
+    let class = folder("files");
+    submit(&class, "right", &progress(""));
+    submit(&class, "truncated", "build = []\nrun = [\"x\nstep");
+    submit(&class, "escapes", "run = []\nstep = \"\u{7f}[31mred\"\n");
+    submit(&class, "long", &format!("run = [{}", "[".repeat(900_000)));
+    let other = |name: &str| {
+        fs::create_dir(class.join(name)).unwrap();
+        class.join(name).join("course.toml")
+    };
+    let made = Command::new("mkfifo").arg(other("pipe")).status().unwrap();
+    assert!(made.success());
+    symlink("/dev/zero", other("zero")).unwrap();
+    fs::create_dir(other("directory")).unwrap();
+    fs::File::create(other("sparse")).unwrap().set_len(5_000_000_000).unwrap();
+    fs::write(other("bytes"), b"run = []\nstep = \"\xff\"\n").unwrap();
+    symlink("course.toml", other("circle")).unwrap();
+    other("empty");
+    let name = OsStr::from_bytes(b"not-\xff-utf-8");
+    fs::create_dir(class.join(name)).unwrap();
+    fs::write(class.join(name).join("course.toml"), progress("")).unwrap();
+
+    let start = Instant::now();
+    let graded = graded(&class, &[]);
+    // It waited for ever, or until memory was gone.
+    assert!(start.elapsed() < Duration::from_secs(120));
+    let (points, error) = graded("right");
+    assert!(points > 0 && error.is_empty(), "{error}");
+    assert_eq!(graded("not-\u{fffd}-utf-8"), (points, error));
+    for (name, reason) in [
+        ("truncated", "line 3"),
+        ("escapes", "no step is called"),
+        ("long", "line 1"),
+        ("pipe", "is a pipe, not a file"),
+        ("zero", "is a device, not a file"),
+        ("directory", "is a directory, not a file"),
+        ("sparse", "is too large: at most 1 MiB are read"),
+        ("bytes", "is not UTF-8 text (line 2)"),
+        ("circle", "cannot be read"),
+        ("empty", "it has no course.toml"),
+    ] {
+        let (points, error) = graded(name);
+        assert_eq!(points, 0, "{name}");
+        assert!(error.contains(reason) && error.len() < 3_000, "{name}: {error}");
+    }
+}
+
+/// The numbers of processes whose command line holds a word.
+fn processes(word: &str) -> Vec<String> {
+    let mut found = Vec::new();
+    for entry in fs::read_dir("/proc").into_iter().flatten().flatten() {
+        let line = fs::read(entry.path().join("cmdline")).unwrap_or_default();
+        if String::from_utf8_lossy(&line).contains(word) {
+            found.push(entry.file_name().to_string_lossy().into_owned());
+        }
+    }
+    found
+}
+
+/// A build that floods, that waits, and that leaves a process in a session of its own.
+#[cfg(target_os = "linux")]
+#[test]
+fn builds_are_bounded_and_what_they_started_is_ended() {
+    let class = folder("builds");
+    // Numbers of seconds that no other process sleeps.
+    submit(&class, "leaves", &progress("setsid sleep 4040.17 & exit 0"));
+    submit(&class, "leaves-and-fails", &progress("echo no >&2; setsid sleep 4040.18 & exit 3"));
+    submit(&class, "floods", &progress("(while :; do echo much; done) >&2"));
+    submit(
+        &class,
+        "waits",
+        &progress("setsid sh -c 'sleep 4040.19; sleep 4040.20' & sleep 4040.21"),
+    );
+    submit(&class, "right", &progress("echo a warning >&2"));
+    let start = Instant::now();
+    let graded = graded(&class, &["--build-seconds", "3", "--build-output", "1"]);
+    // The children sleep for more than an hour.
+    assert!(start.elapsed() < Duration::from_secs(120));
+    assert_eq!(processes("4040."), Vec::<String>::new());
+    let (points, _) = graded("right");
+    assert!(points > 0);
+    assert_eq!(graded("leaves"), (points, String::new()));
+    for (name, reasons) in [
+        ("leaves-and-fails", &["the build fails: sh -c", "| no"][..]),
+        ("floods", &["the build writes more than 1 MiB to standard error", "| much"]),
+        ("waits", &["the build takes more than 3 s"]),
+    ] {
+        let (points, error) = graded(name);
+        assert_eq!(points, 0, "{name}");
+        assert!(reasons.iter().all(|reason| error.contains(reason)), "{name}: {error}");
+    }
+    // A student's own check has the same limits.
+    let check = ["check", "--dir", "floods", "--build-output", "1"];
+    let (status, out, errors) = course(&class, &check);
+    assert_eq!((status, &*out), (2, ""));
+    assert!(errors.contains("writes more than 1 MiB"), "{errors}");
+}
+
+/// What a submission starts ends with it, before the next one is graded.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_submission_leaves_nothing_behind() {
+    let class = folder("leaves");
+    let line = format!("setsid sleep 4041.17 & exec {PROGRAM} engine scanline");
+    let text = format!("run = [\"sh\", \"-c\", {line:?}]\nstep = \"pixel\"\n");
+    submit(&class, "a", &text);
+    // It sees whether the other one's process is gone, and fails its build where it is not.
+    let look = "for f in /proc/[0-9]*/cmdline; do tr '\\0' ' ' <$f | grep -q '^sleep 4041.17' && exit 1; done; exit 0";
+    submit(&class, "b", &progress(look));
+    let graded = graded(&class, &[]);
+    let (points, error) = graded("a");
+    assert!(points > 0, "{error}");
+    assert_eq!(graded("b"), (points, error));
+}
+
+/// A stack larger than the address space refuses every thread, as a limit of processes does.
+#[cfg(target_os = "linux")]
+#[test]
+fn without_threads_every_submission_has_its_reason() {
+    let class = folder("threads");
+    submit(&class, "built", &progress("setsid sleep 4042.17 & sleep 4042.18"));
+    submit(&class, "run", &progress(""));
+    let mut command = Command::new(PROGRAM);
+    command.args(["course", "--grade", "--folder", "."]).current_dir(&class);
+    let output = command.env("RUST_MIN_STACK", "70368744177664").output().unwrap();
+    let out = String::from_utf8(output.stdout).unwrap();
+    assert_eq!(output.status.code(), Some(2), "{out}");
+    for name in ["built", "run"] {
+        let head = format!("{name}: cannot be judged: ");
+        let line = out.lines().find(|line| line.starts_with(&head)).unwrap_or_default();
+        assert!(line.contains("allow more processes (ulimit -u)"), "{out}");
+    }
+    assert!(!String::from_utf8(output.stderr).unwrap().contains("panicked"));
+    assert_eq!(processes("4042."), Vec::<String>::new());
+}
+
+/// A progress file that is a link stays one, names need not be text, and commands can be copied.
+#[test]
+fn progress_is_written_where_it_is() {
+    let home = folder("progress");
+    let name = OsStr::from_bytes(b"a 'b' \xff");
+    let own = home.join(name);
+    fs::create_dir(&own).unwrap();
+    fs::write(home.join("kept.toml"), progress("")).unwrap();
+    symlink("../kept.toml", own.join("course.toml")).unwrap();
+    let (status, out, errors) = course(&own, &["check", "scanline", "--cases", "1"]);
+    assert_eq!((status, &*errors), (0, ""), "{out}");
+    assert!(own.join("course.toml").symlink_metadata().unwrap().is_symlink());
+    assert!(fs::read_to_string(home.join("kept.toml")).unwrap().contains("\"scanline\""));
+    let mut command = Command::new(PROGRAM);
+    command.args(["course", "check", "scanline", "--cases", "1", "--dir"]).arg(&own);
+    assert!(command.output().unwrap().status.success());
+    let (status, out, _) = course(&home, &["start", "--language", "python", "it's mine"]);
+    assert_eq!(status, 0, "{out}");
+    assert!(out.contains(r"course check --dir 'it'\''s mine'"), "{out}");
+}
