@@ -79,7 +79,7 @@ impl Enumeration for Edges {
              column is the first centre at or right of the exact crossing, and the edge-function engine's \
              biased 32-bit integer decision is non-negative exactly from that column on as a left edge and \
              exactly before it as a right edge; for every horizontal edge, exactly from the scanline engine's \
-             first row on as a top edge and exactly before it as a bottom edge. MapArray comparison is one edge in \
+             first row on as a top edge and exactly before it as a bottom edge. Each comparison is one edge in \
              one row; walks start in the edge's first row.",
             self.subpixel_bits, self.window_px, self.window_px
         )
