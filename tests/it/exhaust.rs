@@ -278,7 +278,9 @@ fn exhaust_merge_refuses_what_does_not_fit() {
         "the code that was run",
     );
     refused(&with(&|c| c.shard.parts = 4), "the number of shards");
-    refused(&with(&|c| c.done.cases -= 1), "cases, where ");
+    let cases = good[2].1.done.cases;
+    let why = format!("it says {} cases, where {cases} belong", cases - 1);
+    refused(&with(&|c| c.done.cases -= 1), &why);
     assert!(merge(&good).unwrap().proved);
 }
 

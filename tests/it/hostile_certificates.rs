@@ -112,7 +112,7 @@ impl Run {
 
     /// Ends with a message of one short line, and hands over no certificate.
     #[track_caller]
-    fn is_refused(self, part: &str) {
+    fn refused(self, part: &str) {
         let run = self.has(REFUSED).says(part);
         assert!(run.out.is_empty() && !run.errors.contains("AGREES"), "{}", run.errors);
         let is_short = run.errors.trim_end().lines().count() == 1 && run.errors.len() < 800;
@@ -137,7 +137,7 @@ fn sums_that_overflow_are_refused() {
         folder.write("1.json", &one);
         folder.change("0.json", "0.json", &[(&place, json!((1u64 << 63) + a))]);
         folder.change("1.json", "1.json", &[(&place, json!((1u64 << 63) + b))]);
-        folder.run(MERGE).is_refused(field);
+        folder.run(MERGE).refused(field);
     }
 }
 
@@ -158,12 +158,12 @@ fn counts_that_do_not_follow_from_the_plan_are_refused() {
     ] {
         folder.change("whole.json", "changed.json", &[(place, value)]);
         let run = folder.run("merge changed.json");
-        run.says("changed.json is inconsistent: ").is_refused(why);
+        run.says("changed.json is inconsistent: ").refused(why);
     }
     // What is moved from one shard to another leaves the sum as it was.
     folder.change("0.json", "0.json", &[("/done/cases", json!(21))]);
     folder.change("1.json", "1.json", &[("/done/cases", json!(28))]);
-    folder.run(MERGE).is_refused("0.json is inconsistent: it says 21 cases, where 28 belong");
+    folder.run(MERGE).refused("0.json is inconsistent: it says 21 cases, where 28 belong");
     // A certificate that disagrees may lack the cases of a chunk whose engine panicked, but not more.
     let example = |chunk: u64| json!([{"chunk": chunk, "number": 0, "what": "panic: x"}]);
     let lacks = |chunk, comparisons: u64| {
@@ -179,11 +179,9 @@ fn counts_that_do_not_follow_from_the_plan_are_refused() {
     folder.change("whole.json", "changed.json", &lacks(6, 546));
     folder.run("merge changed.json").has(DISAGREES).says("DISAGREES: 42 of 49 cases");
     folder.change("whole.json", "changed.json", &lacks(6, 545));
-    folder
-        .run("merge changed.json")
-        .is_refused("545 comparisons, where 546 belong to its 42 cases");
+    folder.run("merge changed.json").refused("545 comparisons, where 546 belong to its 42 cases");
     folder.change("whole.json", "changed.json", &lacks(7, 546));
-    folder.run("merge changed.json").is_refused("chunk 7, which is no part of it");
+    folder.run("merge changed.json").refused("chunk 7, which is no part of it");
 }
 
 #[test]
@@ -210,7 +208,7 @@ fn certificates_of_another_program_are_refused() {
             folder.write(name, file);
             folder.change(name, name, &[(place, value.clone())]);
         }
-        folder.run(MERGE).is_refused(why);
+        folder.run(MERGE).refused(why);
     }
 }
 
@@ -229,7 +227,7 @@ fn a_great_number_of_parts_is_only_a_number() {
         let mut shell = Command::new("sh");
         shell.args(["-c", &script]).current_dir(&folder.0).env("RAYON_NUM_THREADS", "1");
         let run = Run::from(&script, &shell.output().unwrap());
-        run.is_refused(&format!("of {parts} shards these are missing: 1 to 6; "));
+        run.refused(&format!("of {parts} shards these are missing: 1 to 6; "));
     }
     // The seven shards that hold a chunk are all that there is of a run in 10^9 parts.
     let parts: u64 = 1_000_000_000;
@@ -237,7 +235,7 @@ fn a_great_number_of_parts_is_only_a_number() {
         let words = format!("exhaust {LINES} --shard {part}/{parts} -o {part}.json");
         folder.run(&words).has(AGREES);
     }
-    folder.run("merge 0.json 2.json 4.json 6.json").is_refused("these are missing: 1, 3, 5; ");
+    folder.run("merge 0.json 2.json 4.json 6.json").refused("these are missing: 1, 3, 5; ");
     folder.run("merge 0.json 1.json 2.json 3.json 4.json 5.json 6.json -o merged.json").has(AGREES);
     let [merged, whole] = ["merged.json", "whole.json"].map(|name| {
         let mut file = folder.json(name);
@@ -256,7 +254,7 @@ fn a_shard_without_cases_does_not_agree() {
         "exhaust triangles --window 1 --subpixel-bits 0 --shard 3/4",
         "exhaust edges --window 1 --subpixel-bits 0 --shard 3/16",
     ] {
-        folder.run(words).is_refused("so nothing would be judged");
+        folder.run(words).refused("so nothing would be judged");
     }
 }
 
@@ -286,7 +284,7 @@ fn a_checkpoint_that_was_changed_is_refused() {
     ] {
         folder.change("kept.json", "c.json", &[(place, value)]);
         let run = folder.run(&words).says("the checkpoint c.json was changed or is damaged: ");
-        run.says("--restart ignores it").is_refused(why);
+        run.says("--restart ignores it").refused(why);
     }
     // A state of the middle, as it is saved under way, goes on.
     let middle = [
@@ -311,7 +309,7 @@ fn two_processes_do_not_share_a_checkpoint() {
         std::thread::sleep(Duration::from_millis(20));
     }
     let second = folder.run("exhaust lines --reach 3 --restart --checkpoint ./c.json");
-    second.is_refused(&format!("c.json: is in use by another process {}; ", first.0.id()));
+    second.refused(&format!("c.json: is in use by another process {}; ", first.0.id()));
     assert!(folder.text("c.json").contains("\"edges\""));
     // What a killed process leaves is taken over.
     drop(first);
@@ -344,15 +342,15 @@ fn merge_judges_chunks_again() {
     folder.run("merge forged.json").has(AGREES);
     for seed in 0..5 {
         let run = folder.run(&format!("merge forged.json --check 12 --seed {seed}"));
-        run.is_refused("when its chunks are judged again");
+        run.refused("when its chunks are judged again");
     }
     let hidden = "holds a wrong case that the file does not list";
-    folder.run("merge forged.json --check 30").is_refused(hidden);
+    folder.run("merge forged.json --check 30").refused(hidden);
     let what = "/done/examples/0/what";
     folder.change("whole.json", "forged.json", &[(what, json!("x\u{1b}[2J"))]);
     folder.run("merge forged.json --check 30").has(REFUSED).says("chunk 0 holds a wrong case");
     let mismatches = folder.json("whole.json")["done"]["mismatches"].as_u64().unwrap();
     folder.change("whole.json", "forged.json", &[("/done/mismatches", json!(mismatches - 1))]);
     let more = format!("it says {} mismatches, but", mismatches - 1);
-    folder.run("merge forged.json --check 30").is_refused(&more);
+    folder.run("merge forged.json --check 30").refused(&more);
 }

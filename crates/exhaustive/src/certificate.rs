@@ -145,8 +145,9 @@ impl Certificate {
         let progress = Progress { tally: self.done.clone(), ..Progress::new(plan, self.shard) };
         let own = Self::new(progress, self.timing.threads);
         let anew = format!("issue it anew: {} -o FILE", own.repeat);
-        self.is_by(&own.identity)
-            .map_err(|error| format!("was issued by another program: {error}; {anew}"))?;
+        self.is_by(&own.identity).map_err(|error| {
+            format!("was issued by another program: {error}; merge it with that program, or {anew}")
+        })?;
         self.is_as(&own).map_err(|error| format!("is inconsistent: {error}; {anew}"))
     }
 
