@@ -1,5 +1,6 @@
 //! `rasterproof exhaust` and `rasterproof merge`: proofs by exhaustion and their certificates.
 
+use std::hash::{BuildHasher as _, Hasher as _, RandomState};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -13,6 +14,7 @@ use super::progress::Progress;
 use super::{Failure, Streams, exit, usage, write_file};
 use rasterproof_exhaustive::Plan;
 use rasterproof_exhaustive::certificate::{self, Certificate};
+use rasterproof_exhaustive::counts::Counts;
 use rasterproof_exhaustive::edges::Edges;
 use rasterproof_exhaustive::identity::Shard;
 use rasterproof_exhaustive::lines::Lines;
@@ -109,6 +111,12 @@ pub struct MergeArguments {
     /// Write the certificate here instead of to standard output
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
+    /// Judge N chunks again, and compare what is found with what the certificates say
+    #[arg(long, value_name = "N", value_parser = super::parse_count)]
+    check: Option<u64>,
+    /// Decides which chunks --check judges [default: another number in each run]
+    #[arg(long, value_name = "S", value_parser = super::parse_number, requires = "check")]
+    seed: Option<u64>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -160,10 +168,20 @@ pub fn run(arguments: &ExhaustArguments, streams: &mut Streams<'_>) -> Result<u8
     let output = arguments.common.output.as_deref().map(|path| ("--output", path, Use::Writes));
     let kept = [("--checkpoint", path.as_path(), Use::Writes), ("its lock", &lock, Use::Writes)];
     distinct(&kept.into_iter().chain(output).collect::<Vec<_>>())?;
+    let cases = Counts::of(&plan, shard.chunks(&plan)).cases;
+    if cases == 0 {
+        let Shard { part, parts } = shard;
+        let all = plan.enumeration().expected_cases();
+        return Err(usage(format!(
+            "shard {part} of {parts} holds none of the {all} cases, so nothing would be judged; merge \
+             does not need it"
+        )));
+    }
+    // Another process that resumed and saved the same state would count chunks twice or lose them.
+    let _lock = Lock::acquire(&path).map_err(|error| usage(format!("the checkpoint {error}")))?;
     let start = if arguments.common.restart { None } else { resume(&path, &plan, shard)? };
     let start = start.unwrap_or_else(|| run::Progress::new(&plan, shard));
 
-    let cases = plan.enumeration().expected_cases() / shard.parts;
     let progress = Progress::new(streams.progress, "cases", Some(cases));
     progress.resume_at(start.tally.cases);
     let save = |state: &run::Progress| {
@@ -210,10 +228,11 @@ fn resume(path: &Path, plan: &Plan, shard: Shard) -> Result<Option<run::Progress
         let what = "was made by other options or other code; --restart ignores it";
         return Err(usage(format!("the checkpoint {name} {what}")));
     }
-    let chunks = plan.enumeration().chunks();
-    if progress.done.iter().any(|[from, to]| from > to || *to > chunks) {
-        return Err(usage(format!("the checkpoint {name} is damaged; --restart ignores it")));
-    }
+    progress.check().map_err(|error| {
+        usage(format!(
+            "the checkpoint {name} was changed or is damaged: {error}; --restart ignores it"
+        ))
+    })?;
     Ok(Some(progress))
 }
 
@@ -258,12 +277,40 @@ pub fn merge(arguments: &MergeArguments, streams: &mut Streams<'_>) -> Result<u8
     let mut shards = Vec::new();
     for path in &arguments.files {
         let name = printable_path(path);
-        let text = input::read_text(path, limits::DOCUMENT_BYTES)
+        let text = input::read_text(path, limits::CERTIFICATE_BYTES)
             .map_err(|error| usage(error.to_string()))?;
         let certificate = Certificate::from_json(&text)
             .map_err(|what| usage(format!("{name} {}", printable(&what.to_string()))))?;
         shards.push((name, certificate));
     }
     let merged = certificate::merge(&shards).map_err(usage)?;
+    if let Some(count) = arguments.check {
+        judge_again(&merged, count, arguments.seed, streams)?;
+    }
     issue(&merged, arguments.output.as_deref(), streams)
+}
+
+/// Judges some chunks again; what the certificate says otherwise is an error.
+fn judge_again(
+    merged: &Certificate,
+    count: u64,
+    seed: Option<u64>,
+    streams: &mut Streams<'_>,
+) -> Result<(), Failure> {
+    // Whoever makes a file cannot know a number that is drawn afterwards.
+    let seed = seed.unwrap_or_else(|| RandomState::new().build_hasher().finish());
+    let progress = Progress::new(streams.progress, "cases", None);
+    let step = |cases| progress.done(cases);
+    let checked = certificate::judge_again(merged, count, seed, &step);
+    drop(progress);
+    let (chunks, cases) = checked.map_err(|error| {
+        let (again, error) = (&merged.repeat, printable(&error));
+        usage(format!("the files are refused: {error} (--seed {seed}); judge all anew: {again}"))
+    })?;
+    let all = merged.identity.plan.enumeration().chunks();
+    writeln!(
+        streams.errors,
+        "judged again: {chunks} of {all} chunks, {cases} cases (--seed {seed}): as the files say"
+    )?;
+    Ok(())
 }

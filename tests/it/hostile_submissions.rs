@@ -64,7 +64,7 @@ fn one_hostile_file_does_not_stop_the_class() {
     let class = folder("files");
     submit(&class, "right", &progress(""));
     submit(&class, "truncated", "build = []\nrun = [\"x\nstep");
-    submit(&class, "escapes", "run = []\nstep = \"\u{7f}[31mred\"\n");
+    submit(&class, "escapes", "run = []\nstep = \"\\u001b[31mred\"\n");
     submit(&class, "long", &format!("run = [{}", "[".repeat(900_000)));
     let other = |name: &str| {
         fs::create_dir(class.join(name)).unwrap();
@@ -91,7 +91,7 @@ fn one_hostile_file_does_not_stop_the_class() {
     assert_eq!(graded("not-\u{fffd}-utf-8"), (points, error));
     for (name, reason) in [
         ("truncated", "line 3"),
-        ("escapes", "no step is called"),
+        ("escapes", "no step is called \"\\u{1b}[31mred\""),
         ("long", "line 1"),
         ("pipe", "is a pipe, not a file"),
         ("zero", "is a device, not a file"),

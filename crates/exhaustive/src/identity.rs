@@ -19,6 +19,12 @@ pub struct Shard {
 impl Shard {
     /// All of it.
     pub const WHOLE: Self = Self { part: 0, parts: 1 };
+
+    /// The numbers of the chunks of this part. `part` is less than `parts`.
+    pub fn chunks(self, plan: &Plan) -> impl Iterator<Item = u64> + Clone {
+        let step = usize::try_from(self.parts).unwrap_or(usize::MAX);
+        (self.part..plan.enumeration().chunks()).step_by(step)
+    }
 }
 
 /// What was run, by which code.

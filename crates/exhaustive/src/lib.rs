@@ -9,6 +9,7 @@
 //! expected to behave like something else, except where an enumeration says so and why.
 
 pub mod certificate;
+pub mod counts;
 pub mod edges;
 pub mod identity;
 pub mod lines;
@@ -88,15 +89,25 @@ pub struct Example {
 
 impl Tally {
     /// Adds what another chunk or shard found; in any order the sum is the same.
-    pub fn add(&mut self, other: Self) {
-        self.cases += other.cases;
-        self.comparisons += other.comparisons;
-        self.oracle_checks += other.oracle_checks;
-        self.mismatches += other.mismatches;
+    ///
+    /// # Errors
+    /// The count that does not fit its 64 bits, which only a file can hold that was changed.
+    pub fn add(&mut self, other: Self) -> Result<(), String> {
+        for (field, sum, more) in [
+            ("cases", &mut self.cases, other.cases),
+            ("comparisons", &mut self.comparisons, other.comparisons),
+            ("oracle_checks", &mut self.oracle_checks, other.oracle_checks),
+            ("mismatches", &mut self.mismatches, other.mismatches),
+        ] {
+            let added = sum.checked_add(more);
+            *sum =
+                added.ok_or_else(|| format!("{field}: {sum} and {more} are more than 2^64 - 1"))?;
+        }
         self.examples.extend(other.examples);
         // Each summand holds its first ones, so the first of the sum are among them.
         self.examples.sort();
         self.examples.truncate(EXAMPLES);
+        Ok(())
     }
 
     /// Counts a failed comparison, and describes it if it is one of the first.

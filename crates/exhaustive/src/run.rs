@@ -44,14 +44,52 @@ impl Progress {
     pub fn belongs_to(&self, plan: &Plan, shard: Shard) -> bool {
         self.identity == Identity::of(plan) && self.shard == shard
     }
+
+    /// Checks that a run can have come to this state: that its chunks are chunks of its shard, and its
+    /// counts are theirs. What a file says is checked before it is resumed.
+    ///
+    /// # Errors
+    /// In words, what is impossible.
+    pub fn check(&self) -> Result<(), String> {
+        let plan = &self.identity.plan;
+        let (Shard { part, parts }, chunks) = (self.shard, plan.enumeration().chunks());
+        let mut end = 0;
+        for &[from, to] in &self.done {
+            if from < end || from >= to || to > chunks {
+                return Err(format!(
+                    "it says that the chunks from {from} to before {to} are done, which is no range of \
+                     the {chunks} chunks, or out of order"
+                ));
+            }
+            end = to;
+        }
+        let done = self.done.iter().flat_map(|&[from, to]| from..to);
+        if let Some(chunk) = done.clone().find(|chunk| chunk.checked_rem(parts) != Some(part)) {
+            return Err(format!(
+                "it says that chunk {chunk} is done, which does not belong to shard {part} of {parts}"
+            ));
+        }
+        check_seconds(self.seconds)?;
+        self.tally.check(plan, done)
+    }
+}
+
+/// Checks that a number from a file is a time.
+pub(crate) fn check_seconds(seconds: f64) -> Result<(), String> {
+    // A thousand centuries, so that no sum of them overflows.
+    if (0.0..3e12).contains(&seconds) {
+        Ok(())
+    } else {
+        Err(format!("it says that it took {seconds:?} s"))
+    }
 }
 
 /// Runs all chunks of the shard that are not done yet and returns the final state. Every now and
 /// then `save` gets the state so far, and after each chunk `step` the cases judged.
 ///
 /// # Panics
-/// If `resumed` [does not belong](Progress::belongs_to) to its own plan's chunks, which whoever
-/// reads a file checks first.
+/// If `resumed` is a state that [no run can have come to](Progress::check), which whoever reads a file
+/// checks first.
 pub fn run(
     resumed: Progress,
     save_every: Duration,
@@ -65,9 +103,8 @@ pub fn run(
     for &[from, to] in &resumed.done {
         done[from as usize..to as usize].fill(true);
     }
-    let Shard { part, parts } = resumed.shard;
     let pending: Vec<u64> =
-        (part..chunks).step_by(parts as usize).filter(|&chunk| !done[chunk as usize]).collect();
+        resumed.shard.chunks(&plan).filter(|&chunk| !done[chunk as usize]).collect();
 
     let (begun, spent) = (Instant::now(), resumed.seconds);
     let judge = enumeration.judge();
@@ -79,7 +116,7 @@ pub fn run(
         // A panic while saving is the end of the run anyway.
         let mut state = state.lock().unwrap_or_else(PoisonError::into_inner);
         let (progress, done, saved) = &mut *state;
-        progress.tally.add(found);
+        progress.tally.add(found).expect("counts of chunks that are checked do not overflow");
         done[chunk as usize] = true;
         if saved.elapsed() >= save_every {
             progress.done = ranges(done);
@@ -92,6 +129,14 @@ pub fn run(
     progress.done = ranges(&done);
     progress.seconds = spent + begun.elapsed().as_secs_f64();
     progress
+}
+
+/// Judges these chunks of a plan, which are in ascending order, and returns what they hold together.
+pub(crate) fn judge_again(plan: &Plan, chosen: &[u64], step: &(dyn Fn(u64) + Sync)) -> Tally {
+    let chunks = 0..plan.enumeration().chunks();
+    let others: Vec<_> = chunks.map(|chunk| chosen.binary_search(&chunk).is_err()).collect();
+    let others = Progress { done: ranges(&others), ..Progress::new(plan, Shard::WHOLE) };
+    run(others, Duration::MAX, &|_| {}, step).tally
 }
 
 /// A panic of an engine is a finding; the cases of its chunk are then missing from the count too.

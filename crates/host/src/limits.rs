@@ -12,7 +12,10 @@ pub const MATERIAL_BYTES: u64 = 1 << 26;
 /// One texture after decoding: 16,384 x 16,384 px in RGBA take 1 GiB, so this allows half of that.
 pub const DECODED_TEXTURE_BYTES: u64 = 1 << 29;
 
-/// Files that this program wrote itself: plans, certificates, checkpoints, baselines, snapshots.
+/// Certificates: some 2 KB and five examples. All files of a merge are in memory together.
+pub const CERTIFICATE_BYTES: u64 = 1 << 20;
+
+/// Files that this program wrote itself: plans, checkpoints, baselines, snapshots.
 pub const DOCUMENT_BYTES: u64 = 1 << 26;
 
 /// Small files that people edit: answers of a quiz, the progress of a course.
