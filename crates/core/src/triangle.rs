@@ -11,13 +11,36 @@ use crate::grid::{DOMAIN_PX, Refusal, SUBPIXELS, SubpixelPoint, snap};
 ///
 /// Weights are `f64` throughout: products of an edge function and a weight then keep 53 bits, the
 /// error bounds are about 1e-15 of the largest value, and a comparison between engines sees
-/// algorithms instead of rounding. `f64` and glam's `DVec2`, `DVec3`, `DVec4` qualify.
+/// algorithms instead of rounding. `f64` and glam's `DVec2`, `DVec3`, `DVec4` are such types.
 pub trait Varying:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<f64, Output = Self>
 {
+    /// Makes a value number by number: `number` gets the same number of each of `values`. It is called
+    /// for the first number first. For whoever computes with the numbers in another type.
+    fn by_number(values: [Self; 3], number: impl FnMut([f64; 3]) -> f64) -> Self;
 }
 
-impl<T: Copy + Add<Output = T> + Sub<Output = T> + Mul<f64, Output = T>> Varying for T {}
+impl Varying for f64 {
+    fn by_number(values: [Self; 3], mut number: impl FnMut([f64; 3]) -> f64) -> Self {
+        number(values)
+    }
+}
+
+macro_rules! vectors {
+    ($($vector:ty),*) => {$(
+        impl Varying for $vector {
+            fn by_number(
+                values: [Self; 3],
+                mut number: impl FnMut([f64; 3]) -> f64,
+            ) -> Self {
+                let [a, b, c] = values.map_array(|vector| vector.to_array());
+                Self::from_array(std::array::from_fn(|i| number([a[i], b[i], c[i]])))
+            }
+        }
+    )*};
+}
+
+vectors!(glam::DVec2, glam::DVec3, glam::DVec4);
 
 /// Smallest accepted w. With [`MAX_W`] it keeps every product of an edge function, a weight and an
 /// attribute within the normal range of `f64`.

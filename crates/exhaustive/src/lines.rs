@@ -20,7 +20,7 @@ use rasterproof_core::grid::PixelRect;
 use rasterproof_core::line::bresenham::Bresenham;
 use rasterproof_core::line::dda::Dda;
 use rasterproof_core::source_text;
-use rasterproof_core::triangle::{LineEnd, PixelPoint, ScreenLine};
+use rasterproof_core::triangle::{LineEnd, PixelPoint, ScreenLine, Varying};
 use rasterproof_faults::planted::LineMutant;
 use rasterproof_verify::oracle::Oracle;
 
@@ -279,6 +279,12 @@ impl Sub for Nothing {
 impl Mul<f64> for Nothing {
     type Output = Self;
     fn mul(self, _: f64) -> Self {
+        Self
+    }
+}
+
+impl Varying for Nothing {
+    fn by_number(_: [Self; 3], _: impl FnMut([f64; 3]) -> f64) -> Self {
         Self
     }
 }

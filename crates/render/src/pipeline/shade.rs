@@ -8,6 +8,7 @@
 use std::ops::{Add, Mul, Sub};
 
 use glam::{DVec2, DVec3};
+use rasterproof_core::triangle::Varying;
 
 /// `N` numbers that are interpolated together.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,6 +45,13 @@ impl<const N: usize> Mul<f64> for Attributes<N> {
             *value *= factor;
         }
         self
+    }
+}
+
+impl<const N: usize> Varying for Attributes<N> {
+    fn by_number(values: [Self; 3], mut number: impl FnMut([f64; 3]) -> f64) -> Self {
+        let [Self(a), Self(b), Self(c)] = values;
+        Self(std::array::from_fn(|i| number([a[i], b[i], c[i]])))
     }
 }
 

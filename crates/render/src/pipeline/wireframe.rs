@@ -40,6 +40,13 @@ impl<V: Varying> Mul<f64> for OverW<V> {
     }
 }
 
+impl<V: Varying> Varying for OverW<V> {
+    fn by_number(values: [Self; 3], mut number: impl FnMut([f64; 3]) -> f64) -> Self {
+        let value = V::by_number(values.map_array(|v| v.value), &mut number);
+        Self { value, inv_w: number(values.map_array(|v| v.inv_w)) }
+    }
+}
+
 /// Emits the fragments of the three edges; the corners, and pixels where edges meet, come twice.
 pub fn draw_edges<V: Varying>(
     drawer: &impl DrawLine,

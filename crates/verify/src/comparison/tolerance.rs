@@ -55,10 +55,9 @@ pub const SCANLINE: Tolerance =
 pub const LINE: Tolerance =
     Tolerance { attribute: Bound { d: 3.0, m: 1.0 }, depth: Bound { d: 3.0, m: 1.0 } };
 
-/// The oracle as an engine: exact weights, each rounded (1), three products (1), two sums (2): 4 M;
-/// its depth is rounded once.
+/// The oracle as an engine: each number is exact, and rounded once.
 pub const ORACLE: Tolerance =
-    Tolerance { attribute: Bound { d: 0.0, m: 4.0 }, depth: Bound { d: 0.0, m: 1.0 } };
+    Tolerance { attribute: Bound { d: 0.0, m: 1.0 }, depth: Bound { d: 0.0, m: 1.0 } };
 
 /// Unit roundoff of f64.
 const U: f64 = f64::EPSILON / 2.0;

@@ -5,8 +5,9 @@
 //! Cramer's rule gives the plane through three vertices without any rounding. The engines use
 //! weights (barycentric or along edges) and never planes.
 
+use std::cmp::Ordering;
+
 use num_bigint::{BigInt, Sign};
-use num_rational::BigRational;
 use num_traits::{Signed, ToPrimitive, Zero};
 
 use rasterproof_core::arrays::MapArray as _;
@@ -123,12 +124,47 @@ impl Exact {
         }
     }
 
-    /// The nearest f64.
+    /// The nearest f64, of two that are equally near the one with an even mantissa; infinite where
+    /// that is beyond the largest number.
     #[must_use]
     pub fn to_f64(&self) -> f64 {
-        BigRational::new_raw(self.numerator.clone(), self.denominator.clone())
-            .to_f64()
-            .unwrap_or(f64::NAN)
+        let (top, bottom) = (self.numerator.magnitude(), self.denominator.magnitude());
+        if top.is_zero() {
+            return 0.0;
+        }
+        // The quotient lies between 2^(bits - 1) and 2^(bits + 1).
+        let bits = top.bits() as i64 - bottom.bits() as i64;
+        let scaled = |exponent: i64| {
+            // top / (bottom 2^exponent) as two whole numbers.
+            let shift = exponent.unsigned_abs();
+            if exponent < 0 {
+                (top << shift, bottom.clone())
+            } else {
+                (top.clone(), bottom << shift)
+            }
+        };
+        let (left, right) = scaled(bits);
+        let first_bit = if left >= right { bits } else { bits - 1 };
+        if first_bit > 1023 {
+            return if self.numerator.is_negative() { f64::NEG_INFINITY } else { f64::INFINITY };
+        }
+        // Subnormal numbers end at 2^-1074, others 52 bits after the first.
+        let last_bit = (first_bit - 52).max(-1074);
+        let (left, right) = scaled(last_bit);
+        let (down, rest) = (&left / &right, &left % &right);
+        let down = down.to_u64().unwrap_or(u64::MAX);
+        let up = match (rest << 1u32).cmp(&right) {
+            Ordering::Less => 0,
+            Ordering::Equal => down & 1,
+            Ordering::Greater => 1,
+        };
+        let unit = match last_bit {
+            -1074..=-1023 => f64::from_bits(1 << (last_bit + 1074)),
+            _ => f64::from_bits(((last_bit + 1023) as u64) << 52),
+        };
+        // At most 2^53 units: the product is exact.
+        let magnitude = (down + up) as f64 * unit;
+        if self.numerator.is_negative() { -magnitude } else { magnitude }
     }
 
     /// |value - self|, to a relative accuracy of 2^-50; infinite where the value is not finite.
@@ -163,6 +199,14 @@ fn quotient(a: &BigInt, b: &BigInt) -> f64 {
     }
     let ((a, a_shift), (b, b_shift)) = (leading(a), leading(b));
     a / b * 2f64.powi((a_shift - b_shift).clamp(-1000, 1000))
+}
+
+/// The plane of an attribute over w.
+pub(super) struct Plane(LinearFunction);
+
+/// The centre of a pixel, in subpixels.
+fn centre(px: i32) -> i64 {
+    i64::from(px) * i64::from(SUBPIXELS) + i64::from(HALF_PIXEL)
 }
 
 /// The exact values of a triangle of N attributes at pixel centres.
@@ -209,11 +253,27 @@ impl<const N: usize> ExactTriangle<N> {
         })
     }
 
+    /// The plane of one more attribute over w, for [`Self::of_planes`].
+    pub(super) fn plane(&self, corners: &Corners, inv_w: [f64; 3], values: [f64; 3]) -> Plane {
+        let over_w = std::array::from_fn(|i| Dyadic::new(inv_w[i]).times(&Dyadic::new(values[i])));
+        Plane(LinearFunction::new(corners, self.area, &over_w))
+    }
+
+    /// The attributes of some planes at the centre of a pixel.
+    pub(super) fn of_planes(&self, planes: &[Plane], x_px: i32, y_px: i32) -> Vec<Exact> {
+        let [x, y] = [x_px, y_px].map_array(centre);
+        let inv_w = self.inv_w.numerator(x, y);
+        let one = |Plane(plane): &Plane| {
+            let exponent = plane.exponent - self.inv_w.exponent;
+            Exact::new(plane.numerator(x, y), inv_w.clone(), exponent)
+        };
+        planes.iter().map(one).collect()
+    }
+
     /// Depth and attributes at the centre of a pixel.
     #[must_use]
     pub fn at(&self, x_px: i32, y_px: i32) -> (Exact, [Exact; N]) {
-        let centre = |px: i32| i64::from(px) * i64::from(SUBPIXELS) + i64::from(HALF_PIXEL);
-        let (x, y) = (centre(x_px), centre(y_px));
+        let [x, y] = [x_px, y_px].map_array(centre);
         let inv_w = self.inv_w.numerator(x, y);
         let depth = Exact::new(self.depth.numerator(x, y), self.area.into(), self.depth.exponent);
         let attributes = std::array::from_fn(|k| {
@@ -296,6 +356,51 @@ mod tests {
             assert_eq!(depth.distance(6.0), 0.25);
             assert!(a.distance(8.0 / 23.0) < 1e-16 && a.distance(8.0 / 23.0) > 0.0);
             assert_eq!(a.distance(f64::NAN), f64::INFINITY);
+        }
+    }
+
+    /// Numbers that are the same everywhere (SplitMix64).
+    fn numbers(mut state: u64) -> impl FnMut() -> u64 {
+        move || {
+            state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+            let z = (state ^ (state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+            let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+            z ^ (z >> 31)
+        }
+    }
+
+    /// The processor's division is rounded once, as IEEE 754 wants it, subnormal results included.
+    #[test]
+    fn quotients_are_rounded_as_the_processor_rounds_them() {
+        let exact = |a: f64, b: f64| {
+            let (a, b) = (Dyadic::new(a), Dyadic::new(b));
+            Exact::new(a.mantissa, b.mantissa, a.exponent - b.exponent).to_f64()
+        };
+        let mut next = numbers(1);
+        let (mut subnormal, mut beyond) = (0, 0);
+        for i in 0..60_000 {
+            // Every third is near the smallest number, every third of any size, and one of few bits, whose
+            // quotients are often halfway between two numbers.
+            let any = |bits: u64| f64::from_bits(bits & !(0x7ff << 52) | (bits >> 53) % 2047 << 52);
+            let few = |bits: u64| ((bits % 4095) as f64 - 2047.0) * 2f64.powi((bits >> 58) as i32);
+            let (a, b) = match i % 3 {
+                0 => (any(next()), any(next())),
+                1 => (f64::MIN_POSITIVE * any(next() | 1 << 62).abs().sqrt(), few(next())),
+                _ => (few(next()) * f64::from_bits(1), 2f64.powi((next() % 20) as i32)),
+            };
+            if b == 0.0 || !a.is_finite() || !b.is_finite() {
+                continue;
+            }
+            let expected = a / b;
+            subnormal += u32::from(expected.is_subnormal());
+            beyond += u32::from(expected.is_infinite());
+            assert!(exact(a, b) == expected, "{a:e} / {b:e}: {:e}, {expected:e}", exact(a, b));
+        }
+        assert!(subnormal > 1_000 && beyond > 1_000, "{subnormal} {beyond}");
+        let halfway = [(f64::from_bits(1), 2.0), (f64::from_bits(3), 2.0), (f64::MAX, 0.5)];
+        for (a, b) in halfway {
+            assert_eq!(exact(a, b), a / b);
+            assert_eq!(exact(-a, b), -a / b);
         }
     }
 
