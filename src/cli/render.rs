@@ -437,8 +437,7 @@ pub fn run(
     drop(progress);
     let drawn_in = streams.save(&output, &picture).then_some(output.as_path());
     // What a plan changes in both frames alike is no difference between them.
-    let is_drawn =
-        |c: &&Comparison| !(c.agrees() || is_plan_alone(c, &drawings)) || c.undecided > 0;
+    let is_drawn = |c: &&Comparison| !(c.agrees() || is_plan_alone(c, &drawings)) || leaves_open(c);
     let mut difference_in = None;
     if let Some(comparison) = comparison.as_ref().filter(is_drawn) {
         let picture = frame_comparison::png(&comparison.picture)?;
@@ -522,12 +521,16 @@ fn report_page(
             c.pixels,
             c.wrong_depths,
             c.depths,
-            undecided(c).map_or(String::new(), |words| format!(" {words}."))
+            [undecided(c), far_texture(c)]
+                .into_iter()
+                .flatten()
+                .map(|words| format!(" {words}."))
+                .collect::<String>()
         ),
     });
     let layer =
         |d: &Drawing| PictureLayer::new(d.name, &frame_comparison::rgb(&d.rendered.picture));
-    let marked = comparison.filter(|c| !c.agrees() || c.undecided > 0);
+    let marked = comparison.filter(|c| !c.agrees() || leaves_open(c));
     let marked =
         marked.map(|c| PictureLayer::new("what differs", &frame_comparison::rgb(&c.picture)));
     let view = PictureView {
@@ -622,11 +625,26 @@ fn draw(
     engines.iter().map(drawing).inspect(|_| progress.done(1)).collect()
 }
 
+/// Whether some pixels are right in either of two colours.
+fn leaves_open(c: &Comparison) -> bool {
+    c.undecided > 0 || c.far_texture > 0
+}
+
 /// What is undecided by either, in words; nothing where nothing is.
 fn undecided(c: &Comparison) -> Option<String> {
     let Comparison { undecided, undecided_differ, .. } = c;
     (*undecided > 0).then(|| {
         format!("{undecided} pixels are undecided by either, {undecided_differ} of them differ")
+    })
+}
+
+/// What texture coordinates leave open, in words; nothing where they do not.
+fn far_texture(c: &Comparison) -> Option<String> {
+    (c.far_texture > 0).then(|| {
+        let count = c.far_texture;
+        format!(
+            "{count} pixels differ by large texture coordinates, whose bound holds several texels"
+        )
     })
 }
 
@@ -701,6 +719,11 @@ fn describe(
                 let _ = writeln!(text, "UNDECIDED: {words}: surfaces that tie (see docs/ties.md)");
             }
         }
+    }
+    if let Some((first, rest)) =
+        comparison.and_then(far_texture).as_deref().and_then(|words| words.split_once(", "))
+    {
+        let _ = writeln!(text, "UNDECIDED: {first},\n  {rest} (see docs/ties.md)");
     }
     text
 }
@@ -794,7 +817,7 @@ fn spin(
     streams: &mut Streams<'_>,
 ) -> Result<u8, Failure> {
     let mut bytes = Vec::new();
-    let (mut wrong, mut undecided) = (0, 0);
+    let (mut wrong, mut undecided, mut far) = (0, 0, 0);
     let mut screen = DoubleBuffer::new(arguments.what.target()?);
     let mut counters = Counters::default();
     {
@@ -807,6 +830,7 @@ fn spin(
             if let Some(c) = compare(&scene, &drawings, false)? {
                 wrong += c.wrong_pixels + c.wrong_depths;
                 undecided += c.undecided;
+                far += c.far_texture;
             }
             if let Some(first) = drawings.into_iter().next() {
                 screen.back = first.target;
@@ -825,6 +849,9 @@ fn spin(
     writeln!(streams.output, "{frames} frames{drawn_in}")?;
     if undecided > 0 {
         writeln!(streams.output, "UNDECIDED: {undecided} pixels, where surfaces tie")?;
+    }
+    if far > 0 {
+        writeln!(streams.output, "UNDECIDED: {far} pixels, by large texture coordinates")?;
     }
     match (arguments.engine, wrong) {
         (Drawn::Both, 0) => writeln!(streams.output, "AGREES: 0 pixels and depths differ")?,

@@ -1,6 +1,7 @@
 //! Depth ties: two surfaces in one plane are undecided by either rasterizer, in every depth format and
 //! with every kind of samples; a fault in the same scene is still found.
 
+use std::path::Path;
 use std::process::Command;
 
 use glam::{DMat4, DVec2, DVec3};
@@ -11,6 +12,7 @@ use rasterproof_registry::undecided::{self, Drawn};
 use rasterproof_render::effects::{Effects, render};
 use rasterproof_render::pipeline::depth::DepthFormat;
 use rasterproof_render::pipeline::target::{Antialias, Colour, Target};
+use rasterproof_render::pipeline::texture::{Filter, Texture, Wrap};
 use rasterproof_render::pipeline::transform::perspective;
 use rasterproof_render::scene::{Corner, Item, Material, Mesh, Scene, chapters};
 use rasterproof_report::frame_comparison::{self, Comparison};
@@ -261,4 +263,98 @@ fn the_command_names_ties() {
     assert!(status == Some(0) && text.contains("\nAGREES: "), "{text}");
     let (status, text, _) = render_model(&["--depth", "unorm24"]);
     assert!(status == Some(0) && text.contains("\nAGREES: "), "{text}");
+}
+
+/// A leaning triangle with a texture of many colours, whose coordinates reach from 0 to `far`.
+fn far_texture(far: f64, filter: Filter) -> Scene {
+    let texels: Vec<[u8; 3]> = (0..64 * 64_u32)
+        .map(|i| i.wrapping_mul(0x9e37_79b9).to_le_bytes())
+        .map(|[r, g, b, _]| [r, g, b])
+        .collect();
+    let texture = Texture::new(64, 64, &texels).unwrap().with(filter, Wrap::Repeat);
+    let corner = |position: u32, u: f64, v: f64| Corner {
+        position,
+        colour: DVec3::ONE,
+        normal: DVec3::ZERO,
+        uv: DVec2::new(u, v),
+    };
+    let positions = [(-1.0, -1.0, 0.0), (1.0, -1.0, 0.6), (0.0, 1.0, -0.4)];
+    let mesh = Mesh {
+        positions: positions.map(|(x, y, z)| DVec3::new(x, y, z)).to_vec(),
+        triangles: vec![[corner(0, 0.0, 0.0), corner(1, far, 0.0), corner(2, 0.3 * far, far)]],
+    };
+    let projection = perspective(0.7, 4.0 / 3.0, 1.0, 10.0).unwrap();
+    let mut scene = Scene::new("far", "large texture coordinates", projection);
+    let model = DMat4::from_translation(DVec3::Z * 3.0);
+    let texture = Some(std::sync::Arc::new(texture));
+    let material = Material { texture, ..Material::default() };
+    scene.items = vec![Item { model, ..Item::new(mesh, material) }];
+    scene
+}
+
+/// Both rasterizers keep their bounds, which hold several texels: counted, and no difference.
+#[test]
+fn large_texture_coordinates_are_undecided_by_either() {
+    for filter in [Filter::Nearest, Filter::Bilinear] {
+        for antialias in SMOOTHINGS {
+            let at = |far: f64| {
+                let scene = far_texture(far, filter);
+                compare(&scene, Engine::JUDGED, antialias, DepthFormat::Unorm32)
+            };
+            for far in [1.0, 7.0, 1e3] {
+                let c = at(far);
+                assert!(c.agrees() && c.far_texture == 0 && c.undecided == 0, "{far}: {c:?}");
+            }
+            let mut all = 0;
+            for far in [1e9, 1e10, 1e11, 1e13, 1e18, 1e60] {
+                let c = at(far);
+                assert!(c.agrees() && c.undecided == 0, "{far} {filter:?} {antialias:?}: {c:?}");
+                all += c.far_texture;
+            }
+            assert!(all > 20, "{filter:?} {antialias:?}: {all}");
+        }
+    }
+}
+
+/// What a fault does to texture coordinates lies outside of the bounds, near and far.
+#[test]
+fn faults_at_large_texture_coordinates_are_found() {
+    use TriangleMutant::{AffineAttributes, SwappedWeights, ValuesAtCorner, ValuesThroughF32};
+    for far in [1.0, 1e4, 1e9, 1e11] {
+        let scene = far_texture(far, Filter::Nearest);
+        for fault in [AffineAttributes, SwappedWeights, ValuesAtCorner, ValuesThroughF32] {
+            let engines = [Engine::Scanline, Engine::Mutant(fault)];
+            let c = compare(&scene, engines, Antialias::None, DepthFormat::Unorm32);
+            let least = match fault {
+                // A coordinate near 1 that is rounded to f32 stays within its texel.
+                ValuesThroughF32 if far == 1.0 => continue,
+                ValuesThroughF32 => 10,
+                _ => 100,
+            };
+            assert!(c.wrong_pixels >= least, "{far} {fault:?}: {c:?}");
+        }
+    }
+}
+
+#[test]
+fn the_command_names_large_texture_coordinates() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("far-texture");
+    std::fs::create_dir_all(&folder).unwrap();
+    let colours = |x: u32, y: u32| image::Rgb([(x * 37 % 256) as u8, (y * 91 % 256) as u8, 7]);
+    image::RgbImage::from_fn(64, 64, colours).save(folder.join("t.png")).unwrap();
+    std::fs::write(folder.join("m.mtl"), "newmtl a\nmap_Kd t.png\n").unwrap();
+    let obj = "mtllib m.mtl\nusemtl a\nv -1 -1 0\nv 1 -1 .5\nv 0 1 -.3\nvt 0 0\nvt 1e10 0\n\
+               vt 3e9 1e10\nf 1/1 2/2 3/3\n";
+    std::fs::write(folder.join("m.obj"), obj).unwrap();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_rasterproof"));
+    let output = command.args(["render", "m.obj"]).current_dir(&folder).output().unwrap();
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert_eq!(output.status.code(), Some(0), "{text}");
+    assert!(text.contains("\nAGREES: "), "{text}");
+    assert!(text.contains(" pixels differ by large texture coordinates,\n"), "{text}");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_rasterproof"));
+    command.args(["render", "m.obj", "--json"]).current_dir(&folder);
+    let json: serde_json::Value =
+        serde_json::from_slice(&command.output().unwrap().stdout).unwrap();
+    assert!(json["comparison"]["far_texture"].as_u64() > Some(0), "{json}");
 }

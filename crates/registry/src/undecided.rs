@@ -5,6 +5,9 @@
 //! one and another right one the other. Such a sample is undecided by either. A difference there is
 //! excused only if each of the two shows a surface that may be the nearest, in its colour and at its
 //! depth; anything else remains a difference.
+//!
+//! In the same way a texture coordinate that is very large has a bound that holds several texels, and right
+//! rasterizers may read different ones.
 
 use crate::engines::Engine;
 use rasterproof_core::arrays::MapArray as _;
@@ -27,6 +30,9 @@ pub struct Ties {
     undecided: Frame<bool>,
     /// For each plane, samples where both frames show what they may.
     excused: Vec<Frame<bool>>,
+    /// Pixels with a sample that the frames show by different texels, both within the bounds of their
+    /// texture coordinates.
+    far_texture: Frame<bool>,
 }
 
 impl Ties {
@@ -39,7 +45,14 @@ impl Ties {
     /// Whether a pixel of the picture is undecided.
     #[must_use]
     pub fn is_undecided(&self, x_px: i32, y_px: i32) -> bool {
-        self.undecided.get(x_px, y_px).unwrap_or(false)
+        self.undecided.get(x_px, y_px).unwrap_or(false) || self.is_far_texture(x_px, y_px)
+    }
+
+    /// Whether the frames show a pixel differently because its texture coordinates are so far out that
+    /// their bounds hold several texels.
+    #[must_use]
+    pub fn is_far_texture(&self, x_px: i32, y_px: i32) -> bool {
+        self.far_texture.get(x_px, y_px).unwrap_or(false)
     }
 
     /// Whether a sample of a plane is undecided, and both rasterizers show there what they may.
@@ -83,6 +96,7 @@ pub fn find(scene: &Scene, frames: [Drawn<'_>; 2]) -> Result<Ties, BadScene> {
     let mut ties = Ties {
         undecided: Frame::new(size, false),
         excused: vec![Frame::new(bounds, false); target.planes.len()],
+        far_texture: Frame::new(size, false),
     };
     let scale = target.antialias().scale() as i32;
     for Sample { plane, x_px, y_px } in bands.iter().flat_map(|band| &band.excused).copied() {
@@ -91,7 +105,94 @@ pub fn find(scene: &Scene, frames: [Drawn<'_>; 2]) -> Result<Ties, BadScene> {
     for Sample { x_px, y_px, .. } in bands.iter().flat_map(|band| &band.undecided).copied() {
         ties.undecided.span_mut(y_px / scale, x_px / scale, x_px / scale + 1)[0] = true;
     }
+    excuse_far_textures(&rivals, frames, &mut ties);
     Ok(ties)
+}
+
+/// Excuses samples that differ though both rasterizers keep their bounds, because a texture coordinate is
+/// so large that its bound holds several texels: each frame shows the same piece at its depth, by a texel
+/// within the bound of its own texture coordinates. A wrong coordinate shows another texel.
+fn excuse_far_textures(rivals: &Rivals<'_>, frames: [Drawn<'_>; 2], ties: &mut Ties) {
+    let scale = frames[0].target.antialias().scale() as i32;
+    for plane in 0..frames[0].target.planes.len() {
+        let colours =
+            |x: i32, y: i32| frames.map_array(|frame| frame.target.planes[plane].colour.get(x, y));
+        let differs = |ties: &Ties, x: i32, y: i32| {
+            let [a, b] = colours(x, y);
+            a != b && !ties.is_excused(plane, x, y)
+        };
+        let Some(differing) = box_of(frames[0].target.bounds(), |x, y| differs(ties, x, y)) else {
+            continue;
+        };
+        for piece in rivals.textured() {
+            for (x_px, y_px) in
+                far_textures(rivals, frames, (piece, plane), differing, &|x, y| differs(ties, x, y))
+            {
+                ties.excused[plane].span_mut(y_px, x_px, x_px + 1)[0] = true;
+                ties.far_texture.span_mut(y_px / scale, x_px / scale, x_px / scale + 1)[0] = true;
+            }
+        }
+    }
+}
+
+/// The smallest rectangle that holds all pixels of which something is true.
+fn box_of(bounds: PixelRect, is: impl Fn(i32, i32) -> bool) -> Option<PixelRect> {
+    let mut rect: Option<PixelRect> = None;
+    for y in bounds.y0..bounds.y1 {
+        for x in (bounds.x0..bounds.x1).filter(|&x| is(x, y)) {
+            let old = rect.unwrap_or(PixelRect { x0: x, y0: y, x1: x + 1, y1: y + 1 });
+            let [x0, y0] = [old.x0.min(x), old.y0.min(y)];
+            rect = Some(PixelRect { x0, y0, x1: old.x1.max(x + 1), y1: old.y1.max(y + 1) });
+        }
+    }
+    rect
+}
+
+/// The samples of a plane at which both frames show a piece as they may.
+fn far_textures(
+    rivals: &Rivals<'_>,
+    frames: [Drawn<'_>; 2],
+    (piece, plane): (u32, usize),
+    rect: PixelRect,
+    wanted: &dyn Fn(i32, i32) -> bool,
+) -> Vec<(i32, i32)> {
+    let Some((corners, depths)) = rivals.piece(piece, plane) else { return Vec::new() };
+    let no_values = [[0.0; 0]; 3];
+    let Some(exact) = ExactTriangle::new(&corners, depths, [1.0; 3], no_values) else {
+        return Vec::new();
+    };
+    let is_multisampled = frames[0].target.antialias() == Antialias::Multisample4;
+    let mut shown = [0, 1].map_array(|who| {
+        let Drawn { engine, target } = frames[who];
+        let (tolerance, here) = (engine.tolerance(), &target.planes[plane]);
+        let at_depth = |x: i32, y: i32| {
+            let depth = exact.at(x, y).0.to_f64();
+            let (near, far) = keys(target.format, depth, tolerance.depth, depths);
+            here.depth.get(x, y).is_some_and(|key| (near..=far).contains(&key))
+        };
+        let wanted = |x: i32, y: i32| wanted(x, y) && at_depth(x, y);
+        let bound = |values: [f64; 3]| tolerance.attribute.at(values);
+        let mut good = Vec::new();
+        // A multisampled pixel is shaded in the middle, or at whichever sample comes first.
+        let places: Vec<Option<usize>> = match is_multisampled {
+            true => (0..SAMPLES.len()).map(Some).chain([None]).collect(),
+            false => vec![Some(plane)],
+        };
+        for place in places {
+            let by = (&engine, &bound as &dyn Fn([f64; 3]) -> f64);
+            rivals.texels(by, piece, place, (rect, &wanted), &mut |x, y, colours| {
+                if here.colour.get(x, y).is_some_and(|colour| colours.holds(colour)) {
+                    good.push((y, x));
+                }
+            });
+        }
+        good.sort_unstable();
+        good.dedup();
+        good
+    });
+    let [first, second] = &mut shown;
+    first.retain(|sample| second.binary_search(sample).is_ok());
+    first.iter().map(|&(y, x)| (x, y)).collect()
 }
 
 /// What was found in a band.

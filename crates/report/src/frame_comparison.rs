@@ -51,6 +51,9 @@ pub struct Comparison {
     pub undecided: u64,
     /// Those of them that the two frames show in different colours, which is no fault.
     pub undecided_differ: u64,
+    /// Pixels that the two frames show by different texels, both within the bounds of texture coordinates
+    /// that are very large, which is no fault.
+    pub far_texture: u64,
     /// The first frame, dimmed, with what differs in red, what is undecided in brown, and in yellow
     /// where the frames show it differently.
     #[serde(skip)]
@@ -82,7 +85,7 @@ pub fn compare(
     let bounds = a.0.bounds();
     let pixels = u64::from(bounds.width()) * u64::from(bounds.height());
     let mut picture = Frame::new(bounds, [0; 4]);
-    let (mut wrong_pixels, mut undecided_differ) = (0, 0);
+    let (mut wrong_pixels, mut undecided_differ, mut far_texture) = (0, 0, 0);
     for y_px in bounds.y0..bounds.y1 {
         let rows = a.0.row(y_px).iter().zip(b.0.row(y_px));
         for (x_px, (pixel, (first, second))) in
@@ -92,7 +95,9 @@ pub fn compare(
             let differs = first != second;
             let is_excused = differs && ties.is_some_and(|t| only_ties(t, [a.1, b.1], x_px, y_px));
             wrong_pixels += u64::from(differs && !is_excused);
-            undecided_differ += u64::from(is_excused);
+            let is_far = is_excused && ties.is_some_and(|t| t.is_far_texture(x_px, y_px));
+            undecided_differ += u64::from(is_excused && !is_far);
+            far_texture += u64::from(is_far);
             *pixel = match (differs, is_excused, ties) {
                 (true, true, _) => YELLOW,
                 (true, false, _) => RED,
@@ -107,7 +112,16 @@ pub fn compare(
         picture.span_mut(y_px / scale, x_px / scale, x_px / scale + 1)[0] = RED;
     }
     let (wrong_depths, undecided) = (wrong.len() as u64, ties.map_or(0, Ties::count));
-    Comparison { pixels, wrong_pixels, depths, wrong_depths, undecided, undecided_differ, picture }
+    Comparison {
+        pixels,
+        wrong_pixels,
+        depths,
+        wrong_depths,
+        undecided,
+        undecided_differ,
+        far_texture,
+        picture,
+    }
 }
 
 /// Whether the samples of a pixel differ in colour only where ties excuse it, and somewhere do.

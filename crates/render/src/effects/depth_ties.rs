@@ -11,7 +11,10 @@ use super::primitive::{BadScene, Piece, Prepared, pack, touched};
 use super::samples::depths::DepthPlane;
 use super::samples::pattern::{Pattern, scaled};
 use super::{Effect, Effects, Mode, planner};
+use glam::DVec2;
+
 use crate::pipeline::Counters;
+use crate::pipeline::shade::Surface;
 use crate::pipeline::target::{Colour, Target, to_colour};
 use crate::scene::{Hidden, Scene};
 use rasterproof_core::arrays::MapArray as _;
@@ -20,6 +23,7 @@ use rasterproof_core::frame::Frame;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::Corners;
 use rasterproof_verify::oracle::Oracle;
+use rasterproof_verify::oracle::values::ExactTriangle;
 
 /// A sample of a target: a pixel of one of its planes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -173,6 +177,88 @@ impl<'a> Rivals<'a> {
             engine.fragments(&moved, bounds, emit);
         } else {
             engine.affine_fragments(&moved, bounds, emit);
+        }
+    }
+
+    /// The pieces in the order of drawing that have texture coordinates of their own in each fragment.
+    pub fn textured(&self) -> impl Iterator<Item = u32> + '_ {
+        let is_textured = |(item, _): &(usize, Piece)| self.items[*item].texture.is_some();
+        let pieces = self.pieces.iter().enumerate().filter(move |(_, piece)| is_textured(piece));
+        pieces.map(|(index, _)| index as u32)
+    }
+
+    /// The colours that a piece may have by a rasterizer whose texture coordinates lie within
+    /// `bound(u or v of the corners)` of the exact ones, at the samples of a plane, or in the middle of the
+    /// pixels of a multisampled picture where there is no plane; as far as they lie in `bounds` and are
+    /// `wanted`.
+    pub fn texels(
+        &self,
+        (engine, bound): (&impl Interpolate, &dyn Fn([f64; 3]) -> f64),
+        piece: u32,
+        plane: Option<usize>,
+        (bounds, wanted): (PixelRect, &dyn Fn(i32, i32) -> bool),
+        see: &mut dyn FnMut(i32, i32, Reachable),
+    ) {
+        let (item, piece) = &self.pieces[piece as usize];
+        let item = &self.items[*item];
+        let moved = match plane {
+            Some(plane) => self.pattern.moved(piece, plane),
+            None => Some(*piece),
+        };
+        let Some(moved) = moved else { return };
+        let perspective = !self.scene.affine;
+        let plan = PiecePlan { interpolates: item.carries, perspective, depth: true };
+        let kernel = Kernel::new(item, piece, plan, &mut Counters::default());
+        let Some(texture) = kernel.varying_texture() else { return };
+        let uv = moved.vertices.map_array(|v| Surface::from(v.varying).uv);
+        let bounds_of_uv =
+            DVec2::new(bound(uv.map_array(|uv| uv.x)), bound(uv.map_array(|uv| uv.y)));
+        let inv_w = moved.vertices.map_array(|v| if perspective { v.inv_w } else { 1.0 });
+        let exact =
+            ExactTriangle::new(&moved.corners(), [0.0; 3], inv_w, uv.map_array(|uv| uv.to_array()));
+        let Some(exact) = exact else { return };
+        let mut range = None;
+        let emit = |f: rasterproof_core::triangle::Fragment<_>| {
+            if !wanted(f.x_px, f.y_px) {
+                return;
+            }
+            let (_, uv) = exact.at(f.x_px, f.y_px);
+            let uv = DVec2::from(uv.map_array(|number| number.to_f64()));
+            let shade = |texel| to_colour(kernel.shade_texel(&f.varying, texel));
+            let colours = match texture.within(uv, bounds_of_uv) {
+                Some(texels) => Reachable::Colours(texels.into_iter().map(shade).collect()),
+                None => Reachable::Between(
+                    range.get_or_insert_with(|| texture.range()).map_array(shade),
+                ),
+            };
+            see(f.x_px, f.y_px, colours);
+        };
+        if perspective {
+            engine.fragments(&moved, bounds, emit);
+        } else {
+            engine.affine_fragments(&moved, bounds, emit);
+        }
+    }
+}
+
+/// The colours that a textured sample may have.
+#[derive(Clone, Debug)]
+pub enum Reachable {
+    /// These.
+    Colours(Vec<Colour>),
+    /// All between two, channel by channel: the bound is wider than the list of texels may be.
+    Between([Colour; 2]),
+}
+
+impl Reachable {
+    /// Whether a colour is one of them.
+    #[must_use]
+    pub fn holds(&self, colour: Colour) -> bool {
+        match self {
+            Self::Colours(colours) => colours.contains(&colour),
+            Self::Between([a, b]) => {
+                (0..colour.len()).all(|i| (a[i].min(b[i])..=a[i].max(b[i])).contains(&colour[i]))
+            }
         }
     }
 }

@@ -133,10 +133,19 @@ impl<'a> Kernel<'a> {
 
     /// The colour of all attributes, for what has no kernel of its own.
     pub fn shade_all(&self, varying: &Packed<ALL>) -> DVec3 {
-        let Surface { colour, normal, uv } = (*varying).into();
+        let uv = Surface::from(*varying).uv;
+        self.shade_texel(varying, self.varying_texture().map_or(self.texel, |t| t.at(uv)))
+    }
+
+    /// The texture, where each fragment has texture coordinates of its own.
+    pub fn varying_texture(&self) -> Option<&'a Texture> {
+        self.texture.filter(|_| self.plan.interpolates.has(Attributes::UV))
+    }
+
+    /// The same with this texel.
+    pub fn shade_texel(&self, varying: &Packed<ALL>, texel: DVec3) -> DVec3 {
+        let Surface { colour, normal, .. } = (*varying).into();
         let varies = |bit: u8| self.plan.interpolates.has(bit);
-        let texel =
-            self.texture.filter(|_| varies(Attributes::UV)).map_or(self.texel, |t| t.at(uv));
         let intensity =
             if varies(Attributes::NORMAL) { self.light.intensity(normal) } else { self.intensity };
         let colour = if varies(Attributes::COLOUR) { self.base * colour } else { self.base };

@@ -48,6 +48,9 @@ pub struct Texture {
     pub filter: Filter,
 }
 
+/// Places of a texture that are listed at most.
+pub const MOST_PLACES: usize = 1 << 8;
+
 /// Subtexels in a texel, as a power of two: shifts and masks are floors and remainders.
 const SUBTEXEL_BITS: u32 = 8;
 const SUBTEXELS: i64 = 1 << SUBTEXEL_BITS;
@@ -114,8 +117,12 @@ impl Texture {
     #[must_use]
     #[inline]
     pub fn at(&self, uv: DVec2) -> DVec3 {
-        let x = subtexel(uv.x, self.subtexels.x);
-        let y = subtexel(1.0 - uv.y, self.subtexels.y);
+        self.at_subtexel(subtexel(uv.x, self.subtexels.x), subtexel(1.0 - uv.y, self.subtexels.y))
+    }
+
+    /// The colour at whole numbers of 1/256 texel from the top left corner.
+    #[inline]
+    fn at_subtexel(&self, x: i64, y: i64) -> DVec3 {
         match self.filter {
             Filter::Nearest => {
                 let column = self.column(x >> SUBTEXEL_BITS);
@@ -137,6 +144,48 @@ impl Texture {
                 a + (b - a) * down
             }
         }
+    }
+
+    /// All colours that [`Self::at`] gives to coordinates within `bound` of (u, v), each once for every
+    /// place it is read from; nothing where these are more than [`MOST_PLACES`].
+    #[must_use]
+    pub fn within(&self, uv: DVec2, bound: DVec2) -> Option<Vec<DVec3>> {
+        // A coordinate is subtracted from 1, multiplied and moved by half a step: three roundings, each of
+        // at most half of EPSILON.
+        let places = |coordinate: f64, bound: f64, side: f64| {
+            let rounding = 2.0 * f64::EPSILON * (1.0 + coordinate.abs() + bound) * (side + 1.0);
+            let end = |side_of: f64| {
+                (coordinate + side_of * bound) * side + side_of * rounding + (0.5 + OFF_FRACTION)
+            };
+            let step = if self.filter == Filter::Nearest { SUBTEXELS } else { 1 };
+            let [first, last] = [end(-1.0), end(1.0)].map_array(|x| floor(x).div_euclid(step));
+            (last.checked_sub(first)? < MOST_PLACES as i64)
+                .then(|| (first..=last).map(move |place| place * step))
+        };
+        let columns = places(uv.x, bound.x, self.subtexels.x)?;
+        let rows = places(1.0 - uv.y, bound.y, self.subtexels.y)?;
+        if columns.clone().count() * rows.clone().count() > MOST_PLACES {
+            return None;
+        }
+        Some(
+            columns
+                .flat_map(|x| rows.clone().map(move |y| (x, y)))
+                .map(|(x, y)| self.at_subtexel(x, y))
+                .collect(),
+        )
+    }
+
+    /// The least and the largest of each channel in the whole texture.
+    #[must_use]
+    pub fn range(&self) -> [DVec3; 2] {
+        let mut range = [[u8::MAX; 3], [0; 3]];
+        for bytes in &self.bytes {
+            for (channel, byte) in bytes.to_le_bytes().into_iter().take(3).enumerate() {
+                range[0][channel] = range[0][channel].min(byte);
+                range[1][channel] = range[1][channel].max(byte);
+            }
+        }
+        range.map_array(|bytes| DVec3::from(bytes.map_array(|byte| CHANNELS[usize::from(byte)])))
     }
 
     #[inline]
@@ -220,6 +269,38 @@ mod tests {
             for wrap in [Wrap::Clamp, Wrap::Repeat] {
                 let texture = two_by_two().with(Filter::Bilinear, wrap);
                 assert!(texture.at(DVec2::new(odd, odd)).is_finite());
+            }
+        }
+    }
+
+    /// Coordinates within a bound are tried one by one, far out and nearby.
+    #[test]
+    fn all_colours_within_a_bound_are_listed() {
+        let numbers: Vec<[u8; 3]> = (0..=255).map(|i| [i, 255 - i, i / 2]).collect();
+        for filter in [Filter::Nearest, Filter::Bilinear] {
+            for wrap in [Wrap::Repeat, Wrap::Clamp] {
+                let texture = Texture::new(16, 16, &numbers).unwrap().with(filter, wrap);
+                let mut several = 0;
+                for (i, far) in [0.37, -2.2, 1e6, -3.3e9, 1e10, 1e12].into_iter().enumerate() {
+                    let centre = DVec2::new(far + i as f64 / 7.0, 0.3 - far);
+                    let bound = (centre.abs() + 1.0) * 1e-13;
+                    let Some(colours) = texture.within(centre, bound) else {
+                        assert!(far > 1e11);
+                        continue;
+                    };
+                    several += usize::from(colours.len() > 1);
+                    for part in 0..=2_000 {
+                        let t = f64::from(part) / 1_000.0 - 1.0;
+                        for moved in [DVec2::new(t, t), DVec2::new(t, -t), DVec2::new(-t, 0.5)] {
+                            let read = texture.at(centre + bound * moved);
+                            assert!(colours.contains(&read), "{far} {moved} {filter:?}");
+                        }
+                    }
+                }
+                assert!(several > 0);
+                assert_eq!(texture.within(DVec2::splat(1e14), DVec2::splat(1e3)), None);
+                let [least, most] = texture.range();
+                assert_eq!((least, most.x), (DVec3::ZERO, 1.0));
             }
         }
     }
