@@ -19,6 +19,7 @@ use rasterproof_core::angle::{atan, cos, sin, tan, turn_y};
 use rasterproof_core::frame::Frame;
 use rasterproof_registry::engines::{Drawer, Engine};
 use rasterproof_registry::undecided::{self, Drawn as DrawnBy};
+use rasterproof_render::effects::depth_ties::{ByRounding, Cause, Rivals};
 use rasterproof_render::effects::plan::{Plan, SceneDigest, VERSION};
 use rasterproof_render::effects::render::{BadScene, PlanError, Rendered};
 use rasterproof_render::effects::{Effect, Effects, Mode};
@@ -434,6 +435,10 @@ pub fn run(
     let mut drawings = draw(arguments, &scene, &progress)?;
     let picture = frame_comparison::png(&drawings[0].rendered.picture)?;
     let comparison = compare(&scene, &drawings, arguments.plan.is_some())?;
+    let by_rounding = match arguments.wireframe {
+        true => None,
+        false => Some(by_rounding(&scene, &drawings[0].target, Cause::Snapping)?),
+    };
     drop(progress);
     let drawn_in = streams.save(&output, &picture).then_some(output.as_path());
     // What a plan changes in both frames alike is no difference between them.
@@ -451,10 +456,12 @@ pub fn run(
             &names(&drawings),
             &drawings[0].rendered,
             &comparison,
+            &by_rounding,
         );
         writeln!(streams.output, "{json}")?;
     } else {
-        let text = describe(&scene, &drawings, comparison.as_ref(), drawn_in, difference_in);
+        let mut text = describe(&scene, &drawings, comparison.as_ref(), drawn_in, difference_in);
+        text += &rounding_text(by_rounding.unwrap_or_default(), "snapped corners move a depth");
         streams.output.write_all(text.as_bytes())?;
     }
     streams.output.flush()?;
@@ -501,6 +508,25 @@ fn compare(
         comparison.wrong_pixels += changed(drawings);
     }
     Ok(Some(comparison))
+}
+
+/// Where only rounding decides which surface is seen.
+fn by_rounding(scene: &Scene, target: &Target, cause: Cause) -> Result<ByRounding, Failure> {
+    let rivals = Rivals::new(scene, target).map_err(|error| usage(error.to_string()))?;
+    Ok(rivals.by_rounding(cause))
+}
+
+/// The same in words; nothing where nothing is. `reach` says how far rounding reaches.
+fn rounding_text(found: ByRounding, reach: &str) -> String {
+    let Some((x, y)) = found.first else { return String::new() };
+    let pixels = match found.pixels {
+        1 => "1 pixel has".to_owned(),
+        count => format!("{count} pixels have"),
+    };
+    format!(
+        "ROUNDING: {pixels} two surfaces nearer to each other than {reach};\n  rounding alone decides \
+         which one is seen; the first is at {x}, {y} (see docs/ties.md)\n"
+    )
 }
 
 /// The frames side by side, with the plan that was followed.
@@ -772,6 +798,9 @@ fn draw_in_tiles(
         let (side, path) = (frames::SIDE_PX, printable_path(output));
         writeln!(streams.output, "  drawn in tiles of {side} x {side} px in {path}")?;
     }
+    let found = by_rounding(scene, &target, Cause::PlanesInF32)?;
+    let reach = "the bound of depths in f32";
+    streams.output.write_all(rounding_text(found, reach).as_bytes())?;
     Ok(exit::AGREES)
 }
 

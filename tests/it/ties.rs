@@ -9,6 +9,7 @@ use rasterproof_core::frame::Frame;
 use rasterproof_faults::planted::TriangleMutant;
 use rasterproof_registry::engines::{Drawer, Engine};
 use rasterproof_registry::undecided::{self, Drawn};
+use rasterproof_render::effects::depth_ties::{Cause, Rivals};
 use rasterproof_render::effects::{Effects, render};
 use rasterproof_render::pipeline::depth::DepthFormat;
 use rasterproof_render::pipeline::target::{Antialias, Colour, Target};
@@ -357,4 +358,69 @@ fn the_command_names_large_texture_coordinates() {
     let json: serde_json::Value =
         serde_json::from_slice(&command.output().unwrap().stdout).unwrap();
     assert!(json["comparison"]["far_texture"].as_u64() > Some(0), "{json}");
+}
+
+fn by_rounding(scene: &Scene, cause: Cause, antialias: Antialias) -> u64 {
+    let target = Target::new(160, 120, antialias, DepthFormat::Unorm32).unwrap();
+    let found = Rivals::new(scene, &target).unwrap().by_rounding(cause);
+    assert_eq!(found.first.is_some(), found.pixels > 0);
+    found.pixels
+}
+
+/// Two surfaces in one plane are found in every view and with every kind of samples; two that lie apart,
+/// or are the same triangles twice, are not.
+#[test]
+fn surfaces_in_one_plane_are_found_before_snapping() {
+    for antialias in SMOOTHINGS {
+        for pitch in [3.0, 20.0, 55.0, 80.0] {
+            let scene = squares(pitch, 0.0);
+            let covered = {
+                let mut first = scene.clone();
+                first.items.truncate(1);
+                let target = Target::new(160, 120, Antialias::None, DepthFormat::F64).unwrap();
+                let (picture, _) = draw(&first, Engine::Scanline, target);
+                let background = picture.get(0, 0);
+                let pixels = picture.rows().flat_map(|(_, row)| row);
+                pixels.filter(|&&pixel| Some(pixel) != background).count() as u64
+            };
+            for cause in [Cause::Snapping, Cause::PlanesInF32] {
+                let name = format!("{cause:?} {antialias:?} {pitch}");
+                let found = by_rounding(&scene, cause, antialias);
+                // All of the square; the bound of a plane in f32 holds any difference of zero.
+                assert!(found >= covered, "{name}: {found} of {covered}");
+                assert_eq!(by_rounding(&squares(pitch, 0.05), cause, antialias), 0, "{name}");
+                let mut twice = scene.clone();
+                twice.items[1].mesh = twice.items[0].mesh.clone();
+                assert_eq!(by_rounding(&twice, cause, antialias), 0, "{name}");
+            }
+        }
+    }
+}
+
+/// Two squares that cross are open beside the line in which they do, and nowhere else.
+#[test]
+fn surfaces_that_cross_are_open_beside_their_line() {
+    let mut scene = squares(10.0, 0.0);
+    let tilt = rasterproof_core::angle::turn_x(70.0_f64.to_radians());
+    scene.items[1].model = DMat4::from_translation(DVec3::Z * 4.0) * tilt;
+    let found = by_rounding(&scene, Cause::Snapping, Antialias::None);
+    // The line is horizontal and at most 160 px long.
+    assert!(found <= 160, "{found}");
+    for name in ["cube", "sphere", "facets"] {
+        let scene = chapters::scene(name, 4.0 / 3.0, 0.0).unwrap();
+        assert_eq!(by_rounding(&scene, Cause::Snapping, Antialias::None), 0, "{name}");
+    }
+}
+
+#[test]
+fn the_command_names_surfaces_in_one_plane() {
+    // Where the format rounds the same, both rasterizers agree, and the picture hatches all the same.
+    let (status, text, _) = render_model(&["--depth", "unorm24"]);
+    assert!(status == Some(0) && text.contains("\nAGREES: ") && text.contains("\nROUNDING: "));
+    assert!(text.lines().all(|line| line.chars().count() <= 100 || line.contains("drawn in")));
+    let (_, json, _) = render_model(&["--depth", "unorm24", "--json"]);
+    let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+    assert!(json["by_rounding"]["pixels"].as_u64() > Some(1_000), "{json}");
+    let (status, text, _) = render_model(&["--engine", "tiles"]);
+    assert!(status == Some(0) && text.contains("than the bound of depths in f32"), "{text}");
 }

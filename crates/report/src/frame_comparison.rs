@@ -9,6 +9,7 @@ use rasterproof_core::frame::Frame;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_registry::undecided::Ties;
 use rasterproof_render::effects::Effect;
+use rasterproof_render::effects::depth_ties::ByRounding;
 use rasterproof_render::effects::render::Rendered;
 use rasterproof_render::pipeline::depth::CLEAR;
 use rasterproof_render::pipeline::target::{Colour, Target};
@@ -270,6 +271,7 @@ pub fn json(
     engines: &[&str],
     rendered: &Rendered,
     comparison: &Option<Comparison>,
+    by_rounding: &Option<ByRounding>,
 ) -> String {
     serde_json::json!({
         "scene": scene,
@@ -277,6 +279,7 @@ pub fn json(
         "counters": rendered.counters,
         "plan": rendered.plan,
         "comparison": comparison,
+        "by_rounding": by_rounding,
     })
     .to_string()
 }

@@ -14,13 +14,15 @@ use super::{Effect, Effects, Mode, planner};
 use glam::DVec2;
 
 use crate::pipeline::Counters;
+use crate::pipeline::assemble::twice_area;
 use crate::pipeline::shade::Surface;
 use crate::pipeline::target::{Colour, Target, to_colour};
 use crate::scene::{Hidden, Scene};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::{Interpolate, Rasterize};
 use rasterproof_core::frame::Frame;
-use rasterproof_core::grid::PixelRect;
+use rasterproof_core::grid::{PixelRect, SUBPIXELS};
+use rasterproof_core::parallel;
 use rasterproof_core::triangle::Corners;
 use rasterproof_verify::oracle::Oracle;
 use rasterproof_verify::oracle::values::ExactTriangle;
@@ -131,6 +133,16 @@ impl<'a> Rivals<'a> {
 
     /// Every sample that a piece covers, with the keys between which its depth lies.
     fn each_sample(&self, rect: PixelRect, see: &mut dyn FnMut(Rival, (u64, u64))) {
+        self.each_interval(rect, &|_| None, see);
+    }
+
+    /// The same where depths may be off by more than a rasterizer's rounding.
+    fn each_interval(
+        &self,
+        rect: PixelRect,
+        error: &dyn Fn((&Piece, &DepthPlane)) -> Option<DepthError>,
+        see: &mut dyn FnMut(Rival, (u64, u64)),
+    ) {
         let (samples, one) = (scaled(rect, self.pattern.scale), Pattern { scale: 1, planes: 1 });
         for (index, (_, piece)) in self.pieces.iter().enumerate() {
             if touched(&piece.corners(), self.canvas.antialias).intersect(&rect).is_empty() {
@@ -139,9 +151,14 @@ impl<'a> Rivals<'a> {
             for plane in 0..self.pattern.planes {
                 let Some(moved) = self.pattern.moved(piece, plane) else { continue };
                 let depths = DepthPlane::new(&moved, one);
+                let error = error((&moved, &depths));
                 Oracle.cover(moved.corners(), samples, |span| {
                     for x_px in span.x0_px..span.x1_px {
-                        let keys = depths.keys(x_px, span.y_px, self.canvas.depth);
+                        let ([near, far], off) = (
+                            depths.depths(x_px, span.y_px),
+                            error.as_ref().map_or(0.0, |error| error(x_px, span.y_px)),
+                        );
+                        let keys = [near - off, far + off].map_array(|z| self.canvas.depth.key(z));
                         let sample = Sample { plane, y_px: span.y_px, x_px };
                         see(Rival { sample, piece: index as u32 }, keys.into());
                     }
@@ -178,6 +195,79 @@ impl<'a> Rivals<'a> {
         } else {
             engine.affine_fragments(&moved, bounds, emit);
         }
+    }
+
+    /// Counts the pixels in which several pieces may be the nearest when depths are off as `cause` says:
+    /// only rounding decides which one is seen. Pieces with the same corners and depths count as one.
+    #[must_use]
+    pub fn by_rounding(&self, cause: Cause) -> ByRounding {
+        let size = self.size();
+        let height = (size.y1 - size.y0).max(1);
+        let rows = ((height + 7) / 8).min(64);
+        let bands = parallel::map((height as usize).div_ceil(rows as usize), |number| {
+            let y0 = size.y0 + number as i32 * rows;
+            self.by_rounding_within(PixelRect { y0, y1: (y0 + rows).min(size.y1), ..size }, cause)
+        });
+        bands.into_iter().fold(ByRounding::default(), |sum, band| ByRounding {
+            pixels: sum.pixels + band.pixels,
+            first: sum.first.or(band.first),
+        })
+    }
+
+    fn by_rounding_within(&self, rect: PixelRect, cause: Cause) -> ByRounding {
+        let scale = self.pattern.scale;
+        let samples = scaled(rect, scale);
+        let mut farthest = vec![Frame::new(samples, (u64::MAX, u32::MAX)); self.pattern.planes];
+        self.each_interval(
+            rect,
+            &|plane| Some(cause.error(plane, self.size(), scale)),
+            &mut |at, keys| {
+                let Sample { plane, y_px, x_px } = at.sample;
+                let least = &mut farthest[plane].span_mut(y_px, x_px, x_px + 1)[0];
+                *least = (*least).min((keys.1, at.piece));
+            },
+        );
+        let mut first = vec![Frame::new(samples, u32::MAX); self.pattern.planes];
+        let mut open = Frame::new(rect, false);
+        self.each_interval(
+            rect,
+            &|plane| Some(cause.error(plane, self.size(), scale)),
+            &mut |at, keys| {
+                let Sample { plane, y_px, x_px } = at.sample;
+                let Some(least) = farthest[plane].get(x_px, y_px) else { return };
+                if (keys.0, at.piece) > least {
+                    return;
+                }
+                let before = &mut first[plane].span_mut(y_px, x_px, x_px + 1)[0];
+                if *before == u32::MAX {
+                    *before = at.piece;
+                } else if !self.are_equal(*before, at.piece) {
+                    let (x, y) = (x_px.div_euclid(scale), y_px.div_euclid(scale));
+                    open.span_mut(y, x, x + 1)[0] = true;
+                }
+            },
+        );
+        let mut found = ByRounding::default();
+        for (y, row) in open.rows() {
+            for (x, _) in (rect.x0..).zip(row).filter(|(_, is_open)| **is_open) {
+                found.pixels += 1;
+                found.first = found.first.or(Some((x, y)));
+            }
+        }
+        found
+    }
+
+    /// Whether two pieces have the same corners and depths, in any order.
+    fn are_equal(&self, a: u32, b: u32) -> bool {
+        let corners = |piece: u32| {
+            let mut corners = self.pieces[piece as usize]
+                .1
+                .vertices
+                .map_array(|v| (v.position.x, v.position.y, v.depth.to_bits()));
+            corners.sort_unstable();
+            corners
+        };
+        corners(a) == corners(b)
     }
 
     /// The pieces in the order of drawing that have texture coordinates of their own in each fragment.
@@ -239,6 +329,72 @@ impl<'a> Rivals<'a> {
             engine.affine_fragments(&moved, bounds, emit);
         }
     }
+}
+
+/// By how much a depth may be off at a sample.
+type DepthError = Box<dyn Fn(i32, i32) -> f64>;
+
+/// Why a depth may be off by more than a rasterizer's own rounding.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Cause {
+    /// Corners are moved to whole subpixels, the same ones for every rasterizer.
+    Snapping,
+    /// Depths are planes in f32, as the rasterizer in tiles has them.
+    PlanesInF32,
+}
+
+impl Cause {
+    /// The bound for a piece, in a window of `size` pixels with `scale` samples along the side of each.
+    ///
+    /// Snapping: a corner moves by at most 1/512 along either axis. Inside of both triangles the depth is
+    /// an average of the corners', so it moves by at most (|gx| + |gy|) / 512, with g what the depth changes
+    /// by from sample to sample.
+    ///
+    /// Planes in f32, z = f0 + gx x + gy y from the first pixel of the box: at most 4 u S + 11 u' T, with
+    /// S = |f0| + |gx x| + |gy y| <= |z| + 2 (|gx x| + |gy y|) and T = M + Gx X + Gy Y, as the module
+    /// `planes` of the crate of tiles derives it. M <= 1.
+    fn error(
+        self,
+        (piece, depths): (&Piece, &DepthPlane),
+        size: PixelRect,
+        scale: i32,
+    ) -> DepthError {
+        let [gx, gy] = depths.per_px();
+        if self == Self::Snapping {
+            let off = (gx + gy) / f64::from(2 * SUBPIXELS);
+            return Box::new(move |_, _| off);
+        }
+        let corners = piece.corners();
+        let px = |sub: i32| f64::from(sub) / f64::from(SUBPIXELS);
+        let start = |all: [i32; 3], least: i32| {
+            let first = all.into_iter().min().unwrap_or(0).div_euclid(SUBPIXELS);
+            f64::from(first.max(least * scale))
+        };
+        let x0 = start(corners.map_array(|c| c.x), size.x0);
+        let y0 = start(corners.map_array(|c| c.y), size.y0);
+        let [a, b, c] = corners.map_array(|c| (px(c.x), px(c.y)));
+        let area = twice_area(corners) as f64 / f64::from(SUBPIXELS * SUBPIXELS);
+        let slope = |one: f64, other: f64| 2.0 * (one.abs() + other.abs()) / area.abs();
+        let (steep_x, steep_y) = (slope(b.1 - a.1, c.1 - a.1), slope(b.0 - a.0, c.0 - a.0));
+        let reach_x = (x0 - a.0).abs() + f64::from(size.width()) * f64::from(scale);
+        let reach_y = (y0 - a.1).abs() + f64::from(size.height()) * f64::from(scale);
+        let in_f64 = 11.0 * (f64::EPSILON / 2.0) * (1.0 + steep_x * reach_x + steep_y * reach_y);
+        let unit = f64::from(f32::EPSILON) / 2.0;
+        Box::new(move |x, y| {
+            let away = gx * (f64::from(x) + 1.0 - x0) + gy * (f64::from(y) + 1.0 - y0);
+            // The last factor is for products of errors.
+            (4.0 * unit * (1.0 + 2.0 * away) + in_f64) * (1.0 + 1.0 / f64::from(1 << 18))
+        })
+    }
+}
+
+/// Pixels in which only rounding decides which surface is seen.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
+pub struct ByRounding {
+    /// How many.
+    pub pixels: u64,
+    /// Column and row of the first.
+    pub first: Option<(i32, i32)>,
 }
 
 /// The colours that a textured sample may have.

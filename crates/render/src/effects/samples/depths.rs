@@ -16,6 +16,8 @@ pub struct DepthPlane {
     weights: [Weight; 2],
     /// Half the range of depths within a pixel.
     half_range: f64,
+    /// At least what the depth changes by from column to column and from row to row.
+    per_px: [f64; 2],
 }
 
 struct Weight {
@@ -66,20 +68,32 @@ impl DepthPlane {
         // Each product is rounded three times, the sums and the range four times.
         let rounding = 8.0 * f64::EPSILON * (all_x + all_y);
         let half_range = (x + y + rounding) * pattern.reach_px();
-        Self { depth: first, weights, half_range }
+        let per_px = [x + rounding, y + rounding];
+        Self { depth: first, weights, half_range, per_px }
     }
 
     /// Keys of the nearest and farthest depth that a rasterizer may compute at the samples of a
     /// pixel that it covers.
     #[inline]
     pub fn keys(&self, x_px: i32, y_px: i32, format: DepthFormat) -> [u64; 2] {
+        self.depths(x_px, y_px).map_array(|depth| format.key(depth))
+    }
+
+    /// The nearest and farthest such depth.
+    #[inline]
+    pub fn depths(&self, x_px: i32, y_px: i32) -> [f64; 2] {
         let (x, y) = (f64::from(x_px), f64::from(y_px));
         let [t1, t2] = [0, 1]
             .map_array(|i| &self.weights[i])
             .map_array(|w| w.slope * (w.origin + w.per_x * x + w.per_y * y));
         let middle = self.depth + (t1 + t2);
         let half = self.half_range + Self::ERROR * (1.0 + t1.abs() + t2.abs());
-        [format.key(middle - half), format.key(middle + half)]
+        [middle - half, middle + half]
+    }
+
+    /// At least what the depth changes by from column to column and from row to row.
+    pub fn per_px(&self) -> [f64; 2] {
+        self.per_px
     }
 }
 
