@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
+use rasterproof_host::limits;
 use serde_json::{Value, json};
 
 use super::progress::Progress as Shown;
@@ -87,11 +88,11 @@ pub struct GradeArguments {
 #[derive(clap::Args, Clone, Copy, Debug)]
 pub struct BuildLimits {
     /// Seconds for a build
-    #[arg(long, value_name = "S", default_value_t = 120,
+    #[arg(long, value_name = "S", default_value_t = limits::BUILD_SECONDS,
         value_parser = clap::value_parser!(u64).range(1..=100_000))]
     build_seconds: u64,
     /// MiB that a build may write to standard error
-    #[arg(long, value_name = "MIB", default_value_t = sandbox::BUILD_OUTPUT_MIB,
+    #[arg(long, value_name = "MIB", default_value_t = limits::BUILD_OUTPUT_MIB,
         value_parser = clap::value_parser!(u64).range(1..=1 << 20))]
     build_output: u64,
 }

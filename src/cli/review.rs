@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 
 use image::{ImageFormat, ImageReader, RgbImage};
 use rasterproof_host::input::{self, InputError};
-use rasterproof_host::limits::DOCUMENT_BYTES;
+use rasterproof_host::limits::{self, DOCUMENT_BYTES};
 use rasterproof_host::shell;
 use rasterproof_host::text::{printable, printable_path, printable_short};
 
@@ -41,14 +41,8 @@ pub struct ReviewArguments {
 
 /// Folders that are looked into where none is named.
 const USUAL: [&str; 2] = ["snapshots", "tests"];
-/// Largest side of a picture that is shown.
-const MOST_SIDE_PX: u32 = 4096;
-/// Longest text whose lines are compared.
-const MOST_BYTES: usize = 1 << 18;
 /// Snapshots that are listed, and shown where there is room on the page.
 const MOST_LISTED: usize = 500;
-/// Picture pixels that one review decodes: some seconds of work.
-const MOST_DECODED_PX: u64 = 1 << 27;
 /// Panels of one sheet that are named with their counts.
 const MOST_PANELS: usize = 12;
 /// Folders that are named where they cannot be read.
@@ -89,7 +83,7 @@ pub fn run(arguments: &ReviewArguments, streams: &mut Streams<'_>) -> Result<u8,
     }
     found.sort();
     found.dedup();
-    let mut left_px = MOST_DECODED_PX;
+    let mut left_px = limits::REVIEWED_PX;
     let (mut pending, mut accepted) = (Vec::new(), 0);
     let mut left_out = 0;
     for path in &found {
@@ -267,7 +261,7 @@ fn look_into(
         return Ok(None);
     }
     let longest = old.as_ref().map_or(0, String::len).max(new.len());
-    let (what, shown) = if longest > MOST_BYTES {
+    let (what, shown) = if longest > limits::COMPARED_TEXT_BYTES {
         (format!("a text of {longest} bytes, too long to show"), Shown::Nothing)
     } else {
         let what = if old.is_some() { "a changed text" } else { "a new text" };
@@ -276,17 +270,17 @@ fn look_into(
     Ok(Some(Pending { path, source, what, shown }))
 }
 
-/// A picture of at most [`MOST_SIDE_PX`] a side.
+/// A picture of at most [`limits::SHOWN_SIDE_PX`] a side.
 fn decode(bytes: &[u8], left_px: &mut u64) -> Result<RgbImage, String> {
     let reader = || ImageReader::with_format(Cursor::new(bytes), ImageFormat::Png);
     let (width, height) = reader().into_dimensions().map_err(|e| e.to_string())?;
-    if width.max(height) > MOST_SIDE_PX {
+    if width.max(height) > limits::SHOWN_SIDE_PX {
         return Err(format!("{width} x {height} px is too large to show"));
     }
     *left_px = left_px.checked_sub(u64::from(width) * u64::from(height)).ok_or_else(|| {
         format!(
             "not looked into: the pictures before it have {} million pixels",
-            MOST_DECODED_PX >> 20
+            limits::REVIEWED_PX >> 20
         )
     })?;
     Ok(reader().decode().map_err(|e| e.to_string())?.to_rgb8())

@@ -11,9 +11,9 @@ use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
 
 use image::{Rgb, RgbImage};
+use rasterproof_host::limits::PAGE_BYTES;
 use rasterproof_report::html::{
-    Column, Figure, MOST_BYTES, Outcome, PictureLayer, PictureView, PlanRow, Report, Row, Table,
-    TextDiff, page,
+    Column, Figure, Outcome, PictureLayer, PictureView, PlanRow, Report, Row, Table, TextDiff, page,
 };
 use rasterproof_report::panels::Sheet;
 use serde_json::{Value, json};
@@ -776,7 +776,7 @@ fn page_leaves_out_what_does_not_fit_and_says_so() {
         PictureView { name: "small".to_owned(), layers: two_pictures(), ..PictureView::default() },
     ];
     let text = page(&Report { frames, ..Report::default() });
-    assert!(text.len() < MOST_BYTES, "{} bytes", text.len());
+    assert!(text.len() < PAGE_BYTES, "{} bytes", text.len());
     assert!(text.contains("bytes: second (") && !text.contains("\"name\":\"second\""));
     assert!(text.contains("\"name\":\"first\"") && text.contains("\"name\":\"small\""));
 }

@@ -1,4 +1,6 @@
-//! Limits of size and time, each stated once.
+//! Limits of size and time of what comes from outside, each stated once.
+
+use std::time::Duration;
 
 /// Models: 1 GiB, since 5 million triangles take about a third of it.
 pub const MODEL_BYTES: u64 = 1 << 30;
@@ -26,3 +28,53 @@ pub const SOURCE_BYTES: u64 = 1 << 25;
 
 /// Seconds that a write may wait for the reader of a pipe or a device.
 pub const STALLED_WRITE_SECONDS: u64 = 10;
+
+/// One line of a judged program: a longer one is no answer, since the windows of cases are small.
+pub const PROGRAM_LINE_BYTES: usize = 1 << 20;
+
+/// Answers of a judged program to the questions that are asked at once, which are kept together. The cases of
+/// a block need less than a tenth.
+pub const PROGRAM_BLOCK_BYTES: usize = 32 << 20;
+
+/// What a judged program may say before it answers HELLO.
+pub const PROGRAM_CHATTER_BYTES: usize = 1 << 18;
+
+/// What is kept of a judged program's standard error: its end.
+pub const PROGRAM_COMPLAINT_BYTES: usize = 4096;
+
+/// One request of the line protocol; the rest of a longer line is not kept.
+pub const REQUEST_BYTES: u64 = 1 << 16;
+
+/// Fragments that are computed for one request, where the answer is collected or computed in big integers.
+pub const REQUEST_FRAGMENTS: u64 = 1 << 20;
+
+/// Runs or pixels of one answer. Some published algorithms make a run of every pixel, and the largest window
+/// has 2^28 of them, so that an answer would take gigabytes.
+pub const REQUEST_RUNS: usize = 1 << 22;
+
+/// Seconds for the build of a submission where no option says otherwise.
+pub const BUILD_SECONDS: u64 = 120;
+
+/// MiB that the build of a submission may write to standard error where no option says otherwise.
+pub const BUILD_OUTPUT_MIB: u64 = 16;
+
+/// What is kept of what a build writes: its beginning.
+pub const BUILD_SAID_BYTES: usize = 1 << 14;
+
+/// The largest side of a picture that is shown on a page.
+pub const SHOWN_SIDE_PX: u32 = 4096;
+
+/// The longest text whose lines are compared with those of another.
+pub const COMPARED_TEXT_BYTES: usize = 1 << 18;
+
+/// Pixels of pictures that one review decodes: some seconds of work.
+pub const REVIEWED_PX: u64 = 1 << 27;
+
+/// The longest page.
+pub const PAGE_BYTES: usize = 2_000_000;
+
+/// Time to compare the lines of two texts, which grows with the square of what differs.
+pub const DIFF_TIME: Duration = Duration::from_millis(500);
+
+/// Time to compare all texts of a page.
+pub const ALL_DIFFS_TIME: Duration = Duration::from_secs(2);

@@ -19,6 +19,7 @@ use super::ask::{Answer, Ask, Misbehaviour, Question};
 use super::declared::Declared;
 use super::process_group::Group;
 use super::text::{Words, printable};
+use rasterproof_host::limits;
 
 /// Time limits of a program.
 #[derive(Clone, Copy, Debug)]
@@ -35,13 +36,6 @@ impl Default for Limits {
     }
 }
 
-/// A longer line is no answer: windows of cases are small.
-const MOST_LINE_BYTES: usize = 1 << 20;
-/// The answers of the questions that are asked at once are kept together: so many bytes at most. The
-/// cases of a block need less than a tenth.
-const MOST_BLOCK_BYTES: usize = 32 << 20;
-/// What is said before HELLO is answered is skipped up to this.
-const MOST_CHATTER_BYTES: usize = 1 << 18;
 /// Bytes read in one go, and how many such pieces wait to be looked at.
 const PIECE_BYTES: usize = 1 << 16;
 const MOST_PIECES: usize = 16;
@@ -49,8 +43,6 @@ const MOST_PIECES: usize = 16;
 const LOOK: Duration = Duration::from_millis(20);
 /// What comes without such a pause is one flood.
 const SILENCE: Duration = Duration::from_millis(100);
-/// What is kept of standard error: its end.
-const MOST_COMPLAINT_BYTES: usize = 4096;
 
 /// A program under judgement; it is running from the first question on.
 pub struct Program {
@@ -155,7 +147,7 @@ impl Program {
                 .answer(&questions[answered], id, first_id..self.next_id, self.limits)
                 .map_err(|m| (live.or_flood(m, self.limits), sent - answered))?;
             self.kept += live.heard;
-            if self.kept > MOST_BLOCK_BYTES {
+            if self.kept > limits::PROGRAM_BLOCK_BYTES {
                 let said = format!("{} bytes of answers to a block of requests", self.kept);
                 return Err((Misbehaviour::Floods(said), sent - answered));
             }
@@ -283,7 +275,7 @@ impl Live {
                         let _ = self.requests.send(b"HELLO 1\n".to_vec());
                     } else if refuses {
                         return Err(Misbehaviour::NoHello(quote(&last)));
-                    } else if heard > MOST_CHATTER_BYTES {
+                    } else if heard > limits::PROGRAM_CHATTER_BYTES {
                         let said = format!("{heard} bytes before HELLO, at last {}", quote(&last));
                         return Err(Misbehaviour::Floods(said));
                     }
@@ -362,7 +354,7 @@ impl Live {
         }
         let start = Instant::now();
         let mut more = self.pending.len() - self.used;
-        while more <= MOST_LINE_BYTES {
+        while more <= limits::PROGRAM_LINE_BYTES {
             match self.pieces.recv_timeout(SILENCE) {
                 Ok(piece) if start.elapsed() < limits.answer => more += piece.len(),
                 _ => return what,
@@ -389,7 +381,7 @@ impl Live {
                 return Ok(line);
             }
             searched = self.pending.len();
-            if searched - self.used > MOST_LINE_BYTES {
+            if searched - self.used > limits::PROGRAM_LINE_BYTES {
                 return Err(NoLine::TooLong(searched - self.used));
             }
             let piece = self.piece(end)?;
@@ -478,7 +470,7 @@ fn keep_complaints(
         while let Ok(n @ 1..) = stderr.read(&mut piece) {
             let mut kept = kept.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
             kept.extend(&piece[..n]);
-            let over = kept.len().saturating_sub(MOST_COMPLAINT_BYTES);
+            let over = kept.len().saturating_sub(limits::PROGRAM_COMPLAINT_BYTES);
             kept.drain(..over);
         }
     })

@@ -1,7 +1,7 @@
 //! Words of the line protocol: numbers in, requests and answers out, and text of others made safe
 //! to show.
 
-use std::fmt::Write as _;
+use rasterproof_host::text::printable_short;
 
 /// A decimal number or a C99 hex float. NaN and infinities are read; who asks refuses them by name.
 #[must_use]
@@ -23,26 +23,12 @@ pub fn number(word: &str) -> Option<f64> {
         .flatten()
 }
 
-/// At most `most` characters of what a program wrote; what a terminal would obey is escaped.
+/// At most `most` characters of what a program wrote, as they can be shown.
 #[must_use]
 pub fn printable(bytes: &[u8], most: usize) -> String {
-    // A character has at most four bytes: no more than these are looked at.
+    // A character has at most four bytes: what lies beyond is not looked at.
     let few = &bytes[..bytes.len().min(4 * most + 4)];
-    let text = String::from_utf8_lossy(few);
-    let mut out = String::new();
-    for c in text.chars().take(most) {
-        match c {
-            '\'' | '"' | '\\' => out.push(c),
-            _ => {
-                // Writing to a string does not fail.
-                let _ = write!(out, "{}", c.escape_debug());
-            }
-        }
-    }
-    if text.chars().count() > most || few.len() < bytes.len() {
-        out.push_str("...");
-    }
-    out
+    printable_short(&String::from_utf8_lossy(few), most)
 }
 
 /// Reads the words of a line without keeping anything.
@@ -160,7 +146,7 @@ mod tests {
     fn text_of_others_is_harmless() {
         let shown = printable("a\u{1b}[31m\u{202e}\n\u{7f}é".as_bytes(), 40);
         assert_eq!(shown, "a\\u{1b}[31m\\u{202e}\\n\\u{7f}é");
-        assert_eq!(printable(b"abcdef", 3), "abc...");
+        assert_eq!(printable(b"abcdefg", 6), "abc...");
         assert!(printable(&[0xff; 1 << 20], 10).len() < 100);
     }
 }

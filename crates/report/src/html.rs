@@ -19,13 +19,14 @@
 //! Pictures that were rendered go in as [`PictureView`], cases of the harness as [`CaseView`]; both
 //! are shown in the same viewer. Every text is escaped, whatever it holds; the JSON for the script
 //! too. Nothing is loaded from outside, which the page's own policy forbids. It refuses to grow
-//! beyond [`MOST_BYTES`]: what does not fit is left out, and the page says what that is.
+//! beyond [`limits::PAGE_BYTES`]: what does not fit is left out, and the page says what that is.
 
 use std::fmt::Write as _;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use base64::Engine as _;
 use image::RgbImage;
+use rasterproof_host::limits::{self, PAGE_BYTES};
 use serde::Serialize;
 use similar::{ChangeTag, TextDiff as Lines};
 
@@ -33,14 +34,8 @@ pub use super::chapter::Chapter;
 use super::page_cases::CaseView;
 use super::picture;
 
-/// The page stays below this.
-pub const MOST_BYTES: usize = 2_000_000;
 /// Unchanged lines that are shown around a changed one.
 const CONTEXT: usize = 3;
-/// Time to compare the lines of two texts, which is quadratic in what differs.
-const DIFF_TIME: Duration = Duration::from_millis(500);
-/// Time to compare all texts of a page.
-const ALL_DIFFS_TIME: Duration = Duration::from_secs(2);
 /// Names of what was left out that are listed.
 const MOST_LEFT_OUT_NAMES: usize = 20;
 /// Bytes of the rows of a table.
@@ -251,10 +246,11 @@ pub fn escape(text: &str) -> String {
     out
 }
 
-/// The whole page, below [`MOST_BYTES`]; the same for the same report.
+/// The whole page, below [`limits::PAGE_BYTES`]; the same for the same report.
 #[must_use]
 pub fn page(report: &Report) -> String {
-    let mut room = MOST_BYTES.saturating_sub(TEMPLATE.len() + STYLE.len() + SCRIPT.len() + 4096);
+    let mut room =
+        limits::PAGE_BYTES.saturating_sub(TEMPLATE.len() + STYLE.len() + SCRIPT.len() + 4096);
     let mut left_out = Vec::new();
     let head = head(report);
     let tables: String = report.tables.iter().map(table).collect();
@@ -269,11 +265,13 @@ pub fn page(report: &Report) -> String {
             None
         }
     };
-    let last = Instant::now() + ALL_DIFFS_TIME;
+    let last = Instant::now() + limits::ALL_DIFFS_TIME;
     let diffs: Vec<_> = report
         .diffs
         .iter()
-        .filter_map(|diff| kept(&diff.name, text_diff(diff, last.min(Instant::now() + DIFF_TIME))))
+        .filter_map(|diff| {
+            kept(&diff.name, text_diff(diff, last.min(Instant::now() + limits::DIFF_TIME)))
+        })
         .collect();
     let figures: Vec<_> =
         report.figures.iter().filter_map(|f| kept(&f.caption, figure(f))).collect();
@@ -434,7 +432,7 @@ fn notes(notes: &[String], left_out: &[String]) -> String {
         let names = escape(&names.join(", "));
         let _ = writeln!(
             out,
-            "<p id=\"left-out\">Left out, to keep this file below {MOST_BYTES} bytes: {names}.</p>"
+            "<p id=\"left-out\">Left out, to keep this file below {PAGE_BYTES} bytes: {names}.</p>"
         );
     }
     out
@@ -585,7 +583,7 @@ mod tests {
         let page = page(&Report { diffs: vec![diff; 20], ..Report::default() });
         assert!(page.contains("of 50000 and of 50000 lines, are too different to show"), "{page}");
         // Twenty texts share two seconds; to prepare each takes some more.
-        assert!(begin.elapsed() < Duration::from_secs(30), "{:?}", begin.elapsed());
+        assert!(begin.elapsed() < std::time::Duration::from_secs(30), "{:?}", begin.elapsed());
     }
 
     #[test]
@@ -605,7 +603,7 @@ mod tests {
             ..Report::default()
         };
         let page = page(&report);
-        assert!(page.len() < MOST_BYTES, "{}", page.len());
+        assert!(page.len() < limits::PAGE_BYTES, "{}", page.len());
         assert!(page.contains(" more rows are left out") && page.contains(" more.</p>"), "{page}");
     }
 }

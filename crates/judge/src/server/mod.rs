@@ -13,6 +13,7 @@ mod reply;
 use std::io::{self, BufRead, BufReader, Read, Write};
 
 use glam::DVec2;
+use rasterproof_host::limits::{self, REQUEST_BYTES};
 
 use crate::declared::Declared;
 use crate::in_process::runs_of;
@@ -27,14 +28,10 @@ use rasterproof_core::triangle::{
 use rasterproof_registry::engines::{Engine, Entry, ExactEngine, LineEngine};
 use rasterproof_render::pipeline::multisample;
 
-/// A longer line is refused without being kept.
-const MOST_BYTES: u64 = 1 << 16;
 /// Requests that are read in one go.
 const READ_BYTES: usize = 1 << 16;
 /// Triangles of a request for depth order.
 const MOST_LAYERS: usize = 64;
-/// Fragments that the oracle, in big integers, computes for one request.
-const MOST_EXACT_FRAGMENTS: u64 = 1 << 20;
 
 /// Answers requests until there are none.
 ///
@@ -52,8 +49,8 @@ pub fn serve(entry: &Entry, input: &mut dyn Read, output: &mut dyn Write) -> io:
             return Ok(());
         }
         let request = match std::str::from_utf8(&line) {
-            _ if line.len() as u64 > MOST_BYTES => {
-                Err(format!("- a request has at most {MOST_BYTES} bytes"))
+            _ if line.len() as u64 > limits::REQUEST_BYTES => {
+                Err(format!("- a request has at most {REQUEST_BYTES} bytes"))
             }
             Err(_) => Err("- the request is not UTF-8".to_owned()),
             Ok(text) => Ok(text),
@@ -81,12 +78,12 @@ pub fn respond(entry: &Entry, text: &str, out: &mut dyn Write) -> io::Result<()>
 /// Reads a line without its end; of an overlong one the rest is thrown away. False at the end.
 fn read_line(input: &mut dyn BufRead, line: &mut Vec<u8>) -> std::io::Result<bool> {
     line.clear();
-    if (&mut *input).take(MOST_BYTES + 1).read_until(b'\n', line)? == 0 {
+    if (&mut *input).take(limits::REQUEST_BYTES + 1).read_until(b'\n', line)? == 0 {
         return Ok(false);
     }
     if line.last() == Some(&b'\n') {
         line.pop();
-    } else if line.len() as u64 > MOST_BYTES {
+    } else if line.len() as u64 > limits::REQUEST_BYTES {
         loop {
             let buffer = input.fill_buf()?;
             let (used, ended) = match buffer.iter().position(|&byte| byte == b'\n') {
@@ -377,7 +374,7 @@ fn values(engine: Engine, window: PixelRect, numbers: &[f64]) -> Result<Values, 
     let triangle = ScreenTriangle { vertices: [vertex(0)?, vertex(1)?, vertex(2)?] };
     let mut n = 0;
     if matches!(engine, Engine::Oracle) {
-        let most = MOST_EXACT_FRAGMENTS;
+        let most = limits::REQUEST_FRAGMENTS;
         n = pipeline::covered_at_most(engine, triangle.corners(), window, most).ok_or_else(|| {
             format!("more than {most} fragments, which is the most that the oracle computes for a request")
         })?;

@@ -4,6 +4,7 @@
 use std::collections::BTreeMap;
 
 use glam::{DVec2, DVec4};
+use rasterproof_host::limits::{self, REQUEST_FRAGMENTS};
 
 use crate::finding::push;
 use rasterproof_core::contract::{Interpolate as _, Rasterize as _};
@@ -13,9 +14,6 @@ use rasterproof_registry::engines::Engine;
 use rasterproof_render::pipeline::ClipVertex;
 use rasterproof_render::pipeline::clip::{ClipPlane, clip};
 use rasterproof_verify::cases::Triangle;
-
-/// Fragments of one request; their depths are kept until all of them are known.
-const MOST_FRAGMENTS: u64 = 1 << 20;
 
 /// The number of pixels that a triangle covers, or nothing where it is more than `most`.
 ///
@@ -51,10 +49,10 @@ pub(crate) fn seen(
 ) -> Result<Vec<(Span, u8)>, String> {
     let mut pixels = 0;
     for triangle in list {
-        let left = MOST_FRAGMENTS - pixels;
+        let left = limits::REQUEST_FRAGMENTS - pixels;
         let Some(covered) = covered_at_most(engine, triangle.corners(), window, left) else {
             return Err(format!(
-                "more than {MOST_FRAGMENTS} fragments, which is the most of a request: ask for a smaller window"
+                "more than {REQUEST_FRAGMENTS} fragments, which is the most of a request: ask for a smaller window"
             ));
         };
         pixels += covered;

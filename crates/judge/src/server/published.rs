@@ -6,6 +6,7 @@
 use std::io::Write as _;
 
 use glam::DVec2;
+use rasterproof_host::limits::{self, REQUEST_FRAGMENTS, REQUEST_RUNS};
 
 use crate::server::reply::{Reply, named, write_run, write_words};
 use rasterproof_core::grid::{PixelRect, Refusal};
@@ -15,18 +16,11 @@ use rasterproof_faults::published::{
 };
 use rasterproof_registry::engines::{Entry, LineSpecimen, Specimen, TriangleSpecimen};
 
-/// Fragments that a specimen computes for one request: its answer is collected before it is sent.
-const MOST_FRAGMENTS: u64 = 1 << 20;
-
-/// Runs or pixels of one answer. Some published algorithms make a run of every pixel, and the largest window has 2^28 of
-/// them, so that an answer would take gigabytes.
-const MOST_RUNS: usize = 1 << 22;
-
 /// The answer, unless it has more parts than are kept.
 fn whole(letter: char, n: usize, runs: Vec<u8>) -> Reply {
-    if n > MOST_RUNS {
+    if n > limits::REQUEST_RUNS {
         return Err(format!(
-            "{n} runs or pixels; a specimen answers with at most {MOST_RUNS}: ask for a smaller window"
+            "{n} runs or pixels; a specimen answers with at most {REQUEST_RUNS}: ask for a smaller window"
         ));
     }
     Ok((letter, n, runs))
@@ -70,7 +64,7 @@ fn cover(specimen: TriangleSpecimen, window: PixelRect, numbers: &[f64]) -> Repl
     specimen
         .cover(&bare(corners), window, &mut |span| {
             n += 1;
-            if n <= MOST_RUNS {
+            if n <= limits::REQUEST_RUNS {
                 write_run(&mut runs, span);
             }
         })
@@ -84,7 +78,7 @@ fn line(specimen: LineSpecimen, window: PixelRect, numbers: &[f64]) -> Reply {
     specimen
         .draw(ends, window, &mut |x_px, y_px| {
             n += 1;
-            if n <= MOST_RUNS {
+            if n <= limits::REQUEST_RUNS {
                 write_words(&mut pixels, [x_px, y_px]);
             }
         })
@@ -113,9 +107,9 @@ fn values(specimen: TriangleSpecimen, window: PixelRect, numbers: &[f64]) -> Rep
     specimen
         .cover(&triangle, window, &mut |span| pixels += u64::from(span.x0_px.abs_diff(span.x1_px)))
         .map_err(|refused| refused.to_string())?;
-    if pixels > MOST_FRAGMENTS {
+    if pixels > limits::REQUEST_FRAGMENTS {
         return Err(format!(
-            "{pixels} fragments; a specimen computes at most {MOST_FRAGMENTS} for a request"
+            "{pixels} fragments; a specimen computes at most {REQUEST_FRAGMENTS} for a request"
         ));
     }
     let (mut fragments, mut n) = (Vec::new(), 0);

@@ -12,6 +12,7 @@ use std::process::{Command, Stdio};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
+use rasterproof_host::limits;
 use rasterproof_host::text::printable_path;
 use rasterproof_judge::process::{Limits, Program};
 use rasterproof_judge::process_group::{Group, end_strays_of_ended_groups};
@@ -30,17 +31,14 @@ pub struct Bounds {
     pub build_bytes: u64,
 }
 
-/// What a build may write to standard error where nothing else is said, in MiB.
-pub const BUILD_OUTPUT_MIB: u64 = 16;
-
 impl Default for Bounds {
     /// A student's own program is not bounded.
     fn default() -> Self {
         Self {
             memory_mib: None,
             processor_s: None,
-            build: Duration::from_secs(120),
-            build_bytes: BUILD_OUTPUT_MIB << 20,
+            build: Duration::from_secs(limits::BUILD_SECONDS),
+            build_bytes: limits::BUILD_OUTPUT_MIB << 20,
         }
     }
 }
@@ -123,9 +121,6 @@ fn shown<S: AsRef<OsStr>>(words: &[S], most: usize) -> String {
     printable(words.join(" ").as_bytes(), most)
 }
 
-/// What is kept of what a build says.
-const MOST_SAID: usize = 1 << 14;
-
 /// The beginning of what a build has written to standard error, and how many bytes it was.
 type Said = Arc<Mutex<(Vec<u8>, u64)>>;
 
@@ -190,7 +185,7 @@ fn keep(mut stderr: impl Read + Send + 'static, said: Said) -> std::io::Result<(
         let mut piece = vec![0; 1 << 16];
         while let Ok(n @ 1..) = stderr.read(&mut piece) {
             let mut said = said.lock().unwrap_or_else(PoisonError::into_inner);
-            let left = MOST_SAID - said.0.len();
+            let left = limits::BUILD_SAID_BYTES - said.0.len();
             said.0.extend_from_slice(&piece[..n.min(left)]);
             said.1 += n as u64;
         }

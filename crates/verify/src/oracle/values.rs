@@ -381,7 +381,8 @@ mod tests {
         for i in 0..60_000 {
             // Every third is near the smallest number, every third of any size, and one of few bits, whose
             // quotients are often halfway between two numbers.
-            let any = |bits: u64| f64::from_bits(bits & !(0x7ff << 52) | (bits >> 53) % 2047 << 52);
+            let any =
+                |bits: u64| f64::from_bits((bits & !(0x7ff << 52)) | (((bits >> 53) % 2047) << 52));
             let few = |bits: u64| ((bits % 4095) as f64 - 2047.0) * 2f64.powi((bits >> 58) as i32);
             let (a, b) = match i % 3 {
                 0 => (any(next()), any(next())),
