@@ -131,11 +131,8 @@ fn start(language: Language, folder: &Path, streams: &mut Streams<'_>) -> Result
     }
     let step = &STEPS[0];
     writeln!(streams.output, "step 1, {}: {}", step.title, step.judged)?;
-    let dir = if folder == Path::new(".") {
-        String::new()
-    } else {
-        format!(" --dir {}", quote(&folder.to_string_lossy()))
-    };
+    let dir =
+        if folder == Path::new(".") { String::new() } else { format!(" --dir {}", quote(folder)) };
     writeln!(streams.output, "write it, then: rasterproof course check{dir}")?;
     Ok(exit::AGREES)
 }
@@ -151,7 +148,7 @@ fn run_check(arguments: &CheckArguments, streams: &mut Streams<'_>) -> Result<u8
                 "{} is not there\n  write one with: rasterproof course start {}\n  \
                  or name a program: rasterproof course check -- CMD",
                 printable_path(&path),
-                quote(&arguments.dir.to_string_lossy())
+                quote(&arguments.dir)
             )));
         }
     };

@@ -187,7 +187,8 @@ fn submissions(folder: &Path, template: Option<&str>) -> Result<Vec<Found>, Fail
     let mut paths = Vec::new();
     for entry in std::fs::read_dir(folder).map_err(failed)? {
         let path = entry.map_err(failed)?.path();
-        if path.is_dir() {
+        // Regular files beside the folders are the teacher's: a list of names, an archive.
+        if !path.is_file() {
             paths.push(path);
         }
     }
@@ -198,6 +199,9 @@ fn submissions(folder: &Path, template: Option<&str>) -> Result<Vec<Found>, Fail
     let one = |path: PathBuf| {
         let name = path.file_name().unwrap_or_default();
         let name = printable(name.as_encoded_bytes(), 40);
+        if !path.is_dir() {
+            return Err((name, "it is no folder".to_owned()));
+        }
         if let Some(template) = template {
             let word = |word: &str| {
                 let parts: Vec<_> = word.split("{}").map(OsStr::new).collect();

@@ -7,6 +7,7 @@
 //! listed without being shown. The work is bounded: a review of many snapshots shows the first ones
 //! and counts the others.
 
+use std::ffi::OsStr;
 use std::fs;
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
@@ -344,8 +345,8 @@ fn difference(old: &RgbImage, new: &RgbImage) -> String {
 }
 
 fn accept(one: &Pending) -> String {
-    let path = one.path.to_string_lossy();
-    shell::line(["cargo", "insta", "accept", "--snapshot", &path])
+    let words = ["cargo", "insta", "accept", "--snapshot"].map(OsStr::new);
+    shell::line(words.into_iter().chain([one.path.as_os_str()]))
 }
 
 /// The command that accepts all that its test file says now: `tests/it/page.rs` is module `page` of
@@ -373,11 +374,10 @@ fn report(pending: &[Pending], left_out: usize, folders: &[PathBuf]) -> Report {
         n => format!("{n} changed snapshots wait for review in {places}."),
     };
     let word = if pending.is_empty() { "NOTHING PENDING" } else { "PENDING" };
-    let words = names.iter().map(|name| &**name);
     let mut report = Report {
         title: "Review of snapshots".to_owned(),
         outcome: Some(Outcome { good: pending.is_empty(), word: word.to_owned(), sentence }),
-        command: format!("{} review {}", program(), shell::line(words)),
+        command: format!("{} review {}", program(), shell::line(folders)),
         notes: if left_out > 0 { vec![not_listed(left_out)] } else { Vec::new() },
         ..Report::default()
     };

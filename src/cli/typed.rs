@@ -3,6 +3,8 @@
 //! It is made from what the parser matched, option by option, and not from the fields of a command's
 //! arguments. So an option that is added later is part of it without another line of code.
 
+use std::ffi::{OsStr, OsString};
+
 use clap::ArgMatches;
 use rasterproof_host::shell;
 
@@ -12,11 +14,11 @@ use super::program;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Typed {
     name: String,
-    positional: Vec<String>,
+    positional: Vec<OsString>,
     /// Each by its long name without `--`, with the values of each time that it was given.
-    options: Vec<(String, Vec<String>)>,
+    options: Vec<(String, Vec<OsString>)>,
     /// Words after `--`, where the command takes some.
-    after: Vec<String>,
+    after: Vec<OsString>,
 }
 
 impl Typed {
@@ -38,11 +40,11 @@ impl Typed {
                     == Some(clap::parser::ValueSource::CommandLine)
         };
         for arg in command.get_arguments().filter(|arg| is_typed(arg)) {
-            let each: Vec<Vec<String>> = matches
+            let each: Vec<Vec<OsString>> = matches
                 .get_raw_occurrences(arg.get_id().as_str())
                 .into_iter()
                 .flatten()
-                .map(|values| values.map(|value| value.to_string_lossy().into_owned()).collect())
+                .map(|values| values.map(OsStr::to_owned).collect())
                 .collect();
             match arg.get_long() {
                 Some(long) if arg.get_action().takes_values() => {
@@ -51,9 +53,9 @@ impl Typed {
                 Some(long) => typed.options.push((long.to_owned(), Vec::new())),
                 None if arg.is_last_set() => typed.after.extend(each.concat()),
                 // A space was put before a coordinate such as -1,2 for the parser.
-                None => typed
-                    .positional
-                    .extend(each.concat().into_iter().map(|word| word.trim_start().to_owned())),
+                None => typed.positional.extend(each.concat().into_iter().map(|word| {
+                    word.to_str().map(|text| text.trim_start().into()).unwrap_or(word)
+                })),
             }
         }
         typed
@@ -64,15 +66,17 @@ impl Typed {
         let at = self.options.iter().position(|(name, _)| name == option);
         let at = at.unwrap_or(self.options.len());
         self = self.without(&[option]);
-        self.options
-            .insert(at.min(self.options.len()), (option.to_owned(), vec![value.to_string()]));
+        self.options.insert(
+            at.min(self.options.len()),
+            (option.to_owned(), vec![value.to_string().into()]),
+        );
         self
     }
 
     /// The same with this option first.
     pub fn first(self, option: &str, value: impl ToString) -> Self {
         let mut typed = self.without(&[option]);
-        typed.options.insert(0, (option.to_owned(), vec![value.to_string()]));
+        typed.options.insert(0, (option.to_owned(), vec![value.to_string().into()]));
         typed
     }
 
@@ -88,25 +92,31 @@ impl Typed {
     }
 
     /// The words after the name of the program.
-    pub fn words(&self) -> Vec<String> {
-        let mut words = vec![self.name.clone()];
+    pub fn words(&self) -> Vec<OsString> {
+        let mut words = vec![OsString::from(&self.name)];
         // From the first that would be taken for an option, they come last, in their order.
-        let is_option = |word: &String| word.starts_with('-') && !super::is_coordinate(word);
+        let begins_so = |word: &OsStr| word.as_encoded_bytes().starts_with(b"-");
+        let is_option =
+            |word: &OsString| begins_so(word) && !word.to_str().is_some_and(super::is_coordinate);
         let first = self.positional.iter().position(is_option).unwrap_or(self.positional.len());
         let (plain, rest) = self.positional.split_at(first);
         words.extend_from_slice(plain);
         for (name, values) in &self.options {
             match values.as_slice() {
                 // Taken for an option otherwise.
-                [value] if value.starts_with('-') => words.push(format!("--{name}={value}")),
+                [value] if begins_so(value) => {
+                    let mut word = OsString::from(format!("--{name}="));
+                    word.push(value);
+                    words.push(word);
+                }
                 values => {
-                    words.push(format!("--{name}"));
+                    words.push(format!("--{name}").into());
                     words.extend(values.iter().cloned());
                 }
             }
         }
         if !rest.is_empty() || !self.after.is_empty() {
-            words.push("--".to_owned());
+            words.push("--".into());
         }
         words.extend(rest.iter().chain(&self.after).cloned());
         words
@@ -114,7 +124,7 @@ impl Typed {
 
     /// The command, quoted for a shell.
     pub fn line(&self) -> String {
-        format!("{} {}", program(), shell::line(self.words().iter().map(String::as_str)))
+        format!("{} {}", program(), shell::line(self.words()))
     }
 }
 
@@ -122,13 +132,16 @@ impl Typed {
 mod tests {
     use clap::CommandFactory as _;
 
+    use std::ffi::OsString;
+
     use super::super::{Arguments, parse};
 
     /// What the parser makes of words, as text, and the words that it is turned back into.
     fn parsed(words: &[String]) -> Option<(String, Vec<String>)> {
         let all = std::iter::once("rasterproof".to_owned()).chain(words.iter().cloned());
         let (arguments, typed) = parse(all.map(Into::into).collect()).ok()?;
-        Some((format!("{arguments:?}"), typed.words()))
+        let text = |word: OsString| word.into_string().unwrap();
+        Some((format!("{arguments:?}"), typed.words().into_iter().map(text).collect()))
     }
 
     /// Parsing a command that was made from options gives the same options.

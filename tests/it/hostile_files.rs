@@ -78,7 +78,7 @@ const READERS: [Reader; 17] = [
         name: "materials of a model",
         words: "render --size 16x16 model.obj",
         file: "m.mtl",
-        truncated: b"newmtl a\nKd 1 0 0\nmap_K",
+        truncated: b"newmtl a\nKd 1 0",
         beside: &[("model.obj", MODEL)],
         or: &[(AGREES, &ALL)],
     },

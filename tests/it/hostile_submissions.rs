@@ -78,6 +78,9 @@ fn one_hostile_file_does_not_stop_the_class() {
     fs::write(other("bytes"), b"run = []\nstep = \"\xff\"\n").unwrap();
     symlink("course.toml", other("circle")).unwrap();
     other("empty");
+    assert!(Command::new("mkfifo").arg(class.join("itself")).status().unwrap().success());
+    symlink("nowhere", class.join("broken")).unwrap();
+    fs::write(class.join("names.csv"), "a list of the teacher").unwrap();
     let name = OsStr::from_bytes(b"not-\xff-utf-8");
     fs::create_dir(class.join(name)).unwrap();
     fs::write(class.join(name).join("course.toml"), progress("")).unwrap();
@@ -100,6 +103,8 @@ fn one_hostile_file_does_not_stop_the_class() {
         ("bytes", "is not UTF-8 text (line 2)"),
         ("circle", "cannot be read"),
         ("empty", "it has no course.toml"),
+        ("itself", "it is no folder"),
+        ("broken", "it is no folder"),
     ] {
         let (points, error) = graded(name);
         assert_eq!(points, 0, "{name}");
@@ -212,6 +217,12 @@ fn progress_is_written_where_it_is() {
     let mut command = Command::new(PROGRAM);
     command.args(["course", "check", "scanline", "--cases", "1", "--dir"]).arg(&own);
     assert!(command.output().unwrap().status.success());
+    let mut command = Command::new(PROGRAM);
+    let other = OsStr::from_bytes(b"\xfe's");
+    command.args(["course", "start"]).arg(other).current_dir(&home);
+    let output = command.output().unwrap();
+    let out = String::from_utf8(output.stdout).unwrap();
+    assert!(out.contains(r"course check --dir $'\376\'s'"), "{out}");
     let (status, out, _) = course(&home, &["start", "--language", "python", "it's mine"]);
     assert_eq!(status, 0, "{out}");
     assert!(out.contains(r"course check --dir 'it'\''s mine'"), "{out}");

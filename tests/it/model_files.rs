@@ -5,7 +5,6 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use image::GrayImage;
-use rasterproof_host::limits;
 use rasterproof_render::scene::Shading;
 use rasterproof_render::scene::obj::{load, load_texture};
 
@@ -66,17 +65,20 @@ fn lines_are_read_as_the_format_says() {
     assert_eq!(triangles(&format!("{TRIANGLE}o\ng\nusemtl\nusemtl\tx\nf 1 2 3\n")).0, 1);
 }
 
-/// The limit of a texture counts what is kept of it, not the bytes of the file.
+/// The limit of a texture counts what it takes in memory, not the bytes of the file; a grey one takes a
+/// byte a texel.
 #[test]
 fn a_texture_that_grows_when_decoded_is_refused() {
     let folder = folder("texture");
-    let path = folder.join("grey.png");
-    GrayImage::new(16_384, 16_384).save(&path).unwrap();
-    let bytes = fs::metadata(&path).unwrap().len();
-    assert!(bytes < limits::TEXTURE_BYTES, "the file itself is too long: {bytes} bytes");
+    // The head of a BMP of three bytes a pixel; what it promises is refused before it is read.
+    let path = folder.join("large.png");
+    let words = |words: &[u32]| words.iter().flat_map(|w| w.to_le_bytes()).collect::<Vec<_>>();
+    let mut head = b"BM".to_vec();
+    head.extend(words(&[54, 0, 54, 40, 16_384, 16_384, 24 << 16 | 1, 0, 0, 0, 0, 0, 0]));
+    fs::write(&path, head).unwrap();
     let error = load_texture(&path).unwrap_err();
     assert!(error.cause.contains("16384 x 16384 px"), "{error}");
-    GrayImage::from_pixel(300, 2, image::Luma([51])).save(&path).unwrap();
+    GrayImage::from_pixel(16_384, 16_384, image::Luma([51])).save(&path).unwrap();
     let colour = load_texture(&path).unwrap().at(glam::DVec2::splat(0.5));
     assert_eq!(colour.to_array(), [51.0 / 255.0; 3]);
 }

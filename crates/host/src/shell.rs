@@ -1,13 +1,19 @@
 //! Commands that a reader may copy into a shell.
 
 use std::borrow::Cow;
+use std::ffi::OsStr;
 
 use crate::text::is_hidden;
 
 /// One word as a POSIX shell reads it back: as it is where it needs no quotes, else in single
-/// quotes. A word with hidden characters is written as `$'...'`, which bash, zsh and ksh read.
+/// quotes. A word with hidden characters, or that is not UTF-8, is written as `$'...'`, which bash, zsh and
+/// ksh read.
 #[must_use]
-pub fn quote(word: &str) -> Cow<'_, str> {
+pub fn quote(word: &(impl AsRef<OsStr> + ?Sized)) -> Cow<'_, str> {
+    let word = word.as_ref();
+    let Some(word) = word.to_str() else {
+        return Cow::Owned(quote_bytes(word.as_encoded_bytes()));
+    };
     let plain = |c: char| c.is_alphanumeric() || "-_./,:=+@%^".contains(c);
     if !word.is_empty() && !word.starts_with('=') && word.chars().all(plain) {
         return Cow::Borrowed(word);
@@ -32,10 +38,20 @@ pub fn quote(word: &str) -> Cow<'_, str> {
     Cow::Owned(quoted)
 }
 
+/// A word that is not UTF-8: every byte that is no plain ASCII in octal digits.
+fn quote_bytes(word: &[u8]) -> String {
+    let one = |byte: &u8| match byte {
+        b'\'' | b'\\' => format!("\\{}", char::from(*byte)),
+        b' '..=b'~' => char::from(*byte).to_string(),
+        _ => format!("\\{byte:03o}"),
+    };
+    format!("$'{}'", word.iter().map(one).collect::<String>())
+}
+
 /// A command line whose words are read back as they are.
 #[must_use]
-pub fn line<'a>(words: impl IntoIterator<Item = &'a str>) -> String {
-    words.into_iter().map(quote).collect::<Vec<_>>().join(" ")
+pub fn line(words: impl IntoIterator<Item = impl AsRef<OsStr>>) -> String {
+    words.into_iter().map(|word| quote(&word).into_owned()).collect::<Vec<_>>().join(" ")
 }
 
 #[cfg(test)]
@@ -51,6 +67,11 @@ mod tests {
         assert_eq!(quote("$(x) `y` ~ * # !"), "'$(x) `y` ~ * # !'");
         assert_eq!(quote("\u{1b}1'"), "$'\\0331\\''");
         assert_eq!(line(["rm", "a b"]), "rm 'a b'");
+        #[cfg(unix)]
+        {
+            use std::os::unix::ffi::OsStrExt as _;
+            assert_eq!(quote(OsStr::from_bytes(b"a' \xff1")), r"$'a\' \3771'");
+        }
     }
 
     /// A shell is asked what it read.

@@ -39,13 +39,21 @@ pub struct Texture {
     height: u32,
     /// Subtexels of a row and of a column.
     subtexels: DVec2,
-    /// Row by row from the top, as bytes, red the lowest. A table turns them into channels in [0, 1]:
-    /// doubles would take seven times the memory.
-    bytes: Vec<u32>,
+    texels: Texels,
     /// Beyond the border.
     pub wrap: Wrap,
     /// Between texels.
     pub filter: Filter,
+}
+
+/// Texels row by row from the top, as bytes. A table turns them into channels in [0, 1]: doubles would take
+/// seven times the memory.
+#[derive(Clone, Debug, PartialEq)]
+enum Texels {
+    /// Red the lowest byte.
+    Colour(Vec<u32>),
+    /// One byte for all three channels.
+    Grey(Vec<u8>),
 }
 
 /// Places of a texture that are listed at most.
@@ -77,19 +85,28 @@ impl Texture {
             return None;
         }
         let bytes = rgb.iter().map(|&[r, g, b]| u32::from_le_bytes([r, g, b, 0])).collect();
-        Some(Self::of(width, height, bytes))
+        Some(Self::of(width, height, Texels::Colour(bytes)))
+    }
+
+    /// The same of grey texels, which take a quarter of the memory.
+    #[must_use]
+    pub fn grey(width: u32, height: u32, grey: Vec<u8>) -> Option<Self> {
+        let sides = 1..=MAX_SIDE_PX;
+        let fits = sides.contains(&width) && sides.contains(&height);
+        (fits && grey.len() == width as usize * height as usize)
+            .then(|| Self::of(width, height, Texels::Grey(grey)))
     }
 
     /// One white texel.
     #[must_use]
     pub fn white() -> Self {
-        Self::of(1, 1, vec![0xff_ffff])
+        Self::of(1, 1, Texels::Colour(vec![0xff_ffff]))
     }
 
-    fn of(width: u32, height: u32, bytes: Vec<u32>) -> Self {
+    fn of(width: u32, height: u32, texels: Texels) -> Self {
         let subtexels = DVec2::new(f64::from(width), f64::from(height)) * SUBTEXELS as f64;
         let (wrap, filter) = (Wrap::Repeat, Filter::Nearest);
-        Self { width, height, subtexels, bytes, wrap, filter }
+        Self { width, height, subtexels, texels, wrap, filter }
     }
 
     /// The same, read differently.
@@ -105,12 +122,15 @@ impl Texture {
     }
 
     /// The texels as bytes, red the lowest, row by row from the top, where masks and limits alone say
-    /// which one is read: for who reads many at once.
+    /// which one is read: for who reads many at once. Nothing of a grey one.
     #[must_use]
     pub fn nearest_bytes(&self) -> Option<&[u32]> {
         let masks = self.width.is_power_of_two() && self.height.is_power_of_two();
         let simple = self.filter == Filter::Nearest && (masks || self.wrap == Wrap::Clamp);
-        simple.then_some(&self.bytes)
+        match &self.texels {
+            Texels::Colour(bytes) if simple => Some(bytes),
+            _ => None,
+        }
     }
 
     /// The colour at (u, v), each channel in [0, 1]. NaN reads as 0, infinities as the border.
@@ -178,20 +198,20 @@ impl Texture {
     /// The least and the largest of each channel in the whole texture.
     #[must_use]
     pub fn range(&self) -> [DVec3; 2] {
-        let mut range = [[u8::MAX; 3], [0; 3]];
-        for bytes in &self.bytes {
-            for (channel, byte) in bytes.to_le_bytes().into_iter().take(3).enumerate() {
-                range[0][channel] = range[0][channel].min(byte);
-                range[1][channel] = range[1][channel].max(byte);
-            }
-        }
-        range.map_array(|bytes| DVec3::from(bytes.map_array(|byte| CHANNELS[usize::from(byte)])))
+        let all = (0..self.width as usize * self.height as usize).map(|at| self.texel(at));
+        let none = [DVec3::INFINITY, DVec3::NEG_INFINITY];
+        all.fold(none, |[least, most], texel| [least.min(texel), most.max(texel)])
     }
 
     #[inline]
     fn texel(&self, at: usize) -> DVec3 {
-        let [red, green, blue, _] = self.bytes[at].to_le_bytes();
-        DVec3::from([red, green, blue].map_array(|byte| CHANNELS[usize::from(byte)]))
+        match &self.texels {
+            Texels::Colour(bytes) => {
+                let [red, green, blue, _] = bytes[at].to_le_bytes();
+                DVec3::from([red, green, blue].map_array(|byte| CHANNELS[usize::from(byte)]))
+            }
+            Texels::Grey(bytes) => DVec3::splat(CHANNELS[usize::from(bytes[at])]),
+        }
     }
 
     #[inline]
@@ -248,6 +268,24 @@ mod tests {
     fn two_by_two() -> Texture {
         let (r, g, b, w) = ([255, 0, 0], [0, 255, 0], [0, 0, 255], [255; 3]);
         Texture::new(2, 2, &[r, g, b, w]).unwrap()
+    }
+
+    #[test]
+    fn grey_is_read_as_three_equal_channels() {
+        let bytes: Vec<u8> = (0..48).map(|i| i * 5).collect();
+        let rgb: Vec<[u8; 3]> = bytes.iter().map(|&byte| [byte; 3]).collect();
+        let colour = Texture::new(8, 6, &rgb).unwrap();
+        let grey = Texture::grey(8, 6, bytes).unwrap();
+        assert_eq!(colour.range(), grey.range());
+        for filter in [Filter::Nearest, Filter::Bilinear] {
+            let [colour, grey] =
+                [&colour, &grey].map(|texture| texture.clone().with(filter, Wrap::Repeat));
+            for i in 0..1000 {
+                let uv = DVec2::new(f64::from(i) * 0.0173, 2.0 - f64::from(i) * 0.0311);
+                assert_eq!(colour.at(uv), grey.at(uv));
+            }
+        }
+        assert_eq!(Texture::grey(8, 6, vec![0; 47]), None);
     }
 
     #[test]

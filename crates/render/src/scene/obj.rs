@@ -192,8 +192,8 @@ pub fn load_texture(path: &Path) -> Result<Texture, BadFile> {
     reader.limits(sides);
     let decoder = reader.into_decoder().map_err(failed)?;
     let (width, height) = decoder.dimensions();
-    // A texel is kept in four bytes, whatever the file has.
-    let kept_bytes = u64::from(width) * u64::from(height) * 4;
+    let is_grey = !decoder.color_type().has_color();
+    let kept_bytes = u64::from(width) * u64::from(height) * if is_grey { 1 } else { 4 };
     if kept_bytes.max(decoder.total_bytes()) > limits::DECODED_TEXTURE_BYTES {
         let most = limits::DECODED_TEXTURE_BYTES >> 20;
         let cause = format!(
@@ -201,9 +201,13 @@ pub fn load_texture(path: &Path) -> Result<Texture, BadFile> {
         );
         return Err(bad(path, None, cause));
     }
-    let picture = DynamicImage::from_decoder(decoder).map_err(failed)?.into_rgb8();
-    let (rgb, _) = picture.as_chunks::<3>();
-    Texture::new(width, height, rgb).ok_or_else(|| bad(path, None, "is a picture without pixels"))
+    let picture = DynamicImage::from_decoder(decoder).map_err(failed)?;
+    let texture = if is_grey {
+        Texture::grey(width, height, picture.into_luma8().into_raw())
+    } else {
+        Texture::new(width, height, picture.into_rgb8().as_chunks::<3>().0)
+    };
+    texture.ok_or_else(|| bad(path, None, "is a picture without pixels"))
 }
 
 /// A mesh of `tobj` as ours: left-handed, with normals.
