@@ -180,6 +180,36 @@ fn a_submission_leaves_nothing_behind() {
     assert_eq!(graded("b"), (points, error));
 }
 
+/// In a container the session and the process group may be led from outside; their numbers are 0 inside.
+#[cfg(target_os = "linux")]
+#[test]
+fn what_a_build_starts_is_ended_in_a_container() {
+    let inside = ["--map-root-user", "--pid", "--fork", "--mount-proc"];
+    let unshare = || {
+        let mut command = Command::new("unshare");
+        command.args(inside);
+        command
+    };
+    if !unshare().arg("true").output().is_ok_and(|output| output.status.success()) {
+        eprintln!("skipped: this system allows no process namespaces");
+        return;
+    }
+    let class = folder("container");
+    // The shell names itself as a process does that has ended, in bytes that are no text.
+    let stray = "printf ')\\377 Z 0 0 0' >/proc/self/comm; sleep 4043.17; :";
+    submit(&class, "a", &progress(&format!("setsid sh -c \"{stray}\" & sleep 0.2; exit 3")));
+    let look = "grep -qa 4[0]43 /proc/[0-9]*/cmdline && echo it lives >&2; exit 4";
+    submit(&class, "b", &progress(look));
+    let mut command = unshare();
+    command.args([PROGRAM, "course", "--grade", "--folder", "."]).current_dir(&class);
+    let output = command.output().unwrap();
+    let [out, errors] =
+        [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).unwrap());
+    assert_eq!(output.status.code(), Some(2), "{out}{errors}");
+    assert_eq!(out.matches("the build fails").count(), 2, "{out}");
+    assert!(!out.contains("| it lives"), "{out}");
+}
+
 /// A stack larger than the address space refuses every thread, as a limit of processes does.
 #[cfg(target_os = "linux")]
 #[test]

@@ -120,14 +120,27 @@ pub fn end_strays() {
 /// may have started itself, and programs that still run are left alone.
 #[cfg(target_os = "linux")]
 pub fn end_strays_of_ended_groups() {
-    use rustix::process::{getpgid, getsid};
     // Held meanwhile, so that what is being started is in the list.
     let live = LIVE.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-    let (session, group) = (getsid(None), getpgid(None));
+    let Some(own) = group_and_session("self") else { return };
     end_children(|child| {
-        let is_live = live.iter().flatten().any(|id| *id == child.as_raw_nonzero().get() as u32);
-        !is_live && (getsid(Some(child)) != session || getpgid(Some(child)) != group)
+        let id = child.as_raw_nonzero().get();
+        let is_live = live.iter().flatten().any(|live| *live == id as u32);
+        !is_live && group_and_session(&id.to_string()).is_some_and(|its| its != own)
     });
+}
+
+/// The process group and the session of a process, as `/proc` has them. In a container they are 0 where
+/// their leader lives outside; `rustix` takes 0 for no number and panics.
+#[cfg(target_os = "linux")]
+fn group_and_session(process: &str) -> Option<[i32; 2]> {
+    use rasterproof_host::{input::read, limits};
+    let path = format!("/proc/{process}/stat");
+    let stat = read(std::path::Path::new(&path), limits::NOTE_BYTES).ok()?;
+    let stat = String::from_utf8_lossy(&stat);
+    // The name stands in brackets and may hold anything: state, parent, group and session follow the last one.
+    let mut numbers = stat.rsplit(')').next()?.split_whitespace().skip(2);
+    Some([numbers.next()?.parse().ok()?, numbers.next()?.parse().ok()?])
 }
 
 #[cfg(target_os = "linux")]
