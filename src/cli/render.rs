@@ -461,12 +461,12 @@ pub fn run(
         writeln!(streams.output, "{json}")?;
     } else {
         let mut text = describe(&scene, &drawings, comparison.as_ref(), drawn_in, difference_in);
-        text += &rounding_text(by_rounding.unwrap_or_default(), "snapped corners move a depth");
+        text += &rounding_text(by_rounding.unwrap_or_default(), SNAPPED);
         streams.output.write_all(text.as_bytes())?;
     }
     streams.output.flush()?;
     if let Some(path) = page {
-        let report = report_page(typed, &scene, &drawings, comparison.as_ref());
+        let report = report_page(typed, &scene, &drawings, comparison.as_ref(), by_rounding);
         write_page(&path, report, streams);
     }
     Ok(comparison.map_or(exit::AGREES, |c| if c.agrees() { exit::AGREES } else { exit::DISAGREES }))
@@ -516,17 +516,26 @@ fn by_rounding(scene: &Scene, target: &Target, cause: Cause) -> Result<ByRoundin
     Ok(rivals.by_rounding(cause))
 }
 
-/// The same in words; nothing where nothing is. `reach` says how far rounding reaches.
-fn rounding_text(found: ByRounding, reach: &str) -> String {
-    let Some((x, y)) = found.first else { return String::new() };
+/// How far the corners that are snapped alike reach, in words.
+const SNAPPED: &str = "snapped corners move a depth";
+
+/// The same in words, as two lines; nothing where nothing is. `reach` says how far rounding reaches.
+fn rounding(found: ByRounding, reach: &str) -> Option<[String; 2]> {
+    let (x, y) = found.first?;
     let pixels = match found.pixels {
         1 => "1 pixel has".to_owned(),
         count => format!("{count} pixels have"),
     };
-    format!(
-        "ROUNDING: {pixels} two surfaces nearer to each other than {reach};\n  rounding alone decides \
-         which one is seen; the first is at {x}, {y} (see docs/ties.md)\n"
-    )
+    Some([
+        format!("{pixels} two surfaces nearer to each other than {reach};"),
+        format!("rounding alone decides which one is seen; the first is at {x}, {y}"),
+    ])
+}
+
+fn rounding_text(found: ByRounding, reach: &str) -> String {
+    rounding(found, reach).map_or(String::new(), |[first, second]| {
+        format!("ROUNDING: {first}\n  {second} (see docs/ties.md)\n")
+    })
 }
 
 /// The frames side by side, with the plan that was followed.
@@ -535,8 +544,11 @@ fn report_page(
     scene: &Scene,
     drawings: &[Drawing],
     comparison: Option<&Comparison>,
+    by_rounding: Option<ByRounding>,
 ) -> Report {
     let command = typed.line();
+    let decided =
+        by_rounding.and_then(|found| rounding(found, SNAPPED)).map(|lines| lines.join(" "));
     let outcome = comparison.map(|c| Outcome {
         good: c.agrees(),
         word: if c.agrees() { "AGREES" } else { "DISAGREES" }.to_owned(),
@@ -547,7 +559,7 @@ fn report_page(
             c.pixels,
             c.wrong_depths,
             c.depths,
-            [undecided(c), far_texture(c)]
+            [undecided(c), far_texture(c), decided]
                 .into_iter()
                 .flatten()
                 .map(|words| format!(" {words}."))
@@ -799,7 +811,7 @@ fn draw_in_tiles(
         writeln!(streams.output, "  drawn in tiles of {side} x {side} px in {path}")?;
     }
     let found = by_rounding(scene, &target, Cause::PlanesInF32)?;
-    let reach = "the bound of depths in f32";
+    let reach = "snapping and f32 move a depth";
     streams.output.write_all(rounding_text(found, reach).as_bytes())?;
     Ok(exit::AGREES)
 }

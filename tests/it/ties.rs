@@ -337,6 +337,24 @@ fn faults_at_large_texture_coordinates_are_found() {
     }
 }
 
+/// Between texels, too: a bound of an eighth of a texel leaves a few neighbours open, not the whole texture.
+#[test]
+fn faults_between_far_texels_are_found() {
+    use TriangleMutant::{AffineAttributes, SwappedWeights};
+    for antialias in SMOOTHINGS {
+        for far in [1e9, 3e11, 1e12] {
+            let scene = far_texture(far, Filter::Bilinear);
+            for fault in [AffineAttributes, SwappedWeights] {
+                let engines = [Engine::Scanline, Engine::Mutant(fault)];
+                let c = compare(&scene, engines, antialias, DepthFormat::Unorm32);
+                // Nearly all of the triangle is wrong; a fault may hit a possible colour by chance.
+                let name = format!("{far} {fault:?} {antialias:?}: {c:?}");
+                assert!(c.wrong_pixels >= 1_000 && c.far_texture <= 100, "{name}");
+            }
+        }
+    }
+}
+
 #[test]
 fn the_command_names_large_texture_coordinates() {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("far-texture");
@@ -397,6 +415,29 @@ fn surfaces_in_one_plane_are_found_before_snapping() {
     }
 }
 
+/// The rasterizer in tiles snaps corners as well: it leaves no less open than the others, also where depths
+/// change so fast from pixel to pixel that snapping moves them by more than f32 does.
+#[test]
+fn tiles_leave_open_what_snapping_does() {
+    for pitch in [3.0, 20.0, 55.0, 80.0] {
+        let mut scene = squares(pitch, 0.0);
+        scene.projection = perspective(0.7, 4.0 / 3.0, 2.9, 5.1).unwrap();
+        // A square whose sides are not parallel to those of the picture: its corners snap into no plane.
+        let turn = DMat4::from_rotation_z(0.3) * DMat4::from_rotation_y(0.7);
+        for item in &mut scene.items {
+            item.model *= turn;
+        }
+        for antialias in SMOOTHINGS {
+            let [snapped, tiles] = [Cause::Snapping, Cause::PlanesInF32]
+                .map(|cause| by_rounding(&scene, cause, antialias));
+            assert!(
+                snapped > 1_000 && tiles >= snapped,
+                "{pitch} {antialias:?}: {tiles} of {snapped}"
+            );
+        }
+    }
+}
+
 /// Two squares that cross are open beside the line in which they do, and nowhere else.
 #[test]
 fn surfaces_that_cross_are_open_beside_their_line() {
@@ -421,6 +462,13 @@ fn the_command_names_surfaces_in_one_plane() {
     let (_, json, _) = render_model(&["--depth", "unorm24", "--json"]);
     let json: serde_json::Value = serde_json::from_str(&json).unwrap();
     assert!(json["by_rounding"]["pixels"].as_u64() > Some(1_000), "{json}");
+    let page = Path::new(env!("CARGO_TARGET_TMPDIR")).join("rounding-page");
+    let (status, text, _) = render_model(&["--report", "--out", page.to_str().unwrap()]);
+    assert_eq!(status, Some(0), "{text}");
+    let pages = std::fs::read_dir(&page).unwrap().map(|entry| entry.unwrap().path());
+    let html = pages.filter(|path| path.extension().is_some_and(|extension| extension == "html"));
+    let text: String = html.map(|path| std::fs::read_to_string(path).unwrap()).collect();
+    assert!(text.contains("rounding alone decides which one is seen"));
     let (status, text, _) = render_model(&["--engine", "tiles"]);
-    assert!(status == Some(0) && text.contains("than the bound of depths in f32"), "{text}");
+    assert!(status == Some(0) && text.contains("than snapping and f32 move a depth"), "{text}");
 }

@@ -315,13 +315,11 @@ impl<'a> Rivals<'a> {
             let (_, uv) = exact.at(f.x_px, f.y_px);
             let uv = DVec2::from(uv.map_array(|number| number.to_f64()));
             let shade = |texel| to_colour(kernel.shade_texel(&f.varying, texel));
-            let colours = match texture.within(uv, bounds_of_uv) {
-                Some(texels) => Reachable::Colours(texels.into_iter().map(shade).collect()),
-                None => Reachable::Between(
-                    range.get_or_insert_with(|| texture.range()).map_array(shade),
-                ),
-            };
-            see(f.x_px, f.y_px, colours);
+            let texels = texture
+                .within(uv, bounds_of_uv)
+                .unwrap_or_else(|| vec![*range.get_or_insert_with(|| texture.range())]);
+            let colours = texels.into_iter().map(|texels| texels.map_array(shade)).collect();
+            see(f.x_px, f.y_px, Reachable(colours));
         };
         if perspective {
             engine.fragments(&moved, bounds, emit);
@@ -339,7 +337,7 @@ type DepthError = Box<dyn Fn(i32, i32) -> f64>;
 pub enum Cause {
     /// Corners are moved to whole subpixels, the same ones for every rasterizer.
     Snapping,
-    /// Depths are planes in f32, as the rasterizer in tiles has them.
+    /// Corners are snapped, and depths are planes in f32, as the rasterizer in tiles has them.
     PlanesInF32,
 }
 
@@ -360,8 +358,8 @@ impl Cause {
         scale: i32,
     ) -> DepthError {
         let [gx, gy] = depths.per_px();
+        let off = (gx + gy) / f64::from(2 * SUBPIXELS);
         if self == Self::Snapping {
-            let off = (gx + gy) / f64::from(2 * SUBPIXELS);
             return Box::new(move |_, _| off);
         }
         let corners = piece.corners();
@@ -383,7 +381,7 @@ impl Cause {
         Box::new(move |x, y| {
             let away = gx * (f64::from(x) + 1.0 - x0) + gy * (f64::from(y) + 1.0 - y0);
             // The last factor is for products of errors.
-            (4.0 * unit * (1.0 + 2.0 * away) + in_f64) * (1.0 + 1.0 / f64::from(1 << 18))
+            off + (4.0 * unit * (1.0 + 2.0 * away) + in_f64) * (1.0 + 1.0 / f64::from(1 << 18))
         })
     }
 }
@@ -397,24 +395,16 @@ pub struct ByRounding {
     pub first: Option<(i32, i32)>,
 }
 
-/// The colours that a textured sample may have.
+/// The colours that a textured sample may have: all between two, channel by channel, for each pair.
 #[derive(Clone, Debug)]
-pub enum Reachable {
-    /// These.
-    Colours(Vec<Colour>),
-    /// All between two, channel by channel: the bound is wider than the list of texels may be.
-    Between([Colour; 2]),
-}
+pub struct Reachable(Vec<[Colour; 2]>);
 
 impl Reachable {
     /// Whether a colour is one of them.
     #[must_use]
     pub fn holds(&self, colour: Colour) -> bool {
-        match self {
-            Self::Colours(colours) => colours.contains(&colour),
-            Self::Between([a, b]) => {
-                (0..colour.len()).all(|i| (a[i].min(b[i])..=a[i].max(b[i])).contains(&colour[i]))
-            }
-        }
+        self.0.iter().any(|[a, b]| {
+            (0..colour.len()).all(|i| (a[i].min(b[i])..=a[i].max(b[i])).contains(&colour[i]))
+        })
     }
 }

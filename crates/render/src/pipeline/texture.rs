@@ -56,7 +56,7 @@ enum Texels {
     Grey(Vec<u8>),
 }
 
-/// Places of a texture that are listed at most.
+/// Boxes of colours that are listed at most.
 pub const MOST_PLACES: usize = 1 << 8;
 
 /// Subtexels in a texel, as a power of two: shifts and masks are floors and remainders.
@@ -166,33 +166,66 @@ impl Texture {
         }
     }
 
-    /// All colours that [`Self::at`] gives to coordinates within `bound` of (u, v), each once for every
-    /// place it is read from; nothing where these are more than [`MOST_PLACES`].
+    /// All colours that [`Self::at`] gives to coordinates within `bound` of (u, v), as boxes of colours: the
+    /// least and the largest of each channel. A box holds one colour, for every place that is read, where
+    /// these are at most [`MOST_PLACES`]; else what a filter makes of the same four texels. Nothing where
+    /// there are more than [`MOST_PLACES`] of these too.
     #[must_use]
-    pub fn within(&self, uv: DVec2, bound: DVec2) -> Option<Vec<DVec3>> {
+    pub fn within(&self, uv: DVec2, bound: DVec2) -> Option<Vec<[DVec3; 2]>> {
         // A coordinate is subtracted from 1, multiplied and moved by half a step: three roundings, each of
         // at most half of EPSILON.
-        let places = |coordinate: f64, bound: f64, side: f64| {
+        let ends = |coordinate: f64, bound: f64, side: f64| {
             let rounding = 2.0 * f64::EPSILON * (1.0 + coordinate.abs() + bound) * (side + 1.0);
-            let end = |side_of: f64| {
-                (coordinate + side_of * bound) * side + side_of * rounding + (0.5 + OFF_FRACTION)
-            };
-            let step = if self.filter == Filter::Nearest { SUBTEXELS } else { 1 };
-            let [first, last] = [end(-1.0), end(1.0)].map_array(|x| floor(x).div_euclid(step));
-            (last.checked_sub(first)? < MOST_PLACES as i64)
-                .then(|| (first..=last).map(move |place| place * step))
+            [-1.0, 1.0].map_array(|sign: f64| {
+                let end = (coordinate + sign * bound) * side + sign * rounding;
+                floor(end + (0.5 + OFF_FRACTION))
+            })
         };
-        let columns = places(uv.x, bound.x, self.subtexels.x)?;
-        let rows = places(1.0 - uv.y, bound.y, self.subtexels.y)?;
+        let columns = ends(uv.x, bound.x, self.subtexels.x);
+        let rows = ends(1.0 - uv.y, bound.y, self.subtexels.y);
+        match self.filter {
+            Filter::Nearest => self.boxes(columns, rows, SUBTEXELS, 0),
+            Filter::Bilinear => self
+                .boxes(columns, rows, 1, 0)
+                .or_else(|| self.boxes(columns, rows, SUBTEXELS, SUBTEXELS / 2)),
+        }
+    }
+
+    /// The colours of a rectangle of subtexels, cut at whole multiples of `step` from `start`.
+    fn boxes(
+        &self,
+        columns: [i64; 2],
+        rows: [i64; 2],
+        step: i64,
+        start: i64,
+    ) -> Option<Vec<[DVec3; 2]>> {
+        let parts = |[first, last]: [i64; 2]| {
+            let [a, b] = [first, last].map_array(|end| (end - start).div_euclid(step));
+            let part = move |number: i64| {
+                let from = number * step + start;
+                [from.max(first), (from + step - 1).min(last)]
+            };
+            (b.checked_sub(a)? < MOST_PLACES as i64).then(|| (a..=b).map(part))
+        };
+        let (columns, rows) = (parts(columns)?, parts(rows)?);
         if columns.clone().count() * rows.clone().count() > MOST_PLACES {
             return None;
         }
-        Some(
-            columns
-                .flat_map(|x| rows.clone().map(move |y| (x, y)))
-                .map(|(x, y)| self.at_subtexel(x, y))
-                .collect(),
-        )
+        Some(columns.flat_map(|x| rows.clone().map(move |y| self.between(x, y))).collect())
+    }
+
+    /// The least and the largest of each channel over subtexels that read the same texels.
+    fn between(&self, [x0, x1]: [i64; 2], [y0, y1]: [i64; 2]) -> [DVec3; 2] {
+        let [[a, b], [c, d]] =
+            [y0, y1].map_array(|y| [x0, x1].map_array(|x| self.at_subtexel(x, y)));
+        let (least, most) = (a.min(b).min(c).min(d), a.max(b).max(c).max(d));
+        if self.filter == Filter::Nearest || (x0, y0) == (x1, y1) {
+            return [least, most];
+        }
+        // What is linear along either axis has its extremes at corners. A read of channels up to 1 is
+        // rounded nine times, each by at most half of EPSILON; so is the corner that it is compared with.
+        let rounding = DVec3::splat(9.0 * f64::EPSILON);
+        [least - rounding, most + rounding]
     }
 
     /// The least and the largest of each channel in the whole texture.
@@ -331,7 +364,10 @@ mod tests {
                         let t = f64::from(part) / 1_000.0 - 1.0;
                         for moved in [DVec2::new(t, t), DVec2::new(t, -t), DVec2::new(-t, 0.5)] {
                             let read = texture.at(centre + bound * moved);
-                            assert!(colours.contains(&read), "{far} {moved} {filter:?}");
+                            let holds = |[least, most]: &[DVec3; 2]| {
+                                least.cmple(read).all() && read.cmple(*most).all()
+                            };
+                            assert!(colours.iter().any(holds), "{far} {moved} {filter:?}");
                         }
                     }
                 }
