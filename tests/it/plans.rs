@@ -7,12 +7,12 @@ use std::process::Command;
 
 use glam::{DMat4, DVec3};
 use rasterproof_registry::engines::Drawer;
-use rasterproof_render::effects::plan::Canvas;
+use rasterproof_render::effects::plan::{Canvas, Pieces};
 use rasterproof_render::effects::{Effect, Effects, Mode};
 use rasterproof_render::pipeline::depth::DepthFormat;
 use rasterproof_render::pipeline::target::{Antialias, Target};
 use rasterproof_render::scene::chapters::{SCENES, scene};
-use rasterproof_render::scene::{Item, Material, Scene, shapes};
+use rasterproof_render::scene::{Corner, Item, Material, Scene, shapes};
 use serde_json::{Value, json};
 
 /// Two squares that are apart as long as they are seen from the front.
@@ -259,4 +259,38 @@ fn a_plan_is_shown_in_80_columns_with_units() {
     let words = ["plan", "squares.obj", "--rounds", "1", "--size", "80x60", "--shading", "gouraud"];
     let (_, out, _) = run(&folder, &words);
     assert!(out.contains("Gouraud: the light is in the colours of the corners"), "{out}");
+}
+
+/// Pieces are listed where it may pay: where triangles are few, or where the first of some item are apart.
+#[test]
+fn what_overlaps_at_first_sight_is_not_listed() {
+    let squares = |x: f64, step: f64, count: u32| {
+        let mut mesh = rasterproof_render::scene::Mesh::default();
+        for i in 0..count {
+            let (i, j) = (f64::from(i % 20) * step, f64::from(i / 20) * step);
+            let at = DVec3::new(x - 0.95 + 0.08 * i, -0.95 + 0.08 * j, 0.0);
+            let corner = |dx: f64, dy: f64| at + DVec3::new(dx, dy, 0.0);
+            let quad = [corner(0.0, 0.0), corner(0.06, 0.0), corner(0.06, 0.06), corner(0.0, 0.06)];
+            let quad = shapes::quad(quad);
+            let first = mesh.positions.len() as u32;
+            mesh.positions.extend(quad.positions);
+            mesh.triangles.extend(quad.triangles.iter().map(|triangle| {
+                triangle.map(|corner| Corner { position: corner.position + first, ..corner })
+            }));
+        }
+        Item::new(mesh, Material::default())
+    };
+    let is_listed = |items: Vec<Item>| {
+        let mut scene = Scene::new("squares", "", DMat4::IDENTITY);
+        scene.items = items;
+        let target = Target::new(400, 400, Antialias::None, DepthFormat::Unorm32).unwrap();
+        let plan = Drawer::Scanline.plan(&scene, &Effects::PLANNED, &Canvas::of(&target)).unwrap();
+        plan.items.iter().all(|item| matches!(item.pieces, Pieces::Listed(_)))
+    };
+    assert!(is_listed(vec![squares(0.0, 1.0, 300)]));
+    assert!(!is_listed(vec![squares(0.0, 0.5, 300)]));
+    assert!(is_listed(vec![squares(0.0, 0.5, 128)]), "256 triangles");
+    assert!(!is_listed(vec![squares(0.0, 0.5, 100), squares(0.5, 0.5, 100)]));
+    // One square alone may be apart.
+    assert!(is_listed(vec![squares(0.0, 0.5, 300), squares(1.8, 1.0, 1)]));
 }

@@ -27,7 +27,8 @@ pub(super) fn plan<'a>(
     let mut plan = outset(scene, canvas, effects);
     let drawn = plan.drawn();
     let mut assembled = Assembled::new(scene, &plan)?;
-    let is_listed = plan.frame.order == Order::FarthestFirst || depth::is_looked_at(scene, effects);
+    let is_listed = plan.frame.order == Order::FarthestFirst
+        || depth::is_looked_at(scene, effects, &assembled.items, &drawn);
     let mut surveys: Vec<Survey<'_>> = (0..scene.items.len())
         .map(|i| Survey::new(scene, effects, i, plan.items[i].carries, is_listed))
         .collect();

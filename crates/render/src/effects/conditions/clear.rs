@@ -40,7 +40,10 @@ fn tiles(canvas: &Canvas, pieces: &[(usize, Piece)]) -> Option<Vec<PixelRect>> {
     let first = pieces.first()?.1.corners();
     // A small first piece covers no tile; samples off the centre are not asked for.
     let touched = pixel_box(&first, 0);
-    let large = touched.width() as i32 >= TILE_PX && touched.height() as i32 >= TILE_PX;
+    let tile_area = i128::from(TILE_PX * SUBPIXELS).pow(2);
+    let large = touched.width() as i32 >= TILE_PX
+        && touched.height() as i32 >= TILE_PX
+        && twice_area(first).abs() >= 2 * tile_area;
     if !large || canvas.antialias == Antialias::Multisample4 {
         return None;
     }

@@ -6,11 +6,11 @@
 
 use super::survey::Survey;
 use crate::effects::plan::{Canvas, Decision};
-use crate::effects::primitive::{Piece, pixel_box};
+use crate::effects::primitive::{Piece, Prepared, pixel_box};
 use crate::effects::{Effect, Effects, Mode};
 use crate::pipeline::assemble::twice_area;
 use crate::pipeline::target::Antialias;
-use crate::scene::{Hidden, Scene};
+use crate::scene::{Corner, Hidden, Scene};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_core::triangle::Corners;
@@ -25,14 +25,46 @@ const MOST_COMPARISONS: usize = 64;
 /// apart add up to once at most.
 const MOST_AREA: u64 = 2;
 
-/// If nearly all of the first boxes of the sweep meet another, all are taken to.
+/// If nearly all of the first boxes, of each item or of the sweep, meet another, all are taken to.
 const FIRST_BOXES: usize = 64;
 
-/// Whether it pays to list the pieces before anything is drawn.
-pub fn is_looked_at(scene: &Scene, effects: &Effects) -> bool {
+/// Whether it pays to list the pieces before anything is drawn: triangles are few, or apart at first sight.
+pub fn is_looked_at(
+    scene: &Scene,
+    effects: &Effects,
+    items: &[Prepared<'_>],
+    canvas: &Canvas,
+) -> bool {
     scene.hidden == Hidden::DepthBuffer
         && effects.mode(Effect::Depth) == Mode::Planned
         && scene.triangles() <= MOST_TRIANGLES
+        && (scene.triangles() <= 4 * FIRST_BOXES
+            || !items.iter().all(|item| first_meet(item, margin_px(canvas))))
+}
+
+/// Whether nearly all boxes of the first triangles of an item meet another one of theirs.
+fn first_meet(item: &Prepared<'_>, margin_px: i32) -> bool {
+    let place = |corner: &Corner| item.points[corner.position as usize].place();
+    let corners = |[a, b, c]: &[Corner; 3]| Some([place(a)?, place(b)?, place(c)?]);
+    let first: Vec<_> =
+        item.item.mesh.triangles.iter().filter_map(corners).take(FIRST_BOXES).collect();
+    let units = units(&first, margin_px);
+    let meets_another = |unit: &&Unit| {
+        let meets = |other: &Unit| {
+            other.pieces != unit.pieces && !other.rect.intersect(&unit.rect).is_empty()
+        };
+        units.iter().any(meets)
+    };
+    are_nearly_all(units.iter().filter(meets_another).count(), units.len())
+}
+
+fn are_nearly_all(met: usize, boxes: usize) -> bool {
+    met * 8 > boxes * 7
+}
+
+/// Samples lie up to 6/16 px off the centre.
+fn margin_px(canvas: &Canvas) -> i32 {
+    i32::from(canvas.antialias == Antialias::Multisample4)
 }
 
 /// Whether a piece pays that may overlap another or not.
@@ -47,7 +79,12 @@ pub fn explain(survey: &Survey<'_>) -> Decision {
     }
     if !survey.is_listed {
         let on = if pays(survey.scene, survey.effects, true) { pieces } else { 0 };
-        return survey.decide(Effect::Depth, on, "so many triangles are taken to overlap");
+        let reason = if survey.scene.triangles() > MOST_TRIANGLES {
+            "so many triangles are taken to overlap"
+        } else {
+            "the first triangles overlap, and all are taken to"
+        };
+        return survey.decide(Effect::Depth, on, reason);
     }
     let reason = match depth {
         0 => "no bounding box of another piece meets this item's".to_owned(),
@@ -66,9 +103,8 @@ struct Unit {
 /// Which pieces may hide or be hidden: compares all bounding boxes, by a sweep along the axis where
 /// they are shorter.
 pub fn overlaps(pieces: &[(usize, Piece)], canvas: &Canvas) -> Vec<bool> {
-    // Samples lie up to 6/16 px off the centre.
-    let margin_px = i32::from(canvas.antialias == Antialias::Multisample4);
-    let mut units = units(pieces, margin_px);
+    let corners: Vec<Corners> = pieces.iter().map(|(_, piece)| piece.corners()).collect();
+    let mut units = units(&corners, margin_px(canvas));
     let window = canvas.window();
     let area = |rect: &PixelRect| u64::from(rect.width()) * u64::from(rect.height());
     let boxes: u64 = units.iter().map(|unit| area(&unit.rect.intersect(&window))).sum();
@@ -97,7 +133,7 @@ pub fn overlaps(pieces: &[(usize, Piece)], canvas: &Canvas) -> Vec<bool> {
             }
         }
         met += usize::from(overlaps[unit.pieces.start]);
-        let nearly_all = i + 1 >= FIRST_BOXES && met * 8 > (i + 1) * 7;
+        let nearly_all = i + 1 >= FIRST_BOXES && are_nearly_all(met, i + 1);
         if comparisons > MOST_COMPARISONS * units.len() || nearly_all {
             overlaps.fill(true);
             break;
@@ -106,17 +142,16 @@ pub fn overlaps(pieces: &[(usize, Piece)], canvas: &Canvas) -> Vec<bool> {
     overlaps
 }
 
-fn units(pieces: &[(usize, Piece)], margin_px: i32) -> Vec<Unit> {
-    let mut units: Vec<Unit> = Vec::with_capacity(pieces.len());
+fn units(corners: &[Corners], margin_px: i32) -> Vec<Unit> {
+    let mut units: Vec<Unit> = Vec::with_capacity(corners.len());
     let mut i = 0;
-    while i < pieces.len() {
-        let corners = pieces[i].1.corners();
-        let mut rect = pixel_box(&corners, margin_px);
+    while i < corners.len() {
+        let mut rect = pixel_box(&corners[i], margin_px);
         let mut end = i + 1;
-        if let Some(next) = pieces.get(end).map(|(_, piece)| piece.corners())
-            && share_an_edge(&corners, &next)
+        if let Some(next) = corners.get(end)
+            && share_an_edge(&corners[i], next)
         {
-            let other = pixel_box(&next, margin_px);
+            let other = pixel_box(next, margin_px);
             rect = PixelRect {
                 x0: rect.x0.min(other.x0),
                 y0: rect.y0.min(other.y0),

@@ -25,7 +25,7 @@ const SQUARE_PX: i32 = 8;
 /// What samples on demand cost, in what a sample that is not drawn saves: about 0.8 ns, as measured
 /// over 240 scenes at random (docs/effects.md). So much each pixel in the box of a small piece, and
 /// as much each one of a square that such a piece touches.
-const ASKED: u64 = 6;
+const ASKED: u64 = 7;
 
 /// So much the two ends of a row of a large piece, if its attributes vary: their samples are drawn
 /// apart from the row.
@@ -68,10 +68,10 @@ impl Estimate {
         }
         let rect = rect.intersect(&self.canvas.size());
         // The window of a supersampled picture has `scale` subpixels more on each side of a pixel.
-        let side = u128::from(SUBPIXELS.unsigned_abs() * self.canvas.antialias.scale());
-        let area = twice_area(*corners).unsigned_abs() / 2 / side.pow(2);
+        let side = u64::from(SUBPIXELS.unsigned_abs() * self.canvas.antialias.scale());
+        let twice = u64::try_from(twice_area(*corners).unsigned_abs()).unwrap_or(u64::MAX);
         let (width, height) = (u64::from(rect.width()), u64::from(rect.height()));
-        let area = (width * height).min(u64::try_from(area).unwrap_or(u64::MAX));
+        let area = (width * height).min(twice / (2 * side.pow(2)));
         if plan.interpolates.is_empty() {
             self.borders += width + height;
             self.drawn += area.saturating_sub(width + height);
@@ -111,6 +111,9 @@ impl Estimate {
         };
         let corners: Vec<Option<SubpixelPoint>> = item.points.iter().map(place).collect();
         for [a, b, c] in &item.item.mesh.triangles {
+            if self.is_hopeless() {
+                return;
+            }
             let [a, b, c] = [a, b, c].map_array(|corner| corners[corner.position as usize]);
             match (a, b, c) {
                 (Some(a), Some(b), Some(c)) if item.item.cull.removes([a, b, c]) => {}
@@ -124,12 +127,23 @@ impl Estimate {
         }
     }
 
+    /// Whether the small pieces so far cost four times what clearing and resolving may save: many more
+    /// pieces are not looked at then.
+    fn is_hopeless(&self) -> bool {
+        ASKED * self.asked > 4 * self.canvas.pixels() * self.canvas.antialias.samples()
+    }
+
     /// Whether it saves more than it costs: each pixel all samples but one, once when it is cleared
     /// and resolved, drawn or not, and again each time a large piece draws it.
     fn pays(&self) -> bool {
         let busy = self.busy.iter().filter(|busy| **busy).count() as u64;
         let busy = busy * u64::from(SQUARE_PX.unsigned_abs()).pow(2);
-        let saved = (self.canvas.pixels() + self.drawn) * (self.canvas.antialias.samples() - 1);
+        // Where as many borders as pixels are drawn, hardly a pixel stays whole for what comes later.
+        let pixels = self.canvas.pixels();
+        let split = (self.borders + 2 * self.varying_rows).min(pixels);
+        let saved = (pixels + self.drawn) * (self.canvas.antialias.samples() - 1);
+        let saved =
+            (u128::from(saved) * u128::from(pixels - split) / u128::from(pixels.max(1))) as u64;
         let borders = BORDER * self.borders + ROW_ENDS * self.varying_rows;
         // A quarter more than the costs: a scene at which the estimate is wrong loses more than one gains.
         4 * saved >= 5 * (ASKED * (self.asked + busy) + borders)
