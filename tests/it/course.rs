@@ -158,6 +158,7 @@ fn has(program: &str) -> bool {
 
 /// What a student is given says HELLO, draws nothing, and is not written over.
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn course_starters_start() {
     for (language, tool, source) in [
         ("python", "python3", "starter.py"),
@@ -186,6 +187,7 @@ fn course_starters_start() {
 
 /// A student's own answer to the steps 1, 8 to 10, in Python, is right.
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn course_passes_a_students_code() {
     if !has("python3") {
         return;
@@ -438,6 +440,7 @@ fn course_starters_order_and_clip() {
 /// Points as Gradescope reads them, and a table of a folder; a submission that is broken, hangs or is
 /// hungry gets no point and stops nobody.
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn course_grades() {
     let folder = folder("grades");
     let words =

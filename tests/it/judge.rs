@@ -93,6 +93,7 @@ fn judge_catches_every_specimen() {
 /// Through a pipe comes out what comes out without one, row for row, failure for failure: every engine,
 /// every specimen, every planted fault.
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn judge_finds_the_same_through_a_pipe() {
     let engines = engines::ENTRIES.iter().chain(&SPECIMENS).map(|entry| entry.name);
     let triangles = TriangleMutant::ALL.iter().map(|mutant| mutant.name());
@@ -115,6 +116,7 @@ fn judge_finds_the_same_through_a_pipe() {
 
 /// Each way to break the protocol gets its word, and the rest is judged all the same.
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn judge_names_misbehaviour() {
     for (fault, word) in [
         ("stalls", "hangs"),
@@ -414,6 +416,7 @@ pub fn of<'a>(options: &[&'a str], engine: &[&'a str]) -> Vec<&'a str> {
 /// The text is what a student reads: stages, both scores, the smallest case with its picture, and a
 /// command that repeats it.
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn judge_prints_a_verdict() {
     let (out, errors) = check(&of(&["--jobs", "2"], &["scanline"]), 0);
     assert!(
@@ -543,6 +546,7 @@ fn judge_writes_a_page() {
 /// block of fans would be more than these addresses hold, and the judge would abort.
 #[cfg(target_os = "linux")]
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn judge_is_bounded_itself() {
     let words = of(&["--family", "fan"], &["scanline-exact", "--plant", "bloats"]);
     let line = "ulimit -v 700000 && exec \"$@\"";

@@ -114,6 +114,7 @@ impl Ask for Slow {
 
 /// A limited time is kept with a slow program too, and every family is asked.
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn judge_keeps_its_time() {
     let slow = || Slow(Inside::new(engines::find("games101-strict").unwrap()));
     let limited = |limit| {

@@ -31,6 +31,7 @@ fn check(folder: &Path, words: &[&str]) -> String {
 }
 
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn no_hidden_character_reaches_a_terminal() {
     let folder = folder("all");
     let write = |name: &str, text: &str| std::fs::write(folder.join(name), text).unwrap();

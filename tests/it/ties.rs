@@ -215,6 +215,7 @@ fn render_model(words: &[&str]) -> (Option<i32>, String, Option<image::RgbImage>
 
 /// The page's table, its first row: the model from twelve pitches, one sample a pixel, in f64.
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn the_page_counts_ties() {
     let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
     let count = |aa: &str, pitch: u32| -> [u64; 2] {

@@ -128,6 +128,7 @@ fn differences(made: &Synthetic, found: &Diagnosis) -> Vec<String> {
 }
 
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn conventions_made_up_are_named() {
     const COUNT: u64 = 120;
     let found: Vec<_> = (0..COUNT)
@@ -151,6 +152,7 @@ fn conventions_made_up_are_named() {
 
 /// Four samples a pixel, of which one to four are asked for; and pictures that are turned over.
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn conventions_of_samples_and_mirrors_are_named() {
     let mut list = Vec::new();
     for number in 0..40 {
