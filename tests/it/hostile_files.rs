@@ -271,6 +271,9 @@ fn check(reader: &Reader, hostile: Hostile) -> Result<(), String> {
     };
     let text = |path| String::from_utf8_lossy(&fs::read(path).unwrap()).into_owned();
     let (out, errors) = (text(&out), text(&errors));
+    // With `--nocapture` the test prints a table of all files.
+    let message = errors.lines().next().unwrap_or_default();
+    println!("{} | {hostile:?} | {} ms | {message}", reader.name, start.elapsed().as_millis());
     let wrong = |what: &str| Err(format!("{what}: status {status:?}\n{out}\n{errors}"));
     let is_known =
         |&(code, files): &(u8, &[Hostile])| status == Some(code.into()) && files.contains(&hostile);

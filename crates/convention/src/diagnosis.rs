@@ -77,7 +77,6 @@ impl Share {
 pub struct Diagnosis {
     /// What it does; the nearest hypothesis where that is not known.
     pub convention: Convention,
-    /// How sure that is.
     pub confidence: Confidence,
     /// Others that explain the answers equally well, the simplest first.
     pub alternatives: Vec<Convention>,

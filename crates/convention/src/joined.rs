@@ -27,7 +27,6 @@ impl Side {
         (row - self.start[1]) as f32 * self.slope + self.start[0] as f32
     }
 
-    /// Whether it leans, and ends in this row.
     fn leans_and_ends(&self, row: i64) -> bool {
         self.slope != 0.0 && (row == *self.rows.start() || row == *self.rows.end())
     }

@@ -29,7 +29,6 @@ pub trait AskLine {
 /// How the minor coordinate of a step becomes a pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
 pub enum LineRounding {
-    /// To the nearest.
     Nearest(LineTie),
     /// Down: to smaller coordinates.
     Down,
@@ -47,10 +46,8 @@ pub enum LineRounding {
     Ahead,
 }
 
-/// Which ends are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
 pub enum Ends {
-    /// Both.
     Both,
     /// Not the last pixel.
     WithoutLast,
@@ -58,7 +55,6 @@ pub enum Ends {
     WithoutFirst,
     /// Not the right end; of upright lines, the lower.
     WithoutRight,
-    /// Neither.
     Neither,
 }
 
@@ -78,7 +74,6 @@ pub enum Steps {
 pub struct LineConvention {
     /// The minor coordinate.
     pub rounding: LineRounding,
-    /// The ends.
     pub ends: Ends,
     /// Diagonal steps.
     pub steps: Steps,
@@ -97,7 +92,6 @@ impl Default for LineConvention {
 }
 
 impl LineRounding {
-    /// Every way.
     pub fn all() -> impl Iterator<Item = Self> {
         let cut = End::ALL.into_iter().flat_map(|end| [Self::Toward(end), Self::Away(end)]);
         let nearest = LineTie::ALL.map(Self::Nearest);
@@ -119,13 +113,11 @@ impl LineRounding {
 }
 
 impl Ends {
-    /// Every choice.
     pub const ALL: [Self; 5] =
         [Self::Both, Self::WithoutLast, Self::WithoutFirst, Self::WithoutRight, Self::Neither];
 }
 
 impl Steps {
-    /// Every way.
     pub fn all() -> impl Iterator<Item = Self> {
         let between = End::ALL.into_iter().flat_map(|e| [Self::MajorFirst(e), Self::MinorFirst(e)]);
         std::iter::once(Self::Corners).chain(between)
@@ -237,7 +229,6 @@ fn stepped(from: [i64; 2], to: [i64; 2], is_behind: bool) -> Vec<[i64; 2]> {
 pub struct LineDiagnosis {
     /// What it does; the nearest hypothesis where that is not known.
     pub convention: LineConvention,
-    /// How sure that is.
     pub confidence: Confidence,
     /// Others that explain the answers equally well.
     pub alternatives: Vec<LineConvention>,

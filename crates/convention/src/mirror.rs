@@ -21,7 +21,6 @@ pub enum Mirror {
 }
 
 impl Mirror {
-    /// Every way.
     pub const ALL: [Self; 5] =
         [Self::None, Self::UpsideDown, Self::LeftToRight, Self::HalfTurn, Self::Exchanged];
 

@@ -15,7 +15,6 @@ pub enum LineTie {
     Up,
     /// To the smaller one.
     Down,
-    /// To the even one.
     Even,
     /// Of flat lines to the upper pixel, of steep ones to the right one.
     UpperRight,
@@ -40,7 +39,6 @@ pub enum LineTie {
 }
 
 impl LineTie {
-    /// Every rule.
     pub const ALL: [Self; 13] = [
         Self::SmallGo,
         Self::SmallStay,
@@ -57,7 +55,6 @@ impl LineTie {
         Self::LowerLeft,
     ];
 
-    /// In words.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -105,7 +102,6 @@ impl LineTie {
 /// The end that a line is seen from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
 pub enum End {
-    /// The first.
     First,
     /// The one with the smaller major coordinate.
     Small,
@@ -116,10 +112,8 @@ pub enum End {
 }
 
 impl End {
-    /// Every end.
     pub const ALL: [Self; 4] = [Self::First, Self::Small, Self::Left, Self::Top];
 
-    /// In words.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {

@@ -120,7 +120,6 @@ impl Ties {
 /// What a program does, as far as its pictures show it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
 pub struct Convention {
-    /// Which windings it draws.
     pub draws: Windings,
     /// The grid its corners lie on.
     pub quantum: Quantum,

@@ -33,7 +33,6 @@ pub enum Scan {
 const MOST: i64 = 1 << 22;
 
 impl Scan {
-    /// All of them.
     pub const ALL: [Self; 5] =
         [Self::Above, Self::Coarse, Self::Sides, Self::Joined, Self::Carried];
 

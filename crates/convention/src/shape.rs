@@ -35,18 +35,11 @@ pub enum Shape {
     },
     /// Row by row: the crossing with an edge's first row is cut to the grid of the corners, and the
     /// slope to 1/65536, then added row by row.
-    Stepped {
-        /// As for a point.
-        x: i32,
-        /// As for a point.
-        y: i32,
-    },
+    Stepped { x: i32, y: i32 },
     /// The sample point lies at most `reach` outside the triangle: along one axis, or (`square`)
     /// along both. A square of half a pixel about the centre is the pixel: any touch.
     Reach {
-        /// As for a point.
         x: i32,
-        /// As for a point.
         y: i32,
         /// Subpixels.
         reach: i32,

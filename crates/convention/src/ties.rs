@@ -18,7 +18,6 @@ use rasterproof_core::triangle::Corners;
 pub struct Count {
     /// How many were drawn, changed, or right.
     pub drawn: u64,
-    /// Of how many.
     pub of: u64,
 }
 

@@ -4,6 +4,8 @@
 //! [`raster::scanline`] and [`raster::edge_function`] share no code beyond the grid and the contract, since they are
 //! compared with each other.
 
+#![warn(missing_docs)]
+
 pub mod angle;
 pub mod arrays;
 pub mod contract;

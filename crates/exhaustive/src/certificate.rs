@@ -40,7 +40,6 @@ pub struct Timing {
     pub threads: usize,
 }
 
-/// The certificate.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Certificate {
@@ -60,7 +59,6 @@ pub struct Certificate {
     pub done: Tally,
     /// The command that repeats it.
     pub repeat: String,
-    /// How long it took.
     pub timing: Timing,
 }
 

@@ -22,7 +22,6 @@ const DRAWINGS_OF_A_LINE: u64 = 1 + 2 * 2 * 3;
 /// What some chunks hold. The names are those of [`Tally`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counts {
-    /// Cases.
     pub cases: u64,
     /// Comparisons that are made for them.
     pub comparisons: u64,

@@ -12,12 +12,10 @@ use super::Plan;
 pub struct Shard {
     /// Which part, from 0.
     pub part: u64,
-    /// How many there are.
     pub parts: u64,
 }
 
 impl Shard {
-    /// All of it.
     pub const WHOLE: Self = Self { part: 0, parts: 1 };
 
     /// The numbers of the chunks of this part. `part` is less than `parts`.

@@ -33,7 +33,6 @@ pub const EXAMPLES: usize = 5;
 pub trait Enumeration: Sync {
     /// One sentence: what agrees with what, for which cases.
     fn claim(&self) -> String;
-    /// How many chunks there are.
     fn chunks(&self) -> u64;
     /// How many cases all chunks hold together, in closed form and not by enumerating.
     fn expected_cases(&self) -> u64;
@@ -53,13 +52,11 @@ pub trait Enumeration: Sync {
 pub struct Source {
     /// Its path in the repository.
     pub path: &'static str,
-    /// Its text.
     pub text: &'static str,
     /// What the lines begin with that begin the items, without visibility; none means the file.
     pub items: &'static [&'static str],
 }
 
-/// What was found.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Tally {

@@ -35,7 +35,6 @@ const ORACLE_REACH: u32 = 64;
 pub struct Lines {
     /// Largest |dx| and |dy| in pixels.
     pub reach: u32,
-    /// Where the lines start.
     pub offset_px: [i32; 2],
     /// Only 0 <= dy <= dx.
     pub first_octant: bool,

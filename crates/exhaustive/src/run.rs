@@ -21,18 +21,15 @@ use rasterproof_core::parallel;
 pub struct Progress {
     /// What is being run, by which code.
     pub identity: Identity,
-    /// Which part of it.
     pub shard: Shard,
     /// Chunks that are done, as half-open ranges in ascending order.
     pub done: Vec<[u64; 2]>,
-    /// What they found.
     pub tally: Tally,
     /// Time spent so far, over all sittings.
     pub seconds: f64,
 }
 
 impl Progress {
-    /// Nothing done yet.
     #[must_use]
     pub fn new(plan: &Plan, shard: Shard) -> Self {
         let identity = Identity::of(plan);

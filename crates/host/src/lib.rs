@@ -7,7 +7,6 @@
 //! `clippy.toml` refuses the functions of the standard library that do the same, so that no other
 //! crate can open or write a file by itself.
 #![forbid(unsafe_code)]
-#![warn(missing_docs)]
 
 pub mod identity;
 pub mod input;

@@ -30,15 +30,10 @@ pub type Outcome = Result<u64, String>;
 /// The function of an invariant, by what it takes.
 #[derive(Clone, Copy)]
 pub enum Check {
-    /// Of a triangle.
     Triangle(fn(&Subject, &TriangleInput) -> Outcome),
-    /// Of a convex quadrilateral.
     Quad(fn(&Subject, &Quad) -> Outcome),
-    /// Of a closed fan.
     Fan(fn(&Subject, &Fan) -> Outcome),
-    /// Of a line.
     Line(fn(&Subject, &LineInput) -> Outcome),
-    /// Of a coordinate.
     Position(fn(&Subject, &Position) -> Outcome),
     /// Of a triangle in clip space.
     Clip(fn(&Subject, &ClipInput) -> Outcome),
@@ -61,7 +56,6 @@ pub struct Invariant {
     pub tolerance: &'static str,
     /// The parts of a subject that it looks at.
     pub parts: &'static [Part],
-    /// The check.
     pub check: Check,
 }
 
@@ -81,7 +75,6 @@ pub struct Report {
 /// A failing input.
 #[derive(Clone, Debug)]
 pub struct Failure {
-    /// Its number.
     pub index: u64,
     /// The smallest input found that still fails.
     pub input: Input,
@@ -221,7 +214,6 @@ impl Invariant {
     }
 }
 
-/// The invariant of a name.
 #[must_use]
 pub fn find(name: &str) -> Option<&'static Invariant> {
     CATALOGUE.iter().find(|i| i.name == name)

@@ -28,7 +28,6 @@ pub struct TriangleInput {
 /// A convex quadrilateral, corners clockwise.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Quad {
-    /// Its corners.
     pub corners: [SubpixelPoint; 4],
     /// The pixels that are looked at.
     pub window: PixelRect,
@@ -143,13 +142,11 @@ pub struct ClipInput {
 /// The input of a check.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Input {
-    /// A triangle.
     Triangle(TriangleInput),
     /// A convex quadrilateral.
     Quad(Quad),
     /// A closed fan.
     Fan(Fan),
-    /// A line.
     Line(LineInput),
     /// A coordinate.
     Position(Position),

@@ -81,7 +81,6 @@ impl<D: DrawLine + Sync> Stroke for D {
 
 /// An engine with its name and the bounds of its values.
 pub struct Engine {
-    /// What messages call it.
     pub name: &'static str,
     /// The engine.
     pub fill: Box<dyn Fill>,
@@ -127,7 +126,6 @@ pub fn hits(
 
 /// A line drawer with its name.
 pub struct Drawer {
-    /// What messages call it.
     pub name: &'static str,
     /// The drawer.
     pub stroke: Box<dyn Stroke>,
@@ -170,7 +168,6 @@ pub struct Subject {
     pub word_width: fn(u32, u32) -> WordWidth,
     /// The source of generated cases.
     pub make_case: MakeCase,
-    /// The clipper.
     pub clip: ClipStage,
     /// Whether culling removes a triangle.
     pub culls: fn(Cull, Corners) -> bool,
@@ -187,11 +184,9 @@ pub struct Subject {
 pub enum Part {
     /// The rasterizers.
     Engine,
-    /// The oracle.
     Oracle,
     /// The line drawers.
     Drawer,
-    /// Snapping.
     Snap,
     /// The edge functions' values.
     EdgeValues,
@@ -199,9 +194,7 @@ pub enum Part {
     WordWidth,
     /// The source of cases.
     Source,
-    /// The clipper.
     Clip,
-    /// Culling.
     Cull,
     /// Rendering with effects.
     Render,

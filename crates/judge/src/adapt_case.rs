@@ -34,13 +34,11 @@ pub fn families(wanted: &[String]) -> Vec<&'static Family> {
     chosen
 }
 
-/// The family of a name.
 #[must_use]
 pub fn family(name: &str) -> Option<&'static Family> {
     families(&[name.to_owned()]).pop()
 }
 
-/// Whether a family is of lines.
 #[must_use]
 pub fn is_lines(family: &Family) -> bool {
     cases::lines::FAMILIES.iter().any(|f| f.name == family.name)

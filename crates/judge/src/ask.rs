@@ -36,7 +36,6 @@ pub enum Asked {
     Samples(Corners),
     /// L: the pixels of a line, from the first to the second; `whole` leaves out the half pixel.
     Line {
-        /// Its ends.
         ends: [PixelPoint; 2],
         /// Positions are whole numbers: the pixel's corner names the pixel as its centre does.
         whole: bool,
@@ -48,7 +47,6 @@ pub enum Asked {
     Near(Triangle),
 }
 
-/// What came back.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Answer {
     /// C: runs of covered pixels as they came.

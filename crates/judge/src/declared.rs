@@ -20,9 +20,7 @@ pub enum Rule {
     BottomLeft,
     /// Those on bottom and right edges.
     BottomRight,
-    /// All of them.
     Inclusive,
-    /// None of them.
     Strict,
     /// Nothing is promised.
     Unspecified,
@@ -47,14 +45,12 @@ impl Rule {
     }
 }
 
-/// Which windings are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Winding {
     /// Clockwise alone.
     Clockwise,
     /// Counter-clockwise alone.
     CounterClockwise,
-    /// Both.
     Both,
 }
 
@@ -95,7 +91,6 @@ pub struct Declared {
     pub origin: [i32; 2],
     /// Which samples on an edge belong.
     pub rule: Rule,
-    /// Which windings it draws.
     pub winding: Winding,
     /// Its own y axis points up: top and bottom, cw and ccw change places.
     pub yup: bool,
@@ -243,7 +238,6 @@ impl Declared {
         }
     }
 
-    /// Its capabilities as words.
     #[must_use]
     pub fn capabilities(&self) -> Vec<&'static str> {
         let all = [

@@ -28,7 +28,6 @@ pub struct Failure {
     pub what: String,
     /// The smallest case found that still fails.
     pub case: Case,
-    /// What was said.
     pub exchanges: Vec<Exchange>,
     /// All its answers as one picture, and the one expected, where there are both.
     pub picture: Option<Pictured>,
@@ -37,9 +36,7 @@ pub struct Failure {
 /// A request, its answer, and the answer that was expected; as lines of the protocol.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Exchange {
-    /// The request.
     pub request: String,
-    /// The answer.
     pub answer: String,
     /// What was expected instead, or nothing.
     pub expected: String,

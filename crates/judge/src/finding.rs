@@ -30,7 +30,6 @@ pub struct Finding {
     pub values: u64,
     /// Largest error of a value as a fraction of the tolerance.
     pub worst: f64,
-    /// Where that was.
     pub worst_at: Option<(i32, i32)>,
     /// Answers there were.
     pub answered: u64,
@@ -41,7 +40,6 @@ pub struct Finding {
 }
 
 impl Finding {
-    /// Whether anything is wrong.
     #[must_use]
     pub fn is_wrong(&self) -> bool {
         self.tally.total() > 0 || self.refused > 0 || !self.died.is_empty() || self.worst > 1.0

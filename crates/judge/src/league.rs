@@ -7,7 +7,6 @@ use super::verdict::{Score, Verdict};
 /// An adapter, as `adapters/league.json` names it.
 #[derive(Clone, Debug, Deserialize)]
 pub struct Adapter {
-    /// Its name.
     pub name: String,
     /// The library it speaks for.
     pub library: String,
@@ -22,7 +21,6 @@ pub struct Adapter {
 pub struct Kind {
     /// What the library does, as a sentence; empty where it draws as it declares.
     pub sentence: String,
-    /// By what it declares.
     pub as_declared: Score,
     /// By the convention that was found; nothing where it is unexplained.
     pub by_convention: Option<Score>,
@@ -33,7 +31,6 @@ pub struct Kind {
 pub struct Standing {
     /// Name of the adapter.
     pub name: String,
-    /// The library.
     pub library: String,
     /// What it calls itself at HELLO, with its version.
     pub version: String,
@@ -41,7 +38,6 @@ pub struct Standing {
     pub date: String,
     /// The exact call.
     pub call: String,
-    /// What it declares.
     pub declares: String,
     /// Triangles, where it draws them.
     pub triangles: Option<Kind>,

@@ -42,7 +42,6 @@ use recognise::{Recognised, Said};
 use run::Incident;
 use verdict::Verdict;
 
-/// What to judge.
 #[derive(Clone, Debug)]
 pub struct Options {
     /// Decides every generated case.

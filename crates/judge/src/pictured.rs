@@ -21,7 +21,6 @@ use rasterproof_verify::oracle::values::Exact;
 /// What was drawn, and what was expected.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pictured {
-    /// All answers.
     pub drawn: Coverage,
     /// What they should have been.
     pub expected: Coverage,

@@ -45,9 +45,7 @@ pub struct Said {
 /// What is to be recognised.
 #[derive(Clone, Copy, Debug)]
 pub struct Scope {
-    /// Of triangles.
     pub triangles: bool,
-    /// Of lines.
     pub lines: bool,
     /// Also where it draws as it declares.
     pub always: bool,

@@ -140,9 +140,7 @@ pub struct Incident {
     pub family: &'static str,
     /// Number of the case.
     pub index: u64,
-    /// What happened.
     pub what: Misbehaviour,
-    /// The request.
     pub request: String,
 }
 
@@ -194,7 +192,6 @@ impl Found {
 /// Two passes: cases within their windows, then those that leave it.
 const PASSES: [bool; 2] = [false, true];
 
-/// What the copies share.
 struct Shared<'a> {
     families: Vec<&'static Family>,
     options: &'a Options,

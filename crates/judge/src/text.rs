@@ -73,7 +73,6 @@ impl<'a> Words<'a> {
         number(std::str::from_utf8(self.word()?).ok()?)
     }
 
-    /// Whether nothing is left.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.0.iter().all(u8::is_ascii_whitespace)

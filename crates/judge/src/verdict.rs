@@ -34,11 +34,8 @@ impl Outcome {
 /// A property and how it came out.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Property {
-    /// Its name.
     pub name: &'static str,
-    /// What it says.
     pub about: String,
-    /// How it came out.
     pub outcome: Outcome,
     /// What was found, in a sentence.
     pub detail: String,
@@ -53,7 +50,6 @@ pub struct Verdict {
     pub seed: u64,
     /// Cases of each family that were asked for.
     pub cases: u64,
-    /// Which windings it draws.
     pub windings: Windings,
     /// What was recognised, if it does not draw as it declares.
     pub recognised: Option<Said>,
@@ -199,7 +195,6 @@ impl Verdict {
         self.found.rows.iter().filter(move |row| !compares(row.name))
     }
 
-    /// The score as declared.
     #[must_use]
     pub fn as_declared(&self) -> Score {
         self.score(None, |row| (row.tally.total(), row.pixels, 0))
@@ -229,7 +224,6 @@ impl Verdict {
     }
 }
 
-/// What a property says.
 fn about(name: &str) -> String {
     if let Some((_, about)) = CHECKS.iter().find(|(check, _)| *check == name) {
         return (*about).to_owned();

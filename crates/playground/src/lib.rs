@@ -1,7 +1,6 @@
 //! The playground of rasterproof: what its page asks, the answers, and the page itself; see
 //! `docs/playground.md`.
 #![deny(unsafe_code)]
-#![warn(missing_docs)]
 
 pub mod answer;
 pub mod page;

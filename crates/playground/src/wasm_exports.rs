@@ -30,7 +30,6 @@ pub extern "C" fn answer() -> usize {
     })
 }
 
-/// Where the answer begins.
 #[unsafe(no_mangle)]
 pub extern "C" fn text() -> *const u8 {
     TEXT.with_borrow(|text| text.as_ptr())

@@ -23,7 +23,6 @@ use rasterproof_render::pipeline::target::{Antialias, Target};
 use rasterproof_render::scene::{Scene, chapters, random};
 use rasterproof_verify::cases::{self, Case, Family, Shape, unsnapped};
 
-/// What is digested.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Options {
     /// Decides every generated case.
@@ -83,7 +82,6 @@ impl Job {
         }
     }
 
-    /// How many cases there are.
     fn count(self, cases: u64) -> u64 {
         let families = match self {
             Self::Coverage(_) | Self::Values(_) => cases::triangles::FAMILIES.len(),
@@ -161,7 +159,6 @@ pub fn case_count(options: Options, engine: Option<&str>) -> u64 {
     jobs().into_iter().filter(wanted).map(|job| job.count(options.cases)).sum()
 }
 
-/// One digest over others.
 #[must_use]
 pub fn total(parts: &[DigestRow]) -> String {
     let mut all = Sha256::new();

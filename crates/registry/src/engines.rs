@@ -195,7 +195,6 @@ pub enum Drawer {
 }
 
 impl Drawer {
-    /// Both.
     pub const ALL: [Self; 2] = [Self::Scanline, Self::EdgeFunction];
 
     /// The rasterizer's name.
@@ -432,7 +431,6 @@ pub enum TriangleSpecimen {
 }
 
 impl TriangleSpecimen {
-    /// Whether it interpolates values.
     #[must_use]
     pub fn has_values(self) -> bool {
         !matches!(self, Self::BookChapter2 | Self::SysuTruncated)
@@ -532,7 +530,6 @@ impl Published for TriangleSpecimen {
 /// A published line drawer with its faults.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LineSpecimen {
-    /// The book's DDA.
     BookDda,
     /// The Bresenham of SYSU assignment 2.
     SysuBresenham,
@@ -555,7 +552,6 @@ impl PublishedLine for LineSpecimen {
 /// What a name stands for: some engines rasterize, some draw lines, the oracle does both.
 #[derive(Clone, Copy, Debug)]
 pub struct Entry {
-    /// The name.
     pub name: &'static str,
     /// What it is, in a few words.
     pub about: &'static str,

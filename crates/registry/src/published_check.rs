@@ -95,11 +95,8 @@ impl Counts {
 /// A specimen over the families.
 #[derive(Clone, Debug, Serialize)]
 pub struct SpecimenReport {
-    /// Its name.
     pub name: &'static str,
-    /// Where it comes from.
     pub source: &'static str,
-    /// What is wrong.
     pub fault: &'static str,
     /// The repair.
     pub cure: &'static str,
@@ -113,7 +110,6 @@ pub struct SpecimenReport {
     pub recorded: Vec<(&'static str, Counts)>,
     /// Family and counts; empty for scenes.
     pub families: Vec<(&'static str, Counts)>,
-    /// All of them.
     pub all: Counts,
 }
 

@@ -67,7 +67,6 @@ impl Ties {
 pub struct Drawn<'a> {
     /// Who drew it.
     pub engine: Engine,
-    /// What it drew.
     pub target: &'a Target,
 }
 

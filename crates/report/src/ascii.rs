@@ -2,7 +2,6 @@
 
 use rasterproof_core::frame::Coverage;
 
-/// What the characters mean.
 pub const LEGEND: &str = "# agrees, - missing, + extra, 2 twice, * rightly more than once";
 
 /// Largest grid that is printed whole; a larger window is cropped around what is drawn.

@@ -197,7 +197,6 @@ fn not_run(out: &mut String, board: &Board) {
     }
 }
 
-/// Which rungs nobody needs.
 fn verdicts(out: &mut String, board: &Board) {
     for measure in board.ranking() {
         let list: Vec<_> = board

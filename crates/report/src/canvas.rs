@@ -25,11 +25,8 @@ pub type Ink = [u8; 3];
 pub enum Shape {
     /// A straight line.
     Line {
-        /// From here.
         from: [f64; 2],
-        /// To here.
         to: [f64; 2],
-        /// Width.
         width: f64,
         /// Colour.
         ink: Ink,
@@ -47,7 +44,6 @@ pub enum Shape {
     Disc {
         /// Centre.
         at: [f64; 2],
-        /// Radius.
         radius: f64,
         /// Colour.
         ink: Ink,
@@ -65,7 +61,6 @@ pub enum Shape {
     Text {
         /// Left end, middle height.
         at: [f64; 2],
-        /// What it says.
         text: String,
         /// Colour.
         ink: Ink,

@@ -11,10 +11,8 @@ use serde_json::{Value, json};
 use rasterproof_judge::verdict::{Outcome, Property, Verdict};
 use rasterproof_verify::comparison::shrink;
 
-/// What to print.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
-    /// For people.
     Text,
     /// Everything that was found.
     Json,

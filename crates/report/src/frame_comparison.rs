@@ -62,7 +62,6 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    /// Whether nothing differs.
     #[must_use]
     pub fn agrees(&self) -> bool {
         self.wrong_pixels == 0 && self.wrong_depths == 0

@@ -88,7 +88,6 @@ pub struct Outcome {
 /// A table with a header and a row head in its first column.
 #[derive(Clone, Debug, Default)]
 pub struct Table {
-    /// What the table counts.
     pub caption: String,
     /// Columns from left to right.
     pub columns: Vec<Column>,
@@ -99,11 +98,9 @@ pub struct Table {
 /// A column of a [`Table`].
 #[derive(Clone, Debug, Default)]
 pub struct Column {
-    /// Its head.
     pub label: String,
     /// The head in more words, or nothing.
     pub about: String,
-    /// Whether it holds numbers.
     pub is_number: bool,
 }
 
@@ -138,7 +135,6 @@ pub enum Mark {
     /// Not at all.
     #[default]
     Plain,
-    /// As wrong.
     Wrong,
     /// As the sum of the others; always shown.
     Sum,
@@ -159,11 +155,8 @@ pub struct Figure {
 /// A row of the table of a plan: an effect, whether it is on, why, and what was counted.
 #[derive(Clone, Debug, Default)]
 pub struct PlanRow {
-    /// Its name.
     pub effect: String,
-    /// Whether it is on.
     pub is_on: bool,
-    /// Why.
     pub reason: String,
     /// What was counted, name and number.
     pub counters: Vec<(String, String)>,
@@ -172,9 +165,7 @@ pub struct PlanRow {
 /// Two texts whose lines are compared.
 #[derive(Clone, Debug, Default)]
 pub struct TextDiff {
-    /// Its name.
     pub name: String,
-    /// What it is.
     pub about: String,
     /// A command that belongs to it, or nothing.
     pub command: String,
@@ -189,11 +180,9 @@ pub struct TextDiff {
 pub struct PictureView {
     /// Its name; unique within the page.
     pub name: String,
-    /// What it shows.
     pub about: String,
     /// The command that makes it, or nothing.
     pub command: String,
-    /// Where it is explained.
     pub chapter: Chapter,
     /// The pictures; the first two are compared at first.
     pub layers: Vec<PictureLayer>,

@@ -30,15 +30,12 @@ use rasterproof_verify::comparison::{
 pub struct CaseView {
     /// Its name; unique within the page, and its address.
     pub name: String,
-    /// What it threatens.
     pub about: String,
-    /// Why it is shown.
     pub kind: Kind,
     /// What was found, in a sentence, or nothing.
     pub found: String,
     /// The command that repeats it.
     pub command: String,
-    /// Where it is explained.
     pub chapter: Chapter,
     /// What the picture shows, where that is not the pixels of the case.
     pictured: String,

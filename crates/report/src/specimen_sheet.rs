@@ -82,7 +82,6 @@ impl Sheet {
     }
 }
 
-/// What a strip shows.
 struct Panels {
     published: Image,
     repaired: Image,
@@ -224,7 +223,6 @@ pub fn alone(card: &Card) -> panels::Sheet {
     panels::Sheet { image: picture::stack(&[image, legend(STRIP, &shown)]), panels }
 }
 
-/// The strip of a card.
 fn strip(card: &Card) -> panels::Sheet {
     let Some(panels) = versions(card) else {
         return panels::Sheet { image: RgbImage::new(1, 1), panels: Vec::new() };

@@ -66,7 +66,6 @@ fn fill_list(tiles: &Tiles, triangles: &[Corners], colour: u32, target: &mut Fra
     });
 }
 
-/// By the scanline.
 #[inline]
 fn fill_one(corners: Corners, colour: u32, target: &mut Frame<u32>) {
     Scanline.cover(corners, target.bounds(), |span| {

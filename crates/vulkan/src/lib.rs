@@ -3,7 +3,6 @@
 //! [`device`] draws lists of primitives on a device and reads them back; it is the only module here
 //! that calls what the compiler cannot check. [`gpu`] judges what came back.
 #![deny(unsafe_code, unsafe_op_in_unsafe_fn, clippy::undocumented_unsafe_blocks)]
-#![warn(missing_docs)]
 
 #[allow(unsafe_code, reason = "Vulkan is a C interface; each block says why it may be called")]
 pub mod device;

@@ -19,7 +19,6 @@ use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{Fragment, Span};
 
-/// Which chapter's depth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BookDepth {
     /// w, perspective-correct.

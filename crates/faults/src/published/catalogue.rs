@@ -16,7 +16,6 @@ use rasterproof_core::arrays::MapArray as _;
 /// A specimen's card.
 #[derive(Clone, Copy, Debug)]
 pub struct Card {
-    /// Its name.
     pub name: &'static str,
     /// Document, chapter or task, section.
     pub source: &'static str,
@@ -24,7 +23,6 @@ pub struct Card {
     pub fault: &'static str,
     /// The repair in one sentence.
     pub cure: &'static str,
-    /// What shows it.
     pub exhibit: Exhibit,
 }
 
@@ -42,7 +40,6 @@ pub enum Exhibit {
 /// Triangles to draw together.
 #[derive(Clone, Copy, Debug)]
 pub struct TriangleCase {
-    /// Its name.
     pub name: &'static str,
     /// Side of the window in pixels.
     pub side_px: u32,
@@ -57,7 +54,6 @@ pub struct TriangleCase {
 /// A line to draw.
 #[derive(Clone, Copy, Debug)]
 pub struct LineCase {
-    /// Its name.
     pub name: &'static str,
     /// First and last pixel.
     pub pixels: [(i32, i32); 2],
@@ -66,7 +62,6 @@ pub struct LineCase {
 /// A recorded input of the book's code, by triangles.
 #[derive(Clone, Copy, Debug)]
 pub struct RecordedCase {
-    /// Its name.
     pub name: &'static str,
     /// The specimen that shows it.
     pub specimen: &'static str,

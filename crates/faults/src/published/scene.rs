@@ -21,13 +21,10 @@ pub type Image = Frame<Colour>;
 /// Which of the two algorithms draws.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Version {
-    /// As published.
     Published,
-    /// With the cure.
     Repaired,
 }
 
-/// What is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Setting {
     /// The case that shows the fault.
@@ -40,7 +37,6 @@ pub enum Setting {
 pub const SIDE: u32 = 32;
 /// The background.
 pub const BLACK: Colour = [0, 0, 0];
-/// White.
 pub const WHITE: Colour = [240, 240, 240];
 /// Colours of shapes.
 pub const COLOURS: [Colour; 3] = [[236, 178, 46], [70, 150, 200], [196, 88, 88]];

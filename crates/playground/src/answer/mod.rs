@@ -22,9 +22,15 @@ enum Question {
     /// Names of everything there is to choose from.
     List,
     /// A named case.
-    Named { name: String },
+    Named {
+        name: String,
+    },
     /// A generated case.
-    Generated { family: String, seed: u64, index: u64 },
+    Generated {
+        family: String,
+        seed: u64,
+        index: u64,
+    },
     /// Triangles as several engines cover them.
     Draw(pixels::Draw),
     /// Three edge values, two walks and the values at one pixel.
@@ -41,14 +47,16 @@ enum Question {
     Near(pipeline::Near),
     /// Samples covered in each pixel, for 1, 4 and 16 of them.
     Samples(pipeline::Samples),
-    /// Which triangles face away.
     Cull(pipeline::Culling),
     /// The next generated case on which somebody disagrees with the oracle.
     Search(search::Search),
     /// The ever smaller cases that still fail.
     Shrink(search::Shrink),
     /// A digest of what the engines draw of the first cases of all families.
-    Digest { seed: u64, cases: u64 },
+    Digest {
+        seed: u64,
+        cases: u64,
+    },
 }
 
 /// The answer to a question; `{"error": ...}` to one that makes no sense or cannot be drawn.

@@ -22,7 +22,6 @@ const RULES: [&str; 2] = ["exclusive-edges", "inclusive-edges"];
 /// Who covers pixels on this page.
 #[derive(Clone, Copy)]
 pub(super) enum Painter {
-    /// On the lattice.
     Lattice(Engine),
     /// Corners as they are given.
     Free(ExactEngine),

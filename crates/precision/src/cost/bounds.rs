@@ -33,7 +33,6 @@ pub enum Bound {
 
 /// What is known of a triangle and one of its pixels when a bound is computed, in f64.
 pub struct Place<'a> {
-    /// The triangle.
     pub triangle: &'a Valued,
     /// The span that holds the pixel.
     pub span: Span,

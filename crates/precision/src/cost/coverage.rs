@@ -122,7 +122,6 @@ impl AnyRung for Lists {
 /// A rung of coverage, ready to run: it lists the pixels of a triangle, to be judged, or paints them,
 /// to be timed.
 pub struct Variant {
-    /// What it is.
     pub rung: Rung,
     body: Box<dyn AnyRung>,
 }

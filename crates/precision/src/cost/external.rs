@@ -6,7 +6,6 @@ use rasterproof_core::triangle::{FreeCorners, Span};
 
 /// Somebody who fills triangles, and is judged and timed as the rungs are.
 pub trait ExternalVariant {
-    /// What it is.
     fn rung(&self) -> Rung;
 
     /// The pixels of each triangle.

@@ -89,7 +89,6 @@ impl Ladder {
 /// Words of a board: of the program where it was measured, of the file where it was read.
 pub type Name = Cow<'static, str>;
 
-/// How much is measured.
 #[derive(Clone, Copy, Debug)]
 pub struct Options {
     /// Decides every scene, and with them every error.
@@ -120,9 +119,7 @@ impl Measure {
 /// A class of scenes, the columns of a board.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Column {
-    /// Its name.
     pub name: Name,
-    /// What is drawn.
     pub about: String,
     /// Triangles or lines.
     pub items: u64,
@@ -139,7 +136,6 @@ impl Column {
 /// A rung, the rows of a board.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rung {
-    /// Its name.
     pub name: Name,
     /// How it works, in a few words.
     pub about: Name,
@@ -188,9 +184,7 @@ pub struct Run {
 /// The measurements of one ladder.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Board {
-    /// Which ladder.
     pub ladder: Ladder,
-    /// What decided the scenes.
     pub seed: u64,
     /// Rounds that the medians are over, 0 without times.
     pub rounds: usize,
@@ -198,7 +192,6 @@ pub struct Board {
     pub measures: Vec<Measure>,
     /// Classes of scenes.
     pub columns: Vec<Column>,
-    /// Rungs.
     pub rungs: Vec<Rung>,
     /// A row for each rung, in it a cell for each column.
     pub cells: Vec<Vec<Cell>>,

@@ -11,7 +11,6 @@ pub struct Recorded {
     pub version: String,
     /// The command.
     pub repeat: String,
-    /// What decided the scenes.
     pub seed: u64,
     /// Smaller scenes and fewer rounds.
     pub quick: bool,

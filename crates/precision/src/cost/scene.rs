@@ -15,7 +15,6 @@ use rasterproof_verify::cases::Rng;
 pub struct Scene {
     /// Name of the class.
     pub name: &'static str,
-    /// What is in it.
     pub about: &'static str,
     /// The window.
     pub bounds: PixelRect,

@@ -112,7 +112,6 @@ impl<E: Rasterize> Antialias for Supersample<E> {
     }
 }
 
-/// The exact area.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ExactArea;
 

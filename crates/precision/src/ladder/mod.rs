@@ -56,7 +56,6 @@ impl Real for f64 {
 /// What a rung did, where that explains its time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct Work {
-    /// Divisions.
     pub divisions: u64,
     /// Edges asked at a sample, or crossings of an edge and a row.
     pub evaluations: u64,

@@ -12,7 +12,6 @@ pub(super) struct Assembled<'a> {
     pub items: Vec<Prepared<'a>>,
     /// With the items they are of.
     pub pieces: Option<Vec<(usize, Piece)>>,
-    /// Of these pieces.
     pub plans: Vec<PiecePlan>,
     pub counters: Counters,
 }

@@ -30,7 +30,6 @@ use rasterproof_verify::oracle::values::ExactTriangle;
 /// A sample of a target: a pixel of one of its planes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Sample {
-    /// Which plane.
     pub plane: usize,
     /// Row of the plane.
     pub y_px: i32,
@@ -41,7 +40,6 @@ pub struct Sample {
 /// A piece that may be the nearest at a sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Rival {
-    /// Where.
     pub sample: Sample,
     /// Which piece, in the order of drawing.
     pub piece: u32,
@@ -389,7 +387,6 @@ impl Cause {
 /// Pixels in which only rounding decides which surface is seen.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
 pub struct ByRounding {
-    /// How many.
     pub pixels: u64,
     /// Column and row of the first.
     pub first: Option<(i32, i32)>,
@@ -400,7 +397,6 @@ pub struct ByRounding {
 pub struct Reachable(Vec<[Colour; 2]>);
 
 impl Reachable {
-    /// Whether a colour is one of them.
     #[must_use]
     pub fn holds(&self, colour: Colour) -> bool {
         self.0.iter().any(|[a, b]| {

@@ -22,7 +22,6 @@ use rasterproof_core::frame::Frame;
 pub struct Rendered {
     /// The pixels, resolved.
     pub picture: Frame<Colour>,
-    /// What was done.
     pub counters: Counters,
     /// What was paid for, and why.
     pub plan: Plan,
@@ -36,26 +35,15 @@ pub enum PlanError {
     /// The plan has another form, or does not name its form.
     Version(Option<u64>),
     /// The plan is for another scene, or does not say for which.
-    OtherScene {
-        /// What it is for.
-        planned: Option<SceneDigest>,
-        /// What there is.
-        there: SceneDigest,
-    },
+    OtherScene { planned: Option<SceneDigest>, there: SceneDigest },
     /// The plan contradicts itself: a piece interpolates what its item does not carry.
     NotCarried {
-        /// Which item.
         item: usize,
         /// What it does not carry.
         attributes: Attributes,
     },
     /// The plan is for another target.
-    Canvas {
-        /// What it is for.
-        planned: Canvas,
-        /// What there is.
-        there: Canvas,
-    },
+    Canvas { planned: Canvas, there: Canvas },
     /// The plan is for a scene with another number of items.
     Items {
         /// Items of the plan.
@@ -65,7 +53,6 @@ pub enum PlanError {
     },
     /// The plan lists another number of pieces than the item has.
     Pieces {
-        /// Which item.
         item: usize,
         /// Pieces of the plan.
         planned: u64,

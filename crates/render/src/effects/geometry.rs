@@ -27,9 +27,7 @@ pub struct SurfaceMaterial<'a> {
     pub base: Vec3,
     /// Whether the colours of the corners are.
     pub colours: bool,
-    /// The light, where there is one.
     pub light: Option<DirectionalLight>,
-    /// The texture, where there is one.
     pub texture: Option<&'a Texture>,
 }
 
@@ -37,7 +35,6 @@ pub struct SurfaceMaterial<'a> {
 pub struct DirectionalLight {
     /// Towards the light, length 1.
     pub towards: Vec3,
-    /// What every surface gets.
     pub ambient: f32,
     /// What a surface that faces the light gets on top.
     pub diffuse: f32,
@@ -46,7 +43,6 @@ pub struct DirectionalLight {
 /// A piece as far as tiles need to know it before it is seen.
 #[derive(Clone, Copy)]
 pub struct Outline {
-    /// Where it is.
     pub corners: Corners,
     /// The depths of the corners.
     pub depths: [f64; 3],
@@ -65,7 +61,6 @@ const FACE_BITS: u32 = 28;
 pub struct Surface<'a> {
     /// What it has in common with others.
     pub skin: &'a SurfaceMaterial<'a>,
-    /// Where its corners are.
     pub corners: [ScreenVertex<()>; 3],
     /// Colour, normal and texture coordinates of each corner.
     pub values: [[f64; ALL]; 3],

@@ -79,7 +79,6 @@ impl<'a> Kernel<'a> {
         }
     }
 
-    /// One colour.
     fn draw_flat(
         &self,
         engine: &impl Interpolate,

@@ -141,7 +141,6 @@ impl Effects {
         .with(Effect::Interpolation, Mode::Material)
         .with(Effect::SecondBuffer, Mode::Planned);
 
-    /// The mode of an effect.
     #[must_use]
     pub fn mode(&self, effect: Effect) -> Mode {
         self.modes[effect as usize]

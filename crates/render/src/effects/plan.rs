@@ -30,7 +30,6 @@ pub struct Canvas {
     pub height: u32,
     /// How many samples a pixel has and where.
     pub antialias: Antialias,
-    /// How depths are stored.
     pub depth: DepthFormat,
     /// Whether somebody looks while the frame is drawn.
     pub watched: bool,
@@ -59,7 +58,6 @@ impl Canvas {
         PixelRect::window(self.width * scale, self.height * scale)
     }
 
-    /// Pixels.
     #[must_use]
     pub fn pixels(&self) -> u64 {
         u64::from(self.width) * u64::from(self.height)
@@ -93,9 +91,7 @@ fn name_of(antialias: Antialias) -> String {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Attribute {
-    /// Colour.
     Colour,
-    /// Normal.
     Normal,
     /// Texture coordinates.
     Uv,
@@ -205,7 +201,7 @@ pub struct ItemPlan {
     pub cull: Mode,
     /// Attributes that travel from the corners to the pieces.
     pub carries: Attributes,
-    /// Of each piece.
+    /// The plan of each piece, in drawing order.
     pub pieces: Pieces,
 }
 
@@ -223,9 +219,7 @@ pub enum Order {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Clear {
-    /// None.
     Nothing,
-    /// All.
     Everything,
     /// Those of the rectangles of the window.
     #[serde(deserialize_with = "tiles")]
@@ -250,7 +244,6 @@ fn tiles<'de, D: serde::Deserializer<'de>>(from: D) -> Result<Vec<PixelRect>, D:
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Samples {
-    /// Each for itself.
     Each,
     /// One in the middle of the pixel, whatever the target has.
     Middle,
@@ -329,15 +322,12 @@ impl Unit {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Decision {
-    /// The effect.
     pub effect: Effect,
     /// The item it is about; of the whole frame where there is none.
     pub item: Option<usize>,
-    /// What is counted.
     pub unit: Unit,
     /// How many pay for it.
     pub on: u64,
-    /// Those that do without.
     pub off: u64,
     /// Those that a policy decides about while the frame is drawn.
     pub open: u64,
@@ -355,11 +345,8 @@ pub struct Plan {
     /// are of one scene there, and to take the digest would cost more than some plans save. Such a plan
     /// cannot be executed.
     pub scene: Option<SceneDigest>,
-    /// What is drawn into.
     pub canvas: Canvas,
-    /// Of the frame.
     pub frame: FramePlan,
-    /// Of each item.
     pub items: Vec<ItemPlan>,
     /// The account for people, which is not followed and may be missing.
     #[serde(default)]

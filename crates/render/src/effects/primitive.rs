@@ -29,7 +29,6 @@ pub(super) fn has_one_w(piece: &Piece) -> bool {
 /// A vertex of an item that has no place in clip space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BadScene {
-    /// Which item.
     pub item: usize,
     /// Which of its positions, and why.
     pub vertex: BadVertex,

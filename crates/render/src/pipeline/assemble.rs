@@ -17,7 +17,6 @@ use rasterproof_core::triangle::{Corners, MAX_W, ScreenTriangle, ScreenVertex, V
 /// Which triangles are left out, by their winding as the eye sees them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
 pub enum Cull {
-    /// None.
     #[default]
     None,
     /// Those whose corners run clockwise.
@@ -87,7 +86,6 @@ impl Viewport {
 /// A vertex that the vertex stage must not return.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BadVertex {
-    /// Its index.
     pub index: usize,
     /// What is wrong with it.
     pub refusal: Refusal,

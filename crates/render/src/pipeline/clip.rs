@@ -39,7 +39,6 @@ pub enum ClipPlane {
 }
 
 impl ClipPlane {
-    /// All of them.
     pub const ALL: [Self; 7] =
         [Self::MinW, Self::Near, Self::Far, Self::Left, Self::Right, Self::Bottom, Self::Top];
 

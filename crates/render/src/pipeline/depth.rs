@@ -31,7 +31,6 @@ pub const CLEAR: u64 = u64::MAX;
 pub(super) const OFF_FRACTION: f64 = 1.0 / 3.0 / (1u64 << 20) as f64;
 
 impl DepthFormat {
-    /// All formats.
     pub const ALL: [Self; 5] =
         [Self::Unorm32, Self::Unorm24, Self::F32, Self::F32Reversed, Self::F64];
 

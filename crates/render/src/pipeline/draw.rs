@@ -37,14 +37,12 @@ use rasterproof_core::contract::{DrawLine, Interpolate};
 use rasterproof_core::frame::Frame;
 use rasterproof_core::triangle::{ScreenTriangle, Varying};
 
-/// Why nothing was drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum DrawError {
     /// A vertex that the vertex stage must not return.
     Vertex(BadVertex),
     /// A triangle names a vertex that is not there.
     Index {
-        /// Which triangle.
         triangle: usize,
         /// The vertex it names.
         index: u32,

@@ -19,7 +19,6 @@ impl DoubleBuffer {
         Self { front: back.resolve(), back }
     }
 
-    /// What a viewer sees.
     #[must_use]
     pub fn front(&self) -> &Frame<Colour> {
         &self.front

@@ -89,7 +89,6 @@ impl From<Attributes<ALL>> for Surface {
 pub struct Light {
     /// Towards the light, length 1.
     pub towards: DVec3,
-    /// What every surface gets.
     pub ambient: f64,
     /// What a surface that faces the light gets on top.
     pub diffuse: f64,

@@ -90,7 +90,6 @@ pub fn check_size(width: u32, height: u32, antialias: Antialias) -> Result<(), S
 /// Colour and depth of one sample of every pixel.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SamplePlane {
-    /// Colours.
     pub colour: Frame<Colour>,
     /// Keys of [`DepthFormat`], [`CLEAR`] where nothing was drawn.
     pub depth: Frame<u64>,
@@ -179,7 +178,6 @@ pub struct Target {
     shading: Shading,
     /// Room for two keys of each pixel, kept from frame to frame by those who use it.
     intervals: Option<Frame<[u64; 2]>>,
-    /// How depths are stored.
     pub format: DepthFormat,
     /// One plane, or four of [`Antialias::Multisample4`].
     pub planes: Vec<SamplePlane>,

@@ -97,7 +97,6 @@ impl Texture {
             .then(|| Self::of(width, height, Texels::Grey(grey)))
     }
 
-    /// One white texel.
     #[must_use]
     pub fn white() -> Self {
         Self::of(1, 1, Texels::Colour(vec![0xff_ffff]))

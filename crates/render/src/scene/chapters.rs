@@ -18,7 +18,6 @@ use rasterproof_core::angle::{sin, tan, turn_x, turn_y, turn_z};
 /// A scene by name.
 #[derive(Clone, Copy, Debug)]
 pub struct Entry {
-    /// Its name.
     pub name: &'static str,
     /// What it shows, with the book's section.
     pub about: &'static str,

@@ -80,7 +80,6 @@ pub enum Shading {
 }
 
 impl Shading {
-    /// All of them.
     pub const ALL: [Self; 4] = [Self::Unlit, Self::Flat, Self::Gouraud, Self::Phong];
 
     /// Its name on the command line.
@@ -118,7 +117,6 @@ impl Default for Material {
 /// One mesh in the world.
 #[derive(Clone, Debug)]
 pub struct Item {
-    /// Its shape.
     pub mesh: Arc<Mesh>,
     /// From object to world space.
     pub model: DMat4,
@@ -162,7 +160,7 @@ pub struct Scene {
     pub projection: DMat4,
     /// The light, in world space.
     pub light: Light,
-    /// Where nothing is.
+    /// The colour of pixels that no triangle covers.
     pub background: Colour,
     /// How what is hidden is found out.
     pub hidden: Hidden,

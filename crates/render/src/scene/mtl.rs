@@ -18,7 +18,6 @@ pub(super) struct Described {
     pub texture: Option<String>,
 }
 
-/// What a file holds.
 #[derive(Debug, Default)]
 pub(super) struct Read {
     /// Its materials, in its order.

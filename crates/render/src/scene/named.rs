@@ -12,7 +12,6 @@ use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_verify::cases::named::{Input, NamedCase, plain_triangle};
 use rasterproof_verify::cases::{self, Case, Shape, Triangle};
 
-/// Every named case.
 #[must_use]
 pub fn named() -> Vec<NamedCase> {
     [cases::named::named(), perspective(), samples()].concat()

@@ -31,7 +31,6 @@ pub struct BadFile {
     pub path: PathBuf,
     /// The line, from 1, where there are lines.
     pub line: Option<usize>,
-    /// What is wrong.
     pub cause: String,
 }
 

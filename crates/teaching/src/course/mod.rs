@@ -20,13 +20,10 @@ use rasterproof_verify::cases::{Case, Shape};
 pub struct Step {
     /// Its name on the command line.
     pub name: &'static str,
-    /// What it is about.
     pub title: &'static str,
     /// The page that tells why, in the repository.
     pub page: &'static str,
-    /// What exactly is judged.
     pub judged: &'static str,
-    /// What is asked.
     pub exercises: &'static [Exercise],
     /// From a nudge to nearly the answer.
     pub hints: [&'static str; 3],

@@ -7,7 +7,6 @@ use rasterproof_host::{input, limits};
 
 use super::{STEPS, Step};
 
-/// Its name.
 pub const FILE: &str = "course.toml";
 
 const HEADER: &str = "\
@@ -16,14 +15,12 @@ const HEADER: &str = "\
 # step: the current one. failures: how often it has failed; each shows one hint more.
 ";
 
-/// What the file holds.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Progress {
     /// What makes the program from its source; may be empty.
     #[serde(default)]
     pub build: Vec<String>,
-    /// What runs the program.
     pub run: Vec<String>,
     /// The current step.
     pub step: String,
@@ -42,7 +39,6 @@ pub fn path(folder: &Path) -> PathBuf {
 }
 
 impl Progress {
-    /// Nothing passed yet.
     #[must_use]
     pub fn new(build: Vec<String>, run: Vec<String>) -> Self {
         let step = STEPS[0].name.to_owned();
@@ -91,7 +87,6 @@ impl Progress {
         format!("{HEADER}{}", toml::to_string(self).unwrap_or_default())
     }
 
-    /// The current step.
     #[must_use]
     pub fn current(&self) -> &'static Step {
         super::find(&self.step).unwrap_or(&STEPS[0])

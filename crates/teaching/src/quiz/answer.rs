@@ -2,7 +2,6 @@
 
 use super::{Language, Text};
 
-/// What is right.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Answer {
     /// One of the choices, counted from 0.
@@ -18,14 +17,12 @@ pub enum Answer {
     },
 }
 
-/// What was answered.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Given {
     /// One of the choices, counted from 0.
     Choice(usize),
     /// A pixel, column and row.
     Pixel([i32; 2]),
-    /// A number.
     Number(f64),
 }
 

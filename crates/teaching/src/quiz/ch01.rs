@@ -48,7 +48,7 @@ const TIE: Exercise = Exercise {
     why: [
         "A tie goes to the even neighbour, so it drifts to neither side: 1.5 becomes {}, 2.5 becomes {} and 3.5 \
          becomes {}.",
-        "平局取偶数，所以不会偏向任何一边：1.5 变成 {}，2.5 变成 {}，3.5 变成 {}。",
+        "向偶数舍入，所以不会偏向任何一边：1.5 变成 {}，2.5 变成 {}，3.5 变成 {}。",
     ],
 };
 

@@ -49,7 +49,6 @@ impl Language {
 /// A question, and how its answer is found.
 #[derive(Clone, Copy, Debug)]
 pub struct Exercise {
-    /// What is asked.
     pub question: Text,
     /// What there is to choose from; empty where a number or a pixel is asked for.
     pub choices: &'static [Text],
@@ -62,7 +61,6 @@ pub struct Exercise {
 /// What the project's code says about an exercise.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Solution {
-    /// The answer.
     pub answer: Answer,
     /// Computed figures for the explanation.
     pub figures: Vec<String>,

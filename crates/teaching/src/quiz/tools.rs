@@ -59,7 +59,6 @@ pub fn fragments(triangle: [[f64; 4]; 3], window: PixelRect) -> Vec<Fragment<f64
     list
 }
 
-/// The fragment of one pixel.
 pub fn fragment(triangle: [[f64; 4]; 3], window: PixelRect, pixel: [i32; 2]) -> Fragment<f64> {
     let all = fragments(triangle, window);
     all.into_iter().find(|f| [f.x_px, f.y_px] == pixel).expect("exercises ask of covered pixels")

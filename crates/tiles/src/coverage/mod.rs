@@ -98,7 +98,6 @@ pub struct Tile {
 pub struct Block {
     /// Which triangle of the list.
     pub triangle: u32,
-    /// The pixels.
     pub rect: PixelRect,
 }
 

@@ -149,9 +149,8 @@ pub(super) struct Blocks {
 pub(super) struct Buffer {
     /// Its pixels in the window.
     pub rect: PixelRect,
-    /// Where nothing is.
+    /// The colour of pixels that no triangle covers.
     background: u32,
-    /// One for each sample.
     pub planes: Vec<TileSample>,
     /// Of each block, no depth is farther.
     farthest: [f32; (BLOCKS * BLOCKS) as usize],

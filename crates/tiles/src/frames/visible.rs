@@ -33,7 +33,6 @@ pub(super) struct VisibleBlock {
     /// Column and row of the first one in the tile.
     pub left: u8,
     pub top: u8,
-    /// Whether it is a cell.
     pub is_cell: bool,
 }
 

@@ -20,7 +20,6 @@ const PATIENCE_S: u64 = 120;
 pub struct Vertex {
     /// x, y, z, w.
     pub clip: [f32; 4],
-    /// What is interpolated.
     pub attributes: [f32; 2],
 }
 
@@ -54,7 +53,6 @@ pub struct Pictures {
 }
 
 impl Draw {
-    /// Where it is drawn.
     fn place(&self) -> (usize, [f32; 4], [u32; 2]) {
         (self.cell, self.viewport, self.window)
     }

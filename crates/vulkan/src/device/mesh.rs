@@ -29,7 +29,6 @@ const CONSTANT_BYTES: u32 = 80;
 /// A mesh, and what it looks like.
 #[derive(Clone, Debug)]
 pub struct Surface {
-    /// Its corners.
     pub corners: Vec<Corner>,
     /// Its triangles, three corners each.
     pub indices: Vec<u32>,
@@ -41,7 +40,7 @@ pub struct Surface {
     pub matrix: [f32; 16],
     /// Towards the light, as long as it is strong; then what every surface gets.
     pub light: [f32; 4],
-    /// Where nothing is.
+    /// The colour of pixels that no triangle covers.
     pub background: [u8; 4],
 }
 

@@ -47,7 +47,6 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// Bytes of a pixel.
     #[must_use]
     pub fn pixel_bytes(self) -> usize {
         match self {
@@ -63,7 +62,6 @@ impl Kind {
         if self == Self::Alone { 1 } else { CELLS }
     }
 
-    /// Cells of a page.
     pub(super) fn page_cells(self) -> usize {
         (self.cells() * self.cells()) as usize
     }
@@ -87,7 +85,7 @@ impl Kind {
         matches!(self, Self::Depths16 | Self::Depths)
     }
 
-    /// Where nothing is.
+    /// The value of a pixel that no triangle covers.
     pub(super) fn clear(self) -> vk::ClearValue {
         let farthest = vk::ClearDepthStencilValue { depth: 1.0, stencil: 0 };
         match self.is_depths() {

@@ -66,7 +66,6 @@ pub fn draw_of(cell: usize, vertices: [Vertex; 3], side_px: f32) -> Draw {
     Draw { cell, vertices, viewport: [-half, -half, side_px, side_px], window: [CELL_PX; 2] }
 }
 
-/// The hits in a cell.
 pub fn hits_of(pictures: &Pictures, cell: usize) -> Coverage {
     let mut hits = Coverage::new(WINDOW, 0);
     for y in 0..CELL_PX {

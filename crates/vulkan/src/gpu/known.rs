@@ -23,11 +23,9 @@ pub struct Known {
     /// The families, stages and other properties that fail, and whether each does in every run.
     properties: Vec<(String, bool)>,
     condition: Condition,
-    /// What happens.
     pub about: String,
 }
 
-/// Where it happens.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Condition {
     /// With triangles of twice this area in square pixels or more.

@@ -24,7 +24,6 @@ pub enum Class {
     NoAnswer,
 }
 
-/// What a stage found.
 pub type Outcome = (Class, String);
 
 impl Class {
@@ -52,11 +51,9 @@ impl Class {
 /// A part of the specification by which something is judged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 pub struct Rule {
-    /// The section.
     pub section: &'static str,
     /// What it asks for, in short.
     pub says: &'static str,
-    /// What it leaves open.
     pub open: &'static str,
 }
 
@@ -93,20 +90,17 @@ pub const DEPTHS: Rule = Rule {
     open: "which of the two (the nearest is preferred), and how exact it was before: the bound is \
            derived from roundings in f32",
 };
-/// The depth test.
 pub const DEPTH_TEST: Rule = Rule {
     section: "Depth Test (fragops-depth)",
     says: "with the comparison LESS a sample keeps the smaller of the depth that is kept and the new one",
     open: "nothing: both are depths that the device draws of each triangle alone",
 };
-/// Snapping.
 pub const SNAPPING: Rule = Rule {
     section: "Controlling the Viewport (vertexpostproc-viewport)",
     says: "of x and y in the framebuffer as many bits below the pixel are kept as \
            subPixelPrecisionBits says",
     open: "how a position between two of them is rounded",
 };
-/// Clipping.
 pub const CLIPPING: Rule = Rule {
     section: "Primitive Clipping (vertexpostproc-clipping)",
     says: "a triangle that leaves the view volume is clipped: new edges lie on its sides, nothing is \
@@ -143,7 +137,6 @@ pub const JOINED: Rule = Rule {
            none is left out between them",
     open: "nothing",
 };
-/// The same twice.
 pub const REPEATABILITY: Rule = Rule {
     section: "Repeatability (invariance)",
     says: "the same commands on the same state make the same picture every time",
@@ -185,11 +178,9 @@ impl Errors {
 /// What came of a property.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Finding {
-    /// Its name.
     pub name: String,
     /// The rule that was applied.
     pub rule: Rule,
-    /// How it came out.
     pub class: Class,
     /// What was found, in a sentence.
     pub detail: String,

@@ -24,7 +24,6 @@ pub enum Fit {
     Equal,
     /// Within what the specification allows.
     Allowed,
-    /// Outside of it.
     Outside,
 }
 

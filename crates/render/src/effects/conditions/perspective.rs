@@ -15,7 +15,6 @@ pub fn mode(scene: &Scene, effects: &Effects) -> Mode {
     if scene.affine { Mode::Never } else { effects.mode(Effect::Perspective) }
 }
 
-/// Whether a piece pays, with these attributes that are interpolated.
 #[inline]
 pub fn pays(mode: Mode, piece: &Piece, interpolates: Attributes) -> bool {
     match mode {

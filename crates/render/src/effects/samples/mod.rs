@@ -68,7 +68,6 @@ pub(super) struct OnDemand {
     runs: Vec<Run>,
     /// Those that were of one earlier piece, in blocks of each.
     written: Blocks,
-    /// All of them, in blocks.
     drawn: Blocks,
 }
 

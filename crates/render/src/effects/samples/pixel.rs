@@ -22,7 +22,6 @@ pub struct Pixel {
 /// Where a pixel's samples come from.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum State {
-    /// Nothing was drawn.
     Background,
     /// All samples are of this piece.
     Whole(u32),
