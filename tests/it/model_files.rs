@@ -24,7 +24,7 @@ fn a_bad_line_of_a_material_file_is_a_warning_with_its_line() {
     let obj = folder.join("m.obj");
     let text = format!("mtllib m.mtl\n{TRIANGLE}usemtl a\nf 1 2 3\nusemtl b\nf 1 2 3\n");
     fs::write(&obj, text).unwrap();
-    for bad in ["Kd 1 0", "Kd x 1 1", "Kd", "Kd nan 0 0", "Kd 1e99 0 0"] {
+    for bad in ["Kd 1 0", "Kd x 1 1", "Kd", "Kd nan 0 0", "Kd 1e99 0 0", "Kq 1 1 1", "{}"] {
         let text = format!("newmtl a\n{bad}\nNs x\nd\nillum -1\nnewmtl b\nKd 0 0.5 1\n");
         fs::write(folder.join("m.mtl"), text).unwrap();
         let model = load(&obj, Shading::Phong).unwrap();

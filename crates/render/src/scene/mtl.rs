@@ -26,6 +26,37 @@ pub(super) struct Read {
     pub warnings: Vec<String>,
 }
 
+/// Lines that are understood and not drawn; an empty line is one.
+const UNUSED: [&str; 27] = [
+    "",
+    "Ka",
+    "Ks",
+    "Ke",
+    "Km",
+    "Kt",
+    "Ns",
+    "Ni",
+    "Nr",
+    "Tr",
+    "Tf",
+    "d",
+    "illum",
+    "sharpness",
+    "refl",
+    "bump",
+    "disp",
+    "decal",
+    "norm",
+    "Pr",
+    "Pm",
+    "Ps",
+    "Pc",
+    "Pcr",
+    "aniso",
+    "anisor",
+    "halo",
+];
+
 /// Warnings of one file that are kept; of the rest the number is.
 const MOST_WARNINGS: usize = 8;
 
@@ -58,7 +89,10 @@ fn read_line(kind: &str, rest: &str, materials: &mut Vec<Described>) -> Result<(
         return Ok(());
     }
     if kind != "Kd" && kind != "map_Kd" {
-        return Ok(());
+        // What the format has, and what exporters add to it for physically based shading.
+        let is_known = kind.to_ascii_lowercase().starts_with("map_") || UNUSED.contains(&kind);
+        let shown = || format!("'{}' is not a line of a material file", printable_short(kind, 40));
+        return if is_known { Ok(()) } else { Err(shown()) };
     }
     let material = materials.last_mut().ok_or_else(|| format!("'{kind}' before any 'newmtl'"))?;
     if kind == "Kd" {
