@@ -224,7 +224,7 @@ pub(super) fn draw(
     scene: &Scene,
     engine: &impl Interpolate,
     target: &mut Target,
-    onlooker: Observer<'_>,
+    observer: Observer<'_>,
 ) -> Rendered {
     let mut single;
     let target = if plan.frame.samples == Samples::Middle {
@@ -234,7 +234,7 @@ pub(super) fn draw(
         target
     };
     let counters = assembled.counters;
-    let stage = Stage { plan, scene, engine, target, counters, on_demand: None, onlooker };
+    let stage = Stage { plan, scene, engine, target, counters, on_demand: None, observer };
     stage.draw_all(&assembled)
 }
 
@@ -246,7 +246,7 @@ struct Stage<'a, 'b, E> {
     target: &'a mut Target,
     counters: Counters,
     on_demand: Option<OnDemand>,
-    onlooker: Observer<'b>,
+    observer: Observer<'b>,
 }
 
 impl<E: Interpolate> Stage<'_, '_, E> {
@@ -314,7 +314,7 @@ impl<E: Interpolate> Stage<'_, '_, E> {
 
     /// Shows a viewer what is on the screen meanwhile.
     fn look(&mut self) {
-        let Observer::Viewer { front, look } = &mut self.onlooker else { return };
+        let Observer::Viewer { front, look } = &mut self.observer else { return };
         if self.plan.frame.second_buffer {
             look(front);
         } else {
@@ -331,7 +331,7 @@ impl<E: Interpolate> Stage<'_, '_, E> {
         counters: &mut Counters,
     ) {
         counters.wide += u64::from(self.engine.word_bits(&piece.corners()) > Some(i32::BITS));
-        if let Observer::Map(map) = &mut self.onlooker {
+        if let Observer::Map(map) = &mut self.observer {
             let paid = paid(plan);
             let scale = self.target.antialias().scale() as i32;
             self.engine.cover(piece.corners(), self.target.bounds(), |span| {
@@ -346,7 +346,7 @@ impl<E: Interpolate> Stage<'_, '_, E> {
     }
 
     fn finish(self) -> Rendered {
-        let Self { plan, mut counters, target, on_demand, onlooker, .. } = self;
+        let Self { plan, mut counters, target, on_demand, observer, .. } = self;
         let picture = resolve(on_demand.as_ref(), target);
         // What is presented is a copy: the back buffer goes on to the next frame.
         let picture = if plan.frame.second_buffer {
@@ -355,7 +355,7 @@ impl<E: Interpolate> Stage<'_, '_, E> {
         } else {
             picture
         };
-        match onlooker {
+        match observer {
             Observer::None => {}
             Observer::Map(map) => {
                 if target.antialias().samples() > 1 {

@@ -60,7 +60,7 @@ const FACE_BITS: u32 = 28;
 /// A piece with all that it looks like.
 pub struct Surface<'a> {
     /// What it has in common with others.
-    pub skin: &'a SurfaceMaterial<'a>,
+    pub material: &'a SurfaceMaterial<'a>,
     pub corners: [ScreenVertex<()>; 3],
     /// Colour, normal and texture coordinates of each corner.
     pub values: [[f64; ALL]; 3],
@@ -77,7 +77,7 @@ pub struct Whole<'a> {
 }
 
 struct Item<'a> {
-    skin: SurfaceMaterial<'a>,
+    material: SurfaceMaterial<'a>,
     prepared: Prepared<'a>,
     vertices: Vec<Vertex>,
     /// The number of its first triangle.
@@ -192,7 +192,7 @@ impl<'a> Whole<'a> {
         }
         let [a, b, c] = item.corners(triangle);
         let values = item.prepared.varyings(self.scene, triangle);
-        Surface { skin: &item.skin, corners: [a.place, b.place, c.place], values }
+        Surface { material: &item.material, corners: [a.place, b.place, c.place], values }
     }
 
     /// A part of a triangle that a plane cuts.
@@ -220,7 +220,7 @@ impl<'a> Whole<'a> {
             let [a, b, c] = &piece.vertices;
             let values = [a.varying.0, b.varying.0, c.varying.0];
             let corners = [a.bare(), b.bare(), c.bare()];
-            emit(parts, Surface { skin: &item.skin, corners, values });
+            emit(parts, Surface { material: &item.material, corners, values });
             parts += 1;
         });
     }
@@ -248,13 +248,13 @@ impl<'a> Item<'a> {
         if let Some(bad) = vertices.par_iter().with_min_len(SHARE).position_first(|v| v.bad) {
             prepared.point(bad, item.mesh.positions[bad])?;
         }
-        let skin = SurfaceMaterial {
+        let material = SurfaceMaterial {
             base: (item.material.colour * 255.0).as_vec3(),
             colours: carries.has(Attributes::COLOUR),
-            light: carries.has(Attributes::NORMAL).then(|| lamp(&prepared.light)),
+            light: carries.has(Attributes::NORMAL).then(|| directional_light(&prepared.light)),
             texture: prepared.texture,
         };
-        Ok(Self { skin, prepared, vertices, first })
+        Ok(Self { material, prepared, vertices, first })
     }
 
     #[inline]
@@ -278,7 +278,7 @@ fn vertex(prepared: &Prepared<'_>, position: DVec3) -> Vertex {
     }
 }
 
-fn lamp(&Light { towards, ambient, diffuse }: &Light) -> DirectionalLight {
+fn directional_light(&Light { towards, ambient, diffuse }: &Light) -> DirectionalLight {
     DirectionalLight {
         towards: towards.as_vec3(),
         ambient: ambient as f32,

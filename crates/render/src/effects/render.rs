@@ -101,13 +101,13 @@ fn plan_and_draw(
     engine: &impl Interpolate,
     effects: &Effects,
     target: &mut Target,
-    onlooker: Observer<'_>,
+    observer: Observer<'_>,
 ) -> Result<Rendered, BadScene> {
-    let watched = matches!(onlooker, Observer::Viewer { .. });
+    let watched = matches!(observer, Observer::Viewer { .. });
     let canvas = Canvas { watched, ..Canvas::of(target) };
     let word_bits = |corners: &_| engine.word_bits(corners);
     let (plan, assembled) = planner::plan(scene, &canvas, effects, &word_bits)?;
-    Ok(draw(plan, assembled, scene, engine, target, onlooker))
+    Ok(draw(plan, assembled, scene, engine, target, observer))
 }
 
 /// Draws the edges of a scene's triangles by a line drawer, with the colours of its fragments. What

@@ -67,12 +67,12 @@ impl<T: Copy> TilePlane<T> {
     }
 }
 
-/// From the first pixel of a pair past its last, row by row of a sheet.
+/// From the first pixel of a pair past its last, row by row of a plane.
 const PAIR_RUN: usize = PITCH + PAIR_PX as usize;
 /// The same of a cell.
 const CELL_RUN: usize = 3 * PITCH + CELL_PX as usize;
 
-/// Loading and storing sixteen pixels of a sheet, a pair or a cell by its columns, `SIDE`.
+/// Loading and storing sixteen pixels of a plane, a pair or a cell by its columns, `SIDE`.
 macro_rules! rectangles {
     ($load:ident, $store:ident, $pixel:ty, $four:ident, $eight:ident, $all:ident) => {
         #[inline(always)]

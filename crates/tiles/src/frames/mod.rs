@@ -166,10 +166,10 @@ struct Drawing<'a> {
 
 /// Of one sample a pixel: first numbers are drawn, then colours.
 struct Centres<'a> {
-    pencil: VisibilityPass,
+    pass: VisibilityPass,
     /// What was drawn, by their numbers less 1.
     drawn: Vec<&'a Outline>,
-    stamps: Vec<VisibleBlock>,
+    visible: Vec<VisibleBlock>,
 }
 
 /// Of four samples a pixel: what the piece covers, and how it looks.
@@ -181,7 +181,7 @@ struct OfSamples<'a> {
 
 impl<'a> Drawing<'a> {
     fn new(whole: &'a Whole<'a>, bins: &'a Bins, engine: Tiles, planes: usize) -> Self {
-        let pencil = VisibilityPass { number: 0, depth: None };
+        let pass = VisibilityPass { number: 0, depth: None };
         Self {
             whole,
             bins,
@@ -190,7 +190,7 @@ impl<'a> Drawing<'a> {
             batch: Vec::with_capacity(BATCH),
             corners: Vec::with_capacity(BATCH * PLACES),
             last: u32::MAX,
-            of_centres: Centres { pencil, drawn: Vec::new(), stamps: Vec::new() },
+            of_centres: Centres { pass, drawn: Vec::new(), visible: Vec::new() },
             of_samples: OfSamples { masks: Masks::new(), brush: None },
         }
     }
@@ -253,26 +253,26 @@ impl<'a> Drawing<'a> {
                 let outline = self.batch[self.last as usize];
                 self.of_centres.drawn.push(outline);
                 let number = self.of_centres.drawn.len() as u32;
-                self.of_centres.pencil = VisibilityPass { number, depth: self.depth(outline) };
+                self.of_centres.pass = VisibilityPass { number, depth: self.depth(outline) };
             }
-            let Centres { pencil, stamps, .. } = &mut self.of_centres;
-            pencil.piece(simd, covered, &mut self.buffer, stamps);
+            let Centres { pass, visible, .. } = &mut self.of_centres;
+            pass.piece(simd, covered, &mut self.buffer, visible);
         }
     }
 
     /// Colours what shows a number still.
     #[inline(always)]
     fn colour<S: Simd>(&mut self, simd: S) {
-        let stamps = std::mem::take(&mut self.of_centres.stamps);
+        let visible = std::mem::take(&mut self.of_centres.visible);
         let (mut last, mut brush) = (0, None);
         let [x0, y0] = [self.buffer.rect.x0, self.buffer.rect.y0];
-        for &VisibleBlock { number, left, top, is_cell } in &stamps {
+        for &VisibleBlock { number, left, top, is_cell } in &visible {
             let (left, top) = (i32::from(left), i32::from(top));
-            let sheet = &mut self.buffer.planes[0].colours;
+            let plane = &mut self.buffer.planes[0].colours;
             let before = if is_cell {
-                load_colours::<S, CELL_PX>(simd, sheet, left, top)
+                load_colours::<S, CELL_PX>(simd, plane, left, top)
             } else {
-                load_colours::<S, PAIR_PX>(simd, sheet, left, top)
+                load_colours::<S, PAIR_PX>(simd, plane, left, top)
             };
             let seen = before.simd_eq(number);
             let mask = seen.to_bitmask() as u32;
@@ -286,16 +286,16 @@ impl<'a> Drawing<'a> {
             }
             let Some(brush) = &brush else { continue };
             let place = if is_cell { &CELL } else { &PAIR };
-            let colours = brush.stamp(simd, place, [x0 + left, y0 + top], mask);
-            let (sheet, after) = (&mut self.buffer.planes[0].colours, seen.select(colours, before));
+            let colours = brush.block_colours(simd, place, [x0 + left, y0 + top], mask);
+            let (plane, after) = (&mut self.buffer.planes[0].colours, seen.select(colours, before));
             if is_cell {
-                store_colours::<S, CELL_PX>(after, sheet, left, top);
+                store_colours::<S, CELL_PX>(after, plane, left, top);
             } else {
-                store_colours::<S, PAIR_PX>(after, sheet, left, top);
+                store_colours::<S, PAIR_PX>(after, plane, left, top);
             }
         }
-        self.of_centres.stamps = stamps;
-        self.of_centres.stamps.clear();
+        self.of_centres.visible = visible;
+        self.of_centres.visible.clear();
         self.of_centres.drawn.clear();
     }
 
@@ -340,6 +340,6 @@ impl<'a> Drawing<'a> {
         let shown = reached(&outline.corners, self.whole.window);
         let affine = self.whole.affine();
         let planes = Planes::of(simd, &surface.corners, &surface.values, shown, affine);
-        Brush { skin: surface.skin, planes }
+        Brush { material: surface.material, planes }
     }
 }

@@ -19,14 +19,20 @@ type Lanes<S> = f32x16<S>;
 
 /// How the pixels of a triangle are coloured.
 pub(super) struct Brush<'a> {
-    pub skin: &'a SurfaceMaterial<'a>,
+    pub material: &'a SurfaceMaterial<'a>,
     pub planes: Planes,
 }
 
 impl Brush<'_> {
-    /// Colours of sixteen pixels as stamps have them, where `mask` has bits.
+    /// Colours of sixteen pixels in the order of a block, where `mask` has bits.
     #[inline(always)]
-    pub fn stamp<S: Simd>(&self, simd: S, place: &Place, at_px: [i32; 2], mask: u32) -> u32x16<S> {
+    pub fn block_colours<S: Simd>(
+        &self,
+        simd: S,
+        place: &Place,
+        at_px: [i32; 2],
+        mask: u32,
+    ) -> u32x16<S> {
         let (x, y) = beside(simd, place, self.planes.first_px, at_px);
         self.colours(simd, x, y, mask)
     }
@@ -86,11 +92,11 @@ impl Brush<'_> {
             let mut seen = mask32x16::from_bitmask(simd, u64::from(masks[sample]));
             let [right, down] = from_centre(SAMPLES[sample]);
             if let Some(depth) = depth {
-                let sheet = &mut buffer.planes[sample].depths;
-                let before = load_depths::<S, PAIR_PX>(simd, sheet, left, top);
+                let plane = &mut buffer.planes[sample].depths;
+                let before = load_depths::<S, PAIR_PX>(simd, plane, left, top);
                 let depth = depth.at(x + right, y + down);
                 seen &= depth.simd_lt(before);
-                store_depths::<S, PAIR_PX>(seen.select(depth, before), sheet, left, top);
+                store_depths::<S, PAIR_PX>(seen.select(depth, before), plane, left, top);
             }
             at_x = seen.select(Lanes::splat(simd, right), at_x);
             at_y = seen.select(Lanes::splat(simd, down), at_y);
@@ -115,7 +121,7 @@ impl Brush<'_> {
     /// brought back to length 1, so that it is not divided by 1/w before.
     #[inline(always)]
     fn colours<S: Simd>(&self, simd: S, x: Lanes<S>, y: Lanes<S>, mask: u32) -> u32x16<S> {
-        let SurfaceMaterial { base, colours, light, texture } = self.skin;
+        let SurfaceMaterial { base, colours, light, texture } = self.material;
         let w = Lanes::splat(simd, 1.0) / along(&self.planes.inv_w, x, y);
         let over_w = |i: usize| self.planes.over_w(i);
         let mut r = Lanes::splat(simd, base.x);

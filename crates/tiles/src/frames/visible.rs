@@ -52,19 +52,19 @@ impl VisibilityPass {
         simd: S,
         covered: &Piece,
         buffer: &mut Buffer,
-        stamps: &mut Vec<VisibleBlock>,
+        seen: &mut Vec<VisibleBlock>,
     ) {
         let rect = match covered {
             Piece::Cell(cell) => {
                 let (at_px, mask) = ([cell.x_px, cell.y_px], u32::from(cell.pixels));
-                return self.pixels::<S, CELL_PX>(simd, at_px, mask, buffer, stamps);
+                return self.pixels::<S, CELL_PX>(simd, at_px, mask, buffer, seen);
             }
             Piece::Quarter(quarter) => {
                 let (at_px, rows) = ([quarter.x_px, quarter.y_px], quarter.tile().rows);
-                return self.rows(simd, at_px, &rows[..QUARTER_PX as usize], buffer, stamps);
+                return self.rows(simd, at_px, &rows[..QUARTER_PX as usize], buffer, seen);
             }
             Piece::Tile(tile) => {
-                return self.rows(simd, [tile.x_px, tile.y_px], &tile.rows, buffer, stamps);
+                return self.rows(simd, [tile.x_px, tile.y_px], &tile.rows, buffer, seen);
             }
             Piece::Block(block) => block.rect,
         };
@@ -72,7 +72,7 @@ impl VisibilityPass {
             let two = if y_px + 1 < rect.y1 { 0xffff } else { 0x00ff };
             for x_px in (rect.x0..rect.x1).step_by(PAIR_PX as usize) {
                 let run = 0x0101 * (0xff >> (PAIR_PX - (rect.x1 - x_px).min(PAIR_PX)));
-                self.pixels::<S, PAIR_PX>(simd, [x_px, y_px], run & two, buffer, stamps);
+                self.pixels::<S, PAIR_PX>(simd, [x_px, y_px], run & two, buffer, seen);
             }
         }
     }
@@ -86,7 +86,7 @@ impl VisibilityPass {
         [x0_px, y0_px]: [i32; 2],
         rows: &[u16],
         buffer: &mut Buffer,
-        stamps: &mut Vec<VisibleBlock>,
+        seen: &mut Vec<VisibleBlock>,
     ) {
         for (y_px, rows) in (y0_px..).step_by(4).zip(rows.as_chunks::<4>().0) {
             let [a, b, c, d] = rows.map(u32::from);
@@ -98,7 +98,7 @@ impl VisibilityPass {
             if any >> left < 1 << CELL_PX {
                 let mask = a >> left | b >> left << 4 | c >> left << 8 | d >> left << 12;
                 let at_px = [x0_px + left as i32, y_px];
-                self.pixels::<S, CELL_PX>(simd, at_px, mask, buffer, stamps);
+                self.pixels::<S, CELL_PX>(simd, at_px, mask, buffer, seen);
                 continue;
             }
             for (y_px, mut above, mut below) in [(y_px, a, b), (y_px + 2, c, d)] {
@@ -107,7 +107,7 @@ impl VisibilityPass {
                     let left = (above | below).trailing_zeros();
                     (above, below, x_px) = (above >> left, below >> left, x_px + left as i32);
                     let mask = above & 0xff | (below & 0xff) << PAIR_PX;
-                    self.pixels::<S, PAIR_PX>(simd, [x_px, y_px], mask, buffer, stamps);
+                    self.pixels::<S, PAIR_PX>(simd, [x_px, y_px], mask, buffer, seen);
                     (above, below, x_px) = (above >> PAIR_PX, below >> PAIR_PX, x_px + PAIR_PX);
                 }
             }
@@ -123,7 +123,7 @@ impl VisibilityPass {
         [x_px, y_px]: [i32; 2],
         mask: u32,
         buffer: &mut Buffer,
-        stamps: &mut Vec<VisibleBlock>,
+        seen: &mut Vec<VisibleBlock>,
     ) {
         let (left, top) = (x_px - buffer.rect.x0, y_px - buffer.rect.y0);
         let plane = &mut buffer.planes[0];
@@ -144,7 +144,7 @@ impl VisibilityPass {
         let colours = visible.select(number, before);
         store_colours::<S, SIDE>(colours, &mut plane.colours, left, top);
         let (left, top) = (left as u8, top as u8);
-        stamps.push(VisibleBlock { number: self.number, left, top, is_cell: SIDE == CELL_PX });
+        seen.push(VisibleBlock { number: self.number, left, top, is_cell: SIDE == CELL_PX });
     }
 }
 
