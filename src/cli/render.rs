@@ -31,7 +31,7 @@ use rasterproof_render::pipeline::shade::Light;
 use rasterproof_render::pipeline::target::{Antialias, Colour, Target, check_size};
 use rasterproof_render::pipeline::transform::{about, look_at, perspective};
 use rasterproof_render::scene::chapters::{self, SCENES};
-use rasterproof_render::scene::{Scene, Shading, obj};
+use rasterproof_render::scene::{Scene, Shading};
 use rasterproof_report::frame_comparison::{self, Comparison};
 use rasterproof_report::html::{Chapter, Outcome, PictureLayer, PictureView, Report};
 use rasterproof_report::picture;
@@ -295,7 +295,8 @@ impl SceneArguments {
         if fov <= 0.0 || fov >= 180.0 {
             return Err(usage(format!("--fov {fov} does not lie between 0 and 180 degrees")));
         }
-        let model = obj::load(path, shading).map_err(|error| usage(error.to_string()))?;
+        let model = rasterproof_models::obj::load(path, shading)
+            .map_err(|error| usage(error.to_string()))?;
         for warning in model.warnings {
             writeln!(errors, "warning: {warning}")?;
         }

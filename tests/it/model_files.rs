@@ -5,8 +5,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use image::GrayImage;
+use rasterproof_models::obj::{load, load_texture};
 use rasterproof_render::scene::Shading;
-use rasterproof_render::scene::obj::{load, load_texture};
 
 fn folder(name: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("model-files-{name}"));

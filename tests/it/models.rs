@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use image::{Rgb, RgbImage};
-use rasterproof_render::scene::obj::{load, load_texture};
+use rasterproof_models::obj::{load, load_texture};
 use rasterproof_render::scene::{Shading, shapes};
 
 /// A folder of its own below `target/`.

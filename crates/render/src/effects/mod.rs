@@ -15,7 +15,7 @@ mod assembled;
 mod conditions;
 pub mod depth_ties;
 mod execute;
-#[cfg(feature = "host")]
+#[cfg(feature = "parallel")]
 pub mod geometry;
 mod kernel;
 pub mod plan;

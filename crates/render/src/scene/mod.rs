@@ -1,15 +1,10 @@
 //! Scenes: meshes, materials, a light, an eye; what is drawn, without a word about how.
 //!
-//! [`chapters`] rebuilds the book's scenes, [`obj`] reads models, [`shapes`] and [`textures`] make
-//! what the scenes are made of. Nothing here draws.
+//! [`chapters`] rebuilds the book's scenes; [`shapes`] and [`textures`] make what they consist of. Nothing here draws.
 
 pub mod chapters;
 pub mod meshes;
-#[cfg(feature = "host")]
-mod mtl;
 pub mod named;
-#[cfg(feature = "host")]
-pub mod obj;
 pub mod random;
 pub mod shapes;
 pub mod textures;

@@ -9,7 +9,7 @@ use rasterproof_host::text::{printable_path, printable_short};
 
 /// A material as a file describes it.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Described {
+pub(crate) struct Described {
     /// Its name, for `usemtl`.
     pub name: String,
     /// Its diffuse colour (`Kd`).
@@ -19,7 +19,7 @@ pub(super) struct Described {
 }
 
 #[derive(Debug, Default)]
-pub(super) struct Read {
+pub(crate) struct Read {
     /// Its materials, in its order.
     pub materials: Vec<Described>,
     /// The lines that cannot be understood, and were left out.
@@ -61,7 +61,7 @@ const UNUSED: [&str; 27] = [
 const MOST_WARNINGS: usize = 8;
 
 /// Reads the text of a material file. A line that cannot be understood is a warning.
-pub(super) fn read(path: &Path, text: &str) -> Read {
+pub(crate) fn read(path: &Path, text: &str) -> Read {
     let mut read = Read::default();
     let mut left_out = 0;
     for (index, line) in text.lines().enumerate() {

@@ -18,11 +18,11 @@ use image::{DynamicImage, ImageDecoder as _, ImageReader, Limits};
 use rasterproof_host::text::{printable_path, printable_short};
 use rasterproof_host::{input, limits};
 
-use super::mtl::{self, Described};
-use super::{Corner, Item, Material, Mesh, Shading, shapes};
-use crate::pipeline::texture::{Filter, Texture, Wrap};
+use crate::mtl::{self, Described};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::MAX_SIDE_PX;
+use rasterproof_render::pipeline::texture::{Filter, Texture, Wrap};
+use rasterproof_render::scene::{Corner, Item, Material, Mesh, Shading, shapes};
 
 /// What is wrong with a file, where, and what to do about it.
 #[derive(Clone, Debug, PartialEq, Eq)]

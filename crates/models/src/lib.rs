@@ -1,0 +1,4 @@
+//! Reads models from files and turns them into items of a scene. Nothing here draws.
+
+mod mtl;
+pub mod obj;
