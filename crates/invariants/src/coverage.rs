@@ -665,7 +665,7 @@ const U: f64 = f64::EPSILON / 2.0;
 
 /// 19: pixels against area. A convex region of area A and perimeter P, in general position to the
 /// lattice (the nudge puts it there), has A - P/2 < N < A + P/2 + 1 lattice points (Nosarzewska
-/// 1948), so |N - A| <= P + 1.
+/// 1948), so |N - A| < P/2 + 1.
 pub(super) fn area(subject: &Subject, input: &TriangleInput) -> Outcome {
     const MOST_PX: u32 = 512;
     let corners = input.triangle.corners();
@@ -686,7 +686,7 @@ pub(super) fn area(subject: &Subject, input: &TriangleInput) -> Outcome {
     let perimeter_px = (side(0, 1) + side(1, 2) + side(2, 0)) * (1.0 + 8.0 * U);
     each(subject, |engine| {
         let covered = engine.hits(corners, window).covered();
-        if area_px > 0.0 && (covered as f64 - area_px).abs() > perimeter_px + 1.0 {
+        if area_px > 0.0 && (covered as f64 - area_px).abs() > perimeter_px / 2.0 + 1.0 {
             return Err(format!(
                 "{} covers {covered} pixels of an area of {area_px} and a perimeter of {perimeter_px}",
                 engine.name
