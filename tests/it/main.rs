@@ -36,6 +36,7 @@ mod pages;
 mod plans;
 mod playground;
 mod playground_hands;
+mod printed_code;
 mod proof;
 mod properties;
 mod protocol;

@@ -1,0 +1,128 @@
+//! Code that pages print is the code of the source file that they name.
+//!
+//! A page prints a function between two lines that no reader sees:
+//!
+//! ```text
+//! <!-- code crates/core/src/raster/scanline.rs fn walk -->
+//! <!-- end of code -->
+//! ```
+//!
+//! What follows the path is the beginning of the item's line in the file: `fn walk`, `pub enum Effect`, or
+//! `impl EdgeWalk > fn step` for an item inside another one. `RASTERPROOF_RENEW=1 cargo test --test it
+//! printed_code` writes the code into the pages.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use rasterproof_host::output;
+
+const BEGIN: &str = "<!-- code ";
+const END: &str = "<!-- end of code -->";
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+fn pages() -> Vec<PathBuf> {
+    let folders = ["docs", "docs/zh"].map(|folder| root().join(folder));
+    let mut pages: Vec<_> = folders
+        .iter()
+        .flat_map(|folder| fs::read_dir(folder).unwrap())
+        .map(|entry| entry.unwrap().path())
+        .filter(|path| path.extension().is_some_and(|extension| extension == "md"))
+        .collect();
+    pages.sort();
+    pages
+}
+
+/// The lines of an item, without the comments and attributes before it, moved to the left margin. It ends
+/// with the first line that closes it at its own indentation.
+fn item(source: &str, name: &str) -> Option<String> {
+    let begins = |line: &str| {
+        let line = line.trim_start();
+        let line = ["pub(crate) ", "pub(super) ", "pub "]
+            .iter()
+            .fold(line, |line, word| line.strip_prefix(word).unwrap_or(line));
+        line.strip_prefix(name.trim_start_matches("pub "))
+            .is_some_and(|rest| !rest.starts_with(|c: char| c.is_alphanumeric() || c == '_'))
+    };
+    let lines: Vec<_> = source.lines().collect();
+    let first = lines.iter().position(|line| begins(line))?;
+    let indent = lines[first].len() - lines[first].trim_start().len();
+    let is_last = |line: &&str| {
+        let end = line.get(indent..).unwrap_or("");
+        line.len() - line.trim_start().len() == indent
+            && (end.starts_with('}') || end.starts_with(']') || end.ends_with(';'))
+    };
+    let count = lines[first..].iter().position(is_last)? + 1;
+    let moved = lines[first..first + count].iter().map(|line| line.get(indent..).unwrap_or(""));
+    Some(moved.collect::<Vec<_>>().join("\n"))
+}
+
+/// The code that a mark asks for: a path, and names of items, each inside the one before.
+fn code(mark: &str) -> Result<String, String> {
+    let (path, names) = mark.split_once(' ').ok_or("no item is named")?;
+    let source = fs::read_to_string(root().join(path)).map_err(|error| error.to_string())?;
+    names.split(" > ").try_fold(source, |source, name| {
+        item(&source, name).ok_or_else(|| format!("no line begins with '{name}'"))
+    })
+}
+
+/// The page with its code as the sources have it.
+fn renewed(page: &str) -> Result<String, String> {
+    let mut out = String::new();
+    let mut rest = page;
+    while let Some((before, after)) = rest.split_once(BEGIN) {
+        let (mark, after) = after.split_once(" -->").ok_or("a mark is not closed")?;
+        let (printed, after) = after.split_once(END).ok_or(format!("{mark}: no end of code"))?;
+        if printed.contains(BEGIN) {
+            return Err(format!("{mark}: another code begins before its end"));
+        }
+        let code = code(mark).map_err(|cause| format!("{mark}: {cause}"))?;
+        out += &format!("{before}{BEGIN}{mark} -->\n\n```rust,ignore\n{code}\n```\n\n{END}");
+        rest = after;
+    }
+    if rest.contains(END) {
+        return Err("an end of code has no beginning".to_owned());
+    }
+    Ok(out + rest)
+}
+
+#[test]
+fn printed_code_is_that_of_the_source() {
+    let mut stale = Vec::new();
+    for path in pages() {
+        let page = fs::read_to_string(&path).unwrap();
+        let renewed = renewed(&page).unwrap_or_else(|cause| panic!("{}: {cause}", path.display()));
+        if renewed != page {
+            if std::env::var_os("RASTERPROOF_RENEW").is_some() {
+                output::write(&path, renewed.as_bytes()).unwrap();
+            }
+            stale.push(path.display().to_string());
+        }
+    }
+    assert!(
+        stale.is_empty(),
+        "the code in {} is not that of its source; \
+         RASTERPROOF_RENEW=1 cargo test --test it printed_code writes it",
+        stale.join(", ")
+    );
+}
+
+#[test]
+fn printed_code_that_is_stale_or_unknown_is_found() {
+    let mark = "crates/core/src/raster/scanline.rs impl EdgeWalk > fn step";
+    let page = renewed(&format!("a\n{BEGIN}{mark} -->\n{END}\nb")).unwrap();
+    assert!(page.contains("```rust,ignore\nfn step(&mut self) {\n") && page.ends_with("\nb"));
+    assert_eq!(renewed(&page).unwrap(), page);
+    let planted = page.replacen("self", "it", 1);
+    assert_ne!(renewed(&planted).unwrap(), planted);
+    for (wrong, cause) in [
+        (page.replace("fn step -->", "fn stride -->"), "no line begins with 'fn stride'"),
+        (page.replace("scanline.rs", "nowhere.rs"), "nowhere.rs"),
+        (page.replace(END, ""), "no end of code"),
+        (page.replace(BEGIN, "<!-- "), "no beginning"),
+    ] {
+        assert!(renewed(&wrong).unwrap_err().contains(cause), "{cause}");
+    }
+}
