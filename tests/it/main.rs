@@ -30,6 +30,7 @@ mod models;
 mod mutants;
 mod not_judged;
 mod outside_text;
+mod own;
 mod page;
 mod page_commands;
 mod pages;

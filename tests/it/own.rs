@@ -1,0 +1,135 @@
+//! The program of the page 'Write your own': each stage is compiled from the files up to its own and
+//! draws its picture, and the judge finds it right.
+
+use image::RgbImage;
+use rasterproof_core::contract::{DrawLine as _, Interpolate, Rasterize};
+use rasterproof_core::grid::PixelRect;
+use rasterproof_core::line::bresenham::Bresenham;
+use rasterproof_core::triangle::{
+    Corners, Fragment, LineEnd, PixelPoint, ScreenLine, ScreenTriangle, Span, Varying,
+};
+use rasterproof_verify::comparison::tolerance::{Bound, Tolerance};
+use rasterproof_verify::comparison::{Options, judge_coverage, judge_values};
+
+use crate::snapshots::{check_picture, each};
+
+/// A module for each stage, of its own file and of all those before it.
+macro_rules! stages {
+    ([$($file:literal)*]) => {};
+    ([$($file:literal)*] $name:ident: $own:literal, $($rest:tt)*) => {
+        #[allow(dead_code, reason = "later stages use what this one does not")]
+        mod $name {
+            $(include!(concat!("../../docs/own/", $file));)*
+            include!(concat!("../../docs/own/", $own));
+        }
+        stages!([$($file)* $own] $($rest)*);
+    };
+}
+
+stages! {
+    []
+    stage1: "01-pixels.rs",
+    stage2: "02-lines.rs",
+    stage3: "03-triangles.rs",
+    stage4: "04-values.rs",
+    stage5: "05-space.rs",
+    stage6: "06-perspective.rs",
+    stage7: "07-depth.rs",
+    stage8: "08-clipping.rs",
+    stage9: "09-pipeline.rs",
+    stage10: "10-matrices.rs",
+    stage11: "11-light.rs",
+}
+
+#[test]
+fn own_stages_draw_their_pictures() {
+    let pictures: [(&str, fn() -> RgbImage); 11] = [
+        ("own-1", stage1::stage1),
+        ("own-2", stage2::stage2),
+        ("own-3", stage3::stage3),
+        ("own-4", stage4::stage4),
+        ("own-5", stage5::stage5),
+        ("own-6", stage6::stage6),
+        ("own-7", stage7::stage7),
+        ("own-8", stage8::stage8),
+        ("own-9", stage9::stage9),
+        ("own-10", stage10::stage10),
+        ("own-11", stage11::stage11),
+    ];
+    each(pictures, |(name, draw)| check_picture(name, &draw()));
+}
+
+/// Every line of a grid, in both directions, is the one that the project's own drawers light.
+#[test]
+fn own_lines_are_right() {
+    let places = || (0..12).flat_map(|x| (0..12).map(move |y| [x, y]));
+    for (from, to) in places().flat_map(|from| places().map(move |to| (from, to))) {
+        let end = |[x, y]: [i64; 2]| LineEnd {
+            pixel: PixelPoint::new(x as i32, y as i32),
+            depth: 0.0,
+            varying: 0.0,
+        };
+        let (mut own, mut right) = (Vec::new(), Vec::new());
+        stage2::line(from, to, |x, y| own.push((x as i32, y as i32)));
+        let line = ScreenLine { ends: [end(from), end(to)] };
+        Bresenham.draw(&line, PixelRect::window(16, 16), |f| right.push((f.x_px, f.y_px)));
+        own.sort_unstable();
+        right.sort_unstable();
+        assert_eq!(own, right, "from {from:?} to {to:?}");
+    }
+}
+
+/// The triangles and values of stage 6, as the judge calls them.
+struct Own;
+
+fn window(bounds: PixelRect) -> [i64; 4] {
+    [bounds.x0, bounds.y0, bounds.x1, bounds.y1].map(i64::from)
+}
+
+impl Rasterize for Own {
+    fn cover(&self, corners: Corners, bounds: PixelRect, mut emit: impl FnMut(Span)) {
+        let corners = corners.map(|corner| [corner.x, corner.y].map(i64::from));
+        stage3::cover(corners, window(bounds), |x, y, _| {
+            emit(Span { y_px: y as i32, x0_px: x as i32, x1_px: x as i32 + 1 });
+        });
+    }
+}
+
+impl Interpolate for Own {
+    fn fragments<V: Varying>(
+        &self,
+        triangle: &ScreenTriangle<V>,
+        bounds: PixelRect,
+        mut emit: impl FnMut(Fragment<V>),
+    ) {
+        let [a, b, c] = &triangle.vertices;
+        let corners = [a, b, c].map(|v| [v.position.x, v.position.y].map(i64::from));
+        stage6::cover(corners, window(bounds), |x, y, edges| {
+            let weights = stage6::weights(edges);
+            let [depth] = stage6::mix(weights, [[a.depth], [b.depth], [c.depth]]);
+            let [u, v, w] = stage6::in_space(weights, [a, b, c].map(|v| 1.0 / v.inv_w));
+            let varying = a.varying * u + b.varying * v + c.varying * w;
+            emit(Fragment { x_px: x as i32, y_px: y as i32, depth, varying });
+        });
+    }
+}
+
+#[test]
+fn own_triangles_are_right() {
+    let options = Options { cases: 300, ..Options::default() };
+    let verdict = judge_coverage(&Own, &options).unwrap();
+    assert!(verdict.agrees(), "{:?}", verdict.failures.first().map(ToString::to_string));
+}
+
+/// In units of rounding, relative: an edge function 1, their sum 1, the quotient 1: 3 for a weight in the
+/// window. 1/w has 1 and is divided by once more, 2, then the quotient, 1: 6. The sum of three 8, the
+/// quotient of the two 15, the product with a value 16. The two additions round what is at most M.
+const TOLERANCE: Tolerance =
+    Tolerance { attribute: Bound { d: 0.0, m: 18.0 }, depth: Bound { d: 0.0, m: 6.0 } };
+
+#[test]
+fn own_values_are_right() {
+    let options = Options { cases: 100, ..Options::default() };
+    let verdict = judge_values(&Own, TOLERANCE, &options).unwrap();
+    assert!(verdict.agrees(), "{:?}", verdict.failures.first().map(ToString::to_string));
+}
