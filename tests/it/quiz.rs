@@ -8,7 +8,8 @@ use std::process::{Command, Output, Stdio};
 use rasterproof_teaching::quiz::page::{HEADINGS, section};
 use rasterproof_teaching::quiz::{Answer, CHAPTERS, Chapter, Language};
 
-const RENEW: &str = "RASTERPROOF_RENEW";
+/// The variable of the environment that lets tests write pages anew.
+pub const RENEW: &str = "RASTERPROOF_RENEW";
 
 fn path(chapter: &Chapter, language: Language) -> PathBuf {
     let folder = ["docs", "docs/zh"][language as usize];
