@@ -107,10 +107,10 @@ fn list(
     streams: &mut Streams<'_>,
 ) -> Result<u8, Failure> {
     for chapter in chapters {
-        let head = format!("{:>9}  {}", chapter.word(), language.of(chapter.title));
+        let head = format!("{:>9}  {}", chapter.word(), language.of(&chapter.title));
         writeln!(streams.output, "{head} ({})", chapter.exercises.len())?;
-        for (number, exercise) in (1..).zip(chapter.exercises) {
-            for (i, line) in wrap(language.of(exercise.question), 84).into_iter().enumerate() {
+        for (number, exercise) in (1..).zip(&chapter.exercises) {
+            for (i, line) in wrap(language.of(&exercise.question), 84).into_iter().enumerate() {
                 let number = if i == 0 { format!("{number}.") } else { String::new() };
                 writeln!(streams.output, "           {number:<3}{line}")?;
             }
@@ -197,7 +197,7 @@ impl Quiz<'_> {
             }
             // The program's errors are in English; who answers at a terminal is answered in turn.
             let language = if self.is_watched { self.language } else { Language::English };
-            match solution.answer.read(&line, exercise.choices, language) {
+            match solution.answer.read(&line, &exercise.choices, language) {
                 Ok(given) => break Some(given),
                 // Who is there may try again; a file is wrong in that line.
                 Err(remedy) if self.is_watched => writeln!(self.output, "{remedy}")?,

@@ -1,5 +1,7 @@
-//! The figures that the pages state, each with the words around it in both languages and what
-//! computes it: by drawing, by counting, by a formula, or from a table of another page.
+//! The figures that the pages state, and what computes each: by drawing, by counting, by a formula, or from a table of
+//! another page. [`crate::pages`] says how a page names them.
+
+use std::collections::BTreeMap;
 
 use glam::{DVec4, Vec4};
 use rasterproof_core::contract::Rasterize as _;
@@ -25,35 +27,142 @@ use rasterproof_verify::oracle::Oracle;
 use rasterproof_verify::oracle::coverage::samples_on_boundary;
 use serde_json::Value;
 
-use crate::cost_tables::{COST, MESH, W1, cell, edges, interpolation, range, scanline};
 use crate::illustrations::ball;
-use crate::pages::page;
+use crate::pages::{page, read};
 
-/// Figures of a page, by the words around them.
-pub struct Figure {
-    /// The page's name.
-    pub page: &'static str,
-    /// English words, `{}` for each figure.
-    pub english: &'static str,
-    /// The same in Chinese.
-    pub chinese: &'static str,
-    /// What the figures are.
-    pub values: fn() -> Vec<f64>,
-}
-
-/// A figure.
-pub const fn figure(
-    page: &'static str,
-    english: &'static str,
-    chinese: &'static str,
-    values: fn() -> Vec<f64>,
-) -> Figure {
-    Figure { page, english, chinese, values }
-}
-
-/// By chapter.
-pub const ALL: &[&[Figure]] =
-    &[PIXELS, LINES, TRIANGLES, VALUES, STEPS, CLIPPING, COST, PROOF, EFFECTS];
+/// Every figure by its name. Where there are several, the pages add `.1`, `.2` and so on to the name.
+pub const ALL: &[(&str, fn() -> Vec<f64>)] = &[
+    ("apart-facets", || apart("facets", Antialias::Supersample(4))),
+    ("apart-panels-supersampled", || apart("panels", Antialias::Supersample(4))),
+    ("apart-panels-multisampled", || apart("panels", Antialias::Multisample4)),
+    ("apart-tilted-multisampled", || apart("tilted", Antialias::Multisample4)),
+    ("facets-counts", || {
+        let both = [Effects::ALWAYS, Effects::PLANNED];
+        let [all, planned] =
+            both.map(|effects| counted("facets", Antialias::Supersample(4), effects));
+        let counts = |c: Counters| [c.fragments, c.lights, c.cleared];
+        let pairs = counts(all).into_iter().zip(counts(planned));
+        pairs.flat_map(|(all, planned)| [all as f64, planned as f64]).collect()
+    }),
+    ("t4-pixels", || {
+        let hits = named("T4");
+        let row = |hits: &Coverage| hits.row(30).iter().filter(|&&n| n > 0).count() as f64;
+        vec![hits[0].covered() as f64, hits[1].covered() as f64, row(&hits[0]) + row(&hits[1])]
+    }),
+    ("pitch-1024", || vec![Frame::new(PixelRect::window(1024, 4), 0u32).pitch() as f64]),
+    ("calls-outside", || vec![bug("oob")["oob_calls"].as_f64().unwrap()]),
+    ("drifting-lines", drifting_lines),
+    ("t6-pixels", || vec![named("T6").iter().map(Coverage::covered).sum::<u64>() as f64]),
+    ("double-row", double_row),
+    ("unclamped-row", || {
+        let ends = &bug("ch3_unclamped")["bbox"];
+        vec![ends[0].as_f64().unwrap(), ends[1].as_f64().unwrap()]
+    }),
+    ("random-ties", ties_of_random_triangles),
+    ("f64-stepped-cracks", || {
+        let cracks = |i| cell("Coverage by edge function", "holes", "f64 stepped", i);
+        vec![cracks(0) + cracks(1)]
+    }),
+    ("worst-errors", || {
+        let text = page("docs", "verdict");
+        let all = text.lines().find(|line| line.starts_with("all  ")).unwrap();
+        let cells: Vec<f64> = all.split_whitespace().skip(8).map(|c| c.parse().unwrap()).collect();
+        assert!(cells[1] > cells[0] && cells[3] > cells[2], "B is the edge function");
+        vec![cells[1], cells[3]]
+    }),
+    ("affine-error", || [2.0, 100.0].map(affine_error).to_vec()),
+    ("affine-error-of-2", || [2.0, 100.0].map(|r| 2.0 * affine_error(r)).to_vec()),
+    ("right-angle", || vec![0.5f64.sqrt(), 100.0 * (1.0 - 0.5f64.sqrt())]),
+    ("hairs", || [false, true].map(|exercise| f64::from(ball(exercise).1)).to_vec()),
+    ("formula-8-worst", || {
+        // Formula (8) of the values 0 and 1, at t' = 1.
+        let wrong = |w_a: f32, ratio: f32| {
+            let w_b = w_a * ratio;
+            f64::from(w_a / (w_b + (w_a - w_b)) - 1.0).abs()
+        };
+        let w = || (0..1000u16).map(|k| 1.0 + f32::from(k) / 1000.0);
+        let worst = |ratio| w().map(|w_a| wrong(w_a, ratio)).fold(0.0, f64::max);
+        vec![worst(1e7), worst(1e6)]
+    }),
+    ("formula-8-two-ends", || {
+        let t = 1.0 / (4.0 - 3.99);
+        vec![t, value(10.0, t)]
+    }),
+    ("t-of-row-1", || vec![1.0 / 1.2, (1.0 - 0.9) / 1.2, (1.5 - 0.9) / 1.2]),
+    ("t-of-row-2", || vec![2.0 / 1.2, (2.0 - 0.9) / 1.2]),
+    ("depth-poison", || vec![bug("depth_poison")["z_at_10_1"].as_f64().unwrap()]),
+    ("widest-i32", || widest(&[WordWidth::I32])),
+    ("widest-i64", || widest(&[WordWidth::I32, WordWidth::I64])),
+    ("square-overflow", || {
+        let first = (1i32..).find(|n| n.checked_mul(*n).is_none()).unwrap();
+        vec![f64::from(first)]
+    }),
+    ("crossings-that-differ", crossings_that_differ),
+    ("cuts-behind-the-eye", cuts_behind_the_eye),
+    ("corners-added", || vec![MOST_VERTICES as f64 - 3.0]),
+    ("edges-over-scanline", || range(8, |i| edges("engine", i) / scanline("24.8 DDA", i))),
+    ("edges-over-scanline-small", || vec![edges("engine", 2) / scanline("24.8 DDA", 2)]),
+    ("edges-8-cases", || {
+        let text = read("docs/certificates/edges-8.json");
+        let certificate: Value = serde_json::from_str(&text).unwrap();
+        vec![certificate["done"]["cases"].as_f64().unwrap()]
+    }),
+    ("planted-faults", planted_faults),
+    ("invariants", || vec![CATALOGUE.len() as f64]),
+    ("cheapest-float", || {
+        let tiles_come_first = |i: &usize| edges(TILES, *i) < scanline("24.8 DDA", *i);
+        assert_eq!((0..8).filter(tiles_come_first).collect::<Vec<_>>(), [1, 2], "25 px, <8 px");
+        let prices = drawn_prices().map(|[float, _]| float);
+        sorted_ends(prices.to_vec())
+    }),
+    ("exact-as-given", || {
+        let prices = drawn_prices().map(|[_, given]| given);
+        let others = (0..8).filter(|i| ![SLIVER, HALF].contains(i)).map(|i| prices[i]);
+        [sorted_ends(others.collect()), vec![prices[SLIVER], prices[HALF]]].concat()
+    }),
+    ("scanline-lead", || {
+        let mut values =
+            range(8, |i| cheapest("Coverage by scanline", &FLOATS, i) / scanline("24.8 DDA", i));
+        values.extend(range(8, |i| scanline("book", i) / scanline("24.8 DDA", i)));
+        values
+    }),
+    ("cheapest-f32-edges", || {
+        let f32s = ["f32 stepped", "f32 direct", "f32 ordered"];
+        vec![cheapest("Coverage by edge function", &f32s, 0)]
+    }),
+    ("engine-over-tiles", || range(8, |i| edges("engine", i) / edges(TILES, i))),
+    ("planes-errors", || {
+        let errors = |i| [PLANES, "plane"].map(|rung| cell("Interpolation", "worst", rung, i));
+        let larger = |i: &usize| errors(*i)[0] > errors(*i)[1];
+        assert_eq!((0..12).filter(larger).collect::<Vec<_>>(), [FAR]);
+        let worst = [0, 1].map(|which| range(12, |i| errors(i)[which])[1]);
+        assert_eq!(worst, errors(11), "at w 1e4");
+        [worst, errors(FAR)].concat()
+    }),
+    ("f64-over-reversed", || {
+        range(5, |i| cell("Depth", "ns", "f64", i) / cell("Depth", "ns", "f32 reversed", i))
+    }),
+    ("adaptive-over-dda", || vec![scanline("adaptive", HALF) / scanline("24.8 DDA", HALF)]),
+    ("steps-at-990", || [24, 24, 43, 53].map(step_at_990).to_vec()),
+    ("half-steps-at-990", || [25, 54].map(step_at_990).to_vec()),
+    ("reversed-finer", || vec![step_at_990(24) / step_at_990(43)]),
+    ("exact-area-over-64", || {
+        range(8, |i| antialiasing("exact area", i) / antialiasing("8x8 supersample", i))
+    }),
+    ("four-over-one-sample", || {
+        range(8, |i| antialiasing("2x2 supersample", i) / antialiasing("1x", i))
+    }),
+    ("exact-line-over-f64", || {
+        let times = |i| cell("Lines", "ns", "exact DDA", i) / cell("Lines", "ns", "f64 DDA", i);
+        vec![(0..6).map(times).sum::<f64>() / 6.0]
+    }),
+    ("off-grid-times", || {
+        let times = |column: usize| off_grid(column).map(move |row| row[column + 1] / row[column]);
+        let rows: Vec<f64> = times(0).collect();
+        assert!(rows[..2].iter().all(|t| (3.5..4.6).contains(t)), "about four: {rows:?}");
+        [sorted_ends(rows[2..].to_vec()), sorted_ends(times(2).collect())].concat()
+    }),
+];
 
 /// The side, in pixels, of the largest square whose edge functions get one of these words.
 fn widest(words: &[WordWidth]) -> Vec<f64> {
@@ -79,337 +188,16 @@ fn apart(name: &str, antialias: Antialias) -> Vec<f64> {
     vec![counted(name, antialias, Effects::PLANNED).expanded as f64]
 }
 
-const EFFECTS: &[Figure] = &[
-    figure(
-        "effects",
-        "{} of 307,200 pixels hold more than a colour",
-        "307,200 个像素中只有 {} 个不止一种颜色",
-        || apart("facets", Antialias::Supersample(4)),
-    ),
-    figure("effects", "| 16 (17) | {} of them", "| 16 (17) | 其中 {} 个", || {
-        apart("panels", Antialias::Supersample(4))
-    }),
-    figure("effects", "| 2.9 (3.2) | {} of them", "| 2.9 (3.2) | 其中 {} 个", || {
-        apart("panels", Antialias::Multisample4)
-    }),
-    figure("effects", "| 2.1 (2.2) | {} of them", "| 2.1 (2.2) | 其中 {} 个", || {
-        apart("tilted", Antialias::Multisample4)
-    }),
-    figure(
-        "effects",
-        "fragments {} against {}, lights {} against {}, samples cleared {} against {}",
-        "片元 {} 对 {}，光照 {} 对 {}，清除的采样点 {} 对 {}",
-        || {
-            let both = [Effects::ALWAYS, Effects::PLANNED];
-            let [all, planned] =
-                both.map(|effects| counted("facets", Antialias::Supersample(4), effects));
-            [
-                [all.fragments, planned.fragments],
-                [all.lights, planned.lights],
-                [all.cleared, planned.cleared],
-            ]
-            .as_flattened()
-            .iter()
-            .map(|&count| count as f64)
-            .collect()
-        },
-    ),
-];
-
-const PIXELS: &[Figure] = &[
-    figure(
-        "ch01",
-        "The lower triangle covers {} pixels, the upper one {}; row 30 has {} of them",
-        "下面的三角形覆盖 {} 个像素，上面的 {} 个；第 30 行有 {} 个",
-        || {
-            let hits = named("T4");
-            let row = |hits: &Coverage| hits.row(30).iter().filter(|&&n| n > 0).count() as f64;
-            vec![hits[0].covered() as f64, hits[1].covered() as f64, row(&hits[0]) + row(&hits[1])]
-        },
-    ),
-    figure(
-        "ch01",
-        "(1024 pixels of 4 bytes: {} apart)",
-        "（1024 个 4 字节的像素：行距 {}）",
-        || vec![Frame::new(PixelRect::window(1024, 4), 0u32).pitch() as f64],
-    ),
-    figure(
-        "ch01",
-        "{} calls of the pixel function outside the screen",
-        "像素函数在屏幕外被调用 {} 次",
-        || vec![bug("oob")["oob_calls"].as_f64().unwrap()],
-    ),
-];
-
-const LINES: &[Figure] = &[
-    figure(
-        "ch02",
-        "of the 4,225 lines from (0,0) to (x, y), 0 ≤ x, y ≤ 64, {} drift",
-        "的 4,225 条直线里，有 {} 条连它想要的截断高度都偏离了",
-        drifting_lines,
-    ),
-    figure(
-        "ch02",
-        "Bresenham takes {} ns a pixel and a sum of f64 slopes {}, which is wrong in {} pixels of a million; the exact fraction takes {}.",
-        "Bresenham 每像素 {} ns；累加 f64 斜率 {}，每百万像素里错 {} 个；精确分数 {}。",
-        || {
-            let ns = |rung| cell("Lines", "ns", rung, 0);
-            vec![
-                ns("Bresenham"),
-                ns("f64 DDA"),
-                cell("Lines", "wrong", "f64 DDA", 0),
-                ns("exact DDA"),
-            ]
-        },
-    ),
-];
-
-const TRIANGLES: &[Figure] = &[
-    figure(
-        "ch02",
-        "fan of twelve triangles round the point (8.5, 8.5); {} pixels, each hit once",
-        "十二个三角形组成的扇形；{} 个像素，每个命中一次",
-        || vec![named("T6").iter().map(Coverage::covered).sum::<u64>() as f64],
-    ),
-    figure(
-        "ch02",
-        "difference: {} pixels are missing along the upper edge, {} are too many at the right tip and {} below, and the row of the middle corner, {} pixels, is drawn twice",
-        "差异：沿上边缺 {} 个像素，右端的尖角多 {} 个，下方多 {} 个，中间顶点所在的那一行有 {} 个像素画了两遍",
-        double_row,
-    ),
-    figure("ch02", "a row runs from {} to {}", "一行会从 {} 画到 {}", || {
-        let ends = &bug("ch3_unclamped")["bbox"];
-        vec![ends[0].as_f64().unwrap(), ends[1].as_f64().unwrap()]
-    }),
-    figure("ch02", "< 2^{31}`$ | {} px square", "< 2^{31}`$ | {} 像素见方", || {
-        let holds = |px: &u32| WordWidth::of(px * 256, px * 256) == WordWidth::I32;
-        vec![f64::from((1..4000).take_while(holds).last().unwrap())]
-    }),
-    figure(
-        "ch02",
-        "scanline as in the book {}, f64 at each row anew {}, **integer DDA {}**, snapping included; edge functions in f32, stepped or direct, {} or {}, in f64 {} or {}, **i32 on E' {}**, i64 {}, i128 {}.",
-        "扫描线，照书的写法 {}，每行重新用 f64 计算 {}，**整数 DDA {}**，吸附已算在内；边函数，f32 步进或直接计算 {} 或 {}，f64 是 {} 或 {}，**E' 上的 i32 {}**，i64 {}，i128 {}。",
-        || {
-            let rows = |rung| cell("Coverage by scanline", "ns", rung, 0);
-            let edges = |rung| cell("Coverage by edge function", "ns", rung, 0);
-            let mut values = ["book", "f64 direct", "24.8 DDA"].map(rows).to_vec();
-            values.extend(
-                ["f32 stepped", "f32 direct", "f64 stepped", "f64 direct", "i32", "i64", "i128"]
-                    .map(edges),
-            );
-            values
-        },
-    ),
-    figure(
-        "ch02",
-        "Random triangles hardly ever have a tie ({} of 100,000 of the family `uniform`)",
-        "随机的三角形几乎从不出现平局（用例族 `uniform` 的 100,000 个里有 {} 个）",
-        ties_of_random_triangles,
-    ),
-    figure(
-        "ch02",
-        "The book's scanline has {} wrong pixels in a million there",
-        "书的扫描线在那里每百万像素错 {} 个",
-        || vec![cell("Coverage by scanline", "wrong", "book", 0)],
-    ),
-    figure(
-        "ch02",
-        "stepped f64 edge functions leave {} holes and double hits in that mesh, and {} wrong pixels in a million",
-        "f64 步进的边函数在那张网格里留下 {} 个空洞和重复命中，每百万像素错 {} 个",
-        || {
-            let cracks = |i| cell("Coverage by edge function", "holes", "f64 stepped", i);
-            vec![
-                cracks(0) + cracks(1),
-                cell("Coverage by edge function", "wrong", "f64 stepped", MESH),
-            ]
-        },
-    ),
-];
-
-const VALUES: &[Figure] = &[
-    figure(
-        "ch03",
-        "the worst error of an attribute is {} of its bound and of a depth {}, both with the edge function",
-        "属性最坏的误差是其界的 {}，深度是 {}，都出自边函数",
-        || {
-            let text = page("docs", "verdict");
-            let all = text.lines().find(|line| line.starts_with("all  ")).unwrap();
-            let cells: Vec<f64> =
-                all.split_whitespace().skip(8).map(|c| c.parse().unwrap()).collect();
-            assert!(cells[1] > cells[0] && cells[3] > cells[2], "B is the edge function");
-            vec![cells[1], cells[3]]
-        },
-    ),
-    figure(
-        "ch03",
-        "As planes in f32 it takes {} ns a pixel where adding up takes {}; in the offset form with its bound of u (13 D + M), {} in f32 and {} in f64.",
-        "写成 f32 的平面，每像素 {} ns，累加则是 {}；用误差界为 u (13 D + M) 的偏移形式，f32 是 {}，f64 是 {}。",
-        || {
-            ["plane", "affine", "offset f32", "offset f64"]
-                .map(|rung| interpolation(rung, W1))
-                .to_vec()
-        },
-    ),
-    figure(
-        "ch05",
-        "attained: {} of the spread at R = 2, 1/3 at R = 4, 1/2 at R = 9, {} at R = 100",
-        "R = 2 时是跨度的 {}，R = 4 时 1/3，R = 9 时 1/2，R = 100 时 {}。",
-        || [2.0, 100.0].map(affine_error).to_vec(),
-    ),
-    figure(
-        "ch05",
-        "| R = 2; R = 100 | error {}; {}, of a range of 2",
-        "| R = 2；R = 100 | 误差 {}；{}，而范围只有 2",
-        || [2.0, 100.0].map(|r| 2.0 * affine_error(r)).to_vec(),
-    ),
-    figure(
-        "games101",
-        "| R = 2; R = 100 | error {}; {}, of a range of 2",
-        "| R = 2；R = 100 | 误差 {}；{}，而取值范围是 2",
-        || [2.0, 100.0].map(|r| 2.0 * affine_error(r)).to_vec(),
-    ),
-    figure(
-        "ch05",
-        "Formula (8) takes {} ns a pixel, v/w over 1/w at each pixel {}, as planes {}, and values without w, added up, {}.",
-        "公式 (8) 每像素 {} ns，逐像素算 v/w 除以 1/w 是 {}，写成平面是 {}，而不带 w、一路累加的值是 {}。",
-        || {
-            ["book (8)", "1/w direct", "plane", "affine"]
-                .map(|rung| interpolation(rung, W1))
-                .to_vec()
-        },
-    ),
-    figure(
-        "ch06",
-        "({} ns with f64, {} with f32, {} with 24 bits)",
-        "（每像素 f64 是 {} ns，f32 是 {}，24 位是 {}）",
-        || ["f64", "f32", "24-bit"].map(|rung| cell("Depth", "ns", rung, 0)).to_vec(),
-    ),
-    figure(
-        "ch11",
-        "for a right angle {}, and without the division the light there is {}% too dark",
-        "直角时是 {}，若不除以长度，那里的光照就暗了 {}%",
-        || vec![0.5f64.sqrt(), 100.0 * (1.0 - 0.5f64.sqrt())],
-    ),
-    figure(
-        "ch11",
-        "Of {} such fragments the exercise leaves {}",
-        "这样的片元原有 {} 个，做完练习还剩 {} 个",
-        || [false, true].map(|exercise| f64::from(ball(exercise).1)).to_vec(),
-    ),
-];
-
-/// What the book's steps in t give, by its formulas.
-const STEPS: &[Figure] = &[
-    figure(
-        "ch05",
-        "of a thousand w_a from 1 to 2 the worst is {} wrong at R = 1e7, {} at 1e6",
-        "w_a 取 1 到 2 之间的一千个值，最坏的在 R = 1e7 时错 {}，1e6 时错 {}",
-        || {
-            // Formula (8) of the values 0 and 1, at t' = 1.
-            let wrong = |w_a: f32, ratio: f32| {
-                let w_b = w_a * ratio;
-                f64::from(w_a / (w_b + (w_a - w_b)) - 1.0).abs()
-            };
-            let w = || (0..1000u16).map(|k| 1.0 + f32::from(k) / 1000.0);
-            let worst = |ratio| w().map(|w_a| wrong(w_a, ratio)).fold(0.0, f64::max);
-            vec![worst(1e7), worst(1e6)]
-        },
-    ),
-    figure(
-        "ch05",
-        "| from 3.99 to 4, values 0 and 1 | t = {}, value {} |",
-        "| 从 3.99 到 4，值 0 和 1 | t = {}，值为 {} |",
-        || {
-            let t = 1.0 / (4.0 - 3.99);
-            vec![t, value(10.0, t)]
-        },
-    ),
-    figure(
-        "ch05",
-        "| row 1 gets t' = {}; at its sample y = 1 it is {}, at a centre y = 1.5 it is {} |",
-        "| 第 1 行得到 t' = {}；在它的采样点 y = 1 应是 {}，在像素中心 y = 1.5 应是 {} |",
-        || vec![1.0 / 1.2, (1.0 - 0.9) / 1.2, (1.5 - 0.9) / 1.2],
-    ),
-    figure(
-        "ch05",
-        "| row 2 gets 1 instead of {} ({} is right)",
-        "| 第 2 行得到 1 而不是 {}（正确的是 {}）",
-        || vec![2.0 / 1.2, (2.0 - 0.9) / 1.2],
-    ),
-    figure("ch06", "at (10,1) the depth is {}:", "在 (10,1) 处深度是 {}：", || {
-        vec![bug("depth_poison")["z_at_10_1"].as_f64().unwrap()]
-    }),
-    figure("ch02", "2^{31}`$ | {} px square |", "2^{31}`$ | {} 像素见方 |", || {
-        widest(&[WordWidth::I32])
-    }),
-    figure("ch02", "2^{63}`$ | {} px square |", "2^{63}`$ | {} 像素见方 |", || {
-        widest(&[WordWidth::I32, WordWidth::I64])
-    }),
-    figure(
-        "sysu",
-        "| products in 32 bits | {} x {} px",
-        "| 用 32 位做乘积 | {} x {} px",
-        || {
-            let first = (1i32..).find(|n| n.checked_mul(*n).is_none()).unwrap();
-            vec![f64::from(first); 2]
-        },
-    ),
-];
-
-const CLIPPING: &[Figure] = &[
-    figure(
-        "ch07",
-        "Of 10,000 random edges across w + z = 0, computed from either end in f64, {} crossings differ in a bit.",
-        "随机取 10,000 条跨过 w + z = 0 的边，用 f64 从两端各算一次，有 {} 个交点至少差一位。",
-        crossings_that_differ,
-    ),
-    figure(
-        "ch07",
-        "of 10,000 random pairs with w in (0, 1000) and (-1000, 0), {} get w ≤ 0",
-        "w 在 (0, 1000) 和 (-1000, 0) 里的 10,000 对随机的点，有 {} 对得到 w ≤ 0",
-        cuts_behind_the_eye,
-    ),
-    figure(
-        "ch07",
-        "more each time, 3 + {} in the end",
-        "每次多一个，最后是 3 + {}。",
-        || vec![MOST_VERTICES as f64 - 3.0],
-    ),
-];
-
-const PROOF: &[Figure] = &[
-    figure(
-        "gpus",
-        "The edge function takes {} to {} times as long: it asks samples that are not covered",
-        "边函数要用 {} 到 {} 倍的时间：它也问没有被覆盖的采样点",
-        || range(8, |i| edges("engine", i) / scanline("24.8 DDA", i)),
-    ),
-    figure(
-        "gpus",
-        "| edge function | {} | {} | {} | {} | {} | {} | {} | {} |",
-        "| 边函数 | {} | {} | {} | {} | {} | {} | {} | {} |",
-        || (0..8).map(|i| edges("engine", i)).collect(),
-    ),
-    figure(
-        "gpus",
-        "| scanline | {} | {} | {} | {} | {} | {} | {} | {} |",
-        "| 扫描线 | {} | {} | {} | {} | {} | {} | {} | {} |",
-        || (0..8).map(|i| scanline("24.8 DDA", i)).collect(),
-    ),
-    figure(
-        "gpus",
-        "two engines are within a factor of {}.",
-        "阶梯里的两个引擎相差不到 {} 倍。",
-        || vec![edges("engine", 2) / scanline("24.8 DDA", 2)],
-    ),
-    figure(
-        "stability",
-        "px only {} of 100,000 random triangles have a sample exactly on an edge",
-        "100,000 个随机三角形里，只有 {} 个有采样点恰好落在边上",
-        ties_of_random_triangles,
-    ),
-    figure("stability", "| {} | `lists` |", "| {} | `lists` |", || vec![CATALOGUE.len() as f64]),
-];
+/// Rows of the matrix of invariants and planted faults, which end in marks and a count; the last line sums them up.
+fn planted_faults() -> Vec<f64> {
+    let matrix = read("snapshots/mutants.snap");
+    let is_mutant = |line: &&str| {
+        let mut words = line.split_whitespace().rev();
+        words.next().is_some_and(|n| n.parse::<u32>().is_ok())
+            && words.next().is_some_and(|marks| marks.contains(['.', '#']))
+    };
+    vec![matrix.lines().filter(is_mutant).count() as f64]
+}
 
 fn affine_error(ratio: f64) -> f64 {
     (ratio.sqrt() - 1.0) / (ratio.sqrt() + 1.0)
@@ -527,4 +315,104 @@ fn cuts_behind_the_eye() -> Vec<f64> {
         clip_strict(&ends)[0].w <= 0.0
     });
     vec![behind.count() as f64]
+}
+
+/// Columns of the tables of coverage.
+const SLIVER: usize = 3;
+const HALF: usize = 4;
+const FAR: usize = 6;
+/// The rungs in vectors.
+const TILES: &str = "tiles i32 x 16";
+const PLANES: &str = "planes f32 x 16";
+const FLOATS: [&str; 4] = ["f32 accumulated", "f32 direct", "f64 accumulated", "f64 direct"];
+
+/// A table of `docs/cost.md`, under a heading, whose title begins so: the names of its columns, and its rows by name.
+fn board(heading: &str, title: &str) -> (Vec<String>, BTreeMap<String, Vec<f64>>) {
+    const NAME: usize = 16;
+    let text = page("docs", "cost");
+    let (_, section) = text.split_once(&format!("\n## {heading}\n")).expect("a heading");
+    let lines = section.lines().skip_while(|line| !line.starts_with(title)).skip(1);
+    let is_head = |line: &str| line.starts_with(&" ".repeat(NAME));
+    // A long title goes on in the next line, further in.
+    let mut lines = lines.skip_while(|line| line.starts_with("  ") && !is_head(line)).peekable();
+    let names = lines.next_if(|line| is_head(line)).unwrap_or("");
+    let rows = lines.take_while(|line| !line.is_empty() && !line.starts_with("```"));
+    let number = |cell: &str| cell.trim_end_matches(['<', '*', '+']).parse().unwrap_or(f64::NAN);
+    let rows: BTreeMap<_, Vec<f64>> = rows
+        .map(|row| row.split_at(NAME))
+        .map(|(name, cells)| {
+            (name.trim().to_owned(), cells.split_whitespace().map(number).collect())
+        })
+        .collect();
+    let columns = rows.values().map(Vec::len).max().unwrap_or_else(|| panic!("no table {title}"));
+    let width = (names.len() + 1).saturating_sub(NAME) / columns;
+    let name = |at: usize| names.get(NAME + at * width..)?.get(..width - 1);
+    ((0..columns).filter_map(name).map(|name| name.trim().to_owned()).collect(), rows)
+}
+
+fn cell(heading: &str, title: &str, rung: &str, column: usize) -> f64 {
+    let (_, rows) = board(heading, title);
+    rows.get(rung).unwrap_or_else(|| panic!("{heading}, {title}: no row {rung}"))[column]
+}
+
+/// The cell that a page names, such as `Lines, ns, Bresenham, large`.
+pub fn cost_cell(reference: &str) -> f64 {
+    let parts: Vec<_> = reference.split(", ").collect();
+    let [heading, title, rung, column] = parts[..] else { panic!("{reference}: not four parts") };
+    let (names, _) = board(heading, title);
+    let column = names.iter().position(|name| name == column);
+    cell(heading, title, rung, column.unwrap_or_else(|| panic!("{reference}: one of {names:?}")))
+}
+
+/// The prices that the picture at the top states, by class: of the cheapest float, and of what is exact as given.
+fn drawn_prices() -> [[f64; 2]; 8] {
+    let plot = include_str!("../../docs/cost-price.svg");
+    let labels = plot.split("</text>").filter_map(|text| text.rsplit_once('>'));
+    let prices = labels.filter_map(|(_, label)| label.rsplit_once(' ')?.1.strip_suffix('x'));
+    let prices: Vec<f64> = prices.filter_map(|price| price.parse().ok()).collect();
+    let (pairs, rest) = prices.as_chunks();
+    assert!(rest.is_empty(), "two for each class: {prices:?}");
+    pairs.try_into().expect("eight classes")
+}
+
+fn edges(rung: &str, column: usize) -> f64 {
+    cell("Coverage by edge function", "ns", rung, column)
+}
+
+fn scanline(rung: &str, column: usize) -> f64 {
+    cell("Coverage by scanline", "ns", rung, column)
+}
+
+fn antialiasing(rung: &str, column: usize) -> f64 {
+    cell("Antialiasing", "ns", rung, column)
+}
+
+fn cheapest(heading: &str, rungs: &[&str], column: usize) -> f64 {
+    rungs.iter().map(|rung| cell(heading, "ns", rung, column)).fold(f64::INFINITY, f64::min)
+}
+
+fn sorted_ends(mut values: Vec<f64>) -> Vec<f64> {
+    values.sort_by(f64::total_cmp);
+    vec![values[0], values[values.len() - 1]]
+}
+
+/// Smallest and largest value over columns.
+fn range(columns: usize, value: impl Fn(usize) -> f64) -> Vec<f64> {
+    sorted_ends((0..columns).map(value).collect())
+}
+
+/// Rows of the table of times of `docs/offgrid.md`, those that have a time in `column` and the next.
+fn off_grid(column: usize) -> impl Iterator<Item = Vec<f64>> {
+    let text = page("docs", "offgrid");
+    let (_, section) = text.split_once("\n## Cost, measured\n").unwrap();
+    let lines = section.lines().filter(|line| line.contains("ns/"));
+    let number = |cell: &str| cell.trim().replace(',', "").parse::<f64>().ok();
+    let rows = lines.map(|line| line.split('|').filter_map(number).collect::<Vec<_>>());
+    rows.filter(|row| row.len() > column + 1).collect::<Vec<_>>().into_iter()
+}
+
+/// A step of 2^-bits of a depth in [0, 1], in units of space at z = 990, between planes at 0.1 and 1000.
+fn step_at_990(bits: i32) -> f64 {
+    let slope = 1000.0 * 0.1 / ((1000.0 - 0.1) * 990.0 * 990.0);
+    0.5f64.powi(bits) / slope
 }

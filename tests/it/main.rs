@@ -8,7 +8,6 @@ mod book;
 mod commands;
 mod convention;
 mod cost;
-mod cost_tables;
 mod course;
 mod delivery;
 mod diagrams;

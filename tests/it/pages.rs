@@ -1,16 +1,19 @@
-//! Figures in prose do not drift: each is found on its page, in both languages, and computed anew.
+//! Figures of the pages do not drift. Each lies between two comments, which a reader does not see:
+//! `<!--n drifting-lines-->788<!--/n-->`. The name is one of `figures.rs`, or says which cell of a table it repeats:
+//! `cost: Lines, ns, Bresenham, large`. What the page prints must be the value, rounded to the digits that are printed.
 //!
-//! A figure is given by the words around it, with `{}` in its place; line breaks and blanks do not
-//! count. What the page prints must be the computed value, rounded to the digits that are printed.
-//! Figures of time are not computed, but those that one page takes from another's table, or that sum
-//! a table up, must be what the table says.
+//! A comment in the words of a picture would be read out. There one comment behind the picture names the numbers of these
+//! words in their order, and `-` those that are not computed: `![T6: 110 pixels](T6.png)<!--alt - t6-pixels-->`.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
+use std::ops::Range;
 use std::path::PathBuf;
 
-use crate::figures::{ALL, Figure};
+use crate::figures::{ALL, cost_cell};
+use crate::quiz::RENEW;
 
-fn read(path: &str) -> String {
+pub fn read(path: &str) -> String {
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(path);
     fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
 }
@@ -20,92 +23,196 @@ pub fn page(folder: &str, name: &str) -> String {
     read(&format!("{folder}/{name}.md"))
 }
 
-fn dense(text: &str) -> String {
-    text.chars().filter(|c| !c.is_whitespace()).collect()
+/// The names of the marked figures of a page and where they are, or what is wrong with a marker.
+fn marked(text: &str) -> Result<Vec<(&str, Range<usize>)>, String> {
+    const END: &str = "<!--/n-->";
+    let mut found = Vec::new();
+    for (at, _) in text.match_indices("<!--") {
+        let comment = text[at + 4..].split("-->").next().unwrap_or("");
+        let after = at + 4 + comment.len() + 3;
+        if let Some(name) = comment.strip_prefix("n ") {
+            let end = text[after..].find("<!--").map(|length| after + length);
+            let end = end.filter(|&end| text[end..].starts_with(END));
+            found.push((name, after..end.ok_or_else(|| format!("'{name}' is not closed"))?));
+            let line = text[..at].rsplit('\n').next().unwrap_or("");
+            if line.trim_matches([' ', '-', '*', '>']).is_empty() {
+                return Err(format!("'{name}' begins a line, which is shown as it is then"));
+            }
+        } else if let Some(names) = comment.strip_prefix("alt ") {
+            let from = text[..at].rfind("![").ok_or("no picture before 'alt'")?;
+            let words = text[from..at].split("](").next().unwrap_or("");
+            let names = names.split(' ').chain(std::iter::repeat("-"));
+            let places = numbers(words).map(|place| from + place.start..from + place.end);
+            found.extend(names.zip(places).filter(|(name, _)| *name != "-"));
+        } else if !text[at..].starts_with(END) {
+            return Err(format!("'<!--{comment}' is no marker"));
+        }
+    }
+    let opened = found.iter().filter(|(_, place)| text[place.end..].starts_with(END)).count();
+    if text.matches(END).count() != opened {
+        return Err(format!("'{END}' closes nothing"));
+    }
+    Ok(found)
 }
 
-/// The text at the placeholders, for every place where the words stand.
-fn places<'a>(text: &'a str, words: &str) -> Vec<Vec<&'a str>> {
-    let words = dense(words);
-    let parts: Vec<_> = words.split("{}").collect();
-    // Words that begin with a figure would also be found at its tail.
-    let is_tail =
-        |at: usize| text[..at].ends_with(|c: char| c.is_ascii_digit() || ".,".contains(c));
-    let starts = text.match_indices(parts[0]).map(|(at, part)| at + part.len());
-    let starts = starts.filter(|&at| !(parts[0].is_empty() && is_tail(at))).map(|at| &text[at..]);
-    let follow = |mut rest: &'a str| {
-        let mut figures = Vec::new();
-        for part in &parts[1..] {
-            let is_figure = |c: char| c.is_ascii_digit() || ".,-+e".contains(c);
-            let end = rest.find(|c| !is_figure(c)).unwrap_or(rest.len());
-            // A figure may end in a comma or a stop that belongs to the words.
-            let figure = rest[..end].trim_end_matches([',', '.', 'e', '-', '+']);
-            figures.push(figure);
-            rest = rest[figure.len()..].strip_prefix(part)?;
-        }
-        Some(figures)
-    };
-    starts.filter_map(follow).collect()
+/// Where the unsigned numbers of a text are.
+fn numbers(text: &str) -> impl Iterator<Item = Range<usize>> {
+    let runs = text.split(|c: char| !(c.is_ascii_digit() || ".,".contains(c)));
+    let runs = runs.map(|run| run.trim_matches(['.', ','])).filter(|run| !run.is_empty());
+    runs.map(|run| {
+        let start = run.as_ptr().addr() - text.as_ptr().addr();
+        start..start + run.len()
+    })
+}
+
+/// Digits after the point of a printed number, and its power of ten where it states one.
+fn digits(printed: &str) -> (usize, Option<i32>) {
+    let (digits, exponent) = printed.split_once('e').unwrap_or((printed, ""));
+    let decimals = digits.split_once('.').map_or(0, |(_, fraction)| fraction.len());
+    (decimals, exponent.parse().ok())
 }
 
 /// Whether a printed number is `value` to the digits that are printed.
 fn is_rounded(printed: &str, value: f64) -> bool {
-    let plain = printed.replace(',', "");
-    let Ok(number) = plain.parse::<f64>() else { return false };
-    let (digits, exponent) = plain.split_once('e').unwrap_or((&plain, "0"));
-    let decimals = digits.split_once('.').map_or(0, |(_, fraction)| fraction.len());
-    let unit = 10f64.powi(exponent.parse::<i32>().unwrap_or(0) - decimals as i32);
+    let Ok(number) = printed.replace(',', "").parse::<f64>() else { return false };
+    let (decimals, exponent) = digits(printed);
+    let unit = 10f64.powi(exponent.unwrap_or(0) - decimals as i32);
     // A value halfway may be rounded to either side; tables round once already.
     (number - value).abs() <= unit * 0.5 * (1.0 + 1e-9)
 }
 
-/// What is wrong with a figure on the page of one language.
-fn stale(text: &str, words: &str, values: &[f64]) -> Option<String> {
-    let text = dense(text);
-    let found = places(&text, words);
-    if found.is_empty() {
-        return Some(format!("'{words}' is not on the page"));
+/// A value in the form of the printed number that it replaces.
+fn in_the_form_of(printed: &str, value: f64) -> String {
+    let (decimals, exponent) = digits(printed);
+    if exponent.is_some() {
+        return format!("{value:.decimals$e}");
     }
-    let is_right = |figures: &Vec<&str>| {
-        figures.len() == values.len()
-            && figures.iter().zip(values).all(|(figure, &value)| is_rounded(figure, value))
-    };
-    let wrong = found.iter().find(|figures| !is_right(figures))?;
-    Some(format!("'{words}' has {wrong:?}, computed {values:?}"))
+    let plain = format!("{value:.decimals$}");
+    if printed.starts_with('.') {
+        return plain.trim_start_matches('0').to_owned();
+    }
+    let (sign, plain) = plain.strip_prefix('-').map_or(("", &*plain), |plain| ("-", plain));
+    let whole = plain.find('.').unwrap_or(plain.len());
+    let is_grouped = printed.contains(',') || whole > 4;
+    let comma = |at: usize| is_grouped && at > 0 && at < whole && (whole - at).is_multiple_of(3);
+    let digits = plain.char_indices();
+    let digits = digits.flat_map(|(at, digit)| comma(at).then_some(',').into_iter().chain([digit]));
+    sign.to_owned() + &digits.collect::<String>()
 }
 
-#[test]
-fn pages_figures_are_computed() {
+/// What a page must say where, and what it says instead; every name that it uses is added to `used`.
+fn stale<'a>(
+    text: &'a str,
+    values: &BTreeMap<String, f64>,
+    used: &mut BTreeSet<&'a str>,
+) -> Result<Vec<(Range<usize>, String)>, String> {
     let mut wrong = Vec::new();
-    for Figure { page: name, english, chinese, values } in ALL.iter().copied().flatten() {
-        let values = values();
-        for (folder, words) in [("docs", english), ("docs/zh", chinese)] {
-            let problem = stale(&page(folder, name), words, &values);
-            wrong.extend(problem.map(|problem| format!("{folder}/{name}.md: {problem}")));
+    for (name, place) in marked(text)? {
+        let cell = || name.strip_prefix("cost: ").map(cost_cell);
+        let value = values.get(name).copied().or_else(cell);
+        let value = value.ok_or_else(|| format!("no figure is called '{name}'"))?;
+        used.insert(name);
+        if !is_rounded(&text[place.clone()], value) {
+            let right = in_the_form_of(&text[place.clone()], value);
+            wrong.push((place, right));
         }
     }
-    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    Ok(wrong)
 }
 
-/// The rule can fail: a stale figure and missing words are found, a rounded figure is not stale.
+/// Figures are as they are computed, each is used, and both languages have the same. `RASTERPROOF_RENEW=1 cargo test
+/// --test it pages_figures` writes them anew.
+#[test]
+fn pages_figures_are_computed() {
+    let mut values = BTreeMap::new();
+    for (name, compute) in ALL {
+        match &compute()[..] {
+            [value] => drop(values.insert((*name).to_owned(), *value)),
+            all => values.extend((1..).zip(all).map(|(i, value)| (format!("{name}.{i}"), *value))),
+        }
+    }
+    let (mut wrong, mut used) = (Vec::new(), BTreeSet::new());
+    let pages: BTreeMap<_, _> = crate::workspace::pages().into_iter().collect();
+    for (path, text) in &pages {
+        let shown = path.display();
+        let mut right = text.clone();
+        match stale(text, &values, &mut used) {
+            Err(problem) => wrong.push(format!("{shown}: {problem}")),
+            Ok(stale) => {
+                for (place, value) in stale.into_iter().rev() {
+                    wrong.push(format!("{shown}: '{}', computed {value}", &text[place.clone()]));
+                    right.replace_range(place, &value);
+                }
+            }
+        }
+        if right != *text && std::env::var_os(RENEW).is_some() {
+            fs::write(path, right).unwrap();
+        }
+        let chinese = path.with_file_name("zh").join(path.file_name().unwrap());
+        if let Some(chinese) = pages.get(&chinese) {
+            let names = |text| {
+                let mut names: Vec<_> =
+                    marked(text).ok()?.into_iter().map(|(name, _)| name).collect();
+                names.sort_unstable();
+                Some(names)
+            };
+            if names(text) != names(chinese) {
+                wrong.push(format!("{shown} and its Chinese page mark different figures"));
+            }
+        }
+    }
+    let unused = values.keys().filter(|name| !used.contains(name.as_str()));
+    wrong.extend(unused.map(|name| format!("no page has the figure '{name}'")));
+    assert!(
+        wrong.is_empty(),
+        "renew with `{RENEW}=1 cargo test --test it pages_figures`:\n{}",
+        wrong.join("\n")
+    );
+}
+
+/// The rule can fail: a stale figure, an unknown name and a marker that is not whole are found, a rounded figure is not
+/// stale.
 #[test]
 fn pages_stale_figures_are_found() {
-    let text = "Of the\n4,225 lines 788 drift, at .17 of a\nstep; 1.1e-6.";
-    assert_eq!(stale(text, "4,225 lines {} drift", &[788.0]), None);
-    assert_eq!(stale(text, "lines {} drift, at {} of", &[788.0, 0.1716]), None);
-    assert_eq!(stale(text, "step; {}.", &[1.14e-6]), None);
-    for (words, values) in [
-        ("4,225 lines {} drift", vec![789.0]),
-        ("4,225 lines {} drift", vec![]),
-        ("drift, at {} of", vec![0.1758]),
-        ("lines {} drift", vec![788.6]),
-        ("step; {}.", vec![1.2e-6]),
-        ("lines {} change", vec![788.0]),
+    let values: BTreeMap<_, _> =
+        [("a", 788.0), ("b", 0.1716), ("c", 1.14e-6), ("d", 11_863_282.0), ("e", -37_495.0)]
+            .into_iter()
+            .map(|(name, value)| (name.to_owned(), value))
+            .collect();
+    let check = |text: &str| {
+        let stale = stale(text, &values, &mut BTreeSet::new())?;
+        Ok::<_, String>(stale.into_iter().map(|(_, right)| right).collect::<Vec<_>>())
+    };
+    let page = "of <!--n a-->788<!--/n--> at <!--n b-->.17<!--/n-->, <!--n c-->1.1e-6<!--/n--> and <!--n a-->788<!--/n-->\n\
+        ![T4: 4,225 of 11,863,282.](a.png)<!--alt - - d--> <!--n e-->-37495<!--/n-->";
+    assert_eq!(check(page), Ok(vec![]));
+    for (old, new, right) in [
+        ("788", "789", "788"),
+        ("788", "788.6", "788.0"),
+        (".17", ".18", ".17"),
+        (".17", "0.1758", "0.1716"),
+        ("1.1e-6", "1.2e-6", "1.1e-6"),
+        ("11,863,282", "1,863,282", "11,863,282"),
+        ("-37495", "37495", "-37,495"),
+        ("788<", "<", "788"),
     ] {
-        assert!(stale(text, words, &values).is_some(), "{words} {values:?}");
+        assert_eq!(
+            check(&page.replacen(old, new, 1)),
+            Ok(vec![right.to_owned()]),
+            "{old} as {new}"
+        );
     }
-    let twice = "788 drift and 789 drift";
-    assert!(stale(twice, "{} drift", &[788.0]).is_some(), "each place is asked");
+    for (old, new, problem) in [
+        ("n a", "n z", "no figure is called 'z'"),
+        ("788<!--/n-->", "788", "'a' is not closed"),
+        ("of <!--n a-->", "of ", "closes nothing"),
+        ("of <", "<", "'a' begins a line"),
+        ("<!--n b", "<!--m b", "is no marker"),
+        ("![", "[", "no picture"),
+    ] {
+        let found = check(&page.replacen(old, new, 1)).unwrap_err();
+        assert!(found.contains(problem), "{old} as {new}: {found}");
+    }
 }
 
 /// Cells of a table's row, by the name in its first cell.
@@ -196,24 +303,6 @@ fn pages_certificates_are_as_written() {
             let said = [2, 3, 4, 5].map(|i| cells[i].replace(',', "").parse::<u64>().ok());
             assert_eq!(said, counts.map(|count| done[count].as_u64()), "{pages}: {line}");
         }
-    }
-    let readme = dense(&read("README.md"));
-    let edges = certificate("edges-8")["done"]["cases"].as_f64().unwrap();
-    let invariants = rasterproof_invariants::CATALOGUE.len() as f64;
-    // Rows of the matrix end in a count; the last line sums them up.
-    let matrix = read("snapshots/mutants.snap");
-    let is_mutant = |line: &&str| {
-        let mut words = line.split_whitespace().rev();
-        words.next().is_some_and(|n| n.parse::<u32>().is_ok())
-            && words.next().is_some_and(|marks| marks.contains(['.', '#']))
-    };
-    let mutants = matrix.lines().filter(is_mutant).count() as f64;
-    for (words, value) in [
-        ("0 wrong of {} |", edges),
-        ("| {} [invariants](docs/stability.md)", invariants),
-        ("each of {} faults dies", mutants),
-    ] {
-        assert_eq!(stale(&readme, words, &[value]), None);
     }
 }
 

@@ -8,7 +8,8 @@ use std::process::{Command, Output, Stdio};
 use rasterproof_teaching::quiz::page::{HEADINGS, section};
 use rasterproof_teaching::quiz::{Answer, CHAPTERS, Chapter, Language};
 
-const RENEW: &str = "RASTERPROOF_RENEW";
+/// The variable of the environment that lets tests write pages anew.
+pub const RENEW: &str = "RASTERPROOF_RENEW";
 
 fn path(chapter: &Chapter, language: Language) -> PathBuf {
     let folder = ["docs", "docs/zh"][language as usize];
@@ -22,11 +23,11 @@ fn exercises(page: &str, language: Language) -> &str {
 
 #[test]
 fn quiz_every_exercise_is_whole() {
-    for chapter in CHAPTERS {
+    for chapter in CHAPTERS.iter() {
         assert!((3..=5).contains(&chapter.exercises.len()), "{}", chapter.page);
-        for exercise in chapter.exercises {
-            let (question, solution) = (exercise.question[0], exercise.solution());
-            for why in exercise.why {
+        for exercise in &chapter.exercises {
+            let (question, solution) = (&exercise.question[0], exercise.solution());
+            for why in &exercise.why {
                 assert_eq!(why.matches("{}").count(), solution.figures.len(), "{question}");
             }
             let is_choice = matches!(solution.answer, Answer::Choice(_));
@@ -42,7 +43,7 @@ fn quiz_every_exercise_is_whole() {
 #[test]
 fn quiz_pages_say_what_is_computed() {
     let mut stale = Vec::new();
-    for chapter in CHAPTERS {
+    for chapter in CHAPTERS.iter() {
         for language in [Language::English, Language::Chinese] {
             let path = path(chapter, language);
             let page = fs::read_to_string(&path).unwrap();
@@ -67,9 +68,9 @@ fn quiz_pages_say_what_is_computed() {
 /// The rule can fail: each answer of a page, changed by hand, is found.
 #[test]
 fn quiz_changed_keys_are_found() {
-    for chapter in CHAPTERS {
+    for chapter in CHAPTERS.iter() {
         let page = section(chapter, Language::English);
-        for exercise in chapter.exercises {
+        for exercise in &chapter.exercises {
             let answer = exercise.solution().answer;
             let other = match answer {
                 Answer::Choice(i) => Answer::Choice(if i == 0 { 1 } else { 0 }),
@@ -115,7 +116,7 @@ fn key(chapter: &Chapter) -> String {
 
 #[test]
 fn quiz_counts_right_answers() {
-    for chapter in CHAPTERS {
+    for chapter in CHAPTERS.iter() {
         let count = chapter.exercises.len();
         let (out, errors) = check(&[chapter.word()], &key(chapter), 0);
         assert!(out.ends_with(&format!("{count} of {count} right\n")), "{out}");
@@ -179,7 +180,7 @@ fn quiz_speaks_chinese_and_lists() {
     let (out, _) = check(&["2", "--language", "zh"], &key(&CHAPTERS[1]), 0);
     assert!(out.ends_with("5 题答对 5 题\n"), "{out}");
     let (out, _) = check(&["--list"], "", 0);
-    for chapter in CHAPTERS {
+    for chapter in CHAPTERS.iter() {
         assert!(
             out.contains(&format!("  {} ({})", chapter.title[0], chapter.exercises.len())),
             "{out}"

@@ -150,7 +150,7 @@ fn everything_is_compiled_once() {
 }
 
 /// The pages under `docs/` and those beside the README, with their text.
-fn pages() -> Vec<(PathBuf, String)> {
+pub fn pages() -> Vec<(PathBuf, String)> {
     let mut pages = files(&root().join("docs"), "md");
     pages.extend(["README.md", "CHANGELOG.md", "CONTRIBUTING.md"].map(|name| root().join(name)));
     pages.into_iter().map(|page| (page.clone(), fs::read_to_string(page).unwrap())).collect()

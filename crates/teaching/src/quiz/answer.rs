@@ -98,7 +98,7 @@ impl Answer {
                 });
                 let by_pixel = || {
                     let wanted = pixel(word)?;
-                    choices.iter().position(|text| pixel(text[0]) == Some(wanted))
+                    choices.iter().position(|text| pixel(&text[0]) == Some(wanted))
                 };
                 if let Some(i) = by_letter.or_else(by_pixel) {
                     return Ok(Given::Choice(i));
@@ -158,7 +158,7 @@ mod tests {
 
     #[test]
     fn answers_are_read_and_judged() {
-        let pixels: &[Text] = &[["(0, 3)"; 2], ["(2, 2)"; 2]];
+        let pixels: &[Text] = &["(0, 3)", "(2, 2)"].map(|text| [text, text].map(str::to_owned));
         let choice = Answer::only(&[false, true]);
         for word in ["b", "B", "2", "2,2", " (2, 2) "] {
             assert!(

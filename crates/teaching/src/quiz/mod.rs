@@ -1,7 +1,8 @@
 //! Exercises: a question, its choices, and an answer that nobody types in: the engines and the
 //! oracle compute it each time it is asked for.
 //!
-//! `docs/` ends each chapter with the same exercises, written by [`page::section`]; a test compares.
+//! The texts are in `exercises.toml`. `docs/` ends each chapter with the same exercises, written by
+//! [`page::section`]; a test compares.
 
 mod answer;
 mod ch01;
@@ -24,10 +25,16 @@ mod tools;
 
 pub use answer::{Answer, Given};
 
+use std::sync::LazyLock;
+
 use rasterproof_verify::cases::Rng;
+use serde::Deserialize;
 
 /// The same words in English and in Chinese.
-pub type Text = [&'static str; 2];
+pub type Text = [String; 2];
+
+/// Computes the answer of an exercise from its choices.
+pub type Solve = fn(&[Text]) -> Solution;
 
 /// The languages of [`Text`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -41,19 +48,23 @@ pub enum Language {
 impl Language {
     /// The words in this language.
     #[must_use]
-    pub fn of(self, text: Text) -> &'static str {
-        text[self as usize]
+    pub fn of(self, text: &Text) -> &str {
+        &text[self as usize]
     }
 }
 
 /// A question, and how its answer is found.
-#[derive(Clone, Copy, Debug)]
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Exercise {
+    /// The name of the function that computes the answer, in [`SOLVERS`] under the exercise's page.
+    solve: String,
+    #[serde(skip)]
+    solver: Option<Solve>,
     pub question: Text,
     /// What there is to choose from; empty where a number or a pixel is asked for.
-    pub choices: &'static [Text],
-    /// Computes the answer from the choices.
-    pub solve: fn(&[Text]) -> Solution,
+    #[serde(default)]
+    pub choices: Vec<Text>,
     /// Why; each `{}` stands for the next of [`Solution::figures`].
     pub why: Text,
 }
@@ -86,62 +97,89 @@ impl Solution {
 
 impl Exercise {
     /// Asks the project's code.
+    ///
+    /// # Panics
+    /// Where [`CHAPTERS`] did not find the function, which a test excludes.
     #[must_use]
     pub fn solution(&self) -> Solution {
-        (self.solve)(self.choices)
+        self.solver.expect("every exercise has a function")(&self.choices)
     }
 
     /// The question, and to how many digits its answer is asked for.
     #[must_use]
     pub fn question_with_form(&self, language: Language, solution: &Solution) -> String {
-        language.of(self.question).to_owned() + &solution.answer.form(language)
+        language.of(&self.question).to_owned() + &solution.answer.form(language)
     }
 
     /// The explanation with its figures in place.
     #[must_use]
     pub fn explanation(&self, language: Language, solution: &Solution) -> String {
         let mut figures = solution.figures.iter();
-        let mut parts = language.of(self.why).split("{}");
+        let mut parts = language.of(&self.why).split("{}");
         let first = parts.next().unwrap_or("").to_owned();
         parts.fold(first, |text, part| text + figures.next().map_or("{}", String::as_str) + part)
     }
 }
 
 /// The exercises of one page.
-#[derive(Clone, Copy, Debug)]
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Chapter {
     /// The page's file under `docs/`, without its ending; `ch02` is also called `2`.
-    pub page: &'static str,
+    pub page: String,
     /// What the page is about.
     pub title: Text,
     /// In the order of the page.
-    pub exercises: &'static [Exercise],
+    #[serde(rename = "exercise")]
+    pub exercises: Vec<Exercise>,
 }
 
 /// Every chapter that has exercises, in the order of reading.
-pub static CHAPTERS: &[Chapter] = &[
-    ch01::CHAPTER,
-    ch02::CHAPTER,
-    ch03::CHAPTER,
-    ch04::CHAPTER,
-    ch05::CHAPTER,
-    ch06::CHAPTER,
-    ch07::CHAPTER,
-    ch08::CHAPTER,
-    ch09::CHAPTER,
-    ch10::CHAPTER,
-    ch11::CHAPTER,
-    games101::CHAPTER,
-    sysu::CHAPTER,
-    effects::CHAPTER,
-    stability::CHAPTER,
+pub static CHAPTERS: LazyLock<Vec<Chapter>> = LazyLock::new(chapters);
+
+/// The functions that compute answers, by the page and the name that `exercises.toml` gives.
+const SOLVERS: &[(&str, &[(&str, Solve)])] = &[
+    ("ch01", ch01::SOLVE),
+    ("ch02", ch02::SOLVE),
+    ("ch03", ch03::SOLVE),
+    ("ch04", ch04::SOLVE),
+    ("ch05", ch05::SOLVE),
+    ("ch06", ch06::SOLVE),
+    ("ch07", ch07::SOLVE),
+    ("ch08", ch08::SOLVE),
+    ("ch09", ch09::SOLVE),
+    ("ch10", ch10::SOLVE),
+    ("ch11", ch11::SOLVE),
+    ("games101", games101::SOLVE),
+    ("sysu", sysu::SOLVE),
+    ("effects", effects::SOLVE),
+    ("stability", stability::SOLVE),
 ];
+
+fn chapters() -> Vec<Chapter> {
+    #[derive(Deserialize)]
+    struct Texts {
+        chapter: Vec<Chapter>,
+    }
+    let texts: Texts =
+        toml::from_str(include_str!("exercises.toml")).expect("the tests read the same text");
+    let mut chapters = texts.chapter;
+    for chapter in &mut chapters {
+        let solvers = SOLVERS.iter().find(|(page, _)| *page == chapter.page);
+        for exercise in &mut chapter.exercises {
+            let named =
+                solvers.and_then(|(_, s)| s.iter().find(|(name, _)| *name == exercise.solve));
+            exercise.solver = named.map(|(_, solve)| *solve);
+        }
+    }
+    chapters
+}
 
 impl Chapter {
     /// What one calls it on the command line: `2` for `ch02`.
     #[must_use]
-    pub fn word(&self) -> &'static str {
-        self.page.strip_prefix("ch").map_or(self.page, |number| number.trim_start_matches('0'))
+    pub fn word(&self) -> &str {
+        self.page.strip_prefix("ch").map_or(&self.page, |number| number.trim_start_matches('0'))
     }
 
     /// What it is called in a sentence: `chapter 2`, or the name of its page.
@@ -150,7 +188,7 @@ impl Chapter {
         match (self.page.starts_with("ch"), language) {
             (true, Language::English) => format!("chapter {}", self.word()),
             (true, Language::Chinese) => format!("第 {} 章", self.word()),
-            (false, _) => self.page.to_owned(),
+            (false, _) => self.page.clone(),
         }
     }
 }
@@ -183,6 +221,15 @@ mod tests {
             assert_eq!(chapter(word).unwrap().page, "ch02");
         }
         assert!(["", "0", "12", "ch", "two"].iter().all(|word| chapter(word).is_none()));
+    }
+
+    /// A function without an exercise is not counted by the exercises, and an exercise without a function panics.
+    #[test]
+    fn exercises_and_functions_belong_together() {
+        let texts = CHAPTERS.iter().flat_map(|c| c.exercises.iter().map(|e| (&*c.page, &*e.solve)));
+        let functions =
+            SOLVERS.iter().flat_map(|(page, s)| s.iter().map(|(name, _)| (*page, *name)));
+        assert!(texts.eq(functions), "in the same order");
     }
 
     #[test]

@@ -34,7 +34,7 @@ pub fn section(chapter: &Chapter, language: Language) -> String {
     let axes = if solutions.iter().any(|s| legend(s, language).is_some()) { axes } else { "" };
     let mut out = HEADINGS[language as usize].to_owned() + "\n\n";
     out += &format!("{}\n", wrapped(&format!("{intro}{axes}"), language));
-    for ((number, exercise), solution) in (1..).zip(chapter.exercises).zip(solutions) {
+    for ((number, exercise), solution) in (1..).zip(&chapter.exercises).zip(solutions) {
         let question = exercise.question_with_form(language, &solution);
         out += &format!("\n{}", wrapped(&format!("**{number}.** {question}"), language));
         if !exercise.choices.is_empty() {
@@ -65,7 +65,7 @@ fn wrapped(text: &str, language: Language) -> String {
 #[must_use]
 pub fn choices(exercise: &Exercise, language: Language) -> Vec<String> {
     let choices = exercise.choices.iter().enumerate();
-    choices.map(|(i, &text)| format!("{}) {}", letter(i), language.of(text))).collect()
+    choices.map(|(i, text)| format!("{}) {}", letter(i), language.of(text))).collect()
 }
 
 /// The pixel grids of a solution beside each other, or nothing.
