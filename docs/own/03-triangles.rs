@@ -49,7 +49,7 @@ pub fn stage3() -> RgbImage {
     let mut picture = empty();
     let rim = |i: usize| {
         let angle = i as f64 * std::f64::consts::TAU / 12.0;
-        let place = |centre: f64, part: f64| ((centre + 50.0 * part) * STEPS as f64) as i64;
+        let place = |centre: f64, part: f64| ((centre + 50.0 * part) * STEPS as f64).round() as i64;
         [place(80.5, angle.cos()), place(60.5, angle.sin())]
     };
     let centre = [80 * STEPS + STEPS / 2, 60 * STEPS + STEPS / 2];

@@ -44,7 +44,10 @@ fn marked(text: &str) -> Result<Vec<(&str, Range<usize>)>, String> {
             let names = names.split(' ').chain(std::iter::repeat("-"));
             let places = numbers(words).map(|place| from + place.start..from + place.end);
             found.extend(names.zip(places).filter(|(name, _)| *name != "-"));
-        } else if !text[at..].starts_with(END) {
+        } else if !text[at..].starts_with(END)
+            && !comment.starts_with(" code ")
+            && comment != " end of code "
+        {
             return Err(format!("'<!--{comment}' is no marker"));
         }
     }

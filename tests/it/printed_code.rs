@@ -8,7 +8,7 @@
 //! ```
 //!
 //! What follows the path is the beginning of the item's line in the file: `fn walk`, `pub enum Effect`, or
-//! `impl EdgeWalk > fn step` for an item inside another one. `RASTERPROOF_RENEW=1 cargo test --test it
+//! `impl EdgeWalk > fn step` for an item inside another one. A path alone prints the whole file. `RASTERPROOF_RENEW=1 cargo test --test it
 //! printed_code` writes the code into the pages.
 
 use std::fs;
@@ -61,9 +61,10 @@ fn item(source: &str, name: &str) -> Option<String> {
 
 /// The code that a mark asks for: a path, and names of items, each inside the one before.
 fn code(mark: &str) -> Result<String, String> {
-    let (path, names) = mark.split_once(' ').ok_or("no item is named")?;
+    let (path, names) = mark.split_once(' ').map_or((mark, None), |(path, n)| (path, Some(n)));
     let source = fs::read_to_string(root().join(path)).map_err(|error| error.to_string())?;
-    names.split(" > ").try_fold(source, |source, name| {
+    let whole = source.trim_end().to_owned();
+    names.into_iter().flat_map(|names| names.split(" > ")).try_fold(whole, |source, name| {
         item(&source, name).ok_or_else(|| format!("no line begins with '{name}'"))
     })
 }
