@@ -330,7 +330,7 @@ const FLOATS: [&str; 4] = ["f32 accumulated", "f32 direct", "f64 accumulated", "
 fn board(heading: &str, title: &str) -> (Vec<String>, BTreeMap<String, Vec<f64>>) {
     const NAME: usize = 16;
     let text = page("docs", "cost");
-    let (_, section) = text.split_once(&format!("\n## {heading}\n")).expect("a heading");
+    let (_, section) = text.split_once(&format!("# {heading}\n")).expect("a heading");
     let lines = section.lines().skip_while(|line| !line.starts_with(title)).skip(1);
     let is_head = |line: &str| line.starts_with(&" ".repeat(NAME));
     // A long title goes on in the next line, further in.
