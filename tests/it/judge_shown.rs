@@ -17,14 +17,14 @@ use rasterproof_verify::cases::near_plane::clip_corners;
 
 #[cfg(target_os = "linux")]
 use crate::judge::is_gone;
-use crate::judge::{check, judged, of, options, property};
+use crate::judge::{judged, of, options, property};
+use crate::program::{PROGRAM, check};
 
 /// Where nothing is expected, who draws nothing does not agree: there was no judgement.
 #[test]
 fn judge_refuses_an_empty_case() {
     let families = ["--family", "half-integer", "--declare", "range=1", "--declare", "window=1x1"];
-    let (_, errors) = check(&of(&families, &["scanline"]), 2);
-    assert!(errors.contains("no pixel was expected"), "{errors}");
+    check(&of(&families, &["scanline"]), 2).says("no pixel was expected");
     check(&of(&["--family", "degenerate"], &["scanline"]), 0);
 }
 
@@ -91,9 +91,9 @@ fn judge_pictures_every_stage() {
 #[test]
 fn judge_ends_what_left_its_group() {
     let line = "setsid sleep 600 & echo child $! >&2; exec \"$0\" engine scanline";
-    let program = env!("CARGO_BIN_EXE_rasterproof");
+    let program = PROGRAM;
     let words = ["judge", "--cases", "8", "--family", "tiny", "--", "sh", "-c", line, program];
-    let (out, _) = check(&words, 0);
+    let out = check(&words, 0).out;
     let pid = out.lines().find_map(|line| line.trim().strip_prefix("| child ")).unwrap();
     assert!(is_gone(pid), "{pid} lives on");
 }

@@ -35,6 +35,7 @@ mod pages;
 mod plans;
 mod playground;
 mod playground_hands;
+mod program;
 mod proof;
 mod properties;
 mod protocol;
