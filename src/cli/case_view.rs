@@ -25,7 +25,6 @@ use rasterproof_verify::oracle::coverage::samples_on_boundary;
 pub struct Contestants {
     /// Rasterizers, with the bounds of their values.
     pub engines: Vec<(Engine, Tolerance)>,
-    /// Line drawers.
     pub lines: Vec<LineEngine>,
     /// Rasterizers of corners that are not snapped.
     pub exact: Vec<ExactEngine>,
@@ -95,7 +94,6 @@ pub struct Shown {
     target: Coverage,
 }
 
-/// Draws a case with each engine that can.
 pub fn draw(case: &Case, engines: &[(Engine, Tolerance)], lines: &[LineEngine]) -> Shown {
     match &case.shape {
         Shape::Triangles { list, .. } => Shown {
@@ -152,7 +150,6 @@ impl Shown {
         tally
     }
 
-    /// Whether nobody draws the case.
     pub fn is_empty(&self) -> bool {
         self.engines.is_empty()
     }

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use super::course_grade::{self, BuildLimits, GradeArguments};
 use super::progress::Progress as Shown;
-use super::{Failure, Streams, exit, usage, write_file};
+use super::{Status, Streams, exit, usage, write_file};
 use rasterproof_host::shell::quote;
 use rasterproof_host::text::printable_path;
 
@@ -29,7 +29,6 @@ pub const HELP: &str = "Examples:
 Programs are run with your rights: docs/course.md says what they may do.
 Exit status: 0 passed, 1 not passed, 2 the command, the program or course.toml cannot be used.";
 
-/// Options of `course`.
 #[derive(clap::Args, Debug)]
 pub struct CourseArguments {
     #[command(subcommand)]
@@ -79,7 +78,7 @@ struct CheckArguments {
     command: Vec<String>,
 }
 
-pub fn run(arguments: &CourseArguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+pub fn run(arguments: &CourseArguments, streams: &mut Streams<'_>) -> Status {
     match &arguments.command {
         None => list(streams),
         Some(CourseCommand::Start { language, folder }) => start(*language, folder, streams),
@@ -89,7 +88,7 @@ pub fn run(arguments: &CourseArguments, streams: &mut Streams<'_>) -> Result<u8,
 }
 
 /// The steps; those passed are marked where there is a progress file.
-fn list(streams: &mut Streams<'_>) -> Result<u8, Failure> {
+fn list(streams: &mut Streams<'_>) -> Status {
     let progress = Progress::read(Path::new(".")).map_err(usage)?;
     let out = &mut *streams.output;
     for step in &STEPS {
@@ -115,7 +114,7 @@ fn list(streams: &mut Streams<'_>) -> Result<u8, Failure> {
     Ok(exit::AGREES)
 }
 
-fn start(language: Language, folder: &Path, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+fn start(language: Language, folder: &Path, streams: &mut Streams<'_>) -> Status {
     let (build, run) = starters::commands(language);
     let progress = Progress::new(build, run);
     let files = starters::files(language);
@@ -137,7 +136,7 @@ fn start(language: Language, folder: &Path, streams: &mut Streams<'_>) -> Result
     Ok(exit::AGREES)
 }
 
-fn run_check(arguments: &CheckArguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+fn run_check(arguments: &CheckArguments, streams: &mut Streams<'_>) -> Status {
     let found = Progress::read(&arguments.dir).map_err(usage)?;
     let mut progress = match (found, arguments.command.is_empty()) {
         (Some(found), _) => found,

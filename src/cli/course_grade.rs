@@ -9,7 +9,7 @@ use rasterproof_host::limits;
 use serde_json::{Value, json};
 
 use super::progress::Progress as Shown;
-use super::{Failure, Streams, exit, usage};
+use super::{Failure, Status, Streams, exit, usage};
 use rasterproof_host::text::printable_path;
 use rasterproof_judge::process::{Limits, Program};
 use rasterproof_judge::process_group;
@@ -31,7 +31,6 @@ in a container. A submission that cannot be read, built or started has no points
 printed.
 Exit status: 0 every step passed, 1 not, 2 nothing could be judged.";
 
-/// What to print.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 enum Format {
     /// For people.
@@ -42,7 +41,6 @@ enum Format {
     Gradescope,
 }
 
-/// Options of `course --grade`.
 #[derive(clap::Args, Debug)]
 pub struct GradeArguments {
     /// Grade every folder in this one
@@ -116,7 +114,6 @@ struct Submission {
     run: Vec<OsString>,
 }
 
-/// What a submission got.
 struct Grade {
     name: String,
     /// For each step whether it is passed, and what came of it as text.
@@ -136,7 +133,7 @@ impl Grade {
     }
 }
 
-pub fn run(arguments: &GradeArguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+pub fn run(arguments: &GradeArguments, streams: &mut Streams<'_>) -> Status {
     if arguments.folder.is_some() && arguments.format == Format::Gradescope {
         return Err(usage(
             "results.json is of one submission\n  name a program: course --grade --format gradescope CMD",

@@ -26,7 +26,6 @@ enum Loss {
     Nothing,
     /// The reader has seen enough, as in `rasterproof list | head`.
     Unread,
-    /// Something could not be written.
     Failed,
 }
 

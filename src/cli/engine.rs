@@ -2,7 +2,7 @@
 
 use clap::builder::PossibleValue;
 
-use super::{Failure, Streams, exit};
+use super::{Failure, Status, Streams, exit};
 use rasterproof_faults::planted::Mutant;
 use rasterproof_faults::planted::exact::ExactMutant;
 use rasterproof_judge::server;
@@ -28,7 +28,7 @@ pub(super) fn find(name: &str) -> Result<Entry, Failure> {
         .ok_or_else(|| super::usage(format!("no engine is called '{name}'; see: rasterproof list")))
 }
 
-pub fn run(name: &str, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+pub fn run(name: &str, streams: &mut Streams<'_>) -> Status {
     server::serve(&find(name)?, &mut *streams.input, streams.output)?;
     Ok(exit::AGREES)
 }

@@ -11,7 +11,7 @@ use super::files::{Use, distinct};
 use super::inspect_case::{CaseArguments, Found, find, parse_pixel, recorded, words};
 use super::page::{PageArguments, as_file, save_page};
 use super::typed::Typed;
-use super::{Failure, Streams, exit, explain, png_name, program, usage, write_unasked};
+use super::{Failure, Status, Streams, exit, explain, png_name, program, usage, write_unasked};
 use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::{FreeCorners, PixelPoint};
 use rasterproof_faults::published::bare;
@@ -25,7 +25,6 @@ use rasterproof_verify::cases::{Case, Shape};
 use rasterproof_verify::comparison::unsnapped::{describe, exact_coverage, judge_exact_case};
 use rasterproof_verify::comparison::{Finding, Tally, oracle_pixels_each};
 
-/// Options of `inspect`.
 #[derive(clap::Args, Debug)]
 #[command(after_help = "Examples:
   rasterproof inspect T2
@@ -118,11 +117,7 @@ fn no_part(plant: Option<&String>) -> Failure {
     usage(format!("{name} is in no engine that draws this case. See: {} list", program()))
 }
 
-pub fn run(
-    arguments: &InspectArguments,
-    command: &Typed,
-    streams: &mut Streams<'_>,
-) -> Result<u8, Failure> {
+pub fn run(arguments: &InspectArguments, command: &Typed, streams: &mut Streams<'_>) -> Status {
     if let Some(path) = &arguments.output {
         png_name(path)?;
         let page = arguments.page.page("inspect.html");
@@ -248,7 +243,6 @@ fn say_findings(
     Ok(agrees)
 }
 
-/// The name of the case on its page.
 fn name(arguments: &InspectArguments) -> String {
     let what = words(&arguments.case);
     let shapes = if arguments.case.line { "lines" } else { "triangles" };
@@ -338,7 +332,7 @@ fn off_grid_alone(
     title: &str,
     mut case: OffGridCase,
     streams: &mut Streams<'_>,
-) -> Result<u8, Failure> {
+) -> Status {
     let exact = Contestants::new(arguments.plant.as_deref()).exact;
     if exact.is_empty() {
         return Err(no_part(arguments.plant.as_ref()));
@@ -454,11 +448,7 @@ fn off_grid(
     Ok((agrees, panels::of_off_grid(title, case, &drawn, &target).image))
 }
 
-fn refused(
-    title: &str,
-    corners: &[[[f64; 2]; 3]],
-    out: &mut dyn std::io::Write,
-) -> Result<u8, Failure> {
+fn refused(title: &str, corners: &[[[f64; 2]; 3]], out: &mut dyn std::io::Write) -> Status {
     writeln!(out, "{title}")?;
     let mut all = true;
     for triangle in corners {

@@ -34,7 +34,6 @@ pub(super) struct CaseArguments {
     pub seed: u64,
 }
 
-/// What the words name.
 pub(super) enum Found {
     /// A case on the lattice; `typed` are its corners as they were typed, if they were.
     Case {

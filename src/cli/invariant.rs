@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use super::progress::Progress;
-use super::{Failure, Streams, exit, program, write_entry};
+use super::{Failure, Status, Streams, exit, program, write_entry};
 use rasterproof_faults::planted::{self, Mutant};
 use rasterproof_invariants::matrix::{self, Matrix};
 use rasterproof_invariants::subject::Subject;
@@ -27,7 +27,7 @@ pub fn run(
     seed: u64,
     cases: Option<u64>,
     streams: &mut Streams<'_>,
-) -> Result<u8, Failure> {
+) -> Status {
     let cases = cases.unwrap_or(CASES);
     let subject = match plant.and_then(Mutant::find) {
         Some(mutant) => Subject::with(mutant),
@@ -145,7 +145,6 @@ fn judge(
     Ok(())
 }
 
-/// Options of `mutants`.
 #[derive(clap::Args, Debug)]
 pub struct MutantsArguments {
     /// The matrix, too: a row for each fault, a column for each invariant
@@ -154,7 +153,7 @@ pub struct MutantsArguments {
 }
 
 /// Prints whether each invariant kills a mutant and each mutant dies, then every mutant.
-pub fn mutants(arguments: &MutantsArguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+pub fn mutants(arguments: &MutantsArguments, streams: &mut Streams<'_>) -> Status {
     let rows = Mutant::all().len() as u64;
     let progress = Progress::new(streams.progress, "faults", Some(rows));
     let matrix = Matrix::compute(matrix::SEED, matrix::CASES, &|| progress.done(1));

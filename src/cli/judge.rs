@@ -10,7 +10,7 @@ use super::files::{Use, distinct};
 use super::page::{PageArguments, as_file, write_page};
 use super::progress::Progress;
 use super::typed::Typed;
-use super::{Failure, Streams, exit, league, usage};
+use super::{Status, Streams, exit, league, usage};
 use rasterproof_judge::ask::Ask;
 use rasterproof_judge::baseline::Baseline;
 use rasterproof_judge::process::{Limits, Program};
@@ -30,7 +30,6 @@ Examples:
 
 Exit status: 0 agrees, 1 disagrees, 2 the program or the command cannot be used.";
 
-/// Options of `judge`.
 #[derive(clap::Args, Debug)]
 pub struct JudgeArguments {
     /// Cases of each family
@@ -87,7 +86,6 @@ pub struct JudgeArguments {
     command: Vec<String>,
 }
 
-/// The formats by their names.
 fn format_words() -> impl TypedValueParser<Value = Format> {
     let words = Format::ALL.map(|(word, _, help)| PossibleValue::new(word).help(help));
     PossibleValuesParser::new(words).map(|chosen| {
@@ -133,11 +131,7 @@ impl JudgeArguments {
     }
 }
 
-pub fn run(
-    arguments: &JudgeArguments,
-    typed: &Typed,
-    streams: &mut Streams<'_>,
-) -> Result<u8, Failure> {
+pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>) -> Status {
     let limits = Limits { answer: arguments.timeout, start: arguments.start_timeout };
     if let Some(names) = &arguments.league {
         return league::run(names, &arguments.options(), limits, streams);

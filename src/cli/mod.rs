@@ -39,6 +39,7 @@ use std::fmt;
 use std::io::{self, BufRead, Write};
 use std::path::Path;
 
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 use delivery::Delivered;
 pub use delivery::Delivery;
@@ -50,7 +51,6 @@ use typed::Typed;
 use rasterproof_registry::engines;
 use rasterproof_verify::cases;
 
-/// Exit codes.
 pub mod exit {
     /// Everything agrees.
     pub const AGREES: u8 = 0;
@@ -152,7 +152,6 @@ enum Command {
 pub enum Failure {
     /// A message for standard error; exit status 2.
     Usage(String),
-    /// Reading or writing failed.
     Io(io::Error),
 }
 
@@ -171,17 +170,27 @@ impl fmt::Display for Failure {
     }
 }
 
-fn usage(message: impl Into<String>) -> Failure {
-    Failure::Usage(message.into())
+/// The exit status of a command, or why it has none.
+type Status = Result<u8, Failure>;
+
+fn usage(message: impl ToString) -> Failure {
+    Failure::Usage(message.to_string())
 }
 
-/// Where a command reads and writes.
+/// A parser that takes one of these words for the value beside it.
+fn one_of<T: Clone + Send + Sync>(
+    choices: &'static [(&'static str, T)],
+) -> impl TypedValueParser<Value = T> {
+    let words = PossibleValuesParser::new(choices.iter().map(|(word, _)| *word));
+    words.try_map(|word| {
+        let found = choices.iter().find(|(choice, _)| **choice == word);
+        found.map(|(_, value)| value.clone()).ok_or("no such word")
+    })
+}
+
 pub struct Streams<'a> {
-    /// Standard input.
     pub input: &'a mut dyn BufRead,
-    /// Standard output.
     pub output: &'a mut dyn Write,
-    /// Standard error.
     pub errors: &'a mut dyn Write,
     /// Whether a progress bar may be drawn on the terminal.
     pub progress: bool,
@@ -366,7 +375,7 @@ fn report_loss(output: &Delivered<'_>, errors: &mut dyn Write) {
     }
 }
 
-fn dispatch(command: &Command, typed: &Typed, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+fn dispatch(command: &Command, typed: &Typed, streams: &mut Streams<'_>) -> Status {
     match command {
         Command::Verify(arguments) => verify::run(arguments, typed, streams),
         Command::Inspect(arguments) => inspect::run(arguments, typed, streams),
@@ -402,7 +411,7 @@ pub fn quiet_engines() {
     });
 }
 
-fn list(streams: &mut Streams<'_>) -> Result<u8, Failure> {
+fn list(streams: &mut Streams<'_>) -> Status {
     let out = &mut streams.output;
     writeln!(out, "Families (rasterproof --family NAME, rasterproof inspect NAME#NUMBER):")?;
     for family in cases::families() {
@@ -442,7 +451,7 @@ fn write_entry(out: &mut dyn Write, name: &str, about: &str) -> io::Result<()> {
 
 /// Writes a file whole or not at all.
 fn write_file(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    output::write(path, bytes).map_err(|error| usage(error.to_string()))
+    output::write(path, bytes).map_err(usage)
 }
 
 /// A whole number from zero.

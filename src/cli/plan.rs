@@ -8,7 +8,7 @@ use super::plan_table::{grouped, plan_rows};
 use super::progress::Progress;
 use super::render::SceneArguments;
 use super::typed::Typed;
-use super::{Failure, Streams, exit, usage};
+use super::{Failure, Status, Streams, exit, usage};
 use rasterproof_registry::engines::Drawer;
 use rasterproof_render::effects::plan::{Plan, SceneDigest};
 use rasterproof_render::effects::render::Rendered;
@@ -31,21 +31,8 @@ the last one to be planned, against a frame that plans all others. Planning time
 The pictures have the same bits, or the exit status is 1. --json holds the plan itself, which
 can be edited and drawn: rasterproof render SCENE --plan FILE.";
 
-/// Arguments of `plan`.
-#[derive(clap::ValueEnum, Clone, Copy, Debug)]
-enum Rasterizer {
-    Scanline,
-    EdgeFunction,
-}
-
-impl From<Rasterizer> for Drawer {
-    fn from(rasterizer: Rasterizer) -> Self {
-        match rasterizer {
-            Rasterizer::Scanline => Self::Scanline,
-            Rasterizer::EdgeFunction => Self::EdgeFunction,
-        }
-    }
-}
+const RASTERIZERS: &[(&str, Drawer)] =
+    &[("scanline", Drawer::Scanline), ("edge-function", Drawer::EdgeFunction)];
 
 #[derive(clap::Args, Debug)]
 #[command(after_help = HELP)]
@@ -53,8 +40,8 @@ pub struct PlanArguments {
     #[command(flatten)]
     what: SceneArguments,
     /// The rasterizer
-    #[arg(long, value_enum, default_value_t = Rasterizer::Scanline)]
-    engine: Rasterizer,
+    #[arg(long, default_value = "scanline", value_parser = super::one_of(RASTERIZERS))]
+    engine: Drawer,
     /// Rounds of measuring, each with every mixture of effects in turn
     #[arg(long, default_value_t = 9, value_parser = clap::value_parser!(u32).range(1..=1000))]
     rounds: u32,
@@ -68,9 +55,7 @@ pub struct PlanArguments {
 /// One mixture of effects, measured.
 #[derive(serde::Serialize)]
 struct Measured {
-    /// The mixture, for people.
     effects: String,
-    /// How often.
     rounds: usize,
     /// Median of the rounds.
     time_us: f64,
@@ -112,7 +97,6 @@ fn is_noise(a: &Measured, b: &Measured) -> bool {
     a.rounds.min(b.rounds) < FEWEST_ROUNDS || a0 <= b1 && b0 <= a1
 }
 
-/// Everything measured.
 #[derive(serde::Serialize)]
 struct Savings {
     everything: Measured,
@@ -167,11 +151,7 @@ impl Savings {
     }
 }
 
-pub fn run(
-    arguments: &PlanArguments,
-    typed: &Typed,
-    streams: &mut Streams<'_>,
-) -> Result<u8, Failure> {
+pub fn run(arguments: &PlanArguments, typed: &Typed, streams: &mut Streams<'_>) -> Status {
     let maker = arguments.what.maker(streams.errors)?;
     let scene = maker.scene(0.0);
     let (measured, everything, planned) = measure(arguments, &scene, streams.progress)?;
@@ -226,9 +206,7 @@ fn measure(
             let i = if round == 0 { k } else { (k + round as usize) % mixtures.len() };
             let effects = &mixtures[i].1;
             let start = Instant::now();
-            let rendered = Drawer::from(arguments.engine)
-                .render(scene, effects, &mut target)
-                .map_err(|error| usage(error.to_string()))?;
+            let rendered = arguments.engine.render(scene, effects, &mut target).map_err(usage)?;
             let time = start.elapsed();
             if round == 0 {
                 frames.push(rendered);

@@ -8,7 +8,6 @@ use rasterproof_report::html::PlanRow;
 pub(super) struct Line<'a> {
     pub effect: Effect,
     pub reason: &'a str,
-    /// What the counts count.
     pub unit: Unit,
     /// On, off, open.
     pub counts: [u64; 3],

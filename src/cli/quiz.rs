@@ -7,11 +7,10 @@ use clap::ValueEnum;
 use rasterproof_host::text::{printable, printable_path};
 use rasterproof_host::{input, limits};
 
-use super::{Failure, Streams, exit, usage};
+use super::{Failure, Status, Streams, exit, usage};
 use rasterproof_teaching::quiz::page::{TERMINAL_COLUMNS, choices, grids, legend, wrap};
 use rasterproof_teaching::quiz::{CHAPTERS, Chapter, Exercise, Language, chapter, order};
 
-/// Options of `quiz`.
 #[derive(clap::Args, Debug)]
 #[command(
     after_help = "Answers: a letter or number of a choice, a pixel such as 3,3, or a number such as 0.25 or 1/4.
@@ -52,8 +51,7 @@ struct Score {
     right: usize,
 }
 
-/// Runs the command.
-pub fn run(arguments: &QuizArguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+pub fn run(arguments: &QuizArguments, streams: &mut Streams<'_>) -> Status {
     let language = match arguments.language {
         Words::En => Language::English,
         Words::Zh => Language::Chinese,
@@ -101,11 +99,7 @@ fn unknown(word: &str) -> Failure {
     usage(format!("there is no chapter '{word}' with exercises; give one of {}", words.join(", ")))
 }
 
-fn list(
-    chapters: &[&Chapter],
-    language: Language,
-    streams: &mut Streams<'_>,
-) -> Result<u8, Failure> {
+fn list(chapters: &[&Chapter], language: Language, streams: &mut Streams<'_>) -> Status {
     for chapter in chapters {
         let head = format!("{:>9}  {}", chapter.word(), language.of(&chapter.title));
         writeln!(streams.output, "{head} ({})", chapter.exercises.len())?;
@@ -131,7 +125,6 @@ struct Quiz<'a> {
     language: Language,
 }
 
-/// The words of the dialogue.
 struct Phrases {
     right: &'static str,
     wrong: &'static str,
@@ -144,7 +137,7 @@ const PHRASES: [Phrases; 2] = [
 ];
 
 impl Quiz<'_> {
-    fn ask_all(&mut self, asked: &[(&Chapter, &Exercise)]) -> Result<u8, Failure> {
+    fn ask_all(&mut self, asked: &[(&Chapter, &Exercise)]) -> Status {
         let mut score = Score::default();
         for (i, &(chapter, exercise)) in asked.iter().enumerate() {
             let name = chapter.name(self.language);

@@ -80,7 +80,6 @@ impl Typed {
         typed
     }
 
-    /// The same without these options.
     pub fn without(mut self, options: &[&str]) -> Self {
         self.options.retain(|(name, _)| !options.contains(&name.as_str()));
         self

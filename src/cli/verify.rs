@@ -10,7 +10,7 @@ use super::case_view::{self, Contestants};
 use super::page::{PageArguments, write_page};
 use super::progress::Progress;
 use super::typed::Typed;
-use super::{Failure, Streams, exit, invariant, program, usage, write_unasked};
+use super::{Failure, Status, Streams, exit, invariant, program, usage, write_unasked};
 use rasterproof_registry::engines::{Engine, ExactEngine, LineEngine};
 use rasterproof_report::html::Report;
 use rasterproof_report::{ascii, counts, json, page_cases, picture, summary, table};
@@ -19,7 +19,6 @@ use rasterproof_verify::comparison::tolerance::Tolerance;
 use rasterproof_verify::comparison::unsnapped::{self, ExactVerdict};
 use rasterproof_verify::comparison::{self, Options, Verdict};
 
-/// Options of `verify`.
 #[derive(clap::Args, Debug)]
 pub struct VerifyArguments {
     /// Cases of each family [default: 20000]
@@ -156,23 +155,17 @@ impl VerifyArguments {
     }
 }
 
-/// The command that repeats one case.
 fn repeat(typed: &Typed, seed: u64, (family, index): (&str, u64)) -> String {
     let one = typed.clone().without_output().without(&["cases", "seconds", "shard"]);
     one.set("seed", seed).first("case", index).first("family", family).line()
 }
 
-/// The command that repeats the run.
 fn repeat_all(typed: &Typed, seed: u64, cases: u64) -> Typed {
     typed.clone().without(&["seconds"]).first("cases", cases).first("seed", seed)
 }
 
 /// Judges, prints, and writes what was asked for.
-pub fn run(
-    arguments: &VerifyArguments,
-    typed: &Typed,
-    streams: &mut Streams<'_>,
-) -> Result<u8, Failure> {
+pub fn run(arguments: &VerifyArguments, typed: &Typed, streams: &mut Streams<'_>) -> Status {
     if !arguments.invariant.is_empty() {
         let VerifyArguments { invariant: names, plant, seed, cases, .. } = arguments;
         return invariant::run(names, plant.as_deref(), *seed, *cases, streams);
@@ -218,13 +211,8 @@ pub fn run(
     Ok(if verdict.agrees() && off_grid.agrees() { exit::AGREES } else { exit::DISAGREES })
 }
 
-/// Judges a Vulkan device, alone.
 #[cfg(feature = "vulkan")]
-fn on_a_device(
-    arguments: &VerifyArguments,
-    options: Options,
-    streams: &mut Streams<'_>,
-) -> Result<u8, Failure> {
+fn on_a_device(arguments: &VerifyArguments, options: Options, streams: &mut Streams<'_>) -> Status {
     let [engine] = &arguments.engine[..] else {
         return Err(usage("a Vulkan device is judged alone: name one --engine"));
     };

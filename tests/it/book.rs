@@ -384,7 +384,6 @@ fn clip_overflows(bug: &Value) -> usize {
     }
 }
 
-/// A C99 hex float.
 fn hex(word: &str) -> f64 {
     let (sign, digits) = word.strip_prefix('-').map_or((1.0, word), |rest| (-1.0, rest));
     let (mantissa, exponent) = digits.trim_start_matches("0x").split_once('p').unwrap();

@@ -40,7 +40,6 @@ fn plan(folder: &Folder, words: &[&str]) -> Value {
     serde_json::from_str::<Value>(&out).unwrap()["plan"].take()
 }
 
-/// Draws by a plan.
 fn render(folder: &Folder, plan: &Value, words: &[&str]) -> Run {
     fs::write(folder.join("plan.json"), plan.to_string()).unwrap();
     let words = [&["render", "--plan", "plan.json", "-o", "a.png", "--size", "160x120"], words];

@@ -108,7 +108,6 @@ pub fn shared() -> &'static Folder {
     &SHARED
 }
 
-/// A command that has ended.
 #[derive(Debug)]
 pub struct Run {
     command: String,

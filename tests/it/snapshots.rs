@@ -66,7 +66,6 @@ pub fn each<T>(items: impl IntoIterator<Item = T>, check: impl Fn(T)) {
     std::assert!(failed.is_empty(), "{}\n{count} of them fail.\n{NEXT}", messages.join("\n"));
 }
 
-/// Keeps a text as a snapshot.
 pub fn check_words(name: &str, words: &str) {
     each([words], |words| settings().bind(|| insta::assert_snapshot!(name, words)));
 }

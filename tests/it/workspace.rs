@@ -227,7 +227,6 @@ fn links_lead_somewhere() {
     assert_eq!(broken_links(&page, made).len(), 1);
 }
 
-/// What stands in backticks.
 fn quoted(text: &str) -> impl Iterator<Item = &str> {
     text.lines().flat_map(|line| line.split('`').skip(1).step_by(2))
 }

@@ -23,7 +23,6 @@ pub struct Lock {
 }
 
 impl Lock {
-    /// The file that is the lock of `path`.
     #[must_use]
     pub fn file_of(path: &Path) -> PathBuf {
         let mut name = place(path).into_os_string();

@@ -17,44 +17,34 @@ pub const LETTER: f64 = 8.0;
 /// Picture pixels of a unit.
 const ZOOM: u32 = 2;
 
-/// A colour.
 pub type Ink = [u8; 3];
 
 /// Something drawn, y down.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
-    /// A straight line.
     Line {
         from: [f64; 2],
         to: [f64; 2],
         width: f64,
-        /// Colour.
         ink: Ink,
     },
-    /// A filled box.
     Box {
         /// Left and top.
         at: [f64; 2],
         /// Width and height.
         size: [f64; 2],
-        /// Colour.
         ink: Ink,
     },
-    /// A filled circle.
     Disc {
-        /// Centre.
         at: [f64; 2],
         radius: f64,
-        /// Colour.
         ink: Ink,
     },
     /// A circle 2 units wide.
     Ring {
-        /// Centre.
         at: [f64; 2],
         /// Radius of the middle of the line.
         radius: f64,
-        /// Colour.
         ink: Ink,
     },
     /// A line of text, its middle height at y.
@@ -62,7 +52,6 @@ pub enum Shape {
         /// Left end, middle height.
         at: [f64; 2],
         text: String,
-        /// Colour.
         ink: Ink,
     },
 }
@@ -72,7 +61,6 @@ pub enum Shape {
 pub struct Drawing {
     /// What it shows, for those who cannot see it.
     pub title: String,
-    /// Width and height.
     pub size: [f64; 2],
     /// From back to front.
     pub shapes: Vec<Shape>,
@@ -95,13 +83,11 @@ impl Drawing {
     }
 }
 
-/// Width of a line of text.
 #[must_use]
 pub fn width(text: &str) -> f64 {
     text.chars().count() as f64 * LETTER
 }
 
-/// The drawing as an SVG file.
 #[must_use]
 pub fn svg(drawing: &Drawing) -> String {
     let [width, height] = drawing.size;

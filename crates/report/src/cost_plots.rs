@@ -185,7 +185,6 @@ impl Axis {
     }
 }
 
-/// A number on an axis.
 fn tick(value: f64) -> String {
     if (0.001..99_999.0).contains(&value) { format!("{value}") } else { format!("{value:.0e}") }
 }

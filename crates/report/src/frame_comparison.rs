@@ -37,10 +37,8 @@ pub fn png(picture: &Frame<Colour>) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// Two frames, compared.
 #[derive(Clone, Debug, serde::Serialize)]
 pub struct Comparison {
-    /// Pixels compared.
     pub pixels: u64,
     /// Pixels whose colours differ by a bit.
     pub wrong_pixels: u64,
@@ -263,7 +261,6 @@ fn block_mean(
     image::Rgb(sum.map(|sum| (sum / count.max(1)).min(255) as u8))
 }
 
-/// A frame for machines.
 #[must_use]
 pub fn json(
     scene: &str,

@@ -48,7 +48,6 @@ const SCRIPT: &str = include_str!("page/page.js");
 /// What the page shows; sections that are empty are left out.
 #[derive(Clone, Debug, Default)]
 pub struct Report {
-    /// What was done, in a few words; the heading.
     pub title: String,
     /// The verdict, shown first.
     pub outcome: Option<Outcome>,
@@ -56,7 +55,6 @@ pub struct Report {
     pub command: String,
     /// Decides the generated cases, where there are any.
     pub seed: Option<u64>,
-    /// Sentences under the verdict.
     pub notes: Vec<String>,
     /// Counts and other tables, worst row first.
     pub tables: Vec<Table>,
@@ -64,7 +62,6 @@ pub struct Report {
     pub cases: Vec<CaseView>,
     /// Rendered pictures to compare.
     pub frames: Vec<PictureView>,
-    /// Plots.
     pub figures: Vec<Figure>,
     /// Effects that were on or off, and why.
     pub plan: Vec<PlanRow>,
@@ -74,12 +71,10 @@ pub struct Report {
     pub docs: String,
 }
 
-/// A verdict in a word and a sentence.
 #[derive(Clone, Debug, Default)]
 pub struct Outcome {
     /// Whether all is well; decides the colour.
     pub good: bool,
-    /// The word, such as AGREES.
     pub word: String,
     /// The plain sentence after it.
     pub sentence: String,
@@ -91,7 +86,6 @@ pub struct Table {
     pub caption: String,
     /// Columns from left to right.
     pub columns: Vec<Column>,
-    /// Rows from top to bottom.
     pub rows: Vec<Row>,
 }
 
@@ -118,10 +112,8 @@ impl Column {
     }
 }
 
-/// A row of a [`Table`].
 #[derive(Clone, Debug, Default)]
 pub struct Row {
-    /// A cell for each column.
     pub cells: Vec<String>,
     /// How it is set off.
     pub mark: Mark,
@@ -129,10 +121,8 @@ pub struct Row {
     pub search: Option<String>,
 }
 
-/// How a row is set off.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Mark {
-    /// Not at all.
     #[default]
     Plain,
     Wrong,
@@ -140,7 +130,6 @@ pub enum Mark {
     Sum,
 }
 
-/// A plot.
 #[derive(Clone, Debug, Default)]
 pub struct Figure {
     /// What it shows; also its text for who does not see it.
@@ -158,7 +147,6 @@ pub struct PlanRow {
     pub effect: String,
     pub is_on: bool,
     pub reason: String,
-    /// What was counted, name and number.
     pub counters: Vec<(String, String)>,
 }
 
@@ -171,7 +159,6 @@ pub struct TextDiff {
     pub command: String,
     /// Before; nothing where there was none.
     pub old: Option<String>,
-    /// Now.
     pub new: String,
 }
 
@@ -184,14 +171,11 @@ pub struct PictureView {
     /// The command that makes it, or nothing.
     pub command: String,
     pub chapter: Chapter,
-    /// The pictures; the first two are compared at first.
     pub layers: Vec<PictureLayer>,
 }
 
-/// One of the pictures of a [`PictureView`].
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct PictureLayer {
-    /// Who made it.
     pub name: String,
     png: String,
 }

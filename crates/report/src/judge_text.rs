@@ -268,7 +268,6 @@ pub fn picture(out: &mut String, drawn_by: &str, picture: &Pictured) {
     }
 }
 
-/// The verdict in a sentence.
 fn closing(verdict: &Verdict) -> String {
     let wrong = verdict.as_declared().wrong;
     let failing: Vec<_> =

@@ -25,7 +25,6 @@ use rasterproof_verify::comparison::{
     Tally, Verdict, engine_coverage, line_coverage, oracle_coverage,
 };
 
-/// A case as the page shows it.
 #[derive(Clone, Debug, Serialize)]
 pub struct CaseView {
     /// Its name; unique within the page, and its address.
@@ -34,7 +33,6 @@ pub struct CaseView {
     pub kind: Kind,
     /// What was found, in a sentence, or nothing.
     pub found: String,
-    /// The command that repeats it.
     pub command: String,
     pub chapter: Chapter,
     /// What the picture shows, where that is not the pixels of the case.
@@ -50,7 +48,6 @@ pub struct CaseView {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Kind {
-    /// Something disagrees.
     Failing,
     /// Its values came closest to a bound.
     Closest,
@@ -101,11 +98,8 @@ type Drawn = (String, Role, Result<Coverage, String>);
 /// Who is judged, besides those that are always shown.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Judged<'a> {
-    /// Rasterizers.
     pub engines: &'a [Engine],
-    /// Line drawers.
     pub lines: &'a [LineEngine],
-    /// Rasterizers of corners off the lattice.
     pub exact: &'a [ExactEngine],
 }
 

@@ -42,10 +42,8 @@ const KEY: &str = "rasterproof-panels";
 /// What an engine draws, under its name.
 pub type Drawn = (String, Coverage);
 
-/// Where a panel is on its sheet.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Panel {
-    /// Who draws there.
     pub name: String,
     /// Left and top in picture pixels.
     pub at: [u32; 2],
@@ -55,10 +53,8 @@ pub struct Panel {
     pub shown: PixelRect,
 }
 
-/// A sheet with its panels.
 #[derive(Clone, Debug)]
 pub struct Sheet {
-    /// The picture.
     pub image: RgbImage,
     /// Its panels, from left to right and down.
     pub panels: Vec<Panel>,
@@ -422,7 +418,6 @@ impl Sheet {
     }
 }
 
-/// A panel as a PNG remembers it.
 fn parsed(row: &str) -> Option<Panel> {
     let mut words = row.splitn(8, ' ');
     let mut number = || words.next()?.parse::<i32>().ok();

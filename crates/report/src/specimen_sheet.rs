@@ -43,7 +43,6 @@ const STRIP: u32 = 3 * PANEL + 4 * GAP;
 
 /// A sheet: the cards of one source, or of some of its chapters.
 pub struct Sheet {
-    /// Its name in file names.
     pub name: &'static str,
     title: &'static str,
     /// What the source of its cards begins with.
@@ -117,7 +116,6 @@ pub fn sheet(sheet: &Sheet) -> panels::Sheet {
     panels::Sheet { image: picture::stack(&all), panels }
 }
 
-/// All sheets, one under the other.
 #[must_use]
 pub fn contact_sheet() -> RgbImage {
     picture::stack(&SHEETS.each_ref().map(|s| sheet(s).image))

@@ -28,7 +28,6 @@ fn assert_chinese(sentence: &str) {
     assert!(said.ends_with('。'), "{said}");
 }
 
-/// Numbers from a seed.
 struct Dice(u64);
 
 impl Dice {

@@ -7,16 +7,13 @@ mod space;
 
 use std::fmt::Write as _;
 
-/// A diagram of the pages.
 #[derive(Clone, Copy, Debug)]
 pub struct Diagram {
     /// The file's name under `docs/figures/`, without its ending.
     pub name: &'static str,
-    /// The SVG as text.
     pub draw: fn() -> String,
 }
 
-/// Every diagram, in the order of the chapters.
 pub const ALL: [Diagram; 12] = [
     Diagram { name: "split", draw: coverage::split },
     Diagram { name: "edge-sign", draw: coverage::edge_sign },

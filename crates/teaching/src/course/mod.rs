@@ -15,7 +15,6 @@ use rasterproof_judge::adapt_case;
 use rasterproof_judge::check::Check;
 use rasterproof_verify::cases::{Case, Shape};
 
-/// A step of the course.
 #[derive(Debug)]
 pub struct Step {
     /// Its name on the command line.
@@ -36,12 +35,9 @@ impl PartialEq for Step {
     }
 }
 
-/// One kind of question about some families.
 #[derive(Debug)]
 pub struct Exercise {
-    /// The kind of question.
     pub check: Check,
-    /// Families whose cases are asked.
     pub families: &'static [&'static str],
     /// The convention it is judged by, in the protocol's words; what is not said is top-left at the
     /// centre of the pixel.
@@ -113,7 +109,6 @@ pub fn find(word: &str) -> Option<&'static Step> {
     STEPS.iter().enumerate().find(is_it).map(|(_, step)| step)
 }
 
-/// The number of a step, from 1.
 #[must_use]
 pub fn number(step: &Step) -> usize {
     STEPS.iter().position(|other| other.name == step.name).map_or(0, |at| at + 1)

@@ -80,7 +80,6 @@ impl Progress {
         Ok(progress)
     }
 
-    /// The text of the file.
     #[must_use]
     pub fn text(&self) -> String {
         // Strings, lists of them and a number: this cannot fail.
@@ -112,7 +111,6 @@ impl Progress {
         }
     }
 
-    /// Whether a step was passed.
     #[must_use]
     pub fn has_passed(&self, step: &Step) -> bool {
         self.passed.iter().any(|name| name == step.name)

@@ -31,7 +31,6 @@ pub fn text(step: &Step, outcome: &Outcome) -> String {
     out
 }
 
-/// A line, indented.
 #[must_use]
 pub fn indented(text: &str, indent: usize) -> String {
     format!("{:indent$}{}\n", "", text.trim_end())

@@ -30,30 +30,24 @@ use std::sync::LazyLock;
 use rasterproof_verify::cases::Rng;
 use serde::Deserialize;
 
-/// The same words in English and in Chinese.
 pub type Text = [String; 2];
 
 /// Computes the answer of an exercise from its choices.
 pub type Solve = fn(&[Text]) -> Solution;
 
-/// The languages of [`Text`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Language {
-    /// The first.
     English,
-    /// The second.
     Chinese,
 }
 
 impl Language {
-    /// The words in this language.
     #[must_use]
     pub fn of(self, text: &Text) -> &str {
         &text[self as usize]
     }
 }
 
-/// A question, and how its answer is found.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Exercise {
@@ -121,15 +115,12 @@ impl Exercise {
     }
 }
 
-/// The exercises of one page.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Chapter {
     /// The page's file under `docs/`, without its ending; `ch02` is also called `2`.
     pub page: String,
-    /// What the page is about.
     pub title: Text,
-    /// In the order of the page.
     #[serde(rename = "exercise")]
     pub exercises: Vec<Exercise>,
 }

@@ -18,7 +18,6 @@ use rasterproof_verify::oracle::Oracle;
 /// Three corners in pixels.
 pub type Px = [[f64; 2]; 3];
 
-/// Snapped corners.
 pub fn corners(triangle: Px) -> Corners {
     triangle.map(|[x, y]| SubpixelPoint::from_px(x, y).expect("exercises stay in the domain"))
 }
@@ -44,7 +43,6 @@ pub fn published(specimen: &dyn Published, triangles: &[Px], window: PixelRect) 
     hits
 }
 
-/// The hits of a pixel of the window.
 pub fn hits(coverage: &Coverage, [x, y]: [i32; 2]) -> u8 {
     coverage.get(x, y).expect("exercises ask of pixels of their window")
 }
