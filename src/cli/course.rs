@@ -91,17 +91,17 @@ pub fn run(arguments: &CourseArguments, streams: &mut Streams<'_>) -> Status {
 fn list(streams: &mut Streams<'_>) -> Status {
     let progress = Progress::read(Path::new(".")).map_err(usage)?;
     let out = &mut *streams.output;
-    for step in &STEPS {
+    for step in STEPS.iter() {
         let mark = match &progress {
             Some(progress) if progress.has_passed(step) => '+',
             Some(progress) if progress.current() == step => '>',
             _ => ' ',
         };
-        let (number, name, title) = (course::number(step), step.name, step.title);
+        let (number, name, title) = (course::number(step), &step.name, &step.title);
         writeln!(out, "{mark} {number:>2} {name:<14} {title} ({})", step.page)?;
-        out.write_all(indented(step.judged, 5).as_bytes())?;
+        out.write_all(indented(&step.judged, 5).as_bytes())?;
         let mut families: Vec<_> =
-            step.exercises.iter().flat_map(|e| e.families).copied().collect();
+            step.exercises.iter().flat_map(|e| &e.families).map(String::as_str).collect();
         families.sort_unstable();
         families.dedup();
         let families = format!("families: {}", families.join(", "));
@@ -158,7 +158,7 @@ fn run_check(arguments: &CheckArguments, streams: &mut Streams<'_>) -> Status {
     let step = match &arguments.step {
         None => progress.current(),
         Some(word) => course::find(word).ok_or_else(|| {
-            let names: Vec<_> = STEPS.iter().map(|step| step.name).collect();
+            let names: Vec<_> = STEPS.iter().map(|step| &*step.name).collect();
             usage(format!("no step is called '{word}'; there are {}", names.join(", ")))
         })?,
     };
@@ -186,7 +186,7 @@ fn run_check(arguments: &CheckArguments, streams: &mut Streams<'_>) -> Status {
             true => "all twelve steps are passed; next: rasterproof judge -- CMD\n".to_owned(),
             false => {
                 let next = progress.current();
-                let (number, title) = (course::number(next), next.title);
+                let (number, title) = (course::number(next), &next.title);
                 format!("next: step {number}, {title} ({}): {}", next.page, next.judged)
             }
         };

@@ -234,7 +234,7 @@ fn grade(submission: &Submission, arguments: &GradeArguments) -> Grade {
     match started(submission, &bounds, arguments.timeout) {
         Err(error) => grade.error = Some(error),
         Ok(mut program) => {
-            for step in &STEPS {
+            for step in STEPS.iter() {
                 let amount = Amount {
                     cases: arguments.cases,
                     seed: arguments.seed,

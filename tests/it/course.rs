@@ -43,7 +43,7 @@ const JUDGED: [(&str, &str, &str); 12] = [
 fn course_judges_every_step() {
     let folder = Folder::new("course-steps");
     let mut progress = None;
-    for ((name, right, planted), step) in JUDGED.iter().zip(&STEPS) {
+    for ((name, right, planted), step) in JUDGED.iter().zip(STEPS.iter()) {
         assert_eq!(*name, step.name);
         let words = ["check", name, "--cases", "64", "--", PROGRAM, "engine"];
         course(&folder, &[&words[..], &[planted]].concat(), 1)
@@ -52,7 +52,7 @@ fn course_judges_every_step() {
             .prints("hint 1: ")
             .omits("hint 2: ")
             .prints("request: ")
-            .prints(step.page)
+            .prints(&step.page)
             .prints("yours")
             .prints("expected");
         let Run { out, errors, .. } = course(&folder, &[&words[..], &[right]].concat(), 0);
@@ -152,7 +152,7 @@ fn course_starters_start() {
         let folder = Folder::new(&format!("course-{language}"));
         course(&folder, &["start", "--language", language, "mine"], 0);
         course(&folder, "check --dir mine", 1).prints("1 missing");
-        for step in &STEPS {
+        for step in STEPS.iter() {
             // Nothing is refused: every verb is there, and empty.
             let words = format!("check {} --dir mine --cases 20", step.name);
             let out = course(&folder, words, 1).omits("refused").out;
@@ -175,94 +175,17 @@ fn course_passes_a_students_code() {
     let folder = Folder::new("course-student");
     course(&folder, "start --language python", 0);
     let path = folder.join("starter.py");
-    let code = r#"
-def edge(a, b, x, y):
-    return (b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0])
-
-
-def inside(a, b, e):
-    return e > 0 or e == 0 and (b[1] < a[1] or b[1] == a[1] and b[0] > a[0])
-
-
-def weights(p, x, y):
-    """Of each corner; nothing where the point is not drawn."""
-    area = edge(p[0], p[1], p[2][0], p[2][1])
-    p = p if area > 0 else [p[0], p[2], p[1]]
-    e = [edge(p[i - 2], p[i - 1], x, y) for i in range(3)]
-    if area == 0 or not all(inside(p[i - 2], p[i - 1], e[i]) for i in range(3)):
-        return None
-    l = [value / abs(area) for value in e]
-    return l if area > 0 else [l[0], l[2], l[1]]
-
-
-def box(p, width, height):
-    for y in range(max(0, math.floor(min(c[1] for c in p))), min(height, math.ceil(max(c[1] for c in p)))):
-        for x in range(max(0, math.floor(min(c[0] for c in p))), min(width, math.ceil(max(c[0] for c in p)))):
-            yield x, y
-
-
-def line(x0, y0, x1, y1, width, height, set_pixel):
-    n = max(abs(x1 - x0), abs(y1 - y0))
-    for i in range(n + 1 if n < 10000 else 0):
-        set_pixel((2 * n * x0 + 2 * (x1 - x0) * i + n) // max(2 * n, 1) if n else x0,
-                  (2 * n * y0 + 2 * (y1 - y0) * i + n) // max(2 * n, 1) if n else y0)
-
-
-def triangle(x0, y0, x1, y1, x2, y2, width, height, set_pixel):
-    p = [(x0, y0), (x1, y1), (x2, y2)]
-    for x, y in box(p, width, height):
-        if weights(p, x + 0.5, y + 0.5):
-            set_pixel(x, y)
-
-
-def values(corners, width, height, set_pixel):
-    for x, y in box(corners, width, height):
-        l = weights(corners, x + 0.5, y + 0.5)
-        if l:
-            q = [l[i] / corners[i][3] for i in range(3)]
-            mean = lambda w, n: sum(w[i] * corners[i][n] for i in range(3)) / sum(w)
-            set_pixel(x, y, mean(l, 2), mean(q, 4), mean(q, 5))
-
-
-def samples(x0, y0, x1, y1, x2, y2, width, height, set_pixel):
-    p = [(x0, y0), (x1, y1), (x2, y2)]
-    for x, y in box(p, width, height):
-        at = [(6, 2), (14, 6), (2, 10), (10, 14)]
-        mask = sum(1 << s for s, (u, v) in enumerate(at) if weights(p, x + u / 16, y + v / 16))
-        set_pixel(x, y, mask)
-
-
-def depth(triangles, width, height, set_pixel):
-    nearest = {}
-    for t, corners in enumerate(triangles):
-        for x, y in box(corners, width, height):
-            l = weights(corners, x + 0.5, y + 0.5)
-            if l:
-                z = sum(l[i] * corners[i][2] for i in range(3))
-                if z < nearest.get((x, y), (math.inf, 0))[0]:
-                    nearest[x, y] = (z, t)
-    for (x, y), (_, t) in nearest.items():
-        set_pixel(x, y, t)
-
-
-def clip(corners):
-    polygon = []
-    for a, b in zip(corners, corners[1:] + corners[:1]):
-        da, db = a[2] + a[3], b[2] + b[3]
-        if da >= 0:
-            polygon.append(a)
-        if (da >= 0) != (db >= 0):
-            polygon.append([p + (q - p) * da / (da - db) for p, q in zip(a, b)])
-    return polygon
-
-
-# ---- the line protocol"#;
+    let code = include_str!("../data/course/student.py").to_owned() + "\n\n";
     let starter = fs::read_to_string(&path).unwrap();
-    fs::write(&path, starter.replace("# ---- the line protocol", code)).unwrap();
-    for step in &STEPS {
+    fs::write(
+        &path,
+        starter.replace("# ---- the line protocol", &(code + "# ---- the line protocol")),
+    )
+    .unwrap();
+    for step in STEPS.iter() {
         // Ties of lines that go the other way round, and lines as long as the world, it has not got.
         let knows = step.name != "bresenham";
-        let out = course(&folder, &["check", step.name, "--cases", "40"], u8::from(!knows)).out;
+        let out = course(&folder, format!("check {} --cases 40", step.name), u8::from(!knows)).out;
         assert!(knows || out.contains("hint 1"), "{out}");
     }
     let out = course(&folder, "grade --cases 20 -- python3 -B starter.py", 1).out;
@@ -342,42 +265,9 @@ const RUST_BODIES: [(&str, &str); 2] = [
 const CPP_BODIES: [(&str, &str); 2] = [
     (
         "    (void)triangles, (void)count, (void)width, (void)height, (void)set_pixel;\n",
-        "    for (int y = 0; y < height; y++)
-        for (int x = 0; x < width; x++) {
-            double nearest = 1e300;
-            int seen = -1;
-            for (int t = 0; t < count; t++) {
-                const rasterproof_point *p = triangles[t];
-                double e[3], area = 0, z = 0;
-                bool inside = true;
-                for (int i = 0; i < 3; i++) {
-                    const rasterproof_point a = p[i], b = p[(i + 1) % 3];
-                    e[i] = (b.x - a.x) * (y + 0.5 - a.y) - (b.y - a.y) * (x + 0.5 - a.x);
-                    area += e[i];
-                    z += e[i] * p[(i + 2) % 3].z;
-                }
-                for (int i = 0; i < 3; i++) {
-                    const rasterproof_point a = area > 0 ? p[i] : p[(i + 1) % 3], b = area > 0 ? p[(i + 1) % 3] : p[i];
-                    const bool owns = b.y < a.y || (b.y == a.y && b.x > a.x);
-                    inside = inside && (e[i] * area > 0 || (e[i] == 0 && owns));
-                }
-                if (area != 0 && inside && z / area < nearest) nearest = z / area, seen = t;
-            }
-            if (seen >= 0) set_pixel(x, y, seen);
-        }
-",
+        include_str!("../data/course/depth.cpp"),
     ),
-    (
-        "    (void)corners, (void)add_corner;\n",
-        "    for (int i = 0; i < 3; i++) {
-        const rasterproof_clip_corner a = corners[i], b = corners[(i + 1) % 3];
-        const double from = a.z + a.w, to = b.z + b.w, t = from / (from - to);
-        if (from >= 0) add_corner(a.x, a.y, a.z, a.w);
-        if ((from >= 0) != (to >= 0))
-            add_corner(a.x + (b.x - a.x) * t, a.y + (b.y - a.y) * t, a.z + (b.z - a.z) * t, a.w + (b.w - a.w) * t);
-    }
-",
-    ),
+    ("    (void)corners, (void)add_corner;\n", include_str!("../data/course/clip.cpp")),
 ];
 
 /// The starters of the compiled languages hand over piles and corners, and write what comes back.

@@ -70,8 +70,8 @@ pub fn examine(program: &mut dyn Ask, step: &Step, amount: &Amount) -> Outcome {
     let mut outcome = Outcome::default();
     let mut failing = None;
     let mut deaths = run::MOST_DEATHS;
-    for exercise in step.exercises {
-        for family in exercise.families {
+    for exercise in &step.exercises {
+        for family in &exercise.families {
             if Instant::now() >= amount.end {
                 outcome.out_of_time = true;
             }
