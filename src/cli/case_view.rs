@@ -88,7 +88,6 @@ fn sum(a: &Coverage, b: &Coverage) -> Coverage {
     all
 }
 
-/// A case as each engine draws it.
 pub struct Shown {
     engines: Vec<(String, Result<Coverage, String>)>,
     target: Coverage,
@@ -120,7 +119,6 @@ pub fn draw(case: &Case, engines: &[(Engine, Tolerance)], lines: &[LineEngine]) 
 }
 
 impl Shown {
-    /// Puts a specimen before the engines.
     pub fn add(&mut self, entry: &Entry, case: &Case) -> Result<(), Failure> {
         let window = case.window;
         let hits = match (&case.shape, entry.specimen) {
@@ -154,7 +152,6 @@ impl Shown {
         self.engines.is_empty()
     }
 
-    /// How often each hits a pixel, and the oracle.
     pub fn hits(&self, at: PixelPoint) -> String {
         let of = |hits: &Coverage| hits.get(at.x, at.y).unwrap_or(0);
         let engines = self.engines.iter().map(|(name, hits)| match hits {
@@ -198,7 +195,6 @@ impl Shown {
     }
 }
 
-/// Positions, exact area and word of each shape.
 pub fn facts(case: &Case, out: &mut dyn std::io::Write) -> Result<(), Failure> {
     match &case.shape {
         Shape::Triangles { list, .. } => {

@@ -189,7 +189,6 @@ fn plots(boards: &[Board]) -> Vec<(String, Drawing)> {
     plots
 }
 
-/// The plots as a page, the answer first.
 fn report_page(typed: &Typed, plots: &[(String, Drawing)], recorded: &Recorded) -> Report {
     let boards = &recorded.boards;
     let figure = |(name, drawing): &(String, Drawing)| Figure {

@@ -309,7 +309,6 @@ fn everything(grades: &[Grade], arguments: &GradeArguments) -> Value {
     })
 }
 
-/// One test for each step, of one point.
 fn gradescope(grade: &Grade) -> Value {
     let tests = STEPS.iter().enumerate().map(|(at, step)| {
         let passed = grade.has_passed(at);

@@ -39,7 +39,6 @@ impl Delivery {
         self.0.get() == Loss::Nothing
     }
 
-    /// The exit status of a command with this verdict.
     pub(super) fn status(&self, verdict: u8) -> u8 {
         let is_lost = self.0.get() == Loss::Failed;
         if is_lost && verdict == exit::AGREES { exit::USAGE } else { verdict }

@@ -27,7 +27,6 @@ pub struct DigestArguments {
     json: bool,
 }
 
-/// Hashes and prints; there is nothing to disagree with.
 pub fn run(arguments: &DigestArguments, streams: &mut Streams<'_>) -> Status {
     let DigestArguments { seed, cases, engine, json } = arguments;
     let (options, engine) = (Options { seed: *seed, cases: *cases }, engine.as_deref());

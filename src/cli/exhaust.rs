@@ -21,7 +21,6 @@ use rasterproof_exhaustive::lines::Lines;
 use rasterproof_exhaustive::run;
 use rasterproof_exhaustive::triangles::Triangles;
 
-/// Time between two checkpoints.
 const SAVE_EVERY: Duration = Duration::from_secs(3);
 
 pub const HELP: &str =

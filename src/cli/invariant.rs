@@ -12,10 +12,8 @@ use rasterproof_report::summary;
 
 /// Inputs of each invariant where the command line does not say.
 const CASES: u64 = 2_000;
-/// The word for all of them.
 const ALL: &str = "all";
 
-/// Names for the command line.
 pub fn names() -> Vec<&'static str> {
     CATALOGUE.iter().map(|i| i.name).chain([ALL]).collect()
 }
@@ -96,7 +94,6 @@ impl Outcomes {
     }
 }
 
-/// Prints what came of one invariant, and counts it.
 fn judge(
     invariant: &Invariant,
     subject: &Subject,
@@ -182,7 +179,6 @@ pub fn mutants(arguments: &MutantsArguments, streams: &mut Streams<'_>) -> Statu
     Ok(if problems.is_empty() { exit::AGREES } else { exit::DISAGREES })
 }
 
-/// Lists them for `rasterproof list`.
 pub fn list(streams: &mut Streams<'_>) -> Result<(), Failure> {
     let out = &mut streams.output;
     writeln!(out, "\nInvariants (rasterproof verify --invariant NAME, or all):")?;

@@ -52,9 +52,7 @@ use rasterproof_registry::engines;
 use rasterproof_verify::cases;
 
 pub mod exit {
-    /// Everything agrees.
     pub const AGREES: u8 = 0;
-    /// Something disagrees.
     pub const DISAGREES: u8 = 1;
     /// The command or its input cannot be used, or something could not be judged.
     pub const USAGE: u8 = 2;
@@ -449,12 +447,10 @@ fn write_entry(out: &mut dyn Write, name: &str, about: &str) -> io::Result<()> {
     writeln!(out, "  {name}  {about}")
 }
 
-/// Writes a file whole or not at all.
 fn write_file(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     output::write(path, bytes).map_err(usage)
 }
 
-/// A whole number from zero.
 fn parse_number(text: &str) -> Result<u64, String> {
     text.parse().map_err(|_| "expected a whole number from 0, for example 7".to_owned())
 }

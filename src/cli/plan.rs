@@ -52,7 +52,6 @@ pub struct PlanArguments {
     json: bool,
 }
 
-/// One mixture of effects, measured.
 #[derive(serde::Serialize)]
 struct Measured {
     effects: String,
@@ -67,7 +66,6 @@ struct Measured {
     same: bool,
 }
 
-/// What planning one effect saves.
 #[derive(serde::Serialize)]
 struct Saving {
     effect: Effect,
@@ -106,7 +104,6 @@ struct Savings {
     mixtures: Vec<Measured>,
 }
 
-/// The first of the mixtures.
 const WHOLE: [(&str, Effects); 3] =
     [("all", Effects::ALWAYS), ("usual", Effects::USUAL), ("planned", Effects::PLANNED)];
 
@@ -306,7 +303,6 @@ fn describe(scene: &Scene, planned: &Rendered, everything: &Counters, savings: &
     text
 }
 
-/// The plan, what it saves and the picture.
 fn report_page(
     typed: &Typed,
     scene: &Scene,

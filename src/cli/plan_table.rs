@@ -63,7 +63,6 @@ pub(super) fn grouped(decisions: &[Decision]) -> Vec<Line<'_>> {
     lines
 }
 
-/// The same lines as rows of the page.
 pub(super) fn plan_rows(decisions: &[Decision]) -> Vec<PlanRow> {
     let row = |line: Line<'_>| PlanRow {
         effect: line.effect.name().to_owned(),

@@ -113,11 +113,9 @@ fn list(chapters: &[&Chapter], language: Language, streams: &mut Streams<'_>) ->
     Ok(exit::AGREES)
 }
 
-/// Where questions go and answers come from.
 struct Quiz<'a> {
     input: &'a mut dyn BufRead,
     output: &'a mut dyn Write,
-    /// The name of the input, for errors.
     name: String,
     line: usize,
     /// Somebody sits at a terminal: there is a prompt, and one may try again.

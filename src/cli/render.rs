@@ -83,7 +83,6 @@ pub struct RenderArguments {
     json: bool,
 }
 
-/// What is drawn, and from where.
 #[derive(clap::Args, Debug)]
 pub struct SceneArguments {
     /// A scene of the book by name, or a model in OBJ, with its MTL and textures beside it
@@ -231,7 +230,6 @@ impl SceneArguments {
         }
     }
 
-    /// A model, in the middle, seen whole.
     fn frame_model(
         &self,
         path: &Path,
@@ -301,7 +299,6 @@ enum Base {
     Model(Box<Framed>),
 }
 
-/// Makes the scene of each frame.
 pub(super) struct Maker {
     base: Base,
     aspect: f64,
@@ -341,7 +338,6 @@ struct Drawing {
     unplanned: u64,
     /// Pixels that the plan of a file, or effects that were switched off, change.
     changed: u64,
-    /// Whether the target holds every depth of every sample.
     is_complete: bool,
 }
 
@@ -763,7 +759,6 @@ fn draw_in_tiles(
     Ok(exit::AGREES)
 }
 
-/// The picture of what each pixel paid for.
 fn map(
     arguments: &RenderArguments,
     scene: &Scene,

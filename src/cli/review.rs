@@ -53,12 +53,10 @@ struct Pending {
     path: PathBuf,
     /// The test file that it comes from, or nothing.
     source: String,
-    /// What changed, in a few words.
     what: String,
     shown: Shown,
 }
 
-/// What can be shown of it.
 enum Shown {
     Picture(Vec<PictureLayer>),
     Text { old: Option<String>, new: String },

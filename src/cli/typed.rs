@@ -73,7 +73,6 @@ impl Typed {
         self
     }
 
-    /// The same with this option first.
     pub fn first(self, option: &str, value: impl ToString) -> Self {
         let mut typed = self.without(&[option]);
         typed.options.insert(0, (option.to_owned(), vec![value.to_string().into()]));

@@ -452,7 +452,6 @@ fn others(
     Ok(())
 }
 
-/// Cases that a sheet holds.
 const MOST_DRAWN: usize = 6;
 
 /// The command that shows the shrunk case, or, where the command line cannot say it, the case that it is

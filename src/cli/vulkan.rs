@@ -22,7 +22,6 @@ use rasterproof_precision::cost::ExternalVariant;
 /// Cases of each family where nothing is said.
 const CASES: u64 = 1000;
 
-/// What is asked of a device.
 pub struct Job<'a> {
     /// Its name, `vulkan:0`.
     pub engine: &'a str,

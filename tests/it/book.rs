@@ -50,7 +50,6 @@ fn triangle(points: &[[f64; 2]]) -> RealTriangle {
     bare([points[0], points[1], points[2]])
 }
 
-/// Hits by the book's row and column.
 type Hits = HashMap<(i64, i64), u64>;
 
 /// Recorded rows `[y, x0, count, ...]`, those within the window.
@@ -232,7 +231,6 @@ fn quad(points: &Value) -> Hits {
     hits
 }
 
-/// The book's pixel `[x, y]`.
 fn at(pixel: &Value) -> (i64, i64) {
     (pixel[1].as_i64().unwrap(), pixel[0].as_i64().unwrap())
 }

@@ -125,7 +125,7 @@ fn bad_input_is_refused_with_a_reason() {
 #[test]
 fn inspect_explains_named_cases() {
     for named in rasterproof_render::scene::named::named() {
-        let out = check(&["inspect", named.name], 0).out;
+        let out = check(["inspect", named.name], 0).out;
         assert!(out.starts_with(&format!("{}: ", named.name)), "{out}");
     }
 }
@@ -134,7 +134,7 @@ fn inspect_explains_named_cases() {
 fn inspect_takes_coordinates_and_writes_a_picture() {
     let path = std::env::temp_dir().join(format!("rasterproof-{}.png", std::process::id()));
     let name = path.to_str().unwrap();
-    check(&["inspect", "-1.5,-1.5", "4,0", "0,4", "--window", "-2,-2,8x8", "-o", name], 0)
+    check(["inspect", "-1.5,-1.5", "4,0", "0,4", "--window", "-2,-2,8x8", "-o", name], 0)
         .prints("columns -2..6");
     let picture = image::open(&path).unwrap();
     // Eight rows, and the words around them.
@@ -172,7 +172,7 @@ fn inspect_shows_recorded_inputs_and_specimens() {
 fn off_grid_cases_are_drawn() {
     check("inspect f32-random#3 -o free.png", 0).prints("drawn in free.png");
     let mutant = ExactMutant::ALL[0].name();
-    check(&["verify", "--plant", mutant, "--cases", "40"], 1)
+    check(["verify", "--plant", mutant, "--cases", "40"], 1)
         .prints("drawn in target/rasterproof/failures-off-grid.png");
     // A run without failures says nothing of it.
     check("verify --family f32-random --cases 40", 0).omits("drawn in");
@@ -261,9 +261,9 @@ fn inspect_explains_a_pixel() {
 /// Points as they are printed are read; faults and pages belong to `inspect`, too.
 #[test]
 fn inspect_takes_what_the_tool_prints() {
-    check(&["inspect", "(0.5, 0.5) (5.5, 0.5) (5.5, 5.5)"], 0)
+    check(["inspect", "(0.5, 0.5) (5.5, 0.5) (5.5, 5.5)"], 0)
         .prints("triangle (0.5, 0.5) (5.5, 0.5) (5.5, 5.5)");
-    check(&["inspect", "(0.5, 0.5)", "(5.5, 0.5)", "(5.5, 5.5)"], 0);
+    check(["inspect", "(0.5, 0.5)", "(5.5, 0.5)", "(5.5, 5.5)"], 0);
     check("inspect T2 --plant inclusive-edges", 1).prints("inclusive-edges against oracle: ");
     check("inspect T2 --plant line-truncates", 2).says("in no engine that draws this case");
     check("inspect T2 --report", 0).prints("report: target/rasterproof/");

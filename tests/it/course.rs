@@ -46,7 +46,7 @@ fn course_judges_every_step() {
     for ((name, right, planted), step) in JUDGED.iter().zip(STEPS.iter()) {
         assert_eq!(*name, step.name);
         let words = ["check", name, "--cases", "64", "--", PROGRAM, "engine"];
-        course(&folder, &[&words[..], &[planted]].concat(), 1)
+        course(&folder, [&words[..], &[planted]].concat(), 1)
             .prints("NOT YET, wrong in ")
             .prints("smallest found: ")
             .prints("hint 1: ")
@@ -55,7 +55,7 @@ fn course_judges_every_step() {
             .prints(&step.page)
             .prints("yours")
             .prints("expected");
-        let Run { out, errors, .. } = course(&folder, &[&words[..], &[right]].concat(), 0);
+        let Run { out, errors, .. } = course(&folder, [&words[..], &[right]].concat(), 0);
         assert!(out.contains(": PASSED, ") && errors.is_empty(), "{out}{errors}");
         progress = Progress::read(&folder).unwrap();
     }
@@ -64,7 +64,7 @@ fn course_judges_every_step() {
     assert_eq!(progress.run, [PROGRAM, "engine", "scanline"]);
     // What was passed is passed no longer when it fails.
     let words = ["check", "1", "--", PROGRAM, "engine", "line-misses-end"];
-    course(&folder, &words, 1);
+    course(&folder, words, 1);
     assert_eq!(Progress::read(&folder).unwrap().unwrap().passed.len(), STEPS.len() - 1);
 }
 
@@ -88,7 +88,7 @@ fn course_steps_forgive_what_comes_later() {
         ("pixel", "scanline", 1),
         ("samples", "dda", 1),
     ] {
-        course(&folder, &["check", step, "--", PROGRAM, "engine", engine], status);
+        course(&folder, ["check", step, "--", PROGRAM, "engine", engine], status);
     }
 }
 
@@ -97,7 +97,7 @@ fn course_steps_forgive_what_comes_later() {
 fn course_keeps_progress() {
     let folder = Folder::new("course-progress");
     let words = ["check", "--", PROGRAM, "engine", "line-misses-end"];
-    assert!(!course(&folder, &words, 1).out.contains("hint 2"));
+    assert!(!course(&folder, words, 1).out.contains("hint 2"));
     course(&folder, "check", 1).prints("hint 2").omits("hint 3");
     assert!(course(&folder, "check", 1).out.contains("hint 3"));
     let path = folder.join("course.toml");
@@ -108,7 +108,7 @@ fn course_keeps_progress() {
     let progress = Progress::read(&folder).unwrap().unwrap();
     assert_eq!((progress.step.as_str(), progress.failures), ("dda", 0));
     course(&folder, "", 0).prints("+  1 pixel").prints(">  2 dda");
-    course(&folder, &["check", "pixel", "--hint", "--", PROGRAM, "engine", "line-misses-end"], 1)
+    course(&folder, ["check", "pixel", "--hint", "--", PROGRAM, "engine", "line-misses-end"], 1)
         .prints("hint 2")
         .omits("hint 3");
 }
@@ -120,8 +120,8 @@ fn course_refuses_what_it_cannot_use() {
     course(&folder, "check -- no-such-interpreter x.py", 2)
         .says("no-such-interpreter is not installed");
     course(&folder, "check -- ./starter", 2).says("./starter is not in ");
-    course(&folder, &["check", "thirteen", "--", PROGRAM], 2).says("no step is called 'thirteen'");
-    course(&folder, &["check", "--", PROGRAM, "list"], 2).says("never says HELLO");
+    course(&folder, ["check", "thirteen", "--", PROGRAM], 2).says("no step is called 'thirteen'");
+    course(&folder, ["check", "--", PROGRAM, "list"], 2).says("never says HELLO");
     assert!(!folder.join("course.toml").exists(), "what could not be judged is not noted");
     fs::write(folder.join("course.toml"), "run = [\"x\"]\nstep = dda\n").unwrap();
     course(&folder, "check", 2).says("course.toml: ").says("line 2").says("mend it");
@@ -150,7 +150,7 @@ fn course_starters_start() {
             continue;
         }
         let folder = Folder::new(&format!("course-{language}"));
-        course(&folder, &["start", "--language", language, "mine"], 0);
+        course(&folder, ["start", "--language", language, "mine"], 0);
         course(&folder, "check --dir mine", 1).prints("1 missing");
         for step in STEPS.iter() {
             // Nothing is refused: every verb is there, and empty.
@@ -159,7 +159,7 @@ fn course_starters_start() {
             assert!(out.contains("missing") || out.contains("holes"), "{language}: {out}");
         }
         fs::write(folder.join("mine").join(source), "my work").unwrap();
-        course(&folder, &["start", "--language", language, "mine"], 0)
+        course(&folder, ["start", "--language", language, "mine"], 0)
             .prints("kept:    mine/course.toml");
         assert_eq!(fs::read_to_string(folder.join("mine").join(source)).unwrap(), "my work");
     }
@@ -209,7 +209,7 @@ fn course_passes_a_students_code() {
     ] {
         assert!(right.contains(from), "{from}");
         fs::write(&path, right.replace(from, to)).unwrap();
-        course(&folder, &["check", step, "--cases", "40"], 1).prints(said);
+        course(&folder, ["check", step, "--cases", "40"], 1).prints(said);
     }
 }
 
@@ -281,7 +281,7 @@ fn course_starters_order_and_clip() {
             continue;
         }
         let folder = Folder::new(&format!("{language}-bodies"));
-        course(&folder, &["start", "--language", language], 0);
+        course(&folder, ["start", "--language", language], 0);
         let mut text = fs::read_to_string(folder.join(source)).unwrap();
         for (empty, body) in bodies {
             assert!(text.contains(empty), "{language}: {empty}");
@@ -313,7 +313,7 @@ fn course_grades() {
     let folder = Folder::new("course-grades");
     let words =
         ["--grade", "--format", "gradescope", "--cases", "32", PROGRAM, "engine", "scanline"];
-    let results: Value = serde_json::from_str(&course(&folder, &words, 1).out).unwrap();
+    let results: Value = serde_json::from_str(&course(&folder, words, 1).out).unwrap();
     let tests = results["tests"].as_array().unwrap();
     assert_eq!((tests.len(), &results["score"]), (12, &Value::from(9)));
     let scores: i64 = tests.iter().map(|test| test["score"].as_i64().unwrap()).sum();
@@ -333,7 +333,7 @@ fn course_grades() {
     submit("gus", &["no-such-interpreter"]);
     fs::create_dir_all(folder.join("all/zoe")).unwrap();
     let words = ["grade", "--folder", "all", "--cases", "32", "--seconds", "30"];
-    let grade = |more: &[&str]| course(&folder, &[&words[..], more].concat(), 1).out;
+    let grade = |more: &[&str]| course(&folder, [&words[..], more].concat(), 1).out;
     let json: Value = serde_json::from_str(&grade(&["--format", "json"])).unwrap();
     let of = |name: &str| {
         let all = json["submissions"].as_array().unwrap();
@@ -350,7 +350,7 @@ fn course_grades() {
         assert!(of(name)["error"].as_str().unwrap().contains(why), "{:?}", of(name));
     }
     let template = format!("{PROGRAM} engine dda");
-    let out = course(&folder, &["grade", "--folder", "all", "--run", &template], 1).out;
+    let out = course(&folder, ["grade", "--folder", "all", "--run", &template], 1).out;
     assert_eq!(out.lines().filter(|line| line.ends_with("  3")).count(), 5, "{out}");
     assert!(out.contains("passed by "), "{out}");
 }
@@ -368,10 +368,10 @@ fn course_bounds_what_it_grades() {
     fs::write(folder.join("hungry.py"), hungry).unwrap();
     let command = ["--", "python3", "hungry.py", PROGRAM, "engine", "dda"];
     let words = ["grade", "--cases", "8", "--memory"];
-    let out = course(&folder, &[&words[..], &["0"], &command].concat(), 1).out;
+    let out = course(&folder, [&words[..], &["0"], &command].concat(), 1).out;
     assert!(out.ends_with("3 of 12 points\n"), "{out}");
-    course(&folder, &[&words[..], &["256"], &command].concat(), 2).prints("cannot be judged: ");
+    course(&folder, [&words[..], &["256"], &command].concat(), 2).prints("cannot be judged: ");
     // One that never ends is ended with its time.
     let busy = ["grade", "--seconds", "1", "--", "python3", "-c", "while True: pass"];
-    course(&folder, &busy, 2);
+    course(&folder, busy, 2);
 }

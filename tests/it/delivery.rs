@@ -128,7 +128,7 @@ fn results_are_printed_before_files_are_written() {
     }
     let judge =
         format!("judge --cases 5 --family fan --baseline file/b -- {PROGRAM} engine scanline");
-    folder.run(&judge.replace("file/b", "file/b --update-baseline")).has(USAGE);
+    folder.run(judge.replace("file/b", "file/b --update-baseline")).has(USAGE);
     let baseline = folder.join("kept");
     fs::create_dir(&baseline).unwrap();
     fs::write(folder.join("kept/b"), "# rasterproof baseline 1, seed 1\n").unwrap();

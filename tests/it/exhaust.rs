@@ -368,7 +368,6 @@ fn exhaust_command_resumes_its_own_checkpoint_alone() {
     }
 }
 
-/// A killed run goes on where it was.
 #[test]
 fn exhaust_command_survives_a_kill() {
     let folder = Folder::new("exhaust-kill");

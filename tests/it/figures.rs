@@ -213,7 +213,6 @@ fn bug(name: &str) -> Value {
     serde_json::from_str::<Value>(text).unwrap()[name].clone()
 }
 
-/// The coverage of each triangle of a named case.
 fn named(name: &str) -> Vec<Coverage> {
     let Input::Drawn { case, .. } = find(name).unwrap().input else { panic!("{name} is drawn") };
     let Shape::Triangles { list, .. } = &case.shape else { panic!("{name} has triangles") };

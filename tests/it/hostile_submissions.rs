@@ -234,7 +234,7 @@ fn progress_is_written_where_it_is() {
     let output = command.output().unwrap();
     let out = String::from_utf8(output.stdout).unwrap();
     assert!(out.contains(r"course check --dir $'\376\'s'"), "{out}");
-    home.run(&["course", "start", "--language", "python", "it's mine"])
+    home.run(["course", "start", "--language", "python", "it's mine"])
         .has(0)
         .prints(r"course check --dir 'it'\''s mine'");
 }

@@ -226,6 +226,26 @@ impl Ask for ByRule {
     }
 }
 
+/// A program that says this of itself, and answers by a function.
+pub struct Answering<F>(pub Declared, pub F);
+
+impl<F: FnMut(&[Question], u64) -> Vec<Answer> + Send> Ask for Answering<F> {
+    fn declared(&self) -> &Declared {
+        &self.0
+    }
+
+    fn ask(&mut self, questions: &[Question], most_deaths: u64) -> Vec<Answer> {
+        (self.1)(questions, most_deaths)
+    }
+}
+
+/// A program that draws by one convention and declares another.
+fn drawing(drawn: Declared, declared: Declared) -> Box<dyn Ask> {
+    let mut drawn = ByRule(drawn);
+    let answer = move |questions: &[Question], most: u64| drawn.ask(questions, most);
+    Box::new(Answering(declared, answer))
+}
+
 /// Under its declared rule each agrees, and what needs no convention tells the rules apart: strict
 /// leaves holes, inclusive draws twice, the half-open ones do neither.
 #[test]
@@ -253,18 +273,9 @@ fn judge_goes_by_what_is_declared() {
     }
     // Declared wrongly, it does not agree.
     let mut declared = Declared::parse("HELLO 2 x coverage rule=top-right").unwrap();
-    let drawn = ByRule(declared.clone());
+    let drawn = declared.clone();
     declared.hear("rule=top-left");
-    struct Liar(ByRule, Declared);
-    impl Ask for Liar {
-        fn declared(&self) -> &Declared {
-            &self.1
-        }
-        fn ask(&mut self, questions: &[Question], most: u64) -> Vec<Answer> {
-            self.0.ask(questions, most)
-        }
-    }
-    let verdict = judged(Box::new(Liar(drawn, declared)), &options(60, &["half-integer"]));
+    let verdict = judged(drawing(drawn, declared), &options(60, &["half-integer"]));
     assert_eq!(property(&verdict, "half-integer"), Outcome::Fail);
 }
 
@@ -290,7 +301,7 @@ fn judge_recognises_a_winding() {
     assert_eq!(declare, "winding=cw", "{sentence}");
     assert!(declared > 1000 && found == Some(0), "{declared} {found:?}");
     let words = ["judge", "--cases", "60", "--declare", "winding=cw", "--", PROGRAM, "engine"];
-    check(&[&words[..], &["culls-one-winding"]].concat(), 0)
+    check([&words[..], &["culls-one-winding"]].concat(), 0)
         .prints("winding=cw")
         .prints("\nAGREES: ");
 }
@@ -328,15 +339,6 @@ fn judge_recognises_conventions() {
 /// One that declares nothing and draws by another rule; where y goes up, the words are turned over.
 #[test]
 fn judge_recognises_rules() {
-    struct Modest(ByRule, Declared);
-    impl Ask for Modest {
-        fn declared(&self) -> &Declared {
-            &self.1
-        }
-        fn ask(&mut self, questions: &[Question], most: u64) -> Vec<Answer> {
-            self.0.ask(questions, most)
-        }
-    }
     for (drawn, says, sentence, declare) in [
         ("rule=bottom-left", "", "follows the bottom-left rule", "rule=bottom-left"),
         ("rule=top-left", "yup", "follows the top-left rule", "rule=bottom-left"),
@@ -345,15 +347,14 @@ fn judge_recognises_rules() {
         ("rule=bottom-right grid=16", "rule=none grid=16", "bottom-right", "rule=bottom-right"),
     ] {
         let of = |words| Declared::parse(&format!("HELLO 2 x coverage {words}")).unwrap();
-        let program = || Box::new(Modest(ByRule(of(drawn)), of(says)));
-        let verdict = recognised(program(), &options(60, &NEAR));
+        let verdict = recognised(drawing(of(drawn), of(says)), &options(60, &NEAR));
         let (found, words, _, by_convention) = said(&verdict);
         assert!(found.contains(sentence), "{drawn}: {found}");
         assert_eq!((words, by_convention), (declare, Some(0)), "{drawn}: {found}");
         // Declared so, it agrees, and nothing else is recognised.
         let mut declared = of(says);
         words.split(' ').for_each(|word| declared.hear(word));
-        let again = recognised(Box::new(Modest(ByRule(of(drawn)), declared)), &options(60, &NEAR));
+        let again = recognised(drawing(of(drawn), declared), &options(60, &NEAR));
         assert!(again.recognised.is_none() && again.as_declared().wrong == 0, "{drawn}");
     }
 }
@@ -399,13 +400,13 @@ pub fn of<'a>(options: &[&'a str], engine: &[&'a str]) -> Vec<&'a str> {
 #[test]
 #[ignore = "takes seconds; .ci/run runs it"]
 fn judge_prints_a_verdict() {
-    let errors = check(&of(&["--jobs", "2"], &["scanline"]), 0)
+    let errors = check(of(&["--jobs", "2"], &["scanline"]), 0)
         .prints("scanline speaks version 2: coverage attributes samples4 depth clip grid=256")
         .prints("\nAGREES: ")
         .prints("as declared:         0 wrong")
         .errors;
     assert_eq!(errors, "");
-    let out = check(&of(&["--family", "half-integer"], &["exclusive-edges"]), 1).out;
+    let out = check(of(&["--family", "half-integer"], &["exclusive-edges"]), 1).out;
     for part in ["request:  T 1 ", "answer:   C 1 ", "expected: C 1 ", "judged   expected"] {
         assert!(out.contains(part), "{part}: {out}");
     }
@@ -414,10 +415,10 @@ fn judge_prints_a_verdict() {
     let repeat =
         out.lines().find(|l| l.contains("repeat with: ") && l.contains("--case ")).unwrap();
     let words = repeat.trim().trim_start_matches("repeat with: rasterproof ");
-    check(&words.split(' ').collect::<Vec<_>>(), 1).prints("half-integer: 1 missing");
+    check(words.split(' ').collect::<Vec<_>>(), 1).prints("half-integer: 1 missing");
     // What a program says cannot command the terminal.
     let plant = ["scanline", "--plant", "nonsense"];
-    let out = check(&of(&["--family", "half-integer"], &plant), 1)
+    let out = check(of(&["--family", "half-integer"], &plant), 1)
         .prints("debug: \\u{1b}[31mx = 3\\u{7}")
         .out;
     assert!(out.chars().all(|c| c == '\n' || !c.is_control()));
@@ -427,7 +428,7 @@ fn judge_prints_a_verdict() {
 
 #[test]
 fn judge_writes_formats() {
-    let of_it = |format| check(&of(&["--format", format], &["exclusive-edges"]), 1).out;
+    let of_it = |format| check(of(&["--format", format], &["exclusive-edges"]), 1).out;
     let json: serde_json::Value = serde_json::from_str(&of_it("json")).unwrap();
     assert_eq!(json["agrees"], false);
     let properties = json["properties"].as_array().unwrap();
@@ -482,37 +483,37 @@ fn judge_knows_a_baseline() {
     let with = |engine| {
         of(&["--baseline", name, "--family", "half-integer", "--family", "tiny"], &[engine])
     };
-    check(&with("scanline"), 0);
-    check(&with("exclusive-edges"), 1);
+    check(with("scanline"), 0);
+    check(with("exclusive-edges"), 1);
     let update = [&["judge", "--update-baseline"], &with("exclusive-edges")[1..]].concat();
     check(&update, 0);
-    check(&with("exclusive-edges"), 0).prints("fail as the baseline says");
-    check(&with("inclusive-edges"), 1).prints("half-integer");
+    check(with("exclusive-edges"), 0).prints("fail as the baseline says");
+    check(with("inclusive-edges"), 1).prints("half-integer");
     let junit = [&["judge", "--format", "junit"], &with("scanline")[1..]].concat();
     check(&junit, 1).prints("type=\"unexpected pass\"").prints(" stale");
     // Other families are untouched, and stay in the file.
-    check(&of(&["--baseline", name, "--family", "flat"], &["scanline"]), 0);
+    check(of(&["--baseline", name, "--family", "flat"], &["scanline"]), 0);
     let before = std::fs::read_to_string(&path).unwrap();
-    check(&of(&["--update-baseline", "--baseline", name, "--family", "flat"], &["scanline"]), 0);
+    check(of(&["--update-baseline", "--baseline", name, "--family", "flat"], &["scanline"]), 0);
     assert_eq!(std::fs::read_to_string(&path).unwrap(), before);
     // One fingerprint changed: wrong in another way is a new failure.
     let at = before.trim_end().len() - 1;
     let digit = if before.as_bytes()[at] == b'0' { "1" } else { "0" };
     std::fs::write(&path, format!("{}{digit}\n", &before[..at])).unwrap();
-    check(&with("exclusive-edges"), 1).prints("DISAGREES");
+    check(with("exclusive-edges"), 1).prints("DISAGREES");
     for (text, reason) in [
         ("what\n", "line 1: expected"),
         ("# rasterproof baseline 1, seed 7\n", "seed 7"),
         ("# rasterproof baseline 1, seed 1\n\nhalf-integer 5\n", "line 3: expected"),
     ] {
         std::fs::write(&path, text).unwrap();
-        check(&with("scanline"), 2).says("known.txt").says(reason);
+        check(with("scanline"), 2).says("known.txt").says(reason);
     }
 }
 
 #[test]
 fn judge_writes_a_page() {
-    check(&of(&["--report", "--family", "half-integer"], &["exclusive-edges"]), 1);
+    check(of(&["--report", "--family", "half-integer"], &["exclusive-edges"]), 1);
     let page = std::fs::read_to_string(shared().join("target/rasterproof/judge.html")).unwrap();
     assert!(page.contains("Verdict on exclusive-edges") && page.contains("half-integer#"));
 }
@@ -536,33 +537,18 @@ fn judge_is_bounded_itself() {
     assert!(out.contains("floods its output: "), "{out}");
 }
 
-/// An engine behind a library that cuts what leaves the window first: to whole pixels.
-struct CutsFirst(Inside);
-
-impl Ask for CutsFirst {
-    fn declared(&self) -> &Declared {
-        self.0.declared()
-    }
-
-    fn ask(&mut self, questions: &[Question], most_deaths: u64) -> Vec<Answer> {
-        let cut: Vec<_> = questions
-            .iter()
-            .map(|q| {
-                let (right, bottom) = (q.width as i32, q.height as i32);
-                let of = match q.of.clone() {
-                    Asked::Line { ends, whole } => {
-                        let end = |p: PixelPoint| {
-                            PixelPoint::new(p.x.clamp(0, right - 1), p.y.clamp(0, bottom - 1))
-                        };
-                        Asked::Line { ends: ends.map(end), whole }
-                    }
-                    other => other,
-                };
-                Question { of, width: q.width, height: q.height }
-            })
-            .collect();
-        self.0.ask(&cut, most_deaths)
-    }
+/// A question as a library puts it that cuts what leaves the window first: to whole pixels.
+fn cut_first(question: &Question) -> Question {
+    let (right, bottom) = (question.width as i32, question.height as i32);
+    let of = match question.of.clone() {
+        Asked::Line { ends, whole } => {
+            let end =
+                |p: PixelPoint| PixelPoint::new(p.x.clamp(0, right - 1), p.y.clamp(0, bottom - 1));
+            Asked::Line { ends: ends.map(end), whole }
+        }
+        other => other,
+    };
+    Question { of, ..*question }
 }
 
 /// What leaves the window and comes out otherwise is counted, said and left out of the second score;
@@ -573,7 +559,11 @@ fn judge_tells_what_leaves_the_window() {
     let entry = engines::find("bresenham").unwrap();
     // Within the window it draws as it declares, so that it is questioned only where that is asked.
     let scope = Scope { triangles: false, lines: true, always: true };
-    let mut cuts: [Box<dyn Ask>; 1] = [Box::new(CutsFirst(Inside::new(entry)))];
+    let mut engine = Inside::new(entry);
+    let cuts = Answering(engine.declared().clone(), move |questions: &[Question], most: u64| {
+        engine.ask(&questions.iter().map(cut_first).collect::<Vec<_>>(), most)
+    });
+    let mut cuts: [Box<dyn Ask>; 1] = [Box::new(cuts)];
     let verdict = judge(&mut cuts, &options, &|program| recognise(program, scope), &|_| ());
     let text = verdict.recognised.as_ref().unwrap().sentences.concat();
     assert!(text.contains("Lines that leave the window come out otherwise ("), "{text}");
@@ -586,7 +576,6 @@ fn judge_tells_what_leaves_the_window() {
     assert_eq!(verdict.by_convention().unwrap().unscored, 0);
 }
 
-/// Ctrl-C ends the program that is being judged, too.
 #[cfg(target_os = "linux")]
 #[test]
 fn judge_leaves_nothing_running() {

@@ -1,16 +1,12 @@
 //! The league: its pages hold the tables of its data, and its command skips what is not installed.
 
 use std::fs;
-use std::path::Path;
 
 use rasterproof_judge::league::League;
 use rasterproof_report::league::tables;
 
+use crate::pages::read;
 use crate::program::{Folder, PROGRAM};
-
-fn read(path: &str) -> String {
-    fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(path)).unwrap()
-}
 
 /// Where a page does not hold the tables, the first line that differs is shown.
 fn missing(page: &str, tables: &str) -> Option<String> {

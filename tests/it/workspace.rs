@@ -361,7 +361,6 @@ fn lists_its_tests() {
     }
 }
 
-/// Each kind of name that leads nowhere is found.
 #[test]
 fn missing_names_are_found() {
     let known = Known::new();
@@ -379,7 +378,6 @@ fn missing_names_are_found() {
     assert_eq!(known.missing("docs/sections.md", table), missing);
 }
 
-/// Every specimen credits its source.
 #[test]
 fn specimens_credit_their_source() {
     let of_all = ["mod.rs", "catalogue.rs", "scene.rs"];
@@ -453,7 +451,6 @@ fn table_has_every_section() {
     }
 }
 
-/// The table of invariants says what the catalogue says.
 #[test]
 fn stability_lists_the_invariants() {
     let text = fs::read_to_string(root().join("docs/stability.md")).unwrap();

@@ -101,7 +101,6 @@ fn holder(file: &mut File) -> Option<Option<u32>> {
     text.strip_suffix('\n')?.parse().ok().map(Some)
 }
 
-/// Whether `path` still names the file that is open.
 fn is_at(file: &File, path: &Path) -> bool {
     #[cfg(unix)]
     {

@@ -12,7 +12,6 @@ use image::{Rgb, RgbImage};
 
 use super::lettering::{self, Size};
 
-/// Units of a character.
 pub const LETTER: f64 = 8.0;
 /// Picture pixels of a unit.
 const ZOOM: u32 = 2;
@@ -67,17 +66,14 @@ pub struct Drawing {
 }
 
 impl Drawing {
-    /// Adds a line of width 1.
     pub fn line(&mut self, from: [f64; 2], to: [f64; 2], ink: Ink) {
         self.shapes.push(Shape::Line { from, to, width: 1.0, ink });
     }
 
-    /// Adds text that begins at `at`.
     pub fn text(&mut self, at: [f64; 2], text: &str, ink: Ink) {
         self.shapes.push(Shape::Text { at, text: text.to_owned(), ink });
     }
 
-    /// Adds text that ends at `at`.
     pub fn text_before(&mut self, at: [f64; 2], text: &str, ink: Ink) {
         self.text([at[0] - width(text), at[1]], text, ink);
     }
@@ -157,7 +153,6 @@ fn dark([r, g, b]: Ink) -> Ink {
     [r, g, b].map(mirror)
 }
 
-/// The style that a dark page brings about.
 fn dark_style(drawing: &Drawing) -> String {
     let ink = |shape: &Shape| match shape {
         Shape::Line { ink, .. }

@@ -16,7 +16,6 @@ const GOOD: Ink = [20, 110, 50];
 const OTHER: Ink = [31, 84, 170];
 const CRACKED: Ink = [205, 30, 30];
 
-/// Height of a line of text.
 const ROW: f64 = 13.0;
 /// Height of the part of a panel where errors are not zero.
 const SCATTER: f64 = 150.0;
@@ -26,7 +25,6 @@ const HEAD: f64 = 70.0;
 const FOOT: f64 = 46.0;
 const RADIUS: f64 = 3.5;
 
-/// A rung in a panel.
 struct Dot {
     label: String,
     time: f64,
@@ -253,7 +251,6 @@ fn snapping(board: &Board, column: usize) -> Option<f64> {
     board.error(rung, column, 0).filter(|&error| error > 0.0)
 }
 
-/// Where the quartiles of a dot's time lie.
 fn ends(dot: &Dot, time: &Axis) -> [f64; 2] {
     dot.quartiles.map(|t| if t > 0.0 { time.place(t) } else { time.place(dot.time) })
 }

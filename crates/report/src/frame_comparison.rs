@@ -15,7 +15,6 @@ use rasterproof_render::pipeline::depth::CLEAR;
 use rasterproof_render::pipeline::target::{Colour, Target};
 use rasterproof_verify::comparison::tolerance;
 
-/// A frame as an image, without its opacity.
 #[must_use]
 pub fn rgb(picture: &Frame<Colour>) -> RgbImage {
     let bounds = picture.bounds();
@@ -190,7 +189,6 @@ pub const MAP_COLOURS: [(Effect, [u8; 3]); 6] = [
     (Effect::Texture, [190, 90, 205]),
 ];
 
-/// Pixels of a map that paid for an effect.
 #[must_use]
 pub fn paid(map: &Frame<u16>, effect: Effect) -> u64 {
     let pays = |paid: &&u16| **paid & (1 << effect as u16) != 0;

@@ -34,11 +34,8 @@ pub use super::chapter::Chapter;
 use super::page_cases::CaseView;
 use super::picture;
 
-/// Unchanged lines that are shown around a changed one.
 const CONTEXT: usize = 3;
-/// Names of what was left out that are listed.
 const MOST_LEFT_OUT_NAMES: usize = 20;
-/// Bytes of the rows of a table.
 const MOST_TABLE_BYTES: usize = 500_000;
 
 const TEMPLATE: &str = include_str!("page/page.html");
@@ -51,7 +48,6 @@ pub struct Report {
     pub title: String,
     /// The verdict, shown first.
     pub outcome: Option<Outcome>,
-    /// The command that makes the same report.
     pub command: String,
     /// Decides the generated cases, where there are any.
     pub seed: Option<u64>,
@@ -60,12 +56,9 @@ pub struct Report {
     pub tables: Vec<Table>,
     /// Cases to look into, worst first.
     pub cases: Vec<CaseView>,
-    /// Rendered pictures to compare.
     pub frames: Vec<PictureView>,
     pub figures: Vec<Figure>,
-    /// Effects that were on or off, and why.
     pub plan: Vec<PlanRow>,
-    /// Texts that changed.
     pub diffs: Vec<TextDiff>,
     /// Where the page finds the folder `docs`: an address that ends in `/`, or nothing.
     pub docs: String,
@@ -76,7 +69,6 @@ pub struct Outcome {
     /// Whether all is well; decides the colour.
     pub good: bool,
     pub word: String,
-    /// The plain sentence after it.
     pub sentence: String,
 }
 
@@ -84,12 +76,10 @@ pub struct Outcome {
 #[derive(Clone, Debug, Default)]
 pub struct Table {
     pub caption: String,
-    /// Columns from left to right.
     pub columns: Vec<Column>,
     pub rows: Vec<Row>,
 }
 
-/// A column of a [`Table`].
 #[derive(Clone, Debug, Default)]
 pub struct Column {
     pub label: String,
@@ -99,7 +89,6 @@ pub struct Column {
 }
 
 impl Column {
-    /// A column of words.
     #[must_use]
     pub fn words(label: &str) -> Self {
         Self { label: label.to_owned(), about: String::new(), is_number: false }
@@ -115,7 +104,6 @@ impl Column {
 #[derive(Clone, Debug, Default)]
 pub struct Row {
     pub cells: Vec<String>,
-    /// How it is set off.
     pub mark: Mark,
     /// What to search the cases for when its head is chosen, if anything.
     pub search: Option<String>,
@@ -150,7 +138,6 @@ pub struct PlanRow {
     pub counters: Vec<(String, String)>,
 }
 
-/// Two texts whose lines are compared.
 #[derive(Clone, Debug, Default)]
 pub struct TextDiff {
     pub name: String,
@@ -189,7 +176,6 @@ impl PictureLayer {
         Self::from_png(name, &picture::png(if is_empty { &one } else { image }))
     }
 
-    /// The bytes of a PNG file as they are.
     #[must_use]
     pub fn from_png(name: &str, bytes: &[u8]) -> Self {
         Self { name: name.to_owned(), png: data_address("image/png", bytes) }

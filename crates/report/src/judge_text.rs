@@ -11,9 +11,7 @@ use rasterproof_judge::run::{self, MOST_DEATHS, Row as FamilyRow};
 use rasterproof_judge::verdict::{self, Score, Verdict, per_million};
 use rasterproof_verify::comparison::Tally;
 
-/// Requests of a failing case that are shown.
 const MOST_EXCHANGES: usize = 3;
-/// Incidents that are shown of each kind.
 const MOST_INCIDENTS: usize = 2;
 
 /// The verdict as text: the answer, a line for each danger, the table where something is wrong or it is

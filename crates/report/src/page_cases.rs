@@ -40,7 +40,6 @@ pub struct CaseView {
     window: PixelRect,
     shape: ShapeView,
     layers: Vec<Layer>,
-    /// The two layers that are compared at first.
     start: [usize; 2],
 }
 
@@ -68,14 +67,12 @@ enum ShapeView {
     Free(Vec<[[f64; 2]; 3]>),
 }
 
-/// What one or several draw alike.
 #[derive(Clone, Debug, Serialize)]
 struct Layer {
     names: Vec<String>,
     role: Role,
     /// Run lengths and hits, by rows from the top: n, hits, n, hits ...; empty where it is refused.
     runs: Vec<u32>,
-    /// Pixels that are hit.
     covered: u64,
     tally: Tally,
     /// Why nothing is drawn, or nothing.
@@ -182,7 +179,6 @@ fn off_lattice_samples(off_grid: &ExactVerdict, seed: u64, judged: Judged<'_>) -
     views.collect()
 }
 
-/// Every named case that is drawn.
 fn every_named(judged: Judged<'_>) -> Vec<CaseView> {
     let views = named::named().into_iter().filter_map(|named| {
         let Input::Drawn { case, .. } = named.input else { return None };
@@ -290,7 +286,6 @@ pub fn of_program(
     view
 }
 
-/// Names that occur again get a number.
 fn unique(views: &mut [CaseView]) {
     let mut seen = std::collections::HashMap::new();
     for view in views {
@@ -369,7 +364,6 @@ fn drawn_lines(list: &[cases::Line], window: PixelRect, judged: Judged<'_>) -> V
     drawn
 }
 
-/// Hits of both.
 fn added(mut sum: Coverage, more: &Coverage) -> Coverage {
     for (y_px, row) in more.rows() {
         for (sum, more) in sum.row_mut(y_px).iter_mut().zip(row) {

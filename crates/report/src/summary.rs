@@ -6,7 +6,6 @@ use std::fmt::Write as _;
 use rasterproof_verify::comparison::unsnapped::ExactVerdict;
 use rasterproof_verify::comparison::{Failure, Tally, Verdict};
 
-/// Families that threaten in the same way.
 pub struct Danger {
     /// What is threatened, in a few words.
     pub name: &'static str,
@@ -99,7 +98,6 @@ pub fn chapter(failure: &Failure) -> &'static str {
     }
 }
 
-/// What came of the cases of a danger.
 #[derive(Default)]
 struct Sum {
     cases: u64,

@@ -69,7 +69,6 @@ impl Sheet {
         self.add(format_args!("<path class=\"{class}\" d=\"M{x0:.1} {y0:.1}L{x1:.1} {y1:.1}\"/>"));
     }
 
-    /// A line with a head at its end.
     fn arrow(&mut self, class: &str, from: Point, to: Point) {
         self.line(class, from, to);
         let (dx, dy) = (to[0] - from[0], to[1] - from[1]);

@@ -50,11 +50,13 @@ pub struct Exercise {
     /// Makes a case of the family one of the step; nothing where it has no use. What it has made,
     /// it leaves as it is.
     #[serde(deserialize_with = "prepare")]
-    pub prepare: fn(Case) -> Option<Case>,
+    pub prepare: Prepare,
 }
 
+type Prepare = fn(Case) -> Option<Case>;
+
 /// The function of a name.
-fn prepare<'de, D: Deserializer<'de>>(from: D) -> Result<fn(Case) -> Option<Case>, D::Error> {
+fn prepare<'de, D: Deserializer<'de>>(from: D) -> Result<Prepare, D::Error> {
     Ok(match String::deserialize(from)?.as_str() {
         "inside" => inside,
         "outside" => outside,

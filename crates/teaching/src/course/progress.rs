@@ -22,9 +22,7 @@ pub struct Progress {
     #[serde(default)]
     pub build: Vec<String>,
     pub run: Vec<String>,
-    /// The current step.
     pub step: String,
-    /// Steps that were passed.
     #[serde(default)]
     pub passed: Vec<String>,
     /// How often the current step failed.
@@ -113,7 +111,7 @@ impl Progress {
 
     #[must_use]
     pub fn has_passed(&self, step: &Step) -> bool {
-        self.passed.iter().any(|name| *name == step.name)
+        self.passed.contains(&step.name)
     }
 }
 

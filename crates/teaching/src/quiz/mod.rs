@@ -67,7 +67,6 @@ pub struct Exercise {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Solution {
     pub answer: Answer,
-    /// Computed figures for the explanation.
     pub figures: Vec<String>,
     /// Pixel grids with their titles, as of [`rasterproof_report::ascii`].
     pub grids: Vec<(String, Vec<String>)>,
@@ -105,7 +104,6 @@ impl Exercise {
         language.of(&self.question).to_owned() + &solution.answer.form(language)
     }
 
-    /// The explanation with its figures in place.
     #[must_use]
     pub fn explanation(&self, language: Language, solution: &Solution) -> String {
         let mut figures = solution.figures.iter();

@@ -6,7 +6,6 @@ use rasterproof_report::ascii;
 
 /// Columns of a page's English text; Chinese is not broken, for a line's end would show as a blank.
 const PAGE_COLUMNS: usize = 130;
-/// Columns of the terminal's text.
 pub const TERMINAL_COLUMNS: usize = 96;
 
 pub const HEADINGS: [&str; 2] = ["## Predict, then check", "## 先预测，再检验"];

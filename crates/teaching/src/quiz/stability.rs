@@ -57,7 +57,6 @@ fn moved(_: &[Text]) -> Solution {
     Solution::new(Answer::only(&[20, -20, 4000].map(is_wrong_moved)))
 }
 
-/// Pixels along a side of the frame.
 const SIDE: u32 = 256;
 
 fn metric(_: &[Text]) -> Solution {

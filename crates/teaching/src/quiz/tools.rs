@@ -15,14 +15,12 @@ use rasterproof_render::pipeline::target::{Antialias, Target, to_colour};
 use rasterproof_render::pipeline::{ClipVertex, Counters};
 use rasterproof_verify::oracle::Oracle;
 
-/// Three corners in pixels.
 pub type Px = [[f64; 2]; 3];
 
 pub fn corners(triangle: Px) -> Corners {
     triangle.map(|[x, y]| SubpixelPoint::from_px(x, y).expect("exercises stay in the domain"))
 }
 
-/// What the triangles cover, by the oracle.
 pub fn truth(triangles: &[Px], window: PixelRect) -> Coverage {
     let mut hits = Coverage::new(window, 0);
     for &triangle in triangles {
