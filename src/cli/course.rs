@@ -17,17 +17,7 @@ use rasterproof_teaching::course::progress::{self, Progress};
 use rasterproof_teaching::course::verdict::{self, indented};
 use rasterproof_teaching::course::{self, STEPS, sandbox};
 
-pub const HELP: &str = "Examples:
-  rasterproof course                                   the twelve steps
-  rasterproof course start --language python mine      a starter, and mine/course.toml
-  rasterproof course check                             judge the current step, in that folder
-  rasterproof course check dda --hint                  judge a step, one hint more
-  rasterproof course check -- ./mine --fast            by this command, which is remembered
-  rasterproof course --grade ./mine                    points by step
-  rasterproof course --grade --folder submissions      a table of many
-
-Programs are run with your rights: docs/course.md says what they may do.
-Exit status: 0 passed, 1 not passed, 2 the command, the program or course.toml cannot be used.";
+pub const HELP: &str = include_str!("help/course.txt").trim_ascii_end();
 
 #[derive(clap::Args, Debug)]
 pub struct CourseArguments {

@@ -19,17 +19,7 @@ use rasterproof_teaching::course::progress::{self, Progress};
 use rasterproof_teaching::course::sandbox::{self, Bounds};
 use rasterproof_teaching::course::{self, STEPS, verdict};
 
-pub const HELP: &str = "Examples:
-  rasterproof course --grade ./mine                                  points of a program
-  rasterproof course --grade --format gradescope ./mine              Gradescope's results.json
-  rasterproof course --grade --folder submissions                    each by its own course.toml
-  rasterproof course --grade --folder submissions --run 'python3 -B {}/starter.py'
-
-Each program has --seconds in all, its build at most --build-seconds of them, --timeout for each
-answer and --memory MiB of addresses, and runs with your rights: judge only what you would run, or
-in a container. A submission that cannot be read, built or started has no points, and the reason is
-printed.
-Exit status: 0 every step passed, 1 not, 2 nothing could be judged.";
+pub const HELP: &str = include_str!("help/course_grade.txt").trim_ascii_end();
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 enum Format {

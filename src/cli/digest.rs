@@ -4,12 +4,7 @@ use super::progress::Progress;
 use super::{Status, Streams, exit};
 use rasterproof_registry::digest::{self, Options};
 
-pub const HELP: &str = "Examples:
-  rasterproof digest                          hash what every engine computes
-  rasterproof digest --seed 7 --cases 100     other cases, more of them
-  rasterproof digest --engine dda --json      one engine, for machines
-
-Run it on two machines: the same lines mean the same bits (docs/machines.md).";
+pub const HELP: &str = include_str!("help/digest.txt").trim_ascii_end();
 
 #[derive(clap::Args, Debug)]
 pub struct DigestArguments {

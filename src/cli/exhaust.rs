@@ -23,14 +23,7 @@ use rasterproof_exhaustive::triangles::Triangles;
 
 const SAVE_EVERY: Duration = Duration::from_secs(3);
 
-pub const HELP: &str =
-    "Every case is judged; nothing is sampled. A run may be killed at any time: the same command
-resumes it. Parts run anywhere and in any order, and merge into one certificate:
-  rasterproof exhaust triangles --subpixel-bits 2 --shard 0/2 -o 0.json
-  rasterproof exhaust triangles --subpixel-bits 2 --shard 1/2 -o 1.json
-  rasterproof merge 0.json 1.json -o whole.json
-
-Exit status: 0 all agree, 1 something disagrees, 2 usage or bad input.";
+pub const HELP: &str = include_str!("help/exhaust.txt").trim_ascii_end();
 
 #[derive(clap::Args, Debug)]
 pub struct ExhaustArguments {

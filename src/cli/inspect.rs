@@ -26,20 +26,7 @@ use rasterproof_verify::comparison::unsnapped::{describe, exact_coverage, judge_
 use rasterproof_verify::comparison::{Finding, Tally, oracle_pixels_each};
 
 #[derive(clap::Args, Debug)]
-#[command(after_help = "Examples:
-  rasterproof inspect T2
-  rasterproof inspect 0.5,0.5 5.5,0.5 5.5,5.5 --window 8x8
-  rasterproof inspect 0,0 4,0 0,4 4,0 4,4 0,4            two triangles, three corners each
-  rasterproof inspect 0.1,0.2 5.3,0.7 2,6.1 --exact      the corners as they are, not snapped
-  rasterproof inspect --line -100,20 30,40 --window 64x48
-  rasterproof inspect sliver#123 --seed 7 -o sliver.png
-  rasterproof inspect T3 --specimen book-ch2
-  rasterproof inspect double_row             a recorded input of the book's code, and its specimen
-  rasterproof inspect T2 --pixel 3,3         why this pixel is covered
-  rasterproof inspect T2 --plant inclusive-edges
-
-In the grids: # agrees with the oracle, - missing, + extra, 2 twice, * rightly more than once.
-In the picture: grey agrees, red missing, orange extra, violet twice; blue edges, dark samples.")]
+#[command(after_help = include_str!("help/inspect.txt").trim_ascii_end())]
 pub struct InspectArguments {
     #[command(flatten)]
     case: CaseArguments,
@@ -263,17 +250,13 @@ fn write_report(
     streams: &mut Streams<'_>,
 ) -> Result<(), Failure> {
     view.command = command.clone().without(&["report"]).line();
-    let (word, sentence) = match agrees {
-        true => ("AGREES", "Every engine draws what the oracle draws."),
-        false => ("DISAGREES", "Not every engine draws what the oracle draws."),
+    let sentence = match agrees {
+        true => "Every engine draws what the oracle draws.",
+        false => "Not every engine draws what the oracle draws.",
     };
     let report = Report {
         title: format!("One case: {}", view.name),
-        outcome: Some(Outcome {
-            good: agrees,
-            word: word.to_owned(),
-            sentence: sentence.to_owned(),
-        }),
+        outcome: Some(Outcome::of(agrees, sentence)),
         command: command.line(),
         cases: vec![view],
         ..Report::default()

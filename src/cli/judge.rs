@@ -19,16 +19,7 @@ use rasterproof_judge::{Options, adapt_case, process_group};
 use rasterproof_report::formats::{self, Format};
 use rasterproof_report::judge_text;
 
-pub const HELP: &str = "The program reads requests on its standard input and answers on its standard output, a line each; see
-docs/protocol.md. It is run as given, without a shell, in the current folder.
-Examples:
-  rasterproof judge -- ./mine                           judge a program
-  rasterproof judge -- python3 mine.py --fast           with its own options
-  rasterproof judge --declare winding=cw -- ./mine      by what it does not say itself
-  rasterproof judge --family fan --case 17 -- ./mine    repeat one case
-  rasterproof judge --format junit -- ./mine            for a build server
-
-Exit status: 0 agrees, 1 disagrees, 2 the program or the command cannot be used.";
+pub const HELP: &str = include_str!("help/judge.txt").trim_ascii_end();
 
 #[derive(clap::Args, Debug)]
 pub struct JudgeArguments {

@@ -58,31 +58,7 @@ pub mod exit {
     pub const USAGE: u8 = 2;
 }
 
-const EXAMPLES: &str = "Examples:
-  rasterproof                                     judge both rasterizers and both line drawers
-  rasterproof --family sliver --cases 1000000     many cases of one family
-  rasterproof --seconds 60 --seed 7               a minute of other cases
-  rasterproof --plant inclusive-edges             judge a planted fault, to see a disagreement
-  rasterproof inspect T2                          explain a named case
-  rasterproof inspect T2 --pixel 3,3              explain a pixel of it
-  rasterproof inspect 0.5,0.5 5.5,0.5 5.5,5.5     explain a triangle
-  rasterproof inspect --line 0,0 8,3              explain a line
-  rasterproof engine scanline < requests.txt      speak the line protocol
-  rasterproof judge -- ./mine                     judge a program of yours, in any language
-  rasterproof course                              write a rasterizer of your own, in twelve steps
-  rasterproof render --scene cube                 a scene through the whole pipeline, by both
-  rasterproof plan --scene panels                 the effects it calls for, and what the rest costs
-  rasterproof specimens                           the published algorithms and their faults
-  rasterproof verify --invariant vertex-order     check one invariant; all checks every one
-  rasterproof mutants                             which invariant kills which planted fault
-  rasterproof exhaust triangles                   every triangle of a small window, certified
-  rasterproof review                              changed snapshots, old beside new
-  rasterproof cost --quick                        what each step of accuracy costs in time
-  rasterproof playground                          drag a corner in the browser, watch every engine
-  rasterproof quiz 2                              exercises of a chapter, answered and explained
-  rasterproof list                                families, cases, engines, faults, invariants
-
-Exit status: 0 all agree, 1 something disagrees, 2 usage, bad input, or something was not judged.";
+const EXAMPLES: &str = include_str!("help/rasterproof.txt").trim_ascii_end();
 
 /// Two rasterizers, two line drawers and an exact oracle, compared pixel for pixel.
 #[derive(Parser, Debug)]

@@ -20,16 +20,7 @@ use rasterproof_report::html::{
     Chapter, Column, Outcome, PictureLayer, PictureView, Report, Row, Table,
 };
 
-const HELP: &str = "Examples:
-  rasterproof plan panels                  a user interface: hardly anything
-  rasterproof plan facets --aa ssaa4
-  rasterproof plan panels --engine edge-function
-  rasterproof plan model.obj --rounds 31 --json
-
-Every effect is measured twice: planned alone, against a frame that pays for everything; and as
-the last one to be planned, against a frame that plans all others. Planning time is in the times.
-The pictures have the same bits, or the exit status is 1. --json holds the plan itself, which
-can be edited and drawn: rasterproof render SCENE --plan FILE.";
+const HELP: &str = include_str!("help/plan.txt").trim_ascii_end();
 
 const RASTERIZERS: &[(&str, Drawer)] =
     &[("scanline", Drawer::Scanline), ("edge-function", Drawer::EdgeFunction)];
@@ -323,22 +314,18 @@ fn report_page(
         ],
         ..Row::default()
     };
-    let word = if same { "AGREES" } else { "DISAGREES" };
     let [all, usual] = savings.factors();
+    let sentence = if same {
+        format!(
+            "Planned, it was drawn {all:.1} times as fast as with everything on, and {usual:.1} \
+             times as fast as usual, with the same bits."
+        )
+    } else {
+        "A plan changed the picture.".to_owned()
+    };
     Report {
         title: format!("What the scene {} calls for", scene.name),
-        outcome: Some(Outcome {
-            good: same,
-            word: word.to_owned(),
-            sentence: if same {
-                format!(
-                    "Planned, it was drawn {all:.1} times as fast as with everything on, and \
-                     {usual:.1} times as fast as usual, with the same bits."
-                )
-            } else {
-                "A plan changed the picture.".to_owned()
-            },
-        }),
+        outcome: Some(Outcome::of(same, sentence)),
         command: command.clone(),
         tables: vec![Table {
             caption:

@@ -13,10 +13,7 @@ use rasterproof_teaching::quiz::{CHAPTERS, Chapter, Exercise, Language, chapter,
 
 #[derive(clap::Args, Debug)]
 #[command(
-    after_help = "Answers: a letter or number of a choice, a pixel such as 3,3, or a number such as 0.25 or 1/4.
-An empty line passes, and shows the answer.
-
-Exit status: 0 every answer was right, 1 otherwise, 2 usage or bad input."
+    after_help = include_str!("help/quiz.txt").trim_ascii_end()
 )]
 pub struct QuizArguments {
     /// The chapter: 2, or the name of its page, ch02 or effects [default: all of them]

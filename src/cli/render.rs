@@ -37,18 +37,7 @@ use rasterproof_report::html::{Chapter, Outcome, PictureLayer, PictureView, Repo
 use rasterproof_report::picture;
 use rasterproof_tiles::frames;
 
-pub const HELP: &str = "Examples:
-  rasterproof render cube                                a scene of the book, by both rasterizers
-  rasterproof render model.obj --size 1024x1024 -o a.png a model, framed automatically
-  rasterproof render model.obj --yaw 30 --pitch 20 --cull cw --shading flat
-  rasterproof render sphere --aa ssaa4                   16 samples a pixel, where it needs them
-  rasterproof render spinning --spin 48                  an animated GIF
-  rasterproof render cube --wireframe                    edges, by DDA and by Bresenham
-  rasterproof render model.obj --engine tiles            fast: exact coverage, values in f32
-
-With both rasterizers every colour and depth is compared, and a difference is drawn. Where two
-surfaces lie in one plane, a pixel may be undecided by either: counted and drawn, no difference.
-Exit status: 0 they agree (or there is one), 1 they differ, 2 usage or bad input.";
+pub const HELP: &str = include_str!("help/render.txt").trim_ascii_end();
 
 #[derive(clap::Args, Debug)]
 #[command(after_help = HELP)]
@@ -495,22 +484,15 @@ fn report_page(
     let command = typed.line();
     let decided =
         by_rounding.and_then(|found| rounding(found, SNAPPED)).map(|lines| lines.join(" "));
-    let outcome = comparison.map(|c| Outcome {
-        good: c.agrees(),
-        word: if c.agrees() { "AGREES" } else { "DISAGREES" }.to_owned(),
-        sentence: format!(
-            "{}: {} of {} pixels and {} of {} depths differ.{}",
-            names(drawings).join(" and "),
-            c.wrong_pixels,
-            c.pixels,
-            c.wrong_depths,
-            c.depths,
-            [undecided(c), far_texture(c), decided]
-                .into_iter()
-                .flatten()
-                .map(|words| format!(" {words}."))
-                .collect::<String>()
-        ),
+    let outcome = comparison.map(|c| {
+        let open = [undecided(c), far_texture(c), decided].into_iter().flatten();
+        let open: String = open.map(|words| format!(" {words}.")).collect();
+        let (names, pixels) = (names(drawings).join(" and "), c.pixels);
+        let (wrong, wrong_depths, depths) = (c.wrong_pixels, c.wrong_depths, c.depths);
+        let pixels = format!("{wrong} of {pixels} pixels");
+        let sentence =
+            format!("{names}: {pixels} and {wrong_depths} of {depths} depths differ.{open}");
+        Outcome::of(c.agrees(), sentence)
     });
     let layer =
         |d: &Drawing| PictureLayer::new(d.name, &frame_comparison::rgb(&d.rendered.picture));

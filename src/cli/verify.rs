@@ -370,7 +370,7 @@ fn print(
     writeln!(
         out,
         "{}: {triangles} triangles and {segments} lines{beside}, {fragments}{} wrong pixels",
-        if agrees { "AGREES" } else { "DISAGREES" },
+        summary::word(agrees),
         verdict.mismatches() + exact.mismatches()
     )?;
     Ok(())

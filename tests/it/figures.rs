@@ -30,8 +30,10 @@ use serde_json::Value;
 use crate::illustrations::ball;
 use crate::pages::{page, read};
 
+type Values = fn() -> Vec<f64>;
+
 /// Every figure by its name. Where there are several, the pages add `.1`, `.2` and so on to the name.
-pub const ALL: &[(&str, fn() -> Vec<f64>)] = &[
+pub const ALL: &[(&str, Values)] = &[
     ("apart-facets", || apart("facets", Antialias::Supersample(4))),
     ("apart-panels-supersampled", || apart("panels", Antialias::Supersample(4))),
     ("apart-panels-multisampled", || apart("panels", Antialias::Multisample4)),

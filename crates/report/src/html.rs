@@ -72,6 +72,15 @@ pub struct Outcome {
     pub sentence: String,
 }
 
+impl Outcome {
+    /// The outcome of a comparison: `AGREES` or `DISAGREES`.
+    #[must_use]
+    pub fn of(agrees: bool, sentence: impl Into<String>) -> Self {
+        let word = super::summary::word(agrees).to_owned();
+        Self { good: agrees, word, sentence: sentence.into() }
+    }
+}
+
 /// A table with a header and a row head in its first column.
 #[derive(Clone, Debug, Default)]
 pub struct Table {

@@ -58,8 +58,7 @@ pub fn text(
     if !with_table && agrees {
         out += "every family as a table: add --table\n";
     }
-    let word = if agrees { "AGREES" } else { "DISAGREES" };
-    let _ = writeln!(out, "{word}: {}", closing(verdict));
+    let _ = writeln!(out, "{}: {}", summary::word(agrees), closing(verdict));
     out
 }
 
@@ -295,8 +294,6 @@ fn closing(verdict: &Verdict) -> String {
 /// The run as a page: properties and counts, then each failing case with what everybody draws there.
 #[must_use]
 pub fn page(verdict: &Verdict, command: &str, repeat: &dyn Fn(&str, u64) -> String) -> Report {
-    let good = verdict.agrees();
-    let word = if good { "AGREES" } else { "DISAGREES" };
     let views = verdict.failures.iter().map(|f| {
         let name = format!("{}#{}", f.family, f.index);
         let about = format!("{}: found in {} #{}, shrunk", f.property, f.family, f.index);
@@ -327,7 +324,7 @@ pub fn page(verdict: &Verdict, command: &str, repeat: &dyn Fn(&str, u64) -> Stri
     }
     Report {
         title: format!("Verdict on {}", d.name),
-        outcome: Some(Outcome { good, word: word.to_owned(), sentence: closing(verdict) }),
+        outcome: Some(Outcome::of(verdict.agrees(), closing(verdict))),
         command: command.to_owned(),
         seed: Some(verdict.seed),
         notes,

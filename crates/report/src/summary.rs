@@ -163,6 +163,11 @@ pub(super) fn thousands(n: u64) -> String {
     groups.map(|group| String::from_utf8_lossy(group)).collect::<Vec<_>>().join(",")
 }
 
+#[must_use]
+pub fn word(agrees: bool) -> &'static str {
+    if agrees { "AGREES" } else { "DISAGREES" }
+}
+
 /// A tick or a cross, coloured where that can be seen.
 #[must_use]
 pub fn mark(is_right: bool, colour: bool) -> &'static str {
