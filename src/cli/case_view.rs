@@ -12,6 +12,7 @@ use rasterproof_faults::planted::{LineMutant, TriangleMutant};
 use rasterproof_faults::published::from_screen;
 use rasterproof_registry::engines::{Engine, Entry, ExactEngine, LineEngine, Specimen};
 use rasterproof_registry::published_check::{specimen_coverage, specimen_line_coverage};
+use rasterproof_report::page_cases::added;
 use rasterproof_report::{ascii, panels};
 use rasterproof_verify::cases::unsnapped::OffGridCase;
 use rasterproof_verify::cases::{Case, Shape};
@@ -78,16 +79,6 @@ pub fn crop(hits: &Coverage, window: PixelRect) -> Coverage {
 }
 
 /// Hits of both.
-fn sum(a: &Coverage, b: &Coverage) -> Coverage {
-    let mut all = a.clone();
-    for (y, row) in b.rows() {
-        for (sum, hits) in all.row_mut(y).iter_mut().zip(row) {
-            *sum = sum.saturating_add(*hits);
-        }
-    }
-    all
-}
-
 pub struct Shown {
     engines: Vec<(String, Result<Coverage, String>)>,
     target: Coverage,
@@ -130,7 +121,7 @@ impl Shown {
                 let mut hits = Ok(Coverage::new(window, 0));
                 for line in lines {
                     let more = specimen_line_coverage(specimen, line, window);
-                    hits = hits.and_then(|hits| Ok(sum(&hits, &more?)));
+                    hits = hits.and_then(|hits| Ok(added(hits, &more?)));
                 }
                 hits
             }

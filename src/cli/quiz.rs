@@ -67,25 +67,24 @@ pub fn run(arguments: &QuizArguments, streams: &mut Streams<'_>) -> Status {
         Some(seed) => order(exercises.len(), seed),
     };
     let asked: Vec<_> = order.into_iter().map(|i| exercises[i]).collect();
-    if arguments.answers.as_os_str() == "-" {
-        let mut quiz = Quiz {
-            input: &mut *streams.input,
-            output: &mut *streams.output,
-            name: "standard input".to_owned(),
-            line: 0,
-            is_watched: streams.progress,
-            language,
-        };
-        return quiz.ask_all(&asked);
-    }
-    let answers = input::read_text(&arguments.answers, limits::NOTE_BYTES)
-        .map_err(|error| usage(format!("{error}\nGive a file with one answer in each line")))?;
+    let is_file = arguments.answers.as_os_str() != "-";
+    let text = if is_file {
+        input::read_text(&arguments.answers, limits::NOTE_BYTES)
+            .map_err(|error| usage(format!("{error}\nGive a file with one answer in each line")))?
+    } else {
+        String::new()
+    };
+    let mut file = text.as_bytes();
     let mut quiz = Quiz {
-        input: &mut answers.as_bytes(),
+        input: if is_file { &mut file } else { &mut *streams.input },
         output: &mut *streams.output,
-        name: printable_path(&arguments.answers),
+        name: if is_file {
+            printable_path(&arguments.answers)
+        } else {
+            "standard input".to_owned()
+        },
         line: 0,
-        is_watched: false,
+        is_watched: streams.progress && !is_file,
         language,
     };
     quiz.ask_all(&asked)

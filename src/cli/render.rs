@@ -642,47 +642,32 @@ fn describe(
     if changed > 0 {
         let _ = writeln!(text, "  what is switched off is called for: it changes {changed} pixels");
     }
-    match comparison {
-        None => {}
-        Some(comparison) if comparison.agrees() => {
-            let names = names(drawings).join(" and ");
-            let _ = writeln!(
+    if let Some(c) = comparison {
+        let names = names(drawings).join(" and ");
+        let (wrong, pixels, wrong_depths, depths) =
+            (c.wrong_pixels, c.pixels, c.wrong_depths, c.depths);
+        let _ = if c.agrees() {
+            writeln!(text, "AGREES: {names}, {pixels} pixels and {depths} depths, 0 differ")
+        } else if is_plan_alone(c, drawings) {
+            writeln!(
                 text,
-                "AGREES: {names}, {} pixels and {} depths, 0 differ",
-                comparison.pixels, comparison.depths
-            );
-        }
-        Some(comparison) if is_plan_alone(comparison, drawings) => {
-            let names = names(drawings).join(" and ");
-            let _ = writeln!(
+                "DISAGREES: {names} draw alike, and by this plan {wrong} of {pixels} pixels wrong; \
+                 plan again"
+            )
+        } else {
+            let place = difference.map(|path| format!(", drawn in {}", printable_path(path)));
+            writeln!(
                 text,
-                "DISAGREES: {names} draw alike, and by this plan {} of {} pixels wrong; plan again",
-                comparison.wrong_pixels, comparison.pixels
-            );
-        }
-        Some(comparison) => {
-            let names = names(drawings).join(" and ");
-            let _ = writeln!(
-                text,
-                "DISAGREES: {names}: {} of {} pixels and {} of {} depths differ{}",
-                comparison.wrong_pixels,
-                comparison.pixels,
-                comparison.wrong_depths,
-                comparison.depths,
-                difference.map_or(String::new(), |p| format!(", drawn in {}", printable_path(p)))
-            );
-        }
+                "DISAGREES: {names}: {wrong} of {pixels} pixels and {wrong_depths} of {depths} depths \
+                 differ{}",
+                place.unwrap_or_default()
+            )
+        };
     }
     if let Some(words) = comparison.and_then(undecided) {
-        match difference {
-            Some(path) => {
-                let _ = writeln!(text, "UNDECIDED: {words}: surfaces that tie, drawn in");
-                let _ = writeln!(text, "  {} (see docs/ties.md)", printable_path(path));
-            }
-            None => {
-                let _ = writeln!(text, "UNDECIDED: {words}: surfaces that tie (see docs/ties.md)");
-            }
-        }
+        let place = difference.map(|path| format!(", drawn in\n  {}", printable_path(path)));
+        let place = place.unwrap_or_default();
+        let _ = writeln!(text, "UNDECIDED: {words}: surfaces that tie{place} (see docs/ties.md)");
     }
     if let Some((first, rest)) =
         comparison.and_then(far_texture).as_deref().and_then(|words| words.split_once(", "))

@@ -2,9 +2,7 @@
 //! equal, double hits included, and each recorded fault must show.
 
 use std::collections::HashMap;
-use std::io::{BufRead, BufReader};
 
-use flate2::read::GzDecoder;
 use glam::{DVec2, DVec4};
 use rasterproof_core::grid::PixelRect;
 use rasterproof_faults::published::book_dda::BookDda;
@@ -17,24 +15,18 @@ use rasterproof_faults::published::{
 use serde_json::Value;
 
 use crate::protocol::ask;
+use crate::recorded::items;
 
 /// The book's screen has 64 rows and columns.
 const SIDE: u32 = 64;
 
+/// The first record tells how the others were made.
 fn records(name: &str) -> Vec<Value> {
-    let path = format!("{}/tests/data/{name}.jsonl.gz", env!("CARGO_MANIFEST_DIR"));
-    let file = std::fs::File::open(&path).unwrap_or_else(|e| panic!("{path}: {e}"));
-    let lines = BufReader::new(GzDecoder::new(file)).lines();
-    // The first record tells how the others were made.
-    lines.skip(1).map(|line| serde_json::from_str(&line.unwrap()).unwrap()).collect()
+    crate::recorded::records(name).split_off(1)
 }
 
 fn number(value: &Value) -> f64 {
     value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
-}
-
-fn items(value: &Value) -> &[Value] {
-    value.as_array().unwrap_or_else(|| panic!("{value} is no list"))
 }
 
 /// Positions in the book's coordinates (y up, samples at whole numbers) as window pixels.

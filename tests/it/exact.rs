@@ -277,17 +277,6 @@ fn refusals() {
     }
 }
 
-/// The scanline and the oracle stand on their own: only the edge function uses `robust`.
-#[test]
-fn independence_of_orient2d() {
-    let uses = |source: &str| {
-        source.lines().any(|l| !l.trim_start().starts_with("//") && l.contains("orient2d"))
-    };
-    assert!(uses(include_str!("../../crates/core/src/raster/edge_function_exact.rs")));
-    assert!(!uses(include_str!("../../crates/core/src/raster/scanline_exact.rs")));
-    assert!(!uses(include_str!("../../crates/verify/src/oracle/rational.rs")));
-}
-
 #[test]
 fn protocol() {
     // A hundredth of a subpixel beside the centres of the diagonal: snapping would make it a tie.

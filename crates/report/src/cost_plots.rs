@@ -4,7 +4,8 @@
 //! without any error, each in a row of its own. Labels stand beside their dots and never overlap.
 
 use super::board::number;
-use super::canvas::{self, Drawing, Ink, LETTER, Shape};
+use super::canvas::{self, Drawing, Ink, Shape};
+use super::lettering;
 use rasterproof_precision::cost::{Board, Ladder, Price, Priced, prices};
 
 const WIDTH: f64 = 800.0;
@@ -85,17 +86,7 @@ fn pareto_in(board: &Board, in_row: usize) -> Drawing {
 
 /// The text in lines of at most `room` units, broken at spaces.
 fn wrapped(text: &str, room: f64) -> Vec<String> {
-    let mut lines: Vec<String> = Vec::new();
-    for word in text.split(' ') {
-        match lines.last_mut() {
-            Some(line) if canvas::width(line) + canvas::width(word) + LETTER <= room => {
-                line.push(' ');
-                line.push_str(word);
-            }
-            _ => lines.push(word.to_owned()),
-        }
-    }
-    lines
+    lettering::lines(text, room, canvas::width)
 }
 
 fn legend(board: &Board) -> &'static str {

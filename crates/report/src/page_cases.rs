@@ -364,7 +364,9 @@ fn drawn_lines(list: &[cases::Line], window: PixelRect, judged: Judged<'_>) -> V
     drawn
 }
 
-fn added(mut sum: Coverage, more: &Coverage) -> Coverage {
+/// Hits of both.
+#[must_use]
+pub fn added(mut sum: Coverage, more: &Coverage) -> Coverage {
     for (y_px, row) in more.rows() {
         for (sum, more) in sum.row_mut(y_px).iter_mut().zip(row) {
             *sum = sum.saturating_add(*more);

@@ -4,6 +4,13 @@
 //! The texts are in `exercises.toml`. `docs/` ends each chapter with the same exercises, written by
 //! [`page::section`]; a test compares.
 
+/// Lists the functions of a page that compute answers, under the names that `exercises.toml` gives.
+macro_rules! solvers {
+    ($($name:ident),*) => {
+        pub const SOLVE: &[(&str, super::Solve)] = &[$((stringify!($name), $name)),*];
+    };
+}
+
 mod answer;
 mod ch01;
 mod ch02;

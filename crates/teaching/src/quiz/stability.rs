@@ -1,7 +1,7 @@
 //! Stability: which check notices which fault.
 
 use super::tools::{Px, corners};
-use super::{Answer, Solution, Solve, Text};
+use super::{Answer, Solution, Text};
 use rasterproof_core::contract::Rasterize as _;
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
@@ -12,8 +12,7 @@ use rasterproof_invariants::subject::Subject;
 use rasterproof_verify::comparison::Tally;
 use rasterproof_verify::oracle::Oracle;
 
-pub const SOLVE: &[(&str, Solve)] =
-    &[("notices", notices), ("orders", orders), ("moved", moved), ("metric", metric)];
+solvers!(notices, orders, moved, metric);
 
 /// Names of invariants, as the choices of [`NOTICES`].
 const ASKED: [&str; 3] = ["constant-attribute", "contiguous-rows", "closed-fan"];
