@@ -58,11 +58,11 @@ impl Contestants {
 pub fn picture_off_grid(
     title: &str,
     case: &OffGridCase,
-    engines: &[(&str, ExactEngine)],
+    engines: &[ExactEngine],
 ) -> Option<RgbImage> {
     let (target, _) = exact_coverage(&ExactEngine::Oracle, case).ok()?;
-    let hits = engines.iter().filter_map(|(name, engine)| {
-        Some(((*name).to_owned(), exact_coverage(engine, case).ok()?.0))
+    let hits = engines.iter().filter_map(|engine| {
+        Some((engine.name().to_owned(), exact_coverage(engine, case).ok()?.0))
     });
     Some(panels::of_off_grid(title, case, &hits.collect::<Vec<_>>(), &target).image)
 }
@@ -78,7 +78,6 @@ pub fn crop(hits: &Coverage, window: PixelRect) -> Coverage {
     cropped
 }
 
-/// Hits of both.
 pub struct Shown {
     engines: Vec<(String, Result<Coverage, String>)>,
     target: Coverage,
