@@ -4,7 +4,7 @@ use std::cell::RefCell;
 
 use glam::{DVec2, DVec3};
 
-use rasterproof_core::contract::{Interpolate as _, Rasterize as _};
+use rasterproof_core::contract::{Interpolate as _, Rasterize};
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_core::raster::edge_function::EdgeFunction;
@@ -21,12 +21,16 @@ pub fn corners(triangle: Px) -> Corners {
     triangle.map(|[x, y]| SubpixelPoint::from_px(x, y).expect("exercises stay in the domain"))
 }
 
-pub fn truth(triangles: &[Px], window: PixelRect) -> Coverage {
+pub fn covered(engine: &impl Rasterize, triangles: &[Corners], window: PixelRect) -> Coverage {
     let mut hits = Coverage::new(window, 0);
-    for &triangle in triangles {
-        Oracle.cover(corners(triangle), window, |span| hits.hit(span.y_px, span.x0_px, span.x1_px));
+    for &corners in triangles {
+        engine.cover(corners, window, |span| hits.hit(span.y_px, span.x0_px, span.x1_px));
     }
     hits
+}
+
+pub fn truth(triangles: &[Px], window: PixelRect) -> Coverage {
+    covered(&Oracle, &triangles.iter().map(|&px| corners(px)).collect::<Vec<_>>(), window)
 }
 
 /// What a published algorithm covers; what it refuses stays empty.
