@@ -64,44 +64,31 @@ pub mod cli;
 /// The samples in the pages under `docs/` are tests.
 #[cfg(doctest)]
 mod docs {
-    #[doc = include_str!("../docs/ch01.md")]
-    struct Chapter1;
-    #[doc = include_str!("../docs/ch02.md")]
-    struct Chapter2;
-    #[doc = include_str!("../docs/ch03.md")]
-    struct Chapter3;
-    #[doc = include_str!("../docs/ch04.md")]
-    struct Chapter4;
-    #[doc = include_str!("../docs/ch05.md")]
-    struct Chapter5;
-    #[doc = include_str!("../docs/ch06.md")]
-    struct Chapter6;
-    #[doc = include_str!("../docs/ch07.md")]
-    struct Chapter7;
-    #[doc = include_str!("../docs/ch08.md")]
-    struct Chapter8;
-    #[doc = include_str!("../docs/ch09.md")]
-    struct Chapter9;
-    #[doc = include_str!("../docs/ch10.md")]
-    struct Chapter10;
-    #[doc = include_str!("../docs/ch11.md")]
-    struct Chapter11;
-    #[doc = include_str!("../docs/conventions.md")]
-    struct Conventions;
-    #[doc = include_str!("../docs/effects.md")]
-    struct Effects;
-    #[doc = include_str!("../docs/gpus.md")]
-    struct Gpus;
-    #[doc = include_str!("../docs/games101.md")]
-    struct Games101;
-    #[doc = include_str!("../docs/judge.md")]
-    struct Judge;
-    #[doc = include_str!("../docs/cost.md")]
-    struct Cost;
-    #[doc = include_str!("../docs/offgrid.md")]
-    struct OffGrid;
-    #[doc = include_str!("../docs/protocol.md")]
-    struct Protocol;
-    #[doc = include_str!("../docs/sysu.md")]
-    struct Sysu;
+    macro_rules! pages {
+        ($($name:ident $file:literal)*) => {
+            $(#[doc = include_str!(concat!("../docs/", $file, ".md"))] struct $name;)*
+        };
+    }
+    pages! {
+        Chapter1 "ch01"
+        Chapter2 "ch02"
+        Chapter3 "ch03"
+        Chapter4 "ch04"
+        Chapter5 "ch05"
+        Chapter6 "ch06"
+        Chapter7 "ch07"
+        Chapter8 "ch08"
+        Chapter9 "ch09"
+        Chapter10 "ch10"
+        Chapter11 "ch11"
+        Conventions "conventions"
+        Effects "effects"
+        Gpus "gpus"
+        Games101 "games101"
+        Judge "judge"
+        Cost "cost"
+        OffGrid "offgrid"
+        Protocol "protocol"
+        Sysu "sysu"
+    }
 }

@@ -22,7 +22,7 @@ fn draw_cube(canvas: &mut Canvas, pose: &Matrix, shade: &impl Fn([f64; 5]) -> Rg
         normal[axis] = [-1.0, 1.0][end];
         let [nx, ny, nz, _] = transform(pose, normal);
         // The four corners of the face, clockwise as seen from outside.
-        let (p, q) = (1 << (axis + 1) % 3, 1 << (axis + 2) % 3);
+        let (p, q) = (1 << ((axis + 1) % 3), 1 << ((axis + 2) % 3));
         let around = if end == 1 { [0, p, p | q, q] } else { [0, q, p | q, p] };
         let vertices = around.map(|corner| {
             let [x, y, z] = cube_corner(corner | end << axis);

@@ -12,6 +12,7 @@ use rasterproof_faults::planted::{LineMutant, TriangleMutant};
 use rasterproof_faults::published::from_screen;
 use rasterproof_registry::engines::{Engine, Entry, ExactEngine, LineEngine, Specimen};
 use rasterproof_registry::published_check::{specimen_coverage, specimen_line_coverage};
+use rasterproof_report::page_cases::added;
 use rasterproof_report::{ascii, panels};
 use rasterproof_verify::cases::unsnapped::OffGridCase;
 use rasterproof_verify::cases::{Case, Shape};
@@ -25,7 +26,6 @@ use rasterproof_verify::oracle::coverage::samples_on_boundary;
 pub struct Contestants {
     /// Rasterizers, with the bounds of their values.
     pub engines: Vec<(Engine, Tolerance)>,
-    /// Line drawers.
     pub lines: Vec<LineEngine>,
     /// Rasterizers of corners that are not snapped.
     pub exact: Vec<ExactEngine>,
@@ -58,11 +58,11 @@ impl Contestants {
 pub fn picture_off_grid(
     title: &str,
     case: &OffGridCase,
-    engines: &[(&str, ExactEngine)],
+    engines: &[ExactEngine],
 ) -> Option<RgbImage> {
     let (target, _) = exact_coverage(&ExactEngine::Oracle, case).ok()?;
-    let hits = engines.iter().filter_map(|(name, engine)| {
-        Some(((*name).to_owned(), exact_coverage(engine, case).ok()?.0))
+    let hits = engines.iter().filter_map(|engine| {
+        Some((engine.name().to_owned(), exact_coverage(engine, case).ok()?.0))
     });
     Some(panels::of_off_grid(title, case, &hits.collect::<Vec<_>>(), &target).image)
 }
@@ -78,24 +78,11 @@ pub fn crop(hits: &Coverage, window: PixelRect) -> Coverage {
     cropped
 }
 
-/// Hits of both.
-fn sum(a: &Coverage, b: &Coverage) -> Coverage {
-    let mut all = a.clone();
-    for (y, row) in b.rows() {
-        for (sum, hits) in all.row_mut(y).iter_mut().zip(row) {
-            *sum = sum.saturating_add(*hits);
-        }
-    }
-    all
-}
-
-/// A case as each engine draws it.
 pub struct Shown {
     engines: Vec<(String, Result<Coverage, String>)>,
     target: Coverage,
 }
 
-/// Draws a case with each engine that can.
 pub fn draw(case: &Case, engines: &[(Engine, Tolerance)], lines: &[LineEngine]) -> Shown {
     match &case.shape {
         Shape::Triangles { list, .. } => Shown {
@@ -122,7 +109,6 @@ pub fn draw(case: &Case, engines: &[(Engine, Tolerance)], lines: &[LineEngine]) 
 }
 
 impl Shown {
-    /// Puts a specimen before the engines.
     pub fn add(&mut self, entry: &Entry, case: &Case) -> Result<(), Failure> {
         let window = case.window;
         let hits = match (&case.shape, entry.specimen) {
@@ -134,7 +120,7 @@ impl Shown {
                 let mut hits = Ok(Coverage::new(window, 0));
                 for line in lines {
                     let more = specimen_line_coverage(specimen, line, window);
-                    hits = hits.and_then(|hits| Ok(sum(&hits, &more?)));
+                    hits = hits.and_then(|hits| Ok(added(hits, &more?)));
                 }
                 hits
             }
@@ -152,12 +138,10 @@ impl Shown {
         tally
     }
 
-    /// Whether nobody draws the case.
     pub fn is_empty(&self) -> bool {
         self.engines.is_empty()
     }
 
-    /// How often each hits a pixel, and the oracle.
     pub fn hits(&self, at: PixelPoint) -> String {
         let of = |hits: &Coverage| hits.get(at.x, at.y).unwrap_or(0);
         let engines = self.engines.iter().map(|(name, hits)| match hits {
@@ -201,7 +185,6 @@ impl Shown {
     }
 }
 
-/// Positions, exact area and word of each shape.
 pub fn facts(case: &Case, out: &mut dyn std::io::Write) -> Result<(), Failure> {
     match &case.shape {
         Shape::Triangles { list, .. } => {

@@ -9,7 +9,7 @@ use super::files::{Use, distinct};
 use super::page::{PageArguments, as_file, write_page};
 use super::progress::Progress;
 use super::typed::Typed;
-use super::{Failure, Streams, exit, usage};
+use super::{Failure, Status, Streams, exit, usage};
 use rasterproof_precision::cost::{
     Board, ExternalVariant, Ladder, Options, Recorded, measure_with,
 };
@@ -44,7 +44,6 @@ impl Which {
     }
 }
 
-/// Options of `cost`.
 #[derive(clap::Args, Debug)]
 pub struct CostArguments {
     /// The ladder; all of them without a word
@@ -102,11 +101,7 @@ impl CostArguments {
 }
 
 /// Measures or reads, prints and draws. Nothing here disagrees with anything: errors are the result.
-pub fn run(
-    arguments: &CostArguments,
-    typed: &Typed,
-    streams: &mut Streams<'_>,
-) -> Result<u8, Failure> {
+pub fn run(arguments: &CostArguments, typed: &Typed, streams: &mut Streams<'_>) -> Status {
     let ladders = arguments.which.map_or(&Ladder::ALL[..], Which::ladders);
     arguments.check_files(ladders)?;
     let recorded = match &arguments.from {
@@ -161,8 +156,7 @@ fn write_report(
 /// What an earlier run printed, as far as it is asked for.
 fn read(path: &Path, ladders: &[Ladder]) -> Result<Recorded, Failure> {
     let named = |what: String| usage(format!("{}: {}", printable_path(path), printable(&what)));
-    let text =
-        input::read_text(path, limits::DOCUMENT_BYTES).map_err(|error| usage(error.to_string()))?;
+    let text = input::read_text(path, limits::DOCUMENT_BYTES).map_err(usage)?;
     let mut recorded = Recorded::read(&text).map_err(|why| {
         named(format!("{why}; write such a file with `rasterproof cost --json > FILE`"))
     })?;
@@ -195,7 +189,6 @@ fn plots(boards: &[Board]) -> Vec<(String, Drawing)> {
     plots
 }
 
-/// The plots as a page, the answer first.
 fn report_page(typed: &Typed, plots: &[(String, Drawing)], recorded: &Recorded) -> Report {
     let boards = &recorded.boards;
     let figure = |(name, drawing): &(String, Drawing)| Figure {

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use super::course_grade::{self, BuildLimits, GradeArguments};
 use super::progress::Progress as Shown;
-use super::{Failure, Streams, exit, usage, write_file};
+use super::{Status, Streams, exit, usage, write_file};
 use rasterproof_host::shell::quote;
 use rasterproof_host::text::printable_path;
 
@@ -17,19 +17,8 @@ use rasterproof_teaching::course::progress::{self, Progress};
 use rasterproof_teaching::course::verdict::{self, indented};
 use rasterproof_teaching::course::{self, STEPS, sandbox};
 
-pub const HELP: &str = "Examples:
-  rasterproof course                                   the twelve steps
-  rasterproof course start --language python mine      a starter, and mine/course.toml
-  rasterproof course check                             judge the current step, in that folder
-  rasterproof course check dda --hint                  judge a step, one hint more
-  rasterproof course check -- ./mine --fast            by this command, which is remembered
-  rasterproof course --grade ./mine                    points by step
-  rasterproof course --grade --folder submissions      a table of many
+pub const HELP: &str = include_str!("help/course.txt").trim_ascii_end();
 
-Programs are run with your rights: docs/course.md says what they may do.
-Exit status: 0 passed, 1 not passed, 2 the command, the program or course.toml cannot be used.";
-
-/// Options of `course`.
 #[derive(clap::Args, Debug)]
 pub struct CourseArguments {
     #[command(subcommand)]
@@ -79,7 +68,7 @@ struct CheckArguments {
     command: Vec<String>,
 }
 
-pub fn run(arguments: &CourseArguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+pub fn run(arguments: &CourseArguments, streams: &mut Streams<'_>) -> Status {
     match &arguments.command {
         None => list(streams),
         Some(CourseCommand::Start { language, folder }) => start(*language, folder, streams),
@@ -89,20 +78,20 @@ pub fn run(arguments: &CourseArguments, streams: &mut Streams<'_>) -> Result<u8,
 }
 
 /// The steps; those passed are marked where there is a progress file.
-fn list(streams: &mut Streams<'_>) -> Result<u8, Failure> {
+fn list(streams: &mut Streams<'_>) -> Status {
     let progress = Progress::read(Path::new(".")).map_err(usage)?;
     let out = &mut *streams.output;
-    for step in &STEPS {
+    for step in STEPS.iter() {
         let mark = match &progress {
             Some(progress) if progress.has_passed(step) => '+',
             Some(progress) if progress.current() == step => '>',
             _ => ' ',
         };
-        let (number, name, title) = (course::number(step), step.name, step.title);
+        let (number, name, title) = (course::number(step), &step.name, &step.title);
         writeln!(out, "{mark} {number:>2} {name:<14} {title} ({})", step.page)?;
-        out.write_all(indented(step.judged, 5).as_bytes())?;
+        out.write_all(indented(&step.judged, 5).as_bytes())?;
         let mut families: Vec<_> =
-            step.exercises.iter().flat_map(|e| e.families).copied().collect();
+            step.exercises.iter().flat_map(|e| &e.families).map(String::as_str).collect();
         families.sort_unstable();
         families.dedup();
         let families = format!("families: {}", families.join(", "));
@@ -115,7 +104,7 @@ fn list(streams: &mut Streams<'_>) -> Result<u8, Failure> {
     Ok(exit::AGREES)
 }
 
-fn start(language: Language, folder: &Path, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+fn start(language: Language, folder: &Path, streams: &mut Streams<'_>) -> Status {
     let (build, run) = starters::commands(language);
     let progress = Progress::new(build, run);
     let files = starters::files(language);
@@ -137,7 +126,7 @@ fn start(language: Language, folder: &Path, streams: &mut Streams<'_>) -> Result
     Ok(exit::AGREES)
 }
 
-fn run_check(arguments: &CheckArguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+fn run_check(arguments: &CheckArguments, streams: &mut Streams<'_>) -> Status {
     let found = Progress::read(&arguments.dir).map_err(usage)?;
     let mut progress = match (found, arguments.command.is_empty()) {
         (Some(found), _) => found,
@@ -159,7 +148,7 @@ fn run_check(arguments: &CheckArguments, streams: &mut Streams<'_>) -> Result<u8
     let step = match &arguments.step {
         None => progress.current(),
         Some(word) => course::find(word).ok_or_else(|| {
-            let names: Vec<_> = STEPS.iter().map(|step| step.name).collect();
+            let names: Vec<_> = STEPS.iter().map(|step| &*step.name).collect();
             usage(format!("no step is called '{word}'; there are {}", names.join(", ")))
         })?,
     };
@@ -187,7 +176,7 @@ fn run_check(arguments: &CheckArguments, streams: &mut Streams<'_>) -> Result<u8
             true => "all twelve steps are passed; next: rasterproof judge -- CMD\n".to_owned(),
             false => {
                 let next = progress.current();
-                let (number, title) = (course::number(next), next.title);
+                let (number, title) = (course::number(next), &next.title);
                 format!("next: step {number}, {title} ({}): {}", next.page, next.judged)
             }
         };

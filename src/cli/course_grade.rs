@@ -9,7 +9,7 @@ use rasterproof_host::limits;
 use serde_json::{Value, json};
 
 use super::progress::Progress as Shown;
-use super::{Failure, Streams, exit, usage};
+use super::{Failure, Status, Streams, exit, usage};
 use rasterproof_host::text::printable_path;
 use rasterproof_judge::process::{Limits, Program};
 use rasterproof_judge::process_group;
@@ -19,19 +19,8 @@ use rasterproof_teaching::course::progress::{self, Progress};
 use rasterproof_teaching::course::sandbox::{self, Bounds};
 use rasterproof_teaching::course::{self, STEPS, verdict};
 
-pub const HELP: &str = "Examples:
-  rasterproof course --grade ./mine                                  points of a program
-  rasterproof course --grade --format gradescope ./mine              Gradescope's results.json
-  rasterproof course --grade --folder submissions                    each by its own course.toml
-  rasterproof course --grade --folder submissions --run 'python3 -B {}/starter.py'
+pub const HELP: &str = include_str!("help/course_grade.txt").trim_ascii_end();
 
-Each program has --seconds in all, its build at most --build-seconds of them, --timeout for each
-answer and --memory MiB of addresses, and runs with your rights: judge only what you would run, or
-in a container. A submission that cannot be read, built or started has no points, and the reason is
-printed.
-Exit status: 0 every step passed, 1 not, 2 nothing could be judged.";
-
-/// What to print.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 enum Format {
     /// For people.
@@ -42,7 +31,6 @@ enum Format {
     Gradescope,
 }
 
-/// Options of `course --grade`.
 #[derive(clap::Args, Debug)]
 pub struct GradeArguments {
     /// Grade every folder in this one
@@ -116,7 +104,6 @@ struct Submission {
     run: Vec<OsString>,
 }
 
-/// What a submission got.
 struct Grade {
     name: String,
     /// For each step whether it is passed, and what came of it as text.
@@ -136,7 +123,7 @@ impl Grade {
     }
 }
 
-pub fn run(arguments: &GradeArguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+pub fn run(arguments: &GradeArguments, streams: &mut Streams<'_>) -> Status {
     if arguments.folder.is_some() && arguments.format == Format::Gradescope {
         return Err(usage(
             "results.json is of one submission\n  name a program: course --grade --format gradescope CMD",
@@ -237,7 +224,7 @@ fn grade(submission: &Submission, arguments: &GradeArguments) -> Grade {
     match started(submission, &bounds, arguments.timeout) {
         Err(error) => grade.error = Some(error),
         Ok(mut program) => {
-            for step in &STEPS {
+            for step in STEPS.iter() {
                 let amount = Amount {
                     cases: arguments.cases,
                     seed: arguments.seed,
@@ -312,7 +299,6 @@ fn everything(grades: &[Grade], arguments: &GradeArguments) -> Value {
     })
 }
 
-/// One test for each step, of one point.
 fn gradescope(grade: &Grade) -> Value {
     let tests = STEPS.iter().enumerate().map(|(at, step)| {
         let passed = grade.has_passed(at);

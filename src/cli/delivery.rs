@@ -26,7 +26,6 @@ enum Loss {
     Nothing,
     /// The reader has seen enough, as in `rasterproof list | head`.
     Unread,
-    /// Something could not be written.
     Failed,
 }
 
@@ -40,7 +39,6 @@ impl Delivery {
         self.0.get() == Loss::Nothing
     }
 
-    /// The exit status of a command with this verdict.
     pub(super) fn status(&self, verdict: u8) -> u8 {
         let is_lost = self.0.get() == Loss::Failed;
         if is_lost && verdict == exit::AGREES { exit::USAGE } else { verdict }

@@ -1,17 +1,11 @@
 //! `rasterproof digest`: everything the engines compute for a seed, hashed, to compare machines.
 
 use super::progress::Progress;
-use super::{Failure, Streams, exit};
+use super::{Status, Streams, exit};
 use rasterproof_registry::digest::{self, Options};
 
-pub const HELP: &str = "Examples:
-  rasterproof digest                          hash what every engine computes
-  rasterproof digest --seed 7 --cases 100     other cases, more of them
-  rasterproof digest --engine dda --json      one engine, for machines
+pub const HELP: &str = include_str!("help/digest.txt").trim_ascii_end();
 
-Run it on two machines: the same lines mean the same bits (docs/machines.md).";
-
-/// Options of `digest`.
 #[derive(clap::Args, Debug)]
 pub struct DigestArguments {
     /// Decides every generated case
@@ -28,8 +22,7 @@ pub struct DigestArguments {
     json: bool,
 }
 
-/// Hashes and prints; there is nothing to disagree with.
-pub fn run(arguments: &DigestArguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+pub fn run(arguments: &DigestArguments, streams: &mut Streams<'_>) -> Status {
     let DigestArguments { seed, cases, engine, json } = arguments;
     let (options, engine) = (Options { seed: *seed, cases: *cases }, engine.as_deref());
     let cases_in_all = digest::case_count(options, engine);

@@ -11,7 +11,7 @@ use rasterproof_host::{input, limits, output};
 
 use super::files::{Use, distinct};
 use super::progress::Progress;
-use super::{Failure, Streams, exit, usage, write_file};
+use super::{Failure, Status, Streams, exit, usage, write_file};
 use rasterproof_exhaustive::Plan;
 use rasterproof_exhaustive::certificate::{self, Certificate};
 use rasterproof_exhaustive::counts::Counts;
@@ -21,19 +21,10 @@ use rasterproof_exhaustive::lines::Lines;
 use rasterproof_exhaustive::run;
 use rasterproof_exhaustive::triangles::Triangles;
 
-/// Time between two checkpoints.
 const SAVE_EVERY: Duration = Duration::from_secs(3);
 
-pub const HELP: &str =
-    "Every case is judged; nothing is sampled. A run may be killed at any time: the same command
-resumes it. Parts run anywhere and in any order, and merge into one certificate:
-  rasterproof exhaust triangles --subpixel-bits 2 --shard 0/2 -o 0.json
-  rasterproof exhaust triangles --subpixel-bits 2 --shard 1/2 -o 1.json
-  rasterproof merge 0.json 1.json -o whole.json
+pub const HELP: &str = include_str!("help/exhaust.txt").trim_ascii_end();
 
-Exit status: 0 all agree, 1 something disagrees, 2 usage or bad input.";
-
-/// Options of `exhaust`.
 #[derive(clap::Args, Debug)]
 pub struct ExhaustArguments {
     #[command(subcommand)]
@@ -102,7 +93,6 @@ enum What {
     },
 }
 
-/// Options of `merge`.
 #[derive(clap::Args, Debug)]
 pub struct MergeArguments {
     /// The certificates of all shards of one run
@@ -159,7 +149,7 @@ impl ExhaustArguments {
     }
 }
 
-pub fn run(arguments: &ExhaustArguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+pub fn run(arguments: &ExhaustArguments, streams: &mut Streams<'_>) -> Status {
     let plan = arguments.plan();
     plan.check().map_err(usage)?;
     let shard = Shard { part: arguments.common.shard.0, parts: arguments.common.shard.1 };
@@ -237,11 +227,7 @@ fn resume(path: &Path, plan: &Plan, shard: Shard) -> Result<Option<run::Progress
 }
 
 /// Writes the certificate, says what it says, and returns the exit status.
-fn issue(
-    certificate: &Certificate,
-    file: Option<&Path>,
-    streams: &mut Streams<'_>,
-) -> Result<u8, Failure> {
+fn issue(certificate: &Certificate, file: Option<&Path>, streams: &mut Streams<'_>) -> Status {
     if file.is_none() {
         streams.output.write_all(certificate.to_json().as_bytes())?;
     }
@@ -270,15 +256,14 @@ fn issue(
     Ok(if agrees { exit::AGREES } else { exit::DISAGREES })
 }
 
-pub fn merge(arguments: &MergeArguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+pub fn merge(arguments: &MergeArguments, streams: &mut Streams<'_>) -> Status {
     let read = arguments.files.iter().map(|path| ("a shard", path.as_path(), Use::Reads));
     let written = arguments.output.as_deref().map(|path| ("--output", path, Use::Writes));
     distinct(&read.chain(written).collect::<Vec<_>>())?;
     let mut shards = Vec::new();
     for path in &arguments.files {
         let name = printable_path(path);
-        let text = input::read_text(path, limits::CERTIFICATE_BYTES)
-            .map_err(|error| usage(error.to_string()))?;
+        let text = input::read_text(path, limits::CERTIFICATE_BYTES).map_err(usage)?;
         let certificate = Certificate::from_json(&text)
             .map_err(|what| usage(format!("{name} {}", printable(&what.to_string()))))?;
         shards.push((name, certificate));

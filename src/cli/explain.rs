@@ -89,9 +89,33 @@ fn side(sign: Ordering, (name, owns): (&str, bool)) -> (String, bool) {
     }
 }
 
-fn by_the_rule(out: &mut String, is_covered: bool) {
+/// On which side of each edge the sample lies, and what the rule makes of that; false for a triangle that covers
+/// nothing. `edge` returns the ends of an edge, its value in words, and the side.
+fn sides<P: Copy>(
+    out: &mut String,
+    mut corners: [P; 3],
+    area: Ordering,
+    shown: impl Fn(P) -> String,
+    edge: impl Fn([P; 3], usize) -> ([P; 2], String, (String, bool)),
+) -> bool {
+    let _ = writeln!(out, "triangle {}", corners.map(&shown).join(" "));
+    if area == Ordering::Equal {
+        let _ = writeln!(out, "  zero area: it covers nothing");
+        return false;
+    }
+    if area == Ordering::Less {
+        corners.swap(1, 2);
+        let _ = writeln!(out, "  counter-clockwise: taken the other way round");
+    }
+    let mut is_covered = true;
+    for i in 0..3 {
+        let ([from, to], value, (what, is_inside)) = edge(corners, i);
+        is_covered &= is_inside;
+        let _ = writeln!(out, "  {} to {}:{value}, {what}", shown(from), shown(to));
+    }
     let verdict = if is_covered { "covered" } else { "not covered" };
     let _ = writeln!(out, "  by the top-left rule: {verdict}");
+    true
 }
 
 fn span_of_row(out: &mut String, who: &str, row: i32, span: Option<(i32, i32)>) {
@@ -102,30 +126,18 @@ fn span_of_row(out: &mut String, who: &str, row: i32, span: Option<(i32, i32)>) 
 }
 
 fn triangle(out: &mut String, triangle: &Triangle, window: PixelRect, at: PixelPoint) {
-    let mut corners: Corners = triangle.corners();
-    let _ = writeln!(out, "triangle {}", corners.map(point).join(" "));
+    let corners: Corners = triangle.corners();
     let area: i128 = edge_values(&corners, at.x, at.y).iter().sum();
-    match area.signum() {
-        0 => {
-            let _ = writeln!(out, "  zero area: it covers nothing");
-            return;
-        }
-        -1 => {
-            corners.swap(1, 2);
-            let _ = writeln!(out, "  counter-clockwise: taken the other way round");
-        }
-        _ => {}
-    }
     // Value i belongs to the edge opposite corner i; in units of 1/65536 square pixel.
-    let values = edge_values(&corners, at.x, at.y);
-    let mut is_covered = true;
-    for (opposite, value) in values.into_iter().enumerate() {
+    let edge = |corners: Corners, opposite: usize| {
+        let value = edge_values(&corners, at.x, at.y)[opposite];
         let (from, to) = (corners[(opposite + 1) % 3], corners[(opposite + 2) % 3]);
-        let (what, is_inside) = side(value.cmp(&0), kind([from.x, from.y], [to.x, to.y]));
-        is_covered &= is_inside;
-        let _ = writeln!(out, "  {} to {}: E = {value}, {what}", point(from), point(to));
+        let side = side(value.cmp(&0), kind([from.x, from.y], [to.x, to.y]));
+        ([from, to], format!(" E = {value}"), side)
+    };
+    if !sides(out, corners, area.cmp(&0), point, edge) {
+        return;
     }
-    by_the_rule(out, is_covered);
     let mut span = None;
     let row = PixelRect { y0: at.y, y1: at.y + 1, ..window };
     Scanline.cover(corners, row, |s| span = Some((s.x0_px, s.x1_px)));
@@ -134,21 +146,9 @@ fn triangle(out: &mut String, triangle: &Triangle, window: PixelRect, at: PixelP
 
 /// As [`triangle`], in exact arithmetic of any length: edge values in square pixels.
 fn free_triangle(out: &mut String, triangle: &FreeCorners, window: PixelRect, at: PixelPoint) {
-    let mut corners = triangle.px();
-    let _ = writeln!(out, "triangle {}", corners.map(free_point).join(" "));
-    match edge_value(corners[0], corners[1], corners[2]).0 {
-        Ordering::Equal => {
-            let _ = writeln!(out, "  zero area: it covers nothing");
-            return;
-        }
-        Ordering::Less => {
-            corners.swap(1, 2);
-            let _ = writeln!(out, "  counter-clockwise: taken the other way round");
-        }
-        Ordering::Greater => {}
-    }
-    let mut is_covered = true;
-    for i in 0..3 {
+    let corners = triangle.px();
+    let area = edge_value(corners[0], corners[1], corners[2]).0;
+    let edge = |corners: [[f64; 2]; 3], i: usize| {
         let (from, to) = (corners[i], corners[(i + 1) % 3]);
         let (sign, value) = edge_value(from, to, centre(at));
         let value = match (sign, value == 0.0) {
@@ -156,12 +156,11 @@ fn free_triangle(out: &mut String, triangle: &FreeCorners, window: PixelRect, at
             (Ordering::Less, true) => "below 0 by less than any f64".to_owned(),
             _ => format!("{value:?} px^2"),
         };
-        let (what, is_inside) = side(sign, kind(from, to));
-        is_covered &= is_inside;
-        let _ =
-            writeln!(out, "  {} to {}:\n    E = {value}, {what}", free_point(from), free_point(to));
+        ([from, to], format!("\n    E = {value}"), side(sign, kind(from, to)))
+    };
+    if !sides(out, corners, area, free_point, edge) {
+        return;
     }
-    by_the_rule(out, is_covered);
     let mut span = None;
     let row = PixelRect { y0: at.y, y1: at.y + 1, ..window };
     ScanlineExact.cover_exact(triangle, row, |s| span = Some((s.x0_px, s.x1_px)));

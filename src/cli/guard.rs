@@ -29,7 +29,6 @@ pub struct Guarded<'a> {
 }
 
 impl<'a> Guarded<'a> {
-    /// A writer before another one.
     pub fn new(inner: &'a mut dyn Write, escape: Escape) -> Self {
         Self { inner, escape, begun: Vec::new() }
     }

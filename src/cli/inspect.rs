@@ -11,7 +11,7 @@ use super::files::{Use, distinct};
 use super::inspect_case::{CaseArguments, Found, find, parse_pixel, recorded, words};
 use super::page::{PageArguments, as_file, save_page};
 use super::typed::Typed;
-use super::{Failure, Streams, exit, explain, png_name, program, usage, write_unasked};
+use super::{Failure, Status, Streams, exit, explain, png_name, program, usage, write_unasked};
 use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::{FreeCorners, PixelPoint};
 use rasterproof_faults::published::bare;
@@ -25,22 +25,8 @@ use rasterproof_verify::cases::{Case, Shape};
 use rasterproof_verify::comparison::unsnapped::{describe, exact_coverage, judge_exact_case};
 use rasterproof_verify::comparison::{Finding, Tally, oracle_pixels_each};
 
-/// Options of `inspect`.
 #[derive(clap::Args, Debug)]
-#[command(after_help = "Examples:
-  rasterproof inspect T2
-  rasterproof inspect 0.5,0.5 5.5,0.5 5.5,5.5 --window 8x8
-  rasterproof inspect 0,0 4,0 0,4 4,0 4,4 0,4            two triangles, three corners each
-  rasterproof inspect 0.1,0.2 5.3,0.7 2,6.1 --exact      the corners as they are, not snapped
-  rasterproof inspect --line -100,20 30,40 --window 64x48
-  rasterproof inspect sliver#123 --seed 7 -o sliver.png
-  rasterproof inspect T3 --specimen book-ch2
-  rasterproof inspect double_row             a recorded input of the book's code, and its specimen
-  rasterproof inspect T2 --pixel 3,3         why this pixel is covered
-  rasterproof inspect T2 --plant inclusive-edges
-
-In the grids: # agrees with the oracle, - missing, + extra, 2 twice, * rightly more than once.
-In the picture: grey agrees, red missing, orange extra, violet twice; blue edges, dark samples.")]
+#[command(after_help = include_str!("help/inspect.txt").trim_ascii_end())]
 pub struct InspectArguments {
     #[command(flatten)]
     case: CaseArguments,
@@ -118,11 +104,7 @@ fn no_part(plant: Option<&String>) -> Failure {
     usage(format!("{name} is in no engine that draws this case. See: {} list", program()))
 }
 
-pub fn run(
-    arguments: &InspectArguments,
-    command: &Typed,
-    streams: &mut Streams<'_>,
-) -> Result<u8, Failure> {
+pub fn run(arguments: &InspectArguments, command: &Typed, streams: &mut Streams<'_>) -> Status {
     if let Some(path) = &arguments.output {
         png_name(path)?;
         let page = arguments.page.page("inspect.html");
@@ -248,7 +230,6 @@ fn say_findings(
     Ok(agrees)
 }
 
-/// The name of the case on its page.
 fn name(arguments: &InspectArguments) -> String {
     let what = words(&arguments.case);
     let shapes = if arguments.case.line { "lines" } else { "triangles" };
@@ -269,17 +250,13 @@ fn write_report(
     streams: &mut Streams<'_>,
 ) -> Result<(), Failure> {
     view.command = command.clone().without(&["report"]).line();
-    let (word, sentence) = match agrees {
-        true => ("AGREES", "Every engine draws what the oracle draws."),
-        false => ("DISAGREES", "Not every engine draws what the oracle draws."),
+    let sentence = match agrees {
+        true => "Every engine draws what the oracle draws.",
+        false => "Not every engine draws what the oracle draws.",
     };
     let report = Report {
         title: format!("One case: {}", view.name),
-        outcome: Some(Outcome {
-            good: agrees,
-            word: word.to_owned(),
-            sentence: sentence.to_owned(),
-        }),
+        outcome: Some(Outcome::of(agrees, sentence)),
         command: command.line(),
         cases: vec![view],
         ..Report::default()
@@ -338,7 +315,7 @@ fn off_grid_alone(
     title: &str,
     mut case: OffGridCase,
     streams: &mut Streams<'_>,
-) -> Result<u8, Failure> {
+) -> Status {
     let exact = Contestants::new(arguments.plant.as_deref()).exact;
     if exact.is_empty() {
         return Err(no_part(arguments.plant.as_ref()));
@@ -454,11 +431,7 @@ fn off_grid(
     Ok((agrees, panels::of_off_grid(title, case, &drawn, &target).image))
 }
 
-fn refused(
-    title: &str,
-    corners: &[[[f64; 2]; 3]],
-    out: &mut dyn std::io::Write,
-) -> Result<u8, Failure> {
+fn refused(title: &str, corners: &[[[f64; 2]; 3]], out: &mut dyn std::io::Write) -> Status {
     writeln!(out, "{title}")?;
     let mut all = true;
     for triangle in corners {

@@ -16,7 +16,6 @@ use rasterproof_verify::cases::{self, Case, Line, Shape, Triangle};
 /// Largest side of the window around corners that were typed.
 const MOST_AROUND_PX: i32 = 64;
 
-/// The words that name a case.
 #[derive(clap::Args, Debug)]
 pub(super) struct CaseArguments {
     /// A named case, FAMILY#NUMBER, or three corners of each triangle: x,y in pixels, or
@@ -34,7 +33,6 @@ pub(super) struct CaseArguments {
     pub seed: u64,
 }
 
-/// What the words name.
 pub(super) enum Found {
     /// A case on the lattice; `typed` are its corners as they were typed, if they were.
     Case {
@@ -53,7 +51,6 @@ pub(super) enum Found {
     },
 }
 
-/// A case without anything expected of it.
 fn plain(title: String, case: Case) -> Found {
     Found::Case { title, case, expected: None, typed: Vec::new() }
 }
@@ -105,7 +102,6 @@ pub(super) fn words(arguments: &CaseArguments) -> Vec<String> {
     points.map(str::to_owned).collect()
 }
 
-/// Lines by their ends, two for each.
 fn lines(words: &[String]) -> Result<Found, Failure> {
     let (pairs, rest) = words.as_chunks::<2>();
     if !rest.is_empty() {
@@ -128,7 +124,6 @@ fn lines(words: &[String]) -> Result<Found, Failure> {
     Ok(plain(title, Case { window, shape: Shape::Lines(list) }))
 }
 
-/// Triangles by their corners, three for each.
 fn triangles(words: &[String], exact: bool) -> Result<Found, Failure> {
     let (triples, rest) = words.as_chunks::<3>();
     if !rest.is_empty() {

@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use super::progress::Progress;
-use super::{Failure, Streams, exit, program, write_entry};
+use super::{Failure, Status, Streams, exit, program, write_entry};
 use rasterproof_faults::planted::{self, Mutant};
 use rasterproof_invariants::matrix::{self, Matrix};
 use rasterproof_invariants::subject::Subject;
@@ -12,10 +12,8 @@ use rasterproof_report::summary;
 
 /// Inputs of each invariant where the command line does not say.
 const CASES: u64 = 2_000;
-/// The word for all of them.
 const ALL: &str = "all";
 
-/// Names for the command line.
 pub fn names() -> Vec<&'static str> {
     CATALOGUE.iter().map(|i| i.name).chain([ALL]).collect()
 }
@@ -27,7 +25,7 @@ pub fn run(
     seed: u64,
     cases: Option<u64>,
     streams: &mut Streams<'_>,
-) -> Result<u8, Failure> {
+) -> Status {
     let cases = cases.unwrap_or(CASES);
     let subject = match plant.and_then(Mutant::find) {
         Some(mutant) => Subject::with(mutant),
@@ -96,7 +94,6 @@ impl Outcomes {
     }
 }
 
-/// Prints what came of one invariant, and counts it.
 fn judge(
     invariant: &Invariant,
     subject: &Subject,
@@ -145,7 +142,6 @@ fn judge(
     Ok(())
 }
 
-/// Options of `mutants`.
 #[derive(clap::Args, Debug)]
 pub struct MutantsArguments {
     /// The matrix, too: a row for each fault, a column for each invariant
@@ -154,7 +150,7 @@ pub struct MutantsArguments {
 }
 
 /// Prints whether each invariant kills a mutant and each mutant dies, then every mutant.
-pub fn mutants(arguments: &MutantsArguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+pub fn mutants(arguments: &MutantsArguments, streams: &mut Streams<'_>) -> Status {
     let rows = Mutant::all().len() as u64;
     let progress = Progress::new(streams.progress, "faults", Some(rows));
     let matrix = Matrix::compute(matrix::SEED, matrix::CASES, &|| progress.done(1));
@@ -183,7 +179,6 @@ pub fn mutants(arguments: &MutantsArguments, streams: &mut Streams<'_>) -> Resul
     Ok(if problems.is_empty() { exit::AGREES } else { exit::DISAGREES })
 }
 
-/// Lists them for `rasterproof list`.
 pub fn list(streams: &mut Streams<'_>) -> Result<(), Failure> {
     let out = &mut streams.output;
     writeln!(out, "\nInvariants (rasterproof verify --invariant NAME, or all):")?;

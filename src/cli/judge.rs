@@ -10,7 +10,7 @@ use super::files::{Use, distinct};
 use super::page::{PageArguments, as_file, write_page};
 use super::progress::Progress;
 use super::typed::Typed;
-use super::{Failure, Streams, exit, league, usage};
+use super::{Status, Streams, exit, league, usage};
 use rasterproof_judge::ask::Ask;
 use rasterproof_judge::baseline::Baseline;
 use rasterproof_judge::process::{Limits, Program};
@@ -19,18 +19,8 @@ use rasterproof_judge::{Options, adapt_case, process_group};
 use rasterproof_report::formats::{self, Format};
 use rasterproof_report::judge_text;
 
-pub const HELP: &str = "The program reads requests on its standard input and answers on its standard output, a line each; see
-docs/protocol.md. It is run as given, without a shell, in the current folder.
-Examples:
-  rasterproof judge -- ./mine                           judge a program
-  rasterproof judge -- python3 mine.py --fast           with its own options
-  rasterproof judge --declare winding=cw -- ./mine      by what it does not say itself
-  rasterproof judge --family fan --case 17 -- ./mine    repeat one case
-  rasterproof judge --format junit -- ./mine            for a build server
+pub const HELP: &str = include_str!("help/judge.txt").trim_ascii_end();
 
-Exit status: 0 agrees, 1 disagrees, 2 the program or the command cannot be used.";
-
-/// Options of `judge`.
 #[derive(clap::Args, Debug)]
 pub struct JudgeArguments {
     /// Cases of each family
@@ -87,7 +77,6 @@ pub struct JudgeArguments {
     command: Vec<String>,
 }
 
-/// The formats by their names.
 fn format_words() -> impl TypedValueParser<Value = Format> {
     let words = Format::ALL.map(|(word, _, help)| PossibleValue::new(word).help(help));
     PossibleValuesParser::new(words).map(|chosen| {
@@ -133,11 +122,7 @@ impl JudgeArguments {
     }
 }
 
-pub fn run(
-    arguments: &JudgeArguments,
-    typed: &Typed,
-    streams: &mut Streams<'_>,
-) -> Result<u8, Failure> {
+pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>) -> Status {
     let limits = Limits { answer: arguments.timeout, start: arguments.start_timeout };
     if let Some(names) = &arguments.league {
         return league::run(names, &arguments.options(), limits, streams);

@@ -7,7 +7,7 @@ use super::progress::Progress;
 use rasterproof_host::text::printable;
 use rasterproof_host::{input, limits};
 
-use super::{Failure, Streams, exit, usage};
+use super::{Status, Streams, exit, usage};
 use rasterproof_judge::ask::Ask;
 use rasterproof_judge::league::{Adapter, League, Standing, date};
 use rasterproof_judge::process::{Limits, Program};
@@ -26,7 +26,7 @@ pub fn run(
     options: &Options,
     limits: Limits,
     streams: &mut Streams<'_>,
-) -> Result<u8, Failure> {
+) -> Status {
     let text = input::read_text(Path::new(ADAPTERS), limits::NOTE_BYTES)
         .map_err(|e| usage(format!("{e}\n  run it in the folder of the project")))?;
     let adapters: Vec<Adapter> = serde_json::from_str(&text)

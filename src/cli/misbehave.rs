@@ -7,7 +7,7 @@ use std::io::{BufRead, BufReader, Write};
 use std::process::{Command, Stdio};
 use std::time::Duration;
 
-use super::{Failure, Streams, engine, exit};
+use super::{Failure, Status, Streams, engine, exit};
 use rasterproof_judge::server;
 
 /// A way to break the protocol.
@@ -58,7 +58,7 @@ pub enum Fault {
 }
 
 /// Answers as the engine does, but for its fault.
-pub fn run(name: &str, fault: Fault, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+pub fn run(name: &str, fault: Fault, streams: &mut Streams<'_>) -> Status {
     let entry = &engine::find(name)?;
     match fault {
         Fault::Chatty => writeln!(streams.output, "INFO: a banner\n> HELLO? 2 lines\n")?,

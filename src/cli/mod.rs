@@ -39,6 +39,7 @@ use std::fmt;
 use std::io::{self, BufRead, Write};
 use std::path::Path;
 
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 use delivery::Delivered;
 pub use delivery::Delivery;
@@ -50,41 +51,14 @@ use typed::Typed;
 use rasterproof_registry::engines;
 use rasterproof_verify::cases;
 
-/// Exit codes.
 pub mod exit {
-    /// Everything agrees.
     pub const AGREES: u8 = 0;
-    /// Something disagrees.
     pub const DISAGREES: u8 = 1;
     /// The command or its input cannot be used, or something could not be judged.
     pub const USAGE: u8 = 2;
 }
 
-const EXAMPLES: &str = "Examples:
-  rasterproof                                     judge both rasterizers and both line drawers
-  rasterproof --family sliver --cases 1000000     many cases of one family
-  rasterproof --seconds 60 --seed 7               a minute of other cases
-  rasterproof --plant inclusive-edges             judge a planted fault, to see a disagreement
-  rasterproof inspect T2                          explain a named case
-  rasterproof inspect T2 --pixel 3,3              explain a pixel of it
-  rasterproof inspect 0.5,0.5 5.5,0.5 5.5,5.5     explain a triangle
-  rasterproof inspect --line 0,0 8,3              explain a line
-  rasterproof engine scanline < requests.txt      speak the line protocol
-  rasterproof judge -- ./mine                     judge a program of yours, in any language
-  rasterproof course                              write a rasterizer of your own, in twelve steps
-  rasterproof render --scene cube                 a scene through the whole pipeline, by both
-  rasterproof plan --scene panels                 the effects it calls for, and what the rest costs
-  rasterproof specimens                           the published algorithms and their faults
-  rasterproof verify --invariant vertex-order     check one invariant; all checks every one
-  rasterproof mutants                             which invariant kills which planted fault
-  rasterproof exhaust triangles                   every triangle of a small window, certified
-  rasterproof review                              changed snapshots, old beside new
-  rasterproof cost --quick                        what each step of accuracy costs in time
-  rasterproof playground                          drag a corner in the browser, watch every engine
-  rasterproof quiz 2                              exercises of a chapter, answered and explained
-  rasterproof list                                families, cases, engines, faults, invariants
-
-Exit status: 0 all agree, 1 something disagrees, 2 usage, bad input, or something was not judged.";
+const EXAMPLES: &str = include_str!("help/rasterproof.txt").trim_ascii_end();
 
 /// Two rasterizers, two line drawers and an exact oracle, compared pixel for pixel.
 #[derive(Parser, Debug)]
@@ -152,7 +126,6 @@ enum Command {
 pub enum Failure {
     /// A message for standard error; exit status 2.
     Usage(String),
-    /// Reading or writing failed.
     Io(io::Error),
 }
 
@@ -171,17 +144,27 @@ impl fmt::Display for Failure {
     }
 }
 
-fn usage(message: impl Into<String>) -> Failure {
-    Failure::Usage(message.into())
+/// The exit status of a command, or why it has none.
+type Status = Result<u8, Failure>;
+
+fn usage(message: impl ToString) -> Failure {
+    Failure::Usage(message.to_string())
 }
 
-/// Where a command reads and writes.
+/// A parser that takes one of these words for the value beside it.
+fn one_of<T: Clone + Send + Sync>(
+    choices: &'static [(&'static str, T)],
+) -> impl TypedValueParser<Value = T> {
+    let words = PossibleValuesParser::new(choices.iter().map(|(word, _)| *word));
+    words.try_map(|word| {
+        let found = choices.iter().find(|(choice, _)| **choice == word);
+        found.map(|(_, value)| value.clone()).ok_or("no such word")
+    })
+}
+
 pub struct Streams<'a> {
-    /// Standard input.
     pub input: &'a mut dyn BufRead,
-    /// Standard output.
     pub output: &'a mut dyn Write,
-    /// Standard error.
     pub errors: &'a mut dyn Write,
     /// Whether a progress bar may be drawn on the terminal.
     pub progress: bool,
@@ -366,7 +349,7 @@ fn report_loss(output: &Delivered<'_>, errors: &mut dyn Write) {
     }
 }
 
-fn dispatch(command: &Command, typed: &Typed, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+fn dispatch(command: &Command, typed: &Typed, streams: &mut Streams<'_>) -> Status {
     match command {
         Command::Verify(arguments) => verify::run(arguments, typed, streams),
         Command::Inspect(arguments) => inspect::run(arguments, typed, streams),
@@ -402,7 +385,7 @@ pub fn quiet_engines() {
     });
 }
 
-fn list(streams: &mut Streams<'_>) -> Result<u8, Failure> {
+fn list(streams: &mut Streams<'_>) -> Status {
     let out = &mut streams.output;
     writeln!(out, "Families (rasterproof --family NAME, rasterproof inspect NAME#NUMBER):")?;
     for family in cases::families() {
@@ -440,12 +423,10 @@ fn write_entry(out: &mut dyn Write, name: &str, about: &str) -> io::Result<()> {
     writeln!(out, "  {name}  {about}")
 }
 
-/// Writes a file whole or not at all.
 fn write_file(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    output::write(path, bytes).map_err(|error| usage(error.to_string()))
+    output::write(path, bytes).map_err(usage)
 }
 
-/// A whole number from zero.
 fn parse_number(text: &str) -> Result<u64, String> {
     text.parse().map_err(|_| "expected a whole number from 0, for example 7".to_owned())
 }

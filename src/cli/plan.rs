@@ -8,7 +8,7 @@ use super::plan_table::{grouped, plan_rows};
 use super::progress::Progress;
 use super::render::SceneArguments;
 use super::typed::Typed;
-use super::{Failure, Streams, exit, usage};
+use super::{Failure, Status, Streams, exit, usage};
 use rasterproof_registry::engines::Drawer;
 use rasterproof_render::effects::plan::{Plan, SceneDigest};
 use rasterproof_render::effects::render::Rendered;
@@ -20,32 +20,10 @@ use rasterproof_report::html::{
     Chapter, Column, Outcome, PictureLayer, PictureView, Report, Row, Table,
 };
 
-const HELP: &str = "Examples:
-  rasterproof plan panels                  a user interface: hardly anything
-  rasterproof plan facets --aa ssaa4
-  rasterproof plan panels --engine edge-function
-  rasterproof plan model.obj --rounds 31 --json
+const HELP: &str = include_str!("help/plan.txt").trim_ascii_end();
 
-Every effect is measured twice: planned alone, against a frame that pays for everything; and as
-the last one to be planned, against a frame that plans all others. Planning time is in the times.
-The pictures have the same bits, or the exit status is 1. --json holds the plan itself, which
-can be edited and drawn: rasterproof render SCENE --plan FILE.";
-
-/// Arguments of `plan`.
-#[derive(clap::ValueEnum, Clone, Copy, Debug)]
-enum Rasterizer {
-    Scanline,
-    EdgeFunction,
-}
-
-impl From<Rasterizer> for Drawer {
-    fn from(rasterizer: Rasterizer) -> Self {
-        match rasterizer {
-            Rasterizer::Scanline => Self::Scanline,
-            Rasterizer::EdgeFunction => Self::EdgeFunction,
-        }
-    }
-}
+const RASTERIZERS: &[(&str, Drawer)] =
+    &[("scanline", Drawer::Scanline), ("edge-function", Drawer::EdgeFunction)];
 
 #[derive(clap::Args, Debug)]
 #[command(after_help = HELP)]
@@ -53,8 +31,8 @@ pub struct PlanArguments {
     #[command(flatten)]
     what: SceneArguments,
     /// The rasterizer
-    #[arg(long, value_enum, default_value_t = Rasterizer::Scanline)]
-    engine: Rasterizer,
+    #[arg(long, default_value = "scanline", value_parser = super::one_of(RASTERIZERS))]
+    engine: Drawer,
     /// Rounds of measuring, each with every mixture of effects in turn
     #[arg(long, default_value_t = 9, value_parser = clap::value_parser!(u32).range(1..=1000))]
     rounds: u32,
@@ -65,12 +43,9 @@ pub struct PlanArguments {
     json: bool,
 }
 
-/// One mixture of effects, measured.
 #[derive(serde::Serialize)]
 struct Measured {
-    /// The mixture, for people.
     effects: String,
-    /// How often.
     rounds: usize,
     /// Median of the rounds.
     time_us: f64,
@@ -82,7 +57,6 @@ struct Measured {
     same: bool,
 }
 
-/// What planning one effect saves.
 #[derive(serde::Serialize)]
 struct Saving {
     effect: Effect,
@@ -112,7 +86,6 @@ fn is_noise(a: &Measured, b: &Measured) -> bool {
     a.rounds.min(b.rounds) < FEWEST_ROUNDS || a0 <= b1 && b0 <= a1
 }
 
-/// Everything measured.
 #[derive(serde::Serialize)]
 struct Savings {
     everything: Measured,
@@ -122,7 +95,6 @@ struct Savings {
     mixtures: Vec<Measured>,
 }
 
-/// The first of the mixtures.
 const WHOLE: [(&str, Effects); 3] =
     [("all", Effects::ALWAYS), ("usual", Effects::USUAL), ("planned", Effects::PLANNED)];
 
@@ -167,11 +139,7 @@ impl Savings {
     }
 }
 
-pub fn run(
-    arguments: &PlanArguments,
-    typed: &Typed,
-    streams: &mut Streams<'_>,
-) -> Result<u8, Failure> {
+pub fn run(arguments: &PlanArguments, typed: &Typed, streams: &mut Streams<'_>) -> Status {
     let maker = arguments.what.maker(streams.errors)?;
     let scene = maker.scene(0.0);
     let (measured, everything, planned) = measure(arguments, &scene, streams.progress)?;
@@ -226,9 +194,7 @@ fn measure(
             let i = if round == 0 { k } else { (k + round as usize) % mixtures.len() };
             let effects = &mixtures[i].1;
             let start = Instant::now();
-            let rendered = Drawer::from(arguments.engine)
-                .render(scene, effects, &mut target)
-                .map_err(|error| usage(error.to_string()))?;
+            let rendered = arguments.engine.render(scene, effects, &mut target).map_err(usage)?;
             let time = start.elapsed();
             if round == 0 {
                 frames.push(rendered);
@@ -328,7 +294,6 @@ fn describe(scene: &Scene, planned: &Rendered, everything: &Counters, savings: &
     text
 }
 
-/// The plan, what it saves and the picture.
 fn report_page(
     typed: &Typed,
     scene: &Scene,
@@ -349,22 +314,18 @@ fn report_page(
         ],
         ..Row::default()
     };
-    let word = if same { "AGREES" } else { "DISAGREES" };
     let [all, usual] = savings.factors();
+    let sentence = if same {
+        format!(
+            "Planned, it was drawn {all:.1} times as fast as with everything on, and {usual:.1} \
+             times as fast as usual, with the same bits."
+        )
+    } else {
+        "A plan changed the picture.".to_owned()
+    };
     Report {
         title: format!("What the scene {} calls for", scene.name),
-        outcome: Some(Outcome {
-            good: same,
-            word: word.to_owned(),
-            sentence: if same {
-                format!(
-                    "Planned, it was drawn {all:.1} times as fast as with everything on, and \
-                     {usual:.1} times as fast as usual, with the same bits."
-                )
-            } else {
-                "A plan changed the picture.".to_owned()
-            },
-        }),
+        outcome: Some(Outcome::of(same, sentence)),
         command: command.clone(),
         tables: vec![Table {
             caption:

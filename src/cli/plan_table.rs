@@ -8,7 +8,6 @@ use rasterproof_report::html::PlanRow;
 pub(super) struct Line<'a> {
     pub effect: Effect,
     pub reason: &'a str,
-    /// What the counts count.
     pub unit: Unit,
     /// On, off, open.
     pub counts: [u64; 3],
@@ -64,7 +63,6 @@ pub(super) fn grouped(decisions: &[Decision]) -> Vec<Line<'_>> {
     lines
 }
 
-/// The same lines as rows of the page.
 pub(super) fn plan_rows(decisions: &[Decision]) -> Vec<PlanRow> {
     let row = |line: Line<'_>| PlanRow {
         effect: line.effect.name().to_owned(),

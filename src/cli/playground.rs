@@ -8,7 +8,7 @@ use rasterproof_host::text::printable_path;
 use rasterproof_host::{input, limits};
 
 use super::files::{Use, distinct};
-use super::{Failure, Streams, exit, usage, write_file};
+use super::{Status, Streams, exit, usage, write_file};
 use rasterproof_playground::page::page;
 
 pub(super) const HELP: &str =
@@ -27,10 +27,7 @@ pub(super) struct PlaygroundArguments {
     output: PathBuf,
 }
 
-pub(super) fn run(
-    arguments: &PlaygroundArguments,
-    streams: &mut Streams<'_>,
-) -> Result<u8, Failure> {
+pub(super) fn run(arguments: &PlaygroundArguments, streams: &mut Streams<'_>) -> Status {
     let module = &arguments.module;
     distinct(&[("--module", module, Use::Reads), ("--output", &arguments.output, Use::Writes)])?;
     let refused = |why: String| {

@@ -66,7 +66,6 @@ impl Progress {
         self.bar.set_message(what.to_owned());
     }
 
-    /// Writes a line that stays.
     pub fn warn(&self, line: &str) {
         self.bar.suspend(|| eprintln!("{line}"));
     }

@@ -7,17 +7,13 @@ use clap::ValueEnum;
 use rasterproof_host::text::{printable, printable_path};
 use rasterproof_host::{input, limits};
 
-use super::{Failure, Streams, exit, usage};
+use super::{Failure, Status, Streams, exit, usage};
 use rasterproof_teaching::quiz::page::{TERMINAL_COLUMNS, choices, grids, legend, wrap};
 use rasterproof_teaching::quiz::{CHAPTERS, Chapter, Exercise, Language, chapter, order};
 
-/// Options of `quiz`.
 #[derive(clap::Args, Debug)]
 #[command(
-    after_help = "Answers: a letter or number of a choice, a pixel such as 3,3, or a number such as 0.25 or 1/4.
-An empty line passes, and shows the answer.
-
-Exit status: 0 every answer was right, 1 otherwise, 2 usage or bad input."
+    after_help = include_str!("help/quiz.txt").trim_ascii_end()
 )]
 pub struct QuizArguments {
     /// The chapter: 2, or the name of its page, ch02 or effects [default: all of them]
@@ -52,8 +48,7 @@ struct Score {
     right: usize,
 }
 
-/// Runs the command.
-pub fn run(arguments: &QuizArguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+pub fn run(arguments: &QuizArguments, streams: &mut Streams<'_>) -> Status {
     let language = match arguments.language {
         Words::En => Language::English,
         Words::Zh => Language::Chinese,
@@ -72,25 +67,24 @@ pub fn run(arguments: &QuizArguments, streams: &mut Streams<'_>) -> Result<u8, F
         Some(seed) => order(exercises.len(), seed),
     };
     let asked: Vec<_> = order.into_iter().map(|i| exercises[i]).collect();
-    if arguments.answers.as_os_str() == "-" {
-        let mut quiz = Quiz {
-            input: &mut *streams.input,
-            output: &mut *streams.output,
-            name: "standard input".to_owned(),
-            line: 0,
-            is_watched: streams.progress,
-            language,
-        };
-        return quiz.ask_all(&asked);
-    }
-    let answers = input::read_text(&arguments.answers, limits::NOTE_BYTES)
-        .map_err(|error| usage(format!("{error}\nGive a file with one answer in each line")))?;
+    let is_file = arguments.answers.as_os_str() != "-";
+    let text = if is_file {
+        input::read_text(&arguments.answers, limits::NOTE_BYTES)
+            .map_err(|error| usage(format!("{error}\nGive a file with one answer in each line")))?
+    } else {
+        String::new()
+    };
+    let mut file = text.as_bytes();
     let mut quiz = Quiz {
-        input: &mut answers.as_bytes(),
+        input: if is_file { &mut file } else { &mut *streams.input },
         output: &mut *streams.output,
-        name: printable_path(&arguments.answers),
+        name: if is_file {
+            printable_path(&arguments.answers)
+        } else {
+            "standard input".to_owned()
+        },
         line: 0,
-        is_watched: false,
+        is_watched: streams.progress && !is_file,
         language,
     };
     quiz.ask_all(&asked)
@@ -101,11 +95,7 @@ fn unknown(word: &str) -> Failure {
     usage(format!("there is no chapter '{word}' with exercises; give one of {}", words.join(", ")))
 }
 
-fn list(
-    chapters: &[&Chapter],
-    language: Language,
-    streams: &mut Streams<'_>,
-) -> Result<u8, Failure> {
+fn list(chapters: &[&Chapter], language: Language, streams: &mut Streams<'_>) -> Status {
     for chapter in chapters {
         let head = format!("{:>9}  {}", chapter.word(), language.of(&chapter.title));
         writeln!(streams.output, "{head} ({})", chapter.exercises.len())?;
@@ -119,11 +109,9 @@ fn list(
     Ok(exit::AGREES)
 }
 
-/// Where questions go and answers come from.
 struct Quiz<'a> {
     input: &'a mut dyn BufRead,
     output: &'a mut dyn Write,
-    /// The name of the input, for errors.
     name: String,
     line: usize,
     /// Somebody sits at a terminal: there is a prompt, and one may try again.
@@ -131,7 +119,6 @@ struct Quiz<'a> {
     language: Language,
 }
 
-/// The words of the dialogue.
 struct Phrases {
     right: &'static str,
     wrong: &'static str,
@@ -144,7 +131,7 @@ const PHRASES: [Phrases; 2] = [
 ];
 
 impl Quiz<'_> {
-    fn ask_all(&mut self, asked: &[(&Chapter, &Exercise)]) -> Result<u8, Failure> {
+    fn ask_all(&mut self, asked: &[(&Chapter, &Exercise)]) -> Status {
         let mut score = Score::default();
         for (i, &(chapter, exercise)) in asked.iter().enumerate() {
             let name = chapter.name(self.language);

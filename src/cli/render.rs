@@ -14,14 +14,14 @@ use super::page::{PageArguments, as_file, write_page};
 use super::plan_table::plan_rows;
 use super::progress::Progress;
 use super::typed::Typed;
-use super::{Failure, Streams, exit, program, usage};
+use super::{Failure, Status, Streams, exit, program, usage};
 use rasterproof_core::angle::{atan, cos, sin, tan, turn_y};
 use rasterproof_core::frame::Frame;
 use rasterproof_registry::engines::{Drawer, Engine};
 use rasterproof_registry::undecided::{self, Drawn as DrawnBy};
 use rasterproof_render::effects::depth_ties::{ByRounding, Cause, Rivals};
 use rasterproof_render::effects::plan::{Plan, SceneDigest, VERSION};
-use rasterproof_render::effects::render::{BadScene, PlanError, Rendered};
+use rasterproof_render::effects::render::{PlanError, Rendered};
 use rasterproof_render::effects::{Effect, Effects, Mode};
 use rasterproof_render::pipeline::Counters;
 use rasterproof_render::pipeline::assemble::Cull;
@@ -37,20 +37,8 @@ use rasterproof_report::html::{Chapter, Outcome, PictureLayer, PictureView, Repo
 use rasterproof_report::picture;
 use rasterproof_tiles::frames;
 
-pub const HELP: &str = "Examples:
-  rasterproof render cube                                a scene of the book, by both rasterizers
-  rasterproof render model.obj --size 1024x1024 -o a.png a model, framed automatically
-  rasterproof render model.obj --yaw 30 --pitch 20 --cull cw --shading flat
-  rasterproof render sphere --aa ssaa4                   16 samples a pixel, where it needs them
-  rasterproof render spinning --spin 48                  an animated GIF
-  rasterproof render cube --wireframe                    edges, by DDA and by Bresenham
-  rasterproof render model.obj --engine tiles            fast: exact coverage, values in f32
+pub const HELP: &str = include_str!("help/render.txt").trim_ascii_end();
 
-With both rasterizers every colour and depth is compared, and a difference is drawn. Where two
-surfaces lie in one plane, a pixel may be undecided by either: counted and drawn, no difference.
-Exit status: 0 they agree (or there is one), 1 they differ, 2 usage or bad input.";
-
-/// Arguments of `render`.
 #[derive(clap::Args, Debug)]
 #[command(after_help = HELP)]
 pub struct RenderArguments {
@@ -84,7 +72,6 @@ pub struct RenderArguments {
     json: bool,
 }
 
-/// What is drawn, and from where.
 #[derive(clap::Args, Debug)]
 pub struct SceneArguments {
     /// A scene of the book by name, or a model in OBJ, with its MTL and textures beside it
@@ -97,17 +84,17 @@ pub struct SceneArguments {
     #[arg(long, value_name = "WxH", default_value = "640x480", value_parser = parse_size)]
     size: (u32, u32),
     /// Antialiasing
-    #[arg(long, value_enum, default_value_t = Smoothing::None)]
-    aa: Smoothing,
+    #[arg(long, default_value = "none", value_parser = super::one_of(ANTIALIAS))]
+    pub(super) aa: Antialias,
     /// Leave out triangles by their winding as the eye sees them
-    #[arg(long, value_enum)]
-    cull: Option<Winding>,
+    #[arg(long, value_parser = super::one_of(WINDINGS))]
+    cull: Option<Cull>,
     /// How light is laid on a model [default: phong]
-    #[arg(long, value_enum, value_name = "SHADING")]
-    shading: Option<Lighting>,
+    #[arg(long, value_name = "SHADING", value_parser = super::one_of(SHADINGS))]
+    shading: Option<Shading>,
     /// How depths are stored
-    #[arg(long, value_enum, default_value_t = Depths::Unorm32)]
-    depth: Depths,
+    #[arg(long, default_value = "unorm32", value_parser = super::one_of(DEPTHS))]
+    depth: DepthFormat,
     /// Turn the model by this many degrees, to the right [default: 30]
     #[arg(long, value_name = "DEGREES", allow_negative_numbers = true)]
     yaw: Option<f64>,
@@ -130,38 +117,28 @@ enum Drawn {
     Both,
 }
 
-#[derive(clap::ValueEnum, Clone, Copy, Debug)]
-enum Smoothing {
-    None,
-    Msaa4,
-    Ssaa2,
-    Ssaa4,
-    Ssaa8,
-}
-
-#[derive(clap::ValueEnum, Clone, Copy, Debug)]
-enum Winding {
-    None,
-    Cw,
-    Ccw,
-}
-
-#[derive(clap::ValueEnum, Clone, Copy, Debug)]
-enum Lighting {
-    Unlit,
-    Flat,
-    Gouraud,
-    Phong,
-}
-
-#[derive(clap::ValueEnum, Clone, Copy, Debug)]
-enum Depths {
-    Unorm32,
-    Unorm24,
-    F32,
-    F32Reversed,
-    F64,
-}
+const ANTIALIAS: &[(&str, Antialias)] = &[
+    ("none", Antialias::None),
+    ("msaa4", Antialias::Multisample4),
+    ("ssaa2", Antialias::Supersample(2)),
+    ("ssaa4", Antialias::Supersample(4)),
+    ("ssaa8", Antialias::Supersample(8)),
+];
+const WINDINGS: &[(&str, Cull)] =
+    &[("none", Cull::None), ("cw", Cull::Clockwise), ("ccw", Cull::CounterClockwise)];
+const SHADINGS: &[(&str, Shading)] = &[
+    ("unlit", Shading::Unlit),
+    ("flat", Shading::Flat),
+    ("gouraud", Shading::Gouraud),
+    ("phong", Shading::Phong),
+];
+const DEPTHS: &[(&str, DepthFormat)] = &[
+    ("unorm32", DepthFormat::Unorm32),
+    ("unorm24", DepthFormat::Unorm24),
+    ("f32", DepthFormat::F32),
+    ("f32-reversed", DepthFormat::F32Reversed),
+    ("f64", DepthFormat::F64),
+];
 
 fn scene_names() -> Vec<&'static str> {
     SCENES.iter().map(|entry| entry.name).collect()
@@ -174,30 +151,10 @@ fn parse_size(text: &str) -> Result<(u32, u32), String> {
 }
 
 impl SceneArguments {
-    pub(super) fn antialias(&self) -> Antialias {
-        match self.aa {
-            Smoothing::None => Antialias::None,
-            Smoothing::Msaa4 => Antialias::Multisample4,
-            Smoothing::Ssaa2 => Antialias::Supersample(2),
-            Smoothing::Ssaa4 => Antialias::Supersample(4),
-            Smoothing::Ssaa8 => Antialias::Supersample(8),
-        }
-    }
-
-    fn format(&self) -> DepthFormat {
-        match self.depth {
-            Depths::Unorm32 => DepthFormat::Unorm32,
-            Depths::Unorm24 => DepthFormat::Unorm24,
-            Depths::F32 => DepthFormat::F32,
-            Depths::F32Reversed => DepthFormat::F32Reversed,
-            Depths::F64 => DepthFormat::F64,
-        }
-    }
-
     /// An empty target of the size and kind asked for.
     pub(super) fn target(&self) -> Result<Target, Failure> {
         let (width, height) = self.size;
-        Target::new(width, height, self.antialias(), self.format()).map_err(usage)
+        Target::new(width, height, self.aa, self.depth).map_err(usage)
     }
 
     /// The name of the scene, or the path of the model.
@@ -211,7 +168,6 @@ impl SceneArguments {
         scene.filter(|_| !path.is_file()).map_or(Err(path), |entry| Ok(entry.name))
     }
 
-    /// The name of the scene or model.
     pub(super) fn name(&self) -> String {
         let stem = |path: &Path| path.file_stem().unwrap_or_default().to_string_lossy().into();
         self.source().map_or_else(stem, str::to_owned)
@@ -220,13 +176,8 @@ impl SceneArguments {
     /// The scene, turned by a share of a full turn, as a function that makes it.
     pub(super) fn maker(&self, errors: &mut dyn std::io::Write) -> Result<Maker, Failure> {
         let (width, height) = self.size;
-        check_size(width, height, self.antialias()).map_err(usage)?;
+        check_size(width, height, self.aa).map_err(usage)?;
         let aspect = f64::from(width) / f64::from(height);
-        let cull = self.cull.map(|winding| match winding {
-            Winding::None => Cull::None,
-            Winding::Cw => Cull::Clockwise,
-            Winding::Ccw => Cull::CounterClockwise,
-        });
         let base = match self.source() {
             Ok(name) => {
                 self.refuse_eye(name)?;
@@ -248,7 +199,7 @@ impl SceneArguments {
             }
             Err(path) => Base::Model(Box::new(self.frame_model(path, aspect, errors)?)),
         };
-        Ok(Maker { base, aspect, cull })
+        Ok(Maker { base, aspect, cull: self.cull })
     }
 
     /// A scene has an eye and a light of its own: what would move them is refused, not ignored.
@@ -268,19 +219,13 @@ impl SceneArguments {
         }
     }
 
-    /// A model, in the middle, seen whole.
     fn frame_model(
         &self,
         path: &Path,
         aspect: f64,
         errors: &mut dyn std::io::Write,
     ) -> Result<Framed, Failure> {
-        let shading = match self.shading.unwrap_or(Lighting::Phong) {
-            Lighting::Unlit => Shading::Unlit,
-            Lighting::Flat => Shading::Flat,
-            Lighting::Gouraud => Shading::Gouraud,
-            Lighting::Phong => Shading::Phong,
-        };
+        let shading = self.shading.unwrap_or(Shading::Phong);
         let (yaw, pitch) = (self.yaw.unwrap_or(30.0), self.pitch.unwrap_or(20.0));
         let (zoom, fov) = (self.zoom.unwrap_or(1.0), self.fov.unwrap_or(40.0));
         let numbers = [("--yaw", yaw), ("--pitch", pitch), ("--zoom", zoom), ("--fov", fov)];
@@ -295,8 +240,7 @@ impl SceneArguments {
         if fov <= 0.0 || fov >= 180.0 {
             return Err(usage(format!("--fov {fov} does not lie between 0 and 180 degrees")));
         }
-        let model = rasterproof_models::obj::load(path, shading)
-            .map_err(|error| usage(error.to_string()))?;
+        let model = rasterproof_models::obj::load(path, shading).map_err(usage)?;
         for warning in model.warnings {
             writeln!(errors, "warning: {warning}")?;
         }
@@ -314,12 +258,10 @@ impl SceneArguments {
         let turn = turn_y(yaw);
         let away = DVec3::new(0.0, sin(pitch), -cos(pitch));
         let up = DVec3::new(0.0, cos(pitch), sin(pitch));
-        let refused =
-            |error: rasterproof_render::pipeline::transform::NoProjection| usage(error.to_string());
-        let view = look_at(centre + away * distance, centre, up).map_err(refused)?;
+        let view = look_at(centre + away * distance, centre, up).map_err(usage)?;
         let near = (distance - radius).max(distance * 1e-3).max(radius * 1e-3);
-        let projection = perspective(fov.to_radians(), aspect, near, distance + radius * 1.01)
-            .map_err(refused)?;
+        let projection =
+            perspective(fov.to_radians(), aspect, near, distance + radius * 1.01).map_err(usage)?;
         let mut scene = Scene::new(&self.name(), "a model", projection);
         scene.view = view;
         scene.items = model.items;
@@ -346,7 +288,6 @@ enum Base {
     Model(Box<Framed>),
 }
 
-/// Makes the scene of each frame.
 pub(super) struct Maker {
     base: Base,
     aspect: f64,
@@ -377,7 +318,6 @@ impl Maker {
     }
 }
 
-/// One rasterizer's frame.
 struct Drawing {
     name: &'static str,
     rendered: Rendered,
@@ -387,15 +327,10 @@ struct Drawing {
     unplanned: u64,
     /// Pixels that the plan of a file, or effects that were switched off, change.
     changed: u64,
-    /// Whether the target holds every depth of every sample.
     is_complete: bool,
 }
 
-pub fn run(
-    arguments: &RenderArguments,
-    typed: &Typed,
-    streams: &mut Streams<'_>,
-) -> Result<u8, Failure> {
+pub fn run(arguments: &RenderArguments, typed: &Typed, streams: &mut Streams<'_>) -> Status {
     let what = &arguments.what;
     let extension = if arguments.spin.is_some() { "gif" } else { "png" };
     let default = || arguments.page.place.out.join(format!("{}.{extension}", what.name()));
@@ -497,7 +432,7 @@ fn compare(
     let ties = if a.is_complete && b.is_complete {
         let engines = [Engine::Scanline, Engine::EdgeFunction];
         let drawn = [0, 1].map(|i| DrawnBy { engine: engines[i], target: &drawings[i].target });
-        Some(undecided::find(scene, drawn).map_err(|error| usage(error.to_string()))?)
+        Some(undecided::find(scene, drawn).map_err(usage)?)
     } else {
         None
     };
@@ -511,9 +446,8 @@ fn compare(
     Ok(Some(comparison))
 }
 
-/// Where only rounding decides which surface is seen.
 fn by_rounding(scene: &Scene, target: &Target, cause: Cause) -> Result<ByRounding, Failure> {
-    let rivals = Rivals::new(scene, target).map_err(|error| usage(error.to_string()))?;
+    let rivals = Rivals::new(scene, target).map_err(usage)?;
     Ok(rivals.by_rounding(cause))
 }
 
@@ -550,22 +484,15 @@ fn report_page(
     let command = typed.line();
     let decided =
         by_rounding.and_then(|found| rounding(found, SNAPPED)).map(|lines| lines.join(" "));
-    let outcome = comparison.map(|c| Outcome {
-        good: c.agrees(),
-        word: if c.agrees() { "AGREES" } else { "DISAGREES" }.to_owned(),
-        sentence: format!(
-            "{}: {} of {} pixels and {} of {} depths differ.{}",
-            names(drawings).join(" and "),
-            c.wrong_pixels,
-            c.pixels,
-            c.wrong_depths,
-            c.depths,
-            [undecided(c), far_texture(c), decided]
-                .into_iter()
-                .flatten()
-                .map(|words| format!(" {words}."))
-                .collect::<String>()
-        ),
+    let outcome = comparison.map(|c| {
+        let open = [undecided(c), far_texture(c), decided].into_iter().flatten();
+        let open: String = open.map(|words| format!(" {words}.")).collect();
+        let (names, pixels) = (names(drawings).join(" and "), c.pixels);
+        let (wrong, wrong_depths, depths) = (c.wrong_pixels, c.wrong_depths, c.depths);
+        let pixels = format!("{wrong} of {pixels} pixels");
+        let sentence =
+            format!("{names}: {pixels} and {wrong_depths} of {depths} depths differ.{open}");
+        Outcome::of(c.agrees(), sentence)
     });
     let layer =
         |d: &Drawing| PictureLayer::new(d.name, &frame_comparison::rgb(&d.rendered.picture));
@@ -594,8 +521,7 @@ fn read_plan(path: &Path) -> Result<Plan, Failure> {
     let refused = |error: &dyn std::fmt::Display| {
         usage(format!("{}: {}", printable_path(path), printable(&error.to_string())))
     };
-    let text =
-        input::read_text(path, limits::DOCUMENT_BYTES).map_err(|error| usage(error.to_string()))?;
+    let text = input::read_text(path, limits::DOCUMENT_BYTES).map_err(usage)?;
     let whole = serde_json::from_str::<serde_json::Value>(&text).map_err(|e| refused(&e))?;
     let plan = whole.get("plan").unwrap_or(&whole);
     // Before anything else: the words of another version are not misspelt.
@@ -627,25 +553,24 @@ fn draw(
     };
     let drawing = |drawer: &Drawer| {
         let mut target = arguments.what.target()?;
-        let refused = |error: BadScene| usage(error.to_string());
         let incomplete = |name, rendered, target, changed| {
             Ok(Drawing { name, rendered, target, unplanned: 0, changed, is_complete: false })
         };
         if arguments.wireframe {
-            let rendered = drawer.render_wireframe(scene, &mut target).map_err(refused)?;
+            let rendered = drawer.render_wireframe(scene, &mut target).map_err(usage)?;
             return incomplete(drawer.line_name(), rendered, target, 0);
         }
         let asked = |target: &mut Target| match (&plan, &arguments.plan) {
             (Some(plan), Some(path)) => drawer
                 .execute(plan, scene, target)
                 .map_err(|error| usage(format!("{}: {error}", printable_path(path)))),
-            _ => drawer.render(scene, &effects, target).map_err(refused),
+            _ => drawer.render(scene, &effects, target).map_err(usage),
         };
         let (name, rendered) = (drawer.name(), asked(&mut target)?);
         if engines.len() < 2 {
             return incomplete(name, rendered, target, 0);
         }
-        let whole = drawer.render(scene, &complete, &mut target).map_err(refused)?;
+        let whole = drawer.render(scene, &complete, &mut target).map_err(usage)?;
         let unplanned = frame_comparison::differing(&rendered.picture, &whole.picture);
         if is_free || unplanned == 0 {
             return Ok(Drawing {
@@ -717,47 +642,32 @@ fn describe(
     if changed > 0 {
         let _ = writeln!(text, "  what is switched off is called for: it changes {changed} pixels");
     }
-    match comparison {
-        None => {}
-        Some(comparison) if comparison.agrees() => {
-            let names = names(drawings).join(" and ");
-            let _ = writeln!(
+    if let Some(c) = comparison {
+        let names = names(drawings).join(" and ");
+        let (wrong, pixels, wrong_depths, depths) =
+            (c.wrong_pixels, c.pixels, c.wrong_depths, c.depths);
+        let _ = if c.agrees() {
+            writeln!(text, "AGREES: {names}, {pixels} pixels and {depths} depths, 0 differ")
+        } else if is_plan_alone(c, drawings) {
+            writeln!(
                 text,
-                "AGREES: {names}, {} pixels and {} depths, 0 differ",
-                comparison.pixels, comparison.depths
-            );
-        }
-        Some(comparison) if is_plan_alone(comparison, drawings) => {
-            let names = names(drawings).join(" and ");
-            let _ = writeln!(
+                "DISAGREES: {names} draw alike, and by this plan {wrong} of {pixels} pixels wrong; \
+                 plan again"
+            )
+        } else {
+            let place = difference.map(|path| format!(", drawn in {}", printable_path(path)));
+            writeln!(
                 text,
-                "DISAGREES: {names} draw alike, and by this plan {} of {} pixels wrong; plan again",
-                comparison.wrong_pixels, comparison.pixels
-            );
-        }
-        Some(comparison) => {
-            let names = names(drawings).join(" and ");
-            let _ = writeln!(
-                text,
-                "DISAGREES: {names}: {} of {} pixels and {} of {} depths differ{}",
-                comparison.wrong_pixels,
-                comparison.pixels,
-                comparison.wrong_depths,
-                comparison.depths,
-                difference.map_or(String::new(), |p| format!(", drawn in {}", printable_path(p)))
-            );
-        }
+                "DISAGREES: {names}: {wrong} of {pixels} pixels and {wrong_depths} of {depths} depths \
+                 differ{}",
+                place.unwrap_or_default()
+            )
+        };
     }
     if let Some(words) = comparison.and_then(undecided) {
-        match difference {
-            Some(path) => {
-                let _ = writeln!(text, "UNDECIDED: {words}: surfaces that tie, drawn in");
-                let _ = writeln!(text, "  {} (see docs/ties.md)", printable_path(path));
-            }
-            None => {
-                let _ = writeln!(text, "UNDECIDED: {words}: surfaces that tie (see docs/ties.md)");
-            }
-        }
+        let place = difference.map(|path| format!(", drawn in\n  {}", printable_path(path)));
+        let place = place.unwrap_or_default();
+        let _ = writeln!(text, "UNDECIDED: {words}: surfaces that tie{place} (see docs/ties.md)");
     }
     if let Some((first, rest)) =
         comparison.and_then(far_texture).as_deref().and_then(|words| words.split_once(", "))
@@ -780,13 +690,13 @@ fn draw_in_tiles(
     scene: &Scene,
     output: &Path,
     streams: &mut Streams<'_>,
-) -> Result<u8, Failure> {
+) -> Status {
     let refused = [
         (
             "--aa other than none and msaa4",
-            !matches!(arguments.what.aa, Smoothing::None | Smoothing::Msaa4),
+            !matches!(arguments.what.aa, Antialias::None | Antialias::Multisample4),
         ),
-        ("--depth", !matches!(arguments.what.depth, Depths::Unorm32)),
+        ("--depth", arguments.what.depth != DepthFormat::Unorm32),
         ("--effects", arguments.effects.is_some()),
         ("--json", arguments.json),
         ("--map", arguments.map),
@@ -801,11 +711,10 @@ fn draw_in_tiles(
     let target = arguments.what.target()?;
     let size = target.size();
     let samples = match arguments.what.aa {
-        Smoothing::Msaa4 => frames::Samples::Four,
+        Antialias::Multisample4 => frames::Samples::Four,
         _ => frames::Samples::One,
     };
-    let picture = frames::render(scene, size.width(), size.height(), samples)
-        .map_err(|error: BadScene| usage(error.to_string()))?;
+    let picture = frames::render(scene, size.width(), size.height(), samples).map_err(usage)?;
     writeln!(streams.output, "{}: {}", scene.name, scene.about)?;
     if streams.save(output, &frame_comparison::png(&picture)?) {
         let (side, path) = (frames::SIDE_PX, printable_path(output));
@@ -817,20 +726,17 @@ fn draw_in_tiles(
     Ok(exit::AGREES)
 }
 
-/// The picture of what each pixel paid for.
 fn map(
     arguments: &RenderArguments,
     scene: &Scene,
     output: &Path,
     streams: &mut Streams<'_>,
-) -> Result<u8, Failure> {
+) -> Status {
     let mut target = arguments.what.target()?;
     let edges = arguments.engine == Drawn::EdgeFunction;
     let drawer = if edges { Drawer::EdgeFunction } else { Drawer::Scanline };
     let effects = arguments.effects.unwrap_or(Effects::PLANNED);
-    let (rendered, map) = drawer
-        .render_mapped(scene, &effects, &mut target)
-        .map_err(|error| usage(error.to_string()))?;
+    let (rendered, map) = drawer.render_mapped(scene, &effects, &mut target).map_err(usage)?;
     let title = format!("{}: what each pixel pays for", scene.name);
     let picture = picture::png(&frame_comparison::map_picture(&title, &rendered.picture, &map));
     let drawn_in = match streams.save(output, &picture) {
@@ -857,7 +763,7 @@ fn spin(
     output: &Path,
     progress: &Progress,
     streams: &mut Streams<'_>,
-) -> Result<u8, Failure> {
+) -> Status {
     let mut bytes = Vec::new();
     let (mut wrong, mut undecided, mut far) = (0, 0, 0);
     let mut screen = DoubleBuffer::new(arguments.what.target()?);

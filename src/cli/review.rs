@@ -20,13 +20,12 @@ use rasterproof_host::text::{printable, printable_path, printable_short};
 
 use super::files::{Use, distinct};
 use super::page::{Place, save_page};
-use super::{Failure, Streams, exit, program, usage};
+use super::{Status, Streams, exit, program, usage};
 use rasterproof_report::html::{
     Column, Outcome, PictureLayer, PictureView, Report, Row, Table, TextDiff,
 };
 use rasterproof_report::panels::{self, Sheet};
 
-/// Options of `review`.
 #[derive(clap::Args, Debug)]
 #[command(after_help = "Exit status: 0 nothing is pending, 1 something is, 2 usage or bad input.")]
 pub struct ReviewArguments {
@@ -49,25 +48,22 @@ const MOST_PANELS: usize = 12;
 /// Folders that are named where they cannot be read.
 const MOST_UNREAD: usize = 10;
 
-/// A snapshot that waits.
 struct Pending {
     /// The snapshot's file, whether it exists or not.
     path: PathBuf,
     /// The test file that it comes from, or nothing.
     source: String,
-    /// What changed, in a few words.
     what: String,
     shown: Shown,
 }
 
-/// What can be shown of it.
 enum Shown {
     Picture(Vec<PictureLayer>),
     Text { old: Option<String>, new: String },
     Nothing,
 }
 
-pub fn run(arguments: &ReviewArguments, streams: &mut Streams<'_>) -> Result<u8, Failure> {
+pub fn run(arguments: &ReviewArguments, streams: &mut Streams<'_>) -> Status {
     let usual = || USUAL.map(PathBuf::from).into_iter().filter(|folder| folder.is_dir()).collect();
     let folders: Vec<PathBuf> =
         if arguments.folders.is_empty() { usual() } else { arguments.folders.clone() };

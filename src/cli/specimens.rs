@@ -8,13 +8,12 @@ use super::files::{Use, distinct};
 use super::page::{PageArguments, as_file, write_page};
 use super::progress::Progress;
 use super::typed::Typed;
-use super::{Failure, Streams, exit, png_name, write_unasked};
+use super::{Status, Streams, exit, png_name, write_unasked};
 use rasterproof_faults::published::catalogue::{CARDS, Card};
 use rasterproof_registry::published_check::{SpecimenReport, survey};
 use rasterproof_report::html::{Outcome, Report};
 use rasterproof_report::{counts, json, page_cases, picture, specimen_sheet, specimens};
 
-/// Options of `specimens`.
 #[derive(clap::Args, Debug)]
 pub struct SpecimensArguments {
     /// Cases of each family
@@ -38,11 +37,7 @@ pub struct SpecimensArguments {
 }
 
 /// Surveys, prints and draws. A specimen that its case does not expose is a disagreement.
-pub fn run(
-    arguments: &SpecimensArguments,
-    typed: &Typed,
-    streams: &mut Streams<'_>,
-) -> Result<u8, Failure> {
+pub fn run(arguments: &SpecimensArguments, typed: &Typed, streams: &mut Streams<'_>) -> Status {
     let page = arguments.page.page("specimens.html");
     let sheet_file = arguments.output.as_deref().map(|path| ("--output", path, Use::Writes));
     let files: Vec<_> = sheet_file.into_iter().chain(as_file(&page)).collect();

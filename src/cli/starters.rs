@@ -1,6 +1,5 @@
 //! What a student begins with: the adapters' starters, their two examples replaced by empty places.
 
-/// A language there is a starter for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub enum Language {
     /// rustc alone, no package.
@@ -11,12 +10,9 @@ pub enum Language {
     Python,
 }
 
-/// A file to be written.
 #[derive(Debug)]
 pub struct File {
-    /// Its name beside the progress file.
     pub name: &'static str,
-    /// What it holds.
     pub text: String,
 }
 
@@ -39,7 +35,6 @@ fn put(starter: &str, place: &str) -> Option<String> {
     Some(format!("{head}{place}\n{}", &starter[after..]))
 }
 
-/// The files of a language.
 #[must_use]
 pub fn files(language: Language) -> Vec<File> {
     let file = |name, starter: &str, place: &str| File {

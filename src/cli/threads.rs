@@ -14,7 +14,6 @@ use std::thread::{Builder, JoinHandle, available_parallelism};
 use rasterproof_host::text::printable;
 use rayon::{ThreadBuilder, ThreadPoolBuilder};
 
-/// The variable that rayon reads.
 const VARIABLE: &str = "RAYON_NUM_THREADS";
 /// Threads for each core: more of them only wait for each other, and each has a stack.
 const MOST_FOR_EACH_CORE: usize = 4;

@@ -73,14 +73,12 @@ impl Typed {
         self
     }
 
-    /// The same with this option first.
     pub fn first(self, option: &str, value: impl ToString) -> Self {
         let mut typed = self.without(&[option]);
         typed.options.insert(0, (option.to_owned(), vec![value.to_string().into()]));
         typed
     }
 
-    /// The same without these options.
     pub fn without(mut self, options: &[&str]) -> Self {
         self.options.retain(|(name, _)| !options.contains(&name.as_str()));
         self

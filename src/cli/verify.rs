@@ -1,5 +1,6 @@
 //! `rasterproof verify`: the differential table and the verdict.
 
+use std::io::Write;
 use std::path::Path;
 use std::time::Duration;
 
@@ -10,16 +11,14 @@ use super::case_view::{self, Contestants};
 use super::page::{PageArguments, write_page};
 use super::progress::Progress;
 use super::typed::Typed;
-use super::{Failure, Streams, exit, invariant, program, usage, write_unasked};
+use super::{Failure, Status, Streams, exit, invariant, program, usage, write_unasked};
 use rasterproof_registry::engines::{Engine, ExactEngine, LineEngine};
 use rasterproof_report::html::Report;
-use rasterproof_report::{ascii, counts, json, page_cases, picture, summary, table};
-use rasterproof_verify::cases::{self, Shape};
-use rasterproof_verify::comparison::tolerance::Tolerance;
+use rasterproof_report::{ascii, counts, exact, json, page_cases, picture, summary, table};
+use rasterproof_verify::cases::{self, Case, Shape};
 use rasterproof_verify::comparison::unsnapped::{self, ExactVerdict};
 use rasterproof_verify::comparison::{self, Options, Verdict};
 
-/// Options of `verify`.
 #[derive(clap::Args, Debug)]
 pub struct VerifyArguments {
     /// Cases of each family [default: 20000]
@@ -156,23 +155,8 @@ impl VerifyArguments {
     }
 }
 
-/// The command that repeats one case.
-fn repeat(typed: &Typed, seed: u64, (family, index): (&str, u64)) -> String {
-    let one = typed.clone().without_output().without(&["cases", "seconds", "shard"]);
-    one.set("seed", seed).first("case", index).first("family", family).line()
-}
-
-/// The command that repeats the run.
-fn repeat_all(typed: &Typed, seed: u64, cases: u64) -> Typed {
-    typed.clone().without(&["seconds"]).first("cases", cases).first("seed", seed)
-}
-
 /// Judges, prints, and writes what was asked for.
-pub fn run(
-    arguments: &VerifyArguments,
-    typed: &Typed,
-    streams: &mut Streams<'_>,
-) -> Result<u8, Failure> {
+pub fn run(arguments: &VerifyArguments, typed: &Typed, streams: &mut Streams<'_>) -> Status {
     if !arguments.invariant.is_empty() {
         let VerifyArguments { invariant: names, plant, seed, cases, .. } = arguments;
         return invariant::run(names, plant.as_deref(), *seed, *cases, streams);
@@ -182,12 +166,11 @@ pub fn run(
     if arguments.engine.iter().any(|name| name.starts_with(VULKAN)) {
         return on_a_device(arguments, options, streams);
     }
-    let Contestants { engines, lines, exact } = arguments.contestants();
-    let exact_engines: Vec<_> = exact.into_iter().map(|engine| (engine.name(), engine)).collect();
-    if engines.is_empty() && lines.is_empty() && exact_engines.is_empty() {
+    let judged = arguments.contestants();
+    if judged.engines.is_empty() && judged.lines.is_empty() && judged.exact.is_empty() {
         return Err(usage("this fault is in no engine and no line drawer: add --invariant NAME"));
     }
-    let (verdict, off_grid) = judge(&engines, &lines, &exact_engines, &options, streams.progress);
+    let (verdict, off_grid) = judge(&judged, &options, streams.progress);
     if verdict.families.iter().all(|family| family.cases == 0)
         && off_grid.families.iter().all(|family| family.cases == 0)
     {
@@ -195,36 +178,24 @@ pub fn run(
             "no case was judged: this engine does not draw what this family contains, or the shard is empty",
         ));
     }
+    let run = Run { arguments, typed, judged, verdict, off_grid };
     if arguments.json {
-        let text = json::verdict(&verdict, &off_grid, |family, index| {
-            repeat(typed, arguments.seed, (family, index))
-        });
+        let repeat = |family: &str, index| run.repeat(family, index);
+        let text = json::verdict(&run.verdict, &run.off_grid, repeat);
         streams.output.write_all(text.as_bytes())?;
     } else {
-        print(
-            (arguments, typed),
-            (&verdict, &engines, &lines),
-            (&off_grid, &exact_engines),
-            streams,
-        )?;
+        run.print(streams)?;
     }
     // What was asked for may fail, but not before the verdict is said.
     streams.output.flush()?;
     if arguments.page.report {
-        let page =
-            report_page((arguments, typed), &verdict, &off_grid, &engines, &lines, &exact_engines);
-        write_page(&arguments.page.place.out.join("verify.html"), page, streams);
+        write_page(&arguments.page.place.out.join("verify.html"), run.report_page(), streams);
     }
-    Ok(if verdict.agrees() && off_grid.agrees() { exit::AGREES } else { exit::DISAGREES })
+    Ok(if run.agrees() { exit::AGREES } else { exit::DISAGREES })
 }
 
-/// Judges a Vulkan device, alone.
 #[cfg(feature = "vulkan")]
-fn on_a_device(
-    arguments: &VerifyArguments,
-    options: Options,
-    streams: &mut Streams<'_>,
-) -> Result<u8, Failure> {
+fn on_a_device(arguments: &VerifyArguments, options: Options, streams: &mut Streams<'_>) -> Status {
     let [engine] = &arguments.engine[..] else {
         return Err(usage("a Vulkan device is judged alone: name one --engine"));
     };
@@ -247,48 +218,9 @@ fn on_a_device(
     super::vulkan::verify(&job, streams)
 }
 
-/// The run as a page: counts, failing cases, those closest to a bound, the named cases.
-fn report_page(
-    (arguments, typed): (&VerifyArguments, &Typed),
-    verdict: &Verdict,
-    off_grid: &ExactVerdict,
-    engines: &[(Engine, Tolerance)],
-    lines: &[LineEngine],
-    exact_engines: &[(&str, ExactEngine)],
-) -> Report {
-    let engines: Vec<_> = engines.iter().map(|(engine, _)| *engine).collect();
-    let exact: Vec<_> = exact_engines.iter().map(|(_, engine)| *engine).collect();
-    let judged = page_cases::Judged { engines: &engines, lines, exact: &exact };
-    let mut tables = counts::of_verdict(verdict, off_grid);
-    tables.push(counts::refused());
-    let quotas = table::quota_line(verdict).trim_end().to_owned();
-    Report {
-        title: "Verdict of rasterproof".to_owned(),
-        outcome: Some(counts::outcome(verdict, off_grid)),
-        command: repeat_all(typed, arguments.seed, judged_cases(arguments, verdict)).line(),
-        seed: Some(arguments.seed),
-        notes: Some(quotas).filter(|line| !line.is_empty()).into_iter().collect(),
-        tables,
-        cases: page_cases::of_verdict(verdict, off_grid, judged, |f, i| {
-            repeat(typed, arguments.seed, (f, i))
-        }),
-        ..Report::default()
-    }
-}
-
-/// Cases of each family: as asked, or as many as the time allowed.
-fn judged_cases(arguments: &VerifyArguments, verdict: &Verdict) -> u64 {
-    let largest = verdict.families.iter().map(|f| f.cases).max().unwrap_or(0);
-    if arguments.seconds.is_some() { largest } else { verdict.options.cases }
-}
-
-fn judge(
-    engines: &[(Engine, Tolerance)],
-    lines: &[LineEngine],
-    exact_engines: &[(&str, ExactEngine)],
-    options: &Options,
-    on_terminal: bool,
-) -> (Verdict, ExactVerdict) {
+fn judge(judged: &Contestants, options: &Options, on_terminal: bool) -> (Verdict, ExactVerdict) {
+    let Contestants { engines, lines, exact } = judged;
+    let exact_engines: Vec<_> = exact.iter().map(|engine| (engine.name(), *engine)).collect();
     let triangles = cases::triangles::FAMILIES.iter().filter(|_| !engines.is_empty());
     let segments = cases::lines::FAMILIES.iter().filter(|_| !lines.is_empty());
     let families = triangles
@@ -311,217 +243,217 @@ fn judge(
         progress.done(cases)
     });
     let off_grid =
-        unsnapped::judge_exact_engines(exact_engines, &share(1), &|cases| progress.done(cases));
+        unsnapped::judge_exact_engines(&exact_engines, &share(1), &|cases| progress.done(cases));
     drop(progress);
     (verdict, off_grid)
 }
 
-/// The answer and what it rests on. Where something is wrong, the smallest case that shows it comes
-/// first; the last line is the verdict in a word.
-fn print(
-    (arguments, typed): (&VerifyArguments, &Typed),
-    on_grid: (&Verdict, &[(Engine, Tolerance)], &[LineEngine]),
-    off_grid: (&ExactVerdict, &[(&str, ExactEngine)]),
-    streams: &mut Streams<'_>,
-) -> Result<(), Failure> {
-    let ((verdict, ..), (exact, _)) = (on_grid, off_grid);
-    let agrees = verdict.agrees() && exact.agrees();
-    let mut pictures = Vec::new();
-    if !agrees {
-        pictures = failures((arguments, typed), on_grid, off_grid, streams)?;
-    }
-    let (part, parts) = verdict.options.shard;
-    let shard = if parts > 1 { format!(", shard {part}/{parts}") } else { String::new() };
-    let out = &mut *streams.output;
-    let answer = match agrees {
-        true => "every engine is right",
-        false => "not every engine is right",
-    };
-    writeln!(
-        out,
-        "{} rasterproof {}, seed {}{shard}: {answer}\n",
-        summary::mark(agrees, streams.colour),
-        env!("CARGO_PKG_VERSION"),
-        arguments.seed
-    )?;
-    writeln!(out, "{}", summary::lines(verdict, exact, streams.colour))?;
-    if arguments.table || !agrees {
-        writeln!(out, "{}{}", table::table(verdict), table::quota_line(verdict))?;
-        write!(
-            out,
-            "{}{}",
-            table::disagreements(verdict),
-            rasterproof_report::exact::table(exact)
-        )?;
-        write!(out, "{}", rasterproof_report::exact::disagreements(exact))?;
-    }
-    if verdict.agrees() {
-        pictures.push(("worst.png", worst_cases(arguments, on_grid, out)?));
-    }
-    for (name, drawn) in pictures {
-        write_sheet(&arguments.page.place.out.join(name), &drawn, streams)?;
-    }
-    let out = &mut *streams.output;
-    if !arguments.table && agrees {
-        writeln!(out, "every family as a table: add --table")?;
-    }
-    writeln!(
-        out,
-        "repeat with: {}",
-        repeat_all(typed, arguments.seed, judged_cases(arguments, verdict)).without_output().line()
-    )?;
-    let (triangles, segments) = (verdict.sum(false, |f| f.shapes), verdict.sum(true, |f| f.shapes));
-    let beside = match exact.triangles() {
-        0 => String::new(),
-        n => format!(", {n} triangles off the grid"),
-    };
-    let fragments = match verdict.comparisons().fragments.total() {
-        0 => String::new(),
-        n => format!("{n} pixels where fragments and coverage of one engine differ, "),
-    };
-    writeln!(
-        out,
-        "{}: {triangles} triangles and {segments} lines{beside}, {fragments}{} wrong pixels",
-        if agrees { "AGREES" } else { "DISAGREES" },
-        verdict.mismatches() + exact.mismatches()
-    )?;
-    Ok(())
+/// What was judged, and what came of it.
+struct Run<'a> {
+    arguments: &'a VerifyArguments,
+    typed: &'a Typed,
+    judged: Contestants,
+    verdict: Verdict,
+    off_grid: ExactVerdict,
 }
 
 type Sheet = (&'static str, Vec<RgbImage>);
 
-/// The smallest failure with its pixels, then a line for each other family; all of them as pictures.
-fn failures(
-    (arguments, typed): (&VerifyArguments, &Typed),
-    (verdict, engines, lines): (&Verdict, &[(Engine, Tolerance)], &[LineEngine]),
-    (off_grid, exact_engines): (&ExactVerdict, &[(&str, ExactEngine)]),
-    streams: &mut Streams<'_>,
-) -> Result<Vec<Sheet>, Failure> {
-    let out = &mut *streams.output;
-    let mut drawn = Vec::new();
-    for (rank, failure) in verdict.failures.iter().enumerate() {
-        let shown = case_view::draw(&failure.case, engines, lines);
-        if drawn.len() < MOST_DRAWN {
-            drawn.push(shown.picture(&heading(failure), &failure.case));
-        }
-        if rank > 0 {
-            continue;
-        }
-        writeln!(out, "{failure}")?;
-        if let Some(blocks) = shown.judged_blocks(&failure.pair[0]) {
-            writeln!(out, "\n{}", ascii::side_by_side(&blocks, 60))?;
-            writeln!(out, "{}\n", ascii::LEGEND)?;
-        }
-        writeln!(
-            out,
-            "  repeat with: {}",
-            repeat(typed, arguments.seed, (&failure.family, failure.index))
-        )?;
-        writeln!(out, "  explain it:  {}", explain(arguments, failure))?;
-        writeln!(out, "  read on in:  {}\n", summary::chapter(failure))?;
-    }
-    let mut exact = Vec::new();
-    for (rank, failure) in off_grid.failures.iter().enumerate() {
-        let picture = case_view::picture_off_grid(&heading(failure), &failure.case, exact_engines);
-        exact.extend(picture.filter(|_| rank < MOST_DRAWN));
-        if rank == 0 {
-            writeln!(out, "{failure}")?;
-            writeln!(
-                out,
-                "  repeat with: {}",
-                repeat(typed, arguments.seed, (&failure.family, failure.index))
-            )?;
-            writeln!(out, "  read on in:  docs/offgrid.md\n")?;
-        }
-    }
-    others(verdict, off_grid, out)?;
-    Ok(vec![("failures.png", drawn), ("failures-off-grid.png", exact)])
-}
-
-/// A line for each failure but the first on the lattice and the first off it.
-fn others(
-    verdict: &Verdict,
-    off_grid: &ExactVerdict,
-    out: &mut dyn std::io::Write,
-) -> Result<(), Failure> {
-    let on_grid =
-        verdict.failures.iter().skip(1).map(|f| {
-            (&f.family, f.index, &f.pair[0], &f.what, comparison::shrink::describe(&f.case))
-        });
-    let free =
-        off_grid.failures.iter().skip(1).map(|f| {
-            (&f.family, f.index, &f.engine, &f.what, unsnapped::describe(&f.case.triangles))
-        });
-    let others: Vec<_> = on_grid.chain(free).collect();
-    if others.is_empty() {
-        return Ok(());
-    }
-    writeln!(out, "the smallest case of each other family:")?;
-    for (family, index, engine, what, points) in others {
-        writeln!(out, "  {:<21} {engine}: {what} on\n      {points}", format!("{family}#{index}"))?;
-    }
-    writeln!(out)?;
-    Ok(())
-}
-
-/// Cases that a sheet holds.
 const MOST_DRAWN: usize = 6;
 
-/// The command that shows the shrunk case, or, where the command line cannot say it, the case that it is
-/// from.
-fn explain(arguments: &VerifyArguments, failure: &comparison::Failure) -> String {
-    let (list, words) = match &failure.case.shape {
-        Shape::Triangles { list, .. } => (list.len(), String::new()),
-        Shape::Lines(list) => (list.len(), "--line ".to_owned()),
-    };
-    let points = comparison::shrink::describe(&failure.case);
-    let plant = arguments.plant.as_ref().map(|name| format!(" --plant {name}")).unwrap_or_default();
-    let comparison::Failure { family, index, seed, .. } = failure;
-    match list == 1 && comparison::shrink::has_plain_values(&failure.case) {
-        true => format!("{} inspect {words}{points}{plant}", program()),
-        false => format!("{} inspect {family}#{index} --seed {seed}{plant}", program()),
+impl Run<'_> {
+    fn agrees(&self) -> bool {
+        self.verdict.agrees() && self.off_grid.agrees()
     }
-}
 
-/// Names and draws the cases whose values came closest to their bounds.
-fn worst_cases(
-    arguments: &VerifyArguments,
-    (verdict, engines, lines): (&Verdict, &[(Engine, Tolerance)], &[LineEngine]),
-    out: &mut dyn std::io::Write,
-) -> Result<Vec<RgbImage>, Failure> {
-    let mut worst: Vec<_> = verdict
-        .families
-        .iter()
-        .flat_map(|f| f.pairs.iter().map(move |pair| (f, pair)))
-        .filter(|(_, pair)| pair.target == "oracle" && pair.values > 0 && pair.worst() > 0.0)
-        .collect();
-    worst.sort_by(|(_, a), (_, b)| b.worst().total_cmp(&a.worst()));
-    worst.dedup_by_key(|(f, pair)| (f.family.clone(), pair.worst_case));
-    let mut pictures = Vec::new();
-    for (rank, (family, pair)) in worst.into_iter().take(3).enumerate() {
-        let name = &family.family;
-        if rank == 0 {
-            writeln!(
-                out,
-                "the value closest to its bound is of {}; see it with\n  {} inspect {name}#{} --seed {}",
-                pair.actual,
-                program(),
-                pair.worst_case,
-                arguments.seed
-            )?;
-        }
-        let found = cases::families().find(|f| f.name == name);
-        if let Some(case) = found.map(|f| f.case(arguments.seed, pair.worst_case)) {
-            let title = format!(
-                "{name}#{}: {} at {:.2} of a bound",
-                pair.worst_case,
-                pair.actual,
-                pair.worst()
-            );
-            pictures.push(case_view::draw(&case, engines, lines).picture(&title, &case));
+    /// The command that repeats one case.
+    fn repeat(&self, family: &str, index: u64) -> String {
+        let one = self.typed.clone().without_output().without(&["cases", "seconds", "shard"]);
+        one.set("seed", self.arguments.seed).first("case", index).first("family", family).line()
+    }
+
+    /// The command that repeats the run, with as many cases of each family as the time allowed.
+    fn repeat_all(&self) -> Typed {
+        let largest = self.verdict.families.iter().map(|f| f.cases).max().unwrap_or(0);
+        let is_timed = self.arguments.seconds.is_some();
+        let cases = if is_timed { largest } else { self.verdict.options.cases };
+        let all = self.typed.clone().without(&["seconds"]).first("cases", cases);
+        all.first("seed", self.arguments.seed)
+    }
+
+    /// The run as a page: counts, failing cases, those closest to a bound, the named cases.
+    fn report_page(&self) -> Report {
+        let Self { judged, verdict, off_grid, .. } = self;
+        let engines: Vec<_> = judged.engines.iter().map(|(engine, _)| *engine).collect();
+        let judged =
+            page_cases::Judged { engines: &engines, lines: &judged.lines, exact: &judged.exact };
+        let mut tables = counts::of_verdict(verdict, off_grid);
+        tables.push(counts::refused());
+        let quotas = table::quota_line(verdict).trim_end().to_owned();
+        let repeat = |family: &str, index| self.repeat(family, index);
+        Report {
+            title: "Verdict of rasterproof".to_owned(),
+            outcome: Some(counts::outcome(verdict, off_grid)),
+            command: self.repeat_all().line(),
+            seed: Some(self.arguments.seed),
+            notes: Some(quotas).filter(|line| !line.is_empty()).into_iter().collect(),
+            tables,
+            cases: page_cases::of_verdict(verdict, off_grid, judged, repeat),
+            ..Report::default()
         }
     }
-    Ok(pictures)
+
+    /// The answer and what it rests on. Where something is wrong, the smallest case that shows it comes
+    /// first; the last line is the verdict in a word.
+    fn print(&self, streams: &mut Streams<'_>) -> Result<(), Failure> {
+        let Self { arguments, verdict, off_grid, .. } = self;
+        let agrees = self.agrees();
+        let mut pictures = if agrees { Vec::new() } else { self.failures(streams.output)? };
+        let (part, parts) = verdict.options.shard;
+        let shard = if parts > 1 { format!(", shard {part}/{parts}") } else { String::new() };
+        let out = &mut *streams.output;
+        let answer = if agrees { "every engine is right" } else { "not every engine is right" };
+        let (mark, version) = (summary::mark(agrees, streams.colour), env!("CARGO_PKG_VERSION"));
+        let seed = arguments.seed;
+        writeln!(out, "{mark} rasterproof {version}, seed {seed}{shard}: {answer}\n")?;
+        writeln!(out, "{}", summary::lines(verdict, off_grid, streams.colour))?;
+        if arguments.table || !agrees {
+            writeln!(out, "{}{}", table::table(verdict), table::quota_line(verdict))?;
+            write!(out, "{}{}", table::disagreements(verdict), exact::table(off_grid))?;
+            write!(out, "{}", exact::disagreements(off_grid))?;
+        }
+        if verdict.agrees() {
+            pictures.push(("worst.png", self.worst_cases(out)?));
+        }
+        for (name, drawn) in pictures {
+            write_sheet(&arguments.page.place.out.join(name), &drawn, streams)?;
+        }
+        let out = &mut *streams.output;
+        if !arguments.table && agrees {
+            writeln!(out, "every family as a table: add --table")?;
+        }
+        writeln!(out, "repeat with: {}", self.repeat_all().without_output().line())?;
+        let [triangles, segments] = [false, true].map(|lines| verdict.sum(lines, |f| f.shapes));
+        let beside = match off_grid.triangles() {
+            0 => String::new(),
+            n => format!(", {n} triangles off the grid"),
+        };
+        let fragments = match verdict.comparisons().fragments.total() {
+            0 => String::new(),
+            n => format!("{n} pixels where fragments and coverage of one engine differ, "),
+        };
+        writeln!(
+            out,
+            "{}: {triangles} triangles and {segments} lines{beside}, {fragments}{} wrong pixels",
+            summary::word(agrees),
+            verdict.mismatches() + off_grid.mismatches()
+        )?;
+        Ok(())
+    }
+
+    fn draw(&self, case: &Case) -> case_view::Shown {
+        case_view::draw(case, &self.judged.engines, &self.judged.lines)
+    }
+
+    /// The smallest failure with its pixels, then a line for each other family; all of them as pictures.
+    fn failures(&self, out: &mut dyn Write) -> Result<Vec<Sheet>, Failure> {
+        let mut drawn = Vec::new();
+        for (rank, failure) in self.verdict.failures.iter().enumerate() {
+            let shown = self.draw(&failure.case);
+            if drawn.len() < MOST_DRAWN {
+                drawn.push(shown.picture(&heading(failure), &failure.case));
+            }
+            if rank > 0 {
+                continue;
+            }
+            writeln!(out, "{failure}")?;
+            if let Some(blocks) = shown.judged_blocks(&failure.pair[0]) {
+                writeln!(out, "\n{}", ascii::side_by_side(&blocks, 60))?;
+                writeln!(out, "{}\n", ascii::LEGEND)?;
+            }
+            writeln!(out, "  repeat with: {}", self.repeat(&failure.family, failure.index))?;
+            writeln!(out, "  explain it:  {}", self.explain(failure))?;
+            writeln!(out, "  read on in:  {}\n", summary::chapter(failure))?;
+        }
+        let mut exact = Vec::new();
+        for (rank, failure) in self.off_grid.failures.iter().enumerate() {
+            let engines = &self.judged.exact;
+            let picture = case_view::picture_off_grid(&heading(failure), &failure.case, engines);
+            exact.extend(picture.filter(|_| rank < MOST_DRAWN));
+            if rank == 0 {
+                writeln!(out, "{failure}")?;
+                writeln!(out, "  repeat with: {}", self.repeat(&failure.family, failure.index))?;
+                writeln!(out, "  read on in:  docs/offgrid.md\n")?;
+            }
+        }
+        self.others(out)?;
+        Ok(vec![("failures.png", drawn), ("failures-off-grid.png", exact)])
+    }
+
+    /// A line for each failure but the first on the lattice and the first off it.
+    fn others(&self, out: &mut dyn Write) -> Result<(), Failure> {
+        let on_grid = self.verdict.failures.iter().skip(1).map(|f| {
+            (&f.family, f.index, &f.pair[0], &f.what, comparison::shrink::describe(&f.case))
+        });
+        let free = self.off_grid.failures.iter().skip(1).map(|f| {
+            (&f.family, f.index, &f.engine, &f.what, unsnapped::describe(&f.case.triangles))
+        });
+        let others: Vec<_> = on_grid.chain(free).collect();
+        if others.is_empty() {
+            return Ok(());
+        }
+        writeln!(out, "the smallest case of each other family:")?;
+        for (family, index, engine, what, points) in others {
+            let case = format!("{family}#{index}");
+            writeln!(out, "  {case:<21} {engine}: {what} on\n      {points}")?;
+        }
+        writeln!(out)?;
+        Ok(())
+    }
+
+    /// The command that shows the shrunk case, or, where the command line cannot say it, the case that it is
+    /// from.
+    fn explain(&self, failure: &comparison::Failure) -> String {
+        let (list, words) = match &failure.case.shape {
+            Shape::Triangles { list, .. } => (list.len(), ""),
+            Shape::Lines(list) => (list.len(), "--line "),
+        };
+        let points = comparison::shrink::describe(&failure.case);
+        let plant = self.arguments.plant.as_ref().map(|name| format!(" --plant {name}"));
+        let plant = plant.unwrap_or_default();
+        let comparison::Failure { family, index, seed, .. } = failure;
+        match list == 1 && comparison::shrink::has_plain_values(&failure.case) {
+            true => format!("{} inspect {words}{points}{plant}", program()),
+            false => format!("{} inspect {family}#{index} --seed {seed}{plant}", program()),
+        }
+    }
+
+    /// Names and draws the cases whose values came closest to their bounds.
+    fn worst_cases(&self, out: &mut dyn Write) -> Result<Vec<RgbImage>, Failure> {
+        let all = self.verdict.families.iter();
+        let mut worst: Vec<_> = all
+            .flat_map(|f| f.pairs.iter().map(move |pair| (f, pair)))
+            .filter(|(_, pair)| pair.target == "oracle" && pair.values > 0 && pair.worst() > 0.0)
+            .collect();
+        worst.sort_by(|(_, a), (_, b)| b.worst().total_cmp(&a.worst()));
+        worst.dedup_by_key(|(f, pair)| (f.family.clone(), pair.worst_case));
+        let mut pictures = Vec::new();
+        for (rank, (family, pair)) in worst.into_iter().take(3).enumerate() {
+            let (name, index, engine) = (&family.family, pair.worst_case, &pair.actual);
+            let (program, seed) = (program(), self.arguments.seed);
+            if rank == 0 {
+                writeln!(out, "the value closest to its bound is of {engine}; see it with")?;
+                writeln!(out, "  {program} inspect {name}#{index} --seed {seed}")?;
+            }
+            let found = cases::families().find(|f| f.name == name);
+            if let Some(case) = found.map(|f| f.case(seed, index)) {
+                let worst = pair.worst();
+                let title = format!("{name}#{index}: {engine} at {worst:.2} of a bound");
+                pictures.push(self.draw(&case).picture(&title, &case));
+            }
+        }
+        Ok(pictures)
+    }
 }
 
 /// The first line of what is said of a failure.

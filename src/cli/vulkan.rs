@@ -12,7 +12,7 @@ use rasterproof_vulkan::gpu::text;
 
 use super::page::{PageArguments, write_page};
 use super::progress::Progress;
-use super::{Failure, Streams, exit, program, usage, write_entry};
+use super::{Failure, Status, Streams, exit, program, usage, write_entry};
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::Corners;
@@ -22,7 +22,6 @@ use rasterproof_precision::cost::ExternalVariant;
 /// Cases of each family where nothing is said.
 const CASES: u64 = 1000;
 
-/// What is asked of a device.
 pub struct Job<'a> {
     /// Its name, `vulkan:0`.
     pub engine: &'a str,
@@ -30,7 +29,6 @@ pub struct Job<'a> {
     pub cases: Option<u64>,
     /// What to judge; its number of cases is that of `cases`.
     pub options: Options,
-    /// JSON instead of text.
     pub json: bool,
     /// Whether a page is written, and where.
     pub page: &'a PageArguments,
@@ -59,9 +57,8 @@ impl Job<'_> {
     }
 }
 
-/// Judges a device.
-pub fn verify(job: &Job<'_>, streams: &mut Streams<'_>) -> Result<u8, Failure> {
-    let gpu = Gpu::named(job.engine).map_err(|error| usage(error.to_string()))?;
+pub fn verify(job: &Job<'_>, streams: &mut Streams<'_>) -> Status {
+    let gpu = Gpu::named(job.engine).map_err(usage)?;
     let limited = job.options.time_limit.is_some();
     let cases = job.cases.unwrap_or(if limited { u64::MAX / 4 } else { CASES });
     let options = Options { cases, ..job.options.clone() };
@@ -115,7 +112,7 @@ pub fn coverage(engine: &str, list: &[Corners], window: PixelRect) -> Result<Cov
 
 /// A device for a ladder of coverage.
 pub fn guest(engine: &str) -> Result<Box<dyn ExternalVariant>, Failure> {
-    Ok(Box::new(OnLadder::new(engine).map_err(|error| usage(error.to_string()))?))
+    Ok(Box::new(OnLadder::new(engine).map_err(usage)?))
 }
 
 /// The devices that there are, or why there are none.

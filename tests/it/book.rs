@@ -2,9 +2,7 @@
 //! equal, double hits included, and each recorded fault must show.
 
 use std::collections::HashMap;
-use std::io::{BufRead, BufReader};
 
-use flate2::read::GzDecoder;
 use glam::{DVec2, DVec4};
 use rasterproof_core::grid::PixelRect;
 use rasterproof_faults::published::book_dda::BookDda;
@@ -17,24 +15,18 @@ use rasterproof_faults::published::{
 use serde_json::Value;
 
 use crate::protocol::ask;
+use crate::recorded::items;
 
 /// The book's screen has 64 rows and columns.
 const SIDE: u32 = 64;
 
+/// The first record tells how the others were made.
 fn records(name: &str) -> Vec<Value> {
-    let path = format!("{}/tests/data/{name}.jsonl.gz", env!("CARGO_MANIFEST_DIR"));
-    let file = std::fs::File::open(&path).unwrap_or_else(|e| panic!("{path}: {e}"));
-    let lines = BufReader::new(GzDecoder::new(file)).lines();
-    // The first record tells how the others were made.
-    lines.skip(1).map(|line| serde_json::from_str(&line.unwrap()).unwrap()).collect()
+    crate::recorded::records(name).split_off(1)
 }
 
 fn number(value: &Value) -> f64 {
     value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
-}
-
-fn items(value: &Value) -> &[Value] {
-    value.as_array().unwrap_or_else(|| panic!("{value} is no list"))
 }
 
 /// Positions in the book's coordinates (y up, samples at whole numbers) as window pixels.
@@ -50,7 +42,6 @@ fn triangle(points: &[[f64; 2]]) -> RealTriangle {
     bare([points[0], points[1], points[2]])
 }
 
-/// Hits by the book's row and column.
 type Hits = HashMap<(i64, i64), u64>;
 
 /// Recorded rows `[y, x0, count, ...]`, those within the window.
@@ -232,7 +223,6 @@ fn quad(points: &Value) -> Hits {
     hits
 }
 
-/// The book's pixel `[x, y]`.
 fn at(pixel: &Value) -> (i64, i64) {
     (pixel[1].as_i64().unwrap(), pixel[0].as_i64().unwrap())
 }
@@ -384,7 +374,6 @@ fn clip_overflows(bug: &Value) -> usize {
     }
 }
 
-/// A C99 hex float.
 fn hex(word: &str) -> f64 {
     let (sign, digits) = word.strip_prefix('-').map_or((1.0, word), |rest| (-1.0, rest));
     let (mantissa, exponent) = digits.trim_start_matches("0x").split_once('p').unwrap();

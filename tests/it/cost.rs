@@ -1,10 +1,9 @@
 //! What accuracy costs: errors, promises and orderings, which a seed decides. Never times.
 
-use std::process::Command;
-
 use rasterproof_precision::cost::{Board, Cell, Ladder, Options, Recorded, Run, measure};
 use rasterproof_report::{board, canvas, cost_plots, json};
 
+use crate::program::Folder;
 use crate::snapshots::check_words;
 
 fn untimed(ladder: Ladder, seed: u64) -> Board {
@@ -143,19 +142,13 @@ fn cost_colour_is_optional() {
 /// The program: boards, plots and JSON, from the smallest ladder.
 #[test]
 fn cost_from_the_command_line() {
-    let folder = std::env::temp_dir().join(format!("rasterproof-cost-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).unwrap();
-    let run = |words: &[&str]| {
-        let output = Command::new(env!("CARGO_BIN_EXE_rasterproof"))
-            .args(words)
-            .current_dir(&folder)
-            .output()
-            .unwrap();
-        let text = String::from_utf8(output.stdout).unwrap();
-        assert!(output.stderr.is_empty() || output.status.code() == Some(2));
-        (output.status.code(), text)
+    let folder = Folder::new("cost");
+    let run = |words: &str| {
+        let run = folder.run(words);
+        assert!(run.errors.is_empty() || run.status == Some(2));
+        (run.status, run.out)
     };
-    let (status, text) = run(&["cost", "lines", "--quick", "--seed", "3", "-o", "plots"]);
+    let (status, text) = run("cost lines --quick --seed 3 -o plots");
     assert_eq!(status, Some(0), "{text}");
     assert!(text.contains("repeat with: rasterproof cost lines --quick --seed 3"), "{text}");
     assert!(text.contains("ns for each covered pixel, median of 7 rounds"), "{text}");
@@ -165,7 +158,7 @@ fn cost_from_the_command_line() {
     let png = image::open(folder.join("plots/cost-lines.png")).unwrap();
     assert_eq!(png.width(), 1600);
 
-    let (status, text) = run(&["cost", "lines", "--quick", "--seed", "3", "--json"]);
+    let (status, text) = run("cost lines --quick --seed 3 --json");
     assert_eq!(status, Some(0));
     let json: serde_json::Value = serde_json::from_str(&text).unwrap();
     let untimed = untimed(Ladder::Lines, 3);
@@ -179,23 +172,22 @@ fn cost_from_the_command_line() {
         }
     }
     assert!(json["verdicts"][0]["best"][0]["fastest"].is_string());
-    assert_eq!(run(&["cost", "nothing"]).0, Some(2));
+    assert_eq!(run("cost nothing").0, Some(2));
 
     // What was printed is drawn again, to the byte.
     let plot = |plots: &str| std::fs::read(folder.join(plots).join("cost-lines.svg")).unwrap();
     let measured = plot("target/rasterproof");
     std::fs::write(folder.join("cost.json"), &text).unwrap();
-    let (status, again) = run(&["cost", "--from", "cost.json", "--json", "-o", "again"]);
+    let (status, again) = run("cost --from cost.json --json -o again");
     assert_eq!((status, &again), (Some(0), &text));
     assert_eq!(plot("again"), measured);
-    let (status, boards) = run(&["cost", "lines", "--from", "cost.json", "-o", "again"]);
+    let (status, boards) = run("cost lines --from cost.json -o again");
     assert_eq!(status, Some(0), "{boards}");
     assert!(boards.contains("cost, seed 3, quick\n"), "{boards}");
     assert!(boards.contains("repeat with: rasterproof cost lines --quick --seed 3"), "{boards}");
-    assert_eq!(run(&["cost", "depth", "--from", "cost.json"]).0, Some(2), "no such board");
-    assert_eq!(run(&["cost", "--from", "nowhere.json"]).0, Some(2));
-    assert_eq!(run(&["cost", "--from", "cost.json", "--quick"]).0, Some(2));
-    std::fs::remove_dir_all(folder).unwrap();
+    assert_eq!(run("cost depth --from cost.json").0, Some(2), "no such board");
+    assert_eq!(run("cost --from nowhere.json").0, Some(2));
+    assert_eq!(run("cost --from cost.json --quick").0, Some(2));
 }
 
 /// Every rung that ran has its label in the plot, and no label leaves the drawing.

@@ -2,35 +2,25 @@
 //! fault, progress is kept, starters start, points are given.
 
 use std::fs;
-use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use rasterproof_teaching::course::STEPS;
 use rasterproof_teaching::course::progress::Progress;
 use serde_json::Value;
 
-const PROGRAM: &str = env!("CARGO_BIN_EXE_rasterproof");
+use crate::program::{Folder, PROGRAM, Run, Words};
 
-/// An empty folder of this test.
-fn folder(name: &str) -> PathBuf {
-    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("course").join(name);
-    let _ = fs::remove_dir_all(&folder);
-    fs::create_dir_all(&folder).unwrap();
-    folder
-}
-
-fn run(folder: &Path, words: &[&str], status: i32) -> (String, String) {
-    let output =
-        Command::new(PROGRAM).arg("course").args(words).current_dir(folder).output().unwrap();
-    let (out, errors) =
-        (String::from_utf8(output.stdout).unwrap(), String::from_utf8(output.stderr).unwrap());
-    assert_eq!(output.status.code(), Some(status), "{words:?}\n{out}\n{errors}");
+/// Runs a command of the course; its lines fit a terminal.
+fn course(folder: &Folder, words: impl Words, status: u8) -> Run {
+    let mut command = folder.command("course");
+    words.add_to(&mut command);
+    let run = Run::of(&mut command).has(status);
     // Results for machines have long lines, and the program's own path is as long as it is.
-    let shown =
-        if out.starts_with('{') { String::new() } else { out.replace(PROGRAM, "rasterproof") };
+    let shown = if run.out.starts_with('{') { "" } else { &run.out };
+    let shown = shown.replace(PROGRAM, "rasterproof");
     let mut lines = shown.lines().filter(|line| !line.contains("cannot be judged"));
-    assert!(lines.all(|line| line.chars().count() <= 100), "{out}");
-    (out, errors)
+    assert!(lines.all(|line| line.chars().count() <= 100), "{run}");
+    run
 }
 
 /// Each step, what is right and what has a planted fault.
@@ -51,17 +41,21 @@ const JUDGED: [(&str, &str, &str); 12] = [
 
 #[test]
 fn course_judges_every_step() {
-    let folder = folder("steps");
+    let folder = Folder::new("course-steps");
     let mut progress = None;
-    for ((name, right, planted), step) in JUDGED.iter().zip(&STEPS) {
+    for ((name, right, planted), step) in JUDGED.iter().zip(STEPS.iter()) {
         assert_eq!(*name, step.name);
         let words = ["check", name, "--cases", "64", "--", PROGRAM, "engine"];
-        let (out, _) = run(&folder, &[&words[..], &[planted]].concat(), 1);
-        assert!(out.contains("NOT YET, wrong in ") && out.contains("smallest found: "), "{out}");
-        assert!(out.contains("hint 1: ") && !out.contains("hint 2: "), "{out}");
-        assert!(out.contains("request: ") && out.contains(step.page), "{out}");
-        assert!(out.contains("yours") && out.contains("expected"), "{out}");
-        let (out, errors) = run(&folder, &[&words[..], &[right]].concat(), 0);
+        course(&folder, [&words[..], &[planted]].concat(), 1)
+            .prints("NOT YET, wrong in ")
+            .prints("smallest found: ")
+            .prints("hint 1: ")
+            .omits("hint 2: ")
+            .prints("request: ")
+            .prints(&step.page)
+            .prints("yours")
+            .prints("expected");
+        let Run { out, errors, .. } = course(&folder, [&words[..], &[right]].concat(), 0);
         assert!(out.contains(": PASSED, ") && errors.is_empty(), "{out}{errors}");
         progress = Progress::read(&folder).unwrap();
     }
@@ -70,14 +64,14 @@ fn course_judges_every_step() {
     assert_eq!(progress.run, [PROGRAM, "engine", "scanline"]);
     // What was passed is passed no longer when it fails.
     let words = ["check", "1", "--", PROGRAM, "engine", "line-misses-end"];
-    run(&folder, &words, 1);
+    course(&folder, words, 1);
     assert_eq!(Progress::read(&folder).unwrap().unwrap().passed.len(), STEPS.len() - 1);
 }
 
 /// Earlier steps forgive what later ones are about, and nothing else.
 #[test]
 fn course_steps_forgive_what_comes_later() {
-    let folder = folder("forgives");
+    let folder = Folder::new("course-forgives");
     for (step, engine, status) in [
         ("dda", "line-directed-ties", 0),
         ("bresenham", "line-directed-ties", 1),
@@ -94,62 +88,49 @@ fn course_steps_forgive_what_comes_later() {
         ("pixel", "scanline", 1),
         ("samples", "dda", 1),
     ] {
-        run(&folder, &["check", step, "--", PROGRAM, "engine", engine], status);
+        course(&folder, ["check", step, "--", PROGRAM, "engine", engine], status);
     }
 }
 
 /// Each failure shows one hint more; the command is remembered, and comments may be edited in.
 #[test]
 fn course_keeps_progress() {
-    let folder = folder("progress");
+    let folder = Folder::new("course-progress");
     let words = ["check", "--", PROGRAM, "engine", "line-misses-end"];
-    assert!(!run(&folder, &words, 1).0.contains("hint 2"));
-    let (out, _) = run(&folder, &["check"], 1);
-    assert!(out.contains("hint 2") && !out.contains("hint 3"), "{out}");
-    assert!(run(&folder, &["check"], 1).0.contains("hint 3"));
+    assert!(!course(&folder, words, 1).out.contains("hint 2"));
+    course(&folder, "check", 1).prints("hint 2").omits("hint 3");
+    assert!(course(&folder, "check", 1).out.contains("hint 3"));
     let path = folder.join("course.toml");
     let text = fs::read_to_string(&path).unwrap();
     assert!(text.starts_with("# Progress of ") && text.contains("failures = 3"), "{text}");
     fs::write(&path, text.replace("line-misses-end", "dda") + "# mine\n").unwrap();
-    let (out, _) = run(&folder, &["check"], 0);
-    assert!(out.contains("next: step 2, DDA (docs/ch02.md)"), "{out}");
+    course(&folder, "check", 0).prints("next: step 2, DDA (docs/ch02.md)");
     let progress = Progress::read(&folder).unwrap().unwrap();
     assert_eq!((progress.step.as_str(), progress.failures), ("dda", 0));
-    let (out, _) = run(&folder, &[], 0);
-    assert!(out.contains("+  1 pixel") && out.contains(">  2 dda"), "{out}");
-    let (out, _) =
-        run(&folder, &["check", "pixel", "--hint", "--", PROGRAM, "engine", "line-misses-end"], 1);
-    assert!(out.contains("hint 2") && !out.contains("hint 3"), "{out}");
+    course(&folder, "", 0).prints("+  1 pixel").prints(">  2 dda");
+    course(&folder, ["check", "pixel", "--hint", "--", PROGRAM, "engine", "line-misses-end"], 1)
+        .prints("hint 2")
+        .omits("hint 3");
 }
 
 #[test]
 fn course_refuses_what_it_cannot_use() {
-    let folder = folder("refuses");
-    let (_, errors) = run(&folder, &["check"], 2);
-    assert!(errors.contains("course.toml is not there") && errors.contains("course start"));
-    let (_, errors) = run(&folder, &["check", "--", "no-such-interpreter", "x.py"], 2);
-    assert!(errors.contains("no-such-interpreter is not installed"), "{errors}");
-    let (_, errors) = run(&folder, &["check", "--", "./starter"], 2);
-    assert!(errors.contains("./starter is not in "), "{errors}");
-    let (_, errors) = run(&folder, &["check", "thirteen", "--", PROGRAM], 2);
-    assert!(errors.contains("no step is called 'thirteen'"), "{errors}");
-    let (_, errors) = run(&folder, &["check", "--", PROGRAM, "list"], 2);
-    assert!(errors.contains("never says HELLO"), "{errors}");
+    let folder = Folder::new("course-refuses");
+    course(&folder, "check", 2).says("course.toml is not there").says("course start");
+    course(&folder, "check -- no-such-interpreter x.py", 2)
+        .says("no-such-interpreter is not installed");
+    course(&folder, "check -- ./starter", 2).says("./starter is not in ");
+    course(&folder, ["check", "thirteen", "--", PROGRAM], 2).says("no step is called 'thirteen'");
+    course(&folder, ["check", "--", PROGRAM, "list"], 2).says("never says HELLO");
     assert!(!folder.join("course.toml").exists(), "what could not be judged is not noted");
     fs::write(folder.join("course.toml"), "run = [\"x\"]\nstep = dda\n").unwrap();
-    let (_, errors) = run(&folder, &["check"], 2);
-    assert!(errors.contains("course.toml: ") && errors.contains("line 2"), "{errors}");
-    assert!(errors.contains("mend it"), "{errors}");
+    course(&folder, "check", 2).says("course.toml: ").says("line 2").says("mend it");
     let broken = "build = [\"sh\", \"-c\", \"echo starter:3: oh no >&2; exit 1\"]\nrun = [\"x\"]\nstep = \"dda\"\n";
     fs::write(folder.join("course.toml"), broken).unwrap();
-    let (_, errors) = run(&folder, &["check"], 2);
-    assert!(
-        errors.contains("the build fails") && errors.contains("| starter:3: oh no"),
-        "{errors}"
-    );
-    run(&folder, &["grade"], 2);
-    run(&folder, &["grade", "--folder", "."], 2);
-    run(&folder, &["grade", "--folder", ".", "--format", "gradescope"], 2);
+    course(&folder, "check", 2).says("the build fails").says("| starter:3: oh no");
+    course(&folder, "grade", 2);
+    course(&folder, "grade --folder .", 2);
+    course(&folder, "grade --folder . --format gradescope", 2);
 }
 
 fn has(program: &str) -> bool {
@@ -168,19 +149,18 @@ fn course_starters_start() {
         if !has(tool) {
             continue;
         }
-        let folder = folder(language);
-        run(&folder, &["start", "--language", language, "mine"], 0);
-        let (out, _) = run(&folder, &["check", "--dir", "mine"], 1);
-        assert!(out.contains("1 missing"), "{language}: {out}");
-        for step in &STEPS {
+        let folder = Folder::new(&format!("course-{language}"));
+        course(&folder, ["start", "--language", language, "mine"], 0);
+        course(&folder, "check --dir mine", 1).prints("1 missing");
+        for step in STEPS.iter() {
             // Nothing is refused: every verb is there, and empty.
-            let (out, _) = run(&folder, &["check", step.name, "--dir", "mine", "--cases", "20"], 1);
+            let words = format!("check {} --dir mine --cases 20", step.name);
+            let out = course(&folder, words, 1).omits("refused").out;
             assert!(out.contains("missing") || out.contains("holes"), "{language}: {out}");
-            assert!(!out.contains("refused"), "{language}: {out}");
         }
         fs::write(folder.join("mine").join(source), "my work").unwrap();
-        let (out, _) = run(&folder, &["start", "--language", language, "mine"], 0);
-        assert!(out.contains("kept:    mine/course.toml"), "{out}");
+        course(&folder, ["start", "--language", language, "mine"], 0)
+            .prints("kept:    mine/course.toml");
         assert_eq!(fs::read_to_string(folder.join("mine").join(source)).unwrap(), "my work");
     }
 }
@@ -192,101 +172,23 @@ fn course_passes_a_students_code() {
     if !has("python3") {
         return;
     }
-    let folder = folder("student");
-    run(&folder, &["start", "--language", "python"], 0);
+    let folder = Folder::new("course-student");
+    course(&folder, "start --language python", 0);
     let path = folder.join("starter.py");
-    let code = r#"
-def edge(a, b, x, y):
-    return (b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0])
-
-
-def inside(a, b, e):
-    return e > 0 or e == 0 and (b[1] < a[1] or b[1] == a[1] and b[0] > a[0])
-
-
-def weights(p, x, y):
-    """Of each corner; nothing where the point is not drawn."""
-    area = edge(p[0], p[1], p[2][0], p[2][1])
-    p = p if area > 0 else [p[0], p[2], p[1]]
-    e = [edge(p[i - 2], p[i - 1], x, y) for i in range(3)]
-    if area == 0 or not all(inside(p[i - 2], p[i - 1], e[i]) for i in range(3)):
-        return None
-    l = [value / abs(area) for value in e]
-    return l if area > 0 else [l[0], l[2], l[1]]
-
-
-def box(p, width, height):
-    for y in range(max(0, math.floor(min(c[1] for c in p))), min(height, math.ceil(max(c[1] for c in p)))):
-        for x in range(max(0, math.floor(min(c[0] for c in p))), min(width, math.ceil(max(c[0] for c in p)))):
-            yield x, y
-
-
-def line(x0, y0, x1, y1, width, height, set_pixel):
-    n = max(abs(x1 - x0), abs(y1 - y0))
-    for i in range(n + 1 if n < 10000 else 0):
-        set_pixel((2 * n * x0 + 2 * (x1 - x0) * i + n) // max(2 * n, 1) if n else x0,
-                  (2 * n * y0 + 2 * (y1 - y0) * i + n) // max(2 * n, 1) if n else y0)
-
-
-def triangle(x0, y0, x1, y1, x2, y2, width, height, set_pixel):
-    p = [(x0, y0), (x1, y1), (x2, y2)]
-    for x, y in box(p, width, height):
-        if weights(p, x + 0.5, y + 0.5):
-            set_pixel(x, y)
-
-
-def values(corners, width, height, set_pixel):
-    for x, y in box(corners, width, height):
-        l = weights(corners, x + 0.5, y + 0.5)
-        if l:
-            q = [l[i] / corners[i][3] for i in range(3)]
-            mean = lambda w, n: sum(w[i] * corners[i][n] for i in range(3)) / sum(w)
-            set_pixel(x, y, mean(l, 2), mean(q, 4), mean(q, 5))
-
-
-def samples(x0, y0, x1, y1, x2, y2, width, height, set_pixel):
-    p = [(x0, y0), (x1, y1), (x2, y2)]
-    for x, y in box(p, width, height):
-        at = [(6, 2), (14, 6), (2, 10), (10, 14)]
-        mask = sum(1 << s for s, (u, v) in enumerate(at) if weights(p, x + u / 16, y + v / 16))
-        set_pixel(x, y, mask)
-
-
-def depth(triangles, width, height, set_pixel):
-    nearest = {}
-    for t, corners in enumerate(triangles):
-        for x, y in box(corners, width, height):
-            l = weights(corners, x + 0.5, y + 0.5)
-            if l:
-                z = sum(l[i] * corners[i][2] for i in range(3))
-                if z < nearest.get((x, y), (math.inf, 0))[0]:
-                    nearest[x, y] = (z, t)
-    for (x, y), (_, t) in nearest.items():
-        set_pixel(x, y, t)
-
-
-def clip(corners):
-    polygon = []
-    for a, b in zip(corners, corners[1:] + corners[:1]):
-        da, db = a[2] + a[3], b[2] + b[3]
-        if da >= 0:
-            polygon.append(a)
-        if (da >= 0) != (db >= 0):
-            polygon.append([p + (q - p) * da / (da - db) for p, q in zip(a, b)])
-    return polygon
-
-
-# ---- the line protocol"#;
+    let code = include_str!("../data/course/student.py").to_owned() + "\n\n";
     let starter = fs::read_to_string(&path).unwrap();
-    fs::write(&path, starter.replace("# ---- the line protocol", code)).unwrap();
-    for step in &STEPS {
+    fs::write(
+        &path,
+        starter.replace("# ---- the line protocol", &(code + "# ---- the line protocol")),
+    )
+    .unwrap();
+    for step in STEPS.iter() {
         // Ties of lines that go the other way round, and lines as long as the world, it has not got.
         let knows = step.name != "bresenham";
-        let (out, _) = run(&folder, &["check", step.name, "--cases", "40"], i32::from(!knows));
+        let out = course(&folder, format!("check {} --cases 40", step.name), u8::from(!knows)).out;
         assert!(knows || out.contains("hint 1"), "{out}");
     }
-    let (out, _) =
-        run(&folder, &["grade", "--cases", "20", "--", "python3", "-B", "starter.py"], 1);
+    let out = course(&folder, "grade --cases 20 -- python3 -B starter.py", 1).out;
     assert!(out.ends_with("11 of 12 points\n"), "{out}");
     // What is drawn last, what is farthest, the middle instead of the pixel; another plane, a corner
     // lost, w forgotten.
@@ -307,8 +209,7 @@ def clip(corners):
     ] {
         assert!(right.contains(from), "{from}");
         fs::write(&path, right.replace(from, to)).unwrap();
-        let (out, _) = run(&folder, &["check", step, "--cases", "40"], 1);
-        assert!(out.contains(said), "{from} -> {to}: {out}");
+        course(&folder, ["check", step, "--cases", "40"], 1).prints(said);
     }
 }
 
@@ -364,42 +265,9 @@ const RUST_BODIES: [(&str, &str); 2] = [
 const CPP_BODIES: [(&str, &str); 2] = [
     (
         "    (void)triangles, (void)count, (void)width, (void)height, (void)set_pixel;\n",
-        "    for (int y = 0; y < height; y++)
-        for (int x = 0; x < width; x++) {
-            double nearest = 1e300;
-            int seen = -1;
-            for (int t = 0; t < count; t++) {
-                const rasterproof_point *p = triangles[t];
-                double e[3], area = 0, z = 0;
-                bool inside = true;
-                for (int i = 0; i < 3; i++) {
-                    const rasterproof_point a = p[i], b = p[(i + 1) % 3];
-                    e[i] = (b.x - a.x) * (y + 0.5 - a.y) - (b.y - a.y) * (x + 0.5 - a.x);
-                    area += e[i];
-                    z += e[i] * p[(i + 2) % 3].z;
-                }
-                for (int i = 0; i < 3; i++) {
-                    const rasterproof_point a = area > 0 ? p[i] : p[(i + 1) % 3], b = area > 0 ? p[(i + 1) % 3] : p[i];
-                    const bool owns = b.y < a.y || (b.y == a.y && b.x > a.x);
-                    inside = inside && (e[i] * area > 0 || (e[i] == 0 && owns));
-                }
-                if (area != 0 && inside && z / area < nearest) nearest = z / area, seen = t;
-            }
-            if (seen >= 0) set_pixel(x, y, seen);
-        }
-",
+        include_str!("../data/course/depth.cpp"),
     ),
-    (
-        "    (void)corners, (void)add_corner;\n",
-        "    for (int i = 0; i < 3; i++) {
-        const rasterproof_clip_corner a = corners[i], b = corners[(i + 1) % 3];
-        const double from = a.z + a.w, to = b.z + b.w, t = from / (from - to);
-        if (from >= 0) add_corner(a.x, a.y, a.z, a.w);
-        if ((from >= 0) != (to >= 0))
-            add_corner(a.x + (b.x - a.x) * t, a.y + (b.y - a.y) * t, a.z + (b.z - a.z) * t, a.w + (b.w - a.w) * t);
-    }
-",
-    ),
+    ("    (void)corners, (void)add_corner;\n", include_str!("../data/course/clip.cpp")),
 ];
 
 /// The starters of the compiled languages hand over piles and corners, and write what comes back.
@@ -412,8 +280,8 @@ fn course_starters_order_and_clip() {
         if !has(tool) {
             continue;
         }
-        let folder = folder(&format!("{language}-bodies"));
-        run(&folder, &["start", "--language", language], 0);
+        let folder = Folder::new(&format!("{language}-bodies"));
+        course(&folder, ["start", "--language", language], 0);
         let mut text = fs::read_to_string(folder.join(source)).unwrap();
         for (empty, body) in bodies {
             assert!(text.contains(empty), "{language}: {empty}");
@@ -442,10 +310,10 @@ fn course_starters_order_and_clip() {
 #[test]
 #[ignore = "takes seconds; .ci/run runs it"]
 fn course_grades() {
-    let folder = folder("grades");
+    let folder = Folder::new("course-grades");
     let words =
         ["--grade", "--format", "gradescope", "--cases", "32", PROGRAM, "engine", "scanline"];
-    let results: Value = serde_json::from_str(&run(&folder, &words, 1).0).unwrap();
+    let results: Value = serde_json::from_str(&course(&folder, words, 1).out).unwrap();
     let tests = results["tests"].as_array().unwrap();
     assert_eq!((tests.len(), &results["score"]), (12, &Value::from(9)));
     let scores: i64 = tests.iter().map(|test| test["score"].as_i64().unwrap()).sum();
@@ -465,7 +333,7 @@ fn course_grades() {
     submit("gus", &["no-such-interpreter"]);
     fs::create_dir_all(folder.join("all/zoe")).unwrap();
     let words = ["grade", "--folder", "all", "--cases", "32", "--seconds", "30"];
-    let grade = |more: &[&str]| run(&folder, &[&words[..], more].concat(), 1).0;
+    let grade = |more: &[&str]| course(&folder, [&words[..], more].concat(), 1).out;
     let json: Value = serde_json::from_str(&grade(&["--format", "json"])).unwrap();
     let of = |name: &str| {
         let all = json["submissions"].as_array().unwrap();
@@ -482,7 +350,7 @@ fn course_grades() {
         assert!(of(name)["error"].as_str().unwrap().contains(why), "{:?}", of(name));
     }
     let template = format!("{PROGRAM} engine dda");
-    let (out, _) = run(&folder, &["grade", "--folder", "all", "--run", &template], 1);
+    let out = course(&folder, ["grade", "--folder", "all", "--run", &template], 1).out;
     assert_eq!(out.lines().filter(|line| line.ends_with("  3")).count(), 5, "{out}");
     assert!(out.contains("passed by "), "{out}");
 }
@@ -491,7 +359,7 @@ fn course_grades() {
 #[cfg(target_os = "linux")]
 #[test]
 fn course_bounds_what_it_grades() {
-    let folder = folder("bounds");
+    let folder = Folder::new("course-bounds");
     if !has("python3") {
         return;
     }
@@ -500,11 +368,10 @@ fn course_bounds_what_it_grades() {
     fs::write(folder.join("hungry.py"), hungry).unwrap();
     let command = ["--", "python3", "hungry.py", PROGRAM, "engine", "dda"];
     let words = ["grade", "--cases", "8", "--memory"];
-    let (out, _) = run(&folder, &[&words[..], &["0"], &command].concat(), 1);
+    let out = course(&folder, [&words[..], &["0"], &command].concat(), 1).out;
     assert!(out.ends_with("3 of 12 points\n"), "{out}");
-    let (out, _) = run(&folder, &[&words[..], &["256"], &command].concat(), 2);
-    assert!(out.contains("cannot be judged: "), "{out}");
+    course(&folder, [&words[..], &["256"], &command].concat(), 2).prints("cannot be judged: ");
     // One that never ends is ended with its time.
     let busy = ["grade", "--seconds", "1", "--", "python3", "-c", "while True: pass"];
-    run(&folder, &busy, 2);
+    course(&folder, busy, 2);
 }

@@ -6,97 +6,32 @@ use std::ffi::OsStr;
 use std::fs::{self, File};
 use std::os::unix::ffi::OsStrExt as _;
 use std::os::unix::fs::{PermissionsExt as _, symlink};
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+use std::path::Path;
 
 use rasterproof::cli::exit::{AGREES, DISAGREES, USAGE};
 
-/// A folder below the system's folder for such files, removed with what is in it.
-struct Folder(PathBuf);
+use crate::program::{Folder, PROGRAM, Run};
+
+/// By links: a program that replaces what it writes to would replace the machine's device.
+fn folder(name: &str) -> Folder {
+    let folder = Folder::new(&format!("delivery-{name}"));
+    symlink("/dev/null", folder.join("null")).unwrap();
+    symlink("/dev/full", folder.join("full")).unwrap();
+    folder
+}
 
 impl Folder {
-    fn new(name: &str) -> Self {
-        let name = format!("rasterproof-delivery-{name}-{}", std::process::id());
-        let folder = std::env::temp_dir().join(name);
-        let _ = fs::remove_dir_all(&folder);
-        fs::create_dir_all(&folder).unwrap();
-        // By links: a program that replaces what it writes to would replace the machine's device.
-        symlink("/dev/null", folder.join("null")).unwrap();
-        symlink("/dev/full", folder.join("full")).unwrap();
-        Self(folder)
-    }
-
-    fn path(&self, name: &str) -> PathBuf {
-        self.0.join(name)
-    }
-
-    fn command(&self, words: &str) -> Command {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_rasterproof"));
-        command.args(words.split_whitespace()).current_dir(&self.0).stdin(Stdio::null());
-        command
-    }
-
-    fn run(&self, words: &str) -> Run {
-        Run::from(words, self.command(words).output().unwrap())
-    }
-
     /// Runs a command whose standard output is a pipe that nobody reads.
     fn run_unread(&self, words: &str) -> Run {
         let (reader, writer) = std::io::pipe().unwrap();
         drop(reader);
-        Run::from(words, self.command(words).stdout(writer).output().unwrap())
+        Run::of(self.command(words).stdout(writer))
     }
 
     /// Runs a command whose standard output is a full disk.
     fn run_full(&self, words: &str) -> Run {
         let full = File::options().write(true).open("/dev/full").unwrap();
-        Run::from(words, self.command(words).stdout(full).output().unwrap())
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        let _ = fs::remove_dir_all(&self.0);
-    }
-}
-
-struct Run {
-    words: String,
-    status: Option<i32>,
-    out: String,
-    errors: String,
-}
-
-impl Run {
-    fn from(words: &str, output: Output) -> Self {
-        Self {
-            words: words.to_owned(),
-            status: output.status.code(),
-            out: String::from_utf8_lossy(&output.stdout).into_owned(),
-            errors: String::from_utf8_lossy(&output.stderr).into_owned(),
-        }
-    }
-
-    #[track_caller]
-    fn has(self, status: u8) -> Self {
-        let Self { words, out, errors, .. } = &self;
-        assert_eq!(self.status, Some(status.into()), "{words}\n{out}\n{errors}");
-        assert!(!errors.contains("panicked"), "{words}\n{errors}");
-        self
-    }
-
-    #[track_caller]
-    fn says(self, part: &str) -> Self {
-        let Self { words, out, errors, .. } = &self;
-        assert!(errors.contains(part), "{words}: expected '{part}'\n{out}\n{errors}");
-        self
-    }
-
-    #[track_caller]
-    fn prints(self, part: &str) -> Self {
-        let Self { words, out, errors, .. } = &self;
-        assert!(out.contains(part), "{words}: expected '{part}'\n{out}\n{errors}");
-        self
+        Run::of(self.command(words).stdout(full))
     }
 }
 
@@ -118,7 +53,7 @@ const VERDICTS: [(&str, u8); 12] = [
 
 #[test]
 fn the_status_does_not_depend_on_a_reader() {
-    let folder = Folder::new("reader");
+    let folder = folder("reader");
     for (words, status) in VERDICTS {
         folder.run(words).has(status);
         folder.run_unread(words).has(status);
@@ -130,7 +65,7 @@ fn the_status_does_not_depend_on_a_reader() {
 
 #[test]
 fn a_verdict_that_cannot_be_written_is_no_success() {
-    let folder = Folder::new("full");
+    let folder = folder("full");
     for (words, status) in VERDICTS {
         let expected = if status == AGREES { USAGE } else { status };
         folder.run_full(words).has(expected).says("standard output cannot be written: No space");
@@ -140,47 +75,45 @@ fn a_verdict_that_cannot_be_written_is_no_success() {
 /// The same for standard error, which is where `exhaust` says its verdict.
 #[test]
 fn the_status_does_not_depend_on_a_reader_of_errors() {
-    let folder = Folder::new("errors");
+    let folder = folder("errors");
     for (words, status) in VERDICTS {
         let (reader, writer) = std::io::pipe().unwrap();
         drop(reader);
-        let output = folder.command(words).stderr(writer).output().unwrap();
-        Run::from(words, output).has(status);
+        Run::of(folder.command(words).stderr(writer)).has(status);
     }
 }
 
 /// A checkpoint is all there is of a result until the certificate has been delivered.
 #[test]
 fn a_checkpoint_is_kept_until_its_result_is_delivered() {
-    let folder = Folder::new("checkpoint");
+    let folder = folder("checkpoint");
     let exhaust = "exhaust lines --reach 3 --checkpoint c.json";
     let planted = "exhaust triangles --window 1 --subpixel-bits 1 --plant inclusive-edges \
                    --checkpoint c.json";
     for (words, status) in [(exhaust, AGREES), (planted, DISAGREES)] {
         folder.run_unread(words).has(status).says("the result is kept in c.json");
-        assert!(folder.path("c.json").exists());
+        assert!(folder.join("c.json").exists());
         // The kept state is complete: it is delivered now, and removed.
         folder.run(words).has(status).prints("\"claim\"");
-        assert!(!folder.path("c.json").exists());
+        assert!(!folder.join("c.json").exists());
         let failing = if status == AGREES { USAGE } else { status };
         folder.run_full(words).has(failing).says("the result is kept in c.json");
-        assert!(folder.path("c.json").exists());
-        fs::remove_file(folder.path("c.json")).unwrap();
+        assert!(folder.join("c.json").exists());
+        fs::remove_file(folder.join("c.json")).unwrap();
         // The verdict is said although the certificate cannot be written.
         let verdict = if status == AGREES { "AGREES: " } else { "DISAGREES: " };
-        let run = folder.run(&format!("{words} -o full"));
+        let run = folder.run(format!("{words} -o full"));
         run.has(failing).says(verdict).says("full: cannot be written");
-        assert!(folder.path("c.json").exists());
-        fs::remove_file(folder.path("c.json")).unwrap();
+        assert!(folder.join("c.json").exists());
+        fs::remove_file(folder.join("c.json")).unwrap();
     }
 }
 
 /// The text comes first; a file that cannot be written costs no result and is named.
 #[test]
 fn results_are_printed_before_files_are_written() {
-    let folder = Folder::new("printed");
-    let program = env!("CARGO_BIN_EXE_rasterproof");
-    fs::write(folder.path("file"), "no folder").unwrap();
+    let folder = folder("printed");
+    fs::write(folder.join("file"), "no folder").unwrap();
     let run = folder.run("specimens --cases 2 -o file/x.png");
     run.has(USAGE).prints("book-ch2").says("file/x.png: cannot be written");
     let run = folder.run("inspect T2 -o file/x.png");
@@ -194,32 +127,32 @@ fn results_are_printed_before_files_are_written() {
         assert!(!run.out.is_empty() && !run.out.contains("drawn in file"), "{words}: {}", run.out);
     }
     let judge =
-        format!("judge --cases 5 --family fan --baseline file/b -- {program} engine scanline");
-    folder.run(&judge.replace("file/b", "file/b --update-baseline")).has(USAGE);
-    let baseline = folder.path("kept");
+        format!("judge --cases 5 --family fan --baseline file/b -- {PROGRAM} engine scanline");
+    folder.run(judge.replace("file/b", "file/b --update-baseline")).has(USAGE);
+    let baseline = folder.join("kept");
     fs::create_dir(&baseline).unwrap();
-    fs::write(folder.path("kept/b"), "# rasterproof baseline 1, seed 1\n").unwrap();
-    let run = folder.run(&format!(
-        "judge --cases 5 --family fan --report --out file -- {program} engine scanline"
+    fs::write(folder.join("kept/b"), "# rasterproof baseline 1, seed 1\n").unwrap();
+    let run = folder.run(format!(
+        "judge --cases 5 --family fan --report --out file -- {PROGRAM} engine scanline"
     ));
     run.has(USAGE).prints("AGREES").says("file/judge.html: cannot be written");
     let run = folder.run("--cases 10 --plant inclusive-edges --report --out file");
     run.has(DISAGREES).prints("DISAGREES").says("file/verify.html: cannot be written");
     let run = folder.run("cost coverage --quick -o file");
     run.has(USAGE).prints("repeat with").says("cannot be written");
-    fs::create_dir(folder.path("snapshots")).unwrap();
-    fs::write(folder.path("snapshots/a.snap.new"), "---\nsource: a.rs\n---\nnew\n").unwrap();
+    fs::create_dir(folder.join("snapshots")).unwrap();
+    fs::write(folder.join("snapshots/a.snap.new"), "---\nsource: a.rs\n---\nnew\n").unwrap();
     let run = folder.run("review -o file/x.html");
     run.has(DISAGREES).prints("a.snap").says("file/x.html: cannot be written");
 }
 
 #[test]
 fn two_options_do_not_name_one_file() {
-    let folder = Folder::new("distinct");
-    fs::write(folder.path("old.json"), "mine").unwrap();
-    fs::hard_link(folder.path("old.json"), folder.path("hard.json")).unwrap();
-    symlink("old.json", folder.path("soft.json")).unwrap();
-    symlink(".", folder.path("here")).unwrap();
+    let folder = folder("distinct");
+    fs::write(folder.join("old.json"), "mine").unwrap();
+    fs::hard_link(folder.join("old.json"), folder.join("hard.json")).unwrap();
+    symlink("old.json", folder.join("soft.json")).unwrap();
+    symlink(".", folder.join("here")).unwrap();
     let exhaust = "exhaust lines --reach 2 --restart";
     for (output, checkpoint) in [
         ("c.json", "c.json"),
@@ -230,10 +163,10 @@ fn two_options_do_not_name_one_file() {
         ("soft.json", "old.json"),
         ("c.json.lock", "c.json"),
     ] {
-        let run = folder.run(&format!("{exhaust} -o {output} --checkpoint {checkpoint}"));
+        let run = folder.run(format!("{exhaust} -o {output} --checkpoint {checkpoint}"));
         run.has(USAGE).says("name this file; give each a file of its own");
     }
-    assert_eq!(fs::read(folder.path("old.json")).unwrap(), b"mine");
+    assert_eq!(fs::read(folder.join("old.json")).unwrap(), b"mine");
     let is_refused = |words: &str| {
         folder.run(words).has(USAGE).says("name this file; give each a file of its own");
     };
@@ -241,31 +174,31 @@ fn two_options_do_not_name_one_file() {
     folder.run("exhaust lines --reach 2 --shard 1/2 -o 1.json").has(AGREES);
     is_refused("merge 0.json 1.json -o ./1.json");
     folder.run("merge 0.json 1.json -o whole.json").has(AGREES);
-    fs::write(folder.path("m.png"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").unwrap();
+    fs::write(folder.join("m.png"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").unwrap();
     is_refused("render ./m.png -o m.png");
-    fs::write(folder.path("p.png"), "{}").unwrap();
+    fs::write(folder.join("p.png"), "{}").unwrap();
     is_refused("render cube --plan p.png -o here/p.png");
-    symlink("render.html", folder.path("r.png")).unwrap();
-    fs::write(folder.path("render.html"), "").unwrap();
+    symlink("render.html", folder.join("r.png")).unwrap();
+    fs::write(folder.join("render.html"), "").unwrap();
     is_refused("render cube --report --out . -o r.png");
-    fs::rename(folder.path("render.html"), folder.path("inspect.html")).unwrap();
-    symlink("inspect.html", folder.path("i.png")).unwrap();
+    fs::rename(folder.join("render.html"), folder.join("inspect.html")).unwrap();
+    symlink("inspect.html", folder.join("i.png")).unwrap();
     is_refused("inspect T2 --report --out . -o i.png");
-    fs::rename(folder.path("inspect.html"), folder.path("specimens.html")).unwrap();
-    symlink("specimens.html", folder.path("s.png")).unwrap();
+    fs::rename(folder.join("inspect.html"), folder.join("specimens.html")).unwrap();
+    symlink("specimens.html", folder.join("s.png")).unwrap();
     is_refused("specimens --cases 1 --report --out . -o s.png");
-    fs::write(folder.path("m.wasm"), "wasm").unwrap();
+    fs::write(folder.join("m.wasm"), "wasm").unwrap();
     is_refused("playground --module m.wasm -o ./m.wasm");
-    fs::write(folder.path("cost-price.svg"), "{}").unwrap();
+    fs::write(folder.join("cost-price.svg"), "{}").unwrap();
     is_refused("cost --from cost-price.svg -o .");
     is_refused("judge --baseline judge.html --report --out . -- true");
-    fs::create_dir(folder.path("snapshots")).unwrap();
-    fs::write(folder.path("snapshots/a.snap.new"), "---\nsource: a.rs\n---\nnew\n").unwrap();
+    fs::create_dir(folder.join("snapshots")).unwrap();
+    fs::write(folder.join("snapshots/a.snap.new"), "---\nsource: a.rs\n---\nnew\n").unwrap();
     is_refused("review -o snapshots/a.snap.new");
     // Standard output is one more file that is written.
     let words = "exhaust lines --reach 2 --checkpoint out.json";
-    let out = File::create(folder.path("out.json")).unwrap();
-    let run = Run::from(words, folder.command(words).stdout(out).output().unwrap());
+    let out = File::create(folder.join("out.json")).unwrap();
+    let run = Run::of(folder.command(words).stdout(out));
     run.has(USAGE).says("standard output");
     // A device is no file that is lost.
     folder.run("exhaust lines --reach 2 -o null").has(AGREES);
@@ -274,16 +207,12 @@ fn two_options_do_not_name_one_file() {
 /// Names that are not UTF-8 are those names, for input and for output.
 #[test]
 fn names_need_not_be_utf8() {
-    let folder = Folder::new("names");
-    let name = |bytes: &[u8]| folder.0.join(OsStr::from_bytes(bytes));
-    let run = |words: &str, paths: &[&Path]| {
-        let mut command = folder.command(words);
-        let output = command.args(paths).output().unwrap();
-        Run::from(words, output)
-    };
+    let folder = folder("names");
+    let name = |bytes: &[u8]| folder.join(OsStr::from_bytes(bytes));
+    let run = |words: &str, paths: &[&Path]| Run::of(folder.command(words).args(paths));
     let is_only = |path: &Path| {
         assert!(path.exists());
-        let names = fs::read_dir(&folder.0).unwrap();
+        let names = fs::read_dir(&*folder).unwrap();
         let names: Vec<_> = names.map(|entry| entry.unwrap().file_name()).collect();
         assert!(
             !names.iter().any(|name| name.to_string_lossy().ends_with('\u{fffd}')),
@@ -295,13 +224,11 @@ fn names_need_not_be_utf8() {
     run("exhaust lines --reach 2 --shard 1/2 -o", &[&one]).has(AGREES);
     run("merge", &[&zero, &one]).has(AGREES).prints("\"claim\"");
     let checkpoint = name(b"\xffcheck");
-    let run_of_two = run("exhaust lines --reach 2 -o null --checkpoint", &[&checkpoint]);
-    run_of_two.has(AGREES);
+    run("exhaust lines --reach 2 -o null --checkpoint", &[&checkpoint]).has(AGREES);
     let model = name(b"\xff.obj");
     fs::write(&model, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").unwrap();
     let picture = name(b"\xff.png");
-    let output = folder.command("render --size 16x16").arg(&model).arg("-o").arg(&picture).output();
-    Run::from("render", output.unwrap()).has(AGREES);
+    run("render --size 16x16", &[&model, Path::new("-o"), &picture]).has(AGREES);
     is_only(&picture);
     run("inspect T2 -o", &[&picture]).has(AGREES);
     run("specimens --cases 1 -o", &[&picture]).has(AGREES);
@@ -312,11 +239,8 @@ fn names_need_not_be_utf8() {
     fs::write(&costs, folder.run("cost coverage --quick --json").has(AGREES).out).unwrap();
     run("cost --from", &[&costs]).has(AGREES);
     let baseline = name(b"\xff.known");
-    let program = env!("CARGO_BIN_EXE_rasterproof");
-    let words = "judge --cases 5 --family fan --update-baseline --baseline";
-    let mut judge = folder.command(words);
-    judge.arg(&baseline).args(["--", program, "engine", "scanline"]);
-    Run::from(words, judge.output().unwrap()).has(AGREES);
+    let mut judge = folder.command("judge --cases 5 --family fan --update-baseline --baseline");
+    Run::of(judge.arg(&baseline).args(["--", PROGRAM, "engine", "scanline"])).has(AGREES);
     is_only(&baseline);
     // A folder of pages, and the pages of course.
     let pages = name(b"\xffpages");
@@ -330,15 +254,15 @@ fn names_need_not_be_utf8() {
 /// The mode of a file that is written over is kept, a link stays one, a device stays one.
 #[test]
 fn files_are_replaced_as_they_are() {
-    let folder = Folder::new("replaced");
-    let file = folder.path("a.json");
+    let folder = folder("replaced");
+    let file = folder.join("a.json");
     fs::write(&file, "old").unwrap();
     fs::set_permissions(&file, fs::Permissions::from_mode(0o600)).unwrap();
-    symlink("a.json", folder.path("link.json")).unwrap();
-    fs::write(folder.path("link.json.part"), "mine").unwrap();
+    symlink("a.json", folder.join("link.json")).unwrap();
+    fs::write(folder.join("link.json.part"), "mine").unwrap();
     folder.run("exhaust lines --reach 2 -o link.json").has(AGREES);
-    assert!(fs::symlink_metadata(folder.path("link.json")).unwrap().is_symlink());
+    assert!(fs::symlink_metadata(folder.join("link.json")).unwrap().is_symlink());
     assert_eq!(fs::metadata(&file).unwrap().permissions().mode() & 0o777, 0o600);
     assert!(fs::read_to_string(&file).unwrap().contains("claim"));
-    assert_eq!(fs::read(folder.path("link.json.part")).unwrap(), b"mine");
+    assert_eq!(fs::read(folder.join("link.json.part")).unwrap(), b"mine");
 }

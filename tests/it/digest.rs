@@ -1,35 +1,28 @@
 //! The digest of the engines is the one in the repository: the same bits as on the machines before.
 
-use std::process::Command;
+use crate::program::{Run, shared};
 
-const WORDS: [&str; 4] = ["--seed", "1", "--cases", "4"];
+const WORDS: &str = "--seed 1 --cases 4";
 
-fn digest(words: &[&str]) -> (Option<i32>, String, String) {
-    let output = Command::new(env!("CARGO_BIN_EXE_rasterproof"))
-        .arg("digest")
-        .args(words)
-        .env("RAYON_NUM_THREADS", "2")
-        .output()
-        .unwrap();
-    let text = |bytes| String::from_utf8(bytes).unwrap();
-    (output.status.code(), text(output.stdout), text(output.stderr))
+fn digest(words: &str) -> Run {
+    Run::of(shared().command(format!("digest {words}")).env("RAYON_NUM_THREADS", "2"))
 }
 
 #[test]
 fn digest_is_as_kept() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/digest.txt");
     let kept = std::fs::read_to_string(path).unwrap();
-    let (status, text, errors) = digest(&WORDS);
+    let Run { status, out: text, errors, .. } = digest(WORDS);
     assert_eq!((status, errors.as_str()), (Some(0), ""));
     assert!(text.lines().all(|line| line.len() <= 100), "{text}");
     // Where a change of an engine or of a family is meant, the new text belongs into the file; where
     // none was made, this machine computes other bits.
-    assert_eq!(text, kept, "rasterproof digest {} prints something else", WORDS.join(" "));
+    assert_eq!(text, kept, "rasterproof digest {} prints something else", WORDS);
 }
 
 #[test]
 fn digest_of_one_engine_as_json() {
-    let (status, json, _) = digest(&["--cases", "1", "--engine", "dda", "--json"]);
+    let Run { status, out: json, .. } = digest("--cases 1 --engine dda --json");
     let json: serde_json::Value = serde_json::from_str(&json).unwrap();
     assert_eq!(
         (status, json["cases"].as_u64(), json["seed"].as_u64()),
@@ -44,8 +37,6 @@ fn digest_of_one_engine_as_json() {
 
 #[test]
 fn digest_refuses_what_it_has_not() {
-    for words in [["--engine", "nobody"], ["--cases", "0"]] {
-        let (status, _, errors) = digest(&words);
-        assert!(status == Some(2) && errors.contains(words[1]), "{words:?}: {errors}");
-    }
+    digest("--engine nobody").has(2).says("nobody");
+    digest("--cases 0").has(2).says("0");
 }

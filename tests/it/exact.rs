@@ -4,7 +4,6 @@
 use std::collections::BTreeSet;
 
 use proptest::prelude::*;
-use rasterproof::cli::{self, Streams};
 use rasterproof_core::contract::{Rasterize, RasterizeExact};
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{PixelRect, Refusal, SubpixelPoint};
@@ -16,6 +15,9 @@ use rasterproof_registry::engines::ExactEngine;
 use rasterproof_verify::cases::unsnapped::{FAMILIES, OffGridCase};
 use rasterproof_verify::comparison::Options;
 use rasterproof_verify::comparison::unsnapped::{exact_coverage, judge_exact, judge_exact_case};
+
+use crate::program::check;
+use crate::protocol::ask;
 
 const ALL: [ExactEngine; 3] =
     [ExactEngine::Scanline, ExactEngine::EdgeFunction, ExactEngine::Oracle];
@@ -275,34 +277,6 @@ fn refusals() {
     }
 }
 
-/// The scanline and the oracle stand on their own: only the edge function uses `robust`.
-#[test]
-fn independence_of_orient2d() {
-    let uses = |source: &str| {
-        source.lines().any(|l| !l.trim_start().starts_with("//") && l.contains("orient2d"))
-    };
-    assert!(uses(include_str!("../../crates/core/src/raster/edge_function_exact.rs")));
-    assert!(!uses(include_str!("../../crates/core/src/raster/scanline_exact.rs")));
-    assert!(!uses(include_str!("../../crates/verify/src/oracle/rational.rs")));
-}
-
-fn run(command: &str, input: &str) -> (u8, String, String) {
-    let (mut output, mut errors) = (Vec::new(), Vec::new());
-    let mut streams = Streams {
-        input: &mut input.as_bytes(),
-        output: &mut output,
-        errors: &mut errors,
-        progress: false,
-        colour: false,
-        columns: cli::wrap::USUAL,
-        delivery: cli::Delivery::default(),
-    };
-    let words = command.split_whitespace().map(str::to_owned);
-    let status = cli::run(words, &mut streams);
-    let text = |bytes| String::from_utf8(bytes).expect("text");
-    (status, text(output), text(errors))
-}
-
 #[test]
 fn protocol() {
     // A hundredth of a subpixel beside the centres of the diagonal: snapping would make it a tie.
@@ -317,8 +291,6 @@ L g 4 4 0 0 4 4
 I h 4 4 0 0 0 1 0 0 4 0 0 1 0 0 4 4 0 1 0 0
 ";
     for engine in ALL {
-        let (status, output, errors) =
-            run(&format!("rasterproof engine {}", engine.name()), requests);
         let expected = format!(
             "HELLO 1 {} coverage
 C a 3 0 1 4 1 2 4 2 3 4
@@ -332,40 +304,33 @@ E h unsupported
 ",
             engine.name()
         );
-        assert_eq!((status, output.as_str(), errors.as_str()), (0, expected.as_str(), ""));
+        let expected: Vec<_> = expected.lines().collect();
+        assert_eq!(ask(engine.name(), requests.as_bytes()), expected);
     }
-    let (_, snapped, _) = run("rasterproof engine scanline", requests);
-    assert!(snapped.contains("C a 4 0 0 4 1 1 4 2 2 4 3 3 4\n"), "{snapped}");
+    let snapped = ask("scanline", requests.as_bytes());
+    assert!(snapped.iter().any(|line| line == "C a 4 0 0 4 1 1 4 2 2 4 3 3 4"), "{snapped:?}");
 }
 
 #[test]
 fn command_line() {
-    let (status, output, _) = run("rasterproof list", "");
-    assert_eq!(status, 0);
+    let output = check("list", 0).out;
     for name in ALL.iter().map(ExactEngine::name).chain(FAMILIES.iter().map(|f| f.name)) {
         assert!(output.lines().any(|l| l.split_whitespace().next() == Some(name)), "{name}");
     }
-    let (status, output, _) = run("rasterproof verify --family f32-tie --cases 50", "");
-    assert_eq!(status, 0, "{output}");
-    assert!(output.contains("50 triangles off the grid, 0 wrong pixels"), "{output}");
-    let (status, output, _) =
-        run("rasterproof verify --plant exact-inclusive-ties --family f32-tie --cases 50", "");
-    assert_eq!(status, 1, "{output}");
-    assert!(output.contains("repeat with: rasterproof verify --family f32-tie --case"), "{output}");
-    let (status, output, _) =
-        run("rasterproof verify --plant exact-plain-f32 --family f32-far --cases 50 --json", "");
-    let json: serde_json::Value = serde_json::from_str(&output).expect("JSON");
-    assert_eq!((status, &json["agrees"]), (1, &serde_json::Value::Bool(false)));
+    check("verify --family f32-tie --cases 50", 0)
+        .prints("50 triangles off the grid, 0 wrong pixels");
+    check("verify --plant exact-inclusive-ties --family f32-tie --cases 50", 1)
+        .prints("repeat with: rasterproof verify --family f32-tie --case");
+    let run = check("verify --plant exact-plain-f32 --family f32-far --cases 50 --json", 1);
+    let json: serde_json::Value = serde_json::from_str(&run.out).expect("JSON");
+    assert_eq!(json["agrees"], false);
     assert_eq!(json["off_grid_families"][0]["family"], "f32-far");
     assert_eq!(json["failures"][0]["pair"][1], "oracle-exact");
     // A number beyond the default count of cases is judged, too.
-    let (status, output, _) = run("rasterproof verify --family f32-tie --case 123456789012", "");
-    assert_eq!(status, 0, "{output}");
-    assert!(output.contains(", 1 triangles off the grid, 0 wrong pixels"), "{output}");
-    assert!(output.lines().all(|line| line.chars().count() <= 100), "{output}");
-    let (status, output, _) = run("rasterproof inspect f64-denormal#5", "");
-    assert_eq!(status, 0, "{output}");
-    assert!(output.contains("edge-function-exact against oracle-exact: agrees"), "{output}");
+    let run = check("verify --family f32-tie --case 123456789012", 0)
+        .prints(", 1 triangles off the grid, 0 wrong pixels");
+    assert!(run.out.lines().all(|line| line.chars().count() <= 100), "{run}");
+    check("inspect f64-denormal#5", 0).prints("edge-function-exact against oracle-exact: agrees");
 }
 
 fn lattice() -> impl Strategy<Value = [SubpixelPoint; 3]> {

@@ -1,8 +1,7 @@
 //! Proofs by exhaustion: the small ones in full, and that stopping, sharding and merging change
 //! nothing, that planted faults are found, and that the certificates in the docs are of this code.
 
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::path::Path;
 use std::sync::Mutex;
 use std::time::Duration;
 
@@ -10,6 +9,8 @@ use rasterproof_exhaustive::certificate::{Certificate, Timing, merge};
 use rasterproof_exhaustive::identity::Shard;
 use rasterproof_exhaustive::run::{Progress, run};
 use rasterproof_exhaustive::{Example, Plan, edges, lines, triangles};
+
+use crate::program::Folder;
 
 fn triangles(subpixel_bits: u32) -> triangles::Triangles {
     triangles::Triangles {
@@ -284,37 +285,16 @@ fn exhaust_merge_refuses_what_does_not_fit() {
     assert!(merge(&good).unwrap().proved);
 }
 
-/// A folder of its own for each test, under the build's temporary folder.
-fn folder(name: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("exhaust-{name}"));
-    let _ = std::fs::remove_dir_all(&folder);
-    std::fs::create_dir_all(&folder).unwrap();
-    folder
-}
-
-fn command(folder: &Path, words: &str) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_rasterproof"))
-        .args(words.split(' '))
-        .current_dir(folder)
-        .output()
-        .unwrap()
-}
-
-fn status(folder: &Path, words: &str) -> (Option<i32>, String) {
-    let output = command(folder, words);
-    (output.status.code(), String::from_utf8(output.stderr).unwrap())
-}
-
 #[test]
 fn exhaust_command_certifies_shards_and_merges() {
-    let folder = folder("merge");
+    let folder = Folder::new("exhaust-merge");
     let bits = "exhaust triangles --subpixel-bits 1";
-    assert_eq!(status(&folder, &format!("{bits} -o whole.json")).0, Some(0));
+    folder.check(format!("{bits} -o whole.json"), 0);
     for part in 0..3 {
         let words = format!("{bits} --shard {part}/3 -o {part}.json");
-        assert_eq!(status(&folder, &words).0, Some(0));
+        folder.check(words, 0);
     }
-    assert_eq!(status(&folder, "merge 2.json 0.json 1.json -o merged.json").0, Some(0));
+    folder.check("merge 2.json 0.json 1.json -o merged.json", 0);
     let read = |name: &str| {
         let text = std::fs::read_to_string(folder.join(name)).unwrap();
         let mut certificate = Certificate::from_json(&text).unwrap();
@@ -323,28 +303,24 @@ fn exhaust_command_certifies_shards_and_merges() {
     };
     assert_eq!(read("merged.json"), read("whole.json"));
     assert!(read("whole.json").proved);
-    let (code, errors) = status(&folder, "merge 0.json 2.json");
-    assert_eq!(code, Some(2), "{errors}");
-    assert!(errors.contains("missing: 1"), "{errors}");
-    assert_eq!(status(&folder, "merge 0.json nothing.json").0, Some(2));
+    folder.check("merge 0.json 2.json", 2).says("missing: 1");
+    folder.check("merge 0.json nothing.json", 2);
     std::fs::write(folder.join("broken.json"), "{}").unwrap();
-    assert_eq!(status(&folder, "merge broken.json").0, Some(2));
+    folder.check("merge broken.json", 2);
     // No checkpoint is left behind by runs that have ended.
     assert_eq!(std::fs::read_dir(folder.join("target/rasterproof")).unwrap().count(), 0);
 }
 
 #[test]
 fn exhaust_command_exits_by_what_it_finds() {
-    let folder = folder("exit");
+    let folder = Folder::new("exhaust-exit");
     let fails = [
         "exhaust triangles --subpixel-bits 1 --plant inclusive-edges -o t.json",
         "exhaust lines --reach 16 --plant line-directed-ties -o l.json",
         "exhaust edges --subpixel-bits 1 --plant sample-off-by-one-subpixel -o e.json",
     ];
     for words in fails {
-        let (code, errors) = status(&folder, words);
-        assert_eq!(code, Some(1), "{words}: {errors}");
-        assert!(errors.contains("wrong: ") && errors.contains("DISAGREES: "), "{errors}");
+        folder.check(words, 1).says("wrong: ").says("DISAGREES: ");
     }
     let bad = [
         "exhaust triangles --subpixel-bits 9",
@@ -355,15 +331,15 @@ fn exhaust_command_exits_by_what_it_finds() {
         "exhaust",
     ];
     for words in bad {
-        assert_eq!(status(&folder, words).0, Some(2), "{words}");
+        folder.check(words, 2);
     }
     let moved = "exhaust edges --subpixel-bits 1 --offset-px -2048,16384";
-    assert_eq!(status(&folder, moved).0, Some(0));
+    folder.check(moved, 0);
 }
 
 #[test]
 fn exhaust_command_resumes_its_own_checkpoint_alone() {
-    let folder = folder("resume");
+    let folder = Folder::new("exhaust-resume");
     let plan = Plan::Triangles(triangles(1));
     // A state in which something was wrong, which no honest run finds: if the end says so, the state
     // was taken over.
@@ -373,9 +349,7 @@ fn exhaust_command_resumes_its_own_checkpoint_alone() {
     half.tally.examples = (0..5).map(example).collect();
     std::fs::write(folder.join("c.json"), serde_json::to_string(&half).unwrap()).unwrap();
     let words = "exhaust triangles --subpixel-bits 1 --checkpoint c.json -o o.json";
-    let (code, errors) = status(&folder, words);
-    assert_eq!(code, Some(1), "{errors}");
-    assert!(errors.contains("7 wrong"), "{errors}");
+    folder.check(words, 1).says("7 wrong");
     assert!(!folder.join("c.json").exists(), "removed at the end");
 
     // Of another run, of other code, damaged or not a checkpoint at all: refused unless --restart.
@@ -389,23 +363,16 @@ fn exhaust_command_resumes_its_own_checkpoint_alone() {
     let texts = states.map(|state| serde_json::to_string(&state).unwrap());
     for text in texts.iter().map(String::as_str).chain([""]) {
         std::fs::write(folder.join("c.json"), text).unwrap();
-        let (code, errors) = status(&folder, words);
-        assert_eq!(code, Some(2), "{errors}");
-        assert!(errors.contains("--restart"), "{errors}");
-        assert_eq!(status(&folder, &format!("{words} --restart")).0, Some(0));
+        folder.check(words, 2).says("--restart");
+        folder.check(format!("{words} --restart"), 0);
     }
 }
 
-/// A killed run goes on where it was.
 #[test]
 fn exhaust_command_survives_a_kill() {
-    let folder = folder("kill");
+    let folder = Folder::new("exhaust-kill");
     let words = "exhaust triangles --subpixel-bits 3 --shard 0/8 --checkpoint c.json -o o.json";
-    let mut child = Command::new(env!("CARGO_BIN_EXE_rasterproof"))
-        .args(words.split(' '))
-        .current_dir(&folder)
-        .spawn()
-        .unwrap();
+    let mut child = folder.command(words).spawn().unwrap();
     // The first state is written at the start, the next after some seconds.
     let is_under_way = || {
         let text = std::fs::read_to_string(folder.join("c.json")).unwrap_or_default();
@@ -419,7 +386,7 @@ fn exhaust_command_survives_a_kill() {
     }
     let _ = child.kill();
     let _ = child.wait();
-    assert_eq!(status(&folder, words).0, Some(0));
+    folder.check(words, 0);
     let text = std::fs::read_to_string(folder.join("o.json")).unwrap();
     let certificate = Certificate::from_json(&text).unwrap();
     assert!(certificate.agrees());

@@ -4,7 +4,6 @@
 use std::collections::BTreeMap;
 
 use glam::{DVec4, Vec4};
-use rasterproof_core::contract::Rasterize as _;
 use rasterproof_core::frame::{Coverage, Frame};
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::raster::edge_function::WordWidth;
@@ -23,15 +22,17 @@ use rasterproof_render::pipeline::target::{Antialias, Target};
 use rasterproof_render::scene::chapters::scene;
 use rasterproof_verify::cases::named::{Input, find};
 use rasterproof_verify::cases::{Case, Shape, families};
-use rasterproof_verify::oracle::Oracle;
+use rasterproof_verify::comparison::oracle_coverage;
 use rasterproof_verify::oracle::coverage::samples_on_boundary;
 use serde_json::Value;
 
 use crate::illustrations::ball;
 use crate::pages::{page, read};
 
+type Values = fn() -> Vec<f64>;
+
 /// Every figure by its name. Where there are several, the pages add `.1`, `.2` and so on to the name.
-pub const ALL: &[(&str, fn() -> Vec<f64>)] = &[
+pub const ALL: &[(&str, Values)] = &[
     ("apart-facets", || apart("facets", Antialias::Supersample(4))),
     ("apart-panels-supersampled", || apart("panels", Antialias::Supersample(4))),
     ("apart-panels-multisampled", || apart("panels", Antialias::Multisample4)),
@@ -213,16 +214,11 @@ fn bug(name: &str) -> Value {
     serde_json::from_str::<Value>(text).unwrap()[name].clone()
 }
 
-/// The coverage of each triangle of a named case.
 fn named(name: &str) -> Vec<Coverage> {
     let Input::Drawn { case, .. } = find(name).unwrap().input else { panic!("{name} is drawn") };
     let Shape::Triangles { list, .. } = &case.shape else { panic!("{name} has triangles") };
-    let each = list.iter().map(|triangle| {
-        let mut hits = Coverage::new(case.window, 0);
-        Oracle.cover(triangle.corners(), case.window, |s| hits.hit(s.y_px, s.x0_px, s.x1_px));
-        hits
-    });
-    each.collect()
+    let one = |triangle| oracle_coverage(std::slice::from_ref(triangle), case.window);
+    list.iter().map(one).collect()
 }
 
 /// Random triangles with a sample on an edge, of 100,000.

@@ -3,49 +3,26 @@
 //! that a file states.
 
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Output, Stdio};
+use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
+use rasterproof::cli::exit::{AGREES, DISAGREES, USAGE};
 use serde_json::{Value, json};
 
-const AGREES: Option<i32> = Some(0);
-const DISAGREES: Option<i32> = Some(1);
-const REFUSED: Option<i32> = Some(2);
-
-/// A folder under the build's temporary folder, removed with what is in it.
-struct Folder(PathBuf);
+use crate::program::{Folder, PROGRAM, Run};
 
 impl Folder {
-    fn new(name: &str) -> Self {
-        let name = format!("hostile-certificates-{name}");
-        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-        let _ = fs::remove_dir_all(&folder);
-        fs::create_dir_all(&folder).unwrap();
-        Self(folder)
-    }
-
     /// With the certificates `0.json`, `1.json` and `whole.json` of an enumeration.
-    fn with_certificates(name: &str, words: &str, status: Option<i32>) -> Self {
-        let folder = Self::new(name);
+    fn with_certificates(name: &str, words: &str, status: u8) -> Self {
+        let folder = Self::new(&format!("certificates-{name}"));
         for part in ["--shard 0/2 -o 0.json", "--shard 1/2 -o 1.json", "-o whole.json"] {
-            assert_eq!(folder.run(&format!("exhaust {words} {part}")).status, status);
+            folder.check(format!("exhaust {words} {part}"), status);
         }
         folder
     }
 
-    fn command(&self, words: &str) -> Command {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_rasterproof"));
-        command.args(words.split(' ')).current_dir(&self.0).stdin(Stdio::null());
-        command
-    }
-
-    fn run(&self, words: &str) -> Run {
-        Run::from(words, &self.command(words).output().unwrap())
-    }
-
     fn text(&self, name: &str) -> String {
-        fs::read_to_string(self.0.join(name)).unwrap()
+        fs::read_to_string(self.join(name)).unwrap()
     }
 
     fn json(&self, name: &str) -> Value {
@@ -53,7 +30,7 @@ impl Folder {
     }
 
     fn write(&self, name: &str, content: &Value) {
-        fs::write(self.0.join(name), content.to_string()).unwrap();
+        fs::write(self.join(name), content.to_string()).unwrap();
     }
 
     /// Writes `to`, which is `from` with another value at some places.
@@ -67,12 +44,6 @@ impl Folder {
     }
 }
 
-impl Drop for Folder {
-    fn drop(&mut self) {
-        let _ = fs::remove_dir_all(&self.0);
-    }
-}
-
 /// A process that does not outlive its test.
 struct Killed(Child);
 
@@ -83,37 +54,11 @@ impl Drop for Killed {
     }
 }
 
-struct Run {
-    words: String,
-    status: Option<i32>,
-    out: String,
-    errors: String,
-}
-
 impl Run {
-    fn from(words: &str, output: &Output) -> Self {
-        let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
-        let (out, errors) = (text(&output.stdout), text(&output.stderr));
-        Self { words: words.to_owned(), status: output.status.code(), out, errors }
-    }
-
-    #[track_caller]
-    fn has(self, status: Option<i32>) -> Self {
-        assert_eq!(self.status, status, "{}\n{}\n{}", self.words, self.out, self.errors);
-        self
-    }
-
-    #[track_caller]
-    fn says(self, part: &str) -> Self {
-        let Self { words, errors, .. } = &self;
-        assert!(errors.contains(part), "{words}: expected '{part}'\n{errors}");
-        self
-    }
-
     /// Ends with a message of one short line, and hands over no certificate.
     #[track_caller]
     fn refused(self, part: &str) {
-        let run = self.has(REFUSED).says(part);
+        let run = self.has(USAGE).says(part);
         assert!(run.out.is_empty() && !run.errors.contains("AGREES"), "{}", run.errors);
         let is_short = run.errors.trim_end().lines().count() == 1 && run.errors.len() < 800;
         assert!(is_short, "{} bytes: {:.2000}", run.errors.len(), run.errors);
@@ -216,17 +161,16 @@ fn certificates_of_another_program_are_refused() {
 #[cfg(unix)]
 #[test]
 fn a_great_number_of_parts_is_only_a_number() {
-    let folder = Folder::new("parts");
+    let folder = Folder::new("certificates-parts");
     let whole = format!("exhaust {LINES} -o whole.json");
     folder.run(&whole).has(AGREES);
     for parts in [1_000_000u64, 1_000_000_000, u64::MAX] {
-        folder.run(&format!("exhaust {LINES} --shard 0/{parts} -o 0.json")).has(AGREES);
-        let program = env!("CARGO_BIN_EXE_rasterproof");
+        folder.run(format!("exhaust {LINES} --shard 0/{parts} -o 0.json")).has(AGREES);
         // 2 GB of addresses are enough for the threads, and not for a list of 10^9 texts.
-        let script = format!("ulimit -v 2000000; exec {program} merge 0.json");
+        let script = format!("ulimit -v 2000000; exec {PROGRAM} merge 0.json");
         let mut shell = Command::new("sh");
-        shell.args(["-c", &script]).current_dir(&folder.0).env("RAYON_NUM_THREADS", "1");
-        let run = Run::from(&script, &shell.output().unwrap());
+        shell.args(["-c", &script]).current_dir(&*folder).env("RAYON_NUM_THREADS", "1");
+        let run = Run::of(&mut shell);
         run.refused(&format!("of {parts} shards these are missing: 1 to 6; "));
     }
     // The seven shards that hold a chunk are all that there is of a run in 10^9 parts.
@@ -248,7 +192,7 @@ fn a_great_number_of_parts_is_only_a_number() {
 /// A part without a case is no success, since nothing was judged.
 #[test]
 fn a_shard_without_cases_does_not_agree() {
-    let folder = Folder::new("empty");
+    let folder = Folder::new("certificates-empty");
     for words in [
         "exhaust lines --reach 3 --shard 7/8",
         "exhaust triangles --window 1 --subpixel-bits 0 --shard 3/4",
@@ -260,11 +204,11 @@ fn a_shard_without_cases_does_not_agree() {
 
 #[test]
 fn a_checkpoint_that_was_changed_is_refused() {
-    let folder = Folder::new("checkpoint");
-    fs::write(folder.0.join("file"), "no folder").unwrap();
+    let folder = Folder::new("certificates-checkpoint");
+    fs::write(folder.join("file"), "no folder").unwrap();
     let words = format!("exhaust {LINES} --shard 0/2 --checkpoint c.json");
     // The certificate cannot be written, so the checkpoint is kept, with all chunks done.
-    folder.run(&format!("{words} -o file/x.json")).has(REFUSED).says("AGREES: 28 of 49 cases");
+    folder.run(format!("{words} -o file/x.json")).has(USAGE).says("AGREES: 28 of 49 cases");
     let kept = folder.json("c.json");
     folder.write("kept.json", &kept);
     for (place, value, why) in [
@@ -300,11 +244,11 @@ fn a_checkpoint_that_was_changed_is_refused() {
 /// The second process does not touch the state of the first, and says who has it.
 #[test]
 fn two_processes_do_not_share_a_checkpoint() {
-    let folder = Folder::new("lock");
+    let folder = Folder::new("certificates-lock");
     let long = "exhaust edges --subpixel-bits 8 --checkpoint c.json -o long.json";
     let first = folder.command(long).stderr(Stdio::null()).spawn().unwrap();
     let mut first = Killed(first);
-    while !folder.0.join("c.json").exists() {
+    while !folder.join("c.json").exists() {
         assert!(first.0.try_wait().unwrap().is_none(), "the first process has ended");
         std::thread::sleep(Duration::from_millis(20));
     }
@@ -314,7 +258,7 @@ fn two_processes_do_not_share_a_checkpoint() {
     // What a killed process leaves is taken over.
     drop(first);
     folder.run("exhaust lines --reach 3 --restart --checkpoint c.json").has(AGREES);
-    assert!(!folder.0.join("c.json").exists() && !folder.0.join("c.json.lock").exists());
+    assert!(!folder.join("c.json").exists() && !folder.join("c.json.lock").exists());
 }
 
 /// A forged certificate can be consistent. That its chunks are judged again shows it.
@@ -324,8 +268,8 @@ fn merge_judges_chunks_again() {
     let checked = "judged again: 3 of 7 chunks, 21 cases (--seed 7): as the files say";
     folder.run("merge 0.json 1.json --check 3 --seed 7").has(AGREES).says(checked);
     folder.run("merge whole.json --check 99").has(AGREES).says("judged again: 7 of 7 chunks, 49 ");
-    folder.run("merge whole.json --seed 7").has(REFUSED).says("--check");
-    folder.run("merge whole.json --check 0").has(REFUSED);
+    folder.run("merge whole.json --seed 7").has(USAGE).says("--check");
+    folder.run("merge whole.json --check 0").has(USAGE);
 
     let planted = "triangles --window 2 --subpixel-bits 1 --plant inclusive-edges";
     let folder = Folder::with_certificates("check-planted", planted, DISAGREES);
@@ -334,21 +278,21 @@ fn merge_judges_chunks_again() {
     folder.run("merge 0.json 1.json --check 1").has(DISAGREES).says("as the files say");
     // Each chunk holds wrong cases, or none: whichever is judged, it is as the honest file says.
     for seed in 0..9 {
-        folder.run(&format!("merge whole.json --check 4 --seed {seed}")).has(DISAGREES);
+        folder.run(format!("merge whole.json --check 4 --seed {seed}")).has(DISAGREES);
     }
     let agreeing =
         [("/done/mismatches", json!(0)), ("/done/examples", json!([])), ("/proved", json!(true))];
     folder.change("whole.json", "forged.json", &agreeing);
     folder.run("merge forged.json").has(AGREES);
     for seed in 0..5 {
-        let run = folder.run(&format!("merge forged.json --check 12 --seed {seed}"));
+        let run = folder.run(format!("merge forged.json --check 12 --seed {seed}"));
         run.refused("when its chunks are judged again");
     }
     let hidden = "holds a wrong case that the file does not list";
     folder.run("merge forged.json --check 30").refused(hidden);
     let what = "/done/examples/0/what";
     folder.change("whole.json", "forged.json", &[(what, json!("x\u{1b}[2J"))]);
-    folder.run("merge forged.json --check 30").has(REFUSED).says("chunk 0 holds a wrong case");
+    folder.run("merge forged.json --check 30").has(USAGE).says("chunk 0 holds a wrong case");
     let mismatches = folder.json("whole.json")["done"]["mismatches"].as_u64().unwrap();
     folder.change("whole.json", "forged.json", &[("/done/mismatches", json!(mismatches - 1))]);
     let more = format!("it says {} mismatches, but", mismatches - 1);

@@ -7,29 +7,13 @@ use std::ffi::OsStr;
 use std::fs;
 use std::os::unix::ffi::OsStrExt as _;
 use std::os::unix::fs::symlink;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
 use std::time::{Duration, Instant};
 
 use serde_json::Value;
 
-const PROGRAM: &str = env!("CARGO_BIN_EXE_rasterproof");
-
-/// An empty folder of this test.
-fn folder(name: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("hostile-submissions").join(name);
-    let _ = fs::remove_dir_all(&folder);
-    fs::create_dir_all(&folder).unwrap();
-    folder
-}
-
-fn course(folder: &Path, words: &[&str]) -> (i32, String, String) {
-    let mut command = Command::new(PROGRAM);
-    command.arg("course").args(words).current_dir(folder).env_remove("COLUMNS");
-    let output = command.output().unwrap();
-    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
-    (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
-}
+use crate::program::{Folder, PROGRAM, Run};
 
 /// A progress file that builds by a line of `sh`, and then runs the scanline engine.
 fn progress(build: &str) -> String {
@@ -46,10 +30,9 @@ fn submit(class: &Path, name: &str, text: &str) {
 }
 
 /// Points and the reason of each submission of a class.
-fn graded(class: &Path, words: &[&str]) -> impl Fn(&str) -> (i64, String) {
-    let head = ["--grade", "--folder", ".", "--cases", "1", "--format", "json"];
-    let (status, out, errors) = course(class, &[&head, words].concat());
-    assert_eq!((status, &*errors), (1, ""), "{out}");
+fn graded(class: &Folder, words: &[&str]) -> impl Fn(&str) -> (i64, String) {
+    let head = ["course", "--grade", "--folder", ".", "--cases", "1", "--format", "json"];
+    let out = class.check([&head[..], words].concat(), 1).without_errors().out;
     assert!(!out.contains('\u{1b}'), "{out}");
     let all: Value = serde_json::from_str(&out).unwrap();
     move |name| {
@@ -61,7 +44,7 @@ fn graded(class: &Path, words: &[&str]) -> impl Fn(&str) -> (i64, String) {
 
 #[test]
 fn one_hostile_file_does_not_stop_the_class() {
-    let class = folder("files");
+    let class = Folder::new("submissions-files");
     submit(&class, "right", &progress(""));
     submit(&class, "truncated", "build = []\nrun = [\"x\nstep");
     submit(&class, "escapes", "run = []\nstep = \"\\u001b[31mred\"\n");
@@ -128,7 +111,7 @@ fn processes(word: &str) -> Vec<String> {
 #[cfg(target_os = "linux")]
 #[test]
 fn builds_are_bounded_and_what_they_started_is_ended() {
-    let class = folder("builds");
+    let class = Folder::new("submissions-builds");
     // Numbers of seconds that no other process sleeps.
     submit(&class, "leaves", &progress("setsid sleep 4040.17 & exit 0"));
     submit(&class, "leaves-and-fails", &progress("echo no >&2; setsid sleep 4040.18 & exit 3"));
@@ -157,17 +140,15 @@ fn builds_are_bounded_and_what_they_started_is_ended() {
         assert!(reasons.iter().all(|reason| error.contains(reason)), "{name}: {error}");
     }
     // A student's own check has the same limits.
-    let check = ["check", "--dir", "floods", "--build-output", "1"];
-    let (status, out, errors) = course(&class, &check);
-    assert_eq!((status, &*out), (2, ""));
-    assert!(errors.contains("writes more than 1 MiB"), "{errors}");
+    let run = class.check("course check --dir floods --build-output 1", 2).without_output();
+    run.says("writes more than 1 MiB");
 }
 
 /// What a submission starts ends with it, before the next one is graded.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_submission_leaves_nothing_behind() {
-    let class = folder("leaves");
+    let class = Folder::new("submissions-leaves");
     let line = format!("setsid sleep 4041.17 & exec {PROGRAM} engine scanline");
     let text = format!("run = [\"sh\", \"-c\", {line:?}]\nstep = \"pixel\"\n");
     submit(&class, "a", &text);
@@ -194,7 +175,7 @@ fn what_a_build_starts_is_ended_in_a_container() {
         eprintln!("skipped: this system allows no process namespaces");
         return;
     }
-    let class = folder("container");
+    let class = Folder::new("submissions-container");
     // The shell names itself as a process does that has ended, in bytes that are no text.
     let stray = "printf ')\\377 Z 0 0 0' >/proc/self/comm; sleep 4043.17; :";
     submit(&class, "a", &progress(&format!("setsid sh -c \"{stray}\" & sleep 0.2; exit 3")));
@@ -214,7 +195,7 @@ fn what_a_build_starts_is_ended_in_a_container() {
 #[cfg(target_os = "linux")]
 #[test]
 fn without_threads_every_submission_has_its_reason() {
-    let class = folder("threads");
+    let class = Folder::new("submissions-threads");
     submit(&class, "built", &progress("setsid sleep 4042.17 & sleep 4042.18"));
     submit(&class, "run", &progress(""));
     let mut command = Command::new(PROGRAM);
@@ -234,14 +215,14 @@ fn without_threads_every_submission_has_its_reason() {
 /// A progress file that is a link stays one, names need not be text, and commands can be copied.
 #[test]
 fn progress_is_written_where_it_is() {
-    let home = folder("progress");
+    let home = Folder::new("submissions-progress");
     let name = OsStr::from_bytes(b"a 'b' \xff");
     let own = home.join(name);
     fs::create_dir(&own).unwrap();
     fs::write(home.join("kept.toml"), progress("")).unwrap();
     symlink("../kept.toml", own.join("course.toml")).unwrap();
-    let (status, out, errors) = course(&own, &["check", "scanline", "--cases", "1"]);
-    assert_eq!((status, &*errors), (0, ""), "{out}");
+    let mut check = home.command("course check scanline --cases 1");
+    Run::of(check.current_dir(&own)).has(0).without_errors();
     assert!(own.join("course.toml").symlink_metadata().unwrap().is_symlink());
     assert!(fs::read_to_string(home.join("kept.toml")).unwrap().contains("\"scanline\""));
     let mut command = Command::new(PROGRAM);
@@ -253,7 +234,7 @@ fn progress_is_written_where_it_is() {
     let output = command.output().unwrap();
     let out = String::from_utf8(output.stdout).unwrap();
     assert!(out.contains(r"course check --dir $'\376\'s'"), "{out}");
-    let (status, out, _) = course(&home, &["start", "--language", "python", "it's mine"]);
-    assert_eq!(status, 0, "{out}");
-    assert!(out.contains(r"course check --dir 'it'\''s mine'"), "{out}");
+    home.run(["course", "start", "--language", "python", "it's mine"])
+        .has(0)
+        .prints(r"course check --dir 'it'\''s mine'");
 }

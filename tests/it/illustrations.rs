@@ -26,7 +26,6 @@ use rasterproof_verify::comparison::unsnapped::exact_coverage;
 use crate::snapshots::{check_picture, check_sheet};
 
 const PAPER: Rgb<u8> = Rgb([250, 250, 247]);
-/// Pixels of a scene's picture.
 const WIDTH: u32 = 480;
 const HEIGHT: u32 = 360;
 

@@ -1,8 +1,7 @@
 //! The judge of programs: engines through pipes and without, faults of drawing and of conversation,
 //! conventions that are declared, what it prints for people and for machines.
 
-use std::path::PathBuf;
-use std::process::{Command, Output};
+use std::process::Command;
 use std::time::Duration;
 
 use rasterproof_core::grid::PixelRect;
@@ -20,7 +19,7 @@ use rasterproof_judge::{Options, judge};
 use rasterproof_registry::engines::{self, SPECIMENS};
 use rayon::prelude::*;
 
-const PROGRAM: &str = env!("CARGO_BIN_EXE_rasterproof");
+use crate::program::{PROGRAM, check, shared};
 
 pub fn options(cases: u64, families: &[&str]) -> Options {
     let families = families.iter().map(|name| (*name).to_owned()).collect();
@@ -186,9 +185,9 @@ fn judge_refuses_who_never_says_hello() {
         assert_eq!(misbehaviour.word(), word, "{fault}");
         assert!(misbehaviour.to_string().contains(said), "{fault}: {misbehaviour}");
     }
-    let (_, errors) = check(&["judge", "--", "./there-is-no-such-program"], 2);
-    assert!(errors.contains("cannot be started: ./there-is-no-such-program"), "{errors}");
-    check(&["judge", "--"], 2);
+    check("judge -- ./there-is-no-such-program", 2)
+        .says("cannot be started: ./there-is-no-such-program");
+    check("judge --", 2);
 }
 
 /// What is no fault: version 1, a banner before HELLO, a loud standard error.
@@ -227,6 +226,26 @@ impl Ask for ByRule {
     }
 }
 
+/// A program that says this of itself, and answers by a function.
+pub struct Answering<F>(pub Declared, pub F);
+
+impl<F: FnMut(&[Question], u64) -> Vec<Answer> + Send> Ask for Answering<F> {
+    fn declared(&self) -> &Declared {
+        &self.0
+    }
+
+    fn ask(&mut self, questions: &[Question], most_deaths: u64) -> Vec<Answer> {
+        (self.1)(questions, most_deaths)
+    }
+}
+
+/// A program that draws by one convention and declares another.
+fn drawing(drawn: Declared, declared: Declared) -> Box<dyn Ask> {
+    let mut drawn = ByRule(drawn);
+    let answer = move |questions: &[Question], most: u64| drawn.ask(questions, most);
+    Box::new(Answering(declared, answer))
+}
+
 /// Under its declared rule each agrees, and what needs no convention tells the rules apart: strict
 /// leaves holes, inclusive draws twice, the half-open ones do neither.
 #[test]
@@ -254,18 +273,9 @@ fn judge_goes_by_what_is_declared() {
     }
     // Declared wrongly, it does not agree.
     let mut declared = Declared::parse("HELLO 2 x coverage rule=top-right").unwrap();
-    let drawn = ByRule(declared.clone());
+    let drawn = declared.clone();
     declared.hear("rule=top-left");
-    struct Liar(ByRule, Declared);
-    impl Ask for Liar {
-        fn declared(&self) -> &Declared {
-            &self.1
-        }
-        fn ask(&mut self, questions: &[Question], most: u64) -> Vec<Answer> {
-            self.0.ask(questions, most)
-        }
-    }
-    let verdict = judged(Box::new(Liar(drawn, declared)), &options(60, &["half-integer"]));
+    let verdict = judged(drawing(drawn, declared), &options(60, &["half-integer"]));
     assert_eq!(property(&verdict, "half-integer"), Outcome::Fail);
 }
 
@@ -291,8 +301,9 @@ fn judge_recognises_a_winding() {
     assert_eq!(declare, "winding=cw", "{sentence}");
     assert!(declared > 1000 && found == Some(0), "{declared} {found:?}");
     let words = ["judge", "--cases", "60", "--declare", "winding=cw", "--", PROGRAM, "engine"];
-    let (out, _) = check(&[&words[..], &["culls-one-winding"]].concat(), 0);
-    assert!(out.contains("winding=cw") && out.contains("\nAGREES: "), "{out}");
+    check([&words[..], &["culls-one-winding"]].concat(), 0)
+        .prints("winding=cw")
+        .prints("\nAGREES: ");
 }
 
 /// Families in which a convention shows, without corners so far away that homework overflows.
@@ -321,23 +332,13 @@ fn judge_recognises_conventions() {
             .map(str::to_owned)
             .to_vec();
     let words: Vec<&str> = command.iter().map(String::as_str).collect();
-    let (out, _) = check(&words, 1);
-    assert!(out.contains("to be judged by it: --declare 'rule=strict'"), "{out}");
+    let out = check(&words, 1).prints("to be judged by it: --declare 'rule=strict'").out;
     assert!(out.lines().all(|l| l.chars().count() <= 100 || l.contains("repeat with: ")), "{out}");
 }
 
 /// One that declares nothing and draws by another rule; where y goes up, the words are turned over.
 #[test]
 fn judge_recognises_rules() {
-    struct Modest(ByRule, Declared);
-    impl Ask for Modest {
-        fn declared(&self) -> &Declared {
-            &self.1
-        }
-        fn ask(&mut self, questions: &[Question], most: u64) -> Vec<Answer> {
-            self.0.ask(questions, most)
-        }
-    }
     for (drawn, says, sentence, declare) in [
         ("rule=bottom-left", "", "follows the bottom-left rule", "rule=bottom-left"),
         ("rule=top-left", "yup", "follows the top-left rule", "rule=bottom-left"),
@@ -346,15 +347,14 @@ fn judge_recognises_rules() {
         ("rule=bottom-right grid=16", "rule=none grid=16", "bottom-right", "rule=bottom-right"),
     ] {
         let of = |words| Declared::parse(&format!("HELLO 2 x coverage {words}")).unwrap();
-        let program = || Box::new(Modest(ByRule(of(drawn)), of(says)));
-        let verdict = recognised(program(), &options(60, &NEAR));
+        let verdict = recognised(drawing(of(drawn), of(says)), &options(60, &NEAR));
         let (found, words, _, by_convention) = said(&verdict);
         assert!(found.contains(sentence), "{drawn}: {found}");
         assert_eq!((words, by_convention), (declare, Some(0)), "{drawn}: {found}");
         // Declared so, it agrees, and nothing else is recognised.
         let mut declared = of(says);
         words.split(' ').for_each(|word| declared.hear(word));
-        let again = recognised(Box::new(Modest(ByRule(of(drawn)), declared)), &options(60, &NEAR));
+        let again = recognised(drawing(of(drawn), declared), &options(60, &NEAR));
         assert!(again.recognised.is_none() && again.as_declared().wrong == 0, "{drawn}");
     }
 }
@@ -390,24 +390,6 @@ fn judge_questions_no_more_than_needed() {
     assert!(found.said.sentences[0].starts_with("Triangles: unexplained."), "{:?}", found.said);
 }
 
-fn folder() -> PathBuf {
-    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("judge");
-    std::fs::create_dir_all(&folder).unwrap();
-    folder
-}
-
-fn run(words: &[&str]) -> Output {
-    Command::new(PROGRAM).args(words).current_dir(folder()).output().unwrap()
-}
-
-pub fn check(words: &[&str], status: i32) -> (String, String) {
-    let output = run(words);
-    let (out, errors) =
-        (String::from_utf8(output.stdout).unwrap(), String::from_utf8(output.stderr).unwrap());
-    assert_eq!(output.status.code(), Some(status), "{words:?}\n{out}\n{errors}");
-    (out, errors)
-}
-
 /// The command that judges an engine of our own, with these options.
 pub fn of<'a>(options: &[&'a str], engine: &[&'a str]) -> Vec<&'a str> {
     [&["judge", "--cases", "40"], options, &["--", PROGRAM, "engine"], engine].concat()
@@ -418,13 +400,13 @@ pub fn of<'a>(options: &[&'a str], engine: &[&'a str]) -> Vec<&'a str> {
 #[test]
 #[ignore = "takes seconds; .ci/run runs it"]
 fn judge_prints_a_verdict() {
-    let (out, errors) = check(&of(&["--jobs", "2"], &["scanline"]), 0);
-    assert!(
-        out.contains("scanline speaks version 2: coverage attributes samples4 depth clip grid=256")
-    );
-    assert!(out.contains("\nAGREES: ") && out.contains("as declared:         0 wrong"), "{out}");
+    let errors = check(of(&["--jobs", "2"], &["scanline"]), 0)
+        .prints("scanline speaks version 2: coverage attributes samples4 depth clip grid=256")
+        .prints("\nAGREES: ")
+        .prints("as declared:         0 wrong")
+        .errors;
     assert_eq!(errors, "");
-    let (out, _) = check(&of(&["--family", "half-integer"], &["exclusive-edges"]), 1);
+    let out = check(of(&["--family", "half-integer"], &["exclusive-edges"]), 1).out;
     for part in ["request:  T 1 ", "answer:   C 1 ", "expected: C 1 ", "judged   expected"] {
         assert!(out.contains(part), "{part}: {out}");
     }
@@ -433,21 +415,20 @@ fn judge_prints_a_verdict() {
     let repeat =
         out.lines().find(|l| l.contains("repeat with: ") && l.contains("--case ")).unwrap();
     let words = repeat.trim().trim_start_matches("repeat with: rasterproof ");
-    let (again, _) = check(&words.split(' ').collect::<Vec<_>>(), 1);
-    assert!(again.contains("half-integer: 1 missing"), "{again}");
+    check(words.split(' ').collect::<Vec<_>>(), 1).prints("half-integer: 1 missing");
     // What a program says cannot command the terminal.
     let plant = ["scanline", "--plant", "nonsense"];
-    let (out, _) = check(&of(&["--family", "half-integer"], &plant), 1);
-    assert!(out.contains("debug: \\u{1b}[31mx = 3\\u{7}"), "{out}");
+    let out = check(of(&["--family", "half-integer"], &plant), 1)
+        .prints("debug: \\u{1b}[31mx = 3\\u{7}")
+        .out;
     assert!(out.chars().all(|c| c == '\n' || !c.is_control()));
     let words = of(&["--declare", "grid=3 dance"], &["scanline"]);
-    let (out, _) = check(&words, 0);
-    assert!(out.contains("not understood, left aside: grid=3 dance"), "{out}");
+    check(&words, 0).prints("not understood, left aside: grid=3 dance");
 }
 
 #[test]
 fn judge_writes_formats() {
-    let of_it = |format| check(&of(&["--format", format], &["exclusive-edges"]), 1).0;
+    let of_it = |format| check(of(&["--format", format], &["exclusive-edges"]), 1).out;
     let json: serde_json::Value = serde_json::from_str(&of_it("json")).unwrap();
     assert_eq!(json["agrees"], false);
     let properties = json["properties"].as_array().unwrap();
@@ -496,49 +477,44 @@ fn judge_writes_formats() {
 /// Pass, expected failure, new failure, unexpected pass.
 #[test]
 fn judge_knows_a_baseline() {
-    let path = folder().join("known.txt");
+    let path = shared().join("known.txt");
     let _ = std::fs::remove_file(&path);
     let name = path.to_str().unwrap();
     let with = |engine| {
         of(&["--baseline", name, "--family", "half-integer", "--family", "tiny"], &[engine])
     };
-    check(&with("scanline"), 0);
-    check(&with("exclusive-edges"), 1);
+    check(with("scanline"), 0);
+    check(with("exclusive-edges"), 1);
     let update = [&["judge", "--update-baseline"], &with("exclusive-edges")[1..]].concat();
     check(&update, 0);
-    let (out, _) = check(&with("exclusive-edges"), 0);
-    assert!(out.contains("fail as the baseline says"), "{out}");
-    let (out, _) = check(&with("inclusive-edges"), 1);
-    assert!(out.contains("half-integer"), "{out}");
+    check(with("exclusive-edges"), 0).prints("fail as the baseline says");
+    check(with("inclusive-edges"), 1).prints("half-integer");
     let junit = [&["judge", "--format", "junit"], &with("scanline")[1..]].concat();
-    let (out, _) = check(&junit, 1);
-    assert!(out.contains("type=\"unexpected pass\"") && out.contains(" stale"), "{out}");
+    check(&junit, 1).prints("type=\"unexpected pass\"").prints(" stale");
     // Other families are untouched, and stay in the file.
-    check(&of(&["--baseline", name, "--family", "flat"], &["scanline"]), 0);
+    check(of(&["--baseline", name, "--family", "flat"], &["scanline"]), 0);
     let before = std::fs::read_to_string(&path).unwrap();
-    check(&of(&["--update-baseline", "--baseline", name, "--family", "flat"], &["scanline"]), 0);
+    check(of(&["--update-baseline", "--baseline", name, "--family", "flat"], &["scanline"]), 0);
     assert_eq!(std::fs::read_to_string(&path).unwrap(), before);
     // One fingerprint changed: wrong in another way is a new failure.
     let at = before.trim_end().len() - 1;
     let digit = if before.as_bytes()[at] == b'0' { "1" } else { "0" };
     std::fs::write(&path, format!("{}{digit}\n", &before[..at])).unwrap();
-    let (out, _) = check(&with("exclusive-edges"), 1);
-    assert!(out.contains("DISAGREES"), "{out}");
+    check(with("exclusive-edges"), 1).prints("DISAGREES");
     for (text, reason) in [
         ("what\n", "line 1: expected"),
         ("# rasterproof baseline 1, seed 7\n", "seed 7"),
         ("# rasterproof baseline 1, seed 1\n\nhalf-integer 5\n", "line 3: expected"),
     ] {
         std::fs::write(&path, text).unwrap();
-        let (_, errors) = check(&with("scanline"), 2);
-        assert!(errors.contains("known.txt") && errors.contains(reason), "{errors}");
+        check(with("scanline"), 2).says("known.txt").says(reason);
     }
 }
 
 #[test]
 fn judge_writes_a_page() {
-    check(&of(&["--report", "--family", "half-integer"], &["exclusive-edges"]), 1);
-    let page = std::fs::read_to_string(folder().join("target/rasterproof/judge.html")).unwrap();
+    check(of(&["--report", "--family", "half-integer"], &["exclusive-edges"]), 1);
+    let page = std::fs::read_to_string(shared().join("target/rasterproof/judge.html")).unwrap();
     assert!(page.contains("Verdict on exclusive-edges") && page.contains("half-integer#"));
 }
 
@@ -551,7 +527,7 @@ fn judge_is_bounded_itself() {
     let words = of(&["--family", "fan"], &["scanline-exact", "--plant", "bloats"]);
     let line = "ulimit -v 700000 && exec \"$@\"";
     let mut command = Command::new("sh");
-    command.args(["-c", line, "sh", PROGRAM]).args(words).current_dir(folder());
+    command.args(["-c", line, "sh", PROGRAM]).args(words).current_dir(&**shared());
     // Threads reserve addresses by the core.
     let output = command.env("RAYON_NUM_THREADS", "2").env("MALLOC_ARENA_MAX", "2").output();
     let output = output.unwrap();
@@ -561,33 +537,18 @@ fn judge_is_bounded_itself() {
     assert!(out.contains("floods its output: "), "{out}");
 }
 
-/// An engine behind a library that cuts what leaves the window first: to whole pixels.
-struct CutsFirst(Inside);
-
-impl Ask for CutsFirst {
-    fn declared(&self) -> &Declared {
-        self.0.declared()
-    }
-
-    fn ask(&mut self, questions: &[Question], most_deaths: u64) -> Vec<Answer> {
-        let cut: Vec<_> = questions
-            .iter()
-            .map(|q| {
-                let (right, bottom) = (q.width as i32, q.height as i32);
-                let of = match q.of.clone() {
-                    Asked::Line { ends, whole } => {
-                        let end = |p: PixelPoint| {
-                            PixelPoint::new(p.x.clamp(0, right - 1), p.y.clamp(0, bottom - 1))
-                        };
-                        Asked::Line { ends: ends.map(end), whole }
-                    }
-                    other => other,
-                };
-                Question { of, width: q.width, height: q.height }
-            })
-            .collect();
-        self.0.ask(&cut, most_deaths)
-    }
+/// A question as a library puts it that cuts what leaves the window first: to whole pixels.
+fn cut_first(question: &Question) -> Question {
+    let (right, bottom) = (question.width as i32, question.height as i32);
+    let of = match question.of.clone() {
+        Asked::Line { ends, whole } => {
+            let end =
+                |p: PixelPoint| PixelPoint::new(p.x.clamp(0, right - 1), p.y.clamp(0, bottom - 1));
+            Asked::Line { ends: ends.map(end), whole }
+        }
+        other => other,
+    };
+    Question { of, ..*question }
 }
 
 /// What leaves the window and comes out otherwise is counted, said and left out of the second score;
@@ -598,7 +559,11 @@ fn judge_tells_what_leaves_the_window() {
     let entry = engines::find("bresenham").unwrap();
     // Within the window it draws as it declares, so that it is questioned only where that is asked.
     let scope = Scope { triangles: false, lines: true, always: true };
-    let mut cuts: [Box<dyn Ask>; 1] = [Box::new(CutsFirst(Inside::new(entry)))];
+    let mut engine = Inside::new(entry);
+    let cuts = Answering(engine.declared().clone(), move |questions: &[Question], most: u64| {
+        engine.ask(&questions.iter().map(cut_first).collect::<Vec<_>>(), most)
+    });
+    let mut cuts: [Box<dyn Ask>; 1] = [Box::new(cuts)];
     let verdict = judge(&mut cuts, &options, &|program| recognise(program, scope), &|_| ());
     let text = verdict.recognised.as_ref().unwrap().sentences.concat();
     assert!(text.contains("Lines that leave the window come out otherwise ("), "{text}");
@@ -611,7 +576,6 @@ fn judge_tells_what_leaves_the_window() {
     assert_eq!(verdict.by_convention().unwrap().unscored, 0);
 }
 
-/// Ctrl-C ends the program that is being judged, too.
 #[cfg(target_os = "linux")]
 #[test]
 fn judge_leaves_nothing_running() {
@@ -619,7 +583,7 @@ fn judge_leaves_nothing_running() {
     let words = of(&["--timeout", "600"], &["scanline", "--plant", "stalls"]);
     let mut child = Command::new(PROGRAM)
         .args(words)
-        .current_dir(folder())
+        .current_dir(&**shared())
         .stdout(std::process::Stdio::null())
         .spawn()
         .unwrap();

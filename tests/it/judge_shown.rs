@@ -17,15 +17,15 @@ use rasterproof_verify::cases::near_plane::clip_corners;
 
 #[cfg(target_os = "linux")]
 use crate::judge::is_gone;
-use crate::judge::{check, judged, of, options, property};
+use crate::judge::{Answering, judged, of, options, property};
+use crate::program::{PROGRAM, check};
 
 /// Where nothing is expected, who draws nothing does not agree: there was no judgement.
 #[test]
 fn judge_refuses_an_empty_case() {
     let families = ["--family", "half-integer", "--declare", "range=1", "--declare", "window=1x1"];
-    let (_, errors) = check(&of(&families, &["scanline"]), 2);
-    assert!(errors.contains("no pixel was expected"), "{errors}");
-    check(&of(&["--family", "degenerate"], &["scanline"]), 0);
+    check(of(&families, &["scanline"]), 2).says("no pixel was expected");
+    check(of(&["--family", "degenerate"], &["scanline"]), 0);
 }
 
 /// An engine that shows the first triangle of a pile everywhere, clips nothing, and covers all samples
@@ -91,45 +91,29 @@ fn judge_pictures_every_stage() {
 #[test]
 fn judge_ends_what_left_its_group() {
     let line = "setsid sleep 600 & echo child $! >&2; exec \"$0\" engine scanline";
-    let program = env!("CARGO_BIN_EXE_rasterproof");
+    let program = PROGRAM;
     let words = ["judge", "--cases", "8", "--family", "tiny", "--", "sh", "-c", line, program];
-    let (out, _) = check(&words, 0);
+    let out = check(words, 0).out;
     let pid = out.lines().find_map(|line| line.trim().strip_prefix("| child ")).unwrap();
     assert!(is_gone(pid), "{pid} lives on");
-}
-
-/// An engine that takes its time.
-struct Slow(Inside);
-
-impl Ask for Slow {
-    fn declared(&self) -> &Declared {
-        self.0.declared()
-    }
-
-    fn ask(&mut self, questions: &[Question], most_deaths: u64) -> Vec<Answer> {
-        std::thread::sleep(Duration::from_millis(10) * questions.len() as u32);
-        self.0.ask(questions, most_deaths)
-    }
 }
 
 /// A limited time is kept with a slow program too, and every family is asked.
 #[test]
 #[ignore = "takes seconds; .ci/run runs it"]
 fn judge_keeps_its_time() {
-    let slow = || Slow(Inside::new(engines::find("games101-strict").unwrap()));
-    let limited = |limit| {
-        let limit = Some(Duration::from_secs(limit));
-        let options = Options { time_limit: limit, ..options(100_000, &[]) };
-        let start = std::time::Instant::now();
-        let verdict = judge(
-            &mut [Box::new(slow())],
-            &options,
-            &|program| recognise(program, Scope { triangles: true, lines: true, always: false }),
-            &|_| (),
-        );
-        (verdict, start.elapsed())
-    };
-    let (verdict, took) = limited(6);
+    let mut engine = Inside::new(engines::find("games101-strict").unwrap());
+    let slow = Answering(engine.declared().clone(), move |questions: &[Question], most| {
+        std::thread::sleep(Duration::from_millis(10) * questions.len() as u32);
+        engine.ask(questions, most)
+    });
+    let limit = Some(Duration::from_secs(6));
+    let options = Options { time_limit: limit, ..options(100_000, &[]) };
+    let start = std::time::Instant::now();
+    let scope = Scope { triangles: true, lines: true, always: false };
+    let recognise = |program: &mut dyn Ask| recognise(program, scope);
+    let verdict = judge(&mut [Box::new(slow)], &options, &recognise, &|_| ());
+    let took = start.elapsed();
     // Asked without a limit, 64 cases of each family alone take longer.
     assert!(took < Duration::from_secs(60), "{took:?}");
     let said = verdict.recognised.as_ref().unwrap();
@@ -141,27 +125,19 @@ fn judge_keeps_its_time() {
 
 const STAGES: [&str; 3] = ["depth-order", "near-plane", "uniform"];
 
-/// One that crashes once, at the first request of all.
-struct DiesOnce(Inside, bool);
-
-impl Ask for DiesOnce {
-    fn declared(&self) -> &Declared {
-        self.0.declared()
-    }
-
-    fn ask(&mut self, questions: &[Question], most_deaths: u64) -> Vec<Answer> {
-        let mut answers = self.0.ask(questions, most_deaths);
-        if !std::mem::replace(&mut self.1, true) {
-            answers[0] = Answer::Died(Misbehaviour::Crashes("signal 11".to_owned()));
-        }
-        answers
-    }
-}
-
 /// What happens before the families are asked counts too.
 #[test]
 fn judge_sees_the_first_request() {
-    let dies = DiesOnce(Inside::new(engines::find("scanline").unwrap()), false);
+    let mut engine = Inside::new(engines::find("scanline").unwrap());
+    // It crashes once, at the first request of all.
+    let mut has_died = false;
+    let dies = Answering(engine.declared().clone(), move |questions: &[Question], most| {
+        let mut answers = engine.ask(questions, most);
+        if !std::mem::replace(&mut has_died, true) {
+            answers[0] = Answer::Died(Misbehaviour::Crashes("signal 11".to_owned()));
+        }
+        answers
+    });
     let verdict = judged(Box::new(dies), &options(8, &["uniform"]));
     assert_eq!(property(&verdict, "protocol"), Outcome::Fail);
     let text = shown::text(&verdict, "", &|_, _| String::new(), (false, false));

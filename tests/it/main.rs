@@ -37,6 +37,7 @@ mod plans;
 mod playground;
 mod playground_hands;
 mod printed_code;
+mod program;
 mod proof;
 mod properties;
 mod protocol;

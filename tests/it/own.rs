@@ -43,20 +43,21 @@ stages! {
 
 #[test]
 fn own_stages_draw_their_pictures() {
-    let pictures: [(&str, fn() -> RgbImage); 11] = [
-        ("own-1", stage1::stage1),
-        ("own-2", stage2::stage2),
-        ("own-3", stage3::stage3),
-        ("own-4", stage4::stage4),
-        ("own-5", stage5::stage5),
-        ("own-6", stage6::stage6),
-        ("own-7", stage7::stage7),
-        ("own-8", stage8::stage8),
-        ("own-9", stage9::stage9),
-        ("own-10", stage10::stage10),
-        ("own-11", stage11::stage11),
+    type Stage = fn() -> RgbImage;
+    let stages: [Stage; 11] = [
+        stage1::stage1,
+        stage2::stage2,
+        stage3::stage3,
+        stage4::stage4,
+        stage5::stage5,
+        stage6::stage6,
+        stage7::stage7,
+        stage8::stage8,
+        stage9::stage9,
+        stage10::stage10,
+        stage11::stage11,
     ];
-    each(pictures, |(name, draw)| check_picture(name, &draw()));
+    each((1..).zip(stages), |(number, draw)| check_picture(&format!("own-{number}"), &draw()));
 }
 
 /// Every line of a grid, in both directions, is the one that the project's own drawers light.

@@ -18,6 +18,7 @@ use rasterproof_report::html::{
 use rasterproof_report::panels::Sheet;
 use serde_json::{Value, json};
 
+use crate::program::{Run, shared};
 use crate::snapshots::ELSEWHERE;
 
 /// An answer that takes longer never comes.
@@ -226,15 +227,10 @@ pub fn folder(name: &str) -> PathBuf {
 /// Runs the program in a folder of its own; the status, what it printed, and the page.
 fn run(name: &str, words: &[&str]) -> (i32, String, PathBuf) {
     let folder = folder(name);
-    let output = Command::new(env!("CARGO_BIN_EXE_rasterproof"))
-        .args(words)
-        .current_dir(&folder)
-        .output()
-        .unwrap();
-    let printed = String::from_utf8(output.stdout).unwrap();
+    let run = Run::of(shared().command(words).current_dir(&folder));
     let command = if words[0].starts_with("--") { "verify" } else { words[0] };
     let page = folder.join(format!("target/rasterproof/{command}.html"));
-    (output.status.code().unwrap(), printed, page)
+    (run.status.unwrap(), run.out, page)
 }
 
 /// Rows of a table of the page: head of the row, head of the column, text.
@@ -635,13 +631,8 @@ fn page_of_each_command_is_in_the_index() {
         &["plan", "--scene", "panels", "--size", "64x48", "--rounds", "1", "--report"],
     );
     let target = page.parent().unwrap();
-    let program = |words: &[&str]| {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_rasterproof"));
-        let output = command.args(words).current_dir(target).output().unwrap();
-        String::from_utf8_lossy(&output.stderr).into_owned()
-    };
-    let said = program(&["render", "cube", "--size", "64x48", "--report", "--out", "."]);
-    assert!(said.contains("report: ./render.html"), "{said}");
+    let program = |words: &str| Run::of(shared().command(words).current_dir(target));
+    program("render cube --size 64x48 --report --out .").says("report: ./render.html");
     let index = std::fs::read_to_string(target.join("index.html")).unwrap();
     for part in ["href=\"plan.html\"", "href=\"render.html\"", "AGREES: scanline and edge-function"]
     {
@@ -650,7 +641,7 @@ fn page_of_each_command_is_in_the_index() {
     let other = target.join("other");
     std::fs::create_dir_all(&other).unwrap();
     std::fs::write(other.join("index.html"), "mine").unwrap();
-    program(&["render", "cube", "--size", "64x48", "--report", "--out", "other"]);
+    program("render cube --size 64x48 --report --out other");
     assert_eq!(std::fs::read_to_string(other.join("index.html")).unwrap(), "mine");
     assert!(other.join("render.html").is_file() && other.join("cube.png").is_file());
 }
@@ -814,21 +805,19 @@ fn run_its_test(folder: &Path, update: &str) -> (bool, String) {
     (output.status.success(), String::from_utf8_lossy(&text).into_owned())
 }
 
-fn review(folder: &Path, words: &[&str]) -> (i32, String) {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_rasterproof"));
-    let output = command.arg("review").args(words).current_dir(folder).output().unwrap();
-    let text = [output.stdout, output.stderr].concat();
-    (output.status.code().unwrap(), String::from_utf8(text).unwrap())
+fn review(folder: &Path, words: &str) -> (i32, String) {
+    let run = Run::of(shared().command(format!("review {words}")).current_dir(folder));
+    (run.status.unwrap(), run.out + &run.errors)
 }
 
 /// From a changed picture to the page that shows it, and to its acceptance.
 #[test]
 fn page_reviews_a_changed_snapshot() {
     let folder = spoilt_snapshots("page-review");
-    assert_eq!(review(&folder, &[]).0, 0);
+    assert_eq!(review(&folder, "").0, 0);
     let (passes, said) = run_its_test(&folder, "new");
     assert!(!passes && said.contains("cargo run -- review"), "{said}");
-    let (status, said) = review(&folder, &[]);
+    let (status, said) = review(&folder, "");
     assert_eq!(status, 1, "{said}");
     for line in [
         "snapshots/verdict.snap: scanline changed in 1 pixel\n",
@@ -850,7 +839,7 @@ fn page_reviews_a_changed_snapshot() {
     // The test writes its picture as accepted, and nothing waits any more.
     let (passes, said) = run_its_test(&folder, "always");
     assert!(passes, "{said}");
-    let (status, said) = review(&folder, &[]);
+    let (status, said) = review(&folder, "");
     assert_eq!(status, 0, "{said}");
 }
 
@@ -870,7 +859,7 @@ fn page_reviews_broken_files_too() {
     write("bare.snap.new", b"no head at all");
     write("empty.snap.new", b"");
     write("long.snap.new", "x\n".repeat(200_000).as_bytes());
-    let (status, said) = review(&folder, &[]);
+    let (status, said) = review(&folder, "");
     assert_eq!(status, 1, "{said}");
     for part in [
         "deeper/gone.snap: the new file X.snap.new.png is missing",
@@ -888,8 +877,8 @@ fn page_reviews_broken_files_too() {
     let text = std::fs::read_to_string(folder.join("target/rasterproof/review.html")).unwrap();
     assert!(text.contains("<pre>was</pre>") && text.contains("<pre>is</pre>"));
     assert!(text.contains("deeper/&lt;b&gt;.snap") && !text.contains("deeper/<b>"));
-    let (status, said) = review(&folder, &["nowhere"]);
+    let (status, said) = review(&folder, "nowhere");
     assert!(status == 2 && said.contains("cannot read nowhere"), "{said}");
-    let (status, said) = review(&folder.join("target"), &[]);
+    let (status, said) = review(&folder.join("target"), "");
     assert!(status == 2 && said.contains("name the folder"), "{said}");
 }

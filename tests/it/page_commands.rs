@@ -1,24 +1,13 @@
 //! The command on a page makes the same page again: it holds every option that was given.
 
-use std::path::{Path, PathBuf};
 use std::process::Command;
 
-fn folder(name: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("page-commands-{name}"));
-    let _ = std::fs::remove_dir_all(&folder);
-    std::fs::create_dir_all(&folder).unwrap();
-    folder
-}
+use crate::program::{Folder, PROGRAM, Run};
 
 /// Runs the program; the command that its page shows.
-fn shown(folder: &Path, words: &[&str], page: &str) -> String {
-    let output = Command::new(env!("CARGO_BIN_EXE_rasterproof"))
-        .args(words)
-        .current_dir(folder)
-        .env_remove("CARGO")
-        .output()
-        .unwrap();
-    assert!(matches!(output.status.code(), Some(0 | 1)), "{words:?}: {output:?}");
+fn shown(folder: &Folder, words: &[&str], page: &str) -> String {
+    let run = Run::of(folder.command(words).env_remove("CARGO"));
+    assert!(matches!(run.status, Some(0 | 1)), "{run}");
     let text = std::fs::read_to_string(folder.join(page)).unwrap();
     let after = text.rsplit("<p class=\"command\"><code>").next().unwrap();
     let command = after.split("</code>").next().unwrap();
@@ -35,10 +24,9 @@ fn words_of(command: &str) -> Vec<String> {
 
 #[test]
 fn every_option_is_on_the_page() {
-    let folder = folder("all");
+    let folder = Folder::new("page-commands");
     let model = "v -1 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     std::fs::write(folder.join("a 'model'.obj"), model).unwrap();
-    let program = env!("CARGO_BIN_EXE_rasterproof");
     let view = "--size 32x24 --aa msaa4 --cull cw --shading flat --depth unorm24 --yaw=-30 \
                 --pitch 10.5 --zoom 2 --fov 50";
     let report = "--report --out pages";
@@ -76,7 +64,7 @@ fn every_option_is_on_the_page() {
     }
     let judged = ["judge", "--cases", "5", "--family", "sliver", "--timeout", "9", "--jobs", "2"];
     let of_them = ["--seed", "2", "--declare", "rule=top left", "--report", "--out", "pages", "--"];
-    let words = [&judged[..], &of_them, &[program, "engine", "scanline"]].concat();
+    let words = [&judged[..], &of_them, &[PROGRAM, "engine", "scanline"]].concat();
     let again = words_of(&shown(&folder, &words, "pages/judge.html"));
     let typed: Vec<_> = words.iter().map(|&word| word.to_owned()).collect();
     for word in &typed {

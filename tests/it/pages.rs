@@ -18,7 +18,6 @@ pub fn read(path: &str) -> String {
     fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
 }
 
-/// A page of one language.
 pub fn page(folder: &str, name: &str) -> String {
     read(&format!("{folder}/{name}.md"))
 }

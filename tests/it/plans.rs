@@ -2,8 +2,6 @@
 //! how they are shown.
 
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::Command;
 
 use glam::{DMat4, DVec3};
 use rasterproof_registry::engines::Drawer;
@@ -14,6 +12,8 @@ use rasterproof_render::pipeline::target::{Antialias, Target};
 use rasterproof_render::scene::chapters::{SCENES, scene};
 use rasterproof_render::scene::{Corner, Item, Material, Scene, shapes};
 use serde_json::{Value, json};
+
+use crate::program::{Folder, Run};
 
 /// Two squares that are apart as long as they are seen from the front.
 const SQUARES: &str = "v -1 -.5 0\nv -.2 -.5 0\nv -.2 .5 0\nv -1 .5 0\nv .2 -.5 -1.5\nv 1 -.5 -1\n\
@@ -26,35 +26,24 @@ const OTHERS: &str = "v -1 -.5 0\nv -.2 -.5 0\nv -.2 .5 0\nv -1 .5 0\nv -.6 -.5 
 const FRONT: [&str; 4] = ["--yaw", "0", "--pitch", "0"];
 
 /// A folder of its own with two models.
-fn folder(name: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("plans-{name}"));
-    let _ = fs::remove_dir_all(&folder);
-    fs::create_dir_all(&folder).unwrap();
+fn folder(name: &str) -> Folder {
+    let folder = Folder::new(&format!("plans-{name}"));
     fs::write(folder.join("squares.obj"), SQUARES).unwrap();
     fs::write(folder.join("others.obj"), OTHERS).unwrap();
     folder
 }
 
-fn run(folder: &Path, words: &[&str]) -> (Option<i32>, String, String) {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_rasterproof"));
-    let output = command.args(words).current_dir(folder).env_remove("COLUMNS").output().unwrap();
-    let text = |bytes| String::from_utf8(bytes).unwrap();
-    (output.status.code(), text(output.stdout), text(output.stderr))
-}
-
 /// The plan of a model, small and from the front unless the words say otherwise.
-fn plan(folder: &Path, words: &[&str]) -> Value {
+fn plan(folder: &Folder, words: &[&str]) -> Value {
     let words = [&["plan", "--json", "--rounds", "1", "--size", "160x120"], words].concat();
-    let (status, out, errors) = run(folder, &words);
-    assert_eq!(status, Some(0), "{errors}");
+    let out = folder.run(&words[..]).has(0).out;
     serde_json::from_str::<Value>(&out).unwrap()["plan"].take()
 }
 
-/// Draws by a plan.
-fn render(folder: &Path, plan: &Value, words: &[&str]) -> (Option<i32>, String, String) {
+fn render(folder: &Folder, plan: &Value, words: &[&str]) -> Run {
     fs::write(folder.join("plan.json"), plan.to_string()).unwrap();
     let words = [&["render", "--plan", "plan.json", "-o", "a.png", "--size", "160x120"], words];
-    run(folder, &words.concat())
+    folder.run(words.concat())
 }
 
 fn with<'a>(model: &'a str, more: &[&'a str]) -> Vec<&'a str> {
@@ -65,14 +54,11 @@ fn with<'a>(model: &'a str, more: &[&'a str]) -> Vec<&'a str> {
 fn a_plan_is_of_one_scene_seen_from_one_place() {
     let folder = folder("scene");
     let plan = plan(&folder, &with("squares.obj", &[]));
-    let (status, out, _) = render(&folder, &plan, &with("squares.obj", &[]));
-    assert_eq!(status, Some(0));
-    assert!(out.contains("AGREES"), "{out}");
+    render(&folder, &plan, &with("squares.obj", &[])).has(0).prints("AGREES");
     // So can the plan that a drawn picture comes with.
-    let (_, out, _) = render(&folder, &plan, &with("squares.obj", &["--json"]));
+    let out = render(&folder, &plan, &with("squares.obj", &["--json"])).out;
     let drawn: Value = serde_json::from_str(&out).unwrap();
-    let (status, out, _) = render(&folder, &drawn, &with("squares.obj", &[]));
-    assert_eq!(status, Some(0), "{out}");
+    render(&folder, &drawn, &with("squares.obj", &[])).has(0);
     fs::remove_file(folder.join("a.png")).unwrap();
     let seen = |words: &[&'static str]| [&["squares.obj"], words].concat();
     for (words, part) in [
@@ -85,9 +71,8 @@ fn a_plan_is_of_one_scene_seen_from_one_place() {
         (with("squares.obj", &["--aa", "ssaa2"]), "so that the antialiasing differs"),
         (with("squares.obj", &["--depth", "f32"]), "so that the depth format differs"),
     ] {
-        let (status, out, errors) = render(&folder, &plan, &words);
-        assert_eq!((status, out.as_str()), (Some(2), ""), "{words:?}");
-        assert!(errors.contains("plan.json: ") && errors.contains(part), "{words:?}: {errors}");
+        let run = render(&folder, &plan, &words).has(2).without_output();
+        run.says("plan.json: ").says(part);
         assert!(!folder.join("a.png").exists(), "{words:?}: something was drawn");
     }
 }
@@ -97,18 +82,18 @@ fn a_wrong_plan_never_agrees() {
     let folder = folder("wrong");
     let words = with("others.obj", &[]);
     let mut plan = plan(&folder, &words);
-    let (status, out, _) = render(&folder, &plan, &words);
-    assert_eq!(status, Some(0), "{out}");
+    render(&folder, &plan, &words).has(0);
     for run in plan["items"][0]["pieces"]["listed"].as_array_mut().unwrap() {
         run[1]["depth"] = json!(false);
     }
     for piece in ["--engine=both", "--engine=scanline"] {
-        let (status, out, errors) = render(&folder, &plan, &[&words[..], &[piece]].concat());
+        let Run { status, out, errors, .. } =
+            render(&folder, &plan, &[&words[..], &[piece]].concat());
         assert!(!out.contains("AGREES") || out.contains("DISAGREES"), "{out}");
         // One engine draws what the plan says.
         assert_eq!(status, Some(i32::from(piece.ends_with("both"))), "{out}{errors}");
     }
-    let (_, out, _) = render(&folder, &plan, &[&words[..], &["--json"]].concat());
+    let out = render(&folder, &plan, &[&words[..], &["--json"]].concat()).out;
     let json: Value = serde_json::from_str(&out).unwrap();
     assert_ne!(json["comparison"]["wrong_pixels"], json!(0), "{json}");
 }
@@ -133,8 +118,7 @@ fn what_is_wrong_with_a_plan_is_named() {
     };
     // What is not followed is not needed.
     let plan = with_rule(&|plan| drop(plan.as_object_mut().unwrap().remove("decisions")));
-    let (status, _, errors) = render(&folder, &plan, &words);
-    assert_eq!(status, Some(0), "{errors}");
+    render(&folder, &plan, &words).has(0);
     let edits: [(Edit<'_>, &str); 8] = [
         (&|plan| plan["items"][0]["carries"] = json!([]), "item 0 interpolate normal"),
         (
@@ -157,15 +141,12 @@ fn what_is_wrong_with_a_plan_is_named() {
         (&|plan| drop(plan.as_object_mut().unwrap().remove("version")), "not name its version"),
     ];
     for (edit, part) in edits {
-        let (status, out, errors) = render(&folder, &with_rule(edit), &words);
-        assert_eq!((status, out.as_str()), (Some(2), ""), "{part}: {errors}");
-        assert!(errors.contains(part), "{part}: {errors}");
-        assert!(!errors.contains("column"), "{errors}");
+        let run = render(&folder, &with_rule(edit), &words).has(2).without_output().says(part);
+        assert!(!run.errors.contains("column"), "{run}");
     }
     // Text of the file reaches the terminal printable.
     let plan = with_rule(&|plan| plan["\u{1b}[31m"] = json!(1));
-    let (status, _, errors) = render(&folder, &plan, &words);
-    assert_eq!(status, Some(2));
+    let errors = render(&folder, &plan, &words).has(2).errors;
     assert!(!errors.contains('\u{1b}'), "{errors:?}");
 }
 
@@ -176,9 +157,7 @@ fn options_that_would_be_ignored_are_refused() {
         [&["--wireframe", "--effects", "all"][..], &["--map", "--json"], &["--spin", "2", "--json"]]
     {
         let all = [&["render", "squares.obj", "--size", "16x12", "-o", "a.png"], words].concat();
-        let (status, _, errors) = run(&folder, &all);
-        assert_eq!(status, Some(2), "{words:?}");
-        assert!(errors.contains("cannot be used with"), "{words:?}: {errors}");
+        folder.run(&all[..]).has(2).says("cannot be used with");
     }
 }
 
@@ -243,8 +222,7 @@ fn a_plan_is_shown_in_80_columns_with_units() {
     let folder = folder("shown");
     for words in [&["panels"][..], &["facets", "--aa", "ssaa4"], &["squares.obj"]] {
         let all = [&["plan", "--rounds", "1", "--size", "160x120"], words].concat();
-        let (status, out, errors) = run(&folder, &all);
-        assert_eq!(status, Some(0), "{errors}");
+        let out = folder.run(&all[..]).has(0).out;
         let table = out.lines().skip_while(|line| !line.starts_with("effect")).skip(1);
         let rows: Vec<&str> = table.take_while(|line| !line.starts_with("open:")).collect();
         assert!(rows.len() >= 26, "{out}");
@@ -257,8 +235,7 @@ fn a_plan_is_shown_in_80_columns_with_units() {
         }
     }
     let words = ["plan", "squares.obj", "--rounds", "1", "--size", "80x60", "--shading", "gouraud"];
-    let (_, out, _) = run(&folder, &words);
-    assert!(out.contains("Gouraud: the light is in the colours of the corners"), "{out}");
+    folder.run(&words[..]).prints("Gouraud: the light is in the colours of the corners");
 }
 
 /// Pieces are listed where it may pay: where triangles are few, or where the first of some item are apart.

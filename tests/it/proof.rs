@@ -4,15 +4,9 @@
 //! Rust file that a model in `proof/` follows is as it was when the two were last compared, and what
 //! the pages say about the proof names theorems that exist.
 
-use std::fs;
-use std::path::Path;
-
 use sha2::{Digest as _, Sha256};
 
-fn read(path: &str) -> String {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(path);
-    fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
-}
+use crate::pages::read;
 
 /// The hash of a file's code, without lines that are only comment and without its tests, as
 /// `proof/looked-at` takes it.

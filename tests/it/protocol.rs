@@ -3,9 +3,11 @@
 use std::io::Write;
 use std::process::{Command, Stdio};
 
+use crate::program::PROGRAM;
+
 /// What the program answers to these bytes; it must end with status 0.
 pub fn ask(engine: &str, requests: &[u8]) -> Vec<String> {
-    let mut child = Command::new(env!("CARGO_BIN_EXE_rasterproof"))
+    let mut child = Command::new(PROGRAM)
         .args(["engine", engine])
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())

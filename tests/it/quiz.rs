@@ -1,12 +1,12 @@
 //! The exercises: what the pages say is what the code computes, and the command asks the same.
 
 use std::fs;
-use std::io::Write as _;
 use std::path::PathBuf;
-use std::process::{Command, Output, Stdio};
 
 use rasterproof_teaching::quiz::page::{HEADINGS, section};
 use rasterproof_teaching::quiz::{Answer, CHAPTERS, Chapter, Language};
+
+use crate::program::{Run, shared};
 
 /// The variable of the environment that lets tests write pages anew.
 pub const RENEW: &str = "RASTERPROOF_RENEW";
@@ -87,26 +87,11 @@ fn quiz_changed_keys_are_found() {
     }
 }
 
-fn quiz(words: &[&str], answers: &str) -> Output {
-    let mut child = Command::new(env!("CARGO_BIN_EXE_rasterproof"))
-        .arg("quiz")
-        .args(words)
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    // A command that refuses does not read.
-    let _ = child.stdin.take().unwrap().write_all(answers.as_bytes());
-    child.wait_with_output().unwrap()
-}
-
-fn check(words: &[&str], answers: &str, status: i32) -> (String, String) {
-    let output = quiz(words, answers);
-    let text = |bytes| String::from_utf8(bytes).unwrap();
-    let (out, errors) = (text(output.stdout), text(output.stderr));
-    assert_eq!(output.status.code(), Some(status), "{words:?}\n{out}\n{errors}");
-    (out, errors)
+fn check(words: &str, answers: &str, status: u8) -> Run {
+    let file = shared().join(format!("answers-{:?}", std::thread::current().id()));
+    fs::write(&file, answers).unwrap();
+    let input = fs::File::open(file).unwrap();
+    Run::of(shared().command(format!("quiz {words}")).stdin(input)).has(status)
 }
 
 /// The right answers of a chapter, one a line.
@@ -118,7 +103,7 @@ fn key(chapter: &Chapter) -> String {
 fn quiz_counts_right_answers() {
     for chapter in CHAPTERS.iter() {
         let count = chapter.exercises.len();
-        let (out, errors) = check(&[chapter.word()], &key(chapter), 0);
+        let Run { out, errors, .. } = check(chapter.word(), &key(chapter), 0);
         assert!(out.ends_with(&format!("{count} of {count} right\n")), "{out}");
         assert_eq!(errors, "");
         assert!(!out.lines().any(|line| line.starts_with("> ")), "no prompt in a pipe: {out}");
@@ -126,60 +111,57 @@ fn quiz_counts_right_answers() {
     }
     let all: String = CHAPTERS.iter().map(key).collect();
     let count = all.lines().count();
-    assert!(check(&[], &all, 0).0.ends_with(&format!("{count} of {count} right\n")));
+    assert!(check("", &all, 0).out.ends_with(&format!("{count} of {count} right\n")));
 }
 
 #[test]
 fn quiz_says_what_is_wrong_and_why() {
     // Chapter 2 by a student: a wrong count, the pixel, the choice by its pixel, a pass, the number.
-    let (out, _) = check(&["ch02"], "4\n4,2\n2,2\n\n10\n", 1);
-    assert!(out.contains("No: 10. ") && out.contains("Passed: a. "), "{out}");
-    assert!(out.contains("Right: (4, 2). ") && out.contains("Right: c. "), "{out}");
+    let out = check("ch02", "4\n4,2\n2,2\n\n10\n", 1)
+        .prints("No: 10. ")
+        .prints("Passed: a. ")
+        .prints("Right: (4, 2). ")
+        .prints("Right: c. ")
+        .out;
     assert!(out.contains("\n2###+") && out.ends_with("\n3 of 5 right\n"), "{out}");
 }
 
 #[test]
 fn quiz_ends_with_its_input() {
-    let (out, errors) = check(&["2"], "10\n", 1);
+    let Run { out, errors, .. } = check("2", "10\n", 1);
     assert!(out.ends_with("1 of 5 right, 4 not answered\n"), "{out}");
     assert_eq!(errors, "");
-    assert!(check(&[], "", 1).0.contains("0 of "));
+    assert!(check("", "", 1).out.contains("0 of "));
 }
 
 #[test]
 fn quiz_refuses_what_is_no_answer() {
-    let (_, errors) = check(&["2"], "10\n4;2\n", 2);
-    assert!(
-        errors.contains("standard input, line 2: '4;2' is no answer here; give a pixel"),
-        "{errors}"
-    );
-    let (_, errors) = check(&["12"], "", 2);
-    assert!(errors.contains("no chapter '12'") && errors.contains("2, 3"), "{errors}");
-    let (_, errors) = check(&["2", "--answers", "no/such/file"], "", 2);
-    assert!(errors.contains("no/such/file"), "{errors}");
-    check(&["2", "--language", "la"], "", 2);
-    check(&["2", "--seed", "x"], "", 2);
+    check("2", "10\n4;2\n", 2)
+        .says("standard input, line 2: '4;2' is no answer here; give a pixel");
+    check("12", "", 2).says("no chapter '12'").says("2, 3");
+    check("2 --answers no/such/file", "", 2).says("no/such/file");
+    check("2 --language la", "", 2);
+    check("2 --seed x", "", 2);
 }
 
 #[test]
 fn quiz_reads_a_file_and_asks_in_an_order() {
-    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("quiz");
-    fs::create_dir_all(&folder).unwrap();
-    let file = folder.join("answers.txt");
+    let file = shared().join("answers.txt");
     fs::write(&file, key(&CHAPTERS[1])).unwrap();
     let file = file.to_str().unwrap();
-    assert!(check(&["2", "--answers", file], "", 0).0.contains("5 of 5 right"));
+    assert!(check(&format!("2 --answers {file}"), "", 0).out.contains("5 of 5 right"));
     let first = |out: &str| out.lines().nth(1).unwrap().to_owned();
-    let seeds = ["1", "2", "3", "4"].map(|seed| first(&check(&["--seed", seed], "", 1).0));
-    assert_eq!(seeds[0], first(&check(&["--seed", "1"], "", 1).0));
+    let seeds =
+        ["1", "2", "3", "4"].map(|seed| first(&check(&format!("--seed {seed}"), "", 1).out));
+    assert_eq!(seeds[0], first(&check("--seed 1", "", 1).out));
     assert!(seeds.iter().any(|question| *question != seeds[0]), "{seeds:?}");
 }
 
 #[test]
 fn quiz_speaks_chinese_and_lists() {
-    let (out, _) = check(&["2", "--language", "zh"], &key(&CHAPTERS[1]), 0);
+    let out = check("2 --language zh", &key(&CHAPTERS[1]), 0).out;
     assert!(out.ends_with("5 题答对 5 题\n"), "{out}");
-    let (out, _) = check(&["--list"], "", 0);
+    let out = check("--list", "", 0).out;
     for chapter in CHAPTERS.iter() {
         assert!(
             out.contains(&format!("  {} ({})", chapter.title[0], chapter.exercises.len())),

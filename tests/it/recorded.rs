@@ -20,7 +20,7 @@ const ENGINES: [Engine; 3] = [Engine::Scanline, Engine::EdgeFunction, Engine::Or
 /// SwiftShader's subpixels are 16 of ours.
 const SWIFTSHADER_STEP: i32 = 16;
 
-fn records(name: &str) -> Vec<Value> {
+pub fn records(name: &str) -> Vec<Value> {
     let path = format!("{}/tests/data/{name}.jsonl.gz", env!("CARGO_MANIFEST_DIR"));
     let file = std::fs::File::open(&path).unwrap_or_else(|e| panic!("{path}: {e}"));
     let lines = BufReader::new(GzDecoder::new(file)).lines();
@@ -31,7 +31,7 @@ fn int(value: &Value) -> i64 {
     value.as_i64().unwrap_or_else(|| panic!("{value} is no whole number"))
 }
 
-fn items(value: &Value) -> &[Value] {
+pub fn items(value: &Value) -> &[Value] {
     value.as_array().unwrap_or_else(|| panic!("{value} is no list"))
 }
 

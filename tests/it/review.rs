@@ -2,27 +2,19 @@
 //! that are printed whether the page can be written or not.
 
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::Command;
+
+use crate::program::{Folder, Run};
 
 /// An empty folder with a folder `snapshots`.
-fn folder(name: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("review-{name}"));
-    let _ = std::fs::remove_dir_all(&folder);
-    std::fs::create_dir_all(folder.join("snapshots")).unwrap();
+fn folder(name: &str) -> Folder {
+    let folder = Folder::new(&format!("review-{name}"));
+    std::fs::create_dir(folder.join("snapshots")).unwrap();
     folder
 }
 
 fn write(folder: &Path, name: &str, text: &str) {
     std::fs::write(folder.join("snapshots").join(name), text).unwrap();
-}
-
-/// The exit status, standard output and standard error.
-fn review(folder: &Path, words: &[&str]) -> (i32, String, String) {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_rasterproof"));
-    let Output { status, stdout, stderr } =
-        command.arg("review").args(words).current_dir(folder).output().unwrap();
-    let text = |bytes| String::from_utf8(bytes).unwrap();
-    (status.code().unwrap(), text(stdout), text(stderr))
 }
 
 /// What a shell makes of a command that was printed: its words, one a line.
@@ -39,8 +31,7 @@ fn names_are_quoted_in_commands_and_made_printable() {
     let name = "a'; touch PWNED; '\u{1b}[31m\u{202e}\nb.snap";
     let source = "tests/it; touch PWNED/x$(touch PWNED).rs";
     write(&folder, &format!("{name}.new"), &format!("---\nsource: \"{source}\"\n---\nnew\n"));
-    let (status, out, errors) = review(&folder, &[]);
-    assert_eq!(status, 1, "{out}{errors}");
+    let Run { out, errors, .. } = folder.run("review").has(1);
     assert!(!out.contains(['\u{1b}', '\u{202e}']) && !errors.contains(['\u{1b}', '\u{202e}']));
     assert!(out.contains(r"snapshots/a'; touch PWNED; '\u{1b}[31m\u{202e}\nb.snap: a new text"));
     let after = |label: &str| out.lines().find_map(|line| line.split_once(label)).unwrap().1;
@@ -78,8 +69,7 @@ fn one_file_that_cannot_be_read_does_not_stop_the_review() {
             .set_len(5_000_000_000)
             .unwrap();
     }
-    let (status, out, errors) = review(&folder, &[]);
-    assert_eq!(status, 1, "{out}{errors}");
+    let out = folder.run("review").has(1).out;
     let mut expected = vec![
         "folder.snap: cannot be shown: snapshots/folder.snap: is a directory, not a file",
         "good.snap: a new text",
@@ -103,13 +93,11 @@ fn many_snapshots_are_counted_and_the_first_are_shown() {
     for i in 0..2000 {
         write(&folder, &format!("{i:04}-{}.snap.new", "x".repeat(150)), "---\n---\nnew\n");
     }
-    let (status, out, errors) = review(&folder, &[]);
-    assert_eq!(status, 1, "{out}{errors}");
-    assert!(out.contains("2000 changed snapshots wait for review in snapshots."), "{out}");
-    assert!(
-        out.contains("1500 more are not looked into: accept or reject the 500 listed"),
-        "{out}"
-    );
+    folder
+        .run("review")
+        .has(1)
+        .prints("2000 changed snapshots wait for review in snapshots.")
+        .prints("1500 more are not looked into: accept or reject the 500 listed");
     let page = std::fs::read_to_string(folder.join("target/rasterproof/review.html")).unwrap();
     assert!(page.len() < 2_000_000 && page.contains("1500 more are not looked into"));
 }
@@ -118,10 +106,7 @@ fn many_snapshots_are_counted_and_the_first_are_shown() {
 fn what_waits_is_printed_before_the_page_is_written() {
     let folder = folder("unwritten");
     write(&folder, "a.snap.new", "---\n---\nnew\n");
-    let (status, out, errors) = review(&folder, &["-o", "snapshots"]);
     // A snapshot waits, whether or not the page could be written.
-    assert_eq!(status, 1, "{out}{errors}");
-    assert!(out.contains("snapshots/a.snap: a new text"), "{out}");
-    assert!(out.contains("1 changed snapshot waits"), "{out}");
-    assert!(errors.contains("snapshots"), "{errors}");
+    let run = folder.check("review -o snapshots", 1).prints("snapshots/a.snap: a new text");
+    run.prints("1 changed snapshot waits").says("snapshots");
 }

@@ -18,7 +18,6 @@ use rasterproof_core::triangle::{
 use rasterproof_registry::engines::{ENTRIES, Engine, ExactEngine, LineEngine};
 use rayon::prelude::*;
 
-/// SplitMix64, for streams of bits that do not shrink.
 struct Bits(u64);
 
 impl Bits {

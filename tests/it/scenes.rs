@@ -23,7 +23,7 @@ use rasterproof_render::scene::chapters::{SCENES, scene};
 use rasterproof_render::scene::{
     Hidden, Item, Material, Mesh, Scene, Shading, meshes, random, shapes, textures,
 };
-use rasterproof_report::frame_comparison;
+use rasterproof_report::frame_comparison::{self, Comparison};
 use rayon::prelude::*;
 
 use crate::illustrations::headed;
@@ -56,6 +56,16 @@ fn draw(scene: &Scene, drawer: Drawer, effects: Effects, antialias: Antialias) -
     drawer.render(scene, &effects, &mut target(antialias)).unwrap()
 }
 
+/// A frame by each rasterizer, everything paid for, and how they compare.
+fn by_both(scene: &Scene, antialias: Antialias) -> ([Rendered; 2], Comparison) {
+    let mut targets = [target(antialias), target(antialias)];
+    let [a, b] = &mut targets;
+    let first = Drawer::Scanline.render(scene, &Effects::ALWAYS, a).unwrap();
+    let second = Drawer::EdgeFunction.render(scene, &Effects::ALWAYS, b).unwrap();
+    let comparison = frame_comparison::compare((&first.picture, a), (&second.picture, b), None);
+    ([first, second], comparison)
+}
+
 fn scenes() -> impl Iterator<Item = Scene> {
     [0.0, 0.37].into_iter().flat_map(|turn| {
         SCENES.iter().map(move |entry| scene(entry.name, 4.0 / 3.0, turn).unwrap())
@@ -66,12 +76,7 @@ fn scenes() -> impl Iterator<Item = Scene> {
 fn scenes_are_the_same_by_both_rasterizers() {
     for scene in scenes() {
         for antialias in SMOOTHINGS {
-            let mut targets = [target(antialias), target(antialias)];
-            let [a, b] = &mut targets;
-            let first = Drawer::Scanline.render(&scene, &Effects::ALWAYS, a).unwrap();
-            let second = Drawer::EdgeFunction.render(&scene, &Effects::ALWAYS, b).unwrap();
-            let comparison =
-                frame_comparison::compare((&first.picture, a), (&second.picture, b), None);
+            let ([first, second], comparison) = by_both(&scene, antialias);
             assert!(comparison.agrees(), "{} {antialias:?}: {comparison:?}", scene.name);
             assert!(comparison.depths >= 4800);
             // One of the two has words of several widths.
@@ -608,12 +613,7 @@ fn torture_is_the_same_by_both() {
         scene.light = Light { towards: -DVec3::Z, ambient: 0.2, diffuse: 0.8 };
         scene.items = vec![Item { model, ..Item::new(mesh.clone(), shading.clone()) }];
         for antialias in SMOOTHINGS {
-            let mut targets = [target(antialias), target(antialias)];
-            let [a, b] = &mut targets;
-            let first = Drawer::Scanline.render(&scene, &Effects::ALWAYS, a).unwrap();
-            let second = Drawer::EdgeFunction.render(&scene, &Effects::ALWAYS, b).unwrap();
-            let comparison =
-                frame_comparison::compare((&first.picture, a), (&second.picture, b), None);
+            let (_, comparison) = by_both(&scene, antialias);
             assert!(comparison.agrees(), "{k} {antialias:?}: {comparison:?}");
         }
     }

@@ -66,7 +66,6 @@ pub fn each<T>(items: impl IntoIterator<Item = T>, check: impl Fn(T)) {
     std::assert!(failed.is_empty(), "{}\n{count} of them fail.\n{NEXT}", messages.join("\n"));
 }
 
-/// Keeps a text as a snapshot.
 pub fn check_words(name: &str, words: &str) {
     each([words], |words| settings().bind(|| insta::assert_snapshot!(name, words)));
 }
@@ -170,7 +169,6 @@ fn check_text(named: &NamedCase) {
     settings().bind(|| insta::assert_snapshot!(format!("{}-text", named.name), text));
 }
 
-/// Every named case as text and as a picture.
 #[test]
 fn snapshots_of_named_cases() {
     let cases = named();
@@ -256,7 +254,6 @@ fn named_meshes_hit_each_pixel_once() {
     }
 }
 
-/// T4: row 30 has 40 pixels.
 #[test]
 fn t4_row_30_has_40_pixels() {
     let Input::Drawn { case, .. } = find("T4").unwrap().input else { panic!("T4 is drawn") };

@@ -101,7 +101,6 @@ fn specimens_repair_of_the_depth_trades_one_error_for_the_other() {
     assert_eq!(published.tally, repair.tally);
 }
 
-/// Published, repaired and different, a picture for each.
 #[test]
 fn specimens_are_drawn() {
     each(CARDS, |card| check_sheet(&format!("specimen-{}", card.name), &alone(card)));

@@ -2,7 +2,6 @@
 //! with every kind of samples; a fault in the same scene is still found.
 
 use std::path::Path;
-use std::process::Command;
 
 use glam::{DMat4, DVec2, DVec3};
 use rasterproof_core::frame::Frame;
@@ -18,6 +17,8 @@ use rasterproof_render::pipeline::transform::perspective;
 use rasterproof_render::scene::{Corner, Item, Material, Mesh, Scene, chapters};
 use rasterproof_report::frame_comparison::{self, Comparison};
 use rayon::prelude::*;
+
+use crate::program::{Folder, Run, shared};
 
 /// A square, split along one diagonal or the other.
 fn square(diagonal: usize, colour: DVec3, model: DMat4) -> Item {
@@ -202,15 +203,10 @@ fn render_model(words: &[&str]) -> (Option<i32>, String, Option<image::RgbImage>
     let picture = root.join(format!("target/ties-{}.png", words.join("").replace(['-', '.'], "")));
     let difference = picture.with_extension("difference.png");
     let _ = std::fs::remove_file(&difference);
-    let output = Command::new(env!("CARGO_BIN_EXE_rasterproof"))
-        .args(["render", "tests/data/ties.obj", "--size", "160x120", "--yaw", "0", "-o"])
-        .arg(&picture)
-        .args(words)
-        .current_dir(root)
-        .output()
-        .unwrap();
+    let mut command = shared().command("render tests/data/ties.obj --size 160x120 --yaw 0 -o");
+    let run = Run::of(command.arg(&picture).args(words).current_dir(root));
     let image = image::open(difference).ok().map(|image| image.to_rgb8());
-    (output.status.code(), String::from_utf8(output.stdout).unwrap(), image)
+    (run.status, run.out, image)
 }
 
 /// The page's table, its first row: the model from twelve pitches, one sample a pixel, in f64.
@@ -220,14 +216,10 @@ fn the_page_counts_ties() {
     let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
     let count = |aa: &str, pitch: u32| -> [u64; 2] {
         let picture = root.join(format!("target/ties-page-{aa}-{pitch}.png"));
-        let output = Command::new(env!("CARGO_BIN_EXE_rasterproof"))
-            .args(["render", "tests/data/ties.obj", "--yaw", "0", "--pitch", &pitch.to_string()])
-            .args(["--depth", "f64", "--aa", aa, "--json", "-o"])
-            .arg(picture)
-            .current_dir(root)
-            .output()
-            .unwrap();
-        let json: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        let words = format!("render tests/data/ties.obj --yaw 0 --pitch {pitch} --depth f64");
+        let mut command = shared().command(format!("{words} --aa {aa} --json -o"));
+        let out = Run::of(command.arg(picture).current_dir(root)).out;
+        let json: serde_json::Value = serde_json::from_str(&out).unwrap();
         ["undecided", "undecided_differ"].map(|key| json["comparison"][key].as_u64().unwrap())
     };
     for (number, aa) in ["none", "msaa4", "ssaa2"].into_iter().enumerate() {
@@ -358,24 +350,17 @@ fn faults_between_far_texels_are_found() {
 
 #[test]
 fn the_command_names_large_texture_coordinates() {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("far-texture");
-    std::fs::create_dir_all(&folder).unwrap();
+    let folder = Folder::new("far-texture");
     let colours = |x: u32, y: u32| image::Rgb([(x * 37 % 256) as u8, (y * 91 % 256) as u8, 7]);
     image::RgbImage::from_fn(64, 64, colours).save(folder.join("t.png")).unwrap();
     std::fs::write(folder.join("m.mtl"), "newmtl a\nmap_Kd t.png\n").unwrap();
     let obj = "mtllib m.mtl\nusemtl a\nv -1 -1 0\nv 1 -1 .5\nv 0 1 -.3\nvt 0 0\nvt 1e10 0\n\
                vt 3e9 1e10\nf 1/1 2/2 3/3\n";
     std::fs::write(folder.join("m.obj"), obj).unwrap();
-    let mut command = Command::new(env!("CARGO_BIN_EXE_rasterproof"));
-    let output = command.args(["render", "m.obj"]).current_dir(&folder).output().unwrap();
-    let text = String::from_utf8(output.stdout).unwrap();
-    assert_eq!(output.status.code(), Some(0), "{text}");
-    assert!(text.contains("\nAGREES: "), "{text}");
-    assert!(text.contains(" pixels differ by large texture coordinates,\n"), "{text}");
-    let mut command = Command::new(env!("CARGO_BIN_EXE_rasterproof"));
-    command.args(["render", "m.obj", "--json"]).current_dir(&folder);
-    let json: serde_json::Value =
-        serde_json::from_slice(&command.output().unwrap().stdout).unwrap();
+    let run = folder.check("render m.obj", 0).prints("\nAGREES: ");
+    run.prints(" pixels differ by large texture coordinates,\n");
+    let out = folder.check("render m.obj --json", 0).out;
+    let json: serde_json::Value = serde_json::from_str(&out).unwrap();
     assert!(json["comparison"]["far_texture"].as_u64() > Some(0), "{json}");
 }
 

@@ -2,7 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-/// What a name leads to.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Identity {
     place: PathBuf,

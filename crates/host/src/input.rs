@@ -7,7 +7,6 @@ use std::path::{Path, PathBuf};
 
 use crate::text::printable_path;
 
-/// Why a file was not read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct InputError {
     /// The file as it was named.

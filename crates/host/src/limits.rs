@@ -70,7 +70,6 @@ pub const COMPARED_TEXT_BYTES: usize = 1 << 18;
 /// Pixels of pictures that one review decodes: some seconds of work.
 pub const REVIEWED_PX: u64 = 1 << 27;
 
-/// The longest page.
 pub const PAGE_BYTES: usize = 2_000_000;
 
 /// Time to compare the lines of two texts, which grows with the square of what differs.

@@ -23,7 +23,6 @@ pub struct Lock {
 }
 
 impl Lock {
-    /// The file that is the lock of `path`.
     #[must_use]
     pub fn file_of(path: &Path) -> PathBuf {
         let mut name = place(path).into_os_string();
@@ -102,7 +101,6 @@ fn holder(file: &mut File) -> Option<Option<u32>> {
     text.strip_suffix('\n')?.parse().ok().map(Some)
 }
 
-/// Whether `path` still names the file that is open.
 fn is_at(file: &File, path: &Path) -> bool {
     #[cfg(unix)]
     {

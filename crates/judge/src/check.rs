@@ -22,7 +22,8 @@ use rasterproof_verify::oracle::Oracle;
 use rasterproof_verify::oracle::values::Exact;
 
 /// What may be asked about a case.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Check {
     /// Each triangle alone against the expected picture.
     Coverage,

@@ -6,7 +6,6 @@ pub const LEGEND: &str = "# agrees, - missing, + extra, 2 twice, * rightly more 
 
 /// Largest grid that is printed whole; a larger window is cropped around what is drawn.
 pub const MOST_COLUMNS: u32 = 96;
-/// Rows of the largest grid.
 pub const MOST_ROWS: u32 = 48;
 
 /// The character of a pixel with these hits.

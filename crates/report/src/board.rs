@@ -8,7 +8,6 @@ use std::fmt::Write as _;
 
 use rasterproof_precision::cost::{Board, Cell, Measure, Run, Time, prices};
 
-/// Columns of a terminal.
 const WIDTH: usize = 100;
 const NAME: usize = 16;
 
@@ -19,7 +18,6 @@ struct Mark {
     good: bool,
 }
 
-/// A whole board.
 #[must_use]
 pub fn text(board: &Board, colour: bool) -> String {
     let mut out = format!("{}\n", board.ladder.title());
@@ -124,7 +122,6 @@ fn work(out: &mut String, board: &Board, columns: &[usize], colour: bool) {
     }
 }
 
-/// Characters of a column.
 fn cell_width(board: &Board) -> usize {
     ((WIDTH - NAME) / board.columns_run().count().max(1)).min(10)
 }

@@ -12,49 +12,38 @@ use image::{Rgb, RgbImage};
 
 use super::lettering::{self, Size};
 
-/// Units of a character.
 pub const LETTER: f64 = 8.0;
 /// Picture pixels of a unit.
 const ZOOM: u32 = 2;
 
-/// A colour.
 pub type Ink = [u8; 3];
 
 /// Something drawn, y down.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
-    /// A straight line.
     Line {
         from: [f64; 2],
         to: [f64; 2],
         width: f64,
-        /// Colour.
         ink: Ink,
     },
-    /// A filled box.
     Box {
         /// Left and top.
         at: [f64; 2],
         /// Width and height.
         size: [f64; 2],
-        /// Colour.
         ink: Ink,
     },
-    /// A filled circle.
     Disc {
-        /// Centre.
         at: [f64; 2],
         radius: f64,
-        /// Colour.
         ink: Ink,
     },
     /// A circle 2 units wide.
     Ring {
-        /// Centre.
         at: [f64; 2],
         /// Radius of the middle of the line.
         radius: f64,
-        /// Colour.
         ink: Ink,
     },
     /// A line of text, its middle height at y.
@@ -62,7 +51,6 @@ pub enum Shape {
         /// Left end, middle height.
         at: [f64; 2],
         text: String,
-        /// Colour.
         ink: Ink,
     },
 }
@@ -72,36 +60,30 @@ pub enum Shape {
 pub struct Drawing {
     /// What it shows, for those who cannot see it.
     pub title: String,
-    /// Width and height.
     pub size: [f64; 2],
     /// From back to front.
     pub shapes: Vec<Shape>,
 }
 
 impl Drawing {
-    /// Adds a line of width 1.
     pub fn line(&mut self, from: [f64; 2], to: [f64; 2], ink: Ink) {
         self.shapes.push(Shape::Line { from, to, width: 1.0, ink });
     }
 
-    /// Adds text that begins at `at`.
     pub fn text(&mut self, at: [f64; 2], text: &str, ink: Ink) {
         self.shapes.push(Shape::Text { at, text: text.to_owned(), ink });
     }
 
-    /// Adds text that ends at `at`.
     pub fn text_before(&mut self, at: [f64; 2], text: &str, ink: Ink) {
         self.text([at[0] - width(text), at[1]], text, ink);
     }
 }
 
-/// Width of a line of text.
 #[must_use]
 pub fn width(text: &str) -> f64 {
     text.chars().count() as f64 * LETTER
 }
 
-/// The drawing as an SVG file.
 #[must_use]
 pub fn svg(drawing: &Drawing) -> String {
     let [width, height] = drawing.size;
@@ -171,7 +153,6 @@ fn dark([r, g, b]: Ink) -> Ink {
     [r, g, b].map(mirror)
 }
 
-/// The style that a dark page brings about.
 fn dark_style(drawing: &Drawing) -> String {
     let ink = |shape: &Shape| match shape {
         Shape::Line { ink, .. }

@@ -4,7 +4,8 @@
 //! without any error, each in a row of its own. Labels stand beside their dots and never overlap.
 
 use super::board::number;
-use super::canvas::{self, Drawing, Ink, LETTER, Shape};
+use super::canvas::{self, Drawing, Ink, Shape};
+use super::lettering;
 use rasterproof_precision::cost::{Board, Ladder, Price, Priced, prices};
 
 const WIDTH: f64 = 800.0;
@@ -16,7 +17,6 @@ const GOOD: Ink = [20, 110, 50];
 const OTHER: Ink = [31, 84, 170];
 const CRACKED: Ink = [205, 30, 30];
 
-/// Height of a line of text.
 const ROW: f64 = 13.0;
 /// Height of the part of a panel where errors are not zero.
 const SCATTER: f64 = 150.0;
@@ -26,7 +26,6 @@ const HEAD: f64 = 70.0;
 const FOOT: f64 = 46.0;
 const RADIUS: f64 = 3.5;
 
-/// A rung in a panel.
 struct Dot {
     label: String,
     time: f64,
@@ -87,17 +86,7 @@ fn pareto_in(board: &Board, in_row: usize) -> Drawing {
 
 /// The text in lines of at most `room` units, broken at spaces.
 fn wrapped(text: &str, room: f64) -> Vec<String> {
-    let mut lines: Vec<String> = Vec::new();
-    for word in text.split(' ') {
-        match lines.last_mut() {
-            Some(line) if canvas::width(line) + canvas::width(word) + LETTER <= room => {
-                line.push(' ');
-                line.push_str(word);
-            }
-            _ => lines.push(word.to_owned()),
-        }
-    }
-    lines
+    lettering::lines(text, room, canvas::width)
 }
 
 fn legend(board: &Board) -> &'static str {
@@ -185,7 +174,6 @@ impl Axis {
     }
 }
 
-/// A number on an axis.
 fn tick(value: f64) -> String {
     if (0.001..99_999.0).contains(&value) { format!("{value}") } else { format!("{value:.0e}") }
 }
@@ -254,7 +242,6 @@ fn snapping(board: &Board, column: usize) -> Option<f64> {
     board.error(rung, column, 0).filter(|&error| error > 0.0)
 }
 
-/// Where the quartiles of a dot's time lie.
 fn ends(dot: &Dot, time: &Axis) -> [f64; 2] {
     dot.quartiles.map(|t| if t > 0.0 { time.place(t) } else { time.place(dot.time) })
 }

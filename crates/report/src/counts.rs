@@ -34,8 +34,7 @@ pub fn outcome(verdict: &Verdict, off_grid: &ExactVerdict) -> Outcome {
         }
         (false, _) => format!("{wrong} wrong pixels in {judged}."),
     };
-    let word = if good { "AGREES" } else { "DISAGREES" };
-    Outcome { good, word: word.to_owned(), sentence }
+    Outcome::of(good, sentence)
 }
 
 /// Wrong pixels by family and pair: triangles, lines, triangles off the lattice.

@@ -15,7 +15,6 @@ use rasterproof_render::pipeline::depth::CLEAR;
 use rasterproof_render::pipeline::target::{Colour, Target};
 use rasterproof_verify::comparison::tolerance;
 
-/// A frame as an image, without its opacity.
 #[must_use]
 pub fn rgb(picture: &Frame<Colour>) -> RgbImage {
     let bounds = picture.bounds();
@@ -37,10 +36,8 @@ pub fn png(picture: &Frame<Colour>) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// Two frames, compared.
 #[derive(Clone, Debug, serde::Serialize)]
 pub struct Comparison {
-    /// Pixels compared.
     pub pixels: u64,
     /// Pixels whose colours differ by a bit.
     pub wrong_pixels: u64,
@@ -192,7 +189,6 @@ pub const MAP_COLOURS: [(Effect, [u8; 3]); 6] = [
     (Effect::Texture, [190, 90, 205]),
 ];
 
-/// Pixels of a map that paid for an effect.
 #[must_use]
 pub fn paid(map: &Frame<u16>, effect: Effect) -> u64 {
     let pays = |paid: &&u16| **paid & (1 << effect as u16) != 0;
@@ -263,7 +259,6 @@ fn block_mean(
     image::Rgb(sum.map(|sum| (sum / count.max(1)).min(255) as u8))
 }
 
-/// A frame for machines.
 #[must_use]
 pub fn json(
     scene: &str,

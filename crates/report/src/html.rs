@@ -34,11 +34,8 @@ pub use super::chapter::Chapter;
 use super::page_cases::CaseView;
 use super::picture;
 
-/// Unchanged lines that are shown around a changed one.
 const CONTEXT: usize = 3;
-/// Names of what was left out that are listed.
 const MOST_LEFT_OUT_NAMES: usize = 20;
-/// Bytes of the rows of a table.
 const MOST_TABLE_BYTES: usize = 500_000;
 
 const TEMPLATE: &str = include_str!("page/page.html");
@@ -48,54 +45,50 @@ const SCRIPT: &str = include_str!("page/page.js");
 /// What the page shows; sections that are empty are left out.
 #[derive(Clone, Debug, Default)]
 pub struct Report {
-    /// What was done, in a few words; the heading.
     pub title: String,
     /// The verdict, shown first.
     pub outcome: Option<Outcome>,
-    /// The command that makes the same report.
     pub command: String,
     /// Decides the generated cases, where there are any.
     pub seed: Option<u64>,
-    /// Sentences under the verdict.
     pub notes: Vec<String>,
     /// Counts and other tables, worst row first.
     pub tables: Vec<Table>,
     /// Cases to look into, worst first.
     pub cases: Vec<CaseView>,
-    /// Rendered pictures to compare.
     pub frames: Vec<PictureView>,
-    /// Plots.
     pub figures: Vec<Figure>,
-    /// Effects that were on or off, and why.
     pub plan: Vec<PlanRow>,
-    /// Texts that changed.
     pub diffs: Vec<TextDiff>,
     /// Where the page finds the folder `docs`: an address that ends in `/`, or nothing.
     pub docs: String,
 }
 
-/// A verdict in a word and a sentence.
 #[derive(Clone, Debug, Default)]
 pub struct Outcome {
     /// Whether all is well; decides the colour.
     pub good: bool,
-    /// The word, such as AGREES.
     pub word: String,
-    /// The plain sentence after it.
     pub sentence: String,
+}
+
+impl Outcome {
+    /// The outcome of a comparison: `AGREES` or `DISAGREES`.
+    #[must_use]
+    pub fn of(agrees: bool, sentence: impl Into<String>) -> Self {
+        let word = super::summary::word(agrees).to_owned();
+        Self { good: agrees, word, sentence: sentence.into() }
+    }
 }
 
 /// A table with a header and a row head in its first column.
 #[derive(Clone, Debug, Default)]
 pub struct Table {
     pub caption: String,
-    /// Columns from left to right.
     pub columns: Vec<Column>,
-    /// Rows from top to bottom.
     pub rows: Vec<Row>,
 }
 
-/// A column of a [`Table`].
 #[derive(Clone, Debug, Default)]
 pub struct Column {
     pub label: String,
@@ -105,7 +98,6 @@ pub struct Column {
 }
 
 impl Column {
-    /// A column of words.
     #[must_use]
     pub fn words(label: &str) -> Self {
         Self { label: label.to_owned(), about: String::new(), is_number: false }
@@ -118,21 +110,16 @@ impl Column {
     }
 }
 
-/// A row of a [`Table`].
 #[derive(Clone, Debug, Default)]
 pub struct Row {
-    /// A cell for each column.
     pub cells: Vec<String>,
-    /// How it is set off.
     pub mark: Mark,
     /// What to search the cases for when its head is chosen, if anything.
     pub search: Option<String>,
 }
 
-/// How a row is set off.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Mark {
-    /// Not at all.
     #[default]
     Plain,
     Wrong,
@@ -140,7 +127,6 @@ pub enum Mark {
     Sum,
 }
 
-/// A plot.
 #[derive(Clone, Debug, Default)]
 pub struct Figure {
     /// What it shows; also its text for who does not see it.
@@ -158,11 +144,9 @@ pub struct PlanRow {
     pub effect: String,
     pub is_on: bool,
     pub reason: String,
-    /// What was counted, name and number.
     pub counters: Vec<(String, String)>,
 }
 
-/// Two texts whose lines are compared.
 #[derive(Clone, Debug, Default)]
 pub struct TextDiff {
     pub name: String,
@@ -171,7 +155,6 @@ pub struct TextDiff {
     pub command: String,
     /// Before; nothing where there was none.
     pub old: Option<String>,
-    /// Now.
     pub new: String,
 }
 
@@ -184,14 +167,11 @@ pub struct PictureView {
     /// The command that makes it, or nothing.
     pub command: String,
     pub chapter: Chapter,
-    /// The pictures; the first two are compared at first.
     pub layers: Vec<PictureLayer>,
 }
 
-/// One of the pictures of a [`PictureView`].
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct PictureLayer {
-    /// Who made it.
     pub name: String,
     png: String,
 }
@@ -205,7 +185,6 @@ impl PictureLayer {
         Self::from_png(name, &picture::png(if is_empty { &one } else { image }))
     }
 
-    /// The bytes of a PNG file as they are.
     #[must_use]
     pub fn from_png(name: &str, bytes: &[u8]) -> Self {
         Self { name: name.to_owned(), png: data_address("image/png", bytes) }

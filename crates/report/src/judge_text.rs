@@ -11,9 +11,7 @@ use rasterproof_judge::run::{self, MOST_DEATHS, Row as FamilyRow};
 use rasterproof_judge::verdict::{self, Score, Verdict, per_million};
 use rasterproof_verify::comparison::Tally;
 
-/// Requests of a failing case that are shown.
 const MOST_EXCHANGES: usize = 3;
-/// Incidents that are shown of each kind.
 const MOST_INCIDENTS: usize = 2;
 
 /// The verdict as text: the answer, a line for each danger, the table where something is wrong or it is
@@ -60,8 +58,7 @@ pub fn text(
     if !with_table && agrees {
         out += "every family as a table: add --table\n";
     }
-    let word = if agrees { "AGREES" } else { "DISAGREES" };
-    let _ = writeln!(out, "{word}: {}", closing(verdict));
+    let _ = writeln!(out, "{}: {}", summary::word(agrees), closing(verdict));
     out
 }
 
@@ -268,7 +265,6 @@ pub fn picture(out: &mut String, drawn_by: &str, picture: &Pictured) {
     }
 }
 
-/// The verdict in a sentence.
 fn closing(verdict: &Verdict) -> String {
     let wrong = verdict.as_declared().wrong;
     let failing: Vec<_> =
@@ -298,8 +294,6 @@ fn closing(verdict: &Verdict) -> String {
 /// The run as a page: properties and counts, then each failing case with what everybody draws there.
 #[must_use]
 pub fn page(verdict: &Verdict, command: &str, repeat: &dyn Fn(&str, u64) -> String) -> Report {
-    let good = verdict.agrees();
-    let word = if good { "AGREES" } else { "DISAGREES" };
     let views = verdict.failures.iter().map(|f| {
         let name = format!("{}#{}", f.family, f.index);
         let about = format!("{}: found in {} #{}, shrunk", f.property, f.family, f.index);
@@ -330,7 +324,7 @@ pub fn page(verdict: &Verdict, command: &str, repeat: &dyn Fn(&str, u64) -> Stri
     }
     Report {
         title: format!("Verdict on {}", d.name),
-        outcome: Some(Outcome { good, word: word.to_owned(), sentence: closing(verdict) }),
+        outcome: Some(Outcome::of(verdict.agrees(), closing(verdict))),
         command: command.to_owned(),
         seed: Some(verdict.seed),
         notes,

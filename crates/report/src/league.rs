@@ -53,7 +53,6 @@ const CHINESE: Words = Words {
     },
 };
 
-/// The tables: numbers, then what each library does.
 #[must_use]
 pub fn tables(league: &League, chinese: bool) -> String {
     let words = if chinese { &CHINESE } else { &ENGLISH };

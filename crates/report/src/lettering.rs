@@ -102,13 +102,16 @@ pub fn write(
 /// The text in lines of at most `room` picture pixels, broken at spaces; a longer word has its own.
 #[must_use]
 pub fn wrapped(text: &str, size: Size, room: u32) -> Vec<String> {
+    lines(text, room, |line| width(line, size))
+}
+
+/// The text in lines that `width` finds no wider than `room`.
+pub fn lines<T: PartialOrd>(text: &str, room: T, width: impl Fn(&str) -> T) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace() {
-        match lines.last_mut() {
-            Some(line) if width(line, size) + width(word, size) + size.cell()[0] <= room => {
-                line.push(' ');
-                line.push_str(word);
-            }
+        let longer = lines.last().map(|line| format!("{line} {word}"));
+        match (longer.filter(|longer| width(longer) <= room), lines.last_mut()) {
+            (Some(longer), Some(line)) => *line = longer,
             _ => lines.push(word.to_owned()),
         }
     }

@@ -25,7 +25,6 @@ use rasterproof_verify::comparison::{
     Tally, Verdict, engine_coverage, line_coverage, oracle_coverage,
 };
 
-/// A case as the page shows it.
 #[derive(Clone, Debug, Serialize)]
 pub struct CaseView {
     /// Its name; unique within the page, and its address.
@@ -34,7 +33,6 @@ pub struct CaseView {
     pub kind: Kind,
     /// What was found, in a sentence, or nothing.
     pub found: String,
-    /// The command that repeats it.
     pub command: String,
     pub chapter: Chapter,
     /// What the picture shows, where that is not the pixels of the case.
@@ -42,7 +40,6 @@ pub struct CaseView {
     window: PixelRect,
     shape: ShapeView,
     layers: Vec<Layer>,
-    /// The two layers that are compared at first.
     start: [usize; 2],
 }
 
@@ -50,7 +47,6 @@ pub struct CaseView {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Kind {
-    /// Something disagrees.
     Failing,
     /// Its values came closest to a bound.
     Closest,
@@ -71,14 +67,12 @@ enum ShapeView {
     Free(Vec<[[f64; 2]; 3]>),
 }
 
-/// What one or several draw alike.
 #[derive(Clone, Debug, Serialize)]
 struct Layer {
     names: Vec<String>,
     role: Role,
     /// Run lengths and hits, by rows from the top: n, hits, n, hits ...; empty where it is refused.
     runs: Vec<u32>,
-    /// Pixels that are hit.
     covered: u64,
     tally: Tally,
     /// Why nothing is drawn, or nothing.
@@ -101,11 +95,8 @@ type Drawn = (String, Role, Result<Coverage, String>);
 /// Who is judged, besides those that are always shown.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Judged<'a> {
-    /// Rasterizers.
     pub engines: &'a [Engine],
-    /// Line drawers.
     pub lines: &'a [LineEngine],
-    /// Rasterizers of corners off the lattice.
     pub exact: &'a [ExactEngine],
 }
 
@@ -188,7 +179,6 @@ fn off_lattice_samples(off_grid: &ExactVerdict, seed: u64, judged: Judged<'_>) -
     views.collect()
 }
 
-/// Every named case that is drawn.
 fn every_named(judged: Judged<'_>) -> Vec<CaseView> {
     let views = named::named().into_iter().filter_map(|named| {
         let Input::Drawn { case, .. } = named.input else { return None };
@@ -296,7 +286,6 @@ pub fn of_program(
     view
 }
 
-/// Names that occur again get a number.
 fn unique(views: &mut [CaseView]) {
     let mut seen = std::collections::HashMap::new();
     for view in views {
@@ -376,7 +365,8 @@ fn drawn_lines(list: &[cases::Line], window: PixelRect, judged: Judged<'_>) -> V
 }
 
 /// Hits of both.
-fn added(mut sum: Coverage, more: &Coverage) -> Coverage {
+#[must_use]
+pub fn added(mut sum: Coverage, more: &Coverage) -> Coverage {
     for (y_px, row) in more.rows() {
         for (sum, more) in sum.row_mut(y_px).iter_mut().zip(row) {
             *sum = sum.saturating_add(*more);

@@ -39,13 +39,10 @@ const WHITE: Rgb<u8> = Rgb([255, 255, 255]);
 /// The key of what a PNG remembers.
 const KEY: &str = "rasterproof-panels";
 
-/// What an engine draws, under its name.
 pub type Drawn = (String, Coverage);
 
-/// Where a panel is on its sheet.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Panel {
-    /// Who draws there.
     pub name: String,
     /// Left and top in picture pixels.
     pub at: [u32; 2],
@@ -55,12 +52,9 @@ pub struct Panel {
     pub shown: PixelRect,
 }
 
-/// A sheet with its panels.
 #[derive(Clone, Debug)]
 pub struct Sheet {
-    /// The picture.
     pub image: RgbImage,
-    /// Its panels, from left to right and down.
     pub panels: Vec<Panel>,
 }
 
@@ -77,7 +71,6 @@ pub fn of_case(title: &str, case: &Case, actual: &[Drawn], target: &Coverage) ->
     sheet(words, case.window, actual, target, |window, zoom| segments(case, window, zoom))
 }
 
-/// The same of a case off the lattice.
 #[must_use]
 pub fn of_off_grid(title: &str, case: &OffGridCase, actual: &[Drawn], target: &Coverage) -> Sheet {
     let words = (title, "edges");
@@ -191,7 +184,6 @@ fn layout(shown: PixelRect, count: u32) -> (u32, u32) {
     (zoom(best), best)
 }
 
-/// Room for the numbers of the rows.
 fn beside(shown: PixelRect) -> u32 {
     let wide = |n: i32| lettering::width(&n.to_string(), Size::Small) + 6;
     wide(shown.y0).max(wide(shown.y1 - 1)).max(BESIDE)
@@ -422,7 +414,6 @@ impl Sheet {
     }
 }
 
-/// A panel as a PNG remembers it.
 fn parsed(row: &str) -> Option<Panel> {
     let mut words = row.splitn(8, ' ');
     let mut number = || words.next()?.parse::<i32>().ok();
@@ -467,7 +458,6 @@ pub fn changes(old: &Sheet, new: &Sheet) -> Vec<(String, u64)> {
     pairs.map(|(before, after)| changed(before, after)).collect()
 }
 
-/// The pixels of a rectangle, row by row.
 fn pixels(PixelRect { x0, y0, x1, y1 }: PixelRect) -> impl Iterator<Item = (i32, i32)> {
     (y0..y1).flat_map(move |y| (x0..x1).map(move |x| (x, y)))
 }

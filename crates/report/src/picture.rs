@@ -113,7 +113,6 @@ pub fn png(image: &RgbImage) -> Vec<u8> {
     encoded(image, None)
 }
 
-/// The same, with a text under a key.
 pub(super) fn encoded(image: &RgbImage, text: Option<(&str, &str)>) -> Vec<u8> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, image.width(), image.height());

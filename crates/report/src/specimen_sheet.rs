@@ -43,10 +43,8 @@ const STRIP: u32 = 3 * PANEL + 4 * GAP;
 
 /// A sheet: the cards of one source, or of some of its chapters.
 pub struct Sheet {
-    /// Its name in file names.
     pub name: &'static str,
     title: &'static str,
-    /// What the source of its cards begins with.
     sources: &'static [&'static str],
 }
 
@@ -75,7 +73,6 @@ pub const SHEETS: [Sheet; 4] = [
 ];
 
 impl Sheet {
-    /// Its cards, in the order of the catalogue.
     pub fn cards(&self) -> impl Iterator<Item = &'static Card> {
         let is_here = |card: &&Card| self.sources.iter().any(|s| card.source.starts_with(s));
         CARDS.iter().filter(is_here)
@@ -117,7 +114,6 @@ pub fn sheet(sheet: &Sheet) -> panels::Sheet {
     panels::Sheet { image: picture::stack(&all), panels }
 }
 
-/// All sheets, one under the other.
 #[must_use]
 pub fn contact_sheet() -> RgbImage {
     picture::stack(&SHEETS.each_ref().map(|s| sheet(s).image))
@@ -215,7 +211,6 @@ fn legend(width: u32, shown: &[Panels]) -> RgbImage {
     image
 }
 
-/// A card alone: its strip over the legend.
 #[must_use]
 pub fn alone(card: &Card) -> panels::Sheet {
     let panels::Sheet { image, panels } = strip(card);
@@ -332,7 +327,6 @@ fn versions(card: &Card) -> Option<Panels> {
     })
 }
 
-/// Hits as colours.
 fn hits_image(hits: &Coverage) -> Image {
     let bounds = hits.bounds();
     let mut image = Frame::new(bounds, BACKGROUND.0);

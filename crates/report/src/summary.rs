@@ -6,7 +6,6 @@ use std::fmt::Write as _;
 use rasterproof_verify::comparison::unsnapped::ExactVerdict;
 use rasterproof_verify::comparison::{Failure, Tally, Verdict};
 
-/// Families that threaten in the same way.
 pub struct Danger {
     /// What is threatened, in a few words.
     pub name: &'static str,
@@ -99,7 +98,6 @@ pub fn chapter(failure: &Failure) -> &'static str {
     }
 }
 
-/// What came of the cases of a danger.
 #[derive(Default)]
 struct Sum {
     cases: u64,
@@ -163,6 +161,11 @@ pub(super) fn thousands(n: u64) -> String {
     let digits = n.to_string();
     let groups = digits.as_bytes().rchunks(3).rev();
     groups.map(|group| String::from_utf8_lossy(group)).collect::<Vec<_>>().join(",")
+}
+
+#[must_use]
+pub fn word(agrees: bool) -> &'static str {
+    if agrees { "AGREES" } else { "DISAGREES" }
 }
 
 /// A tick or a cross, coloured where that can be seen.

@@ -28,7 +28,6 @@ fn assert_chinese(sentence: &str) {
     assert!(said.ends_with('。'), "{said}");
 }
 
-/// Numbers from a seed.
 struct Dice(u64);
 
 impl Dice {
@@ -279,7 +278,6 @@ fn conventions_of_other_shapes_are_unexplained() {
     assert_eq!(found.sentence(), "It draws nothing.");
 }
 
-/// Who refuses everything is not said to draw nothing.
 #[test]
 fn conventions_of_the_silent_are_unknown() {
     struct Silent;

@@ -43,7 +43,6 @@ fn picture(window: PixelRect, answer: &str) -> Option<Coverage> {
     Some(coverage)
 }
 
-/// Answers by question.
 pub struct Recording(HashMap<String, String>);
 
 impl Recording {

@@ -13,7 +13,6 @@ pub enum Owner {
     FirstEdge,
 }
 
-/// A made-up rasterizer.
 #[derive(Clone, Copy, Debug)]
 pub struct Synthetic {
     pub draws: Windings,
@@ -64,7 +63,6 @@ fn cross(o: Point, a: Point, b: Point) -> f64 {
     (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0])
 }
 
-/// Scrambles a number.
 pub fn hash(mut v: u64) -> u64 {
     v = (v ^ (v >> 33)).wrapping_mul(0xff51_afd7_ed55_8ccd);
     v = (v ^ (v >> 29)).wrapping_mul(0xc4ce_b9fe_1a85_ec53);

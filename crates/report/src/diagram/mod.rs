@@ -7,16 +7,13 @@ mod space;
 
 use std::fmt::Write as _;
 
-/// A diagram of the pages.
 #[derive(Clone, Copy, Debug)]
 pub struct Diagram {
     /// The file's name under `docs/figures/`, without its ending.
     pub name: &'static str,
-    /// The SVG as text.
     pub draw: fn() -> String,
 }
 
-/// Every diagram, in the order of the chapters.
 pub const ALL: [Diagram; 12] = [
     Diagram { name: "split", draw: coverage::split },
     Diagram { name: "edge-sign", draw: coverage::edge_sign },
@@ -72,7 +69,6 @@ impl Sheet {
         self.add(format_args!("<path class=\"{class}\" d=\"M{x0:.1} {y0:.1}L{x1:.1} {y1:.1}\"/>"));
     }
 
-    /// A line with a head at its end.
     fn arrow(&mut self, class: &str, from: Point, to: Point) {
         self.line(class, from, to);
         let (dx, dy) = (to[0] - from[0], to[1] - from[1]);

@@ -29,13 +29,11 @@ pub struct Amount {
 /// What came of a step.
 #[derive(Debug, Default)]
 pub struct Outcome {
-    /// Cases that were judged.
     pub cases: u64,
     /// Cases with anything wrong.
     pub wrong: u64,
     /// Whether the time was up before everything was asked.
     pub out_of_time: bool,
-    /// The first failing case, shrunk.
     pub failure: Option<Failure>,
 }
 
@@ -47,12 +45,10 @@ impl Outcome {
     }
 }
 
-/// A failing case, shrunk.
 #[derive(Debug)]
 pub struct Failure {
     /// The family it was found in, and its number there.
     pub found: String,
-    /// What is wrong with it.
     pub what: String,
     /// Requests, answers and expected answers, as lines of the protocol.
     pub lines: Vec<[String; 3]>,
@@ -74,8 +70,8 @@ pub fn examine(program: &mut dyn Ask, step: &Step, amount: &Amount) -> Outcome {
     let mut outcome = Outcome::default();
     let mut failing = None;
     let mut deaths = run::MOST_DEATHS;
-    for exercise in step.exercises {
-        for family in exercise.families {
+    for exercise in &step.exercises {
+        for family in &exercise.families {
             if Instant::now() >= amount.end {
                 outcome.out_of_time = true;
             }

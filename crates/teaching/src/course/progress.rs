@@ -22,9 +22,7 @@ pub struct Progress {
     #[serde(default)]
     pub build: Vec<String>,
     pub run: Vec<String>,
-    /// The current step.
     pub step: String,
-    /// Steps that were passed.
     #[serde(default)]
     pub passed: Vec<String>,
     /// How often the current step failed.
@@ -41,7 +39,7 @@ pub fn path(folder: &Path) -> PathBuf {
 impl Progress {
     #[must_use]
     pub fn new(build: Vec<String>, run: Vec<String>) -> Self {
-        let step = STEPS[0].name.to_owned();
+        let step = STEPS[0].name.clone();
         Self { build, run, step, passed: Vec::new(), failures: 0 }
     }
 
@@ -74,13 +72,12 @@ impl Progress {
         let unknown = |name: &&String| super::find(name).is_none();
         let mut named = std::iter::once(&progress.step).chain(&progress.passed);
         if let Some(name) = named.find(unknown) {
-            let names: Vec<_> = STEPS.iter().map(|step| step.name).collect();
+            let names: Vec<_> = STEPS.iter().map(|step| &*step.name).collect();
             return Err(format!("no step is called {name:?}; there are {}", names.join(", ")));
         }
         Ok(progress)
     }
 
-    /// The text of the file.
     #[must_use]
     pub fn text(&self) -> String {
         // Strings, lists of them and a number: this cannot fail.
@@ -95,16 +92,16 @@ impl Progress {
     /// Notes how a step came out. A step that passes makes the next one current that did not.
     pub fn note(&mut self, step: &Step, passes: bool) {
         if self.step != step.name {
-            step.name.clone_into(&mut self.step);
+            self.step.clone_from(&step.name);
             self.failures = 0;
         }
         if !passes {
             self.failures += 1;
-            self.passed.retain(|name| name != step.name);
+            self.passed.retain(|name| *name != step.name);
             return;
         }
         if !self.has_passed(step) {
-            self.passed.push(step.name.to_owned());
+            self.passed.push(step.name.clone());
         }
         self.failures = 0;
         if let Some(next) = STEPS.iter().find(|step| !self.has_passed(step)) {
@@ -112,10 +109,9 @@ impl Progress {
         }
     }
 
-    /// Whether a step was passed.
     #[must_use]
     pub fn has_passed(&self, step: &Step) -> bool {
-        self.passed.iter().any(|name| name == step.name)
+        self.passed.contains(&step.name)
     }
 }
 

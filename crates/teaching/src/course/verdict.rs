@@ -7,7 +7,7 @@ use rasterproof_report::judge_text;
 /// How a step came out, with its smallest failing case.
 #[must_use]
 pub fn text(step: &Step, outcome: &Outcome) -> String {
-    let (number, title) = (number(step), step.title);
+    let (number, title) = (number(step), &step.title);
     let Outcome { cases, wrong, .. } = outcome;
     if outcome.passes() {
         return format!("step {number}, {title}: PASSED, {cases} cases\n");
@@ -31,7 +31,6 @@ pub fn text(step: &Step, outcome: &Outcome) -> String {
     out
 }
 
-/// A line, indented.
 #[must_use]
 pub fn indented(text: &str, indent: usize) -> String {
     format!("{:indent$}{}\n", "", text.trim_end())

@@ -37,7 +37,6 @@ impl Answer {
         Self::Choice(right[0])
     }
 
-    /// A whole number.
     pub(super) fn count(value: u64) -> Self {
         Self::Number { value: value as f64, decimals: 0 }
     }

@@ -2,13 +2,12 @@
 
 use super::answer::pixel;
 use super::tools::{Px, hits, published, truth};
-use super::{Answer, Solution, Solve, Text};
+use super::{Answer, Solution, Text};
 use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint, snap};
 use rasterproof_faults::published::games101_strict::Games101Strict;
 use rasterproof_report::ascii;
 
-pub const SOLVE: &[(&str, Solve)] =
-    &[("negative", negative), ("tie", tie), ("small", small), ("base", base)];
+solvers!(negative, tie, small, base);
 
 fn negative(choices: &[Text]) -> Solution {
     let point = SubpixelPoint::from_px(-0.3, 0.2).expect("within the domain");

@@ -2,7 +2,7 @@
 
 use super::answer::pixel;
 use super::tools::{Px, hits, published, truth};
-use super::{Answer, Solution, Solve, Text};
+use super::{Answer, Solution, Text};
 use rasterproof_core::contract::DrawLine as _;
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::PixelRect;
@@ -12,13 +12,7 @@ use rasterproof_faults::published::games101_strict::Games101Strict;
 use rasterproof_faults::published::sysu_inclusive::SysuInclusive;
 use rasterproof_report::ascii;
 
-pub const SOLVE: &[(&str, Solve)] = &[
-    ("longer", longer),
-    ("halfway", halfway),
-    ("twice", twice),
-    ("holes", holes),
-    ("owned", owned),
-];
+solvers!(longer, halfway, twice, holes, owned);
 
 /// The pixels of a line, for a grid too.
 fn line(from: [i32; 2], to: [i32; 2], window: PixelRect) -> Coverage {

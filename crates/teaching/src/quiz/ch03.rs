@@ -1,14 +1,13 @@
 //! Chapter 3: interpolation.
 
 use super::tools::{Px, corners};
-use super::{Answer, Solution, Solve, Text};
+use super::{Answer, Solution, Text};
 use rasterproof_core::grid::PixelRect;
 use rasterproof_faults::published::sysu_weights::SysuWeights;
 use rasterproof_faults::published::{Published as _, bare};
 use rasterproof_verify::oracle::values::{ExactTriangle, along_line};
 
-pub const SOLVE: &[(&str, Solve)] =
-    &[("rod", rod), ("weight", weight), ("outside", outside), ("order", order)];
+solvers!(rod, weight, outside, order);
 
 fn rod(_: &[Text]) -> Solution {
     let value = along_line([2.0, 10.0], 3, 8).to_f64();

@@ -2,11 +2,10 @@
 
 use glam::{DVec3, DVec4};
 
-use super::{Answer, Solution, Solve, Text};
+use super::{Answer, Solution, Text};
 use rasterproof_render::pipeline::transform::frustum;
 
-pub const SOLVE: &[(&str, Solve)] =
-    &[("same", same), ("distance", distance), ("film", film), ("halfway", halfway)];
+solvers!(same, distance, film, halfway);
 
 const FOUR: [DVec4; 3] = [
     DVec4::new(2.0, 1.0, 4.0, 1.0),

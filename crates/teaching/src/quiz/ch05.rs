@@ -1,11 +1,10 @@
 //! Chapter 5: interpolation in perspective.
 
 use super::tools::{fragment, fragments};
-use super::{Answer, Solution, Solve, Text};
+use super::{Answer, Solution, Text};
 use rasterproof_core::grid::PixelRect;
 
-pub const SOLVE: &[(&str, Solve)] =
-    &[("middle", middle), ("linear", linear), ("worst", worst), ("constant", constant)];
+solvers!(middle, linear, worst, constant);
 
 const WINDOW: PixelRect = PixelRect::window(8, 8);
 

@@ -2,13 +2,12 @@
 
 use glam::DVec3;
 
-use super::{Answer, Solution, Solve, Text};
+use super::{Answer, Solution, Text};
 use rasterproof_render::pipeline::depth::DepthFormat;
 use rasterproof_render::pipeline::target::{Antialias, Target};
 use rasterproof_render::pipeline::transform::frustum;
 
-pub const SOLVE: &[(&str, Solve)] =
-    &[("equal", equal), ("half", half), ("apart", apart), ("order", order)];
+solvers!(equal, half, apart, order);
 
 /// Draws fragments (key, grey) one after another into one pixel; the grey that is left.
 fn drawn(fragments: &[(u64, u8)]) -> u8 {

@@ -2,12 +2,11 @@
 
 use glam::DVec4;
 
-use super::{Answer, Solution, Solve, Text};
+use super::{Answer, Solution, Text};
 use rasterproof_render::pipeline::ClipVertex;
 use rasterproof_render::pipeline::clip::{ClipPlane, MOST_VERTICES, Outcode, clip, outcode};
 
-pub const SOLVE: &[(&str, Solve)] =
-    &[("share", share), ("corners", corners), ("rejected", rejected), ("most", most)];
+solvers!(share, corners, rejected, most);
 
 fn vertex(x: f64, y: f64, z: f64, w: f64, varying: f64) -> ClipVertex<f64> {
     ClipVertex { position: DVec4::new(x, y, z, w), varying }

@@ -3,7 +3,7 @@
 use glam::DVec4;
 
 use super::tools::{Px, truth};
-use super::{Answer, Solution, Solve, Text};
+use super::{Answer, Solution, Text};
 use rasterproof_core::grid::PixelRect;
 use rasterproof_render::pipeline::ClipVertex;
 use rasterproof_render::pipeline::assemble::Viewport;
@@ -11,8 +11,7 @@ use rasterproof_render::pipeline::clip::outcode;
 use rasterproof_render::pipeline::transform::frustum;
 use rasterproof_report::ascii;
 
-pub const SOLVE: &[(&str, Solve)] =
-    &[("place", place), ("size", size), ("behind", behind), ("middle", middle)];
+solvers!(place, size, behind, middle);
 
 fn place(_: &[Text]) -> Solution {
     let vertex = ClipVertex { position: DVec4::new(0.5, 0.0, 0.0, 1.0), varying: () };

@@ -3,13 +3,12 @@
 use glam::DVec3;
 
 use super::tools::{Px, corners, draw};
-use super::{Answer, Solution, Solve, Text};
+use super::{Answer, Solution, Text};
 use rasterproof_core::grid::SUBPIXELS;
 use rasterproof_render::pipeline::assemble::{Cull, twice_area};
 use rasterproof_render::pipeline::target::Antialias;
 
-pub const SOLVE: &[(&str, Solve)] =
-    &[("winding", winding), ("area", area), ("thin", thin), ("shared", shared)];
+solvers!(winding, area, thin, shared);
 
 /// The way the corners run: clockwise, counter-clockwise, neither.
 fn turns(triangle: Px) -> [bool; 3] {

@@ -4,12 +4,11 @@ use std::f64::consts::FRAC_PI_2;
 
 use glam::{DMat4, DVec3};
 
-use super::{Answer, Solution, Solve, Text};
+use super::{Answer, Solution, Text};
 use rasterproof_core::angle::turn_x;
 use rasterproof_faults::published::book_rotate::{Turn, published};
 
-pub const SOLVE: &[(&str, Solve)] =
-    &[("first", first), ("quarter", quarter), ("companion", companion), ("normal", normal)];
+solvers!(first, quarter, companion, normal);
 
 fn first(_: &[Text]) -> Solution {
     let (s, t) = (DMat4::from_scale(DVec3::splat(2.0)), DMat4::from_translation(DVec3::X));

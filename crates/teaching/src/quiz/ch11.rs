@@ -2,12 +2,11 @@
 
 use glam::{DVec2, DVec3};
 
-use super::{Answer, Solution, Solve, Text};
+use super::{Answer, Solution, Text};
 use rasterproof_render::pipeline::shade::Light;
 use rasterproof_render::pipeline::texture::{Filter, Texture, Wrap};
 
-pub const SOLVE: &[(&str, Solve)] =
-    &[("away", away), ("short", short), ("beyond", beyond), ("between", between)];
+solvers!(away, short, beyond, between);
 
 const LIGHT: Light = Light { towards: DVec3::Z, ambient: 0.2, diffuse: 0.8 };
 

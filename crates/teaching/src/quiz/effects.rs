@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DMat4, DVec3, DVec4};
 
-use super::{Answer, Solution, Solve, Text};
+use super::{Answer, Solution, Text};
 use rasterproof_registry::engines::Drawer;
 use rasterproof_render::effects::Effects;
 use rasterproof_render::effects::render::Rendered;
@@ -12,8 +12,7 @@ use rasterproof_render::pipeline::assemble::Cull;
 use rasterproof_render::pipeline::target::{Antialias, Target};
 use rasterproof_render::scene::{Item, Material, Scene, chapters, shapes, textures};
 
-pub const SOLVE: &[(&str, Solve)] =
-    &[("overlap", overlap), ("divide", divide), ("samples", samples), ("back", back)];
+solvers!(overlap, divide, samples, back);
 
 /// Columns and rows of the window.
 const SIDE: u32 = 16;

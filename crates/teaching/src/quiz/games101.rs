@@ -3,13 +3,12 @@
 use glam::{DVec2, DVec3};
 
 use super::tools::draw;
-use super::{Answer, Solution, Solve, Text};
+use super::{Answer, Solution, Text};
 use rasterproof_faults::published::{games101_box, games101_depth};
 use rasterproof_render::pipeline::Counters;
 use rasterproof_render::pipeline::target::{Antialias, Colour, Target};
 
-pub const SOLVE: &[(&str, Solve)] =
-    &[("shaded", shaded), ("average", average), ("bounding_box", bounding_box), ("depth", depth)];
+solvers!(shaded, average, bounding_box, depth);
 
 /// How often the fragment stage runs for pixel (3, 3), which lies wholly inside a triangle.
 fn times_shaded(antialias: Antialias) -> usize {

@@ -4,6 +4,13 @@
 //! The texts are in `exercises.toml`. `docs/` ends each chapter with the same exercises, written by
 //! [`page::section`]; a test compares.
 
+/// Lists the functions of a page that compute answers, under the names that `exercises.toml` gives.
+macro_rules! solvers {
+    ($($name:ident),*) => {
+        pub const SOLVE: &[(&str, super::Solve)] = &[$((stringify!($name), $name)),*];
+    };
+}
+
 mod answer;
 mod ch01;
 mod ch02;
@@ -30,30 +37,24 @@ use std::sync::LazyLock;
 use rasterproof_verify::cases::Rng;
 use serde::Deserialize;
 
-/// The same words in English and in Chinese.
 pub type Text = [String; 2];
 
 /// Computes the answer of an exercise from its choices.
 pub type Solve = fn(&[Text]) -> Solution;
 
-/// The languages of [`Text`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Language {
-    /// The first.
     English,
-    /// The second.
     Chinese,
 }
 
 impl Language {
-    /// The words in this language.
     #[must_use]
     pub fn of(self, text: &Text) -> &str {
         &text[self as usize]
     }
 }
 
-/// A question, and how its answer is found.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Exercise {
@@ -73,7 +74,6 @@ pub struct Exercise {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Solution {
     pub answer: Answer,
-    /// Computed figures for the explanation.
     pub figures: Vec<String>,
     /// Pixel grids with their titles, as of [`rasterproof_report::ascii`].
     pub grids: Vec<(String, Vec<String>)>,
@@ -111,7 +111,6 @@ impl Exercise {
         language.of(&self.question).to_owned() + &solution.answer.form(language)
     }
 
-    /// The explanation with its figures in place.
     #[must_use]
     pub fn explanation(&self, language: Language, solution: &Solution) -> String {
         let mut figures = solution.figures.iter();
@@ -121,15 +120,12 @@ impl Exercise {
     }
 }
 
-/// The exercises of one page.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Chapter {
     /// The page's file under `docs/`, without its ending; `ch02` is also called `2`.
     pub page: String,
-    /// What the page is about.
     pub title: Text,
-    /// In the order of the page.
     #[serde(rename = "exercise")]
     pub exercises: Vec<Exercise>,
 }

@@ -6,10 +6,8 @@ use rasterproof_report::ascii;
 
 /// Columns of a page's English text; Chinese is not broken, for a line's end would show as a blank.
 const PAGE_COLUMNS: usize = 130;
-/// Columns of the terminal's text.
 pub const TERMINAL_COLUMNS: usize = 96;
 
-/// The headings of the sections that hold the exercises.
 pub const HEADINGS: [&str; 2] = ["## Predict, then check", "## 先预测，再检验"];
 
 /// The section of a chapter's page, from its heading to the page's end.
@@ -61,7 +59,6 @@ fn wrapped(text: &str, language: Language) -> String {
     }
 }
 
-/// The choices with their letters.
 #[must_use]
 pub fn choices(exercise: &Exercise, language: Language) -> Vec<String> {
     let choices = exercise.choices.iter().enumerate();

@@ -1,8 +1,7 @@
 //! Stability: which check notices which fault.
 
-use super::tools::{Px, corners};
-use super::{Answer, Solution, Solve, Text};
-use rasterproof_core::contract::Rasterize as _;
+use super::tools::{Px, corners, covered};
+use super::{Answer, Solution, Text};
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_core::triangle::Corners;
@@ -12,8 +11,7 @@ use rasterproof_invariants::subject::Subject;
 use rasterproof_verify::comparison::Tally;
 use rasterproof_verify::oracle::Oracle;
 
-pub const SOLVE: &[(&str, Solve)] =
-    &[("notices", notices), ("orders", orders), ("moved", moved), ("metric", metric)];
+solvers!(notices, orders, moved, metric);
 
 /// Names of invariants, as the choices of [`NOTICES`].
 const ASKED: [&str; 3] = ["constant-attribute", "contiguous-rows", "closed-fan"];
@@ -26,18 +24,13 @@ fn notices(_: &[Text]) -> Solution {
 
 const TRIANGLE: Px = [[1.2, 1.1], [6.3, 2.4], [2.7, 6.6]];
 
-fn covered(mutant: TriangleMutant, corners: Corners, window: PixelRect) -> Coverage {
-    let mut hits = Coverage::new(window, 0);
-    mutant.cover(corners, window, |span| hits.hit(span.y_px, span.x0_px, span.x1_px));
-    hits
-}
-
 fn orders(_: &[Text]) -> Solution {
     let [a, b, c] = corners(TRIANGLE);
     let orders = [[a, b, c], [b, c, a], [c, a, b], [a, c, b], [c, b, a], [b, a, c]];
     let window = PixelRect::window(8, 8);
-    let draws =
-        |&order: &Corners| covered(TriangleMutant::CullsOneWinding, order, window).covered() > 0;
+    let draws = |&order: &Corners| {
+        covered(&TriangleMutant::CullsOneWinding, &[order], window).covered() > 0
+    };
     Solution::new(Answer::count(orders.iter().filter(|order| draws(order)).count() as u64))
 }
 
@@ -46,9 +39,8 @@ fn is_wrong_moved(x_px: i32) -> bool {
     let moved = TRIANGLE.map(|[x, y]| [x + f64::from(x_px), y]);
     let corners: [SubpixelPoint; 3] = corners(moved);
     let window = PixelRect { x0: x_px, y0: 0, x1: x_px + 8, y1: 8 };
-    let mut right = Coverage::new(window, 0);
-    Oracle.cover(corners, window, |span| right.hit(span.y_px, span.x0_px, span.x1_px));
-    let actual = covered(TriangleMutant::TruncatesTowardsZero, corners, window);
+    let right = covered(&Oracle, &[corners], window);
+    let actual = covered(&TriangleMutant::TruncatesTowardsZero, &[corners], window);
     Tally::between(&actual, &right).total() > 0
 }
 
@@ -57,7 +49,6 @@ fn moved(_: &[Text]) -> Solution {
     Solution::new(Answer::only(&[20, -20, 4000].map(is_wrong_moved)))
 }
 
-/// Pixels along a side of the frame.
 const SIDE: u32 = 256;
 
 fn metric(_: &[Text]) -> Solution {

@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec4};
 
 use super::tools::{Px, corners};
-use super::{Answer, Solution, Solve, Text};
+use super::{Answer, Solution, Text};
 use rasterproof_core::contract::{DrawLine as _, Rasterize as _};
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::line::bresenham::Bresenham;
@@ -22,13 +22,7 @@ use rasterproof_render::scene::chapters;
 use rasterproof_verify::oracle::Oracle;
 use rasterproof_verify::oracle::values::along_line;
 
-pub const SOLVE: &[(&str, Solve)] = &[
-    ("decision", decision),
-    ("backwards", backwards),
-    ("dropped", dropped),
-    ("turned", turned),
-    ("corner", corner),
-];
+solvers!(decision, backwards, dropped, turned, corner);
 
 /// The rows of a line from (0, 0), one for each of its columns.
 fn rows(to: [i32; 2]) -> Vec<i32> {

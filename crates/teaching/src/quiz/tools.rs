@@ -4,7 +4,7 @@ use std::cell::RefCell;
 
 use glam::{DVec2, DVec3};
 
-use rasterproof_core::contract::{Interpolate as _, Rasterize as _};
+use rasterproof_core::contract::{Interpolate as _, Rasterize};
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_core::raster::edge_function::EdgeFunction;
@@ -15,21 +15,22 @@ use rasterproof_render::pipeline::target::{Antialias, Target, to_colour};
 use rasterproof_render::pipeline::{ClipVertex, Counters};
 use rasterproof_verify::oracle::Oracle;
 
-/// Three corners in pixels.
 pub type Px = [[f64; 2]; 3];
 
-/// Snapped corners.
 pub fn corners(triangle: Px) -> Corners {
     triangle.map(|[x, y]| SubpixelPoint::from_px(x, y).expect("exercises stay in the domain"))
 }
 
-/// What the triangles cover, by the oracle.
-pub fn truth(triangles: &[Px], window: PixelRect) -> Coverage {
+pub fn covered(engine: &impl Rasterize, triangles: &[Corners], window: PixelRect) -> Coverage {
     let mut hits = Coverage::new(window, 0);
-    for &triangle in triangles {
-        Oracle.cover(corners(triangle), window, |span| hits.hit(span.y_px, span.x0_px, span.x1_px));
+    for &corners in triangles {
+        engine.cover(corners, window, |span| hits.hit(span.y_px, span.x0_px, span.x1_px));
     }
     hits
+}
+
+pub fn truth(triangles: &[Px], window: PixelRect) -> Coverage {
+    covered(&Oracle, &triangles.iter().map(|&px| corners(px)).collect::<Vec<_>>(), window)
 }
 
 /// What a published algorithm covers; what it refuses stays empty.
@@ -44,7 +45,6 @@ pub fn published(specimen: &dyn Published, triangles: &[Px], window: PixelRect) 
     hits
 }
 
-/// The hits of a pixel of the window.
 pub fn hits(coverage: &Coverage, [x, y]: [i32; 2]) -> u8 {
     coverage.get(x, y).expect("exercises ask of pixels of their window")
 }

@@ -1,0 +1,173 @@
+//! The program as a user runs it: in a folder of its own, with its exit status and all that it printed.
+
+use std::ffi::OsStr;
+use std::ops::Deref;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+pub const PROGRAM: &str = env!("CARGO_BIN_EXE_rasterproof");
+
+/// The words of a command: a text that is split at blanks, or a list of words that may hold blanks.
+pub trait Words {
+    fn add_to(&self, command: &mut Command);
+}
+
+impl Words for str {
+    fn add_to(&self, command: &mut Command) {
+        command.args(self.split_whitespace());
+    }
+}
+
+impl Words for String {
+    fn add_to(&self, command: &mut Command) {
+        self.as_str().add_to(command);
+    }
+}
+
+impl<T: AsRef<OsStr>, const N: usize> Words for [T; N] {
+    fn add_to(&self, command: &mut Command) {
+        command.args(self);
+    }
+}
+
+impl<T: AsRef<OsStr>> Words for Vec<T> {
+    fn add_to(&self, command: &mut Command) {
+        command.args(self);
+    }
+}
+
+impl<T: AsRef<OsStr>> Words for [T] {
+    fn add_to(&self, command: &mut Command) {
+        command.args(self);
+    }
+}
+
+impl<W: Words + ?Sized> Words for &W {
+    fn add_to(&self, command: &mut Command) {
+        (**self).add_to(command);
+    }
+}
+
+/// An empty folder below the build's temporary folder, removed with what is in it.
+pub struct Folder(PathBuf);
+
+impl Folder {
+    pub fn new(name: &str) -> Self {
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+        let _ = std::fs::remove_dir_all(&folder);
+        std::fs::create_dir_all(&folder).unwrap();
+        Self(folder)
+    }
+
+    pub fn command(&self, words: impl Words) -> Command {
+        let mut command = Command::new(PROGRAM);
+        words.add_to(&mut command);
+        command.current_dir(&self.0).stdin(Stdio::null()).env_remove("COLUMNS");
+        command
+    }
+
+    pub fn run(&self, words: impl Words) -> Run {
+        Run::of(&mut self.command(words))
+    }
+
+    #[track_caller]
+    pub fn check(&self, words: impl Words, status: u8) -> Run {
+        self.run(words).has(status)
+    }
+}
+
+impl Deref for Folder {
+    type Target = Path;
+
+    fn deref(&self) -> &Path {
+        &self.0
+    }
+}
+
+impl AsRef<Path> for Folder {
+    fn as_ref(&self) -> &Path {
+        &self.0
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
+}
+
+/// Runs the program in a folder that several tests share, and asserts its status.
+#[track_caller]
+pub fn check(words: impl Words, status: u8) -> Run {
+    shared().check(words, status)
+}
+
+/// A folder for tests that only write pictures and pages beside what they are about.
+pub fn shared() -> &'static Folder {
+    static SHARED: std::sync::LazyLock<Folder> = std::sync::LazyLock::new(|| Folder::new("shared"));
+    &SHARED
+}
+
+#[derive(Debug)]
+pub struct Run {
+    command: String,
+    pub status: Option<i32>,
+    pub out: String,
+    pub errors: String,
+}
+
+impl Run {
+    pub fn of(command: &mut Command) -> Self {
+        let Output { status, stdout, stderr } = command.output().unwrap();
+        let text = |bytes| String::from_utf8(bytes).unwrap();
+        let (out, errors) = (text(stdout), text(stderr));
+        Self { command: format!("{command:?}"), status: status.code(), out, errors }
+    }
+
+    #[track_caller]
+    pub fn has(self, status: u8) -> Self {
+        let is_right = self.status == Some(status.into()) && !self.errors.contains("panicked");
+        assert!(is_right, "expected status {status}: {self}");
+        self
+    }
+
+    #[track_caller]
+    pub fn without_output(self) -> Self {
+        assert!(self.out.is_empty(), "expected nothing on standard output: {self}");
+        self
+    }
+
+    #[track_caller]
+    pub fn without_errors(self) -> Self {
+        assert!(self.errors.is_empty(), "expected nothing on standard error: {self}");
+        self
+    }
+
+    /// Standard error holds this.
+    #[track_caller]
+    pub fn says(self, part: &str) -> Self {
+        assert!(self.errors.contains(part), "expected the error '{part}': {self}");
+        self
+    }
+
+    /// Standard output holds this.
+    #[track_caller]
+    pub fn prints(self, part: &str) -> Self {
+        assert!(self.out.contains(part), "expected '{part}': {self}");
+        self
+    }
+
+    /// Standard output holds nothing of this.
+    #[track_caller]
+    pub fn omits(self, part: &str) -> Self {
+        assert!(!self.out.contains(part), "expected no '{part}': {self}");
+        self
+    }
+}
+
+impl std::fmt::Display for Run {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { command, status, out, errors } = self;
+        write!(f, "{command}\n{status:?}\n{out}\n{errors}")
+    }
+}
