@@ -72,6 +72,8 @@ mod docs {
     pages! {
         Chapter1 "ch01"
         Chapter2 "ch02"
+        Chapter2EdgeFunctions "ch02-edge-functions"
+        Chapter2Scanline "ch02-scanline"
         Chapter3 "ch03"
         Chapter4 "ch04"
         Chapter5 "ch05"

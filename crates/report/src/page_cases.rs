@@ -437,10 +437,10 @@ fn view(
 /// Where the docs derive what decides such a case.
 fn chapter(kind: Kind, shape: &ShapeView) -> Chapter {
     let (title, path) = match (kind, shape) {
-        (_, ShapeView::Lines(_)) => ("chapter 2, lines", "ch02.md#lines-section-21-the-idea"),
+        (_, ShapeView::Lines(_)) => ("chapter 2, lines", "ch02.md"),
         (_, ShapeView::Free(_)) => ("off the grid", "offgrid.md"),
         (Kind::Closest, _) => ("chapter 3, values at the pixels", "ch03.md"),
-        _ => ("chapter 2, the top-left rule", "ch02.md#the-formula-the-top-left-rule-derived"),
+        _ => ("chapter 2, the top-left rule", "ch02-edge-functions.md#the-derivation-the-top-left-rule"),
     };
     Chapter { title, path }
 }
