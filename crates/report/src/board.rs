@@ -6,6 +6,7 @@
 
 use std::fmt::Write as _;
 
+use super::judge_text::hanging;
 use rasterproof_precision::cost::{Board, Cell, Measure, Run, Time, prices};
 
 const WIDTH: usize = 100;
@@ -243,20 +244,7 @@ pub fn price_text(boards: &[Board]) -> String {
 
 /// Breaks a line at spaces so that it fits, with an indent of two.
 fn wrap(line: &str) -> String {
-    let mut out = String::new();
-    let mut length = WIDTH;
-    for word in line.split(' ') {
-        if length + 1 + word.len() > WIDTH {
-            out += if out.is_empty() { "  " } else { "\n    " };
-            length = if out.len() == 2 { 2 } else { 4 };
-        } else {
-            out.push(' ');
-            length += 1;
-        }
-        out += word;
-        length += word.len();
-    }
-    out
+    hanging(line, "  ", "    ")
 }
 
 /// A number in less than `width` characters: three digits where there is room.

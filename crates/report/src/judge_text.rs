@@ -108,21 +108,24 @@ fn dangers(out: &mut String, verdict: &Verdict, colour: bool) {
 /// Breaks a line at spaces; the lines after the first begin with `indent`.
 #[must_use]
 pub fn wrapped(text: &str, indent: &str) -> String {
-    let start = text.len() - text.trim_start().len();
-    let mut lines = vec![text[..start].to_owned()];
-    let mut is_first = true;
-    for word in text[start..].split(' ') {
+    let (first, words) = text.split_at(text.len() - text.trim_start().len());
+    hanging(words, first, indent) + "\n"
+}
+
+/// The words in lines of at most 100 columns: the first begins with `first`, the others with `rest`.
+#[must_use]
+pub fn hanging(words: &str, first: &str, rest: &str) -> String {
+    let mut lines = vec![first.to_owned()];
+    for (i, word) in words.split(' ').enumerate() {
         let line = lines.last_mut().expect("there is a first line");
-        if !is_first && line.chars().count() + 1 + word.chars().count() > 100 {
-            lines.push(format!("{indent}{word}"));
+        if i > 0 && line.chars().count() + 1 + word.chars().count() > 100 {
+            lines.push(format!("{rest}{word}"));
         } else {
-            *line += if is_first { "" } else { " " };
+            *line += if i == 0 { "" } else { " " };
             *line += word;
         }
-        is_first = false;
     }
-    let lines: Vec<_> = lines.iter().map(|line| line.trim_end()).collect();
-    lines.join("\n") + "\n"
+    lines.iter().map(|line| line.trim_end()).collect::<Vec<_>>().join("\n")
 }
 
 fn score(of: Score) -> String {
