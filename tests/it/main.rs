@@ -49,6 +49,7 @@ mod scenes;
 mod snapshots;
 mod specimens;
 mod surface;
+mod terms;
 mod threads;
 mod ties;
 mod tiled;

@@ -440,7 +440,10 @@ fn chapter(kind: Kind, shape: &ShapeView) -> Chapter {
         (_, ShapeView::Lines(_)) => ("chapter 2, lines", "ch02.md"),
         (_, ShapeView::Free(_)) => ("off the grid", "offgrid.md"),
         (Kind::Closest, _) => ("chapter 3, values at the pixels", "ch03.md"),
-        _ => ("chapter 2, the top-left rule", "ch02-edge-functions.md#the-derivation-the-top-left-rule"),
+        _ => (
+            "chapter 2, the top-left rule",
+            "ch02-edge-functions.md#the-derivation-the-top-left-rule",
+        ),
     };
     Chapter { title, path }
 }

@@ -1,0 +1,124 @@
+//! The order of concepts: a chapter uses a word of the glossary only if it, or a chapter before it,
+//! explains the word. What is in a link is free, since the link leads to the explanation; so is what is
+//! below 'Going deeper', in the box about the book, in code and in the generated exercises.
+
+use std::fs;
+use std::path::Path;
+
+/// The chapters in the order in which they are read.
+const ORDER: [&str; 13] = [
+    "ch01",
+    "ch02",
+    "ch02-edge-functions",
+    "ch02-scanline",
+    "ch03",
+    "ch04",
+    "ch05",
+    "ch06",
+    "ch07",
+    "ch08",
+    "ch09",
+    "ch10",
+    "ch11",
+];
+
+/// A folder of pages, the column of its words in the glossary, and where the main text of a chapter ends.
+const LANGUAGES: [(&str, usize, [&str; 2]); 2] = [
+    ("docs", 2, ["\n## Going deeper", "\n## Predict"]),
+    ("docs/zh", 3, ["\n## 深入阅读", "\n## 先预测"]),
+];
+
+fn read(folder: &str, page: &str) -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder).join(format!("{page}.md"));
+    fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+/// The words of a glossary that a chapter explains, each with the place of the chapter.
+fn words(glossary: &str, column: usize) -> Vec<(String, usize)> {
+    let mut words = Vec::new();
+    for row in glossary.lines().filter(|row| row.starts_with("| ")) {
+        let cells: Vec<_> = row.split(" | ").collect();
+        let (Some(cell), Some(page)) = (cells.get(column - 1), cells.get(4)) else { continue };
+        let page = page.split("](").nth(1).and_then(|link| link.split(".md").next());
+        let place = page.and_then(|page| ORDER.iter().position(|chapter| *chapter == page));
+        let Some(place) = place.filter(|_| cell.contains("**")) else { continue };
+        let named = cell.replace("**", "");
+        let named = named.split([',', '，']).map(|word| word.trim().to_lowercase());
+        words.extend(named.map(|word| (word, place)));
+    }
+    words
+}
+
+/// Takes out what stands between two marks.
+fn without(text: &str, begin: &str, end: &str) -> String {
+    let mut parts = text.split(begin);
+    let first = parts.next().unwrap_or("").to_owned();
+    parts.fold(first, |kept, part| kept + part.split_once(end).map_or("", |(_, rest)| rest))
+}
+
+/// The text in which words count, in small letters.
+fn main_text(page: &str, ends: [&str; 2]) -> String {
+    let page = ends.iter().fold(page, |page, end| page.split(end).next().unwrap_or(""));
+    let kept: String = page.split("```").step_by(2).collect();
+    let kept = without(&kept, "<!--", "-->");
+    let lines = kept.lines().filter(|line| !line.starts_with("> "));
+    let kept = lines.collect::<Vec<_>>().join("\n");
+    let kept: String = kept.split('`').step_by(2).collect();
+    without_links(&kept).to_lowercase()
+}
+
+/// Takes out `[words](target)`, pictures among them.
+fn without_links(text: &str) -> String {
+    let mut parts = text.split('[');
+    let first = parts.next().unwrap_or("").to_owned();
+    parts.fold(first, |kept, part| {
+        let target = part.split_once("](").and_then(|(_, target)| target.split_once(')'));
+        kept + target.map_or(part, |(_, rest)| rest)
+    })
+}
+
+fn contains(text: &str, word: &str) -> bool {
+    // Chinese words stand without spaces around them.
+    let is_part = |c: char| c.is_ascii_alphanumeric() || c == '\'';
+    text.match_indices(word).any(|(at, _)| {
+        let after = text[at + word.len()..].trim_start_matches('s');
+        !text[..at].ends_with(is_part) && !after.starts_with(is_part)
+    })
+}
+
+/// The words that a chapter uses too early.
+fn early(text: &str, place: usize, words: &[(String, usize)]) -> Vec<String> {
+    let later = words.iter().filter(|(_, explained)| *explained > place);
+    let used = later.filter(|(word, _)| contains(text, word));
+    used.map(|(word, explained)| format!("'{word}', which {} explains", ORDER[*explained]))
+        .collect()
+}
+
+#[test]
+fn terms_are_used_after_they_are_explained() {
+    let mut found = Vec::new();
+    for (folder, column, ends) in LANGUAGES {
+        let words = words(&read(folder, "glossary"), column);
+        assert!(words.len() > 40, "{folder}: only {} words", words.len());
+        for (place, chapter) in ORDER.iter().enumerate() {
+            let text = main_text(&read(folder, chapter), ends);
+            assert!(text.len() > 1000, "{folder}/{chapter}.md has no main text");
+            let early = early(&text, place, &words).into_iter();
+            found.extend(early.map(|word| format!("{folder}/{chapter}.md uses {word}")));
+        }
+    }
+    assert!(found.is_empty(), "{}", found.join("\n"));
+}
+
+#[test]
+fn a_term_that_comes_too_early_is_found() {
+    let glossary = "| a | **span, edge function** | c | d | [x](ch02-scanline.md) |";
+    let words = words(glossary, 2);
+    let check =
+        |page: &str, place| early(&main_text(page, ["\n## Going", "\n## Pre"]), place, &words);
+    assert_eq!(check("Spans are runs.", 1).len(), 1);
+    assert!(check("Spans are runs.", 3).is_empty());
+    for free in ["[spans](a.md)", "`span`", "spanner", "> span", "a\n## Going deeper\nspan"] {
+        assert!(check(free, 0).is_empty(), "{free}");
+    }
+}
