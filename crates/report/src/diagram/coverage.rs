@@ -8,7 +8,6 @@ use rasterproof_core::triangle::Corners;
 use rasterproof_exhaustive::Enumeration as _;
 use rasterproof_exhaustive::triangles::Triangles;
 use rasterproof_render::pipeline::assemble::twice_area;
-use rasterproof_verify::oracle::values::ExactTriangle;
 
 fn snapped(corners: [Point; 3]) -> Corners {
     corners.map(|[x, y]| SubpixelPoint::from_px(x, y).expect("diagrams stay in the domain"))
@@ -124,27 +123,64 @@ pub fn dda_row() -> String {
 
 /// Barycentric coordinates as areas.
 pub fn areas() -> String {
-    let (corners, pixel) = ([[0.0, 0.0], [8.0, 0.0], [0.0, 8.0]], [2, 2]);
-    let at = |[x, y]: Point| [40.0 + x * 36.0, 30.0 + y * 36.0];
-    let p = [f64::from(pixel[0]) + 0.5, f64::from(pixel[1]) + 0.5];
-    let units = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-    let exact = ExactTriangle::new(&snapped(corners), [0.0; 3], [1.0; 3], units);
-    let weights = exact.expect("it has an area").at(pixel[0], pixel[1]).1;
-    let mut sheet = Sheet::new(400.0, 350.0);
+    let (corners, p) = ([[0.0, 0.0], [8.0, 0.0], [0.0, 8.0]], [3.0, 3.0]);
+    let at = |[x, y]: Point| [60.0 + x * 36.0, 40.0 + y * 36.0];
+    let area = |corners| twice_area(snapped(corners)) / i128::from(SUBPIXELS).pow(2);
+    let whole = area(corners);
+    let mut sheet = Sheet::new(400.0, 370.0);
     for (i, class) in ["fill1", "fill2", "fill3"].into_iter().enumerate() {
         let (b, c) = (corners[(i + 1) % 3], corners[(i + 2) % 3]);
         sheet.polygon(class, &[at(p), at(b), at(c)]);
         let [x, y] = at([(p[0] + b[0] + c[0]) / 3.0, (p[1] + b[1] + c[1]) / 3.0]);
-        sheet.text("middle", [x, y + 5.0], &format!("{:.4}", weights[i].to_f64()));
+        let name = ["A", "B", "C"][i];
+        let part = area([p, b, c]);
+        sheet.text("middle", [x, y + 5.0], &format!("{name}: {part}/{whole}"));
         sheet.line("soft", at(p), at(corners[i]));
     }
     sheet.polygon("ink", &corners.map(at));
     sheet.dot("dot", at(p), 4.0);
-    for (i, shift) in [[-14.0, 0.0], [14.0, 5.0], [-14.0, 8.0]].into_iter().enumerate() {
-        let [x, y] = at(corners[i]);
-        sheet.text("middle", [x + shift[0], y + shift[1]], &i.to_string());
+    let [x, y] = at(p);
+    sheet.text("end", [x - 8.0, y - 4.0], "P (3, 3)");
+    for (name, corner, anchor, shift) in [
+        ("A (0, 0)", corners[0], "middle", -10.0),
+        ("B (8, 0)", corners[1], "middle", -10.0),
+        ("C (0, 8)", corners[2], "middle", 22.0),
+    ] {
+        let [x, y] = at(corner);
+        sheet.text(anchor, [x, y + shift], name);
     }
-    sheet.text("start", [200.0, 300.0], "λᵢ = Eᵢ / 2A · Σ λᵢ = 1");
+    sheet.svg()
+}
+
+/// A position between the points of the grid, and the one to which it is snapped.
+pub fn snapping() -> String {
+    let at = |[x, y]: Point| [70.0 + (x - 434.0) * 90.0, 40.0 + (y - 434.0) * 90.0];
+    let given = [1.7, 1.7015];
+    let sub = given.map(|px| px * f64::from(SUBPIXELS));
+    let near = SubpixelPoint::from_px(given[0], given[1]).expect("it lies in the domain");
+    let near = [f64::from(near.x), f64::from(near.y)];
+    let mut sheet = Sheet::new(420.0, 290.0);
+    for y in 434..=436 {
+        for x in 434..=437 {
+            let [x, y] = at([f64::from(x), f64::from(y)]);
+            sheet.dot("ring", [x, y], 5.0);
+        }
+    }
+    for x in 434..=437 {
+        let [at_x, _] = at([f64::from(x), 434.0]);
+        sheet.text("middle", [at_x, 270.0], &x.to_string());
+    }
+    for y in 434..=436 {
+        let [_, at_y] = at([434.0, f64::from(y)]);
+        sheet.text("end", [50.0, at_y + 5.0], &y.to_string());
+    }
+    sheet.dot("dot2", at(sub), 5.0);
+    sheet.dot("dot1", at(near), 6.0);
+    sheet.arrow("ink", at(sub), between(at(sub), at(near), 0.85));
+    let [x, y] = at(sub);
+    sheet.text("start", [x + 12.0, y], &format!("({:.1}, {:.1})", sub[0], sub[1]));
+    let [x, y] = at(near);
+    sheet.text("start", [x + 12.0, y + 18.0], &format!("({}, {})", near[0], near[1]));
     sheet.svg()
 }
 

@@ -14,12 +14,15 @@ pub struct Diagram {
     pub draw: fn() -> String,
 }
 
-pub const ALL: [Diagram; 12] = [
+pub const ALL: [Diagram; 15] = [
     Diagram { name: "split", draw: coverage::split },
     Diagram { name: "edge-sign", draw: coverage::edge_sign },
     Diagram { name: "dda-row", draw: coverage::dda_row },
     Diagram { name: "barycentric-areas", draw: coverage::areas },
+    Diagram { name: "snapping", draw: coverage::snapping },
     Diagram { name: "share", draw: space::share },
+    Diagram { name: "steps", draw: space::steps },
+    Diagram { name: "depth", draw: space::depth },
     Diagram { name: "near-plane", draw: space::near_plane },
     Diagram { name: "cube", draw: space::cube },
     Diagram { name: "winding", draw: coverage::winding },

@@ -41,6 +41,73 @@ pub fn share() -> String {
     sheet.svg()
 }
 
+/// Equal steps along an edge in space, from above, and where they appear in the picture.
+pub fn steps() -> String {
+    let at = |[x, z]: Point| [40.0 + x * 40.0, 250.0 - z * 70.0];
+    let ends: [Point; 2] = [[0.0, 1.0], [12.0, 3.0]];
+    let film = |[x, z]: Point| [x / z, 1.0];
+    let mut sheet = Sheet::new(600.0, 290.0);
+    sheet.line("ink", at([0.0, 1.0]), at([4.4, 1.0]));
+    sheet.line("one", at(ends[0]), at(ends[1]));
+    for quarter in 0..=4 {
+        let t = f64::from(quarter) / 4.0;
+        let p = between(ends[0], ends[1], t);
+        sheet.line("soft", at([0.0, 0.0]), at(p));
+        sheet.dot("dot1", at(p), 5.0);
+        sheet.dot("dot2", at(film(p)), 5.0);
+        if quarter > 0 {
+            let [x, y] = at(p);
+            sheet.text("middle", [x, y - 12.0], &format!("t = {t}"));
+            let [x, _] = at(film(p));
+            let [_, y] = at([0.0, 1.0]);
+            let share = film(p)[0] / film(ends[1])[0];
+            // The shares are close to each other: every other one is a line lower.
+            let low = if quarter % 2 == 0 { 44.0 } else { 24.0 };
+            sheet.text("middle", [x + 4.0, y + low], &format!("{share:.2}"));
+        }
+    }
+    sheet.dot("dot", at([0.0, 0.0]), 4.0);
+    sheet.text("end", [30.0, 185.0], "t'");
+    sheet.svg()
+}
+
+/// The stored depth over the distance, for n = 1 and f = 100.
+pub fn depth() -> String {
+    let projection = frustum(-1.0, 1.0, -1.0, 1.0, 1.0, 100.0).expect("it is a frustum");
+    let stored = |z: f64| {
+        let p = projection * DVec3::new(0.0, 0.0, z).extend(1.0);
+        (p.z / p.w + 1.0) / 2.0
+    };
+    let at = |[z, d]: Point| [60.0 + z * 5.0, 250.0 - d * 200.0];
+    let mut sheet = Sheet::new(600.0, 290.0);
+    sheet.arrow("ink", at([0.0, 0.0]), at([104.0, 0.0]));
+    sheet.arrow("ink", at([0.0, 0.0]), at([0.0, 1.08]));
+    sheet.line("soft", at([0.0, 1.0]), at([100.0, 1.0]));
+    let curve: Vec<Point> =
+        (0..=200).map(|i| 100f64.powf(f64::from(i) / 200.0)).map(|z| [z, stored(z)]).collect();
+    for pair in curve.windows(2) {
+        sheet.line("one", at(pair[0]), at(pair[1]));
+    }
+    for (z, label) in [(1.0, false), (2.0, true), (10.0, true), (50.0, true), (100.0, false)] {
+        let d = stored(z);
+        sheet.dot("dot2", at([z, d]), 4.0);
+        let [x, y] = at([z, 0.0]);
+        // The first two are too close for a number each.
+        if z > 1.5 {
+            sheet.text("middle", [x, y + 20.0], &format!("{z}"));
+        }
+        let [x, y] = at([z, d]);
+        if label {
+            sheet.text("start", [x + 8.0, y + 18.0], &format!("{d:.3}"));
+        }
+    }
+    sheet.text("end", at([-2.0, 0.98]), "1");
+    sheet.text("end", at([-2.0, -0.02]), "0");
+    sheet.text("start", at([105.0, -0.02]), "z");
+    sheet.text("middle", at([0.0, 1.1]), "d");
+    sheet.svg()
+}
+
 /// A triangle with a corner behind the near plane, the points where it goes out and comes in.
 pub fn near_plane() -> String {
     // Seen from the side: x upwards, z to the right; w is 1 and the border at z = -1.
