@@ -17,6 +17,7 @@ use super::typed::Typed;
 use super::{Failure, Streams, exit, program, usage};
 use rasterproof_core::angle::{atan, cos, sin, tan, turn_y};
 use rasterproof_core::frame::Frame;
+use rasterproof_models::{Normals, Options, Up};
 use rasterproof_registry::engines::{Drawer, Engine};
 use rasterproof_registry::undecided::{self, Drawn as DrawnBy};
 use rasterproof_render::effects::depth_ties::{ByRounding, Cause, Rivals};
@@ -105,6 +106,12 @@ pub struct SceneArguments {
     /// How light is laid on a model [default: phong]
     #[arg(long, value_enum, value_name = "SHADING")]
     shading: Option<Lighting>,
+    /// The axis of the model's file that points up [default: the usual one of its format, which is printed]
+    #[arg(long, value_enum, value_name = "AXIS")]
+    up: Option<UpAxis>,
+    /// Normals of a model [default: file]
+    #[arg(long, value_enum, value_name = "FROM")]
+    normals: Option<NormalsFrom>,
     /// How depths are stored
     #[arg(long, value_enum, default_value_t = Depths::Unorm32)]
     depth: Depths,
@@ -152,6 +159,23 @@ enum Lighting {
     Flat,
     Gouraud,
     Phong,
+}
+
+#[derive(clap::ValueEnum, Clone, Copy, Debug)]
+enum UpAxis {
+    Y,
+    Z,
+}
+
+/// `file` is the default, so that a face without normals is flat unless the file says `s 1`.
+#[derive(clap::ValueEnum, Clone, Copy, Debug)]
+enum NormalsFrom {
+    /// Those of the file; faces without any are flat where the file does not group them as smooth
+    File,
+    /// None of the file: every face is flat
+    Flat,
+    /// Those of the file; faces without any are smooth
+    Smooth,
 }
 
 #[derive(clap::ValueEnum, Clone, Copy, Debug)]
@@ -259,6 +283,8 @@ impl SceneArguments {
             ("--zoom", self.zoom.is_some()),
             ("--fov", self.fov.is_some()),
             ("--shading", self.shading.is_some()),
+            ("--up", self.up.is_some()),
+            ("--normals", self.normals.is_some()),
         ];
         match given.iter().find(|(_, is_given)| *is_given) {
             Some((option, _)) => Err(usage(format!(
@@ -295,8 +321,18 @@ impl SceneArguments {
         if fov <= 0.0 || fov >= 180.0 {
             return Err(usage(format!("--fov {fov} does not lie between 0 and 180 degrees")));
         }
-        let model = rasterproof_models::obj::load(path, shading)
-            .map_err(|error| usage(error.to_string()))?;
+        let normals = match self.normals.unwrap_or(NormalsFrom::File) {
+            NormalsFrom::File => Normals::File,
+            NormalsFrom::Flat => Normals::Flat,
+            NormalsFrom::Smooth => Normals::Smooth,
+        };
+        let up = self.up.map(|axis| match axis {
+            UpAxis::Y => Up::Y,
+            UpAxis::Z => Up::Z,
+        });
+        let options = Options { shading, normals, up };
+        let model =
+            rasterproof_models::load(path, options).map_err(|error| usage(error.to_string()))?;
         for warning in model.warnings {
             writeln!(errors, "warning: {warning}")?;
         }

@@ -5,8 +5,12 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use image::GrayImage;
-use rasterproof_models::obj::{load, load_texture};
+use rasterproof_models::{BadFile, Model, Options, load_texture};
 use rasterproof_render::scene::Shading;
+
+fn load(path: &Path, shading: Shading) -> Result<Model, BadFile> {
+    rasterproof_models::load(path, Options { shading, ..Options::default() })
+}
 
 fn folder(name: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("model-files-{name}"));
@@ -52,12 +56,11 @@ fn lines_are_read_as_the_format_says() {
     let triangles = |text: &str| {
         let model = read(text).unwrap_or_else(|error| panic!("{text:?}: {error}"));
         let count: usize = model.items.iter().map(|item| item.mesh.triangles.len()).sum();
-        (count, model.warnings)
+        (count, model.not_drawn)
     };
     assert_eq!(triangles(&format!("{TRIANGLE}f 1 2 3 # c\n")).0, 1);
-    let (count, warnings) = triangles(&format!("{TRIANGLE}f 1 2 3\nl 1 2 3\np 1\n"));
-    assert_eq!(count, 1);
-    assert!(warnings[0].contains("2 lines of kind 'l' or 'p'"), "{warnings:?}");
+    let (count, not_drawn) = triangles(&format!("{TRIANGLE}f 1 2 3\nl 1 2 3\nl 1 2\np 1\n"));
+    assert_eq!((count, not_drawn.as_str()), (1, "2 lines, 1 point"));
     // Corners of one kind in one object, of another in the next.
     let mixed =
         format!("{TRIANGLE}vt 0 0\nvt 1\nvn 0 0 1\no a\nf 1//1 2//1 3//1\no b\nf 1/1 2/2 3/2\n");
