@@ -17,7 +17,7 @@ use super::typed::Typed;
 use super::{Failure, Streams, exit, program, usage};
 use rasterproof_core::angle::{atan, cos, sin, tan, turn_y};
 use rasterproof_core::frame::Frame;
-use rasterproof_models::{Normals, Options, Up};
+use rasterproof_models::{Model, Normals, Options, Up};
 use rasterproof_registry::engines::{Drawer, Engine};
 use rasterproof_registry::undecided::{self, Drawn as DrawnBy};
 use rasterproof_render::effects::depth_ties::{ByRounding, Cause, Rivals};
@@ -333,9 +333,7 @@ impl SceneArguments {
         let options = Options { shading, normals, up };
         let model =
             rasterproof_models::load(path, options).map_err(|error| usage(error.to_string()))?;
-        for warning in model.warnings {
-            writeln!(errors, "warning: {warning}")?;
-        }
+        report_model(&model, self.up.is_some(), errors)?;
         let bounds = model.items.iter().filter_map(|item| item.mesh.bounds());
         let (min, max) = bounds
             .reduce(|(a, b), (c, d)| (a.min(c), b.max(d)))
@@ -369,6 +367,29 @@ impl SceneArguments {
         }
         Ok(Framed { scene, centre })
     }
+}
+
+/// Says what is missing of a model, what is not drawn, and which axis was taken to point up.
+fn report_model(
+    model: &Model,
+    up_is_given: bool,
+    errors: &mut dyn std::io::Write,
+) -> std::io::Result<()> {
+    for warning in &model.warnings {
+        writeln!(errors, "warning: {warning}")?;
+    }
+    if !model.not_drawn.is_empty() {
+        writeln!(errors, "not drawn: {}", model.not_drawn)?;
+    }
+    if !up_is_given {
+        let (taken, other) = match model.up {
+            Up::Y => ("y", "z"),
+            Up::Z => ("z", "y"),
+        };
+        let format = model.format.name();
+        writeln!(errors, "{taken} points up, as is usual in {format}; --up {other} for the other")?;
+    }
+    Ok(())
 }
 
 /// A model in front of an eye.

@@ -50,10 +50,14 @@ pub(crate) fn model(
         items.push(item);
         origins.push(Origin { part: part.name, material: name, places });
     }
-    if items.is_empty() {
-        return Err(bad(path, None, "has no faces, so there is nothing to draw"));
-    }
     let not_drawn = counted(&contents.not_drawn);
+    if items.is_empty() {
+        if not_drawn.is_empty() {
+            return Err(bad(path, None, "has no faces, so there is nothing to draw"));
+        }
+        let path = printable_path(path);
+        warnings.line(&path, &format!("{path}: has no faces, so the picture is empty"));
+    }
     let mut all = contents.warnings;
     all.extend(warnings.finish());
     Ok(Model { items, origins, format, up, not_drawn, warnings: all })

@@ -19,6 +19,9 @@ use crate::{BadFile, Warnings, bad, read_bytes};
 /// No index.
 const NONE: u32 = u32::MAX;
 
+/// Lines of material files that are read: each is looked for in the folder.
+const MOST_LIBRARIES: usize = 1 << 10;
+
 /// Positions, texture coordinates and normals of a corner, as indices from 0 or [`NONE`].
 type FaceCorner = [u32; 3];
 
@@ -42,10 +45,15 @@ struct Lines {
     uvs: Vec<DVec2>,
     normals: Vec<DVec3>,
     runs: Vec<Run>,
-    /// The material files that it names, each once, with their lines.
-    libraries: Vec<(String, usize)>,
+    /// What lines of material files name, each once.
+    libraries: Vec<String>,
+    /// Those names, to find one again.
+    known: HashSet<String>,
     /// What is not drawn.
     not_drawn: BTreeMap<String, u64>,
+    /// Vectors that cannot be read, by kind and index, with the line and what is wrong: a vector that no face uses
+    /// does no harm.
+    broken: BTreeMap<(usize, u32), (usize, String)>,
 }
 
 /// Where the next face belongs.
@@ -62,8 +70,8 @@ struct State {
 /// Reads the text of an OBJ and the files that it names.
 pub(crate) fn read(path: &Path, bytes: &[u8]) -> Result<Contents, BadFile> {
     let mut warnings = Warnings::default();
-    let lines = lines(path, bytes, &mut warnings)?;
-    check_range(path, &lines)?;
+    let mut lines = lines(path, bytes, &mut warnings)?;
+    check_faces(path, &mut lines, &mut warnings)?;
     let folder = path.parent().unwrap_or(Path::new(""));
     let (described, all_read) = read_libraries(path, &lines.libraries, &mut warnings);
     let mut numbers: HashMap<&str, usize> = HashMap::new();
@@ -213,13 +221,18 @@ fn surface(
 /// cannot be read is a warning.
 fn read_libraries(
     path: &Path,
-    libraries: &[(String, usize)],
+    libraries: &[String],
     warnings: &mut Warnings,
 ) -> (Vec<mtl::Described>, bool) {
     let folder = path.parent().unwrap_or(Path::new(""));
     let (mut materials, mut left_bytes) = (Vec::new(), limits::MATERIAL_BYTES);
     let (mut seen, mut all_read) = (HashSet::new(), true);
-    for (names, _) in libraries {
+    if libraries.len() > MOST_LIBRARIES {
+        let path = printable_path(path);
+        let text = format!("{path}: only the first {MOST_LIBRARIES} material files are read");
+        warnings.line(&path, &text);
+    }
+    for names in libraries.iter().take(MOST_LIBRARIES) {
         for name in library_names(folder, names) {
             let beside =
                 || find(folder, &path.with_extension("mtl").file_name()?.to_string_lossy());
@@ -249,7 +262,7 @@ fn read_libraries(
                     all_read = false;
                     warnings.line(
                         &format!("{}: material files", printable_path(path)),
-                        &format!("{error}; what it describes is drawn grey"),
+                        &format!("{error}; what it describes is drawn grey until the file is there"),
                     );
                 }
             }
@@ -339,10 +352,15 @@ fn lines(path: &Path, bytes: &[u8], warnings: &mut Warnings) -> Result<Lines, Ba
             );
         }
     }
-    if read.runs.is_empty() {
-        let cause =
-            "has no faces (lines that begin with 'f'), so there is nothing to draw; is it an OBJ?";
-        return Err(bad(path, None, cause));
+    if read.runs.is_empty() && read.not_drawn.is_empty() {
+        let is_wide = bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff");
+        let hint = if is_wide {
+            "it begins like text in UTF-16: save it as UTF-8"
+        } else {
+            "is it an OBJ?"
+        };
+        let what = "has no faces (lines that begin with 'f'), so there is nothing to draw";
+        return Err(bad(path, None, format!("{what}; {hint}")));
     }
     Ok(read)
 }
@@ -357,34 +375,22 @@ fn read_line(
     let mut words = words(line);
     let Some(kind) = words.next() else { return Ok(None) };
     match kind {
-        b"v" => {
-            let (values, count) = numbers::<7>(words, 3)?;
-            if let Some(far) = values[..3].iter().find(|value| value.abs() > MOST_COORDINATE) {
-                return Err(format!(
-                    "the coordinate {far:e} is larger than 1e38: scale the model down"
-                ));
-            }
-            // Three coordinates, a weight that polygons do not use, a colour.
-            let colour = match count {
-                6 => Some(3),
-                7 => Some(4),
-                _ => None,
-            };
-            if let Some(at) = colour {
-                read.colours.resize(read.positions.len(), DVec3::ONE);
-                let colour = DVec3::from_slice(&values[at..]);
-                // Some programs write bytes.
-                let scale = if colour.max_element() > 1.0 { 1.0 / 255.0 } else { 1.0 };
-                read.colours.push((colour * scale).clamp(DVec3::ZERO, DVec3::ONE));
-            }
-            read.positions.push(DVec3::from_slice(&values));
-        }
+        b"v" => position(words, read).unwrap_or_else(|cause| {
+            read.broken.insert((0, read.positions.len() as u32), (number, cause));
+            read.positions.push(DVec3::ZERO);
+        }),
         b"vt" => {
-            let (values, _) = numbers::<3>(words, 1)?;
+            let (values, _) = numbers::<3>(words, 1).unwrap_or_else(|cause| {
+                read.broken.insert((1, read.uvs.len() as u32), (number, cause));
+                Default::default()
+            });
             read.uvs.push(DVec2::new(values[0], values[1]));
         }
         b"vn" => {
-            let (values, _) = numbers::<3>(words, 3)?;
+            let (values, _) = numbers::<3>(words, 3).unwrap_or_else(|cause| {
+                read.broken.insert((2, read.normals.len() as u32), (number, cause));
+                Default::default()
+            });
             read.normals.push(DVec3::from_slice(&values));
         }
         b"f" | b"fo" => return face(words, number, read, state).map(|()| None),
@@ -413,8 +419,8 @@ fn read_line(
         }
         b"mtllib" => {
             let names = rest(line, kind);
-            if !names.is_empty() && !read.libraries.iter().any(|(known, _)| *known == names) {
-                read.libraries.push((names, number));
+            if !names.is_empty() && read.known.insert(names.clone()) {
+                read.libraries.push(names);
             }
         }
         _ => {
@@ -427,6 +433,28 @@ fn read_line(
         }
     }
     Ok(None)
+}
+
+/// Three coordinates, a weight that polygons do not use, a colour.
+fn position<'a>(words: impl Iterator<Item = &'a [u8]>, read: &mut Lines) -> Result<(), String> {
+    let (values, count) = numbers::<7>(words, 3)?;
+    if let Some(far) = values[..3].iter().find(|value| value.abs() > MOST_COORDINATE) {
+        return Err(format!("the coordinate {far:e} is larger than 1e38: scale the model down"));
+    }
+    let colour = match count {
+        6 => Some(&values[3..6]),
+        7 => Some(&values[4..7]),
+        _ => None,
+    };
+    if let Some(colour) = colour {
+        read.colours.resize(read.positions.len(), DVec3::ONE);
+        let colour = DVec3::from_slice(colour);
+        // Some programs write bytes.
+        let scale = if colour.max_element() > 1.0 { 1.0 / 255.0 } else { 1.0 };
+        read.colours.push((colour * scale).clamp(DVec3::ZERO, DVec3::ONE));
+    }
+    read.positions.push(DVec3::from_slice(&values));
+    Ok(())
 }
 
 /// The words of a line up to a comment.
@@ -537,7 +565,7 @@ fn face_corner(word: &[u8], counts: [usize; 3]) -> Result<FaceCorner, String> {
 }
 
 /// Faces may come before what they name, so this is checked at the end.
-fn check_range(path: &Path, lines: &Lines) -> Result<(), BadFile> {
+fn check_faces(path: &Path, lines: &mut Lines, warnings: &mut Warnings) -> Result<(), BadFile> {
     let counts = [lines.positions.len(), lines.uvs.len(), lines.normals.len()];
     for run in &lines.runs {
         let mut start = 0;
@@ -550,10 +578,21 @@ fn check_range(path: &Path, lines: &Lines) -> Result<(), BadFile> {
                         let cause = format!("{name} {index} is not there; the file has {count}");
                         return Err(bad(path, Some(polygon.place as usize), cause));
                     }
+                    if lines.broken.is_empty() {
+                        continue;
+                    }
+                    if let Some((line, cause)) = lines.broken.remove(&(kind, index)) {
+                        return Err(bad(path, Some(line), cause));
+                    }
                 }
             }
             start = polygon.end as usize;
         }
+    }
+    let path = printable_path(path);
+    for (line, cause) in lines.broken.values() {
+        warnings
+            .line(&format!("{path}: lines"), &format!("{path}:{line}: {cause}; no face uses it"));
     }
     Ok(())
 }

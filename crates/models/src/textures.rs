@@ -212,19 +212,26 @@ fn next_word(text: &str) -> Option<(&str, &str)> {
 pub(crate) struct Textures {
     folder: PathBuf,
     read: HashMap<PathBuf, Result<Decoded, BadFile>>,
+    /// Names that were not found.
+    missing: u32,
 }
+
+/// Names that are not found, after which names are taken as they are written: a search reads a folder.
+const MOST_MISSING: u32 = 1 << 10;
 
 impl Textures {
     /// Of a model in this folder.
     pub(crate) fn new(folder: &Path) -> Self {
-        Self { folder: folder.to_owned(), read: HashMap::new() }
+        Self { folder: folder.to_owned(), read: HashMap::new(), missing: 0 }
     }
 
     /// The picture of this name.
     pub(crate) fn get(&mut self, name: &str, clamp: bool) -> Result<Decoded, BadFile> {
         // Where options are written in another way, the last word is the name.
         let last = name.split_whitespace().next_back().unwrap_or_default();
-        let found = find(&self.folder, name).or_else(|| find(&self.folder, last));
+        let search = || find(&self.folder, name).or_else(|| find(&self.folder, last));
+        let found = if self.missing < MOST_MISSING { search() } else { None };
+        self.missing += u32::from(found.is_none() && self.missing < MOST_MISSING);
         let path = found.unwrap_or_else(|| self.folder.join(name.replace('\\', "/")));
         let read = self.read.entry(path).or_insert_with_key(|path| {
             let mut decoded = decode(path, read_bytes(path, limits::TEXTURE_BYTES)?)?;
