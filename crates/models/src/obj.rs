@@ -84,9 +84,12 @@ pub(crate) fn read(path: &Path, bytes: &[u8]) -> Result<Contents, BadFile> {
     let mut used: HashMap<usize, usize> = HashMap::new();
     let mut unknown = HashSet::new();
     let mut cutter = Cutter::of(&[lines.positions.len(), lines.uvs.len(), lines.normals.len()]);
+    let mut before = None;
     for run in lines.runs {
         let number = match &run.material {
             None => None,
+            // Without a name the material stays, unless a file describes one without a name.
+            Some((name, _)) if name.is_empty() => numbers.get("").copied().or(before),
             Some((name, line)) => {
                 let number = numbers.get(name.as_str()).copied();
                 if number.is_none() && all_read && unknown.insert(name.clone()) {
@@ -100,6 +103,7 @@ pub(crate) fn read(path: &Path, bytes: &[u8]) -> Result<Contents, BadFile> {
                 number
             }
         };
+        before = number;
         let vectors =
             (&lines.positions[..], &lines.uvs[..], &lines.normals[..], &lines.colours[..]);
         let mut part = cutter.part(vectors, run);
@@ -262,7 +266,9 @@ fn read_libraries(
                     all_read = false;
                     warnings.line(
                         &format!("{}: material files", printable_path(path)),
-                        &format!("{error}; what it describes is drawn grey until the file is there"),
+                        &format!(
+                            "{error}; what it describes is drawn grey until the file is there"
+                        ),
                     );
                 }
             }
@@ -411,8 +417,7 @@ fn read_line(
         }
         b"usemtl" => {
             let name = rest(line, kind);
-            // Without a name the material stays.
-            if !name.is_empty() && state.material.as_ref().map(|(name, _)| name) != Some(&name) {
+            if state.material.as_ref().map(|(name, _)| name) != Some(&name) {
                 state.material = Some((name, number));
                 state.is_new = true;
             }
