@@ -86,11 +86,8 @@ fn place(path: &Path, part: &mut Part, turn: DMat4) -> Result<(), BadFile> {
             }
         }
     }
-    let is_far = |position: &DVec3| {
-        let size = position.abs().max_element();
-        // NaN is too far as well.
-        !(size <= MOST_COORDINATE && !position.is_nan())
-    };
+    let is_far =
+        |position: &DVec3| !position.is_finite() || position.abs().max_element() > MOST_COORDINATE;
     match part.positions.iter().position(is_far) {
         Some(number) => {
             let cause = format!(
