@@ -560,6 +560,9 @@ fn what_no_face_uses_is_a_warning() {
             model.warnings
         );
     }
+    let many = format!("{}{text}", "v x y z\n".repeat(2_000));
+    let error = load(&written(&folder, "many.obj", &many), Shading::Flat).unwrap_err();
+    assert_eq!(error.line, Some(1_025), "{error}");
     let old = text.replace('\n', "\r");
     let model = load(&written(&folder, "old.obj", &old), Shading::Flat).unwrap();
     assert_eq!(model.origins[0].places, [8], "lines that end with a carriage return alone");

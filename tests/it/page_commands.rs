@@ -40,7 +40,7 @@ fn every_option_is_on_the_page() {
     std::fs::write(folder.join("a 'model'.obj"), model).unwrap();
     let program = env!("CARGO_BIN_EXE_rasterproof");
     let view = "--size 32x24 --aa msaa4 --cull cw --shading flat --depth unorm24 --yaw=-30 \
-                --pitch 10.5 --zoom 2 --fov 50";
+                --pitch 10.5 --zoom 2 --fov 50 --up z --normals flat";
     let report = "--report --out pages";
     let runs = [
         ("render", vec!["a 'model'.obj"], format!("{view} --engine both --effects all {report}")),

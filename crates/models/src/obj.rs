@@ -56,6 +56,26 @@ struct Lines {
     broken: BTreeMap<(usize, u32), (usize, String)>,
 }
 
+/// Vectors that cannot be read, after which the file is refused.
+const MOST_BROKEN: usize = 1 << 10;
+
+impl Lines {
+    /// Keeps why a vector cannot be read, and gives a zero for it.
+    fn keep_broken(
+        &mut self,
+        kind: usize,
+        index: usize,
+        line: usize,
+        cause: String,
+    ) -> Result<([f64; 3], usize), String> {
+        if self.broken.len() >= MOST_BROKEN {
+            return Err(format!("{cause}, as in {MOST_BROKEN} lines before"));
+        }
+        self.broken.insert((kind, index as u32), (line, cause));
+        Ok(([0.0; 3], 0))
+    }
+}
+
 /// Where the next face belongs.
 #[derive(Default)]
 struct State {
@@ -381,22 +401,20 @@ fn read_line(
     let mut words = words(line);
     let Some(kind) = words.next() else { return Ok(None) };
     match kind {
-        b"v" => position(words, read).unwrap_or_else(|cause| {
-            read.broken.insert((0, read.positions.len() as u32), (number, cause));
-            read.positions.push(DVec3::ZERO);
-        }),
+        b"v" => {
+            if let Err(cause) = position(words, read) {
+                read.keep_broken(0, read.positions.len(), number, cause)?;
+                read.positions.push(DVec3::ZERO);
+            }
+        }
         b"vt" => {
-            let (values, _) = numbers::<3>(words, 1).unwrap_or_else(|cause| {
-                read.broken.insert((1, read.uvs.len() as u32), (number, cause));
-                Default::default()
-            });
+            let (values, _) = numbers::<3>(words, 1)
+                .or_else(|cause| read.keep_broken(1, read.uvs.len(), number, cause))?;
             read.uvs.push(DVec2::new(values[0], values[1]));
         }
         b"vn" => {
-            let (values, _) = numbers::<3>(words, 3).unwrap_or_else(|cause| {
-                read.broken.insert((2, read.normals.len() as u32), (number, cause));
-                Default::default()
-            });
+            let (values, _) = numbers::<3>(words, 3)
+                .or_else(|cause| read.keep_broken(2, read.normals.len(), number, cause))?;
             read.normals.push(DVec3::from_slice(&values));
         }
         b"f" | b"fo" => return face(words, number, read, state).map(|()| None),
