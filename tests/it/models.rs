@@ -488,6 +488,11 @@ fn colours_of_positions_are_drawn() {
     assert!(item.material.vertex_colours && item.material.colour == glam::DVec3::ONE);
     let colours = item.mesh.triangles[0].map(|corner| corner.colour.to_array());
     assert_eq!(colours, [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
+    // Bytes are recognised by the largest number of the file; a position without a colour is white.
+    let bytes = "v 0 0 0 1 0 0\nv 1 0 0\nv 0 1 0 0 255 51\nf 1 2 3\n";
+    let model = load(&written(&folder, "bytes.obj", bytes), Shading::Unlit).unwrap();
+    let colours = model.items[0].mesh.triangles[0].map(|corner| corner.colour.to_array());
+    assert_eq!(colours, [[1.0 / 255.0, 0.0, 0.0], [1.0; 3], [0.0, 1.0, 0.2]]);
 }
 
 /// Loose lines and points are no part of the picture, so they do not make the model small in it.

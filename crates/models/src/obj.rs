@@ -56,6 +56,9 @@ struct Lines {
     broken: BTreeMap<(usize, u32), (usize, String)>,
 }
 
+/// What is kept for a position without a colour among others, until all lines are read.
+const WITHOUT_COLOUR: DVec3 = DVec3::NEG_INFINITY;
+
 /// Vectors that cannot be read, after which the file is refused.
 const MOST_BROKEN: usize = 1 << 10;
 
@@ -388,6 +391,13 @@ fn lines(path: &Path, bytes: &[u8], warnings: &mut Warnings) -> Result<Lines, Ba
         let what = "has no faces (lines that begin with 'f'), so there is nothing to draw";
         return Err(bad(path, None, format!("{what}; {hint}")));
     }
+    // Some programs write bytes.
+    let is_large = |colour: &DVec3| colour.max_element() > 1.0;
+    let scale = if read.colours.iter().any(is_large) { 1.0 / 255.0 } else { 1.0 };
+    for colour in &mut read.colours {
+        let scaled = (*colour * scale).clamp(DVec3::ZERO, DVec3::ONE);
+        *colour = if *colour == WITHOUT_COLOUR { DVec3::ONE } else { scaled };
+    }
     Ok(read)
 }
 
@@ -470,11 +480,8 @@ fn position<'a>(words: impl Iterator<Item = &'a [u8]>, read: &mut Lines) -> Resu
         _ => None,
     };
     if let Some(colour) = colour {
-        read.colours.resize(read.positions.len(), DVec3::ONE);
-        let colour = DVec3::from_slice(colour);
-        // Some programs write bytes.
-        let scale = if colour.max_element() > 1.0 { 1.0 / 255.0 } else { 1.0 };
-        read.colours.push((colour * scale).clamp(DVec3::ZERO, DVec3::ONE));
+        read.colours.resize(read.positions.len(), WITHOUT_COLOUR);
+        read.colours.push(DVec3::from_slice(colour));
     }
     read.positions.push(DVec3::from_slice(&values));
     Ok(())
@@ -568,7 +575,12 @@ fn face_corner(word: &[u8], counts: [usize; 3]) -> Result<FaceCorner, String> {
         if part.is_empty() && kind > 0 {
             continue;
         }
-        let missing = || format!("'{}' names what is not there", short(word));
+        let missing = || {
+            format!(
+                "'{}' names what is not there: indices begin at 1, or at -1 from the end",
+                short(word)
+            )
+        };
         let (digits, is_back) = match part.split_first() {
             Some((b'-', digits)) => (digits, true),
             Some((b'+', digits)) => (digits, false),
