@@ -17,6 +17,7 @@ use super::typed::Typed;
 use super::{Failure, Status, Streams, exit, program, usage};
 use rasterproof_core::angle::{atan, cos, sin, tan, turn_y};
 use rasterproof_core::frame::Frame;
+use rasterproof_models::{Model, Normals, Options, Up};
 use rasterproof_registry::engines::{Drawer, Engine};
 use rasterproof_registry::undecided::{self, Drawn as DrawnBy};
 use rasterproof_render::effects::depth_ties::{ByRounding, Cause, Rivals};
@@ -92,6 +93,13 @@ pub struct SceneArguments {
     /// How light is laid on a model [default: phong]
     #[arg(long, value_name = "SHADING", value_parser = super::one_of(SHADINGS))]
     shading: Option<Shading>,
+    /// The axis of the model's file that points up [default: the usual one of its format, which is printed]
+    #[arg(long, value_name = "AXIS", value_parser = super::one_of(UPS))]
+    up: Option<Up>,
+    /// Normals of a model: those of its file, where a face without any is flat unless the file groups it as
+    /// smooth; flat everywhere; or those of the file, and smooth where there are none [default: file]
+    #[arg(long, value_name = "FROM", value_parser = super::one_of(NORMALS))]
+    normals: Option<Normals>,
     /// How depths are stored
     #[arg(long, default_value = "unorm32", value_parser = super::one_of(DEPTHS))]
     depth: DepthFormat,
@@ -139,6 +147,9 @@ const DEPTHS: &[(&str, DepthFormat)] = &[
     ("f32-reversed", DepthFormat::F32Reversed),
     ("f64", DepthFormat::F64),
 ];
+const UPS: &[(&str, Up)] = &[("y", Up::Y), ("z", Up::Z)];
+const NORMALS: &[(&str, Normals)] =
+    &[("file", Normals::File), ("flat", Normals::Flat), ("smooth", Normals::Smooth)];
 
 fn scene_names() -> Vec<&'static str> {
     SCENES.iter().map(|entry| entry.name).collect()
@@ -210,6 +221,8 @@ impl SceneArguments {
             ("--zoom", self.zoom.is_some()),
             ("--fov", self.fov.is_some()),
             ("--shading", self.shading.is_some()),
+            ("--up", self.up.is_some()),
+            ("--normals", self.normals.is_some()),
         ];
         match given.iter().find(|(_, is_given)| *is_given) {
             Some((option, _)) => Err(usage(format!(
@@ -240,10 +253,10 @@ impl SceneArguments {
         if fov <= 0.0 || fov >= 180.0 {
             return Err(usage(format!("--fov {fov} does not lie between 0 and 180 degrees")));
         }
-        let model = rasterproof_models::obj::load(path, shading).map_err(usage)?;
-        for warning in model.warnings {
-            writeln!(errors, "warning: {warning}")?;
-        }
+        let normals = self.normals.unwrap_or_default();
+        let options = Options { shading, normals, up: self.up };
+        let model = rasterproof_models::load(path, options).map_err(usage)?;
+        report_model(&model, self.up.is_some(), errors)?;
         let bounds = model.items.iter().filter_map(|item| item.mesh.bounds());
         let (min, max) = bounds
             .reduce(|(a, b), (c, d)| (a.min(c), b.max(d)))
@@ -275,6 +288,29 @@ impl SceneArguments {
         }
         Ok(Framed { scene, centre })
     }
+}
+
+/// Says what is missing of a model, what is not drawn, and which axis was taken to point up.
+fn report_model(
+    model: &Model,
+    up_is_given: bool,
+    errors: &mut dyn std::io::Write,
+) -> std::io::Result<()> {
+    for warning in &model.warnings {
+        writeln!(errors, "warning: {warning}")?;
+    }
+    if !model.not_drawn.is_empty() {
+        writeln!(errors, "not drawn: {}", model.not_drawn)?;
+    }
+    if !up_is_given {
+        let (taken, other) = match model.up {
+            Up::Y => ("y", "z"),
+            Up::Z => ("z", "y"),
+        };
+        let format = model.format.name();
+        writeln!(errors, "{taken} points up, as is usual in {format}; --up {other} for the other")?;
+    }
+    Ok(())
 }
 
 /// A model in front of an eye.

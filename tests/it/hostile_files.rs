@@ -73,7 +73,7 @@ const READERS: [Reader; 17] = [
         beside: &[],
         or: &[],
     },
-    // A model without its materials is drawn grey, with a warning.
+    // A model without its materials is drawn grey, and one without a texture in its colour, with a warning.
     Reader {
         name: "materials of a model",
         words: "render --size 16x16 model.obj",
@@ -88,7 +88,7 @@ const READERS: [Reader; 17] = [
         file: "t.png",
         truncated: PNG,
         beside: &[("model.obj", MODEL), ("m.mtl", "newmtl a\nKd 1 0 0\nmap_Kd t.png\n")],
-        or: &[],
+        or: &[(AGREES, &ALL)],
     },
     Reader {
         name: "render --plan",

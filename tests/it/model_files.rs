@@ -5,8 +5,12 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use image::GrayImage;
-use rasterproof_models::obj::{load, load_texture};
+use rasterproof_models::{BadFile, Model, Normals, Options, Up, load_texture};
 use rasterproof_render::scene::Shading;
+
+fn load(path: &Path, shading: Shading) -> Result<Model, BadFile> {
+    rasterproof_models::load(path, Options { shading, ..Options::default() })
+}
 
 fn folder(name: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("model-files-{name}"));
@@ -52,12 +56,11 @@ fn lines_are_read_as_the_format_says() {
     let triangles = |text: &str| {
         let model = read(text).unwrap_or_else(|error| panic!("{text:?}: {error}"));
         let count: usize = model.items.iter().map(|item| item.mesh.triangles.len()).sum();
-        (count, model.warnings)
+        (count, model.not_drawn)
     };
     assert_eq!(triangles(&format!("{TRIANGLE}f 1 2 3 # c\n")).0, 1);
-    let (count, warnings) = triangles(&format!("{TRIANGLE}f 1 2 3\nl 1 2 3\np 1\n"));
-    assert_eq!(count, 1);
-    assert!(warnings[0].contains("2 lines of kind 'l' or 'p'"), "{warnings:?}");
+    let (count, not_drawn) = triangles(&format!("{TRIANGLE}f 1 2 3\nl 1 2 3\nl 1 2\np 1\n"));
+    assert_eq!((count, not_drawn.as_str()), (1, "2 lines, 1 point"));
     // Corners of one kind in one object, of another in the next.
     let mixed =
         format!("{TRIANGLE}vt 0 0\nvt 1\nvn 0 0 1\no a\nf 1//1 2//1 3//1\no b\nf 1/1 2/2 3/2\n");
@@ -159,6 +162,22 @@ const WORDS: &[&str] = &[
     "m.mtl",
     "a",
     "off",
+    "on",
+    "\\",
+    "curv",
+    "bump",
+    "-s",
+    "-o",
+    "-mm",
+    "-clamp",
+    "-0.0001",
+    "3",
+    "1e38",
+    "1e-300",
+    "f 1 2 3 4 5 6 7 8",
+    "f 8 6 4 2 1 3 5 7",
+    "m.mtl m.mtl",
+    "t.png",
 ];
 
 fn mutated(text: &str, numbers: &mut Numbers) -> Vec<u8> {
@@ -194,22 +213,30 @@ fn mutated(text: &str, numbers: &mut Numbers) -> Vec<u8> {
 fn fuzz(cases: u64, name: &str) {
     let folder = folder(name);
     let obj = "mtllib m.mtl\nv 0 0 0\nv 1 0 0 1\nv 0 1 0\nv 0 0 1 .5 .5 .5\nvt 0 0\nvt 1 0\nvn 0 0 1\n\
+        v 2 2 0\nv 2 -1 .5 1 0 0\nv -1 3 1 0.1 0 1 0\nv .3 .3 .3\ns 1\nf 1 5 2 8 7 6\n\
         o one\nusemtl a\nf 1/1/1 2/2/1 3/1/1\ng two\nusemtl b\nf 1//1 2//1 3//1 4//1\nf -1 -2 -3\ns off\nl 1 2\n";
     let mtl = "# materials\nnewmtl a\nKa 0 0 0\nKd 1 0.5 0\nKs 0 0 0\nNs 10\nd 1\nillum 2\n\
-        newmtl b\nKd 0.5\nTr 0\nNi 1\nmap_Bump -bm 1 b.png\n";
+        newmtl b\nKd 0.5\nTr 0\nNi 1\nmap_Bump -bm 1 b.png\nmap_Kd -s 2 1 1 -clamp on t.png\n";
+    GrayImage::from_pixel(2, 2, image::Luma([51])).save(folder.join("t.png")).unwrap();
     let (mut read, mut refused) = (0, 0);
     for case in 0..cases {
         let mut numbers = Numbers(case);
         fs::write(folder.join("m.obj"), mutated(obj, &mut numbers)).unwrap();
         fs::write(folder.join("m.mtl"), mutated(mtl, &mut numbers)).unwrap();
-        let load = || load(&folder.join("m.obj"), Shading::Phong);
+        let normals = [Normals::File, Normals::Flat, Normals::Smooth][numbers.below(3)];
+        let up = [None, Some(Up::Z)][numbers.below(2)];
+        let options = Options { shading: Shading::Phong, normals, up };
+        let load = || rasterproof_models::load(&folder.join("m.obj"), options);
         match std::panic::catch_unwind(load) {
-            Ok(Ok(_)) => read += 1,
-            Ok(Err(error)) => {
-                // What the line-by-line check lets through, the reader takes.
-                assert!(!error.cause.contains("reader of models"), "case {case}: {error}");
-                refused += 1;
+            Ok(Ok(model)) => {
+                for item in &model.items {
+                    let used = item.mesh.triangles.as_flattened().iter();
+                    let mut corners = used.map(|corner| corner.position as usize);
+                    assert!(corners.all(|position| position < item.mesh.positions.len()));
+                }
+                read += 1;
             }
+            Ok(Err(_)) => refused += 1,
             Err(_) => panic!("case {case} panics; its files are in {}", folder.display()),
         }
     }

@@ -13,7 +13,9 @@ pub(crate) struct Contents {
     pub parts: Vec<Part>,
     /// Its materials, which parts name by their index.
     pub materials: Vec<Surface>,
-    /// What the file contains and nobody draws, with its count: `specular colour` of 18 materials.
+    /// What the file contains and nobody draws, in the singular, with its count. A key that ends in `of material` counts
+    /// materials: (`specular colour of material`, 18) and (`bump map`, 1) are shown as
+    /// `specular colour of 18 materials, 1 bump map`.
     pub not_drawn: BTreeMap<String, u64>,
     /// What is missing or cannot be understood and was done without, one line each.
     pub warnings: Vec<String>,
@@ -55,8 +57,9 @@ pub(crate) struct Polygon {
     pub end: u32,
     /// The line of the file, or its number among the faces where the file has no lines, from 1.
     pub place: u32,
-    /// Whether a missing normal is computed from the faces around the corner (`s` of an OBJ).
-    pub smooth: bool,
+    /// Polygons of the same number above 0 share the normals that are computed for corners without one (`s` of an
+    /// OBJ). With 0 such corners get the normal of the polygon.
+    pub smoothing: u32,
 }
 
 /// What a file says about a surface, as far as it is drawn.

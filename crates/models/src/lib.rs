@@ -1,4 +1,180 @@
 //! Reads models from files and turns them into items of a scene. Nothing here draws.
+//!
+//! A reader turns the bytes of one format into `Contents`: polygons in the file's own coordinates, materials, and what
+//! the file contains that is not drawn. [`load`] makes items of a scene of them, the same way for every format.
 
+mod contents;
+mod format;
+mod items;
 mod mtl;
-pub mod obj;
+mod obj;
+mod polygons;
+mod textures;
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+use rasterproof_host::text::printable_path;
+use rasterproof_host::{input, limits};
+use rasterproof_render::scene::{Item, Shading};
+
+pub use format::Format;
+pub use textures::load_texture;
+
+/// What is wrong with a file, where, and what to do about it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct BadFile {
+    /// The file.
+    pub path: PathBuf,
+    /// The line, from 1, where there are lines.
+    pub line: Option<usize>,
+    pub cause: String,
+}
+
+impl fmt::Display for BadFile {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", printable_path(&self.path))?;
+        if let Some(line) = self.line {
+            write!(f, ":{line}")?;
+        }
+        write!(f, ": {}", self.cause)
+    }
+}
+
+impl std::error::Error for BadFile {}
+
+pub(crate) fn bad(path: &Path, line: Option<usize>, cause: impl Into<String>) -> BadFile {
+    BadFile { path: path.to_owned(), line, cause: cause.into() }
+}
+
+/// The bytes of a file of at most so many.
+pub(crate) fn read_bytes(path: &Path, limit_bytes: u64) -> Result<Vec<u8>, BadFile> {
+    input::read(path, limit_bytes).map_err(|error| bad(path, None, error.cause))
+}
+
+/// Which axis of a file points up.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Up {
+    Y,
+    Z,
+}
+
+/// Where the normals of a model come from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Normals {
+    /// From the file; those that are missing from the faces, smooth where the file has a smoothing group and
+    /// flat elsewhere.
+    #[default]
+    File,
+    /// From the faces alone, so that each face is flat.
+    Flat,
+    /// From the file; those that are missing are averaged over all faces at the position.
+    Smooth,
+}
+
+/// How a model is made of a file.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Options {
+    pub shading: Shading,
+    pub normals: Normals,
+    /// The axis that points up; by default the one that is usual for the format.
+    pub up: Option<Up>,
+}
+
+/// A model: what is drawn of a file, and what is not.
+#[derive(Clone, Debug)]
+pub struct Model {
+    /// Its parts, in the file's order.
+    pub items: Vec<Item>,
+    /// Where each item comes from.
+    pub origins: Vec<Origin>,
+    pub format: Format,
+    /// The axis of the file that points up in the picture.
+    pub up: Up,
+    /// What the file contains and is not drawn, with counts, as one line; empty if there is nothing.
+    pub not_drawn: String,
+    /// What is missing or cannot be understood and was done without, for the reader.
+    pub warnings: Vec<String>,
+}
+
+/// Where an item comes from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Origin {
+    /// The name of the object, group or node; empty without one.
+    pub part: String,
+    /// The name of the material; empty without one.
+    pub material: String,
+    /// For each triangle, the line of the face in a file of lines, or the number of the face from 1.
+    pub places: Vec<u32>,
+}
+
+/// Reads a model with its materials and textures.
+///
+/// # Errors
+/// [`BadFile`] for a file that cannot be read, a coordinate that is no finite number, an index that
+/// is out of range, a model without faces. A material file or a texture that is missing or cannot be read is a
+/// warning: the surface is drawn in its colour, or grey.
+pub fn load(path: &Path, options: Options) -> Result<Model, BadFile> {
+    let bytes = read_bytes(path, limits::MODEL_BYTES)?;
+    let format = Format::of(&bytes);
+    let contents = match format {
+        Format::Obj => obj::read(path, &bytes)?,
+    };
+    drop(bytes);
+    items::model(path, contents, format, options)
+}
+
+/// `specular colour of 18 materials, 1 bump map`: keys in the singular, with their counts.
+pub(crate) fn counted(counts: &BTreeMap<String, u64>) -> String {
+    let parts = counts.iter().map(|(key, &count)| {
+        let (before, noun) = key.rsplit_once(" of ").map_or(("", key.as_str()), |(a, b)| (a, b));
+        let of = if before.is_empty() { "" } else { " of " };
+        let plural = if count == 1 { "" } else { "s" };
+        format!("{before}{of}{count} {noun}{plural}")
+    });
+    parts.collect::<Vec<_>>().join(", ")
+}
+
+/// Warnings of one file, of which there may be as many as lines.
+#[derive(Debug, Default)]
+pub(crate) struct Warnings {
+    shown: Vec<String>,
+    /// How many there are of each kind.
+    counts: BTreeMap<String, u64>,
+}
+
+impl Warnings {
+    /// Warnings of one kind that are shown; of the rest the number is.
+    const MOST: u64 = 8;
+
+    /// A warning that may come for every line. Its kind is in the plural.
+    pub(crate) fn line(&mut self, kind: &str, text: &str) {
+        let count = self.counts.entry(kind.to_owned()).or_default();
+        *count += 1;
+        if *count <= Self::MOST {
+            self.shown.push(text.to_owned());
+        }
+    }
+
+    pub(crate) fn finish(mut self) -> Vec<String> {
+        for (kind, count) in self.counts {
+            if count > Self::MOST {
+                self.shown.push(format!("{kind}: {} more of this kind", count - Self::MOST));
+            }
+        }
+        self.shown
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_not_drawn_is_counted_in_words() {
+        let counts = [("specular colour of material", 18), ("bump map", 1), ("line", 2)];
+        let counts = counts.map(|(key, count)| (key.to_owned(), count)).into();
+        assert_eq!(counted(&counts), "1 bump map, 2 lines, specular colour of 18 materials");
+    }
+}

@@ -1,11 +1,13 @@
-//! Material files (MTL): the colour and the texture of each material.
-//!
-//! `tobj` reads them too, but panics at a `Kd` of two numbers, drops a whole file for one bad line and
-//! names neither. Only three kinds of lines are needed, so they are read here.
+//! Material files (MTL): the colour and the texture of each material, and what of it is not drawn.
 
+use std::collections::BTreeSet;
 use std::path::Path;
 
+use glam::DVec3;
 use rasterproof_host::text::{printable_path, printable_short};
+
+use crate::Warnings;
+use crate::textures;
 
 /// A material as a file describes it.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -13,108 +15,169 @@ pub(crate) struct Described {
     /// Its name, for `usemtl`.
     pub name: String,
     /// Its diffuse colour (`Kd`).
-    pub colour: Option<[f32; 3]>,
-    /// What follows `map_Kd`: options and the name of a file.
-    pub texture: Option<String>,
+    pub colour: Option<DVec3>,
+    /// Its texture (`map_Kd`).
+    pub texture: Option<textures::Described>,
+    /// What else it has, which is not drawn: keys of [`crate::contents::Contents::not_drawn`].
+    pub not_drawn: BTreeSet<String>,
+    ambient: Option<DVec3>,
+    ambient_map: Option<textures::Described>,
 }
 
-#[derive(Debug, Default)]
-pub(crate) struct Read {
-    /// Its materials, in its order.
-    pub materials: Vec<Described>,
-    /// The lines that cannot be understood, and were left out.
-    pub warnings: Vec<String>,
-}
+/// Lines that change nothing that could be seen: an empty line is one. The index of refraction has an effect with
+/// refraction alone, which `illum` says.
+const WITHOUT_EFFECT: [&str; 5] = ["", "ni", "sharpness", "map_aat", "halo"];
 
-/// Lines that are understood and not drawn; an empty line is one.
-const UNUSED: [&str; 27] = [
-    "",
-    "Ka",
-    "Ks",
-    "Ke",
-    "Km",
-    "Kt",
-    "Ns",
-    "Ni",
-    "Nr",
-    "Tr",
-    "Tf",
-    "d",
-    "illum",
-    "sharpness",
-    "refl",
-    "bump",
-    "disp",
-    "decal",
-    "norm",
-    "Pr",
-    "Pm",
-    "Ps",
-    "Pc",
-    "Pcr",
-    "aniso",
-    "anisor",
-    "halo",
-];
-
-/// Warnings of one file that are kept; of the rest the number is.
-const MOST_WARNINGS: usize = 8;
+/// Words of physically based shading.
+const PHYSICAL: [&str; 8] = ["pr", "pm", "ps", "pc", "pcr", "aniso", "anisor", "nr"];
 
 /// Reads the text of a material file. A line that cannot be understood is a warning.
-pub(crate) fn read(path: &Path, text: &str) -> Read {
-    let mut read = Read::default();
-    let mut left_out = 0;
+pub(crate) fn read(path: &Path, text: &str, warnings: &mut Warnings) -> Vec<Described> {
+    let mut materials = Vec::new();
     for (index, line) in text.lines().enumerate() {
-        let line = line.split('#').next().unwrap_or_default().trim();
+        let line = without_comment(line).trim();
         let (kind, rest) = line.split_once(char::is_whitespace).unwrap_or((line, ""));
-        if let Err(cause) = read_line(kind, rest.trim(), &mut read.materials) {
-            if read.warnings.len() < MOST_WARNINGS {
-                let path = printable_path(path);
-                read.warnings.push(format!("{path}:{}: {cause}; the line is left out", index + 1));
-            } else {
-                left_out += 1;
-            }
+        if let Err(cause) = read_line(kind, rest.trim(), &mut materials) {
+            let path = printable_path(path);
+            let place = format!("{path}:{}", index + 1);
+            warnings.line(
+                &format!("{path}: lines"),
+                &format!("{place}: {cause}; the line is left out"),
+            );
         }
     }
-    if left_out > 0 {
-        let path = printable_path(path);
-        read.warnings.push(format!("{path}: {left_out} more lines are left out"));
+    for material in &mut materials {
+        material.finish();
     }
-    read
+    materials
+}
+
+/// A line up to a comment. Names may contain the sign, so it begins a comment only after a space.
+pub(crate) fn without_comment(line: &str) -> &str {
+    let mut before = ' ';
+    for (at, character) in line.char_indices() {
+        if character == '#' && before.is_whitespace() {
+            return &line[..at];
+        }
+        before = character;
+    }
+    line
 }
 
 fn read_line(kind: &str, rest: &str, materials: &mut Vec<Described>) -> Result<(), String> {
-    if kind == "newmtl" {
+    let lower = kind.to_ascii_lowercase();
+    if lower == "newmtl" {
         materials.push(Described { name: rest.to_owned(), ..Described::default() });
         return Ok(());
     }
-    if kind != "Kd" && kind != "map_Kd" {
-        // What the format has, and what exporters add to it for physically based shading.
-        let is_known = kind.to_ascii_lowercase().starts_with("map_") || UNUSED.contains(&kind);
-        let shown = || format!("'{}' is not a line of a material file", printable_short(kind, 40));
-        return if is_known { Ok(()) } else { Err(shown()) };
+    if WITHOUT_EFFECT.contains(&lower.as_str()) {
+        return Ok(());
+    }
+    let is_map = lower.starts_with("map_")
+        || ["bump", "disp", "decal", "refl", "norm"].contains(&lower.as_str());
+    let colour_words = ["kd", "ka", "ks", "ke", "km", "kt", "tf"];
+    let number_words = ["ns", "d", "tr", "illum"];
+    let is_physical = PHYSICAL.contains(&lower.as_str());
+    let is_known = is_map
+        || is_physical
+        || colour_words.contains(&lower.as_str())
+        || number_words.contains(&lower.as_str());
+    if !is_known {
+        return Err(format!("'{}' is not a line of a material file", printable_short(kind, 40)));
     }
     let material = materials.last_mut().ok_or_else(|| format!("'{kind}' before any 'newmtl'"))?;
-    if kind == "Kd" {
-        material.colour = Some(colour(rest)?);
-    } else {
-        material.texture = (!rest.is_empty()).then(|| rest.to_owned());
-    }
+    // Of what is not drawn a wrong number is no loss.
+    let number = rest.split_whitespace().next_back().and_then(|word| word.parse::<f64>().ok());
+    let is_lit = || colour("", rest).is_ok_and(|colour| colour.max_element() > 0.0);
+    let key = match lower.as_str() {
+        "kd" => {
+            material.colour = Some(colour(kind, rest)?);
+            return Ok(());
+        }
+        "ka" => {
+            material.ambient = colour(kind, rest).ok();
+            return Ok(());
+        }
+        "map_kd" => {
+            material.texture = textures::Described::parse(rest);
+            return Ok(());
+        }
+        "map_ka" => {
+            material.ambient_map = textures::Described::parse(rest);
+            return Ok(());
+        }
+        _ if is_map => {
+            if textures::Described::parse(rest).is_none() {
+                return Ok(());
+            }
+            match lower.as_str() {
+                "bump" | "map_bump" => "bump map",
+                "norm" | "map_kn" => "normal map",
+                "disp" | "map_disp" => "displacement map",
+                "decal" | "map_decal" => "decal",
+                "refl" | "map_refl" => "reflection map",
+                "map_ks" => "specular map",
+                "map_ns" => "shininess map",
+                "map_ke" => "emission map",
+                "map_d" | "map_tr" | "map_opacity" => "opacity map",
+                _ => "other map",
+            }
+        }
+        "ks" if is_lit() => "specular colour of material",
+        "ke" if is_lit() => "emission of material",
+        "km" | "kt" if is_lit() => "reflection or transmission colour of material",
+        "tf" if colour("", rest)
+            .is_ok_and(|colour| colour != DVec3::ONE && colour != DVec3::ZERO) =>
+        {
+            "transmission filter of material"
+        }
+        "ns" if number.is_some_and(|number| number > 0.0) => "shininess of material",
+        "d" if number.is_some_and(|number| number < 1.0) => "transparency of material",
+        // Some programs write the opposite, so a 1 means nothing for sure.
+        "tr" if number.is_some_and(|number| number > 0.0 && number < 1.0) => {
+            "transparency of material"
+        }
+        "illum" if number == Some(0.0) => "constant light (illum 0) of material",
+        "illum" if number.is_some_and(|number| number > 2.0) => "reflection (illum) of material",
+        _ if is_physical && number.is_some_and(|number| number != 0.0) => {
+            "physically based value of material"
+        }
+        _ => return Ok(()),
+    };
+    material.not_drawn.insert(key.to_owned());
     Ok(())
 }
 
+impl Described {
+    /// Compares the ambient colour with the diffuse one, which is used in its place.
+    fn finish(&mut self) {
+        let differs = |colour: DVec3| colour != DVec3::ZERO && Some(colour) != self.colour;
+        if self.ambient.is_some_and(differs) {
+            self.not_drawn.insert("ambient colour of material".to_owned());
+        }
+        let name = |map: &Option<textures::Described>| map.as_ref().map(|map| map.name.clone());
+        if self.ambient_map.is_some() && name(&self.ambient_map) != name(&self.texture) {
+            self.not_drawn.insert("ambient map".to_owned());
+        }
+        for option in self.texture.iter().flat_map(|texture| &texture.not_applied) {
+            self.not_drawn.insert(format!("option {option} of texture"));
+        }
+    }
+}
+
 /// Three numbers, or one that is all three.
-fn colour(rest: &str) -> Result<[f32; 3], String> {
+fn colour(kind: &str, rest: &str) -> Result<DVec3, String> {
     let mut numbers = Vec::new();
     for word in rest.split_whitespace().take(3) {
-        match word.parse::<f32>() {
-            Ok(number) if number.is_finite() => numbers.push(number),
+        match word.parse::<f64>() {
+            // Larger ones are no numbers of single precision, which the format has.
+            Ok(number) if number.abs() <= f64::from(f32::MAX) => numbers.push(number),
             _ => return Err(format!("'{}' is not a finite number", printable_short(word, 40))),
         }
     }
     match numbers[..] {
-        [grey] => Ok([grey; 3]),
-        [r, g, b] => Ok([r, g, b]),
-        _ => Err(format!("'Kd' has {} numbers where 3 are needed", numbers.len())),
+        [grey] => Ok(DVec3::splat(grey)),
+        [r, g, b] => Ok(DVec3::new(r, g, b)),
+        _ => Err(format!("'{kind}' has {} numbers where 3 are needed", numbers.len())),
     }
 }

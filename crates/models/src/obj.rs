@@ -1,421 +1,633 @@
-//! Models and textures from files: OBJ through `tobj`, PNG, JPEG and BMP through `image`
-//! (the book's sections 11.2 and 11.3).
+//! OBJ: polygons in lines of text, with the materials of its MTL files.
 //!
-//! A file is checked line by line before it is read, so that an error names the line. The module `mtl`
-//! reads material files. OBJ files are right-handed: z is negated. Polygons become fans, missing normals are computed, colours and
-//! textures come from `Kd` and `map_Kd`.
+//! The crate `tobj` is not used, since it gives neither the lines of faces nor polygons with corners of mixed kinds, and
+//! ends the program at some files that are broken; the tests compare this reader with it.
 
-use std::collections::{HashMap, HashSet};
-use std::fmt;
-use std::fmt::Write as _;
-use std::io::Cursor;
-use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::collections::{BTreeMap, HashMap, HashSet};
+use std::path::Path;
 
-use glam::{DVec2, DVec3};
-use image::{DynamicImage, ImageDecoder as _, ImageReader, Limits};
+use glam::{DMat4, DVec2, DVec3};
+use rasterproof_host::limits;
 use rasterproof_host::text::{printable_path, printable_short};
-use rasterproof_host::{input, limits};
 
-use crate::mtl::{self, Described};
-use rasterproof_core::arrays::MapArray as _;
-use rasterproof_core::grid::MAX_SIDE_PX;
-use rasterproof_render::pipeline::texture::{Filter, Texture, Wrap};
-use rasterproof_render::scene::{Corner, Item, Material, Mesh, Shading, shapes};
+use crate::contents::{Contents, Part, Polygon, PolygonCorner, Surface};
+use crate::items::MOST_COORDINATE;
+use crate::mtl::{self, without_comment};
+use crate::textures::{Textures, find};
+use crate::{BadFile, Warnings, bad, read_bytes};
 
-/// What is wrong with a file, where, and what to do about it.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct BadFile {
-    /// The file.
-    pub path: PathBuf,
-    /// The line, from 1, where there are lines.
-    pub line: Option<usize>,
-    pub cause: String,
+/// No index.
+const NONE: u32 = u32::MAX;
+
+/// Lines of material files that are read: each is looked for in the folder.
+const MOST_LIBRARIES: usize = 1 << 10;
+
+/// Positions, texture coordinates and normals of a corner, as indices from 0 or [`NONE`].
+type FaceCorner = [u32; 3];
+
+const KINDS: [&str; 3] = ["position", "texture coordinate", "normal"];
+
+/// Faces of one group and material, one after the other in the file.
+struct Run {
+    name: String,
+    /// The name of the material, and the first line that names it.
+    material: Option<(String, usize)>,
+    corners: Vec<FaceCorner>,
+    polygons: Vec<Polygon>,
 }
 
-impl fmt::Display for BadFile {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}", printable_path(&self.path))?;
-        if let Some(line) = self.line {
-            write!(f, ":{line}")?;
-        }
-        write!(f, ": {}", self.cause)
-    }
-}
-
-impl std::error::Error for BadFile {}
-
-fn bad(path: &Path, line: Option<usize>, cause: impl Into<String>) -> BadFile {
-    BadFile { path: path.to_owned(), line, cause: cause.into() }
-}
-
-fn read(path: &Path, limit_bytes: u64) -> Result<Vec<u8>, BadFile> {
-    input::read(path, limit_bytes).map_err(|error| bad(path, None, error.cause))
-}
-
-/// The bytes of a text, without the byte order mark that some editors put before it.
-fn read_text(path: &Path, limit_bytes: u64) -> Result<Vec<u8>, BadFile> {
-    let mut bytes = read(path, limit_bytes)?;
-    if bytes.starts_with(b"\xef\xbb\xbf") {
-        bytes.drain(..3);
-    }
-    Ok(bytes)
-}
-
-/// A model: one item for each material, and what was left out.
-#[derive(Clone, Debug)]
-pub struct Model {
-    /// Its parts, in the file's order.
-    pub items: Vec<Item>,
-    /// What is missing and was done without, for the reader.
-    pub warnings: Vec<String>,
-}
-
-/// Reads a model with its materials and textures.
-///
-/// # Errors
-/// [`BadFile`] for a file that cannot be read, a coordinate that is no finite number, an index that
-/// is out of range, a model without faces, a texture that cannot be decoded. A material file that
-/// is missing is a warning: the model is grey.
-pub fn load(path: &Path, shading: Shading) -> Result<Model, BadFile> {
-    let bytes = read_text(path, limits::MODEL_BYTES)?;
-    let text = String::from_utf8_lossy(&bytes);
-    let Checked { text, libraries, mut warnings } = checked(path, &text)?;
-    let folder = path.parent().unwrap_or(Path::new("")).to_owned();
-    let materials = read_materials(&folder, &libraries, &mut warnings);
-    let models = parsed(path, text, &materials)?;
-    let mut textures = Textures { folder, read: HashMap::new() };
-    let made = materials
-        .iter()
-        .map(|material| textures.material(material, shading))
-        .collect::<Result<Vec<_>, _>>()?;
-    let grey = Material { colour: DVec3::splat(0.8), shading, ..Material::default() };
-    let items = models
-        .iter()
-        .filter(|model| !model.mesh.indices.is_empty())
-        .map(|model| {
-            let material = model.mesh.material_id.and_then(|id| made.get(id)).unwrap_or(&grey);
-            Item::new(mesh(&model.mesh), material.clone())
-        })
-        .collect();
-    Ok(Model { items, warnings })
-}
-
-/// The materials of the files that a model names, in their order. A file that cannot be read is a
-/// warning.
-fn read_materials(
-    folder: &Path,
-    libraries: &[String],
-    warnings: &mut Vec<String>,
-) -> Vec<Described> {
-    let (mut materials, mut left_bytes) = (Vec::new(), limits::MATERIAL_BYTES);
-    for name in libraries {
-        let file = folder.join(name);
-        match read_text(&file, left_bytes) {
-            Ok(bytes) => {
-                left_bytes -= bytes.len() as u64;
-                let read = mtl::read(&file, &String::from_utf8_lossy(&bytes));
-                materials.extend(read.materials);
-                warnings.extend(read.warnings);
-            }
-            Err(error) => warnings.push(format!("{error}; what it describes is drawn grey")),
-        }
-    }
-    materials
-}
-
-/// The meshes of a text that was checked. `tobj` sees the names of the materials only.
-fn parsed(path: &Path, text: String, materials: &[Described]) -> Result<Vec<tobj::Model>, BadFile> {
-    let options = tobj::LoadOptions { triangulate: true, ..tobj::LoadOptions::default() };
-    let numbers = materials.iter().enumerate();
-    let named = |_: &Path| {
-        let names = numbers.clone().map(|(number, material)| (material.name.clone(), number));
-        Ok((Vec::new(), names.collect()))
-    };
-    // The text holds nothing that was not checked; a panic would end the program nevertheless.
-    let load = || tobj::load_obj_buf(&mut Cursor::new(text), &options, named);
-    match catch_unwind(AssertUnwindSafe(load)) {
-        Ok(Ok((models, _))) => Ok(models),
-        Ok(Err(error)) => Err(bad(path, None, format!("is not a readable OBJ: {error}"))),
-        Err(_) => Err(bad(path, None, "is not a readable OBJ: the reader of models failed")),
-    }
-}
-
-/// The textures that materials name, each read once.
-struct Textures {
-    folder: PathBuf,
-    read: HashMap<String, Arc<Texture>>,
-}
-
-impl Textures {
-    fn material(&mut self, material: &Described, shading: Shading) -> Result<Material, BadFile> {
-        let colour =
-            material.colour.map_or(DVec3::splat(0.8), |c| DVec3::from(c.map_array(f64::from)));
-        let texture = match material.texture.as_deref() {
-            None | Some("") => None,
-            Some(name) => Some(self.texture(name)?),
-        };
-        Ok(Material { colour, vertex_colours: false, texture, shading })
-    }
-
-    fn texture(&mut self, name: &str) -> Result<Arc<Texture>, BadFile> {
-        if let Some(texture) = self.read.get(name) {
-            return Ok(texture.clone());
-        }
-        // Options such as `-s 1 1 1` come before the name; other systems write backslashes.
-        let file = name.rsplit(' ').next().unwrap_or(name).replace('\\', "/");
-        let whole = self.folder.join(name.replace('\\', "/"));
-        let path = if whole.exists() { whole } else { self.folder.join(file) };
-        let texture = Arc::new(load_texture(&path)?.with(Filter::Bilinear, Wrap::Repeat));
-        self.read.insert(name.to_owned(), texture.clone());
-        Ok(texture)
-    }
-}
-
-/// Reads a PNG, JPEG or BMP, whatever its name ends in.
-///
-/// # Errors
-/// [`BadFile`] where it cannot be read or decoded, or a side exceeds the largest one.
-pub fn load_texture(path: &Path) -> Result<Texture, BadFile> {
-    let bytes = read(path, limits::TEXTURE_BYTES)?;
-    let cause = |error| format!("is not a readable PNG, JPEG or BMP: {error}");
-    let failed = |error| bad(path, None, cause(error));
-    let mut reader = ImageReader::new(Cursor::new(bytes))
-        .with_guessed_format()
-        .map_err(|error| bad(path, None, error.to_string()))?;
-    let mut sides = Limits::default();
-    sides.max_image_width = Some(MAX_SIDE_PX);
-    sides.max_image_height = Some(MAX_SIDE_PX);
-    sides.max_alloc = Some(limits::DECODED_TEXTURE_BYTES);
-    reader.limits(sides);
-    let decoder = reader.into_decoder().map_err(failed)?;
-    let (width, height) = decoder.dimensions();
-    let is_grey = !decoder.color_type().has_color();
-    let kept_bytes = u64::from(width) * u64::from(height) * if is_grey { 1 } else { 4 };
-    if kept_bytes.max(decoder.total_bytes()) > limits::DECODED_TEXTURE_BYTES {
-        let most = limits::DECODED_TEXTURE_BYTES >> 20;
-        let cause = format!(
-            "has {width} x {height} px, which take more than {most} MiB: make the picture smaller"
-        );
-        return Err(bad(path, None, cause));
-    }
-    let picture = DynamicImage::from_decoder(decoder).map_err(failed)?;
-    let texture = if is_grey {
-        Texture::grey(width, height, picture.into_luma8().into_raw())
-    } else {
-        Texture::new(width, height, picture.into_rgb8().as_chunks::<3>().0)
-    };
-    texture.ok_or_else(|| bad(path, None, "is a picture without pixels"))
-}
-
-/// A mesh of `tobj` as ours: left-handed, with normals.
-fn mesh(source: &tobj::Mesh) -> Mesh {
-    let vector = |list: &[f32], index: u32| {
-        let at = index as usize * 3;
-        list.get(at..at + 3)
-            .map_or(DVec3::ZERO, |v| DVec3::new(f64::from(v[0]), f64::from(v[1]), -f64::from(v[2])))
-    };
-    let positions =
-        (0..source.positions.len() as u32 / 3).map(|i| vector(&source.positions, i)).collect();
-    let corner = |at: usize| {
-        let normal = source.normal_indices.get(at).map(|&i| vector(&source.normals, i));
-        let uv = source.texcoord_indices.get(at).and_then(|&i| {
-            let at = i as usize * 2;
-            source.texcoords.get(at..at + 2)
-        });
-        Corner {
-            position: source.indices[at],
-            colour: DVec3::ONE,
-            normal: normal.unwrap_or_default().normalize_or_zero(),
-            uv: uv.map_or(DVec2::ZERO, |v| DVec2::new(f64::from(v[0]), f64::from(v[1]))),
-        }
-    };
-    let triangles = (0..source.indices.len() / 3)
-        .map(|i| [corner(3 * i), corner(3 * i + 1), corner(3 * i + 2)])
-        .collect();
-    shapes::with_smooth_normals(Mesh { positions, triangles })
-}
-
-/// Numbers of positions, texture coordinates and normals.
-type Counts = [usize; 3];
-
-/// A corner of a face: indices from 1 of its position, texture coordinate and normal.
-type FaceCorner = [Option<i64>; 3];
-
-/// A model as it is handed to `tobj`.
-struct Checked {
-    /// The vectors first, then names of groups and materials and the faces in their order.
-    text: String,
-    /// The material files that it names, each once.
+/// The lines of a file.
+#[derive(Default)]
+struct Lines {
+    positions: Vec<DVec3>,
+    /// The colours of the first positions, up to the last that has one.
+    colours: Vec<DVec3>,
+    uvs: Vec<DVec2>,
+    normals: Vec<DVec3>,
+    runs: Vec<Run>,
+    /// What lines of material files name, each once.
     libraries: Vec<String>,
-    warnings: Vec<String>,
+    /// Those names, to find one again.
+    known: HashSet<String>,
+    /// What is not drawn.
+    not_drawn: BTreeMap<String, u64>,
+    /// Vectors that cannot be read, by kind and index, with the line and what is wrong: a vector that no face uses
+    /// does no harm.
+    broken: BTreeMap<(usize, u32), (usize, String)>,
 }
 
-/// What stands between the vectors.
-enum Element<'a> {
-    /// A group or an object begins. Nothing depends on its name.
-    Group,
-    /// The name of the material of the faces that follow.
-    Material(&'a str),
-    /// The line's number, and which of the corners are its.
-    Face(usize, std::ops::Range<usize>),
+/// What is kept for a position without a colour among others, until all lines are read.
+const WITHOUT_COLOUR: DVec3 = DVec3::NEG_INFINITY;
+
+/// Vectors that cannot be read, after which the file is refused.
+const MOST_BROKEN: usize = 1 << 10;
+
+impl Lines {
+    /// Keeps why a vector cannot be read, and gives a zero for it.
+    fn keep_broken(
+        &mut self,
+        kind: usize,
+        index: usize,
+        line: usize,
+        cause: String,
+    ) -> Result<([f64; 3], usize), String> {
+        if self.broken.len() >= MOST_BROKEN {
+            return Err(format!("{cause}, as in {MOST_BROKEN} lines before"));
+        }
+        self.broken.insert((kind, index as u32), (line, cause));
+        Ok(([0.0; 3], 0))
+    }
 }
 
-/// Checks every line that the model consists of, and writes them anew: vectors without what is not
-/// drawn, faces with absolute indices. Where some corners lack a texture coordinate or a normal that
-/// others have, they get a neutral one, since `tobj` keeps the three lists of a mesh apart by their
-/// lengths.
-fn checked(path: &Path, text: &str) -> Result<Checked, BadFile> {
-    let mut counts: Counts = [0; 3];
-    let mut elements = Vec::new();
-    let mut corners: Vec<FaceCorner> = Vec::new();
-    let (mut libraries, mut seen) = (Vec::new(), HashSet::new());
-    let mut loose = 0u64;
-    // One line names all materials, which are read beforehand.
-    let mut out = String::from("mtllib all\n");
-    for (number, line) in text.lines().enumerate().map(|(i, line)| (i + 1, line)) {
-        let line = line.split('#').next().unwrap_or_default().trim();
-        let mut words = line.split_whitespace();
-        let (kind, least, most) = match words.next() {
-            Some("v") => (0, 3, 3),
-            Some("vt") => (1, 1, 2),
-            Some("vn") => (2, 3, 3),
-            Some("f") => {
-                let start = corners.len();
-                for word in words {
-                    let corner = face_corner(word, counts);
-                    corners.push(corner.map_err(|cause| bad(path, Some(number), cause))?);
+/// Where the next face belongs.
+#[derive(Default)]
+struct State {
+    object: String,
+    group: String,
+    material: Option<(String, usize)>,
+    smoothing: u32,
+    /// Whether a face begins a new run.
+    is_new: bool,
+}
+
+/// Reads the text of an OBJ and the files that it names.
+pub(crate) fn read(path: &Path, bytes: &[u8]) -> Result<Contents, BadFile> {
+    let mut warnings = Warnings::default();
+    let mut lines = lines(path, bytes, &mut warnings)?;
+    check_faces(path, &mut lines, &mut warnings)?;
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let (described, all_read) = read_libraries(path, &lines.libraries, &mut warnings);
+    let mut numbers: HashMap<&str, usize> = HashMap::new();
+    for (number, material) in described.iter().enumerate() {
+        numbers.insert(&material.name, number);
+    }
+    let mut contents = Contents { not_drawn: lines.not_drawn, ..Contents::default() };
+    let mut textures = Textures::new(folder);
+    // The number in `contents` of each material that is used.
+    let mut used: HashMap<usize, usize> = HashMap::new();
+    let mut unknown = HashSet::new();
+    let mut cutter = Cutter::of(&[lines.positions.len(), lines.uvs.len(), lines.normals.len()]);
+    let mut before = None;
+    for run in lines.runs {
+        let number = match &run.material {
+            None => None,
+            // Without a name the material stays, unless a file describes one without a name.
+            Some((name, _)) if name.is_empty() => numbers.get("").copied().or(before),
+            Some((name, line)) => {
+                let number = numbers.get(name.as_str()).copied();
+                if number.is_none() && all_read && unknown.insert(name.clone()) {
+                    let path = printable_path(path);
+                    let name = printable_short(name, 40);
+                    warnings.line(
+                        &format!("{path}: materials that no file describes"),
+                        &format!("{path}:{line}: no material file describes '{name}'; its faces are drawn grey"),
+                    );
                 }
-                if corners.len() < start + 3 {
-                    return Err(bad(path, Some(number), "a face needs three corners or more"));
-                }
-                elements.push(Element::Face(number, start..corners.len()));
-                continue;
+                number
             }
-            Some("o" | "g") => {
-                elements.push(Element::Group);
-                continue;
-            }
-            Some("usemtl") => {
-                let name = line["usemtl".len()..].trim();
-                if !name.is_empty() {
-                    elements.push(Element::Material(name));
-                }
-                continue;
-            }
-            Some("mtllib") => {
-                let name = line["mtllib".len()..].trim();
-                if !name.is_empty() && seen.insert(name) {
-                    libraries.push(name.to_owned());
-                }
-                continue;
-            }
-            Some("l" | "p") => {
-                loose += 1;
-                continue;
-            }
-            _ => continue,
         };
-        check_numbers(words.clone(), least).map_err(|cause| bad(path, Some(number), cause))?;
-        counts[kind] += 1;
-        out.push_str(["v", "vt", "vn"][kind]);
-        for word in words.chain(["0"]).take(most) {
-            out.push(' ');
-            out.push_str(word);
+        before = number;
+        let vectors =
+            (&lines.positions[..], &lines.uvs[..], &lines.normals[..], &lines.colours[..]);
+        let mut part = cutter.part(vectors, run);
+        if let Some(number) = number {
+            let material = &described[number];
+            part.material = Some(*used.entry(number).or_insert_with(|| {
+                let surface =
+                    surface(path, material, &mut textures, &mut contents.not_drawn, &mut warnings);
+                contents.materials.push(surface);
+                contents.materials.len() - 1
+            }));
+            if let Some(texture) = &material.texture {
+                for uv in &mut part.uvs {
+                    *uv = *uv * texture.scale + texture.offset;
+                }
+            }
         }
-        out.push('\n');
+        contents.parts.push(part);
     }
-    if corners.is_empty() {
-        return Err(bad(path, None, "has no faces (lines that begin with 'f'); is it an OBJ?"));
+    contents.warnings = warnings.finish();
+    Ok(contents)
+}
+
+/// Lists of positions, texture coordinates, normals and colours.
+type Vectors<'a> = (&'a [DVec3], &'a [DVec2], &'a [DVec3], &'a [DVec3]);
+
+/// Makes parts with lists of their own, which hold what they use.
+struct Cutter {
+    /// For each kind of vector the number in the part, or [`NONE`].
+    numbers: [Vec<u32>; 3],
+}
+
+impl Cutter {
+    fn of(counts: &[usize; 3]) -> Self {
+        Self { numbers: counts.map(|count| vec![NONE; count]) }
     }
-    let some = [1, 2].map_array(|kind| corners.iter().any(|corner| corner[kind].is_some()));
-    let neutral = counts.map_array(|count| count as i64 + 1);
-    out.push_str("vt 0 0\nvn 0 0 0\n");
-    for element in elements {
-        let (number, range) = match element {
-            Element::Group => {
-                out.push_str("g part\n");
-                continue;
+
+    fn part(&mut self, (positions, uvs, normals, colours): Vectors<'_>, run: Run) -> Part {
+        let mut used: [Vec<u32>; 3] = Default::default();
+        let mut local = |kind: usize, index: u32| {
+            if index == NONE {
+                return NONE;
             }
-            Element::Material(name) => {
-                writeln!(out, "usemtl {name}").expect("a string takes all text");
-                continue;
+            let number = &mut self.numbers[kind][index as usize];
+            if *number == NONE {
+                *number = used[kind].len() as u32;
+                used[kind].push(index);
             }
-            Element::Face(number, range) => (number, range),
+            *number
         };
-        let corners = &corners[range];
-        check_range(corners, counts).map_err(|cause| bad(path, Some(number), cause))?;
-        out.push('f');
-        for corner in corners {
-            let [position, uv, normal] =
-                [0, 1, 2].map_array(|kind| corner[kind].unwrap_or(neutral[kind]));
-            let written = match some {
-                [false, false] => write!(out, " {position}"),
-                [true, false] => write!(out, " {position}/{uv}"),
-                [false, true] => write!(out, " {position}//{normal}"),
-                [true, true] => write!(out, " {position}/{uv}/{normal}"),
-            };
-            written.expect("a string takes all text");
+        let some = |index: u32| (index != NONE).then_some(index);
+        let corners = run.corners.into_iter().map(|[position, uv, normal]| PolygonCorner {
+            position: local(0, position),
+            uv: some(local(1, uv)),
+            normal: some(local(2, normal)),
+        });
+        let corners = corners.collect();
+        for (numbers, used) in self.numbers.iter_mut().zip(&used) {
+            used.iter().for_each(|&index| numbers[index as usize] = NONE);
         }
-        out.push('\n');
+        let [p, t, n] = &used;
+        let coloured = p.iter().any(|&index| (index as usize) < colours.len());
+        let colour = |&index: &u32| colours.get(index as usize).copied().unwrap_or(DVec3::ONE);
+        Part {
+            name: run.name,
+            material: None,
+            to_file: DMat4::IDENTITY,
+            positions: p.iter().map(|&index| positions[index as usize]).collect(),
+            normals: n.iter().map(|&index| normals[index as usize]).collect(),
+            uvs: t.iter().map(|&index| uvs[index as usize]).collect(),
+            colours: if coloured { p.iter().map(colour).collect() } else { Vec::new() },
+            corners,
+            polygons: run.polygons,
+        }
     }
-    let mut warnings = Vec::new();
-    if loose > 0 {
+}
+
+/// What is drawn of a material.
+fn surface(
+    path: &Path,
+    material: &mtl::Described,
+    textures: &mut Textures,
+    not_drawn: &mut BTreeMap<String, u64>,
+    warnings: &mut Warnings,
+) -> Surface {
+    for key in &material.not_drawn {
+        *not_drawn.entry(key.clone()).or_default() += 1;
+    }
+    let texture = material.texture.as_ref().and_then(|texture| {
+        match textures.get(&texture.name, texture.clamp) {
+            Ok(decoded) => {
+                if decoded.transparent {
+                    *not_drawn.entry("transparency of texture".to_owned()).or_default() += 1;
+                }
+                Some(decoded.texture)
+            }
+            Err(error) => {
+                let name = printable_short(&material.name, 40);
+                warnings.line(
+                    &format!("{}: textures", printable_path(path)),
+                    &format!("{error}; the material '{name}' is drawn in its colour"),
+                );
+                None
+            }
+        }
+    });
+    // A texture is as bright as its picture, where the file does not say otherwise.
+    let missing = if texture.is_some() { DVec3::ONE } else { DVec3::splat(0.8) };
+    Surface {
+        name: material.name.clone(),
+        colour: material.colour.unwrap_or(missing),
+        texture,
+        unlit: false,
+        both_sides: true,
+    }
+}
+
+/// The materials of the files that a model names, in their order, and whether all files were read. A file that
+/// cannot be read is a warning.
+fn read_libraries(
+    path: &Path,
+    libraries: &[String],
+    warnings: &mut Warnings,
+) -> (Vec<mtl::Described>, bool) {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let (mut materials, mut left_bytes) = (Vec::new(), limits::MATERIAL_BYTES);
+    let (mut seen, mut all_read) = (HashSet::new(), true);
+    if libraries.len() > MOST_LIBRARIES {
         let path = printable_path(path);
-        warnings.push(format!("{path}: {loose} lines of kind 'l' or 'p' are not drawn"));
+        let text = format!("{path}: only the first {MOST_LIBRARIES} material files are read");
+        warnings.line(&path, &text);
     }
-    Ok(Checked { text: out, libraries, warnings })
+    for names in libraries.iter().take(MOST_LIBRARIES) {
+        for name in library_names(folder, names) {
+            let beside =
+                || find(folder, &path.with_extension("mtl").file_name()?.to_string_lossy());
+            let named = find(folder, &name);
+            let file = named.clone().or_else(beside);
+            let file = file.unwrap_or_else(|| folder.join(name.replace('\\', "/")));
+            if named.is_none() && file.is_file() {
+                let (path, name) = (printable_path(path), printable_short(&name, 60));
+                let file = printable_path(&file);
+                warnings.line(
+                    &format!("{path}: material files"),
+                    &format!(
+                        "{path}: there is no material file '{name}'; {file} is read in its place"
+                    ),
+                );
+            }
+            if !seen.insert(file.clone()) {
+                continue;
+            }
+            match read_bytes(&file, left_bytes) {
+                Ok(bytes) => {
+                    left_bytes -= bytes.len() as u64;
+                    let text = String::from_utf8_lossy(without_mark(&bytes));
+                    materials.extend(mtl::read(&file, &text, warnings));
+                }
+                Err(error) => {
+                    all_read = false;
+                    warnings.line(
+                        &format!("{}: material files", printable_path(path)),
+                        &format!(
+                            "{error}; what it describes is drawn grey until the file is there"
+                        ),
+                    );
+                }
+            }
+        }
+    }
+    (materials, all_read)
 }
 
-fn check_numbers<'a>(words: impl Iterator<Item = &'a str>, least: usize) -> Result<(), String> {
-    let mut found = 0;
+/// The names on a line `mtllib`: one name with spaces where there is such a file, else several names.
+fn library_names(folder: &Path, names: &str) -> Vec<String> {
+    let words: Vec<&str> = names.split_whitespace().collect();
+    if words.len() < 2 || words.len() > 64 || find(folder, names).is_some() {
+        return vec![names.to_owned()];
+    }
+    let mut found: Vec<String> = Vec::new();
+    let mut at = 0;
+    while at < words.len() {
+        let joined = |end: usize| words[at..end].join(" ");
+        let exists = (at + 1..=words.len()).rev().find(|&end| find(folder, &joined(end)).is_some());
+        // A name that is not there ends where its ending is.
+        let ends = |end: &usize| words[end - 1].to_ascii_lowercase().ends_with(".mtl");
+        let end = exists.or_else(|| (at + 1..=words.len()).find(ends)).unwrap_or(words.len());
+        found.push(joined(end));
+        at = end;
+    }
+    found
+}
+
+/// Bytes without the byte order mark that some editors put before a text.
+fn without_mark(bytes: &[u8]) -> &[u8] {
+    bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)
+}
+
+/// Words that begin a line and are left out without a loss: what they say has an effect on curves and free-form
+/// surfaces alone, or on how a program shows the model.
+const WITHOUT_EFFECT: [&str; 25] = [
+    "deg", "cstype", "bmat", "step", "parm", "trim", "hole", "scrv", "sp", "end", "con", "mg",
+    "vp", "ctech", "stech", "bevel", "c_interp", "d_interp", "lod", "maplib", "usemap", "cdc",
+    "cdp", "res", "bzp",
+];
+
+/// What is not drawn, by the word that begins its line.
+const NOT_DRAWN: [(&str, &str); 10] = [
+    ("l", "line"),
+    ("p", "point"),
+    ("curv", "curve"),
+    ("curv2", "curve"),
+    ("surf", "free-form surface"),
+    ("shadow_obj", "shadow object"),
+    ("trace_obj", "ray tracing object"),
+    ("call", "call of another file"),
+    ("csh", "command of the system"),
+    ("bsp", "patch"),
+];
+
+/// Goes through all lines.
+fn lines(path: &Path, bytes: &[u8], warnings: &mut Warnings) -> Result<Lines, BadFile> {
+    let bytes = without_mark(bytes);
+    let mut read = Lines::default();
+    let mut state = State { is_new: true, ..State::default() };
+    let mut joined = Vec::new();
+    // Files of old systems end their lines with a carriage return alone.
+    let newline = if bytes.contains(&b'\n') { b'\n' } else { b'\r' };
+    let mut number = 0;
+    let mut left = bytes.split(|&byte| byte == newline);
+    while let Some(line) = left.next() {
+        number += 1;
+        let first = number;
+        let mut line = line.trim_ascii();
+        if line.ends_with(b"\\") {
+            joined.clear();
+            while let Some(begun) = line.strip_suffix(b"\\") {
+                joined.extend_from_slice(begun);
+                joined.push(b' ');
+                number += 1;
+                line = left.next().unwrap_or_default().trim_ascii();
+            }
+            joined.extend_from_slice(line);
+            line = &joined;
+        }
+        let result = read_line(line, first, &mut read, &mut state);
+        if let Some(cause) = result.map_err(|cause| bad(path, Some(first), cause))? {
+            let path = printable_path(path);
+            warnings.line(
+                &format!("{path}: lines"),
+                &format!("{path}:{first}: {cause}; the line is left out"),
+            );
+        }
+    }
+    if read.runs.is_empty() && read.not_drawn.is_empty() {
+        let is_wide = bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff");
+        let hint = if is_wide {
+            "it begins like text in UTF-16: save it as UTF-8"
+        } else {
+            "is it an OBJ?"
+        };
+        let what = "has no faces (lines that begin with 'f'), so there is nothing to draw";
+        return Err(bad(path, None, format!("{what}; {hint}")));
+    }
+    // Some programs write bytes.
+    let is_large = |colour: &DVec3| colour.max_element() > 1.0;
+    let scale = if read.colours.iter().any(is_large) { 1.0 / 255.0 } else { 1.0 };
+    for colour in &mut read.colours {
+        let scaled = (*colour * scale).clamp(DVec3::ZERO, DVec3::ONE);
+        *colour = if *colour == WITHOUT_COLOUR { DVec3::ONE } else { scaled };
+    }
+    Ok(read)
+}
+
+/// Reads one line, or says why it is left out.
+fn read_line(
+    line: &[u8],
+    number: usize,
+    read: &mut Lines,
+    state: &mut State,
+) -> Result<Option<String>, String> {
+    let mut words = words(line);
+    let Some(kind) = words.next() else { return Ok(None) };
+    match kind {
+        b"v" => {
+            if let Err(cause) = position(words, read) {
+                read.keep_broken(0, read.positions.len(), number, cause)?;
+                read.positions.push(DVec3::ZERO);
+            }
+        }
+        b"vt" => {
+            let (values, _) = numbers::<3>(words, 1)
+                .or_else(|cause| read.keep_broken(1, read.uvs.len(), number, cause))?;
+            read.uvs.push(DVec2::new(values[0], values[1]));
+        }
+        b"vn" => {
+            let (values, _) = numbers::<3>(words, 3)
+                .or_else(|cause| read.keep_broken(2, read.normals.len(), number, cause))?;
+            read.normals.push(DVec3::from_slice(&values));
+        }
+        b"f" | b"fo" => return face(words, number, read, state).map(|()| None),
+        b"o" => {
+            state.object = rest(line, kind);
+            state.group.clear();
+            state.is_new = true;
+        }
+        b"g" => {
+            state.group = rest(line, kind);
+            state.is_new = true;
+        }
+        b"s" => {
+            let word = words.next().unwrap_or(b"off");
+            // Groups are numbers; some programs write `on`.
+            let is_off = word.eq_ignore_ascii_case(b"off") || word.eq_ignore_ascii_case(b"null");
+            state.smoothing = if is_off { 0 } else { index(word).map_or(1, |group| group as u32) };
+        }
+        b"usemtl" => {
+            let name = rest(line, kind);
+            if state.material.as_ref().map(|(name, _)| name) != Some(&name) {
+                state.material = Some((name, number));
+                state.is_new = true;
+            }
+        }
+        b"mtllib" => {
+            let names = rest(line, kind);
+            if !names.is_empty() && read.known.insert(names.clone()) {
+                read.libraries.push(names);
+            }
+        }
+        _ => {
+            let word = String::from_utf8_lossy(kind);
+            if let Some((_, key)) = NOT_DRAWN.iter().find(|(name, _)| *name == word) {
+                *read.not_drawn.entry((*key).to_owned()).or_default() += 1;
+            } else if !WITHOUT_EFFECT.contains(&&*word) {
+                return Ok(Some(format!("'{}' does not begin a line of an OBJ", short(kind))));
+            }
+        }
+    }
+    Ok(None)
+}
+
+/// Three coordinates, a weight that polygons do not use, a colour.
+fn position<'a>(words: impl Iterator<Item = &'a [u8]>, read: &mut Lines) -> Result<(), String> {
+    let (values, count) = numbers::<7>(words, 3)?;
+    if let Some(far) = values[..3].iter().find(|value| value.abs() > MOST_COORDINATE) {
+        return Err(format!("the coordinate {far:e} is larger than 1e38: scale the model down"));
+    }
+    let colour = match count {
+        6 => Some(&values[3..6]),
+        7 => Some(&values[4..7]),
+        _ => None,
+    };
+    if let Some(colour) = colour {
+        read.colours.resize(read.positions.len(), WITHOUT_COLOUR);
+        read.colours.push(DVec3::from_slice(colour));
+    }
+    read.positions.push(DVec3::from_slice(&values));
+    Ok(())
+}
+
+/// The words of a line up to a comment.
+fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> + Clone {
+    let end = line.iter().position(|&byte| byte == b'#').unwrap_or(line.len());
+    line[..end].split(u8::is_ascii_whitespace).filter(|word| !word.is_empty())
+}
+
+/// A name that fills the rest of a line after its first word.
+fn rest(line: &[u8], kind: &[u8]) -> String {
+    let text = String::from_utf8_lossy(&line[kind.len()..]);
+    without_comment(&text).trim().to_owned()
+}
+
+/// At least `least` numbers, and how many there are; of more than N the first N.
+fn numbers<'a, const N: usize>(
+    words: impl Iterator<Item = &'a [u8]>,
+    least: usize,
+) -> Result<([f64; N], usize), String> {
+    let (mut values, mut count) = ([0.0; N], 0);
     for word in words {
-        match word.parse::<f32>() {
-            Ok(value) if value.is_finite() => found += 1,
+        let text = std::str::from_utf8(word).unwrap_or("");
+        match text.parse::<f64>() {
+            Ok(value) if value.is_finite() => {
+                if let Some(place) = values.get_mut(count) {
+                    *place = value;
+                }
+                count += 1;
+            }
             Ok(_) => return Err(format!("'{}' is not a finite number", short(word))),
             Err(_) => return Err(format!("'{}' is not a number", short(word))),
         }
     }
-    if found < least {
-        return Err(format!("{found} numbers where {least} are needed"));
+    if count < least {
+        return Err(format!("{count} numbers where {least} are needed"));
     }
+    Ok((values, count))
+}
+
+fn short(word: &[u8]) -> String {
+    printable_short(&String::from_utf8_lossy(word), 40)
+}
+
+/// A whole number of at most ten digits, without a sign.
+fn index(word: &[u8]) -> Option<u64> {
+    if word.is_empty() || word.len() > 10 {
+        return None;
+    }
+    let digit =
+        |sum: u64, byte: &u8| byte.is_ascii_digit().then(|| sum * 10 + u64::from(byte - b'0'));
+    word.iter().try_fold(0, digit)
+}
+
+fn face<'a>(
+    words: impl Iterator<Item = &'a [u8]>,
+    number: usize,
+    read: &mut Lines,
+    state: &mut State,
+) -> Result<(), String> {
+    if state.is_new {
+        state.is_new = false;
+        let name = if state.object.is_empty() { &state.group } else { &state.object };
+        let (corners, polygons) = (Vec::new(), Vec::new());
+        let material = state.material.clone();
+        read.runs.push(Run { name: name.clone(), material, corners, polygons });
+    }
+    let counts = [read.positions.len(), read.uvs.len(), read.normals.len()];
+    let Some(run) = read.runs.last_mut() else { return Ok(()) };
+    let start = run.corners.len();
+    for word in words {
+        run.corners.push(face_corner(word, counts)?);
+    }
+    if run.corners.len() < start + 3 {
+        return Err("a face needs three corners or more".to_owned());
+    }
+    let end = run.corners.len() as u32;
+    run.polygons.push(Polygon { end, place: number as u32, smoothing: state.smoothing });
     Ok(())
 }
 
-fn short(word: &str) -> String {
-    printable_short(word, 40)
-}
-
-/// `position/texture/normal` as indices from 1; negative ones count back from here.
-fn face_corner(word: &str, counts: Counts) -> Result<FaceCorner, String> {
-    let mut corner = [None; 3];
-    for (kind, part) in word.split('/').enumerate() {
+/// `position/texture/normal` as indices from 0; negative ones count back from here.
+fn face_corner(word: &[u8], counts: [usize; 3]) -> Result<FaceCorner, String> {
+    let mut corner = [NONE; 3];
+    for (kind, part) in word.split(|&byte| byte == b'/').enumerate() {
         if kind > 2 {
             return Err(format!("'{}' has more than three parts", short(word)));
         }
         if part.is_empty() && kind > 0 {
             continue;
         }
-        let index: i64 =
-            part.parse().map_err(|_| format!("'{}' is not a corner of a face", short(word)))?;
-        let index = if index < 0 { counts[kind] as i64 + 1 + index } else { index };
-        if index < 1 {
-            return Err(format!("'{}' names what is not there", short(word)));
+        let missing = || {
+            format!(
+                "'{}' names what is not there: indices begin at 1, or at -1 from the end",
+                short(word)
+            )
+        };
+        let (digits, is_back) = match part.split_first() {
+            Some((b'-', digits)) => (digits, true),
+            Some((b'+', digits)) => (digits, false),
+            _ => (part, false),
+        };
+        let all_digits = !digits.is_empty() && digits.iter().all(u8::is_ascii_digit);
+        if !all_digits {
+            return Err(format!("'{}' is not a corner of a face", short(word)));
         }
-        corner[kind] = Some(index);
+        let value = index(digits).ok_or_else(missing)? as usize;
+        let value = if is_back { counts[kind].checked_sub(value) } else { value.checked_sub(1) };
+        let value = value.filter(|_| !is_back || digits != b"0").ok_or_else(missing)?;
+        corner[kind] =
+            u32::try_from(value).ok().filter(|&value| value != NONE).ok_or_else(missing)?;
     }
     Ok(corner)
 }
 
-fn check_range(corners: &[FaceCorner], counts: Counts) -> Result<(), String> {
-    for corner in corners {
-        for (kind, name) in ["position", "texture coordinate", "normal"].into_iter().enumerate() {
-            let (index, count) = (corner[kind].unwrap_or(0), counts[kind]);
-            if index > count as i64 {
-                return Err(format!("{name} {index} is not there; the file has {count}"));
+/// Faces may come before what they name, so this is checked at the end.
+fn check_faces(path: &Path, lines: &mut Lines, warnings: &mut Warnings) -> Result<(), BadFile> {
+    let counts = [lines.positions.len(), lines.uvs.len(), lines.normals.len()];
+    for run in &lines.runs {
+        let mut start = 0;
+        for polygon in &run.polygons {
+            for corner in &run.corners[start..polygon.end as usize] {
+                for (kind, &index) in corner.iter().enumerate() {
+                    if index != NONE && index as usize >= counts[kind] {
+                        let (name, count, index) =
+                            (KINDS[kind], counts[kind], u64::from(index) + 1);
+                        let cause = format!("{name} {index} is not there; the file has {count}");
+                        return Err(bad(path, Some(polygon.place as usize), cause));
+                    }
+                    if lines.broken.is_empty() {
+                        continue;
+                    }
+                    if let Some((line, cause)) = lines.broken.remove(&(kind, index)) {
+                        return Err(bad(path, Some(line), cause));
+                    }
+                }
             }
+            start = polygon.end as usize;
         }
+    }
+    let path = printable_path(path);
+    for (line, cause) in lines.broken.values() {
+        warnings
+            .line(&format!("{path}: lines"), &format!("{path}:{line}: {cause}; no face uses it"));
     }
     Ok(())
 }

@@ -83,8 +83,9 @@ pub fn depth() -> String {
     sheet.arrow("ink", at([0.0, 0.0]), at([104.0, 0.0]));
     sheet.arrow("ink", at([0.0, 0.0]), at([0.0, 1.08]));
     sheet.line("soft", at([0.0, 1.0]), at([100.0, 1.0]));
-    let curve: Vec<Point> =
-        (0..=200).map(|i| 100f64.powf(f64::from(i) / 200.0)).map(|z| [z, stored(z)]).collect();
+    // Even steps of 1/z, so that the steep part has as many points as the flat one.
+    let distance = |i: i32| 1.0 / (1.0 - 0.99 * f64::from(i) / 200.0);
+    let curve: Vec<Point> = (0..=200).map(distance).map(|z| [z, stored(z)]).collect();
     for pair in curve.windows(2) {
         sheet.line("one", at(pair[0]), at(pair[1]));
     }
