@@ -27,7 +27,9 @@ pub fn split() -> String {
     let mut sheet = Sheet::new(500.0, 380.0);
     sheet.grid(at([0.0, 0.0]), side, 11, 8);
     sheet.polygon("ink", &corners.map(at));
-    sheet.line("soft", at([1.5, 3.5]), at([9.5, 3.5]));
+    sheet.line("two", at([1.5, 3.5]), at([9.5, 3.5]));
+    let [x, y] = at([9.6, 3.5]);
+    sheet.text("start", [x, y + 5.0], "split 分割");
     let covered = spans(corners, PixelRect::window(11, 8));
     for &[y, x0, x1] in &covered {
         let middle = f64::from(y) + 0.5;
@@ -44,7 +46,8 @@ pub fn split() -> String {
         let [x, y] = at(corners[corner]);
         sheet.text("middle", [x + shift[0], y + shift[1]], name);
     }
-    sheet.text("start", [30.0, 366.0], "● xₗ ≤ x < xᵣ · ○ x = xᵣ");
+    sheet.text("start", [30.0, 366.0], "● covered 被覆盖: xₗ ≤ x < xᵣ");
+    sheet.text("start", [250.0, 366.0], "○ not covered 未被覆盖");
     sheet.svg()
 }
 
@@ -52,24 +55,21 @@ pub fn split() -> String {
 pub fn edge_sign() -> String {
     let (a, b, side) = ([1.5, 6.5], [7.5, 0.5], 44.0);
     let at = |[x, y]: Point| [20.0 + x * side, 20.0 + y * side];
-    let mut sheet = Sheet::new(440.0, 364.0);
+    let mut sheet = Sheet::new(440.0, 388.0);
     for (y, x) in (0..7).flat_map(|y| (0..9).map(move |x| (y, x))) {
         let p = [f64::from(x) + 0.5, f64::from(y) + 0.5];
-        let sign = twice_area(snapped([a, b, p])).signum();
-        let (class, mark) = match sign {
-            1 => ("dot1", "+"),
-            -1 => ("dot2", "−"),
-            _ => ("ring", "0"),
-        };
+        let value = twice_area(snapped([a, b, p])) / i128::from(SUBPIXELS).pow(2);
+        let class = ["dot2", "ring", "dot1"][(value.signum() + 1) as usize];
         let [px, py] = at(p);
         sheet.dot(class, [px, py], 4.0);
-        sheet.text("start", [px + 6.0, py + 16.0], mark);
+        sheet.text("start", [px + 5.0, py + 16.0], &value.to_string().replace('-', "−"));
     }
     sheet.arrow("ink", at(a), at(b));
     let ([ax, ay], [bx, by]) = (at(a), at(b));
     sheet.text("end", [ax - 10.0, ay - 8.0], "a");
     sheet.text("end", [bx - 10.0, by - 4.0], "b");
-    sheet.text("start", [20.0, 350.0], "+ : E > 0 · − : E < 0 · 0 : E = 0");
+    sheet.text("start", [20.0, 350.0], "E > 0: inner side 内侧 · E < 0: outer side 外侧");
+    sheet.text("start", [20.0, 374.0], "E = 0: on the edge 在边上");
     sheet.svg()
 }
 
@@ -219,8 +219,8 @@ pub fn lattices() -> String {
         plant: None,
     };
     let examples = [[[0.5, 0.0], [4.0, 1.5], [1.0, 4.0]], [[3.75, 0.25], [3.5, 3.75], [0.0, 2.25]]];
-    let mut sheet = Sheet::new(490.0, 300.0);
-    for ((left, bits), corners) in [20.0, 260.0].into_iter().zip(bits).zip(examples) {
+    let mut sheet = Sheet::new(620.0, 300.0);
+    for ((left, bits), corners) in [20.0, 310.0].into_iter().zip(bits).zip(examples) {
         let at = |[x, y]: Point| [left + x * side, 20.0 + y * side];
         sheet.grid(at([0.0; 2]), side, 4, 4);
         sheet.polygon("fill1", &corners.map(at));
@@ -235,14 +235,55 @@ pub fn lattices() -> String {
             }
         }
         let set = set(bits);
-        let label = format!("s = {bits}: {} · {}", set.chunks(), grouped(set.expected_cases()));
+        let label = format!("s = {bits}: {}", counts(&set));
         sheet.text("start", [left, 246.0], &label);
     }
-    for (left, bits) in [(20.0, 3), (260.0, 4)] {
+    for (left, bits) in [(20.0, 3), (310.0, 4)] {
         let set = set(bits);
-        let points = grouped(set.chunks());
-        let label = format!("s = {bits}: {points} · {}", grouped(set.expected_cases()));
+        let label = format!("s = {bits}: {}", counts(&set));
         sheet.text("start", [left, 276.0], &label);
+    }
+    sheet.svg()
+}
+
+/// How many points a grid has, and how many triangles have their corners on it.
+fn counts(set: &Triangles) -> String {
+    let (points, triangles) = (grouped(set.chunks()), grouped(set.expected_cases()));
+    format!("{points} points 点, {triangles} △")
+}
+
+/// A square of two triangles by three rules for its diagonal; each pixel in the colour of the triangle that
+/// covers it.
+pub fn owners() -> String {
+    let halves = [[[0.0, 0.0], [4.0, 0.0], [4.0, 4.0]], [[0.0, 0.0], [4.0, 4.0], [0.0, 4.0]]];
+    let mut sheet = Sheet::new(620.0, 250.0);
+    for (i, rule) in ["E > 0", "E ≥ 0", "top-left 左上规则"].into_iter().enumerate() {
+        let at = |[x, y]: Point| [30.0 + 200.0 * i as f64 + x * 40.0, 20.0 + y * 40.0];
+        for (y, x) in (0..4).flat_map(|y| (0..4).map(move |x| (y, x))) {
+            let p = [f64::from(x) + 0.5, f64::from(y) + 0.5];
+            for (corners, class) in halves.into_iter().zip(["fill1", "fill2"]) {
+                let [a, b, c] = corners;
+                let least = [[a, b, p], [b, c, p], [c, a, p]].map(|t| twice_area(snapped(t)));
+                let least = least.into_iter().min().unwrap_or(0);
+                let covers = match i {
+                    0 => least > 0,
+                    1 => least >= 0,
+                    _ => spans(corners, PixelRect::window(4, 4))
+                        .iter()
+                        .any(|&[row, x0, x1]| row == y && (x0..x1).contains(&x)),
+                };
+                if covers {
+                    let [x, y] = [f64::from(x), f64::from(y)];
+                    let square = [[x, y], [x + 1.0, y], [x + 1.0, y + 1.0], [x, y + 1.0]];
+                    sheet.polygon(class, &square.map(at));
+                }
+            }
+            sheet.dot("dot", at(p), 2.5);
+        }
+        sheet.grid(at([0.0; 2]), 40.0, 4, 4);
+        sheet.line("ink", at([0.0; 2]), at([4.0; 2]));
+        let [x, y] = at([2.0, 4.0]);
+        sheet.text("middle", [x, y + 28.0], rule);
     }
     sheet.svg()
 }

@@ -25,6 +25,11 @@ pub fn cosine() -> String {
         let [x, y] = end(towards);
         sheet.text("middle", [x + 8.0, y + 2.0], "l");
         let bright = light.intensity(DVec3::Y);
+        let (x, y, grey) = (foot[0] - 50.0, foot[1] + 2.0, (bright * 255.0).round());
+        sheet.add(format_args!(
+            "<rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"100\" height=\"18\" fill=\"rgb({grey},{grey},{grey})\" \
+             stroke=\"#8c959f\"/>"
+        ));
         sheet.text("middle", [foot[0], 190.0], &format!("{degrees}°: {bright:.2}"));
     }
     sheet.svg()
@@ -53,6 +58,10 @@ pub fn samples() -> String {
     let [x, y] = at([0.5, 0.5]);
     sheet.line("ink", [x - 5.0, y - 5.0], [x + 5.0, y + 5.0]);
     sheet.line("ink", [x - 5.0, y + 5.0], [x + 5.0, y - 5.0]);
-    sheet.text("middle", [180.0, 300.0], &format!("● {inside} / {} · × 1/2, 1/2", SAMPLES.len()));
+    sheet.text(
+        "middle",
+        [180.0, 300.0],
+        &format!("● covered 被覆盖: {inside} / {} · × centre 中心", SAMPLES.len()),
+    );
     sheet.svg()
 }

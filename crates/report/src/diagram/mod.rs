@@ -14,9 +14,10 @@ pub struct Diagram {
     pub draw: fn() -> String,
 }
 
-pub const ALL: [Diagram; 15] = [
+pub const ALL: [Diagram; 16] = [
     Diagram { name: "split", draw: coverage::split },
     Diagram { name: "edge-sign", draw: coverage::edge_sign },
+    Diagram { name: "owners", draw: coverage::owners },
     Diagram { name: "dda-row", draw: coverage::dda_row },
     Diagram { name: "barycentric-areas", draw: coverage::areas },
     Diagram { name: "snapping", draw: coverage::snapping },

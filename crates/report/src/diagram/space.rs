@@ -169,8 +169,8 @@ pub fn cube() -> String {
     sheet.line("ink", left([0.0, 0.0]), left([-1.0, 1.0]));
     sheet.dot("dot", left([0.0, 0.0]), 4.0);
     sheet.arrow("ink", [298.0, 240.0], [332.0, 240.0]);
-    sheet.text("middle", [450.0, 290.0], "z' = -1");
-    sheet.text("middle", [450.0, 40.0], "z' = 1");
+    sheet.text("middle", [450.0, 290.0], "z'/w' = −1: near 近平面");
+    sheet.text("middle", [450.0, 40.0], "z'/w' = 1: far 远平面");
     sheet.svg()
 }
 
@@ -189,7 +189,7 @@ pub fn handedness() -> String {
         let [x, y] = end(z);
         sheet.text("middle", [x + z[0].signum() * 14.0, y + 5.0], sign);
     }
-    sheet.text("middle", [110.0, 188.0], "L");
-    sheet.text("middle", [350.0, 188.0], "R");
+    sheet.text("middle", [110.0, 188.0], "left-handed 左手系");
+    sheet.text("middle", [350.0, 188.0], "right-handed 右手系");
     sheet.svg()
 }
