@@ -1,4 +1,4 @@
-(* cases T|L COUNT SEED: requests of the line protocol, ties and extremes among them. Every generated
+(* cases T|L|I COUNT SEED: requests of the line protocol, ties and extremes among them. Every generated
    position is a whole number of 1/256 px but for a few that have to be snapped. *)
 
 let pick low high = low + Random.full_int (high - low + 1)
@@ -68,23 +68,45 @@ let shuffled corners =
 
 let rec pairs = function x :: y :: rest -> (x, y) :: pairs rest | _ -> []
 
+(* Depth, w and two attributes of three corners: like each other, far apart, equal, tiny and large. *)
+let values () =
+  let power low high = Float.ldexp (1. +. Random.float 1.) (pick low high) in
+  let w = one_of [ (0, 0); (0, 3); (-4, 20); (-199, 198) ] and same_w = Random.int 8 = 0 in
+  let first_w = power (fst w) (snd w) in
+  let value () =
+    match Random.int 6 with
+    | 0 -> 0.
+    | 1 -> float (pick (-9) 9)
+    | 2 -> power (-1074) (-1000)
+    | 3 -> -.power 480 498
+    | _ -> Random.float 2. -. 1.
+  in
+  let near = value () in
+  let attribute () = if Random.int 4 = 0 then near else value () in
+  List.init 3 (fun _ ->
+      [ Random.float 2. -. 1.; (if same_w then first_w else power (fst w) (snd w)); attribute (); attribute () ])
+
 let () =
   match Sys.argv with
   | [| _; verb; count; seed |] ->
       Random.init (int_of_string seed);
       for id = 1 to int_of_string count do
         let subpixels =
-          if verb = "T" then triangle ()
+          if verb <> "L" then triangle ()
           else List.map (fun v -> (v * 256) + if Random.bool () then 0 else pick 0 255) (segment ())
         in
         let corners = pairs subpixels in
-        let corners = if verb = "T" then shuffled corners else corners in
+        let corners = if verb <> "L" then shuffled corners else corners in
         let off = Random.int 27 = 0 in
         let word v = Printf.sprintf "%.17g" (float (i32 v) /. 256. +. if off then Random.float 3e-3 else 0.) in
-        let words = List.concat_map (fun (x, y) -> [ word x; word y ]) corners in
+        let more =
+          if verb = "I" then List.map (List.map (Printf.sprintf "%.17g")) (values ())
+          else List.map (fun _ -> []) corners
+        in
+        let words = List.concat (List.map2 (fun (x, y) more -> word x :: word y :: more) corners more) in
         let sides = [ pick 1 24; pick 1 24 ] |> List.map string_of_int in
         print_endline (String.concat " " ((verb :: string_of_int id :: sides) @ words))
       done
   | _ ->
-      prerr_endline "usage: cases T|L COUNT SEED";
+      prerr_endline "usage: cases T|L|I COUNT SEED";
       exit 2

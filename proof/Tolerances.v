@@ -1,0 +1,98 @@
+(** The constants of the Rust code, as proof/check reads them from it (RustConstants.v), are those that are proved here,
+    for the rounding of f64: crates/verify/src/comparison/tolerance.rs, crates/core/src/triangle.rs and the filters of
+    crates/core/src/raster/edge_function_exact.rs and crates/core/src/raster/scanline_exact.rs. *)
+From Coq Require Import ZArith QArith Qabs.
+From Rasterproof Require Import Rounding RoundedForms RoundedModel RoundedValues RoundedFilters Nearest.
+From Rasterproof Require RustConstants.
+Open Scope Q_scope.
+
+(** Bound::at, with D the largest difference of two values and M the largest magnitude. *)
+Definition stated (factors : nat * nat) (D M : Q) : Q :=
+  (1 # 2 ^ RustConstants.mantissa_bits) *
+    (inject_Z (Z.of_nat (fst factors)) * D + inject_Z (Z.of_nat (snd factors)) * M) *
+    (1 + (1 # 2 ^ RustConstants.second_order_bits)) + (1 # 2 ^ RustConstants.underflow_bits).
+
+Lemma stated_is_bound d m D M : stated (d, m) D M == bound d m D M.
+Proof. unfold stated, bound. cbn [fst snd]. reflexivity. Qed.
+
+(** Every 1/w that a vertex accepts. *)
+Definition accepted (w : Q) : Prop := is_float w /\ sized RustConstants.inv_w_bits w.
+
+Section Edge.
+Variables (e0 e1 e2 : Z).
+Hypothesis (H0 : (0 <= e0 < 2 ^ 68)%Z) (H1 : (0 <= e1 < 2 ^ 68)%Z) (H2 : (0 <= e2 < 2 ^ 68)%Z).
+Hypothesis Harea : (0 < e0 + e1 + e2)%Z.
+Variables (v0 v1 v2 D M : Q).
+Hypothesis (F0 : is_float v0) (F1 : is_float v1) (F2 : is_float v2).
+Hypothesis (D1 : Qabs (v1 - v0) <= D) (D2 : Qabs (v2 - v0) <= D).
+Hypothesis (M0 : Qabs v0 <= M) (M1 : Qabs v1 <= M) (M2 : Qabs v2 <= M).
+
+Theorem edge_function_depths : Qabs (edge_depth nearest e0 e1 e2 v0 v1 v2 - exact_depth e0 e1 e2 v0 v1 v2) <=
+  stated RustConstants.edge_function_depth D M.
+Proof.
+  exact (edge_depth_error nearest nearest_rounds e0 e1 e2 H0 H1 H2 Harea v0 v1 v2 D M F0 F1 F2 D1 D2 M0 M1 M2).
+Qed.
+
+Theorem edge_function_attributes w0 w1 w2 largest : accepted w0 -> accepted w1 -> accepted w2 -> accepted largest ->
+  Qabs (edge_attribute nearest e0 e1 e2 w0 w1 w2 largest v0 v1 v2 - exact_attribute e0 e1 e2 w0 w1 w2 v0 v1 v2) <=
+    stated RustConstants.edge_function_attribute D M.
+Proof.
+  intros A0 A1 A2 A3. exact (edge_attribute_error nearest nearest_rounds e0 e1 e2 H0 H1 H2 Harea
+    w0 w1 w2 largest A0 A1 A2 A3 v0 v1 v2 D M F0 F1 F2 D1 D2 M0 M1 M2).
+Qed.
+End Edge.
+
+Section Row.
+Variables (l r : Z).
+Hypothesis (Hl : (0 <= l < 2 ^ 68)%Z) (Hr : (0 < r < 2 ^ 68)%Z).
+Variables (below1 above1 height1 below2 above2 height2 : Z).
+Hypothesis (Hb1 : (0 <= below1)%Z) (Ha1 : (0 < above1)%Z) (Hs1 : (below1 + above1 = height1)%Z) (Hh1 : (height1 < 2 ^ 33)%Z).
+Hypothesis (Hb2 : (0 <= below2)%Z) (Ha2 : (0 < above2)%Z) (Hs2 : (below2 + above2 = height2)%Z) (Hh2 : (height2 < 2 ^ 33)%Z).
+Variables (va vb vc vd D M : Q).
+Hypothesis Values : all_within D M (va :: vb :: vc :: vd :: nil).
+
+Theorem scanline_depths l0 r0 : (0 <= l0 < 2 ^ 68)%Z -> (0 < r0 < 2 ^ 68)%Z ->
+  (l0 * height2 + r0 * height1 = l * height2 + r * height1)%Z ->
+  Qabs (scanline_depth nearest l below1 height1 below2 height2 l0 r0 va vb vc vd -
+        exact_scanline_depth l r below1 height1 below2 height2 va vb vc vd) <= stated RustConstants.scanline_depth D M.
+Proof.
+  intros A B C. exact (scanline_depth_error nearest nearest_rounds l r Hl Hr below1 above1 height1 below2 above2 height2
+    Hb1 Ha1 Hs1 Hh1 Hb2 Ha2 Hs2 Hh2 l0 r0 va vb vc vd D M A B C Values).
+Qed.
+
+Theorem scanline_attributes wa wb wc wd largest :
+  accepted wa -> accepted wb -> accepted wc -> accepted wd -> accepted largest ->
+  Qabs (scanline_attribute nearest l r below1 above1 height1 below2 above2 height2 wa wb wc wd largest va vb vc vd -
+        exact_scanline_attribute l r below1 above1 below2 above2 wa wb wc wd va vb vc vd) <=
+    stated RustConstants.scanline_attribute D M.
+Proof.
+  intros A B C E F. exact (scanline_attribute_error nearest nearest_rounds l r Hl Hr
+    below1 above1 height1 below2 above2 height2 Hb1 Ha1 Hs1 Hh1 Hb2 Ha2 Hs2 Hh2
+    wa wb wc wd largest A B C E F va vb vc vd D M Values).
+Qed.
+End Row.
+
+Theorem lines i n a b D M : (0 <= i <= n)%Z -> (0 < n < 2 ^ 33)%Z -> is_float a -> is_float b ->
+  Qabs (b - a) <= D -> Qabs a <= M -> Qabs b <= M ->
+  Qabs (line_value nearest i n a b - (a + (b - a) * (inject_Z i / inject_Z n))) <= stated RustConstants.line_attribute D M /\
+  RustConstants.line_depth = RustConstants.line_attribute.
+Proof.
+  intros. split; [exact (line_error nearest nearest_rounds i n a b D M H H0 H1 H2 H3 H4 H5) | reflexivity].
+Qed.
+
+(** The factors of both filters, times 2^-53. *)
+Theorem edge_function_filter : inject_Z (Z.pos RustConstants.edge_filter_factor) * u == 5 * u /\
+  forall ax ay bx by_ px py reach_x reach_y,
+  is_float ax -> is_float ay -> is_float bx -> is_float by_ -> is_float px -> is_float py ->
+  Qabs (nearest (px - ax)) <= reach_x -> Qabs (nearest (py - ay)) <= reach_y ->
+  Qabs (estimate nearest ax ay bx by_ px py - ((bx - ax) * (py - ay) - (by_ - ay) * (px - ax)))
+    <= edge_bound nearest ax ay bx by_ reach_x reach_y.
+Proof. split; [reflexivity|]. intros. apply (edge_filter nearest nearest_rounds); assumption. Qed.
+
+Theorem scanline_filter : inject_Z (Z.pos RustConstants.scanline_filter_factor) * u == 8 * u /\
+  forall ax ay bx by_ yc,
+  is_float ax -> is_float ay -> is_float bx -> is_float by_ -> is_float yc -> least_height <= by_ - ay ->
+  let t := quotient nearest ax ay bx by_ yc in let x := crossing nearest ax ay bx by_ yc in
+  let exact := ax + (yc - ay) * (bx - ax) / (by_ - ay) in
+  lowest nearest x (crossing_bound nearest x t) <= exact - (1 # 2) <= highest nearest x (crossing_bound nearest x t).
+Proof. split; [reflexivity|]. intros. apply (RoundedFilters.scanline_filter nearest nearest_rounds); assumption. Qed.
