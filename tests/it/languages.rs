@@ -157,8 +157,11 @@ fn out_of_step(name: &str, english: &str, chinese: &str) -> Vec<String> {
         wrong.push(format!("{own} does not link to {original}"));
     }
     en.targets.remove(&own);
+    // Pages, and figures that were drawn in Chinese too.
+    let has_chinese =
+        |file: &str| file.ends_with(".md") || root().join(CHINESE).join(file).exists();
     let translated = |target: &String| match target.strip_prefix("docs/") {
-        Some(page) if page.ends_with(".md") && !page.contains('/') => format!("{CHINESE}/{page}"),
+        Some(file) if !file.contains('/') && has_chinese(file) => format!("{CHINESE}/{file}"),
         _ => target.clone(),
     };
     let wanted: BTreeSet<_> = en.targets.iter().map(translated).collect();

@@ -36,7 +36,7 @@ use rasterproof_verify::comparison::{
 };
 
 /// Largest sheet of a case that is kept, and picture of anything else.
-const MOST_BYTES: usize = 28 * 1024;
+const MOST_BYTES: usize = 32 << 10;
 const MOST_BYTES_OF_SCENES: usize = 320 * 1024;
 
 /// Names another folder for the snapshots: the test of the review has one that it spoils.

@@ -10,15 +10,15 @@ use image::{Rgb, RgbImage, imageops};
 
 use super::lettering::{self, Size, write};
 use super::picture::{
-    AGREES, BACKGROUND, BORDER, EDGE, EXTRA, GRID, MISSING, OVERLAP, SAMPLE, TWICE, encoded,
-    free_segments, line, segments,
+    AGREES, BACKGROUND, BORDER, EDGE, EXTRA, GRID, MISSING, OVERLAP, OWNERS, SAMPLE, TWICE,
+    encoded, free_segments, line, segments,
 };
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::PixelPoint;
 use rasterproof_verify::cases::unsnapped::OffGridCase;
 use rasterproof_verify::cases::{Case, Shape};
-use rasterproof_verify::comparison::Tally;
+use rasterproof_verify::comparison::{Tally, oracle_coverage};
 
 /// Sides of a sheet's panels together stay below this.
 const MOST_PX: [u32; 2] = [1400, 1000];
@@ -29,7 +29,7 @@ const SAMPLED: u32 = 8;
 /// Room around everything and between panels.
 const GAP: u32 = 12;
 /// Room for the numbers of the columns, and the least for those of the rows.
-const ABOVE: u32 = 16;
+pub(super) const ABOVE: u32 = 16;
 const BESIDE: u32 = 34;
 /// Lines of text over a panel.
 const HEAD: u32 = 38;
@@ -67,14 +67,34 @@ pub fn of_case(title: &str, case: &Case, actual: &[Drawn], target: &Coverage) ->
         Shape::Triangles { .. } => "edges",
         Shape::Lines(_) => "the line itself",
     };
-    let words = (title, outline);
-    sheet(words, case.window, actual, target, |window, zoom| segments(case, window, zoom))
+    let owners = owners(case, target);
+    let judged = (actual, target, owners.as_ref());
+    sheet((title, outline), case.window, judged, |window, zoom| segments(case, window, zoom))
+}
+
+/// The number of the triangle that the oracle gives each pixel to, from 1, where a few triangles lie side by side and no
+/// pixel is hit twice: then the picture shows who gets the pixels of an edge.
+fn owners(case: &Case, target: &Coverage) -> Option<Coverage> {
+    let Shape::Triangles { list, .. } = &case.shape else { return None };
+    let once = target.rows().all(|(_, row)| row.iter().all(|&hits| hits <= 1));
+    if !once || !(2..=OWNERS.len()).contains(&list.len()) {
+        return None;
+    }
+    let mut owners = Coverage::new(case.window, 0);
+    for (number, triangle) in (1..).zip(list) {
+        for (y, row) in oracle_coverage(std::slice::from_ref(triangle), case.window).rows() {
+            for (owner, _) in owners.row_mut(y).iter_mut().zip(row).filter(|(_, hits)| **hits > 0) {
+                *owner = number;
+            }
+        }
+    }
+    Some(owners)
 }
 
 #[must_use]
 pub fn of_off_grid(title: &str, case: &OffGridCase, actual: &[Drawn], target: &Coverage) -> Sheet {
-    let words = (title, "edges");
-    sheet(words, case.window, actual, target, |window, zoom| free_segments(case, window, zoom))
+    let judged = (actual, target, None);
+    sheet((title, "edges"), case.window, judged, |window, zoom| free_segments(case, window, zoom))
 }
 
 /// The title, and what the outline is. Segments are asked for in picture pixels of a panel, once the
@@ -82,8 +102,7 @@ pub fn of_off_grid(title: &str, case: &OffGridCase, actual: &[Drawn], target: &C
 fn sheet(
     (title, outline): (&str, &str),
     window: PixelRect,
-    actual: &[Drawn],
-    target: &Coverage,
+    (actual, target, owners): (&[Drawn], &Coverage, Option<&Coverage>),
     segments: impl Fn(PixelRect, u32) -> Vec<[PixelPoint; 2]>,
 ) -> Sheet {
     let oracle = [("oracle".to_owned(), target.clone())];
@@ -92,7 +111,9 @@ fn sheet(
     let (zoom, columns) = layout(shown, all.len() as u32);
     let panels: Vec<RgbImage> = all
         .iter()
-        .map(|(name, hits)| panel(name, hits, target, (shown, zoom), &segments(shown, zoom)))
+        .map(|(name, hits)| {
+            panel(name, (hits, target, owners), (shown, zoom), &segments(shown, zoom))
+        })
         .collect();
     let wide = panels.iter().map(RgbImage::width).max().unwrap_or(1);
     let high = panels.iter().map(RgbImage::height).max().unwrap_or(1);
@@ -100,7 +121,7 @@ fn sheet(
     let width = (GAP + columns * (wide + GAP)).max(420);
     let heading = lettering::wrapped(title, Size::Heading, width - 2 * GAP);
     let top = GAP + heading.len() as u32 * Size::Heading.cell()[1] + GAP / 2;
-    let foot = foot(width, window, (shown, zoom), &all, target, outline);
+    let foot = foot(width, window, (shown, zoom), &all, (target, owners), outline);
     let height = top + rows * (high + GAP) + foot.height();
     let mut image = RgbImage::from_pixel(width, height, WHITE);
     for (text, y) in heading.iter().zip((GAP..).step_by(Size::Heading.cell()[1] as usize)) {
@@ -192,8 +213,7 @@ fn beside(shown: PixelRect) -> u32 {
 /// Name and counts, numbered rows and columns, squares and outline.
 fn panel(
     name: &str,
-    hits: &Coverage,
-    target: &Coverage,
+    (hits, target, owners): (&Coverage, &Coverage, Option<&Coverage>),
     (shown, zoom): (PixelRect, u32),
     segments: &[[PixelPoint; 2]],
 ) -> RgbImage {
@@ -205,9 +225,9 @@ fn panel(
     let left = beside(shown);
     write(&mut image, (left.into(), 0), name, Size::Heading, INK);
     write(&mut image, (left.into(), 20), &counts, Size::Small, FAINT);
-    numbers(&mut image, shown, zoom);
     let at = [left, HEAD + ABOVE];
-    squares(&mut image, at, (shown, zoom), hits, target);
+    numbers(&mut image, at, shown, zoom);
+    squares(&mut image, at, (shown, zoom), (hits, target, owners));
     for segment in segments {
         line(*segment, PixelRect::window(width, height), |x, y| {
             image.put_pixel(at[0] + x, at[1] + y, EDGE);
@@ -226,8 +246,8 @@ fn counts(hits: &Coverage, target: &Coverage) -> String {
     if wrong.is_empty() { covered } else { format!("{covered}: {}", wrong.join(", ")) }
 }
 
-/// Numbers of columns over the squares, of rows left of them, as many as have room.
-fn numbers(image: &mut RgbImage, shown: PixelRect, zoom: u32) {
+/// Numbers of columns over the squares, of rows left of them, as many as have room. The squares begin at `left` and `top`.
+pub(super) fn numbers(image: &mut RgbImage, [left, top]: [u32; 2], shown: PixelRect, zoom: u32) {
     let widest = [shown.x0, shown.x1 - 1].map(|n| n.to_string().len() as u32);
     let [cell_width, cell_height] = Size::Small.cell();
     let rooms = [widest[0].max(widest[1]) * cell_width + 5, 13];
@@ -237,20 +257,20 @@ fn numbers(image: &mut RgbImage, shown: PixelRect, zoom: u32) {
     };
     for x in (shown.x0..shown.x1).filter(|x| x.rem_euclid(step(rooms[0])) == 0) {
         let text = x.to_string();
-        let middle = beside(shown) + (x - shown.x0) as u32 * zoom + zoom / 2;
+        let middle = left + (x - shown.x0) as u32 * zoom + zoom / 2;
         let half = lettering::width(&text, Size::Small) / 2;
         if middle + half > image.width() {
             continue;
         }
-        let left = i64::from(middle) - i64::from(half);
-        write(image, (left, HEAD.into()), &text, Size::Small, FAINT);
+        let place = (i64::from(middle) - i64::from(half), i64::from(top) - i64::from(ABOVE));
+        write(image, place, &text, Size::Small, FAINT);
     }
     for y in (shown.y0..shown.y1).filter(|y| y.rem_euclid(step(rooms[1])) == 0) {
         let text = y.to_string();
-        let middle = HEAD + ABOVE + (y - shown.y0) as u32 * zoom + zoom / 2;
-        let top = i64::from(middle) - i64::from(cell_height / 2);
-        let left = i64::from(beside(shown)) - 4 - i64::from(lettering::width(&text, Size::Small));
-        write(image, (left, top), &text, Size::Small, FAINT);
+        let middle = top + (y - shown.y0) as u32 * zoom + zoom / 2;
+        let from = i64::from(left) - 4 - i64::from(lettering::width(&text, Size::Small));
+        let place = (from, i64::from(middle) - i64::from(cell_height / 2));
+        write(image, place, &text, Size::Small, FAINT);
     }
 }
 
@@ -258,8 +278,7 @@ fn squares(
     image: &mut RgbImage,
     [left, top]: [u32; 2],
     (shown, zoom): (PixelRect, u32),
-    actual: &Coverage,
-    target: &Coverage,
+    (actual, target, owners): (&Coverage, &Coverage, Option<&Coverage>),
 ) {
     let (width, height) = (shown.width() * zoom + 1, shown.height() * zoom + 1);
     for y in 0..height {
@@ -275,7 +294,7 @@ fn squares(
             } else if zoom >= SAMPLED && is_sample(x % zoom, zoom) && is_sample(y % zoom, zoom) {
                 SAMPLE
             } else {
-                colour(hits(actual), hits(target))
+                colour(hits(actual), hits(target), owners.map_or(0, hits))
             };
             image.put_pixel(left + x, top + y, colour);
         }
@@ -287,12 +306,13 @@ fn is_sample(offset: u32, zoom: u32) -> bool {
     offset.abs_diff(zoom / 2) <= zoom / 32
 }
 
-fn colour(actual: u8, target: u8) -> Rgb<u8> {
+fn colour(actual: u8, target: u8, owner: u8) -> Rgb<u8> {
     match (actual, target) {
         (0, 0) => BACKGROUND,
         (a, t) if a > t && a > 1 => TWICE,
         (a, t) if a > t => EXTRA,
         (a, t) if a < t => MISSING,
+        (1, _) if owner > 0 => OWNERS[usize::from(owner - 1) % OWNERS.len()],
         (1, _) => AGREES,
         _ => OVERLAP,
     }
@@ -304,15 +324,19 @@ fn foot(
     window: PixelRect,
     (shown, zoom): (PixelRect, u32),
     all: &[&Drawn],
-    target: &Coverage,
+    (target, owners): (&Coverage, Option<&Coverage>),
     outline: &str,
 ) -> RgbImage {
     let of_panel = |(_, hits): &&Drawn| {
         let pixels = (shown.y0..shown.y1).flat_map(|y| (shown.x0..shown.x1).map(move |x| (x, y)));
-        let both = |(x, y)| [hits, target].map(|c| c.get(x, y).unwrap_or(0));
-        pixels.map(both).map(|[a, t]| colour(a, t).0).collect::<Vec<_>>()
+        let at = |c: &Coverage, (x, y)| c.get(x, y).unwrap_or(0);
+        let shade =
+            |pixel| colour(at(hits, pixel), at(target, pixel), owners.map_or(0, |c| at(c, pixel)));
+        pixels.map(|pixel| shade(pixel).0).collect::<Vec<_>>()
     };
     let occurring: BTreeSet<[u8; 3]> = all.iter().flat_map(of_panel).collect();
+    let owned =
+        (1..).zip(OWNERS).map(|(number, colour)| (colour, format!("right: triangle {number}")));
     let words = [
         (AGREES, "as the oracle"),
         (MISSING, "missing"),
@@ -320,15 +344,17 @@ fn foot(
         (TWICE, "hit too often"),
         (OVERLAP, "rightly more than once"),
     ];
-    let mut entries: Vec<_> = words.into_iter().filter(|(c, _)| occurring.contains(&c.0)).collect();
-    entries.push((EDGE, outline));
+    let words = words.map(|(colour, text)| (colour, text.to_owned()));
+    let mut entries: Vec<_> =
+        owned.chain(words).filter(|(c, _)| occurring.contains(&c.0)).collect();
+    entries.push((EDGE, outline.to_owned()));
     if zoom >= SAMPLED {
-        entries.push((SAMPLE, "samples"));
+        entries.push((SAMPLE, "samples".to_owned()));
     }
     let mut image = RgbImage::from_pixel(width, 3 * 18 + GAP / 2, WHITE);
     let (mut left, mut top) = (GAP, 0);
     for (colour, text) in entries {
-        let wide = 18 + lettering::width(text, Size::Small);
+        let wide = 18 + lettering::width(&text, Size::Small);
         if left + wide > width - GAP && left > GAP {
             (left, top) = (GAP, top + 18);
         }
@@ -340,7 +366,7 @@ fn foot(
         for (x, y) in wide_mark.flat_map(|x| high.clone().map(move |y| (x, y))) {
             image.put_pixel(left + x, top + y, colour);
         }
-        write(&mut image, (i64::from(left) + 18, i64::from(top) - 1), text, Size::Small, INK);
+        write(&mut image, (i64::from(left) + 18, i64::from(top) - 1), &text, Size::Small, INK);
         left += wide + 16;
     }
     top += 18;

@@ -1,7 +1,7 @@
 //! What pictures of cases are made of: colours, outlines, PNG files.
 //!
-//! Grey agrees, red is missing, orange is extra, violet is hit twice, green is hit more than once
-//! and rightly so. A dark dot is a sample; a blue line is an edge.
+//! Grey agrees, or a light colour for each of a few triangles side by side; red is missing, orange is extra, violet is hit
+//! twice, green is hit more than once and rightly so. A dark dot is a sample; a blue line is an edge.
 
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
@@ -22,6 +22,15 @@ pub(super) const BORDER: Rgb<u8> = Rgb([90, 90, 90]);
 pub(super) const EDGE: Rgb<u8> = Rgb([36, 90, 190]);
 pub(super) const SAMPLE: Rgb<u8> = Rgb([60, 60, 60]);
 pub(super) const AGREES: Rgb<u8> = Rgb([170, 178, 184]);
+/// Pixels that agree, by the triangle that owns them.
+pub(super) const OWNERS: [Rgb<u8>; 6] = [
+    Rgb([150, 186, 214]),
+    Rgb([228, 208, 140]),
+    Rgb([168, 204, 160]),
+    Rgb([212, 178, 206]),
+    Rgb([186, 190, 150]),
+    Rgb([160, 206, 206]),
+];
 pub(super) const OVERLAP: Rgb<u8> = Rgb([110, 170, 110]);
 pub(super) const MISSING: Rgb<u8> = Rgb([214, 60, 60]);
 pub(super) const EXTRA: Rgb<u8> = Rgb([240, 160, 40]);

@@ -38,8 +38,12 @@ const BEYOND: Colour = [40, 170, 60];
 /// Largest side of a panel, and the space between panels and around them.
 const PANEL: u32 = 161;
 const GAP: u32 = 8;
+/// Picture pixels of a pixel's side from which the dot of its sample is shown.
+const SAMPLED: u32 = 8;
 /// Width of a strip.
-const STRIP: u32 = 3 * PANEL + 4 * GAP;
+const STRIP: u32 = 3 * (BESIDE + PANEL) + 4 * GAP;
+/// Space for the numbers of the rows, left of each panel.
+const BESIDE: u32 = 22;
 
 /// A sheet: the cards of one source, or of some of its chapters.
 pub struct Sheet {
@@ -148,21 +152,30 @@ fn beside(strips: &[panels::Sheet]) -> RgbImage {
     row
 }
 
-/// What the colours of the panels mean, in rows that fit a width; of values those that occur.
+/// Picture pixels of a pixel's side.
+fn zoom(panels: &Panels) -> u32 {
+    let bounds = panels.published.bounds();
+    ((PANEL - 1) / bounds.width().max(bounds.height())).max(1)
+}
+
+/// What the colours of the panels mean that occur, in rows that fit a width.
 fn legend(width: u32, shown: &[Panels]) -> RgbImage {
     let values = || shown.iter().filter(|panels| panels.has_values);
+    let has = |image: &Image, colour: Colour| image.rows().any(|(_, row)| row.contains(&colour));
     let occurs = |colour: Colour| {
-        let images = values().flat_map(|panels| [&panels.published, &panels.repaired]);
-        images.flat_map(Frame::rows).any(|(_, row)| row.contains(&colour))
+        values().any(|panels| has(&panels.published, colour) || has(&panels.repaired, colour))
     };
+    let differences: Vec<_> = shown.iter().map(difference).collect();
+    let differs = |colour: Rgb<u8>| differences.iter().any(|image| has(image, colour.0));
+    let samples = |panels: &Panels| panels.has_samples && zoom(panels) >= SAMPLED;
     let hits = [
-        (vec![AGREES], "right"),
-        (vec![MISSING], "missing"),
-        (vec![EXTRA], "extra"),
-        (vec![TWICE], "drawn twice"),
-        (vec![WRONG], "drawn, but not alike"),
-        (vec![EDGE], "outline"),
-        (vec![SAMPLE], "sample"),
+        (differs(AGREES), vec![AGREES], "right"),
+        (differs(MISSING), vec![MISSING], "missing"),
+        (differs(EXTRA), vec![EXTRA], "extra"),
+        (differs(TWICE), vec![TWICE], "drawn twice"),
+        (differs(WRONG), vec![WRONG], "drawn, but not alike"),
+        (shown.iter().any(|panels| !panels.outline.is_empty()), vec![EDGE], "outline"),
+        (shown.iter().any(samples), vec![SAMPLE], "sample"),
     ];
     let shades = [0.0, 0.25, 0.5, 0.75, 1.0].map(|v| Rgb(shade(v)));
     let values = [
@@ -170,12 +183,13 @@ fn legend(width: u32, shown: &[Panels]) -> RgbImage {
         (occurs(BEYOND), vec![Rgb(BEYOND)], "beyond the corners' values"),
         (occurs(BLACK), vec![Rgb(BLACK)], "not a number"),
     ];
-    let values =
-        values.into_iter().filter_map(|(occurs, colours, text)| occurs.then_some((colours, text)));
+    let only = |(occurs, colours, text): (bool, Vec<_>, _)| occurs.then_some((colours, text));
+    let hits: Vec<_> = hits.into_iter().filter_map(only).collect();
+    let values: Vec<_> = values.into_iter().filter_map(only).collect();
     // Each entry of a row: where it begins, its colours, its words.
     type Entry<'a> = (u32, Vec<Rgb<u8>>, &'a str);
     let mut rows: Vec<Vec<Entry>> = Vec::new();
-    for entries in [hits.to_vec(), values.collect()] {
+    for entries in [hits, values] {
         let mut left = width;
         for (colours, text) in entries {
             let wide = 16 * colours.len() as u32 + lettering::width(text, Size::Small);
@@ -223,7 +237,7 @@ fn strip(card: &Card) -> panels::Sheet {
         return panels::Sheet { image: RgbImage::new(1, 1), panels: Vec::new() };
     };
     let bounds = panels.published.bounds();
-    let zoom = ((PANEL - 1) / bounds.width().max(bounds.height())).max(1);
+    let zoom = zoom(&panels);
     let height = bounds.height() * zoom + 1;
     // The fault and its cure, as many lines as they need.
     let room = STRIP - 2 * GAP;
@@ -231,7 +245,7 @@ fn strip(card: &Card) -> panels::Sheet {
         lettering::wrapped(card.fault, Size::Small, room).into_iter().map(|l| (l, INK)).collect();
     let cure = format!("cure: {}", card.cure);
     words.extend(lettering::wrapped(&cure, Size::Small, room).into_iter().map(|l| (l, FAINT)));
-    let head = 26 + 16 * (words.len() as u32 + 1) + 4;
+    let head = 26 + 16 * (words.len() as u32 + 1) + 4 + panels::ABOVE;
     let mut image = RgbImage::from_pixel(STRIP, head + height + 2 * GAP, WHITE);
     let left = i64::from(GAP);
     let name = write(&mut image, (left, 4), card.name, Size::Heading, INK);
@@ -247,8 +261,10 @@ fn strip(card: &Card) -> panels::Sheet {
     ];
     let mut places = Vec::new();
     for (i, (title, picture)) in (0u32..).zip(all) {
-        let left = GAP + i * (PANEL + GAP);
-        write(&mut image, (i64::from(left), i64::from(head) - 17), title, Size::Small, FAINT);
+        let left = GAP + BESIDE + i * (BESIDE + PANEL + GAP);
+        let above = i64::from(head) - 17 - i64::from(panels::ABOVE);
+        write(&mut image, (i64::from(left), above), title, Size::Small, FAINT);
+        panels::numbers(&mut image, [left, head], bounds, zoom);
         let panel = enlarged(picture, zoom, &panels);
         imageops::replace(&mut image, &panel, left.into(), head.into());
         let name = format!("{}, {title}", card.name);
@@ -261,7 +277,7 @@ fn strip(card: &Card) -> panels::Sheet {
 fn enlarged(picture: &Image, zoom: u32, panels: &Panels) -> RgbImage {
     let bounds = picture.bounds();
     let (width, height) = (bounds.width() * zoom + 1, bounds.height() * zoom + 1);
-    let middle = |offset: u32| zoom >= 8 && offset == zoom / 2;
+    let middle = |offset: u32| zoom >= SAMPLED && offset == zoom / 2;
     let mut image = RgbImage::from_fn(width, height, |x, y| {
         let (x_px, y_px) = (bounds.x0 + (x / zoom) as i32, bounds.y0 + (y / zoom) as i32);
         if x == 0 || y == 0 || x + 1 == width || y + 1 == height {

@@ -140,7 +140,7 @@ fn tilted_affine(scene: Scene, turn: f64) -> Scene {
     Scene { affine: true, ..tilted(scene, turn) }
 }
 
-/// Three long triangles around a point; the tip of each is behind the foot of the next.
+/// Three long triangles around a point; each passes behind the foot of the next, and its tip shows again beyond.
 fn cycle(scene: Scene, turn: f64) -> Scene {
     let colours =
         [DVec3::new(0.90, 0.35, 0.30), DVec3::new(0.35, 0.75, 0.40), DVec3::new(0.35, 0.55, 0.95)];
@@ -148,7 +148,7 @@ fn cycle(scene: Scene, turn: f64) -> Scene {
         let blade = [
             DVec3::new(-1.5, -0.95, 3.4),
             DVec3::new(-1.1, -0.25, 3.4),
-            DVec3::new(1.7, -0.55, 4.8),
+            DVec3::new(3.0, -0.55, 4.9),
         ];
         let mesh = shapes::triangle(blade, [colour; 3]);
         let material = Material { vertex_colours: true, ..Material::default() };

@@ -132,10 +132,10 @@ pub fn near_plane() -> String {
     // Walking a, b, c: out on the way to c, in on the way back to a.
     let mut cuts: Vec<_> = kept.into_iter().filter(|p| p[0] == -1.0).collect();
     cuts.sort_by(|p, q| p[1].total_cmp(&q[1]));
-    for (p, word) in cuts.into_iter().zip(["out", "in"]) {
+    for (p, word) in cuts.into_iter().zip(["out 出点", "in 入点"]) {
         let [x, y] = at(p);
         sheet.dot("dot2", [x, y], 6.0);
-        sheet.text("end", [x - 10.0, y + if word == "in" { -8.0 } else { 20.0 }], word);
+        sheet.text("end", [x - 10.0, y + if word.starts_with("in") { -8.0 } else { 20.0 }], word);
     }
     sheet.svg()
 }
