@@ -26,6 +26,7 @@ use rasterproof_verify::comparison::oracle_coverage;
 use rasterproof_verify::oracle::coverage::samples_on_boundary;
 use serde_json::Value;
 
+use crate::by_hand;
 use crate::illustrations::ball;
 use crate::pages::{page, read};
 
@@ -33,6 +34,17 @@ type Values = fn() -> Vec<f64>;
 
 /// Every figure by its name. Where there are several, the pages add `.1`, `.2` and so on to the name.
 pub const ALL: &[(&str, Values)] = &[
+    ("hand-square", by_hand::square),
+    ("hand-lines", by_hand::lines),
+    ("hand-step", by_hand::step),
+    ("hand-edges", by_hand::edges),
+    ("hand-rows", by_hand::rows),
+    ("hand-plane", by_hand::plane),
+    ("hand-steps", by_hand::steps),
+    ("hand-window", by_hand::window),
+    ("hand-winding", by_hand::winding),
+    ("hand-turns", by_hand::turns),
+    ("hand-light", by_hand::light),
     ("apart-facets", || apart("facets", Antialias::Supersample(4))),
     ("apart-panels-supersampled", || apart("panels", Antialias::Supersample(4))),
     ("apart-panels-multisampled", || apart("panels", Antialias::Multisample4)),

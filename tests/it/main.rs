@@ -5,6 +5,7 @@
 )]
 
 mod book;
+mod by_hand;
 mod commands;
 mod convention;
 mod cost;

@@ -1,0 +1,163 @@
+//! The examples that the chapters work by hand, computed by the engines: their results are marked like other figures.
+
+use glam::{DMat4, DVec2, DVec3};
+use rasterproof_core::angle::turn_z;
+use rasterproof_core::contract::{DrawLine as _, Interpolate as _};
+use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
+use rasterproof_core::line::dda::Dda;
+use rasterproof_core::raster::edge_function::EdgeFunction;
+use rasterproof_core::raster::edge_function::probe::edges_at;
+use rasterproof_core::triangle::{
+    Corners, LineEnd, PixelPoint, ScreenLine, ScreenTriangle, ScreenVertex,
+};
+use rasterproof_render::pipeline::shade::Light;
+use rasterproof_render::pipeline::texture::{Filter, Texture, Wrap};
+use rasterproof_render::pipeline::transform::{about, frustum};
+use rasterproof_verify::comparison::oracle_coverage;
+
+const WINDOW: PixelRect = PixelRect { x0: 0, y0: 0, x1: 12, y1: 12 };
+
+fn corners(corners_px: [[f64; 2]; 3]) -> Corners {
+    corners_px.map(|[x, y]| SubpixelPoint::from_px(x, y).unwrap())
+}
+
+/// The value at each pixel of a triangle whose corners have these positions and values, by the edge-function engine.
+fn values(corners_px: [[f64; 2]; 3], values: [f64; 3]) -> Vec<([i32; 2], f64)> {
+    let vertex = |i: usize| {
+        let [x, y] = corners_px[i];
+        ScreenVertex::new(x, y, 0.0, 1.0, values[i]).unwrap()
+    };
+    let mut found = Vec::new();
+    EdgeFunction.fragments(&ScreenTriangle { vertices: [0, 1, 2].map(vertex) }, WINDOW, |f| {
+        found.push(([f.x_px, f.y_px], f.varying));
+    });
+    found
+}
+
+fn value_at(corners_px: [[f64; 2]; 3], of_corners: [f64; 3], pixel: [i32; 2]) -> f64 {
+    values(corners_px, of_corners).into_iter().find(|(at, _)| *at == pixel).unwrap().1
+}
+
+/// The three edge functions at the centre of a pixel, each opposite its corner, in parts of a pixel squared.
+fn edge_functions(corners_px: [[f64; 2]; 3], [x, y]: [i32; 2], parts: f64) -> [f64; 3] {
+    let unit = f64::from(SUBPIXELS) / parts;
+    edges_at(&corners(corners_px), x, y).unwrap().map(|edge| edge.value as f64 / (unit * unit))
+}
+
+/// Chapter 1: a square of 2.8 px, with samples in the centres, and in the corners of the pixels.
+pub fn square() -> Vec<f64> {
+    let covered = |moved: f64| {
+        let [low, high] = [0.6, 3.4].map(|v| v + moved);
+        let halves =
+            [[[low, low], [high, low], [high, high]], [[low, low], [high, high], [low, high]]];
+        let triangles = halves.map(|half| rasterproof_verify::cases::Triangle {
+            vertices: corners(half).map(|position| ScreenVertex {
+                position,
+                depth: 0.0,
+                inv_w: 1.0,
+                varying: glam::DVec2::ZERO,
+            }),
+        });
+        oracle_coverage(&triangles, WINDOW).covered() as f64
+    };
+    vec![covered(0.0), covered(0.5)]
+}
+
+/// Chapter 2: the rows of a line by column, and the pixels of a steep one.
+pub fn lines() -> Vec<f64> {
+    let pixels = |to: [i32; 2]| {
+        let ends = [[0, 0], to].map(|[x, y]| LineEnd {
+            pixel: PixelPoint::new(x, y),
+            depth: 0.0,
+            varying: 0.0,
+        });
+        let mut found = Vec::new();
+        Dda.draw(&ScreenLine { ends }, WINDOW, |f| found.push(f64::from(f.y_px)));
+        found
+    };
+    let steep = pixels([3, 9]).len() as f64;
+    [pixels([5, 2]), vec![steep]].concat()
+}
+
+/// Chapter 3: the value after one of four steps.
+pub fn step() -> Vec<f64> {
+    let end = |x, varying| LineEnd { pixel: PixelPoint::new(x, 0), depth: 0.0, varying };
+    let mut found = Vec::new();
+    Dda.draw(&ScreenLine { ends: [end(0, 2.0), end(4, 10.0)] }, WINDOW, |f| found.push(f.varying));
+    vec![found[1]]
+}
+
+const UPPER: [[f64; 2]; 3] = [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0]];
+const LOWER: [[f64; 2]; 3] = [[0.0, 0.0], [4.0, 4.0], [0.0, 4.0]];
+
+/// The edge functions of the upper triangle in half pixels, their sum, and the one on the diagonal in both triangles.
+pub fn edges() -> Vec<f64> {
+    let [second, third, first] = edge_functions(UPPER, [2, 1], 2.0);
+    let ties = [edge_functions(UPPER, [1, 1], 2.0)[1], edge_functions(LOWER, [1, 1], 2.0)[2]];
+    vec![first, second, third, first + second + third, ties[0], ties[1]]
+}
+
+/// The pixels of each row of both halves of a square, and of both together.
+pub fn rows() -> Vec<f64> {
+    let count = |triangle: [[f64; 2]; 3], row: i32| {
+        values(triangle, [0.0; 3]).iter().filter(|([_, y], _)| *y == row).count() as f64
+    };
+    let counts: Vec<_> = [LOWER, UPPER]
+        .into_iter()
+        .flat_map(|half| (0..4).map(move |row| count(half, row)))
+        .collect();
+    let sum = counts.iter().sum();
+    [counts, vec![sum]].concat()
+}
+
+/// Chapter 3: the value of a plane at a point, and the third exercise: edge functions, and the value.
+pub fn plane() -> Vec<f64> {
+    // Moved by half a pixel, so that the point is a centre.
+    let value = value_at([[0.5, 0.5], [8.5, 0.5], [0.5, 8.5]], [100.0, 20.0, 60.0], [3, 3]);
+    let triangle = [[1.0, 0.0], [5.0, 2.0], [0.0, 5.0]];
+    let [a, b, c] = edge_functions(triangle, [1, 3], 1.0);
+    vec![value, a, b, c, a + b + c, value_at(triangle, [0.0, 10.0, 20.0], [1, 3])]
+}
+
+/// Chapter 5: the shares of the picture that four equal steps in space take.
+pub fn steps() -> Vec<f64> {
+    let projection = frustum(-1.0, 1.0, -1.0, 1.0, 1.0, 10.0).unwrap();
+    let picture = |t: f64| {
+        let p = projection * DVec3::new(12.0 * t, 0.0, 1.0 + 2.0 * t).extend(1.0);
+        p.x / p.w / 4.0
+    };
+    [0.25, 0.5, 0.75, 1.0].map(|t| picture(t) - picture(t - 0.25)).to_vec()
+}
+
+/// Chapter 8: where a point is in a window of 5 x 5 px.
+pub fn window() -> Vec<f64> {
+    let p =
+        frustum(-1.0, 1.0, -1.0, 1.0, 1.0, 10.0).unwrap() * DVec3::new(2.0, 1.0, 4.0).extend(1.0);
+    vec![(p.x / p.w + 1.0) / 2.0 * 5.0, (1.0 - p.y / p.w) / 2.0 * 5.0]
+}
+
+/// Chapter 9: twice the area of a triangle, which is the sum of its edge functions.
+pub fn winding() -> Vec<f64> {
+    vec![edge_functions([[1.0, 1.0], [4.0, 1.0], [1.0, 4.0]], [1, 1], 1.0).iter().sum()]
+}
+
+/// Chapter 10: scaled and moved, moved and scaled, and turned about another point.
+pub fn turns() -> Vec<f64> {
+    let (larger, moved) =
+        (DMat4::from_scale(DVec3::splat(2.0)), DMat4::from_translation(DVec3::X * 3.0));
+    let corner = DVec3::new(1.0, 1.0, 0.0);
+    let [a, b] = [moved * larger, larger * moved].map(|matrix| matrix.transform_point3(corner));
+    let c =
+        about(DVec3::X * 4.0, turn_z(std::f64::consts::FRAC_PI_2)).transform_point3(DVec3::X * 5.0);
+    vec![a.x, a.y, b.x, b.y, c.x, c.y]
+}
+
+/// Chapter 11: the brightness of a road, and of a place between two texels, by both filters.
+pub fn light() -> Vec<f64> {
+    let light = Light { towards: DVec3::new(0.6, 0.8, 0.0), ambient: 0.0, diffuse: 1.0 };
+    let texture =
+        |filter| Texture::grey(4, 1, vec![10, 20, 30, 40]).unwrap().with(filter, Wrap::Repeat);
+    let read = |filter| texture(filter).at(DVec2::new(0.6, 0.5)).x * 255.0;
+    let brightness = light.intensity(DVec3::Y);
+    vec![brightness, brightness * 100.0, read(Filter::Nearest), read(Filter::Bilinear)]
+}
