@@ -246,7 +246,7 @@ fn counts(hits: &Coverage, target: &Coverage) -> String {
     if wrong.is_empty() { covered } else { format!("{covered}: {}", wrong.join(", ")) }
 }
 
-/// Numbers of columns over the squares, of rows left of them, as many as have room. The squares begin at `left` and `top`.
+/// Numbers of columns over the squares, of rows left of them, as many as fit. The squares begin at `left` and `top`.
 pub(super) fn numbers(image: &mut RgbImage, [left, top]: [u32; 2], shown: PixelRect, zoom: u32) {
     let widest = [shown.x0, shown.x1 - 1].map(|n| n.to_string().len() as u32);
     let [cell_width, cell_height] = Size::Small.cell();

@@ -22,7 +22,7 @@ pub(super) const BORDER: Rgb<u8> = Rgb([90, 90, 90]);
 pub(super) const EDGE: Rgb<u8> = Rgb([36, 90, 190]);
 pub(super) const SAMPLE: Rgb<u8> = Rgb([60, 60, 60]);
 pub(super) const AGREES: Rgb<u8> = Rgb([170, 178, 184]);
-/// Pixels that agree, by the triangle that owns them.
+/// Pixels that agree, by the number of their triangle.
 pub(super) const OWNERS: [Rgb<u8>; 6] = [
     Rgb([150, 186, 214]),
     Rgb([228, 208, 140]),
