@@ -15,6 +15,9 @@
 //! - [`oracle`]: the truth, by mathematics that no engine uses
 //! - [`cases`]: families of hard cases, and cases with names
 //! - [`verify`]: judges an engine and finds the smallest case that fails
+//! - [`assert_rasterizer`]: judges in one line of a test
+//! - [`assert_lines`]: the same for a line drawer
+//! - [`assert_values`]: the same with depths and attributes
 //!
 //! The rest is public for the program, its tests and the samples under `docs/`, is not shown here,
 //! and may change at any time: the pipeline, scenes, effects, the published algorithms, mutants,
@@ -43,10 +46,9 @@
 //!         }
 //!     }
 //! }
-//! let verdict = verify::judge_coverage(&FillsItsBox, &verify::Options { cases: 20, ..verify::Options::default() })?;
-//! assert!(!verdict.agrees());
-//! let smallest = verdict.failures[0].clone();
-//! println!("{} wrong pixels; the smallest triangle: {smallest}", verdict.mismatches());
+//! let verdict = verify::judge_coverage(&FillsItsBox, &verify::Options::default().cases(20))?;
+//! let disagreement = verdict.check().unwrap_err();
+//! println!("{disagreement}"); // the smallest triangle, what was drawn and expected, and how to repeat it
 //! # Ok::<(), verify::NothingJudged>(())
 //! ```
 #![forbid(unsafe_code)]
@@ -54,6 +56,8 @@
 
 #[doc(inline)]
 pub use rasterproof_core::{contract, frame, grid, line, raster, triangle};
+#[doc(inline)]
+pub use rasterproof_verify::{assert_lines, assert_rasterizer, assert_values};
 #[doc(inline)]
 pub use rasterproof_verify::{cases, comparison as verify, oracle};
 

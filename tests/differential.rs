@@ -44,7 +44,8 @@ fn main() -> ExitCode {
     let place = |report: &FamilyReport| cases::families().position(|f| f.name == report.family);
     families.sort_by_key(place);
     let all = families.len() == cases::families().count();
-    let verdict = Verdict { options: options(""), families, failures: Vec::new() };
+    let verdict =
+        Verdict { options: options(""), families, failures: Vec::new(), convention: None };
     println!("{}{}", table::table(&verdict), table::quota_line(&verdict));
     let quotas_met = !all || verdict.quotas().iter().all(|(_, is, wanted)| is >= wanted);
     if !quotas_met {

@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::finding::{Finding, Tally, caught};
-use super::spans::{Covered, fragments_against};
+use super::spans::{Covered, engine_coverage, fragments_against, line_coverage};
 use super::tolerance::Tolerance;
 use super::truth::{Bounds, Truth, compare_on_line};
 use crate::cases::{Case, Line, Shape, Triangle};
@@ -31,6 +31,9 @@ pub trait Contest: Sync {
 
     /// Adds what is found about each pair to what is known about it.
     fn judge(&self, case: &Case, known: Vec<Finding>) -> (CaseFacts, Vec<Finding>);
+
+    /// What an engine draws in a case; nothing where it panics.
+    fn coverage(&self, engine: &str, case: &Case) -> Option<Coverage>;
 
     /// The findings of one case, where nothing is known before.
     fn findings(&self, case: &Case) -> Vec<Finding> {
@@ -80,6 +83,12 @@ impl<'a, R: Interpolate + Sync> TriangleContest<'a, R> {
 impl<R: Interpolate + Sync> Contest for TriangleContest<'_, R> {
     fn pairs(&self) -> Vec<[String; 2]> {
         pairs_of(self.engines.iter().map(|(name, ..)| *name))
+    }
+
+    fn coverage(&self, engine: &str, case: &Case) -> Option<Coverage> {
+        let (_, engine, _) = self.engines.iter().find(|(name, ..)| *name == engine)?;
+        let Shape::Triangles { list, .. } = &case.shape else { return None };
+        engine_coverage(engine, list, case.window).ok()
     }
 
     fn judge(&self, case: &Case, mut findings: Vec<Finding>) -> (CaseFacts, Vec<Finding>) {
@@ -257,6 +266,12 @@ impl<'a, D: DrawLine + Sync> LineContest<'a, D> {
 impl<D: DrawLine + Sync> Contest for LineContest<'_, D> {
     fn pairs(&self) -> Vec<[String; 2]> {
         pairs_of(self.engines.iter().map(|(name, _)| *name))
+    }
+
+    fn coverage(&self, engine: &str, case: &Case) -> Option<Coverage> {
+        let (_, engine) = self.engines.iter().find(|(name, _)| *name == engine)?;
+        let Shape::Lines(lines) = &case.shape else { return None };
+        line_coverage(engine, lines, case.window).ok()
     }
 
     fn judge(&self, case: &Case, mut findings: Vec<Finding>) -> (CaseFacts, Vec<Finding>) {

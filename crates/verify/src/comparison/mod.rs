@@ -10,6 +10,7 @@
 //! options leave no case, since a verdict on nothing would agree.
 
 mod compare;
+mod disagreement;
 mod finding;
 mod nothing;
 pub mod shrink;
@@ -30,9 +31,11 @@ use crate::oracle::Oracle;
 use compare::{Contest, CoverageOnly, LineContest, TriangleContest};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::{DrawLine, Interpolate, Rasterize};
+use rasterproof_core::frame::Coverage;
 use rasterproof_core::parallel;
 use tolerance::Tolerance;
 
+pub use disagreement::Disagreement;
 pub use finding::{Finding, Tally};
 pub use nothing::NothingJudged;
 #[doc(hidden)]
@@ -73,6 +76,31 @@ impl Default for Options {
 }
 
 impl Options {
+    /// The same with this many cases of each family.
+    #[must_use]
+    pub fn cases(self, cases: u64) -> Self {
+        Self { cases, ..self }
+    }
+
+    /// The same with other generated cases.
+    #[must_use]
+    pub fn seed(self, seed: u64) -> Self {
+        Self { seed, ..self }
+    }
+
+    /// The same with one more family; without any, all are judged. A name that no family has is an error of the judge.
+    #[must_use]
+    pub fn family(mut self, name: &str) -> Self {
+        self.families.push(name.to_owned());
+        self
+    }
+
+    /// The same with the case of this number alone.
+    #[must_use]
+    pub fn only(self, number: u64) -> Self {
+        Self { only: Some(number), ..self }
+    }
+
     fn wants(&self, family: &str) -> bool {
         self.families.is_empty() || self.families.iter().any(|name| name == family)
     }
@@ -152,6 +180,10 @@ pub struct Failure {
     pub what: String,
     /// The smallest case found that still fails.
     pub case: Case,
+    /// What the engine draws in it; nothing where it panics.
+    pub drawn: Option<Coverage>,
+    /// What the oracle draws in it.
+    pub expected: Coverage,
 }
 
 impl fmt::Display for Failure {
@@ -171,9 +203,19 @@ pub struct Verdict {
     pub families: Vec<FamilyReport>,
     /// The smallest failing case found of each family and pair, shrunk, smallest first.
     pub failures: Vec<Failure>,
+    /// The rule that would explain what is wrong, in words: recognised where one rasterizer alone is judged.
+    pub convention: Option<String>,
 }
 
 impl Verdict {
+    /// Nothing, or what a failing test has to print.
+    ///
+    /// # Errors
+    /// [`Disagreement`] where anything was wrong.
+    pub fn check(&self) -> Result<(), Box<Disagreement>> {
+        if self.agrees() { Ok(()) } else { Err(Box::new(Disagreement::of(self))) }
+    }
+
     /// Whether nothing was wrong anywhere.
     #[must_use]
     pub fn agrees(&self) -> bool {
@@ -268,6 +310,20 @@ pub fn judge_coverage<R: Rasterize + Sync>(
     judge_triangles(CoverageOnly(engine), None, options)
 }
 
+/// Ends a test with the whole message unless a verdict agrees.
+///
+/// # Panics
+/// Where anything was wrong, or nothing was judged.
+#[doc(hidden)]
+#[track_caller]
+pub fn must_agree(verdict: Result<Verdict, NothingJudged>) {
+    match verdict.map(|verdict| verdict.check()) {
+        Ok(Ok(())) => {}
+        Ok(Err(disagreement)) => panic!("{disagreement}"),
+        Err(nothing) => panic!("{nothing}"),
+    }
+}
+
 /// Judges the coverage of one case by any rasterizer against the oracle.
 #[must_use]
 pub fn judge_coverage_of<R: Rasterize + Sync>(engine: &R, case: &Case) -> Finding {
@@ -295,7 +351,12 @@ fn judge_triangles<R: Interpolate + Sync>(
     NothingJudged::by(options, &nothing::names(cases::triangles::FAMILIES))?;
     let engines = [("candidate", engine, tolerance)];
     let none: [(&str, Oracle); 0] = [];
-    drive(&TriangleContest::new(&engines), &LineContest::new(&none), options, &|_| ()).of_cases()
+    let contest = TriangleContest::new(&engines);
+    let mut verdict = drive(&contest, &LineContest::new(&none), options, &|_| ()).of_cases()?;
+    if !verdict.agrees() {
+        verdict.convention = disagreement::recognised(&engines[0].1);
+    }
+    Ok(verdict)
 }
 
 /// Judges pixels and values of any line drawer against the oracle.
@@ -407,8 +468,12 @@ fn drive(
     let findings = |is_lines: bool, case: &Case| {
         if is_lines { lines.findings(case) } else { triangles.findings(case) }
     };
-    let failures = shrink_failures(&partials, &chosen, options, &findings);
+    let drawn = |is_lines: bool, engine: &str, case: &Case| {
+        if is_lines { lines.coverage(engine, case) } else { triangles.coverage(engine, case) }
+    };
+    let failures = shrink_failures(&partials, &chosen, options, (&findings, &drawn));
     Verdict {
+        convention: None,
         options: options.clone(),
         families: partials.into_iter().map(|partial| partial.report).collect(),
         failures,
@@ -526,13 +591,30 @@ impl PairReport {
     }
 }
 
+/// What the oracle draws in a case.
+fn expected(case: &Case) -> Coverage {
+    match &case.shape {
+        Shape::Triangles { list, .. } => oracle_coverage(list, case.window),
+        Shape::Lines(lines) => {
+            let mut hits = Coverage::new(case.window, 0);
+            for line in lines {
+                Oracle.line_pixels(line, case.window, |at, _| hits.hit(at.y, at.x, at.x + 1));
+            }
+            hits
+        }
+    }
+}
+
 /// Shrinks the first failing cases of each family and pair, and keeps the smallest of each. Two
 /// engines against each other are left out where the oracle says which of them is wrong.
 fn shrink_failures(
     partials: &[Partial<FamilyReport>],
     chosen: &[(&Family, bool, Vec<[String; 2]>)],
     options: &Options,
-    findings: &(impl Fn(bool, &Case) -> Vec<Finding> + Sync),
+    (findings, drawn): (
+        &(impl Fn(bool, &Case) -> Vec<Finding> + Sync),
+        &(impl Fn(bool, &str, &Case) -> Option<Coverage> + Sync),
+    ),
 ) -> Vec<Failure> {
     let mut failing = Vec::new();
     for (place, (partial, (.., pairs))) in partials.iter().zip(chosen).enumerate() {
@@ -557,6 +639,8 @@ fn shrink_failures(
             seed: options.seed,
             pair: pairs[pair].clone(),
             what: findings(*lines, &case)[pair].describe(),
+            drawn: drawn(*lines, &pairs[pair][0], &case),
+            expected: expected(&case),
             case,
         };
         ((place, pair), failure)
