@@ -26,6 +26,7 @@ mod languages;
 mod league;
 mod matrix;
 mod model_files;
+mod model_formats;
 mod models;
 mod mutants;
 mod not_judged;

@@ -9,6 +9,7 @@ mod items;
 mod mtl;
 mod obj;
 mod polygons;
+mod stl;
 mod textures;
 
 use std::collections::BTreeMap;
@@ -117,9 +118,10 @@ pub struct Origin {
 /// warning: the surface is drawn in its colour, or grey.
 pub fn load(path: &Path, options: Options) -> Result<Model, BadFile> {
     let bytes = read_bytes(path, limits::MODEL_BYTES)?;
-    let format = Format::of(&bytes);
+    let format = Format::of(&bytes).map_err(|cause| bad(path, None, cause))?;
     let contents = match format {
         Format::Obj => obj::read(path, &bytes)?,
+        Format::Stl => stl::read(path, &bytes)?,
     };
     drop(bytes);
     items::model(path, contents, format, options)

@@ -1,0 +1,144 @@
+//! STL: triangles in text, or in records of 50 bytes after a header of 84.
+//!
+//! Own code, since the format has one kind of record, and errors name its line or byte. Its normals are not read: they are
+//! those of the triangles, or wrong.
+
+use std::collections::HashMap;
+use std::path::Path;
+
+use glam::{DMat4, DVec3};
+use rasterproof_host::text::printable_short;
+
+use crate::contents::{Contents, Part, Polygon, PolygonCorner};
+use crate::{BadFile, bad};
+
+const HEADER: usize = 84;
+const RECORD: usize = 50;
+
+/// The triangles that the header of a binary file counts.
+fn counted(bytes: &[u8]) -> Option<usize> {
+    Some(u32::from_le_bytes(bytes.get(80..HEADER)?.try_into().ok()?) as usize)
+}
+
+/// Whether the length is that of the records which the header counts: text that begins with `solid` has another one.
+pub(crate) fn is_binary(bytes: &[u8]) -> bool {
+    counted(bytes).is_some_and(|count| {
+        count.checked_mul(RECORD).and_then(|size| size.checked_add(HEADER)) == Some(bytes.len())
+    })
+}
+
+/// Whether the first word is `solid`.
+pub(crate) fn is_text(bytes: &[u8]) -> bool {
+    let rest = bytes.trim_ascii_start();
+    rest.starts_with(b"solid") && rest.get(5).is_none_or(u8::is_ascii_whitespace)
+}
+
+/// A part whose equal positions are one, so that neighbours are known.
+struct Merged {
+    part: Part,
+    known: HashMap<[u64; 3], u32>,
+}
+
+impl Merged {
+    fn new(name: String) -> Self {
+        let part = Part { name, to_file: DMat4::IDENTITY, ..Part::default() };
+        Self { part, known: HashMap::new() }
+    }
+
+    fn triangle(&mut self, points: [DVec3; 3], place: u32) {
+        for point in points {
+            // -0 and 0 are one position.
+            let key = (point + DVec3::ZERO).to_array().map(f64::to_bits);
+            let position = *self.known.entry(key).or_insert_with(|| {
+                self.part.positions.push(point);
+                self.part.positions.len() as u32 - 1
+            });
+            self.part.corners.push(PolygonCorner { position, normal: None, uv: None });
+        }
+        let end = self.part.corners.len() as u32;
+        self.part.polygons.push(Polygon { end, place, smoothing: 0 });
+    }
+}
+
+/// Reads the bytes of an STL of either kind.
+pub(crate) fn read(path: &Path, bytes: &[u8]) -> Result<Contents, BadFile> {
+    let parts = if is_binary(bytes) { vec![binary(bytes)] } else { text(path, bytes)? };
+    Ok(Contents { parts, ..Contents::default() })
+}
+
+fn binary(bytes: &[u8]) -> Part {
+    let mut merged = Merged::new(String::new());
+    for (number, record) in bytes[HEADER..].chunks_exact(RECORD).enumerate() {
+        let number_at = |at: usize| {
+            let at = 12 + 4 * at;
+            f64::from(f32::from_le_bytes([
+                record[at],
+                record[at + 1],
+                record[at + 2],
+                record[at + 3],
+            ]))
+        };
+        let points =
+            [0, 3, 6].map(|at| DVec3::new(number_at(at), number_at(at + 1), number_at(at + 2)));
+        merged.triangle(points, number as u32 + 1);
+    }
+    merged.part
+}
+
+fn text(path: &Path, bytes: &[u8]) -> Result<Vec<Part>, BadFile> {
+    let mut parts: Vec<Merged> = Vec::new();
+    let mut points: Vec<DVec3> = Vec::new();
+    let mut first_line = 0;
+    for (index, line) in bytes.split(|&byte| byte == b'\n' || byte == b'\r').enumerate() {
+        let number = index + 1;
+        let line = String::from_utf8_lossy(line);
+        let mut words = line.split_ascii_whitespace();
+        match words.next().map(str::to_ascii_lowercase).as_deref() {
+            Some("solid") => {
+                parts.push(Merged::new(words.collect::<Vec<_>>().join(" ")));
+            }
+            Some("facet") => (points, first_line) = (Vec::new(), number),
+            Some("vertex") => {
+                let numbers: Option<Vec<f64>> = words.map(|word| word.parse().ok()).collect();
+                let Some(&[x, y, z]) = numbers.as_deref() else {
+                    let line = printable_short(&line, 60);
+                    let cause = format!(
+                        "'{line}' is not 'vertex X Y Z' with three numbers: repair the line"
+                    );
+                    return Err(bad(path, Some(number), cause));
+                };
+                if points.len() == 3 {
+                    let cause = "a facet has more than three vertices: export the model as OBJ, which has polygons";
+                    return Err(bad(path, Some(number), cause));
+                }
+                points.push(DVec3::new(x, y, z));
+            }
+            Some("endfacet") => {
+                let (Ok(corners), Some(part)) =
+                    (<[DVec3; 3]>::try_from(&points[..]), parts.last_mut())
+                else {
+                    let cause = format!(
+                        "a facet ends with {} vertices instead of 3: export the model again",
+                        points.len()
+                    );
+                    return Err(bad(path, Some(number), cause));
+                };
+                part.triangle(corners, first_line as u32);
+                points.clear();
+            }
+            Some("outer" | "endloop" | "endsolid") | None => {}
+            Some(_) => {
+                let cause = format!(
+                    "'{}' is no line of an STL: remove it, or export the model again",
+                    printable_short(&line, 60)
+                );
+                return Err(bad(path, Some(number), cause));
+            }
+        }
+    }
+    if !points.is_empty() {
+        let cause = "the file ends inside this facet: it is cut off; export the model again";
+        return Err(bad(path, Some(first_line.max(1)), cause));
+    }
+    Ok(parts.into_iter().map(|merged| merged.part).collect())
+}
