@@ -140,7 +140,7 @@ impl Savings {
 }
 
 pub fn run(arguments: &PlanArguments, typed: &Typed, streams: &mut Streams<'_>) -> Status {
-    let maker = arguments.what.maker(streams.errors)?;
+    let maker = arguments.what.maker(streams)?;
     let scene = maker.scene(0.0);
     let (measured, everything, planned) = measure(arguments, &scene, streams.progress)?;
     let same = measured.all().all(|mixture| mixture.same);

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use glam::{DMat4, DVec3};
 use image::codecs::gif::{GifEncoder, Repeat};
@@ -33,7 +33,7 @@ use rasterproof_render::pipeline::target::{Antialias, Colour, Target, check_size
 use rasterproof_render::pipeline::transform::{about, look_at, perspective};
 use rasterproof_render::scene::chapters::{self, SCENES};
 use rasterproof_render::scene::{Scene, Shading};
-use rasterproof_report::frame_comparison::{self, Comparison};
+use rasterproof_report::frame_comparison::{self, Comparison, Times};
 use rasterproof_report::html::{Chapter, Outcome, PictureLayer, PictureView, Report};
 use rasterproof_report::picture;
 use rasterproof_tiles::frames;
@@ -185,7 +185,7 @@ impl SceneArguments {
     }
 
     /// The scene, turned by a share of a full turn, as a function that makes it.
-    pub(super) fn maker(&self, errors: &mut dyn std::io::Write) -> Result<Maker, Failure> {
+    pub(super) fn maker(&self, streams: &mut Streams<'_>) -> Result<Maker, Failure> {
         let (width, height) = self.size;
         check_size(width, height, self.aa).map_err(usage)?;
         let aspect = f64::from(width) / f64::from(height);
@@ -208,7 +208,7 @@ impl SceneArguments {
                     program()
                 )));
             }
-            Err(path) => Base::Model(Box::new(self.frame_model(path, aspect, errors)?)),
+            Err(path) => Base::Model(Box::new(self.frame_model(path, aspect, streams)?)),
         };
         Ok(Maker { base, aspect, cull: self.cull })
     }
@@ -236,7 +236,7 @@ impl SceneArguments {
         &self,
         path: &Path,
         aspect: f64,
-        errors: &mut dyn std::io::Write,
+        streams: &mut Streams<'_>,
     ) -> Result<Framed, Failure> {
         let shading = self.shading.unwrap_or(Shading::Phong);
         let (yaw, pitch) = (self.yaw.unwrap_or(30.0), self.pitch.unwrap_or(20.0));
@@ -255,8 +255,12 @@ impl SceneArguments {
         }
         let normals = self.normals.unwrap_or_default();
         let options = Options { shading, normals, up: self.up };
+        let progress = Progress::new(streams.progress, "models read", None);
+        let start = Instant::now();
         let model = rasterproof_models::load(path, options).map_err(usage)?;
-        report_model(&model, self.up.is_some(), errors)?;
+        let loading = start.elapsed();
+        drop(progress);
+        report_model(&model, self.up.is_some(), streams.errors)?;
         let bounds = model.items.iter().filter_map(|item| item.mesh.bounds());
         let (min, max) = bounds
             .reduce(|(a, b), (c, d)| (a.min(c), b.max(d)))
@@ -286,7 +290,7 @@ impl SceneArguments {
         for item in &mut scene.items {
             item.model = about(centre, turn);
         }
-        Ok(Framed { scene, centre })
+        Ok(Framed { scene, centre, loading })
     }
 }
 
@@ -317,6 +321,8 @@ fn report_model(
 struct Framed {
     scene: Scene,
     centre: DVec3,
+    /// How long it took to read the file.
+    loading: Duration,
 }
 
 enum Base {
@@ -331,6 +337,14 @@ pub(super) struct Maker {
 }
 
 impl Maker {
+    /// How long it took to read the model; nothing for a scene of the book.
+    fn loading(&self) -> Option<Duration> {
+        match &self.base {
+            Base::Chapter(_) => None,
+            Base::Model(framed) => Some(framed.loading),
+        }
+    }
+
     /// The scene, turned by a share of a full turn.
     pub(super) fn scene(&self, turn: f64) -> Scene {
         let mut scene = match &self.base {
@@ -357,6 +371,8 @@ impl Maker {
 struct Drawing {
     name: &'static str,
     rendered: Rendered,
+    /// To plan and draw the frame.
+    time: Duration,
     /// Holds every depth, where two rasterizers are compared.
     target: Target,
     /// Pixels that are others where every depth and sample is there, which is a fault.
@@ -390,12 +406,12 @@ pub fn run(arguments: &RenderArguments, typed: &Typed, streams: &mut Streams<'_>
         as_file(&page),
     ];
     distinct(&files.into_iter().flatten().collect::<Vec<_>>())?;
-    let maker = what.maker(streams.errors)?;
+    let maker = what.maker(streams)?;
     let drawers = if arguments.engine == Drawn::Both { 2 } else { 1 };
     let pictures = u64::from(arguments.spin.unwrap_or(1)) * drawers;
     let progress = Progress::new(streams.progress, "pictures", Some(pictures));
     if arguments.engine == Drawn::Tiles {
-        return draw_in_tiles(arguments, &maker.scene(0.0), &output, streams);
+        return draw_in_tiles(arguments, &maker, &output, streams);
     }
     if let Some(frames) = arguments.spin {
         return spin(arguments, &maker, frames, &output, &progress, streams);
@@ -420,6 +436,10 @@ pub fn run(arguments: &RenderArguments, typed: &Typed, streams: &mut Streams<'_>
         let picture = frame_comparison::png(&comparison.picture)?;
         difference_in = streams.save(&difference, &picture).then_some(difference.as_path());
     }
+    let times = Times {
+        loading_s: maker.loading().map(|time| time.as_secs_f64()),
+        drawing_s: drawings.iter().map(|drawing| drawing.time.as_secs_f64()).collect(),
+    };
     if arguments.json {
         // With its scene the plan can be drawn by.
         drawings[0].rendered.plan.scene = Some(SceneDigest::of(&scene));
@@ -429,10 +449,12 @@ pub fn run(arguments: &RenderArguments, typed: &Typed, streams: &mut Streams<'_>
             &drawings[0].rendered,
             &comparison,
             &by_rounding,
+            &times,
         );
         writeln!(streams.output, "{json}")?;
     } else {
-        let mut text = describe(&scene, &drawings, comparison.as_ref(), drawn_in, difference_in);
+        let files = [drawn_in, difference_in];
+        let mut text = describe(&scene, &drawings, &times, comparison.as_ref(), files);
         text += &rounding_text(by_rounding.unwrap_or_default(), SNAPPED);
         streams.output.write_all(text.as_bytes())?;
     }
@@ -589,12 +611,13 @@ fn draw(
     };
     let drawing = |drawer: &Drawer| {
         let mut target = arguments.what.target()?;
-        let incomplete = |name, rendered, target, changed| {
-            Ok(Drawing { name, rendered, target, unplanned: 0, changed, is_complete: false })
+        let start = Instant::now();
+        let incomplete = |name, rendered, time, target, changed| {
+            Ok(Drawing { name, rendered, time, target, unplanned: 0, changed, is_complete: false })
         };
         if arguments.wireframe {
             let rendered = drawer.render_wireframe(scene, &mut target).map_err(usage)?;
-            return incomplete(drawer.line_name(), rendered, target, 0);
+            return incomplete(drawer.line_name(), rendered, start.elapsed(), target, 0);
         }
         let asked = |target: &mut Target| match (&plan, &arguments.plan) {
             (Some(plan), Some(path)) => drawer
@@ -603,8 +626,9 @@ fn draw(
             _ => drawer.render(scene, &effects, target).map_err(usage),
         };
         let (name, rendered) = (drawer.name(), asked(&mut target)?);
+        let time = start.elapsed();
         if engines.len() < 2 {
-            return incomplete(name, rendered, target, 0);
+            return incomplete(name, rendered, time, target, 0);
         }
         let whole = drawer.render(scene, &complete, &mut target).map_err(usage)?;
         let unplanned = frame_comparison::differing(&rendered.picture, &whole.picture);
@@ -612,6 +636,7 @@ fn draw(
             return Ok(Drawing {
                 name,
                 rendered,
+                time,
                 target,
                 unplanned,
                 changed: 0,
@@ -620,7 +645,7 @@ fn draw(
         }
         // What was asked for changes the picture: the frame is compared as it is, without ties.
         let rendered = asked(&mut target)?;
-        incomplete(name, rendered, target, unplanned)
+        incomplete(name, rendered, time, target, unplanned)
     };
     engines.iter().map(drawing).inspect(|_| progress.done(1)).collect()
 }
@@ -651,9 +676,9 @@ fn far_texture(c: &Comparison) -> Option<String> {
 fn describe(
     scene: &Scene,
     drawings: &[Drawing],
+    times: &Times,
     comparison: Option<&Comparison>,
-    output: Option<&Path>,
-    difference: Option<&Path>,
+    [output, difference]: [Option<&Path>; 2],
 ) -> String {
     let mut text = String::new();
     let c = &drawings[0].rendered.counters;
@@ -668,6 +693,7 @@ fn describe(
         "  fragments {}, depth tests {} (failed {}), shaded {}",
         c.fragments, c.depth_tests, c.depth_failed, c.shaded
     );
+    text += &times_text(times, &names(drawings));
     if let Some(output) = output {
         let _ = writeln!(text, "  drawn in {}", printable_path(output));
     }
@@ -713,6 +739,19 @@ fn describe(
     text
 }
 
+/// `  loaded in 12 ms; drawn in 3.1 ms by scanline, 4.0 ms by edge-function`, as one line.
+fn times_text(times: &Times, names: &[&str]) -> String {
+    let shown = |seconds: f64| match seconds * 1e3 {
+        ms if ms < 10.0 => format!("{ms:.1} ms"),
+        ms if ms < 1e3 => format!("{ms:.0} ms"),
+        _ => format!("{seconds:.2} s"),
+    };
+    let loaded = times.loading_s.map(|time| format!("loaded in {}; ", shown(time)));
+    let by = times.drawing_s.iter().zip(names);
+    let drawn: Vec<_> = by.map(|(&time, name)| format!("{} by {name}", shown(time))).collect();
+    format!("  {}drawn in {}\n", loaded.unwrap_or_default(), drawn.join(", "))
+}
+
 /// Whether every pixel of the picture has the colour of the first.
 fn is_empty(rendered: &Rendered) -> bool {
     let mut pixels = rendered.picture.rows().flat_map(|(_, row)| row);
@@ -723,7 +762,7 @@ fn is_empty(rendered: &Rendered) -> bool {
 /// One frame in tiles: a picture and nothing else.
 fn draw_in_tiles(
     arguments: &RenderArguments,
-    scene: &Scene,
+    maker: &Maker,
     output: &Path,
     streams: &mut Streams<'_>,
 ) -> Status {
@@ -750,8 +789,15 @@ fn draw_in_tiles(
         Antialias::Multisample4 => frames::Samples::Four,
         _ => frames::Samples::One,
     };
+    let scene = &maker.scene(0.0);
+    let start = Instant::now();
     let picture = frames::render(scene, size.width(), size.height(), samples).map_err(usage)?;
+    let times = Times {
+        loading_s: maker.loading().map(|time| time.as_secs_f64()),
+        drawing_s: vec![start.elapsed().as_secs_f64()],
+    };
     writeln!(streams.output, "{}: {}", scene.name, scene.about)?;
+    write!(streams.output, "{}", times_text(&times, &["tiles"]))?;
     if streams.save(output, &frame_comparison::png(&picture)?) {
         let (side, path) = (frames::SIDE_PX, printable_path(output));
         writeln!(streams.output, "  drawn in tiles of {side} x {side} px in {path}")?;

@@ -167,6 +167,7 @@ fn render_draws_models_by_both() {
         let (status, text) = program(&words);
         assert_eq!(status, Some(0), "{options:?}: {text}");
         assert!(text.contains("AGREES"), "{options:?}: {text}");
+        assert!(text.contains("loaded in ") && text.contains("; drawn in "), "{text}");
         assert_eq!(image::open(&picture).unwrap().width(), 96);
     }
     let gif = folder.join("spin.gif");
@@ -353,7 +354,7 @@ fn corners_of_mixed_kinds_keep_what_they_name() {
     ];
     assert_eq!(corners, expected);
     let origins: Vec<_> =
-        model.origins.iter().map(|origin| (origin.part.as_str(), &origin.places[..])).collect();
+        model.origins.iter().map(|origin| (origin.part.as_str(), &origin.lines[..])).collect();
     assert_eq!(origins, [("one", &[6][..]), ("two", &[10]), ("two", &[12, 13])]);
 }
 
@@ -436,7 +437,7 @@ fn material_files_are_found_by_all_their_names() {
         let [warning] = &model.warnings[..] else { panic!("{line}: {:?}", model.warnings) };
         assert!(warning.contains("no material file describes 'd'"), "{warning}");
         let first = 7 + line.lines().count() as u32;
-        assert_eq!(model.origins[1].places, [first], "a face on two lines is at the first");
+        assert_eq!(model.origins[1].lines, [first], "a face on two lines is at the first");
     }
     // The file beside the model has another name than the model says.
     fs::write(folder.join("n.mtl"), "newmtl a\nKd 1 0 0\n").unwrap();
@@ -570,7 +571,7 @@ fn what_no_face_uses_is_a_warning() {
     assert_eq!(error.line, Some(1_025), "{error}");
     let old = text.replace('\n', "\r");
     let model = load(&written(&folder, "old.obj", &old), Shading::Flat).unwrap();
-    assert_eq!(model.origins[0].places, [8], "lines that end with a carriage return alone");
+    assert_eq!(model.origins[0].lines, [8], "lines that end with a carriage return alone");
     let wide: Vec<u8> =
         format!("\u{feff}{text}").encode_utf16().flat_map(u16::to_le_bytes).collect();
     let path = folder.join("wide.obj");

@@ -55,8 +55,8 @@ pub(crate) struct PolygonCorner {
 pub(crate) struct Polygon {
     /// Where its corners end in the list of the part; they begin where those of the one before end.
     pub end: u32,
-    /// The line of the file, or its number among the faces where the file has no lines, from 1.
-    pub place: u32,
+    /// The line of the file, from 1; 0 where the file has no lines.
+    pub line: u32,
     /// Polygons of the same number above 0 share the normals that are computed for corners without one (`s` of an
     /// OBJ). With 0 such corners get the normal of the polygon.
     pub smoothing: u32,

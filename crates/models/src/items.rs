@@ -34,11 +34,16 @@ pub(crate) fn model(
     }
     let smooth = SmoothNormals::of(&contents.parts, options.normals);
     let (mut items, mut origins) = (Vec::new(), Vec::new());
+    let mut first_face = 1;
     for part in std::mem::take(&mut contents.parts) {
         let surface = part.material.and_then(|number| contents.materials.get(number));
         let material = material(surface, &part, options.shading);
-        let mut places = Vec::new();
-        let mesh = mesh(path, &part, &smooth, options.normals, &mut places, &mut warnings);
+        let name = surface.map_or(String::new(), |surface| surface.name.clone());
+        let (faces, lines) = (Vec::new(), Vec::new());
+        let mut origin =
+            Origin { part: part.name.clone(), material: name, faces, lines, first_face };
+        first_face += part.polygons.len() as u32;
+        let mesh = mesh(path, &part, &smooth, options.normals, &mut origin, &mut warnings);
         if mesh.triangles.is_empty() {
             continue;
         }
@@ -46,9 +51,8 @@ pub(crate) fn model(
         if surface.is_some_and(|surface| !surface.both_sides) {
             item.cull = Cull::Clockwise;
         }
-        let name = surface.map_or(String::new(), |surface| surface.name.clone());
         items.push(item);
-        origins.push(Origin { part: part.name, material: name, places });
+        origins.push(origin);
     }
     let not_drawn = counted(&contents.not_drawn);
     if items.is_empty() {
@@ -175,13 +179,13 @@ impl SmoothNormals {
     }
 }
 
-/// The triangles of a part, with the place of each in the file.
+/// The triangles of a part; where each comes from is added to the origin.
 fn mesh(
     path: &Path,
     part: &Part,
     smooth: &SmoothNormals,
     normals: Normals,
-    places: &mut Vec<u32>,
+    origin: &mut Origin,
     warnings: &mut Warnings,
 ) -> Mesh {
     let mirrored = |v: DVec3| DVec3::new(v.x, v.y, -v.z);
@@ -191,9 +195,10 @@ fn mesh(
     let mut made: Vec<Corner> = Vec::new();
     let mut points = Vec::new();
     let mut start = 0;
-    for polygon in &part.polygons {
+    for (number, polygon) in part.polygons.iter().enumerate() {
         let corners = &part.corners[start..polygon.end as usize];
         start = polygon.end as usize;
+        let face = origin.first_face + number as u32;
         points.clear();
         points.extend(corners.iter().map(|corner| part.positions[corner.position as usize]));
         let normal = polygons::normal(&points);
@@ -216,7 +221,10 @@ fn mesh(
         }));
         let mut emit = |[a, b, c]: [usize; 3]| {
             triangles.push([made[a], made[b], made[c]]);
-            places.push(polygon.place);
+            origin.faces.push(face);
+            if polygon.line > 0 {
+                origin.lines.push(polygon.line);
+            }
         };
         if let Err(odd) = polygons::triangles(&points, normal, &mut emit) {
             let path = printable_path(path);
@@ -224,13 +232,12 @@ fn mesh(
                 Odd::Crosses => ("crosses itself", "faces that cross themselves"),
                 Odd::TooManyCorners => ("has more than 65536 corners", "faces of many corners"),
             };
-            warnings.line(
-                &format!("{path}: {kind}"),
-                &format!(
-                    "{path}:{}: the face {what}, so it is drawn as triangles around its first corner: split it",
-                    polygon.place
-                ),
-            );
+            let place = match polygon.line {
+                0 => format!("{path}: face {face} {what}"),
+                line => format!("{path}:{line}: the face {what}"),
+            };
+            let drawn = "so it is drawn as triangles around its first corner: split it";
+            warnings.line(&format!("{path}: {kind}"), &format!("{place}, {drawn}"));
         }
     }
     Mesh { positions: part.positions.iter().copied().map(mirrored).collect(), triangles }

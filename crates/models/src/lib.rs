@@ -16,7 +16,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-use rasterproof_host::text::printable_path;
+use rasterproof_host::text::{printable_path, printable_short};
 use rasterproof_host::{input, limits};
 use rasterproof_render::scene::{Item, Shading};
 
@@ -106,8 +106,34 @@ pub struct Origin {
     pub part: String,
     /// The name of the material; empty without one.
     pub material: String,
-    /// For each triangle, the line of the face in a file of lines, or the number of the face from 1.
-    pub places: Vec<u32>,
+    /// For each triangle the number of its face among all faces of the file that are drawn, from 1.
+    pub faces: Vec<u32>,
+    /// For each triangle the line of its face; empty where the file has no lines.
+    pub lines: Vec<u32>,
+    /// The number of the part's first face.
+    pub first_face: u32,
+}
+
+impl Origin {
+    /// Where a triangle of the item comes from, in words: `face 12 (line 40) of 'door', material 'wood'`.
+    #[must_use]
+    pub fn place(&self, triangle: usize) -> String {
+        let Some(face) = self.faces.get(triangle) else { return String::new() };
+        let mut text = format!("face {face}");
+        match self.lines.get(triangle) {
+            Some(line) => text += &format!(" (line {line})"),
+            None if self.first_face > 1 => {
+                text += &format!(" (number {} of its part)", face + 1 - self.first_face);
+            }
+            None => {}
+        }
+        for (before, name) in [(" of", &self.part), (", material", &self.material)] {
+            if !name.is_empty() {
+                text += &format!("{before} '{}'", printable_short(name, 40));
+            }
+        }
+        text
+    }
 }
 
 /// Reads a model with its materials and textures.
@@ -172,6 +198,23 @@ impl Warnings {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_place_of_a_triangle_is_said_in_words() {
+        let (faces, lines) = (vec![7, 8, 8], vec![30, 31, 31]);
+        let mut origin = Origin {
+            part: "door".to_owned(),
+            material: String::new(),
+            faces,
+            lines,
+            first_face: 7,
+        };
+        assert_eq!(origin.place(2), "face 8 (line 31) of 'door'");
+        origin.lines.clear();
+        origin.material = "wood".to_owned();
+        assert_eq!(origin.place(0), "face 7 (number 1 of its part) of 'door', material 'wood'");
+        assert_eq!(origin.place(3), "");
+    }
 
     #[test]
     fn what_is_not_drawn_is_counted_in_words() {

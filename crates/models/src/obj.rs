@@ -561,7 +561,7 @@ fn face<'a>(
         return Err("a face needs three corners or more".to_owned());
     }
     let end = run.corners.len() as u32;
-    run.polygons.push(Polygon { end, place: number as u32, smoothing: state.smoothing });
+    run.polygons.push(Polygon { end, line: number as u32, smoothing: state.smoothing });
     Ok(())
 }
 
@@ -611,7 +611,7 @@ fn check_faces(path: &Path, lines: &mut Lines, warnings: &mut Warnings) -> Resul
                         let (name, count, index) =
                             (KINDS[kind], counts[kind], u64::from(index) + 1);
                         let cause = format!("{name} {index} is not there; the file has {count}");
-                        return Err(bad(path, Some(polygon.place as usize), cause));
+                        return Err(bad(path, Some(polygon.line as usize), cause));
                     }
                     if lines.broken.is_empty() {
                         continue;

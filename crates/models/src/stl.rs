@@ -45,7 +45,7 @@ impl Merged {
         Self { part, known: HashMap::new() }
     }
 
-    fn triangle(&mut self, points: [DVec3; 3], place: u32) {
+    fn triangle(&mut self, points: [DVec3; 3], line: u32) {
         for point in points {
             // -0 and 0 are one position.
             let key = (point + DVec3::ZERO).to_array().map(f64::to_bits);
@@ -56,7 +56,7 @@ impl Merged {
             self.part.corners.push(PolygonCorner { position, normal: None, uv: None });
         }
         let end = self.part.corners.len() as u32;
-        self.part.polygons.push(Polygon { end, place, smoothing: 0 });
+        self.part.polygons.push(Polygon { end, line, smoothing: 0 });
     }
 }
 
@@ -68,7 +68,7 @@ pub(crate) fn read(path: &Path, bytes: &[u8]) -> Result<Contents, BadFile> {
 
 fn binary(bytes: &[u8]) -> Part {
     let mut merged = Merged::new(String::new());
-    for (number, record) in bytes[HEADER..].chunks_exact(RECORD).enumerate() {
+    for record in bytes[HEADER..].chunks_exact(RECORD) {
         let number_at = |at: usize| {
             let at = 12 + 4 * at;
             f64::from(f32::from_le_bytes([
@@ -80,7 +80,7 @@ fn binary(bytes: &[u8]) -> Part {
         };
         let points =
             [0, 3, 6].map(|at| DVec3::new(number_at(at), number_at(at + 1), number_at(at + 2)));
-        merged.triangle(points, number as u32 + 1);
+        merged.triangle(points, 0);
     }
     merged.part
 }

@@ -259,6 +259,15 @@ fn block_mean(
     image::Rgb(sum.map(|sum| (sum / count.max(1)).min(255) as u8))
 }
 
+/// How long a picture took, in seconds.
+#[derive(Clone, Debug, serde::Serialize)]
+pub struct Times {
+    /// To read the model with its textures; nothing for a scene of the book.
+    pub loading_s: Option<f64>,
+    /// To plan and draw one frame, by each rasterizer.
+    pub drawing_s: Vec<f64>,
+}
+
 #[must_use]
 pub fn json(
     scene: &str,
@@ -266,10 +275,12 @@ pub fn json(
     rendered: &Rendered,
     comparison: &Option<Comparison>,
     by_rounding: &Option<ByRounding>,
+    times: &Times,
 ) -> String {
     serde_json::json!({
         "scene": scene,
         "engines": engines,
+        "times": times,
         "counters": rendered.counters,
         "plan": rendered.plan,
         "comparison": comparison,
