@@ -1,0 +1,280 @@
+// What mdBook does not do: formulas and code are rendered here instead of in the reader's browser, links to files of the
+// repository lead to pages that show them, and the Chinese book can be searched.
+//
+// node finish.mjs SITE STAGE TOOLS: the folder with both books, the Markdown they were made of, and node_modules.
+import { execFileSync } from 'node:child_process';
+import fs from 'node:fs';
+import { createRequire } from 'node:module';
+import path from 'node:path';
+import vm from 'node:vm';
+
+const [site, stage, tools] = process.argv.slice(2);
+const require = createRequire(path.join(tools, 'node_modules/'));
+const katex = require('katex');
+const hljs = require('highlight.js/lib/common');
+
+const read = (file) => fs.readFileSync(file, 'utf8');
+const write = (file, text) => {
+  fs.mkdirSync(path.dirname(file), { recursive: true });
+  fs.writeFileSync(file, text);
+};
+const escaped = (text) => text.replace(/&/g, '&amp;').replace(/</g, '&lt;').replace(/>/g, '&gt;').replace(/"/g, '&quot;');
+const plain = (html) => html.replace(/&lt;/g, '<').replace(/&gt;/g, '>').replace(/&quot;/g, '"').replace(/&#39;|&#x27;/g, "'").replace(/&amp;/g, '&');
+const isFolder = (file) => fs.statSync(file, { throwIfNoEntry: false })?.isDirectory();
+const kept = execFileSync('git', ['ls-files', '-z'], { encoding: 'utf8', maxBuffer: 1 << 28 }).split('\0').filter(Boolean);
+const isKept = new Set(kept);
+const wrong = [];
+
+// Files of the repository that pages show or lead to: pictures as they are, texts as pages.
+const shown = new Set();
+const SHOWN_AS_IT_IS = /\.(png|svg|gif|gz)$/;
+
+/** The place of a file of the repository in the site. */
+function placeOf(file) {
+  if (isFolder(file)) {
+    shown.add(file);
+    for (const inside of kept) if (inside.startsWith(`${file}/`)) shown.add(inside);
+    return `files/${file}/index.html`;
+  }
+  shown.add(file);
+  return SHOWN_AS_IT_IS.test(file) ? `files/${file}` : `files/${file}.html`;
+}
+
+const HIGHLIGHTED = { rs: 'rust', py: 'python', js: 'javascript', java: 'java', c: 'c', h: 'c', cpp: 'cpp', go: 'go', json: 'json', toml: 'ini' };
+
+function highlighted(text, language) {
+  return hljs.getLanguage(language) ? hljs.highlight(text, { language }).value : escaped(text);
+}
+
+/** A page that shows a text of the repository, or lists a folder. */
+function filePage(file) {
+  const place = isFolder(file) ? `files/${file}/index.html` : `files/${file}.html`;
+  const root = path.posix.relative(path.posix.dirname(place), '.');
+  let body;
+  if (isFolder(file)) {
+    const inside = kept.filter((name) => name.startsWith(`${file}/`));
+    const link = (name) => `<li><a href="${path.posix.relative(path.posix.dirname(place), placeOf(name))}">${escaped(name.slice(file.length + 1))}</a></li>`;
+    body = `<ul>\n${inside.map(link).join('\n')}\n</ul>`;
+  } else {
+    const language = HIGHLIGHTED[path.extname(file).slice(1)] ?? (read(file).startsWith('#!/usr/bin/env bash') ? 'bash' : '');
+    body = `<pre tabindex="0"><code class="hljs">${highlighted(read(file), language)}</code></pre>`;
+  }
+  const sheet = (name, scheme) => `<link rel="stylesheet" href="${root}/en/${name}" media="(prefers-color-scheme: ${scheme})">`;
+  write(path.join(site, place), `<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta name="color-scheme" content="light dark">
+<title>${escaped(file)} - rasterproof</title>
+<link rel="icon" href="data:,">
+${sheet(asset('en', /^highlight-.*\.css$/), 'light')}
+${sheet(asset('en', /^tomorrow-night-.*\.css$/), 'dark')}
+<style>
+body { font-family: sans-serif; margin: 1em; overflow-wrap: anywhere; }
+pre { overflow-x: auto; font-size: 0.9em; }
+pre code { display: block; padding: 0.5em; }
+</style>
+</head>
+<body>
+<nav><a href="${root}/en/index.html">rasterproof</a> · <a href="${root}/zh/index.html" lang="zh-CN">中文</a></nav>
+<h1>${escaped(file)}</h1>
+${body}
+</body>
+</html>
+`);
+}
+
+/** The name of the one file of a book that matches. */
+function asset(book, pattern) {
+  const found = fs.readdirSync(path.join(site, book)).filter((name) => pattern.test(name));
+  if (found.length !== 1) throw new Error(`${book}: ${found.length} files match ${pattern}`);
+  return found[0];
+}
+
+/** The width and height of a picture as attributes, so that nothing moves when it arrives. */
+function sizeOf(file) {
+  if (file.endsWith('.png')) {
+    const bytes = fs.readFileSync(file);
+    return ` width="${bytes.readUInt32BE(16)}" height="${bytes.readUInt32BE(20)}"`;
+  }
+  const svg = read(file).match(/<svg[^>]*>/)?.[0] ?? '';
+  const box = svg.match(/viewBox="[-\d.]+ [-\d.]+ ([\d.]+) ([\d.]+)"/);
+  return box ? ` width="${box[1]}" height="${box[2]}"` : '';
+}
+
+/** Where a link of a page leads in the site, both as paths from the root of the repository or the site. */
+function target(book, page, link) {
+  const [, name, fragment] = link.match(/^([^#]*)(#.*)?$/);
+  let file = path.posix.normalize(path.posix.join(path.posix.dirname(page), decodeURI(name)));
+  // mdBook has made .html of .md.
+  if (!fs.existsSync(file)) file = file.replace(/\.html$/, '.md');
+  const anchor = plain(fragment ?? '');
+  if (/^docs\/(zh\/)?playground\.md$/.test(file) && anchor.includes('=')) {
+    return `try/playground.html${escaped(`${anchor}&lang=${book}`)}`;
+  }
+  if (/^docs\/(zh\/)?report\.md$/.test(file) && anchor.startsWith('#plant=')) {
+    const plant = anchor.slice('#plant='.length);
+    return `try/${plant === 'none' ? 'verify' : plant}.html`;
+  }
+  const [, other, inside] = file.match(/^docs\/(zh\/)?(.*)$/) ?? [];
+  const chapter = inside ? [other ? 'zh' : 'en', inside] : [book, file];
+  if (file.endsWith('.md') && fs.existsSync(path.join(stage, ...chapter))) {
+    return `${chapter.join('/').replace(/\.md$/, '.html')}${fragment ?? ''}`;
+  }
+  if (!isKept.has(file) && !isFolder(file)) {
+    wrong.push(`${page}: ${link} leads to no file that git keeps`);
+    return link;
+  }
+  return placeOf(file) + (fragment ?? '');
+}
+
+let formulas = 0;
+function formula(page, tex, displayMode) {
+  formulas += 1;
+  try {
+    return katex.renderToString(plain(tex).trim(), { displayMode, strict: 'error', throwOnError: true });
+  } catch (error) {
+    wrong.push(`${page}: ${error.message}`);
+    return tex;
+  }
+}
+
+/** The text of a chapter, finished. */
+function finished(book, page, place, main) {
+  const away = (where) => path.posix.relative(path.posix.dirname(place), where);
+  let pictures = 0;
+  // A break between two lines would be seen as a space, which Chinese does not have.
+  const joined = main.split(/(<pre[^]*?<\/pre>)/).map((part, at) =>
+    at % 2 ? part : part.replace(/(?<=[\u3000-\u9fff\uff00-\uffef])\n(?=[\u3000-\u9fff\uff00-\uffef])/g, '')).join('');
+  return joined
+    .replace(/<pre><code class="language-math">([^<]*)<\/code><\/pre>/g, (_, tex) => formula(page, tex, true))
+    .replace(/\$<code>([^<]*)<\/code>\$/g, (_, tex) => formula(page, tex, false))
+    .replace(/<code class="language-(\w+)([^"]*)">([^<]*)<\/code>/g, (whole, language, others, code) =>
+      hljs.getLanguage(language) ? `<code class="language-${language}${others}">${highlighted(plain(code), language)}</code>` : whole)
+    .replace(/(<a href=")([^"]+)"/g, (whole, start, link) =>
+      /^(#|[a-z]+:)/.test(link) ? whole : `${start}${away(target(book, page, link))}"`)
+    .replace(/(<a [^>]*>)?<img src="([^":]+)"/g, (whole, around, link) => {
+      const file = path.posix.normalize(path.posix.join(path.posix.dirname(page), decodeURI(link)));
+      if (!isKept.has(file)) {
+        wrong.push(`${page}: the picture ${link} is not kept by git`);
+        return whole;
+      }
+      pictures += 1;
+      return `${around ?? ''}<img src="${away(placeOf(file))}"${sizeOf(file)}${pictures > 1 ? ' loading="lazy"' : ''}`;
+    });
+}
+
+// The style of formulas, with the one kind of fonts that every browser of the last ten years loads.
+const dist = path.join(tools, 'node_modules/katex/dist');
+write(path.join(site, 'katex/katex.css'), read(path.join(dist, 'katex.min.css')).replace(/,url\([^)]*\.(woff|ttf)\) format\("[a-z]+"\)/g, ''));
+for (const font of fs.readdirSync(path.join(dist, 'fonts')).filter((name) => name.endsWith('.woff2'))) {
+  fs.mkdirSync(path.join(site, 'katex/fonts'), { recursive: true });
+  fs.copyFileSync(path.join(dist, 'fonts', font), path.join(site, 'katex/fonts', font));
+}
+
+for (const book of ['en', 'zh']) {
+  const chapters = fs.readdirSync(path.join(stage, book), { recursive: true }).filter((name) => name.endsWith('.md') && name !== 'SUMMARY.md');
+  for (const chapter of chapters) {
+    const place = `${book}/${chapter.replace(/\.md$/, '.html')}`;
+    if (!fs.existsSync(path.join(site, place))) {
+      wrong.push(`${chapter} is missing in the SUMMARY.md of the book ${book}`);
+      continue;
+    }
+    const docs = book === 'en' ? 'docs' : 'docs/zh';
+    const page = fs.existsSync(path.join(docs, chapter)) ? `${docs}/${chapter}` : chapter;
+    const before = formulas;
+    const [head, main, foot] = read(path.join(site, place)).split(/(?<=<main>)|(?=<\/main>)/);
+    const text = finished(book, page, place, main);
+    const away = path.posix.relative(path.posix.dirname(place), 'katex/katex.css');
+    const style = formulas > before ? `<link rel="stylesheet" href="${away}">\n</head>` : '</head>';
+    write(path.join(site, place), head.replace('</head>', style) + text + foot);
+  }
+}
+for (const file of shown) {
+  if (SHOWN_AS_IT_IS.test(file)) {
+    fs.mkdirSync(path.join(site, 'files', path.dirname(file)), { recursive: true });
+    fs.copyFileSync(file, path.join(site, 'files', file));
+  } else {
+    filePage(file);
+  }
+}
+
+/** Replaces what must be there exactly once. */
+function once(text, old, right) {
+  if (text.split(old).length !== 2) throw new Error(`mdBook's script has changed: ${old}`);
+  return text.replace(old, () => right);
+}
+
+// mdBook splits texts at spaces, which Chinese does not have. Here a word of the Chinese index is two characters that stand
+// side by side. The same function splits what a reader types, and is therefore in the script that the book loads.
+const elasticlunrFile = path.join(site, 'zh', asset('zh', /^elasticlunr-.*\.js$/));
+write(elasticlunrFile, `${read(elasticlunrFile)}
+elasticlunr.tokenizer = (text) => (String(text ?? '').toLowerCase().match(/\\p{Script=Han}+|[^\\P{L}\\p{Script=Han}]+|\\p{N}+/gu) ?? []).flatMap((word) => {
+  const signs = [...word];
+  if (!/\\p{Script=Han}/u.test(word) || signs.length === 1) return [word];
+  return signs.slice(1).map((sign, at) => signs[at] + sign);
+});
+`);
+const indexFile = path.join(site, 'zh', asset('zh', /^searchindex-.*\.js$/));
+const world = vm.createContext({ window: { search: {} } });
+vm.runInContext(read(elasticlunrFile), world);
+vm.runInContext(read(indexFile), world);
+vm.runInContext(`
+  const { search } = window;
+  const index = elasticlunr(function () {
+    for (const field of search.index.fields) this.addField(field);
+    this.setRef(search.index.ref);
+    this.pipeline.reset();
+    this.pipeline.add(elasticlunr.stopWordFilter, elasticlunr.stemmer);
+  });
+  for (const doc of Object.values(search.index.documentStore.docs)) index.addDoc(doc);
+  search.index = index.toJSON();
+`, world);
+write(indexFile, `window.search = Object.assign(window.search, ${JSON.stringify(world.window.search)});\n`);
+const searcherFile = path.join(site, 'zh', asset('zh', /^searcher-.*\.js$/));
+let searcher = once(read(searcherFile), 'function makeTeaser(body, searchterms) {', `function makeTeaser(body, searchterms) {
+        const at = body.toLowerCase().indexOf(searchterms[0].toLowerCase());
+        if (at < 0) return body.slice(0, 90);
+        const end = at + searchterms[0].length;
+        return body.slice(Math.max(0, at - 30), at) + '<em>' + body.slice(at, end) + '</em>' + body.slice(end, end + 60);
+    }
+    function unusedTeaser(body, searchterms) {`);
+searcher = once(searcher, 'function formatSearchMetric(count, searchterm) {', `function formatSearchMetric(count, searchterm) {
+        return '“' + searchterm + '”：' + count + ' 处';
+    }
+    function unusedMetric(count, searchterm) {`);
+write(searcherFile, searcher);
+
+// One compiled module for the whole site, in a script, since a page on disk may load nothing else: the playground loads it at
+// once, live figures when the first is seen.
+const playground = path.join(site, 'try/playground.html');
+if (fs.existsSync(playground)) {
+  const page = read(playground);
+  const [whole, module] = page.match(/<script type="text\/plain" id="module">([^<]*)<\/script>/);
+  write(path.join(site, 'module.js'), `globalThis.rasterproofModule = '${module.trim()}';\n`);
+  write(playground, once(once(page, "script-src 'unsafe-inline'", "script-src 'self' file: 'unsafe-inline'"), whole, `<script type="text/plain" id="module"></script>
+<script src="../module.js"></script>
+<script>document.getElementById('module').textContent = rasterproofModule;</script>`));
+}
+
+write(path.join(site, 'index.html'), `<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta name="color-scheme" content="light dark">
+<title>rasterproof</title>
+<link rel="icon" href="data:,">
+<script>location.replace((navigator.language.startsWith('zh') ? 'zh' : 'en') + '/index.html');</script>
+</head>
+<body>
+<p><a href="en/index.html">rasterproof in English</a> · <a href="zh/index.html" lang="zh-CN">rasterproof 中文</a></p>
+</body>
+</html>
+`);
+
+if (wrong.length > 0) {
+  console.error(wrong.join('\n'));
+  process.exit(1);
+}
