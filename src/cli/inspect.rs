@@ -8,10 +8,15 @@ use rasterproof_host::text::printable_path;
 
 use super::case_view::{self, Contestants};
 use super::files::{Use, distinct};
-use super::inspect_case::{CaseArguments, Found, find, parse_pixel, recorded, words};
+use super::inspect_case::{
+    CaseArguments, Found, face_of_file, find, off_lattice, parse_pixel, recorded, words,
+};
 use super::page::{PageArguments, as_file, save_page};
+use super::render::ViewArguments;
 use super::typed::Typed;
-use super::{Failure, Status, Streams, exit, explain, png_name, program, usage, write_unasked};
+use super::{
+    Failure, Status, Streams, exit, explain, png_name, program, study, usage, write_unasked,
+};
 use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::{FreeCorners, PixelPoint};
 use rasterproof_faults::published::bare;
@@ -46,6 +51,8 @@ pub struct InspectArguments {
     /// Explain this pixel: edge values, ties, the rule, the span
     #[arg(long, value_name = "X,Y", value_parser = parse_pixel_option, allow_hyphen_values = true)]
     pixel: Option<PixelPoint>,
+    #[command(flatten)]
+    view: ViewArguments,
     #[command(flatten)]
     page: PageArguments,
     /// The picture [default: inspect.png in the folder of --out]
@@ -111,7 +118,21 @@ pub fn run(arguments: &InspectArguments, command: &Typed, streams: &mut Streams<
         let output = ("--output", path.as_path(), Use::Writes);
         distinct(&[output].into_iter().chain(as_file(&page)).collect::<Vec<_>>())?;
     }
-    let (title, mut case, expected, typed) = match find(&arguments.case)? {
+    let found = match face_of_file(&arguments.case.what) {
+        Some(face) => {
+            let exact = arguments.case.exact;
+            match study::face(face, &arguments.view, (command, exact), streams)? {
+                Some(found) if exact => off_lattice(found)?,
+                Some(found) => found,
+                None => return Ok(exit::AGREES),
+            }
+        }
+        None => {
+            study::refuse_view(command)?;
+            find(&arguments.case)?
+        }
+    };
+    let (title, mut case, expected, typed) = match found {
         Found::Case { title, case, expected, typed } => (title, case, expected, typed),
         Found::Refused { title, corners } => return refused(&title, &corners, streams.output),
         Found::OffGrid { title, case } => {

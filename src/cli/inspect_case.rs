@@ -18,7 +18,7 @@ const MOST_AROUND_PX: i32 = 64;
 
 #[derive(clap::Args, Debug)]
 pub(super) struct CaseArguments {
-    /// A named case, FAMILY#NUMBER, or three corners of each triangle: x,y in pixels, or
+    /// A named case, FAMILY#NUMBER, MODEL#FACE, or three corners of each triangle: x,y in pixels, or
     /// x,y,w,depth,u,v
     #[arg(value_name = "CASE or X,Y", required = true, num_args = 1..)]
     pub what: Vec<String>,
@@ -70,7 +70,11 @@ pub(super) fn find(arguments: &CaseArguments) -> Result<Found, Failure> {
     if !arguments.exact {
         return Ok(found);
     }
-    // The same corners, for those who do not snap.
+    off_lattice(found)
+}
+
+/// The same corners, for those who do not snap.
+pub(super) fn off_lattice(found: Found) -> Result<Found, Failure> {
     match found {
         Found::Case {
             title,
@@ -124,7 +128,7 @@ fn lines(words: &[String]) -> Result<Found, Failure> {
     Ok(plain(title, Case { window, shape: Shape::Lines(list) }))
 }
 
-fn triangles(words: &[String], exact: bool) -> Result<Found, Failure> {
+pub(super) fn triangles(words: &[String], exact: bool) -> Result<Found, Failure> {
     let (triples, rest) = words.as_chunks::<3>();
     if !rest.is_empty() {
         return Err(usage(
@@ -296,6 +300,17 @@ pub(super) fn parse_pixel(text: &str) -> Result<PixelPoint, Failure> {
         usage(format!("'{text}' is not a pixel: expected two whole numbers X,Y within 32 bits, for example 8,3"))
     })?;
     Ok(PixelPoint::new(x, y))
+}
+
+/// The file and the number of `FILE#NUMBER`, where there is such a file and no family of that name.
+pub(super) fn face_of_file(words: &[String]) -> Option<(&std::path::Path, &str)> {
+    let [word] = words else { return None };
+    let (file, number) = word.rsplit_once('#')?;
+    let is_family = cases::families().any(|f| f.name == file)
+        || unsnapped::FAMILIES.iter().any(|f| f.name == file);
+    let path = std::path::Path::new(file);
+    let looks_like_file = path.extension().is_some() || path.is_file();
+    (!is_family && looks_like_file).then_some((path, number))
 }
 
 /// The pixels around these, with one to spare.

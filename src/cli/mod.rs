@@ -27,6 +27,7 @@ mod render;
 mod review;
 mod specimens;
 mod starters;
+mod study;
 mod threads;
 mod typed;
 mod verify;
@@ -72,10 +73,13 @@ struct Arguments {
 
 #[derive(Subcommand, Debug)]
 enum Command {
+    /// What is run where no command is named
+    #[command(skip)]
+    Unnamed(verify::VerifyArguments),
     /// Judge every engine on every family of cases (the default)
-    Verify(verify::VerifyArguments),
+    Verify(Box<verify::VerifyCommand>),
     /// Explain one case: coordinates, a named case, or FAMILY#NUMBER
-    Inspect(inspect::InspectArguments),
+    Inspect(Box<inspect::InspectArguments>),
     /// Answer requests of the line protocol on standard input
     #[command(after_help = engine::HELP)]
     Engine {
@@ -98,6 +102,9 @@ enum Command {
     Render(Box<render::RenderArguments>),
     /// Show which effects a scene calls for, why, and what leaving out the rest saves
     Plan(Box<plan::PlanArguments>),
+    /// Show which hard cases a model contains, where, and what one would see
+    #[command(after_help = study::HELP)]
+    Study(Box<study::StudyArguments>),
     /// Show which invariant kills which planted fault
     Mutants(invariant::MutantsArguments),
     /// Judge every case of a finite set, and certify it
@@ -267,7 +274,7 @@ pub fn run(words: impl IntoIterator<Item: Into<OsString>>, streams: &mut Streams
         }
     };
     quiet_engines();
-    let command = arguments.command.unwrap_or(Command::Verify(arguments.verify));
+    let command = arguments.command.unwrap_or(Command::Unnamed(arguments.verify));
     let for_machines = is_for_machines(&command, &words);
     let escape = match (for_machines, colour) {
         _ if matches!(command, Command::Engine { plant: Some(_), .. }) => Escape::Kept,
@@ -351,7 +358,8 @@ fn report_loss(output: &Delivered<'_>, errors: &mut dyn Write) {
 
 fn dispatch(command: &Command, typed: &Typed, streams: &mut Streams<'_>) -> Status {
     match command {
-        Command::Verify(arguments) => verify::run(arguments, typed, streams),
+        Command::Unnamed(arguments) => verify::run(arguments, typed, streams),
+        Command::Verify(arguments) => verify::run_command(arguments, typed, streams),
         Command::Inspect(arguments) => inspect::run(arguments, typed, streams),
         Command::Engine { name, plant: None } => engine::run(name, streams),
         Command::Engine { name, plant: Some(fault) } => misbehave::run(name, *fault, streams),
@@ -360,6 +368,7 @@ fn dispatch(command: &Command, typed: &Typed, streams: &mut Streams<'_>) -> Stat
         Command::Specimens(arguments) => specimens::run(arguments, typed, streams),
         Command::Render(arguments) => render::run(arguments, typed, streams),
         Command::Plan(arguments) => plan::run(arguments, typed, streams),
+        Command::Study(arguments) => study::run(arguments, typed, streams),
         Command::Mutants(arguments) => invariant::mutants(arguments, streams),
         Command::Exhaust(arguments) => exhaust::run(arguments, streams),
         Command::Merge(arguments) => exhaust::merge(arguments, streams),

@@ -17,7 +17,7 @@ use super::typed::Typed;
 use super::{Failure, Status, Streams, exit, program, usage};
 use rasterproof_core::angle::{atan, cos, sin, tan, turn_y};
 use rasterproof_core::frame::Frame;
-use rasterproof_models::{Model, Normals, Options, Up};
+use rasterproof_models::{Model, Normals, Options, Origin, Up};
 use rasterproof_registry::engines::{Drawer, Engine};
 use rasterproof_registry::undecided::{self, Drawn as DrawnBy};
 use rasterproof_render::effects::depth_ties::{ByRounding, Cause, Rivals};
@@ -81,6 +81,17 @@ pub struct SceneArguments {
     /// The scene of this name, whatever files there are; see: rasterproof list
     #[arg(long, value_name = "NAME", value_parser = scene_names())]
     scene: Option<String>,
+    #[command(flatten)]
+    pub(super) view: ViewArguments,
+}
+
+/// The names of all options of [`ViewArguments`].
+pub(super) const VIEW_OPTIONS: [&str; 11] =
+    ["size", "aa", "cull", "shading", "up", "normals", "depth", "yaw", "pitch", "zoom", "fov"];
+
+/// How a scene or a model is seen.
+#[derive(clap::Args, Debug)]
+pub struct ViewArguments {
     /// Size of the picture in pixels
     #[arg(long, value_name = "WxH", default_value = "640x480", value_parser = parse_size)]
     size: (u32, u32),
@@ -164,12 +175,11 @@ fn parse_size(text: &str) -> Result<(u32, u32), String> {
 impl SceneArguments {
     /// An empty target of the size and kind asked for.
     pub(super) fn target(&self) -> Result<Target, Failure> {
-        let (width, height) = self.size;
-        Target::new(width, height, self.aa, self.depth).map_err(usage)
+        self.view.target()
     }
 
     /// The name of the scene, or the path of the model.
-    fn source(&self) -> Result<&str, &Path> {
+    pub(super) fn source(&self) -> Result<&str, &Path> {
         if let Some(name) = &self.scene {
             return Ok(name);
         }
@@ -186,13 +196,12 @@ impl SceneArguments {
 
     /// The scene, turned by a share of a full turn, as a function that makes it.
     pub(super) fn maker(&self, streams: &mut Streams<'_>) -> Result<Maker, Failure> {
-        let (width, height) = self.size;
-        check_size(width, height, self.aa).map_err(usage)?;
-        let aspect = f64::from(width) / f64::from(height);
-        let base = match self.source() {
+        let view = &self.view;
+        match self.source() {
             Ok(name) => {
-                self.refuse_eye(name)?;
-                Base::Chapter(name.to_owned())
+                let aspect = view.aspect()?;
+                view.refuse_eye(name)?;
+                Ok(Maker { base: Base::Chapter(name.to_owned()), aspect, cull: view.cull })
             }
             Err(path) if path.extension().is_none() && !path.exists() => {
                 let word = path.to_string_lossy();
@@ -203,13 +212,33 @@ impl SceneArguments {
                 let nearest = near.min_by_key(|name| strsim::levenshtein(&word, name));
                 let hint =
                     nearest.map_or(".".to_owned(), |name| format!("; did you mean '{name}'?"));
-                return Err(usage(format!(
+                Err(usage(format!(
                     "{word} is neither a file nor a scene{hint} See: {} list",
                     program()
-                )));
+                )))
             }
-            Err(path) => Base::Model(Box::new(self.frame_model(path, aspect, streams)?)),
-        };
+            Err(path) => view.maker(path, streams),
+        }
+    }
+}
+
+impl ViewArguments {
+    /// An empty target of the size and kind asked for.
+    pub(super) fn target(&self) -> Result<Target, Failure> {
+        let (width, height) = self.size;
+        Target::new(width, height, self.aa, self.depth).map_err(usage)
+    }
+
+    fn aspect(&self) -> Result<f64, Failure> {
+        let (width, height) = self.size;
+        check_size(width, height, self.aa).map_err(usage)?;
+        Ok(f64::from(width) / f64::from(height))
+    }
+
+    /// The model in a file.
+    pub(super) fn maker(&self, path: &Path, streams: &mut Streams<'_>) -> Result<Maker, Failure> {
+        let aspect = self.aspect()?;
+        let base = Base::Model(Box::new(self.frame_model(path, aspect, streams)?));
         Ok(Maker { base, aspect, cull: self.cull })
     }
 
@@ -279,7 +308,8 @@ impl SceneArguments {
         let near = (distance - radius).max(distance * 1e-3).max(radius * 1e-3);
         let projection =
             perspective(fov.to_radians(), aspect, near, distance + radius * 1.01).map_err(usage)?;
-        let mut scene = Scene::new(&self.name(), "a model", projection);
+        let name = path.file_stem().unwrap_or_default().to_string_lossy();
+        let mut scene = Scene::new(&name, "a model", projection);
         scene.view = view;
         scene.items = model.items;
         scene.light = Light {
@@ -290,7 +320,7 @@ impl SceneArguments {
         for item in &mut scene.items {
             item.model = about(centre, turn);
         }
-        Ok(Framed { scene, centre, loading })
+        Ok(Framed { scene, centre, origins: model.origins, loading })
     }
 }
 
@@ -321,6 +351,7 @@ fn report_model(
 struct Framed {
     scene: Scene,
     centre: DVec3,
+    origins: Vec<Origin>,
     /// How long it took to read the file.
     loading: Duration,
 }
@@ -342,6 +373,14 @@ impl Maker {
         match &self.base {
             Base::Chapter(_) => None,
             Base::Model(framed) => Some(framed.loading),
+        }
+    }
+
+    /// Where each item of a model comes from; nothing for a scene of the book.
+    pub(super) fn origins(&self) -> &[Origin] {
+        match &self.base {
+            Base::Chapter(_) => &[],
+            Base::Model(framed) => &framed.origins,
         }
     }
 
@@ -769,9 +808,9 @@ fn draw_in_tiles(
     let refused = [
         (
             "--aa other than none and msaa4",
-            !matches!(arguments.what.aa, Antialias::None | Antialias::Multisample4),
+            !matches!(arguments.what.view.aa, Antialias::None | Antialias::Multisample4),
         ),
-        ("--depth", arguments.what.depth != DepthFormat::Unorm32),
+        ("--depth", arguments.what.view.depth != DepthFormat::Unorm32),
         ("--effects", arguments.effects.is_some()),
         ("--json", arguments.json),
         ("--map", arguments.map),
@@ -785,7 +824,7 @@ fn draw_in_tiles(
     }
     let target = arguments.what.target()?;
     let size = target.size();
-    let samples = match arguments.what.aa {
+    let samples = match arguments.what.view.aa {
         Antialias::Multisample4 => frames::Samples::Four,
         _ => frames::Samples::One,
     };

@@ -89,6 +89,21 @@ impl Typed {
         self.without(&["report", "out", "output", "json", "table", "format"])
     }
 
+    /// Another command about `word`, with the options that it has in common with this one.
+    pub fn as_command(&self, name: &str, word: impl Into<OsString>, options: &[&str]) -> Self {
+        let mut other = self.clone();
+        other.name = name.to_owned();
+        other.positional = vec![word.into()];
+        other.options.retain(|(name, _)| options.contains(&name.as_str()));
+        other
+    }
+
+    /// The first of these options that was given.
+    pub fn given<'a>(&self, options: &[&'a str]) -> Option<&'a str> {
+        let is_given = |option: &&&str| self.options.iter().any(|(name, _)| name == **option);
+        options.iter().find(is_given).copied()
+    }
+
     /// The words after the name of the program.
     pub fn words(&self) -> Vec<OsString> {
         let mut words = vec![OsString::from(&self.name)];

@@ -1,7 +1,7 @@
 //! `rasterproof verify`: the differential table and the verdict.
 
 use std::io::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
@@ -10,14 +10,40 @@ use image::RgbImage;
 use super::case_view::{self, Contestants};
 use super::page::{PageArguments, write_page};
 use super::progress::Progress;
+use super::render::ViewArguments;
 use super::typed::Typed;
-use super::{Failure, Status, Streams, exit, invariant, program, usage, write_unasked};
+use super::{Failure, Status, Streams, exit, invariant, program, study, usage, write_unasked};
 use rasterproof_registry::engines::{Engine, ExactEngine, LineEngine};
 use rasterproof_report::html::Report;
 use rasterproof_report::{ascii, counts, exact, json, page_cases, picture, summary, table};
 use rasterproof_verify::cases::{self, Case, Shape};
 use rasterproof_verify::comparison::unsnapped::{self, ExactVerdict};
 use rasterproof_verify::comparison::{self, Options, Verdict};
+
+/// `verify` with its name, which can also judge the engines on a model.
+#[derive(clap::Args, Debug)]
+pub struct VerifyCommand {
+    /// Judge the engines on the triangles of this model instead, and show its hard cases
+    #[arg(value_name = "MODEL", conflicts_with_all = ["cases", "seconds", "family", "invariant", "seed", "shard", "case", "table", "json", "report"])]
+    model: Option<PathBuf>,
+    #[command(flatten)]
+    view: ViewArguments,
+    #[command(flatten)]
+    arguments: VerifyArguments,
+}
+
+/// Judges the engines on a model, or on generated cases.
+pub fn run_command(command: &VerifyCommand, typed: &Typed, streams: &mut Streams<'_>) -> Status {
+    let Some(path) = &command.model else {
+        study::refuse_view(typed)?;
+        return run(&command.arguments, typed, streams);
+    };
+    let judged = command.arguments.contestants();
+    if judged.engines.is_empty() && judged.exact.is_empty() {
+        return Err(usage("no rasterizer of triangles is chosen: name one, or leave out --engine"));
+    }
+    study::verify(path, (&command.view, &judged), typed, streams)
+}
 
 #[derive(clap::Args, Debug)]
 pub struct VerifyArguments {

@@ -50,6 +50,7 @@ mod robustness;
 mod scenes;
 mod snapshots;
 mod specimens;
+mod study;
 mod surface;
 mod terms;
 mod threads;

@@ -9,7 +9,7 @@ use rasterproof_render::pipeline::assemble::Cull;
 use rasterproof_render::scene::{Corner, Item, Material, Mesh, Shading};
 
 use crate::contents::{Contents, Part, Surface};
-use crate::polygons::{self, Odd};
+use crate::polygons::{self, Odd, Shape};
 use crate::{BadFile, Format, Model, Normals, Options, Origin, Up, Warnings, bad, counted};
 
 /// The largest coordinate: products of three stay far below the largest double.
@@ -39,9 +39,10 @@ pub(crate) fn model(
         let surface = part.material.and_then(|number| contents.materials.get(number));
         let material = material(surface, &part, options.shading);
         let name = surface.map_or(String::new(), |surface| surface.name.clone());
-        let (faces, lines) = (Vec::new(), Vec::new());
+        let (faces, lines, concave) = (Vec::new(), Vec::new(), Vec::new());
+        let part_name = part.name.clone();
         let mut origin =
-            Origin { part: part.name.clone(), material: name, faces, lines, first_face };
+            Origin { part: part_name, material: name, faces, lines, concave, first_face };
         first_face += part.polygons.len() as u32;
         let mesh = mesh(path, &part, &smooth, options.normals, &mut origin, &mut warnings);
         if mesh.triangles.is_empty() {
@@ -219,6 +220,7 @@ fn mesh(
                 uv: corner.uv.map_or(DVec2::ZERO, |number| part.uvs[number as usize]),
             }
         }));
+        let first = triangles.len() as u32;
         let mut emit = |[a, b, c]: [usize; 3]| {
             triangles.push([made[a], made[b], made[c]]);
             origin.faces.push(face);
@@ -226,7 +228,11 @@ fn mesh(
                 origin.lines.push(polygon.line);
             }
         };
-        if let Err(odd) = polygons::triangles(&points, normal, &mut emit) {
+        let shape = polygons::triangles(&points, normal, &mut emit);
+        if shape != Ok(Shape::Convex) {
+            origin.concave.extend(first..triangles.len() as u32);
+        }
+        if let Err(odd) = shape {
             let path = printable_path(path);
             let (what, kind) = match odd {
                 Odd::Crosses => ("crosses itself", "faces that cross themselves"),

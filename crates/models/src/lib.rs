@@ -100,7 +100,7 @@ pub struct Model {
 }
 
 /// Where an item comes from.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Origin {
     /// The name of the object, group or node; empty without one.
     pub part: String,
@@ -110,6 +110,8 @@ pub struct Origin {
     pub faces: Vec<u32>,
     /// For each triangle the line of its face; empty where the file has no lines.
     pub lines: Vec<u32>,
+    /// The triangles of polygons that are not convex, by their numbers in the item.
+    pub concave: Vec<u32>,
     /// The number of the part's first face.
     pub first_face: u32,
 }
@@ -207,6 +209,7 @@ mod tests {
             material: String::new(),
             faces,
             lines,
+            concave: Vec::new(),
             first_face: 7,
         };
         assert_eq!(origin.place(2), "face 8 (line 31) of 'door'");

@@ -11,6 +11,14 @@ use spade::{ConstrainedDelaunayTriangulation, MIN_ALLOWED_VALUE, Point2, Triangu
 /// Corners of a polygon whose edges may be anywhere: real ones have hundreds.
 const MOST_CORNERS: usize = 1 << 16;
 
+/// The shape of a polygon that does not cross itself.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Shape {
+    /// Or without an area.
+    Convex,
+    Concave,
+}
+
 /// Why a polygon is drawn as triangles around its first corner, though it is not convex.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Odd {
@@ -33,18 +41,18 @@ pub(crate) fn triangles(
     points: &[DVec3],
     normal: DVec3,
     emit: &mut impl FnMut([usize; 3]),
-) -> Result<(), Odd> {
+) -> Result<Shape, Odd> {
     let count = points.len();
     let mut fan = || (1..count.saturating_sub(1)).for_each(|i| emit([0, i, i + 1]));
     // Without a normal it has no area, whatever the triangles.
     if count == 3 || normal == DVec3::ZERO || !normal.is_finite() {
         fan();
-        return Ok(());
+        return Ok(Shape::Convex);
     }
     let flat: Vec<DVec2> = points.iter().map(|&point| projected(point, normal)).collect();
     if is_convex(&flat) {
         fan();
-        return Ok(());
+        return Ok(Shape::Convex);
     }
     if count > MOST_CORNERS {
         fan();
@@ -57,7 +65,7 @@ pub(crate) fn triangles(
             return Err(Odd::Crosses);
         }
     }
-    Ok(())
+    Ok(Shape::Concave)
 }
 
 /// The two coordinates other than the one in which the normal is largest, in the order that makes the polygon
@@ -176,7 +184,7 @@ mod tests {
         outline: &[(f64, f64)],
         axis: usize,
         flip: bool,
-    ) -> (Result<(), Odd>, Vec<[usize; 3]>, f64, f64) {
+    ) -> (Result<Shape, Odd>, Vec<[usize; 3]>, f64, f64) {
         let points: Vec<DVec3> = outline
             .iter()
             .map(|&(x, y)| {
@@ -232,7 +240,7 @@ mod tests {
             for axis in 0..3 {
                 for flip in [false, true] {
                     let (result, made, area, expected) = cut(outline, axis, flip);
-                    assert_eq!(result, Ok(()), "{number}");
+                    assert_eq!(result, Ok(Shape::Concave), "{number}");
                     assert!(
                         (area - expected).abs() < 1e-12 * expected,
                         "{number}: {area} of {expected}: {made:?}"
@@ -251,7 +259,7 @@ mod tests {
     fn convex_polygons_stay_fans() {
         let outline = [(0.0, 0.0), (2.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0)];
         let (result, made, ..) = cut(&outline, 0, false);
-        assert_eq!((result, made), (Ok(()), vec![[0, 1, 2], [0, 2, 3], [0, 3, 4]]));
+        assert_eq!((result, made), (Ok(Shape::Convex), vec![[0, 1, 2], [0, 2, 3], [0, 3, 4]]));
     }
 
     /// The bow tie has no normal of its own where both halves are as large, so one is larger here. The

@@ -21,5 +21,6 @@ pub mod phrases;
 pub mod picture;
 pub mod specimen_sheet;
 pub mod specimens;
+pub mod study;
 pub mod summary;
 pub mod table;

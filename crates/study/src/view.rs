@@ -1,0 +1,133 @@
+//! The triangles of a scene in the window, with their corners before they are snapped and after.
+
+use glam::{DVec2, DVec4};
+use rasterproof_core::arrays::MapArray as _;
+use rasterproof_core::contract::Interpolate as _;
+use rasterproof_core::frame::Frame;
+use rasterproof_core::grid::PixelRect;
+use rasterproof_core::raster::scanline::Scanline;
+use rasterproof_core::triangle::{Corners, FreeCorners, ScreenTriangle, ScreenVertex};
+use rasterproof_render::effects::render::BadScene;
+use rasterproof_render::pipeline::ClipVertex;
+use rasterproof_render::pipeline::assemble::{Viewport, check_vertex};
+use rasterproof_render::pipeline::clip::{clip, outcode};
+use rasterproof_render::pipeline::depth::DepthFormat;
+use rasterproof_render::scene::Scene;
+
+/// What clipping leaves of a triangle, or a part of it.
+#[derive(Clone, Copy, Debug)]
+pub struct Piece {
+    /// Which triangle of the scene, from 0 in drawing order.
+    pub face: u32,
+    /// Its corners in pixels, not snapped.
+    pub px: [[f64; 2]; 3],
+    pub w: [f64; 3],
+    /// With texture coordinates.
+    pub triangle: ScreenTriangle<DVec2>,
+}
+
+impl Piece {
+    #[must_use]
+    pub fn corners(&self) -> Corners {
+        self.triangle.corners()
+    }
+
+    /// The corners as they are; none beyond the domain of the engines.
+    #[must_use]
+    pub fn free(&self) -> Option<FreeCorners> {
+        FreeCorners::new(self.px).ok()
+    }
+}
+
+/// The pieces of a scene in drawing order, culled as the scene asks.
+///
+/// # Errors
+/// [`BadScene`].
+pub fn pieces(scene: &Scene, window: PixelRect) -> Result<Vec<Piece>, BadScene> {
+    let (width, height) = (f64::from(window.width()), f64::from(window.height()));
+    let viewport = Viewport::new(window);
+    let mut pieces = Vec::with_capacity(scene.triangles());
+    let mut face = 0;
+    for (index, item) in scene.items.iter().enumerate() {
+        let points = clip_points(scene, index)?;
+        for triangle in &item.mesh.triangles {
+            face += 1;
+            let vertices = triangle.map_array(|corner| ClipVertex {
+                position: points[corner.position as usize],
+                varying: corner.uv,
+            });
+            let [a, b, c] = vertices.map_array(|vertex| outcode(&vertex));
+            if a & b & c != 0 {
+                continue;
+            }
+            let (polygon, _) = clip(&vertices, a | b | c);
+            let mut placed = polygon.vertices().filter_map(|vertex| {
+                let DVec4 { x, y, w, .. } = vertex.position;
+                let px = [(x / w + 1.0) / 2.0 * width, (1.0 - y / w) / 2.0 * height];
+                Some((px, w, viewport.place(vertex).ok()?))
+            });
+            let (Some(first), Some(mut previous)) = (placed.next(), placed.next()) else {
+                continue;
+            };
+            for next in placed {
+                let corners = [first, previous, next];
+                previous = next;
+                let triangle = ScreenTriangle { vertices: corners.map_array(|(.., v)| v) };
+                if item.cull.removes(triangle.corners()) {
+                    continue;
+                }
+                let (px, w) = (corners.map_array(|(px, ..)| px), corners.map_array(|(_, w, _)| w));
+                pieces.push(Piece { face: face - 1, px, w, triangle });
+            }
+        }
+    }
+    Ok(pieces)
+}
+
+/// The positions of an item in clip space.
+pub(crate) fn clip_points(scene: &Scene, item: usize) -> Result<Vec<DVec4>, BadScene> {
+    let Some(of) = scene.items.get(item) else { return Ok(Vec::new()) };
+    let matrix = scene.projection * scene.view * of.model;
+    let points = of.mesh.positions.iter().enumerate().map(|(index, position)| {
+        let position = matrix * position.extend(1.0);
+        check_vertex(index, &ClipVertex { position, varying: () })
+            .map_err(|vertex| BadScene { item, vertex })?;
+        Ok(position)
+    });
+    points.collect()
+}
+
+/// No piece.
+pub const NOTHING: u32 = u32::MAX;
+
+/// Which piece is seen at the centre of each pixel, by the depths of the scanline engine in a format, when the pieces
+/// are drawn in an order.
+pub fn seen(
+    pieces: &[Piece],
+    window: PixelRect,
+    format: DepthFormat,
+    order: &mut dyn Iterator<Item = usize>,
+) -> Frame<u32> {
+    let mut keys = Frame::new(window, u64::MAX);
+    let mut seen = Frame::new(window, NOTHING);
+    for number in order {
+        let depth_only = ScreenTriangle {
+            vertices: pieces[number].triangle.vertices.map_array(|vertex| {
+                let ScreenVertex { position, depth, inv_w, .. } = vertex;
+                ScreenVertex { position, depth, inv_w, varying: 0.0 }
+            }),
+        };
+        Scanline.runs(&depth_only, window, true, &mut |run| {
+            let (x0, x1) = (run.x0_px, run.x1_px());
+            let keys = keys.span_mut(run.y_px, x0, x1);
+            let seen = seen.span_mut(run.y_px, x0, x1);
+            for ((depth, key), seen) in run.depths.iter().zip(keys).zip(seen) {
+                let new = format.key(*depth);
+                if new < *key {
+                    (*key, *seen) = (new, number as u32);
+                }
+            }
+        });
+    }
+    seen
+}

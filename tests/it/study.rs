@@ -1,0 +1,132 @@
+//! What `study`, `verify FILE` and `inspect FILE#FACE` say of models: planted hard cases are found, with their face.
+
+use std::fs;
+
+use serde_json::Value;
+
+use crate::program::Folder;
+
+/// A box, closed and wound alike, whose coordinates f32 holds.
+const BOX: &str = "v -1.25 -0.75 -1\nv 1.25 -0.75 -1\nv 1.25 0.75 -1\nv -1.25 0.75 -1\n\
+                   v -1.25 -0.75 1\nv 1.25 -0.75 1\nv 1.25 0.75 1\nv -1.25 0.75 1\n";
+/// Its faces; the first one is the triangle 1 3 2 in the plane z = -1.
+const FACES: &str = "f 1 3 2\nf 1 4 3\nf 5 6 7\nf 5 7 8\nf 1 2 6\nf 1 6 5\nf 3 4 8\nf 3 8 7\n\
+                     f 2 3 7\nf 2 7 6\nf 4 1 5\nf 4 5 8\n";
+
+/// The hard cases of a model, by kind: the count, and the line of the first face.
+fn cases(folder: &Folder, model: &str) -> Vec<(String, u64, u64)> {
+    fs::write(folder.join("m.obj"), model).unwrap();
+    let run = folder.check("study m.obj --json", 0);
+    let json: Value = serde_json::from_str(&run.out).unwrap();
+    let case = |case: &Value| {
+        let kind = case["kind"].as_str().unwrap().to_owned();
+        (kind, case["count"].as_u64().unwrap(), case["faces"][0]["line"].as_u64().unwrap())
+    };
+    json["hard_cases"]["cases"].as_array().unwrap().iter().map(case).collect()
+}
+
+fn check(folder: &Folder, model: &str, expected: &[(&str, u64, u64)]) {
+    let expected: Vec<_> =
+        expected.iter().map(|&(kind, count, line)| (kind.to_owned(), count, line)).collect();
+    assert_eq!(cases(folder, model), expected, "{model}");
+}
+
+#[test]
+fn planted_hard_cases_are_found_and_a_clean_mesh_has_none() {
+    let folder = Folder::new("study-planted");
+    let clean = format!("{BOX}{FACES}");
+    check(&folder, &clean, &[]);
+    // A vertex on the edge from 1 to 2, within the face alone.
+    let split = |vertex: &str, faces: &str| {
+        format!("{BOX}v {vertex}\n{}", FACES.replacen("f 1 3 2\n", faces, 1))
+    };
+    check(
+        &folder,
+        &split("0 -0.75 -1", "f 1 3 9\nf 9 3 2\n"),
+        &[("T-junctions", 1, 15), ("open borders", 3, 10)],
+    );
+    check(&folder, &split("0 -0.74 -1", "f 1 3 9\nf 9 3 2\nf 1 9 2\n"), &[("slivers", 1, 12)]);
+    check(
+        &folder,
+        &split("0 -0.75 -1", "f 1 3 9\nf 9 3 2\nf 1 9 2\n"),
+        &[("triangles without area", 1, 12), ("T-junctions", 1, 16), ("open borders", 3, 10)],
+    );
+    check(&folder, &format!("{clean}f 3 2 1\n"), &[("duplicate faces", 1, 21)]);
+    check(
+        &folder,
+        &format!("{clean}v 0.5 -0.5 -1\nv 1 0.25 -1\nv 1 -0.5 -1\nf 9 10 11\n"),
+        &[("coplanar overlaps", 1, 24), ("open borders", 3, 24)],
+    );
+    check(
+        &folder,
+        &format!("{clean}v 0 3 0\nf 1 2 9\n"),
+        &[("open borders", 2, 22), ("edges of more than two faces", 1, 9)],
+    );
+    check(
+        &folder,
+        &format!("{BOX}{}", FACES.replacen("f 1 3 2\nf 1 4 3\n", "", 1)),
+        &[("open borders", 4, 11)],
+    );
+    let concave = "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 2 1 0\nv 0 4 0\nf 1 2 3 4 5\n";
+    check(&folder, concave, &[("concave faces", 1, 6), ("open borders", 5, 6)]);
+}
+
+/// A box far from the origin: in f64 all is well, and f32 moves its corners by half a unit.
+#[test]
+fn positions_that_f32_loses_are_found() {
+    let folder = Folder::new("study-far");
+    let moved: String = BOX
+        .lines()
+        .map(|line| {
+            let numbers: Vec<f64> =
+                line.split(' ').skip(1).map(|number| number.parse().unwrap()).collect();
+            format!(
+                "v {:?} {:?} {:?}\n",
+                numbers[0] + 431_234.123,
+                numbers[1] + 4_581_234.567,
+                numbers[2] + 120.0
+            )
+        })
+        .collect();
+    let found = cases(&folder, &format!("{moved}{FACES}"));
+    let kinds: Vec<_> = found.iter().map(|(kind, ..)| kind.as_str()).collect();
+    assert_eq!(kinds, ["positions lost by f32"], "{found:?}");
+    assert_eq!(found[0].1, 12, "all faces");
+}
+
+/// The same square drawn twice, in two colours: which one is seen depends on the order.
+#[test]
+fn pixels_that_depend_on_the_order_are_found() {
+    let folder = Folder::new("study-order");
+    fs::write(folder.join("m.mtl"), "newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\n").unwrap();
+    let square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+    let model = format!(
+        "mtllib m.mtl\n{square}usemtl red\nf 1 2 3\nf 1 3 4\nusemtl blue\nf 1 2 3\nf 1 3 4\n"
+    );
+    let found = cases(&folder, &model);
+    let kinds: Vec<_> = found.iter().map(|(kind, ..)| kind.as_str()).collect();
+    assert_eq!(kinds, ["duplicate faces", "open borders", "pixels by drawing order"]);
+}
+
+/// Each command that `study` prints shows the face, and each of the engines agrees about it.
+#[test]
+fn the_commands_of_a_study_work() {
+    let folder = Folder::new("study-commands");
+    fs::write(folder.join("m.obj"), format!("{BOX}{FACES}f 3 2 1\n")).unwrap();
+    let text = folder.check("study m.obj --yaw 10 --size 64x48", 0).out;
+    let command = text.lines().find_map(|line| line.trim().split_once(" inspect ")).unwrap().1;
+    assert_eq!(command, "'m.obj#13' --size 64x48 --yaw 10");
+    let shown = folder.check(["inspect", "m.obj#13", "--size", "64x48", "--yaw", "10"], 0).out;
+    for words in ["face 13 (line 21)", "(1.25, 0.75, -1.0)", "duplicate faces", "against oracle"] {
+        assert!(shown.contains(words), "{words}: {shown}");
+    }
+    folder.check(["inspect", "m.obj#13", "--exact"], 0);
+    let wrong = folder.check(["inspect", "m.obj#14"], 2);
+    assert!(wrong.errors.contains("1 to 13"), "{}", wrong.errors);
+    let verified = folder.check("verify m.obj", 0).out;
+    assert!(verified.contains("duplicate faces") && verified.contains("AGREES"), "{verified}");
+    let planted = folder.check("verify m.obj --plant drops-first-row", 1).out;
+    assert!(planted.contains("DISAGREES") && planted.contains("inspect 'm.obj#"), "{planted}");
+    let refused = folder.check("verify --yaw 3", 2);
+    assert!(refused.errors.contains("--yaw is for models"), "{}", refused.errors);
+}
