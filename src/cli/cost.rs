@@ -2,14 +2,17 @@
 
 use std::path::{Path, PathBuf};
 
+use clap::ValueEnum as _;
+use clap::builder::{OsStringValueParser, TypedValueParser};
 use rasterproof_host::text::{printable, printable_path};
 use rasterproof_host::{input, limits};
 
 use super::files::{Use, distinct};
 use super::page::{PageArguments, as_file, write_page};
 use super::progress::Progress;
+use super::render::ViewArguments;
 use super::typed::Typed;
-use super::{Failure, Status, Streams, exit, usage};
+use super::{Failure, Status, Streams, exit, study, usage};
 use rasterproof_precision::cost::{
     Board, ExternalVariant, Ladder, Options, Recorded, measure_with,
 };
@@ -44,10 +47,34 @@ impl Which {
     }
 }
 
+/// What is measured on: scenes that isolate one cost each, or a model.
+#[derive(Clone, Debug)]
+enum Subject {
+    Ladder(Which),
+    Model(PathBuf),
+}
+
+fn parse_subject() -> impl TypedValueParser<Value = Subject> {
+    OsStringValueParser::new().try_map(|word| {
+        let which = word.to_str().and_then(|word| Which::from_str(word, false).ok());
+        let path = PathBuf::from(word);
+        match which {
+            Some(which) => Ok(Subject::Ladder(which)),
+            None if path.extension().is_some() || path.is_file() => Ok(Subject::Model(path)),
+            None => {
+                let names = Which::value_variants().iter().filter_map(Which::to_possible_value);
+                let names: Vec<_> = names.map(|value| value.get_name().to_owned()).collect();
+                Err(format!("neither a file nor one of the ladders {}", names.join(", ")))
+            }
+        }
+    })
+}
+
 #[derive(clap::Args, Debug)]
 pub struct CostArguments {
-    /// The ladder; all of them without a word
-    which: Option<Which>,
+    /// The ladder, all of them without a word; or the file of a model, to measure on its triangles
+    #[arg(value_name = "LADDER|MODEL", value_parser = parse_subject())]
+    what: Option<Subject>,
     /// Smaller scenes and fewer rounds: under ten seconds for all ladders
     #[arg(long)]
     quick: bool,
@@ -64,6 +91,8 @@ pub struct CostArguments {
     /// Print JSON instead of boards
     #[arg(long)]
     json: bool,
+    #[command(flatten)]
+    view: ViewArguments,
     #[command(flatten)]
     page: PageArguments,
     /// Where the plots go, as SVG and PNG [default: the folder of --out]
@@ -102,7 +131,18 @@ impl CostArguments {
 
 /// Measures or reads, prints and draws. Nothing here disagrees with anything: errors are the result.
 pub fn run(arguments: &CostArguments, typed: &Typed, streams: &mut Streams<'_>) -> Status {
-    let ladders = arguments.which.map_or(&Ladder::ALL[..], Which::ladders);
+    let ladders = match &arguments.what {
+        Some(Subject::Model(path)) => {
+            if let Some(option) = typed.given(&["from", "seed", "engine", "output", "report"]) {
+                return Err(usage(format!("--{option} is not for models: leave it out")));
+            }
+            let how = (arguments.quick, arguments.json);
+            return study::cost(path, &arguments.view, how, typed, streams);
+        }
+        Some(Subject::Ladder(which)) => which.ladders(),
+        None => &Ladder::ALL[..],
+    };
+    study::refuse_view(typed)?;
     arguments.check_files(ladders)?;
     let recorded = match &arguments.from {
         Some(path) => read(path, ladders)?,

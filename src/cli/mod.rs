@@ -102,7 +102,7 @@ enum Command {
     Render(Box<render::RenderArguments>),
     /// Show which effects a scene calls for, why, and what leaving out the rest saves
     Plan(Box<plan::PlanArguments>),
-    /// Show which hard cases a model contains, where, and what one would see
+    /// Show which hard cases a model contains, where, and what each choice costs on it
     #[command(after_help = study::HELP)]
     Study(Box<study::StudyArguments>),
     /// Show which invariant kills which planted fault
@@ -115,7 +115,7 @@ enum Command {
     /// Show snapshots that changed, and how to accept them
     Review(review::ReviewArguments),
     /// Show what accuracy costs in time: every rung of every ladder, verified, then timed
-    Cost(cost::CostArguments),
+    Cost(Box<cost::CostArguments>),
     /// Hash everything the engines compute for a seed, to compare machines
     #[command(after_help = digest::HELP)]
     Digest(digest::DigestArguments),

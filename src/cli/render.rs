@@ -286,7 +286,7 @@ impl ViewArguments {
         let options = Options { shading, normals, up: self.up };
         let progress = Progress::new(streams.progress, "models read", None);
         let start = Instant::now();
-        let model = rasterproof_models::load(path, options).map_err(usage)?;
+        let mut model = rasterproof_models::load(path, options).map_err(usage)?;
         let loading = start.elapsed();
         drop(progress);
         report_model(&model, self.up.is_some(), streams.errors)?;
@@ -311,7 +311,7 @@ impl ViewArguments {
         let name = path.file_stem().unwrap_or_default().to_string_lossy();
         let mut scene = Scene::new(&name, "a model", projection);
         scene.view = view;
-        scene.items = model.items;
+        scene.items = std::mem::take(&mut model.items);
         scene.light = Light {
             towards: DVec3::new(-0.4, 0.7, -0.6).normalize(),
             ambient: 0.25,
@@ -320,7 +320,8 @@ impl ViewArguments {
         for item in &mut scene.items {
             item.model = about(centre, turn);
         }
-        Ok(Framed { scene, centre, origins: model.origins, loading })
+        let Model { origins, not_drawn, .. } = model;
+        Ok(Framed { scene, centre, origins, not_drawn, loading })
     }
 }
 
@@ -352,6 +353,8 @@ struct Framed {
     scene: Scene,
     centre: DVec3,
     origins: Vec<Origin>,
+    /// What the file contains and is not drawn.
+    not_drawn: String,
     /// How long it took to read the file.
     loading: Duration,
 }
@@ -369,10 +372,18 @@ pub(super) struct Maker {
 
 impl Maker {
     /// How long it took to read the model; nothing for a scene of the book.
-    fn loading(&self) -> Option<Duration> {
+    pub(super) fn loading(&self) -> Option<Duration> {
         match &self.base {
             Base::Chapter(_) => None,
             Base::Model(framed) => Some(framed.loading),
+        }
+    }
+
+    /// What the file of a model contains and is not drawn, in words.
+    pub(super) fn not_drawn(&self) -> &str {
+        match &self.base {
+            Base::Chapter(_) => "",
+            Base::Model(framed) => &framed.not_drawn,
         }
     }
 
@@ -840,6 +851,13 @@ fn draw_in_tiles(
     if streams.save(output, &frame_comparison::png(&picture)?) {
         let (side, path) = (frames::SIDE_PX, printable_path(output));
         writeln!(streams.output, "  drawn in tiles of {side} x {side} px in {path}")?;
+    }
+    let mut exact = arguments.what.target()?;
+    let exact = Drawer::Scanline.render(scene, &Effects::PLANNED, &mut exact).map_err(usage)?;
+    let differing = frame_comparison::differing(&picture, &exact.picture);
+    if differing > 0 {
+        let pixels = u64::from(size.width()) * u64::from(size.height());
+        writeln!(streams.output, "  {differing} of {pixels} pixels differ from those of scanline")?;
     }
     let found = by_rounding(scene, &target, Cause::PlanesInF32)?;
     let reach = "snapping and f32 move a depth";

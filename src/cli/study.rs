@@ -1,18 +1,27 @@
 //! `rasterproof study`: what a model costs, which hard cases it contains, and which effects it calls for; and the same
 //! judgements alone, as `verify FILE` and `inspect FILE#FACE`.
 
+use std::collections::BTreeMap;
 use std::ffi::OsString;
 use std::path::Path;
+use std::time::Duration;
 
 use rasterproof_core::parallel;
 use rasterproof_core::triangle::check_value;
 use rasterproof_host::text::{printable, printable_path};
+use rasterproof_models::Origin;
 use rasterproof_registry::comparison::judge_case;
 use rasterproof_registry::engines::{Engine, ExactEngine};
 use rasterproof_render::scene::{Hidden, Scene};
-use rasterproof_report::study::{Subject, hard_cases, hard_cases_json, thousands};
+use rasterproof_report::board::number;
+use rasterproof_report::study::{
+    self as report, Subject, costs, costs_json, hard_cases, hard_cases_json, needs_json, thousands,
+    ties_json,
+};
+use rasterproof_study::cost::{self, Effort, Group};
 use rasterproof_study::hard::{self, HardCases, Kind};
 use rasterproof_study::view::{Piece, pieces};
+use rasterproof_study::{effects, ties};
 use rasterproof_study::{face_of, triangle_of};
 use rasterproof_verify::cases::unsnapped::OffGridCase;
 use rasterproof_verify::cases::{Case, Shape};
@@ -21,7 +30,8 @@ use rasterproof_verify::comparison::unsnapped::judge_exact_case;
 
 use super::case_view::Contestants;
 use super::inspect_case::{self, Found};
-use super::page::PageArguments;
+use super::page::{PageArguments, write_page};
+use super::progress::Progress;
 use super::render::{Maker, SceneArguments, VIEW_OPTIONS, ViewArguments};
 use super::typed::Typed;
 use super::{Failure, Status, Streams, exit, usage};
@@ -34,22 +44,27 @@ pub struct StudyArguments {
     what: SceneArguments,
     #[command(flatten)]
     page: PageArguments,
+    /// Fewer rounds and smaller samples for the times
+    #[arg(long)]
+    quick: bool,
+    /// Look at the model from so many sides, a line for each
+    #[arg(long, value_name = "N", conflicts_with = "report", value_parser = clap::value_parser!(u32).range(1..=360))]
+    views: Option<u32>,
     /// For machines
     #[arg(long)]
     json: bool,
 }
 
 /// A scene in a view, taken apart.
-struct Studied {
+struct Studied<'a> {
     scene: Scene,
-    maker: Maker,
+    origins: &'a [Origin],
     pieces: Vec<Piece>,
     hard: HardCases,
 }
 
-impl Studied {
-    fn new(maker: Maker, view: &ViewArguments) -> Result<Self, Failure> {
-        let scene = maker.scene(0.0);
+impl<'a> Studied<'a> {
+    fn new(scene: Scene, origins: &'a [Origin], view: &ViewArguments) -> Result<Self, Failure> {
         if scene.hidden == Hidden::Painter {
             return Err(usage(
                 "this scene is drawn from back to front, without a depth buffer: study another one",
@@ -57,13 +72,50 @@ impl Studied {
         }
         let mut target = view.target()?;
         let pieces = pieces(&scene, target.size()).map_err(usage)?;
-        let hard = hard::find(&scene, maker.origins(), &pieces, &mut target).map_err(usage)?;
-        Ok(Self { scene, maker, pieces, hard })
+        let hard = hard::find(&scene, origins, &pieces, &mut target).map_err(usage)?;
+        Ok(Self { scene, origins, pieces, hard })
     }
 
-    fn subject<'a>(&'a self, inspect: &'a dyn Fn(u32) -> String) -> Subject<'a> {
-        Subject { scene: &self.scene, origins: self.maker.origins(), inspect }
+    fn subject<'s>(&'s self, inspect: &'s dyn Fn(u32) -> String) -> Subject<'s> {
+        Subject { scene: &self.scene, origins: self.origins, inspect }
     }
+}
+
+/// What a scene costs, with a bar while it is measured.
+fn measure(
+    studied: &Studied<'_>,
+    view: &ViewArguments,
+    quick: bool,
+    on_terminal: bool,
+) -> Result<Vec<Group>, Failure> {
+    let progress = Progress::new(on_terminal, "percent", Some(100));
+    let told = |share: f64, what: &str| progress.at((share * 100.0) as u64, what);
+    let mut target = view.target()?;
+    let effort = Effort { quick };
+    cost::measure(&studied.scene, &studied.pieces, &mut target, effort, &told).map_err(usage)
+}
+
+/// `cost FILE`: what each choice costs on the triangles of a model.
+pub(super) fn cost(
+    path: &Path,
+    view: &ViewArguments,
+    (quick, is_json): (bool, bool),
+    typed: &Typed,
+    streams: &mut Streams<'_>,
+) -> Status {
+    let maker = view.maker(path, streams)?;
+    let studied = Studied::new(maker.scene(0.0), maker.origins(), view)?;
+    let groups = measure(&studied, view, quick, streams.progress)?;
+    let inspect = |face| inspect_command(typed, path, face);
+    let subject = studied.subject(&inspect);
+    let out = &mut *streams.output;
+    if is_json {
+        writeln!(out, "{}", costs_json(&subject, &studied.pieces, &groups))?;
+    } else {
+        writeln!(out, "{}\n", head(&studied))?;
+        out.write_all(costs(&subject, &studied.pieces, &groups).as_bytes())?;
+    }
+    Ok(exit::AGREES)
 }
 
 /// The command that shows a face of a model.
@@ -76,29 +128,138 @@ fn inspect_command(typed: &Typed, path: &Path, face: u32) -> String {
 pub fn run(arguments: &StudyArguments, typed: &Typed, streams: &mut Streams<'_>) -> Status {
     let what = &arguments.what;
     let maker = what.maker(streams)?;
-    let studied = Studied::new(maker, &what.view)?;
+    if let Some(views) = arguments.views {
+        return all_around((arguments, views), &maker, streams);
+    }
+    let scene = maker.scene(0.0);
+    let studied = Studied::new(scene, maker.origins(), &what.view)?;
+    let groups = measure(&studied, &what.view, arguments.quick, streams.progress)?;
+    let mut target = what.view.target()?;
+    let window = target.size();
+    let classes = ties::classify(&studied.pieces, window);
+    let seen = cost::exactly_seen(&studied.pieces, window);
+    let budget = Duration::from_millis(if arguments.quick { 700 } else { 5000 });
+    let visible = (studied.pieces.as_slice(), &seen);
+    let needs = effects::survey(&studied.scene, studied.origins, visible, &mut target, budget);
+    let needs = needs.map_err(usage)?;
     let inspect = |face| match what.source() {
-        Ok(name) => format!("a scene of the book, {name}, has no file to inspect"),
+        Ok(name) => format!("(a scene of the book, {name}, is no file to inspect)"),
         Err(path) => inspect_command(typed, path, face),
     };
     let subject = studied.subject(&inspect);
+    let not_drawn = maker.not_drawn();
     let out = &mut *streams.output;
     if arguments.json {
         let json = serde_json::json!({
             "scene": studied.scene.name,
             "triangles": studied.scene.triangles(),
             "pieces": studied.pieces.len(),
+            "loading_s": maker.loading().map(|time| time.as_secs_f64()),
             "hard_cases": hard_cases_json(&subject, &studied.hard),
+            "decided": ties_json(&classes),
+            "effects": needs_json(&needs, not_drawn),
+            "costs": costs_json(&subject, &studied.pieces, &groups),
         });
         writeln!(out, "{json}")?;
-        return Ok(exit::AGREES);
+    } else {
+        writeln!(out, "{}", head(&studied))?;
+        if let Some(loading) = maker.loading() {
+            writeln!(
+                out,
+                "read in {:.1} ms, which is no part of the times below",
+                loading.as_secs_f64() * 1e3
+            )?;
+        }
+        writeln!(out)?;
+        out.write_all(hard_cases(&subject, &studied.hard, &groups).as_bytes())?;
+        writeln!(out, "{}", report::ties(&subject, &studied.pieces, &classes))?;
+        writeln!(out, "{}", report::needs(&needs, not_drawn))?;
+        out.write_all(costs(&subject, &studied.pieces, &groups).as_bytes())?;
     }
-    writeln!(out, "{}\n", head(&studied))?;
-    out.write_all(hard_cases(&subject, &studied.hard).as_bytes())?;
+    out.flush()?;
+    if let Some(path) = arguments.page.page("study.html") {
+        let found = report::Found {
+            pieces: &studied.pieces,
+            hard: &studied.hard,
+            classes: &classes,
+            needs: &needs,
+            costs: &groups,
+            not_drawn,
+        };
+        let page = report::page(&subject, &found, &typed.line());
+        write_page(&path, page, streams);
+    }
     Ok(exit::AGREES)
 }
 
-fn head(studied: &Studied) -> String {
+/// A line for each of some views around the model.
+fn all_around(
+    (arguments, views): (&StudyArguments, u32),
+    maker: &Maker,
+    streams: &mut Streams<'_>,
+) -> Status {
+    let view = &arguments.what.view;
+    let progress = Progress::new(streams.progress, "views", Some(views.into()));
+    let mut lines = Vec::new();
+    let mut best: BTreeMap<(usize, String), u32> = BTreeMap::new();
+    let mut titles = Vec::new();
+    for number in 0..views {
+        let turn = f64::from(number) / f64::from(views);
+        let studied = Studied::new(maker.scene(turn), maker.origins(), view)?;
+        let groups = measure(&studied, view, arguments.quick, false)?;
+        let classes = ties::classify(&studied.pieces, view.target()?.size());
+        let pixels = |kind: Kind| {
+            let found = studied.hard.cases.iter().find(|case| case.kind == kind);
+            found.map_or(0, |case| case.pixels)
+        };
+        lines.push(serde_json::json!({
+            "turn": 360.0 * turn,
+            "kinds": studied.hard.cases.len(),
+            "slivers": pixels(Kind::Sliver),
+            "order": pixels(Kind::Order),
+            "by_rounding": classes.by_rounding,
+            "equal": classes.equal,
+        }));
+        for (place, group) in groups.iter().enumerate() {
+            if place == titles.len() {
+                titles.push(group.title);
+            }
+            if let Some(choice) = group.cheapest_exact(group.measures.len() - 1) {
+                *best.entry((place, group.choices[choice].name.clone())).or_default() += 1;
+            }
+        }
+        progress.done(1);
+    }
+    drop(progress);
+    let out = &mut *streams.output;
+    if arguments.json {
+        let best = best.iter().map(|((place, name), count)| (titles[*place], name, count));
+        let json =
+            serde_json::json!({ "views": lines, "cheapest_exact": best.collect::<Vec<_>>() });
+        writeln!(out, "{json}")?;
+        return Ok(exit::AGREES);
+    }
+    let columns = ["turn", "kinds", "slivers", "order", "by_rounding", "equal"];
+    writeln!(out, "pixels that hard cases touch, by the turn of the model in degrees\n")?;
+    for column in columns {
+        write!(out, "{column:>12}")?;
+    }
+    writeln!(out)?;
+    for line in lines {
+        for column in columns {
+            let value = line[column].as_f64().unwrap_or(0.0);
+            write!(out, "{:>12}", number(value, 9))?;
+        }
+        writeln!(out)?;
+    }
+    writeln!(out, "\ncheapest exact choice, and in how many of the views")?;
+    for ((place, name), count) in best {
+        writeln!(out, "  {:<28}{name:<24}{count:>6}", titles[place])?;
+    }
+    Ok(exit::AGREES)
+}
+
+fn head(studied: &Studied<'_>) -> String {
     let (triangles, pieces) = (studied.scene.triangles() as u64, studied.pieces.len() as u64);
     let (triangles, pieces) = (thousands(triangles), thousands(pieces));
     format!("{}: {triangles} triangles, {pieces} pieces in the window", studied.scene.name)
@@ -118,18 +279,15 @@ const CHUNK: usize = 128;
 /// `verify FILE`: the hard cases of a model, and every engine on its triangles against the oracle.
 pub(super) fn verify(
     path: &Path,
-    (view, judged): (&ViewArguments, &Contestants),
+    (view, judged, is_json): (&ViewArguments, &Contestants, bool),
     typed: &Typed,
     streams: &mut Streams<'_>,
 ) -> Status {
     let maker = view.maker(path, streams)?;
     let window = view.target()?.bounds();
-    let studied = Studied::new(maker, view)?;
+    let studied = Studied::new(maker.scene(0.0), maker.origins(), view)?;
     let inspect = |face| inspect_command(typed, path, face);
     let subject = studied.subject(&inspect);
-    writeln!(streams.output, "{}\n", head(&studied))?;
-    streams.output.write_all(hard_cases(&subject, &studied.hard).as_bytes())?;
-    writeln!(streams.output)?;
     // The engines see samples as the picture has them, and values up to their limit.
     let drawn = pieces(&studied.scene, window).map_err(usage)?;
     let has_values = |piece: &&Piece| {
@@ -137,62 +295,79 @@ pub(super) fn verify(
         uv.flat_map(|uv| uv.to_array()).all(|value| check_value(value).is_ok())
     };
     let judgeable: Vec<&Piece> = drawn.iter().filter(has_values).collect();
-    let mut agrees = true;
-    for &(engine, tolerance) in &judged.engines {
-        agrees &= say(streams, &subject, engine.name(), &judgeable, &|chunk| {
-            on_grid((engine, tolerance), chunk, window)
-        })?;
+    let mut faults = Vec::new();
+    for &engine in &judged.engines {
+        faults.push((engine.0.name(), judge(&judgeable, &|chunk| on_grid(engine, chunk, window))));
     }
     for engine in &judged.exact {
-        agrees &= say(streams, &subject, engine.name(), &judgeable, &|chunk| {
-            off_grid(*engine, chunk, window)
-        })?;
+        faults.push((engine.name(), judge(&judgeable, &|chunk| off_grid(*engine, chunk, window))));
     }
-    let left = drawn.len() - judgeable.len();
+    let agrees = faults.iter().all(|(_, fault)| fault.is_none());
+    let (left, count) = (drawn.len() - judgeable.len(), judgeable.len());
+    let out = &mut *streams.output;
+    if is_json {
+        let engine = |(name, fault): &(&str, Option<Fault>)| {
+            let face = fault.as_ref().and_then(|fault| fault.triangle);
+            let face = face.map(|one| face_of(&studied.scene, studied.origins, one));
+            let what = fault.as_ref().map(|fault| &fault.what);
+            serde_json::json!({ "engine": name, "fault": what, "face": face })
+        };
+        let json = serde_json::json!({
+            "scene": studied.scene.name,
+            "hard_cases": hard_cases_json(&subject, &studied.hard),
+            "engines": faults.iter().map(engine).collect::<Vec<_>>(),
+            "pieces": count,
+            "not_judged": left,
+            "agrees": agrees,
+        });
+        writeln!(out, "{json}")?;
+        return Ok(if agrees { exit::AGREES } else { exit::DISAGREES });
+    }
+    writeln!(out, "{}\n", head(&studied))?;
+    writeln!(out, "{}", hard_cases(&subject, &studied.hard, &[]))?;
+    for (name, fault) in &faults {
+        let Some(Fault { what, triangle }) = fault else {
+            writeln!(out, "{name} against the oracle: agrees")?;
+            continue;
+        };
+        writeln!(out, "{name} against the oracle: {what}")?;
+        if let Some(triangle) = *triangle {
+            writeln!(out, "    first at {}", subject.place(triangle))?;
+            writeln!(out, "    {}", subject.command(triangle))?;
+        }
+    }
     if left > 0 {
         let left = thousands(left as u64);
         writeln!(
-            streams.output,
+            out,
             "not judged: {left} pieces, whose texture coordinates are too large for the engines"
         )?;
     }
     let word = if agrees { "AGREES" } else { "DISAGREES" };
-    let pieces = thousands(judgeable.len() as u64);
-    writeln!(streams.output, "{word}: {pieces} pieces of {}", printable_path(path))?;
+    let count = thousands(count as u64);
+    writeln!(out, "{word}: {count} pieces of {}", printable_path(path))?;
     Ok(if agrees { exit::AGREES } else { exit::DISAGREES })
 }
 
-/// What is wrong with pieces by an engine, in words; nothing where nothing is.
-type Judge<'a> = &'a (dyn Fn(&[&Piece]) -> Option<String> + Sync);
+/// What an engine gets wrong, and the first triangle for which it does so alone.
+struct Fault {
+    what: String,
+    triangle: Option<u32>,
+}
 
-/// Judges an engine on all pieces, and says what it came to, with the first face that it gets wrong.
-fn say(
-    streams: &mut Streams<'_>,
-    subject: &Subject<'_>,
-    name: &str,
-    pieces: &[&Piece],
-    judge: Judge<'_>,
-) -> Result<bool, Failure> {
+/// Judges an engine on all pieces. `judge` says what is wrong with some of them together.
+fn judge(pieces: &[&Piece], judge: &(dyn Fn(&[&Piece]) -> Option<String> + Sync)) -> Option<Fault> {
     let chunks: Vec<&[&Piece]> = pieces.chunks(CHUNK).collect();
     let wrong = parallel::map(chunks.len(), |number| judge(chunks[number]).is_some());
-    let wrong: Vec<usize> = (0..chunks.len()).filter(|&number| wrong[number]).collect();
-    let Some(&first) = wrong.first() else {
-        writeln!(streams.output, "{name} against the oracle: agrees")?;
-        return Ok(true);
-    };
-    let alone = chunks[first].iter().find_map(|piece| Some((piece.face, judge(&[*piece])?)));
-    match alone {
-        Some((face, what)) => {
-            writeln!(streams.output, "{name} against the oracle: {what}")?;
-            writeln!(streams.output, "    first at {}", subject.place(face))?;
-            writeln!(streams.output, "    {}", subject.command(face))?;
-        }
+    let first = chunks.iter().zip(wrong).find(|(_, is_wrong)| *is_wrong)?.0;
+    let alone = first.iter().find_map(|piece| Some((piece.face, judge(&[*piece])?)));
+    Some(match alone {
+        Some((triangle, what)) => Fault { what, triangle: Some(triangle) },
         None => {
-            let what = judge(chunks[first]).unwrap_or_default();
-            writeln!(streams.output, "{name} against the oracle, several pieces together: {what}")?;
+            let what = judge(first).unwrap_or_default();
+            Fault { what: format!("several pieces together: {what}"), triangle: None }
         }
-    }
-    Ok(false)
+    })
 }
 
 fn on_grid(
@@ -227,8 +402,8 @@ pub(super) fn face(
 ) -> Result<Option<Found>, Failure> {
     let shown = printable_path(path);
     let maker = view.maker(path, streams)?;
-    let studied = Studied::new(maker, view)?;
-    let (scene, origins) = (&studied.scene, studied.maker.origins());
+    let studied = Studied::new(maker.scene(0.0), maker.origins(), view)?;
+    let (scene, origins) = (&studied.scene, studied.origins);
     let number = word.parse::<u32>().ok();
     let all = 0..scene.triangles() as u32;
     let triangles: Vec<u32> =

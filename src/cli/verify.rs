@@ -24,7 +24,7 @@ use rasterproof_verify::comparison::{self, Options, Verdict};
 #[derive(clap::Args, Debug)]
 pub struct VerifyCommand {
     /// Judge the engines on the triangles of this model instead, and show its hard cases
-    #[arg(value_name = "MODEL", conflicts_with_all = ["cases", "seconds", "family", "invariant", "seed", "shard", "case", "table", "json", "report"])]
+    #[arg(value_name = "MODEL", conflicts_with_all = ["cases", "seconds", "family", "invariant", "seed", "shard", "case", "table", "report"])]
     model: Option<PathBuf>,
     #[command(flatten)]
     view: ViewArguments,
@@ -42,7 +42,7 @@ pub fn run_command(command: &VerifyCommand, typed: &Typed, streams: &mut Streams
     if judged.engines.is_empty() && judged.exact.is_empty() {
         return Err(usage("no rasterizer of triangles is chosen: name one, or leave out --engine"));
     }
-    study::verify(path, (&command.view, &judged), typed, streams)
+    study::verify(path, (&command.view, &judged, command.arguments.json), typed, streams)
 }
 
 #[derive(clap::Args, Debug)]

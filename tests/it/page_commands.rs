@@ -37,6 +37,7 @@ fn every_option_is_on_the_page() {
             vec!["a 'model'.obj"],
             format!("{view} --engine edge-function --rounds 1 {report}"),
         ),
+        ("study", vec!["a 'model'.obj"], format!("{view} --quick {report}")),
         ("inspect", vec!["-0.5,0.5", "5.5,0.5", "5.5,5.5"], {
             format!("--window 0,0,8x8 --plant inclusive-edges --pixel 1,1 {report}")
         }),

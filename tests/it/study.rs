@@ -16,7 +16,7 @@ const FACES: &str = "f 1 3 2\nf 1 4 3\nf 5 6 7\nf 5 7 8\nf 1 2 6\nf 1 6 5\nf 3 4
 /// The hard cases of a model, by kind: the count, and the line of the first face.
 fn cases(folder: &Folder, model: &str) -> Vec<(String, u64, u64)> {
     fs::write(folder.join("m.obj"), model).unwrap();
-    let run = folder.check("study m.obj --json", 0);
+    let run = folder.check("verify m.obj --json", 0);
     let json: Value = serde_json::from_str(&run.out).unwrap();
     let case = |case: &Value| {
         let kind = case["kind"].as_str().unwrap().to_owned();
@@ -113,7 +113,7 @@ fn pixels_that_depend_on_the_order_are_found() {
 fn the_commands_of_a_study_work() {
     let folder = Folder::new("study-commands");
     fs::write(folder.join("m.obj"), format!("{BOX}{FACES}f 3 2 1\n")).unwrap();
-    let text = folder.check("study m.obj --yaw 10 --size 64x48", 0).out;
+    let text = folder.check("study m.obj --yaw 10 --size 64x48 --quick", 0).out;
     let command = text.lines().find_map(|line| line.trim().split_once(" inspect ")).unwrap().1;
     assert_eq!(command, "'m.obj#13' --size 64x48 --yaw 10");
     let shown = folder.check(["inspect", "m.obj#13", "--size", "64x48", "--yaw", "10"], 0).out;

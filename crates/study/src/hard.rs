@@ -126,6 +126,10 @@ pub struct HardCase {
 pub struct HardCases {
     /// Those that occur, in the order of [`Kind::ALL`].
     pub cases: Vec<HardCase>,
+    /// For each pixel which kinds touch it, as bits.
+    touched: Frame<u16>,
+    /// The picture as it is drawn.
+    pub picture: Frame<Colour>,
     /// For each triangle of the scene which kinds it is of, as bits.
     marks: Vec<u16>,
     /// The smallest and the largest w in the window.
@@ -137,6 +141,12 @@ pub struct HardCases {
 }
 
 impl HardCases {
+    /// Whether a hard case touches a pixel.
+    #[must_use]
+    pub fn touches(&self, x_px: i32, y_px: i32) -> bool {
+        self.touched.get(x_px, y_px).is_some_and(|bits| bits != 0)
+    }
+
     /// Whether a triangle has a part in a hard case of a kind.
     #[must_use]
     pub fn is(&self, triangle: u32, kind: Kind) -> bool {
@@ -191,7 +201,8 @@ pub fn find(
     let all_w = || pieces.iter().flat_map(|piece| piece.w);
     let w = (!pieces.is_empty())
         .then(|| [all_w().fold(f64::MAX, f64::min), all_w().fold(0.0, f64::max)]);
-    Ok(HardCases { cases: found, marks, w, f32_pixels, is_cut_short: shape.is_cut_short })
+    let is_cut_short = shape.is_cut_short;
+    Ok(HardCases { cases: found, touched, picture, marks, w, f32_pixels, is_cut_short })
 }
 
 fn draw(scene: &Scene, target: &mut Target) -> Result<Frame<Colour>, BadScene> {
@@ -350,10 +361,9 @@ impl Search<'_> {
         let mut count = 0;
         for (y, row) in picture.rows() {
             let pairs = row.iter().zip(other.row(y)).zip(differs.row_mut(y));
-            for ((a, b), differs) in pairs.filter(|((a, b), _)| a != b) {
+            for (_, differs) in pairs.filter(|((a, b), _)| a != b) {
                 *differs = true;
                 count += 1;
-                let _ = (a, b);
             }
         }
         if count > 0 {

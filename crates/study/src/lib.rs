@@ -1,8 +1,11 @@
 //! A study of a model in a view: which hard cases it contains, what its accuracy costs, and which effects it calls
 //! for. It prints nothing.
 
+pub mod cost;
+pub mod effects;
 pub mod hard;
 mod shape;
+pub mod ties;
 pub mod view;
 
 use rasterproof_models::Origin;

@@ -1,6 +1,6 @@
 //! The triangles of a scene in the window, with their corners before they are snapped and after.
 
-use glam::{DVec2, DVec4};
+use glam::{DMat4, DVec2, DVec4};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::Interpolate as _;
 use rasterproof_core::frame::Frame;
@@ -19,9 +19,14 @@ use rasterproof_render::scene::Scene;
 pub struct Piece {
     /// Which triangle of the scene, from 0 in drawing order.
     pub face: u32,
+    /// Its item.
+    pub item: u32,
     /// Its corners in pixels, not snapped.
     pub px: [[f64; 2]; 3],
     pub w: [f64; 3],
+    /// What the doubles of the vertex stage may be off, in pixels and in depth.
+    pub px_error: f64,
+    pub depth_error: f64,
     /// With texture coordinates.
     pub triangle: ScreenTriangle<DVec2>,
 }
@@ -50,9 +55,10 @@ pub fn pieces(scene: &Scene, window: PixelRect) -> Result<Vec<Piece>, BadScene> 
     let mut face = 0;
     for (index, item) in scene.items.iter().enumerate() {
         let points = clip_points(scene, index)?;
-        for triangle in &item.mesh.triangles {
+        let sums = absolute(scene, index);
+        for item_triangle in &item.mesh.triangles {
             face += 1;
-            let vertices = triangle.map_array(|corner| ClipVertex {
+            let vertices = item_triangle.map_array(|corner| ClipVertex {
                 position: points[corner.position as usize],
                 varying: corner.uv,
             });
@@ -77,11 +83,33 @@ pub fn pieces(scene: &Scene, window: PixelRect) -> Result<Vec<Piece>, BadScene> 
                     continue;
                 }
                 let (px, w) = (corners.map_array(|(px, ..)| px), corners.map_array(|(_, w, _)| w));
-                pieces.push(Piece { face: face - 1, px, w, triangle });
+                let positions =
+                    item_triangle.map_array(|c| item.mesh.positions[c.position as usize]);
+                let most = positions.map_array(|position| sums * position.abs().extend(1.0));
+                let [a, b, c] = most;
+                let least_w = w[0].min(w[1]).min(w[2]);
+                let off = MOST_OFF * a.max(b).max(c) / least_w;
+                // Within the window |x|, |y| and |z| are at most w; half of that is the side of the window.
+                let px_error = (off.x.max(off.y) + off.w) * width.max(height) / 2.0;
+                let depth_error = (off.z + off.w) / 2.0;
+                let (face, item) = (face - 1, index as u32);
+                pieces.push(Piece { face, item, px, w, px_error, depth_error, triangle });
             }
         }
     }
     Ok(pieces)
+}
+
+/// What a coordinate in clip space may be off, in what the same sums with positive terms alone come to. Three matrices
+/// and a position are three sums of four products each: at most 4 u for each; and 2 u for the division and the window.
+const MOST_OFF: f64 = 14.0 * (f64::EPSILON / 2.0);
+
+/// The matrices of an item with positive numbers alone.
+fn absolute(scene: &Scene, item: usize) -> DMat4 {
+    let positive =
+        |m: DMat4| DMat4::from_cols(m.x_axis.abs(), m.y_axis.abs(), m.z_axis.abs(), m.w_axis.abs());
+    let model = scene.items.get(item).map_or(DMat4::IDENTITY, |item| item.model);
+    positive(scene.projection) * positive(scene.view) * positive(model)
 }
 
 /// The positions of an item in clip space.

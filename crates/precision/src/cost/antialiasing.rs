@@ -84,9 +84,17 @@ fn root_mean_square(actual: &Frame<f64>, truth: &Truth) -> f64 {
 
 /// Measures the ladder.
 pub(super) fn measure(options: &Options, progress: &dyn Fn(f64, &str)) -> Board {
-    let ladder = Ladder::Antialiasing;
     let pixels = if options.quick { 8_000 } else { 30_000 };
-    let scenes = scenes(options.seed, Size { side_px: 256, pixels });
+    measure_on(&scenes(options.seed, Size { side_px: 256, pixels }), options, progress)
+}
+
+/// The same on other scenes.
+pub(super) fn measure_on(
+    scenes: &[Scene],
+    options: &Options,
+    progress: &dyn Fn(f64, &str),
+) -> Board {
+    let ladder = Ladder::Antialiasing;
     let variants = variants();
     let triangles: Vec<Vec<Corners>> =
         scenes.iter().map(|scene| scene.triangles.iter().filter_map(snap).collect()).collect();

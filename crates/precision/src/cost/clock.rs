@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 use serde::{Deserialize, Serialize};
 
 /// Something to time.
-pub(super) struct Pass<'a> {
+pub struct Pass<'a> {
     /// Passes of one column stay together.
     pub column: usize,
     /// Does the work once.
@@ -56,6 +56,12 @@ impl Spread {
         Self { low: at(1), median: at(2), high: at(3) }
     }
 
+    /// The same so many times.
+    #[must_use]
+    pub fn times(self, factor: f64) -> Self {
+        Self { low: self.low * factor, median: self.median * factor, high: self.high * factor }
+    }
+
     fn over(self, count: u64) -> Self {
         let count = count.max(1) as f64;
         Self { low: self.low / count, median: self.median / count, high: self.high / count }
@@ -83,8 +89,8 @@ pub(super) fn rounds(quick: bool) -> usize {
     if quick { 7 } else { 41 }
 }
 
-/// Nanoseconds of each pass.
-pub(super) fn time(
+/// Nanoseconds of each pass. A slice of time is shorter when `quick`.
+pub fn time(
     passes: &mut [Pass<'_>],
     rounds: usize,
     quick: bool,

@@ -260,7 +260,8 @@ impl Truth {
 }
 
 /// Differences of hit counts, summed over the pixels of `a` and `b`.
-fn wrong_pixels(a: &[Span], b: &[Span]) -> u64 {
+#[must_use]
+pub fn wrong_pixels(a: &[Span], b: &[Span]) -> u64 {
     let mut wrong = 0;
     sweep(&[a, b], |hits, length| wrong += u64::from(hits[0].abs_diff(hits[1])) * length);
     wrong

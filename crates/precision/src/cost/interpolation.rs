@@ -180,13 +180,15 @@ fn planes() -> Variant {
 
 /// The triangles of a scene on the lattice, with w and a value at each corner.
 fn dress(scene: &Scene) -> Vec<Drawn> {
-    let dressed = scene.triangles.iter().zip(&scene.w).filter_map(|(corners, w)| {
+    let triangles = scene.triangles.iter().zip(&scene.w).enumerate();
+    let dressed = triangles.filter_map(|(number, (corners, w))| {
         let corners = snap(corners)?;
         let mut spans = Vec::new();
         Scanline.cover(corners, scene.bounds, |span| spans.push(span));
         // From the positions, so that the values need no generator: within [-1, 1], exactly f32.
-        let value = [0, 1, 2]
-            .map_array(|i| f64::from(corners[i].x % 509 - 254 + (w[i] as i32) % 2) / 256.0);
+        let made = |i: usize| f64::from(corners[i].x % 509 - 254 + (w[i] as i32) % 2) / 256.0;
+        let given = scene.values.get(number).copied();
+        let value = given.unwrap_or_else(|| [0, 1, 2].map_array(made));
         let inv_w = w.map_array(|w| f64::from((1.0 / w) as f32));
         Some(Drawn { triangle: Valued { corners, inv_w, value }, spans })
     });
@@ -263,9 +265,18 @@ fn find(spans: &[Span], y_px: i32) -> Span {
 
 /// Measures the ladder.
 pub(super) fn measure(options: &Options, progress: &dyn Fn(f64, &str)) -> Board {
+    let pixels = if options.quick { 8_000 } else { 60_000 };
+    measure_on(&scenes(options.seed, Size { side_px: 512, pixels }), options, progress)
+}
+
+/// The same on other scenes.
+pub(super) fn measure_on(
+    scenes: &[Scene],
+    options: &Options,
+    progress: &dyn Fn(f64, &str),
+) -> Board {
     let ladder = Ladder::Interpolation;
-    let (pixels, count) = if options.quick { (8_000, 500) } else { (60_000, 4000) };
-    let scenes = scenes(options.seed, Size { side_px: 512, pixels });
+    let count = if options.quick { 500 } else { 4000 };
     let variants = variants();
     let drawn: Vec<_> = scenes.iter().map(dress).collect();
     let targets: Vec<_> =

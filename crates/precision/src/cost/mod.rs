@@ -24,8 +24,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::ladder::Work;
 pub use bounds::Bound;
-pub use clock::{Spread, Time};
-pub use coverage::{Variant, variants};
+pub use clock::{Pass, Spread, Time, time};
+pub use coverage::{Variant, variants, wrong_pixels};
 pub use external::ExternalVariant;
 pub use recorded::Recorded;
 pub use verdict::{Best, Dominated, Price, Priced, prices};
@@ -238,6 +238,16 @@ pub fn measure_with(
         Ladder::Depth => depth::measure(options, progress),
         Ladder::Lines => lines::measure(options, progress),
         Ladder::Antialiasing => antialiasing::measure(options, progress),
+    }
+}
+
+/// Measures a ladder on scenes of the caller; nothing for a ladder that draws scenes of its own.
+#[must_use]
+pub fn measure_on(ladder: Ladder, scenes: &[scene::Scene], options: &Options) -> Option<Board> {
+    match ladder {
+        Ladder::Interpolation => Some(interpolation::measure_on(scenes, options, &|_, _| ())),
+        Ladder::Antialiasing => Some(antialiasing::measure_on(scenes, options, &|_, _| ())),
+        _ => None,
     }
 }
 

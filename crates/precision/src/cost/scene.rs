@@ -22,6 +22,8 @@ pub struct Scene {
     pub triangles: Vec<FreeCorners>,
     /// w of each corner, in [1, ratio]; f32.
     pub w: Vec<[f64; 3]>,
+    /// A value at each corner; none at all where values are made of the positions.
+    pub values: Vec<[f64; 3]>,
     /// Where the triangles tile a region by shared edges: pixels well inside of it.
     pub interior: Option<PixelRect>,
 }
@@ -116,6 +118,7 @@ fn scene(class: &Class, seed: u64, size: Size) -> Scene {
         bounds: PixelRect { x0: offset, y0: offset, x1: to, y1: to },
         triangles,
         w,
+        values: Vec::new(),
         interior: (class.name == "mesh").then(|| interior(&size)),
     }
 }

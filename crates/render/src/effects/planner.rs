@@ -11,6 +11,7 @@ use super::plan::{
 };
 use super::primitive::{BadScene, Piece};
 use super::{Effect, Effects, Mode};
+use crate::pipeline::Counters;
 use crate::scene::{Hidden, Scene};
 use rasterproof_core::triangle::Corners;
 
@@ -63,7 +64,10 @@ pub(super) fn plan<'a>(
     plan.frame.samples = samples;
     plan.frame.clear = clear::decide(effects, &drawn, samples, assembled.pieces.as_deref());
     plan.frame.clear_depths = depth_buffer::clears(effects, is_tested, samples);
-    plan.decisions = account(scene, effects, &plan, &surveys, &assembled, is_tested);
+    let looked_at = (!is_listed && depth::is_surveyed(scene))
+        .then(|| depth::survey(scene, &assembled.items, &drawn));
+    let found = (assembled.pieces.as_ref().map(|_| &assembled.counters), is_tested);
+    plan.decisions = account(scene, effects, &plan, &surveys, looked_at, found);
     Ok((plan, assembled))
 }
 
@@ -146,8 +150,8 @@ fn account(
     effects: &Effects,
     plan: &Plan,
     surveys: &[Survey<'_>],
-    assembled: &Assembled<'_>,
-    is_tested: bool,
+    looked_at: Option<[usize; 2]>,
+    (seen, is_tested): (Option<&Counters>, bool),
 ) -> Vec<Decision> {
     let (canvas, frame) = (&plan.drawn(), &plan.frame);
     let mut decisions = Vec::with_capacity(8 * surveys.len() + 5);
@@ -155,12 +159,11 @@ fn account(
         decisions.push(cull::explain(survey));
         decisions.push(wide_words::explain(survey));
         decisions.push(perspective::explain(survey));
-        decisions.push(depth::explain(survey));
+        decisions.push(depth::explain(survey, looked_at));
         decisions.extend(attributes::explain(survey));
         decisions.push(interpolation::explain(survey));
     }
     let triangles = scene.triangles() as u64;
-    let seen = assembled.pieces.as_ref().map(|_| &assembled.counters);
     decisions.push(clip::explain(effects, plan, triangles, seen));
     decisions.push(depth_buffer::explain(scene, effects, canvas, frame, is_tested));
     decisions.push(samples::explain(&plan.canvas, effects, frame.samples));

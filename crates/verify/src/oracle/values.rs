@@ -109,6 +109,14 @@ impl PartialEq for Exact {
     }
 }
 
+impl PartialOrd for Exact {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        let (left, right) =
+            (&self.numerator * &other.denominator, &other.numerator * &self.denominator);
+        Some(left.cmp(&right))
+    }
+}
+
 impl Exact {
     /// numerator / denominator times 2^exponent; the denominator is not zero.
     fn new(numerator: BigInt, denominator: BigInt, exponent: i32) -> Self {

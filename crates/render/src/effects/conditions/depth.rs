@@ -15,7 +15,7 @@ use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_core::triangle::Corners;
 
-/// Scenes with more triangles are taken to overlap: to look would cost more than it saves.
+/// Of scenes with more triangles only some are looked at: to list all would cost more than it saves.
 const MOST_TRIANGLES: usize = 2048;
 
 /// Comparisons for each box, on average, after which all are taken to overlap.
@@ -40,6 +40,11 @@ pub fn is_looked_at(
         && scene.triangles() <= MOST_TRIANGLES
         && (scene.triangles() <= 4 * FIRST_BOXES
             || !items.iter().all(|item| first_meet(item, margin_px(canvas))))
+}
+
+/// Whether a scene has so many triangles that it is not listed, whatever they are like.
+pub fn is_surveyed(scene: &Scene) -> bool {
+    scene.hidden == Hidden::DepthBuffer && scene.triangles() > MOST_TRIANGLES
 }
 
 /// Whether nearly all boxes of the first triangles of an item meet another one of theirs.
@@ -67,22 +72,64 @@ fn margin_px(canvas: &Canvas) -> i32 {
     i32::from(canvas.antialias == Antialias::Multisample4)
 }
 
+/// Triangles of a scene too large to be listed that are looked at, so that a survey takes a small part of a frame.
+const SURVEYED: usize = 16;
+
+/// How many triangles were looked at, evenly spread over a scene, and how many of their boxes meet that of a triangle
+/// with which they share no corner.
+pub fn survey(scene: &Scene, items: &[Prepared<'_>], canvas: &Canvas) -> [usize; 2] {
+    let margin_px = margin_px(canvas);
+    let rect = |item: &Prepared<'_>, triangle: &[Corner; 3]| {
+        let [a, b, c] = triangle.map_array(|corner| item.points[corner.position as usize].place());
+        Some(pixel_box(&[a?, b?, c?], margin_px))
+    };
+    let stride = scene.triangles().div_ceil(SURVEYED).max(1);
+    let mut open: Vec<(usize, [u32; 3], PixelRect)> = Vec::with_capacity(SURVEYED);
+    let mut next = 0;
+    for (index, item) in items.iter().enumerate() {
+        let triangles = &item.item.mesh.triangles;
+        while let Some(triangle) = triangles.get(next) {
+            if let Some(rect) = rect(item, triangle) {
+                open.push((index, triangle.map_array(|corner| corner.position), rect));
+            }
+            next += stride;
+        }
+        next -= triangles.len();
+    }
+    let looked_at = open.len();
+    for (index, item) in items.iter().enumerate() {
+        for triangle in &item.item.mesh.triangles {
+            if open.is_empty() {
+                return [looked_at, looked_at];
+            }
+            let Some(other) = rect(item, triangle) else { continue };
+            open.retain(|(of, positions, rect)| {
+                let shares = |corner: &Corner| positions.contains(&corner.position);
+                rect.intersect(&other).is_empty() || (*of == index && triangle.iter().any(shares))
+            });
+        }
+    }
+    [looked_at, looked_at - open.len()]
+}
+
 /// Whether a piece pays that may overlap another or not.
 pub fn pays(scene: &Scene, effects: &Effects, overlaps: bool) -> bool {
     scene.hidden == Hidden::DepthBuffer && effects.pays(Effect::Depth, overlaps)
 }
 
-pub fn explain(survey: &Survey<'_>) -> Decision {
+pub fn explain(survey: &Survey<'_>, looked_at: Option<[usize; 2]>) -> Decision {
     let Survey { pieces, depth, .. } = *survey;
     if survey.scene.hidden == Hidden::Painter {
         return survey.decide(Effect::Depth, 0, "the scene is drawn from back to front");
     }
     if !survey.is_listed {
         let on = if pays(survey.scene, survey.effects, true) { pieces } else { 0 };
-        let reason = if survey.scene.triangles() > MOST_TRIANGLES {
-            "so many triangles are taken to overlap"
-        } else {
-            "the first triangles overlap, and all are taken to"
+        let reason = match looked_at {
+            None => "the first triangles overlap, and all are taken to".to_owned(),
+            Some([0, _]) => "all are taken to overlap".to_owned(),
+            Some([all, met]) => format!(
+                "of {all} triangles looked at, {met} may overlap others that they share no corner with"
+            ),
         };
         return survey.decide(Effect::Depth, on, reason);
     }

@@ -1,0 +1,658 @@
+//! What a scene costs in a view: every rung of the ladders and every planner on its own triangles, against the exact
+//! answer.
+
+use std::cell::RefCell;
+use std::time::{Duration, Instant};
+
+use rasterproof_core::arrays::MapArray as _;
+use rasterproof_core::contract::{Interpolate as _, Rasterize as _, RasterizeExact as _};
+use rasterproof_core::frame::Frame;
+use rasterproof_core::grid::PixelRect;
+use rasterproof_core::parallel;
+use rasterproof_core::raster::scanline::Scanline;
+use rasterproof_core::triangle::{ScreenTriangle, ScreenVertex, Span};
+use rasterproof_precision::cost::scene::Scene as Class;
+use rasterproof_precision::cost::{
+    Board, Ladder, Options, Pass, Spread, Variant, measure_on, time, variants, wrong_pixels,
+};
+use rasterproof_precision::ladder::snap;
+use rasterproof_registry::engines::Drawer;
+use rasterproof_render::effects::Effects;
+use rasterproof_render::effects::render::BadScene;
+use rasterproof_render::pipeline::depth::DepthFormat;
+use rasterproof_render::pipeline::target::{Antialias, Colour, Target};
+use rasterproof_render::scene::Scene;
+use rasterproof_tiles::frames;
+use rasterproof_verify::comparison::tolerance::SCANLINE;
+use rasterproof_verify::oracle::Oracle;
+use rasterproof_verify::oracle::values::ExactTriangle;
+
+use crate::view::{NOTHING, Piece, seen};
+
+/// A way to do a part of the work.
+#[derive(Clone, Debug)]
+pub struct Choice {
+    pub name: String,
+    pub about: String,
+    /// By each measure of the group; none where it does not apply.
+    pub errors: Vec<Option<f64>>,
+    /// Where it is wrong first: the piece and the pixel.
+    pub first_wrong: Option<(u32, [i32; 2])>,
+    /// The triangles of the scene that it gets wrong, sorted.
+    pub wrong_triangles: Vec<u32>,
+    /// The smallest distance of a decision from 0, in error bounds; where such a bound is derived.
+    pub margin: Option<f64>,
+    /// Nanoseconds of all that is timed.
+    pub time: Option<Spread>,
+    pub bytes: Option<u64>,
+    /// Why it was not run.
+    pub refused: Option<String>,
+}
+
+impl Choice {
+    fn new(name: &str, about: &str) -> Self {
+        Self {
+            name: name.to_owned(),
+            about: about.to_owned(),
+            errors: Vec::new(),
+            first_wrong: None,
+            wrong_triangles: Vec::new(),
+            margin: None,
+            time: None,
+            bytes: None,
+            refused: None,
+        }
+    }
+}
+
+/// What an error of a group means.
+#[derive(Clone, Debug)]
+pub struct Measure {
+    pub title: &'static str,
+    pub short: &'static str,
+    /// Up to this error a choice is exact, or as good; none for a measure that ranks nothing.
+    pub goal: Option<f64>,
+}
+
+/// Choices between which one may choose.
+#[derive(Clone, Debug)]
+pub struct Group {
+    pub title: &'static str,
+    pub measures: Vec<Measure>,
+    pub choices: Vec<Choice>,
+    /// Triangles and pixels that were timed.
+    pub timed: [u64; 2],
+}
+
+impl Group {
+    /// The cheapest choice that is exact by a measure.
+    #[must_use]
+    pub fn cheapest_exact(&self, measure: usize) -> Option<usize> {
+        let goal = self.measures.get(measure)?.goal?;
+        self.cheapest(&|choice| choice.errors[measure].is_some_and(|error| error <= goal))
+    }
+
+    /// The cheapest choice of all.
+    #[must_use]
+    pub fn cheapest(&self, filter: &dyn Fn(&Choice) -> bool) -> Option<usize> {
+        let median = |choice: &Choice| choice.time.map(|time| time.median);
+        let timed = self.choices.iter().enumerate();
+        let timed = timed.filter(|(_, choice)| choice.refused.is_none() && filter(choice));
+        let timed = timed.filter_map(|(number, choice)| Some((number, median(choice)?)));
+        timed.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(number, _)| number)
+    }
+}
+
+/// How thoroughly times are taken.
+#[derive(Clone, Copy, Debug)]
+pub struct Effort {
+    pub quick: bool,
+}
+
+impl Effort {
+    /// Pixels that are timed on a ladder.
+    fn pixels(self) -> u64 {
+        if self.quick { 40_000 } else { 400_000 }
+    }
+
+    fn rounds(self) -> usize {
+        if self.quick { 5 } else { 21 }
+    }
+
+    /// How long whole frames are timed.
+    fn frames(self) -> Duration {
+        Duration::from_millis(if self.quick { 1000 } else { 8000 })
+    }
+}
+
+/// The costs of a scene in a view. `progress` gets the share done and a word about it.
+///
+/// # Errors
+/// [`BadScene`].
+pub fn measure(
+    scene: &Scene,
+    pieces: &[Piece],
+    target: &mut Target,
+    effort: Effort,
+    progress: &dyn Fn(f64, &str),
+) -> Result<Vec<Group>, BadScene> {
+    let window = target.size();
+    let sample = Sample::of(pieces, window, effort.pixels());
+    let mut groups = Vec::new();
+    for (done, ladder) in [Ladder::Scanline, Ladder::EdgeFunction].into_iter().enumerate() {
+        progress(0.2 * done as f64, ladder.title());
+        groups.push(coverage(ladder, pieces, window, &sample, effort));
+    }
+    progress(0.4, Ladder::Interpolation.title());
+    let part = Sample::of(pieces, window, effort.pixels() / 5);
+    groups.extend(ladder(Ladder::Interpolation, pieces, window, &part, effort));
+    progress(0.5, Ladder::Depth.title());
+    groups.push(depth(pieces, window, effort));
+    progress(0.6, Ladder::Antialiasing.title());
+    groups.extend(ladder(Ladder::Antialiasing, pieces, window, &part, effort));
+    progress(0.7, "planners");
+    groups.push(planners(scene, target, effort)?);
+    Ok(groups)
+}
+
+/// Pieces that are timed: every so many-th one.
+struct Sample {
+    stride: usize,
+    pieces: u64,
+    pixels: u64,
+}
+
+impl Sample {
+    fn of(pieces: &[Piece], window: PixelRect, most_px: u64) -> Self {
+        let covered = |piece: &Piece| {
+            let mut pixels = 0;
+            Scanline.cover(piece.corners(), window, |span| pixels += span.pixels() as u64);
+            pixels
+        };
+        let pixels: Vec<u64> = pieces.iter().map(covered).collect();
+        let all: u64 = pixels.iter().sum();
+        // A triangle without a pixel takes about as long as one with four.
+        let work = all.max(4 * pieces.len() as u64);
+        let stride = work.div_ceil(most_px.max(1)).max(1) as usize;
+        let timed = || pixels.iter().step_by(stride);
+        Self { stride, pieces: timed().count() as u64, pixels: timed().sum() }
+    }
+
+    fn class(&self, pieces: &[Piece], window: PixelRect) -> Class {
+        let timed = || pieces.iter().step_by(self.stride);
+        let free = timed().filter_map(|piece| Some((piece.free()?, piece)));
+        let (triangles, of): (Vec<_>, Vec<_>) = free.unzip();
+        let mut values: Vec<[f64; 3]> = of
+            .iter()
+            .map(|piece: &&Piece| piece.triangle.vertices.map_array(|v| v.varying.x))
+            .collect();
+        // Without texture coordinates values are made up.
+        if values.iter().flatten().all(|value| *value == 0.0) {
+            values.clear();
+        }
+        Class {
+            name: "model",
+            about: "the triangles of the model",
+            bounds: window,
+            triangles,
+            w: of.iter().map(|piece| piece.w).collect(),
+            values: of
+                .iter()
+                .map(|piece| piece.triangle.vertices.map_array(|v| v.varying.x))
+                .collect(),
+            interior: None,
+        }
+    }
+}
+
+/// What a rung of coverage gets wrong.
+#[derive(Clone, Default)]
+struct Wrong {
+    /// Against the corners as they are, and snapped.
+    pixels: [u64; 2],
+    first: Option<(u32, [i32; 2])>,
+    triangles: Vec<u32>,
+    refused: Option<String>,
+}
+
+/// Pieces whose coverage is compared at once.
+const CHUNK: usize = 256;
+
+/// Coverage of all pieces against the oracle, as they are and snapped; times of a sample.
+fn coverage(
+    ladder: Ladder,
+    pieces: &[Piece],
+    window: PixelRect,
+    sample: &Sample,
+    effort: Effort,
+) -> Group {
+    let rungs = variants(ladder);
+    let chunks: Vec<&[Piece]> = pieces.chunks(CHUNK).collect();
+    let of_chunks = parallel::map(chunks.len(), |number| {
+        let mut wrong = vec![Wrong::default(); rungs.len()];
+        for (i, piece) in chunks[number].iter().enumerate() {
+            compare(&rungs, piece, (number * CHUNK + i) as u32, window, &mut wrong);
+        }
+        wrong
+    });
+    let mut choices: Vec<Choice> =
+        rungs.iter().map(|rung| Choice::new(&rung.rung.name, &rung.rung.about)).collect();
+    for (number, choice) in choices.iter_mut().enumerate() {
+        let of_rung = || of_chunks.iter().map(|chunk| &chunk[number]);
+        let sum = |i: usize| of_rung().map(|wrong| wrong.pixels[i]).sum::<u64>() as f64;
+        choice.errors = vec![Some(sum(0)), Some(sum(1))];
+        choice.first_wrong = of_rung().find_map(|wrong| wrong.first);
+        choice.wrong_triangles = of_rung().flat_map(|wrong| &wrong.triangles).copied().collect();
+        choice.wrong_triangles.dedup();
+        choice.refused = of_rung().find_map(|wrong| wrong.refused.clone());
+        let unit = match (ladder, &*choice.name) {
+            (Ladder::EdgeFunction, "f32 direct") => f64::from(f32::EPSILON) / 2.0,
+            (Ladder::EdgeFunction, "f64 direct") => f64::EPSILON / 2.0,
+            _ => continue,
+        };
+        choice.margin = Some(margin(pieces, window, unit));
+    }
+    let class = sample.class(pieces, window);
+    let frame = RefCell::new(Frame::new(window, 0));
+    let mut passes = Vec::new();
+    let mut timed = Vec::new();
+    for (number, rung) in rungs.iter().enumerate() {
+        if choices[number].refused.is_none() {
+            let (frame, triangles) = (&frame, &class.triangles);
+            let run = Box::new(move || {
+                rung.paint(std::hint::black_box(triangles), &mut frame.borrow_mut());
+            });
+            passes.push(Pass { column: 0, run });
+            timed.push(number);
+        }
+    }
+    set_times(&mut choices, &timed, passes, effort);
+    let measures = vec![
+        Measure { title: "wrong pixels, corners as they are", short: "as given", goal: Some(0.0) },
+        Measure { title: "wrong pixels, corners snapped", short: "snapped", goal: Some(0.0) },
+    ];
+    Group { title: ladder.title(), measures, choices, timed: [sample.pieces, sample.pixels] }
+}
+
+/// Adds what each rung gets wrong of a piece.
+fn compare(rungs: &[Variant], piece: &Piece, number: u32, window: PixelRect, wrong: &mut [Wrong]) {
+    let Some(free) = piece.free() else { return };
+    let (mut given, mut snapped) = (Vec::new(), Vec::new());
+    Oracle.cover_exact(&free, window, |span| given.push(span));
+    if let Some(corners) = snap(&free) {
+        Oracle.cover(corners, window, |span| snapped.push(span));
+    }
+    let mut spans = Vec::new();
+    for (rung, wrong) in rungs.iter().zip(wrong) {
+        if wrong.refused.is_some() {
+            continue;
+        }
+        spans.clear();
+        match rung.spans(&free, window, &mut spans) {
+            Err(why) => wrong.refused = Some(why),
+            Ok(_) => {
+                let [by_given, by_snapped] =
+                    [&given, &snapped].map_array(|truth| wrong_pixels(&spans, truth));
+                wrong.pixels[0] += by_given;
+                wrong.pixels[1] += by_snapped;
+                // A rung that snaps is judged by what it was given after that.
+                let (count, truth) = match rung.rung.promises.contains(&1) {
+                    true => (by_snapped, &snapped),
+                    false => (by_given, &given),
+                };
+                if count > 0 {
+                    wrong.triangles.push(piece.face);
+                }
+                if count > 0 && wrong.first.is_none() {
+                    wrong.first = first_difference(&spans, truth).map(|pixel| (number, pixel));
+                }
+            }
+        }
+    }
+}
+
+/// The first pixel that one list of spans hits more often than the other.
+fn first_difference(a: &[Span], b: &[Span]) -> Option<[i32; 2]> {
+    let pixels = |spans: &[Span]| {
+        let each = spans.iter().flat_map(|s| (s.x0_px..s.x1_px).map(move |x| (s.y_px, x)));
+        let mut all: Vec<(i32, i32)> = each.collect();
+        all.sort_unstable();
+        all
+    };
+    let (a, b) = (pixels(a), pixels(b));
+    let same = a.iter().zip(&b).take_while(|(a, b)| a == b).count();
+    let first = a.get(same).into_iter().chain(b.get(same)).min()?;
+    Some([first.1, first.0])
+}
+
+/// The smallest |E| over the bound of its error in floats of unit roundoff `u`, at the samples that it decides.
+///
+/// E = dx (py - ay) - dy (px - ax), the corners rounded first. A difference of coordinates is off by at most
+/// u (|a| + |b|) for the corners and u times itself, a product by its factors' errors and u times itself, and E by
+/// the errors of both products and u times itself. A sample is decided by the edge that is farthest outside of it, or,
+/// inside, by the nearest of all.
+fn margin(pieces: &[Piece], window: PixelRect, u: f64) -> f64 {
+    let chunks: Vec<&[Piece]> = pieces.chunks(CHUNK).collect();
+    let of_chunks = parallel::map(chunks.len(), |number| {
+        let each = chunks[number].iter().map(|piece| margin_of(piece.px, window, u));
+        each.fold(f64::INFINITY, f64::min)
+    });
+    of_chunks.into_iter().fold(f64::INFINITY, f64::min)
+}
+
+fn margin_of(px: [[f64; 2]; 3], window: PixelRect, u: f64) -> f64 {
+    let [a, b, c] = px;
+    let edges = [[b, c], [c, a], [a, b]];
+    let side = |[a, b]: [[f64; 2]; 2], p: [f64; 2]| {
+        let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
+        let (qx, qy) = (p[0] - a[0], p[1] - a[1]);
+        let error = |i: usize, d: f64| u * (a[i].abs() + b[i].abs() + d.abs());
+        let from = |i: usize, q: f64| u * (a[i].abs() + q.abs());
+        let products = dx.abs() * from(1, qy)
+            + qy.abs() * error(0, dx)
+            + dy.abs() * from(0, qx)
+            + qx.abs() * error(1, dy);
+        let (p, q) = (dx * qy, dy * qx);
+        let bound = products + u * (p.abs() + q.abs() + (p - q).abs());
+        // For products of errors.
+        ((p - q), bound * 1.001)
+    };
+    let area = side([a, b], c).0;
+    let sign = if area < 0.0 { -1.0 } else { 1.0 };
+    let range = |i: usize, low: i32, high: i32| {
+        let (least, most) = (a[i].min(b[i]).min(c[i]), a[i].max(b[i]).max(c[i]));
+        let first = (least - 0.5).floor().max(f64::from(low)) as i32;
+        let end = (most + 0.5).ceil().min(f64::from(high)) as i32;
+        first..end
+    };
+    let mut smallest = f64::INFINITY;
+    for y in range(1, window.y0, window.y1) {
+        for x in range(0, window.x0, window.x1) {
+            let p = [f64::from(x) + 0.5, f64::from(y) + 0.5];
+            let mut inside = f64::INFINITY;
+            let mut outside: f64 = 0.0;
+            for edge in edges {
+                let (value, bound) = side(edge, p);
+                let margin = value.abs() / bound;
+                match value * sign > 0.0 {
+                    true => inside = inside.min(margin),
+                    false => outside = outside.max(margin),
+                }
+            }
+            let is_inside = edges.iter().all(|edge| side(*edge, p).0 * sign > 0.0);
+            smallest = smallest.min(if is_inside { inside } else { outside });
+        }
+    }
+    smallest
+}
+
+/// Times the passes of some choices; those that nearly are the fastest again, with more rounds.
+fn set_times(choices: &mut [Choice], timed: &[usize], mut passes: Vec<Pass<'_>>, effort: Effort) {
+    let first = time(&mut passes, effort.rounds(), true, &|_| ());
+    for (&number, spread) in timed.iter().zip(&first) {
+        choices[number].time = Some(*spread);
+    }
+    let exact = |number: usize| choices[number].errors.contains(&Some(0.0));
+    let best = |exact_only: bool| {
+        let each = timed.iter().zip(&first).filter(|(number, _)| !exact_only || exact(**number));
+        each.map(|(_, spread)| spread.median).fold(f64::INFINITY, f64::min)
+    };
+    let limits = [best(true), best(false)];
+    let is_close = |i: usize| {
+        let limit = if exact(timed[i]) { limits[0] } else { limits[1] };
+        first[i].low <= 1.15 * limit
+    };
+    let close: Vec<usize> = (0..timed.len()).filter(|&i| is_close(i)).collect();
+    let mut kept: Vec<Pass<'_>> = Vec::new();
+    for (i, pass) in passes.into_iter().enumerate() {
+        if close.contains(&i) {
+            kept.push(pass);
+        }
+    }
+    let again = time(&mut kept, 4 * effort.rounds(), true, &|_| ());
+    for (&i, spread) in close.iter().zip(again) {
+        choices[timed[i]].time = Some(spread);
+    }
+}
+
+/// A ladder whose errors are measured on a sample.
+fn ladder(
+    ladder: Ladder,
+    pieces: &[Piece],
+    window: PixelRect,
+    sample: &Sample,
+    effort: Effort,
+) -> Option<Group> {
+    let class = sample.class(pieces, window);
+    let options = Options { seed: 0, quick: effort.quick, timed: true };
+    let board: Board = measure_on(ladder, &[class], &options)?;
+    let column = board.columns.first()?;
+    let (items, pixels) = (column.items, column.pixels);
+    let measures: &[Measure] = match ladder {
+        Ladder::Interpolation => &[Measure {
+            title: "worst error over the largest value; up to half a step of 8 bits is good",
+            short: "error / M",
+            goal: Some(1.0 / 512.0),
+        }],
+        _ => &[Measure {
+            title: "root mean square distance from the exact share of a pixel on an edge",
+            short: "rms",
+            goal: Some(0.0),
+        }],
+    };
+    let choices = board.rungs.iter().enumerate().map(|(rung, info)| {
+        let mut choice = Choice::new(&info.name, &info.about);
+        let run = board.run(rung, 0);
+        choice.errors = vec![run.and_then(|run| run.errors.first().copied().flatten())];
+        choice.time = run.and_then(|run| run.time).map(|time| time.item_ns.times(items as f64));
+        if ladder == Ladder::Antialiasing {
+            choice.bytes = samples_of(&info.name)
+                .map(|samples| samples * u64::from(window.width()) * u64::from(window.height()));
+        }
+        if run.is_none() {
+            choice.refused = Some("it does not take these triangles".to_owned());
+        }
+        choice
+    });
+    Some(Group {
+        title: ladder.title(),
+        measures: measures.to_vec(),
+        choices: choices.collect(),
+        timed: [items, pixels],
+    })
+}
+
+/// The bytes of a pixel in a rung of antialiasing: colour and depth of each sample.
+fn samples_of(name: &str) -> Option<u64> {
+    let samples = match name {
+        "1x" => 1,
+        "4x multisample" | "2x2 supersample" => 4,
+        "4x4 supersample" => 16,
+        "8x8 supersample" => 64,
+        _ => return None,
+    };
+    Some(8 * samples)
+}
+
+/// Formats of the depth buffer: pixels that show another piece than the exact depths say.
+fn depth(pieces: &[Piece], window: PixelRect, effort: Effort) -> Group {
+    let truth = exactly_seen(pieces, window);
+    let mut choices = Vec::new();
+    for format in DepthFormat::ALL {
+        let (about, bytes) = match format {
+            DepthFormat::Unorm32 => ("2^32 equal steps", 4),
+            DepthFormat::Unorm24 => ("2^24 equal steps, as most hardware", 4),
+            DepthFormat::F32 => ("a float, 0 at the near plane", 4),
+            DepthFormat::F32Reversed => ("a float, 1 at the near plane", 4),
+            DepthFormat::F64 => ("a double", 8),
+        };
+        let mut choice = Choice::new(format.name(), about);
+        choice.bytes = Some(bytes * u64::from(window.width()) * u64::from(window.height()));
+        let seen = seen(pieces, window, format, &mut (0..pieces.len()));
+        let mut wrong = 0;
+        for (y, row) in seen.rows() {
+            for ((x, seen), exact) in (window.x0..).zip(row).zip(truth.row(y)) {
+                if seen != exact {
+                    wrong += 1;
+                    let first = if *exact == NOTHING { *seen } else { *exact };
+                    choice.first_wrong = choice.first_wrong.or(Some((first, [x, y])));
+                }
+            }
+        }
+        choice.errors = vec![Some(f64::from(wrong))];
+        choices.push(choice);
+    }
+    let mut passes = Vec::new();
+    for format in DepthFormat::ALL {
+        let run = Box::new(move || {
+            std::hint::black_box(seen(pieces, window, format, &mut (0..pieces.len())));
+        });
+        passes.push(Pass { column: 0, run });
+    }
+    let timed: Vec<usize> = (0..choices.len()).collect();
+    set_times(&mut choices, &timed, passes, effort);
+    let mut pixels = 0;
+    for piece in pieces {
+        Scanline.cover(piece.corners(), window, |span| pixels += span.pixels() as u64);
+    }
+    Group {
+        title: Ladder::Depth.title(),
+        measures: vec![Measure {
+            title: "pixels that show another piece than exact depths do",
+            short: "wrong px",
+            goal: Some(0.0),
+        }],
+        choices,
+        timed: [pieces.len() as u64, pixels],
+    }
+}
+
+/// Which piece is nearest at each pixel by exact depths of the snapped pieces; of equal ones the first.
+#[must_use]
+pub fn exactly_seen(pieces: &[Piece], window: PixelRect) -> Frame<u32> {
+    let mut nearest = Frame::new(window, f64::INFINITY);
+    let mut error = Frame::new(window, 0.0);
+    let mut seen = Frame::new(window, NOTHING);
+    for (number, piece) in pieces.iter().enumerate() {
+        let depths = piece.triangle.vertices.map_array(|vertex| vertex.depth);
+        let bound = SCANLINE.depth.at(depths);
+        let depth_only = ScreenTriangle {
+            vertices: piece.triangle.vertices.map_array(|vertex| {
+                let ScreenVertex { position, depth, inv_w, .. } = vertex;
+                ScreenVertex { position, depth, inv_w, varying: 0.0 }
+            }),
+        };
+        Scanline.runs(&depth_only, window, true, &mut |run| {
+            for (x, &depth) in (run.x0_px..).zip(run.depths) {
+                let at = |frame: &Frame<f64>| frame.get(x, run.y_px).unwrap_or(f64::INFINITY);
+                let (old, reach) = (at(&nearest), bound + at(&error));
+                let before = seen.get(x, run.y_px).unwrap_or(NOTHING);
+                let is_nearer = match (depth - old).abs() <= reach && before != NOTHING {
+                    false => depth < old,
+                    true => is_nearer(piece, &pieces[before as usize], x, run.y_px),
+                };
+                if is_nearer {
+                    nearest.span_mut(run.y_px, x, x + 1)[0] = depth;
+                    error.span_mut(run.y_px, x, x + 1)[0] = bound;
+                    seen.span_mut(run.y_px, x, x + 1)[0] = number as u32;
+                }
+            }
+        });
+    }
+    seen
+}
+
+/// Whether a piece is nearer than another one at a pixel, exactly.
+fn is_nearer(piece: &Piece, other: &Piece, x_px: i32, y_px: i32) -> bool {
+    let [a, b] = [piece, other].map_array(|piece| {
+        let depths = piece.triangle.vertices.map_array(|vertex| vertex.depth);
+        let exact = ExactTriangle::new(&piece.corners(), depths, [1.0; 3], [[0.0; 0]; 3]);
+        exact.map(|exact| exact.at(x_px, y_px).0)
+    });
+    a.zip(b).is_some_and(|(a, b)| a < b)
+}
+
+/// Whole frames: each rasterizer by each planner, and tiles, against the one with everything switched on.
+fn planners(scene: &Scene, target: &mut Target, effort: Effort) -> Result<Group, BadScene> {
+    const PLANNERS: [(&str, Effects); 3] =
+        [("all", Effects::ALWAYS), ("usual", Effects::USUAL), ("planned", Effects::PLANNED)];
+    let window = target.size();
+    let mut choices = Vec::new();
+    let mut pictures: Vec<Frame<Colour>> = Vec::new();
+    let mut once = Duration::ZERO;
+    let bytes = frame_bytes(target);
+    let mut draws: Vec<(Drawer, Effects)> = Vec::new();
+    for drawer in Drawer::ALL {
+        for (name, effects) in PLANNERS {
+            let mut choice = Choice::new(&format!("{} {name}", drawer.name()), "");
+            choice.bytes = Some(bytes);
+            let start = Instant::now();
+            pictures.push(drawer.render(scene, &effects, target)?.picture);
+            once += start.elapsed();
+            choices.push(choice);
+            draws.push((drawer, effects));
+        }
+    }
+    let samples = match target.antialias() {
+        Antialias::None => Some(frames::Samples::One),
+        Antialias::Multisample4 => Some(frames::Samples::Four),
+        Antialias::Supersample(_) => None,
+    };
+    if let Some(samples) = samples {
+        let start = Instant::now();
+        pictures.push(frames::render(scene, window.width(), window.height(), samples)?);
+        once += start.elapsed();
+        choices.push(Choice::new("tiles", "coverage exact, values in f32; all threads"));
+    }
+    for (choice, picture) in choices.iter_mut().zip(&pictures) {
+        let mut wrong = 0;
+        for (y, row) in picture.rows() {
+            for ((x, colour), exact) in (window.x0..).zip(row).zip(pictures[0].row(y)) {
+                if colour != exact {
+                    wrong += 1;
+                    choice.first_wrong = choice.first_wrong.or(Some((NOTHING, [x, y])));
+                }
+            }
+        }
+        choice.errors = vec![Some(f64::from(wrong))];
+    }
+    let target = RefCell::new(target);
+    let mut passes = Vec::new();
+    for (drawer, effects) in draws {
+        let target = &target;
+        let run = Box::new(move || {
+            let rendered = drawer.render(scene, &effects, &mut target.borrow_mut());
+            std::hint::black_box(rendered.is_ok());
+        });
+        passes.push(Pass { column: 0, run });
+    }
+    if let Some(samples) = samples {
+        let run = Box::new(move || {
+            let rendered = frames::render(scene, window.width(), window.height(), samples);
+            std::hint::black_box(rendered.is_ok());
+        });
+        passes.push(Pass { column: 0, run });
+    }
+    let rounds = effort.frames().as_secs_f64() / once.as_secs_f64().max(1e-6);
+    let timed: Vec<usize> = (0..choices.len()).collect();
+    let spreads = time(&mut passes, (rounds as usize).clamp(3, 101), true, &|_| ());
+    for (number, spread) in timed.into_iter().zip(spreads) {
+        choices[number].time = Some(spread);
+    }
+    Ok(Group {
+        title: "Whole frames",
+        measures: vec![Measure {
+            title: "pixels that differ from the frame of scanline with everything switched on",
+            short: "wrong px",
+            goal: Some(0.0),
+        }],
+        choices,
+        timed: [scene.triangles() as u64, u64::from(window.width()) * u64::from(window.height())],
+    })
+}
+
+/// Colours and depths of all samples.
+fn frame_bytes(target: &Target) -> u64 {
+    let size = target.size();
+    12 * u64::from(size.width()) * u64::from(size.height()) * target.antialias().samples()
+}
