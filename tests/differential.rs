@@ -106,7 +106,7 @@ fn profile() -> Option<String> {
 }
 
 fn options(family: &str) -> Options {
-    Options { cases: CASES, families: vec![family.to_owned()], ..Options::default() }
+    Options::default().cases(CASES).family(family.parse().unwrap())
 }
 
 fn judge(

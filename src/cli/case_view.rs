@@ -88,7 +88,12 @@ pub fn draw(case: &Case, engines: &[(Engine, Tolerance)], lines: &[LineEngine]) 
         Shape::Triangles { list, .. } => Shown {
             engines: engines
                 .iter()
-                .map(|(e, _)| (e.name().to_owned(), engine_coverage(e, list, case.window)))
+                .map(|(e, _)| {
+                    (
+                        e.name().to_owned(),
+                        engine_coverage(e, list, case.window).map_err(String::from),
+                    )
+                })
                 .collect(),
             target: oracle_coverage(list, case.window),
         },
@@ -100,7 +105,12 @@ pub fn draw(case: &Case, engines: &[(Engine, Tolerance)], lines: &[LineEngine]) 
             Shown {
                 engines: lines
                     .iter()
-                    .map(|e| (e.name().to_owned(), line_coverage(e, list, case.window)))
+                    .map(|e| {
+                        (
+                            e.name().to_owned(),
+                            line_coverage(e, list, case.window).map_err(String::from),
+                        )
+                    })
                     .collect(),
                 target,
             }

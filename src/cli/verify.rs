@@ -18,7 +18,7 @@ use rasterproof_report::html::Report;
 use rasterproof_report::{ascii, counts, exact, json, page_cases, picture, summary, table};
 use rasterproof_verify::cases::{self, Case, Shape};
 use rasterproof_verify::comparison::unsnapped::{self, ExactVerdict};
-use rasterproof_verify::comparison::{self, Options, Verdict};
+use rasterproof_verify::comparison::{self, Options, Shard, Verdict};
 
 /// `verify` with its name, which can also judge the engines on a model.
 #[derive(clap::Args, Debug)]
@@ -153,16 +153,18 @@ impl VerifyArguments {
                 )));
             }
         };
-        let default = Options::default();
-        Ok(Options {
-            seed: self.seed,
-            // With a time limit alone, the time decides.
-            cases: self.cases.unwrap_or(if limit.is_some() { u64::MAX / 4 } else { default.cases }),
-            time_limit: limit,
-            families: self.family.clone(),
-            shard: self.shard,
-            only: self.case,
-        })
+        let mut options = Options::default().seed(self.seed);
+        // With a time limit alone, the time decides.
+        let default = if limit.is_some() { u64::MAX / 4 } else { options.cases };
+        options = options.cases(self.cases.unwrap_or(default));
+        for name in &self.family {
+            options = options.family(name.parse().map_err(usage)?);
+        }
+        let (part, parts) = self.shard;
+        options.shard = Shard::new(part, parts).map_err(usage)?;
+        options.time_limit = limit;
+        options.only = self.case;
+        Ok(options)
     }
 
     /// Who is judged: everybody, a selection, or a planted fault alone.
@@ -234,7 +236,7 @@ fn on_a_device(arguments: &VerifyArguments, options: Options, streams: &mut Stre
         options: rasterproof_judge::Options {
             seed: options.seed,
             time_limit: options.time_limit,
-            families: options.families,
+            families: arguments.family.clone(),
             only: options.only,
             ..rasterproof_judge::Options::default()
         },
@@ -249,21 +251,21 @@ fn judge(judged: &Contestants, options: &Options, on_terminal: bool) -> (Verdict
     let exact_engines: Vec<_> = exact.iter().map(|engine| (engine.name(), *engine)).collect();
     let triangles = cases::triangles::FAMILIES.iter().filter(|_| !engines.is_empty());
     let segments = cases::lines::FAMILIES.iter().filter(|_| !lines.is_empty());
-    let families = triangles
-        .chain(segments)
-        .filter(|f| options.families.is_empty() || options.families.iter().any(|n| n == f.name));
+    let families = triangles.chain(segments).filter(|f| {
+        options.families.is_empty() || options.families.iter().any(|n| n.as_str() == f.name)
+    });
     let off_grid_families =
         if exact_engines.is_empty() { 0 } else { unsnapped::exact_families(options).count() };
     let total = options.time_limit.is_none().then(|| {
         ((families.count() + off_grid_families) as u64).saturating_mul(options.cases)
-            / options.shard.1
+            / options.shard.parts()
     });
     let progress = Progress::new(on_terminal, "cases", total);
     // Where both share a limited time, the families off the lattice get a fifth of it.
     let is_shared = off_grid_families > 0 && engines.len() + lines.len() > 0;
-    let share = |fifths: u32| Options {
-        time_limit: options.time_limit.map(|t| if is_shared { t * fifths / 5 } else { t }),
-        ..options.clone()
+    let share = |fifths: u32| match options.time_limit.filter(|_| is_shared) {
+        Some(limit) => options.clone().time_limit(limit * fifths / 5),
+        None => options.clone(),
     };
     let verdict = rasterproof_registry::comparison::judge(engines, lines, &share(4), &|cases| {
         progress.done(cases)
@@ -335,7 +337,7 @@ impl Run<'_> {
         let Self { arguments, verdict, off_grid, .. } = self;
         let agrees = self.agrees();
         let mut pictures = if agrees { Vec::new() } else { self.failures(streams.output)? };
-        let (part, parts) = verdict.options.shard;
+        let (part, parts) = (verdict.options.shard.part(), verdict.options.shard.parts());
         let shard = if parts > 1 { format!(", shard {part}/{parts}") } else { String::new() };
         let out = &mut *streams.output;
         let answer = if agrees { "every engine is right" } else { "not every engine is right" };

@@ -27,7 +27,7 @@ fn judged() -> Vec<(&'static str, ExactEngine)> {
 }
 
 fn options(seed: u64, cases: u64) -> Options {
-    Options { seed, cases, ..Options::default() }
+    Options::default().seed(seed).cases(cases)
 }
 
 fn free(corners: [[f64; 2]; 3]) -> FreeCorners {

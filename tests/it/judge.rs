@@ -10,7 +10,7 @@ use rasterproof_faults::planted::exact::ExactMutant;
 use rasterproof_faults::planted::{LineMutant, TriangleMutant};
 use rasterproof_judge::ask::{Answer, Ask, Asked, Misbehaviour, Question};
 use rasterproof_judge::declared::Declared;
-use rasterproof_judge::expected::{Declaration, Expect as _};
+use rasterproof_judge::expected::Expect as _;
 use rasterproof_judge::in_process::Inside;
 use rasterproof_judge::process::{Limits, Program};
 use rasterproof_judge::recognise::{Scope, recognise};
@@ -219,7 +219,7 @@ impl Ask for ByRule {
                 corners.iter().all(|p| (p.x | p.y).rem_euclid(256 / self.0.grid) == 0);
             assert!(corners_are_on_grid, "{q:?}");
             let picture =
-                Declaration::from(&self.0).picture(corners, PixelRect::window(q.width, q.height));
+                self.0.convention().picture(corners, PixelRect::window(q.width, q.height));
             Answer::Coverage(picture.map(|picture| picture.must).unwrap_or_default())
         };
         questions.iter().map(one).collect()

@@ -8,14 +8,14 @@ use rasterproof_registry::comparison;
 use rasterproof_registry::engines::{Engine, LineEngine};
 use rasterproof_report::{counts, json, table};
 use rasterproof_verify::cases::triangles::FAMILIES;
-use rasterproof_verify::cases::{Shape, lines};
+use rasterproof_verify::cases::{FamilyName, Shape, lines};
 use rasterproof_verify::comparison::shrink::has_plain_values;
 use rasterproof_verify::comparison::unsnapped::ExactVerdict;
 use rasterproof_verify::comparison::{Options, Tally, Verdict, caught, judge_values, tolerance};
 
 /// As many cases as `tests/differential.rs` judges, or fewer.
 fn options() -> Options {
-    Options { cases: 150, ..Options::default() }
+    Options::default().cases(150)
 }
 
 #[test]
@@ -110,7 +110,7 @@ fn same_everywhere(name: &str, verdict: &Verdict, sums: [u64; 3]) {
 #[test]
 fn counts_equal_a_recount() {
     const CASES: u64 = 8;
-    let options = Options { cases: CASES, ..Options::default() };
+    let options = Options::default().cases(CASES);
     for mutant in TriangleMutant::ALL {
         let engines = [(Engine::Mutant(mutant), tolerance::SCANLINE)];
         let verdict = comparison::judge(&engines, &[], &options, &|_| ());
@@ -190,7 +190,7 @@ fn stray_fragments_are_counted_apart() {
             });
         }
     }
-    let options = Options { cases: 20, families: vec!["uniform".to_owned()], ..Options::default() };
+    let options = Options::default().cases(20).family(FamilyName::Uniform);
     let verdict = judge_values(&Forgetful, tolerance::SCANLINE, &options).unwrap();
     let sums = verdict.comparisons();
     assert!(!verdict.agrees() && sums.oracle.total() == 0, "{sums:?}");

@@ -1,7 +1,8 @@
 //! What was not judged is neither right nor wrong, and the program says which of the three it is.
 
 use rasterproof_registry::engines::{Engine, LineEngine};
-use rasterproof_verify::comparison::{NothingJudged, Options, judge_coverage, judge_lines};
+use rasterproof_verify::cases::FamilyName;
+use rasterproof_verify::comparison::{NothingJudged, Options, Shard, judge_coverage, judge_lines};
 
 use crate::program::{check, shared};
 
@@ -47,12 +48,12 @@ fn an_empty_shard_or_no_cases_is_no_verdict_of_the_program() {
 
 #[test]
 fn the_library_returns_an_error() {
-    let misspelt = Options { families: vec!["unifrom".to_owned()], ..Options::default() };
-    let error = judge_coverage(&Engine::Scanline, &misspelt).unwrap_err();
-    assert_eq!(error, NothingJudged::UnknownFamily("unifrom".to_owned()));
+    let lines = Options::default().family(FamilyName::LineTies);
+    let error = judge_coverage(&Engine::Scanline, &lines).unwrap_err();
     let error: Box<dyn std::error::Error> = Box::new(error);
-    assert!(error.to_string().contains("\"unifrom\"; expected some of "), "{error}");
-    let none = Options { shard: (0, 0), ..Options::default() };
+    assert!(error.to_string().contains("line-ties hold other shapes"), "{error}");
+    let none = Options::default().cases(0);
     let error = judge_lines(&LineEngine::JUDGED[0], &none).unwrap_err();
-    assert_eq!(error, NothingJudged::BadShard(0, 0));
+    assert_eq!(error, NothingJudged::NoCases);
+    assert!("unifrom".parse::<FamilyName>().is_err() && Shard::new(0, 0).is_err());
 }

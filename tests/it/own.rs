@@ -117,7 +117,7 @@ impl Interpolate for Own {
 
 #[test]
 fn own_triangles_are_right() {
-    let options = Options { cases: 300, ..Options::default() };
+    let options = Options::default().cases(300);
     let verdict = judge_coverage(&Own, &options).unwrap();
     assert!(verdict.agrees(), "{:?}", verdict.failures.first().map(ToString::to_string));
 }
@@ -130,7 +130,7 @@ const TOLERANCE: Tolerance =
 
 #[test]
 fn own_values_are_right() {
-    let options = Options { cases: 100, ..Options::default() };
+    let options = Options::default().cases(100);
     let verdict = judge_values(&Own, TOLERANCE, &options).unwrap();
     assert!(verdict.agrees(), "{:?}", verdict.failures.first().map(ToString::to_string));
 }

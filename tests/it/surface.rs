@@ -119,3 +119,30 @@ fn surface_reads_attributes() {
         "## Rely\n\n| module | x |\n|---|---|\n| `a`, `a::b` | y |\n\n## Next\n| `c` | z |\n";
     assert_eq!(stated(page, "## Rely\n"), ["a", "a::b"].map(str::to_owned).into());
 }
+
+/// Whoever calls a library wants to match an error, so it is a type of its own and not a text.
+#[test]
+fn surface_has_no_text_for_an_error() {
+    let mut wrong = Vec::new();
+    let mut open = vec![root().join("crates/core/src"), root().join("crates/verify/src")];
+    while let Some(folder) = open.pop() {
+        for path in fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {
+            if path.is_dir() {
+                open.push(path);
+            } else if has_text_for_an_error(&fs::read_to_string(&path).unwrap()) {
+                wrong.push(path);
+            }
+        }
+    }
+    assert_eq!(wrong, Vec::<PathBuf>::new());
+    assert!(has_text_for_an_error("pub fn f(\n    x: u8,\n) -> Result<u8, String> {\n"));
+    assert!(!has_text_for_an_error("fn f() -> Result<u8, String> {}\npub fn g() -> String {\n"));
+}
+
+/// Whether a public function of a file returns `Result<_, String>`.
+fn has_text_for_an_error(text: &str) -> bool {
+    let public = text.split("pub fn ").skip(1);
+    public
+        .filter_map(|function| function.split(['{', ';']).next())
+        .any(|head| head.rsplit("->").next().is_some_and(|returned| returned.contains(", String>")))
+}

@@ -46,7 +46,8 @@ pub trait RasterizeExact {
 /// How an adaptive engine decided. What one decision is depends on the engine: for the edge
 /// function the side of one edge that one sample lies on, for the scanline the column where one
 /// edge crosses one row.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Decisions {
     /// Decided in plain floats, with an error bound that left no doubt.
     pub by_filter: u64,

@@ -87,7 +87,7 @@ impl<T: Copy> Frame<T> {
         );
         let mut pitch = width as usize;
         let size = size_of::<T>().max(1);
-        if pitch > 0 && (pitch * size).is_multiple_of(4096) {
+        if pitch > 0 && (pitch * size) % 4096 == 0 {
             pitch += (64 / size).max(1);
         }
         let data = vec![value; pitch * height as usize + room::<T>()];

@@ -6,6 +6,29 @@
 
 #![warn(missing_docs)]
 
+// `grid` derives `serde::Serialize` in any case: its text is named by certificates, which take days to renew. Without
+// the feature `serde` that path leads to the derive of `Default` below, which has no effect on anything else; with it
+// the two types implement `Default` by hand, so that the feature only adds.
+#[cfg(not(feature = "serde"))]
+extern crate self as serde;
+#[cfg(not(feature = "serde"))]
+#[allow(unused_imports, reason = "named as `serde::Serialize`")]
+pub(crate) use std::default::Default as Serialize;
+
+#[cfg(feature = "serde")]
+impl Default for grid::SubpixelPoint {
+    fn default() -> Self {
+        Self::new(0, 0)
+    }
+}
+
+#[cfg(feature = "serde")]
+impl Default for grid::PixelRect {
+    fn default() -> Self {
+        Self::window(0, 0)
+    }
+}
+
 pub mod angle;
 pub mod arrays;
 pub mod contract;
@@ -14,6 +37,7 @@ pub mod grid;
 pub mod line;
 pub mod parallel;
 pub mod raster;
+mod select;
 #[doc(hidden)]
 pub mod source_text;
 pub mod triangle;

@@ -64,7 +64,8 @@ pub fn refused_number(name: &str, refusal: Refusal) -> String {
 }
 
 /// A vertex in the window.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ScreenVertex<V> {
     /// Where it is, in subpixels.
     pub position: SubpixelPoint,
@@ -150,7 +151,8 @@ pub type Corners = [SubpixelPoint; 3];
 
 /// Three corners in window pixels as they were given, not snapped to the lattice: every coordinate
 /// is a finite f64 in [-[`DOMAIN_PX`], [`DOMAIN_PX`]), subnormal ones included.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct FreeCorners([[f64; 2]; 3]);
 
 impl FreeCorners {
@@ -201,7 +203,8 @@ pub fn check_position(px: f64) -> Result<(), Refusal> {
 }
 
 /// A triangle in the window, either winding; a degenerate one covers nothing.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ScreenTriangle<V> {
     /// Its vertices.
     pub vertices: [ScreenVertex<V>; 3],
@@ -262,7 +265,8 @@ pub struct Fragment<V> {
 }
 
 /// A whole pixel, by column and row. Every value is valid.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct PixelPoint {
     /// Column.
     pub x: i32,
@@ -279,7 +283,8 @@ impl PixelPoint {
 }
 
 /// One end of a line segment.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct LineEnd<V> {
     /// The pixel it starts or ends in.
     pub pixel: PixelPoint,
@@ -291,7 +296,8 @@ pub struct LineEnd<V> {
 }
 
 /// A line segment between two pixel centres, both ends included.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ScreenLine<V> {
     /// First and last pixel.
     pub ends: [LineEnd<V>; 2],

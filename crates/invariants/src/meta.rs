@@ -113,7 +113,7 @@ pub(super) fn replay(subject: &Subject, seed: u64, cases: u64) -> Outcome {
             ));
         }
     }
-    let options = Options { seed, cases: cases.min(4), ..Options::default() };
+    let options = Options::default().seed(seed).cases(cases.min(4));
     let verdict = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
         Some(pool.ok()?.install(|| {

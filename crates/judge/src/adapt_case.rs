@@ -86,7 +86,7 @@ fn coordinate(sub: i32, origin: i32, declared: &Declared) -> i32 {
 /// image where one is needed to know the truth.
 fn limits(declared: &Declared) -> (i64, i64) {
     let step = i64::from(SUBPIXELS / declared.grid);
-    let room = if declared.is_standard() { 0 } else { 1 << 23 };
+    let room = if declared.convention().is_standard() { 0 } else { 1 << 23 };
     let (least, most) = match declared.range {
         Some(range) => (-i64::from(range) * 256, i64::from(range) * 256),
         None => (i64::from(i32::MIN), i64::from(i32::MAX)),

@@ -7,9 +7,9 @@
 use glam::DVec2;
 
 use super::ask::{Answer, Asked, Question};
-use super::declared::{Declared, Winding};
+use super::declared::Declared;
 use super::depth::Pile;
-use super::expected::{Declaration, Expect, Picture, area2, exact_values};
+use super::expected::{Expect, exact_values};
 use super::finding::{Finding, hits, mix};
 use super::{mesh, near_plane};
 use rasterproof_core::frame::{Coverage, Frame};
@@ -18,6 +18,7 @@ use rasterproof_core::triangle::{Corners, Fragment, Span};
 use rasterproof_render::pipeline::multisample;
 use rasterproof_verify::cases::{Case, Line, Shape, Triangle};
 use rasterproof_verify::comparison::Tally;
+use rasterproof_verify::comparison::{Picture, Winding, area2};
 use rasterproof_verify::oracle::Oracle;
 use rasterproof_verify::oracle::values::Exact;
 
@@ -62,9 +63,9 @@ impl Truth {
     #[must_use]
     pub fn of(declared: &Declared) -> Self {
         Self {
-            expect: Box::new(Declaration::from(declared)),
+            expect: Box::new(declared.convention()),
             recognised: None,
-            drawn: declared.seen_winding(),
+            drawn: declared.convention().seen_winding(),
             declared: declared.clone(),
         }
     }
@@ -152,7 +153,10 @@ impl Check {
                         checks.push(Self::Watertight);
                     }
                 }
-                if declared.samples4 && declared.is_standard() && index % 8 == 1 && !is_perspective
+                if declared.samples4
+                    && declared.convention().is_standard()
+                    && index % 8 == 1
+                    && !is_perspective
                 {
                     checks.push(Self::Samples);
                 }
@@ -447,7 +451,7 @@ fn samples(
     window: PixelRect,
     truth: &Truth,
 ) {
-    let drawn = Declaration::from(&truth.declared).draws(area2(corners));
+    let drawn = truth.declared.convention().draws(area2(corners));
     let Some(expected) = multisample::masks(&Oracle, *corners, window).filter(|_| drawn) else {
         return;
     };

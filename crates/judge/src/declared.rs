@@ -8,63 +8,7 @@ use std::fmt;
 
 use super::text::{number, printable};
 use rasterproof_core::grid::{DOMAIN_PX, HALF_PIXEL, MAX_SIDE_PX, SUBPIXELS};
-
-/// Which samples exactly on an edge belong to a triangle, seen with the program's own y axis.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Rule {
-    /// Those on top and left edges.
-    TopLeft,
-    /// Those on top and right edges.
-    TopRight,
-    /// Those on bottom and left edges.
-    BottomLeft,
-    /// Those on bottom and right edges.
-    BottomRight,
-    Inclusive,
-    Strict,
-    /// Nothing is promised.
-    Unspecified,
-}
-
-impl Rule {
-    /// Every rule, with its word.
-    pub const ALL: [(&'static str, Self); 7] = [
-        ("top-left", Self::TopLeft),
-        ("top-right", Self::TopRight),
-        ("bottom-left", Self::BottomLeft),
-        ("bottom-right", Self::BottomRight),
-        ("inclusive", Self::Inclusive),
-        ("strict", Self::Strict),
-        ("none", Self::Unspecified),
-    ];
-
-    /// The word of the protocol.
-    #[must_use]
-    pub fn word(self) -> &'static str {
-        Self::ALL.iter().find(|(_, rule)| *rule == self).map_or("", |(word, _)| word)
-    }
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Winding {
-    /// Clockwise alone.
-    Clockwise,
-    /// Counter-clockwise alone.
-    CounterClockwise,
-    Both,
-}
-
-impl Winding {
-    /// The word of the protocol.
-    #[must_use]
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Clockwise => "cw",
-            Self::CounterClockwise => "ccw",
-            Self::Both => "both",
-        }
-    }
-}
+use rasterproof_verify::comparison::{Convention, Rule, Winding};
 
 /// What a program declares; the default is what version 1 promises.
 #[derive(Clone, Debug, PartialEq)]
@@ -210,32 +154,12 @@ impl Declared {
         Some(())
     }
 
-    /// Whether it speaks of the centre of the pixel and the top-left rule, as the engines do.
+    /// The convention that its words declare.
     #[must_use]
-    pub fn is_standard(&self) -> bool {
-        self.origin == [HALF_PIXEL; 2] && self.seen_rule() == Rule::TopLeft
-    }
-
-    /// The rule as it is seen in a picture whose rows count from the top.
-    #[must_use]
-    pub fn seen_rule(&self) -> Rule {
-        match (self.yup, self.rule) {
-            (true, Rule::TopLeft) => Rule::BottomLeft,
-            (true, Rule::TopRight) => Rule::BottomRight,
-            (true, Rule::BottomLeft) => Rule::TopLeft,
-            (true, Rule::BottomRight) => Rule::TopRight,
-            (_, rule) => rule,
-        }
-    }
-
-    /// The windings as they are seen in a picture whose rows count from the top.
-    #[must_use]
-    pub fn seen_winding(&self) -> Winding {
-        match (self.yup, self.winding) {
-            (true, Winding::Clockwise) => Winding::CounterClockwise,
-            (true, Winding::CounterClockwise) => Winding::Clockwise,
-            (_, winding) => winding,
-        }
+    pub fn convention(&self) -> Convention {
+        let [x, y] = self.origin;
+        let convention = Convention::default().rule(self.rule).winding(self.winding).sample(x, y);
+        if self.yup { convention.y_up() } else { convention }
     }
 
     #[must_use]
@@ -293,7 +217,10 @@ mod tests {
                     yup mask range=4096 window=64x32 batch=8 tolerance=1e-5";
         let declared = Declared::parse(line).unwrap();
         assert_eq!((declared.grid, declared.origin), (16, [0, 64]));
-        assert_eq!((declared.rule, declared.seen_winding()), (Rule::Strict, Winding::Clockwise));
+        assert_eq!(
+            (declared.rule, declared.convention().seen_winding()),
+            (Rule::Strict, Winding::Clockwise)
+        );
         assert_eq!((declared.range, declared.window), (Some(4096), Some([64, 32])));
         assert!(declared.unknown.is_empty());
         let again = Declared::parse(&format!("HELLO 2 mine {declared}")).unwrap();
@@ -310,6 +237,6 @@ mod tests {
         assert_eq!(Declared::parse("HELLO 3 x coverage"), None);
         assert_eq!(Declared::parse("HELLO 1"), None);
         let flipped = Declared::parse("HELLO 2 gl coverage rule=top-left yup").unwrap();
-        assert_eq!(flipped.seen_rule(), Rule::BottomLeft);
+        assert_eq!(flipped.convention().seen_rule(), Rule::BottomLeft);
     }
 }

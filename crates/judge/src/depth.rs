@@ -5,12 +5,13 @@
 //! At equal depths nothing is promised: a sum of weighted depths is rounded otherwise in each.
 
 use super::declared::Declared;
-use super::expected::{Expect, Picture, exact_values};
+use super::expected::{Expect, exact_values};
 use super::finding::{Finding, hits, mix, push};
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::Span;
 use rasterproof_verify::cases::Triangle;
+use rasterproof_verify::comparison::Picture;
 use rasterproof_verify::oracle::values::ExactTriangle;
 
 /// One triangle of a pile: the pixels that it has to cover, those that it may, and its depths.
@@ -143,7 +144,6 @@ fn shown(runs: &[(Span, u8)], x_px: i32, y_px: i32) -> Option<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::expected::Declaration;
     use crate::server::pipeline;
     use rasterproof_core::contract::Interpolate as _;
     use rasterproof_core::raster::scanline::Scanline;
@@ -183,7 +183,7 @@ mod tests {
         let is_wrong = |index: &u64| {
             let case = FAMILIES[0].case(1, *index);
             let Shape::Triangles { list, .. } = &case.shape else { return true };
-            let expect = Declaration::from(&declared);
+            let expect = declared.convention();
             let Some(pile) = Pile::new(list, case.window, &expect, &declared) else { return true };
             let mut finding = Finding::default();
             let runs = answer(list, case.window);
@@ -236,7 +236,7 @@ mod tests {
             for index in 0..20 {
                 let case = FAMILIES[0].case(2, index);
                 let Shape::Triangles { list, .. } = &case.shape else { panic!("triangles") };
-                let expect = Declaration::from(&declared);
+                let expect = declared.convention();
                 let Some(pile) = Pile::new(list, case.window, &expect, &declared) else { continue };
                 let mut finding = Finding::default();
                 pile.compare(&mut finding, &pile.runs());

@@ -169,9 +169,9 @@ impl Ask for Inside {
             answers.push(match caught(|| self.answer(question)) {
                 Ok(Ok(answer)) => answer,
                 Ok(Err(reason)) => Answer::Refused(reason),
-                Err(message) => {
+                Err(panic) => {
                     deaths += 1;
-                    Answer::Died(Misbehaviour::Crashes(message))
+                    Answer::Died(Misbehaviour::Crashes(panic.0))
                 }
             });
             if deaths >= most_deaths {

@@ -4,10 +4,10 @@
 //! whose neighbourhood of 3 x 3 lies within the mesh and does not touch its border belongs to some
 //! triangle of it; and triangles whose interiors are disjoint share no pixel. All in exact integers.
 
-use super::expected::area2;
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::Corners;
+use rasterproof_verify::comparison::area2;
 
 type Edge = [SubpixelPoint; 2];
 

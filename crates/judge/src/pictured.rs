@@ -7,7 +7,6 @@
 use super::ask::{Answer, Asked, Question};
 use super::check::{Check, Truth, expected_answer, picture_of};
 use super::depth::Pile;
-use super::expected::{Declaration, area2};
 use super::near_plane;
 use rasterproof_core::contract::Rasterize as _;
 use rasterproof_core::frame::Coverage;
@@ -15,6 +14,7 @@ use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::{Corners, Span};
 use rasterproof_render::pipeline::multisample;
 use rasterproof_verify::cases::Case;
+use rasterproof_verify::comparison::area2;
 use rasterproof_verify::oracle::Oracle;
 use rasterproof_verify::oracle::values::Exact;
 
@@ -106,7 +106,7 @@ fn samples(
         let Asked::Samples(corners) = &question.of else { continue };
         let four = |sub: i32| sub.saturating_mul(FINER);
         moved.push(corners.map(|p| SubpixelPoint::new(four(p.x), four(p.y))));
-        let is_drawn = Declaration::from(&truth.declared).draws(area2(corners));
+        let is_drawn = truth.declared.convention().draws(area2(corners));
         let masks = multisample::masks(&Oracle, *corners, window).filter(|_| is_drawn);
         for (y, row) in masks.iter().flat_map(|masks| masks.rows()) {
             (window.x0..).zip(row).for_each(|(x, mask)| hit(&mut expected, x, y, *mask));

@@ -9,8 +9,8 @@ use std::fmt::Write as _;
 use super::adapt_case;
 use super::ask::{Answer, Ask, Asked, Question};
 use super::check::{Check, Truth, picture_of};
-use super::declared::{Declared, Rule, Winding};
-use super::expected::{Declaration, Expect, Picture};
+use super::declared::Declared;
+use super::expected::Expect;
 use super::leaving;
 use super::run::MOST_DEATHS;
 use rasterproof_convention::{
@@ -20,6 +20,7 @@ use rasterproof_convention::{
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS};
 use rasterproof_core::triangle::{Corners, PixelPoint, Span};
+use rasterproof_verify::comparison::{Convention as Promised, Picture, Rule, Winding};
 
 /// A convention that was recognised from answers.
 pub struct Recognised {
@@ -87,12 +88,8 @@ pub fn recognise(program: &mut dyn Ask, scope: Scope) -> Option<Recognised> {
     sentences.extend(lines.as_ref().map(|l| clause("Lines", &l.sentence())));
     let compass = triangles.as_ref().and_then(compass);
     let declare = triangles.as_ref().map(|t| words(&declared, t)).unwrap_or_default();
-    let mut found = Found {
-        declaration: Declaration::from(&declared),
-        triangles,
-        lines,
-        otherwise: [false; 2],
-    };
+    let mut found =
+        Found { declaration: declared.convention(), triangles, lines, otherwise: [false; 2] };
     found.look_at_leaving(&mut bench, &declared, &mut sentences);
     let said = Said { sentences, compass, declare, is_explained };
     Some(Recognised { said, expect: is_explained.then(|| Box::new(found) as Box<dyn Expect>) })
@@ -107,7 +104,7 @@ fn clause(about: &str, sentence: &str) -> String {
 
 /// What is found, and what is declared where nothing was looked for.
 struct Found {
-    declaration: Declaration,
+    declaration: Promised,
     triangles: Option<Diagnosis>,
     lines: Option<LineDiagnosis>,
     /// Whether triangles, and lines, that leave the window come out otherwise.
@@ -189,8 +186,8 @@ fn runs(coverage: &Coverage) -> Vec<Span> {
 
 /// What the questions have to keep to.
 fn known(declared: &Declared) -> Known {
-    let declaration = Declaration::from(declared);
-    let [x, y] = declaration.origin;
+    let declaration = declared.convention();
+    let [x, y] = declaration.sample;
     let default = Known::default();
     Known {
         grid: declared.grid,
@@ -313,9 +310,9 @@ fn words(declared: &Declared, found: &Diagnosis) -> String {
         Windings::Both | Windings::Neither => Winding::Both,
     };
     let is_seen = found.compass.seen().contains(&true);
-    let rule = if is_seen { rule(found) } else { declared.seen_rule() };
+    let rule = if is_seen { rule(found) } else { declared.convention().seen_rule() };
     // What is seen, turned over where y goes up, is what the program says.
-    let seen = Declared { rule, winding, ..declared.clone() };
+    let seen = declared.convention().rule(rule).winding(winding);
     let (rule, winding) = (seen.seen_rule(), seen.seen_winding());
     let px = |sub: i32| f64::from(sub) / f64::from(SUBPIXELS);
     let mut out = String::new();

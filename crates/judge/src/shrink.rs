@@ -5,10 +5,10 @@
 //! and w of clip space, are numbers like the others.
 
 use super::check::Check;
-use super::expected::area2;
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_verify::cases::shrink::{greedy, shrink};
 use rasterproof_verify::cases::{Case, Shape, Triangle};
+use rasterproof_verify::comparison::area2;
 
 /// The smallest case reached from `case` that still fails; `case` itself does.
 pub fn smaller(check: Check, case: Case, fails: impl Fn(&Case) -> bool) -> Case {

@@ -3,11 +3,12 @@
 use super::adapt_case;
 use super::ask::{Answer, Ask, Asked, Question};
 use super::check::picture_of;
-use super::declared::{Declared, Winding};
-use super::expected::{Declaration, Expect as _, area2};
+use super::declared::Declared;
+use super::expected::Expect as _;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::Corners;
 use rasterproof_verify::cases::Shape;
+use rasterproof_verify::comparison::{Winding, area2};
 
 /// How many plain triangles of each winding were drawn; seen on a screen with y down.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
@@ -86,7 +87,7 @@ pub fn windings(program: &mut dyn Ask, seed: u64) -> Windings {
 }
 
 fn is_fat(corners: &Corners, window: PixelRect, declared: &Declared) -> bool {
-    let any = Declaration { winding: Winding::Both, ..Declaration::from(declared) };
+    let any = declared.convention().winding(Winding::Both);
     any.picture(corners, window).is_some_and(|picture| {
         let pixels = picture.must.iter().map(|r| u64::from(r.x0_px.abs_diff(r.x1_px)));
         pixels.sum::<u64>() >= FEW_PIXELS

@@ -62,7 +62,7 @@ pub fn verdict(
         window: f.case.window,
         repeat: repeat(&f.family, f.index),
     });
-    let (part, parts) = verdict.options.shard;
+    let (part, parts) = (verdict.options.shard.part(), verdict.options.shard.parts());
     let json = Json {
         version: env!("CARGO_PKG_VERSION"),
         seed: verdict.options.seed,

@@ -316,7 +316,7 @@ pub fn on_grid(
             let engines = judged.engines.iter().copied().chain(others);
             let mut drawn: Vec<Drawn> = engines
                 .map(|e| {
-                    let hits = engine_coverage(&e, list, case.window);
+                    let hits = engine_coverage(&e, list, case.window).map_err(String::from);
                     (e.name().to_owned(), role(matches!(e, Engine::Mutant(_))), hits)
                 })
                 .collect();
@@ -351,7 +351,7 @@ fn drawn_lines(list: &[cases::Line], window: PixelRect, judged: Judged<'_>) -> V
                 LineEngine::Mutant(_) => Role::Planted,
                 _ => Role::Engine,
             };
-            (e.name().to_owned(), role, line_coverage(&e, list, window))
+            (e.name().to_owned(), role, line_coverage(&e, list, window).map_err(String::from))
         })
         .collect();
     drawn.extend(engines::SPECIMENS.iter().filter_map(|entry| {
@@ -393,7 +393,11 @@ pub fn off_lattice(
             ExactEngine::Oracle => Role::Oracle,
             _ => role(matches!(e, ExactEngine::Mutant(_))),
         };
-        (e.name().to_owned(), role, exact_coverage(&e, case).map(|(hits, _)| hits))
+        (
+            e.name().to_owned(),
+            role,
+            exact_coverage(&e, case).map(|(hits, _)| hits).map_err(String::from),
+        )
     });
     let points = case.triangles.iter().map(|t| t.px()).collect();
     view(name, about, kind, case.window, ShapeView::Free(points), drawn.collect())

@@ -1,9 +1,9 @@
 //! A rasterizer that tests `> 0` on every edge, as many tutorials do, and what its failing test prints.
 
-use rasterproof_core::contract::Rasterize;
-use rasterproof_core::grid::{PixelRect, SubpixelPoint};
-use rasterproof_core::triangle::{Corners, Span};
 use rasterproof_verify::comparison::{NothingJudged, Options, judge_coverage};
+use rasterproof_verify::contract::Rasterize;
+use rasterproof_verify::grid::{PixelRect, SubpixelPoint};
+use rasterproof_verify::triangle::{Corners, Span};
 
 struct Strict;
 

@@ -15,11 +15,11 @@ mod values;
 #[doc(hidden)]
 pub mod words;
 
-use std::hint::select_unpredictable;
 use std::ops::{Add, BitOr};
 
 use crate::contract::Rasterize;
 use crate::grid::{HALF_PIXEL, PixelRect, SUBPIXEL_BITS, SUBPIXELS, SubpixelPoint};
+use crate::select::select_unpredictable;
 use crate::triangle::{Corners, Span};
 
 /// The edge-function engine; see the module's description.

@@ -17,11 +17,11 @@ pub mod probe;
 pub mod steps;
 mod values;
 
-use std::hint::select_unpredictable;
 use std::ops::Range;
 
 use crate::contract::Rasterize;
 use crate::grid::{HALF_PIXEL, PixelRect, SUBPIXEL_BITS, SUBPIXELS, SubpixelPoint};
+use crate::select::select_unpredictable;
 use crate::triangle::{Corners, Span};
 
 /// The scanline engine; see the module's description.

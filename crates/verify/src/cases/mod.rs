@@ -14,6 +14,10 @@ pub mod shrink;
 pub mod triangles;
 pub mod unsnapped;
 
+use std::error::Error;
+use std::fmt;
+use std::str::FromStr;
+
 use glam::DVec2;
 
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
@@ -62,6 +66,71 @@ impl Family {
     #[must_use]
     pub fn case(&self, seed: u64, index: u64) -> Case {
         (self.make)(&mut Rng::new(self.name, seed, index))
+    }
+}
+
+macro_rules! family_names {
+    ($($variant:ident $name:literal)*) => {
+        /// The name of a family of triangles or lines, on the lattice or off it. It is parsed from, and shown as, the
+        /// word of the command line.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        #[non_exhaustive]
+        pub enum FamilyName {
+            $(#[doc = concat!("`", $name, "`")] $variant,)*
+        }
+
+        impl FamilyName {
+            /// Every name, in the order of the catalogue.
+            pub const ALL: &'static [Self] = &[$(Self::$variant,)*];
+
+            /// The word of the command line.
+            #[must_use]
+            pub fn as_str(self) -> &'static str {
+                match self {
+                    $(Self::$variant => $name,)*
+                }
+            }
+        }
+    };
+}
+
+family_names! {
+    Uniform "uniform" HalfInteger "half-integer" Rectangle "rectangle" Fan "fan" Strip "strip" Sliver "sliver"
+    NearHorizontal "near-horizontal" NearVertical "near-vertical" Tiny "tiny" Flat "flat" Degenerate "degenerate"
+    PartlyOff "partly-off" OffScreen "off-screen" Huge "huge" NearTie "near-tie" Far "far"
+    WEqual "w-equal" W4 "w-4" W100 "w-100" W1e4 "w-1e4" W1e6 "w-1e6" WExtreme "w-extreme"
+    LineOctants "line-octants" LineTies "line-ties" LineAxis "line-axis" LinePoints "line-points"
+    LineClipped "line-clipped" LineFar "line-far"
+    F32Random "f32-random" F32Sliver "f32-sliver" F32NearTie "f32-near-tie" F32Tie "f32-tie" F32Fan "f32-fan"
+    F32Cut "f32-cut" F32Tiny "f32-tiny" F32Mixed "f32-mixed" F32Denormal "f32-denormal" F32Far "f32-far"
+    F32Huge "f32-huge" F64NearTie "f64-near-tie" F64Huge "f64-huge" F64Denormal "f64-denormal"
+}
+
+impl fmt::Display for FamilyName {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.as_str())
+    }
+}
+
+/// A word that names no family.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct UnknownFamily(pub String);
+
+impl fmt::Display for UnknownFamily {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let known: Vec<_> = FamilyName::ALL.iter().map(|name| name.as_str()).collect();
+        write!(f, "no family is called {:?}; expected one of {}", self.0, known.join(", "))
+    }
+}
+
+impl Error for UnknownFamily {}
+
+impl FromStr for FamilyName {
+    type Err = UnknownFamily;
+
+    fn from_str(word: &str) -> Result<Self, UnknownFamily> {
+        let found = Self::ALL.iter().find(|name| name.as_str() == word);
+        found.copied().ok_or_else(|| UnknownFamily(word.to_owned()))
     }
 }
 
@@ -129,4 +198,23 @@ fn sub(x: i64, y: i64) -> SubpixelPoint {
 /// A pixel given in whole numbers.
 fn pixel(x: i64, y: i64) -> PixelPoint {
     PixelPoint::new(x as i32, y as i32)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_family_has_its_name() {
+        let off_the_lattice = unsnapped::FAMILIES.iter().map(|family| family.name);
+        let families: Vec<_> =
+            families().map(|family| family.name).chain(off_the_lattice).collect();
+        let names: Vec<_> = FamilyName::ALL.iter().map(|name| name.as_str()).collect();
+        assert_eq!(names, families);
+        for name in FamilyName::ALL {
+            assert_eq!(name.to_string().parse(), Ok(*name));
+        }
+        let error = "slivver".parse::<FamilyName>().unwrap_err().to_string();
+        assert!(error.contains("\"slivver\"; expected one of uniform, "), "{error}");
+    }
 }

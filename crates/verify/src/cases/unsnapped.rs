@@ -142,14 +142,24 @@ fn sample(rng: &mut Rng) -> Point {
 
 /// `v` moved by `ulps` f32 numbers.
 fn nudge_f32(v: f64, ulps: i64) -> f64 {
-    let step = if ulps > 0 { f32::next_up } else { f32::next_down };
-    f64::from((0..ulps.abs()).fold(v as f32, |v, _| step(v)))
+    let v = v as f32;
+    let (bits, is_negative) = nudged(v.abs().to_bits().into(), v.is_sign_negative(), ulps);
+    let moved = f64::from(f32::from_bits(bits as u32));
+    if is_negative { -moved } else { moved }
 }
 
 /// `v` moved by `ulps` f64 numbers.
 fn nudge_f64(v: f64, ulps: i64) -> f64 {
-    let step = if ulps > 0 { f64::next_up } else { f64::next_down };
-    (0..ulps.abs()).fold(v, |v, _| step(v))
+    let (bits, is_negative) = nudged(v.abs().to_bits(), v.is_sign_negative(), ulps);
+    let moved = f64::from_bits(bits);
+    if is_negative { -moved } else { moved }
+}
+
+/// The bits of a magnitude, and whether it is negative, so many numbers on: what `next_up` and `next_down` do, which the
+/// oldest compiler of this crate does not have. The two zeros are one number.
+fn nudged(bits: u64, is_negative: bool, ulps: i64) -> (u64, bool) {
+    let at = if is_negative { -(bits as i64) } else { bits as i64 } + ulps;
+    (at.unsigned_abs(), at < 0 || at == 0 && is_negative)
 }
 
 fn random(rng: &mut Rng) -> OffGridCase {

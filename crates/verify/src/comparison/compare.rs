@@ -2,7 +2,8 @@
 
 use glam::DVec2;
 
-use super::finding::{Finding, Tally, caught};
+use super::convention::{Convention, Rule};
+use super::finding::{EnginePanic, Finding, Tally, caught};
 use super::spans::{Covered, engine_coverage, fragments_against, line_coverage};
 use super::tolerance::Tolerance;
 use super::truth::{Bounds, Truth, compare_on_line};
@@ -72,11 +73,27 @@ impl<R: Rasterize> Interpolate for CoverageOnly<'_, R> {
 /// Rasterizers, with the bounds of their values where they have any.
 pub struct TriangleContest<'a, R> {
     engines: &'a [(&'a str, R, Option<Tolerance>)],
+    convention: Convention,
 }
 
 impl<'a, R: Interpolate + Sync> TriangleContest<'a, R> {
-    pub fn new(engines: &'a [(&'a str, R, Option<Tolerance>)]) -> Self {
-        Self { engines }
+    pub fn new(engines: &'a [(&'a str, R, Option<Tolerance>)], convention: Convention) -> Self {
+        Self { engines, convention }
+    }
+
+    /// What is true for a rasterizer that has drawn `covered`: where its convention leaves a pixel open, what it drew.
+    fn target(
+        &self,
+        list: &[Triangle],
+        covered: &Result<Covered, EnginePanic>,
+        truth: &Result<Covered, EnginePanic>,
+    ) -> Result<Covered, EnginePanic> {
+        let (Ok(covered), Ok(truth)) = (covered, truth) else { return truth.clone() };
+        let window = covered.window();
+        let may = |at: usize| {
+            self.convention.expected(&list[at].corners(), window).may.unwrap_or_default()
+        };
+        Ok(truth.allowing(covered, may))
     }
 }
 
@@ -96,11 +113,12 @@ impl<R: Interpolate + Sync> Contest for TriangleContest<'_, R> {
             return (CaseFacts::default(), findings);
         };
         // What is true. The oracle does not panic, and stays inside the window.
-        let truth = Covered::by(&Oracle, list, case.window);
+        let truth = Covered::by(&self.convention, list, case.window);
+        let centred = |triangle: &Triangle| self.convention.centred(&triangle.corners());
         let facts = CaseFacts {
             shapes: list.len() as u64,
             pixels: truth.as_ref().map_or(0, Covered::pixels),
-            ties: list.iter().map(|t| samples_on_boundary(&t.corners(), case.window)).sum(),
+            ties: list.iter().map(|t| samples_on_boundary(&centred(t), case.window)).sum(),
             sliver: list.iter().any(|t| is_sliver(&t.corners())),
             overlap: truth.as_ref().map_or(0, |truth| if *disjoint { truth.twice() } else { 0 }),
         };
@@ -114,7 +132,9 @@ impl<R: Interpolate + Sync> Contest for TriangleContest<'_, R> {
         let count = self.engines.len();
         let (alone, each_other) = findings.split_at_mut(count);
         for (finding, covered) in alone.iter_mut().zip(&covered) {
-            finding.cover(against(covered, &truth));
+            let open = matches!(self.convention.rule, Rule::Inclusive | Rule::Unspecified);
+            let target = open.then(|| self.target(list, covered, &truth));
+            finding.cover(against(covered, target.as_ref().unwrap_or(&truth)));
         }
         for (finding, two) in each_other.iter_mut().zip(covered.windows(2)) {
             finding.cover(against(&two[0], &two[1]));
@@ -128,9 +148,9 @@ impl<R: Interpolate + Sync> Contest for TriangleContest<'_, R> {
 }
 
 fn against(
-    actual: &Result<Covered, String>,
-    target: &Result<Covered, String>,
-) -> Result<Tally, String> {
+    actual: &Result<Covered, EnginePanic>,
+    target: &Result<Covered, EnginePanic>,
+) -> Result<Tally, EnginePanic> {
     match (actual, target) {
         (Ok(actual), Ok(target)) => Ok(actual.against(target)),
         (Err(message), _) | (_, Err(message)) => Err(message.clone()),
@@ -148,7 +168,16 @@ impl<R: Interpolate + Sync> TriangleContest<'_, R> {
         alone: &mut [Finding],
         each_other: &mut [Finding],
     ) {
-        let mut truth = Truth::new(triangle);
+        if self.engines.iter().all(|(.., tolerance)| tolerance.is_none()) {
+            return;
+        }
+        // Values are those at the sample, which the exact ones take for the centre.
+        let moved = self.convention.centred(&triangle.corners());
+        let mut centred = *triangle;
+        for (vertex, position) in centred.vertices.iter_mut().zip(moved) {
+            vertex.position = position;
+        }
+        let mut truth = Truth::new(&centred);
         let mut previous: Option<(Vec<Fragment<DVec2>>, Bounds)> = None;
         for (i, (_, engine, tolerance)) in self.engines.iter().enumerate() {
             // Nothing to compare the next engine with, unless this one has values.
@@ -157,8 +186,8 @@ impl<R: Interpolate + Sync> TriangleContest<'_, R> {
             let (None, Some(spans)) = (&alone[i].panic, spans[i]) else { continue };
             let fragments = match caught(|| collect_fragments(engine, triangle, spans, window)) {
                 Ok(fragments) => fragments,
-                Err(message) => {
-                    alone[i].panic = Some(message);
+                Err(panic) => {
+                    alone[i].panic = Some(panic.0);
                     continue;
                 }
             };
@@ -166,7 +195,7 @@ impl<R: Interpolate + Sync> TriangleContest<'_, R> {
             let bounds = Bounds::new(*tolerance, triangle);
             if let Some(truth) = &mut truth {
                 // Outside the triangle no value is right or wrong; the pixel is.
-                for f in few(&fragments).filter(|f| holds_centre(&triangle.corners(), f)) {
+                for f in few(&fragments).filter(|f| holds_centre(&moved, f)) {
                     truth.compare(f, &bounds, &mut alone[i]);
                 }
             }
@@ -304,7 +333,7 @@ impl<D: DrawLine + Sync> Contest for LineContest<'_, D> {
                         finding.tally += sequence(drawn, &pixels, case.window);
                         line_values(line, drawn, &truth, finding);
                     }
-                    Err(message) => finding.panic = Some(message.clone()),
+                    Err(panic) => finding.panic = Some(panic.0.clone()),
                 }
             }
             for (finding, two) in findings.iter_mut().skip(drawn.len()).zip(drawn.windows(2)) {
@@ -313,7 +342,7 @@ impl<D: DrawLine + Sync> Contest for LineContest<'_, D> {
                         let target: Vec<_> = b.iter().map(|f| (f.x_px, f.y_px)).collect();
                         finding.tally += sequence(a, &target, case.window);
                     }
-                    (Err(message), _) | (_, Err(message)) => finding.panic = Some(message.clone()),
+                    (Err(panic), _) | (_, Err(panic)) => finding.panic = Some(panic.0.clone()),
                 }
             }
         }
@@ -331,7 +360,7 @@ fn line_has_tie(line: &Line) -> bool {
     while b > 0 {
         (a, b) = (b, a % b);
     }
-    short > 0 && (long / a).is_multiple_of(2)
+    short > 0 && (long / a) % 2 == 0
 }
 
 /// Compares the pixels of a line, and where they are the same ones their order.

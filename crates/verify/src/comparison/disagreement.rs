@@ -3,8 +3,9 @@
 use std::error::Error;
 use std::fmt::{self, Write as _};
 
-use super::{Failure, Verdict, shrink};
-use crate::cases::{self, Case, Shape};
+use super::{Convention, Failure, Picture, Rule, Verdict, Winding, shrink};
+use crate::cases::named::plain_triangle;
+use crate::cases::{self, Case, FamilyName, Shape};
 use rasterproof_core::contract::Rasterize;
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
@@ -26,8 +27,10 @@ pub struct Disagreement {
     pub families: Vec<(String, u64)>,
     /// The smallest failing case that was found. There is none where the oracle itself failed a check.
     pub smallest: Option<Failure>,
-    /// The rule by which all that was tried can be explained, in words.
-    pub convention: Option<String>,
+    /// The convention by which all that was tried can be explained, in words and as an expression.
+    pub convention: Option<[String; 2]>,
+    /// The convention that was declared.
+    pub declared: Convention,
 }
 
 impl Error for Disagreement {}
@@ -52,6 +55,7 @@ impl Disagreement {
             families,
             smallest: verdict.failures.first().cloned(),
             convention: verdict.convention.clone(),
+            declared: verdict.options.convention,
         }
     }
 }
@@ -79,8 +83,12 @@ impl fmt::Display for Disagreement {
                 None => writeln!(f, "  the engine panics on it")?,
             }
         }
-        if let Some(convention) = &self.convention {
-            writeln!(f, "\nprobable cause: {convention}")?;
+        if let Some([words, expression]) = &self.convention {
+            writeln!(f, "\nprobable cause: {words}")?;
+            writeln!(
+                f,
+                "if that is meant, declare it: Options::default().convention({expression})"
+            )?;
         }
         let names: Vec<_> =
             self.families.iter().map(|(name, wrong)| format!("{name} ({wrong})")).collect();
@@ -88,10 +96,14 @@ impl fmt::Display for Disagreement {
             writeln!(f, "\nwrong cases by family: {}", names.join(", "))?;
         }
         if let Some(Failure { family, index, seed, .. }) = &self.smallest {
-            writeln!(
-                f,
-                "repeat the case with: Options::default().seed({seed}).family(\"{family}\").only({index})"
-            )?;
+            write!(f, "repeat the case with: Options::default().seed({seed})")?;
+            if let Ok(family) = family.parse::<FamilyName>() {
+                write!(f, ".family(FamilyName::{family:?})")?;
+            }
+            if self.declared != Convention::default() {
+                write!(f, ".convention({})", self.declared)?;
+            }
+            writeln!(f, ".only({index})")?;
         }
         Ok(())
     }
@@ -121,104 +133,100 @@ fn grids(drawn: &Coverage, expected: &Coverage) -> String {
     text + "  # drawn once, - missing, + extra, 2 drawn twice\n"
 }
 
-/// Which samples on an edge a rasterizer draws.
+/// A way to rasterize: a convention, and how corners reach a coarser grid where they do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Ties {
-    /// Those of edges at the top or bottom (y) and left or right (x): the directions of the nudge.
-    Nudged {
-        right: bool,
-        down: bool,
-    },
-    None,
-    All,
+struct Candidate {
+    convention: Convention,
+    /// Corners are cut down to the grid, not moved to the nearest point of it.
+    down: bool,
 }
 
-/// A way to rasterize that differs from the rule of this crate.
-#[derive(Clone, Copy, Debug)]
-struct Rule {
-    ties: Ties,
-    /// From the centre of the pixel, in half pixels.
-    sample: [i64; 2],
-    /// The sign of the area, with y down, of the triangles that are drawn; 0 for both.
-    winding: i128,
-}
-
-impl Rule {
-    fn covers(self, corners: &Corners, x_px: i32, y_px: i32) -> bool {
-        let half = i64::from(HALF_PIXEL);
-        let at = |px: i32, offset: i64| i64::from(px) * i64::from(SUBPIXELS) + half + offset * half;
-        let (x, y) = (at(x_px, self.sample[0]), at(y_px, self.sample[1]));
-        let [a, b, c] = corners.map(|p| [i64::from(p.x), i64::from(p.y)]);
-        let edge = |from: [i64; 2], to: [i64; 2], p: [i64; 2]| {
-            i128::from(to[0] - from[0]) * i128::from(p[1] - from[1])
-                - i128::from(to[1] - from[1]) * i128::from(p[0] - from[0])
-        };
-        let area = edge(a, b, c);
-        if area == 0 || self.winding * area < 0 {
-            return false;
-        }
-        let (b, c) = if area > 0 { (b, c) } else { (c, b) };
-        [(a, b), (b, c), (c, a)].into_iter().all(|(from, to)| match edge(from, to, [x, y]) {
-            0 => match self.ties {
-                Ties::None => false,
-                Ties::All => true,
-                // The inside is right of an edge that goes up, and below one that goes right.
-                Ties::Nudged { right, down } if from[1] == to[1] => {
-                    (to[0] > from[0]) == down || (to[0] == from[0] && right)
-                }
-                Ties::Nudged { right, .. } => (to[1] < from[1]) == right,
-            },
-            e => e > 0,
-        })
+impl Candidate {
+    fn picture(self, corners: &Corners, window: PixelRect) -> Picture {
+        let step = SUBPIXELS >> self.convention.subpixel_bits;
+        let ahead = if self.down { 0 } else { step / 2 };
+        let snap = |v: i32| v.saturating_add(ahead).div_euclid(step) * step;
+        let corners = corners.map(|p| SubpixelPoint::new(snap(p.x), snap(p.y)));
+        self.convention.expected(&corners, window)
     }
 
-    fn words(self) -> Option<String> {
-        let sample = match self.sample {
-            [0, 0] => None,
-            [x, y] => Some(format!(
-                "its samples are at the {} {} corners of the pixels, and not at the centres",
-                if y < 0 { "upper" } else { "lower" },
-                if x < 0 { "left" } else { "right" },
-            )),
+    /// In what it differs from what is declared, in words.
+    fn words(self, declared: &Convention) -> Option<String> {
+        let place = |sample: [i32; 2]| {
+            let [x, y] = sample.map(|v| f64::from(v) / f64::from(SUBPIXELS));
+            match sample {
+                [HALF_PIXEL, HALF_PIXEL] => "the centres".to_owned(),
+                [0 | SUBPIXELS, 0 | SUBPIXELS] => format!(
+                    "the {} {} corners",
+                    if y == 0.0 { "upper" } else { "lower" },
+                    if x == 0.0 { "left" } else { "right" },
+                ),
+                _ => format!("the points ({x}, {y})"),
+            }
         };
-        let ties = match self.ties {
-            Ties::None => Some("it draws no sample that lies exactly on an edge, so shared edges have holes".to_owned()),
-            Ties::All => Some("it draws every sample that lies exactly on an edge, so shared edges are drawn twice".to_owned()),
-            Ties::Nudged { right: true, down: true } => None,
-            Ties::Nudged { right, down } => Some(format!(
-                "it keeps samples on {} and {} edges, where the top-left rule keeps those on top and left ones",
-                if down { "top" } else { "bottom" },
-                if right { "left" } else { "right" },
-            )),
-        };
-        let winding = match self.winding {
-            0 => None,
-            sign => Some(format!(
-                "it draws only triangles whose corners run {} on the screen (y down)",
-                if sign > 0 { "clockwise" } else { "counter-clockwise" },
-            )),
-        };
-        let words: Vec<_> = [sample, ties, winding].into_iter().flatten().collect();
+        let own = self.convention;
+        let sample = (own.sample != declared.sample).then(|| {
+            let [own, declared] = [own.sample, declared.sample].map(place);
+            format!("its samples are at {own} of the pixels, and not at {declared}")
+        });
+        let rule = (own.rule != declared.seen_rule()).then(|| match own.rule {
+            Rule::Strict => "it draws no sample that lies exactly on an edge, so shared edges have holes".to_owned(),
+            Rule::Inclusive => {
+                "it draws every sample that lies exactly on an edge, so shared edges are drawn twice".to_owned()
+            }
+            rule => format!(
+                "it follows the {} rule for samples on edges, and not the {} rule",
+                rule.word(),
+                declared.seen_rule().word()
+            ),
+        });
+        let winding = (own.winding != declared.seen_winding()).then(|| match own.winding {
+            Winding::Both => "it draws triangles of either winding".to_owned(),
+            Winding::Clockwise => {
+                "it draws only triangles whose corners run clockwise on the screen (y down)"
+                    .to_owned()
+            }
+            Winding::CounterClockwise => {
+                "it draws only triangles whose corners run counter-clockwise on the screen (y down)"
+                    .to_owned()
+            }
+        });
+        let grid = (own.subpixel_bits != declared.subpixel_bits).then(|| {
+            let how = if self.down { "down to" } else { "to the nearest" };
+            format!("it moves corners {how} multiples of 1/{} px", 1 << own.subpixel_bits)
+        });
+        let words: Vec<_> = [sample, rule, winding, grid].into_iter().flatten().collect();
         (!words.is_empty()).then(|| words.join("; "))
     }
 }
 
-/// Every combination, simple ones first.
-fn rules() -> impl Iterator<Item = Rule> {
-    let nudges = [(true, true), (true, false), (false, true), (false, false)];
-    let nudges = nudges.map(|(right, down)| Ties::Nudged { right, down });
-    let ties = nudges.into_iter().chain([Ties::None, Ties::All]);
-    let all = ties.flat_map(|ties| SAMPLES.map(|sample| (ties, sample)));
-    all.flat_map(|(ties, sample)| [0, 1, -1].map(|winding| Rule { ties, sample, winding }))
+/// Every combination, simple ones first; of grids those that are coarser than what is declared.
+fn candidates(declared: &Convention) -> Vec<Candidate> {
+    let bits = declared.subpixel_bits;
+    let coarser = (4..bits).rev().flat_map(|bits| [(bits, false), (bits, true)]);
+    let mut found = Vec::new();
+    for (bits, down) in [(bits, false)].into_iter().chain(coarser) {
+        for (_, rule) in Rule::ALL.into_iter().filter(|(_, rule)| *rule != Rule::Unspecified) {
+            for [x, y] in SAMPLES {
+                for winding in [Winding::Both, Winding::Clockwise, Winding::CounterClockwise] {
+                    let convention = Convention::default().rule(rule).winding(winding);
+                    let sample = [x, y].map(|halves| HALF_PIXEL + halves * HALF_PIXEL);
+                    let convention = convention.sample(sample[0], sample[1]).subpixel_bits(bits);
+                    found.push(Candidate { convention, down });
+                }
+            }
+        }
+    }
+    found
 }
 
 /// The places of a sample that a rule may have, from the centre in half pixels.
-const SAMPLES: [[i64; 2]; 5] = [[0, 0], [-1, -1], [-1, 1], [1, -1], [1, 1]];
+const SAMPLES: [[i32; 2]; 5] = [[0, 0], [-1, -1], [-1, 1], [1, -1], [1, 1]];
 
 /// Triangles that tell the rules apart: those of a few families, moved so that edges pass through samples at each of
 /// [`SAMPLES`].
 fn questions() -> Vec<(Corners, PixelRect)> {
-    let wanted = ["half-integer", "rectangle", "uniform"];
+    let wanted = ["half-integer", "rectangle", "uniform", "near-tie"];
     let families = cases::triangles::FAMILIES.iter().filter(|family| wanted.contains(&family.name));
     let cases = families.flat_map(|family| (0..24).map(|index| family.case(1, index)));
     let triangles = |case: Case| match case.shape {
@@ -230,40 +238,37 @@ fn questions() -> Vec<(Corners, PixelRect)> {
     let small = |(_, window): &(Corners, PixelRect)| window.width().max(window.height()) <= 64;
     let moved = |(corners, window): (Corners, PixelRect)| {
         SAMPLES.map(|[x, y]| {
-            let by = |sub: i32, halves: i64| sub.saturating_add(halves as i32 * HALF_PIXEL);
+            let by = |sub: i32, halves: i32| sub.saturating_add(halves * HALF_PIXEL);
             (corners.map(|p| SubpixelPoint::new(by(p.x, x), by(p.y, y))), window)
         })
     };
     cases.flat_map(triangles).filter(small).flat_map(moved).collect()
 }
 
-/// The only rule that explains what an engine draws in some hundred triangles, in words. Nothing where none does, or
-/// where two do.
-pub(super) fn recognised(engine: &impl Rasterize) -> Option<String> {
-    let mut left: Vec<Rule> = rules().collect();
+/// The only convention that explains what an engine draws in some hundred triangles, as an expression and in words, if
+/// it is not the declared one. Nothing where none does, or where two do.
+pub(super) fn recognised(engine: &impl Rasterize, declared: &Convention) -> Option<[String; 2]> {
+    let mut left = candidates(declared);
+    let on_the_grid = Convention::default().subpixel_bits(declared.subpixel_bits);
     for (corners, window) in questions() {
-        let triangle = cases::Triangle {
-            vertices: corners.map(|position| rasterproof_core::triangle::ScreenVertex {
-                position,
-                depth: 0.0,
-                inv_w: 1.0,
-                varying: glam::DVec2::ZERO,
-            }),
-        };
-        let drawn = engine_coverage(engine, &[triangle], window).ok()?;
-        left.retain(|rule| {
-            drawn.rows().all(|(y, row)| {
-                (window.x0..)
-                    .zip(row)
-                    .all(|(x, &hits)| hits == u8::from(rule.covers(&corners, x, y)))
-            })
+        let shape = Shape::Triangles { list: vec![plain_triangle(corners)], disjoint: false };
+        let case = on_the_grid.place(Case { window, shape });
+        let Shape::Triangles { list, .. } = &case.shape else { return None };
+        let corners = list[0].corners();
+        let drawn = engine_coverage(engine, list, window).ok()?;
+        left.retain(|candidate| {
+            // A triangle that has lost its area on the way to a coarser grid says nothing about the rule.
+            let Picture { must, may } = candidate.picture(&corners, window);
+            let mut hits = Coverage::new(window, 0);
+            must.iter().for_each(|span| hits.hit(span.y_px, span.x0_px, span.x1_px));
+            may.is_some() || hits == drawn
         });
         if left.is_empty() {
             return None;
         }
     }
     match left.as_slice() {
-        [rule] => rule.words(),
+        [one] => Some([one.words(declared)?, one.convention.to_string()]),
         _ => None,
     }
 }
@@ -271,36 +276,83 @@ pub(super) fn recognised(engine: &impl Rasterize) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cases::FamilyName;
     use crate::comparison::{Options, judge_coverage};
     use rasterproof_core::raster::scanline::Scanline;
     use rasterproof_core::triangle::Span;
 
-    struct By(Rule);
+    /// Draws what has to be drawn by a candidate.
+    struct By(Candidate);
     impl Rasterize for By {
-        fn cover(&self, corners: Corners, bounds: PixelRect, mut emit: impl FnMut(Span)) {
-            for y_px in bounds.y0..bounds.y1 {
-                for x_px in bounds.x0..bounds.x1 {
-                    if self.0.covers(&corners, x_px, y_px) {
-                        emit(Span { y_px, x0_px: x_px, x1_px: x_px + 1 });
-                    }
-                }
-            }
+        fn cover(&self, corners: Corners, bounds: PixelRect, emit: impl FnMut(Span)) {
+            self.0.picture(&corners, bounds).must.into_iter().for_each(emit);
         }
     }
 
-    /// Every rule is told from every other one, and the right one has nothing to say.
+    /// Every convention is told from every other one, and the declared one has nothing to say.
     #[test]
-    fn rules_are_recognised() {
-        for rule in rules() {
-            assert_eq!(recognised(&By(rule)), rule.words(), "{rule:?}");
+    fn conventions_are_recognised() {
+        let standard = Convention::default();
+        // Every seventh, which has every rule, place and winding on one grid or another.
+        for candidate in candidates(&standard).into_iter().step_by(7) {
+            let Some([words, expression]) = recognised(&By(candidate), &standard) else {
+                assert_eq!(candidate.words(&standard), None, "{candidate:?}");
+                continue;
+            };
+            assert_eq!(Some(words), candidate.words(&standard));
+            assert_eq!(expression, candidate.convention.to_string());
+            assert_eq!(recognised(&By(candidate), &candidate.convention), None, "{candidate:?}");
         }
-        assert_eq!(recognised(&Scanline), None);
+        assert_eq!(recognised(&Scanline, &standard), None);
+    }
+
+    /// Who draws as declared agrees, and nobody else; a failure names what was recognised.
+    #[test]
+    fn conventions_are_judged() {
+        let families = |options: Options| {
+            let names = [
+                FamilyName::HalfInteger,
+                FamilyName::Rectangle,
+                FamilyName::PartlyOff,
+                FamilyName::Far,
+            ];
+            names.into_iter().fold(options.cases(10), Options::family)
+        };
+        for candidate in candidates(&Convention::default()).into_iter().step_by(7) {
+            let Candidate { convention, .. } = candidate;
+            let options = families(Options::default().convention(convention));
+            let verdict = judge_coverage(&By(candidate), &options).unwrap();
+            assert!(verdict.agrees(), "{convention}: {}", verdict.check().unwrap_err());
+            let other =
+                if convention.rule == Rule::TopRight { Rule::BottomLeft } else { Rule::TopRight };
+            let options = families(Options::default().convention(convention.rule(other)));
+            let verdict = judge_coverage(&By(candidate), &options).unwrap();
+            assert!(!verdict.agrees(), "{convention} is not told from {other:?}");
+        }
+        // The same engine, for one whose y axis points up.
+        let below =
+            Candidate { convention: Convention::default().rule(Rule::BottomLeft), down: false };
+        let options = families(Options::default().convention(Convention::default().y_up()));
+        assert!(judge_coverage(&By(below), &options).unwrap().agrees());
+        // Nothing is promised of samples on edges: every rule will do, and a wrong sample place will not.
+        let open =
+            families(Options::default().convention(Convention::default().rule(Rule::Unspecified)));
+        for candidate in candidates(&Convention::default()).into_iter().take(90).step_by(7) {
+            let Convention { sample, winding, .. } = candidate.convention;
+            let is_right = sample == [HALF_PIXEL; 2] && winding == Winding::Both;
+            let verdict = judge_coverage(&By(candidate), &open).unwrap();
+            assert_eq!(verdict.agrees(), is_right, "{}", candidate.convention);
+        }
     }
 
     #[test]
     fn a_message_says_all() {
-        let strict = By(Rule { ties: Ties::None, sample: [0, 0], winding: 0 });
-        let options = Options::default().cases(40).family("half-integer").family("rectangle");
+        let strict =
+            By(Candidate { convention: Convention::default().rule(Rule::Strict), down: false });
+        let options = Options::default()
+            .cases(40)
+            .family(FamilyName::HalfInteger)
+            .family(FamilyName::Rectangle);
         let message = judge_coverage(&strict, &options).unwrap().check().unwrap_err().to_string();
         for part in [
             "wrong pixels, in ",
@@ -309,11 +361,16 @@ mod tests {
             "expected",
             "-",
             "probable cause: it draws no sample that lies exactly on an edge",
-            "repeat the case with: Options::default().seed(1).family(\"",
+            "if that is meant, declare it: Options::default().convention(Convention::default().rule(Rule::Strict))",
+            "repeat the case with: Options::default().seed(1).family(FamilyName::",
         ] {
             assert!(message.contains(part), "{part}: {message}");
         }
         assert!(message.lines().all(|line| line.chars().count() <= 120), "{message}");
+        let declared = options.clone().convention(Convention::default().rule(Rule::TopRight));
+        let message = judge_coverage(&strict, &declared).unwrap().check().unwrap_err().to_string();
+        let repeat = ".convention(Convention::default().rule(Rule::TopRight)).only(";
+        assert!(message.contains(repeat), "{message}");
         judge_coverage(&Scanline, &options).unwrap().check().unwrap();
     }
 }

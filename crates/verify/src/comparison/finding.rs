@@ -1,15 +1,16 @@
 //! What is found when an engine is compared: wrong pixels, differences of values, a panic.
 
 use std::cell::Cell;
+use std::error::Error;
+use std::fmt;
 use std::ops::AddAssign;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-
-use serde::Serialize;
 
 use rasterproof_core::frame::Coverage;
 
 /// Wrong pixels, by kind.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Tally {
     /// Hits that the target has and the actual one lacks.
     pub missing: u64,
@@ -130,10 +131,10 @@ impl Finding {
     }
 
     /// Adds what comparing two coverages came to.
-    pub fn cover(&mut self, tally: Result<Tally, String>) {
+    pub(super) fn cover(&mut self, tally: Result<Tally, EnginePanic>) {
         match tally {
             Ok(tally) => self.tally += tally,
-            Err(message) => self.panic = Some(message),
+            Err(panic) => self.panic = Some(panic.0),
         }
     }
 
@@ -158,17 +159,35 @@ pub fn is_judging() -> bool {
     JUDGING.get()
 }
 
+/// What an engine said when it panicked.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct EnginePanic(pub String);
+
+impl fmt::Display for EnginePanic {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl Error for EnginePanic {}
+
+impl From<EnginePanic> for String {
+    fn from(panic: EnginePanic) -> Self {
+        panic.0
+    }
+}
+
 /// Runs an engine; its panic becomes an error with the message.
 ///
 /// # Errors
 /// What the engine said when it panicked.
-pub fn caught<T>(run: impl FnOnce() -> T) -> Result<T, String> {
+pub fn caught<T>(run: impl FnOnce() -> T) -> Result<T, EnginePanic> {
     let outer = JUDGING.replace(true);
     let result = catch_unwind(AssertUnwindSafe(run));
     JUDGING.set(outer);
     result.map_err(|payload| {
         let text = payload.downcast_ref::<&str>().map(|s| (*s).to_owned());
-        text.or_else(|| payload.downcast_ref::<String>().cloned())
-            .unwrap_or_else(|| "panic".to_owned())
+        let text = text.or_else(|| payload.downcast_ref::<String>().cloned());
+        EnginePanic(text.unwrap_or_else(|| "panic".to_owned()))
     })
 }

@@ -10,6 +10,7 @@
 //! options leave no case, since a verdict on nothing would agree.
 
 mod compare;
+mod convention;
 mod disagreement;
 mod finding;
 mod nothing;
@@ -24,29 +25,83 @@ use std::fmt;
 use std::ops::AddAssign;
 use std::time::{Duration, Instant};
 
-use serde::Serialize;
-
-use crate::cases::{self, Case, Family, Shape};
+use crate::cases::{self, Case, Family, FamilyName, Shape};
 use crate::oracle::Oracle;
 use compare::{Contest, CoverageOnly, LineContest, TriangleContest};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::{DrawLine, Interpolate, Rasterize};
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::parallel;
+use rasterproof_core::triangle::Span;
 use tolerance::Tolerance;
 
+pub use convention::{Convention, Rule, Winding};
 pub use disagreement::Disagreement;
-pub use finding::{Finding, Tally};
-pub use nothing::NothingJudged;
+pub use finding::{EnginePanic, Finding, Tally};
+pub use nothing::{NoSuchShard, NothingJudged};
 #[doc(hidden)]
 pub use {
     compare::is_sliver,
+    convention::{Picture, area2},
     finding::{caught, is_judging},
     spans::{engine_coverage, line_coverage, oracle_coverage, oracle_pixels_each},
 };
 
-/// What to judge.
+/// A part of all cases: case i belongs to part i mod n of n.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shard {
+    part: u64,
+    parts: u64,
+}
+
+impl Shard {
+    /// All cases.
+    pub const WHOLE: Self = Self { part: 0, parts: 1 };
+
+    /// Part number `part`, from 0, of so many.
+    ///
+    /// # Errors
+    /// There is no such part: `part` is not below `parts`.
+    ///
+    /// ```
+    /// use rasterproof_verify::comparison::Shard;
+    /// assert!(Shard::new(3, 4).is_ok());
+    /// assert!(Shard::new(4, 4).is_err() && Shard::new(0, 0).is_err());
+    /// ```
+    pub fn new(part: u64, parts: u64) -> Result<Self, NoSuchShard> {
+        if part < parts { Ok(Self { part, parts }) } else { Err(NoSuchShard { part, parts }) }
+    }
+
+    /// Which part it is, from 0.
+    #[must_use]
+    pub fn part(self) -> u64 {
+        self.part
+    }
+
+    /// Of how many parts.
+    #[must_use]
+    pub fn parts(self) -> u64 {
+        self.parts
+    }
+}
+
+/// What is judged: which cases, and by which convention.
+///
+/// ```
+/// use std::time::Duration;
+/// use rasterproof_verify::cases::FamilyName;
+/// use rasterproof_verify::comparison::{NoSuchShard, Options, Shard};
+/// let options = Options::default()
+///     .cases(5_000)
+///     .seed(7)
+///     .family(FamilyName::Sliver)
+///     .family(FamilyName::NearTie)
+///     .time_limit(Duration::from_secs(10))
+///     .shard(Shard::new(0, 4)?);
+/// # Ok::<(), NoSuchShard>(())
+/// ```
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Options {
     /// Decides every generated case.
     pub seed: u64,
@@ -54,12 +109,14 @@ pub struct Options {
     pub cases: u64,
     /// Stop starting new cases after this long; the number of cases done is then what varies.
     pub time_limit: Option<Duration>,
-    /// Names of families; empty means all.
-    pub families: Vec<String>,
-    /// This part, from 0, out of how many: case i belongs to part i mod n.
-    pub shard: (u64, u64),
+    /// Families; empty means all.
+    pub families: Vec<FamilyName>,
+    /// The part of the cases.
+    pub shard: Shard,
     /// Only the case of this number.
     pub only: Option<u64>,
+    /// What a rasterizer of triangles promises.
+    pub convention: Convention,
 }
 
 impl Default for Options {
@@ -69,8 +126,9 @@ impl Default for Options {
             cases: 20_000,
             time_limit: None,
             families: Vec::new(),
-            shard: (0, 1),
+            shard: Shard::WHOLE,
             only: None,
+            convention: Convention::default(),
         }
     }
 }
@@ -88,11 +146,29 @@ impl Options {
         Self { seed, ..self }
     }
 
-    /// The same with one more family; without any, all are judged. A name that no family has is an error of the judge.
+    /// The same, but new cases are no longer started after this long.
     #[must_use]
-    pub fn family(mut self, name: &str) -> Self {
-        self.families.push(name.to_owned());
+    pub fn time_limit(self, limit: Duration) -> Self {
+        Self { time_limit: Some(limit), ..self }
+    }
+
+    /// The same with one more family; without any, all are judged.
+    #[must_use]
+    pub fn family(mut self, name: FamilyName) -> Self {
+        self.families.push(name);
         self
+    }
+
+    /// The same with a part of the cases.
+    #[must_use]
+    pub fn shard(self, shard: Shard) -> Self {
+        Self { shard, ..self }
+    }
+
+    /// The same for a rasterizer that promises something else.
+    #[must_use]
+    pub fn convention(self, convention: Convention) -> Self {
+        Self { convention, ..self }
     }
 
     /// The same with the case of this number alone.
@@ -102,12 +178,13 @@ impl Options {
     }
 
     fn wants(&self, family: &str) -> bool {
-        self.families.is_empty() || self.families.iter().any(|name| name == family)
+        self.families.is_empty() || self.families.iter().any(|name| name.as_str() == family)
     }
 }
 
 /// How two engines compare over a family.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct PairReport {
     /// The one that is judged.
     pub actual: String,
@@ -141,7 +218,8 @@ impl PairReport {
 }
 
 /// How a family went.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct FamilyReport {
     /// Its name.
     pub family: String,
@@ -196,6 +274,7 @@ impl fmt::Display for Failure {
 
 /// The outcome of a run.
 #[derive(Clone, Debug)]
+#[must_use = "a verdict may be that something is wrong: call `check`"]
 pub struct Verdict {
     /// The options it was run with.
     pub options: Options,
@@ -203,8 +282,9 @@ pub struct Verdict {
     pub families: Vec<FamilyReport>,
     /// The smallest failing case found of each family and pair, shrunk, smallest first.
     pub failures: Vec<Failure>,
-    /// The rule that would explain what is wrong, in words: recognised where one rasterizer alone is judged.
-    pub convention: Option<String>,
+    /// The convention that would explain what is wrong, in words and as an expression of Rust: recognised where one
+    /// rasterizer alone is judged.
+    pub convention: Option<[String; 2]>,
 }
 
 impl Verdict {
@@ -257,7 +337,8 @@ impl Verdict {
 
 /// Wrong pixels by what was compared with what. The same pixel may be wrong in several ways, so the
 /// three are never added up.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Comparisons {
     /// The coverage of each engine against the oracle's.
     pub oracle: Tally,
@@ -296,13 +377,19 @@ pub fn judge_engines<R: Interpolate + Sync, D: DrawLine + Sync>(
     progress: &(dyn Fn(u64) + Sync),
 ) -> Verdict {
     let engines: Vec<_> = engines.iter().map(|(name, e, t)| (*name, e, Some(*t))).collect();
-    drive(&TriangleContest::new(&engines), &LineContest::new(lines), options, progress)
+    drive(
+        &TriangleContest::new(&engines, options.convention),
+        &LineContest::new(lines),
+        options,
+        progress,
+    )
 }
 
 /// Judges the coverage of any rasterizer against the oracle.
 ///
 /// # Errors
 /// By these options no case was judged.
+#[must_use = "the verdict may be that something is wrong"]
 pub fn judge_coverage<R: Rasterize + Sync>(
     engine: &R,
     options: &Options,
@@ -328,13 +415,14 @@ pub fn must_agree(verdict: Result<Verdict, NothingJudged>) {
 #[must_use]
 pub fn judge_coverage_of<R: Rasterize + Sync>(engine: &R, case: &Case) -> Finding {
     let engines = [("candidate", CoverageOnly(engine), None)];
-    TriangleContest::new(&engines).findings(case).swap_remove(0)
+    TriangleContest::new(&engines, Convention::default()).findings(case).swap_remove(0)
 }
 
 /// Judges coverage and values of any rasterizer against the oracle, values within `tolerance`.
 ///
 /// # Errors
 /// By these options no case was judged.
+#[must_use = "the verdict may be that something is wrong"]
 pub fn judge_values<R: Interpolate + Sync>(
     engine: &R,
     tolerance: Tolerance,
@@ -351,10 +439,10 @@ fn judge_triangles<R: Interpolate + Sync>(
     NothingJudged::by(options, &nothing::names(cases::triangles::FAMILIES))?;
     let engines = [("candidate", engine, tolerance)];
     let none: [(&str, Oracle); 0] = [];
-    let contest = TriangleContest::new(&engines);
+    let contest = TriangleContest::new(&engines, options.convention);
     let mut verdict = drive(&contest, &LineContest::new(&none), options, &|_| ()).of_cases()?;
     if !verdict.agrees() {
-        verdict.convention = disagreement::recognised(&engines[0].1);
+        verdict.convention = disagreement::recognised(&engines[0].1, &options.convention);
     }
     Ok(verdict)
 }
@@ -362,15 +450,20 @@ fn judge_triangles<R: Interpolate + Sync>(
 /// Judges pixels and values of any line drawer against the oracle.
 ///
 /// # Errors
-/// By these options no case was judged.
+/// By these options no case was judged, or they declare a convention, which is one of triangles.
+#[must_use = "the verdict may be that something is wrong"]
 pub fn judge_lines<D: DrawLine + Sync>(
     engine: &D,
     options: &Options,
 ) -> Result<Verdict, NothingJudged> {
     NothingJudged::by(options, &nothing::names(cases::lines::FAMILIES))?;
+    if options.convention != Convention::default() {
+        return Err(NothingJudged::NoConventions);
+    }
     let none: [(&str, Oracle, Option<Tolerance>); 0] = [];
     let engines = [("candidate", engine)];
-    drive(&TriangleContest::new(&none), &LineContest::new(&engines), options, &|_| ()).of_cases()
+    let triangles = TriangleContest::new(&none, options.convention);
+    drive(&triangles, &LineContest::new(&engines), options, &|_| ()).of_cases()
 }
 
 /// Cases that a thread judges in one go.
@@ -415,7 +508,7 @@ fn in_blocks<F: Sync, R: AddAssign + Send>(
         Some(index) => index..index.saturating_add(1),
         None => 0..options.cases,
     };
-    let (part, parts) = options.shard;
+    let Shard { part, parts } = options.shard;
     let mut done = all.start;
     while done < all.end && !(done > all.start && expired()) {
         let end = all.end.min(done.saturating_add(round));
@@ -492,7 +585,8 @@ fn judge_block(
         // What an earlier case reached need not be looked into again.
         let known = |pair: &PairReport| Finding::known(pair.worst_attribute, pair.worst_depth);
         let known = report.pairs.iter().map(known).collect();
-        let (facts, findings) = contest.judge(&family.case(options.seed, index), known);
+        let case = options.convention.place(family.case(options.seed, index));
+        let (facts, findings) = contest.judge(&case, known);
         report.count(&facts);
         for (pair, finding) in findings.iter().enumerate() {
             report.pairs[pair].count(index, finding);
@@ -592,9 +686,16 @@ impl PairReport {
 }
 
 /// What the oracle draws in a case.
-fn expected(case: &Case) -> Coverage {
+fn expected(case: &Case, convention: Convention) -> Coverage {
     match &case.shape {
-        Shape::Triangles { list, .. } => oracle_coverage(list, case.window),
+        Shape::Triangles { list, .. } => {
+            let mut hits = Coverage::new(case.window, 0);
+            for triangle in list {
+                let hit = |span: Span| hits.hit(span.y_px, span.x0_px, span.x1_px);
+                convention.cover(triangle.corners(), case.window, hit);
+            }
+            hits
+        }
         Shape::Lines(lines) => {
             let mut hits = Coverage::new(case.window, 0);
             for line in lines {
@@ -631,8 +732,10 @@ fn shrink_failures(
     let mut shrunk = parallel::map(failing.len(), |number| {
         let (place, pair, index) = failing[number];
         let (family, lines, pairs) = &chosen[place];
-        let original = family.case(options.seed, index);
-        let case = shrink::shrink(original, |case| findings(*lines, case)[pair].is_wrong());
+        let original = options.convention.place(family.case(options.seed, index));
+        let fails =
+            |case: &Case| options.convention.holds(case) && findings(*lines, case)[pair].is_wrong();
+        let case = shrink::shrink(original, fails);
         let failure = Failure {
             family: family.name.to_owned(),
             index,
@@ -640,7 +743,7 @@ fn shrink_failures(
             pair: pairs[pair].clone(),
             what: findings(*lines, &case)[pair].describe(),
             drawn: drawn(*lines, &pairs[pair][0], &case),
-            expected: expected(&case),
+            expected: expected(&case, options.convention),
             case,
         };
         ((place, pair), failure)
@@ -661,7 +764,8 @@ pub fn judge_case<R: Interpolate + Sync, D: DrawLine + Sync>(
     case: &Case,
 ) -> Vec<([String; 2], Finding)> {
     let engines: Vec<_> = engines.iter().map(|(name, e, t)| (*name, e, Some(*t))).collect();
-    let (triangles, lines) = (TriangleContest::new(&engines), LineContest::new(lines));
+    let triangles = TriangleContest::new(&engines, Convention::default());
+    let lines = LineContest::new(lines);
     let (pairs, findings) = match case.shape {
         Shape::Triangles { .. } => (triangles.pairs(), triangles.findings(case)),
         Shape::Lines(_) => (lines.pairs(), lines.findings(case)),

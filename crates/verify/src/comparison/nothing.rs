@@ -3,8 +3,8 @@
 use std::error::Error;
 use std::fmt;
 
-use super::Options;
-use crate::cases::{self, Family, unsnapped};
+use super::{Options, Shard};
+use crate::cases::{Family, FamilyName};
 
 /// Why a judge has no verdict: no case was judged by these [`Options`].
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -12,21 +12,21 @@ use crate::cases::{self, Family, unsnapped};
 pub enum NothingJudged {
     /// There is no engine to judge.
     NoEngine,
-    /// [`Options::families`] holds a name that no family has.
-    UnknownFamily(String),
     /// Every family of [`Options::families`] holds shapes that this judge does not ask for.
     OtherShapes {
         /// The names in [`Options::families`].
-        asked: Vec<String>,
+        asked: Vec<FamilyName>,
         /// The families that this judge takes its cases from.
         fitting: Vec<&'static str>,
     },
     /// [`Options::cases`] is 0.
     NoCases,
-    /// [`Options::shard`] is no part of a whole: the part must be below the number of parts.
-    BadShard(u64, u64),
     /// The case numbers of [`Options::shard`] are beyond [`Options::cases`], or not [`Options::only`].
-    EmptyShard(u64, u64),
+    EmptyShard(Shard),
+    /// No rasterizer can be judged by [`Options::convention`]: why, and what is expected.
+    BadConvention(String),
+    /// [`Options::convention`] is declared where shapes other than triangles on the lattice are judged.
+    NoConventions,
     /// No case number is below [`Options::time_limit`] or the end of the case numbers.
     NoneReached,
 }
@@ -34,23 +34,19 @@ pub enum NothingJudged {
 impl NothingJudged {
     /// Why `options` leave nothing to judge where cases come from the families `fitting`, if they do.
     pub(super) fn by(options: &Options, fitting: &[&'static str]) -> Result<(), Self> {
-        let (part, parts) = options.shard;
-        let is_known = |name: &String| all_names().any(|known| known == name);
-        if let Some(name) = options.families.iter().find(|name| !is_known(name)) {
-            return Err(Self::UnknownFamily(name.clone()));
+        if let Some(why) = options.convention.nonsense() {
+            return Err(Self::BadConvention(why));
         }
         if !fitting.iter().any(|name| options.wants(name)) {
             let asked = options.families.clone();
             return Err(Self::OtherShapes { asked, fitting: fitting.to_vec() });
         }
-        if part >= parts {
-            return Err(Self::BadShard(part, parts));
-        }
+        let Shard { part, parts } = options.shard;
         match options.only {
-            Some(index) if index % parts != part => Err(Self::EmptyShard(part, parts)),
+            Some(index) if index % parts != part => Err(Self::EmptyShard(options.shard)),
             Some(_) => Ok(()),
             None if options.cases == 0 => Err(Self::NoCases),
-            None if part >= options.cases => Err(Self::EmptyShard(part, parts)),
+            None if part >= options.cases => Err(Self::EmptyShard(options.shard)),
             None => Ok(()),
         }
     }
@@ -61,38 +57,30 @@ pub(super) fn names(families: &'static [Family]) -> Vec<&'static str> {
     families.iter().map(|family| family.name).collect()
 }
 
-fn all_names() -> impl Iterator<Item = &'static str> {
-    cases::families().map(|f| f.name).chain(unsnapped::FAMILIES.iter().map(|f| f.name))
-}
-
 impl fmt::Display for NothingJudged {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("no case was judged: ")?;
         match self {
             Self::NoEngine => f.write_str("the list of engines is empty; name at least one"),
-            Self::UnknownFamily(name) => {
-                let known = all_names().collect::<Vec<_>>().join(", ");
+            Self::OtherShapes { asked, fitting } => {
+                let asked: Vec<_> = asked.iter().map(|name| name.as_str()).collect();
                 write!(
                     f,
-                    "Options.families: no family is called {name:?}; expected some of {known}"
+                    "Options.families: {} hold other shapes than this judge compares; expected some of {}",
+                    asked.join(", "),
+                    fitting.join(", ")
                 )
             }
-            Self::OtherShapes { asked, fitting } => write!(
-                f,
-                "Options.families: {} hold other shapes than this judge compares; expected some of {}",
-                asked.join(", "),
-                fitting.join(", ")
-            ),
             Self::NoCases => f.write_str("Options.cases is 0; expected at least 1"),
-            Self::BadShard(part, parts) => write!(
+            Self::EmptyShard(Shard { part, parts }) => write!(
                 f,
-                "Options.shard is ({part}, {parts}); expected (part, parts) with part below parts, \
-                 such as (0, 4)"
-            ),
-            Self::EmptyShard(part, parts) => write!(
-                f,
-                "Options.shard ({part}, {parts}) holds no case; case i belongs to part i mod {parts}, \
+                "Options.shard, part {part} of {parts}, holds no case; case i belongs to part i mod {parts}, \
                  so give more cases or fewer parts"
+            ),
+            Self::BadConvention(why) => write!(f, "Options.convention: {why}"),
+            Self::NoConventions => f.write_str(
+                "Options.convention is declared, which is one of triangles on the lattice; lines and triangles off \
+                 the lattice are judged without one",
             ),
             Self::NoneReached => f.write_str(
                 "Options.time_limit ended before the first case of Options.shard, or Options.only \
@@ -104,6 +92,25 @@ impl fmt::Display for NothingJudged {
 
 impl Error for NothingJudged {}
 
+/// Numbers that are no part of a whole; see [`Shard::new`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct NoSuchShard {
+    pub(super) part: u64,
+    pub(super) parts: u64,
+}
+
+impl fmt::Display for NoSuchShard {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { part, parts } = self;
+        write!(
+            f,
+            "there is no part {part} of {parts}; parts count from 0, so it must be below their number"
+        )
+    }
+}
+
+impl Error for NoSuchShard {}
+
 #[cfg(test)]
 mod tests {
     use std::time::Duration;
@@ -113,8 +120,11 @@ mod tests {
     use rasterproof_core::raster::scanline::Scanline;
     use rasterproof_core::raster::scanline_exact::ScanlineExact;
 
+    use crate::cases::{self, unsnapped};
     use crate::comparison::unsnapped::judge_exact;
-    use crate::comparison::{judge_coverage, judge_lines, judge_values, tolerance};
+    use crate::comparison::{
+        Convention, Rule, judge_coverage, judge_lines, judge_values, tolerance,
+    };
 
     /// What each judge says of right engines by these options.
     fn outcomes(options: &Options) -> [Result<bool, NothingJudged>; 4] {
@@ -128,7 +138,7 @@ mod tests {
     }
 
     fn few() -> Options {
-        Options { cases: 2, ..Options::default() }
+        Options::default().cases(2)
     }
 
     fn all_say(options: &Options, expected: &NothingJudged, words: &[&str]) {
@@ -145,30 +155,41 @@ mod tests {
     fn nothing_is_no_verdict() {
         let options = Options { cases: 0, ..few() };
         all_say(&options, &NothingJudged::NoCases, &["Options.cases is 0"]);
-        let options = Options { families: vec!["unifrom".to_owned()], ..few() };
-        let expected = NothingJudged::UnknownFamily("unifrom".to_owned());
-        all_say(&options, &expected, &["\"unifrom\"", "uniform", "Options.families"]);
-        // A right name beside it does not make a misspelt one right.
-        let families = ["uniform", "unifrom"].map(str::to_owned).to_vec();
-        all_say(&Options { families, ..few() }, &expected, &[]);
-        for shard in [(0, 0), (3, 2), (2, 2), (u64::MAX, 0)] {
-            let expected = NothingJudged::BadShard(shard.0, shard.1);
-            all_say(&Options { shard, ..few() }, &expected, &["Options.shard", "part below parts"]);
+        for (part, parts) in [(0, 0), (3, 2), (2, 2), (u64::MAX, 0)] {
+            let error = Shard::new(part, parts).unwrap_err();
+            assert!(error.to_string().contains(&format!("no part {part} of {parts}")), "{error}");
         }
-        let expected = NothingJudged::EmptyShard(2, 3);
-        all_say(&Options { shard: (2, 3), ..few() }, &expected, &["Options.shard (2, 3)"]);
-        all_say(&Options { shard: (2, 3), only: Some(3), ..few() }, &expected, &[]);
+        let shard = Shard::new(2, 3).unwrap();
+        let expected = NothingJudged::EmptyShard(shard);
+        all_say(&few().shard(shard), &expected, &["Options.shard, part 2 of 3"]);
+        all_say(&few().shard(shard).only(3), &expected, &[]);
+        for (convention, words) in [
+            (Convention::default().subpixel_bits(9), "expected 0 to 8"),
+            (Convention::default().sample(0, 257), "sample is (0, 257)"),
+        ] {
+            let options = few().convention(convention);
+            for outcome in outcomes(&options) {
+                let error = outcome.unwrap_err().to_string();
+                assert!(error.contains(words), "{error}");
+            }
+        }
+        // Lines, and triangles off the lattice, are judged by one rule.
+        let declared = few().convention(Convention::default().rule(Rule::TopRight));
+        for outcome in &outcomes(&declared)[2..] {
+            assert_eq!(*outcome, Err(NothingJudged::NoConventions));
+        }
         let options = Options { only: Some(u64::MAX), ..few() };
         all_say(&options, &NothingJudged::NoneReached, &["Options.only"]);
         // The first round of cases is judged whatever the limit; this part begins after it.
         let time_limit = Some(Duration::ZERO);
-        let options = Options { cases: 2_000, shard: (1_999, 2_000), time_limit, ..few() };
+        let last = Shard::new(1_999, 2_000).unwrap();
+        let options = Options { time_limit, ..few().cases(2_000).shard(last) };
         all_say(&options, &NothingJudged::NoneReached, &["Options.time_limit"]);
     }
 
     #[test]
     fn a_family_of_other_shapes_is_no_verdict() {
-        let family = |name: &str| Options { families: vec![name.to_owned()], ..few() };
+        let family = |name: &str| few().family(name.parse().unwrap());
         let is_other =
             |outcome: &Result<bool, _>| matches!(outcome, Err(NothingJudged::OtherShapes { .. }));
         let lines = cases::lines::FAMILIES[0].name;
@@ -196,8 +217,8 @@ mod tests {
     fn what_is_judged_has_a_verdict() {
         assert_eq!(outcomes(&few()), [const { Ok(true) }; 4]);
         for options in [
-            Options { shard: (1, 2), ..few() },
-            Options { only: Some(7), cases: 0, ..few() },
+            few().shard(Shard::new(1, 2).unwrap()),
+            few().cases(0).only(7),
             Options { time_limit: Some(Duration::ZERO), ..few() },
         ] {
             assert_eq!(outcomes(&options), [const { Ok(true) }; 4], "{options:?}");

@@ -2,7 +2,7 @@
 //!
 //! Two engines that agree mostly emit the same spans, and then nothing needs to be drawn.
 
-use super::finding::{Tally, caught};
+use super::finding::{EnginePanic, Tally, caught};
 use crate::cases::{Case, Line, Shape, Triangle};
 use crate::oracle::Oracle;
 use rasterproof_core::contract::{DrawLine, Rasterize};
@@ -11,6 +11,7 @@ use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{Fragment, Span};
 
 /// The spans of the triangles of a case, all of them in the window.
+#[derive(Clone)]
 pub struct Covered {
     window: PixelRect,
     spans: Vec<Span>,
@@ -27,7 +28,7 @@ impl Covered {
         engine: &impl Rasterize,
         triangles: &[Triangle],
         window: PixelRect,
-    ) -> Result<Self, String> {
+    ) -> Result<Self, EnginePanic> {
         caught(|| {
             let mut covered =
                 Self { window, spans: Vec::new(), ends: Vec::with_capacity(triangles.len()) };
@@ -40,6 +41,30 @@ impl Covered {
             }
             covered
         })
+    }
+
+    pub fn window(&self) -> PixelRect {
+        self.window
+    }
+
+    /// The truth `self` with those pixels that a rasterizer has drawn once and `may` draw.
+    pub fn allowing(&self, drawn: &Self, may: impl Fn(usize) -> Vec<Span>) -> Self {
+        let mut target = Self { window: self.window, spans: Vec::new(), ends: Vec::new() };
+        for at in 0..self.ends.len() {
+            let must = self.of(at);
+            let holds = |spans: &[Span], x_px: i32, y_px: i32| {
+                spans.iter().any(|s| s.y_px == y_px && (s.x0_px..s.x1_px).contains(&x_px))
+            };
+            target.spans.extend(must);
+            for Span { y_px, x0_px, x1_px } in may(at) {
+                let is_free =
+                    |&x_px: &i32| holds(drawn.of(at), x_px, y_px) && !holds(must, x_px, y_px);
+                let free = (x0_px..x1_px).filter(is_free);
+                target.spans.extend(free.map(|x| Span { y_px, x0_px: x, x1_px: x + 1 }));
+            }
+            target.ends.push(target.spans.len());
+        }
+        target
     }
 
     /// The spans of a triangle.
@@ -123,7 +148,7 @@ pub fn engine_coverage(
     engine: &impl Rasterize,
     triangles: &[Triangle],
     window: PixelRect,
-) -> Result<Coverage, String> {
+) -> Result<Coverage, EnginePanic> {
     caught(|| {
         let mut hits = Coverage::new(window, 0);
         for triangle in triangles {
@@ -172,7 +197,7 @@ pub fn line_coverage(
     engine: &impl DrawLine,
     lines: &[Line],
     window: PixelRect,
-) -> Result<Coverage, String> {
+) -> Result<Coverage, EnginePanic> {
     caught(|| {
         let mut hits = Coverage::new(window, 0);
         for line in lines {

@@ -6,7 +6,8 @@
 //! largest magnitude among them. All bounds have the form u (d D + m M).
 
 /// The bound u (d D + m M) as its two factors.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Bound {
     /// Factor of the largest difference between vertex values.
     pub d: f64,
@@ -15,7 +16,8 @@ pub struct Bound {
 }
 
 /// Bounds of an engine's perspective-correct attributes and of its depth.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Tolerance {
     /// For attributes.
     pub attribute: Bound,

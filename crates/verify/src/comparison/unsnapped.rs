@@ -7,10 +7,8 @@
 use std::fmt;
 use std::ops::AddAssign;
 
-use serde::Serialize;
-
-use super::finding::caught;
-use super::{KEPT, NothingJudged, Options, Partial, Tally, in_blocks};
+use super::finding::{EnginePanic, caught};
+use super::{Convention, KEPT, NothingJudged, Options, Partial, Tally, in_blocks};
 use crate::cases::unsnapped::shrink::{shrink, size};
 use crate::cases::unsnapped::{FAMILIES, OffGridCase, OffGridFamily};
 use crate::oracle::rational::cover_and_count_ties;
@@ -21,7 +19,8 @@ use rasterproof_core::parallel;
 use rasterproof_core::triangle::{FreeCorners, Span};
 
 /// How an engine did on a family.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ExactEngineReport {
     /// Its name.
     pub engine: String,
@@ -36,7 +35,8 @@ pub struct ExactEngineReport {
 }
 
 /// How a family went.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ExactFamilyReport {
     /// Its name.
     pub family: String,
@@ -90,6 +90,7 @@ pub fn describe(triangles: &[FreeCorners]) -> String {
 
 /// The outcome of a run off the lattice.
 #[derive(Clone, Debug, Default)]
+#[must_use = "a verdict may be that something is wrong"]
 pub struct ExactVerdict {
     /// One for each family, in the order of the catalogue; none where no engine was judged.
     pub families: Vec<ExactFamilyReport>,
@@ -155,7 +156,7 @@ impl ExactFinding {
 pub fn exact_coverage(
     engine: &impl RasterizeExact,
     case: &OffGridCase,
-) -> Result<(Coverage, Decisions), String> {
+) -> Result<(Coverage, Decisions), EnginePanic> {
     caught(|| {
         let mut hits = Coverage::new(case.window, 0);
         let mut decisions = Decisions::default();
@@ -189,7 +190,7 @@ fn against(engine: &impl RasterizeExact, case: &OffGridCase, target: &Coverage) 
         Ok((hits, decisions)) => {
             ExactFinding { tally: Tally::between(&hits, target), decisions, panic: None }
         }
-        Err(message) => ExactFinding { panic: Some(message), ..ExactFinding::default() },
+        Err(panic) => ExactFinding { panic: Some(panic.0), ..ExactFinding::default() },
     }
 }
 
@@ -199,7 +200,9 @@ fn against(engine: &impl RasterizeExact, case: &OffGridCase, target: &Coverage) 
 /// passed over.
 ///
 /// # Errors
-/// By these options, or without engines, no case was judged.
+/// By these options, or without engines, no case was judged; or the options declare a convention, which is one of
+/// corners on the lattice.
+#[must_use = "the verdict may be that something is wrong"]
 pub fn judge_exact<R: RasterizeExact + Sync>(
     engines: &[(&str, R)],
     options: &Options,
@@ -210,6 +213,9 @@ pub fn judge_exact<R: RasterizeExact + Sync>(
     }
     let fitting: Vec<_> = FAMILIES.iter().map(|family| family.name).collect();
     NothingJudged::by(options, &fitting)?;
+    if options.convention != Convention::default() {
+        return Err(NothingJudged::NoConventions);
+    }
     let verdict = judge_exact_engines(engines, options, progress);
     let is_empty = verdict.families.iter().all(|family| family.cases == 0);
     if is_empty { Err(NothingJudged::NoneReached) } else { Ok(verdict) }

@@ -10,13 +10,13 @@ use super::specified::Specified;
 use crate::device::find::About;
 use rasterproof_judge::ask::{Answer, Ask, Question};
 use rasterproof_judge::check::Truth;
-use rasterproof_judge::declared::{Declared, Rule as Tie};
-use rasterproof_judge::expected::Declaration;
+use rasterproof_judge::declared::Declared;
 use rasterproof_judge::recognise::{Scope, recognise};
 use rasterproof_judge::run::{Failing, Found, Row, run};
 use rasterproof_judge::verdict::{Outcome, Verdict, sentence};
 use rasterproof_judge::{Options, adapt_case, failures, windings as first_stages};
 use rasterproof_verify::cases::{self, Case};
+use rasterproof_verify::comparison::Rule;
 
 /// Cases of a stage for each case of a family.
 const STAGE_SHARE: u64 = 2;
@@ -106,7 +106,7 @@ pub fn judge_with(
     let mut truth = Truth::of(&declared);
     truth.expect = Box::new(Specified::new(&declared));
     // The specification asks for less than the oracle: either of two triangles has a shared sample.
-    let open = Declaration { rule: Tie::Unspecified, ..Declaration::from(&declared) };
+    let open = declared.convention().rule(Rule::Unspecified);
     truth.recognised = Some(Box::new(open));
     let windings = first_stages::windings(&mut shared, options.seed);
     let mut askers: Vec<Box<dyn Ask>> = vec![Box::new(shared)];

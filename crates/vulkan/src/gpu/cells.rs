@@ -80,7 +80,7 @@ pub fn hits_of(pictures: &Pictures, cell: usize) -> Coverage {
 #[must_use]
 pub fn twice_area_px2(corners: &Corners) -> f64 {
     let square = f64::from(SUBPIXELS) * f64::from(SUBPIXELS);
-    rasterproof_judge::expected::area2(corners).unsigned_abs() as f64 / square
+    rasterproof_verify::comparison::area2(corners).unsigned_abs() as f64 / square
 }
 
 /// Triangles of the families in perspective.

@@ -16,9 +16,10 @@ use rasterproof_core::contract::Rasterize as _;
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::Corners;
+use rasterproof_judge::adapt_case;
 use rasterproof_judge::ask::Ask as _;
-use rasterproof_judge::{adapt_case, expected};
 use rasterproof_verify::cases::{self, Rng, Shape};
+use rasterproof_verify::comparison::area2;
 use rasterproof_verify::oracle::Oracle;
 use rasterproof_verify::oracle::values::ExactTriangle;
 
@@ -303,7 +304,7 @@ fn from_edges_px(corners: &Corners, x: i32, y: i32) -> f64 {
         let (a, b) = (corners[i], corners[(i + 1) % 3]);
         let (x, y) = (f64::from(b.x - a.x), f64::from(b.y - a.y));
         let length = (x * x + y * y).sqrt();
-        let twice = expected::area2(&[a, b, s]).unsigned_abs() as f64;
+        let twice = area2(&[a, b, s]).unsigned_abs() as f64;
         if length > 0.0 { twice / length / f64::from(SUBPIXELS) } else { f64::INFINITY }
     };
     distance(0).min(distance(1)).min(distance(2))

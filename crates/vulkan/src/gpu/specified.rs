@@ -25,8 +25,9 @@ use crate::device::stage::PAGE_PX;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{Corners, PixelPoint};
 use rasterproof_judge::declared::Declared;
-use rasterproof_judge::expected::{Declaration, Expect, Picture};
+use rasterproof_judge::expected::Expect;
 use rasterproof_verify::cases::Triangle;
+use rasterproof_verify::comparison::{Convention, Picture};
 
 /// Half the distance between 1 and the next f32.
 const U: f64 = (f32::EPSILON / 2.0) as f64;
@@ -37,14 +38,14 @@ const ROUNDINGS_OVER_W: f64 = ROUNDINGS + 2.0;
 
 /// The oracle's picture, and derived bounds of values.
 pub struct Specified {
-    declaration: Declaration,
+    declaration: Convention,
 }
 
 impl Specified {
     /// What a device is held to that declares this.
     #[must_use]
     pub fn new(declared: &Declared) -> Self {
-        Self { declaration: Declaration::from(declared) }
+        Self { declaration: declared.convention() }
     }
 }
 

@@ -6,7 +6,8 @@ use crate::grid::PixelRect;
 use crate::triangle::Corners;
 
 /// Where the walk down one edge stands in a row.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Step {
     /// The first column whose centre is not left of the edge.
     pub column: i64,
@@ -30,7 +31,8 @@ impl Step {
 }
 
 /// A row of a triangle, with both walks.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct WalkedRow {
     /// The row.
     pub y_px: i32,

@@ -6,7 +6,8 @@ use crate::contract::Decisions;
 use crate::triangle::FreeCorners;
 
 /// An edge at the height of a row's centres.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Crossing {
     /// Where it crosses, in pixels, as floats compute it.
     pub x: f64,
