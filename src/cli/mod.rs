@@ -10,6 +10,7 @@ mod engine;
 mod exhaust;
 mod explain;
 mod files;
+mod fixtures;
 mod guard;
 mod inspect;
 mod inspect_case;
@@ -119,6 +120,9 @@ enum Command {
     /// Hash everything the engines compute for a seed, to compare machines
     #[command(after_help = digest::HELP)]
     Digest(digest::DigestArguments),
+    /// Print small hard cases with their pixels as JSON, for the test suites of other projects
+    #[command(after_help = fixtures::HELP)]
+    Fixtures(fixtures::FixturesArguments),
     /// Write the playground: a page to drag corners on, with these engines inside
     #[command(after_help = playground::HELP)]
     Playground(playground::PlaygroundArguments),
@@ -333,7 +337,11 @@ fn is_for_machines(command: &Command, words: &[OsString]) -> bool {
     { ours }.any(|word| word == "--json" || word.starts_with("--format"))
         || matches!(
             command,
-            Command::Engine { .. } | Command::Exhaust(_) | Command::Merge(_) | Command::Digest(_)
+            Command::Engine { .. }
+                | Command::Exhaust(_)
+                | Command::Merge(_)
+                | Command::Digest(_)
+                | Command::Fixtures(_)
         )
 }
 
@@ -375,6 +383,7 @@ fn dispatch(command: &Command, typed: &Typed, streams: &mut Streams<'_>) -> Stat
         Command::Review(arguments) => review::run(arguments, streams),
         Command::Cost(arguments) => cost::run(arguments, typed, streams),
         Command::Digest(arguments) => digest::run(arguments, streams),
+        Command::Fixtures(arguments) => fixtures::run(arguments, streams),
         Command::Playground(arguments) => playground::run(arguments, streams),
         Command::Quiz(arguments) => quiz::run(arguments, streams),
         Command::List => list(streams),

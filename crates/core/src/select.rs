@@ -1,4 +1,4 @@
-//! A choice that the compiler is told not to make a branch of, where the standard library has one.
+//! A choice between two values without a branch, where the standard library has a function for it.
 
 /// `if_true` or `if_false`. The function of the standard library is younger than the oldest compiler of this crate, and
 /// saves time in frames of small triangles alone: who draws those asks for the feature `select`.
@@ -10,4 +10,7 @@ pub(crate) fn select_unpredictable<T>(condition: bool, if_true: T, if_false: T) 
 
 #[cfg(feature = "select")]
 #[expect(clippy::incompatible_msrv, reason = "the feature asks for Rust 1.88")]
-pub(crate) use std::hint::select_unpredictable;
+#[inline]
+pub(crate) fn select_unpredictable<T>(condition: bool, if_true: T, if_false: T) -> T {
+    std::hint::select_unpredictable(condition, if_true, if_false)
+}

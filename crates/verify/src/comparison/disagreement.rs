@@ -13,6 +13,8 @@ use rasterproof_core::triangle::Corners;
 
 use super::spans::engine_coverage;
 
+/// Lines of the list of families are no longer.
+const MOST_COLUMNS: usize = 80;
 /// Larger grids are left out of the message.
 const MOST_SIDE_PX: u32 = 40;
 
@@ -90,10 +92,19 @@ impl fmt::Display for Disagreement {
                 "if that is meant, declare it: Options::default().convention({expression})"
             )?;
         }
-        let names: Vec<_> =
-            self.families.iter().map(|(name, wrong)| format!("{name} ({wrong})")).collect();
-        if !names.is_empty() {
-            writeln!(f, "\nwrong cases by family: {}", names.join(", "))?;
+        if !self.families.is_empty() {
+            f.write_str("\nwrong cases by family:")?;
+            let mut column = MOST_COLUMNS;
+            for (name, wrong) in &self.families {
+                let word = format!(" {name} ({wrong})");
+                if column + word.len() > MOST_COLUMNS {
+                    f.write_str("\n ")?;
+                    column = 1;
+                }
+                f.write_str(&word)?;
+                column += word.len();
+            }
+            writeln!(f)?;
         }
         if let Some(Failure { family, index, seed, .. }) = &self.smallest {
             write!(f, "repeat the case with: Options::default().seed({seed})")?;

@@ -27,7 +27,7 @@ use std::time::{Duration, Instant};
 
 use crate::cases::{self, Case, Family, FamilyName, Shape};
 use crate::oracle::Oracle;
-use compare::{Contest, CoverageOnly, LineContest, TriangleContest};
+use compare::{Contest, Cover, CoverageOnly, LineContest, TriangleContest};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::{DrawLine, Interpolate, Rasterize};
 use rasterproof_core::frame::Coverage;
@@ -394,7 +394,11 @@ pub fn judge_coverage<R: Rasterize + Sync>(
     engine: &R,
     options: &Options,
 ) -> Result<Verdict, NothingJudged> {
-    judge_triangles(CoverageOnly(engine), None, options)
+    judge_cover(&|corners, bounds, emit| engine.cover(corners, bounds, emit), options)
+}
+
+fn judge_cover(cover: &Cover<'_>, options: &Options) -> Result<Verdict, NothingJudged> {
+    judge_triangles(CoverageOnly(cover), None, options)
 }
 
 /// Ends a test with the whole message unless a verdict agrees.
@@ -414,7 +418,8 @@ pub fn must_agree(verdict: Result<Verdict, NothingJudged>) {
 /// Judges the coverage of one case by any rasterizer against the oracle.
 #[must_use]
 pub fn judge_coverage_of<R: Rasterize + Sync>(engine: &R, case: &Case) -> Finding {
-    let engines = [("candidate", CoverageOnly(engine), None)];
+    let cover: &Cover<'_> = &|corners, bounds, emit| engine.cover(corners, bounds, emit);
+    let engines = [("candidate", CoverageOnly(cover), None)];
     TriangleContest::new(&engines, Convention::default()).findings(case).swap_remove(0)
 }
 

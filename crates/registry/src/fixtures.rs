@@ -1,0 +1,661 @@
+//! The file of fixtures: small hard cases with their pixels, for the test suites of other projects.
+//!
+//! Each case is shrunk while every planted fault that draws it wrong goes on doing so, and while its vertices stay on
+//! the same fine or coarse grid. What is expected says for each number of bits below the pixel which pixels are hit,
+//! which may be either, since corners off that grid may be moved to it up or down, and which lie on the outline, where
+//! the top-left rule decides and other specifications decide otherwise or not at all.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+use crate::engines::{Engine, LineEngine};
+use rasterproof_core::arrays::MapArray as _;
+use rasterproof_core::contract::Rasterize as _;
+use rasterproof_core::frame::Coverage;
+use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXEL_BITS, SUBPIXELS, SubpixelPoint};
+use rasterproof_core::parallel;
+use rasterproof_core::triangle::{Corners, PixelPoint};
+use rasterproof_faults::planted::{LineMutant, TileMutant, TriangleMutant};
+use rasterproof_render::pipeline::multisample::SAMPLES;
+use rasterproof_tiles::coverage::CoverList as _;
+use rasterproof_verify::cases::named::{plain_line, plain_triangle};
+use rasterproof_verify::cases::shrink::{greedy, shrink};
+use rasterproof_verify::cases::{self, Case, Shape};
+use rasterproof_verify::comparison::{caught, line_coverage};
+use rasterproof_verify::oracle::Oracle;
+
+/// What the file is, and in which version.
+pub const FORMAT: &str = "rasterproof-fixtures/1";
+pub const QUOTAS: [(Kind, usize); 5] = [
+    (Kind::Triangle, 400),
+    (Kind::Fan, 150),
+    (Kind::Strip, 150),
+    (Kind::Line, 150),
+    (Kind::Samples4, 150),
+];
+/// The numbers of bits below the pixel.
+const BITS: std::ops::RangeInclusive<u32> = 4..=SUBPIXEL_BITS;
+
+/// How the points of a case are drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Kind {
+    /// Three corners.
+    Triangle,
+    /// The first point with each pair of the following ones.
+    Fan,
+    /// Each three points in a row.
+    Strip,
+    /// From one pixel to another, both named by column and row.
+    Line,
+    /// Three corners, at four samples of each pixel.
+    Samples4,
+}
+
+/// Row, first column, one past the last.
+pub type Run = [i32; 3];
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Fixtures {
+    /// [`FORMAT`].
+    pub format: String,
+    pub rasterproof: String,
+    pub seed: u64,
+    /// Where the samples of a kind lie in a pixel, in px from its upper left corner.
+    pub samples: BTreeMap<String, Vec<[f64; 2]>>,
+    pub cases: Vec<Fixture>,
+}
+
+/// A case, and what is expected of it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Fixture {
+    pub kind: Kind,
+    /// Columns and rows of the picture, which begins at (0, 0).
+    pub window: [u32; 2],
+    /// In px, y down; of a line whole columns and rows.
+    pub points: Vec<[f64; 2]>,
+    /// The planted fault for which it was found.
+    pub found_by: String,
+    /// Its pixels, for every number of bits below the pixel.
+    pub expected: Vec<Expected>,
+}
+
+/// What is expected of rasterizers with some numbers of bits below the pixel.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Expected {
+    /// The least and the most.
+    pub bits: [u32; 2],
+    /// The pictures of the samples of a pixel, in the order of [`Fixtures::samples`].
+    pub samples: Vec<Pixels>,
+}
+
+/// Pixels of one sample place. What is in none of the lists must not be hit.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Pixels {
+    /// Hit exactly once.
+    pub hit: Vec<Run>,
+    /// Hit once or not, since a corner off the grid may be moved to it up or down.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub either: Vec<Run>,
+    /// Samples exactly on the outline: by the top-left rule hit if they are in `hit`, else not.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub outline: Vec<Run>,
+}
+
+/// A planted fault that draws what the fixtures hold.
+#[derive(Clone, Copy, Debug)]
+pub enum Fault {
+    Triangle(TriangleMutant),
+    Tile(TileMutant),
+    Line(LineMutant),
+}
+
+impl Fault {
+    #[must_use]
+    pub fn all() -> Vec<Self> {
+        let triangles = TriangleMutant::ALL.into_iter().map(Self::Triangle);
+        let tiles = TileMutant::ALL.into_iter().map(Self::Tile);
+        triangles.chain(tiles).chain(LineMutant::ALL.into_iter().map(Self::Line)).collect()
+    }
+
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Triangle(mutant) => mutant.name(),
+            Self::Tile(mutant) => mutant.name(),
+            Self::Line(mutant) => mutant.name(),
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug)]
+pub enum Drawer {
+    Engines(Engine, LineEngine),
+    Fault(Fault),
+}
+
+/// A case in subpixels or, of a line, whole pixels.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Drawing {
+    kind: Kind,
+    window: [u32; 2],
+    points: Vec<SubpixelPoint>,
+}
+
+impl Drawing {
+    fn of(fixture: &Fixture) -> Self {
+        let unit = if fixture.kind == Kind::Line { 1.0 } else { f64::from(SUBPIXELS) };
+        let point = |[x, y]: [f64; 2]| SubpixelPoint::new((x * unit) as i32, (y * unit) as i32);
+        let points = fixture.points.iter().copied().map(point).collect();
+        Self { kind: fixture.kind, window: fixture.window, points }
+    }
+
+    fn fixture(&self, found_by: &str) -> Fixture {
+        let unit = if self.kind == Kind::Line { 1.0 } else { f64::from(SUBPIXELS) };
+        let points = self.points.iter().map(|p| [f64::from(p.x) / unit, f64::from(p.y) / unit]);
+        Fixture {
+            kind: self.kind,
+            window: self.window,
+            points: points.collect(),
+            found_by: found_by.to_owned(),
+            expected: self.expected(),
+        }
+    }
+
+    fn rect(&self) -> PixelRect {
+        PixelRect::window(self.window[0], self.window[1])
+    }
+
+    /// What is added to corners so that each sample of a pixel lies at its centre.
+    fn offsets(&self) -> Vec<[i32; 2]> {
+        match self.kind {
+            Kind::Samples4 => {
+                SAMPLES.iter().map(|&(x, y)| [x, y].map_array(|v| HALF_PIXEL - 16 * v)).collect()
+            }
+            _ => vec![[0, 0]],
+        }
+    }
+
+    fn triangles(&self, points: &[SubpixelPoint]) -> Vec<Corners> {
+        match self.kind {
+            Kind::Line => Vec::new(),
+            Kind::Fan => match points.split_first() {
+                Some((&hub, ring)) => ring.windows(2).map(|two| [hub, two[0], two[1]]).collect(),
+                None => Vec::new(),
+            },
+            _ => points.windows(3).map(|three| [three[0], three[1], three[2]]).collect(),
+        }
+    }
+
+    fn line(&self) -> cases::Line {
+        let [a, b] = [0, 1].map_array(|i| PixelPoint::new(self.points[i].x, self.points[i].y));
+        plain_line(a, b)
+    }
+
+    fn expected(&self) -> Vec<Expected> {
+        if self.kind == Kind::Line {
+            let (mut hit, outline) = (Coverage::new(self.rect(), 0), self.halfway());
+            Oracle.line_pixels(&self.line(), self.rect(), |at, _| hit.hit(at.y, at.x, at.x + 1));
+            let pixels = Pixels { hit: runs(&hit), either: Vec::new(), outline: runs(&outline) };
+            return vec![Expected { bits: [*BITS.start(), *BITS.end()], samples: vec![pixels] }];
+        }
+        let mut found: Vec<Expected> = Vec::new();
+        for bits in BITS {
+            let samples: Vec<_> =
+                self.offsets().into_iter().map(|offset| self.pixels(bits, offset)).collect();
+            match found.last_mut().filter(|last| last.samples == samples) {
+                Some(last) => last.bits[1] = bits,
+                None => found.push(Expected { bits: [bits, bits], samples }),
+            }
+        }
+        found
+    }
+
+    /// The pixels for so many bits, by every way to move corners to that grid.
+    fn pixels(&self, bits: u32, [dx, dy]: [i32; 2]) -> Pixels {
+        let window = self.rect();
+        let [mut always, mut ever, mut outline] = [(); 3].map_array(|()| Coverage::new(window, 0));
+        let moved =
+            |p: &SubpixelPoint| SubpixelPoint::new(p.x.saturating_add(dx), p.y.saturating_add(dy));
+        for (number, points) in self.on_grid(bits).into_iter().enumerate() {
+            let points: Vec<_> = points.iter().map(moved).collect();
+            let triangles = self.triangles(&points);
+            let mut hits = Coverage::new(window, 0);
+            for corners in &triangles {
+                Oracle.cover(*corners, window, |s| hits.hit(s.y_px, s.x0_px, s.x1_px));
+            }
+            for y in window.y0..window.y1 {
+                let all = always.row_mut(y).iter_mut().zip(ever.row_mut(y));
+                for ((always, ever), (_, &hits)) in all.zip((window.x0..).zip(hits.row(y))) {
+                    let is_hit = u8::from(hits > 0);
+                    *always = if number == 0 { is_hit } else { *always & is_hit };
+                    *ever |= is_hit;
+                }
+            }
+            mark_outline(&triangles, &mut outline);
+        }
+        let mut either = ever;
+        for y in window.y0..window.y1 {
+            for (either, always) in either.row_mut(y).iter_mut().zip(always.row(y)) {
+                *either &= 1 - always;
+            }
+        }
+        Pixels { hit: runs(&always), either: runs(&either), outline: runs(&outline) }
+    }
+
+    /// The points on the grid of so many bits, in each way that moves every coordinate by less than a step.
+    fn on_grid(&self, bits: u32) -> Vec<Vec<SubpixelPoint>> {
+        let step = SUBPIXELS >> bits;
+        let mut ways = vec![Vec::new()];
+        for p in &self.points {
+            let places = [p.x, p.y].map_array(|v| {
+                let down = v.div_euclid(step) * step;
+                if down == v { vec![v] } else { vec![down, down + step] }
+            });
+            let [xs, ys] = &places;
+            ways = ways
+                .iter()
+                .flat_map(|way| xs.iter().flat_map(move |x| ys.iter().map(move |y| (way, *x, *y))))
+                .map(|(way, x, y)| [&way[..], &[SubpixelPoint::new(x, y)]].concat())
+                .collect();
+        }
+        ways
+    }
+
+    /// Coordinates that are no multiple of 1/16 px.
+    fn fine_coordinates(&self) -> usize {
+        self.points.iter().flat_map(|p| [p.x, p.y]).filter(|v| v.rem_euclid(16) != 0).count()
+    }
+
+    /// The two pixels of each step in which a line passes halfway between them.
+    fn halfway(&self) -> Coverage {
+        let mut found = Coverage::new(self.rect(), 0);
+        let [a, b] =
+            [self.points[0], self.points[1]].map_array(|p| [i64::from(p.x), i64::from(p.y)]);
+        let [dx, dy] = [b[0] - a[0], b[1] - a[1]];
+        let steps = dx.abs().max(dy.abs());
+        let is_flat = dx.abs() >= dy.abs();
+        let (minor, sign) = if is_flat { (dy, dx.signum()) } else { (dx, dy.signum()) };
+        for y in 0..i64::from(self.window[1]) {
+            for x in 0..i64::from(self.window[0]) {
+                let [along, beside] =
+                    if is_flat { [x - a[0], y - a[1]] } else { [y - a[1], x - a[0]] };
+                let step = along * sign;
+                let off = 2 * (beside * steps - minor * step).abs();
+                if (0..=steps).contains(&step) && steps > 0 && off == steps {
+                    found.hit(y as i32, x as i32, x as i32 + 1);
+                }
+            }
+        }
+        found
+    }
+
+    /// What is drawn, for each sample; nothing where the drawer panics.
+    fn drawn(&self, drawer: Drawer) -> Option<Vec<Coverage>> {
+        let window = self.rect();
+        match drawer {
+            Drawer::Engines(_, line) if self.kind == Kind::Line => {
+                line_coverage(&line, &[self.line()], window).ok().map(|hits| vec![hits])
+            }
+            Drawer::Fault(Fault::Line(mutant)) if self.kind == Kind::Line => {
+                line_coverage(&mutant, &[self.line()], window).ok().map(|hits| vec![hits])
+            }
+            _ if self.kind == Kind::Line => None,
+            _ => {
+                let offsets = self.offsets().into_iter();
+                offsets.map(|offset| self.drawn_moved(drawer, offset)).collect()
+            }
+        }
+    }
+
+    fn drawn_moved(&self, drawer: Drawer, [dx, dy]: [i32; 2]) -> Option<Coverage> {
+        let window = self.rect();
+        let by = |v: i32, d: i32| v.saturating_add(d);
+        let points: Vec<_> =
+            self.points.iter().map(|p| SubpixelPoint::new(by(p.x, dx), by(p.y, dy))).collect();
+        let triangles = self.triangles(&points);
+        let drawn = caught(|| {
+            let mut hits = Coverage::new(window, 0);
+            match drawer {
+                Drawer::Fault(Fault::Tile(mutant)) => {
+                    mutant.cover_list(&triangles, window, &mut |pieces| {
+                        for piece in pieces {
+                            piece.spans(&mut |s| hits.hit(s.y_px, s.x0_px, s.x1_px));
+                        }
+                    });
+                }
+                Drawer::Fault(Fault::Triangle(mutant)) => {
+                    for &corners in &triangles {
+                        let mut hit = |s: rasterproof_core::triangle::Span| {
+                            hits.hit(s.y_px, s.x0_px, s.x1_px)
+                        };
+                        mutant.spans(corners, window, &mut hit);
+                    }
+                }
+                Drawer::Engines(engine, _) => {
+                    for &corners in &triangles {
+                        engine.cover(corners, window, |s| hits.hit(s.y_px, s.x0_px, s.x1_px));
+                    }
+                }
+                Drawer::Fault(Fault::Line(_)) => {}
+            }
+            hits
+        });
+        drawn.ok()
+    }
+
+    /// Whether a fault is of what is drawn here.
+    fn applies(&self, fault: Fault) -> bool {
+        matches!(fault, Fault::Line(_)) == (self.kind == Kind::Line)
+    }
+
+    /// The truth for 8 bits, as hits.
+    fn truth(&self) -> Vec<Coverage> {
+        let oracle = Drawer::Engines(Engine::Oracle, LineEngine::Oracle);
+        self.drawn(oracle).unwrap_or_default()
+    }
+
+    fn killed(&self, faults: &[Fault]) -> Vec<bool> {
+        let truth = self.truth();
+        let is_wrong = |fault: &Fault| {
+            self.applies(*fault) && self.drawn(Drawer::Fault(*fault)).as_ref() != Some(&truth)
+        };
+        faults.iter().map(is_wrong).collect()
+    }
+
+    /// Whether every pixel is hit at most once, as in meshes that do not fold over.
+    fn is_single(&self) -> bool {
+        let once = |hits: &Coverage| hits.rows().all(|(_, row)| row.iter().all(|&hits| hits < 2));
+        self.truth().iter().all(once)
+    }
+}
+
+/// Marks samples on edges that belong to one triangle alone; a triangle without area has none.
+fn mark_outline(triangles: &[Corners], outline: &mut Coverage) {
+    let mut edges: BTreeMap<[SubpixelPoint; 2], u32> = BTreeMap::new();
+    let area = |[a, b, c]: &Corners| rasterproof_verify::comparison::area2(&[*a, *b, *c]);
+    for [a, b, c] in triangles.iter().filter(|corners| area(corners) != 0) {
+        for [from, to] in [[a, b], [b, c], [c, a]] {
+            *edges.entry([*from.min(to), *from.max(to)]).or_default() += 1;
+        }
+    }
+    let window = outline.bounds();
+    for [a, b] in edges.into_iter().filter(|(_, count)| count % 2 == 1).map(|(edge, _)| edge) {
+        for y_px in window.y0..window.y1 {
+            for x_px in window.x0..window.x1 {
+                let [x, y] = [x_px, y_px].map_array(|px| px * SUBPIXELS + HALF_PIXEL);
+                let is_between = |v: i32, p: i32, q: i32| (p.min(q)..=p.max(q)).contains(&v);
+                let is_near = is_between(x, a.x, b.x) && is_between(y, a.y, b.y);
+                if is_near && area(&[a, b, SubpixelPoint::new(x, y)]) == 0 {
+                    outline.row_mut(y_px)[(x_px - window.x0) as usize] = 1;
+                }
+            }
+        }
+    }
+}
+
+fn runs(pixels: &Coverage) -> Vec<Run> {
+    let mut found: Vec<Run> = Vec::new();
+    for (y, row) in pixels.rows() {
+        for (x, _) in (pixels.bounds().x0..).zip(row).filter(|(_, hits)| **hits > 0) {
+            match found.last_mut() {
+                Some(run) if run[0] == y && run[2] == x => run[2] += 1,
+                _ => found.push([y, x, x + 1]),
+            }
+        }
+    }
+    found
+}
+
+impl Fixture {
+    /// Whether a picture is the expected one of rasterizers with 8 bits and the top-left rule.
+    #[must_use]
+    pub fn accepts(&self, drawer: Drawer) -> bool {
+        let Some(drawn) = Drawing::of(self).drawn(drawer) else { return false };
+        let Some(expected) = self.expected.iter().find(|e| e.bits[1] == SUBPIXEL_BITS) else {
+            return false;
+        };
+        drawn.len() == expected.samples.len()
+            && drawn.iter().zip(&expected.samples).all(|(drawn, pixels)| {
+                let holds = |runs: &[Run], x: i32, y: i32| {
+                    runs.iter().any(|&[row, x0, x1]| row == y && (x0..x1).contains(&x))
+                };
+                drawn.rows().all(|(y, row)| {
+                    (0..).zip(row).all(|(x, &hits)| match hits {
+                        0 => !holds(&pixels.hit, x, y),
+                        1 => holds(&pixels.hit, x, y) || holds(&pixels.either, x, y),
+                        _ => false,
+                    })
+                })
+            })
+    }
+
+    /// Whether a fault is of what is drawn here.
+    #[must_use]
+    pub fn applies(&self, fault: Fault) -> bool {
+        Drawing::of(self).applies(fault)
+    }
+
+    /// The same with what is expected computed anew.
+    #[must_use]
+    pub fn anew(&self) -> Self {
+        Drawing::of(self).fixture(&self.found_by)
+    }
+}
+
+/// The families that cases of a kind come from, by name; windows of `far` do not begin at the origin.
+fn families(kind: Kind) -> Vec<&'static cases::Family> {
+    let wanted = |name: &str| match kind {
+        Kind::Fan => name == "fan",
+        Kind::Strip => name == "strip",
+        Kind::Line => name.starts_with("line-"),
+        Kind::Triangle | Kind::Samples4 => {
+            !name.starts_with("line-")
+                && !name.starts_with("w-")
+                && !["fan", "strip", "rectangle", "far", "off-screen"].contains(&name)
+        }
+    };
+    cases::families().filter(|family| wanted(family.name)).collect()
+}
+
+/// A generated case as a drawing; nothing for one that is no drawing of this kind.
+fn drawing(kind: Kind, case: &Case) -> Option<Drawing> {
+    let window = case.window;
+    if (window.x0, window.y0) != (0, 0) {
+        return None;
+    }
+    let points = match &case.shape {
+        Shape::Lines(lines) => {
+            let ends = lines.first()?.ends;
+            ends.iter().map(|end| SubpixelPoint::new(end.pixel.x, end.pixel.y)).collect()
+        }
+        Shape::Triangles { list, .. } => {
+            let corners: Vec<Corners> = list.iter().map(|t| t.corners()).collect();
+            let first = corners.first()?;
+            match kind {
+                Kind::Fan => {
+                    let ring = corners.iter().map(|c| c[2]);
+                    [first[0], first[1]].into_iter().chain(ring).collect()
+                }
+                Kind::Strip => {
+                    first.iter().copied().chain(corners[1..].iter().map(|c| c[2])).collect()
+                }
+                _ => first.to_vec(),
+            }
+        }
+    };
+    Some(Drawing { kind, window: [window.width(), window.height()], points })
+}
+
+/// The smallest drawing reached from one for which `fails` holds, and goes on holding.
+fn smallest(start: Drawing, fails: &dyn Fn(&Drawing) -> bool) -> Drawing {
+    let kind = start.kind;
+    if matches!(kind, Kind::Fan | Kind::Strip) {
+        return greedy(start, mesh_size, mesh_candidates, fails);
+    }
+    let window = start.rect();
+    let shape = match kind {
+        Kind::Line => Shape::Lines(vec![start.line()]),
+        _ => {
+            let corners = [start.points[0], start.points[1], start.points[2]];
+            Shape::Triangles { list: vec![plain_triangle(corners)], disjoint: false }
+        }
+    };
+    let case =
+        shrink(Case { window, shape }, |case| drawing(kind, case).is_some_and(|d| fails(&d)));
+    drawing(kind, &case).unwrap_or(start)
+}
+
+/// Points, then coordinates that are no multiple of half a pixel, then how far the points lie, then the window.
+fn mesh_size(drawing: &Drawing) -> (usize, usize, i64, u32) {
+    let all = || drawing.points.iter().flat_map(|p| [p.x, p.y]);
+    let odd = all().filter(|v| v.rem_euclid(HALF_PIXEL) != 0).count();
+    let far = all().map(|v| i64::from(v).abs()).sum();
+    (drawing.points.len(), odd, far, drawing.window[0] + drawing.window[1])
+}
+
+fn mesh_candidates(drawing: &Drawing) -> Vec<Drawing> {
+    let mut found = Vec::new();
+    let mut add = |points: Vec<SubpixelPoint>| found.push(Drawing { points, ..drawing.clone() });
+    if drawing.points.len() > 4 {
+        for i in 0..drawing.points.len() {
+            let mut fewer = drawing.points.clone();
+            fewer.remove(i);
+            add(fewer);
+        }
+    }
+    for (dx, dy) in [(4, 0), (0, 4), (1, 0), (0, 1)] {
+        let by = |p: &SubpixelPoint| SubpixelPoint::new(p.x - dx * SUBPIXELS, p.y - dy * SUBPIXELS);
+        add(drawing.points.iter().map(by).collect());
+    }
+    for i in 0..drawing.points.len() {
+        for axis in 0..2 {
+            let SubpixelPoint { x, y } = drawing.points[i];
+            let v = if axis == 0 { x } else { y };
+            let border = v.div_euclid(SUBPIXELS) * SUBPIXELS;
+            let nearer = [
+                v / 2 / 16 * 16,
+                v - v.signum() * SUBPIXELS.min(v.abs()),
+                v - v.signum() * HALF_PIXEL.min(v.abs()),
+            ];
+            for simpler in [border, border + HALF_PIXEL].into_iter().chain(nearer) {
+                let mut points = drawing.points.clone();
+                points[i] = if axis == 0 {
+                    SubpixelPoint::new(simpler, y)
+                } else {
+                    SubpixelPoint::new(x, simpler)
+                };
+                add(points);
+            }
+        }
+    }
+    let [width, height] = drawing.window;
+    for window in
+        [[width / 2, height], [width, height / 2], [width - 1, height], [width, height - 1]]
+    {
+        if window[0] > 0 && window[1] > 0 {
+            found.push(Drawing { window, ..drawing.clone() });
+        }
+    }
+    found
+}
+
+/// Cases that one round looks at for each fault.
+const TRIES: u64 = 60;
+
+/// A small drawing that this fault, and every fault that its origin kills, draws wrong.
+fn find(kind: Kind, faults: &[Fault], number: usize, seed: u64, round: u64) -> Option<Drawing> {
+    let families = families(kind);
+    // Every other round keeps corners that lie on no coarse grid; meshes lie on one, since each of their coordinates
+    // doubles the ways to move it.
+    let is_fine = round % 2 == 1 && matches!(kind, Kind::Triangle | Kind::Samples4);
+    for attempt in round * TRIES..(round + 1) * TRIES {
+        let family = families[(attempt % families.len() as u64) as usize];
+        let mut start = drawing(kind, &family.case(seed, attempt + 1_000_003 * number as u64))?;
+        if matches!(kind, Kind::Fan | Kind::Strip) {
+            for p in &mut start.points {
+                *p = SubpixelPoint::new((p.x + 8) & !15, (p.y + 8) & !15);
+            }
+        }
+        if !start.is_single() || is_fine && start.fine_coordinates() == 0 {
+            continue;
+        }
+        let killed = start.killed(faults);
+        if !killed[number] {
+            continue;
+        }
+        let fails = |d: &Drawing| {
+            d.is_single()
+                && (!is_fine || d.fine_coordinates() > 0)
+                && d.killed(faults).iter().zip(&killed).all(|(now, before)| *now || !before)
+        };
+        return Some(smallest(start, &fails));
+    }
+    None
+}
+
+/// Makes the fixtures. `progress` hears of each that was found.
+#[must_use]
+pub fn generate(seed: u64, progress: &(dyn Fn(u64) + Sync)) -> Fixtures {
+    let mut cases = Vec::new();
+    for (kind, quota) in QUOTAS {
+        let is_line = kind == Kind::Line;
+        let faults: Vec<_> =
+            Fault::all().into_iter().filter(|f| matches!(f, Fault::Line(_)) == is_line).collect();
+        let mut alive: Vec<usize> = (0..faults.len()).collect();
+        let mut found: BTreeMap<Drawing, &str> = BTreeMap::new();
+        for round in 0.. {
+            let drawings = parallel::map(alive.len(), |i| {
+                (alive[i], find(kind, &faults, alive[i], seed, round))
+            });
+            // A fault that nothing showed in the first rounds is none of these pictures.
+            if round == 4 {
+                let named: Vec<_> = found.values().copied().collect();
+                alive.retain(|&number| named.contains(&faults[number].name()));
+            }
+            if round > 400 || alive.is_empty() {
+                break;
+            }
+            let before = found.len();
+            for (number, drawing) in drawings {
+                if let Some(drawing) = drawing.filter(|_| found.len() < quota) {
+                    found.entry(drawing).or_insert(faults[number].name());
+                }
+            }
+            progress((found.len() - before) as u64);
+            if found.len() == quota {
+                break;
+            }
+        }
+        cases.extend(found.iter().map(|(drawing, found_by)| drawing.fixture(found_by)));
+    }
+    let place = |(x, y): (i32, i32)| [f64::from(x) / 16.0, f64::from(y) / 16.0];
+    let four = SAMPLES.iter().copied().map(place).collect();
+    Fixtures {
+        format: FORMAT.to_owned(),
+        rasterproof: env!("CARGO_PKG_VERSION").to_owned(),
+        seed,
+        samples: [("samples4".to_owned(), four), ("others".to_owned(), vec![[0.5, 0.5]])].into(),
+        cases,
+    }
+}
+
+impl Fixtures {
+    /// As text, a case a line.
+    #[must_use]
+    pub fn to_json(&self) -> String {
+        let head = serde_json::json!({
+            "format": self.format, "rasterproof": self.rasterproof, "seed": self.seed, "samples": self.samples,
+        });
+        let json = |case: &Fixture| serde_json::to_string(case).unwrap_or_default();
+        let cases: Vec<_> = self.cases.iter().map(json).collect();
+        let head = head.to_string();
+        let open = head.strip_suffix('}').unwrap_or(&head);
+        format!("{open},\"cases\":[\n{}\n]}}\n", cases.join(",\n"))
+    }
+}

@@ -1,0 +1,171 @@
+//! The file of fixtures for other test suites: it is what the command prints, its schema describes it, right engines pass
+//! it, and it kills every planted fault that its pictures can show.
+
+use std::collections::BTreeMap;
+
+use rasterproof_registry::engines::{Engine, LineEngine};
+use rasterproof_registry::fixtures::{Drawer, FORMAT, Fault, Fixtures, QUOTAS, generate};
+use serde_json::Value;
+
+use crate::pages::read;
+
+fn fixtures() -> Fixtures {
+    serde_json::from_str(&read("crates/verify/fixtures/fixtures.json")).unwrap()
+}
+
+/// Planted faults that no picture of the file shows, and why.
+const NOT_SHOWN: [(&str, &str); 15] = [
+    ("swapped-weights", VALUES),
+    ("affine-attributes", VALUES),
+    ("perspective-depth", VALUES),
+    ("values-at-corner", VALUES),
+    ("values-through-f32", VALUES),
+    ("naive-barycentric", VALUES),
+    ("epsilon-in-denominator", VALUES),
+    ("clamps-inv-w", VALUES),
+    ("line-weights-from-clip", VALUES),
+    ("truncates-towards-zero", ORIGIN),
+    ("seam-between-tiles", ORIGIN),
+    ("line-draws-backwards", "pixels of a line are a set, without an order"),
+    ("tile-tail-of-batch", "it needs more than 16 triangles in one list"),
+    ("tile-wide-ones-last", "pictures say which pixels are hit, not in which order"),
+    (
+        "tile-wrapped-width",
+        "it needs a triangle that is wider than half the domain, and none was found that shows it",
+    ),
+];
+const VALUES: &str = "the file holds pixels, and no depths or attributes";
+const ORIGIN: &str = "pictures begin at the origin, and this fault is in those that do not";
+
+#[test]
+fn fixtures_are_a_thousand_small_cases() {
+    let text = read("crates/verify/fixtures/fixtures.json");
+    assert!(text.len() <= 1 << 20, "{} bytes", text.len());
+    let fixtures = fixtures();
+    assert_eq!((fixtures.cases.len(), fixtures.format.as_str()), (1_000, FORMAT));
+    for (kind, quota) in QUOTAS {
+        assert_eq!(
+            fixtures.cases.iter().filter(|case| case.kind == kind).count(),
+            quota,
+            "{kind:?}"
+        );
+    }
+    assert_eq!(fixtures.to_json(), text);
+    let with_choices = fixtures.cases.iter().filter(|case| case.expected.len() > 1).count();
+    assert!(with_choices > 50, "{with_choices} cases differ by the bits");
+}
+
+/// What is expected is computed anew, and the oracle and the engines draw it.
+#[test]
+fn fixtures_hold_what_is_right() {
+    let fixtures = fixtures();
+    for (number, case) in fixtures.cases.iter().enumerate() {
+        assert_eq!(case.anew(), *case, "case {number}");
+        for engine in Engine::CHOICES {
+            for line in LineEngine::JUDGED {
+                assert!(
+                    case.accepts(Drawer::Engines(engine, line)),
+                    "case {number}: {}",
+                    engine.name()
+                );
+            }
+        }
+    }
+    // A pixel too many is noticed, and one too few.
+    let mut case = fixtures.cases[0].clone();
+    let last = case.expected.len() - 1;
+    let pixels = &mut case.expected[last].samples[0];
+    pixels.hit = if pixels.hit.is_empty() { vec![[0, 0, 1]] } else { Vec::new() };
+    assert!(!case.accepts(Drawer::Engines(Engine::Scanline, LineEngine::Dda)));
+}
+
+#[test]
+fn fixtures_kill_planted_faults() {
+    let fixtures = fixtures();
+    let mut kills: BTreeMap<&str, usize> = BTreeMap::new();
+    for fault in Fault::all() {
+        let fits = fixtures.cases.iter().filter(|case| case.applies(fault));
+        let killed = fits.filter(|case| !case.accepts(Drawer::Fault(fault))).count();
+        kills.insert(fault.name(), killed);
+    }
+    let alive: Vec<_> = kills.iter().filter(|(_, n)| **n == 0).map(|(name, _)| *name).collect();
+    let mut expected: Vec<_> = NOT_SHOWN.iter().map(|(name, _)| *name).collect();
+    expected.sort_unstable();
+    assert_eq!(alive, expected, "{kills:?}");
+}
+
+/// The parts of JSON Schema that the schema uses.
+fn violation(value: &Value, schema: &Value, root: &Value, at: &str) -> Option<String> {
+    let here = |what: &str| Some(format!("{at}: {what}"));
+    if let Some(name) = schema["$ref"].as_str() {
+        let found = violation(value, root.pointer(name.trim_start_matches('#')).unwrap(), root, at);
+        if found.is_some() {
+            return found;
+        }
+    }
+    let is_type = match schema["type"].as_str() {
+        Some("object") => value.is_object(),
+        Some("array") => value.is_array(),
+        Some("string") => value.is_string(),
+        Some("number") => value.is_number(),
+        Some("integer") => value.is_i64() || value.is_u64(),
+        Some(other) => panic!("{other} is not checked"),
+        None => true,
+    };
+    let is_one = schema["enum"].as_array().is_none_or(|all| all.contains(value));
+    if !is_type || !is_one || schema.get("const").is_some_and(|only| only != value) {
+        return here(&format!("{value} is not what it should be"));
+    }
+    let number = value.as_f64().unwrap_or(0.0);
+    let length = value.as_array().map_or(0.0, |items| items.len() as f64);
+    for (least, most, size) in [("minimum", "maximum", number), ("minItems", "maxItems", length)] {
+        if schema[least].as_f64().is_some_and(|v| size < v)
+            || schema[most].as_f64().is_some_and(|v| size > v)
+        {
+            return here(&format!("{size} is out of range"));
+        }
+    }
+    for name in schema["required"].as_array().into_iter().flatten() {
+        if value.get(name.as_str().unwrap()).is_none() {
+            return here(&format!("{name} is missing"));
+        }
+    }
+    for (name, part) in value.as_object().into_iter().flatten() {
+        match schema["properties"].get(name) {
+            Some(schema) => {
+                let found = violation(part, schema, root, &format!("{at}/{name}"));
+                if found.is_some() {
+                    return found;
+                }
+            }
+            None if schema["additionalProperties"] == false => {
+                return here(&format!("{name} is not known"));
+            }
+            None => {}
+        }
+    }
+    let items = value.as_array().into_iter().flatten().enumerate();
+    let mut items = items.filter(|_| schema.get("items").is_some());
+    items.find_map(|(i, item)| violation(item, &schema["items"], root, &format!("{at}/{i}")))
+}
+
+#[test]
+fn fixtures_follow_their_schema() {
+    let schema: Value = serde_json::from_str(&read("crates/verify/fixtures/schema.json")).unwrap();
+    let mut file: Value =
+        serde_json::from_str(&read("crates/verify/fixtures/fixtures.json")).unwrap();
+    assert_eq!(violation(&file, &schema, &schema, ""), None);
+    file["cases"][3]["points"][0][0] = "1".into();
+    assert!(violation(&file, &schema, &schema, "").is_some());
+    file["cases"] = Value::Array(Vec::new());
+    file["cases"] = serde_json::json!([{ "kind": "triangle" }]);
+    assert!(violation(&file, &schema, &schema, "").unwrap().contains("window"));
+}
+
+/// The file is what the command prints; in a release build, since shrinking a thousand cases takes a while.
+#[test]
+#[ignore = "takes more than six seconds"]
+fn fixtures_are_what_the_command_prints() {
+    let text = read("crates/verify/fixtures/fixtures.json");
+    assert!(generate(1, &|_| ()).to_json() == text, "renew it: cargo run --release -- fixtures");
+}
