@@ -18,6 +18,7 @@ pub const LIBRARY: Library = Library {
     grid: 1.0,
     // It visits pixels outside the window, too: larger triangles would take it long.
     range: 1024.0,
+    inside: false,
     triangle,
     line: Some(line),
     longest_line: i64::MAX,

@@ -11,6 +11,7 @@ pub const LIBRARY: Library = Library {
     declares: "batch=64",
     grid: 256.0,
     range: f64::INFINITY,
+    inside: false,
     triangle,
     line: Some(line),
     longest_line: 1 << 20,

@@ -1,14 +1,26 @@
-//! `rasterproof-adapters NAME`: speaks the line protocol for one of four Rust libraries.
+//! `rasterproof-adapters NAME`: speaks the line protocol for a Rust library.
 
+mod ab_glyph_rasterizer;
 mod embedded_graphics;
 mod euc;
 mod protocol;
 mod raqote;
+mod retrofire;
 mod tiny_skia;
+mod vello_cpu;
+mod zeno;
 
 fn main() -> std::io::Result<()> {
-    let libraries =
-        [&tiny_skia::LIBRARY, &raqote::LIBRARY, &euc::LIBRARY, &embedded_graphics::LIBRARY];
+    let libraries = [
+        &tiny_skia::LIBRARY,
+        &raqote::LIBRARY,
+        &euc::LIBRARY,
+        &embedded_graphics::LIBRARY,
+        &vello_cpu::LIBRARY,
+        &zeno::LIBRARY,
+        &ab_glyph_rasterizer::LIBRARY,
+        &retrofire::LIBRARY,
+    ];
     let asked = std::env::args().nth(1).unwrap_or_default();
     // The name without its version: "tiny-skia" of "tiny-skia-0.12.0".
     let bare = |name: &'static str| name.rsplit_once('-').map_or(name, |(bare, _)| bare);

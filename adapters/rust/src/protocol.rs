@@ -23,6 +23,8 @@ pub struct Library {
     pub grid: f64,
     /// Coordinates lie in [-range, range] px.
     pub range: f64,
+    /// Corners and ends outside the window are refused: for a library that takes what is clipped already.
+    pub inside: bool,
     pub triangle: Triangle,
     pub line: Option<Line>,
     /// Longer lines, in pixels, are refused: for a library that walks them outside the window, too.
@@ -79,6 +81,14 @@ fn draw(library: &Library, words: &[&str]) -> Result<String, String> {
         return Err(format!("the window must be from 1x1 to {MOST_SIDE}x{MOST_SIDE}"));
     };
     let v = words[4..].iter().map(|word| number(library, word)).collect::<Result<Vec<_>, _>>()?;
+    let sides = [f64::from(width), f64::from(height)];
+    let is_inside = |(i, v): (usize, &f64)| {
+        // The centre of a pixel, where a line ends, lies half a pixel further.
+        (0.0..=sides[i % 2] - if verb == "L" { 1.0 } else { 0.0 }).contains(v)
+    };
+    if library.inside && !v.iter().enumerate().all(is_inside) {
+        return Err("unsupported: the library takes what lies in the window".into());
+    }
     let pixel = |i: usize| (v[i].floor() as i32, v[i + 1].floor() as i32);
     let reach = |i: usize| (v[i].floor() - v[i + 2].floor()).abs() as i64;
     if verb == "L" && reach(0).max(reach(1)) > library.longest_line {

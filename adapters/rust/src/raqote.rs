@@ -12,6 +12,7 @@ pub const LIBRARY: Library = Library {
     declares: "range=8191 mask batch=64",
     grid: 256.0,
     range: 8191.0,
+    inside: false,
     triangle,
     line: None,
     longest_line: i64::MAX,

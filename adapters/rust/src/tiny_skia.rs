@@ -9,6 +9,7 @@ pub const LIBRARY: Library = Library {
     declares: "mask line-set batch=64",
     grid: 256.0,
     range: f64::INFINITY,
+    inside: false,
     triangle,
     line: Some(line),
     longest_line: i64::MAX,

@@ -27,7 +27,6 @@ fn named_lines(lines: &[LineEngine]) -> Vec<(&'static str, LineEngine)> {
 }
 
 /// Judges a selection of the engines on every family.
-#[must_use]
 pub fn judge(
     engines: &[(Engine, Tolerance)],
     lines: &[LineEngine],

@@ -1,7 +1,7 @@
 //! Depths and attributes with a tolerance that is derived, and what happens to one that is only guessed.
 //!
-//! The rasterizer puts planes through the vertices: v(x, y) = v0 + gx dx + gy dy for v/w, 1/w and depth. Its error grows
-//! where the planes are steep, so a bound in the manner of [`tolerance`] does not hold for it on every triangle.
+//! The rasterizer puts planes through the vertices: v(x, y) = v0 + (v1 - v0) b + (v2 - v0) c for v/w, 1/w and depth. Its
+//! error grows with the ratio of the w values and with the size of a triangle, so no bound of the form u (d D + m M) holds.
 
 use rasterproof_verify::cases::FamilyName;
 use rasterproof_verify::comparison::tolerance::{Bound, Tolerance};
@@ -60,6 +60,6 @@ pub fn main() -> Result<(), NothingJudged> {
             report.map_or([0.0; 2], |r| [r.pairs[0].worst_attribute, r.pairs[0].worst_depth]);
         println!("{family:<8} attributes {attribute:.1e}, depths {depth:.1e} times the bound");
     }
-    println!("{}", verdict.check().expect_err("planes lose digits where they are steep"));
+    println!("{}", verdict.check().expect_err("planes lose digits where w differs much"));
     Ok(())
 }
