@@ -145,7 +145,7 @@ fn paper(
         let solution = exercise.solution();
         let text = if arguments.key {
             let why = exercise.explanation(language, &solution);
-            format!("{number}. {} [{}] {why}", solution.answer.text(), chapter.word())
+            format!("{number}. {} [{}] {why}", solution.answer.text(), chapter.page)
         } else {
             format!("{number}. {}", exercise.question_with_form(language, &solution))
         };
