@@ -4,12 +4,17 @@
 use std::fs;
 use std::process::Command;
 
+use rasterproof_judge::in_process::Inside;
+use rasterproof_registry::engines::find_planted;
+use rasterproof_render::scene::chapters::scene;
 use rasterproof_teaching::course::STEPS;
 use rasterproof_teaching::course::misconceptions;
 use rasterproof_teaching::course::progress::Progress;
+use rasterproof_teaching::course::show;
 use serde_json::Value;
 
 use crate::program::{Folder, PROGRAM, Run, Words};
+use crate::snapshots::check_picture;
 
 /// Runs a command of the course; its lines fit a terminal.
 fn course(folder: &Folder, words: impl Words, status: u8) -> Run {
@@ -308,7 +313,7 @@ fn course_shows_what_is_drawn() {
         ("cube", "affine-attributes"),
         ("depth", "perspective-depth"),
     ] {
-        show(step, planted, 1).omits(": 0 of ");
+        show(step, planted, 1);
     }
     show("values", "dda", 1).prints("1 requests refused or not answered");
     show("thirteen", "scanline", 2).says("cube and all");
@@ -317,6 +322,18 @@ fn course_shows_what_is_drawn() {
     let words =
         ["show", "--model", "model.obj", "--out", "shown", "--", PROGRAM, "engine", "scanline"];
     course(&folder, words, 0).prints("the model: ");
+}
+
+/// The picture of the page: the cube of a program that does not divide by w.
+#[test]
+fn course_cube_of_the_page() {
+    let mut program = Inside::new(&find_planted("affine-attributes").unwrap());
+    let scene = scene("cube", 4.0 / 3.0, 0.1).unwrap();
+    let shown =
+        show::scene(&mut program, "the cube, by the values of a program", &scene, (240, 180));
+    let shown = shown.unwrap();
+    assert!(shown.differing > 1000 && shown.unanswered == 0, "{}", shown.differing);
+    check_picture("course-cube", &shown.sheet());
 }
 
 /// Parts of the solution in Python and what a wrong program has instead, with the step that fails and what is named.

@@ -339,7 +339,12 @@ pub fn step(program: &mut dyn Ask, step: &Step) -> Vec<Shown> {
                 s.values(WIDTH, HEIGHT, floor(false), checkered)
             }),
         ],
-        "depth" => &[("triangles that go through one another", |s| s.pair())],
+        "depth" => &[
+            ("triangles that go through one another", |s| s.pair()),
+            ("z as brightness, on the floor of step 9", |s| {
+                s.values(WIDTH, HEIGHT, floor(true), |f| DVec3::splat(f.depth))
+            }),
+        ],
         "clipping" => &[("a floor that begins behind the eye", |s| s.cut_floor())],
         _ => &[("edges as bright as the share of their samples", |s| s.smooth())],
     };
