@@ -532,12 +532,11 @@ fn transposed_weights(question: &Question, truth: &Truth) -> Option<Answer> {
     })
 }
 
+/// Picks the triangle that is shown, of those that cover a pixel, by number, each with its depth there.
+type Choose = fn(&[(usize, f64)], &[Triangle]) -> Option<(usize, f64)>;
+
 /// Which triangle a program shows at each pixel, of those that cover it with their depths there.
-fn pile(
-    question: &Question,
-    truth: &Truth,
-    choose: fn(&[(usize, f64)], &[Triangle]) -> Option<(usize, f64)>,
-) -> Option<Answer> {
+fn pile(question: &Question, truth: &Truth, choose: Choose) -> Option<Answer> {
     pile_by(question, truth, choose, |l, z, _| dot(l, z))
 }
 
@@ -556,7 +555,7 @@ fn deepest(
 fn pile_by(
     question: &Question,
     truth: &Truth,
-    choose: fn(&[(usize, f64)], &[Triangle]) -> Option<(usize, f64)>,
+    choose: Choose,
     depth: fn([f64; 3], [f64; 3], f64) -> f64,
 ) -> Option<Answer> {
     let Asked::Depth(list) = &question.of else { return None };

@@ -304,7 +304,7 @@ pub fn step(program: &mut dyn Ask, step: &Step) -> Vec<Shown> {
             let sliver = |i: usize| {
                 let [a, b] =
                     [0.0, 0.16].map(|part| turned((i as f64 + part) / 9.0, [24.0, 18.0], 17.0));
-                if i % 2 == 0 { [[24.0, 18.0], a, b] } else { [[24.0, 18.0], b, a] }
+                if i.is_multiple_of(2) { [[24.0, 18.0], a, b] } else { [[24.0, 18.0], b, a] }
             };
             s.mosaic(48, 36, &(0..9).map(sliver).collect::<Vec<_>>())
         })],
