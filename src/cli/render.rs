@@ -178,17 +178,19 @@ impl SceneArguments {
         Self {
             what: Some(path.to_owned()),
             scene: None,
-            size,
-            aa: Antialias::None,
-            cull: None,
-            shading: None,
-            up: None,
-            normals: None,
-            depth: DepthFormat::Unorm32,
-            yaw: None,
-            pitch: None,
-            zoom: None,
-            fov: None,
+            view: ViewArguments {
+                size,
+                aa: Antialias::None,
+                cull: None,
+                shading: None,
+                up: None,
+                normals: None,
+                depth: DepthFormat::Unorm32,
+                yaw: None,
+                pitch: None,
+                zoom: None,
+                fov: None,
+            },
         }
     }
 
