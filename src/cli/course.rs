@@ -4,18 +4,24 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use super::course_grade::{self, BuildLimits, GradeArguments};
+use super::page::{Place, save_page};
 use super::progress::Progress as Shown;
-use super::{Status, Streams, exit, usage, write_file};
+use super::render::SceneArguments;
+use super::{Failure, Status, Streams, exit, usage, write_file};
 use rasterproof_host::shell::quote;
 use rasterproof_host::text::printable_path;
+use rasterproof_render::pipeline::target::{Antialias, check_size};
+use rasterproof_render::scene::chapters;
+use rasterproof_report::html::{Outcome, PictureLayer, PictureView, Report};
+use rasterproof_report::picture;
 
 use crate::cli::starters::{self, Language};
-use rasterproof_judge::process::Limits;
+use rasterproof_judge::process::{Limits, Program};
 use rasterproof_judge::process_group;
 use rasterproof_teaching::course::examine::{self, Amount};
 use rasterproof_teaching::course::progress::{self, Progress};
 use rasterproof_teaching::course::verdict::{self, indented};
-use rasterproof_teaching::course::{self, STEPS, sandbox};
+use rasterproof_teaching::course::{self, STEPS, Step, sandbox, show};
 
 pub const HELP: &str = include_str!("help/course.txt").trim_ascii_end();
 
@@ -32,12 +38,17 @@ enum CourseCommand {
         /// The language of the starter
         #[arg(long, value_enum, default_value_t = Language::Python)]
         language: Language,
+        /// With every step solved, for teachers
+        #[arg(long)]
+        solution: bool,
         /// Where to; created where it is not there
         #[arg(value_name = "DIR", default_value = ".")]
         folder: PathBuf,
     },
     /// Judge a step, and note how it came out
     Check(CheckArguments),
+    /// Draw what the program draws at a step, beside the right picture and the difference
+    Show(Box<ShowArguments>),
     /// Points by step: of a program, or of a folder of submissions
     #[command(long_flag = "grade", after_help = course_grade::HELP)]
     Grade(Box<GradeArguments>),
@@ -68,11 +79,37 @@ struct CheckArguments {
     command: Vec<String>,
 }
 
+#[derive(clap::Args, Debug)]
+struct ShowArguments {
+    /// A step by name or number, cube, or all; the current step if nothing is named
+    #[arg(value_name = "STEP")]
+    step: Option<String>,
+    /// Where course.toml is
+    #[arg(long, value_name = "DIR", default_value = ".")]
+    dir: PathBuf,
+    /// Draw this model instead, by the values of the program (steps 8 to 11)
+    #[arg(long, value_name = "FILE", conflicts_with = "step")]
+    model: Option<PathBuf>,
+    /// Size of the cube's and the model's picture in pixels
+    #[arg(long, value_name = "WxH", default_value = "320x240", value_parser = super::render::parse_size)]
+    size: (u32, u32),
+    #[command(flatten)]
+    place: Place,
+    #[command(flatten)]
+    build: BuildLimits,
+    /// The program and its arguments, after --; not remembered
+    #[arg(last = true, value_name = "CMD")]
+    command: Vec<String>,
+}
+
 pub fn run(arguments: &CourseArguments, streams: &mut Streams<'_>) -> Status {
     match &arguments.command {
         None => list(streams),
-        Some(CourseCommand::Start { language, folder }) => start(*language, folder, streams),
+        Some(CourseCommand::Start { language, solution, folder }) => {
+            start(*language, *solution, folder, streams)
+        }
         Some(CourseCommand::Check(check)) => run_check(check, streams),
+        Some(CourseCommand::Show(show)) => run_show(show, streams),
         Some(CourseCommand::Grade(grade)) => course_grade::run(grade, streams),
     }
 }
@@ -104,12 +141,13 @@ fn list(streams: &mut Streams<'_>) -> Status {
     Ok(exit::AGREES)
 }
 
-fn start(language: Language, folder: &Path, streams: &mut Streams<'_>) -> Status {
+fn start(language: Language, solution: bool, folder: &Path, streams: &mut Streams<'_>) -> Status {
     let (build, run) = starters::commands(language);
     let progress = Progress::new(build, run);
-    let files = starters::files(language);
+    let files = starters::files(language, solution);
     let files = files.iter().map(|file| (file.name, file.text.clone()));
-    for (name, text) in files.chain([(progress::FILE, progress.text())]) {
+    let others = [("steps.md", starters::steps_page()), (progress::FILE, progress.text())];
+    for (name, text) in files.chain(others) {
         let path = folder.join(name);
         if path.symlink_metadata().is_ok() {
             writeln!(streams.output, "kept:    {}", printable_path(&path))?;
@@ -122,42 +160,146 @@ fn start(language: Language, folder: &Path, streams: &mut Streams<'_>) -> Status
     writeln!(streams.output, "step 1, {}: {}", step.title, step.judged)?;
     let dir =
         if folder == Path::new(".") { String::new() } else { format!(" --dir {}", quote(folder)) };
-    writeln!(streams.output, "write it, then: rasterproof course check{dir}")?;
+    writeln!(streams.output, "read steps.md, write it, then: rasterproof course check{dir}")?;
     Ok(exit::AGREES)
 }
 
-fn run_check(arguments: &CheckArguments, streams: &mut Streams<'_>) -> Status {
-    let found = Progress::read(&arguments.dir).map_err(usage)?;
-    let mut progress = match (found, arguments.command.is_empty()) {
+/// The progress of a folder, or that of the command that is named instead.
+fn read_progress(dir: &Path, command: &[String], verb: &str) -> Result<Progress, Failure> {
+    let mut progress = match (Progress::read(dir).map_err(usage)?, command.is_empty()) {
         (Some(found), _) => found,
         (None, false) => Progress::new(Vec::new(), Vec::new()),
         (None, true) => {
-            let path = progress::path(&arguments.dir);
             return Err(usage(format!(
                 "{} is not there\n  write one with: rasterproof course start {}\n  \
-                 or name a program: rasterproof course check -- CMD",
-                printable_path(&path),
-                quote(&arguments.dir)
+                 or name a program: rasterproof course {verb} -- CMD",
+                printable_path(&progress::path(dir)),
+                quote(dir)
             )));
         }
     };
-    if !arguments.command.is_empty() {
-        progress.run.clone_from(&arguments.command);
+    if !command.is_empty() {
+        progress.run = command.to_vec();
         progress.build.clear();
     }
+    Ok(progress)
+}
+
+/// The step of a word; `others` are further words that were possible.
+fn find_step(word: &str, others: &str) -> Result<&'static Step, Failure> {
+    course::find(word).ok_or_else(|| {
+        let names: Vec<_> = STEPS.iter().map(|step| &*step.name).collect();
+        usage(format!("no step is called '{word}'; there are {}{others}", names.join(", ")))
+    })
+}
+
+fn built_and_started(
+    dir: &Path,
+    progress: &Progress,
+    build: BuildLimits,
+) -> Result<Program, Failure> {
+    process_group::end_all_on_ctrl_c();
+    let limits = build.bounds();
+    sandbox::build(dir, &progress.build, &limits).map_err(usage)?;
+    sandbox::start(dir, &progress.run, &limits, Limits::default()).map_err(usage)
+}
+
+/// The name of the picture that follows the last step.
+const CUBE: &str = "cube";
+
+fn run_show(arguments: &ShowArguments, streams: &mut Streams<'_>) -> Status {
+    let progress = read_progress(&arguments.dir, &arguments.command, "show")?;
+    let (size, aspect) =
+        (arguments.size, f64::from(arguments.size.0) / f64::from(arguments.size.1));
+    check_size(size.0, size.1, Antialias::None).map_err(usage)?;
+    let word = arguments.step.as_deref();
+    let steps: Vec<&Step> = match (word, &arguments.model) {
+        (Some(CUBE), _) | (None, Some(_)) => Vec::new(),
+        (Some("all"), _) => STEPS.iter().collect(),
+        (Some(word), _) => vec![find_step(word, ", cube and all")?],
+        (None, None) => vec![progress.current()],
+    };
+    let model = match &arguments.model {
+        Some(path) => Some(SceneArguments::of_model(path, size).maker(streams)?.scene(0.0)),
+        None => None,
+    };
+    let name = match (word, &model) {
+        (_, Some(_)) => "model".to_owned(),
+        (Some(word @ ("all" | CUBE)), _) => word.to_owned(),
+        _ => steps[0].name.clone(),
+    };
+    let bar = Shown::new(streams.progress, "pictures", Some(steps.len() as u64 + 1));
+    let mut program = built_and_started(&arguments.dir, &progress, arguments.build)?;
+    let mut pictures = Vec::new();
+    for step in &steps {
+        let label = format!("step {}, {}", course::number(step), step.title);
+        let drawn = show::step(&mut program, step);
+        pictures.extend(drawn.into_iter().map(|picture| (label.clone(), picture)));
+        bar.done(1);
+    }
+    let cube = chapters::scene(CUBE, aspect, 0.1).filter(|_| matches!(word, Some("all" | CUBE)));
+    for (label, scene) in [("the cube", cube), ("the model", model)] {
+        let Some(scene) = scene else { continue };
+        let drawn =
+            show::scene(&mut program, "drawn by your values", &scene, size).map_err(usage)?;
+        pictures.push((label.to_owned(), drawn));
+    }
+    drop(bar);
+    let mut report = Report {
+        title: format!("course show {name}"),
+        command: format!("rasterproof course show {}", word.unwrap_or_default())
+            .trim_end()
+            .to_owned(),
+        ..Report::default()
+    };
+    let mut differing = 0;
+    // On the page, the pictures that differ most come first.
+    let mut on_page = Vec::new();
+    for (label, picture) in &pictures {
+        differing += picture.differing + picture.unanswered;
+        let of = picture.right.width() * picture.right.height();
+        let refused = match picture.unanswered {
+            0 => String::new(),
+            n => format!("; {n} requests refused or not answered"),
+        };
+        let about = format!("{} of {of} pixels differ{refused}", picture.differing);
+        let name = format!("{label}: {}", picture.title);
+        writeln!(streams.output, "{name}: {about}")?;
+        let layers = vec![
+            PictureLayer::new("yours", &picture.yours),
+            PictureLayer::new("right", &picture.right),
+            PictureLayer::new("difference", &picture.difference()),
+        ];
+        let view = PictureView { name, about, layers, ..PictureView::default() };
+        on_page.push((picture.differing, view));
+    }
+    on_page.sort_by_key(|(differing, _)| std::cmp::Reverse(*differing));
+    report.frames = on_page.into_iter().map(|(_, view)| view).collect();
+    let sentence = "what your program draws, beside what this project's engines draw";
+    report.outcome = Some(Outcome::of(differing == 0, sentence));
+    if let Some(last) = examine::complaint(&program) {
+        writeln!(streams.output, "its standard error ends: {last}")?;
+    }
+    let sheets: Vec<_> = pictures.iter().map(|(_, picture)| picture.sheet()).collect();
+    let path = arguments.place.out.join(format!("course-{name}.png"));
+    if streams.save(&path, &picture::png(&picture::stack(&sheets))) {
+        writeln!(streams.output, "picture: {}", printable_path(&path))?;
+    }
+    let page = path.with_extension("html");
+    if save_page(&page, report, streams) {
+        writeln!(streams.output, "page:    {}", printable_path(&page))?;
+    }
+    Ok(if differing == 0 { exit::AGREES } else { exit::DISAGREES })
+}
+
+fn run_check(arguments: &CheckArguments, streams: &mut Streams<'_>) -> Status {
+    let mut progress = read_progress(&arguments.dir, &arguments.command, "check")?;
     let step = match &arguments.step {
         None => progress.current(),
-        Some(word) => course::find(word).ok_or_else(|| {
-            let names: Vec<_> = STEPS.iter().map(|step| &*step.name).collect();
-            usage(format!("no step is called '{word}'; there are {}", names.join(", ")))
-        })?,
+        Some(word) => find_step(word, "")?,
     };
-    process_group::end_all_on_ctrl_c();
-    let limits = arguments.build.bounds();
     let shown = Shown::new(streams.progress, "steps", Some(1));
-    sandbox::build(&arguments.dir, &progress.build, &limits).map_err(usage)?;
-    let program = sandbox::start(&arguments.dir, &progress.run, &limits, Limits::default());
-    let mut program = program.map_err(usage)?;
+    let mut program = built_and_started(&arguments.dir, &progress, arguments.build)?;
     let amount = Amount {
         cases: arguments.cases,
         seed: arguments.seed,
@@ -190,6 +332,6 @@ fn run_check(arguments: &CheckArguments, streams: &mut Streams<'_>) -> Status {
     for (hint, number) in step.hints.iter().take(hints).zip(1..) {
         streams.output.write_all(indented(&format!("hint {number}: {hint}"), 0).as_bytes())?;
     }
-    writeln!(streams.output, "page: {}", step.page)?;
+    writeln!(streams.output, "page: steps.md, step {} ({})", course::number(step), step.page)?;
     Ok(exit::DISAGREES)
 }

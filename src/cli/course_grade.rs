@@ -221,7 +221,7 @@ fn grade(submission: &Submission, arguments: &GradeArguments) -> Grade {
     };
     let mut grade =
         Grade { name: submission.name.clone(), steps: Vec::new(), error: None, seconds: 0.0 };
-    match started(submission, &bounds, arguments.timeout) {
+    match started(submission, &bounds, arguments) {
         Err(error) => grade.error = Some(error),
         Ok(mut program) => {
             for step in STEPS.iter() {
@@ -242,12 +242,17 @@ fn grade(submission: &Submission, arguments: &GradeArguments) -> Grade {
     grade
 }
 
-fn started(submission: &Submission, bounds: &Bounds, timeout: u64) -> Result<Program, String> {
+fn started(
+    submission: &Submission,
+    bounds: &Bounds,
+    arguments: &GradeArguments,
+) -> Result<Program, String> {
     let Submission { folder, build, run, .. } = submission;
     sandbox::build(folder, build, bounds)?;
     let limits = Limits {
-        answer: Duration::from_secs(timeout),
-        start: bounds.build.min(Duration::from_secs(80)) / 4,
+        answer: Duration::from_secs(arguments.timeout),
+        // An interpreter that starts slowly on a busy machine is no fault of the submission.
+        start: Duration::from_secs(arguments.seconds.min(80)) / 4,
     };
     sandbox::start(folder, run, bounds, limits)
 }

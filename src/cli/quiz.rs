@@ -24,6 +24,13 @@ pub struct QuizArguments {
     /// List the chapters and their exercises instead of asking
     #[arg(long)]
     list: bool,
+    /// Print this many questions as a paper instead of asking; --seed chooses them
+    #[arg(long, value_name = "N", conflicts_with_all = ["list", "answers"],
+        value_parser = clap::value_parser!(u16).range(1..=1000))]
+    paper: Option<u16>,
+    /// Print the key of the paper: the answers and why
+    #[arg(long, requires = "paper")]
+    key: bool,
     /// Read the answers, one a line, from this file; - is standard input
     #[arg(long, value_name = "FILE", default_value = "-")]
     answers: PathBuf,
@@ -67,6 +74,9 @@ pub fn run(arguments: &QuizArguments, streams: &mut Streams<'_>) -> Status {
         Some(seed) => order(exercises.len(), seed),
     };
     let asked: Vec<_> = order.into_iter().map(|i| exercises[i]).collect();
+    if let Some(count) = arguments.paper {
+        return paper(&asked, count.into(), arguments, language, streams);
+    }
     let is_file = arguments.answers.as_os_str() != "-";
     let text = if is_file {
         input::read_text(&arguments.answers, limits::NOTE_BYTES)
@@ -105,6 +115,47 @@ fn list(chapters: &[&Chapter], language: Language, streams: &mut Streams<'_>) ->
                 writeln!(streams.output, "           {number:<3}{line}")?;
             }
         }
+    }
+    Ok(exit::AGREES)
+}
+
+/// The first questions as a paper, or their answers as its key.
+fn paper(
+    asked: &[(&Chapter, &Exercise)],
+    count: usize,
+    arguments: &QuizArguments,
+    language: Language,
+    streams: &mut Streams<'_>,
+) -> Status {
+    if asked.len() < count {
+        return Err(usage(format!(
+            "there are {} questions, {count} were asked for\n  name fewer, or all chapters",
+            asked.len()
+        )));
+    }
+    let seed = arguments.seed.map_or_else(String::new, |seed| format!(" {seed}"));
+    let head = match (language, arguments.key) {
+        (Language::English, false) => format!("Paper{seed}: {count} questions"),
+        (Language::English, true) => format!("Key of paper{seed}"),
+        (Language::Chinese, false) => format!("试卷{seed}：共 {count} 题"),
+        (Language::Chinese, true) => format!("试卷{seed} 的答案"),
+    };
+    writeln!(streams.output, "{head}\n")?;
+    for (number, (chapter, exercise)) in (1..).zip(&asked[..count]) {
+        let solution = exercise.solution();
+        let text = if arguments.key {
+            let why = exercise.explanation(language, &solution);
+            format!("{number}. {} [{}] {why}", solution.answer.text(), chapter.page)
+        } else {
+            format!("{number}. {}", exercise.question_with_form(language, &solution))
+        };
+        for line in wrap(&text, TERMINAL_COLUMNS) {
+            writeln!(streams.output, "{line}")?;
+        }
+        for choice in choices(exercise, language).iter().filter(|_| !arguments.key) {
+            writeln!(streams.output, "   {choice}")?;
+        }
+        writeln!(streams.output)?;
     }
     Ok(exit::AGREES)
 }

@@ -166,13 +166,34 @@ fn scene_names() -> Vec<&'static str> {
     SCENES.iter().map(|entry| entry.name).collect()
 }
 
-fn parse_size(text: &str) -> Result<(u32, u32), String> {
+pub(super) fn parse_size(text: &str) -> Result<(u32, u32), String> {
     let sides = text.split_once(['x', 'X']);
     let parsed = sides.and_then(|(w, h)| Some((w.parse().ok()?, h.parse().ok()?)));
     parsed.ok_or_else(|| "expected WIDTHxHEIGHT, for example 1024x768".to_owned())
 }
 
 impl SceneArguments {
+    /// A model of a file, as it is drawn where nothing else is said.
+    pub(super) fn of_model(path: &Path, size: (u32, u32)) -> Self {
+        Self {
+            what: Some(path.to_owned()),
+            scene: None,
+            view: ViewArguments {
+                size,
+                aa: Antialias::None,
+                cull: None,
+                shading: None,
+                up: None,
+                normals: None,
+                depth: DepthFormat::Unorm32,
+                yaw: None,
+                pitch: None,
+                zoom: None,
+                fov: None,
+            },
+        }
+    }
+
     /// An empty target of the size and kind asked for.
     pub(super) fn target(&self) -> Result<Target, Failure> {
         self.view.target()

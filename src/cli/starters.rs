@@ -1,4 +1,5 @@
-//! What a student begins with: the adapters' starters, their two examples replaced by empty places.
+//! What a student begins with: the adapters' starters, their two examples replaced by empty places, or for teachers by
+//! solutions.
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub enum Language {
@@ -36,7 +37,7 @@ fn put(starter: &str, place: &str) -> Option<String> {
 }
 
 #[must_use]
-pub fn files(language: Language) -> Vec<File> {
+pub fn files(language: Language, solution: bool) -> Vec<File> {
     let file = |name, starter: &str, place: &str| File {
         name,
         text: put(starter, place).unwrap_or_else(|| starter.to_owned()),
@@ -45,13 +46,21 @@ pub fn files(language: Language) -> Vec<File> {
         Language::Rust => vec![file(
             "starter.rs",
             include_str!("../../adapters/starter.rs"),
-            include_str!("../../adapters/course/place.rs"),
+            if solution {
+                include_str!("../../adapters/course/solution.rs")
+            } else {
+                include_str!("../../adapters/course/place.rs")
+            },
         )],
         Language::Cpp => vec![
             file(
                 "starter.cpp",
                 include_str!("../../adapters/starter.cpp"),
-                include_str!("../../adapters/course/place.cpp"),
+                if solution {
+                    include_str!("../../adapters/course/solution.cpp")
+                } else {
+                    include_str!("../../adapters/course/place.cpp")
+                },
             ),
             File {
                 name: "rasterproof.h",
@@ -61,9 +70,29 @@ pub fn files(language: Language) -> Vec<File> {
         Language::Python => vec![file(
             "starter.py",
             include_str!("../../adapters/starter.py"),
-            include_str!("../../adapters/course/place.py"),
+            if solution {
+                include_str!("../../adapters/course/solution.py")
+            } else {
+                include_str!("../../adapters/course/place.py")
+            },
         )],
     }
+}
+
+/// The page of the steps, for those who have the program alone: without links, which lead to other pages.
+#[must_use]
+pub fn steps_page() -> String {
+    let page = include_str!("../../docs/steps.md");
+    let mut parts = page.split("](");
+    let mut out = parts.next().unwrap_or("").to_owned();
+    for part in parts {
+        // What was linked stays; its bracket and the address go.
+        if let Some(open) = out.rfind('[') {
+            out.remove(open);
+        }
+        out += part.split_once(')').map_or(part, |(_, rest)| rest);
+    }
+    out
 }
 
 /// What builds the program, if anything does, and what runs it.
@@ -86,11 +115,14 @@ mod tests {
     #[test]
     fn starters_have_a_place() {
         for language in [Language::Rust, Language::Cpp, Language::Python] {
-            let files = files(language);
+            let files = files(language, false);
             let text = &files[0].text;
             assert!(text.contains(PROTOCOL), "{language:?}");
             assert!(!text.contains("As it stands") && text.contains("step 1"), "{language:?}");
             assert!(text.contains("samples") && text.contains("values"), "{language:?}");
         }
+        let page = steps_page();
+        assert!(page.contains("Further reading: chapter 1.") && !page.contains(".md)"), "{page}");
+        assert!(page.contains("(96, 224, 32, 160)[s]"), "{page}");
     }
 }

@@ -4,11 +4,17 @@
 use std::fs;
 use std::process::Command;
 
+use rasterproof_judge::in_process::Inside;
+use rasterproof_registry::engines::find_planted;
+use rasterproof_render::scene::chapters::scene;
 use rasterproof_teaching::course::STEPS;
+use rasterproof_teaching::course::misconceptions;
 use rasterproof_teaching::course::progress::Progress;
+use rasterproof_teaching::course::show;
 use serde_json::Value;
 
 use crate::program::{Folder, PROGRAM, Run, Words};
+use crate::snapshots::check_picture;
 
 /// Runs a command of the course; its lines fit a terminal.
 fn course(folder: &Folder, words: impl Words, status: u8) -> Run {
@@ -165,7 +171,7 @@ fn course_starters_start() {
     }
 }
 
-/// A student's own answer to the steps 1, 8 to 10, in Python, is right.
+/// The solution in Python passes every step, and parts of it that are changed do not.
 #[test]
 #[ignore = "takes seconds; .ci/run runs it"]
 fn course_passes_a_students_code() {
@@ -173,23 +179,11 @@ fn course_passes_a_students_code() {
         return;
     }
     let folder = Folder::new("course-student");
-    course(&folder, "start --language python", 0);
+    course(&folder, "start --language python --solution", 0);
     let path = folder.join("starter.py");
-    let code = include_str!("../data/course/student.py").to_owned() + "\n\n";
-    let starter = fs::read_to_string(&path).unwrap();
-    fs::write(
-        &path,
-        starter.replace("# ---- the line protocol", &(code + "# ---- the line protocol")),
-    )
-    .unwrap();
     for step in STEPS.iter() {
-        // Ties of lines that go the other way round, and lines as long as the world, it has not got.
-        let knows = step.name != "bresenham";
-        let out = course(&folder, format!("check {} --cases 40", step.name), u8::from(!knows)).out;
-        assert!(knows || out.contains("hint 1"), "{out}");
+        course(&folder, format!("check {} --cases 40", step.name), 0);
     }
-    let out = course(&folder, "grade --cases 20 -- python3 -B starter.py", 1).out;
-    assert!(out.ends_with("11 of 12 points\n"), "{out}");
     // What is drawn last, what is farthest, the middle instead of the pixel; another plane, a corner
     // lost, w forgotten.
     let right = fs::read_to_string(&path).unwrap();
@@ -261,6 +255,250 @@ const RUST_BODIES: [(&str, &str); 2] = [
 }",
     ),
 ];
+
+/// The solutions in all languages, as they are written by `course start`, pass all steps.
+#[test]
+#[ignore = "takes seconds; .ci/run runs it"]
+fn course_solutions_pass() {
+    let folder = Folder::new("course-solutions");
+    let mut solved = 0;
+    for (language, tool) in [("python", "python3"), ("rust", "rustc"), ("cpp", "c++")] {
+        if has(tool) {
+            let name = format!("all/{language}");
+            course(&folder, ["start", "--solution", "--language", language, &name], 0);
+            solved += 1;
+        }
+    }
+    let out = course(&folder, "grade --folder all --cases 16", 0).out;
+    assert_eq!(out.lines().filter(|line| line.ends_with("  12")).count(), solved, "{out}");
+}
+
+/// What the solution in Rust takes from the companion program is there, word for word.
+#[test]
+fn course_solution_is_the_companions() {
+    let own = ["03-triangles", "04-values", "06-perspective"].map(|name| {
+        let path = format!("{}/docs/own/{name}.rs", env!("CARGO_MANIFEST_DIR"));
+        fs::read_to_string(path).unwrap().replace("pub fn", "fn")
+    });
+    let own = own.concat();
+    let solution = include_str!("../../adapters/course/solution.rs");
+    let taken = solution.split("// ----").nth(1).unwrap();
+    let taken = taken.trim_start_matches(|c| c != '\n').trim();
+    let items: Vec<_> = taken.split("\n\n").collect();
+    assert_eq!(items.len(), 8, "{items:?}");
+    for item in items {
+        assert!(own.contains(item), "docs/own lacks\n{item}");
+    }
+}
+
+/// What is drawn, by the program and by this project: alike where the program is right.
+#[test]
+fn course_shows_what_is_drawn() {
+    let folder = Folder::new("course-shows");
+    let show = |step: &str, engine: &str, status| {
+        let words =
+            ["show", step, "--out", "shown", "--size", "96x72", "--", PROGRAM, "engine", engine];
+        course(&folder, words, status)
+    };
+    for step in ["fans", "perspective", "depth", "clipping", "samples", "cube"] {
+        show(step, "scanline", 0).prints(": 0 of ").prints(&format!("course-{step}.png"));
+        assert!(folder.join(format!("shown/course-{step}.html")).exists());
+    }
+    show("bresenham", "dda", 0).prints(": 0 of ");
+    for (step, planted) in [
+        ("pixel", "line-misses-end"),
+        ("bresenham", "line-directed-ties"),
+        ("top-left", "inclusive-edges"),
+        ("fans", "exclusive-edges"),
+        ("cube", "affine-attributes"),
+        ("depth", "perspective-depth"),
+    ] {
+        show(step, planted, 1);
+    }
+    show("values", "dda", 1).prints("1 requests refused or not answered");
+    show("thirteen", "scanline", 2).says("cube and all");
+    let model = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    fs::write(folder.join("model.obj"), model).unwrap();
+    let words =
+        ["show", "--model", "model.obj", "--out", "shown", "--", PROGRAM, "engine", "scanline"];
+    course(&folder, words, 0).prints("the model: ");
+}
+
+/// The picture of the page: the cube of a program that does not divide by w.
+#[test]
+fn course_cube_of_the_page() {
+    let mut program = Inside::new(&find_planted("affine-attributes").unwrap());
+    let scene = scene("cube", 4.0 / 3.0, 0.1).unwrap();
+    let shown =
+        show::scene(&mut program, "the cube, by the values of a program", &scene, (240, 180));
+    let shown = shown.unwrap();
+    assert!(shown.differing > 1000 && shown.unanswered == 0, "{}", shown.differing);
+    check_picture("course-cube", &shown.sheet());
+}
+
+/// Parts of the solution in Python and what a wrong program has instead, with the step that fails and what is named.
+const MISCONCEIVED: &[(&str, &str, &str, &str)] = &[
+    ("top-left", "e[i] > 0 or e[i] == 0 and owns(*sides[i])", "e[i] > 0", "strict"),
+    ("top-left", "e[i] > 0 or e[i] == 0 and owns(*sides[i])", "e[i] >= 0", "inclusive"),
+    ("fans", "e[i] > 0 or e[i] == 0 and owns(*sides[i])", "e[i] >= 0", "inclusive"),
+    ("scanline", "(256 * x + 128, 256 * y + 128)", "(256 * x, 256 * y)", "corner-samples"),
+    (
+        "scanline",
+        "round(p[0] * 256), round(p[1] * 256)",
+        "int(p[0]) * 256, int(p[1]) * 256",
+        "truncated-corners",
+    ),
+    (
+        "scanline",
+        "round(p[0] * 256), round(p[1] * 256)",
+        "math.floor(p[0] + 0.5) * 256, math.floor(p[1] + 0.5) * 256",
+        "rounded-corners",
+    ),
+    (
+        "scanline",
+        "round(p[0] * 256), round(p[1] * 256)",
+        "round(p[0] * 256) - 128, round(p[1] * 256) - 128",
+        "half-off",
+    ),
+    (
+        "scanline",
+        "    if not all(e[i] > 0 or e[i] == 0 and owns(*sides[i]) for i in range(3)):\n        return None\n    l = [e[i] / abs(area) for",
+        "    l = [min(max(e[i] / abs(area), 0), 1) for",
+        "clamped-weights",
+    ),
+    ("edge-function", "        b, c = c, b\n", "        return None\n", "winding"),
+    ("top-left", "b[1] == a[1] and b[0] > a[0]", "b[1] == a[1] and b[0] < a[0]", "y-up"),
+    ("top-left", "b[1] < a[1] or", "b[1] > a[1] or", "right-edges"),
+    ("dda", "for k in reversed(steps) if turned else steps:", "for k in steps:", "reversed-line"),
+    (
+        "dda",
+        "for k in reversed(steps) if turned else steps:",
+        "for k in (steps[::-1] if turned else steps)[:-1]:",
+        "lost-end-pixel",
+    ),
+    ("dda", "(2 * k * dv + du) // (2 * du)", "k * dv // du", "truncated-line"),
+    ("dda", "(v, u) if steep else (u, v)", "(u, v) if steep else (v, u)", "transposed"),
+    ("dda", "steep = abs(y1 - y0) > abs(x1 - x0)", "steep = x0 == x1 and y0 != y1", "one-axis"),
+    (
+        "bresenham",
+        "(2 * k * dv + du) // (2 * du)",
+        "(2 * k * dv + du - 1) // (2 * du)",
+        "line-ties",
+    ),
+    ("values", "return l if area > 0 else [l[0], l[2], l[1]]", "return l", "swapped-weights"),
+    (
+        "values",
+        "        z = sum(l[i] * corners[i][2] for i in range(3))\n        q",
+        "        c = [grid(p) for p in corners]\n        s = edge(*c)\n        l = [edge(c[i - 2], c[i - 1], (256 * x, 256 * y)) / s for i in range(3)]\n        z = sum(l[i] * corners[i][2] for i in range(3))\n        q",
+        "corner-values",
+    ),
+    (
+        "values",
+        "        z = sum(l[i] * corners[i][2] for i in range(3))\n        q",
+        "        m = [[-(corners[i - 1][1] - corners[i - 2][1]), corners[i - 1][0] - corners[i - 2][0], corners[i - 2][0] * corners[i - 1][1] - corners[i - 1][0] * corners[i - 2][1]] for i in range(3)]\n        s = sum(row[2] for row in m)\n        l = [(m[0][k] * (x + 0.5) + m[1][k] * (y + 0.5) + m[2][k]) / s for k in range(3)]\n        z = sum(l[i] * corners[i][2] for i in range(3))\n        q",
+        "transposed-matrix",
+    ),
+    ("perspective", "[l[i] / corners[i][3] for", "[l[i] for", "no-perspective"),
+    ("perspective", "[l[i] / corners[i][3] for", "[l[i] * corners[i][3] for", "times-w"),
+    (
+        "perspective",
+        "for i in range(3)) / sum(q) for n",
+        "for i in range(3)) for n",
+        "one-division",
+    ),
+    (
+        "depth",
+        "            z = sum(l[i] * corners[i][2] for i in range(3))\n            if",
+        "            z = sum(l[i] * corners[i][2] for i in range(3)) * abs(edge(*map(grid, corners)))\n            if",
+        "depth-not-divided",
+    ),
+    (
+        "depth",
+        "        z = sum(l[i] * corners[i][2] for i in range(3))\n        q",
+        "        z = sum(l[i] * corners[i][2] / corners[i][3] for i in range(3))\n        q",
+        "depth-divided-twice",
+    ),
+    (
+        "depth",
+        "        q = [l[i] / corners[i][3] for i in range(3)]\n",
+        "        q = [l[i] / corners[i][3] for i in range(3)]\n        z = sum(q[i] * corners[i][2] for i in range(3)) / sum(q)\n",
+        "depth-in-perspective",
+    ),
+    ("depth", "if z < nearest.get((x, y), (math.inf, 0))[0]", "if True", "last-wins"),
+    (
+        "depth",
+        "if z < nearest.get((x, y), (math.inf, 0))[0]",
+        "if z > nearest.get((x, y), (-math.inf, 0))[0]",
+        "farthest-wins",
+    ),
+    (
+        "depth",
+        "            z = sum(l[i] * corners[i][2] for i in range(3))\n            if",
+        "            z = sum(c[2] for c in corners)\n            if",
+        "mean-depth",
+    ),
+    ("clipping", "    polygon = []\n", "    return corners\n    polygon = []\n", "unclipped"),
+    (
+        "clipping",
+        "    polygon = []\n",
+        "    return corners if all(c[2] + c[3] >= 0 for c in corners) else []\n    polygon = []\n",
+        "dropped",
+    ),
+    ("clipping", "da, db = a[2] + a[3], b[2] + b[3]", "da, db = a[2], b[2]", "plane-z-zero"),
+    (
+        "samples",
+        "(96, 224, 32, 160), (32, 96, 160, 224)",
+        "(128,) * 4, (128,) * 4",
+        "pixel-samples",
+    ),
+    (
+        "samples",
+        "(96, 224, 32, 160), (32, 96, 160, 224)",
+        "(64, 192, 64, 192), (64, 64, 192, 192)",
+        "square-samples",
+    ),
+    ("samples", "1 << s for s", "8 >> s for s", "reversed-bits"),
+];
+
+/// Each misconception is named for a program that has it, before any hint, and with a question.
+#[test]
+#[ignore = "takes seconds; .ci/run runs it"]
+fn course_names_misconceptions() {
+    if !has("python3") {
+        return;
+    }
+    let folder = Folder::new("course-misconceptions");
+    course(&folder, "start --language python --solution", 0);
+    let path = folder.join("starter.py");
+    let right = fs::read_to_string(&path).unwrap();
+    let mut wrong = Vec::new();
+    for (step, from, to, name) in MISCONCEIVED {
+        assert!(right.contains(from), "{name}: {from}");
+        fs::write(&path, right.replace(from, to)).unwrap();
+        let out = course(&folder, ["check", step, "--cases", "24"], 1).out;
+        let out = out.replace("\n  ", " ");
+        let is = misconceptions::all().find(|is| is.name == *name).unwrap();
+        let said = out.find(&format!("it looks as if {}", is.says));
+        let asked = out.find(&format!("think about: {}", is.ask));
+        if !(said < asked && said.is_some() && asked < out.find("hint 1")) {
+            wrong.push(format!("{name} at {step}:\n{out}"));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    let all = misconceptions::all().map(|is| is.name);
+    let unseen: Vec<_> = all.filter(|name| MISCONCEIVED.iter().all(|m| m.3 != *name)).collect();
+    assert!(unseen.is_empty(), "{unseen:?}");
+}
+
+/// The page lists what is said.
+#[test]
+fn course_page_lists_misconceptions() {
+    let page = crate::pages::page("docs", "course");
+    for is in misconceptions::all() {
+        let row = format!("| `{}` | {} |", is.name, is.says);
+        assert!(page.contains(&row), "docs/course.md lacks\n{row}");
+    }
+}
 
 const CPP_BODIES: [(&str, &str); 2] = [
     (

@@ -51,6 +51,7 @@ mod robustness;
 mod scenes;
 mod snapshots;
 mod specimens;
+mod steps;
 mod study;
 mod surface;
 mod terms;

@@ -169,3 +169,24 @@ fn quiz_speaks_chinese_and_lists() {
         );
     }
 }
+
+/// The same seed is the same paper, whose key has an answer for each question and none of its choices.
+#[test]
+fn quiz_prints_a_paper_and_its_key() {
+    let paper = check("--paper 12 --seed 7", "", 0).out;
+    let key = check("--paper 12 --seed 7 --key", "", 0).out;
+    assert_eq!(paper, check("--paper 12 --seed 7", "", 0).out);
+    assert_ne!(paper, check("--paper 12 --seed 8", "", 0).out);
+    for number in 1..=12 {
+        for text in [&paper, &key] {
+            assert_eq!(text.matches(&format!("\n{number}. ")).count(), 1, "{text}");
+        }
+    }
+    assert!(
+        !paper.contains("\n13. ") && key.contains(" [ch") && !key.contains("\n   a) "),
+        "{key}"
+    );
+    check("1 --paper 900", "", 2);
+    let chinese = check("--paper 12 --seed 7 --language zh", "", 0).out;
+    assert!(chinese.starts_with("试卷 7"), "{chinese}");
+}

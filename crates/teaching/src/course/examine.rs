@@ -3,6 +3,7 @@
 use std::cell::RefCell;
 use std::time::{Duration, Instant};
 
+use super::misconceptions::{self, Misconception};
 use super::{Exercise, Step};
 use rasterproof_judge::ask::{Answer, Ask, Misbehaviour, Question, show};
 use rasterproof_judge::check::{Check, Truth, expected_answer};
@@ -35,6 +36,8 @@ pub struct Outcome {
     /// Whether the time was up before everything was asked.
     pub out_of_time: bool,
     pub failure: Option<Failure>,
+    /// What explains the answers of the first exercise that failed, if anything that is known does.
+    pub misconception: Option<&'static Misconception>,
 }
 
 impl Outcome {
@@ -71,6 +74,8 @@ pub fn examine(program: &mut dyn Ask, step: &Step, amount: &Amount) -> Outcome {
     let mut failing = None;
     let mut deaths = run::MOST_DEATHS;
     for exercise in &step.exercises {
+        let mut asked = Vec::new();
+        let had_failed = failing.is_some();
         for family in &exercise.families {
             if Instant::now() >= amount.end {
                 outcome.out_of_time = true;
@@ -78,13 +83,27 @@ pub fn examine(program: &mut dyn Ask, step: &Step, amount: &Amount) -> Outcome {
             if outcome.out_of_time || deaths == 0 {
                 break;
             }
-            let first = ask_family(program, exercise, family, amount, &mut deaths, &mut outcome);
+            let first = ask_family(
+                program,
+                exercise,
+                family,
+                amount,
+                &mut deaths,
+                &mut outcome,
+                &mut asked,
+            );
             failing = failing.or(first);
+        }
+        if !had_failed && failing.is_some() {
+            outcome.misconception = misconceptions::find(&asked, &truth(exercise));
         }
     }
     outcome.failure = failing.map(|failing| shrunk(program, failing, amount.patience));
     outcome
 }
+
+/// Answers of each family that a misconception has to explain.
+const ASKED_OF_A_FAMILY: usize = 200;
 
 /// Asks the cases of a family; the first that fails.
 fn ask_family<'a>(
@@ -94,6 +113,7 @@ fn ask_family<'a>(
     amount: &Amount,
     deaths: &mut u64,
     outcome: &mut Outcome,
+    asked: &mut Vec<(Question, Answer)>,
 ) -> Option<Failing<'a>> {
     let check = exercise.check;
     let truth = truth(exercise);
@@ -113,6 +133,9 @@ fn ask_family<'a>(
     let died = answers.iter().filter(|a| a.is_death()).count() as u64;
     *deaths = deaths.saturating_sub(died);
     let mut first = None;
+    for (question, answer) in questions.iter().zip(&answers).take(ASKED_OF_A_FAMILY) {
+        asked.push((question.clone(), answer.clone()));
+    }
     for (index, case, range) in cases {
         // Where the program was given up, the rest of the answers is not there.
         let Some(here) = answers.get(range.start..range.end.min(answers.len())) else { break };

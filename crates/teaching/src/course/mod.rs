@@ -1,12 +1,14 @@
 //! The course: twelve steps from a pixel to four samples, each judged by cases of the families.
 //!
 //! [`STEPS`] has the cases of each step, the page that explains it, and three hints. [`examine`] sends the cases to a
-//! program, [`sandbox`] limits how that program runs, and [`verdict`] says how it did. [`progress`] is the file beside the
+//! program, [`misconceptions`] says what its answers have in common, [`sandbox`] limits how that program runs, and [`verdict`] says how it did. [`progress`] is the file beside the
 //! student's code.
 
 pub mod examine;
+pub mod misconceptions;
 pub mod progress;
 pub mod sandbox;
+pub mod show;
 pub mod verdict;
 
 use std::sync::LazyLock;

@@ -1,0 +1,106 @@
+# The course, solved: written from the pages of the steps alone (docs/steps.md).
+
+
+def edge(a, b, p):
+    return (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])
+
+
+def owns(a, b):
+    """Whether a sample on the edge from a to b is drawn: on top and left edges (step 6)."""
+    return b[1] < a[1] or b[1] == a[1] and b[0] > a[0]
+
+
+def grid(p):
+    """A corner in whole subpixels of 1/256 (step 5)."""
+    return round(p[0] * 256), round(p[1] * 256)
+
+
+def weights(corners, p):
+    """The weights of three corners at a point, all in subpixels; nothing where the point is not drawn."""
+    a, b, c = corners
+    area = edge(a, b, c)
+    if area == 0:
+        return None
+    if area < 0:
+        b, c = c, b
+    e = edge(b, c, p), edge(c, a, p), edge(a, b, p)
+    sides = (b, c), (c, a), (a, b)
+    if not all(e[i] > 0 or e[i] == 0 and owns(*sides[i]) for i in range(3)):
+        return None
+    l = [e[i] / abs(area) for i in range(3)]
+    return l if area > 0 else [l[0], l[2], l[1]]
+
+
+def box(corners, width, height):
+    xs, ys = [c[0] for c in corners], [c[1] for c in corners]
+    for y in range(max(0, min(ys) // 256), min(height, -(-max(ys) // 256))):
+        for x in range(max(0, min(xs) // 256), min(width, -(-max(xs) // 256))):
+            yield x, y
+
+
+def covered(corners, width, height):
+    """The pixels of a triangle with the weights of its corners."""
+    corners = [grid(c) for c in corners]
+    for x, y in box(corners, width, height):
+        l = weights(corners, (256 * x + 128, 256 * y + 128))
+        if l:
+            yield x, y, l
+
+
+def line(x0, y0, x1, y1, width, height, set_pixel):
+    steep = abs(y1 - y0) > abs(x1 - x0)
+    start, end = ((y0, x0), (y1, x1)) if steep else ((x0, y0), (x1, y1))
+    turned = end[0] < start[0]
+    if turned:
+        start, end = end, start
+    du, dv = end[0] - start[0], abs(end[1] - start[1])
+    sign = 1 if end[1] >= start[1] else -1
+    steps = range(max(0, -start[0]), min(du, (height if steep else width) - 1 - start[0]) + 1)
+    for k in reversed(steps) if turned else steps:
+        u = start[0] + k
+        v = start[1] + sign * ((2 * k * dv + du) // (2 * du) if du else 0)
+        set_pixel(*((v, u) if steep else (u, v)))
+
+
+def triangle(x0, y0, x1, y1, x2, y2, width, height, set_pixel):
+    for x, y, _ in covered([(x0, y0), (x1, y1), (x2, y2)], width, height):
+        set_pixel(x, y)
+
+
+def values(corners, width, height, set_pixel):
+    for x, y, l in covered(corners, width, height):
+        z = sum(l[i] * corners[i][2] for i in range(3))
+        q = [l[i] / corners[i][3] for i in range(3)]
+        a, b = (sum(q[i] * corners[i][n] for i in range(3)) / sum(q) for n in (4, 5))
+        set_pixel(x, y, z, a, b)
+
+
+def samples(x0, y0, x1, y1, x2, y2, width, height, set_pixel):
+    corners = [grid(p) for p in ((x0, y0), (x1, y1), (x2, y2))]
+    for x, y in box(corners, width, height):
+        at = zip((96, 224, 32, 160), (32, 96, 160, 224))
+        mask = sum(1 << s for s, (dx, dy) in enumerate(at) if weights(corners, (256 * x + dx, 256 * y + dy)))
+        set_pixel(x, y, mask)
+
+
+def depth(triangles, width, height, set_pixel):
+    nearest = {}
+    for t, corners in enumerate(triangles):
+        for x, y, l in covered(corners, width, height):
+            z = sum(l[i] * corners[i][2] for i in range(3))
+            if z < nearest.get((x, y), (math.inf, 0))[0]:
+                nearest[x, y] = (z, t)
+    for (x, y), (_, t) in nearest.items():
+        set_pixel(x, y, t)
+
+
+def clip(corners):
+    polygon = []
+    for a, b in zip(corners, corners[1:] + corners[:1]):
+        da, db = a[2] + a[3], b[2] + b[3]
+        if da >= 0:
+            polygon.append(a)
+        if (da >= 0) != (db >= 0):
+            polygon.append([p + (q - p) * da / (da - db) for p, q in zip(a, b)])
+    return polygon
+
