@@ -139,6 +139,14 @@ const READERS: [Reader; 17] = [
         beside: &[],
         or: &[],
     },
+    Reader {
+        name: "your-gpu --module",
+        words: "your-gpu --module {}",
+        file: "m.wasm",
+        truncated: b"\0asm\x01\0\0\0\x01\x07",
+        beside: &[],
+        or: &[],
+    },
     // A baseline that is not there knows no failure.
     Reader {
         name: "judge --baseline",
