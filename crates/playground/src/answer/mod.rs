@@ -57,7 +57,7 @@ enum Question {
         seed: u64,
         cases: u64,
     },
-    /// What a browser's GPU is asked, in order.
+    /// The batches that a browser's GPU is to draw, in order.
     GpuPlan(crate::gpu::Plan),
     /// The vertices of one picture.
     GpuBatch(Box<crate::gpu::Batch>),

@@ -59,7 +59,7 @@ const ROUNDINGS: [(&str, fn(i32, i32) -> i32); 4] = [
     ("half down", |v, step| nearest(v, step, |_| false)),
     ("down", |v, step| v.div_euclid(step) * step),
 ];
-/// The steps that are told apart have 2 to 8 bits below the pixel.
+/// Hypotheses have 2 to 8 bits below the pixel.
 const BITS: std::ops::RangeInclusive<u32> = 2..=8;
 
 fn nearest(v: i32, step: i32, up_of_half: fn(i32) -> bool) -> i32 {
@@ -93,7 +93,7 @@ impl Judge {
         for (index, subject) in list.iter().enumerate() {
             let cell = Cell { layout, origin: layout.origin(index), bytes: &bytes, size };
             let judged = judged(check, device, subject, &cell);
-            judged.add_to(&mut tally, subject, layout);
+            judged.add_to(&mut tally, subject);
             let word = judged.word();
             for (example, wanted) in examples.iter_mut().zip([Word::Broken, Word::Free]) {
                 if word == wanted {
@@ -198,7 +198,7 @@ fn judged(check: Check, device: Device, subject: &Subject, cell: &Cell) -> Judge
     judged
 }
 
-/// Which hypotheses about positions explain the pixels of a subject, whoever owns samples on edges.
+/// Which hypotheses about positions explain the pixels of a subject, whatever the rule for samples on edges.
 fn explaining(subject: &Subject, hits: &[u8], side: i32) -> Vec<bool> {
     let corners = subject.corners();
     let total: u32 = hits.iter().map(|hits| u32::from(*hits)).sum();
@@ -280,8 +280,8 @@ fn values(device: Device, subject: &Subject, cell: &Cell) -> Judged {
         for (i, exact) in [depth, a, b].iter().enumerate() {
             let (error, bound) = (exact.distance(drawn[i]), bounds[i]);
             judged.pixels += 1;
-            // Not a maximum of floats: what is drawn may be no number.
-            if !(error <= bound) {
+            // The distance from what is no number is infinite.
+            if error > bound {
                 let word = if error <= bound + spread[i] { Word::Free } else { Word::Broken };
                 let note = format!("{}: exact {}, drawn {}", names[i], exact.to_f64(), drawn[i]);
                 judged.marks.push(Mark { plane: 0, x, y, word, note });
@@ -327,8 +327,7 @@ impl Judged {
         self.marks.iter().map(|mark| mark.word).max().unwrap_or(Word::Promised)
     }
 
-    fn add_to(&self, tally: &mut Tally, Subject(shapes): &Subject, layout: Layout) {
-        debug_assert!(layout.cell > 0);
+    fn add_to(&self, tally: &mut Tally, Subject(shapes): &Subject) {
         tally.subjects += 1;
         tally.shapes += shapes.len() as u64;
         tally.pixels += self.pixels;

@@ -1,4 +1,4 @@
-//! The page "Your GPU": what a browser's graphics interface is asked to draw, and how its pixels stand to
+//! The page "Your GPU": cases for a browser's graphics interface to draw, and how its pixels stand to
 //! what the interface promises.
 //!
 //! The page asks for a batch of subjects, draws each in a cell of one picture, reads the picture back and
@@ -54,7 +54,7 @@ pub(crate) enum Interface {
     Webgpu,
 }
 
-/// What is known of the device when something is asked.
+/// What the page knows of the device when it sends a question.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Device {
