@@ -8,7 +8,7 @@ const RULE_ZH = { 'top-right': '右上规则', 'bottom-left': '左下规则', 'b
 const WORDS = {
   en: {
     title: 'your GPU', other: '中文', playground: 'playground',
-    about: 'This page draws about 200,000 triangles with the graphics interfaces of this browser, reads every pixel back, and compares it with an exact computation. It says of each check whether the browser does what the specification of the interface promises.',
+    about: 'This page draws about 280,000 triangles with the graphics interfaces of this browser, reads every pixel back, and compares it with an exact computation. It says of each check whether the browser does what the specification of the interface promises.',
     private: 'Nothing is loaded and nothing is sent: all of it happens in this file.',
     judge: 'Judge my GPU', again: 'Judge again', stop: 'Stop', stopped: 'Stopped before all checks were made.',
     starting: 'Starting …', progress: (api, check, at, of) => `${api}: ${check} (batch ${at} of ${of})`, shrinking: (api, check) => `${api}: ${check}: looking for the smallest case …`,
@@ -32,7 +32,7 @@ const WORDS = {
       lattice: (t, f) => (f.explained === t.subjects
         ? `All ${count(t.subjects, 'triangle')} are drawn as if corners were rounded to 1/${2 ** f.bits} px, ${f.rounding}.`
         : `No lattice explains all: corners rounded to 1/${2 ** f.bits} px, ${f.rounding}, explain ${f.explained.toLocaleString('en')} of ${count(t.subjects, 'triangle')}.`),
-      coverage: (t, f) => `${count(t.shapes, 'triangle')} in ${count(t.subjects, 'case')}, ${count(t.pixels, 'pixel')}: ${t.free + t.broken === 0 ? 'every one as by the top-left rule.' : `${count(t.broken, 'case')} wrong, ${t.free.toLocaleString('en')} different at samples on edges${f.rule && t.free ? `, all explained by the ${f.rule} rule` : ''}.`}`,
+      coverage: (t, f) => `${count(t.shapes, 'triangle')} in ${count(t.subjects, 'case')}, ${count(t.pixels, 'pixel')}: ${t.free + t.broken === 0 ? 'every one as by the top-left rule.' : `${count(t.broken, 'case')} wrong, ${t.free.toLocaleString('en')} different at samples on edges${f.rule && t.free && !t.broken ? `, all explained by the ${f.rule} rule` : ''}.`}`,
       tiling: (t) => `${count(t.shapes, 'triangle')} with corners anywhere tile ${count(t.subjects, 'cell')}: ${t.free + t.broken === 0 ? 'every pixel is hit exactly once.' : `${count(t.free + t.broken, 'cell')} with a pixel that is not hit exactly once.`}`,
       order: (t) => `${count(t.shapes, 'triangle')} with their corners in six orders: ${t.free + t.broken === 0 ? 'the same pixels each time, as by the top-left rule.' : `${(t.free + t.broken).toLocaleString('en')} differ, ${t.broken.toLocaleString('en')} of them beyond samples on edges.`}`,
       facing: (t) => `${count(t.shapes, 'triangle')} of both windings with back faces culled: ${t.broken} are drawn or left out wrongly${t.free ? `, ${t.free} differ at samples on edges` : ''}.`,
@@ -50,7 +50,7 @@ const WORDS = {
   },
   zh: {
     title: '你的 GPU', other: 'English', playground: '试验场',
-    about: '本页用这个浏览器的图形接口画大约二十万个三角形，读回每一个像素，与精确计算的结果比较，并逐项说明浏览器是否做到了接口规范所承诺的。',
+    about: '本页用这个浏览器的图形接口画大约二十八万个三角形，读回每一个像素，与精确计算的结果比较，并逐项说明浏览器是否做到了接口规范所承诺的。',
     private: '不加载任何东西，也不发送任何东西：一切都在这一个文件里进行。',
     judge: '评判我的 GPU', again: '再评判一次', stop: '停', stopped: '在做完所有检查之前停了。',
     starting: '正在启动……', progress: (api, check, at, of) => `${api}：${check}（第 ${at} 批，共 ${of} 批）`, shrinking: (api, check) => `${api}：${check}：正在寻找最小的用例……`,
@@ -74,7 +74,7 @@ const WORDS = {
       lattice: (t, f) => (f.explained === t.subjects
         ? `全部 ${zhCount(t.subjects)} 个三角形都如同顶点舍入到 1/${2 ** f.bits} 像素（${ROUNDING_ZH[f.rounding]}）。`
         : `没有一种网格能解释全部：舍入到 1/${2 ** f.bits} 像素（${ROUNDING_ZH[f.rounding]}）解释了 ${zhCount(t.subjects)} 个中的 ${zhCount(f.explained)} 个。`),
-      coverage: (t, f) => `${zhCount(t.subjects)} 个用例，${zhCount(t.shapes)} 个三角形，${zhCount(t.pixels)} 个像素：${t.free + t.broken === 0 ? '全部与左上规则一致。' : `${zhCount(t.broken)} 个用例错误，${zhCount(t.free)} 个在边上的采样点处不同${f.rule && t.free ? `，都可用${RULE_ZH[f.rule]}解释` : ''}。`}`,
+      coverage: (t, f) => `${zhCount(t.subjects)} 个用例，${zhCount(t.shapes)} 个三角形，${zhCount(t.pixels)} 个像素：${t.free + t.broken === 0 ? '全部与左上规则一致。' : `${zhCount(t.broken)} 个用例错误，${zhCount(t.free)} 个在边上的采样点处不同${f.rule && t.free && !t.broken ? `，都可用${RULE_ZH[f.rule]}解释` : ''}。`}`,
       tiling: (t) => `${zhCount(t.shapes)} 个顶点在任意位置的三角形铺满 ${zhCount(t.subjects)} 个格子：${t.free + t.broken === 0 ? '每个像素恰好命中一次。' : `${zhCount(t.free + t.broken)} 个格子里有像素不是恰好命中一次。`}`,
       order: (t) => `${zhCount(t.shapes)} 个三角形，顶点按六种顺序：${t.free + t.broken === 0 ? '每次的像素都相同，与左上规则一致。' : `${zhCount(t.free + t.broken)} 个不同，其中 ${zhCount(t.broken)} 个不限于边上的采样点。`}`,
       facing: (t) => `${zhCount(t.shapes)} 个两种绕向的三角形，剔除背面：${t.broken} 个画错或漏画${t.free ? `，${t.free} 个在边上的采样点处不同` : ''}。`,

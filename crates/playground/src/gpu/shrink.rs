@@ -1,7 +1,7 @@
 //! The subjects that are a step smaller than one that fails. The page draws them all in one picture, and goes
 //! on from the first that still fails.
 
-use super::subjects::triangle;
+use super::subjects::{from_whole, triangle, whole};
 use super::{Check, Device, Subject};
 use rasterproof_core::grid::{PixelRect, SUBPIXELS};
 use rasterproof_core::triangle::Corners;
@@ -13,6 +13,7 @@ use rasterproof_verify::cases::{Case, Shape};
 /// than the positions of their triangles.
 pub(super) fn smaller(check: Check, device: Device, subject: &Subject, cell: i32) -> Vec<Subject> {
     let step = match check {
+        Check::NearPlane => return smaller_whole(subject),
         Check::Lattice => 1,
         Check::Coverage | Check::Reach | Check::Order | Check::Facing | Check::Samples => {
             device.step()
@@ -37,5 +38,22 @@ pub(super) fn smaller(check: Check, device: Device, subject: &Subject, cell: i32
         .map(corners)
         .filter(fits)
         .map(|all| Subject(all.into_iter().map(triangle).collect()))
+        .collect()
+}
+
+/// Of a triangle in clip space: a coordinate nearer to 0, of which few bits are kept.
+fn smaller_whole(subject: &Subject) -> Vec<Subject> {
+    let Some(corners) = whole(subject) else { return Vec::new() };
+    let coordinates = (0..3).flat_map(|corner| (0..4).map(move |axis| (corner, axis)));
+    coordinates
+        .flat_map(|(corner, axis)| {
+            let v: i64 = corners[corner][axis];
+            let simpler = [0, v / 2, v / 64 * 64, v / 8 * 8, v - v.signum()];
+            simpler.into_iter().filter(move |smaller| *smaller != v).map(move |smaller| {
+                let mut corners = corners;
+                corners[corner][axis] = smaller;
+                Subject(vec![corners.map(from_whole).to_vec()])
+            })
+        })
         .collect()
 }

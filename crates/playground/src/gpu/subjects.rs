@@ -313,14 +313,14 @@ fn valued(triangle: &Triangle, step: i32) -> Vec<Vertex> {
 
 /// A triangle that the near plane may cut.
 fn clip_space(rng: &mut Rng, index: u64) -> Vec<Vertex> {
+    (0..3).map(|_| from_whole(clipped::corner(rng, index % 2 == 0))).collect()
+}
+
+/// A vertex at whole numbers in clip space.
+pub(super) fn from_whole(corner: clipped::Whole) -> Vertex {
     let half = f64::from(clipped::CELL_PX) / 2.0;
-    let unit = f64::from(clipped::UNIT);
-    (0..3)
-        .map(|_| {
-            let [x, y, z, w] = clipped::corner(rng, index % 2 == 0).map(|v| v as f64 / unit);
-            [(x + w) * half, (y + w) * half, z / 8.0, w, 1.0, 0.0]
-        })
-        .collect()
+    let [x, y, z, w] = corner.map(|v| v as f64 / f64::from(clipped::UNIT));
+    [(x + w) * half, (y + w) * half, z / 8.0, w, 1.0, 0.0]
 }
 
 /// The whole numbers in clip space of such a triangle.
