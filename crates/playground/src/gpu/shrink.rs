@@ -41,7 +41,8 @@ pub(super) fn smaller(check: Check, device: Device, subject: &Subject, cell: i32
         .collect()
 }
 
-/// Of a triangle in clip space: a coordinate nearer to 0, of which few bits are kept.
+/// Of a triangle in clip space: a coordinate nearer to 0, of which few bits are kept. No corner comes to lie in
+/// the near plane, or nearer than w = 1 before the eye: those are dangers of their own.
 fn smaller_whole(subject: &Subject) -> Vec<Subject> {
     let Some(corners) = whole(subject) else { return Vec::new() };
     let coordinates = (0..3).flat_map(|corner| (0..4).map(move |axis| (corner, axis)));
@@ -52,8 +53,10 @@ fn smaller_whole(subject: &Subject) -> Vec<Subject> {
             simpler.into_iter().filter(move |smaller| *smaller != v).map(move |smaller| {
                 let mut corners = corners;
                 corners[corner][axis] = smaller;
-                Subject(vec![corners.map(from_whole).to_vec()])
+                corners
             })
         })
+        .filter(|corners| corners.iter().all(|[.., z, w]| *z != 0 && (*w <= 0 || *w >= 64)))
+        .map(|corners| Subject(vec![corners.map(from_whole).to_vec()]))
         .collect()
 }
