@@ -52,8 +52,11 @@ struct Mark {
     note: String,
 }
 
-/// Ways to round a position, given in subpixels, to a step.
-const ROUNDINGS: [(&str, fn(i32, i32) -> i32); 4] = [
+/// A way to round a position, given in subpixels, to a step.
+type Rounding = fn(i32, i32) -> i32;
+
+/// The ways that are told apart, by their names.
+const ROUNDINGS: [(&str, Rounding); 4] = [
     ("half to even", |v, step| nearest(v, step, |below| below % 2 != 0)),
     ("half up", |v, step| nearest(v, step, |_| true)),
     ("half down", |v, step| nearest(v, step, |_| false)),
@@ -68,7 +71,7 @@ fn nearest(v: i32, step: i32, up_of_half: fn(i32) -> bool) -> i32 {
 }
 
 /// All hypotheses about positions, the coarsest lattice first.
-fn hypotheses() -> impl Iterator<Item = (u32, &'static str, fn(i32, i32) -> i32)> {
+fn hypotheses() -> impl Iterator<Item = (u32, &'static str, Rounding)> {
     BITS.flat_map(|bits| ROUNDINGS.iter().map(move |(name, round)| (bits, *name, *round)))
 }
 
@@ -202,7 +205,7 @@ fn judged(check: Check, device: Device, subject: &Subject, cell: &Cell) -> Judge
 fn explaining(subject: &Subject, hits: &[u8], side: i32) -> Vec<bool> {
     let corners = subject.corners();
     let total: u32 = hits.iter().map(|hits| u32::from(*hits)).sum();
-    let explains = |(bits, _, round): (u32, &str, fn(i32, i32) -> i32)| {
+    let explains = |(bits, _, round): (u32, &str, Rounding)| {
         let step = SUBPIXELS >> bits;
         corners.iter().all(|c| {
             let snapped = c.map(|p| SubpixelPoint::new(round(p.x, step), round(p.y, step)));

@@ -313,7 +313,7 @@ fn valued(triangle: &Triangle, step: i32) -> Vec<Vertex> {
 
 /// A triangle that the near plane may cut.
 fn clip_space(rng: &mut Rng, index: u64) -> Vec<Vertex> {
-    (0..3).map(|_| from_whole(clipped::corner(rng, index % 2 == 0))).collect()
+    (0..3).map(|_| from_whole(clipped::corner(rng, index.is_multiple_of(2)))).collect()
 }
 
 /// A vertex at whole numbers in clip space.
