@@ -246,14 +246,15 @@ searcher = once(searcher, 'function formatSearchMetric(count, searchterm) {', `f
     function unusedMetric(count, searchterm) {`);
 write(searcherFile, searcher);
 
-// One compiled module for the whole site, in a script, since a page on disk may load nothing else: the playground loads it at
+// One compiled module for the whole site, in a script, since a page on disk may load nothing else: both pages load it at
 // once, live figures when the first is seen.
-const playground = path.join(site, 'try/playground.html');
-if (fs.existsSync(playground)) {
-  const page = read(playground);
+for (const name of ['playground', 'your-gpu']) {
+  const file = path.join(site, `try/${name}.html`);
+  if (!fs.existsSync(file)) continue;
+  const page = read(file);
   const [whole, module] = page.match(/<script type="text\/plain" id="module">([^<]*)<\/script>/);
   write(path.join(site, 'module.js'), `globalThis.rasterproofModule = '${module.trim()}';\n`);
-  write(playground, once(once(page, "script-src 'unsafe-inline'", "script-src 'self' file: 'unsafe-inline'"), whole, `<script type="text/plain" id="module"></script>
+  write(file, once(once(page, "script-src 'unsafe-inline'", "script-src 'self' file: 'unsafe-inline'"), whole, `<script type="text/plain" id="module"></script>
 <script src="../module.js"></script>
 <script>document.getElementById('module').textContent = rasterproofModule;</script>`));
 }

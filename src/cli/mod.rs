@@ -126,6 +126,9 @@ enum Command {
     /// Write the playground: a page to drag corners on, with these engines inside
     #[command(after_help = playground::HELP)]
     Playground(playground::PlaygroundArguments),
+    /// Write the page that judges the graphics card of whoever opens it, in a browser
+    #[command(after_help = playground::HELP)]
+    YourGpu(playground::YourGpuArguments),
     /// Ask the exercises of the pages, and explain each answer with its pixel grid
     Quiz(quiz::QuizArguments),
     /// List families, named cases, engines, planted faults and invariants
@@ -385,6 +388,7 @@ fn dispatch(command: &Command, typed: &Typed, streams: &mut Streams<'_>) -> Stat
         Command::Digest(arguments) => digest::run(arguments, streams),
         Command::Fixtures(arguments) => fixtures::run(arguments, streams),
         Command::Playground(arguments) => playground::run(arguments, streams),
+        Command::YourGpu(arguments) => playground::run_your_gpu(arguments, streams),
         Command::Quiz(arguments) => quiz::run(arguments, streams),
         Command::List => list(streams),
     }

@@ -1,6 +1,6 @@
-//! `rasterproof playground`: writes the page around the compiled engines.
+//! `rasterproof playground` and `rasterproof your-gpu`: write a page around the compiled engines.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
@@ -9,7 +9,7 @@ use rasterproof_host::{input, limits};
 
 use super::files::{Use, distinct};
 use super::{Status, Streams, exit, usage, write_file};
-use rasterproof_playground::page::page;
+use rasterproof_playground::page::{PLAYGROUND, Parts, YOUR_GPU, page};
 
 pub(super) const HELP: &str =
     "The page is one file that loads nothing: open it in a browser. The engines inside
@@ -19,17 +19,46 @@ or Debian's packages; nothing else needs it.";
 /// Options of `playground`.
 #[derive(Args, Debug)]
 pub(super) struct PlaygroundArguments {
-    /// The compiled engines, as crates/playground/build leaves them
-    #[arg(long, value_name = "FILE", default_value = "target/rasterproof/playground.wasm")]
-    module: PathBuf,
+    #[command(flatten)]
+    module: Module,
     /// Where the page goes
     #[arg(short, long, value_name = "FILE", default_value = "target/rasterproof/playground.html")]
     output: PathBuf,
 }
 
+/// Options of `your-gpu`.
+#[derive(Args, Debug)]
+pub(super) struct YourGpuArguments {
+    #[command(flatten)]
+    module: Module,
+    /// Where the page goes
+    #[arg(short, long, value_name = "FILE", default_value = "target/rasterproof/your-gpu.html")]
+    output: PathBuf,
+}
+
+#[derive(Args, Debug)]
+struct Module {
+    /// The compiled engines, as crates/playground/build leaves them
+    #[arg(long, value_name = "FILE", default_value = "target/rasterproof/playground.wasm")]
+    module: PathBuf,
+}
+
 pub(super) fn run(arguments: &PlaygroundArguments, streams: &mut Streams<'_>) -> Status {
-    let module = &arguments.module;
-    distinct(&[("--module", module, Use::Reads), ("--output", &arguments.output, Use::Writes)])?;
+    write("playground", &PLAYGROUND, &arguments.module, &arguments.output, streams)
+}
+
+pub(super) fn run_your_gpu(arguments: &YourGpuArguments, streams: &mut Streams<'_>) -> Status {
+    write("your-gpu", &YOUR_GPU, &arguments.module, &arguments.output, streams)
+}
+
+fn write(
+    name: &str,
+    parts: &Parts,
+    Module { module }: &Module,
+    output: &Path,
+    streams: &mut Streams<'_>,
+) -> Status {
+    distinct(&[("--module", module, Use::Reads), ("--output", output, Use::Writes)])?;
     let refused = |why: String| {
         usage(format!("{why}\nCompile the engines for the page: crates/playground/build"))
     };
@@ -38,10 +67,10 @@ pub(super) fn run(arguments: &PlaygroundArguments, streams: &mut Streams<'_>) ->
         let module = printable_path(module);
         return Err(refused(format!("{module} ends in the middle of a section, or is damaged")));
     }
-    let page =
-        page(&bytes).map_err(|problem| refused(format!("{} {problem}", printable_path(module))))?;
-    write_file(&arguments.output, page.as_bytes())?;
-    writeln!(streams.output, "playground: {}", printable_path(&arguments.output))?;
+    let page = page(parts, &bytes)
+        .map_err(|problem| refused(format!("{} {problem}", printable_path(module))))?;
+    write_file(output, page.as_bytes())?;
+    writeln!(streams.output, "{name}: {}", printable_path(output))?;
     Ok(exit::AGREES)
 }
 

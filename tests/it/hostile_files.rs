@@ -56,7 +56,7 @@ struct Reader {
 const MODEL: &str = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl a\nf 1/1 2/1 3/1\n";
 const PNG: &[u8] = b"\x89PNG\r\n\x1a\n\0\0";
 
-const READERS: [Reader; 17] = [
+const READERS: [Reader; 18] = [
     Reader {
         name: "render MODEL",
         words: "render --size 16x16 {}",
@@ -134,6 +134,14 @@ const READERS: [Reader; 17] = [
     Reader {
         name: "playground --module",
         words: "playground --module {}",
+        file: "m.wasm",
+        truncated: b"\0asm\x01\0\0\0\x01\x07",
+        beside: &[],
+        or: &[],
+    },
+    Reader {
+        name: "your-gpu --module",
+        words: "your-gpu --module {}",
         file: "m.wasm",
         truncated: b"\0asm\x01\0\0\0\x01\x07",
         beside: &[],

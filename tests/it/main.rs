@@ -60,3 +60,4 @@ mod ties;
 mod tiled;
 mod tiles;
 mod workspace;
+mod your_gpu;

@@ -39,6 +39,11 @@ pub struct Browser {
 impl Browser {
     /// Starts Chromium, or nothing where there is none and none is demanded.
     pub fn start(name: &str) -> Option<Self> {
+        Self::start_with(name, &["--disable-gpu"])
+    }
+
+    /// The same with options of the browser.
+    pub fn start_with(name: &str, options: &[&str]) -> Option<Self> {
         let names = ["chromium", "chromium-browser", "google-chrome"];
         let is_there = |name: &&str| {
             let version = Command::new(name).arg("--version").stderr(Stdio::null()).output();
@@ -55,8 +60,9 @@ impl Browser {
         // sandbox, and what it opens here is our own page.
         let mut child = Command::new("sh")
             .args(["-c", "exec \"$@\" 3<&0 4>&1 </dev/null >/dev/null", "sh", program])
-            .args(["--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage"])
-            .args(["--no-first-run", "--remote-debugging-pipe"])
+            .args(["--headless", "--no-sandbox", "--disable-dev-shm-usage", "--no-first-run"])
+            .arg("--remote-debugging-pipe")
+            .args(options)
             .arg(format!("--user-data-dir={}", folder.display()))
             .arg("about:blank")
             .stdin(Stdio::piped())

@@ -41,10 +41,9 @@ fn module() -> Option<PathBuf> {
     None
 }
 
-/// Runs `rasterproof playground` in a folder; the status, and what it printed to both streams.
+/// Runs the program in a folder; the status, and what it printed to both streams.
 fn run(folder: &Path, words: &[&str]) -> (i32, String, String) {
     let program = Command::new(env!("CARGO_BIN_EXE_rasterproof"))
-        .arg("playground")
         .args(words)
         .current_dir(folder)
         .output()
@@ -53,15 +52,22 @@ fn run(folder: &Path, words: &[&str]) -> (i32, String, String) {
     (program.status.code().unwrap(), text(program.stdout), text(program.stderr))
 }
 
-/// The page as the command writes it, and a browser to look at it.
-pub fn opened(name: &str) -> Option<(Browser, PathBuf)> {
+/// The page that a command writes, for a test of this name.
+pub fn written(command: &str, name: &str) -> Option<PathBuf> {
     let module = module()?;
-    let folder = folder(&format!("playground-{name}"));
-    let (status, printed, complaint) = run(&folder, &["--module", module.to_str().unwrap()]);
+    let folder = folder(&format!("{command}-{name}"));
+    let (status, printed, complaint) =
+        run(&folder, &[command, "--module", module.to_str().unwrap()]);
     assert_eq!(status, 0, "{complaint}");
-    assert_eq!(printed, "playground: target/rasterproof/playground.html\n");
-    let page = folder.join("target/rasterproof/playground.html");
+    assert_eq!(printed, format!("{command}: target/rasterproof/{command}.html\n"));
+    let page = folder.join(format!("target/rasterproof/{command}.html"));
     assert!(std::fs::metadata(&page).unwrap().len() <= page::MOST_BYTES as u64);
+    Some(page)
+}
+
+/// The playground, and a browser to look at it.
+pub fn opened(name: &str) -> Option<(Browser, PathBuf)> {
+    let page = written("playground", name)?;
     Some((Browser::start(&format!("playground-{name}"))?, page))
 }
 
@@ -460,11 +466,11 @@ fn playground_is_where_chapters_lead() {
 #[test]
 fn playground_says_what_it_needs() {
     let folder = folder("playground-none");
-    let (status, printed, complaint) = run(&folder, &[]);
+    let (status, printed, complaint) = run(&folder, &["playground"]);
     assert_eq!((status, printed.as_str()), (2, ""));
     assert!(complaint.contains("crates/playground/build"), "{complaint}");
     std::fs::write(folder.join("x.wasm"), "no module").unwrap();
-    let (status, _, complaint) = run(&folder, &["--module", "x.wasm"]);
+    let (status, _, complaint) = run(&folder, &["playground", "--module", "x.wasm"]);
     assert_eq!(status, 2);
     assert!(complaint.contains("x.wasm is no WebAssembly module"), "{complaint}");
     assert!(!folder.join("target").exists());

@@ -8,9 +8,19 @@ function instantiate() {
   engines = new WebAssembly.Instance(compiled, {}).exports;
 }
 
-/** Asks the engines; an answer, or an error as its text. A module that stopped is started again. */
-function ask(question) {
-  const text = new TextEncoder().encode(JSON.stringify(question));
+/**
+ * Asks the engines; an answer, or an error as its text. A module that stopped is started again. Pixels are bytes of ASCII, and
+ * become the text `pixels` of the question without being copied through one.
+ */
+function ask(question, pixels) {
+  let text = new TextEncoder().encode(JSON.stringify(question));
+  if (pixels) {
+    const before = new TextEncoder().encode(`${JSON.stringify(question).slice(0, -1)},"pixels":"`);
+    text = new Uint8Array(before.length + pixels.length + 2);
+    text.set(before);
+    text.set(pixels, before.length);
+    text.set([0x22, 0x7d], before.length + pixels.length);
+  }
   try {
     const at = engines.room(text.length);
     new Uint8Array(engines.memory.buffer, at, text.length).set(text);

@@ -3,6 +3,7 @@
 #![deny(unsafe_code)]
 
 pub mod answer;
+mod gpu;
 pub mod page;
 #[cfg(target_family = "wasm")]
 pub mod wasm_exports;

@@ -57,6 +57,12 @@ enum Question {
         seed: u64,
         cases: u64,
     },
+    /// The batches that a browser's GPU is to draw, in order.
+    GpuPlan(crate::gpu::Plan),
+    /// The vertices of one picture.
+    GpuBatch(Box<crate::gpu::Batch>),
+    /// What the pixels of one picture are worth.
+    GpuJudge(Box<crate::gpu::Judge>),
 }
 
 /// The answer to a question; `{"error": ...}` to one that makes no sense or cannot be drawn.
@@ -83,6 +89,9 @@ fn ask(question: Question) -> Result<Value, String> {
         Question::Search(search) => search.answer(),
         Question::Shrink(shrink) => shrink.answer(),
         Question::Digest { seed, cases } => Ok(digest::digest(seed, cases)),
+        Question::GpuPlan(plan) => Ok(plan.answer()),
+        Question::GpuBatch(batch) => batch.answer(),
+        Question::GpuJudge(judge) => judge.answer(),
     }
 }
 

@@ -122,6 +122,13 @@ pub fn size(case: &Case) -> (usize, bool, usize, u64, u32, u64, u64) {
     }
 }
 
+/// The cases that a step makes of `case` and that are smaller: those to look at for one that still fails.
+#[must_use]
+pub fn smaller_cases(case: &Case) -> Vec<Case> {
+    let current = size(case);
+    candidates(case).into_iter().filter(|candidate| size(candidate) < current).collect()
+}
+
 fn candidates(case: &Case) -> Vec<Case> {
     let shapes = match &case.shape {
         Shape::Triangles { list, .. } => triangle_candidates(case, list),

@@ -15,6 +15,8 @@ mod disagreement;
 mod finding;
 mod nothing;
 pub mod shrink;
+#[doc(hidden)]
+pub mod single_precision;
 mod spans;
 pub mod tolerance;
 mod truth;

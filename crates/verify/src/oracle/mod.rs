@@ -5,15 +5,21 @@
 //! - [`rational`] asks the same of corners that are not on the lattice.
 //! - [`pixels`] asks for each pixel of the window alone whether it is nearest to the line.
 //! - [`values`] puts planes through the vertices by Cramer's rule, in big integers.
+//! - [`clipped`] says which pixels the near and the far plane leave, by signs of integers.
+//! - [`segments`] is what interfaces promise of lines, by integers too.
 //! - [`double_double`] says without big integers what a difference from such a value does not exceed.
 //!
 //! It is slow on purpose where that keeps it obvious, and imports nothing from the engines.
 
+#[doc(hidden)]
+pub mod clipped;
 pub mod coverage;
 #[doc(hidden)]
 pub mod double_double;
 pub mod pixels;
 pub mod rational;
+#[doc(hidden)]
+pub mod segments;
 pub mod values;
 
 use rasterproof_core::arrays::MapArray as _;

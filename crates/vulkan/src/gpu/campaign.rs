@@ -16,7 +16,7 @@ use rasterproof_judge::run::{Failing, Found, Row, run};
 use rasterproof_judge::verdict::{Outcome, Verdict, sentence};
 use rasterproof_judge::{Options, adapt_case, failures, windings as first_stages};
 use rasterproof_verify::cases::{self, Case};
-use rasterproof_verify::comparison::Rule;
+use rasterproof_verify::comparison::Rule as Tie;
 
 /// Cases of a stage for each case of a family.
 const STAGE_SHARE: u64 = 2;
@@ -106,7 +106,7 @@ pub fn judge_with(
     let mut truth = Truth::of(&declared);
     truth.expect = Box::new(Specified::new(&declared));
     // The specification asks for less than the oracle: either of two triangles has a shared sample.
-    let open = declared.convention().rule(Rule::Unspecified);
+    let open = declared.convention().rule(Tie::Unspecified);
     truth.recognised = Some(Box::new(open));
     let windings = first_stages::windings(&mut shared, options.seed);
     let mut askers: Vec<Box<dyn Ask>> = vec![Box::new(shared)];

@@ -4,12 +4,12 @@ use super::cells::{draw_of, plain, runs};
 use super::engine::Gpu;
 use super::known::{self, Known};
 use super::rules::{Class, Outcome};
-use super::segment::{self, Fit, Pixels};
 use crate::device::Error;
 use crate::device::draw::Pictures;
 use crate::device::stage::{CELL_PX, Kind};
 use rasterproof_core::grid::{SUBPIXELS, SubpixelPoint};
 use rasterproof_verify::cases::Rng;
+use rasterproof_verify::oracle::segments::{self as segment, Fit, Pixels};
 
 /// Pixels between lines and the sides of their window, so that one that lies a pixel away is seen.
 const MARGIN_PX: i32 = 2;

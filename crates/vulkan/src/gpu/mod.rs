@@ -1,7 +1,7 @@
 //! Vulkan devices under judgement.
 //!
 //! [`cells`] is what is drawn in a cell and read from it; [`engine`] answers the judge's questions with a device, [`plant`] spoils it on purpose;
-//! [`specified`] is the picture that is expected and the bound of a value, [`segment`] what lines are,
+//! [`specified`] is the picture that is expected and the bound of a value,
 //! [`requirements`] what is asked besides the families, with `depth` and `lines`, each by a rule of
 //! [`rules`]; [`known`] holds faults that are known, [`look`] draws one case, [`mesh`] whole frames of a
 //! mesh, [`campaign`] judges and [`text`] says what came of it.
@@ -18,6 +18,5 @@ pub mod plant;
 mod requirements;
 pub mod rules;
 pub mod rung;
-pub mod segment;
 pub mod specified;
 pub mod text;

@@ -7,11 +7,10 @@ use super::cells::{
 use super::engine::Gpu;
 use super::known::{self, Known};
 use super::rules::{self, Class, Errors, Finding, Outcome, Rule};
-use super::specified::linear_bounds;
 use super::{depth, lines};
 use crate::device::Error;
 use crate::device::draw::Vertex;
-use crate::device::stage::{CELL_PX, Kind};
+use crate::device::stage::{CELL_PX, Kind, PAGE_PX};
 use rasterproof_core::contract::Rasterize as _;
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
@@ -20,6 +19,7 @@ use rasterproof_judge::adapt_case;
 use rasterproof_judge::ask::Ask as _;
 use rasterproof_verify::cases::{self, Rng, Shape};
 use rasterproof_verify::comparison::area2;
+use rasterproof_verify::comparison::single_precision::linear_bounds;
 use rasterproof_verify::oracle::Oracle;
 use rasterproof_verify::oracle::values::ExactTriangle;
 
@@ -199,7 +199,7 @@ fn linear(gpu: &mut Gpu, seed: u64, cases: u64) -> Result<Outcome, Error> {
         else {
             continue;
         };
-        let bounds = linear_bounds(triangle);
+        let bounds = linear_bounds(triangle, f64::from(PAGE_PX));
         for (x, y) in (0..CELL_PX).flat_map(|y| (0..CELL_PX).map(move |x| (x, y))) {
             let row = pictures.row(cell, y, CELL_PX);
             let [inv_w, a, b, drawn] = floats(&row[16 * x as usize..]);

@@ -1,40 +1,14 @@
-//! What is expected of a device: the oracle's picture, and how far a value may be off.
-//!
-//! The specification gives formulas for values and no bound on their error. So the bound here is
-//! derived: what roundings in f32 can do to a value that is set up as a plane over the page.
-//!
-//! # The bound
-//! A plane a(x, y) = a0 + gx (x - x0) + gy (y - y0) over corners with values a0, a1, a2 has
-//! gx = ((a1 - a0) e2y - (a2 - a0) e1y) / A, where e1 and e2 are the edges from the first corner and A
-//! is twice the area. Let Gx = (|a1 - a0| |e2y| + |a2 - a0| |e1y|) / |A|, Gy alike, X and Y the largest
-//! distance over which the plane is carried (across a page, or to a corner), M the largest |a|. With
-//! u = 2^-24 each rounding moves the result by at most u (M + Gx X + Gy Y). On the way from corners to
-//! a pixel a value meets 16 of them: the value given in f32 (1), a clip coordinate and its division by
-//! w (3), the viewport (2), a difference of values (1), two products and their difference (2), the
-//! area's reciprocal and the product with it (3), the distance, its product and two sums (4).
-//! With perspective a = N / D is the quotient of two such planes, of a/w and 1/w, each with a division
-//! or product more (2), and a quotient in the end (3 for a reciprocal and a product):
-//! |error| <= (B(N) + |a| B(D)) / (D - B(D)) + 3 u |a|, nothing where D may vanish.
-//!
-//! The specification's own formula is a sum of three weighed values, without differences. Computed so,
-//! |a1 - a0| and |a2 - a0| in Gx and Gy become |a1| + |a0| and |a2| + |a0|: the products are rounded
-//! before they cancel.
+//! What is expected of a device: the oracle's picture, and [how far a value may be
+//! off](rasterproof_verify::comparison::single_precision).
 
-use super::cells::plain;
 use crate::device::stage::PAGE_PX;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{Corners, PixelPoint};
 use rasterproof_judge::declared::Declared;
 use rasterproof_judge::expected::Expect;
 use rasterproof_verify::cases::Triangle;
+use rasterproof_verify::comparison::single_precision::perspective_bounds;
 use rasterproof_verify::comparison::{Convention, Picture};
-
-/// Half the distance between 1 and the next f32.
-const U: f64 = (f32::EPSILON / 2.0) as f64;
-/// Roundings on the way of a value, as counted above.
-const ROUNDINGS: f64 = 16.0;
-/// The same for a value over w.
-const ROUNDINGS_OVER_W: f64 = ROUNDINGS + 2.0;
 
 /// The oracle's picture, and derived bounds of values.
 pub struct Specified {
@@ -59,95 +33,6 @@ impl Expect for Specified {
     }
 
     fn bounds(&self, triangle: &Triangle, pixel: (i32, i32)) -> Option<[f64; 3]> {
-        Some(perspective_bounds(triangle, pixel))
+        Some(perspective_bounds(triangle, pixel, f64::from(PAGE_PX)))
     }
-}
-
-/// The corners of a triangle in px, and what its planes have in common.
-struct Setup {
-    px: [[f64; 2]; 3],
-    area2: f64,
-    reach: [f64; 2],
-}
-
-impl Setup {
-    fn new(triangle: &Triangle) -> Self {
-        // Corners as they are given, exact: half a viewport of 1 leaves pixels.
-        let px =
-            plain(&triangle.corners(), 1.0).map(|v| [f64::from(v.clip[0]), f64::from(v.clip[1])]);
-        let [a, b, c] = px;
-        let area2 = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-        let page = f64::from(PAGE_PX);
-        let reach = [0, 1].map(|i| px.iter().fold(page, |m, p| m.max(p[i].abs() + page)));
-        Self { px, area2, reach }
-    }
-
-    /// u (M + Gx X + Gy Y) times the roundings.
-    fn bound(&self, values: [f64; 3], roundings: f64) -> f64 {
-        let differences = [(values[1] - values[0]).abs(), (values[2] - values[0]).abs()];
-        self.carried(values, differences, roundings)
-    }
-
-    /// The same where values are weighed without being subtracted from each other first: what is
-    /// rounded are products of the values themselves.
-    fn bound_of_weights(&self, values: [f64; 3], roundings: f64) -> f64 {
-        let [a, b, c] = values.map(f64::abs);
-        self.carried(values, [a + b, a + c], roundings)
-    }
-
-    fn carried(&self, values: [f64; 3], [d1, d2]: [f64; 2], roundings: f64) -> f64 {
-        let [p, q, r] = self.px;
-        let steep =
-            |i: usize| (d1 * (r[i] - p[i]).abs() + d2 * (q[i] - p[i]).abs()) / self.area2.abs();
-        let largest = values.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
-        U * roundings * (largest + steep(1) * self.reach[0] + steep(0) * self.reach[1])
-    }
-
-    /// The value of a plane at a pixel's centre; rounded, which a bound can bear.
-    fn at(&self, values: [f64; 3], (x_px, y_px): (i32, i32)) -> f64 {
-        let s = [f64::from(x_px) + 0.5, f64::from(y_px) + 0.5];
-        let weight = |i: usize| {
-            let [b, c] = [self.px[(i + 1) % 3], self.px[(i + 2) % 3]];
-            ((c[0] - b[0]) * (s[1] - b[1]) - (c[1] - b[1]) * (s[0] - b[0])) / self.area2
-        };
-        (0..3).map(|i| weight(i) * values[i]).sum()
-    }
-}
-
-/// Bounds of depth and of both attributes in perspective.
-#[must_use]
-pub fn perspective_bounds(triangle: &Triangle, pixel: (i32, i32)) -> [f64; 3] {
-    let setup = Setup::new(triangle);
-    let v = &triangle.vertices;
-    let inv_w = v.map(|v| v.inv_w);
-    let d = setup.at(inv_w, pixel);
-    let d_bound = setup.bound(inv_w, ROUNDINGS_OVER_W);
-    let quotient = |values: [f64; 3]| {
-        let over_w = [0, 1, 2].map(|i| values[i] * inv_w[i]);
-        let value = (setup.at(over_w, pixel) / d).abs();
-        if d <= d_bound {
-            return f64::INFINITY;
-        }
-        (setup.bound(over_w, ROUNDINGS_OVER_W) + value * d_bound) / (d - d_bound) + 3.0 * U * value
-    };
-    let depth = setup.bound(v.map(|v| v.depth), ROUNDINGS);
-    [depth, quotient(v.map(|v| v.varying.x)), quotient(v.map(|v| v.varying.y))]
-}
-
-/// Bounds of depth: of a plane set up from differences, and of the specification's own sum of weights.
-#[must_use]
-pub fn depth_bounds(triangle: &Triangle) -> [f64; 2] {
-    let (setup, depths) = (Setup::new(triangle), triangle.vertices.map(|v| v.depth));
-    [setup.bound(depths, ROUNDINGS), setup.bound_of_weights(depths, ROUNDINGS)]
-}
-
-/// Bounds of 1/w and of both attributes linear in the window: of a plane set up from differences, and
-/// of the specification's own sum of weights, whatever of the two a device computes.
-#[must_use]
-pub fn linear_bounds(triangle: &Triangle) -> [[f64; 2]; 3] {
-    let setup = Setup::new(triangle);
-    let v = &triangle.vertices;
-    [v.map(|v| v.inv_w), v.map(|v| v.varying.x), v.map(|v| v.varying.y)].map(|values| {
-        [setup.bound(values, ROUNDINGS_OVER_W), setup.bound_of_weights(values, ROUNDINGS_OVER_W)]
-    })
 }

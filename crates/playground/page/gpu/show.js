@@ -1,0 +1,243 @@
+// What the page shows: progress, verdicts, and a case drawn large.
+
+const fill = (element, ...children) => element.replaceChildren(...children.flat().filter((child) => child !== null && child !== undefined));
+const SVG = 'http://www.w3.org/2000/svg';
+const svg = (tag, attributes, ...children) => {
+  const element = document.createElementNS(SVG, tag);
+  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
+  element.append(...children);
+  return element;
+};
+
+function drawProgress() {
+  const { progress } = state;
+  $('progress').hidden = !state.running;
+  if (!progress) return;
+  $('progress').querySelector('progress').value = progress.part;
+  $('doing').textContent = progress.text;
+}
+
+/** The worst word of a result's rows. */
+const worst = (result) => Object.values(result.rows).reduce((most, { word: is }) => Math.max(most, WORST.indexOf(is)), 0);
+const number = (result, is) => Object.values(result.rows).filter((row) => row.word === is).length;
+
+function summary(result) {
+  if (Object.keys(result.rows).length === 0) return null;
+  const says = [word('allPromised'), word('someFree')(number(result, 'free')), word('someBroken')(number(result, 'broken'))][worst(result)];
+  return make('p', { className: `verdict ${WORST[worst(result)]}` }, says);
+}
+
+function row(result, index, check) {
+  const { word: is, tally, facts } = result.rows[check];
+  const { section } = RULES[result.name][check];
+  const { says, open } = ruleOf(result.name, check);
+  const view = result.views[check];
+  const show = view && make('button', { type: 'button', onclick: () => { state.shown = [index, check]; drawAll(); $('finding').scrollIntoView(); } }, word('show'));
+  return make('tr', { attr: { 'data-check': check } },
+    make('th', { scope: 'row' }, word('checks')[check]),
+    make('td', { className: is }, word(is), show ? make('div', {}, show) : null),
+    make('td', {}, tally ? word('details')[check](tally, facts) : ''),
+    make('td', {}, make('details', {}, make('summary', {}, section), make('p', {}, `${word('asks')}: ${says}`), make('p', {}, `${word('open')}: ${open}`))));
+}
+
+function resultOf(result, index) {
+  const checks = Object.keys(WORDS.en.checks).filter((check) => result.rows[check]);
+  const software = result.isSoftware ? make('p', { className: 'note' }, word('software')) : null;
+  const { samples } = result.rows;
+  const totals = result.seconds ? make('p', {}, word('totals')(result.triangles, samples?.tally?.subjects ?? 0, result.seconds.toFixed(1))) : null;
+  return make('section', { attr: { 'data-api': result.name } },
+    make('h2', {}, result.title ?? result.name),
+    result.refused ? make('p', {}, said(result.refused)) : null,
+    summary(result),
+    result.renderer ? make('p', {}, `${word('renderer')}: ${result.renderer}`) : null,
+    software, totals,
+    ...result.notes.map((note) => make('p', { className: 'note' }, said(note))),
+    checks.length ? make('table', {}, make('thead', {}, make('tr', {}, ...['check', 'verdict', 'found', 'rule'].map((head) => make('th', { scope: 'col' }, word(head))))), make('tbody', {}, ...checks.map((check) => row(result, index, check)))) : null);
+}
+
+/** The pixels around what matters: corners and marks, with one to spare. */
+function crop({ cell, outlines, marks }) {
+  const points = [...outlines.flat(), ...marks.map(({ x, y }) => [x, y]), ...marks.map(({ x, y }) => [x + 1, y + 1])];
+  const range = (axis) => {
+    const values = points.map((point) => point[axis]);
+    return [Math.max(0, Math.floor(Math.min(...values)) - 1), Math.min(cell, Math.ceil(Math.max(...values)) + 1)];
+  };
+  return points.length ? [range(0), range(1)] : [[0, cell], [0, cell]];
+}
+
+/** A cell as a picture: pixels with their hits, marks, outlines and sample points. Row 0 is uppermost, as it is read. */
+function picture(view, planes, plane, isTheirs) {
+  const [[x0, x1], [y0, y1]] = crop(view);
+  const picture = svg('svg', { viewBox: `${x0} ${y0} ${x1 - x0} ${y1 - y0}`, role: 'img', 'aria-label': word(isTheirs ? 'theirs' : 'ours') });
+  for (let y = y0; y < y1; y += 1) {
+    for (let x = x0; x < x1; x += 1) {
+      const hits = planes[plane][y * view.cell + x];
+      const mark = isTheirs && view.marks.find((m) => m.plane === plane && m.x === x && m.y === y);
+      picture.append(svg('rect', { x, y, width: 1, height: 1, class: mark ? mark.word : hits === '0' ? 'empty' : 'hit' },
+        ...(mark?.note ? [svg('title', {}, mark.note)] : [])));
+      if (hits !== '0' || mark) picture.append(svg('text', { x: x + 0.76, y: y + 0.76 }, hits));
+    }
+  }
+  for (const outline of view.outlines) picture.append(svg('polygon', { points: outline.map((p) => p.join(',')).join(' ') }));
+  const [dx, dy] = view.samples[plane] ?? [128, 128];
+  if (x1 - x0 <= 20) {
+    for (let y = y0; y < y1; y += 1) for (let x = x0; x < x1; x += 1) picture.append(svg('circle', { cx: x + dx / 256, cy: y + dy / 256, r: 0.06 }));
+  }
+  return picture;
+}
+
+/** The rows of a plane as text, for a report. */
+function asText(view, planes) {
+  const [[x0, x1], [y0, y1]] = crop(view);
+  return planes.map((plane) => Array.from({ length: y1 - y0 }, (_, i) => plane.slice((y0 + i) * view.cell + x0, (y0 + i) * view.cell + x1)).join('\n')).join('\n\n');
+}
+
+/** Whether a subject is more than positions. */
+const isPlain = (subject) => subject.flat().every(([, , z, w]) => z === 0.5 && w === 1);
+const corners = (subject) => subject.map((shape) => shape.map((vertex) => (isPlain(subject) ? vertex.slice(0, 2) : vertex).join(', ')).join('   ')).join('\n');
+
+function address(name, check, subject) {
+  const words = new URLSearchParams({ interface: name, check, case: JSON.stringify(subject) });
+  if (state.plant) words.set('plant', state.plant);
+  if (state.lang !== 'en') words.set('lang', state.lang);
+  return `${location.href.replace(/#.*/, '')}#${words}`;
+}
+
+/** Shaders that draw a case alone, with the state in words. */
+function reproduction(name, check, subject) {
+  const device = { interface: name, bits: 8, samples_apart: true };
+  const { vertices, side, kind } = must(ask({ ask: 'gpu-batch', check, device, seed: 1, only: subject }));
+  const v = numbers(vertices);
+  const rows = [];
+  for (let at = 0; at < v.length; at += 6) rows.push(Array.from(v.subarray(at, at + 6)));
+  const float = (x) => (Number.isInteger(x) ? x.toFixed(1) : String(x));
+  const list = (vector, from, to) => rows.map((r) => `  ${vector}(${r.slice(from, to).map(float).join(', ')})`).join(',\n');
+  const topology = kind === 'lines' ? 'lines' : 'triangles';
+  const how = { values: 'no blending, RGBA32F', depth: 'no blending, depth test LESS', samples: '4 samples, blending ONE ONE' }[kind] ?? 'blending ONE ONE';
+  if (name === 'webgl2') {
+    return `#version 300 es
+// ${side} x ${side} px RGBA8, viewport all of it, ${how}${kind === 'facing' ? ', back faces culled' : ''};
+// drawArrays(${topology.toUpperCase()}, 0, ${rows.length}); the first row of pixels above is the lowest, which readPixels reads first.
+const vec4 positions[${rows.length}] = vec4[](
+${list('vec4', 0, 4)});
+const vec2 attributes[${rows.length}] = vec2[](
+${list('vec2', 4, 6)});
+out vec2 carried;
+void main() { gl_Position = positions[gl_VertexID]; carried = attributes[gl_VertexID]; }
+
+${GLSL[kind === 'values' ? 'values' : 'hits']}`;
+  }
+  return `// ${side} x ${side} px ${kind === 'values' ? 'rgba32float' : 'r8unorm'}, ${how}${kind === 'facing' ? ', cullMode back' : ''}; draw(${rows.length}) of a ${kind === 'lines' ? 'line' : 'triangle'}-list.
+struct Carried { @builtin(position) position: vec4f, @location(0) values: vec2f }
+@vertex fn vertex(@builtin(vertex_index) i: u32) -> Carried {
+  var positions = array(
+${list('vec4f', 0, 4)});
+  var attributes = array(
+${list('vec2f', 4, 6)});
+  return Carried(positions[i], attributes[i]);
+}
+${WGSL.split('\n').find((line) => line.startsWith(`@fragment fn ${kind === 'values' ? 'values' : 'hits'}`))}`;
+}
+
+function report(result, check, view) {
+  const { section, says } = RULES[result.name][check];
+  const notes = view.marks.filter(({ note }) => note).slice(0, 8).map(({ x, y, note }) => `pixel ${x}, ${y}: ${note}`);
+  return [
+    `${result.title}: ${WORDS.en.checks[check]}`, '',
+    `Browser: ${navigator.userAgent}`, `Renderer: ${result.renderer}`,
+    ...(state.plant ? [`A fault is planted by the page: ${state.plant}`] : []),
+    `Specification: ${section}. ${says}`, '',
+    isPlain(view.subject) ? WORDS.en.corners : WORDS.en.cornersMore, corners(view.subject), '',
+    'Expected hits', asText(view, view.ours), '', 'Drawn', asText(view, view.theirs), ...notes, '',
+    reproduction(result.name, check, view.subject), '',
+    `Page: ${address(result.name, check, view.subject)}`,
+  ].join('\n');
+}
+
+function copying(text) {
+  const done = make('span', { attr: { role: 'status' } });
+  const press = async () => {
+    try {
+      await navigator.clipboard.writeText(text);
+      done.textContent = ` ${word('copied')}`;
+    } catch {
+      done.textContent = '';
+    }
+  };
+  return [make('button', { type: 'button', onclick: press }, word('copy')), done];
+}
+
+function drawFinding() {
+  const section = $('finding');
+  const [index, check] = state.shown ?? [];
+  const result = state.results?.[index];
+  const view = result?.views[check];
+  section.hidden = !view;
+  if (!view) return;
+  const rule = { ...RULES[result.name][check], ...ruleOf(result.name, check) };
+  const isBroken = view.marks.some((mark) => mark.word === 'broken');
+  // Of four samples the ones that differ.
+  const wanted = [...new Set(view.marks.map(({ plane }) => plane))];
+  const pairs = (wanted.length ? wanted : [0]).map((plane) => {
+    const label = view.samples.length ? ` (${word('sample')(plane)})` : '';
+    return make('div', { className: 'pair' }, ...[view.ours, view.theirs].map((planes, i) => (
+      make('figure', {}, make('figcaption', {}, word(i ? 'theirs' : 'ours') + label), picture(view, planes, plane, i === 1)))));
+  });
+  const link = address(result.name, check, view.subject);
+  const text = report(result, check, view);
+  fill(section,
+    make('h2', {}, `${result.title}, ${word('checks')[check]}: ${word(isBroken ? 'finding' : 'example')}`),
+    ...pairs, make('p', { className: 'quiet' }, word('legend')),
+    ...view.marks.filter(({ note }) => note).slice(0, 4).map(({ x, y, note }) => make('p', {}, `${x}, ${y}: ${note}`)),
+    make('blockquote', {}, make('p', {}, rule.says), make('cite', {}, rule.section)),
+    make('p', {}, word(isPlain(view.subject) ? 'corners' : 'cornersMore')), make('pre', {}, corners(view.subject)),
+    make('p', {}, make('a', { href: link }, word('address')), ' ', ...copying(link)),
+    make('details', {}, make('summary', {}, word('report')), make('pre', { id: 'report' }, text), ...copying(text)));
+}
+
+function drawAll() {
+  document.documentElement.lang = state.lang === 'zh' ? 'zh-CN' : 'en';
+  for (const element of document.querySelectorAll('[data-word]')) element.textContent = word(element.dataset.word);
+  $('judge').textContent = word(state.running ? 'stop' : state.results?.length ? 'again' : 'judge');
+  $('planted').hidden = !state.plant;
+  $('planted').textContent = state.plant ? word('planted')(state.plant) : '';
+  const { one } = state;
+  const verdict = { promised: 'passes', free: 'differs', broken: 'fails' }[one?.verdict];
+  $('one').hidden = !one;
+  fill($('one'), one ? word('repeats') : '', one?.error ? make('p', { className: 'broken' }, `${word('badCase')} ${one.error}`) : null, verdict ? make('p', { className: one.verdict }, word(verdict)) : null);
+  fill($('results'), ...(one ? [] : (state.results ?? []).map(resultOf)));
+  drawProgress();
+  drawFinding();
+}
+
+/** What an address asks for. */
+function restore() {
+  const words = new URLSearchParams(location.hash.slice(1));
+  state.lang = words.get('lang') ?? (navigator.language.startsWith('zh') ? 'zh' : 'en');
+  if (!Object.hasOwn(WORDS, state.lang)) state.lang = 'en';
+  state.plant = Object.hasOwn(PLANTS, words.get('plant') ?? '') ? words.get('plant') : null;
+  const [name, check, text] = ['interface', 'check', 'case'].map((key) => words.get(key));
+  state.progress = { text: word('starting'), part: 0 };
+  drawAll();
+  if (text === null) return;
+  try {
+    if (!Object.hasOwn(APIS, name ?? '') || !Object.hasOwn(RULES.webgl2, check ?? '')) throw new Error(`${name}, ${check}`);
+    judgeOne({ name, check, subject: JSON.parse(text) });
+  } catch (error) {
+    state.one = { error: error.message };
+    drawAll();
+  }
+}
+
+function start() {
+  compiled = new WebAssembly.Module(Uint8Array.from(atob($('module').textContent.trim()), (c) => c.charCodeAt(0)));
+  instantiate();
+  $('agent').textContent = navigator.userAgent;
+  $('judge').addEventListener('click', () => { if (state.running) state.running = false; else judgeAll(); });
+  $('language').addEventListener('click', () => { state.lang = state.lang === 'en' ? 'zh' : 'en'; drawAll(); });
+  addEventListener('hashchange', restore);
+  restore();
+  document.body.dataset.ready = '';
+}
+
+start();

@@ -1,0 +1,254 @@
+//! What each check expects in a cell, and how a pixel that differs stands to the specification.
+
+use super::place::{Place, RULES, area2, centre, cover, on_shared_edge, place};
+use super::subjects::{is_front, whole};
+use super::{Check, Device, Interface, Subject};
+use rasterproof_core::grid::{HALF_PIXEL, SUBPIXELS, SubpixelPoint};
+use rasterproof_core::triangle::Corners;
+use rasterproof_verify::cases::Triangle;
+use rasterproof_verify::comparison::single_precision::depth_bounds;
+use rasterproof_verify::oracle::clipped::{self, borders};
+use rasterproof_verify::oracle::segments::{self, Ends, Fit, Pixels};
+use serde::Serialize;
+
+/// The three words of a verdict.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum Word {
+    Promised,
+    Free,
+    Broken,
+}
+
+/// The standard places of four samples in subpixels.
+pub(super) const SAMPLES: [[i32; 2]; 4] = [[96, 32], [224, 96], [32, 160], [160, 224]];
+
+/// Pixels whose centres, or samples, are judged: hits in planes of a cell, one for each sample that is read.
+pub(super) type Planes = Vec<Vec<u8>>;
+
+/// How many planes a check reads.
+pub(super) fn planes(check: Check, device: Device) -> usize {
+    if check == Check::Samples && device.samples_apart { 4 } else { 1 }
+}
+
+/// What is expected of a subject, by the top-left rule where a rule decides.
+pub(super) fn expected(check: Check, device: Device, subject: &Subject, cell: i32) -> Planes {
+    let mut hits = vec![vec![0; (cell * cell) as usize]; planes(check, device)];
+    match check {
+        Check::Tiling => hits[0].fill(1),
+        Check::Lines => {
+            for (x, y) in subject.ends().iter().flat_map(|ends| segments::diamonds(ends, cell)) {
+                hits[0][(y * cell + x) as usize] = 1;
+            }
+        }
+        Check::NearPlane => {
+            let borders = whole(subject).and_then(|corners| borders(&corners));
+            each(cell, |x, y, at| {
+                let inside = |b: &clipped::Linear| b.at((x as u32, y as u32)) >= 0;
+                hits[0][at] = u8::from(borders.is_some_and(|b| b.iter().all(inside)));
+            });
+        }
+        Check::Depth => {
+            let triangles = subject.triangles();
+            let [first, second] = &triangles[..] else { return hits };
+            let covered = [first, second].map(|t| {
+                let mut hits = vec![0; (cell * cell) as usize];
+                cover(&t.corners(), RULES[0], [0, 0], cell, &mut hits);
+                hits
+            });
+            each(cell, |x, y, at| {
+                hits[0][at] = match [covered[0][at], covered[1][at]] {
+                    [1, 1] if depth(first, x, y) < depth(second, x, y) => 1,
+                    [first, second] => {
+                        if second > 0 {
+                            2
+                        } else {
+                            first
+                        }
+                    }
+                };
+            });
+        }
+        Check::Samples => {
+            for (sample, [x, y]) in SAMPLES.into_iter().enumerate() {
+                let moved = [HALF_PIXEL - x, HALF_PIXEL - y];
+                let plane = sample % hits.len();
+                for corners in subject.corners() {
+                    cover(&corners, RULES[0], moved, cell, &mut hits[plane]);
+                }
+            }
+        }
+        Check::Facing => {
+            for corners in subject.corners().iter().filter(|c| is_front(device, c)) {
+                cover(corners, RULES[0], [0, 0], cell, &mut hits[0]);
+            }
+        }
+        _ => {
+            for corners in subject.corners() {
+                cover(&corners, RULES[0], [0, 0], cell, &mut hits[0]);
+            }
+            if check == Check::Order {
+                hits[0].iter_mut().for_each(|hits| *hits *= 6);
+            }
+        }
+    }
+    hits
+}
+
+fn each(cell: i32, mut see: impl FnMut(i32, i32, usize)) {
+    for (y, x) in (0..cell).flat_map(|y| (0..cell).map(move |x| (y, x))) {
+        see(x, y, (y * cell + x) as usize);
+    }
+}
+
+/// The depth of a triangle's plane at a pixel's centre, in f64, whose error is far below any bound here.
+fn depth(triangle: &Triangle, x: i32, y: i32) -> f64 {
+    let [a, b, c] = triangle.corners();
+    let s = centre(x, y);
+    let [za, zb, zc] = triangle.vertices.map(|v| v.depth);
+    let weight = |p, q| area2(p, q, s) as f64;
+    (weight(b, c) * za + weight(c, a) * zb + weight(a, b) * zc) / area2(a, b, c) as f64
+}
+
+impl Subject {
+    /// The ends of its lines.
+    pub(super) fn ends(&self) -> Vec<Ends> {
+        let ends = |shape: &Vec<super::Vertex>| {
+            Some([super::subjects::at(shape.first()?), super::subjects::at(shape.get(1)?)])
+        };
+        self.0.iter().filter_map(ends).collect()
+    }
+}
+
+/// How a pixel that was not hit as expected stands to the specification.
+pub(super) struct Forgiving<'a> {
+    pub check: Check,
+    pub device: Device,
+    pub subject: &'a Subject,
+    corners: Vec<Corners>,
+    borders: Option<[clipped::Linear; 5]>,
+}
+
+impl<'a> Forgiving<'a> {
+    pub fn new(check: Check, device: Device, subject: &'a Subject) -> Self {
+        let borders = whole(subject).and_then(|corners| borders(&corners));
+        Self { check, device, subject, corners: subject.corners(), borders }
+    }
+
+    /// A pixel of a plane with so many hits, that are not the expected ones.
+    pub fn word(&self, plane: usize, x: i32, y: i32, hits: u8) -> Word {
+        let free = match self.check {
+            Check::Lattice => hits <= 1 && self.is_near_edge(x, y),
+            // WebGPU leaves open whether a sample on an edge is covered, so holes along edges too.
+            Check::Tiling => {
+                self.device.interface == Interface::Webgpu && hits <= 2 && self.is_near_edge(x, y)
+            }
+            Check::NearPlane => {
+                let near = |b: clipped::Linear| b.distance_px((x as u32, y as u32));
+                hits <= 1
+                    && self
+                        .borders
+                        .is_none_or(|b| b.into_iter().any(|b| near(b) <= self.bound_px()))
+            }
+            Check::Depth => self.depth_is_open(x, y, hits),
+            // Where samples lie is open in WebGL and said in WebGPU.
+            Check::Samples if self.device.interface == Interface::Webgl2 => {
+                self.sample_is_open(x, y, hits, if self.device.samples_apart { 1 } else { 4 })
+            }
+            Check::Samples => {
+                let [dx, dy] = SAMPLES[plane];
+                self.is_between(SubpixelPoint::new(x * SUBPIXELS + dx, y * SUBPIXELS + dy), hits)
+            }
+            _ => self.is_between(centre(x, y), hits),
+        };
+        if free { Word::Free } else { Word::Broken }
+    }
+
+    /// Whether so many hits are possible by some rule for samples on edges.
+    fn is_between(&self, sample: SubpixelPoint, hits: u8) -> bool {
+        let times = if self.check == Check::Order { 6 } else { 1 };
+        let is_drawn = |c: &&Corners| self.check != Check::Facing || is_front(self.device, c);
+        let places: Vec<_> =
+            self.corners.iter().filter(is_drawn).map(|c| place(c, sample)).collect();
+        let inside = places.iter().filter(|p| **p == Place::Inside).count();
+        let edges = places.iter().filter(|p| **p == Place::Edge).count();
+        let (least, most) = (times * inside, times * (inside + edges));
+        let is_shared = self.device.interface == Interface::Webgl2
+            && inside == 0
+            && on_shared_edge(&self.corners, sample);
+        (least..=most).contains(&usize::from(hits)) && (!is_shared || hits == 1)
+    }
+
+    /// Of samples whose places are open: all of them where the whole pixel is inside, none where all of it is
+    /// outside.
+    fn sample_is_open(&self, x: i32, y: i32, hits: u8, all: u8) -> bool {
+        let square = [[0, 0], [1, 0], [0, 1], [1, 1]]
+            .map(|[i, j]| SubpixelPoint::new((x + i) * SUBPIXELS, (y + j) * SUBPIXELS));
+        self.corners.iter().all(|c| {
+            let inside = square.iter().all(|p| place(c, *p) != Place::Outside);
+            let beyond = |i: usize| {
+                let (a, b) = (c[i], c[(i + 1) % 3]);
+                let turn = area2(c[0], c[1], c[2]).signum();
+                square.iter().all(|p| area2(a, b, *p) * turn < 0)
+            };
+            match (inside, (0..3).any(beyond)) {
+                (true, _) => hits == all,
+                (_, true) => hits == 0,
+                _ => hits <= all,
+            }
+        })
+    }
+
+    /// Whether a pixel's centre may lie on an edge once corners are moved to the device's lattice: each point of
+    /// an edge moves by a step in x and y at most.
+    fn is_near_edge(&self, x: i32, y: i32) -> bool {
+        let s = [f64::from(x) + 0.5, f64::from(y) + 0.5];
+        let step = f64::from(self.device.step()) / f64::from(SUBPIXELS);
+        self.subject.0.iter().any(|t| {
+            (0..3).any(|i| {
+                let (a, b) = (t[i], t[(i + 1) % 3]);
+                let [dx, dy] = [b[0] - a[0], b[1] - a[1]];
+                let along = (dx * (s[0] - a[0]) + dy * (s[1] - a[1]))
+                    / (dx * dx + dy * dy).max(f64::MIN_POSITIVE);
+                let t = along.clamp(0.0, 1.0);
+                let [ex, ey] = [a[0] + t * dx - s[0], a[1] + t * dy - s[1]];
+                ex * ex + ey * ey <= 2.0 * step * step
+            })
+        })
+    }
+
+    /// A new corner is f32 of what is clipped: x, y and w reach 12, divided by a w of at least 1. Six roundings
+    /// of at most 12 + 12 x 12 by half the picture, then snapped by half a step in x and y.
+    fn bound_px(&self) -> f64 {
+        let u = f64::from(f32::EPSILON) / 2.0;
+        let half_picture_px = 512.0;
+        f64::from(self.device.step()) / f64::from(SUBPIXELS) + 6.0 * u * 156.0 * half_picture_px
+    }
+
+    /// Where depths are nearer than they are exact, or a rule decides about an edge, either may be kept.
+    fn depth_is_open(&self, x: i32, y: i32, hits: u8) -> bool {
+        let triangles = self.subject.triangles();
+        let places = triangles.iter().map(|t| place(&t.corners(), centre(x, y)));
+        let places: Vec<_> = places.collect();
+        let covers = |i: usize| i == 0 || places.get(i - 1).is_some_and(|p| *p != Place::Outside);
+        if places.contains(&Place::Edge) {
+            return covers(usize::from(hits));
+        }
+        let [first, second] = &triangles[..] else { return false };
+        let bounds = [first, second].map(|t| depth_bounds(t, 1024.0)[1]);
+        // A buffer of 24 bits keeps steps of 2^-24.
+        let bound = bounds[0] + bounds[1] + 2f64.powi(-24);
+        let both = places.iter().all(|p| *p == Place::Inside);
+        both && (1..=2).contains(&hits) && (depth(first, x, y) - depth(second, x, y)).abs() <= bound
+    }
+}
+
+/// How the pixels of a line stand to the diamond-exit rule, to a rectangle and to a parallelogram.
+pub(super) fn line_fits(device: Device, ends: &Ends, lit: &Pixels, cell: i32) -> [Fit; 3] {
+    let step = device.step();
+    [
+        segments::diamond_exit(ends, lit, cell),
+        segments::rectangle(ends, lit, cell, step),
+        segments::parallelogram(ends, lit, cell, step),
+    ]
+}

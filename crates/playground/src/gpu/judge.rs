@@ -1,0 +1,628 @@
+//! Compares what was read back with what is expected.
+
+use super::expected::{Forgiving, Planes, Word, expected, line_fits, planes};
+use super::place::{Place, RULES, centre, cover, place};
+use super::{Batch, Check, Device, Interface, Layout, Subject};
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
+use rasterproof_core::grid::{SUBPIXELS, SubpixelPoint};
+use rasterproof_verify::cases::Triangle;
+use rasterproof_verify::comparison::single_precision::perspective_bounds;
+use rasterproof_verify::oracle::segments::Fit;
+use rasterproof_verify::oracle::values::ExactTriangle;
+use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
+
+/// Asks what the pixels of a batch are worth.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Judge {
+    batch: Batch,
+    /// Row by row a character for each pixel and plane: the digit 0 for no hit, and so on in the order of
+    /// ASCII. Of values, four f32 for each pixel in base64.
+    pixels: String,
+    /// What came of the batches before.
+    tally: Tally,
+}
+
+/// What came of the batches of a check.
+#[derive(Clone, Default, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub(crate) struct Tally {
+    subjects: u64,
+    shapes: u64,
+    pixels: u64,
+    /// Subjects that differ as they may, and that break a promise.
+    free: u64,
+    broken: u64,
+    /// Of coverage: subjects that differ and that another rule explains, by rule. Of the lattice: subjects that
+    /// a hypothesis explains, by hypothesis. Of lines: those that equal each of three rules.
+    explained: Vec<u64>,
+    /// Of values: the worst error as a part of its bound.
+    worst: f64,
+}
+
+/// A pixel that differs.
+#[derive(Serialize)]
+struct Mark {
+    plane: usize,
+    x: i32,
+    y: i32,
+    word: Word,
+    note: String,
+}
+
+/// A way to round a position, given in subpixels, to a step.
+type Rounding = fn(i32, i32) -> i32;
+
+/// The ways that are told apart, by their names.
+const ROUNDINGS: [(&str, Rounding); 4] = [
+    ("half to even", |v, step| nearest(v, step, |below| below % 2 != 0)),
+    ("half up", |v, step| nearest(v, step, |_| true)),
+    ("half down", |v, step| nearest(v, step, |_| false)),
+    ("down", |v, step| v.div_euclid(step) * step),
+];
+/// Hypotheses have 2 to 8 bits below the pixel.
+const BITS: std::ops::RangeInclusive<u32> = 2..=8;
+
+fn nearest(v: i32, step: i32, up_of_half: fn(i32) -> bool) -> i32 {
+    let (below, rest) = (v.div_euclid(step), 2 * v.rem_euclid(step));
+    (below + i32::from(rest > step || (rest == step && up_of_half(below)))) * step
+}
+
+/// All hypotheses about positions, the coarsest lattice first.
+fn hypotheses() -> impl Iterator<Item = (u32, &'static str, Rounding)> {
+    BITS.flat_map(|bits| ROUNDINGS.iter().map(move |(name, round)| (bits, *name, *round)))
+}
+
+impl Judge {
+    pub fn answer(&self) -> Result<Value, String> {
+        let Batch { check, device, .. } = self.batch;
+        let (layout, list) = self.batch.subjects()?;
+        let count = planes(check, device);
+        let values = check == Check::Values;
+        let bytes = match values {
+            true => STANDARD.decode(&self.pixels).map_err(|e| e.to_string())?,
+            false => self.pixels.bytes().map(|b| b.wrapping_sub(b'0')).collect(),
+        };
+        let size = if values { 16 } else { count };
+        if bytes.len() != (layout.side * layout.side) as usize * size {
+            let side = layout.side;
+            return Err(format!("{} bytes of pixels for {side} x {side} px", bytes.len()));
+        }
+        let mut tally = self.tally.clone();
+        let mut examples: [Option<&Subject>; 2] = [None, None];
+        let mut view = Value::Null;
+        for (index, subject) in list.iter().enumerate() {
+            let cell = Cell { layout, origin: layout.origin(index), bytes: &bytes, size };
+            let judged = judged(check, device, subject, &cell);
+            judged.add_to(&mut tally, subject);
+            let word = judged.word();
+            for (example, wanted) in examples.iter_mut().zip([Word::Broken, Word::Free]) {
+                if word == wanted {
+                    example.get_or_insert(subject);
+                }
+            }
+            if self.batch.only.is_some() {
+                view = judged.view(check, device, subject, &cell);
+            }
+        }
+        let [broken, free] = examples;
+        Ok(json!({
+            "word": word(check, device, &tally), "facts": facts(check, &tally),
+            "tally": tally, "broken": broken, "free": free, "view": view,
+        }))
+    }
+}
+
+/// A cell of what was read back.
+struct Cell<'a> {
+    layout: Layout,
+    origin: [i32; 2],
+    bytes: &'a [u8],
+    size: usize,
+}
+
+impl Cell<'_> {
+    fn row(&self, y: i32) -> &[u8] {
+        let [x0, y0] = self.origin;
+        let start = ((y0 + y) * self.layout.side + x0) as usize * self.size;
+        &self.bytes[start..start + self.layout.cell as usize * self.size]
+    }
+
+    /// The hits in planes.
+    fn planes(&self) -> Planes {
+        let mut planes = vec![Vec::new(); self.size];
+        for y in 0..self.layout.cell {
+            for pixel in self.row(y).chunks_exact(self.size) {
+                planes.iter_mut().zip(pixel).for_each(|(plane, hits)| plane.push(*hits));
+            }
+        }
+        planes
+    }
+
+    /// Depth, two attributes, and whether anything is drawn.
+    fn values(&self, x: i32, y: i32) -> [f64; 4] {
+        let pixel = &self.row(y)[x as usize * 16..][..16];
+        let word = |i: usize| {
+            let bytes = [pixel[i], pixel[i + 1], pixel[i + 2], pixel[i + 3]];
+            f64::from(f32::from_le_bytes(bytes))
+        };
+        [word(0), word(4), word(8), word(12)]
+    }
+}
+
+/// What came of one subject.
+struct Judged {
+    ours: Planes,
+    theirs: Planes,
+    marks: Vec<Mark>,
+    pixels: u64,
+    explained: Vec<bool>,
+    worst: f64,
+}
+
+fn judged(check: Check, device: Device, subject: &Subject, cell: &Cell) -> Judged {
+    let side = cell.layout.cell;
+    if check == Check::Values {
+        return values(device, subject, cell);
+    }
+    let (ours, theirs) = (expected(check, device, subject, side), cell.planes());
+    let mut marks = Vec::new();
+    if ours != theirs {
+        let forgiving = Forgiving::new(check, device, subject);
+        for (plane, (ours, theirs)) in ours.iter().zip(&theirs).enumerate() {
+            for (at, (right, hits)) in (0..).zip(ours.iter().zip(theirs)) {
+                if right != hits {
+                    let (x, y) = (at % side, at / side);
+                    let word = forgiving.word(plane, x, y, *hits);
+                    marks.push(Mark { plane, x, y, word, note: String::new() });
+                }
+            }
+        }
+    }
+    let pixels = (side * side) as u64 * ours.len() as u64;
+    let mut judged = Judged { ours, theirs, marks, pixels, explained: Vec::new(), worst: 0.0 };
+    match check {
+        Check::Lattice => judged.explained = explaining(subject, &judged.theirs[0], side),
+        Check::Coverage | Check::Reach if judged.word() == Word::Free => {
+            judged.explained = RULES[1..]
+                .iter()
+                .map(|rule| {
+                    let mut hits = vec![0; (side * side) as usize];
+                    subject.corners().iter().for_each(|c| cover(c, *rule, [0, 0], side, &mut hits));
+                    hits == judged.theirs[0]
+                })
+                .collect();
+        }
+        Check::Lines => lines(device, subject, side, &mut judged),
+        _ => {}
+    }
+    judged
+}
+
+/// Which hypotheses about positions explain the pixels of a subject, whatever the rule for samples on edges.
+fn explaining(subject: &Subject, hits: &[u8], side: i32) -> Vec<bool> {
+    let corners = subject.corners();
+    let total: u32 = hits.iter().map(|hits| u32::from(*hits)).sum();
+    let explains = |(bits, _, round): (u32, &str, Rounding)| {
+        let step = SUBPIXELS >> bits;
+        corners.iter().all(|c| {
+            let snapped = c.map(|p| SubpixelPoint::new(round(p.x, step), round(p.y, step)));
+            let px = |v: [i32; 3]| {
+                let (low, high) = v.iter().fold((i32::MAX, 0), |(a, b), v| (a.min(*v), b.max(*v)));
+                (low / SUBPIXELS).max(0)..(high / SUBPIXELS + 1).min(side)
+            };
+            let (columns, rows) = (px(snapped.map(|p| p.x)), px(snapped.map(|p| p.y)));
+            // Outside of the box around the corners nothing may be hit, so all hits are inside.
+            let mut inside = 0;
+            rows.into_iter().all(|y| {
+                columns.clone().all(|x| {
+                    let hits = hits[(y * side + x) as usize];
+                    inside += u32::from(hits);
+                    match place(&snapped, centre(x, y)) {
+                        Place::Inside => hits == 1,
+                        Place::Edge => hits <= 1,
+                        Place::Outside => hits == 0,
+                    }
+                })
+            }) && inside == total
+        })
+    };
+    hypotheses().map(explains).collect()
+}
+
+/// What the specification asks of lines: WebGL the diamond-exit rule, give or take a pixel; WebGPU nothing.
+fn lines(device: Device, subject: &Subject, side: i32, judged: &mut Judged) {
+    let hits = &judged.theirs[0];
+    let lit = (0..).zip(hits).filter(|(_, hits)| **hits > 0);
+    let lit = lit.map(|(at, _)| (at % side, at / side)).collect();
+    let Some(ends) = subject.ends().first().copied() else { return };
+    let fits = line_fits(device, &ends, &lit, side);
+    judged.explained = fits.iter().map(|fit| *fit == Fit::Equal).collect();
+    let broken = device.interface == Interface::Webgl2
+        && (fits[0] == Fit::Outside || hits.iter().any(|hits| *hits > 1));
+    let word = if broken { Word::Broken } else { Word::Free };
+    judged.marks.iter_mut().for_each(|mark| mark.word = word);
+}
+
+/// Depth and attributes in perspective against exact ones.
+fn values(device: Device, subject: &Subject, cell: &Cell) -> Judged {
+    let side = cell.layout.cell;
+    let empty = vec![vec![0; (side * side) as usize]];
+    let mut judged = Judged {
+        ours: empty.clone(),
+        theirs: empty,
+        marks: Vec::new(),
+        pixels: 0,
+        explained: Vec::new(),
+        worst: 0.0,
+    };
+    let triangles = subject.triangles();
+    let Some(triangle) = triangles.first() else { return judged };
+    let v = &triangle.vertices;
+    let attributes = v.map(|v| v.varying.to_array());
+    let exact =
+        ExactTriangle::new(&triangle.corners(), v.map(|v| v.depth), v.map(|v| v.inv_w), attributes);
+    let Some(exact) = exact else { return judged };
+    let step = f64::from(device.step()) / f64::from(SUBPIXELS);
+    for (y, x) in (0..side).flat_map(|y| (0..side).map(move |x| (y, x))) {
+        let drawn = cell.values(x, y);
+        judged.theirs[0][(y * side + x) as usize] = u8::from(drawn[3] != 0.0);
+        if place(&triangle.corners(), centre(x, y)) != Place::Inside {
+            continue;
+        }
+        judged.ours[0][(y * side + x) as usize] = 1;
+        if drawn[3] == 0.0 || (x + y) % 5 != 0 {
+            continue;
+        }
+        let (depth, [a, b]) = exact.at(x, y);
+        let bounds = perspective_bounds(triangle, (x, y), f64::from(cell.layout.side));
+        let spread = spread(triangle, (x, y), step);
+        let names = ["depth", "first attribute", "second attribute"];
+        for (i, exact) in [depth, a, b].iter().enumerate() {
+            let (error, bound) = (exact.distance(drawn[i]), bounds[i]);
+            judged.pixels += 1;
+            // The distance from what is no number is infinite.
+            if error > bound {
+                let word = if error <= bound + spread[i] { Word::Free } else { Word::Broken };
+                let note = format!("{}: exact {}, drawn {}", names[i], exact.to_f64(), drawn[i]);
+                judged.marks.push(Mark { plane: 0, x, y, word, note });
+            }
+            if error.is_finite() && bound > 0.0 {
+                judged.worst = judged.worst.max(error / bound);
+            }
+        }
+    }
+    judged
+}
+
+/// How much depth and attributes change within a step of the lattice around a pixel's centre: an interface
+/// promises positions no more exactly. A quotient of linear functions is largest and smallest at corners.
+fn spread(triangle: &Triangle, (x, y): (i32, i32), step: f64) -> [f64; 3] {
+    let v = &triangle.vertices;
+    let px = triangle.corners().map(|p| [p.x, p.y].map(|v| f64::from(v) / f64::from(SUBPIXELS)));
+    let at = |dx: f64, dy: f64| {
+        let s = [f64::from(x) + 0.5 + dx, f64::from(y) + 0.5 + dy];
+        let cross = |p: [f64; 2], q: [f64; 2], r: [f64; 2]| {
+            (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
+        };
+        let area = cross(px[0], px[1], px[2]);
+        let weights = [0, 1, 2].map(|i| cross(px[(i + 1) % 3], px[(i + 2) % 3], s) / area);
+        let sum = |values: [f64; 3]| weights.iter().zip(values).map(|(w, v)| w * v).sum::<f64>();
+        let over_w = |values: [f64; 3]| sum([0, 1, 2].map(|i| values[i] * v[i].inv_w));
+        let w = over_w([1.0; 3]);
+        // Where w vanishes within the step nothing bounds the value.
+        let quotient = |values| if w > 0.0 { over_w(values) / w } else { f64::INFINITY };
+        [
+            sum(v.map(|v| v.depth)),
+            quotient(v.map(|v| v.varying.x)),
+            quotient(v.map(|v| v.varying.y)),
+        ]
+    };
+    let middle = at(0.0, 0.0);
+    let corners = [at(-step, -step), at(step, -step), at(-step, step), at(step, step)];
+    [0, 1, 2].map(|i| corners.iter().fold(0.0, |most: f64, c| most.max((c[i] - middle[i]).abs())))
+}
+
+impl Judged {
+    fn word(&self) -> Word {
+        self.marks.iter().map(|mark| mark.word).max().unwrap_or(Word::Promised)
+    }
+
+    fn add_to(&self, tally: &mut Tally, Subject(shapes): &Subject) {
+        tally.subjects += 1;
+        tally.shapes += shapes.len() as u64;
+        tally.pixels += self.pixels;
+        tally.free += u64::from(self.word() == Word::Free);
+        tally.broken += u64::from(self.word() == Word::Broken);
+        tally.explained.resize(tally.explained.len().max(self.explained.len()), 0);
+        for (sum, explains) in tally.explained.iter_mut().zip(&self.explained) {
+            *sum += u64::from(*explains);
+        }
+        tally.worst = tally.worst.max(self.worst);
+    }
+
+    /// The subject for the page to draw large.
+    fn view(&self, check: Check, device: Device, subject: &Subject, cell: &Cell) -> Value {
+        let digits = |planes: &Planes| -> Vec<String> {
+            let digit = |hits: &u8| char::from(b'0' + (*hits).min(9));
+            planes.iter().map(|plane| plane.iter().map(digit).collect()).collect()
+        };
+        // A triangle behind the eye has no outline.
+        let outline = |t: &Vec<super::Vertex>| -> Option<Vec<[f64; 2]>> {
+            t.iter().map(|v| (v[3] > 0.0).then(|| [v[0] / v[3], v[1] / v[3]])).collect()
+        };
+        let outlines: Vec<_> = subject.0.iter().filter_map(outline).collect();
+        let samples = match check {
+            Check::Samples if device.samples_apart => super::expected::SAMPLES.to_vec(),
+            _ => Vec::new(),
+        };
+        json!({
+            "cell": cell.layout.cell, "ours": digits(&self.ours), "theirs": digits(&self.theirs),
+            "marks": self.marks, "outlines": outlines, "samples": samples, "subject": subject,
+        })
+    }
+}
+
+/// The hypothesis about positions that explains most.
+fn best_hypothesis(tally: &Tally) -> Option<(u64, u32, &'static str)> {
+    let all = hypotheses().zip(&tally.explained).map(|((bits, name, _), n)| (*n, bits, name));
+    // The first of those that explain as much.
+    all.reduce(|best, next| if next.0 > best.0 { next } else { best })
+}
+
+fn word(check: Check, device: Device, tally: &Tally) -> Word {
+    if tally.broken > 0 {
+        return Word::Broken;
+    }
+    if check == Check::Lattice {
+        let (explained, bits, rounding) = best_hypothesis(tally).unwrap_or_default();
+        let is_known = explained == tally.subjects && rounding != "down";
+        // WebGPU says nothing of positions: what is finer than every question is as they are given.
+        let wanted = match device.interface {
+            Interface::Webgl2 => device.bits.min(*BITS.end()),
+            Interface::Webgpu => *BITS.end(),
+        };
+        return match (is_known, bits >= wanted, device.interface) {
+            (true, true, _) => Word::Promised,
+            (true, false, Interface::Webgl2) => Word::Broken,
+            _ => Word::Free,
+        };
+    }
+    if tally.free > 0 { Word::Free } else { Word::Promised }
+}
+
+/// What the page says beside the counts.
+fn facts(check: Check, tally: &Tally) -> Value {
+    match check {
+        Check::Lattice => {
+            let (explained, bits, rounding) = best_hypothesis(tally).unwrap_or_default();
+            json!({ "bits": bits, "rounding": rounding, "explained": explained })
+        }
+        Check::Coverage | Check::Reach => {
+            let names = ["top-right", "bottom-left", "bottom-right"];
+            let rule = names.iter().zip(&tally.explained).find(|(_, n)| **n == tally.free);
+            json!({ "rule": rule.map(|(name, _)| name) })
+        }
+        _ => Value::Null,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::from_value;
+
+    const CHECKS: [&str; 10] = [
+        "lattice",
+        "coverage",
+        "reach",
+        "tiling",
+        "order",
+        "facing",
+        "lines",
+        "depth",
+        "near-plane",
+        "samples",
+    ];
+
+    fn batch(check: &str, interface: &str, more: Value) -> Batch {
+        let device = json!({ "interface": interface, "bits": 4, "samples_apart": true });
+        let mut question = json!({ "check": check, "device": device, "seed": 1, "number": 0 });
+        for (key, value) in more.as_object().unwrap() {
+            question[key] = value.clone();
+        }
+        from_value(question).unwrap()
+    }
+
+    /// What a right device draws, with `spoil` changing the hits of each cell.
+    fn answer(
+        check: &str,
+        interface: &str,
+        more: Value,
+        spoil: &dyn Fn(&Subject, &mut Planes),
+    ) -> Value {
+        let batch = batch(check, interface, more);
+        let (layout, list) = batch.subjects().unwrap();
+        let size = planes(batch.check, batch.device);
+        let mut pixels = vec![b'0'; (layout.side * layout.side) as usize * size];
+        for (index, subject) in list.iter().enumerate() {
+            let mut hits = expected(batch.check, batch.device, subject, layout.cell);
+            spoil(subject, &mut hits);
+            let [x0, y0] = layout.origin(index);
+            for (plane, hits) in hits.iter().enumerate() {
+                for (at, hits) in (0..).zip(hits) {
+                    let (x, y) = (x0 + at % layout.cell, y0 + at / layout.cell);
+                    pixels[(y * layout.side + x) as usize * size + plane] += hits;
+                }
+            }
+        }
+        let pixels = String::from_utf8(pixels).unwrap();
+        Judge { batch, pixels, tally: Tally::default() }.answer().unwrap()
+    }
+
+    #[test]
+    fn what_is_expected_is_as_promised() {
+        for (check, interface) in
+            CHECKS.iter().flat_map(|check| [(check, "webgl2"), (check, "webgpu")])
+        {
+            let answer = answer(check, interface, json!({}), &|_, _| {});
+            // Positions are expected unrounded, and WebGL says that there are at least four bits.
+            assert_eq!(answer["word"], "promised", "{check} {interface} {}", answer["facts"]);
+            assert!(answer["tally"]["subjects"].as_u64() > Some(40), "{}", answer["tally"]);
+        }
+    }
+
+    /// Every pixel that is hit is hit once more, or none is: no check calls that free.
+    #[test]
+    fn gross_faults_break_promises() {
+        let twice = |_: &Subject, planes: &mut Planes| {
+            planes.iter_mut().flatten().filter(|hits| **hits > 0).for_each(|hits| *hits += 7);
+        };
+        let none = |_: &Subject, planes: &mut Planes| planes.iter_mut().for_each(|p| p.fill(0));
+        for check in CHECKS {
+            assert_eq!(answer(check, "webgl2", json!({}), &twice)["word"], "broken", "{check}");
+            let word = answer(check, "webgl2", json!({}), &none)["word"].clone();
+            assert_eq!(word, "broken", "{check}");
+        }
+    }
+
+    /// T2's square in two triangles: a hole on the diagonal that both share breaks a promise of WebGL, and
+    /// none of WebGPU; a sample on the border of one alone is free in both.
+    #[test]
+    fn samples_on_edges_by_hand() {
+        let vertex = |x: f64, y: f64| json!([x, y, 0.5, 1.0, 1.0, 0.0]);
+        let [a, b, c, d] = [vertex(0.5, 0.5), vertex(5.5, 0.5), vertex(5.5, 5.5), vertex(0.5, 5.5)];
+        let only = json!({ "only": [[a, b, c], [a, c, d]] });
+        let word = |interface: &str, x: usize, y: usize| {
+            let spoil = |_: &Subject, planes: &mut Planes| planes[0][y * 8 + x] ^= 1;
+            answer("coverage", interface, only.clone(), &spoil)["word"].clone()
+        };
+        assert_eq!([word("webgl2", 2, 2), word("webgpu", 2, 2)], ["broken", "free"]);
+        assert_eq!([word("webgl2", 2, 0), word("webgpu", 2, 0)], ["free", "free"]);
+        assert_eq!([word("webgl2", 3, 2), word("webgpu", 6, 6)], ["broken", "broken"]);
+    }
+
+    /// Another of the four rules is found by its name.
+    #[test]
+    fn a_rule_is_recognised() {
+        let bottom_left = |subject: &Subject, planes: &mut Planes| {
+            let side = (planes[0].len() as f64).sqrt() as i32;
+            planes[0].fill(0);
+            subject.corners().iter().for_each(|c| cover(c, RULES[2], [0, 0], side, &mut planes[0]));
+        };
+        let answer = answer("coverage", "webgl2", json!({ "number": 1 }), &bottom_left);
+        assert_eq!(
+            (&answer["word"], &answer["facts"]["rule"]),
+            (&json!("free"), &json!("bottom-left"))
+        );
+    }
+
+    /// A device that rounds half up to 1/16 px, one that rounds to 1/8, and one that cuts off.
+    #[test]
+    fn a_lattice_is_recognised() {
+        let device = |step: i32, round: usize| {
+            move |subject: &Subject, planes: &mut Planes| {
+                planes[0].fill(0);
+                for c in subject.corners() {
+                    let round = |v| ROUNDINGS[round].1(v, step);
+                    let snapped = c.map(|p| SubpixelPoint::new(round(p.x), round(p.y)));
+                    cover(&snapped, RULES[0], [0, 0], 16, &mut planes[0]);
+                }
+            }
+        };
+        let found = |interface: &str, step, round| {
+            let answer = answer("lattice", interface, json!({}), &device(step, round));
+            [
+                answer["word"].clone(),
+                answer["facts"]["bits"].clone(),
+                answer["facts"]["rounding"].clone(),
+            ]
+        };
+        assert_eq!(found("webgl2", 16, 1), [json!("promised"), json!(4), json!("half up")]);
+        assert_eq!(found("webgl2", 32, 0), [json!("broken"), json!(3), json!("half to even")]);
+        assert_eq!(found("webgpu", 16, 3), [json!("free"), json!(4), json!("down")]);
+    }
+
+    /// Smaller cases lie on the device's lattice and in the cell, and lead to one that is smaller still.
+    #[test]
+    fn smaller_cases_are_asked() {
+        let mut subject =
+            batch("coverage", "webgl2", json!({ "number": 4 })).subjects().unwrap().1[0].clone();
+        let mut rounds = 0;
+        loop {
+            let (layout, list) =
+                batch("coverage", "webgl2", json!({ "smaller": subject })).subjects().unwrap();
+            let Some(next) = list.into_iter().find(|s| {
+                // Fails while it covers anything.
+                expected(
+                    Check::Coverage,
+                    batch("coverage", "webgl2", json!({})).device,
+                    s,
+                    layout.cell,
+                )[0]
+                .contains(&1)
+            }) else {
+                break;
+            };
+            let on_lattice = |v: i32| v % 16 == 0 && (0..=layout.cell * SUBPIXELS).contains(&v);
+            assert!(next.corners().iter().flatten().all(|p| on_lattice(p.x) && on_lattice(p.y)));
+            subject = next;
+            rounds += 1;
+        }
+        assert!(rounds > 3, "{rounds}");
+        let px: Vec<_> = subject.corners()[0].iter().map(|p| (p.x.max(p.y)) / SUBPIXELS).collect();
+        assert!(px.iter().all(|px| *px <= 2), "{subject:?}");
+    }
+
+    /// Values a step of f32 away are as promised; those of a plane without perspective break the promise.
+    #[test]
+    fn values_by_their_bounds() {
+        let batch = batch("values", "webgl2", json!({}));
+        let (layout, list) = batch.subjects().unwrap();
+        let word = |affine: bool| {
+            let mut bytes = vec![0u8; (layout.side * layout.side) as usize * 16];
+            for (index, subject) in list.iter().enumerate() {
+                let mut t = subject.triangles()[0];
+                if affine {
+                    t = t.with_equal_w();
+                }
+                let v = &t.vertices;
+                let exact = ExactTriangle::new(
+                    &t.corners(),
+                    v.map(|v| v.depth),
+                    v.map(|v| v.inv_w),
+                    v.map(|v| v.varying.to_array()),
+                );
+                let (Some(exact), [x0, y0]) = (exact, layout.origin(index)) else { continue };
+                for (y, x) in (0..layout.cell).flat_map(|y| (0..layout.cell).map(move |x| (y, x))) {
+                    if place(&t.corners(), centre(x, y)) == Place::Inside {
+                        let (depth, [a, b]) = exact.at(x, y);
+                        let at = ((y0 + y) * layout.side + x0 + x) as usize * 16;
+                        for (i, v) in
+                            [depth.to_f64(), a.to_f64(), b.to_f64(), 1.0].into_iter().enumerate()
+                        {
+                            bytes[at + 4 * i..][..4].copy_from_slice(&(v as f32).to_le_bytes());
+                        }
+                    }
+                }
+            }
+            let tally = Tally::default();
+            let batch = self::batch("values", "webgl2", json!({}));
+            let answer = Judge { batch, pixels: STANDARD.encode(bytes), tally }.answer().unwrap();
+            answer["word"].clone()
+        };
+        assert_eq!([word(false), word(true)], ["promised", "broken"]);
+    }
+
+    #[test]
+    fn bad_questions_get_a_sentence() {
+        let error = |more: Value| batch("coverage", "webgl2", more).answer().unwrap_err();
+        assert!(error(json!({ "only": [] })).contains("1 to 64 shapes"));
+        assert!(error(json!({ "only": [[[1e9, 0, 0, 0, 0, 0]]] })).contains("3 vertices"));
+        let batch = batch("coverage", "webgl2", json!({}));
+        let judge = Judge { batch, pixels: "00".to_owned(), tally: Tally::default() };
+        assert!(judge.answer().unwrap_err().contains("2 bytes"));
+    }
+}
