@@ -371,7 +371,7 @@ fn vertices(
 ) -> Result<(), Wrong> {
     let place = |property: &Property| {
         let is_named = |names: &&[&str]| names.contains(&property.name.as_str());
-        VERTEX.iter().position(|names| property.length.is_none() && is_named(&names))
+        VERTEX.iter().position(|names| property.length.is_none() && is_named(names))
     };
     let places: Vec<Option<usize>> = element.properties.iter().map(place).collect();
     let has = |range: std::ops::Range<usize>| range.clone().all(|at| places.contains(&Some(at)));

@@ -197,7 +197,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// The nodes that are nobody's child: what is shown where no scene is described.
+    /// The nodes without a parent, which are shown where no scene is described.
     fn parentless(&self) -> Vec<usize> {
         let nodes = &self.data.root.nodes;
         let mut is_child = vec![false; nodes.len()];
