@@ -552,7 +552,7 @@ fn files_that_are_broken_or_of_other_formats_are_named() {
         ("a.fbx", b"Kaydara FBX Binary  \0", "this is a file of the format FBX"),
         ("a.dae", b"\xef\xbb\xbf<?xml version=\"1.0\"?>\n<COLLADA>", "of the format COLLADA"),
         ("a.3ds", b"MM\x08\0\0\0\x01\x02", "of the format 3DS"),
-        ("a.ase", b"\xff\xfe*\03\0D\0S\0M\0A\0X\0_\0A\0S\0C\0I\0I\0E\0X\0P\0O\0R\0T\0", "of the format ASE"),
+        ("a.ase", b"\xff\xfe*\x003\0D\0S\0M\0A\0X\0_\0A\0S\0C\0I\0I\0E\0X\0P\0O\0R\0T\0", "of the format ASE"),
         ("a.off", b"OFF\n3 1 0\n", "of the format OFF"),
         ("a.pz3", b"{\n\nversion\n", "of the format Poser"),
         ("a.xyz", b"1 2 3\n", "and its name ends in .xyz; is it an OBJ?"),
