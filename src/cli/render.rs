@@ -75,7 +75,7 @@ pub struct RenderArguments {
 
 #[derive(clap::Args, Debug)]
 pub struct SceneArguments {
-    /// A scene of the book by name, or a model in OBJ, with its MTL and textures beside it
+    /// A scene of the book by name, or a model in GLB, glTF, OBJ (with its MTL), PLY or STL
     #[arg(value_name = "SCENE|MODEL", required_unless_present = "scene", conflicts_with = "scene")]
     what: Option<PathBuf>,
     /// The scene of this name, whatever files there are; see: rasterproof list
@@ -363,8 +363,9 @@ fn report_model(
             Up::Y => ("y", "z"),
             Up::Z => ("z", "y"),
         };
-        let format = model.format.name();
-        writeln!(errors, "{taken} points up, as is usual in {format}; --up {other} for the other")?;
+        let why = if model.format.says_up() { "it does by the rule of" } else { "is usual in" };
+        let (format, other) = (model.format.name(), format!("--up {other} for the other"));
+        writeln!(errors, "{taken} points up, as {why} {format}; {other}")?;
     }
     Ok(())
 }

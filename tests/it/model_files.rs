@@ -59,8 +59,9 @@ fn lines_are_read_as_the_format_says() {
         (count, model.not_drawn)
     };
     assert_eq!(triangles(&format!("{TRIANGLE}f 1 2 3 # c\n")).0, 1);
-    let (count, not_drawn) = triangles(&format!("{TRIANGLE}f 1 2 3\nl 1 2 3\nl 1 2\np 1\n"));
-    assert_eq!((count, not_drawn.as_str()), (1, "2 lines, 1 point"));
+    let text = "f 1 2 3\nl 1 2 3\nl 1 2\np 1\nf 1 2\nf 1 2/";
+    let (count, not_drawn) = triangles(&format!("{TRIANGLE}{text}"));
+    assert_eq!((count, not_drawn.as_str()), (1, "2 incomplete faces, 2 lines, 1 point"));
     // Corners of one kind in one object, of another in the next.
     let mixed =
         format!("{TRIANGLE}vt 0 0\nvt 1\nvn 0 0 1\no a\nf 1//1 2//1 3//1\no b\nf 1/1 2/2 3/2\n");

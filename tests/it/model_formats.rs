@@ -1,17 +1,24 @@
 //! Models in formats other than OBJ.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
+use glam::DVec3;
 use rasterproof_models::{BadFile, Format, Model, Options, Up};
+use rasterproof_render::pipeline::assemble::Cull;
+use rasterproof_render::scene::Shading;
+use serde_json::{Value, json};
 
 const POSITIONS: [[f32; 3]; 4] = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 const FACES: [[usize; 3]; 4] = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
 
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_TARGET_TMPDIR")).join("model_formats")
+}
+
 fn load(name: &str, bytes: &[u8]) -> Result<Model, BadFile> {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("model_formats");
-    fs::create_dir_all(&folder).unwrap();
-    let path = folder.join(name);
+    fs::create_dir_all(folder()).unwrap();
+    let path = folder().join(name);
     fs::write(&path, bytes).unwrap();
     rasterproof_models::load(&path, Options { up: Some(Up::Y), ..Options::default() })
 }
@@ -52,8 +59,7 @@ fn corners(model: &Model) -> Vec<[f64; 3]> {
     model.items.iter().flat_map(of).collect()
 }
 
-#[test]
-fn an_stl_of_either_kind_is_the_same_as_an_obj() {
+fn obj() -> String {
     let mut obj = String::new();
     for [x, y, z] in POSITIONS {
         obj += &format!("v {x} {y} {z}\n");
@@ -62,7 +68,12 @@ fn an_stl_of_either_kind_is_the_same_as_an_obj() {
         let [a, b, c] = face.map(|at| at + 1);
         obj += &format!("f {a} {b} {c}\n");
     }
-    let obj = corners(&load("a.obj", obj.as_bytes()).unwrap());
+    obj
+}
+
+#[test]
+fn an_stl_of_either_kind_is_the_same_as_an_obj() {
+    let obj = corners(&load("a.obj", obj().as_bytes()).unwrap());
     assert_eq!(obj.len(), 12);
     // The ending does not decide, and a binary file may begin with `solid`.
     for (name, bytes) in [
@@ -73,6 +84,458 @@ fn an_stl_of_either_kind_is_the_same_as_an_obj() {
         let model = load(name, &bytes).unwrap();
         assert_eq!((model.format, corners(&model)), (Format::Stl, obj.clone()), "{name}");
     }
+}
+
+/// The same tetrahedron as a PLY, with its normals, texture coordinates and colours.
+fn ply(form: &str) -> Vec<u8> {
+    let mut bytes = format!(
+        "ply\nformat {form} 1.0\ncomment by hand\nelement vertex 4\nproperty double x\nproperty float y\n\
+         property float z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n\
+         property short quality\nelement face 4\nproperty list uchar uint vertex_indices\n\
+         element edge 1\nproperty int a\nend_header\n"
+    )
+    .into_bytes();
+    let is_big = form == "binary_big_endian";
+    let mut put = |number: f64, mut word: Vec<u8>| {
+        if form == "ascii" {
+            bytes.extend(format!("{number} ").bytes());
+        } else {
+            if is_big {
+                word.reverse();
+            }
+            bytes.extend(word);
+        }
+    };
+    for (at, [x, y, z]) in POSITIONS.into_iter().enumerate() {
+        put(x.into(), f64::from(x).to_le_bytes().to_vec());
+        put(y.into(), y.to_le_bytes().to_vec());
+        put(z.into(), z.to_le_bytes().to_vec());
+        [255, 51 * at as u8, 0].into_iter().for_each(|byte| put(byte.into(), vec![byte]));
+        put(-2.0, (-2i16).to_le_bytes().to_vec());
+        if form == "ascii" {
+            put(f64::NAN, Vec::new());
+        }
+    }
+    for face in FACES {
+        put(3.0, vec![3]);
+        face.into_iter().for_each(|at| put(at as f64, (at as u32).to_le_bytes().to_vec()));
+        if form == "ascii" {
+            put(f64::NAN, Vec::new());
+        }
+    }
+    put(7.0, 7i32.to_le_bytes().to_vec());
+    match form {
+        // A line for each element.
+        "ascii" => String::from_utf8(bytes).unwrap().replace("NaN ", "\n").into_bytes(),
+        _ => bytes,
+    }
+}
+
+#[test]
+fn a_ply_of_any_kind_is_the_same_as_an_obj() {
+    let obj = corners(&load("b.obj", obj().as_bytes()).unwrap());
+    for form in ["ascii", "binary_little_endian", "binary_big_endian"] {
+        let model = load("a.txt", &ply(form)).unwrap();
+        assert_eq!((model.format, corners(&model)), (Format::Ply, obj.clone()), "{form}");
+        assert_eq!(model.warnings, Vec::<String>::new());
+        assert_eq!(model.not_drawn, "1 edge, value 'quality' of 4 positions");
+        let corner = model.items[0].mesh.triangles[0][2];
+        assert_eq!((corner.position, corner.colour.to_array()), (1, [1.0, 0.2, 0.0]), "{form}");
+        assert_eq!(model.origins[0].lines.is_empty(), form != "ascii");
+    }
+    let text = String::from_utf8(ply("ascii")).unwrap();
+    let model = load("old.ply", text.replace('\n', "\r\n").as_bytes()).unwrap();
+    assert_eq!(corners(&model), obj, "lines that end with two bytes");
+    assert_eq!(model.origins[0].lines, [21, 22, 23, 24]);
+}
+
+#[test]
+fn a_ply_has_polygons_strips_and_texture_coordinates() {
+    let head = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n\
+                property float z\n";
+    let square = "0 0 0\n1 0 0\n0 1 0\n1 1 0\n";
+    let polygon = "element face 2\nproperty list uchar int vertex_index\n\
+                   property list uchar float texcoord\nend_header\n";
+    let faces = "4 0 1 3 2 8 0 0 1 0 1 1 0 .25\n2 0 1 0\n";
+    let model = load("polygon.ply", format!("{head}{polygon}{square}{faces}").as_bytes()).unwrap();
+    let [item] = &model.items[..] else { panic!("{model:?}") };
+    assert_eq!(item.mesh.triangles.len(), 2);
+    assert_eq!(item.mesh.triangles[1][2].uv.to_array(), [0.0, 0.25]);
+    assert_eq!(model.not_drawn, "1 incomplete face");
+    // Two strips in one list: three triangles, all of the same winding.
+    let strips = "element tristrips 1\nproperty list int int vertex_indices\nend_header\n";
+    let list = "8 0 1 2 3 -1 3 2 0\n";
+    let model = load("strips.ply", format!("{head}{strips}{square}{list}").as_bytes()).unwrap();
+    let mesh = &model.items[0].mesh;
+    let indices: Vec<_> = mesh.triangles.iter().map(|t| t.map(|corner| corner.position)).collect();
+    assert_eq!(indices, [[0, 1, 2], [2, 1, 3], [3, 2, 0]]);
+}
+
+/// A document of the tetrahedron, changed by a function, with its bytes: positions, then indices.
+fn document(change: impl FnOnce(&mut Value)) -> (String, Vec<u8>) {
+    let mut bytes: Vec<u8> = POSITIONS.iter().flatten().flat_map(|x| x.to_le_bytes()).collect();
+    bytes.extend(FACES.iter().flatten().flat_map(|&at| (at as u16).to_le_bytes()));
+    let mut document = json!({
+        "asset": { "version": "2.0" },
+        "buffers": [{ "byteLength": bytes.len() }],
+        "bufferViews": [
+            { "buffer": 0, "byteLength": 48 },
+            { "buffer": 0, "byteOffset": 48, "byteLength": 24 },
+        ],
+        "accessors": [
+            { "bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3" },
+            { "bufferView": 1, "componentType": 5123, "count": 12, "type": "SCALAR" },
+        ],
+        "meshes": [{ "primitives": [{ "attributes": { "POSITION": 0 }, "indices": 1 }] }],
+        "nodes": [{ "mesh": 0, "name": "body" }],
+        "scenes": [{ "nodes": [0] }],
+    });
+    change(&mut document);
+    (document.to_string(), bytes)
+}
+
+fn glb((json, bytes): (String, Vec<u8>)) -> Vec<u8> {
+    let mut json = json.into_bytes();
+    json.resize(json.len().next_multiple_of(4), b' ');
+    let mut file = b"glTF".to_vec();
+    let length = 12 + 8 + json.len() + 8 + bytes.len();
+    file.extend([2, length as u32, json.len() as u32].map(u32::to_le_bytes).concat());
+    file.extend(b"JSON");
+    file.extend(json);
+    file.extend((bytes.len() as u32).to_le_bytes());
+    file.extend(b"BIN\0");
+    file.extend(bytes);
+    file
+}
+
+#[test]
+fn a_gltf_of_any_kind_is_the_same_as_an_obj() {
+    let obj = corners(&load("c.obj", obj().as_bytes()).unwrap());
+    let model = load("a.bin", &glb(document(|_| ()))).unwrap();
+    assert_eq!((model.format, corners(&model)), (Format::Glb, obj.clone()));
+    assert_eq!(model.origins[0].part, "nodes[0] body meshes[0].primitives[0]");
+    let beside = "the buffer (1).bin";
+    let escaped = document(|d| d["buffers"][0]["uri"] = json!("the%20buffer%20(1).bin"));
+    fs::create_dir_all(folder()).unwrap();
+    fs::write(folder().join(beside), &escaped.1).unwrap();
+    let model = load("beside.gltf", escaped.0.as_bytes()).unwrap();
+    assert_eq!((model.format, corners(&model)), (Format::Gltf, obj.clone()));
+    // Without indices, which lists the positions three by three.
+    let whole: Vec<u8> =
+        FACES.iter().flatten().flat_map(|&at| POSITIONS[at]).flat_map(f32::to_le_bytes).collect();
+    let (json, _) = document(|d| {
+        d["bufferViews"][0]["byteLength"] = json!(whole.len());
+        d["buffers"][0]["byteLength"] = json!(whole.len());
+        d["accessors"][0]["count"] = json!(12);
+        d["meshes"][0]["primitives"][0].as_object_mut().unwrap().remove("indices");
+    });
+    assert_eq!(corners(&load("c.glb", &glb((json, whole))).unwrap()), obj);
+    // The first version, which names things.
+    let (_, bytes) = document(|_| ());
+    let uri = format!("data:;base64,{}", base64(&bytes));
+    let first = json!({
+        "asset": { "version": "1.0" },
+        "buffers": { "b": { "uri": uri, "byteLength": 72 } },
+        "bufferViews": { "v": { "buffer": "b", "byteLength": 48 }, "i": { "buffer": "b", "byteOffset": 48, "byteLength": 24 } },
+        "accessors": {
+            "p": { "bufferView": "v", "byteStride": 12, "componentType": 5126, "count": 4, "type": "VEC3" },
+            "n": { "bufferView": "i", "byteStride": 0, "componentType": 5123, "count": 12, "type": "SCALAR" },
+        },
+        "materials": { "m": { "name": "red", "values": { "diffuse": [1, 0, 0, 1], "specular": [1, 1, 1, 1] } } },
+        "meshes": { "t": { "primitives": [{ "attributes": { "POSITION": "p" }, "indices": "n", "material": "m" }] } },
+        "nodes": { "a": { "meshes": ["t", "t"] } },
+        "scenes": { "s": { "nodes": ["a"] } },
+        "scene": "s",
+    });
+    let model = load("first.gltf", first.to_string().as_bytes()).unwrap();
+    assert_eq!(corners(&model), [&obj[..], &obj].concat(), "a node with two meshes");
+    assert_eq!(model.not_drawn, "specular colour of 1 material");
+    assert_eq!(model.items[0].material.colour.to_array(), [1.0, 0.0, 0.0]);
+}
+
+/// Bytes as text, by the definition.
+fn base64(bytes: &[u8]) -> String {
+    const LETTERS: &[u8] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let letter = |three: &[u8], at: usize| {
+        let word = three.iter().fold(0u32, |word, &byte| word << 8 | u32::from(byte));
+        LETTERS[(word >> (18 - 6 * at) & 63) as usize] as char
+    };
+    assert_eq!(bytes.len() % 3, 0);
+    bytes
+        .chunks(3)
+        .flat_map(|three| (0..4).map(|at| letter(three, at)).collect::<Vec<_>>())
+        .collect()
+}
+
+/// A node brings its mesh to where it is; a mirror turns no face inside out.
+#[test]
+fn nodes_of_a_gltf_place_its_meshes() {
+    let model = load("nodes.glb", &glb(document(|d| {
+        d["nodes"] = json!([
+            { "children": [1, 2, 3], "translation": [10, 0, 0] },
+            { "mesh": 0, "rotation": [0, 0, std::f64::consts::FRAC_1_SQRT_2, std::f64::consts::FRAC_1_SQRT_2], "scale": [2, 2, 2] },
+            { "mesh": 0, "matrix": [-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 5, 0, 1] },
+            { "camera": 0 },
+        ]);
+        d["cameras"] = json!([{ "type": "perspective", "perspective": { "yfov": 1, "znear": 1 } }]);
+        d["scenes"] = json!([{ "nodes": [] }, { "nodes": [0] }, { "nodes": [1] }]);
+        d["scene"] = json!(1);
+    }))).unwrap();
+    assert_eq!(model.not_drawn, "1 camera, 2 other scenes");
+    let [turned, mirrored] = &model.items[..] else { panic!("{model:?}") };
+    let close = |item: &rasterproof_render::scene::Item, at: usize, expected: [f64; 3]| {
+        let found = item.mesh.positions[at];
+        assert!(found.distance(DVec3::from_array(expected)) < 1e-6, "{found} for {expected:?}");
+    };
+    // x becomes y, twice as far, and z is turned.
+    close(turned, 1, [10.0, 2.0, 0.0]);
+    close(turned, 3, [10.0, 0.0, -2.0]);
+    close(mirrored, 1, [9.0, 5.0, 0.0]);
+    for item in [turned, mirrored] {
+        let mesh = &item.mesh;
+        let centre = mesh.positions.iter().sum::<DVec3>() / 4.0;
+        for triangle in &mesh.triangles {
+            let corner = mesh.positions[triangle[0].position as usize];
+            assert!(mesh.face_normal(triangle).dot(corner - centre) > 0.0, "{triangle:?}");
+        }
+    }
+}
+
+#[test]
+fn strips_and_fans_of_a_gltf_are_triangles_of_one_winding() {
+    let list = [0u16, 2, 1, 3, 3];
+    for (mode, expected) in [
+        // Two corners are left.
+        (4, vec![[0, 2, 1]]),
+        // The last index is that before it, so it makes no triangle.
+        (5, vec![[0, 2, 1], [2, 3, 1]]),
+        (6, vec![[2, 1, 0], [1, 3, 0], [3, 3, 0]]),
+    ] {
+        let (json, mut bytes) = document(|d| {
+            d["accessors"][1]["count"] = json!(list.len());
+            d["meshes"][0]["primitives"][0]["mode"] = json!(mode);
+        });
+        bytes.splice(48..58, list.iter().flat_map(|at| at.to_le_bytes()));
+        let model = load("modes.glb", &glb((json, bytes))).unwrap();
+        let mesh = &model.items[0].mesh;
+        let indices: Vec<[u32; 3]> =
+            mesh.triangles.iter().map(|t| t.map(|corner| corner.position)).collect();
+        assert_eq!(indices, expected, "mode {mode}");
+        assert_eq!(model.warnings.len(), usize::from(mode == 4), "{:?}", model.warnings);
+    }
+    let file = document(|d| d["meshes"][0]["primitives"][0]["mode"] = json!(1));
+    let model = load("lines.glb", &glb(file)).unwrap();
+    assert_eq!((model.items.len(), model.not_drawn.as_str()), (0, "6 lines"));
+}
+
+/// A texture of two texels, red on the left and green on the right, as a PNG.
+fn picture() -> Vec<u8> {
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    let pixel = |x, _| image::Rgba(if x == 0 { [255, 0, 0, 255] } else { [0, 255, 0, 128] });
+    let picture = image::RgbaImage::from_fn(2, 1, pixel);
+    picture.write_to(&mut bytes, image::ImageFormat::Png).unwrap();
+    bytes.into_inner()
+}
+
+#[test]
+fn materials_of_a_gltf_are_drawn_or_counted() {
+    let uvs: Vec<u8> =
+        [0.25f32, 0.0, 0.75, 0.0, 0.25, 1.0, 0.75, 1.0].map(f32::to_le_bytes).concat();
+    let picture = picture();
+    let (json, mut bytes) = document(|d| {
+        let views = d["bufferViews"].as_array_mut().unwrap();
+        views.push(json!({ "buffer": 0, "byteOffset": 72, "byteLength": 32 }));
+        views.push(json!({ "buffer": 0, "byteOffset": 104, "byteLength": picture.len() }));
+        let uvs = json!({ "bufferView": 2, "componentType": 5126, "count": 4, "type": "VEC2" });
+        // Bytes of the positions as colours, which are read as shares of 255.
+        let colours = json!({ "bufferView": 0, "byteOffset": 0, "componentType": 5121, "normalized": true, "count": 4, "type": "VEC4" });
+        d["accessors"].as_array_mut().unwrap().extend([uvs, colours]);
+        let body = json!({ "attributes": { "POSITION": 0, "TEXCOORD_1": 2 }, "indices": 1, "material": 0 });
+        let mut other = body.clone();
+        other["material"] = json!(1);
+        other["attributes"]["COLOR_0"] = json!(3);
+        d["meshes"][0]["primitives"] = json!([body, other]);
+        d["images"] = json!([{ "bufferView": 3, "mimeType": "image/png" }]);
+        d["samplers"] = json!([{ "magFilter": 9728, "wrapS": 33071, "wrapT": 33071 }]);
+        d["textures"] = json!([{ "source": 0, "sampler": 0 }, { "source": 7 }]);
+        let moved = json!({ "index": 0, "texCoord": 0, "extensions": { "KHR_texture_transform": { "offset": [0.5, 0], "texCoord": 1 } } });
+        d["materials"] = json!([
+            {
+                "name": "paint",
+                "pbrMetallicRoughness": { "baseColorTexture": moved, "baseColorFactor": [0.5, 0, 1, 0.5], "metallicFactor": 0 },
+                "normalTexture": { "index": 0 },
+                "emissiveFactor": [0, 0, 1],
+                "alphaMode": "BLEND",
+                "extensions": { "KHR_materials_unlit": {}, "KHR_materials_sheen": {} },
+            },
+            { "doubleSided": true, "pbrMetallicRoughness": { "baseColorTexture": { "index": 1 } } },
+        ]);
+        d["extensionsUsed"] = json!(["KHR_materials_unlit", "KHR_materials_sheen"]);
+    });
+    bytes.extend(uvs);
+    bytes.extend(picture);
+    let model = load("materials.glb", &glb((json, bytes))).unwrap();
+    let [paint, other] = &model.items[..] else { panic!("{model:?}") };
+    // Half of the light is 188 of 255 on a screen.
+    let [r, g, b] = paint.material.colour.to_array();
+    assert!((r * 255.0 - 187.516).abs() < 0.01 && g == 0.0 && b == 1.0, "{r}");
+    assert_eq!((paint.material.shading, paint.cull), (Shading::Unlit, Cull::Clockwise));
+    assert_eq!(other.cull, Cull::None);
+    let texture = paint.material.texture.as_ref().unwrap();
+    let corner = paint.mesh.triangles[0][0];
+    assert_eq!(corner.uv.to_array(), [0.75, 1.0], "moved by a half, v up");
+    assert_eq!(texture.at(corner.uv).to_array(), [0.0, 1.0, 0.0]);
+    assert_eq!(model.origins[0].material, "paint");
+    assert_eq!(
+        model.origins[1].place(3),
+        "face 8 (number 4 of its part) of 'nodes[0] body meshes[0].primitives[1]', material 'materials[1]'"
+    );
+    assert!(other.material.texture.is_none() && other.material.vertex_colours);
+    let [missing] = &model.warnings[..] else { panic!("{:?}", model.warnings) };
+    assert!(
+        missing.contains("textures[1] has no picture that is read; the material 'materials[1]'"),
+        "{missing}"
+    );
+    assert_eq!(
+        model.not_drawn,
+        "emission of 1 material, 1 extension KHR_materials_sheen, metal of 1 material, 1 normal map, \
+         transparency of 1 material, transparency of 1 texture"
+    );
+}
+
+/// Joints move what is bound to them, shapes are mixed in, and single elements are replaced.
+#[test]
+fn a_gltf_is_drawn_in_its_rest_pose() {
+    let (json, mut bytes) = document(|d| {
+        let views = d["bufferViews"].as_array_mut().unwrap();
+        views.push(json!({ "buffer": 0, "byteOffset": 72, "byteLength": 100 }));
+        let accessors = d["accessors"].as_array_mut().unwrap();
+        accessors
+            .push(json!({ "bufferView": 2, "componentType": 5121, "count": 4, "type": "VEC4" }));
+        accessors.push(json!({ "bufferView": 2, "byteOffset": 16, "componentType": 5121, "normalized": true, "count": 4, "type": "VEC4" }));
+        // Position 2 of four zeros is (0, 8, 0).
+        accessors.push(json!({ "componentType": 5126, "count": 4, "type": "VEC3", "sparse": {
+            "count": 1,
+            "indices": { "bufferView": 2, "byteOffset": 32, "componentType": 5121 },
+            "values": { "bufferView": 2, "byteOffset": 36 },
+        } }));
+        d["meshes"][0]["primitives"][0] = json!({
+            "attributes": { "POSITION": 0, "JOINTS_0": 2, "WEIGHTS_0": 3 },
+            "indices": 1,
+            "targets": [{ "POSITION": 4 }, { "POSITION": 4 }],
+        });
+        d["meshes"][0]["weights"] = json!([0.5, 0]);
+        d["skins"] = json!([{ "joints": [1, 2] }]);
+        d["nodes"] = json!([
+            { "mesh": 0, "skin": 0, "translation": [100, 0, 0] },
+            { "translation": [1, 0, 0], "children": [2] },
+            { "translation": [0, 0, 4] },
+        ]);
+        d["scenes"] = json!([{ "nodes": [0, 1] }]);
+    });
+    // Vertex 0 to joint 0, the others to joint 1; vertex 3 to both.
+    bytes.extend([0, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0]);
+    bytes.extend([255, 0, 0, 0, 255, 0, 0, 0, 255, 0, 0, 0, 128, 128, 0, 0]);
+    bytes.extend([2, 0, 0, 0]);
+    bytes.extend([0.0f32, 8.0, 0.0].map(f32::to_le_bytes).concat());
+    bytes.resize(172, 0);
+    let model = load("pose.glb", &glb((json, bytes))).unwrap();
+    assert_eq!((model.warnings.len(), model.not_drawn.as_str()), (0, "1 morph target"));
+    let found: Vec<[f64; 3]> =
+        model.items[0].mesh.positions.iter().map(|position| position.to_array()).collect();
+    assert_eq!(found, [[1.0, 0.0, 0.0], [2.0, 0.0, -4.0], [1.0, 5.0, -4.0], [1.0, 0.0, -3.0]]);
+}
+
+#[test]
+fn what_a_gltf_names_and_is_not_there_is_said() {
+    let error = |name: &str, change: &dyn Fn(&mut Value), part: &str| {
+        let error = load(name, &glb(document(change))).unwrap_err().to_string();
+        assert!(error.contains(part), "{name}: {error}");
+    };
+    error(
+        "a.glb",
+        &|d| d["accessors"][1]["count"] = json!(13),
+        "meshes[0].primitives[0]: accessors[1]: 13 elements of 2 bytes do not fit into the 24 bytes",
+    );
+    error(
+        "b.glb",
+        &|d| d["bufferViews"][1]["byteLength"] = json!(25),
+        "bufferViews[1] has 25 bytes from byte 48 on, and buffers[0] has 72",
+    );
+    error("c.glb", &|d| d["accessors"][0]["count"] = json!(u64::MAX), "do not fit");
+    error("d.glb", &|d| d["nodes"][0]["children"] = json!([0]), "nodes[0] contains itself");
+    error("e.glb", &|d| d["nodes"][0]["children"] = json!([9]), "nodes[9] is not there");
+    error(
+        "f.glb",
+        &|d| d["buffers"][0]["uri"] = json!("none.bin"),
+        "buffers[0]: there is no file 'none.bin'",
+    );
+    error(
+        "g.glb",
+        &|d| d["extensionsRequired"] = json!(["EXT_meshopt_compression"]),
+        "compressed by EXT_meshopt_compression",
+    );
+    error(
+        "h.glb",
+        &|d| d["accessors"][0]["type"] = json!("VEC2"),
+        "accessors[0] has 2 numbers where 3 are needed",
+    );
+    error("i.glb", &|d| d["nodes"][0]["mesh"] = json!("x"), "is no glTF that can be read");
+    let mut file = document(|_| ());
+    file.1[48 + 2] = 9;
+    let model = load("j.glb", &glb(file)).unwrap();
+    assert_eq!(model.items[0].mesh.triangles.len(), 3);
+    assert!(model.warnings[0].contains("1 triangles name a vertex that is not there, as 9 of 4"));
+    let text = document(|_| ()).0.replace("\"2.0\"", "2.0");
+    let error = load("k.gltf", text.as_bytes()).unwrap_err();
+    assert_eq!(error.line, Some(1), "{error}");
+}
+
+/// Every beginning of a file, and files with other bytes somewhere: read or refused, without a panic.
+#[test]
+fn mutated_files_of_all_formats_never_panic() {
+    let files = [
+        ("a.stl", text().into_bytes()),
+        ("b.stl", binary(b"")),
+        ("a.ply", ply("ascii")),
+        ("b.ply", ply("binary_big_endian")),
+        ("a.glb", glb(document(|d| d["nodes"][0]["scale"] = json!([1, 2, 3])))),
+    ];
+    let (mut read, mut refused) = (0, 0);
+    let mut look = |name: &str, bytes: &[u8]| match load(name, bytes) {
+        Ok(model) => {
+            for item in &model.items {
+                let corners = item.mesh.triangles.as_flattened();
+                assert!(corners.iter().all(|c| (c.position as usize) < item.mesh.positions.len()));
+            }
+            read += 1;
+        }
+        Err(_) => refused += 1,
+    };
+    let mut random = 1u64;
+    let mut below = |limit: usize| {
+        random =
+            random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (random >> 33) as usize % limit
+    };
+    for (name, bytes) in &files {
+        for length in (0..bytes.len()).step_by(3) {
+            look(name, &bytes[..length]);
+        }
+        for _ in 0..400 {
+            let mut changed = bytes.clone();
+            for _ in 0..=below(3) {
+                let at = below(changed.len());
+                changed[at] = match below(3) {
+                    0 => below(256) as u8,
+                    1 => b"0123456789-{}[],:\" \n"[below(20)],
+                    _ => changed[below(bytes.len())],
+                };
+            }
+            look(name, &changed);
+        }
+    }
+    assert!(read > 300 && refused > 300, "{read} read, {refused} refused");
 }
 
 #[test]
@@ -87,6 +550,15 @@ fn files_that_are_broken_or_of_other_formats_are_named() {
             ":4: a facet ends with 1 vertices",
         ),
         ("a.fbx", b"Kaydara FBX Binary  \0", "this is a file of the format FBX"),
+        ("a.dae", b"\xef\xbb\xbf<?xml version=\"1.0\"?>\n<COLLADA>", "of the format COLLADA"),
+        ("a.3ds", b"MM\x08\0\0\0\x01\x02", "of the format 3DS"),
+        ("a.ase", b"\xff\xfe*\x003\0D\0S\0M\0A\0X\0_\0A\0S\0C\0I\0I\0E\0X\0P\0O\0R\0T\0", "of the format ASE"),
+        ("a.off", b"OFF\n3 1 0\n", "of the format OFF"),
+        ("a.pz3", b"{\n\nversion\n", "of the format Poser"),
+        ("a.xyz", b"1 2 3\n", "and its name ends in .xyz; is it an OBJ?"),
+        ("a.ply", b"ply\nformat ascii 1.0\nelement vertex x\n", ":3: 'element vertex x' is no line of a header"),
+        ("b.ply", b"ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\nend_header\n1 2 3\n1 2\n", ":9: vertex 2 of 2: the line has fewer numbers"),
+        ("c.ply", b"ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list int int vertex_index\nend_header\n1 2 3\n3 0 0 1\n", ":11: face 1 names vertex 1, and the file has 1"),
         ("a.stl", b"solid\nendsolid\n", "has no faces"),
     ] {
         let error = load(name, bytes).unwrap_err().to_string();

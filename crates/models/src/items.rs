@@ -58,7 +58,8 @@ pub(crate) fn model(
     let not_drawn = counted(&contents.not_drawn);
     if items.is_empty() {
         if not_drawn.is_empty() {
-            return Err(bad(path, None, "has no faces, so there is nothing to draw"));
+            let why = contents.warnings.first().map_or(String::new(), |why| format!(" ({why})"));
+            return Err(bad(path, None, format!("has no faces, so there is nothing to draw{why}")));
         }
         let path = printable_path(path);
         warnings.line(&path, &format!("{path}: has no faces, so the picture is empty"));

@@ -5,9 +5,11 @@
 
 mod contents;
 mod format;
+mod gltf;
 mod items;
 mod mtl;
 mod obj;
+mod ply;
 mod polygons;
 mod stl;
 mod textures;
@@ -150,6 +152,8 @@ pub fn load(path: &Path, options: Options) -> Result<Model, BadFile> {
     let contents = match format {
         Format::Obj => obj::read(path, &bytes)?,
         Format::Stl => stl::read(path, &bytes)?,
+        Format::Ply => ply::read(path, &bytes)?,
+        Format::Gltf | Format::Glb => gltf::read(path, &bytes)?,
     };
     drop(bytes);
     items::model(path, contents, format, options)

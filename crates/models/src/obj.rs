@@ -347,6 +347,11 @@ const NOT_DRAWN: [(&str, &str); 10] = [
     ("bsp", "patch"),
 ];
 
+/// What is wrong with a line, and what to do about it.
+fn refused(path: &Path, line: usize, cause: &str) -> BadFile {
+    bad(path, Some(line), format!("{cause}: repair the line, or export the model again"))
+}
+
 /// Goes through all lines.
 fn lines(path: &Path, bytes: &[u8], warnings: &mut Warnings) -> Result<Lines, BadFile> {
     let bytes = without_mark(bytes);
@@ -373,7 +378,7 @@ fn lines(path: &Path, bytes: &[u8], warnings: &mut Warnings) -> Result<Lines, Ba
             line = &joined;
         }
         let result = read_line(line, first, &mut read, &mut state);
-        if let Some(cause) = result.map_err(|cause| bad(path, Some(first), cause))? {
+        if let Some(cause) = result.map_err(|cause| refused(path, first, &cause))? {
             let path = printable_path(path);
             warnings.line(
                 &format!("{path}: lines"),
@@ -386,10 +391,14 @@ fn lines(path: &Path, bytes: &[u8], warnings: &mut Warnings) -> Result<Lines, Ba
         let hint = if is_wide {
             "it begins like text in UTF-16: save it as UTF-8"
         } else {
-            "is it an OBJ?"
+            "is it an OBJ? GLB, glTF, PLY and STL are read too"
         };
+        let ending = path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase());
+        let ending = ending.filter(|ending| ending != "obj").map_or(String::new(), |ending| {
+            format!(", and its name ends in .{}", printable_short(&ending, 10))
+        });
         let what = "has no faces (lines that begin with 'f'), so there is nothing to draw";
-        return Err(bad(path, None, format!("{what}; {hint}")));
+        return Err(bad(path, None, format!("{what}{ending}; {hint}")));
     }
     // Some programs write bytes.
     let is_large = |colour: &DVec3| colour.max_element() > 1.0;
@@ -427,7 +436,7 @@ fn read_line(
                 .or_else(|cause| read.keep_broken(2, read.normals.len(), number, cause))?;
             read.normals.push(DVec3::from_slice(&values));
         }
-        b"f" | b"fo" => return face(words, number, read, state).map(|()| None),
+        b"f" | b"fo" => return face(words, number, read, state),
         b"o" => {
             state.object = rest(line, kind);
             state.group.clear();
@@ -543,7 +552,7 @@ fn face<'a>(
     number: usize,
     read: &mut Lines,
     state: &mut State,
-) -> Result<(), String> {
+) -> Result<Option<String>, String> {
     if state.is_new {
         state.is_new = false;
         let name = if state.object.is_empty() { &state.group } else { &state.object };
@@ -552,17 +561,19 @@ fn face<'a>(
         read.runs.push(Run { name: name.clone(), material, corners, polygons });
     }
     let counts = [read.positions.len(), read.uvs.len(), read.normals.len()];
-    let Some(run) = read.runs.last_mut() else { return Ok(()) };
+    let Some(run) = read.runs.last_mut() else { return Ok(None) };
     let start = run.corners.len();
     for word in words {
         run.corners.push(face_corner(word, counts)?);
     }
     if run.corners.len() < start + 3 {
-        return Err("a face needs three corners or more".to_owned());
+        run.corners.truncate(start);
+        *read.not_drawn.entry("incomplete face".to_owned()).or_default() += 1;
+        return Ok(Some("a face needs three corners or more".to_owned()));
     }
     let end = run.corners.len() as u32;
     run.polygons.push(Polygon { end, line: number as u32, smoothing: state.smoothing });
-    Ok(())
+    Ok(None)
 }
 
 /// `position/texture/normal` as indices from 0; negative ones count back from here.
@@ -611,13 +622,13 @@ fn check_faces(path: &Path, lines: &mut Lines, warnings: &mut Warnings) -> Resul
                         let (name, count, index) =
                             (KINDS[kind], counts[kind], u64::from(index) + 1);
                         let cause = format!("{name} {index} is not there; the file has {count}");
-                        return Err(bad(path, Some(polygon.line as usize), cause));
+                        return Err(refused(path, polygon.line as usize, &cause));
                     }
                     if lines.broken.is_empty() {
                         continue;
                     }
                     if let Some((line, cause)) = lines.broken.remove(&(kind, index)) {
-                        return Err(bad(path, Some(line), cause));
+                        return Err(refused(path, line, &cause));
                     }
                 }
             }

@@ -1,0 +1,307 @@
+//! Buffers and accessors: numbers out of bytes. Whatever the file says, nothing outside its bytes is read.
+
+use std::borrow::Cow;
+use std::path::Path;
+
+use base64::Engine as _;
+use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
+use gltf_json::accessor::{ComponentType, GenericComponentType, IndexComponentType};
+use gltf_json::validation::Checked;
+use gltf_json::{Accessor, Root};
+use rasterproof_host::limits;
+use rasterproof_host::text::printable_short;
+
+use crate::read_bytes;
+use crate::textures::find;
+
+/// Elements of an accessor without bytes, which are zeros.
+const MOST_ZEROS: usize = 1 << 24;
+
+/// A document with the bytes that it names.
+pub(super) struct Data<'a> {
+    pub root: Root,
+    buffers: Vec<Cow<'a, [u8]>>,
+}
+
+/// The elements of an accessor, one after the other.
+struct Column<'a> {
+    /// From the first element on; nothing where all are zeros.
+    bytes: Option<&'a [u8]>,
+    count: usize,
+    stride: usize,
+    width: usize,
+    kind: ComponentType,
+    normalized: bool,
+}
+
+impl<'a> Data<'a> {
+    /// Reads the buffers of a document; `bin` is the second chunk of a GLB.
+    pub(super) fn new(root: Root, folder: &Path, bin: Option<&'a [u8]>) -> Result<Self, String> {
+        let mut buffers = Vec::new();
+        for (number, buffer) in root.buffers.iter().enumerate() {
+            let bytes = match (&buffer.uri, bin) {
+                (Some(uri), _) => Cow::Owned(
+                    resource(folder, uri, limits::MODEL_BYTES)
+                        .map_err(|cause| format!("buffers[{number}]: {cause}"))?,
+                ),
+                (None, Some(bin)) => Cow::Borrowed(bin),
+                // A buffer of a compression may be a place to decode to.
+                (None, None) => Cow::Borrowed(&[][..]),
+            };
+            buffers.push(bytes);
+        }
+        Ok(Self { root, buffers })
+    }
+
+    /// The bytes of a buffer view, and the distance of its elements where it has one.
+    pub(super) fn view(&self, number: usize) -> Result<(&[u8], Option<usize>), String> {
+        let missing = || format!("bufferViews[{number}] is not there");
+        let view = self.root.buffer_views.get(number).ok_or_else(missing)?;
+        let buffer = view.buffer.value();
+        let all = self.buffers.get(buffer);
+        let all = all.ok_or_else(|| format!("buffers[{buffer}] is not there"))?;
+        let start = view.byte_offset.map_or(0, |offset| offset.0);
+        let bytes = start
+            .checked_add(view.byte_length.0)
+            .and_then(|end| all.get(usize::try_from(start).ok()?..usize::try_from(end).ok()?));
+        let bytes = bytes.ok_or_else(|| {
+            format!(
+                "bufferViews[{number}] has {} bytes from byte {start} on, and buffers[{buffer}] has {}: the buffer is cut off",
+                view.byte_length.0,
+                all.len()
+            )
+        })?;
+        Ok((bytes, view.byte_stride.map(|stride| stride.0)))
+    }
+
+    fn accessor(&self, number: usize) -> Result<&Accessor, String> {
+        let accessor = self.root.accessors.get(number);
+        accessor.ok_or_else(|| format!("accessors[{number}] is not there"))
+    }
+
+    fn column(&self, number: usize) -> Result<Column<'_>, String> {
+        let accessor = self.accessor(number)?;
+        let failed = |cause: &str| format!("accessors[{number}]: {cause}");
+        let Checked::Valid(GenericComponentType(kind)) = accessor.component_type else {
+            return Err(failed("the component type is not one of glTF"));
+        };
+        let Checked::Valid(form) = accessor.type_ else {
+            return Err(failed("the type is not one of glTF"));
+        };
+        let (width, normalized) = (form.multiplicity(), accessor.normalized);
+        let count = usize::try_from(accessor.count.0).unwrap_or(usize::MAX);
+        let (mut stride, mut bytes) = (width * kind.size(), None);
+        match &accessor.buffer_view {
+            Some(view) => {
+                let offset = accessor.byte_offset.map_or(0, |offset| offset.0);
+                bytes = Some((self.view(view.value())?, offset));
+            }
+            None if count > MOST_ZEROS => return Err(failed("has no bytes")),
+            None => {}
+        }
+        let bytes = match bytes {
+            None => None,
+            Some(((all, given), offset)) => {
+                let size = stride;
+                stride = given.filter(|&given| given > 0).unwrap_or(size);
+                let last = count.saturating_sub(1).checked_mul(stride);
+                let needed = last.and_then(|last| last.checked_add(size)).filter(|_| count > 0);
+                let from = usize::try_from(offset).ok().and_then(|offset| all.get(offset..));
+                let fits =
+                    from.filter(|from| count == 0 || needed.is_some_and(|n| n <= from.len()));
+                let cause = || {
+                    failed(&format!(
+                        "{count} elements of {size} bytes do not fit into the {} bytes of its buffer view",
+                        all.len()
+                    ))
+                };
+                Some(fits.ok_or_else(cause)?)
+            }
+        };
+        Ok(Column { bytes, count, stride, width, kind, normalized })
+    }
+
+    /// The elements of an accessor as numbers, each cut to N of them.
+    pub(super) fn vectors<const N: usize>(&self, number: usize) -> Result<Vec<[f64; N]>, String> {
+        let column = self.column(number)?;
+        if column.width < N {
+            let width = column.width;
+            return Err(format!("accessors[{number}] has {width} numbers where {N} are needed"));
+        }
+        let mut vectors = column.read::<N>();
+        let Some(sparse) = &self.accessor(number)?.sparse else { return Ok(vectors) };
+        let failed = |cause: &str| format!("accessors[{number}].sparse: {cause}");
+        let Checked::Valid(IndexComponentType(kind)) = sparse.indices.component_type else {
+            return Err(failed("the component type of the indices is not one of glTF"));
+        };
+        let count = usize::try_from(sparse.count.0).unwrap_or(usize::MAX);
+        let size = column.width * column.kind.size();
+        let part = |view: usize, offset: u64, size: usize| {
+            let (bytes, _) = self.view(view)?;
+            let bytes = usize::try_from(offset).ok().and_then(|offset| bytes.get(offset..));
+            let bytes = bytes.filter(|bytes| bytes.len() / size >= count);
+            let bytes = bytes.ok_or_else(|| failed("its bytes do not fit into the buffer view"))?;
+            Ok::<_, String>(bytes)
+        };
+        let indices = &sparse.indices;
+        let stride = kind.size();
+        let bytes = part(indices.buffer_view.value(), indices.byte_offset.0, stride)?;
+        let (width, normalized) = (1, false);
+        let indices = Column { bytes: Some(bytes), count, stride, width, kind, normalized };
+        let values = &sparse.values;
+        let bytes = part(values.buffer_view.value(), values.byte_offset.0, size)?;
+        let values = Column { bytes: Some(bytes), stride: size, count, ..column };
+        for ([index], value) in indices.read::<1>().into_iter().zip(values.read::<N>()) {
+            let place = vectors.get_mut(index as usize);
+            *place.ok_or_else(|| failed("an index is out of range"))? = value;
+        }
+        Ok(vectors)
+    }
+
+    /// Numbers that were decoded elsewhere, in the range that the accessor gives them.
+    pub(super) fn normalized<const N: usize>(
+        &self,
+        number: usize,
+        mut vectors: Vec<[f64; N]>,
+    ) -> Result<Vec<[f64; N]>, String> {
+        let accessor = self.accessor(number)?;
+        if let (Checked::Valid(GenericComponentType(kind)), true) =
+            (accessor.component_type, accessor.normalized)
+        {
+            for value in vectors.as_flattened_mut() {
+                *value = (*value / most(kind)).max(-1.0);
+            }
+        }
+        Ok(vectors)
+    }
+
+    /// The elements of an accessor of whole numbers.
+    pub(super) fn indices(&self, number: usize) -> Result<Vec<u32>, String> {
+        let accessor = self.accessor(number)?;
+        let column = self.column(number)?;
+        if column.kind == ComponentType::F32 || column.width != 1 {
+            return Err(format!("accessors[{number}] holds no indices"));
+        }
+        if accessor.sparse.is_some() || column.stride != column.kind.size() {
+            let read = self.vectors::<1>(number)?;
+            return Ok(read.into_iter().map(|[index]| index as u32).collect());
+        }
+        let Some(bytes) = column.bytes else { return Ok(vec![0; column.count]) };
+        let bytes = &bytes[..column.count * column.stride];
+        Ok(match column.kind {
+            ComponentType::I8 | ComponentType::U8 => bytes.iter().map(|&b| b.into()).collect(),
+            ComponentType::I16 | ComponentType::U16 => {
+                bytes.as_chunks::<2>().0.iter().map(|&b| u16::from_le_bytes(b).into()).collect()
+            }
+            ComponentType::U32 | ComponentType::F32 => {
+                bytes.as_chunks::<4>().0.iter().map(|&b| u32::from_le_bytes(b)).collect()
+            }
+        })
+    }
+}
+
+impl Column<'_> {
+    /// The first N numbers of each element.
+    fn read<const N: usize>(&self) -> Vec<[f64; N]> {
+        let Some(bytes) = self.bytes else { return vec![[0.0; N]; self.count] };
+        let size = self.kind.size();
+        let element = |number: usize| {
+            let element = &bytes[number * self.stride..];
+            std::array::from_fn(|at| self.number(&element[at * size..]))
+        };
+        (0..self.count).map(element).collect()
+    }
+
+    /// The number at the beginning of these bytes. Normalized ones are in [-1, 1].
+    #[inline]
+    fn number(&self, bytes: &[u8]) -> f64 {
+        let value = match (self.kind, bytes) {
+            (ComponentType::F32, &[a, b, c, d, ..]) => {
+                return f64::from(f32::from_le_bytes([a, b, c, d]));
+            }
+            (ComponentType::U32, &[a, b, c, d, ..]) => f64::from(u32::from_le_bytes([a, b, c, d])),
+            (ComponentType::I16, &[a, b, ..]) => f64::from(i16::from_le_bytes([a, b])),
+            (ComponentType::U16, &[a, b, ..]) => f64::from(u16::from_le_bytes([a, b])),
+            (ComponentType::I8, &[a, ..]) => f64::from(a as i8),
+            (ComponentType::U8, &[a, ..]) => f64::from(a),
+            _ => return 0.0,
+        };
+        if self.normalized { (value / most(self.kind)).max(-1.0) } else { value }
+    }
+}
+
+/// The largest number of a kind, which stands for 1 where numbers are normalized.
+fn most(kind: ComponentType) -> f64 {
+    match kind {
+        ComponentType::I8 => f64::from(i8::MAX),
+        ComponentType::U8 => f64::from(u8::MAX),
+        ComponentType::I16 => f64::from(i16::MAX),
+        ComponentType::U16 => f64::from(u16::MAX),
+        ComponentType::U32 => f64::from(u32::MAX),
+        ComponentType::F32 => 1.0,
+    }
+}
+
+/// The bytes that a URI names: those within a `data:` address, or of a file beside the model.
+pub(super) fn resource(folder: &Path, uri: &str, limit_bytes: u64) -> Result<Vec<u8>, String> {
+    if let Some(data) = uri.strip_prefix("data:") {
+        let Some((head, data)) = data.split_once(',') else {
+            return Err("a 'data:' address without a comma".to_owned());
+        };
+        if !head.ends_with(";base64") {
+            return Ok(unescaped(data));
+        }
+        let config = GeneralPurposeConfig::new()
+            .with_decode_padding_mode(DecodePaddingMode::Indifferent)
+            .with_decode_allow_trailing_bits(true);
+        let engine = GeneralPurpose::new(&base64::alphabet::STANDARD, config);
+        return engine.decode(data).map_err(|error| format!("is not base64: {error}"));
+    }
+    let shown = printable_short(uri, 60);
+    if uri.contains("://") {
+        return Err(format!("'{shown}' is no file: save it beside the model and name it there"));
+    }
+    let plain = String::from_utf8_lossy(&unescaped(uri)).into_owned();
+    let found = find(folder, &plain).or_else(|| find(folder, uri));
+    let Some(file) = found else {
+        return Err(format!("there is no file '{shown}' beside the model: put it there"));
+    };
+    read_bytes(&file, limit_bytes).map_err(|error| error.to_string())
+}
+
+/// Text in which `%20` stands for a space.
+fn unescaped(text: &str) -> Vec<u8> {
+    let mut bytes = Vec::with_capacity(text.len());
+    let mut left = text.as_bytes();
+    while let Some((&byte, rest)) = left.split_first() {
+        let digits = rest.get(..2).and_then(|digits| std::str::from_utf8(digits).ok());
+        let escaped = digits.and_then(|digits| u8::from_str_radix(digits, 16).ok());
+        match escaped.filter(|_| byte == b'%') {
+            Some(escaped) => {
+                bytes.push(escaped);
+                left = &rest[2..];
+            }
+            None => {
+                bytes.push(byte);
+                left = rest;
+            }
+        }
+    }
+    bytes
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn resources_are_found_in_the_address_itself() {
+        let read = |uri| resource(Path::new("."), uri, 100);
+        assert_eq!(read("data:;base64,AAECAw==").unwrap(), [0, 1, 2, 3]);
+        assert_eq!(read("data:;base64,AAECAw").unwrap(), [0, 1, 2, 3]);
+        assert_eq!(read("data:,a%20b%2").unwrap(), b"a b%2");
+        assert!(read("data:;base64,A*").unwrap_err().contains("not base64"));
+        assert!(read("https://a.b/c.bin").unwrap_err().contains("is no file"));
+        assert!(read("a%20none.bin").unwrap_err().contains("there is no file"));
+    }
+}

@@ -1,0 +1,200 @@
+//! What is drawn of the materials of a glTF, and what is not.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::sync::Arc;
+
+use glam::{DAffine2, DVec2, DVec3};
+use gltf_json::extensions::texture::TextureTransform;
+use gltf_json::material::AlphaMode;
+use gltf_json::texture::{Info, MagFilter, WrappingMode};
+use gltf_json::validation::Checked;
+use rasterproof_host::limits;
+use rasterproof_host::text::{printable_path, printable_short};
+use rasterproof_render::pipeline::texture::{Filter, Texture, Wrap};
+
+use super::data::{Data, resource};
+use crate::Warnings;
+use crate::contents::Surface;
+use crate::textures::{Decoded, decode};
+
+/// A surface, and where its texture finds its coordinates.
+pub(super) struct Described {
+    pub surface: Surface,
+    /// The number of the texture coordinates among those of a vertex, where there is a texture.
+    pub uv_set: Option<u32>,
+    /// What is done to them, v down.
+    pub uv_transform: DAffine2,
+}
+
+/// The channel as a picture stores it: colours of a glTF that are no picture are linear.
+pub(super) fn encoded(linear: f64) -> f64 {
+    if linear <= 0.003_130_8 {
+        return 12.92 * linear.max(0.0);
+    }
+    // The formula misses 1 by the last bit.
+    if linear >= 1.0 { 1.0 } else { 1.055 * libm::pow(linear, 1.0 / 2.4) - 0.055 }
+}
+
+/// The pictures of a document, each decoded once.
+pub(super) struct Pictures<'a> {
+    path: &'a Path,
+    read: BTreeMap<usize, Result<Decoded, String>>,
+}
+
+impl<'a> Pictures<'a> {
+    pub(super) fn new(path: &'a Path) -> Self {
+        Self { path, read: BTreeMap::new() }
+    }
+
+    fn get(&mut self, data: &Data<'_>, number: usize) -> Result<Decoded, String> {
+        let path = self.path;
+        let read = || {
+            let image = data.root.images.get(number).ok_or("is not there")?;
+            let bytes = match (&image.uri, &image.buffer_view) {
+                (Some(uri), _) => {
+                    let folder = path.parent().unwrap_or(Path::new(""));
+                    resource(folder, uri, limits::TEXTURE_BYTES)?
+                }
+                (None, Some(view)) => data.view(view.value())?.0.to_vec(),
+                (None, None) => return Err("names no picture".to_owned()),
+            };
+            // A TGA has no mark, so its ending is needed.
+            let name = image.uri.as_deref().filter(|uri| !uri.starts_with("data:"));
+            decode(Path::new(name.unwrap_or("")), bytes).map_err(|error| error.cause)
+        };
+        let read = self.read.entry(number).or_insert_with(read);
+        read.clone().map_err(|cause| format!("images[{number}] {cause}"))
+    }
+}
+
+/// What is drawn of a material.
+pub(super) fn describe(
+    data: &Data<'_>,
+    number: usize,
+    pictures: &mut Pictures<'_>,
+    not_drawn: &mut BTreeMap<String, u64>,
+    warnings: &mut Warnings,
+) -> Option<Described> {
+    let material = data.root.materials.get(number)?;
+    let mut count = |key: &str| *not_drawn.entry(key.to_owned()).or_default() += 1;
+    let extensions = material.extensions.as_ref();
+    let pbr = &material.pbr_metallic_roughness;
+    let other = extensions.and_then(|extensions| extensions.pbr_specular_glossiness.as_ref());
+    let unlit = extensions.is_some_and(|extensions| extensions.unlit.is_some());
+    let ([r, g, b, alpha], info) = match other {
+        Some(other) => (other.diffuse_factor.0, other.diffuse_texture.as_ref()),
+        None => (pbr.base_color_factor.0, pbr.base_color_texture.as_ref()),
+    };
+    if let Some(other) = other {
+        if other.specular_factor.0.iter().any(|&channel| channel > 0.0) {
+            count("specular colour of material");
+        }
+        if other.specular_glossiness_texture.is_some() {
+            count("specular map");
+        }
+    } else if !unlit {
+        if pbr.metallic_factor.0 > 0.0 {
+            count("metal of material");
+        }
+        if pbr.roughness_factor.0 < 1.0 {
+            count("reflection of material");
+        }
+        if pbr.metallic_roughness_texture.is_some() {
+            count("metal and roughness map");
+        }
+    }
+    if material.normal_texture.is_some() {
+        count("normal map");
+    }
+    if material.occlusion_texture.is_some() {
+        count("occlusion map");
+    }
+    if material.emissive_texture.is_some() {
+        count("emission map");
+    } else if material.emissive_factor.0.iter().any(|&channel| channel > 0.0) {
+        count("emission of material");
+    }
+    let is_opaque = material.alpha_mode == Checked::Valid(AlphaMode::Opaque);
+    if !is_opaque && alpha < 1.0 {
+        count("transparency of material");
+    }
+    let name = material.name.clone().unwrap_or_else(|| format!("materials[{number}]"));
+    let texture = info.and_then(|info| {
+        let read = texture(data, info, pictures, &mut count);
+        match read {
+            Ok((texture, transparent)) => {
+                if transparent && !is_opaque {
+                    count("transparency of texture");
+                }
+                Some(texture)
+            }
+            Err(cause) => {
+                let path = printable_path(pictures.path);
+                let name = printable_short(&name, 40);
+                warnings.line(
+                    &format!("{path}: textures"),
+                    &format!("{path}: {cause}; the material '{name}' is drawn in its colour"),
+                );
+                None
+            }
+        }
+    });
+    let transform = info.and_then(|info| info.extensions.as_ref()?.texture_transform.as_ref());
+    let set = info.map(|info| transform.and_then(|t| t.tex_coord).unwrap_or(info.tex_coord));
+    Some(Described {
+        uv_set: set.filter(|_| texture.is_some()),
+        uv_transform: transform.map_or(DAffine2::IDENTITY, affine),
+        surface: Surface {
+            name,
+            colour: DVec3::new(r.into(), g.into(), b.into()).map(encoded),
+            texture,
+            unlit,
+            both_sides: material.double_sided,
+        },
+    })
+}
+
+/// The picture of a texture with its sampler, and whether some of it is transparent.
+fn texture(
+    data: &Data<'_>,
+    info: &Info,
+    pictures: &mut Pictures<'_>,
+    count: &mut impl FnMut(&str),
+) -> Result<(Arc<Texture>, bool), String> {
+    let number = info.index.value();
+    let missing = || format!("textures[{number}] is not there");
+    let texture = data.root.textures.get(number).ok_or_else(missing)?;
+    let source = texture.source.value();
+    if source >= data.root.images.len() {
+        return Err(format!("textures[{number}] has no picture that is read"));
+    }
+    let decoded = pictures.get(data, source)?;
+    let sampler = texture.sampler.as_ref().and_then(|s| data.root.samplers.get(s.value()));
+    let wraps = sampler.map_or([WrappingMode::Repeat; 2], |sampler| {
+        [sampler.wrap_s, sampler.wrap_t].map(|wrap| match wrap {
+            Checked::Valid(wrap) => wrap,
+            Checked::Invalid => WrappingMode::Repeat,
+        })
+    });
+    if wraps.contains(&WrappingMode::MirroredRepeat) {
+        count("mirrored repetition of texture");
+    } else if wraps[0] != wraps[1] {
+        count("difference of repetition in u and v of texture");
+    }
+    let wrap = if wraps == [WrappingMode::ClampToEdge; 2] { Wrap::Clamp } else { Wrap::Repeat };
+    let nearest =
+        sampler.and_then(|sampler| sampler.mag_filter) == Some(Checked::Valid(MagFilter::Nearest));
+    let filter = if nearest { Filter::Nearest } else { Filter::Bilinear };
+    let picture = Arc::unwrap_or_clone(decoded.texture).with(filter, wrap);
+    Ok((Arc::new(picture), decoded.transparent))
+}
+
+/// The map of texture coordinates, by a rotation that is counter-clockwise with v down.
+fn affine(transform: &TextureTransform) -> DAffine2 {
+    let [scale, offset] = [transform.scale.0, transform.offset.0]
+        .map(|[x, y]| DVec2::new(f64::from(x), f64::from(y)));
+    let angle = f64::from(transform.rotation.0);
+    let (sin, cos) = (libm::sin(angle), libm::cos(angle));
+    DAffine2::from_cols(DVec2::new(cos, -sin) * scale.x, DVec2::new(sin, cos) * scale.y, offset)
+}

@@ -1,0 +1,533 @@
+//! glTF and GLB: the triangles of the scene that a document shows first, in its rest pose.
+//!
+//! The document is parsed by `gltf-json`, the data model of the crate `gltf`. Bytes are read by own code, since the
+//! accessors of `gltf` panic where a hostile file gives them too few, and its validation refuses documents that other
+//! programs load.
+
+mod data;
+mod draco;
+mod first;
+mod materials;
+
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use glam::{DMat3, DMat4, DQuat, DVec2, DVec3};
+use gltf_json::mesh::{Mode, Primitive, Semantic};
+use gltf_json::validation::Checked;
+use gltf_json::{Node, Root};
+use rasterproof_host::text::{printable_path, printable_short};
+
+use crate::contents::{Contents, Part, Polygon, PolygonCorner};
+use crate::{BadFile, Warnings, bad};
+use data::Data;
+use materials::{Described, Pictures, encoded};
+
+/// Corners of all parts together: a document may show one mesh many times.
+const MOST_CORNERS: usize = 1 << 27;
+
+/// Nodes that are visited: a document may show one node many times.
+const MOST_VISITS: usize = 1 << 20;
+
+/// Extensions that change nothing that could be seen, or that are read.
+const READ: [&str; 11] = [
+    draco::EXTENSION,
+    "KHR_materials_unlit",
+    "KHR_materials_pbrSpecularGlossiness",
+    "KHR_texture_transform",
+    "KHR_mesh_quantization",
+    "KHR_xmp_json_ld",
+    "KHR_binary_glTF",
+    "KHR_techniques_webgl",
+    "KHR_materials_common",
+    "MSFT_lod",
+    "WEB3D_quantized_attributes",
+];
+
+/// Extensions that hide where the triangles are.
+const COMPRESSED: [&str; 2] = ["EXT_meshopt_compression", "KHR_meshopt_compression"];
+
+/// Whether these bytes begin as a GLB.
+pub(crate) fn is_glb(bytes: &[u8]) -> bool {
+    bytes.starts_with(b"glTF")
+}
+
+/// Reads a document in either form.
+pub(crate) fn read(path: &Path, bytes: &[u8]) -> Result<Contents, BadFile> {
+    let failed = |cause: String| bad(path, None, cause);
+    let (json, bin) = if is_glb(bytes) {
+        chunks(bytes).map_err(failed)?
+    } else {
+        (bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes), None)
+    };
+    let mut contents = Contents::default();
+    let json = match first::upgraded(json, &mut contents.not_drawn) {
+        Ok(Some(upgraded)) => Cow::Owned(upgraded),
+        Ok(None) => Cow::Borrowed(json),
+        Err(cause) => return Err(failed(cause)),
+    };
+    let root = Root::from_slice(&json).map_err(|error| {
+        let line = (!is_glb(bytes)).then(|| error.line()).filter(|&line| line > 0);
+        let cause = format!("is no glTF that can be read: {error}");
+        bad(path, line, cause)
+    })?;
+    let compressed = root.extensions_required.iter().find(|name| COMPRESSED.contains(&&***name));
+    if let Some(name) = compressed {
+        let remedy = "export the model without compression";
+        return Err(failed(format!(
+            "its triangles are compressed by {name}, which is not read: {remedy}"
+        )));
+    }
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let data = Data::new(root, folder, bin).map_err(failed)?;
+    let mut reader = Reader {
+        path,
+        data: &data,
+        contents,
+        warnings: Warnings::default(),
+        pictures: Pictures::new(path),
+        described: BTreeMap::new(),
+        corners: 0,
+    };
+    reader.scene().map_err(failed)?;
+    reader.count_the_rest();
+    let Reader { mut contents, warnings, .. } = reader;
+    contents.warnings = warnings.finish();
+    Ok(contents)
+}
+
+/// The JSON of a GLB, and its bytes: 12 bytes, then chunks with a head of 8 bytes each. In version 1, a head of 20
+/// bytes with the length of the JSON.
+fn chunks(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), String> {
+    let word = |at: usize| {
+        let word = bytes.get(at..at + 4).and_then(|word| <[u8; 4]>::try_from(word).ok());
+        word.map(u32::from_le_bytes).ok_or_else(|| format!("is cut off at byte {}", bytes.len()))
+    };
+    if word(4)? == 1 {
+        let length = word(12)? as usize;
+        let cut = || format!("is cut off: its JSON has {length} bytes from byte 20 on");
+        return bytes[20.min(bytes.len())..]
+            .split_at_checked(length)
+            .map(|(json, bin)| (json, Some(bin)))
+            .ok_or_else(cut);
+    }
+    let (mut json, mut bin, mut at) = (None, None, 12);
+    while at < bytes.len() {
+        let (length, kind) = (word(at)? as usize, word(at + 4)?);
+        let chunk = bytes.get(at + 8..).and_then(|rest| rest.get(..length)).ok_or_else(|| {
+            let left = bytes.len().saturating_sub(at + 8);
+            format!("is cut off: the chunk at byte {at} has {length} bytes, and {left} follow")
+        })?;
+        match &kind.to_le_bytes() {
+            b"JSON" if json.is_none() => json = Some(chunk),
+            b"BIN\0" if bin.is_none() => bin = Some(chunk),
+            // Others may follow, which are left out as the format says.
+            _ => {}
+        }
+        at += 8 + length;
+    }
+    Ok((json.ok_or("has no chunk of JSON")?, bin))
+}
+
+struct Reader<'a> {
+    path: &'a Path,
+    data: &'a Data<'a>,
+    contents: Contents,
+    warnings: Warnings,
+    pictures: Pictures<'a>,
+    /// For each material that is used its number in the contents, and where its texture finds its coordinates.
+    described: BTreeMap<usize, Option<(usize, Option<u32>, glam::DAffine2)>>,
+    /// Corners of all parts.
+    corners: usize,
+}
+
+impl Reader<'_> {
+    fn count(&mut self, key: &str, count: u64) {
+        if count > 0 {
+            *self.contents.not_drawn.entry(key.to_owned()).or_default() += count;
+        }
+    }
+
+    fn warn(&mut self, kind: &str, text: &str) {
+        let path = printable_path(self.path);
+        self.warnings.line(&format!("{path}: {kind}"), &format!("{path}: {text}"));
+    }
+
+    /// Reads the meshes of all nodes of the scene.
+    fn scene(&mut self) -> Result<(), String> {
+        let root = &self.data.root;
+        let number = root.scene.map_or(0, |scene| scene.value());
+        let roots: Vec<usize> = match root.scenes.get(number) {
+            Some(scene) => scene.nodes.iter().map(|node| node.value()).collect(),
+            None if root.scene.is_some() => return Err(format!("scenes[{number}] is not there")),
+            None => self.parentless(),
+        };
+        self.count("other scene", root.scenes.len().saturating_sub(1) as u64);
+        let mut worlds = vec![DMat4::IDENTITY; root.nodes.len()];
+        let mut visits: Vec<(usize, DMat4)> = Vec::new();
+        let mut open: Vec<(usize, DMat4, usize)> =
+            roots.into_iter().rev().map(|node| (node, DMat4::IDENTITY, 1)).collect();
+        while let Some((number, parent, depth)) = open.pop() {
+            let missing = || format!("nodes[{number}] is not there");
+            let node = root.nodes.get(number).ok_or_else(missing)?;
+            if depth > root.nodes.len() {
+                return Err(format!("nodes[{number}] contains itself: nodes have to form a tree"));
+            }
+            if visits.len() >= MOST_VISITS {
+                return Err(format!("shows more than {MOST_VISITS} nodes"));
+            }
+            let world = parent * local(node);
+            worlds[number] = world;
+            visits.push((number, world));
+            let children = node.children.iter().flatten().rev();
+            open.extend(children.map(|child| (child.value(), world, depth + 1)));
+        }
+        for (number, world) in visits {
+            let node = &root.nodes[number];
+            let Some(mesh) = node.mesh.map(|mesh| mesh.value()) else { continue };
+            let missing = || format!("meshes[{mesh}] is not there");
+            let primitives = &root.meshes.get(mesh).ok_or_else(missing)?.primitives;
+            for (at, primitive) in primitives.iter().enumerate() {
+                let place = format!("meshes[{mesh}].primitives[{at}]");
+                self.primitive(primitive, (number, node), world, &worlds, &place)
+                    .map_err(|cause| format!("{place}: {cause}"))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The nodes without a parent, which are shown where no scene is described.
+    fn parentless(&self) -> Vec<usize> {
+        let nodes = &self.data.root.nodes;
+        let mut is_child = vec![false; nodes.len()];
+        for child in nodes.iter().flat_map(|node| node.children.iter().flatten()) {
+            if let Some(is_child) = is_child.get_mut(child.value()) {
+                *is_child = true;
+            }
+        }
+        (0..nodes.len()).filter(|&node| !is_child[node]).collect()
+    }
+
+    /// What the document has beside triangles.
+    fn count_the_rest(&mut self) {
+        let root = &self.data.root;
+        self.count("animation", root.animations.len() as u64);
+        let cameras = root.nodes.iter().filter(|node| node.camera.is_some()).count();
+        self.count("camera", cameras as u64);
+        for name in &root.extensions_used {
+            if !READ.contains(&name.as_str()) {
+                self.count(&format!("extension {}", printable_short(name, 60)), 1);
+            }
+        }
+    }
+
+    fn primitive(
+        &mut self,
+        primitive: &Primitive,
+        (number, node): (usize, &Node),
+        world: DMat4,
+        worlds: &[DMat4],
+        place: &str,
+    ) -> Result<(), String> {
+        let Checked::Valid(mode) = primitive.mode else {
+            return Err("its mode is not one of glTF".to_owned());
+        };
+        let compressed = draco::decode(self.data, primitive)?;
+        let vertices = Vertices { data: self.data, primitive, compressed };
+        let Some(positions) = vertices.read(Semantic::Positions) else {
+            self.count("empty primitive", 1);
+            return Ok(());
+        };
+        let mut positions: Vec<DVec3> = vectors3(positions?);
+        let count = positions.len();
+        let indices = match (&vertices.compressed, &primitive.indices) {
+            (Some(compressed), _) => compressed.indices(),
+            (None, Some(accessor)) => self.data.indices(accessor.value())?,
+            (None, None) => (0..count as u32).collect(),
+        };
+        let (key, elements) = match mode {
+            Mode::Points => ("point", indices.len()),
+            Mode::Lines => ("line", indices.len() / 2),
+            Mode::LineLoop => ("line", indices.len()),
+            Mode::LineStrip => ("line", indices.len().saturating_sub(1)),
+            Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan => ("", 0),
+        };
+        self.count(key, elements as u64);
+        if !key.is_empty() {
+            return Ok(());
+        }
+        let triangles = self.triangles(mode, indices, count, place);
+        self.corners += triangles.len();
+        if self.corners > MOST_CORNERS {
+            return Err(format!("shows more than {MOST_CORNERS} corners of triangles"));
+        }
+        let mut normals = match vertices.read(Semantic::Normals) {
+            Some(read) => self.optional(read.map(vectors3), count, "normals", place),
+            None => Vec::new(),
+        };
+        self.morph(primitive, node, &mut positions, &mut normals)?;
+        let mut to_file = world;
+        if let Some(skin) = node.skin {
+            let skinned = [Semantic::Joints(0), Semantic::Weights(0)].map(|semantic| {
+                let none = || Err("has a skin and no joints or weights".to_owned());
+                vertices.read::<4>(semantic).unwrap_or_else(none)
+            });
+            match skinned {
+                [Ok(joints), Ok(weights)] if joints.len() == count && weights.len() == count => {
+                    let matrices = self.joints(skin.value(), worlds)?;
+                    bend(&mut positions, &mut normals, &matrices, &joints, &weights)?;
+                    // Where the node is has no effect on what its joints move.
+                    to_file = DMat4::IDENTITY;
+                }
+                [Err(cause), _] | [_, Err(cause)] => {
+                    self.warn("skins", &format!("{place}: {cause}; it is drawn without its skin"));
+                }
+                _ => self.warn("skins", &format!("{place}: its joints are not as many as its positions; it is drawn without its skin")),
+            }
+        }
+        let colours = match vertices.read(Semantic::Colors(0)) {
+            Some(read) => self.optional(read.map(vectors3), count, "colours", place),
+            None => Vec::new(),
+        };
+        let colours = colours.into_iter().map(|colour| colour.map(encoded)).collect();
+        let (material, mut uvs) = (primitive.material.map(|material| material.value()), Vec::new());
+        let material = material.and_then(|material| self.material(material, place));
+        if let Some((_, Some(set), transform)) = material {
+            match vertices.read(Semantic::TexCoords(set)) {
+                Some(read) => {
+                    let read = read.map(|read| {
+                        let turned = |[u, v]: [f64; 2]| {
+                            let uv = transform.transform_point2(DVec2::new(u, v));
+                            DVec2::new(uv.x, 1.0 - uv.y)
+                        };
+                        read.into_iter().map(turned).collect()
+                    });
+                    uvs = self.optional(read, count, "texture coordinates", place);
+                }
+                None => self.warn("textures", &format!("{place}: has a texture and no TEXCOORD_{set}; all of it has the colour of one texel")),
+            }
+        }
+        let corner = |&position: &u32| PolygonCorner {
+            position,
+            normal: (!normals.is_empty()).then_some(position),
+            uv: (!uvs.is_empty()).then_some(position),
+        };
+        let end = |number: u32| Polygon { end: 3 * number, line: 0, smoothing: 0 };
+        let name = node.name.as_deref().unwrap_or("");
+        let part = Part {
+            name: format!("nodes[{number}] {name} {place}").replace("  ", " "),
+            material: material.map(|(material, ..)| material),
+            to_file,
+            corners: triangles.iter().map(corner).collect(),
+            polygons: (1..=(triangles.len() / 3) as u32).map(end).collect(),
+            positions,
+            normals,
+            uvs,
+            colours,
+        };
+        self.contents.parts.push(part);
+        Ok(())
+    }
+
+    /// The corners of triangles, three by three; those that name no position are left out.
+    fn triangles(&mut self, mode: Mode, indices: Vec<u32>, count: usize, place: &str) -> Vec<u32> {
+        let mut list = match mode {
+            Mode::TriangleStrip => {
+                let turned = |(number, strip): (usize, &[u32])| {
+                    let [a, b, c] = [strip[0], strip[1], strip[2]];
+                    if number % 2 == 0 { [a, b, c] } else { [a, c, b] }
+                };
+                // Triangles of two equal corners lead from one part of a strip to the next.
+                let is_face = |[a, b, c]: &[u32; 3]| a != b && b != c && c != a;
+                indices.windows(3).enumerate().map(turned).filter(is_face).flatten().collect()
+            }
+            Mode::TriangleFan => {
+                let Some((&first, others)) = indices.split_first() else { return Vec::new() };
+                others.windows(2).flat_map(|pair| [pair[0], pair[1], first]).collect()
+            }
+            _ => indices,
+        };
+        let left = list.len() % 3;
+        if left > 0 {
+            list.truncate(list.len() - left);
+            self.warn(
+                "triangles",
+                &format!("{place}: {left} indices at the end make no triangle; they are left out"),
+            );
+        }
+        let is_there = |corners: &[u32; 3]| corners.iter().all(|&index| (index as usize) < count);
+        let wrong = list.as_chunks::<3>().0.iter().filter(|corners| !is_there(corners)).count();
+        if wrong > 0 {
+            let named = list.iter().copied().max().unwrap_or(0);
+            self.warn("triangles", &format!("{place}: {wrong} triangles name a vertex that is not there, as {named} of {count}; they are left out"));
+            let kept = list.as_chunks::<3>().0.iter().filter(|corners| is_there(corners));
+            list = kept.flatten().copied().collect();
+        }
+        list
+    }
+
+    /// What a vertex may have beside its position, or nothing with a warning where it cannot be read.
+    fn optional<T>(
+        &mut self,
+        read: Result<Vec<T>, String>,
+        count: usize,
+        what: &str,
+        place: &str,
+    ) -> Vec<T> {
+        let cause = match read {
+            Ok(read) if read.len() >= count => return read,
+            Ok(read) => format!("{} {what} for {count} positions", read.len()),
+            Err(cause) => format!("the {what} cannot be read: {cause}"),
+        };
+        self.warn("vertices", &format!("{place}: {cause}; it is drawn without them"));
+        Vec::new()
+    }
+
+    /// The number of a material in the contents, and what its texture needs.
+    fn material(
+        &mut self,
+        number: usize,
+        place: &str,
+    ) -> Option<(usize, Option<u32>, glam::DAffine2)> {
+        if let Some(known) = self.described.get(&number) {
+            return *known;
+        }
+        let described = materials::describe(
+            self.data,
+            number,
+            &mut self.pictures,
+            &mut self.contents.not_drawn,
+            &mut self.warnings,
+        );
+        let known = described.map(|Described { surface, uv_set, uv_transform }| {
+            self.contents.materials.push(surface);
+            (self.contents.materials.len() - 1, uv_set, uv_transform)
+        });
+        if known.is_none() {
+            self.warn(
+                "materials",
+                &format!("{place}: materials[{number}] is not there; it is drawn grey"),
+            );
+        }
+        self.described.insert(number, known);
+        known
+    }
+
+    /// Adds the shapes that are mixed in at rest, and counts the others.
+    fn morph(
+        &mut self,
+        primitive: &Primitive,
+        node: &Node,
+        positions: &mut [DVec3],
+        normals: &mut [DVec3],
+    ) -> Result<(), String> {
+        let Some(targets) = &primitive.targets else { return Ok(()) };
+        let mesh = node.mesh.and_then(|mesh| self.data.root.meshes.get(mesh.value()));
+        let weights = node.weights.as_ref().or(mesh.and_then(|mesh| mesh.weights.as_ref()));
+        let weight =
+            |number: usize| weights.and_then(|all| all.get(number)).copied().unwrap_or(0.0);
+        for (number, target) in targets.iter().enumerate() {
+            let weight = f64::from(weight(number));
+            if weight == 0.0 {
+                self.count("morph target", 1);
+                continue;
+            }
+            for (accessor, moved) in
+                [(&target.positions, &mut *positions), (&target.normals, &mut *normals)]
+            {
+                let Some(accessor) = accessor else { continue };
+                for (vector, by) in moved.iter_mut().zip(self.data.vectors(accessor.value())?) {
+                    *vector += weight * DVec3::from_array(by);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Where each joint of a skin brings what is bound to it.
+    fn joints(&self, number: usize, worlds: &[DMat4]) -> Result<Vec<DMat4>, String> {
+        let missing = || format!("skins[{number}] is not there");
+        let skin = self.data.root.skins.get(number).ok_or_else(missing)?;
+        let bound: Vec<[f64; 16]> = match &skin.inverse_bind_matrices {
+            Some(accessor) => self.data.vectors(accessor.value())?,
+            None => Vec::new(),
+        };
+        let matrix = |(at, joint): (usize, &gltf_json::Index<Node>)| {
+            let world = worlds.get(joint.value());
+            let world = world.ok_or_else(|| format!("nodes[{}] is not there", joint.value()))?;
+            let inverse = bound.get(at).map_or(DMat4::IDENTITY, DMat4::from_cols_array);
+            Ok(*world * inverse)
+        };
+        skin.joints.iter().enumerate().map(matrix).collect()
+    }
+}
+
+/// What the vertices of a primitive have.
+struct Vertices<'a> {
+    data: &'a Data<'a>,
+    primitive: &'a Primitive,
+    compressed: Option<draco::Decoded>,
+}
+
+impl Vertices<'_> {
+    /// The values of an attribute; nothing where the vertices do not have it.
+    fn read<const N: usize>(&self, semantic: Semantic) -> Option<Result<Vec<[f64; N]>, String>> {
+        let vectors = self.compressed.as_ref().and_then(|decoded| decoded.vectors(&semantic));
+        let accessor = self.primitive.attributes.get(&Checked::Valid(semantic))?.value();
+        Some(match vectors {
+            Some(vectors) => self.data.normalized(accessor, vectors),
+            None => self.data.vectors(accessor),
+        })
+    }
+}
+
+fn vectors3(read: Vec<[f64; 3]>) -> Vec<DVec3> {
+    read.into_iter().map(DVec3::from_array).collect()
+}
+
+/// From the coordinates of a node to those of its parent.
+fn local(node: &Node) -> DMat4 {
+    if let Some(matrix) = &node.matrix {
+        return DMat4::from_cols_array(&matrix.map(f64::from));
+    }
+    let vector = |numbers: Option<[f32; 3]>, missing| {
+        numbers.map_or(missing, |numbers| DVec3::from_array(numbers.map(f64::from)))
+    };
+    let turn = node.rotation.map_or([0.0, 0.0, 0.0, 1.0], |rotation| rotation.0.map(f64::from));
+    let turn = DQuat::from_array(turn);
+    // Where the four numbers are all 0, nothing is turned.
+    let turn = if turn.length_squared() > 0.0 { turn.normalize() } else { DQuat::IDENTITY };
+    DMat4::from_scale_rotation_translation(
+        vector(node.scale, DVec3::ONE),
+        turn,
+        vector(node.translation, DVec3::ZERO),
+    )
+}
+
+/// Moves vertices by the mean of their joints.
+fn bend(
+    positions: &mut [DVec3],
+    normals: &mut [DVec3],
+    matrices: &[DMat4],
+    joints: &[[f64; 4]],
+    weights: &[[f64; 4]],
+) -> Result<(), String> {
+    for (at, (joints, weights)) in joints.iter().zip(weights).enumerate() {
+        let sum: f64 = weights.iter().sum();
+        if sum <= 0.0 {
+            continue;
+        }
+        let mut matrix = DMat4::ZERO;
+        for (&joint, &weight) in joints.iter().zip(weights).filter(|(_, weight)| **weight != 0.0) {
+            let of = matrices.get(joint as usize);
+            let missing = || format!("vertex {at} is bound to joint {joint} of {}", matrices.len());
+            matrix += *of.ok_or_else(missing)? * (weight / sum);
+        }
+        positions[at] = matrix.transform_point3(positions[at]);
+        if let Some(normal) = normals.get_mut(at) {
+            *normal = DMat3::from_mat4(matrix) * *normal;
+        }
+    }
+    Ok(())
+}

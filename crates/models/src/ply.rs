@@ -1,0 +1,592 @@
+//! PLY: elements of named numbers, in text or in binary of either byte order.
+//!
+//! Own code: `ply-rs` and its fork `ply-rs-bw` keep each element in a map from names to values, unless all properties of a file
+//! are known beforehand, and their errors name no line of the body.
+
+use std::path::Path;
+
+use glam::{DMat4, DVec2, DVec3};
+use rasterproof_host::text::{printable_path, printable_short};
+
+use crate::contents::{Contents, Part, Polygon, PolygonCorner, Surface};
+use crate::textures::Textures;
+use crate::{BadFile, Warnings, bad};
+
+/// Whether these bytes begin as a PLY.
+pub(crate) fn is_ply(bytes: &[u8]) -> bool {
+    bytes.strip_prefix(b"ply").is_some_and(|rest| {
+        rest.trim_ascii_start().len() < rest.len() && rest.trim_ascii_start().starts_with(b"format")
+            || rest.starts_with(b"\n")
+            || rest.starts_with(b"\r")
+    })
+}
+
+/// How a number is stored.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    I8,
+    U8,
+    I16,
+    U16,
+    I32,
+    U32,
+    F32,
+    F64,
+}
+
+impl Kind {
+    fn of(name: &str) -> Option<Self> {
+        Some(match name {
+            "char" | "int8" => Self::I8,
+            "uchar" | "uint8" => Self::U8,
+            "short" | "int16" => Self::I16,
+            "ushort" | "uint16" => Self::U16,
+            "int" | "int32" => Self::I32,
+            "uint" | "uint32" => Self::U32,
+            "float" | "float32" => Self::F32,
+            "double" | "float64" => Self::F64,
+            _ => return None,
+        })
+    }
+
+    fn size(self) -> usize {
+        match self {
+            Self::I8 | Self::U8 => 1,
+            Self::I16 | Self::U16 => 2,
+            Self::I32 | Self::U32 | Self::F32 => 4,
+            Self::F64 => 8,
+        }
+    }
+
+    /// By which a channel of a colour is divided.
+    fn full(self) -> f64 {
+        match self {
+            Self::I8 | Self::U8 => 255.0,
+            Self::I16 | Self::U16 => 65535.0,
+            Self::I32 | Self::U32 => f64::from(u32::MAX),
+            Self::F32 | Self::F64 => 1.0,
+        }
+    }
+
+    /// The number in these bytes, of which there are [`Self::size`].
+    fn number(self, bytes: &[u8], is_big: bool) -> f64 {
+        let mut word = [0; 8];
+        for (place, byte) in word.iter_mut().zip(bytes) {
+            *place = *byte;
+        }
+        if is_big {
+            word[..self.size()].reverse();
+        }
+        let [a, b, c, d, ..] = word;
+        match self {
+            Self::I8 => f64::from(a as i8),
+            Self::U8 => f64::from(a),
+            Self::I16 => f64::from(i16::from_le_bytes([a, b])),
+            Self::U16 => f64::from(u16::from_le_bytes([a, b])),
+            Self::I32 => f64::from(i32::from_le_bytes([a, b, c, d])),
+            Self::U32 => f64::from(u32::from_le_bytes([a, b, c, d])),
+            Self::F32 => f64::from(f32::from_le_bytes([a, b, c, d])),
+            Self::F64 => f64::from_le_bytes(word),
+        }
+    }
+}
+
+/// A number of an element, or a list with its length.
+struct Property {
+    name: String,
+    kind: Kind,
+    /// How the length of a list is stored.
+    length: Option<Kind>,
+}
+
+struct Element {
+    name: String,
+    count: u64,
+    properties: Vec<Property>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Form {
+    Text,
+    Little,
+    Big,
+}
+
+/// What stands before the numbers.
+struct Header {
+    form: Form,
+    elements: Vec<Element>,
+    /// Pictures that comments name, as some programs write them.
+    textures: Vec<String>,
+    /// Lines that are none of a header.
+    unknown: Vec<(usize, String)>,
+}
+
+/// The numbers of a file, one after the other.
+struct Body<'a> {
+    bytes: &'a [u8],
+    /// The next byte.
+    at: usize,
+    form: Form,
+    newline: u8,
+    /// The line of text, from 1, and what is left of it.
+    line: usize,
+    words: &'a [u8],
+    /// Lines of text with more numbers than the header says.
+    long: u64,
+}
+
+impl<'a> Body<'a> {
+    /// The next line, without its end.
+    fn next_line(&mut self) -> Option<&'a [u8]> {
+        let rest = self.bytes.get(self.at..).filter(|rest| !rest.is_empty())?;
+        let end = rest.iter().position(|&byte| byte == self.newline).unwrap_or(rest.len());
+        self.at += (end + 1).min(rest.len());
+        self.line += 1;
+        Some(&rest[..end])
+    }
+
+    /// Goes to the next element: a line in text.
+    fn next_element(&mut self) -> Result<(), String> {
+        if self.form != Form::Text {
+            return Ok(());
+        }
+        self.end_element();
+        loop {
+            match self.next_line() {
+                Some(line) if line.trim_ascii().is_empty() => {}
+                Some(line) => {
+                    self.words = line;
+                    return Ok(());
+                }
+                None => return Err("the file is cut off".to_owned()),
+            }
+        }
+    }
+
+    /// Counts what the last element did not read of its line.
+    fn end_element(&mut self) {
+        self.long += u64::from(!self.words.trim_ascii().is_empty());
+        self.words = &[];
+    }
+
+    fn number(&mut self, kind: Kind) -> Result<f64, String> {
+        if self.form != Form::Text {
+            let bytes = self.bytes.get(self.at..self.at + kind.size());
+            let bytes = bytes.ok_or("the file is cut off")?;
+            self.at += kind.size();
+            return Ok(kind.number(bytes, self.form == Form::Big));
+        }
+        let line = self.words.trim_ascii_start();
+        let end = line.iter().position(u8::is_ascii_whitespace).unwrap_or(line.len());
+        let (word, rest) = line.split_at(end);
+        self.words = rest;
+        if word.is_empty() {
+            return Err("the line has fewer numbers than the header says".to_owned());
+        }
+        let number = std::str::from_utf8(word).ok().and_then(|word| word.parse::<f64>().ok());
+        number.ok_or_else(|| {
+            let word = printable_short(&String::from_utf8_lossy(word), 40);
+            format!("'{word}' is not a number")
+        })
+    }
+
+    /// The length of a list, which cannot be longer than what is left of the file.
+    fn length(&mut self, kind: Kind) -> Result<usize, String> {
+        let length = self.number(kind)?;
+        let left = self.bytes.len() - self.at + self.words.len();
+        if length < 0.0 || length > left as f64 || length.fract() != 0.0 {
+            return Err(format!("a list of {length} numbers, and {left} bytes are left"));
+        }
+        Ok(length as usize)
+    }
+}
+
+/// Reads the lines up to `end_header`. On an error the body says in which line.
+fn header(body: &mut Body<'_>) -> Result<Header, String> {
+    let (elements, textures, unknown) = (Vec::new(), Vec::new(), Vec::new());
+    let mut header = Header { form: Form::Text, elements, textures, unknown };
+    let mut is_known = false;
+    loop {
+        let line = body.next_line().ok_or("the file ends inside its header")?;
+        let line = String::from_utf8_lossy(line);
+        let words: Vec<&str> = line.split_whitespace().collect();
+        let shown = printable_short(line.trim(), 60);
+        let wrong = || format!("'{shown}' is no line of a header");
+        match words[..] {
+            [] | ["ply" | "obj_info", ..] => {}
+            ["comment", "TextureFile", ..] => {
+                let name = line.split_once("TextureFile").map_or("", |(_, name)| name);
+                header.textures.push(name.trim().to_owned());
+            }
+            ["comment", ..] => {}
+            ["format", form, ..] => {
+                header.form = match form {
+                    "ascii" => Form::Text,
+                    "binary_little_endian" => Form::Little,
+                    "binary_big_endian" => Form::Big,
+                    _ => return Err(wrong()),
+                };
+                is_known = true;
+            }
+            ["element", name, count] => {
+                let count = count.parse().map_err(|_| wrong())?;
+                let (name, properties) = (name.to_owned(), Vec::new());
+                header.elements.push(Element { name, count, properties });
+            }
+            ["property", "list", length, kind, name] => {
+                let element = header.elements.last_mut().ok_or_else(wrong)?;
+                let (length, kind) = Kind::of(length).zip(Kind::of(kind)).ok_or_else(wrong)?;
+                let (name, length) = (name.to_owned(), Some(length));
+                element.properties.push(Property { name, kind, length });
+            }
+            ["property", kind, name] => {
+                let element = header.elements.last_mut().ok_or_else(wrong)?;
+                let kind = Kind::of(kind).ok_or_else(wrong)?;
+                element.properties.push(Property { name: name.to_owned(), kind, length: None });
+            }
+            ["end_header"] if is_known => return Ok(header),
+            ["end_header"] => return Err("the header names no format".to_owned()),
+            ["element" | "property", ..] => return Err(wrong()),
+            // Some programs leave out the word `comment`.
+            _ => header.unknown.push((body.line, shown)),
+        }
+    }
+}
+
+/// What the numbers of a vertex are, by their names.
+const VERTEX: [&[&str]; 12] = [
+    &["x"],
+    &["y"],
+    &["z"],
+    &["nx", "normal_x"],
+    &["ny", "normal_y"],
+    &["nz", "normal_z"],
+    &["u", "s", "texture_u", "texcoord_u", "texture_s"],
+    &["v", "t", "texture_v", "texcoord_v", "texture_t"],
+    &["red", "r", "diffuse_red"],
+    &["green", "g", "diffuse_green"],
+    &["blue", "b", "diffuse_blue"],
+    &["alpha", "a", "diffuse_alpha"],
+];
+
+/// Why an element cannot be read, and its number from 0.
+type Wrong = (u64, String);
+
+/// Reads the text or the bytes of a PLY.
+pub(crate) fn read(path: &Path, bytes: &[u8]) -> Result<Contents, BadFile> {
+    let newline = match bytes.iter().find(|byte| matches!(byte, b'\n' | b'\r')) {
+        // Two bytes end a line of some systems.
+        Some(b'\r') if !bytes.starts_with(b"ply\r\n") => b'\r',
+        _ => b'\n',
+    };
+    let mut body = Body { bytes, at: 0, form: Form::Text, newline, line: 0, words: &[], long: 0 };
+    let failed = |body: &Body<'_>, cause: &str| {
+        let (line, cause) = match body.form {
+            Form::Text => (Some(body.line), cause.to_owned()),
+            _ => (None, format!("byte {}: {cause}", body.at)),
+        };
+        bad(path, line, format!("{cause}: export the model again"))
+    };
+    let header = header(&mut body).map_err(|cause| failed(&body, &cause))?;
+    body.form = header.form;
+    if body.form != Form::Text {
+        body.line = 0;
+    }
+    let mut contents = Contents::default();
+    let mut part = Part { to_file: DMat4::IDENTITY, ..Part::default() };
+    for element in header.elements.iter().filter(|element| !element.properties.is_empty()) {
+        let result = match element.name.as_str() {
+            "vertex" => vertices(&mut body, element, &mut part, &mut contents),
+            "face" => faces(&mut body, element, &mut part, &mut contents),
+            "tristrips" => strips(&mut body, element, &mut part),
+            name => {
+                let edge = name == "edge";
+                let key =
+                    if edge { name } else { &format!("element {}", printable_short(name, 40)) };
+                add(&mut contents, key, element.count);
+                (0..element.count).try_for_each(|number| {
+                    body.next_element().map_err(|cause| (number, cause))?;
+                    skip(&mut body, &element.properties).map_err(|cause| (number, cause))
+                })
+            }
+        };
+        result.map_err(|(number, cause)| {
+            let name = printable_short(&element.name, 40);
+            failed(&body, &format!("{name} {} of {}: {cause}", number + 1, element.count))
+        })?;
+    }
+    let mut warnings = Warnings::default();
+    for (line, shown) in &header.unknown {
+        let path = printable_path(path);
+        let what = format!("{path}:{line}: '{shown}' is no line of a header; it is left out");
+        warnings.line(&format!("{path}: lines of the header"), &what);
+    }
+    let left = bytes[body.at..].trim_ascii().len();
+    if left > 0 {
+        let path = printable_path(path);
+        warnings.line(
+            &path,
+            &format!("{path}: {left} bytes follow the last element; they are left out"),
+        );
+    }
+    body.end_element();
+    if body.long > 0 {
+        let path = printable_path(path);
+        let what = "lines have more numbers than the header says; the rest of them is left out";
+        warnings.line(&path, &format!("{path}: {} {what}", body.long));
+    }
+    check(path, &part)?;
+    if part.polygons.is_empty() {
+        add(&mut contents, "point", part.positions.len() as u64);
+    }
+    surface(path, &header, &mut part, &mut contents, &mut warnings);
+    contents.warnings = warnings.finish();
+    contents.parts.push(part);
+    Ok(contents)
+}
+
+fn add(contents: &mut Contents, key: &str, count: u64) {
+    if count > 0 {
+        *contents.not_drawn.entry(key.to_owned()).or_default() += count;
+    }
+}
+
+/// Goes past numbers and lists.
+fn skip(body: &mut Body<'_>, properties: &[Property]) -> Result<(), String> {
+    for property in properties {
+        let count = property.length.map_or(Ok(1), |kind| body.length(kind))?;
+        for _ in 0..count {
+            body.number(property.kind)?;
+        }
+    }
+    Ok(())
+}
+
+fn vertices(
+    body: &mut Body<'_>,
+    element: &Element,
+    part: &mut Part,
+    contents: &mut Contents,
+) -> Result<(), Wrong> {
+    let place = |property: &Property| {
+        let is_named = |names: &&[&str]| names.contains(&property.name.as_str());
+        VERTEX.iter().position(|names| property.length.is_none() && is_named(names))
+    };
+    let places: Vec<Option<usize>> = element.properties.iter().map(place).collect();
+    let has = |range: std::ops::Range<usize>| range.clone().all(|at| places.contains(&Some(at)));
+    if !has(0..3) {
+        return Err((0, "the header gives vertices no x, y and z".to_owned()));
+    }
+    let (has_normals, has_uvs, has_colours) = (has(3..6), has(6..8), has(8..11));
+    for (property, place) in element.properties.iter().zip(&places) {
+        if place.is_none() {
+            let name = printable_short(&property.name, 40);
+            add(contents, &format!("value '{name}' of position"), element.count);
+        }
+    }
+    // As many as the file can hold, whatever the header says.
+    let most = element.count.min(body.bytes.len() as u64) as usize;
+    part.positions.reserve(most);
+    let mut transparent = 0;
+    for number in 0..element.count {
+        body.next_element().map_err(|cause| (number, cause))?;
+        let mut values = [0.0; VERTEX.len()];
+        values[11] = 1.0;
+        for (property, place) in element.properties.iter().zip(&places) {
+            let result = match place {
+                None => skip(body, std::slice::from_ref(property)),
+                Some(place) => body.number(property.kind).map(|value| {
+                    values[*place] = if *place < 8 { value } else { value / property.kind.full() };
+                }),
+            };
+            result.map_err(|cause| (number, cause))?;
+        }
+        let [x, y, z, nx, ny, nz, u, v, r, g, b, a] = values;
+        part.positions.push(DVec3::new(x, y, z));
+        if has_normals {
+            part.normals.push(DVec3::new(nx, ny, nz));
+        }
+        if has_uvs {
+            part.uvs.push(DVec2::new(u, v));
+        }
+        if has_colours {
+            part.colours.push(DVec3::new(r, g, b).clamp(DVec3::ZERO, DVec3::ONE));
+            transparent += u64::from(a < 1.0);
+        }
+    }
+    add(contents, "transparent position", transparent);
+    Ok(())
+}
+
+/// The list of a face that names its vertices.
+fn is_corners(property: &Property) -> bool {
+    let names = ["vertex_indices", "vertex_index", "vertex_indexes"];
+    property.length.is_some() && names.contains(&property.name.as_str())
+}
+
+fn faces(
+    body: &mut Body<'_>,
+    element: &Element,
+    part: &mut Part,
+    contents: &mut Contents,
+) -> Result<(), Wrong> {
+    if !element.properties.iter().any(is_corners) {
+        return Err((0, "the header gives faces no list 'vertex_indices'".to_owned()));
+    }
+    // Texture coordinates of the corners, as MeshLab writes them.
+    let is_uvs = |property: &Property| property.length.is_some() && property.name == "texcoord";
+    let has_uvs = element.properties.iter().any(is_uvs);
+    for property in &element.properties {
+        if !is_corners(property) && !is_uvs(property) {
+            let key = format!("value '{}' of face", printable_short(&property.name, 40));
+            add(contents, &key, element.count);
+        }
+    }
+    if has_uvs {
+        part.uvs.clear();
+    }
+    let most = element.count.min(body.bytes.len() as u64) as usize;
+    part.polygons.reserve(most);
+    part.corners.reserve(3 * most);
+    let (mut small, mut uvs) = (0, Vec::new());
+    for number in 0..element.count {
+        let wrong = |cause| (number, cause);
+        body.next_element().map_err(wrong)?;
+        let start = part.corners.len();
+        uvs.clear();
+        for property in &element.properties {
+            let (Some(length), true) = (property.length, is_corners(property) || is_uvs(property))
+            else {
+                skip(body, std::slice::from_ref(property)).map_err(wrong)?;
+                continue;
+            };
+            for _ in 0..body.length(length).map_err(wrong)? {
+                let value = body.number(property.kind).map_err(wrong)?;
+                if is_corners(property) {
+                    part.corners.push(corner(part.positions.len(), value).map_err(wrong)?);
+                } else {
+                    uvs.push(value);
+                }
+            }
+        }
+        let count = part.corners.len() - start;
+        if count < 3 {
+            part.corners.truncate(start);
+            small += 1;
+            continue;
+        }
+        let (pairs, _) = uvs.as_chunks::<2>();
+        let first = part.uvs.len() as u32;
+        let has_normals = !part.normals.is_empty();
+        for (at, corner) in part.corners[start..].iter_mut().enumerate() {
+            corner.normal = has_normals.then_some(corner.position);
+            corner.uv = match has_uvs {
+                true => (pairs.len() == count).then_some(first + at as u32),
+                false => (!part.uvs.is_empty()).then_some(corner.position),
+            };
+        }
+        if has_uvs && pairs.len() == count {
+            part.uvs.extend(pairs.iter().map(|&uv| DVec2::from_array(uv)));
+        }
+        let end = part.corners.len() as u32;
+        part.polygons.push(Polygon { end, line: body.line as u32, smoothing: 0 });
+    }
+    add(contents, "incomplete face", small);
+    Ok(())
+}
+
+/// Whether an index names a vertex is checked at the end, since vertices may follow.
+fn corner(count: usize, value: f64) -> Result<PolygonCorner, String> {
+    if value < 0.0 || value >= f64::from(u32::MAX) || value.fract() != 0.0 {
+        return Err(format!("{value} is no index of a vertex; the file has {count}"));
+    }
+    Ok(PolygonCorner { position: value as u32, normal: None, uv: None })
+}
+
+/// Strips of triangles, each ended by -1.
+fn strips(body: &mut Body<'_>, element: &Element, part: &mut Part) -> Result<(), Wrong> {
+    for number in 0..element.count {
+        let wrong = |cause| (number, cause);
+        body.next_element().map_err(wrong)?;
+        for property in &element.properties {
+            let (Some(length), true) = (property.length, is_corners(property)) else {
+                skip(body, std::slice::from_ref(property)).map_err(wrong)?;
+                continue;
+            };
+            let (mut before, mut count) = ([0.0; 2], 0);
+            for _ in 0..body.length(length).map_err(wrong)? {
+                let value = body.number(property.kind).map_err(wrong)?;
+                if value < 0.0 {
+                    count = 0;
+                    continue;
+                }
+                let [a, b] = before;
+                // Triangles of two equal corners lead from one part of a strip to the next.
+                if count >= 2 && a != b && b != value && a != value {
+                    let turned = if count % 2 == 0 { [a, b, value] } else { [b, a, value] };
+                    for value in turned {
+                        let mut corner = corner(part.positions.len(), value).map_err(wrong)?;
+                        corner.normal = (!part.normals.is_empty()).then_some(corner.position);
+                        corner.uv = (!part.uvs.is_empty()).then_some(corner.position);
+                        part.corners.push(corner);
+                    }
+                    let end = part.corners.len() as u32;
+                    part.polygons.push(Polygon { end, line: body.line as u32, smoothing: 0 });
+                }
+                before = [b, value];
+                count += 1;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Whether all vertices that faces name are there.
+fn check(path: &Path, part: &Part) -> Result<(), BadFile> {
+    let count = part.positions.len();
+    let wrong = part.corners.iter().position(|corner| corner.position as usize >= count);
+    let Some(wrong) = wrong else { return Ok(()) };
+    let face = part.polygons.partition_point(|polygon| polygon.end as usize <= wrong);
+    let line =
+        part.polygons.get(face).map(|polygon| polygon.line as usize).filter(|&line| line > 0);
+    let index = part.corners[wrong].position;
+    let cause = format!("face {} names vertex {index}, and the file has {count}, from 0", face + 1);
+    Err(bad(path, line, format!("{cause}: export the model again")))
+}
+
+/// The texture that a comment names.
+fn surface(
+    path: &Path,
+    header: &Header,
+    part: &mut Part,
+    contents: &mut Contents,
+    warnings: &mut Warnings,
+) {
+    let Some((name, others)) = header.textures.split_first() else { return };
+    add(contents, "other texture", others.len() as u64);
+    if part.uvs.is_empty() {
+        add(contents, "texture without coordinates", 1);
+        return;
+    }
+    let folder = path.parent().unwrap_or(Path::new(""));
+    match Textures::new(folder).get(name, false) {
+        Ok(decoded) => {
+            if decoded.transparent {
+                add(contents, "transparency of texture", 1);
+            }
+            part.material = Some(contents.materials.len());
+            contents.materials.push(Surface {
+                name: String::new(),
+                colour: DVec3::ONE,
+                texture: Some(decoded.texture),
+                unlit: false,
+                both_sides: true,
+            });
+        }
+        Err(error) => warnings.line(
+            &format!("{}: textures", printable_path(path)),
+            &format!("{error}; the model is drawn without it"),
+        ),
+    }
+}
