@@ -170,6 +170,13 @@ pub trait Tessellate {
     /// # Errors
     /// The tessellator refuses the polygon, and says why. The polygon is a valid one, so this counts as a fault.
     fn triangles(&self, polygon: &Polygon) -> Result<Vec<Triangle>, Refused>;
+
+    /// Whether the tessellator promises anything about a polygon. Valid polygons without a promise are counted as
+    /// [`FamilyReport::left_out`], and not judged.
+    fn accepts(&self, polygon: &Polygon) -> bool {
+        let _ = polygon;
+        true
+    }
 }
 
 impl<F: Fn(&Polygon) -> Vec<Triangle>> Tessellate for F {
@@ -395,9 +402,10 @@ impl fmt::Display for Fault {
                 write!(f, "gap: the surroundings of {} are covered by no triangle", at(0))
             }
             FaultKind::Outside => {
+                let s = if self.triangles.len() == 1 { "" } else { "s" };
                 write!(
                     f,
-                    "outside: the surroundings of {} are covered by triangle {numbers}",
+                    "outside: the surroundings of {} are covered by triangle{s} {numbers}",
                     at(0)
                 )
             }

@@ -24,6 +24,8 @@ pub struct FamilyReport {
     pub family: Family,
     /// Polygons judged.
     pub polygons: u64,
+    /// Polygons that the tessellator does not [accept](Tessellate::accepts).
+    pub left_out: u64,
     /// Triangles judged.
     pub triangles: u64,
     /// Polygons with a fault.
@@ -40,7 +42,16 @@ impl FamilyReport {
     fn new(family: Family) -> Self {
         let none = [0; FaultKind::ALL.len()];
         let (faults, allowed) = (none, none);
-        Self { family, polygons: 0, triangles: 0, wrong: 0, faults, allowed, added_points: 0 }
+        Self {
+            family,
+            polygons: 0,
+            left_out: 0,
+            triangles: 0,
+            wrong: 0,
+            faults,
+            allowed,
+            added_points: 0,
+        }
     }
 
     fn count(&mut self, finding: &Finding, triangles: usize) {
@@ -58,6 +69,7 @@ impl FamilyReport {
 
     fn add(&mut self, other: &Self) {
         self.polygons += other.polygons;
+        self.left_out += other.left_out;
         self.triangles += other.triangles;
         self.wrong += other.wrong;
         self.added_points += other.added_points;
@@ -139,6 +151,9 @@ impl fmt::Display for Disagreement {
         let sum = self.0.sum();
         writeln!(f, "{} of {} polygons are not covered exactly once", sum.wrong, sum.polygons)?;
         writeln!(f, "  polygons by fault: {}", by_kind(&sum.faults))?;
+        if sum.left_out > 0 {
+            writeln!(f, "  not judged, as the tessellator does not accept them: {}", sum.left_out)?;
+        }
         if sum.allowed.iter().any(|&count| count > 0) {
             writeln!(f, "  allowed, and no faults: {}", by_kind(&sum.allowed))?;
         }
@@ -207,24 +222,26 @@ pub fn judge_partitions<T: Tessellate + Sync>(
 ) -> Result<Report, NothingJudged> {
     judge(
         &|polygon| {
-            caught(|| tessellator.triangles(polygon)).map_or_else(
-                |message| Err(Fault::saying(FaultKind::Panicked, message)),
-                |result| result.map_err(|refused| Fault::saying(FaultKind::Refused, refused.0)),
-            )
+            tessellator.accepts(polygon).then(|| {
+                caught(|| tessellator.triangles(polygon)).map_or_else(
+                    |message| Err(Fault::saying(FaultKind::Panicked, message)),
+                    |result| result.map_err(|refused| Fault::saying(FaultKind::Refused, refused.0)),
+                )
+            })
         },
         options,
     )
 }
 
-type Asked<'a> = dyn Fn(&Polygon) -> Result<Vec<Triangle>, Fault> + Sync + 'a;
+type Asked<'a> = dyn Fn(&Polygon) -> Option<Result<Vec<Triangle>, Fault>> + Sync + 'a;
 
-/// The triangles of a polygon and what was found about them; nothing where the polygon is not valid.
+/// The triangles of a polygon and what was found about them; nothing where the polygon is not valid or not accepted.
 fn ask(
     tessellator: &Asked,
     polygon: &Polygon,
     options: &Options,
 ) -> Option<(Vec<Triangle>, Finding)> {
-    match tessellator(polygon) {
+    match tessellator(polygon)? {
         Ok(triangles) => {
             let finding = judge_partition(polygon, &triangles, options).ok()?;
             Some((triangles, finding))
@@ -268,6 +285,9 @@ fn judge(tessellator: &Asked, options: &Options) -> Result<Report, NothingJudged
         }
         report.families.push(sum);
     }
+    if report.sum().polygons == 0 {
+        return Err(NothingJudged::NoneAccepted);
+    }
     let failing = FaultKind::ALL.into_iter().zip(failing);
     let failing: Vec<_> = failing.filter_map(|(kind, found)| Some((kind, found?))).collect();
     report.failures = parallel::map(failing.len(), |number| {
@@ -291,7 +311,10 @@ fn judge_block(
     for index in numbers {
         let polygon = family.polygon(options.seed, index, options.coordinates);
         // Families draw until a polygon is valid.
-        let Some((triangles, finding)) = ask(tessellator, &polygon, options) else { continue };
+        let Some((triangles, finding)) = ask(tessellator, &polygon, options) else {
+            report.left_out += 1;
+            continue;
+        };
         report.count(&finding, triangles.len());
         let size = polygon.contours.iter().map(Vec::len).sum();
         for (best, kind) in smallest.iter_mut().zip(FaultKind::ALL) {

@@ -450,6 +450,27 @@ fn refusals_and_panics_are_faults() {
     assert_eq!(report.sum().wrong, report.sum().polygons);
 }
 
+struct OneContour;
+impl Tessellate for OneContour {
+    fn triangles(&self, _: &Polygon) -> Result<Vec<Triangle>, Refused> {
+        Ok(Vec::new())
+    }
+
+    fn accepts(&self, polygon: &Polygon) -> bool {
+        polygon.contours.len() == 1
+    }
+}
+
+#[test]
+fn what_is_not_accepted_is_counted() {
+    let options = Options::default().cases(50);
+    let sum = judge_partitions(&OneContour, &options.clone().family(Family::SnappedCircle));
+    let sum = sum.unwrap().sum();
+    assert!(sum.left_out > 10 && sum.wrong > 10 && sum.polygons + sum.left_out == 50, "{sum:?}");
+    let none = judge_partitions(&OneContour, &options.family(Family::Islands)).unwrap_err();
+    assert!(none.to_string().contains("accepts none"), "{none}");
+}
+
 #[test]
 #[should_panic(expected = "cases")]
 fn no_polygon_is_no_success() {
