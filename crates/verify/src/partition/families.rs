@@ -7,6 +7,7 @@
 use super::region::region;
 use super::{FillRule, Point, Polygon};
 use crate::cases::Rng;
+use crate::cases::unsnapped::{nudge_f32, nudge_f64};
 
 /// Which numbers a tessellator takes as coordinates, so that it is judged by what it was given.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -36,13 +37,11 @@ impl Coordinates {
 
     /// The next larger or smaller number of this kind.
     fn neighbour(self, value: f64, is_up: bool) -> f64 {
-        match (self, is_up) {
-            (Self::F64, true) => value.next_up(),
-            (Self::F64, false) => value.next_down(),
-            (Self::F32, true) => f64::from((value as f32).next_up()),
-            (Self::F32, false) => f64::from((value as f32).next_down()),
-            (Self::Integer, true) => value + 1.0,
-            (Self::Integer, false) => value - 1.0,
+        let step = if is_up { 1 } else { -1 };
+        match self {
+            Self::F64 => nudge_f64(value, step),
+            Self::F32 => nudge_f32(value, step),
+            Self::Integer => value + step as f64,
         }
     }
 
