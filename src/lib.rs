@@ -15,9 +15,11 @@
 //! - [`oracle`]: the truth, by mathematics that no engine uses
 //! - [`cases`]: families of hard cases, and cases with names
 //! - [`verify`]: judges an engine and finds the smallest case that fails
+//! - [`partition`]: judges the triangles that a tessellator makes of polygons
 //! - [`assert_rasterizer`]: judges in one line of a test
 //! - [`assert_lines`]: the same for a line drawer
 //! - [`assert_values`]: the same with depths and attributes
+//! - [`assert_partition`]: the same for a tessellator
 //!
 //! The rest is public for the program, its tests and the samples under `docs/`, is not shown here,
 //! and may change at any time: the pipeline, scenes, effects, the published algorithms, mutants,
@@ -57,9 +59,9 @@
 #[doc(inline)]
 pub use rasterproof_core::{contract, frame, grid, line, raster, triangle};
 #[doc(inline)]
-pub use rasterproof_verify::{assert_lines, assert_rasterizer, assert_values};
+pub use rasterproof_verify::{assert_lines, assert_partition, assert_rasterizer, assert_values};
 #[doc(inline)]
-pub use rasterproof_verify::{cases, comparison as verify, oracle};
+pub use rasterproof_verify::{cases, comparison as verify, oracle, partition};
 
 // The command line, for `main` and the tests.
 #[doc(hidden)]
@@ -96,5 +98,6 @@ mod docs {
         OffGrid "offgrid"
         Protocol "protocol"
         Sysu "sysu"
+        Tessellators "tessellators"
     }
 }

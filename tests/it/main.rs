@@ -36,6 +36,7 @@ mod own;
 mod page;
 mod page_commands;
 mod pages;
+mod partition;
 mod plans;
 mod playground;
 mod playground_hands;

@@ -145,6 +145,10 @@
 //! - samples in `outline` lie exactly on an edge that belongs to one triangle alone. The top-left rule hits those of them that
 //!   are in `hit`. Specifications without a rule for edges, such as those of OpenGL and Vulkan, leave them open.
 //!
+//! # Partitions
+//!
+//! [`partition`] judges the triangles that a tessellator makes of polygons, and [`assert_partition!`] does it in one line.
+//!
 //! # Features
 //!
 //! - `parallel`: cases are judged on all cores, by rayon.
@@ -155,6 +159,7 @@
 pub mod cases;
 pub mod comparison;
 pub mod oracle;
+pub mod partition;
 // So that whoever judges needs this crate alone.
 #[doc(inline)]
 pub use rasterproof_core::{contract, frame, grid, triangle};
@@ -201,6 +206,18 @@ macro_rules! assert_values {
         $crate::comparison::must_agree($crate::comparison::judge_values(
             &$engine, $tolerance, &$options,
         ))
+    };
+}
+
+/// Panics unless the triangles that a tessellator makes of every generated polygon cover it exactly once. A second
+/// argument has other [`Options`](partition::Options) than 2,000 polygons of each family.
+#[macro_export]
+macro_rules! assert_partition {
+    ($tessellator:expr $(,)?) => {
+        $crate::assert_partition!($tessellator, $crate::partition::Options::default())
+    };
+    ($tessellator:expr, $options:expr $(,)?) => {
+        $crate::partition::must_partition(&$tessellator, &$options)
     };
 }
 

@@ -141,7 +141,7 @@ fn sample(rng: &mut Rng) -> Point {
 }
 
 /// `v` moved by `ulps` f32 numbers.
-fn nudge_f32(v: f64, ulps: i64) -> f64 {
+pub(crate) fn nudge_f32(v: f64, ulps: i64) -> f64 {
     let v = v as f32;
     let (bits, is_negative) = nudged(v.abs().to_bits().into(), v.is_sign_negative(), ulps);
     let moved = f64::from(f32::from_bits(bits as u32));
@@ -149,7 +149,7 @@ fn nudge_f32(v: f64, ulps: i64) -> f64 {
 }
 
 /// `v` moved by `ulps` f64 numbers.
-fn nudge_f64(v: f64, ulps: i64) -> f64 {
+pub(crate) fn nudge_f64(v: f64, ulps: i64) -> f64 {
     let (bits, is_negative) = nudged(v.abs().to_bits(), v.is_sign_negative(), ulps);
     let moved = f64::from_bits(bits);
     if is_negative { -moved } else { moved }

@@ -29,6 +29,8 @@ pub enum NothingJudged {
     NoConventions,
     /// No case number is below [`Options::time_limit`] or the end of the case numbers.
     NoneReached,
+    /// The tessellator accepts none of the polygons.
+    NoneAccepted,
 }
 
 impl NothingJudged {
@@ -81,6 +83,9 @@ impl fmt::Display for NothingJudged {
             Self::NoConventions => f.write_str(
                 "Options.convention is declared, which is one of triangles on the lattice; lines and triangles off \
                  the lattice are judged without one",
+            ),
+            Self::NoneAccepted => f.write_str(
+                "the tessellator accepts none of the polygons; name other families, or accept more",
             ),
             Self::NoneReached => f.write_str(
                 "Options.time_limit ended before the first case of Options.shard, or Options.only \

@@ -37,7 +37,7 @@ impl Dyadic {
 }
 
 /// A finite number as a mantissa, odd or zero, and an exponent of two.
-pub(super) fn take_apart(value: f64) -> (i64, i32) {
+pub(crate) fn take_apart(value: f64) -> (i64, i32) {
     assert!(value.is_finite(), "{value} has no exact value");
     let bits = value.to_bits();
     let field = ((bits >> 52) & 0x7ff) as i32;

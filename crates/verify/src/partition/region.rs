@@ -1,0 +1,161 @@
+//! The boundary of the region that a polygon describes.
+
+use std::cmp::Ordering;
+use std::error::Error;
+use std::fmt;
+
+use super::exact::orientation;
+use super::{FillRule, Point, Polygon, key};
+
+/// Why a polygon describes no region whose boundary has vertices of the polygon alone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum InvalidPolygon {
+    /// A coordinate is infinite or not a number.
+    NotFinite(Point),
+    /// Two edges cross at a point that is no vertex of the polygon.
+    Crossing([[Point; 2]; 2]),
+}
+
+impl fmt::Display for InvalidPolygon {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotFinite([x, y]) => write!(
+                f,
+                "the vertex ({x}, {y}) of the polygon is not finite; expected finite coordinates"
+            ),
+            Self::Crossing([[a, b], [c, d]]) => write!(
+                f,
+                "the edges {a:?} to {b:?} and {c:?} to {d:?} of the polygon cross; expected edges that meet at \
+                 vertices of the polygon alone, so add the crossing as a vertex of one of them"
+            ),
+        }
+    }
+}
+
+impl Error for InvalidPolygon {}
+
+/// What a polygon describes.
+pub(super) struct Region {
+    /// The boundary, cut at every vertex of the polygon that lies on it, with the region on the left of each edge.
+    pub boundary: Vec<[Point; 2]>,
+    /// Whether the contours run around every point once or not at all: outlines counterclockwise, holes clockwise.
+    pub is_plain: bool,
+}
+
+pub(super) fn region(polygon: &Polygon, rule: FillRule) -> Result<Region, InvalidPolygon> {
+    let mut points: Vec<Point> =
+        polygon.contours.iter().flatten().map(|&point| key(point)).collect();
+    if let Some(&point) = points.iter().find(|point| !point.iter().all(|value| value.is_finite())) {
+        return Err(InvalidPolygon::NotFinite(point));
+    }
+    points.sort_unstable_by(super::order);
+    points.dedup();
+    let pieces = pieces(polygon, &points);
+    let net = Net { points: &points, pieces };
+    net.crossing().map_or(Ok(()), Err)?;
+    let mut boundary = Vec::new();
+    let mut is_plain = true;
+    for &([low, high], along) in net.pieces.iter().filter(|(_, along)| *along != 0) {
+        let below = net.rounds_below([low, high]);
+        let ends = [points[low], points[high]];
+        is_plain &= [below, below + along].iter().all(|rounds| (0..=1).contains(rounds));
+        match (rule.fills(below), rule.fills(below + along)) {
+            (false, true) => boundary.push(ends),
+            (true, false) => boundary.push([ends[1], ends[0]]),
+            _ => {}
+        }
+    }
+    Ok(Region { boundary, is_plain })
+}
+
+/// A piece of an edge by the numbers of its ends, the lower one first, and how often contours run along it minus how
+/// often they run against it.
+type Piece = ([usize; 2], i64);
+
+/// All edges, cut at all vertices that lie on them, each piece once.
+fn pieces(polygon: &Polygon, points: &[Point]) -> Vec<Piece> {
+    let number = |&point: &Point| points.partition_point(|p| super::order(p, &key(point)).is_lt());
+    let mut cut = Vec::new();
+    for contour in &polygon.contours {
+        let numbers: Vec<usize> = contour.iter().map(number).collect();
+        for (i, &from) in numbers.iter().enumerate() {
+            let to = numbers[(i + 1) % numbers.len()];
+            let (low, high, along) = if from < to { (from, to, 1) } else { (to, from, -1) };
+            if low == high {
+                continue;
+            }
+            // Points are in order, so one on the line is on the edge if its number is between.
+            let mut last = low;
+            for between in low + 1..high {
+                if is_in_rows(points, [low, high], between)
+                    && orientation(points[low], points[high], points[between]).is_eq()
+                {
+                    cut.push(([last, between], along));
+                    last = between;
+                }
+            }
+            cut.push(([last, high], along));
+        }
+    }
+    cut.sort_unstable();
+    let same = cut.chunk_by(|a, b| a.0 == b.0);
+    same.map(|same| (same[0].0, same.iter().map(|piece| piece.1).sum())).collect()
+}
+
+/// Whether a point is between the ends of an edge in y.
+fn is_in_rows(points: &[Point], [low, high]: [usize; 2], point: usize) -> bool {
+    let (a, b, y) = (points[low][1], points[high][1], points[point][1]);
+    a.min(b) <= y && y <= a.max(b)
+}
+
+struct Net<'a> {
+    points: &'a [Point],
+    /// In order of their ends.
+    pieces: Vec<Piece>,
+}
+
+impl Net<'_> {
+    fn side(&self, [a, b]: [usize; 2], c: usize) -> Ordering {
+        orientation(self.points[a], self.points[b], self.points[c])
+    }
+
+    /// Two pieces that cross. No vertex is inside a piece, so they cross where each has its ends on both sides of the other.
+    fn crossing(&self) -> Option<InvalidPolygon> {
+        for (i, &(one, _)) in self.pieces.iter().enumerate() {
+            let rest = self.pieces[i + 1..].iter().map(|piece| piece.0);
+            let overlapping = rest.take_while(|other| other[0] < one[1]);
+            for other in overlapping {
+                let [a, b] = one.map(|end| self.points[end][1]);
+                let [c, d] = other.map(|end| self.points[end][1]);
+                let is_apart = a.max(b) < c.min(d) || c.max(d) < a.min(b);
+                let meets = one.iter().any(|end| other.contains(end));
+                let splits = |edge, [p, q]: [usize; 2]| {
+                    let sides = [self.side(edge, p), self.side(edge, q)];
+                    sides[0].is_ne() && sides[0] == sides[1].reverse()
+                };
+                if !is_apart && !meets && splits(one, other) && splits(other, one) {
+                    let ends = |piece: [usize; 2]| piece.map(|end| self.points[end]);
+                    return Some(InvalidPolygon::Crossing([ends(one), ends(other)]));
+                }
+            }
+        }
+        None
+    }
+
+    /// The winding number next to a piece, below it (on its right) and just beyond its lower end. Straight down from
+    /// there, every piece to be counted has its lower end at or before that end, and its other end beyond it.
+    fn rounds_below(&self, [low, high]: [usize; 2]) -> i64 {
+        let reached = self.pieces.iter().take_while(|piece| piece.0[0] <= low);
+        let passed = reached.filter(|&&(piece, _)| {
+            if piece[1] <= low || piece == [low, high] {
+                return false;
+            }
+            match self.side(piece, low) {
+                Ordering::Equal => self.side([low, high], piece[1]).is_lt(),
+                side => side.is_gt(),
+            }
+        });
+        passed.map(|piece| piece.1).sum()
+    }
+}

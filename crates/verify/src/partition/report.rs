@@ -1,0 +1,358 @@
+//! A tessellator judged over the families, and what is said about it.
+
+use std::error::Error;
+use std::fmt;
+
+use super::families::is_as_generated;
+use super::shrink::shrink;
+use super::{
+    Family, Fault, FaultKind, Finding, Options, Polygon, Tessellate, Triangle, judge_partition,
+};
+use crate::comparison::{NothingJudged, caught};
+use rasterproof_core::parallel;
+
+/// Polygons that a thread judges in one go.
+const BLOCK: u64 = 64;
+/// Triangles that a message lists.
+const MOST_TRIANGLES: usize = 12;
+
+/// How the polygons of a family went.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct FamilyReport {
+    /// The family.
+    pub family: Family,
+    /// Polygons judged.
+    pub polygons: u64,
+    /// Polygons that the tessellator does not [accept](Tessellate::accepts).
+    pub left_out: u64,
+    /// Triangles judged.
+    pub triangles: u64,
+    /// Polygons with a fault.
+    pub wrong: u64,
+    /// Polygons with a fault of each kind, in the order of [`FaultKind::ALL`].
+    pub faults: [u64; FaultKind::ALL.len()],
+    /// The same of what is allowed.
+    pub allowed: [u64; FaultKind::ALL.len()],
+    /// Corners of triangles that are no vertices.
+    pub added_points: u64,
+}
+
+impl FamilyReport {
+    fn new(family: Family) -> Self {
+        let none = [0; FaultKind::ALL.len()];
+        let (faults, allowed) = (none, none);
+        Self {
+            family,
+            polygons: 0,
+            left_out: 0,
+            triangles: 0,
+            wrong: 0,
+            faults,
+            allowed,
+            added_points: 0,
+        }
+    }
+
+    fn count(&mut self, finding: &Finding, triangles: usize) {
+        self.polygons += 1;
+        self.triangles += triangles as u64;
+        self.wrong += u64::from(!finding.faults.is_empty());
+        self.added_points += finding.added_points as u64;
+        let counts = [(&mut self.faults, &finding.faults), (&mut self.allowed, &finding.allowed)];
+        for (counts, faults) in counts {
+            for (count, kind) in counts.iter_mut().zip(FaultKind::ALL) {
+                *count += u64::from(faults.iter().any(|fault| fault.kind == kind));
+            }
+        }
+    }
+
+    fn add(&mut self, other: &Self) {
+        self.polygons += other.polygons;
+        self.left_out += other.left_out;
+        self.triangles += other.triangles;
+        self.wrong += other.wrong;
+        self.added_points += other.added_points;
+        let add = |sums: &mut [u64], others: &[u64]| {
+            sums.iter_mut().zip(others).for_each(|(sum, other)| *sum += other);
+        };
+        add(&mut self.faults, &other.faults);
+        add(&mut self.allowed, &other.allowed);
+    }
+}
+
+/// A failing polygon, shrunk.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct Failure {
+    /// The kind of fault that was kept while the polygon was made smaller.
+    pub kind: FaultKind,
+    /// The family of the polygon that it was found in.
+    pub family: Family,
+    /// The number of that polygon.
+    pub index: u64,
+    /// The smallest polygon found.
+    pub polygon: Polygon,
+    /// Its triangles; none where the tessellator panics or refuses.
+    pub triangles: Vec<Triangle>,
+    /// What is wrong with them.
+    pub finding: Finding,
+}
+
+/// The outcome of a run.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+#[must_use]
+pub struct Report {
+    /// The options of the run.
+    pub options: Options,
+    /// One for each family that was judged.
+    pub families: Vec<FamilyReport>,
+    /// The smallest failing polygon of each kind of fault, grave ones first.
+    pub failures: Vec<Failure>,
+}
+
+impl Report {
+    /// Nothing, or what a failing test has to print.
+    ///
+    /// # Errors
+    /// [`Disagreement`] where anything was wrong.
+    pub fn check(&self) -> Result<(), Box<Disagreement>> {
+        if self.sum().wrong == 0 { Ok(()) } else { Err(Box::new(Disagreement(self.clone()))) }
+    }
+
+    /// All families as one, under the name of the first.
+    #[must_use]
+    pub fn sum(&self) -> FamilyReport {
+        let first = self.families.first().map_or(Family::Collinear, |report| report.family);
+        let mut sum = FamilyReport::new(first);
+        self.families.iter().for_each(|report| sum.add(report));
+        sum
+    }
+}
+
+/// What was wrong with a tessellator. Its text is the whole message: print it.
+#[derive(Clone, Debug)]
+pub struct Disagreement(Report);
+
+impl Disagreement {
+    /// The report that it is about.
+    #[must_use]
+    pub fn report(&self) -> &Report {
+        &self.0
+    }
+}
+
+impl Error for Disagreement {}
+
+impl fmt::Display for Disagreement {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Report { options, families, failures } = &self.0;
+        let sum = self.0.sum();
+        writeln!(f, "{} of {} polygons are not covered exactly once", sum.wrong, sum.polygons)?;
+        writeln!(f, "  polygons by fault: {}", by_kind(&sum.faults))?;
+        if sum.left_out > 0 {
+            writeln!(f, "  not judged, as the tessellator does not accept them: {}", sum.left_out)?;
+        }
+        if sum.allowed.iter().any(|&count| count > 0) {
+            writeln!(f, "  allowed, and no faults: {}", by_kind(&sum.allowed))?;
+        }
+        let wrong = families.iter().filter(|report| report.wrong > 0);
+        let wrong: Vec<_> =
+            wrong.map(|report| format!("{} {}", report.family.name(), report.wrong)).collect();
+        writeln!(f, "  polygons by family: {}", wrong.join(", "))?;
+        for failure in failures {
+            writeln!(
+                f,
+                "\n{}: the smallest polygon that was found\n  {}",
+                failure.kind.name(),
+                failure.polygon
+            )?;
+            for (number, triangle) in failure.triangles.iter().take(MOST_TRIANGLES).enumerate() {
+                writeln!(f, "  triangle {number}: {triangle:?}")?;
+            }
+            if failure.triangles.len() > MOST_TRIANGLES {
+                writeln!(f, "  and {} more triangles", failure.triangles.len() - MOST_TRIANGLES)?;
+            }
+            for line in failure.finding.to_string().lines() {
+                writeln!(f, "  {line}")?;
+            }
+            writeln!(
+                f,
+                "  found in: Options::default().seed({}).family(Family::{}).only({}){}",
+                options.seed,
+                failure.family.name(),
+                failure.index,
+                declared(options)
+            )?;
+        }
+        Ok(())
+    }
+}
+
+/// What has to be declared to repeat a polygon.
+fn declared(options: &Options) -> String {
+    let mut text = String::new();
+    let defaults = Options::default();
+    if options.coordinates != defaults.coordinates {
+        text += &format!(".coordinates(Coordinates::{:?})", options.coordinates);
+    }
+    if options.fill_rule != defaults.fill_rule {
+        text += &format!(".fill_rule(FillRule::{:?})", options.fill_rule);
+    }
+    if options.winding != defaults.winding {
+        text += &format!(".winding(Winding::{:?})", options.winding);
+    }
+    text
+}
+
+fn by_kind(counts: &[u64]) -> String {
+    let counts = FaultKind::ALL.iter().zip(counts).filter(|(_, count)| **count > 0);
+    let words: Vec<_> = counts.map(|(kind, count)| format!("{} {count}", kind.name())).collect();
+    words.join(", ")
+}
+
+/// Judges a tessellator over the families of polygons.
+///
+/// # Errors
+/// By these options no polygon was judged.
+pub fn judge_partitions<T: Tessellate + Sync>(
+    tessellator: &T,
+    options: &Options,
+) -> Result<Report, NothingJudged> {
+    judge(
+        &|polygon| {
+            tessellator.accepts(polygon).then(|| {
+                caught(|| tessellator.triangles(polygon)).map_or_else(
+                    |message| Err(Fault::saying(FaultKind::Panicked, message)),
+                    |result| result.map_err(|refused| Fault::saying(FaultKind::Refused, refused.0)),
+                )
+            })
+        },
+        options,
+    )
+}
+
+type Asked<'a> = dyn Fn(&Polygon) -> Option<Result<Vec<Triangle>, Fault>> + Sync + 'a;
+
+/// The triangles of a polygon and what was found about them; nothing where the polygon is not valid or not accepted.
+fn ask(
+    tessellator: &Asked,
+    polygon: &Polygon,
+    options: &Options,
+) -> Option<(Vec<Triangle>, Finding)> {
+    match tessellator(polygon)? {
+        Ok(triangles) => {
+            let finding = judge_partition(polygon, &triangles, options).ok()?;
+            Some((triangles, finding))
+        }
+        Err(fault) => {
+            // Only a valid polygon has to be taken.
+            let _ = judge_partition(polygon, &[], options).ok()?;
+            Some((Vec::new(), Finding { faults: vec![fault], ..Finding::default() }))
+        }
+    }
+}
+
+fn judge(tessellator: &Asked, options: &Options) -> Result<Report, NothingJudged> {
+    let numbers = match options.only {
+        Some(number) => number..number.saturating_add(1),
+        None => 0..options.cases,
+    };
+    if numbers.is_empty() {
+        return Err(NothingJudged::NoCases);
+    }
+    let wanted = |family: &Family| options.families.is_empty() || options.families.contains(family);
+    let families: Vec<Family> = Family::ALL.into_iter().filter(wanted).collect();
+    let blocks = (numbers.end - numbers.start).div_ceil(BLOCK);
+    let mut report =
+        Report { options: options.clone(), families: Vec::new(), failures: Vec::new() };
+    let mut failing: [Option<(usize, Family, u64)>; FaultKind::ALL.len()] = Default::default();
+    for family in families {
+        let parts = parallel::map(blocks as usize, |block| {
+            let first = numbers.start + block as u64 * BLOCK;
+            judge_block(tessellator, options, family, first..numbers.end.min(first + BLOCK))
+        });
+        let mut sum = FamilyReport::new(family);
+        for (part, smallest) in parts {
+            sum.add(&part);
+            for (best, found) in failing.iter_mut().zip(smallest) {
+                let is_better = |(size, _): &(usize, u64)| best.is_none_or(|best| *size < best.0);
+                if let Some((size, index)) = found.filter(is_better) {
+                    *best = Some((size, family, index));
+                }
+            }
+        }
+        report.families.push(sum);
+    }
+    if report.sum().polygons == 0 {
+        return Err(NothingJudged::NoneAccepted);
+    }
+    let failing = FaultKind::ALL.into_iter().zip(failing);
+    let failing: Vec<_> = failing.filter_map(|(kind, found)| Some((kind, found?))).collect();
+    report.failures = parallel::map(failing.len(), |number| {
+        let (kind, (_, family, index)) = failing[number];
+        smallest(tessellator, options, kind, family, index)
+    });
+    Ok(report)
+}
+
+/// Of each kind of fault the polygon with the fewest vertices, and its number.
+type Smallest = [Option<(usize, u64)>; FaultKind::ALL.len()];
+
+fn judge_block(
+    tessellator: &Asked,
+    options: &Options,
+    family: Family,
+    numbers: std::ops::Range<u64>,
+) -> (FamilyReport, Smallest) {
+    let mut report = FamilyReport::new(family);
+    let mut smallest = Smallest::default();
+    for index in numbers {
+        let polygon = family.polygon(options.seed, index, options.coordinates);
+        // Families draw until a polygon is valid.
+        let Some((triangles, finding)) = ask(tessellator, &polygon, options) else {
+            report.left_out += 1;
+            continue;
+        };
+        report.count(&finding, triangles.len());
+        let size = polygon.contours.iter().map(Vec::len).sum();
+        for (best, kind) in smallest.iter_mut().zip(FaultKind::ALL) {
+            if finding.has(kind) && best.is_none_or(|best| size < best.0) {
+                *best = Some((size, index));
+            }
+        }
+    }
+    (report, smallest)
+}
+
+fn smallest(
+    tessellator: &Asked,
+    options: &Options,
+    kind: FaultKind,
+    family: Family,
+    index: u64,
+) -> Failure {
+    let polygon = family.polygon(options.seed, index, options.coordinates);
+    let fails = |polygon: &Polygon| {
+        is_as_generated(polygon, family)
+            && ask(tessellator, polygon, options).is_some_and(|(_, finding)| finding.has(kind))
+    };
+    let polygon = shrink(polygon, options.coordinates, &fails);
+    let (triangles, finding) = ask(tessellator, &polygon, options).unwrap_or_default();
+    Failure { kind, family, index, polygon, triangles, finding }
+}
+
+/// Ends a test with the whole message unless every polygon was covered exactly once.
+///
+/// # Panics
+/// Where anything was wrong, or nothing was judged.
+#[doc(hidden)]
+#[track_caller]
+pub fn must_partition<T: Tessellate + Sync>(tessellator: &T, options: &Options) {
+    match judge_partitions(tessellator, options).map(|report| report.check()) {
+        Ok(Ok(())) => {}
+        Ok(Err(disagreement)) => panic!("{disagreement}"),
+        Err(nothing) => panic!("{nothing}"),
+    }
+}

@@ -1,0 +1,97 @@
+//! Partitions of a second source: what spade makes of the generated polygons has no fault, and has one when anything is changed.
+
+use std::collections::VecDeque;
+
+use rasterproof::assert_partition;
+use rasterproof::partition::{
+    Coordinates, Family, FaultKind, Options, Polygon, Triangle, judge_partition, judge_partitions,
+};
+use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation as _};
+
+/// The triangles inside by the even-odd rule, of a triangulation that has all edges of the contours.
+fn spade(polygon: &Polygon) -> Vec<Triangle> {
+    let mut mesh = ConstrainedDelaunayTriangulation::<Point2<f64>>::new();
+    // How often contours run along each edge, in either direction.
+    let mut runs: Vec<usize> = Vec::new();
+    let mut contours = Vec::new();
+    for contour in &polygon.contours {
+        let insert = |&[x, y]: &[f64; 2]| mesh.insert(Point2::new(x, y)).unwrap();
+        contours.push(contour.iter().map(insert).collect::<Vec<_>>());
+    }
+    for contour in contours {
+        for (i, &from) in contour.iter().enumerate() {
+            let to = contour[(i + 1) % contour.len()];
+            if from != to {
+                for edge in mesh.try_add_constraint(from, to) {
+                    let edge = mesh.directed_edge(edge).as_undirected().fix().index();
+                    runs.resize(runs.len().max(edge + 1), 0);
+                    runs[edge] += 1;
+                }
+            }
+        }
+    }
+    let mut is_inside: Vec<Option<bool>> = vec![None; mesh.num_all_faces()];
+    is_inside[mesh.outer_face().fix().index()] = Some(false);
+    let mut open: VecDeque<_> =
+        mesh.directed_edges().filter(|edge| edge.face() == mesh.outer_face()).collect();
+    while let Some(edge) = open.pop_front() {
+        let (here, beyond) = (edge.face().fix().index(), edge.rev().face());
+        let crossed = runs.get(edge.as_undirected().fix().index()).is_some_and(|n| n % 2 == 1);
+        if is_inside[beyond.fix().index()].is_none() {
+            is_inside[beyond.fix().index()] = is_inside[here].map(|inside| inside != crossed);
+            open.extend(beyond.as_inner().into_iter().flat_map(|face| face.adjacent_edges()));
+        }
+    }
+    let inside = mesh.inner_faces().filter(|face| is_inside[face.fix().index()] == Some(true));
+    inside.map(|face| face.positions().map(|corner| [corner.x, corner.y])).collect()
+}
+
+/// 10,120 polygons, of whose triangulations none is blamed. Spade refuses coordinates below 2^-142, so they are whole.
+#[test]
+fn partitions_of_spade_are_right() {
+    assert_partition!(spade, Options::default().cases(920).coordinates(Coordinates::Integer));
+}
+
+/// The same triangulations, one triangle of each left out, doubled, flipped, or moved by an ulp at a corner.
+#[test]
+fn partitions_of_spade_are_wrong_once_changed() {
+    let options = Options::default();
+    let mut planted = 0;
+    for family in Family::ALL {
+        for index in 0..100 {
+            let polygon = family.polygon(3, index, Coordinates::Integer);
+            let triangles = spade(&polygon);
+            let number = index as usize * 7 % triangles.len();
+            let [a, b, c] = triangles[number];
+            let with = |changed: &[Triangle]| {
+                let mut triangles = triangles.clone();
+                triangles.splice(number..=number, changed.iter().copied());
+                let faults = judge_partition(&polygon, &triangles, &options).unwrap().faults;
+                faults.into_iter().map(|fault| fault.kind).collect::<Vec<_>>()
+            };
+            let name = family.name();
+            assert!(with(&[]).contains(&FaultKind::Gap), "{name} {index}");
+            assert!(with(&[[a, b, c], [b, c, a]]).contains(&FaultKind::Overlap), "{name} {index}");
+            if triangles.len() > 2 {
+                assert_eq!(with(&[[a, c, b]]), [FaultKind::Flipped], "{name} {index}");
+            }
+            assert!(!with(&[[a, b, [c[0].next_up(), c[1]]]]).is_empty(), "{name} {index}");
+            planted += 4;
+        }
+    }
+    assert_eq!(planted, 4 * 1_100);
+}
+
+/// A triangulation that leaves out the second contour covers the hole, and the report says so and where.
+#[test]
+fn partition_with_a_filled_hole_is_reported() {
+    let fills = |polygon: &Polygon| spade(&Polygon::new(polygon.contours[..1].to_vec()));
+    let options =
+        Options::default().cases(100).family(Family::Touching).coordinates(Coordinates::Integer);
+    let report = judge_partitions(&fills, &options).unwrap();
+    let message = report.check().unwrap_err().to_string();
+    assert!(report.failures.iter().any(|failure| failure.kind == FaultKind::Outside), "{message}");
+    for part in ["outside", "vec![vec![[", "family(Family::Touching)", "Coordinates::Integer"] {
+        assert!(message.contains(part), "{part}: {message}");
+    }
+}
