@@ -656,3 +656,59 @@ fn frame_bytes(target: &Target) -> u64 {
     let size = target.size();
     12 * u64::from(size.width()) * u64::from(size.height()) * target.antialias().samples()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DVec2;
+
+    fn piece(face: u32, px: [[f64; 2]; 3], depths: [f64; 3]) -> Piece {
+        let vertices = [0, 1, 2]
+            .map(|i| ScreenVertex::new(px[i][0], px[i][1], depths[i], 1.0, DVec2::ZERO).unwrap());
+        let triangle = ScreenTriangle { vertices };
+        Piece { face, item: 0, px, w: [1.0; 3], px_error: 0.0, depth_error: 0.0, triangle }
+    }
+
+    const WINDOW: PixelRect = PixelRect { x0: 0, y0: 0, x1: 32, y1: 32 };
+
+    /// What rungs of a ladder get wrong of one triangle, by name.
+    fn wrong(ladder: Ladder, px: [[f64; 2]; 3]) -> Vec<(String, [u64; 2])> {
+        let rungs = variants(ladder);
+        let mut wrong = vec![Wrong::default(); rungs.len()];
+        compare(&rungs, &piece(0, px, [0.5; 3]), 0, WINDOW, &mut wrong);
+        let named = rungs.iter().zip(wrong);
+        named.map(|(rung, wrong)| (rung.rung.name.to_string(), wrong.pixels)).collect()
+    }
+
+    /// An edge that passes the samples on a diagonal by less than f32 can tell: f32 gets them wrong, and whoever promises
+    /// to be right is.
+    #[test]
+    fn wrong_pixels_of_rungs_are_counted() {
+        let off = -1e-9;
+        let px = [[0.25, 0.25 + off], [20.25, 20.25 + off], [3.625, 28.25]];
+        let found = wrong(Ladder::EdgeFunction, px);
+        let of = |name: &str| found.iter().find(|(other, _)| other == name).unwrap().1;
+        assert!(of("f32 direct")[0] > 0, "{found:?}");
+        assert_eq!(of("f64 direct")[0], 0, "{found:?}");
+        assert_eq!((of("adaptive")[0], of("robust")[0]), (0, 0), "{found:?}");
+        assert_eq!((of("engine")[1], of("i64")[1]), (0, 0), "{found:?}");
+        assert!(of("engine")[0] > 0, "snapping moves the edge onto the samples: {found:?}");
+        let unit = |bits: i32| 0.5f64.powi(bits);
+        assert!(margin_of(px, WINDOW, unit(24)) < 1.0);
+        assert!(margin_of(px, WINDOW, unit(53)) > 1.0);
+    }
+
+    #[test]
+    fn the_nearest_piece_is_found_exactly() {
+        let px = [[0.0, 0.0], [31.0, 0.0], [0.0, 31.0]];
+        let at = |x: i32, y: i32, pieces: &[Piece]| exactly_seen(pieces, WINDOW).get(x, y).unwrap();
+        let (near, far) = (piece(0, px, [0.5; 3]), piece(1, px, [0.5f64.next_up(); 3]));
+        assert_eq!(at(3, 3, &[near, far]), 0);
+        assert_eq!(at(3, 3, &[far, near]), 1, "by its place in the order");
+        assert_eq!(at(3, 3, &[near, near]), 0, "of equal ones the first");
+        assert_eq!(at(31, 31, &[near, far]), NOTHING);
+        // A format with steps takes the first of the two.
+        let stepped = seen(&[far, near], WINDOW, DepthFormat::Unorm24, &mut (0..2));
+        assert_eq!(stepped.get(3, 3), Some(0));
+    }
+}

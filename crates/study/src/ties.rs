@@ -155,3 +155,63 @@ pub fn classify(pieces: &[Piece], window: PixelRect) -> Classes {
         map,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::view::pieces;
+    use glam::{DMat4, DVec2, DVec3};
+    use rasterproof_render::pipeline::transform::perspective;
+    use rasterproof_render::scene::{Corner, Item, Material, Mesh, Scene};
+
+    /// A tilted square that is cut along one of its diagonals, and moved towards the eye.
+    fn square(other_diagonal: bool, nearer: f64) -> Item {
+        let positions = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]
+            .map(|[x, y]| DVec3::new(x, y, 4.0 + 0.7 * y + 0.3 * x - nearer))
+            .to_vec();
+        let corner = |position: u32| Corner {
+            position,
+            colour: DVec3::ONE,
+            normal: DVec3::Z,
+            uv: DVec2::ZERO,
+        };
+        let triangle = |a: u32, b: u32, c: u32| [corner(a), corner(b), corner(c)];
+        let triangles = match other_diagonal {
+            false => vec![triangle(0, 1, 2), triangle(0, 2, 3)],
+            true => vec![triangle(1, 2, 3), triangle(1, 3, 0)],
+        };
+        Item::new(Mesh { positions, triangles }, Material::default())
+    }
+
+    fn classes(second: Item) -> [u64; 3] {
+        let mut scene = Scene::new("two", "", perspective(0.7, 1.0, 1.0, 10.0).unwrap());
+        scene.view = DMat4::IDENTITY;
+        scene.items = vec![square(false, 0.0), second];
+        let window = PixelRect::window(200, 200);
+        let found = classify(&pieces(&scene, window).unwrap(), window);
+        [found.decided, found.by_rounding, found.equal]
+    }
+
+    /// In one plane depths are equal, whatever the diagonals; apart by less than snapping moves them, rounding decides;
+    /// apart by more, all is decided.
+    #[test]
+    fn surfaces_are_judged_before_they_are_snapped() {
+        for other_diagonal in [false, true] {
+            let [decided, by_rounding, equal] = classes(square(other_diagonal, 0.0));
+            assert!(
+                equal > 5000 && by_rounding == 0 && decided < 200,
+                "{decided} {by_rounding} {equal}"
+            );
+            let [decided, by_rounding, equal] = classes(square(other_diagonal, 1e-6));
+            assert!(
+                equal == 0 && by_rounding > 5000 && decided < 200,
+                "{decided} {by_rounding} {equal}"
+            );
+            let [decided, by_rounding, equal] = classes(square(other_diagonal, 0.1));
+            assert!(
+                equal == 0 && by_rounding < 200 && decided > 5000,
+                "{decided} {by_rounding} {equal}"
+            );
+        }
+    }
+}
