@@ -12,8 +12,12 @@ mod pixels;
 mod search;
 mod values;
 
+pub(crate) use values::along;
+
 use serde::Deserialize;
 use serde_json::{Value, json};
+
+use crate::figures;
 
 /// What the page may ask.
 #[derive(Deserialize)]
@@ -57,6 +61,8 @@ enum Question {
         seed: u64,
         cases: u64,
     },
+    /// A live figure of a page.
+    Figure(figures::Ask),
 }
 
 /// The answer to a question; `{"error": ...}` to one that makes no sense or cannot be drawn.
@@ -64,6 +70,11 @@ enum Question {
 pub fn answer(question: &str) -> String {
     let answer = serde_json::from_str(question).map_err(|error| error.to_string()).and_then(ask);
     answer.unwrap_or_else(|error| json!({ "error": error })).to_string()
+}
+
+/// The same for what the program asks itself.
+pub(crate) fn answer_value(question: Value) -> Result<Value, String> {
+    serde_json::from_value(question).map_err(|error| error.to_string()).and_then(ask)
 }
 
 fn ask(question: Question) -> Result<Value, String> {
@@ -83,6 +94,7 @@ fn ask(question: Question) -> Result<Value, String> {
         Question::Search(search) => search.answer(),
         Question::Shrink(shrink) => shrink.answer(),
         Question::Digest { seed, cases } => Ok(digest::digest(seed, cases)),
+        Question::Figure(figure) => figure.answer(),
     }
 }
 
