@@ -25,6 +25,7 @@ mod judge;
 mod judge_shown;
 mod languages;
 mod league;
+mod live_figures;
 mod matrix;
 mod model_files;
 mod model_formats;

@@ -30,7 +30,7 @@ pub const SCENES: [&str; 8] =
     ["triangle", "line", "weights", "perspective", "depth", "near", "samples", "culling"];
 
 /// The compiled engines, or nothing where nobody has built them and nobody demands them.
-fn module() -> Option<PathBuf> {
+pub fn module() -> Option<PathBuf> {
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("target/rasterproof/playground.wasm");
     if path.is_file() {
         return Some(path);

@@ -3,6 +3,7 @@
 #![deny(unsafe_code)]
 
 pub mod answer;
+pub mod figures;
 mod gpu;
 pub mod page;
 #[cfg(target_family = "wasm")]

@@ -12,8 +12,12 @@ mod pixels;
 mod search;
 mod values;
 
+pub(crate) use values::along;
+
 use serde::Deserialize;
 use serde_json::{Value, json};
+
+use crate::figures;
 
 /// What the page may ask.
 #[derive(Deserialize)]
@@ -63,6 +67,8 @@ enum Question {
     GpuBatch(Box<crate::gpu::Batch>),
     /// What the pixels of one picture are worth.
     GpuJudge(Box<crate::gpu::Judge>),
+    /// A live figure of a page.
+    Figure(figures::Ask),
 }
 
 /// The answer to a question; `{"error": ...}` to one that makes no sense or cannot be drawn.
@@ -70,6 +76,11 @@ enum Question {
 pub fn answer(question: &str) -> String {
     let answer = serde_json::from_str(question).map_err(|error| error.to_string()).and_then(ask);
     answer.unwrap_or_else(|error| json!({ "error": error })).to_string()
+}
+
+/// The same for what the program asks itself.
+pub(crate) fn answer_value(question: Value) -> Result<Value, String> {
+    serde_json::from_value(question).map_err(|error| error.to_string()).and_then(ask)
 }
 
 fn ask(question: Question) -> Result<Value, String> {
@@ -92,6 +103,7 @@ fn ask(question: Question) -> Result<Value, String> {
         Question::GpuPlan(plan) => Ok(plan.answer()),
         Question::GpuBatch(batch) => batch.answer(),
         Question::GpuJudge(judge) => judge.answer(),
+        Question::Figure(figure) => figure.answer(),
     }
 }
 

@@ -5,7 +5,7 @@ use serde::Deserialize;
 use serde_json::{Value, json};
 
 use super::picture::{Picture, in_px};
-use super::pixels::digits;
+use super::pixels::{digits, lattice_engine};
 use rasterproof_core::contract::Rasterize as _;
 use rasterproof_core::frame::{Coverage, Frame};
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
@@ -26,6 +26,13 @@ pub(super) struct Near {
     side_px: u8,
     corners: [[f64; 3]; 3],
     near: f64,
+    /// Who fills what is left; the scanline engine if nothing is said.
+    #[serde(default = "scanline")]
+    by: String,
+}
+
+fn scanline() -> String {
+    Engine::Scanline.name().to_owned()
 }
 
 impl Near {
@@ -50,11 +57,12 @@ impl Near {
             clip_near(published, self.near).into_iter().map(|vertex| vertex.position).collect();
         let all: Vec<DVec4> = triangle.iter().map(|vertex| vertex.position).collect();
         let panels = [("clip", ours), ("book-near-clip", book), ("unclipped", all)];
-        Ok(json!({ "panels": panels.map(|(name, polygon)| self.panel(name, &polygon)) }))
+        let engine = lattice_engine(&self.by)?;
+        Ok(json!({ "panels": panels.map(|(name, polygon)| self.panel(engine, name, &polygon)) }))
     }
 
     /// A polygon divided by w, placed and filled as a fan.
-    fn panel(&self, name: &str, polygon: &[DVec4]) -> Value {
+    fn panel(&self, engine: Engine, name: &str, polygon: &[DVec4]) -> Value {
         let side = f64::from(self.side_px);
         let window = PixelRect::window(self.side_px.into(), self.side_px.into());
         let place = |p: &DVec4| {
@@ -67,7 +75,7 @@ impl Near {
             Ok(points) => {
                 for i in 2..points.len() {
                     let fan: Corners = [points[0], points[i - 1], points[i]];
-                    Engine::Scanline.cover(fan, window, |s| hits.hit(s.y_px, s.x0_px, s.x1_px));
+                    engine.cover(fan, window, |s| hits.hit(s.y_px, s.x0_px, s.x1_px));
                 }
                 let outline: Vec<_> = points.iter().map(|p| p.to_px()).collect();
                 json!({
@@ -142,6 +150,9 @@ impl Samples {
 pub(super) struct Culling {
     picture: Picture,
     removes: String,
+    /// Who fills what is left.
+    #[serde(default = "scanline")]
+    by: String,
 }
 
 impl Culling {
@@ -153,13 +164,14 @@ impl Culling {
             "counter-clockwise" => Cull::CounterClockwise,
             other => return Err(format!("'{other}' is no way to cull")),
         };
+        let engine = lattice_engine(&self.by)?;
         let mut hits = Coverage::new(window, 0);
         let (mut areas, mut outlines) = (Vec::new(), Vec::new());
         for triangle in self.picture.on_lattice()? {
             let corners = triangle.corners();
             let removed = cull.removes(corners);
             if !removed {
-                Engine::Scanline.cover(corners, window, |s| hits.hit(s.y_px, s.x0_px, s.x1_px));
+                engine.cover(corners, window, |s| hits.hit(s.y_px, s.x0_px, s.x1_px));
             }
             let area = twice_area(corners);
             areas.push(json!({

@@ -19,6 +19,13 @@ use rasterproof_verify::oracle::rational::cover_and_count_ties;
 /// The planted faults that the page offers, as rules: engines otherwise right.
 const RULES: [&str; 2] = ["exclusive-edges", "inclusive-edges"];
 
+/// The rasterizer of this name, or the planted fault.
+pub(super) fn lattice_engine(name: &str) -> Result<Engine, String> {
+    let entry = engines::find(name).copied().or_else(|| engines::find_planted(name));
+    let engine = entry.and_then(|entry| entry.engine);
+    engine.ok_or_else(|| format!("no rasterizer is called {name}"))
+}
+
 /// Who covers pixels on this page.
 #[derive(Clone, Copy)]
 pub(super) enum Painter {

@@ -9,10 +9,9 @@ use super::pixels::Painter;
 use rasterproof_core::contract::{DrawLine as _, Interpolate as _};
 use rasterproof_core::frame::Frame;
 use rasterproof_core::grid::PixelRect;
-use rasterproof_core::line::dda::Dda;
 use rasterproof_core::triangle::{Fragment, LineEnd, MAX_W, MIN_W, PixelPoint, ScreenLine};
 use rasterproof_faults::published::Published as _;
-use rasterproof_registry::engines::Engine;
+use rasterproof_registry::engines::{Engine, LineEngine};
 use rasterproof_render::pipeline::depth::DepthFormat;
 
 /// The values of a picture by one engine: depth, u, v of each fragment, in the order of the picture.
@@ -147,23 +146,27 @@ pub(super) struct Along {
 }
 
 impl Along {
-    /// A line that carries (1/w, t/w), divided at each pixel.
     pub fn answer(&self) -> Result<Value, String> {
-        if !self.w.iter().all(|w| (MIN_W..=MAX_W).contains(w)) || self.steps == 0 {
-            return Err("w must be positive, and there must be a step".to_owned());
-        }
-        let length = i32::from(self.steps);
-        let [near, far] = self.w.map(|w| 1.0 / w);
-        let end = |x, inv_w, t: f64| LineEnd {
-            pixel: PixelPoint::new(x, 0),
-            depth: t,
-            varying: DVec2::new(inv_w, t * inv_w),
-        };
-        let line = ScreenLine { ends: [end(0, near, 0.0), end(length, far, 1.0)] };
-        let window = PixelRect { x0: 0, y0: 0, x1: length + 1, y1: 1 };
-        let mut pairs = Vec::new();
-        // The depth is linear on the screen, so it is t'.
-        Dda.draw(&line, window, |f| pairs.push([f.depth, f.varying.y / f.varying.x]));
-        Ok(json!({ "pairs": pairs }))
+        Ok(json!({ "pairs": along(LineEngine::Dda, self.w, self.steps)? }))
     }
+}
+
+/// The shares of the way on the screen and in space, at each pixel of a line that carries (1/w, t/w).
+pub(crate) fn along(pen: LineEngine, w: [f64; 2], steps: u16) -> Result<Vec<[f64; 2]>, String> {
+    if !w.iter().all(|w| (MIN_W..=MAX_W).contains(w)) || steps == 0 {
+        return Err("w must be positive, and there must be a step".to_owned());
+    }
+    let length = i32::from(steps);
+    let [near, far] = w.map(|w| 1.0 / w);
+    let end = |x, inv_w, t: f64| LineEnd {
+        pixel: PixelPoint::new(x, 0),
+        depth: t,
+        varying: DVec2::new(inv_w, t * inv_w),
+    };
+    let line = ScreenLine { ends: [end(0, near, 0.0), end(length, far, 1.0)] };
+    let window = PixelRect { x0: 0, y0: 0, x1: length + 1, y1: 1 };
+    let mut pairs = Vec::new();
+    // The depth is linear on the screen, so it is t'.
+    pen.draw(&line, window, |f| pairs.push([f.depth, f.varying.y / f.varying.x]));
+    Ok(pairs)
 }

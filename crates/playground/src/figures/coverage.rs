@@ -1,0 +1,258 @@
+//! Figures about which pixels belong to a shape.
+
+use super::sheet::{Panel, Point, Sheet};
+use super::{Drawn, Given, Predict, cover, number, snapped, with_triangles};
+use rasterproof_core::frame::Coverage;
+use rasterproof_core::grid::{PixelRect, snap};
+use rasterproof_faults::planted::TriangleMutant;
+use rasterproof_faults::published::{Published as _, bare};
+use rasterproof_registry::engines::{Engine, TriangleSpecimen};
+use rasterproof_render::pipeline::assemble::twice_area;
+
+/// A square against the centres of the pixels.
+pub(super) fn one_sample(given: &Given<'_>) -> Result<Drawn, String> {
+    let ([x, y], low) = (given.at[0], 0.6);
+    let square = [[[low, low], [x, low], [x, y]], [[low, low], [x, y], [low, y]]];
+    let panel = Panel::middle(5, 5, 44.0, 10.0);
+    let hits = cover(given.fill, &snapped(&square)?, panel.window);
+    let mut sheet = Sheet::new(panel.bottom() + 10.0, given.is_answered);
+    sheet.hits(&panel, &hits, &hits);
+    sheet.grid(&panel);
+    sheet.samples(&panel);
+    sheet.outline(&panel, "ink", &[[low, low], [x, low], [x, y], [low, y]], true);
+    sheet.grip(panel.place([x, y]));
+    let pixels = panel.pixels().map(|p| (p, hits.get(p[0], p[1]) != Some(0))).collect();
+    Ok(Drawn {
+        sheet,
+        grips: vec![(panel.place([x, y]), [panel.unit; 2])],
+        predict: Predict::Pixels(panel, pixels),
+        values: vec![
+            ("x", number(x, 1)),
+            ("y", number(y, 1)),
+            ("covered", hits.covered().to_string()),
+            ("area", number((x - low) * (y - low), 2)),
+        ],
+        link: with_triangles("triangle", &square, "&window=0,0,5,5&by=scanline,oracle"),
+    })
+}
+
+/// A position between points of the grid, and the point that it is snapped to.
+pub(super) fn snap_to_even(given: &Given<'_>) -> Result<Drawn, String> {
+    let [x, y] = given.at[0];
+    let sub = |v: f64| snap(v / 256.0).map_err(|refusal| refusal.to_string());
+    let right = [sub(x)?, sub(y)?];
+    // Each square holds what is nearest to the grid point in its middle.
+    let panel = Panel::middle(6, 5, 44.0, 26.0);
+    let middle = |[x, y]: Point| panel.place([x + 0.5, y + 0.5]);
+    let mut sheet = Sheet::new(panel.bottom() + 10.0, given.is_answered);
+    sheet.pixel(&panel, right, "on", "");
+    sheet.grid(&panel);
+    sheet.samples(&panel);
+    for i in 0..6 {
+        let [along, _] = middle([f64::from(i), 0.0]);
+        sheet.text([along, 18.0], "middle", &i.to_string());
+    }
+    for j in 0..5 {
+        let [_, down] = middle([0.0, f64::from(j)]);
+        sheet.text([panel.corner[0] - 10.0, down + 5.0], "end", &j.to_string());
+    }
+    let spot = middle([x, y]);
+    if given.is_answered {
+        sheet.arrow("ink", spot, middle(right.map(f64::from)));
+    }
+    sheet.grip(spot);
+    let corner = [[[x / 256.0, y / 256.0], [3.0, 0.0], [0.0, 3.0]]];
+    Ok(Drawn {
+        sheet,
+        grips: vec![(spot, [panel.unit; 2])],
+        predict: Predict::Pixels(panel, panel.pixels().map(|p| (p, p == right)).collect()),
+        values: vec![
+            ("x", number(x, 2)),
+            ("y", number(y, 2)),
+            ("sx", right[0].to_string()),
+            ("sy", right[1].to_string()),
+        ],
+        link: with_triangles("triangle", &corner, "&window=0,0,4,4&snap=0"),
+    })
+}
+
+/// The sign of one edge function at every centre.
+pub(super) fn edge_sign(given: &Given<'_>) -> Result<Drawn, String> {
+    let [a, b] = [given.at[0], given.at[1]];
+    let panel = Panel::middle(9, 7, 36.0, 10.0);
+    let mut sheet = Sheet::new(panel.bottom() + 10.0, given.is_answered);
+    let mut pixels = Vec::new();
+    for pixel in panel.pixels() {
+        let corners = snapped(&[[a, b, pixel.map(|v| f64::from(v) + 0.5)]])?[0];
+        let sign = twice_area(corners).signum();
+        let (class, letter) = [("on", "−"), ("twice", "0"), ("one", "+")][(sign + 1) as usize];
+        sheet.pixel(&panel, pixel, class, letter);
+        pixels.push((pixel, sign == 0));
+    }
+    sheet.grid(&panel);
+    if !given.is_answered {
+        sheet.samples(&panel);
+    }
+    sheet.arrow("ink", panel.place(a), panel.place(b));
+    for (point, letter) in [(a, "a"), (b, "b")] {
+        sheet.named_grip(panel.place(point), letter);
+    }
+    let zeros = pixels.iter().filter(|(_, is_zero)| *is_zero).count();
+    // A third corner to the right of the edge makes it an edge of a triangle.
+    let third = [a[0] - (b[1] - a[1]), a[1] + (b[0] - a[0])];
+    Ok(Drawn {
+        sheet,
+        grips: vec![(panel.place(a), [panel.unit; 2]), (panel.place(b), [panel.unit; 2])],
+        predict: Predict::Pixels(panel, pixels),
+        values: vec![
+            ("ax", number(a[0], 1)),
+            ("ay", number(a[1], 1)),
+            ("bx", number(b[0], 1)),
+            ("by", number(b[1], 1)),
+            ("zeros", zeros.to_string()),
+        ],
+        link: with_triangles("triangle", &[[a, b, third]], "&window=0,0,9,7"),
+    })
+}
+
+/// What a strict rule leaves empty along the edge that two triangles share.
+pub(super) fn shared_edge(given: &Given<'_>) -> Result<Drawn, String> {
+    let corner = given.at[0];
+    let square = [[[1.0, 1.0], [5.0, 1.0], corner], [[1.0, 1.0], corner, [1.0, 5.0]]];
+    let panel = Panel::middle(6, 6, 36.0, 10.0);
+    let corners = snapped(&square)?;
+    let right = cover(given.fill, &corners, panel.window);
+    let strict = cover(Engine::Mutant(TriangleMutant::ExclusiveEdges), &corners, panel.window);
+    let mut sheet = Sheet::new(panel.bottom() + 10.0, given.is_answered);
+    sheet.hits(&panel, &strict, &right);
+    sheet.grid(&panel);
+    sheet.samples(&panel);
+    sheet.outline(&panel, "ink", &square[0], true);
+    sheet.outline(&panel, "ink", &square[1], true);
+    sheet.grip(panel.place(corner));
+    let is_hole = |[x, y]: [i32; 2]| strict.get(x, y) < right.get(x, y);
+    let pixels: Vec<_> = panel.pixels().map(|pixel| (pixel, is_hole(pixel))).collect();
+    let missing = pixels.iter().filter(|(_, is_hole)| *is_hole).count();
+    Ok(Drawn {
+        sheet,
+        grips: vec![(panel.place(corner), [panel.unit; 2])],
+        predict: Predict::Pixels(panel, pixels),
+        values: vec![
+            ("x", number(corner[0], 1)),
+            ("y", number(corner[1], 1)),
+            ("missing", missing.to_string()),
+            ("covered", right.covered().to_string()),
+        ],
+        link: with_triangles("triangle", &square, "&window=0,0,6,6&by=scanline,exclusive-edges"),
+    })
+}
+
+/// Which of two triangles has the samples on their common edge.
+pub(super) fn edge_owner(given: &Given<'_>) -> Result<Drawn, String> {
+    let (p, q) = ([1.5, 3.5], given.at[0]);
+    let triangles = [[p, [4.0, 0.5], q], [p, q, [4.0, 6.5]]];
+    let corners = snapped(&triangles)?;
+    let panel = Panel::middle(8, 7, 36.0, 10.0);
+    let [upper, lower] = [0, 1].map(|i| cover(given.fill, &corners[i..=i], panel.window));
+    let mut sheet = Sheet::new(panel.bottom() + 10.0, given.is_answered);
+    let mut ties = [0, 0];
+    for pixel in panel.pixels() {
+        let has = |hits: &Coverage| hits.get(pixel[0], pixel[1]) != Some(0);
+        let centre = pixel.map(|v| f64::from(v) + 0.5);
+        let is_tie = twice_area(snapped(&[[p, q, centre]])?[0]) == 0;
+        let letter = if is_tie { "0" } else { "" };
+        for (i, (hits, class)) in [(&upper, "one"), (&lower, "two")].into_iter().enumerate() {
+            if has(hits) {
+                sheet.pixel(&panel, pixel, class, letter);
+                ties[i] += usize::from(is_tie);
+            }
+        }
+    }
+    sheet.grid(&panel);
+    sheet.samples(&panel);
+    for triangle in &triangles {
+        sheet.outline(&panel, "ink", triangle, true);
+    }
+    sheet.grip(panel.place(q));
+    let owner = match ties {
+        [0, 0] => 2,
+        [0, _] => 1,
+        _ => 0,
+    };
+    Ok(Drawn {
+        sheet,
+        grips: vec![(panel.place(q), [0.0, panel.unit])],
+        predict: Predict::Choice(owner),
+        values: vec![("upper", ties[0].to_string()), ("lower", ties[1].to_string())],
+        link: with_triangles("triangle", &triangles, "&window=0,0,8,7"),
+    })
+}
+
+/// The pixels of one row between two edges.
+pub(super) fn row_span(given: &Given<'_>) -> Result<Drawn, String> {
+    let corner = [given.at[0][0], 4.0];
+    let triangle = [[0.0, 0.0], [0.0, 4.0], corner];
+    let panel = Panel::middle(6, 5, 44.0, 10.0);
+    let hits = cover(given.fill, &snapped(&[triangle])?, panel.window);
+    let row = 2;
+    let mut sheet = Sheet::new(panel.bottom() + 10.0, given.is_answered);
+    let has = |x: i32| hits.get(x, row) != Some(0);
+    let columns = panel.window.x0..panel.window.x1;
+    for x in columns.clone().filter(|&x| has(x)) {
+        sheet.pixel(&panel, [x, row], "on", "");
+    }
+    sheet.grid(&panel);
+    sheet.samples(&panel);
+    sheet.outline(&panel, "ink", &triangle, true);
+    let height = f64::from(row) + 0.5;
+    sheet.outline(&panel, "soft", &[[0.0, height], [6.0, height]], false);
+    sheet.grip(panel.place(corner));
+    let crossing = corner[0] * height / 4.0;
+    Ok(Drawn {
+        sheet,
+        grips: vec![(panel.place(corner), [panel.unit, 0.0])],
+        predict: Predict::Pixels(panel, columns.clone().map(|x| ([x, row], has(x))).collect()),
+        values: vec![
+            ("x", number(corner[0], 1)),
+            ("crossing", number(crossing, 4)),
+            ("count", columns.filter(|&x| has(x)).count().to_string()),
+        ],
+        link: with_triangles("triangle", &[triangle], "&window=0,0,6,5&px=1,2"),
+    })
+}
+
+/// The row of the middle corner, which a triangle cut in two parts draws twice.
+pub(super) fn middle_row(given: &Given<'_>) -> Result<Drawn, String> {
+    let middle = given.at[0];
+    let triangle = [[2.5, 11.5], middle, [2.5, 4.5]];
+    let panel = Panel {
+        corner: [24.0, 10.0],
+        unit: 26.0,
+        window: PixelRect { x0: 1, y0: 3, x1: 13, y1: 13 },
+    };
+    let mut hits = Coverage::new(panel.window, 0);
+    TriangleSpecimen::BookChapter2
+        .cover(&bare(triangle), panel.window, &mut |span| {
+            hits.hit(span.y_px, span.x0_px, span.x1_px);
+        })
+        .map_err(|refused| refused.to_string())?;
+    let right = cover(given.fill, &snapped(&[triangle])?, panel.window);
+    let mut sheet = Sheet::new(panel.bottom() + 10.0, given.is_answered);
+    sheet.hits(&panel, &hits, &right);
+    sheet.grid(&panel);
+    sheet.samples(&panel);
+    sheet.outline(&panel, "ink", &triangle, true);
+    sheet.grip(panel.place(middle));
+    let twice = panel.pixels().filter(|p| hits.get(p[0], p[1]) > Some(1)).count();
+    Ok(Drawn {
+        sheet,
+        grips: vec![(panel.place(middle), [panel.unit; 2])],
+        predict: Predict::Number(twice as f64, 0),
+        values: vec![
+            ("x", number(middle[0], 1)),
+            ("y", number(middle[1], 1)),
+            ("twice", twice.to_string()),
+        ],
+        link: with_triangles("triangle", &[triangle], "&window=1,3,13,13&by=scanline,book-ch2"),
+    })
+}

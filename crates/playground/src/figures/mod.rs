@@ -1,0 +1,319 @@
+//! The live figures of the pages: what each shows for a position of its grips, which prediction is right,
+//! and what is said about it. `figures.json` describes them: grips with their ranges, and the texts in both
+//! languages. The script of the page inserts what is drawn here and computes no pixel.
+
+mod coverage;
+mod light;
+mod lines;
+mod sheet;
+mod stages;
+mod values;
+
+use std::sync::LazyLock;
+
+use serde::Deserialize;
+use serde_json::{Value, json};
+
+use crate::answer::answer_value;
+use rasterproof_core::contract::Rasterize as _;
+use rasterproof_core::frame::Coverage;
+use rasterproof_core::grid::{PixelRect, SubpixelPoint};
+use rasterproof_core::triangle::Corners;
+use rasterproof_registry::engines::{self, Engine, LineEngine};
+use sheet::{Panel, Point, Sheet};
+
+/// A figure as `figures.json` describes it.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Figure {
+    pub name: String,
+    /// The page that has it, without its ending.
+    pub page: String,
+    grips: Vec<Grip>,
+    en: Text,
+    zh: Text,
+}
+
+/// Something to drag: where it begins, how far it goes, and in which steps.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Grip {
+    pub start: Point,
+    pub low: Point,
+    pub high: Point,
+    pub step: f64,
+}
+
+/// The words of a figure. `{name}` stands for a number that the figure computes.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Text {
+    title: String,
+    /// What is to be seen, for those who do not see it.
+    alt: String,
+    question: String,
+    #[serde(default)]
+    options: Vec<String>,
+    answer: String,
+    /// What each grip is called.
+    grips: Vec<String>,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Language {
+    En,
+    Zh,
+}
+
+/// Every figure, in the order of the pages.
+pub static ALL: LazyLock<Vec<Figure>> = LazyLock::new(|| {
+    serde_json::from_str(include_str!("figures.json")).expect("a test reads the same file")
+});
+
+/// What a figure is drawn for.
+struct Given<'a> {
+    grips: &'a [Grip],
+    at: &'a [Point],
+    is_answered: bool,
+    fill: Engine,
+    pen: LineEngine,
+}
+
+/// What the reader predicts, with what is right.
+enum Predict {
+    /// Which of these pixels of a panel.
+    Pixels(Panel, Vec<([i32; 2], bool)>),
+    /// One of the options of the text.
+    Choice(usize),
+    /// A number with so many decimals.
+    Number(f64, usize),
+}
+
+struct Drawn {
+    sheet: Sheet,
+    /// Where each grip lies on the sheet, and how far it moves there for a step of 1 to the right and down;
+    /// 0 where it does not move.
+    grips: Vec<(Point, Point)>,
+    predict: Predict,
+    /// The numbers that the texts name.
+    values: Vec<(&'static str, String)>,
+    /// The same in the playground: what its address says.
+    link: String,
+}
+
+type Draw = fn(&Given<'_>) -> Result<Drawn, String>;
+
+/// Who draws each figure.
+const DRAWN_BY: [(&str, Draw); 28] = [
+    ("one-sample", coverage::one_sample),
+    ("snap-to-even", coverage::snap_to_even),
+    ("line-pixels", lines::line_pixels),
+    ("there-and-back", lines::there_and_back),
+    ("edge-sign", coverage::edge_sign),
+    ("shared-edge", coverage::shared_edge),
+    ("edge-owner", coverage::edge_owner),
+    ("row-span", coverage::row_span),
+    ("middle-row", coverage::middle_row),
+    ("weights", values::weights),
+    ("wrong-corner", values::wrong_corner),
+    ("boards", stages::boards),
+    ("rod-middle", values::rod_middle),
+    ("affine-kink", values::affine_kink),
+    ("value-midway", values::value_midway),
+    ("nearer", values::nearer),
+    ("z-fighting", values::z_fighting),
+    ("near-corners", stages::near_corners),
+    ("divide-first", stages::divide_first),
+    ("viewport-size", stages::viewport_size),
+    ("to-pixel", stages::to_pixel),
+    ("winding", stages::winding),
+    ("thin-turn", stages::thin_turn),
+    ("order-matters", stages::order_matters),
+    ("turn-about", stages::turn_about),
+    ("brightest", light::brightest),
+    ("short-normal", light::short_normal),
+    ("texel", light::texel),
+];
+
+/// Asks for a figure.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Ask {
+    name: String,
+    language: Language,
+    /// Where its grips are; where they begin if nothing is said.
+    #[serde(default)]
+    at: Vec<Point>,
+    #[serde(default)]
+    is_answered: bool,
+    #[serde(default)]
+    is_dark: bool,
+    /// Who draws instead of the scanline engine and the DDA: the tests ask for the oracle, and for faults.
+    by: Option<String>,
+}
+
+impl Ask {
+    pub fn answer(&self) -> Result<Value, String> {
+        let figure = find(&self.name)?;
+        let text = figure.text(self.language);
+        let (at, drawn) = figure.draw(&self.at, self.is_answered, self.by.as_deref())?;
+        let fill = |text: &str| fill(text, &drawn.values);
+        let predict = match &drawn.predict {
+            Predict::Pixels(panel, pixels) => {
+                let cell = |([x, y], _): &([i32; 2], bool)| {
+                    let [left, top] = panel.place([*x, *y].map(f64::from));
+                    json!([left, top, panel.unit, x, y])
+                };
+                json!({
+                    "kind": "pixels", "cells": pixels.iter().map(cell).collect::<Vec<_>>(),
+                    "right": pixels.iter().map(|(_, is_right)| is_right).collect::<Vec<_>>(),
+                })
+            }
+            Predict::Choice(right) => {
+                let options: Vec<_> = text.options.iter().map(|option| fill(option)).collect();
+                json!({ "kind": "choice", "options": options, "right": right })
+            }
+            Predict::Number(value, decimals) => {
+                json!({ "kind": "number", "decimals": decimals, "right": format!("{value:.decimals$}") })
+            }
+        };
+        let grips = figure.grips.iter().zip(&text.grips).zip(&at).zip(&drawn.grips);
+        let grips: Vec<_> = grips
+            .map(|(((grip, name), value), (spot, scale))| {
+                json!({
+                    "name": name, "value": value, "spot": spot, "scale": scale,
+                    "low": grip.low, "high": grip.high, "step": grip.step,
+                })
+            })
+            .collect();
+        Ok(json!({
+            "title": text.title, "question": fill(&text.question), "answer": fill(&text.answer),
+            "alt": fill(&text.alt), "at": at, "svg": drawn.sheet.inline(self.is_dark), "predict": predict,
+            "grips": grips, "link": drawn.link,
+        }))
+    }
+}
+
+impl Figure {
+    fn text(&self, language: Language) -> &Text {
+        match language {
+            Language::En => &self.en,
+            Language::Zh => &self.zh,
+        }
+    }
+
+    pub fn grips(&self) -> &[Grip] {
+        &self.grips
+    }
+
+    /// Draws the figure; the positions of the grips are brought into their ranges and onto their steps.
+    fn draw(
+        &self,
+        at: &[Point],
+        is_answered: bool,
+        by: Option<&str>,
+    ) -> Result<(Vec<Point>, Drawn), String> {
+        let place = |(i, grip): (usize, &Grip)| {
+            let given = at.get(i).unwrap_or(&grip.start);
+            let along = |axis: usize| {
+                let (low, high) = (grip.low[axis], grip.high[axis]);
+                let on_step = low + ((given[axis] - low) / grip.step).round() * grip.step;
+                // Steps such as 0.1 leave a last bit behind.
+                ((on_step * 1e6).round() / 1e6).clamp(low, high)
+            };
+            [along(0), along(1)]
+        };
+        let at: Vec<Point> = self.grips.iter().enumerate().map(place).collect();
+        if at.as_flattened().iter().any(|v| v.is_nan()) {
+            return Err(format!("{}: a grip is nowhere", self.name));
+        }
+        let (mut fill, mut pen) = (Engine::Scanline, LineEngine::Dda);
+        if let Some(name) = by {
+            let entry = engines::find(name).copied().or_else(|| engines::find_planted(name));
+            let entry = entry.ok_or_else(|| format!("nobody is called {name}"))?;
+            (fill, pen) = (entry.engine.unwrap_or(fill), entry.line_engine.unwrap_or(pen));
+        }
+        let given = Given { grips: &self.grips, at: &at, is_answered, fill, pen };
+        let draw = DRAWN_BY.iter().find(|(name, _)| *name == self.name);
+        let (_, draw) = draw.ok_or_else(|| format!("nobody draws {}", self.name))?;
+        let drawn = draw(&given)?;
+        Ok((at, drawn))
+    }
+
+    /// The picture of the figure with its answer, as a file.
+    ///
+    /// # Errors
+    /// Where it cannot be drawn.
+    pub fn still(&self) -> Result<String, String> {
+        Ok(self.draw(&[], true, None)?.1.sheet.file())
+    }
+
+    /// What a page says in the place of the figure, with everything for those who read without scripts.
+    ///
+    /// # Errors
+    /// Where it cannot be drawn.
+    pub fn block(&self, language: Language) -> Result<String, String> {
+        let (_, drawn) = self.draw(&[], true, None)?;
+        let text = self.text(language);
+        let fill = |text: &str| fill(text, &drawn.values);
+        let folder = if language == Language::En { "figures" } else { "../figures" };
+        let name = &self.name;
+        Ok(format!(
+            "<rp-figure scene=\"{name}\">\n\n![{}]({folder}/live/{name}.svg)\n\n**{}** {}\n\n</rp-figure>",
+            fill(&text.alt),
+            fill(&text.question),
+            fill(&text.answer),
+        ))
+    }
+}
+
+/// The figure of this name.
+///
+/// # Errors
+/// Where there is none.
+pub fn find(name: &str) -> Result<&'static Figure, String> {
+    let found = ALL.iter().find(|figure| figure.name == name);
+    found.ok_or_else(|| format!("no figure is called {name}"))
+}
+
+/// A text with its numbers.
+fn fill(text: &str, values: &[(&'static str, String)]) -> String {
+    values
+        .iter()
+        .fold(text.to_owned(), |text, (name, value)| text.replace(&format!("{{{name}}}"), value))
+}
+
+/// A number with at most so many decimals.
+fn number(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    if decimals == 0 {
+        return text;
+    }
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    // What rounds to 0 from below would keep its sign.
+    if text == "-0" { "0".to_owned() } else { text.to_owned() }
+}
+
+/// Triangles in pixels, snapped to the grid.
+fn snapped(triangles: &[[Point; 3]]) -> Result<Vec<Corners>, String> {
+    let point = |[x, y]: Point| SubpixelPoint::from_px(x, y).map_err(|refusal| refusal.to_string());
+    triangles.iter().map(|&[a, b, c]| Ok([point(a)?, point(b)?, point(c)?])).collect()
+}
+
+/// How often an engine hits each pixel.
+fn cover(engine: Engine, triangles: &[Corners], window: PixelRect) -> Coverage {
+    let mut hits = Coverage::new(window, 0);
+    for &corners in triangles {
+        engine.cover(corners, window, |span| hits.hit(span.y_px, span.x0_px, span.x1_px));
+    }
+    hits
+}
+
+/// The address of a scene of the playground with triangles of x, y and what else each corner has.
+fn with_triangles<const N: usize>(scene: &str, triangles: &[[[f64; N]; 3]], more: &str) -> String {
+    let corner = |c: &[f64; N]| c.map(|value| number(value, 6)).join(",");
+    let triangle = |t: &[[f64; N]; 3]| t.iter().map(corner).collect::<Vec<_>>().join("_");
+    let all: Vec<_> = triangles.iter().map(triangle).collect();
+    format!("#scene={scene}&t={}{more}", all.join(";"))
+}

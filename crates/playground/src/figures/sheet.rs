@@ -1,0 +1,328 @@
+//! The picture of a figure as SVG, on light and on dark paper.
+
+use std::fmt::{Arguments, Write as _};
+
+use glam::DVec3;
+
+use super::Given;
+use rasterproof_core::frame::Coverage;
+use rasterproof_core::grid::PixelRect;
+use rasterproof_render::pipeline::target::to_colour;
+
+pub(super) type Point = [f64; 2];
+
+/// Every sheet is as wide as a telephone shows without scaling it down much.
+pub(super) const WIDTH: f64 = 360.0;
+
+/// What each class is painted with.
+struct Palette {
+    paper: &'static str,
+    grid: &'static str,
+    ink: &'static str,
+    soft: &'static str,
+    on: &'static str,
+    miss: &'static str,
+    extra: &'static str,
+    twice: &'static str,
+    one: &'static str,
+    two: &'static str,
+    grip: &'static str,
+}
+
+const LIGHT: Palette = Palette {
+    paper: "#fbfbf8",
+    grid: "#c3c6c0",
+    ink: "#24292f",
+    soft: "#6b727a",
+    on: "#a3aeb7",
+    miss: "#e07070",
+    extra: "#f0a028",
+    twice: "#b878d8",
+    one: "#7fb2f0",
+    two: "#f2b66d",
+    grip: "#0b57d0",
+};
+
+const DARK: Palette = Palette {
+    paper: "#1b1f24",
+    grid: "#444b54",
+    ink: "#e6edf3",
+    soft: "#9aa3ad",
+    on: "#6a7681",
+    miss: "#b03a3a",
+    extra: "#a8691a",
+    twice: "#8a48b0",
+    one: "#3f74b8",
+    two: "#a06a24",
+    grip: "#7fb0ff",
+};
+
+impl Palette {
+    fn rules(&self) -> String {
+        let Self { paper, grid, ink, soft, on, miss, extra, twice, one, two, grip } = self;
+        format!(
+            ".paper{{fill:{paper}}}.grid{{fill:none;stroke:{grid}}}.ink{{fill:none;stroke:{ink};stroke-width:2}}\
+             .soft{{fill:none;stroke:{soft};stroke-width:1.5;stroke-dasharray:5 4}}.dot{{fill:{ink}}}\
+             .on{{fill:{on}}}.miss{{fill:{miss}}}.extra{{fill:{extra}}}.twice{{fill:{twice}}}\
+             .dark{{fill:#3d4a57}}.pale{{fill:#e8c48a}}.one{{fill:{one}}}.two{{fill:{two}}}.grip{{fill:{grip};stroke:{paper};stroke-width:2}}\
+             text{{fill:{ink};font:15px sans-serif}}"
+        )
+    }
+}
+
+/// Pixels of a window as squares on the sheet.
+#[derive(Clone, Copy)]
+pub(super) struct Panel {
+    /// Where the upper left corner of the window lies on the sheet.
+    pub corner: Point,
+    /// The side of a pixel.
+    pub unit: f64,
+    pub window: PixelRect,
+}
+
+impl Panel {
+    /// A window in the middle of the sheet, its upper border at `top`.
+    pub fn middle(columns: i32, rows: i32, unit: f64, top: f64) -> Self {
+        let left = (WIDTH - f64::from(columns) * unit) / 2.0;
+        let window = PixelRect { x0: 0, y0: 0, x1: columns, y1: rows };
+        Self { corner: [left, top], unit, window }
+    }
+
+    /// Where a position in pixels lies on the sheet.
+    pub fn place(&self, [x, y]: Point) -> Point {
+        let PixelRect { x0, y0, .. } = self.window;
+        let along = |value: f64, first: i32| (value - f64::from(first)) * self.unit;
+        [self.corner[0] + along(x, x0), self.corner[1] + along(y, y0)]
+    }
+
+    /// Every pixel of the window, row by row.
+    pub fn pixels(&self) -> impl Iterator<Item = [i32; 2]> + use<> {
+        let PixelRect { x0, y0, x1, y1 } = self.window;
+        (y0..y1).flat_map(move |y| (x0..x1).map(move |x| [x, y]))
+    }
+
+    pub fn bottom(&self) -> f64 {
+        self.corner[1] + f64::from(self.window.height()) * self.unit
+    }
+}
+
+/// A sheet; what only the answer shows is left out of it until the reader has made a prediction.
+pub(super) struct Sheet {
+    height: f64,
+    pub is_answered: bool,
+    /// The pixels, below all else.
+    runs: Vec<Run>,
+    body: String,
+}
+
+/// Neighbouring pixels of a row that are painted alike.
+struct Run {
+    /// A class, or a colour.
+    paint: String,
+    corner: Point,
+    width: f64,
+    unit: f64,
+}
+
+impl Sheet {
+    pub fn new(height: f64, is_answered: bool) -> Self {
+        Self { height, is_answered, runs: Vec::new(), body: String::new() }
+    }
+
+    fn add(&mut self, element: Arguments<'_>) {
+        // Writing to a string does not fail.
+        let _ = writeln!(self.body, "{element}");
+    }
+
+    /// A pixel of the answer, in the colour of a class, with a letter on it.
+    pub fn pixel(&mut self, panel: &Panel, [x, y]: [i32; 2], class: &str, letter: &str) {
+        self.square(panel, [x, y], class.to_owned());
+        if self.is_answered && !letter.is_empty() {
+            let [x, y] = panel.place([f64::from(x) + 0.5, f64::from(y) + 0.5]);
+            self.text([x, y + 5.0], "middle", letter);
+        }
+    }
+
+    /// A pixel of the answer in a colour of its own.
+    pub fn colour(&mut self, panel: &Panel, pixel: [i32; 2], rgb: DVec3) {
+        let [r, g, b, _] = to_colour(rgb);
+        self.square(panel, pixel, format!("#{r:02x}{g:02x}{b:02x}"));
+    }
+
+    fn square(&mut self, panel: &Panel, [x, y]: [i32; 2], paint: String) {
+        if !self.is_answered {
+            return;
+        }
+        let (corner, unit) = (panel.place([x, y].map(f64::from)), panel.unit);
+        match self.runs.last_mut() {
+            Some(run)
+                if run.paint == paint && [run.corner[0] + run.width, run.corner[1]] == corner =>
+            {
+                run.width += unit;
+            }
+            _ => self.runs.push(Run { paint, corner, width: unit, unit }),
+        }
+    }
+
+    /// All runs of a paint in one path.
+    fn pixels(&self) -> String {
+        let mut paths: Vec<(&str, String)> = Vec::new();
+        for Run { paint, corner: [x, y], width, unit } in &self.runs {
+            let known = paths.iter().position(|(other, _)| other == paint);
+            let at = known.unwrap_or_else(|| {
+                paths.push((paint, String::new()));
+                paths.len() - 1
+            });
+            let [x, y, width] = [x, y, width].map(|v| (v * 100.0).round() / 100.0);
+            let _ = write!(paths[at].1, "M{x} {y}h{width}v{unit}h-{width}z");
+        }
+        let mut all = String::new();
+        for (paint, path) in paths {
+            let paint = match paint.strip_prefix('#') {
+                Some(_) => format!("class=\"px\" fill=\"{paint}\""),
+                None => format!("class=\"px {paint}\""),
+            };
+            let _ = writeln!(all, "<path {paint} d=\"{path}\"/>");
+        }
+        all
+    }
+
+    /// The borders of the pixels, over them.
+    pub fn grid(&mut self, panel: &Panel) {
+        let PixelRect { x0, y0, x1, y1 } = panel.window;
+        let [left, top] = panel.corner;
+        let [right, bottom] = panel.place([x1, y1].map(f64::from));
+        let mut path = String::new();
+        for i in 0..=x1 - x0 {
+            let _ = write!(path, "M{} {top}V{bottom}", left + f64::from(i) * panel.unit);
+        }
+        for i in 0..=y1 - y0 {
+            let _ = write!(path, "M{left} {}H{right}", top + f64::from(i) * panel.unit);
+        }
+        self.add(format_args!("<path class=\"grid\" d=\"{path}\"/>"));
+    }
+
+    /// The centres of the pixels, where they are sampled.
+    pub fn samples(&mut self, panel: &Panel) {
+        let mut path = String::new();
+        for [x, y] in panel.pixels() {
+            let [x, y] = panel.place([f64::from(x) + 0.5, f64::from(y) + 0.5]);
+            let _ = write!(path, "M{} {y}h3v3h-3z", x - 1.5);
+        }
+        self.add(format_args!(
+            "<path class=\"dot\" transform=\"translate(0 -1.5)\" d=\"{path}\"/>"
+        ));
+    }
+
+    /// A closed or open line through positions in pixels.
+    pub fn outline(&mut self, panel: &Panel, class: &str, points: &[Point], is_closed: bool) {
+        let points: Vec<_> = points.iter().map(|&point| panel.place(point)).collect();
+        self.path(class, &points, is_closed);
+    }
+
+    /// A closed or open line through points of the sheet.
+    pub fn path(&mut self, class: &str, points: &[Point], is_closed: bool) {
+        let mut path = String::new();
+        for (i, [x, y]) in points.iter().enumerate() {
+            let _ = write!(path, "{}{x:.2} {y:.2}", if i == 0 { 'M' } else { 'L' });
+        }
+        let end = if is_closed { "Z" } else { "" };
+        self.add(format_args!("<path class=\"{class}\" d=\"{path}{end}\"/>"));
+    }
+
+    pub fn arrow(&mut self, class: &str, from: Point, to: Point) {
+        let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
+        let scale = 9.0 / (dx * dx + dy * dy).sqrt().max(1.0);
+        let barb = |turn: f64| {
+            let (x, y) = (dx * scale, dy * scale);
+            [to[0] - x + y * turn, to[1] - y - x * turn]
+        };
+        self.path(class, &[from, to], false);
+        self.path(class, &[barb(-0.5), to, barb(0.5)], false);
+    }
+
+    /// A point of the sheet, marked.
+    pub fn dot(&mut self, [x, y]: Point, radius: f64) {
+        self.add(format_args!(
+            "<circle class=\"dot\" cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{radius}\"/>"
+        ));
+    }
+
+    /// Words at a point of the sheet, where they `start`, or where their `middle` or `end` is.
+    pub fn text(&mut self, [x, y]: Point, anchor: &str, words: &str) {
+        self.add(format_args!(
+            "<text x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"{anchor}\">{words}</text>"
+        ));
+    }
+
+    /// What the reader drags.
+    pub fn grip(&mut self, [x, y]: Point) {
+        // Before the answer it cannot be dragged, and is a point like others.
+        let (class, radius) = if self.is_answered { ("grip", 8) } else { ("dot", 4) };
+        self.add(format_args!(
+            "<circle class=\"{class}\" cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{radius}\"/>"
+        ));
+    }
+
+    /// The same with a letter.
+    pub fn named_grip(&mut self, [x, y]: Point, letter: &str) {
+        self.grip([x, y]);
+        self.text([x + 12.0, y - 6.0], "start", letter);
+    }
+
+    /// A grip on a scale of its own below the picture, for a value that has no place in it. Returns where it
+    /// lies and how far it moves.
+    pub fn slider(
+        &mut self,
+        given: &Given<'_>,
+        grip: usize,
+        top: f64,
+        says: &str,
+    ) -> (Point, Point) {
+        let ([low, _], [high, _]) = (given.grips[grip].low, given.grips[grip].high);
+        let (left, right) = (110.0, WIDTH - 20.0);
+        let scale = (right - left) / (high - low);
+        let spot = [left + (given.at[grip][0] - low) * scale, top];
+        self.text([12.0, top + 5.0], "start", says);
+        self.path("soft", &[[left, top], [right, top]], false);
+        self.grip(spot);
+        (spot, [scale, 0.0])
+    }
+
+    /// Hits beside the right ones: missing, too many, hit more than once.
+    pub fn hits(&mut self, panel: &Panel, hits: &Coverage, right: &Coverage) {
+        for pixel in panel.pixels() {
+            let count = |frame: &Coverage| frame.get(pixel[0], pixel[1]).unwrap_or(0);
+            let (class, letter) = match (count(hits), count(right)) {
+                (0, 0) => continue,
+                (is, should) if is < should => ("miss", "−"),
+                (1, 0) => ("extra", "+"),
+                (1, _) => ("on", ""),
+                _ => ("twice", "2"),
+            };
+            self.pixel(panel, pixel, class, letter);
+        }
+    }
+
+    /// The picture for a page.
+    pub fn inline(&self, is_dark: bool) -> String {
+        let (Self { height, body, .. }, pixels) = (self, self.pixels());
+        let rules = if is_dark { DARK } else { LIGHT }.rules();
+        format!(
+            "<svg viewBox=\"0 0 {WIDTH} {height}\" aria-hidden=\"true\"><style>{rules}</style>\
+             <rect class=\"paper\" width=\"{WIDTH}\" height=\"{height}\"/>{pixels}{body}</svg>"
+        )
+    }
+
+    /// The picture as a file, which is legible on light and on dark pages.
+    pub fn file(&self) -> String {
+        let (Self { height, body, .. }, pixels) = (self, self.pixels());
+        let (light, dark) = (LIGHT.rules(), DARK.rules());
+        format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {height}\" \
+             width=\"{WIDTH}\" height=\"{height}\">\n\
+             <style>{light}@media(prefers-color-scheme:dark){{{dark}}}</style>\n\
+             <rect class=\"paper\" width=\"{WIDTH}\" height=\"{height}\"/>\n{pixels}{body}</svg>\n"
+        )
+    }
+}

@@ -1,0 +1,442 @@
+//! The live figures of the pages: they stand there with their pictures and words, and what a browser shows for
+//! any position of their grips is what the oracle draws here.
+//!
+//! In the browser the scanline engine and the DDA draw; here the oracle does, so that a fault of either side
+//! shows. Needs what `playground.rs` needs.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
+use rasterproof_playground::answer::answer;
+use rasterproof_playground::figures::{ALL, Figure, Language, find};
+use serde_json::{Value, json};
+
+use crate::page::{Browser, folder};
+use crate::playground::module;
+use crate::quiz::RENEW;
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// What a figure is for these positions of its grips, drawn by the oracle.
+fn expected(figure: &Figure, language: &str, at: &Value, is_answered: bool) -> Value {
+    let question = json!({ "ask": "figure", "name": figure.name, "language": language, "at": at,
+        "is_answered": is_answered, "by": "oracle" });
+    let answer: Value = serde_json::from_str(&answer(&question.to_string())).unwrap();
+    assert!(answer["error"].is_null(), "{}: {}", figure.name, answer["error"]);
+    answer
+}
+
+/// Writes what is stale where it is asked to; the names of what was stale.
+fn renew(stale: &mut Vec<String>, path: &Path, now: &str) {
+    if fs::read_to_string(path).ok().as_deref() == Some(now) {
+        return;
+    }
+    if std::env::var_os(RENEW).is_some() {
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, now).unwrap();
+    }
+    stale.push(path.strip_prefix(root()).unwrap().display().to_string());
+}
+
+/// `RASTERPROOF_RENEW=1 cargo test --test it live_figures_stand` draws the still pictures and writes what stands
+/// between `<rp-figure scene="...">` and `</rp-figure>` anew.
+#[test]
+fn live_figures_stand_on_their_pages() {
+    let mut stale = Vec::new();
+    let docs = root().join("docs");
+    for figure in ALL.iter() {
+        let picture = docs.join(format!("figures/live/{}.svg", figure.name));
+        let svg = figure.still().unwrap();
+        assert!(svg.len() < 16_000, "{}: a picture of {} bytes", figure.name, svg.len());
+        renew(&mut stale, &picture, &svg);
+        for (folder, language) in [("", Language::En), ("zh", Language::Zh)] {
+            let path = docs.join(folder).join(format!("{}.md", figure.page));
+            let page = fs::read_to_string(&path).unwrap();
+            let begin = format!("<rp-figure scene=\"{}\">", figure.name);
+            let end = "</rp-figure>";
+            let parts: Vec<_> = page.split(&begin).collect();
+            assert_eq!(parts.len(), 2, "{} belongs on {} once", begin, path.display());
+            let (_, after) = parts[1].split_once(end).expect("a figure ends");
+            let block = figure.block(language).unwrap();
+            renew(&mut stale, &path, &[parts[0], &block, after].concat());
+        }
+    }
+    // No picture is left over, and every chapter has two figures.
+    let pictures = fs::read_dir(docs.join("figures/live")).unwrap().count();
+    assert_eq!(pictures, ALL.len());
+    assert!(
+        stale.is_empty(),
+        "stale, renew with `{RENEW}=1 cargo test --test it live_figures_stand`:\n{}",
+        stale.join("\n")
+    );
+}
+
+/// At every end of every grip: words with all numbers in them, a prediction that can be right, a picture.
+#[test]
+fn live_figures_are_whole() {
+    for figure in ALL.iter() {
+        let starts: Vec<_> = figure.grips().iter().map(|grip| grip.start).collect();
+        let mut places = vec![starts.clone()];
+        for (i, grip) in figure.grips().iter().enumerate() {
+            for end in [grip.low, grip.high] {
+                let mut at = starts.clone();
+                at[i] = end;
+                places.push(at);
+            }
+        }
+        let mut predictions = BTreeSet::new();
+        for (at, language) in places.iter().flat_map(|at| [(at, "en"), (at, "zh")]) {
+            let drawn = expected(figure, language, &json!(at), true);
+            let text = drawn.to_string();
+            let told = |key: &str| drawn[key].as_str().unwrap().to_owned();
+            for key in ["title", "question", "answer", "alt"] {
+                let words = told(key);
+                assert!(
+                    !words.contains(['{', '}']) && !words.is_empty(),
+                    "{}: {words}",
+                    figure.name
+                );
+            }
+            assert!(!text.contains("NaN") && !text.contains("inf\""), "{}: {text}", figure.name);
+            assert_eq!(drawn["at"], json!(at), "{}", figure.name);
+            assert_eq!(drawn["grips"].as_array().unwrap().len(), starts.len(), "{}", figure.name);
+            assert!(told("link").starts_with("#scene="), "{}", figure.name);
+            let predict = &drawn["predict"];
+            match predict["kind"].as_str().unwrap() {
+                "pixels" => {
+                    let cells = predict["cells"].as_array().unwrap().len();
+                    assert_eq!(cells, predict["right"].as_array().unwrap().len());
+                    assert!((2..=64).contains(&cells), "{}: {cells} pixels", figure.name);
+                }
+                "choice" => {
+                    let right = predict["right"].as_u64().unwrap() as usize;
+                    assert!(
+                        right < predict["options"].as_array().unwrap().len(),
+                        "{}",
+                        figure.name
+                    );
+                }
+                _ => assert!(predict["right"].as_str().unwrap().parse::<f64>().is_ok()),
+            }
+            predictions.insert(predict["right"].to_string());
+            // Before the answer nothing of it is drawn.
+            let asked = expected(figure, language, &json!(at), false);
+            assert!(!asked["svg"].as_str().unwrap().contains("class=\"px"), "{}", figure.name);
+            assert_eq!(asked["predict"], *predict, "{}", figure.name);
+        }
+        // The corner that becomes red is the same one wherever the corners lie: that is the fault.
+        let changes = predictions.len() > 1 || figure.name == "wrong-corner";
+        assert!(changes, "{}: what is right never changes", figure.name);
+    }
+}
+
+/// A page with all figures, beside the script and the engines; nothing where the engines are not compiled.
+fn page_of_all(name: &str, language: &str) -> Option<PathBuf> {
+    module()?;
+    let folder = folder(&format!("figures-{name}"));
+    for file in ["crates/playground/page/figure.js", "target/rasterproof/engines.js"] {
+        fs::copy(root().join(file), folder.join(Path::new(file).file_name().unwrap())).unwrap();
+    }
+    let still = |figure: &Figure| {
+        let block = figure.block(if language == "zh" { Language::Zh } else { Language::En });
+        // As Markdown becomes HTML, but for the picture.
+        let open = block.unwrap().replacen("\n\n**", "\n\n<p><strong>", 1);
+        open.replacen("**", "</strong>", 1).replacen("\n\n</rp", "</p></rp", 1)
+    };
+    let figures: Vec<_> = ALL.iter().map(still).collect();
+    let page = format!(
+        "<!doctype html><html lang={language}><meta charset=utf-8><title>figures</title>\
+         <meta name=viewport content='width=device-width'>\
+         <style>body {{ background: #fff; color: #000; font: 16px/1.5 sans-serif; margin: 8px }}</style>\
+         <body data-ready><p style='height: 1200px'>above</p>{}<script src=figure.js></script>",
+        figures.join("\n")
+    );
+    let path = folder.join("index.html");
+    fs::write(&path, page).unwrap();
+    Some(path)
+}
+
+/// A figure of the page, for expressions.
+fn of(figure: &Figure) -> String {
+    format!("document.querySelector('rp-figure[scene=\"{}\"]')", figure.name)
+}
+
+/// Scrolls to a figure and waits until it asks. Taking a picture of the page moves it, so it scrolls again.
+fn visit(browser: &mut Browser, figure: &Figure) {
+    let of = of(figure);
+    browser.wait_for(&format!(
+        "({of}.scrollIntoView({{ block: 'center', behavior: 'instant' }}),
+            {of}.shadowRoot.querySelector('.controls').childElementCount > 0)"
+    ));
+}
+
+/// Where an element of a figure lies in the tab, at its middle.
+fn spot(browser: &mut Browser, figure: &Figure, selector: &str, i: usize) -> [f64; 2] {
+    let spot = browser.eval(&format!(
+        "(() => {{ const e = {}.shadowRoot.querySelectorAll('{selector}')[{i}];
+            e.scrollIntoView({{ block: 'center', behavior: 'instant' }});
+            const b = e.getBoundingClientRect(); return [b.left + b.width / 2, b.top + b.height / 2]; }})()",
+        of(figure)
+    ));
+    serde_json::from_value(spot).unwrap()
+}
+
+/// The pixels of a picture with the colours that the browser gives them: the corner of each on the sheet, its side,
+/// red, green, blue. A path holds runs of pixels.
+const PIXELS: &str = r"(svg => [...svg.querySelectorAll('.px')].flatMap(e =>
+    [...e.getAttribute('d').matchAll(/M([\d.]+) ([\d.]+)h([\d.]+)v([\d.]+)/g)].flatMap(([, ...run]) => {
+        const [x, y, width, side] = run.map(Number);
+        return Array.from({ length: Math.round(width / side) }, (_, i) => [x + i * side, y, side,
+            ...getComputedStyle(e).fill.match(/\d+/g).map(Number)]);
+    })))";
+
+/// What is wrong with a figure as it stands in the browser, beside the oracle for the state that it says.
+fn wrong(browser: &mut Browser, figure: &Figure) -> Vec<String> {
+    let of = of(figure);
+    let shown = browser.eval(&format!("({{ at: JSON.parse({of}.dataset.at), svg: {of}.now.svg, answer: {of}.now.answer, link: {of}.link.href.split('/').pop() }})"));
+    let right = expected(figure, "en", &shown["at"], true);
+    let mut wrong = Vec::new();
+    for (what, is, should) in [
+        ("the picture", &shown["svg"], &right["svg"]),
+        ("the words", &shown["answer"], &right["answer"]),
+        (
+            "the link",
+            &shown["link"],
+            &json!(format!("playground.html{}", right["link"].as_str().unwrap())),
+        ),
+    ] {
+        if is != should {
+            wrong.push(format!("{}: {what} at {}", figure.name, shown["at"]));
+        }
+    }
+    // What is on the screen: each pixel has its colour somewhere in its corners, which lines and letters leave free.
+    let pixels: Vec<[f64; 6]> = serde_json::from_value(browser.eval(&format!(
+        "(() => {{ const host = document.body.appendChild(document.createElement('div'));
+            const root = host.attachShadow({{ mode: 'open' }}); root.innerHTML = {};
+            const pixels = {PIXELS}(root); host.remove(); return pixels; }})()",
+        right["svg"]
+    )))
+    .unwrap();
+    let stage = browser.eval(&format!(
+        "(() => {{ const e = {of}.picture.firstChild; e.scrollIntoView({{ block: 'center', behavior: 'instant' }});
+            const b = e.getBoundingClientRect(); return [b.left + scrollX, b.top + scrollY, b.width, b.height]; }})()"
+    ));
+    let [x, y, width, height]: [f64; 4] = serde_json::from_value(stage).unwrap();
+    let clip = json!({ "x": x, "y": y, "width": width, "height": height, "scale": 1 });
+    let shot = browser.call("Page.captureScreenshot", json!({ "clip": clip }));
+    let png = STANDARD.decode(shot["data"].as_str().unwrap()).unwrap();
+    let image = image::load_from_memory(&png).unwrap().to_rgb8();
+    let zoom = width / 360.0;
+    // What is dragged lies on the picture, and may hide the pixel under it.
+    let spots: Vec<[f64; 2]> = right["grips"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|grip| serde_json::from_value(grip["spot"].clone()).unwrap())
+        .collect();
+    let is_hidden = |[left, top, side, ..]: &[f64; 6]| {
+        let middle = [left + side / 2.0, top + side / 2.0];
+        spots.iter().any(|[x, y]| (x - middle[0]).hypot(y - middle[1]) < 12.0)
+    };
+    let is_there = |[left, top, side, r, g, b]: &[f64; 6]| {
+        [[0.2, 0.2], [0.8, 0.2], [0.2, 0.8], [0.8, 0.8], [0.5, 0.2]].iter().any(|[right, down]| {
+            let at = [(left + right * side) * zoom, (top + down * side) * zoom].map(|v| v as u32);
+            image
+                .get_pixel_checked(at[0], at[1])
+                .is_some_and(|p| p.0.map(f64::from) == [*r, *g, *b])
+        })
+    };
+    let lost = pixels.iter().filter(|pixel| !is_there(pixel) && !is_hidden(pixel)).count();
+    if lost > 0 {
+        wrong.push(format!("{}: {lost} of {} pixels on the screen", figure.name, pixels.len()));
+    }
+    wrong
+}
+
+/// Every figure waits for a prediction, and then shows what the oracle draws in three states: where it is dragged
+/// by the mouse, and where keys move it. A planted engine and a state that is not the one it says are noticed.
+#[test]
+#[ignore = "takes seconds; .ci/run runs it"]
+fn live_figures_show_what_the_oracle_draws() {
+    let Some(page) = page_of_all("oracle", "en") else { return };
+    let Some(mut browser) = Browser::start("figures") else { return };
+    browser.prefer("prefers-color-scheme", "light");
+    browser.open(&page, "");
+    // The engines are loaded once, when a figure comes into view.
+    let loaded = "document.querySelectorAll('script[src$=\"engines.js\"]').length";
+    assert_eq!(browser.eval(loaded), 0);
+    // What the page sends to the engines can be changed on the way, to plant faults.
+    browser.eval(
+        "{ const encode = TextEncoder.prototype.encode;
+            TextEncoder.prototype.encode = function (text) {
+                const question = JSON.parse(text);
+                window.plant?.(question);
+                return encode.call(this, JSON.stringify(question));
+            }; }",
+    );
+    let plants = [
+        "q => { q.by = 'drops-first-row' }",
+        "q => { q.by = 'line-directed-ties' }",
+        // As far as the grip goes, one way and the other.
+        "q => { q.at[0] = q.at[0].map(v => v + 9) }",
+        "q => { q.at[0] = q.at[0].map(v => v - 9) }",
+    ];
+    let mut noticed = vec![BTreeSet::new(); plants.len()];
+    for figure in ALL.iter() {
+        visit(&mut browser, figure);
+        let of = of(figure);
+        assert_eq!(browser.eval(&format!("{PIXELS}({of}.picture)")), json!([]), "{}", figure.name);
+        assert_eq!(
+            browser.eval(&format!("{of}.shadowRoot.querySelectorAll('[role=slider]').length")),
+            0
+        );
+        browser
+            .eval(&format!("{of}.shadowRoot.querySelector('.controls button:last-child').click()"));
+        assert_eq!(wrong(&mut browser, figure), [""; 0]);
+        let mut states = BTreeSet::from([browser.eval(&format!("{of}.dataset.at")).to_string()]);
+        let last = figure.grips().len() - 1;
+        for (i, by) in [(0, [37.0, 29.0]), (last, [-61.0, -45.0])] {
+            let [x, y] = spot(&mut browser, figure, "[role=slider]", i);
+            for (kind, [x, y]) in [
+                ("mousePressed", [x, y]),
+                ("mouseMoved", [x + by[0], y + by[1]]),
+                ("mouseReleased", [x + by[0], y + by[1]]),
+            ] {
+                let event = json!({ "type": kind, "x": x, "y": y, "button": "left", "buttons": 1, "clickCount": 1 });
+                browser.call("Input.dispatchMouseEvent", event);
+            }
+            assert_eq!(wrong(&mut browser, figure), [""; 0]);
+            states.insert(browser.eval(&format!("{of}.dataset.at")).to_string());
+        }
+        browser.eval(&format!("{of}.shadowRoot.querySelector('[role=slider]').focus()"));
+        for key in ["ArrowLeft"; 3] {
+            browser.press(key);
+        }
+        assert_eq!(wrong(&mut browser, figure), [""; 0]);
+        states.insert(browser.eval(&format!("{of}.dataset.at")).to_string());
+        assert!(states.len() >= 3, "{}: {states:?}", figure.name);
+        for (plant, noticed) in plants.iter().zip(&mut noticed) {
+            let before = browser.eval(&format!("{of}.dataset.at"));
+            browser.eval(&format!("(window.plant = {plant}, {of}.draw(), {of}.dataset.at = {before}, window.plant = null)"));
+            if !wrong(&mut browser, figure).is_empty() {
+                noticed.insert(figure.name.clone());
+            }
+            browser.eval(&format!("({of}.at = JSON.parse({before}), {of}.draw())"));
+        }
+    }
+    assert_eq!(browser.eval(loaded), 1);
+    let all: BTreeSet<_> = ALL.iter().map(|figure| figure.name.clone()).collect();
+    eprintln!(
+        "figures: {}; a planted triangle engine is noticed by {}, a planted line drawer by {}",
+        all.len(),
+        noticed[0].len(),
+        noticed[1].len()
+    );
+    assert!(noticed[0].len() >= 10 && !noticed[1].is_empty(), "{noticed:?}");
+    let elsewhere: BTreeSet<_> = noticed[2].union(&noticed[3]).cloned().collect();
+    assert_eq!(elsewhere, all, "another state than it says");
+    controls_are_named(&mut browser);
+    keys_predict(&mut browser);
+    fingers_drag(&mut browser);
+    assert_eq!(browser.complaints, Vec::<String>::new());
+}
+
+/// Whatever takes the focus has a role and a name, and a grip has a value.
+fn controls_are_named(browser: &mut Browser) {
+    let tree = browser.call("Accessibility.getFullAXTree", json!({}));
+    let text = |node: &Value, key: &str| node[key]["value"].as_str().unwrap_or("").to_owned();
+    let is_focusable = |node: &&Value| {
+        let all = node["properties"].as_array();
+        node["ignored"] == false
+            && all.is_some_and(|all| {
+                all.iter().any(|p| p["name"] == "focusable" && p["value"]["value"] == true)
+            })
+    };
+    let mut roles = BTreeSet::new();
+    for node in tree["nodes"].as_array().unwrap().iter().filter(is_focusable) {
+        let (role, name) = (text(node, "role"), text(node, "name"));
+        assert!(role == "RootWebArea" || !name.trim().is_empty(), "a nameless {role}: {node}");
+        let value = &node["value"]["value"];
+        assert!(role != "slider" || !value.is_null(), "{name} has no value: {node}");
+        roles.insert(role);
+    }
+    for role in ["button", "slider", "link"] {
+        assert!(roles.contains(role), "{role} in {roles:?}");
+    }
+}
+
+/// A prediction by keys alone: pixels are marked by arrows and the space bar, and judged.
+fn keys_predict(browser: &mut Browser) {
+    let figure = find("one-sample").unwrap();
+    let of = of(figure);
+    browser.eval(&format!(
+        "(() => {{ const fresh = document.createElement('rp-figure');
+            fresh.setAttribute('scene', 'one-sample'); {of}.replaceWith(fresh); }})()"
+    ));
+    visit(browser, figure);
+    browser.eval(&format!("{of}.stage.querySelector('button').focus()"));
+    // From (0, 0) to (1, 1) and around the square of four pixels.
+    for arrow in [&["ArrowRight", "ArrowDown"][..], &["ArrowRight"], &["ArrowDown"], &["ArrowLeft"]]
+    {
+        arrow.iter().for_each(|key| browser.press(key));
+        for kind in ["keyDown", "keyUp"] {
+            let space = json!({ "type": kind, "key": " ", "code": "Space", "text": " ",
+                "windowsVirtualKeyCode": 32 });
+            browser.call("Input.dispatchKeyEvent", space);
+        }
+    }
+    let marked = format!("{of}.stage.querySelectorAll('[aria-pressed=true]').length");
+    assert_eq!(browser.eval(&marked), 4);
+    browser.eval(&format!("{of}.controls.firstChild.click()"));
+    assert_eq!(browser.eval(&format!("{of}.verdict.textContent")), "Right.");
+}
+
+/// A grip follows a finger.
+fn fingers_drag(browser: &mut Browser) {
+    browser.call(
+        "Emulation.setTouchEmulationEnabled",
+        json!({ "enabled": true, "maxTouchPoints": 1 }),
+    );
+    let figure = find("shared-edge").unwrap();
+    let at = format!("{}.dataset.at", of(figure));
+    let before = browser.eval(&at);
+    let [x, y] = spot(browser, figure, "[role=slider]", 0);
+    for (kind, spots) in [
+        ("touchStart", vec![[x, y]]),
+        ("touchMove", vec![[x - 20.0, y - 30.0]]),
+        ("touchMove", vec![[x - 40.0, y - 60.0]]),
+        ("touchEnd", vec![]),
+    ] {
+        let points: Vec<_> =
+            spots.iter().map(|[x, y]| json!({ "x": x, "y": y, "id": 0 })).collect();
+        browser.call("Input.dispatchTouchEvent", json!({ "type": kind, "touchPoints": points }));
+    }
+    assert_ne!(browser.eval(&at), before);
+    assert_eq!(wrong(browser, figure), [""; 0]);
+}
+
+/// In Chinese too, and dark: every figure asks in its language, and no wider than a telephone.
+#[test]
+#[ignore = "takes seconds; .ci/run runs it"]
+fn live_figures_ask_in_chinese() {
+    let Some(page) = page_of_all("chinese", "zh") else { return };
+    let Some(mut browser) = Browser::start("figures-zh") else { return };
+    browser.prefer("prefers-color-scheme", "dark");
+    browser.open(&page, "");
+    browser.resize(360, 740);
+    for figure in ALL.iter() {
+        visit(&mut browser, figure);
+        let of = of(figure);
+        let asks = expected(figure, "zh", &json!([]), false)["question"].clone();
+        assert_eq!(browser.eval(&format!("{of}.question.textContent")), asks);
+        browser.eval(&format!("{of}.controls.lastChild.click()"));
+        let wide = browser.eval("document.documentElement.scrollWidth").as_u64().unwrap();
+        assert!(wide <= 360, "{}: {wide} px wide", figure.name);
+    }
+    assert_eq!(browser.complaints, Vec::<String>::new());
+}
