@@ -271,7 +271,7 @@ if (fs.existsSync(playground)) {
 // From what the program wrote, the reader gets back to the book.
 for (const name of fs.readdirSync(path.join(site, 'try')).filter((name) => name.endsWith('.html'))) {
   const page = path.join(site, 'try', name);
-  write(page, once(read(page), '<header>', '<header>\n<p><a href="../index.html">rasterproof</a></p>\n'));
+  write(page, once(read(page), '<header>', '<header>\n<p><a href="../index.html">‹ docs · 文档</a></p>\n'));
 }
 
 write(path.join(site, 'index.html'), `<!DOCTYPE html>
