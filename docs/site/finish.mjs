@@ -119,7 +119,7 @@ function target(book, page, link) {
   }
   const [, other, inside] = file.match(/^docs\/(zh\/)?(.*)$/) ?? [];
   const chapter = inside ? [other ? 'zh' : 'en', inside] : [book, file];
-  if (file.endsWith('.md') && fs.existsSync(path.join(stage, ...chapter))) {
+  if (file.endsWith('.md') && !file.endsWith('SUMMARY.md') && fs.existsSync(path.join(stage, ...chapter))) {
     return `${chapter.join('/').replace(/\.md$/, '.html')}${fragment ?? ''}`;
   }
   if (!isKept.has(file) && !isFolder(file)) {
