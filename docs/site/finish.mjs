@@ -119,7 +119,7 @@ function target(book, page, link) {
   }
   const [, other, inside] = file.match(/^docs\/(zh\/)?(.*)$/) ?? [];
   const chapter = inside ? [other ? 'zh' : 'en', inside] : [book, file];
-  if (file.endsWith('.md') && fs.existsSync(path.join(stage, ...chapter))) {
+  if (file.endsWith('.md') && !file.endsWith('SUMMARY.md') && fs.existsSync(path.join(stage, ...chapter))) {
     return `${chapter.join('/').replace(/\.md$/, '.html')}${fragment ?? ''}`;
   }
   if (!isKept.has(file) && !isFolder(file)) {
@@ -186,9 +186,10 @@ for (const book of ['en', 'zh']) {
     const before = formulas;
     const [head, main, foot] = read(path.join(site, place)).split(/(?<=<main>)|(?=<\/main>)/);
     const text = finished(book, page, place, main);
-    const away = path.posix.relative(path.posix.dirname(place), 'katex/katex.css');
-    const style = formulas > before ? `<link rel="stylesheet" href="${away}">\n</head>` : '</head>';
-    write(path.join(site, place), head.replace('</head>', style) + text + foot);
+    const away = (where) => path.posix.relative(path.posix.dirname(place), where);
+    let more = formulas > before ? `<link rel="stylesheet" href="${away('katex/katex.css')}">\n` : '';
+    if (text.includes('<rp-figure')) more += `<script defer src="${away('try/figure.js')}"></script>\n`;
+    write(path.join(site, place), head.replace('</head>', `${more}</head>`) + text + foot);
   }
 }
 for (const file of shown) {
@@ -202,7 +203,7 @@ for (const file of shown) {
 
 /** Replaces what must be there exactly once. */
 function once(text, old, right) {
-  if (text.split(old).length !== 2) throw new Error(`mdBook's script has changed: ${old}`);
+  if (text.split(old).length !== 2) throw new Error(`not there exactly once: ${old}`);
   return text.replace(old, () => right);
 }
 
@@ -246,17 +247,33 @@ searcher = once(searcher, 'function formatSearchMetric(count, searchterm) {', `f
     function unusedMetric(count, searchterm) {`);
 write(searcherFile, searcher);
 
-// One compiled module for the whole site, in a script, since a page on disk may load nothing else: both pages load it at
-// once, live figures when the first is seen.
+// One compiled module for the whole site, in a script, since a page on disk may load nothing else: the pages in `try` load it
+// at once, live figures when the first is seen.
 for (const name of ['playground', 'your-gpu']) {
   const file = path.join(site, `try/${name}.html`);
-  if (!fs.existsSync(file)) continue;
-  const page = read(file);
-  const [whole, module] = page.match(/<script type="text\/plain" id="module">([^<]*)<\/script>/);
-  write(path.join(site, 'module.js'), `globalThis.rasterproofModule = '${module.trim()}';\n`);
-  write(file, once(once(page, "script-src 'unsafe-inline'", "script-src 'self' file: 'unsafe-inline'"), whole, `<script type="text/plain" id="module"></script>
-<script src="../module.js"></script>
-<script>document.getElementById('module').textContent = rasterproofModule;</script>`));
+  if (fs.existsSync(file)) {
+    const page = read(file);
+    const [whole, module] = page.match(/<script type="text\/plain" id="module">([^<]*)<\/script>/);
+    write(path.join(site, 'try/engines.js'), `rasterproofEngines("${module.trim()}");\n`);
+    write(file, once(once(page, "script-src 'unsafe-inline'", "script-src 'self' file: 'unsafe-inline'"), whole, `<script type="text/plain" id="module"></script>
+<script>function rasterproofEngines(text) { document.getElementById('module').textContent = text; }</script>
+<script src="engines.js"></script>`));
+  } else {
+    write(file, `<!DOCTYPE html>
+<html lang="en">
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>rasterproof: ${name}</title>
+<link rel="icon" href="data:,">
+<header></header>
+<p>This site was built where the engines could not be compiled for the browser: <code>crates/playground/build</code> says why.</p>
+`);
+  }
+}
+// From what the program wrote, the reader gets back to the book.
+for (const name of fs.readdirSync(path.join(site, 'try')).filter((name) => name.endsWith('.html'))) {
+  const page = path.join(site, 'try', name);
+  write(page, once(read(page), '<header>', '<header>\n<p><a href="../index.html">‹ docs · 文档</a></p>\n'));
 }
 
 write(path.join(site, 'index.html'), `<!DOCTYPE html>
@@ -267,7 +284,12 @@ write(path.join(site, 'index.html'), `<!DOCTYPE html>
 <meta name="color-scheme" content="light dark">
 <title>rasterproof</title>
 <link rel="icon" href="data:,">
-<script>location.replace((navigator.language.startsWith('zh') ? 'zh' : 'en') + '/index.html');</script>
+<script>
+let language = null;
+try { language = localStorage.getItem('rasterproof-language'); } catch {}
+language ??= navigator.language;
+location.replace((language.startsWith('zh') ? 'zh' : 'en') + '/index.html');
+</script>
 </head>
 <body>
 <p><a href="en/index.html">rasterproof in English</a> · <a href="zh/index.html" lang="zh-CN">rasterproof 中文</a></p>

@@ -29,6 +29,9 @@ for (const link of links.querySelectorAll('[rel=alternate]')) {
   link.href = link.getAttribute('href').replace(/index\.html$/, page);
 }
 
+// Pages of both languages lead back to the book that was read.
+try { localStorage.setItem('rasterproof-language', document.documentElement.lang); } catch {}
+
 if (document.documentElement.lang.startsWith('zh')) {
   for (const name of ['title', 'aria-label', 'placeholder']) {
     for (const element of document.querySelectorAll(`[${name}]`)) {

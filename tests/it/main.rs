@@ -51,6 +51,7 @@ mod recorded;
 mod review;
 mod robustness;
 mod scenes;
+mod site;
 mod snapshots;
 mod specimens;
 mod steps;

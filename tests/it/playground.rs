@@ -441,9 +441,9 @@ fn playground_is_where_chapters_lead() {
             let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder).join(&page);
             let text = std::fs::read_to_string(path).unwrap();
             let found: Vec<_> = text
-                .split("target/rasterproof/playground.html")
+                .split("](playground.md#scene=")
                 .skip(1)
-                .map(|rest| (page.clone(), rest.split('`').next().unwrap().to_owned()))
+                .map(|rest| (page.clone(), format!("#scene={}", rest.split(')').next().unwrap())))
                 .collect();
             assert!(!found.is_empty(), "{folder}/{page} names no scene of the playground");
             found

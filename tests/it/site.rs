@@ -1,0 +1,232 @@
+//! The site that `docs/build` leaves in `target/site`: every link and anchor leads somewhere, nothing comes from elsewhere,
+//! and Chromium opens every page at 360 and 1280 pixels without a complaint.
+//!
+//! Plain `cargo test` leaves these tests out, since the folder may be older than the pages. `.ci/run` builds it before.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use serde_json::{Value, json};
+
+use crate::page::{Browser, folder};
+
+/// What a reader loads before the first view is complete, pictures and scripts included, the compiled engines not.
+const FIRST_VIEW_BYTES: u64 = 300_000;
+
+fn site() -> PathBuf {
+    let site = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("target/site");
+    assert!(site.join("index.html").is_file(), "no {}: run docs/build", site.display());
+    site
+}
+
+/// Every file of a folder, as a path from there with `/`.
+fn files(root: &Path, below: &str, found: &mut BTreeSet<String>) {
+    for entry in fs::read_dir(root.join(below)).unwrap() {
+        let entry = entry.unwrap();
+        let path = format!("{below}{}", entry.file_name().to_str().unwrap());
+        if entry.path().is_dir() {
+            files(root, &format!("{path}/"), found);
+        } else {
+            found.insert(path);
+        }
+    }
+}
+
+/// The tags of a page, without what a script holds.
+fn tags(page: &str) -> Vec<&str> {
+    let (mut tags, mut rest) = (Vec::new(), page);
+    while let Some((tag, after)) = rest.split_once('<').and_then(|(_, tag)| tag.split_once('>')) {
+        tags.push(tag);
+        let end = if tag.starts_with("script") { after.find("</script>").unwrap_or(0) } else { 0 };
+        rest = &after[end..];
+    }
+    tags
+}
+
+fn attribute<'a>(tag: &'a str, name: &str) -> Option<&'a str> {
+    let (_, value) = tag.split_once(&format!(" {name}=\""))?;
+    value.split('"').next()
+}
+
+/// Links of a site that lead nowhere, and whatever a page would load from elsewhere.
+fn broken_links(root: &Path) -> (usize, Vec<String>) {
+    let mut all = BTreeSet::new();
+    files(root, "", &mut all);
+    let pages: BTreeMap<_, _> = all
+        .iter()
+        .filter(|file| file.ends_with(".html"))
+        .map(|file| (file.as_str(), fs::read_to_string(root.join(file)).unwrap()))
+        .collect();
+    let anchors: BTreeSet<_> = pages
+        .iter()
+        .flat_map(|(page, text)| tags(text).into_iter().map(move |tag| (*page, tag)))
+        .filter_map(|(page, tag)| Some((page, attribute(tag, "id")?)))
+        .collect();
+    let mut links = Vec::new();
+    for (page, text) in &pages {
+        for tag in tags(text) {
+            let values = ["href", "src"].map(|name| attribute(tag, name));
+            links.extend(values.into_iter().flatten().map(|link| (*page, tag, link)));
+        }
+    }
+    // The table of contents is written by a script, beside the pages.
+    let tables: Vec<_> = all
+        .iter()
+        .filter(|file| file.contains("/toc-") && file.ends_with(".js"))
+        .map(|file| (file, fs::read_to_string(root.join(file)).unwrap()))
+        .collect();
+    for (file, text) in &tables {
+        let table = tags(text).into_iter().filter(|tag| tag.starts_with("a "));
+        links.extend(table.filter_map(|tag| Some((file.as_str(), tag, attribute(tag, "href")?))));
+    }
+    let mut broken = Vec::new();
+    for (page, tag, link) in &links {
+        if link.starts_with("data:") {
+            continue;
+        }
+        if link.contains(':') || link.starts_with("//") {
+            if !tag.starts_with("a ") {
+                broken.push(format!("{page} loads {link}"));
+            }
+            continue;
+        }
+        let (name, anchor) = link.split_once('#').unwrap_or((link, ""));
+        let mut parts: Vec<_> = page.split('/').collect();
+        if !name.is_empty() {
+            parts.pop();
+        }
+        for part in name.split('/').filter(|part| !part.is_empty()) {
+            match part {
+                ".." if parts.pop().is_none() => parts.push("outside"),
+                ".." => {}
+                part => parts.push(part),
+            }
+        }
+        let target = parts.join("/");
+        // What follows # in the address of a page that the program wrote is a state.
+        let is_anchor = !anchor.is_empty() && !target.starts_with("try/");
+        if !all.contains(&target) || is_anchor && !anchors.contains(&(target.as_str(), anchor)) {
+            broken.push(format!("{page}: {link}"));
+        }
+    }
+    (links.len(), broken)
+}
+
+#[test]
+#[ignore = "needs docs/build"]
+fn site_links_lead_somewhere() {
+    let (links, broken) = broken_links(&site());
+    println!("{links} links, {} broken", broken.len());
+    assert!(links > 5_000 && broken.is_empty(), "{links} links:\n{}", broken.join("\n"));
+}
+
+/// The rule can fail: a missing page, a missing anchor, a path out of the site, and what is loaded from elsewhere.
+#[test]
+fn site_broken_links_are_found() {
+    let root = folder("site-broken");
+    fs::create_dir_all(root.join("en")).unwrap();
+    let page = "<h1 id=\"a\"></h1><a href=\"b.html#a\"></a><a href=\"#a\"></a><a class=x\nhref=\"no.html\"></a>\
+        <script src=\"../c.js\">'<a href=\"no.html\">'</script><a href=\"https://example.org/\"></a>";
+    fs::write(root.join("en/b.html"), page).unwrap();
+    fs::write(root.join("c.js"), "").unwrap();
+    assert_eq!(broken_links(&root), (4, vec![]));
+    for (link, found) in [
+        ("<a href=\"b.html#b\">", "en/b.html: b.html#b"),
+        ("<a href=\"c.html\">", "en/b.html: c.html"),
+        ("<a href=\"../../c.js\">", "en/b.html: ../../c.js"),
+        ("<img src=\"x.png\">", "en/b.html: x.png"),
+        ("<img src=\"https://example.org/x.png\">", "en/b.html loads https://example.org/x.png"),
+    ] {
+        fs::write(root.join("en/b.html"), format!("{page}{link}")).unwrap();
+        assert_eq!(broken_links(&root), (5, vec![found.to_owned()]));
+    }
+}
+
+/// One browser opens all pages, each at the width of a phone and at that of a desktop.
+#[test]
+#[ignore = "takes more than six seconds; needs docs/build"]
+fn site_opens_in_a_browser() {
+    let site = site();
+    let mut all = BTreeSet::new();
+    files(&site, "", &mut all);
+    let Some(mut browser) = Browser::start("site") else { return };
+    let (mut wrong, mut heaviest, mut opened) = (Vec::new(), (0, String::new()), 0);
+    for page in all.iter().filter(|file| file.ends_with(".html")) {
+        browser.resize(360, 740);
+        go(&mut browser, &site, page);
+        opened += 1;
+        // mdBook's text scrolls inside its own element, so the document alone would never be too wide.
+        let excess = browser.eval(
+            "Math.max(...[document.documentElement, document.getElementById('mdbook-content')]
+                .map(e => e ? e.scrollWidth - e.clientWidth : 0))",
+        );
+        if excess.as_i64() != Some(0) {
+            wrong.push(format!("{page} is {excess} pixels too wide for a screen of 360"));
+        }
+        let loaded = browser.eval(
+            "[location, ...performance.getEntriesByType('resource').map(r => new URL(r.name))].map(u => u.protocol === 'file:' ? decodeURI(u.pathname) : u.href)",
+        );
+        let loaded: BTreeSet<String> = serde_json::from_value(loaded).unwrap();
+        let foreign = loaded
+            .iter()
+            .filter(|file| !Path::new(file).starts_with(&site) && !file.starts_with("data:"));
+        wrong.extend(foreign.map(|file| format!("{page} loads {file}")));
+        let weights = loaded.iter().filter(|file| !file.ends_with("/engines.js"));
+        let weight =
+            weights.filter_map(|file| fs::metadata(file).ok()).map(|file| file.len()).sum();
+        if page.starts_with("en/") || page.starts_with("zh/") {
+            heaviest = heaviest.max((weight, page.clone()));
+        }
+        browser.resize(1280, 900);
+        let complaints = std::mem::take(&mut browser.complaints);
+        wrong.extend(complaints.into_iter().map(|complaint| format!("{page}: {complaint}")));
+        let others = browser.eval(
+            "[...document.querySelectorAll('.site-links a')].filter(a => a.offsetWidth).map(a => a.href.replace(/^file:..|#.*/g, ''))",
+        );
+        let others: Vec<String> = serde_json::from_value(others).unwrap();
+        let is_chapter = page.starts_with("en/") || page.starts_with("zh/");
+        let other = if page.starts_with("en/") {
+            page.replacen("en/", "zh/", 1)
+        } else {
+            page.replacen("zh/", "en/", 1)
+        };
+        let wanted = ["try/playground.html", &other]
+            .map(|file| site.join(file).to_str().unwrap().to_owned());
+        if is_chapter && !page.ends_with("/toc.html") && others != wanted {
+            wrong.push(format!("{page} leads to {others:?}"));
+        }
+    }
+    println!("{opened} pages; the heaviest first view: {} bytes, {}", heaviest.0, heaviest.1);
+    if heaviest.0 > FIRST_VIEW_BYTES {
+        wrong.push(format!("the first view of {} is {} bytes", heaviest.1, heaviest.0));
+    }
+    for (page, words, found) in [
+        ("en/index.html", "top-left rule", "ch02-edge-functions.html"),
+        ("zh/index.html", "左上规则", "ch02-edge-functions.html"),
+        ("zh/index.html", "投影矩阵", "glossary.html"),
+    ] {
+        go(&mut browser, &site, page);
+        browser.eval(&format!(
+            "document.getElementById('mdbook-search-toggle').click();
+             document.getElementById('mdbook-searchbar').value = {words:?};"
+        ));
+        browser.wait_for(
+            "!document.getElementById('mdbook-searchresults-outer').classList.contains('hidden')",
+        );
+        let results = browser
+            .eval("[...document.querySelectorAll('#mdbook-searchresults a')].map(a => a.href)");
+        let is_found = |link: &Value| link.as_str().unwrap().contains(found);
+        if !results.as_array().unwrap().iter().any(is_found) {
+            wrong.push(format!("{page}: '{words}' is not found in {found}, but in {results}"));
+        }
+    }
+    wrong.append(&mut browser.complaints);
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+fn go(browser: &mut Browser, site: &Path, page: &str) {
+    let url = format!("file://{}", site.join(page).display());
+    browser.call("Page.navigate", json!({ "url": url }));
+    browser.wait_for("document.readyState === 'complete'");
+}
