@@ -137,7 +137,6 @@ pub struct Disagreement(Report);
 
 impl Disagreement {
     /// The report that it is about.
-    #[must_use]
     pub fn report(&self) -> &Report {
         &self.0
     }
@@ -224,7 +223,7 @@ pub fn judge_partitions<T: Tessellate + Sync>(
         &|polygon| {
             tessellator.accepts(polygon).then(|| {
                 caught(|| tessellator.triangles(polygon)).map_or_else(
-                    |message| Err(Fault::saying(FaultKind::Panicked, message)),
+                    |message| Err(Fault::saying(FaultKind::Panicked, message.to_string())),
                     |result| result.map_err(|refused| Fault::saying(FaultKind::Refused, refused.0)),
                 )
             })

@@ -54,8 +54,10 @@ fn candidates(polygon: &Polygon, coordinates: Coordinates) -> Vec<Polygon> {
         all.push(map(&|value, axis| sorted[axis].partition_point(|&v| v < value) as f64));
         all.push(map(&|value, axis| value - [left, low][axis]));
         let largest = sorted.iter().flatten().fold(0.0, |most: f64, v| most.max(v.abs()));
-        for exponent in [largest.log2().floor(), 10.0, -10.0, 1.0, -1.0] {
-            all.push(map(&|value, _| value * (-exponent).exp2()));
+        // The exponent of a normal number is in its bits; of zero and of smaller numbers any will do.
+        let exponent = ((largest.to_bits() >> 52) as i32 - 1023).clamp(-1022, 1022);
+        for exponent in [exponent, 10, -10, 1, -1] {
+            all.push(map(&|value, _| value * 2f64.powi(-exponent)));
         }
     }
     for bits in [1, 2, 4, 8, 16, 24, 32, 48] {
