@@ -44,8 +44,8 @@ fn main() -> ExitCode {
     let place = |report: &FamilyReport| cases::families().position(|f| f.name == report.family);
     families.sort_by_key(place);
     let all = families.len() == cases::families().count();
-    let verdict =
-        Verdict { options: options(""), families, failures: Vec::new(), convention: None };
+    let options = Options::default().cases(CASES);
+    let verdict = Verdict { options, families, failures: Vec::new(), convention: None };
     println!("{}{}", table::table(&verdict), table::quota_line(&verdict));
     let quotas_met = !all || verdict.quotas().iter().all(|(_, is, wanted)| is >= wanted);
     if !quotas_met {
@@ -106,7 +106,8 @@ fn profile() -> Option<String> {
 }
 
 fn options(family: &str) -> Options {
-    Options::default().cases(CASES).family(family.parse().unwrap())
+    let name = family.parse().expect("it is the name of a family");
+    Options::default().cases(CASES).family(name)
 }
 
 fn judge(

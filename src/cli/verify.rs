@@ -120,7 +120,7 @@ impl TypedValueParser for EngineName {
                     clap::error::ErrorKind::InvalidValue,
                     format!(
                         "this program was built without Vulkan devices; build it with them:\n  \
-                         cargo run --release --features vulkan -- verify --engine {name}\n"
+                         cargo run --features vulkan -- verify --engine {name}\n"
                     ),
                 )
                 .with_cmd(command)),

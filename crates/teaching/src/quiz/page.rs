@@ -18,7 +18,7 @@ pub fn section(chapter: &Chapter, language: Language) -> String {
         Language::English => ("asks these in the terminal and checks what you answer.", ""),
         Language::Chinese => ("在终端里提出这些问题，并检验你的回答。", " --language zh"),
     };
-    let intro = format!("`cargo run --release -- quiz {word}{extra}` {ask}");
+    let intro = format!("`cargo run -- quiz {word}{extra}` {ask}");
     let solutions: Vec<_> = chapter.exercises.iter().map(Exercise::solution).collect();
     let axes = match language {
         Language::English => {
