@@ -315,7 +315,7 @@ fn course_shows_what_is_drawn() {
     ] {
         show(step, planted, 1);
     }
-    show("values", "dda", 1).prints("1 requests refused or not answered");
+    show("values", "dda", 1).prints("1 requests refused");
     show("thirteen", "scanline", 2).says("cube and all");
     let model = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     fs::write(folder.join("model.obj"), model).unwrap();
