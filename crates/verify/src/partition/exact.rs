@@ -168,6 +168,7 @@ fn cross(a: &Big, b: &Big, c: &Big) -> Sign {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cases::unsnapped::nudge_f64;
 
     /// Every path gives the same sign: the filter, 128 bits, and big integers.
     #[test]
@@ -177,8 +178,8 @@ mod tests {
             ([[0.0, 0.0], [4.0, 0.0], [1.0, 1.0]], Ordering::Greater),
             ([[0.0, 0.0], [4.0, 0.0], [1.0, -1.0]], Ordering::Less),
             ([[0.0, 0.0], [3.0, 3.0], [1.0, 1.0]], Ordering::Equal),
-            ([[0.0, 0.0], [3.0, 3.0], [1.0, 1.0_f64.next_up()]], Ordering::Greater),
-            ([[0.0, 0.0], [3.0, 3.0], [1.0_f64.next_up(), 1.0]], Ordering::Less),
+            ([[0.0, 0.0], [3.0, 3.0], [1.0, nudge_f64(1.0, 1)]], Ordering::Greater),
+            ([[0.0, 0.0], [3.0, 3.0], [nudge_f64(1.0, 1), 1.0]], Ordering::Less),
             ([[0.0, 0.0], [1.0, 0.0], [0.5, tiny]], Ordering::Greater),
             ([[0.0, 0.0], [tiny, 0.0], [tiny, tiny]], Ordering::Greater),
             ([[0.0, 0.0], [1e300, 1e300], [1e-300, 2e-300]], Ordering::Greater),

@@ -4,6 +4,7 @@ use super::exact::orientation;
 use super::families::star;
 use super::*;
 use crate::cases::Rng;
+use crate::cases::unsnapped::nudge_f64;
 
 fn square(low: f64, high: f64) -> Vec<Point> {
     vec![[low, low], [high, low], [high, high], [low, high]]
@@ -215,8 +216,8 @@ fn corridor(rng: &mut Rng) -> Right {
     for _ in 0..rng.int(2, 12) {
         let y = rng.signed();
         low.push([x, y]);
-        high.push([x, if rng.chance(2) { y.next_up() } else { y + rng.unit() + 0.1 }]);
-        x = if rng.chance(4) { x.next_up() } else { x + rng.unit() };
+        high.push([x, if rng.chance(2) { nudge_f64(y, 1) } else { y + rng.unit() + 0.1 }]);
+        x = if rng.chance(4) { nudge_f64(x, 1) } else { x + rng.unit() };
     }
     // A chain may come back to one x twice after rounding; there is no quadrilateral then.
     let mut triangles = Vec::new();
@@ -276,10 +277,10 @@ fn right_partitions_are_right() {
 fn grown([a, b, c]: Triangle) -> Option<Triangle> {
     let sign = orientation(a, b, c);
     let moved = [
-        [c[0].next_up(), c[1]],
-        [c[0].next_down(), c[1]],
-        [c[0], c[1].next_up()],
-        [c[0], c[1].next_down()],
+        [nudge_f64(c[0], 1), c[1]],
+        [nudge_f64(c[0], -1), c[1]],
+        [c[0], nudge_f64(c[1], 1)],
+        [c[0], nudge_f64(c[1], -1)],
     ];
     let is_outside = |&c: &Point| orientation(b, [c[0], c[1]], a) == sign;
     let leaves = |&p: &Point| {
