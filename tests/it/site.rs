@@ -191,7 +191,7 @@ fn site_opens_in_a_browser() {
         } else {
             page.replacen("zh/", "en/", 1)
         };
-        let wanted = ["try/playground.html", &other]
+        let wanted = ["try/playground.html", "try/your-gpu.html", &other]
             .map(|file| site.join(file).to_str().unwrap().to_owned());
         if is_chapter && !page.ends_with("/toc.html") && others != wanted {
             wrong.push(format!("{page} leads to {others:?}"));
