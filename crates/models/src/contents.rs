@@ -6,6 +6,9 @@ use std::sync::Arc;
 use glam::{DMat4, DVec2, DVec3};
 use rasterproof_render::pipeline::texture::Texture;
 
+/// What a reader counts of faces with fewer than three corners, which show nothing.
+pub(crate) const INCOMPLETE_FACE: &str = "incomplete face";
+
 /// Everything a reader found in a file.
 #[derive(Debug, Default)]
 pub(crate) struct Contents {

@@ -13,7 +13,7 @@ pub enum Format {
     Ply,
     /// A document of JSON with its buffers.
     Gltf,
-    /// The same in one file.
+    /// glTF with its buffers in the same file.
     Glb,
 }
 
@@ -185,7 +185,7 @@ fn head(bytes: &[u8]) -> String {
     }
 }
 
-/// Whether four bytes are a length.
+/// Whether four bytes, read as a little-endian integer, are this length.
 fn is_length(bytes: &[u8], length: usize) -> bool {
     <[u8; 4]>::try_from(bytes).is_ok_and(|size| u32::from_le_bytes(size) as usize == length)
 }

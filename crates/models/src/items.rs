@@ -8,7 +8,7 @@ use rasterproof_host::text::printable_path;
 use rasterproof_render::pipeline::assemble::Cull;
 use rasterproof_render::scene::{Corner, Item, Material, Mesh, Shading};
 
-use crate::contents::{Contents, Part, Surface};
+use crate::contents::{Contents, INCOMPLETE_FACE, Part, Surface};
 use crate::polygons::{self, Odd, Shape};
 use crate::{BadFile, Format, Model, Normals, Options, Origin, Up, Warnings, bad, counted};
 
@@ -57,7 +57,7 @@ pub(crate) fn model(
     }
     let not_drawn = counted(&contents.not_drawn);
     if items.is_empty() {
-        if not_drawn.is_empty() {
+        if contents.not_drawn.keys().all(|kind| kind == INCOMPLETE_FACE) {
             let why = contents.warnings.first().map_or(String::new(), |why| format!(" ({why})"));
             return Err(bad(path, None, format!("has no faces, so there is nothing to draw{why}")));
         }

@@ -10,7 +10,7 @@ use glam::{DMat4, DVec2, DVec3};
 use rasterproof_host::limits;
 use rasterproof_host::text::{printable_path, printable_short};
 
-use crate::contents::{Contents, Part, Polygon, PolygonCorner, Surface};
+use crate::contents::{Contents, INCOMPLETE_FACE, Part, Polygon, PolygonCorner, Surface};
 use crate::items::MOST_COORDINATE;
 use crate::mtl::{self, without_comment};
 use crate::textures::{Textures, find};
@@ -568,7 +568,7 @@ fn face<'a>(
     }
     if run.corners.len() < start + 3 {
         run.corners.truncate(start);
-        *read.not_drawn.entry("incomplete face".to_owned()).or_default() += 1;
+        *read.not_drawn.entry(INCOMPLETE_FACE.to_owned()).or_default() += 1;
         return Ok(Some("a face needs three corners or more".to_owned()));
     }
     let end = run.corners.len() as u32;

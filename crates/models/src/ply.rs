@@ -8,7 +8,7 @@ use std::path::Path;
 use glam::{DMat4, DVec2, DVec3};
 use rasterproof_host::text::{printable_path, printable_short};
 
-use crate::contents::{Contents, Part, Polygon, PolygonCorner, Surface};
+use crate::contents::{Contents, INCOMPLETE_FACE, Part, Polygon, PolygonCorner, Surface};
 use crate::textures::Textures;
 use crate::{BadFile, Warnings, bad};
 
@@ -21,7 +21,7 @@ pub(crate) fn is_ply(bytes: &[u8]) -> bool {
     })
 }
 
-/// How a number is stored.
+/// The type of a number, which decides how many bytes it has in a binary file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
     I8,
@@ -112,20 +112,20 @@ enum Form {
     Big,
 }
 
-/// What stands before the numbers.
+/// The lines before the data: the form of the file, and which elements follow in which order.
 struct Header {
     form: Form,
     elements: Vec<Element>,
     /// Pictures that comments name, as some programs write them.
     textures: Vec<String>,
-    /// Lines that are none of a header.
+    /// Lines that the format does not define, with their numbers, for a warning.
     unknown: Vec<(usize, String)>,
 }
 
 /// The numbers of a file, one after the other.
 struct Body<'a> {
     bytes: &'a [u8],
-    /// The next byte.
+    /// The index of the byte that is read next.
     at: usize,
     form: Form,
     newline: u8,
@@ -137,7 +137,7 @@ struct Body<'a> {
 }
 
 impl<'a> Body<'a> {
-    /// The next line, without its end.
+    /// Returns the next line without its line break, and moves past it.
     fn next_line(&mut self) -> Option<&'a [u8]> {
         let rest = self.bytes.get(self.at..).filter(|rest| !rest.is_empty())?;
         let end = rest.iter().position(|&byte| byte == self.newline).unwrap_or(rest.len());
@@ -352,7 +352,7 @@ fn add(contents: &mut Contents, key: &str, count: u64) {
     }
 }
 
-/// Goes past numbers and lists.
+/// Moves past properties whose values nobody reads.
 fn skip(body: &mut Body<'_>, properties: &[Property]) -> Result<(), String> {
     for property in properties {
         let count = property.length.map_or(Ok(1), |kind| body.length(kind))?;
@@ -492,7 +492,7 @@ fn faces(
         let end = part.corners.len() as u32;
         part.polygons.push(Polygon { end, line: body.line as u32, smoothing: 0 });
     }
-    add(contents, "incomplete face", small);
+    add(contents, INCOMPLETE_FACE, small);
     Ok(())
 }
 

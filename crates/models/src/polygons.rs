@@ -14,7 +14,7 @@ const MOST_CORNERS: usize = 1 << 16;
 /// The shape of a polygon that does not cross itself.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Shape {
-    /// Or without an area.
+    /// Convex, or without an area.
     Convex,
     Concave,
 }

@@ -49,7 +49,7 @@ impl<'a> List<'a> {
     }
 }
 
-/// The members of these names.
+/// Copies those members of an object that have one of the names.
 fn members(value: &Value, names: &[&str]) -> Map<String, Value> {
     let member = |name: &&str| Some(((*name).to_owned(), value.get(name)?.clone()));
     names.iter().filter_map(member).collect()

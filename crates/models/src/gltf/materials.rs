@@ -23,7 +23,7 @@ pub(super) struct Described {
     pub surface: Surface,
     /// The number of the texture coordinates among those of a vertex, where there is a texture.
     pub uv_set: Option<u32>,
-    /// What is done to them, v down.
+    /// Moves texture coordinates before the lookup; v points down, as in glTF.
     pub uv_transform: DAffine2,
 }
 

@@ -53,7 +53,7 @@ pub(crate) fn is_glb(bytes: &[u8]) -> bool {
     bytes.starts_with(b"glTF")
 }
 
-/// Reads a document in either form.
+/// Reads a document, as JSON with files beside it or as one GLB.
 pub(crate) fn read(path: &Path, bytes: &[u8]) -> Result<Contents, BadFile> {
     let failed = |cause: String| bad(path, None, cause);
     let (json, bin) = if is_glb(bytes) {
@@ -138,7 +138,7 @@ struct Reader<'a> {
     pictures: Pictures<'a>,
     /// For each material that is used its number in the contents, and where its texture finds its coordinates.
     described: BTreeMap<usize, Option<(usize, Option<u32>, glam::DAffine2)>>,
-    /// Corners of all parts.
+    /// The number of corners so far, of all parts together, for the limit.
     corners: usize,
 }
 
