@@ -253,8 +253,7 @@ for (const name of ['playground', 'your-gpu']) {
   const file = path.join(site, `try/${name}.html`);
   if (fs.existsSync(file)) {
     const page = read(file);
-    const [whole, module] = page.match(/<script type="text\/plain" id="module">([^<]*)<\/script>/);
-    write(path.join(site, 'try/engines.js'), `rasterproofEngines("${module.trim()}");\n`);
+    const [whole] = page.match(/<script type="text\/plain" id="module">[^<]*<\/script>/);
     write(file, once(once(page, "script-src 'unsafe-inline'", "script-src 'self' file: 'unsafe-inline'"), whole, `<script type="text/plain" id="module"></script>
 <script>function rasterproofEngines(text) { document.getElementById('module').textContent = text; }</script>
 <script src="engines.js"></script>`));
