@@ -63,11 +63,11 @@ enum Question {
     },
     /// The batches that a browser's GPU is to draw, in order.
     GpuPlan(crate::gpu::Plan),
-    /// The vertices of one picture.
+    /// The vertices that the GPU draws into one picture.
     GpuBatch(Box<crate::gpu::Batch>),
-    /// What the pixels of one picture are worth.
+    /// The verdict about the pixels that the GPU drew in one picture.
     GpuJudge(Box<crate::gpu::Judge>),
-    /// A live figure of a page.
+    /// The picture and the texts of a live figure for a position of its grips.
     Figure(figures::Ask),
 }
 

@@ -150,7 +150,7 @@ impl Samples {
 pub(super) struct Culling {
     picture: Picture,
     removes: String,
-    /// Who fills what is left.
+    /// The engine that fills what is left after clipping.
     #[serde(default = "scanline")]
     by: String,
 }

@@ -68,7 +68,7 @@ pub(super) fn there_and_back(given: &Given<'_>) -> Result<Drawn, String> {
     })
 }
 
-/// The pixels of one line.
+/// Asks which pixels a line from pixel (0, 0) to the grip draws.
 pub(super) fn line_pixels(given: &Given<'_>) -> Result<Drawn, String> {
     let end = given.at[0].map(|v| v as i32);
     let panel = Panel::middle(9, 6, 36.0, 10.0);

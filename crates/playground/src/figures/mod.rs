@@ -55,7 +55,7 @@ struct Text {
     #[serde(default)]
     options: Vec<String>,
     answer: String,
-    /// What each grip is called.
+    /// The name of each grip, for screen readers.
     grips: Vec<String>,
 }
 
@@ -71,7 +71,7 @@ pub static ALL: LazyLock<Vec<Figure>> = LazyLock::new(|| {
     serde_json::from_str(include_str!("figures.json")).expect("a test reads the same file")
 });
 
-/// What a figure is drawn for.
+/// The positions of the grips, whether the reader has predicted, and the engines that draw the pixels.
 struct Given<'a> {
     grips: &'a [Grip],
     at: &'a [Point],
@@ -84,9 +84,9 @@ struct Given<'a> {
 enum Predict {
     /// Which of these pixels of a panel.
     Pixels(Panel, Vec<([i32; 2], bool)>),
-    /// One of the options of the text.
+    /// The right answer is the option with this index.
     Choice(usize),
-    /// A number with so many decimals.
+    /// The right answer is a number, shown with so many decimals.
     Number(f64, usize),
 }
 
@@ -96,7 +96,7 @@ struct Drawn {
     /// 0 where it does not move.
     grips: Vec<(Point, Point)>,
     predict: Predict,
-    /// The numbers that the texts name.
+    /// The numbers that replace the names in braces in the texts.
     values: Vec<(&'static str, String)>,
     /// The same in the playground: what its address says.
     link: String,
