@@ -19,7 +19,7 @@ const ADAPTERS: &str = "adapters/league.json";
 /// Where it is written, as data and as a page.
 const JSON: &str = "target/rasterproof/league.json";
 const PAGES: [(&str, bool); 2] =
-    [("target/rasterproof/wild.md", false), ("target/rasterproof/wild.zh.md", true)];
+    [("target/rasterproof/league.md", false), ("target/rasterproof/league.zh.md", true)];
 
 pub fn run(
     names: &[String],

@@ -77,7 +77,7 @@ pub const ALL: &[(&str, Values)] = &[
         vec![cracks(0) + cracks(1)]
     }),
     ("worst-errors", || {
-        let text = page("docs", "verdict");
+        let text = page("docs", "differential");
         let all = text.lines().find(|line| line.starts_with("all  ")).unwrap();
         let cells: Vec<f64> = all.split_whitespace().skip(8).map(|c| c.parse().unwrap()).collect();
         assert!(cells[1] > cells[0] && cells[3] > cells[2], "B is the edge function");

@@ -6,10 +6,13 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 
 use serde_json::{Value, json};
 
 use crate::page::{Browser, folder};
+use crate::program::PROGRAM;
+use crate::quiz::RENEW;
 
 /// What a reader loads before the first view is complete, pictures and scripts included, the compiled engines not.
 const FIRST_VIEW_BYTES: u64 = 300_000;
@@ -141,6 +144,63 @@ fn site_broken_links_are_found() {
         fs::write(root.join("en/b.html"), format!("{page}{link}")).unwrap();
         assert_eq!(broken_links(&root), (5, vec![found.to_owned()]));
     }
+}
+
+/// The block of text of a page in Markdown, between its fences.
+fn printed(page: &str) -> std::ops::Range<usize> {
+    let start = page.find("```text\n").expect("a block of text") + "```text\n".len();
+    start..start + page[start..].find("```\n").expect("the end of a block")
+}
+
+/// The tables of two pages are what the program printed when the site was built, and the repository has them so too.
+/// `RASTERPROOF_RENEW=1 cargo test --test it site_tables -- --ignored` writes them there.
+#[test]
+#[ignore = "needs docs/build"]
+fn site_tables_are_printed() {
+    let mut stale = Vec::new();
+    for (name, words) in [
+        ("differential", &["--table"][..]),
+        ("planted", &["--table", "--plant", "inclusive-edges"]),
+    ] {
+        let mut shown = Vec::new();
+        for book in ["en", "zh"] {
+            let page = fs::read_to_string(site().join(format!("{book}/{name}.html"))).unwrap();
+            let (_, block) = page.split_once("<code class=\"language-text").unwrap();
+            let block = block.split_once('>').unwrap().1.split_once("</code>").unwrap().0;
+            let block = block.replace("&gt;", ">").replace("&lt;", "<").replace("&quot;", "\"");
+            let path = if book == "en" { "docs" } else { "docs/zh" };
+            let path = format!("{}/{path}/{name}.md", env!("CARGO_MANIFEST_DIR"));
+            let own = fs::read_to_string(&path).unwrap();
+            if own[printed(&own)] != block.replace("&amp;", "&") {
+                let mut own = own;
+                own.replace_range(printed(&own), &block);
+                if std::env::var_os(RENEW).is_some() {
+                    fs::write(&path, own).unwrap();
+                }
+                stale.push(path);
+            }
+            shown.push(block);
+        }
+        assert_eq!(shown[0], shown[1], "{name}");
+        // A family that is run again has the row of the page; with another seed it has not.
+        let row = |seed: &str| {
+            let run = Command::new(PROGRAM)
+                .args(["verify", "--family", "half-integer", "--cases", "20000", "--seed", seed])
+                .args(words)
+                .current_dir(folder("site-row"))
+                .output()
+                .unwrap();
+            let printed = String::from_utf8(run.stdout).unwrap();
+            let row = printed.lines().find(|line| line.starts_with("half-integer ")).unwrap();
+            row.split_whitespace().collect::<Vec<_>>().join(" ")
+        };
+        let rows: Vec<_> = shown[0]
+            .lines()
+            .map(|line| line.split_whitespace().collect::<Vec<_>>().join(" "))
+            .collect();
+        assert!(rows.contains(&row("1")) && !rows.contains(&row("2")), "{name}: {}", row("1"));
+    }
+    assert!(stale.is_empty(), "stale, renew with {RENEW}=1:\n{}", stale.join("\n"));
 }
 
 /// One browser opens all pages, each at the width of a phone and at that of a desktop.

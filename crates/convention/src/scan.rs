@@ -3,7 +3,7 @@
 //!
 //! They are tried where nothing simpler explains an answer, and are told apart by being right
 //! everywhere. Widths and roundings were found by comparison with what the libraries draw
-//! (`docs/wild.md`).
+//! (`docs/league.md`).
 
 use serde::Serialize;
 
