@@ -434,7 +434,7 @@ fn list(streams: &mut Streams<'_>) -> Status {
     invariant::list(streams)?;
     let out = &mut streams.output;
     writeln!(out, "\nScenes (rasterproof render --scene NAME):")?;
-    for entry in rasterproof_render::scene::chapters::SCENES {
+    for entry in rasterproof_render::scene::chapters::entries() {
         write_entry(out, &format!("{:<19}", entry.name), entry.about)?;
     }
     Ok(exit::AGREES)

@@ -249,6 +249,7 @@ fn describe(scene: &Scene, planned: &Rendered, everything: &Counters, savings: &
             ("depth tests", c.depth_tests),
             ("texels", c.texels),
             ("lights", c.lights),
+            ("highlights", c.highlights),
             ("fragment stages", c.shaded),
             ("pixels expanded", c.expanded),
             ("samples cleared", c.cleared),

@@ -27,11 +27,12 @@ use rasterproof_render::effects::{Effect, Effects, Mode};
 use rasterproof_render::pipeline::Counters;
 use rasterproof_render::pipeline::assemble::Cull;
 use rasterproof_render::pipeline::depth::DepthFormat;
+use rasterproof_render::pipeline::highlight::Specular;
 use rasterproof_render::pipeline::present::DoubleBuffer;
 use rasterproof_render::pipeline::shade::Light;
 use rasterproof_render::pipeline::target::{Antialias, Colour, Target, check_size};
 use rasterproof_render::pipeline::transform::{about, look_at, perspective};
-use rasterproof_render::scene::chapters::{self, SCENES};
+use rasterproof_render::scene::chapters;
 use rasterproof_render::scene::{Scene, Shading};
 use rasterproof_report::frame_comparison::{self, Comparison, Times};
 use rasterproof_report::html::{Chapter, Outcome, PictureLayer, PictureView, Report};
@@ -86,8 +87,10 @@ pub struct SceneArguments {
 }
 
 /// The names of all options of [`ViewArguments`].
-pub(super) const VIEW_OPTIONS: [&str; 11] =
-    ["size", "aa", "cull", "shading", "up", "normals", "depth", "yaw", "pitch", "zoom", "fov"];
+pub(super) const VIEW_OPTIONS: [&str; 12] = [
+    "size", "aa", "cull", "shading", "specular", "up", "normals", "depth", "yaw", "pitch", "zoom",
+    "fov",
+];
 
 /// How a scene or a model is seen.
 #[derive(clap::Args, Debug)]
@@ -104,6 +107,9 @@ pub struct ViewArguments {
     /// How light is laid on a model [default: phong]
     #[arg(long, value_name = "SHADING", value_parser = super::one_of(SHADINGS))]
     shading: Option<Shading>,
+    /// Highlights of a model in place of its own: a strength from 0 to 1, and an exponent above 0
+    #[arg(long, value_name = "STRENGTH,EXPONENT", value_parser = parse_specular)]
+    specular: Option<Specular>,
     /// The axis of the model's file that points up [default: the usual one of its format, which is printed]
     #[arg(long, value_name = "AXIS", value_parser = super::one_of(UPS))]
     up: Option<Up>,
@@ -163,13 +169,27 @@ const NORMALS: &[(&str, Normals)] =
     &[("file", Normals::File), ("flat", Normals::Flat), ("smooth", Normals::Smooth)];
 
 fn scene_names() -> Vec<&'static str> {
-    SCENES.iter().map(|entry| entry.name).collect()
+    chapters::entries().map(|entry| entry.name).collect()
 }
 
 pub(super) fn parse_size(text: &str) -> Result<(u32, u32), String> {
     let sides = text.split_once(['x', 'X']);
     let parsed = sides.and_then(|(w, h)| Some((w.parse().ok()?, h.parse().ok()?)));
     parsed.ok_or_else(|| "expected WIDTHxHEIGHT, for example 1024x768".to_owned())
+}
+
+fn parse_specular(text: &str) -> Result<Specular, String> {
+    let numbers = text.split_once(',');
+    let parsed = numbers.and_then(|(s, e)| Some((s.trim().parse().ok()?, e.trim().parse().ok()?)));
+    let fits = |(strength, exponent): &(f64, f64)| {
+        (0.0..=1.0).contains(strength) && *exponent > 0.0 && exponent.is_finite()
+    };
+    let specular = parsed
+        .filter(fits)
+        .map(|(strength, shininess)| Specular { colour: DVec3::splat(strength), shininess });
+    specular.ok_or_else(|| {
+        "expected a strength from 0 to 1 and an exponent above 0, for example 0.5,30".to_owned()
+    })
 }
 
 impl SceneArguments {
@@ -183,6 +203,7 @@ impl SceneArguments {
                 aa: Antialias::None,
                 cull: None,
                 shading: None,
+                specular: None,
                 up: None,
                 normals: None,
                 depth: DepthFormat::Unorm32,
@@ -205,7 +226,7 @@ impl SceneArguments {
             return Ok(name);
         }
         let path = self.what.as_deref().unwrap_or(Path::new(""));
-        let scene = SCENES.iter().find(|entry| path == Path::new(entry.name));
+        let scene = chapters::entries().find(|entry| path == Path::new(entry.name));
         // What is there as a file is meant as a file.
         scene.filter(|_| !path.is_file()).map_or(Err(path), |entry| Ok(entry.name))
     }
@@ -271,6 +292,7 @@ impl ViewArguments {
             ("--zoom", self.zoom.is_some()),
             ("--fov", self.fov.is_some()),
             ("--shading", self.shading.is_some()),
+            ("--specular", self.specular.is_some()),
             ("--up", self.up.is_some()),
             ("--normals", self.normals.is_some()),
         ];
@@ -340,6 +362,7 @@ impl ViewArguments {
         };
         for item in &mut scene.items {
             item.model = about(centre, turn);
+            item.material.specular = self.specular.unwrap_or(item.material.specular);
         }
         let Model { origins, not_drawn, .. } = model;
         Ok(Framed { scene, centre, origins, not_drawn, loading })

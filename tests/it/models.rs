@@ -5,8 +5,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use glam::DVec3;
 use image::{Rgb, RgbImage};
 use rasterproof_models::{BadFile, Model, Normals, Options, load_texture};
+use rasterproof_render::pipeline::highlight::Specular;
 use rasterproof_render::scene::{Shading, shapes};
 
 fn load(path: &Path, shading: Shading) -> Result<Model, BadFile> {
@@ -512,8 +514,20 @@ fn what_is_not_drawn_is_said_by_every_command_that_draws() {
     let text = format!("{triangle}usemtl a\nf 1 2 3\nusemtl b\nf 1 2 3\n");
     let model = written(&folder, "m.obj", &text);
     let expected = "not drawn: 1 bump map, emission of 1 material, 1 opacity map, \
-        reflection (illum) of 1 material, shininess of 1 material, specular colour of 2 materials, \
-        transparency of 1 material\n";
+        reflection (illum) of 1 material, \
+        specular colour without shininess (Ns) of 1 material, transparency of 1 material\n";
+    let specular = |model: &Model| -> Vec<_> {
+        model.items.iter().map(|item| item.material.specular).collect()
+    };
+    let shiny = Specular { colour: DVec3::ONE, shininess: 20.0 };
+    let read = load(&model, Shading::Phong).unwrap();
+    assert_eq!(specular(&read), [shiny, Specular::default()]);
+    assert!(
+        load(&model, Shading::Gouraud)
+            .unwrap()
+            .not_drawn
+            .contains("specular colour, with Gouraud shading, of 1 material")
+    );
     for command in ["render", "plan"] {
         let out = folder.join("o.png");
         let mut words = vec![command, model.to_str().unwrap(), "--size", "32x24"];

@@ -108,6 +108,7 @@ fn what_is_wrong_with_a_plan_is_named() {
         "where_it_varies": true,
         "perspective": "planned",
         "depth": true,
+        "specular": "planned",
     }});
     type Edit<'a> = &'a dyn Fn(&mut Value);
     let with_rule = |edit: &dyn Fn(&mut Value)| {

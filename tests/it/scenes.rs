@@ -15,11 +15,12 @@ use rasterproof_render::effects::{Effect, Effects, Mode};
 use rasterproof_render::pipeline::Counters;
 use rasterproof_render::pipeline::assemble::Cull;
 use rasterproof_render::pipeline::depth::DepthFormat;
+use rasterproof_render::pipeline::highlight::Specular;
 use rasterproof_render::pipeline::present::DoubleBuffer;
 use rasterproof_render::pipeline::shade::Light;
 use rasterproof_render::pipeline::target::{Antialias, Colour, Target};
 use rasterproof_render::pipeline::transform::{look_at, perspective};
-use rasterproof_render::scene::chapters::{SCENES, scene};
+use rasterproof_render::scene::chapters::{entries, scene};
 use rasterproof_render::scene::{
     Hidden, Item, Material, Mesh, Scene, Shading, meshes, random, shapes, textures,
 };
@@ -67,9 +68,9 @@ fn by_both(scene: &Scene, antialias: Antialias) -> ([Rendered; 2], Comparison) {
 }
 
 fn scenes() -> impl Iterator<Item = Scene> {
-    [0.0, 0.37].into_iter().flat_map(|turn| {
-        SCENES.iter().map(move |entry| scene(entry.name, 4.0 / 3.0, turn).unwrap())
-    })
+    [0.0, 0.37]
+        .into_iter()
+        .flat_map(|turn| entries().map(move |entry| scene(entry.name, 4.0 / 3.0, turn).unwrap()))
 }
 
 #[test]
@@ -89,7 +90,7 @@ fn scenes_are_the_same_by_both_rasterizers() {
 
 #[test]
 fn scenes_look_as_kept() {
-    each(SCENES, |entry| {
+    each(&entries().collect::<Vec<_>>(), |entry| {
         let scene = scene(entry.name, 4.0 / 3.0, 0.0).unwrap();
         let [scanline, edges] = [Drawer::Scanline, Drawer::EdgeFunction].map(|drawer| {
             let mut target = target_of(480, 360, Antialias::None);
@@ -148,6 +149,7 @@ fn check_account(plan: &Plan, counters: &Counters, name: &str) {
         (Effect::Perspective, c.divisions),
         (Effect::Depth, c.depth_tests),
         (Effect::Light, c.lights),
+        (Effect::Specular, c.highlights),
         (Effect::Texture, c.texels),
         (Effect::Interpolation, c.components),
     ] {
@@ -189,7 +191,7 @@ fn plans_are_known_before_drawing() {
     (0..200u64).into_par_iter().for_each(|index| {
         let (drawer, antialias) =
             (Drawer::ALL[index as usize % 2], SMOOTHINGS[index as usize / 2 % 4]);
-        check_plan(&random::scene(4, index), drawer, Effects::PLANNED, antialias);
+        check_plan(&random::with_effects(4, index), drawer, Effects::PLANNED, antialias);
     });
 }
 
@@ -213,6 +215,7 @@ fn an_edited_plan_is_followed() {
                 "where_it_varies": true,
                 "perspective": "planned",
                 "depth": true,
+                "specular": "planned",
             }});
         }
         let plan: Plan = serde_json::from_value(json).unwrap();
@@ -295,8 +298,8 @@ fn a_plan_of_something_else_is_refused() {
     assert!(words.contains("for another scene, or for the same one seen otherwise"), "{words}");
     let unsigned = Plan { scene: None, ..plan.clone() };
     assert!(refused(&unsigned, &cube, &mut other).contains("does not say which scene"));
-    let next = Plan { version: 2, ..plan.clone() };
-    assert!(refused(&next, &cube, &mut other).contains("version 2"));
+    let next = Plan { version: 3, ..plan.clone() };
+    assert!(refused(&next, &cube, &mut other).contains("version 3"));
     let smooth = &mut target(Antialias::Supersample(2));
     let msaa = Canvas { antialias: Antialias::Multisample4, ..Canvas::of(smooth) };
     let of_msaa = Drawer::Scanline.plan(&cube, &Effects::PLANNED, &msaa).unwrap();
@@ -348,7 +351,7 @@ fn samples_on_demand_step_aside() {
 fn random_scenes_planned_change_no_bit() {
     let count = std::env::var("RASTERPROOF_SCENES").ok().and_then(|n| n.parse().ok());
     let differs = |index: &u64| {
-        let scene = random::scene(1, *index);
+        let scene = random::with_effects(1, *index);
         let antialias = SMOOTHINGS[*index as usize % 4];
         let effect = Effect::ALL[*index as usize / 4 % Effect::ALL.len()];
         let draw = |drawer: Drawer, effects: Effects| {
@@ -461,6 +464,18 @@ fn counterexamples() -> Vec<Counterexample> {
             let light = Light { ambient: 1.0 - by, ..Light::NONE };
             let material = Material { shading: Shading::Phong, ..grey(1.0) };
             Scene { light, ..plain(vec![Item::new(screen(1.0, [0.0; 2]), material)]) }
+        }),
+        make(Effect::Specular, none, |by| {
+            // The normals are at a right angle to the eye and to the light behind it; one turns towards them.
+            let mut mesh = screen(1.0, [0.0; 2]);
+            for corner in mesh.triangles.as_flattened_mut() {
+                corner.normal = DVec3::X;
+            }
+            mesh.triangles[0][1].normal = DVec3::new(1.0, 0.0, -by);
+            let light = Light { towards: -DVec3::Z, ambient: 0.5, diffuse: 0.5 };
+            let specular = Specular { colour: DVec3::ONE, shininess: 1.0 };
+            let material = Material { specular, shading: Shading::Phong, ..grey(1.0) };
+            Scene { light, ..plain(vec![Item::new(mesh, material)]) }
         }),
         make(Effect::Texture, none, |by| {
             let texel = textures::generate(1, |_, _| DVec3::splat(1.0 - by));
@@ -625,7 +640,7 @@ proptest! {
     /// The same over other random scenes; a failure shrinks to fewer items.
     #[test]
     fn any_scene_planned_changes_no_bit(index in any::<u32>(), items in 1..6usize, kind in 0..4usize) {
-        let mut scene = random::scene(2, index.into());
+        let mut scene = random::with_effects(2, index.into());
         scene.items.truncate(items);
         for drawer in Drawer::ALL {
             let whole = draw(&scene, drawer, Effects::ALWAYS, SMOOTHINGS[kind]).picture;
@@ -640,10 +655,10 @@ proptest! {
     fn any_mixture_of_effects_draws(
         index in any::<u32>(),
         kind in 0..4usize,
-        modes in proptest::array::uniform13(0..3u8),
+        modes in proptest::array::uniform14(0..3u8),
         some_never in any::<bool>(),
     ) {
-        let scene = random::scene(3, index.into());
+        let scene = random::with_effects(3, index.into());
         let mut effects = Effects::ALWAYS;
         for (effect, mode) in Effect::ALL.into_iter().zip(modes) {
             effects = effects.with(effect, match mode {
@@ -669,7 +684,7 @@ fn map_shows_what_pixels_pay_for() {
         let (rendered, map) = Drawer::Scanline
             .render_mapped(&scene, &Effects::PLANNED, &mut target(antialias))
             .unwrap();
-        let paying = map.rows().flat_map(|(_, row)| row).filter(|p| **p & 1 << effect as u16 != 0);
+        let paying = map.rows().flat_map(|(_, row)| row).filter(|p| **p & 1 << effect as u32 != 0);
         assert_eq!(paying.count() as u64, expected, "{name} {}", effect.name());
         rendered
     };
@@ -685,4 +700,5 @@ fn map_shows_what_pixels_pay_for() {
     let background = rendered.picture.get(0, 0).unwrap();
     let drawn = rendered.picture.rows().flat_map(|(_, row)| row).filter(|c| **c != background);
     check("everything", Antialias::None, Effect::Texture, drawn.count() as u64);
+    check("everything", Antialias::None, Effect::Specular, 0);
 }

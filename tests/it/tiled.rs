@@ -10,7 +10,7 @@ use rasterproof_registry::engines::Drawer;
 use rasterproof_render::effects::Effects;
 use rasterproof_render::pipeline::multisample::{SAMPLES, moved};
 use rasterproof_render::pipeline::target::{Antialias, Colour, Target};
-use rasterproof_render::scene::chapters::{self, SCENES};
+use rasterproof_render::scene::chapters;
 use rasterproof_render::scene::{Hidden, Material, Scene, meshes, random};
 use rasterproof_tiles::coverage::Tiles;
 use rasterproof_tiles::frames::planes::Bounded;
@@ -99,7 +99,7 @@ fn by_scanline(scene: &Scene, width: u32, height: u32, samples: Samples) -> Fram
 }
 
 fn scenes() -> Vec<Scene> {
-    let named = SCENES.iter().map(|entry| chapters::scene(entry.name, 1.5, 0.1).unwrap());
+    let named = chapters::entries().map(|entry| chapters::scene(entry.name, 1.5, 0.1).unwrap());
     let random = (0..12).map(|index| random::scene(1, index));
     named.chain(random).chain(meshes::scene("knot-4000")).collect()
 }
@@ -166,6 +166,33 @@ fn the_order_of_pieces_is_kept() {
         let (once, twice) = ([a], [a, (a.0, [5, 6, 7])]);
         let [once, twice] = [&once[..], &twice].map(|names| painted(names, Hidden::DepthBuffer));
         assert!(draw(&once) == draw(&twice), "{samples:?}");
+    }
+}
+
+/// Highlights are those of the engines: in f32 a cosine is off by less than 2^-18, so its power of 200 by less than
+/// a tenth of a step of 255, and a pixel by one for that, and by one for the rest.
+#[test]
+fn highlights_are_those_of_the_engines() {
+    let mut scene = chapters::scene("highlights", 1.5, 0.1).unwrap();
+    // Of a texture another texel may be read.
+    scene.items.remove(0);
+    let matt = |mut scene: Scene| {
+        scene.items.iter_mut().for_each(|item| item.material.specular = Default::default());
+        scene
+    };
+    for samples in [Samples::One, Samples::Four] {
+        let draw = |scene: &Scene| {
+            let tiles = frames::render(scene, 201, 134, samples).unwrap();
+            let engine = by_scanline(scene, 201, 134, samples);
+            let rows = tiles.rows().zip(engine.rows());
+            let pixels = rows.flat_map(|((_, a), (_, b))| a.iter().zip(b));
+            let off = pixels.map(|(a, b)| (0..3).map(|i| a[i].abs_diff(b[i])).max().unwrap());
+            (off.max().unwrap(), tiles)
+        };
+        let ((off, shiny), (_, matt)) = (draw(&scene), draw(&matt(scene.clone())));
+        assert!(off <= 2, "{samples:?}: off by {off}");
+        let pixels = shiny.rows().zip(matt.rows()).flat_map(|((_, a), (_, b))| a.iter().zip(b));
+        assert!(pixels.filter(|(a, b)| a[0] > b[0] + 50).count() > 100, "{samples:?}");
     }
 }
 

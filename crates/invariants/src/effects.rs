@@ -20,6 +20,7 @@ fn calls(effect: Effect, counters: &Counters) -> u64 {
         // The colours of corners and every attribute together are components.
         Effect::Colour | Effect::Interpolation => counters.components,
         Effect::Light => counters.lights,
+        Effect::Specular => counters.highlights,
         Effect::Texture => counters.texels,
         Effect::Samples => counters.expanded,
         Effect::Clear => counters.cleared,

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use glam::{DMat4, DVec2, DVec3};
+use rasterproof_render::pipeline::highlight::Specular;
 use rasterproof_render::pipeline::texture::Texture;
 
 /// What a reader counts of faces with fewer than three corners, which show nothing.
@@ -72,6 +73,7 @@ pub(crate) struct Surface {
     /// Diffuse colour, each channel in [0, 1].
     pub colour: DVec3,
     pub texture: Option<Arc<Texture>>,
+    pub specular: Specular,
     /// Whether the file says that light has no effect on it.
     pub unlit: bool,
     /// Whether both sides are drawn.

@@ -6,6 +6,7 @@ use std::path::Path;
 use glam::{DMat3, DMat4, DVec2, DVec3, DVec4};
 use rasterproof_host::text::printable_path;
 use rasterproof_render::pipeline::assemble::Cull;
+use rasterproof_render::pipeline::highlight::Specular;
 use rasterproof_render::scene::{Corner, Item, Material, Mesh, Shading};
 
 use crate::contents::{Contents, INCOMPLETE_FACE, Part, Surface};
@@ -54,6 +55,12 @@ pub(crate) fn model(
         }
         items.push(item);
         origins.push(origin);
+    }
+    let shiny = contents.materials.iter().filter(|surface| surface.specular != Specular::default());
+    let shiny = shiny.count() as u64;
+    if options.shading == Shading::Gouraud && shiny > 0 {
+        let key = "specular colour, with Gouraud shading, of material".to_owned();
+        contents.not_drawn.insert(key, shiny);
     }
     let not_drawn = counted(&contents.not_drawn);
     if items.is_empty() {
@@ -114,11 +121,12 @@ fn material(surface: Option<&Surface>, part: &Part, shading: Shading) -> Materia
             colour: surface.colour,
             vertex_colours,
             texture: surface.texture.clone(),
+            specular: surface.specular,
             shading: if surface.unlit { Shading::Unlit } else { shading },
         },
         None => {
             let colour = if vertex_colours { DVec3::ONE } else { DVec3::splat(0.8) };
-            Material { colour, vertex_colours, texture: None, shading }
+            Material { colour, vertex_colours, shading, ..Material::default() }
         }
     }
 }

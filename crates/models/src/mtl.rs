@@ -5,6 +5,7 @@ use std::path::Path;
 
 use glam::DVec3;
 use rasterproof_host::text::{printable_path, printable_short};
+use rasterproof_render::pipeline::highlight::Specular;
 
 use crate::Warnings;
 use crate::textures;
@@ -22,6 +23,11 @@ pub(crate) struct Described {
     pub not_drawn: BTreeSet<String>,
     ambient: Option<DVec3>,
     ambient_map: Option<textures::Described>,
+    /// Its specular colour (`Ks`) and exponent (`Ns`).
+    specular: Specular,
+    has_specular_map: bool,
+    /// Whether the model of light (`illum` 0 or 1) has no highlights.
+    is_matt: bool,
 }
 
 /// Lines that change nothing that could be seen: an empty line is one. The index of refraction has an effect with
@@ -88,6 +94,9 @@ fn read_line(kind: &str, rest: &str, materials: &mut Vec<Described>) -> Result<(
     let material = materials.last_mut().ok_or_else(|| format!("'{kind}' before any 'newmtl'"))?;
     // Of what is not drawn a wrong number is no loss.
     let number = rest.split_whitespace().next_back().and_then(|word| word.parse::<f64>().ok());
+    if lower == "map_ks" {
+        material.has_specular_map = true;
+    }
     let is_lit = || colour("", rest).is_ok_and(|colour| colour.max_element() > 0.0);
     let key = match lower.as_str() {
         "kd" => {
@@ -123,7 +132,14 @@ fn read_line(kind: &str, rest: &str, materials: &mut Vec<Described>) -> Result<(
                 _ => "other map",
             }
         }
-        "ks" if is_lit() => "specular colour of material",
+        "ks" => {
+            material.specular.colour = colour(kind, rest)?.max(DVec3::ZERO);
+            return Ok(());
+        }
+        "ns" => {
+            material.specular.shininess = number.unwrap_or_default();
+            return Ok(());
+        }
         "ke" if is_lit() => "emission of material",
         "km" | "kt" if is_lit() => "reflection or transmission colour of material",
         "tf" if colour("", rest)
@@ -131,13 +147,19 @@ fn read_line(kind: &str, rest: &str, materials: &mut Vec<Described>) -> Result<(
         {
             "transmission filter of material"
         }
-        "ns" if number.is_some_and(|number| number > 0.0) => "shininess of material",
         "d" if number.is_some_and(|number| number < 1.0) => "transparency of material",
         // Some programs write the opposite, so a 1 means nothing for sure.
         "tr" if number.is_some_and(|number| number > 0.0 && number < 1.0) => {
             "transparency of material"
         }
-        "illum" if number == Some(0.0) => "constant light (illum 0) of material",
+        "illum" if number == Some(1.0) => {
+            material.is_matt = true;
+            return Ok(());
+        }
+        "illum" if number == Some(0.0) => {
+            material.is_matt = true;
+            "constant light (illum 0) of material"
+        }
         "illum" if number.is_some_and(|number| number > 2.0) => "reflection (illum) of material",
         _ if is_physical && number.is_some_and(|number| number != 0.0) => {
             "physically based value of material"
@@ -149,6 +171,14 @@ fn read_line(kind: &str, rest: &str, materials: &mut Vec<Described>) -> Result<(
 }
 
 impl Described {
+    /// Its highlights, as far as they are drawn: not those that a map makes brighter and darker, nor those of a
+    /// model of light that has none.
+    pub(crate) fn specular(&self) -> Specular {
+        let Specular { colour, shininess } = self.specular;
+        let is_drawn = !self.is_matt && !self.has_specular_map && shininess > 0.0;
+        if is_drawn && colour != DVec3::ZERO { self.specular } else { Specular::default() }
+    }
+
     /// Compares the ambient colour with the diffuse one, which is used in its place.
     fn finish(&mut self) {
         let differs = |colour: DVec3| colour != DVec3::ZERO && Some(colour) != self.colour;
@@ -158,6 +188,15 @@ impl Described {
         let name = |map: &Option<textures::Described>| map.as_ref().map(|map| map.name.clone());
         if self.ambient_map.is_some() && name(&self.ambient_map) != name(&self.texture) {
             self.not_drawn.insert("ambient map".to_owned());
+        }
+        if self.specular.colour != DVec3::ZERO && !self.is_matt {
+            if self.has_specular_map {
+                self.not_drawn.insert("specular colour with a map of material".to_owned());
+            } else if self.specular() == Specular::default() {
+                // Without an exponent the whole surface would be one highlight.
+                self.not_drawn
+                    .insert("specular colour without shininess (Ns) of material".to_owned());
+            }
         }
         for option in self.texture.iter().flat_map(|texture| &texture.not_applied) {
             self.not_drawn.insert(format!("option {option} of texture"));

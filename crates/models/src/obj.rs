@@ -239,6 +239,7 @@ fn surface(
         name: material.name.clone(),
         colour: material.colour.unwrap_or(missing),
         texture,
+        specular: material.specular(),
         unlit: false,
         both_sides: true,
     }

@@ -7,6 +7,7 @@ use std::path::Path;
 
 use glam::{DMat4, DVec2, DVec3};
 use rasterproof_host::text::{printable_path, printable_short};
+use rasterproof_render::pipeline::highlight::Specular;
 
 use crate::contents::{Contents, INCOMPLETE_FACE, Part, Polygon, PolygonCorner, Surface};
 use crate::textures::Textures;
@@ -580,6 +581,7 @@ fn surface(
                 name: String::new(),
                 colour: DVec3::ONE,
                 texture: Some(decoded.texture),
+                specular: Specular::default(),
                 unlit: false,
                 both_sides: true,
             });

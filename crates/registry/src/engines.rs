@@ -274,7 +274,7 @@ impl Drawer {
         scene: &Scene,
         effects: &Effects,
         target: &mut Target,
-    ) -> Result<(Rendered, Frame<u16>), BadScene> {
+    ) -> Result<(Rendered, Frame<u32>), BadScene> {
         match self {
             Self::Scanline => render::render_mapped(scene, &Scanline, effects, target),
             Self::EdgeFunction => render::render_mapped(

@@ -180,18 +180,22 @@ fn compare_depths(a: &Target, b: &Target, ties: Option<&Ties>) -> (u64, Vec<(i32
 }
 
 /// The effects of a map, in the order of its panels, each with its colour.
-pub const MAP_COLOURS: [(Effect, [u8; 3]); 6] = [
+pub const MAP_COLOURS: [(Effect, [u8; 3]); 7] = [
     (Effect::Samples, [235, 140, 30]),
     (Effect::Perspective, [225, 70, 70]),
     (Effect::Depth, [80, 130, 240]),
     (Effect::Colour, [215, 195, 40]),
     (Effect::Light, [60, 180, 90]),
     (Effect::Texture, [190, 90, 205]),
+    (Effect::Specular, [240, 190, 60]),
 ];
 
+/// Those of the book, which have a place in every map; the others where something pays for them.
+const OF_EVERY_MAP: usize = 6;
+
 #[must_use]
-pub fn paid(map: &Frame<u16>, effect: Effect) -> u64 {
-    let pays = |paid: &&u16| **paid & (1 << effect as u16) != 0;
+pub fn paid(map: &Frame<u32>, effect: Effect) -> u64 {
+    let pays = |paid: &&u32| **paid & (1 << effect as u32) != 0;
     map.rows().map(|(_, row)| row.iter().filter(pays).count() as u64).sum()
 }
 
@@ -201,19 +205,22 @@ const MAP_WIDTH_PX: u32 = 1440;
 
 /// A map of effects as one small picture for each: the frame, dimmed, and in colour what paid for it.
 #[must_use]
-pub fn map_picture(title: &str, picture: &Frame<Colour>, map: &Frame<u16>) -> RgbImage {
+pub fn map_picture(title: &str, picture: &Frame<Colour>, map: &Frame<u32>) -> RgbImage {
     const GAP: u32 = 12;
     let bounds = map.bounds();
     let shrunk = (bounds.width() * MAP_COLUMNS).div_ceil(MAP_WIDTH_PX).max(1);
     let (width, height) = (bounds.width().div_ceil(shrunk), bounds.height().div_ceil(shrunk));
     let cell = [width.max(210) + GAP, height + 42 + GAP];
-    let rows = (MAP_COLOURS.len() as u32).div_ceil(MAP_COLUMNS);
+    let mut shown = MAP_COLOURS[..OF_EVERY_MAP].to_vec();
+    let others = MAP_COLOURS[OF_EVERY_MAP..].iter();
+    shown.extend(others.filter(|(effect, _)| paid(map, *effect) > 0));
+    let rows = (shown.len() as u32).div_ceil(MAP_COLUMNS);
     let size = [GAP + MAP_COLUMNS * cell[0], 40 + rows * cell[1] + 24];
     let mut sheet = RgbImage::from_pixel(size[0], size[1], image::Rgb([255, 255, 255]));
     let (ink, faint) = (image::Rgb([30, 30, 30]), image::Rgb([95, 95, 95]));
     write(&mut sheet, (GAP.into(), 10), title, Size::Heading, ink);
     let pixels = u64::from(bounds.width()) * u64::from(bounds.height());
-    for (i, (effect, colour)) in (0u32..).zip(MAP_COLOURS) {
+    for (i, (effect, colour)) in (0u32..).zip(shown) {
         let left = GAP + i % MAP_COLUMNS * cell[0];
         let top = 40 + i / MAP_COLUMNS * cell[1];
         let at = |down: i64| (i64::from(left), i64::from(top) + down);
@@ -234,7 +241,7 @@ pub fn map_picture(title: &str, picture: &Frame<Colour>, map: &Frame<u16>) -> Rg
 /// The mean of a block of the frame, in the effect's colour where it is paid for, else dimmed.
 fn block_mean(
     picture: &Frame<Colour>,
-    map: &Frame<u16>,
+    map: &Frame<u32>,
     (effect, colour): (Effect, [u8; 3]),
     [x, y]: [u32; 2],
     side: u32,
@@ -248,7 +255,7 @@ fn block_mean(
             continue;
         };
         let grey = (u32::from(r) * 2 + u32::from(g) * 5 + u32::from(b)) / 8;
-        let shown = match paid & (1 << effect as u16) {
+        let shown = match paid & (1 << effect as u32) {
             0 => [40 + grey / 5; 3],
             // The frame shows through.
             _ => colour.map(|c| u32::from(c) * (160 + grey * 3 / 8) / 256),

@@ -145,11 +145,12 @@ pub fn survey(
 const OTHER: Colour = [255, 0, 255, 255];
 
 /// Effects that pixels pay for one by one.
-const MAPPED: [Effect; 7] = [
+const MAPPED: [Effect; 8] = [
     Effect::Perspective,
     Effect::Depth,
     Effect::Colour,
     Effect::Light,
+    Effect::Specular,
     Effect::Texture,
     Effect::Interpolation,
     Effect::Samples,

@@ -11,6 +11,7 @@ use gltf_json::texture::{Info, MagFilter, WrappingMode};
 use gltf_json::validation::Checked;
 use rasterproof_host::limits;
 use rasterproof_host::text::{printable_path, printable_short};
+use rasterproof_render::pipeline::highlight::Specular;
 use rasterproof_render::pipeline::texture::{Filter, Texture, Wrap};
 
 use super::data::{Data, resource};
@@ -86,9 +87,16 @@ pub(super) fn describe(
         Some(other) => (other.diffuse_factor.0, other.diffuse_texture.as_ref()),
         None => (pbr.base_color_factor.0, pbr.base_color_texture.as_ref()),
     };
+    let mut specular = Specular::default();
     if let Some(other) = other {
-        if other.specular_factor.0.iter().any(|&channel| channel > 0.0) {
-            count("specular colour of material");
+        let is_shiny = other.specular_factor.0.iter().any(|&channel| channel > 0.0);
+        if is_shiny && other.specular_glossiness_texture.is_some() {
+            count("specular colour with a map of material");
+        } else if is_shiny {
+            specular = glossy(other.specular_factor.0, other.glossiness_factor.0);
+            if specular.shininess <= 0.0 {
+                count("specular colour without gloss of material");
+            }
         }
         if other.specular_glossiness_texture.is_some() {
             count("specular map");
@@ -149,10 +157,20 @@ pub(super) fn describe(
             name,
             colour: DVec3::new(r.into(), g.into(), b.into()).map(encoded),
             texture,
+            specular,
             unlit,
             both_sides: material.double_sided,
         },
     })
+}
+
+/// The highlight that is about as wide as that of a physically based surface: of roughness a = (1 - gloss)^2, the
+/// exponent 2 / a^2 - 2.
+fn glossy([r, g, b]: [f32; 3], gloss: f32) -> Specular {
+    let roughness = libm::pow(1.0 - f64::from(gloss).clamp(0.0, 1.0), 4.0);
+    let colour = DVec3::new(r.into(), g.into(), b.into()).map(encoded);
+    // Without any roughness it is a point, and its exponent the largest one.
+    Specular { colour, shininess: (2.0 / roughness - 2.0).min(f64::MAX) }
 }
 
 /// The picture of a texture with its sampler, and whether some of it is transparent.

@@ -1,6 +1,6 @@
 //! A scene on its way from plan to picture: in clip space, and in pieces where they are looked at.
 
-use super::conditions::{interpolation, perspective};
+use super::conditions::{interpolation, perspective, specular};
 use super::plan::{Order, PiecePlan, Plan, Rule};
 use super::primitive::{BadScene, Piece, Prepared};
 use crate::pipeline::Counters;
@@ -50,8 +50,9 @@ impl<'a> Assembled<'a> {
 
 /// What a rule says about a piece.
 #[inline]
-pub(super) fn plan_of(rule: &Rule, piece: &Piece) -> PiecePlan {
+pub(super) fn plan_of(rule: &Rule, item: &Prepared<'_>, piece: &Piece) -> PiecePlan {
     let interpolates = interpolation::of(rule, piece);
     let perspective = perspective::pays(rule.perspective, piece, interpolates);
-    PiecePlan { interpolates, perspective, depth: rule.depth }
+    let specular = specular::pays(rule.specular, item, piece);
+    PiecePlan { interpolates, perspective, depth: rule.depth, specular }
 }

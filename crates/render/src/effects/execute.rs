@@ -142,7 +142,7 @@ impl From<BadScene> for PlanError {
 pub(super) enum Observer<'a> {
     None,
     /// Notes for each pixel what it paid for.
-    Map(&'a mut Frame<u16>),
+    Map(&'a mut Frame<u32>),
     /// Looks at the screen meanwhile.
     Viewer {
         front: &'a mut Frame<Colour>,
@@ -188,19 +188,26 @@ pub(super) fn fit<'a>(
     let lists = |item: &ItemPlan| matches!(item.pieces, Pieces::Listed(_));
     if plan.items.iter().any(lists) || plan.frame.order == Order::FarthestFirst {
         assembled.assemble(scene);
-        assembled.plans = plans(plan, assembled.pieces.as_deref().unwrap_or_default())?;
+        assembled.plans =
+            plans(plan, &assembled.items, assembled.pieces.as_deref().unwrap_or_default())?;
         assembled.sort(plan.frame.order);
     }
     Ok(assembled)
 }
 
 /// What a plan says of each piece, in the order of submission.
-fn plans(plan: &Plan, pieces: &[(usize, Piece)]) -> Result<Vec<PiecePlan>, PlanError> {
+fn plans(
+    plan: &Plan,
+    items: &[Prepared<'_>],
+    pieces: &[(usize, Piece)],
+) -> Result<Vec<PiecePlan>, PlanError> {
     let mut plans = Vec::with_capacity(pieces.len());
     for (item, ItemPlan { pieces: planned, .. }) in plan.items.iter().enumerate() {
         let own = pieces.iter().filter(|(index, _)| *index == item);
         match planned {
-            Pieces::AsTheyCome(rule) => plans.extend(own.map(|(_, piece)| plan_of(rule, piece))),
+            Pieces::AsTheyCome(rule) => {
+                plans.extend(own.map(|(_, piece)| plan_of(rule, &items[item], piece)));
+            }
             Pieces::Listed(runs) => {
                 let there = own.count() as u64;
                 let planned =
@@ -267,7 +274,7 @@ impl<E: Interpolate> Stage<'_, '_, E> {
             let Pieces::AsTheyCome(rule) = self.plan.items[index].pieces else { continue };
             let mut counters = std::mem::take(&mut self.counters);
             item.assemble(scene, &mut counters, &mut |piece, fills| {
-                self.draw(item, piece, plan_of(&rule, piece), fills);
+                self.draw(item, piece, plan_of(&rule, item, piece), fills);
             });
             self.counters += counters;
             self.look();
@@ -375,19 +382,20 @@ impl<E: Interpolate> Stage<'_, '_, E> {
 }
 
 /// What a fragment of a piece pays for, as bits of [`Effect`].
-fn paid(plan: PiecePlan) -> u16 {
-    let PiecePlan { interpolates, perspective, depth } = plan;
+fn paid(plan: PiecePlan) -> u32 {
+    let PiecePlan { interpolates, perspective, depth, specular } = plan;
     [
         (Effect::Perspective, perspective && !interpolates.is_empty()),
         (Effect::Depth, depth),
         (Effect::Colour, interpolates.has(Attributes::COLOUR)),
         (Effect::Light, interpolates.has(Attributes::NORMAL)),
+        (Effect::Specular, specular),
         (Effect::Texture, interpolates.has(Attributes::UV)),
         (Effect::Interpolation, !interpolates.is_empty()),
     ]
     .into_iter()
     .filter(|(_, pays)| *pays)
-    .fold(0, |bits, (effect, _)| bits | 1 << effect as u16)
+    .fold(0, |bits, (effect, _)| bits | 1 << effect as u32)
 }
 
 /// The picture so far.
@@ -396,12 +404,12 @@ fn resolve(on_demand: Option<&OnDemand>, target: &Target) -> Frame<Colour> {
 }
 
 /// Marks the pixels whose samples were told apart.
-fn mark_samples(map: &mut Frame<u16>, on_demand: Option<&OnDemand>) {
+fn mark_samples(map: &mut Frame<u32>, on_demand: Option<&OnDemand>) {
     let bounds = map.bounds();
     for y_px in bounds.y0..bounds.y1 {
         for (x_px, pixel) in (bounds.x0..).zip(map.row_mut(y_px)) {
             if on_demand.is_none_or(|on_demand| on_demand.was_apart(x_px, y_px)) {
-                *pixel |= 1 << Effect::Samples as u16;
+                *pixel |= 1 << Effect::Samples as u32;
             }
         }
     }

@@ -15,6 +15,7 @@ use super::plan::{Attributes, ItemPlan, PiecePlan, Pieces};
 use super::primitive::{BadScene, Prepared};
 use super::{Effects, Mode};
 use crate::pipeline::clip::Outcode;
+use crate::pipeline::highlight::Highlight;
 use crate::pipeline::shade::{ALL, Light};
 use crate::pipeline::texture::Texture;
 use crate::scene::{Corner, Hidden, Scene};
@@ -29,6 +30,7 @@ pub struct SurfaceMaterial<'a> {
     pub colours: bool,
     pub light: Option<DirectionalLight>,
     pub texture: Option<&'a Texture>,
+    pub highlight: Option<Highlight>,
 }
 
 /// A [`Light`].
@@ -235,7 +237,8 @@ impl<'a> Item<'a> {
     ) -> Result<Self, BadScene> {
         let item = &scene.items[index];
         let carries = attributes::carries(scene, item, &Effects::PLANNED);
-        let of_pieces = PiecePlan { interpolates: carries, perspective: true, depth: true };
+        let (perspective, depth, specular) = (true, true, true);
+        let of_pieces = PiecePlan { interpolates: carries, perspective, depth, specular };
         let plan = ItemPlan {
             clip: Mode::Planned,
             cull: Mode::Planned,
@@ -253,6 +256,7 @@ impl<'a> Item<'a> {
             colours: carries.has(Attributes::COLOUR),
             light: carries.has(Attributes::NORMAL).then(|| directional_light(&prepared.light)),
             texture: prepared.texture,
+            highlight: prepared.carries_highlights.then_some(prepared.highlight),
         };
         Ok(Self { material, prepared, vertices, first })
     }

@@ -10,6 +10,7 @@ use super::primitive::{Piece, Prepared, pack};
 use super::samples::OnDemand;
 use crate::pipeline::Counters;
 use crate::pipeline::fill::{Stage, Way, each, fill, fill_flat};
+use crate::pipeline::highlight::{Highlight, brightened};
 use crate::pipeline::shade::{ALL, Attributes as Packed, Light, Surface};
 use crate::pipeline::target::{Antialias, Colour, Target, to_colour};
 use crate::pipeline::texture::Texture;
@@ -26,11 +27,15 @@ pub(super) struct Kernel<'a> {
     light: Light,
     /// The light, where it does not vary.
     intensity: f64,
+    /// Of normals that vary.
+    highlight: Option<&'a Highlight>,
+    /// The highlight, where it does not vary.
+    shine: [u8; 3],
 }
 
 impl<'a> Kernel<'a> {
     pub fn new(
-        item: &Prepared<'a>,
+        item: &'a Prepared<'_>,
         piece: &Piece,
         plan: PiecePlan,
         counters: &mut Counters,
@@ -44,6 +49,8 @@ impl<'a> Kernel<'a> {
             texel: DVec3::ONE,
             light: item.light,
             intensity: 1.0,
+            highlight: None,
+            shine: [0; 3],
         };
         if constant(Attributes::COLOUR) {
             kernel.base *= first.colour;
@@ -55,6 +62,12 @@ impl<'a> Kernel<'a> {
         if constant(Attributes::NORMAL) {
             counters.lights += 1;
             kernel.intensity = item.light.intensity(first.normal);
+        }
+        if plan.specular && plan.interpolates.has(Attributes::NORMAL) {
+            kernel.highlight = Some(&item.highlight);
+        } else if plan.specular && item.carries.has(Attributes::NORMAL) {
+            counters.highlights += 1;
+            kernel.shine = item.highlight.at(first.normal);
         }
         kernel
     }
@@ -87,7 +100,7 @@ impl<'a> Kernel<'a> {
         samples: Option<&mut OnDemand>,
         counters: &mut Counters,
     ) {
-        let colour = to_colour(self.shade::<0, 0>(&Packed([])));
+        let colour = self.shade::<0, 0>(&Packed([]));
         let shaded = counters.shaded;
         if let Some(on_demand) = samples {
             on_demand.draw_flat(engine, piece, self.plan, colour, target, counters);
@@ -127,11 +140,12 @@ impl<'a> Kernel<'a> {
         counters.components += fragments * N as u64;
         counters.divisions += if way.affine { 0 } else { fragments };
         counters.texels += if MASK & Attributes::UV != 0 { shaded } else { 0 };
+        counters.highlights += if self.highlight.is_some() { shaded } else { 0 };
         counters.lights += if MASK & Attributes::NORMAL != 0 { shaded } else { 0 };
     }
 
     /// The colour of all attributes, for what has no kernel of its own.
-    pub fn shade_all(&self, varying: &Packed<ALL>) -> DVec3 {
+    pub fn shade_all(&self, varying: &Packed<ALL>) -> Colour {
         let uv = Surface::from(*varying).uv;
         self.shade_texel(varying, self.varying_texture().map_or(self.texel, |t| t.at(uv)))
     }
@@ -142,32 +156,44 @@ impl<'a> Kernel<'a> {
     }
 
     /// The same with this texel.
-    pub fn shade_texel(&self, varying: &Packed<ALL>, texel: DVec3) -> DVec3 {
+    pub fn shade_texel(&self, varying: &Packed<ALL>, texel: DVec3) -> Colour {
         let Surface { colour, normal, .. } = (*varying).into();
         let varies = |bit: u8| self.plan.interpolates.has(bit);
         let intensity =
             if varies(Attributes::NORMAL) { self.light.intensity(normal) } else { self.intensity };
         let colour = if varies(Attributes::COLOUR) { self.base * colour } else { self.base };
-        colour * texel * intensity
+        self.finish::<true>(colour * texel * intensity, normal)
     }
 
     /// The fragment stage of the attributes in `MASK`: a function of its own, so that there is one
     /// copy for all rasterizers.
     fn stage<const N: usize, const MASK: u8>(&self) -> impl Fn(&[Packed<N>], u32, &mut [Colour]) {
-        each(|varying| to_colour(self.shade::<N, MASK>(varying)))
+        each(|varying| self.shade::<N, MASK>(varying))
     }
 
-    /// base x colour x texel x light; what is not in `MASK` is constant.
+    /// The colour in whole steps, with its highlight.
     #[inline]
-    fn shade<const N: usize, const MASK: u8>(&self, varying: &Packed<N>) -> DVec3 {
+    fn finish<const HAS_NORMAL: bool>(&self, colour: DVec3, normal: DVec3) -> Colour {
+        let colour = to_colour(colour);
+        match self.highlight {
+            Some(highlight) if HAS_NORMAL => brightened(colour, highlight.at(normal)),
+            _ => brightened(colour, self.shine),
+        }
+    }
+
+    /// base x colour x texel x light, and the highlight; what is not in `MASK` is constant.
+    #[inline]
+    fn shade<const N: usize, const MASK: u8>(&self, varying: &Packed<N>) -> Colour {
         let mut rest = varying.0.iter().copied();
         let mut next = || rest.next().unwrap_or_default();
         let mut colour = self.base;
         if MASK & Attributes::COLOUR != 0 {
             colour *= DVec3::new(next(), next(), next());
         }
+        let mut normal = DVec3::ZERO;
         let intensity = if MASK & Attributes::NORMAL != 0 {
-            self.light.intensity(DVec3::new(next(), next(), next()))
+            normal = DVec3::new(next(), next(), next());
+            self.light.intensity(normal)
         } else {
             self.intensity
         };
@@ -177,6 +203,11 @@ impl<'a> Kernel<'a> {
             }
             _ => self.texel,
         };
-        colour * texel * intensity
+        let colour = colour * texel * intensity;
+        if MASK & Attributes::NORMAL != 0 {
+            self.finish::<true>(colour, normal)
+        } else {
+            self.finish::<false>(colour, normal)
+        }
     }
 }

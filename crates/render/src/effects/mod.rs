@@ -50,6 +50,8 @@ pub enum Effect {
     Colour,
     /// Light, and the normals it needs.
     Light,
+    /// Highlights.
+    Specular,
     /// Texture lookup, and the coordinates it needs.
     Texture,
     /// Interpolating an attribute, and computing what depends on it, in each fragment.
@@ -64,7 +66,7 @@ pub enum Effect {
 
 impl Effect {
     /// All effects, in the order of the pipeline.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 14] = [
         Self::Clip,
         Self::Cull,
         Self::WideWords,
@@ -73,6 +75,7 @@ impl Effect {
         Self::DepthBuffer,
         Self::Colour,
         Self::Light,
+        Self::Specular,
         Self::Texture,
         Self::Interpolation,
         Self::Samples,
@@ -92,6 +95,7 @@ impl Effect {
             Self::DepthBuffer => "depth-buffer",
             Self::Colour => "colour",
             Self::Light => "light",
+            Self::Specular => "specular",
             Self::Texture => "texture",
             Self::Interpolation => "interpolation",
             Self::Samples => "samples",
@@ -108,8 +112,8 @@ pub enum Mode {
     /// Wherever it is called for.
     #[default]
     Planned,
-    /// Wherever the material calls for it, whatever the triangles are like. Only interpolation
-    /// knows the difference: a flat material needs no normal in the fragment.
+    /// Wherever the material calls for it, whatever the triangles are like. Only interpolation and specular
+    /// light know the difference: a flat material needs no normal in the fragment.
     Material,
     /// Everywhere, called for or not.
     Always,
@@ -137,6 +141,7 @@ impl Effects {
         .with(Effect::WideWords, Mode::Planned)
         .with(Effect::Colour, Mode::Planned)
         .with(Effect::Light, Mode::Planned)
+        .with(Effect::Specular, Mode::Material)
         .with(Effect::Texture, Mode::Planned)
         .with(Effect::Interpolation, Mode::Material)
         .with(Effect::SecondBuffer, Mode::Planned);

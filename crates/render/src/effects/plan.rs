@@ -18,7 +18,7 @@ use rasterproof_core::grid::PixelRect;
 
 /// The form of plans that this program writes and reads. It changes when a word of a plan gets another
 /// meaning.
-pub const VERSION: u32 = 1;
+pub const VERSION: u32 = 2;
 
 /// What is drawn into, as far as a plan depends on it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -165,6 +165,8 @@ pub struct PiecePlan {
     pub perspective: bool,
     /// Whether depths are compared and written.
     pub depth: bool,
+    /// Whether highlights are added.
+    pub specular: bool,
 }
 
 /// How a [`PiecePlan`] is made of a piece when it is there.
@@ -179,6 +181,8 @@ pub struct Rule {
     pub perspective: Mode,
     /// Whether depths are compared and written.
     pub depth: bool,
+    /// Planned: where a highlight may show between the normals of the corners.
+    pub specular: Mode,
 }
 
 /// What the pieces of an item pay for.
@@ -403,7 +407,8 @@ mod tests {
 
     #[test]
     fn a_misspelt_word_of_a_plan_is_refused() {
-        let plan = PiecePlan { interpolates: Attributes(5), perspective: true, depth: false };
+        let interpolates = Attributes(5);
+        let plan = PiecePlan { interpolates, perspective: true, depth: false, specular: true };
         let text = serde_json::to_string(&plan).unwrap();
         assert_eq!(serde_json::from_str::<PiecePlan>(&text).unwrap(), plan);
         let error = serde_json::from_str::<PiecePlan>(&text.replace("depth", "depht")).unwrap_err();

@@ -4,12 +4,12 @@ use super::assembled::{Assembled, plan_of};
 use super::conditions::survey::Survey;
 use super::conditions::{
     attributes, clear, clip, cull, depth, depth_buffer, interpolation, perspective, samples,
-    second_buffer, wide_words,
+    second_buffer, specular, wide_words,
 };
 use super::plan::{
     Canvas, Clear, Decision, FramePlan, ItemPlan, Order, PiecePlan, Pieces, Plan, Rule, VERSION,
 };
-use super::primitive::{BadScene, Piece};
+use super::primitive::{BadScene, Piece, Prepared};
 use super::{Effect, Effects, Mode};
 use crate::pipeline::Counters;
 use crate::scene::{Hidden, Scene};
@@ -39,7 +39,7 @@ pub(super) fn plan<'a>(
     if is_listed {
         assembled.assemble(scene);
         let pieces = assembled.pieces.as_deref().unwrap_or_default();
-        let plans = list(effects, &drawn, &mut plan, pieces);
+        let plans = list(effects, &drawn, &mut plan, &assembled.items, pieces);
         is_tested = plans.iter().any(|plan| plan.depth);
         for ((index, piece), plan) in pieces.iter().zip(&plans) {
             surveys[*index].count(piece, *plan, word_bits(&piece.corners()));
@@ -52,8 +52,8 @@ pub(super) fn plan<'a>(
     } else if let Some(estimate) = &mut estimate {
         for item in &assembled.items {
             let interpolates = interpolation::at_most(item.item, item.carries);
-            estimate
-                .see_roughly(item, PiecePlan { interpolates, perspective: true, depth: is_tested });
+            let (perspective, depth, specular) = (true, is_tested, false);
+            estimate.see_roughly(item, PiecePlan { interpolates, perspective, depth, specular });
         }
     }
     let nothing = rasterproof_core::grid::SubpixelPoint::new(0, 0);
@@ -82,11 +82,13 @@ fn outset(scene: &Scene, canvas: &Canvas, effects: &Effects) -> Plan {
         let (interpolates, where_it_varies) = interpolation::rule(item, carries, effects);
         let perspective = perspective::mode(scene, effects);
         let depth = depth::pays(scene, effects, true);
+        let specular = specular::mode(scene, item, carries, effects);
+        let rule = Rule { interpolates, where_it_varies, perspective, depth, specular };
         ItemPlan {
             clip: effects.mode(Effect::Clip),
             cull: effects.mode(Effect::Cull),
             carries,
-            pieces: Pieces::AsTheyCome(Rule { interpolates, where_it_varies, perspective, depth }),
+            pieces: Pieces::AsTheyCome(rule),
         }
     };
     Plan {
@@ -111,6 +113,7 @@ fn list(
     effects: &Effects,
     canvas: &Canvas,
     plan: &mut Plan,
+    items: &[Prepared<'_>],
     pieces: &[(usize, Piece)],
 ) -> Vec<PiecePlan> {
     let apart =
@@ -134,7 +137,7 @@ fn list(
             continue;
         };
         let depth = rule.depth && overlaps.as_ref().is_none_or(|overlaps| overlaps[i]);
-        let plan = PiecePlan { depth, ..plan_of(rule, piece) };
+        let plan = PiecePlan { depth, ..plan_of(rule, &items[*index], piece) };
         match runs.last_mut() {
             Some((count, last)) if *last == plan => *count += 1,
             _ => runs.push((1, plan)),
@@ -161,6 +164,7 @@ fn account(
         decisions.push(perspective::explain(survey));
         decisions.push(depth::explain(survey, looked_at));
         decisions.extend(attributes::explain(survey));
+        decisions.push(specular::explain(survey));
         decisions.push(interpolation::explain(survey));
     }
     let triangles = scene.triangles() as u64;

@@ -8,6 +8,7 @@ use glam::{DMat3, DMat4, DVec2, DVec3};
 use super::Mode;
 use super::plan::{Attributes, ItemPlan};
 use crate::pipeline::assemble::{Assembler, BadVertex, Point, check_vertex};
+use crate::pipeline::highlight::Highlight;
 use crate::pipeline::shade::{ALL, Attributes as Packed, Light, Surface};
 use crate::pipeline::target::Antialias;
 use crate::pipeline::texture::Texture;
@@ -49,6 +50,9 @@ pub(super) struct Prepared<'a> {
     pub carries: Attributes,
     pub texture: Option<&'a Texture>,
     pub light: Light,
+    pub highlight: Highlight,
+    /// Whether a normal may have a highlight, and there is one.
+    pub carries_highlights: bool,
     index: usize,
     assembler: Assembler,
     /// From object to clip space.
@@ -63,6 +67,15 @@ static WHITE: LazyLock<Texture> = LazyLock::new(Texture::white);
 /// Whether light depends on the fragment or triangle: Gouraud's is a colour of the corners.
 pub(super) fn is_lit(scene: &Scene, item: &Item) -> bool {
     matches!(item.material.shading, Shading::Flat | Shading::Phong) && scene.light != Light::NONE
+}
+
+/// The highlights of an item.
+pub(super) fn highlight(scene: &Scene, item: &Item) -> Highlight {
+    // Camera space has z away from the eye.
+    let [x, y, z] =
+        [scene.view.x_axis, scene.view.y_axis, scene.view.z_axis].map_array(|axis| axis.z);
+    let towards_eye = -DVec3::new(x, y, z).normalize_or_zero();
+    Highlight::new(&item.material.specular, &scene.light, towards_eye)
 }
 
 impl<'a> Prepared<'a> {
@@ -94,12 +107,16 @@ impl<'a> Prepared<'a> {
     ) -> Self {
         let item = &scene.items[index];
         let texture = item.material.texture.as_deref().unwrap_or(&WHITE);
+        let highlight = highlight(scene, item);
+        let has_normals = is_lit(scene, item) && plan.carries.has(Attributes::NORMAL);
         Self {
             item,
             points: Vec::new(),
             carries: plan.carries,
             texture: plan.carries.has(Attributes::UV).then_some(texture),
             light: if is_lit(scene, item) { scene.light } else { Light::NONE },
+            highlight,
+            carries_highlights: has_normals && !highlight.is_dark(),
             index,
             assembler: assembler(item, plan, window),
             matrix: scene.projection * scene.view * item.model,

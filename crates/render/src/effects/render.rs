@@ -10,7 +10,7 @@ use super::planner;
 use super::{Effect, Effects, Mode};
 use crate::pipeline::Counters;
 use crate::pipeline::present::DoubleBuffer;
-use crate::pipeline::target::{Colour, Target, to_colour};
+use crate::pipeline::target::{Colour, Target};
 use crate::pipeline::wireframe::draw_edges;
 use crate::scene::Scene;
 use rasterproof_core::contract::{DrawLine, Interpolate, Rasterize};
@@ -90,7 +90,7 @@ pub fn render_mapped(
     engine: &impl Interpolate,
     effects: &Effects,
     target: &mut Target,
-) -> Result<(Rendered, Frame<u16>), BadScene> {
+) -> Result<(Rendered, Frame<u32>), BadScene> {
     let mut map = Frame::new(target.size(), 0);
     let rendered = plan_and_draw(scene, engine, effects, target, Observer::Map(&mut map))?;
     Ok((rendered, map))
@@ -132,11 +132,13 @@ pub fn render_wireframe(
     for item in &assembled.items {
         item.assemble(scene, &mut counters, &mut |piece, fills| {
             let interpolates = item.carries;
-            let plan = PiecePlan { interpolates, perspective: !scene.affine, depth: true };
+            let perspective = !scene.affine;
+            let specular = item.carries_highlights;
+            let plan = PiecePlan { interpolates, perspective, depth: true, specular };
             let kernel = Kernel::new(item, piece, plan, fills);
             draw_edges(drawer, piece, bounds, |f| {
                 fills.fragments += 1;
-                let colour = to_colour(kernel.shade_all(&f.varying));
+                let colour = kernel.shade_all(&f.varying);
                 for plane in &mut target.planes {
                     plane.test_and_write(f.x_px, f.y_px, format.key(f.depth), || colour);
                 }

@@ -96,7 +96,7 @@ impl Words {
 
     fn item(&mut self, item: &Item) {
         let Item { mesh, model, material, cull } = item;
-        let Material { colour, vertex_colours, texture, shading } = material;
+        let Material { colour, vertex_colours, texture, shading, specular } = material;
         self.numbers(&model.to_cols_array());
         self.point(*colour);
         self.whole((*vertex_colours).into());
@@ -107,6 +107,8 @@ impl Words {
             Shading::Gouraud => 2,
             Shading::Phong => 3,
         });
+        self.point(specular.colour);
+        self.numbers(&[specular.shininess]);
         self.whole(match cull {
             Cull::None => 0,
             Cull::Clockwise => 1,
@@ -143,12 +145,13 @@ mod tests {
         let renamed = Scene { name: "b".to_owned(), ..scene() };
         assert_eq!(SceneDigest::of(&renamed), digest);
         type Change = fn(&mut Scene);
-        let changes: [(&str, Change); 9] = [
+        let changes: [(&str, Change); 10] = [
             ("turned", |scene| scene.items[0].model = rasterproof_core::angle::turn_y(0.1)),
             ("another eye", |scene| scene.view = rasterproof_core::angle::turn_x(0.1)),
             ("another angle of view", |scene| scene.projection.x_axis.x = 2.0),
             ("lit", |scene| scene.light.ambient = 0.5),
             ("shading", |scene| scene.items[0].material.shading = Shading::Phong),
+            ("shiny", |scene| scene.items[0].material.specular.shininess = 10.0),
             ("culled", |scene| scene.items[0].cull = Cull::Clockwise),
             ("painted", |scene| scene.hidden = Hidden::Painter),
             ("twice", |scene| scene.items.push(scene.items[0].clone())),

@@ -12,6 +12,7 @@ pub mod clip;
 pub mod depth;
 pub mod draw;
 pub mod fill;
+pub mod highlight;
 pub mod multisample;
 pub mod present;
 pub mod shade;
@@ -66,6 +67,8 @@ pub struct Counters {
     pub texels: u64,
     /// Evaluations of the light.
     pub lights: u64,
+    /// Evaluations of a highlight.
+    pub highlights: u64,
     /// Evaluations of the whole fragment stage.
     pub shaded: u64,
     /// Samples whose colours were cleared.
@@ -96,6 +99,7 @@ impl std::ops::AddAssign for Counters {
         self.depth_failed += other.depth_failed;
         self.texels += other.texels;
         self.lights += other.lights;
+        self.highlights += other.highlights;
         self.shaded += other.shaded;
         self.cleared += other.cleared;
         self.depths_cleared += other.depths_cleared;

@@ -22,7 +22,7 @@ pub struct Entry {
     /// What it shows, with the book's section.
     pub about: &'static str,
     /// Makes it for a picture of width / height, turned by a share of a full turn.
-    build: fn(Scene, f64) -> Scene,
+    pub(super) build: fn(Scene, f64) -> Scene,
 }
 
 /// Every scene, in the order of the chapters.
@@ -93,10 +93,15 @@ pub const SCENES: &[Entry] = &[
     },
 ];
 
+/// All scenes that have a name: these, and those of effects beyond the book.
+pub fn entries() -> impl Iterator<Item = &'static Entry> {
+    SCENES.iter().chain(super::effects::SCENES)
+}
+
 /// The scene of a name for a picture of `aspect` = width / height, turned by `turn` of a full turn.
 #[must_use]
 pub fn scene(name: &str, aspect: f64, turn: f64) -> Option<Scene> {
-    let entry = SCENES.iter().find(|entry| entry.name == name)?;
+    let entry = entries().find(|entry| entry.name == name)?;
     // The near side of the book's chapter 10 is 6.4 x 4.8 at distance 1; 1.6 x 1.2 bends less.
     let (top, near, far) = (0.6, 1.0, 20.0);
     let projection = frustum(-top * aspect, top * aspect, -top, top, near, far).ok()?;
@@ -107,16 +112,16 @@ fn textured(texture: Texture, shading: Shading) -> Material {
     Material { texture: Some(Arc::new(texture)), shading, ..Material::default() }
 }
 
-fn with(mut scene: Scene, items: impl IntoIterator<Item = Item>) -> Scene {
+pub(super) fn with(mut scene: Scene, items: impl IntoIterator<Item = Item>) -> Scene {
     scene.items.extend(items);
     scene
 }
 
-fn turned(item: Item, centre: DVec3, turn: DMat4) -> Item {
+pub(super) fn turned(item: Item, centre: DVec3, turn: DMat4) -> Item {
     Item { model: about(centre, turn) * item.model, ..item }
 }
 
-const AHEAD: DVec3 = DVec3::new(0.0, 0.0, 4.0);
+pub(super) const AHEAD: DVec3 = DVec3::new(0.0, 0.0, 4.0);
 
 /// A square of side 3 ahead, its texture as large.
 fn ahead(texture: Texture) -> Item {
@@ -203,7 +208,7 @@ fn spinning(scene: Scene, turn: f64) -> Scene {
 }
 
 /// From behind the eye, above and to the left.
-fn daylight() -> Light {
+pub(super) fn daylight() -> Light {
     Light { towards: DVec3::new(-0.5, 0.7, -0.6).normalize(), ambient: 0.45, diffuse: 0.55 }
 }
 
@@ -298,6 +303,7 @@ fn everything(scene: Scene, turn: f64) -> Scene {
         vertex_colours: true,
         texture: Some(texture),
         shading: Shading::Phong,
+        ..Material::default()
     };
     let floor = shapes::quad([
         DVec3::new(-9.0, -1.2, -2.0),
@@ -334,10 +340,11 @@ mod tests {
 
     #[test]
     fn every_scene_has_triangles_and_a_name_of_its_own() {
-        for (i, entry) in SCENES.iter().enumerate() {
+        let entries: Vec<_> = entries().collect();
+        for (i, entry) in entries.iter().enumerate() {
             let scene = scene(entry.name, 4.0 / 3.0, 0.0).unwrap();
             assert!(scene.triangles() > 0, "{}", entry.name);
-            assert!(SCENES[..i].iter().all(|other| other.name != entry.name));
+            assert!(entries[..i].iter().all(|other| other.name != entry.name));
         }
         assert!(scene("no such scene", 1.0, 0.0).is_none());
     }

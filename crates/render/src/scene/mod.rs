@@ -3,6 +3,7 @@
 //! [`chapters`] rebuilds the book's scenes; [`shapes`] and [`textures`] make what they consist of. Nothing here draws.
 
 pub mod chapters;
+pub mod effects;
 pub mod meshes;
 pub mod named;
 pub mod random;
@@ -14,6 +15,7 @@ use std::sync::Arc;
 use glam::{DMat4, DVec2, DVec3};
 
 use crate::pipeline::assemble::Cull;
+use crate::pipeline::highlight::Specular;
 use crate::pipeline::shade::Light;
 use crate::pipeline::target::Colour;
 use crate::pipeline::texture::Texture;
@@ -100,12 +102,15 @@ pub struct Material {
     pub texture: Option<Arc<Texture>>,
     /// How light is laid on.
     pub shading: Shading,
+    /// Its highlights, with flat and Phong shading.
+    pub specular: Specular,
 }
 
 impl Default for Material {
     fn default() -> Self {
         let shading = Shading::Unlit;
-        Self { colour: DVec3::ONE, vertex_colours: false, texture: None, shading }
+        let specular = Specular::default();
+        Self { colour: DVec3::ONE, vertex_colours: false, texture: None, shading, specular }
     }
 }
 

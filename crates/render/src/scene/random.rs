@@ -8,6 +8,7 @@ use glam::DVec3;
 
 use super::{Hidden, Item, Material, Mesh, Scene, Shading, shapes, textures};
 use crate::pipeline::assemble::Cull;
+use crate::pipeline::highlight::Specular;
 use crate::pipeline::shade::Light;
 use crate::pipeline::texture::{Filter, Wrap};
 use crate::pipeline::transform::{about, frustum};
@@ -31,6 +32,26 @@ pub fn scene(seed: u64, index: u64) -> Scene {
     for _ in 0..rng.int(1, 5) {
         let item = item(&mut rng);
         scene.items.push(item);
+    }
+    scene
+}
+
+/// The same scene with effects beyond the book's: some of its materials have highlights.
+///
+/// # Panics
+/// As [`scene`].
+#[must_use]
+pub fn with_effects(seed: u64, index: u64) -> Scene {
+    let mut scene = scene(seed, index);
+    let mut rng = Rng::new("effects", seed, index);
+    for item in &mut scene.items {
+        if rng.chance(2) {
+            // From most of a surface to less than a pixel, and some too faint to be seen.
+            let shininess = [1.0, 4.0, 30.0, 500.0][rng.int(0, 3) as usize] * (0.5 + rng.unit());
+            let strength = if rng.chance(8) { 0.002 } else { 1.0 };
+            let colour = DVec3::new(rng.unit(), rng.unit(), rng.unit()) * strength;
+            item.material.specular = Specular { colour, shininess };
+        }
     }
     scene
 }
@@ -87,5 +108,6 @@ fn material(rng: &mut Rng) -> Material {
         vertex_colours: rng.chance(3),
         texture: texture.map(Arc::new),
         shading: Shading::ALL[rng.int(0, 3) as usize],
+        ..Material::default()
     }
 }

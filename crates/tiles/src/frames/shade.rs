@@ -12,6 +12,7 @@ use super::planes::{Depth, Planes, along};
 use super::samples::{CENTRE, Masks};
 use super::visible::{PAIR, Place, beside};
 use rasterproof_render::effects::geometry::{DirectionalLight, SurfaceMaterial};
+use rasterproof_render::pipeline::highlight::Highlight;
 use rasterproof_render::pipeline::multisample::SAMPLES;
 use rasterproof_render::pipeline::texture::{Texture, Wrap};
 
@@ -121,7 +122,7 @@ impl Brush<'_> {
     /// brought back to length 1, so that it is not divided by 1/w before.
     #[inline(always)]
     fn colours<S: Simd>(&self, simd: S, x: Lanes<S>, y: Lanes<S>, mask: u32) -> u32x16<S> {
-        let SurfaceMaterial { base, colours, light, texture } = self.material;
+        let SurfaceMaterial { base, colours, light, texture, highlight } = self.material;
         let w = Lanes::splat(simd, 1.0) / along(&self.planes.inv_w, x, y);
         let over_w = |i: usize| self.planes.over_w(i);
         let mut r = Lanes::splat(simd, base.x);
@@ -137,14 +138,19 @@ impl Brush<'_> {
             let texel = texels(simd, texture, u, v, mask);
             (r, g, b) = (r * texel[0], g * texel[1], b * texel[2]);
         }
+        let mut shine = [u32x16::splat(simd, 0); 3];
         if let Some(light) = light {
             let normal =
                 [along(&over_w(3), x, y), along(&over_w(4), x, y), along(&over_w(5), x, y)];
             let intensity = intensity(simd, light, normal);
             (r, g, b) = (r * intensity, g * intensity, b * intensity);
+            if let Some(highlight) = highlight {
+                shine = highlights(simd, highlight, normal, mask);
+            }
         }
         let opaque = u32x16::splat(simd, 0xff00_0000);
-        byte(r) | (byte(g) << 8) | (byte(b) << 16) | opaque
+        let [r, g, b] = [byte(r) + shine[0], byte(g) + shine[1], byte(b) + shine[2]];
+        r.min(255) | (g.min(255) << 8) | (b.min(255) << 16) | opaque
     }
 }
 
@@ -233,6 +239,35 @@ fn intensity<S: Simd>(simd: S, light: &DirectionalLight, [x, y, z]: [Lanes<S>; 3
     let cosine = (x * towards.x + y * towards.y + z * towards.z) / length;
     let lit = length.simd_gt(zero).select(cosine, zero);
     lit.max(zero) * light.diffuse + light.ambient
+}
+
+/// Highlights in whole steps, where `mask` has bits. Few pixels have one, so each is computed by itself.
+#[inline(always)]
+fn highlights<S: Simd>(
+    simd: S,
+    highlight: &Highlight,
+    [x, y, z]: [Lanes<S>; 3],
+    mask: u32,
+) -> [u32x16<S>; 3] {
+    let (halfway, least) = highlight.cone();
+    let halfway = halfway.as_vec3();
+    let length = (x * x + y * y + z * z).sqrt();
+    // A length of 0 makes NaN, which is not above.
+    let cosine = (x * halfway.x + y * halfway.y + z * halfway.z) / length;
+    let mut left = cosine.simd_gt(least as f32).to_bitmask() as u32 & mask;
+    let mut shine = [[0; 16]; 3];
+    let cosine = cosine.to_array();
+    while left != 0 {
+        let lane = left.trailing_zeros() as usize & 15;
+        left &= left - 1;
+        let [r, g, b] = highlight.of(cosine[lane].into()).map(u32::from);
+        (shine[0][lane], shine[1][lane], shine[2][lane]) = (r, g, b);
+    }
+    [
+        u32x16::load_array_ref(simd, &shine[0]),
+        u32x16::load_array_ref(simd, &shine[1]),
+        u32x16::load_array_ref(simd, &shine[2]),
+    ]
 }
 
 /// The nearest of 256 steps; beyond them the nearer end.

@@ -6,7 +6,7 @@
 use super::survey::Survey;
 use crate::effects::plan::{Attributes, Decision};
 use crate::effects::primitive::is_lit;
-use crate::effects::{Effect, Effects};
+use crate::effects::{Effect, Effects, Mode};
 use crate::pipeline::shade::Light;
 use crate::scene::{Item, Scene, Shading};
 
@@ -26,10 +26,13 @@ fn uses(scene: &Scene, item: &Item, effect: Effect) -> bool {
     }
 }
 
-/// The attributes that an item's pieces carry.
+/// The attributes that an item's pieces carry. Highlights that are asked for everywhere need normals.
 pub fn carries(scene: &Scene, item: &Item, effects: &Effects) -> Attributes {
-    let paid =
-        |(effect, _, _): &(Effect, u8, &str)| effects.pays(*effect, uses(scene, item, *effect));
+    let has_highlights = effects.mode(Effect::Specular) == Mode::Always;
+    let paid = |(effect, _, _): &(Effect, u8, &str)| {
+        let called_for = uses(scene, item, *effect);
+        effects.pays(*effect, called_for || *effect == Effect::Light && has_highlights)
+    };
     Attributes(ALL.into_iter().filter(paid).fold(0, |bits, (_, bit, _)| bits | bit))
 }
 

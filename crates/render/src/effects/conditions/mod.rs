@@ -13,5 +13,6 @@ pub(super) mod interpolation;
 pub(super) mod perspective;
 pub(super) mod samples;
 pub(super) mod second_buffer;
+pub(super) mod specular;
 pub(super) mod survey;
 pub(super) mod wide_words;

@@ -22,6 +22,8 @@ pub struct Survey<'a> {
     pub one_w: u64,
     pub perspective: u64,
     pub depth: u64,
+    /// Pieces that may have a highlight.
+    pub specular: u64,
     /// Whether the engine has words of several widths, and the pieces in more than 32 bits.
     pub has_widths: bool,
     pub wide: u64,
@@ -50,6 +52,7 @@ impl<'a> Survey<'a> {
             one_w: 0,
             perspective: 0,
             depth: 0,
+            specular: 0,
             has_widths: false,
             wide: 0,
             interpolated: [0; 3],
@@ -62,6 +65,7 @@ impl<'a> Survey<'a> {
         self.one_w += u64::from(has_one_w(piece));
         self.perspective += u64::from(plan.perspective && !plan.interpolates.is_empty());
         self.depth += u64::from(plan.depth);
+        self.specular += u64::from(plan.specular);
         self.wide += u64::from(word_bits > Some(i32::BITS));
         let bits = [Attributes::COLOUR, Attributes::NORMAL, Attributes::UV];
         for (count, bit) in self.interpolated.iter_mut().zip(bits) {
