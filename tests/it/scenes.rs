@@ -298,8 +298,8 @@ fn a_plan_of_something_else_is_refused() {
     assert!(words.contains("for another scene, or for the same one seen otherwise"), "{words}");
     let unsigned = Plan { scene: None, ..plan.clone() };
     assert!(refused(&unsigned, &cube, &mut other).contains("does not say which scene"));
-    let next = Plan { version: 3, ..plan.clone() };
-    assert!(refused(&next, &cube, &mut other).contains("version 3"));
+    let next = Plan { version: 2, ..plan.clone() };
+    assert!(refused(&next, &cube, &mut other).contains("version 2"));
     let smooth = &mut target(Antialias::Supersample(2));
     let msaa = Canvas { antialias: Antialias::Multisample4, ..Canvas::of(smooth) };
     let of_msaa = Drawer::Scanline.plan(&cube, &Effects::PLANNED, &msaa).unwrap();

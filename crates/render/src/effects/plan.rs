@@ -18,7 +18,7 @@ use rasterproof_core::grid::PixelRect;
 
 /// The form of plans that this program writes and reads. It changes when a word of a plan gets another
 /// meaning.
-pub const VERSION: u32 = 2;
+pub const VERSION: u32 = 1;
 
 /// What is drawn into, as far as a plan depends on it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -155,7 +155,20 @@ impl From<Attributes> for Vec<Attribute> {
     }
 }
 
-/// What each fragment of a piece pays for.
+fn is_false(word: &bool) -> bool {
+    !word
+}
+
+fn never() -> Mode {
+    Mode::Never
+}
+
+fn is_never(mode: &Mode) -> bool {
+    *mode == Mode::Never
+}
+
+/// What each fragment of a piece pays for. Words of effects beyond the book's are missing where they are not
+/// called for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PiecePlan {
@@ -166,6 +179,7 @@ pub struct PiecePlan {
     /// Whether depths are compared and written.
     pub depth: bool,
     /// Whether highlights are added.
+    #[serde(default, skip_serializing_if = "is_false")]
     pub specular: bool,
 }
 
@@ -182,6 +196,7 @@ pub struct Rule {
     /// Whether depths are compared and written.
     pub depth: bool,
     /// Planned: where a highlight may show between the normals of the corners.
+    #[serde(default = "never", skip_serializing_if = "is_never")]
     pub specular: Mode,
 }
 

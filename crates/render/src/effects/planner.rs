@@ -164,7 +164,7 @@ fn account(
         decisions.push(perspective::explain(survey));
         decisions.push(depth::explain(survey, looked_at));
         decisions.extend(attributes::explain(survey));
-        decisions.push(specular::explain(survey));
+        decisions.extend(specular::explain(survey));
         decisions.push(interpolation::explain(survey));
     }
     let triangles = scene.triangles() as u64;

@@ -6,6 +6,7 @@ use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use crate::pipeline::assemble::Cull;
+use crate::pipeline::highlight::Specular;
 use crate::pipeline::shade::Light;
 use crate::scene::{Corner, Hidden, Item, Material, Scene, Shading};
 
@@ -107,8 +108,11 @@ impl Words {
             Shading::Gouraud => 2,
             Shading::Phong => 3,
         });
-        self.point(specular.colour);
-        self.numbers(&[specular.shininess]);
+        // Of a scene without highlights the digest is what it was.
+        if *specular != Specular::default() {
+            self.point(specular.colour);
+            self.numbers(&[specular.shininess]);
+        }
         self.whole(match cull {
             Cull::None => 0,
             Cull::Clockwise => 1,

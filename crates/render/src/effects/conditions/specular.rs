@@ -41,31 +41,35 @@ pub fn pays(mode: Mode, item: &Prepared<'_>, piece: &Piece) -> bool {
     }
 }
 
-pub fn explain(survey: &Survey<'_>) -> Decision {
+/// Nothing of a material without highlights, unless these are asked for or refused everywhere.
+pub fn explain(survey: &Survey<'_>) -> Option<Decision> {
     let Survey { scene, item, pieces, specular, .. } = *survey;
     let has_colour = item.material.specular.colour.max_element() > 0.0;
+    let is_asked = !matches!(survey.effects.mode(Effect::Specular), Mode::Planned | Mode::Material);
     let is_on = mode(scene, item, survey.carries, survey.effects) == Mode::Always;
-    if !is_shiny(scene, item) {
+    let (on, reason) = if !is_shiny(scene, item) {
+        if !has_colour && !is_asked {
+            return None;
+        }
         let reason = match item.material.shading {
             _ if !has_colour => "the material has no highlights",
             Shading::Gouraud => "Gouraud: the light of the corners has no highlights",
             Shading::Unlit => "the material is unlit",
             _ => "no highlight is bright enough for one step of 255",
         };
-        return survey.decide(Effect::Specular, if is_on { pieces } else { 0 }, reason);
-    }
-    if survey.effects.mode(Effect::Specular) == Mode::Material {
-        let on = if is_on { pieces } else { 0 };
-        return survey.decide(Effect::Specular, on, "what the material's shader computes");
-    }
-    if !survey.is_listed {
-        return survey
-            .leave_open(Effect::Specular, "where normals are near enough to the highlight");
-    }
-    let reason = match specular {
-        0 => "no normal is near enough to the highlight",
-        _ if specular == pieces => "every piece may have a highlight",
-        _ => "some pieces may have a highlight",
+        (if is_on { pieces } else { 0 }, reason)
+    } else if survey.effects.mode(Effect::Specular) == Mode::Material {
+        (if is_on { pieces } else { 0 }, "what the material's shader computes")
+    } else if !survey.is_listed {
+        let reason = "where normals are near enough to the highlight";
+        return Some(survey.leave_open(Effect::Specular, reason));
+    } else {
+        let reason = match specular {
+            0 => "no normal is near enough to the highlight",
+            _ if specular == pieces => "every piece may have a highlight",
+            _ => "some pieces may have a highlight",
+        };
+        (specular, reason)
     };
-    survey.decide(Effect::Specular, specular, reason)
+    Some(survey.decide(Effect::Specular, on, reason))
 }
