@@ -33,9 +33,9 @@ pub struct PlanArguments {
     /// The rasterizer
     #[arg(long, default_value = "scanline", value_parser = super::one_of(RASTERIZERS))]
     engine: Drawer,
-    /// Rounds of measuring, each with every mixture of effects in turn
-    #[arg(long, default_value_t = 9, value_parser = clap::value_parser!(u32).range(1..=1000))]
-    rounds: u32,
+    /// Rounds of measuring, each with every mixture of effects in turn [default: 9, fewer for a large model]
+    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    rounds: Option<u32>,
     #[command(flatten)]
     page: PageArguments,
     /// For machines
@@ -93,6 +93,22 @@ struct Savings {
     planned: Measured,
     effects: Vec<Saving>,
     mixtures: Vec<Measured>,
+}
+
+/// Rounds where none are asked for, and the time that they may then take all together.
+const USUAL_ROUNDS: u32 = 9;
+const BUDGET: Duration = Duration::from_secs(10);
+
+/// How many rounds fit into the budget, and with how many mixtures: all of them, or the whole ones alone
+/// if not even two rounds of all fit. `warm` is the time of one round of the whole ones.
+fn fitting(warm: Duration, mixtures: usize) -> (u32, usize) {
+    let of = |count: usize| warm.as_secs_f64() * count as f64 / WHOLE.len() as f64;
+    let rounds = |count: usize| (BUDGET.as_secs_f64() / of(count).max(1e-9)) as u32;
+    match rounds(mixtures) {
+        // One of them warms up.
+        0 | 1 => (rounds(WHOLE.len()).clamp(1, USUAL_ROUNDS), WHOLE.len()),
+        some => ((some - 1).min(USUAL_ROUNDS), mixtures),
+    }
 }
 
 const WHOLE: [(&str, Effects); 3] =
@@ -180,29 +196,38 @@ fn measure(
     scene: &Scene,
     on_terminal: bool,
 ) -> Result<(Savings, Rendered, Rendered), Failure> {
-    let mixtures = mixtures();
-    // One more warms up.
-    let rounds = u64::from(arguments.rounds) + 1;
-    let progress = Progress::new(on_terminal, "rounds", Some(rounds));
+    let mut mixtures = mixtures();
+    let progress = Progress::new(on_terminal, "frames", None);
     let mut target = arguments.what.target()?;
-    let mut times: Vec<Vec<Duration>> = vec![Vec::new(); mixtures.len()];
-    let mut frames: Vec<Rendered> = Vec::new();
+    let mut draw = |effects: &Effects| {
+        let start = Instant::now();
+        let rendered = arguments.engine.render(scene, effects, &mut target).map_err(usage)?;
+        progress.done(1);
+        Ok::<_, Failure>((start.elapsed(), rendered))
+    };
     // The first round warms up and keeps the pictures.
-    for round in 0..=arguments.rounds {
+    let mut frames: Vec<Rendered> = Vec::new();
+    let mut warm = Duration::ZERO;
+    for (_, effects) in &mixtures[..WHOLE.len()] {
+        let (time, rendered) = draw(effects)?;
+        warm += time;
+        frames.push(rendered);
+    }
+    let (rounds, kept) = match arguments.rounds {
+        Some(rounds) => (rounds, mixtures.len()),
+        None => fitting(warm, mixtures.len()),
+    };
+    mixtures.truncate(kept);
+    for (_, effects) in &mixtures[WHOLE.len()..] {
+        frames.push(draw(effects)?.1);
+    }
+    let mut times: Vec<Vec<Duration>> = vec![Vec::new(); mixtures.len()];
+    for round in 1..=rounds {
         for k in 0..mixtures.len() {
             // Another one begins each round, so that none always follows the same.
-            let i = if round == 0 { k } else { (k + round as usize) % mixtures.len() };
-            let effects = &mixtures[i].1;
-            let start = Instant::now();
-            let rendered = arguments.engine.render(scene, effects, &mut target).map_err(usage)?;
-            let time = start.elapsed();
-            if round == 0 {
-                frames.push(rendered);
-            } else {
-                times[i].push(time);
-            }
+            let i = (k + round as usize) % mixtures.len();
+            times[i].push(draw(&mixtures[i].1)?.0);
         }
-        progress.done(1);
     }
     drop(progress);
     let measured =
@@ -260,6 +285,11 @@ fn describe(scene: &Scene, planned: &Rendered, everything: &Counters, savings: &
     for ((name, all), (_, planned)) in names(everything).into_iter().zip(names(&planned.counters)) {
         let _ = writeln!(text, "{name:<18} {all:>12} {planned:>11}");
     }
+    if savings.effects.is_empty() {
+        text += "\nOne effect at a time is not measured, since a round of all mixtures takes\nmore than 5 s here: --rounds 9 measures them.\n\n";
+        text += &whole(savings);
+        return text;
+    }
     text += "\nplanned          alone us     saves    last us     saves\n";
     for s in &savings.effects {
         let _ = writeln!(
@@ -273,6 +303,12 @@ fn describe(scene: &Scene, planned: &Rendered, everything: &Counters, savings: &
         );
     }
     text += "alone: the rest paid for; last: paid for, the rest planned\nnoise: the middle halves of the rounds of both overlap, or there are fewer than four\n\n";
+    text + &whole(savings)
+}
+
+/// The times of the whole mixtures.
+fn whole(savings: &Savings) -> String {
+    let mut text = String::new();
     for m in savings.all() {
         if !m.same {
             let _ = writeln!(text, "DIFFERENT PICTURE with the effects {}", m.effects);
@@ -328,20 +364,23 @@ fn report_page(
         title: format!("What the scene {} calls for", scene.name),
         outcome: Some(Outcome::of(same, sentence)),
         command: command.clone(),
-        tables: vec![Table {
-            caption:
-                "What planning one effect saves: alone, the rest always paid for; as the last, \
+        tables: (!savings.effects.is_empty())
+            .then(|| Table {
+                caption:
+                    "What planning one effect saves: alone, the rest always paid for; as the last, \
                       the rest planned"
-                    .to_owned(),
-            columns: vec![
-                column("effect", false),
-                column("alone us", true),
-                column("saves", true),
-                column("all but it us", true),
-                column("saves", true),
-            ],
-            rows: savings.effects.iter().map(row).collect(),
-        }],
+                        .to_owned(),
+                columns: vec![
+                    column("effect", false),
+                    column("alone us", true),
+                    column("saves", true),
+                    column("all but it us", true),
+                    column("saves", true),
+                ],
+                rows: savings.effects.iter().map(row).collect(),
+            })
+            .into_iter()
+            .collect(),
         frames: vec![PictureView {
             name: scene.name.clone(),
             about: scene.about.clone(),

@@ -1,5 +1,6 @@
 //! The command on a page makes the same page again: it holds every option that was given.
 
+use std::collections::BTreeSet;
 use std::process::Command;
 
 use crate::program::{Folder, PROGRAM, Run};
@@ -22,6 +23,9 @@ fn words_of(command: &str) -> Vec<String> {
     text.split_terminator('\0').skip(1).map(str::to_owned).collect()
 }
 
+/// Options that are refused together with `--report`, and the one for help.
+const WITHOUT_PAGE: [&str; 4] = ["--help", "--map", "--spin", "--views"];
+
 #[test]
 fn every_option_is_on_the_page() {
     let folder = Folder::new("page-commands");
@@ -37,7 +41,16 @@ fn every_option_is_on_the_page() {
             vec!["a 'model'.obj"],
             format!("{view} --engine edge-function --rounds 1 {report}"),
         ),
+        // Options that do not go together with those above.
+        (
+            "render",
+            vec![],
+            format!("--scene panels --size 32x24 --wireframe --output drawn.png --json {report}"),
+        ),
+        ("render", vec!["panels"], format!("--size 32x24 --plan plan.json {report}")),
+        ("plan", vec![], format!("--scene panels --size 32x24 --json --rounds 1 {report}")),
         ("study", vec!["a 'model'.obj"], format!("{view} --quick {report}")),
+        ("study", vec![], format!("--scene panels --size 32x24 --quick --json {report}")),
         ("inspect", vec!["-0.5,0.5", "5.5,0.5", "5.5,5.5"], {
             format!("--window 0,0,8x8 --plant inclusive-edges --pixel 1,1 {report}")
         }),
@@ -49,7 +62,18 @@ fn every_option_is_on_the_page() {
         }),
         ("cost", vec!["lines"], format!("--quick --seed 3 {report}")),
     ];
+    let plan = folder
+        .run(&["plan", "panels", "--size", "32x24", "--rounds", "1", "--json"][..])
+        .has(0)
+        .out;
+    std::fs::write(folder.join("plan.json"), plan).unwrap();
+    let mut tried = BTreeSet::new();
     for (name, positional, options) in runs {
+        tried.extend(
+            options
+                .split_whitespace()
+                .map(|word| (name, word.split('=').next().unwrap().to_owned())),
+        );
         let options = options.split_whitespace();
         let words: Vec<_> =
             std::iter::once(name).chain(positional.iter().copied()).chain(options).collect();
@@ -62,6 +86,20 @@ fn every_option_is_on_the_page() {
         // Some put the seed and the number of cases first.
         assert_eq!(sorted(again.clone()), sorted(typed), "{again:?}");
         assert_eq!(again[0], name);
+    }
+    for name in ["render", "plan", "study"] {
+        let help = folder.run(&[name, "--help"][..]).has(0).out;
+        let listed = help.lines().filter(|line| line.trim_start().starts_with('-'));
+        let options: Vec<_> = listed
+            .map(|line| {
+                format!("--{}", line.split_once("--").unwrap().1.split(' ').next().unwrap())
+            })
+            .filter(|option| !WITHOUT_PAGE.contains(&option.as_str()))
+            .collect();
+        assert!(options.len() > 12, "{help}");
+        for option in options {
+            assert!(tried.contains(&(name, option.clone())), "{name} {option} is not tried");
+        }
     }
     let judged = ["judge", "--cases", "5", "--family", "sliver", "--timeout", "9", "--jobs", "2"];
     let of_them = ["--seed", "2", "--declare", "rule=top left", "--report", "--out", "pages", "--"];
