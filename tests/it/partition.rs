@@ -8,6 +8,8 @@ use rasterproof::partition::{
 };
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation as _};
 
+use crate::pages::read;
+
 /// The triangles inside by the even-odd rule, of a triangulation that has all edges of the contours.
 fn spade(polygon: &Polygon) -> Vec<Triangle> {
     let mut mesh = ConstrainedDelaunayTriangulation::<Point2<f64>>::new();
@@ -93,5 +95,46 @@ fn partition_with_a_filled_hole_is_reported() {
     assert!(report.failures.iter().any(|failure| failure.kind == FaultKind::Outside), "{message}");
     for part in ["outside", "vec![vec![[", "family(Family::Touching)", "Coordinates::Integer"] {
         assert!(message.contains(part), "{part}: {message}");
+    }
+}
+
+/// Rows of the pages are the sums of what the adapters counted.
+#[test]
+fn pages_show_what_tessellators_of_others_did() {
+    let names = [
+        "cdt",
+        "earcut",
+        "earcut-i32",
+        "earcutr",
+        "i_triangle",
+        "kika",
+        "lyon_tessellation",
+        "poly2tri-rs",
+        "spade",
+        "triangulate",
+    ];
+    for name in names {
+        let text = read(&format!("adapters/tessellators/results/{name}.csv"));
+        let head: Vec<_> = text.lines().next().unwrap().split(',').collect();
+        let sum = |columns: &[&str]| -> String {
+            let is_meant = |(column, _): &(&&str, &str)| columns.contains(*column);
+            let cells = text.lines().skip(1).flat_map(|line| head.iter().zip(line.split(',')));
+            let counts = cells.filter(is_meant).map(|(_, cell)| cell.split(' ').next().unwrap());
+            counts.map(|count| count.parse::<u64>().unwrap()).sum::<u64>().to_string()
+        };
+        let cells = [
+            sum(&["judged"]),
+            sum(&["left out"]),
+            sum(&["wrong cover"]),
+            sum(&["panic", "refused", "process ended", "no answer"]),
+            sum(&["T-junction"]),
+            sum(&["degenerate"]),
+        ];
+        let (start, end) = (format!("| {name} "), format!(" | {} |", cells.join(" | ")));
+        for page in ["docs/tessellators.md", "docs/zh/tessellators.md"] {
+            let page = read(page).replace(',', "");
+            let is_row = |line: &str| line.starts_with(&start) && line.ends_with(&end);
+            assert!(page.lines().any(is_row), "{start}...{end}");
+        }
     }
 }
