@@ -599,6 +599,13 @@ fn find(kind: Kind, faults: &[Fault], number: usize, seed: u64, round: u64) -> O
     None
 }
 
+/// A low triangle whose width in subpixels overflows `i32`. Random corners that far apart are as far apart in y.
+fn wider_than_i32() -> Drawing {
+    let points = [(-4_300_000, -1), (4_300_000, -1), (0, 2)];
+    let points = points.map(|(x, y)| SubpixelPoint::new(x * SUBPIXELS, y * SUBPIXELS));
+    Drawing { kind: Kind::Triangle, window: [1, 1], points: points.to_vec() }
+}
+
 /// Makes the fixtures. `progress` hears of each that was found.
 #[must_use]
 pub fn generate(seed: u64, progress: &(dyn Fn(u64) + Sync)) -> Fixtures {
@@ -609,6 +616,9 @@ pub fn generate(seed: u64, progress: &(dyn Fn(u64) + Sync)) -> Fixtures {
             Fault::all().into_iter().filter(|f| matches!(f, Fault::Line(_)) == is_line).collect();
         let mut alive: Vec<usize> = (0..faults.len()).collect();
         let mut found: BTreeMap<Drawing, &str> = BTreeMap::new();
+        if kind == Kind::Triangle {
+            found.insert(wider_than_i32(), TileMutant::WrappedWidth.name());
+        }
         for round in 0.. {
             let drawings = parallel::map(alive.len(), |i| {
                 (alive[i], find(kind, &faults, alive[i], seed, round))
