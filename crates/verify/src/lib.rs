@@ -34,6 +34,7 @@
 //! | depths and attributes too | [`contract::Interpolate`] | [`assert_values!`] |
 //! | which pixels a line lights, in which order | [`contract::DrawLine`] | [`assert_lines!`] |
 //! | corners that are not snapped to a grid | [`contract::RasterizeExact`] | [`comparison::unsnapped::judge_exact`] |
+//! | the triangles that are made of a polygon | [`partition::Tessellate`], or a function | [`assert_partition!`] |
 //!
 //! Each macro judges 2,000 cases of every family in [`cases`]: corners on pixel centres, slivers, meshes, corners far outside the
 //! window. It panics where a pixel is wrong, and where nothing was judged at all. A second argument says what else is
@@ -134,6 +135,31 @@
 //! operations. [`tolerance::SCANLINE`](comparison::tolerance::SCANLINE) shows such a count line by line. The verdict reports the worst difference as a
 //! fraction of the bound. `examples/values.rs` shows what becomes of a bound that was guessed.
 //!
+//! # Partitions
+//!
+//! A tessellator turns a polygon into triangles. They are right if they cover every point of the polygon exactly once, and
+//! nothing beside it: no overlap, no gap, no triangle in a hole. [`partition`] decides this without a tolerance, and generates
+//! polygons on which tessellators fail: vertices on straight edges, spikes, contours that touch, points one ulp beside an edge.
+//!
+//! ```
+//! use rasterproof_verify::partition::{Coordinates, Options, Polygon, Triangle, judge_partitions};
+//!
+//! /// A fan around the first vertex, which is right if the polygon is convex.
+//! fn fan(polygon: &Polygon) -> Vec<Triangle> {
+//!     let vertices = &polygon.contours[0];
+//!     (2..vertices.len()).map(|i| [vertices[0], vertices[i - 1], vertices[i]]).collect()
+//! }
+//! let options = Options::default().cases(50).coordinates(Coordinates::F32);
+//! let error = judge_partitions(&fan, &options)?.check().unwrap_err().to_string();
+//! assert!(error.contains("outside: the smallest polygon that was found"));
+//! # Ok::<(), rasterproof_verify::comparison::NothingJudged>(())
+//! ```
+//!
+//! The message has the smallest polygon for each kind of fault, its triangles, and the options that repeat it. What a tessellator
+//! promises is declared, as a convention is: its fill rule, the winding of its triangles, the numbers that it takes without
+//! rounding, and the polygons that it [accepts](partition::Tessellate::accepts). In a test, `assert_partition!(fan)` does all of
+//! this in one line.
+//!
 //! # Fixtures
 //!
 //! A test suite that cannot call Rust reads `fixtures/fixtures.json` of this package: 1,000 small cases as triangles, fans, strips, lines
@@ -145,9 +171,8 @@
 //! - samples in `outline` lie exactly on an edge that belongs to one triangle alone. The top-left rule hits those of them that
 //!   are in `hit`. Specifications without a rule for edges, such as those of OpenGL and Vulkan, leave them open.
 //!
-//! # Partitions
-//!
-//! [`partition`] judges the triangles that a tessellator makes of polygons, and [`assert_partition!`] does it in one line.
+//! Pictures cannot show every fault. A rasterizer that passes may still have wrong depths and attributes, draw in a wrong order,
+//! or fail in windows that do not begin at the origin and in lists of more than 16 triangles.
 //!
 //! # Features
 //!
