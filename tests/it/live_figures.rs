@@ -11,7 +11,8 @@ use std::path::{Path, PathBuf};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use rasterproof_playground::answer::answer;
-use rasterproof_playground::figures::{ALL, Figure, Language, find};
+use rasterproof_playground::figures::{ALL, Figure, Grip, Language, find};
+use rasterproof_playground::page;
 use serde_json::{Value, json};
 
 use crate::page::{Browser, folder};
@@ -137,11 +138,14 @@ fn live_figures_are_whole() {
 
 /// A page with all figures, beside the script and the engines; nothing where the engines are not compiled.
 fn page_of_all(name: &str, language: &str) -> Option<PathBuf> {
-    module()?;
+    let module = module()?;
     let folder = folder(&format!("figures-{name}"));
     for file in ["crates/playground/page/figure.js", "target/rasterproof/engines.js"] {
         fs::copy(root().join(file), folder.join(Path::new(file).file_name().unwrap())).unwrap();
     }
+    // Where the links of the figures lead.
+    let playground = page::page(&page::PLAYGROUND, &fs::read(module).unwrap()).unwrap();
+    fs::write(folder.join("playground.html"), playground).unwrap();
     let still = |figure: &Figure| {
         let block = figure.block(if language == "zh" { Language::Zh } else { Language::En });
         // As Markdown becomes HTML, but for the picture.
@@ -261,6 +265,204 @@ fn wrong(browser: &mut Browser, figure: &Figure) -> Vec<String> {
     wrong
 }
 
+/// Goes where the address leads, as a click on the link does, and says what the panels show there.
+const FOLLOW: &str = r"new Promise(done => {
+    const look = () => {
+        drawFrame();
+        explained = 0;
+        explain(last.answer);
+        const [x0, y0, x1, y1] = state.window;
+        const kinds = ['agrees', 'missing', 'extra', 'twice', 'a', 'b', 'c', 'd'];
+        const kind = (colour) => kinds.find(name => colours[name] === colour) ?? colour;
+        const panels = scene().panels(last.answer).filter(panel => panel.pixel).map(panel => {
+            const pixels = [];
+            for (let y = y0; y < y1; y += 1) for (let x = x0; x < x1; x += 1) {
+                const pixel = panel.pixel((y - y0) * (x1 - x0) + x - x0, x, y);
+                if (pixel) pixels.push([x, y, kind(pixel.colour)]);
+            }
+            return pixels;
+        });
+        done({
+            trouble: $('trouble').textContent, panels, svg: (last.answer.panels ?? []).map(panel => panel.svg),
+            weights: last.look?.triangles?.[0]?.edges?.map(edge => edge.weight) ?? [],
+        });
+    };
+    clearTimeout(keeping);
+    if (location.hash === to) look();
+    else { addEventListener('hashchange', look, { once: true }); location.hash = to; }
+})";
+
+/// The panels of the playground that show what a figure shows; none where it shows the figure itself.
+fn panels_of(name: &str) -> &'static [usize] {
+    match name {
+        "one-sample" | "line-pixels" | "there-and-back" | "edge-owner" | "row-span" | "boards"
+        | "z-fighting" | "near-corners" | "winding" | "order-matters" | "turn-about" => &[0],
+        "shared-edge" | "middle-row" => &[1],
+        "wrong-corner" | "affine-kink" | "nearer" => &[0, 1],
+        _ => &[],
+    }
+}
+
+/// Pixels with what they are painted, counted from the first column and row that have any.
+type Painted = BTreeMap<[i64; 2], String>;
+
+fn from_the_first(pixels: &[([f64; 2], String)], unit: f64) -> Painted {
+    let least = |axis: usize| pixels.iter().map(|(at, _)| at[axis]).fold(f64::INFINITY, f64::min);
+    let first = [least(0), least(1)];
+    let place = |at: &[f64; 2]| [0, 1].map(|axis| ((at[axis] - first[axis]) / unit).round() as i64);
+    pixels.iter().map(|(at, paint)| (place(at), paint.clone())).collect()
+}
+
+/// What a figure paints, its parts one after the other.
+fn painted_by(figure: &str, svg: &str) -> Vec<Painted> {
+    let (mut pixels, mut unit) = (Vec::new(), f64::INFINITY);
+    for path in svg.split("<path class=\"px").skip(1) {
+        let path = path.split("/>").next().unwrap();
+        let (paint, runs) = path.split_once(" d=\"").unwrap();
+        let paint = paint.trim_matches([' ', '"']).trim_start_matches("fill=\"");
+        for run in runs.split('M').skip(1) {
+            let numbers: Vec<f64> =
+                run.split([' ', 'h', 'v', 'z']).filter_map(|n| n.parse().ok()).collect();
+            let [x, y, width, side] = numbers[..4] else { unreachable!() };
+            unit = side.min(unit);
+            let count = (width / side).round() as usize;
+            pixels.extend((0..count).map(|i| ([x + i as f64 * side, y], paint.to_owned())));
+        }
+    }
+    let is_second = |[x, y]: [f64; 2]| match figure {
+        "nearer" => y > 225.0,
+        "wrong-corner" | "affine-kink" => x > 180.0,
+        _ => false,
+    };
+    // Of two surfaces, the one that was drawn last; the painter, who is the second part, shows it alone.
+    let last = pixels.iter().find(|(at, _)| is_second(*at)).map(|(_, paint)| paint.clone());
+    let last = last.unwrap_or_else(|| "one".to_owned());
+    for (_, paint) in &mut pixels {
+        match figure {
+            "there-and-back" | "edge-owner" | "boards" => "on".clone_into(paint),
+            "nearer" | "z-fighting" => {
+                *paint = if *paint == last { "last" } else { "first" }.into()
+            }
+            _ => {}
+        }
+    }
+    [false, true][..panels_of(figure).len()]
+        .iter()
+        .map(|part| {
+            let own = pixels.iter().filter(|(at, _)| is_second(*at) == *part).cloned();
+            from_the_first(&own.collect::<Vec<_>>(), unit)
+        })
+        .collect()
+}
+
+/// What the playground paints a pixel with, in the words of the figure; nothing where the figure leaves it out.
+fn as_in_the_figure(figure: &str, [_, y]: [f64; 2], paint: &str) -> Option<String> {
+    Some(match (figure, paint) {
+        ("row-span", _) if y != 2.0 => return None,
+        ("there-and-back", "missing") => return None,
+        ("there-and-back", _) => "on".into(),
+        ("affine-kink", paint) => if paint == "agrees" { "dark" } else { "pale" }.into(),
+        ("nearer" | "z-fighting", paint) => {
+            if ["a", "b"].contains(&paint) { "first" } else { "last" }.into()
+        }
+        (_, "agrees") => "on".into(),
+        (_, "missing") => "miss".into(),
+        (_, paint) => match paint.strip_prefix("rgb(") {
+            Some(rgb) => {
+                let hex = |part: &str| format!("{:02x}", part.parse::<u8>().unwrap());
+                format!("#{}", rgb.trim_end_matches(')').split(' ').map(hex).collect::<String>())
+            }
+            None => paint.into(),
+        },
+    })
+}
+
+/// Whether the playground shows what the figure shows.
+fn is_same(figure: &str, right: &Value, seen: &Value) -> bool {
+    if figure == "weights" {
+        let words = right["answer"].as_str().unwrap();
+        let weights: Vec<f64> = serde_json::from_value(seen["weights"].clone()).unwrap();
+        let has = |weight: &f64| {
+            let text = format!("{:.2}", weight * 100.0);
+            let text = text.trim_end_matches('0').trim_end_matches('.');
+            words.contains(&format!(" {text}%"))
+        };
+        return weights.len() == 3 && weights.iter().all(has);
+    }
+    let panels = panels_of(figure);
+    if panels.is_empty() {
+        let own = [&right["svg"]; 2];
+        return seen["svg"].as_array().unwrap().iter().eq(own);
+    }
+    let painted = panels.iter().map(|&panel| {
+        let pixels: Vec<(f64, f64, String)> =
+            serde_json::from_value(seen["panels"][panel].clone()).unwrap();
+        let pixels: Vec<_> = pixels
+            .iter()
+            .filter_map(|(x, y, paint)| {
+                Some(([*x, *y], as_in_the_figure(figure, [*x, *y], paint)?))
+            })
+            .collect();
+        from_the_first(&pixels, 1.0)
+    });
+    painted.eq(painted_by(figure, right["svg"].as_str().unwrap()))
+}
+
+/// The link of each figure in some states leads to the playground in the same state, and to no other.
+fn links_lead_to_the_same(browser: &mut Browser, links: &[(&'static Figure, Value, String)]) {
+    browser.call("Page.navigate", json!({ "url": links[0].2 }));
+    browser.wait_for("document.body?.dataset.ready !== undefined");
+    let mut told_apart = BTreeSet::new();
+    for (figure, at, link) in links {
+        let (page, state) = link.split_once('#').unwrap();
+        assert_eq!(page, links[0].2.split('#').next().unwrap());
+        let seen = browser.eval(&format!("(to => {FOLLOW})({:?})", format!("#{state}")));
+        assert_eq!(seen["trouble"], "", "{link}");
+        assert!(is_same(&figure.name, &expected(figure, "en", at, true), &seen), "{link}: {seen}");
+        let others = links.iter().filter(|(other, ..)| other.name == figure.name);
+        for (_, other, _) in others {
+            if !is_same(&figure.name, &expected(figure, "en", other, true), &seen) {
+                told_apart.insert(figure.name.clone());
+            }
+        }
+        if panels_of(&figure.name).is_empty() && figure.name != "weights" {
+            // The picture has arrived on both panels: what is painted has its colour there.
+            browser.wait_for("sheets.every(sheet => sheet.shows === sheet.wanted)");
+            let lost = browser.eval(&format!(
+                "(() => {{ drawFrame();
+                    const host = document.body.appendChild(document.createElement('div'));
+                    const root = host.attachShadow({{ mode: 'open' }}); root.innerHTML = last.answer.svg;
+                    const pixels = {PIXELS}(root); host.remove();
+                    return shown.map(({{ canvas }}) => {{
+                        const zoom = canvas.width / 360, g = canvas.getContext('2d');
+                        const last = new Map(pixels.map(pixel => [`${{pixel[0]}},${{pixel[1]}}`, pixel]));
+                        const isThere = ([left, top, side, ...rgb]) => [[0.2, 0.2], [0.8, 0.2], [0.2, 0.8], [0.8, 0.8], [0.5, 0.2]].some(([x, y]) =>
+                            String([...g.getImageData((left + x * side) * zoom, (top + y * side) * zoom, 1, 1).data.slice(0, 3)]) === String(rgb));
+                        const isFree = ([left, top, side]) => grips().every(grip => Math.hypot(grip.x - left - side / 2, grip.y - top - side / 2) > 16);
+                        return [...last.values()].filter(pixel => isFree(pixel) && !isThere(pixel)).length;
+                    }}); }})()"
+            ));
+            assert_eq!(lost, json!([0, 0]), "{link}");
+        }
+    }
+    let all: BTreeSet<_> = ALL.iter().map(|figure| figure.name.clone()).collect();
+    assert_eq!(told_apart, all, "the playground in another state");
+    // There a figure has its grips, which keys move, and its second picture is drawn by whoever is chosen.
+    let go = |browser: &mut Browser, address: &str| {
+        browser.eval(&format!("(clearTimeout(keeping), location.hash = '{address}&lang=en', 0)"));
+    };
+    go(browser, "#scene=figure&figure=edge-sign");
+    browser.wait_for("state.at === '[[1.5,5.5],[7.5,1.5]]'");
+    browser.eval("(shown[0].canvas.focus(), 0)");
+    browser.press("]");
+    browser.press("ArrowLeft");
+    browser.wait_for("state.at === '[[1.5,5.5],[7,1.5]]'");
+    let says = "document.querySelectorAll('figcaption output')[1].textContent";
+    assert_eq!(browser.eval(says), "the same picture");
+    go(browser, "#scene=figure&at=[[3.5,3.5]]&by=scanline,inclusive-edges");
+    browser.wait_for(&format!("{says} === 'another picture'"));
+}
+
 /// Every figure waits for a prediction, and then shows what the oracle draws in three states: where it is dragged
 /// by the mouse, and where keys move it. A planted engine and a state that is not the one it says are noticed.
 #[test]
@@ -290,6 +492,7 @@ fn live_figures_show_what_the_oracle_draws() {
         "q => { q.at[0] = q.at[0].map(v => v - 9) }",
     ];
     let mut noticed = vec![BTreeSet::new(); plants.len()];
+    let mut links = Vec::new();
     for figure in ALL.iter() {
         visit(&mut browser, figure);
         let of = of(figure);
@@ -301,6 +504,11 @@ fn live_figures_show_what_the_oracle_draws() {
         browser
             .eval(&format!("{of}.shadowRoot.querySelector('.controls button:last-child').click()"));
         assert_eq!(wrong(&mut browser, figure), [""; 0]);
+        let stands = |browser: &mut Browser| browser.eval(&format!("JSON.parse({of}.dataset.at)"));
+        let link = |browser: &mut Browser| {
+            browser.eval(&format!("{of}.link.href")).as_str().unwrap().to_owned()
+        };
+        links.push((figure, stands(&mut browser), link(&mut browser)));
         let mut states = BTreeSet::from([browser.eval(&format!("{of}.dataset.at")).to_string()]);
         let last = figure.grips().len() - 1;
         for (i, by) in [(0, [37.0, 29.0]), (last, [-61.0, -45.0])] {
@@ -316,6 +524,7 @@ fn live_figures_show_what_the_oracle_draws() {
             assert_eq!(wrong(&mut browser, figure), [""; 0]);
             states.insert(browser.eval(&format!("{of}.dataset.at")).to_string());
         }
+        links.push((figure, stands(&mut browser), link(&mut browser)));
         browser.eval(&format!("{of}.shadowRoot.querySelector('[role=slider]').focus()"));
         for keys in [&["ArrowLeft"; 3][..], &["ArrowRight"]] {
             for key in keys {
@@ -325,6 +534,12 @@ fn live_figures_show_what_the_oracle_draws() {
             states.insert(browser.eval(&format!("{of}.dataset.at")).to_string());
         }
         assert!(states.len() >= 3, "{}: {states:?}", figure.name);
+        let now = stands(&mut browser);
+        let ends = |end: fn(&Grip) -> [f64; 2]| figure.grips().iter().map(end).collect::<Vec<_>>();
+        for at in [json!(ends(|grip| grip.low)), json!(ends(|grip| grip.high)), now] {
+            browser.eval(&format!("({of}.at = {at}, {of}.draw())"));
+            links.push((figure, stands(&mut browser), link(&mut browser)));
+        }
         for (plant, noticed) in plants.iter().zip(&mut noticed) {
             let before = browser.eval(&format!("{of}.dataset.at"));
             browser.eval(&format!("(window.plant = {plant}, {of}.draw(), {of}.dataset.at = {before}, window.plant = null)"));
@@ -348,6 +563,7 @@ fn live_figures_show_what_the_oracle_draws() {
     controls_are_named(&mut browser);
     keys_predict(&mut browser);
     fingers_drag(&mut browser);
+    links_lead_to_the_same(&mut browser, &links);
     assert_eq!(browser.complaints, Vec::<String>::new());
 }
 

@@ -26,8 +26,8 @@ use serde_json::{Value, json};
 
 use crate::page::{Browser, folder};
 
-pub const SCENES: [&str; 8] =
-    ["triangle", "line", "weights", "perspective", "depth", "near", "samples", "culling"];
+pub const SCENES: [&str; 9] =
+    ["triangle", "line", "weights", "perspective", "depth", "near", "samples", "culling", "figure"];
 
 /// The compiled engines, or nothing where nobody has built them and nobody demands them.
 pub fn module() -> Option<PathBuf> {
@@ -219,7 +219,7 @@ fn playground_shows_every_scene() {
     let keys = "JSON.stringify(Object.keys(WORDS.en).concat(Object.keys(WORDS.en.about))) === \
         JSON.stringify(Object.keys(WORDS.zh).concat(Object.keys(WORDS.zh.about)))";
     assert_eq!(browser.eval(keys), true, "both languages have the same words");
-    let unnamed = "Object.entries(names).flatMap(([list, all]) => list === 'recorded' ? [] : all)
+    let unnamed = "Object.entries(names).flatMap(([list, all]) => ['recorded', 'figures'].includes(list) ? [] : all)
         .map(entry => entry.name).filter(name => !ABOUT_ZH[name])";
     assert_eq!(browser.eval(unnamed), json!([]), "cases and families are told in Chinese too");
     assert_eq!(browser.complaints, Vec::<String>::new());

@@ -16,6 +16,8 @@ use crate::quiz::RENEW;
 
 /// What a reader loads before the first view is complete, pictures and scripts included, the compiled engines not.
 const FIRST_VIEW_BYTES: u64 = 300_000;
+/// The compiled engines, before a server compresses them.
+const MODULE_BYTES: usize = 1_200_000;
 
 fn site() -> PathBuf {
     let site = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("target/site");
@@ -143,6 +145,35 @@ fn site_broken_links_are_found() {
     ] {
         fs::write(root.join("en/b.html"), format!("{page}{link}")).unwrap();
         assert_eq!(broken_links(&root), (5, vec![found.to_owned()]));
+    }
+}
+
+/// The engines are in the site once, for live figures and for the pages that ask them, and small enough.
+#[test]
+#[ignore = "needs docs/build"]
+fn site_has_one_module() {
+    let site = site();
+    let mut all = BTreeSet::new();
+    files(&site, "", &mut all);
+    // As bytes, and in base64.
+    let marks = [&b"\0asm\x01\0\0\0"[..], b"AGFzbQEAAAA"];
+    let holds = |file: &&String| {
+        let bytes = fs::read(site.join(file)).unwrap();
+        // A copy of the module is larger than most files.
+        bytes.len() > 300_000
+            && marks.iter().any(|mark| bytes.windows(mark.len()).any(|window| window == *mark))
+    };
+    let modules: Vec<_> = all.iter().filter(holds).collect();
+    assert_eq!(modules, ["try/engines.js"]);
+    let text = fs::read_to_string(site.join("try/engines.js")).unwrap();
+    let bytes = text.split('"').nth(1).unwrap().len() / 4 * 3;
+    println!("the module: {bytes} bytes");
+    assert!(bytes <= MODULE_BYTES, "the module has {bytes} bytes");
+    for page in ["playground", "your-gpu"] {
+        let text = fs::read_to_string(site.join(format!("try/{page}.html"))).unwrap();
+        let loads: Vec<_> =
+            tags(&text).into_iter().filter_map(|tag| attribute(tag, "src")).collect();
+        assert_eq!(loads, ["engines.js"], "{page}");
     }
 }
 

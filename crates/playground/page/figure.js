@@ -21,8 +21,8 @@
   };
   const STYLE = `
     :host { display: block; margin: 1.5em 0; }
-    figure { margin: 0 auto; max-width: 34rem; border: 1px solid #8885; border-radius: 8px; padding: 0.7rem; box-sizing: border-box; }
-    p { margin: 0.4rem 0; }
+    figure { margin: 0 auto; max-width: 34em; border: 1px solid #8885; border-radius: 8px; padding: 0.7em; box-sizing: border-box; }
+    p { margin: 0.4em 0; }
     .question { font-weight: 600; margin-top: 0; }
     .stage { position: relative; touch-action: manipulation; user-select: none; -webkit-user-select: none; }
     .stage.waits { aspect-ratio: 360 / 240; background: #8882; }
@@ -37,8 +37,8 @@
     [role=slider]:active { cursor: grabbing; }
     :focus-visible { outline: 3px solid #0b57d0; outline-offset: 1px; z-index: 1; }
     :host([data-dark]) :focus-visible { outline-color: #7fb0ff; }
-    .controls { display: flex; flex-wrap: wrap; gap: 0.4rem; align-items: center; margin: 0.5rem 0; }
-    .controls button, .controls input { font: inherit; font-size: 0.95em; color: inherit; background: #8881; border: 1px solid #888a; border-radius: 6px; padding: 0.35rem 0.7rem; min-height: 2.4rem; text-align: start; }
+    .controls { display: flex; flex-wrap: wrap; gap: 0.4em; align-items: center; margin: 0.5em 0; }
+    .controls button, .controls input { font: inherit; font-size: 0.95em; color: inherit; background: #8881; border: 1px solid #888a; border-radius: 6px; padding: 0.35em 0.7em; min-height: 2.4em; text-align: start; }
     .controls button { cursor: pointer; }
     .controls button:hover { background: #8884; }
     .controls input { width: 5.5em; box-sizing: border-box; }

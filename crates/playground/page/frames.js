@@ -21,7 +21,7 @@ function drawFrame() {
     last.answer = answer;
     const panels = scene().panels(answer);
     while (shown.length > panels.length) shown.pop().figure.remove();
-    $('panels').dataset.count = panels.length;
+    Object.assign($('panels').dataset, { count: panels.length, view: panels[0]?.view ?? '' });
     panels.forEach((_, i) => { shown[i] ??= newPanel(i); });
     // Read before anything is written, so that the page is laid out once.
     for (const panel of shown) panel.width = panel.canvas.clientWidth;
@@ -54,7 +54,7 @@ function explain(answer) {
   // Of triangles the reason, which is short; elsewhere the numbers are what there is to say.
   const told = $('look').querySelectorAll(state.scene === 'triangle' ? 'h2, .say' : 'h2, p, tbody tr');
   const texts = [...told].map(({ cells, textContent }) => (cells ? [...cells].map((cell) => cell.textContent).join(' ').trim() : textContent));
-  const said = [grip ? grip.says ?? `${grip.name} ${grip.x}, ${grip.y}` : '', ...outputs, ...texts].filter(Boolean).map((text) => (/[.。]$/.test(text) ? text : `${text}.`)).join(' ');
+  const said = [grip ? grip.says ?? `${grip.name} ${grip.x}, ${grip.y}` : '', ...outputs, ...texts].filter(Boolean).map((text) => (/[.。?？]$/.test(text) ? text : `${text}.`)).join(' ');
   if ($('announce').textContent !== said) $('announce').textContent = said;
 }
 

@@ -152,6 +152,15 @@ function drawGrips(g, view, panel) {
     if (grip.view !== panel.view) return;
     const chosen = state.moves === 'corner' && i === state.chosen;
     const [x, y] = [view.x(grip.x), view.y(grip.y)];
+    if (grip.isPainted) {
+      if (!chosen) return;
+      g.beginPath();
+      g.arc(x, y, 13 * view.ratio, 0, 7);
+      g.strokeStyle = colours.edge;
+      g.lineWidth = 2 * view.ratio;
+      g.stroke();
+      return;
+    }
     const radius = (chosen ? 7 : 5) * view.ratio;
     if (grip.from) drawOutline(g, view, [grip.from, [grip.x, grip.y]]);
     g.beginPath();

@@ -7,7 +7,8 @@ const table = (head, rows) => make('div', { className: 'scroll' }, make('table',
   make('tbody', {}, ...rows.map((row) => make('tr', {}, ...row.map((cell, i) => (
     cell instanceof Node ? make('td', {}, cell) : make('td', { className: i && /^[-\d.]/.test(cell) ? 'number' : '' }, String(cell)))))))));
 const round = (value, digits = 4) => (Number.isFinite(value) ? String(Number(value.toFixed(digits))) : '–');
-const mix = (value) => Math.round(255 * Math.max(0, Math.min(1, value)));
+/** A byte as the pipeline makes it of a value: thresholds lie off simple fractions. */
+const mix = (value) => Math.floor(255 * Math.max(0, Math.min(1, value)) + 0.5 + 2 ** -20 / 3);
 
 /** Names with a label, for a panel to choose from. */
 function painters() {

@@ -6,8 +6,8 @@ const RANGE_OF_W = [0.25, 8, 0.05];
 const RANGE_BEHIND = [-2, 4, 0.1];
 const RANGE_OF_NEAR = [0.1, 4, 0.1];
 /** The near plane from the side: w to the right, and up. The rays to one place on the screen run straight to the eye. */
-const aside = (w, y = 0) => [((w + 2) / 6) * 32, 16 - y * Math.abs(w) * 4];
-const asideW = (x) => (x / 32) * 6 - 2;
+const aside = (w, y = 0) => [((w + 2) / 6) * side(), (0.5 - (y * Math.abs(w)) / 8) * side()];
+const asideW = (x) => (x / side()) * 6 - 2;
 
 /** Eye, field of view, near plane and triangle from the side; what is cut away is shaded. */
 function fromTheSide() {
@@ -18,19 +18,41 @@ function fromTheSide() {
       const [near] = aside(state.near);
       const line = (from, to, colour) => drawOutline(g, view, [from, to], colour);
       for (const way of [1, -1]) line(aside(0), aside(4, way), colours.grid);
-      line([aside(0)[0], 0], [aside(0)[0], 32], colours.grid);
-      line([near, 0], [near, 32], colours.missing);
+      line([aside(0)[0], 0], [aside(0)[0], side()], colours.grid);
+      line([near, 0], [near, side()], colours.missing);
       g.globalAlpha = 0.15;
       g.fillStyle = colours.missing;
-      g.fillRect(0, 0, view.x(near), view.y(32));
+      g.fillRect(0, 0, view.x(near), view.y(side()));
       g.globalAlpha = 1;
       g.fillStyle = colours.sample;
       g.textAlign = 'left';
       g.textBaseline = 'middle';
       g.font = `${12 * view.ratio}px system-ui, sans-serif`;
-      g.fillText(word('eye'), view.x(aside(0)[0]) + 4 * view.ratio, view.y(1.5));
+      g.fillText(word('eye'), view.x(aside(0)[0]) + 4 * view.ratio, view.y(0.05 * side()));
     },
   };
+}
+
+/** The picture of a live figure on each panel; the one before stays until the next can be drawn. */
+const sheets = [];
+function drawSheet(i, svg, g) {
+  const sheet = (sheets[i] ??= {});
+  const [width, height] = [g.canvas.width, g.canvas.height];
+  const wanted = svg.replace('<svg', `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}"`);
+  if (sheet.wanted !== wanted) {
+    sheet.wanted = wanted;
+    const image = new Image();
+    image.onload = () => { Object.assign(sheet, { image, shows: wanted }); redraw(); };
+    image.src = `data:image/svg+xml,${encodeURIComponent(wanted)}`;
+  }
+  if (sheet.image) g.drawImage(sheet.image, 0, 0, width, height);
+}
+
+/** The scanline engine or the DDA, or who takes the place of either: rules too, but no specimens. */
+function drawers() {
+  const own = ({ specimen }) => !specimen;
+  const all = [...names.triangles.filter(own).slice(0, 2), { name: 'exclusive-edges' }, { name: 'inclusive-edges' }, ...names.triangles.filter(own).slice(2), ...names.lines.filter(own)];
+  return [...new Set(all.map(({ name }) => name))].map((name) => [name, name]);
 }
 
 const SCENES = {
@@ -151,7 +173,7 @@ const SCENES = {
       pixel: (i) => {
         const value = panel.values?.[i];
         if (!value) return null;
-        const dark = (Math.floor(value[1] * 4) + Math.floor(value[2] * 4)) % 2 !== 0;
+        const dark = (Math.floor(value[1] * 4 + 1e-9) + Math.floor(value[2] * 4 + 1e-9)) % 2 !== 0;
         return { colour: dark ? colours.agrees : colours.extra };
       },
     })),
@@ -192,8 +214,8 @@ const SCENES = {
     start: { window: [0, 0, 32, 32], near: 1, points: [[-0.7, -0.3, 2], [0.7, -0.1, 2], [-0.1, 0.9, 0.4]] },
     keeps: ['near', 'points'],
     noSamples: true,
-    handles: () => state.points.map((p) => ({ x: Number(round((p[0] + 1) * 16, 6)), y: Number(round((1 - p[1]) * 16, 6)), members: [p] })),
-    place: (handle, x, y) => { handle.members[0].splice(0, 2, Math.round((x / 16 - 1) * 100) / 100, Math.round((1 - y / 16) * 100) / 100); },
+    handles: () => state.points.map((p) => ({ x: Number(round(((p[0] + 1) / 2) * side(), 6)), y: Number(round(((1 - p[1]) / 2) * side(), 6)), members: [p] })),
+    place: (handle, x, y) => { handle.members[0].splice(0, 2, Math.round(((2 * x) / side() - 1) * 100) / 100, Math.round((1 - (2 * y) / side()) * 100) / 100); },
     fields: [{ key: 'w', step: 0.1, get: (h) => h.members[0][2], set: (h, value) => { h.members[0][2] = value; } }],
     grips: () => {
       const grip = (name, value, [x, y], range, set) => {
@@ -205,10 +227,10 @@ const SCENES = {
       };
       return [
         ...state.points.map((p, i) => grip(`w ${corner(i)}`, p[2], aside(p[2], p[1]), RANGE_BEHIND, (w) => { p[2] = w; })),
-        grip(word('plane'), state.near, [aside(state.near)[0], 30], RANGE_OF_NEAR, (w) => { state.near = w; }),
+        grip(word('plane'), state.near, [aside(state.near)[0], 0.94 * side()], RANGE_OF_NEAR, (w) => { state.near = w; }),
       ];
     },
-    ask: () => ask({ ask: 'near', side_px: 32, corners: state.points, near: state.near }),
+    ask: () => ask({ ask: 'near', side_px: side(), corners: state.points, near: state.near }),
     panels: (answer) => [fromTheSide(), ...answer.panels.map((panel) => ({
       title: word(panel.name),
       says: panel.refused ? `${word('refused')}: ${panel.refused}` : `${panel.outline.length} ${word('polygon')}, ${panel.covered} ${word('covered')}`,
@@ -254,5 +276,54 @@ const SCENES = {
     },
     look: (answer) => [make('h2', {}, word('culling')), table([word('ofTriangle'), '2A', '', ''], (answer.areas ?? []).map((area, i) => [
       String(i + 1), area.twiceArea, word(area.sign > 0 ? 'clockwise' : area.sign < 0 ? 'counter-clockwise' : 'degenerate'), word(area.removed ? 'removed' : 'drawn')]))],
+  },
+
+  figure: {
+    start: { window: [0, 0, 360, 240], figure: 'one-sample', at: '[]', by: ['scanline', 'oracle'] },
+    keeps: ['figure', 'at'],
+    choices: drawers,
+    noSamples: true,
+    handles: () => [],
+    ask: () => {
+      const isDark = matchMedia('(prefers-color-scheme: dark)').matches;
+      const panels = state.by.map((by) => ask({
+        ask: 'figure', name: state.figure, language: state.lang, at: JSON.parse(state.at), is_answered: true, is_dark: isDark, by,
+      }));
+      const error = panels.find((panel) => panel.error);
+      if (error) return error;
+      state.at = JSON.stringify(panels[0].at);
+      state.window = panels[0].svg.match(/viewBox="([^"]*)"/)[1].split(' ').map(Number);
+      return { ...panels[0], panels };
+    },
+    panels: ({ panels }) => panels.map(({ svg }, i) => ({
+      select: state.by[i], view: 'sheet',
+      says: i ? word(svg === panels[0].svg ? 'samePicture' : 'otherPicture') : '',
+      bad: i ? svg !== panels[0].svg : undefined,
+      over: (g) => drawSheet(i, svg, g),
+      outlines: [],
+    })),
+    grips: () => (last.answer?.svg ? last.answer.grips : []).map((grip, i) => {
+      const { value, spot: [x, y], scale, step } = grip;
+      const to = (next) => { state.at = JSON.stringify(JSON.parse(state.at).map((old, k) => (k === i ? next : old))); redraw(); };
+      const isFree = scale[0] !== 0 && scale[1] !== 0;
+      const axis = scale[0] ? 0 : 1;
+      return {
+        view: 'sheet', name: grip.name, says: `${grip.name}: ${isFree ? value.join(', ') : value[axis]}`, x, y, isPainted: true,
+        place: (...place) => to(value.map((v, k) => (scale[k] ? v + (place[k] - grip.spot[k]) / scale[k] : v))),
+        // What moves one way only is moved by both pairs of arrows: up and right are one way.
+        nudge: (right, down) => {
+          const way = isFree ? [right * Math.sign(scale[0]), down * Math.sign(scale[1])]
+            : [(right - down) * Math.sign(scale[0]), (down - right) * Math.sign(scale[1])];
+          to(value.map((v, k) => v + way[k] * step));
+        },
+      };
+    }),
+    tools: () => {
+      const select = make('select', { id: 'figure' }, ...names.figures.map((figure) => make('option', { value: figure.name }, state.lang === 'zh' ? figure.zh : figure.about)));
+      select.value = state.figure;
+      select.addEventListener('change', () => { Object.assign(state, { figure: select.value, at: '[]', chosen: 0 }); redraw(); });
+      return [make('label', { className: 'group' }, `${word('figure')} `, select)];
+    },
+    look: ({ title, question, answer }) => [make('h2', {}, title), make('p', {}, question), make('p', { className: 'say' }, answer)],
   },
 };

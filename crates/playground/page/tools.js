@@ -85,7 +85,7 @@ function buildCorners(all, fields) {
     });
     return make('tr', {}, make('th', { scope: 'row' }, LETTERS[i % 26]), ...cells);
   });
-  fill($('corners'), [
+  fill($('corners'), all.length === 0 ? [] : [
     make('h2', { id: 'corners-title' }, word('corners')),
     make('div', { className: 'scroll' }, make('table', {}, make('thead', {}, head), make('tbody', {}, ...rows))),
   ]);

@@ -9,7 +9,7 @@ const WORDS = {
   en: {
     title: 'your GPU', other: '中文', playground: 'playground',
     about: 'This page draws about 280,000 triangles with the graphics interfaces of this browser, reads every pixel back, and compares it with an exact computation. It says of each check whether the browser does what the specification of the interface promises.',
-    private: 'Nothing is loaded and nothing is sent: all of it happens in this file.',
+    private: 'Nothing is sent: all of it happens in this browser.',
     judge: 'Judge my GPU', again: 'Judge again', stop: 'Stop', stopped: 'Stopped before all checks were made.',
     starting: 'Starting …', progress: (api, check, at, of) => `${api}: ${check} (batch ${at} of ${of})`, shrinking: (api, check) => `${api}: ${check}: looking for the smallest case …`,
     crash: 'The module stopped, and was started again.',
@@ -51,7 +51,7 @@ const WORDS = {
   zh: {
     title: '你的 GPU', other: 'English', playground: '试验场',
     about: '本页用这个浏览器的图形接口画大约二十八万个三角形，读回每一个像素，与精确计算的结果比较，并逐项说明浏览器是否做到了接口规范所承诺的。',
-    private: '不加载任何东西，也不发送任何东西：一切都在这一个文件里进行。',
+    private: '不发送任何东西：一切都在这个浏览器里进行。',
     judge: '评判我的 GPU', again: '再评判一次', stop: '停', stopped: '在做完所有检查之前停了。',
     starting: '正在启动……', progress: (api, check, at, of) => `${api}：${check}（第 ${at} 批，共 ${of} 批）`, shrinking: (api, check) => `${api}：${check}：正在寻找最小的用例……`,
     crash: '模块停了，已重新启动。',

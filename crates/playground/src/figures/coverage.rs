@@ -61,7 +61,6 @@ pub(super) fn snap_to_even(given: &Given<'_>) -> Result<Drawn, String> {
         sheet.arrow("ink", spot, middle(right.map(f64::from)));
     }
     sheet.grip(spot);
-    let corner = [[[x / 256.0, y / 256.0], [3.0, 0.0], [0.0, 3.0]]];
     Ok(Drawn {
         sheet,
         grips: vec![(spot, [panel.unit; 2])],
@@ -72,7 +71,7 @@ pub(super) fn snap_to_even(given: &Given<'_>) -> Result<Drawn, String> {
             ("sx", right[0].to_string()),
             ("sy", right[1].to_string()),
         ],
-        link: with_triangles("triangle", &corner, "&window=0,0,4,4&snap=0"),
+        link: None,
     })
 }
 
@@ -98,8 +97,6 @@ pub(super) fn edge_sign(given: &Given<'_>) -> Result<Drawn, String> {
         sheet.named_grip(panel.place(point), letter);
     }
     let zeros = pixels.iter().filter(|(_, is_zero)| *is_zero).count();
-    // A third corner to the right of the edge makes it an edge of a triangle.
-    let third = [a[0] - (b[1] - a[1]), a[1] + (b[0] - a[0])];
     Ok(Drawn {
         sheet,
         grips: vec![(panel.place(a), [panel.unit; 2]), (panel.place(b), [panel.unit; 2])],
@@ -111,7 +108,7 @@ pub(super) fn edge_sign(given: &Given<'_>) -> Result<Drawn, String> {
             ("by", number(b[1], 1)),
             ("zeros", zeros.to_string()),
         ],
-        link: with_triangles("triangle", &[[a, b, third]], "&window=0,0,9,7"),
+        link: None,
     })
 }
 
@@ -155,7 +152,7 @@ pub(super) fn edge_owner(given: &Given<'_>) -> Result<Drawn, String> {
     let panel = Panel::middle(8, 7, 36.0, 10.0);
     let [upper, lower] = [0, 1].map(|i| cover(given.fill, &corners[i..=i], panel.window));
     let mut sheet = Sheet::new(panel.bottom() + 10.0, given.is_answered);
-    let mut ties = [0, 0];
+    let (mut ties, mut first_tie) = ([0, 0], None);
     for pixel in panel.pixels() {
         let has = |hits: &Coverage| hits.get(pixel[0], pixel[1]) != Some(0);
         let centre = pixel.map(|v| f64::from(v) + 0.5);
@@ -165,6 +162,7 @@ pub(super) fn edge_owner(given: &Given<'_>) -> Result<Drawn, String> {
             if has(hits) {
                 sheet.pixel(&panel, pixel, class, letter);
                 ties[i] += usize::from(is_tie);
+                first_tie = first_tie.or(is_tie.then_some(pixel));
             }
         }
     }
@@ -174,6 +172,8 @@ pub(super) fn edge_owner(given: &Given<'_>) -> Result<Drawn, String> {
         sheet.outline(&panel, "ink", triangle, true);
     }
     sheet.grip(panel.place(q));
+    // The playground says of this pixel whose it is.
+    let explained = first_tie.map_or(String::new(), |[x, y]| format!("&px={x},{y}"));
     let owner = match ties {
         [0, 0] => 2,
         [0, _] => 1,
@@ -184,7 +184,7 @@ pub(super) fn edge_owner(given: &Given<'_>) -> Result<Drawn, String> {
         grips: vec![(panel.place(q), [0.0, panel.unit])],
         predict: Predict::Choice(owner),
         values: vec![("upper", ties[0].to_string()), ("lower", ties[1].to_string())],
-        link: with_triangles("triangle", &triangles, "&window=0,0,8,7"),
+        link: with_triangles("triangle", &triangles, &format!("&window=0,0,8,7{explained}")),
     })
 }
 

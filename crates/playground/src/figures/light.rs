@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::sheet::{Panel, Sheet};
-use super::{Drawn, Given, Predict, number, with_triangles};
+use super::{Drawn, Given, Predict, number};
 use rasterproof_core::angle::sin_cos;
 use rasterproof_core::contract::DrawLine as _;
 use rasterproof_core::triangle::{LineEnd, PixelPoint, ScreenLine};
@@ -14,13 +14,6 @@ use rasterproof_render::pipeline::texture::{Filter, Texture, Wrap};
 fn direction(degrees: f64) -> DVec3 {
     let (sin, cos) = sin_cos(degrees.to_radians());
     DVec3::new(sin, cos, 0.0)
-}
-
-/// A playground scene with the x and y of a direction as values of two corners.
-fn directions(a: DVec3, b: DVec3) -> String {
-    let corner = |x: f64, y: f64, n: DVec3| [x, y, 1.0, 0.0, n.x, n.y];
-    let triangle = [corner(0.0, 0.0, a), corner(13.0, 0.0, b), corner(6.5, 8.0, (a + b) / 2.0)];
-    with_triangles("weights", &[triangle], "&window=0,0,13,8")
 }
 
 /// Half of a cylinder, its normals, and how bright its pixels are.
@@ -55,7 +48,7 @@ pub(super) fn brightest(given: &Given<'_>) -> Result<Drawn, String> {
         grips: vec![slider],
         predict: Predict::Pixels(panel, pixels),
         values: vec![("angle", number(angle, 0)), ("dark", dark.to_string())],
-        link: directions(direction(-90.0), direction(90.0)),
+        link: None,
     })
 }
 
@@ -97,7 +90,7 @@ pub(super) fn short_normal(given: &Given<'_>) -> Result<Drawn, String> {
             ("short", number(middle, 0)),
             ("whole", number(light.intensity(normals[6]) * 100.0, 0)),
         ],
-        link: directions(a, b),
+        link: None,
     })
 }
 
@@ -124,7 +117,10 @@ pub(super) fn texel(given: &Given<'_>) -> Result<Drawn, String> {
         sheet.dot([x + 42.0, 46.0], 2.5);
     }
     let here = left + u * 336.0;
-    sheet.path("ink", &[[here, 8.0], [here, 62.0]], false);
+    // Above and below the numbers, so that it hides none.
+    for [top, bottom] in [[6.0, 20.0], [38.0, 62.0]] {
+        sheet.path("ink", &[[here, top], [here, bottom]], false);
+    }
     for ((panel, texture), says) in rows.iter().zip(&ways).zip(["nearest", "bilinear"]) {
         for x in 0..16 {
             let value = at(texture, (f64::from(x) + 0.5) / 16.0);
@@ -136,10 +132,6 @@ pub(super) fn texel(given: &Given<'_>) -> Result<Drawn, String> {
     }
     let slider = sheet.slider(given, 0, rows[1].bottom() + 24.0, &format!("u = {}", number(u, 2)));
     let [nearest, mixed] = [at(&ways[0], u), at(&ways[1], u)];
-    let corner = |x: f64, y: f64, u: f64, v: f64| [x, y, 1.0, 0.0, u, v];
-    let quad =
-        [corner(0.0, 0.0, 0.0, 1.0), corner(16.0, 0.0, 1.0, 1.0), corner(16.0, 4.0, 1.0, 0.0)];
-    let rest = [quad[0], quad[2], corner(0.0, 4.0, 0.0, 0.0)];
     Ok(Drawn {
         sheet,
         grips: vec![slider],
@@ -150,6 +142,6 @@ pub(super) fn texel(given: &Given<'_>) -> Result<Drawn, String> {
             ("mixed", number(mixed, 0)),
             ("place", number(4.0 * u, 2)),
         ],
-        link: with_triangles("perspective", &[quad, rest], "&window=0,0,16,4"),
+        link: None,
     })
 }

@@ -62,9 +62,9 @@ pub(super) fn there_and_back(given: &Given<'_>) -> Result<Drawn, String> {
             ("differ", count.to_string()),
             ("ours", differ(&ours[0], &ours[1]).to_string()),
         ],
-        link: format!(
+        link: Some(format!(
             "#scene=line&lines=0,0,{x},{y};{x},{y},0,0&window=0,0,10,6&by=sysu-bresenham,dda&step=99"
-        ),
+        )),
     })
 }
 
@@ -89,6 +89,8 @@ pub(super) fn line_pixels(given: &Given<'_>) -> Result<Drawn, String> {
         grips: vec![(panel.place(middle(end)), [panel.unit; 2])],
         predict: Predict::Pixels(panel, pixels),
         values: vec![("x", x.to_string()), ("y", y.to_string()), ("count", line.len().to_string())],
-        link: format!("#scene=line&lines=0,0,{x},{y}&window=0,0,9,6&by=dda,bresenham&step=99"),
+        link: Some(format!(
+            "#scene=line&lines=0,0,{x},{y}&window=0,0,9,6&by=dda,bresenham&step=99"
+        )),
     })
 }

@@ -98,8 +98,8 @@ struct Drawn {
     predict: Predict,
     /// The numbers that replace the names in braces in the texts.
     values: Vec<(&'static str, String)>,
-    /// The same in the playground: what its address says.
-    link: String,
+    /// Where a scene of the playground draws the same pixels, its address; elsewhere the playground shows the figure itself.
+    link: Option<String>,
 }
 
 type Draw = fn(&Given<'_>) -> Result<Drawn, String>;
@@ -187,10 +187,13 @@ impl Ask {
                 })
             })
             .collect();
+        let link = drawn
+            .link
+            .unwrap_or_else(|| format!("#scene=figure&figure={}&at={}", figure.name, json!(at)));
         Ok(json!({
             "title": text.title, "question": fill(&text.question), "answer": fill(&text.answer),
             "alt": fill(&text.alt), "at": at, "svg": drawn.sheet.inline(self.is_dark), "predict": predict,
-            "grips": grips, "link": drawn.link,
+            "grips": grips, "link": link,
         }))
     }
 }
@@ -268,6 +271,12 @@ impl Figure {
     }
 }
 
+/// The names of all figures, with their titles, for the playground to choose from.
+pub(crate) fn list() -> Vec<Value> {
+    let entry = |f: &Figure| json!({ "name": f.name, "about": f.en.title, "zh": f.zh.title });
+    ALL.iter().map(entry).collect()
+}
+
 /// The figure of this name.
 ///
 /// # Errors
@@ -311,9 +320,13 @@ fn cover(engine: Engine, triangles: &[Corners], window: PixelRect) -> Coverage {
 }
 
 /// The address of a scene of the playground with triangles of x, y and what else each corner has.
-fn with_triangles<const N: usize>(scene: &str, triangles: &[[[f64; N]; 3]], more: &str) -> String {
+fn with_triangles<const N: usize>(
+    scene: &str,
+    triangles: &[[[f64; N]; 3]],
+    more: &str,
+) -> Option<String> {
     let corner = |c: &[f64; N]| c.map(|value| number(value, 6)).join(",");
     let triangle = |t: &[[f64; N]; 3]| t.iter().map(corner).collect::<Vec<_>>().join("_");
     let all: Vec<_> = triangles.iter().map(triangle).collect();
-    format!("#scene={scene}&t={}{more}", all.join(";"))
+    Some(format!("#scene={scene}&t={}{more}", all.join(";")))
 }

@@ -72,7 +72,10 @@ pub(super) fn near_corners(given: &Given<'_>) -> Result<Drawn, String> {
             ("corners", outline.len().to_string()),
             ("covered", kept["covered"].to_string()),
         ],
-        link: format!("#scene=near&near={near}&points={}", json!(corners)),
+        link: Some(format!(
+            "#scene=near&window=0,0,{SCREEN},{SCREEN}&near={near}&points={}",
+            json!(corners)
+        )),
     })
 }
 
@@ -193,7 +196,6 @@ pub(super) fn divide_first(given: &Given<'_>) -> Result<Drawn, String> {
         sheet.text([12.0, naive.corner[1] - 7.0], "start", "x / z");
     }
     let pixels = (0..13).map(|x| ([x, 0], right.contains(&x))).collect();
-    let corners = [[1.0 / 3.0, 0.0, 3.0], [1.0 / 3.0, 0.4, 3.0], [quotient(end), 0.0, end]];
     Ok(Drawn {
         sheet,
         grips: vec![(above(1.0, end), [0.0, -30.0])],
@@ -203,13 +205,8 @@ pub(super) fn divide_first(given: &Given<'_>) -> Result<Drawn, String> {
             ("right", right.len().to_string()),
             ("wrong", wrong.iter().filter(|x| !right.contains(x)).count().to_string()),
         ],
-        link: format!("#scene=near&near=1&points={}", json!(corners)),
+        link: None,
     })
-}
-
-/// 1/z, as far as the playground shows it.
-fn quotient(z: f64) -> f64 {
-    if z == 0.0 { 0.0 } else { (1.0 / z).clamp(-4.0, 4.0) }
 }
 
 /// The columns between two divided ends, whatever their w.
@@ -255,7 +252,7 @@ pub(super) fn viewport_size(given: &Given<'_>) -> Result<Drawn, String> {
             ("covered", should.covered().to_string()),
             ("missing", count.to_string()),
         ],
-        link: with_triangles("triangle", &halves(wrong), "&window=0,0,5,5"),
+        link: None,
     })
 }
 
@@ -291,8 +288,6 @@ pub(super) fn to_pixel(given: &Given<'_>) -> Result<Drawn, String> {
     sheet.grip(above(x, z));
     let [left, top] = above(x, z);
     sheet.text([left, top - 12.0], "middle", &format!("{}, {}", number(x, 2), number(z, 2)));
-    let [film, depth] = [x / z, y / z];
-    let corners = [[film, depth, z], [film - 0.4, depth - 0.4, z], [film, depth - 0.4, z]];
     Ok(Drawn {
         sheet,
         grips: vec![(above(x, z), [24.0, -24.0])],
@@ -303,7 +298,7 @@ pub(super) fn to_pixel(given: &Given<'_>) -> Result<Drawn, String> {
             ("px", number(point[0], 3)),
             ("py", number(point[1], 3)),
         ],
-        link: format!("#scene=near&near=1&points={}", json!(corners)),
+        link: None,
     })
 }
 
@@ -393,7 +388,7 @@ pub(super) fn thin_turn(given: &Given<'_>) -> Result<Drawn, String> {
             ("before", number(before, 2)),
             ("after", number(square, 0)),
         ],
-        link: with_triangles("culling", &[corners], "&window=0,0,4,4"),
+        link: None,
     })
 }
 

@@ -226,15 +226,6 @@ pub(super) fn affine_kink(given: &Given<'_>) -> Result<Drawn, String> {
     })
 }
 
-/// The playground's scene of perspective with these w at the ends of the first edge.
-fn perspective(near: f64, far: f64) -> String {
-    let a = [2.0, 29.0, near, 0.0, 0.0, 0.0];
-    let c = [20.0, 4.0, far, 0.0, 1.0, 1.0];
-    let triangles =
-        [[a, [12.0, 4.0, far, 0.0, 0.0, 1.0], c], [a, c, [30.0, 29.0, near, 0.0, 1.0, 0.0]]];
-    with_triangles("perspective", &triangles, "&window=0,0,32,32")
-}
-
 /// The pixels along an edge: its value by the share on the screen, and by the share in space.
 pub(super) fn value_midway(given: &Given<'_>) -> Result<Drawn, String> {
     let far = given.at[0][0];
@@ -257,7 +248,7 @@ pub(super) fn value_midway(given: &Given<'_>) -> Result<Drawn, String> {
         grips: vec![slider],
         predict: Predict::Number(middle * 100.0, 0),
         values: vec![("far", number(far, 1)), ("value", number(middle * 100.0, 0))],
-        link: perspective(1.0, far),
+        link: None,
     })
 }
 
@@ -308,7 +299,7 @@ pub(super) fn rod_middle(given: &Given<'_>) -> Result<Drawn, String> {
             ("far", number(far, 1)),
             ("share", number(share * 100.0, 0)),
         ],
-        link: perspective(near, far),
+        link: None,
     })
 }
 
@@ -357,9 +348,14 @@ pub(super) fn nearer(given: &Given<'_>) -> Result<Drawn, String> {
     let panel = Panel::middle(5, 1, 44.0, 170.0);
     let painter = Panel { corner: [panel.corner[0], 232.0], ..panel };
     let up = |z: f64| 150.0 - z * 2.0;
-    let shows_b = in_front(given.fill, a_ends.map(depth), [depth(b); 2], &panel)?;
-    // The painter draws what is farther in the mean first.
+    // The painter draws what is farther in the mean first. So does the depth buffer here, in which the first stays at a tie.
     let is_b_last = b < distances.iter().sum::<f64>() / 5.0;
+    let mut order = [a_ends.map(depth), [depth(b); 2]];
+    if !is_b_last {
+        order.reverse();
+    }
+    let shows_last = in_front(given.fill, order[0], order[1], &panel)?;
+    let shows_b: Vec<_> = shows_last.iter().map(|&is_last| is_last == is_b_last).collect();
     let mut sheet = Sheet::new(painter.bottom() + 10.0, given.is_answered);
     let mut wrong = 0;
     for (x, &is_b) in (0..).zip(&shows_b) {
@@ -398,7 +394,7 @@ pub(super) fn nearer(given: &Given<'_>) -> Result<Drawn, String> {
             ("last", if is_b_last { "B" } else { "A" }.to_owned()),
             ("wrong", wrong.to_string()),
         ],
-        link: depth_link(5, a_ends.map(depth), [depth(b); 2]),
+        link: Some(depth_link(5, order[0], order[1])),
     })
 }
 
@@ -424,6 +420,6 @@ pub(super) fn z_fighting(given: &Given<'_>) -> Result<Drawn, String> {
         grips: vec![slider],
         predict: Predict::Number(seen as f64, 0),
         values: vec![("gap", number(gap, 2)), ("seen", seen.to_string())],
-        link: depth_link(16, first, second),
+        link: Some(depth_link(16, first, second)),
     })
 }
