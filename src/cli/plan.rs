@@ -9,11 +9,13 @@ use super::progress::Progress;
 use super::render::SceneArguments;
 use super::typed::Typed;
 use super::{Failure, Status, Streams, exit, usage};
+use rasterproof_host::text::printable_path;
 use rasterproof_registry::engines::Drawer;
 use rasterproof_render::effects::plan::{Plan, SceneDigest};
 use rasterproof_render::effects::render::Rendered;
 use rasterproof_render::effects::{Effect, Effects, Mode};
 use rasterproof_render::pipeline::Counters;
+use rasterproof_render::pipeline::target::{Colour, Target};
 use rasterproof_render::scene::Scene;
 use rasterproof_report::frame_comparison;
 use rasterproof_report::html::{
@@ -36,11 +38,20 @@ pub struct PlanArguments {
     /// Rounds of measuring, each with every mixture of effects in turn [default: 9, fewer for a large model]
     #[arg(long, value_parser = clap::value_parser!(u32).range(1..=1000))]
     rounds: Option<u32>,
+    /// Draw the picture without this effect instead, and what differs, and count the pixels; nothing is measured
+    #[arg(long, value_name = "EFFECT", value_parser = parse_effect, conflicts_with_all = ["report", "json"])]
+    without: Option<Effect>,
     #[command(flatten)]
     page: PageArguments,
     /// For machines
     #[arg(long)]
     json: bool,
+}
+
+fn parse_effect(name: &str) -> Result<Effect, String> {
+    let names = || Effect::ALL.map(Effect::name).join(", ");
+    let effect = Effect::ALL.into_iter().find(|effect| effect.name() == name);
+    effect.ok_or_else(|| format!("it is none of {}", names()))
 }
 
 #[derive(serde::Serialize)]
@@ -70,6 +81,8 @@ struct Saving {
     all_but_us: f64,
     saves_last: f64,
     noise_last: bool,
+    /// Pixels that change when it is left out everywhere.
+    wrong_without: u64,
 }
 
 /// A saving in percent, unless it is within the noise.
@@ -129,10 +142,10 @@ fn mixtures() -> Vec<(String, Effects)> {
 }
 
 impl Savings {
-    fn of(mut mixtures: Vec<Measured>) -> Option<Self> {
+    fn of(mut mixtures: Vec<Measured>, wrong: &[u64]) -> Option<Self> {
         let effects = mixtures.split_off(mixtures.len().min(WHOLE.len()));
         let (planned, usual, everything) = (mixtures.pop()?, mixtures.pop()?, mixtures.pop()?);
-        let saving = |(effect, pair): (Effect, &[Measured])| Saving {
+        let saving = |((effect, pair), wrong_without): ((Effect, &[Measured]), &u64)| Saving {
             effect,
             alone_us: pair[0].time_us,
             saves_alone: 1.0 - pair[0].time_us / everything.time_us,
@@ -140,8 +153,10 @@ impl Savings {
             all_but_us: pair[1].time_us,
             saves_last: 1.0 - planned.time_us / pair[1].time_us,
             noise_last: is_noise(&pair[1], &planned),
+            wrong_without: *wrong_without,
         };
-        let savings = Effect::ALL.into_iter().zip(effects.chunks_exact(2)).map(saving).collect();
+        let savings = Effect::ALL.into_iter().zip(effects.chunks_exact(2)).zip(wrong);
+        let savings = savings.map(saving).collect();
         Some(Self { everything, usual, planned, effects: savings, mixtures: effects })
     }
 
@@ -158,6 +173,9 @@ impl Savings {
 pub fn run(arguments: &PlanArguments, typed: &Typed, streams: &mut Streams<'_>) -> Status {
     let maker = arguments.what.maker(streams)?;
     let scene = maker.scene(0.0);
+    if let Some(effect) = arguments.without {
+        return draw_without(arguments, &scene, effect, streams);
+    }
     let (measured, everything, planned) = measure(arguments, &scene, streams.progress)?;
     let same = measured.all().all(|mixture| mixture.same);
     if arguments.json {
@@ -188,6 +206,67 @@ pub fn run(arguments: &PlanArguments, typed: &Typed, streams: &mut Streams<'_>) 
         write_page(&arguments.page.place.out.join("plan.html"), report, streams);
     }
     Ok(if same { exit::AGREES } else { exit::DISAGREES })
+}
+
+/// Another frame's colour, which shows where a picture is not cleared.
+const LAST_FRAME: Colour = [255, 0, 255, 255];
+
+/// The planned frame with one effect left out everywhere, over what another frame has left.
+fn render_without(
+    arguments: &PlanArguments,
+    scene: &Scene,
+    effect: Effect,
+    target: &mut Target,
+) -> Result<Rendered, Failure> {
+    target.clear_colour(LAST_FRAME, &mut Counters::default());
+    for plane in &mut target.planes {
+        plane.depth.fill(0);
+    }
+    let effects = Effects::PLANNED.with(effect, Mode::Never);
+    arguments.engine.render(scene, &effects, target).map_err(usage)
+}
+
+/// Draws a scene without an effect, and the pixels that this changes.
+fn draw_without(
+    arguments: &PlanArguments,
+    scene: &Scene,
+    effect: Effect,
+    streams: &mut Streams<'_>,
+) -> Status {
+    let mut targets = [arguments.what.target()?, arguments.what.target()?];
+    let [with, without] = &mut targets;
+    let planned = arguments.engine.render(scene, &Effects::PLANNED, with).map_err(usage)?;
+    let other = render_without(arguments, scene, effect, without)?;
+    let (first, second) = ((&planned.picture, &*with), (&other.picture, &*without));
+    let difference = frame_comparison::compare(first, second, None).picture;
+    let wrong = frame_comparison::differing(&planned.picture, &other.picture);
+    let name = effect.name();
+    let folder = &arguments.page.place.out;
+    let stem = format!("{}-without-{name}", arguments.what.name());
+    let mut files = String::new();
+    for (ending, picture) in [("png", &other.picture), ("difference.png", &difference)] {
+        let path = folder.join(format!("{stem}.{ending}"));
+        if streams.save(&path, &frame_comparison::png(picture)?) {
+            files += &format!("wrote {}\n", printable_path(&path));
+        }
+    }
+    let pixels = u64::from(planned.picture.bounds().width())
+        * u64::from(planned.picture.bounds().height());
+    let share = 100.0 * wrong as f64 / pixels.max(1) as f64;
+    writeln!(
+        streams.output,
+        "{}: {wrong} of {pixels} pixels ({share:.1}%) are wrong without {name}",
+        scene.name
+    )?;
+    for line in grouped(&planned.plan.decisions).iter().filter(|line| line.effect == effect) {
+        let item = match line.items().as_str() {
+            "frame" => "of the frame".to_owned(),
+            items => format!("of item {items}"),
+        };
+        writeln!(streams.output, "  {item}: {}", line.reason)?;
+    }
+    streams.output.write_all(files.as_bytes())?;
+    Ok(exit::AGREES)
 }
 
 /// Interleaved rounds of every mixture: the times, the frame that pays for everything, the planned.
@@ -244,7 +323,14 @@ fn measure(
             }
         });
     let nothing = || usage("nothing was drawn");
-    let savings = Savings::of(measured.collect()).ok_or_else(nothing)?;
+    let measured = measured.collect();
+    let mut wrong = Vec::with_capacity(Effect::ALL.len());
+    // As many as were measured: none of a large model.
+    for &effect in Effect::ALL.iter().take((kept - WHOLE.len()) / 2) {
+        let without = render_without(arguments, scene, effect, &mut target)?;
+        wrong.push(frame_comparison::differing(&without.picture, &frames[0].picture));
+    }
+    let savings = Savings::of(measured, &wrong).ok_or_else(nothing)?;
     let mut frames = frames.into_iter();
     // The second is the usual one.
     let (everything, planned) = frames.next().zip(frames.nth(1)).ok_or_else(nothing)?;
@@ -275,6 +361,7 @@ fn describe(scene: &Scene, planned: &Rendered, everything: &Counters, savings: &
             ("texels", c.texels),
             ("lights", c.lights),
             ("highlights", c.highlights),
+            ("mixed with fog", c.fogged),
             ("fragment stages", c.shaded),
             ("pixels expanded", c.expanded),
             ("samples cleared", c.cleared),
@@ -290,19 +377,20 @@ fn describe(scene: &Scene, planned: &Rendered, everything: &Counters, savings: &
         text += &whole(savings);
         return text;
     }
-    text += "\nplanned          alone us     saves    last us     saves\n";
+    text += "\nplanned          alone us     saves    last us     saves  wrong without\n";
     for s in &savings.effects {
         let _ = writeln!(
             text,
-            "{:<14} {:>10.0} {:>9} {:>10.0} {:>9}",
+            "{:<14} {:>10.0} {:>9} {:>10.0} {:>9} {:>14}",
             s.effect.name(),
             s.alone_us,
             percent(s.saves_alone, s.noise_alone),
             s.all_but_us,
-            percent(s.saves_last, s.noise_last)
+            percent(s.saves_last, s.noise_last),
+            s.wrong_without
         );
     }
-    text += "alone: the rest paid for; last: paid for, the rest planned\nnoise: the middle halves of the rounds of both overlap, or there are fewer than four\n\n";
+    text += "alone: the rest paid for; last: paid for, the rest planned\nnoise: the middle halves of the rounds of both overlap, or there are fewer than four\nwrong without: pixels that change when it is left out everywhere;\n  --without EFFECT draws them\n\n";
     text + &whole(savings)
 }
 
@@ -348,6 +436,7 @@ fn report_page(
             percent(s.saves_alone, s.noise_alone),
             format!("{:.0}", s.all_but_us),
             percent(s.saves_last, s.noise_last),
+            s.wrong_without.to_string(),
         ],
         ..Row::default()
     };
@@ -376,6 +465,7 @@ fn report_page(
                     column("saves", true),
                     column("all but it us", true),
                     column("saves", true),
+                    column("pixels wrong without it", true),
                 ],
                 rows: savings.effects.iter().map(row).collect(),
             })

@@ -27,6 +27,7 @@ use rasterproof_render::effects::{Effect, Effects, Mode};
 use rasterproof_render::pipeline::Counters;
 use rasterproof_render::pipeline::assemble::Cull;
 use rasterproof_render::pipeline::depth::DepthFormat;
+use rasterproof_render::pipeline::fog::{Fog, Growth};
 use rasterproof_render::pipeline::highlight::Specular;
 use rasterproof_render::pipeline::present::DoubleBuffer;
 use rasterproof_render::pipeline::shade::Light;
@@ -87,8 +88,8 @@ pub struct SceneArguments {
 }
 
 /// The names of all options of [`ViewArguments`].
-pub(super) const VIEW_OPTIONS: [&str; 12] = [
-    "size", "aa", "cull", "shading", "specular", "up", "normals", "depth", "yaw", "pitch", "zoom",
+pub(super) const VIEW_OPTIONS: [&str; 13] = [
+    "size", "aa", "cull", "shading", "specular", "fog", "up", "normals", "depth", "yaw", "pitch", "zoom",
     "fov",
 ];
 
@@ -110,6 +111,10 @@ pub struct ViewArguments {
     /// Highlights of a model in place of its own: a strength from 0 to 1, and an exponent above 0
     #[arg(long, value_name = "STRENGTH,EXPONENT", value_parser = parse_specular)]
     specular: Option<Specular>,
+    /// Fog in the colour of the background, of a model: its start and end, where 0 is the front of the model and 1
+    /// the back; or one number, its density over the depth of the model, from the eye on
+    #[arg(long, value_name = "START,END|DENSITY", allow_negative_numbers = true, value_parser = parse_fog)]
+    fog: Option<Growth>,
     /// The axis of the model's file that points up [default: the usual one of its format, which is printed]
     #[arg(long, value_name = "AXIS", value_parser = super::one_of(UPS))]
     up: Option<Up>,
@@ -192,6 +197,21 @@ fn parse_specular(text: &str) -> Result<Specular, String> {
     })
 }
 
+fn parse_fog(text: &str) -> Result<Growth, String> {
+    let number = |word: &str| word.trim().parse::<f64>().ok().filter(|number| number.is_finite());
+    let growth = match text.split_once(',') {
+        Some((start, end)) => number(start).zip(number(end)).and_then(|(start, end)| {
+            (start < end).then_some(Growth::Linear { start, end })
+        }),
+        None => number(text)
+            .filter(|density| *density > 0.0)
+            .map(|density| Growth::Exponential { density }),
+    };
+    growth.ok_or_else(|| {
+        "expected a start and a larger end, for example 0,1, or a density above 0".to_owned()
+    })
+}
+
 impl SceneArguments {
     /// A model of a file, as it is drawn where nothing else is said.
     pub(super) fn of_model(path: &Path, size: (u32, u32)) -> Self {
@@ -204,6 +224,7 @@ impl SceneArguments {
                 cull: None,
                 shading: None,
                 specular: None,
+                fog: None,
                 up: None,
                 normals: None,
                 depth: DepthFormat::Unorm32,
@@ -293,6 +314,7 @@ impl ViewArguments {
             ("--fov", self.fov.is_some()),
             ("--shading", self.shading.is_some()),
             ("--specular", self.specular.is_some()),
+            ("--fog", self.fog.is_some()),
             ("--up", self.up.is_some()),
             ("--normals", self.normals.is_some()),
         ];
@@ -364,6 +386,18 @@ impl ViewArguments {
             item.model = about(centre, turn);
             item.material.specular = self.specular.unwrap_or(item.material.specular);
         }
+        let [r, g, b, _] = scene.background;
+        // From shares of the model's depth to distances.
+        let growth = self.fog.map(|growth| match growth {
+            Growth::Linear { start, end } => {
+                let [start, end] = [start, end].map(|at| distance + radius * (2.0 * at - 1.0));
+                Growth::Linear { start, end }
+            }
+            Growth::Exponential { density } => {
+                Growth::Exponential { density: density / (2.0 * radius) }
+            }
+        });
+        scene.fog = growth.map(|growth| Fog { colour: [r, g, b], growth });
         let Model { origins, not_drawn, .. } = model;
         Ok(Framed { scene, centre, origins, not_drawn, loading })
     }

@@ -15,6 +15,7 @@ use rasterproof_render::effects::{Effect, Effects, Mode};
 use rasterproof_render::pipeline::Counters;
 use rasterproof_render::pipeline::assemble::Cull;
 use rasterproof_render::pipeline::depth::DepthFormat;
+use rasterproof_render::pipeline::fog::{Fog, Growth};
 use rasterproof_render::pipeline::highlight::Specular;
 use rasterproof_render::pipeline::present::DoubleBuffer;
 use rasterproof_render::pipeline::shade::Light;
@@ -151,6 +152,7 @@ fn check_account(plan: &Plan, counters: &Counters, name: &str) {
         (Effect::Light, c.lights),
         (Effect::Specular, c.highlights),
         (Effect::Texture, c.texels),
+        (Effect::Fog, c.fogged),
         (Effect::Interpolation, c.components),
     ] {
         assert!(sums(effect) != [0; 2] || counted == 0, "{name} {}: {counted}", effect.name());
@@ -216,6 +218,7 @@ fn an_edited_plan_is_followed() {
                 "perspective": "planned",
                 "depth": true,
                 "specular": "planned",
+                "fog": "planned",
             }});
         }
         let plan: Plan = serde_json::from_value(json).unwrap();
@@ -477,6 +480,12 @@ fn counterexamples() -> Vec<Counterexample> {
             let material = Material { specular, shading: Shading::Phong, ..grey(1.0) };
             Scene { light, ..plain(vec![Item::new(mesh, material)]) }
         }),
+        make(Effect::Fog, none, |by| {
+            // In clip space the distance is z; fog begins at 0.
+            let growth = Growth::Linear { start: 0.0, end: 1.0 };
+            let fog = Some(Fog { colour: [0; 3], growth });
+            Scene { fog, ..plain(vec![Item::new(screen(1.0, [0.0, by]), grey(1.0))]) }
+        }),
         make(Effect::Texture, none, |by| {
             let texel = textures::generate(1, |_, _| DVec3::splat(1.0 - by));
             let texture = (by > 0.0).then(|| Arc::new(texel));
@@ -655,7 +664,7 @@ proptest! {
     fn any_mixture_of_effects_draws(
         index in any::<u32>(),
         kind in 0..4usize,
-        modes in proptest::array::uniform14(0..3u8),
+        modes in proptest::array::uniform15(0..3u8),
         some_never in any::<bool>(),
     ) {
         let scene = random::with_effects(3, index.into());

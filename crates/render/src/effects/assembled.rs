@@ -1,9 +1,10 @@
 //! A scene on its way from plan to picture: in clip space, and in pieces where they are looked at.
 
-use super::conditions::{interpolation, perspective, specular};
-use super::plan::{Order, PiecePlan, Plan, Rule};
+use super::conditions::{fog, interpolation, perspective, specular};
+use super::plan::{Attributes, Order, PiecePlan, Plan, Rule};
 use super::primitive::{BadScene, Piece, Prepared};
 use crate::pipeline::Counters;
+use crate::pipeline::fog::Share;
 use crate::scene::Scene;
 use rasterproof_core::arrays::MapArray as _;
 
@@ -51,8 +52,15 @@ impl<'a> Assembled<'a> {
 /// What a rule says about a piece.
 #[inline]
 pub(super) fn plan_of(rule: &Rule, item: &Prepared<'_>, piece: &Piece) -> PiecePlan {
-    let interpolates = interpolation::of(rule, piece);
+    let mut fog = fog::share(rule.fog, item, piece);
+    // Whoever has everything interpolated has what the fog hides interpolated too.
+    let is_hidden = fog == Share::Whole && rule.where_it_varies;
+    if fog == Share::Whole && !is_hidden {
+        fog = Share::Mixed;
+    }
+    let interpolates =
+        if is_hidden { Attributes::NONE } else { interpolation::of(rule, piece) };
     let perspective = perspective::pays(rule.perspective, piece, interpolates);
-    let specular = specular::pays(rule.specular, item, piece);
-    PiecePlan { interpolates, perspective, depth: rule.depth, specular }
+    let specular = !is_hidden && specular::pays(rule.specular, item, piece);
+    PiecePlan { interpolates, perspective, depth: rule.depth, specular, fog }
 }

@@ -15,6 +15,7 @@ use glam::DVec2;
 
 use crate::pipeline::Counters;
 use crate::pipeline::assemble::twice_area;
+use crate::pipeline::fog::Share;
 use crate::pipeline::shade::Surface;
 use crate::pipeline::target::{Colour, Target};
 use crate::scene::{Hidden, Scene};
@@ -184,10 +185,10 @@ impl<'a> Rivals<'a> {
         let Some(moved) = moved else { return };
         let (interpolates, perspective) = (item.carries, !self.scene.affine);
         let specular = item.carries_highlights;
-        let plan = PiecePlan { interpolates, perspective, depth: true, specular };
+        let plan = PiecePlan { interpolates, perspective, depth: true, specular, fog: Share::Mixed };
         let kernel = Kernel::new(item, piece, plan, &mut Counters::default());
         let emit = |f: rasterproof_core::triangle::Fragment<_>| {
-            see(f.x_px, f.y_px, kernel.shade_all(&f.varying));
+            see(f.x_px, f.y_px, kernel.shade_all(&f.varying, f.depth));
         };
         if perspective {
             engine.fragments(&moved, bounds, emit);
@@ -297,7 +298,7 @@ impl<'a> Rivals<'a> {
         let Some(moved) = moved else { return };
         let perspective = !self.scene.affine;
         let (interpolates, specular) = (item.carries, item.carries_highlights);
-        let plan = PiecePlan { interpolates, perspective, depth: true, specular };
+        let plan = PiecePlan { interpolates, perspective, depth: true, specular, fog: Share::Mixed };
         let kernel = Kernel::new(item, piece, plan, &mut Counters::default());
         let Some(texture) = kernel.varying_texture() else { return };
         let uv = moved.vertices.map_array(|v| Surface::from(v.varying).uv);
@@ -314,7 +315,7 @@ impl<'a> Rivals<'a> {
             }
             let (_, uv) = exact.at(f.x_px, f.y_px);
             let uv = DVec2::from(uv.map_array(|number| number.to_f64()));
-            let shade = |texel| kernel.shade_texel(&f.varying, texel);
+            let shade = |texel| kernel.shade_texel(&f.varying, f.depth, texel);
             let texels = texture
                 .within(uv, bounds_of_uv)
                 .unwrap_or_else(|| vec![*range.get_or_insert_with(|| texture.range())]);

@@ -12,6 +12,7 @@ use super::plan::{
 use super::primitive::{BadScene, Piece, Prepared};
 use super::samples::OnDemand;
 use crate::pipeline::Counters;
+use crate::pipeline::fog::Share;
 use crate::pipeline::target::{Colour, Target};
 use crate::scene::Scene;
 use rasterproof_core::contract::Interpolate;
@@ -383,7 +384,7 @@ impl<E: Interpolate> Stage<'_, '_, E> {
 
 /// What a fragment of a piece pays for, as bits of [`Effect`].
 fn paid(plan: PiecePlan) -> u32 {
-    let PiecePlan { interpolates, perspective, depth, specular } = plan;
+    let PiecePlan { interpolates, perspective, depth, specular, fog } = plan;
     [
         (Effect::Perspective, perspective && !interpolates.is_empty()),
         (Effect::Depth, depth),
@@ -391,6 +392,7 @@ fn paid(plan: PiecePlan) -> u32 {
         (Effect::Light, interpolates.has(Attributes::NORMAL)),
         (Effect::Specular, specular),
         (Effect::Texture, interpolates.has(Attributes::UV)),
+        (Effect::Fog, fog == Share::Mixed),
         (Effect::Interpolation, !interpolates.is_empty()),
     ]
     .into_iter()

@@ -15,6 +15,7 @@ use super::plan::{Attributes, ItemPlan, PiecePlan, Pieces};
 use super::primitive::{BadScene, Prepared};
 use super::{Effects, Mode};
 use crate::pipeline::clip::Outcode;
+use crate::pipeline::fog::{Share, Veil};
 use crate::pipeline::highlight::Highlight;
 use crate::pipeline::shade::{ALL, Light};
 use crate::pipeline::texture::Texture;
@@ -31,6 +32,8 @@ pub struct SurfaceMaterial<'a> {
     pub light: Option<DirectionalLight>,
     pub texture: Option<&'a Texture>,
     pub highlight: Option<Highlight>,
+    /// The fog of the scene.
+    pub veil: Option<Veil>,
 }
 
 /// A [`Light`].
@@ -237,8 +240,8 @@ impl<'a> Item<'a> {
     ) -> Result<Self, BadScene> {
         let item = &scene.items[index];
         let carries = attributes::carries(scene, item, &Effects::PLANNED);
-        let (perspective, depth, specular) = (true, true, true);
-        let of_pieces = PiecePlan { interpolates: carries, perspective, depth, specular };
+        let (perspective, depth, specular, fog) = (true, true, true, Share::Mixed);
+        let of_pieces = PiecePlan { interpolates: carries, perspective, depth, specular, fog };
         let plan = ItemPlan {
             clip: Mode::Planned,
             cull: Mode::Planned,
@@ -257,6 +260,7 @@ impl<'a> Item<'a> {
             light: carries.has(Attributes::NORMAL).then(|| directional_light(&prepared.light)),
             texture: prepared.texture,
             highlight: prepared.carries_highlights.then_some(prepared.highlight),
+            veil: scene.fog.map(|_| prepared.veil),
         };
         Ok(Self { material, prepared, vertices, first })
     }

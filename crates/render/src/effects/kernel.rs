@@ -10,6 +10,7 @@ use super::primitive::{Piece, Prepared, pack};
 use super::samples::OnDemand;
 use crate::pipeline::Counters;
 use crate::pipeline::fill::{Stage, Way, each, fill, fill_flat};
+use crate::pipeline::fog::{Share, Veil};
 use crate::pipeline::highlight::{Highlight, brightened};
 use crate::pipeline::shade::{ALL, Attributes as Packed, Light, Surface};
 use crate::pipeline::target::{Antialias, Colour, Target, to_colour};
@@ -31,6 +32,10 @@ pub(super) struct Kernel<'a> {
     highlight: Option<&'a Highlight>,
     /// The highlight, where it does not vary.
     shine: [u8; 3],
+    /// Where each fragment has its own share of fog.
+    veil: Option<&'a Veil>,
+    /// The colour of a piece of which nothing but fog is seen.
+    fogged: Option<Colour>,
 }
 
 impl<'a> Kernel<'a> {
@@ -51,7 +56,14 @@ impl<'a> Kernel<'a> {
             intensity: 1.0,
             highlight: None,
             shine: [0; 3],
+            fogged: None,
+            veil: (plan.fog != Share::None).then_some(&item.veil),
         };
+        if plan.fog == Share::Whole && plan.is_one_colour() {
+            kernel.veil = None;
+            kernel.fogged = Some(item.veil.colour());
+            return kernel;
+        }
         if constant(Attributes::COLOUR) {
             kernel.base *= first.colour;
         }
@@ -81,7 +93,8 @@ impl<'a> Kernel<'a> {
         counters: &mut Counters,
     ) {
         match self.plan.interpolates.0 {
-            0 => self.draw_flat(engine, piece, target, samples, counters),
+            0 if self.veil.is_none() => self.draw_flat(engine, piece, target, samples, counters),
+            0 => self.draw_as::<0, 0>(engine, piece, target, samples, counters),
             1 => self.draw_as::<3, 1>(engine, piece, target, samples, counters),
             2 => self.draw_as::<3, 2>(engine, piece, target, samples, counters),
             3 => self.draw_as::<6, 3>(engine, piece, target, samples, counters),
@@ -100,7 +113,7 @@ impl<'a> Kernel<'a> {
         samples: Option<&mut OnDemand>,
         counters: &mut Counters,
     ) {
-        let colour = self.shade::<0, 0>(&Packed([]));
+        let colour = self.fogged.unwrap_or_else(|| self.shade::<0, 0>(&Packed([])));
         let shaded = counters.shaded;
         if let Some(on_demand) = samples {
             on_demand.draw_flat(engine, piece, self.plan, colour, target, counters);
@@ -141,13 +154,14 @@ impl<'a> Kernel<'a> {
         counters.divisions += if way.affine { 0 } else { fragments };
         counters.texels += if MASK & Attributes::UV != 0 { shaded } else { 0 };
         counters.highlights += if self.highlight.is_some() { shaded } else { 0 };
+        counters.fogged += if self.veil.is_some() { shaded } else { 0 };
         counters.lights += if MASK & Attributes::NORMAL != 0 { shaded } else { 0 };
     }
 
     /// The colour of all attributes, for what has no kernel of its own.
-    pub fn shade_all(&self, varying: &Packed<ALL>) -> Colour {
+    pub fn shade_all(&self, varying: &Packed<ALL>, depth: f64) -> Colour {
         let uv = Surface::from(*varying).uv;
-        self.shade_texel(varying, self.varying_texture().map_or(self.texel, |t| t.at(uv)))
+        self.shade_texel(varying, depth, self.varying_texture().map_or(self.texel, |t| t.at(uv)))
     }
 
     /// The texture, where each fragment has texture coordinates of its own.
@@ -156,19 +170,28 @@ impl<'a> Kernel<'a> {
     }
 
     /// The same with this texel.
-    pub fn shade_texel(&self, varying: &Packed<ALL>, texel: DVec3) -> Colour {
+    pub fn shade_texel(&self, varying: &Packed<ALL>, depth: f64, texel: DVec3) -> Colour {
         let Surface { colour, normal, .. } = (*varying).into();
         let varies = |bit: u8| self.plan.interpolates.has(bit);
         let intensity =
             if varies(Attributes::NORMAL) { self.light.intensity(normal) } else { self.intensity };
         let colour = if varies(Attributes::COLOUR) { self.base * colour } else { self.base };
-        self.finish::<true>(colour * texel * intensity, normal)
+        let colour = self.finish::<true>(colour * texel * intensity, normal);
+        self.veil.map_or(colour, |veil| veil.before(colour, veil.distance(depth)))
     }
 
     /// The fragment stage of the attributes in `MASK`: a function of its own, so that there is one
     /// copy for all rasterizers.
-    fn stage<const N: usize, const MASK: u8>(&self) -> impl Fn(&[Packed<N>], u32, &mut [Colour]) {
-        each(|varying| self.shade::<N, MASK>(varying))
+    fn stage<const N: usize, const MASK: u8>(
+        &self,
+    ) -> impl Fn(&[Packed<N>], &[f64], u32, &mut [Colour]) {
+        let shade = each(|varying| self.shade::<N, MASK>(varying));
+        move |varyings, depths, wanted, colours| {
+            shade(varyings, depths, wanted, colours);
+            if let Some(veil) = self.veil {
+                veil.apply(depths, wanted, colours);
+            }
+        }
     }
 
     /// The colour in whole steps, with its highlight.

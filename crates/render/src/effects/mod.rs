@@ -54,6 +54,8 @@ pub enum Effect {
     Specular,
     /// Texture lookup, and the coordinates it needs.
     Texture,
+    /// Fog.
+    Fog,
     /// Interpolating an attribute, and computing what depends on it, in each fragment.
     Interpolation,
     /// Telling the samples of a supersampled or multisampled pixel apart.
@@ -66,7 +68,7 @@ pub enum Effect {
 
 impl Effect {
     /// All effects, in the order of the pipeline.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 15] = [
         Self::Clip,
         Self::Cull,
         Self::WideWords,
@@ -77,6 +79,7 @@ impl Effect {
         Self::Light,
         Self::Specular,
         Self::Texture,
+        Self::Fog,
         Self::Interpolation,
         Self::Samples,
         Self::Clear,
@@ -97,6 +100,7 @@ impl Effect {
             Self::Light => "light",
             Self::Specular => "specular",
             Self::Texture => "texture",
+            Self::Fog => "fog",
             Self::Interpolation => "interpolation",
             Self::Samples => "samples",
             Self::Clear => "clear",
@@ -112,8 +116,8 @@ pub enum Mode {
     /// Wherever it is called for.
     #[default]
     Planned,
-    /// Wherever the material calls for it, whatever the triangles are like. Only interpolation and specular
-    /// light know the difference: a flat material needs no normal in the fragment.
+    /// Wherever the material calls for it, whatever the triangles are like. Only interpolation, specular
+    /// light and fog know the difference: a flat material needs no normal in the fragment.
     Material,
     /// Everywhere, called for or not.
     Always,
@@ -143,6 +147,7 @@ impl Effects {
         .with(Effect::Light, Mode::Planned)
         .with(Effect::Specular, Mode::Material)
         .with(Effect::Texture, Mode::Planned)
+        .with(Effect::Fog, Mode::Material)
         .with(Effect::Interpolation, Mode::Material)
         .with(Effect::SecondBuffer, Mode::Planned);
 

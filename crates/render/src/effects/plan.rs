@@ -13,6 +13,7 @@ use serde::{Deserialize, Serialize};
 pub use super::scene_digest::SceneDigest;
 use super::{Effect, Mode};
 use crate::pipeline::depth::DepthFormat;
+use crate::pipeline::fog::Share;
 use crate::pipeline::target::{Antialias, Target};
 use rasterproof_core::grid::PixelRect;
 
@@ -181,6 +182,15 @@ pub struct PiecePlan {
     /// Whether highlights are added.
     #[serde(default, skip_serializing_if = "is_false")]
     pub specular: bool,
+    /// How much fog there is.
+    pub fog: Share,
+}
+
+impl PiecePlan {
+    /// Whether all fragments of the piece have one colour.
+    pub(super) fn is_one_colour(self) -> bool {
+        self.interpolates.is_empty() && self.fog != Share::Mixed
+    }
 }
 
 /// How a [`PiecePlan`] is made of a piece when it is there.
@@ -198,6 +208,8 @@ pub struct Rule {
     /// Planned: where a highlight may show between the normals of the corners.
     #[serde(default = "never", skip_serializing_if = "is_never")]
     pub specular: Mode,
+    /// Planned: as much as there is between the depths of the corners.
+    pub fog: Mode,
 }
 
 /// What the pieces of an item pay for.
@@ -283,7 +295,7 @@ impl Samples {
     #[inline]
     pub(super) fn tells_apart(self, touched: PixelRect, plan: PiecePlan, planes: usize) -> bool {
         let Self::OnDemand { flat_px, varying_columns } = self else { return false };
-        if plan.interpolates.is_empty() {
+        if plan.is_one_colour() {
             let area = u64::from(touched.width()) * u64::from(touched.height());
             plan.depth && area <= flat_px
         } else {
@@ -423,7 +435,8 @@ mod tests {
     #[test]
     fn a_misspelt_word_of_a_plan_is_refused() {
         let interpolates = Attributes(5);
-        let plan = PiecePlan { interpolates, perspective: true, depth: false, specular: true };
+        let (perspective, depth, specular, fog) = (true, false, true, Share::None);
+        let plan = PiecePlan { interpolates, perspective, depth, specular, fog };
         let text = serde_json::to_string(&plan).unwrap();
         assert_eq!(serde_json::from_str::<PiecePlan>(&text).unwrap(), plan);
         let error = serde_json::from_str::<PiecePlan>(&text.replace("depth", "depht")).unwrap_err();

@@ -3,7 +3,7 @@
 use super::assembled::{Assembled, plan_of};
 use super::conditions::survey::Survey;
 use super::conditions::{
-    attributes, clear, clip, cull, depth, depth_buffer, interpolation, perspective, samples,
+    attributes, clear, clip, cull, depth, depth_buffer, fog, interpolation, perspective, samples,
     second_buffer, specular, wide_words,
 };
 use super::plan::{
@@ -12,6 +12,7 @@ use super::plan::{
 use super::primitive::{BadScene, Piece, Prepared};
 use super::{Effect, Effects, Mode};
 use crate::pipeline::Counters;
+use crate::pipeline::fog::Share;
 use crate::scene::{Hidden, Scene};
 use rasterproof_core::triangle::Corners;
 
@@ -50,10 +51,13 @@ pub(super) fn plan<'a>(
         assembled.plans = plans;
         assembled.sort(plan.frame.order);
     } else if let Some(estimate) = &mut estimate {
+        let has_fog = fog::mode(scene, effects) != Mode::Never;
+        let fog_at_most = if has_fog { Share::Mixed } else { Share::None };
         for item in &assembled.items {
             let interpolates = interpolation::at_most(item.item, item.carries);
-            let (perspective, depth, specular) = (true, is_tested, false);
-            estimate.see_roughly(item, PiecePlan { interpolates, perspective, depth, specular });
+            let (perspective, depth, specular, fog) = (true, is_tested, false, fog_at_most);
+            let plan = PiecePlan { interpolates, perspective, depth, specular, fog };
+            estimate.see_roughly(item, plan);
         }
     }
     let nothing = rasterproof_core::grid::SubpixelPoint::new(0, 0);
@@ -83,7 +87,8 @@ fn outset(scene: &Scene, canvas: &Canvas, effects: &Effects) -> Plan {
         let perspective = perspective::mode(scene, effects);
         let depth = depth::pays(scene, effects, true);
         let specular = specular::mode(scene, item, carries, effects);
-        let rule = Rule { interpolates, where_it_varies, perspective, depth, specular };
+        let fog = fog::mode(scene, effects);
+        let rule = Rule { interpolates, where_it_varies, perspective, depth, specular, fog };
         ItemPlan {
             clip: effects.mode(Effect::Clip),
             cull: effects.mode(Effect::Cull),
@@ -165,6 +170,7 @@ fn account(
         decisions.push(depth::explain(survey, looked_at));
         decisions.extend(attributes::explain(survey));
         decisions.extend(specular::explain(survey));
+        decisions.push(fog::explain(survey));
         decisions.push(interpolation::explain(survey));
     }
     let triangles = scene.triangles() as u64;

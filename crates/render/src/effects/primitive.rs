@@ -8,6 +8,7 @@ use glam::{DMat3, DMat4, DVec2, DVec3};
 use super::Mode;
 use super::plan::{Attributes, ItemPlan};
 use crate::pipeline::assemble::{Assembler, BadVertex, Point, check_vertex};
+use crate::pipeline::fog::Veil;
 use crate::pipeline::highlight::Highlight;
 use crate::pipeline::shade::{ALL, Attributes as Packed, Light, Surface};
 use crate::pipeline::target::Antialias;
@@ -51,6 +52,7 @@ pub(super) struct Prepared<'a> {
     pub texture: Option<&'a Texture>,
     pub light: Light,
     pub highlight: Highlight,
+    pub veil: Veil,
     /// Whether a normal may have a highlight, and there is one.
     pub carries_highlights: bool,
     index: usize,
@@ -116,6 +118,7 @@ impl<'a> Prepared<'a> {
             texture: plan.carries.has(Attributes::UV).then_some(texture),
             light: if is_lit(scene, item) { scene.light } else { Light::NONE },
             highlight,
+            veil: Veil::new(scene.fog.as_ref(), &scene.projection),
             carries_highlights: has_normals && !highlight.is_dark(),
             index,
             assembler: assembler(item, plan, window),

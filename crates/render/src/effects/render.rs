@@ -9,6 +9,7 @@ use super::plan::{Canvas, PiecePlan, Plan, SceneDigest};
 use super::planner;
 use super::{Effect, Effects, Mode};
 use crate::pipeline::Counters;
+use crate::pipeline::fog::Share;
 use crate::pipeline::present::DoubleBuffer;
 use crate::pipeline::target::{Colour, Target};
 use crate::pipeline::wireframe::draw_edges;
@@ -134,11 +135,12 @@ pub fn render_wireframe(
             let interpolates = item.carries;
             let perspective = !scene.affine;
             let specular = item.carries_highlights;
-            let plan = PiecePlan { interpolates, perspective, depth: true, specular };
+            let plan =
+                PiecePlan { interpolates, perspective, depth: true, specular, fog: Share::Mixed };
             let kernel = Kernel::new(item, piece, plan, fills);
             draw_edges(drawer, piece, bounds, |f| {
                 fills.fragments += 1;
-                let colour = kernel.shade_all(&f.varying);
+                let colour = kernel.shade_all(&f.varying, f.depth);
                 for plane in &mut target.planes {
                     plane.test_and_write(f.x_px, f.y_px, format.key(f.depth), || colour);
                 }

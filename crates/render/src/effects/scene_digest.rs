@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::pipeline::assemble::Cull;
 use crate::pipeline::highlight::Specular;
+use crate::pipeline::fog::{Fog, Growth};
 use crate::pipeline::shade::Light;
 use crate::scene::{Corner, Hidden, Item, Material, Scene, Shading};
 
@@ -31,6 +32,7 @@ impl SceneDigest {
             view,
             projection,
             light: Light { towards, ambient, diffuse },
+            fog,
             background,
             hidden,
             affine,
@@ -40,6 +42,14 @@ impl SceneDigest {
         words.numbers(&projection.to_cols_array());
         words.point(*towards);
         words.numbers(&[*ambient, *diffuse]);
+        if let Some(Fog { colour: [r, g, b], growth }) = *fog {
+            let (kind, numbers) = match growth {
+                Growth::Linear { start, end } => (1, [start, end]),
+                Growth::Exponential { density } => (2, [density, 0.0]),
+            };
+            words.whole(u32::from_le_bytes([r, g, b, kind]).into());
+            words.numbers(&numbers);
+        }
         words.whole(u32::from_le_bytes(*background).into());
         words.whole(match hidden {
             Hidden::DepthBuffer => 0,
@@ -149,11 +159,15 @@ mod tests {
         let renamed = Scene { name: "b".to_owned(), ..scene() };
         assert_eq!(SceneDigest::of(&renamed), digest);
         type Change = fn(&mut Scene);
-        let changes: [(&str, Change); 10] = [
+        let changes: [(&str, Change); 11] = [
             ("turned", |scene| scene.items[0].model = rasterproof_core::angle::turn_y(0.1)),
             ("another eye", |scene| scene.view = rasterproof_core::angle::turn_x(0.1)),
             ("another angle of view", |scene| scene.projection.x_axis.x = 2.0),
             ("lit", |scene| scene.light.ambient = 0.5),
+            ("in fog", |scene| {
+                let growth = Growth::Exponential { density: 0.5 };
+                scene.fog = Some(Fog { colour: [0; 3], growth });
+            }),
             ("shading", |scene| scene.items[0].material.shading = Shading::Phong),
             ("shiny", |scene| scene.items[0].material.specular.shininess = 10.0),
             ("culled", |scene| scene.items[0].cull = Cull::Clockwise),

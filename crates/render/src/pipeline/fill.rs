@@ -18,13 +18,13 @@ pub struct Way {
     pub depth_test: bool,
 }
 
-/// A fragment stage of adjacent pixels: the colours of those whose bits are set, the lowest for the
-/// first, go to the places of their varyings.
-pub type Stage<'a, V> = dyn Fn(&[V], u32, &mut [Colour]) + 'a;
+/// A fragment stage of adjacent pixels, their varyings and depths: the colours of those whose bits are set, the
+/// lowest for the first, go to the places of their varyings.
+pub type Stage<'a, V> = dyn Fn(&[V], &[f64], u32, &mut [Colour]) + 'a;
 
 /// A fragment stage of one pixel for each of several.
-pub fn each<V>(stage: impl Fn(&V) -> Colour) -> impl Fn(&[V], u32, &mut [Colour]) {
-    move |varyings, wanted, colours| {
+pub fn each<V>(stage: impl Fn(&V) -> Colour) -> impl Fn(&[V], &[f64], u32, &mut [Colour]) {
+    move |varyings, _, wanted, colours| {
         for (i, (varying, colour)) in varyings.iter().zip(colours).enumerate() {
             if wanted >> i & 1 != 0 {
                 *colour = stage(varying);
@@ -57,17 +57,17 @@ pub(crate) fn all_of(count: usize) -> u32 {
     u32::MAX >> (u32::BITS as usize - count)
 }
 
-/// Shades the pixels of a run whose bits are set; `colours` are those of the whole run.
+/// Shades the pixels of a run whose bits are set; `depths` and `colours` are those of the whole run.
 #[inline]
 pub(crate) fn shade<V>(
-    values: &mut dyn Varyings<V>,
+    (values, depths): (&mut dyn Varyings<V>, &[f64]),
     wanted: u32,
     stage: &Stage<'_, V>,
     colours: &mut [Colour],
 ) {
     let from = wanted.trailing_zeros() as usize;
     let to = (u32::BITS - wanted.leading_zeros()) as usize;
-    stage(values.varyings(from, to), wanted >> from, &mut colours[from..to]);
+    stage(values.varyings(from, to), &depths[from..to], wanted >> from, &mut colours[from..to]);
 }
 
 /// Runs of fewer pixels are mostly of small pieces.
@@ -104,7 +104,7 @@ fn fill_single<V: Varying>(
         emitted += run.depths.len() as u64;
         shaded += u64::from(visible.count_ones());
         if visible != 0 {
-            shade(run.values, visible, stage, colour.span_mut(y_px, x0_px, x1_px));
+            shade((run.values, run.depths), visible, stage, colour.span_mut(y_px, x0_px, x1_px));
         }
     });
     counters.fragments += emitted;
@@ -171,7 +171,8 @@ fn fill_multisampled<V: Varying>(
                     drawn[0] = colour;
                 } else {
                     shaded += 1;
-                    stage(run.values.varyings(at as usize, at as usize + 1), 1, drawn);
+                    let at = at as usize;
+                    stage(run.values.varyings(at, at + 1), &run.depths[at..=at], 1, drawn);
                     shading.put(x_px, y_px, drawn[0]);
                 }
             }
@@ -212,7 +213,7 @@ fn fill_waiting<V: Varying>(
         if wanted != 0 {
             shaded += u64::from(wanted.count_ones());
             let mut colours = [[0; 4]; RUN];
-            shade(run.values, wanted, stage, &mut colours[..run.depths.len()]);
+            shade((run.values, run.depths), wanted, stage, &mut colours[..run.depths.len()]);
             for (sample, plane) in planes.iter_mut().enumerate() {
                 let drawn = plane.colour.span_mut(y_px, x0_px, x1_px).iter_mut();
                 for ((drawn, centre), colour) in drawn.zip(&*waiting).zip(colours) {

@@ -12,6 +12,7 @@ pub mod clip;
 pub mod depth;
 pub mod draw;
 pub mod fill;
+pub mod fog;
 pub mod highlight;
 pub mod multisample;
 pub mod present;
@@ -69,6 +70,8 @@ pub struct Counters {
     pub lights: u64,
     /// Evaluations of a highlight.
     pub highlights: u64,
+    /// Fragments that were mixed with fog.
+    pub fogged: u64,
     /// Evaluations of the whole fragment stage.
     pub shaded: u64,
     /// Samples whose colours were cleared.
@@ -100,6 +103,7 @@ impl std::ops::AddAssign for Counters {
         self.texels += other.texels;
         self.lights += other.lights;
         self.highlights += other.highlights;
+        self.fogged += other.fogged;
         self.shaded += other.shaded;
         self.cleared += other.cleared;
         self.depths_cleared += other.depths_cleared;

@@ -8,16 +8,24 @@ use glam::DVec3;
 use super::chapters::{AHEAD, Entry, daylight, turned, with};
 use super::{Item, Material, Scene, Shading, shapes, textures};
 use crate::pipeline::assemble::Cull;
+use crate::pipeline::fog::{Fog, Growth};
 use crate::pipeline::highlight::Specular;
 use crate::pipeline::texture::{Filter, Wrap};
 use rasterproof_core::angle::turn_y;
 
 /// Every such scene. The digests of frames are of the book's scenes alone.
-pub const SCENES: &[Entry] = &[Entry {
-    name: "highlights",
-    about: "spheres with specular light of the exponents 5, 30 and 200 on a matt floor",
-    build: highlights,
-}];
+pub const SCENES: &[Entry] = &[
+    Entry {
+        name: "highlights",
+        about: "spheres with specular light of the exponents 5, 30 and 200 on a matt floor",
+        build: highlights,
+    },
+    Entry {
+        name: "fog",
+        about: "two rows of pillars into the distance, in fog from 4 to 12 from the eye",
+        build: fog,
+    },
+];
 
 fn highlights(scene: Scene, turn: f64) -> Scene {
     let floor = shapes::quad([
@@ -45,4 +53,33 @@ fn highlights(scene: Scene, turn: f64) -> Scene {
         items.push(Item { cull: Cull::Clockwise, ..turned(sphere, AHEAD, turn_y(turn * TAU)) });
     }
     Scene { light: daylight(), ..with(scene, items) }
+}
+
+fn fog(scene: Scene, turn: f64) -> Scene {
+    let background = [196, 204, 214, u8::MAX];
+    let [r, g, b, _] = background;
+    let growth = Growth::Linear { start: 4.0, end: 12.0 };
+    let floor = shapes::quad([
+        DVec3::new(-9.0, -1.0, 1.5),
+        DVec3::new(9.0, -1.0, 1.5),
+        DVec3::new(9.0, -1.0, 12.0),
+        DVec3::new(-9.0, -1.0, 12.0),
+    ]);
+    let green =
+        Material { colour: DVec3::new(0.42, 0.50, 0.34), shading: Shading::Phong, ..Material::default() };
+    let mut items = vec![Item::new(floor, green)];
+    let texture = Arc::new(textures::boards().with(Filter::Bilinear, Wrap::Clamp));
+    let boards =
+        Material { texture: Some(texture), shading: Shading::Phong, ..Material::default() };
+    for row in 0..8 {
+        for side in [-1.0, 1.0] {
+            let centre = DVec3::new(1.3 * side, -0.1, 2.6 + 1.7 * f64::from(row));
+            let reach = DVec3::new(0.35, 0.9, 0.35);
+            let pillar = Item::new(shapes::cuboid(centre - reach, centre + reach), boards.clone());
+            let turned = turned(pillar, centre, turn_y(0.3 * side + turn * TAU));
+            items.push(Item { cull: Cull::Clockwise, ..turned });
+        }
+    }
+    let fog = Some(Fog { colour: [r, g, b], growth });
+    Scene { light: daylight(), fog, background, ..with(scene, items) }
 }

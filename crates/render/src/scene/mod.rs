@@ -15,6 +15,7 @@ use std::sync::Arc;
 use glam::{DMat4, DVec2, DVec3};
 
 use crate::pipeline::assemble::Cull;
+use crate::pipeline::fog::Fog;
 use crate::pipeline::highlight::Specular;
 use crate::pipeline::shade::Light;
 use crate::pipeline::target::Colour;
@@ -160,6 +161,8 @@ pub struct Scene {
     pub projection: DMat4,
     /// The light, in world space.
     pub light: Light,
+    /// What makes far things fade. Only with a projection whose z and w depend on the distance alone.
+    pub fog: Option<Fog>,
     /// The colour of pixels that no triangle covers.
     pub background: Colour,
     /// How what is hidden is found out.
@@ -180,6 +183,7 @@ impl Scene {
             view: DMat4::IDENTITY,
             projection,
             light: Light::NONE,
+            fog: None,
             background: [18, 18, 24, u8::MAX],
             hidden: Hidden::DepthBuffer,
             affine: false,

@@ -8,6 +8,7 @@ use glam::DVec3;
 
 use super::{Hidden, Item, Material, Mesh, Scene, Shading, shapes, textures};
 use crate::pipeline::assemble::Cull;
+use crate::pipeline::fog::{Fog, Growth};
 use crate::pipeline::highlight::Specular;
 use crate::pipeline::shade::Light;
 use crate::pipeline::texture::{Filter, Wrap};
@@ -36,7 +37,8 @@ pub fn scene(seed: u64, index: u64) -> Scene {
     scene
 }
 
-/// The same scene with effects beyond the book's: some of its materials have highlights.
+/// The same scene with effects beyond the book's: some of its materials have
+/// highlights, and some scenes fog.
 ///
 /// # Panics
 /// As [`scene`].
@@ -52,6 +54,16 @@ pub fn with_effects(seed: u64, index: u64) -> Scene {
             let colour = DVec3::new(rng.unit(), rng.unit(), rng.unit()) * strength;
             item.material.specular = Specular { colour, shininess };
         }
+    }
+    if rng.chance(3) {
+        let start = [0.0, 1.5, 2.0, 4.0][rng.int(0, 3) as usize] * (1.0 + 0.2 * rng.signed());
+        let growth = match rng.int(0, 2) {
+            0 => Growth::Exponential { density: rng.unit() },
+            _ => Growth::Linear { start, end: start + 6.0 * rng.unit() },
+        };
+        let [r, g, b, _] = scene.background;
+        let colour = if rng.chance(2) { [r, g, b] } else { [220, 225, 235] };
+        scene.fog = Some(Fog { colour, growth });
     }
     scene
 }

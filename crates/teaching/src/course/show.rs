@@ -268,8 +268,8 @@ impl Studio<'_> {
 
 /// The colour of a surface where its first two corners have these weights.
 fn shade(surface: &Surface<'_>, weights: DVec2) -> DVec3 {
-    // The scenes of the course have no highlights.
-    let SurfaceMaterial { base, colours, light, texture, highlight: _ } = surface.material;
+    // The scenes of the course have neither highlights nor fog.
+    let SurfaceMaterial { base, colours, light, texture, .. } = surface.material;
     let l = [weights.x, weights.y, 1.0 - weights.x - weights.y];
     let value = |i: usize| (0..3).map(|corner| l[corner] * surface.values[corner][i]).sum::<f64>();
     let mut colour = base.as_dvec3() / 255.0;

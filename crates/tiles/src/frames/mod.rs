@@ -37,7 +37,7 @@ pub use buffer::SIDE_PX;
 use buffer::{Buffer, PAIR_PX, load_colours, store_colours};
 use planes::{Depth, Planes};
 use samples::{Masks, PLACES};
-use shade::Brush;
+use shade::{Brush, Foggy};
 use visible::{CELL, PAIR, VisibilityPass, VisibleBlock};
 
 /// How many samples a pixel has.
@@ -340,6 +340,11 @@ impl<'a> Drawing<'a> {
         let shown = reached(&outline.corners, self.whole.window);
         let affine = self.whole.affine();
         let planes = Planes::of(simd, &surface.corners, &surface.values, shown, affine);
-        Brush { material: surface.material, planes }
+        let fog = surface.material.veil.as_ref().map(|veil| Foggy {
+            veil,
+            share: veil.between(outline.depths),
+            depth: Depth::of(&outline.corners, outline.depths, shown),
+        });
+        Brush { material: surface.material, planes, fog }
     }
 }

@@ -12,6 +12,7 @@ use super::planes::{Depth, Planes, along};
 use super::samples::{CENTRE, Masks};
 use super::visible::{PAIR, Place, beside};
 use rasterproof_render::effects::geometry::{DirectionalLight, SurfaceMaterial};
+use rasterproof_render::pipeline::fog::{Share, Veil};
 use rasterproof_render::pipeline::highlight::Highlight;
 use rasterproof_render::pipeline::multisample::SAMPLES;
 use rasterproof_render::pipeline::texture::{Texture, Wrap};
@@ -22,6 +23,14 @@ type Lanes<S> = f32x16<S>;
 pub(super) struct Brush<'a> {
     pub material: &'a SurfaceMaterial<'a>,
     pub planes: Planes,
+    pub fog: Option<Foggy<'a>>,
+}
+
+/// The fog of a triangle.
+pub(super) struct Foggy<'a> {
+    pub veil: &'a Veil,
+    pub share: Share,
+    pub depth: Depth,
 }
 
 impl Brush<'_> {
@@ -122,7 +131,10 @@ impl Brush<'_> {
     /// brought back to length 1, so that it is not divided by 1/w before.
     #[inline(always)]
     fn colours<S: Simd>(&self, simd: S, x: Lanes<S>, y: Lanes<S>, mask: u32) -> u32x16<S> {
-        let SurfaceMaterial { base, colours, light, texture, highlight } = self.material;
+        let SurfaceMaterial { base, colours, light, texture, highlight, veil: _ } = self.material;
+        if let Some(Foggy { veil, share: Share::Whole, .. }) = &self.fog {
+            return u32x16::splat(simd, u32::from_le_bytes(veil.colour()));
+        }
         let w = Lanes::splat(simd, 1.0) / along(&self.planes.inv_w, x, y);
         let over_w = |i: usize| self.planes.over_w(i);
         let mut r = Lanes::splat(simd, base.x);
@@ -150,7 +162,13 @@ impl Brush<'_> {
         }
         let opaque = u32x16::splat(simd, 0xff00_0000);
         let [r, g, b] = [byte(r) + shine[0], byte(g) + shine[1], byte(b) + shine[2]];
-        r.min(255) | (g.min(255) << 8) | (b.min(255) << 16) | opaque
+        let colours = r.min(255) | (g.min(255) << 8) | (b.min(255) << 16) | opaque;
+        match &self.fog {
+            Some(Foggy { veil, share: Share::Mixed, depth }) => {
+                fogged(simd, veil, depth.at(x, y), colours, mask)
+            }
+            _ => colours,
+        }
     }
 }
 
@@ -268,6 +286,26 @@ fn highlights<S: Simd>(
         u32x16::load_array_ref(simd, &shine[1]),
         u32x16::load_array_ref(simd, &shine[2]),
     ]
+}
+
+/// Colours in fog, where `mask` has bits.
+#[inline(always)]
+fn fogged<S: Simd>(
+    simd: S,
+    veil: &Veil,
+    depths: Lanes<S>,
+    colours: u32x16<S>,
+    mask: u32,
+) -> u32x16<S> {
+    let (depths, mut colours) = (depths.to_array(), colours.to_array());
+    let mut left = mask;
+    while left != 0 {
+        let lane = left.trailing_zeros() as usize & 15;
+        left &= left - 1;
+        let distance = veil.distance(depths[lane].into());
+        colours[lane] = u32::from_le_bytes(veil.before(colours[lane].to_le_bytes(), distance));
+    }
+    u32x16::load_array_ref(simd, &colours)
 }
 
 /// The nearest of 256 steps; beyond them the nearer end.

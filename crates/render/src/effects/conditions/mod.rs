@@ -9,6 +9,7 @@ pub(super) mod clip;
 pub(super) mod cull;
 pub(super) mod depth;
 pub(super) mod depth_buffer;
+pub(super) mod fog;
 pub(super) mod interpolation;
 pub(super) mod perspective;
 pub(super) mod samples;

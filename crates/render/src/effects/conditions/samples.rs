@@ -72,7 +72,7 @@ impl Estimate {
         let twice = u64::try_from(twice_area(*corners).unsigned_abs()).unwrap_or(u64::MAX);
         let (width, height) = (u64::from(rect.width()), u64::from(rect.height()));
         let area = (width * height).min(twice / (2 * side.pow(2)));
-        if plan.interpolates.is_empty() {
+        if plan.is_one_colour() {
             self.borders += width + height;
             self.drawn += area.saturating_sub(width + height);
         } else {

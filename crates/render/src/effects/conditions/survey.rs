@@ -6,6 +6,7 @@
 use crate::effects::plan::{Attributes, Decision, PiecePlan, Unit};
 use crate::effects::primitive::{Piece, has_one_w};
 use crate::effects::{Effect, Effects, Mode};
+use crate::pipeline::fog::Share;
 use crate::scene::{Item, Scene};
 
 /// One item, and what is known of its pieces.
@@ -22,6 +23,8 @@ pub struct Survey<'a> {
     pub one_w: u64,
     pub perspective: u64,
     pub depth: u64,
+    /// Pieces that are partly in the fog, and those that are wholly.
+    pub shares: [u64; 2],
     /// Pieces that may have a highlight.
     pub specular: u64,
     /// Whether the engine has words of several widths, and the pieces in more than 32 bits.
@@ -53,6 +56,7 @@ impl<'a> Survey<'a> {
             perspective: 0,
             depth: 0,
             specular: 0,
+            shares: [0; 2],
             has_widths: false,
             wide: 0,
             interpolated: [0; 3],
@@ -65,6 +69,9 @@ impl<'a> Survey<'a> {
         self.one_w += u64::from(has_one_w(piece));
         self.perspective += u64::from(plan.perspective && !plan.interpolates.is_empty());
         self.depth += u64::from(plan.depth);
+        for (count, share) in self.shares.iter_mut().zip([Share::Mixed, Share::Whole]) {
+            *count += u64::from(plan.fog == share);
+        }
         self.specular += u64::from(plan.specular);
         self.wide += u64::from(word_bits > Some(i32::BITS));
         let bits = [Attributes::COLOUR, Attributes::NORMAL, Attributes::UV];

@@ -169,7 +169,7 @@ impl OnDemand {
             }
             if wanted != 0 {
                 shaded += u64::from(wanted.count_ones());
-                shade(run.values, wanted, stage, colours.span_mut(y_px, x0_px, x1_px));
+                shade((run.values, run.depths), wanted, stage, colours.span_mut(y_px, x0_px, x1_px));
             }
         });
         counters.fragments += shaded;
