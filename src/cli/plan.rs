@@ -250,8 +250,8 @@ fn draw_without(
             files += &format!("wrote {}\n", printable_path(&path));
         }
     }
-    let pixels = u64::from(planned.picture.bounds().width())
-        * u64::from(planned.picture.bounds().height());
+    let pixels =
+        u64::from(planned.picture.bounds().width()) * u64::from(planned.picture.bounds().height());
     let share = 100.0 * wrong as f64 / pixels.max(1) as f64;
     writeln!(
         streams.output,
@@ -359,6 +359,7 @@ fn describe(scene: &Scene, planned: &Rendered, everything: &Counters, savings: &
             ("components", c.components),
             ("depth tests", c.depth_tests),
             ("texels", c.texels),
+            ("levels of detail", c.levels),
             ("lights", c.lights),
             ("highlights", c.highlights),
             ("mixed with fog", c.fogged),

@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use glam::{DMat4, DVec3};
@@ -32,6 +33,7 @@ use rasterproof_render::pipeline::highlight::Specular;
 use rasterproof_render::pipeline::present::DoubleBuffer;
 use rasterproof_render::pipeline::shade::Light;
 use rasterproof_render::pipeline::target::{Antialias, Colour, Target, check_size};
+use rasterproof_render::pipeline::texture::Texture;
 use rasterproof_render::pipeline::transform::{about, look_at, perspective};
 use rasterproof_render::scene::chapters;
 use rasterproof_render::scene::{Scene, Shading};
@@ -88,9 +90,9 @@ pub struct SceneArguments {
 }
 
 /// The names of all options of [`ViewArguments`].
-pub(super) const VIEW_OPTIONS: [&str; 13] = [
-    "size", "aa", "cull", "shading", "specular", "fog", "up", "normals", "depth", "yaw", "pitch", "zoom",
-    "fov",
+pub(super) const VIEW_OPTIONS: [&str; 14] = [
+    "size", "aa", "cull", "shading", "specular", "mip-maps", "fog", "up", "normals", "depth",
+    "yaw", "pitch", "zoom", "fov",
 ];
 
 /// How a scene or a model is seen.
@@ -111,6 +113,9 @@ pub struct ViewArguments {
     /// Highlights of a model in place of its own: a strength from 0 to 1, and an exponent above 0
     #[arg(long, value_name = "STRENGTH,EXPONENT", value_parser = parse_specular)]
     specular: Option<Specular>,
+    /// Read all textures of a model at levels of detail, also where its file does not ask for it
+    #[arg(long)]
+    mip_maps: bool,
     /// Fog in the colour of the background, of a model: its start and end, where 0 is the front of the model and 1
     /// the back; or one number, its density over the depth of the model, from the eye on
     #[arg(long, value_name = "START,END|DENSITY", allow_negative_numbers = true, value_parser = parse_fog)]
@@ -197,12 +202,30 @@ fn parse_specular(text: &str) -> Result<Specular, String> {
     })
 }
 
+/// Gives all textures a mip map; one that several items share is made once.
+fn give_mip_maps(scene: &mut Scene) {
+    let mut made: Vec<[Arc<Texture>; 2]> = Vec::new();
+    for item in &mut scene.items {
+        let Some(texture) = &mut item.material.texture else { continue };
+        let known = made.iter().find(|[before, _]| Arc::ptr_eq(before, texture));
+        let with = match known {
+            Some([_, with]) => with.clone(),
+            None => {
+                let with = Arc::new(Texture::clone(texture).with_mip_map());
+                made.push([texture.clone(), with.clone()]);
+                with
+            }
+        };
+        *texture = with;
+    }
+}
+
 fn parse_fog(text: &str) -> Result<Growth, String> {
     let number = |word: &str| word.trim().parse::<f64>().ok().filter(|number| number.is_finite());
     let growth = match text.split_once(',') {
-        Some((start, end)) => number(start).zip(number(end)).and_then(|(start, end)| {
-            (start < end).then_some(Growth::Linear { start, end })
-        }),
+        Some((start, end)) => number(start)
+            .zip(number(end))
+            .and_then(|(start, end)| (start < end).then_some(Growth::Linear { start, end })),
         None => number(text)
             .filter(|density| *density > 0.0)
             .map(|density| Growth::Exponential { density }),
@@ -224,6 +247,7 @@ impl SceneArguments {
                 cull: None,
                 shading: None,
                 specular: None,
+                mip_maps: false,
                 fog: None,
                 up: None,
                 normals: None,
@@ -314,6 +338,7 @@ impl ViewArguments {
             ("--fov", self.fov.is_some()),
             ("--shading", self.shading.is_some()),
             ("--specular", self.specular.is_some()),
+            ("--mip-maps", self.mip_maps),
             ("--fog", self.fog.is_some()),
             ("--up", self.up.is_some()),
             ("--normals", self.normals.is_some()),
@@ -385,6 +410,9 @@ impl ViewArguments {
         for item in &mut scene.items {
             item.model = about(centre, turn);
             item.material.specular = self.specular.unwrap_or(item.material.specular);
+        }
+        if self.mip_maps {
+            give_mip_maps(&mut scene);
         }
         let [r, g, b, _] = scene.background;
         // From shares of the model's depth to distances.

@@ -109,6 +109,7 @@ fn what_is_wrong_with_a_plan_is_named() {
         "perspective": "planned",
         "depth": true,
         "specular": "planned",
+        "mip_maps": "planned",
         "fog": "planned",
     }});
     type Edit<'a> = &'a dyn Fn(&mut Value);

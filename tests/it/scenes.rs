@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use glam::{DMat4, DVec3, DVec4};
+use glam::{DMat4, DVec2, DVec3, DVec4};
 use proptest::prelude::*;
 use proptest::test_runner::Config;
 use rasterproof_core::frame::Frame;
@@ -20,6 +20,7 @@ use rasterproof_render::pipeline::highlight::Specular;
 use rasterproof_render::pipeline::present::DoubleBuffer;
 use rasterproof_render::pipeline::shade::Light;
 use rasterproof_render::pipeline::target::{Antialias, Colour, Target};
+use rasterproof_render::pipeline::texture::{Filter, Wrap};
 use rasterproof_render::pipeline::transform::{look_at, perspective};
 use rasterproof_render::scene::chapters::{entries, scene};
 use rasterproof_render::scene::{
@@ -152,6 +153,7 @@ fn check_account(plan: &Plan, counters: &Counters, name: &str) {
         (Effect::Light, c.lights),
         (Effect::Specular, c.highlights),
         (Effect::Texture, c.texels),
+        (Effect::MipMaps, c.levels),
         (Effect::Fog, c.fogged),
         (Effect::Interpolation, c.components),
     ] {
@@ -218,6 +220,7 @@ fn an_edited_plan_is_followed() {
                 "perspective": "planned",
                 "depth": true,
                 "specular": "planned",
+                "mip_maps": "planned",
                 "fog": "planned",
             }});
         }
@@ -480,6 +483,18 @@ fn counterexamples() -> Vec<Counterexample> {
             let material = Material { specular, shading: Shading::Phong, ..grey(1.0) };
             Scene { light, ..plain(vec![Item::new(mesh, material)]) }
         }),
+        make(Effect::MipMaps, none, |by| {
+            // A texel a pixel of the 80 x 60, and by so much more; black and white texels in turn.
+            let texture = textures::generate(16, |x, y| DVec3::splat(f64::from((x + y) % 2)));
+            let texture = texture.with(Filter::Nearest, Wrap::Repeat).with_mip_map();
+            let mut mesh = screen(1.0, [0.0; 2]);
+            for corner in mesh.triangles.as_flattened_mut() {
+                let size = DVec2::new(80.0, 60.0) / 16.0 * (1.0 - 0.5f64.powi(19) + by);
+                corner.uv *= size;
+            }
+            let material = Material { texture: Some(Arc::new(texture)), ..grey(1.0) };
+            plain(vec![Item::new(mesh, material)])
+        }),
         make(Effect::Fog, none, |by| {
             // In clip space the distance is z; fog begins at 0.
             let growth = Growth::Linear { start: 0.0, end: 1.0 };
@@ -664,7 +679,7 @@ proptest! {
     fn any_mixture_of_effects_draws(
         index in any::<u32>(),
         kind in 0..4usize,
-        modes in proptest::array::uniform15(0..3u8),
+        modes in proptest::array::uniform16(0..3u8),
         some_never in any::<bool>(),
     ) {
         let scene = random::with_effects(3, index.into());

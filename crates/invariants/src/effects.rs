@@ -21,6 +21,7 @@ fn calls(effect: Effect, counters: &Counters) -> u64 {
         Effect::Colour | Effect::Interpolation => counters.components,
         Effect::Light => counters.lights,
         Effect::Specular => counters.highlights,
+        Effect::MipMaps => counters.levels,
         Effect::Fog => counters.fogged,
         Effect::Texture => counters.texels,
         Effect::Samples => counters.expanded,

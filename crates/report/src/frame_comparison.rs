@@ -180,7 +180,7 @@ fn compare_depths(a: &Target, b: &Target, ties: Option<&Ties>) -> (u64, Vec<(i32
 }
 
 /// The effects of a map, in the order of its panels, each with its colour.
-pub const MAP_COLOURS: [(Effect, [u8; 3]); 8] = [
+pub const MAP_COLOURS: [(Effect, [u8; 3]); 9] = [
     (Effect::Samples, [235, 140, 30]),
     (Effect::Perspective, [225, 70, 70]),
     (Effect::Depth, [80, 130, 240]),
@@ -188,6 +188,7 @@ pub const MAP_COLOURS: [(Effect, [u8; 3]); 8] = [
     (Effect::Light, [60, 180, 90]),
     (Effect::Texture, [190, 90, 205]),
     (Effect::Specular, [240, 190, 60]),
+    (Effect::MipMaps, [160, 130, 90]),
     (Effect::Fog, [120, 200, 200]),
 ];
 

@@ -145,13 +145,14 @@ pub fn survey(
 const OTHER: Colour = [255, 0, 255, 255];
 
 /// Effects that pixels pay for one by one.
-const MAPPED: [Effect; 9] = [
+const MAPPED: [Effect; 10] = [
     Effect::Perspective,
     Effect::Depth,
     Effect::Colour,
     Effect::Light,
     Effect::Specular,
     Effect::Texture,
+    Effect::MipMaps,
     Effect::Fog,
     Effect::Interpolation,
     Effect::Samples,

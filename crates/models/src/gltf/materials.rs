@@ -7,7 +7,7 @@ use std::sync::Arc;
 use glam::{DAffine2, DVec2, DVec3};
 use gltf_json::extensions::texture::TextureTransform;
 use gltf_json::material::AlphaMode;
-use gltf_json::texture::{Info, MagFilter, WrappingMode};
+use gltf_json::texture::{Info, MagFilter, MinFilter, WrappingMode};
 use gltf_json::validation::Checked;
 use rasterproof_host::limits;
 use rasterproof_host::text::{printable_path, printable_short};
@@ -204,7 +204,20 @@ fn texture(
     let nearest =
         sampler.and_then(|sampler| sampler.mag_filter) == Some(Checked::Valid(MagFilter::Nearest));
     let filter = if nearest { Filter::Nearest } else { Filter::Bilinear };
-    let picture = Arc::unwrap_or_clone(decoded.texture).with(filter, wrap);
+    let mut picture = Arc::unwrap_or_clone(decoded.texture).with(filter, wrap);
+    if let Some(Checked::Valid(min_filter)) = sampler.and_then(|sampler| sampler.min_filter) {
+        match min_filter {
+            MinFilter::Nearest | MinFilter::Linear => {}
+            MinFilter::NearestMipmapLinear | MinFilter::LinearMipmapLinear => {
+                picture = picture.with_mip_map();
+            }
+            MinFilter::NearestMipmapNearest | MinFilter::LinearMipmapNearest => {
+                // Read between two levels, where the file asks for the nearer one.
+                count("nearest level of mip map of texture");
+                picture = picture.with_mip_map();
+            }
+        }
+    }
     Ok((Arc::new(picture), decoded.transparent))
 }
 

@@ -1,6 +1,6 @@
 //! A scene on its way from plan to picture: in clip space, and in pieces where they are looked at.
 
-use super::conditions::{fog, interpolation, perspective, specular};
+use super::conditions::{fog, interpolation, mip_maps, perspective, specular};
 use super::plan::{Attributes, Order, PiecePlan, Plan, Rule};
 use super::primitive::{BadScene, Piece, Prepared};
 use crate::pipeline::Counters;
@@ -58,9 +58,10 @@ pub(super) fn plan_of(rule: &Rule, item: &Prepared<'_>, piece: &Piece) -> PieceP
     if fog == Share::Whole && !is_hidden {
         fog = Share::Mixed;
     }
-    let interpolates =
-        if is_hidden { Attributes::NONE } else { interpolation::of(rule, piece) };
+    let interpolates = if is_hidden { Attributes::NONE } else { interpolation::of(rule, piece) };
     let perspective = perspective::pays(rule.perspective, piece, interpolates);
     let specular = !is_hidden && specular::pays(rule.specular, item, piece);
-    PiecePlan { interpolates, perspective, depth: rule.depth, specular, fog }
+    let has_uv = interpolates.has(Attributes::UV);
+    let mip_maps = has_uv && mip_maps::pays(rule.mip_maps, item, piece, perspective);
+    PiecePlan { interpolates, perspective, depth: rule.depth, specular, mip_maps, fog }
 }

@@ -184,8 +184,15 @@ impl<'a> Rivals<'a> {
         };
         let Some(moved) = moved else { return };
         let (interpolates, perspective) = (item.carries, !self.scene.affine);
-        let specular = item.carries_highlights;
-        let plan = PiecePlan { interpolates, perspective, depth: true, specular, fog: Share::Mixed };
+        let (specular, mip_maps) = (item.carries_highlights, item.carries_mip_maps());
+        let plan = PiecePlan {
+            interpolates,
+            perspective,
+            depth: true,
+            specular,
+            mip_maps,
+            fog: Share::Mixed,
+        };
         let kernel = Kernel::new(item, piece, plan, &mut Counters::default());
         let emit = |f: rasterproof_core::triangle::Fragment<_>| {
             see(f.x_px, f.y_px, kernel.shade_all(&f.varying, f.depth));
@@ -298,7 +305,19 @@ impl<'a> Rivals<'a> {
         let Some(moved) = moved else { return };
         let perspective = !self.scene.affine;
         let (interpolates, specular) = (item.carries, item.carries_highlights);
-        let plan = PiecePlan { interpolates, perspective, depth: true, specular, fog: Share::Mixed };
+        let mip_maps = item.carries_mip_maps();
+        if mip_maps {
+            // Between levels any colour may be read.
+            return;
+        }
+        let plan = PiecePlan {
+            interpolates,
+            perspective,
+            depth: true,
+            specular,
+            mip_maps,
+            fog: Share::Mixed,
+        };
         let kernel = Kernel::new(item, piece, plan, &mut Counters::default());
         let Some(texture) = kernel.varying_texture() else { return };
         let uv = moved.vertices.map_array(|v| Surface::from(v.varying).uv);

@@ -384,7 +384,7 @@ impl<E: Interpolate> Stage<'_, '_, E> {
 
 /// What a fragment of a piece pays for, as bits of [`Effect`].
 fn paid(plan: PiecePlan) -> u32 {
-    let PiecePlan { interpolates, perspective, depth, specular, fog } = plan;
+    let PiecePlan { interpolates, perspective, depth, specular, mip_maps, fog } = plan;
     [
         (Effect::Perspective, perspective && !interpolates.is_empty()),
         (Effect::Depth, depth),
@@ -392,6 +392,7 @@ fn paid(plan: PiecePlan) -> u32 {
         (Effect::Light, interpolates.has(Attributes::NORMAL)),
         (Effect::Specular, specular),
         (Effect::Texture, interpolates.has(Attributes::UV)),
+        (Effect::MipMaps, mip_maps),
         (Effect::Fog, fog == Share::Mixed),
         (Effect::Interpolation, !interpolates.is_empty()),
     ]

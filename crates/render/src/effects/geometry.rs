@@ -241,7 +241,9 @@ impl<'a> Item<'a> {
         let item = &scene.items[index];
         let carries = attributes::carries(scene, item, &Effects::PLANNED);
         let (perspective, depth, specular, fog) = (true, true, true, Share::Mixed);
-        let of_pieces = PiecePlan { interpolates: carries, perspective, depth, specular, fog };
+        let mip_maps = true;
+        let of_pieces =
+            PiecePlan { interpolates: carries, perspective, depth, specular, mip_maps, fog };
         let plan = ItemPlan {
             clip: Mode::Planned,
             cull: Mode::Planned,

@@ -3,14 +3,16 @@
 //! What is switched off is not in its loop. What is left of a switched-off attribute is a constant,
 //! in the same place of the same product, so the bits are the same.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
+use super::conditions::mip_maps::{footprint, is_affine};
 use super::plan::{Attributes, PiecePlan};
 use super::primitive::{Piece, Prepared, pack};
 use super::samples::OnDemand;
 use crate::pipeline::Counters;
 use crate::pipeline::fill::{Stage, Way, each, fill, fill_flat};
 use crate::pipeline::fog::{Share, Veil};
+use crate::pipeline::footprint::Footprint;
 use crate::pipeline::highlight::{Highlight, brightened};
 use crate::pipeline::shade::{ALL, Attributes as Packed, Light, Surface};
 use crate::pipeline::target::{Antialias, Colour, Target, to_colour};
@@ -34,6 +36,8 @@ pub(super) struct Kernel<'a> {
     shine: [u8; 3],
     /// Where each fragment has its own share of fog.
     veil: Option<&'a Veil>,
+    /// Where the level of detail of the texture is asked for.
+    footprint: Option<(Footprint, Option<&'a Veil>)>,
     /// The colour of a piece of which nothing but fog is seen.
     fogged: Option<Colour>,
 }
@@ -57,6 +61,7 @@ impl<'a> Kernel<'a> {
             highlight: None,
             shine: [0; 3],
             fogged: None,
+            footprint: None,
             veil: (plan.fog != Share::None).then_some(&item.veil),
         };
         if plan.fog == Share::Whole && plan.is_one_colour() {
@@ -66,6 +71,12 @@ impl<'a> Kernel<'a> {
         }
         if constant(Attributes::COLOUR) {
             kernel.base *= first.colour;
+        }
+        if let (Some(texture), true) =
+            (item.texture, plan.mip_maps && plan.interpolates.has(Attributes::UV))
+        {
+            let veil = (!is_affine(piece, plan.perspective)).then_some(&item.veil);
+            kernel.footprint = Some((footprint(texture, piece, plan.perspective).0, veil));
         }
         if let (Some(texture), true) = (item.texture, constant(Attributes::UV)) {
             counters.texels += 1;
@@ -113,7 +124,7 @@ impl<'a> Kernel<'a> {
         samples: Option<&mut OnDemand>,
         counters: &mut Counters,
     ) {
-        let colour = self.fogged.unwrap_or_else(|| self.shade::<0, 0>(&Packed([])));
+        let colour = self.fogged.unwrap_or_else(|| self.shade::<0, 0>(&Packed([]), 0.0));
         let shaded = counters.shaded;
         if let Some(on_demand) = samples {
             on_demand.draw_flat(engine, piece, self.plan, colour, target, counters);
@@ -122,7 +133,7 @@ impl<'a> Kernel<'a> {
         } else {
             let way = Way { affine: true, depth_test: self.plan.depth };
             let bounds = target.bounds();
-            let stage = each(|_| colour);
+            let stage = each(|_, _| colour);
             fill(engine, &pack::<0, 0>(piece), target, bounds, way, &stage, counters);
         }
         // A constant is no run of the fragment stage.
@@ -155,13 +166,27 @@ impl<'a> Kernel<'a> {
         counters.texels += if MASK & Attributes::UV != 0 { shaded } else { 0 };
         counters.highlights += if self.highlight.is_some() { shaded } else { 0 };
         counters.fogged += if self.veil.is_some() { shaded } else { 0 };
+        counters.levels += if self.footprint.is_some() { shaded } else { 0 };
         counters.lights += if MASK & Attributes::NORMAL != 0 { shaded } else { 0 };
     }
 
     /// The colour of all attributes, for what has no kernel of its own.
     pub fn shade_all(&self, varying: &Packed<ALL>, depth: f64) -> Colour {
         let uv = Surface::from(*varying).uv;
-        self.shade_texel(varying, depth, self.varying_texture().map_or(self.texel, |t| t.at(uv)))
+        let texel = self.varying_texture().map_or(self.texel, |t| self.texel(t, uv, depth));
+        self.shade_texel(varying, depth, texel)
+    }
+
+    /// The texel of a fragment.
+    #[inline]
+    fn texel(&self, texture: &Texture, uv: DVec2, depth: f64) -> DVec3 {
+        match &self.footprint {
+            None => texture.at(uv),
+            Some((footprint, veil)) => {
+                let w = veil.map_or(1.0, |veil| veil.w(depth));
+                texture.at_level(uv, footprint.level(uv, w))
+            }
+        }
     }
 
     /// The texture, where each fragment has texture coordinates of its own.
@@ -185,7 +210,7 @@ impl<'a> Kernel<'a> {
     fn stage<const N: usize, const MASK: u8>(
         &self,
     ) -> impl Fn(&[Packed<N>], &[f64], u32, &mut [Colour]) {
-        let shade = each(|varying| self.shade::<N, MASK>(varying));
+        let shade = each(|varying, depth| self.shade::<N, MASK>(varying, depth));
         move |varyings, depths, wanted, colours| {
             shade(varyings, depths, wanted, colours);
             if let Some(veil) = self.veil {
@@ -206,7 +231,7 @@ impl<'a> Kernel<'a> {
 
     /// base x colour x texel x light, and the highlight; what is not in `MASK` is constant.
     #[inline]
-    fn shade<const N: usize, const MASK: u8>(&self, varying: &Packed<N>) -> Colour {
+    fn shade<const N: usize, const MASK: u8>(&self, varying: &Packed<N>, depth: f64) -> Colour {
         let mut rest = varying.0.iter().copied();
         let mut next = || rest.next().unwrap_or_default();
         let mut colour = self.base;
@@ -222,7 +247,7 @@ impl<'a> Kernel<'a> {
         };
         let texel = match self.texture {
             Some(texture) if MASK & Attributes::UV != 0 => {
-                texture.at(glam::DVec2::new(next(), next()))
+                self.texel(texture, DVec2::new(next(), next()), depth)
             }
             _ => self.texel,
         };

@@ -54,6 +54,8 @@ pub enum Effect {
     Specular,
     /// Texture lookup, and the coordinates it needs.
     Texture,
+    /// Reading textures at a level of detail.
+    MipMaps,
     /// Fog.
     Fog,
     /// Interpolating an attribute, and computing what depends on it, in each fragment.
@@ -68,7 +70,7 @@ pub enum Effect {
 
 impl Effect {
     /// All effects, in the order of the pipeline.
-    pub const ALL: [Self; 15] = [
+    pub const ALL: [Self; 16] = [
         Self::Clip,
         Self::Cull,
         Self::WideWords,
@@ -79,6 +81,7 @@ impl Effect {
         Self::Light,
         Self::Specular,
         Self::Texture,
+        Self::MipMaps,
         Self::Fog,
         Self::Interpolation,
         Self::Samples,
@@ -100,6 +103,7 @@ impl Effect {
             Self::Light => "light",
             Self::Specular => "specular",
             Self::Texture => "texture",
+            Self::MipMaps => "mip-maps",
             Self::Fog => "fog",
             Self::Interpolation => "interpolation",
             Self::Samples => "samples",
@@ -117,7 +121,7 @@ pub enum Mode {
     #[default]
     Planned,
     /// Wherever the material calls for it, whatever the triangles are like. Only interpolation, specular
-    /// light and fog know the difference: a flat material needs no normal in the fragment.
+    /// light, mip maps and fog know the difference: a flat material needs no normal in the fragment.
     Material,
     /// Everywhere, called for or not.
     Always,
@@ -147,6 +151,7 @@ impl Effects {
         .with(Effect::Light, Mode::Planned)
         .with(Effect::Specular, Mode::Material)
         .with(Effect::Texture, Mode::Planned)
+        .with(Effect::MipMaps, Mode::Material)
         .with(Effect::Fog, Mode::Material)
         .with(Effect::Interpolation, Mode::Material)
         .with(Effect::SecondBuffer, Mode::Planned);

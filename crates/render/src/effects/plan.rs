@@ -182,6 +182,8 @@ pub struct PiecePlan {
     /// Whether highlights are added.
     #[serde(default, skip_serializing_if = "is_false")]
     pub specular: bool,
+    /// Whether textures are read at a level of detail.
+    pub mip_maps: bool,
     /// How much fog there is.
     pub fog: Share,
 }
@@ -208,6 +210,8 @@ pub struct Rule {
     /// Planned: where a highlight may show between the normals of the corners.
     #[serde(default = "never", skip_serializing_if = "is_never")]
     pub specular: Mode,
+    /// Planned: where a texture is not known to be magnified everywhere.
+    pub mip_maps: Mode,
     /// Planned: as much as there is between the depths of the corners.
     pub fog: Mode,
 }
@@ -436,7 +440,7 @@ mod tests {
     fn a_misspelt_word_of_a_plan_is_refused() {
         let interpolates = Attributes(5);
         let (perspective, depth, specular, fog) = (true, false, true, Share::None);
-        let plan = PiecePlan { interpolates, perspective, depth, specular, fog };
+        let plan = PiecePlan { interpolates, perspective, depth, specular, mip_maps: true, fog };
         let text = serde_json::to_string(&plan).unwrap();
         assert_eq!(serde_json::from_str::<PiecePlan>(&text).unwrap(), plan);
         let error = serde_json::from_str::<PiecePlan>(&text.replace("depth", "depht")).unwrap_err();

@@ -3,8 +3,8 @@
 use super::assembled::{Assembled, plan_of};
 use super::conditions::survey::Survey;
 use super::conditions::{
-    attributes, clear, clip, cull, depth, depth_buffer, fog, interpolation, perspective, samples,
-    second_buffer, specular, wide_words,
+    attributes, clear, clip, cull, depth, depth_buffer, fog, interpolation, mip_maps, perspective,
+    samples, second_buffer, specular, wide_words,
 };
 use super::plan::{
     Canvas, Clear, Decision, FramePlan, ItemPlan, Order, PiecePlan, Pieces, Plan, Rule, VERSION,
@@ -56,7 +56,8 @@ pub(super) fn plan<'a>(
         for item in &assembled.items {
             let interpolates = interpolation::at_most(item.item, item.carries);
             let (perspective, depth, specular, fog) = (true, is_tested, false, fog_at_most);
-            let plan = PiecePlan { interpolates, perspective, depth, specular, fog };
+            let mip_maps = false;
+            let plan = PiecePlan { interpolates, perspective, depth, specular, mip_maps, fog };
             estimate.see_roughly(item, plan);
         }
     }
@@ -88,7 +89,9 @@ fn outset(scene: &Scene, canvas: &Canvas, effects: &Effects) -> Plan {
         let depth = depth::pays(scene, effects, true);
         let specular = specular::mode(scene, item, carries, effects);
         let fog = fog::mode(scene, effects);
-        let rule = Rule { interpolates, where_it_varies, perspective, depth, specular, fog };
+        let mip_maps = mip_maps::mode(item, carries, effects);
+        let rule =
+            Rule { interpolates, where_it_varies, perspective, depth, specular, mip_maps, fog };
         ItemPlan {
             clip: effects.mode(Effect::Clip),
             cull: effects.mode(Effect::Cull),
@@ -170,6 +173,7 @@ fn account(
         decisions.push(depth::explain(survey, looked_at));
         decisions.extend(attributes::explain(survey));
         decisions.extend(specular::explain(survey));
+        decisions.push(mip_maps::explain(survey));
         decisions.push(fog::explain(survey));
         decisions.push(interpolation::explain(survey));
     }

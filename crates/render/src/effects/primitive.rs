@@ -81,6 +81,11 @@ pub(super) fn highlight(scene: &Scene, item: &Item) -> Highlight {
 }
 
 impl<'a> Prepared<'a> {
+    /// Whether its texture is read at levels of detail.
+    pub fn carries_mip_maps(&self) -> bool {
+        self.texture.is_some_and(Texture::has_mip_map)
+    }
+
     /// Transforms the positions of an item and checks them.
     pub fn new(
         scene: &'a Scene,

@@ -135,8 +135,14 @@ pub fn render_wireframe(
             let interpolates = item.carries;
             let perspective = !scene.affine;
             let specular = item.carries_highlights;
-            let plan =
-                PiecePlan { interpolates, perspective, depth: true, specular, fog: Share::Mixed };
+            let plan = PiecePlan {
+                interpolates,
+                perspective,
+                depth: true,
+                specular,
+                mip_maps: item.carries_mip_maps(),
+                fog: Share::Mixed,
+            };
             let kernel = Kernel::new(item, piece, plan, fills);
             draw_edges(drawer, piece, bounds, |f| {
                 fills.fragments += 1;

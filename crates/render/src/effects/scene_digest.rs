@@ -111,7 +111,8 @@ impl Words {
         self.numbers(&model.to_cols_array());
         self.point(*colour);
         self.whole((*vertex_colours).into());
-        self.whole(texture.is_some().into());
+        let has_mip_map = texture.as_ref().is_some_and(|texture| texture.has_mip_map());
+        self.whole(u64::from(texture.is_some()) + u64::from(has_mip_map));
         self.whole(match shading {
             Shading::Unlit => 0,
             Shading::Flat => 1,

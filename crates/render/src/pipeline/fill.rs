@@ -22,12 +22,12 @@ pub struct Way {
 /// lowest for the first, go to the places of their varyings.
 pub type Stage<'a, V> = dyn Fn(&[V], &[f64], u32, &mut [Colour]) + 'a;
 
-/// A fragment stage of one pixel for each of several.
-pub fn each<V>(stage: impl Fn(&V) -> Colour) -> impl Fn(&[V], &[f64], u32, &mut [Colour]) {
-    move |varyings, _, wanted, colours| {
+/// A fragment stage of one pixel, its varyings and its depth, for each of several.
+pub fn each<V>(stage: impl Fn(&V, f64) -> Colour) -> impl Fn(&[V], &[f64], u32, &mut [Colour]) {
+    move |varyings, depths, wanted, colours| {
         for (i, (varying, colour)) in varyings.iter().zip(colours).enumerate() {
             if wanted >> i & 1 != 0 {
-                *colour = stage(varying);
+                *colour = stage(varying, depths[i]);
             }
         }
     }
@@ -355,7 +355,15 @@ mod tests {
             let piece = piece(&mut rng, [300, 20_000][index as usize % 2]);
             let way = Way { affine: rng.chance(2), depth_test: !rng.chance(5) };
             let bounds = fast.bounds();
-            fill(engine, &piece, &mut fast, bounds, way, &each(colour_of), &mut counters);
+            fill(
+                engine,
+                &piece,
+                &mut fast,
+                bounds,
+                way,
+                &each(|varying, _| colour_of(varying)),
+                &mut counters,
+            );
             seen += fill_simply(engine, &piece, &mut simple, way);
             assert!(fast.planes == simple.planes, "{antialias:?} {format:?}, piece {index}");
         }

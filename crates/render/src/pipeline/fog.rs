@@ -59,7 +59,10 @@ impl Veil {
     pub fn new(fog: Option<&Fog>, projection: &DMat4) -> Self {
         let none = Fog { colour: [0; 3], growth: Growth::Exponential { density: 0.0 } };
         let Fog { colour, growth } = *fog.unwrap_or(&none);
-        let [z, w] = [[projection.z_axis.z, projection.w_axis.z], [projection.z_axis.w, projection.w_axis.w]];
+        let [z, w] = [
+            [projection.z_axis.z, projection.w_axis.z],
+            [projection.z_axis.w, projection.w_axis.w],
+        ];
         Self { colour, growth, z, w }
     }
 
@@ -77,6 +80,13 @@ impl Veil {
         let distance = (self.z[1] - ndc * self.w[1]) / (ndc * self.w[0] - self.z[0]);
         // Beyond the horizon of a perspective.
         if self.w[0] != 0.0 && distance < 0.0 { f64::INFINITY } else { distance }
+    }
+
+    /// w of a depth in the window.
+    #[must_use]
+    pub fn w(&self, depth: f64) -> f64 {
+        // Where w is constant no distance is needed, which may be beyond all numbers.
+        if self.w[0] == 0.0 { self.w[1] } else { self.w[0] * self.distance(depth) + self.w[1] }
     }
 
     /// The share of fog at a distance.
@@ -156,7 +166,9 @@ mod tests {
             assert!((linear.distance(depth(distance)) - distance).abs() < 1e-12 * distance.powi(2));
         }
         let black = [0, 0, 0, 255];
-        for (distance, expected) in [(1.0, 0), (2.0, 0), (4.0, 63), (6.0, 125), (10.0, 250), (15.0, 250)] {
+        for (distance, expected) in
+            [(1.0, 0), (2.0, 0), (4.0, 63), (6.0, 125), (10.0, 250), (15.0, 250)]
+        {
             let mut colours = [black];
             linear.apply(&[depth(distance)], 1, &mut colours);
             assert_eq!(colours[0][0], expected, "at {distance}");
@@ -185,7 +197,8 @@ mod tests {
             };
             let veil = veil(growth);
             let (from, spread) = (1.0 + 18.0 * rng.unit(), 1.0 + rng.unit());
-            let depths = [0; 3].map_array(|_| depth((from * (1.0 + (spread - 1.0) * rng.unit())).min(20.0)));
+            let depths =
+                [0; 3].map_array(|_| depth((from * (1.0 + (spread - 1.0) * rng.unit())).min(20.0)));
             let share = condition(&veil, depths);
             let mut wrong = false;
             for i in 0..=12 {

@@ -13,6 +13,7 @@ pub mod depth;
 pub mod draw;
 pub mod fill;
 pub mod fog;
+pub mod footprint;
 pub mod highlight;
 pub mod multisample;
 pub mod present;
@@ -66,6 +67,8 @@ pub struct Counters {
     pub depth_failed: u64,
     /// Texture lookups.
     pub texels: u64,
+    /// Texture lookups whose level of detail was computed.
+    pub levels: u64,
     /// Evaluations of the light.
     pub lights: u64,
     /// Evaluations of a highlight.
@@ -101,6 +104,7 @@ impl std::ops::AddAssign for Counters {
         self.depth_tests += other.depth_tests;
         self.depth_failed += other.depth_failed;
         self.texels += other.texels;
+        self.levels += other.levels;
         self.lights += other.lights;
         self.highlights += other.highlights;
         self.fogged += other.fogged;

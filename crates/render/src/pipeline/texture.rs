@@ -44,6 +44,8 @@ pub struct Texture {
     pub wrap: Wrap,
     /// Between texels.
     pub filter: Filter,
+    /// Its mip map: smaller and smaller pictures, down to one texel; empty without one.
+    levels: Vec<Texture>,
 }
 
 /// Texels row by row from the top, as bytes. A table turns them into channels in [0, 1]: doubles would take
@@ -105,13 +107,82 @@ impl Texture {
     fn of(width: u32, height: u32, texels: Texels) -> Self {
         let subtexels = DVec2::new(f64::from(width), f64::from(height)) * SUBTEXELS as f64;
         let (wrap, filter) = (Wrap::Repeat, Filter::Nearest);
-        Self { width, height, subtexels, texels, wrap, filter }
+        Self { width, height, subtexels, texels, wrap, filter, levels: Vec::new() }
     }
 
     /// The same, read differently.
     #[must_use]
-    pub fn with(self, filter: Filter, wrap: Wrap) -> Self {
+    pub fn with(mut self, filter: Filter, wrap: Wrap) -> Self {
+        self.levels = self.levels.into_iter().map(|level| level.with(filter, wrap)).collect();
         Self { wrap, filter, ..self }
+    }
+
+    /// The same with a mip map: each level has half the side, and each of its texels the mean of the four that it
+    /// replaces, in whole steps, halves upwards. Of a side that is odd the last texel replaces three.
+    #[must_use]
+    pub fn with_mip_map(mut self) -> Self {
+        self.levels.clear();
+        loop {
+            let last = self.levels.last().unwrap_or(&self);
+            if last.size() == (1, 1) {
+                return self;
+            }
+            let half = last.half();
+            self.levels.push(half);
+        }
+    }
+
+    #[must_use]
+    pub fn has_mip_map(&self) -> bool {
+        !self.levels.is_empty()
+    }
+
+    /// The next level.
+    fn half(&self) -> Self {
+        let (width, height) = ((self.width / 2).max(1), (self.height / 2).max(1));
+        let part = |at: u32, half: u32, whole: u32| {
+            2 * at..if at + 1 == half { whole } else { 2 * at + 2 }
+        };
+        let mean = |x: u32, y: u32, channel: u32| {
+            let (mut sum, mut count) = (0, 0);
+            for row in part(y, height, self.height) {
+                for column in part(x, width, self.width) {
+                    let at = row as usize * self.width as usize + column as usize;
+                    sum += match &self.texels {
+                        Texels::Colour(bytes) => bytes[at] >> (8 * channel) & 0xff,
+                        Texels::Grey(bytes) => bytes[at].into(),
+                    };
+                    count += 1;
+                }
+            }
+            (2 * sum + count) / (2 * count)
+        };
+        let all = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+        let texels = match &self.texels {
+            Texels::Colour(_) => Texels::Colour(
+                all.map(|(x, y)| mean(x, y, 0) | mean(x, y, 1) << 8 | mean(x, y, 2) << 16)
+                    .collect(),
+            ),
+            Texels::Grey(_) => Texels::Grey(all.map(|(x, y)| mean(x, y, 0) as u8).collect()),
+        };
+        Self::of(width, height, texels).with(self.filter, self.wrap)
+    }
+
+    /// The colour at (u, v) at a level of detail: between the two levels of the mip map, or the texture itself
+    /// at levels up to 0 and for NaN.
+    #[must_use]
+    pub fn at_level(&self, uv: DVec2, level: f64) -> DVec3 {
+        if self.levels.is_empty() || !(level > 0.0) {
+            return self.at(uv);
+        }
+        let level = level.min(self.levels.len() as f64);
+        let (number, part) = (level as usize, level.fract());
+        let read = |number: usize| match number {
+            0 => self.at(uv),
+            number => self.levels[number - 1].at(uv),
+        };
+        let near = read(number);
+        if part == 0.0 { near } else { near + (read(number + 1) - near) * part }
     }
 
     /// Width and height in texels.
@@ -416,6 +487,26 @@ mod tests {
                 assert_eq!(subtexel(coordinate, side), floor, "{coordinate} of {width}");
             }
         }
+    }
+
+    #[test]
+    fn a_mip_map_halves_down_to_one_texel() {
+        let bytes: Vec<[u8; 3]> = (0..15).map(|i| [i, 10 * i, 0]).collect();
+        let texture = Texture::new(5, 3, &bytes).unwrap().with_mip_map();
+        // 5 x 3, 2 x 1, 1 x 1: the last columns are three, and so are the rows.
+        assert_eq!(texture.levels.iter().map(Texture::size).collect::<Vec<_>>(), [(2, 1), (1, 1)]);
+        let uv = |x: f64| DVec2::new(x, 0.5);
+        // 0 1 5 6 10 11 in the mean 5.5; 2 3 4 7 8 9 12 13 14 in the mean 8.
+        let red = |x: f64, level: f64| texture.at_level(uv(x), level).x * 255.0;
+        assert_eq!([red(0.1, 1.0), red(0.9, 1.0)], [6.0, 8.0]);
+        // Of 6 and 8; the mean of 7 and the texel of level 0.
+        assert_eq!([red(0.1, 2.0), red(0.1, 7.0), red(0.1, 1.5)], [7.0, 7.0, 6.5]);
+        for level in [0.0, -3.0, f64::NEG_INFINITY, f64::NAN] {
+            assert_eq!(texture.at_level(uv(0.3), level), texture.at(uv(0.3)));
+        }
+        let grey = Texture::grey(2, 2, vec![0, 10, 20, 31]).unwrap().with_mip_map();
+        assert_eq!(grey.at_level(uv(0.2), 1.0), DVec3::splat(CHANNELS[15]));
+        assert_eq!(texture.with(Filter::Bilinear, Wrap::Clamp).levels[1].filter, Filter::Bilinear);
     }
 
     #[test]

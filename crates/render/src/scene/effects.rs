@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use super::chapters::{AHEAD, Entry, daylight, turned, with};
 use super::{Item, Material, Scene, Shading, shapes, textures};
@@ -19,6 +19,11 @@ pub const SCENES: &[Entry] = &[
         name: "highlights",
         about: "spheres with specular light of the exponents 5, 30 and 200 on a matt floor",
         build: highlights,
+    },
+    Entry {
+        name: "mip-maps",
+        about: "a floor of checks to the horizon and a board, each with a mip map; the board is magnified",
+        build: mip_maps,
     },
     Entry {
         name: "fog",
@@ -65,8 +70,11 @@ fn fog(scene: Scene, turn: f64) -> Scene {
         DVec3::new(9.0, -1.0, 12.0),
         DVec3::new(-9.0, -1.0, 12.0),
     ]);
-    let green =
-        Material { colour: DVec3::new(0.42, 0.50, 0.34), shading: Shading::Phong, ..Material::default() };
+    let green = Material {
+        colour: DVec3::new(0.42, 0.50, 0.34),
+        shading: Shading::Phong,
+        ..Material::default()
+    };
     let mut items = vec![Item::new(floor, green)];
     let texture = Arc::new(textures::boards().with(Filter::Bilinear, Wrap::Clamp));
     let boards =
@@ -82,4 +90,23 @@ fn fog(scene: Scene, turn: f64) -> Scene {
     }
     let fog = Some(Fog { colour: [r, g, b], growth });
     Scene { light: daylight(), fog, background, ..with(scene, items) }
+}
+
+fn mip_maps(scene: Scene, turn: f64) -> Scene {
+    let checks = textures::checkerboard().with(Filter::Bilinear, Wrap::Repeat).with_mip_map();
+    let boards = textures::boards().with(Filter::Bilinear, Wrap::Clamp).with_mip_map();
+    let material = |texture| Material { texture: Some(Arc::new(texture)), ..Material::default() };
+    let mut floor = shapes::quad([
+        DVec3::new(-60.0, -1.0, 1.2),
+        DVec3::new(60.0, -1.0, 1.2),
+        DVec3::new(60.0, -1.0, 19.9),
+        DVec3::new(-60.0, -1.0, 19.9),
+    ]);
+    for corner in floor.triangles.as_flattened_mut() {
+        corner.uv *= DVec2::new(48.0, 8.0);
+    }
+    let at = |x: f64, y: f64| AHEAD + DVec3::new(x, y, -1.2);
+    let board = shapes::quad([at(-0.7, -0.6), at(0.7, -0.6), at(0.7, 0.8), at(-0.7, 0.8)]);
+    let board = turned(Item::new(board, material(boards)), AHEAD, turn_y(turn * TAU));
+    with(scene, [Item::new(floor, material(checks)), board])
 }

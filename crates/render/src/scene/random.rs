@@ -38,7 +38,7 @@ pub fn scene(seed: u64, index: u64) -> Scene {
 }
 
 /// The same scene with effects beyond the book's: some of its materials have
-/// highlights, and some scenes fog.
+/// highlights, some of its textures mip maps, and some scenes fog.
 ///
 /// # Panics
 /// As [`scene`].
@@ -53,6 +53,14 @@ pub fn with_effects(seed: u64, index: u64) -> Scene {
             let strength = if rng.chance(8) { 0.002 } else { 1.0 };
             let colour = DVec3::new(rng.unit(), rng.unit(), rng.unit()) * strength;
             item.material.specular = Specular { colour, shininess };
+        }
+    }
+    for item in &mut scene.items {
+        let has_mip_map = rng.chance(2);
+        if let Some(texture) = item.material.texture.take() {
+            let texture = Arc::unwrap_or_clone(texture);
+            let texture = if has_mip_map { texture.with_mip_map() } else { texture };
+            item.material.texture = Some(Arc::new(texture));
         }
     }
     if rng.chance(3) {

@@ -35,7 +35,9 @@ use rasterproof_render::scene::Scene;
 use bins::{Bins, Placed, Tiling, reached};
 pub use buffer::SIDE_PX;
 use buffer::{Buffer, PAIR_PX, load_colours, store_colours};
-use planes::{Depth, Planes};
+use glam::DVec2;
+use planes::{Depth, Planes, shares};
+use rasterproof_render::pipeline::footprint::Footprint;
 use samples::{Masks, PLACES};
 use shade::{Brush, Foggy};
 use visible::{CELL, PAIR, VisibilityPass, VisibleBlock};
@@ -345,6 +347,13 @@ impl<'a> Drawing<'a> {
             share: veil.between(outline.depths),
             depth: Depth::of(&outline.corners, outline.depths, shown),
         });
-        Brush { material: surface.material, planes, fog }
+        let mip_mapped = surface.material.texture.filter(|texture| texture.has_mip_map());
+        let footprint = mip_mapped.and_then(|texture| {
+            let inv_w = shares(&surface.corners, affine);
+            let uv = surface.values.map(|values| DVec2::new(values[6], values[7]));
+            let footprint = Footprint::new(outline.corners, inv_w, uv, texture.size());
+            (!footprint.is_magnified(inv_w, uv)).then_some(footprint)
+        });
+        Brush { material: surface.material, planes, fog, footprint }
     }
 }

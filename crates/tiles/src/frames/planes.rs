@@ -162,7 +162,7 @@ fn rounded<S: Simd>(values: f64x8<S>) -> [f32; ATTRIBUTES] {
 
 /// 1/w of the corners over the largest; 1 where attributes are affine.
 #[inline(always)]
-fn shares([a, b, c]: &Corners, affine: bool) -> [f64; 3] {
+pub(super) fn shares([a, b, c]: &Corners, affine: bool) -> [f64; 3] {
     let most = a.inv_w.max(b.inv_w).max(c.inv_w);
     let share = |inv_w: f64| if affine { 1.0 } else { inv_w / most };
     [share(a.inv_w), share(b.inv_w), share(c.inv_w)]

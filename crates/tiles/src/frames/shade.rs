@@ -13,6 +13,7 @@ use super::samples::{CENTRE, Masks};
 use super::visible::{PAIR, Place, beside};
 use rasterproof_render::effects::geometry::{DirectionalLight, SurfaceMaterial};
 use rasterproof_render::pipeline::fog::{Share, Veil};
+use rasterproof_render::pipeline::footprint::Footprint;
 use rasterproof_render::pipeline::highlight::Highlight;
 use rasterproof_render::pipeline::multisample::SAMPLES;
 use rasterproof_render::pipeline::texture::{Texture, Wrap};
@@ -24,6 +25,8 @@ pub(super) struct Brush<'a> {
     pub material: &'a SurfaceMaterial<'a>,
     pub planes: Planes,
     pub fog: Option<Foggy<'a>>,
+    /// Of a texture that is read at levels of detail.
+    pub footprint: Option<Footprint>,
 }
 
 /// The fog of a triangle.
@@ -147,7 +150,10 @@ impl Brush<'_> {
         }
         if let Some(texture) = texture {
             let (u, v) = (along(&over_w(6), x, y) * w, along(&over_w(7), x, y) * w);
-            let texel = texels(simd, texture, u, v, mask);
+            let texel = match &self.footprint {
+                None => texels(simd, texture, u, v, mask),
+                Some(footprint) => texels_at_levels(simd, (texture, footprint), [u, v, w], mask),
+            };
             (r, g, b) = (r * texel[0], g * texel[1], b * texel[2]);
         }
         let mut shine = [u32x16::splat(simd, 0); 3];
@@ -196,6 +202,32 @@ fn texels<S: Simd>(
         let lane = left.trailing_zeros() as usize & 15;
         left &= left - 1;
         let texel = texture.at(DVec2::new(u[lane].into(), v[lane].into())).as_vec3();
+        (texels[0][lane], texels[1][lane], texels[2][lane]) = (texel.x, texel.y, texel.z);
+    }
+    [
+        Lanes::load_array_ref(simd, &texels[0]),
+        Lanes::load_array_ref(simd, &texels[1]),
+        Lanes::load_array_ref(simd, &texels[2]),
+    ]
+}
+
+/// The same at levels of detail, where w is that of the footprint's 1/w.
+#[inline(always)]
+fn texels_at_levels<S: Simd>(
+    simd: S,
+    (texture, footprint): (&Texture, &Footprint),
+    [u, v, w]: [Lanes<S>; 3],
+    mask: u32,
+) -> [Lanes<S>; 3] {
+    let (u, v, w) = (u.to_array(), v.to_array(), w.to_array());
+    let mut texels = [[0.0; 16]; 3];
+    let mut left = mask;
+    while left != 0 {
+        let lane = left.trailing_zeros() as usize & 15;
+        left &= left - 1;
+        let uv = DVec2::new(u[lane].into(), v[lane].into());
+        let level = footprint.level(uv, w[lane].into());
+        let texel = texture.at_level(uv, level).as_vec3();
         (texels[0][lane], texels[1][lane], texels[2][lane]) = (texel.x, texel.y, texel.z);
     }
     [

@@ -71,8 +71,9 @@ fn surface(scene: &Scene) -> Result<Surface, Error> {
     if item.material.shading != Shading::Phong || item.material.vertex_colours || scene.affine {
         return Err(wrong("not lit at each fragment alone"));
     }
-    if item.material.specular.colour.max_element() > 0.0 || scene.fog.is_some() {
-        return Err(wrong("highlights or fog, which the shaders of this device lack"));
+    let has_highlights = item.material.specular.colour.max_element() > 0.0;
+    if has_highlights || texture.has_mip_map() || scene.fog.is_some() {
+        return Err(wrong("highlights, a mip map or fog, which the shaders of this device lack"));
     }
     let (columns, rows) = texture.size();
     let (corners, indices) = corners(item);

@@ -25,6 +25,8 @@ pub struct Survey<'a> {
     pub depth: u64,
     /// Pieces that are partly in the fog, and those that are wholly.
     pub shares: [u64; 2],
+    /// Pieces that are not magnified everywhere.
+    pub mip_maps: u64,
     /// Pieces that may have a highlight.
     pub specular: u64,
     /// Whether the engine has words of several widths, and the pieces in more than 32 bits.
@@ -56,6 +58,7 @@ impl<'a> Survey<'a> {
             perspective: 0,
             depth: 0,
             specular: 0,
+            mip_maps: 0,
             shares: [0; 2],
             has_widths: false,
             wide: 0,
@@ -72,6 +75,7 @@ impl<'a> Survey<'a> {
         for (count, share) in self.shares.iter_mut().zip([Share::Mixed, Share::Whole]) {
             *count += u64::from(plan.fog == share);
         }
+        self.mip_maps += u64::from(plan.mip_maps);
         self.specular += u64::from(plan.specular);
         self.wide += u64::from(word_bits > Some(i32::BITS));
         let bits = [Attributes::COLOUR, Attributes::NORMAL, Attributes::UV];

@@ -107,7 +107,7 @@ impl OnDemand {
         if self.policy.tells_apart(rect, plan, self.pattern.planes) {
             if self.tell_box_apart(engine, piece, depth, target, counters) {
                 let (bounds, way) = (target.bounds(), Way { affine: true, depth_test: true });
-                let (piece, stage) = (pack::<0, 0>(piece), each(|_| colour));
+                let (piece, stage) = (pack::<0, 0>(piece), each(|_, _| colour));
                 fill(engine, &piece, target, bounds, way, &stage, counters);
             }
             return;
@@ -169,7 +169,12 @@ impl OnDemand {
             }
             if wanted != 0 {
                 shaded += u64::from(wanted.count_ones());
-                shade((run.values, run.depths), wanted, stage, colours.span_mut(y_px, x0_px, x1_px));
+                shade(
+                    (run.values, run.depths),
+                    wanted,
+                    stage,
+                    colours.span_mut(y_px, x0_px, x1_px),
+                );
             }
         });
         counters.fragments += shaded;
