@@ -33,12 +33,15 @@ pub const SCENES: &[Entry] = &[
 ];
 
 fn highlights(scene: Scene, turn: f64) -> Scene {
-    let floor = shapes::quad([
+    let mut floor = shapes::quad([
         DVec3::new(-9.0, -1.3, 1.0),
         DVec3::new(9.0, -1.3, 1.0),
         DVec3::new(9.0, -1.3, 18.0),
         DVec3::new(-9.0, -1.3, 18.0),
     ]);
+    for corner in floor.triangles.as_flattened_mut() {
+        corner.uv *= 4.0;
+    }
     let texture = Arc::new(textures::checkerboard().with(Filter::Bilinear, Wrap::Repeat));
     let matt = Material { texture: Some(texture), shading: Shading::Phong, ..Material::default() };
     let mut items = vec![Item::new(floor, matt)];
