@@ -1,6 +1,8 @@
 //! Frames in tiles: their values against the oracle within the derived bound, their coverage against
 //! the other engines exactly, and no trace of tiles, threads or instruction sets.
 
+use std::sync::Arc;
+
 use glam::{DVec2, DVec3};
 use rasterproof_core::contract::Interpolate;
 use rasterproof_core::frame::Frame;
@@ -10,8 +12,9 @@ use rasterproof_registry::engines::Drawer;
 use rasterproof_render::effects::Effects;
 use rasterproof_render::pipeline::multisample::{SAMPLES, moved};
 use rasterproof_render::pipeline::target::{Antialias, Colour, Target};
+use rasterproof_render::pipeline::texture::{Filter, Wrap};
 use rasterproof_render::scene::chapters;
-use rasterproof_render::scene::{Hidden, Material, Scene, meshes, random};
+use rasterproof_render::scene::{Hidden, Material, Scene, meshes, random, textures};
 use rasterproof_tiles::coverage::Tiles;
 use rasterproof_tiles::frames::planes::Bounded;
 use rasterproof_tiles::frames::{self, Samples};
@@ -169,30 +172,47 @@ fn the_order_of_pieces_is_kept() {
     }
 }
 
-/// Highlights are those of the engines: in f32 a cosine is off by less than 2^-18, so its power of 200 by less than
-/// a tenth of a step of 255, and a pixel by one for that, and by one for the rest.
+/// Effects beyond the book's are those of the engines, where no other texel may be read and no depth decides. In f32 a
+/// cosine is off by less than 2^-18, so its power of 200 by less than a tenth of a step of 255; a distance up to 12 by
+/// less than 2^-15 of it, and so is a share of fog; texture coordinates up to 48 by less than 2^-13, and a texel of
+/// eight by less than half a step. So a pixel is off by one for that, and by one for the rest.
 #[test]
-fn highlights_are_those_of_the_engines() {
-    let mut scene = chapters::scene("highlights", 1.5, 0.1).unwrap();
-    // Of a texture another texel may be read.
-    scene.items.remove(0);
-    let matt = |mut scene: Scene| {
+fn effects_are_those_of_the_engines() {
+    type Without = fn(&mut Scene);
+    let highlights: Without = |scene| {
         scene.items.iter_mut().for_each(|item| item.material.specular = Default::default());
-        scene
     };
-    for samples in [Samples::One, Samples::Four] {
-        let draw = |scene: &Scene| {
-            let tiles = frames::render(scene, 201, 134, samples).unwrap();
-            let engine = by_scanline(scene, 201, 134, samples);
-            let rows = tiles.rows().zip(engine.rows());
-            let pixels = rows.flat_map(|((_, a), (_, b))| a.iter().zip(b));
-            let off = pixels.map(|(a, b)| (0..3).map(|i| a[i].abs_diff(b[i])).max().unwrap());
-            (off.max().unwrap(), tiles)
-        };
-        let ((off, shiny), (_, matt)) = (draw(&scene), draw(&matt(scene.clone())));
-        assert!(off <= 2, "{samples:?}: off by {off}");
-        let pixels = shiny.rows().zip(matt.rows()).flat_map(|((_, a), (_, b))| a.iter().zip(b));
-        assert!(pixels.filter(|(a, b)| a[0] > b[0] + 50).count() > 100, "{samples:?}");
+    let mip_maps: Without = |scene| {
+        for item in &mut scene.items {
+            let texture = textures::checkerboard().with(Filter::Bilinear, Wrap::Repeat);
+            item.material.texture = Some(Arc::new(texture));
+        }
+    };
+    for (name, without) in
+        [("highlights", highlights), ("fog", |scene| scene.fog = None), ("mip-maps", mip_maps)]
+    {
+        let mut scene = chapters::scene(name, 1.5, 0.1).unwrap();
+        match name {
+            "highlights" => drop(scene.items.remove(0)),
+            "fog" => scene.items.iter_mut().for_each(|item| item.material.texture = None),
+            // The floor alone.
+            _ => scene.items.truncate(1),
+        }
+        let mut plain = scene.clone();
+        without(&mut plain);
+        for samples in [Samples::One, Samples::Four] {
+            let tiles = frames::render(&scene, 201, 134, samples).unwrap();
+            let off = |other: &Frame<Colour>| -> Vec<u8> {
+                let rows = tiles.rows().zip(other.rows());
+                let pixels = rows.flat_map(|((_, a), (_, b))| a.iter().zip(b));
+                pixels.map(|(a, b)| (0..3).map(|i| a[i].abs_diff(b[i])).max().unwrap()).collect()
+            };
+            let most = off(&by_scanline(&scene, 201, 134, samples)).into_iter().max().unwrap();
+            assert!(most <= 2, "{name} {samples:?}: off by {most}");
+            let without = frames::render(&plain, 201, 134, samples).unwrap();
+            let changed = off(&without).into_iter().filter(|off| *off > 20).count();
+            assert!(changed > 100, "{name} {samples:?}: {changed} pixels have the effect");
+        }
     }
 }
 
