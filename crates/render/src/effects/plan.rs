@@ -160,6 +160,10 @@ fn is_false(word: &bool) -> bool {
     !word
 }
 
+fn is_none(share: &Share) -> bool {
+    *share == Share::None
+}
+
 fn never() -> Mode {
     Mode::Never
 }
@@ -183,8 +187,10 @@ pub struct PiecePlan {
     #[serde(default, skip_serializing_if = "is_false")]
     pub specular: bool,
     /// Whether textures are read at a level of detail.
+    #[serde(default, skip_serializing_if = "is_false")]
     pub mip_maps: bool,
     /// How much fog there is.
+    #[serde(default, skip_serializing_if = "is_none")]
     pub fog: Share,
 }
 
@@ -211,8 +217,10 @@ pub struct Rule {
     #[serde(default = "never", skip_serializing_if = "is_never")]
     pub specular: Mode,
     /// Planned: where a texture is not known to be magnified everywhere.
+    #[serde(default = "never", skip_serializing_if = "is_never")]
     pub mip_maps: Mode,
     /// Planned: as much as there is between the depths of the corners.
+    #[serde(default = "never", skip_serializing_if = "is_never")]
     pub fog: Mode,
 }
 

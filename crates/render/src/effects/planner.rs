@@ -173,8 +173,8 @@ fn account(
         decisions.push(depth::explain(survey, looked_at));
         decisions.extend(attributes::explain(survey));
         decisions.extend(specular::explain(survey));
-        decisions.push(mip_maps::explain(survey));
-        decisions.push(fog::explain(survey));
+        decisions.extend(mip_maps::explain(survey));
+        decisions.extend(fog::explain(survey));
         decisions.push(interpolation::explain(survey));
     }
     let triangles = scene.triangles() as u64;

@@ -6,8 +6,8 @@ use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use crate::pipeline::assemble::Cull;
-use crate::pipeline::highlight::Specular;
 use crate::pipeline::fog::{Fog, Growth};
+use crate::pipeline::highlight::Specular;
 use crate::pipeline::shade::Light;
 use crate::scene::{Corner, Hidden, Item, Material, Scene, Shading};
 

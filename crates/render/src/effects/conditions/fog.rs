@@ -34,26 +34,32 @@ pub fn share(mode: Mode, item: &Prepared<'_>, piece: &Piece) -> Share {
     }
 }
 
-pub fn explain(survey: &Survey<'_>) -> Decision {
+/// Nothing of a scene without fog, unless it is asked for or refused everywhere.
+pub fn explain(survey: &Survey<'_>) -> Option<Decision> {
     let Survey { scene, pieces, shares: [mixed, whole], .. } = *survey;
+    let asked = survey.effects.mode(Effect::Fog);
     let all = match mode(scene, survey.effects) {
         Mode::Always => pieces,
         _ => 0,
     };
-    if scene.fog.is_none() {
-        return survey.decide(Effect::Fog, all, "the scene has no fog");
-    }
-    if survey.effects.mode(Effect::Fog) == Mode::Material {
-        return survey.decide(Effect::Fog, all, "the scene has fog");
-    }
-    if !survey.is_listed {
-        return survey.leave_open(Effect::Fog, "where the depths of the corners are in the fog");
-    }
-    let reason = match (mixed, whole) {
-        (0, 0) => "every piece is nearer than the fog",
-        (0, _) => "no piece is partly in the fog: it is not in it, or nothing else is seen",
-        _ if mixed == pieces => "every piece is partly in the fog",
-        _ => "some pieces are partly in the fog",
+    let (on, reason) = if scene.fog.is_none() {
+        if matches!(asked, Mode::Planned | Mode::Material) {
+            return None;
+        }
+        (all, "the scene has no fog")
+    } else if asked == Mode::Material {
+        (all, "the scene has fog")
+    } else if !survey.is_listed {
+        let reason = "where the depths of the corners are in the fog";
+        return Some(survey.leave_open(Effect::Fog, reason));
+    } else {
+        let reason = match (mixed, whole) {
+            (0, 0) => "every piece is nearer than the fog",
+            (0, _) => "no piece is partly in the fog: it is not in it, or nothing else is seen",
+            _ if mixed == pieces => "every piece is partly in the fog",
+            _ => "some pieces are partly in the fog",
+        };
+        (mixed, reason)
     };
-    survey.decide(Effect::Fog, mixed, reason)
+    Some(survey.decide(Effect::Fog, on, reason))
 }

@@ -64,30 +64,35 @@ pub fn pays(mode: Mode, item: &Prepared<'_>, piece: &Piece, perspective: bool) -
     }
 }
 
-pub fn explain(survey: &Survey<'_>) -> Decision {
+/// Nothing of a texture without a mip map, unless levels are asked for or refused everywhere.
+pub fn explain(survey: &Survey<'_>) -> Option<Decision> {
     let Survey { item, pieces, mip_maps, .. } = *survey;
+    let asked = survey.effects.mode(Effect::MipMaps);
     let all = match mode(item, survey.carries, survey.effects) {
         Mode::Always => pieces,
         _ => 0,
     };
-    if !has_mip_map(item) {
-        let reason = match item.material.texture {
-            Some(_) => "the texture has no mip map",
-            None => "the material has no texture",
+    let (on, reason) = if !has_mip_map(item) {
+        if matches!(asked, Mode::Planned | Mode::Material) {
+            return None;
+        }
+        let has_texture = item.material.texture.is_some();
+        (
+            all,
+            if has_texture { "the texture has no mip map" } else { "the material has no texture" },
+        )
+    } else if asked == Mode::Material {
+        (all, "the texture has a mip map")
+    } else if !survey.is_listed {
+        let reason = "where the texture is not known to be magnified";
+        return Some(survey.leave_open(Effect::MipMaps, reason));
+    } else {
+        let reason = match mip_maps {
+            0 => "the texture is magnified everywhere",
+            _ if mip_maps == pieces => "no piece is known to magnify the texture everywhere",
+            _ => "some pieces are not known to magnify the texture everywhere",
         };
-        return survey.decide(Effect::MipMaps, all, reason);
-    }
-    if survey.effects.mode(Effect::MipMaps) == Mode::Material {
-        return survey.decide(Effect::MipMaps, all, "the texture has a mip map");
-    }
-    if !survey.is_listed {
-        return survey
-            .leave_open(Effect::MipMaps, "where the texture is not known to be magnified");
-    }
-    let reason = match mip_maps {
-        0 => "the texture is magnified everywhere",
-        _ if mip_maps == pieces => "no piece is known to magnify the texture everywhere",
-        _ => "some pieces are not known to magnify the texture everywhere",
+        (mip_maps, reason)
     };
-    survey.decide(Effect::MipMaps, mip_maps, reason)
+    Some(survey.decide(Effect::MipMaps, on, reason))
 }
