@@ -172,7 +172,7 @@ impl Texture {
     /// at levels up to 0 and for NaN.
     #[must_use]
     pub fn at_level(&self, uv: DVec2, level: f64) -> DVec3 {
-        if self.levels.is_empty() || !(level > 0.0) {
+        if self.levels.is_empty() || level <= 0.0 || level.is_nan() {
             return self.at(uv);
         }
         let level = level.min(self.levels.len() as f64);
