@@ -90,6 +90,7 @@ impl Veil {
     }
 
     /// The share of fog at a distance.
+    #[expect(clippy::manual_clamp, reason = "the maximum turns NaN into 0, a clamp keeps it")]
     fn share(&self, distance: f64) -> f64 {
         let share = match self.growth {
             Growth::Linear { start, end } => (distance - start) / (end - start),

@@ -90,7 +90,7 @@ mod tests {
     fn triangle(rng: &mut Rng) -> (Corners, [f64; 3], [DVec2; 3]) {
         loop {
             let mut corner =
-                |_| SubpixelPoint::new(rng.int(0, 25_600) as i32, rng.int(0, 25_600) as i32);
+                |_: i32| SubpixelPoint::new(rng.int(0, 25_600) as i32, rng.int(0, 25_600) as i32);
             let corners = [0; 3].map_array(&mut corner);
             if twice_area(corners).abs() > 1 << 20 {
                 let inv_w = [0; 3].map_array(|_| 0.05 + rng.unit());
@@ -129,7 +129,7 @@ mod tests {
                 let [left, right] = [middle - d, middle + d].map_array(|p| value(p).1);
                 ((right - left) / (2.0 * step) * DVec2::new(64.0, 32.0)).length()
             };
-            let expected = difference(DVec2::X * step).max(difference(DVec2::Y * step)).log2();
+            let expected = libm::log2(difference(DVec2::X * step).max(difference(DVec2::Y * step)));
             let level = footprint.level(here, w);
             assert!((level - expected).abs() < 1e-4, "{level} for {expected}");
         }
