@@ -32,7 +32,7 @@ pub struct SurfaceMaterial<'a> {
     pub light: Option<DirectionalLight>,
     pub texture: Option<&'a Texture>,
     pub highlight: Option<Highlight>,
-    /// The fog of the scene.
+    /// Nothing where the scene has no fog.
     pub veil: Option<Veil>,
 }
 

@@ -30,13 +30,13 @@ pub(super) struct Kernel<'a> {
     light: Light,
     /// The light, where it does not vary.
     intensity: f64,
-    /// Of normals that vary.
+    /// Nothing where normals do not vary, or no highlight reaches them.
     highlight: Option<&'a Highlight>,
     /// The highlight, where it does not vary.
     shine: [u8; 3],
     /// Where each fragment has its own share of fog.
     veil: Option<&'a Veil>,
-    /// Where the level of detail of the texture is asked for.
+    /// Where the texture is read at levels of detail; the veil gives w, which is 1 where there is none.
     footprint: Option<(Footprint, Option<&'a Veil>)>,
     /// The colour of a piece of which nothing but fog is seen.
     fogged: Option<Colour>,
@@ -177,7 +177,7 @@ impl<'a> Kernel<'a> {
         self.shade_texel(varying, depth, texel)
     }
 
-    /// The texel of a fragment.
+    /// What a fragment reads of its texture, at a level of detail where the plan pays for it.
     #[inline]
     fn texel(&self, texture: &Texture, uv: DVec2, depth: f64) -> DVec3 {
         match &self.footprint {

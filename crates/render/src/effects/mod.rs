@@ -50,13 +50,13 @@ pub enum Effect {
     Colour,
     /// Light, and the normals it needs.
     Light,
-    /// Highlights.
+    /// Highlights of shiny materials, and the normals they need.
     Specular,
     /// Texture lookup, and the coordinates it needs.
     Texture,
     /// Reading textures at a level of detail.
     MipMaps,
-    /// Fog.
+    /// Mixing colours with that of the fog, by distance.
     Fog,
     /// Interpolating an attribute, and computing what depends on it, in each fragment.
     Interpolation,

@@ -183,13 +183,13 @@ pub struct PiecePlan {
     pub perspective: bool,
     /// Whether depths are compared and written.
     pub depth: bool,
-    /// Whether highlights are added.
+    /// Whether the material's highlight is computed and added.
     #[serde(default, skip_serializing_if = "is_false")]
     pub specular: bool,
     /// Whether textures are read at a level of detail.
     #[serde(default, skip_serializing_if = "is_false")]
     pub mip_maps: bool,
-    /// How much fog there is.
+    /// Whether its fragments are mixed with fog, or show nothing else.
     #[serde(default, skip_serializing_if = "is_none")]
     pub fog: Share,
 }

@@ -71,7 +71,7 @@ pub(super) fn is_lit(scene: &Scene, item: &Item) -> bool {
     matches!(item.material.shading, Shading::Flat | Shading::Phong) && scene.light != Light::NONE
 }
 
-/// The highlights of an item.
+/// The highlights of an item in the light of its scene.
 pub(super) fn highlight(scene: &Scene, item: &Item) -> Highlight {
     // Camera space has z away from the eye.
     let [x, y, z] =

@@ -10,7 +10,7 @@ use glam::{DMat4, DVec3};
 use super::target::{Colour, to_colour};
 use rasterproof_core::arrays::MapArray as _;
 
-/// How fog grows with distance.
+/// The share of fog as a function of the distance from the eye.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Growth {
     /// None up to a distance, nothing else from a larger one on.
@@ -19,7 +19,7 @@ pub enum Growth {
     Exponential { density: f64 },
 }
 
-/// The fog of a scene.
+/// The fog of a scene, in the world: distances are those of the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fog {
     pub colour: [u8; 3],
@@ -30,16 +30,16 @@ pub struct Fog {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Share {
-    /// None that changes a colour.
+    /// So little that no colour changes.
     #[default]
     None,
-    /// Each its own.
+    /// Each fragment has a share of its own.
     Mixed,
     /// So much that nothing else is seen.
     Whole,
 }
 
-/// Fog as a projection has it.
+/// Fog as a function of the depth in the window, by a projection.
 #[derive(Clone, Copy, Debug)]
 pub struct Veil {
     colour: [u8; 3],
@@ -82,7 +82,7 @@ impl Veil {
         if self.w[0] != 0.0 && distance < 0.0 { f64::INFINITY } else { distance }
     }
 
-    /// w of a depth in the window.
+    /// The w of clip space that a depth in the window stands for.
     #[must_use]
     pub fn w(&self, depth: f64) -> f64 {
         // Where w is constant no distance is needed, which may be beyond all numbers.
