@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use glam::DVec3;
 use rasterproof_models::{BadFile, Format, Model, Options, Up};
 use rasterproof_render::pipeline::assemble::Cull;
-use rasterproof_render::scene::Shading;
+use rasterproof_render::scene::{Material, Shading};
 use serde_json::{Value, json};
 
 const POSITIONS: [[f32; 3]; 4] = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
@@ -251,6 +251,13 @@ fn a_gltf_of_any_kind_is_the_same_as_an_obj() {
     assert_eq!(corners(&model), [&obj[..], &obj].concat(), "a node with two meshes");
     assert_eq!(model.not_drawn, "specular colour of 1 material");
     assert_eq!(model.items[0].material.colour.to_array(), [1.0, 0.0, 0.0]);
+    // With an exponent it is drawn.
+    let shiny = first.to_string().replace("[1,1,1,1]", "[1,1,1,1],\"shininess\":20");
+    let model = load("shiny.gltf", shiny.as_bytes()).unwrap();
+    let Material { colour, specular, .. } = &model.items[0].material;
+    assert_eq!((model.not_drawn.as_str(), colour.to_array()), ("", [1.0, 0.0, 0.0]));
+    assert_eq!(specular.colour.to_array(), [1.0; 3]);
+    assert!((specular.shininess - 20.0).abs() < 1e-4, "{specular:?}");
 }
 
 /// Bytes as text, by the definition.

@@ -233,6 +233,7 @@ fn material(value: &Value, textures: &List<'_>, not_drawn: &mut BTreeMap<String,
             json!([channel(0), channel(1), channel(2), channel(3)]),
         );
     }
+    let shiny = shiny(values, &mut pbr);
     for (member, key) in [
         ("specular", "specular colour of material"),
         ("emission", "emission of material"),
@@ -245,15 +246,45 @@ fn material(value: &Value, textures: &List<'_>, not_drawn: &mut BTreeMap<String,
             }
             value => value.is_string(),
         };
-        if values.get(member).is_some_and(is_lit) {
+        let is_drawn = member == "specular" && shiny.is_some();
+        if !is_drawn && values.get(member).is_some_and(is_lit) {
             *not_drawn.entry(key.to_owned()).or_default() += 1;
         }
     }
     let mut made = members(value, &["name"]);
     made.insert("pbrMetallicRoughness".to_owned(), pbr.into());
+    if let Some(shiny) = shiny {
+        made.insert(
+            "extensions".to_owned(),
+            json!({ "KHR_materials_pbrSpecularGlossiness": shiny }),
+        );
+    }
     // Culling is a state of the technique, which is not read.
     made.insert("doubleSided".to_owned(), true.into());
     made.into()
+}
+
+/// A material with a specular colour and an exponent as one of the extension that has gloss, with the diffuse part of
+/// `pbr`: of such a gloss that [`super::materials`] makes the exponent of it again.
+fn shiny(values: &Value, pbr: &mut Map<String, Value>) -> Option<Value> {
+    let channels = values.get("specular")?.as_array()?;
+    let channel = |at: usize| channels.get(at).and_then(Value::as_f64).unwrap_or(0.0);
+    let exponent = values.get("shininess")?.as_f64().filter(|&exponent| exponent > 0.0)?;
+    if (0..3).all(|at| channel(at) <= 0.0) {
+        return None;
+    }
+    let gloss = 1.0 - libm::pow(2.0 / (exponent + 2.0), 0.25);
+    let mut shiny = Map::new();
+    let factor = json!([decoded(channel(0)), decoded(channel(1)), decoded(channel(2))]);
+    shiny.insert("specularFactor".to_owned(), factor);
+    shiny.insert("glossinessFactor".to_owned(), gloss.into());
+    for (from, to) in [("baseColorFactor", "diffuseFactor"), ("baseColorTexture", "diffuseTexture")]
+    {
+        if let Some(part) = pbr.remove(from) {
+            shiny.insert(to.to_owned(), part);
+        }
+    }
+    Some(shiny.into())
 }
 
 /// The inverse of [`super::encoded`].
