@@ -124,7 +124,8 @@ impl<'a> Kernel<'a> {
         samples: Option<&mut OnDemand>,
         counters: &mut Counters,
     ) {
-        let colour = self.fogged.unwrap_or_else(|| self.shade::<0, 0>(&Packed([]), 0.0));
+        let shade = || brightened(self.shade::<0, 0, false>(&Packed([]), 0.0), self.shine);
+        let colour = self.fogged.unwrap_or_else(shade);
         let shaded = counters.shaded;
         if let Some(on_demand) = samples {
             on_demand.draw_flat(engine, piece, self.plan, colour, target, counters);
@@ -153,7 +154,8 @@ impl<'a> Kernel<'a> {
         let way = Way { affine: !self.plan.perspective, depth_test: self.plan.depth };
         let before = *counters;
         // One copy of the rasterizer's loops for all attributes of this size.
-        let stage: &Stage<'_, Packed<N>> = &self.stage::<N, MASK>();
+        let (plain, levels) = (self.stage::<N, MASK, false>(), self.stage::<N, MASK, true>());
+        let stage: &Stage<'_, Packed<N>> = if self.footprint.is_some() { &levels } else { &plain };
         if let Some(on_demand) = samples {
             on_demand.draw_varying(engine, piece, &packed, target, self.plan, stage, counters);
         } else {
@@ -178,7 +180,6 @@ impl<'a> Kernel<'a> {
     }
 
     /// What a fragment reads of its texture, at a level of detail where the plan pays for it.
-    #[inline]
     fn texel(&self, texture: &Texture, uv: DVec2, depth: f64) -> DVec3 {
         match &self.footprint {
             None => texture.at(uv),
@@ -201,61 +202,74 @@ impl<'a> Kernel<'a> {
         let intensity =
             if varies(Attributes::NORMAL) { self.light.intensity(normal) } else { self.intensity };
         let colour = if varies(Attributes::COLOUR) { self.base * colour } else { self.base };
-        let colour = self.finish::<true>(colour * texel * intensity, normal);
+        let shine = self.highlight.map_or(self.shine, |highlight| highlight.at(normal));
+        let colour = brightened(to_colour(colour * texel * intensity), shine);
         self.veil.map_or(colour, |veil| veil.before(colour, veil.distance(depth)))
     }
 
     /// The fragment stage of the attributes in `MASK`: a function of its own, so that there is one
-    /// copy for all rasterizers.
-    fn stage<const N: usize, const MASK: u8>(
+    /// copy for all rasterizers. What only some scenes call for comes after the loop that all have.
+    fn stage<const N: usize, const MASK: u8, const LEVELS: bool>(
         &self,
     ) -> impl Fn(&[Packed<N>], &[f64], u32, &mut [Colour]) {
-        let shade = each(|varying, depth| self.shade::<N, MASK>(varying, depth));
+        let shade = each(|varying, depth| self.shade::<N, MASK, LEVELS>(varying, depth));
         move |varyings, depths, wanted, colours| {
             shade(varyings, depths, wanted, colours);
+            if self.highlight.is_some() || self.shine != [0; 3] {
+                let normal = if MASK & Attributes::COLOUR != 0 { 3 } else { 0 };
+                self.brighten(varyings, normal, wanted, colours);
+            }
             if let Some(veil) = self.veil {
                 veil.apply(depths, wanted, colours);
             }
         }
     }
 
-    /// The colour in whole steps, with its highlight.
-    #[inline]
-    fn finish<const HAS_NORMAL: bool>(&self, colour: DVec3, normal: DVec3) -> Colour {
-        let colour = to_colour(colour);
-        match self.highlight {
-            Some(highlight) if HAS_NORMAL => brightened(colour, highlight.at(normal)),
-            _ => brightened(colour, self.shine),
+    /// Adds the highlights of fragments, whose normals begin at component `normal`.
+    fn brighten<const N: usize>(
+        &self,
+        varyings: &[Packed<N>],
+        normal: usize,
+        wanted: u32,
+        colours: &mut [Colour],
+    ) {
+        for (i, (Packed(values), colour)) in varyings.iter().zip(colours).enumerate() {
+            if wanted >> i & 1 == 0 {
+                continue;
+            }
+            let shine = match (self.highlight, values.get(normal..normal + 3)) {
+                (Some(highlight), Some(normal)) => highlight.at(DVec3::from_slice(normal)),
+                _ => self.shine,
+            };
+            *colour = brightened(*colour, shine);
         }
     }
 
-    /// base x colour x texel x light, and the highlight; what is not in `MASK` is constant.
+    /// base x colour x texel x light; what is not in `MASK` is constant.
     #[inline]
-    fn shade<const N: usize, const MASK: u8>(&self, varying: &Packed<N>, depth: f64) -> Colour {
+    fn shade<const N: usize, const MASK: u8, const LEVELS: bool>(
+        &self,
+        varying: &Packed<N>,
+        depth: f64,
+    ) -> Colour {
         let mut rest = varying.0.iter().copied();
         let mut next = || rest.next().unwrap_or_default();
         let mut colour = self.base;
         if MASK & Attributes::COLOUR != 0 {
             colour *= DVec3::new(next(), next(), next());
         }
-        let mut normal = DVec3::ZERO;
         let intensity = if MASK & Attributes::NORMAL != 0 {
-            normal = DVec3::new(next(), next(), next());
-            self.light.intensity(normal)
+            self.light.intensity(DVec3::new(next(), next(), next()))
         } else {
             self.intensity
         };
         let texel = match self.texture {
             Some(texture) if MASK & Attributes::UV != 0 => {
-                self.texel(texture, DVec2::new(next(), next()), depth)
+                let uv = DVec2::new(next(), next());
+                if LEVELS { self.texel(texture, uv, depth) } else { texture.at(uv) }
             }
             _ => self.texel,
         };
-        let colour = colour * texel * intensity;
-        if MASK & Attributes::NORMAL != 0 {
-            self.finish::<true>(colour, normal)
-        } else {
-            self.finish::<false>(colour, normal)
-        }
+        to_colour(colour * texel * intensity)
     }
 }

@@ -108,6 +108,26 @@ mod tests {
         (1.0 / sum, over / sum)
     }
 
+    /// Half as large in the window, a texture is one level higher; exactly, since only exponents change.
+    #[test]
+    fn the_level_grows_with_distance() {
+        let mut rng = Rng::new("footprint", 3, 0);
+        for _ in 0..100 {
+            let (_, _, uv) = triangle(&mut rng);
+            let corner = |x: i32, y: i32| SubpixelPoint::new(x, y);
+            let mut before = f64::NEG_INFINITY;
+            for halvings in 0..6 {
+                let side = 1 << (14 - halvings);
+                let corners = [corner(0, 0), corner(side, 0), corner(side / 4, side)];
+                let w = f64::from(1 << halvings);
+                let footprint = Footprint::new(corners, [1.0 / w; 3], uv, (64, 64));
+                let level = footprint.level(uv[0], w);
+                assert!(halvings == 0 || (level - before - 1.0).abs() < 1e-12, "{level} {before}");
+                before = level;
+            }
+        }
+    }
+
     /// Against differences of points that are close together.
     #[test]
     fn the_level_is_that_of_the_derivatives() {
