@@ -15,11 +15,12 @@ use rasterproof_faults::published::sysu_strict_t::clip_strict;
 use rasterproof_invariants::CATALOGUE;
 use rasterproof_registry::engines::{Drawer, TriangleSpecimen};
 use rasterproof_registry::published_check::{free_truth, specimen_coverage};
-use rasterproof_render::effects::Effects;
+use rasterproof_render::effects::{Effect, Effects, Mode};
 use rasterproof_render::pipeline::Counters;
 use rasterproof_render::pipeline::clip::MOST_VERTICES;
 use rasterproof_render::pipeline::target::{Antialias, Target};
 use rasterproof_render::scene::chapters::scene;
+use rasterproof_report::frame_comparison::differing;
 use rasterproof_verify::cases::named::{Input, find};
 use rasterproof_verify::cases::{Case, Shape, families};
 use rasterproof_verify::comparison::oracle_coverage;
@@ -31,6 +32,21 @@ use crate::illustrations::ball;
 use crate::pages::{page, read};
 
 type Values = fn() -> Vec<f64>;
+
+/// Fragments of a scene, how many of them an effect is computed for with everything on and by the plan, and the pixels
+/// that are wrong without it.
+fn pays(name: &str, effect: Effect, calls: fn(&Counters) -> u64) -> Vec<f64> {
+    let scene = scene(name, 4.0 / 3.0, 0.0).unwrap();
+    let without = Effects::PLANNED.with(effect, Mode::Never);
+    let [all, planned, without] = [Effects::ALWAYS, Effects::PLANNED, without].map(|effects| {
+        let mut target = Target::new(640, 480, Antialias::None, Default::default()).unwrap();
+        Drawer::Scanline.render(&scene, &effects, &mut target).unwrap()
+    });
+    let wrong = differing(&planned.picture, &without.picture);
+    let counts =
+        [planned.counters.fragments, calls(&all.counters), calls(&planned.counters), wrong];
+    counts.map(|count| count as f64).to_vec()
+}
 
 /// Every figure by its name. Where there are several, the pages add `.1`, `.2` and so on to the name.
 pub const ALL: &[(&str, Values)] = &[
@@ -57,6 +73,9 @@ pub const ALL: &[(&str, Values)] = &[
         let pairs = counts(all).into_iter().zip(counts(planned));
         pairs.flat_map(|(all, planned)| [all as f64, planned as f64]).collect()
     }),
+    ("pays-highlights", || pays("highlights", Effect::Specular, |c| c.highlights)),
+    ("pays-mip-maps", || pays("mip-maps", Effect::MipMaps, |c| c.levels)),
+    ("pays-fog", || pays("fog", Effect::Fog, |c| c.fogged)),
     ("t4-pixels", || {
         let hits = named("T4");
         let row = |hits: &Coverage| hits.row(30).iter().filter(|&&n| n > 0).count() as f64;
