@@ -115,6 +115,7 @@ fn coverage_is_that_of_the_engines() {
         for item in &mut scene.items {
             item.material = Material::default();
         }
+        scene.fog = None;
         for samples in [Samples::One, Samples::Four] {
             let tiles = frames::render(&scene, 201, 134, samples).unwrap();
             let engine = by_scanline(&scene, 201, 134, samples);
