@@ -126,7 +126,6 @@ fn pages_show_what_tessellators_of_others_did() {
             sum(&["judged"]),
             sum(&["left out"]),
             sum(&["wrong cover"]),
-            sum(&["panic", "refused", "process ended", "no answer"]),
             sum(&["T-junction"]),
             sum(&["degenerate"]),
         ];

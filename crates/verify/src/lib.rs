@@ -18,8 +18,8 @@
 //! rasterproof_verify::assert_rasterizer!(Mine); // inside a `#[test]`
 //! ```
 //!
-//! It judges 44,000 cases. In a profile without optimisation that takes one core some six seconds, and two with these lines in
-//! your `Cargo.toml`; the feature `parallel` uses all cores.
+//! It judges 44,000 cases. In a profile without optimisation that takes one core some seven seconds beside the time of your own
+//! code, and three with these lines in your `Cargo.toml`; the feature `parallel` uses all cores.
 //!
 //! ```toml
 //! [profile.dev.package.rasterproof-verify]
