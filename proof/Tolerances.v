@@ -1,8 +1,9 @@
 (** The constants of the Rust code, as proof/check reads them from it (RustConstants.v), are those that are proved here,
     for the rounding of f64: crates/verify/src/comparison/tolerance.rs, crates/core/src/triangle.rs and the filters of
-    crates/core/src/raster/edge_function_exact.rs and crates/core/src/raster/scanline_exact.rs. *)
+    crates/core/src/raster/edge_function_exact.rs and crates/core/src/raster/scanline_exact.rs, and the thresholds of
+    crates/render/src/pipeline/depth.rs. *)
 From Coq Require Import ZArith QArith Qabs.
-From Rasterproof Require Import Rounding RoundedForms RoundedModel RoundedValues RoundedFilters Nearest.
+From Rasterproof Require Import Rounding RoundedForms RoundedModel RoundedValues RoundedFilters Nearest DepthKeys.
 From Rasterproof Require RustConstants.
 Open Scope Q_scope.
 
@@ -96,3 +97,11 @@ Theorem scanline_filter : inject_Z (Z.pos RustConstants.scanline_filter_factor) 
   let exact := ax + (yc - ay) * (bx - ax) / (by_ - ay) in
   lowest nearest x (crossing_bound nearest x t) <= exact - (1 # 2) <= highest nearest x (crossing_bound nearest x t).
 Proof. split; [reflexivity|]. intros. apply (RoundedFilters.scanline_filter nearest nearest_rounds); assumption. Qed.
+
+(** Near a multiple of 2^-20 every depth has one key of 24 bits. *)
+Theorem depth_thresholds : RustConstants.added_tenths = 5%positive /\ forall a depth, (0 <= a <= 2 ^ 20)%Z -> 0 <= depth <= 1 ->
+  Qabs (depth - inject_Z a / inject_Z (2 ^ 20)) <= 1 # 2 ^ 47 ->
+  key (inject_Z (Z.pos RustConstants.moved_parts)) (Z.pos RustConstants.moved_bits)
+    (2 ^ Z.pos RustConstants.unorm24_bits - 1) depth =
+  key_of_fraction (2 ^ Z.pos RustConstants.unorm24_bits - 1) a.
+Proof. split; [reflexivity | exact keys_of_24_bits]. Qed.

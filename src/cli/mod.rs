@@ -30,6 +30,7 @@ mod specimens;
 mod starters;
 mod study;
 mod threads;
+mod tolerances;
 mod typed;
 mod verify;
 #[cfg(feature = "vulkan")]
@@ -108,6 +109,9 @@ enum Command {
     Study(Box<study::StudyArguments>),
     /// Show which invariant kills which planted fault
     Mutants(invariant::MutantsArguments),
+    /// Show which faults the acceptance rules of test suites let through
+    #[command(after_help = tolerances::HELP)]
+    Tolerances(tolerances::TolerancesArguments),
     /// Judge every case of a finite set, and certify it
     #[command(after_help = exhaust::HELP)]
     Exhaust(exhaust::ExhaustArguments),
@@ -381,6 +385,7 @@ fn dispatch(command: &Command, typed: &Typed, streams: &mut Streams<'_>) -> Stat
         Command::Plan(arguments) => plan::run(arguments, typed, streams),
         Command::Study(arguments) => study::run(arguments, typed, streams),
         Command::Mutants(arguments) => invariant::mutants(arguments, streams),
+        Command::Tolerances(arguments) => tolerances::run(arguments, streams),
         Command::Exhaust(arguments) => exhaust::run(arguments, streams),
         Command::Merge(arguments) => exhaust::merge(arguments, streams),
         Command::Review(arguments) => review::run(arguments, streams),

@@ -62,5 +62,6 @@ mod threads;
 mod ties;
 mod tiled;
 mod tiles;
+mod tolerances;
 mod workspace;
 mod your_gpu;

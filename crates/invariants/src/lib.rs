@@ -7,6 +7,7 @@
 //! - Coverage is 1 to 20, values 21 to 31, clipping 32 to 35, lines 36 to 41, the harness itself 42
 //!   to 45, effects 46, lists of triangles 47.
 
+pub mod acceptance;
 mod clip;
 mod coverage;
 mod effects;

@@ -1,0 +1,219 @@
+//! What the acceptance rules of other people's test suites let through: each [`rules::Rule`] decides about pictures of
+//! faults that are known, and of right rasterizers with another permitted convention.
+//!
+//! The pictures are drawn here, so every rule sees the same ones. A rule refuses a program where it refuses one of its
+//! pictures.
+
+pub mod deqp;
+pub mod drawing;
+pub mod perceptual;
+pub mod rules;
+pub mod scenes;
+
+use rasterproof_core::parallel;
+
+use drawing::{Drawn, Subject, draw};
+use rules::{RULES, View};
+use scenes::{Scene, scenes};
+
+/// What came of a rule on a set of scenes.
+#[derive(Clone, Debug, Default)]
+pub struct Row {
+    /// Faults that the rule refuses in at least one picture.
+    pub caught: Vec<&'static str>,
+    /// Faults that it accepts in every picture that it looks at.
+    pub passed: Vec<Passed>,
+    /// Pictures of faults that differ from the right picture and that the rule looks at.
+    pub wrong_pictures: u64,
+    /// Those of them that it refuses.
+    pub refused_pictures: u64,
+    /// The accepted picture with the largest share of wrong pixels.
+    pub worst_picture: Option<WrongPicture>,
+    /// Pictures that the rule is not used on, since it refuses the right one.
+    pub unusable_pictures: u64,
+    /// Right rasterizers that it refuses.
+    pub refused_right: Vec<&'static str>,
+    /// Pictures of right rasterizers that it looks at.
+    pub right_pictures: u64,
+    /// Those of them that it refuses.
+    pub refused_right_pictures: u64,
+}
+
+/// A fault that a rule accepts.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Passed {
+    /// The name of the fault.
+    pub name: &'static str,
+    /// Pixels of all pictures of the set in which it differs from the right picture.
+    pub wrong_pixels: u64,
+    /// Pixels of these pictures.
+    pub pixels: u64,
+}
+
+/// An accepted picture that differs from the right one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WrongPicture {
+    /// The name of the fault.
+    pub name: &'static str,
+    /// What the picture shows.
+    pub scene: String,
+    /// Pixels that differ.
+    pub wrong_pixels: u64,
+    /// Pixels of the picture.
+    pub pixels: u64,
+}
+
+impl Row {
+    /// The accepted fault with the fewest wrong pixels, at least one.
+    #[must_use]
+    pub fn smallest(&self) -> Option<&Passed> {
+        self.passed.iter().filter(|fault| fault.wrong_pixels > 0).min_by_key(|f| f.wrong_pixels)
+    }
+
+    /// The accepted fault with the most wrong pixels.
+    #[must_use]
+    pub fn most_harmful(&self) -> Option<&Passed> {
+        self.passed.iter().filter(|fault| fault.wrong_pixels > 0).max_by_key(|f| f.wrong_pixels)
+    }
+}
+
+/// The rows of both sets of scenes.
+#[derive(Clone, Debug, Default)]
+pub struct Report {
+    /// Names of all faults.
+    pub faults: Vec<&'static str>,
+    /// Names of all right rasterizers.
+    pub right: Vec<&'static str>,
+    /// Scenes such as test suites use, one row for each of [`RULES`].
+    pub suites: Vec<Row>,
+    /// Hard cases of this project, alike.
+    pub hard: Vec<Row>,
+    /// Scenes of the two sets.
+    pub scenes: [usize; 2],
+    /// Faults that differ from the right picture in at least one picture of the set.
+    pub visible: [usize; 2],
+}
+
+/// What a subject's picture of a scene came to.
+struct Judged {
+    wrong_pixels: u64,
+    pixels: u64,
+    /// For each rule whether it accepts, where it looks at such a scene.
+    accepts: Vec<Option<bool>>,
+}
+
+/// Computes the report; a pure function of the seed. `step` is called for every scene.
+#[must_use]
+pub fn report(seed: u64, step: &(dyn Fn() + Sync)) -> Report {
+    let (subjects, list) = (Subject::all(), scenes(seed));
+    let judged = parallel::map(list.len(), |i| {
+        let judged = judge(&list[i], &subjects);
+        step();
+        judged
+    });
+    let names = |right: bool| -> Vec<&'static str> {
+        subjects.iter().filter(|s| s.is_right() == right).map(Subject::name).collect()
+    };
+    let mut report = Report { faults: names(false), right: names(true), ..Report::default() };
+    for (set, of_suites) in [(0, true), (1, false)] {
+        let scenes: Vec<usize> =
+            (0..list.len()).filter(|&i| list[i].of_suites == of_suites).collect();
+        let of_set: Vec<(&Scene, &[Judged])> =
+            scenes.iter().map(|&i| (&list[i], judged[i].0.as_slice())).collect();
+        let rows = (0..RULES.len()).map(|rule| {
+            let refused = |&&i: &&usize| judged[i].1[rule] == Some(false);
+            let unusable_pictures = scenes.iter().filter(refused).count() as u64;
+            Row { unusable_pictures, ..row(rule, &subjects, &of_set) }
+        });
+        let rows = rows.collect();
+        *(if of_suites { &mut report.suites } else { &mut report.hard }) = rows;
+        report.scenes[set] = scenes.len();
+        report.visible[set] = (0..subjects.len())
+            .filter(|&s| !subjects[s].is_right())
+            .filter(|&s| of_set.iter().any(|(_, judged)| judged[s].wrong_pixels > 0))
+            .count();
+    }
+    report
+}
+
+/// What each subject's picture of a scene came to, and for each rule whether it accepts the right picture.
+fn judge(scene: &Scene, subjects: &[Subject]) -> (Vec<Judged>, Vec<Option<bool>>) {
+    let right = draw(&Subject::Reference, scene);
+    let seen = rules::Seen::new(scene, &right);
+    let accepts = |subject: &Subject, drawn: &Drawn| -> Vec<Option<bool>> {
+        let view = View { scene, seen: &seen, right: &right, drawn, subject };
+        RULES.iter().map(|rule| rule.accepts(&view)).collect()
+    };
+    let usable = accepts(&Subject::Reference, &right);
+    let mut all = Vec::new();
+    for subject in subjects {
+        if !subject.can_draw(scene) {
+            all.push(Judged { wrong_pixels: 0, pixels: 0, accepts: vec![None; RULES.len()] });
+            continue;
+        }
+        let drawn = draw(subject, scene);
+        let mut accepts = accepts(subject, &drawn);
+        // Who writes a suite sees that the right picture is refused, and leaves the scene out.
+        for (accepts, usable) in accepts.iter_mut().zip(&usable) {
+            *accepts = accepts.filter(|_| *usable == Some(true));
+        }
+        let (wrong_pixels, pixels) = (differing(&right, &drawn), right.pixels.len() as u64);
+        all.push(Judged { wrong_pixels, pixels, accepts });
+    }
+    (all, usable)
+}
+
+/// The number of pixels that differ; all of them where there is no picture.
+fn differing(right: &Drawn, drawn: &Drawn) -> u64 {
+    if drawn.failed {
+        return right.pixels.len() as u64;
+    }
+    right.pixels.iter().zip(&drawn.pixels).filter(|(a, b)| a != b).count() as u64
+}
+
+fn row(rule: usize, subjects: &[Subject], scenes: &[(&Scene, &[Judged])]) -> Row {
+    let mut row = Row::default();
+    for (s, subject) in subjects.iter().enumerate() {
+        let (mut refused, mut seen, mut wrong, mut pixels) = (0, 0, 0, 0);
+        for (scene, judged) in scenes {
+            let judged = &judged[s];
+            wrong += judged.wrong_pixels;
+            pixels += judged.pixels;
+            let Some(accepts) = judged.accepts[rule] else { continue };
+            seen += 1;
+            refused += u64::from(!accepts);
+            if subject.is_right() || judged.wrong_pixels == 0 {
+                continue;
+            }
+            row.wrong_pictures += 1;
+            row.refused_pictures += u64::from(!accepts);
+            if accepts {
+                let picture = WrongPicture {
+                    name: subject.name(),
+                    scene: scene.name.clone(),
+                    wrong_pixels: judged.wrong_pixels,
+                    pixels: judged.pixels,
+                };
+                let share = |p: &WrongPicture| p.wrong_pixels as f64 / p.pixels as f64;
+                if row.worst_picture.as_ref().is_none_or(|worst| share(worst) < share(&picture)) {
+                    row.worst_picture = Some(picture);
+                }
+            }
+        }
+        match (subject.is_right(), refused > 0) {
+            (true, is_refused) => {
+                row.right_pictures += seen;
+                row.refused_right_pictures += refused;
+                row.refused_right.extend(is_refused.then_some(subject.name()));
+            }
+            (false, true) => row.caught.push(subject.name()),
+            (false, false) => {
+                row.passed.push(Passed { name: subject.name(), wrong_pixels: wrong, pixels });
+            }
+        }
+    }
+    row
+}
+
+#[cfg(test)]
+mod tests;
