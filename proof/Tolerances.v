@@ -1,9 +1,9 @@
 (** The constants of the Rust code, as proof/check reads them from it (RustConstants.v), are those that are proved here,
     for the rounding of f64: crates/verify/src/comparison/tolerance.rs, crates/core/src/triangle.rs and the filters of
     crates/core/src/raster/edge_function_exact.rs and crates/core/src/raster/scanline_exact.rs, and the thresholds of
-    crates/render/src/pipeline/depth.rs. *)
+    crates/render/src/pipeline/depth.rs and the planes of crates/tiles/src/frames/planes.rs. *)
 From Coq Require Import ZArith QArith Qabs.
-From Rasterproof Require Import Rounding RoundedForms RoundedModel RoundedValues RoundedFilters Nearest DepthKeys.
+From Rasterproof Require Import Rounding RoundedForms RoundedModel RoundedValues RoundedFilters Nearest DepthKeys Planes.
 From Rasterproof Require RustConstants.
 Open Scope Q_scope.
 
@@ -105,3 +105,10 @@ Theorem depth_thresholds : RustConstants.added_tenths = 5%positive /\ forall a d
     (2 ^ Z.pos RustConstants.unorm24_bits - 1) depth =
   key_of_fraction (2 ^ Z.pos RustConstants.unorm24_bits - 1) a.
 Proof. split; [reflexivity | exact keys_of_24_bits]. Qed.
+
+(** The bounds of the tiles' planes and quotients are those of [plane_error] and [quotient_error]. *)
+Theorem tile_planes : (forall S T, plane_bound RustConstants.plane_f32 RustConstants.plane_f64
+    RustConstants.plane_second_order_bits 126 S T = plane_bound 4 11 18 126 S T) /\
+  forall en eq n q, quotient_bound RustConstants.plane_quotient RustConstants.plane_second_order_bits 126 en eq n q =
+    quotient_bound 2 18 126 en eq n q.
+Proof. split; reflexivity. Qed.

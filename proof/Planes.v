@@ -1,0 +1,479 @@
+(** Values as planes over the screen, set up in f64 and evaluated in f32: crates/tiles/src/frames/planes.rs. The error of a
+    plane at a pixel, for the rounding of both formats. *)
+From Coq Require Import ZArith QArith Qabs Lia Lqa.
+From Rasterproof Require Import Rounding Nearest.
+Open Scope Q_scope.
+
+(** ** Rounding to f32: 24 bits, numbers from 2^-149 on *)
+
+Definition w : Q := Eval compute in 1 # (2 ^ 24).
+Definition tiny : Q := Eval compute in 1 # (2 ^ 150).
+
+Definition last_bit32 (x : Q) : Z := Z.max (exponent x - 23) (-149).
+
+Definition nearest32_positive (x : Q) : Q := inject_Z (whole (x * pow2 (- last_bit32 x))) * pow2 (last_bit32 x).
+
+Definition nearest32 (x : Q) : Q :=
+  if Qeq_bool x 0 then 0 else if Qle_bool 0 x then nearest32_positive x else - nearest32_positive (- x).
+
+Lemma nearest32_positive_near x : 0 < x -> Qabs (nearest32_positive x - x) <= w * x + tiny.
+Proof.
+  intros Hx. unfold nearest32_positive. set (k := last_bit32 x). pose proof (pow2_positive k).
+  pose proof (whole_near (x * pow2 (- k))) as H1. set (m := inject_Z (whole (x * pow2 (- k)))) in *.
+  assert (E : m * pow2 k - x == (m - x * pow2 (- k)) * pow2 k).
+  { setoid_replace ((m - x * pow2 (- k)) * pow2 k) with (m * pow2 k - x * (pow2 (- k) * pow2 k)) by ring.
+    rewrite pow2_inverse. ring. }
+  rewrite E, Qabs_Qmult, (Qabs_pos (pow2 k)) by lra.
+  apply Qle_trans with ((1 # 2) * pow2 k); [apply Qmult_le_compat_r; lra|].
+  assert (T : 0 <= tiny) by discriminate. assert (W : 0 <= w * x) by (unfold w; lra).
+  destruct (Z_le_gt_dec (-149) (exponent x - 23)) as [L | L].
+  - unfold k, last_bit32. rewrite Z.max_l by assumption. destruct (exponent_spec x Hx) as [B _].
+    unfold Z.sub. rewrite pow2_add. assert (F : (1 # 2) * pow2 (- (23)) == w) by (apply Qeq_bool_iff; vm_compute; reflexivity).
+    set (p := pow2 (exponent x)) in *. set (q := pow2 (- (23))) in *.
+    setoid_replace ((1 # 2) * (p * q)) with (p * ((1 # 2) * q)) by ring. rewrite F. unfold w in *. lra.
+  - unfold k, last_bit32. rewrite Z.max_r by lia.
+    assert (F : (1 # 2) * pow2 (-149) == tiny) by (apply Qeq_bool_iff; vm_compute; reflexivity). rewrite F. lra.
+Qed.
+
+Theorem nearest32_near x : Qabs (nearest32 x - x) <= w * Qabs x + tiny.
+Proof.
+  assert (T : 0 <= tiny) by discriminate. unfold nearest32. destruct (Qeq_bool x 0) eqn:E.
+  - apply Qeq_bool_iff in E. setoid_replace (0 - x) with 0 by (rewrite E; ring). rewrite E. change (Qabs 0) with 0. lra.
+  - assert (N : ~ x == 0) by (intro H; apply Qeq_bool_iff in H; congruence). destruct (Qle_bool 0 x) eqn:S.
+    + apply Qle_bool_iff in S. rewrite (Qabs_pos x) by assumption. apply nearest32_positive_near. lra.
+    + assert (X : x < 0) by (destruct (Qlt_le_dec x 0) as [|H]; [assumption | apply Qle_bool_iff in H; congruence]).
+      rewrite (Qabs_neg x) by lra. rewrite <- Qabs_opp.
+      setoid_replace (- (- nearest32_positive (- x) - x)) with (nearest32_positive (- x) - - x) by ring.
+      apply nearest32_positive_near. lra.
+Qed.
+
+(** ** In f64: an error of n roundings of numbers of at most R, and what lies below the normal numbers *)
+
+Notation fl := nearest.
+
+Definition near (n : nat) (t R x x' : Q) : Prop := Qabs (x' - x) <= drift n * R + t /\ Qabs x <= R /\ 0 <= t.
+
+Lemma near_size n t R x x' : near n t R x x' -> 0 <= R /\ Qabs x' <= R + drift n * R + t.
+Proof.
+  intros (E & S & T). pose proof (Qabs_nonneg x). split; [lra|].
+  setoid_replace x' with (x + (x' - x)) by ring. pose proof (Qabs_triangle x (x' - x)). lra.
+Qed.
+
+Lemma drift_next n : (n <= 20)%nat -> drift n + u * (1 + drift n) <= drift (S n).
+Proof.
+  intros H. assert (L : drift n <= 1 # 2 ^ 45).
+  { apply Qle_trans with (drift 20); [|apply Qle_bool_iff; vm_compute; reflexivity].
+    unfold drift. apply Qmult_le_compat_r; [rewrite <- Zle_Qle; lia | discriminate]. }
+  unfold drift in *. rewrite Nat2Z.inj_succ. unfold Z.succ. rewrite inject_Z_plus. change (inject_Z 1) with 1.
+  setoid_replace ((inject_Z (Z.of_nat n) + 1) * rate) with (inject_Z (Z.of_nat n) * rate + rate) by ring.
+  set (d := inject_Z (Z.of_nat n) * rate) in *. clearbody d.
+  change (1 # 2 ^ 45) with (1 # 35184372088832) in L. unfold u, rate. lra.
+Qed.
+
+Lemma drift_positive n : 0 <= drift n.
+Proof. unfold drift. apply Qmult_le_0_compat; [change 0 with (inject_Z 0); rewrite <- Zle_Qle; lia | discriminate]. Qed.
+
+Lemma near_round n t R x x' : (n <= 20)%nat -> near n t R x x' -> near (S n) (2 * t + eta) R x (fl x').
+Proof.
+  intros Hn H. destruct (near_size _ _ _ _ _ H) as [R0 Z0]. destruct H as (E & B & T).
+  pose proof (fl_absolute fl nearest_rounds x') as A. pose proof (drift_next n Hn) as D.
+  assert (0 <= eta) by discriminate. split; [|split; lra].
+  setoid_replace (fl x' - x) with (fl x' - x' + (x' - x)) by ring. pose proof (Qabs_triangle (fl x' - x') (x' - x)).
+  assert (U : u * Qabs x' <= u * (R + drift n * R + t)).
+  { rewrite !(Qmult_comm u). apply Qmult_le_compat_r; [assumption | discriminate]. }
+  assert (M : (drift n + u * (1 + drift n)) * R <= drift (S n) * R) by (apply Qmult_le_compat_r; assumption).
+  assert (V : u * t <= t) by (unfold u; lra).
+  setoid_replace (u * (R + drift n * R + t)) with (u * (1 + drift n) * R + u * t) in U by ring.
+  setoid_replace ((drift n + u * (1 + drift n)) * R) with (drift n * R + u * (1 + drift n) * R) in M by ring. lra.
+Qed.
+
+Lemma near_scale n t R x x' c C : Qabs c <= C -> near n t R x x' -> near n (t * C) (R * C) (x * c) (x' * c).
+Proof.
+  intros HC H. destruct (near_size _ _ _ _ _ H) as [R0 _]. destruct H as (E & B & T). pose proof (Qabs_nonneg c).
+  pose proof (Qabs_nonneg (x' - x)). pose proof (drift_positive n). repeat split.
+  - setoid_replace (x' * c - x * c) with ((x' - x) * c) by ring. rewrite Qabs_Qmult.
+    assert (Z : 0 <= drift n * R + t) by lra.
+    apply Qle_trans with ((drift n * R + t) * Qabs c); [apply Qmult_le_compat_r; assumption|].
+    setoid_replace (drift n * (R * C) + t * C) with ((drift n * R + t) * C) by ring.
+    rewrite !(Qmult_comm (drift n * R + t)). apply Qmult_le_compat_r; assumption.
+  - rewrite Qabs_Qmult. apply Qle_trans with (R * Qabs c); [apply Qmult_le_compat_r; assumption|].
+    rewrite !(Qmult_comm R). apply Qmult_le_compat_r; assumption.
+  - apply Qmult_le_0_compat; lra.
+Qed.
+
+Lemma near_weaken n m t R x x' : (n <= m)%nat -> near n t R x x' -> near m t R x x'.
+Proof.
+  intros Hn H. destruct (near_size _ _ _ _ _ H) as [R0 _]. destruct H as (E & B & T). repeat split; [|assumption..].
+  assert (D : drift n * R <= drift m * R).
+  { apply Qmult_le_compat_r; [|assumption]. unfold drift. apply Qmult_le_compat_r; [rewrite <- Zle_Qle; lia | discriminate]. }
+  lra.
+Qed.
+
+Lemma near_add n t R x x' s P y y' : near n t R x x' -> near n s P y y' -> near n (t + s) (R + P) (x + y) (x' + y').
+Proof.
+  intros (E & B & T) (F & C & S). repeat split; [| |lra].
+  - setoid_replace (x' + y' - (x + y)) with ((x' - x) + (y' - y)) by ring. pose proof (Qabs_triangle (x' - x) (y' - y)). lra.
+  - pose proof (Qabs_triangle x y). lra.
+Qed.
+
+Lemma near_opp n t R x x' : near n t R x x' -> near n t R (- x) (- x').
+Proof.
+  intros (E & B & T). repeat split; [| |assumption].
+  - setoid_replace (- x' - - x) with (- (x' - x)) by ring. rewrite Qabs_opp. assumption.
+  - rewrite Qabs_opp. assumption.
+Qed.
+
+(** A product with a number that was rounded once. *)
+Lemma near_by_rounded n t R x x' p p' P : (n <= 20)%nat -> Qabs (p' - p) <= u * Qabs p -> Qabs p <= P ->
+  near n t R x x' -> near (S n) (2 * (t * P)) (R * P) (x * p) (x' * p').
+Proof.
+  intros Hn Hp HP H. pose proof (near_scale n t R x x' p P HP H) as (E & B & T).
+  destruct (near_size _ _ _ _ _ (near_scale n t R x x' p P HP H)) as [R0 Z0]. pose proof (drift_next n Hn) as D.
+  repeat split; [|assumption|lra]. pose proof (Qabs_nonneg x').
+  setoid_replace (x' * p' - x * p) with (x' * (p' - p) + (x' * p - x * p)) by ring.
+  pose proof (Qabs_triangle (x' * (p' - p)) (x' * p - x * p)) as Tr. rewrite (Qabs_Qmult x' (p' - p)) in Tr.
+  assert (U : Qabs x' * Qabs (p' - p) <= u * Qabs (x' * p)).
+  { rewrite Qabs_Qmult. setoid_replace (u * (Qabs x' * Qabs p)) with (Qabs x' * (u * Qabs p)) by ring.
+    rewrite !(Qmult_comm (Qabs x')). apply Qmult_le_compat_r; assumption. }
+  assert (V : u * Qabs (x' * p) <= u * (R * P + drift n * (R * P) + t * P)).
+  { rewrite !(Qmult_comm u). apply Qmult_le_compat_r; [assumption | discriminate]. }
+  assert (M : (drift n + u * (1 + drift n)) * (R * P) <= drift (S n) * (R * P)) by (apply Qmult_le_compat_r; assumption).
+  assert (Z : u * (t * P) <= t * P) by (unfold u; lra).
+  setoid_replace (u * (R * P + drift n * (R * P) + t * P)) with (u * (1 + drift n) * (R * P) + u * (t * P)) in V by ring.
+  setoid_replace ((drift n + u * (1 + drift n)) * (R * P)) with (drift n * (R * P) + u * (1 + drift n) * (R * P)) in M by ring. lra.
+Qed.
+
+(** ** The set-up: Frame::plane *)
+
+Section Plane.
+Variables (x1 y1 x2 y2 area pa X0 Y0 : Q).
+(** Twice the area is exact, its reciprocal is rounded. *)
+Hypothesis Pa : Qabs (pa - 1 / area) <= u * Qabs (1 / area).
+Variables (v0 v1 v2 c0 c1 c2 M t : Q).
+(** What comes in is off by two roundings. *)
+Hypothesis (N0 : near 2 t M v0 c0) (N1 : near 2 t M v1 c1) (N2 : near 2 t M v2 c2).
+
+Definition slope (d1 d2 a b : Q) : Q := fl (fl (fl (d1 * a) - fl (d2 * b)) * pa).
+Definition difference (c : Q) : Q := fl (c - c0).
+Definition right : Q := slope (difference c1) (difference c2) y2 y1.
+Definition down : Q := slope (difference c2) (difference c1) x1 x2.
+Definition start : Q := fl (c0 + fl (fl (right * X0) + fl (down * Y0))).
+
+Definition exact_right : Q := ((v1 - v0) * y2 - (v2 - v0) * y1) * (1 / area).
+Definition exact_down : Q := ((v2 - v0) * x1 - (v1 - v0) * x2) * (1 / area).
+
+(** The largest slopes, Gx and Gy. *)
+Definition steepest (a b : Q) : Q := (2 * M * Qabs a + 2 * M * Qabs b) * Qabs (1 / area).
+
+Lemma difference_near v c : near 2 t M v c -> near 3 (2 * (t + t) + eta) (2 * M) (v - v0) (difference c).
+Proof.
+  intros N. pose proof (near_round 2 _ _ _ _ ltac:(lia) (near_add 2 _ _ _ _ _ _ _ _ N (near_opp _ _ _ _ _ N0))) as D.
+  destruct D as (E & B & T). unfold difference. repeat split; [| |assumption].
+  - setoid_replace (2 * M) with (M + M) by ring. exact E.
+  - setoid_replace (2 * M) with (M + M) by ring. exact B.
+Qed.
+
+Definition slope_tiny (a b : Q) : Q :=
+  let s := 2 * (t + t) + eta in
+  2 * (2 * ((2 * (2 * (s * Qabs a) + eta + (2 * (s * Qabs b) + eta)) + eta) * Qabs (1 / area))) + eta.
+
+Lemma slope_near p q p' q' a b : near 3 (2 * (t + t) + eta) (2 * M) p p' -> near 3 (2 * (t + t) + eta) (2 * M) q q' ->
+  near 7 (slope_tiny a b) (steepest a b) ((p * a - q * b) * (1 / area)) (slope p' q' a b).
+Proof.
+  intros P Q. unfold slope, steepest, slope_tiny. cbv zeta.
+  pose proof (near_round 3 _ _ _ _ ltac:(lia) (near_scale 3 _ _ _ _ a (Qabs a) (Qle_refl _) P)) as A.
+  pose proof (near_round 3 _ _ _ _ ltac:(lia) (near_scale 3 _ _ _ _ b (Qabs b) (Qle_refl _) Q)) as B.
+  pose proof (near_round 4 _ _ _ _ ltac:(lia) (near_add 4 _ _ _ _ _ _ _ _ A (near_opp _ _ _ _ _ B))) as C.
+  pose proof (near_by_rounded 5 _ _ _ _ (1 / area) pa (Qabs (1 / area)) ltac:(lia) Pa (Qle_refl _) C) as D.
+  exact (near_round 6 _ _ _ _ ltac:(lia) D).
+Qed.
+
+Lemma right_near : near 7 (slope_tiny y2 y1) (steepest y2 y1) exact_right right.
+Proof. apply slope_near; apply difference_near; assumption. Qed.
+
+Lemma down_near : near 7 (slope_tiny x1 x2) (steepest x1 x2) exact_down down.
+Proof. apply slope_near; apply difference_near; assumption. Qed.
+
+(** A value, with its distance from the first corner. *)
+Definition exact_value (x y : Q) : Q := v0 + (exact_right * (X0 + x) + exact_down * (Y0 + y)).
+
+Definition start_tiny : Q :=
+  2 * (t + (2 * (2 * (slope_tiny y2 y1 * Qabs X0) + eta + (2 * (slope_tiny x1 x2 * Qabs Y0) + eta)) + eta)) + eta.
+Definition plane_tiny (x y : Q) : Q := start_tiny + (slope_tiny y2 y1 * Qabs x + slope_tiny x1 x2 * Qabs y).
+
+Lemma start_near : near 10 start_tiny (M + (steepest y2 y1 * Qabs X0 + steepest x1 x2 * Qabs Y0))
+  (v0 + (exact_right * X0 + exact_down * Y0)) start.
+Proof.
+  pose proof (near_round 7 _ _ _ _ ltac:(lia) (near_scale 7 _ _ _ _ X0 (Qabs X0) (Qle_refl _) right_near)) as A.
+  pose proof (near_round 7 _ _ _ _ ltac:(lia) (near_scale 7 _ _ _ _ Y0 (Qabs Y0) (Qle_refl _) down_near)) as B.
+  pose proof (near_round 8 _ _ _ _ ltac:(lia) (near_add 8 _ _ _ _ _ _ _ _ A B)) as C.
+  exact (near_round 9 _ _ _ _ ltac:(lia) (near_add 9 _ _ _ _ _ _ _ _ (near_weaken 2 9 _ _ _ _ ltac:(lia) N0) C)).
+Qed.
+
+(** T of the bound. *)
+Definition growth (x y : Q) : Q := M + (steepest y2 y1 * (Qabs X0 + Qabs x) + steepest x1 x2 * (Qabs Y0 + Qabs y)).
+
+Lemma regrouped s r d x y v er ed X Y : s + r * x + d * y - (v + (er * (X + x) + ed * (Y + y))) ==
+  s + (r * x + d * y) - (v + (er * X + ed * Y) + (er * x + ed * y)).
+Proof. ring. Qed.
+
+Lemma regrouped_growth m a b X x Y y : m + (a * (X + x) + b * (Y + y)) == m + (a * X + b * Y) + (a * x + b * y).
+Proof. ring. Qed.
+
+(** What f64 contributes: 10 roundings of T, of the 11 that the code allows. *)
+Theorem setup_error x y :
+  Qabs (start + right * x + down * y - exact_value x y) <= drift 10 * growth x y + plane_tiny x y.
+Proof.
+  pose proof (near_weaken 7 10 _ _ _ _ ltac:(lia) (near_scale 7 _ _ _ _ x (Qabs x) (Qle_refl _) right_near)) as A.
+  pose proof (near_weaken 7 10 _ _ _ _ ltac:(lia) (near_scale 7 _ _ _ _ y (Qabs y) (Qle_refl _) down_near)) as B.
+  destruct (near_add 10 _ _ _ _ _ _ _ _ start_near (near_add 10 _ _ _ _ _ _ _ _ A B)) as (E & _ & _).
+  unfold exact_value. rewrite (Qabs_wd _ _ (regrouped start right down x y v0 exact_right exact_down X0 Y0)).
+  unfold growth, plane_tiny. rewrite (regrouped_growth M (steepest y2 y1) (steepest x1 x2) (Qabs X0) (Qabs x) (Qabs Y0) (Qabs y)).
+  exact E.
+Qed.
+End Plane.
+
+(** ** In f32: ValuePlane::at *)
+
+Definition at_pixel (s r d x y : Q) : Q := nearest32 (nearest32 (s + nearest32 (d * y)) + nearest32 (r * x)).
+
+(** S of the bound, of the rounded numbers, as the code takes it. *)
+Definition size (s r d x y : Q) : Q := Qabs s + Qabs (nearest32 (r * x)) + Qabs (nearest32 (d * y)).
+
+Lemma back x : Qabs (nearest32 x - x) <= w * (1 + 2 * w) * Qabs (nearest32 x) + 2 * tiny.
+Proof.
+  pose proof (nearest32_near x) as N. pose proof (Qabs_nonneg (nearest32 x)).
+  assert (T : Qabs x <= Qabs (nearest32 x) + Qabs (nearest32 x - x)).
+  { setoid_replace x with (nearest32 x + - (nearest32 x - x)) at 1 by ring.
+    pose proof (Qabs_triangle (nearest32 x) (- (nearest32 x - x))) as P. rewrite Qabs_opp in P. exact P. }
+  assert (0 <= tiny) by discriminate. unfold w in *.
+  set (a := Qabs (nearest32 x)) in *. set (e := Qabs (nearest32 x - x)) in *. set (b := Qabs x) in *. set (g := tiny) in *.
+  clearbody a e b g. lra.
+Qed.
+
+(** A term of the plane, after both of its numbers were rounded to f32. *)
+Lemma term_error d y : 0 <= y <= inject_Z (2 ^ 15) -> let d' := nearest32 d in
+  Qabs (nearest32 (d' * y) - d * y) <= w * (2 + 8 * w) * Qabs (nearest32 (d' * y)) + inject_Z (2 ^ 17) * tiny.
+Proof.
+  intros [Y0 Y1] d'. pose proof (back (d' * y)) as B. pose proof (back d) as D. fold d' in D.
+  assert (P : Qabs (d' * y - d * y) <= w * (1 + 2 * w) * Qabs (d' * y) + inject_Z (2 ^ 16) * tiny).
+  { setoid_replace (d' * y - d * y) with ((d' - d) * y) by ring. rewrite !Qabs_Qmult, (Qabs_pos y) by assumption.
+    apply Qle_trans with ((w * (1 + 2 * w) * Qabs d' + 2 * tiny) * y); [apply Qmult_le_compat_r; assumption|].
+    assert (Z : tiny * y <= tiny * inject_Z (2 ^ 15)).
+    { rewrite !(Qmult_comm tiny). apply Qmult_le_compat_r; [assumption | discriminate]. }
+    change (inject_Z (2 ^ 16)) with (2 * inject_Z (2 ^ 15)). 
+    setoid_replace ((w * (1 + 2 * w) * Qabs d' + 2 * tiny) * y) with (w * (1 + 2 * w) * (Qabs d' * y) + 2 * (tiny * y)) by ring.
+    setoid_replace (2 * inject_Z (2 ^ 15) * tiny) with (2 * (tiny * inject_Z (2 ^ 15))) by ring. lra. }
+  assert (T : Qabs (d' * y) <= Qabs (nearest32 (d' * y)) + Qabs (nearest32 (d' * y) - d' * y)).
+  { setoid_replace (d' * y) with (nearest32 (d' * y) + - (nearest32 (d' * y) - d' * y)) at 1 by ring.
+    pose proof (Qabs_triangle (nearest32 (d' * y)) (- (nearest32 (d' * y) - d' * y))) as Q. rewrite Qabs_opp in Q. exact Q. }
+  setoid_replace (nearest32 (d' * y) - d * y) with (nearest32 (d' * y) - d' * y + (d' * y - d * y)) by ring.
+  pose proof (Qabs_triangle (nearest32 (d' * y) - d' * y) (d' * y - d * y)). assert (G : 0 <= tiny) by discriminate.
+  change (inject_Z (2 ^ 16)) with (65536 # 1) in *. change (inject_Z (2 ^ 17)) with (131072 # 1). unfold w in *.
+  pose proof (Qabs_nonneg (nearest32 (d' * y))).
+  set (a := Qabs (nearest32 (d' * y))) in *. set (e := Qabs (nearest32 (d' * y) - d' * y)) in *.
+  set (b := Qabs (d' * y)) in *. set (g := tiny) in *. set (q := Qabs (d' * y - d * y)) in *. clearbody a e b g q. lra.
+Qed.
+
+(** What f32 contributes: 4 u S. *)
+Theorem evaluation_error s r d x y : 0 <= x <= inject_Z (2 ^ 15) -> 0 <= y <= inject_Z (2 ^ 15) ->
+  Qabs (at_pixel (nearest32 s) (nearest32 r) (nearest32 d) x y - (s + r * x + d * y)) <=
+    4 * w * size (nearest32 s) (nearest32 r) (nearest32 d) x y * (1 + (1 # 2 ^ 20)) + inject_Z (2 ^ 19) * tiny.
+Proof.
+  intros Hx Hy. set (s' := nearest32 s). set (r' := nearest32 r). set (d' := nearest32 d). unfold at_pixel, size. pose proof (back s) as S. fold s' in S.
+  pose proof (term_error r x Hx) as R. pose proof (term_error d y Hy) as D. cbv zeta in R, D. fold r' in R. fold d' in D.
+  set (b := nearest32 (d' * y)) in *. set (c := nearest32 (r' * x)) in *. clearbody b c s'.
+  pose proof (nearest32_near (s' + b)) as E. set (m := nearest32 (s' + b)) in *. clearbody m.
+  pose proof (nearest32_near (m + c)) as F. set (o := nearest32 (m + c)) in *. clearbody o.
+  pose proof (Qabs_triangle s' b) as T1. pose proof (Qabs_triangle m c) as T2.
+  assert (T3 : Qabs m <= Qabs (s' + b) + Qabs (m - (s' + b))).
+  { setoid_replace m with (s' + b + (m - (s' + b))) at 1 by ring. apply Qabs_triangle. }
+  setoid_replace (o - (s + r * x + d * y)) with
+    ((o - (m + c)) + ((m - (s' + b)) + ((s' - s) + ((c - r * x) + (b - d * y))))) by ring.
+  pose proof (Qabs_triangle (o - (m + c)) ((m - (s' + b)) + ((s' - s) + ((c - r * x) + (b - d * y))))) as U1.
+  pose proof (Qabs_triangle (m - (s' + b)) ((s' - s) + ((c - r * x) + (b - d * y)))) as U2.
+  pose proof (Qabs_triangle (s' - s) ((c - r * x) + (b - d * y))) as U3. pose proof (Qabs_triangle (c - r * x) (b - d * y)) as U4.
+  pose proof (Qabs_nonneg s'). pose proof (Qabs_nonneg b). pose proof (Qabs_nonneg c). assert (G : 0 <= tiny) by discriminate.
+  change (inject_Z (2 ^ 17)) with (131072 # 1) in *. change (inject_Z (2 ^ 19)) with (524288 # 1).
+  change (1 # 2 ^ 20) with (1 # 1048576). unfold w in *.
+  set (as_ := Qabs s') in *. set (ab := Qabs b) in *. set (ac := Qabs c) in *. set (g := tiny) in *.
+  set (e1 := Qabs (o - (m + c))) in *. set (e2 := Qabs (m - (s' + b))) in *. set (e3 := Qabs (s' - s)) in *.
+  set (e4 := Qabs (c - r * x)) in *. set (e5 := Qabs (b - d * y)) in *. set (am := Qabs m) in *.
+  set (a1 := Qabs (s' + b)) in *. set (a2 := Qabs (m + c)) in *.
+  set (z1 := Qabs (o - (m + c) + (m - (s' + b) + (s' - s + (c - r * x + (b - d * y)))))) in *.
+  set (z2 := Qabs (m - (s' + b) + (s' - s + (c - r * x + (b - d * y))))) in *.
+  set (z3 := Qabs (s' - s + (c - r * x + (b - d * y)))) in *. set (z4 := Qabs (c - r * x + (b - d * y))) in *.
+  clearbody as_ ab ac g e1 e2 e3 e4 e5 am a1 a2 z1 z2 z3 z4. lra.
+Qed.
+
+(** ** The bounds of the code *)
+
+(** ValuePlane::error, with S and T, and the constants of the code. *)
+Definition plane_bound (of_f32 of_f64 : positive) (second underflow : positive) (S T : Q) : Q :=
+  (inject_Z (Z.pos of_f32) * w * S + inject_Z (Z.pos of_f64) * u * T) * (1 + (1 # 2 ^ second)) + (1 # 2 ^ underflow).
+
+Lemma product_le p P q R : 0 <= p <= P -> 0 <= q <= R -> 0 <= p * q <= P * R.
+Proof.
+  intros [A B] [C D]. split; [apply Qmult_le_0_compat; assumption|].
+  apply Qle_trans with (P * q); [apply Qmult_le_compat_r; assumption|].
+  rewrite !(Qmult_comm P). apply Qmult_le_compat_r; [assumption | lra].
+Qed.
+
+Section Bound.
+Variables (x1 y1 x2 y2 area pa X0 Y0 : Q).
+Hypothesis Pa : Qabs (pa - 1 / area) <= u * Qabs (1 / area).
+Variables (v0 v1 v2 c0 c1 c2 M t : Q).
+Hypothesis (N0 : near 2 t M v0 c0) (N1 : near 2 t M v1 c1) (N2 : near 2 t M v2 c2).
+
+(** Every triangle of the tiles: edges below 2^18 px, an area of at least one square subpixel, and what lies below the
+    normal numbers of f64. *)
+Hypothesis (B1 : Qabs x1 <= inject_Z (2 ^ 18)) (B2 : Qabs y1 <= inject_Z (2 ^ 18)).
+Hypothesis (B3 : Qabs x2 <= inject_Z (2 ^ 18)) (B4 : Qabs y2 <= inject_Z (2 ^ 18)).
+Hypothesis (BA : Qabs (1 / area) <= inject_Z (2 ^ 17)).
+Hypothesis (BX : Qabs X0 <= inject_Z (2 ^ 24)) (BY : Qabs Y0 <= inject_Z (2 ^ 24)) (BT : t <= 1 # 2 ^ 900).
+
+Lemma slope_tiny_small a b : Qabs a <= inject_Z (2 ^ 18) -> Qabs b <= inject_Z (2 ^ 18) ->
+  0 <= slope_tiny area t a b <= 1 # 2 ^ 840.
+Proof.
+  intros A B. destruct N0 as (_ & _ & T0). unfold slope_tiny. cbv zeta. assert (E : 0 <= eta <= 1 # 2 ^ 1000)
+    by (split; [discriminate | apply Qle_bool_iff; vm_compute; reflexivity]).
+  assert (S : 0 <= 2 * (t + t) + eta <= 1 # 2 ^ 890).
+  { assert (F : 4 * (1 # 2 ^ 900) + (1 # 2 ^ 1000) <= 1 # 2 ^ 890) by (apply Qle_bool_iff; vm_compute; reflexivity).
+    set (k := 1 # 2 ^ 900) in *. set (l := 1 # 2 ^ 1000) in *. set (m := 1 # 2 ^ 890) in *. set (e := eta) in *.
+    clearbody k l m e. lra. }
+  pose proof (product_le _ _ _ _ S (conj (Qabs_nonneg a) A)) as PA. pose proof (product_le _ _ _ _ S (conj (Qabs_nonneg b) B)) as PB.
+  set (s := 2 * (t + t) + eta) in *. clearbody s.
+  assert (F1 : 2 * (2 * ((1 # 2 ^ 890) * inject_Z (2 ^ 18)) + (1 # 2 ^ 1000) + (2 * ((1 # 2 ^ 890) * inject_Z (2 ^ 18)) + (1 # 2 ^ 1000)))
+    + (1 # 2 ^ 1000) <= 1 # 2 ^ 868) by (apply Qle_bool_iff; vm_compute; reflexivity).
+  assert (I : 0 <= 2 * (2 * (s * Qabs a) + eta + (2 * (s * Qabs b) + eta)) + eta <= 1 # 2 ^ 868).
+  { set (p := s * Qabs a) in *. set (q := s * Qabs b) in *. set (k := (1 # 2 ^ 890) * inject_Z (2 ^ 18)) in *.
+    set (l := 1 # 2 ^ 1000) in *. set (m := 1 # 2 ^ 868) in *. set (e := eta) in *. clearbody p q k l m e. lra. }
+  pose proof (product_le _ _ _ _ I (conj (Qabs_nonneg (1 / area)) BA)) as J.
+  set (i := (2 * (2 * (s * Qabs a) + eta + (2 * (s * Qabs b) + eta)) + eta) * Qabs (1 / area)) in *. clearbody i.
+  assert (F2 : 4 * ((1 # 2 ^ 868) * inject_Z (2 ^ 17)) + (1 # 2 ^ 1000) <= 1 # 2 ^ 840) by (apply Qle_bool_iff; vm_compute; reflexivity).
+  set (k := (1 # 2 ^ 868) * inject_Z (2 ^ 17)) in *. set (l := 1 # 2 ^ 1000) in *. set (m := 1 # 2 ^ 840) in *. set (e := eta) in *.
+  clearbody k l m e. lra.
+Qed.
+
+Lemma plane_tiny_small x y : Qabs x <= inject_Z (2 ^ 15) -> Qabs y <= inject_Z (2 ^ 15) ->
+  plane_tiny x1 y1 x2 y2 area X0 Y0 t x y <= 1 # 2 ^ 800.
+Proof.
+  intros Hx Hy. destruct N0 as (_ & _ & T0). unfold plane_tiny, start_tiny.
+  pose proof (slope_tiny_small y2 y1 B4 B2) as SR. pose proof (slope_tiny_small x1 x2 B1 B3) as SD.
+  set (r := slope_tiny area t y2 y1) in *. set (d := slope_tiny area t x1 x2) in *. clearbody r d.
+  pose proof (product_le _ _ _ _ SR (conj (Qabs_nonneg X0) BX)). pose proof (product_le _ _ _ _ SD (conj (Qabs_nonneg Y0) BY)).
+  pose proof (product_le _ _ _ _ SR (conj (Qabs_nonneg x) Hx)). pose proof (product_le _ _ _ _ SD (conj (Qabs_nonneg y) Hy)).
+  assert (E : 0 <= eta <= 1 # 2 ^ 1000) by (split; [discriminate | apply Qle_bool_iff; vm_compute; reflexivity]).
+  assert (F : 2 * ((1 # 2 ^ 900) + (2 * (2 * ((1 # 2 ^ 840) * inject_Z (2 ^ 24)) + (1 # 2 ^ 1000) + (2 * ((1 # 2 ^ 840) * inject_Z (2 ^ 24)) + (1 # 2 ^ 1000))) + (1 # 2 ^ 1000)))
+    + (1 # 2 ^ 1000) + ((1 # 2 ^ 840) * inject_Z (2 ^ 15) + (1 # 2 ^ 840) * inject_Z (2 ^ 15)) <= 1 # 2 ^ 800)
+    by (apply Qle_bool_iff; vm_compute; reflexivity).
+  set (k := (1 # 2 ^ 840) * inject_Z (2 ^ 24)) in *. set (l := (1 # 2 ^ 840) * inject_Z (2 ^ 15)) in *.
+  set (p := r * Qabs X0) in *. set (q := d * Qabs Y0) in *. set (a := r * Qabs x) in *. set (b := d * Qabs y) in *.
+  set (m := 1 # 2 ^ 800) in *. set (n := 1 # 2 ^ 900) in *. set (o := 1 # 2 ^ 1000) in *. set (e := eta) in *.
+  clearbody k l p q a b m n o e. lra.
+Qed.
+
+Notation started := (start x1 y1 x2 y2 pa X0 Y0 c0 c1 c2).
+Notation rightwards := (right y1 y2 pa c0 c1 c2).
+Notation downwards := (down x1 x2 pa c0 c1 c2).
+
+Lemma ten_of_eleven : drift 10 * (1 + (1 # 2 ^ 30)) <= 11 * u.
+Proof. apply Qle_bool_iff. vm_compute. reflexivity. Qed.
+
+Lemma scaled_growth g T : g <= T * (1 + (1 # 2 ^ 30)) -> 0 <= T -> drift 10 * g <= 11 * u * T.
+Proof.
+  intros HT Tp. pose proof ten_of_eleven as D. pose proof (drift_positive 10) as D0.
+  set (ten := drift 10) in *. set (more := 1 + (1 # 2 ^ 30)) in *. set (eleven := 11 * u) in *. clearbody ten more eleven.
+  apply Qle_trans with (ten * (T * more)).
+  - rewrite !(Qmult_comm ten). apply Qmult_le_compat_r; assumption.
+  - setoid_replace (ten * (T * more)) with (ten * more * T) by ring. apply Qmult_le_compat_r; assumption.
+Qed.
+
+Lemma all_tiny : inject_Z (2 ^ 19) * tiny + (1 # 2 ^ 800) <= 1 # 2 ^ 126.
+Proof. apply Qle_bool_iff. vm_compute. reflexivity. Qed.
+
+Lemma bounded e1 e2 e3 tg tt k l m T (size_ : Q) : e3 <= e1 + e2 -> e1 <= 4 * w * size_ * (1 + (1 # 2 ^ 20)) + k ->
+  e2 <= tg + tt -> tt <= l -> tg <= 11 * u * T -> k + l <= m -> 0 <= size_ -> 0 <= T ->
+  e3 <= (4 * w * size_ + 11 * u * T) * (1 + (1 # 2 ^ 18)) + m.
+Proof.
+  intros. change (1 # 2 ^ 18) with (1 # 262144). change (1 # 2 ^ 20) with (1 # 1048576) in *. unfold w, u in *. lra.
+Qed.
+
+(** A plane at a pixel, or at a sample beside it. T is computed by the code from positive numbers, so it may be off by a
+    few roundings. *)
+Theorem plane_error x y T : 0 <= x <= inject_Z (2 ^ 15) -> 0 <= y <= inject_Z (2 ^ 15) -> 0 <= T ->
+  growth x1 y1 x2 y2 area X0 Y0 M x y <= T * (1 + (1 # 2 ^ 30)) ->
+  Qabs (at_pixel (nearest32 started) (nearest32 rightwards) (nearest32 downwards) x y -
+        exact_value x1 y1 x2 y2 area X0 Y0 v0 v1 v2 x y) <=
+    plane_bound 4 11 18 126 (size (nearest32 started) (nearest32 rightwards) (nearest32 downwards) x y) T.
+Proof.
+  intros Hx Hy Tp HT. pose proof (evaluation_error started rightwards downwards x y Hx Hy) as E.
+  pose proof (setup_error x1 y1 x2 y2 area pa X0 Y0 Pa v0 v1 v2 c0 c1 c2 M t N0 N1 N2 x y) as F.
+  assert (Ax : Qabs x <= inject_Z (2 ^ 15)) by (rewrite Qabs_pos; lra). assert (Ay : Qabs y <= inject_Z (2 ^ 15)) by (rewrite Qabs_pos; lra).
+  pose proof (plane_tiny_small x y Ax Ay) as P.
+  pose proof (scaled_growth _ T HT Tp) as K.
+  assert (S0 : 0 <= size (nearest32 started) (nearest32 rightwards) (nearest32 downwards) x y).
+  { unfold size. pose proof (fun a => Qabs_nonneg a) as N. apply (Qle_trans _ (0 + 0 + 0)); [discriminate | repeat apply Qplus_le_compat; apply N]. }
+  assert (H : forall o v sum, Qabs (o - v) <= Qabs (o - sum) + Qabs (sum - v)).
+  { intros o v sum. setoid_replace (o - v) with (o - sum + (sum - v)) by ring. apply Qabs_triangle. }
+  exact (bounded _ _ _ _ _ _ _ _ _ _ (H _ _ _) E F P K all_tiny S0 Tp).
+Qed.
+End Bound.
+
+(** Bounded::value: an attribute is the quotient of its plane and that of 1/w, taken with a rounded reciprocal. *)
+Definition quotient_bound (of_rounding : positive) (second underflow : positive) (en eq n' q' : Q) : Q :=
+  ((en + Qabs (n' / q') * eq) / (q' - eq) + inject_Z (Z.pos of_rounding) * w * Qabs (n' / q')) * (1 + (1 # 2 ^ second)) +
+    (1 # 2 ^ underflow).
+
+Lemma quotient_of_errors n q n' q' en eq : Qabs (n' - n) <= en -> Qabs (q' - q) <= eq -> eq < q' ->
+  Qabs (n' / q' - n / q) <= (en + Qabs (n' / q') * eq) / (q' - eq).
+Proof.
+  intros En Eq P. pose proof (Qabs_nonneg (q' - q)) as E0. pose proof (proj1 (Qabs_Qle_condition _ _) Eq) as B.
+  assert (Q0 : 0 < q) by lra. assert (Q1 : 0 < q') by lra. assert (Q2 : 0 < q' - eq) by lra.
+  assert (I : n' / q' - n / q == (n' - n + (n' / q') * - (q' - q)) / q) by (field; split; lra).
+  rewrite (Qabs_wd _ _ I). unfold Qdiv at 1. rewrite Qabs_Qmult, Qabs_Qinv, (Qabs_pos q) by lra.
+  pose proof (Qabs_triangle (n' - n) ((n' / q') * - (q' - q))) as T. rewrite Qabs_Qmult, Qabs_opp in T.
+  pose proof (Qabs_nonneg (n' / q')) as A0. set (a := Qabs (n' / q')) in *.
+  assert (M : a * Qabs (q' - q) <= a * eq) by (rewrite !(Qmult_comm a); apply Qmult_le_compat_r; assumption).
+  set (z := Qabs (n' - n + n' / q' * - (q' - q))) in *. assert (Z : z <= en + a * eq) by lra.
+  assert (Z0 : 0 <= z) by apply Qabs_nonneg.
+  apply Qle_shift_div_l; [assumption|]. setoid_replace (z * / q * (q' - eq)) with (z * (q' - eq) / q) by (unfold Qdiv; ring).
+  apply Qle_shift_div_r; [assumption|]. apply Qle_trans with (z * q).
+  - rewrite !(Qmult_comm z). apply Qmult_le_compat_r; lra.
+  - apply Qmult_le_compat_r; lra.
+Qed.
+
+Theorem quotient_error n q n' q' en eq : Qabs (n' - n) <= en -> Qabs (q' - q) <= eq -> eq < q' -> q' <= 2 ->
+  Qabs (nearest32 (n' * nearest32 (1 / q')) - n / q) <= quotient_bound 2 18 126 en eq n' q'.
+Proof.
+  intros En Eq P Two. pose proof (quotient_of_errors n q n' q' en eq En Eq P) as F. unfold quotient_bound.
+  pose proof (Qabs_nonneg (q' - q)). assert (Q1 : 0 < q') by lra.
+  pose proof (nearest32_near (1 / q')) as R. pose proof (nearest32_near (n' * nearest32 (1 / q'))) as G.
+  assert (Hh : 1 # 2 <= 1 / q') by (apply Qle_shift_div_l; lra). rewrite (Qabs_pos (1 / q')) in R by lra.
+  assert (R1 : Qabs (nearest32 (1 / q') - 1 / q') <= w * (1 + (1 # 2 ^ 40)) * (1 / q')).
+  { assert (T : tiny <= w * (1 # 2 ^ 40) * (1 # 2)) by (apply Qle_bool_iff; vm_compute; reflexivity).
+    assert (M : w * (1 # 2 ^ 40) * (1 # 2) <= w * (1 # 2 ^ 40) * (1 / q')).
+    { rewrite !(Qmult_comm (w * (1 # 2 ^ 40))). apply Qmult_le_compat_r; [assumption | discriminate]. }
+    set (i := 1 / q') in *. setoid_replace (w * (1 + (1 # 2 ^ 40)) * i) with (w * i + w * (1 # 2 ^ 40) * i) by ring.
+    set (k := w * (1 # 2 ^ 40) * i) in *. set (l := w * (1 # 2 ^ 40) * (1 # 2)) in *. clearbody k l. lra. }
+  set (p := nearest32 (1 / q')) in *. clearbody p.
+  assert (N : Qabs (n' * p - n' / q') <= w * (1 + (1 # 2 ^ 40)) * Qabs (n' / q')).
+  { setoid_replace (n' * p - n' / q') with (n' * (p - 1 / q')) by (field; lra).
+    assert (A : Qabs (n' / q') == Qabs n' * (1 / q')).
+    { setoid_replace (n' / q') with (n' * (1 / q')) by (field; lra). rewrite Qabs_Qmult, (Qabs_pos (1 / q')) by lra. reflexivity. }
+    rewrite A, Qabs_Qmult. setoid_replace (w * (1 + (1 # 2 ^ 40)) * (Qabs n' * (1 / q'))) with (Qabs n' * (w * (1 + (1 # 2 ^ 40)) * (1 / q'))) by ring.
+    rewrite !(Qmult_comm (Qabs n')). apply Qmult_le_compat_r; [assumption | apply Qabs_nonneg]. }
+  assert (S : Qabs (n' * p) <= Qabs (n' / q') + Qabs (n' * p - n' / q')).
+  { setoid_replace (n' * p) with (n' / q' + (n' * p - n' / q')) at 1 by ring. apply Qabs_triangle. }
+  set (o := nearest32 (n' * p)) in *. clearbody o.
+  setoid_replace (o - n / q) with ((o - n' * p) + ((n' * p - n' / q') + (n' / q' - n / q))) by ring.
+  pose proof (Qabs_triangle (o - n' * p) ((n' * p - n' / q') + (n' / q' - n / q))) as T1.
+  pose proof (Qabs_triangle (n' * p - n' / q') (n' / q' - n / q)) as T2.
+  pose proof (Qabs_nonneg (n' / q')) as A0. pose proof (Qabs_nonneg (n' / q' - n / q)) as A1.
+  assert (T : tiny <= 1 # 2 ^ 126) by discriminate.
+  set (a := Qabs (n' / q')) in *. set (off := (en + a * eq) / (q' - eq)) in *. set (m := 1 # 2 ^ 126) in *. set (g := tiny) in *.
+  change (inject_Z 2) with 2. change (1 # 2 ^ 40) with (1 # 1099511627776) in *. change (1 # 2 ^ 18) with (1 # 262144).
+  set (e1 := Qabs (o - n' * p)) in *. set (e2 := Qabs (n' * p - n' / q')) in *. set (e3 := Qabs (n' / q' - n / q)) in *.
+  set (b := Qabs (n' * p)) in *. set (z := Qabs (o - n' * p + (n' * p - n' / q' + (n' / q' - n / q)))) in *.
+  set (y := Qabs (n' * p - n' / q' + (n' / q' - n / q))) in *. clearbody a off m g e1 e2 e3 b z y. unfold w in *. lra.
+Qed.
