@@ -49,7 +49,7 @@ pub fn run(arguments: &TolerancesArguments, streams: &mut Streams<'_>) -> Status
 }
 
 fn shown(path: &Path) -> String {
-    rasterproof_host::text::printable_path(path).to_string()
+    rasterproof_host::text::printable_path(path)
 }
 
 /// Both sets of scenes, with what they are called.

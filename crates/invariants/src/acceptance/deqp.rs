@@ -46,7 +46,7 @@ pub fn accepts(covers: &[Cover], pixels: &[[u8; 3]], allowed: usize) -> bool {
 pub fn added_once(pixels: &[[u8; 3]], fills_window: bool) -> bool {
     let twice = |pixel: &[u8; 3]| pixel.iter().any(|&v| v > 128);
     let missing = |pixel: &[u8; 3]| pixel.iter().any(|&v| v <= 1);
-    !pixels.iter().any(twice) && !(fills_window && pixels.iter().any(missing))
+    !pixels.iter().any(twice) && (!fills_window || !pixels.iter().any(missing))
 }
 
 /// What dEQP says about every pixel of a window, for a device with so many bits below the pixel.
