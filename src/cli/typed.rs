@@ -167,7 +167,7 @@ mod tests {
     }
 
     /// Words that some option takes; each option is given the first that its parser accepts.
-    const VALUES: [&str; 11] = [
+    const VALUES: [&str; 14] = [
         "a b'$(x)\u{1b}.png",
         "-7.5",
         "7",
@@ -179,6 +179,9 @@ mod tests {
         "+clip",
         "x",
         "T2",
+        "0.5,32",
+        "2,9",
+        "depth",
     ];
 
     /// The words that give an option, in all forms that its parser accepts.
