@@ -15,7 +15,7 @@ use rasterproof_playground::figures::{ALL, Figure, Grip, Language, find};
 use rasterproof_playground::page;
 use serde_json::{Value, json};
 
-use crate::page::{Browser, folder};
+use crate::page::{Browser, Tab as _, folder};
 use crate::playground::module;
 use crate::quiz::RENEW;
 

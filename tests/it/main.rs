@@ -16,6 +16,7 @@ mod digest;
 mod exact;
 mod exhaust;
 mod figures;
+mod firefox;
 mod fixtures;
 mod hostile_certificates;
 mod hostile_files;

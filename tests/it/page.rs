@@ -22,7 +22,7 @@ use crate::program::{Run, shared};
 use crate::snapshots::ELSEWHERE;
 
 /// An answer that takes longer never comes.
-const PATIENCE: Duration = Duration::from_secs(30);
+pub const PATIENCE: Duration = Duration::from_secs(30);
 
 /// A browser with one tab; ends with the value.
 pub struct Browser {
@@ -125,23 +125,6 @@ impl Browser {
         }
     }
 
-    /// The value of an expression; a promise is waited for.
-    pub fn eval(&mut self, expression: &str) -> Value {
-        let parameters =
-            json!({ "expression": expression, "awaitPromise": true, "returnByValue": true });
-        let answer = self.call("Runtime.evaluate", parameters);
-        assert!(answer["exceptionDetails"].is_null(), "{expression}: {answer}");
-        answer["result"]["value"].clone()
-    }
-
-    pub fn wait_for(&mut self, expression: &str) {
-        let start = Instant::now();
-        while self.eval(expression) != json!(true) {
-            assert!(start.elapsed() < PATIENCE, "never true: {expression}");
-            std::thread::sleep(Duration::from_millis(30));
-        }
-    }
-
     /// Opens a file, with a fragment such as `#case-T2`, and waits until its case is drawn.
     pub fn open(&mut self, page: &Path, fragment: &str) {
         self.call("Page.navigate", json!({ "url": "about:blank" }));
@@ -212,6 +195,31 @@ impl Browser {
         ));
         let event = json!({ "type": "mouseMoved", "x": spot[0], "y": spot[1] });
         self.call("Input.dispatchMouseEvent", event);
+    }
+}
+
+/// What a test asks of an open page, in whatever browser.
+pub trait Tab {
+    /// The value of an expression.
+    fn eval(&mut self, expression: &str) -> Value;
+
+    fn wait_for(&mut self, expression: &str) {
+        let start = Instant::now();
+        while self.eval(expression) != json!(true) {
+            assert!(start.elapsed() < PATIENCE, "never true: {expression}");
+            std::thread::sleep(Duration::from_millis(30));
+        }
+    }
+}
+
+impl Tab for Browser {
+    /// A promise is waited for.
+    fn eval(&mut self, expression: &str) -> Value {
+        let parameters =
+            json!({ "expression": expression, "awaitPromise": true, "returnByValue": true });
+        let answer = self.call("Runtime.evaluate", parameters);
+        assert!(answer["exceptionDetails"].is_null(), "{expression}: {answer}");
+        answer["result"]["value"].clone()
     }
 }
 

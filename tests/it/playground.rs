@@ -24,7 +24,7 @@ use rasterproof_playground::page;
 use rasterproof_verify::cases::{Shape, triangles, unsnapped};
 use serde_json::{Value, json};
 
-use crate::page::{Browser, folder};
+use crate::page::{Browser, Tab as _, folder};
 
 pub const SCENES: [&str; 9] =
     ["triangle", "line", "weights", "perspective", "depth", "near", "samples", "culling", "figure"];

@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 
 use serde_json::{Value, json};
 
-use crate::page::Browser;
+use crate::page::{Browser, Tab as _};
 use crate::playground::{SCENES, both, opened, settle};
 
 /// Where what is called `name` lies on panel `i`, in pixels of the tab.

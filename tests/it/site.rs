@@ -10,7 +10,7 @@ use std::process::Command;
 
 use serde_json::{Value, json};
 
-use crate::page::{Browser, folder};
+use crate::page::{Browser, Tab as _, folder};
 use crate::program::PROGRAM;
 use crate::quiz::RENEW;
 

@@ -3,11 +3,28 @@
 /** Renderers that run on the processor, by their names. */
 const SOFTWARE = /swiftshader|llvmpipe|softpipe|software|lavapipe|basic render|warp/i;
 
+/** What was read back so far: pictures, and bytes that are no whole number of hits. A device is asked alone. */
+const readBack = { pictures: 0, uneven: 0 };
+
+/** Noise against fingerprinting, planted: pixels that differ from one drawing to the next, or slightly in every drawing. */
+function addNoise(bytes, plant) {
+  readBack.pictures += 1;
+  if (plant === 'noise' && readBack.pictures % 2 === 0) {
+    const first = bytes.findIndex((byte) => byte > 0);
+    if (first >= 0) bytes[first] = 0;
+  }
+  if (plant === 'faint-noise') for (let at = 0; at < bytes.length; at += 97) if (bytes[at] > 0) bytes[at] ^= 1;
+}
+
 /** Bytes as hits, as ASCII: one of every `stride`, where a hit is so many steps. */
-function hits(bytes, stride, step) {
+function hits(bytes, stride, step, plant) {
+  addNoise(bytes, plant);
   const text = new Uint8Array(bytes.length / stride);
   const half = step >> 1;
-  for (let i = 0, at = 0; at < bytes.length; i += 1, at += stride) text[i] = 48 + Math.floor((bytes[at] + half) / step);
+  for (let i = 0, at = 0; at < bytes.length; i += 1, at += stride) {
+    text[i] = 48 + Math.floor((bytes[at] + half) / step);
+    if (bytes[at] % step !== 0 && bytes[at] < 255) readBack.uneven += 1;
+  }
   return text;
 }
 
@@ -42,7 +59,7 @@ const PLANTS = {
     if (twice < 1) v.copyWithin(at + 6, at, at + 6);
   },
   // By other means, where a pipeline is made or read.
-  twice: null, winding: null, farther: null, noise: null, lost: null,
+  twice: null, winding: null, farther: null, noise: null, 'faint-noise': null, lost: null,
 };
 
 /** The vertices of a batch, with a fault where one is planted. */

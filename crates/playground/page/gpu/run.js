@@ -14,31 +14,36 @@ const deviceOf = (api, check) => ({
   interface: api.name, bits: check === 'lattice' && api.name === 'webgpu' ? 1 : Math.min(api.bits ?? 1, 8), samples_apart: api.apart,
 });
 
-/** Draws a batch and has it judged; `what` is {check, number} or {check, only} or {check, smaller}. */
+/** Draws a batch and has it judged; `what` is {check, number} or {check, only} or {check, smaller, number}. */
 async function judged(api, what, tally = {}) {
   const batch = { device: deviceOf(api, what.check), seed: state.seed, ...what };
-  const drawn = must(ask({ ask: 'gpu-batch', ...batch }));
-  const pixels = await api.draw({ ...drawn, check: what.check }, state.plant);
+  const drawn = { ...must(ask({ ask: 'gpu-batch', ...batch })), check: what.check };
+  if (drawn.subjects === 0) return { broken: null, tally: { subjects: 0 } };
+  let pixels = await api.draw(drawn, state.plant);
+  if (what.check === 'twice') {
+    const again = await api.draw(drawn, state.plant);
+    pixels = Uint8Array.from({ length: 2 * pixels.length }, (_, i) => (i % 2 ? again : pixels)[i >> 1]);
+  }
   return must(ask({ ask: 'gpu-judge', batch, tally }, pixels));
 }
 
-/** Whether a batch drawn again has the same pixels; those that differ are counted. */
-async function drawnTwice(api, what) {
-  const drawn = must(ask({ ask: 'gpu-batch', device: deviceOf(api, what.check), seed: state.seed, ...what }));
-  const first = await api.draw(drawn, state.plant);
-  const second = await api.draw(drawn, state.plant);
-  if (state.plant === 'noise') second[Math.floor(second.length / 3)] ^= 1;
-  const differ = first.reduce((sum, byte, i) => sum + Number(byte !== second[i]), 0);
-  return { word: differ ? (api.name === 'webgl2' ? 'broken' : 'free') : 'promised', tally: { differ, pixels: first.length }, facts: null };
+/** The first of the smaller cases that still fails. They may need more than one picture. */
+async function smallerOne(api, check, subject) {
+  for (let number = 0; state.running; number += 1) {
+    const { broken, tally } = await judged(api, { check, smaller: subject, number });
+    if (broken || tally.subjects === 0) return broken;
+  }
+  return null;
 }
 
-/** From a case that fails to the smallest that is found: of the smaller ones the first that still fails, again and again. */
+/** From a case that fails to the smallest that is found in some seconds. */
 async function shrunk(api, check, subject) {
   let smallest = subject;
-  for (let steps = 0; steps < 400; steps += 1) {
-    const { broken } = await judged(api, { check, smaller: smallest });
-    if (!broken) break;
-    smallest = broken;
+  const end = performance.now() + 10000;
+  while (performance.now() < end) {
+    const smaller = await smallerOne(api, check, smallest);
+    if (!smaller) break;
+    smallest = smaller;
   }
   return (await judged(api, { check, only: smallest })).view;
 }
@@ -65,6 +70,7 @@ async function judgeApi(name, { only, bits = null, shrinks = true }) {
   const batches = plan.batches.filter(({ check, number: n }) => !only || only.some(([c, i]) => c === check && i === n));
   const start = performance.now();
   let losses = 0;
+  readBack.uneven = 0;
   for (let at = 0; at < batches.length && state.running; at += 1) {
     const { check, number } = batches[at];
     state.progress = { text: word('progress')(result.title, word('checks')[check], at + 1, batches.length), part: at / batches.length };
@@ -84,7 +90,6 @@ async function judgeApi(name, { only, bits = null, shrinks = true }) {
         api.bits = answer.facts.bits;
         result.bits = api.bits;
       }
-      if (check === 'coverage' && number === 0) result.rows.twice = await drawnTwice(api, { check, number });
     } catch (error) {
       if (!(error instanceof Lost)) throw error;
       losses += 1;
@@ -100,11 +105,12 @@ async function judgeApi(name, { only, bits = null, shrinks = true }) {
   }
   result.seconds = (performance.now() - start) / 1000;
   for (const [check, row] of Object.entries(result.rows)) {
-    result.triangles += check === 'lines' ? 0 : (row.tally?.shapes ?? 0) * (check === 'order' ? 6 : 1);
+    result.triangles += check === 'lines' || check === 'twice' ? 0 : (row.tally?.shapes ?? 0) * (check === 'order' ? 6 : 1);
   }
+  if (readBack.uneven > 0) result.notes.push(['uneven', readBack.uneven]);
   if (!state.running) result.notes.push(['stopped']);
   for (const [check, { broken, free }] of Object.entries(result.rows)) {
-    if (!shrinks || losses > 1 || !(broken || free)) continue;
+    if (!state.running || !shrinks || losses > 1 || !(broken || free)) continue;
     state.progress = { text: word('shrinking')(result.title, word('checks')[check]), part: 1 };
     drawProgress();
     await breathe();
@@ -144,9 +150,9 @@ async function judgeOne({ name, check, subject }) {
     const api = await APIS[name]();
     if (api.refused) throw new Error(said(api.refused));
     if (api.bits === null) api.bits = (await judged(api, { check: 'lattice', number: 0 })).facts.bits;
-    const { word: verdict, view } = await judged(api, { check, only: subject });
+    const { word: verdict, view, facts } = await judged(api, { check, only: subject });
     state.results = [{ name, title: api.title, renderer: api.renderer, rows: {}, views: { [check]: view }, notes: [] }];
-    Object.assign(state.one, { verdict, view });
+    Object.assign(state.one, { verdict, view, facts });
     state.shown = [0, check];
   } catch (error) {
     state.one.error = error.message;

@@ -27,17 +27,22 @@ function summary(result) {
   return make('p', { className: `verdict ${WORST[worst(result)]}` }, says);
 }
 
+/** What a rule asks for: its own words where they are at hand, and ours. */
+const asked = ({ quote, says }) => [
+  ...(quote ? [make('p', {}, `“${quote[0]}”`), make('cite', {}, quote[1])] : []),
+  make('p', {}, `${word(quote ? 'inShort' : 'ownWords')}: ${says}`),
+];
+
 function row(result, index, check) {
   const { word: is, tally, facts } = result.rows[check];
-  const { section } = RULES[result.name][check];
-  const { says, open } = ruleOf(result.name, check);
+  const rule = ruleOf(result.name, check);
   const view = result.views[check];
   const show = view && make('button', { type: 'button', onclick: () => { state.shown = [index, check]; drawAll(); $('finding').scrollIntoView(); } }, word('show'));
   return make('tr', { attr: { 'data-check': check } },
     make('th', { scope: 'row' }, word('checks')[check]),
     make('td', { className: is }, word(is), show ? make('div', {}, show) : null),
     make('td', {}, tally ? word('details')[check](tally, facts) : ''),
-    make('td', {}, make('details', {}, make('summary', {}, section), make('p', {}, `${word('asks')}: ${says}`), make('p', {}, `${word('open')}: ${open}`))));
+    make('td', {}, make('details', {}, make('summary', {}, rule.section), ...asked(rule), make('p', {}, `${word('open')}: ${rule.open}`))));
 }
 
 function resultOf(result, index) {
@@ -66,9 +71,9 @@ function crop({ cell, outlines, marks }) {
 }
 
 /** A cell as a picture: pixels with their hits, marks, outlines and sample points. Row 0 is uppermost, as it is read. */
-function picture(view, planes, plane, isTheirs) {
+function picture(view, planes, plane, isTheirs, label) {
   const [[x0, x1], [y0, y1]] = crop(view);
-  const picture = svg('svg', { viewBox: `${x0} ${y0} ${x1 - x0} ${y1 - y0}`, role: 'img', 'aria-label': word(isTheirs ? 'theirs' : 'ours') });
+  const picture = svg('svg', { viewBox: `${x0} ${y0} ${x1 - x0} ${y1 - y0}`, role: 'img', 'aria-label': label });
   for (let y = y0; y < y1; y += 1) {
     for (let x = x0; x < x1; x += 1) {
       const hits = planes[plane][y * view.cell + x];
@@ -93,7 +98,7 @@ function asText(view, planes) {
 }
 
 /** Whether a subject is more than positions. */
-const isPlain = (subject) => subject.flat().every(([, , z, w]) => z === 0.5 && w === 1);
+const isPlain = (subject) => subject.flat().every(([, , z, w, a, b]) => z === 0.5 && w === 1 && a === 1 && b === 0);
 const corners = (subject) => subject.map((shape) => shape.map((vertex) => (isPlain(subject) ? vertex.slice(0, 2) : vertex).join(', ')).join('   ')).join('\n');
 
 function address(name, check, subject) {
@@ -104,7 +109,7 @@ function address(name, check, subject) {
 }
 
 /** Shaders that draw a case alone, with the state in words. */
-function reproduction(name, check, subject) {
+function reproduction(name, check, { subject, samples }) {
   const device = { interface: name, bits: 8, samples_apart: true };
   const { vertices, side, kind } = must(ask({ ask: 'gpu-batch', check, device, seed: 1, only: subject }));
   const v = numbers(vertices);
@@ -113,10 +118,10 @@ function reproduction(name, check, subject) {
   const float = (x) => (Number.isInteger(x) ? x.toFixed(1) : String(x));
   const list = (vector, from, to) => rows.map((r) => `  ${vector}(${r.slice(from, to).map(float).join(', ')})`).join(',\n');
   const topology = kind === 'lines' ? 'lines' : 'triangles';
-  const how = { values: 'no blending, RGBA32F', depth: 'no blending, depth test LESS', samples: '4 samples, blending ONE ONE' }[kind] ?? 'blending ONE ONE';
+  const how = { values: 'no blending', depth: 'no blending, depth test less, depths cleared to 1', samples: '4 samples, blending ONE ONE' }[kind] ?? 'blending ONE ONE';
   if (name === 'webgl2') {
     return `#version 300 es
-// ${side} x ${side} px RGBA8, viewport all of it, ${how}${kind === 'facing' ? ', back faces culled' : ''};
+// ${side} x ${side} px ${kind === 'values' ? 'RGBA32F' : 'RGBA8'}, viewport all of it, ${how}${kind === 'facing' ? ', back faces culled' : ''};
 // drawArrays(${topology.toUpperCase()}, 0, ${rows.length}); the first row of pixels above is the lowest, which readPixels reads first.
 const vec4 positions[${rows.length}] = vec4[](
 ${list('vec4', 0, 4)});
@@ -125,7 +130,7 @@ ${list('vec2', 4, 6)});
 out vec2 carried;
 void main() { gl_Position = positions[gl_VertexID]; carried = attributes[gl_VertexID]; }
 
-${GLSL[kind === 'values' ? 'values' : 'hits']}`;
+${GLSL[kind === 'values' ? 'values' : samples.length ? 'samples' : 'hits']}`;
   }
   return `// ${side} x ${side} px ${kind === 'values' ? 'rgba32float' : 'r8unorm'}, ${how}${kind === 'facing' ? ', cullMode back' : ''}; draw(${rows.length}) of a ${kind === 'lines' ? 'line' : 'triangle'}-list.
 struct Carried { @builtin(position) position: vec4f, @location(0) values: vec2f }
@@ -136,20 +141,23 @@ ${list('vec4f', 0, 4)});
 ${list('vec2f', 4, 6)});
   return Carried(positions[i], attributes[i]);
 }
-${WGSL.split('\n').find((line) => line.startsWith(`@fragment fn ${kind === 'values' ? 'values' : 'hits'}`))}`;
+${WGSL.split('\n').find((line) => line.startsWith(`@fragment fn ${kind === 'values' ? 'values' : 'hits'}`))}${kind === 'samples' ? WGSL_SAMPLES : ''}`;
 }
 
 function report(result, check, view) {
-  const { section, says } = RULES[result.name][check];
+  const rule = ruleOf(result.name, check, 'en');
+  const [[x0, x1], [y0, y1]] = crop(view).map((range, axis) => range.map((at) => at + view.origin[axis]));
+  const [ours, theirs] = check === 'twice' ? [WORDS.en.drawnFirst, WORDS.en.drawnAgain] : ['Expected', 'Drawn'];
   const notes = view.marks.filter(({ note }) => note).slice(0, 8).map(({ x, y, note }) => `pixel ${x}, ${y}: ${note}`);
   return [
     `${result.title}: ${WORDS.en.checks[check]}`, '',
     `Browser: ${navigator.userAgent}`, `Renderer: ${result.renderer}`,
     ...(state.plant ? [`A fault is planted by the page: ${state.plant}`] : []),
-    `Specification: ${section}. ${says}`, '',
+    `Specification: ${rule.section}. ${inWords(rule)}`, '',
     isPlain(view.subject) ? WORDS.en.corners : WORDS.en.cornersMore, corners(view.subject), '',
-    'Expected hits', asText(view, view.ours), '', 'Drawn', asText(view, view.theirs), ...notes, '',
-    reproduction(result.name, check, view.subject), '',
+    `Columns ${x0} to ${x1 - 1} and rows ${y0} to ${y1 - 1} of the picture. ${WORDS.en.legend(check).split('.')[0]}.`,
+    `${ours}:`, asText(view, view.ours), '', `${theirs}:`, asText(view, view.theirs), ...notes, '',
+    reproduction(result.name, check, view), '',
     `Page: ${address(result.name, check, view.subject)}`,
   ].join('\n');
 }
@@ -174,22 +182,23 @@ function drawFinding() {
   const view = result?.views[check];
   section.hidden = !view;
   if (!view) return;
-  const rule = { ...RULES[result.name][check], ...ruleOf(result.name, check) };
-  const isBroken = view.marks.some((mark) => mark.word === 'broken');
+  const rule = ruleOf(result.name, check);
+  const heads = (check === 'twice' ? ['drawnFirst', 'drawnAgain'] : ['ours', 'theirs']).map(word);
+  const isBroken = result.rows[check]?.word === 'broken' || view.marks.some((mark) => mark.word === 'broken');
   // Of four samples the ones that differ.
   const wanted = [...new Set(view.marks.map(({ plane }) => plane))];
   const pairs = (wanted.length ? wanted : [0]).map((plane) => {
     const label = view.samples.length ? ` (${word('sample')(plane)})` : '';
     return make('div', { className: 'pair' }, ...[view.ours, view.theirs].map((planes, i) => (
-      make('figure', {}, make('figcaption', {}, word(i ? 'theirs' : 'ours') + label), picture(view, planes, plane, i === 1)))));
+      make('figure', {}, make('figcaption', {}, heads[i] + label), picture(view, planes, plane, i === 1, heads[i] + label)))));
   });
   const link = address(result.name, check, view.subject);
   const text = report(result, check, view);
   fill(section,
     make('h2', {}, `${result.title}, ${word('checks')[check]}: ${word(isBroken ? 'finding' : 'example')}`),
-    ...pairs, make('p', { className: 'quiet' }, word('legend')),
+    ...pairs, make('p', { className: 'quiet' }, word('legend')(check)),
     ...view.marks.filter(({ note }) => note).slice(0, 4).map(({ x, y, note }) => make('p', {}, `${x}, ${y}: ${note}`)),
-    make('blockquote', {}, make('p', {}, rule.says), make('cite', {}, rule.section)),
+    make('blockquote', {}, ...asked(rule), make('cite', {}, rule.section)),
     make('p', {}, word(isPlain(view.subject) ? 'corners' : 'cornersMore')), make('pre', {}, corners(view.subject)),
     make('p', {}, make('a', { href: link }, word('address')), ' ', ...copying(link)),
     make('details', {}, make('summary', {}, word('report')), make('pre', { id: 'report' }, text), ...copying(text)));
@@ -204,7 +213,7 @@ function drawAll() {
   const { one } = state;
   const verdict = { promised: 'passes', free: 'differs', broken: 'fails' }[one?.verdict];
   $('one').hidden = !one;
-  fill($('one'), one ? word('repeats') : '', one?.error ? make('p', { className: 'broken' }, `${word('badCase')} ${one.error}`) : null, verdict ? make('p', { className: one.verdict }, word(verdict)) : null);
+  fill($('one'), one ? word('repeats') : '', one?.error ? make('p', { className: 'broken' }, `${word('badCase')} ${one.error}`) : null, verdict ? make('p', { className: one.verdict }, word(verdict)) : null, verdict && one.check === 'lattice' ? make('p', {}, word('latticeOne')(one.facts.finest)) : null);
   fill($('results'), ...(one ? [] : (state.results ?? []).map(resultOf)));
   drawProgress();
   drawFinding();

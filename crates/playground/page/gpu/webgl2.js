@@ -149,8 +149,8 @@ function openWebgl2() {
       const error = gl.getError();
       if (error) throw new Error(`WebGL: 0x${error.toString(16)}`);
       if (floating) return base64(bytes);
-      if (kind === 'samples') return apart ? hits(bytes, 1, 8) : hits(bytes, 4, HIT / 4);
-      return hits(bytes, 4, HIT);
+      if (kind === 'samples') return apart ? hits(bytes, 1, 8, plant) : hits(bytes, 4, HIT / 4, plant);
+      return hits(bytes, 4, HIT, plant);
     },
   };
 }

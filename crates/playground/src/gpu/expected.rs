@@ -2,7 +2,7 @@
 
 use super::place::{Place, RULES, area2, centre, cover, on_shared_edge, place};
 use super::subjects::{is_front, whole};
-use super::{Check, Device, Interface, Subject};
+use super::{Check, Device, Interface, Subject, Vertex};
 use rasterproof_core::grid::{HALF_PIXEL, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::Corners;
 use rasterproof_verify::cases::Triangle;
@@ -28,14 +28,18 @@ pub(super) type Planes = Vec<Vec<u8>>;
 
 /// How many planes a check reads.
 pub(super) fn planes(check: Check, device: Device) -> usize {
-    if check == Check::Samples && device.samples_apart { 4 } else { 1 }
+    match check {
+        Check::Samples if device.samples_apart => 4,
+        // The first drawing and the second.
+        Check::Twice => 2,
+        _ => 1,
+    }
 }
 
 /// What is expected of a subject, by the top-left rule where a rule decides.
 pub(super) fn expected(check: Check, device: Device, subject: &Subject, cell: i32) -> Planes {
     let mut hits = vec![vec![0; (cell * cell) as usize]; planes(check, device)];
     match check {
-        Check::Tiling => hits[0].fill(1),
         Check::Lines => {
             for (x, y) in subject.ends().iter().flat_map(|ends| segments::diamonds(ends, cell)) {
                 hits[0][(y * cell + x) as usize] = 1;
@@ -49,24 +53,17 @@ pub(super) fn expected(check: Check, device: Device, subject: &Subject, cell: i3
             });
         }
         Check::Depth => {
-            let triangles = subject.triangles();
-            let [first, second] = &triangles[..] else { return hits };
-            let covered = [first, second].map(|t| {
+            let covered = subject.triangles().into_iter().map(|t| {
                 let mut hits = vec![0; (cell * cell) as usize];
                 cover(&t.corners(), RULES[0], [0, 0], cell, &mut hits);
-                hits
+                (t, hits)
             });
+            let covered: Vec<_> = covered.collect();
             each(cell, |x, y, at| {
-                hits[0][at] = match [covered[0][at], covered[1][at]] {
-                    [1, 1] if depth(first, x, y) < depth(second, x, y) => 1,
-                    [first, second] => {
-                        if second > 0 {
-                            2
-                        } else {
-                            first
-                        }
-                    }
-                };
+                let drawn = covered.iter().filter(|(_, hits)| hits[at] > 0).map(|(t, _)| t);
+                let nearest =
+                    drawn.reduce(|a, b| if depth(b, x, y) < depth(a, x, y) { b } else { a });
+                hits[0][at] = nearest.map_or(0, number);
             });
         }
         Check::Samples => {
@@ -83,9 +80,11 @@ pub(super) fn expected(check: Check, device: Device, subject: &Subject, cell: i3
                 cover(corners, RULES[0], [0, 0], cell, &mut hits[0]);
             }
         }
+        Check::Tiling if fills(subject, cell) => hits[0].fill(1),
         _ => {
-            for corners in subject.corners() {
-                cover(&corners, RULES[0], [0, 0], cell, &mut hits[0]);
+            hits[0] = covered(subject, cell);
+            if check == Check::Twice {
+                hits[1] = hits[0].clone();
             }
             if check == Check::Order {
                 hits[0].iter_mut().for_each(|hits| *hits *= 6);
@@ -93,6 +92,21 @@ pub(super) fn expected(check: Check, device: Device, subject: &Subject, cell: i3
         }
     }
     hits
+}
+
+/// How often each pixel is covered.
+pub(super) fn covered(subject: &Subject, cell: i32) -> Vec<u8> {
+    let mut hits = vec![0; (cell * cell) as usize];
+    for corners in subject.corners() {
+        cover(&corners, RULES[0], [0, 0], cell, &mut hits);
+    }
+    hits
+}
+
+/// Whether triangles that do not overlap fill a cell: their area says so, up to its rounding.
+fn fills(Subject(shapes): &Subject, cell: i32) -> bool {
+    let twice: f64 = shapes.iter().map(|t| super::shrink::area(t).abs()).sum();
+    (twice - f64::from(2 * cell * cell)).abs() < 1e-6
 }
 
 fn each(cell: i32, mut see: impl FnMut(i32, i32, usize)) {
@@ -110,14 +124,24 @@ fn depth(triangle: &Triangle, x: i32, y: i32) -> f64 {
     (weight(b, c) * za + weight(c, a) * zb + weight(a, b) * zc) / area2(a, b, c) as f64
 }
 
+/// What a triangle of the depth test leaves where it is kept: its first attribute.
+fn number(triangle: &Triangle) -> u8 {
+    triangle.vertices[0].varying.x as u8
+}
+
 impl Subject {
     /// The ends of its lines.
     pub(super) fn ends(&self) -> Vec<Ends> {
-        let ends = |shape: &Vec<super::Vertex>| {
+        let ends = |shape: &Vec<Vertex>| {
             Some([super::subjects::at(shape.first()?), super::subjects::at(shape.get(1)?)])
         };
         self.0.iter().filter_map(ends).collect()
     }
+}
+
+/// The edges of a triangle whose w are 1.
+pub(super) fn edges(t: &[Vertex]) -> [[[f64; 2]; 2]; 3] {
+    [(0, 1), (1, 2), (2, 0)].map(|(i, j)| [i, j].map(|i| [t[i][0], t[i][1]]))
 }
 
 /// How a pixel that was not hit as expected stands to the specification.
@@ -139,10 +163,7 @@ impl<'a> Forgiving<'a> {
     pub fn word(&self, plane: usize, x: i32, y: i32, hits: u8) -> Word {
         let free = match self.check {
             Check::Lattice => hits <= 1 && self.is_near_edge(x, y),
-            // WebGPU leaves open whether a sample on an edge is covered, so holes along edges too.
-            Check::Tiling => {
-                self.device.interface == Interface::Webgpu && hits <= 2 && self.is_near_edge(x, y)
-            }
+            Check::Tiling => self.tiling_is_open(x, y, hits),
             Check::NearPlane => {
                 let near = |b: clipped::Linear| b.distance_px((x as u32, y as u32));
                 hits <= 1
@@ -151,6 +172,7 @@ impl<'a> Forgiving<'a> {
                         .is_none_or(|b| b.into_iter().any(|b| near(b) <= self.bound_px()))
             }
             Check::Depth => self.depth_is_open(x, y, hits),
+            Check::Twice => self.device.interface == Interface::Webgpu,
             // Where samples lie is open in WebGL and said in WebGPU.
             Check::Samples if self.device.interface == Interface::Webgl2 => {
                 self.sample_is_open(x, y, hits, if self.device.samples_apart { 1 } else { 4 })
@@ -199,22 +221,38 @@ impl<'a> Forgiving<'a> {
         })
     }
 
-    /// Whether a pixel's centre may lie on an edge once corners are moved to the device's lattice: each point of
-    /// an edge moves by a step in x and y at most.
-    fn is_near_edge(&self, x: i32, y: i32) -> bool {
+    /// The edges of a triangle on which a pixel's centre may lie once corners are moved to the device's lattice:
+    /// each point of an edge moves by a step in x and y at most.
+    fn near_edges(&self, t: &[Vertex], x: i32, y: i32) -> Vec<[[f64; 2]; 2]> {
         let s = [f64::from(x) + 0.5, f64::from(y) + 0.5];
         let step = f64::from(self.device.step()) / f64::from(SUBPIXELS);
-        self.subject.0.iter().any(|t| {
-            (0..3).any(|i| {
-                let (a, b) = (t[i], t[(i + 1) % 3]);
-                let [dx, dy] = [b[0] - a[0], b[1] - a[1]];
-                let along = (dx * (s[0] - a[0]) + dy * (s[1] - a[1]))
-                    / (dx * dx + dy * dy).max(f64::MIN_POSITIVE);
-                let t = along.clamp(0.0, 1.0);
-                let [ex, ey] = [a[0] + t * dx - s[0], a[1] + t * dy - s[1]];
-                ex * ex + ey * ey <= 2.0 * step * step
-            })
-        })
+        let is_near = |[a, b]: &[[f64; 2]; 2]| {
+            let [dx, dy] = [b[0] - a[0], b[1] - a[1]];
+            let along = (dx * (s[0] - a[0]) + dy * (s[1] - a[1]))
+                / (dx * dx + dy * dy).max(f64::MIN_POSITIVE);
+            let t = along.clamp(0.0, 1.0);
+            let [ex, ey] = [a[0] + t * dx - s[0], a[1] + t * dy - s[1]];
+            ex * ex + ey * ey <= 2.0 * step * step
+        };
+        edges(t).into_iter().filter(is_near).collect()
+    }
+
+    fn is_near_edge(&self, x: i32, y: i32) -> bool {
+        self.subject.0.iter().any(|t| !self.near_edges(t, x, y).is_empty())
+    }
+
+    /// Near the border of a tiling a rule decides. Inside of it exactly one hit is promised by OpenGL, while WebGPU
+    /// leaves open whether a sample on an edge is covered, so holes along edges too.
+    fn tiling_is_open(&self, x: i32, y: i32, hits: u8) -> bool {
+        let all = &self.subject.0;
+        let near: Vec<_> = all.iter().map(|t| self.near_edges(t, x, y)).collect();
+        let is_shared = |[a, b]: &[[f64; 2]; 2]| {
+            all.iter().flat_map(|t| edges(t)).filter(|edge| *edge == [*b, *a]).count() == 1
+        };
+        let most = near.iter().filter(|edges| !edges.is_empty()).count();
+        let is_open = self.device.interface == Interface::Webgpu
+            || near.iter().flatten().any(|edge| !is_shared(edge));
+        most > 0 && usize::from(hits) <= most && is_open
     }
 
     /// A new corner is f32 of what is clipped: x, y and w reach 12, divided by a w of at least 1. Six roundings
@@ -230,16 +268,17 @@ impl<'a> Forgiving<'a> {
         let triangles = self.subject.triangles();
         let places = triangles.iter().map(|t| place(&t.corners(), centre(x, y)));
         let places: Vec<_> = places.collect();
-        let covers = |i: usize| i == 0 || places.get(i - 1).is_some_and(|p| *p != Place::Outside);
+        let mut covering = triangles.iter().zip(&places).filter(|(_, p)| **p != Place::Outside);
         if places.contains(&Place::Edge) {
-            return covers(usize::from(hits));
+            return hits == 0 || covering.any(|(t, _)| number(t) == hits);
         }
         let [first, second] = &triangles[..] else { return false };
         let bounds = [first, second].map(|t| depth_bounds(t, 1024.0)[1]);
         // A buffer of 24 bits keeps steps of 2^-24.
         let bound = bounds[0] + bounds[1] + 2f64.powi(-24);
         let both = places.iter().all(|p| *p == Place::Inside);
-        both && (1..=2).contains(&hits) && (depth(first, x, y) - depth(second, x, y)).abs() <= bound
+        both && covering.any(|(t, _)| number(t) == hits)
+            && (depth(first, x, y) - depth(second, x, y)).abs() <= bound
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::expected::{Forgiving, Planes, Word, expected, line_fits, planes};
 use super::place::{Place, RULES, centre, cover, place};
+use super::shrink::is_tiling;
 use super::{Batch, Check, Device, Interface, Layout, Subject};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
@@ -64,6 +65,8 @@ const ROUNDINGS: [(&str, Rounding); 4] = [
 ];
 /// Hypotheses have 2 to 8 bits below the pixel.
 const BITS: std::ops::RangeInclusive<u32> = 2..=8;
+/// Fewer than these break a promise of WebGL, which calls what a device says of itself an estimate.
+const LEAST_BITS: u32 = 4;
 
 fn nearest(v: i32, step: i32, up_of_half: fn(i32) -> bool) -> i32 {
     let (below, rest) = (v.div_euclid(step), 2 * v.rem_euclid(step));
@@ -79,6 +82,12 @@ impl Judge {
     pub fn answer(&self) -> Result<Value, String> {
         let Batch { check, device, .. } = self.batch;
         let (layout, list) = self.batch.subjects()?;
+        let is_overlapping = |s: &Subject| !is_tiling(s, layout.cell);
+        if check == Check::Tiling && self.batch.only.as_ref().is_some_and(is_overlapping) {
+            return Err(
+                "the triangles overlap, share no edge, turn differently, or are thin".to_owned()
+            );
+        }
         let count = planes(check, device);
         let values = check == Check::Values;
         let bytes = match values {
@@ -92,7 +101,7 @@ impl Judge {
         }
         let mut tally = self.tally.clone();
         let mut examples: [Option<&Subject>; 2] = [None, None];
-        let mut view = Value::Null;
+        let (mut coarse, mut view) = (None, Value::Null);
         for (index, subject) in list.iter().enumerate() {
             let cell = Cell { layout, origin: layout.origin(index), bytes: &bytes, size };
             let judged = judged(check, device, subject, &cell);
@@ -103,13 +112,29 @@ impl Judge {
                     example.get_or_insert(subject);
                 }
             }
+            if check == Check::Lattice && is_coarse(&judged.explained) {
+                coarse.get_or_insert(subject);
+            }
+            // Of smaller subjects the first that fails is all that is asked for.
+            if self.batch.smaller.is_some() && (coarse.is_some() || examples[0].is_some()) {
+                break;
+            }
             if self.batch.only.is_some() {
                 view = judged.view(check, device, subject, &cell);
             }
         }
-        let [broken, free] = examples;
+        let [mut broken, free] = examples;
+        let mut word = word(check, device, &tally);
+        // One case alone breaks no promise about the lattice: all together do, and this one is why.
+        if check == Check::Lattice {
+            let is_asked = self.batch.smaller.is_some() || word == Word::Broken;
+            broken = coarse.filter(|_| is_asked && device.interface == Interface::Webgl2);
+            if self.batch.only.is_some() {
+                word = if tally.free > 0 { Word::Free } else { Word::Promised };
+            }
+        }
         Ok(json!({
-            "word": word(check, device, &tally), "facts": facts(check, &tally),
+            "word": word, "facts": facts(check, &tally),
             "tally": tally, "broken": broken, "free": free, "view": view,
         }))
     }
@@ -167,7 +192,10 @@ fn judged(check: Check, device: Device, subject: &Subject, cell: &Cell) -> Judge
     if check == Check::Values {
         return values(device, subject, cell);
     }
-    let (ours, theirs) = (expected(check, device, subject, side), cell.planes());
+    let (mut ours, mut theirs) = (expected(check, device, subject, side), cell.planes());
+    if check == Check::Twice {
+        ours = vec![theirs.remove(0)];
+    }
     let mut marks = Vec::new();
     if ours != theirs {
         let forgiving = Forgiving::new(check, device, subject);
@@ -230,6 +258,12 @@ fn explaining(subject: &Subject, hits: &[u8], side: i32) -> Vec<bool> {
         })
     };
     hypotheses().map(explains).collect()
+}
+
+/// Whether only lattices that are too coarse for WebGL explain a case.
+fn is_coarse(explained: &[bool]) -> bool {
+    let bits = hypotheses().zip(explained).filter(|(_, so)| **so).map(|((bits, ..), _)| bits);
+    bits.max().is_some_and(|most| most < LEAST_BITS)
 }
 
 /// What the specification asks of lines: WebGL the diamond-exit rule, give or take a pixel; WebGPU nothing.
@@ -359,7 +393,7 @@ impl Judged {
             _ => Vec::new(),
         };
         json!({
-            "cell": cell.layout.cell, "ours": digits(&self.ours), "theirs": digits(&self.theirs),
+            "cell": cell.layout.cell, "origin": cell.origin, "ours": digits(&self.ours), "theirs": digits(&self.theirs),
             "marks": self.marks, "outlines": outlines, "samples": samples, "subject": subject,
         })
     }
@@ -386,7 +420,7 @@ fn word(check: Check, device: Device, tally: &Tally) -> Word {
         };
         return match (is_known, bits >= wanted, device.interface) {
             (true, true, _) => Word::Promised,
-            (true, false, Interface::Webgl2) => Word::Broken,
+            (true, false, Interface::Webgl2) if bits < LEAST_BITS => Word::Broken,
             _ => Word::Free,
         };
     }
@@ -398,7 +432,9 @@ fn facts(check: Check, tally: &Tally) -> Value {
     match check {
         Check::Lattice => {
             let (explained, bits, rounding) = best_hypothesis(tally).unwrap_or_default();
-            json!({ "bits": bits, "rounding": rounding, "explained": explained })
+            let finest = hypotheses().zip(&tally.explained).filter(|(_, n)| **n == tally.subjects);
+            let finest = finest.map(|((bits, ..), _)| bits).max();
+            json!({ "bits": bits, "rounding": rounding, "explained": explained, "finest": finest })
         }
         Check::Coverage | Check::Reach => {
             let names = ["top-right", "bottom-left", "bottom-right"];
@@ -411,10 +447,12 @@ fn facts(check: Check, tally: &Tally) -> Value {
 
 #[cfg(test)]
 mod tests {
+    use super::super::Vertex;
+    use super::super::shrink::size;
     use super::*;
     use serde_json::from_value;
 
-    const CHECKS: [&str; 10] = [
+    const CHECKS: [&str; 11] = [
         "lattice",
         "coverage",
         "reach",
@@ -425,6 +463,7 @@ mod tests {
         "depth",
         "near-plane",
         "samples",
+        "twice",
     ];
 
     fn batch(check: &str, interface: &str, more: Value) -> Batch {
@@ -477,11 +516,16 @@ mod tests {
     /// Every pixel that is hit is hit once more, or none is: no check calls that free.
     #[test]
     fn gross_faults_break_promises() {
-        let twice = |_: &Subject, planes: &mut Planes| {
-            planes.iter_mut().flatten().filter(|hits| **hits > 0).for_each(|hits| *hits += 7);
-        };
-        let none = |_: &Subject, planes: &mut Planes| planes.iter_mut().for_each(|p| p.fill(0));
         for check in CHECKS {
+            // The first drawing is what the second is held to.
+            let first = usize::from(check == "twice");
+            let twice = |_: &Subject, planes: &mut Planes| {
+                let hits = planes[first..].iter_mut().flatten().filter(|hits| **hits > 0);
+                hits.for_each(|hits| *hits += 7);
+            };
+            let none = |_: &Subject, planes: &mut Planes| {
+                planes[first..].iter_mut().for_each(|p| p.fill(0));
+            };
             assert_eq!(answer(check, "webgl2", json!({}), &twice)["word"], "broken", "{check}");
             let word = answer(check, "webgl2", json!({}), &none)["word"].clone();
             assert_eq!(word, "broken", "{check}");
@@ -545,6 +589,28 @@ mod tests {
         assert_eq!(found("webgpu", 16, 3), [json!("free"), json!(4), json!("down")]);
     }
 
+    /// A lattice that is too coarse is shown by a case that no finer one explains, which breaks no promise alone.
+    #[test]
+    fn a_coarse_lattice_is_shown() {
+        let coarse = |subject: &Subject, planes: &mut Planes| {
+            planes[0].fill(0);
+            for c in subject.corners() {
+                let round = |v| nearest(v, 32, |_| true);
+                let snapped = c.map(|p| SubpixelPoint::new(round(p.x), round(p.y)));
+                cover(&snapped, RULES[0], [0, 0], 16, &mut planes[0]);
+            }
+        };
+        let found = answer("lattice", "webgl2", json!({}), &coarse)["broken"].clone();
+        let smaller = answer("lattice", "webgl2", json!({ "smaller": found }), &coarse);
+        let only = json!({ "only": smaller["broken"] });
+        let alone = answer("lattice", "webgl2", only.clone(), &coarse);
+        assert_eq!(alone["word"], "free");
+        assert!(alone["facts"]["finest"].as_u64() < Some(4), "{}", alone["facts"]);
+        let right = answer("lattice", "webgl2", only, &|_, _| {});
+        assert_eq!(right["facts"]["finest"], 8);
+        assert_eq!(answer("lattice", "webgl2", json!({}), &|_, _| {})["broken"], Value::Null);
+    }
+
     /// Smaller cases lie on the device's lattice and in the cell, and lead to one that is smaller still.
     #[test]
     fn smaller_cases_are_asked() {
@@ -576,44 +642,144 @@ mod tests {
         assert!(px.iter().all(|px| *px <= 2), "{subject:?}");
     }
 
-    /// Values a step of f32 away are as promised; those of a plane without perspective break the promise.
+    /// The smallest case of the first that a device draws wrongly.
+    fn smallest(check: &str, draws: &dyn Fn(&Subject, &mut Planes)) -> Vec<Vec<Vertex>> {
+        let found = |more: Value| answer(check, "webgl2", more, draws)["broken"].clone();
+        let all = batch(check, "webgl2", json!({})).subjects().unwrap().1;
+        let mut wrong =
+            all.into_iter().map(|s| found(json!({ "only": s }))).filter(|s| !s.is_null());
+        let mut subject = wrong.next().unwrap();
+        for _ in 0..200 {
+            let next = found(json!({ "smaller": subject }));
+            if next.is_null() {
+                break;
+            }
+            subject = next;
+        }
+        from_value::<Subject>(subject).unwrap().0
+    }
+
+    /// The planted faults of each kind of subject lead to cases of so many shapes, in so many px.
     #[test]
-    fn values_by_their_bounds() {
-        let batch = batch("values", "webgl2", json!({}));
-        let (layout, list) = batch.subjects().unwrap();
-        let word = |affine: bool| {
-            let mut bytes = vec![0u8; (layout.side * layout.side) as usize * 16];
-            for (index, subject) in list.iter().enumerate() {
-                let mut t = subject.triangles()[0];
-                if affine {
-                    t = t.with_equal_w();
-                }
-                let v = &t.vertices;
-                let exact = ExactTriangle::new(
-                    &t.corners(),
-                    v.map(|v| v.depth),
-                    v.map(|v| v.inv_w),
-                    v.map(|v| v.varying.to_array()),
-                );
-                let (Some(exact), [x0, y0]) = (exact, layout.origin(index)) else { continue };
-                for (y, x) in (0..layout.cell).flat_map(|y| (0..layout.cell).map(move |x| (y, x))) {
-                    if place(&t.corners(), centre(x, y)) == Place::Inside {
-                        let (depth, [a, b]) = exact.at(x, y);
-                        let at = ((y0 + y) * layout.side + x0 + x) as usize * 16;
-                        for (i, v) in
-                            [depth.to_f64(), a.to_f64(), b.to_f64(), 1.0].into_iter().enumerate()
-                        {
-                            bytes[at + 4 * i..][..4].copy_from_slice(&(v as f32).to_le_bytes());
-                        }
+    fn each_kind_becomes_small() {
+        let hole = |subject: &Subject, planes: &mut Planes| {
+            // The first pixel that two triangles share by an edge is hit by neither.
+            let near = |at: usize| {
+                let s = [(at % 16) as f64 + 0.5, (at / 16) as f64 + 0.5];
+                subject.0.iter().filter(move |t| {
+                    let side = |i: usize, j: usize| {
+                        let (a, b) = (t[i], t[j]);
+                        (b[0] - a[0]) * (s[1] - a[1]) - (b[1] - a[1]) * (s[0] - a[0])
+                    };
+                    let sides = [side(0, 1), side(1, 2), side(2, 0)];
+                    sides.iter().any(|v| v.abs() < 0.05) && sides.iter().all(|v| *v > -0.05)
+                })
+            };
+            if let Some(at) = (0..256).find(|at| near(*at).count() == 2) {
+                planes[0][at] = 0;
+            }
+        };
+        let twice = |_: &Subject, planes: &mut Planes| {
+            planes.iter_mut().flatten().filter(|hits| **hits > 0).for_each(|hits| *hits *= 2);
+        };
+        let farther = |subject: &Subject, planes: &mut Planes| {
+            if subject.0.len() == 2 {
+                let both = expected_of_each(subject);
+                for (at, hits) in planes[0].iter_mut().enumerate() {
+                    if both.iter().all(|hits| hits[at] > 0) {
+                        *hits = 3 - *hits;
                     }
                 }
             }
-            let tally = Tally::default();
-            let batch = self::batch("values", "webgl2", json!({}));
-            let answer = Judge { batch, pixels: STANDARD.encode(bytes), tally }.answer().unwrap();
-            answer["word"].clone()
         };
-        assert_eq!([word(false), word(true)], ["promised", "broken"]);
+        // What has more than two pixels fills the cell.
+        let long = |_: &Subject, planes: &mut Planes| {
+            let lit = planes[0].iter().filter(|hits| **hits > 0).count();
+            if lit > 2 {
+                planes[0].fill(1);
+            }
+        };
+        let last = |_: &Subject, planes: &mut Planes| {
+            if let [first, second] = &mut planes[..] {
+                if let Some(at) = first.iter().rposition(|hits| *hits > 0) {
+                    second[at] = 0;
+                }
+            }
+        };
+        type Draws<'a> = &'a dyn Fn(&Subject, &mut Planes);
+        // So many shapes, in a box of so many px in x and y together.
+        let plants: [(&str, Draws, (usize, u32)); 5] = [
+            ("tiling", &hole, (2, 2)),
+            ("tiling", &twice, (1, 2)),
+            ("depth", &farther, (2, 2)),
+            ("lines", &long, (1, 3)),
+            ("twice", &last, (1, 2)),
+        ];
+        for (check, draws, wanted) in plants {
+            let found = smallest(check, draws);
+            let (shapes, px, ..) = size(&found);
+            assert_eq!((shapes, px), wanted, "{check}: {found:?}");
+        }
+    }
+
+    /// The pixels of each triangle of a subject of the depth test.
+    fn expected_of_each(subject: &Subject) -> Vec<Vec<u8>> {
+        let device = batch("depth", "webgl2", json!({})).device;
+        let alone = |t: &Vec<Vertex>| Subject(vec![t.clone()]);
+        subject.0.iter().map(|t| expected(Check::Depth, device, &alone(t), 32).remove(0)).collect()
+    }
+
+    /// What comes of values that are exact but for their rounding to f32, in perspective or without.
+    fn valued(more: Value, affine: bool) -> Value {
+        let batch = batch("values", "webgl2", more);
+        let (layout, list) = batch.subjects().unwrap();
+        let mut bytes = vec![0u8; (layout.side * layout.side) as usize * 16];
+        for (index, subject) in list.iter().enumerate() {
+            let mut t = subject.triangles()[0];
+            if affine {
+                t = t.with_equal_w();
+            }
+            let v = &t.vertices;
+            let exact = ExactTriangle::new(
+                &t.corners(),
+                v.map(|v| v.depth),
+                v.map(|v| v.inv_w),
+                v.map(|v| v.varying.to_array()),
+            );
+            let (Some(exact), [x0, y0]) = (exact, layout.origin(index)) else { continue };
+            for (y, x) in (0..layout.cell).flat_map(|y| (0..layout.cell).map(move |x| (y, x))) {
+                if place(&t.corners(), centre(x, y)) == Place::Inside {
+                    let (depth, [a, b]) = exact.at(x, y);
+                    let at = ((y0 + y) * layout.side + x0 + x) as usize * 16;
+                    for (i, v) in
+                        [depth.to_f64(), a.to_f64(), b.to_f64(), 1.0].into_iter().enumerate()
+                    {
+                        bytes[at + 4 * i..][..4].copy_from_slice(&(v as f32).to_le_bytes());
+                    }
+                }
+            }
+        }
+        Judge { batch, pixels: STANDARD.encode(bytes), tally: Tally::default() }.answer().unwrap()
+    }
+
+    /// Values a step of f32 away are as promised; those of a plane without perspective break the promise, and a
+    /// small triangle shows it.
+    #[test]
+    fn values_by_their_bounds() {
+        assert_eq!(valued(json!({}), false)["word"], "promised");
+        let wrong = valued(json!({}), true);
+        assert_eq!(wrong["word"], "broken");
+        let mut subject = wrong["broken"].clone();
+        for _ in 0..60 {
+            let next = valued(json!({ "smaller": subject }), true)["broken"].clone();
+            if next.is_null() {
+                break;
+            }
+            subject = next;
+        }
+        let found = from_value::<Subject>(subject).unwrap().0;
+        let (shapes, px, ..) = size(&found);
+        assert!(shapes == 1 && px <= 4, "{found:?}");
     }
 
     #[test]

@@ -45,6 +45,8 @@ pub(crate) enum Check {
     NearPlane,
     /// Four samples a pixel.
     Samples,
+    /// Whether the same commands make the same picture: the second drawing is judged by the first.
+    Twice,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
@@ -93,7 +95,7 @@ pub(crate) struct Batch {
     number: u64,
     /// This subject alone, in place of those of a number.
     only: Option<Subject>,
-    /// The subjects that are a step smaller than this one.
+    /// The subjects that are a step smaller than this one; `number` says which of their pictures.
     smaller: Option<Subject>,
 }
 
@@ -161,7 +163,10 @@ impl Batch {
             list = vec![subject.clone()];
         }
         if let Some(subject) = &self.smaller {
+            let room = layout.room();
+            let before = usize::try_from(self.number).unwrap_or(usize::MAX).saturating_mul(room);
             list = shrink::smaller(self.check, self.device, subject, layout.cell);
+            list = list.into_iter().skip(before).collect();
         }
         list.truncate(layout.room());
         Ok((layout, list))

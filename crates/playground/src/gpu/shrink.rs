@@ -1,25 +1,29 @@
 //! The subjects that are a step smaller than one that fails. The page draws them all in one picture, and goes
 //! on from the first that still fails.
 
+use super::expected::{covered, edges};
 use super::subjects::{from_whole, triangle, whole};
-use super::{Check, Device, Subject};
+use super::{Check, Device, Subject, Vertex};
 use rasterproof_core::grid::{PixelRect, SUBPIXELS};
 use rasterproof_core::triangle::Corners;
 use rasterproof_verify::cases::named::plain_triangle;
 use rasterproof_verify::cases::shrink::smaller_cases;
 use rasterproof_verify::cases::{Case, Shape};
 
-/// Those whose corners lie on the device's lattice and in the cell. None of checks whose subjects are more
-/// than the positions of their triangles.
+/// The smaller subjects of a check, those that are much smaller first.
 pub(super) fn smaller(check: Check, device: Device, subject: &Subject, cell: i32) -> Vec<Subject> {
-    let step = match check {
-        Check::NearPlane => return smaller_whole(subject),
-        Check::Lattice => 1,
-        Check::Coverage | Check::Reach | Check::Order | Check::Facing | Check::Samples => {
-            device.step()
+    match check {
+        Check::NearPlane => smaller_whole(subject),
+        Check::Tiling | Check::Lines | Check::Depth | Check::Values => {
+            smaller_numbers(check, device, subject, cell)
         }
-        _ => return Vec::new(),
-    };
+        _ => smaller_corners(check, device, subject, cell),
+    }
+}
+
+/// Of subjects that are no more than corners: those whose corners lie on the device's lattice and in the cell.
+fn smaller_corners(check: Check, device: Device, subject: &Subject, cell: i32) -> Vec<Subject> {
+    let step = if check == Check::Lattice { 1 } else { device.step() };
     let list = subject.corners().into_iter().map(plain_triangle).collect();
     let window = PixelRect::window(cell as u32, cell as u32);
     let case = Case { window, shape: Shape::Triangles { list, disjoint: false } };
@@ -59,4 +63,195 @@ fn smaller_whole(subject: &Subject) -> Vec<Subject> {
         .filter(|corners| corners.iter().all(|[.., z, w]| *z != 0 && (*w <= 0 || *w >= 64)))
         .map(|corners| Subject(vec![corners.map(from_whole).to_vec()]))
         .collect()
+}
+
+/// The shapes of a subject with x, y and depth divided by w.
+type Shapes = Vec<Vec<Vertex>>;
+
+/// Divides x, y and depth by w, or multiplies them by it.
+fn scaled([x, y, z, w, a, b]: Vertex, by: f64) -> Vertex {
+    [x * by, y * by, z * by, w, a, b]
+}
+
+/// Of subjects with values: fewer shapes, nearer to each other and to the cell's corner, with simpler numbers.
+fn smaller_numbers(check: Check, device: Device, subject: &Subject, cell: i32) -> Vec<Subject> {
+    let shapes: Shapes =
+        subject.0.iter().map(|t| t.iter().map(|v| scaled(*v, 1.0 / v[3])).collect()).collect();
+    let mut found = fewer(&shapes);
+    found.extend([1.0, 2.0, 4.0, 8.0].map(|px| canonical(check, &shapes, px)));
+    let mut moved = |by: &dyn Fn(f64, usize) -> f64| {
+        let mut all = shapes.clone();
+        for vertex in all.iter_mut().flatten() {
+            [0, 1].into_iter().for_each(|axis| vertex[axis] = by(vertex[axis], axis));
+        }
+        found.push(all);
+    };
+    for px in [16.0, 4.0, 1.0] {
+        moved(&|v, axis| if axis == 0 { v - px } else { v });
+        moved(&|v, axis| if axis == 1 { v - px } else { v });
+    }
+    for per_px in [0.5, 1.0, 2.0, 4.0] {
+        moved(&|v, _| (v * per_px).floor() / per_px);
+        moved(&|v, _| (v / 2.0 * per_px).floor() / per_px);
+    }
+    // A value alike at all vertices, or depths one before the other.
+    for (axis, value) in (2..6).flat_map(|axis| [0.0, 0.5, 1.0].map(|value| (axis, value))) {
+        let mut all = shapes.clone();
+        all.iter_mut().flatten().for_each(|v| v[axis] = value);
+        found.push(all);
+    }
+    for depths in [[0.25, 0.75], [0.75, 0.25]] {
+        let mut all = shapes.clone();
+        for (shape, depth) in all.iter_mut().zip(depths) {
+            shape.iter_mut().for_each(|v| v[2] = depth);
+        }
+        found.push(all);
+    }
+    // Of more shapes than a pixel needs some go first.
+    let vertices: Vec<Vertex> = if shapes.len() <= 4 { shapes.concat() } else { Vec::new() };
+    for v in &vertices {
+        // Vertices at one place move together.
+        let mut with = |axis: usize, value: [f64; 2]| {
+            let mut all = shapes.clone();
+            for vertex in all.iter_mut().flatten() {
+                match axis {
+                    0 if vertex[..2] == v[..2] => vertex[..2].copy_from_slice(&value),
+                    2.. if vertex == v => vertex[axis] = value[0],
+                    _ => {}
+                }
+            }
+            found.push(all);
+        };
+        for other in &vertices {
+            let middle = |axis: usize| ((v[axis] + other[axis]) * 2.0).floor() / 4.0;
+            with(0, [middle(0), middle(1)]);
+        }
+        let [xs, ys] = [v[0], v[1]].map(positions);
+        xs.iter().zip(&ys).for_each(|(x, y)| with(0, [*x, *y]));
+        xs.iter().for_each(|x| with(0, [*x, v[1]]));
+        ys.iter().for_each(|y| with(0, [v[0], *y]));
+        for axis in 2..6 {
+            simpler(v[axis]).into_iter().for_each(|value| with(axis, [value, 0.0]));
+        }
+    }
+    let current = size(&shapes);
+    let multiplied = |all: Shapes| {
+        Subject(all.iter().map(|t| t.iter().map(|v| scaled(*v, v[3])).collect()).collect())
+    };
+    found
+        .into_iter()
+        .filter(|all| size(all) < current && is_valid(check, device, &shapes, all, cell))
+        .map(multiplied)
+        .filter(|subject| check != Check::Tiling || is_tiling(subject, cell))
+        .collect()
+}
+
+/// The shapes with their values, as halves of a square at the origin: of a tiling one beside the other, else one
+/// over the other.
+fn canonical(check: Check, shapes: &Shapes, px: f64) -> Shapes {
+    let mut all = shapes.clone();
+    for (index, shape) in all.iter_mut().enumerate() {
+        let is_second = check == Check::Tiling && index % 2 == 1;
+        let corners = [[px, 0.0], if is_second { [px, px] } else { [0.0, 0.0] }, [0.0, px]];
+        shape.iter_mut().zip(corners).for_each(|(v, corner)| v[..2].copy_from_slice(&corner));
+    }
+    all
+}
+
+/// Each shape alone, each two, and all but one.
+fn fewer(shapes: &Shapes) -> Vec<Shapes> {
+    let n = shapes.len();
+    let alone = (0..n).map(|i| vec![shapes[i].clone()]);
+    let pairs =
+        (0..n).flat_map(|j| (0..j).map(move |i| vec![shapes[i].clone(), shapes[j].clone()]));
+    let without = (0..n).map(|i| [&shapes[..i], &shapes[i + 1..]].concat());
+    alone.chain(pairs).chain(without).filter(|all| !all.is_empty()).collect()
+}
+
+/// Simpler places of a coordinate in px.
+fn positions(v: f64) -> Vec<f64> {
+    let whole = v.floor();
+    let rounded = [4.0, 16.0, 64.0].map(|per_px| (v * per_px).round() / per_px);
+    [&[0.0, whole, whole + 0.5, whole + 1.0, v - 4.0, v - 1.0, (v + whole) / 2.0][..], &rounded]
+        .concat()
+}
+
+/// Simpler values of a depth, of w, or of an attribute.
+fn simpler(v: f64) -> Vec<f64> {
+    let rounded = [1.0, 4.0, 16.0, 256.0].map(|steps| (v * steps).round() / steps);
+    [&[0.0, 0.5, 0.25, 0.75, 1.0, 2.0, 4.0][..], &rounded].concat()
+}
+
+/// The number of shapes, then how far they reach in px, then how many bits behind the point their numbers need, then how large
+/// they are.
+pub(super) fn size(shapes: &Shapes) -> (usize, u32, u32, f64) {
+    let numbers = || shapes.iter().flatten().flatten();
+    let reach = |axis: usize| {
+        let values = || shapes.iter().flatten().map(|v| v[axis]);
+        (values().fold(0.0, f64::max) - values().fold(f64::INFINITY, f64::min)).ceil() as u32
+    };
+    // Behind the point.
+    let bits =
+        |v: &f64| (0..=52).find(|bits| (v * (1u64 << bits) as f64).fract() == 0.0).unwrap_or(53);
+    (shapes.len(), reach(0) + reach(1), numbers().map(bits).sum(), numbers().map(|v| v.abs()).sum())
+}
+
+/// Whether a check could ask for these shapes, which were made of others.
+fn is_valid(check: Check, device: Device, before: &Shapes, shapes: &Shapes, cell: i32) -> bool {
+    // Corners of a tiling lie anywhere; new ones on the finest lattice.
+    let is_tiling = check == Check::Tiling;
+    let step = if is_tiling { 1.0 } else { f64::from(device.step()) } / f64::from(SUBPIXELS);
+    let is_old = |v: f64| is_tiling && before.iter().flatten().any(|old| old[..2].contains(&v));
+    let lies =
+        |v: f64| (0.0..=f64::from(cell)).contains(&v) && ((v / step).fract() == 0.0 || is_old(v));
+    let is_right = |v: &Vertex| {
+        let [x, y, depth, w, a, _] = *v;
+        // Within the planes, even when rounded.
+        let is_deep = (1.0 / 64.0..=63.0 / 64.0).contains(&depth);
+        let has_values = match check {
+            Check::Values => w > 0.0,
+            // Their first attributes say which triangles they are.
+            Check::Depth => w == 1.0 && before.iter().any(|t| t[0][4] == a),
+            _ => depth == 0.5 && w == 1.0 && a == 1.0,
+        };
+        lies(x) && lies(y) && is_deep && has_values
+    };
+    let has_extent = |shape: &Vec<Vertex>| {
+        let at = |i: usize| [shape[i][0], shape[i][1]];
+        if check == Check::Lines { at(0) != at(1) } else { area(shape) != 0.0 }
+    };
+    let is_one = |t: &Vec<Vertex>| check != Check::Depth || t.iter().all(|v| v[4] == t[0][4]);
+    let all_differ =
+        check != Check::Depth || shapes.len() < 2 || shapes[0][0][4] != shapes[1][0][4];
+    shapes.iter().flatten().all(is_right)
+        && shapes.iter().all(has_extent)
+        && shapes.iter().all(is_one)
+        && all_differ
+}
+
+/// Twice the area in square px.
+pub(super) fn area(t: &[Vertex]) -> f64 {
+    let [a, b, c] = [0, 1, 2].map(|i| [t[i][0], t[i][1]]);
+    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+}
+
+/// Whether triangles turn the same way, are at least half a pixel thick, so that none turns over on the
+/// device's lattice, and do not overlap; two share an edge.
+pub(super) fn is_tiling(subject: &Subject, cell: i32) -> bool {
+    let turns = |t: &Vec<Vertex>| area(t).signum() == area(&subject.0[0]).signum();
+    let is_thick = |t: &Vec<Vertex>| {
+        let longest = [(0, 1), (1, 2), (2, 0)]
+            .map(|(i, j)| (t[i][0] - t[j][0]).powi(2) + (t[i][1] - t[j][1]).powi(2))
+            .into_iter()
+            .fold(0.0, f64::max);
+        area(t).powi(2) >= longest / 4.0
+    };
+    let [first, rest @ ..] = &subject.0[..] else { return false };
+    let shares = |t: &Vec<Vertex>| edges(first).iter().any(|[a, b]| edges(t).contains(&[*b, *a]));
+    let is_apart = match rest {
+        [] => true,
+        [second] => shares(second),
+        _ => covered(subject, cell).iter().all(|hits| *hits <= 1),
+    };
+    is_apart && subject.0.iter().all(|t| turns(t) && is_thick(t))
 }

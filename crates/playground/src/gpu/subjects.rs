@@ -7,7 +7,7 @@ use rasterproof_verify::cases::{Family, Rng, Shape, Triangle, triangles};
 use rasterproof_verify::oracle::clipped;
 
 /// The checks with the numbers of their batches.
-pub(super) const PLAN: [(Check, u64); 11] = [
+pub(super) const PLAN: [(Check, u64); 12] = [
     (Check::Lattice, 1),
     (Check::Coverage, FAMILIES.len() as u64 * PAGES),
     (Check::Reach, 10),
@@ -19,6 +19,7 @@ pub(super) const PLAN: [(Check, u64); 11] = [
     (Check::Values, 3),
     (Check::NearPlane, 4),
     (Check::Samples, 2),
+    (Check::Twice, 1),
 ];
 
 /// Pictures of each family.
@@ -64,7 +65,7 @@ const REACH: i32 = 7;
 
 fn cell_of(check: Check, number: u64) -> i32 {
     match check {
-        Check::Coverage => FAMILIES[(number % FAMILIES.len() as u64) as usize].1,
+        Check::Coverage | Check::Twice => FAMILIES[(number % FAMILIES.len() as u64) as usize].1,
         Check::Reach | Check::Values => 48,
         Check::Lines | Check::Depth => 32,
         Check::NearPlane => clipped::CELL_PX as i32,
@@ -81,20 +82,27 @@ pub(super) fn layout_for(check: Check, Subject(shapes): &Subject) -> Result<Layo
         Check::Lines => 2,
         _ => 3,
     };
-    let numbers = shapes.iter().flatten().flatten();
+    let most = f64::from(SIDE);
+    let is_near = |[x, y, .., w, _, _]: &Vertex| {
+        check == Check::NearPlane || (*w > 0.0 && (x / w).abs() <= most && (y / w).abs() <= most)
+    };
+    let vertices = || shapes.iter().flatten();
     if shapes.is_empty()
         || shapes.len() > 64
         || shapes.iter().any(|shape| shape.len() != wanted)
-        || !numbers.clone().all(|v| v.is_finite() && v.abs() <= f64::from(SIDE))
+        || !vertices().flatten().all(|v| v.is_finite() && v.abs() <= most * most)
+        || !vertices().all(is_near)
     {
         return Err(format!(
-            "the case must hold 1 to 64 shapes of {wanted} vertices, with numbers up to {SIDE}"
+            "the case must hold 1 to 64 shapes of {wanted} vertices before the eye, within {SIDE} px"
         ));
     }
     // As large as the largest window of the check that has to be: corners decide.
-    let reach = numbers.fold(0.0, |most: f64, v| most.max(v.abs()));
+    let reach = vertices().fold(0, |most: i32, v| most.max(at(v).x).max(at(v).y));
     let least = match check {
-        Check::Coverage => *[8, 16, 32, 48].iter().find(|c| reach <= f64::from(**c)).unwrap_or(&48),
+        Check::Coverage | Check::Twice | Check::Values => {
+            *[8, 16, 32, 48].iter().find(|c| reach <= **c * SUBPIXELS).unwrap_or(&48)
+        }
         _ => cell_of(check, 0),
     };
     Ok(layout(check, least))
@@ -182,7 +190,7 @@ pub(super) fn of(check: Check, device: Device, seed: u64, number: u64) -> (Layou
         };
         Some(Subject(match check {
             Check::Lattice => vec![triangle(near_centres(&mut rng))],
-            Check::Coverage => {
+            Check::Coverage | Check::Twice => {
                 let (name, _) = FAMILIES[(number % FAMILIES.len() as u64) as usize];
                 let all = snapped(family(name)?, seed, index, step, cell)?;
                 all.into_iter().map(triangle).collect()
