@@ -161,6 +161,11 @@ fn your_gpu_is_judged_by_both_interfaces() {
     assert_eq!(lost, right);
     let notes = browser.eval("state.results.map(r => r.notes.some(([key]) => key === 'lostOnce'))");
     assert_eq!(notes, json!([true, true]));
+    // Noise that is the same each time changes no verdict, and is said.
+    let faint = rows(&mut browser, Some("faint-noise"), &options);
+    assert_eq!(faint, right);
+    let notes = browser.eval("state.results.map(r => r.notes.some(([key]) => key === 'uneven'))");
+    assert_eq!(notes, json!([true, true]));
     a_finding_is_shown(&mut browser, &page);
     what_is_refused_is_said(&mut browser, &page);
     assert_eq!(browser.complaints, Vec::<String>::new());

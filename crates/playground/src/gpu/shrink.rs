@@ -134,6 +134,8 @@ fn smaller_numbers(check: Check, device: Device, subject: &Subject, cell: i32) -
             simpler(v[axis]).into_iter().for_each(|value| with(axis, [value, 0.0]));
         }
     }
+    // The smallest first, so that few steps lead far.
+    found.sort_by(|a, b| size(a).partial_cmp(&size(b)).unwrap_or(std::cmp::Ordering::Equal));
     let current = size(&shapes);
     let multiplied = |all: Shapes| {
         Subject(all.iter().map(|t| t.iter().map(|v| scaled(*v, v[3])).collect()).collect())
