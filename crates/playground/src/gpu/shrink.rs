@@ -130,8 +130,8 @@ fn smaller_numbers(check: Check, device: Device, subject: &Subject, cell: i32) -
         xs.iter().zip(&ys).for_each(|(x, y)| with(0, [*x, *y]));
         xs.iter().for_each(|x| with(0, [*x, v[1]]));
         ys.iter().for_each(|y| with(0, [v[0], *y]));
-        for axis in 2..6 {
-            simpler(v[axis]).into_iter().for_each(|value| with(axis, [value, 0.0]));
+        for (axis, number) in v.iter().enumerate().skip(2) {
+            simpler(*number).into_iter().for_each(|value| with(axis, [value, 0.0]));
         }
     }
     // The smallest first, so that few steps lead far.
