@@ -700,10 +700,10 @@ mod tests {
             }
         };
         let last = |_: &Subject, planes: &mut Planes| {
-            if let [first, second] = &mut planes[..] {
-                if let Some(at) = first.iter().rposition(|hits| *hits > 0) {
-                    second[at] = 0;
-                }
+            if let [first, second] = &mut planes[..]
+                && let Some(at) = first.iter().rposition(|hits| *hits > 0)
+            {
+                second[at] = 0;
             }
         };
         type Draws<'a> = &'a dyn Fn(&Subject, &mut Planes);
