@@ -35,6 +35,8 @@ pub struct Outcome {
     pub wrong: u64,
     /// Whether the time was up before everything was asked.
     pub out_of_time: bool,
+    /// Whether it had to be started again so often, for no request that could be found, that the rest was not asked.
+    pub given_up: bool,
     pub failure: Option<Failure>,
     /// What explains the answers of the first exercise that failed, if anything that is known does.
     pub misconception: Option<&'static Misconception>,
@@ -44,7 +46,7 @@ impl Outcome {
     /// Whether the step is passed: everything was asked, and all of it was right.
     #[must_use]
     pub fn passes(&self) -> bool {
-        self.cases > 0 && self.wrong == 0 && !self.out_of_time
+        self.cases > 0 && self.wrong == 0 && !self.out_of_time && !self.given_up
     }
 }
 
@@ -65,6 +67,9 @@ struct Failing<'a> {
     found: String,
     case: Case,
     truth: Truth,
+    asked: Vec<(Question, Answer)>,
+    /// Questions of the case; not all of them are answered where the program died.
+    questions: usize,
 }
 
 /// Asks all exercises of a step. What the program says of its rule, its grid and its range does not
@@ -72,7 +77,7 @@ struct Failing<'a> {
 pub fn examine(program: &mut dyn Ask, step: &Step, amount: &Amount) -> Outcome {
     let mut outcome = Outcome::default();
     let mut failing = None;
-    let mut deaths = run::MOST_DEATHS;
+    let mut restarts = run::MOST_DEATHS;
     for exercise in &step.exercises {
         let mut asked = Vec::new();
         let had_failed = failing.is_some();
@@ -80,7 +85,7 @@ pub fn examine(program: &mut dyn Ask, step: &Step, amount: &Amount) -> Outcome {
             if Instant::now() >= amount.end {
                 outcome.out_of_time = true;
             }
-            if outcome.out_of_time || deaths == 0 {
+            if outcome.out_of_time || restarts == 0 {
                 break;
             }
             let first = ask_family(
@@ -88,7 +93,7 @@ pub fn examine(program: &mut dyn Ask, step: &Step, amount: &Amount) -> Outcome {
                 exercise,
                 family,
                 amount,
-                &mut deaths,
+                &mut restarts,
                 &mut outcome,
                 &mut asked,
             );
@@ -105,13 +110,14 @@ pub fn examine(program: &mut dyn Ask, step: &Step, amount: &Amount) -> Outcome {
 /// Answers of each family that a misconception has to explain.
 const ASKED_OF_A_FAMILY: usize = 200;
 
-/// Asks the cases of a family; the first that fails.
+/// Asks the cases of a family; the first that fails. No step is passed with a request that the program does not answer, so
+/// the rest is not asked after the first of these: each would cost the whole time limit again.
 fn ask_family<'a>(
     program: &mut dyn Ask,
     exercise: &'a Exercise,
     name: &str,
     amount: &Amount,
-    deaths: &mut u64,
+    restarts: &mut u64,
     outcome: &mut Outcome,
     asked: &mut Vec<(Question, Answer)>,
 ) -> Option<Failing<'a>> {
@@ -129,9 +135,19 @@ fn ask_family<'a>(
         check.questions(&case, &truth, &mut questions);
         cases.push((index, case, start..questions.len()));
     }
-    let answers = program.ask(&questions, *deaths);
-    let died = answers.iter().filter(|a| a.is_death()).count() as u64;
-    *deaths = deaths.saturating_sub(died);
+    let mut answers = Vec::new();
+    while answers.len() < questions.len() && *restarts > 0 {
+        // The first one alone: if it hangs, it need not be looked for among those in flight.
+        let end = if answers.is_empty() { 1 } else { questions.len() };
+        let asked = &questions[answers.len()..end];
+        let here = program.ask(asked, 1);
+        let died = here.last().is_some_and(Answer::is_death);
+        // A program that died of no single request goes on, a few times.
+        let strayed = !died && here.len() < asked.len();
+        *restarts = if died { 0 } else { *restarts - u64::from(strayed) };
+        outcome.given_up |= strayed && *restarts == 0;
+        answers.extend(here);
+    }
     let mut first = None;
     for (question, answer) in questions.iter().zip(&answers).take(ASKED_OF_A_FAMILY) {
         asked.push((question.clone(), answer.clone()));
@@ -143,10 +159,19 @@ fn ask_family<'a>(
         outcome.cases += 1;
         outcome.wrong += u64::from(finding.is_wrong());
         if finding.is_wrong() && first.is_none() {
-            first = Some((format!("{name} #{index}"), case));
+            let pairs = questions[range.clone()].iter().zip(here);
+            let asked = pairs.map(|(question, answer)| (question.clone(), answer.clone())).collect();
+            first = Some((format!("{name} #{index}"), case, asked, range.len()));
         }
     }
-    first.map(|(found, case)| Failing { exercise, found, case, truth })
+    first.map(|(found, case, asked, questions)| Failing {
+        exercise,
+        found,
+        case,
+        truth,
+        asked,
+        questions,
+    })
 }
 
 /// What a program is judged by: the course's convention, and no limit that it declares.
@@ -173,7 +198,7 @@ fn judge(check: Check, case: &Case, answers: &[Answer], asked: usize, truth: &Tr
 }
 
 fn shrunk(program: &mut dyn Ask, failing: Failing<'_>, patience: Duration) -> Failure {
-    let Failing { exercise, found, case, truth } = failing;
+    let Failing { exercise, found, case, truth, asked, questions } = failing;
     let check = exercise.check;
     let program = RefCell::new(program);
     let ask = |case: &Case| {
@@ -183,23 +208,27 @@ fn shrunk(program: &mut dyn Ask, failing: Failing<'_>, patience: Duration) -> Fa
         let finding = judge(check, case, &answers, questions.len(), &truth);
         (questions, answers, finding)
     };
-    let first = ask(&case).2;
-    let is_slow = |m: &Misbehaviour| matches!(m, Misbehaviour::Hangs(_) | Misbehaviour::Late(..));
+    let is_slow = |answer: &Answer| {
+        matches!(answer, Answer::Died(Misbehaviour::Hangs(_) | Misbehaviour::Late(..)))
+    };
     let start = Instant::now();
-    // What takes long to go wrong is shown as it is.
-    let case = if !first.is_wrong() || first.died.iter().any(|(_, m)| is_slow(m)) {
-        case
+    // What takes long to go wrong is shown as it is, and not asked again.
+    let (case, (questions, answers, finding)) = if asked.iter().any(|(_, a)| is_slow(a)) {
+        let (all, answers): (Vec<_>, Vec<_>) = asked.into_iter().unzip();
+        let finding = judge(check, &case, &answers, questions, &truth);
+        (case, (all, answers, finding))
     } else {
-        smaller(check, case, |smaller| {
+        let case = smaller(check, case, |smaller| {
             let smaller = adapt_case::put(smaller.clone(), &truth.declared);
             start.elapsed() < patience
                 && adapt_case::holds(&smaller, &truth.declared)
                 && fits(check, &smaller)
                 && (exercise.prepare)(smaller.clone()).as_ref() == Some(&smaller)
                 && ask(&smaller).2.is_wrong()
-        })
+        });
+        let shown = ask(&case);
+        (case, shown)
     };
-    let (questions, answers, finding) = ask(&case);
     let what = if finding.is_wrong() {
         finding.describe(check)
     } else {

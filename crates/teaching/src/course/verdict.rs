@@ -12,7 +12,11 @@ pub fn text(step: &Step, outcome: &Outcome) -> String {
     if outcome.passes() {
         return format!("step {number}, {title}: PASSED, {cases} cases\n");
     }
-    let late = if outcome.out_of_time { ", and the time was up" } else { "" };
+    let late = match outcome {
+        Outcome { out_of_time: true, .. } => ", and the time was up",
+        Outcome { given_up: true, .. } => ", and it ended too often before it had answered",
+        _ => "",
+    };
     let mut out =
         format!("step {number}, {title}: NOT YET, wrong in {wrong} of {cases} cases{late}\n");
     let Some(failure) = &outcome.failure else { return out };
