@@ -160,7 +160,8 @@ fn ask_family<'a>(
         outcome.wrong += u64::from(finding.is_wrong());
         if finding.is_wrong() && first.is_none() {
             let pairs = questions[range.clone()].iter().zip(here);
-            let asked = pairs.map(|(question, answer)| (question.clone(), answer.clone())).collect();
+            let asked =
+                pairs.map(|(question, answer)| (question.clone(), answer.clone())).collect();
             first = Some((format!("{name} #{index}"), case, asked, range.len()));
         }
     }
