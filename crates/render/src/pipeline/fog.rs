@@ -125,7 +125,7 @@ impl Veil {
     /// 2^-53 (12 D + 2 M) with D, M <= 1 ([`rasterproof_verify::comparison::tolerance`]), far less than the
     /// margin of 2^-44. Distance and share grow with the depth, or fall with it, and the margin is also more
     /// than what rounding may change that by. So every share lies between those of the two ends. Below
-    /// [`LEAST`] no channel moves; above 1 - LEAST each one becomes the fog's.
+    /// `LEAST` no channel moves; above 1 - LEAST each one becomes the fog's.
     #[must_use]
     pub fn between(&self, depths: [f64; 3]) -> Share {
         let [a, b, c] = depths;
