@@ -15,7 +15,6 @@ use rasterproof_render::effects::plan::{Plan, SceneDigest};
 use rasterproof_render::effects::render::Rendered;
 use rasterproof_render::effects::{Effect, Effects, Mode};
 use rasterproof_render::pipeline::Counters;
-use rasterproof_render::pipeline::target::{Colour, Target};
 use rasterproof_render::scene::Scene;
 use rasterproof_report::frame_comparison;
 use rasterproof_report::html::{
@@ -108,7 +107,7 @@ struct Savings {
     mixtures: Vec<Measured>,
 }
 
-/// Rounds where none are asked for, and the time that they may then take all together.
+/// How many rounds are measured without `--rounds`, and how long they may take all together.
 const USUAL_ROUNDS: u32 = 9;
 const BUDGET: Duration = Duration::from_secs(10);
 
@@ -208,24 +207,6 @@ pub fn run(arguments: &PlanArguments, typed: &Typed, streams: &mut Streams<'_>) 
     Ok(if same { exit::AGREES } else { exit::DISAGREES })
 }
 
-/// Another frame's colour, which shows where a picture is not cleared.
-const LAST_FRAME: Colour = [255, 0, 255, 255];
-
-/// The planned frame with one effect left out everywhere, over what another frame has left.
-fn render_without(
-    arguments: &PlanArguments,
-    scene: &Scene,
-    effect: Effect,
-    target: &mut Target,
-) -> Result<Rendered, Failure> {
-    target.clear_colour(LAST_FRAME, &mut Counters::default());
-    for plane in &mut target.planes {
-        plane.depth.fill(0);
-    }
-    let effects = Effects::PLANNED.with(effect, Mode::Never);
-    arguments.engine.render(scene, &effects, target).map_err(usage)
-}
-
 /// Draws a scene without an effect, and the pixels that this changes.
 fn draw_without(
     arguments: &PlanArguments,
@@ -236,7 +217,7 @@ fn draw_without(
     let mut targets = [arguments.what.target()?, arguments.what.target()?];
     let [with, without] = &mut targets;
     let planned = arguments.engine.render(scene, &Effects::PLANNED, with).map_err(usage)?;
-    let other = render_without(arguments, scene, effect, without)?;
+    let other = arguments.engine.render_without(scene, effect, without).map_err(usage)?;
     let (first, second) = ((&planned.picture, &*with), (&other.picture, &*without));
     let difference = frame_comparison::compare(first, second, None).picture;
     let wrong = frame_comparison::differing(&planned.picture, &other.picture);
@@ -327,7 +308,7 @@ fn measure(
     let mut wrong = Vec::with_capacity(Effect::ALL.len());
     // As many as were measured: none of a large model.
     for &effect in Effect::ALL.iter().take((kept - WHOLE.len()) / 2) {
-        let without = render_without(arguments, scene, effect, &mut target)?;
+        let without = arguments.engine.render_without(scene, effect, &mut target).map_err(usage)?;
         wrong.push(frame_comparison::differing(&without.picture, &frames[0].picture));
     }
     let savings = Savings::of(measured, &wrong).ok_or_else(nothing)?;
@@ -395,7 +376,7 @@ fn describe(scene: &Scene, planned: &Rendered, everything: &Counters, savings: &
     text + &whole(savings)
 }
 
-/// The times of the whole mixtures.
+/// The times of everything, usual and planned, and the mixtures that changed the picture.
 fn whole(savings: &Savings) -> String {
     let mut text = String::new();
     for m in savings.all() {

@@ -32,6 +32,7 @@ use rasterproof_faults::published::{Published, PublishedLine, RealTriangle, Refu
 use rasterproof_render::effects::plan::{Canvas, Plan};
 use rasterproof_render::effects::render::{self, BadScene, PlanError, Rendered};
 use rasterproof_render::effects::{Effect, Effects, Mode};
+use rasterproof_render::pipeline::Counters;
 use rasterproof_render::pipeline::present::DoubleBuffer;
 use rasterproof_render::pipeline::target::{Colour, Target};
 use rasterproof_render::scene::Scene;
@@ -263,6 +264,24 @@ impl Drawer {
                 render::render(scene, &in_words(effects.mode(Effect::WideWords)), effects, target)
             }
         }
+    }
+
+    /// The planned frame with one effect left out everywhere. It is drawn over a colour that is in no scene and over the
+    /// nearest depths, so that what is not cleared is seen.
+    ///
+    /// # Errors
+    /// [`BadScene`].
+    pub fn render_without(
+        self,
+        scene: &Scene,
+        effect: Effect,
+        target: &mut Target,
+    ) -> Result<Rendered, BadScene> {
+        target.clear_colour([255, 0, 255, 255], &mut Counters::default());
+        for plane in &mut target.planes {
+            plane.depth.fill(0);
+        }
+        self.render(scene, &Effects::PLANNED.with(effect, Mode::Never), target)
     }
 
     /// As [`rasterproof_render::effects::render::render_mapped`].

@@ -10,7 +10,6 @@ use rasterproof_precision::cost::{Pass, Spread, time};
 use rasterproof_registry::engines::Drawer;
 use rasterproof_render::effects::render::BadScene;
 use rasterproof_render::effects::{Effect, Effects, Mode};
-use rasterproof_render::pipeline::Counters;
 use rasterproof_render::pipeline::target::{Antialias, Colour, Target};
 use rasterproof_render::scene::Scene;
 
@@ -24,7 +23,7 @@ pub struct Need {
     pub materials: Vec<(String, u64)>,
     /// Whether it is planned for anything at all.
     pub is_called_for: bool,
-    /// What the plan says of it, with how many items it says it.
+    /// What the plan says of it, with how many items it says it; that nothing asks for it where it says nothing.
     pub reasons: Vec<(String, u64)>,
     /// Pixels that pay for it; none for an effect that is not one of pixels.
     pub pixels: Option<u64>,
@@ -81,10 +80,7 @@ pub fn survey(
     let (rendered, map) = drawer.render_mapped(scene, &Effects::PLANNED, target)?;
     let mut needs = Vec::new();
     for effect in Effect::ALL {
-        let without = Effects::PLANNED.with(effect, Mode::Never);
-        // Last frame's colours are others than this one's, so that what is not cleared is seen.
-        target.clear_colour(OTHER, &mut Counters::default());
-        let picture = drawer.render(scene, &without, target)?.picture;
+        let picture = drawer.render_without(scene, effect, target)?.picture;
         let decisions = rendered.plan.decisions.iter().filter(|d| d.effect == effect);
         let mut reasons: BTreeMap<String, u64> = BTreeMap::new();
         let mut called = vec![false; scene.items.len()];
@@ -97,6 +93,9 @@ pub fn survey(
                 called[item] = is_on;
             }
         }
+        if reasons.is_empty() {
+            reasons.insert("nothing in the scene asks for it".to_owned(), scene.items.len() as u64);
+        }
         let is_of_pixels = MAPPED.contains(&effect);
         let mut by_material: BTreeMap<&str, u64> = BTreeMap::new();
         for (item, _) in called.iter().enumerate().filter(|(_, is)| **is) {
@@ -105,7 +104,7 @@ pub fn survey(
         let mut pixels = 0;
         for (y, row) in map.rows() {
             for (bits, item) in row.iter().zip(items.row(y)) {
-                if bits & (1 << effect as u16) != 0 {
+                if bits & (1 << effect as u32) != 0 {
                     pixels += 1;
                     if let Some(name) = names.get(*item as usize)
                         && let Some(count) = by_material.get_mut(name.as_str())
@@ -140,9 +139,6 @@ pub fn survey(
     }
     Ok(found)
 }
-
-/// A colour that is in no scene.
-const OTHER: Colour = [255, 0, 255, 255];
 
 /// Effects that pixels pay for one by one.
 const MAPPED: [Effect; 10] = [
