@@ -154,7 +154,10 @@ fn ask_family<'a>(
     }
     for (index, case, range) in cases {
         // Where the program was given up, the rest of the answers is not there.
-        let Some(here) = answers.get(range.start..range.end.min(answers.len())) else { break };
+        if answers.len() < questions.len() && range.start >= answers.len() {
+            break;
+        }
+        let here = &answers[range.start..range.end.min(answers.len())];
         let finding = judge(check, &case, here, range.len(), &truth);
         outcome.cases += 1;
         outcome.wrong += u64::from(finding.is_wrong());
@@ -254,4 +257,50 @@ fn is_one_by_one(check: Check) -> bool {
 #[must_use]
 pub fn complaint(program: &dyn Ask) -> Option<String> {
     program.complaints().pop()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::course::STEPS;
+
+    /// A program whose requests all come to nothing, and how many it was asked.
+    struct Silent {
+        declared: Declared,
+        /// What each request comes to; without it no request is found that the program ends at.
+        death: Option<Misbehaviour>,
+        asked: usize,
+    }
+
+    impl Ask for Silent {
+        fn declared(&self) -> &Declared {
+            &self.declared
+        }
+
+        fn ask(&mut self, questions: &[Question], most_deaths: u64) -> Vec<Answer> {
+            self.asked += questions.len();
+            let death = self.death.clone().map(Answer::Died);
+            death.into_iter().cycle().take(questions.len().min(most_deaths as usize)).collect()
+        }
+    }
+
+    fn examined(death: Option<Misbehaviour>) -> (Outcome, usize) {
+        let step = &STEPS[0];
+        let declared = truth(&step.exercises[0]).declared;
+        let mut program = Silent { declared, death, asked: 0 };
+        let end = Instant::now() + Duration::from_secs(3600);
+        let amount = Amount { cases: 50, seed: 1, end, patience: Duration::ZERO };
+        (examine(&mut program, step, &amount), program.asked)
+    }
+
+    #[test]
+    fn what_is_not_answered_is_not_asked_again() {
+        let (outcome, asked) = examined(Some(Misbehaviour::Hangs(5.0)));
+        assert!(!outcome.passes() && !outcome.given_up && outcome.failure.is_some());
+        assert_eq!((outcome.cases, outcome.wrong, asked), (1, 1, 1));
+        // Where no request is at fault, it is started again a few times.
+        let (outcome, asked) = examined(None);
+        assert!(!outcome.passes() && outcome.given_up && outcome.failure.is_none());
+        assert_eq!((outcome.cases, outcome.wrong, asked as u64), (0, 0, run::MOST_DEATHS));
+    }
 }
