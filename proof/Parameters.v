@@ -50,30 +50,31 @@ Lemma scaled_le x y k : x <= y -> x * pow2 (- k) <= y * pow2 (- k).
 Proof. intros. apply Qmult_le_compat_r; [assumption | pose proof (pow2_positive (- k)); lra]. Qed.
 
 (** A power of two below or above a number stays there when the number is rounded. *)
+Lemma whole_power e k : (k <= e)%Z -> whole (pow2 e * pow2 (- k)) = (2 ^ (e - k))%Z.
+Proof.
+  intro H. apply whole_exact. rewrite <- pow2_add, <- pow2_integer by lia.
+  replace (e + - k)%Z with (e - k)%Z by lia. reflexivity.
+Qed.
+
+Lemma power_apart e k : pow2 e == pow2 (e - k) * pow2 k.
+Proof. rewrite <- pow2_add. replace (e - k + k)%Z with e by lia. reflexivity. Qed.
+
 Lemma rounded_below x e : (last_bit x <= e)%Z -> x <= pow2 e -> nearest_positive x <= pow2 e.
 Proof.
   intros He H. unfold nearest_positive. set (k := last_bit x) in *.
   assert (W : (whole (x * pow2 (- k)) <= 2 ^ (e - k))%Z).
-  { rewrite <- (whole_exact (pow2 e * pow2 (- k)) (2 ^ (e - k))).
-    - apply whole_monotone, scaled_le, H.
-    - rewrite <- pow2_add, <- pow2_integer by lia. replace (e + - k)%Z with (e - k)%Z by lia. reflexivity. }
+  { rewrite <- (whole_power e k) by assumption. apply whole_monotone, scaled_le, H. }
   rewrite Zle_Qle, <- pow2_integer in W by lia. pose proof (pow2_positive k).
-  setoid_replace (pow2 e) with (pow2 (e - k) * pow2 k).
-  - apply Qmult_le_compat_r; lra.
-  - rewrite <- pow2_add. replace (e - k + k)%Z with e by lia. reflexivity.
+  rewrite (power_apart e k). apply Qmult_le_compat_r; lra.
 Qed.
 
 Lemma rounded_above x e : (last_bit x <= e)%Z -> pow2 e <= x -> pow2 e <= nearest_positive x.
 Proof.
   intros He H. unfold nearest_positive. set (k := last_bit x) in *.
   assert (W : (2 ^ (e - k) <= whole (x * pow2 (- k)))%Z).
-  { rewrite <- (whole_exact (pow2 e * pow2 (- k)) (2 ^ (e - k))).
-    - apply whole_monotone, scaled_le, H.
-    - rewrite <- pow2_add, <- pow2_integer by lia. replace (e + - k)%Z with (e - k)%Z by lia. reflexivity. }
+  { rewrite <- (whole_power e k) by assumption. apply whole_monotone, scaled_le, H. }
   rewrite Zle_Qle, <- pow2_integer in W by lia. pose proof (pow2_positive k).
-  setoid_replace (pow2 e) with (pow2 (e - k) * pow2 k).
-  - apply Qmult_le_compat_r; lra.
-  - rewrite <- pow2_add. replace (e - k + k)%Z with e by lia. reflexivity.
+  rewrite (power_apart e k). apply Qmult_le_compat_r; lra.
 Qed.
 
 Lemma exponent_monotone x y : 0 < x -> x <= y -> (exponent x <= exponent y)%Z.
