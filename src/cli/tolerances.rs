@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use rasterproof_invariants::acceptance::rules::RULES;
 use rasterproof_invariants::acceptance::{Report, Row, report};
-use rasterproof_report::canvas::{self, Drawing, Ink, Shape};
+use rasterproof_report::canvas::{self, Drawing, GRID, INK, Ink, SOFT, Shape};
 
 use super::progress::Progress;
 use super::{Status, Streams, exit, usage};
@@ -167,9 +167,6 @@ fn json(seed: u64, report: &Report) -> serde_json::Value {
     })
 }
 
-const INK: Ink = [34, 34, 34];
-const SOFT: Ink = [110, 110, 110];
-const GRID: Ink = [226, 226, 226];
 const CAUGHT: Ink = [31, 84, 170];
 const HARD: Ink = [20, 110, 50];
 const REFUSED: Ink = [205, 30, 30];

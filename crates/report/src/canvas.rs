@@ -18,6 +18,13 @@ const ZOOM: u32 = 2;
 
 pub type Ink = [u8; 3];
 
+/// Letters that are read first.
+pub const INK: Ink = [34, 34, 34];
+/// Letters that explain the others.
+pub const SOFT: Ink = [110, 110, 110];
+/// Lines behind what is plotted.
+pub const GRID: Ink = [226, 226, 226];
+
 /// Something drawn, y down.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shape {

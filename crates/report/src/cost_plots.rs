@@ -4,14 +4,11 @@
 //! without any error, each in a row of its own. Labels stand beside their dots and never overlap.
 
 use super::board::number;
-use super::canvas::{self, Drawing, Ink, Shape};
+use super::canvas::{self, Drawing, GRID, INK, Ink, SOFT, Shape};
 use super::lettering;
 use rasterproof_precision::cost::{Board, Ladder, Price, Priced, prices};
 
 const WIDTH: f64 = 800.0;
-const INK: Ink = [34, 34, 34];
-const SOFT: Ink = [110, 110, 110];
-const GRID: Ink = [226, 226, 226];
 const SHELF: Ink = [233, 245, 236];
 const GOOD: Ink = [20, 110, 50];
 const OTHER: Ink = [31, 84, 170];
