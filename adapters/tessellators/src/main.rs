@@ -119,7 +119,7 @@ fn judge_range(library: &Library, tally: &mut Tally, end: u64) {
     if begun {
         let kind = if status.code() == Some(OUT_OF_PATIENCE) { SILENT } else { ENDED };
         let polygon = tally.family.polygon(1, tally.drawn(), library.coordinates);
-        // On a busy machine a process may have waited for nothing else than the processor: it is asked again.
+        // On a busy machine the process may only have waited for the processor, so a second one tries the polygon.
         let ask = || Apart { library, sought: SILENT }.triangles(&polygon);
         if kind == SILENT && !matches!(catch_unwind(AssertUnwindSafe(ask)), Ok(Err(_))) {
             return;
@@ -214,7 +214,7 @@ fn points(line: &str) -> impl Iterator<Item = Point> {
     values.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect::<Vec<_>>().into_iter()
 }
 
-/// A library that is asked for each polygon in a new process.
+/// A library that gets each polygon in a new process.
 struct Apart<'a> {
     library: &'a Library,
     /// Of what counts as a refusal: the process that ended, the one that was waited for too long, or what the library refuses.
@@ -295,7 +295,7 @@ fn table() {
     }
 }
 
-/// A number with commas.
+/// A number with a comma before each three digits.
 fn grouped(number: u64) -> String {
     let mut text = String::new();
     let digits = number.to_string();

@@ -80,7 +80,7 @@ fn path(library: &Library) -> PathBuf {
     PathBuf::from(format!("results/{}.csv", library.name))
 }
 
-/// What was counted so far.
+/// The counts that an earlier run kept in the results folder; none where there is no file.
 pub fn read(library: &Library) -> Vec<Tally> {
     let text = fs::read_to_string(path(library)).unwrap_or_default();
     let mut lines = text.lines().skip(1);

@@ -7,11 +7,9 @@ use rasterproof_verify::cases::Triangle;
 /// What dEQP says about a pixel before it looks at the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Cover {
-    /// It has to be drawn.
     Full,
     /// An edge is near its centre: it may be drawn or not.
     Partial,
-    /// It may not be drawn.
     None,
 }
 
@@ -88,7 +86,7 @@ pub fn covers(triangles: &[Triangle], window: PixelRect, bits: u32) -> Vec<Cover
 
 /// The corners of a triangle, clockwise with y down.
 struct Outline {
-    /// In 1/256 px, as they were given.
+    /// In units of 1/256 px, as the scene gives them, before the device rounds them.
     exact: [Point; 3],
     /// In subpixels of the device, rounded down and up.
     rounded: [[Point; 2]; 3],
@@ -177,9 +175,9 @@ fn shared_edges(outlines: &[Outline], of: usize) -> [bool; 3] {
     })
 }
 
-/// Twice the area of a triangle.
+/// On which side of the line from a to b the point c lies: 1, 0 on the line, or -1.
 fn cross(a: Point, b: Point, c: Point) -> i64 {
-    // In 128 bits, since hard cases have corners at the ends of the domain; the sign is what matters.
+    // In 128 bits, since hard cases have corners at the ends of the domain.
     let [dx, dy] = [b[0] - a[0], b[1] - a[1]].map(i128::from);
     let [px, py] = [c[0] - a[0], c[1] - a[1]].map(i128::from);
     (dx * py - dy * px).signum() as i64

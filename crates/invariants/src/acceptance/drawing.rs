@@ -20,7 +20,6 @@ use super::scenes::{Paint, Scene};
 pub enum Subject {
     /// The scanline engine: the picture that rules compare with.
     Reference,
-    /// A planted fault.
     Planted(TriangleMutant),
     /// A published algorithm with its faults, under its name.
     Published(&'static str, TriangleSpecimen),
@@ -31,7 +30,7 @@ pub enum Subject {
 /// A difference that the specifications of OpenGL and Vulkan permit.
 #[derive(Clone, Copy, Debug)]
 pub struct Permitted {
-    /// Which samples on edges belong.
+    /// Which samples that lie on an edge belong to the triangle.
     rule: Rule,
     /// Bits below the pixel; Vulkan asks for at least 4.
     bits: u32,
@@ -109,7 +108,7 @@ impl Subject {
         !self.is_single() || vertices().all(|vertex| fits(vertex.inv_w))
     }
 
-    /// What it declares about coverage.
+    /// The fill rule that a right rasterizer declares; the default one of all others.
     #[must_use]
     pub fn convention(&self) -> Convention {
         match self {
@@ -143,7 +142,7 @@ impl Subject {
         let window = scene.window;
         match self {
             Self::Reference => Engine::Scanline.fragments(triangle, window, emit),
-            // Pixels of a triangle without area have no values, and are drawn where none are asked for.
+            // Pixels of a triangle without area have no values, and are drawn where the scene shows no values.
             Self::Planted(mutant) if !scene.shows_values() => {
                 let mut spans = Vec::new();
                 mutant.spans(triangle.corners(), window, &mut |span| spans.push(span));
@@ -195,7 +194,7 @@ fn fill(
 }
 
 /// The values at the centre of a pixel: weights are areas, those of attributes divided by w. Colours have 8 bits, so
-/// plain arithmetic suffices where no other is asked for.
+/// plain arithmetic suffices where f32 is not wanted.
 fn at_pixel(triangle: &Triangle, [x_px, y_px]: [i32; 2], single: bool) -> Fragment<DVec2> {
     let round = |v: f64| if single { f64::from(v as f32) } else { v };
     let centre =
@@ -242,7 +241,6 @@ impl Drawn {
     }
 }
 
-/// Draws a scene.
 #[must_use]
 pub fn draw(subject: &Subject, scene: &Scene) -> Drawn {
     let mut fragments = Vec::new();

@@ -25,7 +25,7 @@ pub struct Row {
     pub passed: Vec<Passed>,
     /// Pictures of faults that differ from the right picture and that the rule looks at.
     pub wrong_pictures: u64,
-    /// Those of them that it refuses.
+    /// How many of `wrong_pictures` it refuses.
     pub refused_pictures: u64,
     /// The accepted picture with the largest share of wrong pixels.
     pub worst_picture: Option<WrongPicture>,
@@ -35,31 +35,25 @@ pub struct Row {
     pub refused_right: Vec<&'static str>,
     /// Pictures of right rasterizers that it looks at.
     pub right_pictures: u64,
-    /// Those of them that it refuses.
+    /// How many of `right_pictures` it refuses.
     pub refused_right_pictures: u64,
 }
 
-/// A fault that a rule accepts.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Passed {
-    /// The name of the fault.
     pub name: &'static str,
     /// Pixels of all pictures of the set in which it differs from the right picture.
     pub wrong_pixels: u64,
-    /// Pixels of these pictures.
+    /// All pixels of the set's pictures.
     pub pixels: u64,
 }
 
 /// An accepted picture that differs from the right one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WrongPicture {
-    /// The name of the fault.
     pub name: &'static str,
-    /// What the picture shows.
     pub scene: String,
-    /// Pixels that differ.
     pub wrong_pixels: u64,
-    /// Pixels of the picture.
     pub pixels: u64,
 }
 
@@ -77,18 +71,15 @@ impl Row {
     }
 }
 
-/// The rows of both sets of scenes.
 #[derive(Clone, Debug, Default)]
 pub struct Report {
-    /// Names of all faults.
     pub faults: Vec<&'static str>,
-    /// Names of all right rasterizers.
     pub right: Vec<&'static str>,
     /// Scenes such as test suites use, one row for each of [`RULES`].
     pub suites: Vec<Row>,
     /// Hard cases of this project, alike.
     pub hard: Vec<Row>,
-    /// Scenes of the two sets.
+    /// How many scenes the suites' set has, and the set of hard cases.
     pub scenes: [usize; 2],
     /// Faults that differ from the right picture in at least one picture of the set.
     pub visible: [usize; 2],

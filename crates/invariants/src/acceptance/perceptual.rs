@@ -7,7 +7,7 @@ use super::drawing::Drawn;
 
 /// Pixels for each degree of the field of view: a 0.7 m wide screen of 3840 pixels seen from 0.7 m.
 const PIXELS_PER_DEGREE: f64 = 3840.0 * PI / 180.0;
-/// The white of D65.
+/// X, Y and Z of the standard daylight D65.
 const WHITE: [f64; 3] = [0.950_428_545, 1.0, 1.088_900_371];
 
 fn linear(byte: u8) -> f64 {
@@ -48,14 +48,13 @@ fn lab(rgb: [f64; 3]) -> [f64; 3] {
     opponent(to_xyz(rgb).map(root))
 }
 
-/// L*a*b* of every pixel.
 #[must_use]
 pub fn lab_of_all(pixels: &[[u8; 3]]) -> Vec<[f64; 3]> {
     let linear: Vec<f64> = (0..=255).map(linear).collect();
     pixels.iter().map(|pixel| lab(pixel.map(|v| linear[usize::from(v)]))).collect()
 }
 
-/// A plane of numbers.
+/// One number for each pixel, row after row.
 type Plane = Vec<f64>;
 
 /// Weights for the offsets from -r to r.
@@ -189,7 +188,7 @@ fn hyab(p: [f64; 3], q: [f64; 3]) -> f64 {
 const PATCH: i64 = 6;
 /// The constants that keep SSIM from dividing by zero, for L*, a* and b*.
 const STEADY: [[f64; 2]; 3] = [[100.0, 900.0], [650.25, 5852.25], [650.25, 5852.25]];
-/// Bins of the histogram.
+/// Bins of the histogram of SSIM values.
 const BINS: usize = 200;
 
 /// How far SSIM is from 1, by VTK's tight measure: the root of the mean square, or the distance of the histogram, of the

@@ -17,9 +17,9 @@ pub struct View<'a> {
     pub scene: &'a Scene,
     /// What is known of the scene, whoever draws it.
     pub seen: &'a Seen,
-    /// The right picture.
+    /// What the reference draws of the scene.
     pub right: &'a Drawn,
-    /// The picture to judge.
+    /// What the subject draws of it.
     pub drawn: &'a Drawn,
     /// Whose it is, for what a device reports about itself.
     pub subject: &'a Subject,
@@ -43,11 +43,10 @@ impl Seen {
     }
 }
 
-/// A model of an acceptance rule.
+/// A model of a rule by which a test suite accepts or refuses a picture.
 pub struct Rule {
-    /// Its name in tables.
     pub name: &'static str,
-    /// What it accepts, in a sentence.
+    /// What it accepts, in one sentence for the tables.
     pub about: &'static str,
     /// The file that applies it, and the place in the file.
     pub source: &'static str,

@@ -11,7 +11,6 @@ use rasterproof_verify::cases::{Rng, Shape, Triangle};
 /// How fragments become colours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Paint {
-    /// White on black.
     White,
     /// 127 is added to each channel of a pixel that is hit.
     Add,
@@ -46,10 +45,10 @@ impl Scene {
 
 /// Side of the pictures of the suites, in pixels. A half of dEQP's 256, so that a run takes seconds.
 const SIDE: f64 = 128.0;
-/// Hard cases of each family.
+/// How many cases of each family are drawn.
 const CASES: u64 = 2;
 
-/// Every scene for a seed.
+/// The scenes of both sets; the random ones depend on the seed.
 #[must_use]
 pub fn scenes(seed: u64) -> Vec<Scene> {
     let mut scenes = of_suites(seed);

@@ -6,7 +6,7 @@
 
 use super::assembled::Assembled;
 use super::kernel::Kernel;
-use super::plan::{Canvas, PiecePlan};
+use super::plan::Canvas;
 use super::primitive::{BadScene, Piece, Prepared, pack, touched};
 use super::samples::depths::DepthPlane;
 use super::samples::pattern::{Pattern, scaled};
@@ -15,7 +15,6 @@ use glam::DVec2;
 
 use crate::pipeline::Counters;
 use crate::pipeline::assemble::twice_area;
-use crate::pipeline::fog::Share;
 use crate::pipeline::shade::Surface;
 use crate::pipeline::target::{Colour, Target};
 use crate::scene::{Hidden, Scene};
@@ -183,16 +182,8 @@ impl<'a> Rivals<'a> {
             None => Some(*piece),
         };
         let Some(moved) = moved else { return };
-        let (interpolates, perspective) = (item.carries, !self.scene.affine);
-        let (specular, mip_maps) = (item.carries_highlights, item.carries_mip_maps());
-        let plan = PiecePlan {
-            interpolates,
-            perspective,
-            depth: true,
-            specular,
-            mip_maps,
-            fog: Share::Mixed,
-        };
+        let perspective = !self.scene.affine;
+        let plan = item.all_of_a_fragment(perspective);
         let kernel = Kernel::new(item, piece, plan, &mut Counters::default());
         let emit = |f: rasterproof_core::triangle::Fragment<_>| {
             see(f.x_px, f.y_px, kernel.shade_all(&f.varying, f.depth));
@@ -304,20 +295,11 @@ impl<'a> Rivals<'a> {
         };
         let Some(moved) = moved else { return };
         let perspective = !self.scene.affine;
-        let (interpolates, specular) = (item.carries, item.carries_highlights);
-        let mip_maps = item.carries_mip_maps();
-        if mip_maps {
+        let plan = item.all_of_a_fragment(perspective);
+        if plan.mip_maps {
             // Between levels any colour may be read.
             return;
         }
-        let plan = PiecePlan {
-            interpolates,
-            perspective,
-            depth: true,
-            specular,
-            mip_maps,
-            fog: Share::Mixed,
-        };
         let kernel = Kernel::new(item, piece, plan, &mut Counters::default());
         let Some(texture) = kernel.varying_texture() else { return };
         let uv = moved.vertices.map_array(|v| Surface::from(v.varying).uv);

@@ -240,10 +240,14 @@ impl<'a> Item<'a> {
     ) -> Result<Self, BadScene> {
         let item = &scene.items[index];
         let carries = attributes::carries(scene, item, &Effects::PLANNED);
-        let (perspective, depth, specular, fog) = (true, true, true, Share::Mixed);
-        let mip_maps = true;
-        let of_pieces =
-            PiecePlan { interpolates: carries, perspective, depth, specular, mip_maps, fog };
+        let of_pieces = PiecePlan {
+            interpolates: carries,
+            perspective: true,
+            depth: true,
+            specular: true,
+            mip_maps: true,
+            fog: Share::Mixed,
+        };
         let plan = ItemPlan {
             clip: Mode::Planned,
             cull: Mode::Planned,

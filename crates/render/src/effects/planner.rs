@@ -55,9 +55,14 @@ pub(super) fn plan<'a>(
         let fog_at_most = if has_fog { Share::Mixed } else { Share::None };
         for item in &assembled.items {
             let interpolates = interpolation::at_most(item.item, item.carries);
-            let (perspective, depth, specular, fog) = (true, is_tested, false, fog_at_most);
-            let mip_maps = false;
-            let plan = PiecePlan { interpolates, perspective, depth, specular, mip_maps, fog };
+            let plan = PiecePlan {
+                interpolates,
+                perspective: true,
+                depth: is_tested,
+                specular: false,
+                mip_maps: false,
+                fog: fog_at_most,
+            };
             estimate.see_roughly(item, plan);
         }
     }

@@ -6,9 +6,9 @@ use std::sync::LazyLock;
 use glam::{DMat3, DMat4, DVec2, DVec3};
 
 use super::Mode;
-use super::plan::{Attributes, ItemPlan};
+use super::plan::{Attributes, ItemPlan, PiecePlan};
 use crate::pipeline::assemble::{Assembler, BadVertex, Point, check_vertex};
-use crate::pipeline::fog::Veil;
+use crate::pipeline::fog::{Share, Veil};
 use crate::pipeline::highlight::Highlight;
 use crate::pipeline::shade::{ALL, Attributes as Packed, Light, Surface};
 use crate::pipeline::target::Antialias;
@@ -81,9 +81,16 @@ pub(super) fn highlight(scene: &Scene, item: &Item) -> Highlight {
 }
 
 impl<'a> Prepared<'a> {
-    /// Whether its texture is read at levels of detail.
-    pub fn carries_mip_maps(&self) -> bool {
-        self.texture.is_some_and(Texture::has_mip_map)
+    /// What a fragment pays for where nothing that this item may show is left out.
+    pub fn all_of_a_fragment(&self, perspective: bool) -> PiecePlan {
+        PiecePlan {
+            interpolates: self.carries,
+            perspective,
+            depth: true,
+            specular: self.carries_highlights,
+            mip_maps: self.texture.is_some_and(Texture::has_mip_map),
+            fog: Share::Mixed,
+        }
     }
 
     /// Transforms the positions of an item and checks them.

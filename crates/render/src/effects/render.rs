@@ -5,11 +5,10 @@ pub use super::primitive::BadScene;
 
 use super::execute::{Observer, draw, fit};
 use super::kernel::Kernel;
-use super::plan::{Canvas, PiecePlan, Plan, SceneDigest};
+use super::plan::{Canvas, Plan, SceneDigest};
 use super::planner;
 use super::{Effect, Effects, Mode};
 use crate::pipeline::Counters;
-use crate::pipeline::fog::Share;
 use crate::pipeline::present::DoubleBuffer;
 use crate::pipeline::target::{Colour, Target};
 use crate::pipeline::wireframe::draw_edges;
@@ -132,17 +131,7 @@ pub fn render_wireframe(
     let (bounds, format) = (target.bounds(), target.format);
     for item in &assembled.items {
         item.assemble(scene, &mut counters, &mut |piece, fills| {
-            let interpolates = item.carries;
-            let perspective = !scene.affine;
-            let specular = item.carries_highlights;
-            let plan = PiecePlan {
-                interpolates,
-                perspective,
-                depth: true,
-                specular,
-                mip_maps: item.carries_mip_maps(),
-                fog: Share::Mixed,
-            };
+            let plan = item.all_of_a_fragment(!scene.affine);
             let kernel = Kernel::new(item, piece, plan, fills);
             draw_edges(drawer, piece, bounds, |f| {
                 fills.fragments += 1;

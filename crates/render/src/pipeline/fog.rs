@@ -89,7 +89,7 @@ impl Veil {
         if self.w[0] == 0.0 { self.w[1] } else { self.w[0] * self.distance(depth) + self.w[1] }
     }
 
-    /// The share of fog at a distance.
+    /// From 0, no fog, to 1, nothing else.
     #[expect(clippy::manual_clamp, reason = "the maximum turns NaN into 0, a clamp keeps it")]
     fn share(&self, distance: f64) -> f64 {
         let share = match self.growth {

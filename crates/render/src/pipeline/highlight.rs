@@ -60,7 +60,7 @@ impl Highlight {
         Self { strength, shininess, halfway, least }
     }
 
-    /// Whether it is seen from nowhere.
+    /// Whether it rounds to 0 in every channel, wherever a normal points.
     #[must_use]
     pub fn is_dark(&self) -> bool {
         self.least == f64::INFINITY
@@ -83,7 +83,7 @@ impl Highlight {
         if along <= self.least * length || length == 0.0 { [0; 3] } else { self.of(along / length) }
     }
 
-    /// The highlight at a cosine.
+    /// The highlight where normal and halfway direction have this cosine.
     #[must_use]
     pub fn of(&self, cosine: f64) -> [u8; 3] {
         let [r, g, b, _] = to_colour(self.strength * libm::pow(cosine.max(0.0), self.shininess));
@@ -112,7 +112,7 @@ impl Highlight {
     }
 }
 
-/// A surface with its highlight.
+/// The colour of a surface with its highlight added; a channel does not pass 255.
 #[must_use]
 #[inline]
 pub fn brightened([r, g, b, a]: Colour, [x, y, z]: [u8; 3]) -> Colour {

@@ -137,7 +137,7 @@ impl Texture {
         !self.levels.is_empty()
     }
 
-    /// The next level.
+    /// The next level of a mip map: each texel is the mean of those that it covers.
     fn half(&self) -> Self {
         let (width, height) = ((self.width / 2).max(1), (self.height / 2).max(1));
         let part = |at: u32, half: u32, whole: u32| {

@@ -5,7 +5,7 @@
 
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x16, i32x4, i32x16, mask32x16, u32x16};
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 use super::buffer::{Buffer, PAIR_PX, load_colours, load_depths, store_colours, store_depths};
 use super::planes::{Depth, Planes, along};
@@ -29,7 +29,7 @@ pub(super) struct Brush<'a> {
     pub footprint: Option<Footprint>,
 }
 
-/// The fog of a triangle.
+/// Which share of fog a triangle has, and the plane of depths by which its pixels differ.
 pub(super) struct Foggy<'a> {
     pub veil: &'a Veil,
     pub share: Share,
@@ -196,19 +196,29 @@ fn texels<S: Simd>(
         return bytes_at(simd, bytes, texture, u, v);
     }
     let (u, v) = (u.to_array(), v.to_array());
-    let mut texels = [[0.0; 16]; 3];
-    let mut left = mask;
-    while left != 0 {
-        let lane = left.trailing_zeros() as usize & 15;
-        left &= left - 1;
-        let texel = texture.at(DVec2::new(u[lane].into(), v[lane].into())).as_vec3();
-        (texels[0][lane], texels[1][lane], texels[2][lane]) = (texel.x, texel.y, texel.z);
+    one_by_one(simd, mask, |lane| texture.at(DVec2::new(u[lane].into(), v[lane].into())))
+}
+
+/// The lanes of the bits of a mask, from the lowest on.
+#[inline(always)]
+fn lanes(mut mask: u32) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let lane = (mask != 0).then(|| mask.trailing_zeros() as usize & 15)?;
+        mask &= mask - 1;
+        Some(lane)
+    })
+}
+
+/// What a function says of each lane of a mask; 0 in the others.
+#[inline(always)]
+fn one_by_one<S: Simd>(simd: S, mask: u32, of: impl Fn(usize) -> DVec3) -> [Lanes<S>; 3] {
+    let mut found = [[0.0; 16]; 3];
+    for lane in lanes(mask) {
+        let [x, y, z] = of(lane).as_vec3().to_array();
+        (found[0][lane], found[1][lane], found[2][lane]) = (x, y, z);
     }
-    [
-        Lanes::load_array_ref(simd, &texels[0]),
-        Lanes::load_array_ref(simd, &texels[1]),
-        Lanes::load_array_ref(simd, &texels[2]),
-    ]
+    let [x, y, z] = &found;
+    [Lanes::load_array_ref(simd, x), Lanes::load_array_ref(simd, y), Lanes::load_array_ref(simd, z)]
 }
 
 /// The same at levels of detail, where w is that of the footprint's 1/w.
@@ -220,21 +230,10 @@ fn texels_at_levels<S: Simd>(
     mask: u32,
 ) -> [Lanes<S>; 3] {
     let (u, v, w) = (u.to_array(), v.to_array(), w.to_array());
-    let mut texels = [[0.0; 16]; 3];
-    let mut left = mask;
-    while left != 0 {
-        let lane = left.trailing_zeros() as usize & 15;
-        left &= left - 1;
+    one_by_one(simd, mask, |lane| {
         let uv = DVec2::new(u[lane].into(), v[lane].into());
-        let level = footprint.level(uv, w[lane].into());
-        let texel = texture.at_level(uv, level).as_vec3();
-        (texels[0][lane], texels[1][lane], texels[2][lane]) = (texel.x, texel.y, texel.z);
-    }
-    [
-        Lanes::load_array_ref(simd, &texels[0]),
-        Lanes::load_array_ref(simd, &texels[1]),
-        Lanes::load_array_ref(simd, &texels[2]),
-    ]
+        texture.at_level(uv, footprint.level(uv, w[lane].into()))
+    })
 }
 
 /// Of texels as bytes.
@@ -304,19 +303,18 @@ fn highlights<S: Simd>(
     let length = (x * x + y * y + z * z).sqrt();
     // A length of 0 makes NaN, which is not above.
     let cosine = (x * halfway.x + y * halfway.y + z * halfway.z) / length;
-    let mut left = cosine.simd_gt(least as f32).to_bitmask() as u32 & mask;
+    let shining = cosine.simd_gt(least as f32).to_bitmask() as u32 & mask;
     let mut shine = [[0; 16]; 3];
     let cosine = cosine.to_array();
-    while left != 0 {
-        let lane = left.trailing_zeros() as usize & 15;
-        left &= left - 1;
+    for lane in lanes(shining) {
         let [r, g, b] = highlight.of(cosine[lane].into()).map(u32::from);
         (shine[0][lane], shine[1][lane], shine[2][lane]) = (r, g, b);
     }
+    let [r, g, b] = &shine;
     [
-        u32x16::load_array_ref(simd, &shine[0]),
-        u32x16::load_array_ref(simd, &shine[1]),
-        u32x16::load_array_ref(simd, &shine[2]),
+        u32x16::load_array_ref(simd, r),
+        u32x16::load_array_ref(simd, g),
+        u32x16::load_array_ref(simd, b),
     ]
 }
 
@@ -330,10 +328,7 @@ fn fogged<S: Simd>(
     mask: u32,
 ) -> u32x16<S> {
     let (depths, mut colours) = (depths.to_array(), colours.to_array());
-    let mut left = mask;
-    while left != 0 {
-        let lane = left.trailing_zeros() as usize & 15;
-        left &= left - 1;
+    for lane in lanes(mask) {
         let distance = veil.distance(depths[lane].into());
         colours[lane] = u32::from_le_bytes(veil.before(colours[lane].to_le_bytes(), distance));
     }

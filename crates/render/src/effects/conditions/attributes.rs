@@ -26,7 +26,7 @@ fn uses(scene: &Scene, item: &Item, effect: Effect) -> bool {
     }
 }
 
-/// The attributes that an item's pieces carry. Highlights that are asked for everywhere need normals.
+/// The attributes that an item's pieces carry. Highlights that the user switches on everywhere need normals.
 pub fn carries(scene: &Scene, item: &Item, effects: &Effects) -> Attributes {
     let has_highlights = effects.mode(Effect::Specular) == Mode::Always;
     let paid = |(effect, _, _): &(Effect, u8, &str)| {

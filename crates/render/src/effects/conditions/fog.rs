@@ -34,7 +34,7 @@ pub fn share(mode: Mode, item: &Prepared<'_>, piece: &Piece) -> Share {
     }
 }
 
-/// Nothing of a scene without fog, unless it is asked for or refused everywhere.
+/// Nothing of a scene without fog, unless the user switches it on or off everywhere.
 pub fn explain(survey: &Survey<'_>) -> Option<Decision> {
     let Survey { scene, pieces, shares: [mixed, whole], .. } = *survey;
     let asked = survey.effects.mode(Effect::Fog);

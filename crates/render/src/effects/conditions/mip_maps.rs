@@ -64,7 +64,7 @@ pub fn pays(mode: Mode, item: &Prepared<'_>, piece: &Piece, perspective: bool) -
     }
 }
 
-/// Nothing of a texture without a mip map, unless levels are asked for or refused everywhere.
+/// Nothing of a texture without a mip map, unless the user switches levels on or off everywhere.
 pub fn explain(survey: &Survey<'_>) -> Option<Decision> {
     let Survey { item, pieces, mip_maps, .. } = *survey;
     let asked = survey.effects.mode(Effect::MipMaps);

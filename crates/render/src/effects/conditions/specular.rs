@@ -41,7 +41,7 @@ pub fn pays(mode: Mode, item: &Prepared<'_>, piece: &Piece) -> bool {
     }
 }
 
-/// Nothing of a material without highlights, unless these are asked for or refused everywhere.
+/// Nothing of a material without highlights, unless the user switches them on or off everywhere.
 pub fn explain(survey: &Survey<'_>) -> Option<Decision> {
     let Survey { scene, item, pieces, specular, .. } = *survey;
     let has_colour = item.material.specular.colour.max_element() > 0.0;
