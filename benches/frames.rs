@@ -111,7 +111,6 @@ fn everybody<'a>(
     all
 }
 
-/// Pools of one thread and of two.
 fn pools() -> [rayon::ThreadPool; 2] {
     [1, 2].map(|threads| {
         rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool of threads")
@@ -132,7 +131,6 @@ fn report(scene: &Scene, rounds: usize, pools: &[rayon::ThreadPool; 2]) {
     }
 }
 
-/// One row of a curve.
 fn curve(scene: &Scene, side_px: u32, rounds: usize, pools: &[rayon::ThreadPool; 2]) {
     let mut all = everybody(scene, side_px, pools);
     all.iter_mut().for_each(|draws| drop(draws.picture()));

@@ -418,7 +418,6 @@ fn exact_f32(corner: rasterproof_core::grid::SubpixelPoint) -> [f32; 2] {
     [x as f32, y as f32]
 }
 
-/// Vulkan devices.
 #[cfg(feature = "vulkan")]
 mod vulkan {
     use std::collections::HashMap;

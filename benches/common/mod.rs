@@ -19,7 +19,6 @@ pub const COLOUR: u32 = 0xff_30_60_90;
 
 /// The triangles of one class.
 pub struct Scene {
-    /// Name of the class.
     pub name: &'static str,
     /// Corners within the target, of either winding, at random phases within the pixel.
     pub triangles: Vec<Corners>,
@@ -124,7 +123,6 @@ fn place(shape: Shape, random: &mut SplitMix64) -> Corners {
 pub struct SplitMix64(pub u64);
 
 impl SplitMix64 {
-    /// The next 64 bits.
     pub fn next(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;

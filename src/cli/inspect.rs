@@ -46,7 +46,7 @@ pub struct InspectArguments {
     #[arg(long, value_name = "NAME")]
     engine: Option<String>,
     /// Judge this planted fault instead of the engines; `list` names them
-    #[arg(long, value_name = "FAULT", value_parser = rasterproof_faults::planted::about::names(), hide_possible_values = true)]
+    #[arg(long, value_name = "FAULT", value_parser = rasterproof_faults::planted::names(), hide_possible_values = true)]
     plant: Option<String>,
     /// Explain this pixel: edge values, ties, the rule, the span
     #[arg(long, value_name = "X,Y", value_parser = parse_pixel_option, allow_hyphen_values = true)]

@@ -169,7 +169,7 @@ pub fn mutants(arguments: &MutantsArguments, streams: &mut Streams<'_>) -> Statu
     writeln!(out, "each fault, the number of invariants that it breaks, and what it is:")?;
     for (name, marks) in &matrix.rows {
         let kills = marks.iter().filter(|&&mark| mark).count();
-        let about = planted::about::about(name).unwrap_or("a check that cannot fail");
+        let about = planted::about(name).unwrap_or("a check that cannot fail");
         writeln!(out, "  {} {name:<26} {kills:>2}  {about}", mark(kills > 0))?;
     }
     if !arguments.table {

@@ -433,7 +433,7 @@ fn list(streams: &mut Streams<'_>) -> Status {
     #[cfg(feature = "vulkan")]
     vulkan::list(out)?;
     writeln!(out, "\nPlanted faults (rasterproof --plant NAME; rasterproof mutants):")?;
-    for (name, about) in rasterproof_faults::planted::about::all() {
+    for (name, about) in rasterproof_faults::planted::all() {
         write_entry(out, &format!("{name:<26}"), about)?;
     }
     invariant::list(streams)?;

@@ -16,7 +16,6 @@ pub(super) const HELP: &str =
 are compiled by a script of the repository, crates/playground/build, which needs a network
 or Debian's packages; nothing else needs it.";
 
-/// Options of `playground`.
 #[derive(Args, Debug)]
 pub(super) struct PlaygroundArguments {
     #[command(flatten)]
@@ -26,7 +25,6 @@ pub(super) struct PlaygroundArguments {
     output: PathBuf,
 }
 
-/// Options of `your-gpu`.
 #[derive(Args, Debug)]
 pub(super) struct YourGpuArguments {
     #[command(flatten)]

@@ -89,7 +89,6 @@ pub struct SceneArguments {
     pub(super) view: ViewArguments,
 }
 
-/// The names of all options of [`ViewArguments`].
 pub(super) const VIEW_OPTIONS: [&str; 14] = [
     "size", "aa", "cull", "shading", "specular", "mip-maps", "fog", "up", "normals", "depth",
     "yaw", "pitch", "zoom", "fov",

@@ -81,7 +81,7 @@ pub struct VerifyArguments {
     #[command(flatten)]
     page: PageArguments,
     /// Judge an engine with a planted fault instead, to see the harness fail; `list` names them
-    #[arg(long, value_name = "FAULT", value_parser = rasterproof_faults::planted::about::names(), hide_possible_values = true,
+    #[arg(long, value_name = "FAULT", value_parser = rasterproof_faults::planted::names(), hide_possible_values = true,
         conflicts_with = "engine")]
     plant: Option<String>,
 }

@@ -309,7 +309,7 @@ fn options_without_an_effect_are_refused() {
 #[test]
 fn planted_faults_are_listed() {
     let out = check("list", 0).out;
-    for (name, about) in rasterproof_faults::planted::about::all() {
+    for (name, about) in rasterproof_faults::planted::all() {
         assert!(out.lines().any(|line| line.contains(name) && line.contains(about)), "{name}");
     }
     assert!(check("--help", 0).out.contains("--plant <FAULT>"));

@@ -1,6 +1,7 @@
 //! The course through the command line: every step passes for what is right and fails for a planted
 //! fault, progress is kept, starters start, points are given.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::process::Command;
 
@@ -11,6 +12,7 @@ use rasterproof_teaching::course::STEPS;
 use rasterproof_teaching::course::misconceptions;
 use rasterproof_teaching::course::progress::Progress;
 use rasterproof_teaching::course::show;
+use serde::Deserialize;
 use serde_json::Value;
 
 use crate::program::{Folder, PROGRAM, Run, Words};
@@ -336,129 +338,20 @@ fn course_cube_of_the_page() {
     check_picture("course-cube", &shown.sheet());
 }
 
-/// Parts of the solution in Python and what a wrong program has instead, with the step that fails and what is named.
-const MISCONCEIVED: &[(&str, &str, &str, &str)] = &[
-    ("top-left", "e[i] > 0 or e[i] == 0 and owns(*sides[i])", "e[i] > 0", "strict"),
-    ("top-left", "e[i] > 0 or e[i] == 0 and owns(*sides[i])", "e[i] >= 0", "inclusive"),
-    ("fans", "e[i] > 0 or e[i] == 0 and owns(*sides[i])", "e[i] >= 0", "inclusive"),
-    ("scanline", "(256 * x + 128, 256 * y + 128)", "(256 * x, 256 * y)", "corner-samples"),
-    (
-        "scanline",
-        "round(p[0] * 256), round(p[1] * 256)",
-        "int(p[0]) * 256, int(p[1]) * 256",
-        "truncated-corners",
-    ),
-    (
-        "scanline",
-        "round(p[0] * 256), round(p[1] * 256)",
-        "math.floor(p[0] + 0.5) * 256, math.floor(p[1] + 0.5) * 256",
-        "rounded-corners",
-    ),
-    (
-        "scanline",
-        "round(p[0] * 256), round(p[1] * 256)",
-        "round(p[0] * 256) - 128, round(p[1] * 256) - 128",
-        "half-off",
-    ),
-    (
-        "scanline",
-        "    if not all(e[i] > 0 or e[i] == 0 and owns(*sides[i]) for i in range(3)):\n        return None\n    l = [e[i] / abs(area) for",
-        "    l = [min(max(e[i] / abs(area), 0), 1) for",
-        "clamped-weights",
-    ),
-    ("edge-function", "        b, c = c, b\n", "        return None\n", "winding"),
-    ("top-left", "b[1] == a[1] and b[0] > a[0]", "b[1] == a[1] and b[0] < a[0]", "y-up"),
-    ("top-left", "b[1] < a[1] or", "b[1] > a[1] or", "right-edges"),
-    ("dda", "for k in reversed(steps) if turned else steps:", "for k in steps:", "reversed-line"),
-    (
-        "dda",
-        "for k in reversed(steps) if turned else steps:",
-        "for k in (steps[::-1] if turned else steps)[:-1]:",
-        "lost-end-pixel",
-    ),
-    ("dda", "(2 * k * dv + du) // (2 * du)", "k * dv // du", "truncated-line"),
-    ("dda", "(v, u) if steep else (u, v)", "(u, v) if steep else (v, u)", "transposed"),
-    ("dda", "steep = abs(y1 - y0) > abs(x1 - x0)", "steep = x0 == x1 and y0 != y1", "one-axis"),
-    (
-        "bresenham",
-        "(2 * k * dv + du) // (2 * du)",
-        "(2 * k * dv + du - 1) // (2 * du)",
-        "line-ties",
-    ),
-    ("values", "return l if area > 0 else [l[0], l[2], l[1]]", "return l", "swapped-weights"),
-    (
-        "values",
-        "        z = sum(l[i] * corners[i][2] for i in range(3))\n        q",
-        "        c = [grid(p) for p in corners]\n        s = edge(*c)\n        l = [edge(c[i - 2], c[i - 1], (256 * x, 256 * y)) / s for i in range(3)]\n        z = sum(l[i] * corners[i][2] for i in range(3))\n        q",
-        "corner-values",
-    ),
-    (
-        "values",
-        "        z = sum(l[i] * corners[i][2] for i in range(3))\n        q",
-        "        m = [[-(corners[i - 1][1] - corners[i - 2][1]), corners[i - 1][0] - corners[i - 2][0], corners[i - 2][0] * corners[i - 1][1] - corners[i - 1][0] * corners[i - 2][1]] for i in range(3)]\n        s = sum(row[2] for row in m)\n        l = [(m[0][k] * (x + 0.5) + m[1][k] * (y + 0.5) + m[2][k]) / s for k in range(3)]\n        z = sum(l[i] * corners[i][2] for i in range(3))\n        q",
-        "transposed-matrix",
-    ),
-    ("perspective", "[l[i] / corners[i][3] for", "[l[i] for", "no-perspective"),
-    ("perspective", "[l[i] / corners[i][3] for", "[l[i] * corners[i][3] for", "times-w"),
-    (
-        "perspective",
-        "for i in range(3)) / sum(q) for n",
-        "for i in range(3)) for n",
-        "one-division",
-    ),
-    (
-        "depth",
-        "            z = sum(l[i] * corners[i][2] for i in range(3))\n            if",
-        "            z = sum(l[i] * corners[i][2] for i in range(3)) * abs(edge(*map(grid, corners)))\n            if",
-        "depth-not-divided",
-    ),
-    (
-        "depth",
-        "        z = sum(l[i] * corners[i][2] for i in range(3))\n        q",
-        "        z = sum(l[i] * corners[i][2] / corners[i][3] for i in range(3))\n        q",
-        "depth-divided-twice",
-    ),
-    (
-        "depth",
-        "        q = [l[i] / corners[i][3] for i in range(3)]\n",
-        "        q = [l[i] / corners[i][3] for i in range(3)]\n        z = sum(q[i] * corners[i][2] for i in range(3)) / sum(q)\n",
-        "depth-in-perspective",
-    ),
-    ("depth", "if z < nearest.get((x, y), (math.inf, 0))[0]", "if True", "last-wins"),
-    (
-        "depth",
-        "if z < nearest.get((x, y), (math.inf, 0))[0]",
-        "if z > nearest.get((x, y), (-math.inf, 0))[0]",
-        "farthest-wins",
-    ),
-    (
-        "depth",
-        "            z = sum(l[i] * corners[i][2] for i in range(3))\n            if",
-        "            z = sum(c[2] for c in corners)\n            if",
-        "mean-depth",
-    ),
-    ("clipping", "    polygon = []\n", "    return corners\n    polygon = []\n", "unclipped"),
-    (
-        "clipping",
-        "    polygon = []\n",
-        "    return corners if all(c[2] + c[3] >= 0 for c in corners) else []\n    polygon = []\n",
-        "dropped",
-    ),
-    ("clipping", "da, db = a[2] + a[3], b[2] + b[3]", "da, db = a[2], b[2]", "plane-z-zero"),
-    (
-        "samples",
-        "(96, 224, 32, 160), (32, 96, 160, 224)",
-        "(128,) * 4, (128,) * 4",
-        "pixel-samples",
-    ),
-    (
-        "samples",
-        "(96, 224, 32, 160), (32, 96, 160, 224)",
-        "(64, 192, 64, 192), (64, 64, 192, 192)",
-        "square-samples",
-    ),
-    ("samples", "1 << s for s", "8 >> s for s", "reversed-bits"),
-];
+/// A part of the solution in Python and what a wrong program has instead, with the step that fails and what is named.
+#[derive(Deserialize)]
+struct Misconceived {
+    step: String,
+    from: String,
+    to: String,
+    name: String,
+}
+
+fn misconceived() -> Vec<Misconceived> {
+    let text = include_str!("../data/course/misconceived.toml");
+    let mut table: BTreeMap<String, Vec<Misconceived>> = toml::from_str(text).unwrap();
+    table.remove("wrong").unwrap()
+}
 
 /// Each misconception is named for a program that has it, before any hint, and with a question.
 #[test]
@@ -472,7 +365,8 @@ fn course_names_misconceptions() {
     let path = folder.join("starter.py");
     let right = fs::read_to_string(&path).unwrap();
     let mut wrong = Vec::new();
-    for (step, from, to, name) in MISCONCEIVED {
+    let programs = misconceived();
+    for Misconceived { step, from, to, name } in &programs {
         assert!(right.contains(from), "{name}: {from}");
         fs::write(&path, right.replace(from, to)).unwrap();
         let out = course(&folder, ["check", step, "--cases", "24"], 1).out;
@@ -486,7 +380,7 @@ fn course_names_misconceptions() {
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
     let all = misconceptions::all().map(|is| is.name);
-    let unseen: Vec<_> = all.filter(|name| MISCONCEIVED.iter().all(|m| m.3 != *name)).collect();
+    let unseen: Vec<_> = all.filter(|name| programs.iter().all(|program| program.name != *name)).collect();
     assert!(unseen.is_empty(), "{unseen:?}");
 }
 

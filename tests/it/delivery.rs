@@ -83,7 +83,6 @@ fn the_status_does_not_depend_on_a_reader_of_errors() {
     }
 }
 
-/// A checkpoint is all there is of a result until the certificate has been delivered.
 #[test]
 fn a_checkpoint_is_kept_until_its_result_is_delivered() {
     let folder = folder("checkpoint");
@@ -204,7 +203,6 @@ fn two_options_do_not_name_one_file() {
     folder.run("exhaust lines --reach 2 -o null").has(AGREES);
 }
 
-/// Names that are not UTF-8 are those names, for input and for output.
 #[test]
 fn names_need_not_be_utf8() {
     let folder = folder("names");

@@ -10,10 +10,11 @@ use rasterproof_core::raster::edge_function::WordWidth;
 use rasterproof_faults::published::PublishedLine as _;
 use rasterproof_faults::published::bare;
 use rasterproof_faults::published::book_dda::BookDda;
+use rasterproof_faults::published::book_triangle::BookChapter2;
 use rasterproof_faults::published::catalogue::{RECORDED, RECORDED_SIDE_PX};
 use rasterproof_faults::published::sysu_strict_t::clip_strict;
 use rasterproof_invariants::CATALOGUE;
-use rasterproof_registry::engines::{Drawer, TriangleSpecimen};
+use rasterproof_registry::engines::Drawer;
 use rasterproof_registry::published_check::{free_truth, specimen_coverage};
 use rasterproof_render::effects::{Effect, Effects, Mode};
 use rasterproof_render::pipeline::Counters;
@@ -269,7 +270,7 @@ fn double_row() -> Vec<f64> {
     let triangles: Vec<_> = case.corners_px().into_iter().map(bare).collect();
     let window = PixelRect::window(RECORDED_SIDE_PX, RECORDED_SIDE_PX);
     let truth = free_truth(&triangles, window);
-    let hits = specimen_coverage(TriangleSpecimen::BookChapter2, &triangles, window).unwrap();
+    let hits = specimen_coverage(&BookChapter2, &triangles, window).unwrap();
     let last = truth.rows().filter(|(_, row)| row.iter().any(|&n| n > 0)).map(|(y, _)| y).max();
     let mut counts = [0.0; 4];
     for (y_px, row) in hits.rows() {

@@ -264,7 +264,6 @@ fn drawn(model: &Path, options: &[&str]) -> (RgbImage, String) {
     (image::open(out).unwrap().into_rgb8(), errors)
 }
 
-/// A model of this text in a folder.
 fn written(folder: &Path, name: &str, text: &str) -> PathBuf {
     let path = folder.join(name);
     fs::write(&path, text).unwrap();

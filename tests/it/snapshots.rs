@@ -96,7 +96,6 @@ impl Comparator for ByPixels {
     }
 }
 
-/// The sheet old | new | difference.
 fn sheet(old: &RgbImage, new: &RgbImage) -> RgbImage {
     let (width, height) = (old.width().max(new.width()), old.height().max(new.height()));
     let mut sheet = RgbImage::from_pixel(3 * width + 16, height, Rgb([255, 255, 255]));

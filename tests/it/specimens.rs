@@ -156,7 +156,6 @@ fn specimen_depth_repair_is_wrong_by_twice_the_bound() {
 #[test]
 fn specimen_bresenham_depends_on_the_direction() {
     use rasterproof_core::grid::PixelRect;
-    use rasterproof_faults::published::PublishedLine as _;
     let Some(Specimen::Line(specimen)) = engines::find("sysu-bresenham").unwrap().specimen else {
         panic!("a line drawer")
     };

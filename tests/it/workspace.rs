@@ -219,7 +219,6 @@ fn broken_links(page: &Path, text: &str) -> Vec<String> {
     broken
 }
 
-/// Links in the docs and the README lead somewhere.
 #[test]
 fn links_lead_somewhere() {
     let broken: Vec<_> = pages().iter().flat_map(|(page, text)| broken_links(page, text)).collect();

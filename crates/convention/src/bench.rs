@@ -51,7 +51,6 @@ impl Default for Known {
     }
 }
 
-/// A question with its answer.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Answer {
     pub(super) corners: Corners,

@@ -58,7 +58,6 @@ impl Agreement {
 /// The agreement on triangles in general position, and on those with samples on their edges.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Share {
-    /// In general position.
     pub general: Agreement,
     /// With samples on their edges.
     pub ties: Agreement,
@@ -72,7 +71,6 @@ impl Share {
     }
 }
 
-/// The diagnosis of a rasterizer.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Diagnosis {
     /// What it does; the nearest hypothesis where that is not known.
@@ -94,7 +92,6 @@ pub struct Diagnosis {
     pub as_declared: Share,
     /// Agreement with the convention that was found, on answers that it was not found from.
     pub as_found: Share,
-    /// Triangles asked for.
     pub asked: u64,
     /// Of these, those that were refused or not answered.
     pub refused: u64,

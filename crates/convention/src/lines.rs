@@ -224,7 +224,6 @@ fn stepped(from: [i64; 2], to: [i64; 2], is_behind: bool) -> Vec<[i64; 2]> {
     pixels
 }
 
-/// The diagnosis of a line drawer.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct LineDiagnosis {
     /// What it does; the nearest hypothesis where that is not known.
@@ -244,7 +243,6 @@ pub struct LineDiagnosis {
     pub in_order: Count,
     /// Lines with a pixel drawn more than once.
     pub twice: Count,
-    /// Lines asked for.
     pub asked: u64,
     /// Of these, those that were refused or not answered.
     pub refused: u64,

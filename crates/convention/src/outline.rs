@@ -124,7 +124,6 @@ impl End {
         }
     }
 
-    /// Whether it is the first end of that line.
     pub(super) fn is_first(self, line: &Line) -> bool {
         let [dx, dy] = if line.steep { [line.dv, line.du] } else { [line.du, line.dv] };
         match self {

@@ -55,7 +55,6 @@ pub enum CornerRule {
 pub struct Ties {
     /// For each of [`FACINGS`], whether a sample on an edge that faces that way is drawn.
     pub edges: [bool; 8],
-    /// Samples on corners.
     pub corners: CornerRule,
     /// Whether exactly the share that is asked for is enough.
     pub level: bool,

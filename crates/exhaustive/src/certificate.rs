@@ -57,7 +57,6 @@ pub struct Certificate {
     pub expected: Expected,
     /// Counts of this part, and what was wrong.
     pub done: Tally,
-    /// The command that repeats it.
     pub repeat: String,
     pub timing: Timing,
 }

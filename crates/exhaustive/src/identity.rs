@@ -31,7 +31,6 @@ impl Shard {
 pub struct Identity {
     /// The enumeration with its parameters.
     pub plan: Plan,
-    /// Version of this crate.
     pub version: String,
     /// SHA-256 of each piece of code the result depends on, see [`super::certificate::code_of`].
     pub sources: BTreeMap<String, String>,

@@ -60,7 +60,6 @@ pub struct Source {
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Tally {
-    /// Cases judged.
     pub cases: u64,
     /// Comparisons made: what is compared is said by the claim.
     pub comparisons: u64,
@@ -76,7 +75,6 @@ pub struct Tally {
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Example {
-    /// The chunk it was found in.
     pub chunk: u64,
     /// What was wrong about it, counted within the chunk.
     pub number: u64,
@@ -122,16 +120,13 @@ impl Tally {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Plan {
-    /// All triangles of a window.
     Triangles(triangles::Triangles),
     /// All lines up to a reach.
     Lines(lines::Lines),
-    /// All edges of a window.
     Edges(edges::Edges),
 }
 
 impl Plan {
-    /// The enumeration of this plan.
     #[must_use]
     pub fn enumeration(&self) -> &dyn Enumeration {
         match self {
@@ -142,9 +137,6 @@ impl Plan {
     }
 
     /// Checks every parameter; enumerations rely on it.
-    ///
-    /// # Errors
-    /// What is wrong, in words.
     pub fn check(&self) -> Result<(), String> {
         match self {
             Self::Triangles(t) => {
@@ -177,7 +169,6 @@ impl Plan {
 }
 
 impl Source {
-    /// A whole file.
     const fn file(path: &'static str, text: &'static str) -> Self {
         Self { path, text, items: &[] }
     }

@@ -44,9 +44,6 @@ impl Progress {
 
     /// Checks that a run can have come to this state: that its chunks are chunks of its shard, and its
     /// counts are theirs. What a file says is checked before it is resumed.
-    ///
-    /// # Errors
-    /// In words, what is impossible.
     pub fn check(&self) -> Result<(), String> {
         let plan = &self.identity.plan;
         let (Shard { part, parts }, chunks) = (self.shard, plan.enumeration().chunks());

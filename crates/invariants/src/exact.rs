@@ -16,7 +16,6 @@ pub fn centre(px: i32) -> i64 {
 /// Where samples are nudged: by eps along `first`, by eps squared along `second`.
 #[derive(Clone, Copy, Debug)]
 pub struct Nudge {
-    /// Decides first.
     pub first: [i32; 2],
     /// Decides where an edge runs along `first`.
     pub second: [i32; 2],

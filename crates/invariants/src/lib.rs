@@ -88,7 +88,6 @@ pub struct Failure {
 pub enum Ruling {
     /// Something was compared, and nothing is wrong.
     Holds,
-    /// An input fails.
     Fails,
     /// No input fits the property, so nothing was compared: neither right nor wrong.
     NotJudged,
@@ -126,9 +125,6 @@ impl Invariant {
     }
 
     /// Checks one input; an input of another kind is nothing to compare.
-    ///
-    /// # Errors
-    /// What is wrong, a panic of the implementation among it.
     pub fn judge(&self, subject: &Subject, input: &Input) -> Outcome {
         let outcome = caught(|| match (self.check, input) {
             (Check::Triangle(check), Input::Triangle(input)) => check(subject, input),

@@ -17,7 +17,6 @@ const SIDE: i64 = SIDE_PX as i64 * SUBPIXELS as i64;
 /// A triangle, the window it is drawn in, and a number for what else a check has to choose.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TriangleInput {
-    /// The triangle with its values.
     pub triangle: Triangle,
     /// The pixels that are looked at.
     pub window: PixelRect,
@@ -139,13 +138,11 @@ pub struct ClipInput {
     pub vertices: [[i32; 4]; 3],
 }
 
-/// The input of a check.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Input {
     Triangle(TriangleInput),
     /// A convex quadrilateral.
     Quad(Quad),
-    /// A closed fan.
     Fan(Fan),
     Line(LineInput),
     /// A coordinate.

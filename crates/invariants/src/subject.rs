@@ -82,7 +82,6 @@ impl<D: DrawLine + Sync> Stroke for D {
 /// An engine with its name and the bounds of its values.
 pub struct Engine {
     pub name: &'static str,
-    /// The engine.
     pub fill: Box<dyn Fill>,
     /// How far its values may lie from the exact ones.
     pub tolerance: Tolerance,
@@ -98,7 +97,6 @@ impl Engine {
         hits(&*self.fill, [corners], window)
     }
 
-    /// The fragments of a triangle, as emitted.
     #[must_use]
     pub fn fragments(&self, triangle: &Triangle, window: PixelRect) -> Vec<Fragment<DVec2>> {
         let mut fragments = Vec::new();
@@ -108,9 +106,6 @@ impl Engine {
 }
 
 /// Hit counts of several triangles together.
-///
-/// # Panics
-/// Where the engine does, or leaves the window.
 #[must_use]
 pub fn hits(
     fill: &dyn Fill,
@@ -127,12 +122,10 @@ pub fn hits(
 /// A line drawer with its name.
 pub struct Drawer {
     pub name: &'static str,
-    /// The drawer.
     pub stroke: Box<dyn Stroke>,
 }
 
 impl Drawer {
-    /// The fragments of a line, as emitted.
     #[must_use]
     pub fn fragments(&self, line: &Line, window: PixelRect) -> Vec<Fragment<DVec2>> {
         let mut fragments = Vec::new();
@@ -185,22 +178,16 @@ pub enum Part {
     /// The rasterizers.
     Engine,
     Oracle,
-    /// The line drawers.
     Drawer,
     Snap,
-    /// The edge functions' values.
     EdgeValues,
-    /// The choice of the word.
     WordWidth,
-    /// The source of cases.
     Source,
     Clip,
     Cull,
-    /// Rendering with effects.
     Render,
     /// The judge of two coverages.
     Judge,
-    /// The rasterizers of lists.
     Lists,
     /// The matrix of invariants and mutants itself.
     Matrix,
@@ -283,7 +270,6 @@ impl Subject {
     }
 }
 
-/// The part of a subject that a mutant replaces.
 #[must_use]
 pub fn part_of(mutant: &Mutant) -> Part {
     match mutant {

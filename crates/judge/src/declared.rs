@@ -154,7 +154,6 @@ impl Declared {
         Some(())
     }
 
-    /// The convention that its words declare.
     #[must_use]
     pub fn convention(&self) -> Convention {
         let [x, y] = self.origin;

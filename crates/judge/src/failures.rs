@@ -16,9 +16,7 @@ use rasterproof_verify::cases::{self, Case};
 /// A failing case, shrunk.
 #[derive(Clone, Debug)]
 pub struct Failure {
-    /// The property that fails.
     pub property: &'static str,
-    /// The check that shows it.
     pub check: Check,
     /// Family and number of the case it was found in.
     pub family: &'static str,

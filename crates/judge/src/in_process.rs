@@ -8,10 +8,8 @@ use rasterproof_core::contract::{
 };
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{LineEnd, ScreenLine};
-use rasterproof_faults::published::{
-    Published as _, PublishedLine as _, from_lattice, from_screen,
-};
-use rasterproof_registry::engines::{Entry, LineSpecimen, Specimen, TriangleSpecimen};
+use rasterproof_faults::published::{PublishedLine, from_lattice, from_screen};
+use rasterproof_registry::engines::{Entry, Specimen};
 use rasterproof_render::pipeline::multisample;
 use rasterproof_verify::cases::near_plane::clip_corners;
 use rasterproof_verify::comparison::caught;
@@ -33,7 +31,7 @@ impl From<&Entry> for Declared {
             version: 2,
             coverage: is_engine || entry.exact_engine.is_some() || triangle.is_some(),
             line: entry.line_engine.is_some() || matches!(entry.specimen, Some(Specimen::Line(_))),
-            attributes: is_engine || triangle.is_some_and(TriangleSpecimen::has_values),
+            attributes: is_engine || triangle.is_some_and(|specimen| specimen.has_values()),
             samples4: is_engine,
             depth: is_engine,
             clip: is_engine,
@@ -132,7 +130,7 @@ impl Inside {
 }
 
 fn published_line(
-    specimen: LineSpecimen,
+    specimen: &dyn PublishedLine,
     question: &Question,
     pixels: &mut Vec<(i32, i32)>,
 ) -> Result<(), String> {

@@ -38,7 +38,6 @@ pub struct Row {
     pub shapes: u64,
     /// Pixels expected.
     pub pixels: u64,
-    /// Cases with anything wrong.
     pub wrong_cases: u64,
     /// Wrong pixels as declared.
     pub tally: Tally,
@@ -123,9 +122,7 @@ impl AddAssign<&Row> for Row {
 /// A case in which a check failed.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Failing {
-    /// Name of the property.
     pub property: &'static str,
-    /// Name of the family.
     pub family: &'static str,
     /// Number of the case.
     pub index: u64,
@@ -144,7 +141,6 @@ pub struct Incident {
     pub request: String,
 }
 
-/// Everything that was found.
 #[derive(Clone, Debug, Default)]
 pub struct Found {
     /// A row for each property that was judged.

@@ -11,7 +11,6 @@ pub struct Parts {
     scripts: &'static [&'static str],
 }
 
-/// The playground.
 pub const PLAYGROUND: Parts = Parts {
     template: include_str!("../page/page.html"),
     styles: &[include_str!("../page/page.css")],

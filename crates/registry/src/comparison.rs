@@ -36,7 +36,6 @@ pub fn judge(
     comparison::judge_engines(&named(engines), &named_lines(lines), options, progress)
 }
 
-/// Judges one case by a selection of the engines.
 #[must_use]
 pub fn judge_case(
     engines: &[(Engine, Tolerance)],

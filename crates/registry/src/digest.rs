@@ -92,7 +92,6 @@ impl Job {
         families as u64 * cases
     }
 
-    /// The hash of one case.
     fn hash(self, Options { seed, cases }: Options, index: u64) -> [u8; 32] {
         let mut hash = Hash(Sha256::new());
         let of = |families: &[Family]| families[(index / cases) as usize].case(seed, index % cases);
@@ -120,7 +119,6 @@ impl Job {
     }
 }
 
-/// The engines that have a digest.
 #[must_use]
 pub fn engines() -> Vec<&'static str> {
     let mut names: Vec<_> = jobs().into_iter().map(|job| job.names().0).collect();

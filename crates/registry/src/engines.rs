@@ -1,8 +1,6 @@
 //! The engines by name: the one file that names every engine and line drawer, and turns a word of the
 //! command line into one.
 
-use glam::DVec2;
-
 use rasterproof_core::contract::{Decisions, DrawLine, Interpolate, Rasterize, RasterizeExact};
 use rasterproof_core::frame::Frame;
 use rasterproof_core::grid::PixelRect;
@@ -28,7 +26,7 @@ use rasterproof_faults::published::sysu_bresenham::SysuBresenham;
 use rasterproof_faults::published::sysu_inclusive::SysuInclusive;
 use rasterproof_faults::published::sysu_truncated::SysuTruncated;
 use rasterproof_faults::published::sysu_weights::SysuWeights;
-use rasterproof_faults::published::{Published, PublishedLine, RealTriangle, Refused};
+use rasterproof_faults::published::{Published, PublishedLine};
 use rasterproof_render::effects::plan::{Canvas, Plan};
 use rasterproof_render::effects::render::{self, BadScene, PlanError, Rendered};
 use rasterproof_render::effects::{Effect, Effects, Mode};
@@ -49,14 +47,12 @@ pub enum Engine {
     /// Lists of triangles in tiles. It decides coverage only: values at its pixels are those of the
     /// edge function.
     Tile,
-    /// The exact oracle, as an engine.
     Oracle,
     /// A planted fault.
     Mutant(TriangleMutant),
 }
 
 impl Engine {
-    /// The rasterizers that are judged.
     pub const JUDGED: [Self; 2] = [Self::Scanline, Self::EdgeFunction];
     /// The rasterizers that are judged when they are asked for.
     pub const CHOICES: [Self; 3] = [Self::Scanline, Self::EdgeFunction, Self::Tile];
@@ -133,14 +129,12 @@ pub enum LineEngine {
     Dda,
     /// Bresenham's algorithm.
     Bresenham,
-    /// The exact oracle, as a line drawer.
     Oracle,
     /// A planted fault.
     Mutant(LineMutant),
 }
 
 impl LineEngine {
-    /// The line drawers that are judged.
     pub const JUDGED: [Self; 2] = [Self::Dda, Self::Bresenham];
 
     /// Its name on the command line.
@@ -207,7 +201,6 @@ impl Drawer {
         }
     }
 
-    /// The line drawer's name.
     #[must_use]
     pub fn line_name(self) -> &'static str {
         match self {
@@ -217,9 +210,6 @@ impl Drawer {
     }
 
     /// As [`rasterproof_render::effects::render::plan`].
-    ///
-    /// # Errors
-    /// As there.
     pub fn plan(self, scene: &Scene, effects: &Effects, canvas: &Canvas) -> Result<Plan, BadScene> {
         match self {
             Self::Scanline => render::plan(scene, &Scanline, effects, canvas),
@@ -231,9 +221,6 @@ impl Drawer {
     }
 
     /// As [`rasterproof_render::effects::render::execute`].
-    ///
-    /// # Errors
-    /// As there.
     pub fn execute(
         self,
         plan: &Plan,
@@ -249,9 +236,6 @@ impl Drawer {
     }
 
     /// As [`rasterproof_render::effects::render::render`].
-    ///
-    /// # Errors
-    /// As there.
     pub fn render(
         self,
         scene: &Scene,
@@ -285,9 +269,6 @@ impl Drawer {
     }
 
     /// As [`rasterproof_render::effects::render::render_mapped`].
-    ///
-    /// # Errors
-    /// As there.
     pub fn render_mapped(
         self,
         scene: &Scene,
@@ -306,9 +287,6 @@ impl Drawer {
     }
 
     /// As [`rasterproof_render::effects::render::render_watched`].
-    ///
-    /// # Errors
-    /// As there.
     pub fn render_watched(
         self,
         scene: &Scene,
@@ -329,9 +307,6 @@ impl Drawer {
     }
 
     /// As [`rasterproof_render::effects::render::render_wireframe`].
-    ///
-    /// # Errors
-    /// As there.
     pub fn render_wireframe(
         self,
         scene: &Scene,
@@ -360,14 +335,12 @@ pub enum ExactEngine {
     Scanline,
     /// The bounding-box fill with filtered edge functions.
     EdgeFunction,
-    /// The exact oracle, as an engine.
     Oracle,
     /// A planted fault.
     Mutant(ExactMutant),
 }
 
 impl ExactEngine {
-    /// The rasterizers that are judged.
     pub const JUDGED: [Self; 2] = [Self::Scanline, Self::EdgeFunction];
 
     /// Its name on the command line.
@@ -410,162 +383,11 @@ impl ExactEngine {
 }
 
 /// A published algorithm with its faults.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug)]
 pub enum Specimen {
     /// A rasterizer.
-    Triangle(TriangleSpecimen),
-    /// A line drawer.
-    Line(LineSpecimen),
-}
-
-/// A published rasterizer with its faults.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum TriangleSpecimen {
-    /// The book's triangle of chapter 2.
-    BookChapter2,
-    /// The same of chapter 3, without the clamp.
-    BookChapter3,
-    /// The same on projected corners.
-    BookAffine,
-    /// The final triangle with the depth of chapter 6.
-    BookChapter6,
-    /// The final triangle with the depth of chapter 7.
-    BookChapter7,
-    /// The book's final triangle.
-    BookChapter11,
-    /// The same after the last exercise.
-    BookChapter11Fixed,
-    /// GAMES101 homework 2.
-    Games101Strict,
-    /// The same with samples through an int.
-    Games101Int,
-    /// The same with the true w put back.
-    Games101Depth,
-    /// SYSU assignment 2.
-    SysuInclusive,
-    /// The same with its weights in the wrong order.
-    SysuWeights,
-    /// The same with truncated positions.
-    SysuTruncated,
-}
-
-impl TriangleSpecimen {
-    #[must_use]
-    pub fn has_values(self) -> bool {
-        !matches!(self, Self::BookChapter2 | Self::SysuTruncated)
-    }
-
-    /// The depth that it compares, for a corner with this z/w and w.
-    #[must_use]
-    pub fn depth_of(self, depth: f64, w: f64) -> f64 {
-        match self {
-            Self::BookChapter6 => BookDepth::Chapter6.of(depth, w),
-            Self::BookChapter7 => BookDepth::Chapter7.of(depth, w),
-            _ => depth,
-        }
-    }
-}
-
-/// Does the same with whichever specimen it is.
-macro_rules! with_specimen {
-    ($specimen:expr, $name:ident => $do:expr) => {
-        match $specimen {
-            TriangleSpecimen::BookChapter2 => {
-                let $name = BookChapter2;
-                $do
-            }
-            TriangleSpecimen::BookChapter3 => {
-                let $name = BookChapter3;
-                $do
-            }
-            TriangleSpecimen::BookAffine => {
-                let $name = BookAffine;
-                $do
-            }
-            TriangleSpecimen::BookChapter6 => {
-                let $name = BookDepth::Chapter6;
-                $do
-            }
-            TriangleSpecimen::BookChapter7 => {
-                let $name = BookDepth::Chapter7;
-                $do
-            }
-            TriangleSpecimen::BookChapter11 => {
-                let $name = BookFinal { exercise: false };
-                $do
-            }
-            TriangleSpecimen::BookChapter11Fixed => {
-                let $name = BookFinal { exercise: true };
-                $do
-            }
-            TriangleSpecimen::Games101Strict => {
-                let $name = Games101Strict { whole_samples: false, true_w: false };
-                $do
-            }
-            TriangleSpecimen::Games101Int => {
-                let $name = Games101Strict { whole_samples: true, true_w: false };
-                $do
-            }
-            TriangleSpecimen::Games101Depth => {
-                let $name = Games101Strict { whole_samples: false, true_w: true };
-                $do
-            }
-            TriangleSpecimen::SysuInclusive => {
-                let $name = SysuInclusive;
-                $do
-            }
-            TriangleSpecimen::SysuWeights => {
-                let $name = SysuWeights;
-                $do
-            }
-            TriangleSpecimen::SysuTruncated => {
-                let $name = SysuTruncated;
-                $do
-            }
-        }
-    };
-}
-
-impl Published for TriangleSpecimen {
-    fn cover(
-        &self,
-        triangle: &RealTriangle,
-        bounds: PixelRect,
-        emit: &mut dyn FnMut(Span),
-    ) -> Result<(), Refused> {
-        with_specimen!(self, specimen => specimen.cover(triangle, bounds, emit))
-    }
-
-    fn fragments(
-        &self,
-        triangle: &RealTriangle,
-        bounds: PixelRect,
-        emit: &mut dyn FnMut(Fragment<DVec2>),
-    ) -> Result<(), Refused> {
-        with_specimen!(self, specimen => specimen.fragments(triangle, bounds, emit))
-    }
-}
-
-/// A published line drawer with its faults.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LineSpecimen {
-    BookDda,
-    /// The Bresenham of SYSU assignment 2.
-    SysuBresenham,
-}
-
-impl PublishedLine for LineSpecimen {
-    fn draw(
-        &self,
-        ends_px: [[f64; 2]; 2],
-        bounds: PixelRect,
-        emit: &mut dyn FnMut(i32, i32),
-    ) -> Result<(), Refused> {
-        match self {
-            Self::BookDda => BookDda.draw(ends_px, bounds, emit),
-            Self::SysuBresenham => SysuBresenham.draw(ends_px, bounds, emit),
-        }
-    }
+    Triangle(&'static dyn Published),
+    Line(&'static dyn PublishedLine),
 }
 
 /// What a name stands for: some engines rasterize, some draw lines, the oracle does both.
@@ -663,92 +485,93 @@ const fn exact(name: &'static str, engine: ExactEngine, about: &'static str) -> 
     }
 }
 
-const fn triangle_specimen(
-    name: &'static str,
-    about: &'static str,
-    specimen: TriangleSpecimen,
-) -> Entry {
-    let specimen = Some(Specimen::Triangle(specimen));
-    Entry { name, about, engine: None, line_engine: None, exact_engine: None, specimen }
-}
-
-const fn line_specimen(name: &'static str, about: &'static str, specimen: LineSpecimen) -> Entry {
-    let specimen = Some(Specimen::Line(specimen));
-    Entry { name, about, engine: None, line_engine: None, exact_engine: None, specimen }
+const fn specimen(name: &'static str, about: &'static str, specimen: Specimen) -> Entry {
+    Entry {
+        name,
+        about,
+        engine: None,
+        line_engine: None,
+        exact_engine: None,
+        specimen: Some(specimen),
+    }
 }
 
 /// Every specimen that speaks the line protocol; they take positions as they are given.
 pub const SPECIMENS: [Entry; 15] = [
-    triangle_specimen(
+    specimen(
         "book-ch2",
         "specimen: the book's DrawTriangle2D, section 2.2",
-        TriangleSpecimen::BookChapter2,
+        Specimen::Triangle(&BookChapter2),
     ),
-    triangle_specimen(
+    specimen(
         "book-ch3",
         "specimen: the same without its clamp, with values, section 3.2",
-        TriangleSpecimen::BookChapter3,
+        Specimen::Triangle(&BookChapter3),
     ),
-    triangle_specimen(
+    specimen(
         "book-affine",
         "specimen: the same on projected corners, section 5.3",
-        TriangleSpecimen::BookAffine,
+        Specimen::Triangle(&BookAffine),
     ),
-    triangle_specimen(
+    specimen(
         "book-ch6",
         "specimen: the book's triangle with w as its depth, chapter 6",
-        TriangleSpecimen::BookChapter6,
+        Specimen::Triangle(&BookDepth::Chapter6),
     ),
-    triangle_specimen(
+    specimen(
         "book-ch7",
         "specimen: the same with -1/w as its depth, chapter 7",
-        TriangleSpecimen::BookChapter7,
+        Specimen::Triangle(&BookDepth::Chapter7),
     ),
-    triangle_specimen(
+    specimen(
         "book-ch11",
         "specimen: the book's final DrawTriangle, chapter 11",
-        TriangleSpecimen::BookChapter11,
+        Specimen::Triangle(&BookFinal { exercise: false }),
     ),
-    triangle_specimen(
+    specimen(
         "book-ch11-fixed",
         "specimen: the same after the exercise of section 11.4",
-        TriangleSpecimen::BookChapter11Fixed,
+        Specimen::Triangle(&BookFinal { exercise: true }),
     ),
-    triangle_specimen(
+    specimen(
         "games101-strict",
         "specimen: GAMES101 homework 2, strict inside test",
-        TriangleSpecimen::Games101Strict,
+        Specimen::Triangle(&Games101Strict { whole_samples: false, true_w: false }),
     ),
-    triangle_specimen(
+    specimen(
         "games101-int",
         "specimen: the same with sample positions through an int",
-        TriangleSpecimen::Games101Int,
+        Specimen::Triangle(&Games101Strict { whole_samples: true, true_w: false }),
     ),
-    triangle_specimen(
+    specimen(
         "games101-depth",
         "specimen: the same with the true w put back, depth included",
-        TriangleSpecimen::Games101Depth,
+        Specimen::Triangle(&Games101Strict { whole_samples: false, true_w: true }),
     ),
-    triangle_specimen(
+    specimen(
         "sysu-inclusive",
         "specimen: SYSU assignment 2, inclusive integer edge functions",
-        TriangleSpecimen::SysuInclusive,
+        Specimen::Triangle(&SysuInclusive),
     ),
-    triangle_specimen(
+    specimen(
         "sysu-weights",
         "specimen: the same with weights in the wrong order",
-        TriangleSpecimen::SysuWeights,
+        Specimen::Triangle(&SysuWeights),
     ),
-    triangle_specimen(
+    specimen(
         "sysu-truncated",
         "specimen: the same with positions truncated",
-        TriangleSpecimen::SysuTruncated,
+        Specimen::Triangle(&SysuTruncated),
     ),
-    line_specimen("book-dda", "specimen: the book's DrawLine, section 2.1", LineSpecimen::BookDda),
-    line_specimen(
+    specimen(
+        "book-dda",
+        "specimen: the book's DrawLine, section 2.1",
+        Specimen::Line(&BookDda),
+    ),
+    specimen(
         "sysu-bresenham",
         "specimen: SYSU assignment 2, Bresenham",
-        LineSpecimen::SysuBresenham,
+        Specimen::Line(&SysuBresenham),
     ),
 ];
 

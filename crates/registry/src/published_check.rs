@@ -10,7 +10,7 @@
 use glam::DVec2;
 use serde::Serialize;
 
-use crate::engines::{self, LineSpecimen, Specimen, TriangleSpecimen};
+use crate::engines::{self, Specimen};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::{DrawLine as _, Rasterize as _, RasterizeExact as _};
 use rasterproof_core::frame::Coverage;
@@ -22,7 +22,7 @@ use rasterproof_faults::published::catalogue::{
 };
 use rasterproof_faults::published::scene::{Image, Setting, Version};
 use rasterproof_faults::published::{
-    Published as _, PublishedLine as _, RealTriangle, RealVertex, bare, from_screen,
+    Published, PublishedLine, RealTriangle, RealVertex, bare, from_screen,
 };
 use rasterproof_verify::cases::named::plain_line;
 use rasterproof_verify::cases::{self, Case, Family, Line, Shape, Triangle};
@@ -38,7 +38,6 @@ pub struct Counts {
     pub shapes: u64,
     /// Those with a wrong pixel or a wrong value.
     pub wrong: u64,
-    /// Those with a wrong pixel.
     pub wrong_pixels: u64,
     /// Those with a wrong value at a pixel that they cover.
     pub wrong_values: u64,
@@ -102,7 +101,6 @@ pub struct SpecimenReport {
     pub cure: &'static str,
     /// The case that exposes it, and what it shows there.
     pub case: &'static str,
-    /// Pixels that are wrong in that case.
     pub case_wrong: u64,
     /// Pixels that are wrong in the harmless case.
     pub harmless_wrong: u64,
@@ -176,7 +174,6 @@ fn over(
     families.iter().map(|family| (family.name, counts(family))).collect()
 }
 
-/// The exposing case's name.
 #[must_use]
 pub fn exposing_name(card: &Card) -> &'static str {
     match &card.exhibit {
@@ -251,8 +248,7 @@ pub fn free_truth(triangles: &[RealTriangle], window: PixelRect) -> Coverage {
     hits
 }
 
-/// Judges a card's triangles one by one.
-fn judge_case(specimen: TriangleSpecimen, case: &TriangleCase) -> Counts {
+fn judge_case(specimen: &dyn Published, case: &TriangleCase) -> Counts {
     let window = PixelRect::window(case.side_px, case.side_px);
     judge_free(specimen, &real_triangles(case), window)
 }
@@ -270,7 +266,7 @@ pub fn judge_recorded(case: &RecordedCase) -> Counts {
     }
 }
 
-fn judge_free(specimen: TriangleSpecimen, triangles: &[RealTriangle], window: PixelRect) -> Counts {
+fn judge_free(specimen: &dyn Published, triangles: &[RealTriangle], window: PixelRect) -> Counts {
     let one = |triangle: &RealTriangle| {
         let truth = free_truth(std::slice::from_ref(triangle), window);
         judge(specimen, triangle, on_lattice(triangle).as_ref(), window, &truth)
@@ -292,7 +288,7 @@ pub fn line_case(case: &LineCase) -> Case {
 /// # Errors
 /// What it refuses, or the message of its panic.
 pub fn specimen_coverage(
-    specimen: TriangleSpecimen,
+    specimen: &dyn Published,
     list: &[RealTriangle],
     window: PixelRect,
 ) -> Result<Coverage, String> {
@@ -308,11 +304,8 @@ pub fn specimen_coverage(
 }
 
 /// Hits of a line specimen.
-///
-/// # Errors
-/// What it refuses, or the message of its panic.
 pub fn specimen_line_coverage(
-    specimen: LineSpecimen,
+    specimen: &dyn PublishedLine,
     line: &Line,
     window: PixelRect,
 ) -> Result<Coverage, String> {
@@ -327,7 +320,7 @@ pub fn specimen_line_coverage(
     })?
 }
 
-fn triangles(specimen: TriangleSpecimen, case: &Case) -> Counts {
+fn triangles(specimen: &dyn Published, case: &Case) -> Counts {
     let Shape::Triangles { list, disjoint } = &case.shape else { return Counts::default() };
     let one = |triangle: &Triangle| {
         let mut truth = Coverage::new(case.window, 0);
@@ -342,7 +335,7 @@ fn triangles(specimen: TriangleSpecimen, case: &Case) -> Counts {
 }
 
 /// Pixels of each triangle alone, less those of all together; none where one is refused.
-fn shared(specimen: TriangleSpecimen, list: &[Triangle], window: PixelRect) -> u64 {
+fn shared(specimen: &dyn Published, list: &[Triangle], window: PixelRect) -> u64 {
     let mesh: Vec<RealTriangle> = list.iter().map(from_screen).collect();
     let Ok(together) = specimen_coverage(specimen, &mesh, window) else { return 0 };
     let alone = |t: &RealTriangle| specimen_coverage(specimen, std::slice::from_ref(t), window);
@@ -352,7 +345,7 @@ fn shared(specimen: TriangleSpecimen, list: &[Triangle], window: PixelRect) -> u
 
 /// Compares hits with the truth, and values where the triangle lies on the lattice.
 fn judge(
-    specimen: TriangleSpecimen,
+    specimen: &dyn Published,
     triangle: &RealTriangle,
     on_lattice: Option<&Triangle>,
     window: PixelRect,
@@ -377,7 +370,7 @@ fn judge(
 /// Worst errors of attribute and depth at pixels that the triangle really covers, as fractions of
 /// the spread of the corner values.
 fn values(
-    specimen: TriangleSpecimen,
+    specimen: &dyn Published,
     triangle: &Triangle,
     window: PixelRect,
     truth: &Coverage,
@@ -401,9 +394,9 @@ fn values(
     for f in drawn.iter().step_by(drawn.len().div_ceil(COMPARED).max(1)) {
         let (exact_depth, [a, b]) = exact.at(f.x_px, f.y_px);
         // Chapter 6 compares w, which is linear in space and not on the screen.
-        let is_w = specimen == TriangleSpecimen::BookChapter6;
+        let is_w = specimen.compares_w();
         let exact_depth = if is_w { exact_w.at(f.x_px, f.y_px).1[0].clone() } else { exact_depth };
-        if specimen != TriangleSpecimen::BookChapter6 {
+        if !is_w {
             attribute =
                 worse(attribute, a.distance(f.varying.x) / spread(attributes.map_array(|a| a[0])));
             attribute =
@@ -421,7 +414,7 @@ fn spread(values: [f64; 3]) -> f64 {
     if high > low { high - low } else { high.abs().max(f64::MIN_POSITIVE) }
 }
 
-fn lines(specimen: LineSpecimen, case: &Case) -> Counts {
+fn lines(specimen: &dyn PublishedLine, case: &Case) -> Counts {
     let Shape::Lines(list) = &case.shape else { return Counts::default() };
     let one = |line: &Line| {
         let mut truth = Coverage::new(case.window, 0);

@@ -78,9 +78,6 @@ const BAND_SAMPLES: u64 = 1 << 16;
 const MOST_RIVALS: usize = 1 << 19;
 
 /// Finds the ties in two frames of one scene, in targets of the same kind.
-///
-/// # Errors
-/// [`BadScene`].
 pub fn find(scene: &Scene, frames: [Drawn<'_>; 2]) -> Result<Ties, BadScene> {
     let target = frames[0].target;
     let rivals = Rivals::new(scene, target)?;

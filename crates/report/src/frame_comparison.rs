@@ -25,9 +25,6 @@ pub fn rgb(picture: &Frame<Colour>) -> RgbImage {
 }
 
 /// A frame as a PNG.
-///
-/// # Errors
-/// Where the encoder fails.
 pub fn png(picture: &Frame<Colour>) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     rgb(picture)

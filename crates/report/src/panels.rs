@@ -48,7 +48,6 @@ pub struct Panel {
     pub at: [u32; 2],
     /// Picture pixels of a pixel's side.
     pub zoom: u32,
-    /// Pixels of the case that are shown.
     pub shown: PixelRect,
 }
 

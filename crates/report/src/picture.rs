@@ -114,9 +114,6 @@ pub fn stack(pictures: &[RgbImage]) -> RgbImage {
 }
 
 /// The picture as a PNG file's bytes, with a palette where it has at most 256 colours.
-///
-/// # Panics
-/// Never: writing to memory does not fail.
 #[must_use]
 pub fn png(image: &RgbImage) -> Vec<u8> {
     encoded(image, None)

@@ -19,8 +19,8 @@ use rasterproof_core::raster::edge_function::EdgeFunction;
 use rasterproof_core::triangle::{Fragment, LineEnd, PixelPoint};
 use rasterproof_faults::published::catalogue::{CARDS, Card, Exhibit, TriangleCase};
 use rasterproof_faults::published::scene::{BLACK, Colour, Image, Setting, Version};
-use rasterproof_faults::published::{Published as _, RealTriangle};
-use rasterproof_registry::engines::{self, LineSpecimen, Specimen, TriangleSpecimen};
+use rasterproof_faults::published::{Published, PublishedLine, RealTriangle};
+use rasterproof_registry::engines::{self, Specimen};
 use rasterproof_registry::published_check::{
     free_truth, line_case, on_lattice, real_triangles, specimen_coverage, specimen_line_coverage,
 };
@@ -334,7 +334,7 @@ fn versions(card: &Card) -> Option<Panels> {
             has_values: false,
         },
         (Exhibit::Triangles([case, _]), Some(Specimen::Triangle(specimen))) => {
-            triangle_panels(specimen, case)
+            triangle_panels(card.name, specimen, case)
         }
         (Exhibit::Lines([case, _]), Some(Specimen::Line(specimen))) => {
             line_panels(specimen, &line_case(case))?
@@ -358,7 +358,7 @@ fn hits_image(hits: &Coverage) -> Image {
     image
 }
 
-fn line_panels(specimen: LineSpecimen, case: &Case) -> Option<Panels> {
+fn line_panels(specimen: &dyn PublishedLine, case: &Case) -> Option<Panels> {
     let Shape::Lines(lines) = &case.shape else { return None };
     let mut truth = Coverage::new(case.window, 0);
     Oracle.draw(&lines[0], case.window, |f| truth.hit(f.y_px, f.x_px, f.x_px + 1));
@@ -374,13 +374,15 @@ fn line_panels(specimen: LineSpecimen, case: &Case) -> Option<Panels> {
     })
 }
 
-fn triangle_panels(specimen: TriangleSpecimen, case: &TriangleCase) -> Panels {
+fn triangle_panels(name: &str, specimen: &dyn Published, case: &TriangleCase) -> Panels {
     let window = PixelRect::window(case.side_px, case.side_px);
     let triangles = real_triangles(case);
     let shows_values = case.values[0] != case.values[1] || case.values[1] != case.values[2];
     let has_values = shows_values && specimen.has_values();
     let (published, repaired) = if has_values {
-        value_images(specimen, &triangles, window)
+        // The faults of these show in their depths.
+        let by_depth = matches!(name, "book-ch6" | "book-ch7" | "book-ch11-fixed");
+        value_images(specimen, by_depth, &triangles, window)
     } else {
         let hits = specimen_coverage(specimen, &triangles, window);
         let hits = hits.unwrap_or_else(|_| Coverage::new(window, 0));
@@ -407,16 +409,11 @@ fn shade(value: f64) -> Colour {
 
 /// The attribute, or the depth stretched so that the corners' range is 0 to 1, in colours.
 fn value_images(
-    specimen: TriangleSpecimen,
+    specimen: &dyn Published,
+    by_depth: bool,
     triangles: &[RealTriangle],
     window: PixelRect,
 ) -> (Image, Image) {
-    let by_depth = matches!(
-        specimen,
-        TriangleSpecimen::BookChapter6
-            | TriangleSpecimen::BookChapter7
-            | TriangleSpecimen::BookChapter11Fixed
-    );
     let depths = triangles.iter().flatten().map(|v| specimen.depth_of(v.depth, v.w));
     let low = depths.clone().fold(f64::INFINITY, f64::min);
     let high = depths.fold(f64::NEG_INFINITY, f64::max);
@@ -435,13 +432,13 @@ fn value_images(
         for v in &mut of_depth.vertices {
             let depth = specimen.depth_of(v.depth, 1.0 / v.inv_w);
             // Chapter 6 compares w, which is an attribute and not linear on the screen.
-            if specimen == TriangleSpecimen::BookChapter6 {
+            if specimen.compares_w() {
                 v.varying = DVec2::splat(depth);
             }
             v.depth = depth;
         }
         EdgeFunction.fragments(&of_depth, window, |mut f| {
-            if specimen == TriangleSpecimen::BookChapter6 {
+            if specimen.compares_w() {
                 f.depth = f.varying.x;
             }
             put(&mut repaired, &f);

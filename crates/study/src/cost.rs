@@ -85,14 +85,12 @@ pub struct Group {
 }
 
 impl Group {
-    /// The cheapest choice that is exact by a measure.
     #[must_use]
     pub fn cheapest_exact(&self, measure: usize) -> Option<usize> {
         let goal = self.measures.get(measure)?.goal?;
         self.cheapest(&|choice| choice.errors[measure].is_some_and(|error| error <= goal))
     }
 
-    /// The cheapest choice of all.
     #[must_use]
     pub fn cheapest(&self, filter: &dyn Fn(&Choice) -> bool) -> Option<usize> {
         let median = |choice: &Choice| choice.time.map(|time| time.median);
@@ -126,9 +124,6 @@ impl Effort {
 }
 
 /// The costs of a scene in a view. `progress` gets the share done and a word about it.
-///
-/// # Errors
-/// [`BadScene`].
 pub fn measure(
     scene: &Scene,
     pieces: &[Piece],

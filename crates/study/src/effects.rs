@@ -64,9 +64,6 @@ pub const FAR: u8 = 16;
 const FINE: f64 = 1.25;
 
 /// Finds out what a scene calls for; `seen` says which piece is seen at each pixel.
-///
-/// # Errors
-/// [`BadScene`].
 pub fn survey(
     scene: &Scene,
     origins: &[Origin],

@@ -128,7 +128,6 @@ pub struct HardCases {
     pub cases: Vec<HardCase>,
     /// For each pixel which kinds touch it, as bits.
     touched: Frame<u16>,
-    /// The picture as it is drawn.
     pub picture: Frame<Colour>,
     /// For each triangle of the scene which kinds it is of, as bits.
     marks: Vec<u16>,
@@ -159,9 +158,6 @@ impl HardCases {
 const WIDE_W: f64 = (1 << 24) as f64 / (8.0 * 512.0);
 
 /// Finds the hard cases of a scene as `target` shows it. It is drawn into `target`.
-///
-/// # Errors
-/// [`BadScene`].
 pub fn find(
     scene: &Scene,
     origins: &[Origin],

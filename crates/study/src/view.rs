@@ -19,7 +19,6 @@ use rasterproof_render::scene::Scene;
 pub struct Piece {
     /// Which triangle of the scene, from 0 in drawing order.
     pub face: u32,
-    /// Its item.
     pub item: u32,
     /// Its corners in pixels, not snapped.
     pub px: [[f64; 2]; 3],
@@ -45,9 +44,6 @@ impl Piece {
 }
 
 /// The pieces of a scene in drawing order, culled as the scene asks.
-///
-/// # Errors
-/// [`BadScene`].
 pub fn pieces(scene: &Scene, window: PixelRect) -> Result<Vec<Piece>, BadScene> {
     let (width, height) = (f64::from(window.width()), f64::from(window.height()));
     let viewport = Viewport::new(window);

@@ -7,11 +7,11 @@ use rasterproof_convention::{
 use rasterproof_core::contract::Rasterize;
 use rasterproof_core::frame::Coverage;
 use rasterproof_faults::published::{Published, from_lattice};
-use rasterproof_registry::engines::{self, Specimen, TriangleSpecimen};
+use rasterproof_registry::engines::{self, Specimen};
 use rasterproof_verify::cases::{self, Shape};
 use rasterproof_verify::oracle::Oracle;
 
-struct InProcess(TriangleSpecimen);
+struct InProcess(&'static dyn Published);
 
 impl Ask for InProcess {
     fn ask(&mut self, questions: &[Question]) -> Vec<Option<Coverage>> {

@@ -13,53 +13,19 @@ use rasterproof_core::raster::edge_function_exact::EdgeFunctionExact;
 use rasterproof_core::raster::scanline::Scanline;
 use rasterproof_core::triangle::{FreeCorners, Span};
 
-/// An engine off the lattice with a planted fault.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ExactMutant {
-    /// The sign of E as f64 computes it, without a filter.
-    PlainF64,
-    /// The same in f32.
-    PlainF32,
-    /// A filter a thousand times too small before the exact sign.
-    FilterTooSmall,
-    /// Crossings as f64 computes them, without a fallback.
-    PlainCrossing,
-    /// Corners are snapped to 1/256 px first.
-    SnapsInside,
-    /// Subnormal and other tiny coordinates count as zero.
-    FlushesToZero,
-    /// Samples on any edge belong.
-    InclusiveTies,
-    /// Bottom and right edges belong instead of top and left ones.
-    BottomRightTies,
-}
-
-impl ExactMutant {
-    /// Every mutant.
-    pub const ALL: [Self; 8] = [
-        Self::PlainF64,
-        Self::PlainF32,
-        Self::FilterTooSmall,
-        Self::PlainCrossing,
-        Self::SnapsInside,
-        Self::FlushesToZero,
-        Self::InclusiveTies,
-        Self::BottomRightTies,
-    ];
-
-    /// Its name for `--plant`.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::PlainF64 => "exact-plain-f64",
-            Self::PlainF32 => "exact-plain-f32",
-            Self::FilterTooSmall => "exact-filter-too-small",
-            Self::PlainCrossing => "exact-plain-crossing",
-            Self::SnapsInside => "exact-snaps-inside",
-            Self::FlushesToZero => "exact-flushes-to-zero",
-            Self::InclusiveTies => "exact-inclusive-ties",
-            Self::BottomRightTies => "exact-bottom-right-ties",
-        }
+planted! {
+    /// An engine off the lattice with a planted fault.
+    ExactMutant {
+        PlainF64 "exact-plain-f64":
+            "not snapped: the sign of E as f64 computes it, without a filter",
+        PlainF32 "exact-plain-f32": "not snapped: the same in f32",
+        FilterTooSmall "exact-filter-too-small": "not snapped: a filter a thousand times too small",
+        PlainCrossing "exact-plain-crossing":
+            "not snapped: crossings as f64 computes them, no fallback",
+        SnapsInside "exact-snaps-inside": "not snapped: corners are snapped to 1/256 px after all",
+        FlushesToZero "exact-flushes-to-zero": "not snapped: tiny coordinates count as zero",
+        InclusiveTies "exact-inclusive-ties": "not snapped: samples on any edge belong",
+        BottomRightTies "exact-bottom-right-ties": "not snapped: bottom and right edges belong",
     }
 }
 

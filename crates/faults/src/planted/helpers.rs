@@ -10,39 +10,19 @@ use rasterproof_core::raster::edge_function::{WordWidth, edge_values};
 use rasterproof_core::triangle::Corners;
 use rasterproof_verify::cases::{Case, Family, Shape, families};
 
-/// A snapping function with a planted fault.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SnapMutant {
-    /// `(int)`: truncates.
-    Truncates,
-    /// Ties go away from zero (`round`), so they depend on the side of zero.
-    HalfAway,
-    /// Ties go up (`floor(x + 1/2)`).
-    HalfUp,
-    /// Sixteen subpixels a pixel instead of 256.
-    Coarse,
-    /// Coordinates outside the domain are moved to its edge instead of being refused.
-    Saturates,
+planted! {
+    /// A snapping function with a planted fault.
+    SnapMutant {
+        Truncates "snap-truncates": "snapping truncates: (int)",
+        HalfAway "snap-half-away": "halves are snapped away from zero, so they depend on its side",
+        HalfUp "snap-half-up": "halves are snapped upwards",
+        Coarse "snap-coarse": "sixteen subpixels a pixel instead of 256",
+        Saturates "snap-saturates":
+            "what lies outside the domain is moved to its edge, not refused",
+    }
 }
 
 impl SnapMutant {
-    /// Every mutant.
-    pub const ALL: [Self; 5] =
-        [Self::Truncates, Self::HalfAway, Self::HalfUp, Self::Coarse, Self::Saturates];
-
-    /// Its name for `--plant`.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Truncates => "snap-truncates",
-            Self::HalfAway => "snap-half-away",
-            Self::HalfUp => "snap-half-up",
-            Self::Coarse => "snap-coarse",
-            Self::Saturates => "snap-saturates",
-        }
-    }
-
-    /// The faulty function.
     #[must_use]
     pub fn function(self) -> fn(f64) -> Result<i32, Refusal> {
         // The real one refuses what it must; the answer is then replaced.
@@ -59,29 +39,16 @@ impl SnapMutant {
     }
 }
 
-/// Edge functions with a planted fault.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum EdgeValuesMutant {
-    /// The third one is evaluated a column further on.
-    ThirdOffByOne,
-    /// They come out in 32 bits.
-    WrapInI32,
+planted! {
+    /// Edge functions with a planted fault.
+    EdgeValuesMutant {
+        ThirdOffByOne "edges-third-off-by-one":
+            "the third edge function is evaluated a column further on",
+        WrapInI32 "edges-wrap-in-i32": "edge functions come out in 32 bits",
+    }
 }
 
 impl EdgeValuesMutant {
-    /// Every mutant.
-    pub const ALL: [Self; 2] = [Self::ThirdOffByOne, Self::WrapInI32];
-
-    /// Its name for `--plant`.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::ThirdOffByOne => "edges-third-off-by-one",
-            Self::WrapInI32 => "edges-wrap-in-i32",
-        }
-    }
-
-    /// The faulty function.
     #[must_use]
     pub fn function(self) -> fn(&Corners, i32, i32) -> [i128; 3] {
         match self {
@@ -96,29 +63,16 @@ impl EdgeValuesMutant {
     }
 }
 
-/// A choice of words with a planted fault.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum WordWidthMutant {
-    /// Forgets the step past the end of the box.
-    NoMargin,
-    /// Never takes 128 bits.
-    AtMost64,
+planted! {
+    /// A choice of words with a planted fault.
+    WordWidthMutant {
+        NoMargin "word-without-margin":
+            "the choice of a word forgets the step past the end of the box",
+        AtMost64 "word-at-most-64": "the choice of a word never takes 128 bits",
+    }
 }
 
 impl WordWidthMutant {
-    /// Every mutant.
-    pub const ALL: [Self; 2] = [Self::NoMargin, Self::AtMost64];
-
-    /// Its name for `--plant`.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::NoMargin => "word-without-margin",
-            Self::AtMost64 => "word-at-most-64",
-        }
-    }
-
-    /// The faulty function.
     #[must_use]
     pub fn function(self) -> fn(u32, u32) -> WordWidth {
         match self {
@@ -135,29 +89,15 @@ impl WordWidthMutant {
     }
 }
 
-/// A source of cases with a planted fault.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SourceMutant {
-    /// Every family draws its triangles uniformly.
-    UniformOnly,
-    /// A case depends on how many were made before.
-    Counts,
+planted! {
+    /// A source of cases with a planted fault.
+    SourceMutant {
+        UniformOnly "source-uniform-only": "of the cases: every family draws triangles uniformly",
+        Counts "source-counts": "of the cases: one depends on how many were made before",
+    }
 }
 
 impl SourceMutant {
-    /// Every mutant.
-    pub const ALL: [Self; 2] = [Self::UniformOnly, Self::Counts];
-
-    /// Its name for `--plant`.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::UniformOnly => "source-uniform-only",
-            Self::Counts => "source-counts",
-        }
-    }
-
-    /// The faulty function.
     #[must_use]
     pub fn function(self) -> fn(&Family, u64, u64) -> Case {
         match self {
@@ -178,28 +118,16 @@ impl SourceMutant {
     }
 }
 
-/// A judge of coverage with a planted fault.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum JudgeMutant {
-    /// Agrees where less than one pixel in ten thousand is wrong.
-    ForgivesAFew,
-    /// Agrees where the peak signal-to-noise ratio of the two pictures is 40 dB or more.
-    GatesOnPsnr,
+planted! {
+    /// A judge of coverage with a planted fault.
+    JudgeMutant {
+        ForgivesAFew "judge-forgives-a-few":
+            "a judge: agrees where fewer than one pixel in 10,000 is wrong",
+        GatesOnPsnr "judge-gates-on-psnr": "a judge: agrees from 40 dB of peak signal to noise",
+    }
 }
 
 impl JudgeMutant {
-    /// Every mutant.
-    pub const ALL: [Self; 2] = [Self::ForgivesAFew, Self::GatesOnPsnr];
-
-    /// Its name for `--plant`.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::ForgivesAFew => "judge-forgives-a-few",
-            Self::GatesOnPsnr => "judge-gates-on-psnr",
-        }
-    }
-
     /// The faulty function: whether the first coverage agrees with the second.
     #[must_use]
     pub fn function(self) -> fn(&Coverage, &Coverage) -> bool {
@@ -217,7 +145,6 @@ impl JudgeMutant {
     }
 }
 
-/// Pixels that differ, and all.
 fn wrong_pixels(actual: &Coverage, target: &Coverage) -> [u64; 2] {
     let pixels = actual.rows().zip(target.rows()).flat_map(|((_, a), (_, b))| a.iter().zip(b));
     pixels.fold([0, 0], |[wrong, all], (a, b)| [wrong + u64::from(a != b), all + 1])

@@ -5,57 +5,20 @@ use rasterproof_core::grid::PixelRect;
 use rasterproof_core::line::bresenham::Bresenham;
 use rasterproof_core::triangle::{Fragment, PixelPoint, ScreenLine, Varying};
 
-/// A line drawer with a planted fault.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LineMutant {
-    /// The last pixel is missing (the book's DrawLine).
-    MissesEnd,
-    /// A tie is decided by the drawing direction.
-    DirectedTies,
-    /// The height accumulates in f32 and is rounded.
-    DriftsInF32,
-    /// The height is truncated instead of rounded.
-    Truncates,
-    /// Attributes count from the clipped start of the line.
-    WeightsFromClip,
-    /// Pixels come out from the second end to the first.
-    DrawsBackwards,
-    /// In steep octants a tie goes the other way.
-    SteepTiesFlipped,
-    /// A step along the minor axis is a pixel of its own.
-    FourConnected,
-    /// What lies inside the window is drawn as a line between its first and last pixel.
-    RestartsAtBorder,
-}
-
-impl LineMutant {
-    /// Every mutant.
-    pub const ALL: [Self; 9] = [
-        Self::MissesEnd,
-        Self::DirectedTies,
-        Self::DriftsInF32,
-        Self::Truncates,
-        Self::WeightsFromClip,
-        Self::DrawsBackwards,
-        Self::SteepTiesFlipped,
-        Self::FourConnected,
-        Self::RestartsAtBorder,
-    ];
-
-    /// Its name for `--plant`.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::MissesEnd => "line-misses-end",
-            Self::DirectedTies => "line-directed-ties",
-            Self::DriftsInF32 => "line-drifts-in-f32",
-            Self::Truncates => "line-truncates",
-            Self::WeightsFromClip => "line-weights-from-clip",
-            Self::DrawsBackwards => "line-draws-backwards",
-            Self::SteepTiesFlipped => "line-steep-ties-flipped",
-            Self::FourConnected => "line-four-connected",
-            Self::RestartsAtBorder => "line-restarts-at-border",
-        }
+planted! {
+    /// A line drawer with a planted fault.
+    LineMutant {
+        MissesEnd "line-misses-end": "the last pixel of a line is missing (the book's DrawLine)",
+        DirectedTies "line-directed-ties": "a tie is decided by the drawing direction",
+        DriftsInF32 "line-drifts-in-f32": "the height accumulates in f32",
+        Truncates "line-truncates": "the height is truncated instead of rounded",
+        WeightsFromClip "line-weights-from-clip":
+            "attributes count from the clipped start of the line",
+        DrawsBackwards "line-draws-backwards": "pixels come out from the second end to the first",
+        SteepTiesFlipped "line-steep-ties-flipped": "in steep octants a tie goes the other way",
+        FourConnected "line-four-connected": "a step along the minor axis is a pixel of its own",
+        RestartsAtBorder "line-restarts-at-border":
+            "the part inside the window is drawn as a line of its own",
     }
 }
 

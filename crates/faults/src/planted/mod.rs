@@ -4,7 +4,38 @@
 //! engine. Reached by the hidden option `--plant NAME`, by `rasterproof mutants`, which asks every
 //! invariant about every mutant, and by the tests.
 
-pub mod about;
+/// Declares a kind of planted fault from its table: each fault with its name for `--plant` and, in a sentence, what is wrong.
+macro_rules! planted {
+    ($(#[$about:meta])* $kind:ident { $($fault:ident $name:literal: $sentence:literal,)+ }) => {
+        $(#[$about])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum $kind {
+            $(#[doc = $sentence] $fault,)+
+        }
+
+        impl $kind {
+            /// In the order of the table.
+            pub const ALL: [Self; [$($name),+].len()] = [$(Self::$fault),+];
+
+            /// Its name for `--plant`.
+            #[must_use]
+            pub fn name(self) -> &'static str {
+                match self {
+                    $(Self::$fault => $name,)+
+                }
+            }
+
+            /// What is wrong, in a sentence.
+            #[must_use]
+            pub fn about(self) -> &'static str {
+                match self {
+                    $(Self::$fault => $sentence,)+
+                }
+            }
+        }
+    };
+}
+
 pub mod exact;
 mod helpers;
 mod lines;
@@ -13,6 +44,7 @@ mod pipeline;
 mod tiles;
 mod triangles;
 
+use exact::ExactMutant;
 pub use helpers::{EdgeValuesMutant, JudgeMutant, SnapMutant, SourceMutant, WordWidthMutant};
 pub use lines::LineMutant;
 pub use oracles::OracleMutant;
@@ -20,74 +52,80 @@ pub use pipeline::StageMutant;
 pub use tiles::TileMutant;
 pub use triangles::TriangleMutant;
 
-use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::Span;
 
-/// A mutant of any kind.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Mutant {
-    /// A rasterizer.
+/// Declares [`Mutant`] from the kinds of faults.
+macro_rules! kinds {
+    ($($kind:ident($mutant:ty),)+) => {
+        /// A mutant of any kind that invariants judge.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum Mutant {
+            $($kind($mutant),)+
+        }
+
+        impl Mutant {
+            /// Every mutant, engines first.
+            #[must_use]
+            pub fn all() -> Vec<Self> {
+                let mut all = Vec::new();
+                $(all.extend(<$mutant>::ALL.map(Self::$kind));)+
+                all
+            }
+
+            /// Its name for `--plant`.
+            #[must_use]
+            pub fn name(&self) -> &'static str {
+                match self {
+                    $(Self::$kind(mutant) => mutant.name(),)+
+                }
+            }
+
+            fn about(&self) -> &'static str {
+                match self {
+                    $(Self::$kind(mutant) => mutant.about(),)+
+                }
+            }
+        }
+    };
+}
+
+kinds! {
     Triangle(TriangleMutant),
-    /// A line drawer.
-    Line(LineMutant),
-    /// An oracle.
     Oracle(OracleMutant),
-    /// A way to snap.
     Snap(SnapMutant),
-    /// The three edge functions.
     EdgeValues(EdgeValuesMutant),
-    /// The choice of a word.
     WordWidth(WordWidthMutant),
-    /// A source of cases.
+    Line(LineMutant),
     Source(SourceMutant),
-    /// A stage of the pipeline.
     Stage(StageMutant),
-    /// A judge of coverage.
     Judge(JudgeMutant),
-    /// A tile engine.
     Tile(TileMutant),
 }
 
 impl Mutant {
-    /// Every mutant, engines first.
-    #[must_use]
-    pub fn all() -> Vec<Self> {
-        let mut all: Vec<Self> = TriangleMutant::ALL.map(Self::Triangle).to_vec();
-        all.extend(OracleMutant::ALL.map_array(Self::Oracle));
-        all.extend(SnapMutant::ALL.map(Self::Snap));
-        all.extend(EdgeValuesMutant::ALL.map_array(Self::EdgeValues));
-        all.extend(WordWidthMutant::ALL.map_array(Self::WordWidth));
-        all.extend(LineMutant::ALL.map(Self::Line));
-        all.extend(SourceMutant::ALL.map_array(Self::Source));
-        all.extend(StageMutant::ALL.map(Self::Stage));
-        all.extend(JudgeMutant::ALL.map_array(Self::Judge));
-        all.extend(TileMutant::ALL.map(Self::Tile));
-        all
-    }
-
-    /// The mutant of this name.
     #[must_use]
     pub fn find(name: &str) -> Option<Self> {
         Self::all().into_iter().find(|mutant| mutant.name() == name)
     }
+}
 
-    /// Its name for `--plant`.
-    #[must_use]
-    pub fn name(&self) -> &'static str {
-        match self {
-            Self::Triangle(mutant) => mutant.name(),
-            Self::Line(mutant) => mutant.name(),
-            Self::Oracle(mutant) => mutant.name(),
-            Self::Snap(mutant) => mutant.name(),
-            Self::EdgeValues(mutant) => mutant.name(),
-            Self::WordWidth(mutant) => mutant.name(),
-            Self::Source(mutant) => mutant.name(),
-            Self::Stage(mutant) => mutant.name(),
-            Self::Judge(mutant) => mutant.name(),
-            Self::Tile(mutant) => mutant.name(),
-        }
-    }
+/// The name and the sentence of every planted fault, engines first and those for corners that are not snapped last.
+pub fn all() -> impl Iterator<Item = (&'static str, &'static str)> {
+    let judged = Mutant::all().into_iter().map(|mutant| (mutant.name(), mutant.about()));
+    judged.chain(ExactMutant::ALL.into_iter().map(|mutant| (mutant.name(), mutant.about())))
+}
+
+/// What is wrong with the mutant of this name; nothing where there is none.
+#[must_use]
+pub fn about(name: &str) -> Option<&'static str> {
+    all().find(|(listed, _)| *listed == name).map(|(_, about)| about)
+}
+
+/// Names of all planted faults, for the command line.
+#[must_use]
+pub fn names() -> Vec<&'static str> {
+    all().map(|(name, _)| name).collect()
 }
 
 /// Emits each pixel of `rect`, as a span of its own, of which `inside(x, y)` is true.
@@ -98,5 +136,19 @@ fn each_sample(rect: PixelRect, inside: &dyn Fn(i32, i32) -> bool, emit: &mut dy
                 emit(Span { y_px, x0_px: x_px, x1_px: x_px + 1 });
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_name_is_of_one_mutant() {
+        let mut names = names();
+        names.sort_unstable();
+        let listed = names.len();
+        names.dedup();
+        assert_eq!(names.len(), listed);
     }
 }

@@ -6,31 +6,16 @@ use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::{Corners, Fragment, ScreenTriangle, Span, Varying};
 use rasterproof_verify::oracle::Oracle;
 
-/// An oracle with a planted fault.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum OracleMutant {
-    /// A crossing exactly at a sample is not left of it: right edges own.
-    TiesGoLeft,
-    /// Sides are the signs of A x + B y - C in f32.
-    PlanesInF32,
-    /// Values ignore w.
-    AffineValues,
+planted! {
+    /// An oracle with a planted fault.
+    OracleMutant {
+        TiesGoLeft "oracle-ties-go-left": "of an oracle: right edges own their samples",
+        PlanesInF32 "oracle-planes-in-f32": "of an oracle: sides are signs computed in f32",
+        AffineValues "oracle-affine-values": "of an oracle: values ignore w",
+    }
 }
 
 impl OracleMutant {
-    /// Every mutant.
-    pub const ALL: [Self; 3] = [Self::TiesGoLeft, Self::PlanesInF32, Self::AffineValues];
-
-    /// Its name for `--plant`.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::TiesGoLeft => "oracle-ties-go-left",
-            Self::PlanesInF32 => "oracle-planes-in-f32",
-            Self::AffineValues => "oracle-affine-values",
-        }
-    }
-
     /// Whether the edge from `upper` to `lower` crosses the row left of a sample, by this mutant.
     fn is_left(self, upper: SubpixelPoint, lower: SubpixelPoint, sample: SubpixelPoint) -> bool {
         let [ux, uy, lx, ly, sx, sy] =

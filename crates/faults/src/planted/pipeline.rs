@@ -10,27 +10,20 @@ use rasterproof_render::pipeline::ClipVertex;
 use rasterproof_render::pipeline::assemble::Cull;
 use rasterproof_render::pipeline::clip::{self, ClipPlane, Outcode};
 
-/// A stage with a planted fault.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum StageMutant {
-    /// The near plane is forgotten.
-    ForgetsNear,
-    /// A crossing is interpolated from the edge's start to its end, whichever is inside.
-    FromStartToEnd,
-    /// A crossing keeps the interpolated coordinate instead of the plane's.
-    NotAssigned,
-    /// The last vertex of the polygon is lost.
-    DropsLast,
-    /// Positions are divided by w on the way, inside or not.
-    DividesFirst,
-    /// Clockwise and counter-clockwise are mixed up.
-    CullSwapped,
-    /// The winding is asked of a float area with a threshold.
-    CullByFloatArea,
-    /// Every effect is paid for, whatever was asked.
-    EffectsIgnored,
-    /// The buffers are cleared, whatever was asked.
-    ClearsAlways,
+planted! {
+    /// A stage with a planted fault.
+    StageMutant {
+        ForgetsNear "clip-forgets-near": "clipping forgets the near plane",
+        FromStartToEnd "clip-from-start-to-end": "a crossing depends on the direction of its edge",
+        NotAssigned "clip-not-assigned":
+            "a crossing keeps its interpolated coordinate, not the plane's",
+        DropsLast "clip-drops-last": "clipping loses the last vertex of the polygon",
+        DividesFirst "clip-divides-first": "positions are divided by w before they are clipped",
+        CullSwapped "cull-swapped": "culling mixes up the two windings",
+        CullByFloatArea "cull-by-float-area": "culling asks a float area with a threshold",
+        EffectsIgnored "effects-ignored": "every effect is paid for, whatever was asked",
+        ClearsAlways "effects-clear-always": "buffers are cleared, whatever was asked",
+    }
 }
 
 type ClipStage = fn(&[ClipVertex<DVec2>; 3], Outcode) -> Vec<ClipVertex<DVec2>>;
@@ -38,35 +31,6 @@ type CullStage = fn(Cull, Corners) -> bool;
 type ChooseStage = fn(Effects) -> Effects;
 
 impl StageMutant {
-    /// Every mutant.
-    pub const ALL: [Self; 9] = [
-        Self::ForgetsNear,
-        Self::FromStartToEnd,
-        Self::NotAssigned,
-        Self::DropsLast,
-        Self::DividesFirst,
-        Self::CullSwapped,
-        Self::CullByFloatArea,
-        Self::EffectsIgnored,
-        Self::ClearsAlways,
-    ];
-
-    /// Its name for `--plant`.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::ForgetsNear => "clip-forgets-near",
-            Self::FromStartToEnd => "clip-from-start-to-end",
-            Self::NotAssigned => "clip-not-assigned",
-            Self::DropsLast => "clip-drops-last",
-            Self::DividesFirst => "clip-divides-first",
-            Self::CullSwapped => "cull-swapped",
-            Self::CullByFloatArea => "cull-by-float-area",
-            Self::EffectsIgnored => "effects-ignored",
-            Self::ClearsAlways => "effects-clear-always",
-        }
-    }
-
     /// Puts the fault in the place of the stage it belongs to.
     pub fn replace(self, clip: &mut ClipStage, culls: &mut CullStage, choose: &mut ChooseStage) {
         match self {

@@ -6,45 +6,22 @@ use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::Corners;
 use rasterproof_tiles::coverage::{CoverList, NARROW_EXTENT, Piece, SIDE_PX, Tile, Tiles};
 
-/// A tile engine with a planted fault.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum TileMutant {
-    /// Extents are compared after they wrapped around below zero: the widest triangles are taken
-    /// for the narrowest and set up in i32.
-    WrappedWidth,
-    /// The mask of columns ends one bit early.
-    MaskOffByOne,
-    /// A tile is rejected when none of its four corner pixels is covered.
-    WrongReject,
-    /// What is left over after the last full batch of sixteen is forgotten.
-    TailOfBatch,
-    /// Of a batch, the triangles that need wide words come last.
-    WideOnesLast,
+planted! {
+    /// A tile engine with a planted fault.
+    TileMutant {
+        WrappedWidth "tile-wrapped-width":
+            "lists: extents wrap around, and the widest triangles are set up in i32",
+        MaskOffByOne "tile-mask-off-by-one": "lists: the mask of columns ends one bit early",
+        WrongReject "tile-wrong-reject":
+            "lists: a tile is rejected when none of its corner pixels is covered",
+        TailOfBatch "tile-tail-of-batch":
+            "lists: what is left after the last full batch of sixteen is forgotten",
+        WideOnesLast "tile-wide-ones-last":
+            "lists: of a batch, triangles that need wide words come last",
+    }
 }
 
 impl TileMutant {
-    /// Every mutant.
-    pub const ALL: [Self; 5] = [
-        Self::WrappedWidth,
-        Self::MaskOffByOne,
-        Self::WrongReject,
-        Self::TailOfBatch,
-        Self::WideOnesLast,
-    ];
-
-    /// Its name for `--plant`.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::WrappedWidth => "tile-wrapped-width",
-            Self::MaskOffByOne => "tile-mask-off-by-one",
-            Self::WrongReject => "tile-wrong-reject",
-            Self::TailOfBatch => "tile-tail-of-batch",
-            Self::WideOnesLast => "tile-wide-ones-last",
-        }
-    }
-
-    /// A piece as this engine has it.
     fn spoilt(self, piece: Piece) -> Option<Piece> {
         let mut tile = match piece {
             Piece::Cell(cell) => cell.tile(),

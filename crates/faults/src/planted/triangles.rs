@@ -12,130 +12,45 @@ use rasterproof_core::raster::scanline::Scanline;
 use rasterproof_core::triangle::{Corners, Fragment, ScreenTriangle, ScreenVertex, Span, Varying};
 use rasterproof_render::pipeline::assemble::twice_area;
 
-/// A rasterizer with a planted fault.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum TriangleMutant {
-    /// Samples on any edge belong (SYSU assignment 2: `<= 0`).
-    InclusiveEdges,
-    /// Samples on no edge belong (GAMES101 homework 2: `> 0`).
-    ExclusiveEdges,
-    /// Bottom and right edges belong instead of top and left ones.
-    BottomRightRule,
-    /// Left edges belong, top edges do not.
-    LeftOnlyRule,
-    /// Samples lie half a subpixel-step off: at the pixel's corner plus 127/256.
-    SampleOffByOneSubpixel,
-    /// The first row of every triangle is lost.
-    DropsFirstRow,
-    /// The last pixel of long spans is drawn twice.
-    DoublesSpanEnd,
-    /// Counter-clockwise triangles are lost, as if culled.
-    CullsOneWinding,
-    /// Edge functions wrap around in 32 bits.
-    WrapsInI32,
-    /// The last two weights are swapped.
-    SwappedWeights,
-    /// Attributes are interpolated affinely, w ignored.
-    AffineAttributes,
-    /// The depth is interpolated perspective-correctly, as if it were an attribute.
-    PerspectiveDepth,
-    /// Values are taken at the pixel's corner instead of its centre.
-    ValuesAtCorner,
-    /// Values are rounded to f32 on the way.
-    ValuesThroughF32,
-    /// Panics on a flat bottom.
-    PanicsOnFlatBottom,
-    /// Draws one pixel outside the window.
-    LeavesWindow,
-    /// Samples on the edge that comes last belong, those on the others do not.
-    /// The rule follows the order of the vertices.
-    LastEdgeInclusive,
-    /// Columns are truncated towards zero instead of rounded down (`(int)` of a negative).
-    TruncatesTowardsZero,
-    /// A pixel in the middle of long spans is lost (the remainder of a vector loop).
-    HoleInLongRows,
-    /// The first column of every window but the leftmost is lost.
-    SeamBetweenTiles,
-    /// A triangle of zero area covers the samples it passes through.
-    FillsZeroArea,
-    /// Areas below half a pixel count as degenerate (the book's `abs(2A) < eps`).
-    RejectsThin,
-    /// The book's split vertex is computed, and rounded to the lattice.
-    SplitsAtRoundedPoint,
-    /// The book's `sx += dx` in f32.
-    StepsInF32,
-    /// Values are v0 l0 + v1 l1 + v2 l2 in the order the vertices came in.
-    NaiveBarycentric,
-    /// A small number keeps the division by w from failing.
-    EpsilonInDenominator,
-    /// 1/w is clamped to 1, as if nothing were nearer than the near plane.
-    ClampsInvW,
-}
-
-impl TriangleMutant {
-    /// Every mutant.
-    pub const ALL: [Self; 27] = [
-        Self::InclusiveEdges,
-        Self::ExclusiveEdges,
-        Self::BottomRightRule,
-        Self::LeftOnlyRule,
-        Self::SampleOffByOneSubpixel,
-        Self::DropsFirstRow,
-        Self::DoublesSpanEnd,
-        Self::CullsOneWinding,
-        Self::WrapsInI32,
-        Self::SwappedWeights,
-        Self::AffineAttributes,
-        Self::PerspectiveDepth,
-        Self::ValuesAtCorner,
-        Self::ValuesThroughF32,
-        Self::PanicsOnFlatBottom,
-        Self::LeavesWindow,
-        Self::LastEdgeInclusive,
-        Self::TruncatesTowardsZero,
-        Self::HoleInLongRows,
-        Self::SeamBetweenTiles,
-        Self::FillsZeroArea,
-        Self::RejectsThin,
-        Self::SplitsAtRoundedPoint,
-        Self::StepsInF32,
-        Self::NaiveBarycentric,
-        Self::EpsilonInDenominator,
-        Self::ClampsInvW,
-    ];
-
-    /// Its name for `--plant`.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::InclusiveEdges => "inclusive-edges",
-            Self::ExclusiveEdges => "exclusive-edges",
-            Self::BottomRightRule => "bottom-right-rule",
-            Self::LeftOnlyRule => "left-only-rule",
-            Self::SampleOffByOneSubpixel => "sample-off-by-one-subpixel",
-            Self::DropsFirstRow => "drops-first-row",
-            Self::DoublesSpanEnd => "doubles-span-end",
-            Self::CullsOneWinding => "culls-one-winding",
-            Self::WrapsInI32 => "wraps-in-i32",
-            Self::SwappedWeights => "swapped-weights",
-            Self::AffineAttributes => "affine-attributes",
-            Self::PerspectiveDepth => "perspective-depth",
-            Self::ValuesAtCorner => "values-at-corner",
-            Self::ValuesThroughF32 => "values-through-f32",
-            Self::PanicsOnFlatBottom => "panics-on-flat-bottom",
-            Self::LeavesWindow => "leaves-window",
-            Self::LastEdgeInclusive => "last-edge-inclusive",
-            Self::TruncatesTowardsZero => "truncates-towards-zero",
-            Self::HoleInLongRows => "hole-in-long-rows",
-            Self::SeamBetweenTiles => "seam-between-tiles",
-            Self::FillsZeroArea => "fills-zero-area",
-            Self::RejectsThin => "rejects-thin",
-            Self::SplitsAtRoundedPoint => "splits-at-rounded-point",
-            Self::StepsInF32 => "steps-in-f32",
-            Self::NaiveBarycentric => "naive-barycentric",
-            Self::EpsilonInDenominator => "epsilon-in-denominator",
-            Self::ClampsInvW => "clamps-inv-w",
-        }
+planted! {
+    /// A rasterizer with a planted fault.
+    TriangleMutant {
+        InclusiveEdges "inclusive-edges": "samples on any edge belong (SYSU assignment 2: <= 0)",
+        ExclusiveEdges "exclusive-edges": "samples on no edge belong (GAMES101 homework 2: > 0)",
+        BottomRightRule "bottom-right-rule":
+            "bottom and right edges belong instead of top and left ones",
+        LeftOnlyRule "left-only-rule": "left edges belong, top edges do not",
+        SampleOffByOneSubpixel "sample-off-by-one-subpixel": "samples lie 1/256 px off the centre",
+        DropsFirstRow "drops-first-row": "the first row of every triangle is lost",
+        DoublesSpanEnd "doubles-span-end": "the last pixel of long spans is drawn twice",
+        CullsOneWinding "culls-one-winding": "counter-clockwise triangles are lost, as if culled",
+        WrapsInI32 "wraps-in-i32": "edge functions wrap around in 32 bits",
+        SwappedWeights "swapped-weights": "the weights of two corners are swapped",
+        AffineAttributes "affine-attributes": "attributes ignore w",
+        PerspectiveDepth "perspective-depth": "depth is interpolated as if it were an attribute",
+        ValuesAtCorner "values-at-corner":
+            "values are taken at the pixel's corner, not at its centre",
+        ValuesThroughF32 "values-through-f32": "values are rounded to f32 on the way",
+        PanicsOnFlatBottom "panics-on-flat-bottom": "panics where the lowest edge is horizontal",
+        LeavesWindow "leaves-window": "draws one pixel outside the window",
+        LastEdgeInclusive "last-edge-inclusive": "the tie rule follows the order of the corners",
+        TruncatesTowardsZero "truncates-towards-zero":
+            "columns are truncated towards zero: (int) of a negative",
+        HoleInLongRows "hole-in-long-rows":
+            "a pixel in the middle of long spans is lost, as by a vector loop",
+        SeamBetweenTiles "seam-between-tiles":
+            "the first column of every tile but the leftmost is lost",
+        FillsZeroArea "fills-zero-area":
+            "a triangle of zero area covers the samples it passes through",
+        RejectsThin "rejects-thin": "areas below half a pixel count as degenerate (the book's eps)",
+        SplitsAtRoundedPoint "splits-at-rounded-point":
+            "the book's split vertex, rounded to the lattice",
+        StepsInF32 "steps-in-f32": "edges are stepped down row by row in f32 (the book's sx += dx)",
+        NaiveBarycentric "naive-barycentric":
+            "values are weighted sums in the order the corners came in",
+        EpsilonInDenominator "epsilon-in-denominator":
+            "a small number keeps the division by w from failing",
+        ClampsInvW "clamps-inv-w": "1/w is clamped to 1",
     }
 }
 

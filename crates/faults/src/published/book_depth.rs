@@ -1,10 +1,10 @@
-//! Specimens: the three depths of the book: w itself, with perspective (part 2, chapter 6), -1/w,
-//! linear (chapter 7), z/w, linear (from chapter 8).
+//! Specimens: the depths that the book compares before it comes to z/w in chapter 8: w itself, with perspective
+//! (part 2, chapter 6), and -1/w, linear (chapter 7).
 //!
 //! Source: the book (yangzhenzhuozz/Renderer on GitHub) and its companion code; see
 //! `docs/sources.md`.
 //!
-//! Symptoms, of all three: the depth starts at the crossing and steps without regard to the samples,
+//! Symptoms, of both and of z/w: the depth starts at the crossing and steps without regard to the samples,
 //! so a nearly flat span throws it far out of the range of its corners, and what is drawn later
 //! vanishes behind nothing; ties pass the test, and so does NaN. Chapter 6 besides needs the buffer
 //! cleared to a true distance, and evaluates formula (8) for each pixel.
@@ -25,20 +25,6 @@ pub enum BookDepth {
     Chapter6,
     /// -1/w, linear.
     Chapter7,
-    /// z/w, linear.
-    Chapter8,
-}
-
-impl BookDepth {
-    /// The depth of a corner that has this z/w and w; the one the chapter compares.
-    #[must_use]
-    pub fn of(self, depth: f64, w: f64) -> f64 {
-        match self {
-            Self::Chapter6 => w,
-            Self::Chapter7 => -1.0 / w,
-            Self::Chapter8 => depth,
-        }
-    }
 }
 
 impl Published for BookDepth {
@@ -59,9 +45,9 @@ impl Published for BookDepth {
         emit: &mut dyn FnMut(Fragment<DVec2>),
     ) -> Result<(), Refused> {
         // z within [-1, 1] passes the clip and steps as z/w does; w travels as an attribute.
-        let scale = triangle.iter().fold(1.0, |most: f64, v| most.max(self.of(v.depth, v.w).abs()));
+        let scale = triangle.iter().fold(1.0, |most: f64, v| most.max(self.depth_of(v.depth, v.w).abs()));
         let triangle = triangle.map_array(|v| {
-            let depth = self.of(v.depth, v.w);
+            let depth = self.depth_of(v.depth, v.w);
             match self {
                 Self::Chapter6 => {
                     super::RealVertex { depth: 0.0, varying: DVec2::splat(depth), ..v }
@@ -73,5 +59,16 @@ impl Published for BookDepth {
             let depth = if *self == Self::Chapter6 { f.varying.x } else { f.depth * scale };
             emit(Fragment { depth, ..f });
         })
+    }
+
+    fn depth_of(&self, _depth: f64, w: f64) -> f64 {
+        match self {
+            Self::Chapter6 => w,
+            Self::Chapter7 => -1.0 / w,
+        }
+    }
+
+    fn compares_w(&self) -> bool {
+        *self == Self::Chapter6
     }
 }

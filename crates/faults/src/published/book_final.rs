@@ -26,7 +26,6 @@ use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{Fragment, Span};
 
-/// The final DrawTriangle.
 #[derive(Clone, Copy, Debug)]
 pub struct BookFinal {
     /// Whether t' is held at 1 down the edges, as the exercise of section 11.4 asks.

@@ -126,9 +126,6 @@ pub(super) fn split(low: DVec2, middle: DVec2, high: DVec2) -> (DVec2, f64) {
 
 /// Draws a triangle given in the book's own coordinates: y up, the whole numbers are samples, (0, 0)
 /// is the window's lower left pixel. The published algorithm itself, without any conversion.
-///
-/// # Errors
-/// As [`Published::cover`].
 pub fn cover_book(
     corners: [DVec2; 3],
     bounds: PixelRect,
@@ -162,9 +159,6 @@ fn cover(
 
 impl BookChapter2 {
     /// As [`Published::cover`], compiled for its caller: `cost` times it beside rungs that are.
-    ///
-    /// # Errors
-    /// As there.
     pub fn cover_inlined(
         &self,
         triangle: &RealTriangle,
@@ -183,6 +177,10 @@ impl Published for BookChapter2 {
         emit: &mut dyn FnMut(Span),
     ) -> Result<(), Refused> {
         cover(triangle, bounds, true, emit)
+    }
+
+    fn has_values(&self) -> bool {
+        false
     }
 }
 

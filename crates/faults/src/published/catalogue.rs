@@ -13,7 +13,6 @@ use super::{
 };
 use rasterproof_core::arrays::MapArray as _;
 
-/// A specimen's card.
 #[derive(Clone, Copy, Debug)]
 pub struct Card {
     pub name: &'static str,
@@ -43,7 +42,6 @@ pub struct TriangleCase {
     pub name: &'static str,
     /// Side of the window in pixels.
     pub side_px: u32,
-    /// Corners in pixels.
     pub corners_px: &'static [[(f64, f64); 3]],
     /// Distances of the corners.
     pub w: [f64; 3],
@@ -51,7 +49,6 @@ pub struct TriangleCase {
     pub values: [f64; 3],
 }
 
-/// A line to draw.
 #[derive(Clone, Copy, Debug)]
 pub struct LineCase {
     pub name: &'static str,
@@ -63,7 +60,6 @@ pub struct LineCase {
 #[derive(Clone, Copy, Debug)]
 pub struct RecordedCase {
     pub name: &'static str,
-    /// The specimen that shows it.
     pub specimen: &'static str,
     /// Corners in the book's coordinates: y up, samples at whole numbers.
     pub corners: &'static [[(f64, f64); 3]],
@@ -374,7 +370,6 @@ pub const RECORDED: &[RecordedCase] = &[
     recorded("t_divzero", "book-ch11", &[[(9.75, 4.0), (10.25, 4.0), (10.0, 8.0)]]),
 ];
 
-/// The card called `name`.
 #[must_use]
 pub fn find(name: &str) -> Option<&'static Card> {
     CARDS.iter().find(|card| card.name == name)

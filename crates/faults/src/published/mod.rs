@@ -45,7 +45,6 @@ use rasterproof_core::triangle::{Corners, Fragment, ScreenTriangle, Span};
 /// A corner as a specimen receives it: real numbers in window pixels, y down.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RealVertex {
-    /// Position in pixels.
     pub position_px: DVec2,
     /// Depth, linear in the window (z/w).
     pub depth: f64,
@@ -167,8 +166,7 @@ impl Columns {
     }
 }
 
-/// A published rasterizer.
-pub trait Published {
+pub trait Published: fmt::Debug + Sync {
     /// Emits the pixels of `bounds` as often as the published loops set them: a pixel that lies in
     /// two spans is set twice. Pixels outside are dropped, and cost no more than [`MOST_STEPS`].
     ///
@@ -193,14 +191,25 @@ pub trait Published {
     ) -> Result<(), Refused> {
         Err(Refused::NoValues)
     }
+
+    /// Whether [`Published::fragments`] computes anything.
+    fn has_values(&self) -> bool {
+        true
+    }
+
+    /// The depth that it compares, for a corner with this z/w and w.
+    fn depth_of(&self, depth: f64, _w: f64) -> f64 {
+        depth
+    }
+
+    /// Whether the depth that it compares is w, which is linear in space and not on the screen.
+    fn compares_w(&self) -> bool {
+        false
+    }
 }
 
-/// A published line drawer.
-pub trait PublishedLine {
+pub trait PublishedLine: fmt::Debug + Sync {
     /// Emits the pixels of `bounds` in the published order, as often as they are set.
-    ///
-    /// # Errors
-    /// As [`Published::cover`].
     fn draw(
         &self,
         ends_px: [[f64; 2]; 2],

@@ -38,10 +38,8 @@ pub const SIDE: u32 = 32;
 /// The background.
 pub const BLACK: Colour = [0, 0, 0];
 pub const WHITE: Colour = [240, 240, 240];
-/// Colours of shapes.
 pub const COLOURS: [Colour; 3] = [[236, 178, 46], [70, 150, 200], [196, 88, 88]];
 
-/// An empty picture.
 #[must_use]
 pub fn empty(side: u32) -> Image {
     Frame::new(PixelRect::window(side, side), BLACK)

@@ -47,4 +47,8 @@ impl Published for SysuTruncated {
         })?;
         result
     }
+
+    fn has_values(&self) -> bool {
+        false
+    }
 }

@@ -8,8 +8,8 @@ use rasterproof_core::contract::{Interpolate as _, Rasterize as _};
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXEL_BITS, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::{Fragment, Span};
 use rasterproof_faults::planted::TriangleMutant;
-use rasterproof_faults::published::{Published as _, from_screen};
-use rasterproof_registry::engines::{Engine, SPECIMENS, Specimen, TriangleSpecimen};
+use rasterproof_faults::published::{Published, from_screen};
+use rasterproof_registry::engines::{Engine, SPECIMENS, Specimen};
 use rasterproof_verify::cases::Triangle;
 use rasterproof_verify::comparison::{Convention, Rule, caught};
 
@@ -22,7 +22,7 @@ pub enum Subject {
     Reference,
     Planted(TriangleMutant),
     /// A published algorithm with its faults, under its name.
-    Published(&'static str, TriangleSpecimen),
+    Published(&'static str, &'static dyn Published),
     /// A right rasterizer, and how it differs from the reference.
     Right(&'static str, Permitted),
 }

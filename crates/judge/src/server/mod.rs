@@ -34,9 +34,6 @@ const READ_BYTES: usize = 1 << 16;
 const MOST_LAYERS: usize = 64;
 
 /// Answers requests until there are none.
-///
-/// # Errors
-/// The reader or the writer fails.
 pub fn serve(entry: &Entry, input: &mut dyn Read, output: &mut dyn Write) -> io::Result<()> {
     let mut input = BufReader::with_capacity(READ_BYTES, input);
     let mut line = Vec::new();
@@ -64,9 +61,6 @@ pub fn serve(entry: &Entry, input: &mut dyn Read, output: &mut dyn Write) -> io:
 }
 
 /// Writes the answer of a request, or why there is none.
-///
-/// # Errors
-/// The writer fails.
 pub fn respond(entry: &Entry, text: &str, out: &mut dyn Write) -> io::Result<()> {
     match answer(entry, text, out) {
         Ok(()) => Ok(()),

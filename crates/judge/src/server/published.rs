@@ -12,9 +12,9 @@ use crate::server::reply::{Reply, named, write_run, write_words};
 use rasterproof_core::grid::{PixelRect, Refusal};
 use rasterproof_core::triangle::{MAX_W, MIN_W, check_value};
 use rasterproof_faults::published::{
-    Published as _, PublishedLine as _, RealTriangle, RealVertex, bare,
+    Published, PublishedLine, RealTriangle, RealVertex, bare,
 };
-use rasterproof_registry::engines::{Entry, LineSpecimen, Specimen, TriangleSpecimen};
+use rasterproof_registry::engines::{Entry, Specimen};
 
 /// The answer, unless it has more parts than are kept.
 fn whole(letter: char, n: usize, runs: Vec<u8>) -> Reply {
@@ -58,7 +58,7 @@ fn point(numbers: &[f64], i: usize) -> Result<[f64; 2], String> {
     Ok([numbers[0], numbers[1]])
 }
 
-fn cover(specimen: TriangleSpecimen, window: PixelRect, numbers: &[f64]) -> Reply {
+fn cover(specimen: &dyn Published, window: PixelRect, numbers: &[f64]) -> Reply {
     let corners = [point(numbers, 0)?, point(&numbers[2..], 1)?, point(&numbers[4..], 2)?];
     let (mut runs, mut n) = (Vec::new(), 0);
     specimen
@@ -72,7 +72,7 @@ fn cover(specimen: TriangleSpecimen, window: PixelRect, numbers: &[f64]) -> Repl
     whole('C', n, runs)
 }
 
-fn line(specimen: LineSpecimen, window: PixelRect, numbers: &[f64]) -> Reply {
+fn line(specimen: &dyn PublishedLine, window: PixelRect, numbers: &[f64]) -> Reply {
     let ends = [point(numbers, 0)?, point(&numbers[2..], 1)?];
     let (mut pixels, mut n) = (Vec::new(), 0);
     specimen
@@ -86,7 +86,7 @@ fn line(specimen: LineSpecimen, window: PixelRect, numbers: &[f64]) -> Reply {
     whole('P', n, pixels)
 }
 
-fn values(specimen: TriangleSpecimen, window: PixelRect, numbers: &[f64]) -> Reply {
+fn values(specimen: &dyn Published, window: PixelRect, numbers: &[f64]) -> Reply {
     let vertex = |i: usize| -> Result<RealVertex, String> {
         let [_, _, depth, w, a, b] = [0, 1, 2, 3, 4, 5].map(|k| numbers[6 * i + k]);
         for (name, value) in [("z", depth), ("a", a), ("b", b)] {

@@ -6,15 +6,15 @@ use serde_json::{Value, json};
 use super::picture::Picture;
 use rasterproof_core::contract::DrawLine as _;
 use rasterproof_core::grid::PixelRect;
-use rasterproof_faults::published::PublishedLine as _;
-use rasterproof_registry::engines::{self, LineEngine, LineSpecimen, Specimen};
+use rasterproof_faults::published::PublishedLine;
+use rasterproof_registry::engines::{self, LineEngine, Specimen};
 use rasterproof_verify::cases::Line;
 
 /// Who draws lines on this page.
 #[derive(Clone, Copy)]
 pub(super) enum Pen {
     Engine(LineEngine),
-    Published(LineSpecimen),
+    Published(&'static dyn PublishedLine),
 }
 
 impl Pen {

@@ -25,11 +25,9 @@ use crate::figures;
 enum Question {
     /// Names of everything there is to choose from.
     List,
-    /// A named case.
     Named {
         name: String,
     },
-    /// A generated case.
     Generated {
         family: String,
         seed: u64,

@@ -120,7 +120,6 @@ impl Picture {
         self.lines.iter().map(|[a, b]| plain_line(pixel(*a), pixel(*b))).collect()
     }
 
-    /// The case off the lattice that this is.
     pub fn case_as_given(&self) -> Result<OffGridCase, String> {
         let (window, triangles) = (self.window()?, self.as_given()?);
         Ok(OffGridCase { window, triangles, is_tiling: false })

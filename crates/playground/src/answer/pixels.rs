@@ -10,8 +10,8 @@ use rasterproof_core::grid::PixelRect;
 use rasterproof_core::raster::edge_function_exact::probe::edges_at;
 use rasterproof_core::triangle::FreeCorners;
 use rasterproof_faults::planted::exact::ExactMutant;
-use rasterproof_faults::published::Published as _;
-use rasterproof_registry::engines::{self, Engine, ExactEngine, Specimen, TriangleSpecimen};
+use rasterproof_faults::published::Published;
+use rasterproof_registry::engines::{self, Engine, ExactEngine, Specimen};
 use rasterproof_verify::cases::Triangle;
 use rasterproof_verify::oracle::coverage::samples_on_boundary;
 use rasterproof_verify::oracle::rational::cover_and_count_ties;
@@ -35,7 +35,7 @@ pub(super) enum Painter {
     /// The strict rule for corners as they are given: inside of all three edges, by their exact sides.
     FreeStrict,
     /// A published algorithm, on either.
-    Published(TriangleSpecimen),
+    Published(&'static dyn Published),
 }
 
 impl Painter {

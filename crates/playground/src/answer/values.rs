@@ -10,7 +10,6 @@ use rasterproof_core::contract::{DrawLine as _, Interpolate as _};
 use rasterproof_core::frame::Frame;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{Fragment, LineEnd, MAX_W, MIN_W, PixelPoint, ScreenLine};
-use rasterproof_faults::published::Published as _;
 use rasterproof_registry::engines::{Engine, LineEngine};
 use rasterproof_render::pipeline::depth::DepthFormat;
 

@@ -5,8 +5,9 @@ use super::{Drawn, Given, Predict, cover, number, snapped, with_triangles};
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{PixelRect, snap};
 use rasterproof_faults::planted::TriangleMutant;
+use rasterproof_faults::published::book_triangle::BookChapter2;
 use rasterproof_faults::published::{Published as _, bare};
-use rasterproof_registry::engines::{Engine, TriangleSpecimen};
+use rasterproof_registry::engines::Engine;
 use rasterproof_render::pipeline::assemble::twice_area;
 
 /// A square against the centres of the pixels.
@@ -231,7 +232,7 @@ pub(super) fn middle_row(given: &Given<'_>) -> Result<Drawn, String> {
         window: PixelRect { x0: 1, y0: 3, x1: 13, y1: 13 },
     };
     let mut hits = Coverage::new(panel.window, 0);
-    TriangleSpecimen::BookChapter2
+    BookChapter2
         .cover(&bare(triangle), panel.window, &mut |span| {
             hits.hit(span.y_px, span.x0_px, span.x1_px);
         })

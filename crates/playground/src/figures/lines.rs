@@ -6,7 +6,7 @@ use rasterproof_core::contract::DrawLine as _;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::PixelPoint;
 use rasterproof_faults::published::PublishedLine as _;
-use rasterproof_registry::engines::LineSpecimen;
+use rasterproof_faults::published::sysu_bresenham::SysuBresenham;
 use rasterproof_verify::cases::named::plain_line;
 
 type Pixels = Vec<[i32; 2]>;
@@ -26,7 +26,7 @@ pub(super) fn there_and_back(given: &Given<'_>) -> Result<Drawn, String> {
     let published = |from: [i32; 2], to: [i32; 2]| -> Result<Pixels, String> {
         let mut pixels = Vec::new();
         let ends = [from, to].map(|p| p.map(|v| f64::from(v) + 0.5));
-        LineSpecimen::SysuBresenham
+        SysuBresenham
             .draw(ends, panel.window, &mut |x, y| pixels.push([x, y]))
             .map_err(|refused| refused.to_string())?;
         Ok(pixels)

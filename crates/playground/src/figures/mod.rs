@@ -136,7 +136,6 @@ const DRAWN_BY: [(&str, Draw); 28] = [
     ("texel", light::texel),
 ];
 
-/// Asks for a figure.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Ask {
@@ -245,17 +244,11 @@ impl Figure {
     }
 
     /// The picture of the figure with its answer, as a file.
-    ///
-    /// # Errors
-    /// Where it cannot be drawn.
     pub fn still(&self) -> Result<String, String> {
         Ok(self.draw(&[], true, None)?.1.sheet.file())
     }
 
     /// What a page says in the place of the figure, with everything for those who read without scripts.
-    ///
-    /// # Errors
-    /// Where it cannot be drawn.
     pub fn block(&self, language: Language) -> Result<String, String> {
         let (_, drawn) = self.draw(&[], true, None)?;
         let text = self.text(language);
@@ -278,9 +271,6 @@ pub(crate) fn list() -> Vec<Value> {
 }
 
 /// The figure of this name.
-///
-/// # Errors
-/// Where there is none.
 pub fn find(name: &str) -> Result<&'static Figure, String> {
     let found = ALL.iter().find(|figure| figure.name == name);
     found.ok_or_else(|| format!("no figure is called {name}"))

@@ -241,7 +241,6 @@ impl Sheet {
         self.path(class, &[barb(-0.5), to, barb(0.5)], false);
     }
 
-    /// A point of the sheet, marked.
     pub fn dot(&mut self, [x, y]: Point, radius: f64) {
         self.add(format_args!(
             "<circle class=\"dot\" cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{radius}\"/>"

@@ -10,8 +10,10 @@ use rasterproof_core::frame::Frame;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::raster::edge_function::probe::edges_at;
 use rasterproof_core::triangle::{Fragment, ScreenTriangle, ScreenVertex};
-use rasterproof_faults::published::{Published as _, from_screen};
-use rasterproof_registry::engines::{Engine, TriangleSpecimen};
+use rasterproof_faults::published::book_affine::BookAffine;
+use rasterproof_faults::published::sysu_weights::SysuWeights;
+use rasterproof_faults::published::{Published, from_screen};
+use rasterproof_registry::engines::Engine;
 use rasterproof_render::pipeline::depth::DepthFormat;
 
 /// A corner: x, y, w, depth, u, v, as an address of the playground has them.
@@ -40,7 +42,7 @@ fn values(
 
 /// The same by a published algorithm.
 fn published(
-    specimen: TriangleSpecimen,
+    specimen: &dyn Published,
     triangles: &[[Corner; 3]],
     window: PixelRect,
 ) -> Result<Frame<Option<Fragment<DVec2>>>, String> {
@@ -136,7 +138,7 @@ pub(super) fn wrong_corner(given: &Given<'_>) -> Result<Drawn, String> {
         window: PixelRect { x0: 0, y0: 0, x1: 12, y1: 11 },
     };
     let right = Panel { corner: [183.0, 30.0], ..left };
-    let wrong = published(TriangleSpecimen::SysuWeights, &[valued], left.window)?;
+    let wrong = published(&SysuWeights, &[valued], left.window)?;
     let ours = values(given.fill, &[valued], left.window)?;
     let mut sheet = Sheet::new(left.bottom() + 30.0, given.is_answered);
     for (panel, frame) in [(&left, &wrong), (&right, &ours)] {
@@ -189,7 +191,7 @@ pub(super) fn affine_kink(given: &Given<'_>) -> Result<Drawn, String> {
         window: PixelRect { x0: 0, y0: 0, x1: 32, y1: 32 },
     };
     let right = Panel { corner: [190.0, 10.0], ..left };
-    let affine = published(TriangleSpecimen::BookAffine, &triangles, left.window)?;
+    let affine = published(&BookAffine, &triangles, left.window)?;
     let ours = values(given.fill, &triangles, left.window)?;
     let is_dark = |f: Fragment<DVec2>| {
         ((f.varying.x * 4.0 + 1e-9).floor() + (f.varying.y * 4.0 + 1e-9).floor()) % 2.0 != 0.0

@@ -130,7 +130,6 @@ fn number(triangle: &Triangle) -> u8 {
 }
 
 impl Subject {
-    /// The ends of its lines.
     pub(super) fn ends(&self) -> Vec<Ends> {
         let ends = |shape: &Vec<Vertex>| {
             Some([super::subjects::at(shape.first()?), super::subjects::at(shape.get(1)?)])

@@ -15,7 +15,6 @@ pub(super) enum Place {
     Outside,
 }
 
-/// The centre of a pixel.
 pub(super) fn centre(x_px: i32, y_px: i32) -> SubpixelPoint {
     SubpixelPoint::new(x_px * SUBPIXELS + HALF_PIXEL, y_px * SUBPIXELS + HALF_PIXEL)
 }

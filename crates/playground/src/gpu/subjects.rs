@@ -74,9 +74,6 @@ fn cell_of(check: Check, number: u64) -> i32 {
 }
 
 /// The layout that shows one subject.
-///
-/// # Errors
-/// A sentence where the subject cannot be drawn.
 pub(super) fn layout_for(check: Check, Subject(shapes): &Subject) -> Result<Layout, String> {
     let wanted = match check {
         Check::Lines => 2,

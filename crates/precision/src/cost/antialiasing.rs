@@ -82,7 +82,6 @@ fn root_mean_square(actual: &Frame<f64>, truth: &Truth) -> f64 {
     (sum / count.max(1) as f64).sqrt()
 }
 
-/// Measures the ladder.
 pub(super) fn measure(options: &Options, progress: &dyn Fn(f64, &str)) -> Board {
     let pixels = if options.quick { 8_000 } else { 30_000 };
     measure_on(&scenes(options.seed, Size { side_px: 256, pixels }), options, progress)

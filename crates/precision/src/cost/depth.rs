@@ -158,7 +158,6 @@ fn variants() -> Vec<(Rung, Box<dyn AnyFormat>)> {
     ]
 }
 
-/// Measures the ladder.
 pub(super) fn measure(options: &Options, progress: &dyn Fn(f64, &str)) -> Board {
     let ladder = Ladder::Depth;
     let variants = variants();

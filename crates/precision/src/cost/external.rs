@@ -9,9 +9,6 @@ pub trait ExternalVariant {
     fn rung(&self) -> Rung;
 
     /// The pixels of each triangle.
-    ///
-    /// # Errors
-    /// The reason why it draws no such list.
     fn spans(
         &mut self,
         triangles: &[FreeCorners],
@@ -19,9 +16,6 @@ pub trait ExternalVariant {
     ) -> Result<Vec<Vec<Span>>, String>;
 
     /// Gets ready to fill all of them; what is returned does so, and is timed.
-    ///
-    /// # Errors
-    /// The reason why it draws no such list.
     fn pass(
         &mut self,
         triangles: &[FreeCorners],

@@ -263,7 +263,6 @@ fn find(spans: &[Span], y_px: i32) -> Span {
     *spans.iter().find(|span| span.y_px == y_px).expect("values come from the rows given")
 }
 
-/// Measures the ladder.
 pub(super) fn measure(options: &Options, progress: &dyn Fn(f64, &str)) -> Board {
     let pixels = if options.quick { 8_000 } else { 60_000 };
     measure_on(&scenes(options.seed, Size { side_px: 512, pixels }), options, progress)

@@ -143,7 +143,6 @@ fn differences(mut ours: Vec<PixelPoint>, truth: &[PixelPoint]) -> u64 {
     missing(&truth, &ours).max(missing(&ours, &truth)) + ours.len().abs_diff(truth.len()) as u64
 }
 
-/// Measures the ladder.
 pub(super) fn measure(options: &Options, progress: &dyn Fn(f64, &str)) -> Board {
     let ladder = Ladder::Lines;
     let size = Size { side_px: 1024, pixels: if options.quick { 20_000 } else { 300_000 } };

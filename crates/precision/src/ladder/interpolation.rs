@@ -26,7 +26,6 @@ pub struct Valued {
     pub value: [f64; 3],
 }
 
-/// Computes values.
 pub trait Values {
     /// Emits (column, row, value) for each pixel of `spans`, which are the rows of `triangle`.
     fn values(&self, triangle: &Valued, spans: &[Span], emit: impl FnMut(i32, i32, f64));

@@ -15,9 +15,6 @@ use rasterproof_core::triangle::{LineEnd, PixelPoint, ScreenLine};
 /// Draws lines between pixels.
 pub trait Draw {
     /// Whether the rung may be given this line; otherwise why not.
-    ///
-    /// # Errors
-    /// The reason, for a reader.
     fn accepts(&self, _ends: [PixelPoint; 2]) -> Result<(), String> {
         Ok(())
     }

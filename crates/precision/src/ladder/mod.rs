@@ -74,9 +74,6 @@ impl AddAssign for Work {
 /// Decides which pixels a triangle covers, with whatever error the rung has.
 pub trait Cover {
     /// Whether the rung may be given this triangle; otherwise why not.
-    ///
-    /// # Errors
-    /// The reason, for a reader.
     fn accepts(&self, _free: &FreeCorners, _bounds: PixelRect) -> Result<(), String> {
         Ok(())
     }

@@ -102,7 +102,6 @@ impl Sheet {
         ));
     }
 
-    /// Pixels as a grid of squares of that side.
     fn grid(&mut self, [x0, y0]: Point, side: f64, columns: u32, rows: u32) {
         let (right, below) = (x0 + side * f64::from(columns), y0 + side * f64::from(rows));
         for i in 0..=columns {

@@ -30,7 +30,6 @@ pub struct Progress {
     pub failures: usize,
 }
 
-/// The progress file of a folder.
 #[must_use]
 pub fn path(folder: &Path) -> PathBuf {
     folder.join(FILE)

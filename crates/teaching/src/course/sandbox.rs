@@ -64,9 +64,6 @@ pub fn command<S: AsRef<OsStr>>(folder: &Path, run: &[S], bounds: &Bounds) -> Ve
 }
 
 /// Whether the program is there to be run.
-///
-/// # Errors
-/// What is missing, and what to do about it.
 pub fn check_command<S: AsRef<OsStr>>(folder: &Path, run: &[S]) -> Result<(), String> {
     let Some(name) = run.first().map(AsRef::as_ref).filter(|name| !name.is_empty()) else {
         return Err("no program is named\n  name one: rasterproof course check -- CMD, or run in \

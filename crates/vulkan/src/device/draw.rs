@@ -125,9 +125,6 @@ impl Drop for Painter {
 
 impl Painter {
     /// Gets ready to draw.
-    ///
-    /// # Errors
-    /// The driver fails.
     pub fn new(device: &Arc<Opened>, failing: Option<Failing>) -> Result<Self, Error> {
         let info = vk::CommandPoolCreateInfo::default().queue_family_index(device.family);
         // SAFETY: the family is one of the device's.
@@ -150,7 +147,6 @@ impl Painter {
         Ok(painter)
     }
 
-    /// The device that is drawn on.
     #[must_use]
     pub fn device(&self) -> &Arc<Opened> {
         &self.device
@@ -189,9 +185,6 @@ impl Painter {
     }
 
     /// Records a list on one page, to be run often; what it draws is not read back.
-    ///
-    /// # Errors
-    /// As [`Painter::draw`].
     pub fn prepare(&mut self, kind: Kind, draws: &[Draw]) -> Result<Prepared, Error> {
         self.check(kind, 1, draws)?;
         let bytes = vertex_bytes(kind, draws);

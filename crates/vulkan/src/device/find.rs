@@ -36,7 +36,6 @@ pub struct Listed {
 /// What a device says of itself.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct About {
-    /// The name of the device.
     pub device: String,
     /// The name of the driver, where it is said.
     pub driver: String,
@@ -95,9 +94,6 @@ pub fn list() -> Result<Vec<Listed>, Error> {
 }
 
 /// The same by the loader in this file.
-///
-/// # Errors
-/// As [`list`].
 pub fn list_by(loader: Option<&Path>) -> Result<Vec<Listed>, Error> {
     // SAFETY: a Vulkan loader is loaded, the system's or the one that is named: its start-up code runs,
     // as of any program that links it, and its functions have the signatures of the specification.

@@ -72,9 +72,6 @@ impl Drop for Buffer {
 
 impl Buffer {
     /// A buffer of this size for this use, zeroed.
-    ///
-    /// # Errors
-    /// There is not enough memory.
     pub fn new(
         device: &Arc<Opened>,
         size: usize,
@@ -135,7 +132,6 @@ impl Buffer {
     }
 }
 
-/// An image and its view.
 pub struct Image {
     device: Arc<Opened>,
     pub(super) raw: vk::Image,
@@ -144,7 +140,6 @@ pub struct Image {
     _memory: Memory,
 }
 
-/// What an image is like.
 #[derive(Clone, Copy)]
 pub(super) struct Like {
     pub(super) format: vk::Format,
@@ -179,9 +174,6 @@ impl Drop for Image {
 
 impl Image {
     /// An image like this.
-    ///
-    /// # Errors
-    /// There is not enough memory.
     pub(super) fn new(device: &Arc<Opened>, like: Like) -> Result<Self, Error> {
         let [width, height] = like.size;
         let info = vk::ImageCreateInfo::default()

@@ -137,17 +137,11 @@ impl Painter {
     }
 
     /// Draws a mesh, and waits for it.
-    ///
-    /// # Errors
-    /// The device is lost or hangs.
     pub fn draw_mesh(&mut self, mesh: &TexturedMesh) -> Result<(), Error> {
         self.run_prepared(&mesh.draws)
     }
 
     /// What was drawn last: red, green, blue and opaque of each pixel, the top row first.
-    ///
-    /// # Errors
-    /// The device is lost or hangs.
     pub fn read_mesh<'a>(&mut self, mesh: &'a mut TexturedMesh) -> Result<&'a [u8], Error> {
         self.run_prepared(&mesh.reads)?;
         Ok(mesh.picture.bytes())

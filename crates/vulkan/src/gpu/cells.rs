@@ -9,7 +9,6 @@ use rasterproof_judge::adapt_case;
 use rasterproof_judge::declared::Declared;
 use rasterproof_verify::cases::{Shape, Triangle};
 
-/// The pixels of a cell.
 pub const WINDOW: PixelRect = PixelRect::window(CELL_PX, CELL_PX);
 
 /// Corners with w = 1, halfway into the view volume.

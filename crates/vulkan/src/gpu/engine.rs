@@ -95,9 +95,6 @@ impl Gpu {
     }
 
     /// Draws a list; after a failure the device is opened anew at the next one.
-    ///
-    /// # Errors
-    /// What the device says.
     pub fn draw(
         &mut self,
         kind: Kind,

@@ -10,7 +10,6 @@ use rasterproof_verify::cases::{Case, Shape};
 use super::cells::twice_area_px2;
 use super::rules::Class;
 
-/// The faults that are known, as text.
 pub const TEXT: &str = include_str!("known-faults.txt");
 
 /// A known fault of a driver.

@@ -18,9 +18,6 @@ pub fn coverage(gpu: &mut Gpu, list: &[Corners], window: PixelRect) -> Result<Co
 }
 
 /// The same of many lists, each in a window of its own: one list of draws.
-///
-/// # Errors
-/// As [`coverage`].
 pub fn coverages(gpu: &mut Gpu, jobs: &[(&[Corners], PixelRect)]) -> Result<Vec<Coverage>, Error> {
     let px = |p: SubpixelPoint| <[f64; 2]>::from(p.to_px());
     let jobs: Vec<_> = jobs
@@ -31,9 +28,6 @@ pub fn coverages(gpu: &mut Gpu, jobs: &[(&[Corners], PixelRect)]) -> Result<Vec<
 }
 
 /// The same of corners in pixels, wherever they lie.
-///
-/// # Errors
-/// As [`coverage`].
 pub fn coverages_px(
     gpu: &mut Gpu,
     jobs: &[(Vec<[[f64; 2]; 3]>, PixelRect)],

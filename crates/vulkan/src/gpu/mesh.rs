@@ -40,17 +40,11 @@ impl Filmed {
     }
 
     /// Submits a frame and waits until it is drawn.
-    ///
-    /// # Errors
-    /// What the device says.
     pub fn draw(&mut self) -> Result<(), Error> {
         self.painter.draw_mesh(&self.mesh)
     }
 
     /// Draws a frame and reads it back.
-    ///
-    /// # Errors
-    /// What the device says.
     pub fn picture(&mut self) -> Result<Frame<Colour>, Error> {
         self.draw()?;
         let (pixels, _) = self.painter.read_mesh(&mut self.mesh)?.as_chunks::<4>();

@@ -84,7 +84,6 @@ fn clips(draws: &mut [Draw]) -> impl Iterator<Item = &mut [f32; 4]> {
     draws.iter_mut().flat_map(|d| &mut d.vertices).map(|v| &mut v.clip)
 }
 
-/// Twice the area of what a draw covers.
 fn twice_area_px2(draw: &Draw) -> f64 {
     let [.., width, height] = draw.viewport.map(f64::from);
     let [a, b, c] = draw.vertices.map(|v| {

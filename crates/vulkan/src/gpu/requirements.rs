@@ -23,7 +23,6 @@ use rasterproof_verify::comparison::single_precision::linear_bounds;
 use rasterproof_verify::oracle::Oracle;
 use rasterproof_verify::oracle::values::ExactTriangle;
 
-/// A stage, by its name.
 type Stage = fn(&mut Gpu, u64, u64) -> Result<Outcome, Error>;
 
 /// All stages with their rules.

@@ -33,7 +33,6 @@ impl Class {
         self <= Self::NotOffered
     }
 
-    /// It in a few words.
     #[must_use]
     pub fn words(self) -> &'static str {
         match self {
@@ -82,7 +81,6 @@ pub const LINEAR: Rule = Rule {
     says: "noperspective attributes and 1/w are weighed by barycentric coordinates alone",
     open: "how exactly: the bound is derived from roundings in f32",
 };
-/// Depths in an attachment.
 pub const DEPTHS: Rule = Rule {
     section: "Conversion From Floating-Point to Normalized Fixed-Point (fundamentals-fpfixedconv)",
     says: "a depth is weighed by barycentric coordinates alone; of 16 bits it is one of the two nearest \
@@ -108,7 +106,6 @@ pub const CLIPPING: Rule = Rule {
     open: "how new corners are rounded, and so whether there are any in x and y: a guard band shows \
            nothing else",
 };
-/// Rectangular lines.
 pub const RECTANGLES: Rule = Rule {
     section: "Basic Line Segment Rasterization (primsrast-lines-basic)",
     says: "a line of width 1 is a rectangle about it, ended at right angles (strictLines, or lines \
@@ -123,7 +120,6 @@ pub const LOOSE_LINES: Rule = Rule {
            Bresenham line",
     open: "which of the two, and how corners are rounded",
 };
-/// Bresenham lines.
 pub const BRESENHAM: Rule = Rule {
     section: "Bresenham Line Segment Rasterization (primsrast-lines-bresenham)",
     says: "the diamond-exit rule, or pixels that deviate from its own by at most one in x or y, one \
@@ -179,7 +175,6 @@ impl Errors {
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Finding {
     pub name: String,
-    /// The rule that was applied.
     pub rule: Rule,
     pub class: Class,
     /// What was found, in a sentence.

@@ -23,9 +23,6 @@ pub struct OnLadder {
 
 impl OnLadder {
     /// The device that an engine's name means.
-    ///
-    /// # Errors
-    /// As [`Gpu::named`].
     pub fn new(engine: &str) -> Result<Self, Error> {
         let mut gpu = Gpu::named(engine)?;
         let opened = Arc::clone(gpu.ready()?.device());
