@@ -27,7 +27,6 @@ pub struct Scene {
 }
 
 /// All classes, from large to sliver.
-#[must_use]
 pub fn scenes() -> Vec<Scene> {
     let mut random = SplitMix64(0x7261_7374_6572);
     let mut compact = |name, count, area_px: f64| {
@@ -53,13 +52,11 @@ impl Scene {
 }
 
 /// The target all benches draw to.
-#[must_use]
 pub fn window() -> PixelRect {
     PixelRect::window(SIDE_PX, SIDE_PX)
 }
 
 /// Pixels of the target that the triangles cover, added up triangle by triangle.
-#[must_use]
 pub fn covered(engine: &impl Rasterize, triangles: &[Corners]) -> u64 {
     let mut pixels = 0;
     for corners in triangles {

@@ -36,7 +36,6 @@ fn put(starter: &str, place: &str) -> Option<String> {
     Some(format!("{head}{place}\n{}", &starter[after..]))
 }
 
-#[must_use]
 pub fn files(language: Language, solution: bool) -> Vec<File> {
     let file = |name, starter: &str, place: &str| File {
         name,
@@ -80,7 +79,6 @@ pub fn files(language: Language, solution: bool) -> Vec<File> {
 }
 
 /// The page of the steps, for those who have the program alone: without links, which lead to other pages.
-#[must_use]
 pub fn steps_page() -> String {
     let page = include_str!("../../docs/steps.md");
     let mut parts = page.split("](");
@@ -96,7 +94,6 @@ pub fn steps_page() -> String {
 }
 
 /// What builds the program, if anything does, and what runs it.
-#[must_use]
 pub fn commands(language: Language) -> (Vec<String>, Vec<String>) {
     let words = |text: &str| text.split_whitespace().map(str::to_owned).collect();
     let (build, run) = match language {

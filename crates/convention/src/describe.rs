@@ -187,7 +187,6 @@ fn convention(of: &Convention, compass: &Compass) -> String {
 
 impl Diagnosis {
     /// The convention in plain words.
-    #[must_use]
     pub fn sentence(&self) -> String {
         diagnosis(self)
     }
@@ -271,7 +270,6 @@ fn line_convention(of: &LineConvention) -> String {
 
 impl LineDiagnosis {
     /// The convention in plain words.
-    #[must_use]
     pub fn sentence(&self) -> String {
         lines(self)
     }

@@ -236,7 +236,6 @@ impl Diagnosis {
 
     /// The pixels that the convention expects, to judge again by what was found. None where it is
     /// not known, or says nothing.
-    #[must_use]
     pub fn expected(&self, question: &Question) -> Option<Coverage> {
         (self.confidence != Confidence::Unexplained)
             .then(|| self.convention.cover(&question.corners, question.window))

@@ -55,7 +55,6 @@ impl LineTie {
         Self::LowerLeft,
     ];
 
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Up => "toward larger coordinates",
@@ -114,7 +113,6 @@ pub enum End {
 impl End {
     pub const ALL: [Self; 4] = [Self::First, Self::Small, Self::Left, Self::Top];
 
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::First => "the first end",

@@ -33,7 +33,6 @@ impl Quantum {
     pub const NONE: Self = Self { step: 1, rounding: Rounding::Near };
 
     /// The multiple of the step that `sub` becomes.
-    #[must_use]
     pub fn apply(self, sub: i32) -> i64 {
         let (sub, step) = (i64::from(sub), i64::from(self.step));
         let below = sub.div_euclid(step);

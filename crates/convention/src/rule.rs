@@ -151,7 +151,6 @@ impl Convention {
     /// The pixels of `window` that belong to a triangle, one hit each. None where the convention
     /// says nothing: for a triangle that has lost its area or winding on the grid, where that
     /// matters, and for one too large for its shape.
-    #[must_use]
     pub fn cover(&self, corners: &Corners, window: PixelRect) -> Option<Coverage> {
         let mut coverage = Coverage::new(window, 0);
         let mut draw = |x, y| coverage.span_mut(y, x, x + 1).fill(1);

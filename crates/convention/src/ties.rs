@@ -28,7 +28,6 @@ impl Count {
     }
 
     /// In percent; None of none.
-    #[must_use]
     pub fn percent(&self) -> Option<f64> {
         (self.of > 0).then(|| 100.0 * self.drawn as f64 / self.of as f64)
     }

@@ -105,7 +105,6 @@ impl Certificate {
     }
 
     /// The file. Inlined, as reading is: compiled where it is called, which need not be for speed.
-    #[must_use]
     #[inline]
     pub fn to_json(&self) -> String {
         // Strings, numbers and maps with string keys: this cannot fail.

@@ -127,7 +127,6 @@ pub enum Plan {
 }
 
 impl Plan {
-    #[must_use]
     pub fn enumeration(&self) -> &dyn Enumeration {
         match self {
             Self::Triangles(triangles) => triangles,
@@ -158,7 +157,6 @@ impl Plan {
     }
 
     /// Hashes of the code that the result depends on; see [`certificate::code_of`].
-    #[must_use]
     pub fn source_hashes(&self) -> BTreeMap<String, String> {
         let entry = |source: Source| match certificate::code_of(&source) {
             Ok(code) => (source.name(), format!("{:x}", Sha256::digest(code))),

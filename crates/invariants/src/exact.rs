@@ -8,7 +8,6 @@ use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::Corners;
 
 /// Centre of pixel `px`, in subpixels.
-#[must_use]
 pub fn centre(px: i32) -> i64 {
     i64::from(px) * i64::from(SUBPIXELS) + i64::from(HALF_PIXEL)
 }
@@ -26,20 +25,17 @@ pub const TOP_LEFT: Nudge = Nudge { first: [1, 0], second: [0, 1] };
 
 /// dx (y - a.y) - dy (x - a.x) for the edge from a to b: positive on its inner side if the corners
 /// go round clockwise on the screen. Below 2^66 for all inputs.
-#[must_use]
 pub fn edge(a: SubpixelPoint, b: SubpixelPoint, x_sub: i64, y_sub: i64) -> i128 {
     let [ax, ay, bx, by] = [a.x, a.y, b.x, b.y].map(i128::from);
     (bx - ax) * (i128::from(y_sub) - ay) - (by - ay) * (i128::from(x_sub) - ax)
 }
 
 /// Twice the signed area in subpixels squared; positive for clockwise corners (y down).
-#[must_use]
 pub fn twice_area([a, b, c]: &Corners) -> i128 {
     edge(*a, *b, i64::from(c.x), i64::from(c.y))
 }
 
 /// The corners in clockwise order, or nothing for a triangle of zero area.
-#[must_use]
 pub fn clockwise(corners: &Corners) -> Option<Corners> {
     let [a, b, c] = *corners;
     match twice_area(corners).signum() {
@@ -74,7 +70,6 @@ pub fn owns(corners: &Corners, x_px: i32, y_px: i32, nudge: Nudge) -> bool {
 
 /// How often a closed polygon goes round the centre of a pixel, clockwise counted positive, with
 /// the samples nudged as by [`TOP_LEFT`].
-#[must_use]
 pub fn winding(ring: &[SubpixelPoint], x_px: i32, y_px: i32) -> i32 {
     let (x, y) = (centre(x_px), centre(y_px));
     let next = ring.iter().cycle().skip(1);
@@ -93,7 +88,6 @@ pub fn winding(ring: &[SubpixelPoint], x_px: i32, y_px: i32) -> i32 {
 }
 
 /// The pixels of `window` whose squares touch the bounding box of the points.
-#[must_use]
 pub fn around(points: &[SubpixelPoint], window: PixelRect) -> PixelRect {
     let px = |sub: i32| sub.div_euclid(SUBPIXELS);
     let low = |v: fn(&SubpixelPoint) -> i32| points.iter().map(v).min().map_or(0, px);

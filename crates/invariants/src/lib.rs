@@ -110,7 +110,6 @@ pub const MOST_LOOKED_THROUGH: u64 = 10_000;
 
 impl Invariant {
     /// The input of a number: a pure function of the three, as far as the subject's source is.
-    #[must_use]
     pub fn input(&self, subject: &Subject, seed: u64, index: u64) -> Input {
         match self.check {
             Check::Triangle(_) => source::triangle(subject.make_case, seed, index),
@@ -163,7 +162,6 @@ impl Invariant {
     /// The number of cases with which something is compared: one more than the number of the first
     /// input that fits. Nothing where none of the first [`MOST_LOOKED_THROUGH`] fits, and for a run of
     /// the whole harness, where the number changes nothing.
-    #[must_use]
     pub fn cases_needed(&self, subject: &Subject, seed: u64) -> Option<u64> {
         if matches!(self.check, Check::Run(..) | Check::Matrix) {
             return None;
@@ -211,7 +209,6 @@ impl Invariant {
     }
 }
 
-#[must_use]
 pub fn find(name: &str) -> Option<&'static Invariant> {
     CATALOGUE.iter().find(|i| i.name == name)
 }

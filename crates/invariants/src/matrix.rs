@@ -66,7 +66,6 @@ impl Matrix {
     }
 
     /// What is wrong with it, if anything.
-    #[must_use]
     pub fn problems(&self) -> Vec<String> {
         let survivors = self.rows.iter().filter(|(_, marks)| !marks.contains(&true));
         let survivors = survivors.map(|(name, _)| format!("no invariant kills the mutant {name}"));
@@ -77,7 +76,6 @@ impl Matrix {
 
     /// The matrix as text of less than 100 columns: numbers from the top down, `#` for killed, sums
     /// to the right and below.
-    #[must_use]
     pub fn text(&self) -> String {
         let width = self.rows.iter().map(|(name, _)| name.len()).max().unwrap_or(0);
         let mut out = String::new();

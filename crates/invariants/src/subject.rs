@@ -92,12 +92,10 @@ impl Engine {
     ///
     /// # Panics
     /// Where the engine does, or leaves the window.
-    #[must_use]
     pub fn hits(&self, corners: Corners, window: PixelRect) -> Coverage {
         hits(&*self.fill, [corners], window)
     }
 
-    #[must_use]
     pub fn fragments(&self, triangle: &Triangle, window: PixelRect) -> Vec<Fragment<DVec2>> {
         let mut fragments = Vec::new();
         self.fill.values(triangle, window, &mut |fragment| fragments.push(fragment));
@@ -106,7 +104,6 @@ impl Engine {
 }
 
 /// Hit counts of several triangles together.
-#[must_use]
 pub fn hits(
     fill: &dyn Fill,
     triangles: impl IntoIterator<Item = Corners>,
@@ -126,7 +123,6 @@ pub struct Drawer {
 }
 
 impl Drawer {
-    #[must_use]
     pub fn fragments(&self, line: &Line, window: PixelRect) -> Vec<Fragment<DVec2>> {
         let mut fragments = Vec::new();
         self.stroke.stroke(line, window, &mut |fragment| fragments.push(fragment));
@@ -270,7 +266,6 @@ impl Subject {
     }
 }
 
-#[must_use]
 pub fn part_of(mutant: &Mutant) -> Part {
     match mutant {
         Mutant::Triangle(_) => Part::Engine,

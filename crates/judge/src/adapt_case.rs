@@ -23,7 +23,6 @@ const FIRST: [&str; 8] = [
 ];
 
 /// The families that are asked, in order; a name is that of the catalogue.
-#[must_use]
 pub fn families(wanted: &[String]) -> Vec<&'static Family> {
     let mut chosen: Vec<&Family> = cases::families()
         .chain(cases::near_plane::FAMILIES)
@@ -34,7 +33,6 @@ pub fn families(wanted: &[String]) -> Vec<&'static Family> {
     chosen
 }
 
-#[must_use]
 pub fn family(name: &str) -> Option<&'static Family> {
     families(&[name.to_owned()]).pop()
 }
@@ -45,7 +43,6 @@ pub fn is_lines(family: &Family) -> bool {
 }
 
 /// Puts a case on the declared grid.
-#[must_use]
 pub fn put(mut case: Case, declared: &Declared) -> Case {
     if let Some([width, height]) = declared.window {
         case.window.x1 = case.window.x1.min(width as i32);

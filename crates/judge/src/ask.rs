@@ -104,7 +104,6 @@ pub enum Misbehaviour {
 
 impl Misbehaviour {
     /// It in a word or two, for tables.
-    #[must_use]
     pub fn word(&self) -> &'static str {
         match self {
             Self::CannotStart(_) => "cannot be started",
@@ -122,7 +121,6 @@ impl Misbehaviour {
     }
 
     /// What to do about a program that cannot be judged at all.
-    #[must_use]
     pub fn remedy(&self) -> &'static str {
         match self {
             Self::CannotStart(_) => {
@@ -236,7 +234,6 @@ impl Question {
     }
 
     /// The request as text, without its line end.
-    #[must_use]
     pub fn text(&self, id: u64) -> String {
         let mut out = Vec::new();
         self.write(id, &mut out);
@@ -324,7 +321,6 @@ fn fragment(words: &mut Words<'_>) -> Option<Fragment<DVec2>> {
 }
 
 /// The answer as a line of the protocol, cut where it gets long.
-#[must_use]
 pub fn show(answer: &Answer, id: u64) -> String {
     let list = |letter: char, items: Vec<String>| {
         let text = format!("{letter} {id} {}  {}", items.len(), items.join("  "));

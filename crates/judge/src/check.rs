@@ -73,7 +73,6 @@ impl Truth {
 
 impl Finding {
     /// What is wrong, in words.
-    #[must_use]
     pub fn describe(&self, check: Check) -> String {
         let Tally { missing, extra, twice, order } = self.tally;
         let counts = match check {
@@ -109,7 +108,6 @@ impl Finding {
 
 impl Check {
     /// Its name as a property; that of the family for the first two.
-    #[must_use]
     pub fn name(self, family: &'static str) -> &'static str {
         match self {
             Self::Coverage | Self::Line | Self::Depth | Self::Near => family,
@@ -368,7 +366,6 @@ fn alike(finding: &mut Finding, answers: &[Answer], window: PixelRect) {
 }
 
 /// The pixels of an answer by hits, those outside the window left out.
-#[must_use]
 pub fn picture_of(answer: &Answer, window: PixelRect) -> Option<Coverage> {
     match answer {
         Answer::Coverage(runs) => Some(hits(runs, window).0),

@@ -154,14 +154,12 @@ impl Declared {
         Some(())
     }
 
-    #[must_use]
     pub fn convention(&self) -> Convention {
         let [x, y] = self.origin;
         let convention = Convention::default().rule(self.rule).winding(self.winding).sample(x, y);
         if self.yup { convention.y_up() } else { convention }
     }
 
-    #[must_use]
     pub fn capabilities(&self) -> Vec<&'static str> {
         let all = [
             ("coverage", self.coverage),

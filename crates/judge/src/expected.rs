@@ -45,7 +45,6 @@ impl Expect for Convention {
 }
 
 /// The exact values at the declared sample; w is the one that the request names.
-#[must_use]
 pub fn exact_values(triangle: &Triangle, declared: &Declared) -> Option<ExactTriangle<2>> {
     let corners = declared.convention().centred(&triangle.corners());
     let v = &triangle.vertices;

@@ -46,7 +46,6 @@ impl Finding {
     }
 
     /// A number that changes when what is wrong changes; not with the last bits of values.
-    #[must_use]
     pub fn fingerprint(&self) -> u64 {
         let Tally { missing, extra, twice, order } = self.tally;
         let off = u64::from(self.worst > 1.0);

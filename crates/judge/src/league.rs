@@ -103,7 +103,6 @@ impl Standing {
 }
 
 /// A day as year-month-day, from the days since 1970-01-01 (the civil calendar, counted from March).
-#[must_use]
 pub fn date(days: u64) -> String {
     let days = days + 719_468;
     let (era, of_era) = (days / 146_097, days % 146_097);

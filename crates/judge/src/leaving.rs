@@ -80,7 +80,6 @@ pub fn otherwise(
 }
 
 /// Said of a convention where at least a tenth of what leaves the window comes out otherwise.
-#[must_use]
 pub fn sentence(what: &str, count: Count) -> Option<String> {
     (10 * count.drawn >= count.of && count.drawn > 0).then(|| {
         let Count { drawn, of } = count;

@@ -50,7 +50,6 @@ fn outline(list: &[Corners]) -> Vec<Edge> {
 
 /// Pixels of the window without a hit whose neighbourhood lies within the mesh, and hits beyond the
 /// first on any pixel; `hits` are those of all triangles together, each counted at most once.
-#[must_use]
 pub fn holes_and_doubles(list: &[Corners], hits: &Coverage) -> (u64, u64) {
     let outline = outline(list);
     let (mut holes, mut doubles) = (0, 0);

@@ -32,7 +32,6 @@ pub struct Pictured {
 
 /// The answers as one picture, and beside it what was expected; for checks that compare answers with
 /// each other the first and the one that differs.
-#[must_use]
 pub fn pictured(check: Check, case: &Case, answers: &[Answer], truth: &Truth) -> Option<Pictured> {
     let mut questions = Vec::new();
     check.questions(case, truth, &mut questions);

@@ -61,7 +61,6 @@ pub struct Row {
 
 impl Row {
     /// How bad it is: the share of its cases that are wrong.
-    #[must_use]
     pub fn share(&self) -> f64 {
         self.wrong_cases as f64 / self.cases.max(1) as f64
     }

@@ -4,7 +4,6 @@
 use rasterproof_host::text::printable_short;
 
 /// A decimal number or a C99 hex float. NaN and infinities are read; who asks refuses them by name.
-#[must_use]
 pub fn number(word: &str) -> Option<f64> {
     let (sign, digits) = match word.as_bytes().first()? {
         b'-' => (-1.0, &word[1..]),
@@ -24,7 +23,6 @@ pub fn number(word: &str) -> Option<f64> {
 }
 
 /// At most `most` characters of what a program wrote, as they can be shown.
-#[must_use]
 pub fn printable(bytes: &[u8], most: usize) -> String {
     // A character has at most four bytes: what lies beyond is not looked at.
     let few = &bytes[..bytes.len().min(4 * most + 4)];

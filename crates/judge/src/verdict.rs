@@ -75,7 +75,6 @@ pub struct Score {
 }
 
 /// Wrong pixels per million expected; cases where nothing is expected count as one pixel.
-#[must_use]
 pub fn per_million(wrong: u64, pixels: u64) -> f64 {
     1e6 * wrong as f64 / pixels.max(1) as f64
 }
@@ -182,7 +181,6 @@ impl Verdict {
     }
 
     /// Triangles or lines that were judged against an expected picture.
-    #[must_use]
     pub fn shapes(&self, lines: bool) -> u64 {
         let is_lines = |row: &&Row| row.name.starts_with("line-") == lines;
         self.pictures().filter(is_lines).map(|row| row.shapes).sum()
@@ -233,7 +231,6 @@ fn about(name: &str) -> String {
 }
 
 /// What was found, in a sentence.
-#[must_use]
 pub fn sentence(row: &Row) -> String {
     let mut out = match row.wrong_cases {
         0 => format!("{} cases agree", row.cases),

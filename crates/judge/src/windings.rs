@@ -42,7 +42,6 @@ impl Windings {
     }
 
     /// What is drawn as the protocol's word, as seen; nothing where none is.
-    #[must_use]
     pub fn seen(&self) -> Option<Winding> {
         match (Self::drawn(self.clockwise), Self::drawn(self.counter_clockwise)) {
             (true, true) => Some(Winding::Both),

@@ -8,7 +8,6 @@ use crate::engines::{Engine, LineEngine};
 
 impl Engine {
     /// The derived bounds of its values. A planted fault gets the wider ones.
-    #[must_use]
     pub fn tolerance(self) -> Tolerance {
         match self {
             Self::Scanline | Self::Mutant(_) => tolerance::SCANLINE,

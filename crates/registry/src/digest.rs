@@ -119,7 +119,6 @@ impl Job {
     }
 }
 
-#[must_use]
 pub fn engines() -> Vec<&'static str> {
     let mut names: Vec<_> = jobs().into_iter().map(|job| job.names().0).collect();
     names.sort_unstable();
@@ -151,13 +150,11 @@ pub fn digest(
 }
 
 /// How many cases [`digest`] goes through.
-#[must_use]
 pub fn case_count(options: Options, engine: Option<&str>) -> u64 {
     let wanted = |job: &Job| engine.is_none_or(|name| job.names().0 == name);
     jobs().into_iter().filter(wanted).map(|job| job.count(options.cases)).sum()
 }
 
-#[must_use]
 pub fn total(parts: &[DigestRow]) -> String {
     let mut all = Sha256::new();
     for DigestRow { engine, what, sha256 } in parts {

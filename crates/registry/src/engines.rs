@@ -58,7 +58,6 @@ impl Engine {
     pub const CHOICES: [Self; 3] = [Self::Scanline, Self::EdgeFunction, Self::Tile];
 
     /// Its name on the command line.
-    #[must_use]
     pub fn name(&self) -> &'static str {
         match self {
             Self::Scanline => "scanline",
@@ -138,7 +137,6 @@ impl LineEngine {
     pub const JUDGED: [Self; 2] = [Self::Dda, Self::Bresenham];
 
     /// Its name on the command line.
-    #[must_use]
     pub fn name(&self) -> &'static str {
         match self {
             Self::Dda => "dda",
@@ -193,7 +191,6 @@ impl Drawer {
     pub const ALL: [Self; 2] = [Self::Scanline, Self::EdgeFunction];
 
     /// The rasterizer's name.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Scanline => Engine::Scanline.name(),
@@ -201,7 +198,6 @@ impl Drawer {
         }
     }
 
-    #[must_use]
     pub fn line_name(self) -> &'static str {
         match self {
             Self::Scanline => LineEngine::Dda.name(),
@@ -344,7 +340,6 @@ impl ExactEngine {
     pub const JUDGED: [Self; 2] = [Self::Scanline, Self::EdgeFunction];
 
     /// Its name on the command line.
-    #[must_use]
     pub fn name(&self) -> &'static str {
         match self {
             Self::Scanline => "scanline-exact",
@@ -576,13 +571,11 @@ pub const SPECIMENS: [Entry; 15] = [
 ];
 
 /// The entry called `name`, engines first.
-#[must_use]
 pub fn find(name: &str) -> Option<&'static Entry> {
     ENTRIES.iter().chain(&SPECIMENS).find(|entry| entry.name == name)
 }
 
 /// The rasterizer or line drawer with the planted fault of this name.
-#[must_use]
 pub fn find_planted(name: &str) -> Option<Entry> {
     let engine = TriangleMutant::ALL.into_iter().find(|mutant| mutant.name() == name);
     let line = LineMutant::ALL.into_iter().find(|mutant| mutant.name() == name);

@@ -123,7 +123,6 @@ impl Fault {
         triangles.chain(tiles).chain(LineMutant::ALL.into_iter().map(Self::Line)).collect()
     }
 
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Triangle(mutant) => mutant.name(),
@@ -607,7 +606,6 @@ fn wider_than_i32() -> Drawing {
 }
 
 /// Makes the fixtures. `progress` hears of each that was found.
-#[must_use]
 pub fn generate(seed: u64, progress: &(dyn Fn(u64) + Sync)) -> Fixtures {
     let mut cases = Vec::new();
     for (kind, quota) in QUOTAS {
@@ -657,7 +655,6 @@ pub fn generate(seed: u64, progress: &(dyn Fn(u64) + Sync)) -> Fixtures {
 
 impl Fixtures {
     /// As text, a case a line.
-    #[must_use]
     pub fn to_json(&self) -> String {
         let head = serde_json::json!({
             "format": self.format, "rasterproof": self.rasterproof, "seed": self.seed, "samples": self.samples,

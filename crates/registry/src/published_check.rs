@@ -73,19 +73,16 @@ impl Counts {
     }
 
     /// Wrong triangles in percent.
-    #[must_use]
     pub fn percent(&self) -> f64 {
         self.percent_of(self.wrong)
     }
 
     /// A number of triangles in percent of all.
-    #[must_use]
     pub fn percent_of(&self, triangles: u64) -> f64 {
         100.0 * triangles as f64 / self.shapes.max(1) as f64
     }
 
     /// A number of pixels per million that the oracle covers; nothing where it covers none.
-    #[must_use]
     pub fn per_million(&self, pixels: u64) -> Option<f64> {
         (self.pixels > 0).then(|| 1e6 * pixels as f64 / self.pixels as f64)
     }
@@ -174,7 +171,6 @@ fn over(
     families.iter().map(|family| (family.name, counts(family))).collect()
 }
 
-#[must_use]
 pub fn exposing_name(card: &Card) -> &'static str {
     match &card.exhibit {
         Exhibit::Triangles([case, _]) => case.name,
@@ -185,7 +181,6 @@ pub fn exposing_name(card: &Card) -> &'static str {
 
 /// Pixels with a wrong hit count, a wrong value or a wrong colour in one of a card's cases; a
 /// refusal counts as one.
-#[must_use]
 pub fn wrong(card: &Card, setting: Setting) -> u64 {
     let which = usize::from(setting == Setting::Harmless);
     let specimen = engines::find(card.name).and_then(|entry| entry.specimen);
@@ -211,7 +206,6 @@ fn different(a: &Image, b: &Image) -> u64 {
 }
 
 /// A card's triangles with their values.
-#[must_use]
 pub fn real_triangles(case: &TriangleCase) -> Vec<RealTriangle> {
     let vertex = |corners: &[(f64, f64); 3], i: usize| RealVertex {
         position_px: DVec2::new(corners[i].0, corners[i].1),
@@ -223,7 +217,6 @@ pub fn real_triangles(case: &TriangleCase) -> Vec<RealTriangle> {
 }
 
 /// The same triangle on the lattice; none where a corner does not lie there.
-#[must_use]
 pub fn on_lattice(triangle: &RealTriangle) -> Option<Triangle> {
     let vertex = |v: &RealVertex| {
         let position = SubpixelPoint::from_px(v.position_px.x, v.position_px.y).ok()?;
@@ -237,7 +230,6 @@ pub fn on_lattice(triangle: &RealTriangle) -> Option<Triangle> {
 }
 
 /// Hits of the oracle for free corners; none for a triangle outside the domain.
-#[must_use]
 pub fn free_truth(triangles: &[RealTriangle], window: PixelRect) -> Coverage {
     let mut hits = Coverage::new(window, 0);
     for triangle in triangles {
@@ -275,7 +267,6 @@ fn judge_free(specimen: &dyn Published, triangles: &[RealTriangle], window: Pixe
 }
 
 /// A card's line as a case of the harness.
-#[must_use]
 pub fn line_case(case: &LineCase) -> Case {
     let [a, b] = case.pixels.map_array(|(x, y)| PixelPoint::new(x, y));
     let side = |a: i32, b: i32, most: u32| (a.max(b) as u32 + 3).min(most);

@@ -37,7 +37,6 @@ pub struct Ties {
 
 impl Ties {
     /// Pixels that are undecided by either rasterizer.
-    #[must_use]
     pub fn count(&self) -> u64 {
         self.undecided.rows().flat_map(|(_, row)| row).filter(|&&is| is).count() as u64
     }

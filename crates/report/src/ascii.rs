@@ -9,7 +9,6 @@ pub const MOST_COLUMNS: u32 = 96;
 pub const MOST_ROWS: u32 = 48;
 
 /// The character of a pixel with these hits.
-#[must_use]
 pub fn mark(actual: u8, target: u8) -> char {
     match (actual, target) {
         (0, 0) => '.',
@@ -23,7 +22,6 @@ pub fn mark(actual: u8, target: u8) -> char {
 }
 
 /// The grid of `actual` judged by `target`, one line for each row, without line ends.
-#[must_use]
 pub fn grid(actual: &Coverage, target: &Coverage) -> Vec<String> {
     let (x, y) = shown(actual, target);
     let rows = actual.rows().zip(target.rows()).skip(y.start).take(y.len());
@@ -60,7 +58,6 @@ fn shown(actual: &Coverage, target: &Coverage) -> (std::ops::Range<usize>, std::
 }
 
 /// Puts blocks of lines beside each other under their titles, as many as fit `columns`.
-#[must_use]
 pub fn side_by_side(blocks: &[(String, Vec<String>)], columns: usize) -> String {
     let mut out = String::new();
     let width = |(title, lines): &(String, Vec<String>)| {

@@ -19,7 +19,6 @@ struct Mark {
     good: bool,
 }
 
-#[must_use]
 pub fn text(board: &Board, colour: bool) -> String {
     let mut out = format!("{}\n", board.ladder.title());
     let columns: Vec<usize> = board.columns_run().collect();
@@ -213,7 +212,6 @@ fn verdicts(out: &mut String, board: &Board) {
 }
 
 /// What exact coverage costs over the cheapest rung, for each class.
-#[must_use]
 pub fn price_text(boards: &[Board]) -> String {
     let prices = prices(boards);
     let mut out = String::new();
@@ -248,7 +246,6 @@ fn wrap(line: &str) -> String {
 }
 
 /// A number in less than `width` characters: three digits where there is room.
-#[must_use]
 pub fn number(value: f64, width: usize) -> String {
     let digits = if width < 8 { 0 } else { 1 };
     match value.abs() {

@@ -86,12 +86,10 @@ impl Drawing {
     }
 }
 
-#[must_use]
 pub fn width(text: &str) -> f64 {
     text.chars().count() as f64 * LETTER
 }
 
-#[must_use]
 pub fn svg(drawing: &Drawing) -> String {
     let [width, height] = drawing.size;
     let mut out = format!(
@@ -182,7 +180,6 @@ fn escaped(text: &str) -> String {
 }
 
 /// The drawing as a picture, twice as many pixels wide as units.
-#[must_use]
 pub fn picture(drawing: &Drawing) -> RgbImage {
     let zoom = f64::from(ZOOM);
     let [width, height] = drawing.size.map(|v| (v * zoom).clamp(1.0, 16384.0) as u32);

@@ -12,7 +12,6 @@ pub struct Chapter {
 }
 
 /// The page of the docs about the source of a published algorithm, such as `book 3.2`.
-#[must_use]
 pub fn chapter_of_source(source: &str) -> Chapter {
     const PAGES: [(&str, &str, &str); 12] = [
         ("book 2", "chapter 2", "ch02.md"),

@@ -38,13 +38,11 @@ struct Dot {
 
 /// Error against time, a panel for each class of scenes, two in a row; the first measure that ranks
 /// is the error. The line through a dot spans the quartiles of its time.
-#[must_use]
 pub fn pareto(board: &Board) -> Drawing {
     pareto_in(board, 2)
 }
 
 /// The same with one panel in a row, for narrow pages.
-#[must_use]
 pub fn pareto_narrow(board: &Board) -> Drawing {
     pareto_in(board, 1)
 }
@@ -361,7 +359,6 @@ fn crosses([from, to]: [[f64; 2]; 2], area: &Area) -> bool {
 }
 
 /// What exact coverage costs over the cheapest rung, for each class of scenes: the one picture.
-#[must_use]
 pub fn price(boards: &[Board]) -> Drawing {
     const BAND: f64 = 48.0;
     let prices = prices(boards);

@@ -38,7 +38,6 @@ pub fn outcome(verdict: &Verdict, off_grid: &ExactVerdict) -> Outcome {
 }
 
 /// Wrong pixels by family and pair: triangles, lines, triangles off the lattice.
-#[must_use]
 pub fn of_verdict(verdict: &Verdict, off_grid: &ExactVerdict) -> Vec<Table> {
     let on_grid = [false, true].into_iter().filter_map(|lines| {
         let families: Vec<_> = verdict.families.iter().filter(|f| f.lines == lines).collect();
@@ -148,7 +147,6 @@ fn off_lattice(verdict: &ExactVerdict) -> Table {
 }
 
 /// Named inputs that must be refused, with the reason they are.
-#[must_use]
 pub fn refused() -> Table {
     let rows = named::named().into_iter().filter_map(|named| {
         let Input::Refused(triangles) = named.input else { return None };
@@ -170,7 +168,6 @@ pub fn refused() -> Table {
 }
 
 /// The survey of the specimens, the most often wrong first.
-#[must_use]
 pub fn of_specimens(reports: &[SpecimenReport]) -> Table {
     let mut sorted: Vec<_> = reports.iter().collect();
     sorted.sort_by(|a, b| b.all.percent().total_cmp(&a.all.percent()));

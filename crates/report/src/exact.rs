@@ -6,7 +6,6 @@ use rasterproof_core::contract::Decisions;
 use rasterproof_verify::comparison::unsnapped::{ExactFamilyReport, ExactVerdict};
 
 /// The whole table with its legend and its sums; empty where nothing was judged off the lattice.
-#[must_use]
 pub fn table(verdict: &ExactVerdict) -> String {
     let mut out = String::new();
     let Some(first) = verdict.families.first() else { return out };
@@ -62,7 +61,6 @@ fn row(out: &mut String, f: &ExactFamilyReport) {
 }
 
 /// A sentence for each engine that disagrees, and for an oracle that does not tile a window.
-#[must_use]
 pub fn disagreements(verdict: &ExactVerdict) -> String {
     let mut out = String::new();
     for f in &verdict.families {

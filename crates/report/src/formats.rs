@@ -43,7 +43,6 @@ impl Format {
 }
 
 /// The verdict in a format other than text; `repeat` gives the command that repeats a case.
-#[must_use]
 pub fn write(
     verdict: &Verdict,
     format: Format,

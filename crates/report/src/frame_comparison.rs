@@ -15,7 +15,6 @@ use rasterproof_render::pipeline::depth::CLEAR;
 use rasterproof_render::pipeline::target::{Colour, Target};
 use rasterproof_verify::comparison::tolerance;
 
-#[must_use]
 pub fn rgb(picture: &Frame<Colour>) -> RgbImage {
     let bounds = picture.bounds();
     RgbImage::from_fn(bounds.width(), bounds.height(), |x, y| {
@@ -138,7 +137,6 @@ fn only_ties(ties: &Ties, [a, b]: [&Target; 2], x_px: i32, y_px: i32) -> bool {
 }
 
 /// How many pixels of two frames of the same size differ.
-#[must_use]
 pub fn differing(a: &Frame<Colour>, b: &Frame<Colour>) -> u64 {
     a.rows()
         .zip(b.rows())
@@ -192,7 +190,6 @@ pub const MAP_COLOURS: [(Effect, [u8; 3]); 9] = [
 /// Those of the book, which have a place in every map; the others where something pays for them.
 const OF_EVERY_MAP: usize = 6;
 
-#[must_use]
 pub fn paid(map: &Frame<u32>, effect: Effect) -> u64 {
     let pays = |paid: &&u32| **paid & (1 << effect as u32) != 0;
     map.rows().map(|(_, row)| row.iter().filter(pays).count() as u64).sum()
@@ -203,7 +200,6 @@ const MAP_COLUMNS: u32 = 3;
 const MAP_WIDTH_PX: u32 = 1440;
 
 /// A map of effects as one small picture for each: the frame, dimmed, and in colour what paid for it.
-#[must_use]
 pub fn map_picture(title: &str, picture: &Frame<Colour>, map: &Frame<u32>) -> RgbImage {
     const GAP: u32 = 12;
     let bounds = map.bounds();
@@ -274,7 +270,6 @@ pub struct Times {
     pub drawing_s: Vec<f64>,
 }
 
-#[must_use]
 pub fn json(
     scene: &str,
     engines: &[&str],

@@ -196,7 +196,6 @@ fn data_address(kind: &str, bytes: &[u8]) -> String {
 }
 
 /// Text that is safe between tags and in quoted attributes.
-#[must_use]
 pub fn escape(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
@@ -215,7 +214,6 @@ pub fn escape(text: &str) -> String {
 }
 
 /// The whole page, below [`limits::PAGE_BYTES`]; the same for the same report.
-#[must_use]
 pub fn page(report: &Report) -> String {
     let mut room =
         limits::PAGE_BYTES.saturating_sub(TEMPLATE.len() + STYLE.len() + SCRIPT.len() + 4096);
@@ -353,7 +351,6 @@ fn about(report: &Report) -> String {
 
 /// The index of the pages in a folder, each given by its file name and its text; nothing is said of
 /// what is no page of this program.
-#[must_use]
 pub fn index(pages: &[(String, String)]) -> String {
     let rows: String = pages
         .iter()

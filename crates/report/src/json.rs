@@ -38,7 +38,6 @@ struct FailureJson {
 
 /// The verdicts on and off the lattice as JSON; `repeat` gives the command that repeats a failing
 /// case.
-#[must_use]
 pub fn verdict(
     verdict: &Verdict,
     off_grid: &ExactVerdict,
@@ -83,7 +82,6 @@ pub fn verdict(
 }
 
 /// The survey of the specimens as JSON; an infinite error is `null`.
-#[must_use]
 pub fn specimens(seed: u64, cases: u64, reports: &[SpecimenReport]) -> String {
     let json = serde_json::json!({
         "version": env!("CARGO_PKG_VERSION"), "seed": seed, "cases": cases, "specimens": reports,
@@ -93,7 +91,6 @@ pub fn specimens(seed: u64, cases: u64, reports: &[SpecimenReport]) -> String {
 
 /// The boards of `cost` as JSON, with what exact coverage costs and the rungs that nobody needs.
 /// [`Recorded::read`] takes it back.
-#[must_use]
 pub fn cost(recorded: &Recorded) -> String {
     let boards = &recorded.boards;
     let verdicts: Vec<_> = boards

@@ -106,14 +106,12 @@ fn dangers(out: &mut String, verdict: &Verdict, colour: bool) {
 }
 
 /// Breaks a line at spaces; the lines after the first begin with `indent`.
-#[must_use]
 pub fn wrapped(text: &str, indent: &str) -> String {
     let (first, words) = text.split_at(text.len() - text.trim_start().len());
     hanging(words, first, indent) + "\n"
 }
 
 /// The words in lines of at most 100 columns: the first begins with `first`, the others with `rest`.
-#[must_use]
 pub fn hanging(words: &str, first: &str, rest: &str) -> String {
     let mut lines = vec![first.to_owned()];
     for (i, word) in words.split(' ').enumerate() {

@@ -53,7 +53,6 @@ const CHINESE: Words = Words {
     },
 };
 
-#[must_use]
 pub fn tables(league: &League, chinese: bool) -> String {
     let words = if chinese { &CHINESE } else { &ENGLISH };
     let mut out = format!("{}\n\n{}\n|---|---|---|", (words.made)(league), words.header);

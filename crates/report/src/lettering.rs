@@ -59,7 +59,6 @@ impl Size {
 }
 
 /// Width of a line of text in picture pixels; the largest `u32` where it is wider.
-#[must_use]
 pub fn width(text: &str, size: Size) -> u32 {
     u32::try_from(text.chars().count()).unwrap_or(u32::MAX).saturating_mul(size.cell()[0])
 }
@@ -100,7 +99,6 @@ pub fn write(
 }
 
 /// The text in lines of at most `room` picture pixels, broken at spaces; a longer word has its own.
-#[must_use]
 pub fn wrapped(text: &str, size: Size, room: u32) -> Vec<String> {
     lines(text, room, |line| width(line, size))
 }

@@ -102,7 +102,6 @@ pub struct Judged<'a> {
 
 /// The failing cases of a run, then for each family the one that came closest to a bound, then
 /// every named case. `repeat` gives the command that repeats a failing case.
-#[must_use]
 pub fn of_verdict(
     verdict: &Verdict,
     off_grid: &ExactVerdict,
@@ -190,7 +189,6 @@ fn every_named(judged: Judged<'_>) -> Vec<CaseView> {
 }
 
 /// The case that exposes each specimen that draws triangles or lines.
-#[must_use]
 pub fn of_specimens() -> Vec<CaseView> {
     let judged = Judged { engines: &Engine::JUDGED, lines: &LineEngine::JUDGED, exact: &[] };
     let views = CARDS.iter().filter_map(|card| {
@@ -252,7 +250,6 @@ fn request(engine: &str, case: &Case) -> String {
 /// A failing case of a program that was judged, beside what the engines and the specimens draw. Where
 /// something else is expected of it than of them, or the picture is another than theirs, beside what
 /// was expected alone.
-#[must_use]
 pub fn of_program(
     name: String,
     about: String,
@@ -298,7 +295,6 @@ fn unique(views: &mut [CaseView]) {
 }
 
 /// A case on the lattice, drawn by those that are judged, the engines, the oracle and the specimens.
-#[must_use]
 pub fn on_grid(
     name: String,
     about: String,
@@ -365,7 +361,6 @@ fn drawn_lines(list: &[cases::Line], window: PixelRect, judged: Judged<'_>) -> V
 }
 
 /// Hits of both.
-#[must_use]
 pub fn added(mut sum: Coverage, more: &Coverage) -> Coverage {
     for (y_px, row) in more.rows() {
         for (sum, more) in sum.row_mut(y_px).iter_mut().zip(row) {
@@ -376,7 +371,6 @@ pub fn added(mut sum: Coverage, more: &Coverage) -> Coverage {
 }
 
 /// A case off the lattice, drawn by those that are judged, the engines and the oracle.
-#[must_use]
 pub fn off_lattice(
     name: String,
     about: String,

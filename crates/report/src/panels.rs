@@ -60,7 +60,6 @@ pub struct Sheet {
 /// What each engine draws, judged by `target`; then the target, as `oracle`.
 ///
 /// All coverages show the case's window.
-#[must_use]
 pub fn of_case(title: &str, case: &Case, actual: &[Drawn], target: &Coverage) -> Sheet {
     let outline = match &case.shape {
         Shape::Triangles { .. } => "edges",
@@ -90,7 +89,6 @@ fn owners(case: &Case, target: &Coverage) -> Option<Coverage> {
     Some(owners)
 }
 
-#[must_use]
 pub fn of_off_grid(title: &str, case: &OffGridCase, actual: &[Drawn], target: &Coverage) -> Sheet {
     let judged = (actual, target, None);
     sheet((title, "edges"), case.window, judged, |window, zoom| free_segments(case, window, zoom))
@@ -387,7 +385,6 @@ fn foot(
 
 impl Sheet {
     /// The sheet as a PNG that remembers its panels.
-    #[must_use]
     pub fn png(&self) -> Vec<u8> {
         let row = |p: &Panel| {
             let ([left, top], PixelRect { x0, y0, x1, y1 }) = (p.at, p.shown);
@@ -460,7 +457,6 @@ fn parsed(row: &str) -> Option<Panel> {
 ///
 /// Only the pixels that a panel shows are compared. The two windows may lie far apart, so that the
 /// rectangle around both can be many times larger than the pictures.
-#[must_use]
 pub fn changes(old: &Sheet, new: &Sheet) -> Vec<(String, u64)> {
     let mut by_name = HashMap::new();
     for panel in &old.panels {

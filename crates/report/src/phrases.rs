@@ -15,7 +15,6 @@ static PHRASES: LazyLock<Vec<[String; 2]>> = LazyLock::new(|| {
 const MOST_HELD: usize = 120;
 
 /// A sentence, or how a call is made, in Chinese.
-#[must_use]
 pub fn chinese(text: &str) -> String {
     let mut text = text.to_owned();
     for [english, chinese] in PHRASES.iter() {

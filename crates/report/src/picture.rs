@@ -95,7 +95,6 @@ fn edges([a, b, c]: [PixelPoint; 3]) -> [[PixelPoint; 2]; 3] {
 pub const STACK_GAP: u32 = 12;
 
 /// Stacks pictures under each other on white, with a gap between.
-#[must_use]
 pub fn stack(pictures: &[RgbImage]) -> RgbImage {
     let width = pictures.iter().map(RgbImage::width).max().unwrap_or(1);
     let height = pictures
@@ -114,7 +113,6 @@ pub fn stack(pictures: &[RgbImage]) -> RgbImage {
 }
 
 /// The picture as a PNG file's bytes, with a palette where it has at most 256 colours.
-#[must_use]
 pub fn png(image: &RgbImage) -> Vec<u8> {
     encoded(image, None)
 }

@@ -95,7 +95,6 @@ struct Panels {
 }
 
 /// All cards of a sheet, two strips to a row, under a title and over a legend.
-#[must_use]
 pub fn sheet(sheet: &Sheet) -> panels::Sheet {
     let strips: Vec<panels::Sheet> = sheet.cards().map(strip).collect();
     let mut title = RgbImage::from_pixel(2 * STRIP, 40, WHITE);
@@ -118,13 +117,11 @@ pub fn sheet(sheet: &Sheet) -> panels::Sheet {
     panels::Sheet { image: picture::stack(&all), panels }
 }
 
-#[must_use]
 pub fn contact_sheet() -> RgbImage {
     picture::stack(&SHEETS.each_ref().map(|s| sheet(s).image))
 }
 
 /// The exposing pictures of every card, for the page, named apart from the cases that are `taken`.
-#[must_use]
 pub fn views(taken: &[String]) -> Vec<PictureView> {
     let view = |card: &Card| {
         let Panels { published, repaired, .. } = versions(card)?;
@@ -225,7 +222,6 @@ fn legend(width: u32, shown: &[Panels]) -> RgbImage {
     image
 }
 
-#[must_use]
 pub fn alone(card: &Card) -> panels::Sheet {
     let panels::Sheet { image, panels } = strip(card);
     let shown: Vec<_> = versions(card).into_iter().collect();

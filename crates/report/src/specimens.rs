@@ -12,7 +12,6 @@ corner values' spread; shared: as twice, but pixels that two triangles of a mesh
 
 /// The survey: a block for each specimen with its sums and its worst family, then coverage by family
 /// in percent; at most 100 columns.
-#[must_use]
 pub fn table(reports: &[SpecimenReport]) -> String {
     let mut out = String::from(UNITS);
     let _ = writeln!(out, "{:<17}{} worst family", "specimen", heads());
@@ -40,7 +39,6 @@ pub fn table(reports: &[SpecimenReport]) -> String {
 }
 
 /// One specimen: its card, every family, every recorded input.
-#[must_use]
 pub fn detail(report: &SpecimenReport) -> String {
     let r = report;
     let mut out = format!("{}: {}\n{}\ncure: {}\n", r.name, r.source, r.fault, r.cure);

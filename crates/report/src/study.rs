@@ -29,7 +29,6 @@ pub struct Subject<'a> {
 
 impl Subject<'_> {
     /// Where a triangle is, in words.
-    #[must_use]
     pub fn place(&self, triangle: u32) -> String {
         let place = triangle_of(self.scene, triangle)
             .and_then(|(item, number)| Some(self.origins.get(item)?.place(number)));
@@ -37,14 +36,12 @@ impl Subject<'_> {
     }
 
     /// The command that shows the face of a triangle.
-    #[must_use]
     pub fn command(&self, triangle: u32) -> String {
         (self.inspect)(face_of(self.scene, self.origins, triangle))
     }
 }
 
 /// `1,234,567`.
-#[must_use]
 pub fn thousands(number: u64) -> String {
     let digits = number.to_string();
     let mut out = String::new();
@@ -69,7 +66,6 @@ fn wrong_on(found: &HardCases, kind: Kind, costs: &[Group]) -> Vec<String> {
 }
 
 /// The hard cases, each with the command that shows one.
-#[must_use]
 pub fn hard_cases(subject: &Subject<'_>, found: &HardCases, costs: &[Group]) -> String {
     let mut out = String::new();
     if found.cases.is_empty() {
@@ -113,7 +109,6 @@ pub fn hard_cases(subject: &Subject<'_>, found: &HardCases, costs: &[Group]) -> 
 }
 
 /// The same for machines.
-#[must_use]
 pub fn hard_cases_json(subject: &Subject<'_>, found: &HardCases) -> Value {
     let face = |&triangle: &u32| {
         let origin = triangle_of(subject.scene, triangle)
@@ -149,7 +144,6 @@ fn ms(ns: f64) -> String {
 }
 
 /// What each choice costs, by group; and what to choose.
-#[must_use]
 pub fn costs(subject: &Subject<'_>, pieces: &[Piece], groups: &[Group]) -> String {
     let mut out = String::new();
     for group in groups {
@@ -187,7 +181,6 @@ pub fn costs(subject: &Subject<'_>, pieces: &[Piece], groups: &[Group]) -> Strin
 }
 
 /// The cheapest exact choice of a group, and what is said of those that are cheaper and wrong, or exact by chance.
-#[must_use]
 pub fn advice(subject: &Subject<'_>, pieces: &[Piece], group: &Group) -> Vec<String> {
     let mut lines = Vec::new();
     let mut limit = f64::INFINITY;
@@ -232,7 +225,6 @@ pub fn advice(subject: &Subject<'_>, pieces: &[Piece], group: &Group) -> Vec<Str
 }
 
 /// The same for machines.
-#[must_use]
 pub fn costs_json(subject: &Subject<'_>, pieces: &[Piece], groups: &[Group]) -> Value {
     let group = |group: &Group| {
         let choice = |choice: &Choice| {
@@ -268,7 +260,6 @@ pub fn costs_json(subject: &Subject<'_>, pieces: &[Piece], groups: &[Group]) -> 
 }
 
 /// How it is decided which surface is seen, as text.
-#[must_use]
 pub fn ties(subject: &Subject<'_>, pieces: &[Piece], classes: &Classes) -> String {
     let [decided, by_rounding, equal] =
         [classes.decided, classes.by_rounding, classes.equal].map(thousands);
@@ -320,7 +311,6 @@ fn reasons(need: &Need) -> String {
 }
 
 /// What a scene calls for, as text; `not_drawn` is what its file asks for besides.
-#[must_use]
 pub fn needs(needs: &Needs, not_drawn: &str) -> String {
     let mut out = format!(
         "{:<17}{:>14}{:>18}{:>12}\n",
@@ -353,7 +343,6 @@ pub fn needs(needs: &Needs, not_drawn: &str) -> String {
 }
 
 /// What follows from the effects, a sentence each.
-#[must_use]
 pub fn effects_advice(needs: &Needs) -> Vec<String> {
     let mut lines = Vec::new();
     let idle: Vec<_> = needs
@@ -394,7 +383,6 @@ pub fn effects_advice(needs: &Needs) -> Vec<String> {
 }
 
 /// The same for machines.
-#[must_use]
 pub fn needs_json(needs: &Needs, not_drawn: &str) -> Value {
     let one = |need: &Need| {
         json!({
@@ -424,7 +412,6 @@ pub fn needs_json(needs: &Needs, not_drawn: &str) -> Value {
 }
 
 /// The same for machines.
-#[must_use]
 pub fn ties_json(classes: &Classes) -> Value {
     json!({
         "decided": classes.decided,

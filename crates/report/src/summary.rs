@@ -80,13 +80,11 @@ pub const DANGERS: &[Danger] = &[
 ///
 /// # Panics
 /// For a name that is no family's.
-#[must_use]
 pub fn danger(family: &str) -> &'static Danger {
     DANGERS.iter().find(|d| d.families.contains(&family)).expect("every family is listed")
 }
 
 /// The page that explains what failed: a wrong value alone is about values.
-#[must_use]
 pub fn chapter(failure: &Failure) -> &'static str {
     let is_pixel = ["missing", "extra", "twice", "order", "panics"];
     if is_pixel.iter().any(|word| failure.what.contains(word)) {
@@ -163,13 +161,11 @@ pub(super) fn thousands(n: u64) -> String {
     groups.map(|group| String::from_utf8_lossy(group)).collect::<Vec<_>>().join(",")
 }
 
-#[must_use]
 pub fn word(agrees: bool) -> &'static str {
     if agrees { "AGREES" } else { "DISAGREES" }
 }
 
 /// A tick or a cross, coloured where that can be seen.
-#[must_use]
 pub fn mark(is_right: bool, colour: bool) -> &'static str {
     match (is_right, colour) {
         (true, false) => "✓",
@@ -180,7 +176,6 @@ pub fn mark(is_right: bool, colour: bool) -> &'static str {
 }
 
 /// A line for something that was judged; more lines below it where there is more to say.
-#[must_use]
 pub fn entry(mark: &str, name: &str, what: &str) -> String {
     let mut rows = what.lines();
     let mut out = format!("  {mark} {name:<25} {}\n", rows.next().unwrap_or(""));
@@ -191,7 +186,6 @@ pub fn entry(mark: &str, name: &str, what: &str) -> String {
 }
 
 /// A line for each danger that was judged, then one for the values.
-#[must_use]
 pub fn lines(verdict: &Verdict, off_grid: &ExactVerdict, colour: bool) -> String {
     let mut out = String::new();
     let mut entry = |is_right, name, what: &str| out += &entry(mark(is_right, colour), name, what);
@@ -211,7 +205,6 @@ pub fn lines(verdict: &Verdict, off_grid: &ExactVerdict, colour: bool) -> String
 }
 
 /// How near a difference of values came to the bound that is derived for it.
-#[must_use]
 pub fn of_bound(worst: f64) -> String {
     match worst {
         w if w <= 1.0 => format!("at most {:.0}% of the bound", (100.0 * w).ceil()),

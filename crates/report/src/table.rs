@@ -5,7 +5,6 @@ use std::fmt::Write as _;
 use rasterproof_verify::comparison::{FamilyReport, PairReport, Verdict};
 
 /// The whole table with its legend and its sums; at most 100 columns wide for two engines.
-#[must_use]
 pub fn table(verdict: &Verdict) -> String {
     let mut out = String::new();
     for lines in [false, true] {
@@ -105,7 +104,6 @@ fn percent(part: u64, whole: u64) -> u64 {
 }
 
 /// The quotas in a sentence; empty where no triangles were judged.
-#[must_use]
 pub fn quota_line(verdict: &Verdict) -> String {
     if verdict.sum(false, |f| f.cases) == 0 {
         return String::new();
@@ -116,7 +114,6 @@ pub fn quota_line(verdict: &Verdict) -> String {
 }
 
 /// A sentence for each pair that disagrees, and for oracles that overlap themselves.
-#[must_use]
 pub fn disagreements(verdict: &Verdict) -> String {
     let mut out = String::new();
     for f in &verdict.families {

@@ -85,7 +85,6 @@ pub struct Group {
 }
 
 impl Group {
-    #[must_use]
     pub fn cheapest_exact(&self, measure: usize) -> Option<usize> {
         let goal = self.measures.get(measure)?.goal?;
         self.cheapest(&|choice| choice.errors[measure].is_some_and(|error| error <= goal))
@@ -523,7 +522,6 @@ fn depth(pieces: &[Piece], window: PixelRect, effort: Effort) -> Group {
 }
 
 /// Which piece is nearest at each pixel by exact depths of the snapped pieces; of equal ones the first.
-#[must_use]
 pub fn exactly_seen(pieces: &[Piece], window: PixelRect) -> Frame<u32> {
     let mut nearest = Frame::new(window, f64::INFINITY);
     let mut error = Frame::new(window, 0.0);

@@ -58,7 +58,6 @@ impl Kind {
     ];
 
     /// What is counted, in the plural.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::NoArea => "triangles without area",
@@ -78,7 +77,6 @@ impl Kind {
     }
 
     /// What it is, and what one sees of it.
-    #[must_use]
     pub fn about(self) -> &'static str {
         match self {
             Self::NoArea => "corners on one line: not drawn; who divides by the area divides by 0",

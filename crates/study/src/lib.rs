@@ -13,7 +13,6 @@ use rasterproof_render::scene::Scene;
 
 /// The item of a triangle and its number there, by its number in the scene, from 0 in drawing order; none beyond the
 /// last.
-#[must_use]
 pub fn triangle_of(scene: &Scene, triangle: u32) -> Option<(usize, usize)> {
     let mut number = triangle as usize;
     for (item, of) in scene.items.iter().enumerate() {
@@ -27,7 +26,6 @@ pub fn triangle_of(scene: &Scene, triangle: u32) -> Option<(usize, usize)> {
 }
 
 /// The number of a triangle's face, from 1: in the file where the scene is of one, else in the scene.
-#[must_use]
 pub fn face_of(scene: &Scene, origins: &[Origin], triangle: u32) -> u32 {
     let of_file = triangle_of(scene, triangle)
         .and_then(|(item, number)| origins.get(item)?.faces.get(number).copied());

@@ -92,7 +92,6 @@ impl Plane {
 }
 
 /// The nearest piece at each pixel before corners are snapped, and how well it is known to be the nearest.
-#[must_use]
 pub fn classify(pieces: &[Piece], window: PixelRect) -> Classes {
     let nothing = (f64::INFINITY, NOTHING);
     let mut nearest = Frame::new(window, nothing);

@@ -31,13 +31,11 @@ pub struct Piece {
 }
 
 impl Piece {
-    #[must_use]
     pub fn corners(&self) -> Corners {
         self.triangle.corners()
     }
 
     /// The corners as they are; none beyond the domain of the engines.
-    #[must_use]
     pub fn free(&self) -> Option<FreeCorners> {
         FreeCorners::new(self.px).ok()
     }

@@ -73,7 +73,6 @@ planted! {
 }
 
 impl WordWidthMutant {
-    #[must_use]
     pub fn function(self) -> fn(u32, u32) -> WordWidth {
         match self {
             // The real choice pads each side by a pixel; less a pixel it is the bare product.
@@ -98,7 +97,6 @@ planted! {
 }
 
 impl SourceMutant {
-    #[must_use]
     pub fn function(self) -> fn(&Family, u64, u64) -> Case {
         match self {
             Self::UniformOnly => |family, seed, index| {

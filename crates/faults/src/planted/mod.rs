@@ -18,7 +18,6 @@ macro_rules! planted {
             pub const ALL: [Self; [$($name),+].len()] = [$(Self::$fault),+];
 
             /// Its name for `--plant`.
-            #[must_use]
             pub fn name(self) -> &'static str {
                 match self {
                     $(Self::$fault => $name,)+
@@ -26,7 +25,6 @@ macro_rules! planted {
             }
 
             /// What is wrong, in a sentence.
-            #[must_use]
             pub fn about(self) -> &'static str {
                 match self {
                     $(Self::$fault => $sentence,)+
@@ -74,7 +72,6 @@ macro_rules! kinds {
             }
 
             /// Its name for `--plant`.
-            #[must_use]
             pub fn name(&self) -> &'static str {
                 match self {
                     $(Self::$kind(mutant) => mutant.name(),)+
@@ -117,13 +114,11 @@ pub fn all() -> impl Iterator<Item = (&'static str, &'static str)> {
 }
 
 /// What is wrong with the mutant of this name; nothing where there is none.
-#[must_use]
 pub fn about(name: &str) -> Option<&'static str> {
     all().find(|(listed, _)| *listed == name).map(|(_, about)| about)
 }
 
 /// Names of all planted faults, for the command line.
-#[must_use]
 pub fn names() -> Vec<&'static str> {
     all().map(|(name, _)| name).collect()
 }

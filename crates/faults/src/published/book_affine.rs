@@ -42,7 +42,6 @@ impl Published for BookAffine {
 }
 
 /// A chequered floor that recedes, or a triangle of one value.
-#[must_use]
 pub fn draw(version: Version, setting: Setting) -> Image {
     match setting {
         Setting::Exposing => floor(&BookAffine, version, 4.0),

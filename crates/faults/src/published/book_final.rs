@@ -221,7 +221,6 @@ impl Published for BookFinal {
 
 /// A triangle that holds nearly the whole screen and touches its corners but for the last bit, or
 /// one that is cut at three borders.
-#[must_use]
 pub fn draw_clip(version: Version, setting: Setting) -> Image {
     let triangle = match setting {
         Setting::Exposing => [

@@ -17,32 +17,27 @@ use super::scene::{COLOURS, Image, SIDE, Setting, Version, WHITE, empty};
 use rasterproof_core::arrays::MapArray as _;
 
 /// Formula (8): a value at t' between two corners with w of `wa` and `wb`.
-#[must_use]
 pub fn value(wa: f64, wb: f64, va: DVec2, vb: DVec2, t: f64) -> DVec2 {
     (wb * va + (wa * vb - wb * va) * t) / (wb + (wa - wb) * t)
 }
 
 /// Formula (9): w itself.
-#[must_use]
 pub fn w(wa: f64, wb: f64, t: f64) -> f64 {
     (wa * wb) / (wb + (wa - wb) * t)
 }
 
 /// Formula (8) in single precision.
-#[must_use]
 pub fn value_f32(wa: f32, wb: f32, va: f32, vb: f32, t: f32) -> f32 {
     (wb * va + (wa * vb - wb * va) * t) / (wb + (wa - wb) * t)
 }
 
 /// The same value as a quotient of sums without cancellation.
-#[must_use]
 pub fn value_f32_repaired(wa: f32, wb: f32, va: f32, vb: f32, t: f32) -> f32 {
     let (from, to) = (wb * (1.0 - t), wa * t);
     (from * va + to * vb) / (from + to)
 }
 
 /// Formula (8) without cancellation, in double precision.
-#[must_use]
 pub fn value_repaired(wa: f64, wb: f64, va: f64, vb: f64, t: f64) -> f64 {
     let (from, to) = (wb * (1.0 - t), wa * t);
     (from * va + to * vb) / (from + to)
@@ -51,7 +46,6 @@ pub fn value_repaired(wa: f64, wb: f64, va: f64, vb: f64, t: f64) -> f64 {
 /// The formula in double precision at the far corner, t' = 1, where the value is v_b = 1: from left
 /// to right the ratio of the w grows from 9e13 to 2e17, downwards w_a doubles. One colour is right;
 /// the farther from 1, the more of the other; white is no number.
-#[must_use]
 pub fn draw(version: Version, setting: Setting) -> Image {
     let mut image = empty(SIDE);
     let bounds = image.bounds();

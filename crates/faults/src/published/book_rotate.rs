@@ -30,7 +30,6 @@ pub enum Turn {
 }
 
 /// Where the published matrix sends a point.
-#[must_use]
 pub fn published(turn: Turn, angle_rad: f64, p: DVec3) -> DVec3 {
     let (s, c) = sin_cos(angle_rad);
     match turn {
@@ -42,7 +41,6 @@ pub fn published(turn: Turn, angle_rad: f64, p: DVec3) -> DVec3 {
 }
 
 /// The same in one cycle: the transposes of the first two.
-#[must_use]
 pub fn repaired(turn: Turn, angle_rad: f64, p: DVec3) -> DVec3 {
     match turn {
         Turn::X | Turn::CodeX => published(Turn::X, -angle_rad, p),
@@ -53,7 +51,6 @@ pub fn repaired(turn: Turn, angle_rad: f64, p: DVec3) -> DVec3 {
 
 /// A square in each quarter of the picture, in perspective: about x and y, about z, and about x by
 /// the code; or the one about z alone.
-#[must_use]
 pub fn draw(version: Version, setting: Setting) -> Image {
     let mut image = empty(SIDE);
     let quarter = f64::from(SIDE) / 4.0;

@@ -17,7 +17,6 @@ fn viewport(ndc: DVec2, last: f64) -> DVec2 {
 }
 
 /// A square that fills the screen, or a small one in the corner.
-#[must_use]
 pub fn draw(version: Version, setting: Setting) -> Image {
     let mut image = empty(SIDE);
     let side = f64::from(SIDE);

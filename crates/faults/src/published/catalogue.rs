@@ -370,7 +370,6 @@ pub const RECORDED: &[RecordedCase] = &[
     recorded("t_divzero", "book-ch11", &[[(9.75, 4.0), (10.25, 4.0), (10.0, 8.0)]]),
 ];
 
-#[must_use]
 pub fn find(name: &str) -> Option<&'static Card> {
     CARDS.iter().find(|card| card.name == name)
 }

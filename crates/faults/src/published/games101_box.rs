@@ -22,14 +22,12 @@ const GUARD: i32 = 4;
 const FENCE: Colour = [60, 60, 76];
 
 /// The pixel that y times width plus x names: another one, if x lies beyond the row.
-#[must_use]
 pub fn lands(x_px: i32, y_px: i32, width: i32) -> (i32, i32) {
     let address = y_px * width + x_px;
     (address % width, address / width)
 }
 
 /// The memory, guard rows first: a triangle that leaves the window, or one within it.
-#[must_use]
 pub fn draw(version: Version, setting: Setting) -> Image {
     let width = SIDE as i32;
     let window = PixelRect::window(SIDE, SIDE - 2 * GUARD as u32);

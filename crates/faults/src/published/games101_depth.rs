@@ -21,7 +21,6 @@ pub fn published(depths: [f64; 2], w: [f64; 2], t: f64) -> f64 {
 }
 
 /// The depth of a receding floor in eight bands, or that of an upright wall.
-#[must_use]
 pub fn draw(version: Version, setting: Setting) -> Image {
     let mut image = empty(SIDE);
     let far = if setting == Setting::Exposing { 100.0 } else { 1.0 };

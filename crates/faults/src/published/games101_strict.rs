@@ -120,7 +120,6 @@ impl Published for Games101Strict {
 }
 
 /// The chequered floor with every w set to 1, or a triangle that has no other.
-#[must_use]
 pub fn draw(version: Version, setting: Setting) -> Image {
     let specimen = Games101Strict { whole_samples: false, true_w: false };
     match setting {

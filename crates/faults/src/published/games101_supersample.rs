@@ -51,7 +51,6 @@ fn drawn(samples: &mut Image, triangle: [DVec2; 3], colour: Colour) {
 }
 
 /// Two triangles of one colour that fill a square.
-#[must_use]
 pub fn draw(version: Version, setting: Setting) -> Image {
     let (mut all, mut image) = (empty(SIDE * SAMPLES), empty(SIDE));
     for triangle in triangles(setting) {

@@ -69,13 +69,11 @@ pub fn bare(corners_px: [[f64; 2]; 3]) -> RealTriangle {
 }
 
 /// The same positions as real numbers, exactly.
-#[must_use]
 pub fn from_lattice(corners: Corners) -> RealTriangle {
     bare(corners.map_array(|corner| corner.to_px().into()))
 }
 
 /// The same triangle in real numbers; w is 1 / (1/w).
-#[must_use]
 pub fn from_screen(triangle: &ScreenTriangle<DVec2>) -> RealTriangle {
     triangle.vertices.map_array(|v| RealVertex {
         position_px: v.position.to_px().into(),

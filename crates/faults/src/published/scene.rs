@@ -40,7 +40,6 @@ pub const BLACK: Colour = [0, 0, 0];
 pub const WHITE: Colour = [240, 240, 240];
 pub const COLOURS: [Colour; 3] = [[236, 178, 46], [70, 150, 200], [196, 88, 88]];
 
-#[must_use]
 pub fn empty(side: u32) -> Image {
     Frame::new(PixelRect::window(side, side), BLACK)
 }
@@ -82,7 +81,6 @@ pub fn either(
 }
 
 /// Triangles with a chessboard of 6 x 6 over their varying.
-#[must_use]
 pub fn chequered(specimen: &impl Published, version: Version, triangles: &[RealTriangle]) -> Image {
     let mut image = empty(SIDE);
     for triangle in triangles {
@@ -116,14 +114,12 @@ pub fn floor_triangles(far: f64) -> [RealTriangle; 2] {
 }
 
 /// The floor as a chessboard.
-#[must_use]
 pub fn floor(specimen: &impl Published, version: Version, far: f64) -> Image {
     chequered(specimen, version, &floor_triangles(far))
 }
 
 /// A triangle of one value with an upright left side on samples, no other edge on one, that leaves
 /// the screen below: what the book's fill gets right.
-#[must_use]
 pub fn runs_out_below() -> RealTriangle {
     let below = f64::from(SIDE) + 2.5;
     bare([[2.5, below], [9.75, below], [2.5, below - 12.5]])
@@ -146,7 +142,6 @@ pub fn fragments(
 }
 
 /// A corner in clip space with its distance w, x and y given after the division.
-#[must_use]
 pub fn clip_vertex(x_ndc: f64, y_ndc: f64, z_ndc: f64, w: f64) -> ClipVertex {
     let position = DVec4::new(x_ndc * w, y_ndc * w, z_ndc * w, w);
     ClipVertex { position, varying: DVec2::ZERO }
@@ -172,7 +167,6 @@ pub fn fill_clipped(image: &mut Image, polygon: &[ClipVertex], colour: Colour) {
 
 /// Keeps what lies on the positive side of a function that is linear in clip space; a corner on the
 /// border is inside, and only an edge whose ends differ is cut. The cure of every clip here.
-#[must_use]
 pub fn clip_by_sign(polygon: &[ClipVertex], place: impl Fn(DVec4) -> f64) -> Vec<ClipVertex> {
     let mut kept = Vec::new();
     for (i, a) in polygon.iter().enumerate() {

@@ -36,7 +36,6 @@ fn clipped(triangle: [ClipVertex; 3]) -> Vec<ClipVertex> {
 }
 
 /// A triangle around the whole screen, or one within it.
-#[must_use]
 pub fn draw(version: Version, setting: Setting) -> Image {
     let reach = if setting == Setting::Exposing { 2.5 } else { 0.8 };
     let triangle = [(-reach, -reach), (reach, -reach), (0.0, reach)]

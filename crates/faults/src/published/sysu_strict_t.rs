@@ -18,7 +18,6 @@ use super::scene::{COLOURS, Image, SIDE, Setting, Version, clip_by_sign, empty, 
 pub const PLANE: f32 = 1e-5;
 
 /// Clips by the plane as published.
-#[must_use]
 pub fn clip_strict(polygon: &[Vec4]) -> Vec<Vec4> {
     let mut kept = Vec::new();
     for (i, start) in polygon.iter().enumerate() {
@@ -35,7 +34,6 @@ pub fn clip_strict(polygon: &[Vec4]) -> Vec<Vec4> {
 }
 
 /// A square that runs from far away to the eye's own plane, or a triangle that ends behind it.
-#[must_use]
 pub fn draw(version: Version, setting: Setting) -> Image {
     let corners = match setting {
         // The corner at w = 0 is a direction: cut at the plane it becomes the square's lower side.

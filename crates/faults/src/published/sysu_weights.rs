@@ -47,7 +47,6 @@ impl Published for SysuWeights {
 }
 
 /// A triangle with a red, a green and a blue corner, or one of a single colour.
-#[must_use]
 pub fn draw(version: Version, setting: Setting) -> Image {
     let mut image = empty(SIDE);
     let (corners, colours) = match setting {

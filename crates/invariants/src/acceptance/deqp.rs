@@ -48,7 +48,6 @@ pub fn added_once(pixels: &[[u8; 3]], fills_window: bool) -> bool {
 }
 
 /// What dEQP says about every pixel of a window, for a device with so many bits below the pixel.
-#[must_use]
 pub fn covers(triangles: &[Triangle], window: PixelRect, bits: u32) -> Vec<Cover> {
     let outlines: Vec<Outline> = triangles.iter().map(|t| Outline::new(t, bits)).collect();
     let shared: Vec<[bool; 3]> = (0..outlines.len()).map(|i| shared_edges(&outlines, i)).collect();

@@ -59,13 +59,11 @@ pub struct WrongPicture {
 
 impl Row {
     /// The accepted fault with the fewest wrong pixels, at least one.
-    #[must_use]
     pub fn smallest(&self) -> Option<&Passed> {
         self.passed.iter().filter(|fault| fault.wrong_pixels > 0).min_by_key(|f| f.wrong_pixels)
     }
 
     /// The accepted fault with the most wrong pixels.
-    #[must_use]
     pub fn most_harmful(&self) -> Option<&Passed> {
         self.passed.iter().filter(|fault| fault.wrong_pixels > 0).max_by_key(|f| f.wrong_pixels)
     }

@@ -253,7 +253,6 @@ fn ssim_error_of(width: usize, right: &[[f64; 3]], drawn: &[[f64; 3]], channel: 
 }
 
 /// The number of pixels that pixelmatch counts as different at this threshold.
-#[must_use]
 pub fn pixelmatch(right: &Drawn, drawn: &Drawn, threshold: f64) -> usize {
     let most = 35_215.0 * threshold * threshold;
     let differs = |place: usize| {

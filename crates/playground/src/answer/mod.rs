@@ -70,7 +70,6 @@ enum Question {
 }
 
 /// The answer to a question; `{"error": ...}` to one that makes no sense or cannot be drawn.
-#[must_use]
 pub fn answer(question: &str) -> String {
     let answer = serde_json::from_str(question).map_err(|error| error.to_string()).and_then(ask);
     answer.unwrap_or_else(|error| json!({ "error": error })).to_string()

@@ -152,7 +152,6 @@ fn model(dv: f64, ratio: f64) -> f64 {
 impl Bound {
     /// The bound in absolute terms for unit roundoff `u`; `None` where it says nothing: where it
     /// exceeds a tenth of M, or the accumulated book form has lost the ends of the row.
-    #[must_use]
     pub fn at(self, place: &Place<'_>, u: f64) -> Option<f64> {
         let Valued { corners, inv_w, value } = place.triangle;
         let m = largest(*value);

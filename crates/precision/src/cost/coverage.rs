@@ -157,7 +157,6 @@ impl Variant {
 }
 
 /// The rungs of a ladder of coverage, none for other ladders.
-#[must_use]
 pub fn variants(ladder: Ladder) -> Vec<Variant> {
     match ladder {
         Ladder::Scanline => scanlines(),
@@ -260,7 +259,6 @@ impl Truth {
 }
 
 /// Differences of hit counts, summed over the pixels of `a` and `b`.
-#[must_use]
 pub fn wrong_pixels(a: &[Span], b: &[Span]) -> u64 {
     let mut wrong = 0;
     sweep(&[a, b], |hits, length| wrong += u64::from(hits[0].abs_diff(hits[1])) * length);

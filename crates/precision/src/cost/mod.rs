@@ -60,7 +60,6 @@ impl Ladder {
     ];
 
     /// Its name, as in names of files.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Scanline => "scanline",
@@ -73,7 +72,6 @@ impl Ladder {
     }
 
     /// What it is a ladder of.
-    #[must_use]
     pub fn title(self) -> &'static str {
         match self {
             Self::Scanline => "Coverage by scanline",
@@ -161,7 +159,6 @@ pub enum Cell {
 
 impl Cell {
     /// What was measured, if anything.
-    #[must_use]
     pub fn run(&self) -> Option<&Run> {
         match self {
             Self::Run(run) => Some(run),
@@ -199,13 +196,11 @@ pub struct Board {
 
 impl Board {
     /// The measurement of a rung on a class of scenes.
-    #[must_use]
     pub fn run(&self, rung: usize, column: usize) -> Option<&Run> {
         self.cells[rung][column].run()
     }
 
     /// An error, where it was measured.
-    #[must_use]
     pub fn error(&self, rung: usize, column: usize, measure: usize) -> Option<f64> {
         self.run(rung, column)?.errors[measure]
     }
@@ -218,13 +213,11 @@ impl Board {
 }
 
 /// Measures a ladder. `progress` gets the share done, from 0 to 1, and a word about it.
-#[must_use]
 pub fn measure(ladder: Ladder, options: &Options, progress: &dyn Fn(f64, &str)) -> Board {
     measure_with(ladder, options, &mut [], progress)
 }
 
 /// The same with guests, who fill by edge functions and stand on that ladder.
-#[must_use]
 pub fn measure_with(
     ladder: Ladder,
     options: &Options,
@@ -242,7 +235,6 @@ pub fn measure_with(
 }
 
 /// Measures a ladder on scenes of the caller; nothing for a ladder that draws scenes of its own.
-#[must_use]
 pub fn measure_on(ladder: Ladder, scenes: &[scene::Scene], options: &Options) -> Option<Board> {
     match ladder {
         Ladder::Interpolation => Some(interpolation::measure_on(scenes, options, &|_, _| ())),

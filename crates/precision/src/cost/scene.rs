@@ -91,7 +91,6 @@ const CLASSES: [Class; 12] = [
     },
 ];
 
-#[must_use]
 pub fn scenes(seed: u64, size: Size) -> Vec<Scene> {
     CLASSES.iter().map(|class| scene(class, seed, size)).collect()
 }

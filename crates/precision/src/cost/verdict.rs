@@ -70,7 +70,6 @@ impl Board {
     }
 
     /// The cheapest rungs of a column by a measure; `None` without times.
-    #[must_use]
     pub fn best(&self, column: usize, measure: usize) -> Option<Best> {
         let cheapest = |filter: &dyn Fn(usize) -> bool| {
             (0..self.rungs.len())
@@ -135,7 +134,6 @@ impl Board {
 }
 
 /// What exact coverage costs over the cheapest rung of both ladders, for each class of scenes.
-#[must_use]
 pub fn prices(boards: &[Board]) -> Vec<Price> {
     let coverage: Vec<&Board> = boards
         .iter()

@@ -24,7 +24,6 @@ const S: i64 = SUBPIXELS as i64;
 
 /// The share of pixel (x, y) that the triangle covers, in [0, 1], either winding; exact but for the
 /// rounding of numerator, denominator and quotient, at most 3 units of 2^-53.
-#[must_use]
 pub fn share(corners: &Corners, x_px: i32, y_px: i32) -> f64 {
     // The corners as seen from the upper left corner of the pixel.
     let seen = |sub: i32, px: i32| i64::from(sub) - i64::from(px) * S;

@@ -91,7 +91,6 @@ impl<T: Real> Format for Reversed<T> {
 }
 
 /// What a buffer holds for a distance: the exact mapping, rounded once to the format.
-#[must_use]
 pub fn stored<F: Format>(z: f64) -> F::Stored {
     F::store(F::Float::of(F::depth(z)))
 }

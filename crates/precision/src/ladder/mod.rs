@@ -86,7 +86,6 @@ pub trait Cover {
 
 /// Rounds the corners to the lattice; `None` where one lies at the very end of the domain.
 #[inline]
-#[must_use]
 pub fn snap(corners: &FreeCorners) -> Option<Corners> {
     let [a, b, c] = corners.px();
     let point = |[x, y]: [f64; 2]| SubpixelPoint::from_px(x, y).ok();

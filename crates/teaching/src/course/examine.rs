@@ -254,7 +254,6 @@ fn is_one_by_one(check: Check) -> bool {
 }
 
 /// The last line of a program's standard error, if it wrote any.
-#[must_use]
 pub fn complaint(program: &dyn Ask) -> Option<String> {
     program.complaints().pop()
 }

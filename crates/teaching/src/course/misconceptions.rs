@@ -214,7 +214,6 @@ pub fn all() -> impl Iterator<Item = &'static Misconception> {
 }
 
 /// What explains the answers of a program, if anything that is known does.
-#[must_use]
 pub fn find(asked: &[(Question, Answer)], truth: &Truth) -> Option<&'static Misconception> {
     let explains = |predict: &Predict| {
         let mut wrong = 0;

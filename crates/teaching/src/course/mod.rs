@@ -126,14 +126,12 @@ fn outside(case: Case) -> Option<Case> {
 }
 
 /// The step of a name, or of a number from 1.
-#[must_use]
 pub fn find(word: &str) -> Option<&'static Step> {
     let number = word.parse::<usize>().ok();
     let is_it = |(at, step): &(usize, &Step)| step.name == word || number == Some(at + 1);
     STEPS.iter().enumerate().find(is_it).map(|(_, step)| step)
 }
 
-#[must_use]
 pub fn number(step: &Step) -> usize {
     STEPS.iter().position(|other| other.name == step.name).map_or(0, |at| at + 1)
 }

@@ -30,7 +30,6 @@ pub struct Progress {
     pub failures: usize,
 }
 
-#[must_use]
 pub fn path(folder: &Path) -> PathBuf {
     folder.join(FILE)
 }
@@ -77,13 +76,11 @@ impl Progress {
         Ok(progress)
     }
 
-    #[must_use]
     pub fn text(&self) -> String {
         // Strings, lists of them and a number: this cannot fail.
         format!("{HEADER}{}", toml::to_string(self).unwrap_or_default())
     }
 
-    #[must_use]
     pub fn current(&self) -> &'static Step {
         super::find(&self.step).unwrap_or(&STEPS[0])
     }

@@ -49,7 +49,6 @@ const LINE: &str =
     "cd -- \"$3\" && ulimit -v \"$1\" && ulimit -t \"$2\" && ulimit -c 0 && shift 3 && exec \"$@\"";
 
 /// The command that runs a program in its folder and its bounds.
-#[must_use]
 pub fn command<S: AsRef<OsStr>>(folder: &Path, run: &[S], bounds: &Bounds) -> Vec<OsString> {
     let bound = |n: Option<u64>| n.map_or_else(|| "unlimited".to_owned(), |n| n.to_string());
     // Nothing to set is left as it is: another `sh` may know no such bound.

@@ -387,7 +387,6 @@ fn differs(a: Rgb<u8>, b: Rgb<u8>) -> bool {
 
 impl Shown {
     /// Dark where both agree; red where the program drew nothing, orange where it alone drew, violet where colours differ.
-    #[must_use]
     pub fn difference(&self) -> RgbImage {
         let ground = |image: &RgbImage, x, y| *image.get_pixel(x, y) == BACKGROUND;
         RgbImage::from_fn(self.right.width(), self.right.height(), |x, y| {
@@ -402,7 +401,6 @@ impl Shown {
     }
 
     /// The three pictures side by side with their names, enlarged.
-    #[must_use]
     pub fn sheet(&self) -> RgbImage {
         let difference = self.difference();
         let zoom = (320 / self.right.width()).max(1);

@@ -5,7 +5,6 @@ use super::{Step, number};
 use rasterproof_report::judge_text;
 
 /// How a step came out, with its smallest failing case.
-#[must_use]
 pub fn text(step: &Step, outcome: &Outcome) -> String {
     let (number, title) = (number(step), &step.title);
     let Outcome { cases, wrong, .. } = outcome;
@@ -39,7 +38,6 @@ pub fn text(step: &Step, outcome: &Outcome) -> String {
     out
 }
 
-#[must_use]
 pub fn indented(text: &str, indent: usize) -> String {
     format!("{:indent$}{}\n", "", text.trim_end())
 }

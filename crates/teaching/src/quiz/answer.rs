@@ -42,7 +42,6 @@ impl Answer {
     }
 
     /// As it is printed: a letter, a pixel or a number.
-    #[must_use]
     pub fn text(&self) -> String {
         match *self {
             Self::Choice(i) => letter(i).to_string(),
@@ -52,7 +51,6 @@ impl Answer {
     }
 
     /// What a question adds about the form of its answer: the digits of a number that is not whole.
-    #[must_use]
     pub fn form(&self, language: Language) -> String {
         match (*self, language) {
             (Self::Number { decimals: 0, .. } | Self::Choice(_) | Self::Pixel(_), _) => {
@@ -128,7 +126,6 @@ impl Answer {
 }
 
 /// a, b, c.
-#[must_use]
 pub fn letter(choice: usize) -> char {
     (b'a' + choice as u8) as char
 }

@@ -49,7 +49,6 @@ pub enum Language {
 }
 
 impl Language {
-    #[must_use]
     pub fn of(self, text: &Text) -> &str {
         &text[self as usize]
     }
@@ -100,18 +99,15 @@ impl Exercise {
     ///
     /// # Panics
     /// Where [`CHAPTERS`] did not find the function, which a test excludes.
-    #[must_use]
     pub fn solution(&self) -> Solution {
         self.solver.expect("every exercise has a function")(&self.choices)
     }
 
     /// The question, and to how many digits its answer is asked for.
-    #[must_use]
     pub fn question_with_form(&self, language: Language, solution: &Solution) -> String {
         language.of(&self.question).to_owned() + &solution.answer.form(language)
     }
 
-    #[must_use]
     pub fn explanation(&self, language: Language, solution: &Solution) -> String {
         let mut figures = solution.figures.iter();
         let mut parts = language.of(&self.why).split("{}");
@@ -173,13 +169,11 @@ fn chapters() -> Vec<Chapter> {
 
 impl Chapter {
     /// What one calls it on the command line: `2` for `ch02`.
-    #[must_use]
     pub fn word(&self) -> &str {
         self.page.strip_prefix("ch").map_or(&self.page, |number| number.trim_start_matches('0'))
     }
 
     /// What it is called in a sentence: `chapter 2`, or the name of its page.
-    #[must_use]
     pub fn name(&self, language: Language) -> String {
         match (self.page.starts_with("ch"), language) {
             (true, Language::English) => format!("chapter {}", self.word()),
@@ -190,14 +184,12 @@ impl Chapter {
 }
 
 /// The chapter of that name: `2`, `02`, `ch02`, or the name of a page.
-#[must_use]
 pub fn chapter(word: &str) -> Option<&'static Chapter> {
     let bare = word.strip_prefix("ch").unwrap_or(word).trim_start_matches('0');
     CHAPTERS.iter().find(|chapter| chapter.page == word || chapter.word() == bare)
 }
 
 /// The numbers 0..count in an order that the seed decides.
-#[must_use]
 pub fn order(count: usize, seed: u64) -> Vec<usize> {
     let mut rng = Rng::new("quiz", seed, 0);
     let mut order: Vec<_> = (0..count).collect();

@@ -11,7 +11,6 @@ pub const TERMINAL_COLUMNS: usize = 96;
 pub const HEADINGS: [&str; 2] = ["## Predict, then check", "## 先预测，再检验"];
 
 /// The section of a chapter's page, from its heading to the page's end.
-#[must_use]
 pub fn section(chapter: &Chapter, language: Language) -> String {
     let word = chapter.word();
     let (ask, extra) = match language {
@@ -59,20 +58,17 @@ fn wrapped(text: &str, language: Language) -> String {
     }
 }
 
-#[must_use]
 pub fn choices(exercise: &Exercise, language: Language) -> Vec<String> {
     let choices = exercise.choices.iter().enumerate();
     choices.map(|(i, text)| format!("{}) {}", letter(i), language.of(text))).collect()
 }
 
 /// The pixel grids of a solution beside each other, or nothing.
-#[must_use]
 pub fn grids(solution: &Solution) -> String {
     ascii::side_by_side(&solution.grids, TERMINAL_COLUMNS)
 }
 
 /// What the marks of its grids mean, where there are other marks than drawn and not drawn.
-#[must_use]
 pub fn legend(solution: &Solution, language: Language) -> Option<&'static str> {
     let mut rows = solution.grids.iter().flat_map(|(_, lines)| lines);
     let is_needed = rows.any(|row| row.contains(['-', '+', '2']));
@@ -84,7 +80,6 @@ pub fn legend(solution: &Solution, language: Language) -> Option<&'static str> {
 
 /// Lines of at most that many columns, a Chinese character taking two. Lines break at blanks, and
 /// between Chinese characters, but not before a mark such as a full stop.
-#[must_use]
 pub fn wrap(text: &str, columns: usize) -> Vec<String> {
     let (mut lines, mut line, mut word) = (Vec::new(), String::new(), String::new());
     let mut flush = |line: &mut String, word: &mut String| {

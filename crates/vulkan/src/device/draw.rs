@@ -89,7 +89,6 @@ impl Drop for Prepared {
 
 impl Pictures {
     /// The pixels of a row of a cell, [`Kind::pixel_bytes`] each.
-    #[must_use]
     pub fn row(&self, cell: usize, y_px: u32, width: u32) -> &[u8] {
         let size = self.kind.pixel_bytes();
         let (page, cell) = (cell / self.kind.page_cells(), cell % self.kind.page_cells());
@@ -147,13 +146,11 @@ impl Painter {
         Ok(painter)
     }
 
-    #[must_use]
     pub fn device(&self) -> &Arc<Opened> {
         &self.device
     }
 
     /// Submissions so far.
-    #[must_use]
     pub fn submissions(&self) -> u64 {
         self.submissions
     }

@@ -69,7 +69,6 @@ pub struct About {
 
 impl About {
     /// The words by which the device is chosen besides its number, in small letters.
-    #[must_use]
     pub fn words(&self) -> String {
         // lavapipe is the Vulkan driver around llvmpipe, and calls itself by either name.
         let also = if self.device.contains("llvmpipe") { " lavapipe" } else { "" };
@@ -77,7 +76,6 @@ impl About {
     }
 
     /// A short name for a table.
-    #[must_use]
     pub fn short(&self) -> String {
         let words = self.words();
         let known = ["llvmpipe", "SwiftShader"].iter().find(|n| words.contains(&n.to_lowercase()));

@@ -114,7 +114,6 @@ impl Buffer {
     }
 
     /// What it holds. Only between submissions, which the painter sees to.
-    #[must_use]
     pub fn bytes(&self) -> &[u8] {
         // SAFETY: `size` bytes are mapped and initialised, and the device writes during a submission
         // only, which its submitter waits for.

@@ -47,7 +47,6 @@ pub enum Kind {
 }
 
 impl Kind {
-    #[must_use]
     pub fn pixel_bytes(self) -> usize {
         match self {
             Self::Flat | Self::Depths => 4,
@@ -72,7 +71,6 @@ impl Kind {
     }
 
     /// Vertices of a primitive.
-    #[must_use]
     pub fn corners(self) -> u32 {
         if self.is_lines() { 2 } else { 3 }
     }

@@ -73,7 +73,6 @@ impl Ask for Shared {
 
 /// The families that a device is asked: values of f32 end before w does, lines have a stage of their
 /// own, and depth tests and the near plane are not asked.
-#[must_use]
 pub fn families(wanted: &[String]) -> Vec<String> {
     let of_triangles =
         |f: &cases::Family| cases::triangles::FAMILIES.iter().any(|t| t.name == f.name);

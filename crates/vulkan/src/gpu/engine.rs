@@ -65,20 +65,17 @@ impl Gpu {
     }
 
     /// What the device says of itself.
-    #[must_use]
     pub fn about(&self) -> &About {
         &self.listed.about
     }
 
     /// The name of the planted fault.
-    #[must_use]
     pub fn plant_name(&self) -> Option<&'static str> {
         let plant = self.plant?;
         Plant::ALL.iter().find(|(_, p)| *p == plant).map(|(name, _)| *name)
     }
 
     /// Submissions since the device was opened last.
-    #[must_use]
     pub fn submissions(&self) -> u64 {
         self.painter.as_ref().map_or(0, Painter::submissions)
     }
@@ -121,13 +118,11 @@ impl Gpu {
     }
 
     /// A step of the device's lattice in px.
-    #[must_use]
     pub fn step_px(&self) -> f32 {
         1.0 / self.declared.grid as f32
     }
 
     /// The side of the viewport in whose middle a window's corner lies.
-    #[must_use]
     pub fn viewport_px(&self) -> f32 {
         viewport_px(&self.listed.about)
     }
@@ -167,7 +162,6 @@ const ALONE_FROM_PX2: f64 = 65536.0;
 
 /// What draws the hits of a triangle with twice this area: decided by the triangle alone, so that one that
 /// is asked again is drawn in the same way.
-#[must_use]
 pub fn hits_kind(twice_area_px2: f64) -> Kind {
     if twice_area_px2 < ALONE_FROM_PX2 { Kind::Hits } else { Kind::Alone }
 }

@@ -80,7 +80,6 @@ fn property(word: &str) -> (String, bool) {
 }
 
 /// The known faults of a device.
-#[must_use]
 pub fn of(all: &[Known], about: &About) -> Vec<Known> {
     let is_its =
         |k: &&Known| about.words().contains(&k.driver) && about.version.contains(&k.version);

@@ -33,7 +33,6 @@ impl Class {
         self <= Self::NotOffered
     }
 
-    #[must_use]
     pub fn words(self) -> &'static str {
         match self {
             Self::Equal => "equal",

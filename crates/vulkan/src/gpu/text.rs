@@ -9,7 +9,6 @@ use rasterproof_report::html::{Column, Mark, Outcome, Report, Row, Table};
 use rasterproof_report::judge_text::{self, wrapped};
 
 /// A device in a line or two, as `list` has it.
-#[must_use]
 pub fn device(about: &About) -> String {
     let lines = [
         (about.strict_lines, "strict"),
@@ -38,7 +37,6 @@ pub fn device(about: &About) -> String {
 
 /// The verdict as text of at most 100 columns, the command left out, with what follows it for all and for a
 /// case.
-#[must_use]
 pub fn text(
     stand: &DeviceReport,
     command: &str,
@@ -130,7 +128,6 @@ fn closing(stand: &DeviceReport) -> String {
 }
 
 /// The verdict for machines.
-#[must_use]
 pub fn json(stand: &DeviceReport, repeat: &dyn Fn(&str, u64) -> String) -> String {
     let failures: Vec<_> = stand
         .verdict
