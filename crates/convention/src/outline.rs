@@ -7,74 +7,32 @@ use super::place::{Place, Points};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 
-/// Where a line goes that passes exactly between two pixels. 'Go' means on, in its minor direction,
-/// as seen from the end that is named; 'stay' means not yet.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
-pub enum LineTie {
-    /// To the larger minor coordinate: v + 1/2 is cut.
-    Up,
-    /// To the smaller one.
-    Down,
-    Even,
-    /// Of flat lines to the upper pixel, of steep ones to the right one.
-    UpperRight,
-    /// Of flat lines to the lower pixel, of steep ones to the left one.
-    LowerLeft,
-    /// On, from the first end.
-    FirstGo,
-    /// Not yet, from the first end: Bresenham's algorithm as mostly printed.
-    FirstStay,
-    /// On, from the left end (of upright lines, the upper).
-    LeftGo,
-    /// Not yet, from the left end.
-    LeftStay,
-    /// On, from the upper end.
-    TopGo,
-    /// Not yet, from the upper end.
-    TopStay,
-    /// On, from the end with the smaller major coordinate: this project's rule.
-    SmallGo,
-    /// Not yet, from the end with the smaller major coordinate.
-    SmallStay,
+rasterproof_core::named! {
+    /// Where a line goes that passes exactly between two pixels. 'Go' means on, in its minor direction,
+    /// as seen from the end that is named; 'stay' means not yet.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+    pub enum LineTie {
+        /// This project's rule.
+        SmallGo = "on, seen from the end with the smaller major coordinate",
+        SmallStay = "not yet, seen from the end with the smaller major coordinate",
+        FirstGo = "on, seen from the first end",
+        /// Bresenham's algorithm as mostly printed.
+        FirstStay = "not yet, seen from the first end",
+        /// Of upright lines, from the upper end.
+        LeftGo = "on, seen from the left end",
+        LeftStay = "not yet, seen from the left end",
+        TopGo = "on, seen from the upper end",
+        TopStay = "not yet, seen from the upper end",
+        /// v + 1/2 is cut.
+        Up = "toward larger coordinates",
+        Down = "toward smaller coordinates",
+        Even = "to the even pixel",
+        UpperRight = "to the upper pixel of a flat line, to the right one of a steep one",
+        LowerLeft = "to the lower pixel of a flat line, to the left one of a steep one",
+    }
 }
 
 impl LineTie {
-    pub const ALL: [Self; 13] = [
-        Self::SmallGo,
-        Self::SmallStay,
-        Self::FirstGo,
-        Self::FirstStay,
-        Self::LeftGo,
-        Self::LeftStay,
-        Self::TopGo,
-        Self::TopStay,
-        Self::Up,
-        Self::Down,
-        Self::Even,
-        Self::UpperRight,
-        Self::LowerLeft,
-    ];
-
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Up => "toward larger coordinates",
-            Self::Down => "toward smaller coordinates",
-            Self::Even => "to the even pixel",
-            Self::UpperRight => {
-                "to the upper pixel of a flat line, to the right one of a steep one"
-            }
-            Self::LowerLeft => "to the lower pixel of a flat line, to the left one of a steep one",
-            Self::FirstGo => "on, seen from the first end",
-            Self::FirstStay => "not yet, seen from the first end",
-            Self::LeftGo => "on, seen from the left end",
-            Self::LeftStay => "not yet, seen from the left end",
-            Self::TopGo => "on, seen from the upper end",
-            Self::TopStay => "not yet, seen from the upper end",
-            Self::SmallGo => "on, seen from the end with the smaller major coordinate",
-            Self::SmallStay => "not yet, seen from the end with the smaller major coordinate",
-        }
-    }
-
     /// Whether the minor coordinate, exactly at `below` + 1/2, becomes the larger one. `du` and
     /// `dv` run along the major and the minor axis.
     fn rises(self, line: &Line, below: i64) -> bool {
@@ -98,30 +56,20 @@ impl LineTie {
     }
 }
 
-/// The end that a line is seen from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
-pub enum End {
-    First,
-    /// The one with the smaller major coordinate.
-    Small,
-    /// The left one; of upright lines, the upper.
-    Left,
-    /// The upper one; of level lines, the right.
-    Top,
+rasterproof_core::named! {
+    /// The end that a line is seen from.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+    pub enum End {
+        First = "the first end",
+        Small = "the end with the smaller major coordinate",
+        /// The left one; of upright lines, the upper.
+        Left = "the left end",
+        /// The upper one; of level lines, the right.
+        Top = "the upper end",
+    }
 }
 
 impl End {
-    pub const ALL: [Self; 4] = [Self::First, Self::Small, Self::Left, Self::Top];
-
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::First => "the first end",
-            Self::Small => "the end with the smaller major coordinate",
-            Self::Left => "the left end",
-            Self::Top => "the upper end",
-        }
-    }
-
     pub(super) fn is_first(self, line: &Line) -> bool {
         let [dx, dy] = if line.steep { [line.dv, line.du] } else { [line.du, line.dv] };
         match self {

@@ -35,6 +35,7 @@ pub mod contract;
 pub mod frame;
 pub mod grid;
 pub mod line;
+mod named;
 pub mod parallel;
 pub mod raster;
 mod select;

@@ -22,60 +22,27 @@ use crate::face_of;
 use crate::shape::{Edge, SLIVER, Shape};
 use crate::view::{NOTHING, Piece, pieces, seen};
 
-/// A kind of hard case.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Kind {
-    NoArea,
-    Sliver,
-    Concave,
-    Duplicate,
-    Overlap,
-    TJunction,
-    Border,
-    Crowded,
-    OnEdge,
-    Order,
-    WideW,
-    SinglePrecision,
-    FarTexture,
+rasterproof_core::named! {
+    /// A kind of hard case. Its name is what is counted, in the plural.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+    pub enum Kind {
+        NoArea = "triangles without area",
+        Sliver = "slivers",
+        Concave = "concave faces",
+        Duplicate = "duplicate faces",
+        Overlap = "coplanar overlaps",
+        TJunction = "T-junctions",
+        Border = "open borders",
+        Crowded = "edges of more than two faces",
+        OnEdge = "samples on edges",
+        Order = "pixels by drawing order",
+        WideW = "wide ranges of w",
+        SinglePrecision = "positions lost by f32",
+        FarTexture = "texture coordinates far out",
+    }
 }
 
 impl Kind {
-    pub const ALL: [Self; 13] = [
-        Self::NoArea,
-        Self::Sliver,
-        Self::Concave,
-        Self::Duplicate,
-        Self::Overlap,
-        Self::TJunction,
-        Self::Border,
-        Self::Crowded,
-        Self::OnEdge,
-        Self::Order,
-        Self::WideW,
-        Self::SinglePrecision,
-        Self::FarTexture,
-    ];
-
-    /// What is counted, in the plural.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::NoArea => "triangles without area",
-            Self::Sliver => "slivers",
-            Self::Concave => "concave faces",
-            Self::Duplicate => "duplicate faces",
-            Self::Overlap => "coplanar overlaps",
-            Self::TJunction => "T-junctions",
-            Self::Border => "open borders",
-            Self::Crowded => "edges of more than two faces",
-            Self::OnEdge => "samples on edges",
-            Self::Order => "pixels by drawing order",
-            Self::WideW => "wide ranges of w",
-            Self::SinglePrecision => "positions lost by f32",
-            Self::FarTexture => "texture coordinates far out",
-        }
-    }
-
     /// What it is, and what one sees of it.
     pub fn about(self) -> &'static str {
         match self {

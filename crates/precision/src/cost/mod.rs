@@ -30,47 +30,27 @@ pub use external::ExternalVariant;
 pub use recorded::Recorded;
 pub use verdict::{Best, Dominated, Price, Priced, prices};
 
-/// A ladder of rungs that do the same job.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Ladder {
-    /// Coverage by walking down the edges.
-    Scanline,
-    /// Coverage by testing samples against edges.
-    EdgeFunction,
-    /// Attributes at covered pixels.
-    Interpolation,
-    /// Formats of the depth buffer.
-    Depth,
-    /// Samples for each pixel.
-    Antialiasing,
-    /// Line drawers.
-    Lines,
+rasterproof_core::named! {
+    /// A ladder of rungs that do the same job. In the order of the boards; its name is also a name of files.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+    #[serde(rename_all = "kebab-case")]
+    pub enum Ladder {
+        /// Coverage by walking down the edges.
+        Scanline = "scanline",
+        /// Coverage by testing samples against edges.
+        EdgeFunction = "edge-function",
+        /// Attributes at covered pixels.
+        Interpolation = "interpolation",
+        /// Formats of the depth buffer.
+        Depth = "depth",
+        /// Samples for each pixel.
+        Antialiasing = "antialiasing",
+        /// Line drawers.
+        Lines = "lines",
+    }
 }
 
 impl Ladder {
-    /// Every ladder, in the order of the boards.
-    pub const ALL: [Self; 6] = [
-        Self::Scanline,
-        Self::EdgeFunction,
-        Self::Interpolation,
-        Self::Depth,
-        Self::Antialiasing,
-        Self::Lines,
-    ];
-
-    /// Its name, as in names of files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Scanline => "scanline",
-            Self::EdgeFunction => "edge-function",
-            Self::Interpolation => "interpolation",
-            Self::Depth => "depth",
-            Self::Antialiasing => "antialiasing",
-            Self::Lines => "lines",
-        }
-    }
-
     /// What it is a ladder of.
     pub fn title(self) -> &'static str {
         match self {

@@ -55,69 +55,38 @@ impl Coordinates {
     }
 }
 
-/// A way to make polygons that share a danger. The first contour is the outer one, and counterclockwise where y points
-/// up. Every other one is a hole in it, and clockwise; only [`Family::Islands`] has polygons in holes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-#[non_exhaustive]
-pub enum Family {
-    /// Many vertices on straight edges.
-    Collinear,
-    /// Vertices that are repeated.
-    Duplicates,
-    /// Edges that go out and come back the same way.
-    Spikes,
-    /// Squares of a grid: holes and the outline touch at vertices.
-    Touching,
-    /// Contours inside contours, up to six deep.
-    Islands,
-    /// Vertices that are one ulp away from an edge, or touch it.
-    NearlyTouching,
-    /// Long and short arms in turn.
-    Star,
-    /// Thin teeth on a bar.
-    Comb,
-    /// An arm that winds around its start.
-    Spiral,
-    /// Circles and rings whose points are rounded, coarsely or to the last bit.
-    SnappedCircle,
-    /// Polygons of the other families, every coordinate moved by an ulp at most.
-    Neighbours,
+rasterproof_core::named! {
+    /// A way to make polygons that share a danger. The first contour is the outer one, and counterclockwise where y points
+    /// up. Every other one is a hole in it, and clockwise; only [`Family::Islands`] has polygons in holes.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+    #[non_exhaustive]
+    pub enum Family {
+        /// Many vertices on straight edges.
+        Collinear = "Collinear",
+        /// Vertices that are repeated.
+        Duplicates = "Duplicates",
+        /// Edges that go out and come back the same way.
+        Spikes = "Spikes",
+        /// Squares of a grid: holes and the outline touch at vertices.
+        Touching = "Touching",
+        /// Contours inside contours, up to six deep.
+        Islands = "Islands",
+        /// Vertices that are one ulp away from an edge, or touch it.
+        NearlyTouching = "NearlyTouching",
+        /// Long and short arms in turn.
+        Star = "Star",
+        /// Thin teeth on a bar.
+        Comb = "Comb",
+        /// An arm that winds around its start.
+        Spiral = "Spiral",
+        /// Circles and rings whose points are rounded, coarsely or to the last bit.
+        SnappedCircle = "SnappedCircle",
+        /// Polygons of the other families, every coordinate moved by an ulp at most.
+        Neighbours = "Neighbours",
+    }
 }
 
 impl Family {
-    /// Every family.
-    pub const ALL: [Self; 11] = [
-        Self::Collinear,
-        Self::Duplicates,
-        Self::Spikes,
-        Self::Touching,
-        Self::Islands,
-        Self::NearlyTouching,
-        Self::Star,
-        Self::Comb,
-        Self::Spiral,
-        Self::SnappedCircle,
-        Self::Neighbours,
-    ];
-
-    /// Its name as the code writes it.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Collinear => "Collinear",
-            Self::Duplicates => "Duplicates",
-            Self::Spikes => "Spikes",
-            Self::Touching => "Touching",
-            Self::Islands => "Islands",
-            Self::NearlyTouching => "NearlyTouching",
-            Self::Star => "Star",
-            Self::Comb => "Comb",
-            Self::Spiral => "Spiral",
-            Self::SnappedCircle => "SnappedCircle",
-            Self::Neighbours => "Neighbours",
-        }
-    }
-
     /// The polygon number `index` of this family under `seed`.
     #[must_use]
     pub fn polygon(self, seed: u64, index: u64, coordinates: Coordinates) -> Polygon {

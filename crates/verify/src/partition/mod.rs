@@ -300,58 +300,29 @@ impl Options {
     }
 }
 
-/// What can be wrong with the triangles of a polygon.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-#[non_exhaustive]
-pub enum FaultKind {
-    /// The tessellator panicked.
-    Panicked,
-    /// The tessellator refused a valid polygon.
-    Refused,
-    /// A corner of a triangle is infinite or not a number.
-    NotFinite,
-    /// Points inside are in two or more triangles.
-    Overlap,
-    /// Points inside are in no triangle.
-    Gap,
-    /// Points outside are in a triangle.
-    Outside,
-    /// A triangle has another orientation than declared.
-    Flipped,
-    /// A corner of a triangle, or a vertex of the boundary, lies inside an edge of a triangle.
-    TJunction,
-    /// The corners of a triangle lie on one line.
-    Degenerate,
-}
-
-impl FaultKind {
-    /// Every kind, grave ones first.
-    pub const ALL: [Self; 9] = [
-        Self::Panicked,
-        Self::Refused,
-        Self::NotFinite,
-        Self::Overlap,
-        Self::Gap,
-        Self::Outside,
-        Self::Flipped,
-        Self::TJunction,
-        Self::Degenerate,
-    ];
-
-    /// Its name in messages.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Panicked => "panic",
-            Self::Refused => "refused",
-            Self::NotFinite => "not finite",
-            Self::Overlap => "overlap",
-            Self::Gap => "gap",
-            Self::Outside => "outside",
-            Self::Flipped => "flipped",
-            Self::TJunction => "T-junction",
-            Self::Degenerate => "degenerate",
-        }
+rasterproof_core::named! {
+    /// What can be wrong with the triangles of a polygon. Grave ones come first.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+    #[non_exhaustive]
+    pub enum FaultKind {
+        /// The tessellator panicked.
+        Panicked = "panic",
+        /// The tessellator refused a valid polygon.
+        Refused = "refused",
+        /// A corner of a triangle is infinite or not a number.
+        NotFinite = "not finite",
+        /// Points inside are in two or more triangles.
+        Overlap = "overlap",
+        /// Points inside are in no triangle.
+        Gap = "gap",
+        /// Points outside are in a triangle.
+        Outside = "outside",
+        /// A triangle has another orientation than declared.
+        Flipped = "flipped",
+        /// A corner of a triangle, or a vertex of the boundary, lies inside an edge of a triangle.
+        TJunction = "T-junction",
+        /// The corners of a triangle lie on one line.
+        Degenerate = "degenerate",
     }
 }
 
