@@ -6,7 +6,6 @@ pub mod canvas;
 pub mod chapter;
 pub mod cost_plots;
 pub mod counts;
-pub mod diagram;
 pub mod exact;
 pub mod formats;
 pub mod frame_comparison;
