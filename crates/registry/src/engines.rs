@@ -401,94 +401,76 @@ pub struct Entry {
     pub specimen: Option<Specimen>,
 }
 
+const NOBODY: Entry = Entry {
+    name: "",
+    about: "",
+    engine: None,
+    line_engine: None,
+    exact_engine: None,
+    specimen: None,
+};
+
 /// Every engine that has a name of its own.
 pub const ENTRIES: [Entry; 9] = [
     Entry {
         name: "scanline",
         about: "the book's split-triangle fill, repaired: exact integer DDA down the edges",
         engine: Some(Engine::Scanline),
-        line_engine: None,
-        exact_engine: None,
-        specimen: None,
+        ..NOBODY
     },
     Entry {
         name: "edge-function",
         about: "bounding box and three integer edge functions with a top-left bias",
         engine: Some(Engine::EdgeFunction),
-        line_engine: None,
-        exact_engine: None,
-        specimen: None,
+        ..NOBODY
     },
     Entry {
         name: "tile",
         about: "tiles of 16 x 16 px, sixteen pixels or triangles at a time",
         engine: Some(Engine::Tile),
-        line_engine: None,
-        exact_engine: None,
-        specimen: None,
+        ..NOBODY
     },
     Entry {
         name: "dda",
         about: "the book's line drawer, repaired: exact slope, rounded height",
-        engine: None,
         line_engine: Some(LineEngine::Dda),
-        exact_engine: None,
-        specimen: None,
+        ..NOBODY
     },
     Entry {
         name: "bresenham",
         about: "Bresenham's line drawer in all octants",
-        engine: None,
         line_engine: Some(LineEngine::Bresenham),
-        exact_engine: None,
-        specimen: None,
+        ..NOBODY
     },
     Entry {
         name: "oracle",
         about: "the truth: parity of crossings, nearest pixels, planes in big integers",
         engine: Some(Engine::Oracle),
         line_engine: Some(LineEngine::Oracle),
-        exact_engine: None,
-        specimen: None,
+        ..NOBODY
     },
-    exact(
-        "scanline-exact",
-        ExactEngine::Scanline,
-        "corners not snapped: filtered crossings, big integers in doubt",
-    ),
-    exact(
-        "edge-function-exact",
-        ExactEngine::EdgeFunction,
-        "corners not snapped: filtered edge functions, orient2d in doubt",
-    ),
-    exact(
-        "oracle-exact",
-        ExactEngine::Oracle,
-        "corners not snapped: the truth, parity of crossings in whole numbers",
-    ),
+    Entry {
+        name: "scanline-exact",
+        about: "corners not snapped: filtered crossings, big integers in doubt",
+        exact_engine: Some(ExactEngine::Scanline),
+        ..NOBODY
+    },
+    Entry {
+        name: "edge-function-exact",
+        about: "corners not snapped: filtered edge functions, orient2d in doubt",
+        exact_engine: Some(ExactEngine::EdgeFunction),
+        ..NOBODY
+    },
+    Entry {
+        name: "oracle-exact",
+        about: "corners not snapped: the truth, parity of crossings in whole numbers",
+        exact_engine: Some(ExactEngine::Oracle),
+        ..NOBODY
+    },
 ];
 
-/// The entry of a rasterizer for corners that are not snapped, which does nothing else.
-const fn exact(name: &'static str, engine: ExactEngine, about: &'static str) -> Entry {
-    Entry {
-        name,
-        about,
-        engine: None,
-        line_engine: None,
-        exact_engine: Some(engine),
-        specimen: None,
-    }
-}
-
 const fn specimen(name: &'static str, about: &'static str, specimen: Specimen) -> Entry {
-    Entry {
-        name,
-        about,
-        engine: None,
-        line_engine: None,
-        exact_engine: None,
-        specimen: Some(specimen),
-    }
+    Entry { name, about, specimen: Some(specimen), ..NOBODY }
 }
 
 /// Every specimen that speaks the line protocol; they take positions as they are given.
@@ -587,6 +569,6 @@ pub fn find_planted(name: &str) -> Option<Entry> {
         engine: engine.map(Engine::Mutant),
         line_engine: line.map(LineEngine::Mutant),
         exact_engine: exact.map(ExactEngine::Mutant),
-        specimen: None,
+        ..NOBODY
     })
 }

@@ -185,7 +185,7 @@ impl Options {
 }
 
 /// How two engines compare over a family.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct PairReport {
     /// The one that is judged.
@@ -220,7 +220,7 @@ impl PairReport {
 }
 
 /// How a family went.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct FamilyReport {
     /// Its name.
@@ -637,27 +637,11 @@ impl FamilyReport {
         let pairs = pairs.iter().map(|[actual, target]| PairReport {
             actual: actual.clone(),
             target: target.clone(),
-            tally: Tally::default(),
-            fragments: Tally::default(),
-            worst_attribute: 0.0,
-            worst_depth: 0.0,
             worst_case: u64::MAX,
-            values: 0,
-            panics: 0,
-            wrong_cases: 0,
+            ..PairReport::default()
         });
-        Self {
-            family: family.name.to_owned(),
-            cases: 0,
-            shapes: 0,
-            lines,
-            pixels: 0,
-            tie_cases: 0,
-            sliver_cases: 0,
-            empty_cases: 0,
-            oracle_overlap: 0,
-            pairs: pairs.collect(),
-        }
+        let pairs = pairs.collect();
+        Self { family: family.name.to_owned(), lines, pairs, ..Self::default() }
     }
 
     fn count(&mut self, facts: &compare::CaseFacts) {

@@ -7,7 +7,7 @@ use ash::vk;
 use super::draw::{Painter, Prepared};
 use super::memory::{Buffer, Image, Like, copy, whole};
 use super::open::Opened;
-use super::stage::{create_pipeline, with_shaders};
+use super::pipeline::{Attachments, Recipe, framebuffer};
 use super::{Error, While as _};
 
 /// A corner of triangles.
@@ -216,11 +216,16 @@ impl Painter {
         let constants: Vec<u8> = constants.flat_map(|word| word.to_ne_bytes()).collect();
         let both = vk::ShaderStageFlags::VERTEX | vk::ShaderStageFlags::FRAGMENT;
         let graphics = vk::PipelineBindPoint::GRAPHICS;
+        let side = film.side_px as f32;
+        let viewport =
+            vk::Viewport { width: side, height: side, max_depth: 1.0, ..vk::Viewport::default() };
         let (raw, count) = (&film.device.raw, surface.indices.len() as u32);
         // SAFETY: every handle is of this device and alive; indices name corners in their buffer.
         unsafe {
             raw.cmd_begin_render_pass(commands, &begin, vk::SubpassContents::INLINE);
             raw.cmd_bind_pipeline(commands, graphics, film.pipeline);
+            raw.cmd_set_viewport(commands, 0, &[viewport]);
+            raw.cmd_set_scissor(commands, 0, &[square(film.side_px)]);
             raw.cmd_bind_descriptor_sets(commands, graphics, film.layout, 0, &[film.set], &[]);
             raw.cmd_push_constants(commands, film.layout, both, 0, &constants);
             raw.cmd_bind_vertex_buffers(commands, 0, &[vertices.raw], &[0]);
@@ -288,17 +293,11 @@ impl Film {
             side_px,
         };
         // Filled field by field: what fails is dropped with what was made before it.
-        film.render_pass = render_pass(device, samples)?;
+        let attachments =
+            Attachments { colours: Some(COLOURS), depths: Some(device.depth), samples };
+        film.render_pass = attachments.render_pass(device)?;
         let views: Vec<_> = film.images.iter().map(|image| image.view).collect();
-        let info = vk::FramebufferCreateInfo::default()
-            .render_pass(film.render_pass)
-            .attachments(&views)
-            .width(side_px)
-            .height(side_px)
-            .layers(1);
-        // SAFETY: the views are those that the render pass describes, of this size.
-        let framebuffer = unsafe { device.raw.create_framebuffer(&info, None) };
-        film.framebuffer = framebuffer.during("creating a framebuffer")?;
+        film.framebuffer = framebuffer(device, film.render_pass, &views, side_px)?;
         film.bind_texture()?;
         let ranges = [vk::PushConstantRange {
             stage_flags: vk::ShaderStageFlags::VERTEX | vk::ShaderStageFlags::FRAGMENT,
@@ -312,9 +311,26 @@ impl Film {
         // SAFETY: 128 bytes of constants are allowed everywhere; the layout of sets is alive.
         let layout = unsafe { device.raw.create_pipeline_layout(&info, None) };
         film.layout = layout.during("creating a pipeline layout")?;
-        let shaders =
-            [&include_bytes!("shaders/mesh.vert.spv")[..], include_bytes!("shaders/mesh.frag.spv")];
-        film.pipeline = with_shaders(device, shaders, |stages| pipeline(&film, samples, stages))?;
+        let recipe = Recipe {
+            shaders: [
+                include_bytes!("shaders/mesh.vert.spv"),
+                include_bytes!("shaders/mesh.frag.spv"),
+            ],
+            stride: CORNER_BYTES,
+            attributes: &[
+                (vk::Format::R32G32B32_SFLOAT, 0),
+                (vk::Format::R32G32B32_SFLOAT, 12),
+                (vk::Format::R32G32_SFLOAT, 24),
+            ],
+            topology: vk::PrimitiveTopology::TRIANGLE_LIST,
+            line_mode: None,
+            attachments,
+            sample_mask: u32::MAX,
+            adds: false,
+            layout: film.layout,
+            render_pass: film.render_pass,
+        };
+        film.pipeline = recipe.make(device)?;
         Ok(film)
     }
 
@@ -364,130 +380,4 @@ impl Film {
         unsafe { raw.update_descriptor_sets(&writes, &[]) };
         Ok(())
     }
-}
-
-fn render_pass(device: &Opened, samples: vk::SampleCountFlags) -> Result<vk::RenderPass, Error> {
-    let one = vk::SampleCountFlags::TYPE_1;
-    let colour = vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL;
-    let depth = vk::ImageLayout::DEPTH_STENCIL_ATTACHMENT_OPTIMAL;
-    let kept = vk::AttachmentDescription::default()
-        .format(COLOURS)
-        .samples(one)
-        .load_op(vk::AttachmentLoadOp::CLEAR)
-        .store_op(vk::AttachmentStoreOp::STORE)
-        .stencil_load_op(vk::AttachmentLoadOp::DONT_CARE)
-        .stencil_store_op(vk::AttachmentStoreOp::DONT_CARE)
-        .initial_layout(vk::ImageLayout::UNDEFINED)
-        .final_layout(vk::ImageLayout::TRANSFER_SRC_OPTIMAL);
-    let passing = kept.samples(samples).store_op(vk::AttachmentStoreOp::DONT_CARE);
-    let depths = passing.format(device.depth).final_layout(depth);
-    let attachments = match samples == one {
-        true => vec![kept, depths],
-        false => vec![
-            passing.final_layout(colour),
-            depths,
-            kept.load_op(vk::AttachmentLoadOp::DONT_CARE),
-        ],
-    };
-    let colours = [vk::AttachmentReference { attachment: 0, layout: colour }];
-    let depths = vk::AttachmentReference { attachment: 1, layout: depth };
-    let means = [vk::AttachmentReference { attachment: 2, layout: colour }];
-    let mut subpass = vk::SubpassDescription::default()
-        .pipeline_bind_point(vk::PipelineBindPoint::GRAPHICS)
-        .color_attachments(&colours)
-        .depth_stencil_attachment(&depths);
-    if samples != one {
-        subpass = subpass.resolve_attachments(&means);
-    }
-    // One frame after the other, each read or not.
-    let draws = vk::PipelineStageFlags::COLOR_ATTACHMENT_OUTPUT
-        | vk::PipelineStageFlags::EARLY_FRAGMENT_TESTS
-        | vk::PipelineStageFlags::LATE_FRAGMENT_TESTS;
-    let copies = vk::PipelineStageFlags::TRANSFER;
-    let reads = vk::AccessFlags::TRANSFER_READ;
-    let writes = vk::AccessFlags::COLOR_ATTACHMENT_WRITE
-        | vk::AccessFlags::DEPTH_STENCIL_ATTACHMENT_READ
-        | vk::AccessFlags::DEPTH_STENCIL_ATTACHMENT_WRITE;
-    let before = vk::SubpassDependency::default()
-        .src_subpass(vk::SUBPASS_EXTERNAL)
-        .src_stage_mask(copies | draws)
-        .src_access_mask(reads | writes)
-        .dst_stage_mask(draws)
-        .dst_access_mask(writes);
-    let after = vk::SubpassDependency::default()
-        .dst_subpass(vk::SUBPASS_EXTERNAL)
-        .src_stage_mask(draws)
-        .src_access_mask(writes)
-        .dst_stage_mask(copies)
-        .dst_access_mask(reads);
-    let (subpasses, dependencies) = ([subpass], [before, after]);
-    let info = vk::RenderPassCreateInfo::default()
-        .attachments(&attachments)
-        .subpasses(&subpasses)
-        .dependencies(&dependencies);
-    // SAFETY: `info` and what it points to live during the call.
-    unsafe { device.raw.create_render_pass(&info, None) }.during("creating a render pass")
-}
-
-fn pipeline(
-    film: &Film,
-    samples: vk::SampleCountFlags,
-    stages: &[vk::PipelineShaderStageCreateInfo<'_>],
-) -> Result<vk::Pipeline, Error> {
-    let bindings = [vk::VertexInputBindingDescription::default().stride(CORNER_BYTES)];
-    let attribute = |location, format, offset| vk::VertexInputAttributeDescription {
-        location,
-        binding: 0,
-        format,
-        offset,
-    };
-    let attributes = [
-        attribute(0, vk::Format::R32G32B32_SFLOAT, 0),
-        attribute(1, vk::Format::R32G32B32_SFLOAT, 12),
-        attribute(2, vk::Format::R32G32_SFLOAT, 24),
-    ];
-    let input = vk::PipelineVertexInputStateCreateInfo::default()
-        .vertex_binding_descriptions(&bindings)
-        .vertex_attribute_descriptions(&attributes);
-    let assembly = vk::PipelineInputAssemblyStateCreateInfo::default()
-        .topology(vk::PrimitiveTopology::TRIANGLE_LIST);
-    let side = film.side_px as f32;
-    let viewports = [vk::Viewport {
-        x: 0.0,
-        y: 0.0,
-        width: side,
-        height: side,
-        min_depth: 0.0,
-        max_depth: 1.0,
-    }];
-    let scissors = [square(film.side_px)];
-    let viewport =
-        vk::PipelineViewportStateCreateInfo::default().viewports(&viewports).scissors(&scissors);
-    let raster = vk::PipelineRasterizationStateCreateInfo::default()
-        .polygon_mode(vk::PolygonMode::FILL)
-        .cull_mode(vk::CullModeFlags::NONE)
-        .line_width(1.0);
-    let multisample =
-        vk::PipelineMultisampleStateCreateInfo::default().rasterization_samples(samples);
-    let depth = vk::PipelineDepthStencilStateCreateInfo::default()
-        .depth_test_enable(true)
-        .depth_write_enable(true)
-        .depth_compare_op(vk::CompareOp::LESS);
-    let written = [vk::PipelineColorBlendAttachmentState::default()
-        .color_write_mask(vk::ColorComponentFlags::RGBA)];
-    let blend = vk::PipelineColorBlendStateCreateInfo::default().attachments(&written);
-    let info = vk::GraphicsPipelineCreateInfo::default()
-        .stages(stages)
-        .vertex_input_state(&input)
-        .input_assembly_state(&assembly)
-        .viewport_state(&viewport)
-        .rasterization_state(&raster)
-        .multisample_state(&multisample)
-        .depth_stencil_state(&depth)
-        .color_blend_state(&blend)
-        .layout(film.layout)
-        .render_pass(film.render_pass);
-    // SAFETY: `info` and what it points to live during the call, and the layout and the render pass
-    // are of this device.
-    unsafe { create_pipeline(&film.device, &info) }
 }

@@ -1,7 +1,7 @@
 //! A Vulkan device that draws lists of primitives, each in a cell of its own, and reads them back.
 //!
 //! [`find`] loads the loader and lists devices (`icd` says why there are none), [`open`] makes one
-//! ready, [`memory`] owns what is allocated, [`stage`] knows the kinds of pictures and their pipelines,
+//! ready, [`memory`] owns what is allocated, [`stage`] knows the kinds of pictures, `pipeline` makes render passes and pipelines,
 //! [`draw`] records, submits and waits; [`mesh`] draws a textured mesh for a clock. No window and no
 //! surface: pictures are images of 1024 x 1024 px that hold 256 cells.
 //!
@@ -17,6 +17,7 @@ mod icd;
 pub mod memory;
 pub mod mesh;
 pub mod open;
+mod pipeline;
 pub mod stage;
 
 use std::fmt;

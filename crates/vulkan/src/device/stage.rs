@@ -9,6 +9,7 @@ use ash::vk;
 
 use super::memory::{Image, Like};
 use super::open::Opened;
+use super::pipeline::{Attachments, Recipe, framebuffer};
 use super::{Error, While as _};
 
 /// Cells of most pages, in rows and columns.
@@ -103,6 +104,14 @@ impl Kind {
         }
     }
 
+    fn attachments(self) -> Attachments {
+        let (format, samples) = (Some(self.format()), self.samples());
+        match self.is_depths() {
+            true => Attachments { colours: None, depths: format, samples },
+            false => Attachments { colours: format, depths: None, samples },
+        }
+    }
+
     fn samples(self) -> vk::SampleCountFlags {
         match self {
             Self::Samples => vk::SampleCountFlags::TYPE_4,
@@ -181,17 +190,9 @@ impl Stage {
             _samples: samples,
         };
         // Filled field by field: what fails is dropped with what was made before it.
-        stage.render_pass = render_pass(device, kind)?;
+        stage.render_pass = kind.attachments().render_pass(device)?;
         let views: Vec<_> = stage._samples.iter().chain([&stage.page]).map(|i| i.view).collect();
-        let info = vk::FramebufferCreateInfo::default()
-            .render_pass(stage.render_pass)
-            .attachments(&views)
-            .width(kind.page_px())
-            .height(kind.page_px())
-            .layers(1);
-        // SAFETY: the views are those that the render pass describes, of this size.
-        let framebuffer = unsafe { device.raw.create_framebuffer(&info, None) };
-        stage.framebuffer = framebuffer.during("creating a framebuffer")?;
+        stage.framebuffer = framebuffer(device, stage.render_pass, &views, kind.page_px())?;
         let ranges = [vk::PushConstantRange {
             stage_flags: vk::ShaderStageFlags::FRAGMENT,
             offset: 0,
@@ -209,201 +210,28 @@ impl Stage {
     }
 }
 
-fn render_pass(device: &Opened, kind: Kind) -> Result<vk::RenderPass, Error> {
-    let drawn = vk::AttachmentDescription::default()
-        .format(kind.format())
-        .samples(kind.samples())
-        .load_op(vk::AttachmentLoadOp::CLEAR)
-        .store_op(vk::AttachmentStoreOp::STORE)
-        .initial_layout(vk::ImageLayout::UNDEFINED)
-        .final_layout(vk::ImageLayout::TRANSFER_SRC_OPTIMAL);
-    let has_samples = kind.samples() != vk::SampleCountFlags::TYPE_1;
-    let layout = vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL;
-    let mut all = vec![drawn];
-    if has_samples {
-        all.push(
-            drawn.samples(vk::SampleCountFlags::TYPE_1).load_op(vk::AttachmentLoadOp::DONT_CARE),
-        );
-        all[0] = drawn.store_op(vk::AttachmentStoreOp::DONT_CARE).final_layout(layout);
-    }
-    let colours = [vk::AttachmentReference { attachment: 0, layout }];
-    let resolved = [vk::AttachmentReference { attachment: 1, layout }];
-    let depths = vk::AttachmentReference {
-        attachment: 0,
-        layout: vk::ImageLayout::DEPTH_STENCIL_ATTACHMENT_OPTIMAL,
-    };
-    let mut subpass =
-        vk::SubpassDescription::default().pipeline_bind_point(vk::PipelineBindPoint::GRAPHICS);
-    subpass = match kind.is_depths() {
-        true => subpass.depth_stencil_attachment(&depths),
-        false => subpass.color_attachments(&colours),
-    };
-    if has_samples {
-        subpass = subpass.resolve_attachments(&resolved);
-    }
-    // Pages are drawn and copied one after the other.
-    let draws = vk::PipelineStageFlags::COLOR_ATTACHMENT_OUTPUT
-        | vk::PipelineStageFlags::EARLY_FRAGMENT_TESTS
-        | vk::PipelineStageFlags::LATE_FRAGMENT_TESTS;
-    let writes =
-        vk::AccessFlags::COLOR_ATTACHMENT_WRITE | vk::AccessFlags::DEPTH_STENCIL_ATTACHMENT_WRITE;
-    let tests =
-        vk::AccessFlags::COLOR_ATTACHMENT_READ | vk::AccessFlags::DEPTH_STENCIL_ATTACHMENT_READ;
-    let (copies, reads) = (vk::PipelineStageFlags::TRANSFER, vk::AccessFlags::TRANSFER_READ);
-    let before = vk::SubpassDependency::default()
-        .src_subpass(vk::SUBPASS_EXTERNAL)
-        .src_stage_mask(copies | draws)
-        .src_access_mask(reads | writes)
-        .dst_stage_mask(draws)
-        .dst_access_mask(writes | tests);
-    let after = vk::SubpassDependency::default()
-        .dst_subpass(vk::SUBPASS_EXTERNAL)
-        .src_stage_mask(draws)
-        .src_access_mask(writes)
-        .dst_stage_mask(copies)
-        .dst_access_mask(reads);
-    let (subpasses, dependencies) = ([subpass], [before, after]);
-    let info = vk::RenderPassCreateInfo::default()
-        .attachments(&all)
-        .subpasses(&subpasses)
-        .dependencies(&dependencies);
-    // SAFETY: `info` and what it points to live during the call.
-    unsafe { device.raw.create_render_pass(&info, None) }.during("creating a render pass")
-}
-
-fn shader(device: &Opened, bytes: &[u8]) -> Result<vk::ShaderModule, Error> {
-    let words: Vec<u32> = bytes
-        .chunks_exact(4)
-        .map(|word| u32::from_le_bytes([word[0], word[1], word[2], word[3]]))
-        .collect();
-    let info = vk::ShaderModuleCreateInfo::default().code(&words);
-    // SAFETY: the words are SPIR-V that glslang wrote, kept beside the source.
-    unsafe { device.raw.create_shader_module(&info, None) }.during("loading a shader")
-}
-
-fn pipeline(stage: &Stage, kind: Kind, sample_mask: u32) -> Result<vk::Pipeline, Error> {
-    let shaders = [include_bytes!("shaders/draw.vert.spv"), kind.fragment_shader()];
-    with_shaders(&stage.device, shaders, |stages| of_kind(stage, kind, sample_mask, stages))
-}
-
-/// What is made from a vertex and a fragment shader, which are not needed afterwards.
-pub(super) fn with_shaders(
-    device: &Opened,
-    [vertex, fragment]: [&[u8]; 2],
-    make: impl FnOnce(&[vk::PipelineShaderStageCreateInfo<'_>]) -> Result<vk::Pipeline, Error>,
-) -> Result<vk::Pipeline, Error> {
-    let vertex = shader(device, vertex)?;
-    let fragment = shader(device, fragment).inspect_err(|_| {
-        // SAFETY: nobody else knows the shader.
-        unsafe { device.raw.destroy_shader_module(vertex, None) };
-    })?;
-    let stage = |module, stage| {
-        vk::PipelineShaderStageCreateInfo::default().stage(stage).module(module).name(c"main")
-    };
-    let made = make(&[
-        stage(vertex, vk::ShaderStageFlags::VERTEX),
-        stage(fragment, vk::ShaderStageFlags::FRAGMENT),
-    ]);
-    // SAFETY: a pipeline does not need its shaders once it is made.
-    unsafe {
-        device.raw.destroy_shader_module(vertex, None);
-        device.raw.destroy_shader_module(fragment, None);
-    }
-    made
-}
-
 /// Bytes of a vertex: clip coordinates and two attributes, six f32.
 pub(super) const VERTEX_BYTES: u32 = 24;
 
-fn of_kind(
-    stage: &Stage,
-    kind: Kind,
-    sample_mask: u32,
-    shaders: &[vk::PipelineShaderStageCreateInfo<'_>],
-) -> Result<vk::Pipeline, Error> {
-    let bindings = [vk::VertexInputBindingDescription::default().stride(VERTEX_BYTES)];
-    let attribute = |location, format, offset| vk::VertexInputAttributeDescription {
-        location,
-        binding: 0,
-        format,
-        offset,
-    };
-    let attributes = [
-        attribute(0, vk::Format::R32G32B32A32_SFLOAT, 0),
-        attribute(1, vk::Format::R32G32_SFLOAT, 16),
-    ];
-    let input = vk::PipelineVertexInputStateCreateInfo::default()
-        .vertex_binding_descriptions(&bindings)
-        .vertex_attribute_descriptions(&attributes);
-    let topology = match kind.corners() {
-        2 => vk::PrimitiveTopology::LINE_LIST,
-        _ => vk::PrimitiveTopology::TRIANGLE_LIST,
-    };
-    let assembly = vk::PipelineInputAssemblyStateCreateInfo::default().topology(topology);
-    let viewport =
-        vk::PipelineViewportStateCreateInfo::default().viewport_count(1).scissor_count(1);
-    let mut line = vk::PipelineRasterizationLineStateCreateInfoEXT::default()
-        .line_rasterization_mode(match kind {
-            Kind::BresenhamLines => vk::LineRasterizationModeEXT::BRESENHAM,
-            _ => vk::LineRasterizationModeEXT::RECTANGULAR,
-        });
-    let mut raster = vk::PipelineRasterizationStateCreateInfo::default()
-        .polygon_mode(vk::PolygonMode::FILL)
-        .cull_mode(vk::CullModeFlags::NONE)
-        .line_width(1.0);
-    if matches!(kind, Kind::RectangularLines | Kind::BresenhamLines) {
-        raster = raster.push_next(&mut line);
+fn pipeline(stage: &Stage, kind: Kind, sample_mask: u32) -> Result<vk::Pipeline, Error> {
+    Recipe {
+        shaders: [include_bytes!("shaders/draw.vert.spv"), kind.fragment_shader()],
+        stride: VERTEX_BYTES,
+        attributes: &[(vk::Format::R32G32B32A32_SFLOAT, 0), (vk::Format::R32G32_SFLOAT, 16)],
+        topology: match kind.corners() {
+            2 => vk::PrimitiveTopology::LINE_LIST,
+            _ => vk::PrimitiveTopology::TRIANGLE_LIST,
+        },
+        line_mode: match kind {
+            Kind::BresenhamLines => Some(vk::LineRasterizationModeEXT::BRESENHAM),
+            Kind::RectangularLines => Some(vk::LineRasterizationModeEXT::RECTANGULAR),
+            _ => None,
+        },
+        attachments: kind.attachments(),
+        sample_mask,
+        adds: kind.pixel_bytes() == 1,
+        layout: stage.layout,
+        render_pass: stage.render_pass,
     }
-    let masks = [sample_mask];
-    let multisample = vk::PipelineMultisampleStateCreateInfo::default()
-        .rasterization_samples(kind.samples())
-        .sample_mask(&masks);
-    let adds = vk::PipelineColorBlendAttachmentState::default()
-        .color_write_mask(vk::ColorComponentFlags::RGBA)
-        .blend_enable(kind.pixel_bytes() == 1)
-        .src_color_blend_factor(vk::BlendFactor::ONE)
-        .dst_color_blend_factor(vk::BlendFactor::ONE)
-        .src_alpha_blend_factor(vk::BlendFactor::ONE)
-        .dst_alpha_blend_factor(vk::BlendFactor::ONE);
-    let blends = [adds];
-    let mut blend = vk::PipelineColorBlendStateCreateInfo::default();
-    if !kind.is_depths() {
-        blend = blend.attachments(&blends);
-    }
-    let depth = vk::PipelineDepthStencilStateCreateInfo::default()
-        .depth_test_enable(kind.is_depths())
-        .depth_write_enable(kind.is_depths())
-        .depth_compare_op(vk::CompareOp::LESS);
-    let states = [vk::DynamicState::VIEWPORT, vk::DynamicState::SCISSOR];
-    let dynamic = vk::PipelineDynamicStateCreateInfo::default().dynamic_states(&states);
-    let info = vk::GraphicsPipelineCreateInfo::default()
-        .stages(shaders)
-        .vertex_input_state(&input)
-        .input_assembly_state(&assembly)
-        .viewport_state(&viewport)
-        .rasterization_state(&raster)
-        .multisample_state(&multisample)
-        .depth_stencil_state(&depth)
-        .color_blend_state(&blend)
-        .dynamic_state(&dynamic)
-        .layout(stage.layout)
-        .render_pass(stage.render_pass);
-    // SAFETY: `info` and what it points to live during the call, and the layout and the render pass
-    // are of this device; line modes are chosen only where the device has them (`Painter::draw`).
-    unsafe { create_pipeline(&stage.device, &info) }
-}
-
-/// Makes a pipeline.
-///
-/// # Safety
-/// What `info` points to is alive and of this device.
-pub(super) unsafe fn create_pipeline(
-    device: &Opened,
-    info: &vk::GraphicsPipelineCreateInfo<'_>,
-) -> Result<vk::Pipeline, Error> {
-    let (none, infos) = (vk::PipelineCache::null(), std::slice::from_ref(info));
-    // SAFETY: the caller sees to it.
-    let made = unsafe { device.raw.create_graphics_pipelines(none, infos, None) };
-    let made = made.map_err(|(_, result)| result).during("creating a pipeline")?;
-    made.into_iter().next().ok_or(Error::Failed("creating a pipeline", "nothing".to_owned()))
+    .make(&stage.device)
 }
