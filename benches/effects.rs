@@ -135,7 +135,6 @@ impl Row {
     }
 }
 
-/// What a sliver is like.
 #[derive(Clone, Copy)]
 enum Slivers {
     Comb,
@@ -270,7 +269,6 @@ fn rows(wanted: &str) -> impl Iterator<Item = Row> {
     })
 }
 
-/// A family of random scenes.
 struct Family {
     name: &'static str,
     scene: fn(u64, u64) -> Scene,
@@ -282,7 +280,6 @@ const FAMILIES: [Family; 2] = [
     Family { name: "random slivers", scene: random_slivers, most: [MOST, MOST_OF_USUAL] },
 ];
 
-/// Random scenes one after the other as one row.
 fn random_scenes(
     family: &Family,
     antialias: Antialias,

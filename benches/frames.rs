@@ -37,7 +37,6 @@ use rasterproof_render::pipeline::texture::Texture;
 use rasterproof_render::scene::{Scene, meshes};
 use rasterproof_tiles::frames::Samples;
 
-/// Side of the square picture.
 const SIDE_PX: u32 = 1024;
 /// Two of a displaced sphere and a torus with few triangles, two with many.
 const MESHES: [&str; 4] = ["torus-2000", "bumps-4000", "knot-50000", "bumps-70000"];

@@ -218,7 +218,6 @@ trait Filler {
 trait Canvas {
     /// Whether pixel (x, y) is drawn.
     fn is_drawn(&self, x: usize, y: usize) -> bool;
-    /// Makes pixel (x, y) undrawn.
     fn erase(&mut self, x: usize, y: usize);
 }
 
@@ -447,7 +446,6 @@ mod vulkan {
         draws: Vec<Draw>,
     }
 
-    /// Every device that is there.
     pub fn all(scene: &Scene) -> Vec<(String, Box<dyn Filler>)> {
         let devices = find::list().unwrap_or_else(|error| {
             eprintln!("{error}");

@@ -40,7 +40,6 @@ pub fn one_thread_each(bench: impl FnOnce()) -> ExitCode {
     }
 }
 
-/// Draws over a picture.
 type Draw<'a> = dyn FnMut(&mut Frame<Colour>) + 'a;
 
 /// Somebody who draws a frame.
@@ -74,7 +73,6 @@ pub fn engine(scene: &Scene, side_px: u32, antialias: Antialias) -> impl FnMut(&
     }
 }
 
-/// The tiles, by the threads of a pool.
 pub fn tiles(
     scene: &Scene,
     pool: &rayon::ThreadPool,
@@ -109,7 +107,6 @@ pub fn devices(_: &Scene, _: u32, _: Samples) -> Vec<Draws<'static>> {
     Vec::new()
 }
 
-/// Every device that is there.
 #[cfg(feature = "vulkan")]
 pub fn devices(scene: &Scene, side_px: u32, samples: Samples) -> Vec<Draws<'static>> {
     use rasterproof_vulkan::device::find;

@@ -501,7 +501,6 @@ impl Maker {
         }
     }
 
-    /// The scene, turned by a share of a full turn.
     pub(super) fn scene(&self, turn: f64) -> Scene {
         let mut scene = match &self.base {
             Base::Chapter(name) => chapters::scene(name, self.aspect, turn)

@@ -294,7 +294,6 @@ impl Run<'_> {
         self.verdict.agrees() && self.off_grid.agrees()
     }
 
-    /// The command that repeats one case.
     fn repeat(&self, family: &str, index: u64) -> String {
         let one = self.typed.clone().without_output().without(&["cases", "seconds", "shard"]);
         one.set("seed", self.arguments.seed).first("case", index).first("family", family).line()

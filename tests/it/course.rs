@@ -258,7 +258,6 @@ const RUST_BODIES: [(&str, &str); 2] = [
     ),
 ];
 
-/// The solutions in all languages, as they are written by `course start`, pass all steps.
 #[test]
 #[ignore = "takes seconds; .ci/run runs it"]
 fn course_solutions_pass() {

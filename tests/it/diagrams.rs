@@ -157,7 +157,6 @@ fn diagrams_are_what_is_drawn() {
     );
 }
 
-/// Every diagram stands on a page, reads in the dark, and has its labels as text.
 #[test]
 fn diagrams_stand_on_pages() {
     let docs = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("docs");

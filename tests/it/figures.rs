@@ -424,7 +424,6 @@ fn sorted_ends(mut values: Vec<f64>) -> Vec<f64> {
     vec![values[0], values[values.len() - 1]]
 }
 
-/// Smallest and largest value over columns.
 fn range(columns: usize, value: impl Fn(usize) -> f64) -> Vec<f64> {
     sorted_ends((0..columns).map(value).collect())
 }

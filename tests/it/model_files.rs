@@ -21,7 +21,6 @@ fn folder(name: &str) -> PathBuf {
 
 const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
-/// Only the bad line is left out, and the warning names it.
 #[test]
 fn a_bad_line_of_a_material_file_is_a_warning_with_its_line() {
     let folder = folder("lines");

@@ -47,7 +47,6 @@ fn text() -> String {
     text + "endsolid a b\n"
 }
 
-/// The positions of all corners, in order.
 fn corners(model: &Model) -> Vec<[f64; 3]> {
     let of = |item: &rasterproof_render::scene::Item| {
         let positions = item.mesh.positions.clone();

@@ -199,7 +199,6 @@ fn plans_are_known_before_drawing() {
     });
 }
 
-/// Every word of a plan that is turned is followed.
 #[test]
 fn an_edited_plan_is_followed() {
     let edit = |name: &str, drawer: Drawer, antialias: Antialias, words: &[(&str, &str)]| {

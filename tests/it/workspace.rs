@@ -31,7 +31,6 @@ fn files(folder: &Path, ending: &str) -> Vec<PathBuf> {
     found
 }
 
-/// The folders with the source code of every crate.
 fn source_folders() -> Vec<String> {
     let crates = fs::read_dir(root().join("crates")).unwrap();
     let mut folders: Vec<_> = crates
@@ -61,7 +60,6 @@ fn dependencies() -> BTreeMap<String, BTreeSet<String>> {
     found
 }
 
-/// The table of crates in the architecture page is what cargo says of them.
 #[test]
 fn the_table_of_crates_is_cargos() {
     let dependencies = dependencies();
@@ -342,7 +340,6 @@ fn unknown_names<'a>(names: &'a str, links: &str) -> impl Iterator<Item = &'a st
     quoted(names).filter(is_name).filter(move |name| !code.is_empty() && !is_there(name))
 }
 
-/// Tests, commands, cases, code and paths that the docs name exist.
 #[test]
 fn docs_name_what_exists() {
     let known = Known::new();

@@ -35,7 +35,6 @@ pub struct Known {
     pub window_px: (u32, u32),
     /// Whether a pixel drawn twice cannot be seen.
     pub mask: bool,
-    /// The convention it says it follows.
     pub declared: Convention,
 }
 
@@ -97,7 +96,6 @@ impl<'a> Bench<'a> {
         })
     }
 
-    /// The side of the window, in pixels.
     pub(super) fn side(&self) -> i32 {
         self.window.x1
     }

@@ -88,7 +88,6 @@ pub struct Diagnosis {
     pub reversed: Count,
     /// Triangles with a pixel that was hit more than once; of none, where that cannot be seen.
     pub twice: Count,
-    /// Agreement with the convention that was declared.
     pub as_declared: Share,
     /// Agreement with the convention that was found, on answers that it was not found from.
     pub as_found: Share,

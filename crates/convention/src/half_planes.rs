@@ -40,7 +40,6 @@ pub(super) struct HalfPlanes {
     pub y: i32,
     /// How far outside still belongs.
     pub reach: i32,
-    /// Whether the reach is that of a square.
     pub square: bool,
     /// Whether rows have ends, so that level edges are borders of the box.
     pub rows: bool,

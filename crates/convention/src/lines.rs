@@ -49,9 +49,7 @@ pub enum LineRounding {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
 pub enum Ends {
     Both,
-    /// Not the last pixel.
     WithoutLast,
-    /// Not the first pixel.
     WithoutFirst,
     /// Not the right end; of upright lines, the lower.
     WithoutRight,

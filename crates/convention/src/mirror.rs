@@ -16,7 +16,6 @@ pub enum Mirror {
     LeftToRight,
     /// Both: turned by half a turn.
     HalfTurn,
-    /// x and y exchanged.
     Exchanged,
 }
 

@@ -18,9 +18,7 @@ use rasterproof_core::triangle::Corners;
 pub enum Windings {
     /// Either.
     Both,
-    /// Clockwise ones alone.
     Clockwise,
-    /// Counterclockwise ones alone.
     CounterClockwise,
     /// None: it draws nothing.
     Neither,

@@ -64,7 +64,6 @@ impl Range {
     }
 }
 
-/// A search under way.
 pub(super) struct Search<'a> {
     seen: Seen<'a>,
     quantum: Quantum,

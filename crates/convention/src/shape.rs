@@ -43,7 +43,6 @@ pub enum Shape {
         y: i32,
         /// Subpixels.
         reach: i32,
-        /// Whether the reach is that of a square.
         square: bool,
     },
     /// At least that share of a pixel's area lies in the triangle.

@@ -24,7 +24,6 @@ pub const FORMAT: &str = "rasterproof-certificate/1";
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Expected {
-    /// Cases of the whole enumeration.
     pub cases: u64,
     /// Cases that the oracle's own code judges too.
     pub oracle_checks: u64,

@@ -121,7 +121,6 @@ impl Tally {
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Plan {
     Triangles(triangles::Triangles),
-    /// All lines up to a reach.
     Lines(lines::Lines),
     Edges(edges::Edges),
 }

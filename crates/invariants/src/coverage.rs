@@ -80,7 +80,6 @@ pub(super) fn oracle_sign(subject: &Subject, input: &TriangleInput) -> Outcome {
     same("the oracle", &hits(&*subject.oracle, [corners], window), &target, "robust says")
 }
 
-/// All orders of three things.
 pub(super) const ORDERS: [[usize; 3]; 6] =
     [[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 2, 1], [2, 1, 0], [1, 0, 2]];
 

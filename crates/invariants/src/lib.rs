@@ -36,11 +36,9 @@ pub enum Check {
     Fan(fn(&Subject, &Fan) -> Outcome),
     Line(fn(&Subject, &LineInput) -> Outcome),
     Position(fn(&Subject, &Position) -> Outcome),
-    /// Of a triangle in clip space.
     Clip(fn(&Subject, &ClipInput) -> Outcome),
     /// Of a whole run: its seed, its cases of each family, at most the number given.
     Run(fn(&Subject, u64, u64) -> Outcome, u64),
-    /// Of the matrix of mutants and invariants.
     Matrix,
 }
 
@@ -49,7 +47,6 @@ pub enum Check {
 pub struct Invariant {
     /// Its number, which never changes.
     pub number: u32,
-    /// Its name on the command line.
     pub name: &'static str,
     /// What must hold, in one sentence.
     pub statement: &'static str,

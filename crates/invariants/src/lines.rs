@@ -67,7 +67,6 @@ fn deviation(line: &[[i64; 2]; 2], pixel: [i64; 2]) -> (i128, i128) {
     (2 * (du * v - dv * u) * if dv < 0 { -1 } else { 1 }, du)
 }
 
-/// Whether a pixel is the nearest one, with the tie that the contract names.
 fn is_nearest(line: &[[i64; 2]; 2], pixel: [i64; 2]) -> bool {
     let (twice, du) = deviation(line, pixel);
     if du == 0 { pixel == line[0] } else { -du < twice && twice <= du }

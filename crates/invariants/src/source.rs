@@ -147,13 +147,11 @@ pub enum Input {
     Line(LineInput),
     /// A coordinate.
     Position(Position),
-    /// A triangle in clip space.
     Clip(ClipInput),
     /// A run of the harness: its seed and the cases of each family.
     Run {
         /// Decides every case.
         seed: u64,
-        /// Cases of each family.
         cases: u64,
     },
 }

@@ -116,7 +116,6 @@ pub fn hits(
     hits
 }
 
-/// A line drawer with its name.
 pub struct Drawer {
     pub name: &'static str,
     pub stroke: Box<dyn Stroke>,
@@ -155,7 +154,6 @@ pub struct Subject {
     pub edge_values: fn(&Corners, i32, i32) -> [i128; 3],
     /// The word that edge functions are stepped in, from the extents of the triangle.
     pub word_width: fn(u32, u32) -> WordWidth,
-    /// The source of generated cases.
     pub make_case: MakeCase,
     pub clip: ClipStage,
     /// Whether culling removes a triangle.
@@ -182,7 +180,6 @@ pub enum Part {
     Clip,
     Cull,
     Render,
-    /// The judge of two coverages.
     Judge,
     Lists,
     /// The matrix of invariants and mutants itself.

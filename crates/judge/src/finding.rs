@@ -24,7 +24,6 @@ pub struct Finding {
     pub unscored: u64,
     /// Requests that were refused though they were declared possible.
     pub refused: u64,
-    /// Reason of the first refusal.
     pub reason: String,
     /// Values compared.
     pub values: u64,

@@ -10,7 +10,6 @@ pub struct Adapter {
     pub name: String,
     /// The library it speaks for.
     pub library: String,
-    /// The exact call that draws.
     pub call: String,
     /// The program and its arguments.
     pub command: Vec<String>,
@@ -60,9 +59,7 @@ pub struct League {
     pub rasterproof: String,
     /// Decides the cases.
     pub seed: u64,
-    /// Cases of each family.
     pub cases: u64,
-    /// The rows, in the order of the adapters.
     pub rows: Vec<Standing>,
 }
 

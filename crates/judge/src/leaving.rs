@@ -27,7 +27,6 @@ pub fn triangle_leaves(corners: &Corners, quantum: Quantum, window: PixelRect) -
     corners.iter().any(|p| is_out(p.x, p.y))
 }
 
-/// Whether an end lies outside the window.
 pub fn line_leaves(ends: &[PixelPoint; 2], window: PixelRect) -> bool {
     ends.iter().any(|end| !window.contains(end.x, end.y))
 }

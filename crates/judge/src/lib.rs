@@ -46,13 +46,11 @@ use verdict::Verdict;
 pub struct Options {
     /// Decides every generated case.
     pub seed: u64,
-    /// Cases of each family.
     pub cases: u64,
     /// No new case is begun after this long; a failing case is then made smaller for a tenth of it.
     pub time_limit: Option<Duration>,
     /// Names of families; empty means all.
     pub families: Vec<String>,
-    /// Only the case of this number.
     pub only: Option<u64>,
     /// How long the smallest failing case of a property is looked for.
     pub patience: Duration,

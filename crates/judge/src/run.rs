@@ -24,13 +24,11 @@ pub const MOST_DEATHS_IN_ALL: u64 = 30;
 pub const MOST_REMEMBERED: usize = 1 << 20;
 /// Failing cases of a property that are remembered without one, by each copy.
 const KEPT: usize = 4;
-/// Incidents that are kept to be shown.
 pub const MOST_INCIDENTS: usize = 24;
 
 /// What came of a property: of a family, or of a check over all families.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Row {
-    /// Name of the family or the check.
     pub name: &'static str,
     /// Cases judged.
     pub cases: u64,
@@ -144,7 +142,6 @@ pub struct Incident {
 pub struct Found {
     /// A row for each property that was judged.
     pub rows: Vec<Row>,
-    /// Failing cases, sorted.
     pub failing: Vec<Failing>,
     /// Cases that were judged, by property and family, where they are remembered.
     pub judged: Vec<(&'static str, &'static str, u64)>,
@@ -158,7 +155,6 @@ pub struct Found {
     pub answered: u64,
     /// Whether the program was given up for good.
     pub gave_up: bool,
-    /// Seconds that asking took.
     pub seconds: f64,
 }
 

@@ -66,7 +66,6 @@ impl<'a> Words<'a> {
         i32::try_from(if negative { -value } else { value }).ok()
     }
 
-    /// The next word as a number.
     pub fn float(&mut self) -> Option<f64> {
         number(std::str::from_utf8(self.word()?).ok()?)
     }

@@ -59,7 +59,6 @@ pub struct Verdict {
     pub failures: Vec<Failure>,
     /// The end of what it wrote on standard error.
     pub complaints: Vec<String>,
-    /// Every property that was judged.
     pub properties: Vec<Property>,
 }
 

@@ -25,7 +25,6 @@ fn named_lines(lines: &[LineEngine]) -> Vec<(&'static str, LineEngine)> {
     lines.iter().map(|engine| (engine.name(), *engine)).collect()
 }
 
-/// Judges a selection of the engines on every family.
 pub fn judge(
     engines: &[(Engine, Tolerance)],
     lines: &[LineEngine],

@@ -42,7 +42,6 @@ use rasterproof_verify::oracle::Oracle;
 pub enum Engine {
     /// The book's split-triangle fill, repaired.
     Scanline,
-    /// The bounding-box fill with edge functions.
     EdgeFunction,
     /// Lists of triangles in tiles. It decides coverage only: values at its pixels are those of the
     /// edge function.
@@ -121,7 +120,6 @@ impl Engine {
     }
 }
 
-/// A line drawer of the registry.
 #[derive(Clone, Copy, Debug)]
 pub enum LineEngine {
     /// The book's DDA, repaired.
@@ -181,9 +179,7 @@ impl LineEngine {
 /// every planted fault.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Drawer {
-    /// The scanline engine and the DDA.
     Scanline,
-    /// The edge-function engine and Bresenham's algorithm.
     EdgeFunction,
 }
 
@@ -393,7 +389,6 @@ pub struct Entry {
     pub about: &'static str,
     /// The rasterizer of this name.
     pub engine: Option<Engine>,
-    /// The line drawer of this name.
     pub line_engine: Option<LineEngine>,
     /// The rasterizer of this name for corners that are not snapped.
     pub exact_engine: Option<ExactEngine>,
@@ -552,12 +547,10 @@ pub const SPECIMENS: [Entry; 15] = [
     ),
 ];
 
-/// The entry called `name`, engines first.
 pub fn find(name: &str) -> Option<&'static Entry> {
     ENTRIES.iter().chain(&SPECIMENS).find(|entry| entry.name == name)
 }
 
-/// The rasterizer or line drawer with the planted fault of this name.
 pub fn find_planted(name: &str) -> Option<Entry> {
     let engine = TriangleMutant::ALL.into_iter().find(|mutant| mutant.name() == name);
     let line = LineMutant::ALL.into_iter().find(|mutant| mutant.name() == name);

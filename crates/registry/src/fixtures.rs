@@ -77,7 +77,6 @@ pub struct Fixture {
     pub window: [u32; 2],
     /// In px, y down; of a line whole columns and rows.
     pub points: Vec<[f64; 2]>,
-    /// The planted fault for which it was found.
     pub found_by: String,
     /// Its pixels, for every number of bits below the pixel.
     pub expected: Vec<Expected>,
@@ -97,7 +96,6 @@ pub struct Expected {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Pixels {
-    /// Hit exactly once.
     pub hit: Vec<Run>,
     /// Hit once or not, since a corner off the grid may be moved to it up or down.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]

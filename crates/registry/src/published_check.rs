@@ -36,7 +36,6 @@ use rasterproof_verify::oracle::values::ExactTriangle;
 pub struct Counts {
     /// Triangles or lines drawn.
     pub shapes: u64,
-    /// Those with a wrong pixel or a wrong value.
     pub wrong: u64,
     pub wrong_pixels: u64,
     /// Those with a wrong value at a pixel that they cover.
@@ -72,7 +71,6 @@ impl Counts {
         self
     }
 
-    /// Wrong triangles in percent.
     pub fn percent(&self) -> f64 {
         self.percent_of(self.wrong)
     }
@@ -88,7 +86,6 @@ impl Counts {
     }
 }
 
-/// A specimen over the families.
 #[derive(Clone, Debug, Serialize)]
 pub struct SpecimenReport {
     pub name: &'static str,

@@ -190,7 +190,6 @@ fn far_textures(
     first.iter().map(|&(y, x)| (x, y)).collect()
 }
 
-/// What was found in a band.
 #[derive(Default)]
 struct Band {
     undecided: Vec<Sample>,

@@ -38,7 +38,6 @@ pub struct Choice {
     pub errors: Vec<Option<f64>>,
     /// Where it is wrong first: the piece and the pixel.
     pub first_wrong: Option<(u32, [i32; 2])>,
-    /// The triangles of the scene that it gets wrong, sorted.
     pub wrong_triangles: Vec<u32>,
     /// The smallest distance of a decision from 0, in error bounds; where such a bound is derived.
     pub margin: Option<f64>,

@@ -176,7 +176,6 @@ struct Search<'a> {
     window: PixelRect,
     marks: Vec<u16>,
     found: Vec<HardCase>,
-    /// Edges that are hard cases.
     lines: Vec<(Kind, Edge)>,
 }
 

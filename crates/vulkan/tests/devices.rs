@@ -118,7 +118,6 @@ fn planted_faults_are_caught() {
     }
 }
 
-/// Faults that stages find, not families.
 #[test]
 fn faults_of_stages_are_caught() {
     for engine in devices() {

@@ -174,7 +174,6 @@ pub fn cube() -> String {
     sheet.svg()
 }
 
-/// Left-handed and right-handed axes.
 pub fn handedness() -> String {
     let mut sheet = Sheet::new(440.0, 200.0);
     for (origin, z, sign) in

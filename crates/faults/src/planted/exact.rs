@@ -14,7 +14,6 @@ use rasterproof_core::raster::scanline::Scanline;
 use rasterproof_core::triangle::{FreeCorners, Span};
 
 planted! {
-    /// An engine off the lattice with a planted fault.
     ExactMutant {
         PlainF64 "exact-plain-f64":
             "not snapped: the sign of E as f64 computes it, without a filter",

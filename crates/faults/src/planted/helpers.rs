@@ -11,7 +11,6 @@ use rasterproof_core::triangle::Corners;
 use rasterproof_verify::cases::{Case, Family, Shape, families};
 
 planted! {
-    /// A snapping function with a planted fault.
     SnapMutant {
         Truncates "snap-truncates": "snapping truncates: (int)",
         HalfAway "snap-half-away": "halves are snapped away from zero, so they depend on its side",
@@ -40,7 +39,6 @@ impl SnapMutant {
 }
 
 planted! {
-    /// Edge functions with a planted fault.
     EdgeValuesMutant {
         ThirdOffByOne "edges-third-off-by-one":
             "the third edge function is evaluated a column further on",
@@ -64,7 +62,6 @@ impl EdgeValuesMutant {
 }
 
 planted! {
-    /// A choice of words with a planted fault.
     WordWidthMutant {
         NoMargin "word-without-margin":
             "the choice of a word forgets the step past the end of the box",
@@ -89,7 +86,6 @@ impl WordWidthMutant {
 }
 
 planted! {
-    /// A source of cases with a planted fault.
     SourceMutant {
         UniformOnly "source-uniform-only": "of the cases: every family draws triangles uniformly",
         Counts "source-counts": "of the cases: one depends on how many were made before",
@@ -117,7 +113,6 @@ impl SourceMutant {
 }
 
 planted! {
-    /// A judge of coverage with a planted fault.
     JudgeMutant {
         ForgivesAFew "judge-forgives-a-few":
             "a judge: agrees where fewer than one pixel in 10,000 is wrong",

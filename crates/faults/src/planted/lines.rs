@@ -6,7 +6,6 @@ use rasterproof_core::line::bresenham::Bresenham;
 use rasterproof_core::triangle::{Fragment, PixelPoint, ScreenLine, Varying};
 
 planted! {
-    /// A line drawer with a planted fault.
     LineMutant {
         MissesEnd "line-misses-end": "the last pixel of a line is missing (the book's DrawLine)",
         DirectedTies "line-directed-ties": "a tie is decided by the drawing direction",

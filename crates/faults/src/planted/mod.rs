@@ -6,8 +6,7 @@
 
 /// Declares a kind of planted fault from its table: each fault with its name for `--plant` and, in a sentence, what is wrong.
 macro_rules! planted {
-    ($(#[$about:meta])* $kind:ident { $($fault:ident $name:literal: $sentence:literal,)+ }) => {
-        $(#[$about])*
+    ($kind:ident { $($fault:ident $name:literal: $sentence:literal,)+ }) => {
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub enum $kind {
             $(#[doc = $sentence] $fault,)+

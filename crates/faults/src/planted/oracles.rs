@@ -7,7 +7,6 @@ use rasterproof_core::triangle::{Corners, Fragment, ScreenTriangle, Span, Varyin
 use rasterproof_verify::oracle::Oracle;
 
 planted! {
-    /// An oracle with a planted fault.
     OracleMutant {
         TiesGoLeft "oracle-ties-go-left": "of an oracle: right edges own their samples",
         PlanesInF32 "oracle-planes-in-f32": "of an oracle: sides are signs computed in f32",

@@ -11,7 +11,6 @@ use rasterproof_render::pipeline::assemble::Cull;
 use rasterproof_render::pipeline::clip::{self, ClipPlane, Outcode};
 
 planted! {
-    /// A stage with a planted fault.
     StageMutant {
         ForgetsNear "clip-forgets-near": "clipping forgets the near plane",
         FromStartToEnd "clip-from-start-to-end": "a crossing depends on the direction of its edge",

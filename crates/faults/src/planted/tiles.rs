@@ -7,7 +7,6 @@ use rasterproof_core::triangle::Corners;
 use rasterproof_tiles::coverage::{CoverList, NARROW_EXTENT, Piece, SIDE_PX, Tile, Tiles};
 
 planted! {
-    /// A tile engine with a planted fault.
     TileMutant {
         WrappedWidth "tile-wrapped-width":
             "lists: extents wrap around, and the widest triangles are set up in i32",

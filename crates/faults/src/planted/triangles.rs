@@ -13,7 +13,6 @@ use rasterproof_core::triangle::{Corners, Fragment, ScreenTriangle, ScreenVertex
 use rasterproof_render::pipeline::assemble::twice_area;
 
 planted! {
-    /// A rasterizer with a planted fault.
     TriangleMutant {
         InclusiveEdges "inclusive-edges": "samples on any edge belong (SYSU assignment 2: <= 0)",
         ExclusiveEdges "exclusive-edges": "samples on no edge belong (GAMES101 homework 2: > 0)",

@@ -36,11 +36,9 @@ pub enum Exhibit {
     Scene(&'static str, fn(Version, Setting) -> Image),
 }
 
-/// Triangles to draw together.
 #[derive(Clone, Copy, Debug)]
 pub struct TriangleCase {
     pub name: &'static str,
-    /// Side of the window in pixels.
     pub side_px: u32,
     pub corners_px: &'static [[(f64, f64); 3]],
     /// Distances of the corners.
@@ -52,7 +50,6 @@ pub struct TriangleCase {
 #[derive(Clone, Copy, Debug)]
 pub struct LineCase {
     pub name: &'static str,
-    /// First and last pixel.
     pub pixels: [(i32, i32); 2],
 }
 
@@ -69,7 +66,6 @@ pub struct RecordedCase {
 pub const RECORDED_SIDE_PX: u32 = 64;
 
 impl RecordedCase {
-    /// Corners in window pixels.
     #[must_use]
     pub fn corners_px(&self) -> Vec<[[f64; 2]; 3]> {
         let to_window = |(x, y): (f64, f64)| [x + 0.5, f64::from(RECORDED_SIDE_PX) - y - 0.5];

@@ -33,7 +33,6 @@ pub enum Setting {
     Harmless,
 }
 
-/// Side of most pictures.
 pub const SIDE: u32 = 32;
 /// The background.
 pub const BLACK: Colour = [0, 0, 0];

@@ -104,7 +104,6 @@ fn corner(px: [f64; 2], depth: f64, w: f64, varying: [f64; 2]) -> ScreenVertex<D
     ScreenVertex { position, depth, inv_w: 1.0 / w, varying: DVec2::from_array(varying) }
 }
 
-/// Two triangles of four corners that go round.
 fn quad(corners: [ScreenVertex<DVec2>; 4]) -> [Triangle; 2] {
     let [a, b, c, d] = corners;
     [ScreenTriangle { vertices: [a, b, c] }, ScreenTriangle { vertices: [c, a, d] }]

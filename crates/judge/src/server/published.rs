@@ -26,7 +26,6 @@ fn whole(letter: char, n: usize, runs: Vec<u8>) -> Reply {
     Ok((letter, n, runs))
 }
 
-/// Whether this entry is a specimen that answers the verb.
 pub(crate) fn speaks(entry: &Entry, verb: &str) -> bool {
     match (entry.specimen, verb) {
         (Some(Specimen::Triangle(_)), "T") | (Some(Specimen::Line(_)), "L") => true,

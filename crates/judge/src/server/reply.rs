@@ -20,7 +20,6 @@ pub fn write_words<const N: usize>(out: &mut Vec<u8>, words: [i32; N]) {
     }
 }
 
-/// Appends a run of pixels.
 pub fn write_run(out: &mut Vec<u8>, span: Span) {
     write_words(out, [span.y_px, span.x0_px, span.x1_px]);
 }

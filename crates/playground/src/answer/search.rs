@@ -70,7 +70,6 @@ pub(super) fn named(name: &str) -> Result<Value, String> {
     }
 }
 
-/// Case `index` of a family under a seed.
 pub(super) fn generated(name: &str, seed: u64, index: u64) -> Result<Value, String> {
     if let Some(family) = unsnapped::FAMILIES.iter().find(|family| family.name == name) {
         let picture = Picture::from(&family.case(seed, index));

@@ -76,7 +76,6 @@ pub(super) fn snap_to_even(given: &Given<'_>) -> Result<Drawn, String> {
     })
 }
 
-/// The sign of one edge function at every centre.
 pub(super) fn edge_sign(given: &Given<'_>) -> Result<Drawn, String> {
     let [a, b] = [given.at[0], given.at[1]];
     let panel = Panel::middle(9, 7, 36.0, 10.0);

@@ -11,7 +11,6 @@ use rasterproof_verify::cases::named::plain_line;
 
 type Pixels = Vec<[i32; 2]>;
 
-/// The pixels of a line by the drawer that a figure is drawn by.
 pub(super) fn drawn(given: &Given<'_>, from: [i32; 2], to: [i32; 2], window: PixelRect) -> Pixels {
     let line = plain_line(PixelPoint::new(from[0], from[1]), PixelPoint::new(to[0], to[1]));
     let mut pixels = Vec::new();

@@ -300,7 +300,6 @@ fn snapped(triangles: &[[Point; 3]]) -> Result<Vec<Corners>, String> {
     triangles.iter().map(|&[a, b, c]| Ok([point(a)?, point(b)?, point(c)?])).collect()
 }
 
-/// How often an engine hits each pixel.
 fn cover(engine: Engine, triangles: &[Corners], window: PixelRect) -> Coverage {
     let mut hits = Coverage::new(window, 0);
     for &corners in triangles {

@@ -43,7 +43,6 @@ pub(crate) enum Check {
     /// Depth, and two attributes in perspective.
     Values,
     NearPlane,
-    /// Four samples a pixel.
     Samples,
     /// Whether the same commands make the same picture: the second drawing is judged by the first.
     Twice,
@@ -141,7 +140,6 @@ impl Check {
     }
 }
 
-/// Asks for all batches of all checks.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Plan {}

@@ -321,7 +321,6 @@ fn clip_space(rng: &mut Rng, index: u64) -> Vec<Vertex> {
     (0..3).map(|_| from_whole(clipped::corner(rng, index.is_multiple_of(2)))).collect()
 }
 
-/// A vertex at whole numbers in clip space.
 pub(super) fn from_whole(corner: clipped::Whole) -> Vertex {
     let half = f64::from(clipped::CELL_PX) / 2.0;
     let [x, y, z, w] = corner.map(|v| v as f64 / f64::from(clipped::UNIT));

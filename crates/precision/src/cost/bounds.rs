@@ -34,13 +34,11 @@ pub enum Bound {
 /// What is known of a triangle and one of its pixels when a bound is computed, in f64.
 pub struct Place<'a> {
     pub triangle: &'a Valued,
-    /// The span that holds the pixel.
     pub span: Span,
     /// The pixel's column.
     pub x_px: i32,
     /// Rows since the first one of the triangle.
     pub rows: i32,
-    /// The pixels that hold all of its spans.
     pub box_px: PixelRect,
 }
 

@@ -156,7 +156,6 @@ impl Variant {
     }
 }
 
-/// The rungs of a ladder of coverage, none for other ladders.
 pub fn variants(ladder: Ladder) -> Vec<Variant> {
     match ladder {
         Ladder::Scanline => scanlines(),

@@ -111,7 +111,6 @@ impl Column {
     }
 }
 
-/// A rung, the rows of a board.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rung {
     pub name: Name,

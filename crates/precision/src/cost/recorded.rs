@@ -7,7 +7,6 @@ use super::{Board, Cell, Ladder};
 /// A run of `cost`: what was measured, and the command that repeats it.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 pub struct Recorded {
-    /// Version of the program that measured.
     pub version: String,
     /// The command.
     pub repeat: String,

@@ -31,7 +31,6 @@ pub struct Scene {
 /// How large a scene is: its window in pixels and about how much of it is covered.
 #[derive(Clone, Copy, Debug)]
 pub struct Size {
-    /// Side of the window in pixels.
     pub side_px: u32,
     /// About how many pixels are covered in all.
     pub pixels: u64,

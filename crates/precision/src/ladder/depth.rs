@@ -11,7 +11,6 @@ use std::marker::PhantomData;
 
 use super::Real;
 
-/// The near plane of the measurements.
 pub const NEAR: f64 = 0.1;
 /// The far plane.
 pub const FAR: f64 = 1000.0;

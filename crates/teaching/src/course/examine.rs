@@ -17,7 +17,6 @@ use rasterproof_verify::cases::{Case, Shape};
 /// How long and how much.
 #[derive(Clone, Copy, Debug)]
 pub struct Amount {
-    /// Cases of each family.
     pub cases: u64,
     /// Decides every case.
     pub seed: u64,
@@ -31,7 +30,6 @@ pub struct Amount {
 #[derive(Debug, Default)]
 pub struct Outcome {
     pub cases: u64,
-    /// Cases with anything wrong.
     pub wrong: u64,
     /// Whether the time was up before everything was asked.
     pub out_of_time: bool,

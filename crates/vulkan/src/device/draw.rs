@@ -150,7 +150,6 @@ impl Painter {
         &self.device
     }
 
-    /// Submissions so far.
     pub fn submissions(&self) -> u64 {
         self.submissions
     }

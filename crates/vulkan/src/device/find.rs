@@ -51,7 +51,6 @@ pub struct About {
     pub viewport_bounds: [f32; 2],
     /// `maxImageDimension2D`.
     pub largest_image: u32,
-    /// Whether four samples a pixel can be drawn.
     pub four_samples: bool,
     /// `standardSampleLocations`: samples lie where the specification's table has them.
     pub standard_samples: bool,

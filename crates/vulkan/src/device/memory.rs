@@ -7,7 +7,6 @@ use ash::vk;
 use super::open::Opened;
 use super::{Error, While as _};
 
-/// Memory of one buffer or image.
 struct Memory {
     device: Arc<Opened>,
     raw: vk::DeviceMemory,

@@ -66,7 +66,6 @@ impl Kind {
         (self.cells() * self.cells()) as usize
     }
 
-    /// Side of a page in pixels.
     pub(super) fn page_px(self) -> u32 {
         self.cells() * CELL_PX
     }

@@ -23,7 +23,6 @@ const STAGE_SHARE: u64 = 2;
 /// A device is asked this many cases of a stage at most.
 const MOST_OF_A_STAGE: u64 = 2048;
 
-/// What came of a device.
 #[derive(Clone, Debug)]
 pub struct DeviceReport {
     /// What it says of itself.

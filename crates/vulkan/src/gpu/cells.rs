@@ -75,7 +75,6 @@ pub fn hits_of(pictures: &Pictures, cell: usize) -> Coverage {
     hits
 }
 
-/// Twice the area of a triangle in square pixels.
 pub fn twice_area_px2(corners: &Corners) -> f64 {
     let square = f64::from(SUBPIXELS) * f64::from(SUBPIXELS);
     rasterproof_verify::comparison::area2(corners).unsigned_abs() as f64 / square

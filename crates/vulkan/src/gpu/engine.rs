@@ -69,7 +69,6 @@ impl Gpu {
         &self.listed.about
     }
 
-    /// The name of the planted fault.
     pub fn plant_name(&self) -> Option<&'static str> {
         let plant = self.plant?;
         Plant::ALL.iter().find(|(_, p)| *p == plant).map(|(name, _)| *name)

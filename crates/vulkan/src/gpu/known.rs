@@ -12,7 +12,6 @@ use super::rules::Class;
 
 pub const TEXT: &str = include_str!("known-faults.txt");
 
-/// A known fault of a driver.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Known {
     /// Part of the driver's name, in small letters.
@@ -79,7 +78,6 @@ fn property(word: &str) -> (String, bool) {
     (name.to_owned(), name == word)
 }
 
-/// The known faults of a device.
 pub fn of(all: &[Known], about: &About) -> Vec<Known> {
     let is_its =
         |k: &&Known| about.words().contains(&k.driver) && about.version.contains(&k.version);

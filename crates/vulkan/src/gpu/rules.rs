@@ -61,7 +61,6 @@ pub const POLYGONS: Rule = Rule {
     says: "samples inside are covered; one on an edge that two triangles share, by exactly one of them",
     open: "by which, and samples on an edge of one alone: the oracle goes by the top-left rule",
 };
-/// Four samples a pixel.
 pub const SAMPLES: Rule = Rule {
     section: "Multisampling (primsrast-multisampling)",
     says: "each sample is asked for itself, four at (6, 2) (14, 6) (2, 10) (10, 14) / 16 px where the \
