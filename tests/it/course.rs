@@ -379,7 +379,8 @@ fn course_names_misconceptions() {
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
     let all = misconceptions::all().map(|is| is.name);
-    let unseen: Vec<_> = all.filter(|name| programs.iter().all(|program| program.name != *name)).collect();
+    let unseen: Vec<_> =
+        all.filter(|name| programs.iter().all(|program| program.name != *name)).collect();
     assert!(unseen.is_empty(), "{unseen:?}");
 }
 

@@ -535,11 +535,7 @@ pub const SPECIMENS: [Entry; 15] = [
         "specimen: the same with positions truncated",
         Specimen::Triangle(&SysuTruncated),
     ),
-    specimen(
-        "book-dda",
-        "specimen: the book's DrawLine, section 2.1",
-        Specimen::Line(&BookDda),
-    ),
+    specimen("book-dda", "specimen: the book's DrawLine, section 2.1", Specimen::Line(&BookDda)),
     specimen(
         "sysu-bresenham",
         "specimen: SYSU assignment 2, Bresenham",

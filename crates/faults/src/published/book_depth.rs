@@ -45,7 +45,8 @@ impl Published for BookDepth {
         emit: &mut dyn FnMut(Fragment<DVec2>),
     ) -> Result<(), Refused> {
         // z within [-1, 1] passes the clip and steps as z/w does; w travels as an attribute.
-        let scale = triangle.iter().fold(1.0, |most: f64, v| most.max(self.depth_of(v.depth, v.w).abs()));
+        let scale =
+            triangle.iter().fold(1.0, |most: f64, v| most.max(self.depth_of(v.depth, v.w).abs()));
         let triangle = triangle.map_array(|v| {
             let depth = self.depth_of(v.depth, v.w);
             match self {

@@ -11,9 +11,7 @@ use rasterproof_host::limits::{self, REQUEST_FRAGMENTS, REQUEST_RUNS};
 use crate::server::reply::{Reply, named, write_run, write_words};
 use rasterproof_core::grid::{PixelRect, Refusal};
 use rasterproof_core::triangle::{MAX_W, MIN_W, check_value};
-use rasterproof_faults::published::{
-    Published, PublishedLine, RealTriangle, RealVertex, bare,
-};
+use rasterproof_faults::published::{Published, PublishedLine, RealTriangle, RealVertex, bare};
 use rasterproof_registry::engines::{Entry, Specimen};
 
 /// The answer, unless it has more parts than are kept.

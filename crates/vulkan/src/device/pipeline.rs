@@ -42,8 +42,7 @@ impl Attachments {
             all.push(kept.format(format).load_op(vk::AttachmentLoadOp::DONT_CARE));
         }
         let drawn = [vk::AttachmentReference { attachment: 0, layout: colour }];
-        let means =
-            [vk::AttachmentReference { attachment: all.len() as u32 - 1, layout: colour }];
+        let means = [vk::AttachmentReference { attachment: all.len() as u32 - 1, layout: colour }];
         let hidden =
             vk::AttachmentReference { attachment: u32::from(colours.is_some()), layout: depth };
         let mut subpass =
@@ -63,8 +62,8 @@ impl Attachments {
             | vk::PipelineStageFlags::LATE_FRAGMENT_TESTS;
         let writes = vk::AccessFlags::COLOR_ATTACHMENT_WRITE
             | vk::AccessFlags::DEPTH_STENCIL_ATTACHMENT_WRITE;
-        let tests = vk::AccessFlags::COLOR_ATTACHMENT_READ
-            | vk::AccessFlags::DEPTH_STENCIL_ATTACHMENT_READ;
+        let tests =
+            vk::AccessFlags::COLOR_ATTACHMENT_READ | vk::AccessFlags::DEPTH_STENCIL_ATTACHMENT_READ;
         let (copies, reads) = (vk::PipelineStageFlags::TRANSFER, vk::AccessFlags::TRANSFER_READ);
         let before = vk::SubpassDependency::default()
             .src_subpass(vk::SUBPASS_EXTERNAL)
@@ -167,8 +166,7 @@ impl Recipe<'_> {
         let input = vk::PipelineVertexInputStateCreateInfo::default()
             .vertex_binding_descriptions(&bindings)
             .vertex_attribute_descriptions(&attributes);
-        let assembly =
-            vk::PipelineInputAssemblyStateCreateInfo::default().topology(self.topology);
+        let assembly = vk::PipelineInputAssemblyStateCreateInfo::default().topology(self.topology);
         let viewport =
             vk::PipelineViewportStateCreateInfo::default().viewport_count(1).scissor_count(1);
         let mut line = vk::PipelineRasterizationLineStateCreateInfoEXT::default()
