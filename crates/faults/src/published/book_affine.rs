@@ -9,34 +9,21 @@
 //! Cure: v/w over 1/w ([`rasterproof_core::raster`]). Exposed by a receding floor; harmless where the w are
 //! equal, but for the steps of chapter 3.
 
-use glam::DVec2;
-
 use super::book_triangle::BookChapter3;
 use super::scene::{Image, Setting, Version, chequered, floor, runs_out_below};
-use super::{Published, RealTriangle, Refused};
+use super::{Drawn, Fragments, Published, RealTriangle, Spans};
 use rasterproof_core::grid::PixelRect;
-use rasterproof_core::triangle::{Fragment, Span};
 
 /// Chapter 3's fill on projected corners.
 #[derive(Clone, Copy, Debug)]
 pub struct BookAffine;
 
 impl Published for BookAffine {
-    fn cover(
-        &self,
-        triangle: &RealTriangle,
-        bounds: PixelRect,
-        emit: &mut dyn FnMut(Span),
-    ) -> Result<(), Refused> {
+    fn cover(&self, triangle: &RealTriangle, bounds: PixelRect, emit: Spans<'_>) -> Drawn {
         BookChapter3.cover(triangle, bounds, emit)
     }
 
-    fn fragments(
-        &self,
-        triangle: &RealTriangle,
-        bounds: PixelRect,
-        emit: &mut dyn FnMut(Fragment<DVec2>),
-    ) -> Result<(), Refused> {
+    fn fragments(&self, triangle: &RealTriangle, bounds: PixelRect, emit: Fragments<'_>) -> Drawn {
         BookChapter3.fragments(triangle, bounds, emit)
     }
 }

@@ -21,10 +21,13 @@ use super::book_triangle::{AREA_LIMIT, Row, sorted, split, twice_area, walk};
 use super::scene::{
     COLOURS, Image, SIDE, Setting, Version, clip_by_sign, clip_vertex, empty, fill_clipped,
 };
-use super::{BookScreen, ClipVertex, Columns, Published, RealTriangle, Refused, int_loop};
+use super::{
+    BookScreen, ClipVertex, Columns, Drawn, Fragments, Published, RealTriangle, Refused, Spans,
+    int_loop,
+};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
-use rasterproof_core::triangle::{Fragment, Span};
+use rasterproof_core::triangle::Fragment;
 
 #[derive(Clone, Copy, Debug)]
 pub struct BookFinal {
@@ -174,12 +177,7 @@ impl BookFinal {
 }
 
 impl Published for BookFinal {
-    fn cover(
-        &self,
-        triangle: &RealTriangle,
-        bounds: PixelRect,
-        emit: &mut dyn FnMut(Span),
-    ) -> Result<(), Refused> {
+    fn cover(&self, triangle: &RealTriangle, bounds: PixelRect, emit: Spans<'_>) -> Drawn {
         let screen = BookScreen { bounds };
         self.rows(triangle, bounds, &mut |ValuedRow { row, .. }| {
             if let Some((first, last)) = int_loop(row.left, row.right)? {
@@ -190,12 +188,7 @@ impl Published for BookFinal {
     }
 
     /// Before the depth test, which drops a fragment farther than what was there.
-    fn fragments(
-        &self,
-        triangle: &RealTriangle,
-        bounds: PixelRect,
-        emit: &mut dyn FnMut(Fragment<DVec2>),
-    ) -> Result<(), Refused> {
+    fn fragments(&self, triangle: &RealTriangle, bounds: PixelRect, emit: Fragments<'_>) -> Drawn {
         let screen = BookScreen { bounds };
         let mut columns = Columns::default();
         self.rows(triangle, bounds, &mut |ValuedRow { row, z, w, varying }| {

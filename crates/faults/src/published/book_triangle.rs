@@ -17,7 +17,10 @@
 
 use glam::DVec2;
 
-use super::{BookScreen, Columns, MOST_STEPS, Published, RealTriangle, Refused, int_loop, to_int};
+use super::{
+    BookScreen, Columns, Drawn, Fragments, MOST_STEPS, Published, RealTriangle, Refused, Spans,
+    int_loop, to_int,
+};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{Fragment, Span};
@@ -170,12 +173,7 @@ impl BookChapter2 {
 }
 
 impl Published for BookChapter2 {
-    fn cover(
-        &self,
-        triangle: &RealTriangle,
-        bounds: PixelRect,
-        emit: &mut dyn FnMut(Span),
-    ) -> Result<(), Refused> {
+    fn cover(&self, triangle: &RealTriangle, bounds: PixelRect, emit: Spans<'_>) -> Drawn {
         cover(triangle, bounds, true, emit)
     }
 
@@ -185,21 +183,11 @@ impl Published for BookChapter2 {
 }
 
 impl Published for BookChapter3 {
-    fn cover(
-        &self,
-        triangle: &RealTriangle,
-        bounds: PixelRect,
-        emit: &mut dyn FnMut(Span),
-    ) -> Result<(), Refused> {
+    fn cover(&self, triangle: &RealTriangle, bounds: PixelRect, emit: Spans<'_>) -> Drawn {
         cover(triangle, bounds, false, emit)
     }
 
-    fn fragments(
-        &self,
-        triangle: &RealTriangle,
-        bounds: PixelRect,
-        emit: &mut dyn FnMut(Fragment<DVec2>),
-    ) -> Result<(), Refused> {
+    fn fragments(&self, triangle: &RealTriangle, bounds: PixelRect, emit: Fragments<'_>) -> Drawn {
         let screen = BookScreen { bounds };
         let corners = triangle.map_array(|v| Valued {
             at: screen.position(v.position_px),

@@ -164,18 +164,20 @@ impl Columns {
     }
 }
 
+/// The function that receives the spans of a triangle, in the published order.
+pub type Spans<'a> = &'a mut dyn FnMut(Span);
+/// The function that receives its fragments.
+pub type Fragments<'a> = &'a mut dyn FnMut(Fragment<DVec2>);
+/// Why nothing is drawn, if it is not.
+pub type Drawn = Result<(), Refused>;
+
 pub trait Published: fmt::Debug + Sync {
     /// Emits the pixels of `bounds` as often as the published loops set them: a pixel that lies in
     /// two spans is set twice. Pixels outside are dropped, and cost no more than [`MOST_STEPS`].
     ///
     /// # Errors
     /// [`Refused`] where the published code is undefined or does not end.
-    fn cover(
-        &self,
-        triangle: &RealTriangle,
-        bounds: PixelRect,
-        emit: &mut dyn FnMut(Span),
-    ) -> Result<(), Refused>;
+    fn cover(&self, triangle: &RealTriangle, bounds: PixelRect, emit: Spans<'_>) -> Drawn;
 
     /// Emits a fragment for each pixel that [`Published::cover`] emits, in the published order.
     ///
@@ -185,8 +187,8 @@ pub trait Published: fmt::Debug + Sync {
         &self,
         _triangle: &RealTriangle,
         _bounds: PixelRect,
-        _emit: &mut dyn FnMut(Fragment<DVec2>),
-    ) -> Result<(), Refused> {
+        _emit: Fragments<'_>,
+    ) -> Drawn {
         Err(Refused::NoValues)
     }
 

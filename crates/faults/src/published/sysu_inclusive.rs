@@ -17,7 +17,7 @@
 
 use glam::DVec2;
 
-use super::{Published, RealTriangle, Refused, to_int};
+use super::{Drawn, Fragments, Published, RealTriangle, Refused, Spans, to_int};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{Fragment, Span};
@@ -104,23 +104,13 @@ pub(super) fn lerp(triangle: &RealTriangle, weights: [f32; 3]) -> (f64, DVec2) {
 }
 
 impl Published for SysuInclusive {
-    fn cover(
-        &self,
-        triangle: &RealTriangle,
-        bounds: PixelRect,
-        emit: &mut dyn FnMut(Span),
-    ) -> Result<(), Refused> {
+    fn cover(&self, triangle: &RealTriangle, bounds: PixelRect, emit: Spans<'_>) -> Drawn {
         samples(&front(triangle)?, bounds, &mut |s| {
             emit(Span { y_px: s.y_px, x0_px: s.x_px, x1_px: s.x_px + 1 });
         })
     }
 
-    fn fragments(
-        &self,
-        triangle: &RealTriangle,
-        bounds: PixelRect,
-        emit: &mut dyn FnMut(Fragment<DVec2>),
-    ) -> Result<(), Refused> {
+    fn fragments(&self, triangle: &RealTriangle, bounds: PixelRect, emit: Fragments<'_>) -> Drawn {
         let triangle = front(triangle)?;
         samples(&triangle, bounds, &mut |s| {
             let [ab, bc, ca] = s.edges.map_array(|f| f as f32 * s.inverse);

@@ -11,7 +11,7 @@
 //! two; harmless where it is one.
 
 use super::sysu_inclusive::{front, samples};
-use super::{Published, RealTriangle, Refused, to_int};
+use super::{Drawn, Published, RealTriangle, Spans, to_int};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::Span;
@@ -21,12 +21,7 @@ use rasterproof_core::triangle::Span;
 pub struct SysuTruncated;
 
 impl Published for SysuTruncated {
-    fn cover(
-        &self,
-        triangle: &RealTriangle,
-        bounds: PixelRect,
-        emit: &mut dyn FnMut(Span),
-    ) -> Result<(), Refused> {
+    fn cover(&self, triangle: &RealTriangle, bounds: PixelRect, emit: Spans<'_>) -> Drawn {
         let triangle = front(triangle)?;
         // The corners' positions in whole pixels, as f32.
         let position = |i: usize, axis: usize| triangle[i].position_px[axis].trunc() as f32;

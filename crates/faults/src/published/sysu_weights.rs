@@ -9,35 +9,23 @@
 //! Cure: an edge's function weighs the corner opposite. Exposed by any triangle whose corners have
 //! different values; harmless where they are equal. Coverage is that of [`super::sysu_inclusive`].
 
-use glam::DVec2;
-
 use super::scene::{Colour, Image, SIDE, Setting, Version, either, empty};
 use super::sysu_inclusive::{SysuInclusive, front, lerp, samples};
-use super::{Published, RealTriangle, Refused, bare};
+use super::{Drawn, Fragments, Published, RealTriangle, Spans, bare};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
-use rasterproof_core::triangle::{Fragment, Span};
+use rasterproof_core::triangle::Fragment;
 
 /// The rasterizer with its weights in the wrong order.
 #[derive(Clone, Copy, Debug)]
 pub struct SysuWeights;
 
 impl Published for SysuWeights {
-    fn cover(
-        &self,
-        triangle: &RealTriangle,
-        bounds: PixelRect,
-        emit: &mut dyn FnMut(Span),
-    ) -> Result<(), Refused> {
+    fn cover(&self, triangle: &RealTriangle, bounds: PixelRect, emit: Spans<'_>) -> Drawn {
         SysuInclusive.cover(triangle, bounds, emit)
     }
 
-    fn fragments(
-        &self,
-        triangle: &RealTriangle,
-        bounds: PixelRect,
-        emit: &mut dyn FnMut(Fragment<DVec2>),
-    ) -> Result<(), Refused> {
+    fn fragments(&self, triangle: &RealTriangle, bounds: PixelRect, emit: Fragments<'_>) -> Drawn {
         let triangle = front(triangle)?;
         samples(&triangle, bounds, &mut |s| {
             let (depth, varying) = lerp(&triangle, s.edges.map_array(|f| f as f32 * s.inverse));
