@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use image::GrayImage;
 use rasterproof_models::{BadFile, Model, Normals, Options, Up, load_texture};
 use rasterproof_render::scene::Shading;
+use rasterproof_verify::cases::Rng;
 
 fn load(path: &Path, shading: Shading) -> Result<Model, BadFile> {
     rasterproof_models::load(path, Options { shading, ..Options::default() })
@@ -96,98 +97,26 @@ fn a_material_file_is_read_once() {
     assert_eq!(load(&obj, Shading::Phong).unwrap().warnings.len(), 1);
 }
 
-/// A generator of numbers that is the same everywhere (SplitMix64).
-struct Numbers(u64);
+/// What lines consist of, in one text.
+const WORDS: &str = "v|vt|vn|f|l|p|o|g|s|usemtl|mtllib|newmtl|Kd|Ks|Ka|Ns|d|Tr|illum|map_Kd|map_Bump|1|0|-1|\
+    -3|1/1|1//1|1/1/1|2/|3//|/|nan|inf|1e39|-0|0.5|9999999999|99999999999999999999|#|\\|\"|\
+    \n|\r|\t| |\u{0}|\u{1b}|\u{feff}|é|m.mtl|a|off|on|\\|curv|bump|-s|-o|-mm|-clamp|-0.0001|\
+    3|1e38|1e-300|f 1 2 3 4 5 6 7 8|f 8 6 4 2 1 3 5 7|m.mtl m.mtl|t.png";
 
-impl Numbers {
-    fn below(&mut self, limit: usize) -> usize {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) % limit as u64) as usize
-    }
+/// A number below a limit.
+fn below(rng: &mut Rng, limit: usize) -> usize {
+    rng.int(0, limit as i64 - 1) as usize
 }
 
-const WORDS: &[&str] = &[
-    "v",
-    "vt",
-    "vn",
-    "f",
-    "l",
-    "p",
-    "o",
-    "g",
-    "s",
-    "usemtl",
-    "mtllib",
-    "newmtl",
-    "Kd",
-    "Ks",
-    "Ka",
-    "Ns",
-    "d",
-    "Tr",
-    "illum",
-    "map_Kd",
-    "map_Bump",
-    "1",
-    "0",
-    "-1",
-    "-3",
-    "1/1",
-    "1//1",
-    "1/1/1",
-    "2/",
-    "3//",
-    "/",
-    "nan",
-    "inf",
-    "1e39",
-    "-0",
-    "0.5",
-    "9999999999",
-    "99999999999999999999",
-    "#",
-    "\\",
-    "\"",
-    "\n",
-    "\r",
-    "\t",
-    " ",
-    "\u{0}",
-    "\u{1b}",
-    "\u{feff}",
-    "é",
-    "m.mtl",
-    "a",
-    "off",
-    "on",
-    "\\",
-    "curv",
-    "bump",
-    "-s",
-    "-o",
-    "-mm",
-    "-clamp",
-    "-0.0001",
-    "3",
-    "1e38",
-    "1e-300",
-    "f 1 2 3 4 5 6 7 8",
-    "f 8 6 4 2 1 3 5 7",
-    "m.mtl m.mtl",
-    "t.png",
-];
-
-fn mutated(text: &str, numbers: &mut Numbers) -> Vec<u8> {
+fn mutated(text: &str, rng: &mut Rng) -> Vec<u8> {
+    let known: Vec<&str> = WORDS.split('|').collect();
     let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
-    for _ in 0..=numbers.below(4) {
-        let at = numbers.below(lines.len());
+    for _ in 0..=below(rng, 4) {
+        let at = below(rng, lines.len());
         let mut words: Vec<&str> = lines[at].split(' ').collect();
-        let word = WORDS[numbers.below(WORDS.len())];
-        let place = numbers.below(words.len());
-        match numbers.below(5) {
+        let word = known[below(rng, known.len())];
+        let place = below(rng, words.len());
+        match below(rng, 5) {
             0 => words[place] = word,
             1 => words.insert(place, word),
             2 => drop(words.remove(place)),
@@ -196,15 +125,15 @@ fn mutated(text: &str, numbers: &mut Numbers) -> Vec<u8> {
         }
         let line = words.join(" ");
         lines[at] = line;
-        if numbers.below(6) == 0 {
-            let other = numbers.below(lines.len());
+        if below(rng, 6) == 0 {
+            let other = below(rng, lines.len());
             lines.swap(at, other);
         }
     }
     let mut bytes = lines.join("\n").into_bytes();
-    if !bytes.is_empty() && numbers.below(4) == 0 {
-        let at = numbers.below(bytes.len());
-        bytes[at] = numbers.below(256) as u8;
+    if !bytes.is_empty() && below(rng, 4) == 0 {
+        let at = below(rng, bytes.len());
+        bytes[at] = below(rng, 256) as u8;
     }
     bytes
 }
@@ -220,11 +149,11 @@ fn fuzz(cases: u64, name: &str) {
     GrayImage::from_pixel(2, 2, image::Luma([51])).save(folder.join("t.png")).unwrap();
     let (mut read, mut refused) = (0, 0);
     for case in 0..cases {
-        let mut numbers = Numbers(case);
-        fs::write(folder.join("m.obj"), mutated(obj, &mut numbers)).unwrap();
-        fs::write(folder.join("m.mtl"), mutated(mtl, &mut numbers)).unwrap();
-        let normals = [Normals::File, Normals::Flat, Normals::Smooth][numbers.below(3)];
-        let up = [None, Some(Up::Z)][numbers.below(2)];
+        let mut rng = Rng::new("model files", 0, case);
+        fs::write(folder.join("m.obj"), mutated(obj, &mut rng)).unwrap();
+        fs::write(folder.join("m.mtl"), mutated(mtl, &mut rng)).unwrap();
+        let normals = [Normals::File, Normals::Flat, Normals::Smooth][below(&mut rng, 3)];
+        let up = [None, Some(Up::Z)][below(&mut rng, 2)];
         let options = Options { shading: Shading::Phong, normals, up };
         let load = || rasterproof_models::load(&folder.join("m.obj"), options);
         match std::panic::catch_unwind(load) {

@@ -16,29 +16,19 @@ use rasterproof_core::triangle::{
     FreeCorners, LineEnd, PixelPoint, ScreenLine, ScreenTriangle, ScreenVertex, check_value,
 };
 use rasterproof_registry::engines::{ENTRIES, Engine, ExactEngine, LineEngine};
+use rasterproof_verify::cases::Rng;
 use rayon::prelude::*;
 
-struct Bits(u64);
-
-impl Bits {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    /// Any bits at all: of an f32, of an f64, or of an f64 whose exponent makes it a coordinate.
-    fn number(&mut self) -> f64 {
-        let bits = self.next();
-        match bits & 7 {
-            0 => f64::from_bits(self.next()),
-            1..=3 => f64::from(f32::from_bits(self.next() as u32)),
-            // Sign and fraction as they come, magnitude from 2^-8 to 2^24.
-            _ => {
-                let exponent = 1023 - 8 + (bits >> 8) % 32;
-                f64::from_bits((self.next() & !(0x7ff << 52)) | exponent << 52)
-            }
+/// Any bits at all: of an f32, of an f64, or of an f64 whose exponent makes it a coordinate.
+fn number(rng: &mut Rng) -> f64 {
+    let bits = rng.next();
+    match bits & 7 {
+        0 => f64::from_bits(rng.next()),
+        1..=3 => f64::from(f32::from_bits(rng.next() as u32)),
+        // Sign and fraction as they come, magnitude from 2^-8 to 2^24.
+        _ => {
+            let exponent = 1023 - 8 + (bits >> 8) % 32;
+            f64::from_bits((rng.next() & !(0x7ff << 52)) | exponent << 52)
         }
     }
 }
@@ -62,22 +52,22 @@ impl Count {
 }
 
 /// A window that is often near the origin and sometimes at the border of what i32 can say.
-fn window(bits: &mut Bits) -> PixelRect {
+fn window(rng: &mut Rng) -> PixelRect {
     let at = |bits: u64| match bits & 15 {
         0 => i32::MAX - 12,
         1 => i32::MIN,
         2 => (bits >> 40) as i32 - (1 << 23),
         _ => (bits >> 60) as i32 - 8,
     };
-    let (x0, y0) = (at(bits.next()), at(bits.next()));
+    let (x0, y0) = (at(rng.next()), at(rng.next()));
     PixelRect { x0, y0, x1: x0 + 12, y1: y0 + 12 }
 }
 
 /// One triangle of arbitrary bits through every rasterizer. `Coverage::hit` refuses a pixel outside
 /// the window, so an engine that leaves it fails here.
-fn triangle(bits: &mut Bits) -> Count {
-    let numbers: [[f64; 6]; 3] = [(); 3].map(|()| [(); 6].map(|()| bits.number()));
-    let window = window(bits);
+fn triangle(rng: &mut Rng) -> Count {
+    let numbers: [[f64; 6]; 3] = [(); 3].map(|()| [(); 6].map(|()| number(rng)));
+    let window = window(rng);
     let corners_px = numbers.map(|n| [n[0], n[1]]);
     let mut count = Count { triangles: 1, ..Count::default() };
 
@@ -139,15 +129,15 @@ fn triangle(bits: &mut Bits) -> Count {
 }
 
 /// Any two pixels of i32, through every line drawer.
-fn line(bits: &mut Bits) -> u64 {
+fn line(rng: &mut Rng) -> u64 {
     let mut end = || {
-        let far = bits.next();
+        let far = rng.next();
         let coordinate = |bits: u64| (bits as i32) >> ((bits >> 59) as u32);
-        let pixel = PixelPoint::new(coordinate(far), coordinate(bits.next()));
+        let pixel = PixelPoint::new(coordinate(far), coordinate(rng.next()));
         LineEnd { pixel, depth: 0.25, varying: 1.0 }
     };
     let line = ScreenLine { ends: [end(), end()] };
-    let window = window(bits);
+    let window = window(rng);
     let pixels = [LineEngine::Dda, LineEngine::Bresenham, LineEngine::Oracle].map(|engine| {
         let mut pixels = Vec::new();
         engine.draw(&line, window, |f| pixels.push((f.x_px, f.y_px)));
@@ -163,8 +153,8 @@ fn many(triangles: u64) -> Count {
     (0..triangles / BLOCK)
         .into_par_iter()
         .map(|block| {
-            let mut bits = Bits(block << 20);
-            (0..BLOCK).fold(Count::default(), |count, _| count.add(triangle(&mut bits)))
+            let mut rng = Rng::new("bits", 0, block);
+            (0..BLOCK).fold(Count::default(), |count, _| count.add(triangle(&mut rng)))
         })
         .reduce(Count::default, Count::add)
 }
@@ -191,8 +181,8 @@ fn ten_million_triangles_of_arbitrary_bits() {
 
 #[test]
 fn arbitrary_bits_as_lines() {
-    let mut bits = Bits(7);
-    let pixels: u64 = (0..50_000).map(|_| line(&mut bits)).sum();
+    let mut rng = Rng::new("bits", 0, 7);
+    let pixels: u64 = (0..50_000).map(|_| line(&mut rng)).sum();
     assert!(pixels > 1000, "{pixels}");
 }
 
@@ -272,8 +262,8 @@ proptest! {
         side in 1..40u32,
         bits in any::<u64>(),
     ) {
-        let mut bits = Bits(bits);
-        let numbers: Vec<String> = (0..verb.1).map(|_| bits.number().to_string()).collect();
+        let mut rng = Rng::new("bits", 0, bits);
+        let numbers: Vec<String> = (0..verb.1).map(|_| number(&mut rng).to_string()).collect();
         check_answers(name, format!("{} id {side} {side} {}", verb.0, numbers.join(" ")).as_bytes())?;
     }
 }
