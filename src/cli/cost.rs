@@ -117,14 +117,14 @@ impl CostArguments {
 
     /// The devices that are measured beside the rungs.
     #[cfg(feature = "vulkan")]
-    fn guests(&self) -> Result<Vec<Box<dyn ExternalVariant>>, Failure> {
-        self.engine.iter().map(|name| super::vulkan::guest(name)).collect()
+    fn external(&self) -> Result<Vec<Box<dyn ExternalVariant>>, Failure> {
+        self.engine.iter().map(|name| super::vulkan::external_variant(name)).collect()
     }
 
     /// There are none.
     #[cfg(not(feature = "vulkan"))]
     #[allow(clippy::unnecessary_wraps, clippy::unused_self, reason = "with devices there are both")]
-    fn guests(&self) -> Result<Vec<Box<dyn ExternalVariant>>, Failure> {
+    fn external(&self) -> Result<Vec<Box<dyn ExternalVariant>>, Failure> {
         Ok(Vec::new())
     }
 }
@@ -274,14 +274,14 @@ fn measure_all(
     arguments: &CostArguments,
     on_terminal: bool,
 ) -> Result<Vec<Board>, Failure> {
-    let mut guests = arguments.guests()?;
+    let mut external = arguments.external()?;
     let progress = Progress::new(on_terminal, "percent", Some(100));
     let options = Options { seed: arguments.seed, quick: arguments.quick, timed: true };
     let boards = ladders
         .iter()
         .enumerate()
         .map(|(done, &ladder)| {
-            measure_with(ladder, &options, &mut guests, &|share, what| {
+            measure_with(ladder, &options, &mut external, &|share, what| {
                 let all = (done as f64 + share) / ladders.len() as f64;
                 progress.at((all * 100.0) as u64, what);
             })

@@ -111,7 +111,7 @@ pub fn coverage(engine: &str, list: &[Corners], window: PixelRect) -> Result<Cov
 }
 
 /// A device for a ladder of coverage.
-pub fn guest(engine: &str) -> Result<Box<dyn ExternalVariant>, Failure> {
+pub fn external_variant(engine: &str) -> Result<Box<dyn ExternalVariant>, Failure> {
     Ok(Box::new(OnLadder::new(engine).map_err(usage)?))
 }
 

@@ -202,7 +202,7 @@ mod tests {
     /// Of equal depths either may be seen; every fault is found.
     #[test]
     fn orders_are_told_apart() {
-        let scanline = lineup_engine();
+        let scanline = scanline_engine();
         assert_eq!(wrong(|list, window| pipeline::seen(scanline, list, window).unwrap()), 0);
         assert_eq!(wrong(|list, window| chosen(list, window, |new, held| new <= held)), 0);
         let faults = [
@@ -218,7 +218,7 @@ mod tests {
         assert!(faults.iter().all(|found| *found > 40), "{faults:?}");
     }
 
-    fn lineup_engine() -> Engine {
+    fn scanline_engine() -> Engine {
         engines::find("scanline").and_then(|entry| entry.engine).unwrap()
     }
 

@@ -5,8 +5,8 @@
 mod coverage;
 mod light;
 mod lines;
+mod pipeline;
 mod sheet;
-mod stages;
 mod values;
 
 use std::sync::LazyLock;
@@ -117,20 +117,20 @@ const DRAWN_BY: [(&str, Draw); 28] = [
     ("middle-row", coverage::middle_row),
     ("weights", values::weights),
     ("wrong-corner", values::wrong_corner),
-    ("boards", stages::boards),
+    ("boards", pipeline::boards),
     ("rod-middle", values::rod_middle),
     ("affine-kink", values::affine_kink),
     ("value-midway", values::value_midway),
     ("nearer", values::nearer),
     ("z-fighting", values::z_fighting),
-    ("near-corners", stages::near_corners),
-    ("divide-first", stages::divide_first),
-    ("viewport-size", stages::viewport_size),
-    ("to-pixel", stages::to_pixel),
-    ("winding", stages::winding),
-    ("thin-turn", stages::thin_turn),
-    ("order-matters", stages::order_matters),
-    ("turn-about", stages::turn_about),
+    ("near-corners", pipeline::near_corners),
+    ("divide-first", pipeline::divide_first),
+    ("viewport-size", pipeline::viewport_size),
+    ("to-pixel", pipeline::to_pixel),
+    ("winding", pipeline::winding),
+    ("thin-turn", pipeline::thin_turn),
+    ("order-matters", pipeline::order_matters),
+    ("turn-about", pipeline::turn_about),
     ("brightest", light::brightest),
     ("short-normal", light::short_normal),
     ("texel", light::texel),

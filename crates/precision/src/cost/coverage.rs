@@ -361,21 +361,21 @@ fn prepare<'a>(
     }
 }
 
-/// The errors of a guest on a scene, and what is to be timed.
-fn invited<'a>(guest: &mut dyn ExternalVariant, scene: &Scene, truth: &Truth) -> Prepared<'a> {
+/// The errors of an external variant on a scene, and what is to be timed.
+fn prepare_external<'a>(variant: &mut dyn ExternalVariant, scene: &Scene, truth: &Truth) -> Prepared<'a> {
     let mut ready = || {
-        let spans = guest.spans(&scene.triangles, scene.bounds)?;
-        let pass = guest.pass(&scene.triangles, scene.bounds)?;
+        let spans = variant.spans(&scene.triangles, scene.bounds)?;
+        let pass = variant.pass(&scene.triangles, scene.bounds)?;
         Ok(Prepared::Ready { errors: score(&spans, scene, truth), work: None, pass })
     };
     ready().unwrap_or_else(Prepared::NotRun)
 }
 
-/// Measures one of the two ladders, with guests on it.
+/// Measures one of the two ladders, with external variants on it.
 pub(super) fn measure(
     ladder: Ladder,
     options: &Options,
-    guests: &mut [Box<dyn ExternalVariant>],
+    external: &mut [Box<dyn ExternalVariant>],
     progress: &dyn Fn(f64, &str),
 ) -> Board {
     let pixels = if options.quick { 60_000 } else { 800_000 };
@@ -385,7 +385,7 @@ pub(super) fn measure(
         scenes.iter().map(|scene| RefCell::new(Frame::new(scene.bounds, 0))).collect();
     let mut columns = Vec::new();
     let mut rungs: Vec<Rung> = variants.iter().map(|c| c.rung.clone()).collect();
-    rungs.extend(guests.iter().map(|guest| guest.rung()));
+    rungs.extend(external.iter().map(|variant| variant.rung()));
     let mut prepared: Vec<Vec<Prepared<'_>>> = rungs.iter().map(|_| Vec::new()).collect();
     for (done, (scene, target)) in scenes.iter().zip(&targets).enumerate() {
         progress(0.3 * done as f64 / scenes.len() as f64, ladder.title());
@@ -401,8 +401,8 @@ pub(super) fn measure(
         for (variant, row) in variants.iter().zip(&mut prepared) {
             row.push(prepare(variant, scene, &truth, target));
         }
-        for (guest, row) in guests.iter_mut().zip(&mut prepared[variants.len()..]) {
-            row.push(invited(guest.as_mut(), scene, &truth));
+        for (variant, row) in external.iter_mut().zip(&mut prepared[variants.len()..]) {
+            row.push(prepare_external(variant.as_mut(), scene, &truth));
         }
         columns.push(Column::new(scene.name, about, items, truth.pixels[GIVEN]));
     }

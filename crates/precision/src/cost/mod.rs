@@ -196,16 +196,16 @@ pub fn measure(ladder: Ladder, options: &Options, progress: &dyn Fn(f64, &str)) 
     measure_with(ladder, options, &mut [], progress)
 }
 
-/// The same with guests, who fill by edge functions and stand on that ladder.
+/// The same with external variants on the ladder of edge functions.
 pub fn measure_with(
     ladder: Ladder,
     options: &Options,
-    guests: &mut [Box<dyn ExternalVariant>],
+    external: &mut [Box<dyn ExternalVariant>],
     progress: &dyn Fn(f64, &str),
 ) -> Board {
     match ladder {
         Ladder::Scanline => coverage::measure(ladder, options, &mut [], progress),
-        Ladder::EdgeFunction => coverage::measure(ladder, options, guests, progress),
+        Ladder::EdgeFunction => coverage::measure(ladder, options, external, progress),
         Ladder::Interpolation => interpolation::measure(options, progress),
         Ladder::Depth => depth::measure(options, progress),
         Ladder::Lines => lines::measure(options, progress),
