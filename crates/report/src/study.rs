@@ -17,6 +17,7 @@ use serde_json::{Value, json};
 use super::board::number;
 use super::chapter::Chapter;
 use super::html::{Column, Outcome, PictureLayer, PictureView, Report, Row, Table};
+use super::summary::thousands;
 
 /// A scene and where it comes from.
 #[derive(Clone, Copy)]
@@ -39,19 +40,6 @@ impl Subject<'_> {
     pub fn command(&self, triangle: u32) -> String {
         (self.inspect)(face_of(self.scene, self.origins, triangle))
     }
-}
-
-/// `1,234,567`.
-pub fn thousands(number: u64) -> String {
-    let digits = number.to_string();
-    let mut out = String::new();
-    for (i, digit) in digits.chars().enumerate() {
-        if i > 0 && (digits.len() - i).is_multiple_of(3) {
-            out.push(',');
-        }
-        out.push(digit);
-    }
-    out
 }
 
 /// The rungs of coverage that get a triangle of a kind wrong, with how many.
@@ -598,15 +586,4 @@ fn cost_table(group: &Group) -> Table {
     let [items, pixels] = group.timed.map(thousands);
     let caption = format!("{}, timed on {items} triangles and {pixels} pixels", group.title);
     Table { caption, columns, rows: group.choices.iter().map(row).collect() }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn thousands_have_commas() {
-        let shown = [0, 999, 1000, 1_234_567].map(thousands);
-        assert_eq!(shown, ["0", "999", "1,000", "1,234,567"]);
-    }
 }
