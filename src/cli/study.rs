@@ -15,8 +15,7 @@ use rasterproof_registry::engines::{Engine, ExactEngine};
 use rasterproof_render::scene::{Hidden, Scene};
 use rasterproof_report::board::number;
 use rasterproof_report::study::{
-    self as report, Subject, costs, costs_json, hard_cases, hard_cases_json, needs_json,
-    ties_json,
+    self as report, Subject, costs, costs_json, hard_cases, hard_cases_json, needs_json, ties_json,
 };
 use rasterproof_report::summary::thousands;
 use rasterproof_study::cost::{self, Effort, Group};

@@ -362,7 +362,11 @@ fn prepare<'a>(
 }
 
 /// The errors of an external variant on a scene, and what is to be timed.
-fn prepare_external<'a>(variant: &mut dyn ExternalVariant, scene: &Scene, truth: &Truth) -> Prepared<'a> {
+fn prepare_external<'a>(
+    variant: &mut dyn ExternalVariant,
+    scene: &Scene,
+    truth: &Truth,
+) -> Prepared<'a> {
     let mut ready = || {
         let spans = variant.spans(&scene.triangles, scene.bounds)?;
         let pass = variant.pass(&scene.triangles, scene.bounds)?;
