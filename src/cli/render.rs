@@ -95,7 +95,7 @@ pub(super) const VIEW_OPTIONS: [&str; 14] = [
 ];
 
 /// How a scene or a model is seen.
-#[derive(clap::Args, Debug)]
+#[derive(clap::Args, Debug, Default)]
 pub struct ViewArguments {
     /// Size of the picture in pixels
     #[arg(long, value_name = "WxH", default_value = "640x480", value_parser = parse_size)]
@@ -237,26 +237,8 @@ fn parse_fog(text: &str) -> Result<Growth, String> {
 impl SceneArguments {
     /// A model of a file, as it is drawn where nothing else is said.
     pub(super) fn of_model(path: &Path, size: (u32, u32)) -> Self {
-        Self {
-            what: Some(path.to_owned()),
-            scene: None,
-            view: ViewArguments {
-                size,
-                aa: Antialias::None,
-                cull: None,
-                shading: None,
-                specular: None,
-                mip_maps: false,
-                fog: None,
-                up: None,
-                normals: None,
-                depth: DepthFormat::Unorm32,
-                yaw: None,
-                pitch: None,
-                zoom: None,
-                fov: None,
-            },
-        }
+        let view = ViewArguments { size, ..ViewArguments::default() };
+        Self { what: Some(path.to_owned()), scene: None, view }
     }
 
     /// An empty target of the size and kind asked for.

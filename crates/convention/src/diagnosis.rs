@@ -17,13 +17,14 @@ use super::{Ask, Known};
 use rasterproof_core::frame::Coverage;
 
 /// How sure the convention is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub enum Confidence {
     /// It explains every fresh triangle in general position, and no other hypothesis does.
     Certain,
     /// It explains nearly all, or all but not alone: see [`Diagnosis::alternatives`].
     Likely,
     /// No hypothesis explains the answers. The nearest one is kept, and is not the convention.
+    #[default]
     Unexplained,
 }
 
@@ -71,7 +72,8 @@ impl Share {
     }
 }
 
-#[derive(Clone, Debug, PartialEq, Serialize)]
+/// The default is that of a program that leaves nothing to see.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Diagnosis {
     /// What it does; the nearest hypothesis where that is not known.
     pub convention: Convention,
@@ -106,7 +108,7 @@ const FRESH: usize = 150;
 /// Questions a rasterizer until its convention is known. Exact, and the same for the same seed and
 /// answers. Asks about 700 triangles.
 pub fn diagnose(ask: &mut dyn Ask, known: &Known, seed: u64) -> Diagnosis {
-    let mut silent = Diagnosis::nothing(known);
+    let mut silent = Diagnosis { convention: known.declared, ..Diagnosis::default() };
     let Some(mut bench) = Bench::new(ask, known, seed) else { return silent };
     let (draws, pictures) = bench.windings();
     bench.mirror = mirror_of(&pictures, bench.window);
@@ -215,24 +217,6 @@ fn confidence(found: &Share, alternatives: &[Convention]) -> Confidence {
 }
 
 impl Diagnosis {
-    /// Of a program that leaves nothing to see.
-    fn nothing(known: &Known) -> Self {
-        Self {
-            convention: known.declared,
-            confidence: Confidence::Unexplained,
-            alternatives: Vec::new(),
-            compass: Compass::default(),
-            flat: Count::default(),
-            rotated: Count::default(),
-            reversed: Count::default(),
-            twice: Count::default(),
-            as_declared: Share::default(),
-            as_found: Share::default(),
-            asked: 0,
-            refused: 0,
-        }
-    }
-
     /// The pixels that the convention expects, to judge again by what was found. None where it is
     /// not known, or says nothing.
     pub fn expected(&self, question: &Question) -> Option<Coverage> {

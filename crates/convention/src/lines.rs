@@ -222,7 +222,8 @@ fn stepped(from: [i64; 2], to: [i64; 2], is_behind: bool) -> Vec<[i64; 2]> {
     pixels
 }
 
-#[derive(Clone, Debug, PartialEq, Serialize)]
+/// The default is that of a program that answers nothing.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct LineDiagnosis {
     /// What it does; the nearest hypothesis where that is not known.
     pub convention: LineConvention,
@@ -355,7 +356,7 @@ pub fn diagnose_lines(
             points,
             asked: asked[0],
             refused: asked[1],
-            ..LineDiagnosis::nothing()
+            ..LineDiagnosis::default()
         },
     )
 }
@@ -407,23 +408,6 @@ fn conclude(
 }
 
 impl LineDiagnosis {
-    /// Of a program that answers nothing.
-    fn nothing() -> Self {
-        Self {
-            convention: LineConvention::default(),
-            confidence: Confidence::Unexplained,
-            alternatives: Vec::new(),
-            as_default: Count::default(),
-            as_found: Count::default(),
-            both_ways: Count::default(),
-            points: Count::default(),
-            in_order: Count::default(),
-            twice: Count::default(),
-            asked: 0,
-            refused: 0,
-        }
-    }
-
     /// The pixels that the convention expects, from the first end on. None where it is not known, or
     /// says nothing.
     #[must_use]

@@ -27,7 +27,7 @@ const KEPT: usize = 4;
 pub const MOST_INCIDENTS: usize = 24;
 
 /// What came of a property: of a family, or of a check over all families.
-#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
 pub struct Row {
     pub name: &'static str,
     /// Cases judged.
@@ -64,22 +64,7 @@ impl Row {
     }
 
     fn new(name: &'static str) -> Self {
-        Self {
-            name,
-            cases: 0,
-            shapes: 0,
-            pixels: 0,
-            wrong_cases: 0,
-            tally: Tally::default(),
-            recognised: Tally::default(),
-            recognised_pixels: 0,
-            unscored: 0,
-            refused: 0,
-            values: 0,
-            worst: 0.0,
-            deaths: 0,
-            stopped: false,
-        }
+        Self { name, ..Self::default() }
     }
 
     fn count(&mut self, finding: &Finding) {

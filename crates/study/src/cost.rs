@@ -30,7 +30,7 @@ use rasterproof_verify::oracle::values::ExactTriangle;
 use crate::view::{NOTHING, Piece, seen};
 
 /// A way to do a part of the work.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Choice {
     pub name: String,
     pub about: String,
@@ -50,17 +50,7 @@ pub struct Choice {
 
 impl Choice {
     fn new(name: &str, about: &str) -> Self {
-        Self {
-            name: name.to_owned(),
-            about: about.to_owned(),
-            errors: Vec::new(),
-            first_wrong: None,
-            wrong_triangles: Vec::new(),
-            margin: None,
-            time: None,
-            bytes: None,
-            refused: None,
-        }
+        Self { name: name.to_owned(), about: about.to_owned(), ..Self::default() }
     }
 }
 

@@ -178,6 +178,7 @@ impl Cell<'_> {
 }
 
 /// What came of one subject.
+#[derive(Default)]
 struct Judged {
     ours: Planes,
     theirs: Planes,
@@ -210,7 +211,7 @@ fn judged(check: Check, device: Device, subject: &Subject, cell: &Cell) -> Judge
         }
     }
     let pixels = (side * side) as u64 * ours.len() as u64;
-    let mut judged = Judged { ours, theirs, marks, pixels, explained: Vec::new(), worst: 0.0 };
+    let mut judged = Judged { ours, theirs, marks, pixels, ..Judged::default() };
     match check {
         Check::Lattice => judged.explained = explaining(subject, &judged.theirs[0], side),
         Check::Coverage | Check::Reach if judged.word() == Word::Free => {
@@ -284,14 +285,7 @@ fn lines(device: Device, subject: &Subject, side: i32, judged: &mut Judged) {
 fn values(device: Device, subject: &Subject, cell: &Cell) -> Judged {
     let side = cell.layout.cell;
     let empty = vec![vec![0; (side * side) as usize]];
-    let mut judged = Judged {
-        ours: empty.clone(),
-        theirs: empty,
-        marks: Vec::new(),
-        pixels: 0,
-        explained: Vec::new(),
-        worst: 0.0,
-    };
+    let mut judged = Judged { ours: empty.clone(), theirs: empty, ..Judged::default() };
     let triangles = subject.triangles();
     let Some(triangle) = triangles.first() else { return judged };
     let v = &triangle.vertices;
