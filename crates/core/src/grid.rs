@@ -22,7 +22,7 @@ pub const DOMAIN_PX: i32 = 1 << (31 - SUBPIXEL_BITS);
 /// The largest window side that is accepted anywhere, in pixels.
 pub const MAX_SIDE_PX: u32 = 1 << 14;
 
-// The bounds of `numerics`, section A, for p = 23 and s = 8. Extents are at most 2^32 - 1 subpixels,
+// A coordinate has 23 bits before the point and 8 behind it. Extents are at most 2^32 - 1 subpixels,
 // so an edge function and twice the area stay below 2^64 in magnitude and need 66 signed bits: i128
 // is always enough, and i64 is enough while the two extents multiply to less than 2^63.
 const MAX_EXTENT: i128 = i32::MAX as i128 - i32::MIN as i128;

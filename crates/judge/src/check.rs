@@ -107,7 +107,7 @@ impl Finding {
 }
 
 impl Check {
-    /// Its name as a property; that of the family for the first two.
+    /// Its name as a property: of checks that a family is made for, the name of that family.
     pub fn name(self, family: &'static str) -> &'static str {
         match self {
             Self::Coverage | Self::Line | Self::Depth | Self::Near => family,

@@ -32,7 +32,7 @@ const WORDS = {
     left: 'The top-left rule: the edge is no top or left one, so the sample is left to the neighbour on the other side.',
     degenerate: 'without area: covers nothing',
     walk: 'How the scanline got here', longEdge: 'long edge', shortEdge: 'short edge', remainder: 'remainder', carry: 'carry', walkNote: 'Each row adds the step to the column and takes the part off the remainder; when that falls below 0, a column is carried. The span runs from the smaller column to before the larger.',
-    breakIt: 'Break it', named: 'Named case', choose: 'choose …', who: 'Who is to break', family: 'Family', random: 'A random hazard', search: 'Search until caught', shrink: 'Shrink', stop: 'Stop',
+    breakIt: 'Break it', named: 'Named case', choose: 'choose …', who: 'Who is to break', family: 'Family', random: 'A random case', search: 'Search until caught', shrink: 'Shrink', stop: 'Stop',
     searched: (n) => `cases tried: ${n}, not caught yet …`, caught: (name, n) => `caught by ${name}; cases tried: ${n}; `, shrunk: (n) => `shrunk, steps: ${n}`,
     exact: 'exactly on a pixel', lower: 'less than half, so the lower one', upper: 'more than half, so the higher one', halfway: 'half, so a tie',
     exactHeight: 'the ideal line is at', after: 'after', ofSteps: 'of', along: 'along',

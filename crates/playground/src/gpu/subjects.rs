@@ -1,4 +1,4 @@
-//! The subjects of each check: the hazards of the comparison on the device's lattice, and some of this page.
+//! The subjects of each check: the hard cases of the comparison on the device's lattice, and some of this page.
 
 use super::{Check, Device, Interface, Layout, Subject, Vertex};
 use rasterproof_core::grid::{HALF_PIXEL, SUBPIXELS, SubpixelPoint};
