@@ -344,6 +344,7 @@ fn describe(scene: &Scene, planned: &Rendered, everything: &Counters, savings: &
             ("lights", c.lights),
             ("highlights", c.highlights),
             ("mixed with fog", c.fogged),
+            ("alpha tests", c.alpha_tests),
             ("fragment stages", c.shaded),
             ("pixels expanded", c.expanded),
             ("samples cleared", c.cleared),

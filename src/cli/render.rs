@@ -30,6 +30,7 @@ use rasterproof_render::pipeline::assemble::Cull;
 use rasterproof_render::pipeline::depth::DepthFormat;
 use rasterproof_render::pipeline::fog::{Fog, Growth};
 use rasterproof_render::pipeline::highlight::Specular;
+use rasterproof_render::pipeline::opacity::AlphaMode;
 use rasterproof_render::pipeline::present::DoubleBuffer;
 use rasterproof_render::pipeline::shade::Light;
 use rasterproof_render::pipeline::target::{Antialias, Colour, Target, check_size};
@@ -89,9 +90,22 @@ pub struct SceneArguments {
     pub(super) view: ViewArguments,
 }
 
-pub(super) const VIEW_OPTIONS: [&str; 14] = [
-    "size", "aa", "cull", "shading", "specular", "mip-maps", "fog", "up", "normals", "depth",
-    "yaw", "pitch", "zoom", "fov",
+pub(super) const VIEW_OPTIONS: [&str; 15] = [
+    "size",
+    "aa",
+    "cull",
+    "shading",
+    "specular",
+    "alpha-threshold",
+    "mip-maps",
+    "fog",
+    "up",
+    "normals",
+    "depth",
+    "yaw",
+    "pitch",
+    "zoom",
+    "fov",
 ];
 
 /// How a scene or a model is seen.
@@ -112,6 +126,10 @@ pub struct ViewArguments {
     /// Highlights of a model in place of its own: a strength from 0 to 1, and an exponent above 0
     #[arg(long, value_name = "STRENGTH,EXPONENT", value_parser = parse_specular)]
     specular: Option<Specular>,
+    /// From which opacity on a model's surfaces that are not opaque are drawn, from 0 to 1, in place of its own; below it
+    /// they have holes [default: as the file says, else 0.5]
+    #[arg(long, value_name = "OPACITY", value_parser = parse_threshold)]
+    alpha_threshold: Option<f64>,
     /// Read all textures of a model at levels of detail, also where its file does not ask for it
     #[arg(long)]
     mip_maps: bool,
@@ -199,6 +217,11 @@ fn parse_specular(text: &str) -> Result<Specular, String> {
     specular.ok_or_else(|| {
         "expected a strength from 0 to 1 and an exponent above 0, for example 0.5,30".to_owned()
     })
+}
+
+fn parse_threshold(text: &str) -> Result<f64, String> {
+    let threshold = text.trim().parse().ok().filter(|number| (0.0..=1.0).contains(number));
+    threshold.ok_or_else(|| "expected a number from 0 to 1, for example 0.5".to_owned())
 }
 
 /// Gives all textures a mip map; one that several items share is made once.
@@ -319,6 +342,7 @@ impl ViewArguments {
             ("--fov", self.fov.is_some()),
             ("--shading", self.shading.is_some()),
             ("--specular", self.specular.is_some()),
+            ("--alpha-threshold", self.alpha_threshold.is_some()),
             ("--mip-maps", self.mip_maps),
             ("--fog", self.fog.is_some()),
             ("--up", self.up.is_some()),
@@ -391,6 +415,11 @@ impl ViewArguments {
         for item in &mut scene.items {
             item.model = about(centre, turn);
             item.material.specular = self.specular.unwrap_or(item.material.specular);
+            if let (Some(threshold), Some(opacity)) =
+                (self.alpha_threshold, &mut item.material.opacity)
+            {
+                opacity.mode = AlphaMode::Test { threshold };
+            }
         }
         if self.mip_maps {
             give_mip_maps(&mut scene);
@@ -928,20 +957,42 @@ fn draw_in_tiles(
     };
     let scene = &maker.scene(0.0);
     let start = Instant::now();
-    let picture = frames::render(scene, size.width(), size.height(), samples).map_err(usage)?;
+    let exact = || {
+        let mut target = arguments.what.target()?;
+        let exact = Drawer::Scanline.render(scene, &Effects::PLANNED, &mut target);
+        Ok::<_, Failure>(exact.map_err(usage)?.picture)
+    };
+    let handed_over = frames::not_opaque(scene);
+    let picture = match handed_over {
+        0 => frames::render(scene, size.width(), size.height(), samples).map_err(usage)?,
+        _ => exact()?,
+    };
     let times = Times {
         loading_s: maker.loading().map(|time| time.as_secs_f64()),
         drawing_s: vec![start.elapsed().as_secs_f64()],
     };
     writeln!(streams.output, "{}: {}", scene.name, scene.about)?;
-    write!(streams.output, "{}", times_text(&times, &["tiles"]))?;
+    let name = if handed_over == 0 { "tiles" } else { "scanline" };
+    write!(streams.output, "{}", times_text(&times, &[name]))?;
+    if handed_over > 0 {
+        let path = printable_path(output);
+        let drawn_in = match streams.save(output, &frame_comparison::png(&picture)?) {
+            true => format!(", drawn in {path}"),
+            false => String::new(),
+        };
+        writeln!(
+            streams.output,
+            "  {handed_over} of {} triangles are not opaque, which tiles do not draw: handed to\n  \
+             scanline{drawn_in}",
+            scene.triangles()
+        )?;
+        return Ok(exit::AGREES);
+    }
     if streams.save(output, &frame_comparison::png(&picture)?) {
         let (side, path) = (frames::SIDE_PX, printable_path(output));
         writeln!(streams.output, "  drawn in tiles of {side} x {side} px in {path}")?;
     }
-    let mut exact = arguments.what.target()?;
-    let exact = Drawer::Scanline.render(scene, &Effects::PLANNED, &mut exact).map_err(usage)?;
-    let differing = frame_comparison::differing(&picture, &exact.picture);
+    let differing = frame_comparison::differing(&picture, &exact()?);
     if differing > 0 {
         let pixels = u64::from(size.width()) * u64::from(size.height());
         writeln!(streams.output, "  {differing} of {pixels} pixels differ from those of scanline")?;

@@ -77,6 +77,7 @@ pub const ALL: &[(&str, Values)] = &[
     ("pays-highlights", || pays("highlights", Effect::Specular, |c| c.highlights)),
     ("pays-mip-maps", || pays("mip-maps", Effect::MipMaps, |c| c.levels)),
     ("pays-fog", || pays("fog", Effect::Fog, |c| c.fogged)),
+    ("pays-cut-outs", || pays("cut-outs", Effect::AlphaTest, |c| c.alpha_tests)),
     ("t4-pixels", || {
         let hits = named("T4");
         let row = |hits: &Coverage| hits.row(30).iter().filter(|&&n| n > 0).count() as f64;

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use glam::DVec3;
 use rasterproof_models::{BadFile, Format, Model, Options, Up};
 use rasterproof_render::pipeline::assemble::Cull;
+use rasterproof_render::pipeline::opacity::AlphaMode;
 use rasterproof_render::scene::{Material, Shading};
 use serde_json::{Value, json};
 
@@ -374,7 +375,12 @@ fn materials_of_a_gltf_are_drawn_or_counted() {
                 "alphaMode": "BLEND",
                 "extensions": { "KHR_materials_unlit": {}, "KHR_materials_sheen": {} },
             },
-            { "doubleSided": true, "pbrMetallicRoughness": { "baseColorTexture": { "index": 1 } } },
+            {
+                "doubleSided": true,
+                "pbrMetallicRoughness": { "baseColorTexture": { "index": 1 }, "baseColorFactor": [1, 1, 1, 0.25] },
+                "alphaMode": "MASK",
+                "alphaCutoff": 0.25,
+            },
         ]);
         d["extensionsUsed"] = json!(["KHR_materials_unlit", "KHR_materials_sheen"]);
     });
@@ -397,6 +403,9 @@ fn materials_of_a_gltf_are_drawn_or_counted() {
         "face 8 (number 4 of its part) of 'nodes[0] body meshes[0].primitives[1]', material 'materials[1]'"
     );
     assert!(other.material.texture.is_none() && other.material.vertex_colours);
+    let opacity = other.material.opacity.as_ref().unwrap();
+    assert_eq!((opacity.mode, opacity.factor), (AlphaMode::Test { threshold: 0.25 }, 0.25));
+    assert_eq!(opacity.of(glam::DVec2::ZERO), 255, "as opaque as the threshold");
     let [missing] = &model.warnings[..] else { panic!("{:?}", model.warnings) };
     assert!(
         missing.contains("textures[1] has no picture that is read; the material 'materials[1]'"),

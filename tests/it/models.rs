@@ -495,6 +495,35 @@ fn colours_of_positions_are_drawn() {
     assert_eq!(colours, [[1.0 / 255.0, 0.0, 0.0], [1.0; 3], [0.0, 1.0, 0.2]]);
 }
 
+/// Holes come from the opacities of a texture, from a grey picture or another one's opacities, and `d 1` changes nothing.
+#[test]
+fn surfaces_have_the_holes_of_their_files() {
+    let folder = folder("holes");
+    // One texel opaque, the other clear.
+    let two = image::RgbaImage::from_raw(2, 1, vec![9, 9, 9, 255, 9, 9, 9, 0]).unwrap();
+    two.save(folder.join("alpha.png")).unwrap();
+    image::GrayImage::from_raw(2, 1, vec![127, 128])
+        .unwrap()
+        .save(folder.join("grey.png"))
+        .unwrap();
+    let mtl = "newmtl a\nmap_Kd alpha.png\nd 1\nnewmtl b\nmap_d grey.png\n\
+        newmtl c\nmap_Kd grey.png\nmap_d -o 0.5 alpha.png\nnewmtl d\nmap_Kd grey.png\n";
+    fs::write(folder.join("m.mtl"), mtl).unwrap();
+    let face = |name: &str| format!("usemtl {name}\nf 1/1 2/1 3/1\n");
+    let faces: String = ["a", "b", "c", "d"].map(face).concat();
+    let text = format!("mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0.1 0.5\n{faces}");
+    let model = load(&written(&folder, "m.obj", &text), Shading::Phong).unwrap();
+    let of = |item: usize, u: f64| {
+        let opacity = model.items[item].material.opacity.as_ref();
+        opacity.map(|opacity| opacity.of(glam::DVec2::new(u, 0.5)))
+    };
+    assert_eq!([of(0, 0.2), of(0, 0.8)], [Some(255), Some(0)]);
+    assert_eq!([of(1, 0.2), of(1, 0.8)], [Some(0), Some(255)]);
+    assert_eq!([of(2, 0.2), of(2, 0.8), of(3, 0.2)], [Some(255), Some(0), None]);
+    assert_eq!(model.not_drawn, "place of its own of 1 opacity map");
+    assert!(model.warnings.is_empty(), "{:?}", model.warnings);
+}
+
 /// Loose lines and points are no part of the picture, so they do not make the model small in it.
 #[test]
 fn what_is_not_drawn_is_said_by_every_command_that_draws() {
@@ -512,8 +541,7 @@ fn what_is_not_drawn_is_said_by_every_command_that_draws() {
     assert!(said.contains("not drawn: 1 curve, 1 line, 2 points\n"), "{said}");
     let text = format!("{triangle}usemtl a\nf 1 2 3\nusemtl b\nf 1 2 3\n");
     let model = written(&folder, "m.obj", &text);
-    let expected = "not drawn: 1 bump map, emission of 1 material, 1 opacity map, \
-        reflection (illum) of 1 material, \
+    let expected = "not drawn: 1 bump map, emission of 1 material, reflection (illum) of 1 material, \
         specular colour without shininess (Ns) of 1 material, transparency of 1 material\n";
     let specular = |model: &Model| -> Vec<_> {
         model.items.iter().map(|item| item.material.specular).collect()

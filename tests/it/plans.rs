@@ -111,6 +111,7 @@ fn what_is_wrong_with_a_plan_is_named() {
         "specular": "planned",
         "mip_maps": "planned",
         "fog": "planned",
+        "alpha_test": "planned",
     }});
     type Edit<'a> = &'a dyn Fn(&mut Value);
     let with_rule = |edit: &dyn Fn(&mut Value)| {

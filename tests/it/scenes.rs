@@ -17,10 +17,11 @@ use rasterproof_render::pipeline::assemble::Cull;
 use rasterproof_render::pipeline::depth::DepthFormat;
 use rasterproof_render::pipeline::fog::{Fog, Growth};
 use rasterproof_render::pipeline::highlight::Specular;
+use rasterproof_render::pipeline::opacity::{AlphaMode, Opacity, OpacityMap};
 use rasterproof_render::pipeline::present::DoubleBuffer;
 use rasterproof_render::pipeline::shade::Light;
 use rasterproof_render::pipeline::target::{Antialias, Colour, Target};
-use rasterproof_render::pipeline::texture::{Filter, Wrap};
+use rasterproof_render::pipeline::texture::{Filter, Texture, Wrap};
 use rasterproof_render::pipeline::transform::{look_at, perspective};
 use rasterproof_render::scene::chapters::{entries, scene};
 use rasterproof_render::scene::{
@@ -155,6 +156,7 @@ fn check_account(plan: &Plan, counters: &Counters, name: &str) {
         (Effect::Texture, c.texels),
         (Effect::MipMaps, c.levels),
         (Effect::Fog, c.fogged),
+        (Effect::AlphaTest, c.alpha_tests),
         (Effect::Interpolation, c.components),
     ] {
         assert!(sums(effect) != [0; 2] || counted == 0, "{name} {}: {counted}", effect.name());
@@ -221,6 +223,7 @@ fn an_edited_plan_is_followed() {
                 "specular": "planned",
                 "mip_maps": "planned",
                 "fog": "planned",
+                "alpha_test": "planned",
             }});
         }
         let plan: Plan = serde_json::from_value(json).unwrap();
@@ -500,6 +503,18 @@ fn counterexamples() -> Vec<Counterexample> {
             let fog = Some(Fog { colour: [0; 3], growth });
             Scene { fog, ..plain(vec![Item::new(screen(1.0, [0.0, by]), grey(1.0))]) }
         }),
+        make(Effect::AlphaTest, none, |by| {
+            // The right side reads beyond the opaque one of two texels.
+            let map = Texture::grey(2, 1, vec![u8::MAX, 0]).unwrap();
+            let map = Some(Arc::new(OpacityMap::new(map.with(Filter::Nearest, Wrap::Clamp))));
+            let mode = AlphaMode::Test { threshold: 0.5 };
+            let opacity = Some(Opacity { factor: 1.0, map, mode });
+            let mut mesh = screen(1.0, [0.0; 2]);
+            for corner in mesh.triangles.as_flattened_mut() {
+                corner.uv.x *= 0.5 * (1.0 + by);
+            }
+            plain(vec![Item::new(mesh, Material { opacity, ..grey(1.0) })])
+        }),
         make(Effect::Texture, none, |by| {
             let texel = textures::generate(1, |_, _| DVec3::splat(1.0 - by));
             let texture = (by > 0.0).then(|| Arc::new(texel));
@@ -678,7 +693,7 @@ proptest! {
     fn any_mixture_of_effects_draws(
         index in any::<u32>(),
         kind in 0..4usize,
-        modes in proptest::array::uniform16(0..3u8),
+        modes in proptest::array::uniform17(0..3u8),
         some_never in any::<bool>(),
     ) {
         let scene = random::with_effects(3, index.into());

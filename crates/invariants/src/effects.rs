@@ -23,6 +23,7 @@ fn calls(effect: Effect, counters: &Counters) -> u64 {
         Effect::Specular => counters.highlights,
         Effect::MipMaps => counters.levels,
         Effect::Fog => counters.fogged,
+        Effect::AlphaTest => counters.alpha_tests,
         Effect::Texture => counters.texels,
         Effect::Samples => counters.expanded,
         Effect::Clear => counters.cleared,

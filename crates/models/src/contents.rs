@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use glam::{DMat4, DVec2, DVec3};
 use rasterproof_render::pipeline::highlight::Specular;
+use rasterproof_render::pipeline::opacity::Opacity;
 use rasterproof_render::pipeline::texture::Texture;
 
 /// What a reader counts of faces with fewer than three corners, which show nothing.
@@ -74,6 +75,7 @@ pub(crate) struct Surface {
     pub colour: DVec3,
     pub texture: Option<Arc<Texture>>,
     pub specular: Specular,
+    pub opacity: Option<Opacity>,
     /// Whether the file says that light has no effect on it.
     pub unlit: bool,
     /// Whether both sides are drawn.

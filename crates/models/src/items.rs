@@ -122,6 +122,7 @@ fn material(surface: Option<&Surface>, part: &Part, shading: Shading) -> Materia
             vertex_colours,
             texture: surface.texture.clone(),
             specular: surface.specular,
+            opacity: surface.opacity.clone(),
             shading: if surface.unlit { Shading::Unlit } else { shading },
         },
         None => {

@@ -19,6 +19,8 @@ pub(crate) struct Described {
     pub colour: Option<DVec3>,
     /// Its texture (`map_Kd`).
     pub texture: Option<textures::Described>,
+    /// Where it has holes (`map_d`).
+    pub opacity_map: Option<textures::Described>,
     /// What else it has, which is not drawn: keys of [`crate::contents::Contents::not_drawn`].
     pub not_drawn: BTreeSet<String>,
     ambient: Option<DVec3>,
@@ -111,6 +113,10 @@ fn read_line(kind: &str, rest: &str, materials: &mut Vec<Described>) -> Result<(
             material.texture = textures::Described::parse(rest);
             return Ok(());
         }
+        "map_d" | "map_tr" | "map_opacity" => {
+            material.opacity_map = textures::Described::parse(rest);
+            return Ok(());
+        }
         "map_ka" => {
             material.ambient_map = textures::Described::parse(rest);
             return Ok(());
@@ -128,7 +134,6 @@ fn read_line(kind: &str, rest: &str, materials: &mut Vec<Described>) -> Result<(
                 "map_ks" => "specular map",
                 "map_ns" => "shininess map",
                 "map_ke" => "emission map",
-                "map_d" | "map_tr" | "map_opacity" => "opacity map",
                 _ => "other map",
             }
         }
@@ -189,6 +194,12 @@ impl Described {
         if self.ambient_map.is_some() && name(&self.ambient_map) != name(&self.texture) {
             self.not_drawn.insert("ambient map".to_owned());
         }
+        // Both are read at the texture coordinates of the texture.
+        if let (Some(map), Some(texture)) = (&self.opacity_map, &self.texture)
+            && (map.scale, map.offset) != (texture.scale, texture.offset)
+        {
+            self.not_drawn.insert("place of its own of opacity map".to_owned());
+        }
         if self.specular.colour != DVec3::ZERO && !self.is_matt {
             if self.has_specular_map {
                 self.not_drawn.insert("specular colour with a map of material".to_owned());
@@ -197,6 +208,9 @@ impl Described {
                 self.not_drawn
                     .insert("specular colour without shininess (Ns) of material".to_owned());
             }
+        }
+        for option in self.opacity_map.iter().flat_map(|map| &map.not_applied) {
+            self.not_drawn.insert(format!("option {option} of opacity map"));
         }
         for option in self.texture.iter().flat_map(|texture| &texture.not_applied) {
             self.not_drawn.insert(format!("option {option} of texture"));

@@ -10,10 +10,14 @@ use glam::{DMat4, DVec2, DVec3};
 use rasterproof_host::limits;
 use rasterproof_host::text::{printable_path, printable_short};
 
+use rasterproof_render::pipeline::opacity::OpacityMap;
+use rasterproof_render::pipeline::texture::Texture;
+use std::sync::Arc;
+
 use crate::contents::{Contents, INCOMPLETE_FACE, Part, Polygon, PolygonCorner, Surface};
 use crate::items::MOST_COORDINATE;
 use crate::mtl::{self, without_comment};
-use crate::textures::{Textures, find};
+use crate::textures::{Decoded, Described, THRESHOLD, Textures, cut_out, find};
 use crate::{BadFile, Warnings, bad, read_bytes};
 
 /// No index.
@@ -138,7 +142,7 @@ pub(crate) fn read(path: &Path, bytes: &[u8]) -> Result<Contents, BadFile> {
                 contents.materials.push(surface);
                 contents.materials.len() - 1
             }));
-            if let Some(texture) = &material.texture {
+            if let Some(texture) = material.texture.as_ref().or(material.opacity_map.as_ref()) {
                 for uv in &mut part.uvs {
                     *uv = *uv * texture.scale + texture.offset;
                 }
@@ -215,24 +219,28 @@ fn surface(
     for key in &material.not_drawn {
         *not_drawn.entry(key.clone()).or_default() += 1;
     }
-    let texture = material.texture.as_ref().and_then(|texture| {
-        match textures.get(&texture.name, texture.clamp) {
-            Ok(decoded) => {
-                if decoded.transparent {
-                    *not_drawn.entry("transparency of texture".to_owned()).or_default() += 1;
-                }
-                Some(decoded.texture)
-            }
-            Err(error) => {
-                let name = printable_short(&material.name, 40);
-                warnings.line(
-                    &format!("{}: textures", printable_path(path)),
-                    &format!("{error}; the material '{name}' is drawn in its colour"),
-                );
-                None
-            }
-        }
-    });
+    let mut read = |described: &Described, without: &str| {
+        let read = textures.get(&described.name, described.clamp);
+        read.map_err(|error| {
+            let name = printable_short(&material.name, 40);
+            warnings.line(
+                &format!("{}: textures", printable_path(path)),
+                &format!("{error}; the material '{name}' is drawn {without}"),
+            );
+        })
+        .ok()
+    };
+    let texture = material.texture.as_ref().and_then(|texture| read(texture, "in its colour"));
+    // An opacity map is a grey picture, or one with opacities of its own.
+    let map = match &material.opacity_map {
+        None => texture.as_ref().and_then(Decoded::opacity),
+        Some(map) => read(map, "without its opacity map").map(|decoded| {
+            let of_colours = || Arc::new(OpacityMap::new(Texture::clone(&decoded.texture)));
+            decoded.opacity().unwrap_or_else(of_colours)
+        }),
+    };
+    let opacity = map.map(|map| cut_out(map, 1.0, THRESHOLD));
+    let texture = texture.map(|decoded| decoded.texture);
     // A texture is as bright as its picture, where the file does not say otherwise.
     let missing = if texture.is_some() { DVec3::ONE } else { DVec3::splat(0.8) };
     Surface {
@@ -240,6 +248,7 @@ fn surface(
         colour: material.colour.unwrap_or(missing),
         texture,
         specular: material.specular(),
+        opacity,
         unlit: false,
         both_sides: true,
     }

@@ -10,7 +10,7 @@ use rasterproof_host::text::{printable_path, printable_short};
 use rasterproof_render::pipeline::highlight::Specular;
 
 use crate::contents::{Contents, INCOMPLETE_FACE, Part, Polygon, PolygonCorner, Surface};
-use crate::textures::Textures;
+use crate::textures::{THRESHOLD, Textures, cut_out};
 use crate::{BadFile, Warnings, bad};
 
 /// Whether these bytes begin as a PLY.
@@ -573,13 +573,11 @@ fn surface(
     let folder = path.parent().unwrap_or(Path::new(""));
     match Textures::new(folder).get(name, false) {
         Ok(decoded) => {
-            if decoded.transparent {
-                add(contents, "transparency of texture", 1);
-            }
             part.material = Some(contents.materials.len());
             contents.materials.push(Surface {
                 name: String::new(),
                 colour: DVec3::ONE,
+                opacity: decoded.opacity().map(|map| cut_out(map, 1.0, THRESHOLD)),
                 texture: Some(decoded.texture),
                 specular: Specular::default(),
                 unlit: false,

@@ -10,6 +10,7 @@ use glam::DVec2;
 use image::{DynamicImage, ImageDecoder as _, ImageFormat, ImageReader, Limits};
 use rasterproof_core::grid::MAX_SIDE_PX;
 use rasterproof_host::limits;
+use rasterproof_render::pipeline::opacity::{AlphaMode, Opacity, OpacityMap};
 use rasterproof_render::pipeline::texture::{Filter, Texture, Wrap};
 
 use crate::{BadFile, bad, read_bytes};
@@ -21,8 +22,25 @@ const MOST_ENTRIES: usize = 1 << 16;
 #[derive(Clone, Debug)]
 pub(crate) struct Decoded {
     pub texture: Arc<Texture>,
-    /// Whether the file has texels that are not opaque. They are drawn as if they were.
-    pub transparent: bool,
+    /// The opacities of its texels, grey, where some are not opaque.
+    pub alpha: Option<Arc<Texture>>,
+}
+
+impl Decoded {
+    /// Its opacities, read as its colours are.
+    pub(crate) fn opacity(&self) -> Option<Arc<OpacityMap>> {
+        let (filter, wrap) = (self.texture.filter, self.texture.wrap);
+        let alpha = Texture::clone(self.alpha.as_ref()?).with(filter, wrap);
+        Some(Arc::new(OpacityMap::new(alpha)))
+    }
+}
+
+/// What is cut out of a surface whose file names no threshold.
+pub(crate) const THRESHOLD: f64 = 0.5;
+
+/// A surface with holes where a map is below a threshold.
+pub(crate) fn cut_out(map: Arc<OpacityMap>, factor: f64, threshold: f64) -> Opacity {
+    Opacity { factor, map: Some(map), mode: AlphaMode::Test { threshold } }
 }
 
 /// Reads a PNG, JPEG, BMP, TIFF or WebP, whatever its name ends in, or a TGA by its ending, since its content
@@ -64,15 +82,19 @@ pub(crate) fn decode(path: &Path, bytes: Vec<u8>) -> Result<Decoded, BadFile> {
         return Err(bad(path, None, cause));
     }
     let picture = DynamicImage::from_decoder(decoder).map_err(failed)?;
-    let transparent =
-        has_alpha && picture.to_luma_alpha8().pixels().any(|pixel| pixel.0[1] < u8::MAX);
+    let alpha: Vec<u8> = match has_alpha {
+        true => picture.to_luma_alpha8().pixels().map(|pixel| pixel.0[1]).collect(),
+        false => Vec::new(),
+    };
+    let is_opaque = alpha.iter().all(|alpha| *alpha == u8::MAX);
+    let alpha = if is_opaque { None } else { Texture::grey(width, height, alpha) };
     let texture = if is_grey {
         Texture::grey(width, height, picture.into_luma8().into_raw())
     } else {
         Texture::new(width, height, picture.into_rgb8().as_chunks::<3>().0)
     };
     let texture = texture.ok_or_else(|| bad(path, None, "is a picture without pixels"))?;
-    Ok(Decoded { texture: Arc::new(texture), transparent })
+    Ok(Decoded { texture: Arc::new(texture), alpha: alpha.map(Arc::new) })
 }
 
 /// The file that a model means by a name that it contains: as it is written, with slashes for backslashes, with

@@ -138,7 +138,7 @@ pub fn survey(
 }
 
 /// Effects that pixels pay for one by one.
-const MAPPED: [Effect; 10] = [
+const MAPPED: [Effect; 11] = [
     Effect::Perspective,
     Effect::Depth,
     Effect::Colour,
@@ -147,6 +147,7 @@ const MAPPED: [Effect; 10] = [
     Effect::Texture,
     Effect::MipMaps,
     Effect::Fog,
+    Effect::AlphaTest,
     Effect::Interpolation,
     Effect::Samples,
 ];

@@ -12,6 +12,7 @@ use gltf_json::validation::Checked;
 use rasterproof_host::limits;
 use rasterproof_host::text::{printable_path, printable_short};
 use rasterproof_render::pipeline::highlight::Specular;
+use rasterproof_render::pipeline::opacity::{AlphaMode as OpacityMode, Opacity};
 use rasterproof_render::pipeline::texture::{Filter, Texture, Wrap};
 
 use super::data::{Data, resource};
@@ -123,19 +124,21 @@ pub(super) fn describe(
     } else if material.emissive_factor.0.iter().any(|&channel| channel > 0.0) {
         count("emission of material");
     }
-    let is_opaque = material.alpha_mode == Checked::Valid(AlphaMode::Opaque);
-    if !is_opaque && alpha < 1.0 {
+    let (alpha_mode, alpha) = (material.alpha_mode, f64::from(alpha));
+    let is_blended = alpha_mode == Checked::Valid(AlphaMode::Blend);
+    if is_blended && alpha < 1.0 {
         count("transparency of material");
     }
+    let threshold = f64::from(material.alpha_cutoff.unwrap_or_default().0);
     let name = material.name.clone().unwrap_or_else(|| format!("materials[{number}]"));
-    let texture = info.and_then(|info| {
+    let decoded = info.and_then(|info| {
         let read = texture(data, info, pictures, &mut count);
         match read {
-            Ok((texture, transparent)) => {
-                if transparent && !is_opaque {
+            Ok(decoded) => {
+                if decoded.alpha.is_some() && is_blended {
                     count("transparency of texture");
                 }
-                Some(texture)
+                Some(decoded)
             }
             Err(cause) => {
                 let path = printable_path(pictures.path);
@@ -148,6 +151,12 @@ pub(super) fn describe(
             }
         }
     });
+    let opacity = (alpha_mode == Checked::Valid(AlphaMode::Mask)).then(|| Opacity {
+        factor: alpha.clamp(0.0, 1.0),
+        map: decoded.as_ref().and_then(Decoded::opacity),
+        mode: OpacityMode::Test { threshold },
+    });
+    let texture = decoded.map(|decoded| decoded.texture);
     let transform = info.and_then(|info| info.extensions.as_ref()?.texture_transform.as_ref());
     let set = info.map(|info| transform.and_then(|t| t.tex_coord).unwrap_or(info.tex_coord));
     Some(Described {
@@ -158,6 +167,7 @@ pub(super) fn describe(
             colour: DVec3::new(r.into(), g.into(), b.into()).map(encoded),
             texture,
             specular,
+            opacity,
             unlit,
             both_sides: material.double_sided,
         },
@@ -173,13 +183,13 @@ fn glossy([r, g, b]: [f32; 3], gloss: f32) -> Specular {
     Specular { colour, shininess: (2.0 / roughness - 2.0).min(f64::MAX) }
 }
 
-/// The picture of a texture with its sampler, and whether some of it is transparent.
+/// The picture of a texture with its sampler.
 fn texture(
     data: &Data<'_>,
     info: &Info,
     pictures: &mut Pictures<'_>,
     count: &mut impl FnMut(&str),
-) -> Result<(Arc<Texture>, bool), String> {
+) -> Result<Decoded, String> {
     let number = info.index.value();
     let missing = || format!("textures[{number}] is not there");
     let texture = data.root.textures.get(number).ok_or_else(missing)?;
@@ -204,7 +214,7 @@ fn texture(
     let nearest =
         sampler.and_then(|sampler| sampler.mag_filter) == Some(Checked::Valid(MagFilter::Nearest));
     let filter = if nearest { Filter::Nearest } else { Filter::Bilinear };
-    let mut picture = Arc::unwrap_or_clone(decoded.texture).with(filter, wrap);
+    let mut picture = Texture::clone(&decoded.texture).with(filter, wrap);
     if let Some(Checked::Valid(min_filter)) = sampler.and_then(|sampler| sampler.min_filter) {
         match min_filter {
             MinFilter::Nearest | MinFilter::Linear => {}
@@ -218,7 +228,7 @@ fn texture(
             }
         }
     }
-    Ok((Arc::new(picture), decoded.transparent))
+    Ok(Decoded { texture: Arc::new(picture), ..decoded })
 }
 
 /// The map of texture coordinates, by a rotation that is counter-clockwise with v down.

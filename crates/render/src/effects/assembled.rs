@@ -1,10 +1,11 @@
 //! A scene on its way from plan to picture: in clip space, and in pieces where they are looked at.
 
-use super::conditions::{fog, interpolation, mip_maps, perspective, specular};
+use super::conditions::{alpha_test, fog, interpolation, mip_maps, perspective, specular};
 use super::plan::{Attributes, Order, PiecePlan, Plan, Rule};
 use super::primitive::{BadScene, Piece, Prepared};
 use crate::pipeline::Counters;
 use crate::pipeline::fog::Share;
+use crate::pipeline::opacity::Drawn;
 use crate::scene::Scene;
 use rasterproof_core::arrays::MapArray as _;
 
@@ -52,9 +53,11 @@ impl<'a> Assembled<'a> {
 /// What a rule says about a piece.
 #[inline]
 pub(super) fn plan_of(rule: &Rule, item: &Prepared<'_>, piece: &Piece) -> PiecePlan {
+    let alpha_test = alpha_test::drawn(rule.alpha_test, item, piece);
     let mut fog = fog::share(rule.fog, item, piece);
     // Whoever has everything interpolated has what the fog hides interpolated too.
-    let is_hidden = fog == Share::Whole && rule.where_it_varies;
+    // Opacities need texture coordinates in the fog too.
+    let is_hidden = fog == Share::Whole && rule.where_it_varies && alpha_test != Drawn::Mixed;
     if fog == Share::Whole && !is_hidden {
         fog = Share::Mixed;
     }
@@ -63,5 +66,6 @@ pub(super) fn plan_of(rule: &Rule, item: &Prepared<'_>, piece: &Piece) -> PieceP
     let specular = !is_hidden && specular::pays(rule.specular, item, piece);
     let has_uv = interpolates.has(Attributes::UV);
     let mip_maps = has_uv && mip_maps::pays(rule.mip_maps, item, piece, perspective);
-    PiecePlan { interpolates, perspective, depth: rule.depth, specular, mip_maps, fog }
+    let depth = rule.depth;
+    PiecePlan { interpolates, perspective, depth, specular, mip_maps, fog, alpha_test }
 }

@@ -68,7 +68,9 @@ impl<'a> Rivals<'a> {
         if scene.hidden == Hidden::DepthBuffer {
             assembled.assemble(scene);
         }
-        let pieces = assembled.pieces.unwrap_or_default();
+        let mut pieces = assembled.pieces.unwrap_or_default();
+        // What may be seen through does not hide for sure; its ties with others are not found.
+        pieces.retain(|(item, _)| assembled.items[*item].item.material.opacity.is_none());
         let pattern = Pattern::of(canvas.antialias);
         Ok(Self { scene, items: assembled.items, pieces, canvas, pattern })
     }

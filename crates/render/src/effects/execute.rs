@@ -13,6 +13,7 @@ use super::primitive::{BadScene, Piece, Prepared};
 use super::samples::OnDemand;
 use crate::pipeline::Counters;
 use crate::pipeline::fog::Share;
+use crate::pipeline::opacity::Drawn;
 use crate::pipeline::target::{Colour, Target};
 use crate::scene::Scene;
 use rasterproof_core::contract::Interpolate;
@@ -338,6 +339,9 @@ impl<E: Interpolate> Stage<'_, '_, E> {
         plan: PiecePlan,
         counters: &mut Counters,
     ) {
+        if plan.is_nothing() {
+            return;
+        }
         counters.wide += u64::from(self.engine.word_bits(&piece.corners()) > Some(i32::BITS));
         if let Observer::Map(map) = &mut self.observer {
             let paid = paid(plan);
@@ -384,7 +388,7 @@ impl<E: Interpolate> Stage<'_, '_, E> {
 
 /// What a fragment of a piece pays for, as bits of [`Effect`].
 fn paid(plan: PiecePlan) -> u32 {
-    let PiecePlan { interpolates, perspective, depth, specular, mip_maps, fog } = plan;
+    let PiecePlan { interpolates, perspective, depth, specular, mip_maps, fog, alpha_test } = plan;
     [
         (Effect::Perspective, perspective && !interpolates.is_empty()),
         (Effect::Depth, depth),
@@ -394,6 +398,7 @@ fn paid(plan: PiecePlan) -> u32 {
         (Effect::Texture, interpolates.has(Attributes::UV)),
         (Effect::MipMaps, mip_maps),
         (Effect::Fog, fog == Share::Mixed),
+        (Effect::AlphaTest, alpha_test == Drawn::Mixed),
         (Effect::Interpolation, !interpolates.is_empty()),
     ]
     .into_iter()

@@ -17,6 +17,7 @@ use super::{Effects, Mode};
 use crate::pipeline::clip::Outcode;
 use crate::pipeline::fog::{Share, Veil};
 use crate::pipeline::highlight::Highlight;
+use crate::pipeline::opacity::Drawn;
 use crate::pipeline::shade::{ALL, Light};
 use crate::pipeline::texture::Texture;
 use crate::scene::{Corner, Hidden, Scene};
@@ -247,6 +248,7 @@ impl<'a> Item<'a> {
             specular: true,
             mip_maps: true,
             fog: Share::Mixed,
+            alpha_test: Drawn::All,
         };
         let plan = ItemPlan {
             clip: Mode::Planned,

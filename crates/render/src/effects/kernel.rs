@@ -14,6 +14,8 @@ use crate::pipeline::fill::{Stage, Way, each, fill, fill_flat};
 use crate::pipeline::fog::{Share, Veil};
 use crate::pipeline::footprint::Footprint;
 use crate::pipeline::highlight::{Highlight, brightened};
+use crate::pipeline::opacity::Opacity;
+use crate::pipeline::see_through::{self, Look};
 use crate::pipeline::shade::{ALL, Attributes as Packed, Light, Surface};
 use crate::pipeline::target::{Antialias, Colour, Target, to_colour};
 use crate::pipeline::texture::Texture;
@@ -40,6 +42,8 @@ pub(super) struct Kernel<'a> {
     footprint: Option<(Footprint, Option<&'a Veil>)>,
     /// The colour of a piece of which nothing but fog is seen.
     fogged: Option<Colour>,
+    /// Of pieces that are not opaque everywhere.
+    opacity: Option<&'a Opacity>,
 }
 
 impl<'a> Kernel<'a> {
@@ -61,10 +65,11 @@ impl<'a> Kernel<'a> {
             highlight: None,
             shine: [0; 3],
             fogged: None,
+            opacity: item.item.material.opacity.as_ref().filter(|_| !plan.is_opaque()),
             footprint: None,
             veil: (plan.fog != Share::None).then_some(&item.veil),
         };
-        if plan.fog == Share::Whole && plan.is_one_colour() {
+        if plan.fog == Share::Whole && plan.is_one_colour() && plan.is_opaque() {
             kernel.veil = None;
             kernel.fogged = Some(item.veil.colour());
             return kernel;
@@ -103,6 +108,10 @@ impl<'a> Kernel<'a> {
         samples: Option<&mut OnDemand>,
         counters: &mut Counters,
     ) {
+        if let Some(opacity) = self.opacity {
+            self.draw_see_through(engine, piece, target, samples, counters, opacity);
+            return;
+        }
         match self.plan.interpolates.0 {
             0 if self.veil.is_none() => self.draw_flat(engine, piece, target, samples, counters),
             0 => self.draw_as::<0, 0>(engine, piece, target, samples, counters),
@@ -141,6 +150,51 @@ impl<'a> Kernel<'a> {
         counters.shaded = shaded;
     }
 
+    /// Draws a piece that is not opaque everywhere: with all attributes, so that one copy draws any of them.
+    fn draw_see_through(
+        &self,
+        engine: &impl Interpolate,
+        piece: &Piece,
+        target: &mut Target,
+        samples: Option<&mut OnDemand>,
+        counters: &mut Counters,
+        opacity: &Opacity,
+    ) {
+        let PiecePlan { interpolates, perspective, depth, .. } = self.plan;
+        if samples.is_some_and(|on_demand| {
+            !on_demand.tell_box_apart(engine, piece, depth, target, counters)
+        }) {
+            return;
+        }
+        let first = piece.vertices[0].varying;
+        let has_uv = interpolates.has(Attributes::UV);
+        let look = Look {
+            constant: interpolates.is_empty().then_some(first),
+            opacity: &|varying| opacity.of(Surface::from(if has_uv { *varying } else { first }).uv),
+            colour: &|varying, depth| self.shade_all(varying, depth),
+        };
+        let way = Way { affine: !perspective, depth_test: depth };
+        let before = *counters;
+        let bounds = target.bounds();
+        let tested = see_through::fill(engine, piece, target, bounds, way, &look, counters);
+        let fragments = counters.fragments - before.fragments;
+        let shaded = counters.shaded - before.shaded;
+        let components = if interpolates.is_empty() { 0 } else { ALL as u64 };
+        counters.components += fragments * components;
+        counters.divisions += if way.affine { 0 } else { fragments };
+        counters.alpha_tests += tested;
+        counters.texels += if has_uv && self.texture.is_some() { shaded } else { 0 };
+        self.count(shaded, interpolates.has(Attributes::NORMAL), counters);
+    }
+
+    /// Counts what fragments that were shaded have paid for.
+    fn count(&self, shaded: u64, has_normals: bool, counters: &mut Counters) {
+        counters.highlights += if self.highlight.is_some() { shaded } else { 0 };
+        counters.fogged += if self.veil.is_some() { shaded } else { 0 };
+        counters.levels += if self.footprint.is_some() { shaded } else { 0 };
+        counters.lights += if has_normals { shaded } else { 0 };
+    }
+
     /// The kernel for the `N` components of the attributes in `MASK`.
     fn draw_as<const N: usize, const MASK: u8>(
         &self,
@@ -166,10 +220,7 @@ impl<'a> Kernel<'a> {
         counters.components += fragments * N as u64;
         counters.divisions += if way.affine { 0 } else { fragments };
         counters.texels += if MASK & Attributes::UV != 0 { shaded } else { 0 };
-        counters.highlights += if self.highlight.is_some() { shaded } else { 0 };
-        counters.fogged += if self.veil.is_some() { shaded } else { 0 };
-        counters.levels += if self.footprint.is_some() { shaded } else { 0 };
-        counters.lights += if MASK & Attributes::NORMAL != 0 { shaded } else { 0 };
+        self.count(shaded, MASK & Attributes::NORMAL != 0, counters);
     }
 
     /// The colour of all attributes, for what has no kernel of its own.

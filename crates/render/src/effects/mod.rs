@@ -58,6 +58,8 @@ pub enum Effect {
     MipMaps,
     /// Mixing colours with that of the fog, by distance.
     Fog,
+    /// Leaving out fragments that are not opaque enough.
+    AlphaTest,
     /// Interpolating an attribute, and computing what depends on it, in each fragment.
     Interpolation,
     /// Telling the samples of a supersampled or multisampled pixel apart.
@@ -70,7 +72,7 @@ pub enum Effect {
 
 impl Effect {
     /// All effects, in the order of the pipeline.
-    pub const ALL: [Self; 16] = [
+    pub const ALL: [Self; 17] = [
         Self::Clip,
         Self::Cull,
         Self::WideWords,
@@ -83,6 +85,7 @@ impl Effect {
         Self::Texture,
         Self::MipMaps,
         Self::Fog,
+        Self::AlphaTest,
         Self::Interpolation,
         Self::Samples,
         Self::Clear,
@@ -105,6 +108,7 @@ impl Effect {
             Self::Texture => "texture",
             Self::MipMaps => "mip-maps",
             Self::Fog => "fog",
+            Self::AlphaTest => "alpha-test",
             Self::Interpolation => "interpolation",
             Self::Samples => "samples",
             Self::Clear => "clear",
@@ -121,7 +125,7 @@ pub enum Mode {
     #[default]
     Planned,
     /// Wherever the material calls for it, whatever the triangles are like. Only interpolation, specular
-    /// light, mip maps and fog know the difference: a flat material needs no normal in the fragment.
+    /// light, mip maps, fog and the alpha test know the difference: a flat material needs no normal in the fragment.
     Material,
     /// Everywhere, called for or not.
     Always,
@@ -153,6 +157,7 @@ impl Effects {
         .with(Effect::Texture, Mode::Planned)
         .with(Effect::MipMaps, Mode::Material)
         .with(Effect::Fog, Mode::Material)
+        .with(Effect::AlphaTest, Mode::Material)
         .with(Effect::Interpolation, Mode::Material)
         .with(Effect::SecondBuffer, Mode::Planned);
 

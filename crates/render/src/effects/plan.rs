@@ -14,6 +14,7 @@ pub use super::scene_digest::SceneDigest;
 use super::{Effect, Mode};
 use crate::pipeline::depth::DepthFormat;
 use crate::pipeline::fog::Share;
+use crate::pipeline::opacity::Drawn;
 use crate::pipeline::target::{Antialias, Target};
 use rasterproof_core::grid::PixelRect;
 
@@ -164,6 +165,10 @@ fn is_none(share: &Share) -> bool {
     *share == Share::None
 }
 
+fn is_all(drawn: &Drawn) -> bool {
+    *drawn == Drawn::All
+}
+
 fn never() -> Mode {
     Mode::Never
 }
@@ -192,9 +197,22 @@ pub struct PiecePlan {
     /// Whether its fragments are mixed with fog, or show nothing else.
     #[serde(default, skip_serializing_if = "is_none")]
     pub fog: Share,
+    /// Whether the opacity of its fragments is compared with a threshold, or is below it everywhere.
+    #[serde(default, skip_serializing_if = "is_all")]
+    pub alpha_test: Drawn,
 }
 
 impl PiecePlan {
+    /// Whether every fragment is opaque: what it covers hides what was there.
+    pub(super) fn is_opaque(self) -> bool {
+        self.alpha_test == Drawn::All
+    }
+
+    /// Whether there is nothing to draw.
+    pub(super) fn is_nothing(self) -> bool {
+        self.alpha_test == Drawn::Nothing
+    }
+
     /// Whether all fragments of the piece have one colour.
     pub(super) fn is_one_colour(self) -> bool {
         self.interpolates.is_empty() && self.fog != Share::Mixed
@@ -222,6 +240,9 @@ pub struct Rule {
     /// Planned: as much as there is between the depths of the corners.
     #[serde(default = "never", skip_serializing_if = "is_never")]
     pub fog: Mode,
+    /// Planned: where the opacities that a piece may read lie on both sides of the threshold.
+    #[serde(default = "never", skip_serializing_if = "is_never")]
+    pub alpha_test: Mode,
 }
 
 /// What the pieces of an item pay for.
@@ -307,6 +328,10 @@ impl Samples {
     #[inline]
     pub(super) fn tells_apart(self, touched: PixelRect, plan: PiecePlan, planes: usize) -> bool {
         let Self::OnDemand { flat_px, varying_columns } = self else { return false };
+        // Each sample has an opacity of its own.
+        if !plan.is_opaque() {
+            return !plan.is_nothing();
+        }
         if plan.is_one_colour() {
             let area = u64::from(touched.width()) * u64::from(touched.height());
             plan.depth && area <= flat_px
@@ -448,7 +473,9 @@ mod tests {
     fn a_misspelt_word_of_a_plan_is_refused() {
         let interpolates = Attributes(5);
         let (perspective, depth, specular, fog) = (true, false, true, Share::None);
-        let plan = PiecePlan { interpolates, perspective, depth, specular, mip_maps: true, fog };
+        let (mip_maps, alpha_test) = (true, Drawn::Mixed);
+        let plan =
+            PiecePlan { interpolates, perspective, depth, specular, mip_maps, fog, alpha_test };
         let text = serde_json::to_string(&plan).unwrap();
         assert_eq!(serde_json::from_str::<PiecePlan>(&text).unwrap(), plan);
         let error = serde_json::from_str::<PiecePlan>(&text.replace("depth", "depht")).unwrap_err();

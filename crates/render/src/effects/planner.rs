@@ -3,8 +3,8 @@
 use super::assembled::{Assembled, plan_of};
 use super::conditions::survey::Survey;
 use super::conditions::{
-    attributes, clear, clip, cull, depth, depth_buffer, fog, interpolation, mip_maps, perspective,
-    samples, second_buffer, specular, wide_words,
+    alpha_test, attributes, clear, clip, cull, depth, depth_buffer, fog, interpolation, mip_maps,
+    perspective, samples, second_buffer, specular, wide_words,
 };
 use super::plan::{
     Canvas, Clear, Decision, FramePlan, ItemPlan, Order, PiecePlan, Pieces, Plan, Rule, VERSION,
@@ -13,6 +13,7 @@ use super::primitive::{BadScene, Piece, Prepared};
 use super::{Effect, Effects, Mode};
 use crate::pipeline::Counters;
 use crate::pipeline::fog::Share;
+use crate::pipeline::opacity::Drawn;
 use crate::scene::{Hidden, Scene};
 use rasterproof_core::triangle::Corners;
 
@@ -55,6 +56,7 @@ pub(super) fn plan<'a>(
         let fog_at_most = if has_fog { Share::Mixed } else { Share::None };
         for item in &assembled.items {
             let interpolates = interpolation::at_most(item.item, item.carries);
+            let is_cut = alpha_test::mode(item.item, effects) != Mode::Never;
             let plan = PiecePlan {
                 interpolates,
                 perspective: true,
@@ -62,6 +64,7 @@ pub(super) fn plan<'a>(
                 specular: false,
                 mip_maps: false,
                 fog: fog_at_most,
+                alpha_test: if is_cut { Drawn::Mixed } else { Drawn::All },
             };
             estimate.see_roughly(item, plan);
         }
@@ -72,7 +75,8 @@ pub(super) fn plan<'a>(
     }
     let samples = samples::decide(canvas, effects, estimate.as_ref());
     plan.frame.samples = samples;
-    plan.frame.clear = clear::decide(effects, &drawn, samples, assembled.pieces.as_deref());
+    let first = assembled.pieces.as_deref().map(|pieces| (pieces, &assembled.plans[..]));
+    plan.frame.clear = clear::decide(effects, &drawn, samples, first);
     plan.frame.clear_depths = depth_buffer::clears(effects, is_tested, samples);
     let looked_at = (!is_listed && depth::is_surveyed(scene))
         .then(|| depth::survey(scene, &assembled.items, &drawn));
@@ -95,8 +99,17 @@ fn outset(scene: &Scene, canvas: &Canvas, effects: &Effects) -> Plan {
         let specular = specular::mode(scene, item, carries, effects);
         let fog = fog::mode(scene, effects);
         let mip_maps = mip_maps::mode(item, carries, effects);
-        let rule =
-            Rule { interpolates, where_it_varies, perspective, depth, specular, mip_maps, fog };
+        let alpha_test = alpha_test::mode(item, effects);
+        let rule = Rule {
+            interpolates,
+            where_it_varies,
+            perspective,
+            depth,
+            specular,
+            mip_maps,
+            fog,
+            alpha_test,
+        };
         ItemPlan {
             clip: effects.mode(Effect::Clip),
             cull: effects.mode(Effect::Cull),
@@ -180,6 +193,7 @@ fn account(
         decisions.extend(specular::explain(survey));
         decisions.extend(mip_maps::explain(survey));
         decisions.extend(fog::explain(survey));
+        decisions.extend(alpha_test::explain(survey));
         decisions.push(interpolation::explain(survey));
     }
     let triangles = scene.triangles() as u64;

@@ -10,6 +10,7 @@ use super::plan::{Attributes, ItemPlan, PiecePlan};
 use crate::pipeline::assemble::{Assembler, BadVertex, Point, check_vertex};
 use crate::pipeline::fog::{Share, Veil};
 use crate::pipeline::highlight::Highlight;
+use crate::pipeline::opacity::Drawn;
 use crate::pipeline::shade::{ALL, Attributes as Packed, Light, Surface};
 use crate::pipeline::target::Antialias;
 use crate::pipeline::texture::Texture;
@@ -81,7 +82,7 @@ pub(super) fn highlight(scene: &Scene, item: &Item) -> Highlight {
 }
 
 impl<'a> Prepared<'a> {
-    /// What a fragment pays for where nothing that this item may show is left out.
+    /// What a fragment pays for where nothing that this item may show is left out, as if it were opaque.
     pub fn all_of_a_fragment(&self, perspective: bool) -> PiecePlan {
         PiecePlan {
             interpolates: self.carries,
@@ -90,6 +91,7 @@ impl<'a> Prepared<'a> {
             specular: self.carries_highlights,
             mip_maps: self.texture.is_some_and(Texture::has_mip_map),
             fog: Share::Mixed,
+            alpha_test: Drawn::All,
         }
     }
 
@@ -194,7 +196,8 @@ impl<'a> Prepared<'a> {
             Shading::Phong => self.normals * corner.normal,
             Shading::Unlit | Shading::Gouraud => DVec3::ZERO,
         };
-        let uv = if material.texture.is_some() { corner.uv } else { DVec2::ZERO };
+        let has_uv = material.texture.is_some() || material.has_opacity_map();
+        let uv = if has_uv { corner.uv } else { DVec2::ZERO };
         Surface { colour, normal, uv }.into()
     }
 

@@ -111,7 +111,7 @@ fn plan_and_draw(
 }
 
 /// Draws the edges of a scene's triangles by a line drawer, with the colours of its fragments. What
-/// any renderer does, and every depth is tested: lines have no inside to be planned for.
+/// any renderer does, and every depth is tested: lines have no inside to be planned for. They are opaque.
 ///
 /// # Errors
 /// As [`render`].

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::pipeline::assemble::Cull;
 use crate::pipeline::fog::{Fog, Growth};
 use crate::pipeline::highlight::Specular;
+use crate::pipeline::opacity::{AlphaMode, Opacity};
 use crate::pipeline::shade::Light;
 use crate::scene::{Corner, Hidden, Item, Material, Scene, Shading};
 
@@ -107,7 +108,7 @@ impl Words {
 
     fn item(&mut self, item: &Item) {
         let Item { mesh, model, material, cull } = item;
-        let Material { colour, vertex_colours, texture, shading, specular } = material;
+        let Material { colour, vertex_colours, texture, shading, specular, opacity } = material;
         self.numbers(&model.to_cols_array());
         self.point(*colour);
         self.whole((*vertex_colours).into());
@@ -123,6 +124,17 @@ impl Words {
         if *specular != Specular::default() {
             self.point(specular.colour);
             self.numbers(&[specular.shininess]);
+        }
+        if let Some(Opacity { factor, map, mode }) = opacity {
+            let (kind, threshold) = match *mode {
+                AlphaMode::Test { threshold } => (1, threshold),
+            };
+            self.whole(kind);
+            self.numbers(&[*factor, threshold]);
+            // A plan depends on the blocks of a map.
+            let blocks = map.as_ref().map_or(&[][..], |map| map.blocks());
+            self.whole(blocks.len() as u64);
+            blocks.iter().for_each(|block| self.whole(u16::from_le_bytes(*block).into()));
         }
         self.whole(match cull {
             Cull::None => 0,
@@ -160,7 +172,7 @@ mod tests {
         let renamed = Scene { name: "b".to_owned(), ..scene() };
         assert_eq!(SceneDigest::of(&renamed), digest);
         type Change = fn(&mut Scene);
-        let changes: [(&str, Change); 11] = [
+        let changes: [(&str, Change); 12] = [
             ("turned", |scene| scene.items[0].model = rasterproof_core::angle::turn_y(0.1)),
             ("another eye", |scene| scene.view = rasterproof_core::angle::turn_x(0.1)),
             ("another angle of view", |scene| scene.projection.x_axis.x = 2.0),
@@ -171,6 +183,11 @@ mod tests {
             }),
             ("shading", |scene| scene.items[0].material.shading = Shading::Phong),
             ("shiny", |scene| scene.items[0].material.specular.shininess = 10.0),
+            ("cut out", |scene| {
+                let mode = AlphaMode::Test { threshold: 0.5 };
+                let opacity = Opacity { factor: 1.0, map: None, mode };
+                scene.items[0].material.opacity = Some(opacity);
+            }),
             ("culled", |scene| scene.items[0].cull = Cull::Clockwise),
             ("painted", |scene| scene.hidden = Hidden::Painter),
             ("twice", |scene| scene.items.push(scene.items[0].clone())),

@@ -16,7 +16,9 @@ pub mod fog;
 pub mod footprint;
 pub mod highlight;
 pub mod multisample;
+pub mod opacity;
 pub mod present;
+pub mod see_through;
 pub mod shade;
 pub mod target;
 pub mod texture;
@@ -71,6 +73,8 @@ pub struct Counters {
     pub levels: u64,
     /// Evaluations of the light.
     pub lights: u64,
+    /// Visible fragments whose opacity was compared with a threshold.
+    pub alpha_tests: u64,
     /// Evaluations of a highlight.
     pub highlights: u64,
     /// Fragments that were mixed with fog.
@@ -106,6 +110,7 @@ impl std::ops::AddAssign for Counters {
         self.texels += other.texels;
         self.levels += other.levels;
         self.lights += other.lights;
+        self.alpha_tests += other.alpha_tests;
         self.highlights += other.highlights;
         self.fogged += other.fogged;
         self.shaded += other.shaded;

@@ -298,6 +298,43 @@ impl Texture {
         [least - rounding, most + rounding]
     }
 
+    /// The first and the last column and row of the texels that [`Self::at`] reads at coordinates between three, counted
+    /// beyond the borders too; all of them where a coordinate is far out.
+    ///
+    /// An engine's coordinate is off by at most 2^-53 (15 D + 2 M)
+    /// ([`rasterproof_verify::comparison::tolerance`]), and it is rounded three times before a texel is chosen,
+    /// all together less than the margin.
+    pub(super) fn texels_between(&self, uv: [DVec2; 3]) -> [[i64; 2]; 2] {
+        let ends = |[a, b, c]: [f64; 3], subtexels: f64| {
+            let most = a.abs().max(b.abs()).max(c.abs());
+            // NaN is not small, and a maximum leaves it out.
+            if !(most < 1e9 && (a + b + c).is_finite()) {
+                return [0, subtexels as i64 / SUBTEXELS - 1];
+            }
+            let margin = 64.0 * f64::EPSILON * (1.0 + most);
+            let [first, last] = [a.min(b).min(c) - margin, a.max(b).max(c) + margin]
+                .map_array(|end| subtexel(end, subtexels));
+            match self.filter {
+                Filter::Nearest => [first >> SUBTEXEL_BITS, last >> SUBTEXEL_BITS],
+                Filter::Bilinear => [
+                    (first - SUBTEXELS / 2) >> SUBTEXEL_BITS,
+                    ((last - SUBTEXELS / 2) >> SUBTEXEL_BITS) + 1,
+                ],
+            }
+        };
+        let (u, v) = (uv.map_array(|uv| uv.x), uv.map_array(|uv| 1.0 - uv.y));
+        [ends(u, self.subtexels.x), ends(v, self.subtexels.y)]
+    }
+
+    /// The red byte of a texel.
+    pub(super) fn red(&self, column: u32, row: u32) -> u8 {
+        let at = row as usize * self.width as usize + column as usize;
+        match &self.texels {
+            Texels::Colour(bytes) => bytes[at] as u8,
+            Texels::Grey(bytes) => bytes[at],
+        }
+    }
+
     /// The least and the largest of each channel in the whole texture.
     #[must_use]
     pub fn range(&self) -> [DVec3; 2] {

@@ -6,12 +6,13 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 
 use super::chapters::{AHEAD, Entry, daylight, turned, with};
-use super::{Item, Material, Scene, Shading, shapes, textures};
+use super::{Item, Material, Mesh, Scene, Shading, shapes, textures};
 use crate::pipeline::assemble::Cull;
 use crate::pipeline::fog::{Fog, Growth};
 use crate::pipeline::highlight::Specular;
-use crate::pipeline::texture::{Filter, Wrap};
-use rasterproof_core::angle::turn_y;
+use crate::pipeline::opacity::{AlphaMode, Opacity, OpacityMap};
+use crate::pipeline::texture::{Filter, Texture, Wrap};
+use rasterproof_core::angle::{turn_y, turn_z};
 
 /// Every such scene. The digests of frames are of the book's scenes alone.
 pub const SCENES: &[Entry] = &[
@@ -29,6 +30,11 @@ pub const SCENES: &[Entry] = &[
         name: "fog",
         about: "two rows of pillars into the distance, in fog from 4 to 12 from the eye",
         build: fog,
+    },
+    Entry {
+        name: "cut-outs",
+        about: "leaves before a wall, each a board of 72 triangles with a leaf cut out of it by its opacities",
+        build: cut_outs,
     },
 ];
 
@@ -93,6 +99,81 @@ fn fog(scene: Scene, turn: f64) -> Scene {
     }
     let fog = Some(Fog { colour: [r, g, b], growth });
     Scene { light: daylight(), fog, background, ..with(scene, items) }
+}
+
+/// A board of `parts` x `parts` squares about a centre, with a texture over all of it.
+fn board(centre: DVec3, side: f64, parts: u32) -> Mesh {
+    let mut mesh = Mesh::default();
+    let step = |i: u32| f64::from(i) / f64::from(parts);
+    for (row, column) in (0..parts).flat_map(|row| (0..parts).map(move |column| (row, column))) {
+        let at = |column: u32, row: u32| {
+            centre + DVec3::new(step(column) - 0.5, step(row) - 0.5, 0.0) * side
+        };
+        let [left, right, below, above] = [column, column + 1, row, row + 1];
+        let mut square =
+            shapes::quad([at(left, below), at(right, below), at(right, above), at(left, above)]);
+        let first = mesh.positions.len() as u32;
+        for corner in square.triangles.as_flattened_mut() {
+            corner.uv =
+                (corner.uv + DVec2::new(f64::from(column), f64::from(row))) / f64::from(parts);
+            corner.position += first;
+        }
+        mesh.positions.extend(square.positions);
+        mesh.triangles.extend(square.triangles);
+    }
+    mesh
+}
+
+/// A pointed leaf that lies across a square of 128 texels: its colours and its opacities.
+fn leaf() -> (Texture, Texture) {
+    let place = |column: u32, row: u32| [column, row].map(|at| (f64::from(at) - 63.5) / 64.0);
+    let reach =
+        |x: f64| 0.72 * (1.0 - x * x) * (0.86 + 0.14 * f64::from(((x + 1.0) * 8.0) as u32 % 2));
+    let colours = textures::generate(128, |column, row| {
+        let [x, y] = place(column, row);
+        let vein = y.abs() < 0.04 || ((x + y.abs()) * 7.0).rem_euclid(1.0) < 0.12;
+        DVec3::new(0.30, 0.52, 0.20) * if vein { 1.45 } else { 1.0 - 0.25 * y.abs() }
+    });
+    let alpha = (0..128 * 128).map(|at| {
+        let [x, y] = place(at % 128, at / 128);
+        // From opaque to clear within a texel and a half.
+        (((reach(x) - y.abs()) * 43.0 + 0.5).clamp(0.0, 1.0) * 255.0) as u8
+    });
+    let alpha = Texture::grey(128, 128, alpha.collect()).expect("128 x 128 texels");
+    let [colours, alpha] = [colours, alpha].map(|t| t.with(Filter::Bilinear, Wrap::Clamp));
+    (colours, alpha)
+}
+
+fn cut_outs(scene: Scene, turn: f64) -> Scene {
+    let at = |x: f64, y: f64| DVec3::new(x, y, 9.0);
+    let wall = shapes::quad([at(-6.0, -4.5), at(6.0, -4.5), at(6.0, 4.5), at(-6.0, 4.5)]);
+    let boards = Arc::new(textures::boards().with(Filter::Bilinear, Wrap::Clamp));
+    let boards = Material { texture: Some(boards), shading: Shading::Phong, ..Material::default() };
+    let mut items = vec![Item::new(wall, boards)];
+    let (colours, alpha) = leaf();
+    let opacity = Opacity {
+        factor: 1.0,
+        map: Some(Arc::new(OpacityMap::new(alpha))),
+        mode: AlphaMode::Test { threshold: 0.5 },
+    };
+    let leaf = Material {
+        texture: Some(Arc::new(colours)),
+        opacity: Some(opacity),
+        shading: Shading::Phong,
+        ..Material::default()
+    };
+    for number in 0..15 {
+        let (column, row) = (f64::from(number % 5), f64::from(number / 5));
+        let centre = DVec3::new(
+            1.15 * (column - 2.0),
+            1.1 * (row - 1.0),
+            4.0 + 0.4 * ((column * 2.0 + row) % 5.0),
+        );
+        let item = Item::new(board(centre, 1.7, 6), leaf.clone());
+        let tilt = turn_z(0.5 * (column - row)) * turn_y(0.35 * (row - column / 2.0) + turn * TAU);
+        items.push(turned(item, centre, tilt));
+    }
+    Scene { light: daylight(), ..with(scene, items) }
 }
 
 fn mip_maps(scene: Scene, turn: f64) -> Scene {

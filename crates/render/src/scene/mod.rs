@@ -17,6 +17,7 @@ use glam::{DMat4, DVec2, DVec3};
 use crate::pipeline::assemble::Cull;
 use crate::pipeline::fog::Fog;
 use crate::pipeline::highlight::Specular;
+use crate::pipeline::opacity::Opacity;
 use crate::pipeline::shade::Light;
 use crate::pipeline::target::Colour;
 use crate::pipeline::texture::Texture;
@@ -105,13 +106,24 @@ pub struct Material {
     pub shading: Shading,
     /// Its highlights, with flat and Phong shading.
     pub specular: Specular,
+    /// Nothing where all of it is opaque.
+    pub opacity: Option<Opacity>,
+}
+
+impl Material {
+    /// Whether its opacity is read at texture coordinates.
+    #[must_use]
+    pub fn has_opacity_map(&self) -> bool {
+        self.opacity.as_ref().is_some_and(|opacity| opacity.map.is_some())
+    }
 }
 
 impl Default for Material {
     fn default() -> Self {
         let shading = Shading::Unlit;
         let specular = Specular::default();
-        Self { colour: DVec3::ONE, vertex_colours: false, texture: None, shading, specular }
+        let (texture, opacity) = (None, None);
+        Self { colour: DVec3::ONE, vertex_colours: false, texture, shading, specular, opacity }
     }
 }
 

@@ -10,8 +10,9 @@ use super::{Hidden, Item, Material, Mesh, Scene, Shading, shapes, textures};
 use crate::pipeline::assemble::Cull;
 use crate::pipeline::fog::{Fog, Growth};
 use crate::pipeline::highlight::Specular;
+use crate::pipeline::opacity::{AlphaMode, Opacity, OpacityMap};
 use crate::pipeline::shade::Light;
-use crate::pipeline::texture::{Filter, Wrap};
+use crate::pipeline::texture::{Filter, Texture, Wrap};
 use crate::pipeline::transform::{about, frustum};
 use rasterproof_core::angle::{turn_x, turn_y};
 use rasterproof_verify::cases::Rng;
@@ -38,7 +39,7 @@ pub fn scene(seed: u64, index: u64) -> Scene {
 }
 
 /// The same scene with effects beyond the book's: some of its materials have
-/// highlights, some of its textures mip maps, and some scenes fog.
+/// highlights or holes, some of its textures mip maps, and some scenes fog.
 ///
 /// # Panics
 /// As [`scene`].
@@ -73,7 +74,37 @@ pub fn with_effects(seed: u64, index: u64) -> Scene {
         let colour = if rng.chance(2) { [r, g, b] } else { [220, 225, 235] };
         scene.fog = Some(Fog { colour, growth });
     }
+    for item in &mut scene.items {
+        if rng.chance(3) {
+            item.material.opacity = Some(opacity(&mut rng));
+        }
+    }
     scene
+}
+
+/// Opacities in patches: none, all, and anything.
+fn opacity(rng: &mut Rng) -> Opacity {
+    let (width, height) = (rng.int(1, 50) as u32, rng.int(1, 50) as u32);
+    let (patch, first) = (rng.int(1, 30) as u32, rng.int(0, 2) as u32);
+    let mut texels = Vec::new();
+    for at in 0..width * height {
+        let (x, y) = (at % width / patch, at / width / patch);
+        texels.push(match (x + 2 * y + first) % 3 {
+            0 => 0,
+            1 => u8::MAX,
+            _ => rng.int(0, 255) as u8,
+        });
+    }
+    let filter = [Filter::Nearest, Filter::Bilinear][rng.int(0, 1) as usize];
+    let wrap = [Wrap::Repeat, Wrap::Clamp][rng.int(0, 1) as usize];
+    let texture = Texture::grey(width, height, texels).expect("as many texels as it has");
+    let map = OpacityMap::new(texture.with(filter, wrap));
+    let threshold = [0.0, 0.1, 0.5, 1.0][rng.int(0, 3) as usize];
+    Opacity {
+        factor: if rng.chance(3) { rng.unit() } else { 1.0 },
+        map: (!rng.chance(6)).then(|| Arc::new(map)),
+        mode: AlphaMode::Test { threshold },
+    }
 }
 
 fn item(rng: &mut Rng) -> Item {

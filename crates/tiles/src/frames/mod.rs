@@ -9,7 +9,7 @@
 //!
 //! It is the fast way, not the exact one: coverage is that of the other engines, values lie within
 //! their bound of the exact ones, and so two surfaces nearer to each other than that may come out in
-//! either order. It does not plan, and of antialiasing it has four samples a pixel, shaded once.
+//! either order. It draws every surface opaque ([`not_opaque`]), it does not plan, and of antialiasing it has four samples a pixel, shaded once.
 
 mod bins;
 mod buffer;
@@ -49,6 +49,14 @@ pub enum Samples {
     One,
     /// Four at [`multisample::SAMPLES`], shaded once for each triangle.
     Four,
+}
+
+/// Triangles of materials that are not opaque. They are drawn as if they were, so a scene with any is for
+/// another engine.
+#[must_use]
+pub fn not_opaque(scene: &Scene) -> usize {
+    let items = scene.items.iter().filter(|item| item.material.opacity.is_some());
+    items.map(|item| item.mesh.triangles.len()).sum()
 }
 
 /// Draws a scene into a picture of its own, on the threads of the pool that it is called in.

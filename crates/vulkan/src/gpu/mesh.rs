@@ -66,8 +66,10 @@ fn surface(scene: &Scene) -> Result<Surface, Error> {
         return Err(wrong("not lit at each fragment alone"));
     }
     let has_highlights = item.material.specular.colour.max_element() > 0.0;
-    if has_highlights || texture.has_mip_map() || scene.fog.is_some() {
-        return Err(wrong("highlights, a mip map or fog, which the shaders of this device lack"));
+    let is_opaque = item.material.opacity.is_none();
+    if has_highlights || texture.has_mip_map() || scene.fog.is_some() || !is_opaque {
+        let what = "highlights, a mip map, fog or holes, which the shaders of this device lack";
+        return Err(wrong(what));
     }
     let (columns, rows) = texture.size();
     let (corners, indices) = corners(item);

@@ -22,7 +22,7 @@ fn uses(scene: &Scene, item: &Item, effect: Effect) -> bool {
     match effect {
         Effect::Colour => material.vertex_colours || material.shading == Shading::Gouraud,
         Effect::Light => is_lit(scene, item),
-        _ => material.texture.is_some(),
+        _ => material.texture.is_some() || material.has_opacity_map(),
     }
 }
 

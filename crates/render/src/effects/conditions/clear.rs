@@ -2,11 +2,11 @@
 //!
 //! Left out for tiles that the first piece covers, or the second if it shares an edge with it: what
 //! a triangle covers is convex, so it covers a tile if it covers the four corner pixels. Here the
-//! centres must lie strictly inside, which is what every rasterizer covers.
+//! centres must lie strictly inside, which is what every rasterizer covers. Only opaque pieces count.
 
 use super::depth::share_an_edge;
 use super::survey::of_frame;
-use crate::effects::plan::{Canvas, Clear, Decision, FramePlan, Samples};
+use crate::effects::plan::{Canvas, Clear, Decision, FramePlan, PiecePlan, Samples};
 use crate::effects::primitive::{Piece, pixel_box};
 use crate::effects::{Effect, Effects, Mode};
 use crate::pipeline::assemble::twice_area;
@@ -18,12 +18,15 @@ use rasterproof_core::triangle::Corners;
 /// Side of the tiles whose clearing is decided together.
 const TILE_PX: i32 = 32;
 
-/// What is cleared; `pieces` are those that are drawn first, where that is known.
+/// Pieces with the items they are of, and their plans.
+type Drawn<'a> = (&'a [(usize, Piece)], &'a [PiecePlan]);
+
+/// What is cleared; `pieces` are all with their plans, in the order of drawing, where that is known.
 pub fn decide(
     effects: &Effects,
     canvas: &Canvas,
     samples: Samples,
-    pieces: Option<&[(usize, Piece)]>,
+    pieces: Option<Drawn<'_>>,
 ) -> Clear {
     match effects.mode(Effect::Clear) {
         Mode::Always => Clear::Everything,
@@ -36,8 +39,13 @@ pub fn decide(
 }
 
 /// The tiles that the first piece does not cover; nothing where that is not known.
-fn tiles(canvas: &Canvas, pieces: &[(usize, Piece)]) -> Option<Vec<PixelRect>> {
-    let first = pieces.first()?.1.corners();
+fn tiles(canvas: &Canvas, (pieces, plans): Drawn<'_>) -> Option<Vec<PixelRect>> {
+    // Something is seen through what is not opaque.
+    let corners = |at: usize| {
+        let (_, piece) = pieces.get(at).filter(|_| plans[at].is_opaque())?;
+        Some(piece.corners())
+    };
+    let first = corners(0)?;
     // A small first piece covers no tile; samples off the centre are not asked for.
     let touched = pixel_box(&first, 0);
     let tile_area = i128::from(TILE_PX * SUBPIXELS).pow(2);
@@ -48,8 +56,7 @@ fn tiles(canvas: &Canvas, pieces: &[(usize, Piece)]) -> Option<Vec<PixelRect>> {
         return None;
     }
     // The second piece is drawn over what the first leaves only if it shares an edge with it.
-    let second = pieces.get(1).map(|(_, piece)| piece.corners());
-    let second = second.filter(|second| share_an_edge(&first, second));
+    let second = corners(1).filter(|second| share_an_edge(&first, second));
     let is_covered = |tile: PixelRect| {
         let ends = [(tile.x0, tile.y0), (tile.x1 - 1, tile.y1 - 1)];
         [Some(first), second].into_iter().flatten().any(|corners| holds(corners, ends))

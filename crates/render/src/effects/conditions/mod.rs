@@ -3,6 +3,7 @@
 //!
 //! A condition sees the scene, the canvas and pieces; never an engine, never a pixel.
 
+pub(super) mod alpha_test;
 pub(super) mod attributes;
 pub(super) mod clear;
 pub(super) mod clip;

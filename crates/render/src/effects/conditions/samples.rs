@@ -63,7 +63,7 @@ impl Estimate {
     /// Takes a piece into account.
     pub fn see(&mut self, corners: &Corners, plan: PiecePlan) {
         let rect = touched(corners, self.canvas.antialias);
-        if self.see_box(rect, plan) {
+        if plan.is_nothing() || self.see_box(rect, plan) {
             return;
         }
         let rect = rect.intersect(&self.canvas.size());

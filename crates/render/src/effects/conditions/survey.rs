@@ -7,6 +7,7 @@ use crate::effects::plan::{Attributes, Decision, PiecePlan, Unit};
 use crate::effects::primitive::{Piece, has_one_w};
 use crate::effects::{Effect, Effects, Mode};
 use crate::pipeline::fog::Share;
+use crate::pipeline::opacity::Drawn;
 use crate::scene::{Item, Scene};
 
 /// One item, and what is known of its pieces.
@@ -25,6 +26,8 @@ pub struct Survey<'a> {
     pub depth: u64,
     /// Pieces that are partly in the fog, and those that are wholly.
     pub shares: [u64; 2],
+    /// Pieces of which some fragments are opaque enough, and those of which none is.
+    pub tested: [u64; 2],
     /// Pieces that are not magnified everywhere.
     pub mip_maps: u64,
     /// Pieces that may have a highlight.
@@ -60,6 +63,7 @@ impl<'a> Survey<'a> {
             specular: 0,
             mip_maps: 0,
             shares: [0; 2],
+            tested: [0; 2],
             has_widths: false,
             wide: 0,
             interpolated: [0; 3],
@@ -74,6 +78,9 @@ impl<'a> Survey<'a> {
         self.depth += u64::from(plan.depth);
         for (count, share) in self.shares.iter_mut().zip([Share::Mixed, Share::Whole]) {
             *count += u64::from(plan.fog == share);
+        }
+        for (count, drawn) in self.tested.iter_mut().zip([Drawn::Mixed, Drawn::Nothing]) {
+            *count += u64::from(plan.alpha_test == drawn);
         }
         self.mip_maps += u64::from(plan.mip_maps);
         self.specular += u64::from(plan.specular);

@@ -17,7 +17,7 @@ use rasterproof_core::grid::PixelRect;
 impl OnDemand {
     /// Tells all pixels of a piece's bounding box apart, before it is drawn sample by sample; false
     /// where all of it is hidden.
-    pub(super) fn tell_box_apart(
+    pub(in crate::effects) fn tell_box_apart(
         &mut self,
         engine: &impl Interpolate,
         piece: &Piece,

@@ -1,0 +1,321 @@
+//! Opacity: how much a fragment covers of what is behind it, in whole steps of 255.
+//!
+//! The opacity of a fragment is a factor of its material, times what a map has at the texture coordinates, rounded to a
+//! step. The map is read at its full size, whatever level of detail the colours are read at. The alpha test makes
+//! of it all or nothing: a fragment is drawn as any other if its opacity reaches the threshold, and else it
+//! leaves neither colour nor depth. Of several samples a pixel each is tested by itself.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use glam::DVec2;
+
+use super::depth::OFF_FRACTION;
+use super::texture::{Texture, Wrap};
+
+/// What a material lets through.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Opacity {
+    /// In [0, 1], of all fragments.
+    pub factor: f64,
+    pub map: Option<Arc<OpacityMap>>,
+    pub mode: AlphaMode,
+}
+
+/// What becomes of a fragment by its opacity.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum AlphaMode {
+    /// It is drawn from this opacity on, in [0, 1]; above 1 never.
+    Test { threshold: f64 },
+}
+
+/// What is drawn of a piece.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Drawn {
+    /// Every fragment is opaque.
+    #[default]
+    All,
+    /// Each fragment has an opacity of its own.
+    Mixed,
+    Nothing,
+}
+
+/// All of what is behind is covered.
+pub const OPAQUE: u8 = u8::MAX;
+
+/// What opacities are rounded by, in steps: far more than two engines differ, far less than a step.
+const MARGIN: f64 = 1.0 / (1u64 << 32) as f64;
+
+fn step(opacity: f64) -> f64 {
+    opacity * 255.0 + (0.5 + OFF_FRACTION)
+}
+
+impl Opacity {
+    /// The steps of opacity that are read at these texture coordinates.
+    #[must_use]
+    pub fn read(&self, uv: DVec2) -> u8 {
+        step(self.factor * self.map.as_ref().map_or(1.0, |map| map.at(uv))) as u8
+    }
+
+    /// How opaque a fragment with these texture coordinates is.
+    #[must_use]
+    pub fn of(&self, uv: DVec2) -> u8 {
+        self.mode.of(self.read(uv))
+    }
+
+    /// What is drawn of a triangle with these texture coordinates at its corners.
+    ///
+    /// Those of a fragment lie between, so what is read lies in the interval of the texels that
+    /// [`OpacityMap::between`] finds. Product and rounding grow with the texel, and so does what becomes of an
+    /// opacity: one at either end decides about all. The margin covers the roundings of a bilinear mean.
+    #[must_use]
+    pub fn between(&self, uv: [DVec2; 3]) -> Drawn {
+        let [least, most] = self.map.as_ref().map_or([u8::MAX; 2], |map| map.between(uv));
+        let read = |texel: u8, margin: f64| {
+            self.mode.of((step(self.factor * f64::from(texel) / 255.0) + margin) as u8)
+        };
+        match (read(least, -MARGIN), read(most, MARGIN)) {
+            (OPAQUE, _) => Drawn::All,
+            (_, 0) => Drawn::Nothing,
+            _ => Drawn::Mixed,
+        }
+    }
+}
+
+impl AlphaMode {
+    /// What becomes of an opacity.
+    fn of(self, opacity: u8) -> u8 {
+        match self {
+            // A threshold that a file has in single precision may be a whole step and its last bit.
+            Self::Test { threshold } => {
+                let passes = f64::from(opacity) >= threshold * 255.0 - 1.0 / 4096.0;
+                if passes { OPAQUE } else { 0 }
+            }
+        }
+    }
+}
+
+/// A picture of opacities, with the least and the largest of each block of its texels.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OpacityMap {
+    texture: Texture,
+    blocks: Vec<[u8; 2]>,
+    /// Of all texels.
+    whole: [u8; 2],
+}
+
+/// Texels along the side of a block.
+const BLOCK: i64 = 8;
+
+/// Of triangles that read in more blocks, those of the whole picture are taken.
+const MOST_BLOCKS: usize = 256;
+
+impl OpacityMap {
+    /// Of the red channel of a texture, which is read as the texture is.
+    #[must_use]
+    pub fn new(texture: Texture) -> Self {
+        let (width, height) = texture.size();
+        let none = [u8::MAX, 0];
+        let join = |[a, b]: [u8; 2], [c, d]: [u8; 2]| [a.min(c), b.max(d)];
+        let across = across(width);
+        let mut blocks = vec![none; across * (height as usize).div_ceil(BLOCK as usize)];
+        for y in 0..height {
+            for x in 0..width {
+                let texel = texture.red(x, y);
+                let block =
+                    &mut blocks[y as usize / BLOCK as usize * across + x as usize / BLOCK as usize];
+                *block = join(*block, [texel; 2]);
+            }
+        }
+        let whole = blocks.iter().fold(none, |whole, block| join(whole, *block));
+        Self { texture, blocks, whole }
+    }
+
+    /// The texture that it was made of.
+    #[must_use]
+    pub fn texture(&self) -> &Texture {
+        &self.texture
+    }
+
+    /// The least and the largest of each block, row by row.
+    #[must_use]
+    pub fn blocks(&self) -> &[[u8; 2]] {
+        &self.blocks
+    }
+
+    /// The opacity at texture coordinates, in [0, 1].
+    #[must_use]
+    pub fn at(&self, uv: DVec2) -> f64 {
+        self.texture.at(uv).x
+    }
+
+    /// The least and the largest texel of the blocks that a triangle with these texture coordinates at its corners
+    /// reads in, and of the whole picture where these are more than 256.
+    #[must_use]
+    pub fn between(&self, uv: [DVec2; 3]) -> [u8; 2] {
+        let (width, height) = self.texture.size();
+        let [columns, rows] = self.texture.texels_between(uv);
+        let columns = blocks(self.texture.wrap, columns, width.into());
+        let rows = blocks(self.texture.wrap, rows, height.into());
+        let count = |ranges: &[Range<usize>; 2]| ranges[0].len() + ranges[1].len();
+        if count(&columns) * count(&rows) > MOST_BLOCKS {
+            return self.whole;
+        }
+        let mut found = [u8::MAX, 0];
+        for row in rows.into_iter().flatten() {
+            for column in columns.iter().cloned().flatten() {
+                let [least, most] = self.blocks[row * across(width) + column];
+                found = [found[0].min(least), found[1].max(most)];
+            }
+        }
+        found
+    }
+}
+
+/// Blocks in a row of a picture.
+fn across(width: u32) -> usize {
+    (width as usize).div_ceil(BLOCK as usize)
+}
+
+/// The blocks of texels between two that are counted beyond the borders too: one range, or two where the picture
+/// begins again between them.
+fn blocks(wrap: Wrap, [first, last]: [i64; 2], side: i64) -> [Range<usize>; 2] {
+    let range = |first: i64, last: i64| (first / BLOCK) as usize..(last / BLOCK + 1) as usize;
+    match wrap {
+        Wrap::Clamp => [range(first.clamp(0, side - 1), last.clamp(0, side - 1)), 0..0],
+        Wrap::Repeat if last - first >= side - 1 => [range(0, side - 1), 0..0],
+        Wrap::Repeat => {
+            let start = first.rem_euclid(side);
+            let end = start + (last - first);
+            if end < side {
+                [range(start, end), 0..0]
+            } else {
+                [range(start, side - 1), range(0, end - side)]
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pipeline::texture::Filter;
+    use rasterproof_core::arrays::MapArray as _;
+    use rasterproof_verify::cases::Rng;
+
+    /// A picture of mostly opaque and mostly clear parts with a speck here and there, and a triangle in it.
+    fn case(index: u64) -> (Opacity, [DVec2; 3]) {
+        let mut rng = Rng::new("opacity", 1, index);
+        let (width, height) = (rng.int(1, 70) as u32, rng.int(1, 70) as u32);
+        let mut texels = Vec::new();
+        let (one, other) = (rng.int(1, 9) as u32, rng.int(5, 40) as u32);
+        for at in 0..width * height {
+            let (x, y) = (at % width, at / width);
+            let speck = rng.chance(400);
+            let is_clear = ((x / other + y / other) % 3 == one % 3) != speck;
+            texels.push(if is_clear { 0 } else { u8::MAX });
+        }
+        let filter = [Filter::Nearest, Filter::Bilinear][rng.int(0, 1) as usize];
+        let wrap = [Wrap::Repeat, Wrap::Clamp][rng.int(0, 1) as usize];
+        let texture = Texture::grey(width, height, texels).unwrap().with(filter, wrap);
+        let map = Some(Arc::new(OpacityMap::new(texture)));
+        let factor = if rng.chance(4) { rng.unit() } else { 1.0 };
+        let mode = AlphaMode::Test { threshold: [0.25, 0.5, 1.0][rng.int(0, 2) as usize] };
+        let from = DVec2::new(rng.signed(), rng.signed()) * 3.0;
+        let size = rng.unit().powi(2);
+        let uv = [0; 3].map_array(|_| from + DVec2::new(rng.signed(), rng.signed()) * size);
+        (Opacity { factor, map, mode }, uv)
+    }
+
+    type Condition = fn(&Opacity, [DVec2; 3]) -> Drawn;
+
+    /// How many of random triangles a condition calls opaque or empty, and for how many of these a
+    /// fragment says otherwise.
+    fn tried(condition: Condition) -> [u32; 2] {
+        let mut counts = [0; 2];
+        for index in 0..3000 {
+            let (opacity, uv) = case(index);
+            let drawn = condition(&opacity, uv);
+            let wanted = match drawn {
+                Drawn::Mixed => continue,
+                Drawn::All => OPAQUE,
+                Drawn::Nothing => 0,
+            };
+            let [a, b, c] = uv;
+            let steps =
+                (0..=40).flat_map(|i| (0..=40 - i).map(move |j| (f64::from(i), f64::from(j))));
+            let mut fragments = steps.map(|(i, j)| a + (b - a) * (i / 40.0) + (c - a) * (j / 40.0));
+            counts[0] += 1;
+            counts[1] += u32::from(fragments.any(|uv| opacity.of(uv) != wanted));
+        }
+        counts
+    }
+
+    /// A condition by the texels of some points.
+    fn of_points(opacity: &Opacity, points: &[DVec2]) -> Drawn {
+        let all = |wanted: u8| points.iter().all(|uv| opacity.of(*uv) == wanted);
+        if all(OPAQUE) {
+            Drawn::All
+        } else if all(0) {
+            Drawn::Nothing
+        } else {
+            Drawn::Mixed
+        }
+    }
+
+    #[test]
+    fn a_triangle_without_a_test_needs_none() {
+        let [known, wrong] = tried(Opacity::between);
+        assert!(known > 700 && wrong == 0, "{known}, {wrong}");
+        // Wrong ones: by the material alone (an alpha test that is wrongly left out), by the corners, by the middle,
+        // by the texels of the corners without those that a filter reads beside them, and left out where any
+        // texel is clear.
+        let material: Condition =
+            |opacity, uv| Opacity { map: None, ..opacity.clone() }.between(uv);
+        let corners: Condition = |opacity, uv| of_points(opacity, &uv);
+        let middle: Condition = |opacity, [a, b, c]| of_points(opacity, &[(a + b + c) / 3.0]);
+        let unfiltered: Condition = |opacity, uv| {
+            let map = opacity.map.as_ref().unwrap();
+            let nearest = map.texture.clone().with(Filter::Nearest, map.texture.wrap);
+            let steps =
+                (0..=40).flat_map(|i| (0..=40 - i).map(move |j| (f64::from(i), f64::from(j))));
+            let [a, b, c] = uv;
+            let points: Vec<_> =
+                steps.map(|(i, j)| a + (b - a) * (i / 40.0) + (c - a) * (j / 40.0)).collect();
+            let map = Some(Arc::new(OpacityMap::new(nearest)));
+            of_points(&Opacity { map, ..opacity.clone() }, &points)
+        };
+        let any: Condition = |opacity, uv| {
+            let [least, _] = opacity.map.as_ref().unwrap().between(uv);
+            if least == 0 { Drawn::Nothing } else { opacity.between(uv) }
+        };
+        for (number, condition) in
+            [material, corners, middle, unfiltered, any].into_iter().enumerate()
+        {
+            assert!(tried(condition)[1] > 0, "wrong condition {number} survives");
+        }
+    }
+
+    #[test]
+    fn thresholds_by_hand() {
+        let map = OpacityMap::new(Texture::grey(2, 1, vec![127, 128]).unwrap());
+        let opacity = |threshold: f64| Opacity {
+            factor: 1.0,
+            map: Some(Arc::new(map.clone())),
+            mode: AlphaMode::Test { threshold },
+        };
+        let [left, right] = [0.25, 0.75].map(|u| DVec2::new(u, 0.5));
+        assert_eq!([left, right].map(|uv| opacity(0.5).of(uv)), [0, OPAQUE], "127.5 is between");
+        // A last bit of single precision above 127 steps.
+        let single = f64::from((127.0f32 / 255.0).next_up());
+        assert_eq!(opacity(single).of(left), OPAQUE);
+        assert_eq!(opacity(0.0).between([left; 3]), Drawn::All);
+        assert_eq!(opacity(1.5).between([right; 3]), Drawn::Nothing);
+        assert_eq!(opacity(0.5).between([left, right, left]), Drawn::Mixed);
+        let far = DVec2::new(f64::INFINITY, f64::NAN);
+        assert_eq!(opacity(0.5).between([left, right, far]), Drawn::Mixed);
+        let half = Opacity { factor: 0.5, map: None, ..opacity(0.5) };
+        assert_eq!((half.read(left), half.of(left)), (128, OPAQUE));
+    }
+}

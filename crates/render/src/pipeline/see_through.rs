@@ -1,0 +1,169 @@
+//! Triangles that are not opaque everywhere: what becomes of a fragment is known when its opacity is, so its depth
+//! is compared before and written afterwards.
+
+use super::Counters;
+use super::depth::DepthFormat;
+use super::fill::Way;
+use super::multisample::{SAMPLES, moved};
+use super::opacity::OPAQUE;
+use super::shade::{ALL, Attributes};
+use super::target::{Antialias, Colour, SamplePlane, Target};
+use rasterproof_core::contract::{Interpolate, Varyings};
+use rasterproof_core::grid::PixelRect;
+use rasterproof_core::triangle::ScreenTriangle;
+
+type Varying = Attributes<ALL>;
+
+/// What fragments look like.
+pub struct Look<'a> {
+    /// What all fragments have, where nothing is interpolated.
+    pub constant: Option<Varying>,
+    /// In steps of 255.
+    pub opacity: &'a dyn Fn(&Varying) -> u8,
+    /// Of attributes and depth.
+    pub colour: &'a dyn Fn(&Varying, f64) -> Colour,
+}
+
+impl Look<'_> {
+    /// Shows each fragment of a run whose bit is set.
+    fn each(
+        &self,
+        values: &mut dyn Varyings<Varying>,
+        wanted: u32,
+        see: &mut dyn FnMut(usize, &Varying),
+    ) {
+        if wanted == 0 {
+            return;
+        }
+        let from = wanted.trailing_zeros() as usize;
+        let to = (u32::BITS - wanted.leading_zeros()) as usize;
+        let varyings = if self.constant.is_some() { &[][..] } else { values.varyings(from, to) };
+        for i in (from..to).filter(|i| wanted >> i & 1 != 0) {
+            see(i, self.constant.as_ref().unwrap_or_else(|| &varyings[i - from]));
+        }
+    }
+}
+
+/// The fragments of a run that are nearer than what is there; all where depths are not compared.
+fn nearer(format: DepthFormat, way: Way, depths: &[f64], stored: &[u64]) -> u32 {
+    let mut bits = 0;
+    for (i, (depth, stored)) in depths.iter().zip(stored).enumerate() {
+        bits |= u32::from(!way.depth_test || format.key(*depth) < *stored) << i;
+    }
+    bits
+}
+
+/// Draws one triangle, as far as it lies in `bounds`; how many fragments were looked at by their opacity.
+///
+/// Of four samples a pixel each has an opacity of its own, and those that are drawn have one colour: that at the centre
+/// where the triangle covers it, else that at the first of them, as of an opaque triangle.
+pub fn fill(
+    engine: &impl Interpolate,
+    piece: &ScreenTriangle<Varying>,
+    target: &mut Target,
+    bounds: PixelRect,
+    way: Way,
+    look: &Look<'_>,
+    counters: &mut Counters,
+) -> u64 {
+    if target.antialias() == Antialias::Multisample4 {
+        return fill_multisampled(engine, piece, target, bounds, way, look, counters);
+    }
+    let format = target.format;
+    let SamplePlane { colour, depth } = &mut target.planes[0];
+    let (mut emitted, mut visible, mut shaded) = (0, 0, 0);
+    engine.runs(piece, bounds, way.affine, &mut |run| {
+        let (y_px, x0_px, x1_px) = (run.y_px, run.x0_px, run.x1_px());
+        let stored = depth.span_mut(y_px, x0_px, x1_px);
+        let colours = colour.span_mut(y_px, x0_px, x1_px);
+        let wanted = nearer(format, way, run.depths, stored);
+        emitted += run.depths.len() as u64;
+        visible += u64::from(wanted.count_ones());
+        let depths = run.depths;
+        look.each(run.values, wanted, &mut |i, varying| {
+            if (look.opacity)(varying) != OPAQUE {
+                return;
+            }
+            shaded += 1;
+            colours[i] = (look.colour)(varying, depths[i]);
+            if way.depth_test {
+                stored[i] = format.key(depths[i]);
+            }
+        });
+    });
+    counters.fragments += emitted;
+    counters.depth_tests += if way.depth_test { emitted } else { 0 };
+    counters.depth_failed += emitted - visible;
+    counters.shaded += shaded;
+    visible
+}
+
+fn fill_multisampled(
+    engine: &impl Interpolate,
+    piece: &ScreenTriangle<Varying>,
+    target: &mut Target,
+    bounds: PixelRect,
+    way: Way,
+    look: &Look<'_>,
+    counters: &mut Counters,
+) -> u64 {
+    let format = target.format;
+    let (planes, shading) = target.with_shading();
+    // Clipped pieces lie in the window, far from the domain's end.
+    let moved: Vec<_> = SAMPLES.iter().map(|sample| moved(piece, *sample)).collect();
+    let samples = || moved.iter().enumerate().filter_map(|(i, moved)| Some((i, moved.as_ref()?)));
+    // A mark for each pixel in which a sample is nearer.
+    for (i, moved) in samples() {
+        engine.runs(moved, bounds, way.affine, &mut |run| {
+            let (y_px, x0_px, x1_px) = (run.y_px, run.x0_px, run.x1_px());
+            let stored = planes[i].depth.span_mut(y_px, x0_px, x1_px);
+            let wanted = nearer(format, way, run.depths, stored);
+            for (i, mark) in shading.centres.span_mut(y_px, x0_px, x1_px).iter_mut().enumerate() {
+                *mark |= (wanted >> i & 1) as u8;
+            }
+        });
+    }
+    let (mut emitted, mut visible, mut shaded) = (0, 0, 0);
+    engine.runs(piece, bounds, way.affine, &mut |run| {
+        let (y_px, x0_px, depths) = (run.y_px, run.x0_px, run.depths);
+        let marks = shading.centres.span_mut(y_px, x0_px, run.x1_px()).iter().enumerate();
+        let wanted = marks.fold(0, |bits, (i, mark)| bits | u32::from(*mark) << i);
+        look.each(run.values, wanted, &mut |i, varying| {
+            shaded += 1;
+            shading.put(x0_px + i as i32, y_px, (look.colour)(varying, depths[i]));
+        });
+    });
+    for (i, moved) in samples() {
+        let SamplePlane { colour, depth } = &mut planes[i];
+        engine.runs(moved, bounds, way.affine, &mut |run| {
+            let (y_px, x0_px, x1_px) = (run.y_px, run.x0_px, run.x1_px());
+            shading.centres.span_mut(y_px, x0_px, x1_px).fill(0);
+            let stored = depth.span_mut(y_px, x0_px, x1_px);
+            let colours = colour.span_mut(y_px, x0_px, x1_px);
+            let wanted = nearer(format, way, run.depths, stored);
+            emitted += run.depths.len() as u64;
+            visible += u64::from(wanted.count_ones());
+            let depths = run.depths;
+            look.each(run.values, wanted, &mut |i, varying| {
+                if (look.opacity)(varying) != OPAQUE {
+                    return;
+                }
+                let x_px = x0_px + i as i32;
+                colours[i] = shading.get(x_px, y_px).unwrap_or_else(|| {
+                    shaded += 1;
+                    let colour = (look.colour)(varying, depths[i]);
+                    shading.put(x_px, y_px, colour);
+                    colour
+                });
+                if way.depth_test {
+                    stored[i] = format.key(depths[i]);
+                }
+            });
+        });
+    }
+    counters.fragments += emitted;
+    counters.depth_tests += if way.depth_test { emitted } else { 0 };
+    counters.depth_failed += emitted - visible;
+    counters.shaded += shaded;
+    visible
+}
