@@ -203,6 +203,7 @@ mod tests {
     /// Every option of every command that writes a page, alone and together with all that it agrees
     /// with. The options are enumerated by the parser, so that none can be forgotten.
     #[test]
+    #[ignore = "takes seconds; .ci/run runs it"]
     fn options_survive_the_way_to_a_command_and_back() {
         let mut command = Arguments::command();
         command.build();

@@ -123,6 +123,7 @@ fn bad_input_is_refused_with_a_reason() {
 }
 
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn inspect_explains_named_cases() {
     for named in rasterproof_render::scene::named::named() {
         let out = check(["inspect", named.name], 0).out;

@@ -294,6 +294,7 @@ fn course_solution_is_the_companions() {
 
 /// What is drawn, by the program and by this project: alike where the program is right.
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn course_shows_what_is_drawn() {
     let folder = Folder::new("course-shows");
     let show = |step: &str, engine: &str, status| {

@@ -52,6 +52,7 @@ const VERDICTS: [(&str, u8); 12] = [
 ];
 
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn the_status_does_not_depend_on_a_reader() {
     let folder = folder("reader");
     for (words, status) in VERDICTS {
@@ -64,6 +65,7 @@ fn the_status_does_not_depend_on_a_reader() {
 }
 
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn a_verdict_that_cannot_be_written_is_no_success() {
     let folder = folder("full");
     for (words, status) in VERDICTS {
@@ -110,6 +112,7 @@ fn a_checkpoint_is_kept_until_its_result_is_delivered() {
 
 /// The text comes first; a file that cannot be written costs no result and is named.
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn results_are_printed_before_files_are_written() {
     let folder = folder("printed");
     fs::write(folder.join("file"), "no folder").unwrap();
@@ -204,6 +207,7 @@ fn two_options_do_not_name_one_file() {
 }
 
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn names_need_not_be_utf8() {
     let folder = folder("names");
     let name = |bytes: &[u8]| folder.join(OsStr::from_bytes(bytes));

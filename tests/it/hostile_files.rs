@@ -303,6 +303,7 @@ fn check(reader: &Reader, hostile: Hostile) -> Result<(), String> {
 }
 
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn every_option_that_reads_a_file_refuses_what_is_none() {
     let mut wrong = Vec::new();
     for reader in &READERS {

@@ -72,6 +72,7 @@ fn lines_are_read_as_the_format_says() {
 /// The limit of a texture counts what it takes in memory, not the bytes of the file; a grey one takes a
 /// byte a texel.
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn a_texture_that_grows_when_decoded_is_refused() {
     let folder = folder("texture");
     // The head of a BMP of three bytes a pixel; what it promises is refused before it is read.

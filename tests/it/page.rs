@@ -590,6 +590,7 @@ fn page_shows_a_planted_fault_first() {
 }
 
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn page_of_the_specimens_shows_each_fault() {
     let (status, _, page) = run("page-specimens", &["specimens", "--cases", "5", "--report"]);
     assert_eq!(status, 0);

@@ -194,6 +194,7 @@ fn playground_draws_what_the_program_draws() {
 
 /// Every scene opens in both languages, light and dark, wide and narrow, by its address alone.
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn playground_shows_every_scene() {
     let Some((mut browser, page)) = opened("scenes") else { return };
     for (scene, lang, scheme) in
@@ -227,6 +228,7 @@ fn playground_shows_every_scene() {
 
 /// An address may hold anything: what cannot be drawn is said, the scene is shown as it begins, and nothing is thrown.
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn playground_survives_any_address() {
     let Some((mut browser, page)) = opened("addresses") else { return };
     let refused = [
@@ -262,6 +264,7 @@ fn playground_survives_any_address() {
 
 /// A specimen is hunted until it is caught, then shrunk; the command names what is shown.
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn playground_breaks_a_specimen() {
     let Some((mut browser, page)) = opened("break") else { return };
     browser.open(&page, "#case=T2&lang=en");
@@ -295,6 +298,7 @@ fn digits(runs: &Value) -> String {
 
 /// The command beside the panels shows the same to a shell: corners, window, and who hits which pixel.
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn playground_says_its_command() {
     let Some((mut browser, page)) = opened("command") else { return };
     let folder = folder("playground-command-inspect");
@@ -390,6 +394,7 @@ fn playground_says_its_command() {
 
 /// A case of the report page leads to the same corners in the playground, by its name or its places.
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn playground_opens_cases_of_the_report() {
     let Some((mut browser, page)) = opened("report") else { return };
     for (words, shown) in [
@@ -433,6 +438,7 @@ fn playground_opens_cases_of_the_report() {
 
 /// Every chapter names its scene, from both languages alike, and the address opens it.
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn playground_is_where_chapters_lead() {
     let links = |folder: &str| -> Vec<(String, String)> {
         let mut pages: Vec<_> = (1..=11).map(|n| format!("ch{n:02}.md")).collect();

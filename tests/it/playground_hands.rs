@@ -164,6 +164,7 @@ fn playground_drags_values() {
 
 /// Whatever takes the focus has a role, a name and, where it has one, a value, as a screen reader is told.
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn playground_names_every_control() {
     let Some((mut browser, page)) = opened("names") else { return };
     browser.call("Accessibility.enable", json!({}));

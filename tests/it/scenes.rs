@@ -356,6 +356,7 @@ fn samples_on_demand_step_aside() {
 /// Random scenes, 10,000 or as many as `RASTERPROOF_SCENES` says, through both rasterizers: planned and
 /// everything-on pictures have the same bits, and so have the two rasterizers'.
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn random_scenes_planned_change_no_bit() {
     let count = std::env::var("RASTERPROOF_SCENES").ok().and_then(|n| n.parse().ok());
     let differs = |index: &u64| {

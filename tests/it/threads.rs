@@ -15,6 +15,7 @@ fn run(words: &str, variable: (&str, &str)) -> Run {
 
 #[cfg(target_os = "linux")]
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn without_a_second_thread_the_result_is_the_same() {
     for words in [
         "verify --cases 5",

@@ -168,6 +168,7 @@ fn conventions_of_lines_behind_are_named() {
 }
 
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn conventions_of_lines_made_up_are_named() {
     let all: Vec<_> = LineRounding::all()
         .flat_map(|rounding| Ends::ALL.map(|ends| (rounding, ends)))

@@ -210,6 +210,7 @@ fn conventions_of_mirrors_predict() {
 
 /// The comparison above can fail: what is named is compared with another rasterizer.
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn conventions_of_another_are_not_confused() {
     for number in 0..12 {
         let found = diagnose(&mut made_up(number), &Known::default(), 1);
@@ -219,6 +220,7 @@ fn conventions_of_another_are_not_confused() {
 
 /// What no hypothesis explains is said to be unexplained, and nothing is expected of it.
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn conventions_of_noise_are_unexplained() {
     let question = Question {
         corners: [(256, 256), (2560, 300), (700, 2560)].map(|(x, y)| SubpixelPoint::new(x, y)),
@@ -254,6 +256,7 @@ impl Ask for Other {
 }
 
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn conventions_of_other_shapes_are_unexplained() {
     let boxes = |q: &Question, x: i32, y: i32| {
         let holds = |v: [i32; 3], px: i32| {
@@ -313,6 +316,7 @@ fn conventions_by_corner_order_are_said_to_be_so() {
 /// The scan conversions of libraries, drawn by themselves: each is named, and not where single pixels
 /// are otherwise.
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn conventions_of_scans_are_named() {
     struct Drawn(Convention, u64);
     impl Ask for Drawn {
@@ -347,6 +351,7 @@ fn conventions_of_scans_are_named() {
 
 /// Where coordinates are whole pixels or 1/16 px, what is found predicts all answers on that grid.
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn conventions_on_coarse_grids_predict() {
     let mut dice = Dice(77);
     for (number, grid) in (0..12).flat_map(|n| [(n, 1), (n, 16)]) {

@@ -496,6 +496,7 @@ mod tests {
     }
 
     #[test]
+    #[ignore = "takes seconds; .ci/run runs it"]
     fn what_is_expected_is_as_promised() {
         for (check, interface) in
             CHECKS.iter().flat_map(|check| [(check, "webgl2"), (check, "webgpu")])
@@ -509,6 +510,7 @@ mod tests {
 
     /// Every pixel that is hit is hit once more, or none is: no check calls that free.
     #[test]
+    #[ignore = "takes seconds; .ci/run runs it"]
     fn gross_faults_break_promises() {
         for check in CHECKS {
             // The first drawing is what the second is held to.
