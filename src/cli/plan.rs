@@ -345,6 +345,7 @@ fn describe(scene: &Scene, planned: &Rendered, everything: &Counters, savings: &
             ("highlights", c.highlights),
             ("mixed with fog", c.fogged),
             ("alpha tests", c.alpha_tests),
+            ("blended", c.blended),
             ("fragment stages", c.shaded),
             ("pixels expanded", c.expanded),
             ("samples cleared", c.cleared),

@@ -30,7 +30,7 @@ use rasterproof_render::pipeline::assemble::Cull;
 use rasterproof_render::pipeline::depth::DepthFormat;
 use rasterproof_render::pipeline::fog::{Fog, Growth};
 use rasterproof_render::pipeline::highlight::Specular;
-use rasterproof_render::pipeline::opacity::AlphaMode;
+use rasterproof_render::pipeline::opacity::{AlphaMode, Opacity};
 use rasterproof_render::pipeline::present::DoubleBuffer;
 use rasterproof_render::pipeline::shade::Light;
 use rasterproof_render::pipeline::target::{Antialias, Colour, Target, check_size};
@@ -90,13 +90,14 @@ pub struct SceneArguments {
     pub(super) view: ViewArguments,
 }
 
-pub(super) const VIEW_OPTIONS: [&str; 15] = [
+pub(super) const VIEW_OPTIONS: [&str; 16] = [
     "size",
     "aa",
     "cull",
     "shading",
     "specular",
     "alpha-threshold",
+    "opacity",
     "mip-maps",
     "fog",
     "up",
@@ -128,8 +129,11 @@ pub struct ViewArguments {
     specular: Option<Specular>,
     /// From which opacity on a model's surfaces that are not opaque are drawn, from 0 to 1, in place of its own; below it
     /// they have holes [default: as the file says, else 0.5]
-    #[arg(long, value_name = "OPACITY", value_parser = parse_threshold)]
+    #[arg(long, value_name = "OPACITY", value_parser = parse_opacity)]
     alpha_threshold: Option<f64>,
+    /// How opaque the surfaces of a model are, from 0 to 1, in place of its own: below 1 they blend with what is behind them
+    #[arg(long, value_name = "OPACITY", value_parser = parse_opacity)]
+    opacity: Option<f64>,
     /// Read all textures of a model at levels of detail, also where its file does not ask for it
     #[arg(long)]
     mip_maps: bool,
@@ -219,9 +223,9 @@ fn parse_specular(text: &str) -> Result<Specular, String> {
     })
 }
 
-fn parse_threshold(text: &str) -> Result<f64, String> {
-    let threshold = text.trim().parse().ok().filter(|number| (0.0..=1.0).contains(number));
-    threshold.ok_or_else(|| "expected a number from 0 to 1, for example 0.5".to_owned())
+fn parse_opacity(text: &str) -> Result<f64, String> {
+    let opacity = text.trim().parse().ok().filter(|number| (0.0..=1.0).contains(number));
+    opacity.ok_or_else(|| "expected a number from 0 to 1, for example 0.5".to_owned())
 }
 
 /// Gives all textures a mip map; one that several items share is made once.
@@ -343,6 +347,7 @@ impl ViewArguments {
             ("--shading", self.shading.is_some()),
             ("--specular", self.specular.is_some()),
             ("--alpha-threshold", self.alpha_threshold.is_some()),
+            ("--opacity", self.opacity.is_some()),
             ("--mip-maps", self.mip_maps),
             ("--fog", self.fog.is_some()),
             ("--up", self.up.is_some()),
@@ -415,6 +420,10 @@ impl ViewArguments {
         for item in &mut scene.items {
             item.model = about(centre, turn);
             item.material.specular = self.specular.unwrap_or(item.material.specular);
+            if let Some(factor) = self.opacity {
+                let map = item.material.opacity.take().and_then(|opacity| opacity.map);
+                item.material.opacity = Some(Opacity { factor, map, mode: AlphaMode::Blend });
+            }
             if let (Some(threshold), Some(opacity)) =
                 (self.alpha_threshold, &mut item.material.opacity)
             {

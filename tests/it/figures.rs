@@ -78,6 +78,7 @@ pub const ALL: &[(&str, Values)] = &[
     ("pays-mip-maps", || pays("mip-maps", Effect::MipMaps, |c| c.levels)),
     ("pays-fog", || pays("fog", Effect::Fog, |c| c.fogged)),
     ("pays-cut-outs", || pays("cut-outs", Effect::AlphaTest, |c| c.alpha_tests)),
+    ("pays-panes", || pays("panes", Effect::Blending, |c| c.blended)),
     ("t4-pixels", || {
         let hits = named("T4");
         let row = |hits: &Coverage| hits.row(30).iter().filter(|&&n| n > 0).count() as f64;

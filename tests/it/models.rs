@@ -495,7 +495,8 @@ fn colours_of_positions_are_drawn() {
     assert_eq!(colours, [[1.0 / 255.0, 0.0, 0.0], [1.0; 3], [0.0, 1.0, 0.2]]);
 }
 
-/// Holes come from the opacities of a texture, from a grey picture or another one's opacities, and `d 1` changes nothing.
+/// Holes come from the opacities of a texture, from a grey picture or another one's opacities, and `d 1` changes nothing;
+/// below 1 a surface blends.
 #[test]
 fn surfaces_have_the_holes_of_their_files() {
     let folder = folder("holes");
@@ -507,10 +508,11 @@ fn surfaces_have_the_holes_of_their_files() {
         .save(folder.join("grey.png"))
         .unwrap();
     let mtl = "newmtl a\nmap_Kd alpha.png\nd 1\nnewmtl b\nmap_d grey.png\n\
-        newmtl c\nmap_Kd grey.png\nmap_d -o 0.5 alpha.png\nnewmtl d\nmap_Kd grey.png\n";
+        newmtl c\nmap_Kd grey.png\nmap_d -o 0.5 alpha.png\nnewmtl d\nmap_Kd grey.png\nTr 1\n\
+        newmtl e\nd 0.2\nnewmtl f\nTr 0.2\nmap_d grey.png\n";
     fs::write(folder.join("m.mtl"), mtl).unwrap();
     let face = |name: &str| format!("usemtl {name}\nf 1/1 2/1 3/1\n");
-    let faces: String = ["a", "b", "c", "d"].map(face).concat();
+    let faces: String = ["a", "b", "c", "d", "e", "f"].map(face).concat();
     let text = format!("mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0.1 0.5\n{faces}");
     let model = load(&written(&folder, "m.obj", &text), Shading::Phong).unwrap();
     let of = |item: usize, u: f64| {
@@ -520,6 +522,7 @@ fn surfaces_have_the_holes_of_their_files() {
     assert_eq!([of(0, 0.2), of(0, 0.8)], [Some(255), Some(0)]);
     assert_eq!([of(1, 0.2), of(1, 0.8)], [Some(0), Some(255)]);
     assert_eq!([of(2, 0.2), of(2, 0.8), of(3, 0.2)], [Some(255), Some(0), None]);
+    assert_eq!([of(4, 0.2), of(5, 0.2)], [Some(51), Some(102)], "0.8 of 127 is 101.6");
     assert_eq!(model.not_drawn, "place of its own of 1 opacity map");
     assert!(model.warnings.is_empty(), "{:?}", model.warnings);
 }
@@ -542,7 +545,7 @@ fn what_is_not_drawn_is_said_by_every_command_that_draws() {
     let text = format!("{triangle}usemtl a\nf 1 2 3\nusemtl b\nf 1 2 3\n");
     let model = written(&folder, "m.obj", &text);
     let expected = "not drawn: 1 bump map, emission of 1 material, reflection (illum) of 1 material, \
-        specular colour without shininess (Ns) of 1 material, transparency of 1 material\n";
+        specular colour without shininess (Ns) of 1 material\n";
     let specular = |model: &Model| -> Vec<_> {
         model.items.iter().map(|item| item.material.specular).collect()
     };

@@ -112,6 +112,7 @@ fn what_is_wrong_with_a_plan_is_named() {
         "mip_maps": "planned",
         "fog": "planned",
         "alpha_test": "planned",
+        "blending": "planned",
     }});
     type Edit<'a> = &'a dyn Fn(&mut Value);
     let with_rule = |edit: &dyn Fn(&mut Value)| {

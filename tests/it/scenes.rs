@@ -157,6 +157,7 @@ fn check_account(plan: &Plan, counters: &Counters, name: &str) {
         (Effect::MipMaps, c.levels),
         (Effect::Fog, c.fogged),
         (Effect::AlphaTest, c.alpha_tests),
+        (Effect::Blending, c.blended),
         (Effect::Interpolation, c.components),
     ] {
         assert!(sums(effect) != [0; 2] || counted == 0, "{name} {}: {counted}", effect.name());
@@ -224,6 +225,7 @@ fn an_edited_plan_is_followed() {
                 "mip_maps": "planned",
                 "fog": "planned",
                 "alpha_test": "planned",
+                "blending": "planned",
             }});
         }
         let plan: Plan = serde_json::from_value(json).unwrap();
@@ -427,6 +429,39 @@ fn screen(right: f64, z: [f64; 2]) -> Mesh {
     ])
 }
 
+/// Panes that are submitted from the nearest to the farthest are drawn the other way round, after what is opaque, over
+/// each other, and each pixel is what the formula says; what lies between hides those behind it.
+#[test]
+fn panes_are_drawn_from_the_farthest() {
+    let pane = |z: f64, value: f64, factor: f64| {
+        let opacity =
+            (factor < 1.0).then_some(Opacity { factor, map: None, mode: AlphaMode::Blend });
+        Item::new(screen(1.0, [z; 2]), Material { opacity, ..grey(value) })
+    };
+    // In clip space z grows with the distance.
+    let near_first = [pane(-0.5, 1.0, 0.25), pane(0.5, 0.0, 0.5), pane(0.9, 1.0, 1.0)];
+    let over = |a: u32, c: u32, b: u32| (a * c + (255 - a) * b + 127) / 255;
+    let expected = over(64, 255, over(128, 0, 255)) as u8;
+    let hidden = over(64, 255, 102) as u8;
+    for antialias in SMOOTHINGS {
+        for drawer in Drawer::ALL {
+            let drawn = |items: Vec<Item>| {
+                let picture = draw(&plain(items), drawer, Effects::PLANNED, antialias).picture;
+                assert!(picture.rows().all(|(_, row)| row.iter().all(|c| *c == row[0])));
+                picture.get(0, 0).unwrap()
+            };
+            assert_eq!(drawn(near_first.to_vec()), [expected, expected, expected, 255]);
+            let mut with_wall = near_first.to_vec();
+            with_wall.push(pane(0.0, 0.4, 1.0));
+            assert_eq!(
+                drawn(with_wall),
+                [hidden, hidden, hidden, 255],
+                "the far pane is behind a wall"
+            );
+        }
+    }
+}
+
 fn grey(value: f64) -> Material {
     Material { colour: DVec3::splat(value), ..Material::default() }
 }
@@ -515,6 +550,10 @@ fn counterexamples() -> Vec<Counterexample> {
                 corner.uv.x *= 0.5 * (1.0 + by);
             }
             plain(vec![Item::new(mesh, Material { opacity, ..grey(1.0) })])
+        }),
+        make(Effect::Blending, none, |by| {
+            let opacity = Some(Opacity { factor: 1.0 - by, map: None, mode: AlphaMode::Blend });
+            plain(vec![Item::new(screen(1.0, [0.0; 2]), Material { opacity, ..grey(1.0) })])
         }),
         make(Effect::Texture, none, |by| {
             let texel = textures::generate(1, |_, _| DVec3::splat(1.0 - by));
@@ -694,7 +733,7 @@ proptest! {
     fn any_mixture_of_effects_draws(
         index in any::<u32>(),
         kind in 0..4usize,
-        modes in proptest::array::uniform17(0..3u8),
+        modes in proptest::array::uniform18(0..3u8),
         some_never in any::<bool>(),
     ) {
         let scene = random::with_effects(3, index.into());

@@ -24,6 +24,7 @@ fn calls(effect: Effect, counters: &Counters) -> u64 {
         Effect::MipMaps => counters.levels,
         Effect::Fog => counters.fogged,
         Effect::AlphaTest => counters.alpha_tests,
+        Effect::Blending => counters.blended,
         Effect::Texture => counters.texels,
         Effect::Samples => counters.expanded,
         Effect::Clear => counters.cleared,

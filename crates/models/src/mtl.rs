@@ -19,7 +19,9 @@ pub(crate) struct Described {
     pub colour: Option<DVec3>,
     /// Its texture (`map_Kd`).
     pub texture: Option<textures::Described>,
-    /// Where it has holes (`map_d`).
+    /// How opaque it is (`d`, or 1 - `Tr`), in [0, 1].
+    pub opacity: Option<f64>,
+    /// Where it is opaque (`map_d`).
     pub opacity_map: Option<textures::Described>,
     /// What else it has, which is not drawn: keys of [`crate::contents::Contents::not_drawn`].
     pub not_drawn: BTreeSet<String>,
@@ -152,10 +154,15 @@ fn read_line(kind: &str, rest: &str, materials: &mut Vec<Described>) -> Result<(
         {
             "transmission filter of material"
         }
-        "d" if number.is_some_and(|number| number < 1.0) => "transparency of material",
+        "d" => {
+            material.opacity =
+                number.filter(|number| number.is_finite()).map(|d| d.clamp(0.0, 1.0));
+            return Ok(());
+        }
         // Some programs write the opposite, so a 1 means nothing for sure.
         "tr" if number.is_some_and(|number| number > 0.0 && number < 1.0) => {
-            "transparency of material"
+            material.opacity = number.map(|number| 1.0 - number);
+            return Ok(());
         }
         "illum" if number == Some(1.0) => {
             material.is_matt = true;

@@ -17,7 +17,7 @@ use std::sync::Arc;
 use crate::contents::{Contents, INCOMPLETE_FACE, Part, Polygon, PolygonCorner, Surface};
 use crate::items::MOST_COORDINATE;
 use crate::mtl::{self, without_comment};
-use crate::textures::{Decoded, Described, THRESHOLD, Textures, cut_out, find};
+use crate::textures::{Decoded, Described, Textures, find, opacity};
 use crate::{BadFile, Warnings, bad, read_bytes};
 
 /// No index.
@@ -239,7 +239,7 @@ fn surface(
             decoded.opacity().unwrap_or_else(of_colours)
         }),
     };
-    let opacity = map.map(|map| cut_out(map, 1.0, THRESHOLD));
+    let opacity = opacity(material.opacity.unwrap_or(1.0), map);
     let texture = texture.map(|decoded| decoded.texture);
     // A texture is as bright as its picture, where the file does not say otherwise.
     let missing = if texture.is_some() { DVec3::ONE } else { DVec3::splat(0.8) };

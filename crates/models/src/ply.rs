@@ -10,7 +10,7 @@ use rasterproof_host::text::{printable_path, printable_short};
 use rasterproof_render::pipeline::highlight::Specular;
 
 use crate::contents::{Contents, INCOMPLETE_FACE, Part, Polygon, PolygonCorner, Surface};
-use crate::textures::{THRESHOLD, Textures, cut_out};
+use crate::textures::{Textures, opacity};
 use crate::{BadFile, Warnings, bad};
 
 /// Whether these bytes begin as a PLY.
@@ -577,7 +577,7 @@ fn surface(
             contents.materials.push(Surface {
                 name: String::new(),
                 colour: DVec3::ONE,
-                opacity: decoded.opacity().map(|map| cut_out(map, 1.0, THRESHOLD)),
+                opacity: opacity(1.0, decoded.opacity()),
                 texture: Some(decoded.texture),
                 specular: Specular::default(),
                 unlit: false,

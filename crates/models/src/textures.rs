@@ -35,12 +35,11 @@ impl Decoded {
     }
 }
 
-/// What is cut out of a surface whose file names no threshold.
-pub(crate) const THRESHOLD: f64 = 0.5;
-
-/// A surface with holes where a map is below a threshold.
-pub(crate) fn cut_out(map: Arc<OpacityMap>, factor: f64, threshold: f64) -> Opacity {
-    Opacity { factor, map: Some(map), mode: AlphaMode::Test { threshold } }
+/// The opacity of a surface whose file does not say what becomes of it: one that is opaque but for its map has holes
+/// where that is below a half, any other blends.
+pub(crate) fn opacity(factor: f64, map: Option<Arc<OpacityMap>>) -> Option<Opacity> {
+    let mode = if factor < 1.0 { AlphaMode::Blend } else { AlphaMode::Test { threshold: 0.5 } };
+    (factor < 1.0 || map.is_some()).then_some(Opacity { factor, map, mode })
 }
 
 /// Reads a PNG, JPEG, BMP, TIFF or WebP, whatever its name ends in, or a TGA by its ending, since its content

@@ -175,7 +175,7 @@ fn compare_depths(a: &Target, b: &Target, ties: Option<&Ties>) -> (u64, Vec<(i32
 }
 
 /// The effects of a map, in the order of its panels, each with its colour.
-pub const MAP_COLOURS: [(Effect, [u8; 3]); 10] = [
+pub const MAP_COLOURS: [(Effect, [u8; 3]); 11] = [
     (Effect::Samples, [235, 140, 30]),
     (Effect::Perspective, [225, 70, 70]),
     (Effect::Depth, [80, 130, 240]),
@@ -186,6 +186,7 @@ pub const MAP_COLOURS: [(Effect, [u8; 3]); 10] = [
     (Effect::MipMaps, [160, 130, 90]),
     (Effect::Fog, [120, 200, 200]),
     (Effect::AlphaTest, [110, 160, 40]),
+    (Effect::Blending, [90, 190, 240]),
 ];
 
 /// Those of the book, which have a place in every map; the others where something pays for them.

@@ -138,7 +138,7 @@ pub fn survey(
 }
 
 /// Effects that pixels pay for one by one.
-const MAPPED: [Effect; 11] = [
+const MAPPED: [Effect; 12] = [
     Effect::Perspective,
     Effect::Depth,
     Effect::Colour,
@@ -148,6 +148,7 @@ const MAPPED: [Effect; 11] = [
     Effect::MipMaps,
     Effect::Fog,
     Effect::AlphaTest,
+    Effect::Blending,
     Effect::Interpolation,
     Effect::Samples,
 ];

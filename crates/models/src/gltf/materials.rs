@@ -125,21 +125,17 @@ pub(super) fn describe(
         count("emission of material");
     }
     let (alpha_mode, alpha) = (material.alpha_mode, f64::from(alpha));
-    let is_blended = alpha_mode == Checked::Valid(AlphaMode::Blend);
-    if is_blended && alpha < 1.0 {
-        count("transparency of material");
-    }
     let threshold = f64::from(material.alpha_cutoff.unwrap_or_default().0);
+    let mode = match alpha_mode {
+        Checked::Valid(AlphaMode::Mask) => Some(OpacityMode::Test { threshold }),
+        Checked::Valid(AlphaMode::Blend) => Some(OpacityMode::Blend),
+        _ => None,
+    };
     let name = material.name.clone().unwrap_or_else(|| format!("materials[{number}]"));
     let decoded = info.and_then(|info| {
         let read = texture(data, info, pictures, &mut count);
         match read {
-            Ok(decoded) => {
-                if decoded.alpha.is_some() && is_blended {
-                    count("transparency of texture");
-                }
-                Some(decoded)
-            }
+            Ok(decoded) => Some(decoded),
             Err(cause) => {
                 let path = printable_path(pictures.path);
                 let name = printable_short(&name, 40);
@@ -151,11 +147,11 @@ pub(super) fn describe(
             }
         }
     });
-    let opacity = (alpha_mode == Checked::Valid(AlphaMode::Mask)).then(|| Opacity {
-        factor: alpha.clamp(0.0, 1.0),
-        map: decoded.as_ref().and_then(Decoded::opacity),
-        mode: OpacityMode::Test { threshold },
-    });
+    let map = decoded.as_ref().and_then(Decoded::opacity);
+    let factor = alpha.clamp(0.0, 1.0);
+    // A file may let blend what is opaque everywhere.
+    let is_opaque = map.is_none() && factor == 1.0;
+    let opacity = mode.filter(|_| !is_opaque).map(|mode| Opacity { factor, map, mode });
     let texture = decoded.map(|decoded| decoded.texture);
     let transform = info.and_then(|info| info.extensions.as_ref()?.texture_transform.as_ref());
     let set = info.map(|info| transform.and_then(|t| t.tex_coord).unwrap_or(info.tex_coord));

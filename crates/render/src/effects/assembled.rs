@@ -1,6 +1,8 @@
 //! A scene on its way from plan to picture: in clip space, and in pieces where they are looked at.
 
-use super::conditions::{alpha_test, fog, interpolation, mip_maps, perspective, specular};
+use super::conditions::{
+    alpha_test, blending, fog, interpolation, mip_maps, perspective, specular,
+};
 use super::plan::{Attributes, Order, PiecePlan, Plan, Rule};
 use super::primitive::{BadScene, Piece, Prepared};
 use crate::pipeline::Counters;
@@ -12,6 +14,8 @@ use rasterproof_core::arrays::MapArray as _;
 /// A scene after the vertex stage, and after assembly where all pieces are looked at.
 pub(super) struct Assembled<'a> {
     pub items: Vec<Prepared<'a>>,
+    /// The numbers of the items in the order of drawing.
+    pub order: Vec<usize>,
     /// With the items they are of.
     pub pieces: Option<Vec<(usize, Piece)>>,
     pub plans: Vec<PiecePlan>,
@@ -27,13 +31,15 @@ impl<'a> Assembled<'a> {
         let items = items
             .map(|(i, item)| Prepared::new(scene, i, item, window, &mut counters))
             .collect::<Result<_, _>>()?;
-        Ok(Self { items, pieces: None, plans: Vec::new(), counters })
+        let order = drawing_order(scene);
+        Ok(Self { items, order, pieces: None, plans: Vec::new(), counters })
     }
 
     /// Brings all pieces into the window.
     pub fn assemble(&mut self, scene: &Scene) {
         let mut pieces = Vec::with_capacity(scene.triangles());
-        for (index, item) in self.items.iter().enumerate() {
+        for &index in &self.order {
+            let item = &self.items[index];
             let mut keep = |piece: &Piece, _: &mut Counters| pieces.push((index, *piece));
             item.assemble(scene, &mut self.counters, &mut keep);
         }
@@ -50,14 +56,34 @@ impl<'a> Assembled<'a> {
     }
 }
 
+/// Items that blend after all others, from the farthest to the nearest by the middle of their bounding box; equal
+/// distances keep the order of submission.
+fn drawing_order(scene: &Scene) -> Vec<usize> {
+    let (mut order, mut blended) = (Vec::with_capacity(scene.items.len()), Vec::new());
+    for (index, item) in scene.items.iter().enumerate() {
+        if blending::is_blended(item) {
+            let (min, max) = item.mesh.bounds().unwrap_or_default();
+            let middle = (scene.view * item.model).transform_point3((min + max) / 2.0);
+            blended.push((middle.z, index));
+        } else {
+            order.push(index);
+        }
+    }
+    blended.sort_by(|(a, _), (b, _)| b.total_cmp(a));
+    order.extend(blended.into_iter().map(|(_, index)| index));
+    order
+}
+
 /// What a rule says about a piece.
 #[inline]
 pub(super) fn plan_of(rule: &Rule, item: &Prepared<'_>, piece: &Piece) -> PiecePlan {
     let alpha_test = alpha_test::drawn(rule.alpha_test, item, piece);
+    let blending = alpha_test::drawn(rule.blending, item, piece);
+    let is_mixed = alpha_test == Drawn::Mixed || blending == Drawn::Mixed;
     let mut fog = fog::share(rule.fog, item, piece);
     // Whoever has everything interpolated has what the fog hides interpolated too.
     // Opacities need texture coordinates in the fog too.
-    let is_hidden = fog == Share::Whole && rule.where_it_varies && alpha_test != Drawn::Mixed;
+    let is_hidden = fog == Share::Whole && rule.where_it_varies && !is_mixed;
     if fog == Share::Whole && !is_hidden {
         fog = Share::Mixed;
     }
@@ -67,5 +93,5 @@ pub(super) fn plan_of(rule: &Rule, item: &Prepared<'_>, piece: &Piece) -> PieceP
     let has_uv = interpolates.has(Attributes::UV);
     let mip_maps = has_uv && mip_maps::pays(rule.mip_maps, item, piece, perspective);
     let depth = rule.depth;
-    PiecePlan { interpolates, perspective, depth, specular, mip_maps, fog, alpha_test }
+    PiecePlan { interpolates, perspective, depth, specular, mip_maps, fog, alpha_test, blending }
 }

@@ -190,21 +190,18 @@ pub(super) fn fit<'a>(
     let lists = |item: &ItemPlan| matches!(item.pieces, Pieces::Listed(_));
     if plan.items.iter().any(lists) || plan.frame.order == Order::FarthestFirst {
         assembled.assemble(scene);
-        assembled.plans =
-            plans(plan, &assembled.items, assembled.pieces.as_deref().unwrap_or_default())?;
+        assembled.plans = plans(plan, &assembled)?;
         assembled.sort(plan.frame.order);
     }
     Ok(assembled)
 }
 
-/// What a plan says of each piece, in the order of submission.
-fn plans(
-    plan: &Plan,
-    items: &[Prepared<'_>],
-    pieces: &[(usize, Piece)],
-) -> Result<Vec<PiecePlan>, PlanError> {
+/// What a plan says of each piece, in the order of the items.
+fn plans(plan: &Plan, assembled: &Assembled<'_>) -> Result<Vec<PiecePlan>, PlanError> {
+    let (items, pieces) = (&assembled.items, assembled.pieces.as_deref().unwrap_or_default());
     let mut plans = Vec::with_capacity(pieces.len());
-    for (item, ItemPlan { pieces: planned, .. }) in plan.items.iter().enumerate() {
+    for &item in &assembled.order {
+        let planned = &plan.items[item].pieces;
         let own = pieces.iter().filter(|(index, _)| *index == item);
         match planned {
             Pieces::AsTheyCome(rule) => {
@@ -264,15 +261,16 @@ impl<E: Interpolate> Stage<'_, '_, E> {
         if let Some(pieces) = &assembled.pieces {
             self.draw_listed(&assembled.items, pieces, &assembled.plans);
         } else {
-            self.draw_as_they_come(&assembled.items);
+            self.draw_as_they_come(assembled);
         }
         self.finish()
     }
 
     /// Draws each piece when it is assembled.
-    fn draw_as_they_come(&mut self, items: &[Prepared<'_>]) {
+    fn draw_as_they_come(&mut self, assembled: &Assembled<'_>) {
         let scene = self.scene;
-        for (index, item) in items.iter().enumerate() {
+        for &index in &assembled.order {
+            let item = &assembled.items[index];
             let Pieces::AsTheyCome(rule) = self.plan.items[index].pieces else { continue };
             let mut counters = std::mem::take(&mut self.counters);
             item.assemble(scene, &mut counters, &mut |piece, fills| {
@@ -388,7 +386,16 @@ impl<E: Interpolate> Stage<'_, '_, E> {
 
 /// What a fragment of a piece pays for, as bits of [`Effect`].
 fn paid(plan: PiecePlan) -> u32 {
-    let PiecePlan { interpolates, perspective, depth, specular, mip_maps, fog, alpha_test } = plan;
+    let PiecePlan {
+        interpolates,
+        perspective,
+        depth,
+        specular,
+        mip_maps,
+        fog,
+        alpha_test,
+        blending,
+    } = plan;
     [
         (Effect::Perspective, perspective && !interpolates.is_empty()),
         (Effect::Depth, depth),
@@ -399,6 +406,7 @@ fn paid(plan: PiecePlan) -> u32 {
         (Effect::MipMaps, mip_maps),
         (Effect::Fog, fog == Share::Mixed),
         (Effect::AlphaTest, alpha_test == Drawn::Mixed),
+        (Effect::Blending, blending == Drawn::Mixed),
         (Effect::Interpolation, !interpolates.is_empty()),
     ]
     .into_iter()

@@ -249,6 +249,7 @@ impl<'a> Item<'a> {
             mip_maps: true,
             fog: Share::Mixed,
             alpha_test: Drawn::All,
+            blending: Drawn::All,
         };
         let plan = ItemPlan {
             clip: Mode::Planned,

@@ -14,7 +14,7 @@ use crate::pipeline::fill::{Stage, Way, each, fill, fill_flat};
 use crate::pipeline::fog::{Share, Veil};
 use crate::pipeline::footprint::Footprint;
 use crate::pipeline::highlight::{Highlight, brightened};
-use crate::pipeline::opacity::Opacity;
+use crate::pipeline::opacity::{Drawn, Opacity};
 use crate::pipeline::see_through::{self, Look};
 use crate::pipeline::shade::{ALL, Attributes as Packed, Light, Surface};
 use crate::pipeline::target::{Antialias, Colour, Target, to_colour};
@@ -176,13 +176,15 @@ impl<'a> Kernel<'a> {
         let way = Way { affine: !perspective, depth_test: depth };
         let before = *counters;
         let bounds = target.bounds();
-        let tested = see_through::fill(engine, piece, target, bounds, way, &look, counters);
+        let visible = see_through::fill(engine, piece, target, bounds, way, &look, counters);
         let fragments = counters.fragments - before.fragments;
         let shaded = counters.shaded - before.shaded;
         let components = if interpolates.is_empty() { 0 } else { ALL as u64 };
         counters.components += fragments * components;
         counters.divisions += if way.affine { 0 } else { fragments };
-        counters.alpha_tests += tested;
+        let of = |drawn: Drawn| if drawn == Drawn::Mixed { visible } else { 0 };
+        counters.alpha_tests += of(self.plan.alpha_test);
+        counters.blended += of(self.plan.blending);
         counters.texels += if has_uv && self.texture.is_some() { shaded } else { 0 };
         self.count(shaded, interpolates.has(Attributes::NORMAL), counters);
     }

@@ -60,6 +60,8 @@ pub enum Effect {
     Fog,
     /// Leaving out fragments that are not opaque enough.
     AlphaTest,
+    /// Mixing fragments with what is behind them.
+    Blending,
     /// Interpolating an attribute, and computing what depends on it, in each fragment.
     Interpolation,
     /// Telling the samples of a supersampled or multisampled pixel apart.
@@ -72,7 +74,7 @@ pub enum Effect {
 
 impl Effect {
     /// All effects, in the order of the pipeline.
-    pub const ALL: [Self; 17] = [
+    pub const ALL: [Self; 18] = [
         Self::Clip,
         Self::Cull,
         Self::WideWords,
@@ -86,6 +88,7 @@ impl Effect {
         Self::MipMaps,
         Self::Fog,
         Self::AlphaTest,
+        Self::Blending,
         Self::Interpolation,
         Self::Samples,
         Self::Clear,
@@ -109,6 +112,7 @@ impl Effect {
             Self::MipMaps => "mip-maps",
             Self::Fog => "fog",
             Self::AlphaTest => "alpha-test",
+            Self::Blending => "blending",
             Self::Interpolation => "interpolation",
             Self::Samples => "samples",
             Self::Clear => "clear",
@@ -125,7 +129,7 @@ pub enum Mode {
     #[default]
     Planned,
     /// Wherever the material calls for it, whatever the triangles are like. Only interpolation, specular
-    /// light, mip maps, fog and the alpha test know the difference: a flat material needs no normal in the fragment.
+    /// light, mip maps, fog, the alpha test and blending know the difference: a flat material needs no normal in the fragment.
     Material,
     /// Everywhere, called for or not.
     Always,
@@ -158,6 +162,7 @@ impl Effects {
         .with(Effect::MipMaps, Mode::Material)
         .with(Effect::Fog, Mode::Material)
         .with(Effect::AlphaTest, Mode::Material)
+        .with(Effect::Blending, Mode::Material)
         .with(Effect::Interpolation, Mode::Material)
         .with(Effect::SecondBuffer, Mode::Planned);
 

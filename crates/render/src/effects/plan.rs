@@ -200,17 +200,20 @@ pub struct PiecePlan {
     /// Whether the opacity of its fragments is compared with a threshold, or is below it everywhere.
     #[serde(default, skip_serializing_if = "is_all")]
     pub alpha_test: Drawn,
+    /// Whether its fragments are mixed with what is behind them, or cover nothing of it.
+    #[serde(default, skip_serializing_if = "is_all")]
+    pub blending: Drawn,
 }
 
 impl PiecePlan {
     /// Whether every fragment is opaque: what it covers hides what was there.
     pub(super) fn is_opaque(self) -> bool {
-        self.alpha_test == Drawn::All
+        self.alpha_test == Drawn::All && self.blending == Drawn::All
     }
 
     /// Whether there is nothing to draw.
     pub(super) fn is_nothing(self) -> bool {
-        self.alpha_test == Drawn::Nothing
+        self.alpha_test == Drawn::Nothing || self.blending == Drawn::Nothing
     }
 
     /// Whether all fragments of the piece have one colour.
@@ -243,6 +246,9 @@ pub struct Rule {
     /// Planned: where the opacities that a piece may read lie on both sides of the threshold.
     #[serde(default = "never", skip_serializing_if = "is_never")]
     pub alpha_test: Mode,
+    /// Planned: where a piece may read an opacity that is neither 0 nor 255.
+    #[serde(default = "never", skip_serializing_if = "is_never")]
+    pub blending: Mode,
 }
 
 /// What the pieces of an item pay for.
@@ -473,9 +479,17 @@ mod tests {
     fn a_misspelt_word_of_a_plan_is_refused() {
         let interpolates = Attributes(5);
         let (perspective, depth, specular, fog) = (true, false, true, Share::None);
-        let (mip_maps, alpha_test) = (true, Drawn::Mixed);
-        let plan =
-            PiecePlan { interpolates, perspective, depth, specular, mip_maps, fog, alpha_test };
+        let (mip_maps, alpha_test, blending) = (true, Drawn::Mixed, Drawn::Nothing);
+        let plan = PiecePlan {
+            interpolates,
+            perspective,
+            depth,
+            specular,
+            mip_maps,
+            fog,
+            alpha_test,
+            blending,
+        };
         let text = serde_json::to_string(&plan).unwrap();
         assert_eq!(serde_json::from_str::<PiecePlan>(&text).unwrap(), plan);
         let error = serde_json::from_str::<PiecePlan>(&text.replace("depth", "depht")).unwrap_err();

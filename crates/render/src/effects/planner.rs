@@ -3,8 +3,8 @@
 use super::assembled::{Assembled, plan_of};
 use super::conditions::survey::Survey;
 use super::conditions::{
-    alpha_test, attributes, clear, clip, cull, depth, depth_buffer, fog, interpolation, mip_maps,
-    perspective, samples, second_buffer, specular, wide_words,
+    alpha_test, attributes, blending, clear, clip, cull, depth, depth_buffer, fog, interpolation,
+    mip_maps, perspective, samples, second_buffer, specular, wide_words,
 };
 use super::plan::{
     Canvas, Clear, Decision, FramePlan, ItemPlan, Order, PiecePlan, Pieces, Plan, Rule, VERSION,
@@ -56,7 +56,7 @@ pub(super) fn plan<'a>(
         let fog_at_most = if has_fog { Share::Mixed } else { Share::None };
         for item in &assembled.items {
             let interpolates = interpolation::at_most(item.item, item.carries);
-            let is_cut = alpha_test::mode(item.item, effects) != Mode::Never;
+            let at_most = |mode| if mode == Mode::Never { Drawn::All } else { Drawn::Mixed };
             let plan = PiecePlan {
                 interpolates,
                 perspective: true,
@@ -64,7 +64,8 @@ pub(super) fn plan<'a>(
                 specular: false,
                 mip_maps: false,
                 fog: fog_at_most,
-                alpha_test: if is_cut { Drawn::Mixed } else { Drawn::All },
+                alpha_test: at_most(alpha_test::mode(item.item, effects)),
+                blending: at_most(blending::mode(item.item, effects)),
             };
             estimate.see_roughly(item, plan);
         }
@@ -100,6 +101,7 @@ fn outset(scene: &Scene, canvas: &Canvas, effects: &Effects) -> Plan {
         let fog = fog::mode(scene, effects);
         let mip_maps = mip_maps::mode(item, carries, effects);
         let alpha_test = alpha_test::mode(item, effects);
+        let blending = blending::mode(item, effects);
         let rule = Rule {
             interpolates,
             where_it_varies,
@@ -109,6 +111,7 @@ fn outset(scene: &Scene, canvas: &Canvas, effects: &Effects) -> Plan {
             mip_maps,
             fog,
             alpha_test,
+            blending,
         };
         ItemPlan {
             clip: effects.mode(Effect::Clip),
@@ -194,6 +197,7 @@ fn account(
         decisions.extend(mip_maps::explain(survey));
         decisions.extend(fog::explain(survey));
         decisions.extend(alpha_test::explain(survey));
+        decisions.extend(blending::explain(survey));
         decisions.push(interpolation::explain(survey));
     }
     let triangles = scene.triangles() as u64;

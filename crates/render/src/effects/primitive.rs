@@ -92,6 +92,7 @@ impl<'a> Prepared<'a> {
             mip_maps: self.texture.is_some_and(Texture::has_mip_map),
             fog: Share::Mixed,
             alpha_test: Drawn::All,
+            blending: Drawn::All,
         }
     }
 

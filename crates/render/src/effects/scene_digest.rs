@@ -128,6 +128,7 @@ impl Words {
         if let Some(Opacity { factor, map, mode }) = opacity {
             let (kind, threshold) = match *mode {
                 AlphaMode::Test { threshold } => (1, threshold),
+                AlphaMode::Blend => (2, 0.0),
             };
             self.whole(kind);
             self.numbers(&[*factor, threshold]);

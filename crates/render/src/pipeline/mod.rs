@@ -75,6 +75,8 @@ pub struct Counters {
     pub lights: u64,
     /// Visible fragments whose opacity was compared with a threshold.
     pub alpha_tests: u64,
+    /// Visible fragments whose opacity was computed to mix them with what is behind them.
+    pub blended: u64,
     /// Evaluations of a highlight.
     pub highlights: u64,
     /// Fragments that were mixed with fog.
@@ -111,6 +113,7 @@ impl std::ops::AddAssign for Counters {
         self.levels += other.levels;
         self.lights += other.lights;
         self.alpha_tests += other.alpha_tests;
+        self.blended += other.blended;
         self.highlights += other.highlights;
         self.fogged += other.fogged;
         self.shaded += other.shaded;

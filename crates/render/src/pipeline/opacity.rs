@@ -4,6 +4,11 @@
 //! step. The map is read at its full size, whatever level of detail the colours are read at. The alpha test makes
 //! of it all or nothing: a fragment is drawn as any other if its opacity reaches the threshold, and else it
 //! leaves neither colour nor depth. Of several samples a pixel each is tested by itself.
+//!
+//! Blending mixes the colour of a fragment with what was drawn before ([`over`]), light, highlight and fog included. A
+//! fragment that is mixed writes no depth, so that it hides nothing. One of opacity 255 is drawn as any other, depth
+//! and all, and one of opacity 0 is not drawn. Items that blend are drawn after all others, from the farthest to the
+//! nearest by the middle of their bounding box, and the triangles of each in their own order.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -11,6 +16,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::depth::OFF_FRACTION;
+use super::target::Colour;
 use super::texture::{Texture, Wrap};
 
 /// What a material lets through.
@@ -27,6 +33,8 @@ pub struct Opacity {
 pub enum AlphaMode {
     /// It is drawn from this opacity on, in [0, 1]; above 1 never.
     Test { threshold: f64 },
+    /// It is mixed with what is behind it.
+    Blend,
 }
 
 /// What is drawn of a piece.
@@ -43,6 +51,15 @@ pub enum Drawn {
 
 /// All of what is behind is covered.
 pub const OPAQUE: u8 = u8::MAX;
+
+/// A colour over another, each channel the nearest of the exact ones: (a c + (255 - a) b) / 255, of which none lies
+/// halfway between two steps.
+#[must_use]
+pub fn over([r, g, b, _]: Colour, before: Colour, opacity: u8) -> Colour {
+    let a = u32::from(opacity);
+    let channel = |c: u8, b: u8| ((a * u32::from(c) + (255 - a) * u32::from(b) + 127) / 255) as u8;
+    [channel(r, before[0]), channel(g, before[1]), channel(b, before[2]), u8::MAX]
+}
 
 /// What opacities are rounded by, in steps: far more than two engines differ, far less than a step.
 const MARGIN: f64 = 1.0 / (1u64 << 32) as f64;
@@ -87,6 +104,7 @@ impl AlphaMode {
     /// What becomes of an opacity.
     fn of(self, opacity: u8) -> u8 {
         match self {
+            Self::Blend => opacity,
             // A threshold that a file has in single precision may be a whole step and its last bit.
             Self::Test { threshold } => {
                 let passes = f64::from(opacity) >= threshold * 255.0 - 1.0 / 4096.0;
@@ -205,7 +223,7 @@ mod tests {
     use rasterproof_verify::cases::Rng;
 
     /// A picture of mostly opaque and mostly clear parts with a speck here and there, and a triangle in it.
-    fn case(index: u64) -> (Opacity, [DVec2; 3]) {
+    fn case(index: u64, is_blended: bool) -> (Opacity, [DVec2; 3]) {
         let mut rng = Rng::new("opacity", 1, index);
         let (width, height) = (rng.int(1, 70) as u32, rng.int(1, 70) as u32);
         let mut texels = Vec::new();
@@ -221,7 +239,8 @@ mod tests {
         let texture = Texture::grey(width, height, texels).unwrap().with(filter, wrap);
         let map = Some(Arc::new(OpacityMap::new(texture)));
         let factor = if rng.chance(4) { rng.unit() } else { 1.0 };
-        let mode = AlphaMode::Test { threshold: [0.25, 0.5, 1.0][rng.int(0, 2) as usize] };
+        let threshold = [0.25, 0.5, 1.0][rng.int(0, 2) as usize];
+        let mode = if is_blended { AlphaMode::Blend } else { AlphaMode::Test { threshold } };
         let from = DVec2::new(rng.signed(), rng.signed()) * 3.0;
         let size = rng.unit().powi(2);
         let uv = [0; 3].map_array(|_| from + DVec2::new(rng.signed(), rng.signed()) * size);
@@ -232,10 +251,10 @@ mod tests {
 
     /// How many of random triangles a condition calls opaque or empty, and for how many of these a
     /// fragment says otherwise.
-    fn tried(condition: Condition) -> [u32; 2] {
+    fn tried(condition: Condition, is_blended: bool) -> [u32; 2] {
         let mut counts = [0; 2];
         for index in 0..3000 {
-            let (opacity, uv) = case(index);
+            let (opacity, uv) = case(index, is_blended);
             let drawn = condition(&opacity, uv);
             let wanted = match drawn {
                 Drawn::Mixed => continue,
@@ -265,12 +284,14 @@ mod tests {
     }
 
     #[test]
-    fn a_triangle_without_a_test_needs_none() {
-        let [known, wrong] = tried(Opacity::between);
-        assert!(known > 700 && wrong == 0, "{known}, {wrong}");
+    fn a_triangle_that_is_opaque_or_clear_is_so_everywhere() {
+        for is_blended in [false, true] {
+            let [known, wrong] = tried(Opacity::between, is_blended);
+            assert!(known > 700 && wrong == 0, "{known}, {wrong}");
+        }
         // Wrong ones: by the material alone (an alpha test that is wrongly left out), by the corners, by the middle,
-        // by the texels of the corners without those that a filter reads beside them, and left out where any
-        // texel is clear.
+        // by the texels that hold the points without those that a filter reads beside them, left out where any
+        // texel is clear (boxes of text vanish), and opaque where any is (floors cover what lies below).
         let material: Condition =
             |opacity, uv| Opacity { map: None, ..opacity.clone() }.between(uv);
         let corners: Condition = |opacity, uv| of_points(opacity, &uv);
@@ -290,11 +311,35 @@ mod tests {
             let [least, _] = opacity.map.as_ref().unwrap().between(uv);
             if least == 0 { Drawn::Nothing } else { opacity.between(uv) }
         };
+        let one: Condition = |opacity, uv| {
+            let [_, most] = opacity.map.as_ref().unwrap().between(uv);
+            if most == OPAQUE { Drawn::All } else { opacity.between(uv) }
+        };
         for (number, condition) in
-            [material, corners, middle, unfiltered, any].into_iter().enumerate()
+            [material, corners, middle, unfiltered, any, one].into_iter().enumerate()
         {
-            assert!(tried(condition)[1] > 0, "wrong condition {number} survives");
+            for is_blended in [false, true] {
+                let wrong = tried(condition, is_blended)[1];
+                assert!(wrong > 0, "wrong condition {number} survives, blended {is_blended}");
+            }
         }
+    }
+
+    /// Every pair of channels at every opacity, against the definition in doubles, whose error is far from a half.
+    #[test]
+    fn a_mixture_is_the_nearest_one() {
+        for a in 0..=u8::MAX {
+            for c in 0..=u8::MAX {
+                for b in (0..=u8::MAX).step_by(5) {
+                    let [a, c, b] = [a, c, b].map(f64::from);
+                    let exact = (a * c + (255.0 - a) * b) / 255.0;
+                    let mixed = over([c as u8; 4], [b as u8; 4], a as u8);
+                    assert_eq!(mixed, [exact.round() as u8, mixed[1], mixed[2], 255]);
+                }
+            }
+        }
+        let (colour, before) = ([10, 20, 30, 255], [200, 0, 90, 255]);
+        assert_eq!([over(colour, before, 0), over(colour, before, 255)], [before, colour]);
     }
 
     #[test]

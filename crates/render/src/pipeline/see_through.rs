@@ -5,7 +5,7 @@ use super::Counters;
 use super::depth::DepthFormat;
 use super::fill::Way;
 use super::multisample::{SAMPLES, moved};
-use super::opacity::OPAQUE;
+use super::opacity::{OPAQUE, over};
 use super::shade::{ALL, Attributes};
 use super::target::{Antialias, Colour, SamplePlane, Target};
 use rasterproof_core::contract::{Interpolate, Varyings};
@@ -44,6 +44,11 @@ impl Look<'_> {
     }
 }
 
+/// Puts a colour over what is there.
+fn put(colour: Colour, opacity: u8, drawn: &mut Colour) {
+    *drawn = if opacity == OPAQUE { colour } else { over(colour, *drawn, opacity) };
+}
+
 /// The fragments of a run that are nearer than what is there; all where depths are not compared.
 fn nearer(format: DepthFormat, way: Way, depths: &[f64], stored: &[u64]) -> u32 {
     let mut bits = 0;
@@ -53,7 +58,7 @@ fn nearer(format: DepthFormat, way: Way, depths: &[f64], stored: &[u64]) -> u32 
     bits
 }
 
-/// Draws one triangle, as far as it lies in `bounds`; how many fragments were looked at by their opacity.
+/// Draws one triangle, as far as it lies in `bounds`; how many fragments had their opacity computed.
 ///
 /// Of four samples a pixel each has an opacity of its own, and those that are drawn have one colour: that at the centre
 /// where the triangle covers it, else that at the first of them, as of an opaque triangle.
@@ -81,12 +86,14 @@ pub fn fill(
         visible += u64::from(wanted.count_ones());
         let depths = run.depths;
         look.each(run.values, wanted, &mut |i, varying| {
-            if (look.opacity)(varying) != OPAQUE {
+            let opacity = (look.opacity)(varying);
+            if opacity == 0 {
                 return;
             }
             shaded += 1;
-            colours[i] = (look.colour)(varying, depths[i]);
-            if way.depth_test {
+            let colour = (look.colour)(varying, depths[i]);
+            put(colour, opacity, &mut colours[i]);
+            if way.depth_test && opacity == OPAQUE {
                 stored[i] = format.key(depths[i]);
             }
         });
@@ -145,17 +152,19 @@ fn fill_multisampled(
             visible += u64::from(wanted.count_ones());
             let depths = run.depths;
             look.each(run.values, wanted, &mut |i, varying| {
-                if (look.opacity)(varying) != OPAQUE {
+                let opacity = (look.opacity)(varying);
+                if opacity == 0 {
                     return;
                 }
                 let x_px = x0_px + i as i32;
-                colours[i] = shading.get(x_px, y_px).unwrap_or_else(|| {
+                let colour = shading.get(x_px, y_px).unwrap_or_else(|| {
                     shaded += 1;
                     let colour = (look.colour)(varying, depths[i]);
                     shading.put(x_px, y_px, colour);
                     colour
                 });
-                if way.depth_test {
+                put(colour, opacity, &mut colours[i]);
+                if way.depth_test && opacity == OPAQUE {
                     stored[i] = format.key(depths[i]);
                 }
             });

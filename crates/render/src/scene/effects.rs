@@ -36,6 +36,11 @@ pub const SCENES: &[Entry] = &[
         about: "leaves before a wall, each a board of 72 triangles with a leaf cut out of it by its opacities",
         build: cut_outs,
     },
+    Entry {
+        name: "panes",
+        about: "three panes of coloured glass in frames, each with a round hole, before and behind spheres",
+        build: panes,
+    },
 ];
 
 fn highlights(scene: Scene, turn: f64) -> Scene {
@@ -172,6 +177,48 @@ fn cut_outs(scene: Scene, turn: f64) -> Scene {
         let item = Item::new(board(centre, 1.7, 6), leaf.clone());
         let tilt = turn_z(0.5 * (column - row)) * turn_y(0.35 * (row - column / 2.0) + turn * TAU);
         items.push(turned(item, centre, tilt));
+    }
+    Scene { light: daylight(), ..with(scene, items) }
+}
+
+fn panes(scene: Scene, turn: f64) -> Scene {
+    let floor = shapes::quad([
+        DVec3::new(-9.0, -1.4, 1.0),
+        DVec3::new(9.0, -1.4, 1.0),
+        DVec3::new(9.0, -1.4, 18.0),
+        DVec3::new(-9.0, -1.4, 18.0),
+    ]);
+    let checks = Arc::new(textures::checkerboard().with(Filter::Bilinear, Wrap::Repeat));
+    let checks = Material { texture: Some(checks), shading: Shading::Phong, ..Material::default() };
+    let mut items = vec![Item::new(floor, checks)];
+    // From the middle 0 to the border 1: a hole, glass, and a frame.
+    let alpha = (0..256 * 256).map(|at| {
+        let [x, y] = [at % 256, at / 256].map(|at| (f64::from(at) - 127.5) / 127.5);
+        match (x * x + y * y, x.abs().max(y.abs())) {
+            (square, _) if square < 0.36 * 0.36 => 0,
+            (_, reach) if reach > 0.70 => u8::MAX,
+            _ => 110,
+        }
+    });
+    let alpha = Texture::grey(256, 256, alpha.collect()).expect("256 x 256 texels");
+    let map = Arc::new(OpacityMap::new(alpha.with(Filter::Bilinear, Wrap::Clamp)));
+    for (number, colour) in
+        [DVec3::new(0.85, 0.25, 0.20), DVec3::new(0.95, 0.80, 0.25), DVec3::new(0.25, 0.45, 0.85)]
+            .into_iter()
+            .enumerate()
+    {
+        let step = number as f64;
+        // The nearest first, so that the order of drawing is another one.
+        let centre = DVec3::new(0.9 * (step - 1.0), 0.25 * (step - 1.0), 3.0 + 1.1 * step);
+        let opacity = Some(Opacity { factor: 1.0, map: Some(map.clone()), mode: AlphaMode::Blend });
+        let glass = Material { colour, opacity, shading: Shading::Phong, ..Material::default() };
+        let pane = Item::new(board(centre, 2.0, 20), glass);
+        items.push(turned(pane, centre, turn_y(0.3 * (step - 1.0) + turn * TAU)));
+        let grey =
+            Material { colour: DVec3::splat(0.7), shading: Shading::Phong, ..Material::default() };
+        let ball = centre + DVec3::new(0.45, -0.3, 0.55);
+        let ball = Item::new(shapes::sphere(ball, 0.4, 24, 12), grey);
+        items.push(Item { cull: Cull::Clockwise, ..ball });
     }
     Scene { light: daylight(), ..with(scene, items) }
 }

@@ -39,7 +39,7 @@ pub fn scene(seed: u64, index: u64) -> Scene {
 }
 
 /// The same scene with effects beyond the book's: some of its materials have
-/// highlights or holes, some of its textures mip maps, and some scenes fog.
+/// highlights or holes or blend, some of its textures mip maps, and some scenes fog.
 ///
 /// # Panics
 /// As [`scene`].
@@ -103,7 +103,7 @@ fn opacity(rng: &mut Rng) -> Opacity {
     Opacity {
         factor: if rng.chance(3) { rng.unit() } else { 1.0 },
         map: (!rng.chance(6)).then(|| Arc::new(map)),
-        mode: AlphaMode::Test { threshold },
+        mode: if rng.chance(2) { AlphaMode::Blend } else { AlphaMode::Test { threshold } },
     }
 }
 

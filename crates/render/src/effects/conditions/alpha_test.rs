@@ -1,6 +1,6 @@
 //! Alpha test: leaving out the fragments that are not opaque enough.
 //!
-//! Left out where the material is opaque, and for a piece whose opacities all reach the threshold
+//! Left out where the material has no holes, and for a piece whose opacities all reach the threshold
 //! ([`Opacity::between`]). A piece whose opacities are all below it is not drawn.
 //!
 //! [`Opacity::between`]: crate::pipeline::opacity::Opacity::between
@@ -9,20 +9,26 @@ use super::survey::Survey;
 use crate::effects::plan::Decision;
 use crate::effects::primitive::{Piece, Prepared};
 use crate::effects::{Effect, Effects, Mode};
-use crate::pipeline::opacity::Drawn;
+use crate::pipeline::opacity::{AlphaMode, Drawn};
 use crate::pipeline::shade::Surface;
 use crate::scene::Item;
 use rasterproof_core::arrays::MapArray as _;
 
-/// What an item asks for; an opaque one has nothing to be tested.
+fn is_tested(item: &Item) -> bool {
+    let opacity = item.material.opacity.as_ref();
+    opacity.is_some_and(|opacity| opacity.mode != AlphaMode::Blend)
+}
+
+/// What an item asks for; without a threshold there is nothing to be tested.
 pub fn mode(item: &Item, effects: &Effects) -> Mode {
     match effects.mode(Effect::AlphaTest) {
-        _ if item.material.opacity.is_none() => Mode::Never,
+        _ if !is_tested(item) => Mode::Never,
         Mode::Material => Mode::Always,
         mode => mode,
     }
 }
 
+/// What is drawn of a piece by the opacities that it reads.
 #[inline]
 pub fn drawn(mode: Mode, item: &Prepared<'_>, piece: &Piece) -> Drawn {
     match (mode, &item.item.material.opacity) {
@@ -34,10 +40,12 @@ pub fn drawn(mode: Mode, item: &Prepared<'_>, piece: &Piece) -> Drawn {
     }
 }
 
-/// Nothing of an opaque material.
+/// Nothing of a material without a threshold.
 pub fn explain(survey: &Survey<'_>) -> Option<Decision> {
     let Survey { item, pieces, tested: [mixed, nothing], .. } = *survey;
-    item.material.opacity.as_ref()?;
+    if !is_tested(item) {
+        return None;
+    }
     if survey.effects.mode(Effect::AlphaTest) == Mode::Material {
         return Some(survey.decide(Effect::AlphaTest, pieces, "the material is cut out"));
     }

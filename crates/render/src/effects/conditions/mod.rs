@@ -5,6 +5,7 @@
 
 pub(super) mod alpha_test;
 pub(super) mod attributes;
+pub(super) mod blending;
 pub(super) mod clear;
 pub(super) mod clip;
 pub(super) mod cull;

@@ -28,6 +28,8 @@ pub struct Survey<'a> {
     pub shares: [u64; 2],
     /// Pieces of which some fragments are opaque enough, and those of which none is.
     pub tested: [u64; 2],
+    /// The same of blending: pieces of which some fragments are mixed, and those of which nothing is drawn.
+    pub blended: [u64; 2],
     /// Pieces that are not magnified everywhere.
     pub mip_maps: u64,
     /// Pieces that may have a highlight.
@@ -64,6 +66,7 @@ impl<'a> Survey<'a> {
             mip_maps: 0,
             shares: [0; 2],
             tested: [0; 2],
+            blended: [0; 2],
             has_widths: false,
             wide: 0,
             interpolated: [0; 3],
@@ -79,8 +82,9 @@ impl<'a> Survey<'a> {
         for (count, share) in self.shares.iter_mut().zip([Share::Mixed, Share::Whole]) {
             *count += u64::from(plan.fog == share);
         }
-        for (count, drawn) in self.tested.iter_mut().zip([Drawn::Mixed, Drawn::Nothing]) {
-            *count += u64::from(plan.alpha_test == drawn);
+        for (i, drawn) in [Drawn::Mixed, Drawn::Nothing].into_iter().enumerate() {
+            self.tested[i] += u64::from(plan.alpha_test == drawn);
+            self.blended[i] += u64::from(plan.blending == drawn);
         }
         self.mip_maps += u64::from(plan.mip_maps);
         self.specular += u64::from(plan.specular);
