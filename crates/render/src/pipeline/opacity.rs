@@ -49,7 +49,7 @@ pub enum Drawn {
     Nothing,
 }
 
-/// All of what is behind is covered.
+/// The opacity of a fragment that covers all of what is behind it.
 pub const OPAQUE: u8 = u8::MAX;
 
 /// A colour over another, each channel the nearest of the exact ones: (a c + (255 - a) b) / 255, of which none lies
@@ -101,7 +101,6 @@ impl Opacity {
 }
 
 impl AlphaMode {
-    /// What becomes of an opacity.
     fn of(self, opacity: u8) -> u8 {
         match self {
             Self::Blend => opacity,
@@ -119,7 +118,7 @@ impl AlphaMode {
 pub struct OpacityMap {
     texture: Texture,
     blocks: Vec<[u8; 2]>,
-    /// Of all texels.
+    /// The least and the largest opacity of all texels.
     whole: [u8; 2],
 }
 
@@ -148,12 +147,6 @@ impl OpacityMap {
         }
         let whole = blocks.iter().fold(none, |whole, block| join(whole, *block));
         Self { texture, blocks, whole }
-    }
-
-    /// The texture that it was made of.
-    #[must_use]
-    pub fn texture(&self) -> &Texture {
-        &self.texture
     }
 
     /// The least and the largest of each block, row by row.
@@ -291,7 +284,7 @@ mod tests {
         }
         // Wrong ones: by the material alone (an alpha test that is wrongly left out), by the corners, by the middle,
         // by the texels that hold the points without those that a filter reads beside them, left out where any
-        // texel is clear (boxes of text vanish), and opaque where any is (floors cover what lies below).
+        // texel is clear (boxes of text vanish), and opaque where any is (what should be seen through it is covered).
         let material: Condition =
             |opacity, uv| Opacity { map: None, ..opacity.clone() }.between(uv);
         let corners: Condition = |opacity, uv| of_points(opacity, &uv);
