@@ -429,6 +429,28 @@ fn screen(right: f64, z: [f64; 2]) -> Mesh {
     ])
 }
 
+/// What is mixed writes no depth: of two sheets of one item the farther, which comes later, is drawn over the nearer.
+#[test]
+fn a_pane_hides_nothing() {
+    let (mut mesh, far) = (screen(1.0, [-0.5; 2]), screen(1.0, [0.5; 2]));
+    let first = mesh.positions.len() as u32;
+    mesh.positions.extend(&far.positions);
+    for mut triangle in far.triangles {
+        triangle.iter_mut().for_each(|corner| corner.position += first);
+        mesh.triangles.push(triangle);
+    }
+    let opacity = Some(Opacity { factor: 0.5, map: None, mode: AlphaMode::Blend });
+    let scene = plain(vec![Item::new(mesh, Material { opacity, ..grey(1.0) })]);
+    let over = |b: u8| ((128 * 255 + 127 * u32::from(b) + 127) / 255) as u8;
+    let [r, g, b] = [0, 1, 2].map(|i| over(over(scene.background[i])));
+    for antialias in SMOOTHINGS {
+        for drawer in Drawer::ALL {
+            let picture = draw(&scene, drawer, Effects::PLANNED, antialias).picture;
+            assert!(picture.rows().all(|(_, row)| row.iter().all(|c| *c == [r, g, b, 255])));
+        }
+    }
+}
+
 /// Panes that are submitted from the nearest to the farthest are drawn the other way round, after what is opaque, over
 /// each other, and each pixel is what the formula says; what lies between hides those behind it.
 #[test]
