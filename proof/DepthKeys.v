@@ -28,7 +28,7 @@ Proof.
 Qed.
 
 Theorem keys_of_24_bits a depth : (0 <= a <= 2 ^ 20)%Z -> 0 <= depth <= 1 ->
-  Qabs (depth - inject_Z a / inject_Z (2 ^ 20)) <= 1 # 2 ^ 47 ->
+  Qabs (depth - inject_Z a / inject_Z (2 ^ 20)) <= 1 # 2 ^ 46 ->
   key 3 20 (2 ^ 24 - 1) depth = key_of_fraction (2 ^ 24 - 1) a.
 Proof.
   intros Ha Hd Near. unfold key, key_of_fraction. set (n := (3 * a * (2 ^ 24 - 1) + 3 * 2 ^ 19 + 1)%Z).
@@ -57,7 +57,7 @@ Proof.
   assert (N1 : 0 <= nearest (depth * (16777215 # 1))) by (apply (fl_sign nearest nearest_rounds); lra).
   set (p := nearest (depth * (16777215 # 1))) in *. clearbody p.
   apply Qabs_Qle_condition in P, Near, Off. change (1 # 2 ^ 28) with (1 # 268435456) in E1.
-  change (1 # 2 ^ 47) with (1 # 140737488355328) in Near. change (1 # 2 ^ 50) with (1 # 1125899906842624) in Off.
+  change (1 # 2 ^ 46) with (1 # 70368744177664) in Near. change (1 # 2 ^ 50) with (1 # 1125899906842624) in Off.
   set (e1 := u * (16777216 # 1) + eta) in *. clearbody e1.
   pose proof (absolute (p + h) (33554432 # 1) ltac:(split; lra)) as S.
   assert (E2 : u * (33554432 # 1) + eta <= 1 # 134217728) by (apply Qle_bool_iff; vm_compute; reflexivity).

@@ -1,55 +1,10 @@
 (** Values as planes over the screen, set up in f64 and evaluated in f32: crates/tiles/src/frames/planes.rs. The error of a
     plane at a pixel, for the rounding of both formats. *)
 From Coq Require Import ZArith QArith Qabs Lia Lqa.
-From Rasterproof Require Import Rounding Nearest.
+From Rasterproof Require Import Rounding Nearest PlaneModel.
 Open Scope Q_scope.
 
-(** ** Rounding to f32: 24 bits, numbers from 2^-149 on *)
-
-Definition w : Q := Eval compute in 1 # (2 ^ 24).
-Definition tiny : Q := Eval compute in 1 # (2 ^ 150).
-
-Definition last_bit32 (x : Q) : Z := Z.max (exponent x - 23) (-149).
-
-Definition nearest32_positive (x : Q) : Q := inject_Z (whole (x * pow2 (- last_bit32 x))) * pow2 (last_bit32 x).
-
-Definition nearest32 (x : Q) : Q :=
-  if Qeq_bool x 0 then 0 else if Qle_bool 0 x then nearest32_positive x else - nearest32_positive (- x).
-
-Lemma nearest32_positive_near x : 0 < x -> Qabs (nearest32_positive x - x) <= w * x + tiny.
-Proof.
-  intros Hx. unfold nearest32_positive. set (k := last_bit32 x). pose proof (pow2_positive k).
-  pose proof (whole_near (x * pow2 (- k))) as H1. set (m := inject_Z (whole (x * pow2 (- k)))) in *.
-  assert (E : m * pow2 k - x == (m - x * pow2 (- k)) * pow2 k).
-  { setoid_replace ((m - x * pow2 (- k)) * pow2 k) with (m * pow2 k - x * (pow2 (- k) * pow2 k)) by ring.
-    rewrite pow2_inverse. ring. }
-  rewrite E, Qabs_Qmult, (Qabs_pos (pow2 k)) by lra.
-  apply Qle_trans with ((1 # 2) * pow2 k); [apply Qmult_le_compat_r; lra|].
-  assert (T : 0 <= tiny) by discriminate. assert (W : 0 <= w * x) by (unfold w; lra).
-  destruct (Z_le_gt_dec (-149) (exponent x - 23)) as [L | L].
-  - unfold k, last_bit32. rewrite Z.max_l by assumption. destruct (exponent_spec x Hx) as [B _].
-    unfold Z.sub. rewrite pow2_add. assert (F : (1 # 2) * pow2 (- (23)) == w) by (apply Qeq_bool_iff; vm_compute; reflexivity).
-    set (p := pow2 (exponent x)) in *. set (q := pow2 (- (23))) in *.
-    setoid_replace ((1 # 2) * (p * q)) with (p * ((1 # 2) * q)) by ring. rewrite F. unfold w in *. lra.
-  - unfold k, last_bit32. rewrite Z.max_r by lia.
-    assert (F : (1 # 2) * pow2 (-149) == tiny) by (apply Qeq_bool_iff; vm_compute; reflexivity). rewrite F. lra.
-Qed.
-
-Theorem nearest32_near x : Qabs (nearest32 x - x) <= w * Qabs x + tiny.
-Proof.
-  assert (T : 0 <= tiny) by discriminate. unfold nearest32. destruct (Qeq_bool x 0) eqn:E.
-  - apply Qeq_bool_iff in E. setoid_replace (0 - x) with 0 by (rewrite E; ring). rewrite E. change (Qabs 0) with 0. lra.
-  - assert (N : ~ x == 0) by (intro H; apply Qeq_bool_iff in H; congruence). destruct (Qle_bool 0 x) eqn:S.
-    + apply Qle_bool_iff in S. rewrite (Qabs_pos x) by assumption. apply nearest32_positive_near. lra.
-    + assert (X : x < 0) by (destruct (Qlt_le_dec x 0) as [|H]; [assumption | apply Qle_bool_iff in H; congruence]).
-      rewrite (Qabs_neg x) by lra. rewrite <- Qabs_opp.
-      setoid_replace (- (- nearest32_positive (- x) - x)) with (nearest32_positive (- x) - - x) by ring.
-      apply nearest32_positive_near. lra.
-Qed.
-
 (** ** In f64: an error of n roundings of numbers of at most R, and what lies below the normal numbers *)
-
-Notation fl := nearest.
 
 Definition near (n : nat) (t R x x' : Q) : Prop := Qabs (x' - x) <= drift n * R + t /\ Qabs x <= R /\ 0 <= t.
 
@@ -153,11 +108,11 @@ Variables (v0 v1 v2 c0 c1 c2 M t : Q).
 (** What comes in is off by two roundings. *)
 Hypothesis (N0 : near 2 t M v0 c0) (N1 : near 2 t M v1 c1) (N2 : near 2 t M v2 c2).
 
-Definition slope (d1 d2 a b : Q) : Q := fl (fl (fl (d1 * a) - fl (d2 * b)) * pa).
-Definition difference (c : Q) : Q := fl (c - c0).
-Definition right : Q := slope (difference c1) (difference c2) y2 y1.
-Definition down : Q := slope (difference c2) (difference c1) x1 x2.
-Definition start : Q := fl (c0 + fl (fl (right * X0) + fl (down * Y0))).
+Notation slope := (PlaneModel.slope pa).
+Notation difference := (PlaneModel.difference c0).
+Notation right := (PlaneModel.right y1 y2 pa c0 c1 c2).
+Notation down := (PlaneModel.down x1 x2 pa c0 c1 c2).
+Notation start := (PlaneModel.start x1 y1 x2 y2 pa X0 Y0 c0 c1 c2).
 
 Definition exact_right : Q := ((v1 - v0) * y2 - (v2 - v0) * y1) * (1 / area).
 Definition exact_down : Q := ((v2 - v0) * x1 - (v1 - v0) * x2) * (1 / area).
@@ -168,7 +123,7 @@ Definition steepest (a b : Q) : Q := (2 * M * Qabs a + 2 * M * Qabs b) * Qabs (1
 Lemma difference_near v c : near 2 t M v c -> near 3 (2 * (t + t) + eta) (2 * M) (v - v0) (difference c).
 Proof.
   intros N. pose proof (near_round 2 _ _ _ _ ltac:(lia) (near_add 2 _ _ _ _ _ _ _ _ N (near_opp _ _ _ _ _ N0))) as D.
-  destruct D as (E & B & T). unfold difference. repeat split; [| |assumption].
+  destruct D as (E & B & T). unfold PlaneModel.difference. repeat split; [| |assumption].
   - setoid_replace (2 * M) with (M + M) by ring. exact E.
   - setoid_replace (2 * M) with (M + M) by ring. exact B.
 Qed.
@@ -180,7 +135,7 @@ Definition slope_tiny (a b : Q) : Q :=
 Lemma slope_near p q p' q' a b : near 3 (2 * (t + t) + eta) (2 * M) p p' -> near 3 (2 * (t + t) + eta) (2 * M) q q' ->
   near 7 (slope_tiny a b) (steepest a b) ((p * a - q * b) * (1 / area)) (slope p' q' a b).
 Proof.
-  intros P Q. unfold slope, steepest, slope_tiny. cbv zeta.
+  intros P Q. unfold PlaneModel.slope, steepest, slope_tiny. cbv zeta.
   pose proof (near_round 3 _ _ _ _ ltac:(lia) (near_scale 3 _ _ _ _ a (Qabs a) (Qle_refl _) P)) as A.
   pose proof (near_round 3 _ _ _ _ ltac:(lia) (near_scale 3 _ _ _ _ b (Qabs b) (Qle_refl _) Q)) as B.
   pose proof (near_round 4 _ _ _ _ ltac:(lia) (near_add 4 _ _ _ _ _ _ _ _ A (near_opp _ _ _ _ _ B))) as C.
@@ -235,8 +190,6 @@ End Plane.
 
 (** ** In f32: ValuePlane::at *)
 
-Definition at_pixel (s r d x y : Q) : Q := nearest32 (nearest32 (s + nearest32 (d * y)) + nearest32 (r * x)).
-
 (** S of the bound, of the rounded numbers, as the code takes it. *)
 Definition size (s r d x y : Q) : Q := Qabs s + Qabs (nearest32 (r * x)) + Qabs (nearest32 (d * y)).
 
@@ -252,33 +205,34 @@ Proof.
 Qed.
 
 (** A term of the plane, after both of its numbers were rounded to f32. *)
-Lemma term_error d y : 0 <= y <= inject_Z (2 ^ 15) -> let d' := nearest32 d in
-  Qabs (nearest32 (d' * y) - d * y) <= w * (2 + 8 * w) * Qabs (nearest32 (d' * y)) + inject_Z (2 ^ 17) * tiny.
+Lemma term_error d y : Qabs y <= inject_Z (2 ^ 19) -> let d' := nearest32 d in
+  Qabs (nearest32 (d' * y) - d * y) <= w * (2 + 8 * w) * Qabs (nearest32 (d' * y)) + inject_Z (2 ^ 20 + 2 ^ 19) * tiny.
 Proof.
-  intros [Y0 Y1] d'. pose proof (back (d' * y)) as B. pose proof (back d) as D. fold d' in D.
-  assert (P : Qabs (d' * y - d * y) <= w * (1 + 2 * w) * Qabs (d' * y) + inject_Z (2 ^ 16) * tiny).
-  { setoid_replace (d' * y - d * y) with ((d' - d) * y) by ring. rewrite !Qabs_Qmult, (Qabs_pos y) by assumption.
-    apply Qle_trans with ((w * (1 + 2 * w) * Qabs d' + 2 * tiny) * y); [apply Qmult_le_compat_r; assumption|].
-    assert (Z : tiny * y <= tiny * inject_Z (2 ^ 15)).
+  intros Hy d'. pose proof (Qabs_nonneg y) as Y0. pose proof (back (d' * y)) as B. pose proof (back d) as D. fold d' in D.
+  assert (P : Qabs (d' * y - d * y) <= w * (1 + 2 * w) * Qabs (d' * y) + inject_Z (2 ^ 20) * tiny).
+  { setoid_replace (d' * y - d * y) with ((d' - d) * y) by ring. rewrite !Qabs_Qmult.
+    apply Qle_trans with ((w * (1 + 2 * w) * Qabs d' + 2 * tiny) * Qabs y); [apply Qmult_le_compat_r; assumption|].
+    assert (Z : tiny * Qabs y <= tiny * inject_Z (2 ^ 19)).
     { rewrite !(Qmult_comm tiny). apply Qmult_le_compat_r; [assumption | discriminate]. }
-    change (inject_Z (2 ^ 16)) with (2 * inject_Z (2 ^ 15)). 
-    setoid_replace ((w * (1 + 2 * w) * Qabs d' + 2 * tiny) * y) with (w * (1 + 2 * w) * (Qabs d' * y) + 2 * (tiny * y)) by ring.
-    setoid_replace (2 * inject_Z (2 ^ 15) * tiny) with (2 * (tiny * inject_Z (2 ^ 15))) by ring. lra. }
+    change (inject_Z (2 ^ 20)) with (2 * inject_Z (2 ^ 19)).
+    setoid_replace ((w * (1 + 2 * w) * Qabs d' + 2 * tiny) * Qabs y) with
+      (w * (1 + 2 * w) * (Qabs d' * Qabs y) + 2 * (tiny * Qabs y)) by ring.
+    setoid_replace (2 * inject_Z (2 ^ 19) * tiny) with (2 * (tiny * inject_Z (2 ^ 19))) by ring. lra. }
   assert (T : Qabs (d' * y) <= Qabs (nearest32 (d' * y)) + Qabs (nearest32 (d' * y) - d' * y)).
   { setoid_replace (d' * y) with (nearest32 (d' * y) + - (nearest32 (d' * y) - d' * y)) at 1 by ring.
     pose proof (Qabs_triangle (nearest32 (d' * y)) (- (nearest32 (d' * y) - d' * y))) as Q. rewrite Qabs_opp in Q. exact Q. }
   setoid_replace (nearest32 (d' * y) - d * y) with (nearest32 (d' * y) - d' * y + (d' * y - d * y)) by ring.
   pose proof (Qabs_triangle (nearest32 (d' * y) - d' * y) (d' * y - d * y)). assert (G : 0 <= tiny) by discriminate.
-  change (inject_Z (2 ^ 16)) with (65536 # 1) in *. change (inject_Z (2 ^ 17)) with (131072 # 1). unfold w in *.
+  change (inject_Z (2 ^ 20)) with (1048576 # 1) in *. change (inject_Z (2 ^ 20 + 2 ^ 19)) with (1572864 # 1). unfold w in *.
   pose proof (Qabs_nonneg (nearest32 (d' * y))).
   set (a := Qabs (nearest32 (d' * y))) in *. set (e := Qabs (nearest32 (d' * y) - d' * y)) in *.
   set (b := Qabs (d' * y)) in *. set (g := tiny) in *. set (q := Qabs (d' * y - d * y)) in *. clearbody a e b g q. lra.
 Qed.
 
 (** What f32 contributes: 4 u S. *)
-Theorem evaluation_error s r d x y : 0 <= x <= inject_Z (2 ^ 15) -> 0 <= y <= inject_Z (2 ^ 15) ->
+Theorem evaluation_error s r d x y : Qabs x <= inject_Z (2 ^ 19) -> Qabs y <= inject_Z (2 ^ 19) ->
   Qabs (at_pixel (nearest32 s) (nearest32 r) (nearest32 d) x y - (s + r * x + d * y)) <=
-    4 * w * size (nearest32 s) (nearest32 r) (nearest32 d) x y * (1 + (1 # 2 ^ 20)) + inject_Z (2 ^ 19) * tiny.
+    4 * w * size (nearest32 s) (nearest32 r) (nearest32 d) x y * (1 + (1 # 2 ^ 20)) + inject_Z (2 ^ 22) * tiny.
 Proof.
   intros Hx Hy. set (s' := nearest32 s). set (r' := nearest32 r). set (d' := nearest32 d). unfold at_pixel, size. pose proof (back s) as S. fold s' in S.
   pose proof (term_error r x Hx) as R. pose proof (term_error d y Hy) as D. cbv zeta in R, D. fold r' in R. fold d' in D.
@@ -294,7 +248,7 @@ Proof.
   pose proof (Qabs_triangle (m - (s' + b)) ((s' - s) + ((c - r * x) + (b - d * y)))) as U2.
   pose proof (Qabs_triangle (s' - s) ((c - r * x) + (b - d * y))) as U3. pose proof (Qabs_triangle (c - r * x) (b - d * y)) as U4.
   pose proof (Qabs_nonneg s'). pose proof (Qabs_nonneg b). pose proof (Qabs_nonneg c). assert (G : 0 <= tiny) by discriminate.
-  change (inject_Z (2 ^ 17)) with (131072 # 1) in *. change (inject_Z (2 ^ 19)) with (524288 # 1).
+  change (inject_Z (2 ^ 20 + 2 ^ 19)) with (1572864 # 1) in *. change (inject_Z (2 ^ 22)) with (4194304 # 1).
   change (1 # 2 ^ 20) with (1 # 1048576). unfold w in *.
   set (as_ := Qabs s') in *. set (ab := Qabs b) in *. set (ac := Qabs c) in *. set (g := tiny) in *.
   set (e1 := Qabs (o - (m + c))) in *. set (e2 := Qabs (m - (s' + b))) in *. set (e3 := Qabs (s' - s)) in *.
@@ -355,7 +309,7 @@ Proof.
   clearbody k l m e. lra.
 Qed.
 
-Lemma plane_tiny_small x y : Qabs x <= inject_Z (2 ^ 15) -> Qabs y <= inject_Z (2 ^ 15) ->
+Lemma plane_tiny_small x y : Qabs x <= inject_Z (2 ^ 19) -> Qabs y <= inject_Z (2 ^ 19) ->
   plane_tiny x1 y1 x2 y2 area X0 Y0 t x y <= 1 # 2 ^ 800.
 Proof.
   intros Hx Hy. destruct N0 as (_ & _ & T0). unfold plane_tiny, start_tiny.
@@ -365,58 +319,60 @@ Proof.
   pose proof (product_le _ _ _ _ SR (conj (Qabs_nonneg x) Hx)). pose proof (product_le _ _ _ _ SD (conj (Qabs_nonneg y) Hy)).
   assert (E : 0 <= eta <= 1 # 2 ^ 1000) by (split; [discriminate | apply Qle_bool_iff; vm_compute; reflexivity]).
   assert (F : 2 * ((1 # 2 ^ 900) + (2 * (2 * ((1 # 2 ^ 840) * inject_Z (2 ^ 24)) + (1 # 2 ^ 1000) + (2 * ((1 # 2 ^ 840) * inject_Z (2 ^ 24)) + (1 # 2 ^ 1000))) + (1 # 2 ^ 1000)))
-    + (1 # 2 ^ 1000) + ((1 # 2 ^ 840) * inject_Z (2 ^ 15) + (1 # 2 ^ 840) * inject_Z (2 ^ 15)) <= 1 # 2 ^ 800)
+    + (1 # 2 ^ 1000) + ((1 # 2 ^ 840) * inject_Z (2 ^ 19) + (1 # 2 ^ 840) * inject_Z (2 ^ 19)) <= 1 # 2 ^ 800)
     by (apply Qle_bool_iff; vm_compute; reflexivity).
-  set (k := (1 # 2 ^ 840) * inject_Z (2 ^ 24)) in *. set (l := (1 # 2 ^ 840) * inject_Z (2 ^ 15)) in *.
+  set (k := (1 # 2 ^ 840) * inject_Z (2 ^ 24)) in *. set (l := (1 # 2 ^ 840) * inject_Z (2 ^ 19)) in *.
   set (p := r * Qabs X0) in *. set (q := d * Qabs Y0) in *. set (a := r * Qabs x) in *. set (b := d * Qabs y) in *.
   set (m := 1 # 2 ^ 800) in *. set (n := 1 # 2 ^ 900) in *. set (o := 1 # 2 ^ 1000) in *. set (e := eta) in *.
   clearbody k l p q a b m n o e. lra.
 Qed.
 
-Notation started := (start x1 y1 x2 y2 pa X0 Y0 c0 c1 c2).
-Notation rightwards := (right y1 y2 pa c0 c1 c2).
-Notation downwards := (down x1 x2 pa c0 c1 c2).
+Notation started := (PlaneModel.start x1 y1 x2 y2 pa X0 Y0 c0 c1 c2).
+Notation rightwards := (PlaneModel.right y1 y2 pa c0 c1 c2).
+Notation downwards := (PlaneModel.down x1 x2 pa c0 c1 c2).
 
 Lemma ten_of_eleven : drift 10 * (1 + (1 # 2 ^ 30)) <= 11 * u.
 Proof. apply Qle_bool_iff. vm_compute. reflexivity. Qed.
 
-Lemma scaled_growth g T : g <= T * (1 + (1 # 2 ^ 30)) -> 0 <= T -> drift 10 * g <= 11 * u * T.
+Lemma scaled_growth g T m : g <= T * (1 + (1 # 2 ^ 30)) + m -> 0 <= T -> 0 <= m -> drift 10 * g <= 11 * u * T + m.
 Proof.
-  intros HT Tp. pose proof ten_of_eleven as D. pose proof (drift_positive 10) as D0.
+  intros HT Tp Mp. pose proof ten_of_eleven as D. pose proof (drift_positive 10) as D0.
+  assert (D1 : drift 10 <= 1) by (apply Qle_bool_iff; vm_compute; reflexivity).
   set (ten := drift 10) in *. set (more := 1 + (1 # 2 ^ 30)) in *. set (eleven := 11 * u) in *. clearbody ten more eleven.
-  apply Qle_trans with (ten * (T * more)).
+  apply Qle_trans with (ten * (T * more + m)).
   - rewrite !(Qmult_comm ten). apply Qmult_le_compat_r; assumption.
-  - setoid_replace (ten * (T * more)) with (ten * more * T) by ring. apply Qmult_le_compat_r; assumption.
+  - setoid_replace (ten * (T * more + m)) with (ten * more * T + ten * m) by ring.
+    assert (ten * more * T <= eleven * T) by (apply Qmult_le_compat_r; assumption).
+    assert (ten * m <= 1 * m) by (apply Qmult_le_compat_r; assumption). lra.
 Qed.
 
-Lemma all_tiny : inject_Z (2 ^ 19) * tiny + (1 # 2 ^ 800) <= 1 # 2 ^ 126.
+Lemma all_tiny : inject_Z (2 ^ 22) * tiny + ((1 # 2 ^ 800) + (1 # 2 ^ 800)) <= 1 # 2 ^ 127.
 Proof. apply Qle_bool_iff. vm_compute. reflexivity. Qed.
 
-Lemma bounded e1 e2 e3 tg tt k l m T (size_ : Q) : e3 <= e1 + e2 -> e1 <= 4 * w * size_ * (1 + (1 # 2 ^ 20)) + k ->
-  e2 <= tg + tt -> tt <= l -> tg <= 11 * u * T -> k + l <= m -> 0 <= size_ -> 0 <= T ->
-  e3 <= (4 * w * size_ + 11 * u * T) * (1 + (1 # 2 ^ 18)) + m.
+Lemma bounded e1 e2 e3 tg tt k l n m T (size_ : Q) : e3 <= e1 + e2 -> e1 <= 4 * w * size_ * (1 + (1 # 2 ^ 20)) + k ->
+  e2 <= tg + tt -> tt <= l -> tg <= 11 * u * T + n -> k + (l + n) <= m -> 0 <= size_ -> 0 <= T ->
+  e3 <= (4 * w * size_ + 11 * u * T) * (1 + (1 # 2 ^ 20)) + m.
 Proof.
-  intros. change (1 # 2 ^ 18) with (1 # 262144). change (1 # 2 ^ 20) with (1 # 1048576) in *. unfold w, u in *. lra.
+  intros. change (1 # 2 ^ 20) with (1 # 1048576) in *. unfold w, u in *. lra.
 Qed.
 
-(** A plane at a pixel, or at a sample beside it. T is computed by the code from positive numbers, so it may be off by a
-    few roundings. *)
-Theorem plane_error x y T : 0 <= x <= inject_Z (2 ^ 15) -> 0 <= y <= inject_Z (2 ^ 15) -> 0 <= T ->
-  growth x1 y1 x2 y2 area X0 Y0 M x y <= T * (1 + (1 # 2 ^ 30)) ->
+(** A plane at a pixel, or at a sample beside it. T is computed by the code, so it may be off by a few roundings:
+    [TilePlanes] proves by how many. *)
+Theorem plane_error x y T : Qabs x <= inject_Z (2 ^ 19) -> Qabs y <= inject_Z (2 ^ 19) -> 0 <= T ->
+  growth x1 y1 x2 y2 area X0 Y0 M x y <= T * (1 + (1 # 2 ^ 30)) + (1 # 2 ^ 800) ->
   Qabs (at_pixel (nearest32 started) (nearest32 rightwards) (nearest32 downwards) x y -
         exact_value x1 y1 x2 y2 area X0 Y0 v0 v1 v2 x y) <=
-    plane_bound 4 11 18 126 (size (nearest32 started) (nearest32 rightwards) (nearest32 downwards) x y) T.
+    plane_bound 4 11 20 127 (size (nearest32 started) (nearest32 rightwards) (nearest32 downwards) x y) T.
 Proof.
-  intros Hx Hy Tp HT. pose proof (evaluation_error started rightwards downwards x y Hx Hy) as E.
+  intros Ax Ay Tp HT. pose proof (evaluation_error started rightwards downwards x y Ax Ay) as E.
   pose proof (setup_error x1 y1 x2 y2 area pa X0 Y0 Pa v0 v1 v2 c0 c1 c2 M t N0 N1 N2 x y) as F.
-  assert (Ax : Qabs x <= inject_Z (2 ^ 15)) by (rewrite Qabs_pos; lra). assert (Ay : Qabs y <= inject_Z (2 ^ 15)) by (rewrite Qabs_pos; lra).
   pose proof (plane_tiny_small x y Ax Ay) as P.
-  pose proof (scaled_growth _ T HT Tp) as K.
+  pose proof (scaled_growth _ T _ HT Tp ltac:(discriminate)) as K.
   assert (S0 : 0 <= size (nearest32 started) (nearest32 rightwards) (nearest32 downwards) x y).
   { unfold size. pose proof (fun a => Qabs_nonneg a) as N. apply (Qle_trans _ (0 + 0 + 0)); [discriminate | repeat apply Qplus_le_compat; apply N]. }
   assert (H : forall o v sum, Qabs (o - v) <= Qabs (o - sum) + Qabs (sum - v)).
   { intros o v sum. setoid_replace (o - v) with (o - sum + (sum - v)) by ring. apply Qabs_triangle. }
-  exact (bounded _ _ _ _ _ _ _ _ _ _ (H _ _ _) E F P K all_tiny S0 Tp).
+  exact (bounded _ _ _ _ _ _ _ _ _ _ _ (H _ _ _) E F P K all_tiny S0 Tp).
 Qed.
 End Bound.
 
@@ -443,24 +399,28 @@ Proof.
   - apply Qmult_le_compat_r; lra.
 Qed.
 
-Theorem quotient_error n q n' q' en eq : Qabs (n' - n) <= en -> Qabs (q' - q) <= eq -> eq < q' -> q' <= 2 ->
-  Qabs (nearest32 (n' * nearest32 (1 / q')) - n / q) <= quotient_bound 2 18 126 en eq n' q'.
+Theorem quotient_error n q n' q' en eq : Qabs (n' - n) <= en -> Qabs (q' - q) <= eq -> eq < q' -> q' <= inject_Z (2 ^ 80) ->
+  Qabs (nearest32 (n' * nearest32 (1 / q')) - n / q) <= quotient_bound 2 20 130 en eq n' q'.
 Proof.
-  intros En Eq P Two. pose proof (quotient_of_errors n q n' q' en eq En Eq P) as F. unfold quotient_bound.
+  intros En Eq P Most. pose proof (quotient_of_errors n q n' q' en eq En Eq P) as F. unfold quotient_bound.
   pose proof (Qabs_nonneg (q' - q)). assert (Q1 : 0 < q') by lra.
   pose proof (nearest32_near (1 / q')) as R. pose proof (nearest32_near (n' * nearest32 (1 / q'))) as G.
-  assert (Hh : 1 # 2 <= 1 / q') by (apply Qle_shift_div_l; lra). rewrite (Qabs_pos (1 / q')) in R by lra.
+  assert (Hh : 1 # 2 ^ 80 <= 1 / q').
+  { apply Qle_shift_div_l; [assumption|]. apply Qle_trans with ((1 # 2 ^ 80) * inject_Z (2 ^ 80)); [|discriminate].
+    rewrite !(Qmult_comm (1 # 2 ^ 80)). apply Qmult_le_compat_r; [assumption | discriminate]. }
+  assert (H0 : 0 <= 1 / q') by (apply Qle_trans with (1 # 2 ^ 80); [discriminate | assumption]).
+  rewrite (Qabs_pos (1 / q')) in R by assumption.
   assert (R1 : Qabs (nearest32 (1 / q') - 1 / q') <= w * (1 + (1 # 2 ^ 40)) * (1 / q')).
-  { assert (T : tiny <= w * (1 # 2 ^ 40) * (1 # 2)) by (apply Qle_bool_iff; vm_compute; reflexivity).
-    assert (M : w * (1 # 2 ^ 40) * (1 # 2) <= w * (1 # 2 ^ 40) * (1 / q')).
+  { assert (T : tiny <= w * (1 # 2 ^ 40) * (1 # 2 ^ 80)) by (apply Qle_bool_iff; vm_compute; reflexivity).
+    assert (M : w * (1 # 2 ^ 40) * (1 # 2 ^ 80) <= w * (1 # 2 ^ 40) * (1 / q')).
     { rewrite !(Qmult_comm (w * (1 # 2 ^ 40))). apply Qmult_le_compat_r; [assumption | discriminate]. }
     set (i := 1 / q') in *. setoid_replace (w * (1 + (1 # 2 ^ 40)) * i) with (w * i + w * (1 # 2 ^ 40) * i) by ring.
-    set (k := w * (1 # 2 ^ 40) * i) in *. set (l := w * (1 # 2 ^ 40) * (1 # 2)) in *. clearbody k l. lra. }
+    set (k := w * (1 # 2 ^ 40) * i) in *. set (l := w * (1 # 2 ^ 40) * (1 # 2 ^ 80)) in *. clearbody k l. lra. }
   set (p := nearest32 (1 / q')) in *. clearbody p.
   assert (N : Qabs (n' * p - n' / q') <= w * (1 + (1 # 2 ^ 40)) * Qabs (n' / q')).
   { setoid_replace (n' * p - n' / q') with (n' * (p - 1 / q')) by (field; lra).
     assert (A : Qabs (n' / q') == Qabs n' * (1 / q')).
-    { setoid_replace (n' / q') with (n' * (1 / q')) by (field; lra). rewrite Qabs_Qmult, (Qabs_pos (1 / q')) by lra. reflexivity. }
+    { setoid_replace (n' / q') with (n' * (1 / q')) by (field; lra). rewrite Qabs_Qmult, (Qabs_pos (1 / q')) by assumption. reflexivity. }
     rewrite A, Qabs_Qmult. setoid_replace (w * (1 + (1 # 2 ^ 40)) * (Qabs n' * (1 / q'))) with (Qabs n' * (w * (1 + (1 # 2 ^ 40)) * (1 / q'))) by ring.
     rewrite !(Qmult_comm (Qabs n')). apply Qmult_le_compat_r; [assumption | apply Qabs_nonneg]. }
   assert (S : Qabs (n' * p) <= Qabs (n' / q') + Qabs (n' * p - n' / q')).
@@ -470,9 +430,9 @@ Proof.
   pose proof (Qabs_triangle (o - n' * p) ((n' * p - n' / q') + (n' / q' - n / q))) as T1.
   pose proof (Qabs_triangle (n' * p - n' / q') (n' / q' - n / q)) as T2.
   pose proof (Qabs_nonneg (n' / q')) as A0. pose proof (Qabs_nonneg (n' / q' - n / q)) as A1.
-  assert (T : tiny <= 1 # 2 ^ 126) by discriminate.
-  set (a := Qabs (n' / q')) in *. set (off := (en + a * eq) / (q' - eq)) in *. set (m := 1 # 2 ^ 126) in *. set (g := tiny) in *.
-  change (inject_Z 2) with 2. change (1 # 2 ^ 40) with (1 # 1099511627776) in *. change (1 # 2 ^ 18) with (1 # 262144).
+  assert (T : tiny <= 1 # 2 ^ 130) by discriminate.
+  set (a := Qabs (n' / q')) in *. set (off := (en + a * eq) / (q' - eq)) in *. set (m := 1 # 2 ^ 130) in *. set (g := tiny) in *.
+  change (inject_Z 2) with 2. change (1 # 2 ^ 40) with (1 # 1099511627776) in *. change (1 # 2 ^ 20) with (1 # 1048576).
   set (e1 := Qabs (o - n' * p)) in *. set (e2 := Qabs (n' * p - n' / q')) in *. set (e3 := Qabs (n' / q' - n / q)) in *.
   set (b := Qabs (n' * p)) in *. set (z := Qabs (o - n' * p + (n' * p - n' / q' + (n' / q' - n / q)))) in *.
   set (y := Qabs (n' * p - n' / q' + (n' / q' - n / q))) in *. clearbody a off m g e1 e2 e3 b z y. unfold w in *. lra.

@@ -134,7 +134,7 @@ Definition quotient (ax ay bx by_ yc : Q) : Q := fl (fl (fl (yc - ay) * fl (bx -
 
 Definition crossing (ax ay bx by_ yc : Q) : Q := fl (ax + quotient ax ay bx by_ yc).
 
-Definition crossing_bound (x t : Q) : Q := fl (8 * u * fl (fl (Qabs x + Qabs t) + 1)).
+Definition crossing_bound (x t : Q) : Q := fl (6 * u * fl (fl (Qabs x + Qabs t) + 1)).
 
 Definition lowest (x error : Q) : Q := fl (fl (x - (1 # 2)) - error).
 
@@ -216,10 +216,10 @@ Proof.
   assert (Nm : 0 <= m) by (unfold u in *; lra). rewrite (Qabs_pos (m + 1)) in S2 by lra.
   set (n := fl (m + 1)) in *. apply Qabs_Qle_condition in S2.
   assert (Nn : 1 # 2 <= n) by (unfold u in *; lra).
-  pose proof (fl_absolute _ R (8 * u * n)) as S3.
-  assert (N8 : 0 <= 8 * u * n) by (unfold u; lra). rewrite (Qabs_pos (8 * u * n)) in S3 by assumption.
-  assert (Fe : is_float (fl (8 * u * n))) by apply (fl_float _ R).
-  set (err := fl (8 * u * n)) in *. apply Qabs_Qle_condition in S3.
+  pose proof (fl_absolute _ R (6 * u * n)) as S3.
+  assert (N8 : 0 <= 6 * u * n) by (unfold u; lra). rewrite (Qabs_pos (6 * u * n)) in S3 by assumption.
+  assert (Fe : is_float (fl (6 * u * n))) by apply (fl_float _ R).
+  set (err := fl (6 * u * n)) in *. apply Qabs_Qle_condition in S3.
   pose proof (fl_difference _ R c err Fc Fe) as Slow. pose proof (fl_sum _ R c err Fc Fe) as Shigh.
   set (lo := fl (c - err)) in *. set (hi := fl (c + err)) in *. clearbody lo hi err n m c x.
   assert (Heta : 0 <= eta <= tiny) by (split; apply Qle_bool_iff; vm_compute; reflexivity).

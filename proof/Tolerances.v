@@ -3,7 +3,8 @@
     crates/core/src/raster/edge_function_exact.rs and crates/core/src/raster/scanline_exact.rs, and the thresholds of
     crates/render/src/pipeline/depth.rs and the planes of crates/tiles/src/frames/planes.rs. *)
 From Coq Require Import ZArith QArith Qabs.
-From Rasterproof Require Import Rounding RoundedForms RoundedModel RoundedValues RoundedFilters Nearest DepthKeys Planes.
+From Rasterproof Require Import Rounding RoundedForms RoundedModel RoundedValues RoundedFilters Nearest DepthKeys
+  PlaneModel Planes TilePlanes.
 From Rasterproof Require RustConstants.
 Open Scope Q_scope.
 
@@ -90,7 +91,7 @@ Theorem edge_function_filter : inject_Z (Z.pos RustConstants.edge_filter_factor)
     <= edge_bound nearest ax ay bx by_ reach_x reach_y.
 Proof. split; [reflexivity|]. intros. apply (edge_filter nearest nearest_rounds); assumption. Qed.
 
-Theorem scanline_filter : inject_Z (Z.pos RustConstants.scanline_filter_factor) * u == 8 * u /\
+Theorem scanline_filter : inject_Z (Z.pos RustConstants.scanline_filter_factor) * u == 6 * u /\
   forall ax ay bx by_ yc,
   is_float ax -> is_float ay -> is_float bx -> is_float by_ -> is_float yc -> least_height <= by_ - ay ->
   let t := quotient nearest ax ay bx by_ yc in let x := crossing nearest ax ay bx by_ yc in
@@ -100,15 +101,47 @@ Proof. split; [reflexivity|]. intros. apply (RoundedFilters.scanline_filter near
 
 (** Near a multiple of 2^-20 every depth has one key of 24 bits. *)
 Theorem depth_thresholds : RustConstants.added_tenths = 5%positive /\ forall a depth, (0 <= a <= 2 ^ 20)%Z -> 0 <= depth <= 1 ->
-  Qabs (depth - inject_Z a / inject_Z (2 ^ 20)) <= 1 # 2 ^ 47 ->
+  Qabs (depth - inject_Z a / inject_Z (2 ^ 20)) <= 1 # 2 ^ 46 ->
   key (inject_Z (Z.pos RustConstants.moved_parts)) (Z.pos RustConstants.moved_bits)
     (2 ^ Z.pos RustConstants.unorm24_bits - 1) depth =
   key_of_fraction (2 ^ Z.pos RustConstants.unorm24_bits - 1) a.
 Proof. split; [reflexivity | exact keys_of_24_bits]. Qed.
 
-(** The bounds of the tiles' planes and quotients are those of [plane_error] and [quotient_error]. *)
-Theorem tile_planes : (forall S T, plane_bound RustConstants.plane_f32 RustConstants.plane_f64
-    RustConstants.plane_second_order_bits 126 S T = plane_bound 4 11 18 126 S T) /\
-  forall en eq n q, quotient_bound RustConstants.plane_quotient RustConstants.plane_second_order_bits 126 en eq n q =
-    quotient_bound 2 18 126 en eq n q.
-Proof. split; reflexivity. Qed.
+(** The bounds that the tiles compute for planes and quotients, for triangles whose edges are short enough for the code to state one.
+    A depth is that of the plane or, where that is behind it, the nearest corner's ([nearest_corner_is_harmless]). *)
+Notation tile_error := (computed_error RustConstants.plane_f32 RustConstants.plane_f64 RustConstants.plane_second_order_bits 126).
+Notation tile_domain := (in_domain RustConstants.plane_edge_bits).
+
+(** Compared first, since Coq takes long to find two computations different. *)
+Definition tile_constants : Prop :=
+  (RustConstants.plane_f32 = 4 /\ RustConstants.plane_f64 = 11 /\ RustConstants.plane_second_order_bits = 18 /\
+   RustConstants.plane_edge_bits = 18 /\ RustConstants.plane_quotient = 2)%positive.
+
+Theorem tile_planes a b c x0 y0 width height z0 z1 z2 x y : tile_domain a b c x0 y0 width height ->
+  Qabs x <= inject_Z width -> Qabs y <= inject_Z height ->
+  let f := frame_of a b c x0 y0 in let p := plane_of f z0 z1 z2 in
+  Qabs (plane_at p x y - exact_plane a b c x0 y0 z0 z1 z2 x y) <=
+    tile_error (computed_size (at_start p) (to_right p) (to_below p) x y) (size_of z0 z1 z2 (growth_of f width height)).
+Proof.
+  assert (C : tile_constants) by (repeat split; reflexivity).
+  exact (tile_depth a b c x0 y0 width height z0 z1 z2 x y).
+Qed.
+
+Theorem tile_attributes a b c x0 y0 width height w0 w1 w2 most v0 v1 v2 x y : tile_domain a b c x0 y0 width height ->
+  accepted w0 -> accepted w1 -> accepted w2 -> accepted most -> Qabs x <= inject_Z width -> Qabs y <= inject_Z height ->
+  let f := frame_of a b c x0 y0 in let growth := growth_of f width height in
+  let s0 := nearest (w0 / most) in let s1 := nearest (w1 / most) in let s2 := nearest (w2 / most) in
+  let c0 := nearest (v0 * s0) in let c1 := nearest (v1 * s1) in let c2 := nearest (v2 * s2) in
+  let over := plane_of f c0 c1 c2 in let under := plane_of f s0 s1 s2 in
+  let error p T := tile_error (computed_size (at_start p) (to_right p) (to_below p) x y) T in
+  let en := error over (size_of c0 c1 c2 growth) in let eq := error under (size_of s0 s1 s2 growth) in
+  eq < plane_at under x y -> plane_at under x y <= inject_Z (2 ^ 80) ->
+  Qabs (computed_quotient (plane_at over x y) (plane_at under x y) -
+        exact_plane a b c x0 y0 (v0 * (w0 / most)) (v1 * (w1 / most)) (v2 * (w2 / most)) x y /
+        exact_plane a b c x0 y0 (w0 / most) (w1 / most) (w2 / most) x y) <=
+    computed_quotient_error RustConstants.plane_quotient RustConstants.plane_second_order_bits 126
+      en eq (plane_at over x y) (plane_at under x y).
+Proof.
+  assert (C : tile_constants) by (repeat split; reflexivity).
+  exact (tile_attribute a b c x0 y0 width height w0 w1 w2 most v0 v1 v2 x y).
+Qed.

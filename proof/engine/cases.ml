@@ -1,4 +1,5 @@
-(* cases T|L|I COUNT SEED: requests of the line protocol, ties and extremes among them. Every generated
+(* cases T|L|I|P COUNT SEED: requests of the line protocol, ties and extremes among them; those of P are of verb I with
+   attributes that f32 holds. Every generated
    position is a whole number of 1/256 px but for a few that have to be snapped. *)
 
 let pick low high = low + Random.full_int (high - low + 1)
@@ -69,7 +70,7 @@ let shuffled corners =
 let rec pairs = function x :: y :: rest -> (x, y) :: pairs rest | _ -> []
 
 (* Depth, w and two attributes of three corners: like each other, far apart, equal, tiny and large. *)
-let values () =
+let values large =
   let power low high = Float.ldexp (1. +. Random.float 1.) (pick low high) in
   let w = one_of [ (0, 0); (0, 3); (-4, 20); (-199, 198) ] and same_w = Random.int 8 = 0 in
   let first_w = power (fst w) (snd w) in
@@ -78,7 +79,7 @@ let values () =
     | 0 -> 0.
     | 1 -> float (pick (-9) 9)
     | 2 -> power (-1074) (-1000)
-    | 3 -> -.power 480 498
+    | 3 -> -.power (fst large) (snd large)
     | _ -> Random.float 2. -. 1.
   in
   let near = value () in
@@ -100,13 +101,16 @@ let () =
         let off = Random.int 27 = 0 in
         let word v = Printf.sprintf "%.17g" (float (i32 v) /. 256. +. if off then Random.float 3e-3 else 0.) in
         let more =
-          if verb = "I" then List.map (List.map (Printf.sprintf "%.17g")) (values ())
-          else List.map (fun _ -> []) corners
+          let print = List.map (List.map (Printf.sprintf "%.17g")) in
+          match verb with
+          | "I" -> print (values (480, 498))
+          | "P" -> print (values (20, 40))
+          | _ -> List.map (fun _ -> []) corners
         in
         let words = List.concat (List.map2 (fun (x, y) more -> word x :: word y :: more) corners more) in
         let sides = [ pick 1 24; pick 1 24 ] |> List.map string_of_int in
-        print_endline (String.concat " " ((verb :: string_of_int id :: sides) @ words))
+        print_endline (String.concat " " (((if verb = "P" then "I" else verb) :: string_of_int id :: sides) @ words))
       done
   | _ ->
-      prerr_endline "usage: cases T|L|I COUNT SEED";
+      prerr_endline "usage: cases T|L|I|P COUNT SEED";
       exit 2

@@ -1,6 +1,6 @@
 (* proof-values ENGINE REQUESTS ANSWERS: computes the depths and attributes of every fragment that an engine answered
    (docs/protocol.md, verbs I and F) again with the extracted models, and compares all bits. Zeros of either sign are
-   equal: the models know one. *)
+   equal: the models know one. The planes of tiles, and their bounds, are answered by crates/tiles/examples/planes.rs. *)
 module M = Values_model
 
 let fail format = Printf.ksprintf (fun text -> prerr_endline text; exit 1) format
@@ -36,18 +36,30 @@ let rec fragments = function
 
 let words line = String.split_on_char ' ' (String.trim line)
 
+(* Depth and attribute at a pixel of a window. *)
+let whole engine _ _ p q r x y =
+  let depth, value = engine p q r x y in
+  (to_float depth, to_float value)
+
+let planes pick width height p q r x y =
+  let number = function None -> Float.infinity | Some answer -> to_float (pick answer) in
+  let depth, value = M.tile_values width height p q r x y in
+  (number depth, number value)
+
 let () =
   let engine, requests, answers =
     match Sys.argv with
-    | [| _; "edge-function"; r; a |] -> (M.rounded_edge_function, r, a)
-    | [| _; "scanline"; r; a |] -> (M.rounded_scanline, r, a)
-    | _ -> fail "usage: proof-values edge-function|scanline REQUESTS ANSWERS"
+    | [| _; "edge-function"; r; a |] -> (whole M.rounded_edge_function, r, a)
+    | [| _; "scanline"; r; a |] -> (whole M.rounded_scanline, r, a)
+    | [| _; "values"; r; a |] -> (planes fst, r, a)
+    | [| _; "bounds"; r; a |] -> (planes snd, r, a)
+    | _ -> fail "usage: proof-values edge-function|scanline|values|bounds REQUESTS ANSWERS"
   in
   let requests = open_in requests and answers = open_in answers in
   let compared = ref 0 in
   let check line answer =
     match (words line, words answer) with
-    | "I" :: id :: _ :: _ :: corners, "F" :: id' :: _ :: found when id = id' ->
+    | "I" :: id :: width :: height :: corners, "F" :: id' :: _ :: found when id = id' ->
         let numbers = List.map float_of_string corners in
         let vertices =
           match numbers with
@@ -58,12 +70,12 @@ let () =
           | _ -> fail "request %s has other than 18 numbers" id
         in
         let firsts = vertices fst and seconds = vertices snd in
-        let values (p, q, r) x y = engine p q r (Z.of_int x) (Z.of_int y) in
+        let values (p, q, r) x y = engine (Z.of_string width) (Z.of_string height) p q r (Z.of_int x) (Z.of_int y) in
         List.iter
           (fun (x, y, found) ->
             let depth, a = values firsts x y in
             let _, b = values seconds x y in
-            let expected = List.map to_float [ depth; a; b ] in
+            let expected = [ depth; a; b ] in
             if not (List.for_all2 Float.equal (List.map (( +. ) 0.) found) (List.map (( +. ) 0.) expected)) then
               fail "request %s, pixel %d %d: the engine has %s, the model %s" id x y
                 (String.concat " " (List.map (Printf.sprintf "%h") found))

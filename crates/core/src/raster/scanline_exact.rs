@@ -81,8 +81,8 @@ struct Edge {
     b: [f64; 2],
 }
 
-/// What |x| + |T| + 1 is multiplied by to bound the error of x - 1/2, 8u = 2^-50 with u = 2^-53.
-const BOUND: f64 = 4.0 * f64::EPSILON;
+/// What |x| + |T| + 1 is multiplied by to bound the error of x - 1/2, 6u with u = 2^-53.
+const BOUND: f64 = 3.0 * f64::EPSILON;
 
 impl Edge {
     /// Where the edge crosses the centres of row `y_px`, ay <= yc < by, and a bound of what x - 1/2 is
@@ -97,12 +97,12 @@ impl Edge {
     /// - ~x - 1/2 rounds by u (|~x| + 1/2), and adding or subtracting the bound e rounds by
     ///   u (|~x| + 1/2 + e) at most (1 + u), so the two together by u (2 |~x| + 1 + e) (1 + u).
     ///
-    /// In all 5u |T| + 3u |x| + u and terms of u^2. The bound 8u (|x| + |T| + 1) is computed with
-    /// four roundings, a factor of at least (1 - u)^4, and leaves 3u |T| + 5u |x| + 7u to spare.
+    /// In all 5u |T| + 3u |x| + u and terms of u^2. The bound 6u (|x| + |T| + 1) is computed with
+    /// four roundings, a factor of at least (1 - u)^4, and leaves u |T| + 3u |x| + 5u to spare.
     ///
     /// Underflow: a product below the normal range is off by 2^-1075 at most. It is divided by
     /// dy >= by - yc, and yc is a half-integer, so dy is at least the distance from 1/2 to its
-    /// neighbour, 2^-54: at most 2^-1021, and 7u covers that. Nothing overflows: |T| is at most
+    /// neighbour, 2^-54: at most 2^-1021, and 5u covers that. Nothing overflows: |T| is at most
     /// |dx| <= 2^24, since 0 <= yc - ay < dy.
     fn crossing(&self, y_px: i32) -> (f64, f64) {
         let (a, b) = (self.a, self.b);

@@ -89,8 +89,8 @@ pub const RULES: [Rule; 12] = [
     Rule {
         name: "cts-samples",
         about: "two opposite corners and the middle of the picture, within 1 of 255",
-        source: "gpuweb/cts src/webgpu/api/operation/render_pipeline/culling_tests.spec.ts, checkCornerPixels; the \
-                 middle is ours",
+        source: "gpuweb/cts src/webgpu/api/operation/render_pipeline/culling_tests.spec.ts, checkCornerPixels, \
+                 maxDiffULPsForNormFormat: 1; the middle is ours",
         decide: |view| Some(samples_agree(view.right, view.drawn)),
     },
     Rule {
@@ -135,13 +135,15 @@ pub const RULES: [Rule; 12] = [
     Rule {
         name: "rgb-2",
         about: "no channel of any pixel differs by more than 2 of 255",
-        source: "web-platform-tests docs/writing-tests/reftests.md, fuzzy matching, maxDifference=0-2",
+        source: "web-platform-tests/wpt docs/writing-tests/reftests.md, Fuzzy Matching, maxDifference; \
+                 html/canvas/tools/gentestutilsunion.py, _expand_test_code, has the limit of 2",
         decide: |view| Some(view.count(|a, b| largest(a, b) > 2) == 0),
     },
     Rule {
         name: "same-picture",
         about: "identical to the picture of the version before, which was right",
-        source: "mesa/piglit replayer/README.md, checksum; in the same way Skia Gold, exact",
+        source: "mesa/piglit replayer/README.md, Traces definition file, checksum; in the same way Skia Gold, \
+                 ui/base/test/skia_gold_matching_algorithm.h of chromium/src, exact",
         decide: |view| Some(view.same()),
     },
     Rule {

@@ -20,6 +20,8 @@
 //! G = 2 M (|y1| + |y2|) / |2 A|. f0 is a sum of such slopes times distances from the first corner, three
 //! roundings more. With X and Y the largest distances in the box and T = M + Gx X + Gy Y that is
 //! 11 u' T, so |error| <= 4 u S + 11 u' T.
+//! Both hold for edges below `MOST_EDGE_PX`, which the edges of pieces of a scene are, since they lie in
+//! the window; `proof/TilePlanes.v` proves them. For longer ones the bound is infinite.
 //! A quotient n / q of numbers off by en and eq is off by (en + |n / q| eq) / (q - eq), and by two
 //! roundings of its own, 2 u |n / q|. `SECOND_ORDER` is for products of errors.
 
@@ -41,6 +43,8 @@ const U64: f64 = f64::EPSILON / 2.0;
 const SECOND_ORDER: f64 = 1.0 + 1.0 / (1u64 << 18) as f64;
 /// What rounding adds where a number is below the normal ones of f32, a few operations.
 const UNDERFLOW: f64 = f32::MIN_POSITIVE as f64;
+/// Edges below this have a bound: their products are whole numbers of 52 bits in subpixels, so the area is exact.
+const MOST_EDGE_PX: f64 = (1u32 << 18) as f64;
 
 /// Depths and w of the corners of a triangle, and where they are.
 pub type Corners = [ScreenVertex<()>; 3];
@@ -66,6 +70,10 @@ impl ValuePlane {
 
     /// The bound of the error there; `rounded` is T of the bound.
     fn error(&self, x: f32, y: f32, rounded: f64) -> f64 {
+        // Where the area is unknown, T is infinite or, for values of 0, no number.
+        if !rounded.is_finite() {
+            return f64::INFINITY;
+        }
         let sum = f64::from(self.start.abs())
             + f64::from((self.right * x).abs())
             + f64::from((self.down * y).abs());
@@ -115,7 +123,7 @@ impl Frame {
             px(i64::from(first_px) * i64::from(SUBPIXELS) + i64::from(HALF_PIXEL) - i64::from(a))
         };
         let to_first = [from(box_px.x0, a.x), from(box_px.y0, a.y)];
-        // Exact for extents below 2^18 px: products of 26 bits each.
+        // The area is exact for edges below `MOST_EDGE_PX`.
         Self { edges, per_area: 1.0 / (x1 * y2 - x2 * y1), to_first }
     }
 
@@ -141,9 +149,12 @@ impl Frame {
         [rounded(start), rounded(right), rounded(down)]
     }
 
-    /// T of the bound over M.
+    /// T of the bound over M. Infinite for longer edges: there the area may be off by any factor.
     fn growth(&self, box_px: PixelRect) -> f64 {
         let [[x1, y1], [x2, y2]] = self.edges;
+        if [x1, y1, x2, y2].into_iter().any(|edge| edge.abs() >= MOST_EDGE_PX) {
+            return f64::INFINITY;
+        }
         // Largest distances from the first corner within the box, with half a pixel for samples.
         let reach = [
             self.to_first[0].abs() + f64::from(box_px.width()),
@@ -332,5 +343,30 @@ impl Bounded {
     fn beside_first(&self, x_px: f64, y_px: f64) -> (f32, f32) {
         let [x0, y0] = self.planes.first_px;
         ((x_px - f64::from(x0)) as f32, (y_px - f64::from(y0)) as f32)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rasterproof_core::grid::SubpixelPoint;
+
+    /// The area is -1, and both of its products are above 2^53: in f64 it is 0.
+    #[test]
+    fn long_edges_have_no_bound() {
+        let bounds = |n: i32| {
+            let corner = |x: i32, y: i32| {
+                let position = SubpixelPoint::new(x, y);
+                ScreenVertex { position, depth: 0.5, inv_w: 1.0, varying: () }
+            };
+            let corners = [corner(0, 0), corner(n + 1, n), corner(n, n - 1)];
+            let first = PixelRect::window(1, 1);
+            let values = [[1.0; ATTRIBUTES]; 3];
+            let planes = Bounded::new(Tiles::default(), &corners, &values, first, false);
+            (planes.depth_at(0.0, 0.0).1, planes.value(0, 0.0, 0.0).1)
+        };
+        assert_eq!(bounds(1 << 29), (f64::INFINITY, f64::INFINITY));
+        assert!(bounds((1 << 26) - 2).0.is_finite(), "edges just below 2^18 px");
+        assert_eq!(bounds(1 << 26).0, f64::INFINITY);
     }
 }
