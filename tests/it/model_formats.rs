@@ -572,10 +572,10 @@ fn files_that_are_broken_or_of_other_formats_are_named() {
         ("a.off", b"OFF\n3 1 0\n", "of the format OFF"),
         ("a.pz3", b"{\n\nversion\n", "of the format Poser"),
         ("a.xyz", b"1 2 3\n", "and its name ends in .xyz; is it an OBJ?"),
-        ("a.ply", b"ply\nformat ascii 1.0\nelement vertex x\n", ":3: 'element vertex x' is no line of a header"),
-        ("b.ply", b"ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\nend_header\n1 2 3\n1 2\n", ":9: vertex 2 of 2: the line has fewer numbers"),
-        ("c.ply", b"ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list int int vertex_index\nend_header\n1 2 3\n3 0 0 1\n", ":11: face 1 names vertex 1, and the file has 1"),
-        ("a.stl", b"solid\nendsolid\n", "has no faces"),
+        ("broken-a.ply", b"ply\nformat ascii 1.0\nelement vertex x\n", ":3: 'element vertex x' is no line of a header"),
+        ("broken-b.ply", b"ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\nend_header\n1 2 3\n1 2\n", ":9: vertex 2 of 2: the line has fewer numbers"),
+        ("broken-c.ply", b"ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list int int vertex_index\nend_header\n1 2 3\n3 0 0 1\n", ":11: face 1 names vertex 1, and the file has 1"),
+        ("empty.stl", b"solid\nendsolid\n", "has no faces"),
     ] {
         let error = load(name, bytes).unwrap_err().to_string();
         assert!(error.contains(cause), "{name}: {error}");
