@@ -167,7 +167,7 @@ mod tests {
     }
 
     /// Words that some option takes; each option is given the first that its parser accepts.
-    const VALUES: [&str; 14] = [
+    const VALUES: [&str; 15] = [
         "a b'$(x)\u{1b}.png",
         "-7.5",
         "7",
@@ -180,6 +180,7 @@ mod tests {
         "x",
         "T2",
         "0.5,32",
+        "0.5",
         "2,9",
         "depth",
     ];
