@@ -62,7 +62,7 @@ macro_rules! kinds {
         }
 
         impl Mutant {
-            /// Every mutant, engines first.
+            /// Every planted fault, those of rasterizers first.
             #[must_use]
             pub fn all() -> Vec<Self> {
                 let mut all = Vec::new();

@@ -177,24 +177,25 @@ impl<'a> Kernel<'a> {
         let before = *counters;
         let bounds = target.bounds();
         let visible = see_through::fill(engine, piece, target, bounds, way, &look, counters);
-        let fragments = counters.fragments - before.fragments;
-        let shaded = counters.shaded - before.shaded;
-        let components = if interpolates.is_empty() { 0 } else { ALL as u64 };
-        counters.components += fragments * components;
-        counters.divisions += if way.affine { 0 } else { fragments };
+        let components = if interpolates.is_empty() { 0 } else { ALL };
+        self.count(&before, components, counters);
         let of = |drawn: Drawn| if drawn == Drawn::Mixed { visible } else { 0 };
         counters.alpha_tests += of(self.plan.alpha_test);
         counters.blended += of(self.plan.blending);
-        counters.texels += if has_uv && self.texture.is_some() { shaded } else { 0 };
-        self.count(shaded, interpolates.has(Attributes::NORMAL), counters);
     }
 
-    /// Counts what fragments that were shaded have paid for.
-    fn count(&self, shaded: u64, has_normals: bool, counters: &mut Counters) {
-        counters.highlights += if self.highlight.is_some() { shaded } else { 0 };
-        counters.fogged += if self.veil.is_some() { shaded } else { 0 };
-        counters.levels += if self.footprint.is_some() { shaded } else { 0 };
-        counters.lights += if has_normals { shaded } else { 0 };
+    /// Counts what the fragments since `before`, of so many components each, have paid for.
+    fn count(&self, before: &Counters, components: usize, counters: &mut Counters) {
+        let fragments = counters.fragments - before.fragments;
+        let shaded = counters.shaded - before.shaded;
+        counters.components += fragments * components as u64;
+        let where_true = |pays: bool, count: u64| if pays { count } else { 0 };
+        counters.divisions += where_true(self.plan.perspective, fragments);
+        counters.texels += where_true(self.varying_texture().is_some(), shaded);
+        counters.highlights += where_true(self.highlight.is_some(), shaded);
+        counters.fogged += where_true(self.veil.is_some(), shaded);
+        counters.levels += where_true(self.footprint.is_some(), shaded);
+        counters.lights += where_true(self.plan.interpolates.has(Attributes::NORMAL), shaded);
     }
 
     /// The kernel for the `N` components of the attributes in `MASK`.
@@ -217,12 +218,7 @@ impl<'a> Kernel<'a> {
         } else {
             fill(engine, &packed, target, target.bounds(), way, stage, counters);
         }
-        let (fragments, shaded) =
-            (counters.fragments - before.fragments, counters.shaded - before.shaded);
-        counters.components += fragments * N as u64;
-        counters.divisions += if way.affine { 0 } else { fragments };
-        counters.texels += if MASK & Attributes::UV != 0 { shaded } else { 0 };
-        self.count(shaded, MASK & Attributes::NORMAL != 0, counters);
+        self.count(&before, N, counters);
     }
 
     /// The colour of all attributes, for what has no kernel of its own.

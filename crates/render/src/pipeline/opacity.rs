@@ -19,7 +19,7 @@ use super::depth::OFF_FRACTION;
 use super::target::Colour;
 use super::texture::{Texture, Wrap};
 
-/// What a material lets through.
+/// How opaque a material is, and what that decides.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Opacity {
     /// In [0, 1], of all fragments.

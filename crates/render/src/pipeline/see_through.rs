@@ -8,7 +8,7 @@ use super::multisample::{SAMPLES, moved};
 use super::opacity::{OPAQUE, over};
 use super::shade::{ALL, Attributes};
 use super::target::{Antialias, Colour, SamplePlane, Target};
-use rasterproof_core::contract::{Interpolate, Varyings};
+use rasterproof_core::contract::{Interpolate, Run, Varyings};
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::ScreenTriangle;
 
@@ -58,6 +58,42 @@ fn nearer(format: DepthFormat, way: Way, depths: &[f64], stored: &[u64]) -> u32 
     bits
 }
 
+/// Draws the fragments of a run over one plane, with the colour that `shade` gives for a column; how many of them were
+/// nearer than what was there.
+fn draw_run(
+    run: Run<'_, Varying>,
+    plane: &mut SamplePlane,
+    format: DepthFormat,
+    way: Way,
+    look: &Look<'_>,
+    shade: &mut dyn FnMut(i32, &Varying, f64) -> Colour,
+) -> u64 {
+    let (y_px, x0_px, x1_px) = (run.y_px, run.x0_px, run.x1_px());
+    let stored = plane.depth.span_mut(y_px, x0_px, x1_px);
+    let colours = plane.colour.span_mut(y_px, x0_px, x1_px);
+    let wanted = nearer(format, way, run.depths, stored);
+    look.each(run.values, wanted, &mut |i, varying| {
+        let opacity = (look.opacity)(varying);
+        if opacity == 0 {
+            return;
+        }
+        let depth = run.depths[i];
+        put(shade(x0_px + i as i32, varying, depth), opacity, &mut colours[i]);
+        if way.depth_test && opacity == OPAQUE {
+            stored[i] = format.key(depth);
+        }
+    });
+    u64::from(wanted.count_ones())
+}
+
+/// Adds what was drawn of a triangle: its fragments, those that were nearer, and the colours that were computed.
+fn count([emitted, visible, shaded]: [u64; 3], way: Way, counters: &mut Counters) {
+    counters.fragments += emitted;
+    counters.depth_tests += if way.depth_test { emitted } else { 0 };
+    counters.depth_failed += emitted - visible;
+    counters.shaded += shaded;
+}
+
 /// Draws one triangle, as far as it lies in `bounds`; how many fragments had their opacity computed.
 ///
 /// Of four samples a pixel each has an opacity of its own, and those that are drawn have one colour: that at the centre
@@ -75,33 +111,16 @@ pub fn fill(
         return fill_multisampled(engine, piece, target, bounds, way, look, counters);
     }
     let format = target.format;
-    let SamplePlane { colour, depth } = &mut target.planes[0];
+    let plane = &mut target.planes[0];
     let (mut emitted, mut visible, mut shaded) = (0, 0, 0);
     engine.runs(piece, bounds, way.affine, &mut |run| {
-        let (y_px, x0_px, x1_px) = (run.y_px, run.x0_px, run.x1_px());
-        let stored = depth.span_mut(y_px, x0_px, x1_px);
-        let colours = colour.span_mut(y_px, x0_px, x1_px);
-        let wanted = nearer(format, way, run.depths, stored);
         emitted += run.depths.len() as u64;
-        visible += u64::from(wanted.count_ones());
-        let depths = run.depths;
-        look.each(run.values, wanted, &mut |i, varying| {
-            let opacity = (look.opacity)(varying);
-            if opacity == 0 {
-                return;
-            }
+        visible += draw_run(run, plane, format, way, look, &mut |_, varying, depth| {
             shaded += 1;
-            let colour = (look.colour)(varying, depths[i]);
-            put(colour, opacity, &mut colours[i]);
-            if way.depth_test && opacity == OPAQUE {
-                stored[i] = format.key(depths[i]);
-            }
+            (look.colour)(varying, depth)
         });
     });
-    counters.fragments += emitted;
-    counters.depth_tests += if way.depth_test { emitted } else { 0 };
-    counters.depth_failed += emitted - visible;
-    counters.shaded += shaded;
+    count([emitted, visible, shaded], way, counters);
     visible
 }
 
@@ -141,38 +160,21 @@ fn fill_multisampled(
         });
     });
     for (i, moved) in samples() {
-        let SamplePlane { colour, depth } = &mut planes[i];
+        let plane = &mut planes[i];
         engine.runs(moved, bounds, way.affine, &mut |run| {
-            let (y_px, x0_px, x1_px) = (run.y_px, run.x0_px, run.x1_px());
-            shading.centres.span_mut(y_px, x0_px, x1_px).fill(0);
-            let stored = depth.span_mut(y_px, x0_px, x1_px);
-            let colours = colour.span_mut(y_px, x0_px, x1_px);
-            let wanted = nearer(format, way, run.depths, stored);
+            let y_px = run.y_px;
+            shading.centres.span_mut(y_px, run.x0_px, run.x1_px()).fill(0);
             emitted += run.depths.len() as u64;
-            visible += u64::from(wanted.count_ones());
-            let depths = run.depths;
-            look.each(run.values, wanted, &mut |i, varying| {
-                let opacity = (look.opacity)(varying);
-                if opacity == 0 {
-                    return;
-                }
-                let x_px = x0_px + i as i32;
-                let colour = shading.get(x_px, y_px).unwrap_or_else(|| {
+            visible += draw_run(run, plane, format, way, look, &mut |x_px, varying, depth| {
+                shading.get(x_px, y_px).unwrap_or_else(|| {
                     shaded += 1;
-                    let colour = (look.colour)(varying, depths[i]);
+                    let colour = (look.colour)(varying, depth);
                     shading.put(x_px, y_px, colour);
                     colour
-                });
-                put(colour, opacity, &mut colours[i]);
-                if way.depth_test && opacity == OPAQUE {
-                    stored[i] = format.key(depths[i]);
-                }
+                })
             });
         });
     }
-    counters.fragments += emitted;
-    counters.depth_tests += if way.depth_test { emitted } else { 0 };
-    counters.depth_failed += emitted - visible;
-    counters.shaded += shaded;
+    count([emitted, visible, shaded], way, counters);
     visible
 }
