@@ -330,30 +330,8 @@ fn describe(scene: &Scene, planned: &Rendered, everything: &Counters, savings: &
     }
     text += "open: decided while it is drawn; several items: the sums of them\n";
     text += "\ncounts               everything     planned\n";
-    let names = |c: &Counters| {
-        [
-            ("plane tests", c.plane_tests),
-            ("winding tests", c.cull_tests),
-            ("wide words", c.wide),
-            ("fragments", c.fragments),
-            ("divisions by 1/w", c.divisions),
-            ("components", c.components),
-            ("depth tests", c.depth_tests),
-            ("texels", c.texels),
-            ("levels of detail", c.levels),
-            ("lights", c.lights),
-            ("highlights", c.highlights),
-            ("mixed with fog", c.fogged),
-            ("alpha tests", c.alpha_tests),
-            ("blended", c.blended),
-            ("fragment stages", c.shaded),
-            ("pixels expanded", c.expanded),
-            ("samples cleared", c.cleared),
-            ("depths cleared", c.depths_cleared),
-            ("pixels presented", c.presented),
-        ]
-    };
-    for ((name, all), (_, planned)) in names(everything).into_iter().zip(names(&planned.counters)) {
+    for ((name, all), (_, planned)) in everything.shown().into_iter().zip(planned.counters.shown())
+    {
         let _ = writeln!(text, "{name:<18} {all:>12} {planned:>11}");
     }
     if savings.effects.is_empty() {

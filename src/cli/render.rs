@@ -1030,7 +1030,7 @@ fn map(
         false => String::new(),
     };
     writeln!(streams.output, "{}: effects paid for{drawn_in}", scene.name)?;
-    for (effect, _) in frame_comparison::MAP_COLOURS {
+    for effect in frame_comparison::mapped() {
         writeln!(
             streams.output,
             "  {:<12} {} px",

@@ -147,19 +147,9 @@ fn check_account(plan: &Plan, counters: &Counters, name: &str) {
         let [on, open] = sums(effect);
         assert!(open > 0 || on == counted, "{name} {}: {on}, {counted}", effect.name());
     }
-    for (effect, counted) in [
-        (Effect::Cull, c.cull_tests),
-        (Effect::Perspective, c.divisions),
-        (Effect::Depth, c.depth_tests),
-        (Effect::Light, c.lights),
-        (Effect::Specular, c.highlights),
-        (Effect::Texture, c.texels),
-        (Effect::MipMaps, c.levels),
-        (Effect::Fog, c.fogged),
-        (Effect::AlphaTest, c.alpha_tests),
-        (Effect::Blending, c.blended),
-        (Effect::Interpolation, c.components),
-    ] {
+    // The colours of corners are counted with all attributes.
+    for effect in Effect::ALL.into_iter().filter(|effect| *effect != Effect::Colour) {
+        let counted = effect.calls(counters);
         assert!(sums(effect) != [0; 2] || counted == 0, "{name} {}: {counted}", effect.name());
     }
 }

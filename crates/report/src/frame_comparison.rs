@@ -174,23 +174,22 @@ fn compare_depths(a: &Target, b: &Target, ties: Option<&Ties>) -> (u64, Vec<(i32
     (count, wrong)
 }
 
-/// The effects of a map, in the order of its panels, each with its colour.
-pub const MAP_COLOURS: [(Effect, [u8; 3]); 11] = [
-    (Effect::Samples, [235, 140, 30]),
-    (Effect::Perspective, [225, 70, 70]),
-    (Effect::Depth, [80, 130, 240]),
-    (Effect::Colour, [215, 195, 40]),
-    (Effect::Light, [60, 180, 90]),
-    (Effect::Texture, [190, 90, 205]),
-    (Effect::Specular, [240, 190, 60]),
-    (Effect::MipMaps, [160, 130, 90]),
-    (Effect::Fog, [120, 200, 200]),
-    (Effect::AlphaTest, [110, 160, 40]),
-    (Effect::Blending, [90, 190, 240]),
+/// The effects of the book, which have a place in every map, in the order of its panels.
+const OF_EVERY_MAP: [Effect; 6] = [
+    Effect::Samples,
+    Effect::Perspective,
+    Effect::Depth,
+    Effect::Colour,
+    Effect::Light,
+    Effect::Texture,
 ];
 
-/// Those of the book, which have a place in every map; the others where something pays for them.
-const OF_EVERY_MAP: usize = 6;
+/// The effects of a map, in the order of its panels.
+pub fn mapped() -> impl Iterator<Item = Effect> {
+    let is_other =
+        |effect: &Effect| effect.map_colour().is_some() && !OF_EVERY_MAP.contains(effect);
+    OF_EVERY_MAP.into_iter().chain(Effect::ALL.into_iter().filter(is_other))
+}
 
 pub fn paid(map: &Frame<u32>, effect: Effect) -> u64 {
     let pays = |paid: &&u32| **paid & (1 << effect as u32) != 0;
@@ -208,9 +207,9 @@ pub fn map_picture(title: &str, picture: &Frame<Colour>, map: &Frame<u32>) -> Rg
     let shrunk = (bounds.width() * MAP_COLUMNS).div_ceil(MAP_WIDTH_PX).max(1);
     let (width, height) = (bounds.width().div_ceil(shrunk), bounds.height().div_ceil(shrunk));
     let cell = [width.max(210) + GAP, height + 42 + GAP];
-    let mut shown = MAP_COLOURS[..OF_EVERY_MAP].to_vec();
-    let others = MAP_COLOURS[OF_EVERY_MAP..].iter();
-    shown.extend(others.filter(|(effect, _)| paid(map, *effect) > 0));
+    let is_shown = |effect: &Effect| OF_EVERY_MAP.contains(effect) || paid(map, *effect) > 0;
+    let with_colour = |effect: Effect| Some((effect, effect.map_colour()?));
+    let shown: Vec<_> = mapped().filter(is_shown).filter_map(with_colour).collect();
     let rows = (shown.len() as u32).div_ceil(MAP_COLUMNS);
     let size = [GAP + MAP_COLUMNS * cell[0], 40 + rows * cell[1] + 24];
     let mut sheet = RgbImage::from_pixel(size[0], size[1], image::Rgb([255, 255, 255]));

@@ -93,7 +93,8 @@ pub fn survey(
         if reasons.is_empty() {
             reasons.insert("nothing in the scene asks for it".to_owned(), scene.items.len() as u64);
         }
-        let is_of_pixels = MAPPED.contains(&effect);
+        // Interpolation has no map: those of its attributes show it.
+        let is_of_pixels = effect.map_colour().is_some() || effect == Effect::Interpolation;
         let mut by_material: BTreeMap<&str, u64> = BTreeMap::new();
         for (item, _) in called.iter().enumerate().filter(|(_, is)| **is) {
             by_material.entry(&names[item]).or_default();
@@ -136,22 +137,6 @@ pub fn survey(
     }
     Ok(found)
 }
-
-/// Effects that pixels pay for one by one.
-const MAPPED: [Effect; 12] = [
-    Effect::Perspective,
-    Effect::Depth,
-    Effect::Colour,
-    Effect::Light,
-    Effect::Specular,
-    Effect::Texture,
-    Effect::MipMaps,
-    Effect::Fog,
-    Effect::AlphaTest,
-    Effect::Blending,
-    Effect::Interpolation,
-    Effect::Samples,
-];
 
 /// The name of each item's material, or what stands for it.
 fn names(scene: &Scene, origins: &[Origin]) -> Vec<String> {

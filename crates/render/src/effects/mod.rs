@@ -24,102 +24,12 @@ pub mod primitive;
 pub mod render;
 mod samples;
 mod scene_digest;
+mod table;
 
 use std::fmt;
 use std::str::FromStr;
 
-/// Something that costs time and that not every scene needs.
-#[derive(
-    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize, serde::Deserialize,
-)]
-#[serde(rename_all = "kebab-case")]
-pub enum Effect {
-    /// Cutting triangles by the seven planes.
-    Clip,
-    /// Asking for the winding.
-    Cull,
-    /// Deciding coverage in integers of more than 32 bits.
-    WideWords,
-    /// The division by 1/w in each fragment.
-    Perspective,
-    /// Comparing with the depth buffer and writing to it.
-    Depth,
-    /// Having a depth buffer at all: clearing it before the frame.
-    DepthBuffer,
-    /// The colours of corners.
-    Colour,
-    /// Light, and the normals it needs.
-    Light,
-    /// Highlights of shiny materials, and the normals they need.
-    Specular,
-    /// Texture lookup, and the coordinates it needs.
-    Texture,
-    /// Reading textures at a level of detail.
-    MipMaps,
-    /// Mixing colours with that of the fog, by distance.
-    Fog,
-    /// Leaving out fragments that are not opaque enough.
-    AlphaTest,
-    /// Mixing fragments with what is behind them.
-    Blending,
-    /// Interpolating an attribute, and computing what depends on it, in each fragment.
-    Interpolation,
-    /// Telling the samples of a supersampled or multisampled pixel apart.
-    Samples,
-    /// Clearing the colours before the frame.
-    Clear,
-    /// A front buffer that never shows an unfinished frame.
-    SecondBuffer,
-}
-
-impl Effect {
-    /// All effects, in the order of the pipeline.
-    pub const ALL: [Self; 18] = [
-        Self::Clip,
-        Self::Cull,
-        Self::WideWords,
-        Self::Perspective,
-        Self::Depth,
-        Self::DepthBuffer,
-        Self::Colour,
-        Self::Light,
-        Self::Specular,
-        Self::Texture,
-        Self::MipMaps,
-        Self::Fog,
-        Self::AlphaTest,
-        Self::Blending,
-        Self::Interpolation,
-        Self::Samples,
-        Self::Clear,
-        Self::SecondBuffer,
-    ];
-
-    /// Its name on the command line.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Clip => "clip",
-            Self::Cull => "cull",
-            Self::WideWords => "wide-words",
-            Self::Perspective => "perspective",
-            Self::Depth => "depth",
-            Self::DepthBuffer => "depth-buffer",
-            Self::Colour => "colour",
-            Self::Light => "light",
-            Self::Specular => "specular",
-            Self::Texture => "texture",
-            Self::MipMaps => "mip-maps",
-            Self::Fog => "fog",
-            Self::AlphaTest => "alpha-test",
-            Self::Blending => "blending",
-            Self::Interpolation => "interpolation",
-            Self::Samples => "samples",
-            Self::Clear => "clear",
-            Self::SecondBuffer => "second-buffer",
-        }
-    }
-}
+pub use table::Effect;
 
 /// When an effect is paid for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
@@ -128,8 +38,8 @@ pub enum Mode {
     /// Wherever it is called for.
     #[default]
     Planned,
-    /// Wherever the material calls for it, whatever the triangles are like. Only interpolation, specular
-    /// light, mip maps, fog, the alpha test and blending know the difference: a flat material needs no normal in the fragment.
+    /// Wherever the material calls for it, whatever the triangles are like. Only effects that are usually
+    /// paid for in this way know the difference: a flat material needs no normal in the fragment.
     Material,
     /// Everywhere, called for or not.
     Always,
@@ -151,20 +61,7 @@ impl Effects {
     /// What any sensible renderer does without a planner: triangles off the screen are left out, cut
     /// by the planes they cross, culled where asked; a shader for each material; and every fragment
     /// is tested once, before it is shaded.
-    pub const USUAL: Self = Self::ALWAYS
-        .with(Effect::Clip, Mode::Planned)
-        .with(Effect::Cull, Mode::Planned)
-        .with(Effect::WideWords, Mode::Planned)
-        .with(Effect::Colour, Mode::Planned)
-        .with(Effect::Light, Mode::Planned)
-        .with(Effect::Specular, Mode::Material)
-        .with(Effect::Texture, Mode::Planned)
-        .with(Effect::MipMaps, Mode::Material)
-        .with(Effect::Fog, Mode::Material)
-        .with(Effect::AlphaTest, Mode::Material)
-        .with(Effect::Blending, Mode::Material)
-        .with(Effect::Interpolation, Mode::Material)
-        .with(Effect::SecondBuffer, Mode::Planned);
+    pub const USUAL: Self = Self { modes: Effect::USUAL };
 
     #[must_use]
     pub fn mode(&self, effect: Effect) -> Mode {
