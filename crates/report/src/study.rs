@@ -179,6 +179,7 @@ pub fn advice(subject: &Subject<'_>, pieces: &[Piece], group: &Group) -> Vec<Str
         };
         let choice = &group.choices[best];
         lines.push(format!("cheapest exact ({}): {}", measure.short, choice.name));
+        lines.extend(compared(group, number));
         limit = limit.min(choice.time.map_or(f64::INFINITY, |time| time.median));
     }
     for choice in &group.choices {
@@ -212,6 +213,23 @@ pub fn advice(subject: &Subject<'_>, pieces: &[Piece], group: &Group) -> Vec<Str
     lines
 }
 
+/// Which choices are as fast as the cheapest exact one, and which may be; nothing where it is the only one.
+fn compared(group: &Group, measure: usize) -> Vec<String> {
+    let Some(Some(best)) = group.best.get(measure) else { return Vec::new() };
+    let names = |all: &[usize]| {
+        all.iter().map(|one| &*group.choices[*one].name).collect::<Vec<_>>().join(", ")
+    };
+    let mut lines = Vec::new();
+    if !best.equal.is_empty() {
+        lines.push(format!("  equally fast within 3%: {}", names(&best.equal)));
+    }
+    if !best.undecided.is_empty() {
+        let (rounds, others) = (best.rounds, names(&best.undecided));
+        lines.push(format!("  undecided after {rounds} rounds, within 3% or not: {others}"));
+    }
+    lines
+}
+
 /// The same for machines.
 pub fn costs_json(subject: &Subject<'_>, pieces: &[Piece], groups: &[Group]) -> Value {
     let group = |group: &Group| {
@@ -236,12 +254,24 @@ pub fn costs_json(subject: &Subject<'_>, pieces: &[Piece], groups: &[Group]) -> 
         let measures: Vec<_> = group.measures.iter().map(|measure| measure.title).collect();
         let name = |number: usize| group.choices[number].name.clone();
         let best = (0..measures.len()).map(|number| group.cheapest_exact(number).map(name));
+        let names = |all: &[usize]| all.iter().map(|&number| name(number)).collect::<Vec<_>>();
+        let compared = group.best.iter().map(|best| {
+            best.as_ref().map(|best| {
+                json!({
+                    "choice": name(best.choice),
+                    "equally_fast": names(&best.equal),
+                    "undecided": names(&best.undecided),
+                    "rounds": best.rounds,
+                })
+            })
+        });
         json!({
             "title": group.title,
             "measures": measures,
             "timed": { "triangles": group.timed[0], "pixels": group.timed[1] },
             "choices": group.choices.iter().map(choice).collect::<Vec<_>>(),
             "cheapest_exact": best.collect::<Vec<_>>(),
+            "compared": compared.collect::<Vec<_>>(),
         })
     };
     groups.iter().map(group).collect()

@@ -13,7 +13,8 @@ use rasterproof_core::raster::scanline::Scanline;
 use rasterproof_core::triangle::{ScreenTriangle, ScreenVertex, Span};
 use rasterproof_precision::cost::scene::Scene as Class;
 use rasterproof_precision::cost::{
-    Board, Ladder, Options, Pass, Spread, Variant, measure_on, time, variants, wrong_pixels,
+    Board, Finish, Ladder, Options, Pass, Race, Spread, Variant, measure_on, race, time, variants,
+    wrong_pixels,
 };
 use rasterproof_precision::ladder::snap;
 use rasterproof_registry::engines::Drawer;
@@ -71,12 +72,55 @@ pub struct Group {
     pub choices: Vec<Choice>,
     /// Triangles and pixels that were timed.
     pub timed: [u64; 2],
+    /// By measure the cheapest exact choice; none where none is exact.
+    pub best: Vec<Option<Best>>,
+}
+
+/// The cheapest of the choices that a measure calls exact, as far as that could be told.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Best {
+    pub choice: usize,
+    /// Those that are shown to be equally fast, but for 3%.
+    pub equal: Vec<usize>,
+    /// Those that may be faster or slower than it by more than 3%, for all that was measured.
+    pub undecided: Vec<usize>,
+    /// Rounds in which they were compared; none for the only one that came into question.
+    pub rounds: usize,
+}
+
+impl Best {
+    fn alone(choice: usize) -> Self {
+        Self { choice, ..Self::default() }
+    }
+
+    /// The result of a race of some choices.
+    fn of(race: &Race, choices: &[usize]) -> Option<Self> {
+        let with = |finish: Finish| {
+            let all = race.finishes.iter().zip(choices);
+            all.filter(|(own, _)| **own == finish).map(|(_, choice)| *choice).collect::<Vec<_>>()
+        };
+        let choice = *with(Finish::Fastest).first()?;
+        let (equal, undecided) = (with(Finish::Equal), with(Finish::Undecided));
+        Some(Self { choice, equal, undecided, rounds: race.rounds })
+    }
 }
 
 impl Group {
+    fn new(title: &'static str, measures: &[Measure], timed: [u64; 2]) -> Self {
+        let (measures, choices) = (measures.to_vec(), Vec::new());
+        Self { title, measures, choices, timed, best: Vec::new() }
+    }
+
+    /// Whether an error of a choice is one that a measure calls exact.
+    #[must_use]
+    pub fn is_exact(&self, choice: &Choice, measure: usize) -> bool {
+        let error = choice.errors.get(measure).copied().flatten();
+        let goal = self.measures.get(measure).and_then(|measure| measure.goal);
+        choice.refused.is_none() && error.zip(goal).is_some_and(|(error, goal)| error <= goal)
+    }
+
     pub fn cheapest_exact(&self, measure: usize) -> Option<usize> {
-        let goal = self.measures.get(measure)?.goal?;
-        self.cheapest(&|choice| choice.errors[measure].is_some_and(|error| error <= goal))
+        self.best.get(measure)?.as_ref().map(|best| best.choice)
     }
 
     #[must_use]
@@ -96,20 +140,23 @@ pub struct Effort {
 }
 
 impl Effort {
-    /// Pixels that are timed on a ladder.
-    fn pixels(self) -> u64 {
-        if self.quick { 40_000 } else { 400_000 }
-    }
-
     fn rounds(self) -> usize {
         if self.quick { 5 } else { 21 }
     }
 
-    /// How long whole frames are timed.
+    /// How long exact choices are compared with each other.
+    fn race(self) -> Duration {
+        Duration::from_millis(if self.quick { 400 } else { 4000 })
+    }
+
+    /// How long whole frames are timed, and then compared with each other.
     fn frames(self) -> Duration {
-        Duration::from_millis(if self.quick { 1000 } else { 8000 })
+        Duration::from_millis(if self.quick { 800 } else { 8000 })
     }
 }
+
+/// Pixels that are timed on a ladder, quickly or not: which choice is the cheapest depends on the triangles.
+const TIMED_PX: u64 = 400_000;
 
 /// The costs of a scene in a view. `progress` gets the share done and a word about it.
 pub fn measure(
@@ -120,14 +167,14 @@ pub fn measure(
     progress: &dyn Fn(f64, &str),
 ) -> Result<Vec<Group>, BadScene> {
     let window = target.size();
-    let sample = Sample::of(pieces, window, effort.pixels());
+    let sample = Sample::of(pieces, window, TIMED_PX);
     let mut groups = Vec::new();
     for (done, ladder) in [Ladder::Scanline, Ladder::EdgeFunction].into_iter().enumerate() {
         progress(0.2 * done as f64, ladder.title());
         groups.push(coverage(ladder, pieces, window, &sample, effort));
     }
     progress(0.4, Ladder::Interpolation.title());
-    let part = Sample::of(pieces, window, effort.pixels() / 5);
+    let part = Sample::of(pieces, window, TIMED_PX / 5);
     groups.extend(ladder(Ladder::Interpolation, pieces, window, &part, effort));
     progress(0.5, Ladder::Depth.title());
     groups.push(depth(pieces, window, effort));
@@ -179,10 +226,7 @@ impl Sample {
             bounds: window,
             triangles,
             w: of.iter().map(|piece| piece.w).collect(),
-            values: of
-                .iter()
-                .map(|piece| piece.triangle.vertices.map_array(|v| v.varying.x))
-                .collect(),
+            values,
             interior: None,
         }
     }
@@ -249,12 +293,14 @@ fn coverage(
             timed.push(number);
         }
     }
-    set_times(&mut choices, &timed, passes, effort);
-    let measures = vec![
+    let measures = [
         Measure { title: "wrong pixels, corners as they are", short: "as given", goal: Some(0.0) },
         Measure { title: "wrong pixels, corners snapped", short: "snapped", goal: Some(0.0) },
     ];
-    Group { title: ladder.title(), measures, choices, timed: [sample.pieces, sample.pixels] }
+    let mut group = Group::new(ladder.title(), &measures, [sample.pieces, sample.pixels]);
+    group.choices = choices;
+    set_times(&mut group, &timed, &mut passes, effort);
+    group
 }
 
 /// Adds what each rung gets wrong of a piece.
@@ -369,32 +415,55 @@ fn margin_of(px: [[f64; 2]; 3], window: PixelRect, u: f64) -> f64 {
     smallest
 }
 
-/// Times the passes of some choices; those that nearly are the fastest again, with more rounds.
-fn set_times(choices: &mut [Choice], timed: &[usize], mut passes: Vec<Pass<'_>>, effort: Effort) {
-    let first = time(&mut passes, effort.rounds(), true, &|_| ());
-    for (&number, spread) in timed.iter().zip(&first) {
-        choices[number].time = Some(*spread);
+/// Times the passes of some choices, and finds the fastest of those that are exact.
+fn set_times(group: &mut Group, timed: &[usize], passes: &mut [Pass<'_>], effort: Effort) {
+    let spreads = time(passes, effort.rounds(), true, &|_| ());
+    for (&number, spread) in timed.iter().zip(spreads) {
+        group.choices[number].time = Some(spread);
     }
-    let exact = |number: usize| choices[number].errors.contains(&Some(0.0));
-    let best = |exact_only: bool| {
-        let each = timed.iter().zip(&first).filter(|(number, _)| !exact_only || exact(**number));
-        each.map(|(_, spread)| spread.median).fold(f64::INFINITY, f64::min)
-    };
-    let limits = [best(true), best(false)];
-    let is_close = |i: usize| {
-        let limit = if exact(timed[i]) { limits[0] } else { limits[1] };
-        first[i].low <= 1.15 * limit
-    };
-    let close: Vec<usize> = (0..timed.len()).filter(|&i| is_close(i)).collect();
-    let mut kept: Vec<Pass<'_>> = Vec::new();
-    for (i, pass) in passes.into_iter().enumerate() {
-        if close.contains(&i) {
-            kept.push(pass);
-        }
-    }
-    let again = time(&mut kept, 4 * effort.rounds(), true, &|_| ());
-    for (&i, spread) in close.iter().zip(again) {
-        choices[timed[i]].time = Some(spread);
+    set_best(group, timed, passes, effort, effort.race());
+}
+
+/// An exact choice is raced unless a quarter of its first rounds is slower by more than this than the median of the best.
+const CLOSE: f64 = 1.25;
+
+/// Races the exact choices of each measure against each other; their times become those of the race.
+fn set_best(
+    group: &mut Group,
+    timed: &[usize],
+    passes: &mut [Pass<'_>],
+    effort: Effort,
+    budget: Duration,
+) {
+    let mut before: Vec<(Vec<usize>, Best)> = Vec::new();
+    for measure in 0..group.measures.len() {
+        let time = |place: usize| {
+            let choice = &group.choices[timed[place]];
+            choice.time.filter(|_| group.is_exact(choice, measure))
+        };
+        let medians = (0..timed.len()).filter_map(|place| Some(time(place)?.median));
+        let least = medians.fold(f64::INFINITY, f64::min);
+        let is_close = |place: &usize| time(*place).is_some_and(|t| t.low <= CLOSE * least);
+        let racing: Vec<usize> = (0..timed.len()).filter(is_close).collect();
+        let known = before.iter().find(|(same, _)| *same == racing).map(|(_, best)| best.clone());
+        let best = match (known, &*racing) {
+            (Some(best), _) => Some(best),
+            (None, []) => None,
+            (None, [only]) => Some(Best::alone(timed[*only])),
+            (None, several) => {
+                let of = passes.iter_mut().enumerate();
+                let mut of: Vec<_> =
+                    of.filter(|(place, _)| several.contains(place)).map(|(_, pass)| pass).collect();
+                let race = race(&mut of, budget, !effort.quick);
+                let numbers: Vec<usize> = several.iter().map(|&place| timed[place]).collect();
+                for (&number, time) in numbers.iter().zip(&race.times) {
+                    group.choices[number].time = Some(*time);
+                }
+                Best::of(&race, &numbers)
+            }
+        };
+        before.extend(best.clone().map(|best| (racing, best)));
+        group.best.push(best);
     }
 }
 
@@ -408,9 +477,6 @@ fn ladder(
 ) -> Option<Group> {
     let class = sample.class(pieces, window);
     let options = Options { seed: 0, quick: effort.quick, timed: true };
-    let board: Board = measure_on(ladder, &[class], &options)?;
-    let column = board.columns.first()?;
-    let (items, pixels) = (column.items, column.pixels);
     let measures: &[Measure] = match ladder {
         Ladder::Interpolation => &[Measure {
             title: "worst error over the largest value; up to half a step of 8 bits is good",
@@ -423,26 +489,33 @@ fn ladder(
             goal: Some(0.0),
         }],
     };
-    let choices = board.rungs.iter().enumerate().map(|(rung, info)| {
-        let mut choice = Choice::new(&info.name, &info.about);
-        let run = board.run(rung, 0);
-        choice.errors = vec![run.and_then(|run| run.errors.first().copied().flatten())];
-        choice.time = run.and_then(|run| run.time).map(|time| time.item_ns.times(items as f64));
-        if ladder == Ladder::Antialiasing {
-            choice.bytes = samples_of(&info.name)
-                .map(|samples| samples * u64::from(window.width()) * u64::from(window.height()));
-        }
-        if run.is_none() {
-            choice.refused = Some("it does not take these triangles".to_owned());
-        }
-        choice
-    });
-    Some(Group {
-        title: ladder.title(),
-        measures: measures.to_vec(),
-        choices: choices.collect(),
-        timed: [items, pixels],
-    })
+    let mut group = Group::new(ladder.title(), measures, [0; 2]);
+    measure_on(ladder, &[class], &options, &mut |board: &Board, passes| {
+        let Some(column) = board.columns.first() else { return };
+        group.timed = [column.items, column.pixels];
+        let rungs = 0..board.rungs.len();
+        group.choices = rungs.clone().map(|rung| choice(board, rung, window)).collect();
+        let timed: Vec<usize> = rungs.filter(|&rung| board.run(rung, 0).is_some()).collect();
+        set_best(&mut group, &timed, passes, effort, effort.race());
+    })?;
+    Some(group)
+}
+
+/// A rung of a board with one column.
+fn choice(board: &Board, rung: usize, window: PixelRect) -> Choice {
+    let (info, items) = (&board.rungs[rung], board.columns[0].items);
+    let mut choice = Choice::new(&info.name, &info.about);
+    let run = board.run(rung, 0);
+    choice.errors = vec![run.and_then(|run| run.errors.first().copied().flatten())];
+    choice.time = run.and_then(|run| run.time).map(|time| time.item_ns.times(items as f64));
+    if board.ladder == Ladder::Antialiasing {
+        choice.bytes = samples_of(&info.name)
+            .map(|samples| samples * u64::from(window.width()) * u64::from(window.height()));
+    }
+    if run.is_none() {
+        choice.refused = Some("it does not take these triangles".to_owned());
+    }
+    choice
 }
 
 /// The bytes of a pixel in a rung of antialiasing: colour and depth of each sample.
@@ -493,21 +566,19 @@ fn depth(pieces: &[Piece], window: PixelRect, effort: Effort) -> Group {
         passes.push(Pass { column: 0, run });
     }
     let timed: Vec<usize> = (0..choices.len()).collect();
-    set_times(&mut choices, &timed, passes, effort);
     let mut pixels = 0;
     for piece in pieces {
         Scanline.cover(piece.corners(), window, |span| pixels += span.pixels() as u64);
     }
-    Group {
-        title: Ladder::Depth.title(),
-        measures: vec![Measure {
-            title: "pixels that show another piece than exact depths do",
-            short: "wrong px",
-            goal: Some(0.0),
-        }],
-        choices,
-        timed: [pieces.len() as u64, pixels],
-    }
+    let measure = Measure {
+        title: "pixels that show another piece than exact depths do",
+        short: "wrong px",
+        goal: Some(0.0),
+    };
+    let mut group = Group::new(Ladder::Depth.title(), &[measure], [pieces.len() as u64, pixels]);
+    group.choices = choices;
+    set_times(&mut group, &timed, &mut passes, effort);
+    group
 }
 
 /// Which piece is nearest at each pixel by exact depths of the snapped pieces; of equal ones the first.
@@ -620,19 +691,19 @@ fn planners(scene: &Scene, target: &mut Target, effort: Effort) -> Result<Group,
     let rounds = effort.frames().as_secs_f64() / once.as_secs_f64().max(1e-6);
     let timed: Vec<usize> = (0..choices.len()).collect();
     let spreads = time(&mut passes, (rounds as usize).clamp(3, 101), true, &|_| ());
-    for (number, spread) in timed.into_iter().zip(spreads) {
+    for (&number, spread) in timed.iter().zip(spreads) {
         choices[number].time = Some(spread);
     }
-    Ok(Group {
-        title: "Whole frames",
-        measures: vec![Measure {
-            title: "pixels that differ from the frame of scanline with everything switched on",
-            short: "wrong px",
-            goal: Some(0.0),
-        }],
-        choices,
-        timed: [scene.triangles() as u64, u64::from(window.width()) * u64::from(window.height())],
-    })
+    let measure = Measure {
+        title: "pixels that differ from the frame of scanline with everything switched on",
+        short: "wrong px",
+        goal: Some(0.0),
+    };
+    let pixels = u64::from(window.width()) * u64::from(window.height());
+    let mut group = Group::new("Whole frames", &[measure], [scene.triangles() as u64, pixels]);
+    group.choices = choices;
+    set_best(&mut group, &timed, &mut passes, effort, effort.frames());
+    Ok(group)
 }
 
 /// Colours and depths of all samples.

@@ -6,7 +6,7 @@
 use std::cell::RefCell;
 
 use super::scene::{Scene, Size, W_PREFIX, scenes};
-use super::{Board, Column, Ladder, Measure, Options, Prepared, Rung, finish};
+use super::{Board, Column, Ladder, Measure, Options, Prepared, Rung, Told, finish};
 use crate::ladder::antialiasing::{Antialias, ExactArea, FOUR, Multisample, ONE, Supersample};
 use crate::ladder::{area, snap};
 use rasterproof_core::frame::Frame;
@@ -84,14 +84,15 @@ fn root_mean_square(actual: &Frame<f64>, truth: &Truth) -> f64 {
 
 pub(super) fn measure(options: &Options, progress: &dyn Fn(f64, &str)) -> Board {
     let pixels = if options.quick { 8_000 } else { 30_000 };
-    measure_on(&scenes(options.seed, Size { side_px: 256, pixels }), options, progress)
+    let scenes = scenes(options.seed, Size { side_px: 256, pixels });
+    measure_on(&scenes, options, (progress, &mut |_, _| ()))
 }
 
 /// The same on other scenes.
 pub(super) fn measure_on(
     scenes: &[Scene],
     options: &Options,
-    progress: &dyn Fn(f64, &str),
+    (progress, afterwards): Told<'_>,
 ) -> Board {
     let ladder = Ladder::Antialiasing;
     let variants = variants();
@@ -127,5 +128,5 @@ pub(super) fn measure_on(
         columns.push(Column::new(scene.name, about, items, truth.pixels));
     }
     let rungs = variants.iter().map(|variant| variant.rung.clone()).collect();
-    finish((ladder, measures()), (rungs, columns), prepared, options, progress)
+    finish((ladder, measures()), (rungs, columns), prepared, options, (progress, afterwards))
 }

@@ -50,7 +50,7 @@ impl TryFrom<Quartiles> for Spread {
 }
 
 impl Spread {
-    fn of(mut values: Vec<f64>) -> Self {
+    pub(super) fn of(mut values: Vec<f64>) -> Self {
         values.sort_by(f64::total_cmp);
         let at = |quarters: usize| values[(values.len() - 1) * quarters / 4];
         Self { low: at(1), median: at(2), high: at(3) }
@@ -89,6 +89,14 @@ pub(super) fn rounds(quick: bool) -> usize {
     if quick { 7 } else { 41 }
 }
 
+/// Runs a pass once, which warms caches, and returns how many runs of it fit into a slice of time.
+pub(super) fn repeats(pass: &mut Pass<'_>, slice: Duration) -> u32 {
+    let start = Instant::now();
+    (pass.run)();
+    let once = start.elapsed().max(Duration::from_nanos(50));
+    (slice.as_nanos() / once.as_nanos()).clamp(1, 100_000) as u32
+}
+
 /// Nanoseconds of each pass. A slice of time is shorter when `quick`.
 pub fn time(
     passes: &mut [Pass<'_>],
@@ -102,23 +110,19 @@ pub fn time(
     // By column, so that the rungs of one scene follow each other.
     let mut order: Vec<usize> = (0..passes.len()).collect();
     order.sort_by_key(|&i| passes[i].column);
-    let mut repeats = vec![1; passes.len()];
+    let mut repeat = vec![1; passes.len()];
     for &i in &order {
-        // The first run warms caches and says how many fit into a slice.
-        let start = Instant::now();
-        (passes[i].run)();
-        let once = start.elapsed().max(Duration::from_nanos(50));
-        repeats[i] = (slice.as_nanos() / once.as_nanos()).clamp(1, 100_000) as u32;
+        repeat[i] = repeats(&mut passes[i], slice);
     }
     let mut figures = vec![Vec::with_capacity(rounds); passes.len()];
     for round in 0..rounds {
         for place in 0..order.len() {
             let i = order[(place + round) % order.len()];
             let start = Instant::now();
-            for _ in 0..repeats[i] {
+            for _ in 0..repeat[i] {
                 (passes[i].run)();
             }
-            figures[i].push(start.elapsed().as_nanos() as f64 / f64::from(repeats[i]));
+            figures[i].push(start.elapsed().as_nanos() as f64 / f64::from(repeat[i]));
         }
         progress((round + 1) as f64 / rounds as f64);
     }

@@ -410,7 +410,7 @@ pub(super) fn measure(
         }
         columns.push(Column::new(scene.name, about, items, truth.pixels[GIVEN]));
     }
-    finish((ladder, measures()), (rungs, columns), prepared, options, progress)
+    finish((ladder, measures()), (rungs, columns), prepared, options, (progress, &mut |_, _| ()))
 }
 
 #[cfg(test)]

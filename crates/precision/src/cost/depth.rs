@@ -183,7 +183,7 @@ pub(super) fn measure(options: &Options, progress: &dyn Fn(f64, &str)) -> Board 
         columns.push(Column::new(class.name, class.about.to_owned(), 0, 0));
     }
     let rungs = variants.iter().map(|(rung, _)| rung.clone()).collect();
-    finish((ladder, measures()), (rungs, columns), prepared, options, progress)
+    finish((ladder, measures()), (rungs, columns), prepared, options, (progress, &mut |_, _| ()))
 }
 
 #[cfg(test)]

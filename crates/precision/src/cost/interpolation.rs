@@ -8,7 +8,7 @@ use std::cell::RefCell;
 use super::bounds::{Bound, Place, largest};
 use super::scene::{Scene, Size, scenes};
 use super::tiles::{Planes, box_of};
-use super::{Board, Column, Ladder, Measure, Options, Prepared, Rung, finish};
+use super::{Board, Column, Ladder, Measure, Options, Prepared, Rung, Told, finish};
 use crate::ladder::interpolation::{
     Accumulated, Affine, BookFormula, Direct, EverySixteen, Offset, Plane, Valued, Values,
 };
@@ -265,17 +265,22 @@ fn find(spans: &[Span], y_px: i32) -> Span {
 
 pub(super) fn measure(options: &Options, progress: &dyn Fn(f64, &str)) -> Board {
     let pixels = if options.quick { 8_000 } else { 60_000 };
-    measure_on(&scenes(options.seed, Size { side_px: 512, pixels }), options, progress)
+    let scenes = scenes(options.seed, Size { side_px: 512, pixels });
+    let count = if options.quick { 500 } else { SAMPLES };
+    measure_on(&scenes, options, count, (progress, &mut |_, _| ()))
 }
+
+/// Pixels at which errors are taken.
+pub(super) const SAMPLES: usize = 4000;
 
 /// The same on other scenes.
 pub(super) fn measure_on(
     scenes: &[Scene],
     options: &Options,
-    progress: &dyn Fn(f64, &str),
+    count: usize,
+    (progress, afterwards): Told<'_>,
 ) -> Board {
     let ladder = Ladder::Interpolation;
-    let count = if options.quick { 500 } else { 4000 };
     let variants = variants();
     let drawn: Vec<_> = scenes.iter().map(dress).collect();
     let targets: Vec<_> =
@@ -301,7 +306,7 @@ pub(super) fn measure_on(
         columns.push(Column::new(scene.name, about, drawn.len() as u64, pixels));
     }
     let rungs = variants.iter().map(|variant| variant.rung.clone()).collect();
-    finish((ladder, measures()), (rungs, columns), prepared, options, progress)
+    finish((ladder, measures()), (rungs, columns), prepared, options, (progress, afterwards))
 }
 
 #[cfg(test)]

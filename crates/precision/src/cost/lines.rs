@@ -190,5 +190,5 @@ pub(super) fn measure(options: &Options, progress: &dyn Fn(f64, &str)) -> Board 
         columns.push(Column::new(class.name, about, items, pixels));
     }
     let rungs = variants.iter().map(|variant| variant.rung.clone()).collect();
-    finish((ladder, measures()), (rungs, columns), prepared, options, progress)
+    finish((ladder, measures()), (rungs, columns), prepared, options, (progress, &mut |_, _| ()))
 }

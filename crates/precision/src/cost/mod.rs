@@ -13,6 +13,7 @@ mod depth;
 mod external;
 mod interpolation;
 mod lines;
+mod race;
 mod recorded;
 pub mod scene;
 mod tiles;
@@ -27,6 +28,7 @@ pub use bounds::Bound;
 pub use clock::{Pass, Spread, Time, time};
 pub use coverage::{Variant, variants, wrong_pixels};
 pub use external::ExternalVariant;
+pub use race::{EQUAL, Finish, Race, race};
 pub use recorded::Recorded;
 pub use verdict::{Best, Dominated, Price, Priced, prices};
 
@@ -213,14 +215,29 @@ pub fn measure_with(
     }
 }
 
-/// Measures a ladder on scenes of the caller; nothing for a ladder that draws scenes of its own.
-pub fn measure_on(ladder: Ladder, scenes: &[scene::Scene], options: &Options) -> Option<Board> {
+/// What happens to a board and the passes that were timed for it, in the order of its cells.
+pub type Afterwards<'a> = &'a mut dyn FnMut(&Board, &mut [Pass<'_>]);
+
+/// Measures a ladder on scenes of the caller; nothing for a ladder that draws scenes of its own. Errors are taken at as
+/// many pixels whether the measurement is quick or not.
+pub fn measure_on(
+    ladder: Ladder,
+    scenes: &[scene::Scene],
+    options: &Options,
+    afterwards: Afterwards<'_>,
+) -> Option<Board> {
+    let told = (&|_: f64, _: &str| (), afterwards);
     match ladder {
-        Ladder::Interpolation => Some(interpolation::measure_on(scenes, options, &|_, _| ())),
-        Ladder::Antialiasing => Some(antialiasing::measure_on(scenes, options, &|_, _| ())),
+        Ladder::Interpolation => {
+            Some(interpolation::measure_on(scenes, options, interpolation::SAMPLES, told))
+        }
+        Ladder::Antialiasing => Some(antialiasing::measure_on(scenes, options, told)),
         _ => None,
     }
 }
+
+/// Whoever is told of progress, and what happens to the passes.
+type Told<'a> = (&'a dyn Fn(f64, &str), Afterwards<'a>);
 
 /// A cell before it is timed: a closure that does all of the work once.
 enum Prepared<'a> {
@@ -234,7 +251,7 @@ fn finish(
     (rungs, columns): (Vec<Rung>, Vec<Column>),
     prepared: Vec<Vec<Prepared<'_>>>,
     options: &Options,
-    progress: &dyn Fn(f64, &str),
+    (progress, afterwards): Told<'_>,
 ) -> Board {
     let mut passes: Vec<clock::Pass<'_>> = Vec::new();
     let mut cells: Vec<Vec<Cell>> = Vec::new();
@@ -265,5 +282,7 @@ fn finish(
             }
         }
     }
-    Board { ladder, seed: options.seed, rounds, measures, columns, rungs, cells }
+    let board = Board { ladder, seed: options.seed, rounds, measures, columns, rungs, cells };
+    afterwards(&board, &mut passes);
+    board
 }
