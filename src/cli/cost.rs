@@ -133,7 +133,9 @@ impl CostArguments {
 pub fn run(arguments: &CostArguments, typed: &Typed, streams: &mut Streams<'_>) -> Status {
     let ladders = match &arguments.what {
         Some(Subject::Model(path)) => {
-            if let Some(option) = typed.given(&["from", "seed", "engine", "output", "report"]) {
+            if let Some(option) =
+                typed.given(&["from", "seed", "engine", "output", "report", "out"])
+            {
                 return Err(usage(format!("--{option} is not for models: leave it out")));
             }
             let how = (arguments.quick, arguments.json);

@@ -127,6 +127,7 @@ pub fn run(arguments: &JudgeArguments, typed: &Typed, streams: &mut Streams<'_>)
     if let Some(names) = &arguments.league {
         return league::run(names, &arguments.options(), limits, streams);
     }
+    arguments.page.refuse_idle_folder(typed)?;
     let page = arguments.page.page("judge.html");
     let known = arguments.baseline.as_deref().map(|path| ("--baseline", path, Use::Reads));
     distinct(&known.into_iter().chain(as_file(&page)).collect::<Vec<_>>())?;

@@ -7,8 +7,9 @@ use std::path::{Component, Path, PathBuf};
 use rasterproof_host::input;
 use rasterproof_host::text::printable_path;
 
-use super::Streams;
 use super::files::Use;
+use super::typed::Typed;
+use super::{Failure, Streams, usage};
 use rasterproof_report::html::{self, Report};
 
 /// Options of every command that writes pages or pictures.
@@ -33,6 +34,16 @@ pub struct Place {
 const HEAD_BYTES: u64 = 8192;
 
 impl PageArguments {
+    /// Refuses a folder into which nothing would be written.
+    pub(super) fn refuse_idle_folder(&self, typed: &Typed) -> Result<(), Failure> {
+        match typed.given(&["out"]) {
+            Some(_) if !self.report => Err(usage(
+                "--out is the folder of a page, and none is written: add --report, or leave --out away",
+            )),
+            _ => Ok(()),
+        }
+    }
+
     /// The page of a command, as a file that it writes; none where no page was asked for.
     pub(super) fn page(&self, name: &str) -> Option<PathBuf> {
         self.report.then(|| self.place.out.join(name))

@@ -170,6 +170,9 @@ impl Savings {
 }
 
 pub fn run(arguments: &PlanArguments, typed: &Typed, streams: &mut Streams<'_>) -> Status {
+    if arguments.without.is_none() {
+        arguments.page.refuse_idle_folder(typed)?;
+    }
     let maker = arguments.what.maker(streams)?;
     let scene = maker.scene(0.0);
     if let Some(effect) = arguments.without {

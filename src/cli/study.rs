@@ -127,6 +127,7 @@ fn inspect_command(typed: &Typed, path: &Path, face: u32) -> String {
 
 pub fn run(arguments: &StudyArguments, typed: &Typed, streams: &mut Streams<'_>) -> Status {
     let what = &arguments.what;
+    arguments.page.refuse_idle_folder(typed)?;
     let maker = what.maker(streams)?;
     if let Some(views) = arguments.views {
         return all_around((arguments, views), &maker, streams);

@@ -24,7 +24,7 @@ use rasterproof_verify::comparison::{self, Options, Shard, Verdict};
 #[derive(clap::Args, Debug)]
 pub struct VerifyCommand {
     /// Judge the engines on the triangles of this model instead, and show its hard cases
-    #[arg(value_name = "MODEL", conflicts_with_all = ["cases", "seconds", "family", "invariant", "seed", "shard", "case", "table", "report"])]
+    #[arg(value_name = "MODEL", conflicts_with_all = ["cases", "seconds", "family", "invariant", "seed", "shard", "case", "table", "report", "out"])]
     model: Option<PathBuf>,
     #[command(flatten)]
     view: ViewArguments,

@@ -130,3 +130,26 @@ fn the_commands_of_a_study_work() {
     let refused = folder.check("verify --yaw 3", 2);
     assert!(refused.errors.contains("--yaw is for models"), "{}", refused.errors);
 }
+
+/// A folder into which nothing would be written is refused, with the word that is missing.
+#[test]
+fn a_folder_without_a_page_is_refused() {
+    let folder = Folder::new("study-idle-folder");
+    fs::write(folder.join("m.obj"), format!("{BOX}{FACES}")).unwrap();
+    for words in ["study m.obj --out d", "study m.obj --views 2 --out d", "plan m.obj --out d", {
+        "judge --cases 1 --out d -- true"
+    }] {
+        let run = folder.check(words, 2);
+        assert!(
+            run.errors.contains("add --report, or leave --out away"),
+            "{words}: {}",
+            run.errors
+        );
+    }
+    for words in ["cost m.obj --out d", "verify m.obj --out d"] {
+        assert!(folder.check(words, 2).errors.contains("--out"), "{words}");
+    }
+    assert!(!folder.join("d").exists());
+    folder.check("plan m.obj --size 32x24 --without depth --out d", 0);
+    assert!(folder.join("d").exists());
+}
