@@ -38,7 +38,7 @@ use rasterproof_render::pipeline::texture::Texture;
 use rasterproof_render::pipeline::transform::{about, look_at, perspective};
 use rasterproof_render::scene::chapters;
 use rasterproof_render::scene::{Scene, Shading};
-use rasterproof_report::frame_comparison::{self, Comparison, Times};
+use rasterproof_report::frame_comparison::{self, Amount, Comparison, Times};
 use rasterproof_report::html::{Chapter, Outcome, PictureLayer, PictureView, Report};
 use rasterproof_report::picture;
 use rasterproof_tiles::frames;
@@ -1035,7 +1035,14 @@ fn map(
             streams.output,
             "  {:<12} {} px",
             effect.name(),
-            frame_comparison::paid(&map, effect)
+            frame_comparison::paid(&map.effects, effect)
+        )?;
+    }
+    for (what, counts) in [("fragments", &map.fragments), ("effects of fragments", &map.payments)] {
+        let Amount { mean, most, at: [x, y], pixels } = Amount::of(counts);
+        writeln!(
+            streams.output,
+            "{what}: {mean:.2} a pixel on average, at most {most} (in {pixels} px, first {x},{y})"
         )?;
     }
     Ok(exit::AGREES)

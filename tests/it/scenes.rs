@@ -774,7 +774,8 @@ fn map_shows_what_pixels_pay_for() {
         let (rendered, map) = Drawer::Scanline
             .render_mapped(&scene, &Effects::PLANNED, &mut target(antialias))
             .unwrap();
-        let paying = map.rows().flat_map(|(_, row)| row).filter(|p| **p & 1 << effect as u32 != 0);
+        let paying =
+            map.effects.rows().flat_map(|(_, row)| row).filter(|p| **p & 1 << effect as u32 != 0);
         assert_eq!(paying.count() as u64, expected, "{name} {}", effect.name());
         rendered
     };

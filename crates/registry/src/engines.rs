@@ -28,7 +28,7 @@ use rasterproof_faults::published::sysu_truncated::SysuTruncated;
 use rasterproof_faults::published::sysu_weights::SysuWeights;
 use rasterproof_faults::published::{Published, PublishedLine};
 use rasterproof_render::effects::plan::{Canvas, Plan};
-use rasterproof_render::effects::render::{self, BadScene, PlanError, Rendered};
+use rasterproof_render::effects::render::{self, BadScene, PaidMap, PlanError, Rendered};
 use rasterproof_render::effects::{Effect, Effects, Mode};
 use rasterproof_render::pipeline::Counters;
 use rasterproof_render::pipeline::present::DoubleBuffer;
@@ -266,7 +266,7 @@ impl Drawer {
         scene: &Scene,
         effects: &Effects,
         target: &mut Target,
-    ) -> Result<(Rendered, Frame<u32>), BadScene> {
+    ) -> Result<(Rendered, PaidMap), BadScene> {
         match self {
             Self::Scanline => render::render_mapped(scene, &Scanline, effects, target),
             Self::EdgeFunction => render::render_mapped(

@@ -10,7 +10,7 @@ use rasterproof_core::grid::PixelRect;
 use rasterproof_registry::undecided::Ties;
 use rasterproof_render::effects::Effect;
 use rasterproof_render::effects::depth_ties::ByRounding;
-use rasterproof_render::effects::render::Rendered;
+use rasterproof_render::effects::render::{PaidMap, Rendered};
 use rasterproof_render::pipeline::depth::CLEAR;
 use rasterproof_render::pipeline::target::{Colour, Target};
 use rasterproof_verify::comparison::tolerance;
@@ -200,9 +200,94 @@ pub fn paid(map: &Frame<u32>, effect: Effect) -> u64 {
 const MAP_COLUMNS: u32 = 3;
 const MAP_WIDTH_PX: u32 = 1440;
 
-/// A map of effects as one small picture for each: the frame, dimmed, and in colour what paid for it.
-pub fn map_picture(title: &str, picture: &Frame<Colour>, map: &Frame<u32>) -> RgbImage {
+/// How often something occurs in the pixels of a frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Amount {
+    /// The mean of all pixels.
+    pub mean: f64,
+    pub most: u32,
+    /// The first pixel that has the most, and how many have it.
+    pub at: [i32; 2],
+    pub pixels: u64,
+}
+
+impl Amount {
+    pub fn of(counts: &Frame<u32>) -> Self {
+        let x0 = counts.bounds().x0;
+        let mut amount = Self { mean: 0.0, most: 0, at: [0; 2], pixels: 0 };
+        let (mut sum, mut all) = (0u64, 0u64);
+        for (y, row) in counts.rows() {
+            for (x, &count) in (x0..).zip(row) {
+                sum += u64::from(count);
+                all += 1;
+                if count > amount.most || all == 1 {
+                    amount = Self { most: count, at: [x, y], pixels: 0, ..amount };
+                }
+                amount.pixels += u64::from(count == amount.most);
+            }
+        }
+        Self { mean: sum as f64 / all.max(1) as f64, ..amount }
+    }
+}
+
+/// The colour of a count on a scale from 1 to the most; 0 is dark grey.
+fn heat(count: f64, most: u32) -> [u8; 3] {
+    const STOPS: [[f64; 3]; 5] = [
+        [68.0, 30.0, 110.0],
+        [59.0, 82.0, 159.0],
+        [33.0, 145.0, 140.0],
+        [94.0, 201.0, 98.0],
+        [253.0, 231.0, 37.0],
+    ];
+    if count < 0.5 {
+        return [40; 3];
+    }
+    let share = (count - 1.0).max(0.0) / f64::from(most.saturating_sub(1).max(1));
+    let at = share.min(1.0) * (STOPS.len() - 1) as f64;
+    let low = (at as usize).min(STOPS.len() - 2);
+    let part = at - low as f64;
+    [0, 1, 2].map(|i| (STOPS[low][i] * (1.0 - part) + STOPS[low + 1][i] * part) as u8)
+}
+
+/// Draws how often something occurs in each pixel, with its scale, into a panel.
+fn amount_panel(
+    sheet: &mut RgbImage,
+    (name, counts): (&str, &Frame<u32>),
+    ([left, top], [width, height]): ([u32; 2], [u32; 2]),
+    shrunk: u32,
+) {
+    const BAR: [u32; 2] = [64, 10];
+    let (ink, faint) = (image::Rgb([30, 30, 30]), image::Rgb([95, 95, 95]));
+    let amount = Amount::of(counts);
+    let at = |x: u32, y: u32| (i64::from(left + x), i64::from(top + y));
+    write(sheet, at(0, 0), name, Size::Heading, ink);
+    let words = format!("mean {:.2}", amount.mean);
+    write(sheet, at(0, 20), &words, Size::Small, faint);
+    let bar = Size::Small.cell()[0] * words.len() as u32 + 22;
+    write(sheet, at(bar - 10, 20), "1", Size::Small, faint);
+    for (y, x) in (0..BAR[1]).flat_map(|y| (0..BAR[0]).map(move |x| (y, x))) {
+        let share = f64::from(x) / f64::from(BAR[0] - 1);
+        let count = 1.0 + share * f64::from(amount.most.saturating_sub(1));
+        sheet.put_pixel(left + bar + x, top + 22 + y, image::Rgb(heat(count, amount.most)));
+    }
+    write(sheet, at(bar + BAR[0] + 4, 20), &amount.most.to_string(), Size::Small, faint);
+    let bounds = counts.bounds();
+    for (y, x) in (0..height).flat_map(|y| (0..width).map(move |x| (y, x))) {
+        // The most of a block, so that no expensive pixel gets lost.
+        let block = (0..shrunk).flat_map(|dy| (0..shrunk).map(move |dx| (dx, dy)));
+        let counts = block.filter_map(|(dx, dy)| {
+            counts.get(bounds.x0 + (x * shrunk + dx) as i32, bounds.y0 + (y * shrunk + dy) as i32)
+        });
+        let colour = heat(counts.max().unwrap_or(0).into(), amount.most);
+        sheet.put_pixel(left + x, top + 38 + y, image::Rgb(colour));
+    }
+}
+
+/// What pixels pay as small pictures: how many fragments, what all of these pay for, and for each effect the frame,
+/// dimmed, and in colour the pixels that pay for it.
+pub fn map_picture(title: &str, picture: &Frame<Colour>, paid_map: &PaidMap) -> RgbImage {
     const GAP: u32 = 12;
+    let map = &paid_map.effects;
     let bounds = map.bounds();
     let shrunk = (bounds.width() * MAP_COLUMNS).div_ceil(MAP_WIDTH_PX).max(1);
     let (width, height) = (bounds.width().div_ceil(shrunk), bounds.height().div_ceil(shrunk));
@@ -210,15 +295,20 @@ pub fn map_picture(title: &str, picture: &Frame<Colour>, map: &Frame<u32>) -> Rg
     let is_shown = |effect: &Effect| OF_EVERY_MAP.contains(effect) || paid(map, *effect) > 0;
     let with_colour = |effect: Effect| Some((effect, effect.map_colour()?));
     let shown: Vec<_> = mapped().filter(is_shown).filter_map(with_colour).collect();
-    let rows = (shown.len() as u32).div_ceil(MAP_COLUMNS);
+    let amounts =
+        [("fragments", &paid_map.fragments), ("effects of fragments", &paid_map.payments)];
+    let rows = (amounts.len() as u32 + shown.len() as u32).div_ceil(MAP_COLUMNS);
     let size = [GAP + MAP_COLUMNS * cell[0], 40 + rows * cell[1] + 24];
     let mut sheet = RgbImage::from_pixel(size[0], size[1], image::Rgb([255, 255, 255]));
     let (ink, faint) = (image::Rgb([30, 30, 30]), image::Rgb([95, 95, 95]));
     write(&mut sheet, (GAP.into(), 10), title, Size::Heading, ink);
     let pixels = u64::from(bounds.width()) * u64::from(bounds.height());
-    for (i, (effect, colour)) in (0u32..).zip(shown) {
-        let left = GAP + i % MAP_COLUMNS * cell[0];
-        let top = 40 + i / MAP_COLUMNS * cell[1];
+    let place = |i: u32| [GAP + i % MAP_COLUMNS * cell[0], 40 + i / MAP_COLUMNS * cell[1]];
+    for (i, amount) in (0u32..).zip(amounts) {
+        amount_panel(&mut sheet, amount, (place(i), [width, height]), shrunk);
+    }
+    for (i, (effect, colour)) in (amounts.len() as u32..).zip(shown) {
+        let [left, top] = place(i);
         let at = |down: i64| (i64::from(left), i64::from(top) + down);
         let count = paid(map, effect);
         write(&mut sheet, at(0), effect.name(), Size::Heading, image::Rgb(colour.map(|c| c / 2)));

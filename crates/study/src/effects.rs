@@ -100,7 +100,7 @@ pub fn survey(
             by_material.entry(&names[item]).or_default();
         }
         let mut pixels = 0;
-        for (y, row) in map.rows() {
+        for (y, row) in map.effects.rows() {
             for (bits, item) in row.iter().zip(items.row(y)) {
                 if bits & (1 << effect as u32) != 0 {
                     pixels += 1;

@@ -144,7 +144,7 @@ impl From<BadScene> for PlanError {
 pub(super) enum Observer<'a> {
     None,
     /// Notes for each pixel what it paid for.
-    Map(&'a mut Frame<u32>),
+    Map(&'a mut PaidMap),
     /// Looks at the screen meanwhile.
     Viewer {
         front: &'a mut Frame<Colour>,
@@ -345,9 +345,8 @@ impl<E: Interpolate> Stage<'_, '_, E> {
             let paid = paid(plan);
             let scale = self.target.antialias().scale() as i32;
             self.engine.cover(piece.corners(), self.target.bounds(), |span| {
-                let (x0_px, x1_px) = (span.x0_px / scale, (span.x1_px - 1) / scale + 1);
-                for pixel in map.span_mut(span.y_px / scale, x0_px, x1_px) {
-                    *pixel |= paid;
+                for x_px in span.x0_px..span.x1_px {
+                    map.pay(x_px / scale, span.y_px / scale, paid);
                 }
             });
         }
@@ -369,7 +368,7 @@ impl<E: Interpolate> Stage<'_, '_, E> {
             Observer::None => {}
             Observer::Map(map) => {
                 if target.antialias().samples() > 1 {
-                    mark_samples(map, on_demand.as_ref());
+                    mark_samples(&mut map.effects, on_demand.as_ref());
                 }
             }
             Observer::Viewer { front, look } => {
@@ -381,6 +380,32 @@ impl<E: Interpolate> Stage<'_, '_, E> {
             on_demand.finish(target);
         }
         Rendered { picture, counters, plan }
+    }
+}
+
+/// What each pixel of a picture pays for, hidden or not.
+#[derive(Clone, Debug)]
+pub struct PaidMap {
+    /// Effects that some fragment paid for, as bits of [`Effect`] in the order of [`Effect::ALL`].
+    pub effects: Frame<u32>,
+    /// Fragments; with supersampling of all samples, with multisampling those at the centre.
+    pub fragments: Frame<u32>,
+    /// The effects of pixels that these fragments paid for, added up; drawing a fragment at all is 1 more.
+    pub payments: Frame<u32>,
+}
+
+impl PaidMap {
+    pub(super) fn new(size: PixelRect) -> Self {
+        let empty = Frame::new(size, 0);
+        Self { effects: empty.clone(), fragments: empty.clone(), payments: empty }
+    }
+
+    fn pay(&mut self, x_px: i32, y_px: i32, effects: u32) {
+        self.effects.span_mut(y_px, x_px, x_px + 1)[0] |= effects;
+        self.fragments.span_mut(y_px, x_px, x_px + 1)[0] += 1;
+        // That something is interpolated is no work of its own beside what is.
+        let work = effects & !(1 << Effect::Interpolation as u32);
+        self.payments.span_mut(y_px, x_px, x_px + 1)[0] += 1 + work.count_ones();
     }
 }
 

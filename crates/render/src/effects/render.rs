@@ -1,6 +1,6 @@
 //! A scene to a picture, through any rasterizer: [`plan`], then [`execute`], or both in one.
 
-pub use super::execute::{PlanError, Rendered};
+pub use super::execute::{PaidMap, PlanError, Rendered};
 pub use super::primitive::BadScene;
 
 use super::execute::{Observer, draw, fit};
@@ -80,8 +80,7 @@ pub fn render_watched(
     plan_and_draw(scene, engine, effects, back, Observer::Viewer { front, look })
 }
 
-/// As [`render`], and for each pixel the effects that its fragments paid for, as bits of
-/// [`Effect`] in the order of [`Effect::ALL`].
+/// As [`render`], and for each pixel what its fragments paid for.
 ///
 /// # Errors
 /// As [`render`].
@@ -90,8 +89,8 @@ pub fn render_mapped(
     engine: &impl Interpolate,
     effects: &Effects,
     target: &mut Target,
-) -> Result<(Rendered, Frame<u32>), BadScene> {
-    let mut map = Frame::new(target.size(), 0);
+) -> Result<(Rendered, PaidMap), BadScene> {
+    let mut map = PaidMap::new(target.size());
     let rendered = plan_and_draw(scene, engine, effects, target, Observer::Map(&mut map))?;
     Ok((rendered, map))
 }
