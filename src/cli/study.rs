@@ -20,7 +20,7 @@ use rasterproof_report::study::{
 use rasterproof_report::summary::thousands;
 use rasterproof_study::cost::{self, Effort, Group};
 use rasterproof_study::hard::{self, HardCases, Kind};
-use rasterproof_study::view::{Piece, pieces};
+use rasterproof_study::view::{Piece, Sampled};
 use rasterproof_study::{effects, ties};
 use rasterproof_study::{face_of, triangle_of};
 use rasterproof_verify::cases::unsnapped::OffGridCase;
@@ -59,7 +59,7 @@ pub struct StudyArguments {
 struct Studied<'a> {
     scene: Scene,
     origins: &'a [Origin],
-    pieces: Vec<Piece>,
+    sampled: Sampled,
     hard: HardCases,
 }
 
@@ -71,9 +71,9 @@ impl<'a> Studied<'a> {
             ));
         }
         let mut target = view.target()?;
-        let pieces = pieces(&scene, target.size()).map_err(usage)?;
-        let hard = hard::find(&scene, origins, &pieces, &mut target).map_err(usage)?;
-        Ok(Self { scene, origins, pieces, hard })
+        let sampled = Sampled::of(&scene, &target).map_err(usage)?;
+        let hard = hard::find(&scene, origins, &sampled, &mut target).map_err(usage)?;
+        Ok(Self { scene, origins, sampled, hard })
     }
 
     fn subject<'s>(&'s self, inspect: &'s dyn Fn(u32) -> String) -> Subject<'s> {
@@ -92,7 +92,8 @@ fn measure(
     let told = |share: f64, what: &str| progress.at((share * 100.0) as u64, what);
     let mut target = view.target()?;
     let effort = Effort { quick };
-    cost::measure(&studied.scene, &studied.pieces, &mut target, effort, &told).map_err(usage)
+    let seen = (&studied.sampled, &studied.hard);
+    cost::measure(&studied.scene, seen, &mut target, effort, &told).map_err(usage)
 }
 
 /// `cost FILE`: what each choice costs on the triangles of a model.
@@ -110,10 +111,10 @@ pub(super) fn cost(
     let subject = studied.subject(&inspect);
     let out = &mut *streams.output;
     if is_json {
-        writeln!(out, "{}", costs_json(&subject, &studied.pieces, &groups))?;
+        writeln!(out, "{}", costs_json(&subject, &groups))?;
     } else {
         writeln!(out, "{}\n", head(&studied))?;
-        out.write_all(costs(&subject, &studied.pieces, &groups).as_bytes())?;
+        out.write_all(costs(&subject, &groups).as_bytes())?;
     }
     Ok(exit::AGREES)
 }
@@ -137,10 +138,11 @@ pub fn run(arguments: &StudyArguments, typed: &Typed, streams: &mut Streams<'_>)
     let groups = measure(&studied, &what.view, arguments.quick, streams.progress)?;
     let mut target = what.view.target()?;
     let window = target.size();
-    let classes = ties::classify(&studied.pieces, window);
-    let seen = cost::exactly_seen(&studied.pieces, window);
+    let classes = ties::classify(&studied.sampled);
+    let pieces = studied.sampled.at_centres();
+    let seen = cost::exactly_seen(pieces, window);
     let budget = Duration::from_millis(if arguments.quick { 700 } else { 5000 });
-    let visible = (studied.pieces.as_slice(), &seen);
+    let visible = (pieces, &seen);
     let needs = effects::survey(&studied.scene, studied.origins, visible, &mut target, budget);
     let needs = needs.map_err(usage)?;
     let inspect = |face| match what.source() {
@@ -154,12 +156,12 @@ pub fn run(arguments: &StudyArguments, typed: &Typed, streams: &mut Streams<'_>)
         let json = serde_json::json!({
             "scene": studied.scene.name,
             "triangles": studied.scene.triangles(),
-            "pieces": studied.pieces.len(),
+            "pieces": pieces.len(),
             "loading_s": maker.loading().map(|time| time.as_secs_f64()),
             "hard_cases": hard_cases_json(&subject, &studied.hard),
             "decided": ties_json(&classes),
             "effects": needs_json(&needs, not_drawn),
-            "costs": costs_json(&subject, &studied.pieces, &groups),
+            "costs": costs_json(&subject, &groups),
         });
         writeln!(out, "{json}")?;
     } else {
@@ -173,14 +175,13 @@ pub fn run(arguments: &StudyArguments, typed: &Typed, streams: &mut Streams<'_>)
         }
         writeln!(out)?;
         out.write_all(hard_cases(&subject, &studied.hard, &groups).as_bytes())?;
-        writeln!(out, "{}", report::ties(&subject, &studied.pieces, &classes))?;
+        writeln!(out, "{}", report::ties(&subject, &classes))?;
         writeln!(out, "{}", report::needs(&needs, not_drawn))?;
-        out.write_all(costs(&subject, &studied.pieces, &groups).as_bytes())?;
+        out.write_all(costs(&subject, &groups).as_bytes())?;
     }
     out.flush()?;
     if let Some(path) = arguments.page.page("study.html") {
         let found = report::Found {
-            pieces: &studied.pieces,
             hard: &studied.hard,
             classes: &classes,
             needs: &needs,
@@ -208,7 +209,7 @@ fn all_around(
         let turn = f64::from(number) / f64::from(views);
         let studied = Studied::new(maker.scene(turn), maker.origins(), view)?;
         let groups = measure(&studied, view, arguments.quick, false)?;
-        let classes = ties::classify(&studied.pieces, view.target()?.size());
+        let classes = ties::classify(&studied.sampled);
         let pixels = |kind: Kind| {
             let found = studied.hard.cases.iter().find(|case| case.kind == kind);
             found.map_or(0, |case| case.pixels)
@@ -261,7 +262,8 @@ fn all_around(
 }
 
 fn head(studied: &Studied<'_>) -> String {
-    let (triangles, pieces) = (studied.scene.triangles() as u64, studied.pieces.len() as u64);
+    let (triangles, pieces) =
+        (studied.scene.triangles() as u64, studied.sampled.at_centres().len() as u64);
     let (triangles, pieces) = (thousands(triangles), thousands(pieces));
     format!("{}: {triangles} triangles, {pieces} pieces in the window", studied.scene.name)
 }
@@ -285,17 +287,17 @@ pub(super) fn verify(
     streams: &mut Streams<'_>,
 ) -> Status {
     let maker = view.maker(path, streams)?;
-    let window = view.target()?.bounds();
     let studied = Studied::new(maker.scene(0.0), maker.origins(), view)?;
     let inspect = |face| inspect_command(typed, path, face);
     let subject = studied.subject(&inspect);
     // The engines see samples as the picture has them, and values up to their limit.
-    let drawn = pieces(&studied.scene, window).map_err(usage)?;
-    let has_values = |piece: &&Piece| {
+    let window = studied.sampled.window;
+    let drawn: Vec<&Piece> = studied.sampled.all().collect();
+    let has_values = |piece: &&&Piece| {
         let uv = piece.triangle.vertices.iter().map(|vertex| vertex.varying);
         uv.flat_map(|uv| uv.to_array()).all(|value| check_value(value).is_ok())
     };
-    let judgeable: Vec<&Piece> = drawn.iter().filter(has_values).collect();
+    let judgeable: Vec<&Piece> = drawn.iter().filter(has_values).copied().collect();
     let mut faults = Vec::new();
     for &engine in &judged.engines {
         faults.push((engine.0.name(), judge(&judgeable, &|chunk| on_grid(engine, chunk, window))));
@@ -434,7 +436,7 @@ pub(super) fn face(
     let kinds = if kinds.is_empty() { "none".to_owned() } else { kinds.join(", ") };
     writeln!(out, "  hard cases that it has a part in: {kinds}")?;
     let of_face = |piece: &&Piece| triangles.binary_search(&piece.face).is_ok();
-    let pieces: Vec<&Piece> = studied.pieces.iter().filter(of_face).collect();
+    let pieces: Vec<&Piece> = studied.sampled.at_centres().iter().filter(of_face).collect();
     if pieces.is_empty() {
         writeln!(out, "  not in the window: outside of it, or seen from a side that is culled")?;
         return Ok(None);

@@ -94,6 +94,30 @@ fn positions_that_f32_loses_are_found() {
     assert_eq!(found[0].1, 12, "all faces");
 }
 
+/// Far from the origin f32 has halves: one position off them is found, with the faces that have it as a corner.
+#[test]
+fn a_position_that_f32_loses_in_a_clean_mesh_is_found() {
+    let folder = Folder::new("study-far-position");
+    let far = |first: &str| {
+        let corner = |corner: &str| {
+            let numbers: Vec<f64> = corner.split(' ').map(|n| n.parse().unwrap()).collect();
+            format!("v {:?} {:?} {:?}\n", numbers[0], numbers[1] + 4_581_234.0, numbers[2])
+        };
+        let rest = ["2 -1 -1.5", "2 1 -1.5", "-2 1 -1.5", "-2 -1 1.5", "2 -1 1.5", "2 1 1.5"];
+        let corners = std::iter::once(first).chain(rest).chain(["-2 1 1.5"]).map(corner);
+        format!("{}{FACES}", corners.collect::<String>())
+    };
+    check(&folder, &far("-2 -1 -1.5"), &[]);
+    // The corner of five faces, of which the first one is on line 9.
+    let model = far("-2 -0.875 -1.5");
+    let found = cases(&folder, &model);
+    let faces = FACES.lines().filter(|face| face.split(' ').skip(1).any(|n| n == "1")).count();
+    let [(kind, count, line)] = &found[..] else { panic!("{found:?}") };
+    assert_eq!((kind.as_str(), *count), ("positions lost by f32", faces as u64));
+    let named = model.lines().nth(*line as usize - 1);
+    assert!(named.is_some_and(|face| face.split(' ').any(|n| n == "1")), "{found:?}");
+}
+
 /// The same square drawn twice, in two colours: which one is seen depends on the order.
 #[test]
 fn pixels_that_depend_on_the_order_are_found() {

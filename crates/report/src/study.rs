@@ -10,7 +10,6 @@ use rasterproof_study::cost::{Choice, Group};
 use rasterproof_study::effects::{Fineness, Need, Needs};
 use rasterproof_study::hard::{HardCase, HardCases, Kind};
 use rasterproof_study::ties::{Class, Classes, Rivals};
-use rasterproof_study::view::Piece;
 use rasterproof_study::{face_of, triangle_of};
 use serde_json::{Value, json};
 
@@ -42,15 +41,27 @@ impl Subject<'_> {
     }
 }
 
-/// The rungs of coverage that get a triangle of a kind wrong, with how many.
+/// By ladder the rungs that get triangles of a kind wrong, with how many samples.
 fn wrong_on(found: &HardCases, kind: Kind, costs: &[Group]) -> Vec<String> {
-    let choices = costs.iter().flat_map(|group| &group.choices);
-    let wrong = choices.filter_map(|choice| {
-        let of_kind = choice.wrong_triangles.iter().filter(|one| found.is(**one, kind));
-        let count = of_kind.count() as u64;
-        (count > 0).then(|| format!("{} ({})", choice.name, thousands(count)))
-    });
-    wrong.collect()
+    let of_group = |group: &Group| {
+        let of_choice = |choice: &Choice| {
+            let of_kind = |pair: &[u32; 2]| pair.iter().any(|one| found.is(*one, kind));
+            let of_kind = choice.wrong.iter().filter(|(pair, _)| of_kind(pair));
+            let count: u64 = of_kind.map(|(_, count)| count).sum();
+            (count > 0).then(|| format!("{} {}", choice.name, thousands(count)))
+        };
+        let wrong: Vec<String> = group.choices.iter().filter_map(of_choice).collect();
+        let unit = group.measures.iter().find_map(|measure| measure.unit).unwrap_or("px");
+        let share = match group.looked_at {
+            Some([some, all]) if some < all => {
+                format!(", in {} of {} px looked at", thousands(some), thousands(all))
+            }
+            _ => String::new(),
+        };
+        (!wrong.is_empty())
+            .then(|| format!("{} ({unit}{share}): {}", group.title, wrong.join(", ")))
+    };
+    costs.iter().filter_map(of_group).collect()
 }
 
 /// The hard cases, each with the command that shows one.
@@ -71,7 +82,10 @@ pub fn hard_cases(subject: &Subject<'_>, found: &HardCases, costs: &[Group]) -> 
         let _ = writeln!(out, "    {}", subject.command(face));
         let wrong = wrong_on(found, case.kind, costs);
         if !wrong.is_empty() {
-            let _ = writeln!(out, "    wrong on such triangles: {}", wrong.join(", "));
+            out += "    wrong on such triangles:\n";
+        }
+        for line in wrong {
+            let _ = writeln!(out, "      {line}");
         }
     }
     let missing: Vec<&str> = Kind::ALL
@@ -132,7 +146,7 @@ fn ms(ns: f64) -> String {
 }
 
 /// What each choice costs, by group; and what to choose.
-pub fn costs(subject: &Subject<'_>, pieces: &[Piece], groups: &[Group]) -> String {
+pub fn costs(subject: &Subject<'_>, groups: &[Group]) -> String {
     let mut out = String::new();
     for group in groups {
         let [items, pixels] = group.timed.map(thousands);
@@ -141,7 +155,7 @@ pub fn costs(subject: &Subject<'_>, pieces: &[Piece], groups: &[Group]) -> Strin
         for measure in &group.measures {
             let _ = write!(out, "{:>10}", measure.short);
         }
-        let _ = writeln!(out, "{:>9} {:>17}{:>8}", "ms", "quartiles", "times");
+        let _ = writeln!(out, "{:>8} {:>13}{:>7}{:>7}", "ms", "quartiles", "times", "MB");
         let least = group.cheapest(&|_| true).and_then(|best| group.choices[best].time);
         for choice in &group.choices {
             let _ = write!(out, "  {:21}", choice.name);
@@ -154,13 +168,16 @@ pub fn costs(subject: &Subject<'_>, pieces: &[Piece], groups: &[Group]) -> Strin
                 let _ = write!(out, "{text:>10}");
             }
             if let (Some(time), Some(least)) = (choice.time, least) {
-                let range = format!("{}-{}", ms(time.low), ms(time.high));
-                let times = number(time.median / least.median, 7);
-                let _ = write!(out, "{:>9} {range:>17}{times:>8}", ms(time.median));
+                let [low, high] = [time.low, time.high].map(|ns| number(ns / 1e6, 7));
+                let times = number(time.median / least.median, 6);
+                let range = format!("{low}-{high}");
+                let _ = write!(out, "{:>8} {range:>13}{times:>7}", number(time.median / 1e6, 7));
             }
+            let bytes = choice.bytes.map_or("-".to_owned(), |bytes| number(bytes as f64 / 1e6, 7));
+            let _ = write!(out, "{bytes:>7}");
             out.push('\n');
         }
-        for line in advice(subject, pieces, group) {
+        for line in advice(subject, group) {
             let _ = writeln!(out, "  {line}");
         }
         out.push('\n');
@@ -169,7 +186,7 @@ pub fn costs(subject: &Subject<'_>, pieces: &[Piece], groups: &[Group]) -> Strin
 }
 
 /// The cheapest exact choice of a group, and what is said of those that are cheaper and wrong, or exact by chance.
-pub fn advice(subject: &Subject<'_>, pieces: &[Piece], group: &Group) -> Vec<String> {
+pub fn advice(subject: &Subject<'_>, group: &Group) -> Vec<String> {
     let mut lines = Vec::new();
     let mut limit = f64::INFINITY;
     for (number, measure) in group.measures.iter().enumerate() {
@@ -196,13 +213,15 @@ pub fn advice(subject: &Subject<'_>, pieces: &[Piece], group: &Group) -> Vec<Str
                     number(margin, 9)
                 ));
             }
-            (_, Some((piece, [x, y]))) if is_wrong && (is_cheaper || choice.margin.is_some()) => {
+            (_, Some((triangle, [x, y])))
+                if is_wrong && (is_cheaper || choice.margin.is_some()) =>
+            {
                 let cheaper = if is_cheaper { "cheaper and " } else { "" };
                 let mut line = format!("{} is {cheaper}wrong, first at {x},{y}", choice.name);
-                if let Some(piece) = pieces.get(piece as usize) {
-                    let _ = write!(line, ": {}", subject.place(piece.face));
+                if let Some(triangle) = triangle {
+                    let _ = write!(line, ": {}", subject.place(triangle));
                     lines.push(line);
-                    lines.push(format!("  {}", subject.command(piece.face)));
+                    lines.push(format!("  {}", subject.command(triangle)));
                 } else {
                     lines.push(line);
                 }
@@ -231,19 +250,21 @@ fn compared(group: &Group, measure: usize) -> Vec<String> {
 }
 
 /// The same for machines.
-pub fn costs_json(subject: &Subject<'_>, pieces: &[Piece], groups: &[Group]) -> Value {
+pub fn costs_json(subject: &Subject<'_>, groups: &[Group]) -> Value {
     let group = |group: &Group| {
         let choice = |choice: &Choice| {
-            let first = choice.first_wrong.map(|(piece, [x, y])| {
-                let of = pieces.get(piece as usize).map(|piece| piece.face);
+            let first = choice.first_wrong.map(|(of, [x, y])| {
                 let face = of.map(|triangle| face_of(subject.scene, subject.origins, triangle));
                 json!({ "pixel": [x, y], "face": face })
             });
             let time = choice.time.map(|time| [time.low, time.median, time.high]);
+            let measures = 0..group.measures.len();
+            let exact: Vec<_> = measures.filter(|one| group.is_exact(choice, *one)).collect();
             json!({
                 "name": choice.name,
                 "about": choice.about,
                 "errors": choice.errors,
+                "exact": exact,
                 "first_wrong": first,
                 "margin": choice.margin.filter(|margin| margin.is_finite()),
                 "time_ns": time,
@@ -278,7 +299,7 @@ pub fn costs_json(subject: &Subject<'_>, pieces: &[Piece], groups: &[Group]) -> 
 }
 
 /// How it is decided which surface is seen, as text.
-pub fn ties(subject: &Subject<'_>, pieces: &[Piece], classes: &Classes) -> String {
+pub fn ties(subject: &Subject<'_>, classes: &Classes) -> String {
     let [decided, by_rounding, equal] =
         [classes.decided, classes.by_rounding, classes.equal].map(thousands);
     let mut out = format!(
@@ -288,12 +309,9 @@ pub fn ties(subject: &Subject<'_>, pieces: &[Piece], classes: &Classes) -> Strin
     for (what, rivals) in
         [("by rounding", classes.first_by_rounding), ("equal", classes.first_equal)]
     {
-        let Some(Rivals { pixel: [x, y], pieces: [a, b] }) = rivals else { continue };
-        let place = |piece: u32| {
-            let piece = pieces.get(piece as usize);
-            piece.map_or(String::new(), |piece| subject.place(piece.face))
-        };
-        let _ = writeln!(out, "  {what} first at {x},{y}: {} and {}", place(a), place(b));
+        let Some(Rivals { pixel: [x, y], triangles }) = rivals else { continue };
+        let [a, b] = triangles.map(|triangle| subject.place(triangle));
+        let _ = writeln!(out, "  {what} first at {x},{y}: {a} and {b}");
     }
     out
 }
@@ -440,7 +458,6 @@ pub fn ties_json(classes: &Classes) -> Value {
 
 /// All that a study found.
 pub struct Found<'a> {
-    pub pieces: &'a [Piece],
     pub hard: &'a HardCases,
     pub classes: &'a Classes,
     pub needs: &'a Needs,
@@ -463,7 +480,7 @@ pub fn page(subject: &Subject<'_>, found: &Found<'_>, command: &str) -> Report {
     }
     tables.push(needs_table(found.needs));
     let mut notes = vec![
-        ties(subject, found.pieces, found.classes).replace('\n', " "),
+        ties(subject, found.classes).replace('\n', " "),
         "A face is shown by the command beside it; the same judgements alone: verify and cost with \
          the file."
             .to_owned(),
@@ -474,7 +491,7 @@ pub fn page(subject: &Subject<'_>, found: &Found<'_>, command: &str) -> Report {
     }
     for group in found.costs {
         tables.push(cost_table(group));
-        let advice = advice(subject, found.pieces, group);
+        let advice = advice(subject, group);
         notes.push(format!("{}: {}.", group.title, advice.join("; ")));
     }
     let picture = super::frame_comparison::rgb(&found.hard.picture);
@@ -531,7 +548,7 @@ fn hard_table(subject: &Subject<'_>, found: &HardCases, costs: &[Group]) -> Tabl
             thousands(case.count),
             thousands(case.pixels),
             case.kind.about().to_owned(),
-            wrong_on(found, case.kind, costs).join(", "),
+            wrong_on(found, case.kind, costs).join("; "),
             if case.note.is_empty() { place } else { format!("{place}; {}", case.note) },
             command,
         ];
@@ -611,7 +628,10 @@ fn cost_table(group: &Group) -> Table {
         Column::numbers("times", "times the cheapest"),
     ]);
     if has_bytes {
-        columns.push(Column::numbers("bytes", "of the picture in memory"));
+        columns.push(Column::numbers(
+            "bytes",
+            "at the peak, from the sizes of its buffers; the scene is not in it",
+        ));
     }
     let [items, pixels] = group.timed.map(thousands);
     let caption = format!("{}, timed on {items} triangles and {pixels} pixels", group.title);

@@ -14,7 +14,7 @@ use rasterproof_core::triangle::{ScreenTriangle, ScreenVertex, Span};
 use rasterproof_precision::cost::scene::Scene as Class;
 use rasterproof_precision::cost::{
     Board, Finish, Ladder, Options, Pass, Race, Spread, Variant, measure_on, race, time, variants,
-    wrong_pixels,
+    wrong_pixels, wrong_values,
 };
 use rasterproof_precision::ladder::snap;
 use rasterproof_registry::engines::Drawer;
@@ -28,7 +28,9 @@ use rasterproof_verify::comparison::tolerance::SCANLINE;
 use rasterproof_verify::oracle::Oracle;
 use rasterproof_verify::oracle::values::ExactTriangle;
 
-use crate::view::{NOTHING, Piece, seen};
+use crate::hard::HardCases;
+use crate::memory;
+use crate::view::{NOTHING, Piece, Sampled, seen};
 
 /// A way to do a part of the work.
 #[derive(Clone, Debug, Default)]
@@ -37,13 +39,15 @@ pub struct Choice {
     pub about: String,
     /// By each measure of the group; none where it does not apply.
     pub errors: Vec<Option<f64>>,
-    /// Where it is wrong first: the piece and the pixel.
-    pub first_wrong: Option<(u32, [i32; 2])>,
-    pub wrong_triangles: Vec<u32>,
+    /// Where it is wrong first: the triangle of the scene, where it is of one, and the pixel.
+    pub first_wrong: Option<(Option<u32>, [i32; 2])>,
+    /// Wrong samples by the triangles that they are of: the one that should be there, and the one that is.
+    pub wrong: Vec<([u32; 2], u64)>,
     /// The smallest distance of a decision from 0, in error bounds; where such a bound is derived.
     pub margin: Option<f64>,
     /// Nanoseconds of all that is timed.
     pub time: Option<Spread>,
+    /// Memory at the peak, see [`crate::memory`].
     pub bytes: Option<u64>,
     /// Why it was not run.
     pub refused: Option<String>,
@@ -60,6 +64,8 @@ impl Choice {
 pub struct Measure {
     pub title: &'static str,
     pub short: &'static str,
+    /// What stands beside a count in a sentence; none for a measure that counts nothing.
+    pub unit: Option<&'static str>,
     /// Up to this error a choice is exact, or as good; none for a measure that ranks nothing.
     pub goal: Option<f64>,
 }
@@ -74,6 +80,8 @@ pub struct Group {
     pub timed: [u64; 2],
     /// By measure the cheapest exact choice; none where none is exact.
     pub best: Vec<Option<Best>>,
+    /// In how many of how many pixels of hard cases it was looked for what is wrong; none where in all.
+    pub looked_at: Option<[u64; 2]>,
 }
 
 /// The cheapest of the choices that a measure calls exact, as far as that could be told.
@@ -108,7 +116,7 @@ impl Best {
 impl Group {
     fn new(title: &'static str, measures: &[Measure], timed: [u64; 2]) -> Self {
         let (measures, choices) = (measures.to_vec(), Vec::new());
-        Self { title, measures, choices, timed, best: Vec::new() }
+        Self { title, measures, choices, timed, best: Vec::new(), looked_at: None }
     }
 
     /// Whether an error of a choice is one that a measure calls exact.
@@ -161,28 +169,59 @@ const TIMED_PX: u64 = 400_000;
 /// The costs of a scene in a view. `progress` gets the share done and a word about it.
 pub fn measure(
     scene: &Scene,
-    pieces: &[Piece],
+    (sampled, hard): (&Sampled, &HardCases),
     target: &mut Target,
     effort: Effort,
     progress: &dyn Fn(f64, &str),
 ) -> Result<Vec<Group>, BadScene> {
-    let window = target.size();
-    let sample = Sample::of(pieces, window, TIMED_PX);
+    let sample = Sample::of(&sampled.planes[0], sampled.window, TIMED_PX);
     let mut groups = Vec::new();
     for (done, ladder) in [Ladder::Scanline, Ladder::EdgeFunction].into_iter().enumerate() {
         progress(0.2 * done as f64, ladder.title());
-        groups.push(coverage(ladder, pieces, window, &sample, effort));
+        groups.push(coverage(ladder, sampled, &sample, effort));
     }
     progress(0.4, Ladder::Interpolation.title());
-    let part = Sample::of(pieces, window, TIMED_PX / 5);
-    groups.extend(ladder(Ladder::Interpolation, pieces, window, &part, effort));
+    let shaded = sampled.shaded();
+    let part = Sample::of(shaded.0, shaded.1, TIMED_PX / 5);
+    groups.extend(ladder(Ladder::Interpolation, shaded, &part, effort));
+    if let Some(group) = groups.last_mut() {
+        wrong_values_of(shaded, hard, group);
+    }
     progress(0.5, Ladder::Depth.title());
-    groups.push(depth(pieces, window, effort));
+    groups.push(depth(sampled, effort));
     progress(0.6, Ladder::Antialiasing.title());
-    groups.extend(ladder(Ladder::Antialiasing, pieces, window, &part, effort));
+    let centres = (sampled.at_centres(), sampled.size);
+    let part = Sample::of(centres.0, centres.1, TIMED_PX / 5);
+    groups.extend(ladder(Ladder::Antialiasing, centres, &part, effort));
     progress(0.7, "planners");
     groups.push(planners(scene, target, effort)?);
     Ok(groups)
+}
+
+/// Adds to the rungs of interpolation what each gets wrong of the triangles that are hard cases.
+fn wrong_values_of((pieces, window): (&[Piece], PixelRect), hard: &HardCases, group: &mut Group) {
+    let is_hard = |piece: &&Piece| hard.is_hard(piece.face) && piece.free().is_some();
+    let of: Vec<&Piece> = pieces.iter().filter(is_hard).collect();
+    if of.is_empty() {
+        return;
+    }
+    let found = wrong_values(&class(of.iter().copied(), window));
+    for (choice, wrong) in group.choices.iter_mut().zip(&found.wrong) {
+        let of_pieces = of.iter().zip(wrong).filter(|(_, count)| **count > 0);
+        choice.wrong = of_pieces.map(|(piece, count)| ([piece.face; 2], *count)).collect();
+        merge(&mut choice.wrong);
+    }
+    group.looked_at = Some([found.pixels, found.of]);
+}
+
+/// Adds up what is of the same triangles.
+fn merge(wrong: &mut Vec<([u32; 2], u64)>) {
+    wrong.sort_unstable();
+    wrong.dedup_by(|later, kept| {
+        let is_same = later.0 == kept.0;
+        kept.1 += if is_same { later.1 } else { 0 };
+        is_same
+    });
 }
 
 /// Pieces that are timed: every so many-th one.
@@ -209,26 +248,30 @@ impl Sample {
     }
 
     fn class(&self, pieces: &[Piece], window: PixelRect) -> Class {
-        let timed = || pieces.iter().step_by(self.stride);
-        let free = timed().filter_map(|piece| Some((piece.free()?, piece)));
-        let (triangles, of): (Vec<_>, Vec<_>) = free.unzip();
-        let mut values: Vec<[f64; 3]> = of
-            .iter()
-            .map(|piece: &&Piece| piece.triangle.vertices.map_array(|v| v.varying.x))
-            .collect();
-        // Without texture coordinates values are made up.
-        if values.iter().flatten().all(|value| *value == 0.0) {
-            values.clear();
-        }
-        Class {
-            name: "model",
-            about: "the triangles of the model",
-            bounds: window,
-            triangles,
-            w: of.iter().map(|piece| piece.w).collect(),
-            values,
-            interior: None,
-        }
+        class(pieces.iter().step_by(self.stride), window)
+    }
+}
+
+/// Pieces as a scene of the ladders.
+fn class<'a>(pieces: impl Iterator<Item = &'a Piece>, window: PixelRect) -> Class {
+    let free = pieces.filter_map(|piece| Some((piece.free()?, piece)));
+    let (triangles, of): (Vec<_>, Vec<_>) = free.unzip();
+    let mut values: Vec<[f64; 3]> = of
+        .iter()
+        .map(|piece: &&Piece| piece.triangle.vertices.map_array(|v| v.varying.x))
+        .collect();
+    // Without texture coordinates values are made up.
+    if values.iter().flatten().all(|value| *value == 0.0) {
+        values.clear();
+    }
+    Class {
+        name: "model",
+        about: "the triangles of the model",
+        bounds: window,
+        triangles,
+        w: of.iter().map(|piece| piece.w).collect(),
+        values,
+        interior: None,
     }
 }
 
@@ -238,7 +281,7 @@ struct Wrong {
     /// Against the corners as they are, and snapped.
     pixels: [u64; 2],
     first: Option<(u32, [i32; 2])>,
-    triangles: Vec<u32>,
+    triangles: Vec<([u32; 2], u64)>,
     refused: Option<String>,
 }
 
@@ -246,19 +289,15 @@ struct Wrong {
 const CHUNK: usize = 256;
 
 /// Coverage of all pieces against the oracle, as they are and snapped; times of a sample.
-fn coverage(
-    ladder: Ladder,
-    pieces: &[Piece],
-    window: PixelRect,
-    sample: &Sample,
-    effort: Effort,
-) -> Group {
+fn coverage(ladder: Ladder, sampled: &Sampled, sample: &Sample, effort: Effort) -> Group {
+    let (window, pieces) = (sampled.window, &sampled.planes[0]);
     let rungs = variants(ladder);
-    let chunks: Vec<&[Piece]> = pieces.chunks(CHUNK).collect();
+    let chunks: Vec<&[Piece]> =
+        sampled.planes.iter().flat_map(|plane| plane.chunks(CHUNK)).collect();
     let of_chunks = parallel::map(chunks.len(), |number| {
         let mut wrong = vec![Wrong::default(); rungs.len()];
-        for (i, piece) in chunks[number].iter().enumerate() {
-            compare(&rungs, piece, (number * CHUNK + i) as u32, window, &mut wrong);
+        for piece in chunks[number] {
+            compare(&rungs, piece, window, &mut wrong);
         }
         wrong
     });
@@ -268,16 +307,18 @@ fn coverage(
         let of_rung = || of_chunks.iter().map(|chunk| &chunk[number]);
         let sum = |i: usize| of_rung().map(|wrong| wrong.pixels[i]).sum::<u64>() as f64;
         choice.errors = vec![Some(sum(0)), Some(sum(1))];
-        choice.first_wrong = of_rung().find_map(|wrong| wrong.first);
-        choice.wrong_triangles = of_rung().flat_map(|wrong| &wrong.triangles).copied().collect();
-        choice.wrong_triangles.dedup();
+        let first = of_rung().find_map(|wrong| wrong.first);
+        choice.first_wrong = first.map(|(face, sample)| (Some(face), sampled.pixel(sample)));
+        choice.wrong = of_rung().flat_map(|wrong| &wrong.triangles).copied().collect();
+        merge(&mut choice.wrong);
         choice.refused = of_rung().find_map(|wrong| wrong.refused.clone());
+        choice.bytes = Some(memory::coverage(&choice.name, window, sample.pieces));
         let unit = match (ladder, &*choice.name) {
             (Ladder::EdgeFunction, "f32 direct") => f64::from(f32::EPSILON) / 2.0,
             (Ladder::EdgeFunction, "f64 direct") => f64::EPSILON / 2.0,
             _ => continue,
         };
-        choice.margin = Some(margin(pieces, window, unit));
+        choice.margin = Some(margin(sampled, unit));
     }
     let class = sample.class(pieces, window);
     let frame = RefCell::new(Frame::new(window, 0));
@@ -293,10 +334,13 @@ fn coverage(
             timed.push(number);
         }
     }
-    let measures = [
-        Measure { title: "wrong pixels, corners as they are", short: "as given", goal: Some(0.0) },
-        Measure { title: "wrong pixels, corners snapped", short: "snapped", goal: Some(0.0) },
-    ];
+    let titles = match sampled.is_antialiased() {
+        false => ["wrong pixels, corners as they are", "wrong pixels, corners snapped"],
+        true => ["wrong samples, corners as they are", "wrong samples, corners snapped"],
+    };
+    let unit = Some(sampled.unit());
+    let measures = [(titles[0], "as given"), (titles[1], "snapped")];
+    let measures = measures.map(|(title, short)| Measure { title, short, unit, goal: Some(0.0) });
     let mut group = Group::new(ladder.title(), &measures, [sample.pieces, sample.pixels]);
     group.choices = choices;
     set_times(&mut group, &timed, &mut passes, effort);
@@ -304,7 +348,7 @@ fn coverage(
 }
 
 /// Adds what each rung gets wrong of a piece.
-fn compare(rungs: &[Variant], piece: &Piece, number: u32, window: PixelRect, wrong: &mut [Wrong]) {
+fn compare(rungs: &[Variant], piece: &Piece, window: PixelRect, wrong: &mut [Wrong]) {
     let Some(free) = piece.free() else { return };
     let (mut given, mut snapped) = (Vec::new(), Vec::new());
     Oracle.cover_exact(&free, window, |span| given.push(span));
@@ -330,10 +374,11 @@ fn compare(rungs: &[Variant], piece: &Piece, number: u32, window: PixelRect, wro
                     false => (by_given, &given),
                 };
                 if count > 0 {
-                    wrong.triangles.push(piece.face);
+                    wrong.triangles.push(([piece.face; 2], count));
                 }
                 if count > 0 && wrong.first.is_none() {
-                    wrong.first = first_difference(&spans, truth).map(|pixel| (number, pixel));
+                    let first = first_difference(&spans, truth);
+                    wrong.first = first.map(|sample| (piece.face, sample));
                 }
             }
         }
@@ -360,10 +405,11 @@ fn first_difference(a: &[Span], b: &[Span]) -> Option<[i32; 2]> {
 /// u (|a| + |b|) for the corners and u times itself, a product by its factors' errors and u times itself, and E by
 /// the errors of both products and u times itself. A sample is decided by the edge that is farthest outside of it, or,
 /// inside, by the nearest of all.
-fn margin(pieces: &[Piece], window: PixelRect, u: f64) -> f64 {
-    let chunks: Vec<&[Piece]> = pieces.chunks(CHUNK).collect();
+fn margin(sampled: &Sampled, u: f64) -> f64 {
+    let chunks: Vec<&[Piece]> =
+        sampled.planes.iter().flat_map(|plane| plane.chunks(CHUNK)).collect();
     let of_chunks = parallel::map(chunks.len(), |number| {
-        let each = chunks[number].iter().map(|piece| margin_of(piece.px, window, u));
+        let each = chunks[number].iter().map(|piece| margin_of(piece.px, sampled.window, u));
         each.fold(f64::INFINITY, f64::min)
     });
     of_chunks.into_iter().fold(f64::INFINITY, f64::min)
@@ -470,8 +516,7 @@ fn set_best(
 /// A ladder whose errors are measured on a sample.
 fn ladder(
     ladder: Ladder,
-    pieces: &[Piece],
-    window: PixelRect,
+    (pieces, window): (&[Piece], PixelRect),
     sample: &Sample,
     effort: Effort,
 ) -> Option<Group> {
@@ -481,11 +526,13 @@ fn ladder(
         Ladder::Interpolation => &[Measure {
             title: "worst error over the largest value; up to half a step of 8 bits is good",
             short: "error / M",
+            unit: None,
             goal: Some(1.0 / 512.0),
         }],
         _ => &[Measure {
             title: "root mean square distance from the exact share of a pixel on an edge",
             short: "rms",
+            unit: None,
             goal: Some(0.0),
         }],
     };
@@ -508,54 +555,50 @@ fn choice(board: &Board, rung: usize, window: PixelRect) -> Choice {
     let run = board.run(rung, 0);
     choice.errors = vec![run.and_then(|run| run.errors.first().copied().flatten())];
     choice.time = run.and_then(|run| run.time).map(|time| time.item_ns.times(items as f64));
-    if board.ladder == Ladder::Antialiasing {
-        choice.bytes = samples_of(&info.name)
-            .map(|samples| samples * u64::from(window.width()) * u64::from(window.height()));
-    }
+    choice.bytes = match board.ladder {
+        Ladder::Antialiasing => memory::antialiasing(&info.name, window),
+        _ => Some(memory::interpolation(window)),
+    };
     if run.is_none() {
         choice.refused = Some("it does not take these triangles".to_owned());
     }
     choice
 }
 
-/// The bytes of a pixel in a rung of antialiasing: colour and depth of each sample.
-fn samples_of(name: &str) -> Option<u64> {
-    let samples = match name {
-        "1x" => 1,
-        "4x multisample" | "2x2 supersample" => 4,
-        "4x4 supersample" => 16,
-        "8x8 supersample" => 64,
-        _ => return None,
-    };
-    Some(8 * samples)
-}
-
 /// Formats of the depth buffer: pixels that show another piece than the exact depths say.
-fn depth(pieces: &[Piece], window: PixelRect, effort: Effort) -> Group {
-    let truth = exactly_seen(pieces, window);
+fn depth(sampled: &Sampled, effort: Effort) -> Group {
+    let (window, pieces) = (sampled.window, &*sampled.planes[0]);
+    let truths =
+        parallel::map(sampled.planes.len(), |plane| exactly_seen(&sampled.planes[plane], window));
     let mut choices = Vec::new();
     for format in DepthFormat::ALL {
-        let (about, bytes) = match format {
-            DepthFormat::Unorm32 => ("2^32 equal steps", 4),
-            DepthFormat::Unorm24 => ("2^24 equal steps, as most hardware", 4),
-            DepthFormat::F32 => ("a float, 0 at the near plane", 4),
-            DepthFormat::F32Reversed => ("a float, 1 at the near plane", 4),
-            DepthFormat::F64 => ("a double", 8),
+        let about = match format {
+            DepthFormat::Unorm32 => "2^32 equal steps",
+            DepthFormat::Unorm24 => "2^24 equal steps, as most hardware",
+            DepthFormat::F32 => "a float, 0 at the near plane",
+            DepthFormat::F32Reversed => "a float, 1 at the near plane",
+            DepthFormat::F64 => "a double",
         };
         let mut choice = Choice::new(format.name(), about);
-        choice.bytes = Some(bytes * u64::from(window.width()) * u64::from(window.height()));
-        let seen = seen(pieces, window, format, &mut (0..pieces.len()));
-        let mut wrong = 0;
-        for (y, row) in seen.rows() {
-            for ((x, seen), exact) in (window.x0..).zip(row).zip(truth.row(y)) {
-                if seen != exact {
-                    wrong += 1;
-                    let first = if *exact == NOTHING { *seen } else { *exact };
-                    choice.first_wrong = choice.first_wrong.or(Some((first, [x, y])));
+        choice.bytes = Some(memory::depth(format, window, sampled.planes.len()));
+        for (pieces, truth) in sampled.planes.iter().zip(&truths) {
+            let seen = seen(pieces, window, format, &mut (0..pieces.len()));
+            for (y, row) in seen.rows() {
+                for ((x, seen), exact) in (window.x0..).zip(row).zip(truth.row(y)) {
+                    if seen != exact {
+                        let face = |number: &u32| pieces.get(*number as usize).map(|p| p.face);
+                        let (seen, exact) = (face(seen), face(exact));
+                        let pixel = sampled.pixel([x, y]);
+                        choice.first_wrong = choice.first_wrong.or(Some((exact.or(seen), pixel)));
+                        let pair = exact.or(seen).zip(seen.or(exact));
+                        choice.wrong.extend(pair.map(|(exact, seen)| ([exact, seen], 1)));
+                    }
                 }
             }
         }
-        choice.errors = vec![Some(f64::from(wrong))];
+        let wrong = choice.wrong.len();
+        merge(&mut choice.wrong);
+        choice.errors = vec![Some(wrong as f64)];
         choices.push(choice);
     }
     let mut passes = Vec::new();
@@ -571,8 +614,12 @@ fn depth(pieces: &[Piece], window: PixelRect, effort: Effort) -> Group {
         Scanline.cover(piece.corners(), window, |span| pixels += span.pixels() as u64);
     }
     let measure = Measure {
-        title: "pixels that show another piece than exact depths do",
-        short: "wrong px",
+        title: match sampled.is_antialiased() {
+            false => "pixels that show another piece than exact depths do",
+            true => "samples that show another piece than exact depths do",
+        },
+        short: "wrong",
+        unit: Some(sampled.unit()),
         goal: Some(0.0),
     };
     let mut group = Group::new(Ladder::Depth.title(), &[measure], [pieces.len() as u64, pixels]);
@@ -633,15 +680,15 @@ fn planners(scene: &Scene, target: &mut Target, effort: Effort) -> Result<Group,
     let mut choices = Vec::new();
     let mut pictures: Vec<Frame<Colour>> = Vec::new();
     let mut once = Duration::ZERO;
-    let bytes = frame_bytes(target);
     let mut draws: Vec<(Drawer, Effects)> = Vec::new();
     for drawer in Drawer::ALL {
         for (name, effects) in PLANNERS {
             let mut choice = Choice::new(&format!("{} {name}", drawer.name()), "");
-            choice.bytes = Some(bytes);
             let start = Instant::now();
-            pictures.push(drawer.render(scene, &effects, target)?.picture);
+            let rendered = drawer.render(scene, &effects, target)?;
             once += start.elapsed();
+            choice.bytes = Some(memory::frame(&rendered, scene, target));
+            pictures.push(rendered.picture);
             choices.push(choice);
             draws.push((drawer, effects));
         }
@@ -665,7 +712,7 @@ fn planners(scene: &Scene, target: &mut Target, effort: Effort) -> Result<Group,
             for ((x, colour), exact) in (window.x0..).zip(row).zip(pictures[0].row(y)) {
                 if colour != exact {
                     wrong += 1;
-                    choice.first_wrong = choice.first_wrong.or(Some((NOTHING, [x, y])));
+                    choice.first_wrong = choice.first_wrong.or(Some((None, [x, y])));
                 }
             }
         }
@@ -697,6 +744,7 @@ fn planners(scene: &Scene, target: &mut Target, effort: Effort) -> Result<Group,
     let measure = Measure {
         title: "pixels that differ from the frame of scanline with everything switched on",
         short: "wrong px",
+        unit: None,
         goal: Some(0.0),
     };
     let pixels = u64::from(window.width()) * u64::from(window.height());
@@ -704,12 +752,6 @@ fn planners(scene: &Scene, target: &mut Target, effort: Effort) -> Result<Group,
     group.choices = choices;
     set_best(&mut group, &timed, &mut passes, effort, effort.frames());
     Ok(group)
-}
-
-/// Colours and depths of all samples.
-fn frame_bytes(target: &Target) -> u64 {
-    let size = target.size();
-    12 * u64::from(size.width()) * u64::from(size.height()) * target.antialias().samples()
 }
 
 #[cfg(test)]
@@ -730,7 +772,7 @@ mod tests {
     fn wrong(ladder: Ladder, px: [[f64; 2]; 3]) -> Vec<(String, [u64; 2])> {
         let rungs = variants(ladder);
         let mut wrong = vec![Wrong::default(); rungs.len()];
-        compare(&rungs, &piece(0, px, [0.5; 3]), 0, WINDOW, &mut wrong);
+        compare(&rungs, &piece(0, px, [0.5; 3]), WINDOW, &mut wrong);
         let named = rungs.iter().zip(wrong);
         named.map(|(rung, wrong)| (rung.rung.name.to_string(), wrong.pixels)).collect()
     }

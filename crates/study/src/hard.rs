@@ -20,7 +20,7 @@ use rasterproof_render::scene::{Mesh, Scene};
 
 use crate::face_of;
 use crate::shape::{Edge, SLIVER, Shape};
-use crate::view::{NOTHING, Piece, pieces, seen};
+use crate::view::{Piece, Sampled, pieces, seen};
 
 rasterproof_core::named! {
     /// A kind of hard case. Its name is what is counted, in the plural.
@@ -111,6 +111,12 @@ impl HardCases {
         self.touched.get(x_px, y_px).is_some_and(|bits| bits != 0)
     }
 
+    /// Whether a triangle has a part in a hard case of any kind.
+    #[must_use]
+    pub fn is_hard(&self, triangle: u32) -> bool {
+        self.marks.get(triangle as usize).is_some_and(|marks| *marks != 0)
+    }
+
     /// Whether a triangle has a part in a hard case of a kind.
     #[must_use]
     pub fn is(&self, triangle: u32, kind: Kind) -> bool {
@@ -126,12 +132,14 @@ const WIDE_W: f64 = (1 << 24) as f64 / (8.0 * 512.0);
 pub fn find(
     scene: &Scene,
     origins: &[Origin],
-    pieces: &[Piece],
+    sampled: &Sampled,
     target: &mut Target,
 ) -> Result<HardCases, BadScene> {
+    let pieces = sampled.at_centres();
     let mut search = Search {
         scene,
         pieces,
+        sampled,
         window: target.size(),
         marks: vec![0; scene.triangles()],
         found: Vec::new(),
@@ -172,7 +180,9 @@ fn draw(scene: &Scene, target: &mut Target) -> Result<Frame<Colour>, BadScene> {
 
 struct Search<'a> {
     scene: &'a Scene,
+    /// In the pixels of the picture.
     pieces: &'a [Piece],
+    sampled: &'a Sampled,
     window: PixelRect,
     marks: Vec<u16>,
     found: Vec<HardCase>,
@@ -243,15 +253,16 @@ impl Search<'_> {
         self.lines.extend(shape.t_junctions.iter().map(|edge| (Kind::TJunction, *edge)));
     }
 
-    /// Pixels whose centre lies on an edge of a piece after snapping.
+    /// Pixels with a sample on an edge of a piece after snapping.
     fn samples_on_edges(&mut self) -> Frame<bool> {
         let mut on_edge = Frame::new(self.window, false);
         let mut faces = Vec::new();
         let mut count = 0;
-        for piece in self.pieces {
+        for piece in self.sampled.all() {
             let before = count;
-            samples_on_boundary(piece.corners(), self.window, &mut |x_px, y_px| {
+            samples_on_boundary(piece.corners(), self.sampled.window, &mut |x, y| {
                 count += 1;
+                let [x_px, y_px] = self.sampled.pixel([x, y]);
                 on_edge.span_mut(y_px, x_px, x_px + 1)[0] = true;
             });
             if count > before {
@@ -327,14 +338,18 @@ impl Search<'_> {
             }
         }
         if count > 0 {
-            let seen = seen(self.pieces, self.window, target.format, &mut (0..self.pieces.len()));
             let mut faces = Vec::new();
-            for (y, row) in differs.rows() {
-                let ids = row.iter().zip(seen.row(y)).filter(|(differs, _)| **differs);
-                faces.extend(
-                    ids.filter(|(_, id)| **id != NOTHING)
-                        .map(|(_, id)| self.pieces[*id as usize].face),
-                );
+            for pieces in &self.sampled.planes {
+                let order = &mut (0..pieces.len());
+                let seen = seen(pieces, self.sampled.window, target.format, order);
+                for (y, row) in seen.rows() {
+                    for (x, id) in (seen.bounds().x0..).zip(row) {
+                        let [x_px, y_px] = self.sampled.pixel([x, y]);
+                        if differs.get(x_px, y_px) == Some(true) {
+                            faces.extend(pieces.get(*id as usize).map(|piece| piece.face));
+                        }
+                    }
+                }
             }
             faces.sort_unstable();
             faces.dedup();
@@ -397,11 +412,13 @@ impl Search<'_> {
         let along = Kind::TJunction.bit() | Kind::Border.bit() | Kind::Crowded.bit();
         let apart = along | Kind::OnEdge.bit() | Kind::Order.bit();
         let mut touched = Frame::new(self.window, 0);
-        for piece in self.pieces {
+        for piece in self.sampled.all() {
             let bits = self.marks[piece.face as usize] & !apart;
             if bits != 0 {
-                Scanline.cover(piece.corners(), self.window, |span| {
-                    let pixels = touched.span_mut(span.y_px, span.x0_px, span.x1_px);
+                Scanline.cover(piece.corners(), self.sampled.window, |span| {
+                    let [first, y_px] = self.sampled.pixel([span.x0_px, span.y_px]);
+                    let [last, _] = self.sampled.pixel([span.x1_px - 1, span.y_px]);
+                    let pixels = touched.span_mut(y_px, first, last + 1);
                     pixels.iter_mut().for_each(|pixel| *pixel |= bits);
                 });
             }
@@ -520,8 +537,8 @@ mod tests {
         let mut scene = Scene::new("test", "", perspective(1.0, 1.0, 1e-5, 1e6).unwrap());
         scene.items = items;
         let mut target = Target::new(64, 64, Antialias::None, DepthFormat::Unorm32).unwrap();
-        let pieces = pieces(&scene, target.size()).unwrap();
-        let found = find(&scene, &[], &pieces, &mut target).unwrap();
+        let sampled = Sampled::of(&scene, &target).unwrap();
+        let found = find(&scene, &[], &sampled, &mut target).unwrap();
         let kinds = found.cases.iter().map(|case| (case.kind, case.triangles.clone()));
         (kinds.filter(|(kind, _)| *kind != Kind::Border).collect(), found)
     }
@@ -537,6 +554,36 @@ mod tests {
         assert_eq!(found, [(Kind::WideW, vec![1])]);
         let [least, most] = all.w.unwrap();
         assert!(most / least >= 0.99e9, "{least} {most}");
+    }
+
+    /// A closed mesh whose one corner is a milliard times as near as the others: the three faces there are found, and
+    /// nothing else is.
+    #[test]
+    fn a_w_range_of_a_milliard_in_a_clean_mesh_is_found() {
+        let positions =
+            [[0.0, -1e-4, 2e-4], [5e4, -1e4, 2e5], [-5e4, -1e4, 2e5], [0.0, -4e4, 2.5e5]];
+        let of = |nearest: [f64; 3]| {
+            let mut item = triangle([nearest, positions[1], positions[2]], 1.0);
+            let mut mesh = Mesh::clone(&item.mesh);
+            mesh.positions.push(DVec3::from_array(positions[3]));
+            let face = |corners: [u32; 3]| {
+                corners.map(|position| Corner { position, ..mesh.triangles[0][0] })
+            };
+            mesh.triangles = [[1, 3, 2], [0, 1, 2], [0, 3, 1], [0, 2, 3]].map(face).to_vec();
+            item.mesh = mesh.into();
+            let mut scene = Scene::new("test", "", perspective(1.0, 1.0, 1e-5, 1e6).unwrap());
+            scene.items = vec![item];
+            let mut target = Target::new(64, 64, Antialias::None, DepthFormat::Unorm32).unwrap();
+            let sampled = Sampled::of(&scene, &target).unwrap();
+            find(&scene, &[], &sampled, &mut target).unwrap()
+        };
+        assert!(of([0.0, -1e-4, 1e5]).cases.is_empty());
+        let found = of(positions[0]);
+        let kinds: Vec<_> = found.cases.iter().map(|case| (case.kind, case.count)).collect();
+        assert_eq!(kinds, [(Kind::WideW, 3)]);
+        assert!(!found.is_hard(0) && [1, 2, 3].iter().all(|face| found.is(*face, Kind::WideW)));
+        let [least, most] = found.w.unwrap();
+        assert!(most / least >= 1e9, "{least} {most}");
     }
 
     #[test]

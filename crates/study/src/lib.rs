@@ -4,6 +4,7 @@
 pub mod cost;
 pub mod effects;
 pub mod hard;
+pub mod memory;
 mod shape;
 pub mod ties;
 pub mod view;

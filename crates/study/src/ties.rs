@@ -4,12 +4,13 @@
 //! where they lie within what the doubles of the vertex stage and of the plane may be off, and decided by rounding
 //! where they lie within what snapping may move them besides. Which pieces cover a pixel is what is drawn.
 
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::Rasterize as _;
 use rasterproof_core::frame::Frame;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS};
 use rasterproof_core::raster::scanline::Scanline;
 
-use crate::view::{NOTHING, Piece};
+use crate::view::{NOTHING, Piece, Sampled};
 
 /// How it is decided which surface is seen at a pixel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
@@ -22,7 +23,7 @@ pub enum Class {
     Equal,
 }
 
-/// How many pixels are of each class, and the first of the last two with the pieces that compete.
+/// How many pixels are of each class, which is the least decided one of their samples, and the first of the last two with the pieces that compete.
 #[derive(Clone, Debug)]
 pub struct Classes {
     pub map: Frame<Class>,
@@ -33,11 +34,11 @@ pub struct Classes {
     pub first_equal: Option<Rivals>,
 }
 
-/// A pixel and two pieces, the nearer one first.
+/// A pixel and two triangles of the scene, the nearer one first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Rivals {
     pub pixel: [i32; 2],
-    pub pieces: [u32; 2],
+    pub triangles: [u32; 2],
 }
 
 /// A depth over the window, before corners are snapped.
@@ -91,8 +92,46 @@ impl Plane {
     }
 }
 
-/// The nearest piece at each pixel before corners are snapped, and how well it is known to be the nearest.
-pub fn classify(pieces: &[Piece], window: PixelRect) -> Classes {
+/// The nearest piece at the samples of each pixel before corners are snapped, and how well it is known to be the
+/// nearest.
+pub fn classify(sampled: &Sampled) -> Classes {
+    let mut map = Frame::new(sampled.size, Class::Empty);
+    let mut rivals = Frame::new(sampled.size, [NOTHING; 2]);
+    for pieces in &sampled.planes {
+        let (classes, of_samples) = of_plane(pieces, sampled.window);
+        for (y, row) in classes.rows() {
+            for ((x, class), pair) in (sampled.window.x0..).zip(row).zip(of_samples.row(y)) {
+                let [x_px, y_px] = sampled.pixel([x, y]);
+                let held = &mut map.span_mut(y_px, x_px, x_px + 1)[0];
+                if class > held {
+                    *held = *class;
+                    rivals.span_mut(y_px, x_px, x_px + 1)[0] = *pair;
+                }
+            }
+        }
+    }
+    let count = |class: Class| {
+        let all = map.rows().flat_map(|(_, row)| row);
+        all.filter(|held| **held == class).count() as u64
+    };
+    let first = |class: Class| {
+        map.rows().find_map(|(y, row)| {
+            let x = row.iter().position(|held| *held == class)? as i32 + sampled.size.x0;
+            Some(Rivals { pixel: [x, y], triangles: rivals.get(x, y)? })
+        })
+    };
+    Classes {
+        decided: count(Class::Decided),
+        by_rounding: count(Class::ByRounding),
+        equal: count(Class::Equal),
+        first_by_rounding: first(Class::ByRounding),
+        first_equal: first(Class::Equal),
+        map,
+    }
+}
+
+/// The class of each sample of a plane, and the triangles that compete for it.
+fn of_plane(pieces: &[Piece], window: PixelRect) -> (Frame<Class>, Frame<[u32; 2]>) {
     let nothing = (f64::INFINITY, NOTHING);
     let mut nearest = Frame::new(window, nothing);
     let planes: Vec<Option<Plane>> = pieces.iter().map(Plane::of).collect();
@@ -114,7 +153,7 @@ pub fn classify(pieces: &[Piece], window: PixelRect) -> Classes {
         }
     });
     let mut map = Frame::new(window, Class::Empty);
-    let mut rivals = Frame::new(window, NOTHING);
+    let mut rivals = Frame::new(window, [NOTHING; 2]);
     each(&mut |number, plane, x, y| {
         let class = &mut map.span_mut(y, x, x + 1)[0];
         *class = (*class).max(Class::Decided);
@@ -131,35 +170,19 @@ pub fn classify(pieces: &[Piece], window: PixelRect) -> Classes {
         };
         if found > *class {
             *class = found;
-            rivals.span_mut(y, x, x + 1)[0] = number;
+            let pair = [other, number].map_array(|piece| pieces[piece as usize].face);
+            rivals.span_mut(y, x, x + 1)[0] = pair;
         }
     });
-    let count = |class: Class| {
-        let all = map.rows().flat_map(|(_, row)| row);
-        all.filter(|held| **held == class).count() as u64
-    };
-    let first = |class: Class| {
-        map.rows().find_map(|(y, row)| {
-            let x = row.iter().position(|held| *held == class)? as i32 + window.x0;
-            let pieces = [nearest.get(x, y)?.1, rivals.get(x, y)?];
-            Some(Rivals { pixel: [x, y], pieces })
-        })
-    };
-    Classes {
-        decided: count(Class::Decided),
-        by_rounding: count(Class::ByRounding),
-        equal: count(Class::Equal),
-        first_by_rounding: first(Class::ByRounding),
-        first_equal: first(Class::Equal),
-        map,
-    }
+    (map, rivals)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::view::pieces;
     use glam::{DMat4, DVec2, DVec3};
+    use rasterproof_render::pipeline::depth::DepthFormat;
+    use rasterproof_render::pipeline::target::{Antialias, Target};
     use rasterproof_render::pipeline::transform::perspective;
     use rasterproof_render::scene::{Corner, Item, Material, Mesh, Scene};
 
@@ -186,8 +209,8 @@ mod tests {
         let mut scene = Scene::new("two", "", perspective(0.7, 1.0, 1.0, 10.0).unwrap());
         scene.view = DMat4::IDENTITY;
         scene.items = vec![square(false, 0.0), second];
-        let window = PixelRect::window(200, 200);
-        let found = classify(&pieces(&scene, window).unwrap(), window);
+        let target = Target::new(200, 200, Antialias::None, DepthFormat::Unorm32).unwrap();
+        let found = classify(&Sampled::of(&scene, &target).unwrap());
         [found.decided, found.by_rounding, found.equal]
     }
 

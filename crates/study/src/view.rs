@@ -12,6 +12,8 @@ use rasterproof_render::pipeline::ClipVertex;
 use rasterproof_render::pipeline::assemble::{Viewport, check_vertex};
 use rasterproof_render::pipeline::clip::{clip, outcode};
 use rasterproof_render::pipeline::depth::DepthFormat;
+use rasterproof_render::pipeline::multisample::{self, SAMPLES};
+use rasterproof_render::pipeline::target::{Antialias, Target};
 use rasterproof_render::scene::Scene;
 
 /// What clipping leaves of a triangle, or a part of it.
@@ -117,6 +119,84 @@ pub(crate) fn clip_points(scene: &Scene, item: usize) -> Result<Vec<DVec4>, BadS
         Ok(position)
     });
     points.collect()
+}
+
+/// The pieces of a scene at the samples of a picture.
+#[derive(Clone, Debug)]
+pub struct Sampled {
+    /// The picture.
+    pub size: PixelRect,
+    /// A window with one sample of each plane at the centre of each of its pixels: with supersampling larger than the
+    /// picture.
+    pub window: PixelRect,
+    /// The pieces, moved so that the samples of a plane fall on the centres: four planes with multisampling, else one.
+    pub planes: Vec<Vec<Piece>>,
+    /// The pieces in the pixels of the picture, where they are no plane.
+    centre: Option<Vec<Piece>>,
+}
+
+impl Sampled {
+    pub fn of(scene: &Scene, target: &Target) -> Result<Self, BadScene> {
+        let (size, window) = (target.size(), target.bounds());
+        let at_centres = pieces(scene, size)?;
+        let sampled = |planes, centre| Self { size, window, planes, centre };
+        Ok(match target.antialias() {
+            Antialias::None => sampled(vec![at_centres], None),
+            Antialias::Supersample(_) => sampled(vec![pieces(scene, window)?], Some(at_centres)),
+            Antialias::Multisample4 => {
+                let plane = |sample| {
+                    let moved = at_centres.iter().filter_map(|piece| moved(piece, sample));
+                    moved.collect::<Vec<_>>()
+                };
+                sampled(SAMPLES.into_iter().map(plane).collect(), Some(at_centres))
+            }
+        })
+    }
+
+    /// The pieces with pixel centres as samples, whatever the picture has.
+    pub fn at_centres(&self) -> &[Piece] {
+        self.centre.as_deref().unwrap_or(&self.planes[0])
+    }
+
+    /// The pieces at the samples that are shaded, and their window.
+    pub fn shaded(&self) -> (&[Piece], PixelRect) {
+        match self.planes.len() {
+            1 => (&self.planes[0], self.window),
+            _ => (self.at_centres(), self.size),
+        }
+    }
+
+    /// The pieces of all planes.
+    pub fn all(&self) -> impl Iterator<Item = &Piece> {
+        self.planes.iter().flatten()
+    }
+
+    /// Whether a pixel has more than one sample.
+    #[must_use]
+    pub fn is_antialiased(&self) -> bool {
+        self.centre.is_some()
+    }
+
+    /// What is counted, in the plural: `px` or `samples`.
+    #[must_use]
+    pub fn unit(&self) -> &'static str {
+        if self.is_antialiased() { "samples" } else { "px" }
+    }
+
+    /// The pixel of a sample.
+    #[must_use]
+    pub fn pixel(&self, sample: [i32; 2]) -> [i32; 2] {
+        let scale = (self.window.width() / self.size.width().max(1)).max(1) as i32;
+        sample.map(|at| at.div_euclid(scale))
+    }
+}
+
+/// A piece moved so that a sample falls on the centre; none beyond the domain of the engines.
+fn moved(piece: &Piece, sample: (i32, i32)) -> Option<Piece> {
+    let triangle = multisample::moved(&piece.triangle, sample)?;
+    let by = [sample.0, sample.1].map(|sixteenth| 0.5 - f64::from(sixteenth) / 16.0);
+    let px = piece.px.map_array(|[x, y]| [x + by[0], y + by[1]]);
+    Some(Piece { px, triangle, ..*piece })
 }
 
 /// No piece.

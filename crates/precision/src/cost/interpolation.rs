@@ -42,13 +42,13 @@ trait AnyValues {
 }
 
 impl<R: Values> AnyValues for R {
-    fn each(&self, Drawn { triangle, spans }: &Drawn, emit: &mut dyn FnMut(i32, i32, f64)) {
+    fn each(&self, Drawn { triangle, spans, .. }: &Drawn, emit: &mut dyn FnMut(i32, i32, f64)) {
         self.values(triangle, spans, emit);
     }
 
     fn paint(&self, drawn: &[Drawn], target: &mut Frame<f32>) {
         let x0 = target.bounds().x0;
-        for Drawn { triangle, spans } in drawn {
+        for Drawn { triangle, spans, .. } in drawn {
             self.values(triangle, spans, |x_px, y_px, value| {
                 target.row_mut(y_px)[(x_px - x0) as usize] = value as f32;
             });
@@ -57,7 +57,7 @@ impl<R: Values> AnyValues for R {
 }
 
 impl AnyValues for Planes {
-    fn each(&self, Drawn { triangle, spans }: &Drawn, emit: &mut dyn FnMut(i32, i32, f64)) {
+    fn each(&self, Drawn { triangle, spans, .. }: &Drawn, emit: &mut dyn FnMut(i32, i32, f64)) {
         self.runs(triangle, spans, &mut |x_px, y_px, values| {
             for (x_px, &value) in (x_px..).zip(values) {
                 emit(x_px, y_px, value.into());
@@ -66,7 +66,7 @@ impl AnyValues for Planes {
     }
 
     fn paint(&self, drawn: &[Drawn], target: &mut Frame<f32>) {
-        for Drawn { triangle, spans } in drawn {
+        for Drawn { triangle, spans, .. } in drawn {
             self.runs(triangle, spans, &mut |x_px, y_px, values| {
                 let run = target.span_mut(y_px, x_px, x_px + values.len() as i32);
                 run.copy_from_slice(values);
@@ -98,6 +98,8 @@ fn exact(triangle: &Valued) -> Option<ExactTriangle<1>> {
 
 /// A triangle and the rows it covers.
 struct Drawn {
+    /// Which triangle of the scene.
+    number: usize,
     triangle: Valued,
     spans: Vec<Span>,
 }
@@ -190,7 +192,7 @@ fn dress(scene: &Scene) -> Vec<Drawn> {
         let given = scene.values.get(number).copied();
         let value = given.unwrap_or_else(|| [0, 1, 2].map_array(made));
         let inv_w = w.map_array(|w| f64::from((1.0 / w) as f32));
-        Some(Drawn { triangle: Valued { corners, inv_w, value }, spans })
+        Some(Drawn { number, triangle: Valued { corners, inv_w, value }, spans })
     });
     dressed.collect()
 }
@@ -211,7 +213,7 @@ fn samples(drawn: &[Drawn], count: usize) -> Vec<Sample> {
     let stride = (pixels / count).max(1) | 1;
     let mut samples = Vec::new();
     let mut before = 0;
-    for (triangle, Drawn { triangle: valued, spans }) in drawn.iter().enumerate() {
+    for (triangle, Drawn { triangle: valued, spans, .. }) in drawn.iter().enumerate() {
         let columns = spans.iter().flat_map(|s| (s.x0_px..s.x1_px).map(|x_px| (x_px, s.y_px)));
         let Some(plane) = exact(valued) else { continue };
         let mut number = 0;
@@ -232,7 +234,7 @@ fn errors(variant: &Variant, drawn: &[Drawn], samples: &[Sample]) -> Vec<Option<
     let (mut worst, mut worst_bound) = (0f64, None::<f64>);
     let mut samples = samples.iter().peekable();
     for (i, of_this) in drawn.iter().enumerate() {
-        let Drawn { triangle, spans } = of_this;
+        let Drawn { triangle, spans, .. } = of_this;
         if samples.peek().is_none_or(|sample| sample.triangle != i) {
             continue;
         }
@@ -261,6 +263,46 @@ fn errors(variant: &Variant, drawn: &[Drawn], samples: &[Sample]) -> Vec<Option<
 /// The span of a row that some rows before it lack.
 fn find(spans: &[Span], y_px: i32) -> Span {
     *spans.iter().find(|span| span.y_px == y_px).expect("values come from the rows given")
+}
+
+/// What the rungs get wrong of some triangles.
+#[derive(Clone, Debug)]
+pub struct WrongValues {
+    /// By rung and by triangle: pixels whose value is off by more than half a step of 8 bits of the largest.
+    pub wrong: Vec<Vec<u64>>,
+    /// Pixels that were looked at, evenly spread, and all.
+    pub pixels: u64,
+    pub of: u64,
+}
+
+/// The pixels of each triangle in which each rung is visibly wrong.
+pub fn wrong_values(scene: &Scene) -> WrongValues {
+    let drawn = dress(scene);
+    let samples = samples(&drawn, 4 * SAMPLES);
+    let variants = variants();
+    let wrong = variants.iter().map(|variant| {
+        let mut wrong = vec![0; scene.triangles.len()];
+        let mut samples = samples.iter().peekable();
+        for (i, of_this) in drawn.iter().enumerate() {
+            if samples.peek().is_none_or(|sample| sample.triangle != i) {
+                continue;
+            }
+            let m = largest(of_this.triangle.value);
+            let mut number = 0;
+            variant.body.each(of_this, &mut |_, _, value| {
+                if let Some(sample) = samples.next_if(|s| s.triangle == i && s.number == number) {
+                    let is_wrong = sample.exact.distance(value) > HALF_STEP * m;
+                    wrong[of_this.number] += u64::from(is_wrong);
+                }
+                number += 1;
+            });
+        }
+        wrong
+    });
+    let wrong = wrong.collect();
+    let width = |span: &Span| u64::from(span.x0_px.abs_diff(span.x1_px));
+    let of = drawn.iter().flat_map(|drawn| &drawn.spans).map(width).sum();
+    WrongValues { wrong, pixels: samples.len() as u64, of }
 }
 
 pub(super) fn measure(options: &Options, progress: &dyn Fn(f64, &str)) -> Board {

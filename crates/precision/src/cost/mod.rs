@@ -28,6 +28,7 @@ pub use bounds::Bound;
 pub use clock::{Pass, Spread, Time, time};
 pub use coverage::{Variant, variants, wrong_pixels};
 pub use external::ExternalVariant;
+pub use interpolation::{WrongValues, wrong_values};
 pub use race::{EQUAL, Finish, Race, race};
 pub use recorded::Recorded;
 pub use verdict::{Best, Dominated, Price, Priced, prices};
@@ -226,7 +227,7 @@ pub fn measure_on(
     options: &Options,
     afterwards: Afterwards<'_>,
 ) -> Option<Board> {
-    let told = (&|_: f64, _: &str| (), afterwards);
+    let told: Told<'_> = (&|_, _| (), afterwards);
     match ladder {
         Ladder::Interpolation => {
             Some(interpolation::measure_on(scenes, options, interpolation::SAMPLES, told))

@@ -18,6 +18,7 @@ use crate::pipeline::target::{Colour, Target};
 use crate::scene::Scene;
 use rasterproof_core::contract::Interpolate;
 use rasterproof_core::frame::Frame;
+use rasterproof_core::grid::PixelRect;
 
 /// A frame, what it cost and why.
 #[derive(Clone, Debug)]
