@@ -481,6 +481,16 @@ Proof.
   intros Hk Hs. unfold mean4. field. repeat split; try assumption.
 Qed.
 
+(** Products on their own, since [nra] takes long among all that is known of a row. *)
+Lemma product_not_negative i j w : 0 <= i -> 0 <= j -> 0 <= w -> 0 <= i * j * w.
+Proof. intros. apply Qmult_le_0_compat; [apply Qmult_le_0_compat|]; assumption. Qed.
+
+Lemma product_positive i j w : 1 <= i -> 1 <= j -> 0 < w -> 0 < i * j * w.
+Proof. intros. apply Qmult_lt_0_compat; [nra | assumption]. Qed.
+
+Lemma scaled_le c p q : 0 <= c -> p <= q -> c * p <= c * q.
+Proof. intros. rewrite !(Qmult_comm c). apply Qmult_le_compat_r; assumption. Qed.
+
 Theorem scanline_attribute_error va vb vc vd D M : all_within D M [va; vb; vc; vd] ->
   Qabs (scanline_attribute va vb vc vd - exact_scanline_attribute va vb vc vd) <= bound 15 2 D M.
 Proof.
@@ -512,9 +522,12 @@ Proof.
   assert (HMv : Qabs (vl + (vr - vl) * s) <= M).
   { apply hull; [assumption | apply hull; assumption | apply hull; assumption]. }
   pose proof (integer_from_0 l ltac:(lia)) as Nl. pose proof (integer_from_1 r ltac:(lia)) as Nr.
-  pose proof (integer_from_0 below1 Hb1). pose proof (integer_from_0 below2 Hb2).
-  pose proof (integer_from_1 above1 Ha1). pose proof (integer_from_1 above2 Ha2).
-  assert (Pw : 0 < !r * (x1 + y1) + !l * (x2 + y2)) by nra.
+  pose proof (integer_from_0 below1 Hb1) as B1. pose proof (integer_from_0 below2 Hb2) as B2.
+  pose proof (integer_from_1 above1 Ha1) as A1. pose proof (integer_from_1 above2 Ha2) as A2.
+  assert (Nr0 : 0 <= !r) by lra. assert (A20 : 0 <= !above2) by lra. assert (A10 : 0 <= !above1) by lra.
+  assert (Pw : 0 < !r * (x1 + y1) + !l * (x2 + y2)).
+  { assert (0 < !r * (x1 + y1)) by (apply Qmult_lt_0_compat; lra).
+    assert (0 <= !l * (x2 + y2)) by (apply Qmult_le_0_compat; lra). lra. }
   pose proof (nested_mean x1 y1 x2 y2 !l !r va vb vc vd S1 S2 Pw) as Nest. cbv zeta in Nest.
   fold vl vr s in Nest.
   (* The exact mean, with 1/w relative to the largest. *)
@@ -528,25 +541,25 @@ Proof.
   { unfold exact_scanline_attribute. rewrite <- (mean_scaled _ _ _ _ largest).
     - unfold mean4, Qdiv. rewrite !Qmult_assoc. reflexivity.
     - lra.
-    - assert (0 < !r * !above1 * wa) by (apply Qmult_lt_0_compat; nra).
-      assert (0 <= !r * !below1 * wb) by (apply Qmult_le_0_compat; nra).
-      assert (0 <= !l * !above2 * wc) by (apply Qmult_le_0_compat; nra).
-      assert (0 <= !l * !below2 * wd) by (apply Qmult_le_0_compat; nra). lra. }
+    - pose proof (product_positive _ _ _ Nr A1 Qa).
+      pose proof (product_not_negative _ _ _ Nr0 B1 (Qlt_le_weak _ _ Qb)).
+      pose proof (product_not_negative _ _ _ Nl A20 (Qlt_le_weak _ _ Qc)).
+      pose proof (product_not_negative _ _ _ Nl B2 (Qlt_le_weak _ _ Qd)). lra. }
   assert (Mean : Qabs (mean4 (!r * x1) (!r * y1) (!l * x2) (!l * y2) va vb vc vd -
     mean4 (!r * !above1 * (wa / largest)) (!r * !below1 * (wb / largest))
           (!l * !above2 * (wc / largest)) (!l * !below2 * (wd / largest)) va vb vc vd) <= drift 1 / low 1 * D).
   { assert (K : forall i j w q, 0 <= i -> 0 <= j -> approx 1 w q -> approx 1 (i * j * w) (i * (j * q))).
     { intros i j w q _ _ A. eapply approx_eq; [exact (approx_mul 0 1 _ _ _ _ (approx_refl (i * j)) A) | reflexivity | ring]. }
     apply mean_error; try (apply K; try assumption; lra); try assumption.
-    - apply Qmult_le_0_compat; [nra | apply NN; assumption].
-    - apply Qmult_le_0_compat; [nra | apply NN; assumption].
-    - apply Qmult_le_0_compat; [nra | apply NN; assumption].
-    - apply Qmult_le_0_compat; [nra | apply NN; assumption].
-    - assert (0 < !r * !above1 * (wa / largest)).
-      { apply Qmult_lt_0_compat; [nra | apply Qlt_shift_div_l; lra]. }
-      assert (0 <= !r * !below1 * (wb / largest)) by (apply Qmult_le_0_compat; [nra | apply NN; assumption]).
-      assert (0 <= !l * !above2 * (wc / largest)) by (apply Qmult_le_0_compat; [nra | apply NN; assumption]).
-      assert (0 <= !l * !below2 * (wd / largest)) by (apply Qmult_le_0_compat; [nra | apply NN; assumption]). lra. }
+    - exact (product_not_negative _ _ _ Nr0 A10 (NN _ Qa)).
+    - exact (product_not_negative _ _ _ Nr0 B1 (NN _ Qb)).
+    - exact (product_not_negative _ _ _ Nl A20 (NN _ Qc)).
+    - exact (product_not_negative _ _ _ Nl B2 (NN _ Qd)).
+    - assert (Pos : 0 < wa / largest) by (apply Qlt_shift_div_l; lra).
+      pose proof (product_positive _ _ _ Nr A1 Pos).
+      pose proof (product_not_negative _ _ _ Nr0 B1 (NN _ Qb)).
+      pose proof (product_not_negative _ _ _ Nl A20 (NN _ Qc)).
+      pose proof (product_not_negative _ _ _ Nl B2 (NN _ Qd)). lra. }
   rewrite <- Scaled, <- Nest in Mean.
   assert (Across : Qabs (RoundedModel.between fl (row_value below1 above1 qa qb va vb) (row_value below2 above2 qc qd vc vd)
       (row_place (row_q below1 above1 height1 qa qb) (row_q below2 above2 height2 qc qd)) - (vl + (vr - vl) * s))
@@ -567,13 +580,13 @@ Proof.
       assert (0 <= 1 # 2 ^ 666) by (apply Qle_bool_iff; vm_compute; reflexivity).
       set (tiny := 1 # 2 ^ 666) in *. clearbody tiny. unfold u. lra. }
     set (w := D + 2 * near_bound 6 1 D M) in *. set (big := 6 * u * (1 + (1 # 2199023255552))) in *.
-    assert (w * g <= w * big) by nra.
+    pose proof (scaled_le w g big ltac:(assumption) Sharp).
     assert (Hd2 : 0 <= drift 2) by (apply Qle_bool_iff; vm_compute; reflexivity).
-    assert (drift 2 * (w * (1 + g)) <= drift 2 * (w * (1 + big))) by nra.
+    pose proof (scaled_le (drift 2) (w * (1 + g)) (w * (1 + big)) Hd2 ltac:(apply scaled_le; [assumption | lra])).
     set (e := near_bound 6 1 D M) in *. set (p := w * g) in *. set (p' := w * big) in *.
     set (q := drift 2 * (w * (1 + g))) in *. set (q' := drift 2 * (w * (1 + big))) in *. set (h := eta) in *.
     clearbody e p p' q q' h. unfold u. lra. }
-  assert (Kd : k * D <= u * (1 + (1 # 2199023255552)) * D) by nra.
+  assert (Kd : k * D <= u * (1 + (1 # 2199023255552)) * D) by (apply Qmult_le_compat_r; assumption).
   apply abs_le in Across, Mean. apply abs_le.
   assert (Final : across_bound (near_bound 6 1 D M) (6 * u * (1 + (1 # 2199023255552))) D M +
     u * (1 + (1 # 2199023255552)) * D <= bound 15 2 D M).
