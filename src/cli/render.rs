@@ -90,7 +90,7 @@ pub struct SceneArguments {
     pub(super) view: ViewArguments,
 }
 
-pub(super) const VIEW_OPTIONS: [&str; 16] = [
+pub(super) const VIEW_OPTIONS: [&str; 17] = [
     "size",
     "aa",
     "cull",
@@ -99,6 +99,7 @@ pub(super) const VIEW_OPTIONS: [&str; 16] = [
     "alpha-threshold",
     "opacity",
     "mip-maps",
+    "anisotropy",
     "fog",
     "up",
     "normals",
@@ -137,6 +138,10 @@ pub struct ViewArguments {
     /// Read all textures of a model at levels of detail, also where its file does not ask for it
     #[arg(long)]
     mip_maps: bool,
+    /// Read all textures of a model up to so many times along the longer axis of a pixel's footprint, from 2 to 16, at levels of
+    /// detail
+    #[arg(long, value_name = "TAPS", value_parser = clap::value_parser!(u8).range(2..=16))]
+    anisotropy: Option<u8>,
     /// Fog in the colour of the background, of a model: its start and end, where 0 is the front of the model and 1
     /// the back; or one number, its density over the depth of the model, from the eye on
     #[arg(long, value_name = "START,END|DENSITY", allow_negative_numbers = true, value_parser = parse_fog)]
@@ -228,8 +233,8 @@ fn parse_opacity(text: &str) -> Result<f64, String> {
     opacity.ok_or_else(|| "expected a number from 0 to 1, for example 0.5".to_owned())
 }
 
-/// Gives all textures a mip map; one that several items share is made once.
-fn give_mip_maps(scene: &mut Scene) {
+/// Gives all textures a mip map, and anisotropy where it is asked for; one that several items share is made once.
+fn give_mip_maps(scene: &mut Scene, anisotropy: Option<u8>) {
     let mut made: Vec<[Arc<Texture>; 2]> = Vec::new();
     for item in &mut scene.items {
         let Some(texture) = &mut item.material.texture else { continue };
@@ -237,7 +242,8 @@ fn give_mip_maps(scene: &mut Scene) {
         let with = match known {
             Some([_, with]) => with.clone(),
             None => {
-                let with = Arc::new(Texture::clone(texture).with_mip_map());
+                let with = Texture::clone(texture).with_mip_map();
+                let with = Arc::new(with.with_anisotropy(anisotropy.unwrap_or(1)));
                 made.push([texture.clone(), with.clone()]);
                 with
             }
@@ -349,6 +355,7 @@ impl ViewArguments {
             ("--alpha-threshold", self.alpha_threshold.is_some()),
             ("--opacity", self.opacity.is_some()),
             ("--mip-maps", self.mip_maps),
+            ("--anisotropy", self.anisotropy.is_some()),
             ("--fog", self.fog.is_some()),
             ("--up", self.up.is_some()),
             ("--normals", self.normals.is_some()),
@@ -430,8 +437,8 @@ impl ViewArguments {
                 opacity.mode = AlphaMode::Test { threshold };
             }
         }
-        if self.mip_maps {
-            give_mip_maps(&mut scene);
+        if self.mip_maps || self.anisotropy.is_some() {
+            give_mip_maps(&mut scene, self.anisotropy);
         }
         let [r, g, b, _] = scene.background;
         // From shares of the model's depth to distances.

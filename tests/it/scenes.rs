@@ -213,6 +213,7 @@ fn an_edited_plan_is_followed() {
                 "depth": true,
                 "specular": "planned",
                 "mip_maps": "planned",
+                "anisotropy": "planned",
                 "fog": "planned",
                 "alpha_test": "planned",
                 "blending": "planned",
@@ -545,6 +546,18 @@ fn counterexamples() -> Vec<Counterexample> {
             let material = Material { texture: Some(Arc::new(texture)), ..grey(1.0) };
             plain(vec![Item::new(mesh, material)])
         }),
+        make(Effect::Anisotropy, none, |by| {
+            // A footprint of 2 by 3 texels, of black and white ones in turn, and longer by so much.
+            let texture = textures::generate(16, |x, y| DVec3::splat(f64::from((x + y) % 2)));
+            let texture = texture.with(Filter::Nearest, Wrap::Repeat).with_anisotropy(2);
+            let mut mesh = screen(1.0, [0.0; 2]);
+            for corner in mesh.triangles.as_flattened_mut() {
+                let longer = 3.0 * (1.0 - 0.5f64.powi(19) + by);
+                corner.uv *= DVec2::new(2.0 * 80.0, longer * 60.0) / 16.0;
+            }
+            let material = Material { texture: Some(Arc::new(texture)), ..grey(1.0) };
+            plain(vec![Item::new(mesh, material)])
+        }),
         make(Effect::Fog, none, |by| {
             // In clip space the distance is z; fog begins at 0.
             let growth = Growth::Linear { start: 0.0, end: 1.0 };
@@ -745,7 +758,7 @@ proptest! {
     fn any_mixture_of_effects_draws(
         index in any::<u32>(),
         kind in 0..4usize,
-        modes in proptest::array::uniform18(0..3u8),
+        modes in proptest::array::uniform19(0..3u8),
         some_never in any::<bool>(),
     ) {
         let scene = random::with_effects(3, index.into());

@@ -1,7 +1,7 @@
 //! A scene on its way from plan to picture: in clip space, and in pieces where they are looked at.
 
 use super::conditions::{
-    alpha_test, blending, fog, interpolation, mip_maps, perspective, specular,
+    alpha_test, anisotropy, blending, fog, interpolation, mip_maps, perspective, specular,
 };
 use super::plan::{Attributes, Order, PiecePlan, Plan, Rule};
 use super::primitive::{BadScene, Piece, Prepared};
@@ -92,6 +92,17 @@ pub(super) fn plan_of(rule: &Rule, item: &Prepared<'_>, piece: &Piece) -> PieceP
     let specular = !is_hidden && specular::pays(rule.specular, item, piece);
     let has_uv = interpolates.has(Attributes::UV);
     let mip_maps = has_uv && mip_maps::pays(rule.mip_maps, item, piece, perspective);
+    let anisotropy = has_uv && anisotropy::pays(rule.anisotropy, item, piece, perspective);
     let depth = rule.depth;
-    PiecePlan { interpolates, perspective, depth, specular, mip_maps, fog, alpha_test, blending }
+    PiecePlan {
+        interpolates,
+        perspective,
+        depth,
+        specular,
+        mip_maps,
+        anisotropy,
+        fog,
+        alpha_test,
+        blending,
+    }
 }

@@ -298,7 +298,7 @@ impl<'a> Rivals<'a> {
         let Some(moved) = moved else { return };
         let perspective = !self.scene.affine;
         let plan = item.all_of_a_fragment(perspective);
-        if plan.mip_maps {
+        if plan.mip_maps || plan.anisotropy {
             // Between levels any colour may be read.
             return;
         }

@@ -247,6 +247,7 @@ impl<'a> Item<'a> {
             depth: true,
             specular: true,
             mip_maps: true,
+            anisotropy: true,
             fog: Share::Mixed,
             alpha_test: Drawn::All,
             blending: Drawn::All,

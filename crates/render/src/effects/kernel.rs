@@ -3,6 +3,8 @@
 //! What is switched off is not in its loop. What is left of a switched-off attribute is a constant,
 //! in the same place of the same product, so the bits are the same.
 
+use std::cell::Cell;
+
 use glam::{DVec2, DVec3};
 
 use super::conditions::mip_maps::{footprint, is_affine};
@@ -12,7 +14,7 @@ use super::samples::OnDemand;
 use crate::pipeline::Counters;
 use crate::pipeline::fill::{Stage, Way, each, fill, fill_flat};
 use crate::pipeline::fog::{Share, Veil};
-use crate::pipeline::footprint::Footprint;
+use crate::pipeline::footprint::Reading;
 use crate::pipeline::highlight::{Highlight, brightened};
 use crate::pipeline::opacity::{Drawn, Opacity};
 use crate::pipeline::see_through::{self, Look};
@@ -38,8 +40,10 @@ pub(super) struct Kernel<'a> {
     shine: [u8; 3],
     /// Where each fragment has its own share of fog.
     veil: Option<&'a Veil>,
-    /// Where the texture is read at levels of detail; the veil gives w, which is 1 where there is none.
-    footprint: Option<(Footprint, Option<&'a Veil>)>,
+    /// Where the texture is read at levels of detail or several times; the veil gives w, which is 1 where there is none.
+    reading: Option<(Reading, Option<&'a Veil>)>,
+    /// How often the texture was read where it may be read several times.
+    taps: Cell<u64>,
     /// The colour of a piece of which nothing but fog is seen.
     fogged: Option<Colour>,
     /// Of pieces that are not opaque everywhere.
@@ -66,7 +70,8 @@ impl<'a> Kernel<'a> {
             shine: [0; 3],
             fogged: None,
             opacity: item.item.material.opacity.as_ref().filter(|_| !plan.is_opaque()),
-            footprint: None,
+            reading: None,
+            taps: Cell::new(0),
             veil: (plan.fog != Share::None).then_some(&item.veil),
         };
         if plan.fog == Share::Whole && plan.is_one_colour() && plan.is_opaque() {
@@ -78,10 +83,15 @@ impl<'a> Kernel<'a> {
             kernel.base *= first.colour;
         }
         if let (Some(texture), true) =
-            (item.texture, plan.mip_maps && plan.interpolates.has(Attributes::UV))
+            (item.texture, plan.reads_around() && plan.interpolates.has(Attributes::UV))
         {
             let veil = (!is_affine(piece, plan.perspective)).then_some(&item.veil);
-            kernel.footprint = Some((footprint(texture, piece, plan.perspective).0, veil));
+            let reading = Reading {
+                footprint: footprint(texture, piece, plan.perspective).0,
+                at_levels: plan.mip_maps,
+                most: if plan.anisotropy { texture.anisotropy } else { 1 },
+            };
+            kernel.reading = Some((reading, veil));
         }
         if let (Some(texture), true) = (item.texture, constant(Attributes::UV)) {
             counters.texels += 1;
@@ -194,7 +204,8 @@ impl<'a> Kernel<'a> {
         counters.texels += where_true(self.varying_texture().is_some(), shaded);
         counters.highlights += where_true(self.highlight.is_some(), shaded);
         counters.fogged += where_true(self.veil.is_some(), shaded);
-        counters.levels += where_true(self.footprint.is_some(), shaded);
+        counters.levels += where_true(self.plan.mip_maps && self.reading.is_some(), shaded);
+        counters.taps += self.taps.take();
         counters.lights += where_true(self.plan.interpolates.has(Attributes::NORMAL), shaded);
     }
 
@@ -212,7 +223,7 @@ impl<'a> Kernel<'a> {
         let before = *counters;
         // One copy of the rasterizer's loops for all attributes of this size.
         let (plain, levels) = (self.stage::<N, MASK, false>(), self.stage::<N, MASK, true>());
-        let stage: &Stage<'_, Packed<N>> = if self.footprint.is_some() { &levels } else { &plain };
+        let stage: &Stage<'_, Packed<N>> = if self.reading.is_some() { &levels } else { &plain };
         if let Some(on_demand) = samples {
             on_demand.draw_varying(engine, piece, &packed, target, self.plan, stage, counters);
         } else {
@@ -228,13 +239,17 @@ impl<'a> Kernel<'a> {
         self.shade_texel(varying, depth, texel)
     }
 
-    /// What a fragment reads of its texture, at a level of detail where the plan pays for it.
+    /// What a fragment reads of its texture, at a level of detail and several times where the plan pays for it.
     fn texel(&self, texture: &Texture, uv: DVec2, depth: f64) -> DVec3 {
-        match &self.footprint {
+        match &self.reading {
             None => texture.at(uv),
-            Some((footprint, veil)) => {
+            Some((reading, veil)) => {
                 let w = veil.map_or(1.0, |veil| veil.w(depth));
-                texture.at_level(uv, footprint.level(uv, w))
+                let (texel, taps) = reading.texel(texture, uv, w);
+                if self.plan.anisotropy {
+                    self.taps.set(self.taps.get() + u64::from(taps));
+                }
+                texel
             }
         }
     }

@@ -194,6 +194,9 @@ pub struct PiecePlan {
     /// Whether textures are read at a level of detail.
     #[serde(default, skip_serializing_if = "is_false")]
     pub mip_maps: bool,
+    /// Whether textures may be read several times along the longer axis of a footprint.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub anisotropy: bool,
     /// Whether its fragments are mixed with fog, or show nothing else.
     #[serde(default, skip_serializing_if = "is_none")]
     pub fog: Share,
@@ -214,6 +217,11 @@ impl PiecePlan {
     /// Whether there is nothing to draw.
     pub(super) fn is_nothing(self) -> bool {
         self.alpha_test == Drawn::Nothing || self.blending == Drawn::Nothing
+    }
+
+    /// Whether what is read of a texture depends on how much of it a pixel meets.
+    pub(super) fn reads_around(self) -> bool {
+        self.mip_maps || self.anisotropy
     }
 
     /// Whether all fragments of the piece have one colour.
@@ -240,6 +248,9 @@ pub struct Rule {
     /// Planned: where a texture is not known to be magnified everywhere.
     #[serde(default = "never", skip_serializing_if = "is_never")]
     pub mip_maps: Mode,
+    /// Planned: where the axes of a footprint are not known to be about as long everywhere.
+    #[serde(default = "never", skip_serializing_if = "is_never")]
+    pub anisotropy: Mode,
     /// Planned: as much as there is between the depths of the corners.
     #[serde(default = "never", skip_serializing_if = "is_never")]
     pub fog: Mode,
@@ -479,13 +490,15 @@ mod tests {
     fn a_misspelt_word_of_a_plan_is_refused() {
         let interpolates = Attributes(5);
         let (perspective, depth, specular, fog) = (true, false, true, Share::None);
-        let (mip_maps, alpha_test, blending) = (true, Drawn::Mixed, Drawn::Nothing);
+        let (mip_maps, anisotropy) = (true, true);
+        let (alpha_test, blending) = (Drawn::Mixed, Drawn::Nothing);
         let plan = PiecePlan {
             interpolates,
             perspective,
             depth,
             specular,
             mip_maps,
+            anisotropy,
             fog,
             alpha_test,
             blending,

@@ -3,8 +3,8 @@
 use super::assembled::{Assembled, plan_of};
 use super::conditions::survey::Survey;
 use super::conditions::{
-    alpha_test, attributes, blending, clear, clip, cull, depth, depth_buffer, fog, interpolation,
-    mip_maps, perspective, samples, second_buffer, specular, wide_words,
+    alpha_test, anisotropy, attributes, blending, clear, clip, cull, depth, depth_buffer, fog,
+    interpolation, mip_maps, perspective, samples, second_buffer, specular, wide_words,
 };
 use super::plan::{
     Canvas, Clear, Decision, FramePlan, ItemPlan, Order, PiecePlan, Pieces, Plan, Rule, VERSION,
@@ -63,6 +63,7 @@ pub(super) fn plan<'a>(
                 depth: is_tested,
                 specular: false,
                 mip_maps: false,
+                anisotropy: false,
                 fog: fog_at_most,
                 alpha_test: at_most(alpha_test::mode(item.item, effects)),
                 blending: at_most(blending::mode(item.item, effects)),
@@ -100,6 +101,7 @@ fn outset(scene: &Scene, canvas: &Canvas, effects: &Effects) -> Plan {
         let specular = specular::mode(scene, item, carries, effects);
         let fog = fog::mode(scene, effects);
         let mip_maps = mip_maps::mode(item, carries, effects);
+        let anisotropy = anisotropy::mode(item, carries, effects);
         let alpha_test = alpha_test::mode(item, effects);
         let blending = blending::mode(item, effects);
         let rule = Rule {
@@ -109,6 +111,7 @@ fn outset(scene: &Scene, canvas: &Canvas, effects: &Effects) -> Plan {
             depth,
             specular,
             mip_maps,
+            anisotropy,
             fog,
             alpha_test,
             blending,
@@ -195,6 +198,7 @@ fn account(
         decisions.extend(attributes::explain(survey));
         decisions.extend(specular::explain(survey));
         decisions.extend(mip_maps::explain(survey));
+        decisions.extend(anisotropy::explain(survey));
         decisions.extend(fog::explain(survey));
         decisions.extend(alpha_test::explain(survey));
         decisions.extend(blending::explain(survey));

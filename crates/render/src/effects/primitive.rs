@@ -90,6 +90,7 @@ impl<'a> Prepared<'a> {
             depth: true,
             specular: self.carries_highlights,
             mip_maps: self.texture.is_some_and(Texture::has_mip_map),
+            anisotropy: self.texture.is_some_and(|texture| texture.anisotropy > 1),
             fog: Share::Mixed,
             alpha_test: Drawn::All,
             blending: Drawn::All,

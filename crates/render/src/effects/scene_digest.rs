@@ -114,6 +114,10 @@ impl Words {
         self.whole((*vertex_colours).into());
         let has_mip_map = texture.as_ref().is_some_and(|texture| texture.has_mip_map());
         self.whole(u64::from(texture.is_some()) + u64::from(has_mip_map));
+        let anisotropy = texture.as_ref().map_or(1, |texture| texture.anisotropy);
+        if anisotropy > 1 {
+            self.whole(anisotropy.into());
+        }
         self.whole(match shading {
             Shading::Unlit => 0,
             Shading::Flat => 1,

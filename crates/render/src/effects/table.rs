@@ -72,6 +72,8 @@ effects! {
     Texture = "texture": Planned, texels, Some([190, 90, 205]);
     /// Reading textures at a level of detail.
     MipMaps = "mip-maps": Material, levels, Some([160, 130, 90]);
+    /// Reading textures several times along the longer axis of a pixel's footprint.
+    Anisotropy = "anisotropy": Material, taps, Some([200, 120, 120]);
     /// Mixing colours with that of the fog, by distance.
     Fog = "fog": Material, fogged, Some([120, 200, 200]);
     /// Leaving out fragments that are not opaque enough.

@@ -4,13 +4,24 @@
 //! quotients du/dx = ((u/w)_x - u (1/w)_x) w, and the same of v and of y: derivatives at the very point, where
 //! usual hardware takes the difference of two pixels. The level is log2 of the longer of the two derivatives, in
 //! texels (the scale factor of the OpenGL specification, section 8.14.1); up to 0 a texture is magnified.
+//!
+//! A texture with anisotropy is read N times along the longer derivative, by the formula that the text of
+//! `EXT_texture_filter_anisotropic` describes: with Pmax and Pmin the lengths of the two derivatives in texels, at the point
+//! moved by (i / (N + 1) - 1/2) times the longer one, for i from 1 to N, each time at the level log2(Pmax / N), and the
+//! mean is taken. It departs from that text in one thing. There N is Pmax / Pmin, rounded up, so that a
+//! texture is read once only where both are equal to the last bit; here N is Pmax / max(Pmin, 1), rounded to the nearest
+//! whole number. So a footprint that is nearly as wide as long is read once, the choice of the axis changes nothing where both
+//! are as long, and a texture that is magnified is read as without anisotropy. The thresholds of the rounding lie off simple
+//! fractions, as those of [`super::depth`] do.
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::SUBPIXELS;
 use rasterproof_core::triangle::Corners;
 
 use super::assemble::twice_area;
+use super::depth::OFF_FRACTION;
+use super::texture::Texture;
 
 /// The slopes of a triangle's texture coordinates, in texels.
 #[derive(Clone, Copy, Debug)]
@@ -42,17 +53,35 @@ impl Footprint {
         Self { size, over_w: [DVec2::new(ux, vx), DVec2::new(uy, vy)], inv_w: slope(inv_w) }
     }
 
-    /// The longer derivative in texels, squared, where w and (u, v) are these.
-    fn square(&self, uv: DVec2, w: f64) -> f64 {
-        let along =
-            |i: usize| ((self.over_w[i] - uv * self.inv_w[i]) * w * self.size).length_squared();
-        along(0).max(along(1))
+    /// The derivatives by columns and by rows of pixels, where w and (u, v) are these.
+    fn derivatives(&self, uv: DVec2, w: f64) -> [DVec2; 2] {
+        [0, 1].map_array(|i: usize| (self.over_w[i] - uv * self.inv_w[i]) * w)
+    }
+
+    /// The lengths of the derivatives in texels, squared.
+    fn squares(&self, derivatives: [DVec2; 2]) -> [f64; 2] {
+        derivatives.map_array(|derivative| (derivative * self.size).length_squared())
     }
 
     /// The level of detail; at most 0 where the texture is magnified.
     #[must_use]
     pub fn level(&self, uv: DVec2, w: f64) -> f64 {
-        0.5 * libm::log2(self.square(uv, w))
+        let [x, y] = self.squares(self.derivatives(uv, w));
+        0.5 * libm::log2(x.max(y))
+    }
+
+    /// How a texture is read that is read at most so often.
+    #[must_use]
+    pub fn taps(&self, uv: DVec2, w: f64, most: u8) -> Taps {
+        let derivatives = self.derivatives(uv, w);
+        let [x, y] = self.squares(derivatives);
+        let (longer, shorter) = (x.max(y), x.min(y));
+        let ratio = longer.sqrt() / shorter.sqrt().max(1.0);
+        // `as` takes NaN to 0.
+        let count = ((ratio + (0.5 + OFF_FRACTION)) as u8).clamp(1, most.max(1));
+        let along = derivatives[usize::from(x <= y)];
+        let level = 0.5 * libm::log2(longer / f64::from(u32::from(count) * u32::from(count)));
+        Taps { count, along, level }
     }
 
     /// Whether the texture is magnified everywhere in the triangle.
@@ -62,6 +91,12 @@ impl Footprint {
     /// 1 texel, less a margin of 2^-20. That covers the roundings here, a few units each, as long as the slopes
     /// are no more than 2^20 times their difference, which the bound makes sure of, and the errors of u, v and w in
     /// a fragment, which the caller keeps below 2^-24.
+    ///
+    /// The error of u is at most 2^-48 M, where M is the largest |u| of all corners, and the one margin is of single
+    /// corners. It suffices all the same where the bound holds, in texels |U_x q_i - u_i q_i q_x| <= q_min^2 at each
+    /// corner: then |u_i q_x| <= |U_x| + q_min at each, and |U_x| <= q_min + m |q_x| with the least |u| of all corners,
+    /// m. So M |q_x| is at most m |q_x| + 2 q_min, and the error of a derivative at most
+    /// 2^-48 M |q_x| / q_min <= 2^-48 (m |q_x| / q_min + 2): far below 2^-40 of the term of any corner, and 2^-20.
     #[must_use]
     pub fn is_magnified(&self, inv_w: [f64; 3], uv: [DVec2; 3]) -> bool {
         let least = inv_w[0].min(inv_w[1]).min(inv_w[2]);
@@ -78,6 +113,83 @@ impl Footprint {
         // NaN is not known to be magnified.
         longest <= 1.0 - 0.5f64.powi(20)
     }
+
+    /// Whether [`Self::taps`] reads once everywhere in the triangle.
+    ///
+    /// It does where Pmax / max(Pmin, 1) is less than 1.5 - 2^-20 / 3. With A and B the numerators of the derivatives by
+    /// columns and by rows, as in [`Self::is_magnified`], P is |A| / q^2 and |B| / q^2, so that the ratio is that of |A| to
+    /// max(|B|, q^2), or the other way round: q^2 cancels. A and B are linear in the window, whatever the slopes are. So |A|
+    /// is no longer than at a corner, and |B| no shorter than B's part in any direction, which is least at a corner; the
+    /// direction is that of the mean of the corners.
+    ///
+    /// The margin of 2/3 of 2^-20 covers w, which is off by less than 2^-24 of itself and in both lengths alike, and the
+    /// roundings that are relative to a length. Those of u are not: u is off by at most 2^-48 M, where M is the largest
+    /// |u| of all corners, so that A is off by 2^-48 M |q_x| q. The bounds are therefore moved by 2^-40 of
+    /// (|U_x| + M |q_x|) q_max, with the same M and q_max for all corners, since no other bound holds of a single one.
+    #[must_use]
+    pub fn is_round(&self, inv_w: [f64; 3], uv: [DVec2; 3]) -> bool {
+        let least = inv_w[0].min(inv_w[1]).min(inv_w[2]);
+        let most = inv_w[0].max(inv_w[1]).max(inv_w[2]);
+        let farthest = uv[0].abs().max(uv[1].abs()).max(uv[2].abs());
+        let [[long_x, short_x], [long_y, short_y]] = [0, 1].map_array(|i: usize| {
+            let (over_w, slope) = (self.over_w[i], self.inv_w[i]);
+            let numerators = [0, 1, 2]
+                .map_array(|i: usize| (over_w * inv_w[i] - uv[i] * inv_w[i] * slope) * self.size);
+            let rounding = (over_w.abs() + farthest * slope.abs()) * self.size * most;
+            let rounding = rounding.length() * 0.5f64.powi(40);
+            let [a, b, c] = numerators.map_array(|numerator| numerator.length());
+            let direction = (numerators[0] + numerators[1] + numerators[2]).normalize_or_zero();
+            let [p, q, r] = numerators.map_array(|numerator| numerator.dot(direction));
+            [a.max(b).max(c) + rounding, p.min(q).min(r) - rounding]
+        });
+        let texel = least * least;
+        let is_short = |longest: f64, other: f64| {
+            longest <= (1.5 - 0.5f64.powi(20)) * other.max(texel) && longest.is_finite()
+        };
+        is_short(long_x, short_y) && is_short(long_y, short_x)
+    }
+}
+
+/// The places at which a texture is read for one pixel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Taps {
+    pub count: u8,
+    /// The longer derivative, along which they lie.
+    pub along: DVec2,
+    /// The level of detail of each.
+    pub level: f64,
+}
+
+/// How the fragments of a triangle read a texture.
+#[derive(Clone, Copy, Debug)]
+pub struct Reading {
+    pub footprint: Footprint,
+    /// Whether at levels of detail; else at level 0.
+    pub at_levels: bool,
+    /// How often at most.
+    pub most: u8,
+}
+
+impl Reading {
+    /// What is read where w and (u, v) are these, and how often the texture is read for it.
+    #[must_use]
+    pub fn texel(&self, texture: &Texture, uv: DVec2, w: f64) -> (DVec3, u8) {
+        let read = |uv: DVec2, level: f64| {
+            if self.at_levels { texture.at_level(uv, level) } else { texture.at(uv) }
+        };
+        if self.most <= 1 {
+            return (read(uv, self.footprint.level(uv, w)), 1);
+        }
+        let Taps { count, along, level } = self.footprint.taps(uv, w, self.most);
+        if count == 1 {
+            return (read(uv, level), 1);
+        }
+        let number = f64::from(count);
+        let sum: DVec3 = (1..=count)
+            .map(|i| read(uv + along * (f64::from(i) / (number + 1.0) - 0.5), level))
+            .sum();
+        (sum / number, count)
+    }
 }
 
 #[cfg(test)]
@@ -86,8 +198,11 @@ mod tests {
     use rasterproof_core::grid::SubpixelPoint;
     use rasterproof_verify::cases::Rng;
 
+    /// Corners, 1/w and texture coordinates.
+    type Triangle = (Corners, [f64; 3], [DVec2; 3]);
+
     /// A triangle with area about a picture of 100 pixels.
-    fn triangle(rng: &mut Rng) -> (Corners, [f64; 3], [DVec2; 3]) {
+    fn triangle(rng: &mut Rng) -> Triangle {
         loop {
             let mut corner =
                 |_: i32| SubpixelPoint::new(rng.int(0, 25_600) as i32, rng.int(0, 25_600) as i32);
@@ -157,25 +272,28 @@ mod tests {
 
     type Condition = fn(&Footprint, [f64; 3], [DVec2; 3]) -> bool;
 
-    /// How many of random triangles are magnified, by how many a condition knows it, and how often it is wrong.
-    fn tried(condition: Condition) -> [u32; 3] {
+    /// How many of random triangles have a property at all of many points, by how many a condition knows it, and how often it
+    /// is wrong.
+    fn tried(
+        property: fn(&Footprint, DVec2, f64) -> bool,
+        make: fn(&mut Rng) -> Triangle,
+        condition: Condition,
+    ) -> [u32; 3] {
         let mut rng = Rng::new("footprint", 2, 0);
         let mut counts = [0; 3];
         for _ in 0..4000 {
-            let (corners, inv_w, uv) = triangle(&mut rng);
+            let (corners, inv_w, uv) = make(&mut rng);
             let footprint = Footprint::new(corners, inv_w, uv, (64, 64));
-            let mut highest = f64::MIN;
+            let mut everywhere = true;
             for i in 0..=12 {
                 for j in 0..=12 - i {
                     let (i, j) = (f64::from(i) / 12.0, f64::from(j) / 12.0);
                     let (w, uv) = at([1.0 - i - j, i, j], inv_w, uv);
-                    highest = highest.max(footprint.level(uv, w));
+                    everywhere &= property(&footprint, uv, w);
                 }
             }
             let holds = condition(&footprint, inv_w, uv);
-            for (count, is) in
-                counts.iter_mut().zip([highest <= 0.0, holds, holds && highest > 0.0])
-            {
+            for (count, is) in counts.iter_mut().zip([everywhere, holds, holds && !everywhere]) {
                 *count += u32::from(is);
             }
         }
@@ -184,6 +302,9 @@ mod tests {
 
     #[test]
     fn a_magnified_triangle_is_magnified_everywhere() {
+        let tried = |condition: Condition| {
+            tried(|footprint, uv, w| footprint.level(uv, w) <= 0.0, triangle, condition)
+        };
         let [magnified, known, wrong] = tried(Footprint::is_magnified);
         assert!(wrong == 0 && known * 2 > magnified && magnified < 3800, "{known} of {magnified}");
         // Wrong ones: in the middle alone, at the nearest corner alone.
@@ -197,6 +318,108 @@ mod tests {
         };
         for (number, condition) in [middle, nearest].into_iter().enumerate() {
             assert!(tried(condition)[2] > 0, "wrong condition {number} survives");
+        }
+    }
+
+    /// As [`triangle`], with footprints of more than a texel that are often about as wide as long.
+    fn minified(rng: &mut Rng) -> Triangle {
+        let (corners, inv_w, _) = triangle(rng);
+        let (slant, nearness) = (rng.unit() * 0.4, rng.unit().powi(2));
+        let inv_w = inv_w.map_array(|inv_w| 1.0 + (inv_w - 0.5) * nearness);
+        let uv = corners.map_array(|p| {
+            // Three texels of 64 along either side of a pixel.
+            let at = DVec2::new(p.x.into(), p.y.into()) / 256.0 * (3.0 / 64.0);
+            let uv = DVec2::new(at.x + slant * at.y, slant * at.x + at.y);
+            uv + DVec2::new(rng.signed(), rng.signed()) * 0.5
+        });
+        (corners, inv_w, uv)
+    }
+
+    #[test]
+    fn a_round_triangle_is_read_once_everywhere() {
+        let once = |footprint: &Footprint, uv: DVec2, w: f64| footprint.taps(uv, w, 16).count == 1;
+        let tried = |condition: Condition| tried(once, minified, condition);
+        let [round, known, wrong] = tried(Footprint::is_round);
+        assert!(
+            wrong == 0 && known * 2 > round && round < 3000,
+            "{known} of {round}, {wrong} wrong"
+        );
+        // Wrong ones: in the middle alone; at the corners alone, although an axis may be shorter between them; and as long as
+        // one axis is not the longer one.
+        let middle: Condition = |footprint, inv_w, uv| {
+            let (w, uv) = at([1.0 / 3.0; 3], inv_w, uv);
+            footprint.taps(uv, w, 16).count == 1
+        };
+        let corners: Condition = |footprint, inv_w, uv| {
+            (0..3).all(|i| footprint.taps(uv[i], 1.0 / inv_w[i], 16).count == 1)
+        };
+        let columns: Condition = |footprint, inv_w, uv| {
+            let square = |i: usize| footprint.squares(footprint.derivatives(uv[i], 1.0 / inv_w[i]));
+            (0..3).all(|i| square(i)[0] < 2.25 * square(i)[1])
+        };
+        let known: Vec<_> = [middle, corners, columns].into_iter().map(tried).collect();
+        for (number, [_, _, wrong]) in known.into_iter().enumerate() {
+            assert!(wrong > 0, "wrong condition {number} survives");
+        }
+    }
+
+    /// A texel of rows of numbers, four of them to a pixel, and one column.
+    #[test]
+    fn taps_by_hand() {
+        let corner = |x: i32, y: i32| SubpixelPoint::new(x * 256, y * 256);
+        let corners = [corner(0, 0), corner(16, 0), corner(0, 16)];
+        let numbers = Texture::grey(16, 64, (0..64 * 16).map(|at| (at / 16) as u8).collect());
+        let texture = numbers.unwrap().with_mip_map();
+        let uv = [DVec2::new(0.0, 1.0), DVec2::new(1.0, 1.0), DVec2::new(0.0, 0.0)];
+        let footprint = Footprint::new(corners, [1.0; 3], uv, texture.size());
+        let point = DVec2::new(0.03, 1.0 - 30.1 / 64.0);
+        let taps = |most: u8| footprint.taps(point, 1.0, most);
+        let along = DVec2::new(0.0, -1.0 / 16.0);
+        assert_eq!(taps(16), Taps { count: 4, along, level: 0.0 });
+        assert_eq!(taps(2), Taps { count: 2, along, level: 1.0 });
+        assert_eq!(taps(1), Taps { count: 1, along, level: footprint.level(point, 1.0) });
+        let read = |most: u8, at_levels: bool| {
+            let (texel, count) = Reading { footprint, at_levels, most }.texel(&texture, point, 1.0);
+            (texel.x * 255.0, count)
+        };
+        // At 30.1 - 1.2, - 0.4, + 0.4 and + 1.2 rows, the four rows 28, 29, 30 and 31.
+        let near = |(value, count): (f64, u8), expected: f64, taps: u8| {
+            assert!((value - expected).abs() < 1e-9 && count == taps, "{value} {count}");
+        };
+        near(read(16, true), 29.5, 4);
+        // Three of them at - 1, 0 and + 1: rows 29, 30 and 31 of the texture itself.
+        near(read(3, false), 30.0, 3);
+        // Two at - 2/3 and + 2/3 in rows of two: 28 and 29, and 30 and 31, whose means are rounded up.
+        near(read(2, true), 30.0, 2);
+        // One, in rows of four: 28 to 31.
+        assert_eq!(read(1, true), (texture.at_level(point, 2.0).x * 255.0, 1));
+    }
+
+    /// A footprint that is as wide as long is read as without anisotropy, and so is what is magnified, to the bit.
+    #[test]
+    fn round_footprints_keep_their_bits() {
+        let mut rng = Rng::new("footprint", 4, 0);
+        let numbers: Vec<[u8; 3]> = (0..=255).map(|i| [i, 255 - i, i / 2]).collect();
+        let texture = Texture::new(16, 16, &numbers).unwrap().with_mip_map();
+        let mut seen = [0; 2];
+        for index in 0..2000 {
+            let (corners, inv_w, uv) =
+                if index % 2 == 0 { triangle(&mut rng) } else { minified(&mut rng) };
+            let footprint = Footprint::new(corners, inv_w, uv, (16, 16));
+            let (w, uv) = at([0.3, 0.3, 0.4], inv_w, uv);
+            let reading = |most: u8| Reading { footprint, at_levels: true, most };
+            let [(plain, _), (texel, count)] =
+                [1, 16].map_array(|most: u8| reading(most).texel(&texture, uv, w));
+            seen[usize::from(count == 1)] += 1;
+            assert!(count > 1 || texel == plain);
+        }
+        assert!(seen.iter().all(|count| *count > 100), "{seen:?}");
+        for odd in [f64::NAN, f64::INFINITY] {
+            let (corners, inv_w, uv) = triangle(&mut rng);
+            let footprint = Footprint::new(corners, inv_w, uv, (16, 16));
+            let reading = Reading { footprint, at_levels: true, most: 16 };
+            assert!(reading.texel(&texture, DVec2::splat(odd), 1.0).0.is_finite());
+            assert!(!footprint.is_round([1.0; 3], [DVec2::splat(odd); 3]));
         }
     }
 }

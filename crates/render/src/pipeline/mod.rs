@@ -94,6 +94,8 @@ counters! {
     texels = "texels";
     /// Texture lookups whose level of detail was computed.
     levels = "levels of detail";
+    /// Times that a texture was read by lookups that read it several times where a footprint has a longer axis.
+    taps = "taps";
     /// Evaluations of the light.
     lights = "lights";
     /// Evaluations of a highlight.

@@ -44,6 +44,8 @@ pub struct Texture {
     pub wrap: Wrap,
     /// Between texels.
     pub filter: Filter,
+    /// How often it is read at most along the longer axis of a pixel's footprint ([`super::footprint`]).
+    pub anisotropy: u8,
     /// Its mip map: smaller and smaller pictures, down to one texel; empty without one.
     levels: Vec<Texture>,
 }
@@ -107,7 +109,8 @@ impl Texture {
     fn of(width: u32, height: u32, texels: Texels) -> Self {
         let subtexels = DVec2::new(f64::from(width), f64::from(height)) * SUBTEXELS as f64;
         let (wrap, filter) = (Wrap::Repeat, Filter::Nearest);
-        Self { width, height, subtexels, texels, wrap, filter, levels: Vec::new() }
+        let (anisotropy, levels) = (1, Vec::new());
+        Self { width, height, subtexels, texels, wrap, filter, anisotropy, levels }
     }
 
     /// The same, read differently.
@@ -115,6 +118,12 @@ impl Texture {
     pub fn with(mut self, filter: Filter, wrap: Wrap) -> Self {
         self.levels = self.levels.into_iter().map(|level| level.with(filter, wrap)).collect();
         Self { wrap, filter, ..self }
+    }
+
+    /// The same, read up to so many times along the longer axis of a footprint.
+    #[must_use]
+    pub fn with_anisotropy(self, anisotropy: u8) -> Self {
+        Self { anisotropy, ..self }
     }
 
     /// The same with a mip map: each level has half the side, and each of its texels the mean of the four that it

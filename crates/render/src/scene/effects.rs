@@ -27,6 +27,11 @@ pub const SCENES: &[Entry] = &[
         build: mip_maps,
     },
     Entry {
+        name: "anisotropy",
+        about: "a floor and a side wall to the horizon read by up to 16 taps, and a wall that faces the eye, which needs one",
+        build: anisotropy,
+    },
+    Entry {
         name: "fog",
         about: "two rows of pillars into the distance, in fog from 4 to 12 from the eye",
         build: fog,
@@ -108,19 +113,23 @@ fn fog(scene: Scene, turn: f64) -> Scene {
 
 /// A board of `parts` x `parts` squares about a centre, with a texture over all of it.
 fn board(centre: DVec3, side: f64, parts: u32) -> Mesh {
+    patches([parts; 2], |x, y| centre + DVec3::new(x - 0.5, y - 0.5, 0.0) * side)
+}
+
+/// A surface of so many columns and rows of patches, with a texture over all of it; from two shares to a position.
+fn patches([columns, rows]: [u32; 2], position: impl Fn(f64, f64) -> DVec3) -> Mesh {
     let mut mesh = Mesh::default();
-    let step = |i: u32| f64::from(i) / f64::from(parts);
-    for (row, column) in (0..parts).flat_map(|row| (0..parts).map(move |column| (row, column))) {
+    for (row, column) in (0..rows).flat_map(|row| (0..columns).map(move |column| (row, column))) {
         let at = |column: u32, row: u32| {
-            centre + DVec3::new(step(column) - 0.5, step(row) - 0.5, 0.0) * side
+            position(f64::from(column) / f64::from(columns), f64::from(row) / f64::from(rows))
         };
         let [left, right, below, above] = [column, column + 1, row, row + 1];
         let mut square =
             shapes::quad([at(left, below), at(right, below), at(right, above), at(left, above)]);
         let first = mesh.positions.len() as u32;
         for corner in square.triangles.as_flattened_mut() {
-            corner.uv =
-                (corner.uv + DVec2::new(f64::from(column), f64::from(row))) / f64::from(parts);
+            corner.uv = (corner.uv + DVec2::new(column.into(), row.into()))
+                / DVec2::new(columns.into(), rows.into());
             corner.position += first;
         }
         mesh.positions.extend(square.positions);
@@ -240,4 +249,42 @@ fn mip_maps(scene: Scene, turn: f64) -> Scene {
     let board = shapes::quad([at(-0.7, -0.6), at(0.7, -0.6), at(0.7, 0.8), at(-0.7, 0.8)]);
     let board = turned(Item::new(board, material(boards)), AHEAD, turn_y(turn * TAU));
     with(scene, [Item::new(floor, material(checks)), board])
+}
+
+fn anisotropy(scene: Scene, turn: f64) -> Scene {
+    let smooth = |texture: Texture| {
+        let texture = texture.with(Filter::Bilinear, Wrap::Repeat).with_mip_map();
+        let texture = Some(Arc::new(texture.with_anisotropy(16)));
+        Material { texture, ..Material::default() }
+    };
+    let (light, dark) = (DVec3::new(0.92, 0.90, 0.84), DVec3::new(0.22, 0.35, 0.45));
+    let fields =
+        textures::generate(
+            128,
+            |column, row| {
+                if (column / 16 + row / 16) % 2 == 0 { light } else { dark }
+            },
+        );
+    let (checks, boards) = (smooth(fields), smooth(textures::boards()));
+    let item = |mut mesh: Mesh, uv: DVec2, material: &Material| {
+        for corner in mesh.triangles.as_flattened_mut() {
+            corner.uv *= uv;
+        }
+        Item::new(mesh, material.clone())
+    };
+    // Rows that grow with the distance.
+    let away = |share: f64| 1.2 * libm::pow(12.0, share);
+    let floor = patches([8, 12], |x, z| DVec3::new(10.0 * x - 4.0, -1.0, away(z)));
+    let side = patches([12, 6], |z, y| DVec3::new(-2.5, 3.0 * y - 1.0, away(z)));
+    let back = patches([8, 6], |x, y| DVec3::new(8.5 * x - 2.5, 5.0 * y - 1.0, 11.0));
+    let facing = patches([6, 6], |x, y| AHEAD + DVec3::new(1.4 * x - 0.4, 1.4 * y - 0.9, 0.5));
+    let facing = item(facing, DVec2::splat(6.0), &boards);
+    let turned = turned(facing, AHEAD, turn_y(turn * TAU));
+    let items = [
+        item(floor, DVec2::new(10.0, 8.0), &checks),
+        item(side, DVec2::new(16.0, 4.0), &boards),
+        item(back, DVec2::new(10.0, 6.0), &boards),
+        turned,
+    ];
+    with(scene, items)
 }

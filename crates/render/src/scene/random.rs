@@ -39,7 +39,7 @@ pub fn scene(seed: u64, index: u64) -> Scene {
 }
 
 /// The same scene with effects beyond the book's: some of its materials have
-/// highlights or holes or blend, some of its textures mip maps, and some scenes fog.
+/// highlights or holes or blend, some of its textures mip maps or anisotropy, and some scenes fog.
 ///
 /// # Panics
 /// As [`scene`].
@@ -77,6 +77,13 @@ pub fn with_effects(seed: u64, index: u64) -> Scene {
     for item in &mut scene.items {
         if rng.chance(3) {
             item.material.opacity = Some(opacity(&mut rng));
+        }
+    }
+    for item in &mut scene.items {
+        if rng.chance(2)
+            && let Some(texture) = &mut item.material.texture
+        {
+            Arc::make_mut(texture).anisotropy = [2, 3, 4, 16][rng.int(0, 3) as usize];
         }
     }
     scene

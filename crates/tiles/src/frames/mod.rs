@@ -37,7 +37,7 @@ pub use buffer::SIDE_PX;
 use buffer::{Buffer, PAIR_PX, load_colours, store_colours};
 use glam::DVec2;
 use planes::{Depth, Planes, shares};
-use rasterproof_render::pipeline::footprint::Footprint;
+use rasterproof_render::pipeline::footprint::{Footprint, Reading};
 use samples::{Masks, PLACES};
 use shade::{Brush, Foggy};
 use visible::{CELL, PAIR, VisibilityPass, VisibleBlock};
@@ -355,13 +355,18 @@ impl<'a> Drawing<'a> {
             share: veil.between(outline.depths),
             depth: Depth::of(&outline.corners, outline.depths, shown),
         });
-        let mip_mapped = surface.material.texture.filter(|texture| texture.has_mip_map());
-        let footprint = mip_mapped.and_then(|texture| {
+        let read_around = surface
+            .material
+            .texture
+            .filter(|texture| texture.has_mip_map() || texture.anisotropy > 1);
+        let reading = read_around.and_then(|texture| {
             let inv_w = shares(&surface.corners, affine);
             let uv = surface.values.map(|values| DVec2::new(values[6], values[7]));
             let footprint = Footprint::new(outline.corners, inv_w, uv, texture.size());
-            (!footprint.is_magnified(inv_w, uv)).then_some(footprint)
+            // What is magnified is read once, at level 0.
+            let (at_levels, most) = (true, texture.anisotropy);
+            (!footprint.is_magnified(inv_w, uv)).then_some(Reading { footprint, at_levels, most })
         });
-        Brush { material: surface.material, planes, fog, footprint }
+        Brush { material: surface.material, planes, fog, reading }
     }
 }

@@ -13,7 +13,7 @@ use super::samples::{CENTRE, Masks};
 use super::visible::{PAIR, Place, beside};
 use rasterproof_render::effects::geometry::{DirectionalLight, SurfaceMaterial};
 use rasterproof_render::pipeline::fog::{Share, Veil};
-use rasterproof_render::pipeline::footprint::Footprint;
+use rasterproof_render::pipeline::footprint::Reading;
 use rasterproof_render::pipeline::highlight::Highlight;
 use rasterproof_render::pipeline::multisample::SAMPLES;
 use rasterproof_render::pipeline::texture::{Texture, Wrap};
@@ -25,8 +25,8 @@ pub(super) struct Brush<'a> {
     pub material: &'a SurfaceMaterial<'a>,
     pub planes: Planes,
     pub fog: Option<Foggy<'a>>,
-    /// Of a texture that is read at levels of detail.
-    pub footprint: Option<Footprint>,
+    /// Of a texture that is read at levels of detail or several times.
+    pub reading: Option<Reading>,
 }
 
 /// Which share of fog a triangle has, and the plane of depths by which its pixels differ.
@@ -150,9 +150,9 @@ impl Brush<'_> {
         }
         if let Some(texture) = texture {
             let (u, v) = (along(&over_w(6), x, y) * w, along(&over_w(7), x, y) * w);
-            let texel = match &self.footprint {
+            let texel = match &self.reading {
                 None => texels(simd, texture, u, v, mask),
-                Some(footprint) => texels_at_levels(simd, (texture, footprint), [u, v, w], mask),
+                Some(reading) => texels_at_levels(simd, (texture, reading), [u, v, w], mask),
             };
             (r, g, b) = (r * texel[0], g * texel[1], b * texel[2]);
         }
@@ -221,18 +221,18 @@ fn one_by_one<S: Simd>(simd: S, mask: u32, of: impl Fn(usize) -> DVec3) -> [Lane
     [Lanes::load_array_ref(simd, x), Lanes::load_array_ref(simd, y), Lanes::load_array_ref(simd, z)]
 }
 
-/// The same at levels of detail, where w is that of the footprint's 1/w.
+/// The same at levels of detail and several times, where w is that of the footprint's 1/w.
 #[inline(always)]
 fn texels_at_levels<S: Simd>(
     simd: S,
-    (texture, footprint): (&Texture, &Footprint),
+    (texture, reading): (&Texture, &Reading),
     [u, v, w]: [Lanes<S>; 3],
     mask: u32,
 ) -> [Lanes<S>; 3] {
     let (u, v, w) = (u.to_array(), v.to_array(), w.to_array());
     one_by_one(simd, mask, |lane| {
         let uv = DVec2::new(u[lane].into(), v[lane].into());
-        texture.at_level(uv, footprint.level(uv, w[lane].into()))
+        reading.texel(texture, uv, w[lane].into()).0
     })
 }
 

@@ -67,7 +67,12 @@ fn surface(scene: &Scene) -> Result<Surface, Error> {
     }
     let has_highlights = item.material.specular.colour.max_element() > 0.0;
     let is_opaque = item.material.opacity.is_none();
-    if has_highlights || texture.has_mip_map() || scene.fog.is_some() || !is_opaque {
+    if has_highlights
+        || texture.has_mip_map()
+        || texture.anisotropy > 1
+        || scene.fog.is_some()
+        || !is_opaque
+    {
         let what = "highlights, a mip map, fog or holes, which the shaders of this device lack";
         return Err(wrong(what));
     }

@@ -50,14 +50,18 @@ pub fn is_affine(piece: &Piece, perspective: bool) -> bool {
 /// its depth, is off by less than 2^-48 2^24 of itself, as the depth is by 2^-48 at most.
 const FARTHEST: f64 = (1 << 24) as f64;
 
+/// Whether the w of fragments is that near to the exact one.
+pub fn is_near(item: &Prepared<'_>, piece: &Piece) -> bool {
+    let near = item.veil.w(0.0).abs();
+    piece.vertices.iter().all(|v| v.inv_w * near * FARTHEST > 1.0)
+}
+
 #[inline]
 pub fn pays(mode: Mode, item: &Prepared<'_>, piece: &Piece, perspective: bool) -> bool {
     match (mode, item.texture) {
         (Mode::Planned | Mode::Material, Some(texture)) => {
             let (footprint, inv_w, uv) = footprint(texture, piece, perspective);
-            let near = item.veil.w(0.0).abs();
-            let is_near = piece.vertices.iter().all(|v| v.inv_w * near * FARTHEST > 1.0);
-            !(is_near && footprint.is_magnified(inv_w, uv))
+            !(is_near(item, piece) && footprint.is_magnified(inv_w, uv))
         }
         (Mode::Always, _) => true,
         _ => false,

@@ -4,6 +4,7 @@
 //! A condition sees the scene, the canvas and pieces; never an engine, never a pixel.
 
 pub(super) mod alpha_test;
+pub(super) mod anisotropy;
 pub(super) mod attributes;
 pub(super) mod blending;
 pub(super) mod clear;

@@ -32,6 +32,8 @@ pub struct Survey<'a> {
     pub blended: [u64; 2],
     /// Pieces that are not magnified everywhere.
     pub mip_maps: u64,
+    /// Pieces that may have a footprint with a longer axis.
+    pub anisotropy: u64,
     /// Pieces that may have a highlight.
     pub specular: u64,
     /// Whether the engine has words of several widths, and the pieces in more than 32 bits.
@@ -64,6 +66,7 @@ impl<'a> Survey<'a> {
             depth: 0,
             specular: 0,
             mip_maps: 0,
+            anisotropy: 0,
             shares: [0; 2],
             tested: [0; 2],
             blended: [0; 2],
@@ -87,6 +90,7 @@ impl<'a> Survey<'a> {
             self.blended[i] += u64::from(plan.blending == drawn);
         }
         self.mip_maps += u64::from(plan.mip_maps);
+        self.anisotropy += u64::from(plan.anisotropy);
         self.specular += u64::from(plan.specular);
         self.wide += u64::from(word_bits > Some(i32::BITS));
         let bits = [Attributes::COLOUR, Attributes::NORMAL, Attributes::UV];
