@@ -156,7 +156,7 @@ impl Euc {
     fn new(scene: &Scene) -> Self {
         let item = &scene.items[0];
         let normals = DMat3::from_mat4(item.model).inverse().transpose();
-        let corners = item.mesh.triangles.iter().flatten();
+        let corners = item.mesh.triangles.corners();
         let vertices = corners.map(|corner| {
             let position = item.mesh.positions[corner.position as usize].as_vec3();
             (position, (normals * corner.normal).as_vec3(), corner.uv.as_vec2().to_array())

@@ -424,9 +424,9 @@ pub(super) fn face(
     writeln!(out, "{shown}: {}", subject.place(first))?;
     for (item, number) in triangles.iter().filter_map(|&one| triangle_of(scene, one)) {
         let mesh = &scene.items[item].mesh;
-        let corners = mesh.triangles[number].map(|corner| {
+        let corners = mesh.triangles.positions()[number].map(|position| {
             // Scenes are left-handed, models are not.
-            let [x, y, z] = mesh.positions[corner.position as usize].to_array();
+            let [x, y, z] = mesh.positions[position as usize].to_array();
             format!("({x:?}, {y:?}, {:?})", -z)
         });
         writeln!(out, "  triangle, y up: {}", corners.join(" "))?;

@@ -183,7 +183,7 @@ pub fn ball(exercise: bool) -> (RgbImage, u32) {
     let texture = textures::checkerboard();
     let mut picture = Frame::new(PixelRect::window(SIDE, SIDE), [18, 18, 24]);
     let mut beyond = 0;
-    for corners in &mesh.triangles {
+    for corners in mesh.triangles.iter() {
         let triangle = corners.map(|corner| {
             let p = projection * mesh.positions[corner.position as usize].extend(1.0);
             let (x, y) = (p.x / p.w + 1.0, 1.0 - p.y / p.w);

@@ -160,9 +160,8 @@ fn fuzz(cases: u64, name: &str) {
         match std::panic::catch_unwind(load) {
             Ok(Ok(model)) => {
                 for item in &model.items {
-                    let used = item.mesh.triangles.as_flattened().iter();
-                    let mut corners = used.map(|corner| corner.position as usize);
-                    assert!(corners.all(|position| position < item.mesh.positions.len()));
+                    let mut used = item.mesh.triangles.positions().as_flattened().iter();
+                    assert!(used.all(|&position| (position as usize) < item.mesh.positions.len()));
                 }
                 read += 1;
             }

@@ -51,7 +51,7 @@ fn text() -> String {
 fn corners(model: &Model) -> Vec<[f64; 3]> {
     let of = |item: &rasterproof_render::scene::Item| {
         let positions = item.mesh.positions.clone();
-        let corners = item.mesh.triangles.clone().into_iter().flatten();
+        let corners = item.mesh.triangles.corners();
         corners
             .map(move |corner| positions[corner.position as usize].to_array())
             .collect::<Vec<_>>()
@@ -139,7 +139,7 @@ fn a_ply_of_any_kind_is_the_same_as_an_obj() {
         assert_eq!((model.format, corners(&model)), (Format::Ply, obj.clone()), "{form}");
         assert_eq!(model.warnings, Vec::<String>::new());
         assert_eq!(model.not_drawn, "1 edge, value 'quality' of 4 positions");
-        let corner = model.items[0].mesh.triangles[0][2];
+        let corner = model.items[0].mesh.triangles.at(0)[2];
         assert_eq!((corner.position, corner.colour.to_array()), (1, [1.0, 0.2, 0.0]), "{form}");
         assert_eq!(model.origins[0].lines.is_empty(), form != "ascii");
     }
@@ -160,14 +160,14 @@ fn a_ply_has_polygons_strips_and_texture_coordinates() {
     let model = load("polygon.ply", format!("{head}{polygon}{square}{faces}").as_bytes()).unwrap();
     let [item] = &model.items[..] else { panic!("{model:?}") };
     assert_eq!(item.mesh.triangles.len(), 2);
-    assert_eq!(item.mesh.triangles[1][2].uv.to_array(), [0.0, 0.25]);
+    assert_eq!(item.mesh.triangles.at(1)[2].uv.to_array(), [0.0, 0.25]);
     assert_eq!(model.not_drawn, "1 incomplete face");
     // Two strips in one list: three triangles, all of the same winding.
     let strips = "element tristrips 1\nproperty list int int vertex_indices\nend_header\n";
     let list = "8 0 1 2 3 -1 3 2 0\n";
     let model = load("strips.ply", format!("{head}{strips}{square}{list}").as_bytes()).unwrap();
     let mesh = &model.items[0].mesh;
-    let indices: Vec<_> = mesh.triangles.iter().map(|t| t.map(|corner| corner.position)).collect();
+    let indices: Vec<_> = mesh.triangles.positions().to_vec();
     assert_eq!(indices, [[0, 1, 2], [2, 1, 3], [3, 2, 0]]);
 }
 
@@ -301,8 +301,8 @@ fn nodes_of_a_gltf_place_its_meshes() {
     for item in [turned, mirrored] {
         let mesh = &item.mesh;
         let centre = mesh.positions.iter().sum::<DVec3>() / 4.0;
-        for triangle in &mesh.triangles {
-            let corner = mesh.positions[triangle[0].position as usize];
+        for &triangle in mesh.triangles.positions() {
+            let corner = mesh.positions[triangle[0] as usize];
             assert!(mesh.face_normal(triangle).dot(corner - centre) > 0.0, "{triangle:?}");
         }
     }
@@ -325,8 +325,7 @@ fn strips_and_fans_of_a_gltf_are_triangles_of_one_winding() {
         bytes.splice(48..58, list.iter().flat_map(|at| at.to_le_bytes()));
         let model = load("modes.glb", &glb((json, bytes))).unwrap();
         let mesh = &model.items[0].mesh;
-        let indices: Vec<[u32; 3]> =
-            mesh.triangles.iter().map(|t| t.map(|corner| corner.position)).collect();
+        let indices: Vec<[u32; 3]> = mesh.triangles.positions().to_vec();
         assert_eq!(indices, expected, "mode {mode}");
         assert_eq!(model.warnings.len(), usize::from(mode == 4), "{:?}", model.warnings);
     }
@@ -394,7 +393,7 @@ fn materials_of_a_gltf_are_drawn_or_counted() {
     assert_eq!((paint.material.shading, paint.cull), (Shading::Unlit, Cull::Clockwise));
     assert_eq!(other.cull, Cull::None);
     let texture = paint.material.texture.as_ref().unwrap();
-    let corner = paint.mesh.triangles[0][0];
+    let corner = paint.mesh.triangles.at(0)[0];
     assert_eq!(corner.uv.to_array(), [0.75, 1.0], "moved by a half, v up");
     assert_eq!(texture.at(corner.uv).to_array(), [0.0, 1.0, 0.0]);
     assert_eq!(model.origins[0].material, "paint");
@@ -416,6 +415,54 @@ fn materials_of_a_gltf_are_drawn_or_counted() {
     assert_eq!(
         model.not_drawn,
         "emission of 1 material, 1 extension KHR_materials_sheen, metal of 1 material, 1 normal map"
+    );
+}
+
+/// What vertices and nodes have beside what is drawn, and the two last bytes of each triangle of an STL.
+#[test]
+fn what_is_not_drawn_of_vertices_and_nodes_is_counted() {
+    let file = |mode: &str| {
+        let (json, mut bytes) = document(|d| {
+            let bytes = json!({ "buffer": 0, "byteOffset": 72, "byteLength": 16 });
+            d["bufferViews"].as_array_mut().unwrap().push(bytes);
+            let colours = json!({ "bufferView": 2, "componentType": 5121, "normalized": true, "count": 4, "type": "VEC4" });
+            d["accessors"].as_array_mut().unwrap().push(colours);
+            d["materials"] =
+                json!([{ "alphaMode": mode, "pbrMetallicRoughness": { "metallicFactor": 0 } }]);
+            d["meshes"][0]["primitives"][0]["material"] = json!(0);
+            d["meshes"][0]["primitives"][0]["attributes"] = json!({
+                "POSITION": 0, "COLOR_0": 2, "COLOR_1": 2, "TEXCOORD_0": 0, "TEXCOORD_1": 0, "JOINTS_1": 2,
+                "_HEAT": 0,
+            });
+            d["nodes"][0]["extensions"] = json!({ "KHR_lights_punctual": { "light": 0 } });
+            d["extensionsUsed"] = json!(["KHR_lights_punctual"]);
+            d["animations"] = json!([{ "channels": [], "samplers": [] }]);
+        });
+        bytes.extend([255, 0, 0, 255, 255, 0, 0, 254, 255, 0, 0, 0, 255, 0, 0, 255]);
+        glb((json, bytes))
+    };
+    let always = "1 animation, joints beyond the first four of 1 primitive, 1 light, \
+                  other colours of 1 primitive, other texture coordinates of 1 primitive";
+    let of_file = |mode: &str| load("counted.glb", &file(mode)).unwrap().not_drawn;
+    assert_eq!(
+        of_file("OPAQUE"),
+        format!("{always}, values that glTF does not define of 1 primitive")
+    );
+    let blended = format!(
+        "{always}, 2 transparent positions, values that glTF does not define of 1 primitive"
+    );
+    assert_eq!(of_file("BLEND"), blended);
+    let mut stl = binary(b"");
+    assert_eq!(load("plain.stl", &stl).unwrap().not_drawn, "");
+    stl[84 + 50 + 49] = 0x80;
+    assert_eq!(load("colour.stl", &stl).unwrap().not_drawn, "attribute of 1 triangle");
+    let ply = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n\
+               property uchar red\nproperty uchar green\nproperty uchar blue\nproperty uchar alpha\n\
+               property list uchar int lods\nelement face 1\nproperty list uchar int vertex_indices\n\
+               property int part\nend_header\n0 0 0 1 1 1 255 0\n1 0 0 1 1 1 254 1 7\n0 1 0 1 1 1 0 0\n3 0 1 2 8\n";
+    assert_eq!(
+        load("alpha.ply", ply.as_bytes()).unwrap().not_drawn,
+        "2 transparent positions, value 'lods' of 3 positions, value 'part' of 1 face"
     );
 }
 
@@ -521,8 +568,8 @@ fn mutated_files_of_all_formats_never_panic() {
     let mut look = |name: &str, bytes: &[u8]| match load(name, bytes) {
         Ok(model) => {
             for item in &model.items {
-                let corners = item.mesh.triangles.as_flattened();
-                assert!(corners.iter().all(|c| (c.position as usize) < item.mesh.positions.len()));
+                let mut corners = item.mesh.triangles.corners();
+                assert!(corners.all(|c| (c.position as usize) < item.mesh.positions.len()));
             }
             read += 1;
         }

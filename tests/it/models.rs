@@ -35,7 +35,7 @@ fn well_formed_models_are_read() {
         let model = load(&path, Shading::Phong).unwrap_or_else(|error| panic!("{name}: {error}"));
         let meshes = model.items.iter().map(|item| &item.mesh);
         assert_eq!(meshes.clone().map(|m| m.triangles.len()).sum::<usize>(), triangles, "{name}");
-        let corners = meshes.flat_map(|mesh| mesh.triangles.as_flattened());
+        let corners = meshes.flat_map(|mesh| mesh.triangles.corners());
         for corner in corners {
             assert!((corner.normal.length() - 1.0).abs() < 1e-12, "{name}: {corner:?}");
         }
@@ -48,9 +48,9 @@ fn well_formed_models_are_read() {
     check("polygon.obj", "v 0 0 0\nv 1 0 0\nv 2 1 0\nv 1 2 0\nv 0 1 0\nf 1 2 3 4 5\n", 3);
     let mixed = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvn 0 0 1\nf 1/1/1 2/2/1 3/1/1\nf 2 4 3\nf 2//1 4//1 3//1\n";
     let model = check("mixed.obj", mixed, 3);
-    assert_eq!(model.items[0].mesh.triangles[0][1].uv.x, 1.0);
-    assert_eq!(model.items[0].mesh.triangles[0][1].normal.z, -1.0, "z is turned");
-    assert_eq!(model.items[0].mesh.triangles[1][1].uv.x, 0.0);
+    assert_eq!(model.items[0].mesh.triangles.at(0)[1].uv.x, 1.0);
+    assert_eq!(model.items[0].mesh.triangles.at(0)[1].normal.z, -1.0, "z is turned");
+    assert_eq!(model.items[0].mesh.triangles.at(1)[1].uv.x, 0.0);
 }
 
 #[test]
@@ -145,8 +145,8 @@ fn render_draws_models_by_both() {
     for p in &mesh.positions {
         text += &format!("v {} {} {}\n", p.x, p.y, p.z);
     }
-    for t in &mesh.triangles {
-        let [a, b, c] = t.map(|corner| corner.position + 1);
+    for t in mesh.triangles.positions() {
+        let [a, b, c] = t.map(|position| position + 1);
         // The file is right-handed, so its faces run the other way.
         text += &format!("f {a} {c} {b}\n");
     }
@@ -285,8 +285,8 @@ fn a_sphere_far_from_the_origin_is_drawn_as_at_the_origin() {
                 [rounded(p.x) + centre[0], rounded(p.y) + centre[1], rounded(p.z) + centre[2]];
             text += &format!("v {x} {y} {z}\n");
         }
-        for t in &mesh.triangles {
-            let [a, b, c] = t.map(|corner| corner.position + 1);
+        for t in mesh.triangles.positions() {
+            let [a, b, c] = t.map(|position| position + 1);
             text += &format!("f {a} {c} {b}\n");
         }
         text
@@ -341,7 +341,7 @@ fn corners_of_mixed_kinds_keep_what_they_name() {
     let corners: Vec<_> = model
         .items
         .iter()
-        .flat_map(|item| &item.mesh.triangles)
+        .flat_map(|item| item.mesh.triangles.iter())
         .map(|[corner, ..]| (corner.normal.to_array(), corner.uv.to_array()))
         .collect();
     // Those without a normal have that of the face, which is seen from the front; z is turned.
@@ -386,7 +386,7 @@ fn textures_are_found_and_decoded_or_a_warning() {
         assert_eq!((&model.warnings[..], model.not_drawn.as_str()), (&[][..], ""), "{name}");
         let item = &model.items[0];
         let texture = item.material.texture.as_ref().unwrap_or_else(|| panic!("{name}"));
-        let colour = texture.at(item.mesh.triangles[0][0].uv);
+        let colour = texture.at(item.mesh.triangles.at(0)[0].uv);
         assert_eq!(colour.to_array(), [1.0, 0.0, 0.0], "{name}");
     }
     for name in ["nowhere.png", "broken.png", "d\u{1b}[31m.png"] {
@@ -405,7 +405,7 @@ fn textures_are_found_and_decoded_or_a_warning() {
     // Options are applied, or named as not drawn.
     let moved = read("map_Kd -s 2 1 -o 0.25 0 -clamp on c.webp");
     let item = &moved.items[0];
-    assert_eq!(item.mesh.triangles[0][0].uv.to_array(), [0.75, 0.5]);
+    assert_eq!(item.mesh.triangles.at(0)[0].uv.to_array(), [0.75, 0.5]);
     let texture = item.material.texture.as_ref().unwrap();
     assert_eq!(texture.at(glam::DVec2::new(1.5, 0.5)).to_array(), [0.0, 0.0, 1.0]);
     let option = read("map_Kd -mm 0.5 2 -blendu off c.webp");
@@ -456,7 +456,7 @@ fn missing_normals_are_flat_or_smooth_as_the_file_says() {
         let path = written(&folder, "m.obj", &squares.replace("S\n", lines));
         let options = Options { shading: Shading::Phong, normals, up: None };
         let model = rasterproof_models::load(&path, options).unwrap();
-        model.items[0].mesh.triangles[0][1].normal
+        model.items[0].mesh.triangles.at(0)[1].normal
     };
     let (flat, half) = (glam::DVec3::NEG_Z, 0.5f64.sqrt());
     let smooth = glam::DVec3::new(half, 0.0, -half);
@@ -471,7 +471,7 @@ fn missing_normals_are_flat_or_smooth_as_the_file_says() {
     // Another group begins between the squares.
     let path =
         written(&folder, "m.obj", &squares.replace("S\n", "s 1\n").replace("usemtl x", "s 2"));
-    assert_eq!(load(&path, Shading::Phong).unwrap().items[0].mesh.triangles[0][1].normal, flat);
+    assert_eq!(load(&path, Shading::Phong).unwrap().items[0].mesh.triangles.at(0)[1].normal, flat);
     // A sheet that is listed from both sides: the normals cancel, and each side keeps its own.
     let sheet = written(&folder, "s.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\ns 1\nf 1 2 3\nf 3 2 1\n");
     let sheet = load(&sheet, Shading::Phong).unwrap();
@@ -486,12 +486,12 @@ fn colours_of_positions_are_drawn() {
     let model = load(&written(&folder, "m.obj", text), Shading::Unlit).unwrap();
     let item = &model.items[0];
     assert!(item.material.vertex_colours && item.material.colour == glam::DVec3::ONE);
-    let colours = item.mesh.triangles[0].map(|corner| corner.colour.to_array());
+    let colours = item.mesh.triangles.at(0).map(|corner| corner.colour.to_array());
     assert_eq!(colours, [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
     // Bytes are recognised by the largest number of the file; a position without a colour is white.
     let bytes = "v 0 0 0 1 0 0\nv 1 0 0\nv 0 1 0 0 255 51\nf 1 2 3\n";
     let model = load(&written(&folder, "bytes.obj", bytes), Shading::Unlit).unwrap();
-    let colours = model.items[0].mesh.triangles[0].map(|corner| corner.colour.to_array());
+    let colours = model.items[0].mesh.triangles.at(0).map(|corner| corner.colour.to_array());
     assert_eq!(colours, [[1.0 / 255.0, 0.0, 0.0], [1.0; 3], [0.0, 1.0, 0.2]]);
 }
 
@@ -647,7 +647,7 @@ fn another_reader_reads_the_same() {
     let (others, _) = tobj::load_obj_buf(&mut text.as_bytes(), &options, materials).unwrap();
     assert_eq!(model.items.len(), others.len());
     for (item, other) in model.items.iter().zip(&others) {
-        let corners = item.mesh.triangles.as_flattened();
+        let corners: Vec<_> = item.mesh.triangles.corners().collect();
         let other = &other.mesh;
         assert_eq!(corners.len(), other.indices.len());
         for (at, corner) in corners.iter().enumerate() {

@@ -426,7 +426,7 @@ fn a_pane_hides_nothing() {
     let (mut mesh, far) = (screen(1.0, [-0.5; 2]), screen(1.0, [0.5; 2]));
     let first = mesh.positions.len() as u32;
     mesh.positions.extend(&far.positions);
-    for mut triangle in far.triangles {
+    for mut triangle in far.triangles.iter() {
         triangle.iter_mut().for_each(|corner| corner.position += first);
         mesh.triangles.push(triangle);
     }
@@ -503,18 +503,14 @@ fn counterexamples() -> Vec<Counterexample> {
             let projection =
                 DMat4::from_cols(DVec4::X, DVec4::Y, DVec4::new(0., 0., 0.5, 1.), DVec4::ZERO);
             let mut mesh = screen(1.0, [1.0, 1.0 + by]);
-            for corner in mesh.triangles.as_flattened_mut() {
-                corner.colour = DVec3::splat(corner.uv.x);
-            }
+            mesh.triangles.change_corners(|corner| corner.colour = DVec3::splat(corner.uv.x));
             let material = Material { vertex_colours: true, ..grey(1.0) };
             Scene { projection, ..plain(vec![Item::new(mesh, material)]) }
         }),
         make(Effect::Depth, none, near_and_far),
         make(Effect::Colour, none, |by| {
             let mut mesh = screen(1.0, [0.0; 2]);
-            for corner in mesh.triangles.as_flattened_mut() {
-                corner.colour = DVec3::splat(1.0 - by);
-            }
+            mesh.triangles.change_corners(|corner| corner.colour = DVec3::splat(1.0 - by));
             plain(vec![Item::new(mesh, Material { vertex_colours: by > 0.0, ..grey(1.0) })])
         }),
         make(Effect::Light, none, |by| {
@@ -525,10 +521,8 @@ fn counterexamples() -> Vec<Counterexample> {
         make(Effect::Specular, none, |by| {
             // The normals are at a right angle to the eye and to the light behind it; one turns towards them.
             let mut mesh = screen(1.0, [0.0; 2]);
-            for corner in mesh.triangles.as_flattened_mut() {
-                corner.normal = DVec3::X;
-            }
-            mesh.triangles[0][1].normal = DVec3::new(1.0, 0.0, -by);
+            mesh.triangles.change_corners(|corner| corner.normal = DVec3::X);
+            mesh.triangles.change(0, |corners| corners[1].normal = DVec3::new(1.0, 0.0, -by));
             let light = Light { towards: -DVec3::Z, ambient: 0.5, diffuse: 0.5 };
             let specular = Specular { colour: DVec3::ONE, shininess: 1.0 };
             let material = Material { specular, shading: Shading::Phong, ..grey(1.0) };
@@ -539,10 +533,8 @@ fn counterexamples() -> Vec<Counterexample> {
             let texture = textures::generate(16, |x, y| DVec3::splat(f64::from((x + y) % 2)));
             let texture = texture.with(Filter::Nearest, Wrap::Repeat).with_mip_map();
             let mut mesh = screen(1.0, [0.0; 2]);
-            for corner in mesh.triangles.as_flattened_mut() {
-                let size = DVec2::new(80.0, 60.0) / 16.0 * (1.0 - 0.5f64.powi(19) + by);
-                corner.uv *= size;
-            }
+            let size = DVec2::new(80.0, 60.0) / 16.0 * (1.0 - 0.5f64.powi(19) + by);
+            mesh.triangles.change_corners(|corner| corner.uv *= size);
             let material = Material { texture: Some(Arc::new(texture)), ..grey(1.0) };
             plain(vec![Item::new(mesh, material)])
         }),
@@ -551,10 +543,9 @@ fn counterexamples() -> Vec<Counterexample> {
             let texture = textures::generate(16, |x, y| DVec3::splat(f64::from((x + y) % 2)));
             let texture = texture.with(Filter::Nearest, Wrap::Repeat).with_anisotropy(2);
             let mut mesh = screen(1.0, [0.0; 2]);
-            for corner in mesh.triangles.as_flattened_mut() {
-                let longer = 3.0 * (1.0 - 0.5f64.powi(19) + by);
-                corner.uv *= DVec2::new(2.0 * 80.0, longer * 60.0) / 16.0;
-            }
+            let longer = 3.0 * (1.0 - 0.5f64.powi(19) + by);
+            let size = DVec2::new(2.0 * 80.0, longer * 60.0) / 16.0;
+            mesh.triangles.change_corners(|corner| corner.uv *= size);
             let material = Material { texture: Some(Arc::new(texture)), ..grey(1.0) };
             plain(vec![Item::new(mesh, material)])
         }),
@@ -571,9 +562,7 @@ fn counterexamples() -> Vec<Counterexample> {
             let mode = AlphaMode::Test { threshold: 0.5 };
             let opacity = Some(Opacity { factor: 1.0, map, mode });
             let mut mesh = screen(1.0, [0.0; 2]);
-            for corner in mesh.triangles.as_flattened_mut() {
-                corner.uv.x *= 0.5 * (1.0 + by);
-            }
+            mesh.triangles.change_corners(|corner| corner.uv.x *= 0.5 * (1.0 + by));
             plain(vec![Item::new(mesh, Material { opacity, ..grey(1.0) })])
         }),
         make(Effect::Blending, none, |by| {
@@ -587,7 +576,7 @@ fn counterexamples() -> Vec<Counterexample> {
         }),
         make(Effect::Interpolation, none, |by| {
             let mut mesh = screen(1.0, [0.0; 2]);
-            mesh.triangles[0][1].colour -= by;
+            mesh.triangles.change(0, |corners| corners[1].colour -= by);
             plain(vec![Item::new(mesh, Material { vertex_colours: true, ..grey(1.0) })])
         }),
         make(Effect::Samples, Antialias::Supersample(4), narrower_screen),

@@ -116,6 +116,43 @@ pub fn read(path: &Path, limit_bytes: u64) -> Result<Vec<u8>, InputError> {
     Ok(bytes)
 }
 
+/// A regular file that is read piece by piece, where all of it would take more memory than what is kept of it.
+pub struct Pieces {
+    path: PathBuf,
+    file: File,
+    limit_bytes: u64,
+    read_bytes: u64,
+}
+
+impl Pieces {
+    /// # Errors
+    /// As [`open`].
+    pub fn open(path: &Path, limit_bytes: u64) -> Result<Self, InputError> {
+        let file = open(path, limit_bytes)?;
+        Ok(Self { path: path.to_owned(), file, limit_bytes, read_bytes: 0 })
+    }
+
+    /// How long the file says it is.
+    #[must_use]
+    pub fn length_bytes(&self) -> u64 {
+        self.file.metadata().map_or(0, |data| data.len())
+    }
+
+    /// Appends at most so many bytes, and returns how many: 0 at the end of the file.
+    ///
+    /// # Errors
+    /// As [`read`].
+    pub fn read_more(&mut self, into: &mut Vec<u8>, most_bytes: u64) -> Result<usize, InputError> {
+        let more = (&mut self.file).take(most_bytes).read_to_end(into);
+        let more = more.map_err(|error| failed(&self.path, &error))?;
+        self.read_bytes += more as u64;
+        if self.read_bytes > self.limit_bytes {
+            return Err(too_large(&self.path, self.limit_bytes));
+        }
+        Ok(more)
+    }
+}
+
 /// The text of a regular file of at most `limit_bytes`, without the byte order mark that some
 /// editors write.
 ///
@@ -141,6 +178,25 @@ mod tests {
 
     use super::*;
     use crate::output::tests::Folder;
+
+    #[test]
+    fn a_file_is_read_in_pieces_up_to_its_limit() {
+        let folder = Folder::new("pieces");
+        let file = folder.path("a.txt");
+        fs::write(&file, "1234567").unwrap();
+        let mut bytes = b"0".to_vec();
+        let mut pieces = Pieces::open(&file, 7).unwrap();
+        assert_eq!(pieces.length_bytes(), 7);
+        let counts = [3, 3, 3, 3].map(|most| pieces.read_more(&mut bytes, most).unwrap());
+        assert_eq!((counts, &bytes[..]), ([3, 3, 1, 0], &b"01234567"[..]));
+        assert!(Pieces::open(&file, 6).is_err());
+        // The file has grown since it was opened.
+        let mut pieces = Pieces::open(&file, 8).unwrap();
+        fs::write(&file, "123456789").unwrap();
+        assert_eq!(pieces.read_more(&mut bytes, 5).unwrap(), 5);
+        let error = pieces.read_more(&mut bytes, 5).unwrap_err();
+        assert_eq!(error.cause, "is too large: at most 8 bytes are read");
+    }
 
     #[test]
     fn a_file_is_read_up_to_its_limit() {

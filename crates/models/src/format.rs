@@ -91,13 +91,13 @@ const XML: [(&str, &str); 6] = [
 const OFF: [&str; 5] = ["off", "coff", "noff", "cnoff", "stoff"];
 
 impl Format {
-    /// The format of a file's bytes; the cause where it is known and not read. What nothing else is said of is an OBJ.
-    pub(crate) fn of(bytes: &[u8]) -> Result<Self, String> {
-        if bytes.trim_ascii().is_empty() {
+    /// The format of a file of this length by its first bytes; the cause where it is known and not read. What nothing else is said of is an OBJ.
+    pub(crate) fn of(bytes: &[u8], length: u64) -> Result<Self, String> {
+        if bytes.trim_ascii().is_empty() && bytes.len() as u64 >= length {
             return Err("is empty".to_owned());
         }
         // A binary STL may begin with anything, and its length is that of its triangles.
-        if stl::is_binary(bytes) || stl::is_text(bytes) {
+        if stl::is_binary(bytes, length) || stl::is_text(bytes) {
             return Ok(Self::Stl);
         }
         if ply::is_ply(bytes) {
@@ -116,7 +116,7 @@ impl Format {
             return refused(name);
         }
         // 3DS begins with its length, IFF with the length of its content.
-        if begins(b"MM") && bytes.get(2..6).is_some_and(|size| is_length(size, bytes.len())) {
+        if begins(b"MM") && bytes.get(2..6).is_some_and(|size| is_length(size, length)) {
             return refused("3DS");
         }
         if begins(b"FORM") {
@@ -186,6 +186,6 @@ fn head(bytes: &[u8]) -> String {
 }
 
 /// Whether four bytes, read as a little-endian integer, are this length.
-fn is_length(bytes: &[u8], length: usize) -> bool {
-    <[u8; 4]>::try_from(bytes).is_ok_and(|size| u32::from_le_bytes(size) as usize == length)
+fn is_length(bytes: &[u8], length: u64) -> bool {
+    <[u8; 4]>::try_from(bytes).is_ok_and(|size| u64::from(u32::from_le_bytes(size)) == length)
 }

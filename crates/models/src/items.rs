@@ -7,9 +7,10 @@ use glam::{DMat3, DMat4, DVec2, DVec3, DVec4};
 use rasterproof_host::text::printable_path;
 use rasterproof_render::pipeline::assemble::Cull;
 use rasterproof_render::pipeline::highlight::Specular;
-use rasterproof_render::scene::{Corner, Item, Material, Mesh, Shading};
+use rasterproof_render::scene::{Attribute, Item, Material, Mesh, Shading, Triangles};
+use rayon::prelude::*;
 
-use crate::contents::{Contents, INCOMPLETE_FACE, Part, Surface};
+use crate::contents::{Contents, INCOMPLETE_FACE, NONE, Numbers, Part, Surface};
 use crate::polygons::{self, Odd, Shape};
 use crate::{BadFile, Format, Model, Normals, Options, Origin, Up, Warnings, bad, counted};
 
@@ -45,7 +46,7 @@ pub(crate) fn model(
         let mut origin =
             Origin { part: part_name, material: name, faces, lines, concave, first_face };
         first_face += part.polygons.len() as u32;
-        let mesh = mesh(path, &part, &smooth, options.normals, &mut origin, &mut warnings);
+        let mesh = mesh(path, part, &smooth, options.normals, &mut origin, &mut warnings);
         if mesh.triangles.is_empty() {
             continue;
         }
@@ -92,10 +93,14 @@ fn place(path: &Path, part: &mut Part, turn: DMat4) -> Result<(), BadFile> {
             *normal = cofactors * *normal * if mirrors { -1.0 } else { 1.0 };
         }
         if mirrors {
-            let mut start = 0;
-            for polygon in &part.polygons {
-                part.corners[start..polygon.end as usize].reverse();
-                start = polygon.end as usize;
+            for number in 0..part.polygons.len() {
+                let corners = part.polygons.corners(number);
+                part.corners[corners.clone()].reverse();
+                for numbers in [&mut part.normal_numbers, &mut part.uv_numbers] {
+                    if let Numbers::OfCorners(numbers) = numbers {
+                        numbers[corners.clone()].reverse();
+                    }
+                }
             }
         }
     }
@@ -160,17 +165,15 @@ impl SmoothNormals {
         let mut this = Self::default();
         let mut points = Vec::new();
         for part in parts {
-            let mut start = 0;
-            for polygon in &part.polygons {
-                let corners = &part.corners[start..polygon.end as usize];
-                start = polygon.end as usize;
-                let group = group(polygon.smoothing, normals);
+            let is_smooth = normals == Normals::Smooth || part.polygons.is_smooth();
+            for number in (0..part.polygons.len()).filter(|_| is_smooth) {
+                let group = group(part.polygons.smoothing(number), normals);
                 if group == 0 {
                     continue;
                 }
+                let corners = &part.corners[part.polygons.corners(number)];
                 points.clear();
-                points
-                    .extend(corners.iter().map(|corner| part.positions[corner.position as usize]));
+                points.extend(corners.iter().map(|&corner| part.positions[corner as usize]));
                 let normal = polygons::normal(&points);
                 let length = normal.length();
                 for &point in &points {
@@ -193,54 +196,64 @@ impl SmoothNormals {
 /// The triangles of a part; where each comes from is added to the origin.
 fn mesh(
     path: &Path,
-    part: &Part,
+    mut part: Part,
     smooth: &SmoothNormals,
     normals: Normals,
     origin: &mut Origin,
     warnings: &mut Warnings,
 ) -> Mesh {
-    let mirrored = |v: DVec3| DVec3::new(v.x, v.y, -v.z);
-    let mut triangles = Vec::with_capacity(
-        part.corners.len() - 2 * part.polygons.len().min(part.corners.len() / 2),
-    );
-    let mut made: Vec<Corner> = Vec::new();
+    let attributes = (part_normals(&mut part, smooth, normals), part_uvs(&mut part));
+    let (part_normals, part_uvs) = attributes;
+    let colours = match std::mem::take(&mut part.colours) {
+        colours if colours.is_empty() => Attribute::Same(DVec3::ONE),
+        mut colours => {
+            colours.resize(part.positions.len(), DVec3::ONE);
+            Attribute::OfPositions(colours)
+        }
+    };
+    let triangles = if part.polygons.are_triangles() {
+        let last = origin.first_face + part.polygons.len() as u32;
+        origin.faces = (origin.first_face..last).collect();
+        origin.lines = std::mem::take(&mut part.polygons.lines);
+        Triangles::new(std::mem::take(&mut part.corners), colours, part_normals, part_uvs)
+    } else {
+        let cut = cut(path, &part, origin, warnings);
+        let positions = cut.iter().map(|&corner| part.corners[corner as usize]).collect();
+        let (normals, uvs) = (of_cut(part_normals, &cut), of_cut(part_uvs, &cut));
+        Triangles::new(positions, colours, normals, uvs)
+    };
+    let mut positions = part.positions;
+    positions.iter_mut().for_each(|position| *position = mirrored(*position));
+    Mesh { positions, triangles }
+}
+
+fn mirrored(v: DVec3) -> DVec3 {
+    DVec3::new(v.x, v.y, -v.z)
+}
+
+/// The corners of all polygons as corners of triangles, by their numbers in the part.
+fn cut(path: &Path, part: &Part, origin: &mut Origin, warnings: &mut Warnings) -> Vec<u32> {
+    let most = part.corners.len() - 2 * part.polygons.len().min(part.corners.len() / 2);
+    let mut triangles: Vec<u32> = Vec::with_capacity(3 * most);
     let mut points = Vec::new();
-    let mut start = 0;
-    for (number, polygon) in part.polygons.iter().enumerate() {
-        let corners = &part.corners[start..polygon.end as usize];
-        start = polygon.end as usize;
+    for number in 0..part.polygons.len() {
+        let corners = part.polygons.corners(number);
+        let first_corner = corners.start as u32;
         let face = origin.first_face + number as u32;
+        let line = part.polygons.line(number);
         points.clear();
-        points.extend(corners.iter().map(|corner| part.positions[corner.position as usize]));
-        let normal = polygons::normal(&points);
-        let flat = normal.normalize_or_zero();
-        let group = group(polygon.smoothing, normals);
-        made.clear();
-        made.extend(corners.iter().zip(&points).map(|(corner, &point)| {
-            let given = corner.normal.filter(|_| normals != Normals::Flat);
-            let given = given.and_then(|number| part.normals[number as usize].try_normalize());
-            let computed = || {
-                let smooth = if group == 0 { None } else { smooth.at(point, group) };
-                smooth.unwrap_or(flat)
-            };
-            Corner {
-                position: corner.position,
-                colour: part.colours.get(corner.position as usize).copied().unwrap_or(DVec3::ONE),
-                normal: mirrored(given.unwrap_or_else(computed)),
-                uv: corner.uv.map_or(DVec2::ZERO, |number| part.uvs[number as usize]),
-            }
-        }));
-        let first = triangles.len() as u32;
-        let mut emit = |[a, b, c]: [usize; 3]| {
-            triangles.push([made[a], made[b], made[c]]);
+        points.extend(part.corners[corners].iter().map(|&corner| part.positions[corner as usize]));
+        let first = triangles.len() as u32 / 3;
+        let mut emit = |corners: [usize; 3]| {
+            triangles.extend(corners.map(|corner| first_corner + corner as u32));
             origin.faces.push(face);
-            if polygon.line > 0 {
-                origin.lines.push(polygon.line);
+            if line > 0 {
+                origin.lines.push(line);
             }
         };
-        let shape = polygons::triangles(&points, normal, &mut emit);
+        let shape = polygons::triangles(&points, polygons::normal(&points), &mut emit);
         if shape != Ok(Shape::Convex) {
-            origin.concave.extend(first..triangles.len() as u32);
+            origin.concave.extend(first..triangles.len() as u32 / 3);
         }
         if let Err(odd) = shape {
             let path = printable_path(path);
@@ -248,7 +261,7 @@ fn mesh(
                 Odd::Crosses => ("crosses itself", "faces that cross themselves"),
                 Odd::TooManyCorners => ("has more than 65536 corners", "faces of many corners"),
             };
-            let place = match polygon.line {
+            let place = match line {
                 0 => format!("{path}: face {face} {what}"),
                 line => format!("{path}:{line}: the face {what}"),
             };
@@ -256,5 +269,101 @@ fn mesh(
             warnings.line(&format!("{path}: {kind}"), &format!("{place}, {drawn}"));
         }
     }
-    Mesh { positions: part.positions.iter().copied().map(mirrored).collect(), triangles }
+    triangles
+}
+
+/// An attribute of all corners of a part as one of the corners of its triangles.
+fn of_cut<V>(attribute: Attribute<V>, cut: &[u32]) -> Attribute<V> {
+    match attribute {
+        Attribute::Indexed { values, indices } => {
+            let indices = cut.iter().map(|&corner| indices[corner as usize]).collect();
+            Attribute::Indexed { values, indices }
+        }
+        same => same,
+    }
+}
+
+/// The texture coordinates of the corners of a part; (0, 0) for those that have none.
+fn part_uvs(part: &mut Part) -> Attribute<DVec2> {
+    let mut values = std::mem::take(&mut part.uvs);
+    match std::mem::take(&mut part.uv_numbers) {
+        Numbers::Nothing => Attribute::Same(DVec2::ZERO),
+        Numbers::OfPositions => Attribute::OfPositions(values),
+        Numbers::OfCorners(mut indices) => {
+            let none = values.len() as u32;
+            values.push(DVec2::ZERO);
+            for number in indices.iter_mut().filter(|number| **number == NONE) {
+                *number = none;
+            }
+            Attribute::Indexed { values, indices }
+        }
+    }
+}
+
+/// The normals of the corners of a part: those of the file, else those of smooth or flat polygons.
+fn part_normals(part: &mut Part, smooth: &SmoothNormals, normals: Normals) -> Attribute<DVec3> {
+    let mut values = std::mem::take(&mut part.normals);
+    let mut numbers = std::mem::take(&mut part.normal_numbers);
+    if normals == Normals::Flat {
+        (values, numbers) = (Vec::new(), Numbers::Nothing);
+    }
+    // Vectors that have no length or an infinite one are missing.
+    let mut are_there = true;
+    for value in &mut values {
+        let unit = value.try_normalize();
+        are_there &= unit.is_some();
+        *value = mirrored(unit.unwrap_or(DVec3::NAN));
+    }
+    let is_smooth = normals == Normals::Smooth || part.polygons.is_smooth();
+    let point = |corner: usize| part.positions[part.corners[corner] as usize];
+    let flat = |number: usize, points: &mut Vec<DVec3>| {
+        let corners = part.polygons.corners(number);
+        if corners.len() == 3 {
+            let points = [0, 1, 2].map(|at| point(corners.start + at));
+            return polygons::normal(&points).normalize_or_zero();
+        }
+        points.clear();
+        points.extend(corners.map(point));
+        polygons::normal(points).normalize_or_zero()
+    };
+    let count = part.polygons.len();
+    match numbers {
+        Numbers::OfPositions if are_there => return Attribute::OfPositions(values),
+        Numbers::OfCorners(indices) if are_there && !indices.contains(&NONE) => {
+            return Attribute::Indexed { values, indices };
+        }
+        Numbers::Nothing if !is_smooth && part.polygons.are_triangles() => {
+            let numbers = (0..count).into_par_iter().with_min_len(1 << 12);
+            let flat = numbers.map(|number| mirrored(flat(number, &mut Vec::new())));
+            return Attribute::OfTriangles(flat.collect());
+        }
+        _ => {}
+    }
+    let mut indices = Vec::with_capacity(part.corners.len());
+    let mut points = Vec::new();
+    for number in 0..count {
+        let group = group(part.polygons.smoothing(number), normals);
+        // The number of the polygon's own normal among the values.
+        let mut of_polygon = None;
+        for corner in part.polygons.corners(number) {
+            let given = numbers.get(corner, part.corners[corner]);
+            if let Some(given) = given.filter(|&given| !values[given as usize].x.is_nan()) {
+                indices.push(given);
+                continue;
+            }
+            let smooth = if group == 0 { None } else { smooth.at(point(corner), group) };
+            let next = values.len() as u32;
+            indices.push(match smooth {
+                Some(normal) => {
+                    values.push(mirrored(normal));
+                    next
+                }
+                None => *of_polygon.get_or_insert_with(|| {
+                    values.push(mirrored(flat(number, &mut points)));
+                    next
+                }),
+            });
+        }
+    }
+    Attribute::Indexed { values, indices }
 }

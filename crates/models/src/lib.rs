@@ -12,17 +12,20 @@ mod obj;
 mod ply;
 mod polygons;
 mod stl;
+mod text;
 mod textures;
 
 use std::collections::BTreeMap;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
+use rasterproof_host::input::{InputError, Pieces};
 use rasterproof_host::text::{printable_path, printable_short};
 use rasterproof_host::{input, limits};
 use rasterproof_render::scene::{Item, Shading};
 
 pub use format::Format;
+use text::Text;
 pub use textures::load_texture;
 
 /// What is wrong with a file, where, and what to do about it.
@@ -140,6 +143,9 @@ impl Origin {
     }
 }
 
+/// Bytes of a file that are read at once, where not all of them are kept.
+pub(crate) const PIECE_BYTES: u64 = 1 << 20;
+
 /// Reads a model with its materials and textures.
 ///
 /// # Errors
@@ -147,15 +153,23 @@ impl Origin {
 /// is out of range, a model without faces. A material file or a texture that is missing or cannot be read is a
 /// warning: the surface is drawn in its colour, or grey.
 pub fn load(path: &Path, options: Options) -> Result<Model, BadFile> {
-    let bytes = read_bytes(path, limits::MODEL_BYTES)?;
-    let format = Format::of(&bytes).map_err(|cause| bad(path, None, cause))?;
+    let failed = |error: InputError| bad(path, None, error.cause);
+    let mut file = Pieces::open(path, limits::MODEL_BYTES).map_err(failed)?;
+    let length = file.length_bytes();
+    let mut bytes = Vec::new();
+    file.read_more(&mut bytes, PIECE_BYTES).map_err(failed)?;
+    let format = Format::of(&bytes, length).map_err(|cause| bad(path, None, cause))?;
+    if format != Format::Obj {
+        bytes.reserve_exact(usize::try_from(length).unwrap_or(0).saturating_sub(bytes.len()));
+        file.read_more(&mut bytes, u64::MAX).map_err(failed)?;
+    }
+    // Each reader gets the bytes for good, since what it makes of them needs the memory.
     let contents = match format {
-        Format::Obj => obj::read(path, &bytes)?,
-        Format::Stl => stl::read(path, &bytes)?,
-        Format::Ply => ply::read(path, &bytes)?,
-        Format::Gltf | Format::Glb => gltf::read(path, &bytes)?,
+        Format::Obj => obj::read(path, Text::new(bytes, file))?,
+        Format::Stl => stl::read(path, &{ bytes })?,
+        Format::Ply => ply::read(path, &{ bytes })?,
+        Format::Gltf | Format::Glb => gltf::read(path, &{ bytes })?,
     };
-    drop(bytes);
     items::model(path, contents, format, options)
 }
 

@@ -7,6 +7,7 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 use std::path::Path;
 
 use glam::{DMat4, DVec2, DVec3};
+use rasterproof_host::input::InputError;
 use rasterproof_host::limits;
 use rasterproof_host::text::{printable_path, printable_short};
 
@@ -14,14 +15,12 @@ use rasterproof_render::pipeline::opacity::OpacityMap;
 use rasterproof_render::pipeline::texture::Texture;
 use std::sync::Arc;
 
-use crate::contents::{Contents, INCOMPLETE_FACE, Part, Polygon, PolygonCorner, Surface};
+use crate::contents::{Contents, INCOMPLETE_FACE, NONE, Numbers, Part, Polygons, Surface};
 use crate::items::MOST_COORDINATE;
 use crate::mtl::{self, without_comment};
+use crate::text::Text;
 use crate::textures::{Decoded, Described, Textures, find, opacity};
 use crate::{BadFile, Warnings, bad, read_bytes};
-
-/// No index.
-const NONE: u32 = u32::MAX;
 
 /// Lines of material files that are read: each is looked for in the folder.
 const MOST_LIBRARIES: usize = 1 << 10;
@@ -36,8 +35,32 @@ struct Run {
     name: String,
     /// The name of the material, and the first line that names it.
     material: Option<(String, usize)>,
-    corners: Vec<FaceCorner>,
-    polygons: Vec<Polygon>,
+    /// The numbers of the positions of all corners.
+    corners: Vec<u32>,
+    uvs: Numbers,
+    normals: Numbers,
+    polygons: Polygons,
+}
+
+impl Run {
+    #[inline]
+    fn push(&mut self, [position, uv, normal]: FaceCorner) {
+        self.uvs.push(uv, position, &self.corners);
+        self.normals.push(normal, position, &self.corners);
+        self.corners.push(position);
+    }
+
+    fn truncate(&mut self, corners: usize) {
+        self.uvs.truncate(corners);
+        self.normals.truncate(corners);
+        self.corners.truncate(corners);
+    }
+
+    fn corner(&self, corner: usize) -> FaceCorner {
+        let position = self.corners[corner];
+        let number = |numbers: &Numbers| numbers.get(corner, position).unwrap_or(NONE);
+        [position, number(&self.uvs), number(&self.normals)]
+    }
 }
 
 /// The lines of a file.
@@ -95,9 +118,9 @@ struct State {
 }
 
 /// Reads the text of an OBJ and the files that it names.
-pub(crate) fn read(path: &Path, bytes: &[u8]) -> Result<Contents, BadFile> {
+pub(crate) fn read(path: &Path, text: Text) -> Result<Contents, BadFile> {
     let mut warnings = Warnings::default();
-    let mut lines = lines(path, bytes, &mut warnings)?;
+    let mut lines = lines(path, text, &mut warnings)?;
     check_faces(path, &mut lines, &mut warnings)?;
     let folder = path.parent().unwrap_or(Path::new(""));
     let (described, all_read) = read_libraries(path, &lines.libraries, &mut warnings);
@@ -168,30 +191,15 @@ impl Cutter {
         Self { numbers: counts.map(|count| vec![NONE; count]) }
     }
 
-    fn part(&mut self, (positions, uvs, normals, colours): Vectors<'_>, run: Run) -> Part {
-        let mut used: [Vec<u32>; 3] = Default::default();
-        let mut local = |kind: usize, index: u32| {
-            if index == NONE {
-                return NONE;
-            }
-            let number = &mut self.numbers[kind][index as usize];
-            if *number == NONE {
-                *number = used[kind].len() as u32;
-                used[kind].push(index);
-            }
-            *number
+    fn part(&mut self, (positions, uvs, normals, colours): Vectors<'_>, mut run: Run) -> Part {
+        let p = self.local(0, &mut run.corners);
+        let mut of = |kind: usize, numbers: &mut Numbers| match numbers {
+            Numbers::Nothing => Vec::new(),
+            // They are used in the same order as the positions.
+            Numbers::OfPositions => p.clone(),
+            Numbers::OfCorners(numbers) => self.local(kind, numbers),
         };
-        let some = |index: u32| (index != NONE).then_some(index);
-        let corners = run.corners.into_iter().map(|[position, uv, normal]| PolygonCorner {
-            position: local(0, position),
-            uv: some(local(1, uv)),
-            normal: some(local(2, normal)),
-        });
-        let corners = corners.collect();
-        for (numbers, used) in self.numbers.iter_mut().zip(&used) {
-            used.iter().for_each(|&index| numbers[index as usize] = NONE);
-        }
-        let [p, t, n] = &used;
+        let (t, n) = (of(1, &mut run.uvs), of(2, &mut run.normals));
         let coloured = p.iter().any(|&index| (index as usize) < colours.len());
         let colour = |&index: &u32| colours.get(index as usize).copied().unwrap_or(DVec3::ONE);
         Part {
@@ -202,9 +210,27 @@ impl Cutter {
             normals: n.iter().map(|&index| normals[index as usize]).collect(),
             uvs: t.iter().map(|&index| uvs[index as usize]).collect(),
             colours: if coloured { p.iter().map(colour).collect() } else { Vec::new() },
-            corners,
+            corners: run.corners,
+            normal_numbers: run.normals,
+            uv_numbers: run.uvs,
             polygons: run.polygons,
         }
+    }
+
+    /// Replaces numbers of the file by those of a part, which are given by first use, and returns what the part uses.
+    fn local(&mut self, kind: usize, indices: &mut [u32]) -> Vec<u32> {
+        let numbers = &mut self.numbers[kind];
+        let mut used = Vec::new();
+        for index in indices.iter_mut().filter(|index| **index != NONE) {
+            let number = &mut numbers[*index as usize];
+            if *number == NONE {
+                *number = used.len() as u32;
+                used.push(*index);
+            }
+            *index = *number;
+        }
+        used.iter().for_each(|&index| numbers[index as usize] = NONE);
+        used
     }
 }
 
@@ -363,16 +389,13 @@ fn refused(path: &Path, line: usize, cause: &str) -> BadFile {
 }
 
 /// Goes through all lines.
-fn lines(path: &Path, bytes: &[u8], warnings: &mut Warnings) -> Result<Lines, BadFile> {
-    let bytes = without_mark(bytes);
+fn lines(path: &Path, mut text: Text, warnings: &mut Warnings) -> Result<Lines, BadFile> {
+    let unread = |error: InputError| bad(path, None, error.cause);
     let mut read = Lines::default();
     let mut state = State { is_new: true, ..State::default() };
     let mut joined = Vec::new();
-    // Files of old systems end their lines with a carriage return alone.
-    let newline = if bytes.contains(&b'\n') { b'\n' } else { b'\r' };
     let mut number = 0;
-    let mut left = bytes.split(|&byte| byte == newline);
-    while let Some(line) = left.next() {
+    while let Some(line) = text.next_line().map_err(unread)? {
         number += 1;
         let first = number;
         let mut line = line.trim_ascii();
@@ -382,7 +405,7 @@ fn lines(path: &Path, bytes: &[u8], warnings: &mut Warnings) -> Result<Lines, Ba
                 joined.extend_from_slice(begun);
                 joined.push(b' ');
                 number += 1;
-                line = left.next().unwrap_or_default().trim_ascii();
+                line = text.next_line().map_err(unread)?.unwrap_or_default().trim_ascii();
             }
             joined.extend_from_slice(line);
             line = &joined;
@@ -397,8 +420,7 @@ fn lines(path: &Path, bytes: &[u8], warnings: &mut Warnings) -> Result<Lines, Ba
         }
     }
     if read.runs.is_empty() && read.not_drawn.is_empty() {
-        let is_wide = bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff");
-        let hint = if is_wide {
+        let hint = if text.is_wide {
             "it begins like text in UTF-16: save it as UTF-8"
         } else {
             "is it an OBJ? GLB, glTF, PLY and STL are read too"
@@ -566,23 +588,24 @@ fn face<'a>(
     if state.is_new {
         state.is_new = false;
         let name = if state.object.is_empty() { &state.group } else { &state.object };
-        let (corners, polygons) = (Vec::new(), Vec::new());
-        let material = state.material.clone();
-        read.runs.push(Run { name: name.clone(), material, corners, polygons });
+        let (corners, polygons) = (Vec::new(), Polygons::default());
+        let (uvs, normals) = (Numbers::Nothing, Numbers::Nothing);
+        let (name, material) = (name.clone(), state.material.clone());
+        read.runs.push(Run { name, material, corners, uvs, normals, polygons });
     }
     let counts = [read.positions.len(), read.uvs.len(), read.normals.len()];
     let Some(run) = read.runs.last_mut() else { return Ok(None) };
     let start = run.corners.len();
     for word in words {
-        run.corners.push(face_corner(word, counts)?);
+        run.push(face_corner(word, counts)?);
     }
-    if run.corners.len() < start + 3 {
-        run.corners.truncate(start);
+    let count = run.corners.len() - start;
+    if count < 3 {
+        run.truncate(start);
         *read.not_drawn.entry(INCOMPLETE_FACE.to_owned()).or_default() += 1;
         return Ok(Some("a face needs three corners or more".to_owned()));
     }
-    let end = run.corners.len() as u32;
-    run.polygons.push(Polygon { end, line: number as u32, smoothing: state.smoothing });
+    run.polygons.push(count, number as u32, state.smoothing);
     Ok(None)
 }
 
@@ -624,25 +647,33 @@ fn face_corner(word: &[u8], counts: [usize; 3]) -> Result<FaceCorner, String> {
 fn check_faces(path: &Path, lines: &mut Lines, warnings: &mut Warnings) -> Result<(), BadFile> {
     let counts = [lines.positions.len(), lines.uvs.len(), lines.normals.len()];
     for run in &lines.runs {
-        let mut start = 0;
-        for polygon in &run.polygons {
-            for corner in &run.corners[start..polygon.end as usize] {
-                for (kind, &index) in corner.iter().enumerate() {
-                    if index != NONE && index as usize >= counts[kind] {
-                        let (name, count, index) =
-                            (KINDS[kind], counts[kind], u64::from(index) + 1);
-                        let cause = format!("{name} {index} is not there; the file has {count}");
-                        return Err(refused(path, polygon.line as usize, &cause));
-                    }
-                    if lines.broken.is_empty() {
-                        continue;
-                    }
-                    if let Some((line, cause)) = lines.broken.remove(&(kind, index)) {
-                        return Err(refused(path, line, &cause));
-                    }
+        let largest = |numbers: &[u32]| {
+            numbers.iter().map(|&number| number.wrapping_add(1)).max().unwrap_or(0) as usize
+        };
+        let is_there = |numbers: &Numbers, count: usize| match numbers {
+            Numbers::Nothing => true,
+            Numbers::OfPositions => largest(&run.corners) <= count,
+            Numbers::OfCorners(numbers) => largest(numbers) <= count,
+        };
+        let [positions, uvs, normals] = counts;
+        let are_there = largest(&run.corners) <= positions
+            && is_there(&run.uvs, uvs)
+            && is_there(&run.normals, normals);
+        if are_there && lines.broken.is_empty() {
+            continue;
+        }
+        for corner in 0..run.corners.len() {
+            for (kind, index) in run.corner(corner).into_iter().enumerate() {
+                if index != NONE && index as usize >= counts[kind] {
+                    let (name, count, index) = (KINDS[kind], counts[kind], u64::from(index) + 1);
+                    let cause = format!("{name} {index} is not there; the file has {count}");
+                    let line = run.polygons.line(run.polygons.of_corner(corner));
+                    return Err(refused(path, line as usize, &cause));
+                }
+                if let Some((line, cause)) = lines.broken.remove(&(kind, index)) {
+                    return Err(refused(path, line, &cause));
                 }
             }
-            start = polygon.end as usize;
         }
     }
     let path = printable_path(path);

@@ -9,7 +9,7 @@ use glam::{DMat4, DVec2, DVec3};
 use rasterproof_host::text::{printable_path, printable_short};
 use rasterproof_render::pipeline::highlight::Specular;
 
-use crate::contents::{Contents, INCOMPLETE_FACE, Part, Polygon, PolygonCorner, Surface};
+use crate::contents::{Contents, INCOMPLETE_FACE, NONE, Numbers, Part, Surface};
 use crate::textures::{Textures, opacity};
 use crate::{BadFile, Warnings, bad};
 
@@ -69,25 +69,25 @@ impl Kind {
         }
     }
 
-    /// The number in these bytes, of which there are [`Self::size`].
+    /// The number at the beginning of these bytes, of which there are [`Self::size`] or more.
+    #[inline]
     fn number(self, bytes: &[u8], is_big: bool) -> f64 {
-        let mut word = [0; 8];
-        for (place, byte) in word.iter_mut().zip(bytes) {
-            *place = *byte;
+        fn word<const N: usize>(bytes: &[u8], is_big: bool) -> [u8; N] {
+            let mut word = *bytes.first_chunk().unwrap_or(&[0; N]);
+            if is_big {
+                word.reverse();
+            }
+            word
         }
-        if is_big {
-            word[..self.size()].reverse();
-        }
-        let [a, b, c, d, ..] = word;
         match self {
-            Self::I8 => f64::from(a as i8),
-            Self::U8 => f64::from(a),
-            Self::I16 => f64::from(i16::from_le_bytes([a, b])),
-            Self::U16 => f64::from(u16::from_le_bytes([a, b])),
-            Self::I32 => f64::from(i32::from_le_bytes([a, b, c, d])),
-            Self::U32 => f64::from(u32::from_le_bytes([a, b, c, d])),
-            Self::F32 => f64::from(f32::from_le_bytes([a, b, c, d])),
-            Self::F64 => f64::from_le_bytes(word),
+            Self::I8 => f64::from(i8::from_le_bytes(word(bytes, is_big))),
+            Self::U8 => f64::from(u8::from_le_bytes(word(bytes, is_big))),
+            Self::I16 => f64::from(i16::from_le_bytes(word(bytes, is_big))),
+            Self::U16 => f64::from(u16::from_le_bytes(word(bytes, is_big))),
+            Self::I32 => f64::from(i32::from_le_bytes(word(bytes, is_big))),
+            Self::U32 => f64::from(u32::from_le_bytes(word(bytes, is_big))),
+            Self::F32 => f64::from(f32::from_le_bytes(word(bytes, is_big))),
+            Self::F64 => f64::from_le_bytes(word(bytes, is_big)),
         }
     }
 }
@@ -141,7 +141,7 @@ impl<'a> Body<'a> {
     /// Returns the next line without its line break, and moves past it.
     fn next_line(&mut self) -> Option<&'a [u8]> {
         let rest = self.bytes.get(self.at..).filter(|rest| !rest.is_empty())?;
-        let end = rest.iter().position(|&byte| byte == self.newline).unwrap_or(rest.len());
+        let end = memchr::memchr(self.newline, rest).unwrap_or(rest.len());
         self.at += (end + 1).min(rest.len());
         self.line += 1;
         Some(&rest[..end])
@@ -184,6 +184,11 @@ impl<'a> Body<'a> {
         self.words = rest;
         if word.is_empty() {
             return Err("the line has fewer numbers than the header says".to_owned());
+        }
+        // Most are indices.
+        if word.len() <= 9 && word.iter().all(u8::is_ascii_digit) {
+            let number = word.iter().fold(0, |sum, byte| 10 * sum + u32::from(byte - b'0'));
+            return Ok(f64::from(number));
         }
         let number = std::str::from_utf8(word).ok().and_then(|word| word.parse::<f64>().ok());
         number.ok_or_else(|| {
@@ -271,6 +276,12 @@ const VERTEX: [&[&str]; 12] = [
     &["alpha", "a", "diffuse_alpha"],
 ];
 
+/// The number of red in [`VERTEX`].
+const FIRST_COLOUR: usize = 8;
+
+/// The number of the opacity in [`VERTEX`].
+const ALPHA: usize = 11;
+
 /// Why an element cannot be read, and its number from 0.
 type Wrong = (u64, String);
 
@@ -338,7 +349,13 @@ pub(crate) fn read(path: &Path, bytes: &[u8]) -> Result<Contents, BadFile> {
         warnings.line(&path, &format!("{path}: {} {what}", body.long));
     }
     check(path, &part)?;
-    if part.polygons.is_empty() {
+    if part.normals.len() == part.positions.len() {
+        part.normal_numbers = Numbers::OfPositions;
+    }
+    if part.uv_numbers == Numbers::Nothing && part.uvs.len() == part.positions.len() {
+        part.uv_numbers = Numbers::OfPositions;
+    }
+    if part.polygons.len() == 0 {
         add(&mut contents, "point", part.positions.len() as u64);
     }
     surface(path, &header, &mut part, &mut contents, &mut warnings);
@@ -389,20 +406,11 @@ fn vertices(
     // As many as the file can hold, whatever the header says.
     let most = element.count.min(body.bytes.len() as u64) as usize;
     part.positions.reserve(most);
+    let scaled = |place: usize, kind: Kind, value: f64| {
+        if place < FIRST_COLOUR { value } else { value / kind.full() }
+    };
     let mut transparent = 0;
-    for number in 0..element.count {
-        body.next_element().map_err(|cause| (number, cause))?;
-        let mut values = [0.0; VERTEX.len()];
-        values[11] = 1.0;
-        for (property, place) in element.properties.iter().zip(&places) {
-            let result = match place {
-                None => skip(body, std::slice::from_ref(property)),
-                Some(place) => body.number(property.kind).map(|value| {
-                    values[*place] = if *place < 8 { value } else { value / property.kind.full() };
-                }),
-            };
-            result.map_err(|cause| (number, cause))?;
-        }
+    let mut push = |values: [f64; VERTEX.len()]| {
         let [x, y, z, nx, ny, nz, u, v, r, g, b, a] = values;
         part.positions.push(DVec3::new(x, y, z));
         if has_normals {
@@ -415,9 +423,59 @@ fn vertices(
             part.colours.push(DVec3::new(r, g, b).clamp(DVec3::ZERO, DVec3::ONE));
             transparent += u64::from(a < 1.0);
         }
+    };
+    let mut missing = [0.0; VERTEX.len()];
+    missing[ALPHA] = 1.0;
+    // Records of one size are as many as are there; what is said of a file that is cut off, the loop below says.
+    let mut whole = 0;
+    if let Some(columns) = columns(body.form, element, &places) {
+        let size = element.properties.iter().map(|property| property.kind.size()).sum();
+        let records = body.bytes[body.at..].chunks_exact(size).take(most);
+        let is_big = body.form == Form::Big;
+        for record in records {
+            let mut values = missing;
+            for &(place, kind, at) in &columns {
+                values[place] = scaled(place, kind, kind.number(&record[at..], is_big));
+            }
+            push(values);
+            whole += 1;
+        }
+        body.at += whole * size;
+    }
+    for number in whole as u64..element.count {
+        body.next_element().map_err(|cause| (number, cause))?;
+        let mut values = missing;
+        for (property, place) in element.properties.iter().zip(&places) {
+            let result = match place {
+                None => skip(body, std::slice::from_ref(property)),
+                Some(place) => body.number(property.kind).map(|value| {
+                    values[*place] = scaled(*place, property.kind, value);
+                }),
+            };
+            result.map_err(|cause| (number, cause))?;
+        }
+        push(values);
     }
     add(contents, "transparent position", transparent);
     Ok(())
+}
+
+/// The values of a binary element without lists: the place, the type, and how many bytes are before it in the record.
+fn columns(
+    form: Form,
+    element: &Element,
+    places: &[Option<usize>],
+) -> Option<Vec<(usize, Kind, usize)>> {
+    if form == Form::Text || element.properties.iter().any(|property| property.length.is_some()) {
+        return None;
+    }
+    let mut at = 0;
+    let mut columns = Vec::new();
+    for (property, place) in element.properties.iter().zip(places) {
+        columns.extend(place.map(|place| (place, property.kind, at)));
+        at += property.kind.size();
+    }
+    Some(columns)
 }
 
 /// The list of a face that names its vertices.
@@ -446,12 +504,20 @@ fn faces(
     }
     if has_uvs {
         part.uvs.clear();
+        part.uv_numbers = Numbers::OfCorners(vec![NONE; part.corners.len()]);
     }
     let most = element.count.min(body.bytes.len() as u64) as usize;
-    part.polygons.reserve(most);
     part.corners.reserve(3 * most);
+    if body.form == Form::Text {
+        part.polygons.lines.reserve(most);
+    }
     let (mut small, mut uvs) = (0, Vec::new());
-    for number in 0..element.count {
+    let mut number = 0;
+    while number < element.count {
+        number += triangles(body, element, element.count - number, part);
+        if number == element.count {
+            break;
+        }
         let wrong = |cause| (number, cause);
         body.next_element().map_err(wrong)?;
         let start = part.corners.len();
@@ -471,38 +537,67 @@ fn faces(
                 }
             }
         }
+        number += 1;
         let count = part.corners.len() - start;
         if count < 3 {
             part.corners.truncate(start);
             small += 1;
             continue;
         }
-        let (pairs, _) = uvs.as_chunks::<2>();
-        let first = part.uvs.len() as u32;
-        let has_normals = !part.normals.is_empty();
-        for (at, corner) in part.corners[start..].iter_mut().enumerate() {
-            corner.normal = has_normals.then_some(corner.position);
-            corner.uv = match has_uvs {
-                true => (pairs.len() == count).then_some(first + at as u32),
-                false => (!part.uvs.is_empty()).then_some(corner.position),
-            };
+        if let Numbers::OfCorners(numbers) = &mut part.uv_numbers {
+            let (pairs, _) = uvs.as_chunks::<2>();
+            let first = part.uvs.len() as u32;
+            let is_whole = pairs.len() == count;
+            numbers.extend((first..).take(count).map(|at| if is_whole { at } else { NONE }));
+            if is_whole {
+                part.uvs.extend(pairs.iter().map(|&uv| DVec2::from_array(uv)));
+            }
         }
-        if has_uvs && pairs.len() == count {
-            part.uvs.extend(pairs.iter().map(|&uv| DVec2::from_array(uv)));
-        }
-        let end = part.corners.len() as u32;
-        part.polygons.push(Polygon { end, line: body.line as u32, smoothing: 0 });
+        part.polygons.push(count, body.line as u32, 0);
     }
     add(contents, INCOMPLETE_FACE, small);
     Ok(())
 }
 
+/// Reads the next faces of a binary file as long as they are triangles in the form that is usual, and returns how many they are.
+/// Everything else is left to the caller.
+fn triangles(body: &mut Body<'_>, element: &Element, most: u64, part: &mut Part) -> u64 {
+    const RECORD: usize = 13;
+    let [Property { kind: Kind::I32 | Kind::U32, length: Some(Kind::U8 | Kind::I8), .. }] =
+        element.properties[..]
+    else {
+        return 0;
+    };
+    if body.form == Form::Text {
+        return 0;
+    }
+    let is_big = body.form == Form::Big;
+    let mut count = 0;
+    for record in body.bytes[body.at..].as_chunks::<RECORD>().0 {
+        let number = |at: usize| {
+            let word = [record[at], record[at + 1], record[at + 2], record[at + 3]];
+            if is_big { u32::from_be_bytes(word) } else { u32::from_le_bytes(word) }
+        };
+        let corners = [number(1), number(5), number(9)];
+        // Negative ones are larger.
+        let are_indices = corners.iter().all(|&corner| corner <= i32::MAX as u32);
+        if count == most || record[0] != 3 || !are_indices {
+            break;
+        }
+        part.corners.extend(corners);
+        part.polygons.push(3, 0, 0);
+        count += 1;
+    }
+    body.at += RECORD * count as usize;
+    count
+}
+
 /// Whether an index names a vertex is checked at the end, since vertices may follow.
-fn corner(count: usize, value: f64) -> Result<PolygonCorner, String> {
+fn corner(count: usize, value: f64) -> Result<u32, String> {
     if value < 0.0 || value >= f64::from(u32::MAX) || value.fract() != 0.0 {
         return Err(format!("{value} is no index of a vertex; the file has {count}"));
     }
-    Ok(PolygonCorner { position: value as u32, normal: None, uv: None })
+    Ok(value as u32)
 }
 
 /// Strips of triangles, each ended by -1.
@@ -527,13 +622,12 @@ fn strips(body: &mut Body<'_>, element: &Element, part: &mut Part) -> Result<(),
                 if count >= 2 && a != b && b != value && a != value {
                     let turned = if count % 2 == 0 { [a, b, value] } else { [b, a, value] };
                     for value in turned {
-                        let mut corner = corner(part.positions.len(), value).map_err(wrong)?;
-                        corner.normal = (!part.normals.is_empty()).then_some(corner.position);
-                        corner.uv = (!part.uvs.is_empty()).then_some(corner.position);
-                        part.corners.push(corner);
+                        part.corners.push(corner(part.positions.len(), value).map_err(wrong)?);
                     }
-                    let end = part.corners.len() as u32;
-                    part.polygons.push(Polygon { end, line: body.line as u32, smoothing: 0 });
+                    if let Numbers::OfCorners(numbers) = &mut part.uv_numbers {
+                        numbers.extend([NONE; 3]);
+                    }
+                    part.polygons.push(3, body.line as u32, 0);
                 }
                 before = [b, value];
                 count += 1;
@@ -546,12 +640,11 @@ fn strips(body: &mut Body<'_>, element: &Element, part: &mut Part) -> Result<(),
 /// Whether all vertices that faces name are there.
 fn check(path: &Path, part: &Part) -> Result<(), BadFile> {
     let count = part.positions.len();
-    let wrong = part.corners.iter().position(|corner| corner.position as usize >= count);
+    let wrong = part.corners.iter().position(|&corner| corner as usize >= count);
     let Some(wrong) = wrong else { return Ok(()) };
-    let face = part.polygons.partition_point(|polygon| polygon.end as usize <= wrong);
-    let line =
-        part.polygons.get(face).map(|polygon| polygon.line as usize).filter(|&line| line > 0);
-    let index = part.corners[wrong].position;
+    let face = part.polygons.of_corner(wrong);
+    let line = Some(part.polygons.line(face) as usize).filter(|&line| line > 0);
+    let index = part.corners[wrong];
     let cause = format!("face {} names vertex {index}, and the file has {count}, from 0", face + 1);
     Err(bad(path, line, format!("{cause}: export the model again")))
 }

@@ -3,28 +3,29 @@
 //! Own code, since the format has one kind of record, and errors name its line or byte. Its normals are not read: they are
 //! those of the triangles, or wrong.
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
+use std::hash::BuildHasher as _;
 use std::path::Path;
 
+use foldhash::fast::RandomState;
 use glam::{DMat4, DVec3};
+use hashbrown::HashTable;
 use rasterproof_host::text::printable_short;
 
-use crate::contents::{Contents, Part, Polygon, PolygonCorner};
+use crate::contents::{Contents, Part};
 use crate::{BadFile, bad};
 
 const HEADER: usize = 84;
 const RECORD: usize = 50;
 
 /// The triangles that the header of a binary file counts.
-fn counted(bytes: &[u8]) -> Option<usize> {
-    Some(u32::from_le_bytes(bytes.get(80..HEADER)?.try_into().ok()?) as usize)
+fn counted(bytes: &[u8]) -> Option<u64> {
+    Some(u32::from_le_bytes(bytes.get(80..HEADER)?.try_into().ok()?).into())
 }
 
 /// Whether the length is that of the records which the header counts: text that begins with `solid` has another one.
-pub(crate) fn is_binary(bytes: &[u8]) -> bool {
-    counted(bytes).is_some_and(|count| {
-        count.checked_mul(RECORD).and_then(|size| size.checked_add(HEADER)) == Some(bytes.len())
-    })
+pub(crate) fn is_binary(bytes: &[u8], length: u64) -> bool {
+    counted(bytes).is_some_and(|count| count * RECORD as u64 + HEADER as u64 == length)
 }
 
 /// Whether the first word is `solid`.
@@ -36,38 +37,70 @@ pub(crate) fn is_text(bytes: &[u8]) -> bool {
 /// A part whose equal positions are one, so that neighbours are known.
 struct Merged {
     part: Part,
-    known: HashMap<[u64; 3], u32>,
+    /// The numbers of the positions, to find a position again.
+    known: HashTable<u32>,
+    /// With a random seed, so that nobody can write a file whose positions all have the same hash.
+    hasher: RandomState,
 }
 
 impl Merged {
-    fn new(name: String) -> Self {
-        let part = Part { name, to_file: DMat4::IDENTITY, ..Part::default() };
-        Self { part, known: HashMap::new() }
+    fn new(name: String, triangles: usize) -> Self {
+        let mut part = Part { name, to_file: DMat4::IDENTITY, ..Part::default() };
+        part.corners.reserve(3 * triangles);
+        // A closed surface has half as many positions as triangles.
+        part.positions.reserve(triangles / 2);
+        let known = HashTable::with_capacity(triangles / 2);
+        Self { part, known, hasher: RandomState::default() }
     }
 
     fn triangle(&mut self, points: [DVec3; 3], line: u32) {
-        for point in points {
-            // -0 and 0 are one position.
-            let key = (point + DVec3::ZERO).to_array().map(f64::to_bits);
-            let position = *self.known.entry(key).or_insert_with(|| {
-                self.part.positions.push(point);
-                self.part.positions.len() as u32 - 1
-            });
-            self.part.corners.push(PolygonCorner { position, normal: None, uv: None });
+        let mut corners = [0; 3];
+        for (corner, point) in corners.iter_mut().zip(points) {
+            let number = self.in_last(point).unwrap_or_else(|| self.number(point));
+            *corner = number;
         }
-        let end = self.part.corners.len() as u32;
-        self.part.polygons.push(Polygon { end, line, smoothing: 0 });
+        self.part.corners.extend(corners);
+        self.part.polygons.push(3, line, 0);
+    }
+
+    /// The number of a position of the last triangle, which often is a neighbour.
+    #[inline]
+    fn in_last(&self, point: DVec3) -> Option<u32> {
+        let last = self.part.corners.last_chunk::<3>()?;
+        last.iter().copied().find(|&number| self.part.positions[number as usize] == point)
+    }
+
+    fn number(&mut self, point: DVec3) -> u32 {
+        let positions = &mut self.part.positions;
+        // -0 and 0 are one position.
+        let hash = |point: DVec3| {
+            let [x, y, z] = (point + DVec3::ZERO).to_array().map(f64::to_bits);
+            self.hasher.hash_one((x, y, z))
+        };
+        let is_same = |&number: &u32| positions[number as usize] == point;
+        if let Some(&number) = self.known.find(hash(point), is_same) {
+            return number;
+        }
+        let number = positions.len() as u32;
+        positions.push(point);
+        self.known.insert_unique(hash(point), number, |&number| hash(positions[number as usize]));
+        number
     }
 }
 
 /// Reads the bytes of an STL of either kind.
 pub(crate) fn read(path: &Path, bytes: &[u8]) -> Result<Contents, BadFile> {
-    let parts = if is_binary(bytes) { vec![binary(bytes)] } else { text(path, bytes)? };
-    Ok(Contents { parts, ..Contents::default() })
+    let mut not_drawn = BTreeMap::new();
+    let parts = match is_binary(bytes, bytes.len() as u64) {
+        true => vec![binary(bytes, &mut not_drawn)],
+        false => text(path, bytes)?,
+    };
+    Ok(Contents { parts, not_drawn, ..Contents::default() })
 }
 
-fn binary(bytes: &[u8]) -> Part {
-    let mut merged = Merged::new(String::new());
+fn binary(bytes: &[u8], not_drawn: &mut BTreeMap<String, u64>) -> Part {
+    let mut merged = Merged::new(String::new(), bytes.len() / RECORD);
+    let mut with_attribute = 0;
     for record in bytes[HEADER..].chunks_exact(RECORD) {
         let number_at = |at: usize| {
             let at = 12 + 4 * at;
@@ -81,6 +114,11 @@ fn binary(bytes: &[u8]) -> Part {
         let points =
             [0, 3, 6].map(|at| DVec3::new(number_at(at), number_at(at + 1), number_at(at + 2)));
         merged.triangle(points, 0);
+        // Some programs keep a colour there, in ways that exclude each other.
+        with_attribute += u64::from(record[RECORD - 2..] != [0; 2]);
+    }
+    if with_attribute > 0 {
+        not_drawn.insert("attribute of triangle".to_owned(), with_attribute);
     }
     merged.part
 }
@@ -95,7 +133,7 @@ fn text(path: &Path, bytes: &[u8]) -> Result<Vec<Part>, BadFile> {
         let mut words = line.split_ascii_whitespace();
         match words.next().map(str::to_ascii_lowercase).as_deref() {
             Some("solid") => {
-                parts.push(Merged::new(words.collect::<Vec<_>>().join(" ")));
+                parts.push(Merged::new(words.collect::<Vec<_>>().join(" "), 0));
             }
             Some("facet") => (points, first_line) = (Vec::new(), number),
             Some("vertex") => {

@@ -299,7 +299,7 @@ impl Search<'_> {
             let texels = |uv: glam::DVec2| {
                 (uv.x.abs() * f64::from(width)).max(uv.y.abs() * f64::from(height))
             };
-            for triangle in &item.mesh.triangles {
+            for triangle in item.mesh.triangles.iter() {
                 let [a, b, c] = triangle.map_array(|corner| texels(corner.uv));
                 let largest = a.max(b).max(c);
                 if largest >= f64::from(1 << 23) {
@@ -529,7 +529,8 @@ mod tests {
         };
         let texture = Texture::new(2, 2, &[[255, 0, 0], [0, 255, 0], [0, 0, 255], [0; 3]]);
         let material = Material { texture: texture.map(Into::into), ..Material::default() };
-        let mesh = Mesh { positions, triangles: vec![[corner(0), corner(1), corner(2)]] };
+        let triangles = [[corner(0), corner(1), corner(2)]].into_iter().collect();
+        let mesh = Mesh { positions, triangles };
         Item::new(mesh, material)
     }
 
@@ -567,9 +568,10 @@ mod tests {
             let mut mesh = Mesh::clone(&item.mesh);
             mesh.positions.push(DVec3::from_array(positions[3]));
             let face = |corners: [u32; 3]| {
-                corners.map(|position| Corner { position, ..mesh.triangles[0][0] })
+                corners.map(|position| Corner { position, ..mesh.triangles.at(0)[0] })
             };
-            mesh.triangles = [[1, 3, 2], [0, 1, 2], [0, 3, 1], [0, 2, 3]].map(face).to_vec();
+            let faces = [[1, 3, 2], [0, 1, 2], [0, 3, 1], [0, 2, 3]].map(face);
+            mesh.triangles = faces.into_iter().collect();
             item.mesh = mesh.into();
             let mut scene = Scene::new("test", "", perspective(1.0, 1.0, 1e-5, 1e6).unwrap());
             scene.items = vec![item];

@@ -179,8 +179,8 @@ fn weld(scene: &Scene) -> (Vec<DVec3>, Vec<Face>) {
     for (index, item) in scene.items.iter().enumerate() {
         let group = group(index);
         let mut is_used = vec![false; item.mesh.positions.len()];
-        for corner in item.mesh.triangles.as_flattened() {
-            is_used[corner.position as usize] = true;
+        for number in item.mesh.triangles.positions().as_flattened() {
+            is_used[*number as usize] = true;
         }
         for (number, position) in item.mesh.positions.iter().enumerate() {
             if is_used[number] {
@@ -205,9 +205,8 @@ fn weld(scene: &Scene) -> (Vec<DVec3>, Vec<Face>) {
         points.push(if is_moved { model.transform_point3(position) } else { position });
     }
     let triangles = scene.items.iter().zip(&vertex_of).flat_map(|(item, vertex_of)| {
-        let vertex =
-            |corner: &rasterproof_render::scene::Corner| vertex_of[corner.position as usize];
-        item.mesh.triangles.iter().map(move |[a, b, c]| [vertex(a), vertex(b), vertex(c)])
+        let triangles = item.mesh.triangles.positions().iter();
+        triangles.map(move |triangle| triangle.map(|number| vertex_of[number as usize]))
     });
     let faces = triangles.zip(0..).map(|(vertices, number)| Face { vertices, number }).collect();
     (points, faces)

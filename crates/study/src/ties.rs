@@ -199,9 +199,10 @@ mod tests {
         };
         let triangle = |a: u32, b: u32, c: u32| [corner(a), corner(b), corner(c)];
         let triangles = match other_diagonal {
-            false => vec![triangle(0, 1, 2), triangle(0, 2, 3)],
-            true => vec![triangle(1, 2, 3), triangle(1, 3, 0)],
+            false => [triangle(0, 1, 2), triangle(0, 2, 3)],
+            true => [triangle(1, 2, 3), triangle(1, 3, 0)],
         };
+        let triangles = triangles.into_iter().collect();
         Item::new(Mesh { positions, triangles }, Material::default())
     }
 

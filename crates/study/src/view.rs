@@ -52,7 +52,7 @@ pub fn pieces(scene: &Scene, window: PixelRect) -> Result<Vec<Piece>, BadScene> 
     for (index, item) in scene.items.iter().enumerate() {
         let points = clip_points(scene, index)?;
         let sums = absolute(scene, index);
-        for item_triangle in &item.mesh.triangles {
+        for item_triangle in item.mesh.triangles.iter() {
             face += 1;
             let vertices = item_triangle.map_array(|corner| ClipVertex {
                 position: points[corner.position as usize],

@@ -204,6 +204,12 @@ impl Column<'_> {
     /// The first N numbers of each element.
     fn read<const N: usize>(&self) -> Vec<[f64; N]> {
         let Some(bytes) = self.bytes else { return vec![[0.0; N]; self.count] };
+        if self.kind == ComponentType::F32 && self.stride == 4 * N && self.count > 0 {
+            let number = |bytes: [u8; 4]| f64::from(f32::from_le_bytes(bytes));
+            let element = |words: &[[u8; 4]; N]| words.map(number);
+            let words = bytes.as_chunks::<4>().0.as_chunks::<N>().0;
+            return words[..self.count].iter().map(element).collect();
+        }
         let size = self.kind.size();
         let element = |number: usize| {
             let element = &bytes[number * self.stride..];

@@ -5,6 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use glam::{DAffine2, DVec2, DVec3};
+use gltf_json::Material;
 use gltf_json::extensions::texture::TextureTransform;
 use gltf_json::material::AlphaMode;
 use gltf_json::texture::{Info, MagFilter, MinFilter, WrappingMode};
@@ -84,9 +85,10 @@ pub(super) fn describe(
     let pbr = &material.pbr_metallic_roughness;
     let other = extensions.and_then(|extensions| extensions.pbr_specular_glossiness.as_ref());
     let unlit = extensions.is_some_and(|extensions| extensions.unlit.is_some());
-    let ([r, g, b, alpha], info) = match other {
-        Some(other) => (other.diffuse_factor.0, other.diffuse_texture.as_ref()),
-        None => (pbr.base_color_factor.0, pbr.base_color_texture.as_ref()),
+    let info = colour_texture(material);
+    let [r, g, b, alpha] = match other {
+        Some(other) => other.diffuse_factor.0,
+        None => pbr.base_color_factor.0,
     };
     let mut specular = Specular::default();
     if let Some(other) = other {
@@ -153,10 +155,9 @@ pub(super) fn describe(
     let is_opaque = map.is_none() && factor == 1.0;
     let opacity = mode.filter(|_| !is_opaque).map(|mode| Opacity { factor, map, mode });
     let texture = decoded.map(|decoded| decoded.texture);
-    let transform = info.and_then(|info| info.extensions.as_ref()?.texture_transform.as_ref());
-    let set = info.map(|info| transform.and_then(|t| t.tex_coord).unwrap_or(info.tex_coord));
+    let transform = info.and_then(transform);
     Some(Described {
-        uv_set: set.filter(|_| texture.is_some()),
+        uv_set: uv_set(data, number).filter(|_| texture.is_some()),
         uv_transform: transform.map_or(DAffine2::IDENTITY, affine),
         surface: Surface {
             name,
@@ -168,6 +169,25 @@ pub(super) fn describe(
             both_sides: material.double_sided,
         },
     })
+}
+
+/// The texture of the colour of a material.
+fn colour_texture(material: &Material) -> Option<&Info> {
+    let extensions = material.extensions.as_ref();
+    match extensions.and_then(|extensions| extensions.pbr_specular_glossiness.as_ref()) {
+        Some(other) => other.diffuse_texture.as_ref(),
+        None => material.pbr_metallic_roughness.base_color_texture.as_ref(),
+    }
+}
+
+fn transform(info: &Info) -> Option<&TextureTransform> {
+    info.extensions.as_ref()?.texture_transform.as_ref()
+}
+
+/// The number of the texture coordinates that the texture of a material's colour is read at.
+pub(super) fn uv_set(data: &Data<'_>, number: usize) -> Option<u32> {
+    let info = colour_texture(data.root.materials.get(number)?)?;
+    Some(transform(info).and_then(|transform| transform.tex_coord).unwrap_or(info.tex_coord))
 }
 
 /// The highlight that is about as wide as that of a physically based surface: of roughness a = (1 - gloss)^2, the

@@ -14,12 +14,13 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use glam::{DMat3, DMat4, DQuat, DVec2, DVec3};
+use gltf_json::material::AlphaMode;
 use gltf_json::mesh::{Mode, Primitive, Semantic};
 use gltf_json::validation::Checked;
 use gltf_json::{Node, Root};
 use rasterproof_host::text::{printable_path, printable_short};
 
-use crate::contents::{Contents, Part, Polygon, PolygonCorner};
+use crate::contents::{Contents, Numbers, Part, Polygons};
 use crate::{BadFile, Warnings, bad};
 use data::Data;
 use materials::{Described, Pictures, encoded};
@@ -30,9 +31,10 @@ const MOST_CORNERS: usize = 1 << 27;
 /// Nodes that are visited: a document may show one node many times.
 const MOST_VISITS: usize = 1 << 20;
 
-/// Extensions that change nothing that could be seen, or that are read.
-const READ: [&str; 11] = [
+/// Extensions that change nothing that could be seen, that are read, or whose use is counted.
+const READ: [&str; 12] = [
     draco::EXTENSION,
+    LIGHTS,
     "KHR_materials_unlit",
     "KHR_materials_pbrSpecularGlossiness",
     "KHR_texture_transform",
@@ -44,6 +46,9 @@ const READ: [&str; 11] = [
     "MSFT_lod",
     "WEB3D_quantized_attributes",
 ];
+
+/// The extension of nodes that are lights.
+const LIGHTS: &str = "KHR_lights_punctual";
 
 /// Extensions that hide where the triangles are.
 const COMPRESSED: [&str; 2] = ["EXT_meshopt_compression", "KHR_meshopt_compression"];
@@ -215,6 +220,11 @@ impl Reader<'_> {
         self.count("animation", root.animations.len() as u64);
         let cameras = root.nodes.iter().filter(|node| node.camera.is_some()).count();
         self.count("camera", cameras as u64);
+        let has_light = |node: &&Node| {
+            let extensions = node.extensions.as_ref();
+            extensions.is_some_and(|all| all.others.contains_key(LIGHTS))
+        };
+        self.count("light", root.nodes.iter().filter(has_light).count() as u64);
         for name in &root.extensions_used {
             if !READ.contains(&name.as_str()) {
                 self.count(&format!("extension {}", printable_short(name, 60)), 1);
@@ -286,6 +296,7 @@ impl Reader<'_> {
                 _ => self.warn("skins", &format!("{place}: its joints are not as many as its positions; it is drawn without its skin")),
             }
         }
+        self.count_attributes(primitive, &vertices);
         let colours = match vertices.read(Semantic::Colors(0)) {
             Some(read) => self.optional(read.map(vectors3), count, "colours", place),
             None => Vec::new(),
@@ -308,19 +319,18 @@ impl Reader<'_> {
                 None => self.warn("textures", &format!("{place}: has a texture and no TEXCOORD_{set}; all of it has the colour of one texel")),
             }
         }
-        let corner = |&position: &u32| PolygonCorner {
-            position,
-            normal: (!normals.is_empty()).then_some(position),
-            uv: (!uvs.is_empty()).then_some(position),
+        let numbers = |is_empty: bool| {
+            if is_empty { Numbers::Nothing } else { Numbers::OfPositions }
         };
-        let end = |number: u32| Polygon { end: 3 * number, line: 0, smoothing: 0 };
         let name = node.name.as_deref().unwrap_or("");
         let part = Part {
             name: format!("nodes[{number}] {name} {place}").replace("  ", " "),
             material: material.map(|(material, ..)| material),
             to_file,
-            corners: triangles.iter().map(corner).collect(),
-            polygons: (1..=(triangles.len() / 3) as u32).map(end).collect(),
+            polygons: Polygons::triangles(triangles.len() / 3),
+            corners: triangles,
+            normal_numbers: numbers(normals.is_empty()),
+            uv_numbers: numbers(uvs.is_empty()),
             positions,
             normals,
             uvs,
@@ -328,6 +338,37 @@ impl Reader<'_> {
         };
         self.contents.parts.push(part);
         Ok(())
+    }
+
+    /// What vertices have that is not drawn.
+    fn count_attributes(&mut self, primitive: &Primitive, vertices: &Vertices<'_>) {
+        let material = primitive.material.and_then(|material| {
+            let number = material.value();
+            Some((self.data.root.materials.get(number)?, number))
+        });
+        let is_opaque = material.is_none_or(|(material, _)| {
+            matches!(material.alpha_mode, Checked::Valid(AlphaMode::Opaque) | Checked::Invalid)
+        });
+        // The opacity of a colour has an effect where that of the material has one.
+        if !is_opaque && let Some(Ok(colours)) = vertices.read::<4>(Semantic::Colors(0)) {
+            let transparent = colours.iter().filter(|[.., alpha]| *alpha < 1.0).count();
+            self.count("transparent position", transparent as u64);
+        }
+        let used = material.and_then(|(_, number)| materials::uv_set(self.data, number));
+        for attribute in primitive.attributes.keys() {
+            let Checked::Valid(semantic) = attribute else {
+                self.count("values that glTF does not define of primitive", 1);
+                continue;
+            };
+            match semantic {
+                Semantic::TexCoords(set) if *set > 0 && used != Some(*set) => {
+                    self.count("other texture coordinates of primitive", 1);
+                }
+                Semantic::Colors(1..) => self.count("other colours of primitive", 1),
+                Semantic::Joints(1..) => self.count("joints beyond the first four of primitive", 1),
+                _ => {}
+            }
+        }
     }
 
     /// The corners of triangles, three by three; those that name no position are left out.

@@ -151,14 +151,16 @@ impl<'a> Whole<'a> {
     pub fn outlines(&self, (item, run): &(usize, Range<usize>), emit: &mut impl FnMut(Outline)) {
         let item = &self.items[*item];
         let (prepared, first) = (&item.prepared, item.first + run.start);
-        let triangles = &prepared.item.mesh.triangles[run.clone()];
-        for (number, triangle) in (first as u32..).zip(triangles) {
-            let [a, b, c] = item.corners(triangle);
+        let triangles = &prepared.item.mesh.triangles;
+        let positions = &triangles.positions()[run.clone()];
+        for (number, positions) in (first as u32..).zip(positions) {
+            let [a, b, c] = positions.map(|number| &item.vertices[number as usize]);
             if a.code & b.code & c.code != 0 {
                 continue;
             }
             if a.code | b.code | c.code != 0 {
-                self.cut(item, triangle, &mut |part, surface| {
+                let triangle = triangles.at(number as usize - item.first);
+                self.cut(item, &triangle, &mut |part, surface| {
                     emit(outline(&surface.corners, number | (part + 1) << FACE_BITS));
                 });
                 continue;
@@ -192,7 +194,7 @@ impl<'a> Whole<'a> {
             [item] => item,
             items => &items[items.partition_point(|item| item.first <= face as usize) - 1],
         };
-        let triangle = &item.prepared.item.mesh.triangles[face as usize - item.first];
+        let triangle = &item.prepared.item.mesh.triangles.at(face as usize - item.first);
         if part != 0 {
             return self.part(item, triangle, part - 1);
         }

@@ -164,7 +164,9 @@ impl<'a> Prepared<'a> {
     /// The normal of a triangle, where it is asked for.
     fn face(&self, triangle: &[Corner; 3]) -> DVec3 {
         match self.item.material.shading {
-            Shading::Flat => self.item.mesh.face_normal(triangle),
+            Shading::Flat => {
+                self.item.mesh.face_normal(triangle.map_array(|corner| corner.position))
+            }
             _ => DVec3::ZERO,
         }
     }
@@ -211,9 +213,9 @@ impl<'a> Prepared<'a> {
         emit: &mut dyn FnMut(&Piece, &mut Counters),
     ) {
         let mut fills = Counters::default();
-        for triangle in &self.item.mesh.triangles {
+        for triangle in self.item.mesh.triangles.iter() {
             let point = |i: usize| &self.points[triangle[i].position as usize];
-            let varying = |i: usize| self.varying(scene, &triangle[i], self.face(triangle));
+            let varying = |i: usize| self.varying(scene, &triangle[i], self.face(&triangle));
             let points = [point(0), point(1), point(2)];
             self.assembler.assemble(points, varying, counters, |piece| emit(piece, &mut fills));
         }

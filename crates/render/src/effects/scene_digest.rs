@@ -149,10 +149,10 @@ impl Words {
         self.whole(mesh.positions.len() as u64);
         mesh.positions.iter().for_each(|position| self.point(*position));
         self.whole(mesh.triangles.len() as u64);
-        for Corner { position, colour, normal, uv } in mesh.triangles.as_flattened() {
-            self.whole((*position).into());
-            self.point(*colour);
-            self.point(*normal);
+        for Corner { position, colour, normal, uv } in mesh.triangles.corners() {
+            self.whole(position.into());
+            self.point(colour);
+            self.point(normal);
             self.numbers(&uv.to_array());
         }
     }
@@ -197,7 +197,8 @@ mod tests {
             ("painted", |scene| scene.hidden = Hidden::Painter),
             ("twice", |scene| scene.items.push(scene.items[0].clone())),
             ("a colour of a corner", |scene| {
-                std::sync::Arc::make_mut(&mut scene.items[0].mesh).triangles[1][2].colour.x = 0.5;
+                let mesh = std::sync::Arc::make_mut(&mut scene.items[0].mesh);
+                mesh.triangles.change(1, |corners| corners[2].colour.x = 0.5);
             }),
         ];
         for (what, change) in changes {

@@ -317,14 +317,15 @@ fn everything(scene: Scene, turn: f64) -> Scene {
         shapes::sphere(AHEAD + DVec3::new(0.9, 0.0, 0.6), 0.9, 64, 32),
     ];
     let tint = |mut mesh: Mesh| {
-        for corner in mesh.triangles.as_flattened_mut() {
-            let p = mesh.positions[corner.position as usize];
+        let positions = &mesh.positions;
+        mesh.triangles.change_corners(|corner| {
+            let p = positions[corner.position as usize];
             let wave = |v: f64| 0.8 + 0.2 * sin(v * 1.7);
             corner.colour = DVec3::new(wave(p.x), wave(p.y + 1.0), wave(p.z + 2.0));
             corner.uv *= 3.0;
             // The floor's light changes along it too.
             corner.normal += DVec3::new(0.02 * p.x, 0.0, 0.005 * p.z);
-        }
+        });
         mesh
     };
     let items = meshes.into_iter().map(|mesh| {

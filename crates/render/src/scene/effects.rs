@@ -55,9 +55,7 @@ fn highlights(scene: Scene, turn: f64) -> Scene {
         DVec3::new(9.0, -1.3, 18.0),
         DVec3::new(-9.0, -1.3, 18.0),
     ]);
-    for corner in floor.triangles.as_flattened_mut() {
-        corner.uv *= 4.0;
-    }
+    floor.triangles.change_corners(|corner| corner.uv *= 4.0);
     let texture = Arc::new(textures::checkerboard().with(Filter::Bilinear, Wrap::Repeat));
     let matt = Material { texture: Some(texture), shading: Shading::Phong, ..Material::default() };
     let mut items = vec![Item::new(floor, matt)];
@@ -127,13 +125,13 @@ fn patches([columns, rows]: [u32; 2], position: impl Fn(f64, f64) -> DVec3) -> M
         let mut square =
             shapes::quad([at(left, below), at(right, below), at(right, above), at(left, above)]);
         let first = mesh.positions.len() as u32;
-        for corner in square.triangles.as_flattened_mut() {
+        square.triangles.change_corners(|corner| {
             corner.uv = (corner.uv + DVec2::new(column.into(), row.into()))
                 / DVec2::new(columns.into(), rows.into());
             corner.position += first;
-        }
+        });
         mesh.positions.extend(square.positions);
-        mesh.triangles.extend(square.triangles);
+        mesh.triangles.extend(square.triangles.iter());
     }
     mesh
 }
@@ -242,9 +240,7 @@ fn mip_maps(scene: Scene, turn: f64) -> Scene {
         DVec3::new(60.0, -1.0, 19.9),
         DVec3::new(-60.0, -1.0, 19.9),
     ]);
-    for corner in floor.triangles.as_flattened_mut() {
-        corner.uv *= DVec2::new(48.0, 8.0);
-    }
+    floor.triangles.change_corners(|corner| corner.uv *= DVec2::new(48.0, 8.0));
     let at = |x: f64, y: f64| AHEAD + DVec3::new(x, y, -1.2);
     let board = shapes::quad([at(-0.7, -0.6), at(0.7, -0.6), at(0.7, 0.8), at(-0.7, 0.8)]);
     let board = turned(Item::new(board, material(boards)), AHEAD, turn_y(turn * TAU));
@@ -267,9 +263,7 @@ fn anisotropy(scene: Scene, turn: f64) -> Scene {
         );
     let (checks, boards) = (smooth(fields), smooth(textures::boards()));
     let item = |mut mesh: Mesh, uv: DVec2, material: &Material| {
-        for corner in mesh.triangles.as_flattened_mut() {
-            corner.uv *= uv;
-        }
+        mesh.triangles.change_corners(|corner| corner.uv *= uv);
         Item::new(mesh, material.clone())
     };
     // Rows that grow with the distance.

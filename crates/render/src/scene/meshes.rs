@@ -115,9 +115,7 @@ fn tube(columns: u32, rows: u32, radius: f64, curve: fn(f64) -> DVec3) -> Mesh {
 }
 
 fn smooth(mut mesh: Mesh) -> Mesh {
-    for corner in mesh.triangles.as_flattened_mut() {
-        corner.normal = DVec3::ZERO;
-    }
+    mesh.triangles.change_corners(|corner| corner.normal = DVec3::ZERO);
     shapes::with_smooth_normals(mesh)
 }
 
@@ -133,8 +131,8 @@ mod tests {
             let share = scene.triangles() as f64 / wanted;
             assert!((share - 1.0).abs() < 0.05, "{name}: {}", scene.triangles());
             let mesh = &scene.items[0].mesh;
-            let corners = mesh.triangles.as_flattened();
-            assert!(corners.iter().all(|c| (c.normal.length() - 1.0).abs() < 1e-9), "{name}");
+            let mut corners = mesh.triangles.corners();
+            assert!(corners.all(|c| (c.normal.length() - 1.0).abs() < 1e-9), "{name}");
         }
         assert!(scene("torus-3").is_none());
     }
@@ -143,7 +141,7 @@ mod tests {
     #[test]
     fn meshes_are_closed_and_run_counter_clockwise_from_outside() {
         let volume = |mesh: &Mesh| -> f64 {
-            let at = |corner: &Corner| mesh.positions[corner.position as usize];
+            let at = |corner: Corner| mesh.positions[corner.position as usize];
             mesh.triangles.iter().map(|[a, b, c]| at(a).dot(at(c).cross(at(b)))).sum()
         };
         let expected = volume(&shapes::sphere(DVec3::ZERO, 1.0, 24, 12)).signum();

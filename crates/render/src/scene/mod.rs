@@ -9,6 +9,7 @@ pub mod named;
 pub mod random;
 pub mod shapes;
 pub mod textures;
+mod triangles;
 
 use std::sync::Arc;
 
@@ -21,6 +22,7 @@ use crate::pipeline::opacity::Opacity;
 use crate::pipeline::shade::Light;
 use crate::pipeline::target::Colour;
 use crate::pipeline::texture::Texture;
+pub use triangles::{Attribute, Triangles};
 
 /// One corner of a triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,24 +42,24 @@ pub struct Corner {
 pub struct Mesh {
     /// Positions in object space.
     pub positions: Vec<DVec3>,
-    /// Triangles; every index names a position.
-    pub triangles: Vec<[Corner; 3]>,
+    /// Every index names a position.
+    pub triangles: Triangles,
 }
 
 impl Mesh {
-    /// The normal of a triangle that is counter-clockwise from the outside, by its corners:
+    /// The normal of a triangle that is counter-clockwise from the outside, by its positions:
     /// of length twice its area. Left-handed, so it is the cross product with the sign turned.
     #[must_use]
-    pub fn face_normal(&self, triangle: &[Corner; 3]) -> DVec3 {
-        let [a, b, c] = triangle.map(|corner| self.positions[corner.position as usize]);
+    pub fn face_normal(&self, positions: [u32; 3]) -> DVec3 {
+        let [a, b, c] = positions.map(|number| self.positions[number as usize]);
         (c - a).cross(b - a)
     }
 
     /// Smallest and largest coordinates of the positions that triangles use; nothing without any.
     #[must_use]
     pub fn bounds(&self) -> Option<(DVec3, DVec3)> {
-        let corners = self.triangles.iter().flatten();
-        corners.map(|corner| self.positions[corner.position as usize]).fold(None, |bounds, p| {
+        let used = self.triangles.positions().as_flattened().iter();
+        used.map(|&number| self.positions[number as usize]).fold(None, |bounds, p| {
             let (min, max) = bounds.unwrap_or((p, p));
             Some((min.min(p), max.max(p)))
         })

@@ -150,9 +150,7 @@ fn tint(mesh: &mut Mesh, rng: &mut Rng) {
     let mut colour = || DVec3::new(rng.unit(), rng.unit(), rng.unit());
     let one = colour();
     let many = colour().x < 0.5;
-    for corner in mesh.triangles.as_flattened_mut() {
-        corner.colour = if many { colour() } else { one };
-    }
+    mesh.triangles.change_corners(|corner| corner.colour = if many { colour() } else { one });
 }
 
 fn material(rng: &mut Rng) -> Material {

@@ -20,7 +20,7 @@ pub fn triangle(positions: [DVec3; 3], colours: [DVec3; 3]) -> Mesh {
     };
     with_face_normals(Mesh {
         positions: positions.to_vec(),
-        triangles: vec![[corner(0), corner(1), corner(2)]],
+        triangles: [[corner(0), corner(1), corner(2)]].into_iter().collect(),
     })
 }
 
@@ -43,7 +43,7 @@ pub fn cuboid(min: DVec3, max: DVec3) -> Mesh {
     let faces =
         [[0, 1, 3, 2], [5, 4, 6, 7], [4, 0, 2, 6], [1, 5, 7, 3], [2, 3, 7, 6], [4, 5, 1, 0]];
     let uvs = [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y];
-    let mut mesh = Mesh { positions: (0..8).map(at).collect(), triangles: Vec::new() };
+    let mut mesh = Mesh { positions: (0..8).map(at).collect(), ..Mesh::default() };
     for face in faces {
         push_faces(&mut mesh, face.map(|i| i as u32), uvs);
     }
@@ -119,10 +119,10 @@ fn push_faces(mesh: &mut Mesh, positions: [u32; 4], uvs: [DVec2; 4]) {
 #[must_use]
 pub fn with_face_normals(mut mesh: Mesh) -> Mesh {
     for i in 0..mesh.triangles.len() {
-        let normal = mesh.face_normal(&mesh.triangles[i]).normalize_or_zero();
-        for corner in &mut mesh.triangles[i] {
-            corner.normal = normal;
-        }
+        let normal = mesh.face_normal(mesh.triangles.positions()[i]).normalize_or_zero();
+        mesh.triangles.change(i, |corners| {
+            corners.iter_mut().for_each(|corner| corner.normal = normal);
+        });
     }
     mesh
 }
@@ -131,17 +131,17 @@ pub fn with_face_normals(mut mesh: Mesh) -> Mesh {
 #[must_use]
 pub fn with_smooth_normals(mut mesh: Mesh) -> Mesh {
     let mut sums = vec![DVec3::ZERO; mesh.positions.len()];
-    for triangle in &mesh.triangles {
+    for &triangle in mesh.triangles.positions() {
         let normal = mesh.face_normal(triangle);
-        for corner in triangle {
-            sums[corner.position as usize] += normal;
+        for number in triangle {
+            sums[number as usize] += normal;
         }
     }
-    for corner in mesh.triangles.as_flattened_mut() {
+    mesh.triangles.change_corners(|corner| {
         if corner.normal == DVec3::ZERO {
             corner.normal = sums[corner.position as usize].normalize_or_zero();
         }
-    }
+    });
     mesh
 }
 
@@ -154,9 +154,9 @@ mod tests {
     /// Every edge is run once in each direction, so nothing is open and no face is turned.
     fn check_closed(mesh: &Mesh) {
         let mut edges: HashMap<(u32, u32), i32> = HashMap::new();
-        for triangle in &mesh.triangles {
+        for triangle in mesh.triangles.positions() {
             for i in 0..3 {
-                let (a, b) = (triangle[i].position, triangle[(i + 1) % 3].position);
+                let (a, b) = (triangle[i], triangle[(i + 1) % 3]);
                 *edges.entry((a, b)).or_default() += 1;
             }
         }
@@ -172,8 +172,8 @@ mod tests {
             sphere(centre, 1.5, 3, 2),
         ] {
             check_closed(&mesh);
-            for triangle in &mesh.triangles {
-                let normal = mesh.face_normal(triangle);
+            for triangle in mesh.triangles.iter() {
+                let normal = mesh.face_normal(triangle.map(|corner| corner.position));
                 let outwards = mesh.positions[triangle[0].position as usize] - centre;
                 assert!(normal.dot(outwards) > 0.0);
                 assert!(triangle.iter().all(|corner| corner.normal.dot(normal) > 0.0));
@@ -184,9 +184,9 @@ mod tests {
     #[test]
     fn smooth_normals_of_a_cube_point_out_of_its_corners() {
         let mut cube = cuboid(-DVec3::ONE, DVec3::ONE);
-        cube.triangles.as_flattened_mut().iter_mut().for_each(|c| c.normal = DVec3::ZERO);
+        cube.triangles.change_corners(|corner| corner.normal = DVec3::ZERO);
         let cube = with_smooth_normals(cube);
-        for corner in cube.triangles.as_flattened() {
+        for corner in cube.triangles.corners() {
             assert!(corner.normal.dot(cube.positions[corner.position as usize]) > 1.6);
         }
     }

@@ -101,7 +101,7 @@ fn surface(scene: &Scene) -> Result<Surface, Error> {
 fn corners(item: &Item) -> (Vec<Corner>, Vec<u32>) {
     let normals = DMat3::from_mat4(item.model).inverse().transpose();
     let (mut corners, mut numbers) = (Vec::new(), HashMap::new());
-    let indices = item.mesh.triangles.as_flattened().iter().map(|corner| {
+    let indices = item.mesh.triangles.corners().map(|corner| {
         let words = corner.normal.to_array().map(f64::to_bits);
         let key = (corner.position, words, corner.uv.to_array().map(f64::to_bits));
         *numbers.entry(key).or_insert_with(|| {

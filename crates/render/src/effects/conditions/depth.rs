@@ -10,7 +10,7 @@ use crate::effects::primitive::{Piece, Prepared, pixel_box};
 use crate::effects::{Effect, Effects, Mode};
 use crate::pipeline::assemble::twice_area;
 use crate::pipeline::target::Antialias;
-use crate::scene::{Corner, Hidden, Scene};
+use crate::scene::{Hidden, Scene};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_core::triangle::Corners;
@@ -49,10 +49,10 @@ pub fn is_surveyed(scene: &Scene) -> bool {
 
 /// Whether nearly all boxes of the first triangles of an item meet another one of theirs.
 fn first_meet(item: &Prepared<'_>, margin_px: i32) -> bool {
-    let place = |corner: &Corner| item.points[corner.position as usize].place();
-    let corners = |[a, b, c]: &[Corner; 3]| Some([place(a)?, place(b)?, place(c)?]);
-    let first: Vec<_> =
-        item.item.mesh.triangles.iter().filter_map(corners).take(FIRST_BOXES).collect();
+    let place = |number: u32| item.points[number as usize].place();
+    let corners = |&[a, b, c]: &[u32; 3]| Some([place(a)?, place(b)?, place(c)?]);
+    let all = item.item.mesh.triangles.positions().iter();
+    let first: Vec<_> = all.filter_map(corners).take(FIRST_BOXES).collect();
     let units = units(&first, margin_px);
     let meets_another = |unit: &&Unit| {
         let meets = |other: &Unit| {
@@ -79,18 +79,18 @@ const SURVEYED: usize = 16;
 /// with which they share no corner.
 pub fn survey(scene: &Scene, items: &[Prepared<'_>], canvas: &Canvas) -> [usize; 2] {
     let margin_px = margin_px(canvas);
-    let rect = |item: &Prepared<'_>, triangle: &[Corner; 3]| {
-        let [a, b, c] = triangle.map_array(|corner| item.points[corner.position as usize].place());
+    let rect = |item: &Prepared<'_>, triangle: &[u32; 3]| {
+        let [a, b, c] = triangle.map(|number| item.points[number as usize].place());
         Some(pixel_box(&[a?, b?, c?], margin_px))
     };
     let stride = scene.triangles().div_ceil(SURVEYED).max(1);
     let mut open: Vec<(usize, [u32; 3], PixelRect)> = Vec::with_capacity(SURVEYED);
     let mut next = 0;
     for (index, item) in items.iter().enumerate() {
-        let triangles = &item.item.mesh.triangles;
+        let triangles = item.item.mesh.triangles.positions();
         while let Some(triangle) = triangles.get(next) {
             if let Some(rect) = rect(item, triangle) {
-                open.push((index, triangle.map_array(|corner| corner.position), rect));
+                open.push((index, *triangle, rect));
             }
             next += stride;
         }
@@ -98,13 +98,13 @@ pub fn survey(scene: &Scene, items: &[Prepared<'_>], canvas: &Canvas) -> [usize;
     }
     let looked_at = open.len();
     for (index, item) in items.iter().enumerate() {
-        for triangle in &item.item.mesh.triangles {
+        for triangle in item.item.mesh.triangles.positions() {
             if open.is_empty() {
                 return [looked_at, looked_at];
             }
             let Some(other) = rect(item, triangle) else { continue };
             open.retain(|(of, positions, rect)| {
-                let shares = |corner: &Corner| positions.contains(&corner.position);
+                let shares = |number: &u32| positions.contains(number);
                 rect.intersect(&other).is_empty() || (*of == index && triangle.iter().any(shares))
             });
         }

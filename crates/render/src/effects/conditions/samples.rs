@@ -11,7 +11,6 @@ use crate::effects::primitive::{Prepared, touched};
 use crate::effects::{Effect, Effects, Mode};
 use crate::pipeline::ClipVertex;
 use crate::pipeline::assemble::{Point, Viewport, twice_area};
-use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::Corners;
 
@@ -110,11 +109,11 @@ impl Estimate {
             point.place().or_else(|| Some(viewport.place(&vertex).ok()?.position))
         };
         let corners: Vec<Option<SubpixelPoint>> = item.points.iter().map(place).collect();
-        for [a, b, c] in &item.item.mesh.triangles {
+        for of in item.item.mesh.triangles.positions() {
             if self.is_hopeless() {
                 return;
             }
-            let [a, b, c] = [a, b, c].map_array(|corner| corners[corner.position as usize]);
+            let [a, b, c] = of.map(|number| corners[number as usize]);
             match (a, b, c) {
                 (Some(a), Some(b), Some(c)) if item.item.cull.removes([a, b, c]) => {}
                 (Some(a), Some(b), Some(c)) => self.see(&[a, b, c], plan),

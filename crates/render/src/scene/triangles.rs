@@ -1,0 +1,260 @@
+//! The triangles of a mesh, in lists of indices and values.
+//!
+//! A corner as a value takes 72 bytes, so five million triangles of such corners would take a gigabyte. Most meshes have
+//! the same colour everywhere, and normals that corners at one position share. Each attribute is therefore stored
+//! the way in which it is shared, and a corner is put together when it is read.
+
+use glam::{DVec2, DVec3};
+
+use super::Corner;
+
+/// The values of one attribute for all corners of all triangles.
+#[derive(Clone, Debug)]
+pub enum Attribute<V> {
+    /// All corners have this one.
+    Same(V),
+    /// Corners at one position share a value, which has the number of the position.
+    OfPositions(Vec<V>),
+    /// The corners of a triangle share a value.
+    OfTriangles(Vec<V>),
+    /// Each corner has its own.
+    OfCorners(Vec<[V; 3]>),
+    /// Each corner names one of the values by its number, three numbers for each triangle.
+    Indexed { values: Vec<V>, indices: Vec<u32> },
+}
+
+impl<V> Default for Attribute<V> {
+    fn default() -> Self {
+        Self::OfCorners(Vec::new())
+    }
+}
+
+impl<V: Copy> Attribute<V> {
+    /// The values of the corners of a triangle, whose positions have these numbers.
+    #[inline]
+    fn get(&self, triangle: usize, positions: [u32; 3]) -> [V; 3] {
+        match self {
+            Self::Same(value) => [*value; 3],
+            Self::OfPositions(values) => positions.map(|number| values[number as usize]),
+            Self::OfTriangles(values) => [values[triangle]; 3],
+            Self::OfCorners(values) => values[triangle],
+            Self::Indexed { values, indices } => {
+                indices.as_chunks::<3>().0[triangle].map(|number| values[number as usize])
+            }
+        }
+    }
+
+    /// The list of a value for each corner, which is made where the values are shared.
+    fn of_corners(&mut self, positions: &[[u32; 3]]) -> &mut Vec<[V; 3]> {
+        if !matches!(self, Self::OfCorners(_)) {
+            let all = positions.iter().enumerate();
+            *self = Self::OfCorners(all.map(|(number, &of)| self.get(number, of)).collect());
+        }
+        match self {
+            Self::OfCorners(values) => values,
+            _ => unreachable!("it was made one"),
+        }
+    }
+
+    /// Panics where there are not as many values as triangles.
+    fn check(&self, triangles: usize) {
+        let count = match self {
+            Self::Same(_) | Self::OfPositions(_) => triangles,
+            Self::OfTriangles(values) => values.len(),
+            Self::OfCorners(values) => values.len(),
+            Self::Indexed { indices, .. } => indices.len() / 3,
+        };
+        assert_eq!(count, triangles, "an attribute needs values for each triangle");
+    }
+}
+
+/// Triangles by the numbers of their positions, with the attributes of their corners.
+#[derive(Clone, Debug, Default)]
+pub struct Triangles {
+    /// Three for each triangle.
+    positions: Vec<u32>,
+    colours: Attribute<DVec3>,
+    normals: Attribute<DVec3>,
+    uvs: Attribute<DVec2>,
+}
+
+impl Triangles {
+    /// Triangles of three positions each, one after the other.
+    ///
+    /// # Panics
+    /// If an attribute has not as many values as it says.
+    #[must_use]
+    pub fn new(
+        mut positions: Vec<u32>,
+        colours: Attribute<DVec3>,
+        normals: Attribute<DVec3>,
+        uvs: Attribute<DVec2>,
+    ) -> Self {
+        let count = positions.len() / 3;
+        positions.truncate(3 * count);
+        colours.check(count);
+        normals.check(count);
+        uvs.check(count);
+        Self { positions, colours, normals, uvs }
+    }
+
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.positions.len() / 3
+    }
+
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.positions.is_empty()
+    }
+
+    /// The numbers of the positions of each triangle.
+    #[must_use]
+    pub fn positions(&self) -> &[[u32; 3]] {
+        self.positions.as_chunks().0
+    }
+
+    /// The corners of a triangle.
+    ///
+    /// # Panics
+    /// If there are not so many triangles.
+    #[inline]
+    #[must_use]
+    pub fn at(&self, triangle: usize) -> [Corner; 3] {
+        let of = self.positions()[triangle];
+        let colours = self.colours.get(triangle, of);
+        let (normals, uvs) = (self.normals.get(triangle, of), self.uvs.get(triangle, of));
+        let corner = |i: usize| Corner {
+            position: of[i],
+            colour: colours[i],
+            normal: normals[i],
+            uv: uvs[i],
+        };
+        [corner(0), corner(1), corner(2)]
+    }
+
+    /// The corners of each triangle.
+    pub fn iter(&self) -> impl ExactSizeIterator<Item = [Corner; 3]> + DoubleEndedIterator + Clone {
+        (0..self.len()).map(|triangle| self.at(triangle))
+    }
+
+    /// All corners, three for each triangle.
+    pub fn corners(&self) -> impl Iterator<Item = Corner> + Clone {
+        self.iter().flatten()
+    }
+
+    pub fn push(&mut self, corners: [Corner; 3]) {
+        let before = self.positions.as_chunks().0;
+        self.colours.of_corners(before).push(corners.map(|corner| corner.colour));
+        self.normals.of_corners(before).push(corners.map(|corner| corner.normal));
+        self.uvs.of_corners(before).push(corners.map(|corner| corner.uv));
+        self.positions.extend(corners.map(|corner| corner.position));
+    }
+
+    /// Changes the corners of a triangle.
+    ///
+    /// # Panics
+    /// If there are not so many triangles.
+    pub fn change(&mut self, triangle: usize, change: impl FnOnce(&mut [Corner; 3])) {
+        let mut corners = self.at(triangle);
+        change(&mut corners);
+        let before = self.positions.as_chunks().0;
+        self.colours.of_corners(before)[triangle] = corners.map(|corner| corner.colour);
+        self.normals.of_corners(before)[triangle] = corners.map(|corner| corner.normal);
+        self.uvs.of_corners(before)[triangle] = corners.map(|corner| corner.uv);
+        let of = &mut self.positions.as_chunks_mut().0[triangle];
+        *of = corners.map(|corner| corner.position);
+    }
+
+    /// Changes each corner.
+    pub fn change_corners(&mut self, mut change: impl FnMut(&mut Corner)) {
+        for triangle in 0..self.len() {
+            self.change(triangle, |corners| corners.iter_mut().for_each(&mut change));
+        }
+    }
+
+    /// Puts the triangles in the opposite order; the order of the corners of each one stays.
+    pub fn reverse(&mut self) {
+        fn reverse<V: Copy>(attribute: &mut Attribute<V>) {
+            match attribute {
+                Attribute::Same(_) | Attribute::OfPositions(_) => {}
+                Attribute::OfTriangles(values) => values.reverse(),
+                Attribute::OfCorners(values) => values.reverse(),
+                Attribute::Indexed { indices, .. } => indices.as_chunks_mut::<3>().0.reverse(),
+            }
+        }
+        self.positions.as_chunks_mut::<3>().0.reverse();
+        reverse(&mut self.colours);
+        reverse(&mut self.normals);
+        reverse(&mut self.uvs);
+    }
+}
+
+/// However the values are stored.
+impl PartialEq for Triangles {
+    fn eq(&self, other: &Self) -> bool {
+        self.len() == other.len() && self.iter().eq(other.iter())
+    }
+}
+
+impl Extend<[Corner; 3]> for Triangles {
+    fn extend<I: IntoIterator<Item = [Corner; 3]>>(&mut self, triangles: I) {
+        triangles.into_iter().for_each(|corners| self.push(corners));
+    }
+}
+
+impl FromIterator<[Corner; 3]> for Triangles {
+    fn from_iter<I: IntoIterator<Item = [Corner; 3]>>(triangles: I) -> Self {
+        let mut all = Self::default();
+        all.extend(triangles);
+        all
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn number(number: u32) -> DVec3 {
+        DVec3::splat(f64::from(number))
+    }
+
+    /// Two triangles between four positions, whose attributes are stored in a different way each.
+    fn two(normals: Attribute<DVec3>) -> Triangles {
+        let uvs = Attribute::Same(DVec2::Y);
+        Triangles::new(vec![0, 1, 2, 2, 1, 3], Attribute::Same(DVec3::ONE), normals, uvs)
+    }
+
+    #[test]
+    fn corners_are_the_same_however_their_values_are_stored() {
+        let of_position = |[a, b, c]: [u32; 3]| [number(a), number(b), number(c)];
+        let by_position = two(Attribute::OfPositions((0..4).map(number).collect()));
+        let by_corner =
+            two(Attribute::OfCorners(vec![of_position([0, 1, 2]), of_position([2, 1, 3])]));
+        let values = vec![number(3), number(2), number(1), number(0)];
+        let indexed = two(Attribute::Indexed { values, indices: vec![3, 2, 1, 1, 2, 0] });
+        assert_eq!(by_position, by_corner);
+        assert_eq!(by_position, indexed);
+        let by_triangle = two(Attribute::OfTriangles(vec![number(0), number(1)]));
+        assert_ne!(by_position, by_triangle);
+        let normals: Vec<f64> = by_triangle.corners().map(|corner| corner.normal.x).collect();
+        assert_eq!(normals, [0.0, 0.0, 0.0, 1.0, 1.0, 1.0]);
+        for mut triangles in [by_position, by_corner, indexed, by_triangle] {
+            let pushed: Triangles = triangles.iter().collect();
+            assert_eq!(pushed, triangles);
+            let mut changed = triangles.clone();
+            changed.change(1, |corners| corners[2].normal = DVec3::X);
+            assert_ne!(changed, triangles);
+            assert_eq!((changed.at(0), changed.at(1)[1]), (triangles.at(0), triangles.at(1)[1]));
+            triangles.reverse();
+            let turned: Triangles = pushed.iter().rev().collect();
+            assert_eq!(triangles, turned);
+        }
+    }
+
+    #[test]
+    #[should_panic(expected = "an attribute needs values")]
+    fn a_list_that_is_too_short_is_refused() {
+        let _ = two(Attribute::OfTriangles(vec![DVec3::X]));
+    }
+}
