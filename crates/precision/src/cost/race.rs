@@ -83,7 +83,7 @@ pub fn race(passes: &mut [&mut Pass<'_>], budget: Duration, keeps_all: bool) -> 
         for place in 0..alive.len() {
             // Backwards in every second round, so that no pass always follows the same one.
             let turned = (place + round / 2) % alive.len();
-            let at = if round % 2 == 0 { turned } else { alive.len() - 1 - turned };
+            let at = if round.is_multiple_of(2) { turned } else { alive.len() - 1 - turned };
             let i = alive[at];
             let start = Instant::now();
             for _ in 0..repeats[i] {
