@@ -177,3 +177,23 @@ fn a_folder_without_a_page_is_refused() {
     folder.check("plan m.obj --size 32x24 --without depth --out d", 0);
     assert!(folder.join("d").exists());
 }
+
+/// A floor and, a ten-millionth above it, another one: coarse depths show the wrong one, and values that ignore w are wrong.
+#[test]
+fn rungs_of_values_and_depth_that_are_wrong_on_hard_cases_are_named() {
+    let folder = Folder::new("study-wrong-rungs");
+    let floor = |y: &str| format!("v -10 {y} -10\nv 10 {y} -10\nv 10 {y} 10\nv -10 {y} 10\n");
+    let uv = "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n";
+    let faces = "f 1/1 2/2 3/3\nf 1/1 3/3 4/4\nf 5/1 6/2 7/3\nf 5/1 7/3 8/4\n";
+    fs::write(folder.join("m.obj"), floor("0") + &floor("0.0000001") + uv + faces).unwrap();
+    for (words, unit) in [("", "px"), (" --aa ssaa2", "samples"), (" --aa msaa4", "samples")] {
+        let text = folder.check(&*format!("study m.obj --size 64x48 --quick{words}"), 0).out;
+        let list = text.split("open borders").nth(1).unwrap();
+        let list = list.split("none:").next().unwrap();
+        let depth = list.lines().find(|line| line.contains(&format!("Depth ({unit}):")));
+        assert!(depth.is_some_and(|line| line.contains("unorm24 ")), "{words}: {list}");
+        let values = list.lines().find(|line| line.contains("Interpolation (px): affine "));
+        assert!(values.is_some_and(|line| !line.contains("offset")), "{words}: {list}");
+        assert!(list.contains(&format!("Coverage by scanline ({unit}): book ")), "{list}");
+    }
+}

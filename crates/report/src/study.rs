@@ -52,16 +52,18 @@ fn wrong_on(found: &HardCases, kind: Kind, costs: &[Group]) -> Vec<String> {
         };
         let wrong: Vec<String> = group.choices.iter().filter_map(of_choice).collect();
         let unit = group.measures.iter().find_map(|measure| measure.unit).unwrap_or("px");
-        let share = match group.looked_at {
-            Some([some, all]) if some < all => {
-                format!(", in {} of {} px looked at", thousands(some), thousands(all))
-            }
-            _ => String::new(),
-        };
-        (!wrong.is_empty())
-            .then(|| format!("{} ({unit}{share}): {}", group.title, wrong.join(", ")))
+        (!wrong.is_empty()).then(|| format!("{} ({unit}): {}", group.title, wrong.join(", ")))
     };
     costs.iter().filter_map(of_group).collect()
+}
+
+/// In how many pixels of hard cases values were compared; nothing where in all of them.
+fn compared_in(costs: &[Group]) -> Option<String> {
+    let [some, all] = costs.iter().find_map(|group| group.looked_at)?;
+    (some < all).then(|| {
+        let [some, all] = [some, all].map(thousands);
+        format!("values were compared in {some} of the {all} px of these faces")
+    })
 }
 
 /// The hard cases, each with the command that shows one.
@@ -93,6 +95,9 @@ pub fn hard_cases(subject: &Subject<'_>, found: &HardCases, costs: &[Group]) -> 
         .filter(|kind| found.cases.iter().all(|case| case.kind != *kind))
         .map(Kind::name)
         .collect();
+    if let Some(line) = compared_in(costs) {
+        let _ = writeln!(out, "{line}");
+    }
     if !missing.is_empty() && !found.cases.is_empty() {
         let _ = writeln!(out, "none: {}", missing.join(", "));
     }
@@ -555,7 +560,10 @@ fn hard_table(subject: &Subject<'_>, found: &HardCases, costs: &[Group]) -> Tabl
         Row { cells, ..Row::default() }
     };
     Table {
-        caption: "Hard cases".to_owned(),
+        caption: match compared_in(costs) {
+            Some(words) => format!("Hard cases; {words}"),
+            None => "Hard cases".to_owned(),
+        },
         columns: vec![
             Column::words("kind"),
             Column::numbers("count", "how many there are"),

@@ -154,17 +154,17 @@ impl Effort {
 
     /// How long exact choices are compared with each other.
     fn race(self) -> Duration {
-        Duration::from_millis(if self.quick { 400 } else { 4000 })
+        Duration::from_millis(if self.quick { 500 } else { 4000 })
     }
 
     /// How long whole frames are timed, and then compared with each other.
     fn frames(self) -> Duration {
-        Duration::from_millis(if self.quick { 800 } else { 8000 })
+        Duration::from_millis(if self.quick { 600 } else { 8000 })
     }
 }
 
 /// Pixels that are timed on a ladder, quickly or not: which choice is the cheapest depends on the triangles.
-const TIMED_PX: u64 = 400_000;
+const TIMED_PX: u64 = 200_000;
 
 /// The costs of a scene in a view. `progress` gets the share done and a word about it.
 pub fn measure(
@@ -182,7 +182,7 @@ pub fn measure(
     }
     progress(0.4, Ladder::Interpolation.title());
     let shaded = sampled.shaded();
-    let part = Sample::of(shaded.0, shaded.1, TIMED_PX / 5);
+    let part = Sample::of(shaded.0, shaded.1, TIMED_PX / 4);
     groups.extend(ladder(Ladder::Interpolation, shaded, &part, effort));
     if let Some(group) = groups.last_mut() {
         wrong_values_of(shaded, hard, group);
@@ -191,7 +191,7 @@ pub fn measure(
     groups.push(depth(sampled, effort));
     progress(0.6, Ladder::Antialiasing.title());
     let centres = (sampled.at_centres(), sampled.size);
-    let part = Sample::of(centres.0, centres.1, TIMED_PX / 5);
+    let part = Sample::of(centres.0, centres.1, TIMED_PX / 4);
     groups.extend(ladder(Ladder::Antialiasing, centres, &part, effort));
     progress(0.7, "planners");
     groups.push(planners(scene, target, effort)?);
@@ -471,7 +471,7 @@ fn set_times(group: &mut Group, timed: &[usize], passes: &mut [Pass<'_>], effort
 }
 
 /// An exact choice is raced unless a quarter of its first rounds is slower by more than this than the median of the best.
-const CLOSE: f64 = 1.25;
+const CLOSE: f64 = 1.5;
 
 /// Races the exact choices of each measure against each other; their times become those of the race.
 fn set_best(

@@ -73,7 +73,8 @@ fn compare(times: &[f64], fastest: &[f64], error: f64) -> Finish {
     }
 }
 
-/// Runs passes against each other until it is decided which is the fastest, or the budget is used up. With
+/// Runs passes against each other until it is decided which is the fastest, or the budget is used up; three times the
+/// budget, if that is needed for the first look. With
 /// `keeps_all` none leaves, and all rounds are run.
 pub fn race(passes: &mut [&mut Pass<'_>], budget: Duration, keeps_all: bool) -> Race {
     let start = Instant::now();
@@ -93,7 +94,13 @@ pub fn race(passes: &mut [&mut Pass<'_>], budget: Duration, keeps_all: bool) -> 
         }
         times
     };
-    decide(repeats.len(), run, &mut || start.elapsed() < budget, keeps_all)
+    let mut done = 0;
+    let mut has_time = || {
+        done += 1;
+        // Before the first look nothing is decided.
+        start.elapsed() < if done < LOOKS[0] { 3 * budget } else { budget }
+    };
+    decide(repeats.len(), run, &mut has_time, keeps_all)
 }
 
 /// The same with rounds of any origin.

@@ -369,7 +369,8 @@ impl<E: Interpolate> Stage<'_, '_, E> {
             Observer::None => {}
             Observer::Map(map) => {
                 if target.antialias().samples() > 1 {
-                    mark_samples(&mut map.effects, on_demand.as_ref());
+                    let samples_of_fragment = target.antialias().scale().pow(2);
+                    mark_samples(map, on_demand.as_ref(), samples_of_fragment);
                 }
             }
             Observer::Viewer { front, look } => {
@@ -389,7 +390,7 @@ impl<E: Interpolate> Stage<'_, '_, E> {
 pub struct PaidMap {
     /// Effects that some fragment paid for, as bits of [`Effect`] in the order of [`Effect::ALL`].
     pub effects: Frame<u32>,
-    /// Fragments; with supersampling of all samples, with multisampling those at the centre.
+    /// Fragments: with supersampling of each sample where these are told apart, with multisampling those at the centre.
     pub fragments: Frame<u32>,
     /// The effects of pixels that these fragments paid for, added up; drawing a fragment at all is 1 more.
     pub payments: Frame<u32>,
@@ -447,13 +448,20 @@ fn resolve(on_demand: Option<&OnDemand>, target: &Target) -> Frame<Colour> {
     on_demand.map_or_else(|| target.resolve(), |on_demand| on_demand.resolve(target))
 }
 
-/// Marks the pixels whose samples were told apart.
-fn mark_samples(map: &mut Frame<u32>, on_demand: Option<&OnDemand>) {
-    let bounds = map.bounds();
+/// Marks the pixels whose samples were told apart. In the others a triangle covers all samples or none, and pays once.
+fn mark_samples(map: &mut PaidMap, on_demand: Option<&OnDemand>, samples_of_fragment: u32) {
+    let bounds = map.effects.bounds();
     for y_px in bounds.y0..bounds.y1 {
-        for (x_px, pixel) in (bounds.x0..).zip(map.row_mut(y_px)) {
+        for x_px in bounds.x0..bounds.x1 {
+            let at = |frame: &mut Frame<u32>, change: &dyn Fn(u32) -> u32| {
+                let pixel = &mut frame.span_mut(y_px, x_px, x_px + 1)[0];
+                *pixel = change(*pixel);
+            };
             if on_demand.is_none_or(|on_demand| on_demand.was_apart(x_px, y_px)) {
-                *pixel |= 1 << Effect::Samples as u32;
+                at(&mut map.effects, &|bits| bits | 1 << Effect::Samples as u32);
+            } else {
+                at(&mut map.fragments, &|count| count / samples_of_fragment);
+                at(&mut map.payments, &|count| count / samples_of_fragment);
             }
         }
     }

@@ -87,6 +87,22 @@ pub(super) fn plan<'a>(
     Ok((plan, assembled))
 }
 
+/// See [`super::render::survey_again`].
+pub(super) fn survey_again(
+    scene: &Scene,
+    canvas: &Canvas,
+    timed: &mut dyn FnMut(&dyn Fn()),
+) -> Result<bool, BadScene> {
+    let (plan, assembled) = plan(scene, canvas, &Effects::PLANNED, &|_| None)?;
+    let is_surveyed = assembled.pieces.is_none() && depth::is_surveyed(scene);
+    if is_surveyed {
+        timed(&|| {
+            std::hint::black_box(depth::survey(scene, &assembled.items, &plan.drawn()));
+        });
+    }
+    Ok(is_surveyed)
+}
+
 /// What is known without looking at triangles.
 fn outset(scene: &Scene, canvas: &Canvas, effects: &Effects) -> Plan {
     let order = match scene.hidden {

@@ -32,6 +32,19 @@ pub fn plan(
     Ok(Plan { scene: Some(SceneDigest::of(scene)), ..plan })
 }
 
+/// Hands to `timed` what [`plan`] does to look at triangles of a scene that is too large to be listed; returns whether it
+/// is.
+///
+/// # Errors
+/// [`BadScene`].
+pub fn survey_again(
+    scene: &Scene,
+    canvas: &Canvas,
+    timed: &mut dyn FnMut(&dyn Fn()),
+) -> Result<bool, BadScene> {
+    planner::survey_again(scene, canvas, timed)
+}
+
 /// Draws a scene into a target by a plan, word for word; what the target held before is last
 /// frame's. The engine is the caller's, in the words that the plan names.
 ///
