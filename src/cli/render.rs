@@ -33,6 +33,7 @@ use rasterproof_render::pipeline::highlight::Specular;
 use rasterproof_render::pipeline::opacity::{AlphaMode, Opacity};
 use rasterproof_render::pipeline::present::DoubleBuffer;
 use rasterproof_render::pipeline::shade::Light;
+use rasterproof_render::pipeline::shadow::{self, Shadows};
 use rasterproof_render::pipeline::target::{Antialias, Colour, Target, check_size};
 use rasterproof_render::pipeline::texture::Texture;
 use rasterproof_render::pipeline::transform::{about, look_at, perspective};
@@ -90,7 +91,7 @@ pub struct SceneArguments {
     pub(super) view: ViewArguments,
 }
 
-pub(super) const VIEW_OPTIONS: [&str; 17] = [
+pub(super) const VIEW_OPTIONS: [&str; 18] = [
     "size",
     "aa",
     "cull",
@@ -99,6 +100,7 @@ pub(super) const VIEW_OPTIONS: [&str; 17] = [
     "alpha-threshold",
     "opacity",
     "mip-maps",
+    "shadows",
     "anisotropy",
     "fog",
     "up",
@@ -142,6 +144,9 @@ pub struct ViewArguments {
     /// detail
     #[arg(long, value_name = "TAPS", value_parser = clap::value_parser!(u8).range(2..=16))]
     anisotropy: Option<u8>,
+    /// Let the surfaces of a model keep the light from others, by a shadow map of SIZE x SIZE texels [default SIZE: 1024]
+    #[arg(long, value_name = "SIZE", num_args = 0..=1, default_missing_value = "1024", value_parser = parse_shadows)]
+    shadows: Option<u32>,
     /// Fog in the colour of the background, of a model: its start and end, where 0 is the front of the model and 1
     /// the back; or one number, its density over the depth of the model, from the eye on
     #[arg(long, value_name = "START,END|DENSITY", allow_negative_numbers = true, value_parser = parse_fog)]
@@ -252,6 +257,14 @@ fn give_mip_maps(scene: &mut Scene, anisotropy: Option<u8>) {
     }
 }
 
+fn parse_shadows(text: &str) -> Result<u32, String> {
+    let size = text.trim().parse().ok().filter(|size| shadow::SIZES.contains(size));
+    size.ok_or_else(|| {
+        let (least, most) = (shadow::SIZES.start(), shadow::SIZES.end());
+        format!("expected the texels along a side of the map, from {least} to {most}; a file is named before --shadows")
+    })
+}
+
 fn parse_fog(text: &str) -> Result<Growth, String> {
     let number = |word: &str| word.trim().parse::<f64>().ok().filter(|number| number.is_finite());
     let growth = match text.split_once(',') {
@@ -356,6 +369,7 @@ impl ViewArguments {
             ("--opacity", self.opacity.is_some()),
             ("--mip-maps", self.mip_maps),
             ("--anisotropy", self.anisotropy.is_some()),
+            ("--shadows", self.shadows.is_some()),
             ("--fog", self.fog.is_some()),
             ("--up", self.up.is_some()),
             ("--normals", self.normals.is_some()),
@@ -440,6 +454,7 @@ impl ViewArguments {
         if self.mip_maps || self.anisotropy.is_some() {
             give_mip_maps(&mut scene, self.anisotropy);
         }
+        scene.shadows = self.shadows.map(|size| Shadows { size, ..Shadows::default() });
         let [r, g, b, _] = scene.background;
         // From shares of the model's depth to distances.
         let growth = self.fog.map(|growth| match growth {
@@ -978,7 +993,7 @@ fn draw_in_tiles(
         let exact = Drawer::Scanline.render(scene, &Effects::PLANNED, &mut target);
         Ok::<_, Failure>(exact.map_err(usage)?.picture)
     };
-    let handed_over = frames::not_opaque(scene);
+    let handed_over = frames::not_drawn(scene);
     let picture = match handed_over {
         0 => frames::render(scene, size.width(), size.height(), samples).map_err(usage)?,
         _ => exact()?,
@@ -998,8 +1013,8 @@ fn draw_in_tiles(
         };
         writeln!(
             streams.output,
-            "  {handed_over} of {} triangles are not opaque, which tiles do not draw: handed to\n  \
-             scanline{drawn_in}",
+            "  {handed_over} of {} triangles are not opaque or receive shadows, which tiles do not\n  \
+             draw: handed to scanline{drawn_in}",
             scene.triangles()
         )?;
         return Ok(exit::AGREES);

@@ -167,7 +167,7 @@ mod tests {
     }
 
     /// Words that some option takes; each option is given the first that its parser accepts.
-    const VALUES: [&str; 15] = [
+    const VALUES: [&str; 16] = [
         "a b'$(x)\u{1b}.png",
         "-7.5",
         "7",
@@ -179,6 +179,7 @@ mod tests {
         "+clip",
         "x",
         "T2",
+        "512",
         "0.5,32",
         "0.5",
         "2,9",

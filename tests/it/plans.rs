@@ -110,6 +110,7 @@ fn what_is_wrong_with_a_plan_is_named() {
         "depth": true,
         "specular": "planned",
         "mip_maps": "planned",
+        "shadows": "planned",
         "anisotropy": "planned",
         "fog": "planned",
         "alpha_test": "planned",

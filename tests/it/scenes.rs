@@ -20,6 +20,7 @@ use rasterproof_render::pipeline::highlight::Specular;
 use rasterproof_render::pipeline::opacity::{AlphaMode, Opacity, OpacityMap};
 use rasterproof_render::pipeline::present::DoubleBuffer;
 use rasterproof_render::pipeline::shade::Light;
+use rasterproof_render::pipeline::shadow::Shadows;
 use rasterproof_render::pipeline::target::{Antialias, Colour, Target};
 use rasterproof_render::pipeline::texture::{Filter, Texture, Wrap};
 use rasterproof_render::pipeline::transform::{look_at, perspective};
@@ -213,6 +214,7 @@ fn an_edited_plan_is_followed() {
                 "depth": true,
                 "specular": "planned",
                 "mip_maps": "planned",
+                "shadows": "planned",
                 "anisotropy": "planned",
                 "fog": "planned",
                 "alpha_test": "planned",
@@ -528,6 +530,16 @@ fn counterexamples() -> Vec<Counterexample> {
             let material = Material { specular, shading: Shading::Phong, ..grey(1.0) };
             Scene { light, ..plain(vec![Item::new(mesh, material)]) }
         }),
+        make(Effect::Shadows, none, |by| {
+            // A smaller screen moves from the large one towards the light, which is behind the eye; its shadow is wider
+            // by what the filter reads. The depths of the map reach to a third one.
+            let light = Light { towards: -DVec3::Z, ambient: 0.5, diffuse: 0.5 };
+            let material = || Material { shading: Shading::Flat, ..grey(1.0) };
+            let items = [screen(1.0, [0.0; 2]), screen(0.0, [-by; 2]), screen(1.0, [0.5; 2])]
+                .map(|mesh| Item::new(mesh, material()));
+            let shadows = Some(Shadows { size: 32, bits: 32 });
+            Scene { light, shadows, ..plain(items.to_vec()) }
+        }),
         make(Effect::MipMaps, none, |by| {
             // A texel a pixel of the 80 x 60, and by so much more; black and white texels in turn.
             let texture = textures::generate(16, |x, y| DVec3::splat(f64::from((x + y) % 2)));
@@ -747,7 +759,7 @@ proptest! {
     fn any_mixture_of_effects_draws(
         index in any::<u32>(),
         kind in 0..4usize,
-        modes in proptest::array::uniform19(0..3u8),
+        modes in proptest::array::uniform20(0..3u8),
         some_never in any::<bool>(),
     ) {
         let scene = random::with_effects(3, index.into());

@@ -105,7 +105,7 @@ fn scenes() -> Vec<Scene> {
     let named = chapters::entries().map(|entry| chapters::scene(entry.name, 1.5, 0.1).unwrap());
     let random = (0..12).map(|index| random::scene(1, index));
     let all = named.chain(random).chain(meshes::scene("knot-4000"));
-    all.filter(|scene| frames::not_opaque(scene) == 0).collect()
+    all.filter(|scene| frames::not_drawn(scene) == 0).collect()
 }
 
 /// With one colour for everything, a pixel shows how many of its samples anything covers: bit for

@@ -1,13 +1,16 @@
 //! A scene on its way from plan to picture: in clip space, and in pieces where they are looked at.
 
+use std::sync::Arc;
+
 use super::conditions::{
-    alpha_test, anisotropy, blending, fog, interpolation, mip_maps, perspective, specular,
+    alpha_test, anisotropy, blending, fog, interpolation, mip_maps, perspective, shadows, specular,
 };
-use super::plan::{Attributes, Order, PiecePlan, Plan, Rule};
+use super::plan::{Attributes, ItemPlan, Order, PiecePlan, Plan, Rule};
 use super::primitive::{BadScene, Piece, Prepared};
 use crate::pipeline::Counters;
 use crate::pipeline::fog::Share;
 use crate::pipeline::opacity::Drawn;
+use crate::pipeline::shadow::LightView;
 use crate::scene::Scene;
 use rasterproof_core::arrays::MapArray as _;
 
@@ -27,10 +30,18 @@ impl<'a> Assembled<'a> {
     pub fn new(scene: &'a Scene, plan: &Plan) -> Result<Self, BadScene> {
         let mut counters = Counters::default();
         let window = plan.drawn().window();
+        let reads_map = |item: &ItemPlan| item.carries.has(Attributes::PLACE);
+        let light_view = plan.items.iter().any(reads_map).then(|| LightView::new(scene)).flatten();
+        let light_view = light_view.map(Arc::new);
         let items = plan.items.iter().enumerate();
         let items = items
-            .map(|(i, item)| Prepared::new(scene, i, item, window, &mut counters))
-            .collect::<Result<_, _>>()?;
+            .map(|(i, item)| {
+                let light_view = light_view.clone().filter(|_| reads_map(item));
+                let mut item = Prepared::new(scene, i, item, window, &mut counters)?;
+                item.light_view = light_view;
+                Ok(item)
+            })
+            .collect::<Result<Vec<Prepared<'_>>, _>>()?;
         let order = drawing_order(scene);
         Ok(Self { items, order, pieces: None, plans: Vec::new(), counters })
     }
@@ -76,7 +87,7 @@ fn drawing_order(scene: &Scene) -> Vec<usize> {
 
 /// What a rule says about a piece.
 #[inline]
-pub(super) fn plan_of(rule: &Rule, item: &Prepared<'_>, piece: &Piece) -> PiecePlan {
+pub(super) fn plan_of(rule: &Rule, scene: &Scene, item: &Prepared<'_>, piece: &Piece) -> PiecePlan {
     let alpha_test = alpha_test::drawn(rule.alpha_test, item, piece);
     let blending = alpha_test::drawn(rule.blending, item, piece);
     let is_mixed = alpha_test == Drawn::Mixed || blending == Drawn::Mixed;
@@ -87,9 +98,14 @@ pub(super) fn plan_of(rule: &Rule, item: &Prepared<'_>, piece: &Piece) -> PieceP
     if fog == Share::Whole && !is_hidden {
         fog = Share::Mixed;
     }
-    let interpolates = if is_hidden { Attributes::NONE } else { interpolation::of(rule, piece) };
-    let perspective = perspective::pays(rule.perspective, piece, interpolates);
     let specular = !is_hidden && specular::pays(rule.specular, item, piece);
+    let shadows = !is_hidden && shadows::pays(rule.shadows, scene, item, piece, specular);
+    let mut interpolates =
+        if is_hidden { Attributes::NONE } else { interpolation::of(rule, piece) };
+    if !shadows {
+        interpolates = interpolates.without(Attributes(Attributes::PLACE));
+    }
+    let perspective = perspective::pays(rule.perspective, piece, interpolates);
     let has_uv = interpolates.has(Attributes::UV);
     let mip_maps = has_uv && mip_maps::pays(rule.mip_maps, item, piece, perspective);
     let anisotropy = has_uv && anisotropy::pays(rule.anisotropy, item, piece, perspective);
@@ -99,6 +115,7 @@ pub(super) fn plan_of(rule: &Rule, item: &Prepared<'_>, piece: &Piece) -> PieceP
         perspective,
         depth,
         specular,
+        shadows,
         mip_maps,
         anisotropy,
         fog,

@@ -186,7 +186,8 @@ impl<'a> Rivals<'a> {
         let Some(moved) = moved else { return };
         let perspective = !self.scene.affine;
         let plan = item.all_of_a_fragment(perspective);
-        let kernel = Kernel::new(item, piece, plan, &mut Counters::default());
+        let map = item.light_view.as_ref().map(|view| view.map(self.scene, engine));
+        let kernel = Kernel::new(item, piece, plan, map, &mut Counters::default());
         let emit = |f: rasterproof_core::triangle::Fragment<_>| {
             see(f.x_px, f.y_px, kernel.shade_all(&f.varying, f.depth));
         };
@@ -302,7 +303,8 @@ impl<'a> Rivals<'a> {
             // Between levels any colour may be read.
             return;
         }
-        let kernel = Kernel::new(item, piece, plan, &mut Counters::default());
+        let map = item.light_view.as_ref().map(|view| view.map(self.scene, engine));
+        let kernel = Kernel::new(item, piece, plan, map, &mut Counters::default());
         let Some(texture) = kernel.varying_texture() else { return };
         let uv = moved.vertices.map_array(|v| Surface::from(v.varying).uv);
         let bounds_of_uv =

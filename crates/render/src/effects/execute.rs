@@ -191,14 +191,18 @@ pub(super) fn fit<'a>(
     let lists = |item: &ItemPlan| matches!(item.pieces, Pieces::Listed(_));
     if plan.items.iter().any(lists) || plan.frame.order == Order::FarthestFirst {
         assembled.assemble(scene);
-        assembled.plans = plans(plan, &assembled)?;
+        assembled.plans = plans(plan, scene, &assembled)?;
         assembled.sort(plan.frame.order);
     }
     Ok(assembled)
 }
 
 /// What a plan says of each piece, in the order of the items.
-fn plans(plan: &Plan, assembled: &Assembled<'_>) -> Result<Vec<PiecePlan>, PlanError> {
+fn plans(
+    plan: &Plan,
+    scene: &Scene,
+    assembled: &Assembled<'_>,
+) -> Result<Vec<PiecePlan>, PlanError> {
     let (items, pieces) = (&assembled.items, assembled.pieces.as_deref().unwrap_or_default());
     let mut plans = Vec::with_capacity(pieces.len());
     for &item in &assembled.order {
@@ -206,7 +210,7 @@ fn plans(plan: &Plan, assembled: &Assembled<'_>) -> Result<Vec<PiecePlan>, PlanE
         let own = pieces.iter().filter(|(index, _)| *index == item);
         match planned {
             Pieces::AsTheyCome(rule) => {
-                plans.extend(own.map(|(_, piece)| plan_of(rule, &items[item], piece)));
+                plans.extend(own.map(|(_, piece)| plan_of(rule, scene, &items[item], piece)));
             }
             Pieces::Listed(runs) => {
                 let there = own.count() as u64;
@@ -275,7 +279,7 @@ impl<E: Interpolate> Stage<'_, '_, E> {
             let Pieces::AsTheyCome(rule) = self.plan.items[index].pieces else { continue };
             let mut counters = std::mem::take(&mut self.counters);
             item.assemble(scene, &mut counters, &mut |piece, fills| {
-                self.draw(item, piece, plan_of(&rule, item, piece), fills);
+                self.draw(item, piece, plan_of(&rule, scene, item, piece), fills);
             });
             self.counters += counters;
             self.look();
@@ -351,7 +355,13 @@ impl<E: Interpolate> Stage<'_, '_, E> {
                 }
             });
         }
-        let kernel = Kernel::new(item, piece, plan, counters);
+        let map = item.light_view.as_ref().filter(|_| plan.shadows).map(|view| {
+            let is_drawn = view.drawn().is_some();
+            let map = view.map(self.scene, self.engine);
+            counters.cast += if is_drawn { 0 } else { map.fragments };
+            map
+        });
+        let kernel = Kernel::new(item, piece, plan, map, counters);
         kernel.draw(self.engine, piece, self.target, self.on_demand.as_mut(), counters);
     }
 
@@ -418,6 +428,7 @@ fn paid(plan: PiecePlan) -> u32 {
         perspective,
         depth,
         specular,
+        shadows,
         mip_maps,
         anisotropy,
         fog,
@@ -430,6 +441,7 @@ fn paid(plan: PiecePlan) -> u32 {
         (Effect::Colour, interpolates.has(Attributes::COLOUR)),
         (Effect::Light, interpolates.has(Attributes::NORMAL)),
         (Effect::Specular, specular),
+        (Effect::Shadows, shadows),
         (Effect::Texture, interpolates.has(Attributes::UV)),
         (Effect::MipMaps, mip_maps),
         (Effect::Anisotropy, anisotropy),

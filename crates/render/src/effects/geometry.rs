@@ -12,7 +12,7 @@ use rayon::prelude::*;
 
 use super::conditions::attributes;
 use super::plan::{Attributes, ItemPlan, PiecePlan, Pieces};
-use super::primitive::{BadScene, Prepared};
+use super::primitive::{BadScene, Prepared, without_place};
 use super::{Effects, Mode};
 use crate::pipeline::clip::Outcode;
 use crate::pipeline::fog::{Share, Veil};
@@ -226,7 +226,7 @@ impl<'a> Whole<'a> {
         let mut parts = 0;
         item.prepared.assemble_one(self.scene, triangle, &mut |piece| {
             let [a, b, c] = &piece.vertices;
-            let values = [a.varying.0, b.varying.0, c.varying.0];
+            let values = [a, b, c].map(|vertex| without_place(&vertex.varying));
             let corners = [a.bare(), b.bare(), c.bare()];
             emit(parts, Surface { material: &item.material, corners, values });
             parts += 1;
@@ -248,6 +248,7 @@ impl<'a> Item<'a> {
             perspective: true,
             depth: true,
             specular: true,
+            shadows: false,
             mip_maps: true,
             anisotropy: true,
             fog: Share::Mixed,

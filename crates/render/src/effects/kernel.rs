@@ -18,9 +18,11 @@ use crate::pipeline::footprint::Reading;
 use crate::pipeline::highlight::{Highlight, brightened};
 use crate::pipeline::opacity::{Drawn, Opacity};
 use crate::pipeline::see_through::{self, Look};
-use crate::pipeline::shade::{ALL, Attributes as Packed, Light, Surface};
+use crate::pipeline::shade::{ALL, Attributes as Packed, Light, PLACED, Surface};
+use crate::pipeline::shadow::{Receiver, ShadowMap, TAPS, dimmed};
 use crate::pipeline::target::{Antialias, Colour, Target, to_colour};
 use crate::pipeline::texture::Texture;
+use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::Interpolate;
 
 /// Draws one piece: constants, and what is left to do in each fragment.
@@ -32,8 +34,13 @@ pub(super) struct Kernel<'a> {
     /// The texel, where it does not vary.
     texel: DVec3,
     light: Light,
-    /// The light, where it does not vary.
+    /// The light and the normal, where they do not vary.
     intensity: f64,
+    normal: DVec3,
+    /// Where it is looked up which part of the light arrives.
+    receiver: Option<Receiver<'a>>,
+    /// The same, where it does not vary.
+    lit: u32,
     /// Nothing where normals do not vary, or no highlight reaches them.
     highlight: Option<&'a Highlight>,
     /// The highlight, where it does not vary.
@@ -55,6 +62,7 @@ impl<'a> Kernel<'a> {
         item: &'a Prepared<'_>,
         piece: &Piece,
         plan: PiecePlan,
+        map: Option<&'a ShadowMap>,
         counters: &mut Counters,
     ) -> Self {
         let first = Surface::from(piece.vertices[0].varying);
@@ -66,6 +74,9 @@ impl<'a> Kernel<'a> {
             texel: DVec3::ONE,
             light: item.light,
             intensity: 1.0,
+            normal: first.normal,
+            receiver: None,
+            lit: TAPS,
             highlight: None,
             shine: [0; 3],
             fogged: None,
@@ -97,15 +108,25 @@ impl<'a> Kernel<'a> {
             counters.texels += 1;
             kernel.texel = texture.at(first.uv);
         }
+        if let (Some(view), Some(map)) = (&item.light_view, map) {
+            let places = piece.vertices.map_array(|vertex| Surface::from(vertex.varying).place);
+            let receiver = view.receiver(map, places);
+            if plan.interpolates.has(Attributes::PLACE) {
+                kernel.receiver = Some(receiver);
+            } else {
+                counters.shadowed += 1;
+                kernel.lit = receiver.lit(first.place);
+            }
+        }
         if constant(Attributes::NORMAL) {
             counters.lights += 1;
-            kernel.intensity = item.light.intensity(first.normal);
+            kernel.intensity = item.light.intensity_in(first.normal, kernel.lit);
         }
         if plan.specular && plan.interpolates.has(Attributes::NORMAL) {
             kernel.highlight = Some(&item.highlight);
         } else if plan.specular && item.carries.has(Attributes::NORMAL) {
             counters.highlights += 1;
-            kernel.shine = item.highlight.at(first.normal);
+            kernel.shine = dimmed(item.highlight.at(first.normal), kernel.lit);
         }
         kernel
     }
@@ -122,7 +143,9 @@ impl<'a> Kernel<'a> {
             self.draw_see_through(engine, piece, target, samples, counters, opacity);
             return;
         }
+        let is_partly_lit = self.receiver.is_some() || self.lit != TAPS;
         match self.plan.interpolates.0 {
+            1.. if is_partly_lit => self.draw_all(engine, piece, target, samples, counters),
             0 if self.veil.is_none() => self.draw_flat(engine, piece, target, samples, counters),
             0 => self.draw_as::<0, 0>(engine, piece, target, samples, counters),
             1 => self.draw_as::<3, 1>(engine, piece, target, samples, counters),
@@ -131,7 +154,36 @@ impl<'a> Kernel<'a> {
             4 => self.draw_as::<2, 4>(engine, piece, target, samples, counters),
             5 => self.draw_as::<5, 5>(engine, piece, target, samples, counters),
             6 => self.draw_as::<5, 6>(engine, piece, target, samples, counters),
-            _ => self.draw_as::<ALL, 7>(engine, piece, target, samples, counters),
+            _ => self.draw_all(engine, piece, target, samples, counters),
+        }
+    }
+
+    /// Draws a piece with all attributes: one copy for those that few pieces have.
+    fn draw_all(
+        &self,
+        engine: &impl Interpolate,
+        piece: &Piece,
+        target: &mut Target,
+        samples: Option<&mut OnDemand>,
+        counters: &mut Counters,
+    ) {
+        let way = Way { affine: !self.plan.perspective, depth_test: self.plan.depth };
+        let before = *counters;
+        let stage = each(|varying, depth| self.shade_all(varying, depth));
+        if let Some(on_demand) = samples {
+            on_demand.draw_varying(engine, piece, piece, target, self.plan, &stage, counters);
+        } else {
+            fill(engine, piece, target, target.bounds(), way, &stage, counters);
+        }
+        self.count(&before, self.components(), counters);
+    }
+
+    /// Numbers that are interpolated where all attributes are.
+    fn components(&self) -> usize {
+        match self.plan.interpolates {
+            none if none.is_empty() => 0,
+            with_place if with_place.has(Attributes::PLACE) => PLACED,
+            _ => ALL,
         }
     }
 
@@ -187,8 +239,7 @@ impl<'a> Kernel<'a> {
         let before = *counters;
         let bounds = target.bounds();
         let visible = see_through::fill(engine, piece, target, bounds, way, &look, counters);
-        let components = if interpolates.is_empty() { 0 } else { ALL };
-        self.count(&before, components, counters);
+        self.count(&before, self.components(), counters);
         let of = |drawn: Drawn| if drawn == Drawn::Mixed { visible } else { 0 };
         counters.alpha_tests += of(self.plan.alpha_test);
         counters.blended += of(self.plan.blending);
@@ -203,6 +254,7 @@ impl<'a> Kernel<'a> {
         counters.divisions += where_true(self.plan.perspective, fragments);
         counters.texels += where_true(self.varying_texture().is_some(), shaded);
         counters.highlights += where_true(self.highlight.is_some(), shaded);
+        counters.shadowed += where_true(self.receiver.is_some(), shaded);
         counters.fogged += where_true(self.veil.is_some(), shaded);
         counters.levels += where_true(self.plan.mip_maps && self.reading.is_some(), shaded);
         counters.taps += self.taps.take();
@@ -233,7 +285,7 @@ impl<'a> Kernel<'a> {
     }
 
     /// The colour of all attributes, for what has no kernel of its own.
-    pub fn shade_all(&self, varying: &Packed<ALL>, depth: f64) -> Colour {
+    pub fn shade_all(&self, varying: &Packed<PLACED>, depth: f64) -> Colour {
         let uv = Surface::from(*varying).uv;
         let texel = self.varying_texture().map_or(self.texel, |t| self.texel(t, uv, depth));
         self.shade_texel(varying, depth, texel)
@@ -260,13 +312,22 @@ impl<'a> Kernel<'a> {
     }
 
     /// The same with this texel.
-    pub fn shade_texel(&self, varying: &Packed<ALL>, depth: f64, texel: DVec3) -> Colour {
-        let Surface { colour, normal, .. } = (*varying).into();
+    pub fn shade_texel(&self, varying: &Packed<PLACED>, depth: f64, texel: DVec3) -> Colour {
+        let Surface { colour, normal, place, .. } = (*varying).into();
         let varies = |bit: u8| self.plan.interpolates.has(bit);
-        let intensity =
-            if varies(Attributes::NORMAL) { self.light.intensity(normal) } else { self.intensity };
+        let normal = if varies(Attributes::NORMAL) { normal } else { self.normal };
+        let lit = self.receiver.map_or(self.lit, |receiver| receiver.lit(place));
+        let intensity = if varies(Attributes::NORMAL) || self.receiver.is_some() {
+            self.light.intensity_in(normal, lit)
+        } else {
+            self.intensity
+        };
         let colour = if varies(Attributes::COLOUR) { self.base * colour } else { self.base };
-        let shine = self.highlight.map_or(self.shine, |highlight| highlight.at(normal));
+        let shine = match (self.highlight, self.receiver) {
+            (Some(highlight), _) => dimmed(highlight.at(normal), lit),
+            (None, Some(_)) => dimmed(self.shine, lit),
+            (None, None) => self.shine,
+        };
         let colour = brightened(to_colour(colour * texel * intensity), shine);
         self.veil.map_or(colour, |veil| veil.before(colour, veil.distance(depth)))
     }

@@ -97,6 +97,8 @@ pub enum Attribute {
     Normal,
     /// Texture coordinates.
     Uv,
+    /// Where the light sees it.
+    Place,
 }
 
 /// A set of attributes.
@@ -109,10 +111,15 @@ impl Attributes {
     pub(super) const COLOUR: u8 = 1;
     pub(super) const NORMAL: u8 = 2;
     pub(super) const UV: u8 = 4;
-    const BITS: [(Attribute, u8); 3] = [
+    pub(super) const PLACE: u8 = 8;
+    /// Where each stands among all numbers of a vertex.
+    pub(super) const RANGES: [(u8, std::ops::Range<usize>); 4] =
+        [(Self::COLOUR, 0..3), (Self::NORMAL, 3..6), (Self::UV, 6..8), (Self::PLACE, 8..11)];
+    const BITS: [(Attribute, u8); 4] = [
         (Attribute::Colour, Self::COLOUR),
         (Attribute::Normal, Self::NORMAL),
         (Attribute::Uv, Self::UV),
+        (Attribute::Place, Self::PLACE),
     ];
 
     /// No attribute.
@@ -137,7 +144,12 @@ impl Attributes {
 
 impl fmt::Display for Attributes {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let names = [(Self::COLOUR, "colour"), (Self::NORMAL, "normal"), (Self::UV, "uv")];
+        let names = [
+            (Self::COLOUR, "colour"),
+            (Self::NORMAL, "normal"),
+            (Self::UV, "uv"),
+            (Self::PLACE, "place"),
+        ];
         let names: Vec<_> =
             names.into_iter().filter(|(bit, _)| self.has(*bit)).map(|(_, name)| name).collect();
         f.write_str(&names.join(" and "))
@@ -191,6 +203,9 @@ pub struct PiecePlan {
     /// Whether the material's highlight is computed and added.
     #[serde(default, skip_serializing_if = "is_false")]
     pub specular: bool,
+    /// Whether it is looked up which part of the light arrives.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub shadows: bool,
     /// Whether textures are read at a level of detail.
     #[serde(default, skip_serializing_if = "is_false")]
     pub mip_maps: bool,
@@ -245,6 +260,9 @@ pub struct Rule {
     /// Planned: where a highlight may show between the normals of the corners.
     #[serde(default = "never", skip_serializing_if = "is_never")]
     pub specular: Mode,
+    /// Planned: where something may lie between a piece and the light.
+    #[serde(default = "never", skip_serializing_if = "is_never")]
+    pub shadows: Mode,
     /// Planned: where a texture is not known to be magnified everywhere.
     #[serde(default = "never", skip_serializing_if = "is_never")]
     pub mip_maps: Mode,
@@ -476,7 +494,7 @@ mod tests {
 
     #[test]
     fn sets_of_attributes_are_lists_of_names() {
-        for bits in 0..8 {
+        for bits in 0..16 {
             let set = Attributes(bits);
             let text = serde_json::to_string(&set).unwrap();
             assert_eq!(serde_json::from_str::<Attributes>(&text).unwrap(), set);
@@ -492,11 +510,13 @@ mod tests {
         let (perspective, depth, specular, fog) = (true, false, true, Share::None);
         let (mip_maps, anisotropy) = (true, true);
         let (alpha_test, blending) = (Drawn::Mixed, Drawn::Nothing);
+        let shadows = true;
         let plan = PiecePlan {
             interpolates,
             perspective,
             depth,
             specular,
+            shadows,
             mip_maps,
             anisotropy,
             fog,

@@ -4,7 +4,7 @@ use super::assembled::{Assembled, plan_of};
 use super::conditions::survey::Survey;
 use super::conditions::{
     alpha_test, anisotropy, attributes, blending, clear, clip, cull, depth, depth_buffer, fog,
-    interpolation, mip_maps, perspective, samples, second_buffer, specular, wide_words,
+    interpolation, mip_maps, perspective, samples, second_buffer, shadows, specular, wide_words,
 };
 use super::plan::{
     Canvas, Clear, Decision, FramePlan, ItemPlan, Order, PiecePlan, Pieces, Plan, Rule, VERSION,
@@ -41,7 +41,7 @@ pub(super) fn plan<'a>(
     if is_listed {
         assembled.assemble(scene);
         let pieces = assembled.pieces.as_deref().unwrap_or_default();
-        let plans = list(effects, &drawn, &mut plan, &assembled.items, pieces);
+        let plans = list(scene, effects, &mut plan, &assembled.items, pieces);
         is_tested = plans.iter().any(|plan| plan.depth);
         for ((index, piece), plan) in pieces.iter().zip(&plans) {
             surveys[*index].count(piece, *plan, word_bits(&piece.corners()));
@@ -62,6 +62,7 @@ pub(super) fn plan<'a>(
                 perspective: true,
                 depth: is_tested,
                 specular: false,
+                shadows: false,
                 mip_maps: false,
                 anisotropy: false,
                 fog: fog_at_most,
@@ -115,6 +116,7 @@ fn outset(scene: &Scene, canvas: &Canvas, effects: &Effects) -> Plan {
         let perspective = perspective::mode(scene, effects);
         let depth = depth::pays(scene, effects, true);
         let specular = specular::mode(scene, item, carries, effects);
+        let shadows = shadows::mode(scene, item, carries, effects);
         let fog = fog::mode(scene, effects);
         let mip_maps = mip_maps::mode(item, carries, effects);
         let anisotropy = anisotropy::mode(item, carries, effects);
@@ -126,6 +128,7 @@ fn outset(scene: &Scene, canvas: &Canvas, effects: &Effects) -> Plan {
             perspective,
             depth,
             specular,
+            shadows,
             mip_maps,
             anisotropy,
             fog,
@@ -158,15 +161,15 @@ fn outset(scene: &Scene, canvas: &Canvas, effects: &Effects) -> Plan {
 
 /// Lists what each piece pays for in the plan of its item.
 fn list(
+    scene: &Scene,
     effects: &Effects,
-    canvas: &Canvas,
     plan: &mut Plan,
     items: &[Prepared<'_>],
     pieces: &[(usize, Piece)],
 ) -> Vec<PiecePlan> {
     let apart =
         effects.mode(Effect::Depth) == Mode::Planned && plan.frame.order == Order::Submission;
-    let overlaps = apart.then(|| depth::overlaps(pieces, canvas));
+    let overlaps = apart.then(|| depth::overlaps(pieces, &plan.drawn()));
     let rules: Vec<Option<Rule>> = plan
         .items
         .iter()
@@ -185,7 +188,7 @@ fn list(
             continue;
         };
         let depth = rule.depth && overlaps.as_ref().is_none_or(|overlaps| overlaps[i]);
-        let plan = PiecePlan { depth, ..plan_of(rule, &items[*index], piece) };
+        let plan = PiecePlan { depth, ..plan_of(rule, scene, &items[*index], piece) };
         match runs.last_mut() {
             Some((count, last)) if *last == plan => *count += 1,
             _ => runs.push((1, plan)),
@@ -213,6 +216,7 @@ fn account(
         decisions.push(depth::explain(survey, looked_at));
         decisions.extend(attributes::explain(survey));
         decisions.extend(specular::explain(survey));
+        decisions.extend(shadows::explain(survey));
         decisions.extend(mip_maps::explain(survey));
         decisions.extend(anisotropy::explain(survey));
         decisions.extend(fog::explain(survey));

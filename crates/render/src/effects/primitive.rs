@@ -1,7 +1,7 @@
 //! Items to pieces: the vertex stage and assembly, with the effects that a plan names for an item.
 
 use std::fmt;
-use std::sync::LazyLock;
+use std::sync::{Arc, LazyLock};
 
 use glam::{DMat3, DMat4, DVec2, DVec3};
 
@@ -11,7 +11,8 @@ use crate::pipeline::assemble::{Assembler, BadVertex, Point, check_vertex};
 use crate::pipeline::fog::{Share, Veil};
 use crate::pipeline::highlight::Highlight;
 use crate::pipeline::opacity::Drawn;
-use crate::pipeline::shade::{ALL, Attributes as Packed, Light, Surface};
+use crate::pipeline::shade::{ALL, Attributes as Packed, Light, PLACED, Surface};
+use crate::pipeline::shadow::LightView;
 use crate::pipeline::target::Antialias;
 use crate::pipeline::texture::Texture;
 use crate::pipeline::{ClipVertex, Counters};
@@ -21,7 +22,7 @@ use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXEL_BITS, SubpixelPoint
 use rasterproof_core::triangle::{Corners, ScreenTriangle, ScreenVertex};
 
 /// A triangle in the window with all attributes.
-pub(crate) type Piece = ScreenTriangle<Packed<ALL>>;
+pub(crate) type Piece = ScreenTriangle<Packed<PLACED>>;
 
 /// Whether the three 1/w are equal to the bit.
 pub(super) fn has_one_w(piece: &Piece) -> bool {
@@ -54,6 +55,8 @@ pub(super) struct Prepared<'a> {
     pub light: Light,
     pub highlight: Highlight,
     pub veil: Veil,
+    /// Nothing where no light is looked up.
+    pub light_view: Option<Arc<LightView>>,
     /// Whether a normal may have a highlight, and there is one.
     pub carries_highlights: bool,
     index: usize,
@@ -89,6 +92,7 @@ impl<'a> Prepared<'a> {
             perspective,
             depth: true,
             specular: self.carries_highlights,
+            shadows: self.light_view.is_some(),
             mip_maps: self.texture.is_some_and(Texture::has_mip_map),
             anisotropy: self.texture.is_some_and(|texture| texture.anisotropy > 1),
             fog: Share::Mixed,
@@ -135,6 +139,7 @@ impl<'a> Prepared<'a> {
             light: if is_lit(scene, item) { scene.light } else { Light::NONE },
             highlight,
             veil: Veil::new(scene.fog.as_ref(), &scene.projection),
+            light_view: None,
             carries_highlights: has_normals && !highlight.is_dark(),
             index,
             assembler: assembler(item, plan, window),
@@ -152,12 +157,12 @@ impl<'a> Prepared<'a> {
         Ok(self.assembler.point(position))
     }
 
-    /// The vertex stage of the corners of a triangle: all but their positions.
+    /// The vertex stage of the corners of a triangle: all but their positions and places.
     #[inline]
     pub fn varyings(&self, scene: &Scene, triangle: &[Corner; 3]) -> [[f64; ALL]; 3] {
         let face = self.face(triangle);
         let [a, b, c] = triangle;
-        let varying = |corner: &Corner| self.varying(scene, corner, face).0;
+        let varying = |corner: &Corner| without_place(&self.varying(scene, corner, face));
         [varying(a), varying(b), varying(c)]
     }
 
@@ -188,7 +193,7 @@ impl<'a> Prepared<'a> {
     }
 
     /// The vertex stage of one corner: all but its position.
-    fn varying(&self, scene: &Scene, corner: &Corner, face: DVec3) -> Packed<ALL> {
+    fn varying(&self, scene: &Scene, corner: &Corner, face: DVec3) -> Packed<PLACED> {
         let material = &self.item.material;
         let mut colour = if material.vertex_colours { corner.colour } else { DVec3::ONE };
         if material.shading == Shading::Gouraud {
@@ -202,7 +207,9 @@ impl<'a> Prepared<'a> {
         };
         let has_uv = material.texture.is_some() || material.has_opacity_map();
         let uv = if has_uv { corner.uv } else { DVec2::ZERO };
-        Surface { colour, normal, uv }.into()
+        let light_view = self.light_view.as_ref();
+        let place = light_view.map_or(DVec3::ZERO, |v| v.place(self.index, corner.position));
+        Surface { colour, normal, uv, place }.into()
     }
 
     /// Emits the pieces of every triangle.
@@ -237,15 +244,19 @@ fn assembler(item: &Item, plan: &ItemPlan, window: PixelRect) -> Assembler {
     }
 }
 
+/// The attributes of a corner that tiles draw.
+#[inline]
+pub(super) fn without_place(Packed(all): &Packed<PLACED>) -> [f64; ALL] {
+    std::array::from_fn(|i| all[i])
+}
+
 /// The piece with the attributes of `MASK` alone.
 pub(super) fn pack<const N: usize, const MASK: u8>(piece: &Piece) -> ScreenTriangle<Packed<N>> {
     let vertices = piece.vertices.map_array(|vertex| {
         let all = &vertex.varying.0;
         let mut packed = [0.0; N];
         let mut at = 0;
-        for (mask, range) in
-            [(Attributes::COLOUR, 0..3), (Attributes::NORMAL, 3..6), (Attributes::UV, 6..8)]
-        {
+        for (mask, range) in Attributes::RANGES {
             if MASK & mask != 0 {
                 packed[at..at + range.len()].copy_from_slice(&all[range.clone()]);
                 at += range.len();

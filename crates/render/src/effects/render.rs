@@ -5,7 +5,7 @@ pub use super::primitive::BadScene;
 
 use super::execute::{Observer, draw, fit};
 use super::kernel::Kernel;
-use super::plan::{Canvas, Plan, SceneDigest};
+use super::plan::{Canvas, PiecePlan, Plan, SceneDigest};
 use super::planner;
 use super::{Effect, Effects, Mode};
 use crate::pipeline::Counters;
@@ -123,7 +123,7 @@ fn plan_and_draw(
 }
 
 /// Draws the edges of a scene's triangles by a line drawer, with the colours of its fragments. What
-/// any renderer does, and every depth is tested: lines have no inside to be planned for. They are opaque.
+/// any renderer does, and every depth is tested: lines have no inside to be planned for. They are opaque and in no shadow.
 ///
 /// # Errors
 /// As [`render`].
@@ -143,8 +143,9 @@ pub fn render_wireframe(
     let (bounds, format) = (target.bounds(), target.format);
     for item in &assembled.items {
         item.assemble(scene, &mut counters, &mut |piece, fills| {
-            let plan = item.all_of_a_fragment(!scene.affine);
-            let kernel = Kernel::new(item, piece, plan, fills);
+            // A line drawer draws no shadow map.
+            let plan = PiecePlan { shadows: false, ..item.all_of_a_fragment(!scene.affine) };
+            let kernel = Kernel::new(item, piece, plan, None, fills);
             draw_edges(drawer, piece, bounds, |f| {
                 fills.fragments += 1;
                 let colour = kernel.shade_all(&f.varying, f.depth);

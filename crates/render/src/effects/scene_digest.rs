@@ -10,6 +10,7 @@ use crate::pipeline::fog::{Fog, Growth};
 use crate::pipeline::highlight::Specular;
 use crate::pipeline::opacity::{AlphaMode, Opacity};
 use crate::pipeline::shade::Light;
+use crate::pipeline::shadow::Shadows;
 use crate::scene::{Corner, Hidden, Item, Material, Scene, Shading};
 
 /// 64 bits of all that a plan depends on in a scene: meshes with their attributes, where they are and how
@@ -33,6 +34,7 @@ impl SceneDigest {
             view,
             projection,
             light: Light { towards, ambient, diffuse },
+            shadows,
             fog,
             background,
             hidden,
@@ -43,6 +45,9 @@ impl SceneDigest {
         words.numbers(&projection.to_cols_array());
         words.point(*towards);
         words.numbers(&[*ambient, *diffuse]);
+        if let Some(Shadows { size, bits }) = *shadows {
+            words.whole(u64::from(size) << 32 | u64::from(bits));
+        }
         if let Some(Fog { colour: [r, g, b], growth }) = *fog {
             let (kind, numbers) = match growth {
                 Growth::Linear { start, end } => (1, [start, end]),
@@ -177,7 +182,8 @@ mod tests {
         let renamed = Scene { name: "b".to_owned(), ..scene() };
         assert_eq!(SceneDigest::of(&renamed), digest);
         type Change = fn(&mut Scene);
-        let changes: [(&str, Change); 12] = [
+        let changes: [(&str, Change); 13] = [
+            ("in shadow", |scene| scene.shadows = Some(Shadows::default())),
             ("turned", |scene| scene.items[0].model = rasterproof_core::angle::turn_y(0.1)),
             ("another eye", |scene| scene.view = rasterproof_core::angle::turn_x(0.1)),
             ("another angle of view", |scene| scene.projection.x_axis.x = 2.0),

@@ -68,6 +68,8 @@ effects! {
     Light = "light": Planned, lights, Some([60, 180, 90]);
     /// Highlights of shiny materials, and the normals they need.
     Specular = "specular": Material, highlights, Some([240, 190, 60]);
+    /// Looking up whether the light reaches a fragment, and the shadow map.
+    Shadows = "shadows": Material, shadowed, Some([150, 110, 160]);
     /// Texture lookup, and the coordinates it needs.
     Texture = "texture": Planned, texels, Some([190, 90, 205]);
     /// Reading textures at a level of detail.

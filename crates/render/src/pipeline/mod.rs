@@ -20,6 +20,7 @@ pub mod opacity;
 pub mod present;
 pub mod see_through;
 pub mod shade;
+pub mod shadow;
 pub mod target;
 pub mod texture;
 pub mod transform;
@@ -100,6 +101,10 @@ counters! {
     lights = "lights";
     /// Evaluations of a highlight.
     highlights = "highlights";
+    /// Fragments that read the shadow map.
+    shadowed = "shadow lookups";
+    /// Fragments that were drawn into the shadow map.
+    cast = "shadow map drawn";
     /// Fragments that were mixed with fog.
     fogged = "mixed with fog";
     /// Visible fragments whose opacity was compared with a threshold.

@@ -6,13 +6,13 @@ use super::depth::DepthFormat;
 use super::fill::Way;
 use super::multisample::{SAMPLES, moved};
 use super::opacity::{OPAQUE, over};
-use super::shade::{ALL, Attributes};
+use super::shade::{Attributes, PLACED};
 use super::target::{Antialias, Colour, SamplePlane, Target};
 use rasterproof_core::contract::{Interpolate, Run, Varyings};
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::ScreenTriangle;
 
-type Varying = Attributes<ALL>;
+type Varying = Attributes<PLACED>;
 
 /// What fragments look like.
 pub struct Look<'a> {

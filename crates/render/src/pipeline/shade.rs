@@ -64,23 +64,29 @@ pub struct Surface {
     pub normal: DVec3,
     /// Texture coordinates.
     pub uv: DVec2,
+    /// Where the light sees it, as in [`super::shadow::LightView`]; 0 where it has no shadows.
+    pub place: DVec3,
 }
 
-/// All attributes of a [`Surface`].
+/// All attributes of a [`Surface`] without shadows.
 pub const ALL: usize = 8;
 
-impl From<Surface> for Attributes<ALL> {
-    fn from(s: Surface) -> Self {
-        let ([r, g, b], [x, y, z]) = (s.colour.to_array(), s.normal.to_array());
-        Self([r, g, b, x, y, z, s.uv.x, s.uv.y])
+/// The same, and after them the place.
+pub const PLACED: usize = 11;
+
+impl From<Surface> for Attributes<PLACED> {
+    fn from(Surface { colour, normal, uv, place }: Surface) -> Self {
+        let ([r, g, b], [x, y, z], [p, q, d]) =
+            (colour.to_array(), normal.to_array(), place.to_array());
+        Self([r, g, b, x, y, z, uv.x, uv.y, p, q, d])
     }
 }
 
-impl From<Attributes<ALL>> for Surface {
+impl From<Attributes<PLACED>> for Surface {
     #[inline]
-    fn from(Attributes([r, g, b, x, y, z, u, v]): Attributes<ALL>) -> Self {
+    fn from(Attributes([r, g, b, x, y, z, u, v, p, q, d]): Attributes<PLACED>) -> Self {
         let (colour, normal) = (DVec3::new(r, g, b), DVec3::new(x, y, z));
-        Self { colour, normal, uv: DVec2::new(u, v) }
+        Self { colour, normal, uv: DVec2::new(u, v), place: DVec3::new(p, q, d) }
     }
 }
 
@@ -126,7 +132,8 @@ mod tests {
     #[test]
     fn a_surface_survives_packing() {
         let (colour, normal, uv) = (DVec3::X, DVec3::new(1.0, 2.0, 3.0), DVec2::new(4.0, 5.0));
-        let surface = Surface { colour, normal, uv };
+        let place = DVec3::new(6.0, 7.0, 8.0);
+        let surface = Surface { colour, normal, uv, place };
         assert_eq!(Surface::from(Attributes::from(surface)), surface);
     }
 }

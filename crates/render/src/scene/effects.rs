@@ -11,8 +11,9 @@ use crate::pipeline::assemble::Cull;
 use crate::pipeline::fog::{Fog, Growth};
 use crate::pipeline::highlight::Specular;
 use crate::pipeline::opacity::{AlphaMode, Opacity, OpacityMap};
+use crate::pipeline::shadow::Shadows;
 use crate::pipeline::texture::{Filter, Texture, Wrap};
-use rasterproof_core::angle::{turn_y, turn_z};
+use rasterproof_core::angle::{turn_x, turn_y, turn_z};
 
 /// Every such scene. The digests of frames are of the book's scenes alone.
 pub const SCENES: &[Entry] = &[
@@ -20,6 +21,11 @@ pub const SCENES: &[Entry] = &[
         name: "highlights",
         about: "spheres with specular light of the exponents 5, 30 and 200 on a matt floor",
         build: highlights,
+    },
+    Entry {
+        name: "shadows",
+        about: "a floor in 1,152 triangles, on it pillars, spheres and a leaf that keep the light from it and from each other",
+        build: shadows,
     },
     Entry {
         name: "mip-maps",
@@ -47,6 +53,52 @@ pub const SCENES: &[Entry] = &[
         build: panes,
     },
 ];
+
+fn shadows(scene: Scene, turn: f64) -> Scene {
+    let floor = board(DVec3::new(0.0, -1.3, 6.0), 10.0, 24);
+    let texture = Arc::new(textures::checkerboard().with(Filter::Bilinear, Wrap::Repeat));
+    let checks =
+        Material { texture: Some(texture), shading: Shading::Phong, ..Material::default() };
+    let floor = turned(Item::new(floor, checks), DVec3::new(0.0, -1.3, 6.0), turn_x(TAU / 4.0));
+    let mut items = vec![floor];
+    let texture = Arc::new(textures::boards().with(Filter::Bilinear, Wrap::Clamp));
+    let boards =
+        Material { texture: Some(texture), shading: Shading::Phong, ..Material::default() };
+    for number in 0..3 {
+        let centre = DVec3::new(1.3 * f64::from(number) - 2.2, -0.6, 4.3 + f64::from(number));
+        let reach = DVec3::new(0.18, 0.7, 0.18);
+        let pillar = Item::new(shapes::cuboid(centre - reach, centre + reach), boards.clone());
+        let turned = turned(pillar, centre, turn_y(0.4 + turn * TAU));
+        items.push(Item { cull: Cull::Clockwise, ..turned });
+    }
+    for (place, radius, shading) in [
+        (DVec3::new(-0.2, -0.1, 3.8), 0.42, Shading::Phong),
+        (DVec3::new(1.7, -0.75, 4.4), 0.55, Shading::Flat),
+    ] {
+        let specular = Specular { colour: DVec3::splat(0.6), shininess: 30.0 };
+        let colour = DVec3::new(0.85, 0.45, 0.25);
+        let material = Material { colour, specular, shading, ..Material::default() };
+        let sphere = Item::new(shapes::sphere(place, radius, 48, 24), material);
+        items.push(Item { cull: Cull::Clockwise, ..sphere });
+    }
+    let (colours, alpha) = leaf();
+    let opacity = Opacity {
+        factor: 1.0,
+        map: Some(Arc::new(OpacityMap::new(alpha))),
+        mode: AlphaMode::Test { threshold: 0.5 },
+    };
+    let leaf = Material {
+        texture: Some(Arc::new(colours)),
+        opacity: Some(opacity),
+        shading: Shading::Phong,
+        ..Material::default()
+    };
+    let place = DVec3::new(0.9, 0.35, 5.0);
+    let leaf = Item::new(board(place, 1.4, 6), leaf);
+    items.push(turned(leaf, place, turn_y(turn * TAU) * turn_x(0.9)));
+    let shadows = Some(Shadows::default());
+    Scene { light: daylight(), shadows, ..with(scene, items) }
+}
 
 fn highlights(scene: Scene, turn: f64) -> Scene {
     let mut floor = shapes::quad([

@@ -20,6 +20,7 @@ use crate::pipeline::fog::Fog;
 use crate::pipeline::highlight::Specular;
 use crate::pipeline::opacity::Opacity;
 use crate::pipeline::shade::Light;
+use crate::pipeline::shadow::Shadows;
 use crate::pipeline::target::Colour;
 use crate::pipeline::texture::Texture;
 pub use triangles::{Attribute, Triangles};
@@ -175,6 +176,8 @@ pub struct Scene {
     pub projection: DMat4,
     /// The light, in world space.
     pub light: Light,
+    /// Whether surfaces keep the light from others, and by what map.
+    pub shadows: Option<Shadows>,
     /// What makes far things fade. Only with a projection whose z and w depend on the distance alone.
     pub fog: Option<Fog>,
     /// The colour of pixels that no triangle covers.
@@ -197,6 +200,7 @@ impl Scene {
             view: DMat4::IDENTITY,
             projection,
             light: Light::NONE,
+            shadows: None,
             fog: None,
             background: [18, 18, 24, u8::MAX],
             hidden: Hidden::DepthBuffer,

@@ -12,6 +12,7 @@ use crate::pipeline::fog::{Fog, Growth};
 use crate::pipeline::highlight::Specular;
 use crate::pipeline::opacity::{AlphaMode, Opacity, OpacityMap};
 use crate::pipeline::shade::Light;
+use crate::pipeline::shadow::Shadows;
 use crate::pipeline::texture::{Filter, Texture, Wrap};
 use crate::pipeline::transform::{about, frustum};
 use rasterproof_core::angle::{turn_x, turn_y};
@@ -39,7 +40,8 @@ pub fn scene(seed: u64, index: u64) -> Scene {
 }
 
 /// The same scene with effects beyond the book's: some of its materials have
-/// highlights or holes or blend, some of its textures mip maps or anisotropy, and some scenes fog.
+/// highlights or holes or blend, some of its textures mip maps or anisotropy, and some scenes fog
+/// or a shadow map.
 ///
 /// # Panics
 /// As [`scene`].
@@ -85,6 +87,11 @@ pub fn with_effects(seed: u64, index: u64) -> Scene {
         {
             Arc::make_mut(texture).anisotropy = [2, 3, 4, 16][rng.int(0, 3) as usize];
         }
+    }
+    if rng.chance(2) {
+        let size = [16, 40, 128][rng.int(0, 2) as usize];
+        let bits = [16, 24, 32][rng.int(0, 2) as usize];
+        scene.shadows = Some(Shadows { size, bits });
     }
     scene
 }

@@ -9,7 +9,7 @@
 //!
 //! It is the fast way, not the exact one: coverage is that of the other engines, values lie within
 //! their bound of the exact ones, and so two surfaces nearer to each other than that may come out in
-//! either order. It draws every surface opaque ([`not_opaque`]), it does not plan, and of antialiasing it has four samples a pixel, shaded once.
+//! either order. It draws every surface opaque and lit ([`not_drawn`]), it does not plan, and of antialiasing it has four samples a pixel, shaded once.
 
 mod bins;
 mod buffer;
@@ -30,7 +30,7 @@ use rasterproof_render::effects::geometry::{Outline, Whole};
 use rasterproof_render::effects::primitive::BadScene;
 use rasterproof_render::pipeline::multisample;
 use rasterproof_render::pipeline::target::Colour;
-use rasterproof_render::scene::Scene;
+use rasterproof_render::scene::{Item, Scene};
 
 use bins::{Bins, Placed, Tiling, reached};
 pub use buffer::SIDE_PX;
@@ -51,11 +51,12 @@ pub enum Samples {
     Four,
 }
 
-/// Triangles of materials that are not opaque. They are drawn as if they were, so a scene with any is for
-/// another engine.
+/// Triangles of materials that are not opaque, and in a scene with shadows all. They are drawn opaque and in the
+/// light, so a scene with any is for another engine.
 #[must_use]
-pub fn not_opaque(scene: &Scene) -> usize {
-    let items = scene.items.iter().filter(|item| item.material.opacity.is_some());
+pub fn not_drawn(scene: &Scene) -> usize {
+    let is_not_drawn = |item: &&Item| item.material.opacity.is_some() || scene.shadows.is_some();
+    let items = scene.items.iter().filter(is_not_drawn);
     items.map(|item| item.mesh.triangles.len()).sum()
 }
 

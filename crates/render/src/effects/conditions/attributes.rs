@@ -3,6 +3,7 @@
 //! Left out where the material does not use it: the factor left out is exactly 1, and the others
 //! keep their order.
 
+use super::shadows;
 use super::survey::Survey;
 use crate::effects::plan::{Attributes, Decision};
 use crate::effects::primitive::is_lit;
@@ -33,7 +34,9 @@ pub fn carries(scene: &Scene, item: &Item, effects: &Effects) -> Attributes {
         let called_for = uses(scene, item, *effect);
         effects.pays(*effect, called_for || *effect == Effect::Light && has_highlights)
     };
-    Attributes(ALL.into_iter().filter(paid).fold(0, |bits, (_, bit, _)| bits | bit))
+    let bits = ALL.into_iter().filter(paid).fold(0, |bits, (_, bit, _)| bits | bit);
+    let reads_map = shadows::mode(scene, item, Attributes(bits), effects) != Mode::Never;
+    Attributes(if reads_map { bits | Attributes::PLACE } else { bits })
 }
 
 /// Why an item does without.

@@ -39,9 +39,7 @@ pub fn of(rule: &Rule, piece: &Piece) -> Attributes {
         bits != b.varying.0[i].to_bits() || bits != c.varying.0[i].to_bits()
     };
     let mut left = rule.interpolates;
-    for (bit, mut range) in
-        [(Attributes::COLOUR, 0..3), (Attributes::NORMAL, 3..6), (Attributes::UV, 6..8)]
-    {
+    for (bit, mut range) in Attributes::RANGES {
         if left.has(bit) && !range.any(varies) {
             left.0 &= !bit;
         }

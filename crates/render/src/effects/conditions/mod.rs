@@ -18,6 +18,7 @@ pub(super) mod mip_maps;
 pub(super) mod perspective;
 pub(super) mod samples;
 pub(super) mod second_buffer;
+pub(super) mod shadows;
 pub(super) mod specular;
 pub(super) mod survey;
 pub(super) mod wide_words;

@@ -34,6 +34,8 @@ pub struct Survey<'a> {
     pub mip_maps: u64,
     /// Pieces that may have a footprint with a longer axis.
     pub anisotropy: u64,
+    /// Pieces that something may keep the light from.
+    pub shadows: u64,
     /// Pieces that may have a highlight.
     pub specular: u64,
     /// Whether the engine has words of several widths, and the pieces in more than 32 bits.
@@ -67,6 +69,7 @@ impl<'a> Survey<'a> {
             specular: 0,
             mip_maps: 0,
             anisotropy: 0,
+            shadows: 0,
             shares: [0; 2],
             tested: [0; 2],
             blended: [0; 2],
@@ -91,6 +94,7 @@ impl<'a> Survey<'a> {
         }
         self.mip_maps += u64::from(plan.mip_maps);
         self.anisotropy += u64::from(plan.anisotropy);
+        self.shadows += u64::from(plan.shadows);
         self.specular += u64::from(plan.specular);
         self.wide += u64::from(word_bits > Some(i32::BITS));
         let bits = [Attributes::COLOUR, Attributes::NORMAL, Attributes::UV];

@@ -102,7 +102,7 @@ mod tests {
     use super::*;
     use crate::effects::primitive::pack;
     use crate::effects::samples::pattern::scaled;
-    use crate::pipeline::shade::{ALL, Attributes};
+    use crate::pipeline::shade::{Attributes, PLACED};
     use crate::pipeline::target::Antialias;
     use rasterproof_core::contract::Interpolate as _;
     use rasterproof_core::grid::PixelRect;
@@ -127,7 +127,7 @@ mod tests {
             };
             let position = SubpixelPoint::new(along(near.map(|p| p.x)), along(near.map(|p| p.y)));
             let depth = if along_x { f64::from(position.x) / side } else { rng.unit() };
-            ScreenVertex { position, depth, inv_w: 1.0, varying: Attributes([0.0; ALL]) }
+            ScreenVertex { position, depth, inv_w: 1.0, varying: Attributes([0.0; PLACED]) }
         };
         let first = corner(None);
         let second = corner(thin.then_some(first.position));

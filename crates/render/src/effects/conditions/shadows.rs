@@ -1,0 +1,150 @@
+//! Shadows: which part of the light arrives, looked up in each fragment, and the shadow map.
+//!
+//! Left out where the scene has none or the item has no light to lose, and for a piece
+//!
+//! - that faces away from the light everywhere and has no highlight: what is multiplied is 0, and
+//! - before which nothing lies ([`LightView::may_be_shadowed`]): all nine parts of the light arrive, and the factor is 1.
+//!
+//! The map is drawn when the first piece reads it, so that a frame without one does not pay for it.
+//!
+//! [`LightView::may_be_shadowed`]: crate::pipeline::shadow::LightView::may_be_shadowed
+
+use super::survey::Survey;
+use crate::effects::plan::{Attributes, Decision};
+use crate::effects::primitive::{Piece, Prepared, is_lit};
+use crate::effects::{Effect, Effects, Mode};
+use crate::pipeline::shade::{Light, Surface};
+use crate::scene::{Item, Scene};
+use glam::DVec3;
+use rasterproof_core::arrays::MapArray as _;
+
+/// What an item asks for; without a map or normals nothing.
+pub fn mode(scene: &Scene, item: &Item, carries: Attributes, effects: &Effects) -> Mode {
+    match effects.mode(Effect::Shadows) {
+        _ if scene.shadows.is_none() || !carries.has(Attributes::NORMAL) => Mode::Never,
+        Mode::Planned | Mode::Material if !has_light(scene, item) => Mode::Never,
+        Mode::Material => Mode::Always,
+        mode => mode,
+    }
+}
+
+fn has_light(scene: &Scene, item: &Item) -> bool {
+    is_lit(scene, item) && scene.light.diffuse != 0.0
+}
+
+#[inline]
+pub fn pays(
+    mode: Mode,
+    scene: &Scene,
+    item: &Prepared<'_>,
+    piece: &Piece,
+    has_highlight: bool,
+) -> bool {
+    match (mode, &item.light_view) {
+        (Mode::Planned | Mode::Material, Some(view)) => {
+            let surfaces = piece.vertices.map_array(|vertex| Surface::from(vertex.varying));
+            let faces_away = || faces_away(&item.light, surfaces.map_array(|s| s.normal));
+            !(!has_highlight && faces_away())
+                && view.may_be_shadowed(scene, surfaces.map_array(|s| s.place))
+        }
+        (Mode::Always, Some(_)) => true,
+        _ => false,
+    }
+}
+
+/// Whether the light is 0 at every normal between three. One normal is the same in each fragment; others are
+/// interpolated with errors below 2^-48 of the largest component, as in
+/// [`crate::pipeline::highlight::Highlight::is_dark_between`].
+fn faces_away(light: &Light, normals: [DVec3; 3]) -> bool {
+    let [a, b, c] = normals;
+    let margin = if a == b && b == c {
+        0.0
+    } else {
+        (a.abs() + b.abs() + c.abs()).element_sum() * 0.5f64.powi(40)
+    };
+    normals.iter().all(|normal| normal.dot(light.towards) + margin <= 0.0)
+}
+
+/// Nothing of a scene without shadows, unless the user switches them on or off everywhere.
+pub fn explain(survey: &Survey<'_>) -> Option<Decision> {
+    let Survey { scene, item, pieces, shadows, .. } = *survey;
+    let asked = survey.effects.mode(Effect::Shadows);
+    let is_asked = !matches!(asked, Mode::Planned | Mode::Material);
+    let is_on = mode(scene, item, survey.carries, survey.effects) == Mode::Always;
+    let all = if is_on { pieces } else { 0 };
+    let (on, reason) = if scene.shadows.is_none() {
+        if !is_asked {
+            return None;
+        }
+        (0, "the scene has no shadow map")
+    } else if !has_light(scene, item) {
+        (all, "the material has no light of its fragments to lose")
+    } else if asked == Mode::Material {
+        (all, "the scene has a shadow map")
+    } else if !survey.is_listed {
+        let reason = "where something may lie before the light";
+        return Some(survey.leave_open(Effect::Shadows, reason));
+    } else {
+        let reason = match shadows {
+            0 => "nothing lies between the item and the light, or it faces away",
+            _ if shadows == pieces => "something may lie between every piece and the light",
+            _ => "something may lie between some pieces and the light",
+        };
+        (shadows, reason)
+    };
+    Some(survey.decide(Effect::Shadows, on, reason))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pipeline::highlight::{Highlight, Specular};
+    use rasterproof_verify::cases::Rng;
+
+    type Condition = fn(&Light, [DVec3; 3]) -> bool;
+
+    /// How many of random triangles face away by a condition, and for how many of these a shadow changes the light at
+    /// a normal between the corners.
+    fn tried(condition: Condition) -> [u32; 2] {
+        let mut rng = Rng::new("facing away", 1, 0);
+        let mut counts = [0; 2];
+        for _ in 0..4000 {
+            let spread = rng.unit();
+            let mut point = || DVec3::new(rng.signed(), rng.signed(), rng.signed());
+            let light =
+                Light { towards: point().normalize_or(DVec3::Z), ambient: 0.25, diffuse: 0.75 };
+            let centre = point();
+            let normals = [0; 3].map_array(|_| centre + point() * spread);
+            let mut is_lit = false;
+            for i in 0..=12 {
+                for j in 0..=12 - i {
+                    let (i, j) = (f64::from(i) / 12.0, f64::from(j) / 12.0);
+                    let [a, b, c] = normals;
+                    let normal = a + (b - a) * i + (c - a) * j;
+                    is_lit |= light.intensity_in(normal, 0) != light.intensity_in(normal, 9);
+                }
+            }
+            let holds = condition(&light, normals);
+            counts[0] += u32::from(holds);
+            counts[1] += u32::from(holds && is_lit);
+        }
+        counts
+    }
+
+    #[test]
+    fn what_faces_away_has_no_light_to_lose() {
+        let [known, wrong] = tried(faces_away);
+        assert!(known > 1000 && wrong == 0, "{known}, {wrong}");
+        let mean: Condition = |light, [a, b, c]| faces_away(light, [a + b + c; 3]);
+        let first: Condition = |light, [a, _, _]| faces_away(light, [a; 3]);
+        for (number, condition) in [mean, first].into_iter().enumerate() {
+            assert!(tried(condition)[1] > 0, "wrong condition {number} survives");
+        }
+        // One that forgets highlights: they are halfway to the eye, and reach beyond where the light does.
+        let light = Light { towards: DVec3::X, ambient: 0.0, diffuse: 1.0 };
+        let specular = Specular { colour: DVec3::ONE, shininess: 2.0 };
+        let normal = DVec3::new(-0.2, 0.0, 1.0);
+        assert!(faces_away(&light, [normal; 3]));
+        assert_ne!(Highlight::new(&specular, &light, DVec3::Z).at(normal), [0; 3]);
+    }
+}
