@@ -81,6 +81,7 @@ pub const ALL: &[(&str, Values)] = &[
     ("pays-highlights", || pays("highlights", Effect::Specular)),
     ("pays-mip-maps", || pays("mip-maps", Effect::MipMaps)),
     ("pays-anisotropy", || pays("anisotropy", Effect::Anisotropy)),
+    ("pays-shadows", || pays("shadows", Effect::Shadows)),
     ("pays-fog", || pays("fog", Effect::Fog)),
     ("pays-cut-outs", || pays("cut-outs", Effect::AlphaTest)),
     ("pays-panes", || pays("panes", Effect::Blending)),

@@ -24,7 +24,7 @@ pub const SCENES: &[Entry] = &[
     },
     Entry {
         name: "shadows",
-        about: "a floor in 1,152 triangles, on it pillars, spheres and a leaf that keep the light from it and from each other",
+        about: "a floor in 512 triangles, on it pillars, spheres and a leaf that keep the light from it and from each other",
         build: shadows,
     },
     Entry {
@@ -55,7 +55,7 @@ pub const SCENES: &[Entry] = &[
 ];
 
 fn shadows(scene: Scene, turn: f64) -> Scene {
-    let floor = board(DVec3::new(0.0, -1.3, 6.0), 10.0, 24);
+    let floor = board(DVec3::new(0.0, -1.3, 6.0), 10.0, 16);
     let texture = Arc::new(textures::checkerboard().with(Filter::Bilinear, Wrap::Repeat));
     let checks =
         Material { texture: Some(texture), shading: Shading::Phong, ..Material::default() };
@@ -78,7 +78,7 @@ fn shadows(scene: Scene, turn: f64) -> Scene {
         let specular = Specular { colour: DVec3::splat(0.6), shininess: 30.0 };
         let colour = DVec3::new(0.85, 0.45, 0.25);
         let material = Material { colour, specular, shading, ..Material::default() };
-        let sphere = Item::new(shapes::sphere(place, radius, 48, 24), material);
+        let sphere = Item::new(shapes::sphere(place, radius, 28, 14), material);
         items.push(Item { cull: Cull::Clockwise, ..sphere });
     }
     let (colours, alpha) = leaf();
