@@ -310,8 +310,7 @@ impl LightView {
 
 impl ShadowMap {
     fn key(&self, depth: f64) -> u64 {
-        // The maximum turns NaN into 0.
-        (depth.max(0.0).min(1.0) * self.steps + (0.5 + OFF_FRACTION)) as u64
+        (depth.clamp(0.0, 1.0) * self.steps + (0.5 + OFF_FRACTION)) as u64
     }
 
     /// Draws what an item keeps from the light: fragments that would write a depth if the eye saw them, whatever their
@@ -472,7 +471,7 @@ mod tests {
         let mut rng = Rng::new("shadow planes", 1, 0);
         let mut counts = [0; 2];
         for _ in 0..300 {
-            let (normal, far) = (direction(&mut rng), 10f64.powf(4.0 * rng.unit()) - 1.0);
+            let (normal, far) = (direction(&mut rng), 10f64.powi(rng.int(0, 4) as i32));
             let (u, v) = normal.any_orthonormal_pair();
             let middle = direction(&mut rng) * far;
             let mut corner = || middle + u * rng.signed() + v * rng.signed();

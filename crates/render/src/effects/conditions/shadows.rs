@@ -44,7 +44,7 @@ pub fn pays(
         (Mode::Planned | Mode::Material, Some(view)) => {
             let surfaces = piece.vertices.map_array(|vertex| Surface::from(vertex.varying));
             let faces_away = || faces_away(&item.light, surfaces.map_array(|s| s.normal));
-            !(!has_highlight && faces_away())
+            (has_highlight || !faces_away())
                 && view.may_be_shadowed(scene, surfaces.map_array(|s| s.place))
         }
         (Mode::Always, Some(_)) => true,
