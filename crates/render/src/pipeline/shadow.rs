@@ -136,8 +136,8 @@ impl LightView {
                 DVec3::new(p.dot(right), p.dot(up), p.dot(away))
             };
             let of_item: Vec<DVec3> = mesh.positions.iter().map(place).collect();
-            for corner in mesh.triangles.as_flattened() {
-                let p = of_item[corner.position as usize];
+            for number in mesh.triangles.positions().as_flattened() {
+                let p = of_item[*number as usize];
                 let (min, max) = ends.unwrap_or((p, p));
                 ends = Some((min.min(p), max.max(p)));
             }
@@ -290,8 +290,8 @@ impl LightView {
             let side = f64::from(self.shadows.size) / CELLS as f64;
             let cell = |at: f64| ((at / side) as usize).min(CELLS - 1);
             for (item, places) in scene.items.iter().zip(&self.places) {
-                for triangle in &item.mesh.triangles {
-                    let [a, b, c] = triangle.map_array(|corner| places[corner.position as usize]);
+                for triangle in item.mesh.triangles.positions() {
+                    let [a, b, c] = triangle.map_array(|number| places[number as usize]);
                     let (min, max) = (a.min(b).min(c), a.max(b).max(c));
                     let number = casters.triangles.len() as u32;
                     casters.triangles.push([a, b, c]);
@@ -318,7 +318,7 @@ impl ShadowMap {
     fn cast(&mut self, engine: &impl Interpolate, item: &Item, places: &[DVec3]) {
         let opacity = item.material.opacity.as_ref();
         let window = self.keys.bounds();
-        for triangle in &item.mesh.triangles {
+        for triangle in item.mesh.triangles.iter() {
             let [a, b, c] = triangle.map_array(|corner| {
                 let place = places[corner.position as usize];
                 let uv = Attributes(corner.uv.to_array());
