@@ -127,6 +127,9 @@ Definition computed_quotient_error (of_rounding second underflow : positive) (en
   let off := fl (fl (en + fl (a * eq)) / fl (q - eq)) in
   fl (fl (fl (off + fl (inject_Z (Z.pos of_rounding) * w * a)) * (1 + (1 # 2 ^ second))) + (1 # 2 ^ underflow)).
 
+(** Below 2^bits. *)
+Definition is_below (bits : positive) (x : Q) : bool := negb (Qle_bool (inject_Z (2 ^ Z.pos bits)) x).
+
 (** ** A pixel of a triangle in a window of width x height pixels *)
 
 (** First pixel and sides of what the window shows of a triangle's box. *)
@@ -149,14 +152,20 @@ Definition tile_values (width height : Z) (a b c : vertex) (px py : Z) : answer 
   let growth := growth_of f across below in
   let with_error c0 c1 c2 :=
     let p := plane_of f c0 c1 c2 in
-    (plane_at p x y,
-     computed_error 4 11 18 126 (computed_size (at_start p) (to_right p) (to_below p) x y) (size_of c0 c1 c2 growth)) in
+    let S := computed_size (at_start p) (to_right p) (to_below p) x y in
+    if is_below 127 S then Some (plane_at p x y, computed_error 4 11 18 126 S (size_of c0 c1 c2 growth)) else None in
   if is_bounded 18 f then
-    let '(z, ez) := with_error (depth a) (depth b) (depth c) in
     let nearest_corner := below32 (- larger (larger (- depth a) (- depth b)) (- depth c)) in
     let '(sa, sb, sc) := shares a b c in
-    let '(n, en) := with_error (fl (attribute a * sa)) (fl (attribute b * sb)) (fl (attribute c * sc)) in
-    let '(q, eq) := with_error sa sb sc in
-    (Some (larger z nearest_corner, ez),
-     if Qle_bool q eq then None else Some (computed_quotient n q, computed_quotient_error 2 18 126 en eq n q))
+    (match with_error (depth a) (depth b) (depth c) with
+     | Some (z, ez) => Some (larger z nearest_corner, ez)
+     | None => None
+     end,
+     match with_error (fl (attribute a * sa)) (fl (attribute b * sb)) (fl (attribute c * sc)), with_error sa sb sc with
+     | Some (n, en), Some (q, eq) =>
+       if Qle_bool q eq then None
+       else if is_below 127 (Qabs (fl (n / q))) then Some (computed_quotient n q, computed_quotient_error 2 18 126 en eq n q)
+       else None
+     | _, _ => None
+     end)
   else (None, None).

@@ -374,7 +374,110 @@ Proof.
   { intros o v sum. setoid_replace (o - v) with (o - sum + (sum - v)) by ring. apply Qabs_triangle. }
   exact (bounded _ _ _ _ _ _ _ _ _ _ _ (H _ _ _) E F P K all_tiny S0 Tp).
 Qed.
+
+(** ** Nothing overflows in f32: S is at most 2^64 M, and what fits where S is below 2^127 *)
+
+Lemma twice32 z : Qabs (nearest32 z) <= 2 * Qabs z + (1 # 2 ^ 100).
+Proof.
+  pose proof (nearest32_near z) as N. pose proof (Qabs_triangle z (nearest32 z - z)) as T.
+  setoid_replace (z + (nearest32 z - z)) with (nearest32 z) in T by ring. pose proof (Qabs_nonneg z).
+  assert (F : tiny <= 1 # 2 ^ 100) by (apply Qle_bool_iff; vm_compute; reflexivity).
+  set (g := tiny) in *. set (h := 1 # 2 ^ 100) in *. clearbody g h. unfold w in N. lra.
+Qed.
+
+Lemma steepest_at_most a b : Qabs a <= inject_Z (2 ^ 18) -> Qabs b <= inject_Z (2 ^ 18) ->
+  0 <= steepest area M a b <= M * inject_Z (2 ^ 37).
+Proof.
+  intros A B. destruct (near_size _ _ _ _ _ N0) as [M0 _]. pose proof (Qabs_nonneg a). pose proof (Qabs_nonneg b). unfold steepest.
+  assert (S : 0 <= Qabs a + Qabs b <= inject_Z (2 ^ 19)).
+  { change (inject_Z (2 ^ 19)) with (524288 # 1). change (inject_Z (2 ^ 18)) with (262144 # 1) in *. lra. }
+  pose proof (product_le _ _ _ _ S (conj (Qabs_nonneg (1 / area)) BA)) as P.
+  assert (M2 : 0 <= 2 * M <= 2 * M) by lra. pose proof (product_le _ _ _ _ M2 P) as R.
+  setoid_replace ((2 * M * Qabs a + 2 * M * Qabs b) * Qabs (1 / area)) with (2 * M * ((Qabs a + Qabs b) * Qabs (1 / area))) by ring.
+  assert (E : 2 * M * (inject_Z (2 ^ 19) * inject_Z (2 ^ 17)) == M * inject_Z (2 ^ 37)).
+  { change (inject_Z (2 ^ 37)) with (2 * (inject_Z (2 ^ 19) * inject_Z (2 ^ 17))). ring. }
+  rewrite E in R. exact R.
+Qed.
+
+Lemma rounded_at_most n t' R x x' B : (n <= 20)%nat -> near n t' R x x' -> t' <= 1 # 2 ^ 100 -> R <= B ->
+  Qabs (nearest32 x') <= (2 + (1 # 1048576)) * B + 4 * (1 # 2 ^ 100).
+Proof.
+  intros Hn N T RB. destruct (near_size _ _ _ _ _ N) as [R0 S]. pose proof (twice32 x') as H.
+  assert (D : drift n <= 1 # 2 ^ 45).
+  { apply Qle_trans with (drift 20); [|apply Qle_bool_iff; vm_compute; reflexivity].
+    unfold drift. apply Qmult_le_compat_r; [rewrite <- Zle_Qle; lia | discriminate]. }
+  assert (E : drift n * R <= (1 # 2 ^ 45) * R) by (apply Qmult_le_compat_r; assumption).
+  assert (H0 : 0 <= 1 # 2 ^ 100) by discriminate.
+  set (h := 1 # 2 ^ 100) in *. set (d := drift n * R) in *. clearbody h d. change (1 # 2 ^ 45) with (1 # 35184372088832) in E. lra.
+Qed.
+
+Lemma product32_at_most d B x : Qabs d <= B -> Qabs x <= inject_Z (2 ^ 19) ->
+  Qabs (nearest32 (d * x)) <= 2 * (B * inject_Z (2 ^ 19)) + (1 # 2 ^ 100).
+Proof.
+  intros Hd Hx. pose proof (twice32 (d * x)) as H. rewrite Qabs_Qmult in H.
+  pose proof (product_le _ _ _ _ (conj (Qabs_nonneg d) Hd) (conj (Qabs_nonneg x) Hx)) as P. lra.
+Qed.
+
+Theorem size_at_most x y : Qabs x <= inject_Z (2 ^ 19) -> Qabs y <= inject_Z (2 ^ 19) ->
+  size (nearest32 started) (nearest32 rightwards) (nearest32 downwards) x y <= inject_Z (2 ^ 64) * M + 1.
+Proof.
+  intros Hx Hy. destruct (near_size _ _ _ _ _ N0) as [M0 _]. unfold size.
+  pose proof (steepest_at_most y2 y1 B4 B2) as SR. pose proof (steepest_at_most x1 x2 B1 B3) as SD.
+  pose proof (slope_tiny_small y2 y1 B4 B2) as [_ TR]. pose proof (slope_tiny_small x1 x2 B1 B3) as [_ TD].
+  assert (F1 : 1 # 2 ^ 840 <= 1 # 2 ^ 100) by discriminate. assert (F2 : 1 # 2 ^ 800 <= 1 # 2 ^ 100) by discriminate.
+  pose proof (right_near y1 y2 area pa Pa v0 v1 v2 c0 c1 c2 M t N0 N1 N2) as NR.
+  pose proof (down_near x1 x2 area pa Pa v0 v1 v2 c0 c1 c2 M t N0 N1 N2) as ND.
+  pose proof (start_near x1 y1 x2 y2 area pa X0 Y0 Pa v0 v1 v2 c0 c1 c2 M t N0 N1 N2) as NS.
+  pose proof (rounded_at_most 7 _ _ _ _ _ ltac:(lia) NR (Qle_trans _ _ _ TR F1) (proj2 SR)) as R.
+  pose proof (rounded_at_most 7 _ _ _ _ _ ltac:(lia) ND (Qle_trans _ _ _ TD F1) (proj2 SD)) as D.
+  assert (TS : start_tiny x1 y1 x2 y2 area X0 Y0 t <= 1 # 2 ^ 100).
+  { apply (Qle_trans _ (1 # 2 ^ 800)); [|exact F2]. pose proof (plane_tiny_small 0 0 ltac:(discriminate) ltac:(discriminate)) as P.
+    unfold plane_tiny in P. change (Qabs 0) with 0 in P. rewrite !Qmult_0_r in P. rewrite Qplus_0_r, Qplus_0_r in P. exact P. }
+  assert (BS : M + (steepest area M y2 y1 * Qabs X0 + steepest area M x1 x2 * Qabs Y0) <=
+    M + (M * inject_Z (2 ^ 37) * inject_Z (2 ^ 24) + M * inject_Z (2 ^ 37) * inject_Z (2 ^ 24))).
+  { pose proof (product_le _ _ _ _ SR (conj (Qabs_nonneg X0) BX)). pose proof (product_le _ _ _ _ SD (conj (Qabs_nonneg Y0) BY)). lra. }
+  pose proof (rounded_at_most 10 _ _ _ _ _ ltac:(lia) NS TS BS) as S.
+  pose proof (product32_at_most _ _ x R Hx) as PR. pose proof (product32_at_most _ _ y D Hy) as PD.
+  set (a := Qabs (nearest32 started)) in *. set (b := Qabs (nearest32 (nearest32 rightwards * x))) in *.
+  set (c := Qabs (nearest32 (nearest32 downwards * y))) in *. clearbody a b c.
+  assert (H : (1 # 2 ^ 100) <= 1 # 1267650600228229401496703205376) by discriminate. set (h := 1 # 2 ^ 100) in *. clearbody h.
+  change (inject_Z (2 ^ 37)) with (137438953472 # 1) in *. change (inject_Z (2 ^ 24)) with (16777216 # 1) in *.
+  change (inject_Z (2 ^ 19)) with (524288 # 1) in *. change (inject_Z (2 ^ 64)) with (18446744073709551616 # 1).
+  clear - M0 S PR PD H. lra.
+Qed.
 End Bound.
+
+(** The largest number of f32. *)
+Definition largest32 : Q := Eval compute in inject_Z (2 ^ 128 - 2 ^ 104).
+
+(** Where S, of exact sums, is below 2^127 and a little, no product and no sum of the plane leaves f32. *)
+Theorem plane_fits s r d x y : size s r d x y <= inject_Z (2 ^ 127 + 2 ^ 100) ->
+  Qabs s <= largest32 /\ Qabs (nearest32 (r * x)) <= largest32 /\ Qabs (nearest32 (d * y)) <= largest32 /\
+  Qabs (nearest32 (s + nearest32 (d * y))) <= largest32 /\ Qabs (at_pixel s r d x y) <= largest32.
+Proof.
+  unfold size, at_pixel. intros H. set (b := nearest32 (d * y)) in *. set (c := nearest32 (r * x)) in *.
+  pose proof (Qabs_nonneg s). pose proof (Qabs_nonneg b). pose proof (Qabs_nonneg c).
+  pose proof (nearest32_near (s + b)) as E. set (m := nearest32 (s + b)) in *. pose proof (nearest32_near (m + c)) as F.
+  set (o := nearest32 (m + c)) in *. pose proof (Qabs_triangle s b). pose proof (Qabs_triangle m c).
+  pose proof (Qabs_triangle (s + b) (m - (s + b))) as T1. setoid_replace (s + b + (m - (s + b))) with m in T1 by ring.
+  pose proof (Qabs_triangle (m + c) (o - (m + c))) as T2. setoid_replace (m + c + (o - (m + c))) with o in T2 by ring.
+  assert (L : inject_Z (2 ^ 127 + 2 ^ 100) * (1 + (1 # 4194304)) + 1 <= largest32) by (apply Qle_bool_iff; vm_compute; reflexivity).
+  assert (P : inject_Z (2 ^ 127 + 2 ^ 100) <= largest32) by (apply Qle_bool_iff; vm_compute; reflexivity).
+  assert (G : tiny <= 1 # 1048576) by discriminate.
+  set (k := inject_Z (2 ^ 127 + 2 ^ 100)) in *. set (l := largest32) in *. set (g := tiny) in *. clearbody k l g.
+  set (e1 := Qabs (m - (s + b))) in *. set (e2 := Qabs (o - (m + c))) in *. set (z1 := Qabs (s + b)) in *. set (z2 := Qabs (m + c)) in *.
+  set (as_ := Qabs s) in *. set (ab := Qabs b) in *. set (ac := Qabs c) in *. set (am := Qabs m) in *. set (ao := Qabs o) in *.
+  clearbody e1 e2 z1 z2 as_ ab ac am ao. unfold w in *. repeat split; lra.
+Qed.
+
+(** A plane is at most four times S. *)
+Lemma plane_at_most s r d x y : Qabs (at_pixel s r d x y) <= 4 * size s r d x y + 1.
+Proof.
+  unfold size, at_pixel. set (b := nearest32 (d * y)) in *. set (c := nearest32 (r * x)) in *.
+  pose proof (twice32 (s + b)) as E. set (m := nearest32 (s + b)) in *. pose proof (twice32 (m + c)) as F.
+  pose proof (Qabs_triangle s b). pose proof (Qabs_triangle m c). pose proof (Qabs_nonneg c). assert (G : 1 # 2 ^ 100 <= 1 # 1024) by discriminate.
+  set (h := 1 # 2 ^ 100) in *. clearbody h. lra.
+Qed.
 
 (** Bounded::value: an attribute is the quotient of its plane and that of 1/w, taken with a rounded reciprocal. *)
 Definition quotient_bound (of_rounding : positive) (second underflow : positive) (en eq n' q' : Q) : Q :=
@@ -399,30 +502,40 @@ Proof.
   - apply Qmult_le_compat_r; lra.
 Qed.
 
-Theorem quotient_error n q n' q' en eq : Qabs (n' - n) <= en -> Qabs (q' - q) <= eq -> eq < q' -> q' <= inject_Z (2 ^ 80) ->
-  Qabs (nearest32 (n' * nearest32 (1 / q')) - n / q) <= quotient_bound 2 20 130 en eq n' q'.
+Lemma reciprocal_error q' : 0 < q' -> q' <= inject_Z (2 ^ 80) ->
+  Qabs (nearest32 (1 / q') - 1 / q') <= w * (1 + (1 # 2 ^ 40)) * (1 / q').
 Proof.
-  intros En Eq P Most. pose proof (quotient_of_errors n q n' q' en eq En Eq P) as F. unfold quotient_bound.
-  pose proof (Qabs_nonneg (q' - q)). assert (Q1 : 0 < q') by lra.
-  pose proof (nearest32_near (1 / q')) as R. pose proof (nearest32_near (n' * nearest32 (1 / q'))) as G.
+  intros Q1 Most. pose proof (nearest32_near (1 / q')) as R.
   assert (Hh : 1 # 2 ^ 80 <= 1 / q').
   { apply Qle_shift_div_l; [assumption|]. apply Qle_trans with ((1 # 2 ^ 80) * inject_Z (2 ^ 80)); [|discriminate].
     rewrite !(Qmult_comm (1 # 2 ^ 80)). apply Qmult_le_compat_r; [assumption | discriminate]. }
   assert (H0 : 0 <= 1 / q') by (apply Qle_trans with (1 # 2 ^ 80); [discriminate | assumption]).
   rewrite (Qabs_pos (1 / q')) in R by assumption.
-  assert (R1 : Qabs (nearest32 (1 / q') - 1 / q') <= w * (1 + (1 # 2 ^ 40)) * (1 / q')).
-  { assert (T : tiny <= w * (1 # 2 ^ 40) * (1 # 2 ^ 80)) by (apply Qle_bool_iff; vm_compute; reflexivity).
-    assert (M : w * (1 # 2 ^ 40) * (1 # 2 ^ 80) <= w * (1 # 2 ^ 40) * (1 / q')).
-    { rewrite !(Qmult_comm (w * (1 # 2 ^ 40))). apply Qmult_le_compat_r; [assumption | discriminate]. }
-    set (i := 1 / q') in *. setoid_replace (w * (1 + (1 # 2 ^ 40)) * i) with (w * i + w * (1 # 2 ^ 40) * i) by ring.
-    set (k := w * (1 # 2 ^ 40) * i) in *. set (l := w * (1 # 2 ^ 40) * (1 # 2 ^ 80)) in *. clearbody k l. lra. }
-  set (p := nearest32 (1 / q')) in *. clearbody p.
-  assert (N : Qabs (n' * p - n' / q') <= w * (1 + (1 # 2 ^ 40)) * Qabs (n' / q')).
-  { setoid_replace (n' * p - n' / q') with (n' * (p - 1 / q')) by (field; lra).
-    assert (A : Qabs (n' / q') == Qabs n' * (1 / q')).
-    { setoid_replace (n' / q') with (n' * (1 / q')) by (field; lra). rewrite Qabs_Qmult, (Qabs_pos (1 / q')) by assumption. reflexivity. }
-    rewrite A, Qabs_Qmult. setoid_replace (w * (1 + (1 # 2 ^ 40)) * (Qabs n' * (1 / q'))) with (Qabs n' * (w * (1 + (1 # 2 ^ 40)) * (1 / q'))) by ring.
-    rewrite !(Qmult_comm (Qabs n')). apply Qmult_le_compat_r; [assumption | apply Qabs_nonneg]. }
+  assert (T : tiny <= w * (1 # 2 ^ 40) * (1 # 2 ^ 80)) by (apply Qle_bool_iff; vm_compute; reflexivity).
+  assert (M : w * (1 # 2 ^ 40) * (1 # 2 ^ 80) <= w * (1 # 2 ^ 40) * (1 / q')).
+  { rewrite !(Qmult_comm (w * (1 # 2 ^ 40))). apply Qmult_le_compat_r; [assumption | discriminate]. }
+  set (i := 1 / q') in *. setoid_replace (w * (1 + (1 # 2 ^ 40)) * i) with (w * i + w * (1 # 2 ^ 40) * i) by ring.
+  set (k := w * (1 # 2 ^ 40) * i) in *. set (l := w * (1 # 2 ^ 40) * (1 # 2 ^ 80)) in *. clearbody k l. lra.
+Qed.
+
+Lemma product_error n' q' : 0 < q' -> Qabs (nearest32 (1 / q') - 1 / q') <= w * (1 + (1 # 2 ^ 40)) * (1 / q') ->
+  Qabs (n' * nearest32 (1 / q') - n' / q') <= w * (1 + (1 # 2 ^ 40)) * Qabs (n' / q').
+Proof.
+  intros Q1 R1. assert (H0 : 0 <= 1 / q') by (apply Qle_shift_div_l; lra). set (p := nearest32 (1 / q')) in *. clearbody p.
+  setoid_replace (n' * p - n' / q') with (n' * (p - 1 / q')) by (field; lra).
+  assert (A : Qabs (n' / q') == Qabs n' * (1 / q')).
+  { setoid_replace (n' / q') with (n' * (1 / q')) by (field; lra). rewrite Qabs_Qmult, (Qabs_pos (1 / q')) by assumption. reflexivity. }
+  rewrite A, Qabs_Qmult. setoid_replace (w * (1 + (1 # 2 ^ 40)) * (Qabs n' * (1 / q'))) with (Qabs n' * (w * (1 + (1 # 2 ^ 40)) * (1 / q'))) by ring.
+  rewrite !(Qmult_comm (Qabs n')). apply Qmult_le_compat_r; [assumption | apply Qabs_nonneg].
+Qed.
+
+Theorem quotient_error n q n' q' en eq : Qabs (n' - n) <= en -> Qabs (q' - q) <= eq -> eq < q' -> q' <= inject_Z (2 ^ 80) ->
+  Qabs (nearest32 (n' * nearest32 (1 / q')) - n / q) <= quotient_bound 2 20 130 en eq n' q'.
+Proof.
+  intros En Eq P Most. pose proof (quotient_of_errors n q n' q' en eq En Eq P) as F. unfold quotient_bound.
+  pose proof (Qabs_nonneg (q' - q)). assert (Q1 : 0 < q') by lra.
+  pose proof (nearest32_near (n' * nearest32 (1 / q'))) as G.
+  pose proof (product_error n' q' Q1 (reciprocal_error q' Q1 Most)) as N. set (p := nearest32 (1 / q')) in *. clearbody p.
   assert (S : Qabs (n' * p) <= Qabs (n' / q') + Qabs (n' * p - n' / q')).
   { setoid_replace (n' * p) with (n' / q' + (n' * p - n' / q')) at 1 by ring. apply Qabs_triangle. }
   set (o := nearest32 (n' * p)) in *. clearbody o.
@@ -436,4 +549,28 @@ Proof.
   set (e1 := Qabs (o - n' * p)) in *. set (e2 := Qabs (n' * p - n' / q')) in *. set (e3 := Qabs (n' / q' - n / q)) in *.
   set (b := Qabs (n' * p)) in *. set (z := Qabs (o - n' * p + (n' * p - n' / q' + (n' / q' - n / q)))) in *.
   set (y := Qabs (n' * p - n' / q' + (n' / q' - n / q))) in *. clearbody a off m g e1 e2 e3 b z y. unfold w in *. lra.
+Qed.
+
+(** The reciprocal of q and the quotient fit where q is not below 2^-127 and the quotient is below 2^127. *)
+Theorem quotient_fits n q : 1 # 2 ^ 127 <= q -> q <= inject_Z (2 ^ 80) -> Qabs (n / q) <= inject_Z (2 ^ 127 + 2 ^ 100) ->
+  Qabs (nearest32 (1 / q)) <= largest32 /\ Qabs (computed_quotient n q) <= largest32.
+Proof.
+  intros L U B. assert (Q0 : 0 < q) by (apply (Qlt_le_trans _ (1 # 2 ^ 127)); [reflexivity | assumption]).
+  assert (I0 : 0 <= 1 / q) by (apply Qle_shift_div_l; lra).
+  assert (I1 : 1 / q <= inject_Z (2 ^ 127)).
+  { apply Qle_shift_div_r; [assumption|]. apply Qle_trans with (inject_Z (2 ^ 127) * (1 # 2 ^ 127)); [apply Qle_bool_iff; vm_compute; reflexivity|].
+    rewrite !(Qmult_comm (inject_Z (2 ^ 127))). apply Qmult_le_compat_r; [assumption | discriminate]. }
+  pose proof (reciprocal_error q Q0 U) as R. set (p := nearest32 (1 / q)) in *.
+  pose proof (Qabs_triangle (1 / q) (p - 1 / q)) as T. setoid_replace (1 / q + (p - 1 / q)) with p in T by ring.
+  rewrite (Qabs_pos (1 / q)) in T by assumption. pose proof (product_error n q Q0 R) as N. fold p in N. unfold computed_quotient. fold p.
+  pose proof (Qabs_triangle (n / q) (n * p - n / q)) as T2. setoid_replace (n / q + (n * p - n / q)) with (n * p) in T2 by ring.
+  pose proof (nearest32_near (n * p)) as F. pose proof (Qabs_triangle (n * p) (nearest32 (n * p) - n * p)) as T3.
+  setoid_replace (n * p + (nearest32 (n * p) - n * p)) with (nearest32 (n * p)) in T3 by ring.
+  assert (C1 : inject_Z (2 ^ 127) * (1 + (1 # 4194304)) <= largest32) by (apply Qle_bool_iff; vm_compute; reflexivity).
+  assert (C2 : inject_Z (2 ^ 127 + 2 ^ 100) * (1 + (1 # 4194304)) + 1 <= largest32) by (apply Qle_bool_iff; vm_compute; reflexivity).
+  assert (G : tiny <= 1 # 1048576) by discriminate. pose proof (Qabs_nonneg (n / q)).
+  set (k := inject_Z (2 ^ 127)) in *. set (k1 := inject_Z (2 ^ 127 + 2 ^ 100)) in *. set (l := largest32) in *. set (g := tiny) in *.
+  clearbody k k1 l g. set (i := 1 / q) in *. set (a := Qabs (n / q)) in *. set (e1 := Qabs (p - i)) in *. set (e2 := Qabs (n * p - n / q)) in *.
+  set (o := Qabs (nearest32 (n * p))) in *. set (e3 := Qabs (nearest32 (n * p) - n * p)) in *. set (m := Qabs (n * p)) in *.
+  set (ap := Qabs p) in *. clearbody i a e1 e2 o e3 m ap. change (1 # 2 ^ 40) with (1 # 1099511627776) in *. unfold w in *. split; lra.
 Qed.

@@ -124,6 +124,49 @@ Proof.
   exact (weight_mul fl R 1 69 1 401 _ _ _ _ ltac:(lia) W1 W2).
 Qed.
 
+(** The sum of the weights, and its reciprocal as it is computed. *)
+Definition exact_weights : Q := !e0 * (w0 / largest) + !e1 * (w1 / largest) + !e2 * (w2 / largest).
+
+Notation computed_weights := (fl (fl (edge_weight e0 w0 + edge_weight e1 w1) + edge_weight e2 w2)).
+
+Lemma edge_weights : weight 5 475 exact_weights computed_weights.
+Proof.
+  pose proof (edge_weight_weight e0 w0 H0 Hw0) as W0. pose proof (edge_weight_weight e1 w1 H1 Hw1) as W1.
+  pose proof (edge_weight_weight e2 w2 H2 Hw2) as W2.
+  pose proof (weight_add fl R 3 471 _ _ _ _ ltac:(lia) W0 W1) as S1.
+  exact (weight_add fl R 4 473 _ _ _ _ ltac:(lia) S1 (weight_weaken 3 471 4 473 _ _ ltac:(lia) ltac:(lia) W2)).
+Qed.
+
+(** Some weight is at least 1, so the sum is at least 2^-400. *)
+Lemma edge_weights_least : 1 <= exact_weights * two 400.
+Proof.
+  assert (P0 : 0 <= !e0) by (apply integer_from_0; lia). assert (P1 : 0 <= !e1) by (apply integer_from_0; lia).
+  assert (P2 : 0 <= !e2) by (apply integer_from_0; lia).
+  pose proof (relative_least w0 largest Hw0 Hlargest) as B0. pose proof (relative_least w1 largest Hw1 Hlargest) as B1.
+  pose proof (relative_least w2 largest Hw2 Hlargest) as B2. pose proof (integer_from_1 _ Harea) as Hs.
+  rewrite !inject_Z_plus in Hs. unfold exact_weights.
+  setoid_replace ((!e0 * (w0 / largest) + !e1 * (w1 / largest) + !e2 * (w2 / largest)) * two 400) with
+    (!e0 * (w0 / largest * two 400) + !e1 * (w1 / largest * two 400) + !e2 * (w2 / largest * two 400)) by ring.
+  set (a := w0 / largest * two 400) in *. set (b := w1 / largest * two 400) in *.
+  set (c := w2 / largest * two 400) in *. clearbody a b c.
+  assert (!e0 <= !e0 * a) by nra. assert (!e1 <= !e1 * b) by nra. assert (!e2 <= !e2 * c) by nra. lra.
+Qed.
+
+Lemma edge_reciprocal : weight 6 477 (1 / exact_weights) (fl (1 / computed_weights)) /\
+  0 <= fl (1 / computed_weights) <= largest_inverse.
+Proof.
+  pose proof edge_weights_least as Least. pose proof (two_at_least_1 400) as T. set (s := exact_weights) in *.
+  assert (Ps : 0 < s) by nra.
+  pose proof (weight_exact 1 1 ltac:(cbn; lia)) as W. change (!1) with 1 in W.
+  pose proof (weight_div fl R 0 1 5 475 _ _ _ _ ltac:(lia) Ps W edge_weights) as Wr. split; [exact Wr|].
+  destruct (approx_at _ _ _ (w_approx _ _ _ _ Wr)) as (A & _ & U); [apply (w_exact _ _ _ _ Wr)|].
+  split; [assumption|].
+  assert (Hinv : 1 / s <= two 400) by (apply Qle_shift_div_r; [assumption | lra]).
+  assert (Hl : two 400 <= largest_inverse * low (0 + 5 + 1)) by (apply Qle_bool_iff; vm_compute; reflexivity).
+  pose proof (low_bounds (0 + 5 + 1)). cbn [Nat.add] in *.
+  destruct (Qlt_le_dec largest_inverse (fl (1 / computed_weights))); [exfalso; nra | assumption].
+Qed.
+
 Theorem edge_attribute_error v0 v1 v2 D M : is_float v0 -> is_float v1 -> is_float v2 ->
   Qabs (v1 - v0) <= D -> Qabs (v2 - v0) <= D -> Qabs v0 <= M -> Qabs v1 <= M -> Qabs v2 <= M ->
   Qabs (edge_attribute v0 v1 v2 - exact_attribute v0 v1 v2) <= bound 13 1 D M.
@@ -135,23 +178,9 @@ Proof.
   pose proof (edge_weight_weight e2 w2 H2 Hw2) as W2.
   destruct (inv_w_weight _ Hw0) as [Q0 _]. destruct (inv_w_weight _ Hw1) as [Q1 _].
   destruct (inv_w_weight _ Hw2) as [Q2 _]. destruct (inv_w_weight _ Hlargest) as [QL _].
-  pose proof (weight_add fl R 3 471 _ _ _ _ ltac:(lia) W0 W1) as S1.
-  pose proof (weight_add fl R 4 473 _ _ _ _ ltac:(lia) S1
-    (weight_weaken 3 471 4 473 _ _ ltac:(lia) ltac:(lia) W2)) as S2.
+  pose proof edge_weights_least as Least. destruct edge_reciprocal as [Wr Small]. unfold exact_weights in *.
   set (s := !e0 * (w0 / largest) + !e1 * (w1 / largest) + !e2 * (w2 / largest)) in *.
-  (* Some weight is at least 1, so the sum is at least 2^-400. *)
-  assert (Least : 1 <= s * two 400).
-  { pose proof (relative_least w0 largest Hw0 Hlargest) as B0. pose proof (relative_least w1 largest Hw1 Hlargest) as B1.
-    pose proof (relative_least w2 largest Hw2 Hlargest) as B2. pose proof (integer_from_1 _ Harea) as Hs.
-    rewrite !inject_Z_plus in Hs. unfold s.
-    setoid_replace ((!e0 * (w0 / largest) + !e1 * (w1 / largest) + !e2 * (w2 / largest)) * two 400) with
-      (!e0 * (w0 / largest * two 400) + !e1 * (w1 / largest * two 400) + !e2 * (w2 / largest * two 400)) by ring.
-    set (a := w0 / largest * two 400) in *. set (b := w1 / largest * two 400) in *.
-    set (c := w2 / largest * two 400) in *. clearbody a b c.
-    assert (!e0 <= !e0 * a) by nra. assert (!e1 <= !e1 * b) by nra. assert (!e2 <= !e2 * c) by nra. lra. }
   pose proof (two_at_least_1 400) as T. assert (Ps : 0 < s) by nra.
-  pose proof (weight_exact 1 1 ltac:(cbn; lia)) as W. change (!1) with 1 in W.
-  pose proof (weight_div fl R 0 1 5 475 _ _ _ _ ltac:(lia) Ps W S2) as Wr.
   assert (Hsum : !e0 * w0 + !e1 * w1 + !e2 * w2 == s * largest) by (unfold s; field; lra).
   assert (Hpos : 0 < !e0 * w0 + !e1 * w1 + !e2 * w2) by (rewrite Hsum; apply Qmult_lt_0_compat; assumption).
   assert (E : exact_attribute v0 v1 v2 ==
@@ -168,13 +197,6 @@ Proof.
   - apply (w_approx _ _ _ _ W1).
   - apply (w_approx _ _ _ _ W2).
   - eapply approx_eq; [apply (w_approx _ _ _ _ Wr) | field; lra | reflexivity].
-  - destruct (approx_at _ _ _ (w_approx _ _ _ _ Wr)) as (A & _ & U); [apply (w_exact _ _ _ _ Wr)|].
-    split; [assumption|].
-    assert (Hinv : 1 / s <= two 400) by (apply Qle_shift_div_r; [assumption | lra]).
-    assert (Hl : two 400 <= largest_inverse * low (0 + 5 + 1)) by (apply Qle_bool_iff; vm_compute; reflexivity).
-    pose proof (low_bounds (0 + 5 + 1)). cbn [Nat.add] in *.
-    destruct (Qlt_le_dec largest_inverse (fl (1 / fl (fl (edge_weight e0 w0 + edge_weight e1 w1) + edge_weight e2 w2))));
-      [exfalso; nra | assumption].
 Qed.
 End EdgeFunction.
 

@@ -417,6 +417,22 @@ Proof.
     (pixels_at_most (x0 * 256 + 128 - X a) 24 ltac:(lia) ltac:(lia))
     (pixels_at_most (y0 * 256 + 128 - Y a) 24 ltac:(lia) ltac:(lia)) BT' x y _ Ax Ay Tp HT).
 Qed.
+
+(** S of a plane through values of at most M. *)
+Lemma size_of_plane v0 v1 v2 c0 c1 c2 M t x y : near 2 t M v0 c0 -> near 2 t M v1 c1 -> near 2 t M v2 c2 -> t <= 1 # 2 ^ 1000 ->
+  Qabs x <= inject_Z width -> Qabs y <= inject_Z height ->
+  let p := plane_of (frame_of a b c x0 y0) c0 c1 c2 in
+  size (at_start p) (to_right p) (to_below p) x y <= inject_Z (2 ^ 64) * M + 1.
+Proof.
+  intros N0 N1 N2 BT Wx Hy. assert (BT' : t <= 1 # 2 ^ 900) by (apply (Qle_trans _ _ _ BT); discriminate).
+  assert (Ax : Qabs x <= inject_Z (2 ^ 19)) by (apply (Qle_trans _ _ _ Wx); rewrite <- Zle_Qle; lia).
+  assert (Ay : Qabs y <= inject_Z (2 ^ 19)) by (apply (Qle_trans _ _ _ Hy); rewrite <- Zle_Qle; lia).
+  exact (size_at_most x1 y1 x2 y2 area pa X0 Y0 pa_rounded v0 v1 v2 c0 c1 c2 M t N0 N1 N2
+    (pixels_at_most dx1 18 ltac:(lia) ltac:(lia)) (pixels_at_most dy1 18 ltac:(lia) ltac:(lia))
+    (pixels_at_most dx2 18 ltac:(lia) ltac:(lia)) (pixels_at_most dy2 18 ltac:(lia) ltac:(lia)) inverse_small
+    (pixels_at_most (x0 * 256 + 128 - X a) 24 ltac:(lia) ltac:(lia))
+    (pixels_at_most (y0 * 256 + 128 - Y a) 24 ltac:(lia) ltac:(lia)) BT' x y Ax Ay).
+Qed.
 End Corners.
 
 (** ** Depths and attributes *)
@@ -534,22 +550,90 @@ Proof.
   intros G. apply (fl_sign _ nearest_rounds). apply Qmult_le_0_compat; [apply larger_not_negative, Qabs_nonneg | exact G].
 Qed.
 
+(** S as the code computes it, in f64, and S. *)
+Lemma computed_size_near s r d x y : size s r d x y <= computed_size s r d x y * (1 + (1 # 2 ^ 40)) + 1 /\
+  computed_size s r d x y <= size s r d x y * (1 + (1 # 2 ^ 40)) + 1.
+Proof.
+  unfold size, computed_size. pose proof (Qabs_nonneg s) as I. pose proof (Qabs_nonneg (nearest32 (r * x))) as J.
+  pose proof (Qabs_nonneg (nearest32 (d * y))) as K.
+  set (i := Qabs s) in *. set (j := Qabs (nearest32 (r * x))) in *. set (k := Qabs (nearest32 (d * y))) in *. clearbody i j k.
+  pose proof (fl_absolute _ nearest_rounds (i + j)) as A. pose proof (fl_sign _ nearest_rounds (i + j) ltac:(lra)) as P.
+  rewrite (Qabs_pos (i + j)) in A by lra. set (m := nearest (i + j)) in *. clearbody m.
+  pose proof (fl_absolute _ nearest_rounds (m + k)) as B. rewrite (Qabs_pos (m + k)) in B by lra. set (o := nearest (m + k)) in *. clearbody o.
+  apply Qabs_Qle_condition in A, B. assert (E : 0 <= eta <= 1 # 1024) by (split; [discriminate | apply Qle_bool_iff; vm_compute; reflexivity]).
+  set (h := eta) in *. clearbody h. change (1 # 2 ^ 40) with (1 # 1099511627776). unfold u in *. split; lra.
+Qed.
+
+(** Where the S that the code computes is below 2^127, nothing that it was computed from left f32, nor does the value. *)
+Theorem tile_sums_fit s r d x y : computed_size s r d x y < inject_Z (2 ^ 127) ->
+  Qabs s <= largest32 /\ Qabs (nearest32 (r * x)) <= largest32 /\ Qabs (nearest32 (d * y)) <= largest32 /\
+  Qabs (nearest32 (s + nearest32 (d * y))) <= largest32 /\ Qabs (at_pixel s r d x y) <= largest32.
+Proof.
+  intros H. apply plane_fits. destruct (computed_size_near s r d x y) as [L _].
+  assert (C : inject_Z (2 ^ 127) * (1 + (1 # 2 ^ 40)) + 1 <= inject_Z (2 ^ 127 + 2 ^ 100)) by (apply Qle_bool_iff; vm_compute; reflexivity).
+  set (k := inject_Z (2 ^ 127)) in *. set (l := inject_Z (2 ^ 127 + 2 ^ 100)) in *. clearbody k l.
+  change (1 # 2 ^ 40) with (1 # 1099511627776) in *. lra.
+Qed.
+
+(** The plane of 1/w, over the largest of the three, is far below 2^80. *)
+Theorem shares_at_most a b c x0 y0 width height w0 w1 w2 most x y : in_domain 18 a b c x0 y0 width height ->
+  inv_w w0 -> inv_w w1 -> inv_w w2 -> inv_w most -> w0 <= most -> w1 <= most -> w2 <= most ->
+  Qabs x <= inject_Z width -> Qabs y <= inject_Z height ->
+  plane_at (plane_of (frame_of a b c x0 y0) (nearest (w0 / most)) (nearest (w1 / most)) (nearest (w2 / most))) x y <= inject_Z (2 ^ 80).
+Proof.
+  intros ((D1 & D2 & D3 & D4) & Area & (DX & DY) & HW & HH) H0 H1 H2 Hm L0 L1 L2 Wx Hy.
+  destruct (inv_w_weight _ Hm) as [Pm _]. assert (T : 1 # 2 ^ 1000 <= 1 # 2 ^ 1000) by apply Qle_refl.
+  assert (N : forall s, inv_w s -> s <= most -> near 2 (1 # 2 ^ 1000) 1 (s / most) (nearest (s / most))).
+  { intros s Hs L. destruct (inv_w_weight _ Hs) as [Ps _]. apply (near_wider _ _ _ _ _ _ _ T) with (2 := share_near s most Hs Hm).
+    rewrite Qabs_pos by (apply Qle_shift_div_l; lra). apply Qle_shift_div_r; lra. }
+  pose proof (size_of_plane a b c x0 y0 D1 D2 D3 D4 Area DX DY width height HW HH _ _ _ _ _ _ 1 _ x y (N _ H0 L0) (N _ H1 L1) (N _ H2 L2) T Wx Hy) as S.
+  cbv zeta in S. set (p := plane_of _ _ _ _) in *. clearbody p.
+  pose proof (plane_at_most (at_start p) (to_right p) (to_below p) x y : Qabs (plane_at p x y) <= _) as A.
+  pose proof (Qle_Qabs (plane_at p x y)). set (o := size _ _ _ x y) in *. clearbody o. set (v := plane_at p x y) in *. clearbody v.
+  change (inject_Z (2 ^ 64)) with (18446744073709551616 # 1) in S. change (inject_Z (2 ^ 80)) with (1208925819614629174706176 # 1). lra.
+Qed.
+
+(** Attributes of at most 2^62 have a bound: S of their plane is below 2^127. *)
+Theorem small_attributes_fit a b c x0 y0 width height w0 w1 w2 most v0 v1 v2 x y : in_domain 18 a b c x0 y0 width height ->
+  inv_w w0 -> inv_w w1 -> inv_w w2 -> inv_w most -> w0 <= most -> w1 <= most -> w2 <= most ->
+  Qabs v0 <= inject_Z (2 ^ 62) -> Qabs v1 <= inject_Z (2 ^ 62) -> Qabs v2 <= inject_Z (2 ^ 62) ->
+  Qabs x <= inject_Z width -> Qabs y <= inject_Z height ->
+  let over v s := nearest (v * nearest (s / most)) in
+  let p := plane_of (frame_of a b c x0 y0) (over v0 w0) (over v1 w1) (over v2 w2) in
+  computed_size (at_start p) (to_right p) (to_below p) x y < inject_Z (2 ^ 127).
+Proof.
+  intros ((D1 & D2 & D3 & D4) & Area & (DX & DY) & HW & HH) H0 H1 H2 Hm L0 L1 L2 B0 B1 B2 Wx Hy. cbv zeta.
+  destruct (inv_w_weight _ Hm) as [Pm _]. assert (T : 1 # 2 ^ 1000 <= 1 # 2 ^ 1000) by apply Qle_refl.
+  assert (N : forall v s, inv_w s -> s <= most -> Qabs v <= inject_Z (2 ^ 62) ->
+    near 2 (1 # 2 ^ 1000) (inject_Z (2 ^ 62)) (v * (s / most)) (nearest (v * nearest (s / most)))).
+  { intros v s Hs L B. destruct (inv_w_weight _ Hs) as [Ps _]. apply (near_wider _ _ _ _ _ _ _ T) with (2 := over_near v s most Hs Hm).
+    assert (Q0 : 0 <= s / most) by (apply Qle_shift_div_l; lra). assert (Q1 : s / most <= 1) by (apply Qle_shift_div_r; lra).
+    rewrite Qabs_Qmult, (Qabs_pos (s / most)) by assumption.
+    destruct (product_le _ _ _ _ (conj (Qabs_nonneg v) B) (conj Q0 Q1)) as [_ P]. rewrite Qmult_1_r in P. exact P. }
+  pose proof (size_of_plane a b c x0 y0 D1 D2 D3 D4 Area DX DY width height HW HH _ _ _ _ _ _ _ _ x y
+    (N _ _ H0 L0 B0) (N _ _ H1 L1 B1) (N _ _ H2 L2 B2) T Wx Hy) as S.
+  cbv zeta in S. set (p := plane_of _ _ _ _) in *. clearbody p. destruct (computed_size_near (at_start p) (to_right p) (to_below p) x y) as [_ U].
+  assert (C : (inject_Z (2 ^ 64) * inject_Z (2 ^ 62) + 1) * (1 + (1 # 1099511627776)) + 1 < inject_Z (2 ^ 127)) by reflexivity.
+  set (o := size _ _ _ x y) in *. set (z := computed_size _ _ _ x y) in *. clearbody o z. change (1 # 2 ^ 40) with (1 # 1099511627776) in U.
+  set (k := inject_Z (2 ^ 64) * inject_Z (2 ^ 62)) in *. set (l := inject_Z (2 ^ 127)) in *. clearbody k l. lra.
+Qed.
+
 (** An attribute: the quotient of its plane and that of 1/w, wherever the code has a bound. *)
 Theorem tile_attribute a b c x0 y0 width height w0 w1 w2 most v0 v1 v2 x y : in_domain 18 a b c x0 y0 width height ->
-  inv_w w0 -> inv_w w1 -> inv_w w2 -> inv_w most -> Qabs x <= inject_Z width -> Qabs y <= inject_Z height ->
-  let f := frame_of a b c x0 y0 in let growth := growth_of f width height in
+  inv_w w0 -> inv_w w1 -> inv_w w2 -> inv_w most -> w0 <= most -> w1 <= most -> w2 <= most ->
+  Qabs x <= inject_Z width -> Qabs y <= inject_Z height -> let f := frame_of a b c x0 y0 in let growth := growth_of f width height in
   let s0 := nearest (w0 / most) in let s1 := nearest (w1 / most) in let s2 := nearest (w2 / most) in
   let c0 := nearest (v0 * s0) in let c1 := nearest (v1 * s1) in let c2 := nearest (v2 * s2) in
   let over := plane_of f c0 c1 c2 in let under := plane_of f s0 s1 s2 in
   let error p T := computed_error 4 11 18 126 (computed_size (at_start p) (to_right p) (to_below p) x y) T in
   let en := error over (size_of c0 c1 c2 growth) in let eq := error under (size_of s0 s1 s2 growth) in
-  eq < plane_at under x y -> plane_at under x y <= inject_Z (2 ^ 80) ->
+  eq < plane_at under x y ->
   Qabs (computed_quotient (plane_at over x y) (plane_at under x y) -
         exact_plane a b c x0 y0 (v0 * (w0 / most)) (v1 * (w1 / most)) (v2 * (w2 / most)) x y /
         exact_plane a b c x0 y0 (w0 / most) (w1 / most) (w2 / most) x y) <=
     computed_quotient_error 2 18 126 en eq (plane_at over x y) (plane_at under x y).
 Proof.
-  intros D H0 H1 H2 Hm Wx Hy. cbv zeta. intros P Most.
+  intros D H0 H1 H2 Hm L0 L1 L2 Wx Hy. cbv zeta. intros P.
   assert (G : 0 <= growth_of (frame_of a b c x0 y0) width height).
   { destruct D as ((D1 & D2 & D3 & D4) & Area & (DX & DY) & HW & HH).
     destruct (growth_near a b c x0 y0 D1 D2 D3 D4 Area DX DY width height HW HH) as (_ & [G _] & _). exact G. }
@@ -563,7 +647,19 @@ Proof.
   - exact (tile_values_near _ _ _ _ _ _ a b c x0 y0 width height x y D (share_near w0 most H0 Hm) (share_near w1 most H1 Hm)
       (share_near w2 most H2 Hm) Wx Hy).
   - exact P.
-  - exact Most.
+  - exact (shares_at_most a b c x0 y0 width height w0 w1 w2 most x y D H0 H1 H2 Hm L0 L1 L2 Wx Hy).
+Qed.
+
+(** Where the code has a bound for a quotient that is below 2^127 in f64, its reciprocal and the quotient lie within f32. *)
+Theorem tile_quotient_fits n q : 1 # 2 ^ 127 <= q -> q <= inject_Z (2 ^ 80) -> Qabs (nearest (n / q)) < inject_Z (2 ^ 127) ->
+  Qabs (nearest32 (1 / q)) <= largest32 /\ Qabs (computed_quotient n q) <= largest32.
+Proof.
+  intros L U H. apply quotient_fits; [assumption | assumption |]. pose proof (lower_abs (n / q)) as A.
+  assert (E : 0 <= eta <= 1) by (split; [discriminate | apply Qle_bool_iff; vm_compute; reflexivity]).
+  assert (C : inject_Z (2 ^ 127) * (1 + (1 # 1099511627776)) + 2 <= inject_Z (2 ^ 127 + 2 ^ 100)) by (apply Qle_bool_iff; vm_compute; reflexivity).
+  assert (K : 0 <= inject_Z (2 ^ 127)) by discriminate.
+  set (z := Qabs (nearest (n / q))) in *. set (i := Qabs (n / q)) in *. set (h := eta) in *. clearbody z i h.
+  set (k := inject_Z (2 ^ 127)) in *. set (l := inject_Z (2 ^ 127 + 2 ^ 100)) in *. clearbody k l. unfold u in A. lra.
 Qed.
 
 (** A depth. *)

@@ -4,7 +4,7 @@
     crates/render/src/pipeline/depth.rs and the planes of crates/tiles/src/frames/planes.rs. *)
 From Coq Require Import ZArith QArith Qabs.
 From Rasterproof Require Import Rounding RoundedForms RoundedModel RoundedValues RoundedFilters Nearest DepthKeys
-  PlaneModel Planes TilePlanes.
+  PlaneModel Planes TilePlanes Overflow.
 From Rasterproof Require RustConstants.
 Open Scope Q_scope.
 
@@ -19,6 +19,12 @@ Proof. unfold stated, bound. cbn [fst snd]. reflexivity. Qed.
 
 (** Every 1/w that a vertex accepts. *)
 Definition accepted (w : Q) : Prop := is_float w /\ sized RustConstants.inv_w_bits w.
+
+(** Depths and attributes that a vertex accepts are small enough for the theorems of Overflow.v. *)
+Theorem accepted_values_fit v : Qabs v <= two RustConstants.value_bits -> most 500 v.
+Proof.
+  assert (C : RustConstants.value_bits = 500%nat) by reflexivity. exact (fun H => H).
+Qed.
 
 Section Edge.
 Variables (e0 e1 e2 : Z).
@@ -115,7 +121,8 @@ Notation tile_domain := (in_domain RustConstants.plane_edge_bits).
 (** Compared first, since Coq takes long to find two computations different. *)
 Definition tile_constants : Prop :=
   (RustConstants.plane_f32 = 4 /\ RustConstants.plane_f64 = 11 /\ RustConstants.plane_second_order_bits = 18 /\
-   RustConstants.plane_edge_bits = 18 /\ RustConstants.plane_quotient = 2)%positive.
+   RustConstants.plane_edge_bits = 18 /\ RustConstants.plane_quotient = 2 /\ RustConstants.plane_sum_bits = 127 /\
+   RustConstants.plane_attribute_bits = 62)%positive.
 
 Theorem tile_planes a b c x0 y0 width height z0 z1 z2 x y : tile_domain a b c x0 y0 width height ->
   Qabs x <= inject_Z width -> Qabs y <= inject_Z height ->
@@ -128,14 +135,15 @@ Proof.
 Qed.
 
 Theorem tile_attributes a b c x0 y0 width height w0 w1 w2 most v0 v1 v2 x y : tile_domain a b c x0 y0 width height ->
-  accepted w0 -> accepted w1 -> accepted w2 -> accepted most -> Qabs x <= inject_Z width -> Qabs y <= inject_Z height ->
+  accepted w0 -> accepted w1 -> accepted w2 -> accepted most -> w0 <= most -> w1 <= most -> w2 <= most ->
+  Qabs x <= inject_Z width -> Qabs y <= inject_Z height ->
   let f := frame_of a b c x0 y0 in let growth := growth_of f width height in
   let s0 := nearest (w0 / most) in let s1 := nearest (w1 / most) in let s2 := nearest (w2 / most) in
   let c0 := nearest (v0 * s0) in let c1 := nearest (v1 * s1) in let c2 := nearest (v2 * s2) in
   let over := plane_of f c0 c1 c2 in let under := plane_of f s0 s1 s2 in
   let error p T := tile_error (computed_size (at_start p) (to_right p) (to_below p) x y) T in
   let en := error over (size_of c0 c1 c2 growth) in let eq := error under (size_of s0 s1 s2 growth) in
-  eq < plane_at under x y -> plane_at under x y <= inject_Z (2 ^ 80) ->
+  eq < plane_at under x y ->
   Qabs (computed_quotient (plane_at over x y) (plane_at under x y) -
         exact_plane a b c x0 y0 (v0 * (w0 / most)) (v1 * (w1 / most)) (v2 * (w2 / most)) x y /
         exact_plane a b c x0 y0 (w0 / most) (w1 / most) (w2 / most) x y) <=
@@ -144,4 +152,25 @@ Theorem tile_attributes a b c x0 y0 width height w0 w1 w2 most v0 v1 v2 x y : ti
 Proof.
   assert (C : tile_constants) by (repeat split; reflexivity).
   exact (tile_attribute a b c x0 y0 width height w0 w1 w2 most v0 v1 v2 x y).
+Qed.
+
+(** No sum of a plane leaves f32 where the code has a bound for it, and it has one for attributes up to the one that it states. *)
+Theorem tile_sums s r d x y : computed_size s r d x y < inject_Z (2 ^ Z.pos RustConstants.plane_sum_bits) ->
+  Qabs s <= largest32 /\ Qabs (nearest32 (r * x)) <= largest32 /\ Qabs (nearest32 (d * y)) <= largest32 /\
+  Qabs (nearest32 (s + nearest32 (d * y))) <= largest32 /\ Qabs (at_pixel s r d x y) <= largest32.
+Proof.
+  assert (C : tile_constants) by (repeat split; reflexivity).
+  exact (tile_sums_fit s r d x y).
+Qed.
+
+Theorem tile_attributes_fit a b c x0 y0 width height w0 w1 w2 most v0 v1 v2 x y : tile_domain a b c x0 y0 width height ->
+  accepted w0 -> accepted w1 -> accepted w2 -> accepted most -> w0 <= most -> w1 <= most -> w2 <= most ->
+  let largest := inject_Z (2 ^ Z.pos RustConstants.plane_attribute_bits) in
+  Qabs v0 <= largest -> Qabs v1 <= largest -> Qabs v2 <= largest -> Qabs x <= inject_Z width -> Qabs y <= inject_Z height ->
+  let over v s := nearest (v * nearest (s / most)) in
+  let p := plane_of (frame_of a b c x0 y0) (over v0 w0) (over v1 w1) (over v2 w2) in
+  computed_size (at_start p) (to_right p) (to_below p) x y < inject_Z (2 ^ Z.pos RustConstants.plane_sum_bits).
+Proof.
+  assert (C : tile_constants) by (repeat split; reflexivity).
+  exact (small_attributes_fit a b c x0 y0 width height w0 w1 w2 most v0 v1 v2 x y).
 Qed.

@@ -1,5 +1,5 @@
 (* cases T|L|I|P COUNT SEED: requests of the line protocol, ties and extremes among them; those of P are of verb I with
-   attributes that f32 holds. Every generated
+   attributes that f32 holds, of which planes overflow where they are large. Every generated
    position is a whole number of 1/256 px but for a few that have to be snapped. *)
 
 let pick low high = low + Random.full_int (high - low + 1)
@@ -104,7 +104,7 @@ let () =
           let print = List.map (List.map (Printf.sprintf "%.17g")) in
           match verb with
           | "I" -> print (values (480, 498))
-          | "P" -> print (values (20, 40))
+          | "P" -> print (values (if Random.int 3 = 0 then (110, 127) else (20, 40)))
           | _ -> List.map (fun _ -> []) corners
         in
         let words = List.concat (List.map2 (fun (x, y) more -> word x :: word y :: more) corners more) in

@@ -987,13 +987,20 @@ fn draw_in_tiles(
         _ => frames::Samples::One,
     };
     let scene = &maker.scene(0.0);
-    let start = Instant::now();
     let exact = || {
         let mut target = arguments.what.target()?;
         let exact = Drawer::Scanline.render(scene, &Effects::PLANNED, &mut target);
         Ok::<_, Failure>(exact.map_err(usage)?.picture)
     };
-    let handed_over = frames::not_drawn(scene);
+    let not_drawn = frames::not_drawn(scene);
+    let (handed_over, reason) = match not_drawn {
+        0 => {
+            let beyond = frames::beyond_f32(scene, size.width(), size.height()).map_err(usage)?;
+            (beyond, "have values beyond 2^62, which may\n  overflow in f32")
+        }
+        _ => (not_drawn, "are not opaque or receive shadows, which tiles do not\n  draw"),
+    };
+    let start = Instant::now();
     let picture = match handed_over {
         0 => frames::render(scene, size.width(), size.height(), samples).map_err(usage)?,
         _ => exact()?,
@@ -1013,8 +1020,7 @@ fn draw_in_tiles(
         };
         writeln!(
             streams.output,
-            "  {handed_over} of {} triangles are not opaque or receive shadows, which tiles do not\n  \
-             draw: handed to scanline{drawn_in}",
+            "  {handed_over} of {} triangles {reason}: handed to scanline{drawn_in}",
             scene.triangles()
         )?;
         return Ok(exit::AGREES);

@@ -16,7 +16,7 @@ use rasterproof_render::pipeline::texture::{Filter, Wrap};
 use rasterproof_render::scene::chapters;
 use rasterproof_render::scene::{Hidden, Material, Scene, meshes, random, textures};
 use rasterproof_tiles::coverage::Tiles;
-use rasterproof_tiles::frames::planes::Bounded;
+use rasterproof_tiles::frames::planes::{Bounded, MOST_ATTRIBUTE};
 use rasterproof_tiles::frames::{self, Samples};
 use rasterproof_verify::cases::triangles::FAMILIES;
 use rasterproof_verify::cases::{Shape, Triangle};
@@ -216,6 +216,21 @@ fn effects_are_those_of_the_engines() {
             assert!(changed > 100, "{name} {samples:?}: {changed} pixels have the effect");
         }
     }
+}
+
+/// Triangles are counted as soon as a plane of theirs may overflow, so that a scene with any can go to another engine.
+#[test]
+fn values_that_may_overflow_are_counted() {
+    let mut scene = chapters::scene("mip-maps", 1.5, 0.1).unwrap();
+    scene.items.truncate(1);
+    let beyond = |u: f64| {
+        let mut scene = scene.clone();
+        let mesh = Arc::make_mut(&mut scene.items[0].mesh);
+        mesh.triangles.change_corners(|corner| corner.uv.x = u);
+        frames::beyond_f32(&scene, 201, 134).unwrap()
+    };
+    assert_eq!(beyond(MOST_ATTRIBUTE), 0);
+    assert!(beyond(4.0 * MOST_ATTRIBUTE) > 0);
 }
 
 /// A window is a part of a larger frame only if tiles do not matter: the same scene, seen through

@@ -699,7 +699,10 @@ fn planners(scene: &Scene, target: &mut Target, effort: Effort) -> Result<Group,
         Antialias::Supersample(_) => None,
     };
     // What tiles would draw otherwise is no choice.
-    let samples = samples.filter(|_| frames::not_drawn(scene) == 0);
+    let samples = match frames::beyond_f32(scene, window.width(), window.height())? {
+        0 => samples.filter(|_| frames::not_drawn(scene) == 0),
+        _ => None,
+    };
     if let Some(samples) = samples {
         let start = Instant::now();
         pictures.push(frames::render(scene, window.width(), window.height(), samples)?);

@@ -60,6 +60,27 @@ pub fn not_drawn(scene: &Scene) -> usize {
     items.map(|item| item.mesh.triangles.len()).sum()
 }
 
+/// Triangles, or parts of them that the window shows, with an attribute beyond [`planes::MOST_ATTRIBUTE`]. Their planes
+/// may overflow in f32, so a scene with any is for another engine.
+///
+/// # Errors
+/// [`BadScene`].
+///
+/// # Panics
+/// As [`render`].
+pub fn beyond_f32(scene: &Scene, width: u32, height: u32) -> Result<usize, BadScene> {
+    let whole = Whole::new(scene, PixelRect::window(width, height))?;
+    let fits = |value: f64| value.abs() <= planes::MOST_ATTRIBUTE;
+    let mut count = 0;
+    for run in whole.runs(1 << 16) {
+        whole.outlines(&run, &mut |outline| {
+            let all_fit = whole.surface(&outline).values.iter().flatten().all(|&value| fits(value));
+            count += usize::from(!all_fit);
+        });
+    }
+    Ok(count)
+}
+
 /// Draws a scene into a picture of its own, on the threads of the pool that it is called in.
 ///
 /// # Errors

@@ -21,7 +21,8 @@
 //! roundings more. With X and Y the largest distances in the box and T = M + Gx X + Gy Y that is
 //! 11 u' T, so |error| <= 4 u S + 11 u' T.
 //! Both hold for edges below `MOST_EDGE_PX`, which the edges of pieces of a scene are, since they lie in
-//! the window; `proof/TilePlanes.v` proves them. For longer ones the bound is infinite.
+//! the window; `proof/TilePlanes.v` proves them. For longer ones the bound is infinite. It is infinite, too, where
+//! a sum of f32 may leave its range, which is where S, or a quotient, is not below `MOST_SUM`.
 //! A quotient n / q of numbers off by en and eq is off by (en + |n / q| eq) / (q - eq), and by two
 //! roundings of its own, 2 u |n / q|. `SECOND_ORDER` is for products of errors.
 
@@ -45,6 +46,10 @@ const SECOND_ORDER: f64 = 1.0 + 1.0 / (1u64 << 18) as f64;
 const UNDERFLOW: f64 = f32::MIN_POSITIVE as f64;
 /// Edges below this have a bound: their products are whole numbers of 52 bits in subpixels, so the area is exact.
 const MOST_EDGE_PX: f64 = (1u32 << 18) as f64;
+/// Where S is below this, the largest f32 is not reached by any sum: `tile_sums_fit` in `proof/TilePlanes.v`.
+const MOST_SUM: f64 = f64::from_bits((1023 + 127) << 52);
+/// Attributes up to this have planes whose S is below `MOST_SUM`: `small_attributes_fit` in `proof/TilePlanes.v`.
+pub const MOST_ATTRIBUTE: f64 = f64::from_bits((1023 + 62) << 52);
 
 /// Depths and w of the corners of a triangle, and where they are.
 pub type Corners = [ScreenVertex<()>; 3];
@@ -70,13 +75,14 @@ impl ValuePlane {
 
     /// The bound of the error there; `rounded` is T of the bound.
     fn error(&self, x: f32, y: f32, rounded: f64) -> f64 {
-        // Where the area is unknown, T is infinite or, for values of 0, no number.
-        if !rounded.is_finite() {
-            return f64::INFINITY;
-        }
         let sum = f64::from(self.start.abs())
             + f64::from((self.right * x).abs())
             + f64::from((self.down * y).abs());
+        // Where the area is unknown, T is infinite or, for values of 0, no number. A sum of numbers that left f32 is
+        // infinite or no number, which is not below anything.
+        if !rounded.is_finite() || !(sum < MOST_SUM) {
+            return f64::INFINITY;
+        }
         (4.0 * U32 * sum + 11.0 * U64 * rounded) * SECOND_ORDER + UNDERFLOW
     }
 }
@@ -326,10 +332,12 @@ impl Bounded {
         let value = n * (1.0 / q);
         let (en, eq) = (over.error(x, y, self.over_w[i]), under.error(x, y, self.inv_w));
         let (n, q) = (f64::from(n), f64::from(q));
-        let off = (en + (n / q).abs() * eq) / (q - eq);
+        let quotient = (n / q).abs();
+        let off = (en + quotient * eq) / (q - eq);
         // 1/q is rounded, and the product.
-        let bound = (off + 2.0 * U32 * (n / q).abs()) * SECOND_ORDER + UNDERFLOW;
-        (value, if q > eq { bound } else { f64::INFINITY })
+        let bound = (off + 2.0 * U32 * quotient) * SECOND_ORDER + UNDERFLOW;
+        let fits = en.is_finite() && quotient < MOST_SUM;
+        (value, if q > eq && fits { bound } else { f64::INFINITY })
     }
 
     /// The depth there, and the bound of its error.
@@ -368,5 +376,44 @@ mod tests {
         assert_eq!(bounds(1 << 29), (f64::INFINITY, f64::INFINITY));
         assert!(bounds((1 << 26) - 2).0.is_finite(), "edges just below 2^18 px");
         assert_eq!(bounds(1 << 26).0, f64::INFINITY);
+    }
+
+    /// Depth and attribute with their bounds at a pixel of a triangle of 16 px, whose corners have these depths and attributes.
+    fn at_pixel(depths: [f64; 3], attributes: [f64; 3], inv_w: [f64; 3]) -> [(f32, f64); 2] {
+        let corner = |i: usize, x: i32, y: i32| {
+            let position = SubpixelPoint::new(x << 8, y << 8);
+            ScreenVertex { position, depth: depths[i], inv_w: inv_w[i], varying: () }
+        };
+        let corners = [corner(0, 0, 0), corner(1, 16, 0), corner(2, 0, 16)];
+        let values = attributes.map(|value| [value; ATTRIBUTES]);
+        let window = PixelRect::window(16, 16);
+        let planes = Bounded::new(Tiles::default(), &corners, &values, window, false);
+        [planes.depth_at(6.0, 6.0), planes.value(0, 6.0, 6.0)]
+    }
+
+    /// In each case a number leaves f32 that the value is computed from, or the value itself.
+    #[test]
+    fn what_overflows_has_no_bound() {
+        let large = f64::from(f32::MAX);
+        let ones = [1.0; 3];
+        let overflowing = [
+            ("a start", [2.0 * large; 3], ones),
+            ("a start and a slope of other signs", [2.0 * large, -2.0 * large, 2.0 * large], ones),
+            // Every corner fits, and the difference of two does not.
+            ("a slope times a distance", [-large, large, large], ones),
+            ("the sum", [0.75 * large, 0.75 * large, -0.75 * large], ones),
+            ("a quotient", [0.0, 16.0 * large, 16.0 * large], [1.0, 1.0 / 64.0, 1.0 / 64.0]),
+        ];
+        for (what, values, inv_w) in overflowing {
+            let [(_, depth), (attribute, bound)] = at_pixel(values, values, inv_w);
+            let is_bounded = bound != f64::INFINITY;
+            assert!(!is_bounded, "{what}: the attribute {attribute} has the bound {bound:e}");
+            if what != "a quotient" {
+                assert_eq!(depth, f64::INFINITY, "{what}: depth");
+            }
+        }
+        let most = [MOST_ATTRIBUTE, -MOST_ATTRIBUTE, MOST_ATTRIBUTE];
+        let [(_, depth), (value, bound)] = at_pixel(most, most, ones);
+        assert!(depth.is_finite() && bound.is_finite() && value.is_finite());
     }
 }
