@@ -1,5 +1,5 @@
 (* cases T|L|I|P COUNT SEED: requests of the line protocol, ties and extremes among them; those of P are of verb I with
-   attributes that f32 holds, of which planes overflow where they are large. Every generated
+   smaller attributes, or with larger ones, of which planes and quotients overflow in f32. Every generated
    position is a whole number of 1/256 px but for a few that have to be snapped. *)
 
 let pick low high = low + Random.full_int (high - low + 1)
@@ -69,13 +69,14 @@ let shuffled corners =
 
 let rec pairs = function x :: y :: rest -> (x, y) :: pairs rest | _ -> []
 
-(* Depth, w and two attributes of three corners: like each other, far apart, equal, tiny and large. *)
-let values large =
+(* Depth, w and two attributes of three corners: like each other, far apart, equal, tiny and large, which half of them are where that is
+   asked for. *)
+let values ?(often = false) large =
   let power low high = Float.ldexp (1. +. Random.float 1.) (pick low high) in
   let w = one_of [ (0, 0); (0, 3); (-4, 20); (-199, 198) ] and same_w = Random.int 8 = 0 in
   let first_w = power (fst w) (snd w) in
   let value () =
-    match Random.int 6 with
+    match if often && Random.bool () then 3 else Random.int 6 with
     | 0 -> 0.
     | 1 -> float (pick (-9) 9)
     | 2 -> power (-1074) (-1000)
@@ -104,7 +105,7 @@ let () =
           let print = List.map (List.map (Printf.sprintf "%.17g")) in
           match verb with
           | "I" -> print (values (480, 498))
-          | "P" -> print (values (if Random.int 3 = 0 then (110, 127) else (20, 40)))
+          | "P" -> print (if Random.int 3 = 0 then values ~often:true (118, 145) else values (20, 40))
           | _ -> List.map (fun _ -> []) corners
         in
         let words = List.concat (List.map2 (fun (x, y) more -> word x :: word y :: more) corners more) in
