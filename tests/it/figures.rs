@@ -19,6 +19,7 @@ use rasterproof_registry::published_check::{free_truth, specimen_coverage};
 use rasterproof_render::effects::{Effect, Effects, Mode};
 use rasterproof_render::pipeline::Counters;
 use rasterproof_render::pipeline::clip::MOST_VERTICES;
+use rasterproof_render::pipeline::shadow::Shadows;
 use rasterproof_render::pipeline::target::{Antialias, Target};
 use rasterproof_render::scene::chapters::scene;
 use rasterproof_report::frame_comparison::differing;
@@ -53,6 +54,19 @@ fn pays(name: &str, effect: Effect) -> Vec<f64> {
     counts.map(|count| count as f64).to_vec()
 }
 
+/// Pixels of the scene `shadows` that change when the map holds depths in 16, 24 and 32 bits instead of as exactly as a double has
+/// them.
+fn shadow_bits() -> Vec<f64> {
+    let picture = |bits: u32| {
+        let mut scene = scene("shadows", 4.0 / 3.0, 0.0).unwrap();
+        scene.shadows = Some(Shadows { bits, ..Shadows::default() });
+        let mut target = Target::new(640, 480, Antialias::None, Default::default()).unwrap();
+        Drawer::Scanline.render(&scene, &Effects::PLANNED, &mut target).unwrap().picture
+    };
+    let exact = picture(52);
+    [16, 24, 32].map(|bits| differing(&picture(bits), &exact) as f64).to_vec()
+}
+
 /// Every figure by its name. Where there are several, the pages add `.1`, `.2` and so on to the name.
 pub const ALL: &[(&str, Values)] = &[
     ("hand-square", by_hand::square),
@@ -81,6 +95,7 @@ pub const ALL: &[(&str, Values)] = &[
     ("pays-highlights", || pays("highlights", Effect::Specular)),
     ("pays-mip-maps", || pays("mip-maps", Effect::MipMaps)),
     ("pays-anisotropy", || pays("anisotropy", Effect::Anisotropy)),
+    ("shadow-bits", shadow_bits),
     ("pays-shadows", || pays("shadows", Effect::Shadows)),
     ("pays-fog", || pays("fog", Effect::Fog)),
     ("pays-cut-outs", || pays("cut-outs", Effect::AlphaTest)),
