@@ -80,7 +80,8 @@ impl ValuePlane {
             + f64::from((self.down * y).abs());
         // Where the area is unknown, T is infinite or, for values of 0, no number. A sum of numbers that left f32 is
         // infinite or no number, which is not below anything.
-        if !rounded.is_finite() || !(sum < MOST_SUM) {
+        let is_bounded = rounded.is_finite() && sum < MOST_SUM;
+        if !is_bounded {
             return f64::INFINITY;
         }
         (4.0 * U32 * sum + 11.0 * U64 * rounded) * SECOND_ORDER + UNDERFLOW
