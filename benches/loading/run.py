@@ -4,7 +4,7 @@ Prints the median seconds of loading, the peak memory of the process, and how ma
 ours is. The Rust programs have to be built before:
 
     cargo build --release -p rasterproof-models --example load
-    cargo build --release --manifest-path benches/loading/Cargo.toml
+    cargo build --release --manifest-path benches/loading/Cargo.toml --target-dir target
 
 Readers of PyPI that are not installed are left out.
 """
@@ -17,8 +17,9 @@ from pathlib import Path
 from statistics import median
 
 HERE = Path(__file__).parent
-OURS = HERE.parent.parent / "target/release/examples/load"
-CRATES = HERE / "target/release/rasterproof-loading"
+BUILT = HERE.parent.parent / "target/release"
+OURS = BUILT / "examples/load"
+CRATES = BUILT / "rasterproof-loading"
 READERS = {
     "grid.obj": (["tobj", "tobj-single-index", "obj", "obj-rs", "mesh-loader"],
                  ["open3d", "pymeshlab", "vtk", "libigl", "assimp-py"]),

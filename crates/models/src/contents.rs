@@ -140,6 +140,15 @@ impl Polygons {
         self.count += 1;
     }
 
+    /// Adds triangles of the next corners, without lines.
+    pub(crate) fn push_triangles(&mut self, count: usize) {
+        if self.ends.is_empty() && self.smoothing.is_empty() {
+            self.count += count as u32;
+        } else {
+            (0..count).for_each(|_| self.push(3, 0, 0));
+        }
+    }
+
     pub(crate) fn len(&self) -> usize {
         self.count as usize
     }

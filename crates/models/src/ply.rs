@@ -8,6 +8,7 @@ use std::path::Path;
 use glam::{DMat4, DVec2, DVec3};
 use rasterproof_host::text::{printable_path, printable_short};
 use rasterproof_render::pipeline::highlight::Specular;
+use rayon::prelude::*;
 
 use crate::contents::{Contents, INCOMPLETE_FACE, NONE, Numbers, Part, Surface};
 use crate::textures::{Textures, opacity};
@@ -409,7 +410,7 @@ fn vertices(
     let scaled = |place: usize, kind: Kind, value: f64| {
         if place < FIRST_COLOUR { value } else { value / kind.full() }
     };
-    let mut transparent = 0;
+    let (whole, mut transparent) = columns(body, element, &places, part);
     let mut push = |values: [f64; VERTEX.len()]| {
         let [x, y, z, nx, ny, nz, u, v, r, g, b, a] = values;
         part.positions.push(DVec3::new(x, y, z));
@@ -426,23 +427,7 @@ fn vertices(
     };
     let mut missing = [0.0; VERTEX.len()];
     missing[ALPHA] = 1.0;
-    // Records of one size are as many as are there; what is said of a file that is cut off, the loop below says.
-    let mut whole = 0;
-    if let Some(columns) = columns(body.form, element, &places) {
-        let size = element.properties.iter().map(|property| property.kind.size()).sum();
-        let records = body.bytes[body.at..].chunks_exact(size).take(most);
-        let is_big = body.form == Form::Big;
-        for record in records {
-            let mut values = missing;
-            for &(place, kind, at) in &columns {
-                values[place] = scaled(place, kind, kind.number(&record[at..], is_big));
-            }
-            push(values);
-            whole += 1;
-        }
-        body.at += whole * size;
-    }
-    for number in whole as u64..element.count {
+    for number in whole..element.count {
         body.next_element().map_err(|cause| (number, cause))?;
         let mut values = missing;
         for (property, place) in element.properties.iter().zip(&places) {
@@ -460,23 +445,64 @@ fn vertices(
     Ok(())
 }
 
-/// The values of a binary element without lists: the place, the type, and how many bytes are before it in the record.
+/// Reads the vertices of a binary file that have no lists, by all threads, and returns how many they are and how many of
+/// them are transparent. If the file is cut off, those that are missing are left to the caller.
 fn columns(
-    form: Form,
+    body: &mut Body<'_>,
     element: &Element,
     places: &[Option<usize>],
-) -> Option<Vec<(usize, Kind, usize)>> {
-    if form == Form::Text || element.properties.iter().any(|property| property.length.is_some()) {
-        return None;
+    part: &mut Part,
+) -> (u64, u64) {
+    let has_list = element.properties.iter().any(|property| property.length.is_some());
+    if body.form == Form::Text || has_list {
+        return (0, 0);
     }
-    let mut at = 0;
-    let mut columns = Vec::new();
+    // The type of each value of a vertex, and how many bytes are before it in the record.
+    let mut columns = [None; VERTEX.len()];
+    let mut size = 0;
     for (property, place) in element.properties.iter().zip(places) {
-        columns.extend(place.map(|place| (place, property.kind, at)));
-        at += property.kind.size();
+        if let Some(place) = place {
+            columns[*place] = Some((property.kind, size));
+        }
+        size += property.kind.size();
     }
-    Some(columns)
+    let (bytes, is_big) = (body.bytes, body.form == Form::Big);
+    let left = &bytes[body.at..];
+    let whole = (left.len() / size).min(usize::try_from(element.count).unwrap_or(usize::MAX));
+    let records = left[..whole * size].par_chunks_exact(size).with_min_len(SHARE);
+    let number = |record: &[u8], place: usize| {
+        columns[place].map(|(kind, at): (Kind, usize)| {
+            let value = kind.number(&record[at..], is_big);
+            if place < FIRST_COLOUR { value } else { value / kind.full() }
+        })
+    };
+    let vector = |record: &[u8], place: usize| {
+        let at = |place| number(record, place).unwrap_or(0.0);
+        DVec3::new(at(place), at(place + 1), at(place + 2))
+    };
+    let has = |places: std::ops::Range<usize>| columns[places].iter().all(Option::is_some);
+    part.positions.par_extend(records.clone().map(|record| vector(record, 0)));
+    if has(3..6) {
+        part.normals.par_extend(records.clone().map(|record| vector(record, 3)));
+    }
+    if has(6..8) {
+        let uv = |record: &[u8]| vector(record, 6).truncate();
+        part.uvs.par_extend(records.clone().map(uv));
+    }
+    let mut transparent = 0;
+    if has(FIRST_COLOUR..ALPHA) {
+        let colour = |record: &[u8]| vector(record, FIRST_COLOUR).clamp(DVec3::ZERO, DVec3::ONE);
+        part.colours.par_extend(records.clone().map(colour));
+        let is_transparent =
+            |record: &&[u8]| number(record, ALPHA).is_some_and(|alpha| alpha < 1.0);
+        transparent = records.filter(is_transparent).count() as u64;
+    }
+    body.at += whole * size;
+    (whole as u64, transparent)
 }
+
+/// Records that are worth a task.
+const SHARE: usize = 1 << 14;
 
 /// The list of a face that names its vertices.
 fn is_corners(property: &Property) -> bool {
@@ -507,8 +533,8 @@ fn faces(
         part.uv_numbers = Numbers::OfCorners(vec![NONE; part.corners.len()]);
     }
     let most = element.count.min(body.bytes.len() as u64) as usize;
-    part.corners.reserve(3 * most);
     if body.form == Form::Text {
+        part.corners.reserve(3 * most);
         part.polygons.lines.reserve(most);
     }
     let (mut small, mut uvs) = (0, Vec::new());
@@ -572,24 +598,36 @@ fn triangles(body: &mut Body<'_>, element: &Element, most: u64, part: &mut Part)
         return 0;
     }
     let is_big = body.form == Form::Big;
-    let mut count = 0;
-    for record in body.bytes[body.at..].as_chunks::<RECORD>().0 {
+    let corners = |record: &[u8; RECORD]| {
         let number = |at: usize| {
             let word = [record[at], record[at + 1], record[at + 2], record[at + 3]];
             if is_big { u32::from_be_bytes(word) } else { u32::from_le_bytes(word) }
         };
-        let corners = [number(1), number(5), number(9)];
-        // Negative ones are larger.
-        let are_indices = corners.iter().all(|&corner| corner <= i32::MAX as u32);
-        if count == most || record[0] != 3 || !are_indices {
-            break;
-        }
-        part.corners.extend(corners);
-        part.polygons.push(3, 0, 0);
-        count += 1;
+        [number(1), number(5), number(9)]
+    };
+    let records = body.bytes[body.at..].as_chunks::<RECORD>().0;
+    let most = records.len().min(usize::try_from(most).unwrap_or(usize::MAX));
+    // Negative indices are larger than those that are allowed.
+    let is_other = |record: &[u8; RECORD]| {
+        record[0] != 3 || corners(record).iter().any(|&corner| corner > i32::MAX as u32)
+    };
+    // A few first, since every other face may have four corners.
+    let few = records[..most.min(SHARE)].iter().position(is_other);
+    let found =
+        few.or_else(|| records[..most].par_iter().with_min_len(SHARE).position_first(is_other));
+    let records = &records[..found.unwrap_or(most)];
+    if part.corners.is_empty() {
+        let read = records.par_iter().with_min_len(SHARE).map(corners);
+        part.corners = read.collect::<Vec<_>>().into_flattened();
+    } else {
+        part.corners.extend(records.iter().flat_map(corners));
     }
-    body.at += RECORD * count as usize;
-    count
+    if let Numbers::OfCorners(numbers) = &mut part.uv_numbers {
+        numbers.resize(part.corners.len(), NONE);
+    }
+    part.polygons.push_triangles(records.len());
+    body.at += RECORD * records.len();
+    records.len() as u64
 }
 
 /// Whether an index names a vertex is checked at the end, since vertices may follow.

@@ -11,8 +11,9 @@ use foldhash::fast::RandomState;
 use glam::{DMat4, DVec3};
 use hashbrown::HashTable;
 use rasterproof_host::text::printable_short;
+use rayon::prelude::*;
 
-use crate::contents::{Contents, Part};
+use crate::contents::{Contents, Part, Polygons};
 use crate::{BadFile, bad};
 
 const HEADER: usize = 84;
@@ -39,6 +40,8 @@ struct Merged {
     part: Part,
     /// The numbers of the positions, to find a position again.
     known: HashTable<u32>,
+    /// The numbers of positions that were seen not long ago, by their hashes.
+    recent: Vec<u32>,
     /// With a random seed, so that nobody can write a file whose positions all have the same hash.
     hasher: RandomState,
 }
@@ -50,7 +53,8 @@ impl Merged {
         // A closed surface has half as many positions as triangles.
         part.positions.reserve(triangles / 2);
         let known = HashTable::with_capacity(triangles / 2);
-        Self { part, known, hasher: RandomState::default() }
+        let recent = vec![u32::MAX; RECENT];
+        Self { part, known, recent, hasher: RandomState::default() }
     }
 
     fn triangle(&mut self, points: [DVec3; 3], line: u32) {
@@ -63,6 +67,14 @@ impl Merged {
         self.part.polygons.push(3, line, 0);
     }
 
+    /// Adds the triangles of another part, which come after those of this one.
+    fn append(&mut self, other: Part) {
+        let numbers: Vec<u32> = other.positions.iter().map(|&point| self.number(point)).collect();
+        let corners = other.corners.par_iter().with_min_len(SHARE);
+        self.part.corners.par_extend(corners.map(|&corner| numbers[corner as usize]));
+        self.part.polygons = Polygons::triangles(self.part.corners.len() / 3);
+    }
+
     /// The number of a position of the last triangle, which often is a neighbour.
     #[inline]
     fn in_last(&self, point: DVec3) -> Option<u32> {
@@ -70,23 +82,36 @@ impl Merged {
         last.iter().copied().find(|&number| self.part.positions[number as usize] == point)
     }
 
+    #[inline]
     fn number(&mut self, point: DVec3) -> u32 {
-        let positions = &mut self.part.positions;
+        let hasher = &self.hasher;
         // -0 and 0 are one position.
         let hash = |point: DVec3| {
             let [x, y, z] = (point + DVec3::ZERO).to_array().map(f64::to_bits);
-            self.hasher.hash_one((x, y, z))
+            hasher.hash_one((x, y, z))
         };
+        let positions = &mut self.part.positions;
+        let of_point = hash(point);
+        let recent = &mut self.recent[of_point as usize % RECENT];
+        if positions.get(*recent as usize) == Some(&point) {
+            return *recent;
+        }
         let is_same = |&number: &u32| positions[number as usize] == point;
-        if let Some(&number) = self.known.find(hash(point), is_same) {
+        if let Some(&number) = self.known.find(of_point, is_same) {
+            *recent = number;
             return number;
         }
         let number = positions.len() as u32;
+        *recent = number;
         positions.push(point);
-        self.known.insert_unique(hash(point), number, |&number| hash(positions[number as usize]));
+        self.known.insert_unique(of_point, number, |&number| hash(positions[number as usize]));
         number
     }
 }
+
+/// Positions that are found without looking into the table: it is larger than a cache of the processor, and neighbours
+/// of a triangle are often not far before it in the file.
+const RECENT: usize = 1 << 14;
 
 /// Reads the bytes of an STL of either kind.
 pub(crate) fn read(path: &Path, bytes: &[u8]) -> Result<Contents, BadFile> {
@@ -99,28 +124,42 @@ pub(crate) fn read(path: &Path, bytes: &[u8]) -> Result<Contents, BadFile> {
 }
 
 fn binary(bytes: &[u8], not_drawn: &mut BTreeMap<String, u64>) -> Part {
-    let mut merged = Merged::new(String::new(), bytes.len() / RECORD);
-    let mut with_attribute = 0;
-    for record in bytes[HEADER..].chunks_exact(RECORD) {
+    let (records, _) = bytes[HEADER..].as_chunks::<RECORD>();
+    // Some programs keep a colour there, in ways that exclude each other.
+    let has_attribute = |record: &&[u8; RECORD]| record[RECORD - 2..] != [0; 2];
+    let with_attribute = records.par_iter().with_min_len(SHARE).filter(has_attribute).count();
+    if with_attribute > 0 {
+        not_drawn.insert("attribute of triangle".to_owned(), with_attribute as u64);
+    }
+    merged(records, records.len(), rayon::current_num_threads()).part
+}
+
+/// Triangles that are worth a thread of their own.
+const SHARE: usize = 1 << 14;
+
+/// Records with their positions merged, by so many threads, with room for `room` triangles. The numbers are those that one
+/// thread would give.
+fn merged(records: &[[u8; RECORD]], room: usize, threads: usize) -> Merged {
+    if threads > 1 && records.len() > SHARE {
+        let (first, second) = records.split_at(records.len() / 2);
+        let (mut first, second) = rayon::join(
+            || merged(first, room, threads / 2),
+            || merged(second, second.len(), threads - threads / 2),
+        );
+        first.append(second.part);
+        return first;
+    }
+    let mut merged = Merged::new(String::new(), room);
+    for record in records {
         let number_at = |at: usize| {
             let at = 12 + 4 * at;
-            f64::from(f32::from_le_bytes([
-                record[at],
-                record[at + 1],
-                record[at + 2],
-                record[at + 3],
-            ]))
+            let word = [record[at], record[at + 1], record[at + 2], record[at + 3]];
+            f64::from(f32::from_le_bytes(word))
         };
-        let points =
-            [0, 3, 6].map(|at| DVec3::new(number_at(at), number_at(at + 1), number_at(at + 2)));
-        merged.triangle(points, 0);
-        // Some programs keep a colour there, in ways that exclude each other.
-        with_attribute += u64::from(record[RECORD - 2..] != [0; 2]);
+        let point = |at: usize| DVec3::new(number_at(at), number_at(at + 1), number_at(at + 2));
+        merged.triangle([point(0), point(3), point(6)], 0);
     }
-    if with_attribute > 0 {
-        not_drawn.insert("attribute of triangle".to_owned(), with_attribute);
-    }
-    merged.part
+    merged
 }
 
 fn text(path: &Path, bytes: &[u8]) -> Result<Vec<Part>, BadFile> {
@@ -179,4 +218,35 @@ fn text(path: &Path, bytes: &[u8]) -> Result<Vec<Part>, BadFile> {
         return Err(bad(path, Some(first_line.max(1)), cause));
     }
     Ok(parts.into_iter().map(|merged| merged.part).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A strip, whose neighbours share positions, and which comes back to its beginning.
+    #[test]
+    fn threads_give_the_numbers_that_one_would_give() {
+        let count = 5 * SHARE;
+        let point = |at: usize| [(at % 40_000) as f32, (at % 3) as f32, -0.0];
+        let record = |at: usize| {
+            let mut record = [0; RECORD];
+            let numbers = [point(at), point(at + 1), point(at + 2)].into_iter().flatten();
+            for (place, number) in record[12..48].chunks_exact_mut(4).zip(numbers) {
+                place.copy_from_slice(&number.to_le_bytes());
+            }
+            record
+        };
+        let records: Vec<_> = (0..count).map(record).collect();
+        let one = merged(&records, count, 1).part;
+        assert!(one.positions.len() > SHARE && one.polygons.len() == count);
+        for threads in [2, 3, 8] {
+            let many = merged(&records, count, threads).part;
+            assert_eq!(
+                (many.positions, many.corners),
+                (one.positions.clone(), one.corners.clone())
+            );
+            assert_eq!(many.polygons.len(), count);
+        }
+    }
 }
