@@ -1,6 +1,7 @@
 //! `rasterproof render`: a scene or a model to a picture, by either rasterizer or by both.
 
 use std::fmt::Write as _;
+use std::num::NonZeroU32;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -91,7 +92,7 @@ pub struct SceneArguments {
     pub(super) view: ViewArguments,
 }
 
-pub(super) const VIEW_OPTIONS: [&str; 18] = [
+pub(super) const VIEW_OPTIONS: [&str; 19] = [
     "size",
     "aa",
     "cull",
@@ -99,6 +100,7 @@ pub(super) const VIEW_OPTIONS: [&str; 18] = [
     "specular",
     "alpha-threshold",
     "opacity",
+    "layers",
     "mip-maps",
     "shadows",
     "anisotropy",
@@ -137,6 +139,10 @@ pub struct ViewArguments {
     /// How opaque the surfaces of a model are, from 0 to 1, in place of its own: below 1 they blend with what is behind them
     #[arg(long, value_name = "OPACITY", value_parser = parse_opacity)]
     opacity: Option<f64>,
+    /// How many surfaces that are not opaque a sample of a model shows at most, in the order of their depths, from 1 on; without it
+    /// they are mixed in the order of drawing
+    #[arg(long, value_name = "COUNT")]
+    layers: Option<NonZeroU32>,
     /// Read all textures of a model at levels of detail, also where its file does not ask for it
     #[arg(long)]
     mip_maps: bool,
@@ -367,6 +373,7 @@ impl ViewArguments {
             ("--specular", self.specular.is_some()),
             ("--alpha-threshold", self.alpha_threshold.is_some()),
             ("--opacity", self.opacity.is_some()),
+            ("--layers", self.layers.is_some()),
             ("--mip-maps", self.mip_maps),
             ("--anisotropy", self.anisotropy.is_some()),
             ("--shadows", self.shadows.is_some()),
@@ -433,6 +440,7 @@ impl ViewArguments {
         let mut scene = Scene::new(&name, "a model", projection);
         scene.view = view;
         scene.items = std::mem::take(&mut model.items);
+        scene.layers = self.layers;
         scene.light = Light {
             towards: DVec3::new(-0.4, 0.7, -0.6).normalize(),
             ambient: 0.25,
@@ -890,6 +898,13 @@ fn describe(
         "  fragments {}, depth tests {} (failed {}), shaded {}",
         c.fragments, c.depth_tests, c.depth_failed, c.shaded
     );
+    if let (Some(most), true) = (scene.layers, c.layers > 0) {
+        let _ = writeln!(
+            text,
+            "  layers {}, of which {} lie behind the {most} nearest of their sample and are left out",
+            c.layers, c.layers_left_out
+        );
+    }
     text += &times_text(times, &names(drawings));
     if let Some(output) = output {
         let _ = writeln!(text, "  drawn in {}", printable_path(output));

@@ -100,6 +100,7 @@ pub const ALL: &[(&str, Values)] = &[
     ("pays-fog", || pays("fog", Effect::Fog)),
     ("pays-cut-outs", || pays("cut-outs", Effect::AlphaTest)),
     ("pays-panes", || pays("panes", Effect::Blending)),
+    ("pays-layers", || pays("layers", Effect::Layers)),
     ("t4-pixels", || {
         let hits = named("T4");
         let row = |hits: &Coverage| hits.row(30).iter().filter(|&&n| n > 0).count() as f64;

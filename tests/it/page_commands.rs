@@ -32,7 +32,7 @@ fn every_option_is_on_the_page() {
     let model = "v -1 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     std::fs::write(folder.join("a 'model'.obj"), model).unwrap();
     let view = "--size 32x24 --aa msaa4 --cull cw --shading flat --depth unorm24 --yaw=-30 \
-                --pitch 10.5 --zoom 2 --fov 50 --up z --normals flat --specular 0.5,30 --opacity 0.5 --alpha-threshold 0.5 --fog 0,1 --shadows 64 --mip-maps --anisotropy 8";
+                --pitch 10.5 --zoom 2 --fov 50 --up z --normals flat --specular 0.5,30 --opacity 0.5 --layers 4 --alpha-threshold 0.5 --fog 0,1 --shadows 64 --mip-maps --anisotropy 8";
     let report = "--report --out pages";
     let runs = [
         ("render", vec!["a 'model'.obj"], format!("{view} --engine both --effects all {report}")),

@@ -1,6 +1,7 @@
 //! The scenes, through the whole pipeline: both rasterizers draw the same pictures, a plan of effects
 //! changes no bit, and what is left out where it is called for shows.
 
+use std::num::NonZeroU32;
 use std::sync::Arc;
 
 use glam::{DMat4, DVec2, DVec3, DVec4};
@@ -219,6 +220,7 @@ fn an_edited_plan_is_followed() {
                 "fog": "planned",
                 "alpha_test": "planned",
                 "blending": "planned",
+                "layers": "planned",
             }});
         }
         let plan: Plan = serde_json::from_value(json).unwrap();
@@ -477,6 +479,68 @@ fn panes_are_drawn_from_the_farthest() {
     }
 }
 
+/// With layers, the order of items and triangles decides nothing where everything is mixed; without, it does. So many layers
+/// as are allowed are the nearest ones.
+#[test]
+fn layers_do_not_depend_on_the_order_of_drawing() {
+    let mut differ_without = 0;
+    for index in 0..60 {
+        let mut scene = random::scene(7, index);
+        scene.hidden = Hidden::DepthBuffer;
+        for (i, item) in scene.items.iter_mut().enumerate() {
+            let factor = 0.3 + 0.1 * i as f64;
+            item.material.opacity = Some(Opacity { factor, map: None, mode: AlphaMode::Blend });
+        }
+        let mut reversed = scene.clone();
+        reversed.items.reverse();
+        for item in &mut reversed.items {
+            Arc::make_mut(&mut item.mesh).triangles.reverse();
+        }
+        let drawer = Drawer::ALL[index as usize % 2];
+        let antialias = SMOOTHINGS[index as usize / 2 % 4];
+        for layers in [None, NonZeroU32::new(1), NonZeroU32::new(3), NonZeroU32::new(u32::MAX)] {
+            let drawn = [&scene, &reversed].map(|scene| {
+                let scene = Scene { layers, ..scene.clone() };
+                let drawn = draw(&scene, drawer, Effects::PLANNED, antialias);
+                let left_out = drawn.counters.layers_left_out;
+                assert!(left_out == 0 || layers != NonZeroU32::new(u32::MAX));
+                drawn.picture
+            });
+            assert!(layers.is_none() || drawn[0] == drawn[1], "{index} {layers:?}");
+            differ_without += usize::from(layers.is_none() && drawn[0] != drawn[1]);
+        }
+    }
+    assert!(differ_without > 10, "{differ_without}");
+}
+
+/// Three panes from the nearest on, of which a sample shows as many as it may: each pixel is what the formula says.
+#[test]
+fn the_nearest_layers_are_shown() {
+    let pane = |z: f64, value: f64| {
+        let opacity = Some(Opacity { factor: 0.5, map: None, mode: AlphaMode::Blend });
+        Item::new(screen(1.0, [z; 2]), Material { opacity, ..grey(value) })
+    };
+    let wall = Item::new(screen(1.0, [0.9; 2]), grey(0.0));
+    let over = |c: u32, b: u32| (128 * c + 127 * b + 127) / 255;
+    let shown = [over(255, 0), over(255, over(0, 0)), over(255, over(0, over(102, 0)))];
+    for (most, shown) in (1..=3).zip(shown) {
+        for antialias in SMOOTHINGS {
+            for drawer in Drawer::ALL {
+                // Farther ones come last, of one distance by the middle of their boxes.
+                let items = vec![wall.clone(), pane(-0.5, 1.0), pane(0.0, 0.0), pane(0.5, 0.4)];
+                let scene = Scene { layers: NonZeroU32::new(most), ..plain(items) };
+                let drawn = draw(&scene, drawer, Effects::PLANNED, antialias);
+                let value = shown as u8;
+                let is_expected = |c: &Colour| *c == [value, value, value, 255];
+                assert!(drawn.picture.rows().all(|(_, row)| row.iter().all(is_expected)));
+                let samples = 80 * 60 * antialias.samples();
+                let counted = [drawn.counters.layers, drawn.counters.layers_left_out];
+                assert_eq!(counted, [3 * samples, (3 - u64::from(most)) * samples]);
+            }
+        }
+    }
+}
+
 fn grey(value: f64) -> Material {
     Material { colour: DVec3::splat(value), ..Material::default() }
 }
@@ -580,6 +644,20 @@ fn counterexamples() -> Vec<Counterexample> {
         make(Effect::Blending, none, |by| {
             let opacity = Some(Opacity { factor: 1.0 - by, map: None, mode: AlphaMode::Blend });
             plain(vec![Item::new(screen(1.0, [0.0; 2]), Material { opacity, ..grey(1.0) })])
+        }),
+        make(Effect::Layers, none, |by| {
+            // The left pane comes nearer from far away, so that its middle lies behind the right one, which moves over it.
+            let pane = |x: [f64; 2], z: [f64; 2], value: f64| {
+                let corners = [(0, -1.0), (1, -1.0), (1, 1.0), (0, 1.0)];
+                let mesh = shapes::quad(corners.map(|(side, y)| DVec3::new(x[side], y, z[side])));
+                let opacity = Some(Opacity { factor: 0.5, map: None, mode: AlphaMode::Blend });
+                Item::new(mesh, Material { opacity, ..grey(value) })
+            };
+            let panes = vec![
+                pane([-1.0, 0.0125], [0.9, -0.5], 1.0),
+                pane([0.0125 - by, 1.0], [0.0; 2], 0.0),
+            ];
+            Scene { layers: NonZeroU32::new(2), ..plain(panes) }
         }),
         make(Effect::Texture, none, |by| {
             let texel = textures::generate(1, |_, _| DVec3::splat(1.0 - by));
@@ -759,7 +837,7 @@ proptest! {
     fn any_mixture_of_effects_draws(
         index in any::<u32>(),
         kind in 0..4usize,
-        modes in proptest::array::uniform20(0..3u8),
+        modes in proptest::array::uniform21(0..3u8),
         some_never in any::<bool>(),
     ) {
         let scene = random::with_effects(3, index.into());

@@ -176,8 +176,9 @@ fn the_order_of_pieces_is_kept() {
 
 /// Effects beyond the book's are those of the engines, where no other texel may be read and no depth decides. In f32 a
 /// cosine is off by less than 2^-18, so its power of 200 by less than a tenth of a step of 255; a distance up to 12 by
-/// less than 2^-15 of it, and so is a share of fog; texture coordinates up to 48 by less than 2^-13, and a texel of
-/// eight by less than half a step. So a pixel is off by one for that, and by one for the rest.
+/// less than 2^-15 of it, and so is a share of fog; texture coordinates up to 48 by less than 2^-13, and a texel of eight
+/// by less than half a step; up to 10 by less than 2^-15, and a texel of 64 by less than half a step too. So a pixel is
+/// off by one for that, and by one for the rest.
 #[test]
 fn effects_are_those_of_the_engines() {
     type Without = fn(&mut Scene);
@@ -190,13 +191,27 @@ fn effects_are_those_of_the_engines() {
             item.material.texture = Some(Arc::new(texture));
         }
     };
-    for (name, without) in
-        [("highlights", highlights), ("fog", |scene| scene.fog = None), ("mip-maps", mip_maps)]
-    {
+    let anisotropy: Without = |scene| {
+        for item in &mut scene.items {
+            Arc::make_mut(item.material.texture.as_mut().unwrap()).anisotropy = 1;
+        }
+    };
+    for (name, without) in [
+        ("highlights", highlights),
+        ("fog", |scene| scene.fog = None),
+        ("mip-maps", mip_maps),
+        ("anisotropy", anisotropy),
+    ] {
         let mut scene = chapters::scene(name, 1.5, 0.1).unwrap();
         match name {
             "highlights" => drop(scene.items.remove(0)),
             "fog" => scene.items.iter_mut().for_each(|item| item.material.texture = None),
+            // The wall that faces the eye, with a third of the texels along its columns: no ratio is near a threshold.
+            "anisotropy" => {
+                scene.items = vec![scene.items.remove(2)];
+                let mesh = Arc::make_mut(&mut scene.items[0].mesh);
+                mesh.triangles.change_corners(|corner| corner.uv.y /= 3.0);
+            }
             // The floor alone.
             _ => scene.items.truncate(1),
         }

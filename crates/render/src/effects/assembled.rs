@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use super::conditions::{
-    alpha_test, anisotropy, blending, fog, interpolation, mip_maps, perspective, shadows, specular,
+    alpha_test, anisotropy, blending, fog, interpolation, layers, mip_maps, perspective, shadows,
+    specular,
 };
 use super::plan::{Attributes, ItemPlan, Order, PiecePlan, Plan, Rule};
 use super::primitive::{BadScene, Piece, Prepared};
@@ -110,6 +111,7 @@ pub(super) fn plan_of(rule: &Rule, scene: &Scene, item: &Prepared<'_>, piece: &P
     let mip_maps = has_uv && mip_maps::pays(rule.mip_maps, item, piece, perspective);
     let anisotropy = has_uv && anisotropy::pays(rule.anisotropy, item, piece, perspective);
     let depth = rule.depth;
+    let layers = layers::pays(rule.layers, depth, blending);
     PiecePlan {
         interpolates,
         perspective,
@@ -121,5 +123,6 @@ pub(super) fn plan_of(rule: &Rule, scene: &Scene, item: &Prepared<'_>, piece: &P
         fog,
         alpha_test,
         blending,
+        layers,
     }
 }

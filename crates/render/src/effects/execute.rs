@@ -1,6 +1,7 @@
 //! A plan to a picture: does what the plan says, and decides nothing.
 
 use std::fmt;
+use std::num::NonZeroU32;
 
 use super::Effect;
 use super::assembled::{Assembled, plan_of};
@@ -306,6 +307,7 @@ impl<E: Interpolate> Stage<'_, '_, E> {
     fn begin(&mut self) {
         let Self { plan, target, counters, scene, .. } = self;
         let pixels = target.pixel_count();
+        target.clear_layers();
         if matches!(plan.frame.samples, Samples::OnDemand { .. }) {
             counters.cleared += pixels;
             counters.depths_cleared += if plan.tests_depths() { pixels } else { 0 };
@@ -366,7 +368,8 @@ impl<E: Interpolate> Stage<'_, '_, E> {
     }
 
     fn finish(self) -> Rendered {
-        let Self { plan, mut counters, target, on_demand, observer, .. } = self;
+        let Self { plan, scene, mut counters, target, on_demand, observer, .. } = self;
+        target.mix_layers(scene.layers.map_or(u32::MAX, NonZeroU32::get), &mut counters);
         let picture = resolve(on_demand.as_ref(), target);
         // What is presented is a copy: the back buffer goes on to the next frame.
         let picture = if plan.frame.second_buffer {
@@ -434,6 +437,7 @@ fn paid(plan: PiecePlan) -> u32 {
         fog,
         alpha_test,
         blending,
+        layers,
     } = plan;
     [
         (Effect::Perspective, perspective && !interpolates.is_empty()),
@@ -448,6 +452,7 @@ fn paid(plan: PiecePlan) -> u32 {
         (Effect::Fog, fog == Share::Mixed),
         (Effect::AlphaTest, alpha_test == Drawn::Mixed),
         (Effect::Blending, blending == Drawn::Mixed),
+        (Effect::Layers, layers),
         (Effect::Interpolation, !interpolates.is_empty()),
     ]
     .into_iter()

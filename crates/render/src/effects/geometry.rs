@@ -254,6 +254,7 @@ impl<'a> Item<'a> {
             fog: Share::Mixed,
             alpha_test: Drawn::All,
             blending: Drawn::All,
+            layers: false,
         };
         let plan = ItemPlan {
             clip: Mode::Planned,

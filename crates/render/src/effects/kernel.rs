@@ -222,7 +222,7 @@ impl<'a> Kernel<'a> {
         counters: &mut Counters,
         opacity: &Opacity,
     ) {
-        let PiecePlan { interpolates, perspective, depth, .. } = self.plan;
+        let PiecePlan { interpolates, perspective, depth, layers, .. } = self.plan;
         if samples.is_some_and(|on_demand| {
             !on_demand.tell_box_apart(engine, piece, depth, target, counters)
         }) {
@@ -232,6 +232,7 @@ impl<'a> Kernel<'a> {
         let has_uv = interpolates.has(Attributes::UV);
         let look = Look {
             constant: interpolates.is_empty().then_some(first),
+            is_kept: layers,
             opacity: &|varying| opacity.of(Surface::from(if has_uv { *varying } else { first }).uv),
             colour: &|varying, depth| self.shade_all(varying, depth),
         };

@@ -221,6 +221,9 @@ pub struct PiecePlan {
     /// Whether its fragments are mixed with what is behind them, or cover nothing of it.
     #[serde(default, skip_serializing_if = "is_all")]
     pub blending: Drawn,
+    /// Whether fragments that are mixed are kept, and mixed in the order of their depths when all is drawn.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub layers: bool,
 }
 
 impl PiecePlan {
@@ -278,6 +281,9 @@ pub struct Rule {
     /// Planned: where a piece may read an opacity that is neither 0 nor 255.
     #[serde(default = "never", skip_serializing_if = "is_never")]
     pub blending: Mode,
+    /// Planned: where fragments are mixed and their depths tested, whatever else is there.
+    #[serde(default = "never", skip_serializing_if = "is_never")]
+    pub layers: Mode,
 }
 
 /// What the pieces of an item pay for.
@@ -522,6 +528,7 @@ mod tests {
             fog,
             alpha_test,
             blending,
+            layers: true,
         };
         let text = serde_json::to_string(&plan).unwrap();
         assert_eq!(serde_json::from_str::<PiecePlan>(&text).unwrap(), plan);

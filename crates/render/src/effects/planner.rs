@@ -4,7 +4,8 @@ use super::assembled::{Assembled, plan_of};
 use super::conditions::survey::Survey;
 use super::conditions::{
     alpha_test, anisotropy, attributes, blending, clear, clip, cull, depth, depth_buffer, fog,
-    interpolation, mip_maps, perspective, samples, second_buffer, shadows, specular, wide_words,
+    interpolation, layers, mip_maps, perspective, samples, second_buffer, shadows, specular,
+    wide_words,
 };
 use super::plan::{
     Canvas, Clear, Decision, FramePlan, ItemPlan, Order, PiecePlan, Pieces, Plan, Rule, VERSION,
@@ -35,7 +36,9 @@ pub(super) fn plan<'a>(
     let mut surveys: Vec<Survey<'_>> = (0..scene.items.len())
         .map(|i| Survey::new(scene, effects, i, plan.items[i].carries, is_listed))
         .collect();
-    let estimates = samples::may_be_on_demand(&drawn, effects);
+    // Layers are kept for each sample.
+    let has_layers = layers::is_in_use(scene, effects);
+    let estimates = !has_layers && samples::may_be_on_demand(&drawn, effects);
     let mut estimate = estimates.then(|| samples::Estimate::new(&drawn));
     let mut is_tested = depth::pays(scene, effects, true);
     if is_listed {
@@ -68,6 +71,7 @@ pub(super) fn plan<'a>(
                 fog: fog_at_most,
                 alpha_test: at_most(alpha_test::mode(item.item, effects)),
                 blending: at_most(blending::mode(item.item, effects)),
+                layers: false,
             };
             estimate.see_roughly(item, plan);
         }
@@ -122,6 +126,7 @@ fn outset(scene: &Scene, canvas: &Canvas, effects: &Effects) -> Plan {
         let anisotropy = anisotropy::mode(item, carries, effects);
         let alpha_test = alpha_test::mode(item, effects);
         let blending = blending::mode(item, effects);
+        let layers = layers::mode(scene, item, effects);
         let rule = Rule {
             interpolates,
             where_it_varies,
@@ -134,6 +139,7 @@ fn outset(scene: &Scene, canvas: &Canvas, effects: &Effects) -> Plan {
             fog,
             alpha_test,
             blending,
+            layers,
         };
         ItemPlan {
             clip: effects.mode(Effect::Clip),
@@ -182,6 +188,9 @@ fn list(
     for item in &mut plan.items {
         item.pieces = Pieces::Listed(Vec::new());
     }
+    let has_layers = rules.iter().flatten().any(|rule| rule.layers != Mode::Never);
+    let meets = (has_layers && layers::may_be_left_out(effects))
+        .then(|| layers::meets(items, pieces, &plan.drawn()));
     for (i, (index, piece)) in pieces.iter().enumerate() {
         let (Some(rule), Pieces::Listed(runs)) = (&rules[*index], &mut plan.items[*index].pieces)
         else {
@@ -189,6 +198,8 @@ fn list(
         };
         let depth = rule.depth && overlaps.as_ref().is_none_or(|overlaps| overlaps[i]);
         let plan = PiecePlan { depth, ..plan_of(rule, scene, &items[*index], piece) };
+        let is_met = meets.as_ref().is_none_or(|meets| meets[i]);
+        let plan = PiecePlan { layers: plan.layers && depth && is_met, ..plan };
         match runs.last_mut() {
             Some((count, last)) if *last == plan => *count += 1,
             _ => runs.push((1, plan)),
@@ -222,12 +233,18 @@ fn account(
         decisions.extend(fog::explain(survey));
         decisions.extend(alpha_test::explain(survey));
         decisions.extend(blending::explain(survey));
+        decisions.extend(layers::explain(survey));
         decisions.push(interpolation::explain(survey));
     }
     let triangles = scene.triangles() as u64;
     decisions.push(clip::explain(effects, plan, triangles, seen));
     decisions.push(depth_buffer::explain(scene, effects, canvas, frame, is_tested));
-    decisions.push(samples::explain(&plan.canvas, effects, frame.samples));
+    decisions.push(samples::explain(
+        &plan.canvas,
+        effects,
+        frame.samples,
+        layers::is_in_use(scene, effects),
+    ));
     decisions.push(clear::explain(effects, canvas, frame));
     decisions.push(second_buffer::explain(canvas, effects));
     decisions

@@ -98,6 +98,7 @@ impl<'a> Prepared<'a> {
             fog: Share::Mixed,
             alpha_test: Drawn::All,
             blending: Drawn::All,
+            layers: false,
         }
     }
 

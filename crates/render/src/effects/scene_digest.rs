@@ -38,6 +38,7 @@ impl SceneDigest {
             fog,
             background,
             hidden,
+            layers,
             affine,
         } = scene;
         let mut words = Words(0);
@@ -62,6 +63,9 @@ impl SceneDigest {
             Hidden::Painter => 1,
         });
         words.whole((*affine).into());
+        if let Some(layers) = layers {
+            words.whole(layers.get().into());
+        }
         words.whole(items.len() as u64);
         for item in items {
             words.item(item);
@@ -182,7 +186,7 @@ mod tests {
         let renamed = Scene { name: "b".to_owned(), ..scene() };
         assert_eq!(SceneDigest::of(&renamed), digest);
         type Change = fn(&mut Scene);
-        let changes: [(&str, Change); 13] = [
+        let changes: [(&str, Change); 14] = [
             ("in shadow", |scene| scene.shadows = Some(Shadows::default())),
             ("turned", |scene| scene.items[0].model = rasterproof_core::angle::turn_y(0.1)),
             ("another eye", |scene| scene.view = rasterproof_core::angle::turn_x(0.1)),
@@ -201,6 +205,7 @@ mod tests {
             }),
             ("culled", |scene| scene.items[0].cull = Cull::Clockwise),
             ("painted", |scene| scene.hidden = Hidden::Painter),
+            ("in layers", |scene| scene.layers = std::num::NonZeroU32::new(4)),
             ("twice", |scene| scene.items.push(scene.items[0].clone())),
             ("a colour of a corner", |scene| {
                 let mesh = std::sync::Arc::make_mut(&mut scene.items[0].mesh);

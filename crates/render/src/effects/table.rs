@@ -82,6 +82,8 @@ effects! {
     AlphaTest = "alpha-test": Material, alpha_tests, Some([110, 160, 40]);
     /// Mixing fragments with what is behind them.
     Blending = "blending": Material, blended, Some([90, 190, 240]);
+    /// Bringing mixed fragments into the order of their depths.
+    Layers = "layers": Material, layers, Some([60, 120, 200]);
     /// Interpolating an attribute, and computing what depends on it, in each fragment.
     Interpolation = "interpolation": Material, components, None;
     /// Telling the samples of a supersampled or multisampled pixel apart.

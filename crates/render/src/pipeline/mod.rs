@@ -15,6 +15,7 @@ pub mod fill;
 pub mod fog;
 pub mod footprint;
 pub mod highlight;
+mod layers;
 pub mod multisample;
 pub mod opacity;
 pub mod present;
@@ -111,6 +112,10 @@ counters! {
     alpha_tests = "alpha tests";
     /// Visible fragments whose opacity was computed to mix them with what is behind them.
     blended = "blended";
+    /// Mixed fragments that were kept to be brought into the order of their depths.
+    layers = "layers";
+    /// Layers that were not drawn, since as many as a sample may have lay in front of them.
+    layers_left_out = "layers left out";
     /// Evaluations of the whole fragment stage.
     shaded = "fragment stages";
     /// Pixels whose samples were told apart by antialiasing.

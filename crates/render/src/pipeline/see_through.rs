@@ -4,6 +4,7 @@
 use super::Counters;
 use super::depth::DepthFormat;
 use super::fill::Way;
+use super::layers::{Layer, Layers};
 use super::multisample::{SAMPLES, moved};
 use super::opacity::{OPAQUE, over};
 use super::shade::{Attributes, PLACED};
@@ -18,6 +19,8 @@ type Varying = Attributes<PLACED>;
 pub struct Look<'a> {
     /// What all fragments have, where nothing is interpolated.
     pub constant: Option<Varying>,
+    /// Whether what is mixed waits, to be mixed in the order of depths.
+    pub is_kept: bool,
     /// In steps of 255.
     pub opacity: &'a dyn Fn(&Varying) -> u8,
     /// Of attributes and depth.
@@ -58,11 +61,11 @@ fn nearer(format: DepthFormat, way: Way, depths: &[f64], stored: &[u64]) -> u32 
     bits
 }
 
-/// Draws the fragments of a run over one plane, with the colour that `shade` gives for a column; how many of them were
-/// nearer than what was there.
+/// Draws the fragments of a run over one plane, which has a number, with the colour that `shade` gives for a column; how
+/// many of them were nearer than what was there.
 fn draw_run(
     run: Run<'_, Varying>,
-    plane: &mut SamplePlane,
+    (number, plane, layers): (usize, &mut SamplePlane, &mut Layers),
     format: DepthFormat,
     way: Way,
     look: &Look<'_>,
@@ -77,8 +80,14 @@ fn draw_run(
         if opacity == 0 {
             return;
         }
-        let depth = run.depths[i];
-        put(shade(x0_px + i as i32, varying, depth), opacity, &mut colours[i]);
+        let (x_px, depth) = (x0_px + i as i32, run.depths[i]);
+        let colour = shade(x_px, varying, depth);
+        if look.is_kept && opacity != OPAQUE {
+            let (plane, key) = (number as u8, format.key(depth));
+            layers.0.push(Layer { plane, y_px, x_px, key, opacity, colour });
+            return;
+        }
+        put(colour, opacity, &mut colours[i]);
         if way.depth_test && opacity == OPAQUE {
             stored[i] = format.key(depth);
         }
@@ -111,11 +120,13 @@ pub fn fill(
         return fill_multisampled(engine, piece, target, bounds, way, look, counters);
     }
     let format = target.format;
-    let plane = &mut target.planes[0];
+    let (planes, _, layers) = target.with_layers();
+    let plane = &mut planes[0];
     let (mut emitted, mut visible, mut shaded) = (0, 0, 0);
     engine.runs(piece, bounds, way.affine, &mut |run| {
         emitted += run.depths.len() as u64;
-        visible += draw_run(run, plane, format, way, look, &mut |_, varying, depth| {
+        let to = (0, &mut *plane, &mut *layers);
+        visible += draw_run(run, to, format, way, look, &mut |_, varying, depth| {
             shaded += 1;
             (look.colour)(varying, depth)
         });
@@ -134,7 +145,7 @@ fn fill_multisampled(
     counters: &mut Counters,
 ) -> u64 {
     let format = target.format;
-    let (planes, shading) = target.with_shading();
+    let (planes, shading, layers) = target.with_layers();
     // Clipped pieces lie in the window, far from the domain's end.
     let moved: Vec<_> = SAMPLES.iter().map(|sample| moved(piece, *sample)).collect();
     let samples = || moved.iter().enumerate().filter_map(|(i, moved)| Some((i, moved.as_ref()?)));
@@ -165,7 +176,8 @@ fn fill_multisampled(
             let y_px = run.y_px;
             shading.centres.span_mut(y_px, run.x0_px, run.x1_px()).fill(0);
             emitted += run.depths.len() as u64;
-            visible += draw_run(run, plane, format, way, look, &mut |x_px, varying, depth| {
+            let to = (i, &mut *plane, &mut *layers);
+            visible += draw_run(run, to, format, way, look, &mut |x_px, varying, depth| {
                 shading.get(x_px, y_px).unwrap_or_else(|| {
                     shaded += 1;
                     let colour = (look.colour)(varying, depth);

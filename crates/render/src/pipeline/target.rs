@@ -8,6 +8,7 @@
 
 use super::Counters;
 use super::depth::{CLEAR, DepthFormat, OFF_FRACTION};
+use super::layers::Layers;
 use glam::DVec3;
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::frame::Frame;
@@ -178,6 +179,7 @@ pub struct Target {
     shading: Shading,
     /// Room for two keys of each pixel, kept from frame to frame by those who use it.
     intervals: Option<Frame<[u64; 2]>>,
+    layers: Layers,
     pub format: DepthFormat,
     /// One plane, or four of [`Antialias::Multisample4`].
     pub planes: Vec<SamplePlane>,
@@ -216,7 +218,8 @@ impl Target {
         let (colours, centres) = (Frame::new(shaded, (0, [0; 4])), Frame::new(shaded, 0));
         let shading = Shading { serial: 0, colours, centres };
         let planes = vec![plane; antialias.planes()];
-        Self { antialias, size, shading, intervals: None, format, planes }
+        let layers = Layers::default();
+        Self { antialias, size, shading, intervals: None, layers, format, planes }
     }
 
     /// Room for two keys of each pixel, with whatever stands there.
@@ -249,8 +252,25 @@ impl Target {
 
     /// The planes, and room for the colours of one more triangle.
     pub(super) fn with_shading(&mut self) -> (&mut [SamplePlane], &mut Shading) {
+        let (planes, shading, _) = self.with_layers();
+        (planes, shading)
+    }
+
+    /// The same, and the layers that wait to be mixed.
+    pub(super) fn with_layers(&mut self) -> (&mut [SamplePlane], &mut Shading, &mut Layers) {
         self.shading.serial += 1;
-        (&mut self.planes, &mut self.shading)
+        (&mut self.planes, &mut self.shading, &mut self.layers)
+    }
+
+    /// Forgets the layers of a frame that was not finished.
+    pub(crate) fn clear_layers(&mut self) {
+        self.layers.0.clear();
+    }
+
+    /// Mixes the layers that wait, of each sample at most so many of the nearest.
+    pub(crate) fn mix_layers(&mut self, most: u32, counters: &mut Counters) {
+        counters.layers += self.layers.0.len() as u64;
+        counters.layers_left_out += self.layers.mix(most, &mut self.planes);
     }
 
     /// Forgets the last frame's colours (section 9.4.1).

@@ -1,6 +1,7 @@
 //! Scenes that call for effects beyond the book: what real models ask for.
 
 use std::f64::consts::TAU;
+use std::num::NonZeroU32;
 use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
@@ -51,6 +52,11 @@ pub const SCENES: &[Entry] = &[
         name: "panes",
         about: "three panes of coloured glass in frames, each with a round hole, before and behind spheres",
         build: panes,
+    },
+    Entry {
+        name: "layers",
+        about: "panes that cross, balls of glass and a pane that stands alone, of which a pixel shows at most four layers",
+        build: layers,
     },
 ];
 
@@ -333,4 +339,37 @@ fn anisotropy(scene: Scene, turn: f64) -> Scene {
         turned,
     ];
     with(scene, items)
+}
+
+fn layers(scene: Scene, turn: f64) -> Scene {
+    let floor = shapes::quad([
+        DVec3::new(-9.0, -1.4, 1.0),
+        DVec3::new(9.0, -1.4, 1.0),
+        DVec3::new(9.0, -1.4, 18.0),
+        DVec3::new(-9.0, -1.4, 18.0),
+    ]);
+    let checks = Arc::new(textures::checkerboard().with(Filter::Bilinear, Wrap::Repeat));
+    let checks = Material { texture: Some(checks), shading: Shading::Phong, ..Material::default() };
+    let glass = |colour: DVec3, factor: f64| {
+        let opacity = Some(Opacity { factor, map: None, mode: AlphaMode::Blend });
+        Material { colour, opacity, shading: Shading::Phong, ..Material::default() }
+    };
+    let [red, yellow, blue] =
+        [DVec3::new(0.85, 0.25, 0.20), DVec3::new(0.95, 0.80, 0.25), DVec3::new(0.25, 0.45, 0.85)];
+    let mut items = vec![Item::new(floor, checks)];
+    // Five panes through one axis.
+    let centre = DVec3::new(-1.1, -0.1, 4.6);
+    for (number, colour) in [red, yellow, blue, yellow, red].into_iter().enumerate() {
+        let pane = Item::new(board(centre, 2.4, 4), glass(colour, 0.45));
+        items.push(turned(pane, centre, turn_y(TAU * (turn + 0.03 + 0.1 * number as f64))));
+    }
+    // Each ball has a far and a near side, and one is in the other.
+    let centre = DVec3::new(1.1, -0.5, 4.4);
+    for (radius, colour) in [(0.8, blue), (0.45, red)] {
+        let ball = shapes::sphere(centre, radius, 24, 12);
+        items.push(turned(Item::new(ball, glass(colour, 0.5)), centre, turn_y(turn * TAU)));
+    }
+    let alone = Item::new(board(DVec3::new(2.3, 1.5, 5.0), 1.6, 4), glass(yellow, 0.5));
+    items.push(alone);
+    Scene { light: daylight(), layers: NonZeroU32::new(4), ..with(scene, items) }
 }

@@ -11,6 +11,7 @@ pub mod shapes;
 pub mod textures;
 mod triangles;
 
+use std::num::NonZeroU32;
 use std::sync::Arc;
 
 use glam::{DMat4, DVec2, DVec3};
@@ -184,6 +185,9 @@ pub struct Scene {
     pub background: Colour,
     /// How what is hidden is found out.
     pub hidden: Hidden,
+    /// How many mixed fragments a sample shows at most, in the order of their depths; without a number they are mixed
+    /// in the order of drawing.
+    pub layers: Option<NonZeroU32>,
     /// Whether attributes are interpolated linearly in the window, whatever w is: the fault of the
     /// book's section 5.3.
     pub affine: bool,
@@ -204,6 +208,7 @@ impl Scene {
             fog: None,
             background: [18, 18, 24, u8::MAX],
             hidden: Hidden::DepthBuffer,
+            layers: None,
             affine: false,
         }
     }

@@ -2,6 +2,7 @@
 //! and windings, with the cases that a plan of effects lives on, equal w, constant attributes,
 //! disjoint boxes, and those that almost are.
 
+use std::num::NonZeroU32;
 use std::sync::Arc;
 
 use glam::DVec3;
@@ -41,7 +42,7 @@ pub fn scene(seed: u64, index: u64) -> Scene {
 
 /// The same scene with effects beyond the book's: some of its materials have
 /// highlights or holes or blend, some of its textures mip maps or anisotropy, and some scenes fog
-/// or a shadow map.
+/// or layers or a shadow map.
 ///
 /// # Panics
 /// As [`scene`].
@@ -92,6 +93,9 @@ pub fn with_effects(seed: u64, index: u64) -> Scene {
         let size = [16, 40, 128][rng.int(0, 2) as usize];
         let bits = [16, 24, 32][rng.int(0, 2) as usize];
         scene.shadows = Some(Shadows { size, bits });
+    }
+    if rng.chance(2) {
+        scene.layers = NonZeroU32::new(rng.int(1, 4) as u32);
     }
     scene
 }

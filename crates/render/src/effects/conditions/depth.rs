@@ -68,7 +68,7 @@ fn are_nearly_all(met: usize, boxes: usize) -> bool {
 }
 
 /// Samples lie up to 6/16 px off the centre.
-fn margin_px(canvas: &Canvas) -> i32 {
+pub fn margin_px(canvas: &Canvas) -> i32 {
     i32::from(canvas.antialias == Antialias::Multisample4)
 }
 

@@ -14,6 +14,7 @@ pub(super) mod depth;
 pub(super) mod depth_buffer;
 pub(super) mod fog;
 pub(super) mod interpolation;
+pub(super) mod layers;
 pub(super) mod mip_maps;
 pub(super) mod perspective;
 pub(super) mod samples;

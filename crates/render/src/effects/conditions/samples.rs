@@ -167,10 +167,11 @@ pub fn may_be_on_demand(canvas: &Canvas, effects: &Effects) -> bool {
         && effects.mode(Effect::DepthBuffer) != Mode::Never
 }
 
-pub fn explain(canvas: &Canvas, effects: &Effects, samples: Samples) -> Decision {
+pub fn explain(canvas: &Canvas, effects: &Effects, samples: Samples, has_layers: bool) -> Decision {
     let pixels = canvas.pixels();
     let (counts, reason) = match samples {
         _ if canvas.antialias.samples() == 1 => ([0, pixels, 0], "a pixel has one sample"),
+        Samples::Each if has_layers => ([pixels, 0, 0], "layers are kept for each sample"),
         Samples::Each => ([pixels, 0, 0], "too few pixels would stay whole"),
         Samples::Middle => ([0, pixels, 0], ""),
         Samples::OnDemand { .. } => ([0, 0, pixels], "as soon as a pixel may hold two colours"),

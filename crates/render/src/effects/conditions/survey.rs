@@ -30,6 +30,8 @@ pub struct Survey<'a> {
     pub tested: [u64; 2],
     /// The same of blending: pieces of which some fragments are mixed, and those of which nothing is drawn.
     pub blended: [u64; 2],
+    /// Pieces whose mixed fragments are brought into order.
+    pub layers: u64,
     /// Pieces that are not magnified everywhere.
     pub mip_maps: u64,
     /// Pieces that may have a footprint with a longer axis.
@@ -73,6 +75,7 @@ impl<'a> Survey<'a> {
             shares: [0; 2],
             tested: [0; 2],
             blended: [0; 2],
+            layers: 0,
             has_widths: false,
             wide: 0,
             interpolated: [0; 3],
@@ -92,6 +95,7 @@ impl<'a> Survey<'a> {
             self.tested[i] += u64::from(plan.alpha_test == drawn);
             self.blended[i] += u64::from(plan.blending == drawn);
         }
+        self.layers += u64::from(plan.layers);
         self.mip_maps += u64::from(plan.mip_maps);
         self.anisotropy += u64::from(plan.anisotropy);
         self.shadows += u64::from(plan.shadows);
