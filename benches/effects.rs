@@ -11,7 +11,7 @@
 //! with another one, and a row compares medians of the rounds' ratios. Three rounds are enough where
 //! planned is far ahead; a row that seems to lose is measured again, with more rounds, before it counts.
 //!
-//! `cargo bench --bench effects` measures all rows, `-- facets` those whose name contains a word,
+//! `cargo bench -p benches --bench effects` measures all rows, `-- facets` those whose name contains a word,
 //! `-- --quick` with fewer rounds. Each pair of pictures is compared to the bit before it is timed.
 #![allow(
     clippy::disallowed_methods,

@@ -1,7 +1,7 @@
 //! Both engines and both line drawers by themselves: pixels per second, with and without values.
 //!
 //! Every bench first asserts that it draws as many pixels as the exact oracle, so that no time is
-//! ever reported for a wrong picture. `cargo bench --bench fill -- medium/scanline` picks by name.
+//! ever reported for a wrong picture. `cargo bench -p benches --bench fill -- medium/scanline` picks by name.
 //! For times beside those of other crates see `peers`.
 #![allow(
     clippy::disallowed_methods,

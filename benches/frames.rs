@@ -13,7 +13,7 @@
 //! commands are made before, submitting and waiting are timed, and its picture stays where it is.
 //! llvmpipe has one thread, the caller's; `LP_NUM_THREADS` in the environment gives it others.
 //!
-//! `cargo bench --bench frames` measures the meshes of [`MESHES`]; `-- knot` those whose name contains
+//! `cargo bench -p benches --bench frames` measures the meshes of [`MESHES`]; `-- knot` those whose name contains
 //! a word, `-- --quick` with fewer rounds. `-- --curves` measures one shape in all its sizes instead,
 //! and one mesh in pictures of several sides.
 #![allow(

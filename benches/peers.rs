@@ -23,7 +23,7 @@
 //! Then whole frames of a mesh of 70,000 triangles, textured, lit and depth-tested, with one sample a
 //! pixel and with four: see `common/mesh.rs`.
 //!
-//! `cargo bench --bench peers` prints the tables; `-- --quick` takes one short round, and
+//! `cargo bench -p benches --bench peers` prints the tables; `-- --quick` takes one short round, and
 //! `-- tiny small mesh` only what is named.
 #![allow(
     clippy::disallowed_methods,

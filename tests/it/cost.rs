@@ -34,6 +34,7 @@ fn cost_errors_of_a_seed() {
 
 /// A rung that promises an error of none has none, in every class that it ran.
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn cost_promises_are_kept() {
     let mut kept = 0;
     for board in Ladder::ALL.iter().flat_map(|&l| [2, 3].map(|seed| untimed(l, seed))) {
@@ -101,6 +102,7 @@ fn cost_cracks() {
 
 /// A cell without a measurement says so and why.
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn cost_not_run_has_a_reason() {
     let mut reasons = 0;
     for board in Ladder::ALL.map(|ladder| untimed(ladder, 1)) {
@@ -142,6 +144,7 @@ fn cost_colour_is_optional() {
 
 /// The program: boards, plots and JSON, from the smallest ladder.
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn cost_from_the_command_line() {
     let folder = Folder::new("cost");
     let run = |words: &str| {

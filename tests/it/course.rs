@@ -48,6 +48,7 @@ const JUDGED: [(&str, &str, &str); 12] = [
 ];
 
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn course_judges_every_step() {
     let folder = Folder::new("course-steps");
     let mut progress = None;

@@ -76,6 +76,7 @@ fn a_verdict_that_cannot_be_written_is_no_success() {
 
 /// The same for standard error, which is where `exhaust` says its verdict.
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn the_status_does_not_depend_on_a_reader_of_errors() {
     let folder = folder("errors");
     for (words, status) in VERDICTS {

@@ -198,6 +198,7 @@ fn samples() -> [Plan; 4] {
 }
 
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn exhaust_resumes_to_the_same_certificate() {
     for plan in samples() {
         let whole = certify(&plan);
@@ -242,6 +243,7 @@ fn shards(plan: &Plan, parts: u64) -> Vec<(String, Certificate)> {
 }
 
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn exhaust_shards_merge_into_the_whole() {
     for plan in samples() {
         let whole = certify(&plan);
@@ -369,6 +371,7 @@ fn exhaust_command_resumes_its_own_checkpoint_alone() {
 }
 
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn exhaust_command_survives_a_kill() {
     let folder = Folder::new("exhaust-kill");
     let words = "exhaust triangles --subpixel-bits 3 --shard 0/8 --checkpoint c.json -o o.json";

@@ -110,6 +110,7 @@ fn processes(word: &str) -> Vec<String> {
 /// A build that floods, that waits, and that leaves a process in a session of its own.
 #[cfg(target_os = "linux")]
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn builds_are_bounded_and_what_they_started_is_ended() {
     let class = Folder::new("submissions-builds");
     // Numbers of seconds that no other process sleeps.

@@ -427,6 +427,7 @@ fn judge_prints_a_verdict() {
 }
 
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn judge_writes_formats() {
     let of_it = |format| check(of(&["--format", format], &["exclusive-edges"]), 1).out;
     let json: serde_json::Value = serde_json::from_str(&of_it("json")).unwrap();

@@ -108,6 +108,7 @@ fn same_everywhere(name: &str, verdict: &Verdict, sums: [u64; 3]) {
 }
 
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn counts_equal_a_recount() {
     const CASES: u64 = 8;
     let options = Options::default().cases(CASES);

@@ -827,6 +827,7 @@ fn review(folder: &Path, words: &str) -> (i32, String) {
 
 /// From a changed picture to the page that shows it, and to its acceptance.
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn page_reviews_a_changed_snapshot() {
     let folder = spoilt_snapshots("page-review");
     assert_eq!(review(&folder, "").0, 0);

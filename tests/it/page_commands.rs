@@ -27,6 +27,7 @@ fn words_of(command: &str) -> Vec<String> {
 const WITHOUT_PAGE: [&str; 5] = ["--help", "--map", "--spin", "--views", "--without"];
 
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn every_option_is_on_the_page() {
     let folder = Folder::new("page-commands");
     let model = "v -1 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";

@@ -206,6 +206,7 @@ fn absurd_windows_are_bounded() {
 
 /// What would take gigabytes or minutes is refused instead, with the limit.
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn answers_are_bounded() {
     let corners = "-20000 -20000 0 40000 -20000 0 -20000 40000 0";
     check(

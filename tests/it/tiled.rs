@@ -38,6 +38,7 @@ fn box_of(triangle: &Triangle, window: PixelRect) -> PixelRect {
 /// Every value of every covered pixel and sample lies within the bound of the exact one, and somewhere the
 /// bound is used: a bound that is thousands of times too wide would say nothing.
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn values_lie_within_their_bound() {
     for family in FAMILIES {
         let mut largest: f64 = 0.0;

@@ -1,20 +1,6 @@
 //! The report page: a [`Report`] becomes one HTML file that needs nothing else, opened from disk.
 //!
-//! A section that is empty is not shown, so a command fills in what it has:
-//!
-//! ```
-//! use rasterproof_report::html::{Figure, Outcome, PlanRow, Report, page};
-//!
-//! let report = Report {
-//!     title: "cost of a fill".to_owned(),
-//!     outcome: Some(Outcome { good: true, word: "AGREES".to_owned(), sentence: "0 wrong pixels.".to_owned() }),
-//!     command: "rasterproof cost".to_owned(),
-//!     figures: vec![Figure { caption: "ns per pixel".to_owned(), svg: "<svg/>".to_owned(), narrow: None }],
-//!     plan: vec![PlanRow { effect: "fog".to_owned(), is_on: true, ..PlanRow::default() }],
-//!     ..Report::default()
-//! };
-//! assert!(page(&report).starts_with("<!DOCTYPE html>"));
-//! ```
+//! A section that is empty is not shown, so a command fills in what it has.
 //!
 //! Pictures that were rendered go in as [`PictureView`], cases of the harness as [`CaseView`]; both
 //! are shown in the same viewer. Every text is escaped, whatever it holds; the JSON for the script

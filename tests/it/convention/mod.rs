@@ -378,6 +378,7 @@ fn conventions_on_coarse_grids_predict() {
 
 /// What libraries answered. The third word is what their sentence must say.
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn conventions_of_libraries_are_named() {
     use Rounding::{Down, Near, TowardZero};
     let point = |x, y| Shape::Point { x, y };
