@@ -50,13 +50,13 @@ pub(crate) struct Part {
     pub polygons: Polygons,
 }
 
-/// No number.
+/// A number that is not there.
 pub(crate) const NONE: u32 = u32::MAX;
 
 /// Which vector of a list each corner of a part has.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Numbers {
-    /// No corner has one.
+    /// No corner of the mesh has this attribute.
     #[default]
     Nothing,
     /// Each corner has the vector with the number of its position, as many files list them.

@@ -42,7 +42,7 @@ struct Merged {
     known: HashTable<u32>,
     /// The numbers of positions that were seen not long ago, by their hashes.
     recent: Vec<u32>,
-    /// With a random seed, so that nobody can write a file whose positions all have the same hash.
+    /// With a random seed, so that no file can be written whose positions all have the same hash.
     hasher: RandomState,
 }
 
@@ -137,7 +137,7 @@ fn binary(bytes: &[u8], not_drawn: &mut BTreeMap<String, u64>) -> Part {
 /// Triangles that are worth a thread of their own.
 const SHARE: usize = 1 << 14;
 
-/// Records with their positions merged, by so many threads, with room for `room` triangles. The numbers are those that one
+/// Records with their positions merged, by so many threads; memory for `room` triangles is reserved. The numbers are those that one
 /// thread would give.
 fn merged(records: &[[u8; RECORD]], room: usize, threads: usize) -> Merged {
     if threads > 1 && records.len() > SHARE {
