@@ -11,7 +11,7 @@
 //! reads has its centre at most 3/2 away along each axis. The fragment's place is rounded to 1/256 texel, which
 //! moves it by 1/512, and a corner of a triangle in the map is rounded to 1/256 texel as well; a point of the moved triangle has
 //! the depth of a point at most 1/512 away. So the stored depth is at least d - (|g.x| + |g.y|) (3/2 + 1/256), less rounding
-//! errors ([`REACH`], [`MARGIN`]). A fragment is compared with its depth less this bias. The depth
+//! errors (`REACH`, `MARGIN`). A fragment is compared with its depth less this bias. The depth
 //! format needs none: rounding is monotone, so what is not nearer is not nearer when both are rounded. A plane
 //! that the light only grazes has a large bias, and little light to lose.
 //!
