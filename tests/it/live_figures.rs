@@ -457,8 +457,8 @@ fn links_lead_to_the_same(browser: &mut Browser, links: &[(&'static Figure, Valu
     browser.press("]");
     browser.press("ArrowLeft");
     browser.wait_for("state.at === '[[1.5,5.5],[7,1.5]]'");
-    let says = "document.querySelectorAll('figcaption output')[1].textContent";
-    assert_eq!(browser.eval(says), "the same picture");
+    let says = "document.querySelectorAll('figcaption output')[1]?.textContent";
+    browser.wait_for(&format!("{says} === 'the same picture'"));
     go(browser, "#scene=figure&at=[[3.5,3.5]]&by=scanline,inclusive-edges");
     browser.wait_for(&format!("{says} === 'another picture'"));
 }
