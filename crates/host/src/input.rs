@@ -126,13 +126,13 @@ pub struct Pieces {
 
 impl Pieces {
     /// # Errors
-    /// As [`open`].
+    /// Those of [`open`], such as for a file that is larger than the limit.
     pub fn open(path: &Path, limit_bytes: u64) -> Result<Self, InputError> {
         let file = open(path, limit_bytes)?;
         Ok(Self { path: path.to_owned(), file, limit_bytes, read_bytes: 0 })
     }
 
-    /// How long the file says it is.
+    /// The length that the file has now; it may still grow.
     #[must_use]
     pub fn length_bytes(&self) -> u64 {
         self.file.metadata().map_or(0, |data| data.len())
@@ -141,7 +141,7 @@ impl Pieces {
     /// Appends at most so many bytes, and returns how many: 0 at the end of the file.
     ///
     /// # Errors
-    /// As [`read`].
+    /// Those of [`read`], such as for a file that has grown beyond the limit since it was opened.
     pub fn read_more(&mut self, into: &mut Vec<u8>, most_bytes: u64) -> Result<usize, InputError> {
         let more = (&mut self.file).take(most_bytes).read_to_end(into);
         let more = more.map_err(|error| failed(&self.path, &error))?;

@@ -50,7 +50,10 @@ pub(crate) struct Part {
     pub polygons: Polygons,
 }
 
-/// A number that is not there.
+/// Fewer records than this are read by one thread, because handing them to another one would take longer.
+pub(crate) const SHARE: usize = 1 << 14;
+
+/// Stands in a list of numbers for a corner that has none.
 pub(crate) const NONE: u32 = u32::MAX;
 
 /// Which vector of a list each corner of a part has.
@@ -157,7 +160,7 @@ impl Polygons {
         self.ends.is_empty()
     }
 
-    /// The corners of a polygon.
+    /// The places of a polygon's corners in the list of all corners.
     #[inline]
     pub(crate) fn corners(&self, number: usize) -> Range<usize> {
         if self.ends.is_empty() {

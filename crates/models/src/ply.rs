@@ -10,7 +10,7 @@ use rasterproof_host::text::{printable_path, printable_short};
 use rasterproof_render::pipeline::highlight::Specular;
 use rayon::prelude::*;
 
-use crate::contents::{Contents, INCOMPLETE_FACE, NONE, Numbers, Part, Surface};
+use crate::contents::{Contents, INCOMPLETE_FACE, NONE, Numbers, Part, SHARE, Surface};
 use crate::textures::{Textures, opacity};
 use crate::{BadFile, Warnings, bad};
 
@@ -277,7 +277,7 @@ const VERTEX: [&[&str]; 12] = [
     &["alpha", "a", "diffuse_alpha"],
 ];
 
-/// The number of red in [`VERTEX`].
+/// Where the channels of the colour begin in [`VERTEX`].
 const FIRST_COLOUR: usize = 8;
 
 /// The number of the opacity in [`VERTEX`].
@@ -500,9 +500,6 @@ fn columns(
     body.at += whole * size;
     (whole as u64, transparent)
 }
-
-/// Records that are worth a task.
-const SHARE: usize = 1 << 14;
 
 /// The list of a face that names its vertices.
 fn is_corners(property: &Property) -> bool {

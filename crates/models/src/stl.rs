@@ -13,7 +13,7 @@ use hashbrown::HashTable;
 use rasterproof_host::text::printable_short;
 use rayon::prelude::*;
 
-use crate::contents::{Contents, Part, Polygons};
+use crate::contents::{Contents, Part, Polygons, SHARE};
 use crate::{BadFile, bad};
 
 const HEADER: usize = 84;
@@ -134,22 +134,19 @@ fn binary(bytes: &[u8], not_drawn: &mut BTreeMap<String, u64>) -> Part {
     merged(records, records.len(), rayon::current_num_threads()).part
 }
 
-/// Triangles that are worth a thread of their own.
-const SHARE: usize = 1 << 14;
-
-/// Records with their positions merged, by so many threads; memory for `room` triangles is reserved. The numbers are those that one
-/// thread would give.
-fn merged(records: &[[u8; RECORD]], room: usize, threads: usize) -> Merged {
+/// Merges the equal positions of records with this number of threads, and reserves memory for `reserved` triangles. Positions get
+/// the same numbers as with one thread.
+fn merged(records: &[[u8; RECORD]], reserved: usize, threads: usize) -> Merged {
     if threads > 1 && records.len() > SHARE {
         let (first, second) = records.split_at(records.len() / 2);
         let (mut first, second) = rayon::join(
-            || merged(first, room, threads / 2),
+            || merged(first, reserved, threads / 2),
             || merged(second, second.len(), threads - threads / 2),
         );
         first.append(second.part);
         return first;
     }
-    let mut merged = Merged::new(String::new(), room);
+    let mut merged = Merged::new(String::new(), reserved);
     for record in records {
         let number_at = |at: usize| {
             let at = 12 + 4 * at;

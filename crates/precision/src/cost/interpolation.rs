@@ -98,7 +98,7 @@ fn exact(triangle: &Valued) -> Option<ExactTriangle<1>> {
 
 /// A triangle and the rows it covers.
 struct Drawn {
-    /// Which triangle of the scene.
+    /// Its place in the list of the scene's triangles.
     number: usize,
     triangle: Valued,
     spans: Vec<Span>,

@@ -237,7 +237,7 @@ pub fn measure_on(
     }
 }
 
-/// Whoever is told of progress, and what happens to the passes.
+/// The function that shows progress, and what happens to the passes.
 type Told<'a> = (&'a dyn Fn(f64, &str), Afterwards<'a>);
 
 /// A cell before it is timed: a closure that does all of the work once.

@@ -1,4 +1,4 @@
-//! Which of several passes is the fastest, as far as that can be told: they run in interleaved rounds until the question
+//! Which of several passes is the fastest, as far as it can be decided: they run in interleaved rounds until the question
 //! is decided, and a pass that is shown to be slower leaves.
 //!
 //! What is compared are the times of two passes in the same round, so that a change of the clock rate meets both. The
@@ -28,19 +28,18 @@ pub enum Finish {
     Fastest,
     /// The ratio of the medians is shown to be at most [`EQUAL`], either way.
     Equal,
-    /// It is shown to be slower.
     Slower,
     /// Not enough rounds fitted into the budget.
     Undecided,
 }
 
-/// The end of a race.
+/// What a race found out about its passes.
 #[derive(Clone, Debug)]
 pub struct Race {
-    /// By pass.
+    /// One entry for each pass, in the order in which they were given; the times too.
     pub finishes: Vec<Finish>,
     pub times: Vec<Spread>,
-    /// Rounds that the fastest one ran.
+    /// The rounds in which the fastest pass ran.
     pub rounds: usize,
 }
 
@@ -73,9 +72,8 @@ fn compare(times: &[f64], fastest: &[f64], error: f64) -> Finish {
     }
 }
 
-/// Runs passes against each other until it is decided which is the fastest, or the budget is used up; three times the
-/// budget, if that is needed for the first look. With
-/// `keeps_all` none leaves, and all rounds are run.
+/// Runs passes against each other until it is decided which is the fastest, or the budget is used up. The first comparison may
+/// take three times the budget. With `keeps_all` no pass leaves, and all rounds are run.
 pub fn race(passes: &mut [&mut Pass<'_>], budget: Duration, keeps_all: bool) -> Race {
     let start = Instant::now();
     let repeats: Vec<u32> = passes.iter_mut().map(|pass| repeats(pass, SLICE)).collect();

@@ -87,18 +87,7 @@ fn shadows(scene: Scene, turn: f64) -> Scene {
         let sphere = Item::new(shapes::sphere(place, radius, 28, 14), material);
         items.push(Item { cull: Cull::Clockwise, ..sphere });
     }
-    let (colours, alpha) = leaf();
-    let opacity = Opacity {
-        factor: 1.0,
-        map: Some(Arc::new(OpacityMap::new(alpha))),
-        mode: AlphaMode::Test { threshold: 0.5 },
-    };
-    let leaf = Material {
-        texture: Some(Arc::new(colours)),
-        opacity: Some(opacity),
-        shading: Shading::Phong,
-        ..Material::default()
-    };
+    let leaf = leaf();
     let place = DVec3::new(0.9, 0.35, 5.0);
     let leaf = Item::new(board(place, 1.4, 6), leaf);
     items.push(turned(leaf, place, turn_y(turn * TAU) * turn_x(0.9)));
@@ -194,8 +183,8 @@ fn patches([columns, rows]: [u32; 2], position: impl Fn(f64, f64) -> DVec3) -> M
     mesh
 }
 
-/// A pointed leaf that lies across a square of 128 texels: its colours and its opacities.
-fn leaf() -> (Texture, Texture) {
+/// A pointed leaf that lies across a square of 128 texels, cut out by an alpha test.
+fn leaf() -> Material {
     let place = |column: u32, row: u32| [column, row].map(|at| (f64::from(at) - 63.5) / 64.0);
     let reach =
         |x: f64| 0.72 * (1.0 - x * x) * (0.86 + 0.14 * f64::from(((x + 1.0) * 8.0) as u32 % 2));
@@ -211,7 +200,17 @@ fn leaf() -> (Texture, Texture) {
     });
     let alpha = Texture::grey(128, 128, alpha.collect()).expect("128 x 128 texels");
     let [colours, alpha] = [colours, alpha].map(|t| t.with(Filter::Bilinear, Wrap::Clamp));
-    (colours, alpha)
+    let opacity = Opacity {
+        factor: 1.0,
+        map: Some(Arc::new(OpacityMap::new(alpha))),
+        mode: AlphaMode::Test { threshold: 0.5 },
+    };
+    Material {
+        texture: Some(Arc::new(colours)),
+        opacity: Some(opacity),
+        shading: Shading::Phong,
+        ..Material::default()
+    }
 }
 
 fn cut_outs(scene: Scene, turn: f64) -> Scene {
@@ -220,18 +219,7 @@ fn cut_outs(scene: Scene, turn: f64) -> Scene {
     let boards = Arc::new(textures::boards().with(Filter::Bilinear, Wrap::Clamp));
     let boards = Material { texture: Some(boards), shading: Shading::Phong, ..Material::default() };
     let mut items = vec![Item::new(wall, boards)];
-    let (colours, alpha) = leaf();
-    let opacity = Opacity {
-        factor: 1.0,
-        map: Some(Arc::new(OpacityMap::new(alpha))),
-        mode: AlphaMode::Test { threshold: 0.5 },
-    };
-    let leaf = Material {
-        texture: Some(Arc::new(colours)),
-        opacity: Some(opacity),
-        shading: Shading::Phong,
-        ..Material::default()
-    };
+    let leaf = leaf();
     for number in 0..15 {
         let (column, row) = (f64::from(number % 5), f64::from(number / 5));
         let centre = DVec3::new(

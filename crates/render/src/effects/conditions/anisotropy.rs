@@ -5,13 +5,13 @@
 //! ([`Footprint::is_round`]): its texture is read once, at the point itself and at the level of the longer axis, as
 //! without the effect.
 //!
-//! [`Footprint::is_round`]: crate::pipeline::footprint::Footprint::is_round
 
-use super::mip_maps::{footprint, is_near};
+use super::mip_maps::pays_unless;
 use super::survey::Survey;
 use crate::effects::plan::{Attributes, Decision};
 use crate::effects::primitive::{Piece, Prepared};
 use crate::effects::{Effect, Effects, Mode};
+use crate::pipeline::footprint::Footprint;
 use crate::scene::Item;
 
 /// What an item asks for; without texture coordinates nothing.
@@ -30,14 +30,7 @@ fn is_asked_for(item: &Item) -> bool {
 
 #[inline]
 pub fn pays(mode: Mode, item: &Prepared<'_>, piece: &Piece, perspective: bool) -> bool {
-    match (mode, item.texture) {
-        (Mode::Planned | Mode::Material, Some(texture)) => {
-            let (footprint, inv_w, uv) = footprint(texture, piece, perspective);
-            !(is_near(item, piece) && footprint.is_round(inv_w, uv))
-        }
-        (Mode::Always, _) => true,
-        _ => false,
-    }
+    pays_unless(mode, item, piece, perspective, Footprint::is_round)
 }
 
 /// Nothing of a texture that is read once, unless the user switches the effect on or off everywhere.

@@ -21,7 +21,7 @@ fn is_asked_for(scene: &Scene, item: &Item) -> bool {
     scene.layers.is_some() && is_blended(item)
 }
 
-/// What an item asks for.
+/// When an item pays for layers: never where the scene asks for none or the item does not blend.
 pub fn mode(scene: &Scene, item: &Item, effects: &Effects) -> Mode {
     match effects.mode(Effect::Layers) {
         _ if !is_asked_for(scene, item) => Mode::Never,

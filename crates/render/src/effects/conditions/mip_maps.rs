@@ -58,10 +58,22 @@ pub fn is_near(item: &Prepared<'_>, piece: &Piece) -> bool {
 
 #[inline]
 pub fn pays(mode: Mode, item: &Prepared<'_>, piece: &Piece, perspective: bool) -> bool {
+    pays_unless(mode, item, piece, perspective, Footprint::is_magnified)
+}
+
+/// Whether a piece pays for an effect that is left out where its footprints are of a certain kind.
+#[inline]
+pub fn pays_unless(
+    mode: Mode,
+    item: &Prepared<'_>,
+    piece: &Piece,
+    perspective: bool,
+    is_certain: fn(&Footprint, [f64; 3], [DVec2; 3]) -> bool,
+) -> bool {
     match (mode, item.texture) {
         (Mode::Planned | Mode::Material, Some(texture)) => {
             let (footprint, inv_w, uv) = footprint(texture, piece, perspective);
-            !(is_near(item, piece) && footprint.is_magnified(inv_w, uv))
+            !(is_near(item, piece) && is_certain(&footprint, inv_w, uv))
         }
         (Mode::Always, _) => true,
         _ => false,
