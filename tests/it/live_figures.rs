@@ -452,7 +452,8 @@ fn links_lead_to_the_same(browser: &mut Browser, links: &[(&'static Figure, Valu
         browser.eval(&format!("(clearTimeout(keeping), location.hash = '{address}&lang=en', 0)"));
     };
     go(browser, "#scene=figure&figure=edge-sign");
-    browser.wait_for("state.at === '[[1.5,5.5],[7.5,1.5]]'");
+    // The panels are drawn in the frame after the state is taken.
+    browser.wait_for("state.at === '[[1.5,5.5],[7.5,1.5]]' && shown.length > 0");
     browser.eval("(shown[0].canvas.focus(), 0)");
     browser.press("]");
     browser.press("ArrowLeft");
