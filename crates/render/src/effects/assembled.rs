@@ -2,15 +2,10 @@
 
 use std::sync::Arc;
 
-use super::conditions::{
-    alpha_test, anisotropy, blending, fog, interpolation, layers, mip_maps, perspective, shadows,
-    specular,
-};
-use super::plan::{Attributes, ItemPlan, Order, PiecePlan, Plan, Rule};
+use super::conditions::blending;
+use super::plan::{Attributes, ItemPlan, Order, PiecePlan, Plan};
 use super::primitive::{BadScene, Piece, Prepared};
 use crate::pipeline::Counters;
-use crate::pipeline::fog::Share;
-use crate::pipeline::opacity::Drawn;
 use crate::pipeline::shadow::LightView;
 use crate::scene::Scene;
 use rasterproof_core::arrays::MapArray as _;
@@ -22,6 +17,7 @@ pub(super) struct Assembled<'a> {
     pub order: Vec<usize>,
     /// With the items they are of.
     pub pieces: Option<Vec<(usize, Piece)>>,
+    /// The plan of each piece, in the same order.
     pub plans: Vec<PiecePlan>,
     pub counters: Counters,
 }
@@ -58,8 +54,14 @@ impl<'a> Assembled<'a> {
         self.pieces = Some(pieces);
     }
 
-    /// Puts the pieces into an order; equal distances keep the order of submission.
-    pub fn sort(&mut self, order: Order) {
+    /// The pieces where they are looked at, else none.
+    pub fn pieces(&self) -> &[(usize, Piece)] {
+        self.pieces.as_deref().unwrap_or_default()
+    }
+
+    /// Keeps the plans of the pieces, and puts both into an order; equal distances keep the order of submission.
+    pub fn plan(&mut self, plans: Vec<PiecePlan>, order: Order) {
+        self.plans = plans;
         let (Order::FarthestFirst, Some(pieces)) = (order, &mut self.pieces) else { return };
         let distance = |piece: &Piece| piece.vertices.map_array(|v| v.depth).iter().sum::<f64>();
         let mut sorted: Vec<_> = pieces.iter().copied().zip(self.plans.iter().copied()).collect();
@@ -84,45 +86,4 @@ fn drawing_order(scene: &Scene) -> Vec<usize> {
     blended.sort_by(|(a, _), (b, _)| b.total_cmp(a));
     order.extend(blended.into_iter().map(|(_, index)| index));
     order
-}
-
-/// What a rule says about a piece.
-#[inline]
-pub(super) fn plan_of(rule: &Rule, scene: &Scene, item: &Prepared<'_>, piece: &Piece) -> PiecePlan {
-    let alpha_test = alpha_test::drawn(rule.alpha_test, item, piece);
-    let blending = alpha_test::drawn(rule.blending, item, piece);
-    let is_mixed = alpha_test == Drawn::Mixed || blending == Drawn::Mixed;
-    let mut fog = fog::share(rule.fog, item, piece);
-    // Whoever has everything interpolated has what the fog hides interpolated too.
-    // Opacities need texture coordinates in the fog too.
-    let is_hidden = fog == Share::Whole && rule.where_it_varies && !is_mixed;
-    if fog == Share::Whole && !is_hidden {
-        fog = Share::Mixed;
-    }
-    let specular = !is_hidden && specular::pays(rule.specular, item, piece);
-    let shadows = !is_hidden && shadows::pays(rule.shadows, scene, item, piece, specular);
-    let mut interpolates =
-        if is_hidden { Attributes::NONE } else { interpolation::of(rule, piece) };
-    if !shadows {
-        interpolates = interpolates.without(Attributes(Attributes::PLACE));
-    }
-    let perspective = perspective::pays(rule.perspective, piece, interpolates);
-    let has_uv = interpolates.has(Attributes::UV);
-    let mip_maps = has_uv && mip_maps::pays(rule.mip_maps, item, piece, perspective);
-    let anisotropy = has_uv && anisotropy::pays(rule.anisotropy, item, piece, perspective);
-    let depth = rule.depth;
-    let layers = layers::pays(rule.layers, depth, blending);
-    PiecePlan {
-        interpolates,
-        perspective,
-        depth,
-        specular,
-        shadows,
-        mip_maps,
-        anisotropy,
-        fog,
-        alpha_test,
-        blending,
-        layers,
-    }
 }

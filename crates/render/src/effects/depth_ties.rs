@@ -5,12 +5,13 @@
 //! a competitor would show is asked of a rasterizer, with the stages that its frames have.
 
 use super::assembled::Assembled;
+use super::conditions::{self, EVERY_FRAGMENT};
 use super::kernel::Kernel;
 use super::plan::Canvas;
+use super::planner;
 use super::primitive::{BadScene, Piece, Prepared, pack, touched};
 use super::samples::depths::DepthPlane;
 use super::samples::pattern::{Pattern, scaled};
-use super::{Effect, Effects, Mode, planner};
 use glam::DVec2;
 
 use crate::pipeline::Counters;
@@ -62,8 +63,7 @@ impl<'a> Rivals<'a> {
     /// [`BadScene`].
     pub fn new(scene: &'a Scene, target: &Target) -> Result<Self, BadScene> {
         let canvas = Canvas::of(target);
-        let effects = Effects::USUAL.with(Effect::Interpolation, Mode::Always);
-        let (plan, _) = planner::plan(scene, &canvas, &effects, &|_| None)?;
+        let (plan, _) = planner::plan(scene, &canvas, &EVERY_FRAGMENT, &|_| None)?;
         let mut assembled = Assembled::new(scene, &plan)?;
         if scene.hidden == Hidden::DepthBuffer {
             assembled.assemble(scene);
@@ -185,7 +185,7 @@ impl<'a> Rivals<'a> {
         };
         let Some(moved) = moved else { return };
         let perspective = !self.scene.affine;
-        let plan = item.all_of_a_fragment(perspective);
+        let plan = conditions::of_every_fragment(self.scene, item.item);
         let map = item.light_view.as_ref().map(|view| view.map(self.scene, engine));
         let kernel = Kernel::new(item, piece, plan, map, &mut Counters::default());
         let emit = |f: rasterproof_core::triangle::Fragment<_>| {
@@ -298,7 +298,7 @@ impl<'a> Rivals<'a> {
         };
         let Some(moved) = moved else { return };
         let perspective = !self.scene.affine;
-        let plan = item.all_of_a_fragment(perspective);
+        let plan = conditions::of_every_fragment(self.scene, item.item);
         if plan.mip_maps || plan.anisotropy {
             // Between levels any colour may be read.
             return;

@@ -4,17 +4,16 @@ use std::fmt;
 use std::num::NonZeroU32;
 
 use super::Effect;
-use super::assembled::{Assembled, plan_of};
+use super::assembled::Assembled;
+use super::conditions::{self, Facts};
 use super::kernel::Kernel;
 use super::plan::{
-    Attributes, Canvas, Clear, ItemPlan, Order, PiecePlan, Pieces, Plan, Samples, SceneDigest,
-    VERSION,
+    Attributes, Canvas, Clear, ItemPlan, Order, PiecePlan, Pieces, Plan, Rule, Samples,
+    SceneDigest, VERSION,
 };
 use super::primitive::{BadScene, Piece, Prepared};
 use super::samples::OnDemand;
 use crate::pipeline::Counters;
-use crate::pipeline::fog::Share;
-use crate::pipeline::opacity::Drawn;
 use crate::pipeline::target::{Colour, Target};
 use crate::scene::Scene;
 use rasterproof_core::contract::Interpolate;
@@ -192,8 +191,8 @@ pub(super) fn fit<'a>(
     let lists = |item: &ItemPlan| matches!(item.pieces, Pieces::Listed(_));
     if plan.items.iter().any(lists) || plan.frame.order == Order::FarthestFirst {
         assembled.assemble(scene);
-        assembled.plans = plans(plan, scene, &assembled)?;
-        assembled.sort(plan.frame.order);
+        let plans = plans(plan, scene, &assembled)?;
+        assembled.plan(plans, plan.frame.order);
     }
     Ok(assembled)
 }
@@ -204,14 +203,14 @@ fn plans(
     scene: &Scene,
     assembled: &Assembled<'_>,
 ) -> Result<Vec<PiecePlan>, PlanError> {
-    let (items, pieces) = (&assembled.items, assembled.pieces.as_deref().unwrap_or_default());
+    let (items, pieces) = (&assembled.items, assembled.pieces());
     let mut plans = Vec::with_capacity(pieces.len());
     for &item in &assembled.order {
         let planned = &plan.items[item].pieces;
         let own = pieces.iter().filter(|(index, _)| *index == item);
         match planned {
             Pieces::AsTheyCome(rule) => {
-                plans.extend(own.map(|(_, piece)| plan_of(rule, scene, &items[item], piece)));
+                plans.extend(own.map(|(_, piece)| as_it_comes(rule, scene, &items[item], piece)));
             }
             Pieces::Listed(runs) => {
                 let there = own.count() as u64;
@@ -227,6 +226,12 @@ fn plans(
         }
     }
     Ok(plans)
+}
+
+/// What a rule says of a piece by the same conditions as a planner.
+#[inline]
+fn as_it_comes(rule: &Rule, scene: &Scene, item: &Prepared<'_>, piece: &Piece) -> PiecePlan {
+    conditions::plan(rule, &Facts::of(rule, scene, item, piece))
 }
 
 /// Draws what was assembled for a plan.
@@ -246,12 +251,12 @@ pub(super) fn draw(
         target
     };
     let counters = assembled.counters;
-    let stage = Stage { plan, scene, engine, target, counters, on_demand: None, observer };
-    stage.draw_all(&assembled)
+    let drawing = Drawing { plan, scene, engine, target, counters, on_demand: None, observer };
+    drawing.draw_all(&assembled)
 }
 
 /// A frame being drawn.
-struct Stage<'a, 'b, E> {
+struct Drawing<'a, 'b, E> {
     plan: Plan,
     scene: &'a Scene,
     engine: &'a E,
@@ -261,7 +266,7 @@ struct Stage<'a, 'b, E> {
     observer: Observer<'b>,
 }
 
-impl<E: Interpolate> Stage<'_, '_, E> {
+impl<E: Interpolate> Drawing<'_, '_, E> {
     fn draw_all(mut self, assembled: &Assembled<'_>) -> Rendered {
         self.begin();
         if let Some(pieces) = &assembled.pieces {
@@ -280,7 +285,7 @@ impl<E: Interpolate> Stage<'_, '_, E> {
             let Pieces::AsTheyCome(rule) = self.plan.items[index].pieces else { continue };
             let mut counters = std::mem::take(&mut self.counters);
             item.assemble(scene, &mut counters, &mut |piece, fills| {
-                self.draw(item, piece, plan_of(&rule, scene, item, piece), fills);
+                self.draw(item, piece, as_it_comes(&rule, scene, item, piece), fills);
             });
             self.counters += counters;
             self.look();
@@ -349,7 +354,7 @@ impl<E: Interpolate> Stage<'_, '_, E> {
         }
         counters.wide += u64::from(self.engine.word_bits(&piece.corners()) > Some(i32::BITS));
         if let Observer::Map(map) = &mut self.observer {
-            let paid = paid(plan);
+            let paid = plan.paid();
             let scale = self.target.antialias().scale() as i32;
             self.engine.cover(piece.corners(), self.target.bounds(), |span| {
                 for x_px in span.x0_px..span.x1_px {
@@ -422,42 +427,6 @@ impl PaidMap {
         let work = effects & !(1 << Effect::Interpolation as u32);
         self.payments.span_mut(y_px, x_px, x_px + 1)[0] += 1 + work.count_ones();
     }
-}
-
-/// What a fragment of a piece pays for, as bits of [`Effect`].
-fn paid(plan: PiecePlan) -> u32 {
-    let PiecePlan {
-        interpolates,
-        perspective,
-        depth,
-        specular,
-        shadows,
-        mip_maps,
-        anisotropy,
-        fog,
-        alpha_test,
-        blending,
-        layers,
-    } = plan;
-    [
-        (Effect::Perspective, perspective && !interpolates.is_empty()),
-        (Effect::Depth, depth),
-        (Effect::Colour, interpolates.has(Attributes::COLOUR)),
-        (Effect::Light, interpolates.has(Attributes::NORMAL)),
-        (Effect::Specular, specular),
-        (Effect::Shadows, shadows),
-        (Effect::Texture, interpolates.has(Attributes::UV)),
-        (Effect::MipMaps, mip_maps),
-        (Effect::Anisotropy, anisotropy),
-        (Effect::Fog, fog == Share::Mixed),
-        (Effect::AlphaTest, alpha_test == Drawn::Mixed),
-        (Effect::Blending, blending == Drawn::Mixed),
-        (Effect::Layers, layers),
-        (Effect::Interpolation, !interpolates.is_empty()),
-    ]
-    .into_iter()
-    .filter(|(_, pays)| *pays)
-    .fold(0, |bits, (effect, _)| bits | 1 << effect as u32)
 }
 
 /// The picture so far.

@@ -10,14 +10,13 @@ use std::ops::Range;
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
-use super::conditions::attributes;
-use super::plan::{Attributes, ItemPlan, PiecePlan, Pieces};
+use super::conditions;
+use super::plan::{Attributes, ItemPlan, Pieces};
 use super::primitive::{BadScene, Prepared, without_place};
 use super::{Effects, Mode};
 use crate::pipeline::clip::Outcode;
-use crate::pipeline::fog::{Share, Veil};
+use crate::pipeline::fog::Veil;
 use crate::pipeline::highlight::Highlight;
-use crate::pipeline::opacity::Drawn;
 use crate::pipeline::shade::{ALL, Light};
 use crate::pipeline::texture::Texture;
 use crate::scene::{Corner, Hidden, Scene};
@@ -242,26 +241,9 @@ impl<'a> Item<'a> {
         window: PixelRect,
     ) -> Result<Self, BadScene> {
         let item = &scene.items[index];
-        let carries = attributes::carries(scene, item, &Effects::PLANNED);
-        let of_pieces = PiecePlan {
-            interpolates: carries,
-            perspective: true,
-            depth: true,
-            specular: true,
-            shadows: false,
-            mip_maps: true,
-            anisotropy: true,
-            fog: Share::Mixed,
-            alpha_test: Drawn::All,
-            blending: Drawn::All,
-            layers: false,
-        };
-        let plan = ItemPlan {
-            clip: Mode::Planned,
-            cull: Mode::Planned,
-            carries,
-            pieces: Pieces::Listed(vec![(0, of_pieces)]),
-        };
+        let (carries, rule) = conditions::rule(scene, item, &Effects::PLANNED);
+        let (clip, cull) = (Mode::Planned, Mode::Planned);
+        let plan = ItemPlan { clip, cull, carries, pieces: Pieces::AsTheyCome(rule) };
         let prepared = Prepared::without_points(scene, index, &plan, window);
         let positions = item.mesh.positions.par_iter().with_min_len(SHARE);
         let vertices: Vec<Vertex> = positions.map(|&p| vertex(&prepared, p)).collect();
@@ -273,7 +255,7 @@ impl<'a> Item<'a> {
             colours: carries.has(Attributes::COLOUR),
             light: carries.has(Attributes::NORMAL).then(|| directional_light(&prepared.light)),
             texture: prepared.texture,
-            highlight: prepared.carries_highlights.then_some(prepared.highlight),
+            highlight: (rule.specular != Mode::Never).then_some(prepared.highlight),
             veil: scene.fog.map(|_| prepared.veil),
         };
         Ok(Self { material, prepared, vertices, first })

@@ -80,12 +80,12 @@ impl<'a> Kernel<'a> {
             highlight: None,
             shine: [0; 3],
             fogged: None,
-            opacity: item.item.material.opacity.as_ref().filter(|_| !plan.is_opaque()),
+            opacity: item.item.material.opacity.as_ref().filter(|_| !plan.replaces_all()),
             reading: None,
             taps: Cell::new(0),
             veil: (plan.fog != Share::None).then_some(&item.veil),
         };
-        if plan.fog == Share::Whole && plan.is_one_colour() && plan.is_opaque() {
+        if plan.fog == Share::Whole && plan.is_one_colour() && kernel.opacity.is_none() {
             kernel.veil = None;
             kernel.fogged = Some(item.veil.colour());
             return kernel;
@@ -144,9 +144,12 @@ impl<'a> Kernel<'a> {
             return;
         }
         let is_partly_lit = self.receiver.is_some() || self.lit != TAPS;
+        if self.plan.is_one_colour() {
+            self.draw_flat(engine, piece, target, samples, counters);
+            return;
+        }
         match self.plan.interpolates.0 {
             1.. if is_partly_lit => self.draw_all(engine, piece, target, samples, counters),
-            0 if self.veil.is_none() => self.draw_flat(engine, piece, target, samples, counters),
             0 => self.draw_as::<0, 0>(engine, piece, target, samples, counters),
             1 => self.draw_as::<3, 1>(engine, piece, target, samples, counters),
             2 => self.draw_as::<3, 2>(engine, piece, target, samples, counters),

@@ -1,12 +1,14 @@
 //! Effects on demand: what a scene calls for is paid, the rest is switched off, and the picture stays
 //! the same to the bit.
 //!
+//! A scene becomes a picture in three steps. `survey` looks at its triangles and finds the facts of each piece, once.
+//! `planner` asks the conditions, which read only these facts, and makes a [`plan::Plan`], which is data. `execute` draws by
+//! it, with kernels without what is left out.
+//!
 //! For each [`Effect`] there is a condition that is sufficient to leave it out, known per frame, per
-//! item or per triangle (`conditions` has one file for each). [`render::plan`] asks them and returns
-//! a [`plan::Plan`], which is data; [`render::execute`] draws by it, with kernels without what is
-//! left out. A condition that is merely likely does not count: planned and everything-on pictures are compared bit for
-//! bit in the tests, and for every condition a scene that violates it by the least amount changes
-//! a pixel when the effect is left out nevertheless.
+//! item or per triangle (`conditions` has one file for each). A condition that is merely likely does not count:
+//! planned and everything-on pictures are compared bit for bit in the tests, and for every condition a scene that
+//! violates it by the least amount changes a pixel when the effect is left out nevertheless.
 //!
 //! Leaving out the back faces of a closed mesh is *not* inferred: where front and back meet at the
 //! silhouette their depths may tie, so it can change a pixel. Culling stays something to ask for.
@@ -24,6 +26,7 @@ pub mod primitive;
 pub mod render;
 mod samples;
 mod scene_digest;
+mod survey;
 mod table;
 
 use std::fmt;
@@ -45,6 +48,24 @@ pub enum Mode {
     Always,
     /// Nowhere. Changes the picture wherever it is called for.
     Never,
+}
+
+impl Mode {
+    /// Whether an effect is paid for where `called_for` says so.
+    #[must_use]
+    pub fn pays(self, called_for: bool) -> bool {
+        match self {
+            Self::Planned | Self::Material => called_for,
+            Self::Always => true,
+            Self::Never => false,
+        }
+    }
+
+    /// Whether it depends on what is drawn.
+    #[must_use]
+    pub fn is_open(self) -> bool {
+        matches!(self, Self::Planned | Self::Material)
+    }
 }
 
 /// A mode for each effect.
@@ -78,11 +99,7 @@ impl Effects {
     /// Whether an effect is paid for where `called_for` says so.
     #[must_use]
     pub fn pays(&self, effect: Effect, called_for: bool) -> bool {
-        match self.mode(effect) {
-            Mode::Planned | Mode::Material => called_for,
-            Mode::Always => true,
-            Mode::Never => false,
-        }
+        self.mode(effect).pays(called_for)
     }
 }
 

@@ -125,6 +125,8 @@ impl Attributes {
     /// No attribute.
     pub const NONE: Self = Self(0);
 
+    pub(super) const EVERY: Self = Self(15);
+
     pub(super) fn has(self, bit: u8) -> bool {
         self.0 & bit != 0
     }
@@ -169,16 +171,8 @@ impl From<Attributes> for Vec<Attribute> {
     }
 }
 
-fn is_false(word: &bool) -> bool {
-    !word
-}
-
-fn is_none(share: &Share) -> bool {
-    *share == Share::None
-}
-
-fn is_all(drawn: &Drawn) -> bool {
-    *drawn == Drawn::All
+fn is_default<T: Default + PartialEq>(word: &T) -> bool {
+    *word == T::default()
 }
 
 fn never() -> Mode {
@@ -189,47 +183,105 @@ fn is_never(mode: &Mode) -> bool {
     *mode == Mode::Never
 }
 
-/// What each fragment of a piece pays for. Words of effects beyond the book's are missing where they are not
-/// called for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct PiecePlan {
-    /// Attributes that are interpolated; the others have the first corner's value.
-    pub interpolates: Attributes,
-    /// Whether they are divided by 1/w.
-    pub perspective: bool,
-    /// Whether depths are compared and written.
-    pub depth: bool,
+macro_rules! plans {
+    ($($(#[$about:meta])* $field:ident: $kind:ty, $paid:expr => $effect:ident, $planned:literal;)+) => {
+        /// What each fragment of a piece pays for. Words of effects beyond the book's are missing where they are not
+        /// called for.
+        #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+        #[serde(deny_unknown_fields)]
+        pub struct PiecePlan {
+            /// Attributes that are interpolated; the others have the first corner's value.
+            pub interpolates: Attributes,
+            /// Whether they are divided by 1/w.
+            pub perspective: bool,
+            /// Whether depths are compared and written.
+            pub depth: bool,
+            $($(#[$about])*
+            #[serde(default, skip_serializing_if = "is_default")]
+            pub $field: $kind,)+
+        }
+
+        /// How a [`PiecePlan`] is made of a piece when it is there.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+        #[serde(deny_unknown_fields)]
+        pub struct Rule {
+            /// Attributes that may be interpolated.
+            pub interpolates: Attributes,
+            /// Those alone that differ between the corners.
+            pub where_it_varies: bool,
+            /// Planned: where something is interpolated and w differs between the corners.
+            pub perspective: Mode,
+            /// Whether depths are compared and written.
+            pub depth: bool,
+            $(#[doc = concat!("Planned: ", $planned)]
+            #[serde(default = "never", skip_serializing_if = "is_never")]
+            pub $field: Mode,)+
+        }
+
+        impl PiecePlan {
+            /// What a fragment pays for, as bits of [`Effect`] in the order of [`Effect::ALL`].
+            pub(super) fn paid(self) -> u32 {
+                let interpolates = self.interpolates;
+                let is_any = !interpolates.is_empty();
+                [
+                    (Effect::Perspective, self.perspective && is_any),
+                    (Effect::Depth, self.depth),
+                    (Effect::Colour, interpolates.has(Attributes::COLOUR)),
+                    (Effect::Light, interpolates.has(Attributes::NORMAL)),
+                    (Effect::Texture, interpolates.has(Attributes::UV)),
+                    (Effect::Interpolation, is_any),
+                    $((Effect::$effect, self.$field == $paid),)+
+                ]
+                .into_iter()
+                .fold(0, |bits, (effect, pays)| bits | u32::from(pays) << effect as u32)
+            }
+        }
+    };
+}
+
+// Each row: the field, what in it pays for which effect, and where a planned rule says so.
+plans! {
     /// Whether the material's highlight is computed and added.
-    #[serde(default, skip_serializing_if = "is_false")]
-    pub specular: bool,
+    specular: bool, true => Specular, "where a highlight may show between the normals of the corners.";
     /// Whether it is looked up which part of the light arrives.
-    #[serde(default, skip_serializing_if = "is_false")]
-    pub shadows: bool,
+    shadows: bool, true => Shadows, "where something may lie between a piece and the light.";
     /// Whether textures are read at a level of detail.
-    #[serde(default, skip_serializing_if = "is_false")]
-    pub mip_maps: bool,
+    mip_maps: bool, true => MipMaps, "where a texture is not known to be magnified everywhere.";
     /// Whether textures may be read several times along the longer axis of a footprint.
-    #[serde(default, skip_serializing_if = "is_false")]
-    pub anisotropy: bool,
+    anisotropy: bool, true => Anisotropy,
+        "where the axes of a footprint are not known to be about as long everywhere.";
     /// Whether its fragments are mixed with fog, or show nothing else.
-    #[serde(default, skip_serializing_if = "is_none")]
-    pub fog: Share,
+    fog: Share, Share::Mixed => Fog, "as much as there is between the depths of the corners.";
     /// Whether the opacity of its fragments is compared with a threshold, or is below it everywhere.
-    #[serde(default, skip_serializing_if = "is_all")]
-    pub alpha_test: Drawn,
+    alpha_test: Drawn, Drawn::Mixed => AlphaTest,
+        "where the opacities that a piece may read lie on both sides of the threshold.";
     /// Whether its fragments are mixed with what is behind them, or cover nothing of it.
-    #[serde(default, skip_serializing_if = "is_all")]
-    pub blending: Drawn,
+    blending: Drawn, Drawn::Mixed => Blending,
+        "where a piece may read an opacity that is neither 0 nor 255.";
     /// Whether fragments that are mixed are kept, and mixed in the order of their depths when all is drawn.
-    #[serde(default, skip_serializing_if = "is_false")]
-    pub layers: bool,
+    layers: bool, true => Layers,
+        "where fragments are mixed and their depths tested, whatever else is there.";
 }
 
 impl PiecePlan {
-    /// Whether every fragment is opaque: what it covers hides what was there.
+    /// Whether all its fragments have one colour. They may have opacities of their own all the same.
+    pub(super) fn is_one_colour(self) -> bool {
+        self.interpolates.is_empty() && self.fog != Share::Mixed
+    }
+
+    /// Whether nothing is seen through a fragment that it draws.
     pub(super) fn is_opaque(self) -> bool {
-        self.alpha_test == Drawn::All && self.blending == Drawn::All
+        self.blending == Drawn::All
+    }
+
+    /// Whether it draws every fragment that it covers and that no nearer one hides: none is left out as too little opaque.
+    pub(super) fn writes_all(self) -> bool {
+        self.alpha_test == Drawn::All
+    }
+
+    /// Whether what was there is gone wherever its fragments are not hidden.
+    pub(super) fn replaces_all(self) -> bool {
+        self.is_opaque() && self.writes_all()
     }
 
     /// Whether there is nothing to draw.
@@ -241,49 +293,6 @@ impl PiecePlan {
     pub(super) fn reads_around(self) -> bool {
         self.mip_maps || self.anisotropy
     }
-
-    /// Whether all fragments of the piece have one colour.
-    pub(super) fn is_one_colour(self) -> bool {
-        self.interpolates.is_empty() && self.fog != Share::Mixed
-    }
-}
-
-/// How a [`PiecePlan`] is made of a piece when it is there.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Rule {
-    /// Attributes that may be interpolated.
-    pub interpolates: Attributes,
-    /// Those alone that differ between the corners.
-    pub where_it_varies: bool,
-    /// Planned: where something is interpolated and w differs between the corners.
-    pub perspective: Mode,
-    /// Whether depths are compared and written.
-    pub depth: bool,
-    /// Planned: where a highlight may show between the normals of the corners.
-    #[serde(default = "never", skip_serializing_if = "is_never")]
-    pub specular: Mode,
-    /// Planned: where something may lie between a piece and the light.
-    #[serde(default = "never", skip_serializing_if = "is_never")]
-    pub shadows: Mode,
-    /// Planned: where a texture is not known to be magnified everywhere.
-    #[serde(default = "never", skip_serializing_if = "is_never")]
-    pub mip_maps: Mode,
-    /// Planned: where the axes of a footprint are not known to be about as long everywhere.
-    #[serde(default = "never", skip_serializing_if = "is_never")]
-    pub anisotropy: Mode,
-    /// Planned: as much as there is between the depths of the corners.
-    #[serde(default = "never", skip_serializing_if = "is_never")]
-    pub fog: Mode,
-    /// Planned: where the opacities that a piece may read lie on both sides of the threshold.
-    #[serde(default = "never", skip_serializing_if = "is_never")]
-    pub alpha_test: Mode,
-    /// Planned: where a piece may read an opacity that is neither 0 nor 255.
-    #[serde(default = "never", skip_serializing_if = "is_never")]
-    pub blending: Mode,
-    /// Planned: where fragments are mixed and their depths tested, whatever else is there.
-    #[serde(default = "never", skip_serializing_if = "is_never")]
-    pub layers: Mode,
 }
 
 /// What the pieces of an item pay for.
@@ -370,7 +379,7 @@ impl Samples {
     pub(super) fn tells_apart(self, touched: PixelRect, plan: PiecePlan, planes: usize) -> bool {
         let Self::OnDemand { flat_px, varying_columns } = self else { return false };
         // Each sample has an opacity of its own.
-        if !plan.is_opaque() {
+        if !plan.replaces_all() {
             return !plan.is_nothing();
         }
         if plan.is_one_colour() {
@@ -510,25 +519,34 @@ mod tests {
         assert!(serde_json::from_str::<Attributes>(r#"["hue"]"#).is_err());
     }
 
+    /// One colour, opaque and written everywhere are three matters: each plan here has two of them.
+    #[test]
+    fn facts_of_a_plan_are_apart() {
+        let plain = PiecePlan::default();
+        let facts = |plan: PiecePlan| [plan.is_one_colour(), plan.is_opaque(), plan.writes_all()];
+        assert_eq!(facts(plain), [true; 3]);
+        let coloured = PiecePlan { interpolates: Attributes(Attributes::COLOUR), ..plain };
+        let foggy = PiecePlan { fog: Share::Mixed, ..plain };
+        for plan in [coloured, foggy] {
+            assert_eq!(facts(plan), [false, true, true]);
+            assert!(plan.replaces_all());
+        }
+        let glass = PiecePlan { blending: Drawn::Mixed, ..plain };
+        let holes = PiecePlan { alpha_test: Drawn::Mixed, ..plain };
+        assert_eq!([glass, holes].map(facts), [[true, false, true], [true, true, false]]);
+        assert_eq!([glass, holes].map(PiecePlan::replaces_all), [false; 2]);
+        assert!(!facts(PiecePlan { fog: Share::Whole, ..coloured })[0]);
+        assert!(facts(PiecePlan { fog: Share::Whole, ..plain })[0]);
+    }
+
     #[test]
     fn a_misspelt_word_of_a_plan_is_refused() {
-        let interpolates = Attributes(5);
-        let (perspective, depth, specular, fog) = (true, false, true, Share::None);
-        let (mip_maps, anisotropy) = (true, true);
-        let (alpha_test, blending) = (Drawn::Mixed, Drawn::Nothing);
-        let shadows = true;
         let plan = PiecePlan {
-            interpolates,
-            perspective,
-            depth,
-            specular,
-            shadows,
-            mip_maps,
-            anisotropy,
-            fog,
-            alpha_test,
-            blending,
-            layers: true,
+            interpolates: Attributes(5),
+            perspective: true,
+            specular: true,
+            alpha_test: Drawn::Mixed,
+            ..PiecePlan::default()
         };
         let text = serde_json::to_string(&plan).unwrap();
         assert_eq!(serde_json::from_str::<PiecePlan>(&text).unwrap(), plan);

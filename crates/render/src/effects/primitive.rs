@@ -6,11 +6,10 @@ use std::sync::{Arc, LazyLock};
 use glam::{DMat3, DMat4, DVec2, DVec3};
 
 use super::Mode;
-use super::plan::{Attributes, ItemPlan, PiecePlan};
+use super::plan::{Attributes, ItemPlan};
 use crate::pipeline::assemble::{Assembler, BadVertex, Point, check_vertex};
-use crate::pipeline::fog::{Share, Veil};
+use crate::pipeline::fog::Veil;
 use crate::pipeline::highlight::Highlight;
-use crate::pipeline::opacity::Drawn;
 use crate::pipeline::shade::{ALL, Attributes as Packed, Light, PLACED, Surface};
 use crate::pipeline::shadow::LightView;
 use crate::pipeline::target::Antialias;
@@ -57,8 +56,6 @@ pub(super) struct Prepared<'a> {
     pub veil: Veil,
     /// Nothing where no light is looked up.
     pub light_view: Option<Arc<LightView>>,
-    /// Whether a normal may have a highlight, and there is one.
-    pub carries_highlights: bool,
     index: usize,
     assembler: Assembler,
     /// From object to clip space.
@@ -85,23 +82,6 @@ pub(super) fn highlight(scene: &Scene, item: &Item) -> Highlight {
 }
 
 impl<'a> Prepared<'a> {
-    /// What a fragment pays for where nothing that this item may show is left out, as if it were opaque.
-    pub fn all_of_a_fragment(&self, perspective: bool) -> PiecePlan {
-        PiecePlan {
-            interpolates: self.carries,
-            perspective,
-            depth: true,
-            specular: self.carries_highlights,
-            shadows: self.light_view.is_some(),
-            mip_maps: self.texture.is_some_and(Texture::has_mip_map),
-            anisotropy: self.texture.is_some_and(|texture| texture.anisotropy > 1),
-            fog: Share::Mixed,
-            alpha_test: Drawn::All,
-            blending: Drawn::All,
-            layers: false,
-        }
-    }
-
     /// Transforms the positions of an item and checks them.
     pub fn new(
         scene: &'a Scene,
@@ -130,18 +110,15 @@ impl<'a> Prepared<'a> {
     ) -> Self {
         let item = &scene.items[index];
         let texture = item.material.texture.as_deref().unwrap_or(&WHITE);
-        let highlight = highlight(scene, item);
-        let has_normals = is_lit(scene, item) && plan.carries.has(Attributes::NORMAL);
         Self {
             item,
             points: Vec::new(),
             carries: plan.carries,
             texture: plan.carries.has(Attributes::UV).then_some(texture),
             light: if is_lit(scene, item) { scene.light } else { Light::NONE },
-            highlight,
+            highlight: highlight(scene, item),
             veil: Veil::new(scene.fog.as_ref(), &scene.projection),
             light_view: None,
-            carries_highlights: has_normals && !highlight.is_dark(),
             index,
             assembler: assembler(item, plan, window),
             matrix: scene.projection * scene.view * item.model,

@@ -3,11 +3,12 @@
 pub use super::execute::{PaidMap, PlanError, Rendered};
 pub use super::primitive::BadScene;
 
+use super::Effects;
+use super::conditions::{EVERY_FRAGMENT, of_every_fragment};
 use super::execute::{Observer, draw, fit};
 use super::kernel::Kernel;
 use super::plan::{Canvas, PiecePlan, Plan, SceneDigest};
 use super::planner;
-use super::{Effect, Effects, Mode};
 use crate::pipeline::Counters;
 use crate::pipeline::present::DoubleBuffer;
 use crate::pipeline::target::{Colour, Target};
@@ -77,7 +78,7 @@ pub fn render(
 }
 
 /// As [`render`], while somebody looks: `look` is shown what is on the screen after the clearing,
-/// after each item, and at the end. With [`Effect::SecondBuffer`] that is the front buffer, which
+/// after each item, and at the end. With [`SecondBuffer`](super::Effect::SecondBuffer) that is the front buffer, which
 /// changes when the frame is finished; without, the frame as it is drawn.
 ///
 /// # Errors
@@ -132,9 +133,8 @@ pub fn render_wireframe(
     drawer: &impl DrawLine,
     target: &mut Target,
 ) -> Result<Rendered, BadScene> {
-    let effects = Effects::USUAL.with(Effect::Interpolation, Mode::Always);
     let canvas = Canvas::of(target);
-    let (plan, assembled) = planner::plan(scene, &canvas, &effects, &|_| None)?;
+    let (plan, assembled) = planner::plan(scene, &canvas, &EVERY_FRAGMENT, &|_| None)?;
     // What the painter assembled to be sorted is assembled again.
     let vertices = assembled.counters.vertices;
     let mut counters = Counters { vertices, ..Counters::default() };
@@ -144,7 +144,7 @@ pub fn render_wireframe(
     for item in &assembled.items {
         item.assemble(scene, &mut counters, &mut |piece, fills| {
             // A line drawer draws no shadow map.
-            let plan = PiecePlan { shadows: false, ..item.all_of_a_fragment(!scene.affine) };
+            let plan = PiecePlan { shadows: false, ..of_every_fragment(scene, item.item) };
             let kernel = Kernel::new(item, piece, plan, None, fills);
             draw_edges(drawer, piece, bounds, |f| {
                 fills.fragments += 1;

@@ -5,7 +5,7 @@
 //!
 //! [`Opacity::between`]: crate::pipeline::opacity::Opacity::between
 
-use super::survey::Survey;
+use super::account::Account;
 use crate::effects::plan::Decision;
 use crate::effects::primitive::{Piece, Prepared};
 use crate::effects::{Effect, Effects, Mode};
@@ -28,30 +28,35 @@ pub fn mode(item: &Item, effects: &Effects) -> Mode {
     }
 }
 
-/// What is drawn of a piece by the opacities that it reads.
+/// What is drawn of a piece by the opacities that it may read.
+pub fn opacity(item: &Prepared<'_>, piece: &Piece) -> Drawn {
+    let uv = || piece.vertices.map_array(|vertex| Surface::from(vertex.varying).uv);
+    item.item.material.opacity.as_ref().map_or(Drawn::All, |opacity| opacity.between(uv()))
+}
+
+/// What a mode of the alpha test or of blending makes of it.
 #[inline]
-pub fn drawn(mode: Mode, item: &Prepared<'_>, piece: &Piece) -> Drawn {
-    match (mode, &item.item.material.opacity) {
-        (Mode::Never, _) | (_, None) => Drawn::All,
-        (Mode::Always, _) => Drawn::Mixed,
-        (_, Some(opacity)) => {
-            opacity.between(piece.vertices.map_array(|vertex| Surface::from(vertex.varying).uv))
-        }
+pub fn drawn(mode: Mode, opacity: Drawn) -> Drawn {
+    match mode {
+        Mode::Planned | Mode::Material => opacity,
+        Mode::Always => Drawn::Mixed,
+        Mode::Never => Drawn::All,
     }
 }
 
 /// Nothing of a material without a threshold.
-pub fn explain(survey: &Survey<'_>) -> Option<Decision> {
-    let Survey { item, pieces, tested: [mixed, nothing], .. } = *survey;
+pub fn explain(account: &Account<'_>) -> Option<Decision> {
+    let Account { item, pieces, nothing, .. } = *account;
+    let mixed = account.paid(Effect::AlphaTest);
     if !is_tested(item) {
         return None;
     }
-    if survey.effects.mode(Effect::AlphaTest) == Mode::Material {
-        return Some(survey.decide(Effect::AlphaTest, pieces, "the material is cut out"));
+    if account.effects.mode(Effect::AlphaTest) == Mode::Material {
+        return Some(account.decide(Effect::AlphaTest, pieces, "the material is cut out"));
     }
-    if !survey.is_listed {
+    if !account.is_listed {
         let reason = "where opacities lie on both sides of the threshold";
-        return Some(survey.leave_open(Effect::AlphaTest, reason));
+        return Some(account.leave_open(Effect::AlphaTest, reason));
     }
     let reason = match (mixed, nothing) {
         (0, 0) => "every piece is opaque",
@@ -60,5 +65,5 @@ pub fn explain(survey: &Survey<'_>) -> Option<Decision> {
         (_, 0) => "some pieces may have holes, the others are opaque",
         _ => "some pieces may have holes; those that have nothing else are left out",
     };
-    Some(survey.decide(Effect::AlphaTest, mixed, reason))
+    Some(account.decide(Effect::AlphaTest, mixed, reason))
 }

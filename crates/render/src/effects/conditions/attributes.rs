@@ -3,8 +3,8 @@
 //! Left out where the material does not use it: the factor left out is exactly 1, and the others
 //! keep their order.
 
+use super::account::Account;
 use super::shadows;
-use super::survey::Survey;
 use crate::effects::plan::{Attributes, Decision};
 use crate::effects::primitive::is_lit;
 use crate::effects::{Effect, Effects, Mode};
@@ -40,10 +40,10 @@ pub fn carries(scene: &Scene, item: &Item, effects: &Effects) -> Attributes {
 }
 
 /// Why an item does without.
-fn unused(survey: &Survey<'_>, effect: Effect) -> &'static str {
-    let is_gouraud = survey.item.material.shading == Shading::Gouraud;
+fn unused(account: &Account<'_>, effect: Effect) -> &'static str {
+    let is_gouraud = account.item.material.shading == Shading::Gouraud;
     match effect {
-        Effect::Light if survey.scene.light == Light::NONE => "the scene has no light",
+        Effect::Light if account.scene.light == Light::NONE => "the scene has no light",
         Effect::Light if is_gouraud => "Gouraud: the light is in the colours of the corners",
         Effect::Light => "the material is unlit",
         Effect::Texture => "the material has no texture",
@@ -51,16 +51,17 @@ fn unused(survey: &Survey<'_>, effect: Effect) -> &'static str {
     }
 }
 
-pub fn explain<'a>(survey: &'a Survey<'_>) -> impl Iterator<Item = Decision> + 'a {
-    let pieces = survey.pieces;
-    ALL.into_iter().zip(survey.interpolated).map(move |((effect, bit, what), varies)| {
-        let reason = match (uses(survey.scene, survey.item, effect), survey.is_listed, varies) {
-            (false, ..) => unused(survey, effect).to_owned(),
+pub fn explain<'a>(account: &'a Account<'_>) -> impl Iterator<Item = Decision> + 'a {
+    let pieces = account.pieces;
+    ALL.into_iter().map(move |(effect, bit, what)| {
+        let varies = account.paid(effect);
+        let reason = match (uses(account.scene, account.item, effect), account.is_listed, varies) {
+            (false, ..) => unused(account, effect).to_owned(),
             (true, false, _) => format!("{what}: interpolated where it varies"),
             (true, true, 0) => format!("{what}: one for each triangle"),
             (true, true, _) if varies == pieces => format!("{what}: varies in every piece"),
             (true, true, _) => format!("{what}: varies in some pieces"),
         };
-        survey.decide(effect, if survey.carries.has(bit) { pieces } else { 0 }, reason)
+        account.decide(effect, if account.carries.has(bit) { pieces } else { 0 }, reason)
     })
 }

@@ -6,7 +6,7 @@
 //!
 //! [`Opacity::between`]: crate::pipeline::opacity::Opacity::between
 
-use super::survey::Survey;
+use super::account::Account;
 use crate::effects::plan::Decision;
 use crate::effects::{Effect, Effects, Mode};
 use crate::pipeline::opacity::AlphaMode;
@@ -28,17 +28,18 @@ pub fn mode(item: &Item, effects: &Effects) -> Mode {
 }
 
 /// Nothing of a material that does not blend.
-pub fn explain(survey: &Survey<'_>) -> Option<Decision> {
-    let Survey { item, pieces, blended: [mixed, nothing], .. } = *survey;
+pub fn explain(account: &Account<'_>) -> Option<Decision> {
+    let Account { item, pieces, nothing, .. } = *account;
+    let mixed = account.paid(Effect::Blending);
     if !is_blended(item) {
         return None;
     }
-    if survey.effects.mode(Effect::Blending) == Mode::Material {
-        return Some(survey.decide(Effect::Blending, pieces, "the material blends"));
+    if account.effects.mode(Effect::Blending) == Mode::Material {
+        return Some(account.decide(Effect::Blending, pieces, "the material blends"));
     }
-    if !survey.is_listed {
+    if !account.is_listed {
         let reason = "where an opacity between nothing and all may be read";
-        return Some(survey.leave_open(Effect::Blending, reason));
+        return Some(account.leave_open(Effect::Blending, reason));
     }
     let reason = match (mixed, nothing) {
         (0, 0) => "every piece is opaque",
@@ -47,5 +48,5 @@ pub fn explain(survey: &Survey<'_>) -> Option<Decision> {
         (_, 0) => "something may be seen through some pieces, the others are opaque",
         _ => "something may be seen through some pieces; those that are clear are left out",
     };
-    Some(survey.decide(Effect::Blending, mixed, reason))
+    Some(account.decide(Effect::Blending, mixed, reason))
 }

@@ -4,8 +4,8 @@
 //! a triangle covers is convex, so it covers a tile if it covers the four corner pixels. Here the
 //! centres must lie strictly inside, which is what every rasterizer covers. Only opaque pieces count.
 
+use super::account::of_frame;
 use super::depth::share_an_edge;
-use super::survey::of_frame;
 use crate::effects::plan::{Canvas, Clear, Decision, FramePlan, PiecePlan, Samples};
 use crate::effects::primitive::{Piece, pixel_box};
 use crate::effects::{Effect, Effects, Mode};
@@ -19,14 +19,14 @@ use rasterproof_core::triangle::Corners;
 const TILE_PX: i32 = 32;
 
 /// Pieces with the items they are of, and their plans.
-type Drawn<'a> = (&'a [(usize, Piece)], &'a [PiecePlan]);
+type PlannedPieces<'a> = (&'a [(usize, Piece)], &'a [PiecePlan]);
 
 /// What is cleared; `pieces` are all with their plans, in the order of drawing, where that is known.
 pub fn decide(
     effects: &Effects,
     canvas: &Canvas,
     samples: Samples,
-    pieces: Option<Drawn<'_>>,
+    pieces: Option<PlannedPieces<'_>>,
 ) -> Clear {
     match effects.mode(Effect::Clear) {
         Mode::Always => Clear::Everything,
@@ -39,10 +39,10 @@ pub fn decide(
 }
 
 /// The tiles that the first piece does not cover; nothing where that is not known.
-fn tiles(canvas: &Canvas, (pieces, plans): Drawn<'_>) -> Option<Vec<PixelRect>> {
+fn tiles(canvas: &Canvas, (pieces, plans): PlannedPieces<'_>) -> Option<Vec<PixelRect>> {
     // Something is seen through what is not opaque.
     let corners = |at: usize| {
-        let (_, piece) = pieces.get(at).filter(|_| plans[at].is_opaque())?;
+        let (_, piece) = pieces.get(at).filter(|_| plans[at].replaces_all())?;
         Some(piece.corners())
     };
     let first = corners(0)?;

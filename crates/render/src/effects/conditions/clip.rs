@@ -7,7 +7,7 @@
 //! A triangle that lies outside one plane altogether is *rejected*, which is not cutting: it is counted
 //! apart, and no mode of the effect switches it off.
 
-use super::survey::of_frame;
+use super::account::of_frame;
 use crate::effects::plan::{Decision, Plan};
 use crate::effects::{Effect, Effects, Mode};
 use crate::pipeline::Counters;

@@ -3,22 +3,18 @@
 //! Left out where nobody asked for it. Leaving out the back faces of a closed body is *not*
 //! inferred: at the silhouette front and back may have equal depths, so it can change a pixel.
 
-use super::survey::Survey;
+use super::account::Account;
+use crate::effects::Effect;
 use crate::effects::plan::Decision;
-use crate::effects::{Effect, Mode};
 use crate::pipeline::assemble::Cull;
 
-pub fn explain(survey: &Survey<'_>) -> Decision {
-    let cull = survey.item.cull;
+pub fn explain(account: &Account<'_>) -> Decision {
+    let cull = account.item.cull;
     let reason = match cull {
         Cull::None => "not asked for",
         Cull::Clockwise => "asked for: clockwise pieces are left out",
         Cull::CounterClockwise => "asked for: counter-clockwise pieces are left out",
     };
-    let asks = match survey.effects.mode(Effect::Cull) {
-        Mode::Planned | Mode::Material => cull != Cull::None,
-        Mode::Always => true,
-        Mode::Never => false,
-    };
-    survey.decide_triangles(Effect::Cull, asks, reason)
+    let asks = account.effects.pays(Effect::Cull, cull != Cull::None);
+    account.decide_triangles(Effect::Cull, asks, reason)
 }

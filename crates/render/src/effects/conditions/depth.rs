@@ -4,7 +4,7 @@
 //! of it, and it is in front of nothing; the clear value is farther than every depth. Two pieces on
 //! either side of an edge they share count as one: by the fill rule they meet nowhere.
 
-use super::survey::Survey;
+use super::account::Account;
 use crate::effects::plan::{Canvas, Decision};
 use crate::effects::primitive::{Piece, Prepared, pixel_box};
 use crate::effects::{Effect, Effects, Mode};
@@ -53,14 +53,14 @@ fn first_meet(item: &Prepared<'_>, margin_px: i32) -> bool {
     let corners = |&[a, b, c]: &[u32; 3]| Some([place(a)?, place(b)?, place(c)?]);
     let all = item.item.mesh.triangles.positions().iter();
     let first: Vec<_> = all.filter_map(corners).take(FIRST_BOXES).collect();
-    let units = units(&first, margin_px);
-    let meets_another = |unit: &&Unit| {
-        let meets = |other: &Unit| {
-            other.pieces != unit.pieces && !other.rect.intersect(&unit.rect).is_empty()
+    let groups = groups(&first, margin_px);
+    let meets_another = |group: &&BoxGroup| {
+        let meets = |other: &BoxGroup| {
+            other.pieces != group.pieces && !other.rect.intersect(&group.rect).is_empty()
         };
-        units.iter().any(meets)
+        groups.iter().any(meets)
     };
-    are_nearly_all(units.iter().filter(meets_another).count(), units.len())
+    are_nearly_all(groups.iter().filter(meets_another).count(), groups.len())
 }
 
 fn are_nearly_all(met: usize, boxes: usize) -> bool {
@@ -119,13 +119,13 @@ pub fn pays(scene: &Scene, effects: &Effects, overlaps: bool) -> bool {
     scene.hidden == Hidden::DepthBuffer && effects.pays(Effect::Depth, overlaps)
 }
 
-pub fn explain(survey: &Survey<'_>, looked_at: Option<[usize; 2]>) -> Decision {
-    let Survey { pieces, depth, .. } = *survey;
-    if survey.scene.hidden == Hidden::Painter {
-        return survey.decide(Effect::Depth, 0, "the scene is drawn from back to front");
+pub fn explain(account: &Account<'_>, looked_at: Option<[usize; 2]>) -> Decision {
+    let (pieces, depth) = (account.pieces, account.paid(Effect::Depth));
+    if account.scene.hidden == Hidden::Painter {
+        return account.decide(Effect::Depth, 0, "the scene is drawn from back to front");
     }
-    if !survey.is_listed {
-        let on = if pays(survey.scene, survey.effects, true) { pieces } else { 0 };
+    if !account.is_listed {
+        let on = if pays(account.scene, account.effects, true) { pieces } else { 0 };
         let reason = match looked_at {
             None => "the first triangles overlap, and all are taken to".to_owned(),
             Some([0, _]) => "all are taken to overlap".to_owned(),
@@ -134,18 +134,18 @@ pub fn explain(survey: &Survey<'_>, looked_at: Option<[usize; 2]>) -> Decision {
                  no corner with"
             ),
         };
-        return survey.decide(Effect::Depth, on, reason);
+        return account.decide(Effect::Depth, on, reason);
     }
     let reason = match depth {
         0 => "no bounding box of another piece meets this item's".to_owned(),
         _ if depth == pieces => "every piece may overlap another".to_owned(),
         _ => "some pieces may overlap others".to_owned(),
     };
-    survey.decide(Effect::Depth, depth, reason)
+    account.decide(Effect::Depth, depth, reason)
 }
 
 /// Pieces whose boxes are compared as one: a piece, or two on either side of a shared edge.
-struct Unit {
+struct BoxGroup {
     pieces: std::ops::Range<usize>,
     rect: PixelRect,
 }
@@ -154,37 +154,37 @@ struct Unit {
 /// they are shorter.
 pub fn overlaps(pieces: &[(usize, Piece)], canvas: &Canvas) -> Vec<bool> {
     let corners: Vec<Corners> = pieces.iter().map(|(_, piece)| piece.corners()).collect();
-    let mut units = units(&corners, margin_px(canvas));
+    let mut groups = groups(&corners, margin_px(canvas));
     let window = canvas.window();
     let area = |rect: &PixelRect| u64::from(rect.width()) * u64::from(rect.height());
-    let boxes: u64 = units.iter().map(|unit| area(&unit.rect.intersect(&window))).sum();
-    if units.len() > FIRST_BOXES && boxes > MOST_AREA * area(&window) {
+    let boxes: u64 = groups.iter().map(|group| area(&group.rect.intersect(&window))).sum();
+    if groups.len() > FIRST_BOXES && boxes > MOST_AREA * area(&window) {
         return vec![true; pieces.len()];
     }
     let sum = |side: fn(&PixelRect) -> u32| -> u64 {
-        units.iter().map(|unit| u64::from(side(&unit.rect))).sum()
+        groups.iter().map(|group| u64::from(side(&group.rect))).sum()
     };
     if sum(PixelRect::height) < sum(PixelRect::width) {
-        for Unit { rect: PixelRect { x0, y0, x1, y1 }, .. } in &mut units {
+        for BoxGroup { rect: PixelRect { x0, y0, x1, y1 }, .. } in &mut groups {
             std::mem::swap(x0, y0);
             std::mem::swap(x1, y1);
         }
     }
-    units.sort_unstable_by_key(|unit| unit.rect.x0);
+    groups.sort_unstable_by_key(|group| group.rect.x0);
     let mut overlaps = vec![false; pieces.len()];
     let (mut comparisons, mut met) = (0, 0);
-    for (i, unit) in units.iter().enumerate() {
-        let meets = units[i + 1..].iter().take_while(|other| other.rect.x0 < unit.rect.x1);
+    for (i, group) in groups.iter().enumerate() {
+        let meets = groups[i + 1..].iter().take_while(|other| other.rect.x0 < group.rect.x1);
         for other in meets {
             comparisons += 1;
-            if other.rect.y0 < unit.rect.y1 && unit.rect.y0 < other.rect.y1 {
-                overlaps[unit.pieces.clone()].fill(true);
+            if other.rect.y0 < group.rect.y1 && group.rect.y0 < other.rect.y1 {
+                overlaps[group.pieces.clone()].fill(true);
                 overlaps[other.pieces.clone()].fill(true);
             }
         }
-        met += usize::from(overlaps[unit.pieces.start]);
+        met += usize::from(overlaps[group.pieces.start]);
         let nearly_all = i + 1 >= FIRST_BOXES && are_nearly_all(met, i + 1);
-        if comparisons > MOST_COMPARISONS * units.len() || nearly_all {
+        if comparisons > MOST_COMPARISONS * groups.len() || nearly_all {
             overlaps.fill(true);
             break;
         }
@@ -192,8 +192,8 @@ pub fn overlaps(pieces: &[(usize, Piece)], canvas: &Canvas) -> Vec<bool> {
     overlaps
 }
 
-fn units(corners: &[Corners], margin_px: i32) -> Vec<Unit> {
-    let mut units: Vec<Unit> = Vec::with_capacity(corners.len());
+fn groups(corners: &[Corners], margin_px: i32) -> Vec<BoxGroup> {
+    let mut groups: Vec<BoxGroup> = Vec::with_capacity(corners.len());
     let mut i = 0;
     while i < corners.len() {
         let mut rect = pixel_box(&corners[i], margin_px);
@@ -210,10 +210,10 @@ fn units(corners: &[Corners], margin_px: i32) -> Vec<Unit> {
             };
             end += 1;
         }
-        units.push(Unit { pieces: i..end, rect });
+        groups.push(BoxGroup { pieces: i..end, rect });
         i = end;
     }
-    units
+    groups
 }
 
 /// Whether two triangles have two corners in common and the third ones on either side.

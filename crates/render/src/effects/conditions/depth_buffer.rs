@@ -2,18 +2,14 @@
 //!
 //! Left out where no piece is tested.
 
-use super::survey::of_frame;
+use super::account::of_frame;
 use crate::effects::plan::{Canvas, Decision, FramePlan, Samples};
-use crate::effects::{Effect, Effects, Mode};
+use crate::effects::{Effect, Effects};
 use crate::scene::{Hidden, Scene};
 
 /// Whether the buffer is cleared; samples on demand start farthest away.
 pub fn clears(effects: &Effects, is_tested: bool, samples: Samples) -> bool {
-    match effects.mode(Effect::DepthBuffer) {
-        Mode::Always => true,
-        Mode::Never => false,
-        Mode::Planned | Mode::Material => is_tested && !matches!(samples, Samples::OnDemand { .. }),
-    }
+    effects.pays(Effect::DepthBuffer, is_tested && !matches!(samples, Samples::OnDemand { .. }))
 }
 
 pub fn explain(

@@ -6,11 +6,14 @@
 //!
 //! [`Veil::between`]: crate::pipeline::fog::Veil::between
 
-use super::survey::Survey;
-use crate::effects::plan::Decision;
+use super::Facts;
+use super::account::Account;
+use super::alpha_test::drawn;
+use crate::effects::plan::{Decision, Rule};
 use crate::effects::primitive::{Piece, Prepared};
 use crate::effects::{Effect, Effects, Mode};
 use crate::pipeline::fog::Share;
+use crate::pipeline::opacity::Drawn;
 use crate::scene::Scene;
 use rasterproof_core::arrays::MapArray as _;
 
@@ -23,43 +26,54 @@ pub fn mode(scene: &Scene, effects: &Effects) -> Mode {
     }
 }
 
+/// How much fog there is between the depths of the corners.
+pub fn between(item: &Prepared<'_>, piece: &Piece) -> Share {
+    item.veil.between(piece.vertices.map_array(|vertex| vertex.depth))
+}
+
+/// Whether nothing but fog is seen of a piece. Whoever has everything interpolated has what the fog hides interpolated too,
+/// and opacities need texture coordinates in the fog too.
 #[inline]
-pub fn share(mode: Mode, item: &Prepared<'_>, piece: &Piece) -> Share {
-    match mode {
-        Mode::Planned | Mode::Material => {
-            item.veil.between(piece.vertices.map_array(|vertex| vertex.depth))
+pub fn hides(rule: &Rule, facts: &Facts) -> bool {
+    let is_mixed = |mode| drawn(mode, facts.opacity) == Drawn::Mixed;
+    facts.fog == Share::Whole
+        && rule.fog.is_open()
+        && rule.where_it_varies
+        && !is_mixed(rule.alpha_test)
+        && !is_mixed(rule.blending)
+}
+
+#[inline]
+pub fn share(rule: &Rule, facts: &Facts) -> Share {
+    match rule.fog {
+        Mode::Planned | Mode::Material if facts.fog != Share::Whole || hides(rule, facts) => {
+            facts.fog
         }
-        Mode::Always => Share::Mixed,
         Mode::Never => Share::None,
+        _ => Share::Mixed,
     }
 }
 
 /// Nothing of a scene without fog, unless the user switches it on or off everywhere.
-pub fn explain(survey: &Survey<'_>) -> Option<Decision> {
-    let Survey { scene, pieces, shares: [mixed, whole], .. } = *survey;
-    let asked = survey.effects.mode(Effect::Fog);
-    let all = match mode(scene, survey.effects) {
-        Mode::Always => pieces,
-        _ => 0,
-    };
-    let (on, reason) = if scene.fog.is_none() {
-        if matches!(asked, Mode::Planned | Mode::Material) {
-            return None;
+pub fn explain(account: &Account<'_>) -> Option<Decision> {
+    let Account { scene, pieces, fogged, .. } = *account;
+    let asked = account.effects.mode(Effect::Fog);
+    let is_on = mode(scene, account.effects) == Mode::Always;
+    if scene.fog.is_none() {
+        let reason = "the scene has no fog";
+        return (!asked.is_open()).then(|| account.decide_all(Effect::Fog, is_on, reason));
+    }
+    if asked == Mode::Material {
+        return Some(account.decide_all(Effect::Fog, is_on, "the scene has fog"));
+    }
+    let some = match account.paid(Effect::Fog) {
+        0 if fogged > 0 => {
+            "no piece is partly in the fog: it is not in it, or nothing else is seen"
         }
-        (all, "the scene has no fog")
-    } else if asked == Mode::Material {
-        (all, "the scene has fog")
-    } else if !survey.is_listed {
-        let reason = "where the depths of the corners are in the fog";
-        return Some(survey.leave_open(Effect::Fog, reason));
-    } else {
-        let reason = match (mixed, whole) {
-            (0, 0) => "every piece is nearer than the fog",
-            (0, _) => "no piece is partly in the fog: it is not in it, or nothing else is seen",
-            _ if mixed == pieces => "every piece is partly in the fog",
-            _ => "some pieces are partly in the fog",
-        };
-        (mixed, reason)
+        0 => "every piece is nearer than the fog",
+        mixed if mixed == pieces => "every piece is partly in the fog",
+        _ => "some pieces are partly in the fog",
     };
-    Some(survey.decide(Effect::Fog, on, reason))
+    let open = "where the depths of the corners are in the fog";
+    Some(account.decide_each(Effect::Fog, open, [some; 3]))
 }

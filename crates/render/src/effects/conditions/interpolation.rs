@@ -3,8 +3,8 @@
 //! Left out for each attribute that has the same bits at the three corners. The rasterizers return a
 //! constant exactly, so what is computed from it once is what every fragment would get.
 
-use super::survey::Survey;
-use crate::effects::plan::{Attributes, Decision, Rule};
+use super::account::Account;
+use crate::effects::plan::{Attributes, Decision};
 use crate::effects::primitive::Piece;
 use crate::effects::{Effect, Effects, Mode};
 use crate::scene::{Item, Shading};
@@ -27,41 +27,35 @@ pub fn at_most(item: &Item, carries: Attributes) -> Attributes {
     }
 }
 
-/// The attributes that a rule has interpolated in a piece.
+/// Which of some attributes differ between the corners.
 #[inline]
-pub fn of(rule: &Rule, piece: &Piece) -> Attributes {
-    if !rule.where_it_varies {
-        return rule.interpolates;
-    }
+pub fn differing(mut of: Attributes, piece: &Piece) -> Attributes {
     let [a, b, c] = &piece.vertices;
     let varies = |i: usize| {
         let bits = a.varying.0[i].to_bits();
         bits != b.varying.0[i].to_bits() || bits != c.varying.0[i].to_bits()
     };
-    let mut left = rule.interpolates;
     for (bit, mut range) in Attributes::RANGES {
-        if left.has(bit) && !range.any(varies) {
-            left.0 &= !bit;
+        if of.has(bit) && !range.any(varies) {
+            of.0 &= !bit;
         }
     }
-    left
+    of
 }
 
-pub fn explain(survey: &Survey<'_>) -> Decision {
-    let Survey { pieces, any_interpolated, .. } = *survey;
-    if survey.effects.mode(Effect::Interpolation) == Mode::Material {
-        let (attributes, _) = rule(survey.item, survey.carries, survey.effects);
-        let on = if attributes.is_empty() { 0 } else { pieces };
-        return survey.decide(Effect::Interpolation, on, "what the material's shader reads");
+pub fn explain(account: &Account<'_>) -> Decision {
+    if account.effects.mode(Effect::Interpolation) == Mode::Material {
+        let (attributes, _) = rule(account.item, account.carries, account.effects);
+        let reason = "what the material's shader reads";
+        return account.decide_all(Effect::Interpolation, !attributes.is_empty(), reason);
     }
-    if !survey.is_listed {
-        let reason = "attributes that differ between the corners";
-        return survey.leave_open(Effect::Interpolation, reason);
-    }
-    let reason = match any_interpolated {
-        0 => "no piece has an attribute that varies",
-        _ if any_interpolated == pieces => "every piece has an attribute that varies",
-        _ => "some pieces have an attribute that varies",
-    };
-    survey.decide(Effect::Interpolation, any_interpolated, reason)
+    account.decide_each(
+        Effect::Interpolation,
+        "attributes that differ between the corners",
+        [
+            "no piece has an attribute that varies",
+            "every piece has an attribute that varies",
+            "some pieces have an attribute that varies",
+        ],
+    )
 }

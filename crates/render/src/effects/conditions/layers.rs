@@ -7,13 +7,12 @@
 //! share meet in no sample. What is opaque there is drawn before it, since items that blend come last, and so the
 //! mixture at once is that of the one layer at the end.
 
+use super::account::Account;
 use super::blending::is_blended;
 use super::depth::{margin_px, overlaps};
-use super::survey::Survey;
 use crate::effects::plan::{Canvas, Decision};
 use crate::effects::primitive::{Piece, Prepared, pixel_box};
 use crate::effects::{Effect, Effects, Mode};
-use crate::pipeline::opacity::Drawn;
 use crate::scene::{Item, Scene};
 use rasterproof_core::grid::PixelRect;
 
@@ -33,17 +32,6 @@ pub fn mode(scene: &Scene, item: &Item, effects: &Effects) -> Mode {
 /// Whether any item may have layers.
 pub fn is_in_use(scene: &Scene, effects: &Effects) -> bool {
     scene.items.iter().any(|item| mode(scene, item, effects) != Mode::Never)
-}
-
-/// Whether a piece has layers, as far as it is known from the piece alone.
-#[inline]
-pub fn pays(mode: Mode, depth: bool, blending: Drawn) -> bool {
-    mode != Mode::Never && depth && blending == Drawn::Mixed
-}
-
-/// Whether pieces are looked at together.
-pub fn may_be_left_out(effects: &Effects) -> bool {
-    effects.mode(Effect::Layers) == Mode::Planned
 }
 
 /// Of more items that blend, all pieces are compared with all.
@@ -106,24 +94,23 @@ fn groups(blended: &[usize], pieces: &[(usize, Piece)], canvas: &Canvas) -> Vec<
 }
 
 /// Nothing of a material that does not blend or a scene that does not ask for layers.
-pub fn explain(survey: &Survey<'_>) -> Option<Decision> {
-    let Survey { scene, item, pieces, layers, .. } = *survey;
-    if !is_asked_for(scene, item) {
+pub fn explain(account: &Account<'_>) -> Option<Decision> {
+    if !is_asked_for(account.scene, account.item) {
         return None;
     }
     let effect = Effect::Layers;
-    if survey.effects.mode(effect) == Mode::Material {
-        return Some(survey.decide(effect, pieces, "the material blends"));
+    if account.effects.mode(effect) == Mode::Material {
+        return Some(account.decide_all(effect, true, "the material blends"));
     }
-    if !survey.is_listed {
-        return Some(survey.leave_open(effect, "where fragments are mixed"));
-    }
-    let reason = match layers {
-        0 => "no piece is mixed where another one blends",
-        _ if layers == pieces => "every piece may be mixed where another one blends",
-        _ => "some pieces may be mixed where others blend",
-    };
-    Some(survey.decide(effect, layers, reason))
+    Some(account.decide_each(
+        effect,
+        "where fragments are mixed",
+        [
+            "no piece is mixed where another one blends",
+            "every piece may be mixed where another one blends",
+            "some pieces may be mixed where others blend",
+        ],
+    ))
 }
 
 #[cfg(test)]

@@ -3,8 +3,8 @@
 //! Left out where the texture has no mip map, and for a piece that is magnified everywhere
 //! ([`Footprint::is_magnified`]): its level is at most 0, where the texture itself is read.
 
-use super::survey::Survey;
-use crate::effects::plan::{Attributes, Decision};
+use super::account::Account;
+use crate::effects::plan::{Attributes, Decision, Rule};
 use crate::effects::primitive::{Piece, Prepared, has_one_w};
 use crate::effects::{Effect, Effects, Mode};
 use crate::pipeline::footprint::Footprint;
@@ -56,59 +56,37 @@ pub fn is_near(item: &Prepared<'_>, piece: &Piece) -> bool {
     piece.vertices.iter().all(|v| v.inv_w * near * FARTHEST > 1.0)
 }
 
-#[inline]
-pub fn pays(mode: Mode, item: &Prepared<'_>, piece: &Piece, perspective: bool) -> bool {
-    pays_unless(mode, item, piece, perspective, Footprint::is_magnified)
-}
-
-/// Whether a piece pays for an effect that is left out where its footprints are of a certain kind.
-#[inline]
-pub fn pays_unless(
-    mode: Mode,
-    item: &Prepared<'_>,
-    piece: &Piece,
-    perspective: bool,
-    is_certain: fn(&Footprint, [f64; 3], [DVec2; 3]) -> bool,
-) -> bool {
-    match (mode, item.texture) {
-        (Mode::Planned | Mode::Material, Some(texture)) => {
-            let (footprint, inv_w, uv) = footprint(texture, piece, perspective);
-            !(is_near(item, piece) && is_certain(&footprint, inv_w, uv))
-        }
-        (Mode::Always, _) => true,
-        _ => false,
-    }
+/// Whether a piece may read levels above 0, and whether it may have a footprint with a longer axis: what a rule leaves open
+/// of both, by one footprint.
+pub fn footprints(rule: &Rule, item: &Prepared<'_>, piece: &Piece) -> [bool; 2] {
+    let Some(texture) = item.texture.filter(|_| is_near(item, piece)) else { return [true; 2] };
+    let (footprint, inv_w, uv) = footprint(texture, piece, rule.perspective != Mode::Never);
+    let is_minified = !(rule.mip_maps.is_open() && footprint.is_magnified(inv_w, uv));
+    let is_stretched = !(rule.anisotropy.is_open() && footprint.is_round(inv_w, uv));
+    [is_minified, is_stretched]
 }
 
 /// Nothing of a texture without a mip map, unless the user switches levels on or off everywhere.
-pub fn explain(survey: &Survey<'_>) -> Option<Decision> {
-    let Survey { item, pieces, mip_maps, .. } = *survey;
-    let asked = survey.effects.mode(Effect::MipMaps);
-    let all = match mode(item, survey.carries, survey.effects) {
-        Mode::Always => pieces,
-        _ => 0,
-    };
-    let (on, reason) = if !has_mip_map(item) {
-        if matches!(asked, Mode::Planned | Mode::Material) {
-            return None;
-        }
+pub fn explain(account: &Account<'_>) -> Option<Decision> {
+    let item = account.item;
+    let asked = account.effects.mode(Effect::MipMaps);
+    let is_on = mode(item, account.carries, account.effects) == Mode::Always;
+    if !has_mip_map(item) {
         let has_texture = item.material.texture.is_some();
-        (
-            all,
-            if has_texture { "the texture has no mip map" } else { "the material has no texture" },
-        )
-    } else if asked == Mode::Material {
-        (all, "the texture has a mip map")
-    } else if !survey.is_listed {
-        let reason = "where the texture is not known to be magnified";
-        return Some(survey.leave_open(Effect::MipMaps, reason));
-    } else {
-        let reason = match mip_maps {
-            0 => "the texture is magnified everywhere",
-            _ if mip_maps == pieces => "no piece is known to magnify the texture everywhere",
-            _ => "some pieces are not known to magnify the texture everywhere",
-        };
-        (mip_maps, reason)
-    };
-    Some(survey.decide(Effect::MipMaps, on, reason))
+        let reason =
+            if has_texture { "the texture has no mip map" } else { "the material has no texture" };
+        return (!asked.is_open()).then(|| account.decide_all(Effect::MipMaps, is_on, reason));
+    }
+    if asked == Mode::Material {
+        return Some(account.decide_all(Effect::MipMaps, is_on, "the texture has a mip map"));
+    }
+    Some(account.decide_each(
+        Effect::MipMaps,
+        "where the texture is not known to be magnified",
+        [
+            "the texture is magnified everywhere",
+            "no piece is known to magnify the texture everywhere",
+            "some pieces are not known to magnify the texture everywhere",
+        ],
+    ))
 }

@@ -1,8 +1,10 @@
-//! When an effect may be left out: one file for each effect, with the condition, what is known of it
-//! before drawing, and the reason to read.
+//! When an effect may be left out: one file for each effect, with the condition, what it has to know of a piece, and the
+//! reason to read.
 //!
-//! A condition sees the scene, the canvas and pieces; never an engine, never a pixel.
+//! The four lists here are in the order in which they are made: the rule of an item, the facts of a piece, the plan of the
+//! piece, and the account. A condition reads rules and facts; never a triangle, an engine or a pixel.
 
+pub(super) mod account;
 pub(super) mod alpha_test;
 pub(super) mod anisotropy;
 pub(super) mod attributes;
@@ -21,5 +23,172 @@ pub(super) mod samples;
 pub(super) mod second_buffer;
 pub(super) mod shadows;
 pub(super) mod specular;
-pub(super) mod survey;
 pub(super) mod wide_words;
+
+use self::account::Account;
+use super::plan::{Attributes, Decision, PiecePlan, Rule};
+use super::primitive::{Piece, Prepared, has_one_w};
+use super::{Effect, Effects, Mode};
+use crate::pipeline::fog::Share;
+use crate::pipeline::opacity::Drawn;
+use crate::scene::{Item, Scene};
+
+/// What is known of a piece before it is planned. What no mode asks for is not looked at, and is as in
+/// [`Facts::UNKNOWN`].
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Facts {
+    /// Attributes that may differ between the corners.
+    pub varies: Attributes,
+    pub has_one_w: bool,
+    pub fog: Share,
+    /// What is drawn by the opacities that may be read.
+    pub opacity: Drawn,
+    /// Whether a normal between those of the corners may have a highlight.
+    pub is_shiny: bool,
+    /// Whether something may keep light from it.
+    pub is_shadowed: bool,
+    /// Whether the texture may be read at a level above 0.
+    pub is_minified: bool,
+    /// Whether one axis of a footprint may be longer than the other.
+    pub is_stretched: bool,
+    /// Whether it may hide another piece or be hidden.
+    pub overlaps: bool,
+    /// Whether it may share a sample with another piece that blends.
+    pub meets_blended: bool,
+    /// Whether the engine needs more than 32 bits for it.
+    pub is_wide: bool,
+}
+
+impl Facts {
+    /// Of a piece that is not looked at: whatever may be is taken to be.
+    pub const UNKNOWN: Self = Self {
+        varies: Attributes::EVERY,
+        has_one_w: false,
+        fog: Share::Mixed,
+        opacity: Drawn::Mixed,
+        is_shiny: true,
+        is_shadowed: true,
+        is_minified: true,
+        is_stretched: true,
+        overlaps: true,
+        meets_blended: true,
+        is_wide: true,
+    };
+
+    /// Of every piece of an item, by its material alone.
+    pub fn of_item(item: &Item) -> Self {
+        Self { varies: interpolation::at_most(item, Attributes::EVERY), ..Self::UNKNOWN }
+    }
+
+    /// Of one piece by itself: what other pieces have to do with it is not known.
+    #[inline]
+    pub fn of(rule: &Rule, scene: &Scene, item: &Prepared<'_>, piece: &Piece) -> Self {
+        let mut facts = Self { has_one_w: has_one_w(piece), ..Self::UNKNOWN };
+        if rule.alpha_test.is_open() || rule.blending.is_open() {
+            facts.opacity = alpha_test::opacity(item, piece);
+        }
+        if rule.fog.is_open() {
+            facts.fog = fog::between(item, piece);
+            // What is hidden is not looked at.
+            if fog::hides(rule, &facts) {
+                return facts;
+            }
+        }
+        if rule.where_it_varies {
+            facts.varies = interpolation::differing(rule.interpolates, piece);
+        }
+        if rule.specular.is_open() {
+            facts.is_shiny = specular::may_show(item, piece);
+        }
+        if rule.shadows.is_open() {
+            let has_highlight = rule.specular.pays(facts.is_shiny);
+            facts.is_shadowed = shadows::may_be_shadowed(scene, item, piece, has_highlight);
+        }
+        let reads_around = rule.mip_maps.is_open() || rule.anisotropy.is_open();
+        if reads_around && rule.interpolates.both(facts.varies).has(Attributes::UV) {
+            [facts.is_minified, facts.is_stretched] = mip_maps::footprints(rule, item, piece);
+        }
+        facts
+    }
+}
+
+/// The attributes that an item carries, and what it asks for: without looking at its triangles.
+pub(super) fn rule(scene: &Scene, item: &Item, effects: &Effects) -> (Attributes, Rule) {
+    let carries = attributes::carries(scene, item, effects);
+    let (interpolates, where_it_varies) = interpolation::rule(item, carries, effects);
+    let rule = Rule {
+        interpolates,
+        where_it_varies,
+        perspective: perspective::mode(scene, effects),
+        depth: depth::pays(scene, effects, true),
+        specular: specular::mode(scene, item, carries, effects),
+        shadows: shadows::mode(scene, item, carries, effects),
+        mip_maps: mip_maps::mode(item, carries, effects),
+        anisotropy: anisotropy::mode(item, carries, effects),
+        fog: fog::mode(scene, effects),
+        alpha_test: alpha_test::mode(item, effects),
+        blending: blending::mode(item, effects),
+        layers: layers::mode(scene, item, effects),
+    };
+    (carries, rule)
+}
+
+/// What a piece pays for by the rule of its item.
+#[inline]
+pub(super) fn plan(rule: &Rule, facts: &Facts) -> PiecePlan {
+    let is_hidden = fog::hides(rule, facts);
+    let specular = !is_hidden && rule.specular.pays(facts.is_shiny);
+    let shadows = !is_hidden && rule.shadows.pays(facts.is_shadowed);
+    let mut interpolates = rule.interpolates.both(facts.varies);
+    if is_hidden {
+        interpolates = Attributes::NONE;
+    } else if !shadows {
+        interpolates = interpolates.without(Attributes(Attributes::PLACE));
+    }
+    let has_uv = interpolates.has(Attributes::UV);
+    let depth = rule.depth && facts.overlaps;
+    let blending = alpha_test::drawn(rule.blending, facts.opacity);
+    PiecePlan {
+        interpolates,
+        perspective: rule.perspective.pays(!interpolates.is_empty() && !facts.has_one_w),
+        depth,
+        specular,
+        shadows,
+        mip_maps: has_uv && rule.mip_maps.pays(facts.is_minified),
+        anisotropy: has_uv && rule.anisotropy.pays(facts.is_stretched),
+        fog: fog::share(rule, facts),
+        alpha_test: alpha_test::drawn(rule.alpha_test, facts.opacity),
+        blending,
+        layers: depth && blending == Drawn::Mixed && rule.layers.pays(facts.meets_blended),
+    }
+}
+
+/// Effects with which nothing is left out of a fragment that its material asks for.
+pub(super) const EVERY_FRAGMENT: Effects = Effects::USUAL.with(Effect::Interpolation, Mode::Always);
+
+/// What every fragment of an item pays for with them.
+pub(super) fn of_every_fragment(scene: &Scene, item: &Item) -> PiecePlan {
+    plan(&rule(scene, item, &EVERY_FRAGMENT).1, &Facts::UNKNOWN)
+}
+
+/// The account of the pieces of an item.
+pub(super) fn explain(
+    account: &Account<'_>,
+    overlapping: Option<[usize; 2]>,
+    decisions: &mut Vec<Decision>,
+) {
+    decisions.push(cull::explain(account));
+    decisions.push(wide_words::explain(account));
+    decisions.push(perspective::explain(account));
+    decisions.push(depth::explain(account, overlapping));
+    decisions.extend(attributes::explain(account));
+    decisions.extend(specular::explain(account));
+    decisions.extend(shadows::explain(account));
+    decisions.extend(mip_maps::explain(account));
+    decisions.extend(anisotropy::explain(account));
+    decisions.extend(fog::explain(account));
+    decisions.extend(alpha_test::explain(account));
+    decisions.extend(blending::explain(account));
+    decisions.extend(layers::explain(account));
+    decisions.push(interpolation::explain(account));
+}

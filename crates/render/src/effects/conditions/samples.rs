@@ -5,7 +5,7 @@
 //! drawn (`samples`). To ask costs something, so the plan first estimates how many pixels may stay
 //! whole, and steps aside where they are too few.
 
-use super::survey::of_frame;
+use super::account::of_frame;
 use crate::effects::plan::{Canvas, Decision, PiecePlan, Samples};
 use crate::effects::primitive::{Prepared, touched};
 use crate::effects::{Effect, Effects, Mode};

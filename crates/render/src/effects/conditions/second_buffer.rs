@@ -2,7 +2,7 @@
 //!
 //! Left out where the picture is looked at when it is finished.
 
-use super::survey::of_frame;
+use super::account::of_frame;
 use crate::effects::plan::{Canvas, Decision};
 use crate::effects::{Effect, Effects};
 

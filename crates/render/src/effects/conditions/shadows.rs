@@ -9,7 +9,7 @@
 //!
 //! [`LightView::may_be_shadowed`]: crate::pipeline::shadow::LightView::may_be_shadowed
 
-use super::survey::Survey;
+use super::account::Account;
 use crate::effects::plan::{Attributes, Decision};
 use crate::effects::primitive::{Piece, Prepared, is_lit};
 use crate::effects::{Effect, Effects, Mode};
@@ -32,24 +32,16 @@ fn has_light(scene: &Scene, item: &Item) -> bool {
     is_lit(scene, item) && scene.light.diffuse != 0.0
 }
 
-#[inline]
-pub fn pays(
-    mode: Mode,
+pub fn may_be_shadowed(
     scene: &Scene,
     item: &Prepared<'_>,
     piece: &Piece,
     has_highlight: bool,
 ) -> bool {
-    match (mode, &item.light_view) {
-        (Mode::Planned | Mode::Material, Some(view)) => {
-            let surfaces = piece.vertices.map_array(|vertex| Surface::from(vertex.varying));
-            let faces_away = || faces_away(&item.light, surfaces.map_array(|s| s.normal));
-            (has_highlight || !faces_away())
-                && view.may_be_shadowed(scene, surfaces.map_array(|s| s.place))
-        }
-        (Mode::Always, Some(_)) => true,
-        _ => false,
-    }
+    let Some(view) = &item.light_view else { return false };
+    let surfaces = piece.vertices.map_array(|vertex| Surface::from(vertex.varying));
+    let faces_away = || faces_away(&item.light, surfaces.map_array(|s| s.normal));
+    (has_highlight || !faces_away()) && view.may_be_shadowed(scene, surfaces.map_array(|s| s.place))
 }
 
 /// Whether the light is 0 at every normal between three. One normal is the same in each fragment; others are
@@ -66,33 +58,30 @@ fn faces_away(light: &Light, normals: [DVec3; 3]) -> bool {
 }
 
 /// Nothing of a scene without shadows, unless the user switches them on or off everywhere.
-pub fn explain(survey: &Survey<'_>) -> Option<Decision> {
-    let Survey { scene, item, pieces, shadows, .. } = *survey;
-    let asked = survey.effects.mode(Effect::Shadows);
-    let is_asked = !matches!(asked, Mode::Planned | Mode::Material);
-    let is_on = mode(scene, item, survey.carries, survey.effects) == Mode::Always;
-    let all = if is_on { pieces } else { 0 };
-    let (on, reason) = if scene.shadows.is_none() {
-        if !is_asked {
-            return None;
-        }
-        (0, "the scene has no shadow map")
-    } else if !has_light(scene, item) {
-        (all, "the material has no light of its fragments to lose")
-    } else if asked == Mode::Material {
-        (all, "the scene has a shadow map")
-    } else if !survey.is_listed {
-        let reason = "where something may lie before the light";
-        return Some(survey.leave_open(Effect::Shadows, reason));
-    } else {
-        let reason = match shadows {
-            0 => "nothing lies between the item and the light, or it faces away",
-            _ if shadows == pieces => "something may lie between every piece and the light",
-            _ => "something may lie between some pieces and the light",
-        };
-        (shadows, reason)
-    };
-    Some(survey.decide(Effect::Shadows, on, reason))
+pub fn explain(account: &Account<'_>) -> Option<Decision> {
+    let Account { scene, item, .. } = *account;
+    let asked = account.effects.mode(Effect::Shadows);
+    let is_on = mode(scene, item, account.carries, account.effects) == Mode::Always;
+    if scene.shadows.is_none() {
+        let reason = "the scene has no shadow map";
+        return (!asked.is_open()).then(|| account.decide_all(Effect::Shadows, false, reason));
+    }
+    if !has_light(scene, item) {
+        let reason = "the material has no light of its fragments to lose";
+        return Some(account.decide_all(Effect::Shadows, is_on, reason));
+    }
+    if asked == Mode::Material {
+        return Some(account.decide_all(Effect::Shadows, is_on, "the scene has a shadow map"));
+    }
+    Some(account.decide_each(
+        Effect::Shadows,
+        "where something may lie before the light",
+        [
+            "nothing lies between the item and the light, or it faces away",
+            "something may lie between every piece and the light",
+            "something may lie between some pieces and the light",
+        ],
+    ))
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@
 //!
 //! [`Highlight::is_dark_between`]: crate::pipeline::highlight::Highlight::is_dark_between
 
-use super::survey::Survey;
+use super::account::Account;
 use crate::effects::plan::{Attributes, Decision};
 use crate::effects::primitive::{Piece, Prepared, highlight, is_lit};
 use crate::effects::{Effect, Effects, Mode};
@@ -29,47 +29,38 @@ fn is_shiny(scene: &Scene, item: &Item) -> bool {
     is_lit(scene, item) && !highlight(scene, item).is_dark()
 }
 
-#[inline]
-pub fn pays(mode: Mode, item: &Prepared<'_>, piece: &Piece) -> bool {
-    match mode {
-        Mode::Planned | Mode::Material => {
-            let normals = piece.vertices.map_array(|vertex| Surface::from(vertex.varying).normal);
-            !item.highlight.is_dark_between(normals)
-        }
-        Mode::Always => true,
-        Mode::Never => false,
-    }
+pub fn may_show(item: &Prepared<'_>, piece: &Piece) -> bool {
+    let normals = piece.vertices.map_array(|vertex| Surface::from(vertex.varying).normal);
+    !item.highlight.is_dark_between(normals)
 }
 
 /// Nothing of a material without highlights, unless the user switches them on or off everywhere.
-pub fn explain(survey: &Survey<'_>) -> Option<Decision> {
-    let Survey { scene, item, pieces, specular, .. } = *survey;
+pub fn explain(account: &Account<'_>) -> Option<Decision> {
+    let Account { scene, item, .. } = *account;
     let has_colour = item.material.specular.colour.max_element() > 0.0;
-    let is_asked = !matches!(survey.effects.mode(Effect::Specular), Mode::Planned | Mode::Material);
-    let is_on = mode(scene, item, survey.carries, survey.effects) == Mode::Always;
-    let (on, reason) = if !is_shiny(scene, item) {
-        if !has_colour && !is_asked {
-            return None;
-        }
+    let asked = account.effects.mode(Effect::Specular);
+    let is_on = mode(scene, item, account.carries, account.effects) == Mode::Always;
+    if !is_shiny(scene, item) {
         let reason = match item.material.shading {
             _ if !has_colour => "the material has no highlights",
             Shading::Gouraud => "Gouraud: the light of the corners has no highlights",
             Shading::Unlit => "the material is unlit",
             _ => "no highlight is bright enough for one step of 255",
         };
-        (if is_on { pieces } else { 0 }, reason)
-    } else if survey.effects.mode(Effect::Specular) == Mode::Material {
-        (if is_on { pieces } else { 0 }, "what the material's shader computes")
-    } else if !survey.is_listed {
-        let reason = "where normals are near enough to the highlight";
-        return Some(survey.leave_open(Effect::Specular, reason));
-    } else {
-        let reason = match specular {
-            0 => "no normal is near enough to the highlight",
-            _ if specular == pieces => "every piece may have a highlight",
-            _ => "some pieces may have a highlight",
-        };
-        (specular, reason)
-    };
-    Some(survey.decide(Effect::Specular, on, reason))
+        let is_told = has_colour || !asked.is_open();
+        return is_told.then(|| account.decide_all(Effect::Specular, is_on, reason));
+    }
+    if asked == Mode::Material {
+        let reason = "what the material's shader computes";
+        return Some(account.decide_all(Effect::Specular, is_on, reason));
+    }
+    Some(account.decide_each(
+        Effect::Specular,
+        "where normals are near enough to the highlight",
+        [
+            "no normal is near enough to the highlight",
+            "every piece may have a highlight",
+            "some pieces may have a highlight",
+        ],
+    ))
 }

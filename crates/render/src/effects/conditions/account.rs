@@ -1,17 +1,16 @@
-//! What was found out about the pieces of an item before drawing, and how it becomes a decision.
+//! How many pieces of an item pay for what, and how that becomes a decision to read.
 //!
 //! A reason names no number of its own: decisions of several items with the same reason are shown as
 //! one line, whose counts are sums.
 
+use super::Facts;
 use crate::effects::plan::{Attributes, Decision, PiecePlan, Unit};
-use crate::effects::primitive::{Piece, has_one_w};
 use crate::effects::{Effect, Effects, Mode};
 use crate::pipeline::fog::Share;
-use crate::pipeline::opacity::Drawn;
 use crate::scene::{Item, Scene};
 
-/// One item, and what is known of its pieces.
-pub struct Survey<'a> {
+/// One item, and the plans of its pieces added up.
+pub struct Account<'a> {
     pub scene: &'a Scene,
     pub effects: &'a Effects,
     pub item: &'a Item,
@@ -20,41 +19,25 @@ pub struct Survey<'a> {
     /// Whether its pieces were looked at; else they are counted as triangles.
     pub is_listed: bool,
     pub pieces: u64,
+    /// Pieces that pay, for each effect.
+    paid: [u64; Effect::ALL.len()],
     /// Pieces whose three w are equal.
     pub one_w: u64,
-    pub perspective: u64,
-    pub depth: u64,
-    /// Pieces that are partly in the fog, and those that are wholly.
-    pub shares: [u64; 2],
-    /// Pieces of which some fragments are opaque enough, and those of which none is.
-    pub tested: [u64; 2],
-    /// The same of blending: pieces of which some fragments are mixed, and those of which nothing is drawn.
-    pub blended: [u64; 2],
-    /// Pieces whose mixed fragments are brought into order.
-    pub layers: u64,
-    /// Pieces that are not magnified everywhere.
-    pub mip_maps: u64,
-    /// Pieces that may have a footprint with a longer axis.
-    pub anisotropy: u64,
-    /// Pieces that something may keep the light from.
-    pub shadows: u64,
-    /// Pieces that may have a highlight.
-    pub specular: u64,
-    /// Whether the engine has words of several widths, and the pieces in more than 32 bits.
+    /// Pieces of which nothing but fog is seen.
+    pub fogged: u64,
+    /// Pieces of which no fragment is opaque enough to be drawn.
+    pub nothing: u64,
+    /// Whether the engine has words of several widths.
     pub has_widths: bool,
-    pub wide: u64,
-    /// Pieces in which the attribute is interpolated: colour, normal, texture coordinates.
-    pub interpolated: [u64; 3],
-    pub any_interpolated: u64,
 }
 
-impl<'a> Survey<'a> {
+impl<'a> Account<'a> {
     pub fn new(
         scene: &'a Scene,
         effects: &'a Effects,
         index: usize,
         carries: Attributes,
-        is_listed: bool,
+        (is_listed, has_widths): (bool, bool),
     ) -> Self {
         let item = &scene.items[index];
         Self {
@@ -65,52 +48,58 @@ impl<'a> Survey<'a> {
             carries,
             is_listed,
             pieces: if is_listed { 0 } else { item.mesh.triangles.len() as u64 },
+            paid: [0; Effect::ALL.len()],
             one_w: 0,
-            perspective: 0,
-            depth: 0,
-            specular: 0,
-            mip_maps: 0,
-            anisotropy: 0,
-            shadows: 0,
-            shares: [0; 2],
-            tested: [0; 2],
-            blended: [0; 2],
-            layers: 0,
-            has_widths: false,
-            wide: 0,
-            interpolated: [0; 3],
-            any_interpolated: 0,
+            fogged: 0,
+            nothing: 0,
+            has_widths,
         }
     }
 
-    pub fn count(&mut self, piece: &Piece, plan: PiecePlan, word_bits: Option<u32>) {
+    pub fn count(&mut self, facts: &Facts, plan: PiecePlan) {
+        let paid = plan.paid() | u32::from(facts.is_wide) << Effect::WideWords as u32;
+        for (i, count) in self.paid.iter_mut().enumerate() {
+            *count += u64::from(paid >> i & 1);
+        }
         self.pieces += 1;
-        self.one_w += u64::from(has_one_w(piece));
-        self.perspective += u64::from(plan.perspective && !plan.interpolates.is_empty());
-        self.depth += u64::from(plan.depth);
-        for (count, share) in self.shares.iter_mut().zip([Share::Mixed, Share::Whole]) {
-            *count += u64::from(plan.fog == share);
-        }
-        for (i, drawn) in [Drawn::Mixed, Drawn::Nothing].into_iter().enumerate() {
-            self.tested[i] += u64::from(plan.alpha_test == drawn);
-            self.blended[i] += u64::from(plan.blending == drawn);
-        }
-        self.layers += u64::from(plan.layers);
-        self.mip_maps += u64::from(plan.mip_maps);
-        self.anisotropy += u64::from(plan.anisotropy);
-        self.shadows += u64::from(plan.shadows);
-        self.specular += u64::from(plan.specular);
-        self.wide += u64::from(word_bits > Some(i32::BITS));
-        let bits = [Attributes::COLOUR, Attributes::NORMAL, Attributes::UV];
-        for (count, bit) in self.interpolated.iter_mut().zip(bits) {
-            *count += u64::from(plan.interpolates.has(bit));
-        }
-        self.any_interpolated += u64::from(!plan.interpolates.is_empty());
+        self.one_w += u64::from(facts.has_one_w);
+        self.fogged += u64::from(plan.fog == Share::Whole);
+        self.nothing += u64::from(plan.is_nothing());
+    }
+
+    /// How many pieces pay for an effect.
+    pub fn paid(&self, effect: Effect) -> u64 {
+        self.paid[effect as usize]
     }
 
     /// A decision where `on` of the pieces pay.
     pub fn decide(&self, effect: Effect, on: u64, reason: impl Into<String>) -> Decision {
         self.decision(effect, [on, self.pieces - on, 0], reason.into())
+    }
+
+    /// A decision about all pieces alike.
+    pub fn decide_all(&self, effect: Effect, pays: bool, reason: &str) -> Decision {
+        self.decide(effect, if pays { self.pieces } else { 0 }, reason)
+    }
+
+    /// A decision by the facts of each piece, with the reasons why none of them pays, all do, or some; `open` says when
+    /// a piece pays that is not looked at before it is drawn.
+    pub fn decide_each(
+        &self,
+        effect: Effect,
+        open: &str,
+        [none, all, some]: [&str; 3],
+    ) -> Decision {
+        if !self.is_listed {
+            return self.leave_open(effect, open);
+        }
+        let on = self.paid(effect);
+        let reason = match on {
+            0 => none,
+            _ if on == self.pieces => all,
+            _ => some,
+        };
+        self.decide(effect, on, reason)
     }
 
     /// A decision about all triangles of the item, those included that leave no piece.
