@@ -59,7 +59,6 @@ fn thread_ms() -> f64 {
     now.tv_sec as f64 * 1e3 + now.tv_nsec as f64 / 1e6
 }
 
-/// One scene by one rasterizer.
 struct Row {
     name: String,
     drawer: Drawer,

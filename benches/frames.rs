@@ -9,10 +9,6 @@
 //! the exact engines', and `other`, those whose colour is off by more than two of 255 steps in a
 //! channel: another texel or another surface. Then threads: the tiles with one and with two.
 //!
-//! With the feature `vulkan` every Vulkan device that is there draws too: its vertices, texture and
-//! commands are made before, submitting and waiting are timed, and its picture stays where it is.
-//! llvmpipe has one thread, the caller's; `LP_NUM_THREADS` in the environment gives it others.
-//!
 //! `cargo bench -p benches --bench frames` measures the meshes of [`MESHES`]; `-- knot` those whose name contains
 //! a word, `-- --quick` with fewer rounds. `-- --curves` measures one shape in all its sizes instead,
 //! and one mesh in pictures of several sides.
@@ -24,13 +20,11 @@
 #[path = "common/mesh.rs"]
 mod mesh;
 
-use std::process::ExitCode;
-
 use euc::buffer::Buffer2d;
 use euc::rasterizer::{BackfaceCullingDisabled, Triangles};
 use euc::{Pipeline, Target as _};
 use glam::{DMat3, DVec2, Mat4, Vec3, Vec4};
-use mesh::{Draws, devices, engine, one_thread_each, tiles, times, wrong};
+use mesh::{Draws, engine, tiles, times, wrong};
 use rasterproof_core::frame::Frame;
 use rasterproof_render::pipeline::target::{Antialias, Colour};
 use rasterproof_render::pipeline::texture::Texture;
@@ -46,11 +40,9 @@ const SIDES_PX: [u32; 4] = [256, 512, 1024, 2048];
 
 /// On a thread of the pool of two: a frame of three milliseconds that is handed to a pool from outside is
 /// often drawn by one of its threads alone, since both wake up on one core.
-fn main() -> ExitCode {
-    one_thread_each(|| {
-        let pools = pools();
-        pools[1].install(|| measure(&pools));
-    })
+fn main() {
+    let pools = pools();
+    pools[1].install(|| measure(&pools));
 }
 
 fn measure(pools: &[rayon::ThreadPool; 2]) {
@@ -82,7 +74,6 @@ fn measure(pools: &[rayon::ThreadPool; 2]) {
     }
 }
 
-/// Everybody, euc first.
 fn everybody<'a>(
     scene: &'a Scene,
     side_px: u32,
@@ -93,7 +84,7 @@ fn everybody<'a>(
     let euc = Euc::new(scene);
     let sides = [side_px as usize; 2];
     let (mut colours, mut depths) = (Buffer2d::new(sides, 0), Buffer2d::new(sides, 0.0));
-    let mut all = vec![
+    vec![
         Draws::new("euc", side_px, move |picture| euc.draw(&mut colours, &mut depths, picture)),
         Draws::new("scanline", side_px, engine(scene, side_px, Antialias::None)),
         Draws::new("tiles", side_px, tiles(1, single)),
@@ -101,13 +92,7 @@ fn everybody<'a>(
         Draws::new("scanline msaa4", side_px, engine(scene, side_px, Antialias::Multisample4)),
         Draws::new("tiles msaa4", side_px, tiles(1, four)),
         Draws::new("msaa4, 2 threads", side_px, tiles(2, four)),
-    ];
-    all.extend(devices(scene, side_px, single));
-    for mut draws in devices(scene, side_px, four) {
-        draws.name += " msaa4";
-        all.push(draws);
-    }
-    all
+    ]
 }
 
 fn pools() -> [rayon::ThreadPool; 2] {

@@ -10,10 +10,6 @@
 //! - euc: one list of vertices in clip coordinates; one `draw` of all of them is timed, with
 //!   culling, depth and varyings off. Edges are inclusive on both sides.
 //!
-//! - With `--features vulkan`, each Vulkan device: one vertex buffer and one draw of all triangles,
-//!   recorded before, into a target that is cleared first; submitting and waiting are timed.
-//!   llvmpipe has one thread, unless `LP_NUM_THREADS` in the environment gives it others.
-//!
 //! All get the same numbers: positions are multiples of 1/256 px, and so exact as `f32`. Everyone
 //! fills the same few triangles in turn, then the next few, so that a machine that changes its
 //! clock or is shared treats all alike. A turn fills its triangles twice and times the second time,
@@ -35,7 +31,6 @@ mod common;
 mod mesh;
 
 use std::ops::Range;
-use std::process::ExitCode;
 use std::time::Instant;
 
 use common::{COLOUR, SIDE_PX, Scene};
@@ -57,7 +52,6 @@ use tiny_skia::{FillRule, Paint, Path, PathBuilder, Pixmap, Transform};
 
 /// Odd, so that the median is a round that happened.
 const ROUNDS: usize = 31;
-/// The mesh whose frames are timed.
 const MESH: &str = "bumps-70000";
 /// Its rounds, for frames take long.
 const MESH_ROUNDS: usize = 15;
@@ -65,11 +59,7 @@ const MESH_ROUNDS: usize = 15;
 /// and less mostly run undisturbed on a busy machine, whoever's they are.
 const TURNS: usize = 8;
 
-fn main() -> ExitCode {
-    mesh::one_thread_each(measure)
-}
-
-fn measure() {
+fn main() {
     let args: Vec<String> = std::env::args().skip(1).collect();
     let has = |flag: &str| args.iter().any(|arg| arg == flag);
     if has("--list") {
@@ -124,11 +114,10 @@ fn report_mesh(rounds: usize) {
     for (number, samples, antialias) in
         [("1", Samples::One, Antialias::None), ("4", Samples::Four, Antialias::Multisample4)]
     {
-        let mut all = vec![
+        let mut all = [
             Draws::new("scanline", SIDE_PX, mesh::engine(&scene, SIDE_PX, antialias)),
             Draws::new("tiles", SIDE_PX, mesh::tiles(&scene, &one, samples)),
         ];
-        all.extend(mesh::devices(&scene, SIDE_PX, samples));
         let pictures: Vec<_> = all.iter_mut().map(Draws::picture).collect();
         let ms = mesh::times(&mut all, rounds);
         for (i, Draws { name, .. }) in all.iter().enumerate() {
@@ -153,8 +142,6 @@ fn report(scene: &Scene, rounds: usize) {
         ("tiny-skia".to_owned(), Box::new(TinySkia::new(scene))),
         ("euc".to_owned(), Box::new(Euc::new(scene))),
     ];
-    #[cfg(feature = "vulkan")]
-    fillers.extend(vulkan::all(scene));
     let wrong: Vec<_> = fillers.iter_mut().map(|(_, filler)| filler.wrong(scene)).collect();
     for ((name, _), wrong) in fillers.iter().zip(&wrong).take(2) {
         assert_eq!(*wrong, Wrong::default(), "{name} on {}", scene.name);
@@ -267,7 +254,6 @@ fn neighbourhood(corners: &Corners) -> PixelRect {
     PixelRect { x0, y0, x1, y1 }.intersect(&common::window())
 }
 
-/// One of the engines of this crate.
 struct Engine<E> {
     engine: E,
     triangles: Vec<Corners>,
@@ -415,91 +401,4 @@ impl Canvas for Euc {
 fn exact_f32(corner: rasterproof_core::grid::SubpixelPoint) -> [f32; 2] {
     let (x, y) = corner.to_px();
     [x as f32, y as f32]
-}
-
-#[cfg(feature = "vulkan")]
-mod vulkan {
-    use std::collections::HashMap;
-    use std::ops::Range;
-
-    use rasterproof_core::contract::Rasterize as _;
-    use rasterproof_core::frame::Coverage;
-    use rasterproof_core::triangle::Corners;
-    use rasterproof_verify::comparison::Tally;
-    use rasterproof_verify::oracle::Oracle;
-    use rasterproof_vulkan::device::draw::{Draw, Painter, Prepared};
-    use rasterproof_vulkan::device::find;
-    use rasterproof_vulkan::device::open::Opened;
-    use rasterproof_vulkan::device::stage::Kind;
-    use rasterproof_vulkan::gpu::cells::plain;
-    use rasterproof_vulkan::gpu::engine::Gpu;
-    use rasterproof_vulkan::gpu::look;
-
-    use super::{Filler, SIDE_PX, Scene, Wrong, neighbourhood};
-
-    /// A device with what was recorded for each part.
-    struct Device {
-        name: String,
-        // Before the painter, as it was made from it.
-        parts: HashMap<Range<usize>, Prepared>,
-        painter: Painter,
-        draws: Vec<Draw>,
-    }
-
-    pub fn all(scene: &Scene) -> Vec<(String, Box<dyn Filler>)> {
-        let devices = find::list().unwrap_or_else(|error| {
-            eprintln!("{error}");
-            Vec::new()
-        });
-        let device = |listed: &find::Listed| {
-            let opened = Opened::new(listed).expect("a device that opens");
-            let painter = Painter::new(&opened, None).expect("a device that draws");
-            let name = format!("vulkan:{}", listed.number);
-            let half = SIDE_PX as f32 / 2.0;
-            let draw = |corners: &Corners| {
-                let mut vertices = plain(corners, half);
-                vertices.iter_mut().for_each(|v| v.clip[0] -= 1.0);
-                vertices.iter_mut().for_each(|v| v.clip[1] -= 1.0);
-                let side = SIDE_PX as f32;
-                Draw { cell: 0, vertices, viewport: [0.0, 0.0, side, side], window: [SIDE_PX; 2] }
-            };
-            let draws = scene.triangles.iter().map(draw).collect();
-            let filler = Device { name, parts: HashMap::new(), painter, draws };
-            (listed.about.short(), Box::new(filler) as Box<dyn Filler>)
-        };
-        devices.iter().map(device).collect()
-    }
-
-    impl Filler for Device {
-        fn fill(&mut self, part: Range<usize>) {
-            if !self.parts.contains_key(&part) {
-                let draws = &self.draws[part.clone()];
-                let prepared = self.painter.prepare(Kind::Flat, draws).expect("room for a list");
-                self.parts.insert(part.clone(), prepared);
-            }
-            self.painter.run_prepared(&self.parts[&part]).expect("a device that draws");
-        }
-
-        fn wrong(&mut self, scene: &Scene) -> Wrong {
-            let mut gpu = Gpu::named(&self.name).expect("a device that opens");
-            let mut wrong = Wrong::default();
-            for some in scene.triangles.chunks(1024) {
-                let jobs: Vec<_> = some
-                    .iter()
-                    .map(|corners| (std::slice::from_ref(corners), neighbourhood(corners)))
-                    .collect();
-                let drawn = look::coverages(&mut gpu, &jobs).expect("a device that draws");
-                for ((corners, near), drawn) in jobs.iter().zip(&drawn) {
-                    let mut truth = Coverage::new(*near, 0);
-                    let hit =
-                        |s: rasterproof_core::triangle::Span| truth.hit(s.y_px, s.x0_px, s.x1_px);
-                    Oracle.cover(corners[0], *near, hit);
-                    let tally = Tally::between(drawn, &truth);
-                    wrong.missing += tally.missing;
-                    wrong.extra += tally.extra + tally.twice;
-                }
-            }
-            wrong
-        }
-    }
 }

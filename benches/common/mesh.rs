@@ -1,10 +1,7 @@
 //! Whole frames of a mesh: who draws them, in which time, and with how many wrong pixels.
 //!
-//! Ours is everything from the mesh to the picture, which is drawn over the one before. A device has its
-//! vertices, indices, texture and commands before; submitting and waiting are timed, its picture stays
-//! where it is.
+//! A frame is everything from the mesh to the picture, which is drawn over the one before.
 
-use std::process::{Command, ExitCode};
 use std::time::Instant;
 
 use rasterproof_core::frame::Frame;
@@ -16,36 +13,10 @@ use rasterproof_render::scene::Scene;
 use rasterproof_tiles::coverage::Tiles;
 use rasterproof_tiles::frames::{self, Samples};
 
-/// Where devices draw too, llvmpipe has one thread, the caller's, unless `LP_NUM_THREADS` says otherwise.
-/// It reads that when it is loaded, so the bench is started again with it.
-pub fn one_thread_each(bench: impl FnOnce()) -> ExitCode {
-    const THREADS: &str = "LP_NUM_THREADS";
-    if cfg!(not(feature = "vulkan")) || std::env::var_os(THREADS).is_some() {
-        bench();
-        return ExitCode::SUCCESS;
-    }
-    let again = std::env::current_exe().and_then(|program| {
-        Command::new(program).args(std::env::args_os().skip(1)).env(THREADS, "0").status()
-    });
-    match again {
-        Ok(status) if status.success() => ExitCode::SUCCESS,
-        Ok(status) => {
-            eprintln!("the bench with {THREADS}=0: {status}");
-            ExitCode::FAILURE
-        }
-        Err(error) => {
-            eprintln!("cannot start the bench with {THREADS}=0: {error}; set it before");
-            ExitCode::FAILURE
-        }
-    }
-}
-
 type Draw<'a> = dyn FnMut(&mut Frame<Colour>) + 'a;
 
-/// Somebody who draws a frame.
 pub struct Draws<'a> {
     pub name: String,
-    /// This is timed.
     draw: Box<Draw<'a>>,
     /// Kept from frame to frame.
     picture: Frame<Colour>,
@@ -99,30 +70,6 @@ pub fn wrong(picture: &Frame<Colour>, truth: &Frame<Colour>, background: Colour)
         }
     }
     [uncovered, other]
-}
-
-/// Without the feature there are none.
-#[cfg(not(feature = "vulkan"))]
-pub fn devices(_: &Scene, _: u32, _: Samples) -> Vec<Draws<'static>> {
-    Vec::new()
-}
-
-#[cfg(feature = "vulkan")]
-pub fn devices(scene: &Scene, side_px: u32, samples: Samples) -> Vec<Draws<'static>> {
-    use rasterproof_vulkan::device::find;
-    use rasterproof_vulkan::gpu::mesh::Filmed;
-
-    let all = find::list().unwrap_or_else(|error| {
-        eprintln!("{error}");
-        Vec::new()
-    });
-    let device = |listed: &find::Listed| {
-        let mut filmed = Filmed::new(listed, scene, side_px, samples).expect("a device that draws");
-        let picture = filmed.picture().expect("a device that draws");
-        let draw = move |_: &mut Frame<Colour>| filmed.draw().expect("a device that draws");
-        Draws { name: listed.about.short(), draw: Box::new(draw), picture }
-    };
-    all.iter().map(device).collect()
 }
 
 /// Frames of a turn that are not timed: after them caches, threads and clocks are as they are in the

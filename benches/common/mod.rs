@@ -51,7 +51,6 @@ impl Scene {
     }
 }
 
-/// The target all benches draw to.
 pub fn window() -> PixelRect {
     PixelRect::window(SIDE_PX, SIDE_PX)
 }

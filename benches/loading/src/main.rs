@@ -36,9 +36,7 @@ const READERS: [(&str, fn(&str) -> Triangles); 10] = [
         let triangles: Result<Vec<_>, _> = stl_io::create_stl_reader(&mut open(path)?)?.collect();
         Ok(black_box(triangles?).len())
     }),
-    ("nom_stl", |path| {
-        Ok(black_box(nom_stl::parse_stl(&mut open(path)?)?).triangles().len())
-    }),
+    ("nom_stl", |path| Ok(black_box(nom_stl::parse_stl(&mut open(path)?)?).triangles().len())),
     ("gltf", gltf_file),
     ("ply-rs-bw", ply),
 ];

@@ -14,14 +14,15 @@ use rasterproof_core::contract::{Rasterize as _, RasterizeExact as _};
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_core::triangle::{FreeCorners, Span};
 use rasterproof_judge::Options;
+use rasterproof_judge::in_process::runs_of;
 use rasterproof_precision::cost::ExternalVariant as _;
 use rasterproof_verify::oracle::Oracle;
 use rasterproof_vulkan::device::Error;
 use rasterproof_vulkan::device::draw::Draw;
 use rasterproof_vulkan::device::find::{self, About};
-use rasterproof_vulkan::device::stage::{CELL_PX, Kind};
+use rasterproof_vulkan::device::page::{CELL_PX, Kind};
 use rasterproof_vulkan::gpu::campaign::{self, DeviceReport};
-use rasterproof_vulkan::gpu::cells::{plain, runs, twice_area_px2};
+use rasterproof_vulkan::gpu::cells::{plain, twice_area_px2};
 use rasterproof_vulkan::gpu::engine::{Gpu, hits_kind};
 use rasterproof_vulkan::gpu::known;
 use rasterproof_vulkan::gpu::rules::Class;
@@ -315,7 +316,7 @@ fn recordings_are_drawn_again() {
         let (mut checked, mut wrong) = (0, 0);
         for (cell, record) in whole.iter().enumerate() {
             let pictures = if lonely.contains(&cell) { &alone } else { &pictures };
-            let rows = (0..CELL_PX).flat_map(|y| runs(y as i32, pictures.row(cell, y, CELL_PX)));
+            let rows = (0..CELL_PX).flat_map(|y| runs_of(y as i32, pictures.row(cell, y, CELL_PX)));
             let drawn: Vec<_> = rows.map(|(s, n)| (vec![s.y_px, s.x0_px, s.x1_px], n)).collect();
             let target: Vec<_> =
                 record["runs"].as_array().unwrap().iter().map(|run| (ints(run), 1)).collect();

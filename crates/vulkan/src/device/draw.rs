@@ -7,7 +7,7 @@ use ash::vk;
 
 use super::memory::{Buffer, copy};
 use super::open::Opened;
-use super::stage::{CELL_PX, Kind, Stage, VERTEX_BYTES};
+use super::page::{CELL_PX, Kind, Page, VERTEX_BYTES};
 use super::{Error, While as _};
 
 /// Bytes that are read back from one submission at most.
@@ -23,7 +23,6 @@ pub struct Vertex {
     pub attributes: [f32; 2],
 }
 
-/// A primitive in a cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Draw {
     /// The cell; several may be drawn into one, in order. Cells of a list must not decrease.
@@ -76,8 +75,8 @@ impl Drop for Pool {
 pub struct Prepared {
     pool: Arc<Pool>,
     commands: vk::CommandBuffer,
-    // What every run reads and writes.
-    _uses: Box<dyn Send>,
+    // What every run reads.
+    _vertices: Buffer,
 }
 
 impl Drop for Prepared {
@@ -100,12 +99,11 @@ impl Pictures {
     }
 }
 
-/// Draws on one device.
 pub struct Painter {
     device: Arc<Opened>,
     pool: Arc<Pool>,
     fence: vk::Fence,
-    stages: HashMap<Kind, Stage>,
+    kinds: HashMap<Kind, Page>,
     vertices: Option<Buffer>,
     pages: Option<Buffer>,
     submissions: u64,
@@ -123,7 +121,6 @@ impl Drop for Painter {
 }
 
 impl Painter {
-    /// Gets ready to draw.
     pub fn new(device: &Arc<Opened>, failing: Option<Failing>) -> Result<Self, Error> {
         let info = vk::CommandPoolCreateInfo::default().queue_family_index(device.family);
         // SAFETY: the family is one of the device's.
@@ -133,7 +130,7 @@ impl Painter {
             device: Arc::clone(device),
             pool: Arc::new(Pool { device: Arc::clone(device), raw }),
             fence: vk::Fence::null(),
-            stages: HashMap::new(),
+            kinds: HashMap::new(),
             vertices: None,
             pages: None,
             submissions: 0,
@@ -188,16 +185,7 @@ impl Painter {
         let mut vertices = Buffer::new(&self.device, bytes.len().max(1), usage)?;
         vertices.write(&bytes);
         let commands = self.record(kind, 0..1, draws, &vertices, None)?;
-        Ok(self.prepared(commands, vertices))
-    }
-
-    /// Recorded commands with what they use.
-    pub(super) fn prepared(
-        &self,
-        commands: vk::CommandBuffer,
-        uses: impl Send + 'static,
-    ) -> Prepared {
-        Prepared { pool: Arc::clone(&self.pool), commands, _uses: Box::new(uses) }
+        Ok(Prepared { pool: Arc::clone(&self.pool), commands, _vertices: vertices })
     }
 
     /// Submits what this painter prepared, and waits for it.
@@ -231,9 +219,9 @@ impl Painter {
                 && offset.y as u32 + extent.height <= kind.page_px()
         };
         assert!(draws.iter().all(fits), "cells and windows lie on their page");
-        if !self.stages.contains_key(&kind) {
-            let stage = Stage::new(&self.device, kind)?;
-            self.stages.insert(kind, stage);
+        if !self.kinds.contains_key(&kind) {
+            let page = Page::new(&self.device, kind)?;
+            self.kinds.insert(kind, page);
         }
         Ok(())
     }
@@ -318,8 +306,7 @@ impl Painter {
         self.end(commands)
     }
 
-    /// Begins to record.
-    pub(super) fn begin(&self) -> Result<vk::CommandBuffer, Error> {
+    fn begin(&self) -> Result<vk::CommandBuffer, Error> {
         let raw = &self.device.raw;
         let info = vk::CommandBufferAllocateInfo::default()
             .command_pool(self.pool.raw)
@@ -335,7 +322,7 @@ impl Painter {
     }
 
     /// Ends what was begun; what it copies can be read by the program.
-    pub(super) fn end(&self, commands: vk::CommandBuffer) -> Result<vk::CommandBuffer, Error> {
+    fn end(&self, commands: vk::CommandBuffer) -> Result<vk::CommandBuffer, Error> {
         let barrier = [vk::MemoryBarrier::default()
             .src_access_mask(vk::AccessFlags::TRANSFER_WRITE)
             .dst_access_mask(vk::AccessFlags::HOST_READ)];
@@ -360,15 +347,15 @@ impl Painter {
         vertices: &Buffer,
     ) {
         let raw = &self.device.raw;
-        let stage = &self.stages[&kind];
+        let page = &self.kinds[&kind];
         let clear = [kind.clear(); 2];
         let all = vk::Rect2D {
             offset: vk::Offset2D::default(),
             extent: vk::Extent2D { width: kind.page_px(), height: kind.page_px() },
         };
         let begin = vk::RenderPassBeginInfo::default()
-            .render_pass(stage.render_pass)
-            .framebuffer(stage.framebuffer)
+            .render_pass(page.render_pass)
+            .framebuffer(page.framebuffer)
             .render_area(all)
             .clear_values(&clear);
         // SAFETY: every handle is of this device and alive; the viewport and the scissor are set
@@ -376,11 +363,11 @@ impl Painter {
         unsafe {
             raw.cmd_begin_render_pass(commands, &begin, vk::SubpassContents::INLINE);
             raw.cmd_bind_vertex_buffers(commands, 0, &[vertices.raw], &[0]);
-            for pass in &stage.passes {
+            for pass in &page.passes {
                 let graphics = vk::PipelineBindPoint::GRAPHICS;
                 raw.cmd_bind_pipeline(commands, graphics, pass.pipeline);
                 let (fragment, step) = (vk::ShaderStageFlags::FRAGMENT, pass.step.to_ne_bytes());
-                raw.cmd_push_constants(commands, stage.layout, fragment, 0, &step);
+                raw.cmd_push_constants(commands, page.layout, fragment, 0, &step);
                 let mut first = first_vertex;
                 for same in draws.chunk_by(|a, b| a.place() == b.place()) {
                     let (viewport, scissor) = place(kind, &same[0]);
@@ -397,13 +384,13 @@ impl Painter {
 
     /// Records the copy of a page behind those before it.
     fn record_copy(&self, commands: vk::CommandBuffer, kind: Kind, at: u64, into: &Buffer) {
-        let (raw, stage) = (&self.device.raw, &self.stages[&kind]);
+        let (raw, page) = (&self.device.raw, &self.kinds[&kind]);
         let from = at * page_bytes(kind) as u64;
         let region = [copy(kind.format(), [kind.page_px(); 2], from)];
         let layout = vk::ImageLayout::TRANSFER_SRC_OPTIMAL;
         // SAFETY: the render pass leaves the page in this layout, and the buffer has room for all.
         unsafe {
-            raw.cmd_copy_image_to_buffer(commands, stage.page.raw, layout, into.raw, &region);
+            raw.cmd_copy_image_to_buffer(commands, page.image.raw, layout, into.raw, &region);
         }
     }
 
@@ -431,7 +418,6 @@ fn page_bytes(kind: Kind) -> usize {
     (kind.page_px() * kind.page_px()) as usize * kind.pixel_bytes()
 }
 
-/// The viewport and the scissor of a draw on its page.
 fn place(kind: Kind, draw: &Draw) -> (vk::Viewport, vk::Rect2D) {
     let cell = (draw.cell % kind.page_cells()) as u32;
     let (x, y) = (cell % kind.cells() * CELL_PX, cell / kind.cells() * CELL_PX);

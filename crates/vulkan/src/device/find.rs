@@ -27,13 +27,10 @@ impl Drop for Instance {
 pub struct Listed {
     pub(super) instance: Arc<Instance>,
     pub(super) handle: vk::PhysicalDevice,
-    /// Its number in the list.
     pub number: usize,
-    /// What it says of itself.
     pub about: About,
 }
 
-/// What a device says of itself.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct About {
     pub device: String,
@@ -41,7 +38,6 @@ pub struct About {
     pub driver: String,
     /// The driver's version: in its own words where there are any.
     pub version: String,
-    /// The version of Vulkan that it offers.
     pub vulkan: String,
     /// `subPixelPrecisionBits`: window positions are multiples of 1/2^bits px.
     pub subpixel_bits: u32,
@@ -74,7 +70,6 @@ impl About {
         format!("{} {}{also}", self.device, self.driver).to_lowercase()
     }
 
-    /// A short name for a table.
     pub fn short(&self) -> String {
         let words = self.words();
         let known = ["llvmpipe", "SwiftShader"].iter().find(|n| words.contains(&n.to_lowercase()));

@@ -171,7 +171,6 @@ impl Drop for Image {
 }
 
 impl Image {
-    /// An image like this.
     pub(super) fn new(device: &Arc<Opened>, like: Like) -> Result<Self, Error> {
         let [width, height] = like.size;
         let info = vk::ImageCreateInfo::default()
@@ -215,13 +214,11 @@ impl Image {
     }
 }
 
-/// Whether an image holds depths.
 fn is_depth(format: vk::Format) -> bool {
     [vk::Format::D16_UNORM, vk::Format::X8_D24_UNORM_PACK32, vk::Format::D32_SFLOAT]
         .contains(&format)
 }
 
-/// What an image of this format holds.
 fn aspect(format: vk::Format) -> vk::ImageAspectFlags {
     if is_depth(format) { vk::ImageAspectFlags::DEPTH } else { vk::ImageAspectFlags::COLOR }
 }
@@ -239,7 +236,6 @@ pub(super) fn copy(
         .image_extent(vk::Extent3D { width, height, depth: 1 })
 }
 
-/// All of an image of one level and layer.
 pub(super) fn whole(format: vk::Format) -> vk::ImageSubresourceRange {
     vk::ImageSubresourceRange {
         aspect_mask: aspect(format),

@@ -1,9 +1,8 @@
 //! A Vulkan device that draws lists of primitives, each in a cell of its own, and reads them back.
 //!
 //! [`find`] loads the loader and lists devices (`icd` says why there are none), [`open`] makes one
-//! ready, [`memory`] owns what is allocated, [`stage`] knows the kinds of pictures, `pipeline` makes render passes and pipelines,
-//! [`draw`] records, submits and waits; [`mesh`] draws a textured mesh for a clock. No window and no
-//! surface: pictures are images of 1024 x 1024 px that hold 256 cells.
+//! ready, [`memory`] owns what is allocated, [`page`] knows the kinds of pictures, `pipeline` makes render passes and pipelines,
+//! [`draw`] records, submits and waits. No window and no surface: pictures are images of 1024 x 1024 px that hold 256 cells.
 //!
 //! # What the `unsafe` blocks rely on
 //! Every handle is owned by a value that holds what it was made from ([`open::Opened`] holds the
@@ -15,16 +14,14 @@ pub mod draw;
 pub mod find;
 mod icd;
 pub mod memory;
-pub mod mesh;
 pub mod open;
+pub mod page;
 mod pipeline;
-pub mod stage;
 
 use std::fmt;
 
 use ash::vk;
 
-/// Why there is no picture.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Error {
     /// The loader, `libvulkan`, cannot be loaded: what the system says.
@@ -36,7 +33,6 @@ pub enum Error {
     Unknown(String, Vec<String>, Vec<String>),
     /// The device cannot do what is asked of it.
     Unsupported(String),
-    /// There is not enough memory for this.
     OutOfMemory(&'static str),
     /// The device was lost: the driver or the hardware gave up.
     Lost(&'static str),

@@ -13,9 +13,6 @@ pub struct Opened {
     queue: Mutex<vk::Queue>,
     pub(super) family: u32,
     pub(super) memory: vk::PhysicalDeviceMemoryProperties,
-    /// The finest depth that every device has one of: f32, or 24 bits.
-    pub(super) depth: vk::Format,
-    /// What the device says of itself.
     pub about: About,
     // Dropped last, as the fields go in order.
     _instance: Arc<Instance>,
@@ -84,17 +81,12 @@ impl Opened {
         let queue = unsafe { raw.get_device_queue(family, 0) };
         // SAFETY: the handle is of this instance.
         let memory = unsafe { instance.get_physical_device_memory_properties(listed.handle) };
-        let depth = match about.float_depth {
-            true => vk::Format::D32_SFLOAT,
-            false => vk::Format::X8_D24_UNORM_PACK32,
-        };
         let about = about.clone();
         Ok(Arc::new(Self {
             raw,
             queue: Mutex::new(queue),
             family,
             memory,
-            depth,
             about,
             _instance: Arc::clone(&listed.instance),
         }))

@@ -1,4 +1,4 @@
-//! Render passes and pipelines: what pages of one kind and frames of a mesh have in common.
+//! The render pass and the pipelines of the pages of one kind.
 
 use ash::vk;
 

@@ -25,9 +25,7 @@ const MOST_OF_A_STAGE: u64 = 2048;
 
 #[derive(Clone, Debug)]
 pub struct DeviceReport {
-    /// What it says of itself.
     pub about: About,
-    /// What was planted, if anything was.
     pub plant: Option<&'static str>,
     /// The families, as the judge of programs has them.
     pub verdict: Verdict,
@@ -38,7 +36,6 @@ pub struct DeviceReport {
 }
 
 impl DeviceReport {
-    /// Whether nothing is to be done.
     #[must_use]
     pub fn agrees(&self) -> bool {
         self.findings.iter().all(|f| f.class.is_good())
@@ -79,14 +76,12 @@ pub fn families(wanted: &[String]) -> Vec<String> {
     adapt_case::families(wanted).iter().filter(is_asked).map(|f| f.name.to_owned()).collect()
 }
 
-/// Judges a device, with the faults that are known of it.
 #[must_use]
 pub fn judge(gpu: Gpu, options: &Options, progress: &(dyn Fn(u64) + Sync)) -> DeviceReport {
     let known = known::of(&known::parse(known::TEXT).unwrap_or_default(), gpu.about());
     judge_with(gpu, options, &known, progress)
 }
 
-/// The same with these faults known.
 #[must_use]
 pub fn judge_with(
     gpu: Gpu,

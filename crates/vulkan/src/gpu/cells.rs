@@ -1,12 +1,13 @@
 //! What is drawn in a cell, and what is read from it.
 
 use crate::device::draw::{Draw, Pictures, Vertex};
-use crate::device::stage::CELL_PX;
+use crate::device::page::CELL_PX;
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS};
-use rasterproof_core::triangle::{Corners, Span};
+use rasterproof_core::triangle::Corners;
 use rasterproof_judge::adapt_case;
 use rasterproof_judge::declared::Declared;
+use rasterproof_judge::in_process::runs_of;
 use rasterproof_verify::cases::{Shape, Triangle};
 
 pub const WINDOW: PixelRect = PixelRect::window(CELL_PX, CELL_PX);
@@ -45,20 +46,6 @@ pub fn floats(pixel: &[u8]) -> [f64; 4] {
     [word(0), word(1), word(2), word(3)]
 }
 
-/// Runs of pixels of a row with the same byte, but not 0.
-pub fn runs(y_px: i32, row: &[u8]) -> Vec<(Span, u8)> {
-    let mut x_px = 0;
-    let mut runs = Vec::new();
-    for run in row.chunk_by(|a, b| a == b) {
-        let x1_px = x_px + run.len() as i32;
-        if run[0] != 0 {
-            runs.push((Span { y_px, x0_px: x_px, x1_px }, run[0]));
-        }
-        x_px = x1_px;
-    }
-    runs
-}
-
 /// A draw whose window's corner is the middle of its viewport.
 pub fn draw_of(cell: usize, vertices: [Vertex; 3], side_px: f32) -> Draw {
     let half = side_px / 2.0;
@@ -68,7 +55,7 @@ pub fn draw_of(cell: usize, vertices: [Vertex; 3], side_px: f32) -> Draw {
 pub fn hits_of(pictures: &Pictures, cell: usize) -> Coverage {
     let mut hits = Coverage::new(WINDOW, 0);
     for y in 0..CELL_PX {
-        for (run, times) in runs(y as i32, pictures.row(cell, y, CELL_PX)) {
+        for (run, times) in runs_of(y as i32, pictures.row(cell, y, CELL_PX)) {
             (0..times).for_each(|_| hits.hit(run.y_px, run.x0_px, run.x1_px));
         }
     }
@@ -80,7 +67,6 @@ pub fn twice_area_px2(corners: &Corners) -> f64 {
     rasterproof_verify::comparison::area2(corners).unsigned_abs() as f64 / square
 }
 
-/// Triangles of the families in perspective.
 pub fn in_perspective(declared: &Declared, seed: u64, cases: u64) -> Vec<Triangle> {
     let names = ["w-equal", "w-4", "w-100"].map(str::to_owned);
     let mut triangles = Vec::new();

@@ -9,17 +9,18 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::cells::{floats, plain, runs, twice_area_px2, valued};
+use super::cells::{floats, plain, twice_area_px2, valued};
 use super::plant::Plant;
 use crate::device::Error;
 use crate::device::draw::{Draw, Painter, Pictures, Vertex};
 use crate::device::find::{self, About, Listed};
 use crate::device::open::Opened;
-use crate::device::stage::{CELL_PX, Kind, PAGE_PX};
+use crate::device::page::{CELL_PX, Kind, PAGE_PX};
 use rasterproof_core::grid::{SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::{Fragment, Span};
 use rasterproof_judge::ask::{Answer, Ask, Asked, Misbehaviour, Question};
 use rasterproof_judge::declared::{Declared, MOST_IN_FLIGHT};
+use rasterproof_judge::in_process::runs_of;
 
 /// The beginning of an engine's name that means a device.
 pub const PREFIX: &str = "vulkan:";
@@ -64,7 +65,6 @@ impl Gpu {
         Ok(gpu)
     }
 
-    /// What the device says of itself.
     pub fn about(&self) -> &About {
         &self.listed.about
     }
@@ -211,7 +211,7 @@ fn answer(pictures: &Pictures, kind: Kind, cell: usize, question: &Question) -> 
     let rows = (0..question.height).map(|y| (y as i32, pictures.row(cell, y, question.width)));
     match kind {
         Kind::Samples => {
-            let runs = rows.flat_map(|(y, row)| runs(y, row));
+            let runs = rows.flat_map(|(y, row)| runs_of(y, row));
             Answer::Samples(runs.collect())
         }
         Kind::Values | Kind::Linear => {
@@ -226,7 +226,7 @@ fn answer(pictures: &Pictures, kind: Kind, cell: usize, question: &Question) -> 
         }
         _ => {
             // A pixel that was hit n times is in n runs.
-            let runs = rows.flat_map(|(y, row)| runs(y, row));
+            let runs = rows.flat_map(|(y, row)| runs_of(y, row));
             let times = |(run, n): (Span, u8)| std::iter::repeat_n(run, usize::from(n));
             Answer::Coverage(runs.flat_map(times).collect())
         }

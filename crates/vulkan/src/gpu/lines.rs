@@ -1,13 +1,14 @@
 //! Lines of a device: each alone, by the rules of its mode, and joined.
 
-use super::cells::{draw_of, plain, runs};
+use super::cells::{draw_of, plain};
 use super::engine::Gpu;
 use super::known::{self, Known};
 use super::rules::{Class, Outcome};
 use crate::device::Error;
 use crate::device::draw::Pictures;
-use crate::device::stage::{CELL_PX, Kind};
+use crate::device::page::{CELL_PX, Kind};
 use rasterproof_core::grid::{SUBPIXELS, SubpixelPoint};
+use rasterproof_judge::in_process::runs_of;
 use rasterproof_verify::cases::Rng;
 use rasterproof_verify::oracle::segments::{self as segment, Fit, Pixels};
 
@@ -55,7 +56,7 @@ fn draw(gpu: &mut Gpu, kind: Kind, lines: &[(usize, segment::Ends)]) -> Result<P
 }
 
 fn lit(pictures: &Pictures, cell: usize) -> Pixels {
-    let rows = (0..CELL_PX).flat_map(|y| runs(y as i32, pictures.row(cell, y, CELL_PX)));
+    let rows = (0..CELL_PX).flat_map(|y| runs_of(y as i32, pictures.row(cell, y, CELL_PX)));
     rows.flat_map(|(run, _)| (run.x0_px..run.x1_px).map(move |x| (x, run.y_px))).collect()
 }
 
@@ -67,7 +68,6 @@ fn class([_, allowed, outside]: [u64; 3]) -> Class {
     }
 }
 
-/// Lines by themselves.
 pub(super) fn apart(gpu: &mut Gpu, seed: u64, cases: u64, kind: Kind) -> Result<Outcome, Error> {
     let step = step(gpu);
     let mut places = Places::new("vulkan-lines", gpu, seed);
@@ -100,7 +100,6 @@ pub(super) fn apart(gpu: &mut Gpu, seed: u64, cases: u64, kind: Kind) -> Result<
     })
 }
 
-/// The stage of lines with an end in common.
 pub(super) const JOINED: &str = "lines, joined";
 
 /// Bresenham lines with an end in common that go on in the same direction: no pixel twice, and no gap.

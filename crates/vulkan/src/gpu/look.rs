@@ -1,13 +1,13 @@
 //! One case as a device draws it, in a window of any size.
 
-use super::cells::runs;
 use super::engine::{Gpu, hits_kind};
 use crate::device::Error;
 use crate::device::draw::{Draw, Vertex};
-use crate::device::stage::{CELL_PX, Kind};
+use crate::device::page::{CELL_PX, Kind};
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_core::triangle::Corners;
+use rasterproof_judge::in_process::runs_of;
 
 /// The hits of triangles in a window.
 ///
@@ -59,7 +59,8 @@ pub fn coverages_px(
         let mut hits = Coverage::new(window, 0);
         for (cell, tile) in cells.by_ref().take(cut(window).count()) {
             for y in 0..tile.height() {
-                for (run, times) in runs(tile.y0 + y as i32, pictures.row(cell, y, tile.width())) {
+                for (run, times) in runs_of(tile.y0 + y as i32, pictures.row(cell, y, tile.width()))
+                {
                     let (x0, x1) = (tile.x0 + run.x0_px, tile.x0 + run.x1_px);
                     (0..times).for_each(|_| hits.hit(run.y_px, x0, x1));
                 }

@@ -10,7 +10,6 @@ pub enum Plant {
     /// Corners are moved right and down by a step of the lattice: samples on top and left edges are
     /// lost, those on bottom and right edges won.
     BottomRightRule,
-    /// Every primitive is drawn twice.
     DrawsTwice,
     /// Attributes are interpolated without perspective.
     NoPerspective,
@@ -29,7 +28,6 @@ pub enum Plant {
 }
 
 impl Plant {
-    /// All of them, by their names.
     pub const ALL: [(&'static str, Self); 10] = [
         ("shifted-samples", Self::ShiftedSamples),
         ("bottom-right-rule", Self::BottomRightRule),
@@ -43,7 +41,6 @@ impl Plant {
         ("out-of-memory", Self::OutOfMemory),
     ];
 
-    /// The submission that fails.
     #[must_use]
     pub fn failing(self) -> Option<Failing> {
         match self {

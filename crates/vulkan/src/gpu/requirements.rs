@@ -10,7 +10,7 @@ use super::rules::{self, Class, Errors, Finding, Outcome, Rule};
 use super::{depth, lines};
 use crate::device::Error;
 use crate::device::draw::Vertex;
-use crate::device::stage::{CELL_PX, Kind, PAGE_PX};
+use crate::device::page::{CELL_PX, Kind, PAGE_PX};
 use rasterproof_core::contract::Rasterize as _;
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
@@ -23,10 +23,9 @@ use rasterproof_verify::comparison::single_precision::linear_bounds;
 use rasterproof_verify::oracle::Oracle;
 use rasterproof_verify::oracle::values::ExactTriangle;
 
-type Stage = fn(&mut Gpu, u64, u64) -> Result<Outcome, Error>;
+type Requirement = fn(&mut Gpu, u64, u64) -> Result<Outcome, Error>;
 
-/// All stages with their rules.
-const STAGES: [(&str, Rule, Stage); 12] = [
+const REQUIREMENTS: [(&str, Rule, Requirement); 12] = [
     ("snapping", rules::SNAPPING, snapping),
     ("noperspective", rules::LINEAR, linear),
     ("depths, 16 bits", rules::DEPTHS, |gpu, seed, cases| {
@@ -58,7 +57,7 @@ pub fn all(gpu: &mut Gpu, seed: u64, cases: u64, known: &[Known]) -> Vec<Finding
         });
         Finding { name: name.to_owned(), rule, class, detail }
     };
-    let mut findings: Vec<Finding> = STAGES
+    let mut findings: Vec<Finding> = REQUIREMENTS
         .iter()
         .map(|(name, rule, stage)| {
             let strict = gpu.about().strict_lines;
@@ -119,7 +118,6 @@ fn large(gpu: &mut Gpu, seed: u64, cases: u64, known: &[Known]) -> Result<Outcom
     Ok((known::class_of_areas(known, LARGE, &judged), said))
 }
 
-/// The oracle's hits in a cell.
 fn oracle(corners: &Corners) -> Coverage {
     let mut hits = Coverage::new(WINDOW, 0);
     Oracle.cover(*corners, WINDOW, |s| hits.hit(s.y_px, s.x0_px, s.x1_px));

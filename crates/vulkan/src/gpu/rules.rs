@@ -18,16 +18,13 @@ pub enum Class {
     NotOffered,
     /// Fixed: the baseline names a fault that no case shows any more.
     Stale,
-    /// Outside the specification.
     Outside,
-    /// The device gave no answer.
     NoAnswer,
 }
 
 pub type Outcome = (Class, String);
 
 impl Class {
-    /// Whether nothing is to be done.
     #[must_use]
     pub fn is_good(self) -> bool {
         self <= Self::NotOffered
@@ -50,12 +47,10 @@ impl Class {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 pub struct Rule {
     pub section: &'static str,
-    /// What it asks for, in short.
     pub says: &'static str,
     pub open: &'static str,
 }
 
-/// Triangles.
 pub const POLYGONS: Rule = Rule {
     section: "Basic Polygon Rasterization (primsrast-polygons-basic)",
     says: "samples inside are covered; one on an edge that two triangles share, by exactly one of them",
@@ -67,7 +62,6 @@ pub const SAMPLES: Rule = Rule {
            device says standardSampleLocations",
     open: "samples on edges, as with one sample",
 };
-/// Values.
 pub const PERSPECTIVE: Rule = Rule {
     section: "Basic Polygon Rasterization (primsrast-polygons-basic)",
     says: "attributes are weighed by barycentric coordinates over w, depth by them alone",
@@ -147,7 +141,6 @@ pub struct Errors {
 }
 
 impl Errors {
-    /// Takes an error into account.
     pub fn add(&mut self, error: f64, bound: f64, allowed: f64) {
         self.values += 1;
         self.beyond += u64::from(error > bound);
@@ -169,12 +162,10 @@ impl Errors {
     }
 }
 
-/// What came of a property.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Finding {
     pub name: String,
     pub rule: Rule,
     pub class: Class,
-    /// What was found, in a sentence.
     pub detail: String,
 }

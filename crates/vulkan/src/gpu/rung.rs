@@ -7,7 +7,7 @@ use super::look;
 use crate::device::Error;
 use crate::device::draw::{Draw, Painter};
 use crate::device::open::Opened;
-use crate::device::stage::{Kind, PAGE_PX};
+use crate::device::page::{Kind, PAGE_PX};
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{FreeCorners, Span};
 use rasterproof_precision::cost::{ExternalVariant, Rung};
@@ -15,14 +15,12 @@ use rasterproof_precision::cost::{ExternalVariant, Rung};
 /// Triangles that are drawn at once to be judged.
 const AT_ONCE: usize = 1024;
 
-/// A device as a rung.
 pub struct OnLadder {
     gpu: Gpu,
     opened: Arc<Opened>,
 }
 
 impl OnLadder {
-    /// The device that an engine's name means.
     pub fn new(engine: &str) -> Result<Self, Error> {
         let mut gpu = Gpu::named(engine)?;
         let opened = Arc::clone(gpu.ready()?.device());

@@ -127,7 +127,6 @@ fn closing(stand: &DeviceReport) -> String {
     said
 }
 
-/// The verdict for machines.
 pub fn json(stand: &DeviceReport, repeat: &dyn Fn(&str, u64) -> String) -> String {
     let failures: Vec<_> = stand
         .verdict
@@ -159,7 +158,6 @@ pub fn json(stand: &DeviceReport, repeat: &dyn Fn(&str, u64) -> String) -> Strin
     format!("{all:#}\n")
 }
 
-/// The verdict as a page.
 #[must_use]
 pub fn page(
     stand: &DeviceReport,

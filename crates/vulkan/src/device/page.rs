@@ -43,7 +43,7 @@ pub enum Kind {
     Lines,
     /// Rectangular lines: a byte of hits.
     RectangularLines,
-    /// Bresenham lines: a byte of hits.
+    /// Bresenham lines, where the device offers them: a byte of hits.
     BresenhamLines,
 }
 
@@ -70,7 +70,6 @@ impl Kind {
         self.cells() * CELL_PX
     }
 
-    /// Vertices of a primitive.
     pub fn corners(self) -> u32 {
         if self.is_lines() { 2 } else { 3 }
     }
@@ -144,19 +143,19 @@ pub(super) struct Pass {
 }
 
 /// A page of one kind with everything that draws into it.
-pub(super) struct Stage {
+pub(super) struct Page {
     device: Arc<Opened>,
     pub(super) render_pass: vk::RenderPass,
     pub(super) framebuffer: vk::Framebuffer,
     pub(super) layout: vk::PipelineLayout,
     pub(super) passes: Vec<Pass>,
     /// What is copied from: the page, resolved where it has samples.
-    pub(super) page: Image,
+    pub(super) image: Image,
     // What is drawn into where that is another one.
     _samples: Option<Image>,
 }
 
-impl Drop for Stage {
+impl Drop for Page {
     fn drop(&mut self) {
         let raw = &self.device.raw;
         // SAFETY: nothing is in use by the device between calls, null handles are allowed, and the
@@ -170,7 +169,7 @@ impl Drop for Stage {
     }
 }
 
-impl Stage {
+impl Page {
     pub(super) fn new(device: &Arc<Opened>, kind: Kind) -> Result<Self, Error> {
         let one = vk::SampleCountFlags::TYPE_1;
         let samples = match kind.samples() {
@@ -179,19 +178,19 @@ impl Stage {
                 Some(Image::new(device, Like::drawn(kind.format(), kind.page_px(), samples))?)
             }
         };
-        let mut stage = Self {
+        let mut page = Self {
             device: Arc::clone(device),
             render_pass: vk::RenderPass::null(),
             framebuffer: vk::Framebuffer::null(),
             layout: vk::PipelineLayout::null(),
             passes: Vec::new(),
-            page: Image::new(device, Like::drawn(kind.format(), kind.page_px(), one))?,
+            image: Image::new(device, Like::drawn(kind.format(), kind.page_px(), one))?,
             _samples: samples,
         };
         // Filled field by field: what fails is dropped with what was made before it.
-        stage.render_pass = kind.attachments().render_pass(device)?;
-        let views: Vec<_> = stage._samples.iter().chain([&stage.page]).map(|i| i.view).collect();
-        stage.framebuffer = framebuffer(device, stage.render_pass, &views, kind.page_px())?;
+        page.render_pass = kind.attachments().render_pass(device)?;
+        let views: Vec<_> = page._samples.iter().chain([&page.image]).map(|i| i.view).collect();
+        page.framebuffer = framebuffer(device, page.render_pass, &views, kind.page_px())?;
         let ranges = [vk::PushConstantRange {
             stage_flags: vk::ShaderStageFlags::FRAGMENT,
             offset: 0,
@@ -200,19 +199,19 @@ impl Stage {
         let info = vk::PipelineLayoutCreateInfo::default().push_constant_ranges(&ranges);
         // SAFETY: four bytes of constants are allowed everywhere.
         let layout = unsafe { device.raw.create_pipeline_layout(&info, None) };
-        stage.layout = layout.during("creating a pipeline layout")?;
+        page.layout = layout.during("creating a pipeline layout")?;
         for (step, mask) in kind.passes() {
-            let pipeline = pipeline(&stage, kind, mask)?;
-            stage.passes.push(Pass { pipeline, step });
+            let pipeline = pipeline(&page, kind, mask)?;
+            page.passes.push(Pass { pipeline, step });
         }
-        Ok(stage)
+        Ok(page)
     }
 }
 
 /// Bytes of a vertex: clip coordinates and two attributes, six f32.
 pub(super) const VERTEX_BYTES: u32 = 24;
 
-fn pipeline(stage: &Stage, kind: Kind, sample_mask: u32) -> Result<vk::Pipeline, Error> {
+fn pipeline(page: &Page, kind: Kind, sample_mask: u32) -> Result<vk::Pipeline, Error> {
     Recipe {
         shaders: [include_bytes!("shaders/draw.vert.spv"), kind.fragment_shader()],
         stride: VERTEX_BYTES,
@@ -229,8 +228,8 @@ fn pipeline(stage: &Stage, kind: Kind, sample_mask: u32) -> Result<vk::Pipeline,
         attachments: kind.attachments(),
         sample_mask,
         adds: kind.pixel_bytes() == 1,
-        layout: stage.layout,
-        render_pass: stage.render_pass,
+        layout: page.layout,
+        render_pass: page.render_pass,
     }
-    .make(&stage.device)
+    .make(&page.device)
 }
