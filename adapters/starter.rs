@@ -69,11 +69,22 @@ const CLIP: Option<Clip> = None;
 // ---- the line protocol: nothing to change from here on ----
 
 /// Corners x, y, z, w, a, b; set_pixel(x, y, [z, a, b]) for every pixel drawn.
-type Values = fn(corners: [[f64; 6]; 3], width: i32, height: i32, set_pixel: &mut dyn FnMut(i32, i32, [f64; 3]));
+type Values = fn(
+    corners: [[f64; 6]; 3],
+    width: i32,
+    height: i32,
+    set_pixel: &mut dyn FnMut(i32, i32, [f64; 3]),
+);
 /// Corners in pixels; set_pixel(x, y, mask), bit s of the mask is sample s.
-type Samples = fn(corners: [(f64, f64); 3], width: i32, height: i32, set_pixel: &mut dyn FnMut(i32, i32, u8));
+type Samples =
+    fn(corners: [(f64, f64); 3], width: i32, height: i32, set_pixel: &mut dyn FnMut(i32, i32, u8));
 /// Triangles of three corners x, y, z; set_pixel(x, y, t) once where triangle t is nearest.
-type Depth = fn(triangles: &[[[f64; 3]; 3]], width: i32, height: i32, set_pixel: &mut dyn FnMut(i32, i32, usize));
+type Depth = fn(
+    triangles: &[[[f64; 3]; 3]],
+    width: i32,
+    height: i32,
+    set_pixel: &mut dyn FnMut(i32, i32, usize),
+);
 /// Three corners x, y, z, w of clip space; the corners of what z >= -w leaves of them.
 type Clip = fn(corners: [[f64; 4]; 3]) -> Vec<[f64; 4]>;
 
@@ -152,7 +163,13 @@ fn draw(words: &[&str]) -> Result<String, String> {
     let (Some(width), Some(height)) = (side(words[2]), side(words[3])) else {
         return Err(format!("the window must be from 1x1 to {MOST_SIDE}x{MOST_SIDE}"));
     };
-    let is_position = |i: usize| i % match verb { "I" => 6, "D" => 3, _ => 2 } < 2;
+    let is_position = |i: usize| {
+        i % match verb {
+            "I" => 6,
+            "D" => 3,
+            _ => 2,
+        } < 2
+    };
     let read = |(i, word): (usize, &&str)| if is_position(i) { number(word) } else { value(word) };
     let v = words[4..].iter().enumerate().map(read).collect::<Result<Vec<_>, _>>()?;
     // Of a line there are two.
@@ -173,11 +190,13 @@ fn draw(words: &[&str]) -> Result<String, String> {
         let corners: Vec<[f64; 3]> = v.chunks_exact(3).map(|c| [c[0], c[1], c[2]]).collect();
         let triangles: Vec<_> = corners.chunks_exact(3).map(|t| [t[0], t[1], t[2]]).collect();
         let hits = drawn(width, height, |set| depth(&triangles, width, height, set))?;
-        let group = |(y, x, t): (i32, i32, usize)| vec![y.into(), x.into(), (x + 1).into(), t as f64];
+        let group =
+            |(y, x, t): (i32, i32, usize)| vec![y.into(), x.into(), (x + 1).into(), t as f64];
         ("V", hits.into_iter().map(group).collect())
     } else if let ("S", Some(samples)) = (verb, SAMPLES) {
         let hits = drawn(width, height, |set| samples(corners, width, height, set))?;
-        let group = |(y, x, mask): (i32, i32, u8)| vec![y.into(), x.into(), (x + 1).into(), mask.into()];
+        let group =
+            |(y, x, mask): (i32, i32, u8)| vec![y.into(), x.into(), (x + 1).into(), mask.into()];
         ("M", hits.into_iter().filter(|(_, _, mask)| *mask > 0).map(group).collect())
     } else {
         let pixel = |i: usize| (v[i].floor() as i32, v[i + 1].floor() as i32);

@@ -56,4 +56,3 @@ fn depth(
 fn clip(corners: [[f64; 4]; 3]) -> Vec<[f64; 4]> {
     Vec::new()
 }
-

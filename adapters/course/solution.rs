@@ -190,4 +190,3 @@ fn clip(corners: [[f64; 4]; 3]) -> Vec<[f64; 4]> {
     }
     left
 }
-

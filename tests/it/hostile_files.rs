@@ -38,12 +38,10 @@ const ALL: [Hostile; 7] = [
     Hostile::Missing,
 ];
 
-/// An option that reads a file.
 struct Reader {
     name: &'static str,
     /// The command; `{}` is the file.
     words: &'static str,
-    /// The file in the folder of the command.
     file: &'static str,
     /// The beginning of a right file.
     truncated: &'static [u8],
@@ -56,159 +54,51 @@ struct Reader {
 const MODEL: &str = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl a\nf 1/1 2/1 3/1\n";
 const PNG: &[u8] = b"\x89PNG\r\n\x1a\n\0\0";
 
-const READERS: [Reader; 18] = [
-    Reader {
-        name: "render MODEL",
-        words: "render --size 16x16 {}",
-        file: "x.obj",
-        truncated: b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2",
-        beside: &[],
-        or: &[],
-    },
-    Reader {
-        name: "plan MODEL",
-        words: "plan --size 16x16 --rounds 1 {}",
-        file: "x.obj",
-        truncated: b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2",
-        beside: &[],
-        or: &[],
-    },
+const READER: Reader =
+    Reader { name: "", words: "", file: "", truncated: b"", beside: &[], or: &[] };
+
+/// Readers from a table: the option, the command, the file, its beginning, and what is special about it.
+macro_rules! readers {
+    ($($name:literal, $words:literal, $file:literal, $truncated:expr $(, $more:ident: $value:expr)*;)*) => {
+        [$(Reader {
+            name: $name, words: $words, file: $file, truncated: $truncated, $($more: $value,)* ..READER
+        }),*]
+    };
+}
+
+const READERS: [Reader; 18] = readers![
+    "render MODEL", "render --size 16x16 {}", "x.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2";
+    "plan MODEL", "plan --size 16x16 --rounds 1 {}", "x.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2";
     // A model without its materials is drawn grey, and one without a texture in its colour, with a warning.
-    Reader {
-        name: "materials of a model",
-        words: "render --size 16x16 model.obj",
-        file: "m.mtl",
-        truncated: b"newmtl a\nKd 1 0",
-        beside: &[("model.obj", MODEL)],
-        or: &[(AGREES, &ALL)],
-    },
-    Reader {
-        name: "texture of a model",
-        words: "render --size 16x16 model.obj",
-        file: "t.png",
-        truncated: PNG,
-        beside: &[("model.obj", MODEL), ("m.mtl", "newmtl a\nKd 1 0 0\nmap_Kd t.png\n")],
-        or: &[(AGREES, &ALL)],
-    },
-    Reader {
-        name: "render --plan",
-        words: "render cube --size 16x16 --plan {}",
-        file: "p.json",
-        truncated: b"{\"plan\": {",
-        beside: &[],
-        or: &[],
-    },
-    Reader {
-        name: "merge",
-        words: "merge {}",
-        file: "c.json",
-        truncated: b"{\"rasterproof\": \"0",
-        beside: &[],
-        or: &[],
-    },
-    Reader {
-        name: "cost --from",
-        words: "cost --from {}",
-        file: "c.json",
-        truncated: b"{\"version\": \"",
-        beside: &[],
-        or: &[],
-    },
+    "materials of a model", "render --size 16x16 model.obj", "m.mtl", b"newmtl a\nKd 1 0",
+        beside: &[("model.obj", MODEL)], or: &[(AGREES, &ALL)];
+    "texture of a model", "render --size 16x16 model.obj", "t.png", PNG,
+        beside: &[("model.obj", MODEL), ("m.mtl", "newmtl a\nKd 1 0 0\nmap_Kd t.png\n")], or: &[(AGREES, &ALL)];
+    "render --plan", "render cube --size 16x16 --plan {}", "p.json", b"{\"plan\": {";
+    "merge", "merge {}", "c.json", b"{\"rasterproof\": \"0";
+    "cost --from", "cost --from {}", "c.json", b"{\"version\": \"";
     // A checkpoint that is not there is a run that begins.
-    Reader {
-        name: "exhaust --checkpoint",
-        words: "exhaust lines --reach 2 --checkpoint {}",
-        file: "c.json",
-        truncated: b"{\"identity\": {",
-        beside: &[],
-        or: &[(AGREES, &[Hostile::Missing])],
-    },
-    Reader {
-        name: "quiz --answers",
-        words: "quiz 2 --answers {}",
-        file: "a.txt",
-        truncated: b"1\n\xe4\xb8",
-        beside: &[],
-        or: &[],
-    },
-    Reader {
-        name: "playground --module",
-        words: "playground --module {}",
-        file: "m.wasm",
-        truncated: b"\0asm\x01\0\0\0\x01\x07",
-        beside: &[],
-        or: &[],
-    },
-    Reader {
-        name: "your-gpu --module",
-        words: "your-gpu --module {}",
-        file: "m.wasm",
-        truncated: b"\0asm\x01\0\0\0\x01\x07",
-        beside: &[],
-        or: &[],
-    },
+    "exhaust --checkpoint", "exhaust lines --reach 2 --checkpoint {}", "c.json", b"{\"identity\": {",
+        or: &[(AGREES, &[Hostile::Missing])];
+    "quiz --answers", "quiz 2 --answers {}", "a.txt", b"1\n\xe4\xb8";
+    "playground --module", "playground --module {}", "m.wasm", b"\0asm\x01\0\0\0\x01\x07";
+    "your-gpu --module", "your-gpu --module {}", "m.wasm", b"\0asm\x01\0\0\0\x01\x07";
     // A baseline that is not there knows no failure.
-    Reader {
-        name: "judge --baseline",
-        words: "judge --cases 2 --family fan --baseline {} -- PROGRAM engine scanline",
-        file: "b.txt",
-        truncated: b"# rasterproof baseline 1, se",
-        beside: &[],
-        or: &[(AGREES, &[Hostile::Missing])],
-    },
-    Reader {
-        name: "judge --league",
-        words: "judge --league",
-        file: "adapters/league.json",
-        truncated: b"[{\"name\":",
-        beside: &[],
-        or: &[],
-    },
+    "judge --baseline", "judge --cases 2 --family fan --baseline {} -- PROGRAM engine scanline", "b.txt", b"# rasterproof baseline 1, se",
+        or: &[(AGREES, &[Hostile::Missing])];
+    "judge --league", "judge --league", "adapters/league.json", b"[{\"name\":";
     // What cannot be shown waits for review all the same.
-    Reader {
-        name: "review, new text",
-        words: "review",
-        file: "snapshots/x.snap.new",
-        truncated: b"---\nsource: a",
-        beside: &[],
-        or: &[(DISAGREES, &ALL), (AGREES, &ALL)],
-    },
-    Reader {
-        name: "review, old text",
-        words: "review",
-        file: "snapshots/x.snap",
-        truncated: b"---\nsource: a",
-        beside: &[("snapshots/x.snap.new", "---\nsource: a.rs\n---\nnew\n")],
-        or: &[(DISAGREES, &ALL)],
-    },
-    Reader {
-        name: "review, new picture",
-        words: "review",
-        file: "snapshots/x.snap.new.png",
-        truncated: PNG,
-        beside: &[(
-            "snapshots/x.snap.new",
-            "---\nsource: a.rs\nextension: png\nsnapshot_kind: binary\n---\n",
-        )],
-        or: &[(DISAGREES, &ALL)],
-    },
+    "review, new text", "review", "snapshots/x.snap.new", b"---\nsource: a",
+        or: &[(DISAGREES, &ALL), (AGREES, &ALL)];
+    "review, old text", "review", "snapshots/x.snap", b"---\nsource: a",
+        beside: &[("snapshots/x.snap.new", "---\nsource: a.rs\n---\nnew\n")], or: &[(DISAGREES, &ALL)];
+    "review, new picture", "review", "snapshots/x.snap.new.png", PNG,
+        beside: &[("snapshots/x.snap.new", "---\nsource: a.rs\nextension: png\nsnapshot_kind: binary\n---\n")], or: &[(DISAGREES, &ALL)];
     // What is not a page is not listed.
-    Reader {
-        name: "pages beside --report",
-        words: "--cases 2 --report --out out",
-        file: "out/x.html",
-        truncated: b"<html><ti",
-        beside: &[],
-        or: &[(AGREES, &ALL)],
-    },
-    Reader {
-        name: "index of --report",
-        words: "--cases 2 --report --out out",
-        file: "out/index.html",
-        truncated: b"<html><ti",
-        beside: &[],
-        or: &[(AGREES, &ALL)],
-    },
+    "pages beside --report", "--cases 2 --report --out out", "out/x.html", b"<html><ti",
+        or: &[(AGREES, &ALL)];
+    "index of --report", "--cases 2 --report --out out", "out/index.html", b"<html><ti",
+        or: &[(AGREES, &ALL)];
 ];
 
 /// A folder below the system's folder for such files, removed with what is in it.

@@ -11,87 +11,35 @@ use crate::Library;
 /// An outline with holes: what most interfaces take.
 const NO_ISLANDS: &[Family] = &[Family::Islands];
 
+const fn library(
+    name: &'static str,
+    version: &'static str,
+    coordinates: Coordinates,
+    left_out: &'static [Family],
+    accepts: fn(&Polygon) -> bool,
+    triangles: fn(&Polygon) -> Result<Vec<Triangle>, Refused>,
+) -> Library {
+    Library { name, version, coordinates, left_out, accepts, triangles }
+}
+
 pub const ALL: &[Library] = &[
-    Library {
-        name: "lyon_tessellation",
-        version: "1.0.23",
-        coordinates: Coordinates::F32,
-        left_out: &[],
-        accepts: has_f32_range,
-        triangles: lyon,
-    },
-    Library {
-        name: "earcutr",
-        version: "0.5.0",
-        coordinates: Coordinates::F64,
-        left_out: NO_ISLANDS,
-        accepts: has_range,
-        triangles: earcutr,
-    },
-    Library {
-        name: "earcut",
-        version: "0.4.12",
-        coordinates: Coordinates::F64,
-        left_out: NO_ISLANDS,
-        accepts: has_range,
-        triangles: earcut,
-    },
-    Library {
-        name: "earcut-i32",
-        version: "0.4.12",
-        coordinates: Coordinates::Integer,
-        left_out: NO_ISLANDS,
-        accepts: within_2_to_the_19,
-        triangles: earcut_i32,
-    },
-    Library {
-        name: "i_triangle",
-        version: "0.51.0",
-        coordinates: Coordinates::Integer,
-        left_out: &[],
-        accepts: any,
-        triangles: i_triangle,
-    },
-    Library {
-        name: "spade",
-        version: "2.15.1",
-        coordinates: Coordinates::F64,
-        left_out: &[],
-        accepts: has_range,
-        triangles: spade,
-    },
-    Library {
-        name: "cdt",
-        version: "0.1.0",
-        coordinates: Coordinates::F64,
-        left_out: &[],
-        accepts: is_free_of_touches,
-        triangles: cdt,
-    },
-    Library {
-        name: "poly2tri-rs",
-        version: "0.1.2",
-        coordinates: Coordinates::F64,
-        left_out: NO_ISLANDS,
-        accepts: is_free_of_touches,
-        triangles: poly2tri,
-    },
-    Library {
-        name: "triangulate",
-        version: "0.2.0",
-        coordinates: Coordinates::F64,
-        left_out: &[],
-        accepts: is_free_of_touches,
-        triangles: triangulate,
-    },
-    Library {
-        name: "kika",
-        version: "0.7.1",
-        coordinates: Coordinates::F64,
-        left_out: NO_ISLANDS,
-        accepts: is_free_of_touches,
-        triangles: kika,
-    },
+    library("lyon_tessellation", "1.0.23", Coordinates::F32, &[], has_f32_range, lyon),
+    library("earcutr", "0.5.0", Coordinates::F64, NO_ISLANDS, has_range, earcutr),
+    library("earcut", "0.4.12", Coordinates::F64, NO_ISLANDS, has_range, earcut),
+    library(
+        "earcut-i32",
+        "0.4.12",
+        Coordinates::Integer,
+        NO_ISLANDS,
+        within_2_to_the_19,
+        earcut_i32,
+    ),
+    library("i_triangle", "0.51.0", Coordinates::Integer, &[], any, i_triangle),
+    library("spade", "2.15.1", Coordinates::F64, &[], has_range, spade),
+    library("cdt", "0.1.0", Coordinates::F64, &[], is_free_of_touches, cdt),
+    library("poly2tri-rs", "0.1.2", Coordinates::F64, NO_ISLANDS, is_free_of_touches, poly2tri),
+    library("triangulate", "0.2.0", Coordinates::F64, &[], is_free_of_touches, triangulate),
+    library("kika", "0.7.1", Coordinates::F64, NO_ISLANDS, is_free_of_touches, kika),
 ];
 
 fn any(_: &Polygon) -> bool {

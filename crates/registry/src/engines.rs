@@ -37,7 +37,6 @@ use rasterproof_render::scene::Scene;
 use rasterproof_tiles::coverage::Tiles;
 use rasterproof_verify::oracle::Oracle;
 
-/// A rasterizer of the registry.
 #[derive(Clone, Copy, Debug)]
 pub enum Engine {
     /// The book's split-triangle fill, repaired.
@@ -47,7 +46,6 @@ pub enum Engine {
     /// edge function.
     Tile,
     Oracle,
-    /// A planted fault.
     Mutant(TriangleMutant),
 }
 
@@ -56,7 +54,6 @@ impl Engine {
     /// The rasterizers that are judged when they are asked for.
     pub const CHOICES: [Self; 3] = [Self::Scanline, Self::EdgeFunction, Self::Tile];
 
-    /// Its name on the command line.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Scanline => "scanline",
@@ -127,14 +124,12 @@ pub enum LineEngine {
     /// Bresenham's algorithm.
     Bresenham,
     Oracle,
-    /// A planted fault.
     Mutant(LineMutant),
 }
 
 impl LineEngine {
     pub const JUDGED: [Self; 2] = [Self::Dda, Self::Bresenham];
 
-    /// Its name on the command line.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Dda => "dda",
@@ -183,10 +178,25 @@ pub enum Drawer {
     EdgeFunction,
 }
 
+/// What an expression is with the engine of a drawer, for edge functions in the words of a mode.
+macro_rules! with_engine {
+    ($drawer:expr, $words:expr, |$engine:ident| $call:expr) => {
+        match $drawer {
+            Self::Scanline => {
+                let $engine = &Scanline;
+                $call
+            }
+            Self::EdgeFunction => {
+                let $engine = &in_words($words);
+                $call
+            }
+        }
+    };
+}
+
 impl Drawer {
     pub const ALL: [Self; 2] = [Self::Scanline, Self::EdgeFunction];
 
-    /// The rasterizer's name.
     pub fn name(self) -> &'static str {
         match self {
             Self::Scanline => Engine::Scanline.name(),
@@ -203,13 +213,8 @@ impl Drawer {
 
     /// As [`rasterproof_render::effects::render::plan`].
     pub fn plan(self, scene: &Scene, effects: &Effects, canvas: &Canvas) -> Result<Plan, BadScene> {
-        match self {
-            Self::Scanline => render::plan(scene, &Scanline, effects, canvas),
-            Self::EdgeFunction => {
-                let words = effects.mode(Effect::WideWords);
-                render::plan(scene, &in_words(words), effects, canvas)
-            }
-        }
+        let words = effects.mode(Effect::WideWords);
+        with_engine!(self, words, |engine| render::plan(scene, engine, effects, canvas))
     }
 
     /// As [`rasterproof_render::effects::render::execute`].
@@ -219,12 +224,8 @@ impl Drawer {
         scene: &Scene,
         target: &mut Target,
     ) -> Result<Rendered, PlanError> {
-        match self {
-            Self::Scanline => render::execute(plan, scene, &Scanline, target),
-            Self::EdgeFunction => {
-                render::execute(plan, scene, &in_words(plan.frame.wide_words), target)
-            }
-        }
+        let words = plan.frame.wide_words;
+        with_engine!(self, words, |engine| render::execute(plan, scene, engine, target))
     }
 
     /// As [`rasterproof_render::effects::render::render`].
@@ -234,12 +235,8 @@ impl Drawer {
         effects: &Effects,
         target: &mut Target,
     ) -> Result<Rendered, BadScene> {
-        match self {
-            Self::Scanline => render::render(scene, &Scanline, effects, target),
-            Self::EdgeFunction => {
-                render::render(scene, &in_words(effects.mode(Effect::WideWords)), effects, target)
-            }
-        }
+        let words = effects.mode(Effect::WideWords);
+        with_engine!(self, words, |engine| render::render(scene, engine, effects, target))
     }
 
     /// The planned frame with one effect left out everywhere. It is drawn over a colour that is in no scene and over the
@@ -267,15 +264,8 @@ impl Drawer {
         effects: &Effects,
         target: &mut Target,
     ) -> Result<(Rendered, PaidMap), BadScene> {
-        match self {
-            Self::Scanline => render::render_mapped(scene, &Scanline, effects, target),
-            Self::EdgeFunction => render::render_mapped(
-                scene,
-                &in_words(effects.mode(Effect::WideWords)),
-                effects,
-                target,
-            ),
-        }
+        let words = effects.mode(Effect::WideWords);
+        with_engine!(self, words, |engine| render::render_mapped(scene, engine, effects, target))
     }
 
     /// As [`rasterproof_render::effects::render::render_watched`].
@@ -286,16 +276,10 @@ impl Drawer {
         screen: &mut DoubleBuffer,
         look: &mut dyn FnMut(&Frame<Colour>),
     ) -> Result<Rendered, BadScene> {
-        match self {
-            Self::Scanline => render::render_watched(scene, &Scanline, effects, screen, look),
-            Self::EdgeFunction => render::render_watched(
-                scene,
-                &in_words(effects.mode(Effect::WideWords)),
-                effects,
-                screen,
-                look,
-            ),
-        }
+        let words = effects.mode(Effect::WideWords);
+        with_engine!(self, words, |engine| {
+            render::render_watched(scene, engine, effects, screen, look)
+        })
     }
 
     /// As [`rasterproof_render::effects::render::render_wireframe`].
@@ -328,14 +312,12 @@ pub enum ExactEngine {
     /// The bounding-box fill with filtered edge functions.
     EdgeFunction,
     Oracle,
-    /// A planted fault.
     Mutant(ExactMutant),
 }
 
 impl ExactEngine {
     pub const JUDGED: [Self; 2] = [Self::Scanline, Self::EdgeFunction];
 
-    /// Its name on the command line.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Scanline => "scanline-exact",
@@ -376,7 +358,6 @@ impl ExactEngine {
 /// A published algorithm with its faults.
 #[derive(Clone, Copy, Debug)]
 pub enum Specimen {
-    /// A rasterizer.
     Triangle(&'static dyn Published),
     Line(&'static dyn PublishedLine),
 }
@@ -385,9 +366,7 @@ pub enum Specimen {
 #[derive(Clone, Copy, Debug)]
 pub struct Entry {
     pub name: &'static str,
-    /// What it is, in a few words.
     pub about: &'static str,
-    /// The rasterizer of this name.
     pub engine: Option<Engine>,
     pub line_engine: Option<LineEngine>,
     /// The rasterizer of this name for corners that are not snapped.
@@ -405,142 +384,67 @@ const NOBODY: Entry = Entry {
     specimen: None,
 };
 
-/// Every engine that has a name of its own.
-pub const ENTRIES: [Entry; 9] = [
-    Entry {
-        name: "scanline",
-        about: "the book's split-triangle fill, repaired: exact integer DDA down the edges",
-        engine: Some(Engine::Scanline),
-        ..NOBODY
-    },
-    Entry {
-        name: "edge-function",
-        about: "bounding box and three integer edge functions with a top-left bias",
-        engine: Some(Engine::EdgeFunction),
-        ..NOBODY
-    },
-    Entry {
-        name: "tile",
-        about: "tiles of 16 x 16 px, sixteen pixels or triangles at a time",
-        engine: Some(Engine::Tile),
-        ..NOBODY
-    },
-    Entry {
-        name: "dda",
-        about: "the book's line drawer, repaired: exact slope, rounded height",
-        line_engine: Some(LineEngine::Dda),
-        ..NOBODY
-    },
-    Entry {
-        name: "bresenham",
-        about: "Bresenham's line drawer in all octants",
-        line_engine: Some(LineEngine::Bresenham),
-        ..NOBODY
-    },
-    Entry {
-        name: "oracle",
-        about: "the truth: parity of crossings, nearest pixels, planes in big integers",
-        engine: Some(Engine::Oracle),
-        line_engine: Some(LineEngine::Oracle),
-        ..NOBODY
-    },
-    Entry {
-        name: "scanline-exact",
-        about: "corners not snapped: filtered crossings, big integers in doubt",
-        exact_engine: Some(ExactEngine::Scanline),
-        ..NOBODY
-    },
-    Entry {
-        name: "edge-function-exact",
-        about: "corners not snapped: filtered edge functions, orient2d in doubt",
-        exact_engine: Some(ExactEngine::EdgeFunction),
-        ..NOBODY
-    },
-    Entry {
-        name: "oracle-exact",
-        about: "corners not snapped: the truth, parity of crossings in whole numbers",
-        exact_engine: Some(ExactEngine::Oracle),
-        ..NOBODY
-    },
-];
-
-const fn specimen(name: &'static str, about: &'static str, specimen: Specimen) -> Entry {
-    Entry { name, about, specimen: Some(specimen), ..NOBODY }
+/// Entries from a table: name, what it is, and what it can do.
+macro_rules! entries {
+    ($($name:literal, $about:literal, $($can:ident: $by:expr),+;)*) => {
+        [$(Entry { name: $name, about: $about, $($can: Some($by),)+ ..NOBODY }),*]
+    };
 }
 
+/// Every engine that has a name of its own.
+pub const ENTRIES: [Entry; 9] = entries![
+    "scanline", "the book's split-triangle fill, repaired: exact integer DDA down the edges",
+        engine: Engine::Scanline;
+    "edge-function", "bounding box and three integer edge functions with a top-left bias",
+        engine: Engine::EdgeFunction;
+    "tile", "tiles of 16 x 16 px, sixteen pixels or triangles at a time",
+        engine: Engine::Tile;
+    "dda", "the book's line drawer, repaired: exact slope, rounded height",
+        line_engine: LineEngine::Dda;
+    "bresenham", "Bresenham's line drawer in all octants",
+        line_engine: LineEngine::Bresenham;
+    "oracle", "the truth: parity of crossings, nearest pixels, planes in big integers",
+        engine: Engine::Oracle, line_engine: LineEngine::Oracle;
+    "scanline-exact", "corners not snapped: filtered crossings, big integers in doubt",
+        exact_engine: ExactEngine::Scanline;
+    "edge-function-exact", "corners not snapped: filtered edge functions, orient2d in doubt",
+        exact_engine: ExactEngine::EdgeFunction;
+    "oracle-exact", "corners not snapped: the truth, parity of crossings in whole numbers",
+        exact_engine: ExactEngine::Oracle;
+];
+
 /// Every specimen that speaks the line protocol; they take positions as they are given.
-pub const SPECIMENS: [Entry; 15] = [
-    specimen(
-        "book-ch2",
-        "specimen: the book's DrawTriangle2D, section 2.2",
-        Specimen::Triangle(&BookChapter2),
-    ),
-    specimen(
-        "book-ch3",
-        "specimen: the same without its clamp, with values, section 3.2",
-        Specimen::Triangle(&BookChapter3),
-    ),
-    specimen(
-        "book-affine",
-        "specimen: the same on projected corners, section 5.3",
-        Specimen::Triangle(&BookAffine),
-    ),
-    specimen(
-        "book-ch6",
-        "specimen: the book's triangle with w as its depth, chapter 6",
-        Specimen::Triangle(&BookDepth::Chapter6),
-    ),
-    specimen(
-        "book-ch7",
-        "specimen: the same with -1/w as its depth, chapter 7",
-        Specimen::Triangle(&BookDepth::Chapter7),
-    ),
-    specimen(
-        "book-ch11",
-        "specimen: the book's final DrawTriangle, chapter 11",
-        Specimen::Triangle(&BookFinal { exercise: false }),
-    ),
-    specimen(
-        "book-ch11-fixed",
-        "specimen: the same after the exercise of section 11.4",
-        Specimen::Triangle(&BookFinal { exercise: true }),
-    ),
-    specimen(
-        "games101-strict",
-        "specimen: GAMES101 homework 2, strict inside test",
-        Specimen::Triangle(&Games101Strict { whole_samples: false, true_w: false }),
-    ),
-    specimen(
-        "games101-int",
-        "specimen: the same with sample positions through an int",
-        Specimen::Triangle(&Games101Strict { whole_samples: true, true_w: false }),
-    ),
-    specimen(
-        "games101-depth",
-        "specimen: the same with the true w put back, depth included",
-        Specimen::Triangle(&Games101Strict { whole_samples: false, true_w: true }),
-    ),
-    specimen(
-        "sysu-inclusive",
-        "specimen: SYSU assignment 2, inclusive integer edge functions",
-        Specimen::Triangle(&SysuInclusive),
-    ),
-    specimen(
-        "sysu-weights",
-        "specimen: the same with weights in the wrong order",
-        Specimen::Triangle(&SysuWeights),
-    ),
-    specimen(
-        "sysu-truncated",
-        "specimen: the same with positions truncated",
-        Specimen::Triangle(&SysuTruncated),
-    ),
-    specimen("book-dda", "specimen: the book's DrawLine, section 2.1", Specimen::Line(&BookDda)),
-    specimen(
-        "sysu-bresenham",
-        "specimen: SYSU assignment 2, Bresenham",
-        Specimen::Line(&SysuBresenham),
-    ),
+pub const SPECIMENS: [Entry; 15] = entries![
+    "book-ch2", "specimen: the book's DrawTriangle2D, section 2.2",
+        specimen: Specimen::Triangle(&BookChapter2);
+    "book-ch3", "specimen: the same without its clamp, with values, section 3.2",
+        specimen: Specimen::Triangle(&BookChapter3);
+    "book-affine", "specimen: the same on projected corners, section 5.3",
+        specimen: Specimen::Triangle(&BookAffine);
+    "book-ch6", "specimen: the book's triangle with w as its depth, chapter 6",
+        specimen: Specimen::Triangle(&BookDepth::Chapter6);
+    "book-ch7", "specimen: the same with -1/w as its depth, chapter 7",
+        specimen: Specimen::Triangle(&BookDepth::Chapter7);
+    "book-ch11", "specimen: the book's final DrawTriangle, chapter 11",
+        specimen: Specimen::Triangle(&BookFinal { exercise: false });
+    "book-ch11-fixed", "specimen: the same after the exercise of section 11.4",
+        specimen: Specimen::Triangle(&BookFinal { exercise: true });
+    "games101-strict", "specimen: GAMES101 homework 2, strict inside test",
+        specimen: Specimen::Triangle(&Games101Strict { whole_samples: false, true_w: false });
+    "games101-int", "specimen: the same with sample positions through an int",
+        specimen: Specimen::Triangle(&Games101Strict { whole_samples: true, true_w: false });
+    "games101-depth", "specimen: the same with the true w put back, depth included",
+        specimen: Specimen::Triangle(&Games101Strict { whole_samples: false, true_w: true });
+    "sysu-inclusive", "specimen: SYSU assignment 2, inclusive integer edge functions",
+        specimen: Specimen::Triangle(&SysuInclusive);
+    "sysu-weights", "specimen: the same with weights in the wrong order",
+        specimen: Specimen::Triangle(&SysuWeights);
+    "sysu-truncated", "specimen: the same with positions truncated",
+        specimen: Specimen::Triangle(&SysuTruncated);
+    "book-dda", "specimen: the book's DrawLine, section 2.1",
+        specimen: Specimen::Line(&BookDda);
+    "sysu-bresenham", "specimen: SYSU assignment 2, Bresenham",
+        specimen: Specimen::Line(&SysuBresenham);
 ];
 
 pub fn find(name: &str) -> Option<&'static Entry> {

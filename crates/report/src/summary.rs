@@ -9,71 +9,35 @@ use rasterproof_verify::comparison::{Failure, Tally, Verdict};
 pub struct Danger {
     /// What is threatened, in a few words.
     pub name: &'static str,
-    /// The page that explains it.
     pub chapter: &'static str,
     pub(super) families: &'static [&'static str],
 }
 
-/// Every family is in one of these.
-pub const DANGERS: &[Danger] = &[
-    Danger { name: "corners anywhere", chapter: "docs/ch02.md", families: &["uniform"] },
-    Danger {
-        name: "ties on edges",
-        chapter: "docs/ch02.md",
-        families: &["half-integer", "flat", "near-tie"],
-    },
-    Danger {
-        name: "shared edges",
-        chapter: "docs/ch02.md",
-        families: &["rectangle", "fan", "strip"],
-    },
-    Danger {
-        name: "thin, tiny and flat ones",
-        chapter: "docs/ch02.md",
-        families: &["sliver", "near-horizontal", "near-vertical", "tiny", "degenerate"],
-    },
-    Danger {
-        name: "window and domain",
-        chapter: "docs/ch01.md",
-        families: &["partly-off", "off-screen", "huge", "far"],
-    },
-    Danger {
-        name: "perspective",
-        chapter: "docs/ch05.md",
-        families: &["w-equal", "w-4", "w-100", "w-1e4", "w-1e6", "w-extreme"],
-    },
-    Danger {
-        name: "lines",
-        chapter: "docs/ch02.md",
-        families: &[
-            "line-octants",
-            "line-ties",
-            "line-axis",
-            "line-points",
-            "line-clipped",
-            "line-far",
-        ],
-    },
-    Danger {
-        name: "corners not snapped",
-        chapter: "docs/offgrid.md",
-        families: &[
-            "f32-random",
-            "f32-sliver",
-            "f32-near-tie",
-            "f32-tie",
-            "f32-fan",
-            "f32-cut",
-            "f32-tiny",
-            "f32-mixed",
-            "f32-denormal",
-            "f32-far",
-            "f32-huge",
-            "f64-near-tie",
-            "f64-huge",
-            "f64-denormal",
-        ],
-    },
+macro_rules! dangers {
+    ($($name:literal, $chapter:literal: $($family:literal),+;)+) => {
+        &[$(Danger { name: $name, chapter: $chapter, families: &[$($family),+] }),+]
+    };
+}
+
+pub const DANGERS: &[Danger] = dangers![
+    "corners anywhere", "docs/ch02.md":
+        "uniform";
+    "ties on edges", "docs/ch02.md":
+        "half-integer", "flat", "near-tie";
+    "shared edges", "docs/ch02.md":
+        "rectangle", "fan", "strip";
+    "thin, tiny and flat ones", "docs/ch02.md":
+        "sliver", "near-horizontal", "near-vertical", "tiny", "degenerate";
+    "window and domain", "docs/ch01.md":
+        "partly-off", "off-screen", "huge", "far";
+    "perspective", "docs/ch05.md":
+        "w-equal", "w-4", "w-100", "w-1e4", "w-1e6", "w-extreme";
+    "lines", "docs/ch02.md":
+        "line-octants", "line-ties", "line-axis", "line-points", "line-clipped", "line-far";
+    "corners not snapped", "docs/offgrid.md":
+        "f32-random", "f32-sliver", "f32-near-tie", "f32-tie", "f32-fan", "f32-cut", "f32-tiny",
+        "f32-mixed", "f32-denormal", "f32-far", "f32-huge", "f64-near-tie", "f64-huge",
+        "f64-denormal";
 ];
 
 /// The danger that a family belongs to.

@@ -20,12 +20,10 @@ pub struct Card {
     pub source: &'static str,
     /// What is wrong, in a few words.
     pub fault: &'static str,
-    /// The repair in one sentence.
     pub cure: &'static str,
     pub exhibit: Exhibit,
 }
 
-/// The cases of a specimen.
 #[derive(Clone, Copy, Debug)]
 pub enum Exhibit {
     /// A rasterizer: the exposing and the harmless case.
@@ -41,7 +39,6 @@ pub struct TriangleCase {
     pub name: &'static str,
     pub side_px: u32,
     pub corners_px: &'static [[(f64, f64); 3]],
-    /// Distances of the corners.
     pub w: [f64; 3],
     /// The attribute at the corners; the depth too.
     pub values: [f64; 3],
@@ -73,12 +70,10 @@ impl RecordedCase {
     }
 }
 
-const fn recorded(
-    name: &'static str,
-    specimen: &'static str,
-    corners: &'static [[(f64, f64); 3]],
-) -> RecordedCase {
-    RecordedCase { name, specimen, corners }
+macro_rules! recorded {
+    ($($name:literal, $specimen:literal, $corners:expr;)*) => {
+        &[$(RecordedCase { name: $name, specimen: $specimen, corners: $corners }),*]
+    };
 }
 
 const RAMP: [f64; 3] = [0.0, 0.5, 1.0];
@@ -92,6 +87,10 @@ const fn case(
     values: [f64; 3],
 ) -> TriangleCase {
     TriangleCase { name, side_px: 14, corners_px, w, values }
+}
+
+const fn line(name: &'static str, pixels: [(i32, i32); 2]) -> LineCase {
+    LineCase { name, pixels }
 }
 
 /// Harmless for the book: its left side is upright on samples, no other edge meets one, and it runs
@@ -111,213 +110,100 @@ const SQUARE: &[[(f64, f64); 3]] =
 /// The recorded input, moved to the middle of a row of the window.
 const FIGURE_2_4: &[[(f64, f64); 3]] = &[[(7.25, 7.500_01), (6.5, 7.499_99), (8.05, 7.499_99)]];
 
-/// Every card, the book first.
-pub const CARDS: &[Card] = &[
-    Card {
-        name: "book-dda",
-        source: "book 2.1",
-        fault: "no last pixel, rounds down, slope drifts",
-        cure: "exact slope, rounded height, both ends",
-        exhibit: Exhibit::Lines([
-            LineCase { name: "line_drift", pixels: [(0, 9), (20, 7)] },
-            LineCase { name: "ends outside", pixels: [(2, 9), (40, 9)] },
-        ]),
-    },
-    Card {
-        name: "book-ch2",
-        source: "book 2.2",
-        fault: "rows drawn twice, edges too wide by a pixel",
-        cure: "half-open spans of the centres between exact crossings",
-        exhibit: Exhibit::Triangles([
-            case("double_row", &[[(2.5, 11.5), (10.5, 8.0), (2.5, 4.5)]], ONES, FLAT),
-            PLAIN,
-        ]),
-    },
-    Card {
-        name: "book-ch3",
-        source: "book 3.2.4",
-        fault: "a flat edge runs out of the triangle",
-        cure: "take crossings and values at the centre, step nothing",
-        exhibit: Exhibit::Triangles([case("ch3_unclamped", FIGURE_2_4, ONES, FLAT), PLAIN]),
-    },
-    Card {
-        name: "book-affine",
-        source: "book 5.3",
-        fault: "values interpolated without perspective",
-        cure: "interpolate v/w and 1/w, divide at the pixel",
-        exhibit: Exhibit::Scene("floor, w = 1 to 4", book_affine::draw),
-    },
-    Card {
-        name: "book-formulas",
-        source: "book 5.4, (8) and (9)",
-        fault: "differences cancel: wrong at the far corner",
-        cure: "sums of positive terms: w_b (1 - t') v_a + w_a t' v_b",
-        exhibit: Exhibit::Scene("w_b / w_a from 9e13 to 2e17", book_formulas::draw),
-    },
-    Card {
-        name: "book-ch6",
-        source: "book 6.2",
-        fault: "depth (w) far out of range on thin triangles",
-        cure: "evaluate the depth at the centre",
-        exhibit: Exhibit::Triangles([case("depth_poison", POISON, [1.0, 1.0, 2.0], RAMP), PLAIN]),
-    },
-    Card {
-        name: "book-ch7",
-        source: "book 7.2",
-        fault: "depth (-1/w) far out of range on thin triangles",
-        cure: "evaluate the depth at the centre",
-        exhibit: Exhibit::Triangles([case("depth_poison", POISON, [1.0, 1.0, 2.0], RAMP), PLAIN]),
-    },
-    Card {
-        name: "book-ch11",
-        source: "book 5.4, 11",
-        fault: "values run out of range, or divide by zero",
-        cure: "t' from the distance of the centre",
-        exhibit: Exhibit::Triangles([case("t_divzero", DIVZERO, [1.0, 2.0, 1.0], RAMP), PLAIN]),
-    },
-    Card {
-        name: "book-ch11-fixed",
-        source: "book 11.4",
-        fault: "the exercise mends values, not the depth",
-        cure: "t' from the centre never leaves [0, 1]",
-        exhibit: Exhibit::Triangles([
-            case(
-                "z_not_clamped",
-                &[[(1.5, 13.0), (1.5, 9.25), (9.5, 9.25)]],
-                ONES,
-                [0.0, 0.0, 0.5],
-            ),
-            PLAIN,
-        ]),
-    },
-    Card {
-        name: "book-painter",
-        source: "book 6.1",
-        fault: "a ring of overlaps has no order to paint in",
-        cure: "compare the depth of each pixel",
-        exhibit: Exhibit::Scene("cyclic overlap", book_painter::draw),
-    },
-    Card {
-        name: "book-near-clip",
-        source: "book 7.4",
-        fault: "an edge in the near plane: 0/0, all is lost",
-        cure: "corners in the plane are inside, cut where ends differ",
-        exhibit: Exhibit::Scene("clip7_on_plane", book_near_clip::draw),
-    },
-    Card {
-        name: "book-clip",
-        source: "book 8.3",
-        fault: "rounding overflows the array: memory overwritten",
-        cure: "a polygon that grows, borders decided by signs",
-        exhibit: Exhibit::Scene("clip_stack_overflow", book_final::draw_clip),
-    },
-    Card {
-        name: "book-viewport",
-        source: "book 8.2",
-        fault: "times (size - 1): last row and column empty",
-        cure: "times size, with samples at centres",
-        exhibit: Exhibit::Scene("full screen", book_viewport::draw),
-    },
-    Card {
-        name: "book-rotate",
-        source: "book 10.4",
-        fault: "two of three turns go the other way round",
-        cure: "one cycle: x towards y, y towards z, z towards x",
-        exhibit: Exhibit::Scene("30 degrees about x, y, z", book_rotate::draw),
-    },
-    Card {
-        name: "games101-strict",
-        source: "GAMES101 hw 2",
-        fault: "samples on edges belong to no triangle: holes",
-        cure: "top-left rule on exact edge functions",
-        exhibit: Exhibit::Triangles([case("square", SQUARE, ONES, FLAT), OFF_CENTRE]),
-    },
-    Card {
-        name: "games101-int",
-        source: "GAMES101 hw 2",
-        fault: "sample position cast to int: shifted",
-        cure: "a sample position is no whole number",
-        exhibit: Exhibit::Triangles([
-            case("square", SQUARE, ONES, FLAT),
-            case("lucky", &[[(3.0, 1.0), (12.75, 1.25), (2.5, 12.75)]], ONES, FLAT),
-        ]),
-    },
-    Card {
-        name: "games101-w",
-        source: "GAMES101 hw 2",
-        fault: "w set to 1: attributes without perspective",
-        cure: "keep the w of the corner; divide attributes, not z/w",
-        exhibit: Exhibit::Scene("floor, w = 1 to 4", games101_strict::draw),
-    },
-    Card {
-        name: "games101-depth",
-        source: "GAMES101 hw 2",
-        fault: "the repair bends z/w by up to 0.8 of its range",
-        cure: "z/w is linear on the screen: leave it",
-        exhibit: Exhibit::Scene("floor, w = 1 to 100", games101_depth::draw),
-    },
-    Card {
-        name: "games101-box",
-        source: "GAMES101 hw 2",
-        fault: "box not cut to the window: wraps, and leaves the buffer",
-        cure: "cut the box to the window before walking it",
-        exhibit: Exhibit::Scene("out at the right and below", games101_box::draw),
-    },
-    Card {
-        name: "games101-average",
-        source: "GAMES101 hw 2",
-        fault: "averaged inside the triangle loop: dark seam",
-        cure: "a colour for each sample, one average at the end",
-        exhibit: Exhibit::Scene("split square", games101_supersample::draw),
-    },
-    Card {
-        name: "sysu-bresenham",
-        source: "SYSU 2, task 1",
-        fault: "backwards takes other pixels (ties)",
-        cure: "fix the side of ties on the sorted ends",
-        exhibit: Exhibit::Lines([
-            LineCase { name: "(2,1) to (0,0)", pixels: [(2, 1), (0, 0)] },
-            LineCase { name: "(0,0) to (9,3)", pixels: [(0, 0), (9, 3)] },
-        ]),
-    },
-    Card {
-        name: "sysu-simple-clip",
-        source: "SYSU 2, task 2",
-        fault: "dropped, for no corner lies inside",
-        cure: "clip",
-        exhibit: Exhibit::Scene("around the screen", sysu_simple_clip::draw),
-    },
-    Card {
-        name: "sysu-inclusive",
-        source: "SYSU 2, task 4",
-        fault: "samples on shared edges are drawn twice",
-        cure: "a subpixel lattice, top-left bias, wide words",
-        exhibit: Exhibit::Triangles([case("square", SQUARE, ONES, FLAT), LUCKY]),
-    },
-    Card {
-        name: "sysu-weights",
-        source: "SYSU 2, task 6",
-        fault: "weights in the wrong order: colours swapped",
-        cure: "an edge's function weighs the corner opposite",
-        exhibit: Exhibit::Scene("red, green, blue", sysu_weights::draw),
-    },
-    Card {
-        name: "sysu-truncated",
-        source: "SYSU 2, task 6",
-        fault: "positions cut to int: holes and doubles",
-        cure: "a fragment's position is the pixel that was tested",
-        exhibit: Exhibit::Triangles([
-            case("sieve", &[[(1.5, 12.5), (12.5, 9.5), (5.5, 1.5)]], ONES, FLAT),
-            case("lucky too", &[[(9.75, 10.75), (4.5, 5.5), (12.75, 1.25)]], ONES, FLAT),
-        ]),
-    },
-    Card {
-        name: "sysu-strict-t",
-        source: "SYSU 2, task 7",
-        fault: "decides by a rounded t: half is missing",
-        cure: "decide by the signs, assign the plane's value",
-        exhibit: Exhibit::Scene("w = 336, 336, 0", sysu_strict_t::draw),
-    },
+/// Cards from a table: name, source, fault, cure and exhibit.
+macro_rules! cards {
+    ($($name:literal, $source:literal, $fault:literal, $cure:literal, $kind:ident($($exhibit:expr),+);)*) => {
+        &[$(Card {
+            name: $name,
+            source: $source,
+            fault: $fault,
+            cure: $cure,
+            exhibit: Exhibit::$kind($($exhibit),+),
+        }),*]
+    };
+}
+
+pub const CARDS: &[Card] = cards![
+    "book-dda", "book 2.1", "no last pixel, rounds down, slope drifts",
+        "exact slope, rounded height, both ends",
+        Lines([line("line_drift", [(0, 9), (20, 7)]), line("ends outside", [(2, 9), (40, 9)])]);
+    "book-ch2", "book 2.2", "rows drawn twice, edges too wide by a pixel",
+        "half-open spans of the centres between exact crossings",
+        Triangles([case("double_row", &[[(2.5, 11.5), (10.5, 8.0), (2.5, 4.5)]], ONES, FLAT), PLAIN]);
+    "book-ch3", "book 3.2.4", "a flat edge runs out of the triangle",
+        "take crossings and values at the centre, step nothing",
+        Triangles([case("ch3_unclamped", FIGURE_2_4, ONES, FLAT), PLAIN]);
+    "book-affine", "book 5.3", "values interpolated without perspective",
+        "interpolate v/w and 1/w, divide at the pixel",
+        Scene("floor, w = 1 to 4", book_affine::draw);
+    "book-formulas", "book 5.4, (8) and (9)", "differences cancel: wrong at the far corner",
+        "sums of positive terms: w_b (1 - t') v_a + w_a t' v_b",
+        Scene("w_b / w_a from 9e13 to 2e17", book_formulas::draw);
+    "book-ch6", "book 6.2", "depth (w) far out of range on thin triangles",
+        "evaluate the depth at the centre",
+        Triangles([case("depth_poison", POISON, [1.0, 1.0, 2.0], RAMP), PLAIN]);
+    "book-ch7", "book 7.2", "depth (-1/w) far out of range on thin triangles",
+        "evaluate the depth at the centre",
+        Triangles([case("depth_poison", POISON, [1.0, 1.0, 2.0], RAMP), PLAIN]);
+    "book-ch11", "book 5.4, 11", "values run out of range, or divide by zero",
+        "t' from the distance of the centre",
+        Triangles([case("t_divzero", DIVZERO, [1.0, 2.0, 1.0], RAMP), PLAIN]);
+    "book-ch11-fixed", "book 11.4", "the exercise mends values, not the depth",
+        "t' from the centre never leaves [0, 1]",
+        Triangles([case("z_not_clamped", &[[(1.5, 13.0), (1.5, 9.25), (9.5, 9.25)]], ONES, [0.0, 0.0, 0.5]), PLAIN]);
+    "book-painter", "book 6.1", "a ring of overlaps has no order to paint in",
+        "compare the depth of each pixel",
+        Scene("cyclic overlap", book_painter::draw);
+    "book-near-clip", "book 7.4", "an edge in the near plane: 0/0, all is lost",
+        "corners in the plane are inside, cut where ends differ",
+        Scene("clip7_on_plane", book_near_clip::draw);
+    "book-clip", "book 8.3", "rounding overflows the array: memory overwritten",
+        "a polygon that grows, borders decided by signs",
+        Scene("clip_stack_overflow", book_final::draw_clip);
+    "book-viewport", "book 8.2", "times (size - 1): last row and column empty",
+        "times size, with samples at centres",
+        Scene("full screen", book_viewport::draw);
+    "book-rotate", "book 10.4", "two of three turns go the other way round",
+        "one cycle: x towards y, y towards z, z towards x",
+        Scene("30 degrees about x, y, z", book_rotate::draw);
+    "games101-strict", "GAMES101 hw 2", "samples on edges belong to no triangle: holes",
+        "top-left rule on exact edge functions",
+        Triangles([case("square", SQUARE, ONES, FLAT), OFF_CENTRE]);
+    "games101-int", "GAMES101 hw 2", "sample position cast to int: shifted",
+        "a sample position is no whole number",
+        Triangles([case("square", SQUARE, ONES, FLAT),
+            case("lucky", &[[(3.0, 1.0), (12.75, 1.25), (2.5, 12.75)]], ONES, FLAT)]);
+    "games101-w", "GAMES101 hw 2", "w set to 1: attributes without perspective",
+        "keep the w of the corner; divide attributes, not z/w",
+        Scene("floor, w = 1 to 4", games101_strict::draw);
+    "games101-depth", "GAMES101 hw 2", "the repair bends z/w by up to 0.8 of its range",
+        "z/w is linear on the screen: leave it",
+        Scene("floor, w = 1 to 100", games101_depth::draw);
+    "games101-box", "GAMES101 hw 2", "box not cut to the window: wraps, and leaves the buffer",
+        "cut the box to the window before walking it",
+        Scene("out at the right and below", games101_box::draw);
+    "games101-average", "GAMES101 hw 2", "averaged inside the triangle loop: dark seam",
+        "a colour for each sample, one average at the end",
+        Scene("split square", games101_supersample::draw);
+    "sysu-bresenham", "SYSU 2, task 1", "backwards takes other pixels (ties)",
+        "fix the side of ties on the sorted ends",
+        Lines([line("(2,1) to (0,0)", [(2, 1), (0, 0)]), line("(0,0) to (9,3)", [(0, 0), (9, 3)])]);
+    "sysu-simple-clip", "SYSU 2, task 2", "dropped, for no corner lies inside",
+        "clip",
+        Scene("around the screen", sysu_simple_clip::draw);
+    "sysu-inclusive", "SYSU 2, task 4", "samples on shared edges are drawn twice",
+        "a subpixel lattice, top-left bias, wide words",
+        Triangles([case("square", SQUARE, ONES, FLAT), LUCKY]);
+    "sysu-weights", "SYSU 2, task 6", "weights in the wrong order: colours swapped",
+        "an edge's function weighs the corner opposite",
+        Scene("red, green, blue", sysu_weights::draw);
+    "sysu-truncated", "SYSU 2, task 6", "positions cut to int: holes and doubles",
+        "a fragment's position is the pixel that was tested",
+        Triangles([case("sieve", &[[(1.5, 12.5), (12.5, 9.5), (5.5, 1.5)]], ONES, FLAT),
+            case("lucky too", &[[(9.75, 10.75), (4.5, 5.5), (12.75, 1.25)]], ONES, FLAT)]);
+    "sysu-strict-t", "SYSU 2, task 7", "decides by a rounded t: half is missing",
+        "decide by the signs, assign the plane's value",
+        Scene("w = 336, 336, 0", sysu_strict_t::draw);
 ];
 
 /// The recorded input, its upper corners moved by 1/512 px onto the lattice.
@@ -327,43 +213,24 @@ const DIVZERO: &[[(f64, f64); 3]] = &[[(6.25, 9.5), (6.75, 9.5), (6.5, 5.5)]];
 
 /// What the book's own code was recorded to do wrong, one for each entry of
 /// `tests/data/book-bugs.json`, under its name; the scenes and lines are on the cards.
-pub const RECORDED: &[RecordedCase] = &[
-    recorded("double_row", "book-ch2", &[[(2.0, 2.0), (10.0, 5.5), (2.0, 9.0)]]),
-    recorded("no_sample", "book-ch2", &[[(1.2, 1.2), (1.8, 1.2), (1.5, 1.8)]]),
-    recorded("floor_left", "book-ch2", &[[(1.9, 0.0), (3.9, 0.0), (1.9, 2.0)]]),
-    recorded("y_phase", "book-ch2", &[[(5.5, 0.9), (1.0, 4.9), (10.0, 4.9)]]),
-    recorded("fp_drift", "book-ch2", &[[(38.0, 26.0), (60.0, 30.0), (6.0, 20.0)]]),
-    recorded(
-        "shared_edge_double",
-        "book-ch2",
-        &[[(10.0, 10.0), (20.0, 10.0), (20.0, 20.0)], [(10.0, 10.0), (20.0, 20.0), (10.0, 20.0)]],
-    ),
-    recorded(
-        "shared_edge_crack",
-        "book-ch2",
-        &[
-            [(1.75, 10.0), (48.75, 10.75), (60.25, 19.75)],
-            [(1.75, 10.0), (60.25, 19.75), (24.0, 35.0)],
-        ],
-    ),
+pub const RECORDED: &[RecordedCase] = recorded![
+    "double_row", "book-ch2", &[[(2.0, 2.0), (10.0, 5.5), (2.0, 9.0)]];
+    "no_sample", "book-ch2", &[[(1.2, 1.2), (1.8, 1.2), (1.5, 1.8)]];
+    "floor_left", "book-ch2", &[[(1.9, 0.0), (3.9, 0.0), (1.9, 2.0)]];
+    "y_phase", "book-ch2", &[[(5.5, 0.9), (1.0, 4.9), (10.0, 4.9)]];
+    "fp_drift", "book-ch2", &[[(38.0, 26.0), (60.0, 30.0), (6.0, 20.0)]];
+    "shared_edge_double", "book-ch2", &[[(10.0, 10.0), (20.0, 10.0), (20.0, 20.0)], [(10.0, 10.0), (20.0, 20.0), (10.0, 20.0)]];
+    "shared_edge_crack", "book-ch2", &[[(1.75, 10.0), (48.75, 10.75), (60.25, 19.75)], [(1.75, 10.0), (60.25, 19.75), (24.0, 35.0)]];
     // A pixel to the right of the recorded one: there, turning y over rounds its area to 0.
-    recorded("degenerate_drawn", "book-ch2", &[[(1.4, 5.7), (1.4, 8.7), (1.4, 10.7)]]),
-    recorded(
-        "tiny_dropped",
-        "book-ch2",
-        &[[(0.999_999_99, 0.999_999_99), (1.000_000_01, 0.999_999_99), (1.0, 1.000_000_01)]],
-    ),
-    recorded("negative_trunc", "book-ch2", &[[(-0.75, -0.75), (3.0, -0.75), (-0.75, 3.0)]]),
-    recorded("oob", "book-ch2", &[[(-5.0, -5.0), (5.0, -5.0), (-5.0, 5.0)]]),
-    recorded("int_overflow_runaway", "book-ch2", &[[(3e9, 0.0), (3e9 + 8.0, 0.0), (3e9, 8.0)]]),
-    recorded("ch3_unclamped", "book-ch3", &[[(4.25, 2.99999), (3.5, 3.00001), (5.05, 3.00001)]]),
-    recorded("depth_poison", "book-ch11", &[[(10.0, 0.0), (9.99, 20.0), (10.01, 20.0)]]),
-    recorded(
-        "z_not_clamped_after_fix",
-        "book-ch11-fixed",
-        &[[(1.0, 0.5), (1.0, 4.25), (9.0, 4.25)]],
-    ),
-    recorded("t_divzero", "book-ch11", &[[(9.75, 4.0), (10.25, 4.0), (10.0, 8.0)]]),
+    "degenerate_drawn", "book-ch2", &[[(1.4, 5.7), (1.4, 8.7), (1.4, 10.7)]];
+    "tiny_dropped", "book-ch2", &[[(0.999_999_99, 0.999_999_99), (1.000_000_01, 0.999_999_99), (1.0, 1.000_000_01)]];
+    "negative_trunc", "book-ch2", &[[(-0.75, -0.75), (3.0, -0.75), (-0.75, 3.0)]];
+    "oob", "book-ch2", &[[(-5.0, -5.0), (5.0, -5.0), (-5.0, 5.0)]];
+    "int_overflow_runaway", "book-ch2", &[[(3e9, 0.0), (3e9 + 8.0, 0.0), (3e9, 8.0)]];
+    "ch3_unclamped", "book-ch3", &[[(4.25, 2.99999), (3.5, 3.00001), (5.05, 3.00001)]];
+    "depth_poison", "book-ch11", &[[(10.0, 0.0), (9.99, 20.0), (10.01, 20.0)]];
+    "z_not_clamped_after_fix", "book-ch11-fixed", &[[(1.0, 0.5), (1.0, 4.25), (9.0, 4.25)]];
+    "t_divzero", "book-ch11", &[[(9.75, 4.0), (10.25, 4.0), (10.0, 8.0)]];
 ];
 
 pub fn find(name: &str) -> Option<&'static Card> {

@@ -15,7 +15,6 @@ use crate::pipeline::texture::{Filter, Texture, Wrap};
 use crate::pipeline::transform::{about, frustum};
 use rasterproof_core::angle::{sin, tan, turn_x, turn_y, turn_z};
 
-/// A scene by name.
 #[derive(Clone, Copy, Debug)]
 pub struct Entry {
     pub name: &'static str,
@@ -25,72 +24,51 @@ pub struct Entry {
     pub(super) build: fn(Scene, f64) -> Scene,
 }
 
-/// Every scene, in the order of the chapters.
+pub(super) const fn entry(
+    name: &'static str,
+    about: &'static str,
+    build: fn(Scene, f64) -> Scene,
+) -> Entry {
+    Entry { name, about, build }
+}
+
 pub const SCENES: &[Entry] = &[
-    Entry {
-        name: "square",
-        about: "5.2: a square of two triangles with four texels, facing the eye",
-        build: square,
-    },
-    Entry {
-        name: "tilted-affine",
-        about: "5.3: the square tilted, texture interpolated linearly in the window: wrong",
-        build: tilted_affine,
-    },
-    Entry {
-        name: "tilted",
-        about: "5.4: the square tilted, interpolated in perspective",
-        build: tilted,
-    },
-    Entry {
-        name: "cycle-painter",
-        about: "6.1: three triangles, each in front of the next, by the painter's algorithm: wrong",
-        build: cycle_painter,
-    },
-    Entry { name: "cycle", about: "6.2: the same by the depth buffer", build: cycle },
-    Entry {
-        name: "clipped",
-        about: "7.4: a triangle with a corner behind the eye, cut by the near plane",
-        build: clipped,
-    },
-    Entry {
-        name: "frustum",
-        about: "8.3: a triangle that all six planes cut",
-        build: frustum_scene,
-    },
-    Entry { name: "culled", about: "9.3: an open box, its outside culled", build: culled },
-    Entry {
-        name: "spinning",
-        about: "10.6: a triangle that turns about a point in front of the eye",
-        build: spinning,
-    },
-    Entry { name: "cube", about: "11: a textured cube in diffuse light", build: cube },
-    Entry {
-        name: "sphere",
-        about: "11: a sphere with interpolated normals, texture and light",
-        build: sphere,
-    },
-    Entry { name: "facets", about: "a sphere of flat triangles, lit once each", build: facets },
-    Entry {
-        name: "inside",
-        about: "the inside of a closed sphere: not a pixel of background",
-        build: inside,
-    },
-    Entry {
-        name: "homework",
-        about: "GAMES101 homework 2: its two triangles, one before the other",
-        build: homework,
-    },
-    Entry {
-        name: "panels",
-        about: "a user interface: flat panels that do not overlap, parallel to the screen",
-        build: panels,
-    },
-    Entry {
-        name: "everything",
-        about: "clipped, lit, textured, coloured and overlapping in perspective: all effects",
-        build: everything,
-    },
+    entry("square", "5.2: a square of two triangles with four texels, facing the eye", square),
+    entry(
+        "tilted-affine",
+        "5.3: the square tilted, texture interpolated linearly in the window: wrong",
+        tilted_affine,
+    ),
+    entry("tilted", "5.4: the square tilted, interpolated in perspective", tilted),
+    entry(
+        "cycle-painter",
+        "6.1: three triangles, each in front of the next, by the painter's algorithm: wrong",
+        cycle_painter,
+    ),
+    entry("cycle", "6.2: the same by the depth buffer", cycle),
+    entry(
+        "clipped",
+        "7.4: a triangle with a corner behind the eye, cut by the near plane",
+        clipped,
+    ),
+    entry("frustum", "8.3: a triangle that all six planes cut", frustum_scene),
+    entry("culled", "9.3: an open box, its outside culled", culled),
+    entry("spinning", "10.6: a triangle that turns about a point in front of the eye", spinning),
+    entry("cube", "11: a textured cube in diffuse light", cube),
+    entry("sphere", "11: a sphere with interpolated normals, texture and light", sphere),
+    entry("facets", "a sphere of flat triangles, lit once each", facets),
+    entry("inside", "the inside of a closed sphere: not a pixel of background", inside),
+    entry("homework", "GAMES101 homework 2: its two triangles, one before the other", homework),
+    entry(
+        "panels",
+        "a user interface: flat panels that do not overlap, parallel to the screen",
+        panels,
+    ),
+    entry(
+        "everything",
+        "clipped, lit, textured, coloured and overlapping in perspective: all effects",
+        everything,
+    ),
 ];
 
 /// All scenes that have a name: these, and those of effects beyond the book.

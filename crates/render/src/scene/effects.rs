@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
-use super::chapters::{AHEAD, Entry, daylight, turned, with};
+use super::chapters::{AHEAD, Entry, daylight, entry, turned, with};
 use super::{Item, Material, Mesh, Scene, Shading, shapes, textures};
 use crate::pipeline::assemble::Cull;
 use crate::pipeline::fog::{Fog, Growth};
@@ -18,46 +18,42 @@ use rasterproof_core::angle::{turn_x, turn_y, turn_z};
 
 /// Every such scene. The digests of frames are of the book's scenes alone.
 pub const SCENES: &[Entry] = &[
-    Entry {
-        name: "highlights",
-        about: "spheres with specular light of the exponents 5, 30 and 200 on a matt floor",
-        build: highlights,
-    },
-    Entry {
-        name: "shadows",
-        about: "a floor in 512 triangles, on it pillars, spheres and a leaf that keep the light from it and from each other",
-        build: shadows,
-    },
-    Entry {
-        name: "mip-maps",
-        about: "a floor of checks to the horizon and a board, each with a mip map; the board is magnified",
-        build: mip_maps,
-    },
-    Entry {
-        name: "anisotropy",
-        about: "a floor and a side wall to the horizon read by up to 16 taps, and a wall that faces the eye, which needs one",
-        build: anisotropy,
-    },
-    Entry {
-        name: "fog",
-        about: "two rows of pillars into the distance, in fog from 4 to 12 from the eye",
-        build: fog,
-    },
-    Entry {
-        name: "cut-outs",
-        about: "leaves before a wall, each a board of 72 triangles with a leaf cut out of it by its opacities",
-        build: cut_outs,
-    },
-    Entry {
-        name: "panes",
-        about: "three panes of coloured glass in frames, each with a round hole, before and behind spheres",
-        build: panes,
-    },
-    Entry {
-        name: "layers",
-        about: "panes that cross, balls of glass and a pane that stands alone, of which a pixel shows at most four layers",
-        build: layers,
-    },
+    entry(
+        "highlights",
+        "spheres with specular light of the exponents 5, 30 and 200 on a matt floor",
+        highlights,
+    ),
+    entry(
+        "shadows",
+        "a floor in 512 triangles, on it pillars, spheres and a leaf that keep the light from it and from each other",
+        shadows,
+    ),
+    entry(
+        "mip-maps",
+        "a floor of checks to the horizon and a board, each with a mip map; the board is magnified",
+        mip_maps,
+    ),
+    entry(
+        "anisotropy",
+        "a floor and a side wall to the horizon read by up to 16 taps, and a wall that faces the eye, which needs one",
+        anisotropy,
+    ),
+    entry("fog", "two rows of pillars into the distance, in fog from 4 to 12 from the eye", fog),
+    entry(
+        "cut-outs",
+        "leaves before a wall, each a board of 72 triangles with a leaf cut out of it by its opacities",
+        cut_outs,
+    ),
+    entry(
+        "panes",
+        "three panes of coloured glass in frames, each with a round hole, before and behind spheres",
+        panes,
+    ),
+    entry(
+        "layers",
+        "panes that cross, balls of glass and a pane that stands alone, of which a pixel shows at most four layers",
+        layers,
+    ),
 ];
 
 fn shadows(scene: Scene, turn: f64) -> Scene {

@@ -29,13 +29,19 @@ type Px = (f64, f64);
 /// A square of 16 x 16 px: clip coordinates of 1/8 w are pixels.
 const WINDOW: PixelRect = PixelRect::window(16, 16);
 
-/// What the pipeline makes of triangles in clip space, with the pixels of each piece.
-fn clipped(
-    (name, about): (&'static str, &'static str),
-    triangles: &[[Clip; 3]],
-    disjoint: bool,
-    pixels: &[u64],
-) -> NamedCase {
+/// A list of named cases from a table: name, what it is about, and what makes the case, with the pixels of each triangle.
+macro_rules! table {
+    ($($name:literal, $about:literal, $case:expr, $pixels:expr;)*) => {
+        vec![$(NamedCase {
+            name: $name,
+            about: $about,
+            input: Input::Drawn { case: $case, pixels: $pixels.to_vec() },
+        }),*]
+    };
+}
+
+/// What the pipeline makes of triangles in clip space.
+fn clipped(triangles: &[[Clip; 3]]) -> Case {
     let mut list: Vec<Triangle> = Vec::new();
     for corners in triangles {
         let values = [DVec2::ZERO, DVec2::X, DVec2::Y];
@@ -45,18 +51,11 @@ fn clipped(
         let mut counters = Counters::default();
         assembler.assemble(points.each_ref(), varying, &mut counters, |p| list.push(*p));
     }
-    let case = Case { window: WINDOW, shape: Shape::Triangles { list, disjoint } };
-    NamedCase { name, about, input: Input::Drawn { case, pixels: pixels.to_vec() } }
+    drawn(WINDOW, list)
 }
 
-fn drawn(
-    (name, about): (&'static str, &'static str),
-    window: PixelRect,
-    triangles: Vec<Triangle>,
-    pixels: &[u64],
-) -> NamedCase {
-    let case = Case { window, shape: Shape::Triangles { list: triangles, disjoint: true } };
-    NamedCase { name, about, input: Input::Drawn { case, pixels: pixels.to_vec() } }
+fn drawn(window: PixelRect, list: Vec<Triangle>) -> Case {
+    Case { window, shape: Shape::Triangles { list, disjoint: true } }
 }
 
 fn at((x, y): Px) -> SubpixelPoint {
@@ -105,82 +104,37 @@ fn perspective() -> Vec<NamedCase> {
     for vertex in &mut flat.vertices {
         vertex.depth = 0.1;
     }
-    vec![
-        clipped(
-            ("P1", "w = 1, 1e-6, 1: the place of w = 1 throughout"),
-            &[[with(a, 0.0, 1.0), with(b, 0.0, 1e-6), with(c, 0.0, 1.0)]],
-            true,
-            &[36],
-        ),
-        clipped(
-            ("P2", "w = 1, 2^-30, -1: cut before w = 0, nothing from behind the eye"),
-            &[[with(d, 0.0, 1.0), with((0.0, 0.5), 0.0, eps), with(c, 0.0, -1.0)]],
-            true,
-            &[16, 38, 22],
-        ),
-        clipped(
-            (
-                "P3",
-                "coordinates times 1e-23 and 1e20: products of z leave f32, not the domain here",
-            ),
-            &[scaled(plain, 1e-23), scaled(plain, 1e20)],
-            false,
-            &[36, 36],
-        ),
-        clipped(
-            ("P4", "nvdiffrast#225: of a pair with a shared edge one is clipped, the other is not"),
-            &[
-                [shared_from, with(b, 0.0, 1.0), shared_to],
-                [shared_from, shared_to, with(d, -3.0, 1.0)],
-            ],
-            true,
-            &[36, 7, 6],
-        ),
-        clipped(
-            ("P5", "a corner on the near plane, exactly: inside, nothing is cut"),
-            &[[with(a, -1.0, 1.0), with(b, 0.0, 1.0), with(c, 0.0, 1.0)]],
-            true,
-            &[36],
-        ),
-        clipped(
-            ("P5S", "all six planes and the three edges leave a side: nine corners"),
-            &[[(9.25, 20.0, 24.97, 24.5), (12.875, -18.83, 2.54, 4.2), (-3.625, 3.5, -1.77, 0.3)]],
-            true,
-            &[10, 60, 36, 32, 46, 16, 0],
-        ),
-        clipped(
-            ("P5U", "book-bugs clip_stack_overflow: corners within ulps of planes"),
-            &[overflow],
-            true,
-            &[0],
-        ),
-        drawn(
-            ("P6", "a triangle .061 px wide, 2^14 px from the origin: one pixel"),
-            far_window,
-            vec![plain_triangle(tiny.map(at))],
-            &[1],
-        ),
-        drawn(
-            (
-                "P7",
-                "nvdiffrast 20c4135: samples on the edge opposite a corner: weights add up to 1",
-            ),
-            WINDOW,
-            vec![plain_triangle([(0.5, 0.5), (8.5, 0.5), (0.5, 8.5)].map(at))],
-            &[36],
-        ),
-        drawn(
-            ("P8", "PCSX2#2980: the same depth at the corners is that depth, to the bit"),
-            WINDOW,
-            vec![flat],
-            &[120],
-        ),
-        clipped(
-            ("P9", "xemu#665: the last two corners fall on one point, w = 1 and w = -0.1"),
-            &[[with(a, 0.0, 1.0), with(c, 0.0, 1.0), with(c, 0.0, -0.1)]],
-            true,
-            &[0, 0, 0],
-        ),
+    // Both triangles cover the same pixels.
+    let mut twice = clipped(&[scaled(plain, 1e-23), scaled(plain, 1e20)]);
+    if let Shape::Triangles { disjoint, .. } = &mut twice.shape {
+        *disjoint = false;
+    }
+    let opposite = [(0.5, 0.5), (8.5, 0.5), (0.5, 8.5)];
+    table![
+        "P1", "w = 1, 1e-6, 1: the place of w = 1 throughout",
+            clipped(&[[with(a, 0.0, 1.0), with(b, 0.0, 1e-6), with(c, 0.0, 1.0)]]), [36];
+        "P2", "w = 1, 2^-30, -1: cut before w = 0, nothing from behind the eye",
+            clipped(&[[with(d, 0.0, 1.0), with((0.0, 0.5), 0.0, eps), with(c, 0.0, -1.0)]]), [16, 38, 22];
+        "P3", "coordinates times 1e-23 and 1e20: products of z leave f32, not the domain here",
+            twice, [36, 36];
+        "P4", "nvdiffrast#225: of a pair with a shared edge one is clipped, the other is not",
+            clipped(&[[shared_from, with(b, 0.0, 1.0), shared_to], [shared_from, shared_to, with(d, -3.0, 1.0)]]),
+            [36, 7, 6];
+        "P5", "a corner on the near plane, exactly: inside, nothing is cut",
+            clipped(&[[with(a, -1.0, 1.0), with(b, 0.0, 1.0), with(c, 0.0, 1.0)]]), [36];
+        "P5S", "all six planes and the three edges leave a side: nine corners",
+            clipped(&[[(9.25, 20.0, 24.97, 24.5), (12.875, -18.83, 2.54, 4.2), (-3.625, 3.5, -1.77, 0.3)]]),
+            [10, 60, 36, 32, 46, 16, 0];
+        "P5U", "book-bugs clip_stack_overflow: corners within ulps of planes",
+            clipped(&[overflow]), [0];
+        "P6", "a triangle .061 px wide, 2^14 px from the origin: one pixel",
+            drawn(far_window, vec![plain_triangle(tiny.map(at))]), [1];
+        "P7", "nvdiffrast 20c4135: samples on the edge opposite a corner: weights add up to 1",
+            drawn(WINDOW, vec![plain_triangle(opposite.map(at))]), [36];
+        "P8", "PCSX2#2980: the same depth at the corners is that depth, to the bit",
+            drawn(WINDOW, vec![flat]), [120];
+        "P9", "xemu#665: the last two corners fall on one point, w = 1 and w = -0.1",
+            clipped(&[[with(a, 0.0, 1.0), with(c, 0.0, 1.0), with(c, 0.0, -0.1)]]), [0, 0, 0];
     ]
 }
 
@@ -216,27 +170,12 @@ fn samples() -> Vec<NamedCase> {
         [(2.0, 2.0), (1.2, 0.0), (2.0, 0.0)],
     ];
     let plain = |list: [[Px; 3]; 4]| list.map(|corners| plain_triangle(corners.map(at))).to_vec();
-    vec![
-        drawn(
-            ("M1", "an edge through each of the four sample positions: each sample is hit once"),
-            PixelRect::window(13, 4),
-            through,
-            &[3, 1, 3, 1, 3, 1, 3, 1],
-        ),
-        drawn(
-            ("M2", "seams at grazing angles: no sample is lost or drawn twice"),
-            PixelRect::window(64, 4),
-            plain(strip),
-            &[85, 43, 68, 60],
-        ),
-        drawn(
-            (
-                "M3",
-                "a pixel as 2 x 2 samples, a quarter and three quarters: black edges if averaged early",
-            ),
-            PixelRect::window(2, 2),
-            plain(pixel),
-            &[1, 1, 1, 1],
-        ),
+    table![
+        "M1", "an edge through each of the four sample positions: each sample is hit once",
+            drawn(PixelRect::window(13, 4), through), [3, 1, 3, 1, 3, 1, 3, 1];
+        "M2", "seams at grazing angles: no sample is lost or drawn twice",
+            drawn(PixelRect::window(64, 4), plain(strip)), [85, 43, 68, 60];
+        "M3", "a pixel as 2 x 2 samples, a quarter and three quarters: black edges if averaged early",
+            drawn(PixelRect::window(2, 2), plain(pixel)), [1, 1, 1, 1];
     ]
 }

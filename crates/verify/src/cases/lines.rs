@@ -2,26 +2,18 @@
 
 use glam::DVec2;
 
-use super::{Case, Family, Rng, Shape, pixel};
+use super::{Case, Family, Rng, Shape, family, pixel};
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{LineEnd, PixelPoint, ScreenLine};
 
 /// Every family of lines.
 pub const FAMILIES: &[Family] = &[
-    Family { name: "line-octants", about: "all directions inside the window", make: octants },
-    Family {
-        name: "line-ties",
-        about: "even lengths that pass halfway between pixels",
-        make: ties,
-    },
-    Family { name: "line-axis", about: "horizontal, vertical and diagonal", make: axis },
-    Family { name: "line-points", about: "zero length, and one step", make: points },
-    Family { name: "line-clipped", about: "across the borders of the window", make: clipped },
-    Family {
-        name: "line-far",
-        about: "up to 2^31 pixels away, often through the window",
-        make: far,
-    },
+    family("line-octants", "all directions inside the window", octants),
+    family("line-ties", "even lengths that pass halfway between pixels", ties),
+    family("line-axis", "horizontal, vertical and diagonal", axis),
+    family("line-points", "zero length, and one step", points),
+    family("line-clipped", "across the borders of the window", clipped),
+    family("line-far", "up to 2^31 pixels away, often through the window", far),
 ];
 
 const SIDE_PX: u32 = 40;

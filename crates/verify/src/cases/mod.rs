@@ -69,6 +69,10 @@ impl Family {
     }
 }
 
+const fn family(name: &'static str, about: &'static str, make: fn(&mut Rng) -> Case) -> Family {
+    Family { name, about, make }
+}
+
 macro_rules! family_names {
     ($($variant:ident $name:literal)*) => {
         /// The name of a family of triangles or lines, on the lattice or off it. It is parsed from, and shown as, the

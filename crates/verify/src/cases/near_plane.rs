@@ -5,18 +5,14 @@
 
 use glam::DVec2;
 
-use super::{Case, Family, Rng, Shape, Triangle, sub};
+use super::{Case, Family, Rng, Shape, Triangle, family, sub};
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{ScreenTriangle, ScreenVertex};
 
 /// Every family of stages.
 pub const FAMILIES: &[Family] = &[
-    Family { name: "depth-order", about: "triangles before and through each other", make: piles },
-    Family {
-        name: "near-plane",
-        about: "corners before, behind and in the near plane",
-        make: near,
-    },
+    family("depth-order", "triangles before and through each other", piles),
+    family("near-plane", "corners before, behind and in the near plane", near),
 ];
 
 /// Side of the window of a pile, in pixels.

@@ -4,63 +4,35 @@
 
 use glam::DVec2;
 
-use super::{Case, Family, Rng, Shape, Triangle, sub};
+use super::{Case, Family, Rng, Shape, Triangle, family, sub};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_core::triangle::{Corners, ScreenTriangle, ScreenVertex};
 
 /// Every family of triangles.
 pub const FAMILIES: &[Family] = &[
-    Family { name: "uniform", about: "anywhere in the window", make: uniform },
-    Family {
-        name: "half-integer",
-        about: "corners on pixel centres: ties everywhere",
-        make: half_integer,
-    },
-    Family {
-        name: "rectangle",
-        about: "corners on centres, split on either diagonal",
-        make: rectangle,
-    },
-    Family { name: "fan", about: "closed fans around a centre", make: fan },
-    Family { name: "strip", about: "zigzag strips that share every inner edge", make: strip },
-    Family { name: "sliver", about: "long and thinner than a pixel", make: sliver },
-    Family {
-        name: "near-horizontal",
-        about: "edges a few subpixels off a row of centres",
-        make: near_horizontal,
-    },
-    Family {
-        name: "near-vertical",
-        about: "edges a few subpixels off a column of centres",
-        make: near_vertical,
-    },
-    Family { name: "tiny", about: "smaller than a pixel", make: tiny },
-    Family { name: "flat", about: "flat tops and bottoms, often on a row of centres", make: flat },
-    Family { name: "degenerate", about: "zero area exactly, through samples", make: degenerate },
-    Family { name: "partly-off", about: "across the borders of the window", make: partly_off },
-    Family {
-        name: "off-screen",
-        about: "wholly outside, the bounding box often not",
-        make: off_screen,
-    },
-    Family { name: "huge", about: "corners up to the edge of the domain", make: huge },
-    Family {
-        name: "near-tie",
-        about: "an edge through a sample, one end moved by a subpixel",
-        make: near_tie,
-    },
-    Family { name: "far", about: "offsets of 2^11, 2^14 and 2^22 px from the origin", make: far },
-    Family { name: "w-equal", about: "perspective with equal w", make: w_equal },
-    Family { name: "w-4", about: "w ratio up to 4", make: w_4 },
-    Family { name: "w-100", about: "w ratio up to 100", make: w_100 },
-    Family { name: "w-1e4", about: "w ratio up to 10,000", make: w_1e4 },
-    Family { name: "w-1e6", about: "w ratio up to 1,000,000", make: w_1e6 },
-    Family {
-        name: "w-extreme",
-        about: "w anywhere in its domain, ratio up to 2^400",
-        make: w_extreme,
-    },
+    family("uniform", "anywhere in the window", uniform),
+    family("half-integer", "corners on pixel centres: ties everywhere", half_integer),
+    family("rectangle", "corners on centres, split on either diagonal", rectangle),
+    family("fan", "closed fans around a centre", fan),
+    family("strip", "zigzag strips that share every inner edge", strip),
+    family("sliver", "long and thinner than a pixel", sliver),
+    family("near-horizontal", "edges a few subpixels off a row of centres", near_horizontal),
+    family("near-vertical", "edges a few subpixels off a column of centres", near_vertical),
+    family("tiny", "smaller than a pixel", tiny),
+    family("flat", "flat tops and bottoms, often on a row of centres", flat),
+    family("degenerate", "zero area exactly, through samples", degenerate),
+    family("partly-off", "across the borders of the window", partly_off),
+    family("off-screen", "wholly outside, the bounding box often not", off_screen),
+    family("huge", "corners up to the edge of the domain", huge),
+    family("near-tie", "an edge through a sample, one end moved by a subpixel", near_tie),
+    family("far", "offsets of 2^11, 2^14 and 2^22 px from the origin", far),
+    family("w-equal", "perspective with equal w", w_equal),
+    family("w-4", "w ratio up to 4", |rng| perspective(rng, |rng| spread(rng, 4.0))),
+    family("w-100", "w ratio up to 100", |rng| perspective(rng, |rng| spread(rng, 100.0))),
+    family("w-1e4", "w ratio up to 10,000", |rng| perspective(rng, |rng| spread(rng, 1e4))),
+    family("w-1e6", "w ratio up to 1,000,000", |rng| perspective(rng, |rng| spread(rng, 1e6))),
+    family("w-extreme", "w anywhere in its domain, ratio up to 2^400", w_extreme),
 ];
 
 /// Side of the usual window, in pixels and in subpixels.
@@ -300,22 +272,6 @@ fn far(rng: &mut Rng) -> Case {
 fn w_equal(rng: &mut Rng) -> Case {
     let w = 0.1 + 10.0 * rng.unit();
     perspective(rng, |_| w)
-}
-
-fn w_4(rng: &mut Rng) -> Case {
-    perspective(rng, |rng| spread(rng, 4.0))
-}
-
-fn w_100(rng: &mut Rng) -> Case {
-    perspective(rng, |rng| spread(rng, 100.0))
-}
-
-fn w_1e4(rng: &mut Rng) -> Case {
-    perspective(rng, |rng| spread(rng, 1e4))
-}
-
-fn w_1e6(rng: &mut Rng) -> Case {
-    perspective(rng, |rng| spread(rng, 1e6))
 }
 
 fn w_extreme(rng: &mut Rng) -> Case {

@@ -46,58 +46,34 @@ impl OffGridFamily {
     }
 }
 
+const fn family(
+    name: &'static str,
+    about: &'static str,
+    make: fn(&mut Rng) -> OffGridCase,
+) -> OffGridFamily {
+    OffGridFamily { name, about, make }
+}
+
 /// Every family of triangles off the lattice.
 pub const FAMILIES: &[OffGridFamily] = &[
-    OffGridFamily { name: "f32-random", about: "anywhere in the window", make: random },
-    OffGridFamily { name: "f32-sliver", about: "collinear but for a few ulps", make: sliver },
-    OffGridFamily {
-        name: "f32-near-tie",
-        about: "an edge through a sample, an end moved by 1 ulp",
-        make: near_tie_f32,
-    },
-    OffGridFamily {
-        name: "f32-tie",
-        about: "dyadic fractions, edges exactly through samples",
-        make: tie,
-    },
-    OffGridFamily { name: "f32-fan", about: "closed fans around the whole window", make: fan },
-    OffGridFamily {
-        name: "f32-cut",
-        about: "the window cut in two along an edge through a sample",
-        make: cut,
-    },
-    OffGridFamily { name: "f32-tiny", about: "a few ulps around a sample", make: tiny },
-    OffGridFamily {
-        name: "f32-mixed",
-        about: "exponents from 2^-149 to 2^22 in one triangle",
-        make: mixed,
-    },
-    OffGridFamily {
-        name: "f32-denormal",
-        about: "a tie missed by a subnormal offset",
-        make: denormal_f32,
-    },
-    OffGridFamily {
-        name: "f32-far",
-        about: "offsets of 2^11, 2^14 and 2^22 px from the origin",
-        make: far,
-    },
-    OffGridFamily {
-        name: "f32-huge",
-        about: "ends far off, an edge past a sample",
-        make: huge_f32,
-    },
-    OffGridFamily {
-        name: "f64-near-tie",
-        about: "as f32-near-tie, by an ulp of f64",
-        make: near_tie_f64,
-    },
-    OffGridFamily { name: "f64-huge", about: "as f32-huge, by an ulp of f64", make: huge_f64 },
-    OffGridFamily {
-        name: "f64-denormal",
-        about: "a tie missed by 2^-300 down to 2^-1074",
-        make: denormal_f64,
-    },
+    family("f32-random", "anywhere in the window", random),
+    family("f32-sliver", "collinear but for a few ulps", sliver),
+    family("f32-near-tie", "an edge through a sample, an end moved by 1 ulp", |rng| {
+        near_tie(rng, f32_of, nudge_f32, 12)
+    }),
+    family("f32-tie", "dyadic fractions, edges exactly through samples", tie),
+    family("f32-fan", "closed fans around the whole window", fan),
+    family("f32-cut", "the window cut in two along an edge through a sample", cut),
+    family("f32-tiny", "a few ulps around a sample", tiny),
+    family("f32-mixed", "exponents from 2^-149 to 2^22 in one triangle", mixed),
+    family("f32-denormal", "a tie missed by a subnormal offset", denormal_f32),
+    family("f32-far", "offsets of 2^11, 2^14 and 2^22 px from the origin", far),
+    family("f32-huge", "ends far off, an edge past a sample", |rng| huge(rng, f32_of, nudge_f32)),
+    family("f64-near-tie", "as f32-near-tie, by an ulp of f64", |rng| {
+        near_tie(rng, |v| v, nudge_f64, 40)
+    }),
+    family("f64-huge", "as f32-huge, by an ulp of f64", |rng| huge(rng, |v| v, nudge_f64)),
+    family("f64-denormal", "a tie missed by 2^-300 down to 2^-1074", denormal_f64),
 ];
 
 /// Side of the usual window.
@@ -179,14 +155,6 @@ fn sliver(rng: &mut Rng) -> OffGridCase {
         f32_of(on_line + rng.int(-reach, reach) as f64 / (1 << 22) as f64)
     });
     single([a, b, c], rng)
-}
-
-fn near_tie_f32(rng: &mut Rng) -> OffGridCase {
-    near_tie(rng, f32_of, nudge_f32, 12)
-}
-
-fn near_tie_f64(rng: &mut Rng) -> OffGridCase {
-    near_tie(rng, |v| v, nudge_f64, 40)
 }
 
 /// An edge through a sample, whose one end is then rounded or moved by an ulp. Half of the edges
@@ -415,7 +383,7 @@ fn denormal(rng: &mut Rng, tiny: impl Fn(&mut Rng) -> f64) -> OffGridCase {
 }
 
 fn far(rng: &mut Rng) -> OffGridCase {
-    let corners = if rng.chance(2) { near_tie_f32(rng) } else { random(rng) };
+    let corners = if rng.chance(2) { near_tie(rng, f32_of, nudge_f32, 12) } else { random(rng) };
     let mut offset = || {
         let px = (1i64 << [0, 11, 14, 22][rng.int(0, 3) as usize]) as f64;
         if rng.chance(2) { px } else { -px }
@@ -427,14 +395,6 @@ fn far(rng: &mut Rng) -> OffGridCase {
     let (x, y) = (dx as i32, dy as i32);
     let window = PixelRect { x0: w.x0 + x, y0: w.y0 + y, x1: w.x1 + x, y1: w.y1 + y };
     case(&triangles, window, false)
-}
-
-fn huge_f32(rng: &mut Rng) -> OffGridCase {
-    huge(rng, f32_of, nudge_f32)
-}
-
-fn huge_f64(rng: &mut Rng) -> OffGridCase {
-    huge(rng, |v| v, nudge_f64)
 }
 
 fn huge(rng: &mut Rng, round: fn(f64) -> f64, nudge: fn(f64, i64) -> f64) -> OffGridCase {
