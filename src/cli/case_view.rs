@@ -23,7 +23,7 @@ use rasterproof_verify::oracle::Oracle;
 use rasterproof_verify::oracle::coverage::samples_on_boundary;
 
 /// Who is judged: the engines of each kind, or a planted fault alone.
-pub struct Contestants {
+pub struct JudgedEngines {
     /// Rasterizers, with the bounds of their values.
     pub engines: Vec<(Engine, Tolerance)>,
     pub lines: Vec<LineEngine>,
@@ -31,7 +31,7 @@ pub struct Contestants {
     pub exact: Vec<ExactEngine>,
 }
 
-impl Contestants {
+impl JudgedEngines {
     /// Everybody, or the fault of this name.
     pub fn new(plant: Option<&str>) -> Self {
         let Some(name) = plant else {

@@ -96,7 +96,6 @@ impl BuildLimits {
     }
 }
 
-/// How a program is made and run.
 struct Submission {
     name: String,
     folder: PathBuf,
@@ -108,7 +107,6 @@ struct Grade {
     name: String,
     /// For each step whether it is passed, and what came of it as text.
     steps: Vec<(bool, String)>,
-    /// Why it could not be judged.
     error: Option<String>,
     seconds: f64,
 }

@@ -7,7 +7,6 @@ use std::io::{self, Write};
 
 use rasterproof_host::text::{is_hidden, printable};
 
-/// How a hidden character is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Escape {
     /// As `\u{1b}`, for people.

@@ -6,7 +6,7 @@ use clap::builder::PossibleValuesParser;
 use image::RgbImage;
 use rasterproof_host::text::printable_path;
 
-use super::case_view::{self, Contestants};
+use super::case_view::{self, JudgedEngines};
 use super::files::{Use, distinct};
 use super::inspect_case::{
     CaseArguments, Found, face_of_file, find, off_lattice, parse_pixel, recorded, words,
@@ -156,7 +156,7 @@ pub fn run(arguments: &InspectArguments, command: &Typed, streams: &mut Streams<
     }
 
     // Judge and show.
-    let Contestants { engines, lines, exact } = Contestants::new(arguments.plant.as_deref());
+    let JudgedEngines { engines, lines, exact } = JudgedEngines::new(arguments.plant.as_deref());
     let mut shown = case_view::draw(&case, &engines, &lines);
     if shown.is_empty() {
         return Err(no_part(arguments.plant.as_ref()));
@@ -337,7 +337,7 @@ fn off_grid_alone(
     mut case: OffGridCase,
     streams: &mut Streams<'_>,
 ) -> Status {
-    let exact = Contestants::new(arguments.plant.as_deref()).exact;
+    let exact = JudgedEngines::new(arguments.plant.as_deref()).exact;
     if exact.is_empty() {
         return Err(no_part(arguments.plant.as_ref()));
     }

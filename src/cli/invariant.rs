@@ -55,7 +55,6 @@ pub fn run(
     Ok(outcomes.status())
 }
 
-/// How many invariants came to what.
 #[derive(Default)]
 struct Outcomes {
     holding: usize,

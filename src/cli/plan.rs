@@ -57,7 +57,6 @@ fn parse_effect(name: &str) -> Result<Effect, String> {
 struct Measured {
     effects: String,
     rounds: usize,
-    /// Median of the rounds.
     time_us: f64,
     /// Smallest and largest.
     range_us: [f64; 2],

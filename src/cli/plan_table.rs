@@ -9,7 +9,6 @@ pub(super) struct Line<'a> {
     pub effect: Effect,
     pub reason: &'a str,
     pub unit: Unit,
-    /// On, off, open.
     pub counts: [u64; 3],
     items: Vec<usize>,
 }
@@ -17,7 +16,6 @@ pub(super) struct Line<'a> {
 impl Line<'_> {
     /// Which items, in short: ranges, or their number where there are too many of them.
     pub fn items(&self) -> String {
-        /// Characters of the column.
         const MOST: usize = 9;
         let runs = self.items.chunk_by(|a, b| a + 1 == *b).map(|run| match run {
             [first, .., last] => format!("{first}-{last}"),

@@ -55,7 +55,6 @@ impl Progress {
         self.bar.reset_eta();
     }
 
-    /// So many more are done.
     pub fn done(&self, more: u64) {
         self.bar.inc(more);
     }

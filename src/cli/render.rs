@@ -22,7 +22,7 @@ use rasterproof_core::frame::Frame;
 use rasterproof_models::{Model, Normals, Options, Origin, Up};
 use rasterproof_registry::engines::{Drawer, Engine};
 use rasterproof_registry::undecided::{self, Drawn as DrawnBy};
-use rasterproof_render::effects::depth_ties::{ByRounding, Cause, Rivals};
+use rasterproof_render::effects::depth_ties::{ByRounding, Cause, TiedPieces};
 use rasterproof_render::effects::plan::{Plan, SceneDigest, VERSION};
 use rasterproof_render::effects::render::{PlanError, Rendered};
 use rasterproof_render::effects::{Effect, Effects, Mode};
@@ -355,7 +355,6 @@ impl ViewArguments {
         Ok(f64::from(width) / f64::from(height))
     }
 
-    /// The model in a file.
     pub(super) fn maker(&self, path: &Path, streams: &mut Streams<'_>) -> Result<Maker, Failure> {
         let aspect = self.aspect()?;
         let base = Base::Model(Box::new(self.frame_model(path, aspect, streams)?));
@@ -504,7 +503,6 @@ fn report_model(
     Ok(())
 }
 
-/// A model in front of an eye.
 struct Framed {
     scene: Scene,
     centre: DVec3,
@@ -576,7 +574,6 @@ impl Maker {
 struct Drawing {
     name: &'static str,
     rendered: Rendered,
-    /// To plan and draw the frame.
     time: Duration,
     /// Holds every depth, where two rasterizers are compared.
     target: Target,
@@ -710,8 +707,8 @@ fn compare(
 }
 
 fn by_rounding(scene: &Scene, target: &Target, cause: Cause) -> Result<ByRounding, Failure> {
-    let rivals = Rivals::new(scene, target).map_err(usage)?;
-    Ok(rivals.by_rounding(cause))
+    let tied = TiedPieces::new(scene, target).map_err(usage)?;
+    Ok(tied.by_rounding(cause))
 }
 
 /// How far the corners that are snapped alike reach, in words.

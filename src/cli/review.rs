@@ -181,7 +181,6 @@ fn read(path: &Path) -> Result<Vec<u8>, InputError> {
     input::read(path, DOCUMENT_BYTES)
 }
 
-/// A file that may be missing.
 fn read_if_there(path: &Path) -> Result<Option<Vec<u8>>, InputError> {
     match read(path) {
         Err(error) if error.missing => Ok(None),

@@ -28,7 +28,7 @@ use rasterproof_verify::cases::{Case, Shape};
 use rasterproof_verify::comparison::tolerance::Tolerance;
 use rasterproof_verify::comparison::unsnapped::judge_exact_case;
 
-use super::case_view::Contestants;
+use super::case_view::JudgedEngines;
 use super::inspect_case::{self, Found};
 use super::page::{PageArguments, write_page};
 use super::progress::Progress;
@@ -282,7 +282,7 @@ const CHUNK: usize = 128;
 /// `verify FILE`: the hard cases of a model, and every engine on its triangles against the oracle.
 pub(super) fn verify(
     path: &Path,
-    (view, judged, is_json): (&ViewArguments, &Contestants, bool),
+    (view, judged, is_json): (&ViewArguments, &JudgedEngines, bool),
     typed: &Typed,
     streams: &mut Streams<'_>,
 ) -> Status {

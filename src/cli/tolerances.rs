@@ -60,7 +60,6 @@ fn sets(report: &Report) -> [(&'static str, &[Row], usize, usize); 2] {
     ]
 }
 
-/// The tables, at most 80 columns wide.
 fn text(seed: u64, report: &Report) -> String {
     let (faults, right) = (report.faults.len(), report.right.len());
     let mut out = format!(

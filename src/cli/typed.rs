@@ -98,13 +98,11 @@ impl Typed {
         other
     }
 
-    /// The first of these options that was given.
     pub fn given<'a>(&self, options: &[&'a str]) -> Option<&'a str> {
         let is_given = |option: &&&str| self.options.iter().any(|(name, _)| name == **option);
         options.iter().find(is_given).copied()
     }
 
-    /// The words after the name of the program.
     pub fn words(&self) -> Vec<OsString> {
         let mut words = vec![OsString::from(&self.name)];
         // From the first that would be taken for an option, they come last, in their order.

@@ -7,7 +7,7 @@ use std::time::Duration;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use image::RgbImage;
 
-use super::case_view::{self, Contestants};
+use super::case_view::{self, JudgedEngines};
 use super::page::{PageArguments, write_page};
 use super::progress::Progress;
 use super::render::ViewArguments;
@@ -38,7 +38,7 @@ pub fn run_command(command: &VerifyCommand, typed: &Typed, streams: &mut Streams
         study::refuse_view(typed)?;
         return run(&command.arguments, typed, streams);
     };
-    let judged = command.arguments.contestants();
+    let judged = command.arguments.judged_engines();
     if judged.engines.is_empty() && judged.exact.is_empty() {
         return Err(usage("no rasterizer of triangles is chosen: name one, or leave out --engine"));
     }
@@ -168,8 +168,8 @@ impl VerifyArguments {
     }
 
     /// Who is judged: everybody, a selection, or a planted fault alone.
-    fn contestants(&self) -> Contestants {
-        let mut all = Contestants::new(self.plant.as_deref());
+    fn judged_engines(&self) -> JudgedEngines {
+        let mut all = JudgedEngines::new(self.plant.as_deref());
         if self.engine.is_empty() {
             return all;
         }
@@ -194,7 +194,7 @@ pub fn run(arguments: &VerifyArguments, typed: &Typed, streams: &mut Streams<'_>
     if arguments.engine.iter().any(|name| name.starts_with(VULKAN)) {
         return on_a_device(arguments, options, streams);
     }
-    let judged = arguments.contestants();
+    let judged = arguments.judged_engines();
     if judged.engines.is_empty() && judged.lines.is_empty() && judged.exact.is_empty() {
         return Err(usage("this fault is in no engine and no line drawer: add --invariant NAME"));
     }
@@ -246,8 +246,8 @@ fn on_a_device(arguments: &VerifyArguments, options: Options, streams: &mut Stre
     super::vulkan::verify(&job, streams)
 }
 
-fn judge(judged: &Contestants, options: &Options, on_terminal: bool) -> (Verdict, ExactVerdict) {
-    let Contestants { engines, lines, exact } = judged;
+fn judge(judged: &JudgedEngines, options: &Options, on_terminal: bool) -> (Verdict, ExactVerdict) {
+    let JudgedEngines { engines, lines, exact } = judged;
     let exact_engines: Vec<_> = exact.iter().map(|engine| (engine.name(), *engine)).collect();
     let triangles = cases::triangles::FAMILIES.iter().filter(|_| !engines.is_empty());
     let segments = cases::lines::FAMILIES.iter().filter(|_| !lines.is_empty());
@@ -276,16 +276,15 @@ fn judge(judged: &Contestants, options: &Options, on_terminal: bool) -> (Verdict
     (verdict, off_grid)
 }
 
-/// What was judged, and what came of it.
 struct Run<'a> {
     arguments: &'a VerifyArguments,
     typed: &'a Typed,
-    judged: Contestants,
+    judged: JudgedEngines,
     verdict: Verdict,
     off_grid: ExactVerdict,
 }
 
-type Sheet = (&'static str, Vec<RgbImage>);
+type FailurePictures = (&'static str, Vec<RgbImage>);
 
 const MOST_DRAWN: usize = 6;
 
@@ -383,7 +382,7 @@ impl Run<'_> {
     }
 
     /// The smallest failure with its pixels, then a line for each other family; all of them as pictures.
-    fn failures(&self, out: &mut dyn Write) -> Result<Vec<Sheet>, Failure> {
+    fn failures(&self, out: &mut dyn Write) -> Result<Vec<FailurePictures>, Failure> {
         let mut drawn = Vec::new();
         for (rank, failure) in self.verdict.failures.iter().enumerate() {
             let shown = self.draw(&failure.case);

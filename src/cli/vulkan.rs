@@ -49,7 +49,6 @@ impl Job<'_> {
         format!("{program} verify --engine {}{seed}", self.engine)
     }
 
-    /// What follows for all that was judged.
     fn all(&self, cases: u64) -> String {
         let families = self.options.families.iter().map(|f| format!(" --family {f}"));
         let case = self.options.only.map(|case| format!(" --case {case}")).unwrap_or_default();

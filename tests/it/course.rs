@@ -386,7 +386,6 @@ fn course_names_misconceptions() {
     assert!(unseen.is_empty(), "{unseen:?}");
 }
 
-/// The page lists what is said.
 #[test]
 fn course_page_lists_misconceptions() {
     let page = crate::pages::page("docs", "course");

@@ -373,7 +373,6 @@ fn cuts_behind_the_eye() -> Vec<f64> {
 const SLIVER: usize = 3;
 const HALF: usize = 4;
 const FAR: usize = 6;
-/// The rungs in vectors.
 const TILES: &str = "tiles i32 x 16";
 const PLANES: &str = "planes f32 x 16";
 const FLOATS: [&str; 4] = ["f32 accumulated", "f32 direct", "f64 accumulated", "f64 direct"];

@@ -165,7 +165,6 @@ fn page_of_all(name: &str, language: &str) -> Option<PathBuf> {
     Some(path)
 }
 
-/// A figure of the page, for expressions.
 fn of(figure: &Figure) -> String {
     format!("document.querySelector('rp-figure[scene=\"{}\"]')", figure.name)
 }
@@ -313,7 +312,6 @@ fn from_the_first(pixels: &[([f64; 2], String)], unit: f64) -> Painted {
     pixels.iter().map(|(at, paint)| (place(at), paint.clone())).collect()
 }
 
-/// What a figure paints, its parts one after the other.
 fn painted_by(figure: &str, svg: &str) -> Vec<Painted> {
     let (mut pixels, mut unit) = (Vec::new(), f64::INFINITY);
     for path in svg.split("<path class=\"px").skip(1) {

@@ -104,7 +104,6 @@ const WORDS: &str = "v|vt|vn|f|l|p|o|g|s|usemtl|mtllib|newmtl|Kd|Ks|Ka|Ns|d|Tr|i
     \n|\r|\t| |\u{0}|\u{1b}|\u{feff}|é|m.mtl|a|off|on|\\|curv|bump|-s|-o|-mm|-clamp|-0.0001|\
     3|1e38|1e-300|f 1 2 3 4 5 6 7 8|f 8 6 4 2 1 3 5 7|m.mtl m.mtl|t.png";
 
-/// A number below a limit.
 fn below(rng: &mut Rng, limit: usize) -> usize {
     rng.int(0, limit as i64 - 1) as usize
 }

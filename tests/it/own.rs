@@ -43,8 +43,8 @@ stages! {
 
 #[test]
 fn own_stages_draw_their_pictures() {
-    type Stage = fn() -> RgbImage;
-    let stages: [Stage; 11] = [
+    type DrawStage = fn() -> RgbImage;
+    let stages: [DrawStage; 11] = [
         stage1::stage1,
         stage2::stage2,
         stage3::stage3,

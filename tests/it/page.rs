@@ -31,7 +31,6 @@ pub struct Browser {
     answers: Receiver<Value>,
     session: Value,
     last: u64,
-    /// What the pages complained about so far.
     pub complaints: Vec<String>,
     folder: PathBuf,
 }
@@ -109,7 +108,6 @@ impl Browser {
         }
     }
 
-    /// Keeps what the page complains about.
     fn note(&mut self, message: &Value) {
         let parameters = &message["params"];
         let is_bad = match message["method"].as_str() {
@@ -155,7 +153,6 @@ impl Browser {
         self.call("Emulation.setEmulatedMedia", features);
     }
 
-    /// Presses a key, as the keyboard would.
     pub fn press(&mut self, key: &str) {
         let text = if key.len() == 1 { key } else { "" };
         for kind in ["keyDown", "keyUp"] {
@@ -164,7 +161,6 @@ impl Browser {
         }
     }
 
-    /// The text of the element that a selector finds.
     pub fn text(&mut self, selector: &str) -> String {
         let found = self.eval(&format!("document.querySelector({selector:?}).textContent"));
         found.as_str().unwrap().to_owned()
@@ -176,7 +172,6 @@ impl Browser {
         serde_json::from_value(names).unwrap()
     }
 
-    /// What the first panel shows.
     fn picture(&mut self) -> String {
         let url = self.eval("document.querySelector('#stage canvas').toDataURL()");
         url.as_str().unwrap().to_owned()
@@ -200,7 +195,6 @@ impl Browser {
 
 /// What a test asks of an open page, in whatever browser.
 pub trait Tab {
-    /// The value of an expression.
     fn eval(&mut self, expression: &str) -> Value;
 
     fn wait_for(&mut self, expression: &str) {
@@ -231,7 +225,6 @@ impl Drop for Browser {
     }
 }
 
-/// A folder of this test's own.
 pub fn folder(name: &str) -> PathBuf {
     let folder = std::env::temp_dir().join(format!("rasterproof-{name}-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
@@ -261,7 +254,6 @@ fn cells(browser: &mut Browser) -> Vec<(String, String, String)> {
     serde_json::from_value(cells).unwrap()
 }
 
-/// Every count of the JSON stands in the table.
 fn counts_equal_the_json(browser: &mut Browser, json: &Value) {
     let cells = cells(browser);
     let has = |row: &str, column: &str, text: &Value| {
@@ -676,7 +668,6 @@ fn page_shows_frames_as_they_are() {
 /// What a name must not be able to do.
 const HOSTILE: &str = "</script><img src=x onerror=\"document.title='broken into'\">&{{data}}'";
 
-/// Two pictures that differ in one pixel.
 fn two_pictures() -> Vec<PictureLayer> {
     let old = RgbImage::from_pixel(7, 5, Rgb([10, 20, 30]));
     let mut new = old.clone();

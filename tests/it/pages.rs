@@ -83,7 +83,6 @@ fn is_rounded(printed: &str, value: f64) -> bool {
     (number - value).abs() <= unit * 0.5 * (1.0 + 1e-9)
 }
 
-/// A value in the form of the printed number that it replaces.
 fn in_the_form_of(printed: &str, value: f64) -> String {
     let (decimals, exponent) = digits(printed);
     if exponent.is_some() {

@@ -25,7 +25,6 @@ const OTHERS: &str = "v -1 -.5 0\nv -.2 -.5 0\nv -.2 .5 0\nv -1 .5 0\nv -.6 -.5 
 
 const FRONT: [&str; 4] = ["--yaw", "0", "--pitch", "0"];
 
-/// A folder of its own with two models.
 fn folder(name: &str) -> Folder {
     let folder = Folder::new(&format!("plans-{name}"));
     fs::write(folder.join("squares.obj"), SQUARES).unwrap();
@@ -201,7 +200,6 @@ fn what_is_not_called_for_can_be_switched_off() {
     }
 }
 
-/// The counts of a row say what its reason says.
 #[test]
 fn reasons_and_counts_say_the_same() {
     for (entry, antialias) in

@@ -69,7 +69,6 @@ fn code(mark: &str) -> Result<String, String> {
     })
 }
 
-/// The page with its code as the sources have it.
 fn renewed(page: &str) -> Result<String, String> {
     let mut out = String::new();
     let mut rest = page;

@@ -143,21 +143,18 @@ impl Run {
         self
     }
 
-    /// Standard error holds this.
     #[track_caller]
     pub fn says(self, part: &str) -> Self {
         assert!(self.errors.contains(part), "expected the error '{part}': {self}");
         self
     }
 
-    /// Standard output holds this.
     #[track_caller]
     pub fn prints(self, part: &str) -> Self {
         assert!(self.out.contains(part), "expected '{part}': {self}");
         self
     }
 
-    /// Standard output holds nothing of this.
     #[track_caller]
     pub fn omits(self, part: &str) -> Self {
         assert!(!self.out.contains(part), "expected no '{part}': {self}");

@@ -409,7 +409,6 @@ struct Counterexample {
     drawer: Drawer,
     antialias: Antialias,
     size: (u32, u32),
-    /// How the other effects are drawn.
     rest: Effects,
 }
 

@@ -281,12 +281,10 @@ fn enlarged(image: RgbImage, names: &[&str], (width, height): (u32, u32), zoom: 
     Sheet { image, panels: (0..).zip(names).map(panel).collect() }
 }
 
-/// Keeps a picture of the docs as a snapshot.
 pub fn check_picture(name: &str, image: &RgbImage) {
     check_png(name, picture::png(image), MOST_BYTES_OF_SCENES);
 }
 
-/// Keeps the sheet of a case as a snapshot.
 pub fn check_sheet(name: &str, sheet: &Sheet) {
     check_png(name, sheet.png(), MOST_BYTES);
 }

@@ -33,7 +33,6 @@ fn shown(text: &str) -> Vec<String> {
     found
 }
 
-/// A text with what stands in braces on one line each.
 fn on_one_line(text: &str) -> String {
     let mut is_open = false;
     let close = |c: char| {

@@ -8,7 +8,7 @@ use rasterproof_core::frame::Frame;
 use rasterproof_faults::planted::TriangleMutant;
 use rasterproof_registry::engines::{Drawer, Engine};
 use rasterproof_registry::undecided::{self, Drawn};
-use rasterproof_render::effects::depth_ties::{Cause, Rivals};
+use rasterproof_render::effects::depth_ties::{Cause, TiedPieces};
 use rasterproof_render::effects::{Effects, render};
 use rasterproof_render::pipeline::depth::DepthFormat;
 use rasterproof_render::pipeline::target::{Antialias, Colour, Target};
@@ -120,7 +120,7 @@ fn apart_is_decided() {
     }
 }
 
-/// More rivals than are judged at once: 400 squares in one plane, over 1,650 pixels. No pixel of
+/// More tied pieces than are judged at once: 400 squares in one plane, over 1,650 pixels. No pixel of
 /// theirs is lost where a rectangle is halved.
 #[test]
 #[ignore = "takes seconds; .ci/run runs it"]
@@ -133,7 +133,7 @@ fn many_surfaces_in_one_plane() {
     let rows = drawn[0].0.rows().flat_map(|(_, row)| row);
     let covered = rows.filter(|&&colour| colour != background).count() as u64;
     let c = judge(&scene, Engine::JUDGED, &drawn);
-    assert!(covered * 400 > 1 << 19, "{covered} pixels make too few rivals");
+    assert!(covered * 400 > 1 << 19, "{covered} pixels make too few tied");
     assert!(c.agrees() && c.undecided == covered, "{c:?} of {covered} pixels");
 }
 
@@ -150,7 +150,7 @@ fn a_planted_fault_is_still_found() {
     }
 }
 
-/// Of an undecided pixel, both the colour and the depth must be those of a rival.
+/// Of an undecided pixel, both the colour and the depth must be those of a tied piece.
 #[test]
 fn an_undecided_pixel_is_no_excuse_for_anything_else() {
     let (scene, engines) = (squares(40.0, 0.0), Engine::JUDGED);
@@ -369,7 +369,7 @@ fn the_command_names_large_texture_coordinates() {
 
 fn by_rounding(scene: &Scene, cause: Cause, antialias: Antialias) -> u64 {
     let target = Target::new(160, 120, antialias, DepthFormat::Unorm32).unwrap();
-    let found = Rivals::new(scene, &target).unwrap().by_rounding(cause);
+    let found = TiedPieces::new(scene, &target).unwrap().by_rounding(cause);
     assert_eq!(found.first.is_some(), found.pixels > 0);
     found.pixels
 }

@@ -17,7 +17,6 @@ fn oracle(corners: Corners, window: PixelRect) -> Coverage {
     hits
 }
 
-/// What each triangle of a list covers, and the pieces.
 fn tiles(engine: &Tiles, list: &[Corners], window: PixelRect) -> (Vec<Coverage>, Vec<Piece>) {
     let mut hits: Vec<_> = list.iter().map(|_| Coverage::new(window, 0)).collect();
     let mut pieces = Vec::new();

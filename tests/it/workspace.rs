@@ -257,7 +257,6 @@ fn quoted(text: &str) -> impl Iterator<Item = &str> {
     text.lines().flat_map(|line| line.split('`').skip(1).step_by(2))
 }
 
-/// The text from a heading to the next one of its level.
 fn section<'a>(text: &'a str, heading: &str) -> &'a str {
     let Some(at) = text.find(&format!("## {heading}\n")) else { return "" };
     let rest = &text[at + 3..];
@@ -282,7 +281,6 @@ fn options<'a>(text: &'a str, option: &'a str) -> impl Iterator<Item = &'a str> 
         .map(move |(at, _)| text[at + option.len()..].split(ends).next().unwrap_or(""))
 }
 
-/// What a page may name.
 struct Known {
     /// The functions of the crates, of `tests/` and of `benches/`.
     functions: BTreeSet<String>,
@@ -320,7 +318,6 @@ impl Known {
         self.functions.contains(word) || self.invariants.contains(&word.replace('_', "-").as_str())
     }
 
-    /// What a page names and is not there.
     fn missing(&self, name: &str, text: &str) -> Vec<String> {
         let mut missing = Vec::new();
         for (option, names) in &self.options {

@@ -8,7 +8,6 @@ use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::Corners;
 use rasterproof_verify::cases::Rng;
 
-/// A triangle to draw.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Question {
     /// Its corners in subpixels (1/256 px), on the grid that is declared.
@@ -58,7 +57,6 @@ pub(super) struct Answer {
     pub(super) twice: Mask,
 }
 
-/// Puts questions, and counts.
 pub(super) struct Bench<'a> {
     ask: &'a mut dyn Ask,
     pub(super) known: &'a Known,
@@ -105,7 +103,6 @@ impl<'a> Bench<'a> {
         self.draw_all(questions).into_iter().flatten().collect()
     }
 
-    /// The answers, each at its place.
     pub(super) fn draw_all(&mut self, questions: &[Corners]) -> Vec<Option<Answer>> {
         if questions.is_empty() {
             return Vec::new();

@@ -186,7 +186,6 @@ fn convention(of: &Convention, compass: &Compass) -> String {
 }
 
 impl Diagnosis {
-    /// The convention in plain words.
     pub fn sentence(&self) -> String {
         diagnosis(self)
     }
@@ -269,7 +268,6 @@ fn line_convention(of: &LineConvention) -> String {
 }
 
 impl LineDiagnosis {
-    /// The convention in plain words.
     pub fn sentence(&self) -> String {
         lines(self)
     }

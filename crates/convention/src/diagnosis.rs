@@ -16,7 +16,6 @@ use super::upright::mirror_of;
 use super::{Ask, Known};
 use rasterproof_core::frame::Coverage;
 
-/// How sure the convention is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub enum Confidence {
     /// It explains every fresh triangle in general position, and no other hypothesis does.
@@ -33,11 +32,8 @@ pub enum Confidence {
 pub struct Agreement {
     /// Triangles whose pixels are exactly the expected ones.
     pub triangles: Count,
-    /// Pixels expected in all.
     pub covered: u64,
-    /// Pixels expected and not drawn.
     pub missing: u64,
-    /// Pixels drawn and not expected.
     pub extra: u64,
 }
 
@@ -60,12 +56,10 @@ impl Agreement {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Share {
     pub general: Agreement,
-    /// With samples on their edges.
     pub ties: Agreement,
 }
 
 impl Share {
-    /// Whether every triangle is as expected.
     fn is_exact(&self) -> bool {
         let is_exact = |a: &Agreement| a.triangles.drawn == a.triangles.of;
         is_exact(&self.general) && is_exact(&self.ties)
@@ -80,7 +74,6 @@ pub struct Diagnosis {
     pub confidence: Confidence,
     /// Others that explain the answers equally well, the simplest first.
     pub alternatives: Vec<Convention>,
-    /// The samples on edges.
     pub compass: Compass,
     /// Triangles without area that leave pixels.
     pub flat: Count,

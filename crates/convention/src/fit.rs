@@ -14,7 +14,6 @@ use rasterproof_core::arrays::MapArray as _;
 /// Grids whose search goes on after the first look.
 const GRIDS: usize = 6;
 
-/// What hypotheses are made from.
 pub(super) struct Fit<'a> {
     pub(super) seen: Seen<'a>,
     pub(super) flips: [Option<Flip>; 4],

@@ -115,7 +115,6 @@ impl Bench<'_> {
     }
 }
 
-/// The other winding.
 fn turned([a, b, c]: Corners) -> Corners {
     [a, c, b]
 }

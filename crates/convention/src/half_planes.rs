@@ -32,9 +32,7 @@ fn facing(a: i64, b: i64) -> usize {
 /// Half-planes and how they are moved, in subpixels.
 #[derive(Clone, Copy)]
 pub(super) struct HalfPlanes {
-    /// Where left edges are asked.
     pub left: i32,
-    /// Where right edges are asked.
     pub right: i32,
     /// The height at which a pixel is asked.
     pub y: i32,
@@ -47,7 +45,6 @@ pub(super) struct HalfPlanes {
     pub boxed: bool,
 }
 
-/// A sample point.
 pub(super) fn at(x: i32, y: i32) -> HalfPlanes {
     HalfPlanes { left: x, right: x, y, reach: 0, square: false, rows: false, boxed: false }
 }

@@ -10,16 +10,13 @@ use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_verify::cases::Rng;
 
-/// A line between two pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct LineQuestion {
-    /// The first and the second end, x and y of the pixel.
     pub ends: [[i32; 2]; 2],
     /// The pixels that are looked at: a window at the origin.
     pub window: PixelRect,
 }
 
-/// Whoever answers.
 pub trait AskLine {
     /// One answer for each question, in order: the pixels, x and y, as they were drawn, or None
     /// where the program refused or died.
@@ -67,13 +64,10 @@ pub enum Steps {
     MinorFirst(End),
 }
 
-/// What a line drawer does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
 pub struct LineConvention {
-    /// The minor coordinate.
     pub rounding: LineRounding,
     pub ends: Ends,
-    /// Diagonal steps.
     pub steps: Steps,
 }
 
@@ -192,7 +186,6 @@ impl LineConvention {
         Self { rounding: LineRounding::Ahead, ends: Ends::Both, steps: Steps::Corners };
 }
 
-/// The pixels of a list that lie in the window.
 fn inside(pixels: &[[i64; 2]], window: PixelRect) -> Vec<[i32; 2]> {
     let (x, y) = (i64::from(window.x0)..window.x1.into(), i64::from(window.y0)..window.y1.into());
     let is_in = |p: &&[i64; 2]| x.contains(&p[0]) && y.contains(&p[1]);

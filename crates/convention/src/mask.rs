@@ -13,7 +13,6 @@ pub(super) const SIDE_PX: i32 = 32;
 pub(super) struct Mask([u32; SIDE_PX as usize]);
 
 impl Mask {
-    /// Every pixel.
     pub(super) const FULL: Self = Self([u32::MAX; SIDE_PX as usize]);
 
     /// The pixels with at least `least` hits.

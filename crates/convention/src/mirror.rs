@@ -8,7 +8,6 @@ use rasterproof_core::grid::PixelRect;
 /// How the whole picture is turned over, about the middle of its window.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
 pub enum Mirror {
-    /// Not at all.
     None,
     /// Upside down: row y is row height - 1 - y.
     UpsideDown,

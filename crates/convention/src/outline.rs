@@ -12,7 +12,7 @@ rasterproof_core::named! {
     /// as seen from the end that is named; 'stay' means not yet.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
     pub enum LineTie {
-        /// This project's rule.
+        /// The rule of this project's line drawers, which gives the same pixels from either end.
         SmallGo = "on, seen from the end with the smaller major coordinate",
         SmallStay = "not yet, seen from the end with the smaller major coordinate",
         FirstGo = "on, seen from the first end",
@@ -23,7 +23,7 @@ rasterproof_core::named! {
         LeftStay = "not yet, seen from the left end",
         TopGo = "on, seen from the upper end",
         TopStay = "not yet, seen from the upper end",
-        /// v + 1/2 is cut.
+        /// The coordinate plus 1/2 is cut to a whole number, as `(int)(v + 0.5)` does above zero.
         Up = "toward larger coordinates",
         Down = "toward smaller coordinates",
         Even = "to the even pixel",

@@ -9,7 +9,6 @@ pub const FACINGS: [&str; 8] = ["N", "NE", "E", "SE", "S", "SW", "W", "NW"];
 /// Where a pixel lies that is not outside.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Place {
-    /// Inside.
     In,
     /// Exactly on the edge that faces that way: an index into [`FACINGS`].
     Edge(usize),

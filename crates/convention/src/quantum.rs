@@ -6,12 +6,10 @@ use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::SubpixelPoint;
 use rasterproof_core::triangle::Corners;
 
-/// The way onto the grid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
 pub enum Rounding {
     /// To the nearest, a half up: floor(v + 1/2).
     Near,
-    /// To the nearest, a half to the even one.
     HalfEven,
     /// Down: floor(v).
     Down,
@@ -24,7 +22,6 @@ pub enum Rounding {
 pub struct Quantum {
     /// 1, 4, 16, 64 or 256 subpixels. 1 is the grid of the questions: that, or finer.
     pub step: i32,
-    /// How a corner gets there.
     pub rounding: Rounding,
 }
 

@@ -16,7 +16,6 @@ use rasterproof_core::triangle::Corners;
 /// Which windings are drawn, as seen on the screen with y down.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
 pub enum Windings {
-    /// Either.
     Both,
     Clockwise,
     CounterClockwise,
@@ -40,11 +39,8 @@ impl Windings {
 /// Samples on a corner, that is on several edges.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
 pub enum CornerRule {
-    /// Drawn where every one of the edges would be.
     AsEdges,
-    /// Drawn.
     Always,
-    /// Not drawn.
     Never,
 }
 
@@ -118,11 +114,8 @@ impl Ties {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
 pub struct Convention {
     pub draws: Windings,
-    /// The grid its corners lie on.
     pub quantum: Quantum,
-    /// Which pixels belong, ties apart.
     pub shape: Shape,
-    /// Who owns the ties.
     pub ties: Ties,
     /// How the whole picture is turned over.
     pub mirror: Mirror,

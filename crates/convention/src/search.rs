@@ -10,7 +10,6 @@ use super::rule::Windings;
 use super::shape::Shape;
 use rasterproof_core::grid::PixelRect;
 
-/// A hypothesis with its wrong pixels.
 pub(super) type Scored = (u32, Candidate);
 
 /// The answers that hypotheses are compared with.
@@ -151,7 +150,6 @@ impl<'a> Search<'a> {
     }
 }
 
-/// All combinations of one value from each list.
 fn product(lists: &[Vec<i32>]) -> Vec<Vec<i32>> {
     lists.iter().fold(vec![Vec::new()], |heads, values| {
         let longer =

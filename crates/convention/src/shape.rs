@@ -25,42 +25,24 @@ pub enum Shape {
     },
     /// Row by row: the left crossing is compared at `left`, the right one at `right`, as rounding
     /// both to whole pixels does.
-    Rows {
-        /// Where left edges are asked.
-        left: i32,
-        /// Where right edges are asked.
-        right: i32,
-        /// The height of the row.
-        y: i32,
-    },
+    Rows { left: i32, right: i32, y: i32 },
     /// Row by row: the crossing with an edge's first row is cut to the grid of the corners, and the
     /// slope to 1/65536, then added row by row.
     Stepped { x: i32, y: i32 },
     /// The sample point lies at most `reach` outside the triangle: along one axis, or (`square`)
     /// along both. A square of half a pixel about the centre is the pixel: any touch.
-    Reach {
-        x: i32,
-        y: i32,
-        /// Subpixels.
-        reach: i32,
-        square: bool,
-    },
+    Reach { x: i32, y: i32, reach: i32, square: bool },
     /// At least that share of a pixel's area lies in the triangle.
     Share {
-        /// The centre of the area.
         x: i32,
-        /// The centre of the area.
         y: i32,
         /// 1 to 100.
         percent: i32,
     },
     /// At least so many of four samples lie in the triangle.
     Samples {
-        /// The middle of the four.
         x: i32,
-        /// The middle of the four.
         y: i32,
-        /// How they lie about it.
         pattern: Pattern,
         /// 1 to 4.
         least: u8,

@@ -13,7 +13,6 @@ use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::SubpixelPoint;
 use rasterproof_core::triangle::Corners;
 
-/// So many of so many.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Count {
     /// How many were drawn, changed, or right.
@@ -39,7 +38,6 @@ impl Count {
     }
 }
 
-/// What was drawn of the samples on the border.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Compass {
     /// Samples on one edge, for each direction the edge faces: see [`super::FACINGS`].
@@ -124,7 +122,6 @@ fn gcd(a: i32, b: i32) -> i32 {
     if b == 0 { a.abs() } else { gcd(b, a % b) }
 }
 
-/// Triangles that are tried.
 const TRIES: usize = 4000;
 
 impl Bench<'_> {

@@ -17,7 +17,6 @@ use super::identity::{Identity, Shard};
 use super::run::{self, Progress, check_seconds};
 use super::{Example, Plan, Source, Tally};
 
-/// The layout of the file.
 pub const FORMAT: &str = "rasterproof-certificate/1";
 
 /// How many cases there are; none of it is counted by enumerating.
@@ -33,7 +32,6 @@ pub struct Expected {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Timing {
-    /// Time of all sittings and all shards together.
     pub seconds: f64,
     /// Threads of the run; of shards, the most that one had.
     pub threads: usize,
@@ -44,11 +42,9 @@ pub struct Timing {
 pub struct Certificate {
     /// [`FORMAT`].
     pub format: String,
-    /// What agrees with what, for which cases.
     pub claim: String,
     /// Whether the claim holds: all cases done, none wrong. False for a shard of several.
     pub proved: bool,
-    /// What was run, by which code.
     pub identity: Identity,
     /// Which part of it; part 0 of 1 is all of it.
     pub shard: Shard,
@@ -246,7 +242,6 @@ pub fn merge(shards: &[(String, Certificate)]) -> Result<Certificate, String> {
     Ok(Certificate::new(progress, timing.threads))
 }
 
-/// Ranges of numbers that a message lists.
 const LISTED_RANGES: usize = 4;
 
 /// Ascending numbers in a few words, such as `1, 3 to 5 and 200 more`.

@@ -23,7 +23,6 @@ const DRAWINGS_OF_A_LINE: u64 = 1 + 2 * 2 * 3;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counts {
     pub cases: u64,
-    /// Comparisons that are made for them.
     pub comparisons: u64,
     /// Cases that the oracle's own code judges too.
     pub oracle_checks: u64,
@@ -87,7 +86,6 @@ fn of_triangles(plan: &Triangles, chunk: u64) -> Counts {
     }
 }
 
-/// Lines with one dx.
 fn of_lines(plan: &Lines, chunk: u64) -> Counts {
     let reach = u64::from(plan.reach);
     let lines = |reach: u64| if plan.first_octant { chunk + 1 } else { 2 * reach + 1 };

@@ -47,7 +47,6 @@ use rasterproof_core::source_text;
 pub const PLANT: &str = "sample-off-by-one-subpixel";
 /// Blocks that the lower ends are dealt in, for each height of the upper end.
 const BLOCKS: u64 = 16;
-/// Columns that are stepped through.
 const COLUMNS: i32 = 4;
 
 /// All edges of a window, up to shifts by whole pixels unless `every_position`.
@@ -58,11 +57,9 @@ pub struct Edges {
     pub window_px: u32,
     /// Bits below the pixel, at most 8.
     pub subpixel_bits: u32,
-    /// Where the window lies.
     pub offset_px: [i32; 2],
     /// Every edge at every place in the window.
     pub every_position: bool,
-    /// A planted fault.
     pub plant: Option<String>,
 }
 

@@ -25,11 +25,9 @@ impl Shard {
     }
 }
 
-/// What was run, by which code.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Identity {
-    /// The enumeration with its parameters.
     pub plan: Plan,
     pub version: String,
     /// SHA-256 of each piece of code the result depends on, see [`super::certificate::code_of`].

@@ -47,10 +47,8 @@ pub trait Enumeration: Sync {
     fn sources(&self) -> Vec<Source>;
 }
 
-/// A file, or some items of it.
 #[derive(Clone, Copy, Debug)]
 pub struct Source {
-    /// Its path in the repository.
     pub path: &'static str,
     pub text: &'static str,
     /// What the lines begin with that begin the items, without visibility; none means the file.
@@ -65,20 +63,17 @@ pub struct Tally {
     pub comparisons: u64,
     /// Cases in which the fast form of the oracle was compared with the oracle's own code.
     pub oracle_checks: u64,
-    /// Comparisons that failed.
     pub mismatches: u64,
     /// The first wrong cases, in the order of the enumeration.
     pub examples: Vec<Example>,
 }
 
-/// A wrong case.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Example {
     pub chunk: u64,
     /// What was wrong about it, counted within the chunk.
     pub number: u64,
-    /// The case and what is wrong.
     pub what: String,
 }
 
@@ -170,7 +165,6 @@ impl Source {
         Self { path, text, items: &[] }
     }
 
-    /// What it is called in a certificate.
     fn name(&self) -> String {
         if self.items.is_empty() {
             self.path.to_owned()

@@ -29,7 +29,6 @@ pub const MAX_REACH: u32 = 1 << 13;
 /// Reach up to which the oracle's own code judges too.
 const ORACLE_REACH: u32 = 64;
 
-/// All lines up to a reach.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Lines {
@@ -100,7 +99,6 @@ impl Enumeration for Lines {
     }
 }
 
-/// A line and what is known about it.
 struct Judged<'a> {
     line: ScreenLine<Nothing>,
     windows: [PixelRect; 3],
@@ -110,7 +108,6 @@ struct Judged<'a> {
 }
 
 impl Lines {
-    /// All lines with the dx of the chunk.
     fn chunk<A: DrawLine>(&self, chunk: u64, first: &A) -> Tally {
         let reach = self.reach as i32;
         let (dx, rows) = if self.first_octant {

@@ -35,7 +35,6 @@ const BAD_SPAN: u32 = 1 << 17;
 
 const ORDERS: [[usize; 3]; 6] = [[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 2, 1], [2, 1, 0], [1, 0, 2]];
 
-/// All triangles of a window.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Triangles {
@@ -43,7 +42,6 @@ pub struct Triangles {
     pub window_px: u32,
     /// Bits below the pixel, at most 4.
     pub subpixel_bits: u32,
-    /// Where the window lies.
     pub offset_px: [i32; 2],
     /// Every order of the corners instead of one.
     pub all_orders: bool,
@@ -163,7 +161,6 @@ impl Triangles {
         (u64::from(self.window_px) << self.subpixel_bits) + 1
     }
 
-    /// Points of the lattice.
     fn points(&self) -> u64 {
         self.side() * self.side()
     }
@@ -245,9 +242,7 @@ fn hits<E: Rasterize>(engine: &E, corners: Corners, bounds: PixelRect) -> u32 {
     mask
 }
 
-/// The oracle, for all triangles of a window.
 struct Table {
-    /// The points where the engines see them.
     points: Vec<SubpixelPoint>,
     /// Points of the sublattice on which the oracle's own code judges too.
     is_checked: Vec<bool>,

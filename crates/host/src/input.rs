@@ -9,7 +9,6 @@ use crate::text::printable_path;
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct InputError {
-    /// The file as it was named.
     pub path: PathBuf,
     /// What is wrong, in words that follow the name of the file.
     pub cause: String,

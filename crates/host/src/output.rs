@@ -18,7 +18,6 @@ use crate::text::printable_path;
 /// Why a file was not written. The file that was there before is unchanged.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct OutputError {
-    /// The file as it was named.
     pub path: PathBuf,
     /// What is wrong, in words that follow the name of the file.
     pub cause: String,

@@ -74,7 +74,6 @@ mod tests {
         }
     }
 
-    /// A shell is asked what it read.
     #[cfg(unix)]
     #[test]
     fn a_shell_reads_the_same_word() {

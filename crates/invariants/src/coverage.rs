@@ -235,7 +235,6 @@ pub(super) fn closed_fan(subject: &Subject, input: &Fan) -> Outcome {
     })
 }
 
-/// Hits with the sign of the triangle's area.
 fn signed_hits(engine: &Engine, triangles: &[Corners], window: PixelRect) -> Vec<i32> {
     let mut sum = vec![0; window.width() as usize * window.height() as usize];
     for &corners in triangles {

@@ -96,7 +96,6 @@ pub fn around(points: &[SubpixelPoint], window: PixelRect) -> PixelRect {
         .intersect(&window)
 }
 
-/// Every pixel of a rectangle, row by row.
 pub fn pixels(rect: PixelRect) -> impl Iterator<Item = (i32, i32)> {
     (rect.y0..rect.y1).flat_map(move |y_px| (rect.x0..rect.x1).map(move |x_px| (x_px, y_px)))
 }

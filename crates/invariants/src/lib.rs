@@ -23,12 +23,11 @@ mod values;
 use rasterproof_core::parallel;
 use rasterproof_verify::comparison::caught;
 use source::{ClipInput, Fan, Input, LineInput, Position, Quad, TriangleInput};
-use subject::{Part, Subject};
+use subject::{Component, Subject};
 
 /// What a check compared (0 where the input does not fit it), or the first thing that is wrong.
 pub type Outcome = Result<u64, String>;
 
-/// The function of an invariant, by what it takes.
 #[derive(Clone, Copy)]
 pub enum Check {
     Triangle(fn(&Subject, &TriangleInput) -> Outcome),
@@ -42,25 +41,20 @@ pub enum Check {
     Matrix,
 }
 
-/// A property with its number, its name and its tolerance.
 #[derive(Clone, Copy)]
 pub struct Invariant {
     /// Its number, which never changes.
     pub number: u32,
     pub name: &'static str,
-    /// What must hold, in one sentence.
     pub statement: &'static str,
     /// How much may be missing; derived where the check stands.
     pub tolerance: &'static str,
-    /// The parts of a subject that it looks at.
-    pub parts: &'static [Part],
+    pub components: &'static [Component],
     pub check: Check,
 }
 
-/// What came of a run.
 #[derive(Clone, Debug)]
 pub struct Report {
-    /// Inputs that were checked.
     pub cases: u64,
     /// Inputs that do not fit the property and were left out.
     pub skipped: u64,
@@ -70,17 +64,14 @@ pub struct Report {
     pub failure: Option<Failure>,
 }
 
-/// A failing input.
 #[derive(Clone, Debug)]
 pub struct Failure {
     pub index: u64,
     /// The smallest input found that still fails.
     pub input: Input,
-    /// What is wrong with that.
     pub message: String,
 }
 
-/// What a report comes to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ruling {
     /// Something was compared, and nothing is wrong.
@@ -91,7 +82,6 @@ pub enum Ruling {
 }
 
 impl Report {
-    /// Whether it holds, fails, or was not judged.
     #[must_use]
     pub fn ruling(&self) -> Ruling {
         match self.failure {
@@ -102,7 +92,6 @@ impl Report {
     }
 }
 
-/// Inputs that are looked through for one that fits.
 pub const MOST_LOOKED_THROUGH: u64 = 10_000;
 
 impl Invariant {
@@ -210,23 +199,22 @@ pub fn find(name: &str) -> Option<&'static Invariant> {
     CATALOGUE.iter().find(|i| i.name == name)
 }
 
-const ENGINE: &[Part] = &[Part::Engine];
-const JUDGED: &[Part] = &[Part::Engine, Part::Oracle];
-const DRAWER: &[Part] = &[Part::Drawer];
-const CLIP: &[Part] = &[Part::Clip];
+const ENGINE: &[Component] = &[Component::Engine];
+const JUDGED: &[Component] = &[Component::Engine, Component::Oracle];
+const DRAWER: &[Component] = &[Component::Drawer];
+const CLIP: &[Component] = &[Component::Clip];
 
 const fn invariant(
     number: u32,
     name: &'static str,
     statement: &'static str,
     tolerance: &'static str,
-    parts: &'static [Part],
+    components: &'static [Component],
     check: Check,
 ) -> Invariant {
-    Invariant { number, name, statement, tolerance, parts, check }
+    Invariant { number, name, statement, tolerance, components, check }
 }
 
-/// Every invariant, in the order of its number.
 #[rustfmt::skip]
 pub const CATALOGUE: &[Invariant] = &[
     invariant(1, "engines-agree",
@@ -234,7 +222,7 @@ pub const CATALOGUE: &[Invariant] = &[
         "0", JUDGED, Check::Triangle(coverage::engines_agree)),
     invariant(2, "oracle-sign",
         "The oracle covers a sample iff the three signs of robust::orient2d say so.",
-        "0", &[Part::Oracle], Check::Triangle(coverage::oracle_sign)),
+        "0", &[Component::Oracle], Check::Triangle(coverage::oracle_sign)),
     invariant(3, "vertex-order",
         "All six orders of the vertices cover the same pixels.",
         "0", ENGINE, Check::Triangle(coverage::vertex_order)),
@@ -267,7 +255,7 @@ pub const CATALOGUE: &[Invariant] = &[
         "0", ENGINE, Check::Triangle(coverage::zero_area)),
     invariant(13, "windings",
         "Both windings cover the same pixels, and culling tells them apart by the snapped area's sign.",
-        "0", &[Part::Engine, Part::Cull], Check::Triangle(coverage::windings)),
+        "0", &[Component::Engine, Component::Cull], Check::Triangle(coverage::windings)),
     invariant(14, "crop",
         "Bounds, tiles and threads only crop: pixels and values of a tile are those of the window.",
         "0, bit for bit", ENGINE, Check::Triangle(coverage::crop)),
@@ -279,10 +267,10 @@ pub const CATALOGUE: &[Invariant] = &[
         "0", ENGINE, Check::Triangle(coverage::edge_lemma)),
     invariant(17, "edge-bound",
         "|E| <= Wx Wy in the box, the chosen word holds it, and nothing overflows in the domain.",
-        "0", &[Part::Engine, Part::EdgeValues, Part::WordWidth], Check::Triangle(coverage::edge_bound)),
+        "0", &[Component::Engine, Component::EdgeValues, Component::WordWidth], Check::Triangle(coverage::edge_bound)),
     invariant(18, "snapping",
         "Snapping moves by half a subpixel at most, ties to even, alike everywhere; or refuses.",
-        "1/2 subpixel, the definition", &[Part::Snap], Check::Position(coverage::snapping)),
+        "1/2 subpixel, the definition", &[Component::Snap], Check::Position(coverage::snapping)),
     invariant(19, "area",
         "The number of covered pixels differs from the area by half the perimeter + 1 at most.",
         "perimeter / 2 + 1 (Nosarzewska)", ENGINE, Check::Triangle(coverage::area)),
@@ -291,7 +279,7 @@ pub const CATALOGUE: &[Invariant] = &[
         "0", ENGINE, Check::Triangle(coverage::supersampling)),
     invariant(21, "edges-sum",
         "The three edge functions add up to twice the area at every centre.",
-        "0", &[Part::EdgeValues], Check::Triangle(values::edges_sum)),
+        "0", &[Component::EdgeValues], Check::Triangle(values::edges_sum)),
     invariant(22, "weights-sum",
         "The weights of the vertices lie in [0, 1] and add up to 1.",
         "6 u (3 ulp) in the sum, 4 u at the ends", ENGINE, Check::Triangle(values::weights_sum)),
@@ -350,21 +338,21 @@ pub const CATALOGUE: &[Invariant] = &[
         "0", DRAWER, Check::Line(lines::listed_differences)),
     invariant(42, "every-mutant-dies",
         "Every invariant kills a mutant, and every mutant dies.",
-        "0", &[Part::Matrix], Check::Matrix),
+        "0", &[Component::Matrix], Check::Matrix),
     invariant(43, "quotas",
         "Of the generated triangles a quarter has ties, a tenth are slivers, a twentieth is empty.",
-        "0", &[Part::Source], Check::Run(meta::quotas, 200)),
+        "0", &[Component::Source], Check::Run(meta::quotas, 200)),
     invariant(44, "replay",
         "A seed gives the same cases and the same verdict, in debug and release, on any thread.",
-        "0, bit for bit", &[Part::Source], Check::Run(meta::replay, 40)),
+        "0, bit for bit", &[Component::Source], Check::Run(meta::replay, 40)),
     invariant(45, "metrics-report-only",
         "One wrong pixel of a large frame is a disagreement, whatever an image metric makes of it.",
-        "0", &[Part::Judge], Check::Run(meta::metrics_report_only, 12)),
+        "0", &[Component::Judge], Check::Run(meta::metrics_report_only, 12)),
     invariant(46, "disabled-effect", "A disabled effect makes no call at all.",
-        "0", &[Part::Render], Check::Run(effects::disabled, 24)),
+        "0", &[Component::Render], Check::Run(effects::disabled, 24)),
     invariant(47, "lists",
         "A list covers what each of its triangles covers, in their order, in every instruction set.",
-        "0", &[Part::Lists], Check::Triangle(lists::one_by_one)),
+        "0", &[Component::Lists], Check::Triangle(lists::one_by_one)),
 ];
 
 #[cfg(test)]

@@ -27,7 +27,6 @@ fn near(line: &Line) -> Line {
     line
 }
 
-/// A window around a whole line.
 fn around(line: &Line) -> PixelRect {
     let [a, b] = line.ends.map_array(|end| end.pixel);
     PixelRect {

@@ -3,7 +3,7 @@
 
 use std::fmt::Write as _;
 
-use super::subject::{Subject, part_of};
+use super::subject::{Subject, component_of};
 use super::{CATALOGUE, Check, Invariant};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::parallel;
@@ -21,7 +21,6 @@ const META: u32 = 42;
 /// Marks of every mutant (rows) under every invariant that applies (columns).
 #[derive(Clone, Debug)]
 pub struct Matrix {
-    /// Numbers of the invariants.
     pub columns: Vec<u32>,
     /// Names of the mutants, with their marks.
     pub rows: Vec<(String, Vec<bool>)>,
@@ -37,7 +36,7 @@ impl Matrix {
             let mutant = mutants[row];
             let marks = parallel::map(columns.len(), |column| {
                 let invariant = columns[column];
-                invariant.parts.contains(&part_of(&mutant))
+                invariant.components.contains(&component_of(&mutant))
                     && !matches!(invariant.check, Check::Matrix)
                     && invariant.kills(&Subject::with(mutant), seed, cases)
             });
@@ -65,7 +64,6 @@ impl Matrix {
         self.rows.push((BLIND.to_owned(), own));
     }
 
-    /// What is wrong with it, if anything.
     pub fn problems(&self) -> Vec<String> {
         let survivors = self.rows.iter().filter(|(_, marks)| !marks.contains(&true));
         let survivors = survivors.map(|(name, _)| format!("no invariant kills the mutant {name}"));

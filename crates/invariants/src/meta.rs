@@ -138,7 +138,6 @@ pub(super) fn replay(subject: &Subject, seed: u64, cases: u64) -> Outcome {
     Ok(jobs.len() as u64)
 }
 
-/// The oracle, but for one pixel.
 struct OneWrong {
     /// Column and row.
     at: (i32, i32),

@@ -18,7 +18,6 @@ const SIDE: i64 = SIDE_PX as i64 * SUBPIXELS as i64;
 #[derive(Clone, Debug, PartialEq)]
 pub struct TriangleInput {
     pub triangle: Triangle,
-    /// The pixels that are looked at.
     pub window: PixelRect,
     /// Decides tiles, shifts and the like.
     pub salt: u32,
@@ -28,7 +27,6 @@ pub struct TriangleInput {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Quad {
     pub corners: [SubpixelPoint; 4],
-    /// The pixels that are looked at.
     pub window: PixelRect,
 }
 
@@ -55,13 +53,10 @@ impl Quad {
 /// A star-shaped polygon around a centre, spokes clockwise, and one more point anywhere.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fan {
-    /// From where every spoke is seen.
     pub centre: SubpixelPoint,
     /// The outline, clockwise.
     pub ring: Vec<SubpixelPoint>,
-    /// Any point.
     pub apex: SubpixelPoint,
-    /// The pixels that are looked at.
     pub window: PixelRect,
 }
 
@@ -105,16 +100,12 @@ impl Fan {
 /// A line, its window, and a number for what else a check has to choose.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LineInput {
-    /// The line with its values.
     pub line: Line,
-    /// The pixels that are looked at.
     pub window: PixelRect,
 }
 
-/// A coordinate to be snapped.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Position {
-    /// The coordinate.
     pub px: f64,
     /// A whole number of pixels to move it by.
     pub shift_px: i32,
@@ -141,22 +132,18 @@ pub struct ClipInput {
 #[derive(Clone, Debug, PartialEq)]
 pub enum Input {
     Triangle(TriangleInput),
-    /// A convex quadrilateral.
     Quad(Quad),
     Fan(Fan),
     Line(LineInput),
-    /// A coordinate.
     Position(Position),
     Clip(ClipInput),
     /// A run of the harness: its seed and the cases of each family.
     Run {
-        /// Decides every case.
         seed: u64,
         cases: u64,
     },
 }
 
-/// Triangles of all families in turn.
 pub(super) fn triangle(make_case: MakeCase, seed: u64, index: u64) -> Input {
     let families = cases::triangles::FAMILIES;
     let count = families.len() as u64;
@@ -211,7 +198,6 @@ pub(super) fn fan(seed: u64, index: u64) -> Input {
     Input::Fan(Fan::new(centre, reach, every, apex))
 }
 
-/// Lines of all families in turn.
 pub(super) fn line(make_case: MakeCase, seed: u64, index: u64) -> Input {
     let families = cases::lines::FAMILIES;
     let count = families.len() as u64;

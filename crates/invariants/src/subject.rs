@@ -28,7 +28,6 @@ use rasterproof_verify::comparison::Tally;
 use rasterproof_verify::comparison::tolerance::{self, Tolerance};
 use rasterproof_verify::oracle::Oracle;
 
-/// A rasterizer with values, as the checks call it.
 pub trait Fill: Sync {
     /// As [`Rasterize::cover`].
     fn spans(&self, corners: Corners, bounds: PixelRect, emit: &mut dyn FnMut(Span));
@@ -67,7 +66,6 @@ impl<R: Interpolate + Sync> Fill for R {
     }
 }
 
-/// A line drawer, as the checks call it.
 pub trait Stroke: Sync {
     /// As [`DrawLine::draw`].
     fn stroke(&self, line: &Line, bounds: PixelRect, emit: &mut dyn FnMut(Fragment<DVec2>));
@@ -79,7 +77,6 @@ impl<D: DrawLine + Sync> Stroke for D {
     }
 }
 
-/// An engine with its name and the bounds of its values.
 pub struct Engine {
     pub name: &'static str,
     pub fill: Box<dyn Fill>,
@@ -129,22 +126,18 @@ impl Drawer {
     }
 }
 
-/// Makes the case of a family, a seed and a number.
 pub type MakeCase = fn(&Family, u64, u64) -> Case;
 
-/// Clips a triangle by a set of planes.
 pub type ClipStage = fn(&[ClipVertex<DVec2>; 3], Outcode) -> Vec<ClipVertex<DVec2>>;
 
 /// Draws a scene with some effects into a target of a kind, and says what it cost.
 pub type RenderStage = fn(&Scene, &Effects, &mut Target) -> Counters;
 
-/// The implementations under test.
 pub struct Subject {
     /// Rasterizers: scanline, edge function and tiles, or a faulty one.
     pub engines: Vec<Engine>,
     /// Rasterizers of lists: the tile engine in every instruction set here, or a faulty one.
     pub lists: Vec<(&'static str, Box<dyn CoverList + Sync>)>,
-    /// What the engines are judged by.
     pub oracle: Box<dyn Fill>,
     /// Line drawers: DDA and Bresenham, or a faulty one.
     pub drawers: Vec<Drawer>,
@@ -156,20 +149,16 @@ pub struct Subject {
     pub word_width: fn(u32, u32) -> WordWidth,
     pub make_case: MakeCase,
     pub clip: ClipStage,
-    /// Whether culling removes a triangle.
     pub culls: fn(Cull, Corners) -> bool,
     /// The effects a scene is drawn with, of those that are asked for.
     pub choose: fn(Effects) -> Effects,
-    /// Draws a scene and counts.
     pub render: RenderStage,
-    /// Whether a coverage agrees with another one.
     pub coverage_agrees: fn(&Coverage, &Coverage) -> bool,
 }
 
-/// A part of a [`Subject`]: what a check looks at, and where a fault sits.
+/// A component of a [`Subject`]: what a check looks at, and where a fault sits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Part {
-    /// The rasterizers.
+pub enum Component {
     Engine,
     Oracle,
     Drawer,
@@ -187,7 +176,6 @@ pub enum Part {
 }
 
 impl Subject {
-    /// The real implementations.
     #[must_use]
     pub fn real() -> Self {
         Self {
@@ -263,21 +251,21 @@ impl Subject {
     }
 }
 
-pub fn part_of(mutant: &Mutant) -> Part {
+pub fn component_of(mutant: &Mutant) -> Component {
     match mutant {
-        Mutant::Triangle(_) => Part::Engine,
-        Mutant::Line(_) => Part::Drawer,
-        Mutant::Oracle(_) => Part::Oracle,
-        Mutant::Snap(_) => Part::Snap,
-        Mutant::EdgeValues(_) => Part::EdgeValues,
-        Mutant::WordWidth(_) => Part::WordWidth,
-        Mutant::Source(_) => Part::Source,
+        Mutant::Triangle(_) => Component::Engine,
+        Mutant::Line(_) => Component::Drawer,
+        Mutant::Oracle(_) => Component::Oracle,
+        Mutant::Snap(_) => Component::Snap,
+        Mutant::EdgeValues(_) => Component::EdgeValues,
+        Mutant::WordWidth(_) => Component::WordWidth,
+        Mutant::Source(_) => Component::Source,
         Mutant::Stage(fault) => match fault {
-            StageMutant::CullSwapped | StageMutant::CullByFloatArea => Part::Cull,
-            StageMutant::EffectsIgnored | StageMutant::ClearsAlways => Part::Render,
-            _ => Part::Clip,
+            StageMutant::CullSwapped | StageMutant::CullByFloatArea => Component::Cull,
+            StageMutant::EffectsIgnored | StageMutant::ClearsAlways => Component::Render,
+            _ => Component::Clip,
         },
-        Mutant::Judge(_) => Part::Judge,
-        Mutant::Tile(_) => Part::Lists,
+        Mutant::Judge(_) => Component::Judge,
+        Mutant::Tile(_) => Component::Lists,
     }
 }

@@ -42,7 +42,6 @@ pub fn is_lines(family: &Family) -> bool {
     cases::lines::FAMILIES.iter().any(|f| f.name == family.name)
 }
 
-/// Puts a case on the declared grid.
 pub fn put(mut case: Case, declared: &Declared) -> Case {
     if let Some([width, height]) = declared.window {
         case.window.x1 = case.window.x1.min(width as i32);

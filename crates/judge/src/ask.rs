@@ -14,18 +14,13 @@ use rasterproof_core::triangle::{Corners, Fragment, PixelPoint, Span};
 use rasterproof_verify::cases::Triangle;
 use rasterproof_verify::cases::near_plane::clip_corners;
 
-/// What is asked of a window at the origin.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Question {
-    /// Columns of the window.
     pub width: u32,
-    /// Rows of the window.
     pub height: u32,
-    /// What is to be drawn in it.
     pub of: Asked,
 }
 
-/// What is to be drawn, and what is wanted of it.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Asked {
     /// T: the pixels of a triangle.
@@ -103,7 +98,6 @@ pub enum Misbehaviour {
 }
 
 impl Misbehaviour {
-    /// It in a word or two, for tables.
     pub fn word(&self) -> &'static str {
         match self {
             Self::CannotStart(_) => "cannot be started",
@@ -155,9 +149,7 @@ impl fmt::Display for Misbehaviour {
     }
 }
 
-/// Somebody who answers questions.
 pub trait Ask: Send {
-    /// What it says of itself.
     fn declared(&self) -> &Declared;
 
     /// An answer for each question, in order; fewer where that many of them are deaths. Never fails:

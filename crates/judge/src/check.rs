@@ -22,7 +22,6 @@ use rasterproof_verify::comparison::{Picture, Winding, area2};
 use rasterproof_verify::oracle::Oracle;
 use rasterproof_verify::oracle::values::Exact;
 
-/// What may be asked about a case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Check {
@@ -46,9 +45,7 @@ pub enum Check {
     Direction,
 }
 
-/// What the answers are judged by.
 pub struct Truth {
-    /// What the program says of itself.
     pub declared: Declared,
     /// What it is expected to draw, as declared.
     pub expect: Box<dyn Expect>,
@@ -72,7 +69,6 @@ impl Truth {
 }
 
 impl Finding {
-    /// What is wrong, in words.
     pub fn describe(&self, check: Check) -> String {
         let Tally { missing, extra, twice, order } = self.tally;
         let counts = match check {
@@ -163,7 +159,6 @@ impl Check {
         checks
     }
 
-    /// Appends the questions about a case.
     pub fn questions(self, case: &Case, truth: &Truth, out: &mut Vec<Question>) {
         let (width, height) = (case.window.width(), case.window.height());
         let ask = |of| Question { width, height, of };

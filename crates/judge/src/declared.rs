@@ -33,7 +33,6 @@ pub struct Declared {
     pub grid: i32,
     /// Where in a pixel its sample lies, in subpixels from the upper left corner.
     pub origin: [i32; 2],
-    /// Which samples on an edge belong.
     pub rule: Rule,
     pub winding: Winding,
     /// Its own y axis points up: top and bottom, cw and ccw change places.

@@ -21,7 +21,6 @@ struct Layer {
     depths: Option<ExactTriangle<2>>,
 }
 
-/// Knows what is seen of a pile of triangles.
 pub(super) struct Pile {
     layers: Vec<Layer>,
     window: PixelRect,

@@ -9,7 +9,6 @@ use rasterproof_verify::comparison::{Convention, Picture, Rule, area2};
 use rasterproof_verify::oracle::Oracle;
 use rasterproof_verify::oracle::values::ExactTriangle;
 
-/// Knows what is expected of a triangle.
 pub trait Expect: Send + Sync {
     /// The picture in a window at the origin; nothing where nothing is promised.
     fn picture(&self, corners: &Corners, window: PixelRect) -> Option<Picture>;

@@ -13,16 +13,12 @@ use super::run::{Failing, Found, MOST_DEATHS, Row};
 use super::shrink::smaller;
 use rasterproof_verify::cases::{self, Case};
 
-/// A failing case, shrunk.
 #[derive(Clone, Debug)]
 pub struct Failure {
     pub property: &'static str,
     pub check: Check,
-    /// Family and number of the case it was found in.
     pub family: &'static str,
-    /// Number of the case.
     pub index: u64,
-    /// What is wrong with the shrunk case.
     pub what: String,
     /// The smallest case found that still fails.
     pub case: Case,

@@ -7,12 +7,9 @@ use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::Span;
 use rasterproof_verify::comparison::Tally;
 
-/// What was found about a case.
 #[derive(Clone, Debug, Default)]
 pub struct Finding {
-    /// Triangles or lines that were judged.
     pub shapes: u64,
-    /// Pixels expected.
     pub pixels: u64,
     /// Wrong pixels; of a mesh its holes and doubles.
     pub tally: Tally,
@@ -25,12 +22,10 @@ pub struct Finding {
     /// Requests that were refused though they were declared possible.
     pub refused: u64,
     pub reason: String,
-    /// Values compared.
     pub values: u64,
     /// Largest error of a value as a fraction of the tolerance.
     pub worst: f64,
     pub worst_at: Option<(i32, i32)>,
-    /// Answers there were.
     pub answered: u64,
     /// What happened instead of answers, with the number of the question.
     pub died: Vec<(usize, Misbehaviour)>,

@@ -42,7 +42,6 @@ impl From<&Entry> for Declared {
     }
 }
 
-/// An engine of the registry under judgement.
 pub struct Inside {
     entry: Entry,
     declared: Declared,

@@ -8,10 +8,8 @@ use super::verdict::{Score, Verdict};
 #[derive(Clone, Debug, Deserialize)]
 pub struct Adapter {
     pub name: String,
-    /// The library it speaks for.
     pub library: String,
     pub call: String,
-    /// The program and its arguments.
     pub command: Vec<String>,
 }
 
@@ -25,22 +23,17 @@ pub struct Kind {
     pub by_convention: Option<Score>,
 }
 
-/// A row of the league.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Standing {
-    /// Name of the adapter.
     pub name: String,
     pub library: String,
     /// What it calls itself at HELLO, with its version.
     pub version: String,
     /// The day it was judged, year-month-day.
     pub date: String,
-    /// The exact call.
     pub call: String,
     pub declares: String,
-    /// Triangles, where it draws them.
     pub triangles: Option<Kind>,
-    /// Lines, where it draws them.
     pub lines: Option<Kind>,
     /// Meshes, pixels of them that nobody drew, and pixels that two triangles drew.
     pub meshes: [u64; 3],
@@ -52,19 +45,15 @@ pub struct Standing {
     pub unanswered: [u64; 2],
 }
 
-/// All rows, and what they were made by.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct League {
-    /// Version of this project.
     pub rasterproof: String,
-    /// Decides the cases.
     pub seed: u64,
     pub cases: u64,
     pub rows: Vec<Standing>,
 }
 
 impl Standing {
-    /// The row of an adapter, from its verdict.
     #[must_use]
     pub fn new(adapter: &Adapter, date: String, verdict: &Verdict) -> Self {
         let row = |name: &str| verdict.found.rows.iter().find(|row| row.name == name);

@@ -14,7 +14,6 @@ use rasterproof_convention::{Count, Quantum};
 use rasterproof_core::grid::{PixelRect, SUBPIXELS};
 use rasterproof_core::triangle::{Corners, PixelPoint, Span};
 
-/// The families, and cases of each.
 const FAMILIES: [&str; 2] = ["partly-off", "line-clipped"];
 const CASES: u64 = 48;
 

@@ -44,7 +44,6 @@ use verdict::Verdict;
 
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// Decides every generated case.
     pub seed: u64,
     pub cases: u64,
     /// No new case is begun after this long; a failing case is then made smaller for a tenth of it.

@@ -18,11 +18,9 @@ use rasterproof_verify::comparison::area2;
 use rasterproof_verify::oracle::Oracle;
 use rasterproof_verify::oracle::values::Exact;
 
-/// What was drawn, and what was expected.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pictured {
     pub drawn: Coverage,
-    /// What they should have been.
     pub expected: Coverage,
     /// What the picture is of, where it is not of the window as it was asked.
     pub of: String,

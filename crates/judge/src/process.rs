@@ -21,10 +21,8 @@ use super::process_group::Group;
 use super::text::{Words, printable};
 use rasterproof_host::limits;
 
-/// Time limits of a program.
 #[derive(Clone, Copy, Debug)]
 pub struct Limits {
-    /// For each answer, from the one before it or from the request.
     pub answer: Duration,
     /// From the start to the answer of HELLO.
     pub start: Duration,
@@ -59,7 +57,6 @@ pub struct Program {
     strays: Vec<Misbehaviour>,
 }
 
-/// The pipes of a running program.
 struct Live {
     group: Group,
     requests: Sender<Vec<u8>>,
@@ -73,7 +70,6 @@ struct Live {
     heard: usize,
 }
 
-/// Why no line could be read.
 enum NoLine {
     Ended,
     TimeOut,

@@ -13,10 +13,8 @@ use std::time::{Duration, Instant};
 /// Groups to be killed on Ctrl-C; nothing once that has happened, and then nothing starts any more.
 static LIVE: Mutex<Option<Vec<u32>>> = Mutex::new(Some(Vec::new()));
 
-/// A program with everything it starts.
 pub struct Group {
     child: Child,
-    /// What it ended with, once known.
     ended: Option<ExitStatus>,
 }
 
@@ -36,7 +34,6 @@ impl Group {
         Ok(Self { child, ended: None })
     }
 
-    /// The started process, for its pipes.
     pub fn child(&mut self) -> &mut Child {
         &mut self.child
     }

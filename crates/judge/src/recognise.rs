@@ -22,15 +22,12 @@ use rasterproof_core::grid::{PixelRect, SUBPIXELS};
 use rasterproof_core::triangle::{Corners, PixelPoint, Span};
 use rasterproof_verify::comparison::{Convention as Promised, Picture, Rule, Winding};
 
-/// A convention that was recognised from answers.
 pub struct Recognised {
-    /// What was found, in words.
     pub said: Said,
     /// What it is expected to draw under this convention; nothing where no hypothesis explains it.
     pub expect: Option<Box<dyn Expect>>,
 }
 
-/// What was recognised, in words.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
 pub struct Said {
     /// What the program does, a sentence or two for triangles and for lines.
@@ -43,7 +40,6 @@ pub struct Said {
     pub is_explained: bool,
 }
 
-/// What is to be recognised.
 #[derive(Clone, Copy, Debug)]
 pub struct Scope {
     pub triangles: bool,
@@ -95,7 +91,6 @@ pub fn recognise(program: &mut dyn Ask, scope: Scope) -> Option<Recognised> {
     Some(Recognised { said, expect: is_explained.then(|| Box::new(found) as Box<dyn Expect>) })
 }
 
-/// A sentence that says what it is about.
 fn clause(about: &str, sentence: &str) -> String {
     let mut chars = sentence.chars();
     let first = chars.next().map(|c| c.to_ascii_lowercase());
@@ -168,23 +163,10 @@ impl Expect for Found {
     }
 }
 
-/// The pixels with hits, as runs.
 fn runs(coverage: &Coverage) -> Vec<Span> {
-    let mut runs: Vec<Span> = Vec::new();
-    for (y_px, row) in coverage.rows() {
-        let mut x0_px = coverage.bounds().x0;
-        for run in row.chunk_by(|a, b| (*a > 0) == (*b > 0)) {
-            let x1_px = x0_px + run.len() as i32;
-            if run[0] > 0 {
-                runs.push(Span { y_px, x0_px, x1_px });
-            }
-            x0_px = x1_px;
-        }
-    }
-    runs
+    coverage.runs().map(|(y_px, x0_px, x1_px)| Span { y_px, x0_px, x1_px }).collect()
 }
 
-/// What the questions have to keep to.
 fn known(declared: &Declared) -> Known {
     let declaration = declared.convention();
     let [x, y] = declaration.sample;

@@ -30,11 +30,8 @@ pub const MOST_INCIDENTS: usize = 24;
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
 pub struct Row {
     pub name: &'static str,
-    /// Cases judged.
     pub cases: u64,
-    /// Triangles or lines judged.
     pub shapes: u64,
-    /// Pixels expected.
     pub pixels: u64,
     pub wrong_cases: u64,
     /// Wrong pixels as declared.
@@ -45,15 +42,12 @@ pub struct Row {
     pub recognised_pixels: u64,
     /// Triangles or lines of which it says nothing.
     pub unscored: u64,
-    /// Requests refused.
     pub refused: u64,
-    /// Values compared.
     pub values: u64,
     /// The largest error of a value as a fraction of the tolerance.
     pub worst: f64,
     /// Times the program had to be started again.
     pub deaths: u64,
-    /// Whether it was given up.
     pub stopped: bool,
 }
 
@@ -101,12 +95,10 @@ impl AddAssign<&Row> for Row {
     }
 }
 
-/// A case in which a check failed.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Failing {
     pub property: &'static str,
     pub family: &'static str,
-    /// Number of the case.
     pub index: u64,
     /// Changes when what is wrong changes.
     pub fingerprint: u64,
@@ -117,7 +109,6 @@ pub struct Failing {
 pub struct Incident {
     /// Name of the family; empty of what was asked before the families.
     pub family: &'static str,
-    /// Number of the case.
     pub index: u64,
     pub what: Misbehaviour,
     pub request: String,
@@ -125,20 +116,16 @@ pub struct Incident {
 
 #[derive(Clone, Debug, Default)]
 pub struct Found {
-    /// A row for each property that was judged.
     pub rows: Vec<Row>,
     pub failing: Vec<Failing>,
     /// Cases that were judged, by property and family, where they are remembered.
     pub judged: Vec<(&'static str, &'static str, u64)>,
     /// Whether more failed than are remembered.
     pub forgot: bool,
-    /// What happened instead of answers.
     pub incidents: Vec<Incident>,
     /// What went wrong without a single request at fault.
     pub strays: Vec<Misbehaviour>,
-    /// Answers there were.
     pub answered: u64,
-    /// Whether the program was given up for good.
     pub gave_up: bool,
     pub seconds: f64,
 }
@@ -174,7 +161,6 @@ struct Shared<'a> {
     truth: &'a Truth,
     start: Instant,
     copies: u64,
-    /// Deaths by pass and family.
     deaths: Vec<AtomicU64>,
     deaths_in_all: AtomicU64,
     answered: AtomicU64,
@@ -198,7 +184,6 @@ impl Shared<'_> {
     }
 }
 
-/// Asks everything.
 pub fn run(
     askers: &mut [Box<dyn Ask>],
     options: &Options,

@@ -23,7 +23,6 @@ pub fn smaller(check: Check, case: Case, fails: impl Fn(&Case) -> bool) -> Case 
     greedy(case, size, |case| candidates(case, check), fails)
 }
 
-/// Triangles without area.
 fn flat(case: &Case) -> usize {
     triangles(case).iter().filter(|t| area2(&t.corners()) == 0).count()
 }

@@ -76,7 +76,6 @@ impl<'a> Words<'a> {
     }
 }
 
-/// Appends a whole number.
 pub fn write_int(out: &mut Vec<u8>, value: i64) {
     if value < 0 {
         out.push(b'-');

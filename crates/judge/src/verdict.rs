@@ -9,13 +9,10 @@ use super::recognise::Said;
 use super::run::{Found, Row};
 use super::windings::Windings;
 
-/// How a property came out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Outcome {
-    /// It holds.
     Pass,
-    /// It does not hold.
     Fail,
     /// It does not hold, as the baseline says.
     ExpectedFailure,
@@ -24,50 +21,39 @@ pub enum Outcome {
 }
 
 impl Outcome {
-    /// Whether nothing is to be done.
     #[must_use]
     pub fn is_good(self) -> bool {
         matches!(self, Self::Pass | Self::ExpectedFailure)
     }
 }
 
-/// A property and how it came out.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Property {
     pub name: &'static str,
     pub about: String,
     pub outcome: Outcome,
-    /// What was found, in a sentence.
     pub detail: String,
 }
 
-/// The outcome of a run.
 #[derive(Clone, Debug)]
 pub struct Verdict {
-    /// What the program says of itself.
     pub declared: Declared,
-    /// Decides the cases.
     pub seed: u64,
-    /// Cases of each family that were asked for.
     pub cases: u64,
     pub windings: Windings,
     /// What was recognised, if it does not draw as it declares.
     pub recognised: Option<Said>,
     /// Everything that was found; rows in the order of the catalogue.
     pub found: Found,
-    /// Failing cases, shrunk.
     pub failures: Vec<Failure>,
     /// The end of what it wrote on standard error.
     pub complaints: Vec<String>,
     pub properties: Vec<Property>,
 }
 
-/// How far a program agrees.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct Score {
-    /// Wrong pixels.
     pub wrong: u64,
-    /// Pixels expected.
     pub pixels: u64,
     /// Triangles and lines of which the convention says nothing.
     pub unscored: u64,
@@ -88,7 +74,6 @@ const CHECKS: [(&str, &str); 5] = [
 ];
 
 impl Verdict {
-    /// Sorts out what was found.
     #[must_use]
     pub fn new(
         declared: Declared,
@@ -160,7 +145,6 @@ impl Verdict {
         self.found.incidents.is_empty() && self.found.strays.is_empty() && !self.found.gave_up
     }
 
-    /// How it kept the protocol, in a sentence.
     fn manners(&self) -> String {
         let whats = self.found.incidents.iter().map(|i| &i.what).chain(&self.found.strays);
         let mut words: Vec<&str> = whats.map(Misbehaviour::word).collect();
@@ -229,7 +213,6 @@ fn about(name: &str) -> String {
     family.map_or_else(String::new, |f| format!("as expected: {}", f.about))
 }
 
-/// What was found, in a sentence.
 pub fn sentence(row: &Row) -> String {
     let mut out = match row.wrong_cases {
         0 => format!("{} cases agree", row.cases),

@@ -35,7 +35,6 @@ impl Windings {
         Self::drawn(self.clockwise) || Self::drawn(self.counter_clockwise)
     }
 
-    /// Whether triangles were asked and answered.
     #[must_use]
     pub fn is_known(&self) -> bool {
         self.clockwise[1] > 0 && self.counter_clockwise[1] > 0

@@ -12,11 +12,9 @@ use rasterproof_render::pipeline::texture::Texture;
 /// What a reader counts of faces with fewer than three corners, which show nothing.
 pub(crate) const INCOMPLETE_FACE: &str = "incomplete face";
 
-/// Everything a reader found in a file.
 #[derive(Debug, Default)]
 pub(crate) struct Contents {
-    /// Its meshes, in the file's order.
-    pub parts: Vec<Part>,
+    pub parts: Vec<FilePart>,
     /// Its materials, which parts name by their index.
     pub materials: Vec<Surface>,
     /// What the file contains and nobody draws, in the singular, with its count. A key that ends in `of material` counts
@@ -29,10 +27,9 @@ pub(crate) struct Contents {
 
 /// Polygons of one material. The lists of vectors are those of the file.
 #[derive(Debug, Default)]
-pub(crate) struct Part {
+pub(crate) struct FilePart {
     /// The name of the object, group or node; empty without one.
     pub name: String,
-    /// The index of its material.
     pub material: Option<usize>,
     /// From the part's coordinates to those of the file.
     pub to_file: DMat4,
@@ -170,7 +167,6 @@ impl Polygons {
         start as usize..self.ends[number] as usize
     }
 
-    /// The polygon that a corner belongs to.
     pub(crate) fn of_corner(&self, corner: usize) -> usize {
         if self.ends.is_empty() {
             return corner / 3;
@@ -208,7 +204,6 @@ pub(crate) struct Surface {
     pub opacity: Option<Opacity>,
     /// Whether the file says that light has no effect on it.
     pub unlit: bool,
-    /// Whether both sides are drawn.
     pub both_sides: bool,
 }
 

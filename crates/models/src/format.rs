@@ -2,7 +2,6 @@
 
 use crate::{gltf, ply, stl};
 
-/// A format of models that is read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
     /// Wavefront OBJ, with materials in MTL.
@@ -144,7 +143,6 @@ impl Format {
         }
     }
 
-    /// Its name, for people.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {

@@ -10,7 +10,7 @@ use rasterproof_render::pipeline::highlight::Specular;
 use rasterproof_render::scene::{Attribute, Item, Material, Mesh, Shading, Triangles};
 use rayon::prelude::*;
 
-use crate::contents::{Contents, INCOMPLETE_FACE, NONE, Numbers, Part, Surface};
+use crate::contents::{Contents, FilePart, INCOMPLETE_FACE, NONE, Numbers, Surface};
 use crate::polygons::{self, Odd, Shape};
 use crate::{BadFile, Format, Model, Normals, Options, Origin, Up, Warnings, bad, counted};
 
@@ -78,7 +78,7 @@ pub(crate) fn model(
 }
 
 /// Brings a part into the coordinates of the scene, but for the sign of z.
-fn place(path: &Path, part: &mut Part, turn: DMat4) -> Result<(), BadFile> {
+fn place(path: &Path, part: &mut FilePart, turn: DMat4) -> Result<(), BadFile> {
     let matrix = turn * part.to_file;
     if matrix != DMat4::IDENTITY {
         for position in &mut part.positions {
@@ -119,7 +119,7 @@ fn place(path: &Path, part: &mut Part, turn: DMat4) -> Result<(), BadFile> {
     }
 }
 
-fn material(surface: Option<&Surface>, part: &Part, shading: Shading) -> Material {
+fn material(surface: Option<&Surface>, part: &FilePart, shading: Shading) -> Material {
     let vertex_colours = !part.colours.is_empty();
     match surface {
         Some(surface) => Material {
@@ -161,7 +161,7 @@ fn key(position: DVec3) -> [u64; 3] {
 }
 
 impl SmoothNormals {
-    fn of(parts: &[Part], normals: Normals) -> Self {
+    fn of(parts: &[FilePart], normals: Normals) -> Self {
         let mut this = Self::default();
         let mut points = Vec::new();
         for part in parts {
@@ -196,7 +196,7 @@ impl SmoothNormals {
 /// The triangles of a part; where each comes from is added to the origin.
 fn mesh(
     path: &Path,
-    mut part: Part,
+    mut part: FilePart,
     smooth: &SmoothNormals,
     normals: Normals,
     origin: &mut Origin,
@@ -232,7 +232,7 @@ fn mirrored(v: DVec3) -> DVec3 {
 }
 
 /// The corners of all polygons as corners of triangles, by their numbers in the part.
-fn cut(path: &Path, part: &Part, origin: &mut Origin, warnings: &mut Warnings) -> Vec<u32> {
+fn cut(path: &Path, part: &FilePart, origin: &mut Origin, warnings: &mut Warnings) -> Vec<u32> {
     let most = part.corners.len() - 2 * part.polygons.len().min(part.corners.len() / 2);
     let mut triangles: Vec<u32> = Vec::with_capacity(3 * most);
     let mut points = Vec::new();
@@ -284,7 +284,7 @@ fn of_cut<V>(attribute: Attribute<V>, cut: &[u32]) -> Attribute<V> {
 }
 
 /// The texture coordinates of the corners of a part; (0, 0) for those that have none.
-fn part_uvs(part: &mut Part) -> Attribute<DVec2> {
+fn part_uvs(part: &mut FilePart) -> Attribute<DVec2> {
     let mut values = std::mem::take(&mut part.uvs);
     match std::mem::take(&mut part.uv_numbers) {
         Numbers::Nothing => Attribute::Same(DVec2::ZERO),
@@ -301,7 +301,7 @@ fn part_uvs(part: &mut Part) -> Attribute<DVec2> {
 }
 
 /// The normals of the corners of a part: those of the file, else those of smooth or flat polygons.
-fn part_normals(part: &mut Part, smooth: &SmoothNormals, normals: Normals) -> Attribute<DVec3> {
+fn part_normals(part: &mut FilePart, smooth: &SmoothNormals, normals: Normals) -> Attribute<DVec3> {
     let mut values = std::mem::take(&mut part.normals);
     let mut numbers = std::mem::take(&mut part.normal_numbers);
     if normals == Normals::Flat {

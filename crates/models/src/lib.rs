@@ -31,7 +31,6 @@ pub use textures::load_texture;
 /// What is wrong with a file, where, and what to do about it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct BadFile {
-    /// The file.
     pub path: PathBuf,
     /// The line, from 1, where there are lines.
     pub line: Option<usize>,
@@ -59,14 +58,12 @@ pub(crate) fn read_bytes(path: &Path, limit_bytes: u64) -> Result<Vec<u8>, BadFi
     input::read(path, limit_bytes).map_err(|error| bad(path, None, error.cause))
 }
 
-/// Which axis of a file points up.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Up {
     Y,
     Z,
 }
 
-/// Where the normals of a model come from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Normals {
     /// From the file; those that are missing from the faces, smooth where the file has a smoothing group and
@@ -79,7 +76,6 @@ pub enum Normals {
     Smooth,
 }
 
-/// How a model is made of a file.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Options {
     pub shading: Shading,
@@ -91,9 +87,7 @@ pub struct Options {
 /// A model: what is drawn of a file, and what is not.
 #[derive(Clone, Debug)]
 pub struct Model {
-    /// Its parts, in the file's order.
     pub items: Vec<Item>,
-    /// Where each item comes from.
     pub origins: Vec<Origin>,
     pub format: Format,
     /// The axis of the file that points up in the picture.
@@ -104,7 +98,6 @@ pub struct Model {
     pub warnings: Vec<String>,
 }
 
-/// Where an item comes from.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Origin {
     /// The name of the object, group or node; empty without one.
@@ -117,7 +110,6 @@ pub struct Origin {
     pub lines: Vec<u32>,
     /// The triangles of polygons that are not convex, by their numbers in the item.
     pub concave: Vec<u32>,
-    /// The number of the part's first face.
     pub first_face: u32,
 }
 
@@ -188,7 +180,6 @@ pub(crate) fn counted(counts: &BTreeMap<String, u64>) -> String {
 #[derive(Debug, Default)]
 pub(crate) struct Warnings {
     shown: Vec<String>,
-    /// How many there are of each kind.
     counts: BTreeMap<String, u64>,
 }
 

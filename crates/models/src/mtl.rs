@@ -10,7 +10,6 @@ use rasterproof_render::pipeline::highlight::Specular;
 use crate::Warnings;
 use crate::textures;
 
-/// A material as a file describes it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Described {
     /// Its name, for `usemtl`.
@@ -21,7 +20,7 @@ pub(crate) struct Described {
     pub texture: Option<textures::Described>,
     /// How opaque it is (`d`, or 1 - `Tr`), in [0, 1].
     pub opacity: Option<f64>,
-    /// Where it is opaque (`map_d`).
+    /// The picture whose values are opacities, from `map_d`.
     pub opacity_map: Option<textures::Described>,
     /// What else it has, which is not drawn: keys of [`crate::contents::Contents::not_drawn`].
     pub not_drawn: BTreeSet<String>,

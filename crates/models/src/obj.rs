@@ -15,7 +15,7 @@ use rasterproof_render::pipeline::opacity::OpacityMap;
 use rasterproof_render::pipeline::texture::Texture;
 use std::sync::Arc;
 
-use crate::contents::{Contents, INCOMPLETE_FACE, NONE, Numbers, Part, Polygons, Surface};
+use crate::contents::{Contents, FilePart, INCOMPLETE_FACE, NONE, Numbers, Polygons, Surface};
 use crate::items::MOST_COORDINATE;
 use crate::mtl::{self, without_comment};
 use crate::text::Text;
@@ -35,7 +35,6 @@ struct Run {
     name: String,
     /// The name of the material, and the first line that names it.
     material: Option<(String, usize)>,
-    /// The numbers of the positions of all corners.
     corners: Vec<u32>,
     uvs: Numbers,
     normals: Numbers,
@@ -63,7 +62,6 @@ impl Run {
     }
 }
 
-/// The lines of a file.
 #[derive(Default)]
 struct Lines {
     positions: Vec<DVec3>,
@@ -76,7 +74,6 @@ struct Lines {
     libraries: Vec<String>,
     /// Those names, to find one again.
     known: HashSet<String>,
-    /// What is not drawn.
     not_drawn: BTreeMap<String, u64>,
     /// Vectors that cannot be read, by kind and index, with the line and what is wrong: a vector that no face uses
     /// does no harm.
@@ -117,7 +114,6 @@ struct State {
     is_new: bool,
 }
 
-/// Reads the text of an OBJ and the files that it names.
 pub(crate) fn read(path: &Path, text: Text) -> Result<Contents, BadFile> {
     let mut warnings = Warnings::default();
     let mut lines = lines(path, text, &mut warnings)?;
@@ -191,7 +187,7 @@ impl Cutter {
         Self { numbers: counts.map(|count| vec![NONE; count]) }
     }
 
-    fn part(&mut self, (positions, uvs, normals, colours): Vectors<'_>, mut run: Run) -> Part {
+    fn part(&mut self, (positions, uvs, normals, colours): Vectors<'_>, mut run: Run) -> FilePart {
         let p = self.local(0, &mut run.corners);
         let mut of = |kind: usize, numbers: &mut Numbers| match numbers {
             Numbers::Nothing => Vec::new(),
@@ -202,7 +198,7 @@ impl Cutter {
         let (t, n) = (of(1, &mut run.uvs), of(2, &mut run.normals));
         let coloured = p.iter().any(|&index| (index as usize) < colours.len());
         let colour = |&index: &u32| colours.get(index as usize).copied().unwrap_or(DVec3::ONE);
-        Part {
+        FilePart {
             name: run.name,
             material: None,
             to_file: DMat4::IDENTITY,
@@ -234,7 +230,6 @@ impl Cutter {
     }
 }
 
-/// What is drawn of a material.
 fn surface(
     path: &Path,
     material: &mtl::Described,
@@ -388,7 +383,6 @@ fn refused(path: &Path, line: usize, cause: &str) -> BadFile {
     bad(path, Some(line), format!("{cause}: repair the line, or export the model again"))
 }
 
-/// Goes through all lines.
 fn lines(path: &Path, mut text: Text, warnings: &mut Warnings) -> Result<Lines, BadFile> {
     let unread = |error: InputError| bad(path, None, error.cause);
     let mut read = Lines::default();
@@ -528,7 +522,6 @@ fn position<'a>(words: impl Iterator<Item = &'a [u8]>, read: &mut Lines) -> Resu
     Ok(())
 }
 
-/// The words of a line up to a comment.
 fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> + Clone {
     let end = line.iter().position(|&byte| byte == b'#').unwrap_or(line.len());
     line[..end].split(u8::is_ascii_whitespace).filter(|word| !word.is_empty())

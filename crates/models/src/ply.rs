@@ -10,7 +10,7 @@ use rasterproof_host::text::{printable_path, printable_short};
 use rasterproof_render::pipeline::highlight::Specular;
 use rayon::prelude::*;
 
-use crate::contents::{Contents, INCOMPLETE_FACE, NONE, Numbers, Part, SHARE, Surface};
+use crate::contents::{Contents, FilePart, INCOMPLETE_FACE, NONE, Numbers, SHARE, Surface};
 use crate::textures::{Textures, opacity};
 use crate::{BadFile, Warnings, bad};
 
@@ -97,7 +97,6 @@ impl Kind {
 struct Property {
     name: String,
     kind: Kind,
-    /// How the length of a list is stored.
     length: Option<Kind>,
 }
 
@@ -307,7 +306,7 @@ pub(crate) fn read(path: &Path, bytes: &[u8]) -> Result<Contents, BadFile> {
         body.line = 0;
     }
     let mut contents = Contents::default();
-    let mut part = Part { to_file: DMat4::IDENTITY, ..Part::default() };
+    let mut part = FilePart { to_file: DMat4::IDENTITY, ..FilePart::default() };
     for element in header.elements.iter().filter(|element| !element.properties.is_empty()) {
         let result = match element.name.as_str() {
             "vertex" => vertices(&mut body, element, &mut part, &mut contents),
@@ -385,7 +384,7 @@ fn skip(body: &mut Body<'_>, properties: &[Property]) -> Result<(), String> {
 fn vertices(
     body: &mut Body<'_>,
     element: &Element,
-    part: &mut Part,
+    part: &mut FilePart,
     contents: &mut Contents,
 ) -> Result<(), Wrong> {
     let place = |property: &Property| {
@@ -451,7 +450,7 @@ fn columns(
     body: &mut Body<'_>,
     element: &Element,
     places: &[Option<usize>],
-    part: &mut Part,
+    part: &mut FilePart,
 ) -> (u64, u64) {
     let has_list = element.properties.iter().any(|property| property.length.is_some());
     if body.form == Form::Text || has_list {
@@ -510,7 +509,7 @@ fn is_corners(property: &Property) -> bool {
 fn faces(
     body: &mut Body<'_>,
     element: &Element,
-    part: &mut Part,
+    part: &mut FilePart,
     contents: &mut Contents,
 ) -> Result<(), Wrong> {
     if !element.properties.iter().any(is_corners) {
@@ -584,7 +583,7 @@ fn faces(
 
 /// Reads the next faces of a binary file as long as they are triangles in the form that is usual, and returns how many they are.
 /// Everything else is left to the caller.
-fn triangles(body: &mut Body<'_>, element: &Element, most: u64, part: &mut Part) -> u64 {
+fn triangles(body: &mut Body<'_>, element: &Element, most: u64, part: &mut FilePart) -> u64 {
     const RECORD: usize = 13;
     let [Property { kind: Kind::I32 | Kind::U32, length: Some(Kind::U8 | Kind::I8), .. }] =
         element.properties[..]
@@ -636,7 +635,7 @@ fn corner(count: usize, value: f64) -> Result<u32, String> {
 }
 
 /// Strips of triangles, each ended by -1.
-fn strips(body: &mut Body<'_>, element: &Element, part: &mut Part) -> Result<(), Wrong> {
+fn strips(body: &mut Body<'_>, element: &Element, part: &mut FilePart) -> Result<(), Wrong> {
     for number in 0..element.count {
         let wrong = |cause| (number, cause);
         body.next_element().map_err(wrong)?;
@@ -673,7 +672,7 @@ fn strips(body: &mut Body<'_>, element: &Element, part: &mut Part) -> Result<(),
 }
 
 /// Whether all vertices that faces name are there.
-fn check(path: &Path, part: &Part) -> Result<(), BadFile> {
+fn check(path: &Path, part: &FilePart) -> Result<(), BadFile> {
     let count = part.positions.len();
     let wrong = part.corners.iter().position(|&corner| corner as usize >= count);
     let Some(wrong) = wrong else { return Ok(()) };
@@ -688,7 +687,7 @@ fn check(path: &Path, part: &Part) -> Result<(), BadFile> {
 fn surface(
     path: &Path,
     header: &Header,
-    part: &mut Part,
+    part: &mut FilePart,
     contents: &mut Contents,
     warnings: &mut Warnings,
 ) {

@@ -178,6 +178,7 @@ fn delaunay(points: &[DVec2]) -> Option<Vec<[usize; 3]>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use rasterproof_core::angle::{cos, sin};
 
     /// The triangles of a polygon in a plane that is tilted, so that all axes are projected.
     fn cut(
@@ -212,7 +213,7 @@ mod tests {
         let star: Vec<(f64, f64)> = (0..10)
             .map(|i| {
                 let (angle, radius) = (f64::from(i) * 0.628, if i % 2 == 0 { 4.0 } else { 1.5 });
-                (radius * libm_cos(angle), radius * libm_cos(angle - std::f64::consts::FRAC_PI_2))
+                (radius * cos(angle), radius * sin(angle))
             })
             .collect();
         let shapes: [&[(f64, f64)]; 5] = [
@@ -248,11 +249,6 @@ mod tests {
                 }
             }
         }
-    }
-
-    /// The cosine by its series, which is enough for a star.
-    fn libm_cos(x: f64) -> f64 {
-        rasterproof_core::angle::cos(x)
     }
 
     #[test]

@@ -13,7 +13,7 @@ use hashbrown::HashTable;
 use rasterproof_host::text::printable_short;
 use rayon::prelude::*;
 
-use crate::contents::{Contents, Part, Polygons, SHARE};
+use crate::contents::{Contents, FilePart, Polygons, SHARE};
 use crate::{BadFile, bad};
 
 const HEADER: usize = 84;
@@ -37,7 +37,7 @@ pub(crate) fn is_text(bytes: &[u8]) -> bool {
 
 /// A part whose equal positions are one, so that neighbours are known.
 struct Merged {
-    part: Part,
+    part: FilePart,
     /// The numbers of the positions, to find a position again.
     known: HashTable<u32>,
     /// The numbers of positions that were seen not long ago, by their hashes.
@@ -48,7 +48,7 @@ struct Merged {
 
 impl Merged {
     fn new(name: String, triangles: usize) -> Self {
-        let mut part = Part { name, to_file: DMat4::IDENTITY, ..Part::default() };
+        let mut part = FilePart { name, to_file: DMat4::IDENTITY, ..FilePart::default() };
         part.corners.reserve(3 * triangles);
         // A closed surface has half as many positions as triangles.
         part.positions.reserve(triangles / 2);
@@ -68,7 +68,7 @@ impl Merged {
     }
 
     /// Adds the triangles of another part, which come after those of this one.
-    fn append(&mut self, other: Part) {
+    fn append(&mut self, other: FilePart) {
         let numbers: Vec<u32> = other.positions.iter().map(|&point| self.number(point)).collect();
         let corners = other.corners.par_iter().with_min_len(SHARE);
         self.part.corners.par_extend(corners.map(|&corner| numbers[corner as usize]));
@@ -123,7 +123,7 @@ pub(crate) fn read(path: &Path, bytes: &[u8]) -> Result<Contents, BadFile> {
     Ok(Contents { parts, not_drawn, ..Contents::default() })
 }
 
-fn binary(bytes: &[u8], not_drawn: &mut BTreeMap<String, u64>) -> Part {
+fn binary(bytes: &[u8], not_drawn: &mut BTreeMap<String, u64>) -> FilePart {
     let (records, _) = bytes[HEADER..].as_chunks::<RECORD>();
     // Some programs keep a colour there, in ways that exclude each other.
     let has_attribute = |record: &&[u8; RECORD]| record[RECORD - 2..] != [0; 2];
@@ -159,7 +159,7 @@ fn merged(records: &[[u8; RECORD]], reserved: usize, threads: usize) -> Merged {
     merged
 }
 
-fn text(path: &Path, bytes: &[u8]) -> Result<Vec<Part>, BadFile> {
+fn text(path: &Path, bytes: &[u8]) -> Result<Vec<FilePart>, BadFile> {
     let mut parts: Vec<Merged> = Vec::new();
     let mut points: Vec<DVec3> = Vec::new();
     let mut first_line = 0;

@@ -18,7 +18,6 @@ use crate::{BadFile, bad, read_bytes};
 /// Entries of a folder that are compared with a name: more than a folder of models has.
 const MOST_ENTRIES: usize = 1 << 16;
 
-/// A picture that was read.
 #[derive(Clone, Debug)]
 pub(crate) struct Decoded {
     pub texture: Arc<Texture>,
@@ -27,7 +26,6 @@ pub(crate) struct Decoded {
 }
 
 impl Decoded {
-    /// Its opacities, read as its colours are.
     pub(crate) fn opacity(&self) -> Option<Arc<OpacityMap>> {
         let (filter, wrap) = (self.texture.filter, self.texture.wrap);
         let alpha = Texture::clone(self.alpha.as_ref()?).with(filter, wrap);
@@ -139,7 +137,6 @@ fn other_case(folder: &Path, name: &str) -> Option<OsString> {
 /// What follows `map_Kd`.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Described {
-    /// The name of the picture.
     pub name: String,
     /// By which texture coordinates are multiplied.
     pub scale: DVec2,
@@ -222,7 +219,6 @@ impl Described {
     }
 }
 
-/// The first word, and what follows it.
 fn next_word(text: &str) -> Option<(&str, &str)> {
     let text = text.trim_start();
     let end = text.find(char::is_whitespace).unwrap_or(text.len());
@@ -233,7 +229,6 @@ fn next_word(text: &str) -> Option<(&str, &str)> {
 pub(crate) struct Textures {
     folder: PathBuf,
     read: HashMap<PathBuf, Result<Decoded, BadFile>>,
-    /// Names that were not found.
     missing: u32,
 }
 
@@ -241,12 +236,10 @@ pub(crate) struct Textures {
 const MOST_MISSING: u32 = 1 << 10;
 
 impl Textures {
-    /// Of a model in this folder.
     pub(crate) fn new(folder: &Path) -> Self {
         Self { folder: folder.to_owned(), read: HashMap::new(), missing: 0 }
     }
 
-    /// The picture of this name.
     pub(crate) fn get(&mut self, name: &str, clamp: bool) -> Result<Decoded, BadFile> {
         // Where options are written in another way, the last word is the name.
         let last = name.split_whitespace().next_back().unwrap_or_default();

@@ -4,7 +4,6 @@
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 
-/// What a page is made of.
 pub struct Parts {
     template: &'static str,
     styles: &'static [&'static str],

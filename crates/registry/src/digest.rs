@@ -25,7 +25,6 @@ use rasterproof_verify::cases::{self, Case, Family, Shape, unsnapped};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Options {
-    /// Decides every generated case.
     pub seed: u64,
     /// Cases of each family, and random scenes.
     pub cases: u64,
@@ -34,7 +33,6 @@ pub struct Options {
 /// The digest of one kind of result of one engine.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct DigestRow {
-    /// Who computed it.
     pub engine: &'static str,
     /// What: coverage, values, lines, frames.
     pub what: &'static str,
@@ -42,14 +40,12 @@ pub struct DigestRow {
     pub sha256: String,
 }
 
-/// What is asked of an engine.
 #[derive(Clone, Copy)]
 enum Job {
     /// Hit counts of triangles.
     Coverage(Engine),
     /// Depths and attributes of triangles.
     Values(Engine),
-    /// Pixels and values of lines.
     Lines(LineEngine),
     /// Hit counts of triangles off the lattice, and how they were decided.
     OffGrid(ExactEngine),

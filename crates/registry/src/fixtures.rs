@@ -25,7 +25,6 @@ use rasterproof_verify::cases::{self, Case, Shape};
 use rasterproof_verify::comparison::{caught, line_coverage};
 use rasterproof_verify::oracle::Oracle;
 
-/// What the file is, and in which version.
 pub const FORMAT: &str = "rasterproof-fixtures/1";
 pub const QUOTAS: [(Kind, usize); 5] = [
     (Kind::Triangle, 400),
@@ -41,7 +40,6 @@ const BITS: std::ops::RangeInclusive<u32> = 4..=SUBPIXEL_BITS;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Kind {
-    /// Three corners.
     Triangle,
     /// The first point with each pair of the following ones.
     Fan,
@@ -86,7 +84,6 @@ pub struct Fixture {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Expected {
-    /// The least and the most.
     pub bits: [u32; 2],
     /// The pictures of the samples of a pixel, in the order of [`Fixtures::samples`].
     pub samples: Vec<Pixels>,

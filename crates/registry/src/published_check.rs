@@ -31,7 +31,6 @@ use rasterproof_verify::comparison::caught;
 use rasterproof_verify::oracle::Oracle;
 use rasterproof_verify::oracle::values::ExactTriangle;
 
-/// What came of some triangles or lines.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Counts {
     /// Triangles or lines drawn.
@@ -42,7 +41,6 @@ pub struct Counts {
     pub wrong_values: u64,
     /// Those that the specimen refuses, since the published code is undefined there.
     pub refused: u64,
-    /// Covered pixels by the oracle.
     pub pixels: u64,
     /// Wrong pixels, each triangle for itself.
     pub tally: Tally,
@@ -91,9 +89,7 @@ pub struct SpecimenReport {
     pub name: &'static str,
     pub source: &'static str,
     pub fault: &'static str,
-    /// The repair.
     pub cure: &'static str,
-    /// The case that exposes it, and what it shows there.
     pub case: &'static str,
     pub case_wrong: u64,
     /// Pixels that are wrong in the harmless case.
@@ -263,7 +259,6 @@ fn judge_free(specimen: &dyn Published, triangles: &[RealTriangle], window: Pixe
     triangles.iter().map(one).fold(Counts::default(), Counts::merge)
 }
 
-/// A card's line as a case of the harness.
 pub fn line_case(case: &LineCase) -> Case {
     let [a, b] = case.pixels.map_array(|(x, y)| PixelPoint::new(x, y));
     let side = |a: i32, b: i32, most: u32| (a.max(b) as u32 + 3).min(most);

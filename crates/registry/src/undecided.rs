@@ -14,7 +14,7 @@ use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::frame::Frame;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::parallel;
-use rasterproof_render::effects::depth_ties::{Rival, Rivals, Sample};
+use rasterproof_render::effects::depth_ties::{Sample, TiedPiece, TiedPieces};
 use rasterproof_render::effects::render::BadScene;
 use rasterproof_render::pipeline::depth::DepthFormat;
 use rasterproof_render::pipeline::multisample::SAMPLES;
@@ -64,7 +64,6 @@ impl Ties {
 /// A rasterizer, and its frame of the scene with every depth of every sample.
 #[derive(Clone, Copy)]
 pub struct Drawn<'a> {
-    /// Who drew it.
     pub engine: Engine,
     pub target: &'a Target,
 }
@@ -72,21 +71,21 @@ pub struct Drawn<'a> {
 /// Samples of a band of rows, which is judged at once.
 const BAND_SAMPLES: u64 = 1 << 16;
 
-/// Rivals that are judged at once, some 100 bytes each. A band with more, many surfaces in one plane,
+/// Tied pieces that are judged at once, some 100 bytes each. A band with more, many surfaces in one plane,
 /// is halved, down to a pixel.
 const MOST_RIVALS: usize = 1 << 19;
 
 /// Finds the ties in two frames of one scene, in targets of the same kind.
 pub fn find(scene: &Scene, frames: [Drawn<'_>; 2]) -> Result<Ties, BadScene> {
     let target = frames[0].target;
-    let rivals = Rivals::new(scene, target)?;
-    let (size, bounds) = (rivals.size(), target.bounds());
+    let tied = TiedPieces::new(scene, target)?;
+    let (size, bounds) = (tied.size(), target.bounds());
     let per_row = u64::from(size.width()) * target.antialias().samples();
     let rows = (BAND_SAMPLES / per_row).max(1) as usize;
     let bands = parallel::map((size.height() as usize).div_ceil(rows), |number| {
         let y0 = size.y0 + (number * rows) as i32;
         let y1 = (y0 + rows as i32).min(size.y1);
-        Judge { rivals: &rivals, frames }.judge(PixelRect { y0, y1, ..size })
+        Judge { tied: &tied, frames }.judge(PixelRect { y0, y1, ..size })
     });
     let mut ties = Ties {
         undecided: Frame::new(size, false),
@@ -100,14 +99,14 @@ pub fn find(scene: &Scene, frames: [Drawn<'_>; 2]) -> Result<Ties, BadScene> {
     for Sample { x_px, y_px, .. } in bands.iter().flat_map(|band| &band.undecided).copied() {
         ties.undecided.span_mut(y_px / scale, x_px / scale, x_px / scale + 1)[0] = true;
     }
-    excuse_far_textures(&rivals, frames, &mut ties);
+    excuse_far_textures(&tied, frames, &mut ties);
     Ok(ties)
 }
 
 /// Excuses samples that differ though both rasterizers keep their bounds, because a texture coordinate is
 /// so large that its bound holds several texels: each frame shows the same piece at its depth, by a texel
 /// within the bound of its own texture coordinates. A wrong coordinate shows another texel.
-fn excuse_far_textures(rivals: &Rivals<'_>, frames: [Drawn<'_>; 2], ties: &mut Ties) {
+fn excuse_far_textures(tied: &TiedPieces<'_>, frames: [Drawn<'_>; 2], ties: &mut Ties) {
     let scale = frames[0].target.antialias().scale() as i32;
     for plane in 0..frames[0].target.planes.len() {
         let colours =
@@ -119,9 +118,9 @@ fn excuse_far_textures(rivals: &Rivals<'_>, frames: [Drawn<'_>; 2], ties: &mut T
         let Some(differing) = box_of(frames[0].target.bounds(), |x, y| differs(ties, x, y)) else {
             continue;
         };
-        for piece in rivals.textured() {
+        for piece in tied.textured() {
             for (x_px, y_px) in
-                far_textures(rivals, frames, (piece, plane), differing, &|x, y| differs(ties, x, y))
+                far_textures(tied, frames, (piece, plane), differing, &|x, y| differs(ties, x, y))
             {
                 ties.excused[plane].span_mut(y_px, x_px, x_px + 1)[0] = true;
                 ties.far_texture.span_mut(y_px / scale, x_px / scale, x_px / scale + 1)[0] = true;
@@ -145,13 +144,13 @@ fn box_of(bounds: PixelRect, is: impl Fn(i32, i32) -> bool) -> Option<PixelRect>
 
 /// The samples of a plane at which both frames show a piece as they may.
 fn far_textures(
-    rivals: &Rivals<'_>,
+    tied: &TiedPieces<'_>,
     frames: [Drawn<'_>; 2],
     (piece, plane): (u32, usize),
     rect: PixelRect,
     wanted: &dyn Fn(i32, i32) -> bool,
 ) -> Vec<(i32, i32)> {
-    let Some((corners, depths)) = rivals.piece(piece, plane) else { return Vec::new() };
+    let Some((corners, depths)) = tied.piece(piece, plane) else { return Vec::new() };
     let no_values = [[0.0; 0]; 3];
     let Some(exact) = ExactTriangle::new(&corners, depths, [1.0; 3], no_values) else {
         return Vec::new();
@@ -175,7 +174,7 @@ fn far_textures(
         };
         for place in places {
             let by = (&engine, &bound as &dyn Fn([f64; 3]) -> f64);
-            rivals.texels(by, piece, place, (rect, &wanted), &mut |x, y, colours| {
+            tied.texels(by, piece, place, (rect, &wanted), &mut |x, y, colours| {
                 if here.colour.get(x, y).is_some_and(|colour| colours.holds(colour)) {
                     good.push((y, x));
                 }
@@ -216,10 +215,10 @@ fn halves(rect: PixelRect) -> Option<[PixelRect; 2]> {
     }
 }
 
-/// A rival, and what is known of it by each of the two rasterizers.
+/// A tied piece, and what is known of it by each of the two rasterizers.
 #[derive(Clone, Copy)]
 struct Candidate {
-    rival: Rival,
+    tied_piece: TiedPiece,
     /// The nearest and the farthest key that the rasterizer may store.
     keys: [(u64, u64); 2],
     /// The colours that it may give to the sample. A multisampled pixel is shaded in the middle, or
@@ -228,7 +227,7 @@ struct Candidate {
 }
 
 struct Judge<'a> {
-    rivals: &'a Rivals<'a>,
+    tied: &'a TiedPieces<'a>,
     frames: [Drawn<'a>; 2],
 }
 
@@ -236,25 +235,25 @@ impl Judge<'_> {
     fn judge(&self, rect: PixelRect) -> Band {
         let halves = halves(rect);
         let most = if halves.is_some() { MOST_RIVALS } else { usize::MAX };
-        match (self.rivals.within(rect, most), halves) {
-            (Some(rivals), _) => self.judge_rivals(rivals),
+        match (self.tied.within(rect, most), halves) {
+            (Some(tied), _) => self.judge_tied(tied),
             (None, Some([a, b])) => self.judge(a).join(self.judge(b)),
             (None, None) => Band::default(),
         }
     }
 
-    fn judge_rivals(&self, rivals: Vec<Rival>) -> Band {
-        let mut candidates = self.candidates(rivals);
+    fn judge_tied(&self, tied: Vec<TiedPiece>) -> Band {
+        let mut candidates = self.candidates(tied);
         keep_rivals(&mut candidates);
         // By piece, to be shaded, and by sample again.
-        candidates.sort_unstable_by_key(|c| (c.rival.piece, c.rival.sample));
-        for group in candidates.chunk_by_mut(|a, b| a.rival.piece == b.rival.piece) {
+        candidates.sort_unstable_by_key(|c| (c.tied_piece.piece, c.tied_piece.sample));
+        for group in candidates.chunk_by_mut(|a, b| a.tied_piece.piece == b.tied_piece.piece) {
             (0..2).for_each(|who| self.shade(who, group));
         }
-        candidates.sort_unstable_by_key(|c| c.rival);
+        candidates.sort_unstable_by_key(|c| c.tied_piece);
         let mut band = Band::default();
-        for group in candidates.chunk_by(|a, b| a.rival.sample == b.rival.sample) {
-            let sample = group[0].rival.sample;
+        for group in candidates.chunk_by(|a, b| a.tied_piece.sample == b.tied_piece.sample) {
+            let sample = group[0].tied_piece.sample;
             let mut colours = group.iter().flat_map(|c| c.colours.as_flattened()).flatten();
             let first = colours.next();
             if colours.any(|colour| Some(colour) != first) {
@@ -267,15 +266,16 @@ impl Judge<'_> {
         band
     }
 
-    /// Rivals with the keys that each rasterizer may store.
-    fn candidates(&self, mut rivals: Vec<Rival>) -> Vec<Candidate> {
+    /// TiedPieces with the keys that each rasterizer may store.
+    fn candidates(&self, mut tied: Vec<TiedPiece>) -> Vec<Candidate> {
         let format = self.frames[0].target.format;
         let bounds = self.frames.map_array(|frame| frame.engine.tolerance().depth);
-        rivals.sort_unstable_by_key(|rival| (rival.piece, rival.sample));
-        let same = |a: &Rival, b: &Rival| (a.piece, a.sample.plane) == (b.piece, b.sample.plane);
-        let mut candidates = Vec::with_capacity(rivals.len());
-        for group in rivals.chunk_by(same) {
-            let Some((corners, depths)) = self.rivals.piece(group[0].piece, group[0].sample.plane)
+        tied.sort_unstable_by_key(|tied_piece| (tied_piece.piece, tied_piece.sample));
+        let same =
+            |a: &TiedPiece, b: &TiedPiece| (a.piece, a.sample.plane) == (b.piece, b.sample.plane);
+        let mut candidates = Vec::with_capacity(tied.len());
+        for group in tied.chunk_by(same) {
+            let Some((corners, depths)) = self.tied.piece(group[0].piece, group[0].sample.plane)
             else {
                 continue;
             };
@@ -283,21 +283,21 @@ impl Judge<'_> {
             let Some(exact) = ExactTriangle::new(&corners, depths, [1.0; 3], no_values) else {
                 continue;
             };
-            candidates.extend(group.iter().map(|&rival| {
-                let depth = exact.at(rival.sample.x_px, rival.sample.y_px).0.to_f64();
+            candidates.extend(group.iter().map(|&tied_piece| {
+                let depth = exact.at(tied_piece.sample.x_px, tied_piece.sample.y_px).0.to_f64();
                 let keys = bounds.map_array(|bound| keys(format, depth, bound, depths));
-                Candidate { rival, keys, colours: [[None; SAMPLES.len()]; 2] }
+                Candidate { tied_piece, keys, colours: [[None; SAMPLES.len()]; 2] }
             }));
         }
-        candidates.sort_unstable_by_key(|c| c.rival);
+        candidates.sort_unstable_by_key(|c| c.tied_piece);
         candidates
     }
 
     /// Finds what one of the two rasterizers shows of a piece at its candidates.
     fn shade(&self, who: usize, group: &mut [Candidate]) {
         let Drawn { engine, target } = self.frames[who];
-        let piece = group[0].rival.piece;
-        let samples = || group.iter().map(|c| c.rival.sample);
+        let piece = group[0].tied_piece.piece;
+        let samples = || group.iter().map(|c| c.tied_piece.sample);
         let empty = PixelRect { x0: i32::MAX, y0: i32::MAX, x1: i32::MIN, y1: i32::MIN };
         let bounds = samples().fold(empty, |rect, Sample { x_px, y_px, .. }| PixelRect {
             x0: rect.x0.min(x_px),
@@ -307,10 +307,10 @@ impl Judge<'_> {
         });
         let find = |group: &[Candidate], plane, x_px, y_px| {
             let wanted = Sample { plane, x_px, y_px };
-            group.binary_search_by_key(&wanted, |c| c.rival.sample).ok()
+            group.binary_search_by_key(&wanted, |c| c.tied_piece.sample).ok()
         };
         if target.antialias() != Antialias::Multisample4 {
-            self.rivals.show(&engine, piece, Some(0), bounds, &mut |x, y, colour| {
+            self.tied.show(&engine, piece, Some(0), bounds, &mut |x, y, colour| {
                 if let Some(at) = find(group, 0, x, y) {
                     group[at].colours[who][0] = Some(colour);
                 }
@@ -318,7 +318,7 @@ impl Judge<'_> {
             return;
         }
         for plane in 0..SAMPLES.len() {
-            self.rivals.show(&engine, piece, Some(plane), bounds, &mut |x, y, colour| {
+            self.tied.show(&engine, piece, Some(plane), bounds, &mut |x, y, colour| {
                 for of in 0..SAMPLES.len() {
                     if let Some(at) = find(group, of, x, y) {
                         group[at].colours[who][plane] = Some(colour);
@@ -326,7 +326,7 @@ impl Judge<'_> {
                 }
             });
         }
-        self.rivals.show(&engine, piece, None, bounds, &mut |x, y, colour| {
+        self.tied.show(&engine, piece, None, bounds, &mut |x, y, colour| {
             for of in 0..SAMPLES.len() {
                 if let Some(at) = find(group, of, x, y) {
                     group[at].colours[who] = [Some(colour); SAMPLES.len()];
@@ -335,10 +335,10 @@ impl Judge<'_> {
         });
     }
 
-    /// Whether both frames show at this sample a rival, in its colour and at its depth, and the two
+    /// Whether both frames show at this sample a tied piece, in its colour and at its depth, and the two
     /// rasterizers agree about the colours of all.
     fn is_excused(&self, group: &[Candidate]) -> bool {
-        let Sample { plane, x_px, y_px } = group[0].rival.sample;
+        let Sample { plane, x_px, y_px } = group[0].tied_piece.sample;
         let shows = |who: usize| {
             let plane = &self.frames[who].target.planes[plane];
             let (key, colour) = (plane.depth.get(x_px, y_px), plane.colour.get(x_px, y_px));
@@ -362,13 +362,13 @@ fn keys(format: DepthFormat, exact: f64, bound: Bound, depths: [f64; 3]) -> (u64
 /// Keeps what may be the nearest by one of the two rasterizers, at samples where several may.
 fn keep_rivals(candidates: &mut Vec<Candidate>) {
     let mut kept = Vec::new();
-    for group in candidates.chunk_by(|a, b| a.rival.sample == b.rival.sample) {
+    for group in candidates.chunk_by(|a, b| a.tied_piece.sample == b.tied_piece.sample) {
         let farthest = [0, 1].map_array(|who| {
-            let ends = group.iter().map(|c| (c.keys[who].1, c.rival.piece));
+            let ends = group.iter().map(|c| (c.keys[who].1, c.tied_piece.piece));
             ends.min().unwrap_or((u64::MAX, u32::MAX))
         });
         let may_win =
-            |c: &&Candidate| (0..2).any(|who| (c.keys[who].0, c.rival.piece) <= farthest[who]);
+            |c: &&Candidate| (0..2).any(|who| (c.keys[who].0, c.tied_piece.piece) <= farthest[who]);
         let before = kept.len();
         kept.extend(group.iter().filter(may_win).copied());
         if kept.len() == before + 1 {

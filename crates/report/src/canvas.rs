@@ -18,11 +18,11 @@ const ZOOM: u32 = 2;
 
 pub type Ink = [u8; 3];
 
-/// Letters that are read first.
+/// The black of titles and labels.
 pub const INK: Ink = [34, 34, 34];
-/// Letters that explain the others.
+/// The grey of units and notes.
 pub const SOFT: Ink = [110, 110, 110];
-/// Lines behind what is plotted.
+/// The light grey of the grid, which must not hide what is plotted.
 pub const GRID: Ink = [226, 226, 226];
 
 /// Something drawn, y down.
@@ -62,7 +62,6 @@ pub enum Shape {
     },
 }
 
-/// A drawing on white.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drawing {
     /// What it shows, for those who cannot see it.

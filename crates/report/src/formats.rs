@@ -14,13 +14,11 @@ use rasterproof_verify::comparison::shrink;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
     Text,
-    /// Everything that was found.
     Json,
     /// JUnit XML, for build servers.
     Junit,
     /// Test Anything Protocol, version 14.
     Tap,
-    /// Gradescope's results.json.
     Gradescope,
     /// The result of an autograding step of GitHub Classroom.
     GithubClassroom,

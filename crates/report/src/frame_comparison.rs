@@ -23,7 +23,6 @@ pub fn rgb(picture: &Frame<Colour>) -> RgbImage {
     })
 }
 
-/// A frame as a PNG.
 pub fn png(picture: &Frame<Colour>) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     rgb(picture)
@@ -203,7 +202,6 @@ const MAP_WIDTH_PX: u32 = 1440;
 /// How often something occurs in the pixels of a frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Amount {
-    /// The mean of all pixels.
     pub mean: f64,
     pub most: u32,
     /// The first pixel that has the most, and how many have it.

@@ -317,7 +317,6 @@ fn head(report: &Report) -> String {
     out
 }
 
-/// How the page was made, and what it left out.
 fn run(report: &Report, left_out: Vec<String>) -> String {
     let mut out = command(&report.command);
     if let Some(seed) = report.seed {

@@ -135,7 +135,6 @@ fn score(of: Score) -> String {
     format!("{} wrong pixels, {share:.0} in a million{unscored}", of.wrong)
 }
 
-/// The convention that was recognised, and the score by it.
 fn scores(out: &mut String, verdict: &Verdict) {
     let said = score(verdict.as_declared());
     let _ = writeln!(out, "as declared:         {said}");
@@ -198,7 +197,6 @@ fn table(out: &mut String, verdict: &Verdict) {
     }
 }
 
-/// What happened instead of answers.
 pub fn incidents(out: &mut String, verdict: &Verdict, repeat: &dyn Fn(&str, u64) -> String) {
     let mut shown: Vec<&str> = Vec::new();
     for incident in &verdict.found.incidents {

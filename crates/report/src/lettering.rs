@@ -8,7 +8,6 @@ use noto_sans_mono_bitmap::{FontWeight, RasterHeight, RasterizedChar, get_raster
 pub enum Size {
     /// Words beside a picture, numbers of rows and columns.
     Small,
-    /// Headings, bold.
     Heading,
     /// Words of a plot, at two picture pixels to the unit.
     Plot,

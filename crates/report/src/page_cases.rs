@@ -52,7 +52,6 @@ pub enum Kind {
     Closest,
     /// The first of a family off the lattice.
     OffGrid,
-    /// It has a name in the catalogue.
     Named,
     /// It exposes a published fault.
     Specimen,

@@ -36,7 +36,6 @@ const HEAD: u32 = 38;
 const INK: Rgb<u8> = Rgb([30, 30, 30]);
 const FAINT: Rgb<u8> = Rgb([95, 95, 95]);
 const WHITE: Rgb<u8> = Rgb([255, 255, 255]);
-/// The key of what a PNG remembers.
 const KEY: &str = "rasterproof-panels";
 
 pub type Drawn = (String, Coverage);

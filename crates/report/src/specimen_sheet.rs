@@ -40,43 +40,42 @@ const PANEL: u32 = 161;
 const GAP: u32 = 8;
 /// Picture pixels of a pixel's side from which the dot of its sample is shown.
 const SAMPLED: u32 = 8;
-/// Width of a strip.
 const STRIP: u32 = 3 * (BESIDE + PANEL) + 4 * GAP;
 /// Space for the numbers of the rows, left of each panel.
 const BESIDE: u32 = 22;
 
 /// A sheet: the cards of one source, or of some of its chapters.
-pub struct Sheet {
+pub struct SourceSheet {
     pub name: &'static str,
     title: &'static str,
     sources: &'static [&'static str],
 }
 
 /// The sheets in their order; each card is on one.
-pub const SHEETS: [Sheet; 4] = [
-    Sheet {
+pub const SHEETS: [SourceSheet; 4] = [
+    SourceSheet {
         name: "book-1",
         title: "The book, chapters 2 to 5: lines, triangles, values",
         sources: &["book 2", "book 3", "book 5"],
     },
-    Sheet {
+    SourceSheet {
         name: "book-2",
         title: "The book, chapters 6 to 11: depth, clipping, viewport, turns",
         sources: &["book 6", "book 7", "book 8", "book 10", "book 11"],
     },
-    Sheet {
+    SourceSheet {
         name: "games101",
         title: "GAMES101, homework 2: triangles and the depth buffer",
         sources: &["GAMES101"],
     },
-    Sheet {
+    SourceSheet {
         name: "sysu",
         title: "SYSU, assignment 2: lines, clipping, triangles",
         sources: &["SYSU"],
     },
 ];
 
-impl Sheet {
+impl SourceSheet {
     pub fn cards(&self) -> impl Iterator<Item = &'static Card> {
         let is_here = |card: &&Card| self.sources.iter().any(|s| card.source.starts_with(s));
         CARDS.iter().filter(is_here)
@@ -95,7 +94,7 @@ struct Panels {
 }
 
 /// All cards of a sheet, two strips to a row, under a title and over a legend.
-pub fn sheet(sheet: &Sheet) -> panels::Sheet {
+pub fn sheet(sheet: &SourceSheet) -> panels::Sheet {
     let strips: Vec<panels::Sheet> = sheet.cards().map(strip).collect();
     let mut title = RgbImage::from_pixel(2 * STRIP, 40, WHITE);
     write(&mut title, (i64::from(GAP), 12), sheet.title, Size::Heading, INK);

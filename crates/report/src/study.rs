@@ -9,7 +9,7 @@ use rasterproof_render::scene::Scene;
 use rasterproof_study::cost::{Choice, Group};
 use rasterproof_study::effects::{Fineness, Need, Needs};
 use rasterproof_study::hard::{HardCase, HardCases, Kind};
-use rasterproof_study::ties::{Class, Classes, Rivals};
+use rasterproof_study::ties::{Class, Classes, TiedPair};
 use rasterproof_study::{face_of, triangle_of};
 use serde_json::{Value, json};
 
@@ -18,7 +18,6 @@ use super::chapter::Chapter;
 use super::html::{Column, Outcome, PictureLayer, PictureView, Report, Row, Table};
 use super::summary::thousands;
 
-/// A scene and where it comes from.
 #[derive(Clone, Copy)]
 pub struct Subject<'a> {
     pub scene: &'a Scene,
@@ -35,7 +34,6 @@ impl Subject<'_> {
         place.unwrap_or_else(|| format!("triangle {}", u64::from(triangle) + 1))
     }
 
-    /// The command that shows the face of a triangle.
     pub fn command(&self, triangle: u32) -> String {
         (self.inspect)(face_of(self.scene, self.origins, triangle))
     }
@@ -66,7 +64,6 @@ fn compared_in(costs: &[Group]) -> Option<String> {
     })
 }
 
-/// The hard cases, each with the command that shows one.
 pub fn hard_cases(subject: &Subject<'_>, found: &HardCases, costs: &[Group]) -> String {
     let mut out = String::new();
     if found.cases.is_empty() {
@@ -115,7 +112,6 @@ pub fn hard_cases(subject: &Subject<'_>, found: &HardCases, costs: &[Group]) -> 
     out
 }
 
-/// The same for machines.
 pub fn hard_cases_json(subject: &Subject<'_>, found: &HardCases) -> Value {
     let face = |&triangle: &u32| {
         let origin = triangle_of(subject.scene, triangle)
@@ -145,7 +141,6 @@ pub fn hard_cases_json(subject: &Subject<'_>, found: &HardCases) -> Value {
     })
 }
 
-/// Nanoseconds as milliseconds.
 fn ms(ns: f64) -> String {
     number(ns / 1e6, 9)
 }
@@ -254,7 +249,6 @@ fn compared(group: &Group, measure: usize) -> Vec<String> {
     lines
 }
 
-/// The same for machines.
 pub fn costs_json(subject: &Subject<'_>, groups: &[Group]) -> Value {
     let group = |group: &Group| {
         let choice = |choice: &Choice| {
@@ -311,10 +305,9 @@ pub fn ties(subject: &Subject<'_>, classes: &Classes) -> String {
         "which surface is seen, before corners are snapped: decided in {decided} px,\n  \
          by rounding alone in {by_rounding} px, equal in {equal} px (see docs/ties.md)\n"
     );
-    for (what, rivals) in
-        [("by rounding", classes.first_by_rounding), ("equal", classes.first_equal)]
+    for (what, pair) in [("by rounding", classes.first_by_rounding), ("equal", classes.first_equal)]
     {
-        let Some(Rivals { pixel: [x, y], triangles }) = rivals else { continue };
+        let Some(TiedPair { pixel: [x, y], triangles }) = pair else { continue };
         let [a, b] = triangles.map(|triangle| subject.place(triangle));
         let _ = writeln!(out, "  {what} first at {x},{y}: {a} and {b}");
     }
@@ -423,7 +416,6 @@ pub fn effects_advice(needs: &Needs) -> Vec<String> {
     lines
 }
 
-/// The same for machines.
 pub fn needs_json(needs: &Needs, not_drawn: &str) -> Value {
     let one = |need: &Need| {
         json!({
@@ -452,7 +444,6 @@ pub fn needs_json(needs: &Needs, not_drawn: &str) -> Value {
     })
 }
 
-/// The same for machines.
 pub fn ties_json(classes: &Classes) -> Value {
     json!({
         "decided": classes.decided,
@@ -461,7 +452,6 @@ pub fn ties_json(classes: &Classes) -> Value {
     })
 }
 
-/// All that a study found.
 pub struct Found<'a> {
     pub hard: &'a HardCases,
     pub classes: &'a Classes,
@@ -470,7 +460,6 @@ pub struct Found<'a> {
     pub not_drawn: &'a str,
 }
 
-/// The page of a study.
 #[must_use]
 pub fn page(subject: &Subject<'_>, found: &Found<'_>, command: &str) -> Report {
     let cases = &found.hard.cases;

@@ -49,7 +49,6 @@ pub struct Choice {
     pub time: Option<Spread>,
     /// Memory at the peak, see [`crate::memory`].
     pub bytes: Option<u64>,
-    /// Why it was not run.
     pub refused: Option<String>,
 }
 
@@ -76,7 +75,6 @@ pub struct Group {
     pub title: &'static str,
     pub measures: Vec<Measure>,
     pub choices: Vec<Choice>,
-    /// Triangles and pixels that were timed.
     pub timed: [u64; 2],
     /// By measure the cheapest exact choice; none where none is exact.
     pub best: Vec<Option<Best>>,
@@ -101,7 +99,6 @@ impl Best {
         Self { choice, ..Self::default() }
     }
 
-    /// The result of a race of some choices.
     fn of(race: &Race, choices: &[usize]) -> Option<Self> {
         let with = |finish: Finish| {
             let all = race.finishes.iter().zip(choices);
@@ -214,7 +211,6 @@ fn wrong_values_of((pieces, window): (&[Piece], PixelRect), hard: &HardCases, gr
     group.looked_at = Some([found.pixels, found.of]);
 }
 
-/// Adds up what is of the same triangles.
 fn merge(wrong: &mut Vec<([u32; 2], u64)>) {
     wrong.sort_unstable();
     wrong.dedup_by(|later, kept| {
@@ -252,7 +248,6 @@ impl Sample {
     }
 }
 
-/// Pieces as a scene of the ladders.
 fn class<'a>(pieces: impl Iterator<Item = &'a Piece>, window: PixelRect) -> Class {
     let free = pieces.filter_map(|piece| Some((piece.free()?, piece)));
     let (triangles, of): (Vec<_>, Vec<_>) = free.unzip();
@@ -548,7 +543,6 @@ fn ladder(
     Some(group)
 }
 
-/// A rung of a board with one column.
 fn choice(board: &Board, rung: usize, window: PixelRect) -> Choice {
     let (info, items) = (&board.rungs[rung], board.columns[0].items);
     let mut choice = Choice::new(&info.name, &info.about);

@@ -15,7 +15,6 @@ use rasterproof_render::scene::Scene;
 
 use crate::view::{NOTHING, Piece};
 
-/// An effect, and what the scene does with it.
 #[derive(Clone, Debug)]
 pub struct Need {
     pub effect: Effect,
@@ -38,7 +37,6 @@ pub struct Need {
 #[derive(Clone, Debug)]
 pub struct Fineness {
     pub material: String,
-    /// Pixels in which it is seen.
     pub pixels: u64,
     /// Texels along the side of a pixel, the median of its pixels.
     pub texels: f64,
@@ -46,7 +44,6 @@ pub struct Fineness {
     pub far: Vec<(&'static str, u64)>,
 }
 
-/// What a scene calls for.
 #[derive(Clone, Debug)]
 pub struct Needs {
     pub needs: Vec<Need>,
@@ -148,7 +145,6 @@ fn names(scene: &Scene, origins: &[Origin]) -> Vec<String> {
     (0..scene.items.len()).map(name).collect()
 }
 
-/// The item that is seen at each pixel.
 fn seen_items(pieces: &[Piece], seen: &Frame<u32>) -> Frame<u32> {
     let mut items = Frame::new(seen.bounds(), NOTHING);
     for (y, row) in seen.rows() {

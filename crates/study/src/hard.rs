@@ -43,7 +43,6 @@ rasterproof_core::named! {
 }
 
 impl Kind {
-    /// What it is, and what one sees of it.
     pub fn about(self) -> &'static str {
         match self {
             Self::NoArea => "corners on one line: not drawn; who divides by the area divides by 0",
@@ -73,7 +72,6 @@ impl Kind {
     }
 }
 
-/// What was found of one kind.
 #[derive(Clone, Debug)]
 pub struct HardCase {
     pub kind: Kind,
@@ -180,7 +178,6 @@ fn draw(scene: &Scene, target: &mut Target) -> Result<Frame<Colour>, BadScene> {
 
 struct Search<'a> {
     scene: &'a Scene,
-    /// In the pixels of the picture.
     pieces: &'a [Piece],
     sampled: &'a Sampled,
     window: PixelRect,

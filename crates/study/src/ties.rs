@@ -30,19 +30,19 @@ pub struct Classes {
     pub decided: u64,
     pub by_rounding: u64,
     pub equal: u64,
-    pub first_by_rounding: Option<Rivals>,
-    pub first_equal: Option<Rivals>,
+    pub first_by_rounding: Option<TiedPair>,
+    pub first_equal: Option<TiedPair>,
 }
 
 /// A pixel and two triangles of the scene, the nearer one first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Rivals {
+pub struct TiedPair {
     pub pixel: [i32; 2],
     pub triangles: [u32; 2],
 }
 
 /// A depth over the window, before corners are snapped.
-struct Plane {
+struct DepthPlane {
     from: [f64; 3],
     slope: [f64; 2],
     /// The same with every term positive, times what the terms may be off.
@@ -55,7 +55,7 @@ struct Plane {
 
 const U: f64 = f64::EPSILON / 2.0;
 
-impl Plane {
+impl DepthPlane {
     /// None for a piece that has no area before it is snapped.
     ///
     /// In units of u, as for the rungs of interpolation: with k the cancellation of the area, a slope is off by
@@ -96,7 +96,7 @@ impl Plane {
 /// nearest.
 pub fn classify(sampled: &Sampled) -> Classes {
     let mut map = Frame::new(sampled.size, Class::Empty);
-    let mut rivals = Frame::new(sampled.size, [NOTHING; 2]);
+    let mut pairs = Frame::new(sampled.size, [NOTHING; 2]);
     for pieces in &sampled.planes {
         let (classes, of_samples) = of_plane(pieces, sampled.window);
         for (y, row) in classes.rows() {
@@ -105,7 +105,7 @@ pub fn classify(sampled: &Sampled) -> Classes {
                 let held = &mut map.span_mut(y_px, x_px, x_px + 1)[0];
                 if class > held {
                     *held = *class;
-                    rivals.span_mut(y_px, x_px, x_px + 1)[0] = *pair;
+                    pairs.span_mut(y_px, x_px, x_px + 1)[0] = *pair;
                 }
             }
         }
@@ -117,7 +117,7 @@ pub fn classify(sampled: &Sampled) -> Classes {
     let first = |class: Class| {
         map.rows().find_map(|(y, row)| {
             let x = row.iter().position(|held| *held == class)? as i32 + sampled.size.x0;
-            Some(Rivals { pixel: [x, y], triangles: rivals.get(x, y)? })
+            Some(TiedPair { pixel: [x, y], triangles: pairs.get(x, y)? })
         })
     };
     Classes {
@@ -134,8 +134,8 @@ pub fn classify(sampled: &Sampled) -> Classes {
 fn of_plane(pieces: &[Piece], window: PixelRect) -> (Frame<Class>, Frame<[u32; 2]>) {
     let nothing = (f64::INFINITY, NOTHING);
     let mut nearest = Frame::new(window, nothing);
-    let planes: Vec<Option<Plane>> = pieces.iter().map(Plane::of).collect();
-    let each = |see: &mut dyn FnMut(u32, &Plane, i32, i32)| {
+    let planes: Vec<Option<DepthPlane>> = pieces.iter().map(DepthPlane::of).collect();
+    let each = |see: &mut dyn FnMut(u32, &DepthPlane, i32, i32)| {
         for (number, (piece, plane)) in pieces.iter().zip(&planes).enumerate() {
             let Some(plane) = plane else { continue };
             Scanline.cover(piece.corners(), window, |span| {
@@ -153,7 +153,7 @@ fn of_plane(pieces: &[Piece], window: PixelRect) -> (Frame<Class>, Frame<[u32; 2
         }
     });
     let mut map = Frame::new(window, Class::Empty);
-    let mut rivals = Frame::new(window, [NOTHING; 2]);
+    let mut pairs = Frame::new(window, [NOTHING; 2]);
     each(&mut |number, plane, x, y| {
         let class = &mut map.span_mut(y, x, x + 1)[0];
         *class = (*class).max(Class::Decided);
@@ -171,10 +171,10 @@ fn of_plane(pieces: &[Piece], window: PixelRect) -> (Frame<Class>, Frame<[u32; 2
         if found > *class {
             *class = found;
             let pair = [other, number].map_array(|piece| pieces[piece as usize].face);
-            rivals.span_mut(y, x, x + 1)[0] = pair;
+            pairs.span_mut(y, x, x + 1)[0] = pair;
         }
     });
-    (map, rivals)
+    (map, pairs)
 }
 
 #[cfg(test)]

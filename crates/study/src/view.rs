@@ -108,7 +108,6 @@ fn absolute(scene: &Scene, item: usize) -> DMat4 {
     positive(scene.projection) * positive(scene.view) * positive(model)
 }
 
-/// The positions of an item in clip space.
 pub(crate) fn clip_points(scene: &Scene, item: usize) -> Result<Vec<DVec4>, BadScene> {
     let Some(of) = scene.items.get(item) else { return Ok(Vec::new()) };
     let matrix = scene.projection * scene.view * of.model;
@@ -124,7 +123,6 @@ pub(crate) fn clip_points(scene: &Scene, item: usize) -> Result<Vec<DVec4>, BadS
 /// The pieces of a scene at the samples of a picture.
 #[derive(Clone, Debug)]
 pub struct Sampled {
-    /// The picture.
     pub size: PixelRect,
     /// A window with one sample of each plane at the centre of each of its pixels: with supersampling larger than the
     /// picture.
@@ -166,7 +164,6 @@ impl Sampled {
         }
     }
 
-    /// The pieces of all planes.
     pub fn all(&self) -> impl Iterator<Item = &Piece> {
         self.planes.iter().flatten()
     }
@@ -183,7 +180,6 @@ impl Sampled {
         if self.is_antialiased() { "samples" } else { "px" }
     }
 
-    /// The pixel of a sample.
     #[must_use]
     pub fn pixel(&self, sample: [i32; 2]) -> [i32; 2] {
         let scale = (self.window.width() / self.size.width().max(1)).max(1) as i32;

@@ -95,7 +95,6 @@ fn made_up(number: u64) -> Synthetic {
     Synthetic { draws, step, rounding, shape, owner: dice.owner(), noise: 0 }
 }
 
-/// What is not named as it was made.
 fn differences(made: &Synthetic, found: &Diagnosis) -> Vec<String> {
     let mut wrong = Vec::new();
     let c = &found.convention;
@@ -419,7 +418,6 @@ fn conventions_of_libraries_are_named() {
     }
 }
 
-/// What libraries answered to lines.
 #[test]
 fn conventions_of_library_lines_are_named() {
     let first = LineRounding::Nearest(LineTie::FirstGo);

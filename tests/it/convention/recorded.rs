@@ -80,7 +80,6 @@ pub struct Recorder {
     child: Child,
     requests: ChildStdin,
     answers: BufReader<ChildStdout>,
-    /// Its name and capabilities.
     pub words: Vec<String>,
     kept: Vec<String>,
 }

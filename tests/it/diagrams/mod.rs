@@ -50,17 +50,17 @@ const STYLE: &str = "<style>\
     .dot{fill:#e6edf3}.dot1{fill:#58a6ff}.dot2{fill:#f0883e}.ring{fill:#161b22;stroke:#8b949e}\
     text{fill:#e6edf3}}</style>";
 
-/// A point of the sheet, or of the drawing's own coordinates.
+/// A point of the drawing, or of the drawing's own coordinates.
 type Point = [f64; 2];
 
-/// A sheet of a diagram; positions are in its own units from the upper left.
-struct Sheet {
+/// A drawing of a diagram; positions are in its own units from the upper left.
+struct Drawing {
     width: f64,
     height: f64,
     body: String,
 }
 
-impl Sheet {
+impl Drawing {
     fn new(width: f64, height: f64) -> Self {
         Self { width, height, body: String::new() }
     }
@@ -125,7 +125,6 @@ impl Sheet {
     }
 }
 
-/// The point that share t of the way from a to b.
 fn between(a: Point, b: Point, t: f64) -> Point {
     [a[0] + (b[0] - a[0]) * t, a[1] + (b[1] - a[1]) * t]
 }

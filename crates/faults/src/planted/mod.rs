@@ -13,17 +13,15 @@ macro_rules! planted {
         }
 
         impl $kind {
-            /// In the order of the table.
             pub const ALL: [Self; [$($name),+].len()] = [$(Self::$fault),+];
 
-            /// Its name for `--plant`.
+            /// The name that `--plant` takes and that reports print.
             pub fn name(self) -> &'static str {
                 match self {
                     $(Self::$fault => $name,)+
                 }
             }
 
-            /// What is wrong, in a sentence.
             pub fn about(self) -> &'static str {
                 match self {
                     $(Self::$fault => $sentence,)+
@@ -70,7 +68,7 @@ macro_rules! kinds {
                 all
             }
 
-            /// Its name for `--plant`.
+            /// The name that `--plant` takes and that reports print.
             pub fn name(&self) -> &'static str {
                 match self {
                     $(Self::$kind(mutant) => mutant.name(),)+

@@ -16,7 +16,6 @@ use glam::{DVec2, DVec3};
 use super::scene::{COLOURS, Image, SIDE, Setting, Version, WHITE, empty, fill};
 use rasterproof_core::angle::sin_cos;
 
-/// One of the published matrices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Turn {
     /// R_x of section 10.4.

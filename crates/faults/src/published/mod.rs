@@ -48,13 +48,10 @@ pub struct RealVertex {
     pub position_px: DVec2,
     /// Depth, linear in the window (z/w).
     pub depth: f64,
-    /// Distance from the eye.
     pub w: f64,
-    /// Two attributes.
     pub varying: DVec2,
 }
 
-/// Three corners with their values.
 pub type RealTriangle = [RealVertex; 3];
 
 /// Positions alone, with depth 0, w 1 and no values.
@@ -88,7 +85,6 @@ pub fn from_screen(triangle: &ScreenTriangle<DVec2>) -> RealTriangle {
 pub struct ClipVertex {
     /// x, y, z, w, homogeneous.
     pub position: DVec4,
-    /// Two attributes.
     pub varying: DVec2,
 }
 
@@ -166,7 +162,6 @@ impl Columns {
 
 /// The function that receives the spans of a triangle, in the published order.
 pub type Spans<'a> = &'a mut dyn FnMut(Span);
-/// The function that receives its fragments.
 pub type Fragments<'a> = &'a mut dyn FnMut(Fragment<DVec2>);
 /// Why nothing is drawn, if it is not.
 pub type Drawn = Result<(), Refused>;

@@ -15,10 +15,8 @@ use rasterproof_core::triangle::{Fragment, ScreenTriangle, ScreenVertex};
 
 /// A colour, red, green, blue.
 pub type Colour = [u8; 3];
-/// A small picture.
 pub type Image = Frame<Colour>;
 
-/// Which of the two algorithms draws.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Version {
     Published,
@@ -27,14 +25,12 @@ pub enum Version {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Setting {
-    /// The case that shows the fault.
     Exposing,
     /// A case on which both versions agree.
     Harmless,
 }
 
 pub const SIDE: u32 = 32;
-/// The background.
 pub const BLACK: Colour = [0, 0, 0];
 pub const WHITE: Colour = [240, 240, 240];
 pub const COLOURS: [Colour; 3] = [[236, 178, 46], [70, 150, 200], [196, 88, 88]];
@@ -112,7 +108,6 @@ pub fn floor_triangles(far: f64) -> [RealTriangle; 2] {
     [[quad[0], quad[1], quad[2]], [quad[0], quad[2], quad[3]]]
 }
 
-/// The floor as a chessboard.
 pub fn floor(specimen: &impl Published, version: Version, far: f64) -> Image {
     chequered(specimen, version, &floor_triangles(far))
 }

@@ -14,10 +14,8 @@ use glam::Vec4;
 use super::ClipVertex;
 use super::scene::{COLOURS, Image, SIDE, Setting, Version, clip_by_sign, empty, fill_clipped};
 
-/// The plane before the eye.
 pub const PLANE: f32 = 1e-5;
 
-/// Clips by the plane as published.
 pub fn clip_strict(polygon: &[Vec4]) -> Vec<Vec4> {
     let mut kept = Vec::new();
     for (i, start) in polygon.iter().enumerate() {

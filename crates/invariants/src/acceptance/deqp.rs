@@ -18,7 +18,7 @@ pub const WEAK: usize = 10;
 /// How near to the centre an edge may pass before a pixel may be anything, in subpixels of the device.
 const NEAR: i64 = 3;
 
-type Point = [i64; 2];
+type DevicePoint = [i64; 2];
 
 /// Whether a picture of white triangles on black is accepted with at most `allowed` wrong pixels.
 #[must_use]
@@ -86,9 +86,9 @@ pub fn covers(triangles: &[Triangle], window: PixelRect, bits: u32) -> Vec<Cover
 /// The corners of a triangle, clockwise with y down.
 struct Outline {
     /// In units of 1/256 px, as the scene gives them, before the device rounds them.
-    exact: [Point; 3],
+    exact: [DevicePoint; 3],
     /// In subpixels of the device, rounded down and up.
-    rounded: [[Point; 2]; 3],
+    rounded: [[DevicePoint; 2]; 3],
     bits: u32,
 }
 
@@ -104,7 +104,7 @@ impl Outline {
         Self { exact, rounded: exact.map(|p| [p.map(down), p.map(up)]), bits }
     }
 
-    fn cover(&self, pixel: Point) -> Cover {
+    fn cover(&self, pixel: DevicePoint) -> Cover {
         // Nothing but the box of the corners, one pixel wider, is looked at.
         for axis in 0..2 {
             let of = self.exact.map(|p| p[axis]);
@@ -135,7 +135,7 @@ impl Outline {
     }
 
     /// A corner with each of its coordinates rounded either way.
-    fn roundings(&self, corner: usize) -> Vec<Point> {
+    fn roundings(&self, corner: usize) -> Vec<DevicePoint> {
         let [down, up] = self.rounded[corner];
         let mut all = vec![down, [up[0], down[1]], [down[0], up[1]], up];
         all.dedup();
@@ -143,14 +143,14 @@ impl Outline {
     }
 
     /// Whether a pixel is near exactly one edge, and that one is shared.
-    fn only_on(&self, pixel: Point, shared: [bool; 3]) -> bool {
+    fn only_on(&self, pixel: DevicePoint, shared: [bool; 3]) -> bool {
         let near: Vec<usize> = (0..3).filter(|&edge| self.is_near(pixel, edge)).collect();
         matches!(near[..], [edge] if shared[edge])
     }
 
     /// Within 2 half diagonals of a pixel from the edge, and not beyond its ends.
-    fn is_near(&self, pixel: Point, edge: usize) -> bool {
-        let px = |p: Point| p.map(|v| v as f64 / 256.0);
+    fn is_near(&self, pixel: DevicePoint, edge: usize) -> bool {
+        let px = |p: DevicePoint| p.map(|v| v as f64 / 256.0);
         let (a, b) = (px(self.exact[edge]), px(self.exact[(edge + 1) % 3]));
         let centre = pixel.map(|v| v as f64 + 0.5);
         let minus = |p: [f64; 2], q: [f64; 2]| [p[0] - q[0], p[1] - q[1]];
@@ -175,7 +175,7 @@ fn shared_edges(outlines: &[Outline], of: usize) -> [bool; 3] {
 }
 
 /// On which side of the line from a to b the point c lies: 1, 0 on the line, or -1.
-fn cross(a: Point, b: Point, c: Point) -> i64 {
+fn cross(a: DevicePoint, b: DevicePoint, c: DevicePoint) -> i64 {
     // In 128 bits, since hard cases have corners at the ends of the domain.
     let [dx, dy] = [b[0] - a[0], b[1] - a[1]].map(i128::from);
     let [px, py] = [c[0] - a[0], c[1] - a[1]].map(i128::from);
@@ -183,7 +183,8 @@ fn cross(a: Point, b: Point, c: Point) -> i64 {
 }
 
 /// Whether two segments meet, ends included; parallel ones on one line count.
-fn meet(one: [Point; 2], other: [Point; 2]) -> bool {
-    let apart = |[a, b]: [Point; 2], [c, d]: [Point; 2]| cross(a, b, c) * cross(a, b, d) > 0;
+fn meet(one: [DevicePoint; 2], other: [DevicePoint; 2]) -> bool {
+    let apart =
+        |[a, b]: [DevicePoint; 2], [c, d]: [DevicePoint; 2]| cross(a, b, c) * cross(a, b, d) > 0;
     !apart(one, other) && !apart(other, one)
 }

@@ -15,7 +15,6 @@ use rasterproof_verify::comparison::{Convention, Rule, caught};
 
 use super::scenes::{Paint, Scene};
 
-/// A program whose pictures are judged.
 #[derive(Clone, Copy, Debug)]
 pub enum Subject {
     /// The scanline engine: the picture that rules compare with.
@@ -53,7 +52,6 @@ const RIGHT: [(&str, Permitted); 6] = [
 ];
 
 impl Subject {
-    /// Every fault, then every right rasterizer.
     #[must_use]
     pub fn all() -> Vec<Self> {
         // These two are faults by what this project declares. Specifications permit both, and they are among the right
@@ -117,7 +115,6 @@ impl Subject {
         }
     }
 
-    /// The triangle on the grid of the subject.
     #[must_use]
     pub fn placed(&self, triangle: &Triangle) -> Triangle {
         let step = 1i64 << SUBPIXEL_BITS.saturating_sub(self.subpixel_bits());

@@ -31,9 +31,7 @@ pub struct Row {
     pub worst_picture: Option<WrongPicture>,
     /// Pictures that the rule is not used on, since it refuses the right one.
     pub unusable_pictures: u64,
-    /// Right rasterizers that it refuses.
     pub refused_right: Vec<&'static str>,
-    /// Pictures of right rasterizers that it looks at.
     pub right_pictures: u64,
     /// How many of `right_pictures` it refuses.
     pub refused_right_pictures: u64,
@@ -44,7 +42,6 @@ pub struct Passed {
     pub name: &'static str,
     /// Pixels of all pictures of the set in which it differs from the right picture.
     pub wrong_pixels: u64,
-    /// All pixels of the set's pictures.
     pub pixels: u64,
 }
 
@@ -83,7 +80,6 @@ pub struct Report {
     pub visible: [usize; 2],
 }
 
-/// What a subject's picture of a scene came to.
 struct Judged {
     wrong_pixels: u64,
     pixels: u64,

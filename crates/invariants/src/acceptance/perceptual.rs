@@ -55,9 +55,8 @@ pub fn lab_of_all(pixels: &[[u8; 3]]) -> Vec<[f64; 3]> {
 }
 
 /// One number for each pixel, row after row.
-type Plane = Vec<f64>;
+type Channel = Vec<f64>;
 
-/// Weights for the offsets from -r to r.
 type Kernel = Vec<f64>;
 
 fn gaussian(radius: i32, of: impl Fn(f64) -> f64) -> Kernel {
@@ -65,7 +64,7 @@ fn gaussian(radius: i32, of: impl Fn(f64) -> f64) -> Kernel {
 }
 
 /// Filters with one kernel along rows and another along columns; pixels beyond the border are those of the border.
-fn filtered(plane: &[f64], width: usize, along_rows: &[f64], along_columns: &[f64]) -> Plane {
+fn filtered(plane: &[f64], width: usize, along_rows: &[f64], along_columns: &[f64]) -> Channel {
     let height = plane.len() / width;
     let pass = |from: &[f64], kernel: &[f64], length: usize, stride: usize, place: usize| -> f64 {
         let at = place / stride % length;
@@ -73,7 +72,7 @@ fn filtered(plane: &[f64], width: usize, along_rows: &[f64], along_columns: &[f6
         let near = |k: usize| (at + k).saturating_sub(radius).min(length - 1);
         kernel.iter().enumerate().map(|(k, weight)| weight * from[first + near(k) * stride]).sum()
     };
-    let rows: Plane = (0..plane.len()).map(|i| pass(plane, along_rows, width, 1, i)).collect();
+    let rows: Channel = (0..plane.len()).map(|i| pass(plane, along_rows, width, 1, i)).collect();
     (0..plane.len()).map(|i| pass(&rows, along_columns, height, width, i)).collect()
 }
 
@@ -93,7 +92,7 @@ impl Flip {
             .iter()
             .map(|pixel| opponent(to_xyz(pixel.map(|v| linear[usize::from(v)]))))
             .collect();
-        let plane = |i: usize| -> Plane { seen.iter().map(|v| v[i]).collect() };
+        let plane = |i: usize| -> Channel { seen.iter().map(|v| v[i]).collect() };
         let channels = [0, 1, 2].map(|i| contrast_filtered(&plane(i), width, CONTRAST[i]));
         let colours = (0..pixels.len())
             .map(|p| {
@@ -103,13 +102,12 @@ impl Flip {
                 hunt(lab(rgb))
             })
             .collect();
-        let grey: Plane = seen.iter().map(|v| (v[0] + 16.0) / 116.0).collect();
+        let grey: Channel = seen.iter().map(|v| (v[0] + 16.0) / 116.0).collect();
         let [edges, points] = [false, true].map(|points| strengths(&grey, width, points));
         let features = edges.into_iter().zip(points).map(|(edge, point)| [edge, point]).collect();
         Self { colours, features }
     }
 
-    /// The mean error of another picture.
     #[must_use]
     pub fn mean(&self, width: usize, pixels: &[[u8; 3]]) -> f64 {
         let other = Self::new(width, pixels);
@@ -134,7 +132,7 @@ impl Flip {
 const CONTRAST: [[[f64; 2]; 2]; 3] =
     [[[1.0, 0.0047], [0.0, 1e-5]], [[1.0, 0.0053], [0.0, 1e-5]], [[34.1, 0.04], [13.5, 0.025]]];
 
-fn contrast_filtered(plane: &[f64], width: usize, gaussians: [[f64; 2]; 2]) -> Plane {
+fn contrast_filtered(plane: &[f64], width: usize, gaussians: [[f64; 2]; 2]) -> Channel {
     // As wide as the widest of all channels.
     let radius = (3.0 * (0.04 / (2.0 * PI * PI)).sqrt() * PIXELS_PER_DEGREE).ceil() as i32;
     let mut sum = vec![0.0; plane.len()];
@@ -156,7 +154,7 @@ fn contrast_filtered(plane: &[f64], width: usize, gaussians: [[f64; 2]; 2]) -> P
 }
 
 /// The strength of edges, or of points, in both directions together.
-fn strengths(grey: &[f64], width: usize, points: bool) -> Plane {
+fn strengths(grey: &[f64], width: usize, points: bool) -> Channel {
     let deviation = 0.5 * 0.082 * PIXELS_PER_DEGREE;
     let radius = (3.0 * deviation).ceil() as i32;
     let bell = gaussian(radius, |x| libm::exp(-x * x / (2.0 * deviation * deviation)));

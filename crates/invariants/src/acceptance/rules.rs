@@ -12,14 +12,11 @@ use super::drawing::{Drawn, Subject};
 use super::perceptual;
 use super::scenes::{Paint, Scene};
 
-/// Everything that a rule may look at.
 pub struct View<'a> {
     pub scene: &'a Scene,
     /// What is known of the scene, whoever draws it.
     pub seen: &'a Seen,
-    /// What the reference draws of the scene.
     pub right: &'a Drawn,
-    /// What the subject draws of it.
     pub drawn: &'a Drawn,
     /// Whose it is, for what a device reports about itself.
     pub subject: &'a Subject,
@@ -175,7 +172,6 @@ impl View<'_> {
     }
 }
 
-/// The largest difference of a channel.
 fn largest(a: [u8; 3], b: [u8; 3]) -> u8 {
     (0..3).map(|i| a[i].abs_diff(b[i])).max().unwrap_or(0)
 }

@@ -8,7 +8,6 @@ use rasterproof_render::scene::shapes;
 use rasterproof_verify::cases::triangles::FAMILIES;
 use rasterproof_verify::cases::{Rng, Shape, Triangle};
 
-/// How fragments become colours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Paint {
     White,
@@ -20,7 +19,6 @@ pub enum Paint {
     Checker,
 }
 
-/// Triangles and how they are painted.
 #[derive(Clone, Debug)]
 pub struct Scene {
     pub name: String,
@@ -45,7 +43,6 @@ impl Scene {
 
 /// Side of the pictures of the suites, in pixels. A half of dEQP's 256, so that a run takes seconds.
 const SIDE: f64 = 128.0;
-/// How many cases of each family are drawn.
 const CASES: u64 = 2;
 
 /// The scenes of both sets; the random ones depend on the seed.

@@ -28,12 +28,10 @@ use rasterproof_core::triangle::{
 use rasterproof_registry::engines::{Engine, Entry, ExactEngine, LineEngine};
 use rasterproof_render::pipeline::multisample;
 
-/// Requests that are read in one go.
 const READ_BYTES: usize = 1 << 16;
 /// Triangles of a request for depth order.
 const MOST_LAYERS: usize = 64;
 
-/// Answers requests until there are none.
 pub fn serve(entry: &Entry, input: &mut dyn Read, output: &mut dyn Write) -> io::Result<()> {
     let mut input = BufReader::with_capacity(READ_BYTES, input);
     let mut line = Vec::new();
@@ -256,7 +254,6 @@ fn cover(engine: Engine, window: PixelRect, numbers: &[f64]) -> Reply {
     Ok(('C', n, runs))
 }
 
-/// Runs of pixels with the same samples covered.
 fn samples(engine: Engine, window: PixelRect, numbers: &[f64]) -> Reply {
     let corners = [point(&numbers[0..], 0)?, point(&numbers[2..], 1)?, point(&numbers[4..], 2)?];
     let masks = multisample::masks(&engine, corners, window).ok_or(
@@ -273,7 +270,6 @@ fn samples(engine: Engine, window: PixelRect, numbers: &[f64]) -> Reply {
     Ok(('M', n, runs))
 }
 
-/// Runs of pixels that show the same triangle.
 fn depth(engine: Engine, window: PixelRect, numbers: &[f64]) -> Reply {
     let mut list = Vec::new();
     for (number, of_one) in numbers.chunks_exact(9).enumerate() {
@@ -293,7 +289,6 @@ fn depth(engine: Engine, window: PixelRect, numbers: &[f64]) -> Reply {
     Ok(('V', seen.len(), runs))
 }
 
-/// The corners that the near plane leaves.
 fn near(numbers: &[f64]) -> Reply {
     for (i, &number) in numbers.iter().enumerate() {
         let axis = ["x", "y", "z", "w"][i % 4];

@@ -71,7 +71,6 @@ pub(crate) fn seen(
     Ok(runs)
 }
 
-/// The corners that the near plane leaves.
 pub(crate) fn clipped(corners: [[f64; 4]; 3]) -> Vec<[f64; 4]> {
     let vertex =
         |position| ClipVertex { position: DVec4::from_array(position), varying: DVec2::ZERO };

@@ -42,7 +42,6 @@ pub(crate) fn answer(entry: &Entry, verb: &str, window: PixelRect, numbers: &[f6
     }
 }
 
-/// A position, finite.
 fn point(numbers: &[f64], i: usize) -> Result<[f64; 2], String> {
     for (value, axis) in numbers.iter().zip(["x", "y"]) {
         let name = format!("{axis}{i}");

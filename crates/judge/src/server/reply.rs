@@ -7,7 +7,6 @@ use rasterproof_core::triangle::{Span, refused_number};
 /// The letter of an answer, its count and what is counted; or the reason why there is none.
 pub type Reply = Result<(char, usize, Vec<u8>), String>;
 
-/// A refusal with the name of the number that is refused.
 pub fn named(name: &str) -> impl FnOnce(Refusal) -> String {
     move |refusal| refused_number(name, refusal)
 }

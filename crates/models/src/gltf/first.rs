@@ -37,7 +37,6 @@ impl<'a> List<'a> {
         list
     }
 
-    /// The number of what a member names.
     fn number(&self, value: &Value, key: &str) -> Option<usize> {
         self.numbers.get(value.get(key)?.as_str()?).copied()
     }
@@ -55,7 +54,6 @@ fn members(value: &Value, names: &[&str]) -> Map<String, Value> {
     names.iter().filter_map(member).collect()
 }
 
-/// Adds a member where there is a value.
 fn put(map: &mut Map<String, Value>, name: &str, value: Option<usize>) {
     if let Some(value) = value {
         map.insert(name.to_owned(), value.into());
@@ -214,7 +212,6 @@ fn columns(accessors: &List<'_>, views: &List<'_>, buffers: &List<'_>) -> (Vec<V
     (made_views, made)
 }
 
-/// The diffuse colour or texture of a material.
 fn material(value: &Value, textures: &List<'_>, not_drawn: &mut BTreeMap<String, u64>) -> Value {
     let common = value.get("extensions").and_then(|all| all.get("KHR_materials_common"));
     let values = common.unwrap_or(value).get("values").unwrap_or(&Value::Null);

@@ -71,7 +71,6 @@ impl<'a> Pictures<'a> {
     }
 }
 
-/// What is drawn of a material.
 pub(super) fn describe(
     data: &Data<'_>,
     number: usize,
@@ -171,7 +170,6 @@ pub(super) fn describe(
     })
 }
 
-/// The texture of the colour of a material.
 fn colour_texture(material: &Material) -> Option<&Info> {
     let extensions = material.extensions.as_ref();
     match extensions.and_then(|extensions| extensions.pbr_specular_glossiness.as_ref()) {

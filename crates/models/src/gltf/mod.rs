@@ -20,7 +20,7 @@ use gltf_json::validation::Checked;
 use gltf_json::{Node, Root};
 use rasterproof_host::text::{printable_path, printable_short};
 
-use crate::contents::{Contents, Numbers, Part, Polygons};
+use crate::contents::{Contents, FilePart, Numbers, Polygons};
 use crate::{BadFile, Warnings, bad};
 use data::Data;
 use materials::{Described, Pictures, encoded};
@@ -323,7 +323,7 @@ impl Reader<'_> {
             if is_empty { Numbers::Nothing } else { Numbers::OfPositions }
         };
         let name = node.name.as_deref().unwrap_or("");
-        let part = Part {
+        let part = FilePart {
             name: format!("nodes[{number}] {name} {place}").replace("  ", " "),
             material: material.map(|(material, ..)| material),
             to_file,
@@ -340,7 +340,6 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// What vertices have that is not drawn.
     fn count_attributes(&mut self, primitive: &Primitive, vertices: &Vertices<'_>) {
         let material = primitive.material.and_then(|material| {
             let number = material.value();
@@ -504,7 +503,6 @@ impl Reader<'_> {
     }
 }
 
-/// What the vertices of a primitive have.
 struct Vertices<'a> {
     data: &'a Data<'a>,
     primitive: &'a Primitive,

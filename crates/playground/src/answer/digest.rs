@@ -58,7 +58,6 @@ fn add(all: &mut Sha256, case: &Case) -> (u64, u64) {
     (spans, fragments)
 }
 
-/// A fragment to the last bit of its values.
 fn value(all: &mut Sha256, f: &Fragment<glam::DVec2>) {
     [f.x_px, f.y_px].iter().for_each(|v| all.update(v.to_le_bytes()));
     let values = [f.depth, f.varying.x, f.varying.y];

@@ -16,7 +16,6 @@ use rasterproof_core::triangle::FreeCorners;
 use rasterproof_registry::engines::Engine;
 use rasterproof_verify::cases::Triangle;
 
-/// Asks about a pixel of a picture.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Look {

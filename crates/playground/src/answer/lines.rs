@@ -10,7 +10,6 @@ use rasterproof_faults::published::PublishedLine;
 use rasterproof_registry::engines::{self, LineEngine, Specimen};
 use rasterproof_verify::cases::Line;
 
-/// Who draws lines on this page.
 #[derive(Clone, Copy)]
 pub(super) enum Pen {
     Engine(LineEngine),

@@ -19,7 +19,6 @@ use serde_json::{Value, json};
 
 use crate::figures;
 
-/// What the page may ask.
 #[derive(Deserialize)]
 #[serde(tag = "ask", rename_all = "kebab-case", deny_unknown_fields)]
 enum Question {

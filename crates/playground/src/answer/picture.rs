@@ -39,7 +39,6 @@ fn one() -> f64 {
     1.0
 }
 
-/// Something to draw.
 #[derive(Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Picture {
@@ -56,7 +55,6 @@ pub(super) struct Picture {
 }
 
 impl Picture {
-    /// The window, if it is one that can be shown.
     pub fn window(&self) -> Result<PixelRect, String> {
         let [x0, y0, x1, y1] = self.window;
         let side = |low: i32, high: i32| i64::from(high) - i64::from(low);
@@ -73,7 +71,6 @@ impl Picture {
         Ok(PixelRect { x0, y0, x1, y1 })
     }
 
-    /// The triangles, snapped to the lattice.
     pub fn on_lattice(&self) -> Result<Vec<Triangle>, String> {
         let vertex = |c: &Corner| {
             let vertex = ScreenVertex::by_name([c.x, c.y], c.depth, c.w, DVec2::new(c.u, c.v));
@@ -114,7 +111,6 @@ impl Picture {
         Ok(self.triangles.iter().map(|t| [vertex(&t[0]), vertex(&t[1]), vertex(&t[2])]).collect())
     }
 
-    /// Every line, with simple values.
     pub fn lines(&self) -> Vec<Line> {
         let pixel = |[x, y]: [i32; 2]| PixelPoint::new(x, y);
         self.lines.iter().map(|[a, b]| plain_line(pixel(*a), pixel(*b))).collect()
@@ -125,7 +121,6 @@ impl Picture {
         Ok(OffGridCase { window, triangles, is_tiling: false })
     }
 
-    /// The case of the harness that this is.
     pub fn case(&self) -> Result<Case, String> {
         let shape = if self.lines.is_empty() {
             Shape::Triangles { list: self.on_lattice()?, disjoint: false }

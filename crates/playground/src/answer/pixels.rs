@@ -34,7 +34,6 @@ pub(super) enum Painter {
     Free(ExactEngine),
     /// The strict rule for corners as they are given: inside of all three edges, by their exact sides.
     FreeStrict,
-    /// A published algorithm, on either.
     Published(&'static dyn Published),
 }
 

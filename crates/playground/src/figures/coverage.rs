@@ -1,6 +1,6 @@
 //! Figures about which pixels belong to a shape.
 
-use super::sheet::{Panel, Point, Sheet};
+use super::drawing::{Drawing, Panel, Point};
 use super::{Drawn, Given, Predict, cover, number, snapped, with_triangles};
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{PixelRect, snap};
@@ -16,15 +16,15 @@ pub(super) fn one_sample(given: &Given<'_>) -> Result<Drawn, String> {
     let square = [[[low, low], [x, low], [x, y]], [[low, low], [x, y], [low, y]]];
     let panel = Panel::middle(5, 5, 44.0, 10.0);
     let hits = cover(given.fill, &snapped(&square)?, panel.window);
-    let mut sheet = Sheet::new(panel.bottom() + 10.0, given.is_answered);
-    sheet.hits(&panel, &hits, &hits);
-    sheet.grid(&panel);
-    sheet.samples(&panel);
-    sheet.outline(&panel, "ink", &[[low, low], [x, low], [x, y], [low, y]], true);
-    sheet.grip(panel.place([x, y]));
+    let mut drawing = Drawing::new(panel.bottom() + 10.0, given.is_answered);
+    drawing.hits(&panel, &hits, &hits);
+    drawing.grid(&panel);
+    drawing.samples(&panel);
+    drawing.outline(&panel, "ink", &[[low, low], [x, low], [x, y], [low, y]], true);
+    drawing.grip(panel.place([x, y]));
     let pixels = panel.pixels().map(|p| (p, hits.get(p[0], p[1]) != Some(0))).collect();
     Ok(Drawn {
-        sheet,
+        drawing,
         grips: vec![(panel.place([x, y]), [panel.unit; 2])],
         predict: Predict::Pixels(panel, pixels),
         values: vec![
@@ -45,25 +45,25 @@ pub(super) fn snap_to_even(given: &Given<'_>) -> Result<Drawn, String> {
     // Each square holds what is nearest to the grid point in its middle.
     let panel = Panel::middle(6, 5, 44.0, 26.0);
     let middle = |[x, y]: Point| panel.place([x + 0.5, y + 0.5]);
-    let mut sheet = Sheet::new(panel.bottom() + 10.0, given.is_answered);
-    sheet.pixel(&panel, right, "on", "");
-    sheet.grid(&panel);
-    sheet.samples(&panel);
+    let mut drawing = Drawing::new(panel.bottom() + 10.0, given.is_answered);
+    drawing.pixel(&panel, right, "on", "");
+    drawing.grid(&panel);
+    drawing.samples(&panel);
     for i in 0..6 {
         let [along, _] = middle([f64::from(i), 0.0]);
-        sheet.text([along, 18.0], "middle", &i.to_string());
+        drawing.text([along, 18.0], "middle", &i.to_string());
     }
     for j in 0..5 {
         let [_, down] = middle([0.0, f64::from(j)]);
-        sheet.text([panel.corner[0] - 10.0, down + 5.0], "end", &j.to_string());
+        drawing.text([panel.corner[0] - 10.0, down + 5.0], "end", &j.to_string());
     }
     let spot = middle([x, y]);
     if given.is_answered {
-        sheet.arrow("ink", spot, middle(right.map(f64::from)));
+        drawing.arrow("ink", spot, middle(right.map(f64::from)));
     }
-    sheet.grip(spot);
+    drawing.grip(spot);
     Ok(Drawn {
-        sheet,
+        drawing,
         grips: vec![(spot, [panel.unit; 2])],
         predict: Predict::Pixels(panel, panel.pixels().map(|p| (p, p == right)).collect()),
         values: vec![
@@ -79,26 +79,26 @@ pub(super) fn snap_to_even(given: &Given<'_>) -> Result<Drawn, String> {
 pub(super) fn edge_sign(given: &Given<'_>) -> Result<Drawn, String> {
     let [a, b] = [given.at[0], given.at[1]];
     let panel = Panel::middle(9, 7, 36.0, 10.0);
-    let mut sheet = Sheet::new(panel.bottom() + 10.0, given.is_answered);
+    let mut drawing = Drawing::new(panel.bottom() + 10.0, given.is_answered);
     let mut pixels = Vec::new();
     for pixel in panel.pixels() {
         let corners = snapped(&[[a, b, pixel.map(|v| f64::from(v) + 0.5)]])?[0];
         let sign = twice_area(corners).signum();
         let (class, letter) = [("on", "−"), ("twice", "0"), ("one", "+")][(sign + 1) as usize];
-        sheet.pixel(&panel, pixel, class, letter);
+        drawing.pixel(&panel, pixel, class, letter);
         pixels.push((pixel, sign == 0));
     }
-    sheet.grid(&panel);
+    drawing.grid(&panel);
     if !given.is_answered {
-        sheet.samples(&panel);
+        drawing.samples(&panel);
     }
-    sheet.arrow("ink", panel.place(a), panel.place(b));
+    drawing.arrow("ink", panel.place(a), panel.place(b));
     for (point, letter) in [(a, "a"), (b, "b")] {
-        sheet.named_grip(panel.place(point), letter);
+        drawing.named_grip(panel.place(point), letter);
     }
     let zeros = pixels.iter().filter(|(_, is_zero)| *is_zero).count();
     Ok(Drawn {
-        sheet,
+        drawing,
         grips: vec![(panel.place(a), [panel.unit; 2]), (panel.place(b), [panel.unit; 2])],
         predict: Predict::Pixels(panel, pixels),
         values: vec![
@@ -120,18 +120,18 @@ pub(super) fn shared_edge(given: &Given<'_>) -> Result<Drawn, String> {
     let corners = snapped(&square)?;
     let right = cover(given.fill, &corners, panel.window);
     let strict = cover(Engine::Mutant(TriangleMutant::ExclusiveEdges), &corners, panel.window);
-    let mut sheet = Sheet::new(panel.bottom() + 10.0, given.is_answered);
-    sheet.hits(&panel, &strict, &right);
-    sheet.grid(&panel);
-    sheet.samples(&panel);
-    sheet.outline(&panel, "ink", &square[0], true);
-    sheet.outline(&panel, "ink", &square[1], true);
-    sheet.grip(panel.place(corner));
+    let mut drawing = Drawing::new(panel.bottom() + 10.0, given.is_answered);
+    drawing.hits(&panel, &strict, &right);
+    drawing.grid(&panel);
+    drawing.samples(&panel);
+    drawing.outline(&panel, "ink", &square[0], true);
+    drawing.outline(&panel, "ink", &square[1], true);
+    drawing.grip(panel.place(corner));
     let is_hole = |[x, y]: [i32; 2]| strict.get(x, y) < right.get(x, y);
     let pixels: Vec<_> = panel.pixels().map(|pixel| (pixel, is_hole(pixel))).collect();
     let missing = pixels.iter().filter(|(_, is_hole)| *is_hole).count();
     Ok(Drawn {
-        sheet,
+        drawing,
         grips: vec![(panel.place(corner), [panel.unit; 2])],
         predict: Predict::Pixels(panel, pixels),
         values: vec![
@@ -151,7 +151,7 @@ pub(super) fn edge_owner(given: &Given<'_>) -> Result<Drawn, String> {
     let corners = snapped(&triangles)?;
     let panel = Panel::middle(8, 7, 36.0, 10.0);
     let [upper, lower] = [0, 1].map(|i| cover(given.fill, &corners[i..=i], panel.window));
-    let mut sheet = Sheet::new(panel.bottom() + 10.0, given.is_answered);
+    let mut drawing = Drawing::new(panel.bottom() + 10.0, given.is_answered);
     let (mut ties, mut first_tie) = ([0, 0], None);
     for pixel in panel.pixels() {
         let has = |hits: &Coverage| hits.get(pixel[0], pixel[1]) != Some(0);
@@ -160,18 +160,18 @@ pub(super) fn edge_owner(given: &Given<'_>) -> Result<Drawn, String> {
         let letter = if is_tie { "0" } else { "" };
         for (i, (hits, class)) in [(&upper, "one"), (&lower, "two")].into_iter().enumerate() {
             if has(hits) {
-                sheet.pixel(&panel, pixel, class, letter);
+                drawing.pixel(&panel, pixel, class, letter);
                 ties[i] += usize::from(is_tie);
                 first_tie = first_tie.or(is_tie.then_some(pixel));
             }
         }
     }
-    sheet.grid(&panel);
-    sheet.samples(&panel);
+    drawing.grid(&panel);
+    drawing.samples(&panel);
     for triangle in &triangles {
-        sheet.outline(&panel, "ink", triangle, true);
+        drawing.outline(&panel, "ink", triangle, true);
     }
-    sheet.grip(panel.place(q));
+    drawing.grip(panel.place(q));
     // The playground says of this pixel whose it is.
     let explained = first_tie.map_or(String::new(), |[x, y]| format!("&px={x},{y}"));
     let owner = match ties {
@@ -180,7 +180,7 @@ pub(super) fn edge_owner(given: &Given<'_>) -> Result<Drawn, String> {
         _ => 0,
     };
     Ok(Drawn {
-        sheet,
+        drawing,
         grips: vec![(panel.place(q), [0.0, panel.unit])],
         predict: Predict::Choice(owner),
         values: vec![("upper", ties[0].to_string()), ("lower", ties[1].to_string())],
@@ -195,21 +195,21 @@ pub(super) fn row_span(given: &Given<'_>) -> Result<Drawn, String> {
     let panel = Panel::middle(6, 5, 44.0, 10.0);
     let hits = cover(given.fill, &snapped(&[triangle])?, panel.window);
     let row = 2;
-    let mut sheet = Sheet::new(panel.bottom() + 10.0, given.is_answered);
+    let mut drawing = Drawing::new(panel.bottom() + 10.0, given.is_answered);
     let has = |x: i32| hits.get(x, row) != Some(0);
     let columns = panel.window.x0..panel.window.x1;
     for x in columns.clone().filter(|&x| has(x)) {
-        sheet.pixel(&panel, [x, row], "on", "");
+        drawing.pixel(&panel, [x, row], "on", "");
     }
-    sheet.grid(&panel);
-    sheet.samples(&panel);
-    sheet.outline(&panel, "ink", &triangle, true);
+    drawing.grid(&panel);
+    drawing.samples(&panel);
+    drawing.outline(&panel, "ink", &triangle, true);
     let height = f64::from(row) + 0.5;
-    sheet.outline(&panel, "soft", &[[0.0, height], [6.0, height]], false);
-    sheet.grip(panel.place(corner));
+    drawing.outline(&panel, "soft", &[[0.0, height], [6.0, height]], false);
+    drawing.grip(panel.place(corner));
     let crossing = corner[0] * height / 4.0;
     Ok(Drawn {
-        sheet,
+        drawing,
         grips: vec![(panel.place(corner), [panel.unit, 0.0])],
         predict: Predict::Pixels(panel, columns.clone().map(|x| ([x, row], has(x))).collect()),
         values: vec![
@@ -237,15 +237,15 @@ pub(super) fn middle_row(given: &Given<'_>) -> Result<Drawn, String> {
         })
         .map_err(|refused| refused.to_string())?;
     let right = cover(given.fill, &snapped(&[triangle])?, panel.window);
-    let mut sheet = Sheet::new(panel.bottom() + 10.0, given.is_answered);
-    sheet.hits(&panel, &hits, &right);
-    sheet.grid(&panel);
-    sheet.samples(&panel);
-    sheet.outline(&panel, "ink", &triangle, true);
-    sheet.grip(panel.place(middle));
+    let mut drawing = Drawing::new(panel.bottom() + 10.0, given.is_answered);
+    drawing.hits(&panel, &hits, &right);
+    drawing.grid(&panel);
+    drawing.samples(&panel);
+    drawing.outline(&panel, "ink", &triangle, true);
+    drawing.grip(panel.place(middle));
     let twice = panel.pixels().filter(|p| hits.get(p[0], p[1]) > Some(1)).count();
     Ok(Drawn {
-        sheet,
+        drawing,
         grips: vec![(panel.place(middle), [panel.unit; 2])],
         predict: Predict::Number(twice as f64, 0),
         values: vec![

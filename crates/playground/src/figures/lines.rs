@@ -1,6 +1,6 @@
 //! Figures about lines.
 
-use super::sheet::{Panel, Sheet};
+use super::drawing::{Drawing, Panel};
 use super::{Drawn, Given, Predict};
 use rasterproof_core::contract::DrawLine as _;
 use rasterproof_core::grid::PixelRect;
@@ -36,23 +36,23 @@ pub(super) fn there_and_back(given: &Given<'_>) -> Result<Drawn, String> {
         lacks(there, back) + lacks(back, there)
     };
     let ours = [drawn(given, [0, 0], end, panel.window), drawn(given, end, [0, 0], panel.window)];
-    let mut sheet = Sheet::new(panel.bottom() + 10.0, given.is_answered);
+    let mut drawing = Drawing::new(panel.bottom() + 10.0, given.is_answered);
     for pixel in panel.pixels() {
         match (there.contains(&pixel), back.contains(&pixel)) {
-            (true, true) => sheet.pixel(&panel, pixel, "on", ""),
-            (true, false) => sheet.pixel(&panel, pixel, "one", "→"),
-            (false, true) => sheet.pixel(&panel, pixel, "two", "←"),
+            (true, true) => drawing.pixel(&panel, pixel, "on", ""),
+            (true, false) => drawing.pixel(&panel, pixel, "one", "→"),
+            (false, true) => drawing.pixel(&panel, pixel, "two", "←"),
             (false, false) => {}
         }
     }
-    sheet.grid(&panel);
+    drawing.grid(&panel);
     let middle = |p: [i32; 2]| p.map(|v| f64::from(v) + 0.5);
-    sheet.outline(&panel, "ink", &[middle([0, 0]), middle(end)], false);
-    sheet.grip(panel.place(middle(end)));
+    drawing.outline(&panel, "ink", &[middle([0, 0]), middle(end)], false);
+    drawing.grip(panel.place(middle(end)));
     let count = differ(&there, &back);
     let [x, y] = end;
     Ok(Drawn {
-        sheet,
+        drawing,
         grips: vec![(panel.place(middle(end)), [panel.unit; 2])],
         predict: Predict::Number(count as f64, 0),
         values: vec![
@@ -72,19 +72,19 @@ pub(super) fn line_pixels(given: &Given<'_>) -> Result<Drawn, String> {
     let end = given.at[0].map(|v| v as i32);
     let panel = Panel::middle(9, 6, 36.0, 10.0);
     let line = drawn(given, [0, 0], end, panel.window);
-    let mut sheet = Sheet::new(panel.bottom() + 10.0, given.is_answered);
+    let mut drawing = Drawing::new(panel.bottom() + 10.0, given.is_answered);
     for &pixel in &line {
-        sheet.pixel(&panel, pixel, "on", "");
+        drawing.pixel(&panel, pixel, "on", "");
     }
-    sheet.grid(&panel);
-    sheet.samples(&panel);
+    drawing.grid(&panel);
+    drawing.samples(&panel);
     let middle = |p: [i32; 2]| p.map(|v| f64::from(v) + 0.5);
-    sheet.outline(&panel, "ink", &[middle([0, 0]), middle(end)], false);
-    sheet.grip(panel.place(middle(end)));
+    drawing.outline(&panel, "ink", &[middle([0, 0]), middle(end)], false);
+    drawing.grip(panel.place(middle(end)));
     let pixels = panel.pixels().map(|pixel| (pixel, line.contains(&pixel))).collect();
     let [x, y] = end;
     Ok(Drawn {
-        sheet,
+        drawing,
         grips: vec![(panel.place(middle(end)), [panel.unit; 2])],
         predict: Predict::Pixels(panel, pixels),
         values: vec![("x", x.to_string()), ("y", y.to_string()), ("count", line.len().to_string())],

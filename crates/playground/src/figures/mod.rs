@@ -3,10 +3,10 @@
 //! languages. The script of the page inserts what is drawn here and computes no pixel.
 
 mod coverage;
+mod drawing;
 mod light;
 mod lines;
 mod pipeline;
-mod sheet;
 mod values;
 
 use std::sync::LazyLock;
@@ -15,19 +15,18 @@ use serde::Deserialize;
 use serde_json::{Value, json};
 
 use crate::answer::answer_value;
+use drawing::{Drawing, Panel, Point};
 use rasterproof_core::contract::Rasterize as _;
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::{PixelRect, SubpixelPoint};
 use rasterproof_core::triangle::Corners;
 use rasterproof_registry::engines::{self, Engine, LineEngine};
-use sheet::{Panel, Point, Sheet};
 
 /// A figure as `figures.json` describes it.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Figure {
     pub name: String,
-    /// The page that has it, without its ending.
     pub page: String,
     grips: Vec<Grip>,
     en: Text,
@@ -80,7 +79,6 @@ struct Given<'a> {
     pen: LineEngine,
 }
 
-/// What the reader predicts, with what is right.
 enum Predict {
     /// Which of these pixels of a panel.
     Pixels(Panel, Vec<([i32; 2], bool)>),
@@ -91,8 +89,8 @@ enum Predict {
 }
 
 struct Drawn {
-    sheet: Sheet,
-    /// Where each grip lies on the sheet, and how far it moves there for a step of 1 to the right and down;
+    drawing: Drawing,
+    /// Where each grip lies on the drawing, and how far it moves there for a step of 1 to the right and down;
     /// 0 where it does not move.
     grips: Vec<(Point, Point)>,
     predict: Predict,
@@ -104,7 +102,6 @@ struct Drawn {
 
 type Draw = fn(&Given<'_>) -> Result<Drawn, String>;
 
-/// Who draws each figure.
 const DRAWN_BY: [(&str, Draw); 28] = [
     ("one-sample", coverage::one_sample),
     ("snap-to-even", coverage::snap_to_even),
@@ -191,7 +188,7 @@ impl Ask {
             .unwrap_or_else(|| format!("#scene=figure&figure={}&at={}", figure.name, json!(at)));
         Ok(json!({
             "title": text.title, "question": fill(&text.question), "answer": fill(&text.answer),
-            "alt": fill(&text.alt), "at": at, "svg": drawn.sheet.inline(self.is_dark), "predict": predict,
+            "alt": fill(&text.alt), "at": at, "svg": drawn.drawing.inline(self.is_dark), "predict": predict,
             "grips": grips, "link": link,
         }))
     }
@@ -245,7 +242,7 @@ impl Figure {
 
     /// The picture of the figure with its answer, as a file.
     pub fn still(&self) -> Result<String, String> {
-        Ok(self.draw(&[], true, None)?.1.sheet.file())
+        Ok(self.draw(&[], true, None)?.1.drawing.file())
     }
 
     /// What a page says in the place of the figure, with everything for those who read without scripts.
@@ -270,13 +267,11 @@ pub(crate) fn list() -> Vec<Value> {
     ALL.iter().map(entry).collect()
 }
 
-/// The figure of this name.
 pub fn find(name: &str) -> Result<&'static Figure, String> {
     let found = ALL.iter().find(|figure| figure.name == name);
     found.ok_or_else(|| format!("no figure is called {name}"))
 }
 
-/// A text with its numbers.
 fn fill(text: &str, values: &[(&'static str, String)]) -> String {
     values
         .iter()

@@ -3,8 +3,8 @@
 use glam::{DMat4, DVec2, DVec3, DVec4};
 use serde_json::json;
 
+use super::drawing::{Drawing, Panel, Point, WIDTH};
 use super::lines::drawn;
-use super::sheet::{Panel, Point, Sheet, WIDTH};
 use super::{Drawn, Given, Predict, answer_value, cover, number, snapped, with_triangles};
 use rasterproof_core::angle::turn_z;
 use rasterproof_core::frame::Coverage;
@@ -36,34 +36,34 @@ pub(super) fn near_corners(given: &Given<'_>) -> Result<Drawn, String> {
         unit: side / f64::from(SCREEN),
         window: PixelRect::window(SCREEN, SCREEN),
     };
-    let mut sheet = Sheet::new(top + side + 12.0, given.is_answered);
+    let mut drawing = Drawing::new(top + side + 12.0, given.is_answered);
     for (pixel, hits) in panel.pixels().zip(kept["hits"].as_str().unwrap_or("").bytes()) {
         if hits > b'0' {
-            sheet.pixel(&panel, pixel, "on", "");
+            drawing.pixel(&panel, pixel, "on", "");
         }
     }
     let screen = panel.corner;
     let far = [screen[0] + side, screen[1] + side];
-    sheet.path("grid", &[screen, [far[0], screen[1]], far, [screen[0], far[1]]], true);
+    drawing.path("grid", &[screen, [far[0], screen[1]], far, [screen[0], far[1]]], true);
     if given.is_answered && !outline.is_empty() {
-        sheet.outline(&panel, "ink", &outline, true);
+        drawing.outline(&panel, "ink", &outline, true);
     }
-    sheet.path("grid", &[aside(0.0, 0.0), aside(3.0, 0.85)], false);
-    sheet.path("grid", &[aside(0.0, 0.0), aside(3.0, -0.85)], false);
+    drawing.path("grid", &[aside(0.0, 0.0), aside(3.0, 0.85)], false);
+    drawing.path("grid", &[aside(0.0, 0.0), aside(3.0, -0.85)], false);
     let plane = aside(near, 0.0)[0];
-    sheet.path("soft", &[[plane, top], [plane, top + side]], false);
-    sheet.path("ink", &corners.map(|[_, y, w]| aside(w, y)), true);
-    sheet.dot(aside(0.0, 0.0), 4.0);
+    drawing.path("soft", &[[plane, top], [plane, top + side]], false);
+    drawing.path("ink", &corners.map(|[_, y, w]| aside(w, y)), true);
+    drawing.dot(aside(0.0, 0.0), 4.0);
     let eye = aside(0.0, 0.0);
-    sheet.text([eye[0], eye[1] + 22.0], "middle", "w = 0");
+    drawing.text([eye[0], eye[1] + 22.0], "middle", "w = 0");
     let spots = [aside(w, 0.8), [plane, top + side - 8.0]];
     for (spot, letter) in spots.iter().zip(["C", "n"]) {
-        sheet.grip(*spot);
-        sheet.text([spot[0] + 12.0, spot[1] + 1.0], "start", letter);
+        drawing.grip(*spot);
+        drawing.text([spot[0] + 12.0, spot[1] + 1.0], "start", letter);
     }
     let scale = side / 4.5;
     Ok(Drawn {
-        sheet,
+        drawing,
         grips: spots.map(|spot| (spot, [scale, 0.0])).to_vec(),
         predict: Predict::Number(outline.len() as f64, 0),
         values: vec![
@@ -89,7 +89,7 @@ pub(super) fn boards(given: &Given<'_>) -> Result<Drawn, String> {
         window: PixelRect { x0: 0, y0: 0, x1: 48, y1: 27 },
     };
     let camera = frustum(-1.0, 1.0, -1.0, 1.0, 1.0, 100.0).map_err(|error| error.to_string())?;
-    let mut sheet = Sheet::new(panel.bottom() + 48.0, given.is_answered);
+    let mut drawing = Drawing::new(panel.bottom() + 48.0, given.is_answered);
     let (mut heights, mut link) = (Vec::new(), Vec::new());
     for i in 0..5 {
         let z = 1.0 + spacing * f64::from(i);
@@ -100,24 +100,24 @@ pub(super) fn boards(given: &Given<'_>) -> Result<Drawn, String> {
         let class = if i % 2 == 0 { "one" } else { "two" };
         let is_hit = |p: &[i32; 2]| hits.get(p[0], p[1]) != Some(0);
         for pixel in panel.pixels().filter(is_hit) {
-            sheet.pixel(&panel, pixel, class, "");
+            drawing.pixel(&panel, pixel, class, "");
         }
         let is_row = |y: &i32| (0..48).any(|x| is_hit(&[x, *y]));
         heights.push((0..27).filter(is_row).count());
         link.extend(triangles);
         if i == 0 {
-            sheet.outline(&panel, "ink", &board, true);
+            drawing.outline(&panel, "ink", &board, true);
         }
     }
     let horizon = [[0.0, 24.0], [48.0, 24.0]];
-    sheet.outline(&panel, "soft", &horizon, false);
+    drawing.outline(&panel, "soft", &horizon, false);
     let [left, top] = panel.corner;
     let [right, bottom] = panel.place([48.0, 27.0]);
-    sheet.path("grid", &[[left, top], [right, top], [right, bottom], [left, bottom]], true);
+    drawing.path("grid", &[[left, top], [right, top], [right, bottom], [left, bottom]], true);
     let says = format!("Δz = {}", number(spacing, 2));
-    let slider = sheet.slider(given, 0, panel.bottom() + 26.0, &says);
+    let slider = drawing.slider(given, 0, panel.bottom() + 26.0, &says);
     Ok(Drawn {
-        sheet,
+        drawing,
         grips: vec![slider],
         predict: Predict::Number(heights[2] as f64, 0),
         values: vec![
@@ -171,33 +171,33 @@ pub(super) fn divide_first(given: &Given<'_>) -> Result<Drawn, String> {
     // At w = 0 there is no quotient.
     let divided = [a, b].map(|vertex| vertex.position);
     let wrong = if end == 0.0 { Vec::new() } else { naive_columns(given, &divided, panel.window) };
-    let mut sheet = Sheet::new(naive.bottom() + 10.0, given.is_answered);
+    let mut drawing = Drawing::new(naive.bottom() + 10.0, given.is_answered);
     for &x in &right {
-        sheet.pixel(&panel, [x, 0], "on", "");
+        drawing.pixel(&panel, [x, 0], "on", "");
     }
     for &x in &wrong {
-        sheet.pixel(&naive, [x, 0], if right.contains(&x) { "on" } else { "extra" }, "");
+        drawing.pixel(&naive, [x, 0], if right.contains(&x) { "on" } else { "extra" }, "");
     }
     // From above: x to the right, z up.
     let above = |x: f64, z: f64| [180.0 + x * 30.0, 116.0 - z * 30.0];
     for (side, column) in [(-1.0, 0.0), (1.0, 13.0)] {
-        sheet.path("grid", &[above(0.0, 0.0), above(side * 3.4, 3.4)], false);
-        sheet.path("grid", &[above(side, near), panel.place([column, 0.0])], false);
+        drawing.path("grid", &[above(0.0, 0.0), above(side * 3.4, 3.4)], false);
+        drawing.path("grid", &[above(side, near), panel.place([column, 0.0])], false);
     }
-    sheet.path("soft", &[above(-4.0, near), above(4.0, near)], false);
+    drawing.path("soft", &[above(-4.0, near), above(4.0, near)], false);
     let [x, y] = above(-4.0, near);
-    sheet.text([x, y - 6.0], "start", "z = 1");
-    sheet.dot(above(0.0, 0.0), 4.0);
-    sheet.arrow("ink", above(1.0, 3.0), above(1.0, end));
-    sheet.named_grip(above(1.0, end), &format!("z = {}", number(end, 2)));
-    sheet.grid(&panel);
+    drawing.text([x, y - 6.0], "start", "z = 1");
+    drawing.dot(above(0.0, 0.0), 4.0);
+    drawing.arrow("ink", above(1.0, 3.0), above(1.0, end));
+    drawing.named_grip(above(1.0, end), &format!("z = {}", number(end, 2)));
+    drawing.grid(&panel);
     if given.is_answered {
-        sheet.grid(&naive);
-        sheet.text([12.0, naive.corner[1] - 7.0], "start", "x / z");
+        drawing.grid(&naive);
+        drawing.text([12.0, naive.corner[1] - 7.0], "start", "x / z");
     }
     let pixels = (0..13).map(|x| ([x, 0], right.contains(&x))).collect();
     Ok(Drawn {
-        sheet,
+        drawing,
         grips: vec![(above(1.0, end), [0.0, -30.0])],
         predict: Predict::Pixels(panel, pixels),
         values: vec![
@@ -228,22 +228,22 @@ pub(super) fn viewport_size(given: &Given<'_>) -> Result<Drawn, String> {
         Ok(cover(given.fill, &snapped(&halves(corners))?, panel.window))
     };
     let (is, should) = (hits(wrong)?, hits(right)?);
-    let mut sheet = Sheet::new(panel.bottom() + 10.0, given.is_answered);
-    sheet.hits(&panel, &is, &should);
-    sheet.grid(&panel);
-    sheet.samples(&panel);
+    let mut drawing = Drawing::new(panel.bottom() + 10.0, given.is_answered);
+    drawing.hits(&panel, &is, &should);
+    drawing.grid(&panel);
+    drawing.samples(&panel);
     if given.is_answered {
-        sheet.outline(&panel, "soft", &wrong, true);
+        drawing.outline(&panel, "soft", &wrong, true);
     }
-    sheet.outline(&panel, "ink", &right, true);
+    drawing.outline(&panel, "ink", &right, true);
     let spot = panel.place(right[2]);
-    sheet.grip(spot);
+    drawing.grip(spot);
     let missing = |[x, y]: [i32; 2]| is.get(x, y) < should.get(x, y);
     let pixels: Vec<_> = panel.pixels().map(|pixel| (pixel, missing(pixel))).collect();
     let count = pixels.iter().filter(|(_, is_missing)| *is_missing).count();
     let half = panel.unit * 2.5;
     Ok(Drawn {
-        sheet,
+        drawing,
         grips: vec![(spot, [half, -half])],
         predict: Predict::Pixels(panel, pixels),
         values: vec![
@@ -256,7 +256,6 @@ pub(super) fn viewport_size(given: &Given<'_>) -> Result<Drawn, String> {
     })
 }
 
-/// A point of space, and its pixel.
 pub(super) fn to_pixel(given: &Given<'_>) -> Result<Drawn, String> {
     let ([x, z], y) = (given.at[0], 1.0);
     let panel = Panel {
@@ -268,28 +267,28 @@ pub(super) fn to_pixel(given: &Given<'_>) -> Result<Drawn, String> {
     let point = placed(panel.window, camera * DVec4::new(x, y, z, 1.0))?;
     let pixel = point.map(|v| v.floor() as i32);
     let is_inside = panel.window.contains(pixel[0], pixel[1]);
-    let mut sheet = Sheet::new(192.0, given.is_answered);
+    let mut drawing = Drawing::new(192.0, given.is_answered);
     if is_inside {
-        sheet.pixel(&panel, pixel, "on", "");
+        drawing.pixel(&panel, pixel, "on", "");
     }
-    sheet.grid(&panel);
+    drawing.grid(&panel);
     if given.is_answered && is_inside {
-        sheet.dot(panel.place(point), 4.0);
+        drawing.dot(panel.place(point), 4.0);
     }
     // From above: x to the right, z up.
     let above = |x: f64, z: f64| [88.0 + x * 24.0, 176.0 - z * 24.0];
     for side in [-1.0, 1.0] {
-        sheet.path("grid", &[above(0.0, 0.0), above(side * 3.4, 3.4)], false);
+        drawing.path("grid", &[above(0.0, 0.0), above(side * 3.4, 3.4)], false);
     }
-    sheet.path("ink", &[above(-1.0, 1.0), above(1.0, 1.0)], false);
-    sheet.path("soft", &[above(0.0, 0.0), above(0.0, 6.6)], false);
-    sheet.path("soft", &[above(0.0, 0.0), above(x, z)], false);
-    sheet.dot(above(0.0, 0.0), 4.0);
-    sheet.grip(above(x, z));
+    drawing.path("ink", &[above(-1.0, 1.0), above(1.0, 1.0)], false);
+    drawing.path("soft", &[above(0.0, 0.0), above(0.0, 6.6)], false);
+    drawing.path("soft", &[above(0.0, 0.0), above(x, z)], false);
+    drawing.dot(above(0.0, 0.0), 4.0);
+    drawing.grip(above(x, z));
     let [left, top] = above(x, z);
-    sheet.text([left, top - 12.0], "middle", &format!("{}, {}", number(x, 2), number(z, 2)));
+    drawing.text([left, top - 12.0], "middle", &format!("{}, {}", number(x, 2), number(z, 2)));
     Ok(Drawn {
-        sheet,
+        drawing,
         grips: vec![(above(x, z), [24.0, -24.0])],
         predict: Predict::Pixels(panel, panel.pixels().map(|p| (p, p == pixel)).collect()),
         values: vec![
@@ -314,20 +313,20 @@ pub(super) fn winding(given: &Given<'_>) -> Result<Drawn, String> {
         "picture": { "window": [0, 0, 20, 10], "snap": true, "triangles": list },
     }))?;
     let removed = [0, 1].map(|i| answer["areas"][i]["removed"] == json!(true));
-    let mut sheet = Sheet::new(panel.bottom() + 10.0, given.is_answered);
+    let mut drawing = Drawing::new(panel.bottom() + 10.0, given.is_answered);
     for (pixel, hits) in panel.pixels().zip(answer["hits"].as_str().unwrap_or("").bytes()) {
         if hits > b'0' {
-            sheet.pixel(&panel, pixel, "on", "");
+            drawing.pixel(&panel, pixel, "on", "");
         }
     }
-    sheet.grid(&panel);
+    drawing.grid(&panel);
     for triangle in &triangles {
         for i in 0..3 {
             let ends = [triangle[i], triangle[(i + 1) % 3]].map(|p| panel.place(p));
-            sheet.arrow("ink", ends[0], ends[1]);
+            drawing.arrow("ink", ends[0], ends[1]);
         }
     }
-    sheet.grip(panel.place(c));
+    drawing.grip(panel.place(c));
     let right = match removed {
         [true, false] => 0,
         [false, true] => 1,
@@ -337,7 +336,7 @@ pub(super) fn winding(given: &Given<'_>) -> Result<Drawn, String> {
     // In square pixels: a subpixel is 1/256 px wide.
     let area = answer["areas"][0]["twiceArea"].as_str().and_then(|text| text.parse::<f64>().ok());
     Ok(Drawn {
-        sheet,
+        drawing,
         grips: vec![(panel.place(c), [panel.unit; 2])],
         predict: Predict::Choice(right),
         values: vec![("area", number(area.unwrap_or(0.0) / 65536.0, 2))],
@@ -353,30 +352,30 @@ pub(super) fn thin_turn(given: &Given<'_>) -> Result<Drawn, String> {
     let snapped = snapped(&[corners])?[0];
     let sign = twice_area(snapped).signum();
     let place = |x: f64, sub: f64| [30.0 + x * 150.0, 24.0 + sub * 100.0];
-    let mut sheet = Sheet::new(184.0, given.is_answered);
+    let mut drawing = Drawing::new(184.0, given.is_answered);
     for row in [0.0, 1.0] {
-        sheet.path("grid", &[place(0.0, row), place(2.0, row)], false);
+        drawing.path("grid", &[place(0.0, row), place(2.0, row)], false);
         let [x, y] = place(0.0, row);
-        sheet.text([x - 8.0, y + 5.0], "end", &number(row, 0));
+        drawing.text([x - 8.0, y + 5.0], "end", &number(row, 0));
     }
     for column in [0.0, 1.0, 2.0] {
-        sheet.path("grid", &[place(column, 0.0), place(column, 1.4)], false);
+        drawing.path("grid", &[place(column, 0.0), place(column, 1.4)], false);
     }
     let exact = [0, 1, 2].map(|i| place(i as f64, heights[i]));
     for i in 0..3 {
-        sheet.arrow("soft", exact[i], exact[(i + 1) % 3]);
+        drawing.arrow("soft", exact[i], exact[(i + 1) % 3]);
     }
     if given.is_answered {
         let drawn = snapped.map(|p| place(f64::from(p.x) / 256.0, f64::from(p.y)));
         for i in 0..3 {
-            sheet.arrow("ink", drawn[i], drawn[(i + 1) % 3]);
+            drawing.arrow("ink", drawn[i], drawn[(i + 1) % 3]);
         }
     }
-    sheet.named_grip(exact[1], "b");
+    drawing.named_grip(exact[1], "b");
     let before = heights[2] - 2.0 * heights[1];
     let square = twice_area(snapped) as f64 / 256.0;
     Ok(Drawn {
-        sheet,
+        drawing,
         grips: vec![(exact[1], [0.0, 100.0])],
         predict: Predict::Choice(match sign {
             1 => 0,
@@ -407,23 +406,23 @@ pub(super) fn order_matters(given: &Given<'_>) -> Result<Drawn, String> {
     let (asked, other) = (moved(scale * shift), moved(shift * scale));
     let panel = Panel::middle(11, 4, 31.0, 10.0);
     let hits = cover(given.fill, &snapped(&halves(asked))?, panel.window);
-    let mut sheet = Sheet::new(panel.bottom() + 88.0, given.is_answered);
-    sheet.hits(&panel, &hits, &hits);
-    sheet.grid(&panel);
-    sheet.samples(&panel);
-    sheet.outline(&panel, "ink", &square, true);
+    let mut drawing = Drawing::new(panel.bottom() + 88.0, given.is_answered);
+    drawing.hits(&panel, &hits, &hits);
+    drawing.grid(&panel);
+    drawing.samples(&panel);
+    drawing.outline(&panel, "ink", &square, true);
     if given.is_answered {
-        sheet.outline(&panel, "ink", &asked, true);
-        sheet.outline(&panel, "soft", &other, true);
+        drawing.outline(&panel, "ink", &asked, true);
+        drawing.outline(&panel, "soft", &other, true);
     }
     let below = panel.bottom();
     let sliders = vec![
-        sheet.slider(given, 0, below + 26.0, &format!("+{}", number(by, 0))),
-        sheet.slider(given, 1, below + 64.0, &format!("× {}", number(times, 1))),
+        drawing.slider(given, 0, below + 26.0, &format!("+{}", number(by, 0))),
+        drawing.slider(given, 1, below + 64.0, &format!("× {}", number(times, 1))),
     ];
     let pixels = panel.pixels().map(|p| (p, hits.get(p[0], p[1]) != Some(0))).collect();
     Ok(Drawn {
-        sheet,
+        drawing,
         grips: sliders,
         predict: Predict::Pixels(panel, pixels),
         values: vec![
@@ -438,7 +437,6 @@ pub(super) fn order_matters(given: &Given<'_>) -> Result<Drawn, String> {
     })
 }
 
-/// A shape that is turned about a point.
 pub(super) fn turn_about(given: &Given<'_>) -> Result<Drawn, String> {
     let ([x, y], degrees) = (given.at[0], given.at[1][0]);
     let centre = DVec3::new(x, y, 0.0);
@@ -450,16 +448,16 @@ pub(super) fn turn_about(given: &Given<'_>) -> Result<Drawn, String> {
         [[1.5, 0.0], [5.0, -1.5], [5.0, 1.5]].map(|[dx, dy]| centre + DVec3::new(dx, dy, 0.0));
     let turned = shape.map(|p| window(turn.transform_point3(p)));
     let hits = cover(given.fill, &snapped(&[turned])?, panel.window);
-    let mut sheet = Sheet::new(panel.bottom() + 48.0, given.is_answered);
-    sheet.hits(&panel, &hits, &hits);
-    sheet.grid(&panel);
-    sheet.outline(&panel, "soft", &shape.map(window), true);
+    let mut drawing = Drawing::new(panel.bottom() + 48.0, given.is_answered);
+    drawing.hits(&panel, &hits, &hits);
+    drawing.grid(&panel);
+    drawing.outline(&panel, "soft", &shape.map(window), true);
     if given.is_answered {
-        sheet.outline(&panel, "ink", &turned, true);
+        drawing.outline(&panel, "ink", &turned, true);
     }
-    sheet.named_grip(panel.place(window(centre)), "c");
+    drawing.named_grip(panel.place(window(centre)), "c");
     let says = format!("{}°", number(degrees, 0));
-    let slider = sheet.slider(given, 1, panel.bottom() + 26.0, &says);
+    let slider = drawing.slider(given, 1, panel.bottom() + 26.0, &says);
     let to = turn.transform_point3(centre + DVec3::new(4.0, 0.0, 0.0)) - centre;
     let right = match (to.x.abs() >= to.y.abs(), to.x > 0.0, to.y > 0.0) {
         (true, true, _) => 0,
@@ -468,7 +466,7 @@ pub(super) fn turn_about(given: &Given<'_>) -> Result<Drawn, String> {
         (false, _, false) => 3,
     };
     Ok(Drawn {
-        sheet,
+        drawing,
         grips: vec![(panel.place(window(centre)), [panel.unit, -panel.unit]), slider],
         predict: Predict::Choice(right),
         values: vec![("x", number(x, 0)), ("y", number(y, 0)), ("degrees", number(degrees, 0))],

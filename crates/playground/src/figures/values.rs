@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::sheet::{Panel, Point, Sheet};
+use super::drawing::{Drawing, Panel, Point};
 use super::{Drawn, Given, Predict, number, snapped, with_triangles};
 use crate::answer::along;
 use rasterproof_core::contract::Interpolate as _;
@@ -40,7 +40,6 @@ fn values(
     Ok(frame)
 }
 
-/// The same by a published algorithm.
 fn published(
     specimen: &dyn Published,
     triangles: &[[Corner; 3]],
@@ -79,17 +78,17 @@ pub(super) fn weights(given: &Given<'_>) -> Result<Drawn, String> {
         .map(|[[x, y], [u, v]]| [x, y, 1.0, 0.0, u, v]);
     let frame = values(given.fill, &[valued], panel.window)?;
     let value = frame.get(pixel[0], pixel[1]).flatten().map(|f| f.varying.x);
-    let mut sheet = Sheet::new(panel.bottom() + 26.0, given.is_answered);
+    let mut drawing = Drawing::new(panel.bottom() + 26.0, given.is_answered);
     if given.is_answered && value.is_some() {
         for (part, class) in [([p, b, c], "one"), ([p, c, a], "two"), ([p, a, b], "twice")] {
-            sheet.outline(&panel, class, &part, true);
+            drawing.outline(&panel, class, &part, true);
         }
     }
-    sheet.grid(&panel);
-    sheet.outline(&panel, "ink", &corners, true);
+    drawing.grid(&panel);
+    drawing.outline(&panel, "ink", &corners, true);
     if given.is_answered {
         for corner in corners {
-            sheet.outline(&panel, "soft", &[p, corner], false);
+            drawing.outline(&panel, "soft", &[p, corner], false);
         }
     }
     for (corner, anchor, [dx, dy], says) in [
@@ -98,14 +97,14 @@ pub(super) fn weights(given: &Given<'_>) -> Result<Drawn, String> {
         (c, "end", [-6.0, 14.0], "C 60"),
     ] {
         let [x, y] = panel.place(corner);
-        sheet.text([x + dx, y + dy], anchor, says);
+        drawing.text([x + dx, y + dy], anchor, says);
     }
-    sheet.named_grip(panel.place(p), "P");
+    drawing.named_grip(panel.place(p), "P");
     let percent = shares.map(|share| number(share * 100.0, 2));
     let [wa, wb, wc] = percent;
     let plane = 100.0 * shares[0] + 20.0 * shares[1] + 60.0 * shares[2];
     Ok(Drawn {
-        sheet,
+        drawing,
         grips: vec![(panel.place(p), [panel.unit; 2])],
         predict: Predict::Number(shares[0] * 100.0, 0),
         values: vec![
@@ -140,22 +139,22 @@ pub(super) fn wrong_corner(given: &Given<'_>) -> Result<Drawn, String> {
     let right = Panel { corner: [183.0, 30.0], ..left };
     let wrong = published(&SysuWeights, &[valued], left.window)?;
     let ours = values(given.fill, &[valued], left.window)?;
-    let mut sheet = Sheet::new(left.bottom() + 30.0, given.is_answered);
+    let mut drawing = Drawing::new(left.bottom() + 30.0, given.is_answered);
     for (panel, frame) in [(&left, &wrong), (&right, &ours)] {
         for pixel in panel.pixels() {
             if let Some(DVec2 { x, y }) = frame.get(pixel[0], pixel[1]).flatten().map(|f| f.varying)
             {
-                sheet.colour(panel, pixel, glam::DVec3::new(x, y, 1.0 - x - y));
+                drawing.colour(panel, pixel, glam::DVec3::new(x, y, 1.0 - x - y));
             }
         }
-        sheet.grid(panel);
-        sheet.outline(panel, "ink", &corners, true);
+        drawing.grid(panel);
+        drawing.outline(panel, "ink", &corners, true);
         for (corner, (letter, dy)) in corners.iter().zip([("A", 22.0), ("B", -8.0), ("C", 20.0)]) {
             let [x, y] = panel.place(*corner);
-            sheet.text([x, y + dy], "middle", letter);
+            drawing.text([x, y + dy], "middle", letter);
         }
     }
-    sheet.grip(left.place(corners[0]));
+    drawing.grip(left.place(corners[0]));
     // The pixel nearest to each corner, and how red it is.
     let redness = corners.map(|corner| {
         let fragments = left.pixels().filter_map(|p| wrong.get(p[0], p[1]).flatten());
@@ -166,7 +165,7 @@ pub(super) fn wrong_corner(given: &Given<'_>) -> Result<Drawn, String> {
     });
     let red = (0..3).max_by(|&a, &b| redness[a].total_cmp(&redness[b])).unwrap_or(0);
     Ok(Drawn {
-        sheet,
+        drawing,
         grips: vec![(left.place(corners[0]), [left.unit; 2])],
         predict: Predict::Choice(red),
         values: vec![("red", ["A", "B", "C"][red].to_owned())],
@@ -196,7 +195,7 @@ pub(super) fn affine_kink(given: &Given<'_>) -> Result<Drawn, String> {
     let is_dark = |f: Fragment<DVec2>| {
         ((f.varying.x * 4.0 + 1e-9).floor() + (f.varying.y * 4.0 + 1e-9).floor()) % 2.0 != 0.0
     };
-    let mut sheet = Sheet::new(left.bottom() + 44.0, given.is_answered);
+    let mut drawing = Drawing::new(left.bottom() + 44.0, given.is_answered);
     let mut differ = 0;
     for pixel in left.pixels() {
         let [wrong, right_one] =
@@ -204,19 +203,19 @@ pub(super) fn affine_kink(given: &Given<'_>) -> Result<Drawn, String> {
         differ += usize::from(wrong != right_one);
         for (panel, dark) in [(&left, wrong), (&right, right_one)] {
             if let Some(dark) = dark {
-                sheet.pixel(panel, pixel, if dark { "dark" } else { "pale" }, "");
+                drawing.pixel(panel, pixel, if dark { "dark" } else { "pale" }, "");
             }
         }
     }
     for panel in [&left, &right] {
-        sheet.outline(panel, "ink", &floor.map(|[x, y, ..]| [x, y]), true);
+        drawing.outline(panel, "ink", &floor.map(|[x, y, ..]| [x, y]), true);
         if !given.is_answered {
-            sheet.outline(panel, "soft", &[[2.0, 29.0], [20.0, 4.0]], false);
+            drawing.outline(panel, "soft", &[[2.0, 29.0], [20.0, 4.0]], false);
         }
     }
-    let slider = sheet.slider(given, 0, left.bottom() + 24.0, &format!("w = {}", number(far, 2)));
+    let slider = drawing.slider(given, 0, left.bottom() + 24.0, &format!("w = {}", number(far, 2)));
     Ok(Drawn {
-        sheet,
+        drawing,
         grips: vec![slider],
         predict: Predict::Choice(if far == 1.0 { 2 } else { 0 }),
         values: vec![("far", number(far, 2)), ("differ", differ.to_string())],
@@ -232,21 +231,21 @@ pub(super) fn affine_kink(given: &Given<'_>) -> Result<Drawn, String> {
 pub(super) fn value_midway(given: &Given<'_>) -> Result<Drawn, String> {
     let far = given.at[0][0];
     let pairs = along(given.pen, [1.0, far], 12)?;
-    let mut sheet = Sheet::new(200.0, given.is_answered);
+    let mut drawing = Drawing::new(200.0, given.is_answered);
     let middle = pairs[6][1];
     for (row, top, says) in [(0, 34.0, "v"), (1, 100.0, "(v/w) / (1/w)")] {
         let panel = Panel::middle(13, 1, 26.0, top);
         for (x, pair) in (0..).zip(&pairs) {
-            sheet.colour(&panel, [x, 0], grey(pair[row]));
+            drawing.colour(&panel, [x, 0], grey(pair[row]));
         }
-        sheet.grid(&panel);
-        sheet.text([12.0, top - 8.0], "start", says);
+        drawing.grid(&panel);
+        drawing.text([12.0, top - 8.0], "start", says);
         let [x, y] = panel.place([6.5, 1.0]);
-        sheet.path("ink", &[[x - 6.0, y + 12.0], [x, y + 3.0], [x + 6.0, y + 12.0]], true);
+        drawing.path("ink", &[[x - 6.0, y + 12.0], [x, y + 3.0], [x + 6.0, y + 12.0]], true);
     }
-    let slider = sheet.slider(given, 0, 176.0, &format!("w = {}", number(far, 1)));
+    let slider = drawing.slider(given, 0, 176.0, &format!("w = {}", number(far, 1)));
     Ok(Drawn {
-        sheet,
+        drawing,
         grips: vec![slider],
         predict: Predict::Number(middle * 100.0, 0),
         values: vec![("far", number(far, 1)), ("value", number(middle * 100.0, 0))],
@@ -263,7 +262,7 @@ pub(super) fn rod_middle(given: &Given<'_>) -> Result<Drawn, String> {
     // From above: x to the right, z up; the eye looks along z through the film at z = 1.
     let above = |x: f64, z: f64| [172.0 + x * 24.0, 188.0 - z * 24.0];
     let panel = Panel::middle(13, 1, 26.0, 212.0);
-    let mut sheet = Sheet::new(panel.bottom() + 10.0, given.is_answered);
+    let mut drawing = Drawing::new(panel.bottom() + 10.0, given.is_answered);
     for (x, pair) in (0..).zip(&shares) {
         let class = if x == right as i32 {
             "twice"
@@ -272,28 +271,28 @@ pub(super) fn rod_middle(given: &Given<'_>) -> Result<Drawn, String> {
         } else {
             "two"
         };
-        sheet.pixel(&panel, [x, 0], class, "");
+        drawing.pixel(&panel, [x, 0], class, "");
     }
-    sheet.grid(&panel);
+    drawing.grid(&panel);
     for (end, column) in [(-1.0, 0.0), (1.0, 13.0)] {
-        sheet.path("grid", &[above(end, 1.0), panel.place([column, 0.0])], false);
-        sheet.path("soft", &[above(0.0, 0.0), above(end * 7.0, 7.0)], false);
+        drawing.path("grid", &[above(end, 1.0), panel.place([column, 0.0])], false);
+        drawing.path("soft", &[above(0.0, 0.0), above(end * 7.0, 7.0)], false);
     }
-    sheet.path("ink", &[above(-1.0, 1.0), above(1.0, 1.0)], false);
+    drawing.path("ink", &[above(-1.0, 1.0), above(1.0, 1.0)], false);
     let (a, b) = (above(-near, near), above(far, far));
-    sheet.path("ink", &[a, b], false);
-    sheet.dot(above(0.0, 0.0), 4.0);
+    drawing.path("ink", &[a, b], false);
+    drawing.dot(above(0.0, 0.0), 4.0);
     let middle = [(a[0] + b[0]) / 2.0, (a[1] + b[1]) / 2.0];
-    sheet.dot(middle, 4.0);
-    sheet.text([middle[0] + 4.0, middle[1] - 8.0], "middle", "m");
+    drawing.dot(middle, 4.0);
+    drawing.text([middle[0] + 4.0, middle[1] - 8.0], "middle", "m");
     if given.is_answered {
-        sheet.path("soft", &[middle, above(0.0, 0.0)], false);
+        drawing.path("soft", &[middle, above(0.0, 0.0)], false);
     }
-    sheet.grip(a);
-    sheet.grip(b);
+    drawing.grip(a);
+    drawing.grip(b);
     let share = far / (near + far);
     Ok(Drawn {
-        sheet,
+        drawing,
         grips: vec![(a, [-24.0, 0.0]), (b, [24.0, 0.0])],
         predict: Predict::Pixels(panel, (0..13).map(|x| ([x, 0], x == right as i32)).collect()),
         values: vec![
@@ -358,37 +357,37 @@ pub(super) fn nearer(given: &Given<'_>) -> Result<Drawn, String> {
     }
     let shows_last = in_front(given.fill, order[0], order[1], &panel)?;
     let shows_b: Vec<_> = shows_last.iter().map(|&is_last| is_last == is_b_last).collect();
-    let mut sheet = Sheet::new(painter.bottom() + 10.0, given.is_answered);
+    let mut drawing = Drawing::new(painter.bottom() + 10.0, given.is_answered);
     let mut wrong = 0;
     for (x, &is_b) in (0..).zip(&shows_b) {
         let paint = |is_b: bool| if is_b { ("two", "B") } else { ("one", "A") };
         let (class, letter) = paint(is_b);
-        sheet.pixel(&panel, [x, 0], class, letter);
+        drawing.pixel(&panel, [x, 0], class, letter);
         let (class, letter) = paint(is_b_last);
-        sheet.pixel(&painter, [x, 0], class, letter);
+        drawing.pixel(&painter, [x, 0], class, letter);
         wrong += usize::from(is_b != is_b_last);
     }
     let [left, _] = panel.corner;
     let right = left + 5.0 * panel.unit;
     for z in [10.0, 30.0, 50.0] {
-        sheet.path("grid", &[[left, up(z)], [right, up(z)]], false);
-        sheet.text([left - 6.0, up(z) + 5.0], "end", &number(z, 0));
+        drawing.path("grid", &[[left, up(z)], [right, up(z)]], false);
+        drawing.text([left - 6.0, up(z) + 5.0], "end", &number(z, 0));
     }
     let at = |i: usize, z: f64| [left + (i as f64 + 0.5) * panel.unit, up(z)];
     let slanted: Vec<Point> = distances.iter().enumerate().map(|(i, &z)| at(i, z)).collect();
-    sheet.path("ink", &slanted, false);
+    drawing.path("ink", &slanted, false);
     for point in &slanted {
-        sheet.dot(*point, 3.0);
+        drawing.dot(*point, 3.0);
     }
-    sheet.text([slanted[4][0] + 10.0, slanted[4][1] + 16.0], "start", "A");
-    sheet.path("ink", &[[left, up(b)], [right, up(b)]], false);
-    sheet.named_grip([right, up(b)], "B");
-    sheet.grid(&panel);
+    drawing.text([slanted[4][0] + 10.0, slanted[4][1] + 16.0], "start", "A");
+    drawing.path("ink", &[[left, up(b)], [right, up(b)]], false);
+    drawing.named_grip([right, up(b)], "B");
+    drawing.grid(&panel);
     if given.is_answered {
-        sheet.grid(&painter);
+        drawing.grid(&painter);
     }
     Ok(Drawn {
-        sheet,
+        drawing,
         grips: vec![([right, up(b)], [0.0, -2.0])],
         predict: Predict::Pixels(panel, (0..).zip(&shows_b).map(|(x, &is)| ([x, 0], is)).collect()),
         values: vec![
@@ -409,16 +408,17 @@ pub(super) fn z_fighting(given: &Given<'_>) -> Result<Drawn, String> {
     let second = first.map(|depth| depth - gap * step);
     let panel = Panel::middle(16, 1, 21.0, 20.0);
     let shows_near = in_front(given.fill, first, second, &panel)?;
-    let mut sheet = Sheet::new(panel.bottom() + 54.0, given.is_answered);
+    let mut drawing = Drawing::new(panel.bottom() + 54.0, given.is_answered);
     for (x, &is_near) in (0..).zip(&shows_near) {
         let (class, letter) = if is_near { ("one", "N") } else { ("two", "F") };
-        sheet.pixel(&panel, [x, 0], class, letter);
+        drawing.pixel(&panel, [x, 0], class, letter);
     }
-    sheet.grid(&panel);
-    let slider = sheet.slider(given, 0, panel.bottom() + 30.0, &format!("Δ = {}", number(gap, 2)));
+    drawing.grid(&panel);
+    let slider =
+        drawing.slider(given, 0, panel.bottom() + 30.0, &format!("Δ = {}", number(gap, 2)));
     let seen = shows_near.iter().filter(|&&is_near| is_near).count();
     Ok(Drawn {
-        sheet,
+        drawing,
         grips: vec![slider],
         predict: Predict::Number(seen as f64, 0),
         values: vec![("gap", number(gap, 2)), ("seen", seen.to_string())],

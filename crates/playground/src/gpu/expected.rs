@@ -11,7 +11,6 @@ use rasterproof_verify::oracle::clipped::{self, borders};
 use rasterproof_verify::oracle::segments::{self, Ends, Fit, Pixels};
 use serde::Serialize;
 
-/// The three words of a verdict.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub(super) enum Word {
@@ -26,7 +25,6 @@ pub(super) const SAMPLES: [[i32; 2]; 4] = [[96, 32], [224, 96], [32, 160], [160,
 /// Pixels whose centres, or samples, are judged: hits in planes of a cell, one for each sample that is read.
 pub(super) type Planes = Vec<Vec<u8>>;
 
-/// How many planes a check reads.
 pub(super) fn planes(check: Check, device: Device) -> usize {
     match check {
         Check::Samples if device.samples_apart => 4,
@@ -94,7 +92,6 @@ pub(super) fn expected(check: Check, device: Device, subject: &Subject, cell: i3
     hits
 }
 
-/// How often each pixel is covered.
 pub(super) fn covered(subject: &Subject, cell: i32) -> Vec<u8> {
     let mut hits = vec![0; (cell * cell) as usize];
     for corners in subject.corners() {

@@ -43,7 +43,6 @@ pub(crate) struct Tally {
     worst: f64,
 }
 
-/// A pixel that differs.
 #[derive(Serialize)]
 struct Mark {
     plane: usize,
@@ -140,7 +139,6 @@ impl Judge {
     }
 }
 
-/// A cell of what was read back.
 struct Cell<'a> {
     layout: Layout,
     origin: [i32; 2],
@@ -155,7 +153,6 @@ impl Cell<'_> {
         &self.bytes[start..start + self.layout.cell as usize * self.size]
     }
 
-    /// The hits in planes.
     fn planes(&self) -> Planes {
         let mut planes = vec![Vec::new(); self.size];
         for y in 0..self.layout.cell {
@@ -177,7 +174,6 @@ impl Cell<'_> {
     }
 }
 
-/// What came of one subject.
 #[derive(Default)]
 struct Judged {
     ours: Planes,

@@ -25,7 +25,6 @@ use rasterproof_core::grid::{SUBPIXEL_BITS, SUBPIXELS};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum Check {
-    /// On which lattice positions lie.
     Lattice,
     /// Which pixels triangles and meshes cover.
     Coverage,
@@ -82,7 +81,6 @@ type Vertex = [f64; 6];
 #[serde(transparent)]
 pub(crate) struct Subject(pub Vec<Vec<Vertex>>);
 
-/// What is drawn in one picture.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Batch {

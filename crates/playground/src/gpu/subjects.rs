@@ -22,7 +22,6 @@ pub(super) const PLAN: [(Check, u64); 12] = [
     (Check::Twice, 1),
 ];
 
-/// Pictures of each family.
 const PAGES: u64 = 3;
 /// Families of coverage whose corners lie in their window, with its side in px.
 const FAMILIES: [(&str, i32); 12] = [
@@ -73,7 +72,6 @@ fn cell_of(check: Check, number: u64) -> i32 {
     }
 }
 
-/// The layout that shows one subject.
 pub(super) fn layout_for(check: Check, Subject(shapes): &Subject) -> Result<Layout, String> {
     let wanted = match check {
         Check::Lines => 2,
@@ -127,7 +125,6 @@ impl Subject {
         self.0.iter().filter_map(|t| Some([at(t.first()?), at(t.get(1)?), at(t.get(2)?)])).collect()
     }
 
-    /// The triangles with depth, w and attributes.
     pub(super) fn triangles(&self) -> Vec<Triangle> {
         let vertex = |v: &Vertex| ScreenVertex {
             position: at(v),

@@ -40,14 +40,14 @@ pub struct Sample {
 
 /// A piece that may be the nearest at a sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Rival {
+pub struct TiedPiece {
     pub sample: Sample,
     /// Which piece, in the order of drawing.
     pub piece: u32,
 }
 
 /// The pieces of a scene, to be asked about samples.
-pub struct Rivals<'a> {
+pub struct TiedPieces<'a> {
     scene: &'a Scene,
     items: Vec<Prepared<'a>>,
     pieces: Vec<(usize, Piece)>,
@@ -55,9 +55,9 @@ pub struct Rivals<'a> {
     pattern: Pattern,
 }
 
-impl<'a> Rivals<'a> {
+impl<'a> TiedPieces<'a> {
     /// The pieces of a scene as a target shows them; none where the order of drawing decides, since
-    /// there are no rivals then.
+    /// no pieces tie then.
     ///
     /// # Errors
     /// [`BadScene`].
@@ -90,49 +90,49 @@ impl<'a> Rivals<'a> {
         Some((moved.corners(), moved.vertices.map_array(|vertex| vertex.depth)))
     }
 
-    /// All rivals in a rectangle of pixels, where a sample has at least two, sorted; none where they
+    /// All tied pieces in a rectangle of pixels, where a sample has at least two, sorted; none where they
     /// are more than `most`, which is asked of smaller rectangles then.
     ///
     /// Nearer is what has the smaller key, and of equal keys what was drawn first. So a piece may be
     /// the nearest if its nearest (key, place in the order) is not beyond the farthest of another.
     #[must_use]
-    pub fn within(&self, rect: PixelRect, most: usize) -> Option<Vec<Rival>> {
+    pub fn within(&self, rect: PixelRect, most: usize) -> Option<Vec<TiedPiece>> {
         let samples = scaled(rect, self.pattern.scale);
         let beyond_all = (u64::MAX, u32::MAX);
         let mut farthest = vec![Frame::new(samples, beyond_all); self.pattern.planes];
-        self.each_sample(rect, &mut |rival, (_, far)| {
-            let Sample { plane, y_px, x_px } = rival.sample;
+        self.each_sample(rect, &mut |tied_piece, (_, far)| {
+            let Sample { plane, y_px, x_px } = tied_piece.sample;
             let least = &mut farthest[plane].span_mut(y_px, x_px, x_px + 1)[0];
-            *least = (*least).min((far, rival.piece));
+            *least = (*least).min((far, tied_piece.piece));
         });
         // The first that is met at a sample waits for a second.
         let mut first = vec![Frame::new(samples, u32::MAX); self.pattern.planes];
-        let mut rivals = Vec::new();
-        self.each_sample(rect, &mut |rival, (near, _)| {
-            let Sample { plane, y_px, x_px } = rival.sample;
+        let mut tied = Vec::new();
+        self.each_sample(rect, &mut |tied_piece, (near, _)| {
+            let Sample { plane, y_px, x_px } = tied_piece.sample;
             let Some(least) = farthest[plane].get(x_px, y_px) else { return };
-            if (near, rival.piece) > least {
+            if (near, tied_piece.piece) > least {
                 return;
             }
             let waiting = &mut first[plane].span_mut(y_px, x_px, x_px + 1)[0];
             if *waiting == u32::MAX {
-                *waiting = rival.piece;
-            } else if rivals.len() <= most {
-                let before = Rival { piece: *waiting, ..rival };
+                *waiting = tied_piece.piece;
+            } else if tied.len() <= most {
+                let before = TiedPiece { piece: *waiting, ..tied_piece };
                 // Repeated from the third on.
-                rivals.extend([before, rival]);
+                tied.extend([before, tied_piece]);
             }
         });
-        if rivals.len() > most {
+        if tied.len() > most {
             return None;
         }
-        rivals.sort_unstable();
-        rivals.dedup();
-        Some(rivals)
+        tied.sort_unstable();
+        tied.dedup();
+        Some(tied)
     }
 
     /// Every sample that a piece covers, with the keys between which its depth lies.
-    fn each_sample(&self, rect: PixelRect, see: &mut dyn FnMut(Rival, (u64, u64))) {
+    fn each_sample(&self, rect: PixelRect, see: &mut dyn FnMut(TiedPiece, (u64, u64))) {
         self.each_interval(rect, &|_| None, see);
     }
 
@@ -141,7 +141,7 @@ impl<'a> Rivals<'a> {
         &self,
         rect: PixelRect,
         error: &dyn Fn((&Piece, &DepthPlane)) -> Option<DepthError>,
-        see: &mut dyn FnMut(Rival, (u64, u64)),
+        see: &mut dyn FnMut(TiedPiece, (u64, u64)),
     ) {
         let (samples, one) = (scaled(rect, self.pattern.scale), Pattern { scale: 1, planes: 1 });
         for (index, (_, piece)) in self.pieces.iter().enumerate() {
@@ -160,7 +160,7 @@ impl<'a> Rivals<'a> {
                         );
                         let keys = [near - off, far + off].map_array(|z| self.canvas.depth.key(z));
                         let sample = Sample { plane, y_px: span.y_px, x_px };
-                        see(Rival { sample, piece: index as u32 }, keys.into());
+                        see(TiedPiece { sample, piece: index as u32 }, keys.into());
                     }
                 });
             }

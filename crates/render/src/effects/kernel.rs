@@ -12,7 +12,7 @@ use super::plan::{Attributes, PiecePlan};
 use super::primitive::{Piece, Prepared, pack};
 use super::samples::OnDemand;
 use crate::pipeline::Counters;
-use crate::pipeline::fill::{Stage, Way, each, fill, fill_flat};
+use crate::pipeline::fill::{FragmentStage, Way, each, fill, fill_flat};
 use crate::pipeline::fog::{Share, Veil};
 use crate::pipeline::footprint::Reading;
 use crate::pipeline::highlight::{Highlight, brightened};
@@ -279,7 +279,8 @@ impl<'a> Kernel<'a> {
         let before = *counters;
         // One copy of the rasterizer's loops for all attributes of this size.
         let (plain, levels) = (self.stage::<N, MASK, false>(), self.stage::<N, MASK, true>());
-        let stage: &Stage<'_, Packed<N>> = if self.reading.is_some() { &levels } else { &plain };
+        let stage: &FragmentStage<'_, Packed<N>> =
+            if self.reading.is_some() { &levels } else { &plain };
         if let Some(on_demand) = samples {
             on_demand.draw_varying(engine, piece, &packed, target, self.plan, stage, counters);
         } else {

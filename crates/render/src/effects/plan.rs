@@ -97,7 +97,6 @@ pub enum Attribute {
     Normal,
     /// Texture coordinates.
     Uv,
-    /// Where the light sees it.
     Place,
 }
 

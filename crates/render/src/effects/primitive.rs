@@ -7,7 +7,7 @@ use glam::{DMat3, DMat4, DVec2, DVec3};
 
 use super::Mode;
 use super::plan::{Attributes, ItemPlan};
-use crate::pipeline::assemble::{Assembler, BadVertex, Point, check_vertex};
+use crate::pipeline::assemble::{Assembler, BadVertex, ClipPoint, check_vertex};
 use crate::pipeline::fog::Veil;
 use crate::pipeline::highlight::Highlight;
 use crate::pipeline::shade::{ALL, Attributes as Packed, Light, PLACED, Surface};
@@ -48,7 +48,7 @@ impl std::error::Error for BadScene {}
 /// One item, its positions in clip space and in the window.
 pub(super) struct Prepared<'a> {
     pub item: &'a Item,
-    pub points: Vec<Point>,
+    pub points: Vec<ClipPoint>,
     pub carries: Attributes,
     pub texture: Option<&'a Texture>,
     pub light: Light,
@@ -128,7 +128,7 @@ impl<'a> Prepared<'a> {
 
     /// Transforms position `i`, which is `p`, and checks it.
     #[inline]
-    pub fn point(&self, i: usize, p: DVec3) -> Result<Point, BadScene> {
+    pub fn point(&self, i: usize, p: DVec3) -> Result<ClipPoint, BadScene> {
         let position = self.matrix * p.extend(1.0);
         check_vertex(i, &ClipVertex { position, varying: () })
             .map_err(|vertex| BadScene { item: self.index, vertex })?;

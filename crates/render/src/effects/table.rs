@@ -21,7 +21,6 @@ macro_rules! effects {
             /// When a renderer without a planner pays for each.
             pub(super) const USUAL: [Mode; Self::ALL.len()] = [$(Mode::$usual),+];
 
-            /// Its name on the command line.
             #[must_use]
             pub fn name(self) -> &'static str {
                 match self {

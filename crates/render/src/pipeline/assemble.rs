@@ -19,9 +19,7 @@ use rasterproof_core::triangle::{Corners, MAX_W, ScreenTriangle, ScreenVertex, V
 pub enum Cull {
     #[default]
     None,
-    /// Those whose corners run clockwise.
     Clockwise,
-    /// Those whose corners run counter-clockwise.
     CounterClockwise,
 }
 
@@ -87,7 +85,6 @@ impl Viewport {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BadVertex {
     pub index: usize,
-    /// What is wrong with it.
     pub refusal: Refusal,
 }
 
@@ -120,15 +117,14 @@ pub fn check_vertex<V>(index: usize, vertex: &ClipVertex<V>) -> Result<(), BadVe
 
 /// A position in clip space, its side of the planes, and its place in the window.
 #[derive(Clone, Copy, Debug)]
-pub struct Point {
-    /// Where it is in clip space.
+pub struct ClipPoint {
     pub position: DVec4,
     code: Outcode,
     /// Nothing where a plane cuts, or outside the domain.
     place: Option<ScreenVertex<()>>,
 }
 
-impl Point {
+impl ClipPoint {
     /// Where it lies in the window, if that was asked already.
     #[must_use]
     pub fn place(&self) -> Option<SubpixelPoint> {
@@ -140,7 +136,6 @@ impl Point {
         self.place
     }
 
-    /// The planes it lies outside of.
     pub(crate) fn code(&self) -> Outcode {
         self.code
     }
@@ -186,7 +181,6 @@ impl Assembler {
         Self { asks: true, ..self }
     }
 
-    /// Leaves nothing out.
     #[must_use]
     pub fn without_culling(self) -> Self {
         Self { cull: Cull::None, ..self }
@@ -195,19 +189,19 @@ impl Assembler {
     /// What a position needs once, whichever triangles it is a corner of. It has passed
     /// [`check_vertex`].
     #[must_use]
-    pub fn point(&self, position: DVec4) -> Point {
+    pub fn point(&self, position: DVec4) -> ClipPoint {
         let vertex = ClipVertex { position, varying: () };
         let code = clip::outcode(&vertex);
         let is_placed = (code | self.always) & !self.never == 0;
         let place = if is_placed { self.viewport.place(&vertex).ok() } else { None };
-        Point { position, code, place }
+        ClipPoint { position, code, place }
     }
 
     /// Emits the pieces of one triangle that are in the window and not culled. The varyings of its
     /// corners, by number, are asked for where one is.
     pub fn assemble<V: Varying>(
         &self,
-        triangle: [&Point; 3],
+        triangle: [&ClipPoint; 3],
         varying: impl Fn(usize) -> V,
         counters: &mut Counters,
         mut emit: impl FnMut(&ScreenTriangle<V>),

@@ -63,7 +63,6 @@ impl ClipPlane {
         }
     }
 
-    /// Puts a vertex on the plane, exactly.
     fn assign<V>(self, vertex: &mut ClipVertex<V>) {
         let p = &mut vertex.position;
         match self {
@@ -81,7 +80,6 @@ impl ClipPlane {
 /// One bit for each plane that a vertex lies outside of.
 pub type Outcode = u8;
 
-/// The planes a vertex lies outside of.
 #[must_use]
 #[inline]
 pub fn outcode<V>(vertex: &ClipVertex<V>) -> Outcode {
@@ -137,7 +135,6 @@ pub fn clip<V: Varying>(triangle: &[ClipVertex<V>; 3], planes: Outcode) -> (Poly
     (polygon, tests)
 }
 
-/// What one plane leaves of a polygon.
 fn cut<V: Varying>(polygon: &Polygon<V>, plane: ClipPlane) -> Polygon<V> {
     let mut kept = Polygon { len: 0, ..*polygon };
     let is_inside = |corner: &Corner<V>| corner.outside & plane.bit() == 0;

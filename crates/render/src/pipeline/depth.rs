@@ -34,7 +34,6 @@ impl DepthFormat {
     pub const ALL: [Self; 5] =
         [Self::Unorm32, Self::Unorm24, Self::F32, Self::F32Reversed, Self::F64];
 
-    /// Its name on the command line.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -76,7 +75,6 @@ impl DepthFormat {
         }
     }
 
-    /// The depth that a key stands for.
     #[must_use]
     pub fn depth(self, key: u64) -> f64 {
         match self {

@@ -42,11 +42,7 @@ pub enum DrawError {
     /// A vertex that the vertex stage must not return.
     Vertex(BadVertex),
     /// A triangle names a vertex that is not there.
-    Index {
-        triangle: usize,
-        /// The vertex it names.
-        index: u32,
-    },
+    Index { triangle: usize, index: u32 },
 }
 
 impl fmt::Display for DrawError {
@@ -67,11 +63,9 @@ impl std::error::Error for DrawError {}
 pub struct Renderer<E> {
     engine: E,
     target: Target,
-    /// Which windings are left out.
     pub cull: Cull,
     /// Whether nearer fragments win, or later ones (the painter's algorithm).
     pub depth_test: bool,
-    /// What it has cost so far.
     pub counters: Counters,
 }
 
@@ -82,13 +76,11 @@ impl<E: Interpolate> Renderer<E> {
         Self { engine, target, cull: Cull::None, depth_test: true, counters: Counters::default() }
     }
 
-    /// What has been drawn so far.
     #[must_use]
     pub fn target(&self) -> &Target {
         &self.target
     }
 
-    /// Starts a frame over.
     pub fn clear(&mut self, colour: Colour) {
         self.target.clear_colour(colour, &mut self.counters);
         self.target.clear_depth(&mut self.counters);

@@ -20,7 +20,7 @@ pub struct Way {
 
 /// A fragment stage of adjacent pixels, their varyings and depths: the colours of those whose bits are set, the
 /// lowest for the first, go to the places of their varyings.
-pub type Stage<'a, V> = dyn Fn(&[V], &[f64], u32, &mut [Colour]) + 'a;
+pub type FragmentStage<'a, V> = dyn Fn(&[V], &[f64], u32, &mut [Colour]) + 'a;
 
 /// A fragment stage of one pixel, its varyings and its depth, for each of several.
 pub fn each<V>(stage: impl Fn(&V, f64) -> Colour) -> impl Fn(&[V], &[f64], u32, &mut [Colour]) {
@@ -41,7 +41,7 @@ pub fn fill<V: Varying>(
     target: &mut Target,
     bounds: PixelRect,
     way: Way,
-    stage: &Stage<'_, V>,
+    stage: &FragmentStage<'_, V>,
     counters: &mut Counters,
 ) {
     if target.antialias() == Antialias::Multisample4 {
@@ -62,7 +62,7 @@ pub(crate) fn all_of(count: usize) -> u32 {
 pub(crate) fn shade<V>(
     (values, depths): (&mut dyn Varyings<V>, &[f64]),
     wanted: u32,
-    stage: &Stage<'_, V>,
+    stage: &FragmentStage<'_, V>,
     colours: &mut [Colour],
 ) {
     let from = wanted.trailing_zeros() as usize;
@@ -91,7 +91,7 @@ fn fill_single<V: Varying>(
     target: &mut Target,
     bounds: PixelRect,
     way: Way,
-    stage: &Stage<'_, V>,
+    stage: &FragmentStage<'_, V>,
     counters: &mut Counters,
 ) {
     let format = target.format;
@@ -142,7 +142,7 @@ fn fill_multisampled<V: Varying>(
     target: &mut Target,
     bounds: PixelRect,
     way: Way,
-    stage: &Stage<'_, V>,
+    stage: &FragmentStage<'_, V>,
     counters: &mut Counters,
 ) {
     let format = target.format;
@@ -194,7 +194,7 @@ fn fill_waiting<V: Varying>(
     (planes, shading): (&mut [SamplePlane], &mut Shading),
     bounds: PixelRect,
     affine: bool,
-    stage: &Stage<'_, V>,
+    stage: &FragmentStage<'_, V>,
     any: bool,
 ) -> u64 {
     if !any {

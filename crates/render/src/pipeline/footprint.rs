@@ -156,17 +156,16 @@ pub struct Taps {
     pub count: u8,
     /// The longer derivative, along which they lie.
     pub along: DVec2,
-    /// The level of detail of each.
+    /// The level of detail that all of these reads have.
     pub level: f64,
 }
 
-/// How the fragments of a triangle read a texture.
 #[derive(Clone, Copy, Debug)]
 pub struct Reading {
     pub footprint: Footprint,
     /// Whether at levels of detail; else at level 0.
     pub at_levels: bool,
-    /// How often at most.
+    /// The largest number of reads for one fragment.
     pub most: u8,
 }
 

@@ -13,7 +13,6 @@ use rasterproof_core::arrays::MapArray as _;
 use super::shade::Light;
 use super::target::{Colour, to_colour};
 
-/// What a material adds to specular light.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Specular {
     /// Its specular colour, each channel in [0, 1]; 0 of a material without highlights.
@@ -29,7 +28,6 @@ const MOST_SHININESS: f64 = (1 << 20) as f64;
 /// below it by more than all roundings of an exponentiation with [`MOST_SHININESS`].
 const BELOW_HALF: f64 = 0.5 - 1.0 / 512.0;
 
-/// The highlight of a material in a light.
 #[derive(Clone, Copy, Debug)]
 pub struct Highlight {
     strength: DVec3,

@@ -22,13 +22,12 @@ use super::texture::{Texture, Wrap};
 /// How opaque a material is, and what that decides.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Opacity {
-    /// In [0, 1], of all fragments.
+    /// Multiplies the opacity of every fragment; in [0, 1].
     pub factor: f64,
     pub map: Option<Arc<OpacityMap>>,
     pub mode: AlphaMode,
 }
 
-/// What becomes of a fragment by its opacity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum AlphaMode {
     /// It is drawn from this opacity on, in [0, 1]; above 1 never.
@@ -37,11 +36,9 @@ pub enum AlphaMode {
     Blend,
 }
 
-/// What is drawn of a piece.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Drawn {
-    /// Every fragment is opaque.
     #[default]
     All,
     /// Each fragment has an opacity of its own.
@@ -122,7 +119,6 @@ pub struct OpacityMap {
     whole: [u8; 2],
 }
 
-/// Texels along the side of a block.
 const BLOCK: i64 = 8;
 
 /// Of triangles that read in more blocks, those of the whole picture are taken.
@@ -184,7 +180,6 @@ impl OpacityMap {
     }
 }
 
-/// Blocks in a row of a picture.
 fn across(width: u32) -> usize {
     (width as usize).div_ceil(BLOCK as usize)
 }
@@ -264,7 +259,6 @@ mod tests {
         counts
     }
 
-    /// A condition by the texels of some points.
     fn of_points(opacity: &Opacity, points: &[DVec2]) -> Drawn {
         let all = |wanted: u8| points.iter().all(|uv| opacity.of(*uv) == wanted);
         if all(OPAQUE) {

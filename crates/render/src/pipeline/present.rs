@@ -8,7 +8,6 @@ use rasterproof_core::frame::Frame;
 #[derive(Clone, Debug)]
 pub struct DoubleBuffer {
     front: Frame<Colour>,
-    /// Where the next frame is drawn.
     pub back: Target,
 }
 

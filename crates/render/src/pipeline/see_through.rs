@@ -15,15 +15,14 @@ use rasterproof_core::triangle::ScreenTriangle;
 
 type Varying = Attributes<PLACED>;
 
-/// What fragments look like.
 pub struct Look<'a> {
     /// What all fragments have, where nothing is interpolated.
     pub constant: Option<Varying>,
     /// Whether what is mixed waits, to be mixed in the order of depths.
     pub is_kept: bool,
-    /// In steps of 255.
+    /// The opacity of a fragment with these attributes, where 255 is opaque.
     pub opacity: &'a dyn Fn(&Varying) -> u8,
-    /// Of attributes and depth.
+    /// The colour of a fragment with these attributes at this depth.
     pub colour: &'a dyn Fn(&Varying, f64) -> Colour,
 }
 
@@ -47,7 +46,6 @@ impl Look<'_> {
     }
 }
 
-/// Puts a colour over what is there.
 fn put(colour: Colour, opacity: u8, drawn: &mut Colour) {
     *drawn = if opacity == OPAQUE { colour } else { over(colour, *drawn, opacity) };
 }

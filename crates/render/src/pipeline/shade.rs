@@ -55,14 +55,12 @@ impl<const N: usize> Varying for Attributes<N> {
     }
 }
 
-/// What a vertex of a scene carries.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Surface {
     /// Colour, or light already multiplied in (Gouraud); 1 where neither is used.
     pub colour: DVec3,
     /// Normal in world space, of any length; 0 where there is no light.
     pub normal: DVec3,
-    /// Texture coordinates.
     pub uv: DVec2,
     /// Where the light sees it, as in [`super::shadow::LightView`]; 0 where it has no shadows.
     pub place: DVec3,
@@ -90,7 +88,6 @@ impl From<Attributes<PLACED>> for Surface {
     }
 }
 
-/// Parallel light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Light {
     /// Towards the light, length 1.

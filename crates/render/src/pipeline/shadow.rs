@@ -31,10 +31,8 @@ use rasterproof_core::frame::Frame;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{ScreenTriangle, ScreenVertex};
 
-/// The shadow map of a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shadows {
-    /// Texels along a side of the map.
     pub size: u32,
     /// In how many bits it holds a depth: whole steps from 0 to 1.
     pub bits: u32,
@@ -46,10 +44,9 @@ impl Default for Shadows {
     }
 }
 
-/// The sides that a map may have.
 pub const SIZES: std::ops::RangeInclusive<u32> = 16..=8192;
 
-/// Texels that a fragment reads.
+/// A fragment compares its depth with a square of 3 x 3 texels.
 pub const TAPS: u32 = 9;
 
 /// Texels between the scene and the border of the map, so that no fragment reads beyond it.
@@ -110,11 +107,9 @@ struct Slope {
 pub struct ShadowMap {
     keys: Frame<u64>,
     steps: f64,
-    /// Fragments that were drawn into it.
     pub fragments: u64,
 }
 
-/// A surface that reads a map.
 #[derive(Clone, Copy, Debug)]
 pub struct Receiver<'a> {
     map: &'a ShadowMap,
@@ -157,7 +152,6 @@ impl LightView {
         Some(Self { shadows, places, error, casters: OnceLock::new(), map: OnceLock::new() })
     }
 
-    /// The place of a position of an item.
     #[must_use]
     #[inline]
     pub fn place(&self, item: usize, position: u32) -> DVec3 {
@@ -180,13 +174,11 @@ impl LightView {
         })
     }
 
-    /// The map, if it was drawn.
     #[must_use]
     pub fn drawn(&self) -> Option<&ShadowMap> {
         self.map.get()
     }
 
-    /// A surface with corners at these places.
     #[must_use]
     pub fn receiver<'a>(&self, map: &'a ShadowMap, places: [DVec3; 3]) -> Receiver<'a> {
         Receiver { map, bias: self.bias(places) }
@@ -408,7 +400,6 @@ mod tests {
         Scene { items, light, shadows: Some(shadows), ..scene }
     }
 
-    /// The places of all triangles.
     fn triangles(scene: &Scene, view: &LightView) -> Vec<[DVec3; 3]> {
         let items = scene.items.iter().enumerate();
         let of_item = |(index, item): (usize, &Item)| {
@@ -418,7 +409,6 @@ mod tests {
         items.flat_map(of_item).collect()
     }
 
-    /// Places all over a triangle.
     fn places([a, b, c]: [DVec3; 3]) -> impl Iterator<Item = DVec3> {
         let steps = (0..=16).flat_map(|i| (0..=16 - i).map(move |j| (i, j)));
         steps.map(move |(i, j)| {

@@ -27,7 +27,6 @@ pub fn to_colour(rgb: DVec3) -> Colour {
     [byte(rgb.x), byte(rgb.y), byte(rgb.z), u8::MAX]
 }
 
-/// How many samples a pixel has and where.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum Antialias {
     /// One, at the centre.
@@ -49,13 +48,11 @@ impl Antialias {
         }
     }
 
-    /// Planes of samples.
     #[must_use]
     pub fn planes(self) -> usize {
         if self == Self::Multisample4 { super::multisample::SAMPLES.len() } else { 1 }
     }
 
-    /// Samples of a pixel.
     #[must_use]
     pub fn samples(self) -> u64 {
         u64::from(self.scale()).pow(2) * self.planes() as u64
@@ -97,13 +94,11 @@ pub struct SamplePlane {
 }
 
 impl SamplePlane {
-    /// Writes a fragment over what is there.
     #[inline]
     pub fn write(&mut self, x_px: i32, y_px: i32, colour: Colour) {
         self.colour.span_mut(y_px, x_px, x_px + 1)[0] = colour;
     }
 
-    /// Writes a colour and a key, whatever is there.
     #[inline]
     pub(crate) fn put(&mut self, x_px: i32, y_px: i32, key: u64, colour: Colour) {
         self.depth.span_mut(y_px, x_px, x_px + 1)[0] = key;
@@ -171,7 +166,6 @@ impl Shading {
     }
 }
 
-/// The samples of a picture.
 #[derive(Clone, Debug)]
 pub struct Target {
     antialias: Antialias,
@@ -232,7 +226,6 @@ impl Target {
         self.intervals = Some(intervals);
     }
 
-    /// The picture's pixels.
     #[must_use]
     pub fn size(&self) -> PixelRect {
         self.size
@@ -244,7 +237,6 @@ impl Target {
         self.planes[0].colour.bounds()
     }
 
-    /// How many samples a pixel has and where.
     #[must_use]
     pub fn antialias(&self) -> Antialias {
         self.antialias
@@ -301,12 +293,10 @@ impl Target {
         }
     }
 
-    /// Pixels of the whole picture.
     pub(crate) fn pixel_count(&self) -> u64 {
         u64::from(self.size.width()) * u64::from(self.size.height())
     }
 
-    /// Samples of the whole picture.
     pub(crate) fn sample_count(&self) -> u64 {
         self.pixel_count() * self.antialias.samples()
     }
@@ -348,7 +338,6 @@ impl Target {
         }
     }
 
-    /// The mean of a pixel's samples.
     #[must_use]
     pub fn pixel(&self, x_px: i32, y_px: i32) -> Colour {
         let mut pixel = [[0; 4]];

@@ -194,7 +194,6 @@ impl Texture {
         if part == 0.0 { near } else { near + (read(number + 1) - near) * part }
     }
 
-    /// Width and height in texels.
     #[must_use]
     pub fn size(&self) -> (u32, u32) {
         (self.width, self.height)
@@ -335,7 +334,6 @@ impl Texture {
         [ends(u, self.subtexels.x), ends(v, self.subtexels.y)]
     }
 
-    /// The red byte of a texel.
     pub(super) fn red(&self, column: u32, row: u32) -> u8 {
         let at = row as usize * self.width as usize + column as usize;
         match &self.texels {
@@ -368,7 +366,6 @@ impl Texture {
         wrapped(self.wrap, column, self.width.into()) as usize
     }
 
-    /// Where the texels of a row start.
     #[inline]
     fn row_start(&self, row: i64) -> usize {
         wrapped(self.wrap, row, self.height.into()) as usize * self.width as usize

@@ -8,7 +8,6 @@ use glam::{DMat4, DVec3, DVec4};
 
 use rasterproof_core::angle::tan;
 
-/// Why there is no such projection.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NoProjection(&'static str);
 

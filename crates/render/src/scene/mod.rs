@@ -26,10 +26,8 @@ use crate::pipeline::target::Colour;
 use crate::pipeline::texture::Texture;
 pub use triangles::{Attribute, Triangles};
 
-/// One corner of a triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Corner {
-    /// Index of its position.
     pub position: u32,
     /// Its colour, each channel in [0, 1].
     pub colour: DVec3,
@@ -39,12 +37,10 @@ pub struct Corner {
     pub uv: DVec2,
 }
 
-/// Triangles that share positions.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
     /// Positions in object space.
     pub positions: Vec<DVec3>,
-    /// Every index names a position.
     pub triangles: Triangles,
 }
 
@@ -68,7 +64,6 @@ impl Mesh {
     }
 }
 
-/// How light is laid on.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
 pub enum Shading {
     /// Not at all: colours and texture as they are.
@@ -85,7 +80,6 @@ pub enum Shading {
 impl Shading {
     pub const ALL: [Self; 4] = [Self::Unlit, Self::Flat, Self::Gouraud, Self::Phong];
 
-    /// Its name on the command line.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -97,16 +91,13 @@ impl Shading {
     }
 }
 
-/// What a surface is made of.
 #[derive(Clone, Debug)]
 pub struct Material {
     /// Everything is multiplied by this, each channel in [0, 1].
     pub colour: DVec3,
     /// Whether the colours of the corners are multiplied in.
     pub vertex_colours: bool,
-    /// A texture, multiplied in.
     pub texture: Option<Arc<Texture>>,
-    /// How light is laid on.
     pub shading: Shading,
     /// Its highlights, with flat and Phong shading.
     pub specular: Specular,
@@ -137,7 +128,6 @@ pub struct Item {
     pub mesh: Arc<Mesh>,
     /// From object to world space.
     pub model: DMat4,
-    /// What it is made of.
     pub material: Material,
     /// Which windings are left out, as the eye sees them.
     pub cull: Cull,
@@ -162,12 +152,9 @@ pub enum Hidden {
     Painter,
 }
 
-/// What is to be drawn.
 #[derive(Clone, Debug)]
 pub struct Scene {
-    /// Its name on the command line.
     pub name: String,
-    /// What it shows, one line.
     pub about: String,
     /// What is in it, in drawing order.
     pub items: Vec<Item>,
@@ -213,7 +200,6 @@ impl Scene {
         }
     }
 
-    /// Triangles in all items.
     #[must_use]
     pub fn triangles(&self) -> usize {
         self.items.iter().map(|item| item.mesh.triangles.len()).sum()

@@ -11,16 +11,18 @@ use super::Corner;
 /// The values of one attribute for all corners of all triangles.
 #[derive(Clone, Debug)]
 pub enum Attribute<V> {
-    /// All corners have this one.
     Same(V),
     /// Corners at one position share a value, which has the number of the position.
     OfPositions(Vec<V>),
     /// The corners of a triangle share a value.
     OfTriangles(Vec<V>),
-    /// Each corner has its own.
+    /// One value for each corner, three to a triangle.
     OfCorners(Vec<[V; 3]>),
     /// Each corner names one of the values by its number, three numbers for each triangle.
-    Indexed { values: Vec<V>, indices: Vec<u32> },
+    Indexed {
+        values: Vec<V>,
+        indices: Vec<u32>,
+    },
 }
 
 impl<V> Default for Attribute<V> {
@@ -71,7 +73,6 @@ impl<V: Copy> Attribute<V> {
 /// Triangles by the numbers of their positions, with the attributes of their corners.
 #[derive(Clone, Debug, Default)]
 pub struct Triangles {
-    /// Three for each triangle.
     positions: Vec<u32>,
     colours: Attribute<DVec3>,
     normals: Attribute<DVec3>,
@@ -108,7 +109,6 @@ impl Triangles {
         self.positions.is_empty()
     }
 
-    /// The numbers of the positions of each triangle.
     #[must_use]
     pub fn positions(&self) -> &[[u32; 3]] {
         self.positions.as_chunks().0
@@ -133,7 +133,6 @@ impl Triangles {
         [corner(0), corner(1), corner(2)]
     }
 
-    /// The corners of each triangle.
     pub fn iter(&self) -> impl ExactSizeIterator<Item = [Corner; 3]> + DoubleEndedIterator + Clone {
         (0..self.len()).map(|triangle| self.at(triangle))
     }
@@ -166,7 +165,6 @@ impl Triangles {
         *of = corners.map(|corner| corner.position);
     }
 
-    /// Changes each corner.
     pub fn change_corners(&mut self, mut change: impl FnMut(&mut Corner)) {
         for triangle in 0..self.len() {
             self.change(triangle, |corners| corners.iter_mut().for_each(&mut change));
@@ -190,7 +188,7 @@ impl Triangles {
     }
 }
 
-/// However the values are stored.
+/// Two lists are equal if their values are, in whichever form these are stored.
 impl PartialEq for Triangles {
     fn eq(&self, other: &Self) -> bool {
         self.len() == other.len() && self.iter().eq(other.iter())

@@ -14,11 +14,9 @@ use rasterproof_judge::shrink::smaller;
 use rasterproof_judge::{adapt_case, run};
 use rasterproof_verify::cases::{Case, Shape};
 
-/// How long and how much.
 #[derive(Clone, Copy, Debug)]
 pub struct Amount {
     pub cases: u64,
-    /// Decides every case.
     pub seed: u64,
     /// No new family is begun after this.
     pub end: Instant,
@@ -26,7 +24,6 @@ pub struct Amount {
     pub patience: Duration,
 }
 
-/// What came of a step.
 #[derive(Debug, Default)]
 pub struct Outcome {
     pub cases: u64,
@@ -50,7 +47,6 @@ impl Outcome {
 
 #[derive(Debug)]
 pub struct Failure {
-    /// The family it was found in, and its number there.
     pub found: String,
     pub what: String,
     /// Requests, answers and expected answers, as lines of the protocol.

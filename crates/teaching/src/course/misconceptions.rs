@@ -14,6 +14,7 @@ use rasterproof_core::grid::{PixelRect, SUBPIXELS};
 use rasterproof_core::triangle::{Corners, Fragment, Span};
 use rasterproof_judge::ask::{Answer, Asked, Question};
 use rasterproof_judge::check::{Truth, expected_answer, picture_of};
+use rasterproof_judge::in_process::runs_of;
 use rasterproof_render::pipeline::multisample;
 use rasterproof_verify::cases::Triangle;
 use rasterproof_verify::cases::near_plane::clip_corners;
@@ -363,12 +364,8 @@ fn coverage(question: &Question, convention: &Convention) -> Option<Answer> {
     let Asked::Coverage(corners) = &question.of else { return None };
     let window = PixelRect::window(question.width, question.height);
     let drawn = convention.cover(corners, window)?;
-    let mut runs = Vec::new();
-    for (y_px, row) in drawn.rows() {
-        let hits = (0..).zip(row).filter(|(_, hits)| **hits > 0);
-        runs.extend(hits.map(|(x, _)| Span { y_px, x0_px: x, x1_px: x + 1 }));
-    }
-    Some(Answer::Coverage(runs))
+    let runs = drawn.runs().map(|(y_px, x0_px, x1_px)| Span { y_px, x0_px, x1_px });
+    Some(Answer::Coverage(runs.collect()))
 }
 
 fn rule(question: &Question, name: &str) -> Option<Answer> {
@@ -620,10 +617,6 @@ fn masks(question: &Question, places: [(i32, i32); 4], bits: [u8; 4]) -> Option<
                 .for_each(|m| *m |= 1 << bit);
         });
     }
-    let mut runs = Vec::new();
-    for (y_px, row) in masks.rows() {
-        let set = (0..).zip(row).filter(|(_, mask)| **mask > 0);
-        runs.extend(set.map(|(x, mask)| (Span { y_px, x0_px: x, x1_px: x + 1 }, *mask)));
-    }
-    Some(Answer::Samples(runs))
+    let runs = masks.rows().flat_map(|(y_px, row)| runs_of(y_px, row));
+    Some(Answer::Samples(runs.collect()))
 }

@@ -20,11 +20,11 @@ use serde::{Deserialize, Deserializer};
 use rasterproof_judge::adapt_case;
 use rasterproof_judge::check::Check;
 use rasterproof_verify::cases::{Case, Shape};
+use rasterproof_verify::comparison::line_has_tie;
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Step {
-    /// Its name on the command line.
     pub name: String,
     pub title: String,
     /// The page that tells why, in the repository.
@@ -57,7 +57,6 @@ pub struct Exercise {
 
 type Prepare = fn(Case) -> Option<Case>;
 
-/// The function of a name.
 fn prepare<'de, D: Deserializer<'de>>(from: D) -> Result<Prepare, D::Error> {
     Ok(match String::deserialize(from)?.as_str() {
         "inside" => inside,
@@ -71,7 +70,6 @@ fn prepare<'de, D: Deserializer<'de>>(from: D) -> Result<Prepare, D::Error> {
     })
 }
 
-/// A case as it is, inside its window.
 fn inside(case: Case) -> Option<Case> {
     (!adapt_case::leaves_window(&case)).then_some(case)
 }
@@ -91,17 +89,7 @@ fn point(mut case: Case) -> Option<Case> {
 /// Lines inside the window that never pass halfway between two pixels.
 fn no_ties(case: Case) -> Option<Case> {
     let Shape::Lines(lines) = &case.shape else { return None };
-    let has_tie = lines.iter().any(|line| {
-        let [a, b] = line.ends.map(|end| end.pixel);
-        let (dx, dy) = (u64::from(a.x.abs_diff(b.x)), u64::from(a.y.abs_diff(b.y)));
-        let (mut common, mut rest) = (dx.max(dy), dx.min(dy));
-        while rest > 0 {
-            (common, rest) = (rest, common % rest);
-        }
-        // Halfway are steps of half a period, which are whole where the period is even.
-        common > 0 && (dx.max(dy) / common).is_multiple_of(2)
-    });
-    if has_tie { None } else { inside(case) }
+    if lines.iter().any(line_has_tie) { None } else { inside(case) }
 }
 
 /// Depth left out: nothing but the two attributes is at stake.

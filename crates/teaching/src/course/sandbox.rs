@@ -111,7 +111,6 @@ pub fn start<S: AsRef<OsStr>>(
     })
 }
 
-/// A command in a message.
 fn shown<S: AsRef<OsStr>>(words: &[S], most: usize) -> String {
     let words: Vec<_> = words.iter().map(|word| word.as_ref().to_string_lossy()).collect();
     printable(words.join(" ").as_bytes(), most)

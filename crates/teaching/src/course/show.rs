@@ -432,7 +432,6 @@ fn put(image: &mut RgbImage, x: i32, y: i32, colour: Rgb<u8>) {
     }
 }
 
-/// The pixels of a run that lie in the picture.
 fn pixels(run: &Span, width: u32, height: u32) -> impl Iterator<Item = (u32, u32)> {
     let y = u32::try_from(run.y_px).ok().filter(|y| *y < height);
     let (x0, x1) = (run.x0_px.max(0) as u32, run.x1_px.clamp(0, width as i32) as u32);

@@ -6,11 +6,9 @@ use super::{Language, Text};
 pub enum Answer {
     /// One of the choices, counted from 0.
     Choice(usize),
-    /// A pixel, column and row.
     Pixel([i32; 2]),
     /// A number, asked to so many decimals.
     Number {
-        /// The computed value.
         value: f64,
         /// Digits after the point.
         decimals: usize,
@@ -21,7 +19,6 @@ pub enum Answer {
 pub enum Given {
     /// One of the choices, counted from 0.
     Choice(usize),
-    /// A pixel, column and row.
     Pixel([i32; 2]),
     Number(f64),
 }
@@ -125,7 +122,6 @@ impl Answer {
     }
 }
 
-/// a, b, c.
 pub fn letter(choice: usize) -> char {
     (b'a' + choice as u8) as char
 }

@@ -14,7 +14,6 @@ use rasterproof_report::ascii;
 
 solvers!(longer, halfway, twice, holes, owned);
 
-/// The pixels of a line, for a grid too.
 fn line(from: [i32; 2], to: [i32; 2], window: PixelRect) -> Coverage {
     let end = |[x, y]: [i32; 2]| LineEnd { pixel: PixelPoint::new(x, y), depth: 0.0, varying: 0.0 };
     let mut lit = Coverage::new(window, 0);

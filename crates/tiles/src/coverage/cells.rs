@@ -20,7 +20,6 @@ pub(super) struct Squares<const SIDE: i32, const WORDS: usize> {
     pixels: [Words; WORDS],
 }
 
-/// Squares of one word.
 pub(super) type Cells = Squares<CELL_PX, 1>;
 /// Squares of a byte for each row.
 pub(super) type Quarters = Squares<QUARTER_PX, 4>;
@@ -33,7 +32,6 @@ impl<const SIDE: i32, const WORDS: usize> Default for Squares<SIDE, WORDS> {
 }
 
 impl<const SIDE: i32, const WORDS: usize> Squares<SIDE, WORDS> {
-    /// Rows of a word.
     const ROWS: i32 = 16 / SIDE;
     /// The first row of a word, and the first column.
     const ROW: u16 = (1 << SIDE) - 1;

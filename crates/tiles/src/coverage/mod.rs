@@ -93,7 +93,6 @@ pub struct Tile {
     pub rows: [u16; 16],
 }
 
-/// Every pixel of a rectangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Block {
     /// Which triangle of the list.
@@ -157,7 +156,6 @@ impl Tiles {
         self.level
     }
 
-    /// The name of its instruction set.
     #[must_use]
     pub fn instructions(&self) -> &'static str {
         match self.level {
@@ -357,7 +355,6 @@ impl Piece {
 }
 
 impl Cell {
-    /// The same as a tile.
     #[must_use]
     pub fn tile(&self) -> Tile {
         let Self { triangle, x_px, y_px, pixels } = *self;
@@ -370,7 +367,6 @@ impl Cell {
 }
 
 impl Quarter {
-    /// The same as a tile.
     #[must_use]
     pub fn tile(&self) -> Tile {
         let Self { triangle, x_px, y_px, pixels } = *self;

@@ -182,7 +182,6 @@ impl Records {
         PixelRect { x0: number(0), y0: number(1), x1: number(2), y1: number(3) }
     }
 
-    /// A triangle that is narrow.
     #[inline(always)]
     pub fn stepped(&self, lane: usize) -> Stepped<i32> {
         let three =

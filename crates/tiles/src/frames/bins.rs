@@ -85,10 +85,8 @@ impl MeshPart {
     }
 }
 
-/// A window in tiles.
 pub(super) struct Tiling {
     window: PixelRect,
-    /// Tiles in a row.
     pub across: usize,
     down: usize,
     /// From the centre of a pixel to the farthest place that is asked for, in subpixels.
@@ -141,7 +139,6 @@ impl Tiling {
     }
 }
 
-/// The pixels of a window that a triangle reaches into.
 #[inline]
 pub(super) fn reached([a, b, c]: &Corners, window: PixelRect) -> PixelRect {
     let low = |a: i32, b: i32, c: i32| a.min(b).min(c) >> SUBPIXEL_BITS;

@@ -13,7 +13,6 @@ pub const SIDE_PX: i32 = 64;
 
 /// Columns and rows of a block of a tile, whose farthest depth is known.
 const BLOCK_PX: i32 = 16;
-/// Blocks in a row of a tile.
 const BLOCKS: i32 = SIDE_PX / BLOCK_PX;
 
 /// A block's farthest depth is looked for again after it was drawn into so many times: looking costs
@@ -69,7 +68,6 @@ impl<T: Copy> TilePlane<T> {
 
 /// From the first pixel of a pair past its last, row by row of a plane.
 const PAIR_RUN: usize = PITCH + PAIR_PX as usize;
-/// The same of a cell.
 const CELL_RUN: usize = 3 * PITCH + CELL_PX as usize;
 
 /// Loading and storing sixteen pixels of a plane, a pair or a cell by its columns, `SIDE`.
@@ -147,7 +145,6 @@ pub(super) struct Blocks {
 
 /// Colours and depths of one tile, owned by who draws it: nothing is shared, so nothing is locked.
 pub(super) struct Buffer {
-    /// Its pixels in the window.
     pub rect: PixelRect,
     /// The colour of pixels that no triangle covers.
     background: u32,
@@ -170,7 +167,6 @@ impl Buffer {
         }
     }
 
-    /// Begins a tile.
     pub fn clear(&mut self, rect: PixelRect, background: u32) {
         (self.rect, self.background) = (rect, background);
         let empty = if self.planes.len() == 1 { 0 } else { background };
@@ -230,7 +226,6 @@ impl Buffer {
         Blocks { columns: blocks(x0, x1, self.rect.x0), rows: blocks(y0, y1, self.rect.y0) }
     }
 
-    /// The farthest depth of a block.
     #[inline(always)]
     fn farthest_of<S: Simd>(&self, simd: S, column: i32, row: i32) -> f32 {
         let (left, top) = (column * BLOCK_PX, row * BLOCK_PX);

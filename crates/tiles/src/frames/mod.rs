@@ -45,7 +45,6 @@ use visible::{CELL, PAIR, VisibilityPass, VisibleBlock};
 /// How many samples a pixel has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Samples {
-    /// One, at the centre.
     One,
     /// Four at [`multisample::SAMPLES`], shaded once for each triangle.
     Four,
@@ -227,7 +226,6 @@ impl<'a> Drawing<'a> {
         }
     }
 
-    /// Draws a tile.
     fn draw(&mut self, canvas: Canvas<'_>) {
         dispatch!(self.engine.level(), simd => self.tile(simd, canvas));
     }

@@ -34,7 +34,6 @@ use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS};
 use rasterproof_core::triangle::{self, ScreenVertex, Span};
 use rasterproof_render::effects::geometry::below;
 
-/// Attributes of a corner.
 pub use rasterproof_render::pipeline::shade::ALL as ATTRIBUTES;
 
 /// Unit roundoffs of f32 and f64.
@@ -88,18 +87,15 @@ impl ValuePlane {
     }
 }
 
-/// The depth of a triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Depth {
     /// The pixel that the plane begins at.
     pub first_px: [i32; 2],
-    /// Depth, as it is.
     plane: ValuePlane,
     /// No depth is nearer.
     nearest: f32,
 }
 
-/// The attributes of a triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Planes {
     /// The pixel that they begin at.
@@ -145,7 +141,6 @@ impl Frame {
         ValuePlane { start: start as f32, right: right as f32, down: down as f32 }
     }
 
-    /// The same of all attributes.
     #[inline(always)]
     fn planes<S: Simd>(&self, [v0, v1, v2]: [f64x8<S>; 3]) -> [[f32; ATTRIBUTES]; 3] {
         let [[x1, y1], [x2, y2]] = self.edges;
@@ -341,7 +336,6 @@ impl Bounded {
         (value, if q > eq && fits { bound } else { f64::INFINITY })
     }
 
-    /// The depth there, and the bound of its error.
     #[must_use]
     pub fn depth_at(&self, x_px: f64, y_px: f64) -> (f32, f64) {
         let (x, y) = self.beside_first(x_px, y_px);

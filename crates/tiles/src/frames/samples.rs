@@ -40,7 +40,6 @@ impl Masks {
         Self { rows: [[0; PLACES]; SIDE_PX as usize], first: SIDE_PX as usize, end: 0 }
     }
 
-    /// Forgets everything.
     pub fn clear(&mut self) {
         self.rows[self.first.min(self.end)..self.end].fill([0; PLACES]);
         (self.first, self.end) = (SIDE_PX as usize, 0);

@@ -26,8 +26,8 @@ pub struct CaseFacts {
     pub overlap: u64,
 }
 
-/// Judges cases; a finding for each pair, in the order of [`Contest::pairs`].
-pub trait Contest: Sync {
+/// Judges cases; a finding for each pair, in the order of [`CompareCases::pairs`].
+pub trait CompareCases: Sync {
     fn pairs(&self) -> Vec<[String; 2]>;
 
     /// Adds what is found about each pair to what is known about it.
@@ -75,12 +75,12 @@ impl Interpolate for CoverageOnly<'_> {
 }
 
 /// Rasterizers, with the bounds of their values where they have any.
-pub struct TriangleContest<'a, R> {
+pub struct TriangleComparer<'a, R> {
     engines: &'a [(&'a str, R, Option<Tolerance>)],
     convention: Convention,
 }
 
-impl<'a, R: Interpolate + Sync> TriangleContest<'a, R> {
+impl<'a, R: Interpolate + Sync> TriangleComparer<'a, R> {
     pub fn new(engines: &'a [(&'a str, R, Option<Tolerance>)], convention: Convention) -> Self {
         Self { engines, convention }
     }
@@ -101,7 +101,7 @@ impl<'a, R: Interpolate + Sync> TriangleContest<'a, R> {
     }
 }
 
-impl<R: Interpolate + Sync> Contest for TriangleContest<'_, R> {
+impl<R: Interpolate + Sync> CompareCases for TriangleComparer<'_, R> {
     fn pairs(&self) -> Vec<[String; 2]> {
         pairs_of(self.engines.iter().map(|(name, ..)| *name))
     }
@@ -161,7 +161,7 @@ fn against(
     }
 }
 
-impl<R: Interpolate + Sync> TriangleContest<'_, R> {
+impl<R: Interpolate + Sync> TriangleComparer<'_, R> {
     /// Compares fragments: their pixels with the same engine's spans, their values at a few pixels
     /// with the exact ones and with those of the next engine.
     fn judge_values(
@@ -286,17 +286,17 @@ pub fn is_sliver(corners: &Corners) -> bool {
 }
 
 /// Line drawers.
-pub struct LineContest<'a, D> {
+pub struct LineComparer<'a, D> {
     engines: &'a [(&'a str, D)],
 }
 
-impl<'a, D: DrawLine + Sync> LineContest<'a, D> {
+impl<'a, D: DrawLine + Sync> LineComparer<'a, D> {
     pub fn new(engines: &'a [(&'a str, D)]) -> Self {
         Self { engines }
     }
 }
 
-impl<D: DrawLine + Sync> Contest for LineContest<'_, D> {
+impl<D: DrawLine + Sync> CompareCases for LineComparer<'_, D> {
     fn pairs(&self) -> Vec<[String; 2]> {
         pairs_of(self.engines.iter().map(|(name, _)| *name))
     }
@@ -356,7 +356,8 @@ impl<D: DrawLine + Sync> Contest for LineContest<'_, D> {
 
 /// A line passes halfway between two pixels somewhere iff its length over the common divisor of
 /// length and rise is even.
-fn line_has_tie(line: &Line) -> bool {
+#[must_use]
+pub fn line_has_tie(line: &Line) -> bool {
     let [a, b] = line.ends.map_array(|end| end.pixel);
     let (dx, dy) = (a.x.abs_diff(b.x), a.y.abs_diff(b.y));
     let (long, short) = (dx.max(dy), dx.min(dy));

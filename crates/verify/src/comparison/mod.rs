@@ -29,7 +29,7 @@ use std::time::{Duration, Instant};
 
 use crate::cases::{self, Case, Family, FamilyName, Shape};
 use crate::oracle::Oracle;
-use compare::{Contest, Cover, CoverageOnly, LineContest, TriangleContest};
+use compare::{CompareCases, Cover, CoverageOnly, LineComparer, TriangleComparer};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::{DrawLine, Interpolate, Rasterize};
 use rasterproof_core::frame::Coverage;
@@ -43,7 +43,7 @@ pub use finding::{EnginePanic, Finding, Tally};
 pub use nothing::{NoSuchShard, NothingJudged};
 #[doc(hidden)]
 pub use {
-    compare::is_sliver,
+    compare::{is_sliver, line_has_tie},
     convention::{Picture, area2},
     finding::{caught, is_judging},
     spans::{engine_coverage, line_coverage, oracle_coverage, oracle_pixels_each},
@@ -380,8 +380,8 @@ pub fn judge_engines<R: Interpolate + Sync, D: DrawLine + Sync>(
 ) -> Verdict {
     let engines: Vec<_> = engines.iter().map(|(name, e, t)| (*name, e, Some(*t))).collect();
     drive(
-        &TriangleContest::new(&engines, options.convention),
-        &LineContest::new(lines),
+        &TriangleComparer::new(&engines, options.convention),
+        &LineComparer::new(lines),
         options,
         progress,
     )
@@ -422,7 +422,7 @@ pub fn must_agree(verdict: Result<Verdict, NothingJudged>) {
 pub fn judge_coverage_of<R: Rasterize + Sync>(engine: &R, case: &Case) -> Finding {
     let cover: &Cover<'_> = &|corners, bounds, emit| engine.cover(corners, bounds, emit);
     let engines = [("candidate", CoverageOnly(cover), None)];
-    TriangleContest::new(&engines, Convention::default()).findings(case).swap_remove(0)
+    TriangleComparer::new(&engines, Convention::default()).findings(case).swap_remove(0)
 }
 
 /// Judges coverage and values of any rasterizer against the oracle, values within `tolerance`.
@@ -446,8 +446,8 @@ fn judge_triangles<R: Interpolate + Sync>(
     NothingJudged::by(options, &nothing::names(cases::triangles::FAMILIES))?;
     let engines = [("candidate", engine, tolerance)];
     let none: [(&str, Oracle); 0] = [];
-    let contest = TriangleContest::new(&engines, options.convention);
-    let mut verdict = drive(&contest, &LineContest::new(&none), options, &|_| ()).of_cases()?;
+    let comparer = TriangleComparer::new(&engines, options.convention);
+    let mut verdict = drive(&comparer, &LineComparer::new(&none), options, &|_| ()).of_cases()?;
     if !verdict.agrees() {
         verdict.convention = disagreement::recognised(&engines[0].1, &options.convention);
     }
@@ -469,8 +469,8 @@ pub fn judge_lines<D: DrawLine + Sync>(
     }
     let none: [(&str, Oracle, Option<Tolerance>); 0] = [];
     let engines = [("candidate", engine)];
-    let triangles = TriangleContest::new(&none, options.convention);
-    drive(&triangles, &LineContest::new(&engines), options, &|_| ()).of_cases()
+    let triangles = TriangleComparer::new(&none, options.convention);
+    drive(&triangles, &LineComparer::new(&engines), options, &|_| ()).of_cases()
 }
 
 /// Cases that a thread judges in one go.
@@ -540,8 +540,8 @@ fn in_blocks<F: Sync, R: AddAssign + Send>(
 }
 
 fn drive(
-    triangles: &impl Contest,
-    lines: &impl Contest,
+    triangles: &impl CompareCases,
+    lines: &impl CompareCases,
     options: &Options,
     progress: &(dyn Fn(u64) + Sync),
 ) -> Verdict {
@@ -585,7 +585,7 @@ fn judge_block(
     mut report: FamilyReport,
     indices: &[u64],
     options: &Options,
-    contest: &impl Contest,
+    comparer: &impl CompareCases,
 ) -> Partial<FamilyReport> {
     let mut failing = Vec::new();
     for &index in indices {
@@ -593,7 +593,7 @@ fn judge_block(
         let known = |pair: &PairReport| Finding::known(pair.worst_attribute, pair.worst_depth);
         let known = report.pairs.iter().map(known).collect();
         let case = options.convention.place(family.case(options.seed, index));
-        let (facts, findings) = contest.judge(&case, known);
+        let (facts, findings) = comparer.judge(&case, known);
         report.count(&facts);
         for (pair, finding) in findings.iter().enumerate() {
             report.pairs[pair].count(index, finding);
@@ -755,8 +755,8 @@ pub fn judge_case<R: Interpolate + Sync, D: DrawLine + Sync>(
     case: &Case,
 ) -> Vec<([String; 2], Finding)> {
     let engines: Vec<_> = engines.iter().map(|(name, e, t)| (*name, e, Some(*t))).collect();
-    let triangles = TriangleContest::new(&engines, Convention::default());
-    let lines = LineContest::new(lines);
+    let triangles = TriangleComparer::new(&engines, Convention::default());
+    let lines = LineComparer::new(lines);
     let (pairs, findings) = match case.shape {
         Shape::Triangles { .. } => (triangles.pairs(), triangles.findings(case)),
         Shape::Lines(_) => (lines.pairs(), lines.findings(case)),

@@ -210,7 +210,7 @@ fn quotient(a: &BigInt, b: &BigInt) -> f64 {
 }
 
 /// The plane of an attribute over w.
-pub(super) struct Plane(LinearFunction);
+pub(super) struct ValuePlane(LinearFunction);
 
 /// The centre of a pixel, in subpixels.
 fn centre(px: i32) -> i64 {
@@ -262,16 +262,16 @@ impl<const N: usize> ExactTriangle<N> {
     }
 
     /// The plane of one more attribute over w, for [`Self::of_planes`].
-    pub(super) fn plane(&self, corners: &Corners, inv_w: [f64; 3], values: [f64; 3]) -> Plane {
+    pub(super) fn plane(&self, corners: &Corners, inv_w: [f64; 3], values: [f64; 3]) -> ValuePlane {
         let over_w = std::array::from_fn(|i| Dyadic::new(inv_w[i]).times(&Dyadic::new(values[i])));
-        Plane(LinearFunction::new(corners, self.area, &over_w))
+        ValuePlane(LinearFunction::new(corners, self.area, &over_w))
     }
 
     /// The attributes of some planes at the centre of a pixel.
-    pub(super) fn of_planes(&self, planes: &[Plane], x_px: i32, y_px: i32) -> Vec<Exact> {
+    pub(super) fn of_planes(&self, planes: &[ValuePlane], x_px: i32, y_px: i32) -> Vec<Exact> {
         let [x, y] = [x_px, y_px].map_array(centre);
         let inv_w = self.inv_w.numerator(x, y);
-        let one = |Plane(plane): &Plane| {
+        let one = |ValuePlane(plane): &ValuePlane| {
             let exponent = plane.exponent - self.inv_w.exponent;
             Exact::new(plane.numerator(x, y), inv_w.clone(), exponent)
         };

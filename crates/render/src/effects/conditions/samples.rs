@@ -10,7 +10,7 @@ use crate::effects::plan::{Canvas, Decision, PiecePlan, Samples};
 use crate::effects::primitive::{Prepared, touched};
 use crate::effects::{Effect, Effects, Mode};
 use crate::pipeline::ClipVertex;
-use crate::pipeline::assemble::{Point, Viewport, twice_area};
+use crate::pipeline::assemble::{ClipPoint, Viewport, twice_area};
 use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::triangle::Corners;
 
@@ -104,7 +104,7 @@ impl Estimate {
     /// of their corners, uncut.
     pub fn see_roughly(&mut self, item: &Prepared<'_>, plan: PiecePlan) {
         let viewport = Viewport::new(self.canvas.window());
-        let place = |point: &Point| {
+        let place = |point: &ClipPoint| {
             let vertex = ClipVertex { position: point.position, varying: () };
             point.place().or_else(|| Some(viewport.place(&vertex).ok()?.position))
         };

@@ -28,7 +28,7 @@ use self::sample_masks::SampleMask;
 use super::plan::{PiecePlan, Samples};
 use super::primitive::{Piece, pack, touched};
 use crate::pipeline::Counters;
-use crate::pipeline::fill::{Stage, Way, each, fill, shade};
+use crate::pipeline::fill::{FragmentStage, Way, each, fill, shade};
 use crate::pipeline::shade::Attributes;
 use crate::pipeline::target::{Colour, Target};
 use rasterproof_core::contract::{Interpolate, RUN};
@@ -138,7 +138,7 @@ impl OnDemand {
         packed: &ScreenTriangle<V>,
         target: &mut Target,
         plan: PiecePlan,
-        stage: &Stage<'_, V>,
+        stage: &FragmentStage<'_, V>,
         counters: &mut Counters,
     ) {
         let way = Way { affine: !plan.perspective, depth_test: plan.depth };

@@ -11,10 +11,9 @@ use rasterproof_render::pipeline::target::to_colour;
 
 pub(super) type Point = [f64; 2];
 
-/// Every sheet is as wide as a telephone shows without scaling it down much.
+/// Every drawing is as wide as a telephone shows without scaling it down much.
 pub(super) const WIDTH: f64 = 360.0;
 
-/// What each class is painted with.
 struct Palette {
     paper: &'static str,
     grid: &'static str,
@@ -70,25 +69,24 @@ impl Palette {
     }
 }
 
-/// Pixels of a window as squares on the sheet.
+/// Pixels of a window as squares on the drawing.
 #[derive(Clone, Copy)]
 pub(super) struct Panel {
-    /// Where the upper left corner of the window lies on the sheet.
+    /// Where the upper left corner of the window lies on the drawing.
     pub corner: Point,
-    /// The side of a pixel.
     pub unit: f64,
     pub window: PixelRect,
 }
 
 impl Panel {
-    /// A window in the middle of the sheet, its upper border at `top`.
+    /// A window in the middle of the drawing, its upper border at `top`.
     pub fn middle(columns: i32, rows: i32, unit: f64, top: f64) -> Self {
         let left = (WIDTH - f64::from(columns) * unit) / 2.0;
         let window = PixelRect { x0: 0, y0: 0, x1: columns, y1: rows };
         Self { corner: [left, top], unit, window }
     }
 
-    /// Where a position in pixels lies on the sheet.
+    /// Where a position in pixels lies on the drawing.
     pub fn place(&self, [x, y]: Point) -> Point {
         let PixelRect { x0, y0, .. } = self.window;
         let along = |value: f64, first: i32| (value - f64::from(first)) * self.unit;
@@ -106,8 +104,8 @@ impl Panel {
     }
 }
 
-/// A sheet; what only the answer shows is left out of it until the reader has made a prediction.
-pub(super) struct Sheet {
+/// A drawing; what only the answer shows is left out of it until the reader has made a prediction.
+pub(super) struct Drawing {
     height: f64,
     pub is_answered: bool,
     /// The pixels, below all else.
@@ -117,14 +115,13 @@ pub(super) struct Sheet {
 
 /// Neighbouring pixels of a row that are painted alike.
 struct Run {
-    /// A class, or a colour.
     paint: String,
     corner: Point,
     width: f64,
     unit: f64,
 }
 
-impl Sheet {
+impl Drawing {
     pub fn new(height: f64, is_answered: bool) -> Self {
         Self { height, is_answered, runs: Vec::new(), body: String::new() }
     }
@@ -143,7 +140,6 @@ impl Sheet {
         }
     }
 
-    /// A pixel of the answer in a colour of its own.
     pub fn colour(&mut self, panel: &Panel, pixel: [i32; 2], rgb: DVec3) {
         let [r, g, b, _] = to_colour(rgb);
         self.square(panel, pixel, format!("#{r:02x}{g:02x}{b:02x}"));
@@ -220,7 +216,7 @@ impl Sheet {
         self.path(class, &points, is_closed);
     }
 
-    /// A closed or open line through points of the sheet.
+    /// A closed or open line through points of the drawing.
     pub fn path(&mut self, class: &str, points: &[Point], is_closed: bool) {
         let mut path = String::new();
         for (i, [x, y]) in points.iter().enumerate() {
@@ -247,14 +243,13 @@ impl Sheet {
         ));
     }
 
-    /// Words at a point of the sheet, where they `start`, or where their `middle` or `end` is.
+    /// Words at a point of the drawing, where they `start`, or where their `middle` or `end` is.
     pub fn text(&mut self, [x, y]: Point, anchor: &str, words: &str) {
         self.add(format_args!(
             "<text x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"{anchor}\">{words}</text>"
         ));
     }
 
-    /// What the reader drags.
     pub fn grip(&mut self, [x, y]: Point) {
         // Before the answer it cannot be dragged, and is a point like others.
         let (class, radius) = if self.is_answered { ("grip", 8) } else { ("dot", 4) };
@@ -263,7 +258,6 @@ impl Sheet {
         ));
     }
 
-    /// The same with a letter.
     pub fn named_grip(&mut self, [x, y]: Point, letter: &str) {
         self.grip([x, y]);
         self.text([x + 12.0, y - 6.0], "start", letter);
@@ -303,7 +297,6 @@ impl Sheet {
         }
     }
 
-    /// The picture for a page.
     pub fn inline(&self, is_dark: bool) -> String {
         let (Self { height, body, .. }, pixels) = (self, self.pixels());
         let rules = if is_dark { DARK } else { LIGHT }.rules();
