@@ -29,6 +29,10 @@ enum Which {
     Interpolation,
     /// Formats of the depth buffer
     Depth,
+    /// Formats of a shadow map
+    Shadows,
+    /// Levels of detail of a texture
+    Levels,
     /// Samples for each pixel
     Antialiasing,
     /// Line drawers
@@ -41,6 +45,8 @@ impl Which {
             Self::Coverage => &[Ladder::Scanline, Ladder::EdgeFunction],
             Self::Interpolation => &[Ladder::Interpolation],
             Self::Depth => &[Ladder::Depth],
+            Self::Shadows => &[Ladder::Shadows],
+            Self::Levels => &[Ladder::Levels],
             Self::Antialiasing => &[Ladder::Antialiasing],
             Self::Lines => &[Ladder::Lines],
         }

@@ -37,8 +37,11 @@ pub struct PlanArguments {
     /// Rounds of measuring, each with every mixture of effects in turn [default: 9, fewer for a large model]
     #[arg(long, value_parser = clap::value_parser!(u32).range(1..=1000))]
     rounds: Option<u32>,
+    /// Measure everything, usual and planned alone, and no single effect
+    #[arg(long)]
+    whole: bool,
     /// Draw the picture without this effect instead, and what differs, and count the pixels; nothing is measured
-    #[arg(long, value_name = "EFFECT", value_parser = parse_effect, conflicts_with_all = ["report", "json"])]
+    #[arg(long, value_name = "EFFECT", value_parser = parse_effect, conflicts_with_all = ["report", "json", "whole"])]
     without: Option<Effect>,
     #[command(flatten)]
     page: PageArguments,
@@ -194,7 +197,7 @@ pub fn run(arguments: &PlanArguments, typed: &Typed, streams: &mut Streams<'_>) 
         });
         writeln!(streams.output, "{json}")?;
     } else {
-        let text = describe(&scene, &planned, &everything.counters, &measured);
+        let text = describe(&scene, &planned, &everything.counters, &measured, arguments.whole);
         streams.output.write_all(text.as_bytes())?;
         if let Some(us) = survey_us {
             let share = 100.0 * us / measured.planned.time_us;
@@ -285,6 +288,9 @@ fn measure(
     on_terminal: bool,
 ) -> Result<(Savings, Rendered, Rendered), Failure> {
     let mut mixtures = mixtures();
+    if arguments.whole {
+        mixtures.truncate(WHOLE.len());
+    }
     let progress = Progress::new(on_terminal, "frames", None);
     let mut target = arguments.what.target()?;
     let mut draw = |effects: &Effects| {
@@ -346,7 +352,13 @@ fn measure(
     Ok((savings, everything, planned))
 }
 
-fn describe(scene: &Scene, planned: &Rendered, everything: &Counters, savings: &Savings) -> String {
+fn describe(
+    scene: &Scene,
+    planned: &Rendered,
+    everything: &Counters,
+    savings: &Savings,
+    is_whole: bool,
+) -> String {
     let mut text = format!("{}: {}\n\n", scene.name, scene.about);
     text += "effect        item            on      off     open  unit\n";
     for line in grouped(&planned.plan.decisions) {
@@ -361,6 +373,11 @@ fn describe(scene: &Scene, planned: &Rendered, everything: &Counters, savings: &
     for ((name, all), (_, planned)) in everything.shown().into_iter().zip(planned.counters.shown())
     {
         let _ = writeln!(text, "{name:<18} {all:>12} {planned:>11}");
+    }
+    if is_whole {
+        text.push('\n');
+        text += &whole(savings);
+        return text;
     }
     if savings.effects.is_empty() {
         text += "\nOne effect at a time is not measured, since a round of all mixtures takes\nmore than 5 s here: --rounds 9 measures them.\n\n";

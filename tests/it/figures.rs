@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use glam::{DVec4, Vec4};
+use glam::{DVec3, DVec4, Vec4};
 use rasterproof_core::frame::{Coverage, Frame};
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::raster::edge_function::WordWidth;
@@ -22,6 +22,7 @@ use rasterproof_render::pipeline::clip::MOST_VERTICES;
 use rasterproof_render::pipeline::shadow::Shadows;
 use rasterproof_render::pipeline::target::{Antialias, Target};
 use rasterproof_render::scene::chapters::scene;
+use rasterproof_render::scene::{Item, Material, shapes};
 use rasterproof_report::frame_comparison::differing;
 use rasterproof_verify::cases::named::{Input, find};
 use rasterproof_verify::cases::{Case, Shape, families};
@@ -55,16 +56,25 @@ fn pays(name: &str, effect: Effect) -> Vec<f64> {
 }
 
 /// Pixels of the scene `shadows` that change when the map holds depths in 16, 24 and 32 bits instead of as exactly as a double has
-/// them.
+/// them; and the same with a speck so high above it that the map spans a thousand times the depth.
 fn shadow_bits() -> Vec<f64> {
-    let picture = |bits: u32| {
+    let picture = |bits: u32, height: f64| {
         let mut scene = scene("shadows", 4.0 / 3.0, 0.0).unwrap();
         scene.shadows = Some(Shadows { bits, ..Shadows::default() });
+        if height > 0.0 {
+            let place = DVec3::new(0.0, 0.0, 5.0) + scene.light.towards * height;
+            let corners = [DVec3::ZERO, DVec3::X, DVec3::Z].map(|corner| place + corner * 1e-3);
+            let speck = shapes::triangle(corners, [DVec3::ONE; 3]);
+            scene.items.push(Item::new(speck, Material::default()));
+        }
         let mut target = Target::new(640, 480, Antialias::None, Default::default()).unwrap();
         Drawer::Scanline.render(&scene, &Effects::PLANNED, &mut target).unwrap().picture
     };
-    let exact = picture(52);
-    [16, 24, 32].map(|bits| differing(&picture(bits), &exact) as f64).to_vec()
+    let changed = |height: f64| {
+        let exact = picture(52, height);
+        [16, 24, 32].map(|bits| differing(&picture(bits, height), &exact) as f64)
+    };
+    [changed(0.0), changed(1e4)].concat()
 }
 
 /// Every figure by its name. Where there are several, the pages add `.1`, `.2` and so on to the name.

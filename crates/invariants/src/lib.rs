@@ -5,13 +5,14 @@
 //! are put in the place of the real thing to show that each check can fail ([`matrix`]).
 //!
 //! - Coverage is 1 to 20, values 21 to 31, clipping 32 to 35, lines 36 to 41, the harness itself 42
-//!   to 45, effects 46, lists of triangles 47.
+//!   to 45, effects 46, lists of triangles 47, formulas of effects 48 to 51.
 
 pub mod acceptance;
 mod clip;
 mod coverage;
 mod effects;
 mod exact;
+mod formulas;
 mod lines;
 mod lists;
 pub mod matrix;
@@ -203,6 +204,7 @@ const ENGINE: &[Component] = &[Component::Engine];
 const JUDGED: &[Component] = &[Component::Engine, Component::Oracle];
 const DRAWER: &[Component] = &[Component::Drawer];
 const CLIP: &[Component] = &[Component::Clip];
+const FORMULAS: &[Component] = &[Component::Formulas];
 
 const fn invariant(
     number: u32,
@@ -353,6 +355,18 @@ pub const CATALOGUE: &[Invariant] = &[
     invariant(47, "lists",
         "A list covers what each of its triangles covers, in their order, in every instruction set.",
         "0", &[Component::Lists], Check::Triangle(lists::one_by_one)),
+    invariant(48, "over",
+        "Mixing two colours gives the nearest step, and is associative where an opacity is 0 or 1.",
+        "half a step, the definition", FORMULAS, Check::Run(formulas::over, 40)),
+    invariant(49, "layers",
+        "The order in which layers are drawn changes nothing, and neither do layers behind what is opaque.",
+        "0", FORMULAS, Check::Run(formulas::layers, 400)),
+    invariant(50, "footprint",
+        "A footprint N times as long as wide is read N times, and half as large one level higher.",
+        "2^-45 in the level, four roundings", FORMULAS, Check::Run(formulas::footprints, 400)),
+    invariant(51, "plane-in-light",
+        "A plane does not keep the light from itself, in any light and any format of the map.",
+        "0", FORMULAS, Check::Run(formulas::planes_in_light, 200)),
 ];
 
 #[cfg(test)]
@@ -362,7 +376,7 @@ mod tests {
     #[test]
     fn catalogue_is_numbered_and_named() {
         let numbers: Vec<u32> = CATALOGUE.iter().map(|i| i.number).collect();
-        assert_eq!(numbers, (1..=47).collect::<Vec<_>>());
+        assert_eq!(numbers, (1..=51).collect::<Vec<_>>());
         let kebab = |name: &str| name.bytes().all(|b| b.is_ascii_lowercase() || b == b'-');
         assert!(CATALOGUE.iter().all(|i| kebab(i.name) && i.statement.ends_with('.')));
         for invariant in CATALOGUE {

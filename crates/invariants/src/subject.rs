@@ -14,7 +14,7 @@ use rasterproof_core::line::dda::Dda;
 use rasterproof_core::raster::edge_function::{self, EdgeFunction, WordWidth};
 use rasterproof_core::raster::scanline::Scanline;
 use rasterproof_core::triangle::{Corners, Fragment, ScreenTriangle, Span};
-use rasterproof_faults::planted::{Mutant, StageMutant};
+use rasterproof_faults::planted::{Formulas, Mutant, StageMutant};
 use rasterproof_registry::engines;
 use rasterproof_render::effects::Effects;
 use rasterproof_render::pipeline::assemble::Cull;
@@ -153,6 +153,7 @@ pub struct Subject {
     /// The effects a scene is drawn with, of those that are asked for.
     pub choose: fn(Effects) -> Effects,
     pub render: RenderStage,
+    pub formulas: Formulas,
     pub coverage_agrees: fn(&Coverage, &Coverage) -> bool,
 }
 
@@ -169,6 +170,7 @@ pub enum Component {
     Clip,
     Cull,
     Render,
+    Formulas,
     Judge,
     Lists,
     /// The matrix of invariants and mutants itself.
@@ -217,6 +219,7 @@ impl Subject {
                     .render(scene, effects, target)
                     .map_or(Counters::default(), |rendered| rendered.counters)
             },
+            formulas: Formulas::REAL,
             coverage_agrees: |actual, target| Tally::between(actual, target).total() == 0,
         }
     }
@@ -246,6 +249,7 @@ impl Subject {
             }
             Mutant::Judge(fault) => subject.coverage_agrees = fault.function(),
             Mutant::Tile(fault) => subject.lists = vec![(fault.name(), Box::new(fault))],
+            Mutant::Effect(fault) => subject.formulas = fault.formulas(),
         }
         subject
     }
@@ -267,5 +271,6 @@ pub fn component_of(mutant: &Mutant) -> Component {
         },
         Mutant::Judge(_) => Component::Judge,
         Mutant::Tile(_) => Component::Lists,
+        Mutant::Effect(_) => Component::Formulas,
     }
 }

@@ -31,6 +31,7 @@ macro_rules! planted {
     };
 }
 
+mod effects;
 pub mod exact;
 mod helpers;
 mod lines;
@@ -39,6 +40,7 @@ mod pipeline;
 mod tiles;
 mod triangles;
 
+pub use effects::{EffectMutant, Formulas};
 use exact::ExactMutant;
 pub use helpers::{EdgeValuesMutant, JudgeMutant, SnapMutant, SourceMutant, WordWidthMutant};
 pub use lines::LineMutant;
@@ -95,6 +97,7 @@ kinds! {
     Stage(StageMutant),
     Judge(JudgeMutant),
     Tile(TileMutant),
+    Effect(EffectMutant),
 }
 
 impl Mutant {

@@ -3,8 +3,7 @@
 //!
 //! The columns are distances from the eye. The layers lie a ten-thousandth of the distance apart.
 
-use super::scene::{Size, scenes};
-use super::{Board, Column, Ladder, Measure, Options, Prepared, Rung, finish};
+use super::{Board, Column, Ladder, Measure, Options, Prepared, Rung, finish, no_classes};
 use crate::ladder::Real;
 use crate::ladder::depth::{FAR, Fixed24, Format, Forward, NEAR, Reversed, stored};
 use rasterproof_core::arrays::MapArray as _;
@@ -177,11 +176,8 @@ pub(super) fn measure(options: &Options, progress: &dyn Fn(f64, &str)) -> Board 
         let pixels = (2 * tiles * SIDE_PX * SIDE_PX) as u64;
         columns.push(Column::new(name, about, 2 * tiles as u64, pixels));
     }
-    for class in scenes(options.seed, Size { side_px: 64, pixels: 0 }) {
-        let why = "depth depends on the distance from the eye, not on the shape";
-        prepared.iter_mut().for_each(|row| row.push(Prepared::NotRun(why.to_owned())));
-        columns.push(Column::new(class.name, class.about.to_owned(), 0, 0));
-    }
+    let why = "depth depends on the distance from the eye, not on the shape";
+    no_classes(options, why, &mut columns, &mut prepared);
     let rungs = variants.iter().map(|(rung, _)| rung.clone()).collect();
     finish((ladder, measures()), (rungs, columns), prepared, options, (progress, &mut |_, _| ()))
 }

@@ -12,10 +12,12 @@ mod coverage;
 mod depth;
 mod external;
 mod interpolation;
+mod levels;
 mod lines;
 mod race;
 mod recorded;
 pub mod scene;
+mod shadow;
 mod tiles;
 mod verdict;
 
@@ -46,6 +48,10 @@ rasterproof_core::named! {
         Interpolation = "interpolation",
         /// Formats of the depth buffer.
         Depth = "depth",
+        /// Formats of a shadow map.
+        Shadows = "shadows",
+        /// Levels of detail of a texture.
+        Levels = "levels",
         /// Samples for each pixel.
         Antialiasing = "antialiasing",
         /// Line drawers.
@@ -61,6 +67,8 @@ impl Ladder {
             Self::EdgeFunction => "Coverage by edge function",
             Self::Interpolation => "Interpolation",
             Self::Depth => "Depth",
+            Self::Shadows => "Shadows",
+            Self::Levels => "Levels of detail",
             Self::Antialiasing => "Antialiasing",
             Self::Lines => "Lines",
         }
@@ -211,6 +219,8 @@ pub fn measure_with(
         Ladder::EdgeFunction => coverage::measure(ladder, options, external, progress),
         Ladder::Interpolation => interpolation::measure(options, progress),
         Ladder::Depth => depth::measure(options, progress),
+        Ladder::Shadows => shadow::measure(options, progress),
+        Ladder::Levels => levels::measure(options, progress),
         Ladder::Lines => lines::measure(options, progress),
         Ladder::Antialiasing => antialiasing::measure(options, progress),
     }
@@ -244,6 +254,19 @@ type Told<'a> = (&'a dyn Fn(f64, &str), Afterwards<'a>);
 enum Prepared<'a> {
     NotRun(String),
     Ready { errors: Vec<Option<f64>>, work: Option<Work>, pass: Box<dyn FnMut() + 'a> },
+}
+
+/// The classes of scenes on which a ladder is not measured that has columns of its own, with the reason.
+fn no_classes(
+    options: &Options,
+    why: &str,
+    columns: &mut Vec<Column>,
+    prepared: &mut [Vec<Prepared<'_>>],
+) {
+    for class in scene::scenes(options.seed, scene::Size { side_px: 64, pixels: 0 }) {
+        prepared.iter_mut().for_each(|row| row.push(Prepared::NotRun(why.to_owned())));
+        columns.push(Column::new(class.name, class.about.to_owned(), 0, 0));
+    }
 }
 
 /// Times what was prepared (cells by rung, then by column) and puts the board together.

@@ -12,8 +12,10 @@ pub mod area;
 pub mod depth;
 pub mod edges;
 pub mod interpolation;
+pub mod levels;
 pub mod lines;
 pub mod scanline;
+pub mod shadow;
 
 use std::ops::AddAssign;
 

@@ -63,6 +63,12 @@ impl Footprint {
         derivatives.map_array(|derivative| (derivative * self.size).length_squared())
     }
 
+    /// The lengths of the derivatives by columns and by rows of pixels, in texels.
+    #[must_use]
+    pub fn lengths(&self, uv: DVec2, w: f64) -> [f64; 2] {
+        self.squares(self.derivatives(uv, w)).map_array(f64::sqrt)
+    }
+
     /// The level of detail; at most 0 where the texture is magnified.
     #[must_use]
     pub fn level(&self, uv: DVec2, w: f64) -> f64 {
@@ -99,6 +105,18 @@ impl Footprint {
     /// 2^-48 M |q_x| / q_min <= 2^-48 (m |q_x| / q_min + 2): far below 2^-40 of the term of any corner, and 2^-20.
     #[must_use]
     pub fn is_magnified(&self, inv_w: [f64; 3], uv: [DVec2; 3]) -> bool {
+        // NaN is not known to be magnified.
+        self.longest_square(inv_w, uv) <= 1.0 - 0.5f64.powi(20)
+    }
+
+    /// No derivative in the triangle is longer, in texels. The bound is that of [`Self::is_magnified`], with its margin; where
+    /// it is L texels in place of one, so are the terms of the errors that it is derived from.
+    #[must_use]
+    pub fn longest(&self, inv_w: [f64; 3], uv: [DVec2; 3]) -> f64 {
+        self.longest_square(inv_w, uv).sqrt() * (1.0 + 0.5f64.powi(20))
+    }
+
+    fn longest_square(&self, inv_w: [f64; 3], uv: [DVec2; 3]) -> f64 {
         let least = inv_w[0].min(inv_w[1]).min(inv_w[2]);
         let mut longest: f64 = 0.0;
         for (over_w, slope) in self.over_w.iter().zip(self.inv_w) {
@@ -110,8 +128,7 @@ impl Footprint {
             }
             longest = longest.max((most * self.size / (least * least)).length_squared());
         }
-        // NaN is not known to be magnified.
-        longest <= 1.0 - 0.5f64.powi(20)
+        longest
     }
 
     /// Whether [`Self::taps`] reads once everywhere in the triangle.

@@ -10,7 +10,7 @@ use super::target::{Colour, SamplePlane};
 
 /// A fragment that waits. The order is that of samples, and in each from the nearest on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct Layer {
+pub struct Layer {
     pub plane: u8,
     pub y_px: i32,
     pub x_px: i32,
@@ -34,15 +34,21 @@ impl Layers {
             let Layer { plane, y_px, x_px, .. } = layers[0];
             let plane = &mut planes[usize::from(plane)];
             let stored = plane.depth.span_mut(y_px, x_px, x_px + 1)[0];
-            let nearer = layers.partition_point(|layer| layer.key < stored);
-            let mixed = nearer.min(most as usize);
-            left_out += (nearer - mixed) as u64;
             let colour = &mut plane.colour.span_mut(y_px, x_px, x_px + 1)[0];
-            for layer in layers[..mixed].iter().rev() {
-                *colour = over(layer.colour, *colour, layer.opacity);
-            }
+            left_out += mix_sample(layers, most, stored, colour);
         }
         self.0.clear();
         left_out
     }
+}
+
+/// Mixes the layers of one sample, sorted, with the colour of what is opaque there, whose key of depth is `stored`; how many
+/// more than `most` were to be seen.
+pub fn mix_sample(layers: &[Layer], most: u32, stored: u64, colour: &mut Colour) -> u64 {
+    let nearer = layers.partition_point(|layer| layer.key < stored);
+    let mixed = nearer.min(most as usize);
+    for layer in layers[..mixed].iter().rev() {
+        *colour = over(layer.colour, *colour, layer.opacity);
+    }
+    (nearer - mixed) as u64
 }

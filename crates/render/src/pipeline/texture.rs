@@ -9,6 +9,7 @@
 use glam::{DVec2, DVec3};
 
 use super::depth::OFF_FRACTION;
+use super::plain::{PlainBlocks, within};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::grid::MAX_SIDE_PX;
 
@@ -48,6 +49,7 @@ pub struct Texture {
     pub anisotropy: u8,
     /// Its mip map: smaller and smaller pictures, down to one texel; empty without one.
     levels: Vec<Texture>,
+    plain: PlainBlocks,
 }
 
 /// Texels row by row from the top, as bytes. A table turns them into channels in [0, 1]: doubles would take
@@ -109,8 +111,8 @@ impl Texture {
     fn of(width: u32, height: u32, texels: Texels) -> Self {
         let subtexels = DVec2::new(f64::from(width), f64::from(height)) * SUBTEXELS as f64;
         let (wrap, filter) = (Wrap::Repeat, Filter::Nearest);
-        let (anisotropy, levels) = (1, Vec::new());
-        Self { width, height, subtexels, texels, wrap, filter, anisotropy, levels }
+        let (anisotropy, levels, plain) = (1, Vec::new(), PlainBlocks::default());
+        Self { width, height, subtexels, texels, wrap, filter, anisotropy, levels, plain }
     }
 
     /// The same, read differently.
@@ -332,6 +334,33 @@ impl Texture {
         };
         let (u, v) = (uv.map_array(|uv| uv.x), uv.map_array(|uv| 1.0 - uv.y));
         [ends(u, self.subtexels.x), ends(v, self.subtexels.y)]
+    }
+
+    /// Whether one colour is read at all coordinates between three, and up to `reach` texels beside them, at each level of detail
+    /// up to `level`.
+    #[must_use]
+    pub fn is_plain_between(&self, uv: [DVec2; 3], reach: f64, level: f64) -> bool {
+        let levels = (level.ceil() as usize).min(self.levels.len());
+        let Some(colour) = self.plain_colour(uv, reach) else { return false };
+        self.levels[..levels].iter().enumerate().all(|(i, texture)| {
+            let reach = reach / f64::from(2u32 << i.min(30));
+            texture.plain_colour(uv, reach) == Some(colour)
+        })
+    }
+
+    /// The one colour of all texels that are read at coordinates between three, and up to `reach` texels beside them.
+    fn plain_colour(&self, uv: [DVec2; 3], reach: f64) -> Option<u32> {
+        // The coordinate of a tap is rounded too, by far less than a texel.
+        let reach = if reach > 0.0 { reach.ceil() as i64 + 1 } else { 0 };
+        let [columns, rows] =
+            self.texels_between(uv).map_array(|[first, last]| [first - reach, last + reach]);
+        let columns = within(self.wrap, columns, self.width.into());
+        let rows = within(self.wrap, rows, self.height.into());
+        let sides = [self.width as usize, self.height as usize];
+        match &self.texels {
+            Texels::Colour(bytes) => self.plain.colour(sides, &columns, &rows, |at| bytes[at]),
+            Texels::Grey(bytes) => self.plain.colour(sides, &columns, &rows, |at| bytes[at].into()),
+        }
     }
 
     pub(super) fn red(&self, column: u32, row: u32) -> u8 {

@@ -2,12 +2,19 @@
 //!
 //! Left out for each attribute that has the same bits at the three corners. The rasterizers return a
 //! constant exactly, so what is computed from it once is what every fragment would get.
+//!
+//! Texture coordinates are left out as well where all texels that a piece may read have one colour ([`is_plain`]).
 
 use super::account::Account;
-use crate::effects::plan::{Attributes, Decision};
-use crate::effects::primitive::Piece;
+use super::alpha_test;
+use super::mip_maps::{footprint, is_near};
+use crate::effects::plan::{Attributes, Decision, Rule};
+use crate::effects::primitive::{Piece, Prepared};
 use crate::effects::{Effect, Effects, Mode};
+use crate::pipeline::opacity::Drawn;
+use crate::pipeline::shade::Surface;
 use crate::scene::{Item, Shading};
+use rasterproof_core::arrays::MapArray as _;
 
 /// The attributes of an item that may be interpolated, and whether only where they vary.
 pub fn rule(item: &Item, carries: Attributes, effects: &Effects) -> (Attributes, bool) {
@@ -41,6 +48,41 @@ pub fn differing(mut of: Attributes, piece: &Piece) -> Attributes {
         }
     }
     of
+}
+
+/// Whether a rule lets a texture be read once for a piece with these opacities. Whoever pays for levels or taps everywhere reads
+/// it everywhere, and each opacity of its own needs coordinates.
+pub fn may_be_plain(rule: &Rule, opacity: Drawn) -> bool {
+    let is_mixed = |mode: Mode| alpha_test::drawn(mode, opacity) == Drawn::Mixed;
+    rule.where_it_varies
+        && ![rule.mip_maps, rule.anisotropy].contains(&Mode::Always)
+        && !is_mixed(rule.alpha_test)
+        && !is_mixed(rule.blending)
+}
+
+/// Up to so many texels a pixel a texture is looked at.
+const MOST_TEXELS: f64 = (1 << 16) as f64;
+
+/// Whether all texels have one colour that the fragments of a piece may read: those between the texture coordinates of its
+/// corners and beside them, as far as a filter reads. With `levels` that holds of each level of detail up to that of the longest
+/// derivative, and with `taps` of the texels up to half of it away, which is as far as a tap is moved.
+pub fn is_plain(
+    rule: &Rule,
+    item: &Prepared<'_>,
+    piece: &Piece,
+    [levels, taps]: [bool; 2],
+) -> bool {
+    let Some(texture) = item.texture else { return false };
+    let uv = piece.vertices.map_array(|vertex| Surface::from(vertex.varying).uv);
+    let is_plain = texture.is_plain_between(uv, 0.0, 0.0);
+    if !is_plain || !(levels || taps) {
+        return is_plain;
+    }
+    let (footprint, inv_w, uv) = footprint(texture, piece, rule.perspective != Mode::Never);
+    let longest = footprint.longest(inv_w, uv);
+    let reach = if taps { longest / 2.0 } else { 0.0 };
+    let level = if levels { libm::log2(longest) + 0.5f64.powi(20) } else { 0.0 };
+    is_near(item, piece) && longest < MOST_TEXELS && texture.is_plain_between(uv, reach, level)
 }
 
 pub fn explain(account: &Account<'_>) -> Decision {

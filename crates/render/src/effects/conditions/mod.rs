@@ -37,7 +37,7 @@ use crate::scene::{Item, Scene};
 /// [`Facts::UNKNOWN`].
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Facts {
-    /// Attributes that may differ between the corners.
+    /// Attributes of which something that depends on them may differ between fragments.
     pub varies: Attributes,
     pub has_one_w: bool,
     pub fog: Share,
@@ -104,9 +104,20 @@ impl Facts {
             let has_highlight = rule.specular.pays(facts.is_shiny);
             facts.is_shadowed = shadows::may_be_shadowed(scene, item, piece, has_highlight);
         }
-        let reads_around = rule.mip_maps.is_open() || rule.anisotropy.is_open();
-        if reads_around && rule.interpolates.both(facts.varies).has(Attributes::UV) {
+        if !rule.interpolates.both(facts.varies).has(Attributes::UV) {
+            return facts;
+        }
+        if rule.mip_maps.is_open() || rule.anisotropy.is_open() {
             [facts.is_minified, facts.is_stretched] = mip_maps::footprints(rule, item, piece);
+        }
+        if interpolation::may_be_plain(rule, facts.opacity) {
+            let reads = [
+                rule.mip_maps.pays(facts.is_minified),
+                rule.anisotropy.pays(facts.is_stretched),
+            ];
+            if interpolation::is_plain(rule, item, piece, reads) {
+                facts.varies = facts.varies.without(Attributes(Attributes::UV));
+            }
         }
         facts
     }

@@ -1,0 +1,243 @@
+//! The ladder of levels of detail: how far the level of a pixel is from the exact one, and what it takes.
+//!
+//! Spans come from the exact scanline and are not timed. Errors are taken at a sample of the pixels, against derivatives in
+//! quotients of big integers, of which the logarithm alone is rounded.
+
+use std::cell::RefCell;
+
+use super::scene::{Scene, Size, scenes};
+use super::{Board, Column, Ladder, Measure, Options, Prepared, Rung, finish};
+use crate::ladder::levels::{Derivatives, Differences, Level, OfTriangle, SIDE, Textured};
+use crate::ladder::snap;
+use num_rational::BigRational;
+use num_traits::{ToPrimitive as _, Zero as _};
+use rasterproof_core::arrays::MapArray as _;
+use rasterproof_core::contract::Rasterize as _;
+use rasterproof_core::frame::Frame;
+use rasterproof_core::grid::{SUBPIXELS, SubpixelPoint};
+use rasterproof_core::raster::scanline::Scanline;
+use rasterproof_core::triangle::Span;
+
+/// A part of a level that 8 bits between two levels can express, as the Vulkan specification wants at most.
+const STEP: f64 = 1.0 / 256.0;
+
+/// Pixels of a class at which errors are taken.
+const SAMPLES: usize = 400;
+
+fn measures() -> Vec<Measure> {
+    vec![
+        Measure::new("largest distance from the exact level of detail", "levels", Some(STEP)),
+        Measure::new("mean distance from the exact level of detail", "mean", None),
+    ]
+}
+
+/// A triangle and the rows it covers.
+struct Drawn {
+    triangle: Textured,
+    spans: Vec<Span>,
+}
+
+/// The triangles of a scene on the lattice, with texture coordinates made of their positions.
+fn dress(scene: &Scene) -> Vec<Drawn> {
+    let dressed = scene.triangles.iter().zip(&scene.w).filter_map(|(corners, w)| {
+        let corners = snap(corners)?;
+        let mut spans = Vec::new();
+        Scanline.cover(corners, scene.bounds, |span| spans.push(span));
+        let made = |i: usize| {
+            let SubpixelPoint { x, y } = corners[i];
+            [x % 509 + i as i32, y % 503].map_array(|n| f64::from(n - 254) / 256.0)
+        };
+        let inv_w = w.map_array(|w| f64::from((1.0 / w) as f32));
+        let triangle = Textured { corners, inv_w, uv: [0, 1, 2].map_array(made) };
+        (!spans.is_empty()).then_some(Drawn { triangle, spans })
+    });
+    dressed.collect()
+}
+
+fn exactly(value: f64) -> BigRational {
+    BigRational::from_float(value).unwrap_or_else(BigRational::zero)
+}
+
+/// The exact level at the centre of a pixel; nothing where a texture coordinate is the same everywhere.
+fn exact(Textured { corners, inv_w, uv }: &Textured, x_px: i32, y_px: i32) -> Option<f64> {
+    let px = corners.map_array(|corner| {
+        [corner.x, corner.y].map_array(|sub| exactly(f64::from(sub) / f64::from(SUBPIXELS)))
+    });
+    let [a, b, c] = &px;
+    let edge = |p: &[BigRational; 2]| [&p[0] - &a[0], &p[1] - &a[1]];
+    let (to_b, to_c) = (edge(b), edge(c));
+    let to = edge(&[x_px, y_px].map_array(|px| exactly(f64::from(px) + 0.5)));
+    let area = &to_b[0] * &to_c[1] - &to_b[1] * &to_c[0];
+    // The value at the pixel and the slopes of what is linear.
+    let plane = |of: &dyn Fn(usize) -> BigRational| {
+        let (first, b, c) = (of(0), of(1) - of(0), of(2) - of(0));
+        let by_x = (&b * &to_c[1] - &c * &to_b[1]) / &area;
+        let by_y = (&c * &to_b[0] - &b * &to_c[0]) / &area;
+        [first + &by_x * &to[0] + &by_y * &to[1], by_x, by_y]
+    };
+    let inv = plane(&|i| exactly(inv_w[i]));
+    let square = |axis: usize| {
+        let along = |coordinate: usize| {
+            let over = plane(&|i| exactly(uv[i][coordinate] * SIDE) * exactly(inv_w[i]));
+            let numerator = &over[axis] * &inv[0] - &over[0] * &inv[axis];
+            numerator / (&inv[0] * &inv[0])
+        };
+        let (u, v) = (along(0), along(1));
+        &u * &u + &v * &v
+    };
+    let square = square(1).max(square(2)).to_f64()?;
+    (square > 0.0).then(|| 0.5 * libm::log2(square))
+}
+
+/// The exact level at one pixel, by its number in drawing order.
+struct Sample {
+    number: usize,
+    level: f64,
+}
+
+fn samples(drawn: &[Drawn]) -> Vec<Sample> {
+    let pixels = drawn.iter().flat_map(|of| of.spans.iter().map(move |span| (of, span)));
+    let pixels =
+        pixels.flat_map(|(of, span)| (span.x0_px..span.x1_px).map(move |x| (of, x, span.y_px)));
+    let stride = (pixels.clone().count() / SAMPLES).max(1) | 1;
+    let sampled = pixels.enumerate().step_by(stride);
+    let samples = sampled.filter_map(|(number, (of, x_px, y_px))| {
+        Some(Sample { number, level: exact(&of.triangle, x_px, y_px)? })
+    });
+    samples.collect()
+}
+
+trait AnyLevel {
+    fn each(&self, drawn: &[Drawn], emit: &mut dyn FnMut(f64));
+    fn paint(&self, drawn: &[Drawn], target: &mut Frame<f32>);
+}
+
+impl<R: Level> AnyLevel for R {
+    fn each(&self, drawn: &[Drawn], emit: &mut dyn FnMut(f64)) {
+        for Drawn { triangle, spans } in drawn {
+            self.levels(triangle, spans, |_, _, level| emit(level));
+        }
+    }
+
+    fn paint(&self, drawn: &[Drawn], target: &mut Frame<f32>) {
+        let x0 = target.bounds().x0;
+        for Drawn { triangle, spans } in drawn {
+            self.levels(triangle, spans, |x_px, y_px, level| {
+                target.row_mut(y_px)[(x_px - x0) as usize] = level as f32;
+            });
+        }
+    }
+}
+
+fn errors(rung: &dyn AnyLevel, drawn: &[Drawn], samples: &[Sample]) -> Vec<Option<f64>> {
+    let (mut worst, mut sum, mut number) = (0f64, 0.0, 0);
+    let mut left = samples.iter().peekable();
+    rung.each(drawn, &mut |level| {
+        if let Some(sample) = left.next_if(|sample| sample.number == number) {
+            let error = (level - sample.level).abs();
+            // A triangle that is an edge in the texture has no area, and no level by it.
+            let error = if error.is_finite() { error } else { f64::from(u8::MAX) };
+            worst = worst.max(error);
+            sum += error;
+        }
+        number += 1;
+    });
+    vec![Some(worst), Some(sum / samples.len().max(1) as f64)]
+}
+
+fn variants() -> Vec<(Rung, Box<dyn AnyLevel>)> {
+    let rung = |name, about| Rung::new(name, about, &[]);
+    vec![
+        (rung("one a triangle", "by the areas in texels and in pixels"), Box::new(OfTriangle)),
+        (
+            rung("differences f32", "of two pixels, for 2 x 2 at once, as hardware"),
+            Box::new(Differences::<f32>::default()),
+        ),
+        (rung("differences f64", "the same"), Box::new(Differences::<f64>::default())),
+        (rung("derivatives f32", "at each pixel"), Box::new(Derivatives::<f32>::default())),
+        (rung("derivatives f64", "at each pixel"), Box::new(Derivatives::<f64>::default())),
+    ]
+}
+
+pub(super) fn measure(options: &Options, progress: &dyn Fn(f64, &str)) -> Board {
+    let ladder = Ladder::Levels;
+    let pixels = if options.quick { 20_000 } else { 200_000 };
+    let scenes = scenes(options.seed, Size { side_px: 512, pixels });
+    let variants = variants();
+    let drawn: Vec<Vec<Drawn>> = scenes.iter().map(dress).collect();
+    let targets: Vec<_> =
+        scenes.iter().map(|scene| RefCell::new(Frame::new(scene.bounds, 0f32))).collect();
+    let mut columns = Vec::new();
+    let mut prepared: Vec<Vec<Prepared<'_>>> = variants.iter().map(|_| Vec::new()).collect();
+    for (i, scene) in scenes.iter().enumerate() {
+        progress(0.3 * i as f64 / scenes.len() as f64, ladder.title());
+        let samples = samples(&drawn[i]);
+        for ((_, rung), row) in variants.iter().zip(&mut prepared) {
+            let (drawn, target) = (&drawn[i], &targets[i]);
+            let pass = Box::new(move || {
+                rung.paint(std::hint::black_box(drawn), &mut target.borrow_mut());
+            });
+            let errors = errors(&**rung, drawn, &samples);
+            row.push(Prepared::Ready { errors, work: None, pass });
+        }
+        let spans = drawn[i].iter().flat_map(|of| &of.spans);
+        let pixels = spans.map(|span| u64::from(span.x0_px.abs_diff(span.x1_px))).sum();
+        columns.push(Column::new(
+            scene.name,
+            scene.about.to_owned(),
+            drawn[i].len() as u64,
+            pixels,
+        ));
+    }
+    let rungs = variants.iter().map(|(rung, _)| rung.clone()).collect();
+    finish((ladder, measures()), (rungs, columns), prepared, options, (progress, &mut |_, _| ()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ladder::levels::Level;
+
+    /// A square of 256 x 256 texels in 64 x 64 pixels that faces the eye: four texels a pixel.
+    #[test]
+    fn a_square_that_faces_the_eye_has_one_level() {
+        let corner = |x: i32, y: i32| SubpixelPoint::new(x * SUBPIXELS, y * SUBPIXELS);
+        let triangle = Textured {
+            corners: [corner(0, 0), corner(64, 0), corner(0, 64)],
+            inv_w: [0.5; 3],
+            uv: [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]],
+        };
+        assert_eq!(exact(&triangle, 3, 7), Some(2.0));
+        let spans = [Span { y_px: 7, x0_px: 1, x1_px: 6 }];
+        let check = |rung: &dyn AnyLevel| {
+            let mut count = 0;
+            rung.each(&[Drawn { triangle, spans: spans.to_vec() }], &mut |level| {
+                assert!((level - 2.0).abs() < 1e-5, "{level}");
+                count += 1;
+            });
+            assert_eq!(count, 5);
+        };
+        variants().iter().for_each(|(_, rung)| check(&**rung));
+    }
+
+    /// A rung that forgets the slope of 1/w is far off where w differs, and right where it does not.
+    #[test]
+    fn a_level_without_perspective_is_seen() {
+        struct Affine;
+        impl Level for Affine {
+            fn levels(&self, triangle: &Textured, spans: &[Span], emit: impl FnMut(i32, i32, f64)) {
+                let flat = Textured { inv_w: [1.0; 3], ..*triangle };
+                Derivatives::<f64>::default().levels(&flat, spans, emit);
+            }
+        }
+        let scenes = scenes(1, Size { side_px: 256, pixels: 4_000 });
+        let worst = |name: &str, rung: &dyn AnyLevel| {
+            let drawn = dress(scenes.iter().find(|scene| scene.name == name).unwrap());
+            errors(rung, &drawn, &samples(&drawn))[0].unwrap()
+        };
+        assert!(worst("w 1", &Affine) < 1e-9 && worst("w 4", &Affine) > 0.5);
+        let derivatives = Derivatives::<f64>::default();
+        assert!(worst("w 1e4", &derivatives) < 1e-6);
+        assert!(worst("w 100", &Differences::<f64>::default()) > STEP);
+    }
+}

@@ -1,0 +1,223 @@
+//! The ladder of shadows: how near to a surface another one may lie and still keep the light from it, and how often a surface
+//! keeps it from itself.
+//!
+//! The columns are distances of two parallel surfaces, in parts of the depth that the map spans. In most of them they face the
+//! light. In the others they slope, and there the bias is larger than a step of any format.
+
+use super::{Board, Column, Ladder, Measure, Options, Prepared, Rung, finish, no_classes};
+use crate::ladder::shadow::{
+    DepthPlane, Double, Fixed16, Fixed24, Fixed32, Format, Single, Unbiased,
+};
+use rasterproof_verify::cases::Rng;
+
+struct Class {
+    name: &'static str,
+    /// The distance is 2 to the minus this.
+    apart: i32,
+    /// The largest slope for a texel of a thousand.
+    slope: f64,
+}
+
+/// The tangent of an angle of 10 degrees.
+const SLOPE: f64 = 0.176;
+
+const CLASSES: [Class; 8] = [
+    Class { name: "2^-12", apart: 12, slope: 0.0 },
+    Class { name: "2^-17", apart: 17, slope: 0.0 },
+    Class { name: "2^-20", apart: 20, slope: 0.0 },
+    Class { name: "2^-25", apart: 25, slope: 0.0 },
+    Class { name: "2^-28", apart: 28, slope: 0.0 },
+    Class { name: "2^-33", apart: 33, slope: 0.0 },
+    Class { name: "10d 2^-8", apart: 8, slope: SLOPE },
+    Class { name: "10d 2^-12", apart: 12, slope: SLOPE },
+];
+
+/// Texels along a side of a tile. The left half of a tile has a second surface before it.
+const SIDE: usize = 64;
+const TILE: usize = SIDE * SIDE;
+/// Texels along a side of the whole map.
+const MAP: f64 = 1024.0;
+/// Texels that a fragment reads.
+const TAPS: u8 = 9;
+
+fn measures() -> Vec<Measure> {
+    vec![
+        Measure::new("places per million in shadow that some light reaches", "missed/M", Some(0.0)),
+        Measure::new(
+            "places per million in the light that keep some of it from themselves",
+            "acne/M",
+            Some(0.0),
+        ),
+    ]
+}
+
+struct Tile {
+    receiver: DepthPlane,
+    /// How much nearer to the light the other surface is.
+    apart: f64,
+    /// Where in each texel its fragment lies.
+    place: [f64; 2],
+}
+
+fn tiles(seed: u64, class: &Class, count: usize) -> Vec<Tile> {
+    let mut rng = Rng::new(class.name, seed, 4);
+    let mut tile = || {
+        let slope = [(); 2].map(|()| rng.signed() * class.slope / MAP);
+        let start = 0.25 + 0.5 * rng.unit();
+        let place = [(); 2].map(|()| rng.unit());
+        Tile { receiver: DepthPlane { start, slope }, apart: 0.5f64.powi(class.apart), place }
+    };
+    (0..count).map(|_| tile()).collect()
+}
+
+/// Draws the map and reads it: of each place that lies two texels or more from the border of a half, how many of [`TAPS`]
+/// texels let the light pass.
+#[inline]
+fn draw<F: Format>(tiles: &[Tile], map: &mut [F::Stored], lit: &mut [u8]) {
+    for (tile, map) in tiles.iter().zip(map.chunks_exact_mut(TILE)) {
+        for (y, row) in map.chunks_exact_mut(SIDE).enumerate() {
+            for (x, held) in row.iter_mut().enumerate() {
+                let depth = tile.receiver.at(x as f64 + 0.5, y as f64 + 0.5);
+                let before = if x < SIDE / 2 { tile.apart } else { 0.0 };
+                *held = F::store(depth - before);
+            }
+        }
+    }
+    let chunks = map.chunks_exact(TILE).zip(lit.chunks_exact_mut(TILE));
+    for (tile, (map, lit)) in tiles.iter().zip(chunks) {
+        let bias = if F::BIASED { tile.receiver.bias() } else { 0.0 };
+        let [right, down] = tile.place;
+        for y in 1..SIDE - 1 {
+            for x in 1..SIDE - 1 {
+                let depth = tile.receiver.at(x as f64 + right, y as f64 + down);
+                let key = F::store(depth - bias);
+                let row = |y: usize| {
+                    let texels = map[y * SIDE + x - 1..].iter().take(3);
+                    texels.map(|held| u8::from(key <= *held)).sum::<u8>()
+                };
+                lit[y * SIDE + x] = row(y - 1) + row(y) + row(y + 1);
+            }
+        }
+    }
+}
+
+/// Of places that are in the shadow and in the light as a whole, how many are wrong in a million.
+fn errors(lit: &[u8]) -> Vec<Option<f64>> {
+    let (mut counts, mut wrong) = ([0u64; 2], [0u64; 2]);
+    for tile in lit.chunks_exact(TILE) {
+        for (y, row) in tile.chunks_exact(SIDE).enumerate() {
+            for (x, lit) in row.iter().enumerate() {
+                let is_inside = |at: usize, end: usize| (1..end - 1).contains(&at);
+                let half = usize::from(x >= SIDE / 2);
+                if is_inside(y, SIDE) && is_inside(x % (SIDE / 2), SIDE / 2) {
+                    counts[half] += 1;
+                    wrong[half] += u64::from(*lit != [0, TAPS][half]);
+                }
+            }
+        }
+    }
+    let share = |half: usize| Some(wrong[half] as f64 * 1e6 / counts[half] as f64);
+    vec![share(0), share(1)]
+}
+
+trait AnyFormat {
+    fn errors(&self, tiles: &[Tile]) -> Vec<Option<f64>>;
+    fn pass<'a>(&self, tiles: &'a [Tile]) -> Box<dyn FnMut() + 'a>;
+}
+
+impl<F: Format + 'static> AnyFormat for F {
+    fn errors(&self, tiles: &[Tile]) -> Vec<Option<f64>> {
+        let places = tiles.len() * TILE;
+        let (mut map, mut lit) = (vec![F::store(1.0); places], vec![0; places]);
+        draw::<F>(tiles, &mut map, &mut lit);
+        errors(&lit)
+    }
+
+    fn pass<'a>(&self, tiles: &'a [Tile]) -> Box<dyn FnMut() + 'a> {
+        let places = tiles.len() * TILE;
+        let (mut map, mut lit) = (vec![F::store(1.0); places], vec![0; places]);
+        Box::new(move || {
+            draw::<F>(std::hint::black_box(tiles), &mut map, &mut lit);
+            std::hint::black_box(&lit);
+        })
+    }
+}
+
+fn variants() -> Vec<(Rung, Box<dyn AnyFormat>)> {
+    let rung = |name, about| Rung::new(name, about, &[]);
+    vec![
+        (rung("24-bit, no bias", "depths are compared as they are"), Box::new(Unbiased)),
+        (rung("16-bit", "whole numbers"), Box::new(Fixed16)),
+        (rung("24-bit", "whole numbers"), Box::new(Fixed24)),
+        (rung("32-bit", "whole numbers, as the renderer here"), Box::new(Fixed32)),
+        (rung("f32", "a float"), Box::new(Single)),
+        (rung("f64", "a double"), Box::new(Double)),
+    ]
+}
+
+pub(super) fn measure(options: &Options, progress: &dyn Fn(f64, &str)) -> Board {
+    let ladder = Ladder::Shadows;
+    let variants = variants();
+    // A map of 1024 x 1024 texels, so that the size of a depth counts as well.
+    let count = if options.quick { 16 } else { 256 };
+    let made: Vec<_> = CLASSES.iter().map(|class| tiles(options.seed, class, count)).collect();
+    let mut columns = Vec::new();
+    let mut prepared: Vec<Vec<Prepared<'_>>> = variants.iter().map(|_| Vec::new()).collect();
+    for (i, class) in CLASSES.iter().enumerate() {
+        progress(0.3 * i as f64 / CLASSES.len() as f64, ladder.title());
+        for ((_, format), row) in variants.iter().zip(&mut prepared) {
+            let (errors, pass) = (format.errors(&made[i]), format.pass(&made[i]));
+            row.push(Prepared::Ready { errors, work: None, pass });
+        }
+        let slope =
+            if class.slope > 0.0 { "sloping by up to 10 degrees" } else { "facing the light" };
+        let about = format!("surfaces {slope}, 2^-{} of the map's depth apart", class.apart);
+        columns.push(Column::new(class.name, about, count as u64, (count * TILE) as u64));
+    }
+    no_classes(
+        options,
+        "shadows depend on the depths of surfaces, not on their shapes",
+        &mut columns,
+        &mut prepared,
+    );
+    let rungs = variants.iter().map(|(rung, _)| rung.clone()).collect();
+    finish((ladder, measures()), (rungs, columns), prepared, options, (progress, &mut |_, _| ()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn errors_of<F: Format + Default + 'static>(name: &str) -> [f64; 2] {
+        let class = CLASSES.iter().find(|class| class.name == name).unwrap();
+        let errors = F::default().errors(&tiles(3, class, 64));
+        [errors[0].unwrap(), errors[1].unwrap()]
+    }
+
+    /// Two depths that are half a step apart are stored as one in half of all places in the range.
+    #[test]
+    fn half_a_step_is_missed_half_of_the_time() {
+        for missed in [
+            errors_of::<Fixed16>("2^-17")[0],
+            errors_of::<Fixed24>("2^-25")[0],
+            errors_of::<Fixed32>("2^-33")[0],
+        ] {
+            // 64 tiles: five standard deviations of a coin that is thrown 64 times.
+            assert!((missed - 5e5).abs() < 5.0 * 1e6 / 16.0, "{missed}");
+            assert!(missed > 0.0 && missed < 1e6);
+        }
+    }
+
+    /// A surface keeps no light from itself by the bias, in any format; without it a sloping one does.
+    #[test]
+    fn the_bias_is_enough_and_needed() {
+        for name in ["2^-12", "10d 2^-8"] {
+            assert_eq!(errors_of::<Fixed16>(name)[1], 0.0);
+            assert_eq!(errors_of::<Fixed24>(name)[1], 0.0);
+            assert_eq!(errors_of::<Fixed32>(name)[1], 0.0);
+            assert_eq!(errors_of::<Single>(name)[1], 0.0);
+            assert_eq!(errors_of::<Double>(name)[1], 0.0);
+        }
+        assert!(errors_of::<Unbiased>("10d 2^-8")[1] > 9e5);
+    }
+}

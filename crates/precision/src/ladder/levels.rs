@@ -1,0 +1,151 @@
+//! Rungs of levels of detail: how many texels a pixel meets, as the logarithm to the base 2 of the longer of the derivatives
+//! of the texture coordinates by columns and by rows of pixels.
+//!
+//! u/w, v/w and 1/w are linear in the window ([`Planes`]). A rung takes the quotient rule at the point itself, or the difference of
+//! two neighbouring pixels, which usual hardware has for four pixels at once.
+
+use std::marker::PhantomData;
+
+use rasterproof_core::arrays::MapArray as _;
+use rasterproof_core::grid::SUBPIXELS;
+use rasterproof_core::triangle::{Corners, Span};
+use rasterproof_render::pipeline::assemble::twice_area;
+
+use super::Real;
+
+/// Texels along each side of the texture.
+pub const SIDE: f64 = 256.0;
+
+/// A triangle with texture coordinates.
+#[derive(Clone, Copy, Debug)]
+pub struct Textured {
+    pub corners: Corners,
+    /// 1/w of each corner, positive.
+    pub inv_w: [f64; 3],
+    pub uv: [[f64; 2]; 3],
+}
+
+/// u/w, v/w and 1/w at a corner, and their slopes by columns and by rows of pixels; u and v in texels.
+#[derive(Clone, Copy, Debug)]
+struct Planes<T> {
+    /// The pixel position of that corner.
+    at: [T; 2],
+    value: [T; 3],
+    slope: [[T; 3]; 2],
+}
+
+impl<T: Real> Planes<T> {
+    #[inline]
+    fn new(Textured { corners, inv_w, uv }: &Textured) -> Self {
+        let px = corners.map_array(|corner| {
+            [corner.x, corner.y].map_array(|sub| T::of(f64::from(sub) / f64::from(SUBPIXELS)))
+        });
+        let value = [0, 1, 2].map_array(|i: usize| {
+            let inv_w = T::of(inv_w[i]);
+            let [u, v] = uv[i].map_array(|coordinate| T::of(coordinate * SIDE));
+            [u * inv_w, v * inv_w, inv_w]
+        });
+        let [a, b, c] = px;
+        let (to_b, to_c) = ([b[0] - a[0], b[1] - a[1]], [c[0] - a[0], c[1] - a[1]]);
+        let area = to_b[0] * to_c[1] - to_b[1] * to_c[0];
+        let per_area = T::of(1.0) / area;
+        let slope = |axis: usize| {
+            [0, 1, 2].map_array(|k: usize| {
+                let (b, c) = (value[1][k] - value[0][k], value[2][k] - value[0][k]);
+                let numerator =
+                    if axis == 0 { b * to_c[1] - c * to_b[1] } else { c * to_b[0] - b * to_c[0] };
+                numerator * per_area
+            })
+        };
+        Self { at: a, value: value[0], slope: [slope(0), slope(1)] }
+    }
+
+    /// u/w, v/w and 1/w at the centre of a pixel.
+    #[inline]
+    fn at(&self, x_px: i32, y_px: i32) -> [T; 3] {
+        let from = [x_px, y_px].map_array(|px| T::of(f64::from(px) + 0.5));
+        let [dx, dy] = [from[0] - self.at[0], from[1] - self.at[1]];
+        [0, 1, 2]
+            .map_array(|k: usize| self.value[k] + self.slope[0][k] * dx + self.slope[1][k] * dy)
+    }
+
+    #[inline]
+    fn uv(&self, x_px: i32, y_px: i32) -> [T; 2] {
+        let [u, v, inv_w] = self.at(x_px, y_px);
+        let w = T::of(1.0) / inv_w;
+        [u * w, v * w]
+    }
+}
+
+/// The level where the derivatives are these, in texels. The logarithm is that of a double for all rungs.
+#[inline]
+fn level<T: Real>([x, y]: [[T; 2]; 2]) -> f64 {
+    let square = |[u, v]: [T; 2]| u * u + v * v;
+    let longest: f64 = square(x).max(square(y)).as_();
+    0.5 * libm::log2(longest)
+}
+
+pub trait Level {
+    /// Emits (column, row, level) for each pixel of `spans`, which are the rows of `triangle`.
+    fn levels(&self, triangle: &Textured, spans: &[Span], emit: impl FnMut(i32, i32, f64));
+}
+
+/// One level for a triangle: that of its area in texels over its area in pixels.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct OfTriangle;
+
+/// The difference of two pixels, the same for the four pixels of a square of 2 x 2.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Differences<T>(PhantomData<T>);
+
+/// The quotient rule at the centre of each pixel.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Derivatives<T>(PhantomData<T>);
+
+impl Level for OfTriangle {
+    fn levels(&self, triangle: &Textured, spans: &[Span], mut emit: impl FnMut(i32, i32, f64)) {
+        let [a, b, c] = triangle.uv;
+        let texels = ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])) * SIDE * SIDE;
+        let pixels = twice_area(triangle.corners) as f64 / f64::from(SUBPIXELS * SUBPIXELS);
+        let level = 0.5 * libm::log2((texels / pixels).abs());
+        for span in spans {
+            (span.x0_px..span.x1_px).for_each(|x_px| emit(x_px, span.y_px, level));
+        }
+    }
+}
+
+impl<T: Real> Level for Differences<T> {
+    fn levels(&self, triangle: &Textured, spans: &[Span], mut emit: impl FnMut(i32, i32, f64)) {
+        let planes = Planes::<T>::new(triangle);
+        for span in spans {
+            let y0 = span.y_px & !1;
+            let mut x_px = span.x0_px;
+            while x_px < span.x1_px {
+                let x0 = x_px & !1;
+                let here = planes.uv(x0, y0);
+                let to = |[u, v]: [T; 2]| [u - here[0], v - here[1]];
+                let level = level([to(planes.uv(x0 + 1, y0)), to(planes.uv(x0, y0 + 1))]);
+                while x_px < span.x1_px.min(x0 + 2) {
+                    emit(x_px, span.y_px, level);
+                    x_px += 1;
+                }
+            }
+        }
+    }
+}
+
+impl<T: Real> Level for Derivatives<T> {
+    fn levels(&self, triangle: &Textured, spans: &[Span], mut emit: impl FnMut(i32, i32, f64)) {
+        let planes = Planes::<T>::new(triangle);
+        for span in spans {
+            for x_px in span.x0_px..span.x1_px {
+                let [u, v, inv_w] = planes.at(x_px, span.y_px);
+                let w = T::of(1.0) / inv_w;
+                let derivative = |[du, dv, d_inv_w]: [T; 3]| {
+                    [(du - u * w * d_inv_w) * w, (dv - v * w * d_inv_w) * w]
+                };
+                emit(x_px, span.y_px, level(planes.slope.map_array(derivative)));
+            }
+        }
+    }
+}

@@ -1,0 +1,189 @@
+//! Where a texture is plain: rectangles of texels that all have one colour.
+//!
+//! A texture knows of each block of 8 x 8 texels whether all have one colour, that is, whether the least and the largest of
+//! each channel are equal. So a rectangle is known by its blocks, and only where it has a part of a block that is not plain, by
+//! texels. A filter between equal texels gives them again, to the bit, and so does a mixture of two equal levels.
+
+use std::ops::RangeInclusive;
+use std::sync::OnceLock;
+
+use super::texture::Wrap;
+
+/// Texels along the side of a block.
+const BLOCK: usize = 8;
+
+/// Of more blocks nothing is known.
+const MOST_BLOCKS: usize = 256;
+
+/// The colour of each block that has one, found when it is first asked for.
+#[derive(Clone, Debug, Default)]
+pub(super) struct PlainBlocks(OnceLock<Vec<Option<u32>>>);
+
+/// What is computed from the texels makes no difference.
+impl PartialEq for PlainBlocks {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
+}
+
+/// Columns or rows in a side, of texels that are counted beyond the borders too: one range, or two where the texture begins
+/// again between them.
+pub(super) fn within(
+    wrap: Wrap,
+    [first, last]: [i64; 2],
+    side: i64,
+) -> [Option<RangeInclusive<usize>>; 2] {
+    let range = |first: i64, last: i64| Some(first as usize..=last as usize);
+    match wrap {
+        Wrap::Clamp => [range(first.clamp(0, side - 1), last.clamp(0, side - 1)), None],
+        Wrap::Repeat if last - first >= side - 1 => [range(0, side - 1), None],
+        Wrap::Repeat => {
+            let start = first.rem_euclid(side);
+            let end = start + (last - first);
+            if end < side {
+                [range(start, end), None]
+            } else {
+                [range(start, side - 1), range(0, end - side)]
+            }
+        }
+    }
+}
+
+impl PlainBlocks {
+    /// The one colour of all texels in these columns and rows, of a texture with so many of them.
+    pub fn colour(
+        &self,
+        [width, height]: [usize; 2],
+        columns: &[Option<RangeInclusive<usize>>; 2],
+        rows: &[Option<RangeInclusive<usize>>; 2],
+        texel: impl Fn(usize) -> u32,
+    ) -> Option<u32> {
+        let across = width.div_ceil(BLOCK);
+        let mut looked_at = 0;
+        let mut found = None;
+        for (rows, columns) in
+            rows.iter().flatten().flat_map(|r| columns.iter().flatten().map(move |c| (r, c)))
+        {
+            let first = texel(rows.start() * width + columns.start());
+            if *found.get_or_insert(first) != first {
+                return None;
+            }
+            for row in rows.start() / BLOCK..=rows.end() / BLOCK {
+                for column in columns.start() / BLOCK..=columns.end() / BLOCK {
+                    looked_at += 1;
+                    if looked_at > MOST_BLOCKS {
+                        return None;
+                    }
+                    let blocks = self.0.get_or_init(|| blocks([width, height], &texel));
+                    match blocks[row * across + column] {
+                        Some(colour) if colour == first => {}
+                        Some(_) => return None,
+                        None => {
+                            let part = |of: &RangeInclusive<usize>, block: usize| {
+                                (*of.start()).max(block * BLOCK)
+                                    ..=(*of.end()).min(block * BLOCK + BLOCK - 1)
+                            };
+                            let (rows, columns) = (part(rows, row), part(columns, column));
+                            for y in rows {
+                                if columns.clone().any(|x| texel(y * width + x) != first) {
+                                    return None;
+                                }
+                            }
+                        }
+                    }
+                }
+            }
+        }
+        found
+    }
+}
+
+fn blocks([width, height]: [usize; 2], texel: &impl Fn(usize) -> u32) -> Vec<Option<u32>> {
+    let sides = [width, height].map(|side| side.div_ceil(BLOCK));
+    let block = |column: usize, row: usize| {
+        let first = texel(row * BLOCK * width + column * BLOCK);
+        let columns = column * BLOCK..(column * BLOCK + BLOCK).min(width);
+        let mut rows = row * BLOCK..(row * BLOCK + BLOCK).min(height);
+        let is_plain = rows.all(|y| columns.clone().all(|x| texel(y * width + x) == first));
+        is_plain.then_some(first)
+    };
+    (0..sides[1]).flat_map(|row| (0..sides[0]).map(move |column| block(column, row))).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::pipeline::texture::{Filter, Texture, Wrap};
+    use glam::DVec2;
+    use rasterproof_core::arrays::MapArray as _;
+    use rasterproof_verify::cases::Rng;
+
+    type Condition = fn(&Texture, [DVec2; 3], f64, f64) -> bool;
+
+    /// How many of random triangles in random textures are plain by a condition, and how many of these read two colours.
+    fn tried(condition: Condition) -> [u32; 2] {
+        let mut counts = [0; 2];
+        for index in 0..2000 {
+            let mut rng = Rng::new("plain", 1, index);
+            let (width, height) = (rng.int(1, 60) as u32, rng.int(1, 60) as u32);
+            let parts = rng.int(4, 30) as u32;
+            let colour = |x: u32, y: u32| {
+                [[200u8, 30, 20], [20, 30, 200]][((x / parts + y / parts) % 2) as usize]
+            };
+            let texels: Vec<_> =
+                (0..width * height).map(|at| colour(at % width, at / width)).collect();
+            let filter = [Filter::Nearest, Filter::Bilinear][rng.int(0, 1) as usize];
+            let wrap = [Wrap::Repeat, Wrap::Clamp][rng.int(0, 1) as usize];
+            let texture = Texture::new(width, height, &texels).unwrap().with(filter, wrap);
+            let texture = texture.with_mip_map();
+            let from = DVec2::new(rng.signed(), rng.signed()) * 1.5;
+            let size = 0.3 * rng.unit();
+            let uv = [0; 3].map_array(|_| from + DVec2::new(rng.signed(), rng.signed()) * size);
+            let reach = if rng.chance(2) { 3.0 * rng.unit() } else { 0.0 };
+            let level = if rng.chance(2) { 3.0 * rng.unit() } else { 0.0 };
+            if !condition(&texture, uv, reach, level) {
+                continue;
+            }
+            counts[0] += 1;
+            let first = texture.at(uv[0]);
+            let is_other = (0..200).any(|_| {
+                let (mut s, mut t) = (rng.unit(), rng.unit());
+                if s + t > 1.0 {
+                    (s, t) = (1.0 - s, 1.0 - t);
+                }
+                let corner = if rng.chance(3) { 1.0 } else { 0.0 };
+                let (s, t) = if corner > 0.0 { (s.round(), 0.0) } else { (s, t) };
+                let at = uv[0] + (uv[1] - uv[0]) * s + (uv[2] - uv[0]) * t;
+                let beside = DVec2::new(rng.signed(), rng.signed()).normalize_or_zero() * reach;
+                let at = at + beside / DVec2::new(width.into(), height.into());
+                texture.at_level(at, level * rng.unit()) != first
+            });
+            counts[1] += u32::from(is_other);
+        }
+        counts
+    }
+
+    #[test]
+    fn one_colour_is_read_where_a_texture_is_plain() {
+        let [plain, wrong] = tried(Texture::is_plain_between);
+        assert!(plain > 200 && wrong == 0, "{plain}, {wrong}");
+        let corners: Condition =
+            |texture, uv, _, _| uv.iter().all(|at| texture.at(*at) == texture.at(uv[0]));
+        let nearest: Condition = |texture, uv, reach, level| {
+            let texture = texture.clone().with(Filter::Nearest, texture.wrap);
+            texture.is_plain_between(uv, reach, level)
+        };
+        let unmoved: Condition = |texture, uv, _, level| texture.is_plain_between(uv, 0.0, level);
+        let first_level: Condition =
+            |texture, uv, reach, _| texture.is_plain_between(uv, reach, 0.0);
+        let level_below: Condition =
+            |texture, uv, reach, level| texture.is_plain_between(uv, reach, level.floor());
+        let once: Condition = |texture, uv, reach, level| {
+            let texture = texture.clone().with(texture.filter, Wrap::Clamp);
+            texture.is_plain_between(uv, reach, level)
+        };
+        let wrong = [corners, nearest, unmoved, first_level, level_below, once];
+        for (number, condition) in wrong.into_iter().enumerate() {
+            assert!(tried(condition)[1] > 0, "wrong condition {number} survives");
+        }
+    }
+}
