@@ -111,10 +111,8 @@ impl Facts {
             [facts.is_minified, facts.is_stretched] = mip_maps::footprints(rule, item, piece);
         }
         if interpolation::may_be_plain(rule, facts.opacity) {
-            let reads = [
-                rule.mip_maps.pays(facts.is_minified),
-                rule.anisotropy.pays(facts.is_stretched),
-            ];
+            let reads =
+                [rule.mip_maps.pays(facts.is_minified), rule.anisotropy.pays(facts.is_stretched)];
             if interpolation::is_plain(rule, item, piece, reads) {
                 facts.varies = facts.varies.without(Attributes(Attributes::UV));
             }
