@@ -10,8 +10,8 @@ use rasterproof_host::{input, limits};
 use super::files::{Use, distinct};
 use super::page::{PageArguments, as_file, write_page};
 use super::progress::Progress;
-use super::render::ViewArguments;
 use super::typed::Typed;
+use super::view::ViewArguments;
 use super::{Failure, Status, Streams, exit, study, usage};
 use rasterproof_precision::cost::{
     Board, ExternalVariant, Ladder, Options, Recorded, measure_with,

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use super::course_grade::{self, BuildLimits, GradeArguments};
 use super::page::{Place, save_page};
 use super::progress::Progress as Shown;
-use super::render::SceneArguments;
+use super::view::SceneArguments;
 use super::{Failure, Status, Streams, exit, usage, write_file};
 use rasterproof_host::shell::quote;
 use rasterproof_host::text::printable_path;
@@ -91,7 +91,7 @@ struct ShowArguments {
     #[arg(long, value_name = "FILE", conflicts_with = "step")]
     model: Option<PathBuf>,
     /// Size of the cube's and the model's picture in pixels
-    #[arg(long, value_name = "WxH", default_value = "320x240", value_parser = super::render::parse_size)]
+    #[arg(long, value_name = "WxH", default_value = "320x240", value_parser = super::view::parse_size)]
     size: (u32, u32),
     #[command(flatten)]
     place: Place,

@@ -12,8 +12,8 @@ use super::inspect_case::{
     CaseArguments, Found, face_of_file, find, off_lattice, parse_pixel, recorded, words,
 };
 use super::page::{PageArguments, as_file, save_page};
-use super::render::ViewArguments;
 use super::typed::Typed;
+use super::view::ViewArguments;
 use super::{
     Failure, Status, Streams, exit, explain, png_name, program, study, usage, write_unasked,
 };

@@ -33,6 +33,7 @@ mod threads;
 mod tolerances;
 mod typed;
 mod verify;
+mod view;
 #[cfg(feature = "vulkan")]
 mod vulkan;
 pub mod wrap;

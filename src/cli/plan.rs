@@ -6,8 +6,8 @@ use std::time::{Duration, Instant};
 use super::page::{PageArguments, write_page};
 use super::plan_table::{grouped, plan_rows};
 use super::progress::Progress;
-use super::render::SceneArguments;
 use super::typed::Typed;
+use super::view::SceneArguments;
 use super::{Failure, Status, Streams, exit, usage};
 use rasterproof_host::text::printable_path;
 use rasterproof_registry::engines::Drawer;
@@ -224,7 +224,7 @@ pub fn run(arguments: &PlanArguments, typed: &Typed, streams: &mut Streams<'_>) 
 /// Microseconds that a planned frame looks at triangles for the reason of depth, the median; none where it lists all.
 fn time_survey(arguments: &PlanArguments, scene: &Scene) -> Result<Option<f64>, Failure> {
     const ROUNDS: usize = 9;
-    let canvas = Canvas::of(&arguments.what.target()?);
+    let canvas = Canvas::of(&arguments.what.view.target()?);
     let mut times = Vec::with_capacity(ROUNDS);
     survey_again(scene, &canvas, &mut |survey| {
         for _ in 0..ROUNDS {
@@ -245,7 +245,7 @@ fn draw_without(
     effect: Effect,
     streams: &mut Streams<'_>,
 ) -> Status {
-    let mut targets = [arguments.what.target()?, arguments.what.target()?];
+    let mut targets = [arguments.what.view.target()?, arguments.what.view.target()?];
     let [with, without] = &mut targets;
     let planned = arguments.engine.render(scene, &Effects::PLANNED, with).map_err(usage)?;
     let other = arguments.engine.render_without(scene, effect, without).map_err(usage)?;
@@ -292,7 +292,7 @@ fn measure(
         mixtures.truncate(WHOLE.len());
     }
     let progress = Progress::new(on_terminal, "frames", None);
-    let mut target = arguments.what.target()?;
+    let mut target = arguments.what.view.target()?;
     let mut draw = |effects: &Effects| {
         let start = Instant::now();
         let rendered = arguments.engine.render(scene, effects, &mut target).map_err(usage)?;

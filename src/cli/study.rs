@@ -32,8 +32,8 @@ use super::case_view::JudgedEngines;
 use super::inspect_case::{self, Found};
 use super::page::{PageArguments, write_page};
 use super::progress::Progress;
-use super::render::{Maker, SceneArguments, VIEW_OPTIONS, ViewArguments};
 use super::typed::Typed;
+use super::view::{Maker, SceneArguments, VIEW_OPTIONS, ViewArguments};
 use super::{Failure, Status, Streams, exit, usage};
 
 pub const HELP: &str = include_str!("help/study.txt").trim_ascii_end();
@@ -157,7 +157,7 @@ pub fn run(arguments: &StudyArguments, typed: &Typed, streams: &mut Streams<'_>)
             "scene": studied.scene.name,
             "triangles": studied.scene.triangles(),
             "pieces": pieces.len(),
-            "loading_s": maker.loading().map(|time| time.as_secs_f64()),
+            "loading_s": maker.loading_s(),
             "hard_cases": hard_cases_json(&subject, &studied.hard),
             "decided": ties_json(&classes),
             "effects": needs_json(&needs, not_drawn),
@@ -166,12 +166,9 @@ pub fn run(arguments: &StudyArguments, typed: &Typed, streams: &mut Streams<'_>)
         writeln!(out, "{json}")?;
     } else {
         writeln!(out, "{}", head(&studied))?;
-        if let Some(loading) = maker.loading() {
-            writeln!(
-                out,
-                "read in {:.1} ms, which is no part of the times below",
-                loading.as_secs_f64() * 1e3
-            )?;
+        if let Some(loading_s) = maker.loading_s() {
+            let loading_ms = loading_s * 1e3;
+            writeln!(out, "read in {loading_ms:.1} ms, which is no part of the times below")?;
         }
         writeln!(out)?;
         out.write_all(hard_cases(&subject, &studied.hard, &groups).as_bytes())?;

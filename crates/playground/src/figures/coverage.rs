@@ -3,7 +3,7 @@
 use super::drawing::{Drawing, Panel, Point};
 use super::{Drawn, Given, Predict, cover, number, snapped, with_triangles};
 use rasterproof_core::frame::Coverage;
-use rasterproof_core::grid::{PixelRect, snap};
+use rasterproof_core::grid::snap;
 use rasterproof_faults::planted::TriangleMutant;
 use rasterproof_faults::published::book_triangle::BookChapter2;
 use rasterproof_faults::published::{Published as _, bare};
@@ -225,11 +225,7 @@ pub(super) fn row_span(given: &Given<'_>) -> Result<Drawn, String> {
 pub(super) fn middle_row(given: &Given<'_>) -> Result<Drawn, String> {
     let middle = given.at[0];
     let triangle = [[2.5, 11.5], middle, [2.5, 4.5]];
-    let panel = Panel {
-        corner: [24.0, 10.0],
-        unit: 26.0,
-        window: PixelRect { x0: 1, y0: 3, x1: 13, y1: 13 },
-    };
+    let panel = Panel::new([24.0, 10.0], 26.0, [1, 3, 13, 13]);
     let mut hits = Coverage::new(panel.window, 0);
     BookChapter2
         .cover(&bare(triangle), panel.window, &mut |span| {

@@ -79,11 +79,15 @@ pub(super) struct Panel {
 }
 
 impl Panel {
+    /// Pixels of `unit` on the drawing, from the first column and row to the ones behind the last.
+    pub fn new(corner: Point, unit: f64, [x0, y0, x1, y1]: [i32; 4]) -> Self {
+        Self { corner, unit, window: PixelRect { x0, y0, x1, y1 } }
+    }
+
     /// A window in the middle of the drawing, its upper border at `top`.
     pub fn middle(columns: i32, rows: i32, unit: f64, top: f64) -> Self {
         let left = (WIDTH - f64::from(columns) * unit) / 2.0;
-        let window = PixelRect { x0: 0, y0: 0, x1: columns, y1: rows };
-        Self { corner: [left, top], unit, window }
+        Self::new([left, top], unit, [0, 0, columns, rows])
     }
 
     /// Where a position in pixels lies on the drawing.

@@ -83,11 +83,7 @@ pub(super) fn near_corners(given: &Given<'_>) -> Result<Drawn, String> {
 pub(super) fn boards(given: &Given<'_>) -> Result<Drawn, String> {
     let spacing = given.at[0][0];
     let size = PixelRect::window(48, 48);
-    let panel = Panel {
-        corner: [12.0, 10.0],
-        unit: 7.0,
-        window: PixelRect { x0: 0, y0: 0, x1: 48, y1: 27 },
-    };
+    let panel = Panel::new([12.0, 10.0], 7.0, [0, 0, 48, 27]);
     let camera = frustum(-1.0, 1.0, -1.0, 1.0, 1.0, 100.0).map_err(|error| error.to_string())?;
     let mut drawing = Drawing::new(panel.bottom() + 48.0, given.is_answered);
     let (mut heights, mut link) = (Vec::new(), Vec::new());
@@ -258,11 +254,7 @@ pub(super) fn viewport_size(given: &Given<'_>) -> Result<Drawn, String> {
 
 pub(super) fn to_pixel(given: &Given<'_>) -> Result<Drawn, String> {
     let ([x, z], y) = (given.at[0], 1.0);
-    let panel = Panel {
-        corner: [186.0, 16.0],
-        unit: 32.0,
-        window: PixelRect { x0: 0, y0: 0, x1: 5, y1: 5 },
-    };
+    let panel = Panel::new([186.0, 16.0], 32.0, [0, 0, 5, 5]);
     let camera = frustum(-1.0, 1.0, -1.0, 1.0, 1.0, 10.0).map_err(|error| error.to_string())?;
     let point = placed(panel.window, camera * DVec4::new(x, y, z, 1.0))?;
     let pixel = point.map(|v| v.floor() as i32);

@@ -131,11 +131,7 @@ pub(super) fn wrong_corner(given: &Given<'_>) -> Result<Drawn, String> {
         let ([x, y], [u, v]) = (corners[i], colours[i]);
         [x, y, 1.0, 0.0, u, v]
     });
-    let left = Panel {
-        corner: [9.0, 30.0],
-        unit: 14.0,
-        window: PixelRect { x0: 0, y0: 0, x1: 12, y1: 11 },
-    };
+    let left = Panel::new([9.0, 30.0], 14.0, [0, 0, 12, 11]);
     let right = Panel { corner: [183.0, 30.0], ..left };
     let wrong = published(&SysuWeights, &[valued], left.window)?;
     let ours = values(given.fill, &[valued], left.window)?;
@@ -184,11 +180,7 @@ pub(super) fn affine_kink(given: &Given<'_>) -> Result<Drawn, String> {
     ];
     let [a, b, c, d] = floor;
     let triangles = [[a, b, c], [a, c, d]];
-    let left = Panel {
-        corner: [10.0, 10.0],
-        unit: 5.0,
-        window: PixelRect { x0: 0, y0: 0, x1: 32, y1: 32 },
-    };
+    let left = Panel::new([10.0, 10.0], 5.0, [0, 0, 32, 32]);
     let right = Panel { corner: [190.0, 10.0], ..left };
     let affine = published(&BookAffine, &triangles, left.window)?;
     let ours = values(given.fill, &triangles, left.window)?;

@@ -112,9 +112,6 @@ impl<E: Interpolate> Renderer<E> {
     }
 
     /// As [`Renderer::draw`], but only the edges, by a line drawer.
-    ///
-    /// # Errors
-    /// As [`Renderer::draw`].
     pub fn draw_wireframe<I, V: Varying>(
         &mut self,
         drawer: &impl DrawLine,

@@ -181,9 +181,6 @@ pub struct Target {
 
 impl Target {
     /// A target for `width` x `height` pixels, cleared to black.
-    ///
-    /// # Errors
-    /// As [`check_size`].
     pub fn new(
         width: u32,
         height: u32,

@@ -62,9 +62,6 @@ pub fn not_drawn(scene: &Scene) -> usize {
 /// Triangles, or parts of them that the window shows, with an attribute beyond [`planes::MOST_ATTRIBUTE`]. Their planes
 /// may overflow in f32, so a scene with any is for another engine.
 ///
-/// # Errors
-/// [`BadScene`].
-///
 /// # Panics
 /// As [`render`].
 pub fn beyond_f32(scene: &Scene, width: u32, height: u32) -> Result<usize, BadScene> {
@@ -97,9 +94,6 @@ pub fn render(
 }
 
 /// As [`render`], in an instruction set.
-///
-/// # Errors
-/// As [`render`].
 pub fn render_in(
     engine: Tiles,
     scene: &Scene,
@@ -114,9 +108,6 @@ pub fn render_in(
 }
 
 /// As [`render_in`], over a picture that is kept: every pixel is written, none is read.
-///
-/// # Errors
-/// As [`render`].
 ///
 /// # Panics
 /// If the picture does not begin at column 0 and row 0.

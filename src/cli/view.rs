@@ -1,0 +1,482 @@
+//! What is drawn and how it is seen, as a command line says it: a scene of the book, or a model with an eye and a light.
+
+use std::num::NonZeroU32;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, LazyLock};
+use std::time::{Duration, Instant};
+
+use clap::Args as _;
+use glam::{DMat4, DVec3};
+
+use super::progress::Progress;
+use super::{Failure, Streams, program, usage};
+use rasterproof_core::angle::{atan, cos, sin, tan, turn_y};
+use rasterproof_models::{Model, Normals, Options, Origin, Up};
+use rasterproof_render::pipeline::assemble::Cull;
+use rasterproof_render::pipeline::depth::DepthFormat;
+use rasterproof_render::pipeline::fog::{Fog, Growth};
+use rasterproof_render::pipeline::highlight::Specular;
+use rasterproof_render::pipeline::opacity::{AlphaMode, Opacity};
+use rasterproof_render::pipeline::shade::Light;
+use rasterproof_render::pipeline::shadow::{self, Shadows};
+use rasterproof_render::pipeline::target::{Antialias, Target, check_size};
+use rasterproof_render::pipeline::texture::Texture;
+use rasterproof_render::pipeline::transform::{about, look_at, perspective};
+use rasterproof_render::scene::{Scene, Shading, chapters};
+
+#[derive(clap::Args, Debug)]
+pub struct SceneArguments {
+    /// A scene of the book by name, or a model in GLB, glTF, OBJ (with its MTL), PLY or STL
+    #[arg(value_name = "SCENE|MODEL", required_unless_present = "scene", conflicts_with = "scene")]
+    what: Option<PathBuf>,
+    /// The scene of this name, whatever files there are; see: rasterproof list
+    #[arg(long, value_name = "NAME", value_parser = scene_names())]
+    scene: Option<String>,
+    #[command(flatten)]
+    pub(super) view: ViewArguments,
+}
+
+/// The names of the options of [`ViewArguments`].
+pub(super) static VIEW_OPTIONS: LazyLock<Vec<String>> = LazyLock::new(|| {
+    let view = ViewArguments::augment_args(clap::Command::new("view"));
+    view.get_arguments().filter_map(|option| option.get_long().map(str::to_owned)).collect()
+});
+
+/// How a scene or a model is seen.
+#[derive(clap::Args, Debug, Default)]
+pub struct ViewArguments {
+    /// Size of the picture in pixels
+    #[arg(long, value_name = "WxH", default_value = "640x480", value_parser = parse_size)]
+    size: (u32, u32),
+    /// Antialiasing
+    #[arg(long, default_value = "none", value_parser = super::one_of(ANTIALIAS))]
+    pub(super) aa: Antialias,
+    /// Leave out triangles by their winding as the eye sees them
+    #[arg(long, value_parser = super::one_of(WINDINGS))]
+    cull: Option<Cull>,
+    /// How light is laid on a model [default: phong]
+    #[arg(long, value_name = "SHADING", value_parser = super::one_of(SHADINGS))]
+    shading: Option<Shading>,
+    /// Highlights of a model in place of its own: a strength from 0 to 1, and an exponent above 0
+    #[arg(long, value_name = "STRENGTH,EXPONENT", value_parser = parse_specular)]
+    specular: Option<Specular>,
+    /// From which opacity on a model's surfaces that are not opaque are drawn, from 0 to 1, in place of its own; below it
+    /// they have holes [default: as the file says, else 0.5]
+    #[arg(long, value_name = "OPACITY", value_parser = parse_opacity)]
+    alpha_threshold: Option<f64>,
+    /// How opaque the surfaces of a model are, from 0 to 1, in place of its own: below 1 they blend with what is behind them
+    #[arg(long, value_name = "OPACITY", value_parser = parse_opacity)]
+    opacity: Option<f64>,
+    /// How many surfaces that are not opaque a sample of a model shows at most, in the order of their depths, from 1 on; without it
+    /// they are mixed in the order of drawing
+    #[arg(long, value_name = "COUNT")]
+    layers: Option<NonZeroU32>,
+    /// Read all textures of a model at levels of detail, also where its file does not ask for it
+    #[arg(long)]
+    mip_maps: bool,
+    /// Read all textures of a model up to so many times along the longer axis of a pixel's footprint, from 2 to 16, at levels of
+    /// detail
+    #[arg(long, value_name = "TAPS", value_parser = clap::value_parser!(u8).range(2..=16))]
+    anisotropy: Option<u8>,
+    /// Let the surfaces of a model keep the light from others, by a shadow map of SIZE x SIZE texels [default SIZE: 1024]
+    #[arg(long, value_name = "SIZE", num_args = 0..=1, default_missing_value = "1024", value_parser = parse_shadows)]
+    shadows: Option<u32>,
+    /// Fog in the colour of the background, of a model: its start and end, where 0 is the front of the model and 1
+    /// the back; or one number, its density over the depth of the model, from the eye on
+    #[arg(long, value_name = "START,END|DENSITY", allow_negative_numbers = true, value_parser = parse_fog)]
+    fog: Option<Growth>,
+    /// The axis of the model's file that points up [default: the usual one of its format, which is printed]
+    #[arg(long, value_name = "AXIS", value_parser = super::one_of(UPS))]
+    up: Option<Up>,
+    /// Normals of a model: those of its file, where a face without any is flat unless the file groups it as
+    /// smooth; flat everywhere; or those of the file, and smooth where there are none [default: file]
+    #[arg(long, value_name = "FROM", value_parser = super::one_of(NORMALS))]
+    normals: Option<Normals>,
+    /// How depths are stored
+    #[arg(long, default_value = "unorm32", value_parser = super::one_of(DEPTHS))]
+    pub(super) depth: DepthFormat,
+    /// Turn the model by this many degrees, to the right [default: 30]
+    #[arg(long, value_name = "DEGREES", allow_negative_numbers = true)]
+    yaw: Option<f64>,
+    /// Look down on the model by this many degrees [default: 20]
+    #[arg(long, value_name = "DEGREES", allow_negative_numbers = true)]
+    pitch: Option<f64>,
+    /// Come nearer to the model by this factor; large ones end inside it [default: 1]
+    #[arg(long, value_name = "FACTOR", allow_negative_numbers = true)]
+    zoom: Option<f64>,
+    /// Vertical angle of view in degrees, of a model [default: 40]
+    #[arg(long, value_name = "DEGREES", allow_negative_numbers = true)]
+    fov: Option<f64>,
+}
+
+const ANTIALIAS: &[(&str, Antialias)] = &[
+    ("none", Antialias::None),
+    ("msaa4", Antialias::Multisample4),
+    ("ssaa2", Antialias::Supersample(2)),
+    ("ssaa4", Antialias::Supersample(4)),
+    ("ssaa8", Antialias::Supersample(8)),
+];
+const WINDINGS: &[(&str, Cull)] =
+    &[("none", Cull::None), ("cw", Cull::Clockwise), ("ccw", Cull::CounterClockwise)];
+const SHADINGS: &[(&str, Shading)] = &[
+    ("unlit", Shading::Unlit),
+    ("flat", Shading::Flat),
+    ("gouraud", Shading::Gouraud),
+    ("phong", Shading::Phong),
+];
+const DEPTHS: &[(&str, DepthFormat)] = &[
+    ("unorm32", DepthFormat::Unorm32),
+    ("unorm24", DepthFormat::Unorm24),
+    ("f32", DepthFormat::F32),
+    ("f32-reversed", DepthFormat::F32Reversed),
+    ("f64", DepthFormat::F64),
+];
+const UPS: &[(&str, Up)] = &[("y", Up::Y), ("z", Up::Z)];
+const NORMALS: &[(&str, Normals)] =
+    &[("file", Normals::File), ("flat", Normals::Flat), ("smooth", Normals::Smooth)];
+
+fn scene_names() -> Vec<&'static str> {
+    chapters::entries().map(|entry| entry.name).collect()
+}
+
+pub(super) fn parse_size(text: &str) -> Result<(u32, u32), &'static str> {
+    let sides = text.split_once(['x', 'X']);
+    let parsed = sides.and_then(|(w, h)| Some((w.parse().ok()?, h.parse().ok()?)));
+    parsed.ok_or("expected WIDTHxHEIGHT, for example 1024x768")
+}
+
+fn parse_specular(text: &str) -> Result<Specular, &'static str> {
+    let numbers = text.split_once(',');
+    let parsed = numbers.and_then(|(s, e)| Some((s.trim().parse().ok()?, e.trim().parse().ok()?)));
+    let fits = |(strength, exponent): &(f64, f64)| {
+        (0.0..=1.0).contains(strength) && *exponent > 0.0 && exponent.is_finite()
+    };
+    parsed
+        .filter(fits)
+        .map(|(strength, shininess)| Specular { colour: DVec3::splat(strength), shininess })
+        .ok_or("expected a strength from 0 to 1 and an exponent above 0, for example 0.5,30")
+}
+
+fn parse_opacity(text: &str) -> Result<f64, &'static str> {
+    let opacity = text.trim().parse().ok().filter(|number| (0.0..=1.0).contains(number));
+    opacity.ok_or("expected a number from 0 to 1, for example 0.5")
+}
+
+/// Gives all textures a mip map, and anisotropy where it is asked for; one that several items share is made once.
+fn give_mip_maps(scene: &mut Scene, anisotropy: Option<u8>) {
+    let mut made: Vec<[Arc<Texture>; 2]> = Vec::new();
+    for item in &mut scene.items {
+        let Some(texture) = &mut item.material.texture else { continue };
+        let known = made.iter().find(|[before, _]| Arc::ptr_eq(before, texture));
+        let with = match known {
+            Some([_, with]) => with.clone(),
+            None => {
+                let with = Texture::clone(texture).with_mip_map();
+                let with = Arc::new(with.with_anisotropy(anisotropy.unwrap_or(1)));
+                made.push([texture.clone(), with.clone()]);
+                with
+            }
+        };
+        *texture = with;
+    }
+}
+
+fn parse_shadows(text: &str) -> Result<u32, String> {
+    let size = text.trim().parse().ok().filter(|size| shadow::SIZES.contains(size));
+    size.ok_or_else(|| {
+        let (least, most) = (shadow::SIZES.start(), shadow::SIZES.end());
+        format!("expected the texels along a side of the map, from {least} to {most}; a file is named before --shadows")
+    })
+}
+
+fn parse_fog(text: &str) -> Result<Growth, &'static str> {
+    let number = |word: &str| word.trim().parse::<f64>().ok().filter(|number| number.is_finite());
+    let growth = match text.split_once(',') {
+        Some((start, end)) => number(start)
+            .zip(number(end))
+            .and_then(|(start, end)| (start < end).then_some(Growth::Linear { start, end })),
+        None => number(text)
+            .filter(|density| *density > 0.0)
+            .map(|density| Growth::Exponential { density }),
+    };
+    growth.ok_or("expected a start and a larger end, for example 0,1, or a density above 0")
+}
+
+impl SceneArguments {
+    /// A model of a file, as it is drawn where nothing else is said.
+    pub(super) fn of_model(path: &Path, size: (u32, u32)) -> Self {
+        let view = ViewArguments { size, ..ViewArguments::default() };
+        Self { what: Some(path.to_owned()), scene: None, view }
+    }
+
+    /// The name of the scene, or the path of the model.
+    pub(super) fn source(&self) -> Result<&str, &Path> {
+        if let Some(name) = &self.scene {
+            return Ok(name);
+        }
+        let path = self.what.as_deref().unwrap_or(Path::new(""));
+        let scene = chapters::entries().find(|entry| path == Path::new(entry.name));
+        // What is there as a file is meant as a file.
+        scene.filter(|_| !path.is_file()).map_or(Err(path), |entry| Ok(entry.name))
+    }
+
+    pub(super) fn name(&self) -> String {
+        let stem = |path: &Path| path.file_stem().unwrap_or_default().to_string_lossy().into();
+        self.source().map_or_else(stem, str::to_owned)
+    }
+
+    /// The scene, turned by a share of a full turn, as a function that makes it.
+    pub(super) fn maker(&self, streams: &mut Streams<'_>) -> Result<Maker, Failure> {
+        let view = &self.view;
+        match self.source() {
+            Ok(name) => {
+                let aspect = view.aspect()?;
+                view.refuse_eye(name)?;
+                Ok(Maker { base: Base::Chapter(name.to_owned()), aspect, cull: view.cull })
+            }
+            Err(path) if path.extension().is_none() && !path.exists() => {
+                let word = path.to_string_lossy();
+                let near = scene_names().into_iter().filter(|name| {
+                    let steps = strsim::levenshtein(&word.to_ascii_lowercase(), name);
+                    steps * 2 <= name.len().max(word.len())
+                });
+                let nearest = near.min_by_key(|name| strsim::levenshtein(&word, name));
+                let hint =
+                    nearest.map_or(".".to_owned(), |name| format!("; did you mean '{name}'?"));
+                Err(usage(format!(
+                    "{word} is neither a file nor a scene{hint} See: {} list",
+                    program()
+                )))
+            }
+            Err(path) => view.maker(path, streams),
+        }
+    }
+}
+
+impl ViewArguments {
+    /// An empty target of the size and kind asked for.
+    pub(super) fn target(&self) -> Result<Target, Failure> {
+        let (width, height) = self.size;
+        Target::new(width, height, self.aa, self.depth).map_err(usage)
+    }
+
+    fn aspect(&self) -> Result<f64, Failure> {
+        let (width, height) = self.size;
+        check_size(width, height, self.aa).map_err(usage)?;
+        Ok(f64::from(width) / f64::from(height))
+    }
+
+    pub(super) fn maker(&self, path: &Path, streams: &mut Streams<'_>) -> Result<Maker, Failure> {
+        let aspect = self.aspect()?;
+        let base = Base::Model(Box::new(self.frame_model(path, aspect, streams)?));
+        Ok(Maker { base, aspect, cull: self.cull })
+    }
+
+    /// A scene has an eye and a light of its own: what would move them is refused, not ignored.
+    fn refuse_eye(&self, scene: &str) -> Result<(), Failure> {
+        let given = [
+            ("--yaw", self.yaw.is_some()),
+            ("--pitch", self.pitch.is_some()),
+            ("--zoom", self.zoom.is_some()),
+            ("--fov", self.fov.is_some()),
+            ("--shading", self.shading.is_some()),
+            ("--specular", self.specular.is_some()),
+            ("--alpha-threshold", self.alpha_threshold.is_some()),
+            ("--opacity", self.opacity.is_some()),
+            ("--layers", self.layers.is_some()),
+            ("--mip-maps", self.mip_maps),
+            ("--anisotropy", self.anisotropy.is_some()),
+            ("--shadows", self.shadows.is_some()),
+            ("--fog", self.fog.is_some()),
+            ("--up", self.up.is_some()),
+            ("--normals", self.normals.is_some()),
+        ];
+        match given.iter().find(|(_, is_given)| *is_given) {
+            Some((option, _)) => Err(usage(format!(
+                "{option} is for models; the scene '{scene}' has an eye and a light of its own"
+            ))),
+            None => Ok(()),
+        }
+    }
+
+    fn frame_model(
+        &self,
+        path: &Path,
+        aspect: f64,
+        streams: &mut Streams<'_>,
+    ) -> Result<Framed, Failure> {
+        let shading = self.shading.unwrap_or(Shading::Phong);
+        let (yaw, pitch) = (self.yaw.unwrap_or(30.0), self.pitch.unwrap_or(20.0));
+        let (zoom, fov) = (self.zoom.unwrap_or(1.0), self.fov.unwrap_or(40.0));
+        let numbers = [("--yaw", yaw), ("--pitch", pitch), ("--zoom", zoom), ("--fov", fov)];
+        if let Some((name, value)) = numbers.iter().find(|(_, value)| !value.is_finite()) {
+            return Err(usage(format!("{name} {value} is not a finite number")));
+        }
+        // Beyond, the distance to the model is lost in the rounding of a double, or overflows.
+        if !(1e-6..=1e6).contains(&zoom) {
+            let cause = format!("--zoom {zoom} does not lie between 0.000001 and 1000000");
+            return Err(usage(cause));
+        }
+        if fov <= 0.0 || fov >= 180.0 {
+            return Err(usage(format!("--fov {fov} does not lie between 0 and 180 degrees")));
+        }
+        let normals = self.normals.unwrap_or_default();
+        let options = Options { shading, normals, up: self.up };
+        let progress = Progress::new(streams.progress, "models read", None);
+        let start = Instant::now();
+        let mut model = rasterproof_models::load(path, options).map_err(usage)?;
+        let loading = start.elapsed();
+        drop(progress);
+        report_model(&model, self.up.is_some(), streams.errors)?;
+        let bounds = model.items.iter().filter_map(|item| item.mesh.bounds());
+        let (min, max) = bounds
+            .reduce(|(a, b), (c, d)| (a.min(c), b.max(d)))
+            .unwrap_or((DVec3::ZERO, DVec3::ONE));
+        let centre = (min + max) / 2.0;
+        // A point or a plane has a size too.
+        let radius = ((max - min).length() / 2.0).max(f64::MIN_POSITIVE.sqrt());
+        let half = fov.to_radians() / 2.0;
+        let narrow = half.min(atan(tan(half) * aspect));
+        let distance = radius / sin(narrow) / zoom;
+        let (pitch, yaw) = (pitch.to_radians(), yaw.to_radians());
+        let turn = turn_y(yaw);
+        let away = DVec3::new(0.0, sin(pitch), -cos(pitch));
+        let up = DVec3::new(0.0, cos(pitch), sin(pitch));
+        let view = look_at(centre + away * distance, centre, up).map_err(usage)?;
+        let near = (distance - radius).max(distance * 1e-3).max(radius * 1e-3);
+        let projection =
+            perspective(fov.to_radians(), aspect, near, distance + radius * 1.01).map_err(usage)?;
+        let name = path.file_stem().unwrap_or_default().to_string_lossy();
+        let mut scene = Scene::new(&name, "a model", projection);
+        scene.view = view;
+        scene.items = std::mem::take(&mut model.items);
+        scene.layers = self.layers;
+        scene.light = Light {
+            towards: DVec3::new(-0.4, 0.7, -0.6).normalize(),
+            ambient: 0.25,
+            diffuse: 0.75,
+        };
+        for item in &mut scene.items {
+            item.model = about(centre, turn);
+            item.material.specular = self.specular.unwrap_or(item.material.specular);
+            if let Some(factor) = self.opacity {
+                let map = item.material.opacity.take().and_then(|opacity| opacity.map);
+                item.material.opacity = Some(Opacity { factor, map, mode: AlphaMode::Blend });
+            }
+            if let (Some(threshold), Some(opacity)) =
+                (self.alpha_threshold, &mut item.material.opacity)
+            {
+                opacity.mode = AlphaMode::Test { threshold };
+            }
+        }
+        if self.mip_maps || self.anisotropy.is_some() {
+            give_mip_maps(&mut scene, self.anisotropy);
+        }
+        scene.shadows = self.shadows.map(|size| Shadows { size, ..Shadows::default() });
+        let [r, g, b, _] = scene.background;
+        // From shares of the model's depth to distances.
+        let growth = self.fog.map(|growth| match growth {
+            Growth::Linear { start, end } => {
+                let [start, end] = [start, end].map(|at| distance + radius * (2.0 * at - 1.0));
+                Growth::Linear { start, end }
+            }
+            Growth::Exponential { density } => {
+                Growth::Exponential { density: density / (2.0 * radius) }
+            }
+        });
+        scene.fog = growth.map(|growth| Fog { colour: [r, g, b], growth });
+        let Model { origins, not_drawn, .. } = model;
+        Ok(Framed { scene, centre, origins, not_drawn, loading })
+    }
+}
+
+/// Says what is missing of a model, what is not drawn, and which axis was taken to point up.
+fn report_model(
+    model: &Model,
+    up_is_given: bool,
+    errors: &mut dyn std::io::Write,
+) -> std::io::Result<()> {
+    for warning in &model.warnings {
+        writeln!(errors, "warning: {warning}")?;
+    }
+    if !model.not_drawn.is_empty() {
+        writeln!(errors, "not drawn: {}", model.not_drawn)?;
+    }
+    if !up_is_given {
+        let (taken, other) = match model.up {
+            Up::Y => ("y", "z"),
+            Up::Z => ("z", "y"),
+        };
+        let why = if model.format.says_up() { "it does by the rule of" } else { "is usual in" };
+        let (format, other) = (model.format.name(), format!("--up {other} for the other"));
+        writeln!(errors, "{taken} points up, as {why} {format}; {other}")?;
+    }
+    Ok(())
+}
+
+struct Framed {
+    scene: Scene,
+    centre: DVec3,
+    origins: Vec<Origin>,
+    /// What the file contains and is not drawn.
+    not_drawn: String,
+    /// How long it took to read the file.
+    loading: Duration,
+}
+
+enum Base {
+    Chapter(String),
+    Model(Box<Framed>),
+}
+
+pub(super) struct Maker {
+    base: Base,
+    aspect: f64,
+    cull: Option<Cull>,
+}
+
+impl Maker {
+    /// Nothing for a scene of the book.
+    fn framed(&self) -> Option<&Framed> {
+        match &self.base {
+            Base::Chapter(_) => None,
+            Base::Model(framed) => Some(framed),
+        }
+    }
+
+    /// How long it took to read the model.
+    pub(super) fn loading_s(&self) -> Option<f64> {
+        self.framed().map(|framed| framed.loading.as_secs_f64())
+    }
+
+    /// What the file of a model contains and is not drawn, in words.
+    pub(super) fn not_drawn(&self) -> &str {
+        self.framed().map_or("", |framed| &framed.not_drawn)
+    }
+
+    /// Where each item of a model comes from.
+    pub(super) fn origins(&self) -> &[Origin] {
+        self.framed().map_or(&[], |framed| &framed.origins)
+    }
+
+    pub(super) fn scene(&self, turn: f64) -> Scene {
+        let mut scene = match &self.base {
+            Base::Chapter(name) => chapters::scene(name, self.aspect, turn)
+                .unwrap_or_else(|| Scene::new(name, "", DMat4::IDENTITY)),
+            Base::Model(framed) => {
+                let mut scene = framed.scene.clone();
+                let turn = turn_y(turn * std::f64::consts::TAU);
+                for item in &mut scene.items {
+                    item.model = about(framed.centre, turn) * item.model;
+                }
+                scene
+            }
+        };
+        if let Some(cull) = self.cull {
+            for item in &mut scene.items {
+                item.cull = cull;
+            }
+        }
+        scene
+    }
+}
