@@ -268,7 +268,7 @@ fn run_show(arguments: &ShowArguments, streams: &mut Streams<'_>) -> Status {
         let layers = vec![
             PictureLayer::new("yours", &picture.yours),
             PictureLayer::new("right", &picture.right),
-            PictureLayer::new("difference", &picture.difference()),
+            PictureLayer::map("difference", &picture.difference()),
         ];
         let view = PictureView { name, about, layers, ..PictureView::default() };
         on_page.push((picture.differing, view));

@@ -262,7 +262,7 @@ fn report_page(
         |d: &Drawing| PictureLayer::new(d.name, &frame_comparison::rgb(&d.rendered.picture));
     let marked = comparison.filter(|c| !c.agrees() || leaves_open(c));
     let marked =
-        marked.map(|c| PictureLayer::new("what differs", &frame_comparison::rgb(&c.picture)));
+        marked.map(|c| PictureLayer::map("what differs", &frame_comparison::rgb(&c.picture)));
     let view = PictureView {
         name: scene.name.clone(),
         about: scene.about.clone(),

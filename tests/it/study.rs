@@ -197,3 +197,60 @@ fn rungs_of_values_and_depth_that_are_wrong_on_hard_cases_are_named() {
         assert!(list.contains(&format!("Coverage by scanline ({unit}): book ")), "{list}");
     }
 }
+
+/// The parts of the answers about costs that are not times, nor depend on them.
+fn counted(groups: &Value) -> Vec<Value> {
+    let groups = groups.as_array().unwrap().iter();
+    let choices = groups.flat_map(|group| group["choices"].as_array().unwrap());
+    let kept = |choice: &Value| {
+        let mut choice = choice.clone();
+        choice.as_object_mut().unwrap().remove("time_ns");
+        choice
+    };
+    choices.map(kept).collect()
+}
+
+/// Each number of a study that is not a time is also what another command says, which answers one of its questions alone.
+#[test]
+fn other_commands_find_the_numbers_of_a_study() {
+    let folder = Folder::new("study-again");
+    // A shiny box, half of a glass pane before it, a coplanar overlap and a square that is listed twice.
+    fs::write(
+        folder.join("m.mtl"),
+        "newmtl shiny\nKd 1 0.5 0\nKs 1 1 1\nNs 20\nnewmtl glass\nKd 0 0 1\nd 0.5\n",
+    )
+    .unwrap();
+    let more = "v -2 -1 2\nv 1 -1 2\nv 1 1 2\nv -2 1 2\nv 0.5 -0.5 -1\nv 1 0.25 -1\nv 1 -0.5 -1\n";
+    let faces = "f 13 14 15\nf 13 15 14\nusemtl glass\nf 9 10 11\nf 9 11 12\n";
+    let model = format!("mtllib m.mtl\n{BOX}{more}usemtl shiny\n{FACES}{faces}");
+    fs::write(folder.join("m.obj"), model).unwrap();
+    for view in ["--size 96x72 --yaw 190", "--size 64x48 --yaw 25 --pitch -20 --aa msaa4"] {
+        let json = |command: &str| {
+            let run = folder.check(&*format!("{command} m.obj {view} --json"), 0);
+            serde_json::from_str::<Value>(&run.out).unwrap()
+        };
+        let (study, verify, cost) = (json("study --quick"), json("verify"), json("cost --quick"));
+        assert_eq!(study["hard_cases"], verify["hard_cases"]);
+        if !view.contains("--aa") {
+            // Engines are judged at each sample of a pixel.
+            assert_eq!(study["pieces"], verify["pieces"]);
+        }
+        assert_eq!(counted(&study["costs"]), counted(&cost));
+        let plan = json("plan --rounds 1");
+        let savings = plan["measured"]["effects"].as_array().unwrap();
+        let effects = study["effects"]["effects"].as_array().unwrap();
+        assert!(effects.iter().any(|effect| effect["wrong_without"] != 0), "{effects:?}");
+        for effect in effects {
+            let same = savings.iter().find(|saving| saving["effect"] == effect["effect"]).unwrap();
+            assert_eq!(effect["wrong_without"], same["wrong_without"], "{view}: {effect}");
+        }
+        // Each place where there is a hard case is shown by its command as one.
+        for case in study["hard_cases"]["cases"].as_array().unwrap() {
+            let Some(face) = case["faces"].get(0) else { continue };
+            let words = face["command"].as_str().unwrap().split_once("rasterproof ").unwrap().1;
+            let words: Vec<_> = words.split(' ').map(|word| word.trim_matches('\'')).collect();
+            let shown = folder.check(&words[..], 0).out;
+            assert!(shown.contains(case["kind"].as_str().unwrap()), "{words:?}: {shown}");
+        }
+    }
+}

@@ -151,14 +151,16 @@ pub fn load(path: &Path, options: Options) -> Result<Model, BadFile> {
     let mut bytes = Vec::new();
     file.read_more(&mut bytes, PIECE_BYTES).map_err(failed)?;
     let format = Format::of(&bytes, length).map_err(|cause| bad(path, None, cause))?;
-    if format != Format::Obj {
+    let has_records = format == Format::Stl && stl::is_binary(&bytes, length);
+    if format != Format::Obj && !has_records {
         bytes.reserve_exact(usize::try_from(length).unwrap_or(0).saturating_sub(bytes.len()));
         file.read_more(&mut bytes, u64::MAX).map_err(failed)?;
     }
     // Each reader gets the bytes for good, since what it makes of them needs the memory.
     let contents = match format {
         Format::Obj => obj::read(path, Text::new(bytes, file))?,
-        Format::Stl => stl::read(path, &{ bytes })?,
+        Format::Stl if has_records => stl::binary(path, bytes, file)?,
+        Format::Stl => stl::text(path, &{ bytes })?,
         Format::Ply => ply::read(path, &{ bytes })?,
         Format::Gltf | Format::Glb => gltf::read(path, &{ bytes })?,
     };

@@ -3,13 +3,14 @@
 //! Own code, since the format has one kind of record, and errors name its line or byte. Its normals are not read: they are
 //! those of the triangles, or wrong.
 
-use std::collections::BTreeMap;
 use std::hash::BuildHasher as _;
 use std::path::Path;
 
 use foldhash::fast::RandomState;
 use glam::{DMat4, DVec3};
 use hashbrown::HashTable;
+use hashbrown::hash_table::Entry;
+use rasterproof_host::input::Pieces;
 use rasterproof_host::text::printable_short;
 use rayon::prelude::*;
 
@@ -18,6 +19,8 @@ use crate::{BadFile, bad};
 
 const HEADER: usize = 84;
 const RECORD: usize = 50;
+/// How many bytes of records are read at once: enough for several threads.
+const PIECE: u64 = 1 << 24;
 
 /// The triangles that the header of a binary file counts.
 fn counted(bytes: &[u8]) -> Option<u64> {
@@ -35,132 +38,178 @@ pub(crate) fn is_text(bytes: &[u8]) -> bool {
     rest.starts_with(b"solid") && rest.get(5).is_none_or(u8::is_ascii_whitespace)
 }
 
-/// A part whose equal positions are one, so that neighbours are known.
-struct Merged {
-    part: FilePart,
-    /// The numbers of the positions, to find a position again.
-    known: HashTable<u32>,
-    /// The numbers of positions that were seen not long ago, by their hashes.
+/// Corners of triangles in the order of the file, and the positions that they name.
+#[derive(Default)]
+struct Corners {
+    /// Most are different; [`merged`] makes one of those that are equal.
+    positions: Vec<DVec3>,
+    /// The number of each corner's position.
+    numbers: Vec<u32>,
+    /// The numbers of positions that were added not long ago, in places that follow from their coordinates.
     recent: Vec<u32>,
-    /// With a random seed, so that no file can be written whose positions all have the same hash.
-    hasher: RandomState,
 }
 
-impl Merged {
-    fn new(name: String, triangles: usize) -> Self {
-        let mut part = FilePart { name, to_file: DMat4::IDENTITY, ..FilePart::default() };
-        part.corners.reserve(3 * triangles);
-        // A closed surface has half as many positions as triangles.
-        part.positions.reserve(triangles / 2);
-        let known = HashTable::with_capacity(triangles / 2);
-        let recent = vec![u32::MAX; RECENT];
-        Self { part, known, recent, hasher: RandomState::default() }
-    }
-
-    fn triangle(&mut self, points: [DVec3; 3], line: u32) {
-        let mut corners = [0; 3];
-        for (corner, point) in corners.iter_mut().zip(points) {
-            let number = self.in_last(point).unwrap_or_else(|| self.number(point));
-            *corner = number;
-        }
-        self.part.corners.extend(corners);
-        self.part.polygons.push(3, line, 0);
-    }
-
-    /// Adds the triangles of another part, which come after those of this one.
-    fn append(&mut self, other: FilePart) {
-        let numbers: Vec<u32> = other.positions.iter().map(|&point| self.number(point)).collect();
-        let corners = other.corners.par_iter().with_min_len(SHARE);
-        self.part.corners.par_extend(corners.map(|&corner| numbers[corner as usize]));
-        self.part.polygons = Polygons::triangles(self.part.corners.len() / 3);
-    }
-
-    /// The number of a position of the last triangle, which often is a neighbour.
-    #[inline]
-    fn in_last(&self, point: DVec3) -> Option<u32> {
-        let last = self.part.corners.last_chunk::<3>()?;
-        last.iter().copied().find(|&number| self.part.positions[number as usize] == point)
-    }
-
-    #[inline]
-    fn number(&mut self, point: DVec3) -> u32 {
-        let hasher = &self.hasher;
-        // -0 and 0 are one position.
-        let hash = |point: DVec3| {
-            let [x, y, z] = (point + DVec3::ZERO).to_array().map(f64::to_bits);
-            hasher.hash_one((x, y, z))
-        };
-        let positions = &mut self.part.positions;
-        let of_point = hash(point);
-        let recent = &mut self.recent[of_point as usize % RECENT];
-        if positions.get(*recent as usize) == Some(&point) {
-            return *recent;
-        }
-        let is_same = |&number: &u32| positions[number as usize] == point;
-        if let Some(&number) = self.known.find(of_point, is_same) {
-            *recent = number;
-            return number;
-        }
-        let number = positions.len() as u32;
-        *recent = number;
-        positions.push(point);
-        self.known.insert_unique(of_point, number, |&number| hash(positions[number as usize]));
-        number
-    }
-}
-
-/// Positions that are found without looking into the table: it is larger than a cache of the processor, and neighbours
-/// of a triangle are often not far before it in the file.
+/// How many positions are remembered: they fit into the cache of a processor, and a neighbour of a triangle often is not far
+/// before it in the file.
 const RECENT: usize = 1 << 14;
 
-/// Reads the bytes of an STL of either kind.
-pub(crate) fn read(path: &Path, bytes: &[u8]) -> Result<Contents, BadFile> {
-    let mut not_drawn = BTreeMap::new();
-    let parts = match is_binary(bytes, bytes.len() as u64) {
-        true => vec![binary(bytes, &mut not_drawn)],
-        false => text(path, bytes)?,
-    };
-    Ok(Contents { parts, not_drawn, ..Contents::default() })
-}
-
-fn binary(bytes: &[u8], not_drawn: &mut BTreeMap<String, u64>) -> FilePart {
-    let (records, _) = bytes[HEADER..].as_chunks::<RECORD>();
-    // Some programs keep a colour there, in ways that exclude each other.
-    let has_attribute = |record: &&[u8; RECORD]| record[RECORD - 2..] != [0; 2];
-    let with_attribute = records.par_iter().with_min_len(SHARE).filter(has_attribute).count();
-    if with_attribute > 0 {
-        not_drawn.insert("attribute of triangle".to_owned(), with_attribute as u64);
+impl Corners {
+    fn with_capacity(triangles: usize) -> Self {
+        // A closed surface has half as many positions as triangles.
+        let positions = Vec::with_capacity(triangles / 2);
+        Self { positions, numbers: Vec::with_capacity(3 * triangles), recent: vec![0; RECENT] }
     }
-    merged(records, records.len(), rayon::current_num_threads()).part
+
+    #[inline]
+    fn push(&mut self, point: DVec3) {
+        let [x, y, z] = key(point);
+        let mixed = (x ^ y.rotate_left(21) ^ z.rotate_left(42)).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        let recent = &mut self.recent[(mixed >> 50) as usize % RECENT];
+        if self.positions.get(*recent as usize) != Some(&point) {
+            *recent = self.positions.len() as u32;
+            self.positions.push(point);
+        }
+        self.numbers.push(*recent);
+    }
 }
 
-/// Merges the equal positions of records with this number of threads, and reserves memory for `reserved` triangles. Positions get
-/// the same numbers as with one thread.
-fn merged(records: &[[u8; RECORD]], reserved: usize, threads: usize) -> Merged {
-    if threads > 1 && records.len() > SHARE {
-        let (first, second) = records.split_at(records.len() / 2);
-        let (mut first, second) = rayon::join(
-            || merged(first, reserved, threads / 2),
-            || merged(second, second.len(), threads - threads / 2),
+/// A position as a key: -0 and 0 are one.
+fn key(point: DVec3) -> [u64; 3] {
+    (point + DVec3::ZERO).to_array().map(f64::to_bits)
+}
+
+/// The positions of all shares of a file, each once, in the order in which they come first; and their numbers at all corners.
+fn merged(shares: &[Corners]) -> (Vec<DVec3>, Vec<u32>) {
+    let mut count = 0;
+    let with_start = shares.iter().map(|share| {
+        let start = count;
+        count += share.positions.len();
+        (start, share)
+    });
+    let shares: Vec<(usize, &Corners)> = with_start.collect();
+    // Equal positions have the same hash, so they are looked for in one of many small tables, which fits into a cache. The
+    // seed of the hash is random, so that no file can be written whose positions all are in the same one.
+    let hasher = RandomState::default();
+    let tables = count.div_ceil(SHARE).max(1);
+    let hash = |[x, y, z]: [u64; 3]| hasher.hash_one((x, y, z));
+    let sorted = shares.par_iter().map(|(start, share)| {
+        let usual = share.positions.len() / tables;
+        let mut of_tables: Vec<_> =
+            (0..tables).map(|_| Vec::with_capacity(usual + usual / 16)).collect();
+        for (number, &point) in (*start as u32..).zip(&share.positions) {
+            let keys = key(point);
+            of_tables[(hash(keys) >> 32) as usize % tables].push((keys, number));
+        }
+        of_tables
+    });
+    let sorted: Vec<Vec<Vec<([u64; 3], u32)>>> = sorted.collect();
+    let found = (0..tables).into_par_iter().map(|table| {
+        let all = || sorted.iter().map(|of_tables| &of_tables[table]);
+        let mut known = HashTable::with_capacity(all().map(Vec::len).sum());
+        let mut again = Vec::new();
+        for &(keys, number) in all().flatten() {
+            let is_same = |other: &([u64; 3], u32)| other.0 == keys;
+            match known.entry(hash(keys), is_same, |other| hash(other.0)) {
+                Entry::Occupied(first) => again.push((number, first.get().1)),
+                Entry::Vacant(place) => drop(place.insert((keys, number))),
+            }
+        }
+        again
+    });
+    let found: Vec<Vec<(u32, u32)>> = found.collect();
+    // For each position the number of the first one that is equal, and then its number among those that are kept.
+    let mut numbers: Vec<u32> = (0..count as u32).collect();
+    for (number, first) in found.into_iter().flatten() {
+        numbers[number as usize] = first;
+    }
+    let mut positions = Vec::with_capacity(count);
+    for (number, &point) in shares.iter().flat_map(|(_, share)| &share.positions).enumerate() {
+        let first = numbers[number] as usize;
+        if first == number {
+            numbers[number] = positions.len() as u32;
+            positions.push(point);
+        } else {
+            numbers[number] = numbers[first];
+        }
+    }
+    let mut corners = Vec::new();
+    for (start, share) in shares {
+        let of_share = share.numbers.par_iter().with_min_len(SHARE);
+        corners.par_extend(of_share.map(|&number| numbers[start + number as usize]));
+    }
+    (positions, corners)
+}
+
+/// Reads triangles in records, from the first bytes of a file and what follows them. It is read while what was read before is
+/// looked at, so no more than two pieces of the file are in memory.
+pub(crate) fn binary(
+    path: &Path,
+    mut piece: Vec<u8>,
+    mut file: Pieces,
+) -> Result<Contents, BadFile> {
+    let count = counted(&piece).unwrap_or(0) as usize;
+    piece.drain(..HEADER);
+    let (mut next, mut all) = (Vec::new(), Vec::new());
+    let (mut seen, mut with_attribute) = (0, 0);
+    while seen < count {
+        let (records, rest) = piece.as_chunks::<RECORD>();
+        let records = &records[..records.len().min(count - seen)];
+        next.clear();
+        next.extend_from_slice(rest);
+        let (read, shares) = rayon::join(
+            || file.read_more(&mut next, PIECE),
+            || shares(records, rayon::current_num_threads()),
         );
-        first.append(second.part);
-        return first;
+        let read = read.map_err(|error| bad(path, None, error.cause))?;
+        if read == 0 && seen + records.len() < count {
+            let cause = "the file is cut off: it became shorter while it was read";
+            return Err(bad(path, None, cause));
+        }
+        // Some programs keep a colour there, in ways that exclude each other.
+        let has_attribute = |record: &&[u8; RECORD]| record[RECORD - 2..] != [0; 2];
+        with_attribute += records.iter().filter(has_attribute).count() as u64;
+        seen += records.len();
+        all.extend(shares);
+        std::mem::swap(&mut piece, &mut next);
     }
-    let mut merged = Merged::new(String::new(), reserved);
-    for record in records {
-        let number_at = |at: usize| {
-            let at = 12 + 4 * at;
-            let word = [record[at], record[at + 1], record[at + 2], record[at + 3]];
-            f64::from(f32::from_le_bytes(word))
-        };
-        let point = |at: usize| DVec3::new(number_at(at), number_at(at + 1), number_at(at + 2));
-        merged.triangle([point(0), point(3), point(6)], 0);
+    drop((piece, next));
+    let mut contents = Contents::default();
+    if with_attribute > 0 {
+        contents.not_drawn.insert("attribute of triangle".to_owned(), with_attribute);
     }
-    merged
+    let (positions, corners) = merged(&all);
+    let polygons = Polygons::triangles(count);
+    let to_file = DMat4::IDENTITY;
+    contents.parts = vec![FilePart { to_file, positions, corners, polygons, ..FilePart::default() }];
+    Ok(contents)
 }
 
-fn text(path: &Path, bytes: &[u8]) -> Result<Vec<FilePart>, BadFile> {
-    let mut parts: Vec<Merged> = Vec::new();
+/// Reads the corners of records, a share of them by each of up to so many threads.
+fn shares(records: &[[u8; RECORD]], threads: usize) -> Vec<Corners> {
+    let share = records.len().div_ceil(threads).max(SHARE);
+    let read = |share: &[[u8; RECORD]]| {
+        let mut corners = Corners::with_capacity(share.len());
+        for record in share {
+            let (numbers, _) = record[12..RECORD - 2].as_chunks::<4>();
+            for corner in numbers.as_chunks::<3>().0 {
+                let coordinates = corner.map(|number| f64::from(f32::from_le_bytes(number)));
+                corners.push(DVec3::from_array(coordinates));
+            }
+        }
+        corners
+    };
+    records.par_chunks(share).map(read).collect()
+}
+
+/// Reads triangles in text.
+pub(crate) fn text(path: &Path, bytes: &[u8]) -> Result<Contents, BadFile> {
+    let mut parts: Vec<FilePart> = Vec::new();
+    let mut corners = Corners::default();
+    let end = |part: Option<&mut FilePart>, corners: &mut Corners| {
+        if let Some(part) = part {
+            (part.positions, part.corners) = merged(&[std::mem::take(corners)]);
+        }
+    };
     let mut points: Vec<DVec3> = Vec::new();
     let mut first_line = 0;
     for (index, line) in bytes.split(|&byte| byte == b'\n' || byte == b'\r').enumerate() {
@@ -169,7 +218,10 @@ fn text(path: &Path, bytes: &[u8]) -> Result<Vec<FilePart>, BadFile> {
         let mut words = line.split_ascii_whitespace();
         match words.next().map(str::to_ascii_lowercase).as_deref() {
             Some("solid") => {
-                parts.push(Merged::new(words.collect::<Vec<_>>().join(" "), 0));
+                end(parts.last_mut(), &mut corners);
+                corners = Corners::with_capacity(0);
+                let name = words.collect::<Vec<_>>().join(" ");
+                parts.push(FilePart { name, to_file: DMat4::IDENTITY, ..FilePart::default() });
             }
             Some("facet") => (points, first_line) = (Vec::new(), number),
             Some("vertex") => {
@@ -188,17 +240,15 @@ fn text(path: &Path, bytes: &[u8]) -> Result<Vec<FilePart>, BadFile> {
                 points.push(DVec3::new(x, y, z));
             }
             Some("endfacet") => {
-                let (Ok(corners), Some(part)) =
-                    (<[DVec3; 3]>::try_from(&points[..]), parts.last_mut())
-                else {
+                let (3, Some(part)) = (points.len(), parts.last_mut()) else {
                     let cause = format!(
                         "a facet ends with {} vertices instead of 3: export the model again",
                         points.len()
                     );
                     return Err(bad(path, Some(number), cause));
                 };
-                part.triangle(corners, first_line as u32);
-                points.clear();
+                points.drain(..).for_each(|point| corners.push(point));
+                part.polygons.push(3, first_line as u32, 0);
             }
             Some("outer" | "endloop" | "endsolid") | None => {}
             Some(_) => {
@@ -214,7 +264,8 @@ fn text(path: &Path, bytes: &[u8]) -> Result<Vec<FilePart>, BadFile> {
         let cause = "the file ends inside this facet: it is cut off; export the model again";
         return Err(bad(path, Some(first_line.max(1)), cause));
     }
-    Ok(parts.into_iter().map(|merged| merged.part).collect())
+    end(parts.last_mut(), &mut corners);
+    Ok(Contents { parts, ..Contents::default() })
 }
 
 #[cfg(test)]
@@ -225,7 +276,7 @@ mod tests {
     #[test]
     fn threads_give_the_numbers_that_one_would_give() {
         let count = 5 * SHARE;
-        let point = |at: usize| [(at % 40_000) as f32, (at % 3) as f32, -0.0];
+        let point = |at: usize| [(at % 30_000) as f32, (at % 3) as f32, -0.0];
         let record = |at: usize| {
             let mut record = [0; RECORD];
             let numbers = [point(at), point(at + 1), point(at + 2)].into_iter().flatten();
@@ -235,15 +286,10 @@ mod tests {
             record
         };
         let records: Vec<_> = (0..count).map(record).collect();
-        let one = merged(&records, count, 1).part;
-        assert!(one.positions.len() > SHARE && one.polygons.len() == count);
+        let one = merged(&shares(&records, 1));
+        assert_eq!((one.0.len(), one.1.len()), (30_000, 3 * count));
         for threads in [2, 3, 8] {
-            let many = merged(&records, count, threads).part;
-            assert_eq!(
-                (many.positions, many.corners),
-                (one.positions.clone(), one.corners.clone())
-            );
-            assert_eq!(many.polygons.len(), count);
+            assert_eq!(merged(&shares(&records, threads)), one);
         }
     }
 }

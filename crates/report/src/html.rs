@@ -160,6 +160,8 @@ pub struct PictureView {
 pub struct PictureLayer {
     pub name: String,
     png: String,
+    /// Whether it marks pixels of another layer, so that its colours are not compared with those of others.
+    is_map: bool,
 }
 
 impl PictureLayer {
@@ -173,7 +175,13 @@ impl PictureLayer {
 
     #[must_use]
     pub fn from_png(name: &str, bytes: &[u8]) -> Self {
-        Self { name: name.to_owned(), png: data_address("image/png", bytes) }
+        Self { name: name.to_owned(), png: data_address("image/png", bytes), is_map: false }
+    }
+
+    /// A picture whose colours mark pixels of another layer.
+    #[must_use]
+    pub fn map(name: &str, image: &RgbImage) -> Self {
+        Self { is_map: true, ..Self::new(name, image) }
     }
 }
 

@@ -523,8 +523,8 @@ pub fn page(subject: &Subject<'_>, found: &Found<'_>, command: &str) -> Report {
             chapter: Chapter { title: "a study of your own model", path: "study.md" },
             layers: vec![
                 PictureLayer::new("picture", &picture),
-                PictureLayer::new("hard cases", &marked),
-                PictureLayer::new("decided", &decided),
+                PictureLayer::map("hard cases", &marked),
+                PictureLayer::map("decided", &decided),
             ],
         }],
         ..Report::default()

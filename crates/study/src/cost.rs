@@ -154,6 +154,11 @@ impl Effort {
         Duration::from_millis(if self.quick { 500 } else { 4000 })
     }
 
+    /// The same for formats of depth, which differ by a few percent, so that more rounds are needed.
+    fn race_of_depths(self) -> Duration {
+        2 * self.race()
+    }
+
     /// How long whole frames are timed, and then compared with each other.
     fn frames(self) -> Duration {
         Duration::from_millis(if self.quick { 600 } else { 8000 })
@@ -185,7 +190,7 @@ pub fn measure(
         wrong_values_of(shaded, hard, group);
     }
     progress(0.5, Ladder::Depth.title());
-    groups.push(depth(sampled, effort));
+    groups.push(depth(sampled, &sample, effort));
     progress(0.6, Ladder::Antialiasing.title());
     let centres = (sampled.at_centres(), sampled.size);
     let part = Sample::of(centres.0, centres.1, TIMED_PX / 4);
@@ -338,7 +343,7 @@ fn coverage(ladder: Ladder, sampled: &Sampled, sample: &Sample, effort: Effort) 
     let measures = measures.map(|(title, short)| Measure { title, short, unit, goal: Some(0.0) });
     let mut group = Group::new(ladder.title(), &measures, [sample.pieces, sample.pixels]);
     group.choices = choices;
-    set_times(&mut group, &timed, &mut passes, effort);
+    set_times(&mut group, &timed, &mut passes, (effort, effort.race()));
     group
 }
 
@@ -457,12 +462,17 @@ fn margin_of(px: [[f64; 2]; 3], window: PixelRect, u: f64) -> f64 {
 }
 
 /// Times the passes of some choices, and finds the fastest of those that are exact.
-fn set_times(group: &mut Group, timed: &[usize], passes: &mut [Pass<'_>], effort: Effort) {
+fn set_times(
+    group: &mut Group,
+    timed: &[usize],
+    passes: &mut [Pass<'_>],
+    (effort, race): (Effort, Duration),
+) {
     let spreads = time(passes, effort.rounds(), true, &|_| ());
     for (&number, spread) in timed.iter().zip(spreads) {
         group.choices[number].time = Some(spread);
     }
-    set_best(group, timed, passes, effort, effort.race());
+    set_best(group, timed, passes, effort, race);
 }
 
 /// An exact choice is raced unless a quarter of its first rounds is slower by more than this than the median of the best.
@@ -560,7 +570,7 @@ fn choice(board: &Board, rung: usize, window: PixelRect) -> Choice {
 }
 
 /// Formats of the depth buffer: pixels that show another piece than the exact depths say.
-fn depth(sampled: &Sampled, effort: Effort) -> Group {
+fn depth(sampled: &Sampled, sample: &Sample, effort: Effort) -> Group {
     let (window, pieces) = (sampled.window, &*sampled.planes[0]);
     let truths =
         parallel::map(sampled.planes.len(), |plane| exactly_seen(&sampled.planes[plane], window));
@@ -598,15 +608,12 @@ fn depth(sampled: &Sampled, effort: Effort) -> Group {
     let mut passes = Vec::new();
     for format in DepthFormat::ALL {
         let run = Box::new(move || {
-            std::hint::black_box(seen(pieces, window, format, &mut (0..pieces.len())));
+            let mut timed = (0..pieces.len()).step_by(sample.stride);
+            std::hint::black_box(seen(pieces, window, format, &mut timed));
         });
         passes.push(Pass { column: 0, run });
     }
     let timed: Vec<usize> = (0..choices.len()).collect();
-    let mut pixels = 0;
-    for piece in pieces {
-        Scanline.cover(piece.corners(), window, |span| pixels += span.pixels() as u64);
-    }
     let measure = Measure {
         title: match sampled.is_antialiased() {
             false => "pixels that show another piece than exact depths do",
@@ -616,9 +623,9 @@ fn depth(sampled: &Sampled, effort: Effort) -> Group {
         unit: Some(sampled.unit()),
         goal: Some(0.0),
     };
-    let mut group = Group::new(Ladder::Depth.title(), &[measure], [pieces.len() as u64, pixels]);
+    let mut group = Group::new(Ladder::Depth.title(), &[measure], [sample.pieces, sample.pixels]);
     group.choices = choices;
-    set_times(&mut group, &timed, &mut passes, effort);
+    set_times(&mut group, &timed, &mut passes, (effort, effort.race_of_depths()));
     group
 }
 

@@ -992,7 +992,9 @@
     const [la, lb] = [item.layers[a], item.layers[b]];
     const refused = [la, lb].find((layer) => layer.refused);
     let text = `A and B differ in ${plural(countDifferent(item, la, lb), 'pixel')} of ${item.width * item.height}.`;
-    if (refused) text = `${refused.label} draws nothing: ${refused.refused}`;
+    const map = [la, lb].find((layer) => layer.is_map);
+    if (map) text = `${map.label}: its colours mark pixels, so it is not compared.`;
+    else if (refused) text = `${refused.label} draws nothing: ${refused.refused}`;
     else if (text.includes(' in 0 ')) {
       text = `A and B agree in every pixel of ${item.width} x ${item.height}.`;
       const wrong = item.isCase && item.layers.some((layer) => layer.role === 'specimen' && layer.wrong > 0);
