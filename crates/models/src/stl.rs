@@ -180,7 +180,8 @@ pub(crate) fn binary(
     let (positions, corners) = merged(&all);
     let polygons = Polygons::triangles(count);
     let to_file = DMat4::IDENTITY;
-    contents.parts = vec![FilePart { to_file, positions, corners, polygons, ..FilePart::default() }];
+    contents.parts =
+        vec![FilePart { to_file, positions, corners, polygons, ..FilePart::default() }];
     Ok(contents)
 }
 
