@@ -66,6 +66,7 @@ macro_rules! readers {
     };
 }
 
+#[allow(clippy::needless_update, reason = "some of them state every field")]
 const READERS: [Reader; 18] = readers![
     "render MODEL", "render --size 16x16 {}", "x.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2";
     "plan MODEL", "plan --size 16x16 --rounds 1 {}", "x.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2";
