@@ -9,14 +9,14 @@ use super::conditions::{self, EVERY_FRAGMENT};
 use super::kernel::Kernel;
 use super::plan::Canvas;
 use super::planner;
-use super::primitive::{BadScene, Piece, Prepared, pack, touched};
+use super::primitive::{BadScene, Piece, Prepared, bare, pack, touched};
 use super::samples::depths::DepthPlane;
 use super::samples::pattern::{Pattern, scaled};
 use glam::DVec2;
 
 use crate::pipeline::Counters;
 use crate::pipeline::assemble::twice_area;
-use crate::pipeline::shade::Surface;
+use crate::pipeline::shade::{Attributes, PLACED, Surface};
 use crate::pipeline::target::{Colour, Target};
 use crate::scene::{Hidden, Scene};
 use rasterproof_core::arrays::MapArray as _;
@@ -24,7 +24,7 @@ use rasterproof_core::contract::{Interpolate, Rasterize};
 use rasterproof_core::frame::Frame;
 use rasterproof_core::grid::{PixelRect, SUBPIXELS};
 use rasterproof_core::parallel;
-use rasterproof_core::triangle::Corners;
+use rasterproof_core::triangle::{Corners, Fragment};
 use rasterproof_verify::oracle::Oracle;
 use rasterproof_verify::oracle::values::ExactTriangle;
 
@@ -86,7 +86,7 @@ impl<'a> TiedPieces<'a> {
     #[must_use]
     pub fn piece(&self, piece: u32, plane: usize) -> Option<(Corners, [f64; 3])> {
         let (_, piece) = &self.pieces[piece as usize];
-        let moved = self.pattern.moved(&pack::<0, 0>(piece), plane)?;
+        let moved = self.pattern.moved(&bare(piece), plane)?;
         Some((moved.corners(), moved.vertices.map_array(|vertex| vertex.depth)))
     }
 
@@ -188,13 +188,14 @@ impl<'a> TiedPieces<'a> {
         let plan = conditions::of_every_fragment(self.scene, item.item);
         let map = item.light_view.as_ref().map(|view| view.map(self.scene, engine));
         let kernel = Kernel::new(item, piece, plan, map, &mut Counters::default());
-        let emit = |f: rasterproof_core::triangle::Fragment<_>| {
-            see(f.x_px, f.y_px, kernel.shade_all(&f.varying, f.depth));
+        let packed = pack::<PLACED>(&moved, plan.interpolates);
+        let emit = |f: Fragment<Attributes<PLACED>>| {
+            see(f.x_px, f.y_px, kernel.shade_all(&f.varying.0, f.depth));
         };
         if perspective {
-            engine.fragments(&moved, bounds, emit);
+            engine.fragments(&packed, bounds, emit);
         } else {
-            engine.affine_fragments(&moved, bounds, emit);
+            engine.affine_fragments(&packed, bounds, emit);
         }
     }
 
@@ -314,13 +315,14 @@ impl<'a> TiedPieces<'a> {
             ExactTriangle::new(&moved.corners(), [0.0; 3], inv_w, uv.map_array(|uv| uv.to_array()));
         let Some(exact) = exact else { return };
         let mut range = None;
-        let emit = |f: rasterproof_core::triangle::Fragment<_>| {
+        let packed = pack::<PLACED>(&moved, plan.interpolates);
+        let emit = |f: Fragment<Attributes<PLACED>>| {
             if !wanted(f.x_px, f.y_px) {
                 return;
             }
             let (_, uv) = exact.at(f.x_px, f.y_px);
             let uv = DVec2::from(uv.map_array(|number| number.to_f64()));
-            let shade = |texel| kernel.shade_texel(&f.varying, f.depth, texel);
+            let shade = |texel| kernel.shade_texel(&f.varying.0, f.depth, texel);
             let texels = texture
                 .within(uv, bounds_of_uv)
                 .unwrap_or_else(|| vec![*range.get_or_insert_with(|| texture.range())]);
@@ -328,9 +330,9 @@ impl<'a> TiedPieces<'a> {
             see(f.x_px, f.y_px, Reachable(colours));
         };
         if perspective {
-            engine.fragments(&moved, bounds, emit);
+            engine.fragments(&packed, bounds, emit);
         } else {
-            engine.affine_fragments(&moved, bounds, emit);
+            engine.affine_fragments(&packed, bounds, emit);
         }
     }
 }

@@ -9,7 +9,7 @@ use glam::{DVec2, DVec3};
 
 use super::conditions::mip_maps::{footprint, is_affine};
 use super::plan::{Attributes, PiecePlan};
-use super::primitive::{Piece, Prepared, pack};
+use super::primitive::{Piece, Prepared, bare, pack};
 use super::samples::OnDemand;
 use crate::pipeline::Counters;
 use crate::pipeline::fill::{FragmentStage, Way, each, fill, fill_flat};
@@ -18,16 +18,43 @@ use crate::pipeline::footprint::Reading;
 use crate::pipeline::highlight::{Highlight, brightened};
 use crate::pipeline::opacity::{Drawn, Opacity};
 use crate::pipeline::see_through::{self, Look};
-use crate::pipeline::shade::{ALL, Attributes as Packed, Light, PLACED, Surface};
+use crate::pipeline::shade::{Attributes as Packed, Light, PLACED, Surface};
 use crate::pipeline::shadow::{Receiver, ShadowMap, TAPS, dimmed};
 use crate::pipeline::target::{Antialias, Colour, Target, to_colour};
 use crate::pipeline::texture::Texture;
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::Interpolate;
 
+/// So many components have two attributes without a place in the light: most of what is seen through.
+const SMALL: usize = 6;
+
+/// Where a piece is drawn, with the pixels where their samples are told apart on demand, and what is counted.
+type To<'a> = (&'a mut Target, Option<&'a mut OnDemand>, &'a mut Counters);
+
+/// Where attributes begin among the numbers of a fragment, if they are interpolated.
+struct Starts {
+    colour: usize,
+    normal: usize,
+    uv: usize,
+    place: usize,
+}
+
+impl Starts {
+    fn of(interpolates: Attributes) -> Self {
+        let before = |bit: u8| interpolates.both(Attributes(bit - 1)).components();
+        Self {
+            colour: 0,
+            normal: before(Attributes::NORMAL),
+            uv: before(Attributes::UV),
+            place: before(Attributes::PLACE),
+        }
+    }
+}
+
 /// Draws one piece: constants, and what is left to do in each fragment.
 pub(super) struct Kernel<'a> {
     plan: PiecePlan,
+    starts: Starts,
     /// base x colour of the corners, where it does not vary.
     base: DVec3,
     texture: Option<&'a Texture>,
@@ -69,6 +96,7 @@ impl<'a> Kernel<'a> {
         let constant = |bit: u8| item.carries.has(bit) && !plan.interpolates.has(bit);
         let mut kernel = Self {
             plan,
+            starts: Starts::of(plan.interpolates),
             base: item.item.material.colour,
             texture: item.texture,
             texel: DVec3::ONE,
@@ -140,53 +168,33 @@ impl<'a> Kernel<'a> {
         counters: &mut Counters,
     ) {
         if let Some(opacity) = self.opacity {
-            self.draw_see_through(engine, piece, target, samples, counters, opacity);
+            let to = (target, samples, counters);
+            if self.plan.interpolates.components() <= SMALL {
+                self.draw_see_through::<SMALL>(engine, piece, to, opacity);
+            } else {
+                self.draw_see_through::<PLACED>(engine, piece, to, opacity);
+            }
             return;
         }
-        let is_partly_lit = self.receiver.is_some() || self.lit != TAPS;
         if self.plan.is_one_colour() {
             self.draw_flat(engine, piece, target, samples, counters);
             return;
         }
-        match self.plan.interpolates.0 {
-            1.. if is_partly_lit => self.draw_all(engine, piece, target, samples, counters),
-            0 => self.draw_as::<0, 0>(engine, piece, target, samples, counters),
-            1 => self.draw_as::<3, 1>(engine, piece, target, samples, counters),
-            2 => self.draw_as::<3, 2>(engine, piece, target, samples, counters),
-            3 => self.draw_as::<6, 3>(engine, piece, target, samples, counters),
-            4 => self.draw_as::<2, 4>(engine, piece, target, samples, counters),
-            5 => self.draw_as::<5, 5>(engine, piece, target, samples, counters),
-            6 => self.draw_as::<5, 6>(engine, piece, target, samples, counters),
-            _ => self.draw_all(engine, piece, target, samples, counters),
-        }
-    }
-
-    /// Draws a piece with all attributes: one copy for those that few pieces have.
-    fn draw_all(
-        &self,
-        engine: &impl Interpolate,
-        piece: &Piece,
-        target: &mut Target,
-        samples: Option<&mut OnDemand>,
-        counters: &mut Counters,
-    ) {
-        let way = Way { affine: !self.plan.perspective, depth_test: self.plan.depth };
-        let before = *counters;
-        let stage = each(|varying, depth| self.shade_all(varying, depth));
-        if let Some(on_demand) = samples {
-            on_demand.draw_varying(engine, piece, piece, target, self.plan, &stage, counters);
-        } else {
-            fill(engine, piece, target, target.bounds(), way, &stage, counters);
-        }
-        self.count(&before, self.components(), counters);
-    }
-
-    /// Numbers that are interpolated where all attributes are.
-    fn components(&self) -> usize {
-        match self.plan.interpolates {
-            none if none.is_empty() => 0,
-            with_place if with_place.has(Attributes::PLACE) => PLACED,
-            _ => ALL,
+        let is_partly_lit = self.receiver.is_some() || self.lit != TAPS;
+        let to = (target, samples, counters);
+        // Few pieces have more than two attributes or a part of the light: one stage is for them all.
+        match (self.plan.interpolates.0, self.plan.interpolates.components()) {
+            (1.., 0..=3) if is_partly_lit => self.draw_any::<3>(engine, piece, to),
+            (1.., 0..=6) if is_partly_lit => self.draw_any::<6>(engine, piece, to),
+            (0, _) => self.draw_as::<0, 0>(engine, piece, to),
+            (1, _) => self.draw_as::<3, 1>(engine, piece, to),
+            (2, _) => self.draw_as::<3, 2>(engine, piece, to),
+            (3, _) => self.draw_as::<6, 3>(engine, piece, to),
+            (4, _) => self.draw_as::<2, 4>(engine, piece, to),
+            (5, _) => self.draw_as::<5, 5>(engine, piece, to),
+            (6, _) => self.draw_as::<5, 6>(engine, piece, to),
+            (_, 0..=8) => self.draw_any::<8>(engine, piece, to),
+            _ => self.draw_any::<PLACED>(engine, piece, to),
         }
     }
 
@@ -209,20 +217,18 @@ impl<'a> Kernel<'a> {
             let way = Way { affine: true, depth_test: self.plan.depth };
             let bounds = target.bounds();
             let stage = each(|_, _| colour);
-            fill(engine, &pack::<0, 0>(piece), target, bounds, way, &stage, counters);
+            fill(engine, &bare(piece), target, bounds, way, &stage, counters);
         }
         // A constant is no run of the fragment stage.
         counters.shaded = shaded;
     }
 
-    /// Draws a piece that is not opaque everywhere: with all attributes, so that one copy draws any of them.
-    fn draw_see_through(
+    /// Draws a piece that is not opaque everywhere and has attributes of at most `N` components.
+    fn draw_see_through<const N: usize>(
         &self,
         engine: &impl Interpolate,
         piece: &Piece,
-        target: &mut Target,
-        samples: Option<&mut OnDemand>,
-        counters: &mut Counters,
+        (target, samples, counters): To<'_>,
         opacity: &Opacity,
     ) {
         let PiecePlan { interpolates, perspective, depth, layers, .. } = self.plan;
@@ -231,19 +237,21 @@ impl<'a> Kernel<'a> {
         }) {
             return;
         }
-        let first = piece.vertices[0].varying;
+        let packed = pack::<N>(piece, interpolates);
+        let of_first = opacity.of(Surface::from(piece.vertices[0].varying).uv);
         let has_uv = interpolates.has(Attributes::UV);
+        let of = |values: &[f64]| opacity.of(DVec2::from_slice(&values[self.starts.uv..]));
         let look = Look {
-            constant: interpolates.is_empty().then_some(first),
+            constant: interpolates.is_empty().then_some(Packed([0.0; N])),
             is_kept: layers,
-            opacity: &|varying| opacity.of(Surface::from(if has_uv { *varying } else { first }).uv),
-            colour: &|varying, depth| self.shade_all(varying, depth),
+            opacity: &|varying| if has_uv { of(&varying.0) } else { of_first },
+            colour: &|varying, depth| self.shade_all(&varying.0, depth),
         };
         let way = Way { affine: !perspective, depth_test: depth };
         let before = *counters;
         let bounds = target.bounds();
-        let visible = see_through::fill(engine, piece, target, bounds, way, &look, counters);
-        self.count(&before, self.components(), counters);
+        let visible = see_through::fill(engine, &packed, target, bounds, way, &look, counters);
+        self.count(&before, if interpolates.is_empty() { 0 } else { N }, counters);
         let of = |drawn: Drawn| if drawn == Drawn::Mixed { visible } else { 0 };
         counters.alpha_tests += of(self.plan.alpha_test);
         counters.blended += of(self.plan.blending);
@@ -270,17 +278,31 @@ impl<'a> Kernel<'a> {
         &self,
         engine: &impl Interpolate,
         piece: &Piece,
-        target: &mut Target,
-        samples: Option<&mut OnDemand>,
-        counters: &mut Counters,
+        to: To<'_>,
     ) {
-        let packed = pack::<N, MASK>(piece);
-        let way = Way { affine: !self.plan.perspective, depth_test: self.plan.depth };
-        let before = *counters;
-        // One copy of the rasterizer's loops for all attributes of this size.
         let (plain, levels) = (self.stage::<N, MASK, false>(), self.stage::<N, MASK, true>());
         let stage: &FragmentStage<'_, Packed<N>> =
             if self.reading.is_some() { &levels } else { &plain };
+        self.draw_by(engine, piece, to, stage);
+    }
+
+    /// The kernel for any attributes of at most `N` components.
+    fn draw_any<const N: usize>(&self, engine: &impl Interpolate, piece: &Piece, to: To<'_>) {
+        let stage = each(|varying: &Packed<N>, depth| self.shade_all(&varying.0, depth));
+        self.draw_by::<N>(engine, piece, to, &stage);
+    }
+
+    /// One copy of the rasterizer's loops for all attributes of this size.
+    fn draw_by<const N: usize>(
+        &self,
+        engine: &impl Interpolate,
+        piece: &Piece,
+        (target, samples, counters): To<'_>,
+        stage: &FragmentStage<'_, Packed<N>>,
+    ) {
+        let packed = pack::<N>(piece, self.plan.interpolates);
+        let way = Way { affine: !self.plan.perspective, depth_test: self.plan.depth };
+        let before = *counters;
         if let Some(on_demand) = samples {
             on_demand.draw_varying(engine, piece, &packed, target, self.plan, stage, counters);
         } else {
@@ -289,11 +311,12 @@ impl<'a> Kernel<'a> {
         self.count(&before, N, counters);
     }
 
-    /// The colour of all attributes, for what has no kernel of its own.
-    pub fn shade_all(&self, varying: &Packed<PLACED>, depth: f64) -> Colour {
-        let uv = Surface::from(*varying).uv;
-        let texel = self.varying_texture().map_or(self.texel, |t| self.texel(t, uv, depth));
-        self.shade_texel(varying, depth, texel)
+    /// The colour of any attributes, for what has no kernel of its own; `values` are those of a fragment as [`pack`] puts them.
+    pub fn shade_all(&self, values: &[f64], depth: f64) -> Colour {
+        let texel = self.varying_texture().map_or(self.texel, |texture| {
+            self.texel(texture, DVec2::from_slice(&values[self.starts.uv..]), depth)
+        });
+        self.shade_texel(values, depth, texel)
     }
 
     /// What a fragment reads of its texture, at a level of detail and several times where the plan pays for it.
@@ -317,17 +340,18 @@ impl<'a> Kernel<'a> {
     }
 
     /// The same with this texel.
-    pub fn shade_texel(&self, varying: &Packed<PLACED>, depth: f64, texel: DVec3) -> Colour {
-        let Surface { colour, normal, place, .. } = (*varying).into();
+    pub fn shade_texel(&self, values: &[f64], depth: f64, texel: DVec3) -> Colour {
         let varies = |bit: u8| self.plan.interpolates.has(bit);
-        let normal = if varies(Attributes::NORMAL) { normal } else { self.normal };
-        let lit = self.receiver.map_or(self.lit, |receiver| receiver.lit(place));
+        let at = |start: usize| DVec3::from_slice(&values[start..]);
+        let normal = if varies(Attributes::NORMAL) { at(self.starts.normal) } else { self.normal };
+        let lit = self.receiver.map_or(self.lit, |receiver| receiver.lit(at(self.starts.place)));
         let intensity = if varies(Attributes::NORMAL) || self.receiver.is_some() {
             self.light.intensity_in(normal, lit)
         } else {
             self.intensity
         };
-        let colour = if varies(Attributes::COLOUR) { self.base * colour } else { self.base };
+        let base = self.base;
+        let colour = if varies(Attributes::COLOUR) { base * at(self.starts.colour) } else { base };
         let shine = match (self.highlight, self.receiver) {
             (Some(highlight), _) => dimmed(highlight.at(normal), lit),
             (None, Some(_)) => dimmed(self.shine, lit),

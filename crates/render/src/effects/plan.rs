@@ -134,6 +134,11 @@ impl Attributes {
         self.0 == 0
     }
 
+    /// How many numbers they are.
+    pub(super) fn components(self) -> usize {
+        Self::RANGES.iter().filter(|(bit, _)| self.has(*bit)).map(|(_, range)| range.len()).sum()
+    }
+
     pub(super) fn both(self, other: Self) -> Self {
         Self(self.0 & other.0)
     }

@@ -228,14 +228,20 @@ pub(super) fn without_place(Packed(all): &Packed<PLACED>) -> [f64; ALL] {
     std::array::from_fn(|i| all[i])
 }
 
-/// The piece with the attributes of `MASK` alone.
-pub(super) fn pack<const N: usize, const MASK: u8>(piece: &Piece) -> ScreenTriangle<Packed<N>> {
+/// The piece as far as depth goes.
+pub(super) fn bare(piece: &Piece) -> ScreenTriangle<Packed<0>> {
+    pack(piece, Attributes::NONE)
+}
+
+/// The piece with some attributes alone, in the first of `N` numbers.
+#[inline]
+pub(super) fn pack<const N: usize>(piece: &Piece, some: Attributes) -> ScreenTriangle<Packed<N>> {
     let vertices = piece.vertices.map_array(|vertex| {
         let all = &vertex.varying.0;
         let mut packed = [0.0; N];
         let mut at = 0;
         for (mask, range) in Attributes::RANGES {
-            if MASK & mask != 0 {
+            if some.has(mask) {
                 packed[at..at + range.len()].copy_from_slice(&all[range.clone()]);
                 at += range.len();
             }

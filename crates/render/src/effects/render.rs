@@ -2,6 +2,7 @@
 
 pub use super::execute::{PaidMap, PlanError, Rendered};
 pub use super::primitive::BadScene;
+use super::primitive::pack;
 
 use super::Effects;
 use super::conditions::{EVERY_FRAGMENT, of_every_fragment};
@@ -11,6 +12,7 @@ use super::plan::{Canvas, PiecePlan, Plan, SceneDigest};
 use super::planner;
 use crate::pipeline::Counters;
 use crate::pipeline::present::DoubleBuffer;
+use crate::pipeline::shade::PLACED;
 use crate::pipeline::target::{Colour, Target};
 use crate::pipeline::wireframe::draw_edges;
 use crate::scene::Scene;
@@ -146,9 +148,9 @@ pub fn render_wireframe(
             // A line drawer draws no shadow map.
             let plan = PiecePlan { shadows: false, ..of_every_fragment(scene, item.item) };
             let kernel = Kernel::new(item, piece, plan, None, fills);
-            draw_edges(drawer, piece, bounds, |f| {
+            draw_edges(drawer, &pack::<PLACED>(piece, plan.interpolates), bounds, |f| {
                 fills.fragments += 1;
-                let colour = kernel.shade_all(&f.varying, f.depth);
+                let colour = kernel.shade_all(&f.varying.0, f.depth);
                 for plane in &mut target.planes {
                     plane.test_and_write(f.x_px, f.y_px, format.key(f.depth), || colour);
                 }

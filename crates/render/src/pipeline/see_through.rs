@@ -7,32 +7,30 @@ use super::fill::Way;
 use super::layers::{Layer, Layers};
 use super::multisample::{SAMPLES, moved};
 use super::opacity::{OPAQUE, over};
-use super::shade::{Attributes, PLACED};
+use super::shade::Attributes;
 use super::target::{Antialias, Colour, SamplePlane, Target};
 use rasterproof_core::contract::{Interpolate, Run, Varyings};
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::ScreenTriangle;
 
-type Varying = Attributes<PLACED>;
-
-pub struct Look<'a> {
+pub struct Look<'a, const N: usize> {
     /// What all fragments have, where nothing is interpolated.
-    pub constant: Option<Varying>,
+    pub constant: Option<Attributes<N>>,
     /// Whether what is mixed waits, to be mixed in the order of depths.
     pub is_kept: bool,
     /// The opacity of a fragment with these attributes, where 255 is opaque.
-    pub opacity: &'a dyn Fn(&Varying) -> u8,
+    pub opacity: &'a dyn Fn(&Attributes<N>) -> u8,
     /// The colour of a fragment with these attributes at this depth.
-    pub colour: &'a dyn Fn(&Varying, f64) -> Colour,
+    pub colour: &'a dyn Fn(&Attributes<N>, f64) -> Colour,
 }
 
-impl Look<'_> {
+impl<const N: usize> Look<'_, N> {
     /// Shows each fragment of a run whose bit is set.
     fn each(
         &self,
-        values: &mut dyn Varyings<Varying>,
+        values: &mut dyn Varyings<Attributes<N>>,
         wanted: u32,
-        see: &mut dyn FnMut(usize, &Varying),
+        see: &mut dyn FnMut(usize, &Attributes<N>),
     ) {
         if wanted == 0 {
             return;
@@ -61,13 +59,13 @@ fn nearer(format: DepthFormat, way: Way, depths: &[f64], stored: &[u64]) -> u32 
 
 /// Draws the fragments of a run over one plane, which has a number, with the colour that `shade` gives for a column; how
 /// many of them were nearer than what was there.
-fn draw_run(
-    run: Run<'_, Varying>,
+fn draw_run<const N: usize>(
+    run: Run<'_, Attributes<N>>,
     (number, plane, layers): (usize, &mut SamplePlane, &mut Layers),
     format: DepthFormat,
     way: Way,
-    look: &Look<'_>,
-    shade: &mut dyn FnMut(i32, &Varying, f64) -> Colour,
+    look: &Look<'_, N>,
+    shade: &mut dyn FnMut(i32, &Attributes<N>, f64) -> Colour,
 ) -> u64 {
     let (y_px, x0_px, x1_px) = (run.y_px, run.x0_px, run.x1_px());
     let stored = plane.depth.span_mut(y_px, x0_px, x1_px);
@@ -105,13 +103,13 @@ fn count([emitted, visible, shaded]: [u64; 3], way: Way, counters: &mut Counters
 ///
 /// Of four samples a pixel each has an opacity of its own, and those that are drawn have one colour: that at the centre
 /// where the triangle covers it, else that at the first of them, as of an opaque triangle.
-pub fn fill(
+pub fn fill<const N: usize>(
     engine: &impl Interpolate,
-    piece: &ScreenTriangle<Varying>,
+    piece: &ScreenTriangle<Attributes<N>>,
     target: &mut Target,
     bounds: PixelRect,
     way: Way,
-    look: &Look<'_>,
+    look: &Look<'_, N>,
     counters: &mut Counters,
 ) -> u64 {
     if target.antialias() == Antialias::Multisample4 {
@@ -133,13 +131,13 @@ pub fn fill(
     visible
 }
 
-fn fill_multisampled(
+fn fill_multisampled<const N: usize>(
     engine: &impl Interpolate,
-    piece: &ScreenTriangle<Varying>,
+    piece: &ScreenTriangle<Attributes<N>>,
     target: &mut Target,
     bounds: PixelRect,
     way: Way,
-    look: &Look<'_>,
+    look: &Look<'_, N>,
     counters: &mut Counters,
 ) -> u64 {
     let format = target.format;

@@ -100,7 +100,7 @@ impl DepthPlane {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::effects::primitive::pack;
+    use crate::effects::primitive::bare;
     use crate::effects::samples::pattern::scaled;
     use crate::pipeline::shade::{Attributes, PLACED};
     use crate::pipeline::target::Antialias;
@@ -146,7 +146,7 @@ mod tests {
             let piece = piece(&mut Rng::new("plane", 1, index), pattern);
             let plane = DepthPlane::new(&piece, pattern);
             for i in 0..pattern.planes {
-                let moved = pattern.moved(&pack::<0, 0>(&piece), i).unwrap();
+                let moved = pattern.moved(&bare(&piece), i).unwrap();
                 let mut see = |x: i32, y: i32, depth: f64| {
                     count += 1;
                     let scale = pattern.scale;

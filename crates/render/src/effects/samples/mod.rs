@@ -26,7 +26,7 @@ use self::pattern::{Pattern, PixelRow};
 use self::pixel::{EMPTY, Interval, Meeting, Pixel, Pool, State, meet};
 use self::sample_masks::SampleMask;
 use super::plan::{PiecePlan, Samples};
-use super::primitive::{Piece, pack, touched};
+use super::primitive::{Piece, bare, touched};
 use crate::pipeline::Counters;
 use crate::pipeline::fill::{FragmentStage, Way, each, fill, shade};
 use crate::pipeline::shade::Attributes;
@@ -107,7 +107,7 @@ impl OnDemand {
         if self.policy.tells_apart(rect, plan, self.pattern.planes) {
             if self.tell_box_apart(engine, piece, depth, target, counters) {
                 let (bounds, way) = (target.bounds(), Way { affine: true, depth_test: true });
-                let (piece, stage) = (pack::<0, 0>(piece), each(|_, _| colour));
+                let (piece, stage) = (bare(piece), each(|_, _| colour));
                 fill(engine, &piece, target, bounds, way, &stage, counters);
             }
             return;
@@ -119,7 +119,7 @@ impl OnDemand {
         if depth {
             self.gather(&runs);
             for block in self.drawn.rects() {
-                self.test_samples(engine, &pack::<0, 0>(piece), block, colour, target, counters);
+                self.test_samples(engine, &bare(piece), block, colour, target, counters);
             }
         } else {
             for &run in &runs {
@@ -255,7 +255,7 @@ impl OnDemand {
             }
         }
         if is_whole || is_part {
-            self.pieces.push(pack::<0, 0>(piece));
+            self.pieces.push(bare(piece));
         }
         is_whole.then_some(whole)
     }
