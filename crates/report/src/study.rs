@@ -468,6 +468,16 @@ pub fn page(subject: &Subject<'_>, found: &Found<'_>, command: &str) -> Report {
         1 => "One kind of hard case was found.".to_owned(),
         count => format!("{count} kinds of hard cases were found."),
     };
+    let called_for = found.needs.needs.iter().filter(|need| need.is_called_for).count();
+    let frame = found.costs.last().and_then(|frames| {
+        let choice = &frames.choices[frames.cheapest_exact(0)?];
+        Some(format!(" The cheapest exact frame: {}, {} ms.", choice.name, ms(choice.time?.median)))
+    });
+    let sentence = format!(
+        "{sentence} Of {} effects {called_for} are called for.{}",
+        found.needs.needs.len(),
+        frame.unwrap_or_default()
+    );
     let mut tables = Vec::new();
     if !cases.is_empty() {
         tables.push(hard_table(subject, found.hard, found.costs));
