@@ -73,6 +73,9 @@ impl Corners {
     }
 }
 
+/// A position as [`key`] has it, and its number.
+type Keyed = ([u64; 3], u32);
+
 /// A position as a key: -0 and 0 are one.
 fn key(point: DVec3) -> [u64; 3] {
     (point + DVec3::ZERO).to_array().map(f64::to_bits)
@@ -102,13 +105,13 @@ fn merged(shares: &[Corners]) -> (Vec<DVec3>, Vec<u32>) {
         }
         of_tables
     });
-    let sorted: Vec<Vec<Vec<([u64; 3], u32)>>> = sorted.collect();
+    let sorted: Vec<Vec<Vec<Keyed>>> = sorted.collect();
     let found = (0..tables).into_par_iter().map(|table| {
         let all = || sorted.iter().map(|of_tables| &of_tables[table]);
         let mut known = HashTable::with_capacity(all().map(Vec::len).sum());
         let mut again = Vec::new();
         for &(keys, number) in all().flatten() {
-            let is_same = |other: &([u64; 3], u32)| other.0 == keys;
+            let is_same = |other: &Keyed| other.0 == keys;
             match known.entry(hash(keys), is_same, |other| hash(other.0)) {
                 Entry::Occupied(first) => again.push((number, first.get().1)),
                 Entry::Vacant(place) => drop(place.insert((keys, number))),
