@@ -29,9 +29,11 @@ use self::account::Account;
 use super::plan::{Attributes, Decision, PiecePlan, Rule};
 use super::primitive::{Piece, Prepared, has_one_w};
 use super::{Effect, Effects, Mode};
+use crate::pipeline::assemble::twice_area;
 use crate::pipeline::fog::Share;
 use crate::pipeline::opacity::Drawn;
 use crate::scene::{Item, Scene};
+use rasterproof_core::grid::SUBPIXELS;
 
 /// What is known of a piece before it is planned. What no mode asks for is not looked at, and is as in
 /// [`Facts::UNKNOWN`].
@@ -57,6 +59,16 @@ pub(super) struct Facts {
     pub meets_blended: bool,
     /// Whether the engine needs more than 32 bits for it.
     pub is_wide: bool,
+}
+
+/// Samples that a piece covers at least where its texture is looked at: of a smaller one that takes longer than to compute
+/// what it asks for.
+const LEAST_TEXTURED: i64 = 6;
+
+/// Whether a piece covers about so many samples.
+pub(super) fn covers(piece: &Piece, samples: i64) -> bool {
+    let subpixels = 2 * samples * i64::from(SUBPIXELS).pow(2);
+    twice_area(piece.corners()).abs() >= subpixels.into()
 }
 
 impl Facts {
@@ -104,7 +116,8 @@ impl Facts {
             let has_highlight = rule.specular.pays(facts.is_shiny);
             facts.is_shadowed = shadows::may_be_shadowed(scene, item, piece, has_highlight);
         }
-        if !rule.interpolates.both(facts.varies).has(Attributes::UV) {
+        let has_uv = rule.interpolates.both(facts.varies).has(Attributes::UV);
+        if !has_uv || !covers(piece, LEAST_TEXTURED) {
             return facts;
         }
         if rule.mip_maps.is_open() || rule.anisotropy.is_open() {
