@@ -165,7 +165,7 @@ properties! {
     rotated_vertices shared_edge flat_depth finite
     clip_inside clip_reversed clip_coverage clip_plane
     nearest_pixel one_per_step reversal octants clipped_line listed_differences
-    quotas replay metrics_report_only disabled_effect lists
+    quotas replay metrics_report_only disabled_effect lists over layers footprint plane_in_light
 }
 
 /// The same strategies find a planted fault, and the failure shrinks to small numbers.
