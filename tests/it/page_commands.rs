@@ -49,7 +49,7 @@ fn every_option_is_on_the_page() {
             format!("--scene panels --size 32x24 --wireframe --output drawn.png --json {report}"),
         ),
         ("render", vec!["panels"], format!("--size 32x24 --plan plan.json {report}")),
-        ("plan", vec![], format!("--scene panels --size 32x24 --json --rounds 1 {report}")),
+        ("plan", vec![], format!("--scene panels --size 32x24 --json --whole --rounds 1 {report}")),
         ("study", vec!["a 'model'.obj"], format!("{view} --quick {report}")),
         ("study", vec![], format!("--scene panels --size 32x24 --quick --json {report}")),
         ("inspect", vec!["-0.5,0.5", "5.5,0.5", "5.5,5.5"], {

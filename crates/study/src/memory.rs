@@ -7,7 +7,7 @@ use rasterproof_render::effects::plan::{PiecePlan, Pieces, Samples};
 use rasterproof_render::effects::render::Rendered;
 use rasterproof_render::pipeline::assemble::ClipPoint;
 use rasterproof_render::pipeline::depth::DepthFormat;
-use rasterproof_render::pipeline::shade::{ALL, Attributes};
+use rasterproof_render::pipeline::shade::{Attributes, PLACED};
 use rasterproof_render::pipeline::target::{Antialias, Colour, Target};
 use rasterproof_render::scene::Scene;
 
@@ -77,7 +77,8 @@ pub fn frame(rendered: &Rendered, scene: &Scene, target: &Target) -> u64 {
     let positions: usize = scene.items.iter().map(|item| item.mesh.positions.len()).sum();
     let is_listed = plan.items.iter().any(|item| matches!(item.pieces, Pieces::Listed(_)));
     let listed = if is_listed { scene.triangles() } else { 0 };
-    let of_piece = size_of::<(usize, ScreenTriangle<Attributes<ALL>>)>() + size_of::<PiecePlan>();
+    let of_piece =
+        size_of::<(usize, ScreenTriangle<Attributes<PLACED>>)>() + size_of::<PiecePlan>();
     let scene = positions * size_of::<ClipPoint>() + listed * of_piece;
     of_pixel as u64 * pixels(size) + scene as u64
 }
