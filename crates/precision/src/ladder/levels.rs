@@ -1,7 +1,7 @@
 //! Rungs of levels of detail: how many texels a pixel meets, as the logarithm to the base 2 of the longer of the derivatives
 //! of the texture coordinates by columns and by rows of pixels.
 //!
-//! u/w, v/w and 1/w are linear in the window ([`Planes`]). A rung takes the quotient rule at the point itself, or the difference of
+//! u/w, v/w and 1/w are linear in the window (`Planes`). A rung takes the quotient rule at the point itself, or the difference of
 //! two neighbouring pixels, which usual hardware has for four pixels at once.
 
 use std::marker::PhantomData;
