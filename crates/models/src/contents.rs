@@ -47,6 +47,12 @@ pub(crate) struct FilePart {
     pub polygons: Polygons,
 }
 
+/// The bits of a position, by which equal ones are found: -0 and 0 have the same.
+#[inline]
+pub(crate) fn key(position: DVec3) -> [u64; 3] {
+    (position + DVec3::ZERO).to_array().map(f64::to_bits)
+}
+
 /// Fewer records than this are read by one thread, because handing them to another one would take longer.
 pub(crate) const SHARE: usize = 1 << 14;
 

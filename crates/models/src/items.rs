@@ -10,7 +10,7 @@ use rasterproof_render::pipeline::highlight::Specular;
 use rasterproof_render::scene::{Attribute, Item, Material, Mesh, Shading, Triangles};
 use rayon::prelude::*;
 
-use crate::contents::{Contents, FilePart, INCOMPLETE_FACE, NONE, Numbers, Surface};
+use crate::contents::{Contents, FilePart, INCOMPLETE_FACE, NONE, Numbers, Surface, key};
 use crate::polygons::{self, Odd, Shape};
 use crate::{BadFile, Format, Model, Normals, Options, Origin, Up, Warnings, bad, counted};
 
@@ -153,11 +153,6 @@ fn group(smoothing: u32, normals: Normals) -> u32 {
         Normals::File => smoothing,
         Normals::Smooth => ALL,
     }
-}
-
-/// A position as a key, -0 as 0.
-fn key(position: DVec3) -> [u64; 3] {
-    (position + DVec3::ZERO).to_array().map(f64::to_bits)
 }
 
 impl SmoothNormals {

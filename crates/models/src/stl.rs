@@ -14,7 +14,7 @@ use rasterproof_host::input::Pieces;
 use rasterproof_host::text::printable_short;
 use rayon::prelude::*;
 
-use crate::contents::{Contents, FilePart, Polygons, SHARE};
+use crate::contents::{Contents, FilePart, Polygons, SHARE, key};
 use crate::{BadFile, bad};
 
 const HEADER: usize = 84;
@@ -75,11 +75,6 @@ impl Corners {
 
 /// A position as [`key`] has it, and its number.
 type Keyed = ([u64; 3], u32);
-
-/// A position as a key: -0 and 0 are one.
-fn key(point: DVec3) -> [u64; 3] {
-    (point + DVec3::ZERO).to_array().map(f64::to_bits)
-}
 
 /// The positions of all shares of a file, each once, in the order in which they come first; and their numbers at all corners.
 fn merged(shares: &[Corners]) -> (Vec<DVec3>, Vec<u32>) {
@@ -205,7 +200,7 @@ fn shares(records: &[[u8; RECORD]], threads: usize) -> Vec<Corners> {
     records.par_chunks(share).map(read).collect()
 }
 
-/// Reads triangles in text.
+/// Reads triangles in text, of which each `solid` becomes a part.
 pub(crate) fn text(path: &Path, bytes: &[u8]) -> Result<Contents, BadFile> {
     let mut parts: Vec<FilePart> = Vec::new();
     let mut corners = Corners::default();

@@ -58,7 +58,7 @@ fn mixed(layers: &[Layer], most: u32, stored: u64, mut colour: Colour) -> Colour
 }
 
 impl EffectMutant {
-    /// The formulas with this fault.
+    /// The right formulas but for the one that this fault changes.
     #[must_use]
     pub fn formulas(self) -> Formulas {
         let mut formulas = Formulas::REAL;

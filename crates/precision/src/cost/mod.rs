@@ -48,9 +48,9 @@ rasterproof_core::named! {
         Interpolation = "interpolation",
         /// Formats of the depth buffer.
         Depth = "depth",
-        /// Formats of a shadow map.
+        /// Formats of a shadow map, and the bias with which depths are compared.
         Shadows = "shadows",
-        /// Levels of detail of a texture.
+        /// Levels of detail of a texture, by differences and by derivatives.
         Levels = "levels",
         /// Samples for each pixel.
         Antialiasing = "antialiasing",

@@ -37,7 +37,7 @@ const SIDE: usize = 64;
 const TILE: usize = SIDE * SIDE;
 /// Texels along a side of the whole map.
 const MAP: f64 = 1024.0;
-/// Texels that a fragment reads.
+/// The 3 x 3 texels around its place that a fragment reads.
 const TAPS: u8 = 9;
 
 fn measures() -> Vec<Measure> {

@@ -20,7 +20,7 @@ pub const SIDE: f64 = 256.0;
 #[derive(Clone, Copy, Debug)]
 pub struct Textured {
     pub corners: Corners,
-    /// 1/w of each corner, positive.
+    /// 1/w of each corner, above 0 because the corners lie before the eye.
     pub inv_w: [f64; 3],
     pub uv: [[f64; 2]; 3],
 }

@@ -13,7 +13,7 @@ pub trait Format {
     fn store(depth: f64) -> Self::Stored;
 }
 
-/// Whole steps from 0 to 1.
+/// The range from 0 to 1 in 2^16 - 1 equal steps.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Fixed16;
 #[derive(Clone, Copy, Debug, Default)]
@@ -25,7 +25,7 @@ pub struct Fixed32;
 pub struct Single;
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Double;
-/// 24 bits, compared as they are.
+/// The steps of [`Fixed24`], compared without a bias.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Unbiased;
 

@@ -134,7 +134,7 @@ impl Attributes {
         self.0 == 0
     }
 
-    /// How many numbers they are.
+    /// How many numbers a fragment has of these attributes.
     pub(super) fn components(self) -> usize {
         Self::RANGES.iter().filter(|(bit, _)| self.has(*bit)).map(|(_, range)| range.len()).sum()
     }

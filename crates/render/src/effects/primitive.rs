@@ -228,7 +228,7 @@ pub(super) fn without_place(Packed(all): &Packed<PLACED>) -> [f64; ALL] {
     std::array::from_fn(|i| all[i])
 }
 
-/// The piece as far as depth goes.
+/// The piece with position, depth and w at its corners, and no attributes.
 pub(super) fn bare(piece: &Piece) -> ScreenTriangle<Packed<0>> {
     pack(piece, Attributes::NONE)
 }
