@@ -401,6 +401,50 @@ fn random_scenes_planned_change_no_bit() {
     assert!(wrong.is_empty(), "{} random scenes differ, first {:?}", wrong.len(), &wrong[..1]);
 }
 
+/// The picture of a plan in which large pieces are asked in squares of so many samples.
+fn in_parts(
+    scene: &Scene,
+    drawer: Drawer,
+    size: (u32, u32),
+    antialias: Antialias,
+    side: u32,
+) -> Frame<Colour> {
+    let mut target = target_of(size.0, size.1, antialias);
+    target.clear_colour(LAST_FRAME, &mut Default::default());
+    let mut plan = drawer.plan(scene, &Effects::PLANNED, &Canvas::of(&target)).unwrap();
+    for parts in plan.items.iter_mut().filter_map(|item| item.parts.as_mut()) {
+        parts.side = side;
+    }
+    drawer.execute(&plan, scene, &mut target).unwrap().picture
+}
+
+fn check_parts(scenes: u64) {
+    let wrong = |index: &u64| {
+        let scene = random::with_effects(5, *index);
+        let (drawer, antialias) =
+            (Drawer::ALL[*index as usize % 2], SMOOTHINGS[*index as usize / 2 % 4]);
+        let side = [1, 2, 3, 5, 8, 16][*index as usize % 6];
+        let size = [(40, 30), (160, 120)][*index as usize / 8 % 2];
+        let mut target = target_of(size.0, size.1, antialias);
+        let whole = drawer.render(&scene, &Effects::ALWAYS, &mut target).unwrap().picture;
+        in_parts(&scene, drawer, size, antialias, side) != whole
+    };
+    let wrong: Vec<u64> = (0..scenes).into_par_iter().filter(wrong).collect();
+    assert!(wrong.is_empty(), "{} random scenes differ, first {:?}", wrong.len(), &wrong[..1]);
+}
+
+/// Pieces that are planned square by square, down to squares of one sample, have the bits of everything-on.
+#[test]
+fn parts_of_pieces_change_no_bit() {
+    check_parts(240);
+}
+
+#[test]
+#[ignore = "takes half a minute; .ci/run runs it"]
+fn parts_of_pieces_of_many_scenes_change_no_bit() {
+    check_parts(4000);
+}
+
 /// A scene that violates the condition of one effect by `by`, and not at all for 0. Clip space is
 /// the scene's own space where `w` is not asked for.
 struct Counterexample {

@@ -187,7 +187,7 @@ impl<'a> TiedPieces<'a> {
         let perspective = !self.scene.affine;
         let plan = conditions::of_every_fragment(self.scene, item.item);
         let map = item.light_view.as_ref().map(|view| view.map(self.scene, engine));
-        let kernel = Kernel::new(item, piece, plan, map, &mut Counters::default());
+        let kernel = Kernel::new(item, piece, plan, map, None, &mut Counters::default());
         let packed = pack::<PLACED>(&moved, plan.interpolates);
         let emit = |f: Fragment<Attributes<PLACED>>| {
             see(f.x_px, f.y_px, kernel.shade_all(&f.varying.0, f.depth));
@@ -305,7 +305,7 @@ impl<'a> TiedPieces<'a> {
             return;
         }
         let map = item.light_view.as_ref().map(|view| view.map(self.scene, engine));
-        let kernel = Kernel::new(item, piece, plan, map, &mut Counters::default());
+        let kernel = Kernel::new(item, piece, plan, map, None, &mut Counters::default());
         let Some(texture) = kernel.varying_texture() else { return };
         let uv = moved.vertices.map_array(|v| Surface::from(v.varying).uv);
         let bounds_of_uv =

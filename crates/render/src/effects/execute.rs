@@ -7,6 +7,7 @@ use super::Effect;
 use super::assembled::Assembled;
 use super::conditions::{self, Facts};
 use super::kernel::Kernel;
+use super::parts::{Constants, Part, Whole};
 use super::plan::{
     Attributes, Canvas, Clear, ItemPlan, Order, PiecePlan, Pieces, Plan, Rule, Samples,
     SceneDigest, VERSION,
@@ -353,23 +354,52 @@ impl<E: Interpolate> Drawing<'_, '_, E> {
             return;
         }
         counters.wide += u64::from(self.engine.word_bits(&piece.corners()) > Some(i32::BITS));
-        if let Observer::Map(map) = &mut self.observer {
-            let paid = plan.paid();
-            let scale = self.target.antialias().scale() as i32;
-            self.engine.cover(piece.corners(), self.target.bounds(), |span| {
-                for x_px in span.x0_px..span.x1_px {
-                    map.pay(x_px / scale, span.y_px / scale, paid);
-                }
-            });
-        }
         let map = item.light_view.as_ref().filter(|_| plan.shadows).map(|view| {
             let is_drawn = view.drawn().is_some();
             let map = view.map(self.scene, self.engine);
             counters.cast += if is_drawn { 0 } else { map.fragments };
             map
         });
-        let kernel = Kernel::new(item, piece, plan, map, counters);
-        kernel.draw(self.engine, piece, self.target, self.on_demand.as_mut(), counters);
+        let parts = self.plan.items[item.index()].parts;
+        let (bounds, planes) = (self.target.bounds(), self.target.antialias().planes());
+        let mut samples = self.on_demand.as_mut();
+        // Where samples are told apart on demand, pixels of a multisampled picture stay whole in large pieces.
+        let asked = parts
+            .as_ref()
+            .filter(|parts| parts.are_asked(piece, plan) && (planes == 1 || samples.is_none()));
+        if asked.is_some()
+            && let Some(on_demand) = samples.take()
+            && !on_demand.tell_box_apart(self.engine, piece, plan.depth, self.target, counters)
+        {
+            return;
+        }
+        let (engine, target, observer) = (self.engine, &mut *self.target, &mut self.observer);
+        let mut draw = |part: &Part| {
+            if part.plan.is_nothing() {
+                return;
+            }
+            if let Observer::Map(map) = observer {
+                let paid = part.plan.paid();
+                let scale = target.antialias().scale() as i32;
+                engine.cover(piece.corners(), part.bounds, |span| {
+                    for x_px in span.x0_px..span.x1_px {
+                        map.pay(x_px / scale, span.y_px / scale, paid);
+                    }
+                });
+            }
+            let constants = parts.map(|_| &part.constants);
+            let map = map.filter(|_| part.plan.shadows);
+            let kernel = Kernel::new(item, piece, part.plan, map, constants, counters);
+            let samples = samples.as_deref_mut();
+            kernel.draw(engine, piece, part.bounds, target, samples, counters);
+        };
+        match asked {
+            None => draw(&Part { bounds, plan, constants: Constants::default() }),
+            Some(parts) => {
+                let whole = Whole::new(parts, item, piece, plan, map);
+                whole.each(bounds, i32::from(planes > 1), &mut draw);
+            }
+        }
     }
 
     fn finish(self) -> Rendered {

@@ -243,7 +243,7 @@ impl<'a> Item<'a> {
         let item = &scene.items[index];
         let (carries, rule) = conditions::rule(scene, item, &Effects::PLANNED);
         let (clip, cull) = (Mode::Planned, Mode::Planned);
-        let plan = ItemPlan { clip, cull, carries, pieces: Pieces::AsTheyCome(rule) };
+        let plan = ItemPlan { clip, cull, carries, pieces: Pieces::AsTheyCome(rule), parts: None };
         let prepared = Prepared::without_points(scene, index, &plan, window);
         let positions = item.mesh.positions.par_iter().with_min_len(SHARE);
         let vertices: Vec<Vertex> = positions.map(|&p| vertex(&prepared, p)).collect();

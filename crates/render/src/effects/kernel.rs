@@ -3,11 +3,12 @@
 //! What is switched off is not in its loop. What is left of a switched-off attribute is a constant,
 //! in the same place of the same product, so the bits are the same.
 
-use std::cell::Cell;
+use std::cell::{Cell, RefCell};
 
 use glam::{DVec2, DVec3};
 
 use super::conditions::mip_maps::{footprint, is_affine};
+use super::parts::Constants;
 use super::plan::{Attributes, PiecePlan};
 use super::primitive::{Piece, Prepared, bare, pack};
 use super::samples::OnDemand;
@@ -21,15 +22,19 @@ use crate::pipeline::see_through::{self, Look};
 use crate::pipeline::shade::{Attributes as Packed, Light, PLACED, Surface};
 use crate::pipeline::shadow::{Receiver, ShadowMap, TAPS, dimmed};
 use crate::pipeline::target::{Antialias, Colour, Target, to_colour};
-use crate::pipeline::texture::Texture;
+use crate::pipeline::texture::{Last, Texture};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::Interpolate;
+use rasterproof_core::grid::PixelRect;
 
 /// So many components have two attributes without a place in the light: most of what is seen through.
 const SMALL: usize = 6;
 
-/// Where a piece is drawn, with the pixels where their samples are told apart on demand, and what is counted.
-type To<'a> = (&'a mut Target, Option<&'a mut OnDemand>, &'a mut Counters);
+/// Runs of fewer fragments are not asked whether all have one highlight.
+const SHORT: usize = 4;
+
+/// Where a piece is drawn and how far, with the pixels where their samples are told apart on demand, and what is counted.
+type To<'a> = (&'a mut Target, PixelRect, Option<&'a mut OnDemand>, &'a mut Counters);
 
 /// Where attributes begin among the numbers of a fragment, if they are interpolated.
 struct Starts {
@@ -48,6 +53,45 @@ impl Starts {
             uv: before(Attributes::UV),
             place: before(Attributes::PLACE),
         }
+    }
+}
+
+/// The colour of the first wanted fragment.
+fn first(colours: &[Colour], wanted: u32) -> Colour {
+    colours[wanted.trailing_zeros() as usize]
+}
+
+/// The highlight of all wanted fragments of a run, whose normals begin at component `normal`; nothing where it is not known that
+/// they have one, or where the first has none.
+fn one_shine<const N: usize>(
+    highlight: &Highlight,
+    varyings: &[Packed<N>],
+    normal: usize,
+    wanted: u32,
+) -> Option<[u8; 3]> {
+    let at = |i: usize| {
+        let normal = varyings.get(i)?.0.get(normal..normal + 3)?;
+        Some(DVec3::from_slice(normal))
+    };
+    let first = wanted.trailing_zeros() as usize;
+    let last = (u32::BITS - 1 - wanted.leading_zeros()) as usize;
+    if last < first + SHORT || highlight.at(at(first)?) == [0; 3] {
+        return None;
+    }
+    let mut ends = [f64::INFINITY, f64::NEG_INFINITY];
+    for i in (first..=last).filter(|i| wanted >> i & 1 != 0) {
+        let cosine = highlight.cosine(at(i)?);
+        if !cosine.is_finite() {
+            return None;
+        }
+        ends = [ends[0].min(cosine), ends[1].max(cosine)];
+    }
+    highlight.one_between(ends[0], ends[1])
+}
+
+fn fill_wanted(colour: Colour, wanted: u32, colours: &mut [Colour]) {
+    for (i, own) in colours.iter_mut().enumerate() {
+        *own = if wanted >> i & 1 != 0 { colour } else { *own };
     }
 }
 
@@ -78,10 +122,16 @@ pub(super) struct Kernel<'a> {
     reading: Option<(Reading, Option<&'a Veil>)>,
     /// How often the texture was read where it may be read several times.
     taps: Cell<u64>,
+    /// The texels of the last fragment, where neighbours mostly read the same ones.
+    last: Option<RefCell<Last>>,
     /// The colour of a piece of which nothing but fog is seen.
     fogged: Option<Colour>,
     /// Of pieces that are not opaque everywhere.
     opacity: Option<&'a Opacity>,
+    /// The opacity, where it does not vary and is not that of the first corner.
+    first_opacity: Option<u8>,
+    /// Whether a run is asked if all of it has one colour, before each of its fragments is.
+    asks_runs: bool,
 }
 
 impl<'a> Kernel<'a> {
@@ -90,8 +140,10 @@ impl<'a> Kernel<'a> {
         piece: &Piece,
         plan: PiecePlan,
         map: Option<&'a ShadowMap>,
+        part: Option<&Constants>,
         counters: &mut Counters,
     ) -> Self {
+        let constants = part.copied().unwrap_or_default();
         let first = Surface::from(piece.vertices[0].varying);
         let constant = |bit: u8| item.carries.has(bit) && !plan.interpolates.has(bit);
         let mut kernel = Self {
@@ -104,13 +156,16 @@ impl<'a> Kernel<'a> {
             intensity: 1.0,
             normal: first.normal,
             receiver: None,
-            lit: TAPS,
+            lit: constants.lit.unwrap_or(TAPS),
+            first_opacity: constants.opacity,
+            asks_runs: part.is_some(),
             highlight: None,
             shine: [0; 3],
             fogged: None,
             opacity: item.item.material.opacity.as_ref().filter(|_| !plan.replaces_all()),
             reading: None,
             taps: Cell::new(0),
+            last: constants.shares_texels.then(|| RefCell::new(Last::NONE)),
             veil: (plan.fog != Share::None).then_some(&item.veil),
         };
         if plan.fog == Share::Whole && plan.is_one_colour() && kernel.opacity.is_none() {
@@ -134,7 +189,7 @@ impl<'a> Kernel<'a> {
         }
         if let (Some(texture), true) = (item.texture, constant(Attributes::UV)) {
             counters.texels += 1;
-            kernel.texel = texture.at(first.uv);
+            kernel.texel = constants.texel.unwrap_or_else(|| texture.at(first.uv));
         }
         if let (Some(view), Some(map)) = (&item.light_view, map) {
             let places = piece.vertices.map_array(|vertex| Surface::from(vertex.varying).place);
@@ -163,12 +218,13 @@ impl<'a> Kernel<'a> {
         &self,
         engine: &impl Interpolate,
         piece: &Piece,
+        bounds: PixelRect,
         target: &mut Target,
         samples: Option<&mut OnDemand>,
         counters: &mut Counters,
     ) {
+        let to = (target, bounds, samples, counters);
         if let Some(opacity) = self.opacity {
-            let to = (target, samples, counters);
             if self.plan.interpolates.components() <= SMALL {
                 self.draw_see_through::<SMALL>(engine, piece, to, opacity);
             } else {
@@ -177,11 +233,11 @@ impl<'a> Kernel<'a> {
             return;
         }
         if self.plan.is_one_colour() {
-            self.draw_flat(engine, piece, target, samples, counters);
+            self.draw_flat(engine, piece, to);
             return;
         }
-        let is_partly_lit = self.receiver.is_some() || self.lit != TAPS;
-        let to = (target, samples, counters);
+        let varies = self.plan.interpolates.has(Attributes::NORMAL);
+        let is_partly_lit = self.receiver.is_some() || (varies && self.lit != TAPS);
         // Few pieces have more than two attributes or a part of the light: one stage is for them all.
         match (self.plan.interpolates.0, self.plan.interpolates.components()) {
             (1.., 0..=3) if is_partly_lit => self.draw_any::<3>(engine, piece, to),
@@ -202,9 +258,7 @@ impl<'a> Kernel<'a> {
         &self,
         engine: &impl Interpolate,
         piece: &Piece,
-        target: &mut Target,
-        samples: Option<&mut OnDemand>,
-        counters: &mut Counters,
+        (target, bounds, samples, counters): To<'_>,
     ) {
         let shade = || brightened(self.shade::<0, 0, false>(&Packed([]), 0.0), self.shine);
         let colour = self.fogged.unwrap_or_else(shade);
@@ -212,10 +266,9 @@ impl<'a> Kernel<'a> {
         if let Some(on_demand) = samples {
             on_demand.draw_flat(engine, piece, self.plan, colour, target, counters);
         } else if !self.plan.depth && target.antialias() != Antialias::Multisample4 {
-            fill_flat(engine, piece.corners(), target, colour, counters);
+            fill_flat(engine, piece.corners(), target, bounds, colour, counters);
         } else {
             let way = Way { affine: true, depth_test: self.plan.depth };
-            let bounds = target.bounds();
             let stage = each(|_, _| colour);
             fill(engine, &bare(piece), target, bounds, way, &stage, counters);
         }
@@ -228,7 +281,7 @@ impl<'a> Kernel<'a> {
         &self,
         engine: &impl Interpolate,
         piece: &Piece,
-        (target, samples, counters): To<'_>,
+        (target, bounds, samples, counters): To<'_>,
         opacity: &Opacity,
     ) {
         let PiecePlan { interpolates, perspective, depth, layers, .. } = self.plan;
@@ -238,7 +291,9 @@ impl<'a> Kernel<'a> {
             return;
         }
         let packed = pack::<N>(piece, interpolates);
-        let of_first = opacity.of(Surface::from(piece.vertices[0].varying).uv);
+        let of_first = self
+            .first_opacity
+            .unwrap_or_else(|| opacity.of(Surface::from(piece.vertices[0].varying).uv));
         let has_uv = interpolates.has(Attributes::UV);
         let of = |values: &[f64]| opacity.of(DVec2::from_slice(&values[self.starts.uv..]));
         let look = Look {
@@ -249,7 +304,6 @@ impl<'a> Kernel<'a> {
         };
         let way = Way { affine: !perspective, depth_test: depth };
         let before = *counters;
-        let bounds = target.bounds();
         let visible = see_through::fill(engine, &packed, target, bounds, way, &look, counters);
         self.count(&before, if interpolates.is_empty() { 0 } else { N }, counters);
         let of = |drawn: Drawn| if drawn == Drawn::Mixed { visible } else { 0 };
@@ -297,7 +351,7 @@ impl<'a> Kernel<'a> {
         &self,
         engine: &impl Interpolate,
         piece: &Piece,
-        (target, samples, counters): To<'_>,
+        (target, bounds, samples, counters): To<'_>,
         stage: &FragmentStage<'_, Packed<N>>,
     ) {
         let packed = pack::<N>(piece, self.plan.interpolates);
@@ -306,7 +360,7 @@ impl<'a> Kernel<'a> {
         if let Some(on_demand) = samples {
             on_demand.draw_varying(engine, piece, &packed, target, self.plan, stage, counters);
         } else {
-            fill(engine, &packed, target, target.bounds(), way, stage, counters);
+            fill(engine, &packed, target, bounds, way, stage, counters);
         }
         self.count(&before, N, counters);
     }
@@ -319,10 +373,18 @@ impl<'a> Kernel<'a> {
         self.shade_texel(values, depth, texel)
     }
 
+    #[inline]
+    fn read(&self, texture: &Texture, uv: DVec2) -> DVec3 {
+        match &self.last {
+            Some(last) => texture.at_again(uv, &mut last.borrow_mut()),
+            None => texture.at(uv),
+        }
+    }
+
     /// What a fragment reads of its texture, at a level of detail and several times where the plan pays for it.
     fn texel(&self, texture: &Texture, uv: DVec2, depth: f64) -> DVec3 {
         match &self.reading {
-            None => texture.at(uv),
+            None => self.read(texture, uv),
             Some((reading, veil)) => {
                 let w = veil.map_or(1.0, |veil| veil.w(depth));
                 let (texel, taps) = reading.texel(texture, uv, w);
@@ -373,8 +435,11 @@ impl<'a> Kernel<'a> {
                 let normal = if MASK & Attributes::COLOUR != 0 { 3 } else { 0 };
                 self.brighten(varyings, normal, wanted, colours);
             }
-            if let Some(veil) = self.veil {
-                veil.apply(depths, wanted, colours);
+            let Some(veil) = self.veil else { return };
+            let is_alike = MASK == 0 && self.asks_runs;
+            match is_alike.then(|| veil.one_before(first(colours, wanted), depths)).flatten() {
+                Some(colour) => fill_wanted(colour, wanted, colours),
+                None => veil.apply(depths, wanted, colours),
             }
         }
     }
@@ -387,6 +452,16 @@ impl<'a> Kernel<'a> {
         wanted: u32,
         colours: &mut [Colour],
     ) {
+        if let (true, Some(highlight)) = (self.asks_runs, self.highlight)
+            && let Some(shine) = one_shine(highlight, varyings, normal, wanted)
+        {
+            for (i, colour) in colours.iter_mut().enumerate() {
+                if wanted >> i & 1 != 0 {
+                    *colour = brightened(*colour, shine);
+                }
+            }
+            return;
+        }
         for (i, (Packed(values), colour)) in varyings.iter().zip(colours).enumerate() {
             if wanted >> i & 1 == 0 {
                 continue;
@@ -420,7 +495,7 @@ impl<'a> Kernel<'a> {
         let texel = match self.texture {
             Some(texture) if MASK & Attributes::UV != 0 => {
                 let uv = DVec2::new(next(), next());
-                if LEVELS { self.texel(texture, uv, depth) } else { texture.at(uv) }
+                if LEVELS { self.texel(texture, uv, depth) } else { self.read(texture, uv) }
             }
             _ => self.texel,
         };

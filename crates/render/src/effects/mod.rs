@@ -20,6 +20,7 @@ mod execute;
 #[cfg(feature = "parallel")]
 pub mod geometry;
 mod kernel;
+pub mod parts;
 pub mod plan;
 mod planner;
 pub mod primitive;

@@ -10,6 +10,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
+pub use super::parts::Parts;
 pub use super::scene_digest::SceneDigest;
 use super::{Effect, Mode};
 use crate::pipeline::depth::DepthFormat;
@@ -321,6 +322,9 @@ pub struct ItemPlan {
     pub carries: Attributes,
     /// The plan of each piece, in drawing order.
     pub pieces: Pieces,
+    /// A policy for parts of large pieces; without one they pay everywhere for what the piece pays for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub parts: Option<Parts>,
 }
 
 /// In which order pieces are drawn.

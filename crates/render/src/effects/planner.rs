@@ -3,6 +3,7 @@
 use super::assembled::Assembled;
 use super::conditions::account::Account;
 use super::conditions::{self, clear, clip, depth, depth_buffer, layers, samples, second_buffer};
+use super::parts::Parts;
 use super::plan::{
     Canvas, Clear, Decision, FramePlan, ItemPlan, Order, Pieces, Plan, Rule, VERSION,
 };
@@ -92,7 +93,8 @@ fn outset(scene: &Scene, canvas: &Canvas, effects: &Effects) -> (Plan, Vec<Rule>
     let item = |item| {
         let (carries, rule) = conditions::rule(scene, item, effects);
         let (clip, cull) = (effects.mode(Effect::Clip), effects.mode(Effect::Cull));
-        (ItemPlan { clip, cull, carries, pieces: Pieces::AsTheyCome(rule) }, rule)
+        let (pieces, parts) = (Pieces::AsTheyCome(rule), Parts::of(&rule, canvas.antialias));
+        (ItemPlan { clip, cull, carries, pieces, parts }, rule)
     };
     let (items, rules) = scene.items.iter().map(item).unzip();
     let plan = Plan {

@@ -126,6 +126,11 @@ impl<'a> Prepared<'a> {
         }
     }
 
+    /// Its number in the scene.
+    pub fn index(&self) -> usize {
+        self.index
+    }
+
     /// Transforms position `i`, which is `p`, and checks it.
     #[inline]
     pub fn point(&self, i: usize, p: DVec3) -> Result<ClipPoint, BadScene> {

@@ -147,7 +147,7 @@ pub fn render_wireframe(
         item.assemble(scene, &mut counters, &mut |piece, fills| {
             // A line drawer draws no shadow map.
             let plan = PiecePlan { shadows: false, ..of_every_fragment(scene, item.item) };
-            let kernel = Kernel::new(item, piece, plan, None, fills);
+            let kernel = Kernel::new(item, piece, plan, None, None, fills);
             draw_edges(drawer, &pack::<PLACED>(piece, plan.interpolates), bounds, |f| {
                 fills.fragments += 1;
                 let colour = kernel.shade_all(&f.varying.0, f.depth);

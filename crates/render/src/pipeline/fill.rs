@@ -118,10 +118,10 @@ pub fn fill_flat(
     engine: &impl Interpolate,
     corners: rasterproof_core::triangle::Corners,
     target: &mut Target,
+    bounds: PixelRect,
     colour: Colour,
     counters: &mut Counters,
 ) {
-    let bounds = target.bounds();
     let mut emitted = 0;
     let plane = &mut target.planes[0];
     engine.cover(corners, bounds, |span| {

@@ -131,6 +131,27 @@ impl Footprint {
         longest
     }
 
+    /// No derivative in a part of the triangle is longer, in texels: as [`Self::longest`] between four points of its plane, of
+    /// which 1/w and texture coordinates were computed.
+    ///
+    /// The numerators are linear between them too. `farthest` is the largest |u| and |v| at a corner of the triangle, by which u at
+    /// a point, and in a fragment, is off by less than 2^-43. So each numerator is moved by 2^-40 of (|U_x| + M |q_x|) q_max, as in
+    /// [`Self::is_round`].
+    #[must_use]
+    pub fn longest_in(&self, inv_w: [f64; 4], uv: [DVec2; 4], farthest: DVec2) -> f64 {
+        let [least, greatest] = ends(inv_w);
+        let mut longest: f64 = 0.0;
+        for (over_w, slope) in self.over_w.iter().zip(self.inv_w) {
+            let rounding = (over_w.abs() + farthest * slope.abs()) * (greatest * 0.5f64.powi(40));
+            let mut most = DVec2::ZERO;
+            for (uv, inv_w) in uv.iter().zip(inv_w) {
+                most = most.max((over_w * inv_w - uv * inv_w * slope).abs() + rounding);
+            }
+            longest = longest.max((most * self.size / (least * least)).length_squared());
+        }
+        longest.sqrt() * (1.0 + 0.5f64.powi(20))
+    }
+
     /// Whether [`Self::taps`] reads once everywhere in the triangle.
     ///
     /// It does where Pmax / max(Pmin, 1) is less than 1.5 - 2^-20 / 3. With A and B the numerators of the derivatives by
@@ -145,19 +166,29 @@ impl Footprint {
     /// (|U_x| + M |q_x|) q_max, with the same M and q_max for all corners, since no other bound holds of a single one.
     #[must_use]
     pub fn is_round(&self, inv_w: [f64; 3], uv: [DVec2; 3]) -> bool {
-        let least = inv_w[0].min(inv_w[1]).min(inv_w[2]);
-        let most = inv_w[0].max(inv_w[1]).max(inv_w[2]);
         let farthest = uv[0].abs().max(uv[1].abs()).max(uv[2].abs());
+        self.is_round_between(inv_w, uv, farthest)
+    }
+
+    /// The same between points of the triangle's plane, where `farthest` is that of its corners.
+    #[must_use]
+    pub fn is_round_between<const N: usize>(
+        &self,
+        inv_w: [f64; N],
+        uv: [DVec2; N],
+        farthest: DVec2,
+    ) -> bool {
+        let [least, most] = ends(inv_w);
         let [[long_x, short_x], [long_y, short_y]] = [0, 1].map_array(|i: usize| {
             let (over_w, slope) = (self.over_w[i], self.inv_w[i]);
-            let numerators = [0, 1, 2]
-                .map_array(|i: usize| (over_w * inv_w[i] - uv[i] * inv_w[i] * slope) * self.size);
+            let numerator = |i: usize| (over_w * inv_w[i] - uv[i] * inv_w[i] * slope) * self.size;
+            let numerators: [DVec2; N] = std::array::from_fn(numerator);
             let rounding = (over_w.abs() + farthest * slope.abs()) * self.size * most;
             let rounding = rounding.length() * 0.5f64.powi(40);
-            let [a, b, c] = numerators.map_array(|numerator| numerator.length());
-            let direction = (numerators[0] + numerators[1] + numerators[2]).normalize_or_zero();
-            let [p, q, r] = numerators.map_array(|numerator| numerator.dot(direction));
-            [a.max(b).max(c) + rounding, p.min(q).min(r) - rounding]
+            let direction = numerators.iter().sum::<DVec2>().normalize_or_zero();
+            let [_, longest] = ends(numerators.map(DVec2::length));
+            let [shortest, _] = ends(numerators.map(|numerator| numerator.dot(direction)));
+            [longest + rounding, shortest - rounding]
         });
         let texel = least * least;
         let is_short = |longest: f64, other: f64| {
@@ -165,6 +196,11 @@ impl Footprint {
         };
         is_short(long_x, short_y) && is_short(long_y, short_x)
     }
+}
+
+/// The least and the largest number.
+fn ends<const N: usize>(numbers: [f64; N]) -> [f64; 2] {
+    numbers.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], n| [a.min(*n), b.max(*n)])
 }
 
 /// The places at which a texture is read for one pixel.
@@ -436,6 +472,75 @@ mod tests {
             let reading = Reading { footprint, at_levels: true, most: 16 };
             assert!(reading.texel(&texture, DVec2::splat(odd), 1.0).0.is_finite());
             assert!(!footprint.is_round([1.0; 3], [DVec2::splat(odd); 3]));
+        }
+    }
+
+    type OfPart = fn(&Footprint, [f64; 4], [DVec2; 4], DVec2) -> [bool; 2];
+
+    /// Of how many parts of random triangles a condition says that they are magnified, and round, and how often it is wrong.
+    fn of_parts(condition: OfPart) -> [u32; 4] {
+        let mut rng = Rng::new("footprints of parts", 1, 0);
+        let mut counts = [0; 4];
+        for index in 0..4000 {
+            let (corners, inv_w, uv) =
+                if index % 2 == 0 { triangle(&mut rng) } else { minified(&mut rng) };
+            let footprint = Footprint::new(corners, inv_w, uv, (64, 64));
+            let size = rng.unit() * 0.6;
+            let start = [rng.unit(), rng.unit()].map_array(|share| share * (1.0 - size));
+            let point = |i: f64, j: f64| {
+                let [s, t] = [start[0] + size * i, start[1] + size * j];
+                at([1.0 - s - t, s, t], inv_w, uv)
+            };
+            let points = [point(0.0, 0.0), point(1.0, 0.0), point(0.0, 1.0), point(1.0, 1.0)];
+            if points.iter().any(|(w, _)| *w <= 0.0) {
+                continue;
+            }
+            let farthest = uv[0].abs().max(uv[1].abs()).max(uv[2].abs());
+            let found = condition(
+                &footprint,
+                points.map(|(w, _)| 1.0 / w),
+                points.map(|(_, uv)| uv),
+                farthest,
+            );
+            let mut wrong = [false; 2];
+            for (i, j) in (0..=12).flat_map(|i| (0..=12).map(move |j| (f64::from(i), f64::from(j))))
+            {
+                let (w, uv) = point(i / 12.0, j / 12.0);
+                wrong[0] |= footprint.level(uv, w) > 0.0;
+                wrong[1] |= footprint.taps(uv, w, 16).count > 1;
+            }
+            for i in 0..2 {
+                counts[i] += u32::from(found[i]);
+                counts[2 + i] += u32::from(found[i] && wrong[i]);
+            }
+        }
+        counts
+    }
+
+    #[test]
+    fn a_part_is_magnified_or_round_everywhere() {
+        let right: OfPart = |footprint, inv_w, uv, farthest| {
+            [
+                footprint.longest_in(inv_w, uv, farthest) <= 1.0,
+                footprint.is_round_between(inv_w, uv, farthest),
+            ]
+        };
+        let [magnified, round, wrong, wrongly_round] = of_parts(right);
+        assert_eq!([wrong, wrongly_round], [0; 2]);
+        assert!(magnified > 500 && round > 500, "{magnified}, {round}");
+        // Wrong ones: by two corners, and by one.
+        let two: OfPart = |footprint, [p, q, ..], [a, b, ..], farthest| {
+            [
+                footprint.longest_in([p, q, p, q], [a, b, a, b], farthest) <= 1.0,
+                footprint.is_round_between([p, q], [a, b], farthest),
+            ]
+        };
+        let one: OfPart = |footprint, [q, ..], [uv, ..], _| {
+            [footprint.level(uv, 1.0 / q) <= 0.0, footprint.taps(uv, 1.0 / q, 16).count == 1]
+        };
+        for (number, condition) in [two, one].into_iter().enumerate() {
+            let [_, _, wrong, wrongly_round] = of_parts(condition);
+            assert!(wrong > 0 && wrongly_round > 0, "wrong condition {number} survives");
         }
     }
 }

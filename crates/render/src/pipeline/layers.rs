@@ -20,15 +20,18 @@ pub struct Layer {
     pub colour: Colour,
 }
 
-/// The layers of all samples, in the order of drawing.
+/// The layers of all samples, in the order of drawing; and room to sort them in.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Layers(pub Vec<Layer>);
+pub(super) struct Layers(pub Vec<Layer>, Vec<Layer>);
+
+/// Fewer layers are sorted as they are.
+const FEW: usize = 1 << 12;
 
 impl Layers {
     /// Mixes the nearest layers of each sample, at most so many, with what is there; how many more were to be seen.
     pub fn mix(&mut self, most: u32, planes: &mut [SamplePlane]) -> u64 {
         let mut left_out = 0;
-        self.0.sort_unstable();
+        self.sort(planes);
         for layers in self.0.chunk_by(|a, b| (a.plane, a.y_px, a.x_px) == (b.plane, b.y_px, b.x_px))
         {
             let Layer { plane, y_px, x_px, .. } = layers[0];
@@ -42,6 +45,60 @@ impl Layers {
     }
 }
 
+impl Layers {
+    /// Sorts layers: many of them by rows first, then each row by columns, and then the few of each sample.
+    fn sort(&mut self, planes: &[SamplePlane]) {
+        let Self(layers, room) = self;
+        let Some(plane) = planes.first().filter(|_| layers.len() > FEW) else {
+            layers.sort_unstable();
+            return;
+        };
+        let bounds = plane.depth.bounds();
+        let (width, height) = (bounds.width() as usize, bounds.height() as usize);
+        room.clear();
+        room.extend_from_slice(layers);
+        let row = |layer: &Layer| {
+            usize::from(layer.plane) * height + layer.y_px.abs_diff(bounds.y0) as usize
+        };
+        let mut starts = vec![0; height * planes.len() + 1];
+        by_number(layers, room, &mut starts, row);
+        let mut columns = vec![0; width + 1];
+        let (mut from, mut own) = (0, Vec::new());
+        for to in starts {
+            let part = &mut room[from..to];
+            from = to;
+            own.clear();
+            own.extend_from_slice(part);
+            columns.fill(0);
+            let column = |layer: &Layer| layer.x_px.abs_diff(bounds.x0) as usize;
+            by_number(&own, part, &mut columns, column);
+            part.chunk_by_mut(|a, b| a.x_px == b.x_px).for_each(<[Layer]>::sort_unstable);
+        }
+        std::mem::swap(layers, room);
+    }
+}
+
+/// Puts items in the order of their numbers; afterwards `ends` has for each number where those after it begin. It is all 0 before,
+/// and has one place more than there are numbers.
+fn by_number(
+    items: &[Layer],
+    sorted: &mut [Layer],
+    ends: &mut [usize],
+    number: impl Fn(&Layer) -> usize,
+) {
+    for item in items {
+        ends[number(item) + 1] += 1;
+    }
+    for i in 1..ends.len() {
+        ends[i] += ends[i - 1];
+    }
+    for item in items {
+        let place = &mut ends[number(item)];
+        sorted[*place] = *item;
+        *place += 1;
+    }
+}
+
 /// Mixes the layers of one sample, sorted, with the colour of what is opaque there, whose key of depth is `stored`; how many
 /// more than `most` were to be seen.
 pub fn mix_sample(layers: &[Layer], most: u32, stored: u64, colour: &mut Colour) -> u64 {
@@ -51,4 +108,33 @@ pub fn mix_sample(layers: &[Layer], most: u32, stored: u64, colour: &mut Colour)
         *colour = over(layer.colour, *colour, layer.opacity);
     }
     (nearer - mixed) as u64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pipeline::depth::DepthFormat;
+    use crate::pipeline::target::{Antialias, Target};
+    use rasterproof_verify::cases::Rng;
+
+    #[test]
+    fn many_layers_are_sorted_as_few_are() {
+        let mut rng = Rng::new("layers", 1, 0);
+        for antialias in [Antialias::None, Antialias::Multisample4] {
+            let target = Target::new(23, 17, antialias, DepthFormat::Unorm32).unwrap();
+            let mut layers = Layers::default();
+            for _ in 0..3 * FEW {
+                let mut byte = || rng.int(0, 3) as u8;
+                let (plane, opacity, colour) = (byte(), byte(), [byte(), byte(), 0, 255]);
+                let plane = plane % antialias.planes() as u8;
+                let [y_px, x_px] = [rng.int(0, 16), rng.int(0, 22)].map(|at| at as i32);
+                let key = rng.int(0, 4) as u64;
+                layers.0.push(Layer { plane, y_px, x_px, key, opacity, colour });
+            }
+            let mut sorted = layers.0.clone();
+            sorted.sort_unstable();
+            layers.sort(&target.planes);
+            assert!(layers.0 == sorted, "{antialias:?}");
+        }
+    }
 }

@@ -95,6 +95,16 @@ impl Opacity {
             _ => Drawn::Mixed,
         }
     }
+
+    /// Whether every fragment of such a triangle is as opaque as any other: all texels that it may read are equal, and each mean of
+    /// equal texels is equal to them, to the bit.
+    #[must_use]
+    pub fn is_one_between(&self, uv: [DVec2; 3]) -> bool {
+        self.map.as_ref().is_none_or(|map| {
+            let [least, most] = map.between(uv);
+            least == most
+        })
+    }
 }
 
 impl AlphaMode {
@@ -349,5 +359,39 @@ mod tests {
         assert_eq!(opacity(0.5).between([left, right, far]), Drawn::Mixed);
         let half = Opacity { factor: 0.5, map: None, ..opacity(0.5) };
         assert_eq!((half.read(left), half.of(left)), (128, OPAQUE));
+    }
+
+    /// How many random triangles have one opacity by a condition, and how many of these have several.
+    fn of_one(condition: fn(&Opacity, [DVec2; 3]) -> bool) -> [u32; 2] {
+        let mut counts = [0; 2];
+        for index in 0..3000 {
+            let (opacity, uv) = case(index, true);
+            if condition(&opacity, uv) {
+                let [a, b, c] = uv;
+                let steps =
+                    (0..=40).flat_map(|i| (0..=40 - i).map(move |j| (f64::from(i), f64::from(j))));
+                let mut fragments =
+                    steps.map(|(i, j)| a + (b - a) * (i / 40.0) + (c - a) * (j / 40.0));
+                let is_other = fragments.any(|uv| opacity.of(uv) != opacity.of(a));
+                counts[0] += 1;
+                counts[1] += u32::from(is_other);
+            }
+        }
+        counts
+    }
+
+    #[test]
+    fn a_triangle_of_one_opacity_has_it_everywhere() {
+        let [known, wrong] = of_one(Opacity::is_one_between);
+        assert!(known > 700 && wrong == 0, "{known}, {wrong}");
+        let corners = |opacity: &Opacity, [a, b, c]: [DVec2; 3]| {
+            opacity.of(a) == opacity.of(b) && opacity.of(b) == opacity.of(c)
+        };
+        let one_end = |opacity: &Opacity, uv: [DVec2; 3]| {
+            opacity.map.as_ref().is_some_and(|map| map.between(uv)[1] == u8::MAX)
+        };
+        for (number, condition) in [corners, one_end].into_iter().enumerate() {
+            assert!(of_one(condition)[1] > 0, "wrong condition {number} survives");
+        }
     }
 }

@@ -62,6 +62,20 @@ enum Texels {
     Grey(Vec<u8>),
 }
 
+/// Four texels of one texture between which a filter has read.
+#[derive(Clone, Copy, Debug)]
+pub struct Last {
+    /// Column and row of the upper left one.
+    place: [i64; 2],
+    /// Of both rows the left one, and what the right one differs by.
+    lines: [[DVec3; 2]; 2],
+}
+
+impl Last {
+    /// None: no column has this number.
+    pub const NONE: Self = Self { place: [i64::MIN; 2], lines: [[DVec3::ZERO; 2]; 2] };
+}
+
 /// Boxes of colours that are listed at most.
 pub const MOST_PLACES: usize = 1 << 8;
 
@@ -218,6 +232,31 @@ impl Texture {
     #[inline]
     pub fn at(&self, uv: DVec2) -> DVec3 {
         self.at_subtexel(subtexel(uv.x, self.subtexels.x), subtexel(1.0 - uv.y, self.subtexels.y))
+    }
+
+    /// The same, with the four texels of the last read: where a texture is magnified, neighbours mostly read the same ones.
+    #[must_use]
+    #[inline]
+    pub fn at_again(&self, uv: DVec2, last: &mut Last) -> DVec3 {
+        if self.filter == Filter::Nearest {
+            return self.at(uv);
+        }
+        let x = subtexel(uv.x, self.subtexels.x) - SUBTEXELS / 2;
+        let y = subtexel(1.0 - uv.y, self.subtexels.y) - SUBTEXELS / 2;
+        let place = [x >> SUBTEXEL_BITS, y >> SUBTEXEL_BITS];
+        if last.place != place {
+            last.place = place;
+            let columns = [self.column(place[0]), self.column(place[0] + 1)];
+            last.lines = [place[1], place[1] + 1].map_array(|row| {
+                let start = self.row_start(row);
+                let [a, b] = columns.map_array(|column| self.texel(start + column));
+                [a, b - a]
+            });
+        }
+        let part = |sub: i64| (sub & (SUBTEXELS - 1)) as f64 / SUBTEXELS as f64;
+        let (right, down) = (part(x), part(y));
+        let [a, b] = last.lines.map_array(|[from, difference]| from + difference * right);
+        a + (b - a) * down
     }
 
     /// The colour at whole numbers of 1/256 texel from the top left corner.
@@ -439,6 +478,30 @@ fn wrapped(wrap: Wrap, at: i64, side: i64) -> i64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Reads close together and far apart, with both filters, beyond the borders too.
+    #[test]
+    fn texels_that_are_kept_give_the_same_bits() {
+        let bytes: Vec<_> = (0..9 * 6u8).map(|i| [i * 4, 255 - i, i.wrapping_mul(37)]).collect();
+        let texture = Texture::new(9, 6, &bytes).unwrap();
+        let mut kept = 0;
+        for filter in [Filter::Nearest, Filter::Bilinear] {
+            for wrap in [Wrap::Repeat, Wrap::Clamp] {
+                let texture = texture.clone().with(filter, wrap);
+                let mut last = Last::NONE;
+                for i in 0..4000 {
+                    let (step, far) = (f64::from(i) * 0.0013, f64::from(i / 40) * 0.171);
+                    let uv = DVec2::new(step + far - 2.0, 1.7 - step * 0.7);
+                    let before = last.place;
+                    assert_eq!(texture.at_again(uv, &mut last), texture.at(uv));
+                    kept += u32::from(before == last.place);
+                }
+                let odd = DVec2::new(f64::NAN, f64::INFINITY);
+                assert_eq!(texture.at_again(odd, &mut last), texture.at(odd));
+            }
+        }
+        assert!(kept > 6000, "{kept}");
+    }
 
     fn two_by_two() -> Texture {
         let (r, g, b, w) = ([255, 0, 0], [0, 255, 0], [0, 0, 255], [255; 3]);

@@ -61,7 +61,7 @@ pub fn may_be_plain(rule: &Rule, opacity: Drawn) -> bool {
 }
 
 /// Up to so many texels a pixel a texture is looked at.
-const MOST_TEXELS: f64 = (1 << 16) as f64;
+pub const MOST_TEXELS: f64 = (1 << 16) as f64;
 
 /// Whether all texels have one colour that the fragments of a piece may read: those between the texture coordinates of its
 /// corners and beside them, as far as a filter reads. With `levels` that holds of each level of detail up to that of the longest

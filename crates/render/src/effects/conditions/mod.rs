@@ -65,6 +65,9 @@ pub(super) struct Facts {
 /// what it asks for.
 const LEAST_TEXTURED: i64 = 6;
 
+/// The same of highlights, which most fragments find to be dark by two products.
+const LEAST_SHINY: i64 = 16;
+
 /// Whether a piece covers about so many samples.
 pub(super) fn covers(piece: &Piece, samples: i64) -> bool {
     let subpixels = 2 * samples * i64::from(SUBPIXELS).pow(2);
@@ -110,7 +113,10 @@ impl Facts {
             facts.varies = interpolation::differing(rule.interpolates, piece);
         }
         if rule.specular.is_open() {
-            facts.is_shiny = specular::may_show(item, piece);
+            // What faces away without a highlight needs no shadow map, which costs more than all of these.
+            let is_asked = covers(piece, LEAST_SHINY)
+                || (rule.shadows.is_open() && shadows::piece_faces_away(item, piece));
+            facts.is_shiny = !is_asked || specular::may_show(item, piece);
         }
         if rule.shadows.is_open() {
             let has_highlight = rule.specular.pays(facts.is_shiny);

@@ -45,10 +45,14 @@ pub fn may_be_shadowed(
 ) -> bool {
     let Some(view) = &item.light_view else { return false };
     let surfaces = piece.vertices.map_array(|vertex| Surface::from(vertex.varying));
-    let faces_away = || faces_away(&item.light, surfaces.map_array(|s| s.normal));
-    (has_highlight || !faces_away())
+    (has_highlight || !piece_faces_away(item, piece))
         && (!covers(piece, LEAST_SEARCHED)
             || view.may_be_shadowed(scene, surfaces.map_array(|s| s.place)))
+}
+
+pub fn piece_faces_away(item: &Prepared<'_>, piece: &Piece) -> bool {
+    let normals = piece.vertices.map_array(|vertex| Surface::from(vertex.varying).normal);
+    faces_away(&item.light, normals)
 }
 
 /// Whether the light is 0 at every normal between three. One normal is the same in each fragment; others are

@@ -1,0 +1,532 @@
+//! Parts of large pieces: what is paid for somewhere in a piece is not paid for everywhere in it.
+//!
+//! The window is cut into squares. The conditions that are asked of a piece are asked of each square of a large one again, at
+//! the four corners of the square in the plane of the piece, and what is left out there is left out of the square alone. A
+//! rasterizer only crops to its bounds, so a piece that is drawn square by square has the bits of the whole.
+//!
+//! **Why the bits stay the same.** A fragment or sample of the piece in a square lies between the four corners of the square, so
+//! in the one half of it or in the other, which are triangles in the plane of the piece. In such a triangle 1/w and
+//! each attribute over w are linear, as in the piece itself. So what a condition says of fragments between three corners
+//! it says of those in the half. Corners may lie beyond the piece, where attributes are continued; that makes the
+//! intervals wider and no condition wrong.
+//!
+//! A corner's attributes are weighted means, with weights l_i q_i / q where l_i are the exact shares in the window, q_i the
+//! 1/w of the piece's corners and q the sum of l_i q_i. Where the absolute values add up to at most [`MOST_WEIGHT`] times the
+//! sum, each is off by at most 2^-45 of the largest value at the piece's corners: 8 times some 30 roundings. The conditions of normals have
+//! margins of 2^-40, those of footprints too ([`Footprint::longest_in`]), that of fog has 2^-44 of a depth, that of
+//! shadows 2^-10 texel, and texture coordinates get 2^-40 here. Corners where the weights are larger tell nothing: such a
+//! square is drawn as the piece is.
+
+use glam::{DVec2, DVec3};
+
+use super::Mode;
+use super::conditions::mip_maps::{footprint, is_affine, is_near};
+use super::conditions::{covers, interpolation};
+use super::plan::{Attributes, PiecePlan, Rule};
+use super::primitive::{Piece, Prepared, has_one_w, pixel_box};
+use crate::pipeline::fog::Share;
+use crate::pipeline::footprint::Footprint;
+use crate::pipeline::opacity::Drawn;
+use crate::pipeline::shade::Surface;
+use crate::pipeline::shadow::{LitPlane, ShadowMap};
+use crate::pipeline::target::Antialias;
+use rasterproof_core::arrays::MapArray as _;
+use rasterproof_core::grid::{PixelRect, SUBPIXELS};
+use serde::{Deserialize, Serialize};
+
+/// Samples along the side of a square.
+const SIDE: u32 = 16;
+
+/// The same where each of four planes of samples is drawn by itself.
+const LARGE_SIDE: u32 = 32;
+
+/// The absolute weights of a corner's attributes add up to at most this.
+const MOST_WEIGHT: f64 = 8.0;
+
+/// If nothing is left out of so many squares in turn, rows of squares are left unasked.
+const FIRST_SQUARES: u32 = 32;
+
+/// So many rows at most before squares are asked again.
+const MOST_ROWS: u32 = 8;
+
+/// Up to so many texels from one fragment to the next, both mostly read the same ones.
+const MOST_SHARED: f64 = 0.5;
+
+/// A policy: large pieces are asked square by square what they pay for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct Parts {
+    /// The side of a square of the window, in samples.
+    pub side: u32,
+    /// What may be left out of a square.
+    pub rule: Rule,
+}
+
+impl Parts {
+    /// Of the pieces of an item with this rule; nothing where nothing depends on where a fragment is.
+    pub(super) fn of(rule: &Rule, antialias: Antialias) -> Option<Self> {
+        let varies = !rule.interpolates.without(Attributes(Attributes::COLOUR)).is_empty();
+        let is_planned = [
+            rule.specular,
+            rule.shadows,
+            rule.mip_maps,
+            rule.anisotropy,
+            rule.fog,
+            rule.alpha_test,
+            rule.blending,
+        ]
+        .contains(&Mode::Planned);
+        let side = if antialias.planes() > 1 { LARGE_SIDE } else { SIDE };
+        (rule.where_it_varies && (is_planned || varies)).then_some(Self { side, rule: *rule })
+    }
+
+    /// No more than fits whatever is computed of it.
+    fn side(&self) -> i32 {
+        self.side.min(1 << 12) as i32
+    }
+
+    /// Whether a piece is large enough to be asked square by square.
+    pub(super) fn are_asked(&self, piece: &Piece, plan: PiecePlan) -> bool {
+        let varies = !plan.interpolates.is_empty() || plan.fog == Share::Mixed;
+        varies && self.side > 0 && covers(piece, 4 * i64::from(self.side()).pow(2))
+    }
+}
+
+/// What a part of a piece has in all of its fragments where the piece has not; nothing where it has no such value.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Constants {
+    pub texel: Option<DVec3>,
+    pub opacity: Option<u8>,
+    /// Of nine, the parts of the light that arrive.
+    pub lit: Option<u32>,
+    /// Whether adjacent fragments mostly read the same texels, so that it pays to keep those of the last one.
+    pub shares_texels: bool,
+}
+
+/// A rectangle of the window in which a piece pays for what this plan says.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Part {
+    pub bounds: PixelRect,
+    pub plan: PiecePlan,
+    pub constants: Constants,
+}
+
+/// The corners of a square in the plane of a piece.
+struct Square {
+    inv_w: [f64; 4],
+    depths: [f64; 2],
+    surfaces: [Surface; 4],
+    /// Texture coordinates between which all lie that are read.
+    uv: [DVec2; 3],
+}
+
+impl Square {
+    /// The two triangles of it.
+    fn halves<T: Copy>(&self, of: impl Fn(&Surface) -> T) -> [[T; 3]; 2] {
+        let [a, b, c, d] = &self.surfaces;
+        [[of(a), of(b), of(c)], [of(b), of(c), of(d)]]
+    }
+
+    fn all<T>(&self, of: impl Fn(&Surface) -> T) -> [T; 4] {
+        let [a, b, c, d] = &self.surfaces;
+        [of(a), of(b), of(c), of(d)]
+    }
+}
+
+/// How often squares are asked in which nothing may be left out: what asking costs is counted, not timed, so that a frame is
+/// the same each time.
+#[derive(Default)]
+struct Patience {
+    /// Squares in turn in which nothing was left out.
+    vain: u32,
+    rows: u32,
+}
+
+impl Patience {
+    fn see(&mut self, has_gained: bool) {
+        if has_gained {
+            *self = Self::default();
+        } else {
+            self.vain += 1;
+        }
+    }
+
+    /// How many rows of squares are drawn as the whole piece is before the next one is asked: more and more.
+    fn rows_left_out(&mut self) -> u32 {
+        if self.vain < FIRST_SQUARES {
+            return 0;
+        }
+        self.rows = (2 * self.rows).clamp(1, MOST_ROWS);
+        self.vain = FIRST_SQUARES;
+        self.rows
+    }
+}
+
+/// A piece that is asked square by square.
+pub(super) struct Whole<'a> {
+    rule: &'a Rule,
+    item: &'a Prepared<'a>,
+    piece: &'a Piece,
+    plan: PiecePlan,
+    side: i32,
+    /// Twice the area, and the signed doubled areas of the triangles at a point.
+    area: i64,
+    /// 1/w at the corners, by which attributes are interpolated.
+    inv_w: [f64; 3],
+    /// Nothing where no texture is read in each fragment.
+    footprint: Option<Footprint>,
+    /// Whether w is exact enough for conditions of levels and taps.
+    is_exact: bool,
+    /// Whether adjacent fragments mostly read the same texels everywhere.
+    shares_texels: bool,
+    shadow: Option<(LitPlane, &'a ShadowMap)>,
+    /// The largest |u| and |v| at a corner.
+    farthest: DVec2,
+    /// The largest component of a normal at a corner.
+    longest_normal: f64,
+}
+
+impl<'a> Whole<'a> {
+    pub fn new(
+        parts: &'a Parts,
+        item: &'a Prepared<'_>,
+        piece: &'a Piece,
+        plan: PiecePlan,
+        map: Option<&'a ShadowMap>,
+    ) -> Self {
+        let rule = &parts.rule;
+        let surfaces = piece.vertices.map_array(|vertex| Surface::from(vertex.varying));
+        let [a, b, c] = surfaces.map_array(|surface| surface.uv.abs());
+        let footprint = item
+            .texture
+            .filter(|_| plan.interpolates.has(Attributes::UV))
+            .map(|texture| footprint(texture, piece, plan.perspective));
+        let shares_texels = footprint.is_some_and(|(footprint, inv_w, uv)| {
+            !plan.reads_around() && footprint.longest(inv_w, uv) <= MOST_SHARED
+        });
+        let shadow = item.light_view.as_ref().zip(map).and_then(|(view, map)| {
+            Some((view.plane(surfaces.map_array(|surface| surface.place))?, map))
+        });
+        let has_w = plan.perspective || has_one_w(piece);
+        let inv_w = piece.vertices.map_array(|v| if has_w { v.inv_w } else { 1.0 });
+        let area = edge(piece, 2, [piece.vertices[2].position.x, piece.vertices[2].position.y]);
+        Self {
+            rule,
+            item,
+            piece,
+            plan,
+            side: parts.side(),
+            area,
+            inv_w,
+            footprint: footprint.map(|(footprint, ..)| footprint),
+            is_exact: is_near(item, piece) && !is_affine(piece, plan.perspective),
+            shares_texels,
+            shadow,
+            farthest: a.max(b).max(c),
+            longest_normal: surfaces
+                .iter()
+                .fold(0.0, |longest, surface| surface.normal.abs().max_element().max(longest)),
+        }
+    }
+
+    /// Every rectangle of the piece in the window, with what is paid for in it.
+    pub fn each(&self, window: PixelRect, margin_px: i32, draw: &mut dyn FnMut(&Part)) {
+        let bounds = pixel_box(&self.piece.corners(), margin_px).intersect(&window);
+        if bounds.is_empty() {
+            return;
+        }
+        let side = self.side;
+        let of_whole = Constants { shares_texels: self.shares_texels, ..Constants::default() };
+        let as_a_whole = |bounds| Part { bounds, plan: self.plan, constants: of_whole };
+        let price = self.price(self.plan, of_whole);
+        let mut patience = Patience::default();
+        let (mut waiting, mut row): (Vec<Part>, Vec<Part>) = (Vec::new(), Vec::new());
+        let mut y0 = bounds.y0;
+        while y0 < bounds.y1 {
+            let next = |y: i32| bounds.y1.min((y.div_euclid(side) + 1) * side);
+            let rows = patience.rows_left_out();
+            if rows > 0 {
+                waiting.drain(..).for_each(|part| draw(&part));
+                let y1 = (0..rows).fold(y0, |y, _| next(y));
+                draw(&as_a_whole(PixelRect { y0, y1, ..bounds }));
+                y0 = y1;
+                if y0 >= bounds.y1 {
+                    return;
+                }
+            }
+            let y1 = next(y0);
+            row.clear();
+            let mut x0 = bounds.x0;
+            while x0 < bounds.x1 {
+                let x1 = bounds.x1.min((x0.div_euclid(side) + 1) * side);
+                let rect = PixelRect { x0, y0, x1, y1 };
+                x0 = x1;
+                let Some(shares) = self.shares(rect) else { continue };
+                let own = self.square(shares).map(|square| self.plan(&square));
+                // What saves less than it takes to draw a square by itself is left as it is.
+                let own =
+                    own.filter(|(plan, constants)| 4 * self.price(*plan, *constants) <= 3 * price);
+                patience.see(own.is_some());
+                let (plan, constants) = own.unwrap_or((self.plan, of_whole));
+                match row.last_mut() {
+                    Some(last) if (last.plan, last.constants) == (plan, constants) => {
+                        last.bounds.x1 = x1;
+                    }
+                    _ => row.push(Part { bounds: rect, plan, constants }),
+                }
+            }
+            if let [alone] = &mut row[..] {
+                // What lies beyond it is not covered.
+                (alone.bounds.x0, alone.bounds.x1) = (bounds.x0, bounds.x1);
+            }
+            let continues = waiting.len() == row.len()
+                && waiting.iter().zip(&row).all(|(above, part)| {
+                    let columns = |part: &Part| (part.bounds.x0, part.bounds.x1);
+                    columns(above) == columns(part)
+                        && (above.plan, above.constants) == (part.plan, part.constants)
+                });
+            if continues {
+                waiting.iter_mut().for_each(|part| part.bounds.y1 = y1);
+            } else {
+                waiting.iter().for_each(&mut *draw);
+                std::mem::swap(&mut waiting, &mut row);
+            }
+            y0 = y1;
+        }
+        waiting.iter().for_each(draw);
+    }
+
+    /// About what a fragment costs, in nanoseconds: a rough measure of which of two plans is cheaper, and by how much.
+    fn price(&self, plan: PiecePlan, constants: Constants) -> u32 {
+        let has = |bit: u8| plan.interpolates.has(bit);
+        let if_paid = |is_paid: bool, price: u32| if is_paid { price } else { 0 };
+        if plan.is_nothing() {
+            return 0;
+        }
+        5 + plan.interpolates.components() as u32
+            + if_paid(has(Attributes::NORMAL), 6)
+            + if_paid(plan.specular && has(Attributes::NORMAL), 8)
+            + if_paid(plan.shadows, 16)
+            + if_paid(has(Attributes::UV), if constants.shares_texels { 6 } else { 12 })
+            + if_paid(plan.mip_maps, 24)
+            + if_paid(plan.anisotropy, 24)
+            + if_paid(plan.fog == Share::Mixed, 12)
+            + if_paid(!plan.replaces_all(), 8)
+    }
+
+    /// The shares of the piece's corners at the corners of a rectangle; nothing where the piece covers none of it: all four lie
+    /// outside of one edge.
+    fn shares(&self, rect: PixelRect) -> Option<[[f64; 3]; 4]> {
+        let PixelRect { x0, y0, x1, y1 } = rect;
+        let points = [[x0, y0], [x1, y0], [x0, y1], [x1, y1]];
+        let sign = self.area.signum();
+        let mut shares = [[0.0; 3]; 4];
+        for number in 0..3 {
+            let mut is_outside = true;
+            for (point, shares) in points.iter().zip(&mut shares) {
+                let share = edge(self.piece, number, point.map(|px| px * SUBPIXELS));
+                is_outside &= share * sign < 0;
+                shares[number] = share as f64 / self.area as f64;
+            }
+            if is_outside {
+                return None;
+            }
+        }
+        Some(shares)
+    }
+
+    /// What the piece has at points with these shares of its corners; nothing where that is not known well enough.
+    fn square(&self, shares: [[f64; 3]; 4]) -> Option<Square> {
+        let vertices = &self.piece.vertices;
+        let mut square = Square {
+            inv_w: [0.0; 4],
+            depths: [f64::INFINITY, f64::NEG_INFINITY],
+            surfaces: [Surface::from(vertices[0].varying); 4],
+            uv: [DVec2::ZERO; 3],
+        };
+        let own = vertices.map_array(|vertex| vertex.depth);
+        let [least, most] = [own[0].min(own[1]).min(own[2]), own[0].max(own[1]).max(own[2])];
+        for (i, shares) in shares.into_iter().enumerate() {
+            let parts = [0, 1, 2].map_array(|i: usize| shares[i] * self.inv_w[i]);
+            let sum = parts[0] + parts[1] + parts[2];
+            let weight = parts[0].abs() + parts[1].abs() + parts[2].abs();
+            let shift = shares[0].abs() + shares[1].abs() + shares[2].abs();
+            // NaN is not known.
+            if !(sum > 0.0 && weight <= MOST_WEIGHT * sum && shift <= MOST_WEIGHT) {
+                return None;
+            }
+            let depth = shares[0] * own[0] + shares[1] * own[1] + shares[2] * own[2];
+            let depth = depth.clamp(least, most);
+            square.depths = [square.depths[0].min(depth), square.depths[1].max(depth)];
+            square.inv_w[i] = sum;
+            let weights = parts.map_array(|part| part / sum);
+            let mut values = vertices[0].varying;
+            for (bit, range) in Attributes::RANGES {
+                // What does not vary is the same everywhere, to the bit.
+                if !self.plan.interpolates.has(bit) {
+                    continue;
+                }
+                for at in range {
+                    let [a, b, c] = vertices.map_array(|vertex| vertex.varying.0[at]);
+                    values.0[at] = weights[0] * a + weights[1] * b + weights[2] * c;
+                    if !values.0[at].is_finite() {
+                        return None;
+                    }
+                }
+            }
+            square.surfaces[i] = Surface::from(values);
+        }
+        let margin = (DVec2::ONE + self.farthest) * 0.5f64.powi(40);
+        let own = vertices.map_array(|vertex| Surface::from(vertex.varying).uv);
+        let [a, b, c, d] = square.all(|surface| surface.uv);
+        let low = a.min(b).min(c.min(d)).max(own[0].min(own[1]).min(own[2])) - margin;
+        let high = a.max(b).max(c.max(d)).min(own[0].max(own[1]).max(own[2])) + margin;
+        square.uv = [low, high, low];
+        Some(square)
+    }
+
+    /// What is paid for in a square, and what all of its fragments have.
+    fn plan(&self, square: &Square) -> (PiecePlan, Constants) {
+        let (mut plan, mut constants) = (self.plan, Constants::default());
+        let (rule, item) = (self.rule, self.item);
+        let opacity = item.item.material.opacity.as_ref();
+        if !plan.replaces_all()
+            && let Some(opacity) = opacity
+        {
+            let drawn = opacity.between(square.uv);
+            for (mode, own) in
+                [(rule.alpha_test, &mut plan.alpha_test), (rule.blending, &mut plan.blending)]
+            {
+                if *own == Drawn::Mixed && mode.is_open() {
+                    *own = drawn;
+                }
+            }
+            plan.layers &= plan.blending == Drawn::Mixed;
+            if plan.is_nothing() {
+                return (plan, constants);
+            }
+        }
+        let is_mixed = !plan.replaces_all();
+        if plan.fog == Share::Mixed && rule.fog.is_open() {
+            let [near, far] = square.depths;
+            match item.veil.between([near, far, near]) {
+                Share::Whole if !is_mixed => {
+                    let (depth, fog) = (plan.depth, Share::Whole);
+                    return (PiecePlan { depth, fog, ..PiecePlan::default() }, constants);
+                }
+                Share::None => plan.fog = Share::None,
+                Share::Whole | Share::Mixed => {}
+            }
+        }
+        self.light(square, &mut plan, &mut constants);
+        if plan.interpolates.has(Attributes::UV) {
+            self.texture(square, is_mixed, &mut plan, &mut constants);
+        }
+        if rule.perspective.is_open() {
+            plan.perspective &= !plan.interpolates.is_empty();
+        }
+        (plan, constants)
+    }
+
+    /// Leaves out highlights, shadows and normals.
+    fn light(&self, square: &Square, plan: &mut PiecePlan, constants: &mut Constants) {
+        let (rule, item) = (self.rule, self.item);
+        let drop = |plan: &mut PiecePlan, bit: u8| {
+            plan.interpolates = plan.interpolates.without(Attributes(bit));
+        };
+        let has_normal = plan.interpolates.has(Attributes::NORMAL);
+        if has_normal && plan.specular && rule.specular.is_open() {
+            let normals = square.halves(|surface| surface.normal);
+            // The margin of the condition is a share of these normals, and their errors one of those at the piece's corners.
+            let is_known = |three: [DVec3; 3]| {
+                let scale: f64 = three.iter().map(|normal| normal.abs().element_sum()).sum();
+                8.0 * scale >= self.longest_normal
+            };
+            plan.specular = !normals
+                .into_iter()
+                .all(|three| is_known(three) && item.highlight.is_dark_between(three));
+        }
+        if plan.shadows
+            && rule.shadows.is_open()
+            && plan.interpolates.has(Attributes::PLACE)
+            && let Some((plane, map)) = &self.shadow
+            && let Some(lit) = plane.lit(map, square.all(|surface| surface.place))
+        {
+            plan.shadows = false;
+            drop(plan, Attributes::PLACE);
+            constants.lit = Some(lit);
+            // No light, and no highlight, of any normal.
+            if lit == 0 && (rule.specular.is_open() || !plan.specular) {
+                plan.specular = false;
+                drop(plan, Attributes::NORMAL);
+                return;
+            }
+        }
+        if has_normal && !plan.specular && (!plan.shadows || rule.shadows.is_open()) {
+            // What is negative at four corners is so between them.
+            let margin = self.longest_normal * 0.5f64.powi(40);
+            let along = square.all(|surface| surface.normal.dot(item.light.towards));
+            if along.into_iter().all(|along| along + margin <= 0.0) {
+                plan.shadows = false;
+                drop(plan, Attributes::PLACE | Attributes::NORMAL);
+                constants.lit = Some(0);
+            }
+        }
+    }
+
+    /// Leaves out levels of detail, taps, and texture coordinates.
+    fn texture(
+        &self,
+        square: &Square,
+        is_mixed: bool,
+        plan: &mut PiecePlan,
+        constants: &mut Constants,
+    ) {
+        let (rule, item) = (self.rule, self.item);
+        let Some(texture) = item.texture else { return };
+        let mut longest = f64::INFINITY;
+        if let Some(footprint) = &self.footprint {
+            let uv = square.all(|surface| surface.uv);
+            longest = footprint.longest_in(square.inv_w, uv, self.farthest);
+            if self.is_exact && rule.mip_maps.is_open() {
+                plan.mip_maps &= longest.is_nan() || longest > 1.0;
+            }
+            if self.is_exact && plan.anisotropy && rule.anisotropy.is_open() {
+                plan.anisotropy = !footprint.is_round_between(square.inv_w, uv, self.farthest);
+            }
+        }
+        constants.shares_texels = !plan.reads_around() && longest <= MOST_SHARED;
+        if is_mixed {
+            let opacity = item.item.material.opacity.as_ref();
+            if !opacity.is_some_and(|opacity| opacity.is_one_between(square.uv)) {
+                return;
+            }
+        }
+        if [rule.mip_maps, rule.anisotropy].contains(&Mode::Always)
+            || (plan.reads_around() && !(self.is_exact && longest < interpolation::MOST_TEXELS))
+        {
+            return;
+        }
+        let reach = if plan.anisotropy { longest / 2.0 } else { 0.0 };
+        let level = if plan.mip_maps { libm::log2(longest) + 0.5f64.powi(20) } else { 0.0 };
+        if texture.is_plain_between(square.uv, reach, level) {
+            let [uv, ..] = square.uv;
+            (plan.mip_maps, plan.anisotropy) = (false, false);
+            constants.shares_texels = false;
+            plan.interpolates = plan.interpolates.without(Attributes(Attributes::UV));
+            constants.texel = Some(texture.at(uv));
+            let opacity = item.item.material.opacity.as_ref().filter(|_| is_mixed);
+            constants.opacity = opacity.map(|opacity| opacity.of(uv));
+        }
+    }
+}
+
+/// Twice the signed area of the triangle between a point, in subpixels, and the edge that lies opposite to a corner.
+fn edge(piece: &Piece, number: usize, [x, y]: [i32; 2]) -> i64 {
+    let at = |number: usize| {
+        let position = piece.vertices[number % 3].position;
+        [i64::from(position.x), i64::from(position.y)]
+    };
+    let ([ax, ay], [bx, by]) = (at(number + 1), at(number + 2));
+    (bx - ax) * (i64::from(y) - ay) - (by - ay) * (i64::from(x) - ax)
+}
