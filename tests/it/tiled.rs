@@ -249,6 +249,19 @@ fn values_that_may_overflow_are_counted() {
     assert!(beyond(4.0 * MOST_ATTRIBUTE) > 0);
 }
 
+/// A wrong picture is worse than none: who calls tiles without asking what they draw is told.
+#[test]
+fn scenes_that_tiles_do_not_draw_are_refused() {
+    for name in ["cut-outs", "panes", "layers", "shadows"] {
+        let scene = chapters::scene(name, 1.5, 0.1).unwrap();
+        assert!(frames::not_drawn(&scene) > 0, "{name}");
+        let draw = || frames::render(&scene, 40, 30, Samples::One);
+        let refusal = std::panic::catch_unwind(draw).unwrap_err();
+        let message = refusal.downcast_ref::<String>().unwrap();
+        assert!(message.contains("triangles that are not opaque"), "{name}: {message}");
+    }
+}
+
 /// A window is a part of a larger frame only if tiles do not matter: the same scene, seen through
 /// sizes that cut the tiles differently, has every pixel that the engines cover and no other.
 #[test]

@@ -295,7 +295,14 @@ impl<'a> Kernel<'a> {
             .first_opacity
             .unwrap_or_else(|| opacity.of(Surface::from(piece.vertices[0].varying).uv));
         let has_uv = interpolates.has(Attributes::UV);
-        let of = |values: &[f64]| opacity.of(DVec2::from_slice(&values[self.starts.uv..]));
+        let last = self.last.is_some().then(|| RefCell::new(Last::NONE));
+        let of = |values: &[f64]| {
+            let uv = DVec2::from_slice(&values[self.starts.uv..]);
+            match &last {
+                Some(last) => opacity.of_again(uv, &mut last.borrow_mut()),
+                None => opacity.of(uv),
+            }
+        };
         let look = Look {
             constant: interpolates.is_empty().then_some(Packed([0.0; N])),
             is_kept: layers,

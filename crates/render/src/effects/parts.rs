@@ -530,3 +530,115 @@ fn edge(piece: &Piece, number: usize, [x, y]: [i32; 2]) -> i64 {
     let ([ax, ay], [bx, by]) = (at(number + 1), at(number + 2));
     (bx - ax) * (i64::from(y) - ay) - (by - ay) * (i64::from(x) - ax)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::effects::conditions::of_every_fragment;
+    use crate::effects::plan::Canvas;
+    use crate::effects::primitive::pack;
+    use crate::effects::{Effects, planner};
+    use crate::pipeline::depth::DepthFormat;
+    use crate::pipeline::shade::PLACED;
+    use crate::scene::random;
+    use rasterproof_core::contract::Interpolate as _;
+    use rasterproof_core::raster::scanline::Scanline;
+
+    type Corners = fn(&Whole<'_>, [[f64; 3]; 4]) -> Option<Square>;
+
+    /// How many fragments of the pieces of random scenes were looked at, and how many have something beyond the corners of their square:
+    /// texture coordinates, a depth, or a normal.
+    fn tried(corners: Corners) -> [u64; 2] {
+        let (width, height) = (120, 90);
+        let canvas = Canvas {
+            width,
+            height,
+            antialias: Antialias::None,
+            depth: DepthFormat::Unorm32,
+            watched: false,
+        };
+        let mut counts = [0; 2];
+        for index in 0..60 {
+            let scene = random::with_effects(6, index);
+            let (plan, mut assembled) =
+                planner::plan(&scene, &canvas, &Effects::PLANNED, &|_| None).unwrap();
+            assembled.assemble(&scene);
+            for (number, piece) in assembled.pieces() {
+                let (item, parts) = (&assembled.items[*number], plan.items[*number].parts);
+                let Some(parts) = parts.map(|parts| Parts { side: 8, ..parts }) else { continue };
+                let own = of_every_fragment(&scene, item.item);
+                let whole = Whole::new(&parts, item, piece, own, None);
+                for (row, column) in
+                    (0..12).flat_map(|row| (0..15).map(move |column| (row, column)))
+                {
+                    let (x0, y0) = (column * 8, row * 8);
+                    let rect = PixelRect { x0, y0, x1: x0 + 8, y1: y0 + 8 };
+                    let shares = whole.shares(rect);
+                    let square = shares.and_then(|shares| corners(&whole, shares));
+                    see(&whole, rect, (shares.is_some(), square), &mut counts);
+                }
+            }
+        }
+        counts
+    }
+
+    fn see(
+        whole: &Whole<'_>,
+        rect: PixelRect,
+        (is_covered, square): (bool, Option<Square>),
+        counts: &mut [u64; 2],
+    ) {
+        let every = Attributes::EVERY;
+        let packed = pack::<PLACED>(whole.piece, every);
+        let margin = 0.5f64.powi(40);
+        let visit = |fragment: rasterproof_core::triangle::Fragment<_>| {
+            assert!(is_covered, "a fragment in a square that is not covered");
+            let Some(square) = &square else { return };
+            let Surface { normal, uv, .. } = Surface::from(fragment.varying);
+            let [low, high, _] = square.uv;
+            let [near, far] = square.depths;
+            let has_uv = whole.plan.interpolates.has(Attributes::UV);
+            let has_normal = whole.plan.interpolates.has(Attributes::NORMAL);
+            let directions = [DVec3::X, DVec3::Y, DVec3::Z, DVec3::ONE, -DVec3::ONE];
+            let is_beyond = directions.iter().any(|direction| {
+                let [a, b, c, d] = square.all(|surface| surface.normal.dot(*direction));
+                normal.dot(*direction)
+                    > a.max(b).max(c).max(d) + 8.0 * margin * whole.longest_normal
+            });
+            let is_wrong = (has_uv && (uv.min(low) != low || uv.max(high) != high))
+                || fragment.depth < near - margin
+                || fragment.depth > far + margin
+                || (has_normal && is_beyond);
+            counts[0] += 1;
+            counts[1] += u64::from(is_wrong);
+        };
+        if whole.plan.perspective {
+            Scanline.fragments(&packed, rect, visit);
+        } else {
+            Scanline.affine_fragments(&packed, rect, visit);
+        }
+    }
+
+    #[test]
+    fn fragments_lie_between_the_corners_of_their_square() {
+        let right: Corners = |whole, shares| whole.square(shares);
+        let [seen, wrong] = tried(right);
+        assert!(seen > 100_000 && wrong == 0, "{seen}, {wrong}");
+        // Wrong ones: three corners of the four, all corners nearer to the middle, and attributes that are linear in the window.
+        let three: Corners = |whole, [a, b, c, _]| whole.square([a, b, c, c]);
+        let inner: Corners = |whole, shares| {
+            let middle = |i: usize| shares.iter().map(|own| own[i]).sum::<f64>() / 4.0;
+            let middle = [middle(0), middle(1), middle(2)];
+            whole.square(
+                shares.map(|own| [0, 1, 2].map_array(|i: usize| 0.8 * own[i] + 0.2 * middle[i])),
+            )
+        };
+        let linear: Corners = |whole, shares| {
+            let linear = Whole { inv_w: [1.0; 3], shadow: None, ..*whole };
+            linear.square(shares)
+        };
+        for (number, corners) in [three, inner, linear].into_iter().enumerate() {
+            assert!(tried(corners)[1] > 0, "wrong corners {number} survive");
+        }
+    }
+}

@@ -17,7 +17,7 @@ use glam::DVec2;
 
 use super::depth::OFF_FRACTION;
 use super::target::Colour;
-use super::texture::{Texture, Wrap};
+use super::texture::{Last, Texture, Wrap};
 
 /// How opaque a material is, and what that decides.
 #[derive(Clone, Debug, PartialEq)]
@@ -70,6 +70,13 @@ impl Opacity {
     #[must_use]
     pub fn read(&self, uv: DVec2) -> u8 {
         step(self.factor * self.map.as_ref().map_or(1.0, |map| map.at(uv))) as u8
+    }
+
+    /// The same as [`Self::of`], with the four texels of the last read.
+    #[must_use]
+    pub fn of_again(&self, uv: DVec2, last: &mut Last) -> u8 {
+        let texel = self.map.as_ref().map_or(1.0, |map| map.texture.at_again(uv, last).x);
+        self.mode.of(step(self.factor * texel) as u8)
     }
 
     /// How opaque a fragment with these texture coordinates is.
@@ -372,7 +379,11 @@ mod tests {
                     (0..=40).flat_map(|i| (0..=40 - i).map(move |j| (f64::from(i), f64::from(j))));
                 let mut fragments =
                     steps.map(|(i, j)| a + (b - a) * (i / 40.0) + (c - a) * (j / 40.0));
-                let is_other = fragments.any(|uv| opacity.of(uv) != opacity.of(a));
+                let mut last = Last::NONE;
+                let is_other = fragments.any(|uv| {
+                    assert_eq!(opacity.of_again(uv, &mut last), opacity.of(uv));
+                    opacity.of(uv) != opacity.of(a)
+                });
                 counts[0] += 1;
                 counts[1] += u32::from(is_other);
             }

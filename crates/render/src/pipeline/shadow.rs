@@ -87,12 +87,52 @@ pub struct LightView {
     /// The numbers of triangles by cells; nothing in a scene of too many.
     casters: OnceLock<Option<Casters>>,
     map: OnceLock<ShadowMap>,
+    /// Whether a piece is known to read it.
+    is_needed: OnceLock<()>,
 }
 
 #[derive(Debug)]
 struct Casters {
     triangles: Vec<[DVec3; 3]>,
-    cells: Vec<Vec<u32>>,
+    /// Where the list of each cell begins among the numbers, and where the last one ends.
+    starts: Vec<u32>,
+    numbers: Vec<u32>,
+}
+
+/// The cells that a range of texels along an axis meets.
+fn cells(from: f64, to: f64, side: f64) -> std::ops::RangeInclusive<usize> {
+    let cell = |at: f64| ((at / side).max(0.0) as usize).min(CELLS - 1);
+    cell(from)..=cell(to)
+}
+
+impl Casters {
+    /// All lists are in one piece of memory: a frame makes them anew.
+    fn new(triangles: Vec<[DVec3; 3]>, side: f64) -> Self {
+        let each = |see: &mut dyn FnMut(usize, u32)| {
+            for (number, [a, b, c]) in (0..).zip(&triangles) {
+                let (min, max) = (a.min(*b).min(*c), a.max(*b).max(*c));
+                for row in cells(min.y, max.y, side) {
+                    cells(min.x, max.x, side).for_each(|column| see(row * CELLS + column, number));
+                }
+            }
+        };
+        let mut starts = vec![0; CELLS * CELLS + 1];
+        each(&mut |cell, _| starts[cell + 1] += 1);
+        for cell in 0..CELLS * CELLS {
+            starts[cell + 1] += starts[cell];
+        }
+        let mut numbers = vec![0; starts[CELLS * CELLS] as usize];
+        let mut next = starts.clone();
+        each(&mut |cell, number| {
+            numbers[next[cell] as usize] = number;
+            next[cell] += 1;
+        });
+        Self { triangles, starts, numbers }
+    }
+
+    fn list(&self, cell: usize) -> &[u32] {
+        &self.numbers[self.starts[cell] as usize..self.starts[cell + 1] as usize]
+    }
 }
 
 /// How the depth of a plane changes for a texel along each axis, and by how much these numbers may be off.
@@ -149,7 +189,14 @@ impl LightView {
         }
         let of_map = DVec3::new(shadows.size.into(), shadows.size.into(), 1.0);
         let error = (min.abs().max(max.abs()) * scale).max(of_map) * ROUNDINGS;
-        Some(Self { shadows, places, error, casters: OnceLock::new(), map: OnceLock::new() })
+        Some(Self {
+            shadows,
+            places,
+            error,
+            casters: OnceLock::new(),
+            map: OnceLock::new(),
+            is_needed: OnceLock::new(),
+        })
     }
 
     #[must_use]
@@ -172,6 +219,16 @@ impl LightView {
             }
             map
         })
+    }
+
+    /// Notes that a piece reads the map.
+    pub fn need(&self) {
+        let _ = self.is_needed.set(());
+    }
+
+    #[must_use]
+    pub fn is_needed(&self) -> bool {
+        self.is_needed.get().is_some()
     }
 
     #[must_use]
@@ -243,7 +300,8 @@ impl LightView {
     /// Errors of the plane take half of the bias's margin at most.
     #[must_use]
     pub fn may_be_shadowed(&self, scene: &Scene, places: [DVec3; 3]) -> bool {
-        let Some(Casters { triangles, cells }) = self.casters(scene) else { return true };
+        let Some(casters) = self.casters(scene) else { return true };
+        let triangles = &casters.triangles;
         let Some(slope) = self.slope(places) else { return false };
         let [a, b, c] = places;
         let reach = self.reach().extend(0.0);
@@ -267,13 +325,13 @@ impl LightView {
             !is_beside && nearest.z < farthest && !caster.iter().all(is_behind)
         };
         let side = f64::from(self.shadows.size) / CELLS as f64;
-        let cell = |at: f64| ((at / side).max(0.0) as usize).min(CELLS - 1);
-        let (columns, rows) = (cell(min.x)..=cell(max.x), cell(min.y)..=cell(max.y));
+        let (columns, rows) = (cells(min.x, max.x, side), cells(min.y, max.y, side));
         if columns.clone().count() * rows.clone().count() > FEW_CELLS {
             return triangles.len() > MOST_COMPARISONS || triangles.iter().any(shadows);
         }
         let mut comparisons = 0;
-        rows.flat_map(|row| &cells[row * CELLS..][columns.clone()]).any(|list| {
+        let met = rows.flat_map(|row| columns.clone().map(move |column| row * CELLS + column));
+        met.map(|cell| casters.list(cell)).any(|list| {
             comparisons += list.len();
             let mut listed = list.iter().map(|number| &triangles[*number as usize]);
             comparisons > MOST_COMPARISONS || listed.any(shadows)
@@ -285,24 +343,12 @@ impl LightView {
             if scene.triangles() > MOST_CASTERS {
                 return None;
             }
-            let mut casters =
-                Casters { triangles: Vec::new(), cells: vec![Vec::new(); CELLS * CELLS] };
-            let side = f64::from(self.shadows.size) / CELLS as f64;
-            let cell = |at: f64| ((at / side) as usize).min(CELLS - 1);
+            let mut triangles = Vec::with_capacity(scene.triangles());
             for (item, places) in scene.items.iter().zip(&self.places) {
-                for triangle in item.mesh.triangles.positions() {
-                    let [a, b, c] = triangle.map_array(|number| places[number as usize]);
-                    let (min, max) = (a.min(b).min(c), a.max(b).max(c));
-                    let number = casters.triangles.len() as u32;
-                    casters.triangles.push([a, b, c]);
-                    for row in cell(min.y)..=cell(max.y) {
-                        for list in &mut casters.cells[row * CELLS..][cell(min.x)..=cell(max.x)] {
-                            list.push(number);
-                        }
-                    }
-                }
+                let own = item.mesh.triangles.positions().iter();
+                triangles.extend(own.map(|triangle| triangle.map_array(|n| places[n as usize])));
             }
-            Some(casters)
+            Some(Casters::new(triangles, f64::from(self.shadows.size) / CELLS as f64))
         };
         self.casters.get_or_init(new).as_ref()
     }

@@ -50,8 +50,8 @@ pub enum Samples {
     Four,
 }
 
-/// Triangles of materials that are not opaque, and in a scene with shadows all. They are drawn opaque and in the
-/// light, so a scene with any is for another engine.
+/// Triangles of materials that are not opaque, and in a scene with shadows all. They would be drawn opaque and in the
+/// light, so a scene with any is for another engine, and refused here.
 #[must_use]
 pub fn not_drawn(scene: &Scene) -> usize {
     let is_not_drawn = |item: &&Item| item.material.opacity.is_some() || scene.shadows.is_some();
@@ -83,7 +83,7 @@ pub fn beyond_f32(scene: &Scene, width: u32, height: u32) -> Result<usize, BadSc
 /// [`BadScene`] before anything is drawn.
 ///
 /// # Panics
-/// If a side exceeds what a frame can have.
+/// If a side exceeds what a frame can have, or the scene has triangles that are [`not_drawn`].
 pub fn render(
     scene: &Scene,
     width: u32,
@@ -110,7 +110,7 @@ pub fn render_in(
 /// As [`render_in`], over a picture that is kept: every pixel is written, none is read.
 ///
 /// # Panics
-/// If the picture does not begin at column 0 and row 0.
+/// If the picture does not begin at column 0 and row 0, or the scene has triangles that are [`not_drawn`].
 pub fn render_into(
     engine: Tiles,
     scene: &Scene,
@@ -119,6 +119,11 @@ pub fn render_into(
 ) -> Result<(), BadScene> {
     let window = picture.bounds();
     assert!(window.x0 == 0 && window.y0 == 0, "a picture that begins at {window:?}");
+    let not_drawn = not_drawn(scene);
+    assert!(
+        not_drawn == 0,
+        "tiles draw none of {not_drawn} triangles that are not opaque or in a scene with shadows"
+    );
     let whole = Whole::new(scene, window)?;
     // From the centre to the farthest sample, 6/16 px.
     let (planes, reach) = match samples {

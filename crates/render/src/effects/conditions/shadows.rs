@@ -37,6 +37,9 @@ fn has_light(scene: &Scene, item: &Item) -> bool {
 /// time.
 const LEAST_SEARCHED: i64 = 48;
 
+/// The same where another piece needs the map anyway, so that a search saves lookups and no map.
+const LEAST_SEARCHED_BESIDES: i64 = 512;
+
 pub fn may_be_shadowed(
     scene: &Scene,
     item: &Prepared<'_>,
@@ -45,9 +48,13 @@ pub fn may_be_shadowed(
 ) -> bool {
     let Some(view) = &item.light_view else { return false };
     let surfaces = piece.vertices.map_array(|vertex| Surface::from(vertex.varying));
-    (has_highlight || !piece_faces_away(item, piece))
-        && (!covers(piece, LEAST_SEARCHED)
-            || view.may_be_shadowed(scene, surfaces.map_array(|s| s.place)))
+    let least = if view.is_needed() { LEAST_SEARCHED_BESIDES } else { LEAST_SEARCHED };
+    let is_shadowed = (has_highlight || !piece_faces_away(item, piece))
+        && (!covers(piece, least) || view.may_be_shadowed(scene, surfaces.map_array(|s| s.place)));
+    if is_shadowed {
+        view.need();
+    }
+    is_shadowed
 }
 
 pub fn piece_faces_away(item: &Prepared<'_>, piece: &Piece) -> bool {
