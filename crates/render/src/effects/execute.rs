@@ -364,10 +364,10 @@ impl<E: Interpolate> Drawing<'_, '_, E> {
         let (bounds, planes) = (self.target.bounds(), self.target.antialias().planes());
         let mut samples = self.on_demand.as_mut();
         // Where samples are told apart on demand, pixels of a multisampled picture stay whole in large pieces.
-        let asked = parts
+        let checked = parts
             .as_ref()
-            .filter(|parts| parts.are_asked(piece, plan) && (planes == 1 || samples.is_none()));
-        if asked.is_some()
+            .filter(|parts| parts.are_checked(piece, plan) && (planes == 1 || samples.is_none()));
+        if checked.is_some()
             && let Some(on_demand) = samples.take()
             && !on_demand.tell_box_apart(self.engine, piece, plan.depth, self.target, counters)
         {
@@ -393,7 +393,7 @@ impl<E: Interpolate> Drawing<'_, '_, E> {
             let samples = samples.as_deref_mut();
             kernel.draw(engine, piece, part.bounds, target, samples, counters);
         };
-        match asked {
+        match checked {
             None => draw(&Part { bounds, plan, constants: Constants::default() }),
             Some(parts) => {
                 let whole = Whole::new(parts, item, piece, plan, map);

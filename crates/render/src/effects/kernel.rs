@@ -30,7 +30,7 @@ use rasterproof_core::grid::PixelRect;
 /// So many components have two attributes without a place in the light: most of what is seen through.
 const SMALL: usize = 6;
 
-/// Runs of fewer fragments are not asked whether all have one highlight.
+/// In runs of fewer fragments each highlight is computed.
 const SHORT: usize = 4;
 
 /// Where a piece is drawn and how far, with the pixels where their samples are told apart on demand, and what is counted.
@@ -130,8 +130,8 @@ pub(super) struct Kernel<'a> {
     opacity: Option<&'a Opacity>,
     /// The opacity, where it does not vary and is not that of the first corner.
     first_opacity: Option<u8>,
-    /// Whether a run is asked if all of it has one colour, before each of its fragments is.
-    asks_runs: bool,
+    /// Whether it is checked if all fragments of a run have one colour in the fog or one highlight.
+    checks_runs: bool,
 }
 
 impl<'a> Kernel<'a> {
@@ -158,7 +158,7 @@ impl<'a> Kernel<'a> {
             receiver: None,
             lit: constants.lit.unwrap_or(TAPS),
             first_opacity: constants.opacity,
-            asks_runs: part.is_some(),
+            checks_runs: part.is_some(),
             highlight: None,
             shine: [0; 3],
             fogged: None,
@@ -443,7 +443,7 @@ impl<'a> Kernel<'a> {
                 self.brighten(varyings, normal, wanted, colours);
             }
             let Some(veil) = self.veil else { return };
-            let is_alike = MASK == 0 && self.asks_runs;
+            let is_alike = MASK == 0 && self.checks_runs;
             match is_alike.then(|| veil.one_before(first(colours, wanted), depths)).flatten() {
                 Some(colour) => fill_wanted(colour, wanted, colours),
                 None => veil.apply(depths, wanted, colours),
@@ -459,7 +459,7 @@ impl<'a> Kernel<'a> {
         wanted: u32,
         colours: &mut [Colour],
     ) {
-        if let (true, Some(highlight)) = (self.asks_runs, self.highlight)
+        if let (true, Some(highlight)) = (self.checks_runs, self.highlight)
             && let Some(shine) = one_shine(highlight, varyings, normal, wanted)
         {
             for (i, colour) in colours.iter_mut().enumerate() {

@@ -1,6 +1,6 @@
 //! Parts of large pieces: what is paid for somewhere in a piece is not paid for everywhere in it.
 //!
-//! The window is cut into squares. The conditions that are asked of a piece are asked of each square of a large one again, at
+//! The window is cut into squares. The conditions of a piece are checked again in each square of a large one, at
 //! the four corners of the square in the plane of the piece, and what is left out there is left out of the square alone. A
 //! rasterizer only crops to its bounds, so a piece that is drawn square by square has the bits of the whole.
 //!
@@ -43,16 +43,16 @@ const LARGE_SIDE: u32 = 32;
 /// The absolute weights of a corner's attributes add up to at most this.
 const MOST_WEIGHT: f64 = 8.0;
 
-/// If nothing is left out of so many squares in turn, rows of squares are left unasked.
+/// If nothing is left out of so many squares in turn, some rows of squares are drawn unchecked.
 const FIRST_SQUARES: u32 = 32;
 
-/// So many rows at most before squares are asked again.
+/// So many rows of squares at most are drawn unchecked before the next one is checked.
 const MOST_ROWS: u32 = 8;
 
 /// Up to so many texels from one fragment to the next, both mostly read the same ones.
 const MOST_SHARED: f64 = 0.5;
 
-/// A policy: large pieces are asked square by square what they pay for.
+/// A policy: in large pieces it is checked square by square what is paid for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Parts {
@@ -85,8 +85,8 @@ impl Parts {
         self.side.min(1 << 12) as i32
     }
 
-    /// Whether a piece is large enough to be asked square by square.
-    pub(super) fn are_asked(&self, piece: &Piece, plan: PiecePlan) -> bool {
+    /// Whether a piece is large enough for its squares to be checked.
+    pub(super) fn are_checked(&self, piece: &Piece, plan: PiecePlan) -> bool {
         let varies = !plan.interpolates.is_empty() || plan.fog == Share::Mixed;
         varies && self.side > 0 && covers(piece, 4 * i64::from(self.side()).pow(2))
     }
@@ -121,7 +121,7 @@ struct Square {
 }
 
 impl Square {
-    /// The two triangles of it.
+    /// An attribute at the corners of the two triangles that make up the square.
     fn halves<T: Copy>(&self, of: impl Fn(&Surface) -> T) -> [[T; 3]; 2] {
         let [a, b, c, d] = &self.surfaces;
         [[of(a), of(b), of(c)], [of(b), of(c), of(d)]]
@@ -133,8 +133,7 @@ impl Square {
     }
 }
 
-/// How often squares are asked in which nothing may be left out: what asking costs is counted, not timed, so that a frame is
-/// the same each time.
+/// Squares that were checked in vain: counted and not timed, so that the plan of a frame does not depend on the machine.
 #[derive(Default)]
 struct Patience {
     /// Squares in turn in which nothing was left out.
@@ -151,7 +150,7 @@ impl Patience {
         }
     }
 
-    /// How many rows of squares are drawn as the whole piece is before the next one is asked: more and more.
+    /// How many rows of squares are drawn as the whole piece is before the next one is checked: more and more.
     fn rows_left_out(&mut self) -> u32 {
         if self.vain < FIRST_SQUARES {
             return 0;
@@ -162,7 +161,7 @@ impl Patience {
     }
 }
 
-/// A piece that is asked square by square.
+/// A piece that is checked square by square.
 pub(super) struct Whole<'a> {
     rule: &'a Rule,
     item: &'a Prepared<'a>,
@@ -263,7 +262,7 @@ impl<'a> Whole<'a> {
                 x0 = x1;
                 let Some(shares) = self.shares(rect) else { continue };
                 let own = self.square(shares).map(|square| self.plan(&square));
-                // What saves less than it takes to draw a square by itself is left as it is.
+                // What saves less than it takes to draw a square by itself is drawn as the piece is.
                 let own =
                     own.filter(|(plan, constants)| 4 * self.price(*plan, *constants) <= 3 * price);
                 patience.see(own.is_some());

@@ -126,7 +126,7 @@ impl<'a> Prepared<'a> {
         }
     }
 
-    /// Its number in the scene.
+    /// The number of the item in its scene.
     pub fn index(&self) -> usize {
         self.index
     }

@@ -114,9 +114,9 @@ impl Facts {
         }
         if rule.specular.is_open() {
             // What faces away without a highlight needs no shadow map, which costs more than all of these.
-            let is_asked = covers(piece, LEAST_SHINY)
+            let is_checked = covers(piece, LEAST_SHINY)
                 || (rule.shadows.is_open() && shadows::piece_faces_away(item, piece));
-            facts.is_shiny = !is_asked || specular::may_show(item, piece);
+            facts.is_shiny = !is_checked || specular::may_show(item, piece);
         }
         if rule.shadows.is_open() {
             let has_highlight = rule.specular.pays(facts.is_shiny);
