@@ -1,8 +1,9 @@
 //! Rendered frames: as PNG, and two of them compared pixel for pixel and depth for depth.
 
-use std::io::{self, Cursor};
+use std::io;
 
-use image::{ImageFormat, RgbImage};
+use image::RgbImage;
+use image::codecs::png::PngEncoder;
 
 use super::lettering::{Size, write};
 use rasterproof_core::frame::Frame;
@@ -23,11 +24,10 @@ pub fn rgb(picture: &Frame<Colour>) -> RgbImage {
     })
 }
 
+/// The encoder is named: `write_to`, which takes a format, would compile those of all formats into this crate.
 pub fn png(picture: &Frame<Colour>) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
-    rgb(picture)
-        .write_to(&mut Cursor::new(&mut bytes), ImageFormat::Png)
-        .map_err(io::Error::other)?;
+    rgb(picture).write_with_encoder(PngEncoder::new(&mut bytes)).map_err(io::Error::other)?;
     Ok(bytes)
 }
 
