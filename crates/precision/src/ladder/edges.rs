@@ -39,12 +39,12 @@ pub struct Integer<T, W>(PhantomData<(T, W)>);
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Robust;
 
-type Point<T> = [T; 2];
+type PointIn<T> = [T; 2];
 
 /// Whether an edge that runs from `a` to `b` with the inside on its right hand (y down) keeps the
 /// samples on it: it goes up, or it is flat and goes right.
 #[inline]
-fn is_top_left<T: PartialOrd>(a: &Point<T>, b: &Point<T>) -> bool {
+fn is_top_left<T: PartialOrd>(a: &PointIn<T>, b: &PointIn<T>) -> bool {
     b[1] < a[1] || (b[1] == a[1] && b[0] > a[0])
 }
 
@@ -120,7 +120,7 @@ fn visit_stepped<W: Copy + Add<Output = W>>(
 /// The pixels of `bounds` that may have their centre in the bounding box: at most one too many on a
 /// side, where a difference rounds.
 #[inline]
-fn pixel_box<T: Real>(corners: &[Point<T>; 3], bounds: PixelRect) -> PixelRect {
+fn pixel_box<T: Real>(corners: &[PointIn<T>; 3], bounds: PixelRect) -> PixelRect {
     let range = |axis: usize| {
         let [a, b, c] = [corners[0][axis], corners[1][axis], corners[2][axis]];
         let first: i32 = (a.min(b).min(c) - T::HALF).ceil().as_();
@@ -133,13 +133,13 @@ fn pixel_box<T: Real>(corners: &[Point<T>; 3], bounds: PixelRect) -> PixelRect {
 
 /// dx (py - ay) - dy (px - ax), of the edge from a to b.
 #[inline]
-fn side<T: Real>(a: &Point<T>, b: &Point<T>, p: &Point<T>) -> T {
+fn side<T: Real>(a: &PointIn<T>, b: &PointIn<T>, p: &PointIn<T>) -> T {
     (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])
 }
 
 /// As [`side`], always computed from the smaller end.
 #[inline]
-fn ordered_side<T: Real>(a: &Point<T>, b: &Point<T>, p: &Point<T>) -> T {
+fn ordered_side<T: Real>(a: &PointIn<T>, b: &PointIn<T>, p: &PointIn<T>) -> T {
     if a[1] < b[1] || (a[1] == b[1] && a[0] <= b[0]) { side(a, b, p) } else { -side(b, a, p) }
 }
 
@@ -147,8 +147,8 @@ fn ordered_side<T: Real>(a: &Point<T>, b: &Point<T>, p: &Point<T>) -> T {
 #[inline]
 fn clockwise<T: Real>(
     corners: &FreeCorners,
-    side: impl Fn(&Point<T>, &Point<T>, &Point<T>) -> T,
-) -> Option<[Point<T>; 3]> {
+    side: impl Fn(&PointIn<T>, &PointIn<T>, &PointIn<T>) -> T,
+) -> Option<[PointIn<T>; 3]> {
     let [a, b, c] = corners.px().map_array(|p| p.map_array(T::of));
     let area = side(&a, &b, &c);
     if area > T::zero() {
@@ -162,12 +162,12 @@ fn clockwise<T: Real>(
 
 /// The three edges, each from its first to its second corner.
 #[inline]
-fn edges<T: Copy>([a, b, c]: [Point<T>; 3]) -> [[Point<T>; 2]; 3] {
+fn edges<T: Copy>([a, b, c]: [PointIn<T>; 3]) -> [[PointIn<T>; 2]; 3] {
     [[b, c], [c, a], [a, b]]
 }
 
 #[inline]
-fn centre<T: Real>(x_px: i32, y_px: i32) -> Point<T> {
+fn centre<T: Real>(x_px: i32, y_px: i32) -> PointIn<T> {
     [x_px, y_px].map_array(|px| T::of(f64::from(px)) + T::HALF)
 }
 
@@ -176,7 +176,7 @@ fn centre<T: Real>(x_px: i32, y_px: i32) -> Point<T> {
 fn cover_by<T: Real>(
     corners: &FreeCorners,
     bounds: PixelRect,
-    side: impl Fn(&Point<T>, &Point<T>, &Point<T>) -> T,
+    side: impl Fn(&PointIn<T>, &PointIn<T>, &PointIn<T>) -> T,
     emit: impl FnMut(Span),
 ) -> Option<Work> {
     let Some(corners) = clockwise(corners, &side) else { return Some(Work::default()) };
@@ -210,7 +210,7 @@ impl<T: Real> Cover for Ordered<T> {
 impl Cover for Robust {
     #[inline]
     fn cover(&self, free: &FreeCorners, bounds: PixelRect, emit: impl FnMut(Span)) -> Option<Work> {
-        let coord = |p: &Point<f64>| Coord { x: p[0], y: p[1] };
+        let coord = |p: &PointIn<f64>| Coord { x: p[0], y: p[1] };
         // Expanded, orient2d(a, b, p) is E(p).
         cover_by(free, bounds, |a, b, p| orient2d(coord(a), coord(b), coord(p)), emit)
     }
@@ -256,7 +256,7 @@ where
     #[inline]
     fn cover_lattice(corners: &Corners, bounds: PixelRect, emit: impl FnMut(Span)) -> Work {
         let [a, b, c] = corners.map_array(|p| [i64::from(p.x), i64::from(p.y)]);
-        let side = |a: &Point<i64>, b: &Point<i64>, p: &Point<i64>| -> T {
+        let side = |a: &PointIn<i64>, b: &PointIn<i64>, p: &PointIn<i64>| -> T {
             let wide = |v: i64| -> T { v.as_() };
             wide(b[0] - a[0]) * wide(p[1] - a[1]) - wide(b[1] - a[1]) * wide(p[0] - a[0])
         };

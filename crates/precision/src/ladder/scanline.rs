@@ -30,23 +30,23 @@ pub struct BigIntegers;
 
 /// One side of a triangle on the way down.
 trait Side: Sized {
-    type Point: Clone;
+    type Corner: Clone;
     /// Divisions of the set-up and of each row.
     const DIVISIONS: [u64; 2];
     /// The side from `a` down to `b`, at the centre of row `y_px`.
-    fn start(a: &Self::Point, b: &Self::Point, y_px: i32) -> Self;
+    fn start(a: &Self::Corner, b: &Self::Corner, y_px: i32) -> Self;
     /// The first column whose centre is not left of the side, in the present row.
     fn column(&self) -> i32;
     /// Goes down one row.
     fn step(&mut self);
     /// The first row whose centre is not above a point.
-    fn first_row(point: &Self::Point) -> i32;
+    fn first_row(point: &Self::Corner) -> i32;
 }
 
 /// Walks the rows between `corners`, sorted from the top down.
 #[inline]
 fn walk<S: Side>(
-    corners: &[S::Point; 3],
+    corners: &[S::Corner; 3],
     bounds: PixelRect,
     mut emit: impl FnMut(Span),
 ) -> Option<Work> {
@@ -112,7 +112,7 @@ struct AccumulatedSide<T> {
 }
 
 impl<T: Real> Side for AccumulatedSide<T> {
-    type Point = [T; 2];
+    type Corner = [T; 2];
     const DIVISIONS: [u64; 2] = [1, 0];
     #[inline]
     fn start(a: &[T; 2], b: &[T; 2], y_px: i32) -> Self {
@@ -141,7 +141,7 @@ struct DirectSide<T> {
 }
 
 impl<T: Real> Side for DirectSide<T> {
-    type Point = [T; 2];
+    type Corner = [T; 2];
     const DIVISIONS: [u64; 2] = [0, 1];
     #[inline]
     fn start(a: &[T; 2], b: &[T; 2], y_px: i32) -> Self {
@@ -198,7 +198,7 @@ fn ceil_div(n: &BigInt, d: &BigInt) -> i32 {
 }
 
 impl Side for BigSide {
-    type Point = BigPoint;
+    type Corner = BigPoint;
     const DIVISIONS: [u64; 2] = [0, 1];
     fn start(a: &BigPoint, b: &BigPoint, y_px: i32) -> Self {
         Self { a: a.clone(), dx: &b.x - &a.x, dy: &b.y - &a.y, y_px }

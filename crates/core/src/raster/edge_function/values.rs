@@ -126,7 +126,7 @@ pub(super) fn runs_in<V: Varying, const AFFINE: bool>(
                 let mut depths = [0.0; RUN];
                 let depths = &mut depths[..(end_px - x_px) as usize];
                 values.fill_depths(e, depths);
-                let values = &mut Part::<V, AFFINE> { values: &values, e, room: &mut room };
+                let values = &mut EdgeRun::<V, AFFINE> { values: &values, e, room: &mut room };
                 take(Run { y_px, x0_px: x_px, depths, values });
                 x_px = end_px;
             }
@@ -204,13 +204,13 @@ impl<V: Varying> Values<V> {
 }
 
 /// The run at whose first pixel the three E are `e`: f64 steps them exactly, or it has one pixel.
-struct Part<'a, V, const AFFINE: bool> {
+struct EdgeRun<'a, V, const AFFINE: bool> {
     values: &'a Values<V>,
     e: [f64; 3],
     room: &'a mut [V; RUN],
 }
 
-impl<V: Varying, const AFFINE: bool> Varyings<V> for Part<'_, V, AFFINE> {
+impl<V: Varying, const AFFINE: bool> Varyings<V> for EdgeRun<'_, V, AFFINE> {
     fn varyings(&mut self, from: usize, to: usize) -> &[V] {
         let Values { first: (_, v0), varying: [d1, d2], q, inv_area, steps, .. } = *self.values;
         let e = self.e;

@@ -102,7 +102,7 @@ fn runs_in<V: Varying, const AFFINE: bool>(
                 for (number, depth) in (0_i32..).zip(depths.iter_mut()) {
                     *depth = across.depth(across.distances(number));
                 }
-                let mut values = Part::<V, AFFINE> { row: &mut row, across, room: &mut room };
+                let mut values = RowRun::<V, AFFINE> { row: &mut row, across, room: &mut room };
                 take(Run { y_px, x0_px: x_px, depths, values: &mut values });
                 x_px = end_px;
             }
@@ -271,7 +271,7 @@ impl<V: Varying> Mix<V> {
 }
 
 /// The run of a part of a row, whose distances f64 steps exactly, or of one pixel.
-struct Part<'a, 'b, V, const AFFINE: bool> {
+struct RowRun<'a, 'b, V, const AFFINE: bool> {
     row: &'a mut Row<'b, V>,
     across: Across,
     room: &'a mut [V; RUN],
@@ -364,7 +364,7 @@ fn fill_span<V: Varying, const AFFINE: bool>(
     }
 }
 
-impl<V: Varying, const AFFINE: bool> Varyings<V> for Part<'_, '_, V, AFFINE> {
+impl<V: Varying, const AFFINE: bool> Varyings<V> for RowRun<'_, '_, V, AFFINE> {
     fn varyings(&mut self, from: usize, to: usize) -> &[V] {
         let (across, Row { left, right, mix }) = (self.across, &mut *self.row);
         let mix = *mix.get_or_insert_with(|| Mix::new(left, right));
