@@ -433,6 +433,7 @@ fn answers(engine: &str, side: u32, requests: &[u8]) -> Vec<Option<Hits>> {
 /// One batch for each engine and screen: the program gives every recorded hit count, double hits
 /// and shapes that leave the screen among them.
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn book_triangles_as_recorded_through_the_protocol() {
     let all = records("book-triangles");
     for (engine, side) in [

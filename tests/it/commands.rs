@@ -20,6 +20,7 @@ fn verify_agrees_and_says_how_to_repeat() {
 
 /// Commands stay whole, and so do the tables of what is wrong; all else fits.
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn text_fits_a_narrow_terminal() {
     let engine = format!("judge --cases 20 -- {PROGRAM} engine scanline");
     for words in [
@@ -261,6 +262,7 @@ fn inspect_explains_a_pixel() {
 
 /// Points as they are printed are read; faults and pages belong to `inspect`, too.
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn inspect_takes_what_the_tool_prints() {
     check(["inspect", "(0.5, 0.5) (5.5, 0.5) (5.5, 5.5)"], 0)
         .prints("triangle (0.5, 0.5) (5.5, 0.5) (5.5, 5.5)");

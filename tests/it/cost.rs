@@ -25,6 +25,7 @@ fn error(board: &Board, rung_name: &str, column_name: &str, measure: usize) -> f
 /// The error columns and the counted work of seed 1. The same in every build: the snapshot holds
 /// for tests, for releases and for debug builds.
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn cost_errors_of_a_seed() {
     let text: Vec<_> = Ladder::ALL.map(|ladder| board::text(&untimed(ladder, 1), false)).into();
     let text = text.join("\n");
@@ -56,6 +57,7 @@ fn cost_promises_are_kept() {
 /// What theory says of floats on hard scenes: they fail, f32 more than f64, sums more than direct
 /// evaluation, and stepping most of all.
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn cost_orderings() {
     let scan = untimed(Ladder::Scanline, 1);
     let edge = untimed(Ladder::EdgeFunction, 1);

@@ -79,6 +79,7 @@ fn course_judges_every_step() {
 
 /// Earlier steps forgive what later ones are about, and nothing else.
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn course_steps_forgive_what_comes_later() {
     let folder = Folder::new("course-forgives");
     for (step, engine, status) in [
@@ -405,6 +406,7 @@ const CPP_BODIES: [(&str, &str); 2] = [
 
 /// The starters of the compiled languages hand over piles and corners, and write what comes back.
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn course_starters_order_and_clip() {
     for (language, tool, source, bodies, build) in [
         ("rust", "rustc", "starter.rs", RUST_BODIES, "rustc -O --edition 2024 starter.rs"),
@@ -491,6 +493,7 @@ fn course_grades() {
 /// Bounds of memory and time are real: without them these programs answer, with them they do not.
 #[cfg(target_os = "linux")]
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn course_bounds_what_it_grades() {
     let folder = Folder::new("course-bounds");
     if !has("python3") {

@@ -173,6 +173,7 @@ fn fuzz(cases: u64, name: &str) {
 }
 
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn mutated_models_never_panic() {
     fuzz(3_000, "fuzz");
 }

@@ -654,6 +654,7 @@ fn page_of_each_command_is_in_the_index() {
 
 /// A frame is shown as it is where it has room.
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn page_shows_frames_as_they_are() {
     let (_, _, page) = run("page-frame", &["render", "cube", "--report"]);
     let Some(mut browser) = Browser::start("frame") else { return };
@@ -720,6 +721,7 @@ fn every_section() -> Report {
 }
 
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn page_takes_every_section_and_any_text() {
     let path = folder("page-sections").join("index.html");
     std::fs::write(&path, page(&every_section())).unwrap();

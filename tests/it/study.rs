@@ -212,6 +212,7 @@ fn counted(groups: &Value) -> Vec<Value> {
 
 /// Each number of a study that is not a time is also what another command says, which answers one of its questions alone.
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn other_commands_find_the_numbers_of_a_study() {
     let folder = Folder::new("study-again");
     // A shiny box, half of a glass pane before it, a coplanar overlap and a square that is listed twice.
