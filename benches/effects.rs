@@ -19,6 +19,7 @@
 )]
 
 use std::process::ExitCode;
+use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 use rasterproof_registry::engines::Drawer;
@@ -180,7 +181,7 @@ fn slivers(kind: Slivers, count: u32, width: f64, varies: bool, rng: &mut Rng) -
             }
         };
         let first = mesh.positions.len() as u32;
-        mesh.positions.extend(corners);
+        Arc::make_mut(&mut mesh.positions).extend(corners);
         mesh.triangles.push([0, 1, 2].map(|k| Corner {
             position: first + k,
             colour: DVec3::new(if varies { f64::from(k) / 2.0 } else { 0.5 }, 0.8, 0.3),

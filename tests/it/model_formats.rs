@@ -153,6 +153,64 @@ fn a_ply_of_any_kind_is_the_same_as_an_obj() {
     assert_eq!(model.origins[0].lines, [21, 22, 23, 24]);
 }
 
+/// A strip of so many positions as a PLY, whose faces are triangles but for one polygon of four corners.
+fn long_strip(positions: u32, polygon: usize) -> Vec<u8> {
+    let faces = positions - 2;
+    let mut bytes = format!(
+        "ply\nformat binary_little_endian 1.0\nelement vertex {positions}\nproperty float x\nproperty float y\n\
+         property float z\nelement face {faces}\nproperty list uchar int vertex_indices\nend_header\n"
+    )
+    .into_bytes();
+    for number in 0..positions {
+        let position = [number as f32, (number % 2) as f32, (number / 7) as f32];
+        bytes.extend(position.iter().flat_map(|number| number.to_le_bytes()));
+    }
+    for first in 0..faces {
+        let corners: &[u32] = match first as usize == polygon {
+            true => &[first, first + 2, first + 3, first + 1],
+            false => &[first, first + 1, first + 2],
+        };
+        bytes.push(corners.len() as u8);
+        bytes.extend(corners.iter().flat_map(|number| number.to_le_bytes()));
+    }
+    bytes
+}
+
+/// Files of more bytes than are read at once.
+#[test]
+fn a_binary_file_is_read_in_pieces() {
+    let count = 500_000;
+    let faces = count as usize - 2;
+    for polygon in [usize::MAX, 0, faces / 2, faces - 2] {
+        let bytes = long_strip(count, polygon);
+        let model = load("strip.ply", &bytes).unwrap();
+        let mesh = &model.items[0].mesh;
+        assert_eq!(mesh.positions.len(), count as usize);
+        let wrong = (0..count).zip(mesh.positions.iter()).find(|(number, position)| {
+            let z = -f64::from(number / 7);
+            position.to_array() != [f64::from(*number), f64::from(number % 2), z]
+        });
+        assert_eq!(wrong, None);
+        let triangles = mesh.triangles.positions();
+        assert_eq!(triangles.len(), faces + usize::from(polygon < faces));
+        for (number, triangle) in triangles.iter().enumerate() {
+            let face = model.origins[0].face(number).unwrap() - 1;
+            assert_eq!(face as usize, number - usize::from(number > polygon), "{number}");
+            if face as usize != polygon {
+                assert_eq!(*triangle, [face, face + 1, face + 2]);
+            }
+        }
+        // Cut off at the border of a record, inside one, and inside the positions.
+        for less in [13, 1, 5_000_000, bytes.len() - 3_000_005] {
+            let error = load("cut.ply", &bytes[..bytes.len() - less]).unwrap_err().to_string();
+            assert!(error.contains(": the file is cut off"), "{less}: {error}");
+        }
+        let more = [&bytes[..], b"12345"].concat();
+        let [warning] = &load("more.ply", &more).unwrap().warnings[..] else { panic!("one") };
+        assert!(warning.contains("5 bytes follow the last element"), "{warning}");
+    }
+}
+
 #[test]
 fn a_ply_has_polygons_strips_and_texture_coordinates() {
     let head = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n\

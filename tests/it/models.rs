@@ -142,7 +142,7 @@ fn render_draws_models_by_both() {
     let path = folder.join("ball.obj");
     let mut text = String::new();
     let mesh = shapes::sphere(glam::DVec3::ZERO, 1.0, 32, 16);
-    for p in &mesh.positions {
+    for p in mesh.positions.iter() {
         text += &format!("v {} {} {}\n", p.x, p.y, p.z);
     }
     for t in mesh.triangles.positions() {
@@ -280,7 +280,7 @@ fn a_sphere_far_from_the_origin_is_drawn_as_at_the_origin() {
     let rounded = |x: f64| (x * 1024.0).round() / 1024.0;
     let text = |centre: [f64; 3]| {
         let mut text = String::new();
-        for p in &mesh.positions {
+        for p in mesh.positions.iter() {
             let [x, y, z] =
                 [rounded(p.x) + centre[0], rounded(p.y) + centre[1], rounded(p.z) + centre[2]];
             text += &format!("v {x} {y} {z}\n");
@@ -629,7 +629,7 @@ fn another_reader_reads_the_same() {
     let folder = folder("second");
     let mesh = shapes::sphere(glam::DVec3::new(0.5, -2.0, 3.0), 1.5, 24, 12);
     let mut text = String::new();
-    for p in &mesh.positions {
+    for p in mesh.positions.iter() {
         let n = *p - glam::DVec3::new(0.5, -2.0, 3.0);
         text +=
             &format!("v {} {} {}\nvn {} {} {}\nvt {} {}\n", p.x, p.y, p.z, n.x, n.y, n.z, p.x, p.y);

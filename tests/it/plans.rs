@@ -2,6 +2,7 @@
 //! how they are shown.
 
 use std::fs;
+use std::sync::Arc;
 
 use glam::{DMat4, DVec3};
 use rasterproof_registry::engines::Drawer;
@@ -255,7 +256,7 @@ fn what_overlaps_at_first_sight_is_not_listed() {
             let quad = [corner(0.0, 0.0), corner(0.06, 0.0), corner(0.06, 0.06), corner(0.0, 0.06)];
             let quad = shapes::quad(quad);
             let first = mesh.positions.len() as u32;
-            mesh.positions.extend(quad.positions);
+            Arc::make_mut(&mut mesh.positions).extend_from_slice(&quad.positions);
             mesh.triangles.extend(quad.triangles.iter().map(|triangle| {
                 triangle.map(|corner| Corner { position: corner.position + first, ..corner })
             }));

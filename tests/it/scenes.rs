@@ -496,7 +496,7 @@ fn screen(right: f64, z: [f64; 2]) -> Mesh {
 fn a_pane_hides_nothing() {
     let (mut mesh, far) = (screen(1.0, [-0.5; 2]), screen(1.0, [0.5; 2]));
     let first = mesh.positions.len() as u32;
-    mesh.positions.extend(&far.positions);
+    Arc::make_mut(&mut mesh.positions).extend_from_slice(&far.positions);
     for mut triangle in far.triangles.iter() {
         triangle.iter_mut().for_each(|corner| corner.position += first);
         mesh.triangles.push(triangle);

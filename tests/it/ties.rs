@@ -31,7 +31,7 @@ fn square(diagonal: usize, colour: DVec3, model: DMat4) -> Item {
     };
     let triangles = [[[0, 1, 2], [0, 2, 3]], [[0, 1, 3], [1, 2, 3]]][diagonal];
     let mesh = Mesh {
-        positions: positions.map(|(x, y)| DVec3::new(x, y, 0.0)).to_vec(),
+        positions: positions.map(|(x, y)| DVec3::new(x, y, 0.0)).to_vec().into(),
         triangles: triangles.map(|indices| indices.map(corner)).into_iter().collect(),
     };
     Item { model, ..Item::new(mesh, Material { colour, ..Material::default() }) }
@@ -275,7 +275,7 @@ fn far_texture(far: f64, filter: Filter) -> Scene {
     };
     let positions = [(-1.0, -1.0, 0.0), (1.0, -1.0, 0.6), (0.0, 1.0, -0.4)];
     let mesh = Mesh {
-        positions: positions.map(|(x, y, z)| DVec3::new(x, y, z)).to_vec(),
+        positions: positions.map(|(x, y, z)| DVec3::new(x, y, z)).to_vec().into(),
         triangles: [[corner(0, 0.0, 0.0), corner(1, far, 0.0), corner(2, 0.3 * far, far)]]
             .into_iter()
             .collect(),

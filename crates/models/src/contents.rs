@@ -8,6 +8,7 @@ use glam::{DMat4, DVec2, DVec3};
 use rasterproof_render::pipeline::highlight::Specular;
 use rasterproof_render::pipeline::opacity::Opacity;
 use rasterproof_render::pipeline::texture::Texture;
+use rayon::prelude::*;
 
 /// What a reader counts of faces with fewer than three corners, which show nothing.
 pub(crate) const INCOMPLETE_FACE: &str = "incomplete face";
@@ -55,6 +56,14 @@ pub(crate) fn key(position: DVec3) -> [u64; 3] {
 
 /// Fewer records than this are read by one thread, because handing them to another one would take longer.
 pub(crate) const SHARE: usize = 1 << 14;
+
+/// The index of the first value for which something is true.
+pub(crate) fn first<T: Sync>(values: &[T], is_true: impl Fn(&T) -> bool + Sync) -> Option<usize> {
+    // All values of a share are looked at, which takes less time than stopping at the first one.
+    let any = |share: &[T]| share.iter().fold(false, |any, value| any | is_true(value));
+    let start = SHARE * values.par_chunks(SHARE).position_first(any)?;
+    values[start..].iter().position(is_true).map(|number| start + number)
+}
 
 /// Stands in a list of numbers for a corner that has none.
 pub(crate) const NONE: u32 = u32::MAX;

@@ -2,15 +2,19 @@
 
 use std::collections::HashMap;
 use std::path::Path;
+use std::sync::Arc;
 
 use glam::{DMat3, DMat4, DVec2, DVec3, DVec4};
 use rasterproof_host::text::printable_path;
 use rasterproof_render::pipeline::assemble::Cull;
 use rasterproof_render::pipeline::highlight::Specular;
+use rasterproof_render::scene;
 use rasterproof_render::scene::{Attribute, Item, Material, Mesh, Shading, Triangles};
 use rayon::prelude::*;
 
-use crate::contents::{Contents, FilePart, INCOMPLETE_FACE, NONE, Numbers, Surface, key};
+use crate::contents::{
+    Contents, FilePart, INCOMPLETE_FACE, NONE, Numbers, SHARE, Surface, first, key,
+};
 use crate::polygons::{self, Odd, Shape};
 use crate::{BadFile, Format, Model, Normals, Options, Origin, Up, Warnings, bad, counted};
 
@@ -41,7 +45,7 @@ pub(crate) fn model(
         let surface = part.material.and_then(|number| contents.materials.get(number));
         let material = material(surface, &part, options.shading);
         let name = surface.map_or(String::new(), |surface| surface.name.clone());
-        let (faces, lines, concave) = (Vec::new(), Vec::new(), Vec::new());
+        let (faces, lines, concave) = (None, Vec::new(), Vec::new());
         let part_name = part.name.clone();
         let mut origin =
             Origin { part: part_name, material: name, faces, lines, concave, first_face };
@@ -106,7 +110,7 @@ fn place(path: &Path, part: &mut FilePart, turn: DMat4) -> Result<(), BadFile> {
     }
     let is_far =
         |position: &DVec3| !position.is_finite() || position.abs().max_element() > MOST_COORDINATE;
-    match part.positions.iter().position(is_far) {
+    match first(&part.positions, is_far) {
         Some(number) => {
             let cause = format!(
                 "position {} of part '{}' is not a finite number up to 1e38 in size: repair it in the program that wrote the file",
@@ -197,8 +201,7 @@ fn mesh(
     origin: &mut Origin,
     warnings: &mut Warnings,
 ) -> Mesh {
-    let attributes = (part_normals(&mut part, smooth, normals), part_uvs(&mut part));
-    let (part_normals, part_uvs) = attributes;
+    let (normals, uvs) = (part_normals(&mut part, smooth, normals), part_uvs(&mut part));
     let colours = match std::mem::take(&mut part.colours) {
         colours if colours.is_empty() => Attribute::Same(DVec3::ONE),
         mut colours => {
@@ -206,19 +209,23 @@ fn mesh(
             Attribute::OfPositions(colours)
         }
     };
-    let triangles = if part.polygons.are_triangles() {
-        let last = origin.first_face + part.polygons.len() as u32;
-        origin.faces = (origin.first_face..last).collect();
-        origin.lines = std::mem::take(&mut part.polygons.lines);
-        Triangles::new(std::mem::take(&mut part.corners), colours, part_normals, part_uvs)
-    } else {
-        let cut = cut(path, &part, origin, warnings);
-        let positions = cut.iter().map(|&corner| part.corners[corner as usize]).collect();
-        let (normals, uvs) = (of_cut(part_normals, &cut), of_cut(part_uvs, &cut));
-        Triangles::new(positions, colours, normals, uvs)
+    let cut = (!part.polygons.are_triangles()).then(|| cut(path, &part, origin, warnings));
+    let corners = match &cut {
+        Some(cut) => cut.iter().map(|&corner| part.corners[corner as usize]).collect(),
+        None => {
+            origin.lines = part.polygons.lines;
+            part.corners
+        }
     };
     let mut positions = part.positions;
-    positions.iter_mut().for_each(|position| *position = mirrored(*position));
+    let each = positions.par_iter_mut().with_min_len(SHARE);
+    each.for_each(|position| *position = mirrored(*position));
+    let positions = Arc::new(positions);
+    let normals = match normals {
+        Some(values) => scene::Normals::Given(of_cut(values, cut.as_deref())),
+        None => scene::Normals::Flat(Arc::clone(&positions)),
+    };
+    let triangles = Triangles::new(corners, colours, normals, of_cut(uvs, cut.as_deref()));
     Mesh { positions, triangles }
 }
 
@@ -230,7 +237,7 @@ fn mirrored(v: DVec3) -> DVec3 {
 fn cut(path: &Path, part: &FilePart, origin: &mut Origin, warnings: &mut Warnings) -> Vec<u32> {
     let most = part.corners.len() - 2 * part.polygons.len().min(part.corners.len() / 2);
     let mut triangles: Vec<u32> = Vec::with_capacity(3 * most);
-    let mut points = Vec::new();
+    let (mut points, mut faces) = (Vec::new(), Vec::new());
     for number in 0..part.polygons.len() {
         let corners = part.polygons.corners(number);
         let first_corner = corners.start as u32;
@@ -241,7 +248,7 @@ fn cut(path: &Path, part: &FilePart, origin: &mut Origin, warnings: &mut Warning
         let first = triangles.len() as u32 / 3;
         let mut emit = |corners: [usize; 3]| {
             triangles.extend(corners.map(|corner| first_corner + corner as u32));
-            origin.faces.push(face);
+            faces.push(face);
             if line > 0 {
                 origin.lines.push(line);
             }
@@ -264,17 +271,18 @@ fn cut(path: &Path, part: &FilePart, origin: &mut Origin, warnings: &mut Warning
             warnings.line(&format!("{path}: {kind}"), &format!("{place}, {drawn}"));
         }
     }
+    origin.faces = Some(faces);
     triangles
 }
 
-/// An attribute of all corners of a part as one of the corners of its triangles.
-fn of_cut<V>(attribute: Attribute<V>, cut: &[u32]) -> Attribute<V> {
-    match attribute {
-        Attribute::Indexed { values, indices } => {
+/// An attribute of all corners of a part as one of the corners of its triangles, if it had to be cut.
+fn of_cut<V>(attribute: Attribute<V>, cut: Option<&[u32]>) -> Attribute<V> {
+    match (attribute, cut) {
+        (Attribute::Indexed { values, indices }, Some(cut)) => {
             let indices = cut.iter().map(|&corner| indices[corner as usize]).collect();
             Attribute::Indexed { values, indices }
         }
-        same => same,
+        (same, _) => same,
     }
 }
 
@@ -295,8 +303,13 @@ fn part_uvs(part: &mut FilePart) -> Attribute<DVec2> {
     }
 }
 
-/// The normals of the corners of a part: those of the file, else those of smooth or flat polygons.
-fn part_normals(part: &mut FilePart, smooth: &SmoothNormals, normals: Normals) -> Attribute<DVec3> {
+/// The normals of the corners of a part: those of the file, else those of smooth or flat polygons. Nothing where all are those
+/// of flat triangles.
+fn part_normals(
+    part: &mut FilePart,
+    smooth: &SmoothNormals,
+    normals: Normals,
+) -> Option<Attribute<DVec3>> {
     let mut values = std::mem::take(&mut part.normals);
     let mut numbers = std::mem::take(&mut part.normal_numbers);
     if normals == Normals::Flat {
@@ -311,32 +324,17 @@ fn part_normals(part: &mut FilePart, smooth: &SmoothNormals, normals: Normals) -
     }
     let is_smooth = normals == Normals::Smooth || part.polygons.is_smooth();
     let point = |corner: usize| part.positions[part.corners[corner] as usize];
-    let flat = |number: usize, points: &mut Vec<DVec3>| {
-        let corners = part.polygons.corners(number);
-        if corners.len() == 3 {
-            let points = [0, 1, 2].map(|at| point(corners.start + at));
-            return polygons::normal(&points).normalize_or_zero();
-        }
-        points.clear();
-        points.extend(corners.map(point));
-        polygons::normal(points).normalize_or_zero()
-    };
-    let count = part.polygons.len();
     match numbers {
-        Numbers::OfPositions if are_there => return Attribute::OfPositions(values),
+        Numbers::OfPositions if are_there => return Some(Attribute::OfPositions(values)),
         Numbers::OfCorners(indices) if are_there && !indices.contains(&NONE) => {
-            return Attribute::Indexed { values, indices };
+            return Some(Attribute::Indexed { values, indices });
         }
-        Numbers::Nothing if !is_smooth && part.polygons.are_triangles() => {
-            let numbers = (0..count).into_par_iter().with_min_len(1 << 12);
-            let flat = numbers.map(|number| mirrored(flat(number, &mut Vec::new())));
-            return Attribute::OfTriangles(flat.collect());
-        }
+        Numbers::Nothing if !is_smooth && part.polygons.are_triangles() => return None,
         _ => {}
     }
     let mut indices = Vec::with_capacity(part.corners.len());
     let mut points = Vec::new();
-    for number in 0..count {
+    for number in 0..part.polygons.len() {
         let group = group(part.polygons.smoothing(number), normals);
         // The number of the polygon's own normal among the values.
         let mut of_polygon = None;
@@ -354,11 +352,13 @@ fn part_normals(part: &mut FilePart, smooth: &SmoothNormals, normals: Normals) -
                     next
                 }
                 None => *of_polygon.get_or_insert_with(|| {
-                    values.push(mirrored(flat(number, &mut points)));
+                    points.clear();
+                    points.extend(part.polygons.corners(number).map(point));
+                    values.push(mirrored(polygons::normal(&points).normalize_or_zero()));
                     next
                 }),
             });
         }
     }
-    Attribute::Indexed { values, indices }
+    Some(Attribute::Indexed { values, indices })
 }

@@ -3,6 +3,7 @@
 //! A reader turns the bytes of one format into `Contents`: polygons in the file's own coordinates, materials, and what
 //! the file contains that is not drawn. [`load`] makes items of a scene of them, the same way for every format.
 
+mod ahead;
 mod contents;
 mod format;
 mod gltf;
@@ -24,6 +25,7 @@ use rasterproof_host::text::{printable_path, printable_short};
 use rasterproof_host::{input, limits};
 use rasterproof_render::scene::{Item, Shading};
 
+use ahead::Ahead;
 pub use format::Format;
 use text::Text;
 pub use textures::load_texture;
@@ -104,8 +106,9 @@ pub struct Origin {
     pub part: String,
     /// The name of the material; empty without one.
     pub material: String,
-    /// For each triangle the number of its face among all faces of the file that are drawn, from 1.
-    pub faces: Vec<u32>,
+    /// For each triangle the number of its face among all faces of the file that are drawn, from 1; nothing where each triangle
+    /// is a face.
+    pub faces: Option<Vec<u32>>,
     /// For each triangle the line of its face; empty where the file has no lines.
     pub lines: Vec<u32>,
     /// The triangles of polygons that are not convex, by their numbers in the item.
@@ -114,10 +117,19 @@ pub struct Origin {
 }
 
 impl Origin {
+    /// The number of a triangle's face, from 1.
+    #[must_use]
+    pub fn face(&self, triangle: usize) -> Option<u32> {
+        match &self.faces {
+            Some(faces) => faces.get(triangle).copied(),
+            None => Some(self.first_face + triangle as u32),
+        }
+    }
+
     /// Where a triangle of the item comes from, in words: `face 12 (line 40) of 'door', material 'wood'`.
     #[must_use]
     pub fn place(&self, triangle: usize) -> String {
-        let Some(face) = self.faces.get(triangle) else { return String::new() };
+        let Some(face) = self.face(triangle) else { return String::new() };
         let mut text = format!("face {face}");
         match self.lines.get(triangle) {
             Some(line) => text += &format!(" (line {line})"),
@@ -152,17 +164,14 @@ pub fn load(path: &Path, options: Options) -> Result<Model, BadFile> {
     file.read_more(&mut bytes, PIECE_BYTES).map_err(failed)?;
     let format = Format::of(&bytes, length).map_err(|cause| bad(path, None, cause))?;
     let has_records = format == Format::Stl && stl::is_binary(&bytes, length);
-    if format != Format::Obj && !has_records {
-        bytes.reserve_exact(usize::try_from(length).unwrap_or(0).saturating_sub(bytes.len()));
-        file.read_more(&mut bytes, u64::MAX).map_err(failed)?;
-    }
+    let all = |mut file: Ahead| file.read_all().map(|()| file.bytes).map_err(failed);
     // Each reader gets the bytes for good, since what it makes of them needs the memory.
     let contents = match format {
         Format::Obj => obj::read(path, Text::new(bytes, file))?,
-        Format::Stl if has_records => stl::binary(path, bytes, file)?,
-        Format::Stl => stl::text(path, &{ bytes })?,
-        Format::Ply => ply::read(path, &{ bytes })?,
-        Format::Gltf | Format::Glb => gltf::read(path, &{ bytes })?,
+        Format::Stl if has_records => stl::binary(path, Ahead::new(bytes, file))?,
+        Format::Ply => ply::read(path, Ahead::new(bytes, file))?,
+        Format::Stl => stl::text(path, &all(Ahead::new(bytes, file))?)?,
+        Format::Gltf | Format::Glb => gltf::read(path, &all(Ahead::new(bytes, file))?)?,
     };
     items::model(path, contents, format, options)
 }
@@ -214,7 +223,7 @@ mod tests {
 
     #[test]
     fn the_place_of_a_triangle_is_said_in_words() {
-        let (faces, lines) = (vec![7, 8, 8], vec![30, 31, 31]);
+        let (faces, lines) = (Some(vec![7, 8, 8]), vec![30, 31, 31]);
         let mut origin = Origin {
             part: "door".to_owned(),
             material: String::new(),
@@ -228,6 +237,8 @@ mod tests {
         origin.material = "wood".to_owned();
         assert_eq!(origin.place(0), "face 7 (number 1 of its part) of 'door', material 'wood'");
         assert_eq!(origin.place(3), "");
+        origin.faces = None;
+        assert_eq!(origin.face(3), Some(10));
     }
 
     #[test]

@@ -3,14 +3,17 @@
 //! Own code: `ply-rs` and its fork `ply-rs-bw` keep each element in a map from names to values, unless all properties of a file
 //! are known beforehand, and their errors name no line of the body.
 
+use std::ops::Range;
 use std::path::Path;
 
 use glam::{DMat4, DVec2, DVec3};
+use rasterproof_host::input::InputError;
 use rasterproof_host::text::{printable_path, printable_short};
 use rasterproof_render::pipeline::highlight::Specular;
 use rayon::prelude::*;
 
-use crate::contents::{Contents, FilePart, INCOMPLETE_FACE, NONE, Numbers, SHARE, Surface};
+use crate::ahead::Ahead;
+use crate::contents::{Contents, FilePart, INCOMPLETE_FACE, NONE, Numbers, SHARE, Surface, first};
 use crate::textures::{Textures, opacity};
 use crate::{BadFile, Warnings, bad};
 
@@ -124,64 +127,59 @@ struct Header {
 }
 
 /// The numbers of a file, one after the other.
-struct Body<'a> {
-    bytes: &'a [u8],
-    /// The index of the byte that is read next.
-    at: usize,
+struct Body {
+    file: Ahead,
     form: Form,
     newline: u8,
-    /// The line of text, from 1, and what is left of it.
+    /// The line of text, from 1, and where what is left of it is.
     line: usize,
-    words: &'a [u8],
+    words: Range<usize>,
     /// Lines of text with more numbers than the header says.
     long: u64,
 }
 
-impl<'a> Body<'a> {
-    /// Returns the next line without its line break, and moves past it.
-    fn next_line(&mut self) -> Option<&'a [u8]> {
-        let rest = self.bytes.get(self.at..).filter(|rest| !rest.is_empty())?;
+impl Body {
+    /// Where the next line is, without its line break. Moves past it.
+    fn next_line(&mut self) -> Option<Range<usize>> {
+        let start = self.file.at;
+        let rest = Some(self.file.left()).filter(|rest| !rest.is_empty())?;
         let end = memchr::memchr(self.newline, rest).unwrap_or(rest.len());
-        self.at += (end + 1).min(rest.len());
+        self.file.at += (end + 1).min(rest.len());
         self.line += 1;
-        Some(&rest[..end])
+        Some(start..start + end)
     }
 
     /// Goes to the next element: a line in text.
     fn next_element(&mut self) -> Result<(), String> {
         if self.form != Form::Text {
-            return Ok(());
+            return self.file.read_all().map_err(|error| error.cause);
         }
         self.end_element();
         loop {
-            match self.next_line() {
-                Some(line) if line.trim_ascii().is_empty() => {}
-                Some(line) => {
-                    self.words = line;
-                    return Ok(());
-                }
-                None => return Err("the file is cut off".to_owned()),
+            self.words = self.next_line().ok_or("the file is cut off")?;
+            if !self.file.bytes[self.words.clone()].trim_ascii().is_empty() {
+                return Ok(());
             }
         }
     }
 
     /// Counts what the last element did not read of its line.
     fn end_element(&mut self) {
-        self.long += u64::from(!self.words.trim_ascii().is_empty());
-        self.words = &[];
+        let words = std::mem::take(&mut self.words);
+        self.long += u64::from(!self.file.bytes[words].trim_ascii().is_empty());
     }
 
     fn number(&mut self, kind: Kind) -> Result<f64, String> {
         if self.form != Form::Text {
-            let bytes = self.bytes.get(self.at..self.at + kind.size());
-            let bytes = bytes.ok_or("the file is cut off")?;
-            self.at += kind.size();
-            return Ok(kind.number(bytes, self.form == Form::Big));
+            let bytes = self.file.left().get(..kind.size()).ok_or("the file is cut off")?;
+            let number = kind.number(bytes, self.form == Form::Big);
+            self.file.at += kind.size();
+            return Ok(number);
         }
-        let line = self.words.trim_ascii_start();
+        let line = self.file.bytes[self.words.clone()].trim_ascii_start();
         let end = line.iter().position(u8::is_ascii_whitespace).unwrap_or(line.len());
         let (word, rest) = line.split_at(end);
-        self.words = rest;
+        self.words.start = self.words.end - rest.len();
         if word.is_empty() {
             return Err("the line has fewer numbers than the header says".to_owned());
         }
@@ -200,7 +198,7 @@ impl<'a> Body<'a> {
     /// The length of a list, which cannot be longer than what is left of the file.
     fn length(&mut self, kind: Kind) -> Result<usize, String> {
         let length = self.number(kind)?;
-        let left = self.bytes.len() - self.at + self.words.len();
+        let left = self.file.left().len() + self.words.len();
         if length < 0.0 || length > left as f64 || length.fract() != 0.0 {
             return Err(format!("a list of {length} numbers, and {left} bytes are left"));
         }
@@ -209,13 +207,13 @@ impl<'a> Body<'a> {
 }
 
 /// Reads the lines up to `end_header`. On an error the body says in which line.
-fn header(body: &mut Body<'_>) -> Result<Header, String> {
+fn header(body: &mut Body) -> Result<Header, String> {
     let (elements, textures, unknown) = (Vec::new(), Vec::new(), Vec::new());
     let mut header = Header { form: Form::Text, elements, textures, unknown };
     let mut is_known = false;
     loop {
         let line = body.next_line().ok_or("the file ends inside its header")?;
-        let line = String::from_utf8_lossy(line);
+        let line = String::from_utf8_lossy(&body.file.bytes[line]).into_owned();
         let words: Vec<&str> = line.split_whitespace().collect();
         let shown = printable_short(line.trim(), 60);
         let wrong = || format!("'{shown}' is no line of a header");
@@ -286,24 +284,30 @@ const ALPHA: usize = 11;
 type Wrong = (u64, String);
 
 /// Reads the text or the bytes of a PLY.
-pub(crate) fn read(path: &Path, bytes: &[u8]) -> Result<Contents, BadFile> {
-    let newline = match bytes.iter().find(|byte| matches!(byte, b'\n' | b'\r')) {
+pub(crate) fn read(path: &Path, mut file: Ahead) -> Result<Contents, BadFile> {
+    let unread = |error: InputError| bad(path, None, error.cause);
+    let ends = |line_break| memchr::memmem::find(&file.bytes, line_break).is_some();
+    if !ends(b"\nend_header") && !ends(b"\rend_header") {
+        file.read_all().map_err(unread)?;
+    }
+    let newline = match file.bytes.iter().find(|byte| matches!(byte, b'\n' | b'\r')) {
         // Two bytes end a line of some systems.
-        Some(b'\r') if !bytes.starts_with(b"ply\r\n") => b'\r',
+        Some(b'\r') if !file.bytes.starts_with(b"ply\r\n") => b'\r',
         _ => b'\n',
     };
-    let mut body = Body { bytes, at: 0, form: Form::Text, newline, line: 0, words: &[], long: 0 };
-    let failed = |body: &Body<'_>, cause: &str| {
+    let mut body = Body { file, form: Form::Text, newline, line: 0, words: 0..0, long: 0 };
+    let failed = |body: &Body, cause: &str| {
         let (line, cause) = match body.form {
             Form::Text => (Some(body.line), cause.to_owned()),
-            _ => (None, format!("byte {}: {cause}", body.at)),
+            _ => (None, format!("byte {}: {cause}", body.file.byte())),
         };
         bad(path, line, format!("{cause}: export the model again"))
     };
     let header = header(&mut body).map_err(|cause| failed(&body, &cause))?;
     body.form = header.form;
-    if body.form != Form::Text {
-        body.line = 0;
+    match body.form {
+        Form::Text => body.file.read_all().map_err(unread)?,
+        Form::Little | Form::Big => body.line = 0,
     }
     let mut contents = Contents::default();
     let mut part = FilePart { to_file: DMat4::IDENTITY, ..FilePart::default() };
@@ -334,7 +338,8 @@ pub(crate) fn read(path: &Path, bytes: &[u8]) -> Result<Contents, BadFile> {
         let what = format!("{path}:{line}: '{shown}' is no line of a header; it is left out");
         warnings.line(&format!("{path}: lines of the header"), &what);
     }
-    let left = bytes[body.at..].trim_ascii().len();
+    body.file.read_all().map_err(unread)?;
+    let left = body.file.left().trim_ascii().len();
     if left > 0 {
         let path = printable_path(path);
         warnings.line(
@@ -371,7 +376,7 @@ fn add(contents: &mut Contents, key: &str, count: u64) {
 }
 
 /// Moves past properties whose values nobody reads.
-fn skip(body: &mut Body<'_>, properties: &[Property]) -> Result<(), String> {
+fn skip(body: &mut Body, properties: &[Property]) -> Result<(), String> {
     for property in properties {
         let count = property.length.map_or(Ok(1), |kind| body.length(kind))?;
         for _ in 0..count {
@@ -382,7 +387,7 @@ fn skip(body: &mut Body<'_>, properties: &[Property]) -> Result<(), String> {
 }
 
 fn vertices(
-    body: &mut Body<'_>,
+    body: &mut Body,
     element: &Element,
     part: &mut FilePart,
     contents: &mut Contents,
@@ -404,12 +409,13 @@ fn vertices(
         }
     }
     // As many as the file can hold, whatever the header says.
-    let most = element.count.min(body.bytes.len() as u64) as usize;
+    let most = element.count.min(body.file.left_bytes()) as usize;
     part.positions.reserve(most);
     let scaled = |place: usize, kind: Kind, value: f64| {
         if place < FIRST_COLOUR { value } else { value / kind.full() }
     };
-    let (whole, mut transparent) = columns(body, element, &places, part);
+    let columns = columns(body, element, &places, part);
+    let (whole, mut transparent) = columns.map_err(|error| (0, error.cause))?;
     let mut push = |values: [f64; VERTEX.len()]| {
         let [x, y, z, nx, ny, nz, u, v, r, g, b, a] = values;
         part.positions.push(DVec3::new(x, y, z));
@@ -447,14 +453,14 @@ fn vertices(
 /// Reads the vertices of a binary file that have no lists, by all threads, and returns how many they are and how many of
 /// them are transparent. If the file is cut off, those that are missing are left to the caller.
 fn columns(
-    body: &mut Body<'_>,
+    body: &mut Body,
     element: &Element,
     places: &[Option<usize>],
     part: &mut FilePart,
-) -> (u64, u64) {
+) -> Result<(u64, u64), InputError> {
     let has_list = element.properties.iter().any(|property| property.length.is_some());
     if body.form == Form::Text || has_list {
-        return (0, 0);
+        return Ok((0, 0));
     }
     // The type of each value of a vertex, and how many bytes are before it in the record.
     let mut columns = [None; VERTEX.len()];
@@ -465,10 +471,7 @@ fn columns(
         }
         size += property.kind.size();
     }
-    let (bytes, is_big) = (body.bytes, body.form == Form::Big);
-    let left = &bytes[body.at..];
-    let whole = (left.len() / size).min(usize::try_from(element.count).unwrap_or(usize::MAX));
-    let records = left[..whole * size].par_chunks_exact(size).with_min_len(SHARE);
+    let is_big = body.form == Form::Big;
     let number = |record: &[u8], place: usize| {
         columns[place].map(|(kind, at): (Kind, usize)| {
             let value = kind.number(&record[at..], is_big);
@@ -480,24 +483,26 @@ fn columns(
         DVec3::new(at(place), at(place + 1), at(place + 2))
     };
     let has = |places: std::ops::Range<usize>| columns[places].iter().all(Option::is_some);
-    part.positions.par_extend(records.clone().map(|record| vector(record, 0)));
-    if has(3..6) {
-        part.normals.par_extend(records.clone().map(|record| vector(record, 3)));
-    }
-    if has(6..8) {
-        let uv = |record: &[u8]| vector(record, 6).truncate();
-        part.uvs.par_extend(records.clone().map(uv));
-    }
+    let uv = |record: &[u8]| vector(record, 6).truncate();
+    let colour = |record: &[u8]| vector(record, FIRST_COLOUR).clamp(DVec3::ZERO, DVec3::ONE);
+    let is_transparent = |record: &&[u8]| number(record, ALPHA).is_some_and(|alpha| alpha < 1.0);
     let mut transparent = 0;
-    if has(FIRST_COLOUR..ALPHA) {
-        let colour = |record: &[u8]| vector(record, FIRST_COLOUR).clamp(DVec3::ZERO, DVec3::ONE);
-        part.colours.par_extend(records.clone().map(colour));
-        let is_transparent =
-            |record: &&[u8]| number(record, ALPHA).is_some_and(|alpha| alpha < 1.0);
-        transparent = records.filter(is_transparent).count() as u64;
-    }
-    body.at += whole * size;
-    (whole as u64, transparent)
+    let whole = body.file.records(size, element.count, |bytes| {
+        let records = bytes.par_chunks_exact(size).with_min_len(SHARE);
+        part.positions.par_extend(records.clone().map(|record| vector(record, 0)));
+        if has(3..6) {
+            part.normals.par_extend(records.clone().map(|record| vector(record, 3)));
+        }
+        if has(6..8) {
+            part.uvs.par_extend(records.clone().map(uv));
+        }
+        if has(FIRST_COLOUR..ALPHA) {
+            part.colours.par_extend(records.clone().map(colour));
+            transparent += records.filter(is_transparent).count() as u64;
+        }
+        bytes.len() / size
+    })?;
+    Ok((whole, transparent))
 }
 
 /// The list of a face that names its vertices.
@@ -507,7 +512,7 @@ fn is_corners(property: &Property) -> bool {
 }
 
 fn faces(
-    body: &mut Body<'_>,
+    body: &mut Body,
     element: &Element,
     part: &mut FilePart,
     contents: &mut Contents,
@@ -528,7 +533,7 @@ fn faces(
         part.uvs.clear();
         part.uv_numbers = Numbers::OfCorners(vec![NONE; part.corners.len()]);
     }
-    let most = element.count.min(body.bytes.len() as u64) as usize;
+    let most = element.count.min(body.file.left_bytes()) as usize;
     if body.form == Form::Text {
         part.corners.reserve(3 * most);
         part.polygons.lines.reserve(most);
@@ -536,7 +541,8 @@ fn faces(
     let (mut small, mut uvs) = (0, Vec::new());
     let mut number = 0;
     while number < element.count {
-        number += triangles(body, element, element.count - number, part);
+        let many = triangles(body, element, element.count - number, part);
+        number += many.map_err(|error| (number, error.cause))?;
         if number == element.count {
             break;
         }
@@ -583,47 +589,62 @@ fn faces(
 
 /// Reads the next faces of a binary file as long as they are triangles in the form that is usual, and returns how many they are.
 /// Everything else is left to the caller.
-fn triangles(body: &mut Body<'_>, element: &Element, most: u64, part: &mut FilePart) -> u64 {
+fn triangles(
+    body: &mut Body,
+    element: &Element,
+    most: u64,
+    part: &mut FilePart,
+) -> Result<u64, InputError> {
     const RECORD: usize = 13;
     let [Property { kind: Kind::I32 | Kind::U32, length: Some(Kind::U8 | Kind::I8), .. }] =
         element.properties[..]
     else {
-        return 0;
+        return Ok(0);
     };
     if body.form == Form::Text {
-        return 0;
+        return Ok(0);
     }
     let is_big = body.form == Form::Big;
     let corners = |record: &[u8; RECORD]| {
-        let number = |at: usize| {
-            let word = [record[at], record[at + 1], record[at + 2], record[at + 3]];
-            if is_big { u32::from_be_bytes(word) } else { u32::from_le_bytes(word) }
+        let [_, words @ ..] = record;
+        let number = |word: &[u8; 4]| {
+            let number = u32::from_le_bytes(*word);
+            if is_big { number.swap_bytes() } else { number }
         };
-        [number(1), number(5), number(9)]
+        let [a, b, c] = words.as_chunks().0 else { unreachable!("three numbers of four bytes") };
+        [number(a), number(b), number(c)]
     };
-    let records = body.bytes[body.at..].as_chunks::<RECORD>().0;
-    let most = records.len().min(usize::try_from(most).unwrap_or(usize::MAX));
     // Negative indices are larger than those that are allowed.
     let is_other = |record: &[u8; RECORD]| {
         record[0] != 3 || corners(record).iter().any(|&corner| corner > i32::MAX as u32)
     };
-    // A few first, since every other face may have four corners.
-    let few = records[..most.min(SHARE)].iter().position(is_other);
-    let found =
-        few.or_else(|| records[..most].par_iter().with_min_len(SHARE).position_first(is_other));
-    let records = &records[..found.unwrap_or(most)];
+    let mut read = Vec::new();
     if part.corners.is_empty() {
-        let read = records.par_iter().with_min_len(SHARE).map(corners);
-        part.corners = read.collect::<Vec<_>>().into_flattened();
+        read.reserve(most.min(body.file.left_bytes() / RECORD as u64) as usize);
+    }
+    let count = body.file.records(RECORD, most, |bytes| {
+        let records = bytes.as_chunks::<RECORD>().0;
+        // A few first, since every other face may have four corners.
+        let few = records[..records.len().min(SHARE)].iter().position(is_other);
+        let found = few.or_else(|| first(records, is_other));
+        let records = &records[..found.unwrap_or(records.len())];
+        if records.len() <= SHARE {
+            read.extend(records.iter().map(corners));
+        } else {
+            read.par_extend(records.par_iter().with_min_len(SHARE).map(corners));
+        }
+        records.len()
+    })?;
+    if part.corners.is_empty() {
+        part.corners = read.into_flattened();
     } else {
-        part.corners.extend(records.iter().flat_map(corners));
+        part.corners.extend_from_slice(read.as_flattened());
     }
     if let Numbers::OfCorners(numbers) = &mut part.uv_numbers {
         numbers.resize(part.corners.len(), NONE);
     }
-    part.polygons.push_triangles(records.len());
-    body.at += RECORD * records.len();
-    records.len() as u64
+    part.polygons.push_triangles(count as usize);
+    Ok(count)
 }
 
 /// Whether an index names a vertex is checked at the end, since vertices may follow.
@@ -635,7 +656,7 @@ fn corner(count: usize, value: f64) -> Result<u32, String> {
 }
 
 /// Strips of triangles, each ended by -1.
-fn strips(body: &mut Body<'_>, element: &Element, part: &mut FilePart) -> Result<(), Wrong> {
+fn strips(body: &mut Body, element: &Element, part: &mut FilePart) -> Result<(), Wrong> {
     for number in 0..element.count {
         let wrong = |cause| (number, cause);
         body.next_element().map_err(wrong)?;
@@ -674,7 +695,7 @@ fn strips(body: &mut Body<'_>, element: &Element, part: &mut FilePart) -> Result
 /// Whether all vertices that faces name are there.
 fn check(path: &Path, part: &FilePart) -> Result<(), BadFile> {
     let count = part.positions.len();
-    let wrong = part.corners.iter().position(|&corner| corner as usize >= count);
+    let wrong = first(&part.corners, |&corner| corner as usize >= count);
     let Some(wrong) = wrong else { return Ok(()) };
     let face = part.polygons.of_corner(wrong);
     let line = Some(part.polygons.line(face) as usize).filter(|&line| line > 0);

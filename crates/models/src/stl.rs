@@ -3,25 +3,22 @@
 //! Own code, since the format has one kind of record, and errors name its line or byte. Its normals are not read: they are
 //! those of the triangles, or wrong.
 
-use std::hash::BuildHasher as _;
+use std::hash::{BuildHasher as _, Hash};
 use std::path::Path;
 
 use foldhash::fast::RandomState;
 use glam::{DMat4, DVec3};
 use hashbrown::HashTable;
 use hashbrown::hash_table::Entry;
-use rasterproof_host::input::Pieces;
 use rasterproof_host::text::printable_short;
 use rayon::prelude::*;
 
-use crate::contents::{Contents, FilePart, Polygons, SHARE, key};
+use crate::ahead::Ahead;
+use crate::contents::{Contents, FilePart, Polygons, SHARE};
 use crate::{BadFile, bad};
 
 const HEADER: usize = 84;
 const RECORD: usize = 50;
-/// How many bytes of records are read at once: enough for several threads.
-const PIECE: u64 = 1 << 24;
-
 /// The triangles that the header of a binary file counts.
 fn counted(bytes: &[u8]) -> Option<u64> {
     Some(u32::from_le_bytes(bytes.get(80..HEADER)?.try_into().ok()?).into())
@@ -38,11 +35,37 @@ pub(crate) fn is_text(bytes: &[u8]) -> bool {
     rest.starts_with(b"solid") && rest.get(5).is_none_or(u8::is_ascii_whitespace)
 }
 
+/// A coordinate as the file has it. Records have `f32`, which take half the memory until equal positions are found.
+trait Coordinate: Copy + PartialEq + Into<f64> + Send + Sync {
+    type Bits: Copy + Eq + Hash + Into<u64> + Send + Sync;
+
+    /// By which equal numbers are found: -0 and 0 have the same.
+    fn bits(self) -> Self::Bits;
+}
+
+impl Coordinate for f32 {
+    type Bits = u32;
+
+    #[inline]
+    fn bits(self) -> u32 {
+        (self + 0.0).to_bits()
+    }
+}
+
+impl Coordinate for f64 {
+    type Bits = u64;
+
+    #[inline]
+    fn bits(self) -> u64 {
+        (self + 0.0).to_bits()
+    }
+}
+
 /// Corners of triangles in the order of the file, and the positions that they name.
 #[derive(Default)]
-struct Corners {
+struct Corners<C> {
     /// Most are different; [`merged`] makes one of those that are equal.
-    positions: Vec<DVec3>,
+    positions: Vec<[C; 3]>,
     /// The number of each corner's position.
     numbers: Vec<u32>,
     /// The numbers of positions that were added not long ago, in places that follow from their coordinates.
@@ -53,7 +76,7 @@ struct Corners {
 /// before it in the file.
 const RECENT: usize = 1 << 14;
 
-impl Corners {
+impl<C: Coordinate> Corners<C> {
     fn with_capacity(triangles: usize) -> Self {
         // A closed surface has half as many positions as triangles.
         let positions = Vec::with_capacity(triangles / 2);
@@ -61,8 +84,8 @@ impl Corners {
     }
 
     #[inline]
-    fn push(&mut self, point: DVec3) {
-        let [x, y, z] = key(point);
+    fn push(&mut self, point: [C; 3]) {
+        let [x, y, z]: [u64; 3] = point.map(|number| number.bits().into());
         let mixed = (x ^ y.rotate_left(21) ^ z.rotate_left(42)).wrapping_mul(0x9e37_79b9_7f4a_7c15);
         let recent = &mut self.recent[(mixed >> 50) as usize % RECENT];
         if self.positions.get(*recent as usize) != Some(&point) {
@@ -73,40 +96,40 @@ impl Corners {
     }
 }
 
-/// A position as [`key`] has it, and its number.
-type Keyed = ([u64; 3], u32);
+/// The bits of a position, and its number.
+type Keyed<C> = ([<C as Coordinate>::Bits; 3], u32);
 
 /// The positions of all shares of a file, each once, in the order in which they come first; and their numbers at all corners.
-fn merged(shares: &[Corners]) -> (Vec<DVec3>, Vec<u32>) {
+fn merged<C: Coordinate>(shares: &[Corners<C>]) -> (Vec<DVec3>, Vec<u32>) {
     let mut count = 0;
     let with_start = shares.iter().map(|share| {
         let start = count;
         count += share.positions.len();
         (start, share)
     });
-    let shares: Vec<(usize, &Corners)> = with_start.collect();
+    let shares: Vec<(usize, &Corners<C>)> = with_start.collect();
     // Equal positions have the same hash, so they are looked for in one of many small tables, which fits into a cache. The
     // seed of the hash is random, so that no file can be written whose positions all are in the same one.
     let hasher = RandomState::default();
     let tables = count.div_ceil(SHARE).max(1);
-    let hash = |[x, y, z]: [u64; 3]| hasher.hash_one((x, y, z));
+    let hash = |[x, y, z]: [C::Bits; 3]| hasher.hash_one((x, y, z));
     let sorted = shares.par_iter().map(|(start, share)| {
         let usual = share.positions.len() / tables;
         let mut of_tables: Vec<_> =
             (0..tables).map(|_| Vec::with_capacity(usual + usual / 16)).collect();
         for (number, &point) in (*start as u32..).zip(&share.positions) {
-            let keys = key(point);
+            let keys = point.map(C::bits);
             of_tables[(hash(keys) >> 32) as usize % tables].push((keys, number));
         }
         of_tables
     });
-    let sorted: Vec<Vec<Vec<Keyed>>> = sorted.collect();
+    let sorted: Vec<Vec<Vec<Keyed<C>>>> = sorted.collect();
     let found = (0..tables).into_par_iter().map(|table| {
         let all = || sorted.iter().map(|of_tables| &of_tables[table]);
         let mut known = HashTable::with_capacity(all().map(Vec::len).sum());
         let mut again = Vec::new();
         for &(keys, number) in all().flatten() {
-            let is_same = |other: &Keyed| other.0 == keys;
+            let is_same = |other: &Keyed<C>| other.0 == keys;
             match known.entry(hash(keys), is_same, |other| hash(other.0)) {
                 Entry::Occupied(first) => again.push((number, first.get().1)),
                 Entry::Vacant(place) => drop(place.insert((keys, number))),
@@ -125,7 +148,7 @@ fn merged(shares: &[Corners]) -> (Vec<DVec3>, Vec<u32>) {
         let first = numbers[number] as usize;
         if first == number {
             numbers[number] = positions.len() as u32;
-            positions.push(point);
+            positions.push(DVec3::from_array(point.map(C::into)));
         } else {
             numbers[number] = numbers[first];
         }
@@ -138,45 +161,30 @@ fn merged(shares: &[Corners]) -> (Vec<DVec3>, Vec<u32>) {
     (positions, corners)
 }
 
-/// Reads triangles in records, from the first bytes of a file and what follows them. It is read while what was read before is
-/// looked at, so no more than two pieces of the file are in memory.
-pub(crate) fn binary(
-    path: &Path,
-    mut piece: Vec<u8>,
-    mut file: Pieces,
-) -> Result<Contents, BadFile> {
-    let count = counted(&piece).unwrap_or(0) as usize;
-    piece.drain(..HEADER);
-    let (mut next, mut all) = (Vec::new(), Vec::new());
-    let (mut seen, mut with_attribute) = (0, 0);
-    while seen < count {
-        let (records, rest) = piece.as_chunks::<RECORD>();
-        let records = &records[..records.len().min(count - seen)];
-        next.clear();
-        next.extend_from_slice(rest);
-        let (read, shares) = rayon::join(
-            || file.read_more(&mut next, PIECE),
-            || shares(records, rayon::current_num_threads()),
-        );
-        let read = read.map_err(|error| bad(path, None, error.cause))?;
-        if read == 0 && seen + records.len() < count {
-            let cause = "the file is cut off: it became shorter while it was read";
-            return Err(bad(path, None, cause));
-        }
+/// Reads triangles in records.
+pub(crate) fn binary(path: &Path, mut file: Ahead) -> Result<Contents, BadFile> {
+    let count = counted(&file.bytes).unwrap_or(0);
+    file.at = HEADER;
+    let (mut all, mut with_attribute) = (Vec::new(), 0);
+    let read = file.records(RECORD, count, |bytes| {
+        let records = bytes.as_chunks::<RECORD>().0;
         // Some programs keep a colour there, in ways that exclude each other.
         let has_attribute = |record: &&[u8; RECORD]| record[RECORD - 2..] != [0; 2];
         with_attribute += records.iter().filter(has_attribute).count() as u64;
-        seen += records.len();
-        all.extend(shares);
-        std::mem::swap(&mut piece, &mut next);
+        all.extend(shares(records, rayon::current_num_threads()));
+        records.len()
+    });
+    if read.map_err(|error| bad(path, None, error.cause))? < count {
+        let cause = "the file is cut off: it became shorter while it was read";
+        return Err(bad(path, None, cause));
     }
-    drop((piece, next));
+    drop(file);
     let mut contents = Contents::default();
     if with_attribute > 0 {
         contents.not_drawn.insert("attribute of triangle".to_owned(), with_attribute);
     }
     let (positions, corners) = merged(&all);
-    let polygons = Polygons::triangles(count);
+    let polygons = Polygons::triangles(count as usize);
     let to_file = DMat4::IDENTITY;
     contents.parts =
         vec![FilePart { to_file, positions, corners, polygons, ..FilePart::default() }];
@@ -184,15 +192,14 @@ pub(crate) fn binary(
 }
 
 /// Reads the corners of records, a share of them by each of up to so many threads.
-fn shares(records: &[[u8; RECORD]], threads: usize) -> Vec<Corners> {
+fn shares(records: &[[u8; RECORD]], threads: usize) -> Vec<Corners<f32>> {
     let share = records.len().div_ceil(threads).max(SHARE);
     let read = |share: &[[u8; RECORD]]| {
         let mut corners = Corners::with_capacity(share.len());
         for record in share {
             let (numbers, _) = record[12..RECORD - 2].as_chunks::<4>();
             for corner in numbers.as_chunks::<3>().0 {
-                let coordinates = corner.map(|number| f64::from(f32::from_le_bytes(number)));
-                corners.push(DVec3::from_array(coordinates));
+                corners.push(corner.map(f32::from_le_bytes));
             }
         }
         corners
@@ -203,13 +210,13 @@ fn shares(records: &[[u8; RECORD]], threads: usize) -> Vec<Corners> {
 /// Reads triangles in text, of which each `solid` becomes a part.
 pub(crate) fn text(path: &Path, bytes: &[u8]) -> Result<Contents, BadFile> {
     let mut parts: Vec<FilePart> = Vec::new();
-    let mut corners = Corners::default();
-    let end = |part: Option<&mut FilePart>, corners: &mut Corners| {
+    let mut corners = Corners::<f64>::default();
+    let end = |part: Option<&mut FilePart>, corners: &mut Corners<f64>| {
         if let Some(part) = part {
             (part.positions, part.corners) = merged(&[std::mem::take(corners)]);
         }
     };
-    let mut points: Vec<DVec3> = Vec::new();
+    let mut points: Vec<[f64; 3]> = Vec::new();
     let mut first_line = 0;
     for (index, line) in bytes.split(|&byte| byte == b'\n' || byte == b'\r').enumerate() {
         let number = index + 1;
@@ -236,7 +243,7 @@ pub(crate) fn text(path: &Path, bytes: &[u8]) -> Result<Contents, BadFile> {
                     let cause = "a facet has more than three vertices: export the model as OBJ, which has polygons";
                     return Err(bad(path, Some(number), cause));
                 }
-                points.push(DVec3::new(x, y, z));
+                points.push([x, y, z]);
             }
             Some("endfacet") => {
                 let (3, Some(part)) = (points.len(), parts.last_mut()) else {

@@ -1,5 +1,7 @@
 //! The hard cases of a scene in a view: how often, where, and in how many pixels.
 
+use std::sync::Arc;
+
 use glam::{DVec3, DVec4};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::{DrawLine as _, Rasterize as _};
@@ -211,7 +213,7 @@ impl Search<'_> {
         let mut first = 0;
         for (item, origin) in self.scene.items.iter().zip(origins) {
             concave.extend(origin.concave.iter().map(|number| first + number));
-            let faces = origin.concave.iter().map(|&number| origin.faces.get(number as usize));
+            let faces = origin.concave.iter().map(|&number| origin.face(number as usize));
             let mut faces: Vec<_> = faces.collect();
             faces.dedup();
             polygons += faces.len();
@@ -368,7 +370,8 @@ impl Search<'_> {
             let exact = |p: &DVec3| p.as_vec3().as_dvec3() == *p;
             if !item.mesh.positions.iter().all(exact) {
                 let mut mesh = Mesh::clone(&item.mesh);
-                mesh.positions.iter_mut().for_each(|p| *p = p.as_vec3().as_dvec3());
+                let positions = Arc::make_mut(&mut mesh.positions);
+                positions.iter_mut().for_each(|p| *p = p.as_vec3().as_dvec3());
                 item.mesh = mesh.into();
                 is_rounded = true;
             }
@@ -517,7 +520,7 @@ mod tests {
     use rasterproof_render::scene::{Corner, Item, Material};
 
     fn triangle(corners: [[f64; 3]; 3], uv: f64) -> Item {
-        let positions = corners.map(DVec3::from_array).to_vec();
+        let positions = Arc::new(corners.map(DVec3::from_array).to_vec());
         let corner = |position: u32| Corner {
             position,
             colour: DVec3::ONE,
@@ -563,7 +566,7 @@ mod tests {
         let of = |nearest: [f64; 3]| {
             let mut item = triangle([nearest, positions[1], positions[2]], 1.0);
             let mut mesh = Mesh::clone(&item.mesh);
-            mesh.positions.push(DVec3::from_array(positions[3]));
+            Arc::make_mut(&mut mesh.positions).push(DVec3::from_array(positions[3]));
             let face = |corners: [u32; 3]| {
                 corners.map(|position| Corner { position, ..mesh.triangles.at(0)[0] })
             };

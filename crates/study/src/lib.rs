@@ -28,7 +28,7 @@ pub fn triangle_of(scene: &Scene, triangle: u32) -> Option<(usize, usize)> {
 
 /// The number of a triangle's face, from 1: in the file where the scene is of one, else in the scene.
 pub fn face_of(scene: &Scene, origins: &[Origin], triangle: u32) -> u32 {
-    let of_file = triangle_of(scene, triangle)
-        .and_then(|(item, number)| origins.get(item)?.faces.get(number).copied());
+    let of_file =
+        triangle_of(scene, triangle).and_then(|(item, number)| origins.get(item)?.face(number));
     of_file.unwrap_or(triangle + 1)
 }

@@ -203,7 +203,7 @@ mod tests {
             true => [triangle(1, 2, 3), triangle(1, 3, 0)],
         };
         let triangles = triangles.into_iter().collect();
-        Item::new(Mesh { positions, triangles }, Material::default())
+        Item::new(Mesh { positions: positions.into(), triangles }, Material::default())
     }
 
     fn classes(second: Item) -> [u64; 3] {

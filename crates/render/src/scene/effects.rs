@@ -173,7 +173,7 @@ fn patches([columns, rows]: [u32; 2], position: impl Fn(f64, f64) -> DVec3) -> M
                 / DVec2::new(columns.into(), rows.into());
             corner.position += first;
         });
-        mesh.positions.extend(square.positions);
+        Arc::make_mut(&mut mesh.positions).extend_from_slice(&square.positions);
         mesh.triangles.extend(square.triangles.iter());
     }
     mesh

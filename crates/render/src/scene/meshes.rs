@@ -65,7 +65,7 @@ pub fn scene(name: &str) -> Option<Scene> {
 /// A sphere with waves on it.
 fn bumps(slices: u32, stacks: u32) -> Mesh {
     let mut mesh = shapes::sphere(DVec3::ZERO, 1.0, slices, stacks);
-    for p in &mut mesh.positions {
+    for p in Arc::make_mut(&mut mesh.positions) {
         let wave = sin(5.0 * p.x) * sin(4.0 * p.y + 1.0) * cos(6.0 * p.z);
         *p *= 1.2 + 0.2 * wave;
     }
@@ -83,7 +83,7 @@ fn knot(t: f64) -> DVec3 {
 fn tube(columns: u32, rows: u32, radius: f64, curve: fn(f64) -> DVec3) -> Mesh {
     let (columns, rows) = (columns.max(3), rows.max(3));
     let angle = |i: u32, count: u32| TAU * f64::from(i) / f64::from(count);
-    let mut mesh = Mesh::default();
+    let mut positions = Vec::new();
     for column in 0..columns {
         let t = angle(column, columns);
         let (centre, along) = (curve(t), (curve(t + 1e-4) - curve(t - 1e-4)).normalize());
@@ -92,7 +92,7 @@ fn tube(columns: u32, rows: u32, radius: f64, curve: fn(f64) -> DVec3) -> Mesh {
         let up = right.cross(along);
         for row in 0..rows {
             let (sin, cos) = sin_cos(angle(row, rows));
-            mesh.positions.push(centre + (right * cos + up * sin) * radius);
+            positions.push(centre + (right * cos + up * sin) * radius);
         }
     }
     let corner = |column: u32, row: u32| Corner {
@@ -104,6 +104,7 @@ fn tube(columns: u32, rows: u32, radius: f64, curve: fn(f64) -> DVec3) -> Mesh {
             2.0 * f64::from(row) / f64::from(rows),
         ),
     };
+    let mut mesh = Mesh { positions: Arc::new(positions), ..Mesh::default() };
     for column in 0..columns {
         for row in 0..rows {
             let [a, b] = [corner(column, row), corner(column, row + 1)];

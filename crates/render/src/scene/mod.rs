@@ -24,7 +24,7 @@ use crate::pipeline::shade::Light;
 use crate::pipeline::shadow::Shadows;
 use crate::pipeline::target::Colour;
 use crate::pipeline::texture::Texture;
-pub use triangles::{Attribute, Triangles};
+pub use triangles::{Attribute, Normals, Triangles};
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Corner {
@@ -39,18 +39,17 @@ pub struct Corner {
 
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
-    /// Positions in object space.
-    pub positions: Vec<DVec3>,
+    /// Positions in object space, which copies of the mesh share until one of them changes.
+    pub positions: Arc<Vec<DVec3>>,
     pub triangles: Triangles,
 }
 
 impl Mesh {
-    /// The normal of a triangle that is counter-clockwise from the outside, by its positions:
-    /// of length twice its area. Left-handed, so it is the cross product with the sign turned.
+    /// The normal of a triangle that is counter-clockwise from the outside, by the numbers of its positions:
+    /// of length twice its area.
     #[must_use]
     pub fn face_normal(&self, positions: [u32; 3]) -> DVec3 {
-        let [a, b, c] = positions.map(|number| self.positions[number as usize]);
-        (c - a).cross(b - a)
+        triangles::face_normal(positions.map(|number| self.positions[number as usize]))
     }
 
     /// Smallest and largest coordinates of the positions that triangles use; nothing without any.

@@ -2,6 +2,7 @@
 //! from outside.
 
 use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
@@ -19,7 +20,7 @@ pub fn triangle(positions: [DVec3; 3], colours: [DVec3; 3]) -> Mesh {
         uv: uvs[i],
     };
     with_face_normals(Mesh {
-        positions: positions.to_vec(),
+        positions: Arc::new(positions.to_vec()),
         triangles: [[corner(0), corner(1), corner(2)]].into_iter().collect(),
     })
 }
@@ -43,7 +44,7 @@ pub fn cuboid(min: DVec3, max: DVec3) -> Mesh {
     let faces =
         [[0, 1, 3, 2], [5, 4, 6, 7], [4, 0, 2, 6], [1, 5, 7, 3], [2, 3, 7, 6], [4, 5, 1, 0]];
     let uvs = [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y];
-    let mut mesh = Mesh { positions: (0..8).map(at).collect(), ..Mesh::default() };
+    let mut mesh = Mesh { positions: Arc::new((0..8).map(at).collect()), ..Mesh::default() };
     for face in faces {
         push_faces(&mut mesh, face.map(|i| i as u32), uvs);
     }
@@ -55,20 +56,21 @@ pub fn cuboid(min: DVec3, max: DVec3) -> Mesh {
 #[must_use]
 pub fn sphere(centre: DVec3, radius: f64, slices: u32, stacks: u32) -> Mesh {
     let (slices, stacks) = (slices.max(3), stacks.max(2));
-    let mut mesh = Mesh::default();
+    let mut positions = Vec::new();
     let rings = stacks - 1;
-    mesh.positions.push(centre + DVec3::Y * radius);
+    positions.push(centre + DVec3::Y * radius);
     for ring in 1..=rings {
         let polar = PI * f64::from(ring) / f64::from(stacks);
         for slice in 0..slices {
             let around = TAU * f64::from(slice) / f64::from(slices);
             let ((sin, cos), (east, north)) = (sin_cos(polar), sin_cos(around));
             let unit = DVec3::new(north * sin, cos, east * sin);
-            mesh.positions.push(centre + unit * radius);
+            positions.push(centre + unit * radius);
         }
     }
-    mesh.positions.push(centre - DVec3::Y * radius);
-    let last = mesh.positions.len() as u32 - 1;
+    positions.push(centre - DVec3::Y * radius);
+    let last = positions.len() as u32 - 1;
+    let mut mesh = Mesh { positions: Arc::new(positions), ..Mesh::default() };
     let index = |ring: u32, slice: u32| match ring {
         0 => 0,
         ring if ring == stacks => last,
@@ -100,7 +102,7 @@ pub fn sphere(centre: DVec3, radius: f64, slices: u32, stacks: u32) -> Mesh {
 
 fn push_quad(mesh: &mut Mesh, positions: [DVec3; 4], uvs: [DVec2; 4]) {
     let first = mesh.positions.len() as u32;
-    mesh.positions.extend(positions);
+    Arc::make_mut(&mut mesh.positions).extend(positions);
     push_faces(mesh, [first, first + 1, first + 2, first + 3], uvs);
 }
 

@@ -4,6 +4,8 @@
 //! the same colour everywhere, and normals that corners at one position share. Each attribute is therefore stored
 //! the way in which it is shared, and a corner is put together when it is read.
 
+use std::sync::Arc;
+
 use glam::{DVec2, DVec3};
 
 use super::Corner;
@@ -14,8 +16,6 @@ pub enum Attribute<V> {
     Same(V),
     /// Corners at one position share a value, which has the number of the position.
     OfPositions(Vec<V>),
-    /// The corners of a triangle share a value.
-    OfTriangles(Vec<V>),
     /// One value for each corner, three to a triangle.
     OfCorners(Vec<[V; 3]>),
     /// Each corner names one of the values by its number, three numbers for each triangle.
@@ -38,7 +38,6 @@ impl<V: Copy> Attribute<V> {
         match self {
             Self::Same(value) => [*value; 3],
             Self::OfPositions(values) => positions.map(|number| values[number as usize]),
-            Self::OfTriangles(values) => [values[triangle]; 3],
             Self::OfCorners(values) => values[triangle],
             Self::Indexed { values, indices } => {
                 indices.as_chunks::<3>().0[triangle].map(|number| values[number as usize])
@@ -62,7 +61,6 @@ impl<V: Copy> Attribute<V> {
     fn check(&self, triangles: usize) {
         let count = match self {
             Self::Same(_) | Self::OfPositions(_) => triangles,
-            Self::OfTriangles(values) => values.len(),
             Self::OfCorners(values) => values.len(),
             Self::Indexed { indices, .. } => indices.len() / 3,
         };
@@ -70,12 +68,59 @@ impl<V: Copy> Attribute<V> {
     }
 }
 
+/// The normals of all corners of all triangles.
+#[derive(Clone, Debug)]
+pub enum Normals {
+    Given(Attribute<DVec3>),
+    /// Those of the faces between these positions, of length 1, or 0 for a face without an area. They are computed when they
+    /// are asked for: for five million triangles they would take 120 MB, most of which no picture needs.
+    Flat(Arc<Vec<DVec3>>),
+}
+
+impl Default for Normals {
+    fn default() -> Self {
+        Self::Given(Attribute::default())
+    }
+}
+
+impl Normals {
+    #[inline]
+    fn get(&self, triangle: usize, positions: [u32; 3]) -> [DVec3; 3] {
+        match self {
+            Self::Given(values) => values.get(triangle, positions),
+            Self::Flat(at) => {
+                let corners = positions.map(|number| at[number as usize]);
+                [face_normal(corners).normalize_or_zero(); 3]
+            }
+        }
+    }
+
+    /// The list of a normal for each corner, which is made where they are shared or computed.
+    fn of_corners(&mut self, positions: &[[u32; 3]]) -> &mut Vec<[DVec3; 3]> {
+        if matches!(self, Self::Flat(_)) {
+            let all = positions.iter().enumerate();
+            let list = all.map(|(number, &of)| self.get(number, of)).collect();
+            *self = Self::Given(Attribute::OfCorners(list));
+        }
+        match self {
+            Self::Given(values) => values.of_corners(positions),
+            Self::Flat(_) => unreachable!("they were computed"),
+        }
+    }
+}
+
+/// The normal of a triangle that is counter-clockwise from the outside, of length twice its area. Left-handed, so it is the
+/// cross product with the sign turned.
+pub(super) fn face_normal([a, b, c]: [DVec3; 3]) -> DVec3 {
+    (c - a).cross(b - a)
+}
+
 /// Triangles by the numbers of their positions, with the attributes of their corners.
 #[derive(Clone, Debug, Default)]
 pub struct Triangles {
     positions: Vec<u32>,
     colours: Attribute<DVec3>,
-    normals: Attribute<DVec3>,
+    normals: Normals,
     uvs: Attribute<DVec2>,
 }
 
@@ -88,13 +133,15 @@ impl Triangles {
     pub fn new(
         mut positions: Vec<u32>,
         colours: Attribute<DVec3>,
-        normals: Attribute<DVec3>,
+        normals: Normals,
         uvs: Attribute<DVec2>,
     ) -> Self {
         let count = positions.len() / 3;
         positions.truncate(3 * count);
         colours.check(count);
-        normals.check(count);
+        if let Normals::Given(values) = &normals {
+            values.check(count);
+        }
         uvs.check(count);
         Self { positions, colours, normals, uvs }
     }
@@ -176,14 +223,15 @@ impl Triangles {
         fn reverse<V: Copy>(attribute: &mut Attribute<V>) {
             match attribute {
                 Attribute::Same(_) | Attribute::OfPositions(_) => {}
-                Attribute::OfTriangles(values) => values.reverse(),
                 Attribute::OfCorners(values) => values.reverse(),
                 Attribute::Indexed { indices, .. } => indices.as_chunks_mut::<3>().0.reverse(),
             }
         }
         self.positions.as_chunks_mut::<3>().0.reverse();
         reverse(&mut self.colours);
-        reverse(&mut self.normals);
+        if let Normals::Given(values) = &mut self.normals {
+            reverse(values);
+        }
         reverse(&mut self.uvs);
     }
 }
@@ -218,7 +266,7 @@ mod tests {
     }
 
     /// Two triangles between four positions, whose attributes are stored in a different way each.
-    fn two(normals: Attribute<DVec3>) -> Triangles {
+    fn two(normals: Normals) -> Triangles {
         let uvs = Attribute::Same(DVec2::Y);
         Triangles::new(vec![0, 1, 2, 2, 1, 3], Attribute::Same(DVec3::ONE), normals, uvs)
     }
@@ -226,18 +274,19 @@ mod tests {
     #[test]
     fn corners_are_the_same_however_their_values_are_stored() {
         let of_position = |[a, b, c]: [u32; 3]| [number(a), number(b), number(c)];
-        let by_position = two(Attribute::OfPositions((0..4).map(number).collect()));
+        let given = |values| two(Normals::Given(values));
+        let by_position = given(Attribute::OfPositions((0..4).map(number).collect()));
         let by_corner =
-            two(Attribute::OfCorners(vec![of_position([0, 1, 2]), of_position([2, 1, 3])]));
+            given(Attribute::OfCorners(vec![of_position([0, 1, 2]), of_position([2, 1, 3])]));
         let values = vec![number(3), number(2), number(1), number(0)];
-        let indexed = two(Attribute::Indexed { values, indices: vec![3, 2, 1, 1, 2, 0] });
+        let indexed = given(Attribute::Indexed { values, indices: vec![3, 2, 1, 1, 2, 0] });
         assert_eq!(by_position, by_corner);
         assert_eq!(by_position, indexed);
-        let by_triangle = two(Attribute::OfTriangles(vec![number(0), number(1)]));
-        assert_ne!(by_position, by_triangle);
-        let normals: Vec<f64> = by_triangle.corners().map(|corner| corner.normal.x).collect();
-        assert_eq!(normals, [0.0, 0.0, 0.0, 1.0, 1.0, 1.0]);
-        for mut triangles in [by_position, by_corner, indexed, by_triangle] {
+        let flat = two(Normals::Flat(Arc::new(vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::ONE])));
+        let normals: Vec<DVec3> = flat.corners().map(|corner| corner.normal).collect();
+        let second = DVec3::new(1.0, 1.0, -1.0).normalize();
+        assert_eq!(normals, [[DVec3::NEG_Z; 3], [second; 3]].as_flattened());
+        for mut triangles in [by_position, by_corner, indexed, flat] {
             let pushed: Triangles = triangles.iter().collect();
             assert_eq!(pushed, triangles);
             let mut changed = triangles.clone();
@@ -253,6 +302,6 @@ mod tests {
     #[test]
     #[should_panic(expected = "an attribute needs values")]
     fn a_list_that_is_too_short_is_refused() {
-        let _ = two(Attribute::OfTriangles(vec![DVec3::X]));
+        let _ = two(Normals::Given(Attribute::OfCorners(vec![[DVec3::X; 3]])));
     }
 }
