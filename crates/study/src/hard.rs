@@ -8,6 +8,7 @@ use rasterproof_core::contract::{DrawLine as _, Rasterize as _};
 use rasterproof_core::frame::Frame;
 use rasterproof_core::grid::{HALF_PIXEL, PixelRect, SUBPIXELS, SubpixelPoint};
 use rasterproof_core::line::bresenham::Bresenham;
+use rasterproof_core::parallel;
 use rasterproof_core::raster::scanline::Scanline;
 use rasterproof_core::triangle::{LineEnd, PixelPoint, ScreenLine};
 use rasterproof_models::Origin;
@@ -145,14 +146,18 @@ pub fn find(
         found: Vec::new(),
         lines: Vec::new(),
     };
-    let shape = Shape::of(scene);
+    let drawn = || {
+        let on_edges = search.samples_on_edges();
+        search.wide_w();
+        search.far_textures();
+        let picture = draw(scene, target)?;
+        let order = search.drawing_order(&picture, target)?;
+        let f32_pixels = search.single_precision(&picture, target)?;
+        Ok((on_edges, picture, order, f32_pixels))
+    };
+    let (shape, drawn) = parallel::join(|| Shape::of(scene), drawn);
+    let (on_edges, picture, order, f32_pixels) = drawn?;
     search.shape(&shape, origins);
-    let on_edges = search.samples_on_edges();
-    search.wide_w();
-    search.far_textures();
-    let picture = draw(scene, target)?;
-    let order = search.drawing_order(&picture, target)?;
-    let f32_pixels = search.single_precision(&picture, target)?;
     let mut touched = search.touched()?;
     for (kind, frame) in [(Kind::OnEdge, &on_edges), (Kind::Order, &order)] {
         for (y, row) in frame.rows() {

@@ -89,12 +89,12 @@ pub(super) fn rounds(quick: bool) -> usize {
     if quick { 7 } else { 41 }
 }
 
-/// Runs a pass once, which warms caches, and returns how many runs of it fit into a slice of time.
-pub(super) fn repeats(pass: &mut Pass<'_>, slice: Duration) -> u32 {
+/// Runs a pass once, which warms caches. Returns how many runs of it fit into a slice of time, and how long this one took.
+pub(super) fn repeats(pass: &mut Pass<'_>, slice: Duration) -> (u32, Duration) {
     let start = Instant::now();
     (pass.run)();
     let once = start.elapsed().max(Duration::from_nanos(50));
-    (slice.as_nanos() / once.as_nanos()).clamp(1, 100_000) as u32
+    ((slice.as_nanos() / once.as_nanos()).clamp(1, 100_000) as u32, once)
 }
 
 /// Nanoseconds of each pass. A slice of time is shorter when `quick`.
@@ -111,13 +111,21 @@ pub fn time(
     let mut order: Vec<usize> = (0..passes.len()).collect();
     order.sort_by_key(|&i| passes[i].column);
     let mut repeat = vec![1; passes.len()];
-    for &i in &order {
-        repeat[i] = repeats(&mut passes[i], slice);
-    }
     let mut figures = vec![Vec::with_capacity(rounds); passes.len()];
+    for &i in &order {
+        let (count, once) = repeats(&mut passes[i], slice);
+        repeat[i] = count;
+        // What takes longer than a slice is hardly slower without warm caches, so this run is one of the rounds.
+        if once > slice {
+            figures[i].push(once.as_nanos() as f64);
+        }
+    }
     for round in 0..rounds {
         for place in 0..order.len() {
             let i = order[(place + round) % order.len()];
+            if figures[i].len() == rounds {
+                continue;
+            }
             let start = Instant::now();
             for _ in 0..repeat[i] {
                 (passes[i].run)();

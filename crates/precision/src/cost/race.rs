@@ -76,7 +76,7 @@ fn compare(times: &[f64], fastest: &[f64], error: f64) -> Finish {
 /// take three times the budget. With `keeps_all` no pass leaves, and all rounds are run.
 pub fn race(passes: &mut [&mut Pass<'_>], budget: Duration, keeps_all: bool) -> Race {
     let start = Instant::now();
-    let repeats: Vec<u32> = passes.iter_mut().map(|pass| repeats(pass, SLICE)).collect();
+    let repeats: Vec<u32> = passes.iter_mut().map(|pass| repeats(pass, SLICE).0).collect();
     let run = |round: usize, alive: &[usize]| {
         let mut times = Vec::with_capacity(alive.len());
         for place in 0..alive.len() {
