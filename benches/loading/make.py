@@ -53,6 +53,13 @@ def stl():
     records["v"] = positions[faces]
     with open(folder / "grid.stl", "wb") as out:
         out.write(b"a displaced grid".ljust(80) + struct.pack("<I", len(faces)) + records.tobytes())
+    vertex = b"vertex %.6e %.6e %.6e\n"
+    facet = b"facet normal 0 0 0\nouter loop\n" + 3 * vertex + b"endloop\nendfacet\n"
+    with open(folder / "grid-text.stl", "wb") as out:
+        out.write(b"solid grid\n")
+        for triangles in np.array_split(positions[faces].reshape(-1, 9), 100):
+            out.writelines(facet % tuple(row) for row in triangles.tolist())
+        out.write(b"endsolid grid\n")
 
 
 def ply(name, form):

@@ -25,6 +25,7 @@ READERS = {
                  ["open3d", "pymeshlab", "vtk", "libigl", "assimp-py"]),
     "grid.stl": (["stl_io", "stl_io-unmerged", "nom_stl", "mesh-loader"],
                  ["trimesh", "numpy-stl", "stl-reader", "open3d", "pymeshlab", "vtk", "libigl", "assimp-py"]),
+    "grid-text.stl": (["stl_io", "stl_io-unmerged", "nom_stl", "mesh-loader"], ["numpy-stl", "vtk", "assimp-py"]),
     "grid.ply": (["ply-rs-bw"], ["trimesh", "meshio", "plyfile", "open3d", "pymeshlab", "vtk", "libigl", "assimp-py"]),
     "grid-text.ply": (["ply-rs-bw"], ["trimesh", "open3d", "pymeshlab", "vtk", "libigl", "assimp-py"]),
     "grid.glb": (["gltf"], ["trimesh", "open3d", "vtk", "assimp-py"]),

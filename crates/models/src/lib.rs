@@ -170,7 +170,7 @@ pub fn load(path: &Path, options: Options) -> Result<Model, BadFile> {
         Format::Obj => obj::read(path, Text::new(bytes, file))?,
         Format::Stl if has_records => stl::binary(path, Ahead::new(bytes, file))?,
         Format::Ply => ply::read(path, Ahead::new(bytes, file))?,
-        Format::Stl => stl::text(path, &all(Ahead::new(bytes, file))?)?,
+        Format::Stl => stl::text(path, Text::new(bytes, file))?,
         Format::Gltf | Format::Glb => gltf::read(path, &all(Ahead::new(bytes, file))?)?,
     };
     items::model(path, contents, format, options)

@@ -15,6 +15,7 @@ use rayon::prelude::*;
 
 use crate::ahead::Ahead;
 use crate::contents::{Contents, FilePart, Polygons, SHARE};
+use crate::text::Text;
 use crate::{BadFile, bad};
 
 const HEADER: usize = 84;
@@ -207,70 +208,74 @@ fn shares(records: &[[u8; RECORD]], threads: usize) -> Vec<Corners<f32>> {
     records.par_chunks(share).map(read).collect()
 }
 
+/// Triangles in text that are merged by one thread.
+const TEXT_SHARE: usize = 1 << 17;
+
 /// Reads triangles in text, of which each `solid` becomes a part.
-pub(crate) fn text(path: &Path, bytes: &[u8]) -> Result<Contents, BadFile> {
+pub(crate) fn text(path: &Path, mut text: Text) -> Result<Contents, BadFile> {
     let mut parts: Vec<FilePart> = Vec::new();
-    let mut corners = Corners::<f64>::default();
-    let end = |part: Option<&mut FilePart>, corners: &mut Corners<f64>| {
+    // Those of the last part.
+    let mut shares: Vec<Corners<f64>> = Vec::new();
+    let end = |part: Option<&mut FilePart>, shares: &mut Vec<Corners<f64>>| {
         if let Some(part) = part {
-            (part.positions, part.corners) = merged(&[std::mem::take(corners)]);
+            (part.positions, part.corners) = merged(&std::mem::take(shares));
         }
     };
     let mut points: Vec<[f64; 3]> = Vec::new();
-    let mut first_line = 0;
-    for (index, line) in bytes.split(|&byte| byte == b'\n' || byte == b'\r').enumerate() {
-        let number = index + 1;
-        let line = String::from_utf8_lossy(line);
-        let mut words = line.split_ascii_whitespace();
-        match words.next().map(str::to_ascii_lowercase).as_deref() {
-            Some("solid") => {
-                end(parts.last_mut(), &mut corners);
-                corners = Corners::with_capacity(0);
-                let name = words.collect::<Vec<_>>().join(" ");
-                parts.push(FilePart { name, to_file: DMat4::IDENTITY, ..FilePart::default() });
-            }
-            Some("facet") => (points, first_line) = (Vec::new(), number),
-            Some("vertex") => {
-                let numbers: Option<Vec<f64>> = words.map(|word| word.parse().ok()).collect();
-                let Some(&[x, y, z]) = numbers.as_deref() else {
-                    let line = printable_short(&line, 60);
-                    let cause = format!(
-                        "'{line}' is not 'vertex X Y Z' with three numbers: repair the line"
-                    );
-                    return Err(bad(path, Some(number), cause));
-                };
-                if points.len() == 3 {
-                    let cause = "a facet has more than three vertices: export the model as OBJ, which has polygons";
-                    return Err(bad(path, Some(number), cause));
-                }
-                points.push([x, y, z]);
-            }
-            Some("endfacet") => {
-                let (3, Some(part)) = (points.len(), parts.last_mut()) else {
-                    let cause = format!(
-                        "a facet ends with {} vertices instead of 3: export the model again",
-                        points.len()
-                    );
-                    return Err(bad(path, Some(number), cause));
-                };
-                points.drain(..).for_each(|point| corners.push(point));
-                part.polygons.push(3, first_line as u32, 0);
-            }
-            Some("outer" | "endloop" | "endsolid") | None => {}
-            Some(_) => {
+    let (mut number, mut first_line) = (0, 0);
+    while let Some(line) = text.next_line().map_err(|error| bad(path, None, error.cause))? {
+        number += 1;
+        let shown = || printable_short(String::from_utf8_lossy(line).trim(), 60);
+        let mut words = line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
+        let Some(kind) = words.next() else { continue };
+        let is = |name: &str| kind.eq_ignore_ascii_case(name.as_bytes());
+        if is("vertex") {
+            let mut next = || std::str::from_utf8(words.next()?).ok()?.parse::<f64>().ok();
+            let (Some(x), Some(y), Some(z), None) = (next(), next(), next(), words.next()) else {
                 let cause = format!(
-                    "'{}' is no line of an STL: remove it, or export the model again",
-                    printable_short(&line, 60)
+                    "'{}' is not 'vertex X Y Z' with three numbers: repair the line",
+                    shown()
                 );
                 return Err(bad(path, Some(number), cause));
+            };
+            if points.len() == 3 {
+                let cause = "a facet has more than three vertices: export the model as OBJ, which has polygons";
+                return Err(bad(path, Some(number), cause));
             }
+            points.push([x, y, z]);
+        } else if is("facet") {
+            points.clear();
+            first_line = number;
+        } else if is("endfacet") {
+            let (3, Some(part)) = (points.len(), parts.last_mut()) else {
+                let cause = format!(
+                    "a facet ends with {} vertices instead of 3: export the model again",
+                    points.len()
+                );
+                return Err(bad(path, Some(number), cause));
+            };
+            if shares.last().is_none_or(|share| share.numbers.len() >= 3 * TEXT_SHARE) {
+                shares.push(Corners::with_capacity(0));
+            }
+            if let Some(share) = shares.last_mut() {
+                points.drain(..).for_each(|point| share.push(point));
+            }
+            part.polygons.push(3, first_line as u32, 0);
+        } else if is("solid") {
+            end(parts.last_mut(), &mut shares);
+            let name = words.map(String::from_utf8_lossy).collect::<Vec<_>>().join(" ");
+            parts.push(FilePart { name, to_file: DMat4::IDENTITY, ..FilePart::default() });
+        } else if !(is("outer") || is("endloop") || is("endsolid")) {
+            let cause =
+                format!("'{}' is no line of an STL: remove it, or export the model again", shown());
+            return Err(bad(path, Some(number), cause));
         }
     }
     if !points.is_empty() {
         let cause = "the file ends inside this facet: it is cut off; export the model again";
         return Err(bad(path, Some(first_line.max(1)), cause));
     }
-    end(parts.last_mut(), &mut corners);
+    end(parts.last_mut(), &mut shares);
     Ok(Contents { parts, ..Contents::default() })
 }
 

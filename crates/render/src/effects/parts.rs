@@ -168,7 +168,7 @@ pub(super) struct Whole<'a> {
     piece: &'a Piece,
     plan: PiecePlan,
     side: i32,
-    /// Twice the area, and the signed doubled areas of the triangles at a point.
+    /// Twice the signed area, in subpixels.
     area: i64,
     /// 1/w at the corners, by which attributes are interpolated.
     inv_w: [f64; 3],
