@@ -657,6 +657,7 @@ fn files_that_are_broken_or_of_other_formats_are_named() {
     for (name, bytes, cause) in [
         ("cut.stl", cut.as_bytes(), ":23: the file ends inside this facet"),
         ("word.stl", b"solid\nfacet\nvertex 1 2 x\n", ":3: 'vertex 1 2 x' is not"),
+        ("two-bytes.stl", b"solid\r\nfacet\r\nvertex 1 2 x\r\n", ":3: 'vertex 1 2 x' is not"),
         (
             "short.stl",
             b"solid\nfacet\nvertex 1 2 3\nendfacet\n",
