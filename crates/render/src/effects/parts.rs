@@ -11,7 +11,7 @@
 //! intervals wider and no condition wrong.
 //!
 //! A corner's attributes are weighted means, with weights l_i q_i / q where l_i are the exact shares in the window, q_i the
-//! 1/w of the piece's corners and q the sum of l_i q_i. Where the absolute values add up to at most [`MOST_WEIGHT`] times the
+//! 1/w of the piece's corners and q the sum of l_i q_i. Where the absolute values add up to at most `MOST_WEIGHT` times the
 //! sum, each is off by at most 2^-45 of the largest value at the piece's corners: 8 times some 30 roundings. The conditions of normals have
 //! margins of 2^-40, those of footprints too ([`Footprint::longest_in`]), that of fog has 2^-44 of a depth, that of
 //! shadows 2^-10 texel, and texture coordinates get 2^-40 here. Corners where the weights are larger tell nothing: such a
