@@ -401,7 +401,7 @@ fn random_scenes_planned_change_no_bit() {
     assert!(wrong.is_empty(), "{} random scenes differ, first {:?}", wrong.len(), &wrong[..1]);
 }
 
-/// The picture of a plan in which large pieces are asked in squares of so many samples.
+/// The picture of a plan in which large pieces are checked in squares of so many samples.
 fn in_parts(
     scene: &Scene,
     drawer: Drawer,

@@ -249,7 +249,7 @@ fn values_that_may_overflow_are_counted() {
     assert!(beyond(4.0 * MOST_ATTRIBUTE) > 0);
 }
 
-/// A wrong picture is worse than none: who calls tiles without asking what they draw is told.
+/// A wrong picture is worse than none, so the library refuses what it would draw wrongly.
 #[test]
 fn scenes_that_tiles_do_not_draw_are_refused() {
     for name in ["cut-outs", "panes", "layers", "shadows"] {

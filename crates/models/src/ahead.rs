@@ -38,7 +38,7 @@ impl Ahead {
         self.file.length_bytes().saturating_sub(self.byte() as u64)
     }
 
-    /// Reads what is left of the file.
+    /// Reads what is left of the file, for readers that cannot say how long an element is.
     pub(crate) fn read_all(&mut self) -> Result<(), InputError> {
         if self.ended {
             return Ok(());

@@ -1,6 +1,7 @@
 //! What a file contains, in its own right-handed coordinates, before it becomes items of a scene.
 
 use std::collections::BTreeMap;
+use std::hash::Hash;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -48,10 +49,36 @@ pub(crate) struct FilePart {
     pub polygons: Polygons,
 }
 
-/// The bits of a position, by which equal ones are found: -0 and 0 have the same.
+/// A coordinate as a file has it.
+pub(crate) trait Coordinate: Copy + PartialEq + Into<f64> + Send + Sync {
+    type Bits: Copy + Eq + Hash + Into<u64> + Send + Sync;
+
+    /// By which equal numbers are found: -0 and 0 have the same.
+    fn bits(self) -> Self::Bits;
+}
+
+impl Coordinate for f32 {
+    type Bits = u32;
+
+    #[inline]
+    fn bits(self) -> u32 {
+        (self + 0.0).to_bits()
+    }
+}
+
+impl Coordinate for f64 {
+    type Bits = u64;
+
+    #[inline]
+    fn bits(self) -> u64 {
+        (self + 0.0).to_bits()
+    }
+}
+
+/// The bits of a position, by which equal ones are found.
 #[inline]
 pub(crate) fn key(position: DVec3) -> [u64; 3] {
-    (position + DVec3::ZERO).to_array().map(f64::to_bits)
+    position.to_array().map(Coordinate::bits)
 }
 
 /// Fewer records than this are read by one thread, because handing them to another one would take longer.

@@ -106,8 +106,8 @@ pub struct Origin {
     pub part: String,
     /// The name of the material; empty without one.
     pub material: String,
-    /// For each triangle the number of its face among all faces of the file that are drawn, from 1; nothing where each triangle
-    /// is a face.
+    /// For each triangle the number of its face among all faces of the file that are drawn, from 1. Nothing where each triangle is
+    /// a face, so that the numbers follow each other.
     pub faces: Option<Vec<u32>>,
     /// For each triangle the line of its face; empty where the file has no lines.
     pub lines: Vec<u32>,
@@ -164,14 +164,17 @@ pub fn load(path: &Path, options: Options) -> Result<Model, BadFile> {
     file.read_more(&mut bytes, PIECE_BYTES).map_err(failed)?;
     let format = Format::of(&bytes, length).map_err(|cause| bad(path, None, cause))?;
     let has_records = format == Format::Stl && stl::is_binary(&bytes, length);
-    let all = |mut file: Ahead| file.read_all().map(|()| file.bytes).map_err(failed);
     // Each reader gets the bytes for good, since what it makes of them needs the memory.
     let contents = match format {
         Format::Obj => obj::read(path, Text::new(bytes, file))?,
         Format::Stl if has_records => stl::binary(path, Ahead::new(bytes, file))?,
         Format::Ply => ply::read(path, Ahead::new(bytes, file))?,
         Format::Stl => stl::text(path, Text::new(bytes, file))?,
-        Format::Gltf | Format::Glb => gltf::read(path, &all(Ahead::new(bytes, file))?)?,
+        Format::Gltf | Format::Glb => {
+            let mut file = Ahead::new(bytes, file);
+            file.read_all().map_err(failed)?;
+            gltf::read(path, &file.bytes)?
+        }
     };
     items::model(path, contents, format, options)
 }

@@ -3,7 +3,7 @@
 //! Own code, since the format has one kind of record, and errors name its line or byte. Its normals are not read: they are
 //! those of the triangles, or wrong.
 
-use std::hash::{BuildHasher as _, Hash};
+use std::hash::BuildHasher as _;
 use std::path::Path;
 
 use foldhash::fast::RandomState;
@@ -14,7 +14,7 @@ use rasterproof_host::text::printable_short;
 use rayon::prelude::*;
 
 use crate::ahead::Ahead;
-use crate::contents::{Contents, FilePart, Polygons, SHARE};
+use crate::contents::{Contents, Coordinate, FilePart, Polygons, SHARE};
 use crate::text::Text;
 use crate::{BadFile, bad};
 
@@ -36,33 +36,8 @@ pub(crate) fn is_text(bytes: &[u8]) -> bool {
     rest.starts_with(b"solid") && rest.get(5).is_none_or(u8::is_ascii_whitespace)
 }
 
-/// A coordinate as the file has it. Records have `f32`, which take half the memory until equal positions are found.
-trait Coordinate: Copy + PartialEq + Into<f64> + Send + Sync {
-    type Bits: Copy + Eq + Hash + Into<u64> + Send + Sync;
-
-    /// By which equal numbers are found: -0 and 0 have the same.
-    fn bits(self) -> Self::Bits;
-}
-
-impl Coordinate for f32 {
-    type Bits = u32;
-
-    #[inline]
-    fn bits(self) -> u32 {
-        (self + 0.0).to_bits()
-    }
-}
-
-impl Coordinate for f64 {
-    type Bits = u64;
-
-    #[inline]
-    fn bits(self) -> u64 {
-        (self + 0.0).to_bits()
-    }
-}
-
-/// Corners of triangles in the order of the file, and the positions that they name.
+/// Corners of triangles in the order of the file, and the positions that they name. Those of records stay `f32`, which take half
+/// the memory until equal ones are found.
 #[derive(Default)]
 struct Corners<C> {
     /// Most are different; [`merged`] makes one of those that are equal.
@@ -162,7 +137,7 @@ fn merged<C: Coordinate>(shares: &[Corners<C>]) -> (Vec<DVec3>, Vec<u32>) {
     (positions, corners)
 }
 
-/// Reads triangles in records.
+/// Reads triangles in records, and counts those that have an attribute, which is not drawn.
 pub(crate) fn binary(path: &Path, mut file: Ahead) -> Result<Contents, BadFile> {
     let count = counted(&file.bytes).unwrap_or(0);
     file.at = HEADER;

@@ -22,7 +22,7 @@ use crate::pipeline::see_through::{self, Look};
 use crate::pipeline::shade::{Attributes as Packed, Light, PLACED, Surface};
 use crate::pipeline::shadow::{Receiver, ShadowMap, TAPS, dimmed};
 use crate::pipeline::target::{Antialias, Colour, Target, to_colour};
-use crate::pipeline::texture::{Last, Texture};
+use crate::pipeline::texture::{FourTexels, Texture};
 use rasterproof_core::arrays::MapArray as _;
 use rasterproof_core::contract::Interpolate;
 use rasterproof_core::grid::PixelRect;
@@ -123,7 +123,7 @@ pub(super) struct Kernel<'a> {
     /// How often the texture was read where it may be read several times.
     taps: Cell<u64>,
     /// The texels of the last fragment, where neighbours mostly read the same ones.
-    last: Option<RefCell<Last>>,
+    last: Option<RefCell<FourTexels>>,
     /// The colour of a piece of which nothing but fog is seen.
     fogged: Option<Colour>,
     /// Of pieces that are not opaque everywhere.
@@ -165,7 +165,7 @@ impl<'a> Kernel<'a> {
             opacity: item.item.material.opacity.as_ref().filter(|_| !plan.replaces_all()),
             reading: None,
             taps: Cell::new(0),
-            last: constants.shares_texels.then(|| RefCell::new(Last::NONE)),
+            last: constants.shares_texels.then(|| RefCell::new(FourTexels::NONE)),
             veil: (plan.fog != Share::None).then_some(&item.veil),
         };
         if plan.fog == Share::Whole && plan.is_one_colour() && kernel.opacity.is_none() {
@@ -295,7 +295,7 @@ impl<'a> Kernel<'a> {
             .first_opacity
             .unwrap_or_else(|| opacity.of(Surface::from(piece.vertices[0].varying).uv));
         let has_uv = interpolates.has(Attributes::UV);
-        let last = self.last.is_some().then(|| RefCell::new(Last::NONE));
+        let last = self.last.is_some().then(|| RefCell::new(FourTexels::NONE));
         let of = |values: &[f64]| {
             let uv = DVec2::from_slice(&values[self.starts.uv..]);
             match &last {

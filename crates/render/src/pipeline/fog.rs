@@ -7,6 +7,7 @@
 
 use glam::{DMat4, DVec3};
 
+use super::ends;
 use super::target::{Colour, to_colour};
 use rasterproof_core::arrays::MapArray as _;
 
@@ -134,10 +135,7 @@ impl Veil {
         if self.w[0] != 0.0 && self.w[1] != 0.0 {
             return None;
         }
-        let ends = depths
-            .iter()
-            .fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], z| [a.min(*z), b.max(*z)]);
-        let [one, other] = ends.map_array(|depth| self.share(self.distance(depth)));
+        let [one, other] = ends(depths).map_array(|depth| self.share(self.distance(depth)));
         let margin = 0.5f64.powi(44);
         let least = self.mixed(colour, (one.min(other) - margin).max(0.0));
         let most = self.mixed(colour, (one.max(other) + margin).min(1.0));
@@ -208,6 +206,14 @@ mod tests {
         assert_eq!(none.between([0.0, 0.5, 1.0]), Share::None);
     }
 
+    fn random_veil(rng: &mut Rng, index: u32) -> Veil {
+        let start = 1.0 + 12.0 * rng.unit();
+        veil(match index % 2 {
+            0 => Growth::Linear { start, end: start + 6.0 * rng.unit() },
+            _ => Growth::Exponential { density: rng.unit().powi(4) },
+        })
+    }
+
     type Condition = fn(&Veil, [f64; 3]) -> Share;
 
     /// How many of random triangles have no fog or nothing else by a condition, and for how many of these a
@@ -216,12 +222,7 @@ mod tests {
         let mut rng = Rng::new("fog", 1, 0);
         let mut counts = [0; 2];
         for index in 0..4000 {
-            let start = 1.0 + 12.0 * rng.unit();
-            let growth = match index % 2 {
-                0 => Growth::Linear { start, end: start + 6.0 * rng.unit() },
-                _ => Growth::Exponential { density: rng.unit().powi(4) },
-            };
-            let veil = veil(growth);
+            let veil = random_veil(&mut rng, index);
             let (from, spread) = (1.0 + 18.0 * rng.unit(), 1.0 + rng.unit());
             let depths =
                 [0; 3].map_array(|_| depth((from * (1.0 + (spread - 1.0) * rng.unit())).min(20.0)));
@@ -271,12 +272,7 @@ mod tests {
         let mut rng = Rng::new("fog of runs", 1, 0);
         let mut counts = [0; 3];
         for index in 0..4000 {
-            let start = 1.0 + 12.0 * rng.unit();
-            let growth = match index % 2 {
-                0 => Growth::Linear { start, end: start + 6.0 * rng.unit() },
-                _ => Growth::Exponential { density: rng.unit().powi(4) },
-            };
-            let veil = veil(growth);
+            let veil = random_veil(&mut rng, index);
             let [from, spread] = [depth(1.0 + 18.0 * rng.unit()), 0.01 * rng.unit().powi(3)];
             let depths: Vec<_> = (0..16).map(|_| from + spread * rng.signed()).collect();
             let colour = [0, 255, (index % 256) as u8, 255];

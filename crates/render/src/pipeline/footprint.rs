@@ -21,6 +21,7 @@ use rasterproof_core::triangle::Corners;
 
 use super::assemble::twice_area;
 use super::depth::OFF_FRACTION;
+use super::ends;
 use super::texture::Texture;
 
 /// The slopes of a triangle's texture coordinates, in texels.
@@ -139,7 +140,7 @@ impl Footprint {
     /// [`Self::is_round`].
     #[must_use]
     pub fn longest_in(&self, inv_w: [f64; 4], uv: [DVec2; 4], farthest: DVec2) -> f64 {
-        let [least, greatest] = ends(inv_w);
+        let [least, greatest] = ends(&inv_w);
         let mut longest: f64 = 0.0;
         for (over_w, slope) in self.over_w.iter().zip(self.inv_w) {
             let rounding = (over_w.abs() + farthest * slope.abs()) * (greatest * 0.5f64.powi(40));
@@ -178,7 +179,7 @@ impl Footprint {
         uv: [DVec2; N],
         farthest: DVec2,
     ) -> bool {
-        let [least, most] = ends(inv_w);
+        let [least, most] = ends(&inv_w);
         let [[long_x, short_x], [long_y, short_y]] = [0, 1].map_array(|i: usize| {
             let (over_w, slope) = (self.over_w[i], self.inv_w[i]);
             let numerator = |i: usize| (over_w * inv_w[i] - uv[i] * inv_w[i] * slope) * self.size;
@@ -186,8 +187,8 @@ impl Footprint {
             let rounding = (over_w.abs() + farthest * slope.abs()) * self.size * most;
             let rounding = rounding.length() * 0.5f64.powi(40);
             let direction = numerators.iter().sum::<DVec2>().normalize_or_zero();
-            let [_, longest] = ends(numerators.map(DVec2::length));
-            let [shortest, _] = ends(numerators.map(|numerator| numerator.dot(direction)));
+            let [_, longest] = ends(&numerators.map(DVec2::length));
+            let [shortest, _] = ends(&numerators.map(|numerator| numerator.dot(direction)));
             [longest + rounding, shortest - rounding]
         });
         let texel = least * least;
@@ -196,11 +197,6 @@ impl Footprint {
         };
         is_short(long_x, short_y) && is_short(long_y, short_x)
     }
-}
-
-/// The least and the largest number.
-fn ends<const N: usize>(numbers: [f64; N]) -> [f64; 2] {
-    numbers.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], n| [a.min(*n), b.max(*n)])
 }
 
 /// The places at which a texture is read for one pixel.

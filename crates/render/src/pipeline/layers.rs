@@ -20,9 +20,14 @@ pub struct Layer {
     pub colour: Colour,
 }
 
-/// The layers of all samples, in the order of drawing; and room to sort them in.
+/// The layers of all samples.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Layers(pub Vec<Layer>, Vec<Layer>);
+pub(super) struct Layers {
+    /// In the order of drawing.
+    pub all: Vec<Layer>,
+    /// Memory that is kept for sorting.
+    sorted: Vec<Layer>,
+}
 
 /// Fewer layers are sorted as they are.
 const FEW: usize = 1 << 12;
@@ -32,7 +37,8 @@ impl Layers {
     pub fn mix(&mut self, most: u32, planes: &mut [SamplePlane]) -> u64 {
         let mut left_out = 0;
         self.sort(planes);
-        for layers in self.0.chunk_by(|a, b| (a.plane, a.y_px, a.x_px) == (b.plane, b.y_px, b.x_px))
+        for layers in
+            self.all.chunk_by(|a, b| (a.plane, a.y_px, a.x_px) == (b.plane, b.y_px, b.x_px))
         {
             let Layer { plane, y_px, x_px, .. } = layers[0];
             let plane = &mut planes[usize::from(plane)];
@@ -40,32 +46,30 @@ impl Layers {
             let colour = &mut plane.colour.span_mut(y_px, x_px, x_px + 1)[0];
             left_out += mix_sample(layers, most, stored, colour);
         }
-        self.0.clear();
+        self.all.clear();
         left_out
     }
-}
 
-impl Layers {
     /// Sorts layers: many of them by rows first, then each row by columns, and then the few of each sample.
     fn sort(&mut self, planes: &[SamplePlane]) {
-        let Self(layers, room) = self;
+        let Self { all: layers, sorted } = self;
         let Some(plane) = planes.first().filter(|_| layers.len() > FEW) else {
             layers.sort_unstable();
             return;
         };
         let bounds = plane.depth.bounds();
         let (width, height) = (bounds.width() as usize, bounds.height() as usize);
-        room.clear();
-        room.extend_from_slice(layers);
+        sorted.clear();
+        sorted.extend_from_slice(layers);
         let row = |layer: &Layer| {
             usize::from(layer.plane) * height + layer.y_px.abs_diff(bounds.y0) as usize
         };
-        let mut starts = vec![0; height * planes.len() + 1];
-        by_number(layers, room, &mut starts, row);
+        let mut ends = vec![0; height * planes.len() + 1];
+        by_number(layers, sorted, &mut ends, row);
         let mut columns = vec![0; width + 1];
         let (mut from, mut own) = (0, Vec::new());
-        for to in starts {
-            let part = &mut room[from..to];
+        for to in ends {
+            let part = &mut sorted[from..to];
             from = to;
             own.clear();
             own.extend_from_slice(part);
@@ -74,7 +78,7 @@ impl Layers {
             by_number(&own, part, &mut columns, column);
             part.chunk_by_mut(|a, b| a.x_px == b.x_px).for_each(<[Layer]>::sort_unstable);
         }
-        std::mem::swap(layers, room);
+        std::mem::swap(layers, sorted);
     }
 }
 
@@ -129,12 +133,12 @@ mod tests {
                 let plane = plane % antialias.planes() as u8;
                 let [y_px, x_px] = [rng.int(0, 16), rng.int(0, 22)].map(|at| at as i32);
                 let key = rng.int(0, 4) as u64;
-                layers.0.push(Layer { plane, y_px, x_px, key, opacity, colour });
+                layers.all.push(Layer { plane, y_px, x_px, key, opacity, colour });
             }
-            let mut sorted = layers.0.clone();
+            let mut sorted = layers.all.clone();
             sorted.sort_unstable();
             layers.sort(&target.planes);
-            assert!(layers.0 == sorted, "{antialias:?}");
+            assert!(layers.all == sorted, "{antialias:?}");
         }
     }
 }

@@ -30,6 +30,11 @@ pub mod wireframe;
 
 use glam::DVec4;
 
+/// The least and the largest number; infinite ones of none.
+pub(crate) fn ends(numbers: &[f64]) -> [f64; 2] {
+    numbers.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], n| [a.min(*n), b.max(*n)])
+}
+
 /// A vertex in clip space, as the vertex stage returns it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ClipVertex<V> {

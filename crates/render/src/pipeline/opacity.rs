@@ -17,7 +17,7 @@ use glam::DVec2;
 
 use super::depth::OFF_FRACTION;
 use super::target::Colour;
-use super::texture::{Last, Texture, Wrap};
+use super::texture::{FourTexels, Texture, Wrap};
 
 /// How opaque a material is, and what that decides.
 #[derive(Clone, Debug, PartialEq)]
@@ -74,7 +74,7 @@ impl Opacity {
 
     /// The same as [`Self::of`], with the four texels of the last read.
     #[must_use]
-    pub fn of_again(&self, uv: DVec2, last: &mut Last) -> u8 {
+    pub fn of_again(&self, uv: DVec2, last: &mut FourTexels) -> u8 {
         let texel = self.map.as_ref().map_or(1.0, |map| map.texture.at_again(uv, last).x);
         self.mode.of(step(self.factor * texel) as u8)
     }
@@ -379,7 +379,7 @@ mod tests {
                     (0..=40).flat_map(|i| (0..=40 - i).map(move |j| (f64::from(i), f64::from(j))));
                 let mut fragments =
                     steps.map(|(i, j)| a + (b - a) * (i / 40.0) + (c - a) * (j / 40.0));
-                let mut last = Last::NONE;
+                let mut last = FourTexels::NONE;
                 let is_other = fragments.any(|uv| {
                     assert_eq!(opacity.of_again(uv, &mut last), opacity.of(uv));
                     opacity.of(uv) != opacity.of(a)

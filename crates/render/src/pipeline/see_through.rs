@@ -80,7 +80,7 @@ fn draw_run<const N: usize>(
         let colour = shade(x_px, varying, depth);
         if look.is_kept && opacity != OPAQUE {
             let (plane, key) = (number as u8, format.key(depth));
-            layers.0.push(Layer { plane, y_px, x_px, key, opacity, colour });
+            layers.all.push(Layer { plane, y_px, x_px, key, opacity, colour });
             return;
         }
         put(colour, opacity, &mut colours[i]);

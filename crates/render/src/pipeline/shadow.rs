@@ -18,6 +18,7 @@
 //! [`LightView::may_be_shadowed`] says where no texel can be nearer.
 
 use std::sync::OnceLock;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use glam::{DVec2, DVec3};
 
@@ -88,7 +89,7 @@ pub struct LightView {
     casters: OnceLock<Option<Casters>>,
     map: OnceLock<ShadowMap>,
     /// Whether a piece is known to read it.
-    is_needed: OnceLock<()>,
+    is_needed: AtomicBool,
 }
 
 #[derive(Debug)]
@@ -195,7 +196,7 @@ impl LightView {
             error,
             casters: OnceLock::new(),
             map: OnceLock::new(),
-            is_needed: OnceLock::new(),
+            is_needed: AtomicBool::new(false),
         })
     }
 
@@ -223,12 +224,12 @@ impl LightView {
 
     /// Notes that a piece reads the map.
     pub fn need(&self) {
-        let _ = self.is_needed.set(());
+        self.is_needed.store(true, Ordering::Relaxed);
     }
 
     #[must_use]
     pub fn is_needed(&self) -> bool {
-        self.is_needed.get().is_some()
+        self.is_needed.load(Ordering::Relaxed)
     }
 
     #[must_use]
@@ -281,7 +282,7 @@ impl LightView {
         Some(Slope { by: DVec2::new(x, y), error: DVec2::new(of_x, of_y) })
     }
 
-    /// What is asked of parts of a triangle: nothing where the light sees it from the side.
+    /// The plane of a triangle, by which parts of it are checked; nothing where the light sees it from the side.
     #[must_use]
     pub fn plane(&self, places: [DVec3; 3]) -> Option<LitPlane> {
         let slope = self.slope(places)?;

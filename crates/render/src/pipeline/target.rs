@@ -253,12 +253,12 @@ impl Target {
 
     /// Forgets the layers of a frame that was not finished.
     pub(crate) fn clear_layers(&mut self) {
-        self.layers.0.clear();
+        self.layers.all.clear();
     }
 
     /// Mixes the layers that wait, of each sample at most so many of the nearest.
     pub(crate) fn mix_layers(&mut self, most: u32, counters: &mut Counters) {
-        counters.layers += self.layers.0.len() as u64;
+        counters.layers += self.layers.all.len() as u64;
         counters.layers_left_out += self.layers.mix(most, &mut self.planes);
     }
 

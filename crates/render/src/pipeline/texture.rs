@@ -64,16 +64,25 @@ enum Texels {
 
 /// Four texels of one texture between which a filter has read.
 #[derive(Clone, Copy, Debug)]
-pub struct Last {
+pub struct FourTexels {
     /// Column and row of the upper left one.
     place: [i64; 2],
     /// Of both rows the left one, and what the right one differs by.
     lines: [[DVec3; 2]; 2],
 }
 
-impl Last {
-    /// None: no column has this number.
+impl FourTexels {
+    /// Before the first read: no texel is in a column of this number.
     pub const NONE: Self = Self { place: [i64::MIN; 2], lines: [[DVec3::ZERO; 2]; 2] };
+
+    /// The bilinear mean at a place between the centres of these texels, in subtexels.
+    #[inline]
+    fn between(&self, x: i64, y: i64) -> DVec3 {
+        let part = |sub: i64| (sub & (SUBTEXELS - 1)) as f64 / SUBTEXELS as f64;
+        let (right, down) = (part(x), part(y));
+        let [a, b] = self.lines.map_array(|[from, difference]| from + difference * right);
+        a + (b - a) * down
+    }
 }
 
 /// Boxes of colours that are listed at most.
@@ -237,26 +246,30 @@ impl Texture {
     /// The same, with the four texels of the last read: where a texture is magnified, neighbours mostly read the same ones.
     #[must_use]
     #[inline]
-    pub fn at_again(&self, uv: DVec2, last: &mut Last) -> DVec3 {
+    pub fn at_again(&self, uv: DVec2, last: &mut FourTexels) -> DVec3 {
         if self.filter == Filter::Nearest {
             return self.at(uv);
         }
-        let x = subtexel(uv.x, self.subtexels.x) - SUBTEXELS / 2;
-        let y = subtexel(1.0 - uv.y, self.subtexels.y) - SUBTEXELS / 2;
+        let [x, y] = [subtexel(uv.x, self.subtexels.x), subtexel(1.0 - uv.y, self.subtexels.y)]
+            .map_array(|sub| sub - SUBTEXELS / 2);
         let place = [x >> SUBTEXEL_BITS, y >> SUBTEXEL_BITS];
         if last.place != place {
-            last.place = place;
-            let columns = [self.column(place[0]), self.column(place[0] + 1)];
-            last.lines = [place[1], place[1] + 1].map_array(|row| {
-                let start = self.row_start(row);
-                let [a, b] = columns.map_array(|column| self.texel(start + column));
-                [a, b - a]
-            });
+            *last = self.four(place);
         }
-        let part = |sub: i64| (sub & (SUBTEXELS - 1)) as f64 / SUBTEXELS as f64;
-        let (right, down) = (part(x), part(y));
-        let [a, b] = last.lines.map_array(|[from, difference]| from + difference * right);
-        a + (b - a) * down
+        last.between(x, y)
+    }
+
+    /// The four texels of which the upper left one is in this column and row.
+    #[inline]
+    fn four(&self, place: [i64; 2]) -> FourTexels {
+        let [column, row] = place;
+        let columns = [self.column(column), self.column(column + 1)];
+        let lines = [row, row + 1].map_array(|row| {
+            let start = self.row_start(row);
+            let [a, b] = columns.map_array(|column| self.texel(start + column));
+            [a, b - a]
+        });
+        FourTexels { place, lines }
     }
 
     /// The colour at whole numbers of 1/256 texel from the top left corner.
@@ -270,17 +283,7 @@ impl Texture {
             Filter::Bilinear => {
                 // Texel centres carry the values, so half a texel lies before the first.
                 let (x, y) = (x - SUBTEXELS / 2, y - SUBTEXELS / 2);
-                let (column, row) = (x >> SUBTEXEL_BITS, y >> SUBTEXEL_BITS);
-                let part = |sub: i64| (sub & (SUBTEXELS - 1)) as f64 / SUBTEXELS as f64;
-                let (right, down) = (part(x), part(y));
-                let columns = (self.column(column), self.column(column + 1));
-                let line = |row| {
-                    let start = self.row_start(row);
-                    let (a, b) = (self.texel(start + columns.0), self.texel(start + columns.1));
-                    a + (b - a) * right
-                };
-                let (a, b) = (line(row), line(row + 1));
-                a + (b - a) * down
+                self.four([x >> SUBTEXEL_BITS, y >> SUBTEXEL_BITS]).between(x, y)
             }
         }
     }
@@ -488,7 +491,7 @@ mod tests {
         for filter in [Filter::Nearest, Filter::Bilinear] {
             for wrap in [Wrap::Repeat, Wrap::Clamp] {
                 let texture = texture.clone().with(filter, wrap);
-                let mut last = Last::NONE;
+                let mut last = FourTexels::NONE;
                 for i in 0..4000 {
                     let (step, far) = (f64::from(i) * 0.0013, f64::from(i / 40) * 0.171);
                     let uv = DVec2::new(step + far - 2.0, 1.7 - step * 0.7);

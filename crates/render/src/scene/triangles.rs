@@ -72,8 +72,8 @@ impl<V: Copy> Attribute<V> {
 #[derive(Clone, Debug)]
 pub enum Normals {
     Given(Attribute<DVec3>),
-    /// Those of the faces between these positions, of length 1, or 0 for a face without an area. They are computed when they
-    /// are asked for: for five million triangles they would take 120 MB, most of which no picture needs.
+    /// Those of the faces between these positions, of length 1, or 0 for a face without an area. They are computed when
+    /// a triangle is read: for five million triangles they would take 120 MB, most of which no picture needs.
     Flat(Arc<Vec<DVec3>>),
 }
 

@@ -112,15 +112,15 @@ impl Facts {
         if rule.where_it_varies {
             facts.varies = interpolation::differing(rule.interpolates, piece);
         }
+        let faces_away = rule.shadows.is_open() && shadows::piece_faces_away(item, piece);
         if rule.specular.is_open() {
             // What faces away without a highlight needs no shadow map, which costs more than all of these.
-            let is_checked = covers(piece, LEAST_SHINY)
-                || (rule.shadows.is_open() && shadows::piece_faces_away(item, piece));
+            let is_checked = covers(piece, LEAST_SHINY) || faces_away;
             facts.is_shiny = !is_checked || specular::may_show(item, piece);
         }
         if rule.shadows.is_open() {
-            let has_highlight = rule.specular.pays(facts.is_shiny);
-            facts.is_shadowed = shadows::may_be_shadowed(scene, item, piece, has_highlight);
+            let is_lit = !faces_away || rule.specular.pays(facts.is_shiny);
+            facts.is_shadowed = is_lit && shadows::may_be_shadowed(scene, item, piece);
         }
         let has_uv = rule.interpolates.both(facts.varies).has(Attributes::UV);
         if !has_uv || !covers(piece, LEAST_TEXTURED) {

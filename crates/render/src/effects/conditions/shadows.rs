@@ -40,17 +40,12 @@ const LEAST_SEARCHED: i64 = 48;
 /// The same where another piece needs the map anyway, so that a search saves lookups and no map.
 const LEAST_SEARCHED_BESIDES: i64 = 512;
 
-pub fn may_be_shadowed(
-    scene: &Scene,
-    item: &Prepared<'_>,
-    piece: &Piece,
-    has_highlight: bool,
-) -> bool {
+/// Of a piece that faces the light, or has a highlight.
+pub fn may_be_shadowed(scene: &Scene, item: &Prepared<'_>, piece: &Piece) -> bool {
     let Some(view) = &item.light_view else { return false };
-    let surfaces = piece.vertices.map_array(|vertex| Surface::from(vertex.varying));
+    let places = piece.vertices.map_array(|vertex| Surface::from(vertex.varying).place);
     let least = if view.is_needed() { LEAST_SEARCHED_BESIDES } else { LEAST_SEARCHED };
-    let is_shadowed = (has_highlight || !piece_faces_away(item, piece))
-        && (!covers(piece, least) || view.may_be_shadowed(scene, surfaces.map_array(|s| s.place)));
+    let is_shadowed = !covers(piece, least) || view.may_be_shadowed(scene, places);
     if is_shadowed {
         view.need();
     }
