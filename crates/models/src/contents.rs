@@ -254,6 +254,16 @@ mod tests {
     use super::*;
 
     #[test]
+    fn the_first_of_many_is_found() {
+        let mut values = vec![0; 3 * SHARE + 1];
+        assert_eq!(first(&values, |value| *value > 0), None);
+        for place in [3 * SHARE, 2 * SHARE + 5, SHARE, SHARE - 1, 0] {
+            values[place] = 1;
+            assert_eq!(first(&values, |value| *value > 0), Some(place));
+        }
+    }
+
+    #[test]
     fn numbers_are_those_that_were_pushed() {
         let positions = [4, 5, 4, 9];
         for pushed in [[4, 5, 4, 9], [NONE; 4], [4, 5, NONE, 9], [NONE, 5, 4, 9], [0, 5, 4, 9]] {
