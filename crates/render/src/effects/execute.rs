@@ -5,7 +5,7 @@ use std::num::NonZeroU32;
 
 use super::Effect;
 use super::assembled::Assembled;
-use super::conditions::{self, Facts};
+use super::conditions::{self, Facts, shadows};
 use super::kernel::Kernel;
 use super::parts::{Constants, Part, Whole};
 use super::plan::{
@@ -232,7 +232,9 @@ fn plans(
 /// What a rule says of a piece by the same conditions as a planner.
 #[inline]
 fn as_it_comes(rule: &Rule, scene: &Scene, item: &Prepared<'_>, piece: &Piece) -> PiecePlan {
-    conditions::plan(rule, &Facts::of(rule, scene, item, piece))
+    let mut facts = Facts::of(rule, item, piece);
+    shadows::search(rule, scene, item, piece, &mut facts);
+    conditions::plan(rule, &facts)
 }
 
 /// Draws what was assembled for a plan.
@@ -284,6 +286,7 @@ impl<E: Interpolate> Drawing<'_, '_, E> {
         for &index in &assembled.order {
             let item = &assembled.items[index];
             let Pieces::AsTheyCome(rule) = self.plan.items[index].pieces else { continue };
+            shadows::look_ahead(scene, item, &rule);
             let mut counters = std::mem::take(&mut self.counters);
             item.assemble(scene, &mut counters, &mut |piece, fills| {
                 self.draw(item, piece, as_it_comes(&rule, scene, item, piece), fills);

@@ -30,7 +30,7 @@ use rasterproof_core::grid::PixelRect;
 /// So many components have two attributes without a place in the light: most of what is seen through.
 const SMALL: usize = 6;
 
-/// In runs of fewer fragments each highlight is computed.
+/// In runs of fewer fragments each highlight and each share of fog is computed.
 const SHORT: usize = 4;
 
 /// Where a piece is drawn and how far, with the pixels where their samples are told apart on demand, and what is counted.
@@ -443,7 +443,7 @@ impl<'a> Kernel<'a> {
                 self.brighten(varyings, normal, wanted, colours);
             }
             let Some(veil) = self.veil else { return };
-            let is_alike = MASK == 0 && self.checks_runs;
+            let is_alike = MASK == 0 && self.checks_runs && depths.len() >= SHORT;
             match is_alike.then(|| veil.one_before(first(colours, wanted), depths)).flatten() {
                 Some(colour) => fill_wanted(colour, wanted, colours),
                 None => veil.apply(depths, wanted, colours),

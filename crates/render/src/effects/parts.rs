@@ -21,7 +21,7 @@ use glam::{DVec2, DVec3};
 
 use super::Mode;
 use super::conditions::mip_maps::{footprint, is_affine, is_near};
-use super::conditions::{covers, interpolation};
+use super::conditions::{interpolation, samples_of};
 use super::plan::{Attributes, PiecePlan, Rule};
 use super::primitive::{Piece, Prepared, has_one_w, pixel_box};
 use crate::pipeline::fog::Share;
@@ -88,7 +88,7 @@ impl Parts {
     /// Whether a piece is large enough for its squares to be checked.
     pub(super) fn are_checked(&self, piece: &Piece, plan: PiecePlan) -> bool {
         let varies = !plan.interpolates.is_empty() || plan.fog == Share::Mixed;
-        varies && self.side > 0 && covers(piece, 4 * i64::from(self.side()).pow(2))
+        varies && self.side > 0 && samples_of(piece) >= 4 * i64::from(self.side()).pow(2)
     }
 }
 

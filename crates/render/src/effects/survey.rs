@@ -1,7 +1,7 @@
 //! A scene to facts: all that is found out by looking at triangles, before anything is planned.
 
 use super::assembled::Assembled;
-use super::conditions::{Facts, depth, layers, plan, samples};
+use super::conditions::{Facts, depth, layers, plan, samples, shadows};
 use super::plan::{Order, Plan, Rule};
 use super::primitive::{BadScene, Piece};
 use super::{Effect, Effects, Mode};
@@ -45,9 +45,10 @@ impl<'a> Survey<'a> {
             let (items, pieces) = (&assembled.items, assembled.pieces());
             let of_piece = |(index, piece): &(usize, Piece)| Facts {
                 is_wide: word_bits(&piece.corners()) > Some(i32::BITS),
-                ..Facts::of(&rules[*index], scene, &items[*index], piece)
+                ..Facts::of(&rules[*index], &items[*index], piece)
             };
             let mut facts: Vec<Facts> = pieces.iter().map(of_piece).collect();
+            shadows::search_all(scene, rules, &assembled, &mut facts);
             if effects.mode(Effect::Depth) == Mode::Planned && order == Order::Submission {
                 for (facts, overlaps) in facts.iter_mut().zip(depth::overlaps(pieces, &canvas)) {
                     facts.overlaps = overlaps;

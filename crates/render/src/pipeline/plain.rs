@@ -17,7 +17,14 @@ const MOST_BLOCKS: usize = 256;
 
 /// The colour of each block that has one, found when it is first asked for.
 #[derive(Clone, Debug, Default)]
-pub(super) struct PlainBlocks(OnceLock<Vec<Option<u32>>>);
+pub(super) struct PlainBlocks(OnceLock<Blocks>);
+
+#[derive(Clone, Debug)]
+struct Blocks {
+    colours: Vec<Option<u32>>,
+    /// The part of them that has one.
+    plain: f64,
+}
 
 /// What is computed from the texels makes no difference.
 impl PartialEq for PlainBlocks {
@@ -74,8 +81,7 @@ impl PlainBlocks {
                     if looked_at > MOST_BLOCKS {
                         return None;
                     }
-                    let blocks = self.0.get_or_init(|| blocks([width, height], &texel));
-                    match blocks[row * across + column] {
+                    match self.blocks([width, height], &texel).colours[row * across + column] {
                         Some(colour) if colour == first => {}
                         Some(_) => return None,
                         None => {
@@ -96,9 +102,22 @@ impl PlainBlocks {
         }
         found
     }
+
+    /// The part of the blocks that has one colour, from 0 to 1, of a texture with so many columns and rows.
+    pub fn plain(&self, sides: [usize; 2], texel: impl Fn(usize) -> u32) -> f64 {
+        self.blocks(sides, &texel).plain
+    }
+
+    fn blocks(&self, sides: [usize; 2], texel: &impl Fn(usize) -> u32) -> &Blocks {
+        self.0.get_or_init(|| {
+            let colours = colours(sides, texel);
+            let plain = colours.iter().flatten().count() as f64 / colours.len() as f64;
+            Blocks { colours, plain }
+        })
+    }
 }
 
-fn blocks([width, height]: [usize; 2], texel: &impl Fn(usize) -> u32) -> Vec<Option<u32>> {
+fn colours([width, height]: [usize; 2], texel: &impl Fn(usize) -> u32) -> Vec<Option<u32>> {
     let sides = [width, height].map(|side| side.div_ceil(BLOCK));
     let block = |column: usize, row: usize| {
         let first = texel(row * BLOCK * width + column * BLOCK);

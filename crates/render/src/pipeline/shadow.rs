@@ -18,7 +18,7 @@
 //! [`LightView::may_be_shadowed`] says where no texel can be nearer.
 
 use std::sync::OnceLock;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use glam::{DVec2, DVec3};
 
@@ -90,6 +90,8 @@ pub struct LightView {
     map: OnceLock<ShadowMap>,
     /// Whether a piece is known to read it.
     is_needed: AtomicBool,
+    /// Samples of pieces that were to be searched while it was needed.
+    waiting: AtomicU64,
 }
 
 #[derive(Debug)]
@@ -197,6 +199,7 @@ impl LightView {
             casters: OnceLock::new(),
             map: OnceLock::new(),
             is_needed: AtomicBool::new(false),
+            waiting: AtomicU64::new(0),
         })
     }
 
@@ -230,6 +233,11 @@ impl LightView {
     #[must_use]
     pub fn is_needed(&self) -> bool {
         self.is_needed.load(Ordering::Relaxed)
+    }
+
+    /// Counts samples of a piece that might be searched though the map is needed, and returns all of them.
+    pub fn wait(&self, samples: u64) -> u64 {
+        self.waiting.fetch_add(samples, Ordering::Relaxed).saturating_add(samples)
     }
 
     #[must_use]

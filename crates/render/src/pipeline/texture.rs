@@ -398,11 +398,27 @@ impl Texture {
             self.texels_between(uv).map_array(|[first, last]| [first - reach, last + reach]);
         let columns = within(self.wrap, columns, self.width.into());
         let rows = within(self.wrap, rows, self.height.into());
-        let sides = [self.width as usize, self.height as usize];
         match &self.texels {
-            Texels::Colour(bytes) => self.plain.colour(sides, &columns, &rows, |at| bytes[at]),
-            Texels::Grey(bytes) => self.plain.colour(sides, &columns, &rows, |at| bytes[at].into()),
+            Texels::Colour(bytes) => {
+                self.plain.colour(self.sides(), &columns, &rows, |at| bytes[at])
+            }
+            Texels::Grey(bytes) => {
+                self.plain.colour(self.sides(), &columns, &rows, |at| bytes[at].into())
+            }
         }
+    }
+
+    /// The part of its squares of 8 x 8 texels that has one colour, from 0 to 1.
+    #[must_use]
+    pub fn plain_part(&self) -> f64 {
+        match &self.texels {
+            Texels::Colour(bytes) => self.plain.plain(self.sides(), |at| bytes[at]),
+            Texels::Grey(bytes) => self.plain.plain(self.sides(), |at| bytes[at].into()),
+        }
+    }
+
+    fn sides(&self) -> [usize; 2] {
+        [self.width as usize, self.height as usize]
     }
 
     pub(super) fn red(&self, column: u32, row: u32) -> u8 {

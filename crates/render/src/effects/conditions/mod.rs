@@ -61,17 +61,24 @@ pub(super) struct Facts {
     pub is_wide: bool,
 }
 
-/// Samples that a piece covers at least where its texture is looked at: of a smaller one that takes longer than to compute
+/// Samples that a piece covers at least where its footprints are looked at: of a smaller one that takes longer than to compute
 /// what it asks for.
 const LEAST_TEXTURED: i64 = 6;
+
+/// The same where it is looked whether its texture has one colour, as nearly all pieces of a texture have with one colour. Fewer have
+/// one elsewhere, and more samples have to be saved by each.
+const LEAST_PLAIN: f64 = 6.0;
+
+/// A piece of so many samples is looked at with any texture.
+const ALWAYS_PLAIN: i64 = 256;
 
 /// The same of highlights, which most fragments find to be dark by two products.
 const LEAST_SHINY: i64 = 16;
 
-/// Whether a piece covers about so many samples.
-pub(super) fn covers(piece: &Piece, samples: i64) -> bool {
-    let subpixels = 2 * samples * i64::from(SUBPIXELS).pow(2);
-    twice_area(piece.corners()).abs() >= subpixels.into()
+/// About how many samples a piece covers.
+pub(super) fn samples_of(piece: &Piece) -> i64 {
+    let subpixels = 2 * i128::from(SUBPIXELS).pow(2);
+    i64::try_from(twice_area(piece.corners()).abs() / subpixels).unwrap_or(i64::MAX)
 }
 
 impl Facts {
@@ -95,10 +102,12 @@ impl Facts {
         Self { varies: interpolation::at_most(item, Attributes::EVERY), ..Self::UNKNOWN }
     }
 
-    /// Of one piece by itself: what other pieces have to do with it is not known.
+    /// Of one piece by itself: what other pieces have to do with it is not known, and a piece that may be lit is taken to be
+    /// in shadow.
     #[inline]
-    pub fn of(rule: &Rule, scene: &Scene, item: &Prepared<'_>, piece: &Piece) -> Self {
+    pub fn of(rule: &Rule, item: &Prepared<'_>, piece: &Piece) -> Self {
         let mut facts = Self { has_one_w: has_one_w(piece), ..Self::UNKNOWN };
+        let samples = samples_of(piece);
         if rule.alpha_test.is_open() || rule.blending.is_open() {
             facts.opacity = alpha_test::opacity(item, piece);
         }
@@ -115,21 +124,23 @@ impl Facts {
         let faces_away = rule.shadows.is_open() && shadows::piece_faces_away(item, piece);
         if rule.specular.is_open() {
             // What faces away without a highlight needs no shadow map, which costs more than all of these.
-            let is_checked = covers(piece, LEAST_SHINY) || faces_away;
+            let is_checked = samples >= LEAST_SHINY || faces_away;
             facts.is_shiny = !is_checked || specular::may_show(item, piece);
         }
         if rule.shadows.is_open() {
             let is_lit = !faces_away || rule.specular.pays(facts.is_shiny);
-            facts.is_shadowed = is_lit && shadows::may_be_shadowed(scene, item, piece);
+            facts.is_shadowed = is_lit;
         }
         let has_uv = rule.interpolates.both(facts.varies).has(Attributes::UV);
-        if !has_uv || !covers(piece, LEAST_TEXTURED) {
+        if !has_uv || samples < LEAST_TEXTURED {
             return facts;
         }
         if rule.mip_maps.is_open() || rule.anisotropy.is_open() {
             [facts.is_minified, facts.is_stretched] = mip_maps::footprints(rule, item, piece);
         }
-        if interpolation::may_be_plain(rule, facts.opacity) {
+        let has_many = samples >= ALWAYS_PLAIN
+            || item.texture.is_some_and(|t| samples as f64 * t.plain_part() >= LEAST_PLAIN);
+        if has_many && interpolation::may_be_plain(rule, facts.opacity) {
             let reads =
                 [rule.mip_maps.pays(facts.is_minified), rule.anisotropy.pays(facts.is_stretched)];
             if interpolation::is_plain(rule, item, piece, reads) {

@@ -10,8 +10,9 @@
 //! [`LightView::may_be_shadowed`]: crate::pipeline::shadow::LightView::may_be_shadowed
 
 use super::account::Account;
-use super::covers;
-use crate::effects::plan::{Attributes, Decision};
+use super::{Facts, fog, samples_of};
+use crate::effects::assembled::Assembled;
+use crate::effects::plan::{Attributes, Decision, Rule};
 use crate::effects::primitive::{Piece, Prepared, is_lit};
 use crate::effects::{Effect, Effects, Mode};
 use crate::pipeline::shade::{Light, Surface};
@@ -38,18 +39,70 @@ fn has_light(scene: &Scene, item: &Item) -> bool {
 const LEAST_SEARCHED: i64 = 48;
 
 /// The same where another piece needs the map anyway, so that a search saves lookups and no map.
-const LEAST_SEARCHED_BESIDES: i64 = 512;
+const LEAST_SEARCHED_BESIDES: i64 = 128;
 
-/// Of a piece that faces the light, or has a highlight.
-pub fn may_be_shadowed(scene: &Scene, item: &Prepared<'_>, piece: &Piece) -> bool {
-    let Some(view) = &item.light_view else { return false };
-    let places = piece.vertices.map_array(|vertex| Surface::from(vertex.varying).place);
-    let least = if view.is_needed() { LEAST_SEARCHED_BESIDES } else { LEAST_SEARCHED };
-    let is_shadowed = !covers(piece, least) || view.may_be_shadowed(scene, places);
-    if is_shadowed {
+/// So many samples for each triangle of the scene are in pieces that might be searched, before one is: to list the triangles takes
+/// longer than fewer lookups.
+const LEAST_FOR_A_TRIANGLE: u64 = 32;
+
+/// Triangles at most that are looked at for one that needs the map.
+const LOOKED_AT: usize = 256;
+
+/// Whether a piece with these facts asks what may keep light from it.
+fn asks(rule: &Rule, facts: &Facts) -> bool {
+    rule.shadows.is_open() && facts.is_shadowed && !fog::hides(rule, facts)
+}
+
+/// Notes that the map is needed where a lit piece is too small to be searched, and how many samples others have.
+fn foresee(rule: &Rule, item: &Prepared<'_>, piece: &Piece, facts: &Facts) {
+    let (true, Some(view)) = (asks(rule, facts), &item.light_view) else { return };
+    match samples_of(piece) {
+        ..LEAST_SEARCHED => view.need(),
+        LEAST_SEARCHED..LEAST_SEARCHED_BESIDES => {}
+        samples => _ = view.wait(samples as u64),
+    }
+}
+
+/// Looks for what may keep light from a piece.
+pub fn search(rule: &Rule, scene: &Scene, item: &Prepared<'_>, piece: &Piece, facts: &mut Facts) {
+    let (true, Some(view)) = (asks(rule, facts), &item.light_view) else { return };
+    let samples = samples_of(piece);
+    let is_searched = if view.is_needed() {
+        let all = LEAST_FOR_A_TRIANGLE * scene.triangles() as u64;
+        samples >= LEAST_SEARCHED_BESIDES && view.wait(samples as u64) >= all
+    } else {
+        samples >= LEAST_SEARCHED
+    };
+    let places = || piece.vertices.map_array(|vertex| Surface::from(vertex.varying).place);
+    facts.is_shadowed = !is_searched || view.may_be_shadowed(scene, places());
+    if facts.is_shadowed {
         view.need();
     }
-    is_shadowed
+}
+
+/// The same of all pieces of a scene.
+pub fn search_all(scene: &Scene, rules: &[Rule], assembled: &Assembled<'_>, facts: &mut [Facts]) {
+    let pieces =
+        || assembled.pieces().iter().map(|(i, piece)| (&rules[*i], &assembled.items[*i], piece));
+    for ((rule, item, piece), facts) in pieces().zip(&*facts) {
+        foresee(rule, item, piece, facts);
+    }
+    for ((rule, item, piece), facts) in pieces().zip(facts) {
+        search(rule, scene, item, piece, facts);
+    }
+}
+
+/// Looks at the first triangles of pieces that are drawn as they come, for one that needs the map.
+pub fn look_ahead(scene: &Scene, item: &Prepared<'_>, rule: &Rule) {
+    let Some(view) = item.light_view.as_ref().filter(|_| rule.shadows.is_open()) else { return };
+    for triangle in item.item.mesh.triangles.iter().take(LOOKED_AT) {
+        if view.is_needed() {
+            return;
+        }
+        item.assemble_one(scene, &triangle, &mut |piece| {
+            foresee(rule, item, piece, &Facts::of(rule, item, piece));
+        });
+    }
 }
 
 pub fn piece_faces_away(item: &Prepared<'_>, piece: &Piece) -> bool {
