@@ -30,7 +30,8 @@ use rasterproof_render::scene::Scene;
 use rasterproof_report::frame_comparison::{self, Amount, Comparison, Times};
 use rasterproof_report::html::{Chapter, Outcome, PictureLayer, PictureView, Report};
 use rasterproof_report::picture;
-use rasterproof_tiles::frames;
+use rasterproof_tiles::coverage::Tiles;
+use rasterproof_tiles::frames::{self, Division};
 
 pub const HELP: &str = include_str!("help/render.txt").trim_ascii_end();
 
@@ -498,46 +499,51 @@ fn draw_in_tiles(
     }
     let target = arguments.what.view.target()?;
     let size = target.size();
-    let samples = match arguments.what.view.aa {
-        Antialias::Multisample4 => frames::Samples::Four,
-        _ => frames::Samples::One,
-    };
     let scene = &maker.scene(0.0);
     let exact = || {
         let mut target = arguments.what.view.target()?;
         let exact = Drawer::Scanline.render(scene, &Effects::PLANNED, &mut target);
         Ok::<_, Failure>(exact.map_err(usage)?.picture)
     };
-    let not_drawn = frames::not_drawn(scene);
-    let (handed_over, reason) = match not_drawn {
-        0 => {
-            let beyond = frames::beyond_f32(scene, size.width(), size.height()).map_err(usage)?;
-            (beyond, "have values beyond 2^62, which may\n  overflow in f32")
-        }
-        _ => (not_drawn, "are not opaque or receive shadows, which tiles do not\n  draw"),
-    };
+    let division = Division::new(scene, size.width(), size.height()).map_err(usage)?;
+    let handed_over = division.handed_over;
+    let mut drawn = arguments.what.view.target()?;
     let start = Instant::now();
-    let picture = match handed_over {
-        0 => frames::render(scene, size.width(), size.height(), samples).map_err(usage)?,
-        _ => exact()?,
-    };
+    let picture = division.render(Tiles::default(), &mut drawn, &mut |scene, effects, target| {
+        Drawer::Scanline.render(scene, effects, target)
+    });
+    let picture = picture.map_err(usage)?;
     let times =
         Times { loading_s: maker.loading_s(), drawing_s: vec![start.elapsed().as_secs_f64()] };
     writeln!(streams.output, "{}: {}", scene.name, scene.about)?;
-    let name = if handed_over == 0 { "tiles" } else { "scanline" };
+    let all = scene.triangles();
+    let name = match handed_over.triangles() {
+        0 => "tiles",
+        handed_over if handed_over == all => "scanline",
+        _ => "tiles and scanline",
+    };
     write!(streams.output, "{}", times_text(&times, &[name]))?;
-    if handed_over > 0 {
-        let drawn_in = saved(output, &frame_comparison::png(&picture)?, streams);
-        writeln!(
-            streams.output,
-            "  {handed_over} of {} triangles {reason}: handed to scanline{drawn_in}",
-            scene.triangles()
-        )?;
-        return Ok(exit::AGREES);
+    for (count, reason) in [
+        (handed_over.in_shadows, "are in a scene with shadows"),
+        (handed_over.not_opaque, "are of a material that is not opaque"),
+        (
+            handed_over.beyond_f32,
+            "are of an item with values beyond 2^62,\n  which may overflow in f32",
+        ),
+    ] {
+        if count > 0 {
+            writeln!(streams.output, "  {count} of {all} triangles {reason}: handed to scanline")?;
+        }
     }
     if streams.save(output, &frame_comparison::png(&picture)?) {
         let (side, path) = (frames::SIDE_PX, printable_path(output));
-        writeln!(streams.output, "  drawn in tiles of {side} x {side} px in {path}")?;
+        match handed_over.triangles() {
+            count if count == all => writeln!(streams.output, "  drawn in {path}")?,
+            _ => writeln!(streams.output, "  drawn in tiles of {side} x {side} px in {path}")?,
+        }
+    }
+    if handed_over.triangles() == all {
+        return Ok(exit::AGREES);
     }
     let differing = frame_comparison::differing(&picture, &exact()?);
     if differing > 0 {

@@ -17,7 +17,7 @@ use rasterproof_render::scene::chapters;
 use rasterproof_render::scene::{Hidden, Material, Scene, meshes, random, textures};
 use rasterproof_tiles::coverage::Tiles;
 use rasterproof_tiles::frames::planes::{Bounded, MOST_ATTRIBUTE};
-use rasterproof_tiles::frames::{self, Samples};
+use rasterproof_tiles::frames::{self, Division, HandedOver, Samples, TilesError};
 use rasterproof_verify::cases::triangles::FAMILIES;
 use rasterproof_verify::cases::{Shape, Triangle};
 use rasterproof_verify::comparison::tolerance;
@@ -249,17 +249,82 @@ fn values_that_may_overflow_are_counted() {
     assert!(beyond(4.0 * MOST_ATTRIBUTE) > 0);
 }
 
-/// A wrong picture is worse than none, so the library refuses what it would draw wrongly.
+/// A wrong picture is worse than none, so tiles alone refuse what they would draw wrongly.
 #[test]
 fn scenes_that_tiles_do_not_draw_are_refused() {
     for name in ["cut-outs", "panes", "layers", "shadows"] {
         let scene = chapters::scene(name, 1.5, 0.1).unwrap();
-        assert!(frames::not_drawn(&scene) > 0, "{name}");
-        let draw = || frames::render(&scene, 40, 30, Samples::One);
-        let refusal = std::panic::catch_unwind(draw).unwrap_err();
-        let message = refusal.downcast_ref::<String>().unwrap();
-        assert!(message.contains("triangles that are not opaque"), "{name}: {message}");
+        let triangles = frames::not_drawn(&scene);
+        assert!(triangles > 0, "{name}");
+        let refusal = frames::render(&scene, 40, 30, Samples::One).unwrap_err();
+        assert_eq!(refusal, TilesError::NotDrawn(triangles), "{name}");
+        assert!(refusal.to_string().contains("not opaque"), "{refusal}");
     }
+}
+
+fn divided(scene: &Scene, target: &mut Target) -> (Frame<Colour>, HandedOver) {
+    let division = Division::new(scene, 201, 134).unwrap();
+    let picture = division.render(Tiles::default(), target, &mut |scene, effects, target| {
+        Drawer::Scanline.render(scene, effects, target)
+    });
+    (picture.unwrap(), division.handed_over)
+}
+
+/// What is handed over is drawn over what tiles have drawn, and before it where it is nearer. With one colour for each
+/// opaque item, tiles draw the bits of the engine, so the whole frame has them. Each scene shows what is handed over
+/// before and behind what is not.
+#[test]
+fn what_tiles_do_not_draw_is_drawn_by_another_engine() {
+    let plain = |mut scene: Scene| {
+        for (number, item) in (1..).zip(&mut scene.items) {
+            if item.material.opacity.is_none() {
+                let colour = DVec3::new(0.1, 0.9, 0.5) / f64::from(number);
+                item.material = Material { colour, ..Material::default() };
+            }
+        }
+        scene
+    };
+    let named =
+        ["cut-outs", "panes", "layers"].map(|name| chapters::scene(name, 1.5, 0.1).unwrap());
+    let mut sorted = named[1].clone();
+    sorted.hidden = Hidden::Painter;
+    // Pieces of one pane hide nothing of each other, and a sphere hides them all the same.
+    let mut one = named[1].clone();
+    let last = one.items.iter().rposition(|item| item.material.opacity.is_some());
+    let mut numbers = 0..;
+    one.items.retain(|item| numbers.next() == last || item.material.opacity.is_none());
+    let all_of = |scene: &Scene| scene.items.iter().map(|item| item.mesh.triangles.len()).sum();
+    let parts = named.into_iter().chain([one]).map(|scene| (scene, false));
+    for (scene, are_all) in parts.chain([(sorted, true)]) {
+        let scene = plain(scene);
+        for antialias in [Antialias::None, Antialias::Multisample4] {
+            let target = || Target::new(201, 134, antialias, Default::default()).unwrap();
+            let (picture, handed_over) = divided(&scene, &mut target());
+            let whole = Drawer::Scanline.render(&scene, &Effects::PLANNED, &mut target()).unwrap();
+            assert!(picture == whole.picture, "{} {antialias:?}", scene.name);
+            let triangles = if are_all { all_of(&scene) } else { frames::not_drawn(&scene) };
+            assert_eq!((handed_over.not_opaque, handed_over.triangles()), (triangles, triangles));
+            assert_eq!(triangles < all_of(&scene), !are_all, "{}", scene.name);
+        }
+    }
+    let shadows = chapters::scene("shadows", 1.5, 0.1).unwrap();
+    let mut target = Target::new(201, 134, Antialias::None, Default::default()).unwrap();
+    let (picture, handed_over) = divided(&shadows, &mut target);
+    assert_eq!(handed_over.in_shadows, all_of(&shadows));
+    assert!(picture == by_scanline(&shadows, 201, 134, Samples::One));
+}
+
+/// An item with a value beyond what planes in f32 hold is handed over, and no other.
+#[test]
+fn items_beyond_f32_are_handed_over() {
+    let mut scene = chapters::scene("mip-maps", 1.5, 0.1).unwrap();
+    let mesh = Arc::make_mut(&mut scene.items[0].mesh);
+    mesh.triangles.change_corners(|corner| corner.uv.x = 4.0 * MOST_ATTRIBUTE);
+    let mut target = Target::new(201, 134, Antialias::None, Default::default()).unwrap();
+    let (_, handed_over) = divided(&scene, &mut target);
+    let triangles = scene.items[0].mesh.triangles.len();
+    assert_eq!(handed_over, HandedOver { beyond_f32: triangles, ..Default::default() });
+    assert!(triangles < scene.triangles());
 }
 
 /// A window is a part of a larger frame only if tiles do not matter: the same scene, seen through

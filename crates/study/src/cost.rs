@@ -23,7 +23,7 @@ use rasterproof_render::effects::render::BadScene;
 use rasterproof_render::pipeline::depth::DepthFormat;
 use rasterproof_render::pipeline::target::{Antialias, Colour, Target};
 use rasterproof_render::scene::Scene;
-use rasterproof_tiles::frames;
+use rasterproof_tiles::frames::{self, TilesError};
 use rasterproof_verify::comparison::tolerance::SCANLINE;
 use rasterproof_verify::oracle::Oracle;
 use rasterproof_verify::oracle::values::ExactTriangle;
@@ -699,16 +699,22 @@ fn planners(scene: &Scene, target: &mut Target, effort: Effort) -> Result<Group,
         Antialias::Multisample4 => Some(frames::Samples::Four),
         Antialias::Supersample(_) => None,
     };
-    // What tiles would draw otherwise is no choice.
-    let samples = match frames::beyond_f32(scene, window.width(), window.height())? {
-        0 => samples.filter(|_| frames::not_drawn(scene) == 0),
+    // What tiles would draw otherwise, or not alone, is no choice.
+    let mut samples = match frames::beyond_f32(scene, window.width(), window.height())? {
+        0 => samples,
         _ => None,
     };
-    if let Some(samples) = samples {
+    if let Some(number) = samples {
         let start = Instant::now();
-        pictures.push(frames::render(scene, window.width(), window.height(), samples)?);
-        once += start.elapsed();
-        choices.push(Choice::new("tiles", "coverage exact, values in f32; all threads"));
+        match frames::render(scene, window.width(), window.height(), number) {
+            Ok(picture) => {
+                pictures.push(picture);
+                once += start.elapsed();
+                choices.push(Choice::new("tiles", "coverage exact, values in f32; all threads"));
+            }
+            Err(TilesError::NotDrawn(_)) => samples = None,
+            Err(TilesError::Scene(bad)) => return Err(bad),
+        }
     }
     for (choice, picture) in choices.iter_mut().zip(&pictures) {
         let mut wrong = 0;

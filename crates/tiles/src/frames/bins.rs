@@ -99,7 +99,7 @@ impl Tiling {
         Self { window, across: tiles(window.width()), down: tiles(window.height()), reach }
     }
 
-    fn count(&self) -> usize {
+    pub fn count(&self) -> usize {
         self.across * self.down
     }
 

@@ -239,6 +239,12 @@ impl Buffer {
         farthest.to_array().into_iter().fold(f32::NEG_INFINITY, f32::max)
     }
 
+    /// What is seen of a colour of a plane.
+    #[inline(always)]
+    pub fn seen(&self, colour: u32) -> u32 {
+        if colour == 0 { self.background } else { colour }
+    }
+
     /// The picture's row `y`, counted from the first of the tile: the mean of the samples of each
     /// pixel, a half rounded up.
     #[inline(always)]
@@ -247,7 +253,7 @@ impl Buffer {
         let row = |sample: usize| &self.planes[sample].colours.row(y)[..width];
         if self.planes.len() == 1 {
             for (pixel, &colour) in out.iter_mut().zip(row(0)) {
-                *pixel = if colour == 0 { self.background } else { colour }.to_le_bytes();
+                *pixel = self.seen(colour).to_le_bytes();
             }
             return;
         }

@@ -9,14 +9,18 @@
 //!
 //! It is the fast way, not the exact one: coverage is that of the other engines, values lie within
 //! their bound of the exact ones, and so two surfaces nearer to each other than that may come out in
-//! either order. It draws every surface opaque and lit ([`not_drawn`]), it does not plan, and of antialiasing it has four samples a pixel, shaded once.
+//! either order. What is not opaque or in shadow it hands to an exact engine
+//! ([`Division`]). It does not plan, and of antialiasing it has four samples a pixel, shaded once.
 
 mod bins;
 mod buffer;
 pub mod planes;
 mod samples;
 mod shade;
+mod shared;
 mod visible;
+
+use std::fmt;
 
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, dispatch};
@@ -40,6 +44,7 @@ use planes::{Depth, Planes, shares};
 use rasterproof_render::pipeline::footprint::{Footprint, Reading};
 use samples::{Masks, PLACES};
 use shade::{Brush, Foggy};
+pub use shared::{Division, DrawExactly, HandedOver};
 use visible::{CELL, PAIR, VisibilityPass, VisibleBlock};
 
 /// How many samples a pixel has.
@@ -50,8 +55,36 @@ pub enum Samples {
     Four,
 }
 
-/// Triangles of materials that are not opaque, and in a scene with shadows all. They would be drawn opaque and in the
-/// light, so a scene with any is for another engine, and refused here.
+/// Why tiles alone draw no picture of a scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum TilesError {
+    Scene(BadScene),
+    /// So many triangles are [`not_drawn`].
+    NotDrawn(usize),
+}
+
+impl From<BadScene> for TilesError {
+    fn from(bad: BadScene) -> Self {
+        Self::Scene(bad)
+    }
+}
+
+impl fmt::Display for TilesError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Scene(bad) => write!(f, "{bad}"),
+            Self::NotDrawn(triangles) => write!(
+                f,
+                "{triangles} triangles are not opaque or in a scene with shadows, which tiles do not draw; \
+                 a `Division` hands them to an exact engine"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for TilesError {}
+
+/// Triangles of materials that are not opaque, and in a scene with shadows all: they would be drawn opaque and in the light.
 #[must_use]
 pub fn not_drawn(scene: &Scene) -> usize {
     let is_not_drawn = |item: &&Item| item.material.opacity.is_some() || scene.shadows.is_some();
@@ -60,36 +93,38 @@ pub fn not_drawn(scene: &Scene) -> usize {
 }
 
 /// Triangles, or parts of them that the window shows, with an attribute beyond [`planes::MOST_ATTRIBUTE`]. Their planes
-/// may overflow in f32, so a scene with any is for another engine.
-///
-/// # Panics
-/// As [`render`].
+/// may overflow in f32, so they are for another engine.
 pub fn beyond_f32(scene: &Scene, width: u32, height: u32) -> Result<usize, BadScene> {
+    Ok(beyond_f32_by_item(scene, width, height)?.into_iter().sum())
+}
+
+/// The same of each item.
+fn beyond_f32_by_item(scene: &Scene, width: u32, height: u32) -> Result<Vec<usize>, BadScene> {
     let whole = Whole::new(scene, PixelRect::window(width, height))?;
     let fits = |value: f64| value.abs() <= planes::MOST_ATTRIBUTE;
-    let mut count = 0;
+    let mut counts = vec![0; scene.items.len()];
     for run in whole.runs(1 << 16) {
         whole.outlines(&run, &mut |outline| {
             let all_fit = whole.surface(&outline).values.iter().flatten().all(|&value| fits(value));
-            count += usize::from(!all_fit);
+            counts[run.0] += usize::from(!all_fit);
         });
     }
-    Ok(count)
+    Ok(counts)
 }
 
 /// Draws a scene into a picture of its own, on the threads of the pool that it is called in.
 ///
 /// # Errors
-/// [`BadScene`] before anything is drawn.
+/// [`TilesError`] before anything is drawn.
 ///
 /// # Panics
-/// If a side exceeds what a frame can have, or the scene has triangles that are [`not_drawn`].
+/// If a side exceeds what a frame can have.
 pub fn render(
     scene: &Scene,
     width: u32,
     height: u32,
     samples: Samples,
-) -> Result<Frame<Colour>, BadScene> {
+) -> Result<Frame<Colour>, TilesError> {
     render_in(Tiles::default(), scene, width, height, samples)
 }
 
@@ -100,7 +135,7 @@ pub fn render_in(
     width: u32,
     height: u32,
     samples: Samples,
-) -> Result<Frame<Colour>, BadScene> {
+) -> Result<Frame<Colour>, TilesError> {
     // Zeros come from the machine when they are first touched, by the thread that draws there.
     let mut picture = Frame::new(PixelRect::window(width, height), [0; 4]);
     render_into(engine, scene, &mut picture, samples)?;
@@ -110,27 +145,35 @@ pub fn render_in(
 /// As [`render_in`], over a picture that is kept: every pixel is written, none is read.
 ///
 /// # Panics
-/// If the picture does not begin at column 0 and row 0, or the scene has triangles that are [`not_drawn`].
+/// If the picture does not begin at column 0 and row 0.
 pub fn render_into(
     engine: Tiles,
     scene: &Scene,
     picture: &mut Frame<Colour>,
     samples: Samples,
-) -> Result<(), BadScene> {
+) -> Result<(), TilesError> {
     let window = picture.bounds();
     assert!(window.x0 == 0 && window.y0 == 0, "a picture that begins at {window:?}");
-    let not_drawn = not_drawn(scene);
-    assert!(
-        not_drawn == 0,
-        "tiles draw none of {not_drawn} triangles that are not opaque or in a scene with shadows"
-    );
-    let whole = Whole::new(scene, window)?;
-    // From the centre to the farthest sample, 6/16 px.
-    let (planes, reach) = match samples {
-        Samples::One => (1, 0),
-        Samples::Four => (multisample::SAMPLES.len(), 6 * SUBPIXELS / 16),
+    match not_drawn(scene) {
+        0 => {}
+        triangles => return Err(TilesError::NotDrawn(triangles)),
+    }
+    let planes = match samples {
+        Samples::One => 1,
+        Samples::Four => multisample::SAMPLES.len(),
     };
-    let bins = Bins::new(&whole, Tiling::new(window, reach));
+    Ok(draw_into(engine, scene, picture, planes)?)
+}
+
+/// Draws a scene of which tiles draw everything, with one sample a pixel or four.
+fn draw_into(
+    engine: Tiles,
+    scene: &Scene,
+    picture: &mut Frame<Colour>,
+    planes: usize,
+) -> Result<(), BadScene> {
+    let window = picture.bounds();
+    let (whole, bins) = frame(scene, window, planes)?;
     if window.is_empty() {
         return Ok(());
     }
@@ -140,10 +183,19 @@ pub fn render_into(
         let canvases = canvases(&bins.tiles, band, lines, pitch);
         canvases.into_par_iter().for_each_init(
             || Drawing::new(&whole, &bins, engine, planes),
-            |drawing, canvas| drawing.draw(canvas),
+            |drawing, canvas| drawing.draw_into(canvas),
         );
     });
     Ok(())
+}
+
+/// A scene in the window, and its pieces by tiles, for so many samples a pixel.
+fn frame(scene: &Scene, window: PixelRect, planes: usize) -> Result<(Whole<'_>, Bins), BadScene> {
+    let whole = Whole::new(scene, window)?;
+    // From the centre to the farthest sample, 6/16 px.
+    let reach = if planes > 1 { 6 * SUBPIXELS / 16 } else { 0 };
+    let bins = Bins::new(&whole, Tiling::new(window, reach));
+    Ok((whole, bins))
 }
 
 /// A tile's part of the picture, which nobody else has.
@@ -222,15 +274,25 @@ impl<'a> Drawing<'a> {
         }
     }
 
-    fn draw(&mut self, canvas: Canvas<'_>) {
-        dispatch!(self.engine.level(), simd => self.tile(simd, canvas));
+    fn draw_into(&mut self, canvas: Canvas<'_>) {
+        dispatch!(self.engine.level(), simd => {
+            self.tile(simd, canvas.tile);
+            for (y, line) in (0..).zip(canvas.lines) {
+                self.buffer.resolve(y, line);
+            }
+        });
+    }
+
+    /// Draws a tile, and leaves its colours and depths in the buffer.
+    fn draw(&mut self, tile: usize) {
+        dispatch!(self.engine.level(), simd => self.tile(simd, tile));
     }
 
     #[inline(always)]
-    fn tile<S: Simd>(&mut self, simd: S, canvas: Canvas<'_>) {
+    fn tile<S: Simd>(&mut self, simd: S, tile: usize) {
         let bins = self.bins;
-        self.buffer.clear(bins.tiles.rect(canvas.tile), self.whole.background());
-        for Placed { outline, touched } in bins.of(canvas.tile) {
+        self.buffer.clear(bins.tiles.rect(tile), self.whole.background());
+        for Placed { outline, touched } in bins.of(tile) {
             let blocks = self.buffer.blocks(*touched);
             if self.whole.depth_test && self.buffer.hides(simd, &blocks, outline.nearest) {
                 continue;
@@ -243,9 +305,6 @@ impl<'a> Drawing<'a> {
         }
         self.draw_batch();
         self.colour(simd);
-        for (y, line) in (0..).zip(canvas.lines) {
-            self.buffer.resolve(y, line);
-        }
     }
 
     fn draw_batch(&mut self) {

@@ -57,9 +57,10 @@ impl<'a> Account<'a> {
     }
 
     pub fn count(&mut self, facts: &Facts, plan: PiecePlan) {
-        let paid = plan.paid() | u32::from(facts.is_wide) << Effect::WideWords as u32;
-        for (i, count) in self.paid.iter_mut().enumerate() {
-            *count += u64::from(paid >> i & 1);
+        let mut paid = plan.paid() | u32::from(facts.is_wide) << Effect::WideWords as u32;
+        while paid != 0 {
+            self.paid[paid.trailing_zeros() as usize] += 1;
+            paid &= paid - 1;
         }
         self.pieces += 1;
         self.one_w += u64::from(facts.has_one_w);
