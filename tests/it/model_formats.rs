@@ -178,6 +178,7 @@ fn long_strip(positions: u32, faces: u32, polygon: usize) -> Vec<u8> {
 
 /// Files of more bytes than are read at once.
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn a_binary_file_is_read_in_pieces() {
     let (count, faces) = (300_000, 800_000);
     // With the first face as polygon much is read ahead when it is found.

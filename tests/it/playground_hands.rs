@@ -54,6 +54,7 @@ fn press(browser: &mut Browser, key: &str, code: u32, modifiers: u32) {
 
 /// A corner is dragged with the mouse: pixels change, and are those of the program.
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn playground_follows_the_mouse() {
     let Some((mut browser, page)) = opened("mouse") else { return };
     browser.open(&page, "#lang=en");
@@ -91,6 +92,7 @@ fn playground_follows_the_mouse() {
 
 /// w of a corner and the near plane are dragged on the picture, by mouse, finger and keys; sliders follow.
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn playground_drags_values() {
     let Some((mut browser, page)) = opened("values") else { return };
     browser.open(&page, "#scene=perspective&lang=en");
@@ -221,6 +223,7 @@ fn playground_names_every_control() {
 /// is of this machine with all else that runs on it; the processor time of a frame is the page's own,
 /// script, layout and painting: below 16.7 ms it keeps up with 60 frames a second.
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn playground_frames_are_timed() {
     let Some((mut browser, page)) = opened("frames") else { return };
     browser.open(

@@ -108,12 +108,15 @@ fn scenes_look_as_kept() {
     });
 }
 
-/// Each scene with the engines and kinds of smoothing with which it is tried: all of them, or one of four, in turn.
+/// Each scene with the engines and kinds of smoothing with which it is tried: all of them, or one of eight, in turn.
 fn tried(all: bool) -> Vec<(Scene, Vec<(Drawer, Antialias)>)> {
     let pairs = || Drawer::ALL.into_iter().flat_map(|d| SMOOTHINGS.map(|antialias| (d, antialias)));
-    let of = |number: usize| pairs().enumerate().filter(move |(at, _)| all || at % 4 == number % 4);
-    let scenes = scenes().enumerate();
-    scenes.map(|(number, scene)| (scene, of(number).map(|(_, pair)| pair).collect())).collect()
+    let of = |number: usize| pairs().enumerate().filter(move |(at, _)| all || at % 8 == number % 8);
+    // A scene that has turned is tried with another pair.
+    let count = entries().count();
+    let tried =
+        |(number, scene)| (scene, of(number + number / count).map(|(_, pair)| pair).collect());
+    scenes().enumerate().map(tried).collect()
 }
 
 fn check_pictures(all: bool) {

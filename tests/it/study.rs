@@ -180,6 +180,7 @@ fn a_folder_without_a_page_is_refused() {
 
 /// A floor and, a ten-millionth above it, another one: coarse depths show the wrong one, and values that ignore w are wrong.
 #[test]
+#[ignore = "takes seconds; .ci/run runs it"]
 fn rungs_of_values_and_depth_that_are_wrong_on_hard_cases_are_named() {
     let folder = Folder::new("study-wrong-rungs");
     let floor = |y: &str| format!("v -10 {y} -10\nv 10 {y} -10\nv 10 {y} 10\nv -10 {y} 10\n");
