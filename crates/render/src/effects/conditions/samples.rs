@@ -11,7 +11,7 @@ use crate::effects::primitive::{Prepared, touched};
 use crate::effects::{Effect, Effects, Mode};
 use crate::pipeline::ClipVertex;
 use crate::pipeline::assemble::{ClipPoint, Viewport, twice_area};
-use rasterproof_core::grid::{PixelRect, SUBPIXELS, SubpixelPoint};
+use rasterproof_core::grid::{PixelRect, SUBPIXELS};
 use rasterproof_core::triangle::Corners;
 
 /// Pieces that are drawn in one go, see [`Samples::OnDemand`]: to find out which of their pixels are
@@ -34,6 +34,9 @@ const ROW_ENDS: u64 = 350;
 /// has columns and rows. Slivers, hair and blades of grass consist of nothing else.
 const BORDER: u64 = 12;
 
+/// Of a scene of many triangles every fourth is looked at, for four.
+const SEEN_FOR: u64 = 4;
+
 /// What pieces would save and cost: how often small ones ask for pixels, and which; how much the
 /// others draw.
 pub struct Estimate {
@@ -49,6 +52,8 @@ pub struct Estimate {
     borders: u64,
     /// Rows of those whose attributes vary.
     varying_rows: u64,
+    /// For how many pieces each one stands that is looked at.
+    weight: u64,
 }
 
 impl Estimate {
@@ -56,7 +61,16 @@ impl Estimate {
         let squares = |side: u32| side.div_ceil(SQUARE_PX as u32) as usize;
         let (columns, rows) = (squares(canvas.width), squares(canvas.height));
         let busy = vec![false; columns * rows];
-        Self { canvas: *canvas, columns, busy, asked: 0, drawn: 0, borders: 0, varying_rows: 0 }
+        Self {
+            canvas: *canvas,
+            columns,
+            busy,
+            asked: 0,
+            drawn: 0,
+            borders: 0,
+            varying_rows: 0,
+            weight: 1,
+        }
     }
 
     /// Takes a piece into account.
@@ -72,11 +86,11 @@ impl Estimate {
         let (width, height) = (u64::from(rect.width()), u64::from(rect.height()));
         let area = (width * height).min(twice / (2 * side.pow(2)));
         if plan.is_one_colour() {
-            self.borders += width + height;
-            self.drawn += area.saturating_sub(width + height);
+            self.borders += self.weight * (width + height);
+            self.drawn += self.weight * area.saturating_sub(width + height);
         } else {
-            self.drawn += area;
-            self.varying_rows += height;
+            self.drawn += self.weight * area;
+            self.varying_rows += self.weight * height;
         }
     }
 
@@ -89,7 +103,7 @@ impl Estimate {
         if rect.is_empty() {
             return true;
         }
-        self.asked += u64::from(rect.width()) * u64::from(rect.height());
+        self.asked += self.weight * u64::from(rect.width()) * u64::from(rect.height());
         let squares = |from: i32, to: i32| {
             (from / SQUARE_PX) as usize..((to + SQUARE_PX - 1) / SQUARE_PX) as usize
         };
@@ -100,30 +114,31 @@ impl Estimate {
         true
     }
 
-    /// Takes an item into account whose triangles are too many to be assembled twice: by the boxes
-    /// of their corners, uncut.
+    /// Takes an item into account whose triangles are too many to be assembled twice: by the boxes of the corners of some,
+    /// uncut.
     pub fn see_roughly(&mut self, item: &Prepared<'_>, plan: PiecePlan) {
         let viewport = Viewport::new(self.canvas.window());
-        let place = |point: &ClipPoint| {
+        let place = |number: u32| {
+            let point: &ClipPoint = &item.points[number as usize];
             let vertex = ClipVertex { position: point.position, varying: () };
             point.place().or_else(|| Some(viewport.place(&vertex).ok()?.position))
         };
-        let corners: Vec<Option<SubpixelPoint>> = item.points.iter().map(place).collect();
-        for of in item.item.mesh.triangles.positions() {
+        self.weight = SEEN_FOR;
+        for of in item.item.mesh.triangles.positions().iter().step_by(SEEN_FOR as usize) {
             if self.is_hopeless() {
-                return;
+                break;
             }
-            let [a, b, c] = of.map(|number| corners[number as usize]);
-            match (a, b, c) {
-                (Some(a), Some(b), Some(c)) if item.item.cull.removes([a, b, c]) => {}
-                (Some(a), Some(b), Some(c)) => self.see(&[a, b, c], plan),
-                (None, None, None) => {}
+            match of.map(place) {
+                [Some(a), Some(b), Some(c)] if item.item.cull.removes([a, b, c]) => {}
+                [Some(a), Some(b), Some(c)] => self.see(&[a, b, c], plan),
+                [None, None, None] => {}
                 // Around the eye, and who knows where on the canvas.
                 _ => {
                     self.see_box(self.canvas.size(), plan);
                 }
             }
         }
+        self.weight = 1;
     }
 
     /// Whether the small pieces so far cost four times what clearing and resolving may save: many more
