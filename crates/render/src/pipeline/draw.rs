@@ -30,10 +30,9 @@ use std::fmt;
 use super::assemble::{Assembler, BadVertex, Cull, check_vertex};
 use super::fill::{Way, each, fill};
 use super::target::{Colour, Target};
-use super::wireframe::draw_edges;
 use super::{ClipVertex, Counters};
 use rasterproof_core::arrays::MapArray as _;
-use rasterproof_core::contract::{DrawLine, Interpolate};
+use rasterproof_core::contract::Interpolate;
 use rasterproof_core::frame::Frame;
 use rasterproof_core::triangle::{ScreenTriangle, Varying};
 
@@ -106,41 +105,6 @@ impl<E: Interpolate> Renderer<E> {
         assemble_all(&assembler, vertices, triangles, vertex_stage, &mut self.counters, |piece| {
             let way = Way { affine: false, depth_test };
             fill(engine, piece, target, bounds, way, &stage, &mut fills);
-        })?;
-        self.counters += fills;
-        Ok(())
-    }
-
-    /// As [`Renderer::draw`], but only the edges, by a line drawer.
-    pub fn draw_wireframe<I, V: Varying>(
-        &mut self,
-        drawer: &impl DrawLine,
-        vertices: &[I],
-        triangles: &[[u32; 3]],
-        vertex_stage: impl Fn(&I) -> ClipVertex<V>,
-        fragment_stage: impl Fn(&V) -> Colour,
-    ) -> Result<(), DrawError> {
-        let Self { target, depth_test, .. } = self;
-        let (depth_test, bounds, format) = (*depth_test, target.bounds(), target.format);
-        let assembler = Assembler::new(bounds, self.cull);
-        let mut fills = Counters::default();
-        assemble_all(&assembler, vertices, triangles, vertex_stage, &mut self.counters, |piece| {
-            draw_edges(drawer, piece, bounds, |f| {
-                // Lines have no samples: all of a pixel.
-                for plane in &mut target.planes {
-                    fills.fragments += 1;
-                    let colour = || fragment_stage(&f.varying);
-                    let shaded = if depth_test {
-                        fills.depth_tests += 1;
-                        plane.test_and_write(f.x_px, f.y_px, format.key(f.depth), colour)
-                    } else {
-                        plane.write(f.x_px, f.y_px, colour());
-                        true
-                    };
-                    fills.shaded += u64::from(shaded);
-                    fills.depth_failed += u64::from(!shaded);
-                }
-            });
         })?;
         self.counters += fills;
         Ok(())
