@@ -264,12 +264,15 @@ impl Texture {
     fn four(&self, place: [i64; 2]) -> FourTexels {
         let [column, row] = place;
         let columns = [self.column(column), self.column(column + 1)];
-        let lines = [row, row + 1].map_array(|row| {
-            let start = self.row_start(row);
-            let [a, b] = columns.map_array(|column| self.texel(start + column));
-            [a, b - a]
-        });
-        FourTexels { place, lines }
+        let rows = [self.row_start(row), self.row_start(row + 1)];
+        FourTexels { place, lines: [self.line(rows[0], columns), self.line(rows[1], columns)] }
+    }
+
+    /// Of two texels of a row the left one, and what the right one differs by. Called in place: a call takes as long.
+    #[inline(always)]
+    fn line(&self, start: usize, columns: [usize; 2]) -> [DVec3; 2] {
+        let [a, b] = [self.texel(start + columns[0]), self.texel(start + columns[1])];
+        [a, b - a]
     }
 
     /// The colour at whole numbers of 1/256 texel from the top left corner.
