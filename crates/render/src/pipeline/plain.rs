@@ -22,7 +22,7 @@ pub(super) struct PlainBlocks(OnceLock<Blocks>);
 #[derive(Clone, Debug)]
 struct Blocks {
     colours: Vec<Option<u32>>,
-    /// The part of them that has one.
+    /// How many of the blocks have one colour, divided by their number.
     plain: f64,
 }
 

@@ -98,7 +98,7 @@ pub fn beyond_f32(scene: &Scene, width: u32, height: u32) -> Result<usize, BadSc
     Ok(beyond_f32_by_item(scene, width, height)?.into_iter().sum())
 }
 
-/// The same of each item.
+/// As [`beyond_f32`], counted for each item.
 fn beyond_f32_by_item(scene: &Scene, width: u32, height: u32) -> Result<Vec<usize>, BadScene> {
     let whole = Whole::new(scene, PixelRect::window(width, height))?;
     let fits = |value: f64| value.abs() <= planes::MOST_ATTRIBUTE;

@@ -19,12 +19,10 @@ use rasterproof_render::pipeline::depth::CLEAR;
 use rasterproof_render::pipeline::target::{Antialias, Colour, Target};
 use rasterproof_render::scene::{Hidden, Item, Scene};
 
-/// A scene in two parts.
+/// A scene in two parts: what tiles draw, and what an exact engine draws over it.
 #[derive(Clone, Debug)]
 pub struct Division {
-    /// What tiles draw.
     pub tiles: Scene,
-    /// What an exact engine draws over it.
     pub exact: Scene,
     pub handed_over: HandedOver,
 }
@@ -52,7 +50,7 @@ pub type DrawExactly<'a> =
     &'a mut dyn FnMut(&Scene, &Effects, &mut Target) -> Result<Rendered, BadScene>;
 
 impl Division {
-    /// Of a scene in a window.
+    /// Puts each item into one of the parts, by its material and by the values that it has in a window of this size.
     ///
     /// # Errors
     /// [`BadScene`].
