@@ -156,19 +156,19 @@ impl Brush<'_> {
             };
             (r, g, b) = (r * texel[0], g * texel[1], b * texel[2]);
         }
-        let normal = || [along(&over_w(3), x, y), along(&over_w(4), x, y), along(&over_w(5), x, y)];
+        let mut shine = [u32x16::splat(simd, 0); 3];
         if let Some(light) = light {
-            let intensity = intensity(simd, light, normal());
+            let normal =
+                [along(&over_w(3), x, y), along(&over_w(4), x, y), along(&over_w(5), x, y)];
+            let intensity = intensity(simd, light, normal);
             (r, g, b) = (r * intensity, g * intensity, b * intensity);
+            if let Some(highlight) = highlight {
+                shine = highlights(simd, highlight, normal, mask);
+            }
         }
-        let [mut r, mut g, mut b] = [byte(r), byte(g), byte(b)];
-        if let (Some(highlight), Some(_)) = (highlight, light) {
-            let shine = highlights(simd, highlight, normal(), mask);
-            r = (r + shine[0]).min(255);
-            g = (g + shine[1]).min(255);
-            b = (b + shine[2]).min(255);
-        }
-        let colours = r | (g << 8) | (b << 16) | u32x16::splat(simd, 0xff00_0000);
+        let opaque = u32x16::splat(simd, 0xff00_0000);
+        let [r, g, b] = [byte(r) + shine[0], byte(g) + shine[1], byte(b) + shine[2]];
+        let colours = r.min(255) | (g.min(255) << 8) | (b.min(255) << 16) | opaque;
         match &self.fog {
             Some(Foggy { veil, share: Share::Mixed, depth }) => {
                 fogged(simd, veil, depth.at(x, y), colours, mask)
