@@ -325,6 +325,11 @@ fn items_beyond_f32_are_handed_over() {
     let triangles = scene.items[0].mesh.triangles.len();
     assert_eq!(handed_over, HandedOver { beyond_f32: triangles, ..Default::default() });
     assert!(triangles < scene.triangles());
+    // From back to front all is drawn by one engine, or what is handed over would lie over everything.
+    scene.hidden = Hidden::Painter;
+    let (picture, handed_over) = divided(&scene, &mut target);
+    assert_eq!(handed_over.beyond_f32, scene.triangles());
+    assert!(picture == by_scanline(&scene, 201, 134, Samples::One));
 }
 
 /// A window is a part of a larger frame only if tiles do not matter: the same scene, seen through

@@ -8,7 +8,7 @@
 use rayon::prelude::*;
 
 use super::buffer::Buffer;
-use super::{Drawing, beyond_f32_by_item, draw_into, frame};
+use super::{Drawing, beyond_f32_by_item, draw_into, frame, is_seen_through};
 use crate::coverage::Tiles;
 use rasterproof_core::frame::Frame;
 use rasterproof_core::grid::PixelRect;
@@ -17,7 +17,7 @@ use rasterproof_render::effects::render::Rendered;
 use rasterproof_render::effects::{Effect, Effects, Mode};
 use rasterproof_render::pipeline::depth::CLEAR;
 use rasterproof_render::pipeline::target::{Antialias, Colour, Target};
-use rasterproof_render::scene::{Hidden, Item, Scene};
+use rasterproof_render::scene::{Hidden, Scene};
 
 /// A scene in two parts: what tiles draw, and what an exact engine draws over it.
 #[derive(Clone, Debug)]
@@ -27,12 +27,13 @@ pub struct Division {
     pub handed_over: HandedOver,
 }
 
-/// Triangles of the items that tiles do not draw, by the reason: the first that holds for an item.
+/// Triangles of the items that tiles do not draw, by the reason: the first that holds for an item. Where triangles are drawn
+/// from back to front, a reason that holds for one item holds for all.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct HandedOver {
-    /// In a scene with shadows all of them.
+    /// All triangles of a scene with shadows.
     pub in_shadows: usize,
-    /// Of materials that are not opaque; where triangles are drawn from back to front, all of a scene with any.
+    /// Of materials that are not opaque.
     pub not_opaque: usize,
     /// Of items with a value beyond [`super::planes::MOST_ATTRIBUTE`].
     pub beyond_f32: usize,
@@ -56,17 +57,18 @@ impl Division {
     /// [`BadScene`].
     pub fn new(scene: &Scene, width: u32, height: u32) -> Result<Self, BadScene> {
         let beyond = beyond_f32_by_item(scene, width, height)?;
-        let is_seen_through = |item: &Item| item.material.opacity.is_some();
-        let is_sorted_glass =
-            scene.hidden == Hidden::Painter && scene.items.iter().any(is_seen_through);
+        // From back to front, what lies over what is the order of drawing, so one engine draws all.
+        let is_sorted = scene.hidden == Hidden::Painter;
+        let is_any_seen_through = is_sorted && scene.items.iter().any(is_seen_through);
+        let is_any_beyond = is_sorted && beyond.iter().any(|count| *count > 0);
         let mut handed_over = HandedOver::default();
         let (mut tiles, mut exact) = (Vec::new(), Vec::new());
         for (item, beyond) in scene.items.iter().zip(beyond) {
             let reason = if scene.shadows.is_some() {
                 &mut handed_over.in_shadows
-            } else if is_sorted_glass || is_seen_through(item) {
+            } else if is_any_seen_through || is_seen_through(item) {
                 &mut handed_over.not_opaque
-            } else if beyond > 0 {
+            } else if is_any_beyond || beyond > 0 {
                 &mut handed_over.beyond_f32
             } else {
                 tiles.push(item.clone());
