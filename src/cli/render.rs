@@ -497,7 +497,7 @@ fn draw_in_tiles(
     if let Some((option, _)) = refused.iter().find(|(_, given)| *given) {
         return Err(usage(format!("{option} is not for --engine tiles; name another engine")));
     }
-    let target = arguments.what.view.target()?;
+    let mut target = arguments.what.view.target()?;
     let size = target.size();
     let scene = &maker.scene(0.0);
     let exact = || {
@@ -507,9 +507,8 @@ fn draw_in_tiles(
     };
     let division = Division::new(scene, size.width(), size.height()).map_err(usage)?;
     let handed_over = division.handed_over;
-    let mut drawn = arguments.what.view.target()?;
     let start = Instant::now();
-    let picture = division.render(Tiles::default(), &mut drawn, &mut |scene, effects, target| {
+    let picture = division.render(Tiles::default(), &mut target, &mut |scene, effects, target| {
         Drawer::Scanline.render(scene, effects, target)
     });
     let picture = picture.map_err(usage)?;

@@ -38,7 +38,7 @@ pub fn each(count: usize, job: &(dyn Fn(usize) + Sync)) {
 /// What two jobs make, the first of them in another thread where there is one.
 ///
 /// # Panics
-/// Where a job does.
+/// If one of the jobs panics.
 pub fn join<A: Send, B: Send>(
     first: impl FnOnce() -> A + Send,
     second: impl FnOnce() -> B + Send,

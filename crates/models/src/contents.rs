@@ -49,7 +49,7 @@ pub(crate) struct FilePart {
     pub polygons: Polygons,
 }
 
-/// A coordinate as a file has it.
+/// A coordinate in the precision of its file: `f32` in records of an STL, `f64` elsewhere.
 pub(crate) trait Coordinate: Copy + PartialEq + Into<f64> + Send + Sync {
     type Bits: Copy + Eq + Hash + Into<u64> + Send + Sync;
 

@@ -704,9 +704,9 @@ fn planners(scene: &Scene, target: &mut Target, effort: Effort) -> Result<Group,
         0 => samples,
         _ => None,
     };
-    if let Some(number) = samples {
+    if let Some(per_pixel) = samples {
         let start = Instant::now();
-        match frames::render(scene, window.width(), window.height(), number) {
+        match frames::render(scene, window.width(), window.height(), per_pixel) {
             Ok(picture) => {
                 pictures.push(picture);
                 once += start.elapsed();

@@ -154,12 +154,12 @@ impl Veil {
         let [a, b, c] = depths;
         let margin = 0.5f64.powi(44);
         let ends = [a.min(b).min(c) - margin, a.max(b).max(c) + margin];
-        let [near, far] = ends.map_array(|depth| self.distance(depth));
-        let one = self.share(near);
+        let share = |depth: f64| self.share(self.distance(depth));
+        let one = share(ends[0]);
         if LEAST < one && one < 1.0 - LEAST {
             return Share::Mixed;
         }
-        let other = self.share(far);
+        let other = share(ends[1]);
         if one.max(other) <= LEAST {
             Share::None
         } else if one.min(other) >= 1.0 - LEAST {

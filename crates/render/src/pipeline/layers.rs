@@ -20,12 +20,12 @@ pub struct Layer {
     pub colour: Colour,
 }
 
-/// The layers of all samples.
+/// The fragments of all samples that wait to be mixed.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Layers {
-    /// In the order of drawing.
+    /// In the order of drawing until they are sorted.
     pub all: Vec<Layer>,
-    /// Memory that is kept for sorting.
+    /// A second list for sorting, kept from frame to frame so that its memory is asked for once.
     sorted: Vec<Layer>,
 }
 

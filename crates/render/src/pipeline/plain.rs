@@ -104,7 +104,7 @@ impl PlainBlocks {
     }
 
     /// The part of the blocks that has one colour, from 0 to 1, of a texture with so many columns and rows.
-    pub fn plain(&self, sides: [usize; 2], texel: impl Fn(usize) -> u32) -> f64 {
+    pub fn part(&self, sides: [usize; 2], texel: impl Fn(usize) -> u32) -> f64 {
         self.blocks(sides, &texel).plain
     }
 

@@ -415,8 +415,8 @@ impl Texture {
     #[must_use]
     pub fn plain_part(&self) -> f64 {
         match &self.texels {
-            Texels::Colour(bytes) => self.plain.plain(self.sides(), |at| bytes[at]),
-            Texels::Grey(bytes) => self.plain.plain(self.sides(), |at| bytes[at].into()),
+            Texels::Colour(bytes) => self.plain.part(self.sides(), |at| bytes[at]),
+            Texels::Grey(bytes) => self.plain.part(self.sides(), |at| bytes[at].into()),
         }
     }
 

@@ -65,15 +65,15 @@ pub(super) struct Facts {
 /// what it asks for.
 const LEAST_TEXTURED: i64 = 6;
 
-/// The same where it is looked whether its texture has one colour, as nearly all pieces of a texture have with one colour. Fewer have
-/// one elsewhere, and more samples have to be saved by each.
+/// The same of highlights, which most fragments find to be dark by two products.
+const LEAST_SHINY: i64 = 16;
+
+/// So many samples of a piece, times the part of its texture that has one colour, are reason to look whether the piece reads one
+/// colour. The smaller that part is, the more pieces are looked at in vain for each that does, and the more it has to save.
 const LEAST_PLAIN: f64 = 6.0;
 
 /// A piece of so many samples is looked at with any texture.
 const ALWAYS_PLAIN: i64 = 256;
-
-/// The same of highlights, which most fragments find to be dark by two products.
-const LEAST_SHINY: i64 = 16;
 
 /// About how many samples a piece covers.
 pub(super) fn samples_of(piece: &Piece) -> i64 {
@@ -128,8 +128,7 @@ impl Facts {
             facts.is_shiny = !is_checked || specular::may_show(item, piece);
         }
         if rule.shadows.is_open() {
-            let is_lit = !faces_away || rule.specular.pays(facts.is_shiny);
-            facts.is_shadowed = is_lit;
+            facts.is_shadowed = !faces_away || rule.specular.pays(facts.is_shiny);
         }
         let has_uv = rule.interpolates.both(facts.varies).has(Attributes::UV);
         if !has_uv || samples < LEAST_TEXTURED {
