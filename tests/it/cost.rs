@@ -10,6 +10,16 @@ fn untimed(ladder: Ladder, seed: u64) -> Board {
     measure(ladder, &Options { seed, quick: true, timed: false }, &|_, _| ())
 }
 
+/// The smallest ladder, with times.
+fn timed(seed: u64) -> Board {
+    measure(Ladder::Lines, &Options { seed, quick: true, timed: true }, &|_, _| ())
+}
+
+fn recorded(boards: Vec<Board>) -> Recorded {
+    let repeat = "rasterproof cost --quick --seed 5".to_owned();
+    Recorded { version: "0.0.1".to_owned(), repeat, seed: 5, quick: true, boards }
+}
+
 fn rung(board: &Board, name: &str) -> usize {
     board.rungs.iter().position(|rung| rung.name == name).unwrap_or_else(|| panic!("{name}"))
 }
@@ -108,10 +118,7 @@ fn cost_cracks() {
 fn cost_not_run_has_a_reason() {
     let mut reasons = 0;
     for board in Ladder::ALL.map(|ladder| untimed(ladder, 1)) {
-        assert_eq!(
-            board.columns.iter().filter(|c| c.items > 0 || c.pixels == 0).count(),
-            board.columns.len()
-        );
+        assert!(board.columns.iter().all(|c| c.items > 0 || c.pixels == 0));
         let names: Vec<_> = board.columns.iter().map(|c| &*c.name).collect();
         for class in [
             "large", "25 px", "<8 px", "sliver", "half", "tie", "far", "mesh", "w 1", "w 4",
@@ -149,58 +156,47 @@ fn cost_colour_is_optional() {
 #[ignore = "takes seconds; .ci/run runs it"]
 fn cost_from_the_command_line() {
     let folder = Folder::new("cost");
-    let run = |words: &str| {
-        let run = folder.run(words);
-        assert!(run.errors.is_empty() || run.status == Some(2));
-        (run.status, run.out)
-    };
-    let (status, text) = run("cost lines --quick --seed 3 -o plots");
-    assert_eq!(status, Some(0), "{text}");
-    assert!(text.contains("repeat with: rasterproof cost lines --quick --seed 3"), "{text}");
-    assert!(text.contains("ns for each covered pixel, median of 7 rounds"), "{text}");
-    assert!(text.lines().all(|line| line.chars().count() <= 100), "{text}");
-    let svg = std::fs::read_to_string(folder.join("plots/cost-lines.svg")).unwrap();
+    let right = |words: &str| folder.check(words, 0).without_errors();
+    let repeat = "repeat with: rasterproof cost lines --quick --seed 3";
+    let run = right("cost lines --quick --seed 3 -o plots")
+        .prints(repeat)
+        .prints("ns for each covered pixel, median of 7 rounds");
+    assert!(run.out.lines().all(|line| line.chars().count() <= 100), "{run}");
+    let svg = folder.text("plots/cost-lines.svg");
     assert!(svg.contains("Bresenham") && svg.ends_with("</svg>\n"));
     let png = image::open(folder.join("plots/cost-lines.png")).unwrap();
     assert_eq!(png.width(), 1600);
 
-    let (status, text) = run("cost lines --quick --seed 3 --json");
-    assert_eq!(status, Some(0));
-    let json: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let run = right("cost lines --quick --seed 3 --json");
+    let json = run.json();
     let untimed = untimed(Ladder::Lines, 3);
     for (rung, row) in json["boards"][0]["cells"].as_array().unwrap().iter().enumerate() {
         for (column, cell) in row.as_array().unwrap().iter().enumerate() {
             let error = cell["run"]["errors"][0].as_f64();
             assert_eq!(error, untimed.error(rung, column, 0), "errors do not depend on the run");
-            assert!(
-                error.is_none() || cell["run"]["time"]["pixel_ns"]["median"].as_f64() > Some(0.0)
-            );
+            let median = cell["run"]["time"]["pixel_ns"]["median"].as_f64();
+            assert!(error.is_none() || median > Some(0.0));
         }
     }
     assert!(json["verdicts"][0]["best"][0]["fastest"].is_string());
-    assert_eq!(run("cost nothing").0, Some(2));
 
     // What was printed is drawn again, to the byte.
-    let plot = |plots: &str| std::fs::read(folder.join(plots).join("cost-lines.svg")).unwrap();
-    let measured = plot("target/rasterproof");
-    std::fs::write(folder.join("cost.json"), &text).unwrap();
-    let (status, again) = run("cost --from cost.json --json -o again");
-    assert_eq!((status, &again), (Some(0), &text));
-    assert_eq!(plot("again"), measured);
-    let (status, boards) = run("cost lines --from cost.json -o again");
-    assert_eq!(status, Some(0), "{boards}");
-    assert!(boards.contains("cost, seed 3, quick\n"), "{boards}");
-    assert!(boards.contains("repeat with: rasterproof cost lines --quick --seed 3"), "{boards}");
-    assert_eq!(run("cost depth --from cost.json").0, Some(2), "no such board");
-    assert_eq!(run("cost --from nowhere.json").0, Some(2));
-    assert_eq!(run("cost --from cost.json --quick").0, Some(2));
+    let measured = folder.text("target/rasterproof/cost-lines.svg");
+    folder.put("cost.json", &run.out);
+    assert_eq!(right("cost --from cost.json --json -o again").out, run.out);
+    assert_eq!(folder.text("again/cost-lines.svg"), measured);
+    right("cost lines --from cost.json -o again").prints("cost, seed 3, quick\n").prints(repeat);
+    for words in
+        ["nothing", "depth --from cost.json", "--from nowhere.json", "--from cost.json --quick"]
+    {
+        folder.check(format!("cost {words}"), 2);
+    }
 }
 
 /// Every rung that ran has its label in the plot, and no label leaves the drawing.
 #[test]
 fn cost_plots_name_every_rung() {
-    let options = Options { seed: 1, quick: true, timed: true };
-    let board = measure(Ladder::Lines, &options, &|_, _| ());
+    let board = timed(1);
     let drawings = [cost_plots::pareto(&board), cost_plots::pareto_narrow(&board)];
     assert!(drawings[1].size[0] <= 400.0, "{:?}", drawings[1].size);
     for drawing in drawings {
@@ -221,20 +217,9 @@ fn cost_plots_name_every_rung() {
 /// A file that `cost --json` wrote gives the same boards, plots and file again.
 #[test]
 fn cost_json_is_read_back() {
-    let options = Options { seed: 5, quick: true, timed: true };
     // Counted work, goals that rank nothing, and times.
-    let boards = vec![
-        untimed(Ladder::Scanline, 5),
-        untimed(Ladder::Depth, 5),
-        measure(Ladder::Lines, &options, &|_, _| ()),
-    ];
-    let recorded = Recorded {
-        version: "0.0.1".to_owned(),
-        repeat: "rasterproof cost --quick --seed 5".to_owned(),
-        seed: 5,
-        quick: true,
-        boards,
-    };
+    let recorded =
+        recorded(vec![untimed(Ladder::Scanline, 5), untimed(Ladder::Depth, 5), timed(5)]);
     let text = json::cost(&recorded);
     let back = Recorded::read(&text).unwrap();
     assert_eq!(back, recorded);
@@ -248,14 +233,7 @@ fn cost_json_is_read_back() {
 /// Each kind of broken file is refused with its line; none of them panics.
 #[test]
 fn cost_broken_files_are_refused() {
-    let board = measure(Ladder::Lines, &Options { seed: 5, quick: true, timed: true }, &|_, _| ());
-    let recorded = Recorded {
-        version: "0.0.1".to_owned(),
-        repeat: String::new(),
-        seed: 5,
-        quick: true,
-        boards: vec![board],
-    };
+    let recorded = recorded(vec![timed(5)]);
     let good = json::cost(&recorded);
     // The first line with `from` becomes `to`: what is wrong, in that line or the next one but one.
     let refused = |from: &str, to: &str, what: &str| {

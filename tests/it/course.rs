@@ -211,55 +211,7 @@ fn course_passes_a_students_code() {
     }
 }
 
-const RUST_BODIES: [(&str, &str); 2] = [
-    (
-        "usize),\n) {\n}",
-        "usize),\n) {
-    let mut nearest = vec![(f64::INFINITY, 0); (width * height) as usize];
-    for (t, p) in triangles.iter().enumerate() {
-        let turn = |i: usize, s: [f64; 2]| {
-            let (a, b) = (p[i], p[(i + 1) % 3]);
-            (b[0] - a[0]) * (s[1] - a[1]) - (b[1] - a[1]) * (s[0] - a[0])
-        };
-        let area = turn(0, [p[2][0], p[2][1]]);
-        for at in 0..width * height {
-            let s = [f64::from(at % width) + 0.5, f64::from(at / width) + 0.5];
-            let inside = |i: usize| {
-                let (a, b) = if area > 0.0 { (p[i], p[(i + 1) % 3]) } else { (p[(i + 1) % 3], p[i]) };
-                let e = turn(i, s) / area;
-                e > 0.0 || e == 0.0 && (b[1] < a[1] || b[1] == a[1] && b[0] > a[0])
-            };
-            let z = (turn(1, s) * p[0][2] + turn(2, s) * p[1][2] + turn(0, s) * p[2][2]) / area;
-            if area != 0.0 && (0..3).all(inside) && z < nearest[at as usize].0 {
-                nearest[at as usize] = (z, t);
-            }
-        }
-    }
-    for (at, (z, t)) in (0..).zip(nearest) {
-        if z < f64::INFINITY {
-            set_pixel(at % width, at / width, t);
-        }
-    }
-}",
-    ),
-    (
-        "    Vec::new()\n}",
-        "    let mut left = Vec::new();
-    for i in 0..3 {
-        let (a, b) = (corners[i], corners[(i + 1) % 3]);
-        let (from, to) = (a[2] + a[3], b[2] + b[3]);
-        if from >= 0.0 {
-            left.push(a);
-        }
-        if (from >= 0.0) != (to >= 0.0) {
-            left.push(std::array::from_fn(|k| a[k] + (b[k] - a[k]) * from / (from - to)));
-        }
-    }
-    left
-}",
-    ),
-];
-
+/// A solution is the starter with its place filled. So starters of all languages hand over piles and corners, and write what comes back.
 #[test]
 #[ignore = "takes seconds; .ci/run runs it"]
 fn course_solutions_pass() {
@@ -279,10 +231,8 @@ fn course_solutions_pass() {
 /// What the solution in Rust takes from the companion program is there, word for word.
 #[test]
 fn course_solution_is_the_companions() {
-    let own = ["03-triangles", "04-values", "06-perspective"].map(|name| {
-        let path = format!("{}/docs/own/{name}.rs", env!("CARGO_MANIFEST_DIR"));
-        fs::read_to_string(path).unwrap().replace("pub fn", "fn")
-    });
+    let own = ["03-triangles", "04-values", "06-perspective"]
+        .map(|name| crate::pages::read(format!("docs/own/{name}.rs")).replace("pub fn", "fn"));
     let own = own.concat();
     let solution = include_str!("../../adapters/course/solution.rs");
     let taken = solution.split("// ----").nth(1).unwrap();
@@ -395,51 +345,6 @@ fn course_page_lists_misconceptions() {
         assert!(page.contains(&row), "docs/course.md lacks\n{row}");
     }
 }
-
-const CPP_BODIES: [(&str, &str); 2] = [
-    (
-        "    (void)triangles, (void)count, (void)width, (void)height, (void)set_pixel;\n",
-        include_str!("../data/course/depth.cpp"),
-    ),
-    ("    (void)corners, (void)add_corner;\n", include_str!("../data/course/clip.cpp")),
-];
-
-/// The starters of the compiled languages hand over piles and corners, and write what comes back.
-#[test]
-#[ignore = "takes seconds; .ci/run runs it"]
-fn course_starters_order_and_clip() {
-    for (language, tool, source, bodies, build) in [
-        ("rust", "rustc", "starter.rs", RUST_BODIES, "rustc -O --edition 2024 starter.rs"),
-        ("cpp", "c++", "starter.cpp", CPP_BODIES, "c++ -std=c++11 -O2 starter.cpp -o starter"),
-    ] {
-        if !has(tool) {
-            continue;
-        }
-        let folder = Folder::new(&format!("{language}-bodies"));
-        course(&folder, ["start", "--language", language], 0);
-        let mut text = fs::read_to_string(folder.join(source)).unwrap();
-        for (empty, body) in bodies {
-            assert!(text.contains(empty), "{language}: {empty}");
-            text = text.replace(empty, body);
-        }
-        fs::write(folder.join(source), text).unwrap();
-        let words: Vec<&str> = build.split(' ').collect();
-        let built = Command::new(words[0]).args(&words[1..]).current_dir(&folder).output().unwrap();
-        assert!(built.status.success(), "{}", String::from_utf8_lossy(&built.stderr));
-        let words = "judge --cases 64 --family depth-order --family near-plane -- ./starter";
-        let judged =
-            Command::new(PROGRAM).args(words.split(' ')).current_dir(&folder).output().unwrap();
-        let out = String::from_utf8(judged.stdout).unwrap();
-        // Its other functions are empty, so that it does not draw; of these two nothing is wrong.
-        for property in ["depth-order", "near-plane"] {
-            let row = out.lines().find(|line| line.starts_with(property)).unwrap_or_default();
-            let words: Vec<&str> = row.split_whitespace().collect();
-            assert!(words.len() == 10 && words[1] != "0", "{language}: {out}");
-            assert_eq!(words[9], "0.00%", "{language}: {out}");
-        }
-    }
-}
-
 /// Points as Gradescope reads them, and a table of a folder; a submission that is broken, hangs or is
 /// hungry gets no point and stops nobody.
 #[test]

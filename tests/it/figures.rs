@@ -30,6 +30,7 @@ use rasterproof_verify::comparison::oracle_coverage;
 use rasterproof_verify::oracle::coverage::samples_on_boundary;
 use serde_json::Value;
 
+use crate::book::bugs;
 use crate::by_hand;
 use crate::illustrations::ball;
 use crate::pages::{page, read};
@@ -276,8 +277,7 @@ fn value(far: f64, t: f64) -> f64 {
 }
 
 fn bug(name: &str) -> Value {
-    let text = include_str!("../data/book-bugs.json");
-    serde_json::from_str::<Value>(text).unwrap()[name].clone()
+    bugs()[name].clone()
 }
 
 fn named(name: &str) -> Vec<Coverage> {

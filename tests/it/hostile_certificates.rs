@@ -21,10 +21,6 @@ impl Folder {
         folder
     }
 
-    fn text(&self, name: &str) -> String {
-        fs::read_to_string(self.join(name)).unwrap()
-    }
-
     fn json(&self, name: &str) -> Value {
         serde_json::from_str(&self.text(name)).unwrap()
     }

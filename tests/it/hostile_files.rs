@@ -4,15 +4,18 @@
 
 use std::fs::{self, File};
 use std::os::unix::fs::symlink;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, Stdio};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use rasterproof::cli::exit::{AGREES, DISAGREES, USAGE};
 
-const PROGRAM: &str = env!("CARGO_BIN_EXE_rasterproof");
-/// All that is read here is refused in milliseconds; what waits would wait for ever.
-const PATIENCE: Duration = Duration::from_secs(120);
+use crate::pages::{files, read, root};
+use crate::program::{Folder, PROGRAM, Run};
+
+/// All that is read here is refused in milliseconds; what waits would wait for ever, and is ended after so many seconds
+/// with a status of its own.
+const PATIENCE_S: u64 = 120;
 /// Kibibytes of addresses: what reads a device to its end is stopped by this.
 const MEMORY_KIB: u64 = 8 << 20;
 
@@ -28,15 +31,10 @@ enum Hostile {
     Missing,
 }
 
-const ALL: [Hostile; 7] = [
-    Hostile::Pipe,
-    Hostile::Device,
-    Hostile::Directory,
-    Hostile::FiveGigabytes,
-    Hostile::ControlCharacters,
-    Hostile::Truncated,
-    Hostile::Missing,
-];
+const ALL: [Hostile; 7] = {
+    use Hostile::{ControlCharacters, Device, Directory, FiveGigabytes, Missing, Pipe, Truncated};
+    [Pipe, Device, Directory, FiveGigabytes, ControlCharacters, Truncated, Missing]
+};
 
 struct Reader {
     name: &'static str,
@@ -102,15 +100,6 @@ const READERS: [Reader; 18] = readers![
         or: &[(AGREES, &ALL)];
 ];
 
-/// A folder below the system's folder for such files, removed with what is in it.
-struct Folder(PathBuf);
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        let _ = fs::remove_dir_all(&self.0);
-    }
-}
-
 fn put(hostile: Hostile, path: &Path, truncated: &[u8]) {
     match hostile {
         Hostile::Pipe => assert!(Command::new("mkfifo").arg(path).status().unwrap().success()),
@@ -129,16 +118,15 @@ fn put(hostile: Hostile, path: &Path, truncated: &[u8]) {
 
 /// Runs a command with a hostile file; says what is wrong with how it ended.
 fn check(reader: &Reader, hostile: Hostile) -> Result<(), String> {
-    let name = format!("rasterproof-hostile-{}-{hostile:?}-{}", reader.name, std::process::id());
-    let folder = Folder(std::env::temp_dir().join(name.replace([' ', ','], "_")));
-    let _ = fs::remove_dir_all(&folder.0);
+    let name = format!("hostile-{}-{hostile:?}", reader.name);
+    let folder = Folder::new(&name.replace([' ', ','], "_"));
     // A name with control characters, where the name is free.
     let is_free = reader.words.contains("{}") && hostile == Hostile::ControlCharacters;
     let file = if is_free { format!("\x1b[31m{}", reader.file) } else { reader.file.to_owned() };
-    let path = folder.0.join(&file);
+    let path = folder.join(&file);
     fs::create_dir_all(path.parent().unwrap()).unwrap();
     for (name, text) in reader.beside {
-        fs::write(folder.0.join(name), text).unwrap();
+        fs::write(folder.join(name), text).unwrap();
     }
     put(hostile, &path, reader.truncated);
     let words = reader.words.split(' ').map(|word| match word {
@@ -146,30 +134,11 @@ fn check(reader: &Reader, hostile: Hostile) -> Result<(), String> {
         "PROGRAM" => PROGRAM,
         word => word,
     });
-    let [out, errors] = ["standard.out", "standard.errors"].map(|name| folder.0.join(name));
     let start = Instant::now();
-    let mut child = Command::new("sh")
-        .args(["-c", &format!("ulimit -v {MEMORY_KIB}; exec \"$0\" \"$@\""), PROGRAM])
-        .args(words)
-        .current_dir(&folder.0)
-        .stdin(Stdio::null())
-        .stdout(File::create(&out).unwrap())
-        .stderr(File::create(&errors).unwrap())
-        .spawn()
-        .unwrap();
-    let status = loop {
-        if let Some(status) = child.try_wait().unwrap() {
-            break status.code();
-        }
-        if start.elapsed() > PATIENCE {
-            child.kill().unwrap();
-            child.wait().unwrap();
-            return Err("does not end".to_owned());
-        }
-        std::thread::sleep(Duration::from_millis(5));
-    };
-    let text = |path| String::from_utf8_lossy(&fs::read(path).unwrap()).into_owned();
-    let (out, errors) = (text(&out), text(&errors));
+    let limits = format!("ulimit -v {MEMORY_KIB}; exec timeout {PATIENCE_S} \"$0\" \"$@\"");
+    let mut shell = Command::new("sh");
+    shell.args(["-c", &limits, PROGRAM]).args(words).current_dir(&folder).stdin(Stdio::null());
+    let Run { status, out, errors, .. } = Run::of(&mut shell);
     // With `--nocapture` the test prints a table of all files.
     let message = errors.lines().next().unwrap_or_default();
     println!("{} | {hostile:?} | {} ms | {message}", reader.name, start.elapsed().as_millis());
@@ -210,28 +179,17 @@ fn every_option_that_reads_a_file_refuses_what_is_none() {
 /// the one crate that calls them, and in tests.
 #[test]
 fn only_one_crate_opens_and_writes_files() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let crates = fs::read_dir(root.join("crates")).unwrap().map(|entry| entry.unwrap().path());
-    let others = crates.filter(|folder| !folder.ends_with("host"));
-    let mut folders: Vec<_> = others.map(|folder| folder.join("src")).collect();
-    folders.push(root.join("src"));
-    let mut files = 0;
-    while let Some(folder) = folders.pop() {
-        for entry in fs::read_dir(folder).unwrap() {
-            let path = entry.unwrap().path();
-            if path.is_dir() {
-                folders.push(path);
-            } else if path.extension().is_some_and(|ending| ending == "rs") {
-                let text = fs::read_to_string(&path).unwrap();
-                // The tests of a file are its last part.
-                let code = text.split("\n#[cfg(test)]\n").next().unwrap_or_default();
-                assert!(!code.contains("disallowed_methods"), "{}", path.display());
-                files += 1;
-            }
-        }
+    let crates = fs::read_dir(root().join("crates")).unwrap().map(|entry| entry.unwrap().path());
+    let folders = crates.filter(|folder| !folder.ends_with("host")).chain([root().to_owned()]);
+    let files: Vec<_> = folders.flat_map(|folder| files(&folder.join("src"), ".rs")).collect();
+    for path in &files {
+        // The tests of a file are its last part.
+        let text = read(path);
+        let code = text.split("\n#[cfg(test)]\n").next().unwrap_or_default();
+        assert!(!code.contains("disallowed_methods"), "{}", path.display());
     }
-    assert!(files > 100, "{files}");
-    let lint = fs::read_to_string(root.join("clippy.toml")).unwrap();
+    assert!(files.len() > 100, "{}", files.len());
+    let lint = read("clippy.toml");
     for function in ["read", "read_to_string", "write", "rename", "File::open", "File::create"] {
         assert!(lint.contains(&format!("\"std::fs::{function}\"")), "{function}");
     }

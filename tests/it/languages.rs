@@ -5,14 +5,11 @@
 
 use std::collections::BTreeSet;
 use std::fs;
-use std::path::Path;
+
+use crate::pages::{read, root};
 
 const ENGLISH: &str = "docs";
 const CHINESE: &str = "docs/zh";
-
-fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-}
 
 /// The names of the pages of one folder, those of the folders in it left out.
 fn names(folder: &str) -> BTreeSet<String> {
@@ -183,7 +180,7 @@ fn languages_keep_step() {
         .map(|name| format!("{name} is not in both {ENGLISH} and {CHINESE}"))
         .collect();
     for name in english.intersection(&chinese) {
-        let read = |folder| fs::read_to_string(root().join(folder).join(name)).unwrap();
+        let read = |folder| read(format!("{folder}/{name}"));
         wrong.extend(out_of_step(name, &read(ENGLISH), &read(CHINESE)));
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));

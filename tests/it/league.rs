@@ -1,14 +1,12 @@
 //! The league: its pages hold the tables of its data, and its command skips what is not installed.
 
 use std::fs;
-use std::path::Path;
 
 use rasterproof_judge::league::League;
 use rasterproof_report::league::tables;
 
-use crate::pages::read;
+use crate::pages::{Renewal, read};
 use crate::program::{Folder, PROGRAM};
-use crate::quiz::RENEW;
 
 /// A page with the tables of these data, from the line that says who made them to the next heading.
 fn with_tables(page: &str, tables: &str) -> String {
@@ -18,30 +16,20 @@ fn with_tables(page: &str, tables: &str) -> String {
     [&page[..start], tables, &page[end..]].concat()
 }
 
-/// Where a page does not hold the tables, the first line that differs is shown.
-fn missing(page: &str, tables: &str) -> Option<String> {
-    tables.lines().find(|line| !page.lines().any(|own| own == *line)).map(str::to_owned)
-}
-
 /// `RASTERPROOF_RENEW=1 cargo test --test it league_pages` writes the tables.
 #[test]
 fn league_pages_hold_its_data() {
     let mut league: League = serde_json::from_str(&read("docs/league.json")).unwrap();
     assert!(league.rows.len() >= 5, "{}", league.rows.len());
+    let mut renewal = Renewal::default();
     for (page, chinese) in [("docs/league.md", false), ("docs/zh/league.md", true)] {
-        let text = read(page);
-        if std::env::var_os(RENEW).is_some() {
-            let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(page);
-            fs::write(path, with_tables(&text, &tables(&league, chinese))).unwrap();
-            continue;
-        }
-        assert_eq!(with_tables(&text, &tables(&league, chinese)), text, "{page}");
-        assert_eq!(missing(&text, &tables(&league, chinese)), None, "{page}");
-        assert!(text.contains(&tables(&league, chinese)), "{page}: lines in another order");
+        renewal.is(page, &with_tables(&read(page), &tables(&league, chinese)));
     }
+    renewal.check("league_pages");
     // Another number is noticed.
     league.rows[0].orders = [7, 3];
-    assert!(missing(&read("docs/league.md"), &tables(&league, false)).is_some());
+    let page = read("docs/league.md");
+    assert_ne!(with_tables(&page, &tables(&league, false)), page);
 }
 
 #[test]

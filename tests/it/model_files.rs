@@ -1,58 +1,41 @@
 //! Hostile model files: none ends the program with a panic or takes memory without limit, and what is
 //! wrong is named with its file and line.
 
-use std::fs;
-use std::path::{Path, PathBuf};
-
 use image::GrayImage;
-use rasterproof_models::{BadFile, Model, Normals, Options, Up, load_texture};
+use rasterproof_models::{Normals, Options, Up, load_texture};
 use rasterproof_render::scene::Shading;
 use rasterproof_verify::cases::Rng;
 
-fn load(path: &Path, shading: Shading) -> Result<Model, BadFile> {
-    rasterproof_models::load(path, Options { shading, ..Options::default() })
-}
-
-fn folder(name: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("model-files-{name}"));
-    let _ = fs::remove_dir_all(&folder);
-    fs::create_dir_all(&folder).unwrap();
-    folder
-}
+use crate::models::{load, warning};
+use crate::program::Folder;
 
 const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
 #[test]
 fn a_bad_line_of_a_material_file_is_a_warning_with_its_line() {
-    let folder = folder("lines");
-    let obj = folder.join("m.obj");
+    let folder = Folder::new("model-files-lines");
     let text = format!("mtllib m.mtl\n{TRIANGLE}usemtl a\nf 1 2 3\nusemtl b\nf 1 2 3\n");
-    fs::write(&obj, text).unwrap();
+    let obj = folder.put("m.obj", text);
     for bad in ["Kd 1 0", "Kd x 1 1", "Kd", "Kd nan 0 0", "Kd 1e99 0 0", "Kq 1 1 1", "{}"] {
         let text = format!("newmtl a\n{bad}\nNs x\nd\nillum -1\nnewmtl b\nKd 0 0.5 1\n");
-        fs::write(folder.join("m.mtl"), text).unwrap();
+        folder.put("m.mtl", text);
         let model = load(&obj, Shading::Phong).unwrap();
-        let [warning] = &model.warnings[..] else { panic!("{bad}: {:?}", model.warnings) };
-        assert!(warning.contains("m.mtl:2: "), "{bad}: {warning}");
+        assert!(warning(&model).contains("m.mtl:2: "), "{bad}: {:?}", model.warnings);
         let colours: Vec<_> =
             model.items.iter().map(|item| item.material.colour.to_array()).collect();
         assert_eq!(colours, [[0.8; 3], [0.0, 0.5, 1.0]], "{bad}");
     }
-    fs::write(folder.join("m.mtl"), "Kd 1 1 1\nnewmtl \u{1b}[31m\nKd \u{1b}[31m 1 1\n").unwrap();
+    folder.put("m.mtl", "Kd 1 1 1\nnewmtl \u{1b}[31m\nKd \u{1b}[31m 1 1\n");
     let warnings = load(&obj, Shading::Phong).unwrap().warnings.join("\n");
     assert!(warnings.contains("m.mtl:3") && !warnings.contains('\u{1b}'), "{warnings:?}");
 }
 
 #[test]
 fn lines_are_read_as_the_format_says() {
-    let folder = folder("format");
-    let obj = folder.join("m.obj");
-    let read = |text: &str| {
-        fs::write(&obj, text).unwrap();
-        load(&obj, Shading::Phong)
-    };
+    let folder = Folder::new("model-files-format");
+    let read = |text: &str| load(&folder.put("m.obj", text), Shading::Phong);
     let error = read("v 0 0 0 nan\nf 1 1 1\n").err().unwrap();
-    assert_eq!((error.line, error.path.clone()), (Some(1), obj.clone()), "{error}");
+    assert_eq!((error.line, &error.path), (Some(1), &folder.join("m.obj")), "{error}");
     let triangles = |text: &str| {
         let model = read(text).unwrap_or_else(|error| panic!("{text:?}: {error}"));
         let count: usize = model.items.iter().map(|item| item.mesh.triangles.len()).sum();
@@ -74,13 +57,12 @@ fn lines_are_read_as_the_format_says() {
 #[test]
 #[ignore = "takes seconds; .ci/run runs it"]
 fn a_texture_that_grows_when_decoded_is_refused() {
-    let folder = folder("texture");
+    let folder = Folder::new("model-files-texture");
     // The head of a BMP of three bytes a pixel; what it promises is refused before it is read.
-    let path = folder.join("large.png");
     let words = |words: &[u32]| words.iter().flat_map(|w| w.to_le_bytes()).collect::<Vec<_>>();
     let mut head = b"BM".to_vec();
     head.extend(words(&[54, 0, 54, 40, 16_384, 16_384, 24 << 16 | 1, 0, 0, 0, 0, 0, 0]));
-    fs::write(&path, head).unwrap();
+    let path = folder.put("large.png", head);
     let error = load_texture(&path).unwrap_err();
     assert!(error.cause.contains("16384 x 16384 px"), "{error}");
     GrayImage::from_pixel(16_384, 16_384, image::Luma([51])).save(&path).unwrap();
@@ -91,10 +73,10 @@ fn a_texture_that_grows_when_decoded_is_refused() {
 /// Five hundred lines that name one file: its one warning comes once.
 #[test]
 fn a_material_file_is_read_once() {
-    let folder = folder("once");
-    let obj = folder.join("m.obj");
-    fs::write(folder.join("m.mtl"), "newmtl a\nKd 1 0\n").unwrap();
-    fs::write(&obj, format!("{}{TRIANGLE}f 1 2 3\n", "mtllib m.mtl\n".repeat(500))).unwrap();
+    let folder = Folder::new("model-files-once");
+    folder.put("m.mtl", "newmtl a\nKd 1 0\n");
+    let text = format!("{}{TRIANGLE}f 1 2 3\n", "mtllib m.mtl\n".repeat(500));
+    let obj = folder.put("m.obj", text);
     assert_eq!(load(&obj, Shading::Phong).unwrap().warnings.len(), 1);
 }
 
@@ -140,7 +122,7 @@ fn mutated(text: &str, rng: &mut Rng) -> Vec<u8> {
 
 /// Reads mutated models with mutated materials; a panic fails the test, with the number of the case.
 fn fuzz(cases: u64, name: &str) {
-    let folder = folder(name);
+    let folder = Folder::new(&format!("model-files-{name}"));
     let obj = "mtllib m.mtl\nv 0 0 0\nv 1 0 0 1\nv 0 1 0\nv 0 0 1 .5 .5 .5\nvt 0 0\nvt 1 0\nvn 0 0 1\n\
         v 2 2 0\nv 2 -1 .5 1 0 0\nv -1 3 1 0.1 0 1 0\nv .3 .3 .3\ns 1\nf 1 5 2 8 7 6\n\
         o one\nusemtl a\nf 1/1/1 2/2/1 3/1/1\ng two\nusemtl b\nf 1//1 2//1 3//1 4//1\nf -1 -2 -3\ns off\nl 1 2\n";
@@ -150,8 +132,8 @@ fn fuzz(cases: u64, name: &str) {
     let (mut read, mut refused) = (0, 0);
     for case in 0..cases {
         let mut rng = Rng::new("model files", 0, case);
-        fs::write(folder.join("m.obj"), mutated(obj, &mut rng)).unwrap();
-        fs::write(folder.join("m.mtl"), mutated(mtl, &mut rng)).unwrap();
+        folder.put("m.obj", mutated(obj, &mut rng));
+        folder.put("m.mtl", mutated(mtl, &mut rng));
         let normals = [Normals::File, Normals::Flat, Normals::Smooth][below(&mut rng, 3)];
         let up = [None, Some(Up::Z)][below(&mut rng, 2)];
         let options = Options { shading: Shading::Phong, normals, up };

@@ -1,31 +1,40 @@
 //! Models in formats other than OBJ.
 
-use std::fs;
-use std::path::{Path, PathBuf};
-
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use rasterproof_models::{BadFile, Format, Model, Options, Up};
 use rasterproof_render::pipeline::assemble::Cull;
 use rasterproof_render::pipeline::opacity::AlphaMode;
-use rasterproof_render::scene::{Material, Shading};
+use rasterproof_render::scene::{Item, Material, Shading};
 use serde_json::{Value, json};
+
+use crate::models::warning;
+use crate::program::Folder;
 
 const POSITIONS: [[f32; 3]; 4] = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 const FACES: [[usize; 3]; 4] = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
 
 /// A folder for each test, whose thread has its name: two of them may write files of one name at the same time.
-fn folder() -> PathBuf {
+fn folder() -> Folder {
     let test = std::thread::current().name().unwrap_or("main").replace("::", "-");
-    Path::new(env!("CARGO_TARGET_TMPDIR")).join(test)
+    Folder::new(&test)
 }
 
 fn load(name: &str, bytes: &[u8]) -> Result<Model, BadFile> {
-    fs::create_dir_all(folder()).unwrap();
-    let path = folder().join(name);
-    fs::write(&path, bytes).unwrap();
-    rasterproof_models::load(&path, Options { up: Some(Up::Y), ..Options::default() })
+    load_in(&folder(), name, bytes)
+}
+
+fn load_in(folder: &Folder, name: &str, bytes: &[u8]) -> Result<Model, BadFile> {
+    let options = Options { up: Some(Up::Y), ..Options::default() };
+    rasterproof_models::load(&folder.put(name, bytes), options)
+}
+
+/// A model that is read, and has so many items.
+fn items<const N: usize>(name: &str, bytes: &[u8]) -> (Model, [Item; N]) {
+    let model = load(name, bytes).unwrap();
+    let items = model.items.clone().try_into().unwrap_or_else(|_| panic!("{name}: {model:?}"));
+    (model, items)
 }
 
 fn binary(header: &[u8]) -> Vec<u8> {
@@ -53,12 +62,10 @@ fn text() -> String {
 }
 
 fn corners(model: &Model) -> Vec<[f64; 3]> {
-    let of = |item: &rasterproof_render::scene::Item| {
-        let positions = item.mesh.positions.clone();
-        let corners = item.mesh.triangles.corners();
-        corners
-            .map(move |corner| positions[corner.position as usize].to_array())
-            .collect::<Vec<_>>()
+    let of = |item: &Item| {
+        let corner = |at: u32| item.mesh.positions[at as usize].to_array();
+        let corners = item.mesh.triangles.positions().as_flattened().iter();
+        corners.map(|&at| corner(at)).collect::<Vec<_>>()
     };
     model.items.iter().flat_map(of).collect()
 }
@@ -162,16 +169,16 @@ fn long_strip(positions: u32, faces: u32, polygon: usize) -> Vec<u8> {
     .into_bytes();
     for number in 0..positions {
         let position = [number as f32, (number % 2) as f32, (number / 7) as f32];
-        bytes.extend(position.iter().flat_map(|number| number.to_le_bytes()));
+        bytes.extend(position.map(f32::to_le_bytes).as_flattened());
     }
     for face in 0..faces {
-        let first = face % (positions - 3);
-        let corners: &[u32] = match face as usize == polygon {
-            true => &[first, first + 2, first + 3, first + 1],
-            false => &[first, first + 1, first + 2],
+        let at = face % (positions - 3);
+        let corners = match face as usize == polygon {
+            true => vec![at, at + 2, at + 3, at + 1],
+            false => vec![at, at + 1, at + 2],
         };
         bytes.push(corners.len() as u8);
-        bytes.extend(corners.iter().flat_map(|number| number.to_le_bytes()));
+        bytes.extend(corners.into_iter().flat_map(u32::to_le_bytes));
     }
     bytes
 }
@@ -207,9 +214,8 @@ fn a_binary_file_is_read_in_pieces() {
             let error = load("cut.ply", &bytes[..bytes.len() - less]).unwrap_err().to_string();
             assert!(error.contains(": the file is cut off"), "{less}: {error}");
         }
-        let more = [&bytes[..], b"12345"].concat();
-        let [warning] = &load("more.ply", &more).unwrap().warnings[..] else { panic!("one") };
-        assert!(warning.contains("5 bytes follow the last element"), "{warning}");
+        let more = load("more.ply", &[&bytes[..], b"12345"].concat()).unwrap();
+        assert!(warning(&more).contains("5 bytes follow the last element"), "{:?}", more.warnings);
     }
 }
 
@@ -221,18 +227,17 @@ fn a_ply_has_polygons_strips_and_texture_coordinates() {
     let polygon = "element face 2\nproperty list uchar int vertex_index\n\
                    property list uchar float texcoord\nend_header\n";
     let faces = "4 0 1 3 2 8 0 0 1 0 1 1 0 .25\n2 0 1 0\n";
-    let model = load("polygon.ply", format!("{head}{polygon}{square}{faces}").as_bytes()).unwrap();
-    let [item] = &model.items[..] else { panic!("{model:?}") };
+    let polygon = format!("{head}{polygon}{square}{faces}");
+    let (model, [item]) = items("polygon.ply", polygon.as_bytes());
     assert_eq!(item.mesh.triangles.len(), 2);
     assert_eq!(item.mesh.triangles.at(1)[2].uv.to_array(), [0.0, 0.25]);
     assert_eq!(model.not_drawn, "1 incomplete face");
     // Two strips in one list: three triangles, all of the same winding.
     let strips = "element tristrips 1\nproperty list int int vertex_indices\nend_header\n";
     let list = "8 0 1 2 3 -1 3 2 0\n";
-    let model = load("strips.ply", format!("{head}{strips}{square}{list}").as_bytes()).unwrap();
-    let mesh = &model.items[0].mesh;
-    let indices: Vec<_> = mesh.triangles.positions().to_vec();
-    assert_eq!(indices, [[0, 1, 2], [2, 1, 3], [3, 2, 0]]);
+    let strips = format!("{head}{strips}{square}{list}");
+    let (_, [item]) = items("strips.ply", strips.as_bytes());
+    assert_eq!(*item.mesh.triangles.positions(), [[0, 1, 2], [2, 1, 3], [3, 2, 0]]);
 }
 
 /// A document of the tetrahedron, changed by a function, with its bytes: positions, then indices.
@@ -261,28 +266,28 @@ fn document(change: impl FnOnce(&mut Value)) -> (String, Vec<u8>) {
 fn glb((json, bytes): (String, Vec<u8>)) -> Vec<u8> {
     let mut json = json.into_bytes();
     json.resize(json.len().next_multiple_of(4), b' ');
-    let mut file = b"glTF".to_vec();
-    let length = 12 + 8 + json.len() + 8 + bytes.len();
-    file.extend([2, length as u32, json.len() as u32].map(u32::to_le_bytes).concat());
-    file.extend(b"JSON");
-    file.extend(json);
-    file.extend((bytes.len() as u32).to_le_bytes());
-    file.extend(b"BIN\0");
-    file.extend(bytes);
-    file
+    let chunk =
+        |kind: &[u8], bytes: &[u8]| [&(bytes.len() as u32).to_le_bytes(), kind, bytes].concat();
+    let chunks = [chunk(b"JSON", &json), chunk(b"BIN\0", &bytes)].concat();
+    let length = 12 + chunks.len() as u32;
+    [b"glTF", &2u32.to_le_bytes(), &length.to_le_bytes(), &chunks[..]].concat()
+}
+
+/// The tetrahedron as a binary glTF, changed by a function.
+fn changed(change: impl FnOnce(&mut Value)) -> Vec<u8> {
+    glb(document(change))
 }
 
 #[test]
 fn a_gltf_of_any_kind_is_the_same_as_an_obj() {
     let obj = corners(&load("c.obj", obj().as_bytes()).unwrap());
-    let model = load("a.bin", &glb(document(|_| ()))).unwrap();
+    let model = load("a.bin", &changed(|_| ())).unwrap();
     assert_eq!((model.format, corners(&model)), (Format::Glb, obj.clone()));
     assert_eq!(model.origins[0].part, "nodes[0] body meshes[0].primitives[0]");
-    let beside = "the buffer (1).bin";
-    let escaped = document(|d| d["buffers"][0]["uri"] = json!("the%20buffer%20(1).bin"));
-    fs::create_dir_all(folder()).unwrap();
-    fs::write(folder().join(beside), &escaped.1).unwrap();
-    let model = load("beside.gltf", escaped.0.as_bytes()).unwrap();
+    let (text, bytes) = document(|d| d["buffers"][0]["uri"] = json!("the%20buffer%20(1).bin"));
+    let folder = folder();
+    folder.put("the buffer (1).bin", bytes);
+    let model = load_in(&folder, "beside.gltf", text.as_bytes()).unwrap();
     assert_eq!((model.format, corners(&model)), (Format::Gltf, obj.clone()));
     // Without indices, which lists the positions three by three.
     let whole: Vec<u8> =
@@ -327,27 +332,28 @@ fn a_gltf_of_any_kind_is_the_same_as_an_obj() {
 /// A node brings its mesh to where it is; a mirror turns no face inside out.
 #[test]
 fn nodes_of_a_gltf_place_its_meshes() {
-    let model = load("nodes.glb", &glb(document(|d| {
+    let half = std::f64::consts::FRAC_1_SQRT_2;
+    let file = changed(|d| {
         d["nodes"] = json!([
             { "children": [1, 2, 3], "translation": [10, 0, 0] },
-            { "mesh": 0, "rotation": [0, 0, std::f64::consts::FRAC_1_SQRT_2, std::f64::consts::FRAC_1_SQRT_2], "scale": [2, 2, 2] },
+            { "mesh": 0, "rotation": [0, 0, half, half], "scale": [2, 2, 2] },
             { "mesh": 0, "matrix": [-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 5, 0, 1] },
             { "camera": 0 },
         ]);
         d["cameras"] = json!([{ "type": "perspective", "perspective": { "yfov": 1, "znear": 1 } }]);
         d["scenes"] = json!([{ "nodes": [] }, { "nodes": [0] }, { "nodes": [1] }]);
         d["scene"] = json!(1);
-    }))).unwrap();
+    });
+    let (model, [turned, mirrored]) = items("nodes.glb", &file);
     assert_eq!(model.not_drawn, "1 camera, 2 other scenes");
-    let [turned, mirrored] = &model.items[..] else { panic!("{model:?}") };
-    let close = |item: &rasterproof_render::scene::Item, at: usize, expected: [f64; 3]| {
+    let close = |item: &Item, at: usize, expected: [f64; 3]| {
         let found = item.mesh.positions[at];
         assert!(found.distance(DVec3::from_array(expected)) < 1e-6, "{found} for {expected:?}");
     };
     // x becomes y, twice as far, and z is turned.
-    close(turned, 1, [10.0, 2.0, 0.0]);
-    close(turned, 3, [10.0, 0.0, -2.0]);
-    close(mirrored, 1, [9.0, 5.0, 0.0]);
+    close(&turned, 1, [10.0, 2.0, 0.0]);
+    close(&turned, 3, [10.0, 0.0, -2.0]);
+    close(&mirrored, 1, [9.0, 5.0, 0.0]);
     for item in [turned, mirrored] {
         let mesh = &item.mesh;
         let centre = mesh.positions.iter().sum::<DVec3>() / 4.0;
@@ -373,15 +379,13 @@ fn strips_and_fans_of_a_gltf_are_triangles_of_one_winding() {
             d["meshes"][0]["primitives"][0]["mode"] = json!(mode);
         });
         bytes.splice(48..58, list.iter().flat_map(|at| at.to_le_bytes()));
-        let model = load("modes.glb", &glb((json, bytes))).unwrap();
-        let mesh = &model.items[0].mesh;
-        let indices: Vec<[u32; 3]> = mesh.triangles.positions().to_vec();
-        assert_eq!(indices, expected, "mode {mode}");
+        let (model, [item]) = items("modes.glb", &glb((json, bytes)));
+        assert_eq!(item.mesh.triangles.positions().to_vec(), expected, "mode {mode}");
         assert_eq!(model.warnings.len(), usize::from(mode == 4), "{:?}", model.warnings);
     }
-    let file = document(|d| d["meshes"][0]["primitives"][0]["mode"] = json!(1));
-    let model = load("lines.glb", &glb(file)).unwrap();
-    assert_eq!((model.items.len(), model.not_drawn.as_str()), (0, "6 lines"));
+    let lines = changed(|d| d["meshes"][0]["primitives"][0]["mode"] = json!(1));
+    let (model, []) = items("lines.glb", &lines);
+    assert_eq!(model.not_drawn, "6 lines");
 }
 
 /// A texture of two texels, red on the left and green on the right, as a PNG.
@@ -435,8 +439,7 @@ fn materials_of_a_gltf_are_drawn_or_counted() {
     });
     bytes.extend(uvs);
     bytes.extend(picture);
-    let model = load("materials.glb", &glb((json, bytes))).unwrap();
-    let [paint, other] = &model.items[..] else { panic!("{model:?}") };
+    let (model, [paint, other]) = items("materials.glb", &glb((json, bytes)));
     // Half of the light is 188 of 255 on a screen.
     let [r, g, b] = paint.material.colour.to_array();
     assert!((r * 255.0 - 187.516).abs() < 0.01 && g == 0.0 && b == 1.0, "{r}");
@@ -456,12 +459,9 @@ fn materials_of_a_gltf_are_drawn_or_counted() {
     assert_eq!((glass.mode, glass.factor, glass.map.is_some()), (AlphaMode::Blend, 0.5, true));
     let opacity = other.material.opacity.as_ref().unwrap();
     assert_eq!((opacity.mode, opacity.factor), (AlphaMode::Test { threshold: 0.25 }, 0.25));
-    assert_eq!(opacity.of(glam::DVec2::ZERO), 255, "as opaque as the threshold");
-    let [missing] = &model.warnings[..] else { panic!("{:?}", model.warnings) };
-    assert!(
-        missing.contains("textures[1] has no picture that is read; the material 'materials[1]'"),
-        "{missing}"
-    );
+    assert_eq!(opacity.of(DVec2::ZERO), 255, "as opaque as the threshold");
+    let missing = "textures[1] has no picture that is read; the material 'materials[1]'";
+    assert!(warning(&model).contains(missing), "{:?}", model.warnings);
     assert_eq!(
         model.not_drawn,
         "emission of 1 material, 1 extension KHR_materials_sheen, metal of 1 material, 1 normal map, \
@@ -494,15 +494,11 @@ fn what_is_not_drawn_of_vertices_and_nodes_is_counted() {
     };
     let always = "1 animation, joints beyond the first four of 1 primitive, 1 light, \
                   other colours of 1 primitive, other texture coordinates of 1 primitive";
-    let of_file = |mode: &str| load("counted.glb", &file(mode)).unwrap().not_drawn;
-    assert_eq!(
-        of_file("OPAQUE"),
-        format!("{always}, values that glTF does not define of 1 primitive")
-    );
-    let blended = format!(
-        "{always}, 2 transparent positions, values that glTF does not define of 1 primitive"
-    );
-    assert_eq!(of_file("BLEND"), blended);
+    for (mode, transparent) in [("OPAQUE", ""), ("BLEND", ", 2 transparent positions")] {
+        let not_drawn = load("counted.glb", &file(mode)).unwrap().not_drawn;
+        let undefined = "values that glTF does not define of 1 primitive";
+        assert_eq!(not_drawn, format!("{always}{transparent}, {undefined}"));
+    }
     let mut stl = binary(b"");
     assert_eq!(load("plain.stl", &stl).unwrap().not_drawn, "");
     stl[84 + 50 + 49] = 0x80;
@@ -553,53 +549,47 @@ fn a_gltf_is_drawn_in_its_rest_pose() {
     bytes.extend([2, 0, 0, 0]);
     bytes.extend([0.0f32, 8.0, 0.0].map(f32::to_le_bytes).concat());
     bytes.resize(172, 0);
-    let model = load("pose.glb", &glb((json, bytes))).unwrap();
+    let (model, [item]) = items("pose.glb", &glb((json, bytes)));
     assert_eq!((model.warnings.len(), model.not_drawn.as_str()), (0, "1 morph target"));
-    let found: Vec<[f64; 3]> =
-        model.items[0].mesh.positions.iter().map(|position| position.to_array()).collect();
+    let found: Vec<_> = item.mesh.positions.iter().map(|position| position.to_array()).collect();
     assert_eq!(found, [[1.0, 0.0, 0.0], [2.0, 0.0, -4.0], [1.0, 5.0, -4.0], [1.0, 0.0, -3.0]]);
 }
 
 #[test]
 fn what_a_gltf_names_and_is_not_there_is_said() {
-    let error = |name: &str, change: &dyn Fn(&mut Value), part: &str| {
-        let error = load(name, &glb(document(change))).unwrap_err().to_string();
-        assert!(error.contains(part), "{name}: {error}");
-    };
-    error(
-        "a.glb",
-        &|d| d["accessors"][1]["count"] = json!(13),
-        "meshes[0].primitives[0]: accessors[1]: 13 elements of 2 bytes do not fit into the 24 bytes",
-    );
-    error(
-        "b.glb",
-        &|d| d["bufferViews"][1]["byteLength"] = json!(25),
-        "bufferViews[1] has 25 bytes from byte 48 on, and buffers[0] has 72",
-    );
-    error("c.glb", &|d| d["accessors"][0]["count"] = json!(u64::MAX), "do not fit");
-    error("d.glb", &|d| d["nodes"][0]["children"] = json!([0]), "nodes[0] contains itself");
-    error("e.glb", &|d| d["nodes"][0]["children"] = json!([9]), "nodes[9] is not there");
-    error(
-        "f.glb",
-        &|d| d["buffers"][0]["uri"] = json!("none.bin"),
-        "buffers[0]: there is no file 'none.bin'",
-    );
-    error(
-        "g.glb",
-        &|d| d["extensionsRequired"] = json!(["EXT_meshopt_compression"]),
-        "compressed by EXT_meshopt_compression",
-    );
-    error(
-        "h.glb",
-        &|d| d["accessors"][0]["type"] = json!("VEC2"),
-        "accessors[0] has 2 numbers where 3 are needed",
-    );
-    error("i.glb", &|d| d["nodes"][0]["mesh"] = json!("x"), "is no glTF that can be read");
+    type Change = fn(&mut Value);
+    let rows: [(Change, &str); 9] = [
+        (
+            |d| d["accessors"][1]["count"] = json!(13),
+            "meshes[0].primitives[0]: accessors[1]: 13 elements of 2 bytes do not fit into the 24 bytes",
+        ),
+        (
+            |d| d["bufferViews"][1]["byteLength"] = json!(25),
+            "bufferViews[1] has 25 bytes from byte 48 on, and buffers[0] has 72",
+        ),
+        (|d| d["accessors"][0]["count"] = json!(u64::MAX), "do not fit"),
+        (|d| d["nodes"][0]["children"] = json!([0]), "nodes[0] contains itself"),
+        (|d| d["nodes"][0]["children"] = json!([9]), "nodes[9] is not there"),
+        (|d| d["buffers"][0]["uri"] = json!("none.bin"), "buffers[0]: there is no file 'none.bin'"),
+        (
+            |d| d["extensionsRequired"] = json!(["EXT_meshopt_compression"]),
+            "compressed by EXT_meshopt_compression",
+        ),
+        (
+            |d| d["accessors"][0]["type"] = json!("VEC2"),
+            "accessors[0] has 2 numbers where 3 are needed",
+        ),
+        (|d| d["nodes"][0]["mesh"] = json!("x"), "is no glTF that can be read"),
+    ];
+    for (change, part) in rows {
+        let error = load("a.glb", &changed(change)).unwrap_err().to_string();
+        assert!(error.contains(part), "{part}: {error}");
+    }
     let mut file = document(|_| ());
     file.1[48 + 2] = 9;
-    let model = load("j.glb", &glb(file)).unwrap();
-    assert_eq!(model.items[0].mesh.triangles.len(), 3);
-    assert!(model.warnings[0].contains("1 triangles name a vertex that is not there, as 9 of 4"));
+    let (model, [item]) = items("j.glb", &glb(file));
+    assert_eq!(item.mesh.triangles.len(), 3);
+    assert!(warning(&model).contains("1 triangles name a vertex that is not there, as 9 of 4"));
     let text = document(|_| ()).0.replace("\"2.0\"", "2.0");
     let error = load("k.gltf", text.as_bytes()).unwrap_err();
     assert_eq!(error.line, Some(1), "{error}");
@@ -614,7 +604,7 @@ fn mutated_files_of_all_formats_never_panic() {
         ("b.stl", binary(b"")),
         ("a.ply", ply("ascii")),
         ("b.ply", ply("binary_big_endian")),
-        ("a.glb", glb(document(|d| d["nodes"][0]["scale"] = json!([1, 2, 3])))),
+        ("a.glb", changed(|d| d["nodes"][0]["scale"] = json!([1, 2, 3]))),
     ];
     let (mut read, mut refused) = (0, 0);
     let mut look = |name: &str, bytes: &[u8]| match load(name, bytes) {

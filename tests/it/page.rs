@@ -234,10 +234,10 @@ pub fn folder(name: &str) -> PathBuf {
 }
 
 /// Runs the program in a folder of its own; the status, what it printed, and the page.
-fn run(name: &str, words: &[&str]) -> (i32, String, PathBuf) {
+fn run(name: &str, words: &str) -> (i32, String, PathBuf) {
     let folder = folder(name);
     let run = Run::of(shared().command(words).current_dir(&folder));
-    let command = if words[0].starts_with("--") { "verify" } else { words[0] };
+    let command = words.split(' ').next().unwrap();
     let page = folder.join(format!("target/rasterproof/{command}.html"));
     (run.status.unwrap(), run.out, page)
 }
@@ -299,12 +299,12 @@ fn counts_equal_the_json(browser: &mut Browser, json: &Value) {
 #[test]
 #[ignore = "takes seconds; .ci/run runs it"]
 fn page_shows_a_verdict_and_its_cases() {
-    let words = ["--cases", "60", "--seed", "3", "--report", "--json"];
-    let (status, printed, page) = run("page", &words);
+    let words = "verify --cases 60 --seed 3 --report --json";
+    let (status, printed, page) = run("page", words);
     assert_eq!(status, 0);
     let text = std::fs::read_to_string(&page).unwrap();
     assert!(text.len() < 2_000_000 && text.len() > 100_000, "{} bytes", text.len());
-    let (_, _, again) = run("page-again", &words);
+    let (_, _, again) = run("page-again", words);
     assert!(text == std::fs::read_to_string(again).unwrap(), "a seed makes one page");
     let Some(mut browser) = Browser::start("page") else { return };
     browser.open(&page, "");
@@ -542,8 +542,8 @@ fn narrow_and_still(browser: &mut Browser, page: &Path) {
 
 #[test]
 fn page_shows_a_planted_fault_first() {
-    let words = ["--cases", "60", "--plant", "inclusive-edges", "--report", "--json"];
-    let (status, printed, page) = run("page-planted", &words);
+    let words = "verify --cases 60 --plant inclusive-edges --report --json";
+    let (status, printed, page) = run("page-planted", words);
     assert_eq!(status, 1);
     let Some(mut browser) = Browser::start("planted") else { return };
     browser.open(&page, "");
@@ -584,7 +584,7 @@ fn page_shows_a_planted_fault_first() {
 #[test]
 #[ignore = "takes seconds; .ci/run runs it"]
 fn page_of_the_specimens_shows_each_fault() {
-    let (status, _, page) = run("page-specimens", &["specimens", "--cases", "5", "--report"]);
+    let (status, _, page) = run("page-specimens", "specimens --cases 5 --report");
     assert_eq!(status, 0);
     let Some(mut browser) = Browser::start("specimens") else { return };
     browser.open(&page, "");
@@ -632,13 +632,14 @@ fn chapters_exist(browser: &mut Browser) {
 /// keeps it.
 #[test]
 fn page_of_each_command_is_in_the_index() {
-    let (_, _, page) = run(
-        "page-index",
-        &["plan", "--scene", "panels", "--size", "64x48", "--rounds", "1", "--report"],
-    );
+    let (_, _, page) = run("page-index", "plan --scene panels --size 64x48 --rounds 1 --report");
+    let text = std::fs::read_to_string(&page).unwrap();
+    assert!(text.contains("the material has no texture") && text.contains("second-buffer"));
     let target = page.parent().unwrap();
     let program = |words: &str| Run::of(shared().command(words).current_dir(target));
     program("render cube --size 64x48 --report --out .").says("report: ./render.html");
+    let text = std::fs::read_to_string(target.join("render.html")).unwrap();
+    assert!(text.contains("rasterproof render cube --size 64x48 --report --out ."));
     let index = std::fs::read_to_string(target.join("index.html")).unwrap();
     for part in ["href=\"plan.html\"", "href=\"render.html\"", "AGREES: scanline and edge-function"]
     {
@@ -656,7 +657,7 @@ fn page_of_each_command_is_in_the_index() {
 #[test]
 #[ignore = "takes seconds; .ci/run runs it"]
 fn page_shows_frames_as_they_are() {
-    let (_, _, page) = run("page-frame", &["render", "cube", "--report"]);
+    let (_, _, page) = run("page-frame", "render cube --report");
     let Some(mut browser) = Browser::start("frame") else { return };
     for (width, height) in [(1280, 720), (1280, 900)] {
         browser.resize(width, height);

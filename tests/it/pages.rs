@@ -8,14 +8,66 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::ops::Range;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use crate::figures::{ALL, cost_cell};
-use crate::quiz::RENEW;
 
-pub fn read(path: &str) -> String {
-    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(path);
+/// The variable of the environment that lets tests write pages anew.
+pub const RENEW: &str = "RASTERPROOF_RENEW";
+
+pub fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+pub fn read(path: impl AsRef<Path>) -> String {
+    let path = root().join(path);
     fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
+}
+
+/// The files of a folder and of the folders in it whose names end so, in order.
+pub fn files(folder: &Path, ending: &str) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    for entry in fs::read_dir(folder).unwrap_or_else(|e| panic!("{}: {e}", folder.display())) {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            found.extend(files(&path, ending));
+        } else if path.to_str().unwrap().ends_with(ending) {
+            found.push(path);
+        }
+    }
+    found.sort();
+    found
+}
+
+/// The files of the repository that are not what is computed for them, each of which is written anew where [`RENEW`] is set.
+#[derive(Default)]
+pub struct Renewal(Vec<String>);
+
+impl Renewal {
+    pub fn is(&mut self, path: impl AsRef<Path>, computed: &str) {
+        let (shown, path) = (path.as_ref().display(), root().join(path.as_ref()));
+        // A file that is not there is as stale as one that differs.
+        if fs::read_to_string(&path).ok().as_deref() == Some(computed) {
+            return;
+        }
+        if std::env::var_os(RENEW).is_some() {
+            fs::create_dir_all(path.parent().unwrap()).unwrap();
+            fs::write(&path, computed).unwrap();
+        }
+        self.0.push(shown.to_string());
+    }
+
+    /// Fails where something was stale, and names the test that writes it.
+    pub fn check(self, test: &str) {
+        let stale = self.0.join("\n");
+        assert!(stale.is_empty(), "renew with `{RENEW}=1 cargo test --test it {test}`:\n{stale}");
+    }
+}
+
+/// The block of text of a page in Markdown, between its fences.
+pub fn text_block(page: &str) -> Range<usize> {
+    let start = page.find("```text\n").expect("a block of text") + "```text\n".len();
+    start..start + page[start..].find("```\n").expect("the end of a block")
 }
 
 pub fn page(folder: &str, name: &str) -> String {
@@ -291,12 +343,12 @@ fn pages_certificates_are_as_written() {
         serde_json::from_str(&read(&format!("docs/certificates/{name}.json"))).unwrap()
     };
     let counts = ["cases", "comparisons", "oracle_checks", "mismatches"];
-    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("docs/certificates");
+    let count = fs::read_dir(root().join("docs/certificates")).unwrap().count();
     for pages in ["docs", "docs/zh"] {
         let text = page(pages, "exhaustion");
         let is_row = |line: &&str| line.starts_with("| [") && line.contains("certificates/");
         let rows: Vec<_> = text.lines().filter(is_row).collect();
-        assert_eq!(rows.len(), fs::read_dir(&folder).unwrap().count(), "{pages}");
+        assert_eq!(rows.len(), count, "{pages}");
         for line in rows {
             let cells: Vec<_> = line.split('|').map(str::trim).collect();
             let name = cells[1].trim_start_matches('[').split(']').next().unwrap();

@@ -15,6 +15,7 @@ use rasterproof_render::scene::{Corner, Item, Material, Scene, shapes};
 use serde_json::{Value, json};
 
 use crate::program::{Folder, Run};
+use crate::scenes::as_they_come;
 
 /// Two squares that are apart as long as they are seen from the front.
 const SQUARES: &str = "v -1 -.5 0\nv -.2 -.5 0\nv -.2 .5 0\nv -1 .5 0\nv .2 -.5 -1.5\nv 1 -.5 -1\n\
@@ -93,8 +94,7 @@ fn a_wrong_plan_never_agrees() {
         // One engine draws what the plan says.
         assert_eq!(status, Some(i32::from(piece.ends_with("both"))), "{out}{errors}");
     }
-    let out = render(&folder, &plan, &[&words[..], &["--json"]].concat()).out;
-    let json: Value = serde_json::from_str(&out).unwrap();
+    let json = render(&folder, &plan, &[&words[..], &["--json"]].concat()).json();
     assert_ne!(json["comparison"]["wrong_pixels"], json!(0), "{json}");
 }
 
@@ -103,19 +103,7 @@ fn what_is_wrong_with_a_plan_is_named() {
     let folder = folder("named");
     let words = with("squares.obj", &[]);
     let whole = plan(&folder, &words);
-    let rule = json!({"as-they-come": {
-        "interpolates": ["normal"],
-        "where_it_varies": true,
-        "perspective": "planned",
-        "depth": true,
-        "specular": "planned",
-        "mip_maps": "planned",
-        "shadows": "planned",
-        "anisotropy": "planned",
-        "fog": "planned",
-        "alpha_test": "planned",
-        "blending": "planned",
-    }});
+    let rule = as_they_come(&json!(["normal"]));
     type Edit<'a> = &'a dyn Fn(&mut Value);
     let with_rule = |edit: &dyn Fn(&mut Value)| {
         let mut plan = whole.clone();
@@ -155,17 +143,6 @@ fn what_is_wrong_with_a_plan_is_named() {
     let plan = with_rule(&|plan| plan["\u{1b}[31m"] = json!(1));
     let errors = render(&folder, &plan, &words).has(2).errors;
     assert!(!errors.contains('\u{1b}'), "{errors:?}");
-}
-
-#[test]
-fn options_that_would_be_ignored_are_refused() {
-    let folder = folder("ignored");
-    for words in
-        [&["--wireframe", "--effects", "all"][..], &["--map", "--json"], &["--spin", "2", "--json"]]
-    {
-        let all = [&["render", "squares.obj", "--size", "16x12", "-o", "a.png"], words].concat();
-        folder.run(&all[..]).has(2).says("cannot be used with");
-    }
 }
 
 /// A triangle in the window, and one that lies outside a plane altogether.

@@ -12,28 +12,11 @@
 //! printed_code` writes the code into the pages.
 
 use std::fs;
-use std::path::{Path, PathBuf};
 
-use rasterproof_host::output;
+use crate::pages::{Renewal, files, read, root};
 
 const BEGIN: &str = "<!-- code ";
 const END: &str = "<!-- end of code -->";
-
-fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-}
-
-fn pages() -> Vec<PathBuf> {
-    let folders = ["docs", "docs/zh"].map(|folder| root().join(folder));
-    let mut pages: Vec<_> = folders
-        .iter()
-        .flat_map(|folder| fs::read_dir(folder).unwrap())
-        .map(|entry| entry.unwrap().path())
-        .filter(|path| path.extension().is_some_and(|extension| extension == "md"))
-        .collect();
-    pages.sort();
-    pages
-}
 
 /// The lines of an item, without the comments and attributes before it, moved to the left margin. It ends
 /// with the first line that closes it at its own indentation.
@@ -90,23 +73,12 @@ fn renewed(page: &str) -> Result<String, String> {
 
 #[test]
 fn printed_code_is_that_of_the_source() {
-    let mut stale = Vec::new();
-    for path in pages() {
-        let page = fs::read_to_string(&path).unwrap();
-        let renewed = renewed(&page).unwrap_or_else(|cause| panic!("{}: {cause}", path.display()));
-        if renewed != page {
-            if std::env::var_os("RASTERPROOF_RENEW").is_some() {
-                output::write(&path, renewed.as_bytes()).unwrap();
-            }
-            stale.push(path.display().to_string());
-        }
+    let mut renewal = Renewal::default();
+    for path in files(&root().join("docs"), ".md") {
+        let cause = |cause| panic!("{}: {cause}", path.display());
+        renewal.is(&path, &renewed(&read(&path)).unwrap_or_else(cause));
     }
-    assert!(
-        stale.is_empty(),
-        "the code in {} is not that of its source; \
-         RASTERPROOF_RENEW=1 cargo test --test it printed_code writes it",
-        stale.join(", ")
-    );
+    renewal.check("printed_code");
 }
 
 #[test]

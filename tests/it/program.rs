@@ -5,6 +5,8 @@ use std::ops::Deref;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
+use serde_json::Value;
+
 pub const PROGRAM: &str = env!("CARGO_BIN_EXE_rasterproof");
 
 /// The words of a command: a text that is split at blanks, or a list of words that may hold blanks.
@@ -48,7 +50,7 @@ impl<W: Words + ?Sized> Words for &W {
     }
 }
 
-/// An empty folder below the build's temporary folder, removed with what is in it.
+/// An empty folder below the build's temporary folder, removed with what is in it unless its test fails.
 pub struct Folder(PathBuf);
 
 impl Folder {
@@ -57,6 +59,18 @@ impl Folder {
         let _ = std::fs::remove_dir_all(&folder);
         std::fs::create_dir_all(&folder).unwrap();
         Self(folder)
+    }
+
+    /// Writes a file; its path.
+    pub fn put(&self, name: &str, content: impl AsRef<[u8]>) -> PathBuf {
+        let path = self.join(name);
+        std::fs::write(&path, content).unwrap();
+        path
+    }
+
+    #[track_caller]
+    pub fn text(&self, name: &str) -> String {
+        std::fs::read_to_string(self.join(name)).unwrap_or_else(|e| panic!("{name}: {e}"))
     }
 
     pub fn command(&self, words: impl Words) -> Command {
@@ -92,7 +106,9 @@ impl AsRef<Path> for Folder {
 
 impl Drop for Folder {
     fn drop(&mut self) {
-        let _ = std::fs::remove_dir_all(&self.0);
+        if !std::thread::panicking() {
+            let _ = std::fs::remove_dir_all(&self.0);
+        }
     }
 }
 
@@ -153,6 +169,23 @@ impl Run {
     pub fn prints(self, part: &str) -> Self {
         assert!(self.out.contains(part), "expected '{part}': {self}");
         self
+    }
+
+    #[track_caller]
+    pub fn prints_all<const N: usize>(self, parts: [&str; N]) -> Self {
+        parts.into_iter().fold(self, Self::prints)
+    }
+
+    /// On either stream.
+    #[track_caller]
+    pub fn shows(self, part: &str) -> Self {
+        let is_shown = self.out.contains(part) || self.errors.contains(part);
+        assert!(is_shown, "expected '{part}': {self}");
+        self
+    }
+
+    pub fn json(&self) -> Value {
+        serde_json::from_str(&self.out).unwrap_or_else(|error| panic!("{error}: {self}"))
     }
 
     #[track_caller]

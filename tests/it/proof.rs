@@ -27,7 +27,7 @@ fn outdated(modelled: &str, code: impl Fn(&str) -> String) -> Vec<String> {
 #[test]
 fn proof_models_are_of_this_code() {
     let modelled = read("proof/modelled");
-    let outdated = outdated(&modelled, read);
+    let outdated = outdated(&modelled, |path| read(path));
     assert!(
         outdated.is_empty(),
         "{}\nWhere the model in proof/ still says what the code does, run proof/looked-at; where it \

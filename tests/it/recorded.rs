@@ -1,5 +1,6 @@
 //! What two Vulkan drivers drew (`tests/data`), against both engines and the oracle.
 
+use std::collections::HashMap;
 use std::io::{BufRead, BufReader};
 
 use flate2::read::GzDecoder;
@@ -7,7 +8,7 @@ use glam::DVec2;
 use rasterproof_core::contract::{Interpolate, Rasterize};
 use rasterproof_core::frame::{Coverage, Frame};
 use rasterproof_core::grid::{PixelRect, SubpixelPoint, snap};
-use rasterproof_core::triangle::{ScreenTriangle, ScreenVertex};
+use rasterproof_core::triangle::{Corners, ScreenTriangle, ScreenVertex};
 use rasterproof_registry::engines::Engine;
 use rasterproof_render::pipeline::multisample::masks;
 use rasterproof_verify::cases::Triangle;
@@ -49,38 +50,37 @@ fn points(record: &Value, step: i32) -> Vec<SubpixelPoint> {
     items(&record["v"]).iter().map(point).collect()
 }
 
-fn runs(record: &Value, window: PixelRect) -> Coverage {
+/// The hits of triangles by an engine.
+pub fn hits(engine: &impl Rasterize, triangles: &[Corners], window: PixelRect) -> Coverage {
     let mut hits = Coverage::new(window, 0);
-    for run in items(&record["runs"]) {
-        let [y, x0, x1] = [0, 1, 2].map(|i| int(&run[i]) as i32);
-        hits.hit(y, x0, x1);
+    for &corners in triangles {
+        engine.cover(corners, window, |s| hits.hit(s.y_px, s.x0_px, s.x1_px));
     }
     hits
 }
 
-/// Draws all triangles of a record with one engine and compares hit counts, fans and quads too:
+/// Viewports may be larger; what was read back is this corner of them.
+const WINDOW: PixelRect = PixelRect { x0: 0, y0: 0, x1: 64, y1: 64 };
+
+/// Draws all triangles of a record with each engine and compares hit counts, fans and quads too:
 /// each listed pixel once, no other.
-fn check_coverage(driver: &str, step: i32) -> usize {
-    let mut checked = 0;
-    for record in records(&format!("vulkan-coverage.{driver}")) {
-        if int(&record["clipped"]) != 0 || record["kind"] == "far4000" {
-            continue;
-        }
-        // Viewports may be larger; what was read back is this corner of them.
-        let window = PixelRect::window(64, 64);
-        let target = runs(&record, window);
-        let corners = points(&record, step);
-        for engine in ENGINES {
-            let mut actual = Coverage::new(window, 0);
-            for corners in corners.chunks_exact(3) {
-                let corners = [corners[0], corners[1], corners[2]];
-                engine.cover(corners, window, |s| actual.hit(s.y_px, s.x0_px, s.x1_px));
-            }
-            assert_eq!(actual, target, "{} differs from {driver} on {record}", engine.name());
-        }
-        checked += 1;
+fn check_hits(driver: &str, record: &Value, corners: &[SubpixelPoint]) {
+    let mut target = Coverage::new(WINDOW, 0);
+    for run in items(&record["runs"]) {
+        let [y, x0, x1] = [0, 1, 2].map(|i| int(&run[i]) as i32);
+        target.hit(y, x0, x1);
     }
-    checked
+    for engine in ENGINES {
+        let actual = hits(&engine, corners.as_chunks().0, WINDOW);
+        assert_eq!(actual, target, "{} differs from {driver} on {record}", engine.name());
+    }
+}
+
+fn check_coverage(driver: &str, step: i32) -> usize {
+    let mut all = records(&format!("vulkan-coverage.{driver}"));
+    all.retain(|record| int(&record["clipped"]) == 0 && record["kind"] != "far4000");
+    all.iter().for_each(|record| check_hits(driver, record, &points(record, step)));
+    all.len()
 }
 
 #[test]
@@ -106,10 +106,8 @@ fn check_snapping(driver: &str, step: i32) {
     let all = records(&format!("vulkan-snap.{driver}"));
     assert_eq!(all.len(), 125);
     for record in &all {
-        let window = PixelRect::window(64, 64);
-        let mut corners = Vec::new();
-        for (bits, snapped) in items(&record["win_f32_bits"]).iter().zip(items(&record["snapped"]))
-        {
+        let corners = items(&record["win_f32_bits"]).iter().zip(items(&record["snapped"]));
+        let snapped = |(bits, snapped): (&Value, &Value)| {
             let ours = [0, 1].map(|i| {
                 let px = f64::from(f32::from_bits(int(&bits[i]) as u32));
                 // A coarser lattice: snap px * 256 / step there, so that one rounding remains.
@@ -117,15 +115,9 @@ fn check_snapping(driver: &str, step: i32) {
             });
             let target = [0, 1].map(|i| int(&snapped[i]) as i32);
             assert_eq!(ours, target, "{driver} snaps otherwise in {record}");
-            corners.push(SubpixelPoint::new(ours[0], ours[1]));
-        }
-        for engine in ENGINES {
-            let mut actual = Coverage::new(window, 0);
-            engine.cover([corners[0], corners[1], corners[2]], window, |s| {
-                actual.hit(s.y_px, s.x0_px, s.x1_px)
-            });
-            assert_eq!(actual, runs(record, window), "{} on {record}", engine.name());
-        }
+            SubpixelPoint::new(ours[0], ours[1])
+        };
+        check_hits(driver, record, &corners.map(snapped).collect::<Vec<_>>());
     }
 }
 
@@ -139,22 +131,24 @@ fn snapping_equals_swiftshader() {
     check_snapping("swiftshader", SWIFTSHADER_STEP);
 }
 
+fn float(bits: &Value) -> f64 {
+    f64::from(f32::from_bits(int(bits) as u32))
+}
+
 /// The triangle of an interpolation record: w and z/w from the clip position, two attributes.
 fn interpolated(record: &Value, step: i32) -> Triangle {
     let corners = points(record, step);
-    let float = |value: &Value| f64::from(f32::from_bits(int(value) as u32));
-    let vertex = |i: usize| {
-        let clip = &record["clip_bits"][i];
+    let vertices = [0, 1, 2].map(|i| {
+        let (clip, a) = (&record["clip_bits"][i], &record["a_bits"][i]);
         let (z, w) = (float(&clip[2]), float(&clip[3]));
-        let a = &record["a_bits"][i];
         ScreenVertex {
             position: corners[i],
             depth: z / w,
             inv_w: 1.0 / w,
             varying: DVec2::new(float(&a[0]), float(&a[1])),
         }
-    };
-    ScreenTriangle { vertices: [vertex(0), vertex(1), vertex(2)] }
+    });
+    ScreenTriangle { vertices }
 }
 
 /// Values against the exact ones within the derived bound (and within 1e-12 of the largest), and
@@ -171,52 +165,36 @@ fn check_interpolation(driver: &str, step: i32) {
         let exact = ExactTriangle::new(&triangle.corners(), depths, v.map(|v| v.inv_w), attributes)
             .unwrap();
         let largest = |values: [f64; 3]| values.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
-        let recorded: std::collections::HashMap<(i32, i32), [f64; 3]> = items(&record["px"])
-            .iter()
-            .map(|px| {
-                let float = |i: usize| f64::from(f32::from_bits(int(&px[i]) as u32));
-                ((int(&px[0]) as i32, int(&px[1]) as i32), [float(2), float(3), float(7)])
-            })
-            .collect();
+        let pixel = |px: &Value| {
+            let at = (int(&px[0]) as i32, int(&px[1]) as i32);
+            (at, [2, 3, 7].map(|i| float(&px[i])))
+        };
+        let recorded: HashMap<_, _> = items(&record["px"]).iter().map(pixel).collect();
         for (engine, bound) in [
             (Engine::Scanline, tolerance::SCANLINE),
             (Engine::EdgeFunction, tolerance::EDGE_FUNCTION),
             (Engine::Oracle, tolerance::ORACLE),
         ] {
-            let mut seen = 0;
-            engine.fragments(&triangle, PixelRect::window(64, 64), |f| {
-                let Some(target) = recorded.get(&(f.x_px, f.y_px)) else { return };
+            let (mut seen, name) = (0, engine.name());
+            engine.fragments(&triangle, WINDOW, |f| {
+                let at = (f.x_px, f.y_px);
+                let Some(target) = recorded.get(&at) else { return };
                 seen += 1;
                 let (depth, values) = exact.at(f.x_px, f.y_px);
-                let actual = [f.varying.x, f.varying.y];
-                for k in 0..2 {
+                for (k, actual) in f.varying.to_array().into_iter().enumerate() {
                     let at_vertices = attributes.map(|a| a[k]);
-                    let error = values[k].distance(actual[k]);
-                    assert!(
-                        error <= bound.attribute.at(at_vertices),
-                        "{}: {error:e} on {record}",
-                        engine.name()
-                    );
+                    let error = values[k].distance(actual);
+                    let bound = bound.attribute.at(at_vertices);
+                    assert!(error <= bound, "{name}: {error:e} on {record}");
                     assert!(error <= 1e-12 * largest(at_vertices));
-                    assert!(
-                        (actual[k] - target[k]).abs() <= 1e-4 * largest(at_vertices),
-                        "{} is {} at {},{} of {record}",
-                        engine.name(),
-                        actual[k],
-                        f.x_px,
-                        f.y_px
-                    );
+                    let is_near = (actual - target[k]).abs() <= 1e-4 * largest(at_vertices);
+                    assert!(is_near, "{name} is {actual} at {at:?} of {record}");
                 }
                 let error = depth.distance(f.depth);
                 assert!(error <= bound.depth.at(depths) && error <= 1e-12 * largest(depths));
                 assert!((f.depth - target[2]).abs() <= 1e-4 * largest(depths));
             });
-            assert_eq!(
-                seen,
-                recorded.len(),
-                "{} misses a recorded pixel of {record}",
-                engine.name()
-            );
+            assert_eq!(seen, recorded.len(), "{name} misses a recorded pixel of {record}");
             compared += seen;
         }
     }
@@ -235,23 +213,20 @@ fn interpolation_agrees_with_swiftshader() {
 
 /// Four samples a pixel: the masks of each triangle, by every engine.
 fn check_masks(driver: &str, step: i32) -> usize {
-    let window = PixelRect::window(64, 64);
-    let mut checked = 0;
-    for record in records(&format!("vulkan-msaa.{driver}")) {
-        let mut target = Frame::new(window, 0u8);
+    let all = records(&format!("vulkan-msaa.{driver}"));
+    for record in &all {
+        let mut target = Frame::new(WINDOW, 0u8);
         for run in items(&record["mask_runs"]) {
             let [mask, y, x0, x1] = [0, 1, 2, 3].map(|i| int(&run[i]) as i32);
             target.span_mut(y, x0, x1).fill(mask as u8);
         }
-        let corners = points(&record, step);
+        let corners: Corners = points(record, step)[..3].try_into().unwrap();
         for engine in ENGINES {
-            let corners = [corners[0], corners[1], corners[2]];
-            let actual = masks(&engine, corners, window).unwrap();
+            let actual = masks(&engine, corners, WINDOW).unwrap();
             assert!(actual == target, "{} differs from {driver} on {record}", engine.name());
         }
-        checked += 1;
     }
-    checked
+    all.len()
 }
 
 #[test]

@@ -9,7 +9,7 @@ use std::io::Cursor;
 use glam::DVec2;
 use proptest::prelude::*;
 use rasterproof::cli::{self, Streams};
-use rasterproof_core::contract::{DrawLine, Interpolate, Rasterize, RasterizeExact};
+use rasterproof_core::contract::{DrawLine, Interpolate, RasterizeExact};
 use rasterproof_core::frame::Coverage;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::triangle::{
@@ -18,6 +18,8 @@ use rasterproof_core::triangle::{
 use rasterproof_registry::engines::{ENTRIES, Engine, ExactEngine, LineEngine};
 use rasterproof_verify::cases::Rng;
 use rayon::prelude::*;
+
+use crate::recorded::hits;
 
 /// Any bits at all: of an f32, of an f64, or of an f64 whose exponent makes it a coordinate.
 fn number(rng: &mut Rng) -> f64 {
@@ -29,24 +31,6 @@ fn number(rng: &mut Rng) -> f64 {
         _ => {
             let exponent = 1023 - 8 + (bits >> 8) % 32;
             f64::from_bits((rng.next() & !(0x7ff << 52)) | exponent << 52)
-        }
-    }
-}
-
-/// How a stretch of triangles went.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-struct Count {
-    triangles: u64,
-    refused: u64,
-    pixels: u64,
-}
-
-impl Count {
-    fn add(self, other: Self) -> Self {
-        Self {
-            triangles: self.triangles + other.triangles,
-            refused: self.refused + other.refused,
-            pixels: self.pixels + other.pixels,
         }
     }
 }
@@ -63,25 +47,27 @@ fn window(rng: &mut Rng) -> PixelRect {
     PixelRect { x0, y0, x1: x0 + 12, y1: y0 + 12 }
 }
 
-/// One triangle of arbitrary bits through every rasterizer. `Coverage::hit` refuses a pixel outside
-/// the window, so an engine that leaves it fails here.
-fn triangle(rng: &mut Rng) -> Count {
+/// One triangle of arbitrary bits through every rasterizer: the pixels that it covers, or nothing where it is refused.
+/// `Coverage::hit` refuses a pixel outside the window, so an engine that leaves it fails here.
+fn triangle(rng: &mut Rng) -> Option<u64> {
     let numbers: [[f64; 6]; 3] = [(); 3].map(|()| [(); 6].map(|()| number(rng)));
     let window = window(rng);
     let corners_px = numbers.map(|n| [n[0], n[1]]);
-    let mut count = Count { triangles: 1, ..Count::default() };
+    let agree = |hits: [Coverage; 3]| {
+        assert!(hits[0] == hits[2] && hits[1] == hits[2], "{corners_px:?} in {window:?}");
+        let [.., oracle] = hits;
+        oracle
+    };
 
     // Without snapping.
     match FreeCorners::new(corners_px) {
         Ok(corners) => {
-            let hits = [ExactEngine::Scanline, ExactEngine::EdgeFunction, ExactEngine::Oracle].map(
-                |engine| {
-                    let mut hits = Coverage::new(window, 0);
-                    engine.cover_exact(&corners, window, |s| hits.hit(s.y_px, s.x0_px, s.x1_px));
-                    hits
-                },
-            );
-            assert!(hits[0] == hits[2] && hits[1] == hits[2], "{corners_px:?} in {window:?}");
+            let engines = [ExactEngine::Scanline, ExactEngine::EdgeFunction, ExactEngine::Oracle];
+            agree(engines.map(|engine| {
+                let mut hits = Coverage::new(window, 0);
+                engine.cover_exact(&corners, window, |s| hits.hit(s.y_px, s.x0_px, s.x1_px));
+                hits
+            }));
         }
         Err(refusal) => assert!(!refusal.to_string().is_empty()),
     }
@@ -100,32 +86,24 @@ fn triangle(rng: &mut Rng) -> Count {
     let vertices = match (vertex(&numbers[0]), vertex(&numbers[1]), vertex(&numbers[2])) {
         (Ok(a), Ok(b), Ok(c)) => [a, b, c],
         (a, b, c) => {
-            let refusal = [a, b, c].into_iter().find_map(Result::err);
-            assert!(refusal.is_some_and(|refusal| !refusal.to_string().is_empty()));
-            count.refused = 1;
-            return count;
+            let refusal = [a, b, c].into_iter().find_map(Result::err)?;
+            assert!(!refusal.to_string().is_empty());
+            return None;
         }
     };
     let triangle = ScreenTriangle { vertices };
-    let hits = [Engine::Scanline, Engine::EdgeFunction, Engine::Oracle].map(|engine| {
-        let mut hits = Coverage::new(window, 0);
-        engine.cover(triangle.corners(), window, |s| hits.hit(s.y_px, s.x0_px, s.x1_px));
-        hits
-    });
-    assert!(hits[0] == hits[2] && hits[1] == hits[2], "{corners_px:?} in {window:?}");
+    let engines = [Engine::Scanline, Engine::EdgeFunction, Engine::Oracle];
+    let covered = agree(engines.map(|engine| hits(&engine, &[triangle.corners()], window)));
     for engine in [Engine::Scanline, Engine::EdgeFunction] {
         let mut values = Coverage::new(window, 0);
         engine.fragments(&triangle, window, |f| {
-            assert!(
-                f.depth.is_finite() && f.varying.is_finite(),
-                "{triangle:?} in {window:?}: {f:?}"
-            );
+            let is_finite = f.depth.is_finite() && f.varying.is_finite();
+            assert!(is_finite, "{triangle:?} in {window:?}: {f:?}");
             values.hit(f.y_px, f.x_px, f.x_px + 1);
         });
-        assert!(values == hits[2], "{} on {triangle:?}", engine.name());
+        assert!(values == covered, "{} on {triangle:?}", engine.name());
     }
-    count.pixels = hits[2].covered();
-    count
+    Some(covered.covered())
 }
 
 /// Any two pixels of i32, through every line drawer.
@@ -148,24 +126,20 @@ fn line(rng: &mut Rng) -> u64 {
     pixels[2].len() as u64
 }
 
-fn many(triangles: u64) -> Count {
-    const BLOCK: u64 = 1000;
-    (0..triangles / BLOCK)
-        .into_par_iter()
-        .map(|block| {
-            let mut rng = Rng::new("bits", 0, block);
-            (0..BLOCK).fold(Count::default(), |count, _| count.add(triangle(&mut rng)))
-        })
-        .reduce(Count::default, Count::add)
-}
-
 /// Neither everything is refused nor nothing, and pixels are drawn: the test looks at something.
 fn check_many(triangles: u64) {
-    let count = many(triangles);
-    println!("{count:?}");
-    assert_eq!(count.triangles, triangles);
-    assert!(count.refused > triangles / 4 && count.refused < triangles * 99 / 100, "{count:?}");
-    assert!(count.pixels > triangles / 100, "{count:?}");
+    const BLOCK: u64 = 1000;
+    let block = |block| {
+        let mut rng = Rng::new("bits", 0, block);
+        let drawn: Vec<u64> = (0..BLOCK).filter_map(|_| triangle(&mut rng)).collect();
+        [BLOCK - drawn.len() as u64, drawn.iter().sum()]
+    };
+    let add = |a: [u64; 2], b: [u64; 2]| [a[0] + b[0], a[1] + b[1]];
+    let [refused, pixels] =
+        (0..triangles / BLOCK).into_par_iter().map(block).reduce(|| [0; 2], add);
+    println!("{triangles} triangles, {refused} refused, {pixels} pixels");
+    assert!(refused > triangles / 4 && refused < triangles * 99 / 100, "{refused}");
+    assert!(pixels > triangles / 100, "{pixels}");
 }
 
 #[test]

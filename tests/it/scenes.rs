@@ -27,10 +27,11 @@ use rasterproof_render::pipeline::texture::{Filter, Texture, Wrap};
 use rasterproof_render::pipeline::transform::{look_at, perspective};
 use rasterproof_render::scene::chapters::{entries, scene};
 use rasterproof_render::scene::{
-    Hidden, Item, Material, Mesh, Scene, Shading, meshes, random, shapes, textures,
+    Corner, Hidden, Item, Material, Mesh, Scene, Shading, meshes, random, shapes, textures,
 };
 use rasterproof_report::frame_comparison::{self, Comparison};
 use rayon::prelude::*;
+use serde_json::{Value, json};
 
 use crate::illustrations::headed;
 use crate::snapshots::{check_picture, check_words, each};
@@ -49,7 +50,7 @@ fn target(antialias: Antialias) -> Target {
     target_of(80, 60, antialias)
 }
 
-fn target_of(width: u32, height: u32, antialias: Antialias) -> Target {
+pub fn target_of(width: u32, height: u32, antialias: Antialias) -> Target {
     let mut target = Target::new(width, height, antialias, DepthFormat::Unorm32).unwrap();
     target.clear_colour(LAST_FRAME, &mut Default::default());
     for plane in &mut target.planes {
@@ -58,8 +59,28 @@ fn target_of(width: u32, height: u32, antialias: Antialias) -> Target {
     target
 }
 
+/// A scene of the chapters, as it is before it turns.
+pub fn still(name: &str) -> Scene {
+    scene(name, 4.0 / 3.0, 0.0).unwrap()
+}
+
 fn draw(scene: &Scene, drawer: Drawer, effects: Effects, antialias: Antialias) -> Rendered {
     drawer.render(scene, &effects, &mut target(antialias)).unwrap()
+}
+
+/// The engines with all kinds of smoothing.
+fn pairs() -> impl Iterator<Item = (Drawer, Antialias)> {
+    Drawer::ALL.into_iter().flat_map(|drawer| SMOOTHINGS.map(|antialias| (drawer, antialias)))
+}
+
+/// One of them in turn.
+fn pair(number: u64) -> (Drawer, Antialias) {
+    (Drawer::ALL[number as usize % 2], SMOOTHINGS[number as usize / 2 % 4])
+}
+
+fn no_random_scene(count: u64, differs: impl Fn(&u64) -> bool + Sync + Send) {
+    let wrong: Vec<u64> = (0..count).into_par_iter().filter(differs).collect();
+    assert!(wrong.is_empty(), "{} random scenes differ, first {}", wrong.len(), wrong[0]);
 }
 
 /// A frame by each rasterizer, everything paid for, and how they compare.
@@ -96,7 +117,7 @@ fn scenes_are_the_same_by_both_rasterizers() {
 #[test]
 fn scenes_look_as_kept() {
     each(&entries().collect::<Vec<_>>(), |entry| {
-        let scene = scene(entry.name, 4.0 / 3.0, 0.0).unwrap();
+        let scene = still(entry.name);
         let [scanline, edges] = [Drawer::Scanline, Drawer::EdgeFunction].map(|drawer| {
             let mut target = target_of(480, 360, Antialias::None);
             drawer.render(&scene, &Effects::PLANNED, &mut target).unwrap().picture
@@ -110,7 +131,6 @@ fn scenes_look_as_kept() {
 
 /// Each scene with the engines and kinds of smoothing with which it is tried: all of them, or one of eight, in turn.
 fn tried(all: bool) -> Vec<(Scene, Vec<(Drawer, Antialias)>)> {
-    let pairs = || Drawer::ALL.into_iter().flat_map(|d| SMOOTHINGS.map(|antialias| (d, antialias)));
     let of = |number: usize| pairs().enumerate().filter(move |(at, _)| all || at % 8 == number % 8);
     // A scene that has turned is tried with another pair.
     let count = entries().count();
@@ -204,8 +224,7 @@ fn check_plans(all: bool) {
         }
     });
     (0..if all { 200 } else { 40 }).into_par_iter().for_each(|index| {
-        let (drawer, antialias) =
-            (Drawer::ALL[index as usize % 2], SMOOTHINGS[index as usize / 2 % 4]);
+        let (drawer, antialias) = pair(index);
         check_plan(&random::with_effects(4, index), drawer, Effects::PLANNED, antialias);
     });
 }
@@ -221,10 +240,28 @@ fn plans_are_known_before_drawing_with_any_smoothing() {
     check_plans(true);
 }
 
+/// The rule by which pieces are drawn as they come, instead of a list of them.
+pub fn as_they_come(interpolates: &Value) -> Value {
+    json!({"as-they-come": {
+        "interpolates": interpolates,
+        "where_it_varies": true,
+        "perspective": "planned",
+        "depth": true,
+        "specular": "planned",
+        "mip_maps": "planned",
+        "shadows": "planned",
+        "anisotropy": "planned",
+        "fog": "planned",
+        "alpha_test": "planned",
+        "blending": "planned",
+        "layers": "planned",
+    }})
+}
+
 #[test]
 fn an_edited_plan_is_followed() {
     let edit = |name: &str, drawer: Drawer, antialias: Antialias, words: &[(&str, &str)]| {
-        let scene = scene(name, 4.0 / 3.0, 0.0).unwrap();
+        let scene = still(name);
         let mut target = target(antialias);
         let plan = drawer.plan(&scene, &Effects::PLANNED, &Canvas::of(&target)).unwrap();
         let mut text = serde_json::to_string(&plan).unwrap();
@@ -232,23 +269,10 @@ fn an_edited_plan_is_followed() {
             assert!(text.contains(from), "{name}: no {from} in {text}");
             text = text.replace(from, to);
         }
-        let mut json: serde_json::Value = serde_json::from_str(&text).unwrap();
+        let mut json: Value = serde_json::from_str(&text).unwrap();
         if words.iter().any(|(_, to)| to.contains("never")) {
             // Other pieces than were listed.
-            json["items"][0]["pieces"] = serde_json::json!({"as-they-come": {
-                "interpolates": json["items"][0]["carries"],
-                "where_it_varies": true,
-                "perspective": "planned",
-                "depth": true,
-                "specular": "planned",
-                "mip_maps": "planned",
-                "shadows": "planned",
-                "anisotropy": "planned",
-                "fog": "planned",
-                "alpha_test": "planned",
-                "blending": "planned",
-                "layers": "planned",
-            }});
+            json["items"][0]["pieces"] = as_they_come(&json["items"][0]["carries"]);
         }
         let plan: Plan = serde_json::from_value(json).unwrap();
         let rendered = drawer.execute(&plan, &scene, &mut target).unwrap();
@@ -260,8 +284,7 @@ fn an_edited_plan_is_followed() {
         (r#""depth":true"#, (r#""perspective":true"#, r#""perspective":false"#));
     // As if the effect had been switched off.
     let never = |name: &str, effect| {
-        let scene = scene(name, 4.0 / 3.0, 0.0).unwrap();
-        draw(&scene, scan, Effects::PLANNED.with(effect, Mode::Never), none).picture
+        draw(&still(name), scan, Effects::PLANNED.with(effect, Mode::Never), none).picture
     };
     let (edited, planned) = edit("cycle", scan, none, &[(depth, r#""depth":false"#)]);
     assert!(edited.picture == never("cycle", Effect::Depth) && edited.picture != planned.picture);
@@ -313,7 +336,7 @@ fn an_edited_plan_is_followed() {
 /// A plan of another scene or target is refused, before anything is drawn.
 #[test]
 fn a_plan_of_something_else_is_refused() {
-    let [cube, panels] = ["cube", "panels"].map(|name| scene(name, 4.0 / 3.0, 0.0).unwrap());
+    let (cube, panels) = (still("cube"), still("panels"));
     let mut other = target(Antialias::None);
     let before = other.resolve();
     let plan = Drawer::Scanline.plan(&cube, &Effects::PLANNED, &Canvas::of(&other)).unwrap();
@@ -324,20 +347,7 @@ fn a_plan_of_something_else_is_refused() {
     let mut large = target_of(81, 60, Antialias::None);
     let words = refused(&plan, &cube, &mut large);
     assert!(words.contains("80 x 60") && words.contains("81 x 60"), "{words}");
-    // As many items and pieces, and other places.
-    let turned = scene("cube", 4.0 / 3.0, 0.1).unwrap();
-    let words = refused(&plan, &turned, &mut other);
-    assert!(words.contains("for another scene, or for the same one seen otherwise"), "{words}");
-    let unsigned = Plan { scene: None, ..plan.clone() };
-    assert!(refused(&unsigned, &cube, &mut other).contains("does not say which scene"));
-    let next = Plan { version: 2, ..plan.clone() };
-    assert!(refused(&next, &cube, &mut other).contains("version 2"));
-    let smooth = &mut target(Antialias::Supersample(2));
-    let msaa = Canvas { antialias: Antialias::Multisample4, ..Canvas::of(smooth) };
-    let of_msaa = Drawer::Scanline.plan(&cube, &Effects::PLANNED, &msaa).unwrap();
-    let words = refused(&of_msaa, &cube, smooth);
-    assert!(words.contains("msaa4") && words.contains("ssaa2"), "{words}");
-    assert!(words.contains("so that the antialiasing differs"), "{words}");
+    // Other places, other samples and another version are refused in `plans.rs`.
     let mut short = plan.clone();
     let Pieces::Listed(runs) = &mut short.items[0].pieces else { panic!("{plan:?}") };
     runs[0].0 = u64::MAX;
@@ -362,9 +372,8 @@ fn samples_on_demand_step_aside() {
     };
     let (small, large) = ((160, 120), (640, 480));
     let (over, multi) = (Antialias::Supersample(2), Antialias::Multisample4);
-    let named = |name| scene(name, 4.0 / 3.0, 0.0).unwrap();
-    assert!(samples(&named("facets"), small, over) && samples(&named("cycle"), small, over));
-    let inside = named("inside");
+    assert!(samples(&still("facets"), small, over) && samples(&still("cycle"), small, over));
+    let inside = still("inside");
     assert!(!samples(&inside, small, over), "not a pixel of background, all in one texture");
     let near = meshes::scene("bumps-4000").unwrap();
     let mut far = near.clone();
@@ -390,8 +399,7 @@ fn random_scenes_planned_change_no_bit() {
         let draw = |drawer: Drawer, effects: Effects| {
             // Wide enough for pieces that are whole in pixels of four planes.
             let width = if antialias == Antialias::Multisample4 { 112 } else { 28 };
-            let mut target = Target::new(width, 21, antialias, DepthFormat::Unorm32).unwrap();
-            target.clear_colour(LAST_FRAME, &mut Default::default());
+            let mut target = target_of(width, 21, antialias);
             drawer.render(&scene, &effects, &mut target).unwrap().picture
         };
         let whole = draw(Drawer::Scanline, Effects::ALWAYS);
@@ -400,8 +408,7 @@ fn random_scenes_planned_change_no_bit() {
             && draw(Drawer::EdgeFunction, Effects::ALWAYS.with(effect, Mode::Planned)) == whole;
         !same
     };
-    let wrong: Vec<u64> = (0..count.unwrap_or(10_000)).into_par_iter().filter(differs).collect();
-    assert!(wrong.is_empty(), "{} random scenes differ, first {:?}", wrong.len(), &wrong[..1]);
+    no_random_scene(count.unwrap_or(10_000), differs);
 }
 
 /// The picture of a plan in which large pieces are checked in squares of so many samples.
@@ -413,7 +420,6 @@ fn in_parts(
     side: u32,
 ) -> Frame<Colour> {
     let mut target = target_of(size.0, size.1, antialias);
-    target.clear_colour(LAST_FRAME, &mut Default::default());
     let mut plan = drawer.plan(scene, &Effects::PLANNED, &Canvas::of(&target)).unwrap();
     for parts in plan.items.iter_mut().filter_map(|item| item.parts.as_mut()) {
         parts.side = side;
@@ -424,16 +430,14 @@ fn in_parts(
 fn check_parts(scenes: u64) {
     let wrong = |index: &u64| {
         let scene = random::with_effects(5, *index);
-        let (drawer, antialias) =
-            (Drawer::ALL[*index as usize % 2], SMOOTHINGS[*index as usize / 2 % 4]);
+        let (drawer, antialias) = pair(*index);
         let side = [1, 2, 3, 5, 8, 16][*index as usize % 6];
         let size = [(40, 30), (160, 120)][*index as usize / 8 % 2];
         let mut target = target_of(size.0, size.1, antialias);
         let whole = drawer.render(&scene, &Effects::ALWAYS, &mut target).unwrap().picture;
         in_parts(&scene, drawer, size, antialias, side) != whole
     };
-    let wrong: Vec<u64> = (0..scenes).into_par_iter().filter(wrong).collect();
-    assert!(wrong.is_empty(), "{} random scenes differ, first {:?}", wrong.len(), &wrong[..1]);
+    no_random_scene(scenes, wrong);
 }
 
 /// Pieces that are planned square by square, down to squares of one sample, have the bits of everything-on.
@@ -479,9 +483,11 @@ impl Counterexample {
 }
 
 fn plain(items: Vec<Item>) -> Scene {
-    let mut scene = Scene::new("counterexample", "", DMat4::IDENTITY);
-    scene.items = items;
-    scene
+    Scene { items, ..Scene::new("counterexample", "", DMat4::IDENTITY) }
+}
+
+fn one(mesh: Mesh, material: Material) -> Scene {
+    plain(vec![Item::new(mesh, material)])
 }
 
 /// The whole screen up to `right`, at depths z of the left and the right side.
@@ -494,6 +500,35 @@ fn screen(right: f64, z: [f64; 2]) -> Mesh {
     ])
 }
 
+/// The whole screen, of which corners have something else.
+fn screen_with(change: impl FnMut(&mut Corner)) -> Mesh {
+    let mut mesh = screen(1.0, [0.0; 2]);
+    mesh.triangles.change_corners(change);
+    mesh
+}
+
+/// Grey that lets so much through; nothing of what lies behind it where it is 1.
+fn glass(value: f64, factor: f64) -> Material {
+    let opacity = (factor < 1.0).then_some(Opacity { factor, map: None, mode: AlphaMode::Blend });
+    Material { opacity, ..grey(value) }
+}
+
+/// The whole screen at one depth; in clip space z grows with the distance.
+fn pane(z: f64, value: f64, factor: f64) -> Item {
+    Item::new(screen(1.0, [z; 2]), glass(value, factor))
+}
+
+/// The colour of a frame that has no other, by each engine with all kinds of smoothing, with what it counted.
+fn check_colour(scene: &Scene, [r, g, b]: [u8; 3], check: impl Fn(&Counters, Antialias)) {
+    for (drawer, antialias) in pairs() {
+        let drawn = draw(scene, drawer, Effects::PLANNED, antialias);
+        let is_right = |colour: &Colour| *colour == [r, g, b, 255];
+        let mut rows = drawn.picture.rows();
+        assert!(rows.all(|(_, row)| row.iter().all(is_right)), "{} {antialias:?}", drawer.name());
+        check(&drawn.counters, antialias);
+    }
+}
+
 /// What is mixed writes no depth: of two sheets of one item the farther, which comes later, is drawn over the nearer.
 #[test]
 fn a_pane_hides_nothing() {
@@ -504,49 +539,22 @@ fn a_pane_hides_nothing() {
         triangle.iter_mut().for_each(|corner| corner.position += first);
         mesh.triangles.push(triangle);
     }
-    let opacity = Some(Opacity { factor: 0.5, map: None, mode: AlphaMode::Blend });
-    let scene = plain(vec![Item::new(mesh, Material { opacity, ..grey(1.0) })]);
+    let scene = one(mesh, glass(1.0, 0.5));
     let over = |b: u8| ((128 * 255 + 127 * u32::from(b) + 127) / 255) as u8;
-    let [r, g, b] = [0, 1, 2].map(|i| over(over(scene.background[i])));
-    for antialias in SMOOTHINGS {
-        for drawer in Drawer::ALL {
-            let picture = draw(&scene, drawer, Effects::PLANNED, antialias).picture;
-            assert!(picture.rows().all(|(_, row)| row.iter().all(|c| *c == [r, g, b, 255])));
-        }
-    }
+    check_colour(&scene, [0, 1, 2].map(|i| over(over(scene.background[i]))), |_, _| ());
 }
 
 /// Panes that are submitted from the nearest to the farthest are drawn the other way round, after what is opaque, over
 /// each other, and each pixel is what the formula says; what lies between hides those behind it.
 #[test]
 fn panes_are_drawn_from_the_farthest() {
-    let pane = |z: f64, value: f64, factor: f64| {
-        let opacity =
-            (factor < 1.0).then_some(Opacity { factor, map: None, mode: AlphaMode::Blend });
-        Item::new(screen(1.0, [z; 2]), Material { opacity, ..grey(value) })
-    };
-    // In clip space z grows with the distance.
-    let near_first = [pane(-0.5, 1.0, 0.25), pane(0.5, 0.0, 0.5), pane(0.9, 1.0, 1.0)];
+    let near_first = vec![pane(-0.5, 1.0, 0.25), pane(0.5, 0.0, 0.5), pane(0.9, 1.0, 1.0)];
     let over = |a: u32, c: u32, b: u32| (a * c + (255 - a) * b + 127) / 255;
     let expected = over(64, 255, over(128, 0, 255)) as u8;
-    let hidden = over(64, 255, 102) as u8;
-    for antialias in SMOOTHINGS {
-        for drawer in Drawer::ALL {
-            let drawn = |items: Vec<Item>| {
-                let picture = draw(&plain(items), drawer, Effects::PLANNED, antialias).picture;
-                assert!(picture.rows().all(|(_, row)| row.iter().all(|c| *c == row[0])));
-                picture.get(0, 0).unwrap()
-            };
-            assert_eq!(drawn(near_first.to_vec()), [expected, expected, expected, 255]);
-            let mut with_wall = near_first.to_vec();
-            with_wall.push(pane(0.0, 0.4, 1.0));
-            assert_eq!(
-                drawn(with_wall),
-                [hidden, hidden, hidden, 255],
-                "the far pane is behind a wall"
-            );
-        }
-    }
+    check_colour(&plain(near_first.clone()), [expected; 3], |_, _| ());
+    // The far pane is behind a wall.
+    let with_wall = [near_first, vec![pane(0.0, 0.4, 1.0)]].concat();
+    check_colour(&plain(with_wall), [over(64, 255, 102) as u8; 3], |_, _| ());
 }
 
 /// With layers, the order of items and triangles decides nothing where everything is mixed; without, it does. So many layers
@@ -558,16 +566,14 @@ fn layers_do_not_depend_on_the_order_of_drawing() {
         let mut scene = random::scene(7, index);
         scene.hidden = Hidden::DepthBuffer;
         for (i, item) in scene.items.iter_mut().enumerate() {
-            let factor = 0.3 + 0.1 * i as f64;
-            item.material.opacity = Some(Opacity { factor, map: None, mode: AlphaMode::Blend });
+            item.material.opacity = glass(1.0, 0.3 + 0.1 * i as f64).opacity;
         }
         let mut reversed = scene.clone();
         reversed.items.reverse();
         for item in &mut reversed.items {
             Arc::make_mut(&mut item.mesh).triangles.reverse();
         }
-        let drawer = Drawer::ALL[index as usize % 2];
-        let antialias = SMOOTHINGS[index as usize / 2 % 4];
+        let (drawer, antialias) = pair(index);
         for layers in [None, NonZeroU32::new(1), NonZeroU32::new(3), NonZeroU32::new(u32::MAX)] {
             let drawn = [&scene, &reversed].map(|scene| {
                 let scene = Scene { layers, ..scene.clone() };
@@ -586,28 +592,18 @@ fn layers_do_not_depend_on_the_order_of_drawing() {
 /// Three panes from the nearest on, of which a sample shows as many as it may: each pixel is what the formula says.
 #[test]
 fn the_nearest_layers_are_shown() {
-    let pane = |z: f64, value: f64| {
-        let opacity = Some(Opacity { factor: 0.5, map: None, mode: AlphaMode::Blend });
-        Item::new(screen(1.0, [z; 2]), Material { opacity, ..grey(value) })
-    };
-    let wall = Item::new(screen(1.0, [0.9; 2]), grey(0.0));
+    // Farther ones come last, of one distance by the middle of their boxes.
+    let items = [(0.9, 0.0, 1.0), (-0.5, 1.0, 0.5), (0.0, 0.0, 0.5), (0.5, 0.4, 0.5)]
+        .map(|(z, value, factor)| pane(z, value, factor));
     let over = |c: u32, b: u32| (128 * c + 127 * b + 127) / 255;
     let shown = [over(255, 0), over(255, over(0, 0)), over(255, over(0, over(102, 0)))];
     for (most, shown) in (1..=3).zip(shown) {
-        for antialias in SMOOTHINGS {
-            for drawer in Drawer::ALL {
-                // Farther ones come last, of one distance by the middle of their boxes.
-                let items = vec![wall.clone(), pane(-0.5, 1.0), pane(0.0, 0.0), pane(0.5, 0.4)];
-                let scene = Scene { layers: NonZeroU32::new(most), ..plain(items) };
-                let drawn = draw(&scene, drawer, Effects::PLANNED, antialias);
-                let value = shown as u8;
-                let is_expected = |c: &Colour| *c == [value, value, value, 255];
-                assert!(drawn.picture.rows().all(|(_, row)| row.iter().all(is_expected)));
-                let samples = 80 * 60 * antialias.samples();
-                let counted = [drawn.counters.layers, drawn.counters.layers_left_out];
-                assert_eq!(counted, [3 * samples, (3 - u64::from(most)) * samples]);
-            }
-        }
+        let scene = Scene { layers: NonZeroU32::new(most), ..plain(items.to_vec()) };
+        check_colour(&scene, [shown as u8; 3], |counters, antialias| {
+            let samples = 80 * 60 * antialias.samples();
+            let counted = [counters.layers, counters.layers_left_out];
+            assert_eq!(counted, [3 * samples, (3 - u64::from(most)) * samples], "{most}");
+        });
     }
 }
 
@@ -628,7 +624,7 @@ fn counterexamples() -> Vec<Counterexample> {
     vec![
         make(Effect::Clip, none, |by| {
             // The left side moves in front of the near plane.
-            plain(vec![Item::new(screen(1.0, [-1.0 - by, 0.5]), grey(0.5))])
+            one(screen(1.0, [-1.0 - by, 0.5]), grey(0.5))
         }),
         make(Effect::Cull, none, |by| {
             let cull = if by > 0.0 { Cull::CounterClockwise } else { Cull::None };
@@ -641,28 +637,26 @@ fn counterexamples() -> Vec<Counterexample> {
             let mut mesh = screen(1.0, [1.0, 1.0 + by]);
             mesh.triangles.change_corners(|corner| corner.colour = DVec3::splat(corner.uv.x));
             let material = Material { vertex_colours: true, ..grey(1.0) };
-            Scene { projection, ..plain(vec![Item::new(mesh, material)]) }
+            Scene { projection, ..one(mesh, material) }
         }),
         make(Effect::Depth, none, near_and_far),
         make(Effect::Colour, none, |by| {
-            let mut mesh = screen(1.0, [0.0; 2]);
-            mesh.triangles.change_corners(|corner| corner.colour = DVec3::splat(1.0 - by));
-            plain(vec![Item::new(mesh, Material { vertex_colours: by > 0.0, ..grey(1.0) })])
+            let mesh = screen_with(|corner| corner.colour = DVec3::splat(1.0 - by));
+            one(mesh, Material { vertex_colours: by > 0.0, ..grey(1.0) })
         }),
         make(Effect::Light, none, |by| {
             let light = Light { ambient: 1.0 - by, ..Light::NONE };
             let material = Material { shading: Shading::Phong, ..grey(1.0) };
-            Scene { light, ..plain(vec![Item::new(screen(1.0, [0.0; 2]), material)]) }
+            Scene { light, ..one(screen(1.0, [0.0; 2]), material) }
         }),
         make(Effect::Specular, none, |by| {
             // The normals are at a right angle to the eye and to the light behind it; one turns towards them.
-            let mut mesh = screen(1.0, [0.0; 2]);
-            mesh.triangles.change_corners(|corner| corner.normal = DVec3::X);
+            let mut mesh = screen_with(|corner| corner.normal = DVec3::X);
             mesh.triangles.change(0, |corners| corners[1].normal = DVec3::new(1.0, 0.0, -by));
             let light = Light { towards: -DVec3::Z, ambient: 0.5, diffuse: 0.5 };
             let specular = Specular { colour: DVec3::ONE, shininess: 1.0 };
             let material = Material { specular, shading: Shading::Phong, ..grey(1.0) };
-            Scene { light, ..plain(vec![Item::new(mesh, material)]) }
+            Scene { light, ..one(mesh, material) }
         }),
         make(Effect::Shadows, none, |by| {
             // A smaller screen moves from the large one towards the light, which is behind the eye; its shadow is wider
@@ -676,30 +670,20 @@ fn counterexamples() -> Vec<Counterexample> {
         }),
         make(Effect::MipMaps, none, |by| {
             // A texel a pixel of the 80 x 60, and by so much more; black and white texels in turn.
-            let texture = textures::generate(16, |x, y| DVec3::splat(f64::from((x + y) % 2)));
-            let texture = texture.with(Filter::Nearest, Wrap::Repeat).with_mip_map();
-            let mut mesh = screen(1.0, [0.0; 2]);
             let size = DVec2::new(80.0, 60.0) / 16.0 * (1.0 - 0.5f64.powi(19) + by);
-            mesh.triangles.change_corners(|corner| corner.uv *= size);
-            let material = Material { texture: Some(Arc::new(texture)), ..grey(1.0) };
-            plain(vec![Item::new(mesh, material)])
+            chequered(Texture::with_mip_map, size)
         }),
         make(Effect::Anisotropy, none, |by| {
             // A footprint of 2 by 3 texels, of black and white ones in turn, and longer by so much.
-            let texture = textures::generate(16, |x, y| DVec3::splat(f64::from((x + y) % 2)));
-            let texture = texture.with(Filter::Nearest, Wrap::Repeat).with_anisotropy(2);
-            let mut mesh = screen(1.0, [0.0; 2]);
             let longer = 3.0 * (1.0 - 0.5f64.powi(19) + by);
             let size = DVec2::new(2.0 * 80.0, longer * 60.0) / 16.0;
-            mesh.triangles.change_corners(|corner| corner.uv *= size);
-            let material = Material { texture: Some(Arc::new(texture)), ..grey(1.0) };
-            plain(vec![Item::new(mesh, material)])
+            chequered(|texture| texture.with_anisotropy(2), size)
         }),
         make(Effect::Fog, none, |by| {
             // In clip space the distance is z; fog begins at 0.
             let growth = Growth::Linear { start: 0.0, end: 1.0 };
             let fog = Some(Fog { colour: [0; 3], growth });
-            Scene { fog, ..plain(vec![Item::new(screen(1.0, [0.0, by]), grey(1.0))]) }
+            Scene { fog, ..one(screen(1.0, [0.0, by]), grey(1.0)) }
         }),
         make(Effect::AlphaTest, none, |by| {
             // The right side reads beyond the opaque one of two texels.
@@ -707,21 +691,19 @@ fn counterexamples() -> Vec<Counterexample> {
             let map = Some(Arc::new(OpacityMap::new(map.with(Filter::Nearest, Wrap::Clamp))));
             let mode = AlphaMode::Test { threshold: 0.5 };
             let opacity = Some(Opacity { factor: 1.0, map, mode });
-            let mut mesh = screen(1.0, [0.0; 2]);
-            mesh.triangles.change_corners(|corner| corner.uv.x *= 0.5 * (1.0 + by));
-            plain(vec![Item::new(mesh, Material { opacity, ..grey(1.0) })])
+            let mesh = screen_with(|corner| corner.uv.x *= 0.5 * (1.0 + by));
+            one(mesh, Material { opacity, ..grey(1.0) })
         }),
         make(Effect::Blending, none, |by| {
             let opacity = Some(Opacity { factor: 1.0 - by, map: None, mode: AlphaMode::Blend });
-            plain(vec![Item::new(screen(1.0, [0.0; 2]), Material { opacity, ..grey(1.0) })])
+            one(screen(1.0, [0.0; 2]), Material { opacity, ..grey(1.0) })
         }),
         make(Effect::Layers, none, |by| {
             // The left pane comes nearer from far away, so that its middle lies behind the right one, which moves over it.
             let pane = |x: [f64; 2], z: [f64; 2], value: f64| {
                 let corners = [(0, -1.0), (1, -1.0), (1, 1.0), (0, 1.0)];
                 let mesh = shapes::quad(corners.map(|(side, y)| DVec3::new(x[side], y, z[side])));
-                let opacity = Some(Opacity { factor: 0.5, map: None, mode: AlphaMode::Blend });
-                Item::new(mesh, Material { opacity, ..grey(value) })
+                Item::new(mesh, glass(value, 0.5))
             };
             let panes = vec![
                 pane([-1.0, 0.0125], [0.9, -0.5], 1.0),
@@ -732,19 +714,17 @@ fn counterexamples() -> Vec<Counterexample> {
         make(Effect::Texture, none, |by| {
             let texel = textures::generate(1, |_, _| DVec3::splat(1.0 - by));
             let texture = (by > 0.0).then(|| Arc::new(texel));
-            plain(vec![Item::new(screen(1.0, [0.0; 2]), Material { texture, ..grey(1.0) })])
+            one(screen(1.0, [0.0; 2]), Material { texture, ..grey(1.0) })
         }),
         make(Effect::Interpolation, none, |by| {
             let mut mesh = screen(1.0, [0.0; 2]);
             mesh.triangles.change(0, |corners| corners[1].colour -= by);
-            plain(vec![Item::new(mesh, Material { vertex_colours: true, ..grey(1.0) })])
+            one(mesh, Material { vertex_colours: true, ..grey(1.0) })
         }),
         make(Effect::Samples, Antialias::Supersample(4), narrower_screen),
         make(Effect::Samples, Antialias::Multisample4, narrower_screen),
         make(Effect::Clear, none, narrower_screen),
-        make(Effect::SecondBuffer, none, |by| {
-            plain(vec![Item::new(screen(2.0 * by - 1.0, [0.0; 2]), grey(0.5))])
-        }),
+        make(Effect::SecondBuffer, none, |by| one(screen(2.0 * by - 1.0, [0.0; 2]), grey(0.5))),
         // What is not tested needs no depths of before.
         Counterexample { rest: Effects::PLANNED, ..make(Effect::DepthBuffer, none, near_and_far) },
         Counterexample {
@@ -756,15 +736,22 @@ fn counterexamples() -> Vec<Counterexample> {
                 let y = 1.0 - 2.0 * (510.0 + 10.0 * by) / 520.0;
                 let corners = [(-1.0, 1.0), (-1.0, y), (1.0, 1.0)];
                 let corners = corners.map(|(x, y)| DVec3::new(x, y, 0.0));
-                plain(vec![Item::new(shapes::triangle(corners, [DVec3::ONE; 3]), grey(0.5))])
+                one(shapes::triangle(corners, [DVec3::ONE; 3]), grey(0.5))
             })
         },
     ]
 }
 
+/// A screen with a texture of black and white texels in turn, repeated so often.
+fn chequered(kind: fn(Texture) -> Texture, repeated: DVec2) -> Scene {
+    let texture = textures::generate(16, |x, y| DVec3::splat(f64::from((x + y) % 2)));
+    let texture = Some(Arc::new(kind(texture.with(Filter::Nearest, Wrap::Repeat))));
+    one(screen_with(|corner| corner.uv *= repeated), Material { texture, ..grey(1.0) })
+}
+
 /// A quad that leaves a strip of the screen to the background.
 fn narrower_screen(by: f64) -> Scene {
-    plain(vec![Item::new(screen(1.0 - by, [0.0; 2]), grey(0.5))])
+    one(screen(1.0 - by, [0.0; 2]), grey(0.5))
 }
 
 /// The near one first; the far one moves over it.
@@ -932,7 +919,7 @@ proptest! {
 #[test]
 fn map_shows_what_pixels_pay_for() {
     let check = |name: &str, antialias: Antialias, effect: Effect, expected: u64| {
-        let scene = scene(name, 4.0 / 3.0, 0.0).unwrap();
+        let scene = still(name);
         let (rendered, map) = Drawer::Scanline
             .render_mapped(&scene, &Effects::PLANNED, &mut target(antialias))
             .unwrap();
@@ -942,7 +929,7 @@ fn map_shows_what_pixels_pay_for() {
         rendered
     };
     let over = Antialias::Supersample(4);
-    let facets = scene("facets", 4.0 / 3.0, 0.0).unwrap();
+    let facets = still("facets");
     let apart = draw(&facets, Drawer::Scanline, Effects::PLANNED, over).counters.expanded;
     assert!(apart > 100 && apart < 2000, "{apart}");
     check("facets", over, Effect::Samples, apart);

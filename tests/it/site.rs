@@ -6,13 +6,12 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
 use serde_json::{Value, json};
 
 use crate::page::{Browser, Tab as _, folder};
-use crate::program::PROGRAM;
-use crate::quiz::RENEW;
+use crate::pages::{Renewal, files, read, root, text_block};
+use crate::program::shared;
 
 /// What a reader loads before the first view is complete, pictures and scripts included, the compiled engines not.
 const FIRST_VIEW_BYTES: u64 = 300_000;
@@ -20,22 +19,15 @@ const FIRST_VIEW_BYTES: u64 = 300_000;
 const MODULE_BYTES: usize = 1_200_000;
 
 fn site() -> PathBuf {
-    let site = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("target/site");
+    let site = root().join("target/site");
     assert!(site.join("index.html").is_file(), "no {}: run docs/build", site.display());
     site
 }
 
 /// Every file of a folder, as a path from there with `/`.
-fn files(root: &Path, below: &str, found: &mut BTreeSet<String>) {
-    for entry in fs::read_dir(root.join(below)).unwrap() {
-        let entry = entry.unwrap();
-        let path = format!("{below}{}", entry.file_name().to_str().unwrap());
-        if entry.path().is_dir() {
-            files(root, &format!("{path}/"), found);
-        } else {
-            found.insert(path);
-        }
-    }
+fn names(root: &Path) -> BTreeSet<String> {
+    let name = |path: PathBuf| path.strip_prefix(root).unwrap().to_str().unwrap().to_owned();
+    files(root, "").into_iter().map(name).collect()
 }
 
 /// The tags of a page, without what a script holds.
@@ -56,8 +48,7 @@ fn attribute<'a>(tag: &'a str, name: &str) -> Option<&'a str> {
 
 /// Links of a site that lead nowhere, and whatever a page would load from elsewhere.
 fn broken_links(root: &Path) -> (usize, Vec<String>) {
-    let mut all = BTreeSet::new();
-    files(root, "", &mut all);
+    let all = names(root);
     let pages: BTreeMap<_, _> = all
         .iter()
         .filter(|file| file.ends_with(".html"))
@@ -153,8 +144,7 @@ fn site_broken_links_are_found() {
 #[ignore = "needs docs/build"]
 fn site_has_one_module() {
     let site = site();
-    let mut all = BTreeSet::new();
-    files(&site, "", &mut all);
+    let all = names(&site);
     // As bytes, and in base64.
     let marks = [&b"\0asm\x01\0\0\0"[..], b"AGFzbQEAAAA"];
     let holds = |file: &&String| {
@@ -177,22 +167,15 @@ fn site_has_one_module() {
     }
 }
 
-/// The block of text of a page in Markdown, between its fences.
-fn printed(page: &str) -> std::ops::Range<usize> {
-    let start = page.find("```text\n").expect("a block of text") + "```text\n".len();
-    start..start + page[start..].find("```\n").expect("the end of a block")
-}
-
 /// The tables of two pages are what the program printed when the site was built, and the repository has them so too.
 /// `RASTERPROOF_RENEW=1 cargo test --test it site_tables -- --ignored` writes them there.
 #[test]
 #[ignore = "needs docs/build"]
 fn site_tables_are_printed() {
-    let mut stale = Vec::new();
-    for (name, words) in [
-        ("differential", &["--table"][..]),
-        ("planted", &["--table", "--plant", "inclusive-edges"]),
-    ] {
+    let mut renewal = Renewal::default();
+    for (name, words) in
+        [("differential", "verify --table"), ("planted", "verify --table --plant inclusive-edges")]
+    {
         let mut shown = Vec::new();
         for book in ["en", "zh"] {
             let page = fs::read_to_string(site().join(format!("{book}/{name}.html"))).unwrap();
@@ -200,38 +183,24 @@ fn site_tables_are_printed() {
             let block = block.split_once('>').unwrap().1.split_once("</code>").unwrap().0;
             let block = block.replace("&gt;", ">").replace("&lt;", "<").replace("&quot;", "\"");
             let path = if book == "en" { "docs" } else { "docs/zh" };
-            let path = format!("{}/{path}/{name}.md", env!("CARGO_MANIFEST_DIR"));
-            let own = fs::read_to_string(&path).unwrap();
-            if own[printed(&own)] != block.replace("&amp;", "&") {
-                let mut own = own;
-                own.replace_range(printed(&own), &block);
-                if std::env::var_os(RENEW).is_some() {
-                    fs::write(&path, own).unwrap();
-                }
-                stale.push(path);
-            }
+            let path = format!("{path}/{name}.md");
+            let mut own = read(&path);
+            own.replace_range(text_block(&own), &block.replace("&amp;", "&"));
+            renewal.is(&path, &own);
             shown.push(block);
         }
         assert_eq!(shown[0], shown[1], "{name}");
         // A family that is run again has the row of the page; with another seed it has not.
+        let cells = |row: &str| row.split_whitespace().collect::<Vec<_>>().join(" ");
         let row = |seed: &str| {
-            let run = Command::new(PROGRAM)
-                .args(["verify", "--family", "half-integer", "--cases", "20000", "--seed", seed])
-                .args(words)
-                .current_dir(folder("site-row"))
-                .output()
-                .unwrap();
-            let printed = String::from_utf8(run.stdout).unwrap();
-            let row = printed.lines().find(|line| line.starts_with("half-integer ")).unwrap();
-            row.split_whitespace().collect::<Vec<_>>().join(" ")
+            let words = format!("{words} --family half-integer --cases 20000 --seed {seed}");
+            let printed = shared().run(words).out;
+            cells(printed.lines().find(|line| line.starts_with("half-integer ")).unwrap())
         };
-        let rows: Vec<_> = shown[0]
-            .lines()
-            .map(|line| line.split_whitespace().collect::<Vec<_>>().join(" "))
-            .collect();
+        let rows: Vec<_> = shown[0].lines().map(cells).collect();
         assert!(rows.contains(&row("1")) && !rows.contains(&row("2")), "{name}: {}", row("1"));
     }
-    assert!(stale.is_empty(), "stale, renew with {RENEW}=1:\n{}", stale.join("\n"));
+    renewal.check("site_tables -- --ignored");
 }
 
 /// One browser opens all pages, each at the width of a phone and at that of a desktop.
@@ -239,8 +208,7 @@ fn site_tables_are_printed() {
 #[ignore = "takes more than six seconds; needs docs/build"]
 fn site_opens_in_a_browser() {
     let site = site();
-    let mut all = BTreeSet::new();
-    files(&site, "", &mut all);
+    let all = names(&site);
     let Some(mut browser) = Browser::start("site") else { return };
     let (mut wrong, mut heaviest, mut opened) = (Vec::new(), (0, String::new()), 0);
     for page in all.iter().filter(|file| file.ends_with(".html")) {

@@ -1,7 +1,5 @@
 //! What `study`, `verify FILE` and `inspect FILE#FACE` say of models: planted hard cases are found, with their face.
 
-use std::fs;
-
 use serde_json::Value;
 
 use crate::program::Folder;
@@ -15,9 +13,8 @@ const FACES: &str = "f 1 3 2\nf 1 4 3\nf 5 6 7\nf 5 7 8\nf 1 2 6\nf 1 6 5\nf 3 4
 
 /// The hard cases of a model, by kind: the count, and the line of the first face.
 fn cases(folder: &Folder, model: &str) -> Vec<(String, u64, u64)> {
-    fs::write(folder.join("m.obj"), model).unwrap();
-    let run = folder.check("verify m.obj --json", 0);
-    let json: Value = serde_json::from_str(&run.out).unwrap();
+    folder.put("m.obj", model);
+    let json = folder.check("verify m.obj --json", 0).json();
     let case = |case: &Value| {
         let kind = case["kind"].as_str().unwrap().to_owned();
         (kind, case["count"].as_u64().unwrap(), case["faces"][0]["line"].as_u64().unwrap())
@@ -122,7 +119,7 @@ fn a_position_that_f32_loses_in_a_clean_mesh_is_found() {
 #[test]
 fn pixels_that_depend_on_the_order_are_found() {
     let folder = Folder::new("study-order");
-    fs::write(folder.join("m.mtl"), "newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\n").unwrap();
+    folder.put("m.mtl", "newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\n");
     let square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
     let model = format!(
         "mtllib m.mtl\n{square}usemtl red\nf 1 2 3\nf 1 3 4\nusemtl blue\nf 1 2 3\nf 1 3 4\n"
@@ -136,42 +133,37 @@ fn pixels_that_depend_on_the_order_are_found() {
 #[test]
 fn the_commands_of_a_study_work() {
     let folder = Folder::new("study-commands");
-    fs::write(folder.join("m.obj"), format!("{BOX}{FACES}f 3 2 1\n")).unwrap();
+    folder.put("m.obj", format!("{BOX}{FACES}f 3 2 1\n"));
     let text = folder.check("study m.obj --yaw 10 --size 64x48 --quick", 0).out;
     let command = text.lines().find_map(|line| line.trim().split_once(" inspect ")).unwrap().1;
     assert_eq!(command, "'m.obj#13' --size 64x48 --yaw 10");
-    let shown = folder.check(["inspect", "m.obj#13", "--size", "64x48", "--yaw", "10"], 0).out;
-    for words in ["face 13 (line 21)", "(1.25, 0.75, -1.0)", "duplicate faces", "against oracle"] {
-        assert!(shown.contains(words), "{words}: {shown}");
-    }
-    folder.check(["inspect", "m.obj#13", "--exact"], 0);
-    let wrong = folder.check(["inspect", "m.obj#14"], 2);
-    assert!(wrong.errors.contains("1 to 13"), "{}", wrong.errors);
-    let verified = folder.check("verify m.obj", 0).out;
-    assert!(verified.contains("duplicate faces") && verified.contains("AGREES"), "{verified}");
-    let planted = folder.check("verify m.obj --plant drops-first-row", 1).out;
-    assert!(planted.contains("DISAGREES") && planted.contains("inspect 'm.obj#"), "{planted}");
-    let refused = folder.check("verify --yaw 3", 2);
-    assert!(refused.errors.contains("--yaw is for models"), "{}", refused.errors);
+    folder.check("inspect m.obj#13 --size 64x48 --yaw 10", 0).prints_all([
+        "face 13 (line 21)",
+        "(1.25, 0.75, -1.0)",
+        "duplicate faces",
+        "against oracle",
+    ]);
+    folder.check("inspect m.obj#13 --exact", 0);
+    folder.check("inspect m.obj#14", 2).says("1 to 13");
+    folder.check("verify m.obj", 0).prints("duplicate faces").prints("AGREES");
+    let planted = folder.check("verify m.obj --plant drops-first-row", 1);
+    planted.prints("DISAGREES").prints("inspect 'm.obj#");
+    folder.check("verify --yaw 3", 2).says("--yaw is for models");
 }
 
 /// A folder into which nothing would be written is refused, with the word that is missing.
 #[test]
 fn a_folder_without_a_page_is_refused() {
     let folder = Folder::new("study-idle-folder");
-    fs::write(folder.join("m.obj"), format!("{BOX}{FACES}")).unwrap();
-    for words in ["study m.obj --out d", "study m.obj --views 2 --out d", "plan m.obj --out d", {
-        "judge --cases 1 --out d -- true"
-    }] {
-        let run = folder.check(words, 2);
-        assert!(
-            run.errors.contains("add --report, or leave --out away"),
-            "{words}: {}",
-            run.errors
-        );
+    folder.put("m.obj", format!("{BOX}{FACES}"));
+    for words in ["study m.obj", "study m.obj --views 2", "plan m.obj"] {
+        let run = folder.check(format!("{words} --out d"), 2);
+        run.says("add --report, or leave --out away");
     }
+    let run = folder.check("judge --cases 1 --out d -- true", 2);
+    run.says("add --report, or leave --out away");
     for words in ["cost m.obj --out d", "verify m.obj --out d"] {
-        assert!(folder.check(words, 2).errors.contains("--out"), "{words}");
+        folder.check(words, 2).says("--out");
     }
     assert!(!folder.join("d").exists());
     folder.check("plan m.obj --size 32x24 --without depth --out d", 0);
@@ -186,7 +178,7 @@ fn rungs_of_values_and_depth_that_are_wrong_on_hard_cases_are_named() {
     let floor = |y: &str| format!("v -10 {y} -10\nv 10 {y} -10\nv 10 {y} 10\nv -10 {y} 10\n");
     let uv = "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n";
     let faces = "f 1/1 2/2 3/3\nf 1/1 3/3 4/4\nf 5/1 6/2 7/3\nf 5/1 7/3 8/4\n";
-    fs::write(folder.join("m.obj"), floor("0") + &floor("0.0000001") + uv + faces).unwrap();
+    folder.put("m.obj", floor("0") + &floor("0.0000001") + uv + faces);
     for (words, unit) in [("", "px"), (" --aa ssaa2", "samples"), (" --aa msaa4", "samples")] {
         let text = folder.check(&*format!("study m.obj --size 64x48 --quick{words}"), 0).out;
         let list = text.split("open borders").nth(1).unwrap();
@@ -217,20 +209,14 @@ fn counted(groups: &Value) -> Vec<Value> {
 fn other_commands_find_the_numbers_of_a_study() {
     let folder = Folder::new("study-again");
     // A shiny box, half of a glass pane before it, a coplanar overlap and a square that is listed twice.
-    fs::write(
-        folder.join("m.mtl"),
-        "newmtl shiny\nKd 1 0.5 0\nKs 1 1 1\nNs 20\nnewmtl glass\nKd 0 0 1\nd 0.5\n",
-    )
-    .unwrap();
+    let materials = "newmtl shiny\nKd 1 0.5 0\nKs 1 1 1\nNs 20\nnewmtl glass\nKd 0 0 1\nd 0.5\n";
+    folder.put("m.mtl", materials);
     let more = "v -2 -1 2\nv 1 -1 2\nv 1 1 2\nv -2 1 2\nv 0.5 -0.5 -1\nv 1 0.25 -1\nv 1 -0.5 -1\n";
     let faces = "f 13 14 15\nf 13 15 14\nusemtl glass\nf 9 10 11\nf 9 11 12\n";
     let model = format!("mtllib m.mtl\n{BOX}{more}usemtl shiny\n{FACES}{faces}");
-    fs::write(folder.join("m.obj"), model).unwrap();
+    folder.put("m.obj", model);
     for view in ["--size 96x72 --yaw 190", "--size 64x48 --yaw 25 --pitch -20 --aa msaa4"] {
-        let json = |command: &str| {
-            let run = folder.check(&*format!("{command} m.obj {view} --json"), 0);
-            serde_json::from_str::<Value>(&run.out).unwrap()
-        };
+        let json = |command: &str| folder.check(format!("{command} m.obj {view} --json"), 0).json();
         let (study, verify, cost) = (json("study --quick"), json("verify"), json("cost --quick"));
         assert_eq!(study["hard_cases"], verify["hard_cases"]);
         if !view.contains("--aa") {

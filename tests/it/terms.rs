@@ -2,8 +2,7 @@
 //! explains the word. What is in a link is free, since the link leads to the explanation; so is what is
 //! below 'Going deeper', in the box about the book, in code and in the generated exercises.
 
-use std::fs;
-use std::path::Path;
+use crate::pages::page;
 
 /// The chapters in the order in which they are read.
 const ORDER: [&str; 13] = [
@@ -27,11 +26,6 @@ const LANGUAGES: [(&str, usize, [&str; 2]); 2] = [
     ("docs", 2, ["\n## Going deeper", "\n## Predict"]),
     ("docs/zh", 3, ["\n## 深入阅读", "\n## 先预测"]),
 ];
-
-fn read(folder: &str, page: &str) -> String {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder).join(format!("{page}.md"));
-    fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
-}
 
 /// The words of a glossary that a chapter explains, each with the place of the chapter.
 fn words(glossary: &str, column: usize) -> Vec<(String, usize)> {
@@ -98,10 +92,10 @@ fn early(text: &str, place: usize, words: &[(String, usize)]) -> Vec<String> {
 fn terms_are_used_after_they_are_explained() {
     let mut found = Vec::new();
     for (folder, column, ends) in LANGUAGES {
-        let words = words(&read(folder, "glossary"), column);
+        let words = words(&page(folder, "glossary"), column);
         assert!(words.len() > 40, "{folder}: only {} words", words.len());
         for (place, chapter) in ORDER.iter().enumerate() {
-            let text = main_text(&read(folder, chapter), ends);
+            let text = main_text(&page(folder, chapter), ends);
             assert!(text.len() > 1000, "{folder}/{chapter}.md has no main text");
             let early = early(&text, place, &words).into_iter();
             found.extend(early.map(|word| format!("{folder}/{chapter}.md uses {word}")));

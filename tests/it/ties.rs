@@ -1,8 +1,6 @@
 //! Depth ties: two surfaces in one plane are undecided by either rasterizer, in every depth format and
 //! with every kind of samples; a fault in the same scene is still found.
 
-use std::path::Path;
-
 use glam::{DMat4, DVec2, DVec3};
 use rasterproof_core::frame::Frame;
 use rasterproof_faults::planted::TriangleMutant;
@@ -18,7 +16,8 @@ use rasterproof_render::scene::{Corner, Item, Material, Mesh, Scene, chapters};
 use rasterproof_report::frame_comparison::{self, Comparison};
 use rayon::prelude::*;
 
-use crate::program::{Folder, Run, shared};
+use crate::pages::{page, root};
+use crate::program::{Folder, Run};
 
 /// A square, split along one diagonal or the other.
 fn square(diagonal: usize, colour: DVec3, model: DMat4) -> Item {
@@ -55,6 +54,18 @@ fn draw(scene: &Scene, engine: Engine, mut target: Target) -> (Frame<Colour>, Ta
     (rendered.picture, target)
 }
 
+type Frames = [(Frame<Colour>, Target); 2];
+
+fn by_both(
+    scene: &Scene,
+    engines: [Engine; 2],
+    antialias: Antialias,
+    format: DepthFormat,
+) -> Frames {
+    let target = Target::new(80, 60, antialias, format).unwrap();
+    engines.map(|engine| draw(scene, engine, target.clone()))
+}
+
 /// Compares the frames of two engines, ties excused.
 fn compare(
     scene: &Scene,
@@ -62,12 +73,10 @@ fn compare(
     antialias: Antialias,
     format: DepthFormat,
 ) -> Comparison {
-    let target = Target::new(80, 60, antialias, format).unwrap();
-    let drawn = engines.map(|engine| draw(scene, engine, target.clone()));
-    judge(scene, engines, &drawn)
+    judge(scene, engines, &by_both(scene, engines, antialias, format))
 }
 
-fn judge(scene: &Scene, engines: [Engine; 2], drawn: &[(Frame<Colour>, Target); 2]) -> Comparison {
+fn judge(scene: &Scene, engines: [Engine; 2], drawn: &Frames) -> Comparison {
     let frames = [0, 1].map(|i| Drawn { engine: engines[i], target: &drawn[i].1 });
     let ties = undecided::find(scene, frames).unwrap();
     let [(a, a_target), (b, b_target)] = drawn;
@@ -127,11 +136,8 @@ fn apart_is_decided() {
 fn many_surfaces_in_one_plane() {
     let mut scene = squares(12.0, 0.0);
     scene.items = scene.items.iter().cycle().take(400).cloned().collect();
-    let target = Target::new(80, 60, Antialias::None, DepthFormat::F64).unwrap();
-    let drawn = Engine::JUDGED.map(|engine| draw(&scene, engine, target.clone()));
-    let background = drawn[0].0.get(0, 0).unwrap();
-    let rows = drawn[0].0.rows().flat_map(|(_, row)| row);
-    let covered = rows.filter(|&&colour| colour != background).count() as u64;
+    let drawn = by_both(&scene, Engine::JUDGED, Antialias::None, DepthFormat::F64);
+    let covered = covered(&drawn[0].0);
     let c = judge(&scene, Engine::JUDGED, &drawn);
     assert!(covered * 400 > 1 << 19, "{covered} pixels make too few tied");
     assert!(c.agrees() && c.undecided == covered, "{c:?} of {covered} pixels");
@@ -154,8 +160,7 @@ fn a_planted_fault_is_still_found() {
 #[test]
 fn an_undecided_pixel_is_no_excuse_for_anything_else() {
     let (scene, engines) = (squares(40.0, 0.0), Engine::JUDGED);
-    let target = Target::new(80, 60, Antialias::None, DepthFormat::F64).unwrap();
-    let drawn = engines.map(|engine| draw(&scene, engine, target.clone()));
+    let drawn = by_both(&scene, engines, Antialias::None, DepthFormat::F64);
     let whole = judge(&scene, engines, &drawn);
     assert!(whole.agrees() && whole.undecided > 0);
     let (x, y) = (40, 30);
@@ -189,44 +194,36 @@ fn an_undecided_pixel_is_no_excuse_for_anything_else() {
 #[test]
 fn the_planned_frames_of_the_drawers_tie_alike() {
     let scene = squares(40.0, 0.0);
-    let target = Target::new(80, 60, Antialias::None, DepthFormat::F64).unwrap();
-    for (drawer, engine) in Drawer::ALL.into_iter().zip(Engine::JUDGED) {
-        let mut own = target.clone();
+    let drawn = by_both(&scene, Engine::JUDGED, Antialias::None, DepthFormat::F64);
+    for (drawer, (picture, other)) in Drawer::ALL.into_iter().zip(drawn) {
+        let mut own = Target::new(80, 60, Antialias::None, DepthFormat::F64).unwrap();
         let planned = drawer.render(&scene, &Effects::ALWAYS, &mut own).unwrap();
-        let (picture, other) = draw(&scene, engine, target.clone());
         assert!(planned.picture == picture && own.planes == other.planes, "{}", drawer.name());
     }
 }
 
-/// Renders the model of `tests/data`; the status, what was printed, and the picture of differences.
-fn render_model(words: &[&str]) -> (Option<i32>, String, Option<image::RgbImage>) {
-    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
-    let picture = root.join(format!("target/ties-{}.png", words.join("").replace(['-', '.'], "")));
-    let difference = picture.with_extension("difference.png");
-    let _ = std::fs::remove_file(&difference);
-    let mut command = shared().command("render tests/data/ties.obj --size 160x120 --yaw 0 -o");
-    let run = Run::of(command.arg(&picture).args(words).current_dir(root));
-    let image = image::open(difference).ok().map(|image| image.to_rgb8());
-    (run.status, run.out, image)
+/// Renders the model of `tests/data`; the picture beside the one of differences is in a folder for each test.
+fn render_model(folder: &Folder, words: &str) -> Run {
+    let command = "render tests/data/ties.obj --yaw 0 -o";
+    let mut command = folder.command(command);
+    command.arg(folder.join("ties.png")).args(words.split_whitespace());
+    Run::of(command.current_dir(root()))
 }
 
 /// The page's table, its first row: the model from twelve pitches, one sample a pixel, in f64.
 #[test]
 #[ignore = "takes seconds; .ci/run runs it"]
 fn the_page_counts_ties() {
-    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
     let count = |aa: &str, pitch: u32| -> [u64; 2] {
-        let picture = root.join(format!("target/ties-page-{aa}-{pitch}.png"));
-        let words = format!("render tests/data/ties.obj --yaw 0 --pitch {pitch} --depth f64");
-        let mut command = shared().command(format!("{words} --aa {aa} --json -o"));
-        let out = Run::of(command.arg(picture).current_dir(root)).out;
-        let json: serde_json::Value = serde_json::from_str(&out).unwrap();
+        let folder = Folder::new(&format!("ties-page-{aa}-{pitch}"));
+        let words = format!("--pitch {pitch} --depth f64 --aa {aa} --json");
+        let json = render_model(&folder, &words).json();
         ["undecided", "undecided_differ"].map(|key| json["comparison"][key].as_u64().unwrap())
     };
     for (number, aa) in ["none", "msaa4", "ssaa2"].into_iter().enumerate() {
         let counts: Vec<_> = (0..12).into_par_iter().map(|i| count(aa, 3 + 7 * i)).collect();
         for folder in ["docs", "docs/zh"] {
-            let page = std::fs::read_to_string(root.join(folder).join("ties.md")).unwrap();
+            let page = page(folder, "ties");
             let row = page.lines().filter(|line| line.starts_with("| `f64` |")).nth(number);
             let row = row.unwrap();
             let cells: Vec<_> = row.split('|').map(|cell| cell.trim().replace(',', "")).collect();
@@ -240,24 +237,20 @@ fn the_page_counts_ties() {
 
 #[test]
 fn the_command_names_ties() {
-    let (status, text, picture) = render_model(&["--depth", "f64"]);
-    assert_eq!(status, Some(0), "{text}");
-    assert!(text.contains("\nAGREES: ") && text.contains("\nUNDECIDED: "), "{text}");
-    assert!(text.lines().all(|line| line.chars().count() <= 100 || line.contains("/")), "{text}");
-    let yellow = image::Rgb([255, 200, 0]);
-    assert!(picture.unwrap().pixels().any(|pixel| *pixel == yellow));
-    let (status, json, _) = render_model(&["--depth", "f64", "--json"]);
-    let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+    let folder = Folder::new("ties");
+    let render = |words: &str| render_model(&folder, &format!("--size 160x120 {words}")).has(0);
+    let run = render("--depth f64").prints("\nAGREES: ").prints("\nUNDECIDED: ");
+    assert!(run.out.lines().all(|line| line.chars().count() <= 100 || line.contains("/")), "{run}");
+    let picture = image::open(folder.join("ties.difference.png")).unwrap().to_rgb8();
+    assert!(picture.pixels().any(|pixel| *pixel == image::Rgb([255, 200, 0])), "yellow");
+    let json = render("--depth f64 --json").json();
     let of = |key: &str| json["comparison"][key].as_u64().unwrap();
-    assert_eq!((status, of("wrong_pixels"), of("wrong_depths")), (Some(0), 0, 0));
+    assert_eq!((of("wrong_pixels"), of("wrong_depths")), (0, 0));
     assert!(of("undecided") >= of("undecided_differ") && of("undecided_differ") > 0, "{json}");
     // As few effects as show the same picture; the edges alone, which both line drawers carry alike.
-    let (status, text, _) = render_model(&["--depth", "f64", "--effects", "planned"]);
-    assert!(status == Some(0) && text.contains("\nUNDECIDED: "), "{text}");
-    let (status, text, _) = render_model(&["--depth", "f64", "--wireframe"]);
-    assert!(status == Some(0) && text.contains("\nAGREES: "), "{text}");
-    let (status, text, _) = render_model(&["--depth", "unorm24"]);
-    assert!(status == Some(0) && text.contains("\nAGREES: "), "{text}");
+    render("--depth f64 --effects planned").prints("\nUNDECIDED: ");
+    render("--depth f64 --wireframe").prints("\nAGREES: ");
+    render("--depth unorm24").prints("\nAGREES: ");
 }
 
 /// A leaning triangle with a texture of many colours, whose coordinates reach from 0 to `far`.
@@ -357,15 +350,20 @@ fn the_command_names_large_texture_coordinates() {
     let folder = Folder::new("far-texture");
     let colours = |x: u32, y: u32| image::Rgb([(x * 37 % 256) as u8, (y * 91 % 256) as u8, 7]);
     image::RgbImage::from_fn(64, 64, colours).save(folder.join("t.png")).unwrap();
-    std::fs::write(folder.join("m.mtl"), "newmtl a\nmap_Kd t.png\n").unwrap();
+    folder.put("m.mtl", "newmtl a\nmap_Kd t.png\n");
     let obj = "mtllib m.mtl\nusemtl a\nv -1 -1 0\nv 1 -1 .5\nv 0 1 -.3\nvt 0 0\nvt 1e10 0\n\
                vt 3e9 1e10\nf 1/1 2/2 3/3\n";
-    std::fs::write(folder.join("m.obj"), obj).unwrap();
+    folder.put("m.obj", obj);
     let run = folder.check("render m.obj", 0).prints("\nAGREES: ");
     run.prints(" pixels differ by large texture coordinates,\n");
-    let out = folder.check("render m.obj --json", 0).out;
-    let json: serde_json::Value = serde_json::from_str(&out).unwrap();
+    let json = folder.check("render m.obj --json", 0).json();
     assert!(json["comparison"]["far_texture"].as_u64() > Some(0), "{json}");
+}
+
+/// Pixels of a picture that are not as the one in its corner.
+fn covered(picture: &Frame<Colour>) -> u64 {
+    let background = picture.get(0, 0).unwrap();
+    picture.rows().flat_map(|(_, row)| row).filter(|colour| **colour != background).count() as u64
 }
 
 fn by_rounding(scene: &Scene, cause: Cause, antialias: Antialias) -> u64 {
@@ -382,15 +380,10 @@ fn surfaces_in_one_plane_are_found_before_snapping() {
     for antialias in SMOOTHINGS {
         for pitch in [3.0, 20.0, 55.0, 80.0] {
             let scene = squares(pitch, 0.0);
-            let covered = {
-                let mut first = scene.clone();
-                first.items.truncate(1);
-                let target = Target::new(160, 120, Antialias::None, DepthFormat::F64).unwrap();
-                let (picture, _) = draw(&first, Engine::Scanline, target);
-                let background = picture.get(0, 0);
-                let pixels = picture.rows().flat_map(|(_, row)| row);
-                pixels.filter(|&&pixel| Some(pixel) != background).count() as u64
-            };
+            let mut first = scene.clone();
+            first.items.truncate(1);
+            let target = Target::new(160, 120, Antialias::None, DepthFormat::F64).unwrap();
+            let covered = covered(&draw(&first, Engine::Scanline, target).0);
             for cause in [Cause::Snapping, Cause::PlanesInF32] {
                 let name = format!("{cause:?} {antialias:?} {pitch}");
                 let found = by_rounding(&scene, cause, antialias);
@@ -446,19 +439,14 @@ fn surfaces_that_cross_are_open_beside_their_line() {
 #[test]
 fn the_command_names_surfaces_in_one_plane() {
     // Where the format rounds the same, both rasterizers agree, and the picture hatches all the same.
-    let (status, text, _) = render_model(&["--depth", "unorm24"]);
-    assert!(status == Some(0) && text.contains("\nAGREES: ") && text.contains("\nROUNDING: "));
-    assert!(text.lines().all(|line| line.chars().count() <= 100 || line.contains("drawn in")));
-    let (_, json, _) = render_model(&["--depth", "unorm24", "--json"]);
-    let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+    let folder = Folder::new("rounding");
+    let render = |words: &str| render_model(&folder, &format!("--size 160x120 {words}")).has(0);
+    let run = render("--depth unorm24").prints("\nAGREES: ").prints("\nROUNDING: ");
+    assert!(run.out.lines().all(|line| line.chars().count() <= 100 || line.contains("drawn in")));
+    let json = render("--depth unorm24 --json").json();
     assert!(json["by_rounding"]["pixels"].as_u64() > Some(1_000), "{json}");
-    let page = Path::new(env!("CARGO_TARGET_TMPDIR")).join("rounding-page");
-    let (status, text, _) = render_model(&["--report", "--out", page.to_str().unwrap()]);
-    assert_eq!(status, Some(0), "{text}");
-    let pages = std::fs::read_dir(&page).unwrap().map(|entry| entry.unwrap().path());
-    let html = pages.filter(|path| path.extension().is_some_and(|extension| extension == "html"));
-    let text: String = html.map(|path| std::fs::read_to_string(path).unwrap()).collect();
-    assert!(text.contains("rounding alone decides which one is seen"));
-    let (status, text, _) = render_model(&["--engine", "tiles"]);
-    assert!(status == Some(0) && text.contains("than snapping and f32 move a depth"), "{text}");
+    render(&format!("--report --out {}", folder.display()));
+    let page = folder.text("render.html");
+    assert!(page.contains("rounding alone decides which one is seen"));
+    render("--engine tiles").prints("than snapping and f32 move a depth");
 }

@@ -3,6 +3,7 @@
 
 use rasterproof_convention::{Ask, LineTie, Mirror, Pattern, Question, Rounding, Shape, Windings};
 use rasterproof_core::frame::Coverage;
+use rasterproof_core::grid::PixelRect;
 
 /// What a made-up rasterizer does on an edge.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,23 +41,30 @@ impl Ask for Mirrored {
         let draw = |question: &Question| {
             let (drawn, window) = (self.0.draw(question), question.window);
             let (right, bottom) = (window.x1 - 1, window.y1 - 1);
-            let mut picture = Coverage::new(window, 0);
-            for (y, row) in drawn.rows() {
-                for (x, _) in (0..).zip(row).filter(|(_, hits)| **hits > 0) {
-                    let (x, y) = match self.1 {
-                        Mirror::None => (x, y),
-                        Mirror::UpsideDown => (x, bottom - y),
-                        Mirror::LeftToRight => (right - x, y),
-                        Mirror::HalfTurn => (right - x, bottom - y),
-                        Mirror::Exchanged => (y, x),
-                    };
-                    picture.hit(y, x, x + 1);
-                }
-            }
-            Some(picture)
+            Some(picture(window, |x, y| {
+                let (x, y) = match self.1 {
+                    Mirror::None => (x, y),
+                    Mirror::UpsideDown => (x, bottom - y),
+                    Mirror::LeftToRight => (right - x, y),
+                    Mirror::HalfTurn => (right - x, bottom - y),
+                    Mirror::Exchanged => (y, x),
+                };
+                drawn.get(x, y).is_some_and(|hits| hits > 0)
+            }))
         };
         questions.iter().map(draw).collect()
     }
+}
+
+/// The picture whose pixels are hit where a function says so.
+pub fn picture(window: PixelRect, hits: impl Fn(i32, i32) -> bool) -> Coverage {
+    let mut picture = Coverage::new(window, 0);
+    for (y, x) in (window.y0..window.y1).flat_map(|y| (window.x0..window.x1).map(move |x| (y, x))) {
+        if hits(x, y) {
+            picture.hit(y, x, x + 1);
+        }
+    }
+    picture
 }
 
 fn cross(o: Point, a: Point, b: Point) -> f64 {
@@ -82,29 +90,18 @@ impl Synthetic {
     }
 
     fn draw(&self, question: &Question) -> Coverage {
-        let mut picture = Coverage::new(question.window, 0);
         let p = question.corners.map(|c| [self.snap(c.x), self.snap(c.y)]);
         let area = cross(p[0], p[1], p[2]);
         if area != 0.0 && !self.draws.draws(area > 0.0) {
-            return picture;
+            return Coverage::new(question.window, 0);
         }
-        let w = question.window;
-        for y in w.y0..w.y1 {
-            for x in w.x0..w.x1 {
-                let mut hit = (area != 0.0 || matches!(self.shape, Shape::Outline(_)))
-                    && self.covers(&p, x, y);
-                if self.noise > 0 {
-                    let key = p.iter().flatten().fold(17, |h, &v| hash(h ^ v as i64 as u64));
-                    let near = self.near_border(&p, x, y);
-                    let roll = hash(key ^ (x as u64) << 32 ^ y as u64) % 1000;
-                    hit ^= near && roll < self.noise;
-                }
-                if hit {
-                    picture.hit(y, x, x + 1);
-                }
-            }
-        }
-        picture
+        let key = p.iter().flatten().fold(17, |h, &v| hash(h ^ v as i64 as u64));
+        picture(question.window, |x, y| {
+            let is_shape = area != 0.0 || matches!(self.shape, Shape::Outline(_));
+            let roll = hash(key ^ (x as u64) << 32 ^ y as u64) % 1000;
+            let is_wrong = roll < self.noise && self.near_border(&p, x, y);
+            (is_shape && self.covers(&p, x, y)) != is_wrong
+        })
     }
 
     fn near_border(&self, p: &[Point; 3], x: i32, y: i32) -> bool {

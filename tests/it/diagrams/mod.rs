@@ -6,8 +6,8 @@ mod light;
 mod space;
 
 use std::fmt::Write as _;
-use std::fs;
-use std::path::PathBuf;
+
+use crate::pages::{Renewal, files, read, root};
 
 struct Diagram {
     /// The file's name under `docs/figures/`, without its ending.
@@ -129,50 +129,23 @@ fn between(a: Point, b: Point, t: f64) -> Point {
     [a[0] + (b[0] - a[0]) * t, a[1] + (b[1] - a[1]) * t]
 }
 
-const RENEW: &str = "RASTERPROOF_RENEW";
-
 /// `RASTERPROOF_RENEW=1 cargo test --test it diagrams_are` writes them anew.
 #[test]
 fn diagrams_are_what_is_drawn() {
-    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("docs/figures");
-    let mut stale = Vec::new();
+    let mut renewal = Renewal::default();
     for diagram in ALL {
-        let path = folder.join(format!("{}.svg", diagram.name));
-        let drawn = (diagram.draw)();
-        // A file that is not there is as stale as one that differs.
-        if fs::read_to_string(&path).ok().as_ref() == Some(&drawn) {
-            continue;
-        }
-        if std::env::var_os(RENEW).is_some() {
-            fs::create_dir_all(&folder).unwrap();
-            fs::write(&path, drawn).unwrap();
-        }
-        stale.push(diagram.name);
+        renewal.is(format!("docs/figures/{}.svg", diagram.name), &(diagram.draw)());
     }
-    assert!(
-        stale.is_empty(),
-        "stale, renew with `{RENEW}=1 cargo test --test it diagrams_are`: {}",
-        stale.join(", ")
-    );
+    renewal.check("diagrams_are");
 }
 
 #[test]
 fn diagrams_stand_on_pages() {
-    let docs = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("docs");
-    let pages: String = fs::read_dir(&docs)
-        .unwrap()
-        .map(|entry| entry.unwrap().path())
-        .filter(|path| path.extension().is_some_and(|e| e == "md"))
-        .map(|path| fs::read_to_string(path).unwrap())
-        .collect();
+    let pages: String = files(&root().join("docs"), ".md").into_iter().map(read).collect();
     for diagram in ALL {
-        let svg = (diagram.draw)();
-        assert!(pages.contains(&format!("](figures/{}.svg)", diagram.name)), "{}", diagram.name);
-        assert!(
-            svg.contains("prefers-color-scheme:dark") && svg.contains("<text"),
-            "{}",
-            diagram.name
-        );
-        assert!(!svg.contains("NaN") && !svg.contains("inf"), "{}", diagram.name);
+        let (name, svg) = (diagram.name, (diagram.draw)());
+        assert!(pages.contains(&format!("](figures/{name}.svg)")), "{name}");
+        assert!(svg.contains("prefers-color-scheme:dark") && svg.contains("<text"), "{name}");
+        assert!(!svg.contains("NaN") && !svg.contains("inf"), "{name}");
     }
 }
