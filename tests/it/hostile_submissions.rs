@@ -184,12 +184,8 @@ fn what_a_build_starts_is_ended_in_a_container() {
     submit(&class, "b", &progress(look));
     let mut command = unshare();
     command.args([PROGRAM, "course", "--grade", "--folder", "."]).current_dir(&class);
-    let output = command.output().unwrap();
-    let [out, errors] =
-        [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).unwrap());
-    assert_eq!(output.status.code(), Some(2), "{out}{errors}");
-    assert_eq!(out.matches("the build fails").count(), 2, "{out}");
-    assert!(!out.contains("| it lives"), "{out}");
+    let run = Run::of(&mut command).has(2).omits("| it lives");
+    assert_eq!(run.out.matches("the build fails").count(), 2, "{run}");
 }
 
 /// A stack larger than the address space refuses every thread, as a limit of processes does.
@@ -199,17 +195,13 @@ fn without_threads_every_submission_has_its_reason() {
     let class = Folder::new("submissions-threads");
     submit(&class, "built", &progress("setsid sleep 4042.17 & sleep 4042.18"));
     submit(&class, "run", &progress(""));
-    let mut command = Command::new(PROGRAM);
-    command.args(["course", "--grade", "--folder", "."]).current_dir(&class);
-    let output = command.env("RUST_MIN_STACK", "70368744177664").output().unwrap();
-    let out = String::from_utf8(output.stdout).unwrap();
-    assert_eq!(output.status.code(), Some(2), "{out}");
+    let mut command = class.command("course --grade --folder .");
+    let out = Run::of(command.env("RUST_MIN_STACK", "70368744177664")).has(2).out;
     for name in ["built", "run"] {
         let head = format!("{name}: cannot be judged: ");
         let line = out.lines().find(|line| line.starts_with(&head)).unwrap_or_default();
         assert!(line.contains("allow more processes (ulimit -u)"), "{out}");
     }
-    assert!(!String::from_utf8(output.stderr).unwrap().contains("panicked"));
     assert_eq!(processes("4042."), Vec::<String>::new());
 }
 
@@ -220,21 +212,17 @@ fn progress_is_written_where_it_is() {
     let name = OsStr::from_bytes(b"a 'b' \xff");
     let own = home.join(name);
     fs::create_dir(&own).unwrap();
-    fs::write(home.join("kept.toml"), progress("")).unwrap();
+    home.put("kept.toml", progress(""));
     symlink("../kept.toml", own.join("course.toml")).unwrap();
     let mut check = home.command("course check scanline --cases 1");
     Run::of(check.current_dir(&own)).has(0).without_errors();
     assert!(own.join("course.toml").symlink_metadata().unwrap().is_symlink());
-    assert!(fs::read_to_string(home.join("kept.toml")).unwrap().contains("\"scanline\""));
-    let mut command = Command::new(PROGRAM);
-    command.args(["course", "check", "scanline", "--cases", "1", "--dir"]).arg(&own);
-    assert!(command.output().unwrap().status.success());
-    let mut command = Command::new(PROGRAM);
-    let other = OsStr::from_bytes(b"\xfe's");
-    command.args(["course", "start"]).arg(other).current_dir(&home);
-    let output = command.output().unwrap();
-    let out = String::from_utf8(output.stdout).unwrap();
-    assert!(out.contains(r"course check --dir $'\376\'s'"), "{out}");
+    assert!(home.text("kept.toml").contains("\"scanline\""));
+    let mut check = home.command("course check scanline --cases 1 --dir");
+    Run::of(check.arg(&own)).has(0);
+    let mut start = home.command("course start");
+    let run = Run::of(start.arg(OsStr::from_bytes(b"\xfe's")));
+    run.prints(r"course check --dir $'\376\'s'");
     home.run(["course", "start", "--language", "python", "it's mine"])
         .has(0)
         .prints(r"course check --dir 'it'\''s mine'");

@@ -19,7 +19,7 @@ use rasterproof_judge::{Options, judge};
 use rasterproof_registry::engines::{self, SPECIMENS};
 use rayon::prelude::*;
 
-use crate::program::{PROGRAM, check, shared};
+use crate::program::{PROGRAM, Run, check, shared};
 
 pub fn options(cases: u64, families: &[&str]) -> Options {
     let families = families.iter().map(|name| (*name).to_owned()).collect();
@@ -300,8 +300,8 @@ fn judge_recognises_a_winding() {
     let (sentence, declare, declared, found) = said(&verdict);
     assert_eq!(declare, "winding=cw", "{sentence}");
     assert!(declared > 1000 && found == Some(0), "{declared} {found:?}");
-    let words = ["judge", "--cases", "60", "--declare", "winding=cw", "--", PROGRAM, "engine"];
-    check([&words[..], &["culls-one-winding"]].concat(), 0)
+    let words = "judge --cases 60 --declare winding=cw --";
+    check(format!("{words} {PROGRAM} engine culls-one-winding"), 0)
         .prints("winding=cw")
         .prints("\nAGREES: ");
 }
@@ -327,12 +327,8 @@ fn judge_recognises_conventions() {
         assert!(words.starts_with(declare), "{name}: {words}");
         assert!(declared > 100 && by_convention == Some(0), "{name}: {declared} {by_convention:?}");
     }
-    let command: Vec<String> =
-        ["judge", "--cases", "40", "--", PROGRAM, "engine", "games101-strict"]
-            .map(str::to_owned)
-            .to_vec();
-    let words: Vec<&str> = command.iter().map(String::as_str).collect();
-    let out = check(&words, 1).prints("to be judged by it: --declare 'rule=strict'").out;
+    let words = format!("judge --cases 40 -- {PROGRAM} engine games101-strict");
+    let out = check(words, 1).prints("to be judged by it: --declare 'rule=strict'").out;
     assert!(out.lines().all(|l| l.chars().count() <= 100 || l.contains("repeat with: ")), "{out}");
 }
 
@@ -362,31 +358,28 @@ fn judge_recognises_rules() {
 /// Who draws as declared is looked at and not questioned; noise is called unexplained.
 #[test]
 fn judge_questions_no_more_than_needed() {
-    struct Counting(ByRule, u64, bool);
-    impl Ask for Counting {
-        fn declared(&self) -> &Declared {
-            &self.0.0
-        }
-        fn ask(&mut self, questions: &[Question], most: u64) -> Vec<Answer> {
-            self.1 += questions.len() as u64;
-            let mut answers = self.0.ask(questions, most);
-            if self.2 {
+    let declared = Declared::parse("HELLO 2 x coverage").unwrap();
+    let questioned = |is_noisy: bool| {
+        let (mut drawn, mut asked) = (ByRule(declared.clone()), 0);
+        let mut program = Answering(declared.clone(), |questions: &[Question], most: u64| {
+            asked += questions.len();
+            let mut answers = drawn.ask(questions, most);
+            for answer in answers.iter_mut().filter(|_| is_noisy) {
                 // Every other pixel of some rows.
-                for runs in answers.iter_mut() {
-                    let Answer::Coverage(runs) = runs else { continue };
-                    runs.retain(|run| (run.x0_px ^ (run.x1_px * 3) ^ (run.y_px * 5)) % 4 != 0);
-                }
+                let Answer::Coverage(runs) = answer else { continue };
+                runs.retain(|run| (run.x0_px ^ (run.x1_px * 3) ^ (run.y_px * 5)) % 4 != 0);
             }
             answers
-        }
-    }
-    let declared = Declared::parse("HELLO 2 x coverage").unwrap();
-    let mut right = Counting(ByRule(declared.clone()), 0, false);
-    assert!(recognise(&mut right, EVERYTHING).is_none());
-    assert!((50..500).contains(&right.1), "{}", right.1);
-    let mut noisy = Counting(ByRule(declared), 0, true);
-    let found = recognise(&mut noisy, EVERYTHING).unwrap();
-    assert!(noisy.1 > right.1 && found.expect.is_none(), "{}", noisy.1);
+        });
+        let found = recognise(&mut program, EVERYTHING);
+        drop(program);
+        (found, asked)
+    };
+    let (found, right) = questioned(false);
+    assert!(found.is_none() && (50..500).contains(&right), "{right}");
+    let (found, noisy) = questioned(true);
+    let found = found.unwrap();
+    assert!(noisy > right && found.expect.is_none(), "{noisy}");
     assert!(found.said.sentences[0].starts_with("Triangles: unexplained."), "{:?}", found.said);
 }
 
@@ -406,10 +399,9 @@ fn judge_prints_a_verdict() {
         .prints("as declared:         0 wrong")
         .errors;
     assert_eq!(errors, "");
-    let out = check(of(&["--family", "half-integer"], &["exclusive-edges"]), 1).out;
-    for part in ["request:  T 1 ", "answer:   C 1 ", "expected: C 1 ", "judged   expected"] {
-        assert!(out.contains(part), "{part}: {out}");
-    }
+    let out = check(of(&["--family", "half-integer"], &["exclusive-edges"]), 1)
+        .prints_all(["request:  T 1 ", "answer:   C 1 ", "expected: C 1 ", "judged   expected"])
+        .out;
     let is_narrow = |line: &str| line.chars().count() <= 100 || line.contains("repeat with: ");
     assert!(out.lines().all(is_narrow), "{out}");
     let repeat =
@@ -530,12 +522,8 @@ fn judge_is_bounded_itself() {
     let mut command = Command::new("sh");
     command.args(["-c", line, "sh", PROGRAM]).args(words).current_dir(&**shared());
     // Threads reserve addresses by the core.
-    let output = command.env("RAYON_NUM_THREADS", "2").env("MALLOC_ARENA_MAX", "2").output();
-    let output = output.unwrap();
-    let (out, errors) =
-        (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
-    assert_eq!(output.status.code(), Some(1), "{out}{errors}");
-    assert!(out.contains("floods its output: "), "{out}");
+    command.env("RAYON_NUM_THREADS", "2").env("MALLOC_ARENA_MAX", "2");
+    Run::of(&mut command).has(1).prints("floods its output: ");
 }
 
 /// A question as a library puts it that cuts what leaves the window first: to whole pixels.
@@ -582,12 +570,8 @@ fn judge_tells_what_leaves_the_window() {
 fn judge_leaves_nothing_running() {
     use rustix::process::{Pid, Signal, kill_process};
     let words = of(&["--timeout", "600"], &["scanline", "--plant", "stalls"]);
-    let mut child = Command::new(PROGRAM)
-        .args(words)
-        .current_dir(&**shared())
-        .stdout(std::process::Stdio::null())
-        .spawn()
-        .unwrap();
+    let mut command = shared().command(words);
+    let mut child = command.stdout(std::process::Stdio::null()).spawn().unwrap();
     let of_it = format!("/proc/{0}/task/{0}/children", child.id());
     let judged = (0..1000).find_map(|_| {
         std::thread::sleep(Duration::from_millis(10));

@@ -6,21 +6,22 @@ use std::process::Command;
 use crate::program::{Folder, PROGRAM, Run};
 
 /// Runs the program; the command that its page shows.
-fn shown(folder: &Folder, words: &[&str], page: &str) -> String {
+fn shown(folder: &Folder, words: &[String]) -> String {
     let run = Run::of(folder.command(words).env_remove("CARGO"));
     assert!(matches!(run.status, Some(0 | 1)), "{run}");
-    let text = std::fs::read_to_string(folder.join(page)).unwrap();
+    let text = folder.text(&format!("pages/{}.html", words[0]));
     let after = text.rsplit("<p class=\"command\"><code>").next().unwrap();
     let command = after.split("</code>").next().unwrap();
     command.replace("&#39;", "'").replace("&quot;", "\"").replace("&amp;", "&").replace("&lt;", "<")
 }
 
-/// The words after the name of the program, as a shell reads them.
-fn words_of(command: &str) -> Vec<String> {
-    let script = format!("printf '%s\\0' {command}");
+/// The words of a command, as a shell reads them.
+pub fn words_of(command: &str) -> Vec<String> {
+    // Assignments before a command are words only as arguments of another one.
+    let script = format!("for word in {command}; do printf '%s\\0' \"$word\"; done");
     let output = Command::new("bash").args(["-c", &script]).output().unwrap();
     let text = String::from_utf8(output.stdout).unwrap();
-    text.split_terminator('\0').skip(1).map(str::to_owned).collect()
+    text.split_terminator('\0').map(str::to_owned).collect()
 }
 
 /// Options that are refused together with `--report`, and the one for help.
@@ -30,88 +31,58 @@ const WITHOUT_PAGE: [&str; 5] = ["--help", "--map", "--spin", "--views", "--with
 #[ignore = "takes seconds; .ci/run runs it"]
 fn every_option_is_on_the_page() {
     let folder = Folder::new("page-commands");
-    let model = "v -1 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
-    std::fs::write(folder.join("a 'model'.obj"), model).unwrap();
-    let view = "--size 32x24 --aa msaa4 --cull cw --shading flat --depth unorm24 --yaw=-30 \
-                --pitch 10.5 --zoom 2 --fov 50 --up z --normals flat --specular 0.5,30 --opacity 0.5 --layers 4 --alpha-threshold 0.5 --fog 0,1 --shadows 64 --mip-maps --anisotropy 8";
-    let report = "--report --out pages";
-    let runs = [
-        ("render", vec!["a 'model'.obj"], format!("{view} --engine both --effects all {report}")),
-        (
-            "plan",
-            vec!["a 'model'.obj"],
-            format!("{view} --engine edge-function --rounds 1 {report}"),
-        ),
-        // Options that do not go together with those above.
-        (
-            "render",
-            vec![],
-            format!("--scene panels --size 32x24 --wireframe --output drawn.png --json {report}"),
-        ),
-        ("render", vec!["panels"], format!("--size 32x24 --plan plan.json {report}")),
-        ("plan", vec![], format!("--scene panels --size 32x24 --json --whole --rounds 1 {report}")),
-        ("study", vec!["a 'model'.obj"], format!("{view} --quick {report}")),
-        ("study", vec![], format!("--scene panels --size 32x24 --quick --json {report}")),
-        ("inspect", vec!["-0.5,0.5", "5.5,0.5", "5.5,5.5"], {
-            format!("--window 0,0,8x8 --plant inclusive-edges --pixel 1,1 {report}")
-        }),
-        ("specimens", vec![], format!("--seed 3 --cases 2 --specimen book-ch2 {report}")),
-        ("verify", vec![], {
-            format!(
-                "--seed 3 --cases 20 --family sliver --shard 1/2 --plant exclusive-edges {report}"
-            )
-        }),
-        ("cost", vec!["lines"], format!("--quick --seed 3 {report}")),
-    ];
-    let plan = folder
-        .run(&["plan", "panels", "--size", "32x24", "--rounds", "1", "--json"][..])
-        .has(0)
-        .out;
-    std::fs::write(folder.join("plan.json"), plan).unwrap();
+    folder.put("a 'model'.obj", "v -1 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    folder.put("plan.json", folder.check("plan panels --size 32x24 --rounds 1 --json", 0).out);
+    let model = "\"a 'model'.obj\" --size 32x24 --aa msaa4 --cull cw --shading flat --depth unorm24 --yaw=-30 \
+                 --pitch 10.5 --zoom 2 --fov 50 --up z --normals flat --specular 0.5,30 --opacity 0.5 --layers 4 \
+                 --alpha-threshold 0.5 --fog 0,1 --shadows 64 --mip-maps --anisotropy 8";
+    let judge = "--cases 5 --family sliver --timeout 9 --jobs 2 --seed 2 --declare 'rule=top left'";
     let mut tried = BTreeSet::new();
-    for (name, positional, options) in runs {
-        tried.extend(
-            options
-                .split_whitespace()
-                .map(|word| (name, word.split('=').next().unwrap().to_owned())),
-        );
-        let options = options.split_whitespace();
-        let words: Vec<_> =
-            std::iter::once(name).chain(positional.iter().copied()).chain(options).collect();
-        let again = words_of(&shown(&folder, &words, &format!("pages/{name}.html")));
-        let sorted = |mut words: Vec<String>| {
+    for (name, options) in [
+        ("render", format!("{model} --engine both --effects all")),
+        ("plan", format!("{model} --engine edge-function --rounds 1")),
+        // Options that do not go together with those above.
+        ("render", "--scene panels --size 32x24 --wireframe --output drawn.png --json".into()),
+        ("render", "panels --size 32x24 --plan plan.json".into()),
+        ("plan", "--scene panels --size 32x24 --json --whole --rounds 1".into()),
+        ("study", format!("{model} --quick")),
+        ("study", "--scene panels --size 32x24 --quick --json".into()),
+        (
+            "inspect",
+            "-0.5,0.5 5.5,0.5 5.5,5.5 --window 0,0,8x8 --plant inclusive-edges --pixel 1,1".into(),
+        ),
+        ("specimens", "--seed 3 --cases 2 --specimen book-ch2".into()),
+        (
+            "verify",
+            "--seed 3 --cases 20 --family sliver --shard 1/2 --plant exclusive-edges".into(),
+        ),
+        ("cost", "lines --quick --seed 3".into()),
+        ("judge", format!("{judge} -- {PROGRAM} engine scanline")),
+    ] {
+        let typed = words_of(&format!("{name} --report --out pages {options}"));
+        tried.extend(typed.iter().map(|word| (name, word.split('=').next().unwrap().to_owned())));
+        let again = words_of(&shown(&folder, &typed)).split_off(1);
+        let sorted = |words: &[String]| {
+            let mut words = words.to_vec();
             words.sort();
             words
         };
-        let typed = words.iter().map(|&word| word.to_owned()).collect();
         // Some put the seed and the number of cases first.
-        assert_eq!(sorted(again.clone()), sorted(typed), "{again:?}");
+        assert_eq!(sorted(&again), sorted(&typed), "{again:?}");
         assert_eq!(again[0], name);
+        let judged =
+            |words: &[String]| words.iter().position(|w| w == "--").map(|at| words[at..].to_vec());
+        assert_eq!(judged(&again), judged(&typed));
     }
     for name in ["render", "plan", "study"] {
-        let help = folder.run(&[name, "--help"][..]).has(0).out;
+        let help = folder.check([name, "--help"], 0).out;
         let listed = help.lines().filter(|line| line.trim_start().starts_with('-'));
-        let options: Vec<_> = listed
-            .map(|line| {
-                format!("--{}", line.split_once("--").unwrap().1.split(' ').next().unwrap())
-            })
-            .filter(|option| !WITHOUT_PAGE.contains(&option.as_str()))
-            .collect();
+        let name_of =
+            |line: &str| line.split_once("--").unwrap().1.split(' ').next().unwrap().to_owned();
+        let options: Vec<_> = listed.map(|line| format!("--{}", name_of(line))).collect();
         assert!(options.len() > 12, "{help}");
-        for option in options {
+        for option in options.iter().filter(|option| !WITHOUT_PAGE.contains(&option.as_str())) {
             assert!(tried.contains(&(name, option.clone())), "{name} {option} is not tried");
         }
     }
-    let judged = ["judge", "--cases", "5", "--family", "sliver", "--timeout", "9", "--jobs", "2"];
-    let of_them = ["--seed", "2", "--declare", "rule=top left", "--report", "--out", "pages", "--"];
-    let words = [&judged[..], &of_them, &[PROGRAM, "engine", "scanline"]].concat();
-    let again = words_of(&shown(&folder, &words, "pages/judge.html"));
-    let typed: Vec<_> = words.iter().map(|&word| word.to_owned()).collect();
-    for word in &typed {
-        assert!(again.contains(word), "{word}: {again:?}");
-    }
-    assert_eq!(again.len(), typed.len());
-    let place =
-        |words: &[String]| words.iter().skip_while(|w| *w != "--").cloned().collect::<Vec<_>>();
-    assert_eq!(place(&again), place(&typed));
 }

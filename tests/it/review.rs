@@ -4,6 +4,7 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use crate::page_commands::words_of;
 use crate::program::{Folder, Run};
 
 /// An empty folder with a folder `snapshots`.
@@ -15,14 +16,6 @@ fn folder(name: &str) -> Folder {
 
 fn write(folder: &Path, name: &str, text: &str) {
     std::fs::write(folder.join("snapshots").join(name), text).unwrap();
-}
-
-/// What a shell makes of a command that was printed: its words, one a line.
-fn words_of(command: &str) -> Vec<String> {
-    let script = format!("for word in {command}; do printf '%s\\0' \"$word\"; done");
-    let output = Command::new("bash").args(["-c", &script]).output().unwrap();
-    let text = String::from_utf8(output.stdout).unwrap();
-    text.split_terminator('\0').map(str::to_owned).collect()
 }
 
 #[test]

@@ -209,7 +209,13 @@ impl Comparator for ByPixels {
             }
             _ => None,
         };
-        decode(reference).is_some_and(|old| decode(test) == Some(old))
+        let is_same = decode(reference).is_some_and(|old| decode(test) == Some(old));
+        if !is_same {
+            eprintln!(
+                "a picture looks different: see how, and how to accept it: cargo run -- review"
+            );
+        }
+        is_same
     }
 
     fn dyn_clone(&self) -> Box<dyn Comparator> {

@@ -96,11 +96,13 @@ impl Synthetic {
             return Coverage::new(question.window, 0);
         }
         let key = p.iter().flatten().fold(17, |h, &v| hash(h ^ v as i64 as u64));
-        picture(question.window, |x, y| {
-            let is_shape = area != 0.0 || matches!(self.shape, Shape::Outline(_));
+        let is_wrong = |x: i32, y: i32| {
             let roll = hash(key ^ (x as u64) << 32 ^ y as u64) % 1000;
-            let is_wrong = roll < self.noise && self.near_border(&p, x, y);
-            (is_shape && self.covers(&p, x, y)) != is_wrong
+            roll < self.noise && self.near_border(&p, x, y)
+        };
+        let is_shape = area != 0.0 || matches!(self.shape, Shape::Outline(_));
+        picture(question.window, |x, y| {
+            (is_shape && self.covers(&p, x, y)) != (self.noise > 0 && is_wrong(x, y))
         })
     }
 

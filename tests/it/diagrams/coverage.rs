@@ -28,8 +28,7 @@ pub fn split() -> String {
     drawing.grid(at([0.0, 0.0]), side, 11, 8);
     drawing.polygon("ink", &corners.map(at));
     drawing.line("two", at([1.5, 3.5]), at([9.5, 3.5]));
-    let [x, y] = at([9.6, 3.5]);
-    drawing.text("start", [x, y + 5.0], "split 分割");
+    drawing.label("start", at([9.6, 3.5]), [0.0, 5.0], "split 分割");
     let covered = spans(corners, PixelRect::window(11, 8));
     for &[y, x0, x1] in &covered {
         let middle = f64::from(y) + 0.5;
@@ -143,8 +142,7 @@ pub fn areas() -> String {
     }
     drawing.polygon("ink", &corners.map(at));
     drawing.dot("dot", at(p), 4.0);
-    let [x, y] = at(p);
-    drawing.text("end", [x - 8.0, y - 4.0], "P (3, 3)");
+    drawing.label("end", at(p), [-8.0, -4.0], "P (3, 3)");
     for (name, corner, anchor, shift) in [
         ("A (0, 0)", corners[0], "middle", -10.0),
         ("B (8, 0)", corners[1], "middle", -10.0),
@@ -181,10 +179,8 @@ pub fn snapping() -> String {
     drawing.dot("dot2", at(sub), 5.0);
     drawing.dot("dot1", at(near), 6.0);
     drawing.arrow("ink", at(sub), between(at(sub), at(near), 0.85));
-    let [x, y] = at(sub);
-    drawing.text("start", [x + 12.0, y], &format!("({:.1}, {:.1})", sub[0], sub[1]));
-    let [x, y] = at(near);
-    drawing.text("start", [x + 12.0, y + 18.0], &format!("({}, {})", near[0], near[1]));
+    drawing.label("start", at(sub), [12.0, 0.0], &format!("({:.1}, {:.1})", sub[0], sub[1]));
+    drawing.label("start", at(near), [12.0, 18.0], &format!("({}, {})", near[0], near[1]));
     drawing.svg()
 }
 
@@ -200,8 +196,7 @@ pub fn winding() -> String {
         for i in 0..3 {
             let (from, to) = (at(corners[i]), at(corners[(i + 1) % 3]));
             drawing.arrow(if area > 0.0 { "one" } else { "two" }, from, between(from, to, 0.9));
-            let [x, y] = from;
-            drawing.text("end", [x - 6.0, y - 4.0], ["a", "b", "c"][i]);
+            drawing.label("end", from, [-6.0, -4.0], ["a", "b", "c"][i]);
         }
         drawing.text(
             "start",
@@ -286,8 +281,7 @@ pub fn owners() -> String {
         }
         drawing.grid(at([0.0; 2]), 40.0, 4, 4);
         drawing.line("ink", at([0.0; 2]), at([4.0; 2]));
-        let [x, y] = at([2.0, 4.0]);
-        drawing.text("middle", [x, y + 28.0], rule);
+        drawing.label("middle", at([2.0, 4.0]), [0.0, 28.0], rule);
     }
     drawing.svg()
 }

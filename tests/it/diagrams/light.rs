@@ -22,8 +22,7 @@ pub fn cosine() -> String {
         drawing.arrow("one", foot, end(DVec3::Y));
         drawing.arrow("two", foot, end(towards * 0.9));
         drawing.text("end", [foot[0] - 6.0, foot[1] - 66.0], "n");
-        let [x, y] = end(towards);
-        drawing.text("middle", [x + 8.0, y + 2.0], "l");
+        drawing.label("middle", end(towards), [8.0, 2.0], "l");
         let bright = light.intensity(DVec3::Y);
         let (x, y, grey) = (foot[0] - 50.0, foot[1] + 2.0, (bright * 255.0).round());
         drawing.add(format_args!(

@@ -103,6 +103,11 @@ impl Drawing {
         ));
     }
 
+    /// Words beside a point.
+    fn label(&mut self, anchor: &str, [x, y]: Point, [right, down]: Point, words: &str) {
+        self.text(anchor, [x + right, y + down], words);
+    }
+
     fn grid(&mut self, [x0, y0]: Point, side: f64, columns: u32, rows: u32) {
         let (right, below) = (x0 + side * f64::from(columns), y0 + side * f64::from(rows));
         for i in 0..=columns {

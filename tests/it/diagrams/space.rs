@@ -28,13 +28,10 @@ pub fn share() -> String {
         drawing.dot("dot2", at(film(p)), 5.0);
     }
     let [a, m, b] = [rod[0], middle, rod[1]].map(|p| film(p)[0]);
-    let [x, y] = at(middle);
-    drawing.text("end", [x - 8.0, y - 8.0], "t = 0.5");
-    let [x, y] = at(film(middle));
-    drawing.text("start", [x + 50.0, y + 22.0], &format!("t' = {}", (m - a) / (b - a)));
+    drawing.label("end", at(middle), [-8.0, -8.0], "t = 0.5");
+    drawing.label("start", at(film(middle)), [50.0, 22.0], &format!("t' = {}", (m - a) / (b - a)));
     for (name, p) in [("w = 2", rod[0]), ("w = 6", rod[1])] {
-        let [x, y] = at(p);
-        drawing.text("middle", [x, y - 12.0], name);
+        drawing.label("middle", at(p), [0.0, -12.0], name);
     }
     drawing.dot("dot", at([0.0, 0.0]), 4.0);
     drawing.text("end", at([-1.7, 1.0]), "n = 1");
@@ -160,8 +157,7 @@ pub fn cube() -> String {
         if z < 4.0 || z == 6.0 {
             drawing.text("start", [x + 8.0, y + 5.0], &format!("{z}"));
         }
-        let [x, y] = left([z, z]);
-        drawing.text("start", [x + 8.0, y + 5.0], &format!("{z}"));
+        drawing.label("start", left([z, z]), [8.0, 5.0], &format!("{z}"));
     }
     drawing.polygon("one", &whole.map(left));
     drawing.polygon("one", &whole.map(land));
