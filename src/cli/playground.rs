@@ -9,7 +9,7 @@ use rasterproof_host::{input, limits};
 
 use super::files::{Use, distinct};
 use super::{Status, Streams, exit, usage, write_file};
-use rasterproof_playground::page::{PLAYGROUND, Parts, YOUR_GPU, page};
+use rasterproof_playground::{PLAYGROUND, Parts, YOUR_GPU, page};
 
 pub(super) const HELP: &str =
     "The page is one file that loads nothing: open it in a browser. The engines inside

@@ -10,9 +10,9 @@ use std::path::{Path, PathBuf};
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
-use rasterproof_playground::answer::answer;
-use rasterproof_playground::figures::{ALL, Figure, Grip, Language, find};
-use rasterproof_playground::page;
+use rasterproof_playground as pages;
+use rasterproof_wasm::answer::answer;
+use rasterproof_wasm::figures::{ALL, Figure, Grip, Language, find};
 use serde_json::{Value, json};
 
 use crate::page::{Browser, Tab as _, folder};
@@ -144,7 +144,7 @@ fn page_of_all(name: &str, language: &str) -> Option<PathBuf> {
         fs::copy(root().join(file), folder.join(Path::new(file).file_name().unwrap())).unwrap();
     }
     // Where the links of the figures lead.
-    let playground = page::page(&page::PLAYGROUND, &fs::read(module).unwrap()).unwrap();
+    let playground = pages::page(&pages::PLAYGROUND, &fs::read(module).unwrap()).unwrap();
     fs::write(folder.join("playground.html"), playground).unwrap();
     let still = |figure: &Figure| {
         let block = figure.block(if language == "zh" { Language::Zh } else { Language::En });

@@ -19,9 +19,9 @@ use rasterproof_core::raster::scanline::steps::walked_rows;
 use rasterproof_core::raster::scanline_exact::ScanlineExact;
 use rasterproof_core::raster::scanline_exact::probe::crossings_at;
 use rasterproof_core::triangle::{Corners, Span};
-use rasterproof_playground::answer::answer;
-use rasterproof_playground::page;
+use rasterproof_playground as pages;
 use rasterproof_verify::cases::{Shape, triangles, unsnapped};
+use rasterproof_wasm::answer::answer;
 use serde_json::{Value, json};
 
 use crate::page::{Browser, Tab as _, folder};
@@ -61,7 +61,7 @@ pub fn written(command: &str, name: &str) -> Option<PathBuf> {
     assert_eq!(status, 0, "{complaint}");
     assert_eq!(printed, format!("{command}: target/rasterproof/{command}.html\n"));
     let page = folder.join(format!("target/rasterproof/{command}.html"));
-    assert!(std::fs::metadata(&page).unwrap().len() <= page::MOST_BYTES as u64);
+    assert!(std::fs::metadata(&page).unwrap().len() <= pages::MOST_BYTES as u64);
     Some(page)
 }
 

@@ -1,6 +1,6 @@
 'use strict';
 // Live figures: <rp-figure scene="NAME"> around a still picture with its caption. The compiled engines draw and judge
-// (crates/playground/src/figures); this script inserts what they answer and passes on what the reader does. They are
+// (crates/wasm/src/figures); this script inserts what they answer and passes on what the reader does. They are
 // loaded with the first figure that becomes visible, from engines.js beside this script, which calls
 // rasterproofEngines with the module in base64: so it works from disk, too. data-playground on the script's own
 // element names the page of the playground, if that is not playground.html beside it.

@@ -1,10 +1,102 @@
-//! The playground of rasterproof: what its page asks, the answers, and the page itself; see
-//! `docs/playground.md`.
-#![deny(unsafe_code)]
+//! Two pages: the playground, and the one that judges a browser's GPU. Each is one file with its style, its
+//! scripts and the compiled module inside.
 
-pub mod answer;
-pub mod figures;
-mod gpu;
-pub mod page;
-#[cfg(target_family = "wasm")]
-pub mod wasm_exports;
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
+
+pub struct Parts {
+    template: &'static str,
+    styles: &'static [&'static str],
+    scripts: &'static [&'static str],
+}
+
+pub const PLAYGROUND: Parts = Parts {
+    template: include_str!("../page/page.html"),
+    styles: &[include_str!("../page/page.css")],
+    scripts: &[
+        include_str!("../page/words.js"),
+        include_str!("../page/cases.js"),
+        include_str!("../page/engines.js"),
+        include_str!("../page/dom.js"),
+        include_str!("../page/state.js"),
+        include_str!("../page/parts.js"),
+        include_str!("../page/look.js"),
+        include_str!("../page/scenes.js"),
+        include_str!("../page/frames.js"),
+        include_str!("../page/panels.js"),
+        include_str!("../page/listen.js"),
+        include_str!("../page/tools.js"),
+        include_str!("../page/hunt.js"),
+        include_str!("../page/address.js"),
+        include_str!("../page/start.js"),
+    ],
+};
+
+/// The page that judges a browser's GPU.
+pub const YOUR_GPU: Parts = Parts {
+    template: include_str!("../page/gpu/page.html"),
+    styles: &[include_str!("../page/page.css"), include_str!("../page/gpu/gpu.css")],
+    scripts: &[
+        include_str!("../page/gpu/words.js"),
+        include_str!("../page/gpu/rules.js"),
+        include_str!("../page/engines.js"),
+        include_str!("../page/dom.js"),
+        include_str!("../page/gpu/pixels.js"),
+        include_str!("../page/gpu/webgl2.js"),
+        include_str!("../page/gpu/webgpu.js"),
+        include_str!("../page/gpu/run.js"),
+        include_str!("../page/gpu/show.js"),
+    ],
+};
+
+/// What a page may weigh, so that it can be sent and opened anywhere.
+pub const MOST_BYTES: usize = 3_000_000;
+
+/// The page around a compiled module, the bytes of a `.wasm` file.
+///
+/// # Errors
+/// A message where these bytes are no module, or the page would weigh more than [`MOST_BYTES`].
+pub fn page(parts: &Parts, module: &[u8]) -> Result<String, String> {
+    if !module.starts_with(b"\0asm") {
+        return Err("is no WebAssembly module: it does not begin with \\0asm".to_owned());
+    }
+    let filled = [
+        ("{{style}}", &parts.styles.concat()),
+        ("{{script}}", &parts.scripts.join("\n")),
+        ("{{module}}", &STANDARD.encode(module)),
+    ];
+    let page = filled
+        .into_iter()
+        .fold(parts.template.to_owned(), |page, (place, text)| page.replacen(place, text, 1));
+    if page.len() > MOST_BYTES {
+        return Err(format!(
+            "makes a page of {} bytes; at most {MOST_BYTES} are allowed",
+            page.len()
+        ));
+    }
+    Ok(page)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_page_holds_its_module() {
+        for parts in [&PLAYGROUND, &YOUR_GPU] {
+            let page = page(parts, b"\0asm\x01\0\0\0").unwrap();
+            assert!(page.contains("AGFzbQEAAAA=") && !page.contains("{{"), "every place is filled");
+            // The one address names the language of a drawing; nothing is fetched from it.
+            let page = page.replace("http://www.w3.org/2000/svg", "");
+            assert!(!page.contains("http://") && !page.contains("https://"), "loads nothing");
+        }
+    }
+
+    #[test]
+    fn what_is_no_module_is_refused() {
+        assert!(page(&YOUR_GPU, b"ELF").unwrap_err().contains("no WebAssembly module"));
+        let mut large = vec![0; MOST_BYTES];
+        large[..4].copy_from_slice(b"\0asm");
+        assert!(page(&PLAYGROUND, &large).unwrap_err().contains("at most"));
+    }
+}
