@@ -66,8 +66,15 @@ fn main() -> ExitCode {
 }
 
 /// Modules of the test binary `it` that keep snapshots.
-const KEEPERS: [&str; 6] =
-    ["snapshots::", "illustrations::", "scenes::", "specimens::", "matrix::", "cost::"];
+const KEEPERS: [&str; 7] = [
+    "snapshots::",
+    "illustrations::",
+    "scenes::",
+    "specimens::",
+    "matrix::",
+    "cost::",
+    "protocol::",
+];
 
 /// Has every snapshot drawn in one pass, so that those that changed are stored beside the old ones, and
 /// names them.

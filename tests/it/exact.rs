@@ -17,7 +17,6 @@ use rasterproof_verify::comparison::Options;
 use rasterproof_verify::comparison::unsnapped::{exact_coverage, judge_exact, judge_exact_case};
 
 use crate::program::check;
-use crate::protocol::ask;
 
 const ALL: [ExactEngine; 3] =
     [ExactEngine::Scanline, ExactEngine::EdgeFunction, ExactEngine::Oracle];
@@ -275,40 +274,6 @@ fn refusals() {
     for v in [-8_388_608.0, 8_388_608.0_f64.next_down(), -0.0, f64::from_bits(1), -1e-310] {
         assert_eq!(with(v), None, "{v:e}");
     }
-}
-
-#[test]
-fn protocol() {
-    // A hundredth of a subpixel beside the centres of the diagonal: snapping would make it a tie.
-    let requests = "HELLO 1
-T a 4 4 0.00004 0 4 0 4.00004 4
-T b 4 4 -0x1p-149 0 4 0 4 4
-T c 4 4 0 0 nan 0 4 4
-T d 4 4 0 0 4 0 4 -inf
-T e 4 4 8388608 0 4 0 4 4
-T f 4 4 0 0 4 0 4
-L g 4 4 0 0 4 4
-I h 4 4 0 0 0 1 0 0 4 0 0 1 0 0 4 4 0 1 0 0
-";
-    for engine in ALL {
-        let expected = format!(
-            "HELLO 1 {} coverage
-C a 3 0 1 4 1 2 4 2 3 4
-C b 4 0 0 4 1 1 4 2 2 4 3 3 4
-E c x1 is not a number (NaN)
-E d y2 is infinite
-E e x0 8.388608e6 px is outside the domain [-8388608, 8388608) px
-E f T takes an id, width, height and 6 numbers; 8 words follow
-E g unsupported
-E h unsupported
-",
-            engine.name()
-        );
-        let expected: Vec<_> = expected.lines().collect();
-        assert_eq!(ask(engine.name(), requests.as_bytes()), expected);
-    }
-    let snapped = ask("scanline", requests.as_bytes());
-    assert!(snapped.iter().any(|line| line == "C a 4 0 0 4 1 1 4 2 2 4 3 3 4"), "{snapped:?}");
 }
 
 #[test]

@@ -7,6 +7,7 @@ use rasterproof_models::{BadFile, Format, Model, Options, Up};
 use rasterproof_render::pipeline::assemble::Cull;
 use rasterproof_render::pipeline::opacity::AlphaMode;
 use rasterproof_render::scene::{Item, Material, Shading};
+use rasterproof_verify::cases::Rng;
 use serde_json::{Value, json};
 
 use crate::models::warning;
@@ -617,12 +618,8 @@ fn mutated_files_of_all_formats_never_panic() {
         }
         Err(_) => refused += 1,
     };
-    let mut random = 1u64;
-    let mut below = |limit: usize| {
-        random =
-            random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (random >> 33) as usize % limit
-    };
+    let mut rng = Rng::new("model formats", 0, 0);
+    let mut below = |limit: usize| rng.int(0, limit as i64 - 1) as usize;
     for (name, bytes) in &files {
         for length in (0..bytes.len()).step_by(3) {
             look(name, &bytes[..length]);

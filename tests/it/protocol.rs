@@ -4,6 +4,7 @@ use std::io::Write;
 use std::process::{Command, Stdio};
 
 use crate::program::PROGRAM;
+use crate::snapshots::check_words;
 
 /// What the program answers to these bytes; it must end with status 0.
 pub fn ask(engine: &str, requests: &[u8]) -> Vec<String> {
@@ -23,88 +24,99 @@ pub fn ask(engine: &str, requests: &[u8]) -> Vec<String> {
     String::from_utf8(output.stdout).unwrap().lines().map(str::to_owned).collect()
 }
 
-fn check(engine: &str, request: &str, answer: &str) {
-    assert_eq!(ask(engine, format!("{request}\n").as_bytes()), [answer], "{engine}: {request}");
-}
+/// Engines, and a request that each of them answers alike, in a conversation of its own.
+const REQUESTS: &str = "\
+# What an engine can do, in both versions
+scanline bresenham oracle dda scanline-exact edge-function-exact oracle-exact: HELLO 1
+oracle: HELLO 3
+dda: HELLO 2
+book-ch2 book-ch11-fixed book-dda: HELLO 1
+
+# Corners on centres, in decimal and in hexadecimal; a triangle without area
+scanline edge-function oracle: T a 8 8 0.5 0.5 5.5 0.5 5.5 5.5
+scanline edge-function oracle: T h 8 8 0x1p-1 0x.8p0 0x1.6p2 +0.5 5.5e0 0X1.6P+2
+scanline edge-function oracle: T e 8 8 1 1 1 1 5 5
+
+# The upper left half of a pixel: its diagonal from (1, 0) to (0, 1) passes between the samples (6, 2) and (2, 10) on one
+# side and (14, 6) and (10, 14) on the other.
+scanline edge-function oracle: S a 2 2 0 0 1 0 0 1
+scanline edge-function oracle: S b 2 1 0 0 2 0 0 2
+
+# The second triangle has z = x / 2 and goes through the first, whose z is 1/2, at x = 1.
+scanline edge-function oracle: D a 2 1 0 0 0.5 4 0 0.5 0 4 0.5 0 0 0 4 0 2 0 4 0
+scanline edge-function oracle: D b 2 2 0 0 1 1 0 1 0 1 1
+oracle: D c 2 1 0 0 0.5 4
+oracle: D d 2 1 0 0 0.5 4 0 0.5 0 4 0.5 0 0 0 4 0 nan 0 4 0
+dda: D e 2 1 0 0 0.5 4 0 0.5 0 4 0.5 0 0 0 4 0 2 0 4 0
+
+# Two corners are kept, and the edges to the third are halved: its z + w is -1, theirs is 1.
+scanline edge-function oracle: N a 0 0 0 1 4 0 0 1 0 4 -2 1
+scanline edge-function oracle: N b 0 0 -2 1 4 0 -2 1 0 4 -2 1
+oracle: N c 1 2
+oracle: N d 0 0 0 inf 4 0 0 1 0 4 -2 1
+bresenham: N e 0 0 0 1 4 0 0 1 0 4 -2 1
+
+# A hundredth of a subpixel beside the centres of the diagonal: snapping would make it a tie.
+scanline: T a 4 4 0.00004 0 4 0 4.00004 4
+scanline-exact edge-function-exact oracle-exact: T a 4 4 0.00004 0 4 0 4.00004 4
+scanline-exact edge-function-exact oracle-exact: T b 4 4 -0x1p-149 0 4 0 4 4
+scanline-exact edge-function-exact oracle-exact: T c 4 4 0 0 nan 0 4 4
+scanline-exact edge-function-exact oracle-exact: T d 4 4 0 0 4 0 4 -inf
+scanline-exact edge-function-exact oracle-exact: T e 4 4 8388608 0 4 0 4 4
+scanline-exact edge-function-exact oracle-exact: T f 4 4 0 0 4 0 4
+scanline-exact edge-function-exact oracle-exact: L g 4 4 0 0 4 4
+scanline-exact edge-function-exact oracle-exact: I h 4 4 0 0 0 1 0 0 4 0 0 1 0 0 4 4 0 1 0 0
+
+# Lines in the order in which they are drawn
+dda bresenham oracle: L 1 64 64 8 3 0 0
+dda bresenham oracle: L 2 64 64 0.5 0.5 8.5 3.5
+dda bresenham oracle: L 3 64 64 -1e9 -1e9 1e9 1e9
+dda: L b 8 8 0 0 1e300 1
+dda: L b 8 8 0 nan 1 1
+
+# What an engine does not do
+dda: T b 8 8 0 0 1 1 2 2
+scanline-exact: S b 8 8 0 0 1 1 2 2
+scanline: L b 8 8 0 0 1 1
+book-ch2: I v 8 8 0 0 0 1 0 0 1 1 0 1 0 0 2 2 0 1 0 0
+
+# The oracle says no to what would take hours; engines stream it.
+oracle: I big 16384 16384 0 0 0 1 0 0 16384 0 0 1 0 0 0 16384 0 1 0 0
+
+# Specimens take positions as they are: a triangle that holds no sample is drawn twice. Figure 2-4: a flat edge leaves the
+# triangle, which chapter 2 clamps and chapter 3 does not.
+book-ch2: T n 64 64 1.7 62.3 2.3 62.3 2 61.7
+book-ch2: T f 64 64 4.75 60.50001 4 60.49999 5.55 60.49999
+book-ch3: T f 64 64 4.75 60.50001 4 60.49999 5.55 60.49999
+book-dda: L e 64 64 0.5 62.5 3.5 59.5
+
+# They say why they do not draw. The smallest division by zero is at pixel (10, 4) of the book's screen.
+book-ch2: T o 64 64 3e9 63.5 3000000008 63.5 3e9 55.5
+book-ch2: T h 64 64 -1e9 -1e9 1e9 1e9 3 2e9
+book-ch2: T x 8 8 0 nan 1 1 2 2
+book-ch11: I w 8 8 0 0 0 0 0 0 1 1 0 1 0 0 2 2 0 1 0 0
+book-ch11: I z 64 64 10.25 59.5 0 1 0 0 10.75 59.5 0 2 1 0 10.5 55.5 0 1 0 1
+";
 
 #[test]
-fn hello_names_the_capabilities() {
-    check("scanline", "HELLO 1", "HELLO 1 scanline coverage attributes samples4");
-    check("bresenham", "HELLO 1", "HELLO 1 bresenham line");
-    check("oracle", "HELLO 1", "HELLO 1 oracle coverage attributes samples4 line");
-    let refusal = "E - this engine speaks versions 1 and 2: say HELLO 1 or HELLO 2";
-    check("oracle", "HELLO 3", refusal);
-    let line = "HELLO 2 dda line grid=256 origin=0.5,0.5 rule=top-left winding=both batch=1024";
-    check("dda", "HELLO 2", line);
-}
-
-#[test]
-fn coverage_of_a_triangle_on_centres() {
-    for engine in ["scanline", "edge-function", "oracle"] {
-        check(engine, "T a 8 8 0.5 0.5 5.5 0.5 5.5 5.5", "C a 5 0 0 5 1 1 5 2 2 5 3 3 5 4 4 5");
-        check(
-            engine,
-            "T h 8 8 0x1p-1 0x.8p0 0x1.6p2 +0.5 5.5e0 0X1.6P+2",
-            "C h 5 0 0 5 1 1 5 2 2 5 3 3 5 4 4 5",
-        );
-        check(engine, "T e 8 8 1 1 1 1 5 5", "C e 0");
+fn requests_are_answered_as_kept() {
+    let mut spoken = String::new();
+    for line in REQUESTS.lines() {
+        spoken += &format!("{line}\n");
+        let Some((engines, request)) = line.split_once(": ").filter(|_| !line.starts_with('#'))
+        else {
+            continue;
+        };
+        let answered = |engine| ask(engine, format!("{request}\n").as_bytes()).join("\n");
+        let mut answers: Vec<_> = engines.split(' ').map(answered).collect();
+        // Only greetings name the engine.
+        if !request.starts_with("HELLO") {
+            assert!(answers.windows(2).all(|two| two[0] == two[1]), "{line}: {answers:?}");
+            answers.truncate(1);
+        }
+        spoken += &format!("< {}\n", answers.join("\n< "));
     }
-}
-
-/// The upper left half of a pixel: its diagonal from (1, 0) to (0, 1) passes between the samples
-/// (6, 2) and (2, 10) on one side and (14, 6) and (10, 14) on the other.
-#[test]
-fn samples_of_half_a_pixel() {
-    for engine in ["scanline", "edge-function", "oracle"] {
-        check(engine, "S a 2 2 0 0 1 0 0 1", "M a 1 0 0 1 5");
-        check(engine, "S b 2 1 0 0 2 0 0 2", "M b 2 0 0 1 15 0 1 2 5");
-    }
-}
-
-/// The second triangle has z = x / 2 and goes through the first, whose z is 1/2, at x = 1.
-#[test]
-fn the_nearest_triangle_is_seen() {
-    let pile = "0 0 0.5 4 0 0.5 0 4 0.5 0 0 0 4 0 2 0 4 0";
-    for engine in ["scanline", "edge-function", "oracle"] {
-        check(engine, &format!("D a 2 1 {pile}"), "V a 2 0 0 1 1 0 1 2 0");
-        check(engine, "D b 2 2 0 0 1 1 0 1 0 1 1", "V b 0");
-    }
-    let refusal = "E c D takes an id, width, height and 9 numbers for each of 1 to 64 triangles";
-    check("oracle", "D c 2 1 0 0 0.5 4", &format!("{refusal}; 7 words follow"));
-    check(
-        "oracle",
-        &format!("D c 2 1{}", " 1".repeat(65 * 9)),
-        &format!("{refusal}; 588 words follow"),
-    );
-    let nan = format!("D d 2 1 {}", pile.replace("0 0 0 4 0 2", "0 0 0 4 0 nan"));
-    check("oracle", &nan, "E d of triangle 1: z1 is not a number (NaN)");
-    check("dda", &format!("D e 2 1 {pile}"), "E e unsupported");
-}
-
-/// Two corners are kept, and the edges to the third are halved: its z + w is -1, theirs is 1.
-#[test]
-fn the_near_plane_cuts() {
-    for engine in ["scanline", "edge-function", "oracle"] {
-        let quad = "G a 4 0 0 0 1 4 0 0 1 2 2 -1 1 0 2 -1 1";
-        check(engine, "N a 0 0 0 1 4 0 0 1 0 4 -2 1", quad);
-        check(engine, "N b 0 0 -2 1 4 0 -2 1 0 4 -2 1", "G b 0");
-    }
-    check("oracle", "N c 1 2", "E c N takes an id and 12 numbers; 3 words follow");
-    check("oracle", "N d 0 0 0 inf 4 0 0 1 0 4 -2 1", "E d w0 is infinite");
-    check("bresenham", "N e 0 0 0 1 4 0 0 1 0 4 -2 1", "E e unsupported");
-}
-
-#[test]
-fn lines_in_drawing_order() {
-    for engine in ["dda", "bresenham", "oracle"] {
-        check(engine, "L 1 64 64 8 3 0 0", "P 1 9 8 3 7 3 6 2 5 2 4 2 3 1 2 1 1 0 0 0");
-        check(engine, "L 2 64 64 0.5 0.5 8.5 3.5", "P 2 9 0 0 1 0 2 1 3 1 4 2 5 2 6 2 7 3 8 3");
-        check(
-            engine,
-            "L 3 64 64 -1e9 -1e9 1e9 1e9",
-            &format!("P 3 64{}", (0..64).map(|i| format!(" {i} {i}")).collect::<String>()),
-        );
-    }
+    check_words("protocol", &spoken);
 }
 
 #[test]
@@ -122,86 +134,39 @@ fn values_are_perspective_correct() {
     }
 }
 
+/// One conversation: each is answered in its turn, after whatever came before.
 #[test]
-fn bad_requests_are_answered_and_survived() {
-    let cases: [(&str, &str); 18] = [
-        ("T b 8 8 nan 0 1 1 2 2", "E b x0 is not a number (NaN)"),
-        ("T b 8 8 0 -inf 1 1 2 2", "E b y0 is infinite"),
-        ("T b 8 8 0 0 1e300 1 2 2", "E b x1 1e300 px is outside the domain [-8388608, 8388608) px"),
-        (
-            "T b 8 8 0 0 1 1 2 8388607.998046875",
-            "E b y2 8.388607998046875e6 px is outside the domain [-8388608, 8388608) px: rounded to 1/256 px it is 8388608",
-        ),
-        (
-            "I b 8 8 0 0 0 1 0 0 4 0 0 0 0 0 0 4 0 1 0 0",
-            "E b w1 0e0 is outside the accepted range [6.223015277861142e-61, 1.6069380442589903e60]",
-        ),
-        ("T b 8 8 0 0 1 1 2", "E b T takes an id, width, height and 6 numbers; 8 words follow"),
-        (
-            "T b 8 8 0 0 1 1 2 2 3",
-            "E b T takes an id, width, height and 6 numbers; 10 words follow",
-        ),
-        ("T b 0 8 0 0 1 1 2 2", "E b width '0' is not a whole number from 1 to 16384"),
-        (
-            "T b 8 1000000000 0 0 1 1 2 2",
-            "E b height '1000000000' is not a whole number from 1 to 16384",
-        ),
-        ("T b 8 1e9 0 0 1 1 2 2", "E b height '1e9' is not a whole number from 1 to 16384"),
-        ("T b -8 8 0 0 1 1 2 2", "E b width '-8' is not a whole number from 1 to 16384"),
-        ("T b 8 8 0 0 one 1 2 2", "E b number 3 'one' cannot be read"),
-        ("T b 8 8 0 0 0x 1 2 2", "E b number 3 '0x' cannot be read"),
-        ("T b 8 8 0 0 -+1 1 2 2", "E b number 3 '-+1' cannot be read"),
-        ("X b 8 8", "E b unknown request 'X'; expected HELLO, T, L, I, S, D, N"),
-        ("T", "E - T takes an id, width, height and 6 numbers; 0 words follow"),
-        (
-            "S b 8 8 0 0 1 1 8388607.9 2",
-            "E b a corner lies within half a pixel of the domain's end, where samples have no place",
-        ),
-        (
-            "I b 8 8 0 0 0 0 0 0 1 1 0 1 0 0 2 2 0 1 0 0",
-            "E b w0 0e0 is outside the accepted range [6.223015277861142e-61, 1.6069380442589903e60]",
-        ),
-    ];
-    let mut requests: Vec<u8> = Vec::new();
-    for (request, _) in cases {
-        requests.extend_from_slice(request.as_bytes());
-        requests.push(b'\n');
-    }
-    requests.extend_from_slice(b"\xff\xfe T\n\n   \n");
-    requests.extend(std::iter::repeat_n(b'7', 200_000));
-    // The last line has no end.
-    requests.extend_from_slice(b"\nT last 2 2 0 0 2 0 2 2");
-    let answers = ask("edge-function", &requests);
-    let mut expected: Vec<String> = cases.iter().map(|(_, answer)| (*answer).to_owned()).collect();
-    expected.extend(
-        [
-            "E - the request is not UTF-8",
-            "E - a request has at most 65536 bytes",
-            "C last 2 0 0 2 1 1 2",
-        ]
-        .map(str::to_owned),
-    );
-    assert_eq!(answers, expected);
-    check("dda", "T b 8 8 0 0 1 1 2 2", "E b unsupported");
-    check("scanline-exact", "S b 8 8 0 0 1 1 2 2", "E b unsupported");
-    check("scanline", "L b 8 8 0 0 1 1", "E b unsupported");
-    check(
-        "dda",
-        "L b 8 8 0 0 1e300 1",
-        "E b x1 1e300 is outside the domain of lines, [-2^31, 2^31) px",
-    );
-    check("dda", "L b 8 8 0 nan 1 1", "E b y0 is not a number (NaN)");
-}
-
-/// The oracle says no to what would take hours, the engines stream it.
-#[test]
-fn absurd_windows_are_bounded() {
-    let request = "I big 16384 16384 0 0 0 1 0 0 16384 0 0 1 0 0 0 16384 0 1 0 0";
-    check(
-        "oracle",
-        request,
-        "E big more than 1048576 fragments, which is the most that the oracle computes for a request",
-    );
+fn bad_requests_are_survived() {
+    let requests = "\
+T b 8 8 nan 0 1 1 2 2
+T b 8 8 0 -inf 1 1 2 2
+T b 8 8 0 0 1e300 1 2 2
+T b 8 8 0 0 1 1 2 8388607.998046875
+I b 8 8 0 0 0 1 0 0 4 0 0 0 0 0 0 4 0 1 0 0
+T b 8 8 0 0 1 1 2
+T b 8 8 0 0 1 1 2 2 3
+T b 0 8 0 0 1 1 2 2
+T b 8 1000000000 0 0 1 1 2 2
+T b 8 1e9 0 0 1 1 2 2
+T b -8 8 0 0 1 1 2 2
+T b 8 8 0 0 one 1 2 2
+T b 8 8 0 0 0x 1 2 2
+T b 8 8 0 0 -+1 1 2 2
+X b 8 8
+T
+S b 8 8 0 0 1 1 8388607.9 2
+I b 8 8 0 0 0 0 0 0 1 1 0 1 0 0 2 2 0 1 0 0
+";
+    // What is no text, blank lines, a line that is too long, and a last one that has no end.
+    let long = "7".repeat(200_000);
+    let rest = [b"\xff\xfe T\n\n   \n", long.as_bytes(), b"\nT last 2 2 0 0 2 0 2 2"].concat();
+    let answers = ask("edge-function", &[requests.as_bytes(), &rest].concat());
+    let shown = ["(no text)", "(too long)", "T last 2 2 0 0 2 0 2 2"];
+    let spoken = requests.lines().chain(shown).zip(&answers);
+    let spoken: String =
+        spoken.map(|(request, answer)| format!("{request}\n< {answer}\n")).collect();
+    assert_eq!(answers.len(), requests.lines().count() + shown.len(), "{spoken}");
+    check_words("protocol-bad", &spoken);
 }
 
 /// What would take gigabytes or minutes is refused instead, with the limit.
@@ -209,46 +174,24 @@ fn absurd_windows_are_bounded() {
 #[ignore = "takes seconds; .ci/run runs it"]
 fn answers_are_bounded() {
     let corners = "-20000 -20000 0 40000 -20000 0 -20000 40000 0";
-    check(
-        "oracle",
-        &format!("D d 16384 16384 {corners} {corners} {corners}"),
-        "E d more than 1048576 fragments, which is the most of a request: ask for a smaller window",
-    );
-    check(
-        "games101-strict",
-        "T t 16384 16384 -20000 -20000 40000 -20000 -20000 40000",
-        "E t 186918160 runs or pixels; a specimen answers with at most 4194304: ask for a smaller window",
-    );
-}
-
-/// Specimens take positions as they are, hit pixels twice and say why they do not draw.
-#[test]
-fn specimens_speak_too() {
-    check("book-ch2", "HELLO 1", "HELLO 1 book-ch2 coverage");
-    check("book-ch11-fixed", "HELLO 1", "HELLO 1 book-ch11-fixed coverage attributes");
-    check("book-dda", "HELLO 1", "HELLO 1 book-dda line");
-    // A triangle that holds no sample, drawn twice.
-    check("book-ch2", "T n 64 64 1.7 62.3 2.3 62.3 2 61.7", "C n 2 62 1 2 62 1 2");
-    // Figure 2-4: a flat edge leaves the triangle, which chapter 2 clamps and chapter 3 does not.
-    let flat = "T f 64 64 4.75 60.50001 4 60.49999 5.55 60.49999";
-    check("book-ch2", flat, "C f 3 61 4 5 60 3 6 60 5 6");
-    check("book-ch3", flat, "C f 3 61 4 5 60 0 64 60 3 6");
-    check("book-dda", "L e 64 64 0.5 62.5 3.5 59.5", "P e 3 0 62 1 61 2 60");
-    let overflow = "E o the published code converts 2.9999999995e9 to an int, which is undefined";
-    check("book-ch2", "T o 64 64 3e9 63.5 3000000008 63.5 3e9 55.5", overflow);
-    let far = "T h 64 64 -1e9 -1e9 1e9 1e9 3 2e9";
-    assert!(
-        ask("book-ch2", format!("{far}\n").as_bytes())[0].starts_with("E h the published loop")
-    );
-    check("book-ch2", "T x 8 8 0 nan 1 1 2 2", "E x y0 is not a number (NaN)");
-    check("book-ch2", "I v 8 8 0 0 0 1 0 0 1 1 0 1 0 0 2 2 0 1 0 0", "E v unsupported");
-    check(
-        "book-ch11",
-        "I w 8 8 0 0 0 0 0 0 1 1 0 1 0 0 2 2 0 1 0 0",
-        "E w w0 0e0 is outside the accepted range [6.223015277861142e-61, 1.6069380442589903e60]",
-    );
-    // The smallest division by zero: pixel (10, 4) of the book's screen.
-    let values =
-        ask("book-ch11", b"I z 64 64 10.25 59.5 0 1 0 0 10.75 59.5 0 2 1 0 10.5 55.5 0 1 0 1\n");
-    assert!(values[0].contains(" 10 59 0 inf "), "{}", values[0]);
+    let many = " 1".repeat(65 * 9);
+    for (engine, request, answer) in [
+        (
+            "oracle",
+            format!("D d 16384 16384 {corners} {corners} {corners}"),
+            "E d more than 1048576 fragments, which is the most of a request: ask for a smaller window",
+        ),
+        (
+            "games101-strict",
+            "T t 16384 16384 -20000 -20000 40000 -20000 -20000 40000".to_owned(),
+            "E t 186918160 runs or pixels; a specimen answers with at most 4194304: ask for a smaller window",
+        ),
+        (
+            "oracle",
+            format!("D c 2 1{many}"),
+            "E c D takes an id, width, height and 9 numbers for each of 1 to 64 triangles; 588 words follow",
+        ),
+    ] {
+        assert_eq!(ask(engine, format!("{request}\n").as_bytes()), [answer], "{engine}: {request}");
+    }
 }

@@ -64,23 +64,6 @@ fn specimens_are_caught_by_families_as_recorded() {
     });
 }
 
-/// What SYSU's inclusive test is about: edges that two triangles share are drawn twice.
-#[test]
-fn specimens_of_meshes_count_shared_edges() {
-    let inclusive = surveyed("sysu-inclusive");
-    let of = |report: &SpecimenReport, family: &str| {
-        report.families.iter().find(|(name, _)| *name == family).unwrap().1
-    };
-    for family in ["rectangle", "fan", "strip"] {
-        assert!(of(&inclusive, family).shared > 0, "{family}");
-    }
-    assert_eq!(of(&inclusive, "uniform").shared, 0, "one triangle shares nothing");
-    let strict = surveyed("games101-strict");
-    assert_eq!(of(&strict, "rectangle").shared, 0, "a strict test leaves holes instead");
-    let empty = of(&inclusive, "degenerate");
-    assert_eq!((empty.pixels, empty.per_million(1)), (0, None), "no rate of nothing");
-}
-
 /// GAMES101's rule never draws too much where f32 is exact, and misses only samples on edges.
 #[test]
 fn specimens_strict_rule_only_loses_ties() {
