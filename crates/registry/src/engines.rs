@@ -1,7 +1,9 @@
 //! The engines by name: the one file that names every engine and line drawer, and turns a word of the
 //! command line into one.
 
-use rasterproof_core::contract::{Decisions, DrawLine, Interpolate, Rasterize, RasterizeExact};
+use rasterproof_core::contract::{
+    Decisions, DrawLine, Interpolate, Rasterize, RasterizeExact, Run,
+};
 use rasterproof_core::frame::Frame;
 use rasterproof_core::grid::PixelRect;
 use rasterproof_core::line::bresenham::Bresenham;
@@ -169,29 +171,58 @@ impl LineEngine {
 }
 
 /// What draws scenes: one of the judged rasterizers, with a line drawer for edges.
-///
-/// Each of the two is a call of its own, so that kernels are compiled for these two and not for
-/// every planted fault.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Drawer {
     Scanline,
     EdgeFunction,
 }
 
-/// What an expression is with the engine of a drawer, for edge functions in the words of a mode.
-macro_rules! with_engine {
-    ($drawer:expr, $words:expr, |$engine:ident| $call:expr) => {
-        match $drawer {
-            Self::Scanline => {
-                let $engine = &Scanline;
-                $call
-            }
-            Self::EdgeFunction => {
-                let $engine = &in_words($words);
-                $call
-            }
+/// The rasterizer of a drawer, for edge functions in the words that a plan asks for. It chooses once for each triangle, so
+/// that the kernels of frames are compiled once for both engines.
+enum FrameEngine {
+    Scanline,
+    EdgeFunction(EdgeFunctionIn),
+}
+
+impl Rasterize for FrameEngine {
+    #[inline]
+    fn cover(&self, corners: Corners, bounds: PixelRect, emit: impl FnMut(Span)) {
+        match self {
+            Self::Scanline => Scanline.cover(corners, bounds, emit),
+            Self::EdgeFunction(engine) => engine.cover(corners, bounds, emit),
         }
-    };
+    }
+
+    fn word_bits(&self, corners: &Corners) -> Option<u32> {
+        match self {
+            Self::Scanline => Scanline.word_bits(corners),
+            Self::EdgeFunction(engine) => engine.word_bits(corners),
+        }
+    }
+}
+
+impl Interpolate for FrameEngine {
+    fn fragments<V: Varying>(
+        &self,
+        triangle: &ScreenTriangle<V>,
+        bounds: PixelRect,
+        mut emit: impl FnMut(Fragment<V>),
+    ) {
+        self.runs(triangle, bounds, false, &mut |run| run.each(&mut emit));
+    }
+
+    fn runs<V: Varying>(
+        &self,
+        triangle: &ScreenTriangle<V>,
+        bounds: PixelRect,
+        affine: bool,
+        take: &mut dyn FnMut(Run<'_, V>),
+    ) {
+        match self {
+            Self::Scanline => Scanline.runs(triangle, bounds, affine, take),
+            Self::EdgeFunction(engine) => engine.runs(triangle, bounds, affine, take),
+        }
+    }
 }
 
 impl Drawer {
@@ -211,10 +242,20 @@ impl Drawer {
         }
     }
 
+    fn engine(self, wide_words: Mode) -> FrameEngine {
+        match self {
+            Self::Scanline => FrameEngine::Scanline,
+            Self::EdgeFunction => FrameEngine::EdgeFunction(EdgeFunctionIn(match wide_words {
+                Mode::Planned | Mode::Material => Words::Narrowest,
+                Mode::Always => Words::Widest,
+                Mode::Never => Words::Narrow,
+            })),
+        }
+    }
+
     /// As [`rasterproof_render::effects::render::plan`].
     pub fn plan(self, scene: &Scene, effects: &Effects, canvas: &Canvas) -> Result<Plan, BadScene> {
-        let words = effects.mode(Effect::WideWords);
-        with_engine!(self, words, |engine| render::plan(scene, engine, effects, canvas))
+        render::plan(scene, &self.engine(effects.mode(Effect::WideWords)), effects, canvas)
     }
 
     /// As [`rasterproof_render::effects::render::execute`].
@@ -224,8 +265,7 @@ impl Drawer {
         scene: &Scene,
         target: &mut Target,
     ) -> Result<Rendered, PlanError> {
-        let words = plan.frame.wide_words;
-        with_engine!(self, words, |engine| render::execute(plan, scene, engine, target))
+        render::execute(plan, scene, &self.engine(plan.frame.wide_words), target)
     }
 
     /// As [`rasterproof_render::effects::render::render`].
@@ -235,8 +275,7 @@ impl Drawer {
         effects: &Effects,
         target: &mut Target,
     ) -> Result<Rendered, BadScene> {
-        let words = effects.mode(Effect::WideWords);
-        with_engine!(self, words, |engine| render::render(scene, engine, effects, target))
+        render::render(scene, &self.engine(effects.mode(Effect::WideWords)), effects, target)
     }
 
     /// The planned frame with one effect left out everywhere. It is drawn over a colour that is in no scene and over the
@@ -261,8 +300,8 @@ impl Drawer {
         effects: &Effects,
         target: &mut Target,
     ) -> Result<(Rendered, PaidMap), BadScene> {
-        let words = effects.mode(Effect::WideWords);
-        with_engine!(self, words, |engine| render::render_mapped(scene, engine, effects, target))
+        let engine = self.engine(effects.mode(Effect::WideWords));
+        render::render_mapped(scene, &engine, effects, target)
     }
 
     /// As [`rasterproof_render::effects::render::render_watched`].
@@ -273,10 +312,8 @@ impl Drawer {
         screen: &mut DoubleBuffer,
         look: &mut dyn FnMut(&Frame<Colour>),
     ) -> Result<Rendered, BadScene> {
-        let words = effects.mode(Effect::WideWords);
-        with_engine!(self, words, |engine| {
-            render::render_watched(scene, engine, effects, screen, look)
-        })
+        let engine = self.engine(effects.mode(Effect::WideWords));
+        render::render_watched(scene, &engine, effects, screen, look)
     }
 
     /// As [`rasterproof_render::effects::render::render_wireframe`].
@@ -290,15 +327,6 @@ impl Drawer {
             Self::EdgeFunction => render::render_wireframe(scene, &Bresenham, target),
         }
     }
-}
-
-/// The edge-function engine in the words that a plan asks for.
-fn in_words(mode: Mode) -> EdgeFunctionIn {
-    EdgeFunctionIn(match mode {
-        Mode::Planned | Mode::Material => Words::Narrowest,
-        Mode::Always => Words::Widest,
-        Mode::Never => Words::Narrow,
-    })
 }
 
 /// A rasterizer of the registry for corners that are not snapped.

@@ -4,7 +4,7 @@
 use std::ops::{Add, BitOr};
 
 use super::values::runs_in;
-use super::{EdgeFunction, Word, WordWidth, cover_in, extents, walk_in_batches};
+use super::{EdgeFunction, Exact, Word, WordWidth, cover_in, extents, walk_in_batches};
 use crate::contract::{Interpolate, Rasterize, Run};
 use crate::grid::PixelRect;
 use crate::triangle::{Corners, Fragment, ScreenTriangle, Span, Varying};
@@ -28,11 +28,17 @@ pub struct EdgeFunctionIn(pub Words);
 
 impl Rasterize for EdgeFunctionIn {
     #[inline]
-    fn cover(&self, corners: Corners, bounds: PixelRect, emit: impl FnMut(Span)) {
-        match self.0 {
-            Words::Narrowest => EdgeFunction.cover(corners, bounds, emit),
-            Words::Widest => cover_in::<i128, i128>(corners, bounds, emit),
-            Words::Narrow => cover_in::<i128, Wrapping>(corners, bounds, emit),
+    fn cover(&self, corners: Corners, bounds: PixelRect, mut emit: impl FnMut(Span)) {
+        let (extent_x, extent_y) = extents(&corners);
+        match (self.0, WordWidth::of(extent_x, extent_y)) {
+            (Words::Narrowest, WordWidth::I32) => cover_in::<i64, i32>(corners, bounds, emit),
+            (Words::Narrowest, WordWidth::I64) => {
+                cover_by_pointer::<i64, i64>(corners, bounds, &mut emit);
+            }
+            (Words::Narrow, _) => cover_by_pointer::<i128, Wrapping>(corners, bounds, &mut emit),
+            (Words::Narrowest | Words::Widest, _) => {
+                cover_by_pointer::<i128, i128>(corners, bounds, &mut emit);
+            }
         }
     }
 
@@ -44,6 +50,16 @@ impl Rasterize for EdgeFunctionIn {
             (Words::Narrow, _) | (Words::Narrowest, WordWidth::I32) => i32::BITS,
         })
     }
+}
+
+/// Triangles that do not fit 32 bits have so many pixels that a call for each of their rows takes no time beside them: their
+/// walks are compiled once.
+fn cover_by_pointer<T: Exact, W: Word>(
+    corners: Corners,
+    bounds: PixelRect,
+    emit: &mut dyn FnMut(Span),
+) {
+    cover_in::<T, W>(corners, bounds, emit);
 }
 
 impl Interpolate for EdgeFunctionIn {
